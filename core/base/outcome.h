@@ -1,0 +1,33 @@
+// How a question ended. Every exit of every algorithm and every engine is one of these; "iteration cap reached"
+// is not_converged and is never reported as a number or as "no hit" (truth.md §3).
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string_view>
+
+namespace touchstone {
+
+enum class Outcome : std::uint8_t {
+  answered,
+  unsupported,     // the engine has no such query for these shapes
+  not_converged,   // an iteration cap or a stall, said as such
+  invalid_input,   // refused with a reason
+  threw,           // a C++ exception left the engine
+  crashed,         // signal, abort, exit, memory limit, or bytes on the pipe that are no answer
+  timed_out        // watchdog
+};
+
+inline constexpr std::array<std::string_view, 7> outcome_names{
+    "answered", "unsupported", "not_converged", "invalid_input", "threw", "crashed", "timed_out"};
+
+constexpr std::string_view to_string(Outcome o) { return outcome_names[static_cast<std::size_t>(o)]; }
+
+constexpr std::optional<Outcome> outcome_from_string(std::string_view s) {
+  for (std::size_t i = 0; i < outcome_names.size(); ++i)
+    if (outcome_names[i] == s) return static_cast<Outcome>(i);
+  return std::nullopt;
+}
+
+}  // namespace touchstone

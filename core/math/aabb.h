@@ -1,0 +1,23 @@
+// Closed axis-aligned box. Touching counts as overlap (truth.md §1).
+#pragma once
+
+#include <limits>
+
+#include "core/math/pose.h"
+
+namespace touchstone {
+
+struct Aabb {
+  Vec3 lo = Vec3::Constant(std::numeric_limits<double>::infinity());
+  Vec3 hi = Vec3::Constant(-std::numeric_limits<double>::infinity());
+  bool operator==(const Aabb& o) const { return lo == o.lo && hi == o.hi; }
+  void extend(const Vec3& p) { lo = lo.cwiseMin(p), hi = hi.cwiseMax(p); }
+  void extend(const Aabb& b) { lo = lo.cwiseMin(b.lo), hi = hi.cwiseMax(b.hi); }
+};
+
+inline bool overlaps(const Aabb& a, const Aabb& b) {
+  return a.lo.x() <= b.hi.x() && b.lo.x() <= a.hi.x() && a.lo.y() <= b.hi.y() && b.lo.y() <= a.hi.y() &&
+         a.lo.z() <= b.hi.z() && b.lo.z() <= a.hi.z();
+}
+
+}  // namespace touchstone

@@ -1,0 +1,69 @@
+// A scene is data: shapes, bodies that place them, and a script of steps. Every number is an IEEE double and denotes
+// itself exactly (truth.md §1).
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/math/pose.h"
+#include "core/shape/shape.h"
+
+namespace touchstone {
+
+struct Body {
+  std::string name;  // for people; may be empty
+  int shape = 0;     // index into Scene::shapes
+  Pose pose;
+  std::optional<Motion> motion;  // over one step, t in [0,1]
+  bool is_static = false;
+  int group = -1;  // bodies of one group >= 0 (geoms of one link) are never paired
+  bool operator==(const Body&) const = default;
+};
+
+/// One step of a script. Scripts drive broad phases; every `query` asks for the full set of candidate pairs.
+struct Step {
+  enum class Op : std::uint8_t { insert, move, remove, query };
+  Op op = Op::query;
+  int body = -1;             // for insert, move, remove
+  std::optional<Pose> pose;  // for insert (absent: the body's own pose) and move
+  bool operator==(const Step&) const = default;
+};
+
+using BodyPair = std::pair<int, int>;  // first < second
+
+struct Scene {
+  std::string name;
+  std::vector<Shape> shapes;
+  std::vector<Body> bodies;
+  std::vector<BodyPair> ignored;  // pairs that a user filters; first < second, sorted
+  std::vector<Step> script;       // empty: insert every body, then query once
+  const Shape& shape_of(int body) const {
+    return shapes[static_cast<std::size_t>(bodies[static_cast<std::size_t>(body)].shape)];
+  }
+  bool operator==(const Scene&) const = default;
+};
+
+/// Throws InputError, place as in the JSON form ("bodies[3].pose.rotation"). A quaternion must be finite and not zero;
+/// a mesh or half-space body is static or has no motion; a script removes or moves only what is inserted.
+void validate(const Scene& scene);
+
+/// Order-dependent hash over every number of the scene (names excluded).
+std::uint64_t hash(const Scene& scene);
+
+/// True when the pair is of one group or listed in `ignored`.
+bool is_filtered(const Scene& scene, int a, int b);
+
+/// The script itself, or, when it is empty, "insert all, query".
+std::vector<Step> effective_script(const Scene& scene);
+
+/// L of truth.md §3: the largest extent or coordinate among both bodies and their separation. Half-spaces count by the
+/// distance of their plane from the world origin. With motion: of the whole step.
+double scale_of_pair(const Scene& scene, int a, int b);
+
+/// A two-body scene with bodies 0 and 1 = bodies a and b of `scene`, no script.
+Scene extract_pair(const Scene& scene, int a, int b);
+
+}  // namespace touchstone

@@ -1,0 +1,102 @@
+#include "core/shape/shape.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+
+#include "core/base/exact_text.h"
+#include "core/base/input_error.h"
+
+namespace touchstone {
+namespace {
+
+constexpr double inf = std::numeric_limits<double>::infinity();
+
+// A few roundings happen in each bound below; this factor covers them.
+double up(double x) { return x * (1 + 8 * std::numeric_limits<double>::epsilon()); }
+
+template <class... F>
+struct overloaded : F... {
+  using F::operator()...;
+};
+
+double farthest(const std::vector<Vec3>& v) {
+  double r = 0;
+  for (const Vec3& p : v) r = std::max(r, p.stableNorm());
+  return r;
+}
+
+double largest_half_extent(const std::vector<Vec3>& v) {
+  Aabb b;
+  for (const Vec3& p : v) b.extend(p);
+  return v.empty() ? 0 : (b.hi - b.lo).maxCoeff() / 2;
+}
+
+void check(std::string_view name, double v, Domain d) {
+  if (!std::isfinite(v)) throw InputError(std::string(name), "is not finite (" + to_text(v) + ")");
+  if (d == Domain::non_negative && v < 0) throw InputError(std::string(name), "is negative (" + to_text(v) + ")");
+  if (d == Domain::positive && !(v > 0)) throw InputError(std::string(name), "must be > 0, is " + to_text(v));
+}
+
+void check(std::string_view name, const Vec3& v, Domain d) {
+  for (int i = 0; i < 3; ++i) check(std::string(name) + "[" + std::to_string(i) + "]", v[i], d);
+  if (d == Domain::nonzero_vector && v.isZero(0)) throw InputError(std::string(name), "is the zero vector");
+}
+
+void check(std::string_view name, const std::vector<Vec3>& v, Domain d) {
+  if (v.empty()) throw InputError(std::string(name), "is empty");
+  for (std::size_t i = 0; i < v.size(); ++i) check(std::string(name) + "[" + std::to_string(i) + "]", v[i], d);
+}
+
+void check(std::string_view name, const std::vector<std::array<int, 3>>& v, Domain) {
+  if (v.empty()) throw InputError(std::string(name), "is empty");
+}
+
+}  // namespace
+
+std::string_view type_name(ShapeKind k) {
+  static constexpr std::array<std::string_view, std::variant_size_v<Shape>> names{
+      Sphere::type,    Box::type,  Capsule::type,   Cylinder::type,    Cone::type,
+      Ellipsoid::type, Hull::type, HalfSpace::type, TriangleMesh::type};
+  return names[static_cast<std::size_t>(k)];
+}
+
+double bounding_radius(const Shape& s) {
+  return up(std::visit(
+      overloaded{[](const Sphere& x) { return x.radius; }, [](const Box& x) { return x.half_extents.stableNorm(); },
+                 [](const Capsule& x) { return x.radius + x.half_height; },
+                 [](const Cylinder& x) { return std::hypot(x.radius, x.half_height); },
+                 [](const Cone& x) { return std::hypot(x.radius, x.half_height); },
+                 [](const Ellipsoid& x) { return x.semi_axes.maxCoeff(); },
+                 [](const Hull& x) { return farthest(x.vertices); }, [](const HalfSpace&) { return inf; },
+                 [](const TriangleMesh& x) { return farthest(x.vertices); }},
+      s));
+}
+
+double extent(const Shape& s) {
+  return std::visit(
+      overloaded{[](const Sphere& x) { return x.radius; }, [](const Box& x) { return x.half_extents.maxCoeff(); },
+                 [](const Capsule& x) { return x.radius + x.half_height; },
+                 [](const Cylinder& x) { return std::max(x.radius, x.half_height); },
+                 [](const Cone& x) { return std::max(x.radius, x.half_height); },
+                 [](const Ellipsoid& x) { return x.semi_axes.maxCoeff(); },
+                 [](const Hull& x) { return largest_half_extent(x.vertices); }, [](const HalfSpace&) { return 0.0; },
+                 [](const TriangleMesh& x) { return largest_half_extent(x.vertices); }},
+      s);
+}
+
+void validate(const Shape& s) {
+  std::visit([](const auto& x) { for_each_field(x, [](auto name, const auto& v, Domain d) { check(name, v, d); }); },
+             s);
+  if (const auto* m = std::get_if<TriangleMesh>(&s)) {
+    const int n = static_cast<int>(m->vertices.size());
+    for (std::size_t i = 0; i < m->triangles.size(); ++i)
+      for (int k : m->triangles[i])
+        if (k < 0 || k >= n)
+          throw InputError("triangles[" + std::to_string(i) + "]", "vertex index " + std::to_string(k) +
+                                                                       " is outside 0.." + std::to_string(n - 1));
+  }
+}
+
+}  // namespace touchstone

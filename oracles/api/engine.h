@@ -1,0 +1,41 @@
+// An engine as the harness sees it: a card, and batches of cases in, observations out.
+#pragma once
+
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "oracles/api/observation.h"
+
+namespace touchstone {
+
+/// What an engine says of itself. Parsed from the JSON that a plug-in's `card` returns:
+///   {"name", "library", "version", "settings", "unit_roundoff", "tau_factor", "source", "candidates_are_boxes"}
+/// τ of an answer = tau_factor · unit_roundoff · L + the answer's claimed_tolerance (truth.md §3).
+struct EngineCard {
+  std::string name;      // catalog name, e.g. "fcl-libccd-tuned"
+  std::string library;   // "FCL"
+  std::string version;   // "0.7.0"
+  std::string settings;  // one line: what differs from the default, what path is asked
+  double unit_roundoff = 0x1p-53;
+  double tau_factor = 64;
+  std::string source;  // where the tolerance claims come from
+  bool operator==(const EngineCard&) const = default;
+};
+
+/// Throws InputError when a field is missing or of the wrong type.
+EngineCard card_from_json(const std::string& text);
+std::string to_json_text(const EngineCard& card);
+
+class Engine {
+ public:
+  virtual ~Engine() = default;
+  virtual const EngineCard& card() const = 0;
+  /// One CaseObservations a case, one Observation a query, always: whatever the engine does, the result is complete.
+  virtual std::vector<CaseObservations> run(std::span<const Case> cases) = 0;
+};
+
+using EnginePtr = std::unique_ptr<Engine>;
+
+}  // namespace touchstone

@@ -1,0 +1,93 @@
+// What is asked and what came back, as plain values.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/base/outcome.h"
+#include "core/scene/scene.h"
+
+namespace touchstone {
+
+/// Numbers are those of ts_question.
+enum class Question : std::uint8_t { overlap, distance, contact, time_of_impact, candidates, scene_contacts };
+inline constexpr std::array<std::string_view, 6> question_names{"overlap",        "distance",   "contact",
+                                                                "time_of_impact", "candidates", "scene_contacts"};
+constexpr std::string_view to_string(Question q) { return question_names[static_cast<std::size_t>(q)]; }
+constexpr std::optional<Question> question_from_string(std::string_view s) {
+  for (std::size_t i = 0; i < question_names.size(); ++i)
+    if (question_names[i] == s) return static_cast<Question>(i);
+  return std::nullopt;
+}
+constexpr bool is_pair_question(Question q) { return q <= Question::time_of_impact; }
+
+struct Query {
+  Question question = Question::overlap;
+  int a = 0, b = 1;  // bodies; meaningless for candidates and scene_contacts
+  bool operator==(const Query&) const = default;
+};
+
+/// A scene and what is asked of it.
+struct Case {
+  std::string id;      // "family/index" or a file's name; for people
+  std::string family;  // generator or scenario it came from
+  Scene scene;
+  std::vector<Query> queries;
+  bool operator==(const Case&) const = default;
+};
+
+struct ManifoldPoint {
+  Vec3 position = Vec3::Zero();  // world
+  double depth = 0;
+  bool operator==(const ManifoldPoint& o) const { return position == o.position && depth == o.depth; }
+};
+
+struct SceneContact {
+  int a = 0, b = 0;  // a < b; normal from a to b
+  Vec3 normal = Vec3::Zero();
+  double depth = 0;
+  bool operator==(const SceneContact& o) const {
+    return a == o.a && b == o.b && normal == o.normal && depth == o.depth;
+  }
+};
+
+/// One engine's answer to one query. An empty optional means "not stated", which is not judged.
+struct Observation {
+  Outcome outcome = Outcome::unsupported;
+  std::string detail;
+  std::optional<bool> overlap;
+  std::optional<double> distance;  // signed
+  std::optional<std::array<Vec3, 2>> witness;
+  std::optional<Vec3> normal;  // A to B
+  std::optional<double> depth;
+  std::vector<ManifoldPoint> manifold;
+  std::optional<double> toi;                           // time_of_impact answered, empty: "no hit"
+  std::vector<std::vector<BodyPair>> candidate_pairs;  // per query step; as reported (unsorted, duplicates kept)
+  std::vector<SceneContact> contacts;
+  double claimed_tolerance = 0;
+  std::int64_t elapsed_ns = 0;  // the engine's own time; never hashed or compared
+  bool operator==(const Observation& o) const {
+    return outcome == o.outcome && detail == o.detail && overlap == o.overlap && distance == o.distance &&
+           witness == o.witness && normal == o.normal && depth == o.depth && manifold == o.manifold && toi == o.toi &&
+           candidate_pairs == o.candidate_pairs && contacts == o.contacts && claimed_tolerance == o.claimed_tolerance;
+  }
+};
+
+/// The scene as an engine received it: exact affine placements and shapes.
+/// A body or shape that the engine did not report is empty: taken as asked.
+struct ReceivedScene {
+  std::vector<std::optional<Placement>> bodies;
+  std::vector<std::optional<Shape>> shapes;
+  bool operator==(const ReceivedScene&) const = default;
+};
+
+struct CaseObservations {
+  ReceivedScene received;
+  std::vector<Observation> answers;  // one a query, in order
+};
+
+}  // namespace touchstone

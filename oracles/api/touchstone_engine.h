@@ -1,0 +1,170 @@
+/* touchstone_engine.h — the door through which every engine is asked, ours and yours alike. Plain C, ABI version 1.
+ *
+ * A plug-in is a shared object that exports one function, `touchstone_plugin_v1`. It returns a table that lists one or
+ * more engines. The host process loads the plug-in, creates one engine, loads scenes and asks questions. The plug-in
+ * may crash, hang, print and throw: the host is a process of its own and all of that is an observation.
+ *
+ * Units and frames: lengths in the scene's unit, angles in radians, world frame unless said otherwise, column vectors,
+ * right-handed. Quaternions are x, y, z, w, non-zero and NOT necessarily unit. Matrices are row-major.
+ * All arrays that the host passes stay valid until the function returns, those of a scene until it is unloaded.
+ */
+#ifndef TOUCHSTONE_ENGINE_H
+#define TOUCHSTONE_ENGINE_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+#define TS_ABI_VERSION 1
+
+#if defined(_WIN32)
+#define TS_EXPORT __declspec(dllexport)
+#else
+#define TS_EXPORT __attribute__((visibility("default")))
+#endif
+
+enum ts_shape_kind {
+  TS_SPHERE = 0,     /* size[0] = radius */
+  TS_BOX = 1,        /* size[0..2] = half extents */
+  TS_CAPSULE = 2,    /* size[0] = radius, size[1] = half height of the segment; axis z, centred */
+  TS_CYLINDER = 3,   /* size[0] = radius, size[1] = half height; axis z, centred */
+  TS_CONE = 4,       /* size[0] = radius, size[1] = half height; axis z, apex at +h, base at -h */
+  TS_ELLIPSOID = 5,  /* size[0..2] = semi-axes */
+  TS_HULL = 6,       /* vertices; triangles = its faces, counter-clockwise from outside, none if flat */
+  TS_HALF_SPACE = 7, /* size[0..2] = normal n (any length), size[3] = offset d: solid where n.x <= d */
+  TS_MESH = 8        /* vertices, triangles: a surface */
+};
+
+typedef struct ts_shape {
+  int32_t kind;
+  int32_t dimension; /* hulls: affine dimension of the vertices, 0..3 */
+  double size[4];
+  const double* vertices; /* vertex_count x 3 */
+  size_t vertex_count;
+  const int32_t* triangles; /* triangle_count x 3 */
+  size_t triangle_count;
+} ts_shape;
+
+typedef struct ts_pose {
+  double translation[3];
+  double rotation[4]; /* x y z w, non-zero, any length */
+} ts_pose;
+
+typedef struct ts_body {
+  int32_t shape;
+  int32_t is_static;
+  int32_t has_motion;
+  int32_t group; /* bodies of one group >= 0 are never paired */
+  ts_pose pose;
+  double linear[3];  /* over one step t in [0,1] */
+  double angular[3]; /* world frame, about the body's origin: q(t) = exp(t w) q0 */
+} ts_body;
+
+enum ts_op { TS_INSERT = 0, TS_MOVE = 1, TS_REMOVE = 2, TS_QUERY = 3 };
+
+typedef struct ts_step {
+  int32_t op;
+  int32_t body;
+  ts_pose pose; /* of insert and move */
+} ts_step;
+
+typedef struct ts_scene {
+  const ts_shape* shapes;
+  size_t shape_count;
+  const ts_body* bodies;
+  size_t body_count;
+  const ts_step* steps; /* never empty: "insert all, query" when the scene has no script */
+  size_t step_count;
+  const int32_t* ignored; /* ignored_count x 2, pairs i < j that are to be filtered */
+  size_t ignored_count;
+} ts_scene;
+
+enum ts_question {
+  TS_OVERLAP = 0,       /* do the closed bodies a and b share a point? */
+  TS_DISTANCE = 1,      /* signed distance and witness points */
+  TS_CONTACT = 2,       /* overlap; if so normal, depth, manifold */
+  TS_TIME_OF_IMPACT = 3, /* first t in [0,1] at which they share a point */
+  TS_CANDIDATES = 4,    /* broad phase: run the steps, report pairs at each TS_QUERY; a, b unused */
+  TS_SCENE_CONTACTS = 5 /* broad and narrow phase together at the bodies' own poses; a, b unused */
+};
+
+enum ts_outcome {
+  TS_ANSWERED = 0,
+  TS_UNSUPPORTED = 1,
+  TS_NOT_CONVERGED = 2,
+  TS_INVALID_INPUT = 3,
+  TS_THREW = 4
+};
+
+/* Which fields of an answer the engine states. What is not stated is not judged. */
+enum ts_has {
+  TS_HAS_OVERLAP = 1,
+  TS_HAS_DISTANCE = 2,
+  TS_HAS_POINTS = 4,
+  TS_HAS_NORMAL = 8,
+  TS_HAS_DEPTH = 16,
+  TS_HAS_TOI = 32 /* for TS_TIME_OF_IMPACT: set = hit at `toi`, not set = "no hit" */
+};
+
+typedef struct ts_answer {
+  int32_t outcome;
+  uint32_t has;
+  int32_t overlap;
+  int32_t reserved;
+  double distance;   /* signed: < 0 is minus the depth */
+  double point_a[3]; /* witness on A, world */
+  double point_b[3]; /* witness on B, world */
+  double normal[3];  /* unit, world, from A to B: B moves along +normal to separate */
+  double depth;      /* >= 0 */
+  double toi;
+  double claimed_tolerance; /* absolute: margin and solver tolerance that the engine's documentation claims for this
+                               answer on these shapes; 0 when it claims none beyond arithmetic */
+  char detail[128];         /* zero-terminated, for people */
+} ts_answer;
+
+/* Variable-length parts of an answer go to the host through these. `ctx` is passed back as it is. */
+typedef struct ts_sink {
+  void* ctx;
+  /* manifold of TS_CONTACT: a point (world) and its depth along the answer's normal */
+  void (*point)(void* ctx, const double position[3], double depth);
+  /* TS_CANDIDATES: a pair at the k-th TS_QUERY step (k from 0); any order */
+  void (*pair)(void* ctx, int32_t k, int32_t a, int32_t b);
+  /* TS_SCENE_CONTACTS */
+  void (*contact)(void* ctx, int32_t a, int32_t b, const double normal[3], double depth);
+} ts_sink;
+
+/* The scene as the engine received it, in exact numbers: what its own types hold after conversion. Sizes are in the
+ * units of ts_shape (half extents, half heights, n and d), whatever the engine's own are. Vertices: all of them, in order.
+ * A body that is not reported is taken to be as asked. */
+typedef struct ts_received {
+  void* ctx;
+  void (*shape)(void* ctx, int32_t shape, const double size[4], const double* vertices, size_t vertex_count);
+  void (*body)(void* ctx, int32_t body, const double matrix[9], const double translation[3]);
+} ts_received;
+
+typedef struct ts_engine ts_engine; /* yours */
+
+typedef struct ts_plugin {
+  uint32_t abi_version; /* TS_ABI_VERSION */
+  uint32_t engine_count;
+  /* JSON card of the i-th engine: name, version, settings, unit roundoff, ... (see oracles/api/card.h) */
+  const char* (*card)(uint32_t i);
+  ts_engine* (*create)(uint32_t i);
+  void (*destroy)(ts_engine*);
+  /* Takes the scene; `received` may be called. Returns a ts_outcome; detail (256 bytes) says why not TS_ANSWERED. */
+  int32_t (*load)(ts_engine*, const ts_scene*, const ts_received* received, char* detail);
+  void (*unload)(ts_engine*);
+  /* Answers one question on the loaded scene. `answer` comes zeroed, numbers NaN, outcome TS_UNSUPPORTED. */
+  void (*ask)(ts_engine*, int32_t question, int32_t a, int32_t b, ts_answer* answer, const ts_sink* sink);
+} ts_plugin;
+
+/* The one exported symbol. */
+TS_EXPORT const ts_plugin* touchstone_plugin_v1(void);
+
+#ifdef __cplusplus
+}
+#endif
+#endif
