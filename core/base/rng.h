@@ -44,10 +44,15 @@ class Rng {
   /// Uniform on the unit sphere, by rejection.
   Vec3 unit_vector() {
     for (;;) {
-      const Vec3 v(uniform(-1, 1), uniform(-1, 1), uniform(-1, 1));
+      const Vec3 v{uniform(-1, 1), uniform(-1, 1), uniform(-1, 1)};  // braces: drawn left to right
       const double n = v.squaredNorm();
       if (n > 0.01 && n <= 1) return v / std::sqrt(n);
     }
+  }
+  /// A unit vector times a length: the direction is drawn first, whatever the compiler's order of evaluation.
+  Vec3 vector(double lo, double hi) {
+    const Vec3 u = unit_vector();
+    return u * uniform(lo, hi);
   }
   /// Uniform random rotation as a quaternion of length within rounding of 1, by rejection in the 4-ball.
   Quat rotation() {

@@ -1,0 +1,91 @@
+#include <algorithm>
+#include <chrono>
+
+#include "fuzz/campaign/campaign.h"
+#include "fuzz/judge/judge.h"
+#include "scenarios/case_codec.h"
+
+namespace touchstone::fuzz {
+namespace {
+
+std::string shapes_of(const Case& c, int a, int b) {
+  const int n = static_cast<int>(c.scene.bodies.size());
+  if (a < 0 || b < 0 || a >= n || b >= n) return "scene";
+  auto x = type_name(c.scene.shape_of(a)), y = type_name(c.scene.shape_of(b));
+  if (y < x) std::swap(x, y);
+  return std::string(x) + "-" + std::string(y);
+}
+
+void add_findings(CampaignResult& r, const Case& c, std::uint64_t index, const std::string& engine,
+                  const Query& q, const Judgement& j, const CaseObservations& all, const Observation& o) {
+  for (const FaultReport& fault : j.faults) {
+    Finding f;
+    f.engine = engine, f.question = to_string(q.question);
+    // How an answer failed is part of its name: a crash is not a time-out.
+    f.fault = fault.fault == Fault::failed ? to_string(j.outcome) : to_string(fault.fault);
+    f.shapes = shapes_of(c, fault.a, fault.b);
+    f.blame = to_string(j.blame);
+    f.count = 1, f.worst_in_l = fault.error_in_l, f.first_index = index;
+    auto& kept = r.findings[f.key()];
+    if (kept.count == 0 || index < kept.first_index) {
+      f.words = fault.words;
+      f.case_json = case_to_json(c);
+      f.observation = to_json(o);
+      f.certificate = referee::to_json(fault.certificate);
+      f.received = to_json(all.received);
+    }
+    kept.merge(f);
+  }
+}
+
+// The direction that the subject found is the first certificate that the referee tries.
+void give_hints(Truth& truth, const Case& c, const CaseObservations& o) {
+  for (std::size_t i = 0; i < c.queries.size() && i < o.answers.size(); ++i) {
+    const Query& q = c.queries[i];
+    if (!is_pair_question(q.question)) continue;
+    if (o.answers[i].normal) truth.hint(q.a, q.b, *o.answers[i].normal);
+    if (o.answers[i].witness) truth.hint(q.a, q.b, (*o.answers[i].witness)[1] - (*o.answers[i].witness)[0]);
+  }
+}
+
+void count_hit(CampaignResult& r, const Case& c, Truth& truth) {
+  if (c.queries.empty() || !is_pair_question(c.queries[0].question)) return;
+  const Query& q = c.queries[0];
+  if (q.question == Question::time_of_impact) {
+    const auto v = truth.motion(0, q.a, q.b).verdict;
+    if (v == referee::TimeTruth::Verdict::undecided)
+      ++r.undecided;
+    else
+      ++r.pair_cases, r.overlapping += v == referee::TimeTruth::Verdict::hit;
+    return;
+  }
+  const auto v = truth.pair(0, q.a, q.b).verdict;
+  if (v == referee::Verdict::undecided)
+    ++r.undecided;
+  else
+    ++r.pair_cases, r.overlapping += v == referee::Verdict::overlap;
+}
+
+}  // namespace
+
+void judge_into(CampaignResult& r, const Case& c, std::uint64_t index, std::span<const EnginePtr> engines,
+                std::span<const CaseObservations> observations) {
+  const auto start = std::chrono::steady_clock::now();
+  Truth truth(c.scene);
+  if (!observations.empty()) give_hints(truth, c, observations[0]);
+  for (std::size_t e = 0; e < engines.size(); ++e) {
+    const EngineCard& card = engines[e]->card();
+    const auto judgements = judge(c, card, observations[e], truth);
+    for (std::size_t i = 0; i < c.queries.size(); ++i) {
+      const Observation& o = observations[e].answers[i];
+      r.tallies[card.name][c.queries[i].question].add(judgements[i], o);
+      r.engine_ns += o.elapsed_ns;
+      add_findings(r, c, index, card.name, c.queries[i], judgements[i], observations[e], o);
+    }
+  }
+  count_hit(r, c, truth);
+  ++r.cases, ++r.families[c.family];
+  r.judge_ns += std::chrono::nanoseconds(std::chrono::steady_clock::now() - start).count();
+}
+
+}  // namespace touchstone::fuzz

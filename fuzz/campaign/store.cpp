@@ -1,0 +1,92 @@
+#include "fuzz/campaign/store.h"
+
+#include <fstream>
+#include <system_error>
+
+#include "core/base/input_error.h"
+#include "core/scene/codec.h"
+
+namespace touchstone::fuzz {
+namespace {
+
+// The settings that decide which cases are made and what is asked; jobs and time limits may change between
+// sessions.
+Json settings(const CampaignConfig& c) {
+  Json j = {{"touchstone_campaign", 1}, {"subject", c.subject}, {"engines", c.engines}, {"family", c.family},
+            {"seed", c.seed},           {"shard", c.shard},     {"shards", c.shards}};
+  j["cases"] = c.cases ? Json(*c.cases) : Json(nullptr);
+  return j;
+}
+
+}  // namespace
+
+void write_atomically(const std::filesystem::path& file, const std::string& text) {
+  const std::filesystem::path temporary = file.string() + ".part";
+  {
+    std::ofstream f(temporary, std::ios::binary);
+    f << text;
+    f.flush();
+    if (!f) throw InputError(temporary.string(), "cannot be written (disk full, or no permission?)");
+  }
+  std::error_code ec;
+  std::filesystem::rename(temporary, file, ec);
+  if (ec) throw InputError(file.string(), "cannot be replaced: " + ec.message());
+}
+
+std::optional<StoredState> load_state(const CampaignConfig& config) {
+  const auto file = config.out / "state.json";
+  if (!std::filesystem::exists(file)) return std::nullopt;
+  try {
+    const Json j = Json::parse(read_file(file, std::uintmax_t{1} << 30));
+    if (j.at("settings") != settings(config))
+      throw InputError(config.out.string(), "holds a campaign with other settings (" +
+                                                j.at("settings").dump() +
+                                                "); give another --out or the same settings");
+    StoredState s;
+    s.finished = j.at("finished");
+    s.next_chunk = j.at("next_chunk");
+    if (s.finished)
+      throw InputError(config.out.string(),
+                       "holds a finished campaign; give another --out, or look at summary.json");
+    s.result = result_from_json(j.at("result"));
+    return s;
+  } catch (const Json::exception& e) {
+    throw InputError(file.string(), std::string("is not a campaign's state: ") + e.what());
+  }
+}
+
+void save_state(const CampaignConfig& config, const StoredState& s) {
+  if (config.out.empty()) return;
+  const Json j = {{"settings", settings(config)},
+                  {"finished", s.finished},
+                  {"next_chunk", s.next_chunk},
+                  {"result", to_json(s.result, true)}};
+  write_atomically(config.out / "state.json", j.dump());
+}
+
+void save_findings(const CampaignConfig& config, const CampaignResult& result) {
+  if (config.out.empty()) return;
+  for (const auto& [key, f] : result.findings) {
+    const auto dir = config.out / "findings" / key;
+    std::error_code ec;
+    std::filesystem::create_directories(dir, ec);
+    if (ec) throw InputError(dir.string(), "cannot be made: " + ec.message());
+    write_atomically(dir / "case.json", f.case_json.dump(1) + "\n");
+    const Json j = {{"key", key},
+                    {"words", f.words},
+                    {"count", f.count},
+                    {"worst_in_l", number(f.worst_in_l)},
+                    {"first_index", f.first_index},
+                    {"observation", f.observation},
+                    {"certificate", f.certificate},
+                    {"received", f.received}};
+    write_atomically(dir / "finding.json", j.dump(1) + "\n");
+  }
+  Json summary = to_json(result, true);
+  for (auto& [key, f] : summary["findings"].items())
+    for (const char* bulky : {"case", "observation", "certificate", "received"}) f.erase(bulky);
+  summary["digest"] = digest(result);
+  write_atomically(config.out / "summary.json", summary.dump(1) + "\n");
+}
+
+}  // namespace touchstone::fuzz

@@ -1,0 +1,28 @@
+// What a campaign keeps on disk, so that a killed run loses nothing already recorded:
+//   DIR/state.json                 settings, the next chunk, and the result so far; replaced atomically
+//   DIR/summary.json               the whole result, at the end
+//   DIR/findings/<key>/case.json   the first case of a finding, ready for `touchstone replay`
+//   DIR/findings/<key>/finding.json  words, answer, certificate, counts
+#pragma once
+
+#include <filesystem>
+#include <optional>
+
+#include "fuzz/campaign/campaign.h"
+
+namespace touchstone::fuzz {
+
+struct StoredState {
+  std::uint64_t next_chunk = 0;
+  bool finished = false;
+  CampaignResult result;
+};
+
+/// The state in config.out, or nothing when the directory is new. Throws InputError when it is finished,
+/// damaged or made with other settings.
+std::optional<StoredState> load_state(const CampaignConfig& config);
+void save_state(const CampaignConfig& config, const StoredState& state);
+void save_findings(const CampaignConfig& config, const CampaignResult& result);
+void write_atomically(const std::filesystem::path& file, const std::string& text);
+
+}  // namespace touchstone::fuzz

@@ -1,0 +1,72 @@
+// Signed distance |reported - g| and the witness points (truth.md §3).
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "fuzz/judge/check.h"
+
+namespace touchstone::fuzz {
+namespace {
+
+double outside(double x, const referee::Bracket& b) {
+  return x < b.lo ? b.lo - x : (x > b.hi ? x - b.hi : 0.0);
+}
+
+}  // namespace
+
+void check_distance(const CheckInput& in, CheckOutput& out) {
+  const auto [a, b] = std::pair{in.query.a, in.query.b};
+  const referee::PairTruth& truth = in.truth.pair(in.frame, a, b);
+  const double l = in.truth.scale(a, b), tau = in.tau(l);
+  if (!in.answer.distance) {
+    // "They overlap, and I have no depth" is an honest answer; it is judged as a verdict.
+    if (in.answer.overlap) return check_overlap(in, out);
+    out.fault(Fault::no_number, 0, l, in.query, "answered without a distance");
+    return;
+  }
+  const double d = *in.answer.distance;
+  if (!std::isfinite(d)) {
+    out.fault(Fault::no_number, 0, l, in.query, fmt::format("the distance is {}", d));
+    return;
+  }
+  const double error = outside(d, truth.gap);
+  out.error(error, l);
+  if (error <= tau) return;
+  const double mid = std::isfinite(truth.gap.lo) ? (truth.gap.lo + truth.gap.hi) / 2 : truth.gap.hi;
+  Fault f = Fault::distance_off;
+  if (truth.verdict == referee::Verdict::overlap && d > tau && truth.gap.hi < -tau) f = Fault::missed;
+  if (truth.verdict == referee::Verdict::disjoint && d < -tau && truth.gap.lo > tau) f = Fault::ghost;
+  out.fault(
+      f, error, l, in.query, fmt::format("says {:.9g}; the signed distance is {:.9g}", d, mid),
+      truth.verdict == referee::Verdict::overlap && d < 0 ? truth.lower_depth : truth.verdict_certificate);
+}
+
+void check_witness(const CheckInput& in, CheckOutput& out) {
+  if (!in.answer.witness || !in.answer.distance) return;
+  const auto [a, b] = std::pair{in.query.a, in.query.b};
+  const referee::PairTruth& truth = in.truth.pair(in.frame, a, b);
+  const double l = in.truth.scale(a, b), tau = in.tau(l);
+  const auto& [pa, pb] = *in.answer.witness;
+  if (!pa.allFinite() || !pb.allFinite()) {
+    out.fault(Fault::witness_off, 0, l, in.query, "a witness point is not finite");
+    return;
+  }
+  double worst = std::max(in.truth.distance_to(in.frame, a, pa).lo, in.truth.distance_to(in.frame, b, pb).lo);
+  std::string words = fmt::format("a witness point is {:.6g} away from its body", worst);
+  if (std::isfinite(truth.gap.lo)) {
+    const referee::Bracket size = truth.gap.hi < 0
+                                      ? referee::Bracket{-truth.gap.hi, -truth.gap.lo}
+                                      : referee::Bracket{std::max(0.0, truth.gap.lo), truth.gap.hi};
+    const double apart = outside((pb - pa).stableNorm(), size);
+    if (apart > worst) {
+      worst = apart;
+      words = fmt::format("the witness points are {:.9g} apart, |g| is {:.9g}", (pb - pa).stableNorm(),
+                          (size.lo + size.hi) / 2);
+    }
+  }
+  out.error(worst, l);
+  if (worst > tau)
+    out.fault(Fault::witness_off, worst, l, in.query, std::move(words), truth.verdict_certificate);
+}
+
+}  // namespace touchstone::fuzz

@@ -1,0 +1,34 @@
+// Overlap yes/no: wrong when the verdict differs from the truth and |g| > τ. The error is |g| of the wrong
+// verdict.
+#include <fmt/format.h>
+
+#include "fuzz/judge/check.h"
+
+namespace touchstone::fuzz {
+
+void check_overlap(const CheckInput& in, CheckOutput& out) {
+  const auto [a, b] = std::pair{in.query.a, in.query.b};
+  const referee::PairTruth& truth = in.truth.pair(in.frame, a, b);
+  const double l = in.truth.scale(a, b), tau = in.tau(l);
+  if (!in.answer.overlap) {
+    out.fault(Fault::no_number, 0, l, in.query, "answered without saying whether the bodies overlap");
+    return;
+  }
+  if (truth.verdict == referee::Verdict::undecided) {
+    out.undecided = true;
+    return;
+  }
+  const bool says = *in.answer.overlap, is = truth.verdict == referee::Verdict::overlap;
+  if (says == is) return;
+  // The certified part of |g|: a mesh that overlaps has no depth, so its verdict is judged without one.
+  const bool no_depth = is && !std::isfinite(truth.gap.lo);
+  const double error = is ? std::max(0.0, -truth.gap.hi) : std::max(0.0, truth.gap.lo);
+  out.error(error, l);
+  if (no_depth || error <= tau) return;
+  out.fault(is ? Fault::missed : Fault::ghost, error, l, in.query,
+            is ? fmt::format("says apart; the bodies overlap by at least {:.6g}", error)
+               : fmt::format("says overlap; the bodies are at least {:.6g} apart", error),
+            truth.verdict_certificate);
+}
+
+}  // namespace touchstone::fuzz

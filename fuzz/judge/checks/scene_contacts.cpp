@@ -1,0 +1,67 @@
+// Whole-scene contacts: broad and narrow phase together. Each stated contact is judged as a contact, each
+// pair that overlaps by more than τ must be stated.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "fuzz/judge/check.h"
+
+namespace touchstone::fuzz {
+namespace {
+
+void check_stated(const CheckInput& in, CheckOutput& out, const SceneContact& c, std::set<BodyPair>& stated) {
+  const int n = static_cast<int>(in.truth.scene().bodies.size());
+  if (c.a < 0 || c.b < 0 || c.a >= n || c.b >= n || c.a == c.b) {
+    out.fault(Fault::stale, 0, 1, {in.query.question, c.a, c.b},
+              fmt::format("contact names bodies {} and {}", c.a, c.b));
+    return;
+  }
+  const bool flip = c.a > c.b;
+  const auto [a, b] = std::minmax(c.a, c.b);
+  stated.insert({a, b});
+  const referee::PairTruth& truth = in.truth.pair(in.frame, a, b);
+  const double l = in.truth.scale(a, b);
+  if (truth.verdict == referee::Verdict::undecided) {
+    out.undecided = true;
+    return;
+  }
+  if (truth.verdict == referee::Verdict::disjoint) {
+    const double gap = std::max(0.0, truth.gap.lo);
+    out.error(gap, l);
+    if (gap > in.tau(l))
+      out.fault(Fault::ghost, gap, l, {in.query.question, a, b},
+                fmt::format("contact between {} and {}, which are {:.6g} apart", a, b, gap),
+                truth.verdict_certificate);
+    return;
+  }
+  if (std::isfinite(truth.gap.lo))
+    judge_normal_and_depth(in, out, a, b, truth, flip ? Vec3(-c.normal) : c.normal, c.depth);
+}
+
+}  // namespace
+
+void check_scene_contacts(const CheckInput& in, CheckOutput& out) {
+  // An engine may state several points of one pair; the deepest is the contact.
+  std::map<BodyPair, SceneContact> deepest;
+  for (const SceneContact& c : in.answer.contacts) {
+    const BodyPair key = std::minmax(c.a, c.b);
+    const auto it = deepest.find(key);
+    if (it == deepest.end() || c.depth > it->second.depth) deepest[key] = c;
+  }
+  std::set<BodyPair> stated;
+  for (const auto& [pair, c] : deepest) check_stated(in, out, c, stated);
+  for (const Truth::TruePair& p : in.truth.scene_pairs(in.frame)) {
+    if (stated.count(p.bodies)) continue;
+    const auto [a, b] = p.bodies;
+    const double l = in.truth.scale(a, b), depth = std::max(0.0, -p.truth.gap.hi);
+    out.error(depth, l);
+    if (depth > in.tau(l))
+      out.fault(Fault::missed, depth, l, {in.query.question, a, b},
+                fmt::format("no contact between {} and {}, which overlap by {:.6g}", a, b, depth),
+                p.truth.verdict_certificate);
+  }
+}
+
+}  // namespace touchstone::fuzz

@@ -1,0 +1,90 @@
+#include "fuzz/judge/judge.h"
+
+#include <algorithm>
+
+#include "fuzz/judge/check.h"
+
+namespace touchstone::fuzz {
+namespace {
+
+struct CheckRow {
+  Question question;
+  void (*check)(const CheckInput&, CheckOutput&);
+};
+
+// A check is one row here, one function in checks/, and one lying engine in tests/fuzz.
+constexpr CheckRow checks[] = {
+    {Question::overlap, check_overlap},       {Question::distance, check_distance},
+    {Question::distance, check_witness},      {Question::contact, check_contact},
+    {Question::contact, check_manifold},      {Question::time_of_impact, check_time_of_impact},
+    {Question::candidates, check_candidates}, {Question::scene_contacts, check_scene_contacts},
+};
+
+CheckOutput run_checks(const CheckInput& in) {
+  CheckOutput out;
+  for (const CheckRow& row : checks)
+    if (row.question == in.query.question) row.check(in, out);
+  std::stable_sort(out.faults.begin(), out.faults.end(),
+                   [](const FaultReport& x, const FaultReport& y) { return x.error_in_l > y.error_in_l; });
+  return out;
+}
+
+// A missed candidate is judged with no tolerance, and the received poses of a script are not known; an
+// overlap thinner than the engine's own rounding of the scene is then blamed on that rounding.
+Blame blame_of(const Judgement& j, const CheckInput& in) {
+  if (j.faults.empty()) return Blame::none;
+  if (in.query.question == Question::candidates) {
+    const FaultReport& worst = j.faults.front();
+    if (worst.fault != Fault::missed) return Blame::algorithm;
+    return worst.error > in.tau(in.truth.scale(worst.a, worst.b)) || in.card.unit_roundoff <= 0x1p-53
+               ? Blame::algorithm
+               : Blame::representation;
+  }
+  return j.received_faults.empty() ? Blame::representation : Blame::algorithm;
+}
+
+Judgement judge_one(const CheckInput& asked, int received_frame) {
+  Judgement j;
+  j.outcome = asked.answer.outcome;
+  if (j.outcome == Outcome::unsupported) return j;
+  if (j.outcome != Outcome::answered) {
+    FaultReport f;
+    f.a = asked.query.a, f.b = asked.query.b;
+    f.words =
+        std::string(to_string(j.outcome)) + (asked.answer.detail.empty() ? "" : ": " + asked.answer.detail);
+    j.faults.push_back(f);
+    j.received_faults.push_back(std::move(f));
+    j.blame = Blame::algorithm;
+    return j;
+  }
+  CheckOutput out = run_checks(asked);
+  j.undecided = out.undecided;
+  j.faults = std::move(out.faults);
+  j.worst_in_l = out.worst_in_l;
+  j.pairs_true = out.pairs_true, j.pairs_reported = out.pairs_reported,
+  j.pairs_duplicate = out.pairs_duplicate;
+  if (received_frame == 0)
+    j.received_faults = j.faults;
+  else
+    j.received_faults =
+        run_checks({asked.truth, received_frame, asked.query, asked.answer, asked.card}).faults;
+  j.blame = blame_of(j, asked);
+  return j;
+}
+
+}  // namespace
+
+std::vector<Judgement> judge(const Case& c, const EngineCard& card, const CaseObservations& observations,
+                             Truth& truth) {
+  std::vector<Judgement> result;
+  const int received = truth.frame_of(observations.received);
+  for (std::size_t i = 0; i < c.queries.size(); ++i) {
+    static const Observation missing{
+        Outcome::crashed, "the engine gave no answer", {}, {}, {}, {}, {}, {}, {}, {}, {}, 0, 0};
+    const Observation& answer = i < observations.answers.size() ? observations.answers[i] : missing;
+    result.push_back(judge_one({truth, 0, c.queries[i], answer, card}, received));
+  }
+  return result;
+}
+
+}  // namespace touchstone::fuzz

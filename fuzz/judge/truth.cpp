@@ -1,0 +1,177 @@
+#include "fuzz/judge/truth.h"
+
+#include <algorithm>
+#include <numeric>
+
+namespace touchstone::fuzz {
+namespace {
+
+Motion motion_of(const Scene& s, int body) {
+  return s.bodies[static_cast<std::size_t>(body)].motion.value_or(Motion{});
+}
+
+// True when every number that the engine reports equals the one asked, so that frame 0 serves. A Placement
+// never equals a Pose exactly unless the rotation is one whose matrix the double holds exactly.
+bool same_as_asked(const Scene& s, const ReceivedScene& r) {
+  for (std::size_t i = 0; i < r.shapes.size() && i < s.shapes.size(); ++i)
+    if (r.shapes[i] && *r.shapes[i] != s.shapes[i]) return false;
+  for (std::size_t i = 0; i < r.bodies.size() && i < s.bodies.size(); ++i) {
+    if (!r.bodies[i]) continue;
+    const Pose& p = s.bodies[i].pose;
+    if (r.bodies[i]->translation != p.translation || p.rotation != Quat{} ||
+        r.bodies[i]->matrix != Mat3::Identity())
+      return false;
+  }
+  return true;
+}
+
+}  // namespace
+
+Truth::Truth(const Scene& asked) : asked_(asked), frames_(1) {}
+
+int Truth::frame_of(const ReceivedScene& received) {
+  if (same_as_asked(asked_, received)) return 0;
+  for (std::size_t i = 1; i < frames_.size(); ++i)
+    if (frames_[i].received == received) return static_cast<int>(i);
+  frames_.push_back({});
+  frames_.back().received = received;
+  return static_cast<int>(frames_.size()) - 1;
+}
+
+referee::Placed Truth::placed(int frame, int body) const {
+  const auto b = static_cast<std::size_t>(body);
+  const Body& asked = asked_.bodies[b];
+  referee::Placed p{&asked_.shape_of(body), asked.pose};
+  if (frame == 0) return p;
+  const ReceivedScene& r = frames_[static_cast<std::size_t>(frame)].received;
+  const auto s = static_cast<std::size_t>(asked.shape);
+  if (s < r.shapes.size() && r.shapes[s]) p.shape = &*r.shapes[s];
+  if (b < r.bodies.size() && r.bodies[b]) p.pose = *r.bodies[b];
+  return p;
+}
+
+const referee::PairTruth& Truth::pair(int frame, int a, int b) {
+  auto& cache = frames_[static_cast<std::size_t>(frame)].pairs;
+  auto it = cache.find({a, b});
+  if (it == cache.end()) {
+    const auto hints = hints_.find({a, b});
+    const std::span<const Vec3> directions =
+        hints == hints_.end() ? std::span<const Vec3>{} : std::span<const Vec3>(hints->second);
+    it = cache.emplace(BodyPair{a, b}, referee::judge_pair(placed(frame, a), placed(frame, b), directions))
+             .first;
+  }
+  return it->second;
+}
+
+const referee::TimeTruth& Truth::motion(int frame, int a, int b) {
+  auto& cache = frames_[static_cast<std::size_t>(frame)].motions;
+  auto it = cache.find({a, b});
+  if (it == cache.end())
+    it = cache
+             .emplace(BodyPair{a, b}, referee::judge_motion(placed(frame, a), motion_of(asked_, a),
+                                                            placed(frame, b), motion_of(asked_, b)))
+             .first;
+  return it->second;
+}
+
+referee::Bracket Truth::width(int frame, int a, int b, const Vec3& n) const {
+  return referee::width(placed(frame, a), placed(frame, b), n);
+}
+
+referee::Bracket Truth::distance_to(int frame, int body, const Vec3& p) const {
+  return referee::distance_to(placed(frame, body), p);
+}
+
+referee::Bracket Truth::gap_at(int frame, int a, int b, double t) const {
+  return referee::gap_at(placed(frame, a), motion_of(asked_, a), placed(frame, b), motion_of(asked_, b), t);
+}
+
+double Truth::depth_before(int frame, int a, int b, double t) const {
+  return referee::certified_depth_before(placed(frame, a), motion_of(asked_, a), placed(frame, b),
+                                         motion_of(asked_, b), t);
+}
+
+const std::vector<Truth::StepState>& Truth::steps() {
+  if (steps_) return *steps_;
+  steps_.emplace();
+  StepState now{std::vector<std::optional<Pose>>(asked_.bodies.size())};
+  for (const Step& s : effective_script(asked_)) {
+    const auto b = static_cast<std::size_t>(s.body);
+    switch (s.op) {
+      case Step::Op::insert:
+        now.pose[b] = s.pose.value_or(asked_.bodies[b].pose);
+        break;
+      case Step::Op::move:
+        now.pose[b] = s.pose;
+        break;
+      case Step::Op::remove:
+        now.pose[b].reset();
+        break;
+      case Step::Op::query:
+        steps_->push_back(now);
+        break;
+    }
+  }
+  return *steps_;
+}
+
+// Sweep over the exact outer boxes along the axis on which they spread most, then the exact verdict of each
+// pair left.
+std::vector<Truth::TruePair> Truth::overlapping(const std::vector<std::optional<referee::Placed>>& bodies) {
+  struct Entry {
+    Aabb box;
+    int body;
+  };
+  std::vector<Entry> entries;
+  for (std::size_t i = 0; i < bodies.size(); ++i)
+    if (bodies[i]) entries.push_back({referee::outer_box(*bodies[i]), static_cast<int>(i)});
+  std::sort(entries.begin(), entries.end(), [](const Entry& x, const Entry& y) {
+    return std::pair{x.box.lo.x(), x.body} < std::pair{y.box.lo.x(), y.body};
+  });
+  std::vector<TruePair> result;
+  for (std::size_t i = 0; i < entries.size(); ++i)
+    for (std::size_t j = i + 1; j < entries.size() && entries[j].box.lo.x() <= entries[i].box.hi.x(); ++j) {
+      if (!overlaps(entries[i].box, entries[j].box)) continue;
+      const auto [a, b] = std::minmax(entries[i].body, entries[j].body);
+      const auto& body_a = asked_.bodies[static_cast<std::size_t>(a)];
+      const auto& body_b = asked_.bodies[static_cast<std::size_t>(b)];
+      if (is_filtered(asked_, a, b) || (body_a.is_static && body_b.is_static)) continue;
+      const auto& pa = *bodies[static_cast<std::size_t>(a)];
+      const auto& pb = *bodies[static_cast<std::size_t>(b)];
+      TruePair p{{a, b}, referee::judge_pair(pa, pb)};
+      if (p.truth.verdict == referee::Verdict::undecided) ++undecided_pairs_;
+      if (p.truth.verdict == referee::Verdict::overlap) result.push_back(std::move(p));
+    }
+  std::sort(result.begin(), result.end(),
+            [](const TruePair& x, const TruePair& y) { return x.bodies < y.bodies; });
+  return result;
+}
+
+const std::vector<std::vector<Truth::TruePair>>& Truth::true_pairs() {
+  if (true_pairs_) return *true_pairs_;
+  true_pairs_.emplace();
+  for (const StepState& state : steps()) {
+    std::vector<std::optional<referee::Placed>> bodies(asked_.bodies.size());
+    for (std::size_t i = 0; i < bodies.size(); ++i)
+      if (state.pose[i]) bodies[i] = referee::Placed{&asked_.shape_of(static_cast<int>(i)), *state.pose[i]};
+    true_pairs_->push_back(overlapping(bodies));
+  }
+  return *true_pairs_;
+}
+
+const std::vector<Truth::TruePair>& Truth::scene_pairs(int frame) {
+  auto& cached = frames_[static_cast<std::size_t>(frame)].scene_pairs;
+  if (!cached) {
+    std::vector<std::optional<referee::Placed>> bodies(asked_.bodies.size());
+    for (std::size_t i = 0; i < bodies.size(); ++i) bodies[i] = placed(frame, static_cast<int>(i));
+    auto pairs = overlapping(bodies);
+    frames_[static_cast<std::size_t>(frame)].scene_pairs = std::move(pairs);
+  }
+  return *frames_[static_cast<std::size_t>(frame)].scene_pairs;
+}
+
+void Truth::hint(int a, int b, const Vec3& direction) {
+  if (direction.allFinite() && !direction.isZero(0)) hints_[{a, b}].push_back(direction);
+}
+
+}  // namespace touchstone::fuzz

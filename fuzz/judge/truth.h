@@ -1,0 +1,67 @@
+// The referee's answers about one case, computed when asked for and kept. A case is seen in frames: frame 0
+// is the scene asked, further frames are the scenes as engines received them (equal ones share a frame).
+#pragma once
+
+#include <map>
+#include <tuple>
+#include <vector>
+
+#include "oracles/api/observation.h"
+#include "oracles/referee/referee.h"
+
+namespace touchstone::fuzz {
+
+class Truth {
+ public:
+  explicit Truth(const Scene& asked);
+
+  /// The frame of a received scene; 0 when it equals the scene asked.
+  int frame_of(const ReceivedScene& received);
+
+  referee::Placed placed(int frame, int body) const;
+  const referee::PairTruth& pair(int frame, int a, int b);
+  const referee::TimeTruth& motion(int frame, int a, int b);
+  referee::Bracket width(int frame, int a, int b, const Vec3& n) const;
+  referee::Bracket distance_to(int frame, int body, const Vec3& p) const;
+  referee::Bracket gap_at(int frame, int a, int b, double t) const;
+  double depth_before(int frame, int a, int b, double t) const;
+  double scale(int a, int b) const { return scale_of_pair(asked_, a, b); }
+
+  /// Per query step of the script: the bodies present with their poses (frame 0 only).
+  struct StepState {
+    std::vector<std::optional<Pose>> pose;  // empty: not present
+  };
+  const std::vector<StepState>& steps();
+  /// Per query step: pairs that truly overlap and that a broad phase must report (not filtered, not both
+  /// static), sorted; with the referee's verdict of each.
+  struct TruePair {
+    BodyPair bodies;
+    referee::PairTruth truth;
+  };
+  const std::vector<std::vector<TruePair>>& true_pairs();
+  /// Pairs that overlap at the bodies' own poses in the given frame, as above.
+  const std::vector<TruePair>& scene_pairs(int frame);
+  std::uint64_t undecided_pairs() const { return undecided_pairs_; }
+
+  const Scene& scene() const { return asked_; }
+  /// Directions worth trying first as certificates; from engines' answers.
+  void hint(int a, int b, const Vec3& direction);
+
+ private:
+  struct Frame {
+    ReceivedScene received;
+    std::map<BodyPair, referee::PairTruth> pairs;
+    std::map<BodyPair, referee::TimeTruth> motions;
+    std::optional<std::vector<TruePair>> scene_pairs;
+  };
+  std::vector<TruePair> overlapping(const std::vector<std::optional<referee::Placed>>& bodies);
+
+  const Scene& asked_;
+  std::vector<Frame> frames_;
+  std::map<BodyPair, std::vector<Vec3>> hints_;
+  std::optional<std::vector<StepState>> steps_;
+  std::optional<std::vector<std::vector<TruePair>>> true_pairs_;
+  std::uint64_t undecided_pairs_ = 0;
+};
+
+}  // namespace touchstone::fuzz

@@ -1,0 +1,18 @@
+// Exact JSON of what engines answered: doubles shortest-round-trip, NaN and infinities as the strings "nan",
+// "inf", "-inf".
+#pragma once
+
+#include <nlohmann/json.hpp>
+
+#include "oracles/api/observation.h"
+
+namespace touchstone::fuzz {
+
+using Json = nlohmann::ordered_json;
+
+Json number(double x);
+Json vector(const Vec3& v);
+Json to_json(const Observation& o);
+Json to_json(const ReceivedScene& r);
+
+}  // namespace touchstone::fuzz

@@ -1,0 +1,215 @@
+#include "fuzz/record/result.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/base/exact_text.h"
+#include "core/base/hash.h"
+#include "core/base/input_error.h"
+
+namespace touchstone::fuzz {
+
+void TimeHistogram::add(std::int64_t ns) {
+  const double octaves = ns <= 1 ? 0 : std::log2(static_cast<double>(ns));
+  const auto i = std::min(bucket_.size() - 1, static_cast<std::size_t>(octaves * 8));
+  ++bucket_[i], ++count_;
+}
+
+void TimeHistogram::merge(const TimeHistogram& o) {
+  for (std::size_t i = 0; i < bucket_.size(); ++i) bucket_[i] += o.bucket_[i];
+  count_ += o.count_;
+}
+
+double TimeHistogram::quantile(double q) const {
+  if (count_ == 0) return 0;
+  const auto rank = static_cast<std::uint64_t>(q * static_cast<double>(count_ - 1));
+  std::uint64_t seen = 0;
+  for (std::size_t i = 0; i < bucket_.size(); ++i)
+    if ((seen += bucket_[i]) > rank) return std::exp2((static_cast<double>(i) + 0.5) / 8);
+  return 0;
+}
+
+Json TimeHistogram::json() const {
+  Json j = Json::array();
+  for (std::size_t i = 0; i < bucket_.size(); ++i)
+    if (bucket_[i] != 0) j.push_back({i, bucket_[i]});
+  return j;
+}
+
+TimeHistogram TimeHistogram::from_json(const Json& j) {
+  TimeHistogram h;
+  for (const Json& e : j) {
+    const auto i = e.at(0).get<std::size_t>();
+    if (i >= h.bucket_.size()) throw InputError("time histogram", "bucket out of range");
+    h.count_ += h.bucket_[i] = e.at(1).get<std::uint64_t>();
+  }
+  return h;
+}
+
+std::uint64_t Tally::failed() const {
+  std::uint64_t n = 0;
+  for (auto c : outcomes) n += c;
+  return n - answered() - unsupported();
+}
+
+void Tally::add(const Judgement& j, const Observation& o) {
+  ++outcomes[static_cast<std::size_t>(j.outcome)];
+  if (j.outcome != Outcome::answered) return;
+  time.add(o.elapsed_ns);
+  ++(j.faults.empty() ? right : wrong);
+  const auto has = [&](Fault f) {
+    return std::any_of(j.faults.begin(), j.faults.end(), [&](const FaultReport& r) { return r.fault == f; });
+  };
+  missed += has(Fault::missed), ghost += has(Fault::ghost);
+  representation += j.blame == Blame::representation;
+  undecided += j.undecided;
+  pairs_true += j.pairs_true, pairs_reported += j.pairs_reported, pairs_duplicate += j.pairs_duplicate;
+  worst_in_l = std::max(worst_in_l, j.worst_in_l);
+}
+
+void Tally::merge(const Tally& o) {
+  for (std::size_t i = 0; i < outcomes.size(); ++i) outcomes[i] += o.outcomes[i];
+  right += o.right, wrong += o.wrong, missed += o.missed, ghost += o.ghost,
+      representation += o.representation;
+  undecided += o.undecided;
+  pairs_true += o.pairs_true, pairs_reported += o.pairs_reported, pairs_duplicate += o.pairs_duplicate;
+  worst_in_l = std::max(worst_in_l, o.worst_in_l);
+  time.merge(o.time);
+}
+
+void Finding::merge(const Finding& o) {
+  const std::uint64_t both = count + o.count;
+  const double worst = std::max(worst_in_l, o.worst_in_l);
+  if (count == 0 || o.first_index < first_index) *this = o;
+  count = both, worst_in_l = worst;
+}
+
+void CampaignResult::merge(const CampaignResult& o) {
+  for (const auto& [engine, questions] : o.tallies)
+    for (const auto& [q, t] : questions) tallies[engine][q].merge(t);
+  for (const auto& [key, f] : o.findings) findings[key].merge(f);
+  for (const auto& [f, n] : o.families) families[f] += n;
+  cases += o.cases, pair_cases += o.pair_cases, overlapping += o.overlapping, undecided += o.undecided;
+  total_ns += o.total_ns, engine_ns += o.engine_ns, judge_ns += o.judge_ns;
+}
+
+std::uint64_t CampaignResult::wrong_of(const std::string& engine) const {
+  std::uint64_t n = 0;
+  if (const auto it = tallies.find(engine); it != tallies.end())
+    for (const auto& [q, t] : it->second) n += t.wrong;
+  return n;
+}
+
+std::uint64_t CampaignResult::failed_of(const std::string& engine) const {
+  std::uint64_t n = 0;
+  if (const auto it = tallies.find(engine); it != tallies.end())
+    for (const auto& [q, t] : it->second) n += t.failed();
+  return n;
+}
+
+namespace {
+
+Json to_json(const Tally& t, bool with_times) {
+  Json j;
+  for (std::size_t i = 0; i < t.outcomes.size(); ++i)
+    j["outcomes"][std::string(outcome_names[i])] = t.outcomes[i];
+  j["right"] = t.right, j["wrong"] = t.wrong, j["missed"] = t.missed, j["ghost"] = t.ghost;
+  j["representation"] = t.representation, j["undecided"] = t.undecided;
+  j["pairs_true"] = t.pairs_true, j["pairs_reported"] = t.pairs_reported,
+  j["pairs_duplicate"] = t.pairs_duplicate;
+  j["worst_in_l"] = number(t.worst_in_l);
+  if (with_times) {
+    j["ns_median"] = t.time.quantile(0.5), j["ns_p99"] = t.time.quantile(0.99);
+    j["ns_histogram"] = t.time.json();
+  }
+  return j;
+}
+
+double number_from(const Json& j) {
+  if (j.is_number()) return j.get<double>();
+  const auto v = double_from_text(j.get<std::string>());
+  return v ? *v : std::numeric_limits<double>::quiet_NaN();
+}
+
+Tally tally_from_json(const Json& j) {
+  Tally t;
+  for (std::size_t i = 0; i < t.outcomes.size(); ++i)
+    t.outcomes[i] = j.at("outcomes").at(std::string(outcome_names[i]));
+  t.right = j.at("right"), t.wrong = j.at("wrong"), t.missed = j.at("missed"), t.ghost = j.at("ghost");
+  t.representation = j.at("representation"), t.undecided = j.at("undecided");
+  t.pairs_true = j.at("pairs_true"), t.pairs_reported = j.at("pairs_reported");
+  t.pairs_duplicate = j.at("pairs_duplicate");
+  t.worst_in_l = number_from(j.at("worst_in_l"));
+  if (j.contains("ns_histogram")) t.time = TimeHistogram::from_json(j.at("ns_histogram"));
+  return t;
+}
+
+Json to_json(const Finding& f) {
+  return {{"engine", f.engine},
+          {"question", f.question},
+          {"fault", f.fault},
+          {"shapes", f.shapes},
+          {"blame", f.blame},
+          {"count", f.count},
+          {"worst_in_l", number(f.worst_in_l)},
+          {"first_index", f.first_index},
+          {"words", f.words},
+          {"case", f.case_json},
+          {"observation", f.observation},
+          {"certificate", f.certificate},
+          {"received", f.received}};
+}
+
+Finding finding_from_json(const Json& j) {
+  Finding f;
+  f.engine = j.at("engine"), f.question = j.at("question"), f.fault = j.at("fault"),
+  f.shapes = j.at("shapes");
+  f.blame = j.at("blame"), f.count = j.at("count"), f.worst_in_l = number_from(j.at("worst_in_l"));
+  f.first_index = j.at("first_index"), f.words = j.at("words");
+  f.case_json = j.at("case"), f.observation = j.at("observation"), f.certificate = j.at("certificate");
+  f.received = j.at("received");
+  return f;
+}
+
+}  // namespace
+
+Json to_json(const CampaignResult& r, bool with_times) {
+  Json j;
+  j["cases"] = r.cases, j["pair_cases"] = r.pair_cases, j["overlapping"] = r.overlapping;
+  j["undecided"] = r.undecided;
+  j["families"] = r.families;
+  j["engines"] = Json::object();
+  for (const auto& [engine, questions] : r.tallies)
+    for (const auto& [q, t] : questions)
+      j["engines"][engine][std::string(to_string(q))] = to_json(t, with_times);
+  j["findings"] = Json::object();
+  for (const auto& [key, f] : r.findings) j["findings"][key] = to_json(f);
+  if (with_times)
+    j["times"] = {{"total_ns", r.total_ns}, {"engine_ns", r.engine_ns}, {"judge_ns", r.judge_ns}};
+  return j;
+}
+
+CampaignResult result_from_json(const Json& j) try {
+  CampaignResult r;
+  r.cases = j.at("cases"), r.pair_cases = j.at("pair_cases"), r.overlapping = j.at("overlapping");
+  r.undecided = j.at("undecided");
+  for (const auto& [f, n] : j.at("families").items()) r.families[f] = n;
+  for (const auto& [engine, questions] : j.at("engines").items())
+    for (const auto& [q, t] : questions.items()) {
+      const auto question = question_from_string(q);
+      if (!question) throw InputError("engines." + engine, "unknown question " + q);
+      r.tallies[engine][*question] = tally_from_json(t);
+    }
+  for (const auto& [key, f] : j.at("findings").items()) r.findings[key] = finding_from_json(f);
+  if (j.contains("times")) {
+    r.total_ns = j["times"].at("total_ns"), r.engine_ns = j["times"].at("engine_ns");
+    r.judge_ns = j["times"].at("judge_ns");
+  }
+  return r;
+} catch (const Json::exception& e) {
+  throw InputError("stored result", e.what());
+}
+
+std::string digest(const CampaignResult& r) { return hex64(Hasher().add(to_json(r, false).dump()).value()); }
+
+}  // namespace touchstone::fuzz

@@ -1,0 +1,88 @@
+// What a campaign leaves: counts, times and findings. Plain values that merge in any order to the same
+// result.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "fuzz/judge/judgement.h"
+#include "fuzz/record/observation_json.h"
+#include "oracles/api/engine.h"
+
+namespace touchstone::fuzz {
+
+/// Times on a logarithmic scale, 8 buckets an octave (9 % wide), so that percentiles merge exactly.
+class TimeHistogram {
+ public:
+  void add(std::int64_t ns);
+  void merge(const TimeHistogram& o);
+  /// The q-quantile in ns, 0 when empty; right to half a bucket (5 %).
+  double quantile(double q) const;
+  std::uint64_t count() const { return count_; }
+  Json json() const;
+  static TimeHistogram from_json(const Json& j);
+
+ private:
+  std::array<std::uint64_t, 320> bucket_{};
+  std::uint64_t count_ = 0;
+};
+
+/// One engine, one question.
+struct Tally {
+  std::array<std::uint64_t, outcome_names.size()> outcomes{};  // by Outcome
+  std::uint64_t right = 0, wrong = 0, missed = 0,
+                ghost = 0;           // of the answered; missed and ghost are within wrong
+  std::uint64_t representation = 0;  // of the wrong: right for the scene as received
+  std::uint64_t undecided = 0;
+  std::uint64_t pairs_true = 0, pairs_reported = 0, pairs_duplicate = 0;
+  double worst_in_l = 0;
+  TimeHistogram time;  // of the answered; never hashed
+
+  std::uint64_t answered() const { return outcomes[static_cast<std::size_t>(Outcome::answered)]; }
+  std::uint64_t unsupported() const { return outcomes[static_cast<std::size_t>(Outcome::unsupported)]; }
+  std::uint64_t failed() const;  // neither answered nor unsupported
+  void add(const Judgement& j, const Observation& o);
+  void merge(const Tally& o);
+};
+
+/// One kind of wrong answer: same engine, question, fault, shapes and blame. Keeps its first case.
+struct Finding {
+  std::string engine, question, fault, shapes, blame;
+  std::uint64_t count = 0;
+  double worst_in_l = 0;
+  std::uint64_t first_index = 0;
+  std::string words;
+  Json case_json, observation, certificate, received;
+  std::string key() const { return engine + "." + question + "." + fault + "." + shapes + "." + blame; }
+  void merge(const Finding& o);
+};
+
+struct CampaignResult {
+  std::map<std::string, std::map<Question, Tally>> tallies;  // by engine
+  std::map<std::string, Finding> findings;                   // by key
+  std::uint64_t cases = 0, pair_cases = 0,
+                overlapping = 0;  // pair cases with a decided verdict, and how many overlap
+  std::uint64_t undecided = 0;
+  std::map<std::string, std::uint64_t> families;
+  // Times, never hashed: of all jobs together, and of that the engines' own and the referee's and judge's.
+  std::int64_t total_ns = 0, engine_ns = 0, judge_ns = 0;
+
+  void merge(const CampaignResult& o);
+  double hit_rate() const {
+    return pair_cases == 0 ? 0 : static_cast<double>(overlapping) / static_cast<double>(pair_cases);
+  }
+  /// Wrong or failed answers of one engine.
+  std::uint64_t wrong_of(const std::string& engine) const;
+  std::uint64_t failed_of(const std::string& engine) const;
+};
+
+/// The whole result; `with_times` false gives the part that the same seed must reproduce byte for byte.
+Json to_json(const CampaignResult& r, bool with_times);
+CampaignResult result_from_json(const Json& j);
+/// Hash of the reproducible part.
+std::string digest(const CampaignResult& r);
+
+}  // namespace touchstone::fuzz
