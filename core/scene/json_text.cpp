@@ -1,0 +1,149 @@
+#include "core/scene/json_text.h"
+
+#include <algorithm>
+#include <cmath>
+#include <unordered_set>
+#include <vector>
+
+#include "core/base/exact_text.h"
+#include "core/base/input_error.h"
+
+namespace touchstone {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+std::string line_and_column(std::string_view text, std::size_t offset) {
+  const std::string_view before = text.substr(0, std::min(offset, text.size()));
+  const auto line = 1 + std::count(before.begin(), before.end(), '\n');
+  const std::size_t start = before.rfind('\n') == std::string_view::npos ? 0 : before.rfind('\n') + 1;
+  return std::to_string(line) + ":" + std::to_string(std::max<std::size_t>(1, before.size() - start));
+}
+
+// The library's message is "[json.exception.parse_error.101] parse error at line 1, column 2: what"; the
+// reader wants the last part.
+std::string reason_of(const nlohmann::detail::exception& e) {
+  std::string s = e.what();
+  if (const auto bracket = s.find("] "); bracket != std::string::npos) s.erase(0, bracket + 2);
+  if (s.starts_with("parse error at"))
+    if (const auto colon = s.find(": "); colon != std::string::npos) s.erase(0, colon + 2);
+  for (char& c : s)
+    if (static_cast<unsigned char>(c) < ' ') c = ' ';
+  if (s.find("last read: 'N'") != std::string::npos || s.find("last read: 'I'") != std::string::npos ||
+      s.find("last read: '-I'") != std::string::npos)
+    s += " (NaN and Infinity are not JSON numbers)";
+  return s;
+}
+
+class Builder final : public nlohmann::json_sax<Json> {
+ public:
+  Builder(std::string_view text, const std::string& place) : text_(text), place_(place) {}
+  Json take() { return std::move(root_); }
+
+  bool null() override { return put(nullptr), true; }
+  bool boolean(bool v) override { return put(v), true; }
+  // A negative integer token of value 0 is "-0": keep the sign.
+  bool number_integer(number_integer_t v) override { return v == 0 ? put(-0.0) : put(v), true; }
+  bool number_unsigned(number_unsigned_t v) override { return put(v), true; }
+  bool number_float(number_float_t v, const string_t&) override { return put(v), true; }
+  bool string(string_t& v) override { return put(std::move(v)), true; }
+  bool binary(binary_t&) override { return false; }  // not a JSON text event
+  bool start_object(std::size_t) override { return open(Json::object()), true; }
+  bool start_array(std::size_t) override { return open(Json::array()), true; }
+  bool end_object() override { return stack_.pop_back(), keys_.pop_back(), true; }
+  bool end_array() override { return stack_.pop_back(), keys_.pop_back(), true; }
+  bool key(string_t& v) override {
+    if (!keys_.back().insert(v).second)
+      throw InputError(place_, "field \"" + v + "\" is given twice in one object");
+    key_ = std::move(v);
+    return true;
+  }
+  bool parse_error(std::size_t offset, const std::string&, const nlohmann::detail::exception& e) override {
+    const std::string where = line_and_column(text_, offset);
+    throw InputError(place_.empty() ? where : place_ + ":" + where, reason_of(e));
+  }
+
+ private:
+  Json* put(Json v) {
+    if (stack_.empty()) return root_ = std::move(v), &root_;
+    Json& top = *stack_.back();
+    if (top.is_array()) return top.push_back(std::move(v)), &top.back();
+    // A vector underneath: push_back, since duplicates are already refused and a lookup would cost O(n).
+    auto& object = top.get_ref<Json::object_t&>();
+    object.emplace_back(std::move(key_), std::move(v));
+    return &object.back().second;
+  }
+  void open(Json v) {
+    if (static_cast<int>(stack_.size()) >= max_json_depth)
+      throw InputError(place_, "is nested more than " + std::to_string(max_json_depth) + " levels deep");
+    stack_.push_back(put(std::move(v)));
+    keys_.emplace_back();
+  }
+
+  std::string_view text_;
+  const std::string& place_;
+  Json root_;
+  std::vector<Json*> stack_;  // open containers; a container's address is stable while it is open
+  std::vector<std::unordered_set<std::string>> keys_;
+  std::string key_;
+};
+
+std::string number_text(double v) {
+  if (!std::isfinite(v)) throw InputError("", "JSON cannot say the number " + to_text(v));
+  if (v == 0) return std::signbit(v) ? "-0.0" : "0";
+  return to_text(v);
+}
+
+void write(const Json& j, std::string& out) {
+  switch (j.type()) {
+    case Json::value_t::object: {
+      out += '{';
+      bool first = true;
+      for (const auto& [key, value] : j.items()) {
+        if (!std::exchange(first, false)) out += ", ";
+        write(key, out);
+        out += ": ";
+        write(value, out);
+      }
+      out += '}';
+      return;
+    }
+    case Json::value_t::array: {
+      out += '[';
+      for (std::size_t i = 0; i < j.size(); ++i) {
+        if (i) out += ", ";
+        write(j[i], out);
+      }
+      out += ']';
+      return;
+    }
+    case Json::value_t::number_float:
+      out += number_text(j.get<double>());
+      return;
+    default:
+      out += j.dump(-1, ' ', false, Json::error_handler_t::replace);
+      return;
+  }
+}
+
+}  // namespace
+
+nlohmann::ordered_json parse_json(std::string_view text, const std::string& place) {
+  if (text.find_first_not_of(" \t\r\n") == std::string_view::npos) throw InputError(place, "is empty");
+  Builder builder(text, place);
+  if (!Json::sax_parse(text, &builder)) throw InputError(place, "is not JSON text");
+  return builder.take();
+}
+
+std::string to_line(const nlohmann::ordered_json& j) {
+  std::string out;
+  write(j, out);
+  return out;
+}
+
+std::string json_place(const std::string& prefix, const std::string& path) {
+  if (prefix.empty()) return path;
+  return path.empty() ? prefix : prefix + ": " + path;
+}
+
+}  // namespace touchstone
