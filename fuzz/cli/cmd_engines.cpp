@@ -1,0 +1,55 @@
+#include <fmt/format.h>
+
+#include "core/base/input_error.h"
+#include "fuzz/cli/command.h"
+#include "fuzz/cli/engine_catalog.h"
+#include "fuzz/record/observation_json.h"
+#include "reports/text.h"
+
+namespace touchstone::cli {
+namespace {
+
+void print_card(const EngineCard& c) {
+  fmt::print("{:<24} {} {}\n", c.name, c.library, c.version);
+  if (!c.settings.empty()) fmt::print("    {}\n", reports::wrapped(c.settings, 76, 4));
+  fmt::print("    tolerance {:g}·{:.3g}·L plus what each answer claims", c.tau_factor, c.unit_roundoff);
+  if (!c.source.empty()) fmt::print("\n    {}", reports::wrapped("(" + c.source + ")", 76, 4));
+  fmt::print("\n");
+}
+
+int list(const std::string& which, bool json) {
+  fuzz::Json j = fuzz::Json::array();
+  const auto show = [&](const std::string& name) {
+    const EnginePtr e = make_engine(name, {});
+    if (json)
+      j.push_back(fuzz::Json::parse(to_json_text(e->card())));
+    else
+      print_card(e->card());
+  };
+  if (!which.empty()) {
+    for (const auto& name : engine_names(which)) show(name);
+  } else {
+    for (const EngineRow& row : engine_catalog()) {
+      if (is_present(row))
+        show(std::string(row.name));
+      else if (json)
+        j.push_back({{"name", row.name}, {"absent", true}});
+      else
+        fmt::print("{:<24} absent: {} was not built (its library was not found)\n", row.name, row.library);
+    }
+  }
+  if (json) fmt::print("{}\n", j.dump(1));
+  return exit_clean;
+}
+
+}  // namespace
+
+Run declare_engines(CLI::App& app) {
+  auto which = std::make_shared<std::string>();
+  auto json = std::make_shared<bool>(false);
+  app.add_option("engines", *which, "only these: names or paths of plug-ins, separated by commas");
+  app.add_flag("--json", *json, "one JSON document");
+  return [which, json] { return list(*which, *json); };
+}
+
+}  // namespace touchstone::cli

@@ -1,0 +1,123 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "core/base/input_error.h"
+#include "core/scene/real_scene.h"
+#include "fuzz/campaign/campaign.h"
+#include "fuzz/cli/command.h"
+#include "fuzz/cli/engine_catalog.h"
+#include "fuzz/explore/real_scene_cases.h"
+#include "fuzz/judge/judge.h"
+#include "reports/replay_text.h"
+#include "reports/text.h"
+#include "scenarios/case_codec.h"
+
+namespace touchstone::cli {
+namespace {
+
+struct Options {
+  std::vector<std::string> paths;
+  std::string engines = "all", subject = "core", frames;
+  bool json = false;
+  WorkerLimits limits;
+};
+
+using Engines = std::vector<EnginePtr>;
+
+std::vector<CaseObservations> ask(const Engines& engines, const Case& c) {
+  std::vector<CaseObservations> r;
+  for (const EnginePtr& e : engines) r.push_back(e->run({&c, 1})[0]);
+  return r;
+}
+
+// One case in full. True when the subject is wrong or fails.
+bool replay_case(const Options& o, const Engines& engines, const Case& c, fuzz::Json& json) {
+  fuzz::Truth truth(c.scene);
+  reports::ReplayText text(c, truth);
+  bool subject_wrong = false;
+  const auto observations = ask(engines, c);
+  for (std::size_t e = 0; e < engines.size(); ++e) {
+    const EngineCard& card = engines[e]->card();
+    const auto judgements = fuzz::judge(c, card, observations[e], truth);
+    text.add(card.name, observations[e], judgements);
+    if (card.name == o.subject)
+      for (const auto& j : judgements) subject_wrong |= !j.faults.empty();
+  }
+  if (o.json)
+    json.push_back(text.json());
+  else
+    fmt::print("{}", text.str());
+  return subject_wrong;
+}
+
+// A recorded scene: thousands of pairs, so counts and findings instead of every answer.
+bool replay_real_scene(const Options& o, const Engines& engines, const std::string& directory,
+                       fuzz::Json& json) {
+  const RealScene scene = load_real_scene(directory);
+  const auto frames = fuzz::frames_from_text(o.frames, scene.frame_count());
+  fuzz::CampaignResult result;
+  const auto start = std::chrono::steady_clock::now();
+  std::uint64_t index = 0;
+  constexpr std::size_t batch = 64;
+  for (int f : frames) {
+    const auto cases = fuzz::real_scene_cases(scene, f);
+    for (std::size_t first = 0; first < cases.size(); first += batch) {
+      const std::span<const Case> part(cases.data() + first, std::min(batch, cases.size() - first));
+      std::vector<std::vector<CaseObservations>> by_engine;
+      for (const EnginePtr& e : engines) by_engine.push_back(e->run(part));
+      for (std::size_t i = 0; i < part.size(); ++i) {
+        std::vector<CaseObservations> observations;
+        for (auto& of_engine : by_engine) observations.push_back(std::move(of_engine[i]));
+        fuzz::judge_into(result, part[i], index++, engines, observations);
+      }
+    }
+    fmt::print(stderr, "{} frame {}: {} cases\n", scene.name, f, cases.size());
+  }
+  result.total_ns = std::chrono::nanoseconds(std::chrono::steady_clock::now() - start).count();
+  if (o.json) {
+    json.push_back(fuzz::to_json(result, true));
+  } else {
+    fmt::print("{}: {} bodies, {} of {} frames\n{}\n", scene.name, scene.frame(0).bodies.size(),
+               frames.size(), scene.frame_count(), reports::campaign_table(result));
+    fmt::print("{}{}\n", reports::findings_summary(result, 3), reports::campaign_footer(result));
+  }
+  return result.wrong_of(o.subject) + result.failed_of(o.subject) > 0;
+}
+
+int run(const Options& o) {
+  Engines engines;
+  for (const auto& name : engine_names(o.engines)) engines.push_back(make_engine(name, o.limits));
+  bool subject_wrong = false;
+  fuzz::Json json = fuzz::Json::array();
+  for (const std::string& path : o.paths) {
+    if (std::filesystem::exists(std::filesystem::path(path) / "scene.txt"))
+      subject_wrong |= replay_real_scene(o, engines, path, json);
+    else
+      subject_wrong |= replay_case(o, engines, load_case(path), json);
+  }
+  if (o.json) fmt::print("{}\n", json.dump(1));
+  return subject_wrong ? exit_wrong : exit_clean;
+}
+
+}  // namespace
+
+Run declare_replay(CLI::App& app) {
+  auto o = std::make_shared<Options>();
+  app.add_option("case", o->paths,
+                 "case or scene files, or directories of recorded scenes (scene.txt, frames.npy)")
+      ->required();
+  app.add_option("--engines", o->engines, "engines to ask: names, plug-in paths, or all")
+      ->capture_default_str();
+  app.add_option("--subject", o->subject, "the engine whose faults decide the exit code")
+      ->capture_default_str();
+  app.add_option("--frames", o->frames, "of recorded scenes: first:end:step (default: about five frames)");
+  app.add_option("--case-seconds", o->limits.query_cpu_seconds,
+                 "CPU seconds that an engine may spend on one question")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+  app.add_flag("--json", o->json, "one JSON document on stdout");
+  return [o] { return run(*o); };
+}
+
+}  // namespace touchstone::cli

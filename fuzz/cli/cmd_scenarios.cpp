@@ -1,0 +1,28 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "core/base/input_error.h"
+#include "fuzz/cli/command.h"
+#include "scenarios/case_codec.h"
+#include "scenarios/catalog.h"
+
+namespace touchstone::cli {
+
+Run declare_scenarios(CLI::App& app) {
+  auto name = std::make_shared<std::string>();
+  app.add_option("name", *name, "write this scenario as a case file to stdout");
+  return [name] {
+    const auto all = scenarios::catalog();
+    if (name->empty()) {
+      for (const auto& s : all) fmt::print("{:<12} {:<36} {}\n", s.folder, s.name, s.line);
+      return exit_clean;
+    }
+    const auto it = std::find_if(all.begin(), all.end(), [&](const auto& s) { return s.name == *name; });
+    if (it == all.end()) throw InputError("scenario " + *name, "unknown; `touchstone scenarios` lists them");
+    fmt::print("{}\n", case_to_json(it->make()).dump(1));
+    return exit_clean;
+  };
+}
+
+}  // namespace touchstone::cli

@@ -1,0 +1,30 @@
+// A subcommand: one row in commands(), one file cmd_<name>.cpp, which declares its options on the app it is
+// given and returns what runs it. Exit codes: 0 clean, 1 the subject was found wrong, 2 bad usage or input, 3
+// the run failed or proved nothing.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <functional>
+#include <span>
+#include <string_view>
+
+namespace touchstone::cli {
+
+using Run = std::function<int()>;
+
+struct Command {
+  std::string_view name, line;
+  Run (*declare)(CLI::App& app);
+};
+
+std::span<const Command> commands();
+
+inline constexpr int exit_clean = 0, exit_wrong = 1, exit_usage = 2, exit_failed = 3;
+
+Run declare_engines(CLI::App& app);
+Run declare_families(CLI::App& app);
+Run declare_scenarios(CLI::App& app);
+Run declare_fuzz(CLI::App& app);
+Run declare_replay(CLI::App& app);
+
+}  // namespace touchstone::cli

@@ -1,0 +1,116 @@
+#include "fuzz/cli/engine_catalog.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+
+#include "core/base/input_error.h"
+#include "oracles/core/core_engine.h"
+
+namespace touchstone::cli {
+namespace {
+
+constexpr std::string_view fcl = "libtouchstone_fcl.so", f32 = "libtouchstone_bullet_f32.so",
+                           f64 = "libtouchstone_bullet_f64.so", ccd = "libtouchstone_libccd.so";
+
+constexpr EngineRow rows[] = {
+    {"core", "", "our own core, in process"},
+    {"fcl-libccd", fcl, "FCL as shipped, GST_LIBCCD"},
+    {"fcl-libccd-tuned", fcl, "FCL, GST_LIBCCD, tolerances 1e-12 and 1e-7"},
+    {"fcl-indep", fcl, "FCL as shipped, GST_INDEP"},
+    {"fcl-indep-tuned", fcl, "FCL, GST_INDEP, tolerances 1e-12"},
+    {"bullet-f32-query", f32, "Bullet float, contactPairTest, default margins"},
+    {"bullet-f32-query-tuned", f32, "Bullet float, contactPairTest, margin 0"},
+    {"bullet-f32-sim", f32, "Bullet float, performDiscreteCollisionDetection, default margins"},
+    {"bullet-f32-sim-tuned", f32, "Bullet float, performDiscreteCollisionDetection, margin 0"},
+    {"bullet-f64-query", f64, "Bullet double, contactPairTest, default margins"},
+    {"bullet-f64-query-tuned", f64, "Bullet double, contactPairTest, margin 0"},
+    {"bullet-f64-sim", f64, "Bullet double, performDiscreteCollisionDetection, default margins"},
+    {"bullet-f64-sim-tuned", f64, "Bullet double, performDiscreteCollisionDetection, margin 0"},
+    {"libccd-gjk", ccd, "libccd as shipped, GJK and EPA"},
+    {"libccd-gjk-tuned", ccd, "libccd, GJK and EPA, tight tolerances"},
+    {"libccd-mpr", ccd, "libccd as shipped, MPR"},
+    {"libccd-mpr-tuned", ccd, "libccd, MPR, tight tolerances"},
+};
+
+std::filesystem::path program_directory() {
+  std::error_code ec;
+  const auto exe = std::filesystem::read_symlink("/proc/self/exe", ec);
+  return ec ? std::filesystem::current_path() : exe.parent_path();
+}
+
+bool is_path(const std::string& name) {
+  return name.find('/') != std::string::npos || (name.size() > 3 && name.ends_with(".so"));
+}
+
+const EngineRow* find_row(const std::string& name) {
+  const auto it =
+      std::find_if(std::begin(rows), std::end(rows), [&](const EngineRow& r) { return r.name == name; });
+  return it == std::end(rows) ? nullptr : it;
+}
+
+// "./libmine.so:name" names one engine of a plug-in, "./libmine.so" the only one it offers.
+RemoteSpec plugin_spec(const std::string& name) {
+  const auto colon = name.rfind(".so:");
+  if (colon == std::string::npos) return {host_program(), name, "", {}};
+  return {host_program(), name.substr(0, colon + 3), name.substr(colon + 4), {}};
+}
+
+void check_name(const std::string& name) {
+  if (name.starts_with("pipe:"))
+    throw InputError(name, "engines behind a pipe are not supported by this version");
+  if (is_path(name)) {
+    const auto file = plugin_spec(name).plugin;
+    if (!std::filesystem::exists(file)) throw InputError(file.string(), "no such plug-in file");
+    return;
+  }
+  const EngineRow* row = find_row(name);
+  if (!row) throw InputError("engine " + name, "unknown; `touchstone engines` lists those there are");
+  if (!is_present(*row))
+    throw InputError("engine " + name,
+                     fmt::format("is not installed: {} was not built, its library was not found",
+                                 std::string(row->library)));
+}
+
+}  // namespace
+
+std::span<const EngineRow> engine_catalog() { return rows; }
+
+std::filesystem::path host_program() { return program_directory() / "touchstone-host"; }
+
+std::filesystem::path plugin_directory() { return program_directory().parent_path() / "lib"; }
+
+bool is_present(const EngineRow& row) {
+  return row.library.empty() || std::filesystem::exists(plugin_directory() / row.library);
+}
+
+std::vector<std::string> engine_names(const std::string& text) {
+  std::vector<std::string> names;
+  if (text == "all") {
+    for (const EngineRow& row : rows)
+      if (is_present(row)) names.emplace_back(row.name);
+    return names;
+  }
+  for (std::size_t start = 0; start <= text.size();) {
+    const std::size_t end = std::min(text.find(',', start), text.size());
+    const std::string name = text.substr(start, end - start);
+    if (name.empty()) throw InputError("engines '" + text + "'", "an empty name");
+    check_name(name);
+    if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
+    start = end + 1;
+  }
+  return names;
+}
+
+EnginePtr make_engine(const std::string& name, const WorkerLimits& limits) {
+  check_name(name);
+  if (name == "core") return std::make_unique<CoreEngine>();
+  RemoteSpec spec = is_path(name)
+                        ? plugin_spec(name)
+                        : RemoteSpec{host_program(), plugin_directory() / find_row(name)->library, name, {}};
+  spec.limits = limits;
+  return std::make_unique<RemoteEngine>(std::move(spec));
+}
+
+}  // namespace touchstone::cli

@@ -1,0 +1,35 @@
+// The one place that names concrete engines: catalog name -> plug-in file. Our own core runs in process,
+// every other engine in a worker process behind the C ABI, like a user's plug-in.
+#pragma once
+
+#include <filesystem>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "oracles/api/remote_engine.h"
+
+namespace touchstone::cli {
+
+struct EngineRow {
+  std::string_view name;
+  std::string_view library;  // file in the plug-in directory; empty: in process
+  std::string_view line;     // for people
+};
+std::span<const EngineRow> engine_catalog();
+
+/// True when the engine's plug-in file is there.
+bool is_present(const EngineRow& row);
+
+/// Names of `text` ("a,b", "all", "./libmine.so", "./libmine.so:name"); "all" is every engine present. Throws
+/// InputError for a name that is unknown or absent.
+std::vector<std::string> engine_names(const std::string& text);
+
+/// Throws InputError when the plug-in is missing or does not offer the engine.
+EnginePtr make_engine(const std::string& name, const WorkerLimits& limits);
+
+std::filesystem::path host_program();
+std::filesystem::path plugin_directory();
+
+}  // namespace touchstone::cli

@@ -1,0 +1,61 @@
+#include <fmt/format.h>
+
+#include <csignal>
+#include <cstdio>
+#include <exception>
+
+#include "core/base/input_error.h"
+#include "fuzz/cli/command.h"
+
+namespace touchstone::cli {
+namespace {
+
+constexpr Command table[] = {
+    {"fuzz", "random differential campaign: every engine, every answer refereed", declare_fuzz},
+    {"replay", "every engine's answer to stored cases, beside the referee's", declare_replay},
+    {"engines", "the engines present, their versions, settings and tolerances", declare_engines},
+    {"families", "the families of random cases, a line each", declare_families},
+    {"scenarios", "the hand-built scenarios: list them, or write one as a case file", declare_scenarios},
+};
+
+int run(int argc, char** argv) {
+  CLI::App app{"Touchstone: says which collision engine is wrong, with a certificate"};
+  app.set_version_flag("--version", "touchstone " TOUCHSTONE_VERSION);
+  app.require_subcommand(1);
+  app.footer(
+      "Exit codes: 0 clean, 1 subject found wrong, 2 bad usage or input, 3 run failed or proved nothing.");
+  std::vector<std::pair<CLI::App*, Run>> runs;
+  for (const Command& c : commands()) {
+    CLI::App* sub = app.add_subcommand(std::string(c.name), std::string(c.line));
+    runs.emplace_back(sub, c.declare(*sub));
+  }
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& e) {
+    const int code = app.exit(e);
+    return code == 0 ? exit_clean : exit_usage;
+  }
+  for (const auto& [sub, f] : runs)
+    if (sub->parsed()) return f();
+  return exit_usage;
+}
+
+}  // namespace
+
+std::span<const Command> commands() { return table; }
+
+}  // namespace touchstone::cli
+
+int main(int argc, char** argv) {
+  using namespace touchstone;
+  std::signal(SIGPIPE, SIG_IGN);
+  try {
+    return cli::run(argc, argv);
+  } catch (const InputError& e) {
+    fmt::print(stderr, "touchstone: {}\n", e.what());
+    return cli::exit_usage;
+  } catch (const std::exception& e) {
+    fmt::print(stderr, "touchstone: failed: {}\n", e.what());
+    return cli::exit_failed;
+  }
+}
