@@ -1,0 +1,80 @@
+// EngineCard ↔ JSON. Strict in both directions: a card is the place where an engine's tolerance claims are
+// made, and a misspelt field would silently change a verdict.
+#include <array>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <string_view>
+
+#include "core/base/input_error.h"
+#include "oracles/api/engine.h"
+
+namespace touchstone {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+struct TextField {
+  const char* name;
+  std::string EngineCard::*member;
+};
+struct NumberField {
+  const char* name;
+  double EngineCard::*member;
+};
+constexpr std::array text_fields{
+    TextField{"name", &EngineCard::name}, TextField{"library", &EngineCard::library},
+    TextField{"version", &EngineCard::version}, TextField{"settings", &EngineCard::settings},
+    TextField{"source", &EngineCard::source}};
+constexpr std::array number_fields{NumberField{"unit_roundoff", &EngineCard::unit_roundoff},
+                                   NumberField{"tau_factor", &EngineCard::tau_factor}};
+
+bool is_known(std::string_view key) {
+  for (const auto& f : text_fields)
+    if (key == f.name) return true;
+  for (const auto& f : number_fields)
+    if (key == f.name) return true;
+  return false;
+}
+
+std::string text_of(const Json& j, const char* field) {
+  if (!j.contains(field)) throw InputError(field, "is missing from the engine card");
+  if (!j[field].is_string()) throw InputError(field, "is not a text");
+  return j[field].get<std::string>();
+}
+
+double positive_number_of(const Json& j, const char* field) {
+  if (!j.contains(field)) throw InputError(field, "is missing from the engine card");
+  if (!j[field].is_number()) throw InputError(field, "is not a number");
+  const double x = j[field].get<double>();
+  if (!(x > 0 && std::isfinite(x))) throw InputError(field, "is not a positive finite number");
+  return x;
+}
+
+}  // namespace
+
+EngineCard card_from_json(const std::string& text) {
+  const Json j = Json::parse(text, nullptr, /*allow_exceptions=*/false);
+  if (j.is_discarded()) throw InputError("", "the engine card is not JSON");
+  if (!j.is_object()) throw InputError("", "the engine card is not a JSON object");
+  for (const auto& [key, value] : j.items())
+    if (!is_known(key)) throw InputError(key, "is no field of an engine card");
+  EngineCard card;
+  for (const auto& f : text_fields) card.*f.member = text_of(j, f.name);
+  for (const auto& f : number_fields) card.*f.member = positive_number_of(j, f.name);
+  if (card.name.empty()) throw InputError("name", "is empty");
+  return card;
+}
+
+std::string to_json_text(const EngineCard& card) {
+  Json j;
+  j["name"] = card.name;
+  j["library"] = card.library;
+  j["version"] = card.version;
+  j["settings"] = card.settings;
+  j["unit_roundoff"] = card.unit_roundoff;
+  j["tau_factor"] = card.tau_factor;
+  j["source"] = card.source;
+  return j.dump();
+}
+
+}  // namespace touchstone

@@ -1,0 +1,17 @@
+// Scenes and received scenes as bytes; used by protocol.cpp alone.
+#pragma once
+
+#include "oracles/api/bytes.h"
+#include "oracles/api/observation.h"
+
+namespace touchstone::protocol {
+
+/// The scene with its script made explicit, without names. get_scene(put_scene(s)) has the same numbers,
+/// faces and dimensions of hulls included, and the same effective script.
+void put_scene(Writer& w, const Scene& scene);
+Scene get_scene(Reader& r);
+
+void put_received(Writer& w, const ReceivedScene& received);
+ReceivedScene get_received(Reader& r, const Scene& sent);
+
+}  // namespace touchstone::protocol

@@ -1,0 +1,300 @@
+#include "oracles/api/remote_engine.h"
+
+#include <poll.h>
+#include <sys/socket.h>
+
+#include <cerrno>
+#include <chrono>
+#include <optional>
+
+#include "core/base/input_error.h"
+#include "oracles/api/worker_session.h"
+
+namespace touchstone {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr auto tick = std::chrono::milliseconds(10);
+constexpr std::size_t send_ahead_bytes = std::size_t{1}
+                                         << 18;  // questions encoded before the worker took them
+constexpr int max_failed_starts = 3;
+
+/// The next observation that is due.
+struct Cursor {
+  std::size_t item = 0;
+  std::uint32_t query = 0;
+  bool loaded = false;  // the worker has taken the scene of `item`
+  bool operator==(const Cursor&) const = default;
+};
+
+/// CPU, wall time and memory of the worker since its last progress.
+class Watchdog {
+ public:
+  explicit Watchdog(const WorkerLimits& limits) : limits_(limits) {}
+  void progress(const WorkerProcess& w) {
+    cpu_at_progress_ = w.cpu_seconds();
+    idle_ = {};
+  }
+  /// At most once a tick does anything. The reason to kill the worker, if there is one.
+  std::optional<std::pair<Outcome, std::string>> check(const WorkerProcess& w, bool loading) {
+    const auto now = Clock::now();
+    if (now - last_check_ < tick) return std::nullopt;
+    // The harness itself may have been stopped or starved: a gap in its own ticks is not the worker's.
+    idle_ += std::min<Clock::duration>(now - last_check_, 5 * tick);
+    last_check_ = now;
+    if (w.resident_bytes() > limits_.resident_bytes) return {{Outcome::crashed, "memory limit"}};
+    const double cpu = w.cpu_seconds() - cpu_at_progress_;
+    if (cpu > (loading ? limits_.load_cpu_seconds : limits_.query_cpu_seconds))
+      return {{Outcome::timed_out, loading ? "CPU time while loading the scene" : "CPU time"}};
+    if (std::chrono::duration<double>(idle_).count() > limits_.wall_seconds)
+      return {{Outcome::timed_out, loading ? "wall time while loading the scene" : "wall time"}};
+    return std::nullopt;
+  }
+
+ private:
+  const WorkerLimits& limits_;
+  double cpu_at_progress_ = 0;
+  Clock::duration idle_{};
+  Clock::time_point last_check_ = Clock::now();
+};
+
+Observation failure(Outcome outcome, std::string detail) {
+  Observation o;
+  o.outcome = outcome;
+  o.detail = std::move(detail);
+  return o;
+}
+
+}  // namespace
+
+class RemoteEngine::Impl {
+ public:
+  explicit Impl(RemoteSpec spec) : spec_(std::move(spec)), watchdog_(spec_.limits) {
+    start();
+    const auto chosen = static_cast<std::size_t>(session_->hello.chosen);
+    try {
+      card_ = card_from_json(session_->hello.cards[chosen]);
+    } catch (const InputError& e) {
+      throw e.within(spec_.plugin.string() + ": card");
+    }
+  }
+
+  std::vector<CaseObservations> run(std::span<const Case> cases) {
+    prepare(cases);
+    int failed_starts = 0;
+    while (at_.item < cases_.size()) {
+      if (!session_ || session_->process->has_ended()) {
+        if (session_) replace_worker();
+        try {
+          start();
+          failed_starts = 0;
+        } catch (const InputError& e) {
+          if (++failed_starts < max_failed_starts) continue;
+          give_up(std::string("the worker cannot be restarted: ") + e.what());
+          break;
+        }
+      }
+      converse();
+    }
+    return std::move(results_);
+  }
+
+  EngineCard card_;
+  int restarts_ = 0;
+  int pid() const { return session_ ? session_->process->pid() : -1; }
+
+ private:
+  void prepare(std::span<const Case> cases) {
+    cases_ = cases;
+    results_.assign(cases.size(), {});
+    for (std::size_t i = 0; i < cases.size(); ++i) {
+      results_[i].received.bodies.resize(cases[i].scene.bodies.size());
+      results_[i].received.shapes.resize(cases[i].scene.shapes.size());
+      results_[i].answers.resize(cases[i].queries.size());
+    }
+    at_ = {};
+    skip_done();
+    // Memory that earlier batches left behind must not be charged to a query of this one.
+    if (session_ && session_->process->resident_bytes() > spec_.limits.resident_bytes / 2) session_.reset();
+    resume();
+  }
+
+  void start() {
+    std::vector<std::string> arguments;
+    if (!spec_.engine.empty()) arguments.push_back(spec_.engine);
+    session_.emplace(start_worker(spec_.host, spec_.plugin, arguments, spec_.limits.start_wall_seconds));
+    if (session_->hello.chosen < 0) {
+      session_.reset();
+      throw InputError(spec_.plugin.string(), "the worker chose no engine");
+    }
+    resume();
+  }
+
+  /// Whatever a former worker was told is void: questions begin again at the cursor.
+  void resume() {
+    at_.loaded = false;
+    next_to_send_ = at_.item;
+    first_sequence_ = sequence_;
+    outgoing_.clear(), outgoing_begin_ = 0;
+    if (session_) watchdog_.progress(*session_->process);
+  }
+
+  void replace_worker() {
+    session_.reset();
+    ++restarts_;
+  }
+
+  void skip_done() {
+    while (at_.item < cases_.size() && at_.query == cases_[at_.item].queries.size())
+      at_ = {at_.item + 1, 0, false};
+  }
+
+  /// Asks and listens until all is answered or the worker has to be replaced.
+  void converse() {
+    while (at_.item < cases_.size()) {
+      send_questions();
+      const ReadResult r = read_available(session_->process->answers_fd(), session_->frames);
+      try {
+        if (r == ReadResult::some && take_frames()) watchdog_.progress(*session_->process);
+      } catch (const protocol::Malformed& e) {
+        return charge(Outcome::crashed, std::string("rubbish in place of an answer: ") + e.what());
+      }
+      if (r == ReadResult::closed ||
+          (r == ReadResult::nothing_yet && session_->process->has_ended() && drained()))
+        return charge_death();
+      if (at_.item == cases_.size()) return;
+      if (const auto verdict = watchdog_.check(*session_->process, !at_.loaded))
+        return charge(verdict->first, verdict->second);
+      if (r == ReadResult::nothing_yet) wait();
+    }
+  }
+
+  /// After the end of the process: true when its last words have been read.
+  bool drained() {
+    pollfd fd{session_->process->answers_fd(), POLLIN, 0};
+    return poll(&fd, 1, 0) <= 0 || !(fd.revents & POLLIN);
+  }
+
+  void wait() {
+    WorkerProcess& w = *session_->process;
+    const short want_out = outgoing_begin_ < outgoing_.size() ? POLLOUT : 0;
+    pollfd fds[3] = {
+        {w.answers_fd(), POLLIN, 0}, {w.errors_fd(), POLLIN, 0}, {w.questions_fd(), want_out, 0}};
+    poll(fds, 3, static_cast<int>(tick.count()));
+    if (fds[1].revents != 0 && w.errors_fd() >= 0) w.drain_errors();
+  }
+
+  void send_questions() {
+    while (next_to_send_ < cases_.size() && outgoing_.size() - outgoing_begin_ < send_ahead_bytes) {
+      const Case& c = cases_[next_to_send_];
+      const std::uint32_t first = next_to_send_ == at_.item ? at_.query : 0;
+      if (first < c.queries.size()) {
+        protocol::append(outgoing_,
+                         protocol::QuestionRef{sequence_of(next_to_send_), first, c.scene, c.queries});
+        sequence_ = sequence_of(next_to_send_) + 1;
+      }
+      ++next_to_send_;
+    }
+    while (outgoing_begin_ < outgoing_.size()) {
+      const ssize_t n = send(session_->process->questions_fd(), outgoing_.data() + outgoing_begin_,
+                             outgoing_.size() - outgoing_begin_, MSG_NOSIGNAL);
+      if (n < 0 && errno == EINTR) continue;
+      if (n <= 0) break;  // full, or the worker is gone, which the other stream will tell
+      outgoing_begin_ += static_cast<std::size_t>(n);
+    }
+    if (outgoing_begin_ == outgoing_.size()) outgoing_.clear(), outgoing_begin_ = 0;
+  }
+
+  /// Unique over the life of this object, so that an answer to an earlier question cannot pass for a new one.
+  std::uint64_t sequence_of(std::size_t item) const { return first_sequence_ + item; }
+
+  /// True when at least one message of the worker came in.
+  bool take_frames() {
+    bool any = false;
+    while (const auto frame = session_->frames.next()) {
+      any = true;
+      if (at_.item == cases_.size()) throw protocol::Malformed("an answer that nobody asked for");
+      if (frame->type == protocol::Type::received)
+        take_received(frame->payload);
+      else if (frame->type == protocol::Type::answer)
+        take_answer(frame->payload);
+      else
+        throw protocol::Malformed("an unexpected type of message");
+    }
+    return any;
+  }
+
+  void take_received(std::string_view payload) {
+    auto m = protocol::decode_received(payload, cases_[at_.item].scene);
+    if (m.sequence != sequence_of(at_.item) || at_.loaded) throw protocol::Malformed("an unexpected scene");
+    results_[at_.item].received = std::move(m.scene);
+    at_.loaded = true;
+  }
+
+  void take_answer(std::string_view payload) {
+    auto m = protocol::decode_answer(payload);
+    if (m.sequence != sequence_of(at_.item) || m.query != at_.query || !at_.loaded)
+      throw protocol::Malformed("an answer out of turn");
+    results_[at_.item].answers[at_.query++] = std::move(m.observation);
+    skip_done();
+  }
+
+  void charge_death() {
+    // Its standard output may be closed while the process lives on.
+    const bool by_itself = session_->process->has_ended();
+    const std::string how = session_->process->end();
+    charge(Outcome::crashed, by_itself ? how : "closed its answers");
+  }
+
+  /// The running query is charged; while a scene is being taken, all that is left of its case.
+  void charge(Outcome outcome, const std::string& why) {
+    auto& answers = results_[at_.item].answers;
+    if (at_.loaded) {
+      answers[at_.query++] = failure(outcome, why);
+    } else {
+      const std::string detail = outcome == Outcome::crashed ? why + " while loading the scene" : why;
+      while (at_.query < answers.size()) answers[at_.query++] = failure(outcome, detail);
+    }
+    skip_done();
+    replace_worker();
+  }
+
+  void give_up(const std::string& why) {
+    for (; at_.item < cases_.size(); at_ = {at_.item + 1, 0, false})
+      for (; at_.query < results_[at_.item].answers.size(); ++at_.query)
+        results_[at_.item].answers[at_.query] = failure(Outcome::crashed, why);
+  }
+
+  RemoteSpec spec_;
+  Watchdog watchdog_;
+  std::optional<WorkerSession> session_;
+  std::span<const Case> cases_;
+  std::vector<CaseObservations> results_;
+  Cursor at_;
+  std::size_t next_to_send_ = 0;
+  std::uint64_t sequence_ = 0, first_sequence_ = 0;
+  std::string outgoing_;
+  std::size_t outgoing_begin_ = 0;
+};
+
+RemoteEngine::RemoteEngine(RemoteSpec spec) : impl_(std::make_unique<Impl>(std::move(spec))) {}
+RemoteEngine::~RemoteEngine() = default;
+const EngineCard& RemoteEngine::card() const { return impl_->card_; }
+std::vector<CaseObservations> RemoteEngine::run(std::span<const Case> cases) { return impl_->run(cases); }
+int RemoteEngine::restarts() const { return impl_->restarts_; }
+int RemoteEngine::worker_pid() const { return impl_->pid(); }
+
+std::vector<EngineCard> list_plugin_engines(const std::filesystem::path& host,
+                                            const std::filesystem::path& plugin) {
+  const WorkerSession s = start_worker(host, plugin, {"--cards"}, WorkerLimits{}.start_wall_seconds);
+  std::vector<EngineCard> cards;
+  for (std::size_t i = 0; i < s.hello.cards.size(); ++i) try {
+      cards.push_back(card_from_json(s.hello.cards[i]));
+    } catch (const InputError& e) {
+      throw e.within(plugin.string() + ": card " + std::to_string(i));
+    }
+  return cards;
+}
+
+}  // namespace touchstone

@@ -1,0 +1,236 @@
+#include "oracles/api/worker_process.h"
+
+#include <fcntl.h>
+#include <signal.h>
+#include <spawn.h>
+#include <sys/socket.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <charconv>
+#include <condition_variable>
+#include <cstring>
+#include <functional>
+#include <mutex>
+#include <system_error>
+#include <thread>
+
+#include "core/base/input_error.h"
+
+namespace touchstone {
+namespace {
+
+constexpr std::size_t error_tail_bytes = 4096;
+
+[[noreturn]] void fail(const char* what) { throw std::system_error(errno, std::generic_category(), what); }
+
+void make_non_blocking(int fd) {
+  const int flags = fcntl(fd, F_GETFL);
+  if (flags < 0 || fcntl(fd, F_SETFL, flags | O_NONBLOCK) < 0) fail("fcntl");
+}
+
+/// Runs jobs one at a time on a thread that ends with the process. Never destroyed: a static destructor would
+/// end the thread, and with it every worker, while other static objects may still use one.
+class SpawnThread {
+ public:
+  static SpawnThread& instance() {
+    static std::mutex guard;
+    static SpawnThread* one = nullptr;
+    const std::lock_guard lock(guard);
+    // Threads do not survive a fork.
+    if (!one || one->owner_ != getpid()) one = new SpawnThread;
+    return *one;
+  }
+  int run(const std::function<int()>& job) {
+    const std::lock_guard one_at_a_time(callers_);
+    std::unique_lock lock(mutex_);
+    job_ = &job;
+    changed_.notify_all();
+    changed_.wait(lock, [&] { return job_ == nullptr; });
+    return result_;
+  }
+
+ private:
+  SpawnThread() {
+    std::thread([this] { loop(); }).detach();
+  }
+  void loop() {
+    std::unique_lock lock(mutex_);
+    for (;;) {
+      changed_.wait(lock, [&] { return job_ != nullptr; });
+      result_ = (*job_)();
+      job_ = nullptr;
+      changed_.notify_all();
+    }
+  }
+  const pid_t owner_ = getpid();
+  std::mutex callers_, mutex_;
+  std::condition_variable changed_;
+  const std::function<int()>* job_ = nullptr;
+  int result_ = 0;
+};
+
+struct Streams {
+  int in, out, err;
+};
+
+int spawn(const std::string& program, const std::vector<std::string>& arguments, const Streams& streams,
+          pid_t* pid) {
+  posix_spawn_file_actions_t actions;
+  posix_spawnattr_t attributes;
+  posix_spawn_file_actions_init(&actions);
+  posix_spawnattr_init(&attributes);
+  // The ends are above 2 (see lift), so no dup2 can hit one that is still needed.
+  posix_spawn_file_actions_adddup2(&actions, streams.in, 0);
+  posix_spawn_file_actions_adddup2(&actions, streams.out, 1);
+  posix_spawn_file_actions_adddup2(&actions, streams.err, 2);
+  sigset_t none, all;
+  sigemptyset(&none);
+  sigfillset(&all);
+  posix_spawnattr_setsigmask(&attributes, &none);
+  posix_spawnattr_setsigdefault(&attributes, &all);
+  posix_spawnattr_setpgroup(&attributes, 0);
+  posix_spawnattr_setflags(&attributes,
+                           POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSIGDEF | POSIX_SPAWN_SETPGROUP);
+  std::vector<char*> argv{const_cast<char*>(program.c_str())};
+  for (const std::string& a : arguments) argv.push_back(const_cast<char*>(a.c_str()));
+  argv.push_back(nullptr);
+  const int error = posix_spawn(pid, program.c_str(), &actions, &attributes, argv.data(), environ);
+  posix_spawn_file_actions_destroy(&actions);
+  posix_spawnattr_destroy(&attributes);
+  return error;
+}
+
+/// Takes `fd`; the same open file above the standard streams, closed on exec.
+FileDescriptor lift(int fd) {
+  FileDescriptor own(fd);
+  if (fd > 2) return own;
+  FileDescriptor high(fcntl(fd, F_DUPFD_CLOEXEC, 3));
+  if (high.get() < 0) fail("fcntl(F_DUPFD_CLOEXEC)");
+  return high;
+}
+
+struct TwoEnds {
+  FileDescriptor ours, theirs;
+};
+
+TwoEnds make_pipe() {
+  int ends[2];
+  if (pipe2(ends, O_CLOEXEC) < 0) fail("pipe2");
+  TwoEnds p{lift(ends[0]), lift(ends[1])};
+  make_non_blocking(p.ours.get());
+  return p;
+}
+
+// A socket and not a pipe: send() can be told not to raise SIGPIPE, which would be a setting of the whole
+// harness.
+TwoEnds make_socket() {
+  int ends[2];
+  if (socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends) < 0) fail("socketpair");
+  TwoEnds p{lift(ends[0]), lift(ends[1])};
+  make_non_blocking(p.ours.get());
+  return p;
+}
+
+std::string signal_name(int signal) {
+  const char* abbreviation = sigabbrev_np(signal);
+  return abbreviation ? std::string("SIG") + abbreviation : "signal " + std::to_string(signal);
+}
+
+std::string last_line(std::string_view text) {
+  while (!text.empty() && (text.back() == '\n' || text.back() == '\r')) text.remove_suffix(1);
+  const auto start = text.rfind('\n');
+  std::string line(start == std::string_view::npos ? text : text.substr(start + 1));
+  if (line.size() > 240) line.resize(240);
+  for (char& c : line)
+    if (static_cast<unsigned char>(c) < 0x20) c = ' ';
+  return line;
+}
+
+}  // namespace
+
+void FileDescriptor::close() {
+  if (fd_ >= 0) ::close(fd_);
+  fd_ = -1;
+}
+
+WorkerProcess::WorkerProcess(const std::filesystem::path& host, const std::vector<std::string>& arguments) {
+  TwoEnds questions = make_socket(), answers = make_pipe(), errors = make_pipe();
+  fcntl(answers.ours.get(), F_SETPIPE_SZ, 1 << 18);  // fewer wake-ups; the default works too
+  const std::string program = host.string();
+  const Streams streams{questions.theirs.get(), answers.theirs.get(), errors.theirs.get()};
+  const int error = SpawnThread::instance().run([&] { return spawn(program, arguments, streams, &pid_); });
+  if (error != 0)
+    throw InputError(program, std::string("the worker program cannot be started: ") + std::strerror(error));
+  questions_ = std::move(questions.ours), answers_ = std::move(answers.ours),
+  errors_ = std::move(errors.ours);
+  if (clock_getcpuclockid(pid_, &clock_) != 0)
+    clock_ = CLOCK_PROCESS_CPUTIME_ID;  // gone already: has_ended() tells
+}
+
+WorkerProcess::~WorkerProcess() { end(); }
+
+double WorkerProcess::cpu_seconds() const {
+  timespec t{};
+  if (!reaped_ && clock_ != CLOCK_PROCESS_CPUTIME_ID && clock_gettime(clock_, &t) == 0)
+    last_cpu_ = static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
+  return last_cpu_;
+}
+
+std::uint64_t WorkerProcess::resident_bytes() const {
+  const std::string name = "/proc/" + std::to_string(pid_) + "/statm";
+  const FileDescriptor file(open(name.c_str(), O_RDONLY | O_CLOEXEC));
+  if (file.get() < 0) return 0;
+  char text[128];
+  const ssize_t n = read(file.get(), text, sizeof text);
+  if (n <= 0) return 0;
+  // total and resident size, in pages
+  const std::string_view fields(text, static_cast<std::size_t>(n));
+  const auto space = fields.find(' ');
+  if (space == std::string_view::npos) return 0;
+  std::uint64_t pages = 0;
+  std::from_chars(fields.data() + space + 1, fields.data() + fields.size(), pages);
+  return pages * static_cast<std::uint64_t>(sysconf(_SC_PAGESIZE));
+}
+
+void WorkerProcess::drain_errors() {
+  char buffer[4096];
+  for (;;) {
+    const ssize_t n = read(errors_.get(), buffer, sizeof buffer);
+    if (n < 0 && errno == EINTR) continue;
+    if (n == 0) errors_.close();  // or poll() would report the end for ever
+    if (n <= 0) return;
+    error_tail_.append(buffer, static_cast<std::size_t>(n));
+    if (error_tail_.size() > 2 * error_tail_bytes)
+      error_tail_.erase(0, error_tail_.size() - error_tail_bytes);
+  }
+}
+
+bool WorkerProcess::has_ended() {
+  if (!reaped_) reaped_ = waitpid(pid_, &status_, WNOHANG) == pid_;
+  return reaped_;
+}
+
+std::string WorkerProcess::end() {
+  if (!has_ended()) {
+    kill(-pid_, SIGKILL);
+    kill(pid_, SIGKILL);  // in case the group was left
+    while (waitpid(pid_, &status_, 0) < 0 && errno == EINTR) {
+    }
+    reaped_ = true;
+  } else {
+    kill(-pid_, SIGKILL);  // children that it left behind
+  }
+  if (errors_.get() >= 0) drain_errors();
+  const bool by_signal = WIFSIGNALED(status_);
+  std::string how =
+      by_signal ? signal_name(WTERMSIG(status_)) : "exit code " + std::to_string(WEXITSTATUS(status_));
+  // Only where the end itself prints: the last line before a segmentation fault belongs to some earlier
+  // query.
+  const bool speaks = by_signal ? WTERMSIG(status_) == SIGABRT : WEXITSTATUS(status_) != 0;
+  if (const std::string line = last_line(error_tail_); speaks && !line.empty()) how += ": " + line;
+  return how;
+}
+
+}  // namespace touchstone

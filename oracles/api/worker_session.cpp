@@ -1,0 +1,75 @@
+#include "oracles/api/worker_session.h"
+
+#include <poll.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <chrono>
+
+#include "core/base/input_error.h"
+
+namespace touchstone {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+/// Waits up to 50 ms for the worker to say something on either stream.
+void wait_for_output(WorkerProcess& worker) {
+  pollfd fds[2] = {{worker.answers_fd(), POLLIN, 0}, {worker.errors_fd(), POLLIN, 0}};
+  poll(fds, 2, 50);
+  if (worker.errors_fd() >= 0) worker.drain_errors();
+}
+
+protocol::Hello await_hello(WorkerSession& s, const std::string& place, double wall_seconds) {
+  const auto start = Clock::now();
+  for (;;) {
+    const ReadResult r = read_available(s.process->answers_fd(), s.frames);
+    try {
+      if (const auto frame = s.frames.next()) {
+        if (frame->type != protocol::Type::hello) throw protocol::Malformed("no hello");
+        return protocol::decode_hello(frame->payload);
+      }
+    } catch (const protocol::Malformed& e) {
+      throw InputError(place, std::string("the worker's first words are no hello: ") + e.what());
+    }
+    if (r == ReadResult::closed)
+      throw InputError(place, "the worker died while loading it: " + s.process->end());
+    if (std::chrono::duration<double>(Clock::now() - start).count() > wall_seconds)
+      throw InputError(place, "the worker did not finish loading it in time");
+    if (r == ReadResult::nothing_yet) wait_for_output(*s.process);
+  }
+}
+
+}  // namespace
+
+ReadResult read_available(int fd, protocol::FrameReader& frames) {
+  char buffer[1 << 16];
+  for (;;) {
+    const ssize_t n = read(fd, buffer, sizeof buffer);
+    if (n > 0) {
+      frames.append(buffer, static_cast<std::size_t>(n));
+      return ReadResult::some;
+    }
+    if (n == 0) return ReadResult::closed;
+    if (errno == EINTR) continue;
+    return errno == EAGAIN ? ReadResult::nothing_yet : ReadResult::closed;
+  }
+}
+
+WorkerSession start_worker(const std::filesystem::path& host, const std::filesystem::path& plugin,
+                           const std::vector<std::string>& arguments, double wall_seconds) {
+  const std::string place = plugin.string();
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(plugin, error))
+    throw InputError(place, "there is no such plug-in file");
+  // An absolute path, or the dynamic linker would search for a name without a slash elsewhere.
+  std::vector<std::string> all{std::filesystem::absolute(plugin).string()};
+  all.insert(all.end(), arguments.begin(), arguments.end());
+  WorkerSession s;
+  s.process = std::make_unique<WorkerProcess>(host, all);
+  s.hello = await_hello(s, place, wall_seconds);
+  if (!s.hello.error.empty()) throw InputError(place, s.hello.error);
+  return s;
+}
+
+}  // namespace touchstone

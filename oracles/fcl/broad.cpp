@@ -1,0 +1,83 @@
+#include "oracles/fcl/broad.h"
+
+#include <fcl/broadphase/broadphase_dynamic_AABB_tree.h>
+#include <fcl/narrowphase/collision_object.h>
+
+#include <cstdint>
+#include <memory>
+
+namespace touchstone::fcl_adapter {
+namespace {
+
+class Tree {
+ public:
+  Tree(const ts_scene& scene, const std::vector<Geometry>& geometries)
+      : scene_(scene), geometries_(geometries), objects_(scene.body_count) {}
+
+  void insert(int body, const ts_pose& pose) {
+    auto& o = objects_[static_cast<std::size_t>(body)];
+    o = std::make_unique<fcl::CollisionObjectd>(
+        geometries_[static_cast<std::size_t>(scene_.bodies[body].shape)], make_transform(kit::pose_of(pose)));
+    o->setUserData(reinterpret_cast<void*>(static_cast<std::intptr_t>(body)));
+    o->computeAABB();
+    manager_.registerObject(o.get());
+    stale_ = true;
+  }
+  // Managers do not call computeAABB themselves.
+  void move(int body, const ts_pose& pose) {
+    fcl::CollisionObjectd& o = *objects_[static_cast<std::size_t>(body)];
+    o.setTransform(make_transform(kit::pose_of(pose)));
+    o.computeAABB();
+    manager_.update(&o);
+  }
+  void remove(int body) {
+    manager_.unregisterObject(objects_[static_cast<std::size_t>(body)].get());
+    objects_[static_cast<std::size_t>(body)].reset();
+  }
+  void query(const std::function<void(int, int)>& pair) {
+    if (stale_) manager_.setup();
+    stale_ = false;
+    auto copy = pair;
+    manager_.collide(&copy, [](fcl::CollisionObjectd* one, fcl::CollisionObjectd* two, void* data) {
+      const auto index = [](const fcl::CollisionObjectd* o) {
+        return static_cast<int>(reinterpret_cast<std::intptr_t>(o->getUserData()));
+      };
+      (*static_cast<std::function<void(int, int)>*>(data))(index(one), index(two));
+      return false;
+    });
+  }
+
+ private:
+  const ts_scene& scene_;
+  const std::vector<Geometry>& geometries_;
+  std::vector<std::unique_ptr<fcl::CollisionObjectd>> objects_;  // outlive the manager's use of them
+  fcl::DynamicAABBTreeCollisionManagerd manager_;
+  bool stale_ = false;
+};
+
+}  // namespace
+
+void run_script(const ts_scene& scene, const std::vector<Geometry>& geometries,
+                const std::function<void(int, int, int)>& pair) {
+  Tree tree(scene, geometries);
+  int k = 0;
+  for (std::size_t i = 0; i < scene.step_count; ++i) {
+    const ts_step& step = scene.steps[i];
+    if (step.op == TS_INSERT) tree.insert(step.body, step.pose);
+    if (step.op == TS_MOVE) tree.move(step.body, step.pose);
+    if (step.op == TS_REMOVE) tree.remove(step.body);
+    if (step.op == TS_QUERY) {
+      tree.query([&](int a, int b) { pair(k, a, b); });
+      ++k;
+    }
+  }
+}
+
+void all_pairs(const ts_scene& scene, const std::vector<Geometry>& geometries,
+               const std::function<void(int, int)>& pair) {
+  Tree tree(scene, geometries);
+  for (std::size_t i = 0; i < scene.body_count; ++i) tree.insert(static_cast<int>(i), scene.bodies[i].pose);
+  tree.query(pair);
+}
+
+}  // namespace touchstone::fcl_adapter

@@ -1,0 +1,130 @@
+// The FCL plug-in: four engines, two solvers in two settings.
+#include <fcl/config.h>
+
+#include "oracles/api/plugin_kit.h"
+#include "oracles/fcl/broad.h"
+#include "oracles/fcl/queries.h"
+
+namespace touchstone::fcl_adapter {
+namespace {
+
+constexpr const char* shipped_settings =
+    "default tolerances 1e-6; distance with enable_signed_distance; contact by collide, up to 256 points; "
+    "time of impact CCDC_NAIVE, 10 samples, CCDM_TRANS or CCDM_LINEAR; candidates "
+    "DynamicAABBTreeCollisionManager";
+constexpr const char* tuned_libccd_settings =
+    "collide 1e-12; distance unsigned 1e-12, signed 1e-7 if overlapping; contact normal and depth by signed "
+    "distance "
+    "1e-7; time of impact CCDC_CONSERVATIVE_ADVANCEMENT over InterpMotion, pivot 0";
+constexpr const char* tuned_indep_settings =
+    "collide 1e-12; distance unsigned 1e-12, no depth; contact by collide; time of impact "
+    "CCDC_CONSERVATIVE_ADVANCEMENT over InterpMotion, pivot 0";
+// continuousCollide documents toc_err as an error of time; no length is claimed for it.
+constexpr const char* source =
+    "fcl/narrowphase/collision_request.h: gjk_tolerance; distance_request.h: distance_tolerance; none for "
+    "time of impact";
+
+class Engine {
+ public:
+  static std::vector<kit::CardText> cards() {
+    const auto card = [](const char* name, const char* settings) {
+      return kit::CardText{name, "FCL", FCL_VERSION, settings, 0x1p-53, kit::oracle_tau_factor, source};
+    };
+    return {card("fcl-libccd", shipped_settings), card("fcl-indep", shipped_settings),
+            card("fcl-libccd-tuned", tuned_libccd_settings), card("fcl-indep-tuned", tuned_indep_settings)};
+  }
+
+  explicit Engine(unsigned index) : settings_{index % 2 ? fcl::GST_INDEP : fcl::GST_LIBCCD, index >= 2} {}
+
+  void load(const ts_scene& scene, const ts_received& received) {
+    unload();
+    for (std::size_t i = 0; i < scene.shape_count; ++i) {
+      geometries_.push_back(make_geometry(scene.shapes[i]));
+      geometries_.back()->computeLocalAABB();
+      report_shape(static_cast<int>(i), scene.shapes[i], *geometries_.back(), received);
+    }
+    for (std::size_t i = 0; i < scene.body_count; ++i) {
+      const ts_body& b = scene.bodies[i];
+      const auto shape = static_cast<std::size_t>(b.shape);
+      bodies_.push_back(
+          {geometries_[shape].get(), make_transform(kit::pose_of(b.pose)), scene.shapes[shape].kind});
+      report_body(static_cast<int>(i), bodies_.back().transform, received);
+    }
+    scene_ = &scene;
+    filter_ = kit::PairFilter(scene);
+  }
+  void unload() { bodies_.clear(), geometries_.clear(), scene_ = nullptr; }
+
+  void ask(ts_question question, int a, int b, ts_answer& out, const ts_sink& sink) {
+    switch (question) {
+      case TS_OVERLAP:
+        kit::set_overlap(out, overlap(body(a), body(b), settings_));
+        out.claimed_tolerance = overlap_tolerance(settings_);
+        return;
+      case TS_DISTANCE:
+        return ask_distance(a, b, out);
+      case TS_CONTACT:
+        return ask_contact(a, b, out, sink);
+      case TS_TIME_OF_IMPACT:
+        return ask_time(a, b, out);
+      case TS_CANDIDATES:
+        return run_script(*scene_, geometries_, [&](int k, int i, int j) {
+          if (!filter_.drops(i, j)) sink.pair(sink.ctx, k, i, j);
+        });
+      case TS_SCENE_CONTACTS:
+        return ask_scene(out, sink);
+    }
+    throw kit::Unsupported("unknown question");
+  }
+
+ private:
+  const Placed& body(int i) const { return bodies_[static_cast<std::size_t>(i)]; }
+
+  void ask_distance(int a, int b, ts_answer& out) {
+    const Distance d = distance(body(a), body(b), settings_);
+    out.claimed_tolerance = d.claimed_tolerance;
+    if (d.overlap) kit::set_overlap(out, true);
+    if (!d.distance) return;
+    kit::set_distance(out, *d.distance);
+    kit::set_points(out, d.point_a, d.point_b);
+  }
+
+  void ask_contact(int a, int b, ts_answer& out, const ts_sink& sink) {
+    const Contact c = contact(body(a), body(b), settings_);
+    out.claimed_tolerance = c.claimed_tolerance;
+    kit::set_overlap(out, c.overlap);
+    if (!c.overlap) return;
+    kit::set_normal(out, c.normal);
+    kit::set_depth(out, c.depth);
+    for (const Point& p : c.points) sink.point(sink.ctx, p.position.data(), p.depth);
+  }
+
+  void ask_time(int a, int b, ts_answer& out) {
+    const ts_body& one = scene_->bodies[a];
+    const ts_body& two = scene_->bodies[b];
+    const auto t = time_of_impact(body(a), kit::pose_of(one.pose), kit::motion_of(one), body(b),
+                                  kit::pose_of(two.pose), kit::motion_of(two), settings_);
+    if (t) kit::set_toi(out, *t);
+  }
+
+  // A user's callback: collide each pair that the manager proposes, keep the deepest contact.
+  void ask_scene(ts_answer& out, const ts_sink& sink) {
+    all_pairs(*scene_, geometries_, [&](int a, int b) {
+      if (filter_.drops(a, b)) return;
+      const Contact c = contact(body(a), body(b), settings_);
+      if (c.overlap) sink.contact(sink.ctx, a, b, c.normal.data(), c.depth);
+      out.claimed_tolerance = std::max(out.claimed_tolerance, c.claimed_tolerance);
+    });
+  }
+
+  Settings settings_;
+  const ts_scene* scene_ = nullptr;
+  std::vector<Geometry> geometries_;
+  std::vector<Placed> bodies_;
+  kit::PairFilter filter_;
+};
+
+}  // namespace
+}  // namespace touchstone::fcl_adapter
+
+TS_PLUGIN(touchstone::fcl_adapter::Engine)

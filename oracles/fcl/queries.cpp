@@ -1,0 +1,184 @@
+// The two ways of asking FCL 0.7:
+//
+// As shipped: default tolerances; distance with signed distance enabled; contact through collide(); time of
+// impact through the transform overload of continuousCollide() with its defaults (CCDC_NAIVE, ten samples),
+// CCDM_TRANS for translations and CCDM_LINEAR when something turns. Tuned: collide at 1e-12. Distance:
+// unsigned at 1e-12, and where that finds an overlap the signed one at 1e-7 (libccd solver; the other one
+// cannot). Contact (libccd solver, bounded convex shapes): normal and depth from the signed distance; from
+// collide() where it contradicts the overlap. Time of impact: conservative advancement over an explicit
+// InterpMotion with pivot 0, because the transform overload leaves its pivot uninitialised.
+#include "oracles/fcl/queries.h"
+
+#include <fcl/math/motion/interp_motion.h>
+#include <fcl/narrowphase/collision.h>
+#include <fcl/narrowphase/continuous_collision.h>
+#include <fcl/narrowphase/distance.h>
+
+#include <limits>
+#include <numbers>
+
+#include "oracles/api/plugin_kit.h"
+
+namespace touchstone::fcl_adapter {
+namespace {
+
+constexpr double shipped_tolerance = 1e-6;  // gjk_tolerance and distance_tolerance of FCL's requests
+constexpr double tuned_overlap_tolerance = 1e-12;
+constexpr double tuned_distance_tolerance = 1e-12;
+constexpr double tuned_depth_tolerance = 1e-7;  // below it FCL's EPA runs into its own assertions
+constexpr std::size_t max_contacts = 256;       // the default of 1 would make every manifold a point
+
+using LibccdSolver = fcl::detail::GJKSolver_libccd<double>;
+using IndepSolver = fcl::detail::GJKSolver_indep<double>;
+
+/// FCL answers a pair that it has no function for with a warning and "no contact" or the largest double; its
+/// users look into the table of functions instead. A mesh comes first, as FCL itself orders a pair.
+template <class Table>
+bool in_table(const Table& table, const Placed& a, const Placed& b) {
+  const bool swap = a.geometry->getObjectType() == fcl::OT_GEOM && b.geometry->getObjectType() == fcl::OT_BVH;
+  const fcl::NODE_TYPE first = (swap ? b : a).geometry->getNodeType(),
+                       second = (swap ? a : b).geometry->getNodeType();
+  return table[first][second] != nullptr;
+}
+
+void require_collide(const Placed& a, const Placed& b, const Settings& s) {
+  const bool there = s.libccd()
+                         ? in_table(fcl::getCollisionFunctionLookTable<LibccdSolver>().collision_matrix, a, b)
+                         : in_table(fcl::getCollisionFunctionLookTable<IndepSolver>().collision_matrix, a, b);
+  if (!there) throw kit::Unsupported("fcl::collide has no function for these shapes");
+}
+
+void require_distance(const Placed& a, const Placed& b, const Settings& s) {
+  const bool there = s.libccd()
+                         ? in_table(fcl::getDistanceFunctionLookTable<LibccdSolver>().distance_matrix, a, b)
+                         : in_table(fcl::getDistanceFunctionLookTable<IndepSolver>().distance_matrix, a, b);
+  if (!there) throw kit::Unsupported("fcl::distance has no function for these shapes");
+}
+
+void require_advancement(const Placed& a, const Placed& b, const Settings& s) {
+  const fcl::NODE_TYPE ta = a.geometry->getNodeType(), tb = b.geometry->getNodeType();
+  const bool there = s.libccd() ? fcl::getConservativeAdvancementFunctionLookTable<LibccdSolver>()
+                                          .conservative_advancement_matrix[ta][tb] != nullptr
+                                : fcl::getConservativeAdvancementFunctionLookTable<IndepSolver>()
+                                          .conservative_advancement_matrix[ta][tb] != nullptr;
+  // The table has rows for ellipsoids; what it calls says "not supported" on stderr and reports no hit.
+  if (!there || a.kind == TS_ELLIPSOID || b.kind == TS_ELLIPSOID)
+    throw kit::Unsupported("FCL has no conservative advancement for these shapes");
+}
+
+fcl::CollisionRequestd collision_request(const Settings& s, bool with_contacts) {
+  fcl::CollisionRequestd r;
+  r.gjk_solver_type = s.solver;
+  r.gjk_tolerance = overlap_tolerance(s);
+  if (with_contacts) r.enable_contact = true, r.num_max_contacts = max_contacts;
+  return r;
+}
+
+fcl::DistanceResultd run_distance(const Placed& a, const Placed& b, const Settings& s, bool with_sign,
+                                  double tolerance) {
+  fcl::DistanceRequestd request(/*enable_nearest_points=*/true, with_sign);
+  request.distance_tolerance = tolerance;
+  request.gjk_solver_type = s.solver;
+  fcl::DistanceResultd result;
+  fcl::distance(a.geometry, a.transform, b.geometry, b.transform, request, result);
+  return result;
+}
+
+bool is_bounded_convex(const Placed& p) { return p.kind != TS_HALF_SPACE && p.kind != TS_MESH; }
+
+/// Depth and normal from the signed distance: the witness points of an overlap are the deepest points.
+bool refine(const Placed& a, const Placed& b, const Settings& s, Contact& c) {
+  const fcl::DistanceResultd r = run_distance(a, b, s, /*with_sign=*/true, tuned_depth_tolerance);
+  const Vec3 across = r.nearest_points[0] - r.nearest_points[1];
+  const double length = across.norm();
+  if (!(r.min_distance < 0 && length > 0)) return false;
+  c.normal = across / length;
+  c.depth = -r.min_distance;
+  c.claimed_tolerance = tuned_depth_tolerance;
+  return true;
+}
+
+}  // namespace
+
+double overlap_tolerance(const Settings& s) { return s.tuned ? tuned_overlap_tolerance : shipped_tolerance; }
+
+bool overlap(const Placed& a, const Placed& b, const Settings& s) {
+  require_collide(a, b, s);
+  fcl::CollisionResultd result;
+  fcl::collide(a.geometry, a.transform, b.geometry, b.transform, collision_request(s, false), result);
+  return result.isCollision();
+}
+
+Contact contact(const Placed& a, const Placed& b, const Settings& s) {
+  require_collide(a, b, s);
+  fcl::CollisionResultd result;
+  fcl::collide(a.geometry, a.transform, b.geometry, b.transform, collision_request(s, true), result);
+  Contact c;
+  c.claimed_tolerance = overlap_tolerance(s);
+  c.overlap = result.isCollision();
+  c.depth = -std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < result.numContacts(); ++i) {
+    const fcl::Contactd& k = result.getContact(i);
+    c.points.push_back({k.pos, k.penetration_depth});
+    if (!(k.penetration_depth > c.depth)) continue;
+    c.depth = k.penetration_depth;
+    // Contact::normal points from o1 to o2, and FCL puts a mesh first. One shape in both roles is never
+    // reordered.
+    c.normal = k.o1 == b.geometry && k.o2 == a.geometry && a.geometry != b.geometry ? Vec3(-k.normal)
+                                                                                    : Vec3(k.normal);
+  }
+  if (s.tuned && s.libccd() && c.overlap && is_bounded_convex(a) && is_bounded_convex(b)) refine(a, b, s, c);
+  return c;
+}
+
+Distance distance(const Placed& a, const Placed& b, const Settings& s) {
+  require_distance(a, b, s);
+  Distance d;
+  d.claimed_tolerance = s.tuned ? tuned_distance_tolerance : shipped_tolerance;
+  fcl::DistanceResultd r = run_distance(a, b, s, /*with_sign=*/!s.tuned, d.claimed_tolerance);
+  if (s.tuned && r.min_distance < 0) {
+    // Unsigned: "in collision, the result distance is implementation defined (mostly -1)".
+    if (!s.libccd()) {
+      d.overlap = true;
+      return d;
+    }
+    r = run_distance(a, b, s, /*with_sign=*/true, tuned_depth_tolerance);
+    d.claimed_tolerance = tuned_depth_tolerance;
+  }
+  d.distance = r.min_distance;
+  d.point_a = r.nearest_points[0], d.point_b = r.nearest_points[1];
+  return d;
+}
+
+std::optional<double> time_of_impact(const Placed& a, const Pose& a_start, const Motion& a_motion,
+                                     const Placed& b, const Pose& b_start, const Motion& b_motion,
+                                     const Settings& s) {
+  const double turn = std::max(a_motion.angular.norm(), b_motion.angular.norm());
+  if (turn >= std::numbers::pi)
+    throw kit::Unsupported("FCL takes motions by their end poses: less than half a turn");
+  const fcl::Transform3d a_end = make_transform(pose_at(a_start, a_motion, 1));
+  const fcl::Transform3d b_end = make_transform(pose_at(b_start, b_motion, 1));
+  fcl::ContinuousCollisionRequestd request;
+  request.gjk_solver_type = s.solver;
+  fcl::ContinuousCollisionResultd result;
+  if (s.tuned) {
+    require_advancement(a, b, s);
+    request.ccd_motion_type = fcl::CCDM_LINEAR;
+    request.ccd_solver_type = fcl::CCDC_CONSERVATIVE_ADVANCEMENT;
+    const auto motion = [](const fcl::Transform3d& from, const fcl::Transform3d& to) {
+      return fcl::InterpMotion<double>(from.linear(), from.translation(), to.linear(), to.translation(),
+                                       Vec3::Zero());
+    };
+    const fcl::InterpMotion<double> move_a = motion(a.transform, a_end), move_b = motion(b.transform, b_end);
+    fcl::continuousCollide(a.geometry, &move_a, b.geometry, &move_b, request, result);
+  } else {
+    require_collide(
+        a, b, {fcl::GST_LIBCCD, false});  // CCDC_NAIVE collides with a default request, whatever the solver
+    request.ccd_motion_type = turn > 0 ? fcl::CCDM_LINEAR : fcl::CCDM_TRANS;
+    fcl::continuousCollide(a.geometry, a.transform, a_end, b.geometry, b.transform, b_end, request, result);
+  }
+  if (!result.is_collide) return std::nullopt;
+  return result.time_of_contact;
+}
+
+}  // namespace touchstone::fcl_adapter

@@ -1,0 +1,56 @@
+// FCL's pair queries, asked as its users ask them.
+#pragma once
+
+#include <fcl/narrowphase/gjk_solver_type.h>
+
+#include <optional>
+#include <vector>
+
+#include "oracles/fcl/shapes.h"
+
+namespace touchstone::fcl_adapter {
+
+struct Placed {
+  const fcl::CollisionGeometryd* geometry;
+  fcl::Transform3d transform;
+  int kind;  // ts_shape_kind
+};
+
+struct Settings {
+  fcl::GJKSolverType solver;
+  bool tuned;
+  bool libccd() const { return solver == fcl::GST_LIBCCD; }
+};
+
+struct Point {
+  Vec3 position;
+  double depth;
+};
+
+struct Contact {
+  bool overlap = false;
+  Vec3 normal = Vec3::Zero();  // A to B
+  double depth = 0;
+  std::vector<Point> points;
+  double claimed_tolerance = 0;
+};
+
+bool overlap(const Placed& a, const Placed& b, const Settings& s);
+Contact contact(const Placed& a, const Placed& b, const Settings& s);
+
+struct Distance {
+  bool overlap = false;  // the answer of an unsigned query that found no distance
+  std::optional<double> distance;
+  Vec3 point_a, point_b;
+  double claimed_tolerance = 0;
+};
+Distance distance(const Placed& a, const Placed& b, const Settings& s);
+
+/// Time of first contact, none for "no hit".
+std::optional<double> time_of_impact(const Placed& a, const Pose& a_start, const Motion& a_motion,
+                                     const Placed& b, const Pose& b_start, const Motion& b_motion,
+                                     const Settings& s);
+
+double overlap_tolerance(const Settings& s);
+
+}  // namespace touchstone::fcl_adapter

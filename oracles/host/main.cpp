@@ -1,0 +1,90 @@
+// touchstone-host PLUGIN.so [ENGINE | --cards]: loads one engine and answers questions on standard input with
+// answers on standard output (oracles/api/protocol.h). With --cards it only says which engines there are.
+#include <fcntl.h>
+#include <signal.h>
+#include <sys/prctl.h>
+#include <unistd.h>
+
+#include <cstdio>
+#include <exception>
+#include <stdexcept>
+#include <string>
+
+#include "oracles/api/protocol.h"
+#include "oracles/host/plugin.h"
+#include "oracles/host/serve.h"
+
+#if defined(__SANITIZE_ADDRESS__)
+// A sanitized worker still dies of the signal that killed it, as an ordinary one does, and is not asked about
+// leaks of other people's libraries.
+extern "C" const char* __asan_default_options() {
+  return "handle_segv=0:handle_sigbus=0:handle_abort=0:handle_sigfpe=0:handle_sigill=0:detect_leaks=0";
+}
+#endif
+
+namespace {
+
+using namespace touchstone;
+
+struct Streams {
+  int questions, answers;
+};
+
+// Engines print. Standard output becomes standard error, standard input is empty, and the protocol moves to
+// descriptors that no printf reaches.
+Streams protect_streams() {
+  const int questions = fcntl(0, F_DUPFD_CLOEXEC, 100), answers = fcntl(1, F_DUPFD_CLOEXEC, 100);
+  const int null = open("/dev/null", O_RDONLY | O_CLOEXEC);
+  if (questions < 0 || answers < 0 || null < 0 || dup2(null, 0) < 0 || dup2(2, 1) < 0) {
+    std::perror("touchstone-host");
+    _exit(3);
+  }
+  close(null);
+  return {questions, answers};
+}
+
+struct Loaded {
+  protocol::Hello hello;
+  const ts_plugin* plugin = nullptr;
+  ts_engine* engine = nullptr;
+};
+
+Loaded load(const std::string& file, const std::string& engine) {
+  Loaded l;
+  try {
+    l.plugin = &host::load_plugin(file);
+    l.hello.cards = host::cards_of(*l.plugin);
+    if (engine == "--cards") return l;
+    l.hello.chosen = host::choose_engine(l.hello.cards, engine);
+    l.engine = l.plugin->create(static_cast<std::uint32_t>(l.hello.chosen));
+    if (!l.engine) throw std::runtime_error("created no engine");
+  } catch (const std::exception& e) {
+    l.hello.error = e.what(), l.hello.chosen = -1;
+  }
+  return l;
+}
+
+void say(int fd, const protocol::Hello& hello) {
+  std::string out;
+  protocol::append(out, hello);
+  host::write_all(fd, out.data(), out.size());
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  if (argc < 2 || argc > 3) {
+    std::fprintf(stderr, "usage: touchstone-host PLUGIN.so [ENGINE | --cards]\n");
+    return 2;
+  }
+  // If the harness died between spawn and here, reading the questions finds their end.
+  prctl(PR_SET_PDEATHSIG, SIGKILL);
+  prctl(PR_SET_DUMPABLE, 0);  // expected crashes leave no core files
+  const Streams streams = protect_streams();
+  const Loaded l = load(argv[1], argc > 2 ? argv[2] : "");
+  say(streams.answers, l.hello);
+  if (!l.engine) return l.hello.error.empty() ? 0 : 2;
+  host::serve(*l.plugin, l.engine, streams.questions, streams.answers);
+  // No destructors: a plug-in's exit handlers may hang, and nobody waits for them.
+  _exit(0);
+}

@@ -1,0 +1,58 @@
+#include "oracles/host/plugin.h"
+
+#include <dlfcn.h>
+
+#include <stdexcept>
+
+#include "oracles/api/engine.h"
+
+namespace touchstone::host {
+namespace {
+
+/// More engines than any plug-in has: a table that is not one.
+constexpr std::uint32_t max_engines = 4096;
+
+}  // namespace
+
+const ts_plugin& load_plugin(const std::string& file) {
+  void* const library = dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL);
+  if (!library) throw std::runtime_error(dlerror());
+  using Entry = const ts_plugin* (*)();
+  const auto entry = reinterpret_cast<Entry>(dlsym(library, "touchstone_plugin_v1"));
+  if (!entry) throw std::runtime_error("exports no touchstone_plugin_v1: it is no Touchstone plug-in");
+  const ts_plugin* const plugin = entry();
+  if (!plugin) throw std::runtime_error("touchstone_plugin_v1 returned nothing");
+  if (plugin->abi_version != TS_ABI_VERSION)
+    throw std::runtime_error("speaks ABI version " + std::to_string(plugin->abi_version) + ", and not " +
+                             std::to_string(TS_ABI_VERSION));
+  const bool complete =
+      plugin->card && plugin->create && plugin->destroy && plugin->load && plugin->unload && plugin->ask;
+  if (!complete) throw std::runtime_error("its table has empty entries");
+  if (plugin->engine_count == 0 || plugin->engine_count > max_engines)
+    throw std::runtime_error("lists " + std::to_string(plugin->engine_count) + " engines");
+  return *plugin;
+}
+
+std::vector<std::string> cards_of(const ts_plugin& plugin) {
+  std::vector<std::string> cards;
+  for (std::uint32_t i = 0; i < plugin.engine_count; ++i) {
+    const char* const card = plugin.card(i);
+    if (!card) throw std::runtime_error("has no card for engine " + std::to_string(i));
+    cards.emplace_back(card);
+  }
+  return cards;
+}
+
+int choose_engine(const std::vector<std::string>& cards, const std::string& name) {
+  std::string offered;
+  for (std::size_t i = 0; i < cards.size(); ++i) {
+    const std::string offer = card_from_json(cards[i]).name;
+    if (name.empty() ? cards.size() == 1 : offer == name) return static_cast<int>(i);
+    offered += (i ? ", " : "") + offer;
+  }
+  throw std::runtime_error(
+      (name.empty() ? "offers several engines, name one of: " : "offers no engine '" + name + "', only: ") +
+      offered);
+}
+
+}  // namespace touchstone::host

@@ -1,0 +1,144 @@
+#include "oracles/host/serve.h"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <chrono>
+#include <cstring>
+#include <exception>
+#include <optional>
+#include <string>
+
+#include "oracles/api/plugin_scene.h"
+#include "oracles/api/protocol.h"
+
+namespace touchstone::host {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+Observation failure(Outcome outcome, const std::string& detail) {
+  Observation o;
+  o.outcome = outcome;
+  o.detail = detail;
+  return o;
+}
+
+struct LoadResult {
+  ReceivedScene received;
+  std::optional<Observation> refusal;  // the answer to every query of a scene that the engine did not take
+};
+
+class Server {
+ public:
+  Server(const ts_plugin& plugin, ts_engine* engine, int answers_fd)
+      : plugin_(plugin), engine_(engine), answers_fd_(answers_fd) {}
+
+  void answer(const protocol::QuestionMessage& m) {
+    const PluginScene scene(m.scene);
+    LoadResult loaded = load(m.scene, scene.view());
+    send(protocol::ReceivedMessage{m.sequence, std::move(loaded.received)});
+    for (std::uint32_t i = m.first_query; i < m.queries.size(); ++i)
+      send(protocol::AnswerMessage{m.sequence, i,
+                                   loaded.refusal ? *loaded.refusal : ask(m.scene, m.queries[i])});
+    unload();
+  }
+
+ private:
+  LoadResult load(const Scene& scene, const ts_scene& view) {
+    ReceivedCollector received(scene);
+    const ts_received callbacks = received.callbacks();
+    char detail[256] = {};
+    LoadResult result;
+    try {
+      const std::int32_t outcome = plugin_.load(engine_, &view, &callbacks, detail);
+      const std::string why(detail, strnlen(detail, sizeof detail));
+      if (outcome < TS_ANSWERED || outcome > TS_THREW)
+        result.refusal = failure(Outcome::crashed, "load() returned an outcome that does not exist");
+      else if (outcome != TS_ANSWERED)
+        result.refusal = failure(static_cast<Outcome>(outcome), why);
+    } catch (const std::exception& e) {
+      result.refusal = failure(Outcome::threw, std::string(e.what()) + " while loading the scene");
+    } catch (...) {
+      result.refusal =
+          failure(Outcome::threw, "something that is no std::exception, while loading the scene");
+    }
+    if (received.rejected() > 0 && !result.refusal)
+      result.refusal = failure(Outcome::crashed, "reported shapes or bodies that the scene does not have");
+    result.received = received.take();
+    return result;
+  }
+
+  void unload() {
+    // An engine that throws here has answered already; its next load will tell whether it still works.
+    try {
+      plugin_.unload(engine_);
+    } catch (...) {
+    }
+  }
+
+  Observation ask(const Scene& scene, const Query& q) {
+    const int bodies = static_cast<int>(scene.bodies.size());
+    if (is_pair_question(q.question) && (q.a < 0 || q.b < 0 || q.a >= bodies || q.b >= bodies || q.a == q.b))
+      return failure(Outcome::invalid_input, "the query names no pair of bodies of the scene");
+    const auto steps = std::count_if(scene.script.begin(), scene.script.end(),
+                                     [](const Step& s) { return s.op == Step::Op::query; });
+    AnswerCollector answer(bodies, static_cast<int>(steps));
+    const ts_sink sink = answer.callbacks();
+    const auto start = Clock::now();
+    Observation o;
+    try {
+      plugin_.ask(engine_, static_cast<std::int32_t>(q.question), q.a, q.b, &answer.answer(), &sink);
+      const auto stop = Clock::now();
+      o = answer.take(q.question);
+      o.elapsed_ns = std::chrono::duration_cast<std::chrono::nanoseconds>(stop - start).count();
+      return o;
+    } catch (const std::exception& e) {
+      o = failure(Outcome::threw, e.what());
+    } catch (...) {
+      o = failure(Outcome::threw, "something that is no std::exception");
+    }
+    o.elapsed_ns = std::chrono::duration_cast<std::chrono::nanoseconds>(Clock::now() - start).count();
+    return o;
+  }
+
+  // Each message is written at once: a crash then loses the running query and nothing else.
+  template <class Message>
+  void send(const Message& m) {
+    out_.clear();
+    protocol::append(out_, m);
+    write_all(answers_fd_, out_.data(), out_.size());
+  }
+
+  const ts_plugin& plugin_;
+  ts_engine* engine_;
+  int answers_fd_;
+  std::string out_;
+};
+
+}  // namespace
+
+void write_all(int fd, const char* bytes, std::size_t n) {
+  while (n > 0) {
+    const ssize_t written = write(fd, bytes, n);
+    if (written < 0 && errno == EINTR) continue;
+    if (written <= 0) _exit(0);
+    bytes += written, n -= static_cast<std::size_t>(written);
+  }
+}
+
+void serve(const ts_plugin& plugin, ts_engine* engine, int questions_fd, int answers_fd) {
+  Server server(plugin, engine, answers_fd);
+  protocol::FrameReader frames;
+  char buffer[1 << 16];
+  for (;;) {
+    while (const auto frame = frames.next()) server.answer(protocol::decode_question(frame->payload));
+    const ssize_t n = read(questions_fd, buffer, sizeof buffer);
+    if (n < 0 && errno == EINTR) continue;
+    if (n <= 0) return;
+    frames.append(buffer, static_cast<std::size_t>(n));
+  }
+}
+
+}  // namespace touchstone::host

@@ -1,0 +1,16 @@
+// Questions in, answers out, until the harness closes its end.
+#pragma once
+
+#include <cstddef>
+
+#include "oracles/api/touchstone_engine.h"
+
+namespace touchstone::host {
+
+/// Writes the whole of `bytes` to `fd`; ends the process when nobody listens any more.
+void write_all(int fd, const char* bytes, std::size_t n);
+
+/// Returns at the end of the input.
+void serve(const ts_plugin& plugin, ts_engine* engine, int questions_fd, int answers_fd);
+
+}  // namespace touchstone::host

@@ -1,0 +1,106 @@
+// libccd 2.1: overlap and contact of convex bodies, by GJK + EPA and by MPR.
+//
+// As shipped: CCD_INIT and nothing else, so max_iterations is unlimited and a search that cycles never ends.
+// Tuned: 1e-10 in both tolerances, at most 1000 iterations; a search that used them all is reported as
+// not_converged, which the library itself cannot say.
+#include <limits>
+
+#include "oracles/api/plugin_kit.h"
+#include "oracles/libccd/object.h"
+
+namespace touchstone::libccd {
+namespace {
+
+constexpr unsigned long tuned_iterations = 1000;
+constexpr double tuned_tolerance = 1e-10;
+constexpr double nan_value = std::numeric_limits<double>::quiet_NaN();
+
+constexpr const char* source =
+    "ccd/ccd.h: epa_tolerance and mpr_tolerance (default 1e-4) are the only accuracy that libccd states";
+
+class Engine {
+ public:
+  static std::vector<kit::CardText> cards() {
+    const auto card = [](const char* name, const char* settings) {
+      return kit::CardText{name, "libccd", "2.1", settings, 0x1p-53, kit::oracle_tau_factor, source};
+    };
+    return {
+        card("libccd-gjk", "ccdGJKIntersect and ccdGJKPenetration; CCD_INIT defaults, unlimited iterations"),
+        card("libccd-mpr", "ccdMPRIntersect and ccdMPRPenetration; CCD_INIT defaults, unlimited iterations"),
+        card("libccd-gjk-tuned",
+             "as libccd-gjk; epa_tolerance 1e-10, dist_tolerance 1e-10, max_iterations 1000"),
+        card("libccd-mpr-tuned", "as libccd-mpr; mpr_tolerance 1e-10, max_iterations 1000")};
+  }
+
+  explicit Engine(unsigned index) : mpr_(index % 2 == 1), tuned_(index >= 2) {
+    CCD_INIT(&ccd_);
+    ccd_.support1 = ccd_.support2 = support;
+    ccd_.center1 = ccd_.center2 = center;
+    if (tuned_) {
+      ccd_.max_iterations = tuned_iterations;
+      ccd_.epa_tolerance = ccd_.mpr_tolerance = ccd_.dist_tolerance = tuned_tolerance;
+    }
+  }
+
+  void load(const ts_scene& scene, const ts_received& received) {
+    for (std::size_t i = 0; i < scene.shape_count; ++i)
+      received.shape(received.ctx, static_cast<int>(i), scene.shapes[i].size, scene.shapes[i].vertices,
+                     scene.shapes[i].vertex_count);
+    for (std::size_t i = 0; i < scene.body_count; ++i) {
+      const Pose pose = kit::pose_of(scene.bodies[i].pose);
+      objects_.push_back(
+          {&scene.shapes[scene.bodies[i].shape], rotation_matrix(pose.rotation), pose.translation});
+      const Eigen::Matrix<double, 3, 3, Eigen::RowMajor> rows = objects_.back().rotation;
+      received.body(received.ctx, static_cast<int>(i), rows.data(), pose.translation.data());
+    }
+  }
+  void unload() { objects_.clear(); }
+
+  void ask(ts_question question, int a, int b, ts_answer& out, const ts_sink& sink) {
+    if (question != TS_OVERLAP && question != TS_CONTACT)
+      throw kit::Unsupported("libccd answers overlap and contact of two bodies only");
+    const Object& one = objects_[static_cast<std::size_t>(a)];
+    const Object& two = objects_[static_cast<std::size_t>(b)];
+    for (const Object* o : {&one, &two})
+      if (o->shape->kind == TS_HALF_SPACE || o->shape->kind == TS_MESH)
+        throw kit::Unsupported("libccd takes bounded convex bodies only");
+    one.support_calls = 0;
+    out.claimed_tolerance = mpr_ ? ccd_.mpr_tolerance : ccd_.epa_tolerance;
+    if (question == TS_OVERLAP)
+      kit::set_overlap(
+          out, mpr_ ? ccdMPRIntersect(&one, &two, &ccd_) != 0 : ccdGJKIntersect(&one, &two, &ccd_) != 0);
+    else
+      contact(one, two, out, sink);
+    if (one.support_calls > ccd_.max_iterations) {
+      out.outcome = TS_NOT_CONVERGED, out.has = 0;
+      kit::set_detail(out, "used all " + std::to_string(tuned_iterations) + " iterations");
+    }
+  }
+
+ private:
+  // depth, dir and pos start as NaN: ccdGJKPenetration may return "hit" and write none of them.
+  void contact(const Object& one, const Object& two, ts_answer& out, const ts_sink& sink) {
+    ccd_real_t depth = nan_value;
+    ccd_vec3_t dir, pos;
+    ccdVec3Set(&dir, nan_value, nan_value, nan_value);
+    ccdVec3Set(&pos, nan_value, nan_value, nan_value);
+    const int result = mpr_ ? ccdMPRPenetration(&one, &two, &ccd_, &depth, &dir, &pos)
+                            : ccdGJKPenetration(&one, &two, &ccd_, &depth, &dir, &pos);
+    if (result == -2) throw std::runtime_error("libccd could not allocate memory");
+    kit::set_overlap(out, result == 0);
+    if (result != 0) return;
+    kit::set_normal(out, Vec3(dir.v[0], dir.v[1], dir.v[2]));
+    kit::set_depth(out, depth);
+    const double point[3] = {pos.v[0], pos.v[1], pos.v[2]};
+    sink.point(sink.ctx, point, depth);
+  }
+
+  bool mpr_, tuned_;
+  ccd_t ccd_;
+  std::vector<Object> objects_;
+};
+
+}  // namespace
+}  // namespace touchstone::libccd
+
+TS_PLUGIN(touchstone::libccd::Engine)
