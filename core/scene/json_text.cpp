@@ -20,18 +20,19 @@ std::string line_and_column(std::string_view text, std::size_t offset) {
   return std::to_string(line) + ":" + std::to_string(std::max<std::size_t>(1, before.size() - start));
 }
 
-// The library's message is "[json.exception.parse_error.101] parse error at line 1, column 2: what"; the
-// reader wants the last part.
-std::string reason_of(const nlohmann::detail::exception& e) {
+// The library's message is "[json.exception.parse_error.101] parse error at line 1, column 2: what; last
+// read: 'text'": the place is said already, and what was last read may be any bytes.
+std::string reason_of(const nlohmann::detail::exception& e, std::string_view at_error) {
+  for (std::string_view word : {"NaN", "Infinity", "nan", "inf"})
+    if (at_error.starts_with(word)) return std::string(word) + " is not a JSON number";
   std::string s = e.what();
   if (const auto bracket = s.find("] "); bracket != std::string::npos) s.erase(0, bracket + 2);
   if (s.starts_with("parse error at"))
     if (const auto colon = s.find(": "); colon != std::string::npos) s.erase(0, colon + 2);
-  for (char& c : s)
-    if (static_cast<unsigned char>(c) < ' ') c = ' ';
-  if (s.find("last read: 'N'") != std::string::npos || s.find("last read: 'I'") != std::string::npos ||
-      s.find("last read: '-I'") != std::string::npos)
-    s += " (NaN and Infinity are not JSON numbers)";
+  if (const auto last = s.find("; last read: '"); last != std::string::npos) {
+    const auto expected = s.rfind("'; expected ");
+    s.erase(last, expected != std::string::npos && expected > last ? expected + 1 - last : std::string::npos);
+  }
   return s;
 }
 
@@ -60,7 +61,8 @@ class Builder final : public nlohmann::json_sax<Json> {
   }
   bool parse_error(std::size_t offset, const std::string&, const nlohmann::detail::exception& e) override {
     const std::string where = line_and_column(text_, offset);
-    throw InputError(place_.empty() ? where : place_ + ":" + where, reason_of(e));
+    const std::string_view at_error = offset > 0 && offset <= text_.size() ? text_.substr(offset - 1) : "";
+    throw InputError(place_.empty() ? where : place_ + ":" + where, reason_of(e, at_error));
   }
 
  private:
