@@ -1,0 +1,121 @@
+#include <unistd.h>
+#include <atomic>
+#include <filesystem>
+
+#include "core/base/input_error.h"
+#include "fuzz/campaign/campaign.h"
+#include "fuzz/campaign/store.h"
+#include "oracles/core/core_engine.h"
+#include "tests/mutants/lying_engine.h"
+#include "tests/support/catch.h"
+
+using namespace touchstone;
+namespace fs = std::filesystem;
+
+namespace {
+
+// The core and an engine that halves depths, so that there are findings to compare.
+std::vector<EnginePtr> two_engines() {
+  std::vector<EnginePtr> e;
+  e.push_back(std::make_unique<CoreEngine>());
+  for (const auto& m : mutants::mutants())
+    if (m.name == "depth_halved") e.push_back(mutants::make_lying_engine(m));
+  return e;
+}
+
+fuzz::CampaignConfig config_of(std::uint64_t cases) {
+  fuzz::CampaignConfig c;
+  c.engines = {"core", "depth_halved"};
+  c.cases = cases;
+  c.seed = 5;
+  return c;
+}
+
+struct TemporaryDirectory {
+  fs::path path = fs::temp_directory_path() / ("touchstone-test-" + std::to_string(getpid()));
+  TemporaryDirectory() { fs::remove_all(path); }
+  ~TemporaryDirectory() { fs::remove_all(path); }
+};
+
+const std::atomic<bool> go{false};
+
+}  // namespace
+
+TEST_CASE("one job and two jobs find the same, byte for byte", "[campaign]") {
+  auto one = config_of(400), two = config_of(400);
+  one.jobs = 1, two.jobs = 2;
+  const auto a = fuzz::run_campaign(one, two_engines, {}, go),
+             b = fuzz::run_campaign(two, two_engines, {}, go);
+  CHECK(a.cases == 400);
+  CHECK(a.findings.size() > 5);
+  CHECK(fuzz::to_json(a, false).dump() == fuzz::to_json(b, false).dump());
+}
+
+TEST_CASE("the default mix is not vacuous: 30 to 70 % of its pairs overlap", "[campaign]") {
+  const auto r = fuzz::run_campaign(config_of(2000), two_engines, {}, go);
+  INFO(r.pair_cases << " pair cases, hit rate " << r.hit_rate());
+  CHECK(r.pair_cases > 1500);
+  CHECK(r.hit_rate() > 0.3);
+  CHECK(r.hit_rate() < 0.7);
+}
+
+TEST_CASE("our core is right on random cases", "[campaign][core]") {
+  auto config = config_of(3000);
+  config.engines = {"core"}, config.jobs = 2;
+  const auto make = [] {
+    std::vector<EnginePtr> e;
+    e.push_back(std::make_unique<CoreEngine>());
+    return e;
+  };
+  const auto r = fuzz::run_campaign(config, make, {}, go);
+  CHECK(r.wrong_of("core") == 0);
+  CHECK(r.failed_of("core") == 0);
+  for (const auto& [key, f] : r.findings) UNSCOPED_INFO(key << " case " << f.first_index << ": " << f.words);
+  CHECK(r.findings.empty());
+}
+
+TEST_CASE("shards together are the whole campaign", "[campaign]") {
+  const auto whole = fuzz::run_campaign(config_of(320), two_engines, {}, go);
+  fuzz::CampaignResult merged;
+  for (std::uint64_t i : {2, 0, 1}) {
+    auto c = config_of(320);
+    c.shard = i, c.shards = 3;
+    merged.merge(fuzz::run_campaign(c, two_engines, {}, go));
+  }
+  CHECK(fuzz::digest(merged) == fuzz::digest(whole));
+}
+
+TEST_CASE("a campaign stopped half way goes on to the same findings", "[campaign]") {
+  TemporaryDirectory dir;
+  const auto whole = fuzz::run_campaign(config_of(320), two_engines, {}, go);
+  auto c = config_of(320);
+  c.out = dir.path;
+  std::atomic<bool> stop{false};
+  int reports = 0;
+  const auto stop_early = [&](const fuzz::Progress& p) { stop = ++reports >= 1 && p.result.cases > 0; };
+  // A chunk at a time, so that the stop comes in the middle whatever the machine's speed.
+  fuzz::CampaignResult part;
+  {
+    fuzz::StoredState half;
+    auto first = config_of(128);
+    half.result = fuzz::run_campaign(first, two_engines, {}, go);
+    half.next_chunk = 4;
+    fs::create_directories(c.out);
+    fuzz::save_state(c, half);
+  }
+  part = fuzz::run_campaign(c, two_engines, stop_early, go);
+  CHECK(part.cases == 320);
+  CHECK(fuzz::digest(part) == fuzz::digest(whole));
+  SECTION("and a finished one is not begun again") {
+    CHECK_THROWS_AS(fuzz::run_campaign(c, two_engines, {}, go), InputError);
+  }
+  SECTION("nor one with other settings") {
+    c.seed = 6;
+    CHECK_THROWS_AS(fuzz::run_campaign(c, two_engines, {}, go), InputError);
+  }
+  SECTION("and every finding has its case on disk") {
+    std::size_t n = 0;
+    for (const auto& [key, f] : part.findings) n += fs::exists(dir.path / "findings" / key / "case.json");
+    CHECK(n == part.findings.size());
+  }
+}

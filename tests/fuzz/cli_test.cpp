@@ -1,0 +1,141 @@
+// The command line as a user meets it: exit codes and messages.
+#include <sys/wait.h>
+#include <unistd.h>
+#include <array>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "tests/support/catch.h"
+
+namespace fs = std::filesystem;
+
+namespace {
+
+struct Run {
+  int code = -1;
+  std::string out, err;
+};
+
+std::string read_all(const fs::path& p) {
+  std::ifstream f(p, std::ios::binary);
+  return {std::istreambuf_iterator<char>(f), {}};
+}
+
+struct Workspace {
+  fs::path dir = fs::temp_directory_path() / ("touchstone-cli-" + std::to_string(getpid()));
+  Workspace() { fs::remove_all(dir), fs::create_directories(dir); }
+  ~Workspace() { fs::remove_all(dir); }
+  fs::path write(const std::string& name, const std::string& text) const {
+    std::ofstream(dir / name) << text;
+    return dir / name;
+  }
+  Run touchstone(const std::string& args) const {
+    const std::string command = "cd " + dir.string() + " && " TS_BINARY_DIR "/bin/touchstone " + args + " >" +
+                                (dir / "out.txt").string() + " 2>" + (dir / "err.txt").string() +
+                                " </dev/null";
+    const int status = std::system(command.c_str());
+    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, read_all(dir / "out.txt"),
+            read_all(dir / "err.txt")};
+  }
+};
+
+const std::string two_spheres = R"({"touchstone_scene":1,"shapes":[{"type":"sphere","radius":1}],
+"bodies":[{"shape":0,"pose":{"translation":[0,0,0],"rotation":[0,0,0,1]}},
+{"shape":0,"pose":{"translation":[X,0,0],"rotation":[0,0,0,1]}}]})";
+
+std::string spheres(const std::string& x) {
+  std::string s = two_spheres;
+  s.replace(s.find('X'), 1, x);
+  return s;
+}
+
+std::size_t longest_line(const std::string& s) {
+  std::size_t longest = 0, start = 0;
+  while (start < s.size()) {
+    const std::size_t end = std::min(s.find('\n', start), s.size());
+    std::size_t columns = 0;
+    for (std::size_t i = start; i < end; ++i) columns += (static_cast<unsigned char>(s[i]) & 0xc0) != 0x80;
+    longest = std::max(longest, columns);
+    start = end + 1;
+  }
+  return longest;
+}
+
+}  // namespace
+
+TEST_CASE("bad usage and bad input exit with 2 and one line that names the place", "[cli]") {
+  const Workspace w;
+  w.write("truncated.json", spheres("1").substr(0, 60));
+  w.write("nan.json", spheres("NaN"));
+  w.write("infinite.json", spheres("1e999"));
+  w.write("unknown.json", R"({"touchstone_scene":1,"shapes":[{"type":"torus","radius":1}],"bodies":[]})");
+  std::string zero = spheres("1");
+  zero.replace(zero.find("[0,0,0,1]"), 9, "[0,0,0,0]");
+  w.write("zero_quaternion.json", zero);
+  std::string negative = spheres("1");
+  negative.replace(negative.find("\"radius\":1"), 10, "\"radius\":-1");
+  w.write("negative.json", negative);
+  std::ofstream(w.dir / "huge.json").close();
+  fs::resize_file(w.dir / "huge.json", std::uintmax_t{1} << 30);
+  const char* commands[] = {"replay missing.json",
+                            "replay truncated.json",
+                            "replay nan.json",
+                            "replay infinite.json",
+                            "replay unknown.json",
+                            "replay zero_quaternion.json",
+                            "replay negative.json",
+                            "replay huge.json",
+                            "fuzz --subject ./libmissing.so",
+                            "fuzz --engines core,nothing",
+                            "fuzz --family nothing",
+                            "fuzz --shard 3/2",
+                            "scenarios nothing"};
+  for (const std::string command : commands) {
+    const Run r = w.touchstone(command);
+    INFO(command << " says: " << r.err);
+    CHECK(r.code == 2);
+    CHECK(std::count(r.err.begin(), r.err.end(), '\n') == 1);
+    CHECK(r.out.empty());
+    const std::string place = command.substr(command.find_last_of(" /,") + 1);
+    if (command.starts_with("replay")) CHECK(r.err.find(place) != std::string::npos);
+  }
+  CHECK(w.touchstone("").code == 2);
+  CHECK(w.touchstone("nonsense").code == 2);
+  CHECK(w.touchstone("fuzz --cases -3").code == 2);
+  CHECK(w.touchstone("--help").code == 0);
+}
+
+TEST_CASE("replay shows every engine's answer beside the referee's", "[cli]") {
+  const Workspace w;
+  w.write("spheres.json", spheres("1.5"));
+  const Run r = w.touchstone("replay spheres.json");
+  INFO(r.out << r.err);
+  CHECK(r.code == 0);
+  CHECK(r.out.find("referee: overlap") != std::string::npos);
+  CHECK(r.out.find("core") != std::string::npos);
+  CHECK(longest_line(r.out) <= 80);
+  const Run j = w.touchstone("replay spheres.json --json --engines core");
+  const auto doc = nlohmann::json::parse(j.out);
+  CHECK(doc.at(0).at("queries").at(2).at("engines").at("core").at("answer").at("depth") == 0.5);
+}
+
+TEST_CASE("a campaign prints its table in 80 columns and leaves replayable findings", "[cli]") {
+  const Workspace w;
+  const Run r = w.touchstone("fuzz --cases 96 --seed 3 --jobs 2 --out results");
+  INFO(r.out << r.err);
+  CHECK(r.code == 0);
+  CHECK(longest_line(r.out) <= 80);
+  CHECK(r.out.find("core: 0 wrong") != std::string::npos);
+  REQUIRE(fs::exists(w.dir / "results" / "summary.json"));
+  if (!fs::exists(w.dir / "results" / "findings")) {
+    WARN("no oracle is installed: no findings to replay");
+    return;
+  }
+  const auto first = fs::directory_iterator(w.dir / "results" / "findings")->path() / "case.json";
+  const Run again = w.touchstone("replay " + first.string());
+  CHECK(again.code == 0);
+  CHECK((again.out.find("WRONG") != std::string::npos || again.out.find("FAILED") != std::string::npos));
+}

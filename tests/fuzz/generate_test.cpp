@@ -1,0 +1,37 @@
+#include <set>
+
+#include "core/base/input_error.h"
+#include "fuzz/generate/family.h"
+#include "tests/support/catch.h"
+
+using namespace touchstone;
+
+TEST_CASE("every case of every family is valid and made again from its seed and index alone", "[generate]") {
+  std::size_t n = 0;
+  for (const fuzz::Family& f : fuzz::families())
+    for (std::uint64_t i = 0; i < 200; ++i, ++n) {
+      const Case a = fuzz::make_case(11, i, f.name);
+      REQUIRE_NOTHROW(validate(a.scene));
+      REQUIRE(a == fuzz::make_case(11, i, f.name));
+      REQUIRE_FALSE(a.queries.empty());
+    }
+  CHECK(n == 200 * fuzz::families().size());
+}
+
+TEST_CASE("the mix reaches every family and every pair of convex shapes", "[generate]") {
+  std::set<std::string> families, pairs;
+  for (std::uint64_t i = 0; i < 4000; ++i) {
+    const Case c = fuzz::make_case(3, i);
+    families.insert(c.family);
+    if (c.scene.bodies.size() == 2)
+      pairs.insert(std::string(type_name(c.scene.shape_of(0))) + "-" +
+                   std::string(type_name(c.scene.shape_of(1))));
+  }
+  CHECK(families.size() == fuzz::families().size());
+  CHECK(pairs.size() >= 49 + 7 + 7);
+}
+
+TEST_CASE("other seeds give other cases; unknown families are refused", "[generate]") {
+  CHECK(hash(fuzz::make_case(1, 0).scene) != hash(fuzz::make_case(2, 0).scene));
+  CHECK_THROWS_AS(fuzz::make_case(1, 0, "nonsense"), InputError);
+}

@@ -1,0 +1,145 @@
+// Answers made by hand against truths that can be done in the head.
+#include <cmath>
+
+#include "fuzz/judge/judge.h"
+#include "tests/support/catch.h"
+
+using namespace touchstone;
+using fuzz::Fault;
+
+namespace {
+
+// Two unit-radius spheres with centres `distance` apart on the x axis.
+Case spheres(double distance, Question q) {
+  Case c;
+  c.scene.shapes = {Sphere{1}};
+  c.scene.bodies.resize(2);
+  c.scene.bodies[1].pose.translation.x() = distance;
+  c.queries = {{q, 0, 1}};
+  return c;
+}
+
+EngineCard double_card() { return {"test", "", "", "", 0x1p-53, 64, ""}; }
+
+Observation answered() {
+  Observation o;
+  o.outcome = Outcome::answered;
+  return o;
+}
+
+fuzz::Judgement judge_one(const Case& c, const Observation& o, const EngineCard& card = double_card(),
+                          const ReceivedScene& received = {}) {
+  fuzz::Truth truth(c.scene);
+  return fuzz::judge(c, card, {received, {o}}, truth).at(0);
+}
+
+bool has(const fuzz::Judgement& j, Fault f) {
+  for (const auto& r : j.faults)
+    if (r.fault == f) return true;
+  return false;
+}
+
+Observation contact(const Vec3& n, double depth) {
+  Observation o = answered();
+  o.overlap = true, o.normal = n, o.depth = depth;
+  return o;
+}
+
+}  // namespace
+
+TEST_CASE("touching is overlap, and a verdict within tolerance of touching is not accused", "[judge]") {
+  for (bool says : {true, false}) {
+    Observation o = answered();
+    o.overlap = says;
+    CHECK(judge_one(spheres(2, Question::overlap), o).right());
+    CHECK(judge_one(spheres(2 + 1e-15, Question::overlap), o).right());
+  }
+  Observation o = answered();
+  o.overlap = false;
+  CHECK(has(judge_one(spheres(1.9, Question::overlap), o), Fault::missed));
+  o.overlap = true;
+  CHECK(has(judge_one(spheres(2.1, Question::overlap), o), Fault::ghost));
+}
+
+TEST_CASE("a contact must separate, be minimal, and state no more than it needs", "[judge]") {
+  const Case c = spheres(1.5, Question::contact);
+  CHECK(judge_one(c, contact({1, 0, 0}, 0.5)).right());
+  CHECK(has(judge_one(c, contact({1, 0, 0}, 0.4)), Fault::infeasible));
+  CHECK(has(judge_one(c, contact({1, 0, 0}, 0.6)), Fault::depth_excess));
+  CHECK(has(judge_one(c, contact({-1, 0, 0}, 0.5)), Fault::infeasible));
+  // Along y the spheres separate after moving by 2: valid, poor.
+  const auto poor = judge_one(c, contact({0, 1, 0}, 2));
+  CHECK(has(poor, Fault::not_minimal));
+  CHECK_FALSE(has(poor, Fault::infeasible));
+  CHECK(has(judge_one(c, contact({0, 0, 0}, 0.5)), Fault::normal_not_unit));
+  CHECK(has(judge_one(c, contact({NAN, 0, 0}, 0.5)), Fault::normal_not_unit));
+  CHECK(has(judge_one(c, contact({1, 0, 0}, NAN)), Fault::no_number));
+}
+
+TEST_CASE("every best normal of concentric spheres is right", "[judge]") {
+  const Case c = spheres(0, Question::contact);
+  for (const Vec3& n : {Vec3(1, 0, 0), Vec3(0, -1, 0), Vec3(0.6, 0, 0.8)})
+    CHECK(judge_one(c, contact(n, 2)).right());
+}
+
+TEST_CASE("a claimed tolerance widens what is accepted, and nothing else does", "[judge]") {
+  Observation o = answered();
+  o.distance = 0.5 + 1e-4;
+  CHECK(has(judge_one(spheres(2.5, Question::distance), o), Fault::distance_off));
+  o.claimed_tolerance = 1e-3;
+  CHECK(judge_one(spheres(2.5, Question::distance), o).right());
+}
+
+TEST_CASE("an error that is right for the scene received is blamed on representation", "[judge]") {
+  const Case c = spheres(2.1, Question::overlap);
+  Observation o = answered();
+  o.overlap = true;
+  ReceivedScene received;
+  received.bodies.resize(2);
+  received.bodies[1] = Placement{Mat3::Identity(), Vec3(1.99, 0, 0)};
+  CHECK(judge_one(c, o, double_card(), received).blame == fuzz::Blame::representation);
+  CHECK(judge_one(c, o).blame == fuzz::Blame::algorithm);
+}
+
+TEST_CASE("time of impact is judged by gaps", "[judge][toi]") {
+  Case c = spheres(4, Question::time_of_impact);
+  c.scene.bodies[1].motion = Motion{Vec3(-4, 0, 0), Vec3::Zero()};  // touches at t = 0.5
+  Observation o = answered();
+  o.toi = 0.5;
+  CHECK(judge_one(c, o).right());
+  o.toi = 0.45;
+  CHECK(has(judge_one(c, o), Fault::early));
+  o.toi = 0.55;
+  CHECK(has(judge_one(c, o), Fault::late));
+  o.toi.reset();
+  CHECK(has(judge_one(c, o), Fault::missed));
+  c.scene.bodies[1].motion->linear = Vec3(4, 0, 0);
+  CHECK(judge_one(c, o).right());
+  o.toi = 0.5;
+  CHECK(has(judge_one(c, o), Fault::ghost));
+}
+
+TEST_CASE("candidate pairs: no tolerance for a missed touching pair, stale names told apart",
+          "[judge][pairs]") {
+  const Case c = spheres(2, Question::candidates);
+  Observation o = answered();
+  o.candidate_pairs = {{{1, 0}}};
+  CHECK(judge_one(c, o).right());
+  o.candidate_pairs = {{}};
+  CHECK(has(judge_one(c, o), Fault::missed));
+  o.candidate_pairs = {{{0, 1}, {0, 7}}};
+  CHECK(has(judge_one(c, o), Fault::stale));
+  o.candidate_pairs = {{{0, 1}, {0, 1}}};
+  CHECK(judge_one(c, o).pairs_duplicate == 1);
+}
+
+TEST_CASE("an answer without a number, and every way to fail, is a finding", "[judge]") {
+  CHECK(has(judge_one(spheres(2.5, Question::overlap), answered()), Fault::no_number));
+  for (Outcome out : {Outcome::crashed, Outcome::timed_out, Outcome::threw, Outcome::not_converged}) {
+    Observation o;
+    o.outcome = out;
+    CHECK(has(judge_one(spheres(2.5, Question::overlap), o), Fault::failed));
+  }
+  Observation cannot;
+  CHECK(judge_one(spheres(2.5, Question::overlap), cannot).faults.empty());
+}

@@ -1,0 +1,56 @@
+// Every command line of the README runs. `./touchstone` is replaced by the program itself (its launcher would
+// build it again), `test` is left out (it is what runs this), minutes are shortened, ./libmine.so is a
+// plug-in of the test's own.
+#include <sys/wait.h>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <regex>
+#include <string>
+#include <vector>
+
+#include "tests/support/catch.h"
+
+namespace fs = std::filesystem;
+
+namespace {
+
+std::vector<std::string> readme_commands() {
+  std::ifstream in(TS_SOURCE_DIR "/README.md");
+  std::vector<std::string> commands;
+  bool shell = false;
+  for (std::string line; std::getline(in, line);) {
+    if (line.starts_with("```"))
+      shell = line == "```sh";
+    else if (shell && line.starts_with("./touchstone"))
+      commands.push_back(line);
+  }
+  return commands;
+}
+
+std::string for_test(std::string c) {
+  c = std::regex_replace(c, std::regex(R"(^\./touchstone)"), TS_BINARY_DIR "/bin/touchstone");
+  c = std::regex_replace(c, std::regex("--minutes 1"), "--minutes 0.05");
+  c = std::regex_replace(c, std::regex("--cases [0-9]+"), "--cases 64");
+  c = std::regex_replace(c, std::regex(R"(\./libmine\.so)"), TS_BINARY_DIR "/lib/libtouchstone_example.so");
+  if (c.find(" fuzz ") != std::string::npos) c += " --out " TS_BINARY_DIR "/readme-out";
+  return c;
+}
+
+}  // namespace
+
+TEST_CASE("every command line of the README runs", "[readme]") {
+  std::size_t run = 0;
+  for (const std::string& line : readme_commands()) {
+    if (line == "./touchstone test") continue;
+    fs::remove_all(TS_BINARY_DIR "/readme-out");
+    const std::string command = "cd " TS_SOURCE_DIR " && " + for_test(line) + " >/dev/null </dev/null";
+    const int status = std::system(command.c_str());
+    INFO(line);
+    CHECK(WIFEXITED(status));
+    CHECK(WEXITSTATUS(status) == 0);
+    ++run;
+  }
+  fs::remove_all(TS_BINARY_DIR "/readme-out");
+  CHECK(run >= 6);
+}
