@@ -1,0 +1,209 @@
+// The Bullet plug-in, in one precision: query path and simulation path, each with Bullet's own margins and
+// with none.
+#include <limits>
+#include <numbers>
+#include <string>
+
+#include "oracles/api/plugin_kit.h"
+#include "oracles/bullet/pair.h"
+
+namespace touchstone::bullet_adapter {
+namespace {
+
+constexpr bool is_double = sizeof(btScalar) == 8;
+constexpr double unit_roundoff = is_double ? 0x1p-53 : 0x1p-24;
+// btContinuousConvexCollision ends at a gap of 0.001, a length fixed in its source.
+constexpr double sweep_gap = 0.001;
+
+constexpr const char* query_settings =
+    "btCollisionWorld::contactPairTest (distance: m_closestDistanceThreshold BT_LARGE_FLOAT); time of impact "
+    "convexSweepTest; candidates btDbvtBroadphase; ";
+constexpr const char* sim_settings =
+    "performDiscreteCollisionDetection in a fresh world; no distance, no time of impact; candidates "
+    "btDbvtBroadphase; ";
+constexpr const char* source =
+    "btCollisionMargin.h: 0.04; inside for box and cylinder (setSafeMargin), outside for hull, cone; "
+    "btContinuousConvexCollision.cpp: sweep ends at a gap of 0.001";
+
+class Engine {
+ public:
+  static std::vector<kit::CardText> cards() {
+    const std::string prefix = is_double ? "bullet-f64-" : "bullet-f32-";
+    const std::string version =
+        std::to_string(BT_BULLET_VERSION / 100) + "." + std::to_string(BT_BULLET_VERSION % 100);
+    std::vector<kit::CardText> all;
+    for (const bool tuned : {false, true})
+      for (const bool sim : {false, true})
+        all.push_back({prefix + (sim ? "sim" : "query") + (tuned ? "-tuned" : ""), "Bullet", version,
+                       std::string(sim ? sim_settings : query_settings) +
+                           (tuned ? "margin 0, hull boxes recomputed" : "default margins"),
+                       unit_roundoff, kit::oracle_tau_factor, source});
+    return all;
+  }
+
+  explicit Engine(unsigned index) : sim_(index % 2 == 1), tuned_(index >= 2), query_world_(configuration_) {}
+
+  void load(const ts_scene& scene, const ts_received& received) {
+    unload();
+    for (std::size_t i = 0; i < scene.shape_count; ++i) {
+      shapes_.push_back(make_shape(scene.shapes[i], tuned_));
+      report_shape(static_cast<int>(i), *shapes_.back(), received);
+    }
+    for (std::size_t i = 0; i < scene.body_count; ++i) {
+      auto o = std::make_unique<btCollisionObject>();
+      o->setCollisionShape(shapes_[static_cast<std::size_t>(scene.bodies[i].shape)]->shape.get());
+      o->setWorldTransform(make_transform(kit::pose_of(scene.bodies[i].pose)));
+      o->setUserIndex(static_cast<int>(i));
+      report_body(static_cast<int>(i), o->getWorldTransform(), received);
+      objects_.push_back(std::move(o));
+    }
+    scene_ = &scene;
+    filter_ = kit::PairFilter(scene);
+  }
+  void unload() { objects_.clear(), shapes_.clear(), scene_ = nullptr; }
+
+  void ask(ts_question question, int a, int b, ts_answer& out, const ts_sink& sink) {
+    if (question == TS_CANDIDATES || question == TS_SCENE_CONTACTS) {
+      for (const auto& s : shapes_)
+        if (!s->shape) throw kit::Unsupported("Bullet has no ellipsoid, and the scene has one");
+      return question == TS_CANDIDATES ? ask_candidates(sink) : ask_scene(out, sink);
+    }
+    for (int i : {a, b})
+      if (!shape(i).shape) throw kit::Unsupported("Bullet has no ellipsoid");
+    if (!shape(a).is_convex() && !shape(b).is_convex())
+      throw kit::Unsupported("Bullet has no algorithm for two concave or infinite shapes");
+    switch (question) {
+      case TS_OVERLAP:
+        return ask_contact(a, b, out, nullptr);
+      case TS_CONTACT:
+        return ask_contact(a, b, out, &sink);
+      case TS_DISTANCE:
+        return ask_distance(a, b, out);
+      default:
+        return ask_time(a, b, out);
+    }
+  }
+
+ private:
+  const Shape& shape(int body) const {
+    return *shapes_[static_cast<std::size_t>(scene_->bodies[body].shape)];
+  }
+  btCollisionObject& object(int body) { return *objects_[static_cast<std::size_t>(body)]; }
+
+  // Planes ask for the support with margin, which is the nominal corner; btBoxBoxDetector works on the
+  // nominal boxes.
+  double claimed_margin(int a, int b) const {
+    const Shape &one = shape(a), &two = shape(b);
+    const double outside = one.outside_margin() + two.outside_margin();
+    const bool exact = one.kind == TS_HALF_SPACE || two.kind == TS_HALF_SPACE ||
+                       (sim_ && one.kind == TS_BOX && two.kind == TS_BOX);
+    return outside + (exact ? 0 : one.inside_margin() + two.inside_margin());
+  }
+
+  std::vector<Point> points(int a, int b) {
+    return sim_ ? simulated_points(configuration_, object(a), object(b))
+                : query_points(*query_world_, object(a), object(b), 0);
+  }
+
+  /// With a sink the whole contact, without one the overlap alone.
+  void ask_contact(int a, int b, ts_answer& out, const ts_sink* sink) {
+    const std::vector<Point> all = points(a, b);
+    const Point* const d = deepest(all);
+    // Bullet also reports points within its contact breaking threshold that do not touch.
+    const bool overlap = d && d->distance <= 0;
+    kit::set_overlap(out, overlap);
+    out.claimed_tolerance = claimed_margin(a, b);
+    if (!overlap || !sink) return;
+    kit::set_normal(out, d->normal_ab);
+    kit::set_depth(out, -d->distance);
+    for (const Point& p : all)
+      if (p.distance <= 0) sink->point(sink->ctx, p.on_b.data(), -p.distance);
+  }
+
+  void ask_distance(int a, int b, ts_answer& out) {
+    if (sim_) throw kit::Unsupported("the simulation path has no distance query");
+    const std::vector<Point> all =
+        query_points(*query_world_, object(a), object(b), btScalar(BT_LARGE_FLOAT));
+    const Point* const d = deepest(all);
+    out.claimed_tolerance = claimed_margin(a, b);
+    if (!d) {
+      out.outcome = TS_NOT_CONVERGED;
+      return kit::set_detail(out, "contactPairTest reported no closest point");
+    }
+    kit::set_distance(out, d->distance);
+    kit::set_points(out, d->on_a, d->on_b);
+  }
+
+  // The sweep holds its target still. A target that only translates is brought to rest by moving with it; of
+  // two bodies the one that turns, or the only convex one, is swept.
+  void ask_time(int a, int b, ts_answer& out) {
+    if (sim_) throw kit::Unsupported("the simulation path has no time of impact");
+    const auto motion = [&](int i) { return kit::motion_of(scene_->bodies[i]); };
+    const auto turns = [&](int i) { return motion(i).angular.norm() > 0; };
+    if (turns(a) && turns(b))
+      throw kit::Unsupported("convexSweepTest holds its target still, and both bodies turn");
+    const bool sweep_b = turns(b) || !shape(a).is_convex();
+    const int mover = sweep_b ? b : a, target = sweep_b ? a : b;
+    if (!shape(mover).is_convex()) throw kit::Unsupported("convexSweepTest sweeps convex shapes only");
+    Motion relative = motion(mover);
+    if (relative.angular.norm() >= std::numbers::pi)
+      throw kit::Unsupported("convexSweepTest takes a motion by its end poses: less than half a turn");
+    relative.linear -= motion(target).linear;
+    const Pose start = kit::pose_of(scene_->bodies[mover].pose);
+    const auto t = sweep(configuration_, static_cast<const btConvexShape&>(*shape(mover).shape),
+                         make_transform(start), make_transform(pose_at(start, relative, 1)), object(target));
+    out.claimed_tolerance = claimed_margin(a, b) + sweep_gap;
+    if (t) kit::set_toi(out, *t);
+  }
+
+  void ask_candidates(const ts_sink& sink) {
+    World world(configuration_);
+    // Objects that a script never removes must leave the world before it goes; their poses go back to the
+    // scene's.
+    run_script(*scene_, objects_, world, [&](int k, int a, int b) {
+      if (!filter_.drops(a, b)) sink.pair(sink.ctx, k, a, b);
+    });
+    for (std::size_t i = 0; i < objects_.size(); ++i) {
+      if (objects_[i]->getBroadphaseHandle()) world->removeCollisionObject(objects_[i].get());
+      objects_[i]->setWorldTransform(make_transform(kit::pose_of(scene_->bodies[i].pose)));
+    }
+  }
+
+  void ask_scene(ts_answer& out, const ts_sink& sink) {
+    World world(configuration_);
+    for (auto& o : objects_) world->addCollisionObject(o.get());
+    const auto report = [&](int a, int b, const std::vector<Point>& all) {
+      const Point* const d = deepest(all);
+      if (filter_.drops(a, b) || !d || d->distance > 0) return;
+      sink.contact(sink.ctx, a, b, d->normal_ab.data(), -d->distance);
+      out.claimed_tolerance = std::max(out.claimed_tolerance, claimed_margin(a, b));
+    };
+    if (sim_) {
+      world->performDiscreteCollisionDetection();
+      for (int i = 0; i < world->getDispatcher()->getNumManifolds(); ++i) {
+        const btPersistentManifold& m = *world->getDispatcher()->getManifoldByIndexInternal(i);
+        report(m.getBody0()->getUserIndex(), m.getBody1()->getUserIndex(), manifold_points(m, *m.getBody0()));
+      }
+    } else {
+      world->updateAabbs();
+      world->computeOverlappingPairs();
+      for_each_cached_pair(*world, [&](int a, int b) {
+        if (!filter_.drops(a, b)) report(a, b, query_points(*query_world_, object(a), object(b), 0));
+      });
+    }
+    for (auto& o : objects_) world->removeCollisionObject(o.get());
+  }
+
+  bool sim_, tuned_;
+  btDefaultCollisionConfiguration configuration_;
+  World query_world_;
+  const ts_scene* scene_ = nullptr;
+  std::vector<std::unique_ptr<Shape>> shapes_;
+  Objects objects_;
+  kit::PairFilter filter_;
+};
+
+}  // namespace
+}  // namespace touchstone::bullet_adapter
+
+TS_PLUGIN(touchstone::bullet_adapter::Engine)

@@ -1,0 +1,36 @@
+// Bullet's pair queries: contact points by the query path or the simulation path, and the convex sweep.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "oracles/bullet/world.h"
+
+namespace touchstone::bullet_adapter {
+
+/// One contact or closest point. Bullet's normals point from B to A and are turned round here.
+struct Point {
+  Vec3 on_a, on_b, normal_ab;
+  double distance;  // < 0: penetration
+};
+
+/// btCollisionWorld::contactPairTest, which goes to the closest-point algorithms (GJK and EPA for most
+/// pairs). `threshold`: m_closestDistanceThreshold, how far apart points are still reported.
+std::vector<Point> query_points(btCollisionWorld& world, btCollisionObject& a, btCollisionObject& b,
+                                btScalar threshold);
+
+/// All contact points between two bodies in the world's manifolds.
+std::vector<Point> manifold_points(const btPersistentManifold& manifold, const btCollisionObject& a);
+
+/// performDiscreteCollisionDetection in a fresh world that holds the two bodies, manifolds read back.
+std::vector<Point> simulated_points(btDefaultCollisionConfiguration& configuration, btCollisionObject& a,
+                                    btCollisionObject& b);
+
+/// The point of least distance, if any.
+const Point* deepest(const std::vector<Point>& points);
+
+/// btCollisionWorld::convexSweepTest of `mover` against a world that holds `target` alone.
+std::optional<double> sweep(btDefaultCollisionConfiguration& configuration, const btConvexShape& mover,
+                            const btTransform& from, const btTransform& to, btCollisionObject& target);
+
+}  // namespace touchstone::bullet_adapter

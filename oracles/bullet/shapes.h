@@ -1,0 +1,45 @@
+// Shapes and poses of the C ABI as Bullet's own types.
+#pragma once
+
+#include <btBulletCollisionCommon.h>
+
+#include <memory>
+#include <vector>
+
+#include "core/math/pose.h"
+#include "oracles/api/touchstone_engine.h"
+
+namespace touchstone::bullet_adapter {
+
+/// A btCollisionShape and the arrays that it points into.
+struct Shape {
+  int kind = 0;  // ts_shape_kind
+  std::vector<btScalar> mesh_vertices;
+  std::vector<int> mesh_indices;
+  std::unique_ptr<btTriangleIndexVertexArray> mesh;
+  std::unique_ptr<btCollisionShape> shape;  // null: Bullet has no ellipsoid
+  bool is_convex() const { return shape && shape->isConvex(); }
+
+  /// Margins as Bullet documents them (btCollisionMargin.h, btBoxShape.h, btConvexHullShape.h): of boxes and
+  /// cylinders it lies inside and rounds the edges wherever GJK sees the shape; of hulls, cones and triangles
+  /// it lies outside.
+  double inside_margin() const;
+  double outside_margin() const;
+};
+
+/// Half extents, z axes. Tuned: margin 0, set before hulls get their points, because the cached box of a hull
+/// keeps the margin it was made with.
+std::unique_ptr<Shape> make_shape(const ts_shape& asked, bool tuned);
+
+/// As a user writes it: a unit quaternion in Bullet's scalar, made into a matrix by Bullet.
+btTransform make_transform(const Pose& pose);
+
+inline Vec3 vec3(const btVector3& v) {
+  return {static_cast<double>(v.x()), static_cast<double>(v.y()), static_cast<double>(v.z())};
+}
+
+/// Tells what Bullet holds, in the ABI's units.
+void report_shape(int index, const Shape& held, const ts_received& to);
+void report_body(int index, const btTransform& held, const ts_received& to);
+
+}  // namespace touchstone::bullet_adapter
