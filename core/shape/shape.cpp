@@ -20,6 +20,8 @@ template <class... F>
 struct overloaded : F... {
   using F::operator()...;
 };
+template <class... F>
+overloaded(F...) -> overloaded<F...>;
 
 double farthest(const std::vector<Vec3>& v) {
   double r = 0;

@@ -1,9 +1,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <nlohmann/json.hpp>
 
 #include "core/base/input_error.h"
 #include "fuzz/cli/command.h"
+#include "reports/text.h"
 #include "scenarios/case_codec.h"
 #include "scenarios/catalog.h"
 
@@ -15,7 +17,11 @@ Run declare_scenarios(CLI::App& app) {
   return [name] {
     const auto all = scenarios::catalog();
     if (name->empty()) {
-      for (const auto& s : all) fmt::print("{:<12} {:<36} {}\n", s.folder, s.name, s.line);
+      std::string folder;
+      for (const auto& s : all) {
+        if (s.folder != folder) fmt::print("{}\n", folder = s.folder);
+        fmt::print("  {}\n", reports::wrapped(fmt::format("{}: {}", s.name, s.line), 78, 6));
+      }
       return exit_clean;
     }
     const auto it = std::find_if(all.begin(), all.end(), [&](const auto& s) { return s.name == *name; });
