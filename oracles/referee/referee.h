@@ -1,5 +1,5 @@
-// The referee: what is true of a pair, with a certificate, in arithmetic that cannot be wrong about it (truth.md §4).
-// Shares the scene's value types with the rest of the project and nothing else.
+// The referee: what is true of a pair, with a certificate, in arithmetic that cannot be wrong about it
+// (truth.md §4). Shares the scene's value types with the rest of the project and nothing else.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
@@ -14,7 +14,8 @@
 
 namespace touchstone::referee {
 
-/// A shape where it stands, exactly: a Pose (any non-zero quaternion: rational rotation) or an affine Placement.
+/// A shape where it stands, exactly: a Pose (any non-zero quaternion: rational rotation) or an affine
+/// Placement.
 struct Placed {
   const Shape* shape = nullptr;
   std::variant<Pose, Placement> pose;
@@ -32,10 +33,12 @@ std::string_view to_string(Verdict v);
 struct Certificate {
   enum class Kind { none, separating_plane, common_point, depth_direction, inner_polytope, closed_form };
   Kind kind = Kind::none;
-  Vec3 direction = Vec3::Zero();  // separating_plane: A on the side direction·x <= offset, B on direction·x > offset
+  Vec3 direction =
+      Vec3::Zero();  // separating_plane: A on the side direction·x <= offset, B on direction·x > offset
   double offset = 0;
-  Vec3 point = Vec3::Zero();           // common_point, when one with double coordinates exists
-  std::vector<std::string> rationals;  // common_point that needs them: x, y, z as "n/d"
+  Vec3 point = Vec3::Zero();  // common_point, when one with double coordinates exists
+  /// "n/d", when doubles do not suffice. common_point: x, y, z; separating_plane: direction x, y, z, offset.
+  std::vector<std::string> rationals;
   /// inner_polytope: vertices of the Minkowski difference A-B as pairs of support points, and its facets.
   std::vector<std::array<Vec3, 2>> support_pairs;
   std::vector<std::array<int, 3>> facets;
@@ -45,27 +48,36 @@ nlohmann::ordered_json to_json(const Certificate& c);
 
 struct PairTruth {
   Verdict verdict = Verdict::undecided;
-  Bracket gap;  // signed: > 0 distance, < 0 minus the depth. For a mesh that overlaps: [-inf, 0], depth is not defined
-  Vec3 normal = Vec3::Zero();   // unit within rounding, A to B: separating direction, or a direction of (nearly) least w
-  std::array<Vec3, 2> witness;  // rounded points of A and B that realise the gap
+  Bracket gap;  // signed: > 0 distance, < 0 minus the depth. For a mesh that overlaps: [-inf, 0], depth is
+                // not defined
+  Vec3 normal =
+      Vec3::Zero();  // unit within rounding, A to B: separating direction, or a direction of (nearly) least w
+  std::array<Vec3, 2> witness;      // rounded points of A and B that realise the gap
   Certificate verdict_certificate;  // separating_plane or common_point
   Certificate lower_depth;          // inner_polytope or closed_form, when overlapping
-  int level = 0;                    // which filter settled the verdict: 0 interval double, 1 extended, 2 rational
+  int level = 0;  // which filter settled the verdict: 0 interval double, 1 extended, 2 rational
 };
 
 /// `hints`: directions (A to B) and points that engines proposed; tried first as certificates, trusted never.
 PairTruth judge_pair(const Placed& a, const Placed& b, std::span<const Vec3> hint_directions = {},
                      std::span<const Vec3> hint_points = {});
 
-/// w(n)/|n| where w(n) = h_A(n) + h_B(-n): how far B must move along n to be separate from A. n finite, non-zero.
+/// The certificate of a verdict of sphere, box, capsule, hull and half-space pairs in a form that checker.h
+/// accepts: as it is if that holds, else with rationals found by the exact level. Kind none: the verdict is
+/// not of that kind.
+Certificate checkable_certificate(const PairTruth& truth, const Placed& a, const Placed& b);
+
+/// w(n)/|n| where w(n) = h_A(n) + h_B(-n): how far B must move along n to be separate from A. n finite,
+/// non-zero. A half-space has no support value but along its own normal m; for it the same question is
+/// answered: depth/cos(n, m), infinite when n does not lead out of it.
 Bracket width(const Placed& a, const Placed& b, const Vec3& n);
 
 /// Distance of a point from the closed body; 0 inside.
 Bracket distance_to(const Placed& a, const Vec3& point_w);
 
-/// First contact over t in [0,1] under constant velocities. hit: contact is certain at some t <= t_hi, and there is
-/// none (gap > 0) for t < t_lo. none: certain that there is none in [0,1]. undecided: grazing within `resolution`:
-/// then `least_gap` brackets min over t of the gap as far as known.
+/// First contact over t in [0,1] under constant velocities. hit: contact is certain at some t <= t_hi, and
+/// there is none (gap > 0) for t < t_lo. none: certain that there is none in [0,1]. undecided: grazing within
+/// `resolution`: then `least_gap` brackets min over t of the gap as far as known.
 struct TimeTruth {
   enum class Verdict { hit, none, undecided };
   Verdict verdict = Verdict::undecided;
@@ -75,12 +87,14 @@ struct TimeTruth {
 };
 TimeTruth judge_motion(const Placed& a, const Motion& motion_a, const Placed& b, const Motion& motion_b);
 
-/// Signed gap at time t of the motion, t exact; and the largest certified depth at any time before t (0 if none).
+/// Signed gap at time t of the motion, t exact; and the largest certified depth at any time before t (0 if
+/// none).
 Bracket gap_at(const Placed& a, const Motion& motion_a, const Placed& b, const Motion& motion_b, double t);
-double certified_depth_before(const Placed& a, const Motion& motion_a, const Placed& b, const Motion& motion_b,
-                              double t);
+double certified_depth_before(const Placed& a, const Motion& motion_a, const Placed& b,
+                              const Motion& motion_b, double t);
 
-/// Exact bounding box of the placed body, rounded outward; used to judge broad phases without asking every pair.
+/// Exact bounding box of the placed body, rounded outward; used to judge broad phases without asking every
+/// pair.
 Aabb outer_box(const Placed& a);
 /// Of the whole motion.
 Aabb outer_box(const Placed& a, const Motion& motion);

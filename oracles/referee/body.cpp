@@ -1,0 +1,289 @@
+#include "oracles/referee/body.h"
+
+#include <algorithm>
+
+namespace touchstone::referee {
+namespace {
+
+// R(q) of a quaternion of doubles. Squares of doubles neither overflow nor underflow in long double. Each
+// entry is a sum of at most four products (relative error 2 units each, three additions) over |q|² (3 units),
+// so it is within (4 + 3 + 1) units of the exact entry, which is at most 1.
+constexpr Real rotation_error = 10 * unit;
+
+Matrix3 rotation_of(const Quat& q) {
+  const Real x = q.x, y = q.y, z = q.z, w = q.w;
+  const Real n = x * x + y * y + z * z + w * w;
+  return {{{(w * w + x * x - y * y - z * z) / n, 2 * (x * y - w * z) / n, 2 * (x * z + w * y) / n},
+           {2 * (x * y + w * z) / n, (w * w - x * x + y * y - z * z) / n, 2 * (y * z - w * x) / n},
+           {2 * (x * z - w * y) / n, 2 * (y * z + w * x) / n, (w * w - x * x - y * y + z * z) / n}}};
+}
+
+Matrix3 to_real(const Mat3& m) {
+  Matrix3 r;
+  for (int i = 0; i < 3; ++i) r.row[i] = {m(i, 0), m(i, 1), m(i, 2)};
+  return r;
+}
+
+const Vec3& translation_of(const Placed& p) {
+  if (const auto* pose = std::get_if<Pose>(&p.pose)) return pose->translation;
+  return std::get<Placement>(p.pose).translation;
+}
+
+// Rodrigues' formula. The angle carries 3 units of relative error (norm, product), hence θ·3 units in the
+// angle; sinl and cosl of glibc are within 1 ulp after exact argument reduction; the axis carries 3 units a
+// component, which enters twice. 16 units + 4θ units cover an entry.
+Matrix3 turn(const Vec3& angular, double t, Real& error) {
+  const Real3 w = referee::to_real(angular);
+  const Real speed = norm(w), angle = speed * static_cast<Real>(t);
+  if (!(speed > 0) || angle == 0) return error = 0, Matrix3{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
+  const Real3 k = (1 / speed) * w;
+  const Real s = std::sin(angle), half = std::sin(angle / 2), v = 2 * half * half, c = std::cos(angle);
+  error = (16 + 4 * std::fabs(angle)) * unit;
+  return {{{c + v * k.x * k.x, v * k.x * k.y - s * k.z, v * k.x * k.z + s * k.y},
+           {v * k.x * k.y + s * k.z, c + v * k.y * k.y, v * k.y * k.z - s * k.x},
+           {v * k.x * k.z - s * k.y, v * k.y * k.z + s * k.x, c + v * k.z * k.z}}};
+}
+
+Real sum_of_sizes(const Real3& p) { return std::fabs(p.x) + std::fabs(p.y) + std::fabs(p.z); }
+
+// Error of matrix·p + translation for |p|₁ <= rho: per component (matrix_error + 4 units·m)·rho for the
+// product and translation_error + 2 units·|sum| for the translation; the vector's length is at most √3 < 2
+// times that.
+Real placement_error(const Frame& f, Real rho, Real extent) {
+  return 2 *
+         ((f.matrix_error + 4 * unit * largest(f.matrix)) * rho + f.translation_error + 2 * unit * extent);
+}
+
+void finish_points(Body& b, std::span<const Vec3> local, const Frame& f) {
+  Real rho = 0;
+  b.points.reserve(local.size());
+  for (const Vec3& v : local) {
+    const Real3 x = referee::to_real(v), turned = f.matrix * x;
+    rho = std::max(rho, sum_of_sizes(x));
+    b.points.push_back(turned + f.translation);
+    b.extent = std::max(b.extent, norm(b.points.back()));
+    b.spin_radius = std::max(b.spin_radius, norm(turned));
+  }
+  const Real placed = placement_error(f, rho, b.extent);
+  b.spin_radius += placed;
+  b.extent += placed;
+  b.error = placed + 4 * unit * b.extent;
+}
+
+// Upper bound of the spectral norm: √(1 + |MᵀM - I|∞).
+Real stretch(const Frame& f) {
+  Real worst = 0;
+  for (int i = 0; i < 3; ++i) {
+    Real sum = 0;
+    for (int j = 0; j < 3; ++j)
+      sum += std::fabs(dot(column(f.matrix, i), column(f.matrix, j)) - (i == j ? 1 : 0));
+    worst = std::max(worst, sum);
+  }
+  const Real m = 1 + largest(f.matrix);
+  return std::sqrt(1 + worst + 32 * m * (f.matrix_error + unit * m)) * (1 + 8 * unit);
+}
+
+// A curved core's local support point maximises m̃·x for the computed m̃ = Mᵀn, |m̃ - Mᵀn| <= 3(3 units·m +
+// matrix_error)|n|, so it misses the exact maximum by at most 2·rho times that; then it is placed and dotted
+// like any point. The local point itself is computed within 4 units of its size.
+void finish_curved(Body& b, const Frame& f, Real rho, Real reach) {
+  const Real m = largest(f.matrix);
+  b.matrix = f.matrix;
+  b.centre = f.translation;
+  b.spin_radius = stretch(f) * reach;
+  b.extent = norm(f.translation) + b.spin_radius;
+  b.error =
+      placement_error(f, rho, b.extent) + (32 * unit * m + 6 * f.matrix_error) * rho + 4 * unit * b.extent;
+}
+
+struct Sizes {
+  Body::Kind kind;
+  Real3 size;
+  Real rho;    // bound of |x|₁ over the shape
+  Real reach;  // bound of |x| over the shape
+};
+
+Real reach_of(Real radius, Real half_height) {
+  return std::sqrt(radius * radius + half_height * half_height) * (1 + 8 * unit);
+}
+
+std::optional<Sizes> curved_sizes(const Shape& s) {
+  if (const auto* c = std::get_if<Cylinder>(&s))
+    return Sizes{Body::Kind::cylinder,
+                 {c->radius, c->half_height, 0},
+                 1.5L * c->radius + c->half_height,
+                 reach_of(c->radius, c->half_height)};
+  if (const auto* c = std::get_if<Cone>(&s))
+    return Sizes{Body::Kind::cone,
+                 {c->radius, c->half_height, 0},
+                 1.5L * c->radius + c->half_height,
+                 reach_of(c->radius, c->half_height)};
+  if (const auto* e = std::get_if<Ellipsoid>(&s)) {
+    const Real3 a = referee::to_real(e->semi_axes);
+    return Sizes{Body::Kind::ellipsoid, a, 1.75L * largest(a), largest(a)};
+  }
+  return std::nullopt;
+}
+
+bool is_ball(const Placed& p) {
+  const auto* e = std::get_if<Ellipsoid>(p.shape);
+  return e && std::holds_alternative<Pose>(p.pose) && e->semi_axes.x() == e->semi_axes.y() &&
+         e->semi_axes.y() == e->semi_axes.z();
+}
+
+Real3 local_support(const Body& b, const Real3& m) {
+  const Real r = b.size.x, h = b.size.y;
+  if (b.kind == Body::Kind::ellipsoid) {
+    const Real3 s{b.size.x * m.x, b.size.y * m.y, b.size.z * m.z};
+    const Real n = norm(s);
+    if (!(n > 0)) return {b.size.x, 0, 0};
+    return {b.size.x * (s.x / n), b.size.y * (s.y / n), b.size.z * (s.z / n)};
+  }
+  const Real s = std::sqrt(m.x * m.x + m.y * m.y);
+  const Real3 rim = s > 0 ? Real3{r * (m.x / s), r * (m.y / s), -h} : Real3{r, 0, -h};
+  if (b.kind == Body::Kind::cylinder) return {rim.x, rim.y, m.z < 0 ? -h : h};
+  return h * m.z > r * s - h * m.z ? Real3{0, 0, h} : rim;
+}
+
+}  // namespace
+
+Frame frame_of(const Placed& p, const Vec3& origin) {
+  Frame f;
+  if (const auto* pose = std::get_if<Pose>(&p.pose)) {
+    f.matrix = rotation_of(pose->rotation);
+    f.matrix_error = rotation_error;
+  } else {
+    f.matrix = to_real(std::get<Placement>(p.pose).matrix);
+  }
+  f.translation = referee::to_real(translation_of(p)) - referee::to_real(origin);
+  f.translation_error = unit * largest(f.translation);
+  return f;
+}
+
+Frame frame_at(const Placed& p, const Motion& m, double t, const Vec3& origin) {
+  Frame f = frame_of(p, origin);
+  Real turn_error = 0;
+  const Matrix3 r = turn(m.angular, t, turn_error);
+  if (turn_error > 0) {
+    // Rows of r have |·|₁ <= √3, columns of the matrix at most 3 entries of size `size`.
+    const Real size = largest(f.matrix);
+    f.matrix = r * f.matrix;
+    f.matrix_error = 3 * turn_error * (size + f.matrix_error) + 2 * f.matrix_error + 6 * unit * size;
+  }
+  const Real3 shift = static_cast<Real>(t) * referee::to_real(m.linear);
+  f.translation = f.translation + shift;
+  f.translation_error += 2 * unit * (largest(shift) + largest(f.translation));
+  return f;
+}
+
+std::optional<std::vector<Vec3>> core_points(const Placed& p) {
+  const Shape& s = *p.shape;
+  const auto segment = [](double h) { return std::vector<Vec3>{{0, 0, -h}, {0, 0, h}}; };
+  if (std::holds_alternative<Sphere>(s) || is_ball(p)) return std::vector<Vec3>{Vec3::Zero()};
+  if (const auto* c = std::get_if<Capsule>(&s)) return segment(c->half_height);
+  if (const auto* c = std::get_if<Cylinder>(&s); c && c->radius == 0) return segment(c->half_height);
+  if (const auto* c = std::get_if<Cone>(&s); c && c->radius == 0) return segment(c->half_height);
+  if (const auto* h = std::get_if<Hull>(&s)) return h->vertices;
+  if (const auto* b = std::get_if<Box>(&s)) {
+    std::vector<Vec3> v(8, b->half_extents);
+    for (int i = 0; i < 8; ++i)
+      for (int k = 0; k < 3; ++k)
+        if (!(i >> k & 1)) v[static_cast<std::size_t>(i)][k] = -v[static_cast<std::size_t>(i)][k];
+    return v;
+  }
+  return std::nullopt;
+}
+
+double core_radius(const Placed& p) {
+  if (const auto* s = std::get_if<Sphere>(p.shape)) return s->radius;
+  if (const auto* c = std::get_if<Capsule>(p.shape)) return c->radius;
+  return is_ball(p) ? std::get<Ellipsoid>(*p.shape).semi_axes.x() : 0;
+}
+
+Body make_body(const Placed& p, const Frame& f) {
+  if (const auto points = core_points(p)) return make_body(*points, core_radius(p), f);
+  const auto s = curved_sizes(*p.shape);
+  Body b;
+  b.kind = s->kind;
+  b.size = s->size;
+  finish_curved(b, f, s->rho, s->reach);
+  return b;
+}
+
+Body make_body(const std::vector<Vec3>& core_points, double radius, const Frame& f) {
+  Body b;
+  b.radius = radius;
+  finish_points(b, core_points, f);
+  return b;
+}
+
+// The orbit's axis is within 4 units of the exact direction, heights and radii within 8 units of the extent.
+Body make_orbit(const Body& b, const Real3& centre, const Real3& angular) {
+  Body o;
+  o.centre = centre;
+  o.radius = b.radius;
+  o.extent = norm(centre) + b.spin_radius;
+  o.spin_radius = b.spin_radius;
+  o.error = b.error + 64 * unit * o.extent;
+  if (b.kind != Body::Kind::points) {
+    o.points = {centre};
+    o.radius = round_up(static_cast<Real>(b.radius) + b.spin_radius);
+    return o;
+  }
+  o.kind = Body::Kind::orbit;
+  const Real3 axis = normalized(angular);
+  o.matrix.row[2] = axis;
+  for (const Real3& p : b.points) {
+    const Real3 x = p - centre;
+    const Real z = dot(axis, x);
+    o.points.push_back({z, norm(x - z * axis), 0});
+  }
+  return o;
+}
+
+void add_sweep(Body& b, const Real3& sweep, Real sweep_error) {
+  b.sweep = sweep;
+  b.is_swept = true;
+  b.extent += 2 * largest(sweep);
+  b.error += 2 * sweep_error + 8 * unit * b.extent;
+}
+
+namespace {
+
+Real3 orbit_support(const Body& b, const Real3& n) {
+  const Real3& axis = b.matrix.row[2];
+  const Real along = dot(axis, n);
+  const Real3 across = n - along * axis;
+  const Real turn = norm(across);
+  const Real3* best = &b.points[0];
+  for (const Real3& p : b.points)
+    if (along * p.x + turn * p.y > along * best->x + turn * best->y) best = &p;
+  const Real3 out = turn > 0 ? (1 / turn) * across : normalized(perpendicular(axis));
+  return b.centre + best->x * axis + best->y * out;
+}
+
+}  // namespace
+
+SupportPoint support(const Body& b, const Real3& n) {
+  SupportPoint s;
+  if (b.kind == Body::Kind::orbit) {
+    s.point = orbit_support(b, n);
+  } else if (b.kind == Body::Kind::points) {
+    Real best = dot(b.points[0], n);
+    s.index = 0;
+    for (std::size_t i = 1; i < b.points.size(); ++i) {
+      const Real d = dot(b.points[i], n);
+      if (d > best) best = d, s.index = static_cast<int>(i);
+    }
+    s.point = b.points[static_cast<std::size_t>(s.index)];
+  } else {
+    s.point = b.matrix * local_support(b, transpose_times(b.matrix, n)) + b.centre;
+  }
+  if (b.is_swept && dot(b.sweep, n) > 0) {
+    s.point = s.point + b.sweep;
+    if (s.index >= 0) s.index += static_cast<int>(b.points.size());
+  }
+  return s;
+}
+
+}  // namespace touchstone::referee

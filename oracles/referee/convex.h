@@ -1,0 +1,43 @@
+// Truth of one pair of bounded convex bodies: what judge_pair, meshes (triangle by triangle) and motions are
+// made of.
+#pragma once
+
+#include <optional>
+#include <span>
+
+#include "oracles/referee/exact_pair.h"
+#include "oracles/referee/inner_polytope.h"
+
+namespace touchstone::referee {
+
+/// A bounded convex body, for the filter and, if it has one, for the exact level.
+struct Operand {
+  Body body;
+  std::optional<ExactBody> exact;
+};
+/// The shape must be convex and bounded. `origin`: the filter's numbers are relative to it.
+Operand make_operand(const Placed& p, const Vec3& origin);
+Operand make_operand(const Placed& p, const TriangleMesh& mesh, std::size_t triangle, const Vec3& origin);
+
+struct ConvexTruth {
+  Verdict verdict = Verdict::undecided;
+  Real lo = 0, hi = 0;  // of the signed gap, proven
+  Real3 normal;         // A to B, near unit
+  Real3 witness_a, witness_b;
+  Real3 common;  // overlapping: near a point of both
+  int level = 1;
+  std::optional<ExactVerdict> exact;
+  std::vector<ExactBody>
+      exact_operands;  // of a mesh's deciding triangle: the two parts that `exact` is about
+  std::optional<InnerPolytope> inner;
+  ExactPair exact_pair() const { return make_exact(exact_operands.at(0), exact_operands.at(1)); }
+};
+
+enum class Effort { verdict_only, gap };
+ConvexTruth judge_convex(const Operand& a, const Operand& b, std::span<const Real3> hints = {},
+                         Effort effort = Effort::gap);
+
+/// The width that a bracket is refined to before the referee stops, absolute.
+Real target_width(const Difference& d);
+
+}  // namespace touchstone::referee

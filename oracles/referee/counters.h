@@ -1,0 +1,20 @@
+// How often each level of the filter was needed, per thread. For measurement; no answer depends on it.
+#pragma once
+
+#include <cstdint>
+
+namespace touchstone::referee {
+
+struct Counters {
+  std::uint64_t convex_pairs = 0;  // pairs of convex parts judged
+  std::uint64_t expansions = 0;    // of them: GJK alone did not close the bracket
+  std::uint64_t exact = 0;         // of them: settled in exact arithmetic
+  std::uint64_t undecided = 0;     // of them: left undecided
+};
+
+inline Counters& counters() {
+  thread_local Counters c;
+  return c;
+}
+
+}  // namespace touchstone::referee

@@ -1,0 +1,144 @@
+// judge_pair: one pair of any two shapes, put together from convex parts.
+#include <algorithm>
+
+#include "oracles/referee/certificate.h"
+#include "oracles/referee/half_space.h"
+#include "oracles/referee/mesh.h"
+
+namespace touchstone::referee {
+namespace {
+
+const Vec3& translation_of(const Placed& p) {
+  if (const auto* pose = std::get_if<Pose>(&p.pose)) return pose->translation;
+  return std::get<Placement>(p.pose).translation;
+}
+
+template <class S>
+bool is(const Placed& p) {
+  return std::holds_alternative<S>(*p.shape);
+}
+
+PairTruth common_part(const ConvexTruth& t, const Vec3& origin) {
+  PairTruth r;
+  const Real3 o = to_real(origin);
+  r.verdict = t.verdict;
+  r.gap = {round_down(t.lo), round_up(t.hi)};
+  r.normal = to_double(t.normal);
+  r.witness = {to_double(t.witness_a + o), to_double(t.witness_b + o)};
+  r.level = t.level;
+  return r;
+}
+
+ConvexTruth mirrored(ConvexTruth t) {
+  t.normal = -t.normal;
+  std::swap(t.witness_a, t.witness_b);
+  return t;
+}
+
+PairTruth with_half_space(const Placed& a, const Placed& b) {
+  const bool first = is<HalfSpace>(a);
+  const Placed &h = first ? a : b, &other = first ? b : a;
+  const Vec3 origin = translation_of(other);
+  ConvexTruth t = is<HalfSpace>(other)
+                      ? judge_half_spaces(h, other, origin)
+                      : judge_parts_half_space(parts_of(other, origin), h, origin, is<TriangleMesh>(other));
+  const Real3 outward = t.normal;
+  if (!first) t = mirrored(t);
+  PairTruth r = common_part(t, origin);
+  Certificate& c = r.verdict_certificate;
+  if (t.verdict == Verdict::overlap) c = point_certificate(t.common, origin);
+  if (t.verdict == Verdict::disjoint) {
+    c.kind = Certificate::Kind::separating_plane;
+    c.direction = r.normal;
+    c.offset = static_cast<double>((first ? 1 : -1) *
+                                   dot(outward, 0.5L * (t.witness_a + t.witness_b) + to_real(origin)));
+    c.note = "plane of the half-space moved half-way to the body, rounded; exact form: checkable_certificate";
+  }
+  if (t.verdict == Verdict::overlap && std::isfinite(r.gap.hi)) {
+    r.lower_depth.kind = Certificate::Kind::closed_form;
+    r.lower_depth.note = "depth is one support value along the half-space's normal";
+  }
+  return r;
+}
+
+PairTruth convex_pair(const Placed& a, const Placed& b, std::span<const Vec3> hints) {
+  const Vec3 origin = translation_of(a);
+  const Operand x = make_operand(a, origin), y = make_operand(b, origin);
+  std::vector<Real3> directions;
+  for (const Vec3& n : hints)
+    if (n.allFinite() && !n.isZero(0)) directions.push_back(normalized(to_real(n)));
+  const ConvexTruth t = judge_convex(x, y, directions);
+  PairTruth r = common_part(t, origin);
+  if (t.exact) {
+    r.verdict_certificate = exact_certificate(make_exact(*x.exact, *y.exact), *t.exact);
+  } else if (t.verdict == Verdict::disjoint) {
+    r.verdict_certificate = plane_certificate(Difference(x.body, y.body), t.normal, origin);
+  } else if (t.verdict == Verdict::overlap) {
+    r.verdict_certificate = point_certificate(t.common, origin);
+    if (!x.exact || !y.exact)
+      r.verdict_certificate.note = "rounded; proven by the inner polytope, which holds the origin";
+  }
+  if (t.verdict == Verdict::overlap) {
+    if (t.inner) {
+      r.lower_depth = inner_certificate(*t.inner, origin);
+    } else {
+      r.lower_depth.kind = Certificate::Kind::closed_form;
+      r.lower_depth.note = "radii minus the distance of the cores, or a flat pair of depth 0";
+    }
+  }
+  return r;
+}
+
+bool is_finite_point(const Vec3& p) { return p.allFinite(); }
+
+// An engine's contact point that lies in both bodies is better evidence than our own rounded one; only
+// offered, never needed: it is taken when the checker's arithmetic accepts it.
+void offer_points(PairTruth& r, const Placed& a, const Placed& b, std::span<const Vec3> points) {
+  if (r.verdict != Verdict::overlap || r.verdict_certificate.kind != Certificate::Kind::common_point) return;
+  for (const Vec3& p : points) {
+    if (!is_finite_point(p)) continue;
+    if (distance_to(a, p).hi == 0 && distance_to(b, p).hi == 0) {
+      r.verdict_certificate.point = p;
+      r.verdict_certificate.rationals.clear();
+      return;
+    }
+  }
+}
+
+}  // namespace
+
+std::string_view to_string(Verdict v) {
+  switch (v) {
+    case Verdict::disjoint:
+      return "disjoint";
+    case Verdict::overlap:
+      return "overlap";
+    case Verdict::undecided:
+      break;
+  }
+  return "undecided";
+}
+
+PairTruth judge_pair(const Placed& a, const Placed& b, std::span<const Vec3> hint_directions,
+                     std::span<const Vec3> hint_points) {
+  if (is<HalfSpace>(a) || is<HalfSpace>(b)) return with_half_space(a, b);
+  if (is<TriangleMesh>(a) || is<TriangleMesh>(b)) {
+    const Vec3 origin = translation_of(is<TriangleMesh>(a) ? b : a);
+    const ConvexTruth t = judge_parts(parts_of(a, origin), parts_of(b, origin), true);
+    PairTruth r = common_part(t, origin);
+    if (t.verdict == Verdict::overlap) {
+      if (t.exact) {
+        r.verdict_certificate = exact_certificate(t.exact_pair(), *t.exact);
+      } else {
+        r.verdict_certificate = point_certificate(t.common, origin);
+      }
+    }
+    r.verdict_certificate.note = "judged triangle by triangle";
+    return r;
+  }
+  PairTruth r = convex_pair(a, b, hint_directions);
+  offer_points(r, a, b, hint_points);
+  return r;
+}
+
+}  // namespace touchstone::referee

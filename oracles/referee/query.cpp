@@ -1,0 +1,126 @@
+// width, distance_to, outer_box: support values with their error bounds.
+#include <algorithm>
+
+#include "oracles/referee/box_of.h"
+#include "oracles/referee/half_space.h"
+#include "oracles/referee/mesh.h"
+#include "oracles/referee/world.h"
+
+namespace touchstone::referee {
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+template <class S>
+const S* get(const Placed& p) {
+  return std::get_if<S>(p.shape);
+}
+
+Vec3 translation_of(const Placed& p) {
+  return std::visit([](const auto& x) -> Vec3 { return x.translation; }, p.pose);
+}
+
+/// A mesh stands for the hull of its vertices, which has the same support function.
+Body hull_body(const Placed& p, const Vec3& origin) {
+  if (const auto* m = get<TriangleMesh>(p)) return make_body(m->vertices, 0, frame_of(p, origin));
+  return make_body(p, frame_of(p, origin));
+}
+
+Bracket outward(Real lo, Real hi) { return {round_down(lo), round_up(hi)}; }
+
+// depth/cos: B leaves the half-space A by moving depth/cos(n, m) along n. m carries its error into the
+// cosine.
+Bracket half_space_width(const Placed& a, const Placed& b, const Vec3& n, bool a_is_half_space) {
+  const Vec3 origin = translation_of(a_is_half_space ? b : a);
+  const Placed &h = a_is_half_space ? a : b, &other = a_is_half_space ? b : a;
+  if (get<HalfSpace>(other)) {
+    const ConvexTruth t = judge_half_spaces(h, other, origin);
+    if (!std::isfinite(static_cast<double>(t.lo))) return {infinity, infinity};
+    const Real3 u = normalized(to_real(n));
+    const Real c = dot(u, a_is_half_space ? t.normal : -t.normal);
+    if (!(c > 0)) return {infinity, infinity};
+    const Real w = -0.5L * (t.lo + t.hi), slack = t.hi - t.lo + std::fabs(w) * 64 * unit;
+    return outward((w - slack) / c, (w + slack) / c);
+  }
+  ConvexTruth t;
+  if (get<TriangleMesh>(other)) {
+    Operand hull{hull_body(other, origin), std::nullopt};
+    t = judge_half_space(h, hull, origin);
+  } else {
+    t = judge_half_space(h, Operand{hull_body(other, origin), std::nullopt}, origin);
+  }
+  const Real3 m = a_is_half_space ? t.normal : -t.normal;
+  const Real3 u = normalized(to_real(n));
+  const Real c = dot(u, m), c_error = 64 * unit;  // both within 16 units of the exact unit vectors for a Pose
+  if (!(c > c_error)) return {c < -c_error ? infinity : -infinity, infinity};
+  const auto over = [&](Real x, bool down) {
+    const Real q = x / ((x > 0) == down ? c + c_error : c - c_error);
+    return down ? q - 4 * unit * std::fabs(q) : q + 4 * unit * std::fabs(q);
+  };
+  return outward(over(-t.hi, true), over(-t.lo, false));
+}
+
+Bracket half_space_distance(const Placed& a, const Vec3& point) {
+  static const Shape dot_shape = Sphere{0};
+  const Placed p{&dot_shape, Pose{point, {}}};
+  const ConvexTruth t = judge_half_space(a, make_operand(p, point), point);
+  if (t.verdict == Verdict::overlap) return {0, 0};
+  return {std::max(0.0, round_down(t.lo)), std::max(0.0, round_up(t.hi))};
+}
+
+}  // namespace
+
+Aabb box_of(const Body& b) {
+  Aabb box;
+  for (int k = 0; k < 3; ++k) {
+    const Real3 n{k == 0 ? 1.0L : 0.0L, k == 1 ? 1.0L : 0.0L, k == 2 ? 1.0L : 0.0L};
+    const Real slack = b.error + b.radius + 4 * unit * (b.extent + b.radius);
+    box.hi[k] = round_up(dot(n, support(b, n).point) + slack);
+    box.lo[k] = round_down(dot(n, support(b, -n).point) - slack);
+  }
+  return box;
+}
+
+Bracket width(const Placed& a, const Placed& b, const Vec3& n) {
+  if (get<HalfSpace>(a) || get<HalfSpace>(b)) return half_space_width(a, b, n, get<HalfSpace>(a) != nullptr);
+  const Vec3 origin = translation_of(a);
+  const Body x = hull_body(a, origin), y = hull_body(b, origin);
+  const Difference d(x, y);
+  const Real3 u = normalized(to_real(n));
+  const Real above = d.width_above(d.support(u), u),
+             slack = 2 * (d.error + 8 * unit * d.extent) + d.radius_error;
+  return outward(above + d.radius - slack - 4 * unit * std::fabs(above),
+                 above + d.radius + d.radius_error + 4 * unit * std::fabs(above));
+}
+
+Bracket distance_to(const Placed& a, const Vec3& point_w) {
+  if (get<HalfSpace>(a)) return half_space_distance(a, point_w);
+  static const Shape dot_shape = Sphere{0};
+  const Placed p{&dot_shape, Pose{point_w, {}}};
+  const ConvexTruth t =
+      judge_parts(parts_of(a, point_w), parts_of(p, point_w), get<TriangleMesh>(a) != nullptr);
+  if (t.verdict == Verdict::overlap) return {0, 0};
+  return {std::max(0.0, round_down(t.lo)), std::max(0.0, round_up(t.hi))};
+}
+
+Aabb outer_box(const Placed& a) {
+  if (get<HalfSpace>(a)) {
+    // A half-space is unbounded along every axis but its own, and that only when its normal is exactly an
+    // axis.
+    Aabb box{Vec3::Constant(-infinity), Vec3::Constant(infinity)};
+    const RationalPlane p = world_plane(a);
+    for (int k = 0; k < 3; ++k) {
+      if (p.normal[k] == 0 || p.normal[(k + 1) % 3] != 0 || p.normal[(k + 2) % 3] != 0) continue;
+      const Rational bound = p.offset / p.normal[k];
+      const double nearest = bound.convert_to<double>();
+      if (p.normal[k] > 0)
+        box.hi[k] = exact(nearest) < bound ? std::nextafter(nearest, infinity) : nearest;
+      else
+        box.lo[k] = exact(nearest) > bound ? std::nextafter(nearest, -infinity) : nearest;
+    }
+    return box;
+  }
+  return box_of(hull_body(a, Vec3::Zero()));
+}
+
+}  // namespace touchstone::referee

@@ -1,0 +1,80 @@
+#include "oracles/referee/rational.h"
+
+#include <algorithm>
+#include <array>
+
+#include "core/base/input_error.h"
+#include "oracles/referee/exact_sign.h"
+
+namespace touchstone::referee {
+namespace {
+
+// The three coordinates as integers in units of 2^exponent.
+Integer3 on_grid(const Real3& v, int exponent) {
+  const auto one = [&](Real x) -> Integer {
+    if (x == 0) return 0;
+    int e = 0;
+    const Real m = std::frexp(x, &e);
+    const auto top = static_cast<long long>(std::ldexp(m, 32));
+    const auto rest = static_cast<long long>(std::ldexp(std::ldexp(m, 32) - static_cast<Real>(top), 32));
+    return shifted((Integer(top) << 32) + rest, e - 64 - exponent);
+  };
+  return {one(v.x), one(v.y), one(v.z)};
+}
+
+int least_exponent(const Real3& v) {
+  int least = 0;
+  bool any = false;
+  for (int i = 0; i < 3; ++i) {
+    if (v[i] == 0) continue;
+    int e = 0;
+    std::frexp(v[i], &e);
+    least = any ? std::min(least, e) : e;
+    any = true;
+  }
+  return least - 64;
+}
+
+}  // namespace
+
+Parts parts_of(double x) {
+  if (x == 0) return {};
+  int e = 0;
+  const double m = std::frexp(x, &e);
+  return {static_cast<long long>(std::ldexp(m, 53)), e - 53};
+}
+
+Integer shifted(Integer x, int bits) {
+  x <<= static_cast<unsigned>(bits);
+  return x;
+}
+
+Rational exact(double x) {
+  const Parts p = parts_of(x);
+  if (p.exponent >= 0) return Rational(shifted(Integer(p.mantissa), p.exponent));
+  return Rational(Integer(p.mantissa), shifted(Integer(1), -p.exponent));
+}
+
+std::string text_of(const Rational& x) { return x.str(); }
+
+Rational rational_from_text(const std::string& s) {
+  const bool plain =
+      !s.empty() && s.find_first_not_of("-0123456789/") == std::string::npos && s.back() != '/';
+  if (!plain) throw InputError("", "is not a rational number \"n/d\" (" + s + ")");
+  try {
+    return Rational(s);
+  } catch (const std::exception&) {
+    throw InputError("", "is not a rational number \"n/d\" (" + s + ")");
+  }
+}
+
+int determinant_sign(const Real3& a, const Real3& b, const Real3& c) {
+  const Real det = dot(cross(a, b), c);
+  // Nine products of three factors, each within 5 units of a term of size <= |a|∞|b|∞|c|∞, six such terms.
+  if (std::fabs(det) > 64 * unit * largest(a) * largest(b) * largest(c)) return det > 0 ? 1 : -1;
+  const Integer3 x = on_grid(a, least_exponent(a)), y = on_grid(b, least_exponent(b)),
+                 z = on_grid(c, least_exponent(c));
+  return dot(cross(x, y), z).sign();
+}
+
+}  // namespace touchstone::referee
