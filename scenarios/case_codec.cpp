@@ -1,0 +1,181 @@
+#include "scenarios/case_codec.h"
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "core/base/input_error.h"
+#include "core/scene/codec.h"
+#include "core/scene/codec_fields.h"
+#include "core/scene/input_file.h"
+#include "core/scene/json_reader.h"
+#include "core/scene/json_text.h"
+#include "scenarios/expectation_codec.h"
+
+namespace touchstone {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr std::string_view version_field = "touchstone_case";
+constexpr int version = 1;
+constexpr std::array<std::string_view, 8> case_fields{version_field, "id",    "description", "source",
+                                                      "family",      "scene", "queries",     "expect"};
+constexpr std::array<std::string_view, 3> pair_query_fields{"question", "a", "b"};
+constexpr std::array<std::string_view, 1> scene_query_fields{"question"};
+
+Json to_json(const Query& q) {
+  Json j{{"question", to_string(q.question)}};
+  if (is_pair_question(q.question)) j["a"] = q.a, j["b"] = q.b;
+  return j;
+}
+
+int read_body(const JsonReader& r, const Scene& scene) {
+  const int i = r.integer();
+  if (i < 0 || i >= static_cast<int>(scene.bodies.size()))
+    r.fail("index " + std::to_string(i) + " is no body");
+  return i;
+}
+
+Query read_query(const JsonReader& r, const Scene& scene) {
+  r.require_object();
+  const std::string name = r["question"].string();
+  const auto question = question_from_string(name);
+  if (!question) {
+    std::string list;
+    for (std::string_view n : question_names) list += (list.empty() ? "" : ", ") + std::string(n);
+    r["question"].fail("unknown question; known are " + list);
+  }
+  Query q;
+  q.question = *question;
+  if (!is_pair_question(q.question)) return r.require_object(scene_query_fields), q;
+  r.require_object(pair_query_fields);
+  q.a = read_body(r["a"], scene);
+  q.b = read_body(r["b"], scene);
+  if (q.a == q.b) r.fail("asks about one body; a and b must differ");
+  return q;
+}
+
+void read_version(const JsonReader& r) {
+  const JsonReader v = r[version_field];
+  if (v.integer() != version)
+    v.fail("version " + std::to_string(v.integer()) + " is not known; this build reads version " +
+           std::to_string(version));
+}
+
+Scene read_scene(const JsonReader& r, const std::string& place) {
+  try {
+    return scene_from_json(r.json());
+  } catch (const InputError& e) {
+    throw InputError(json_place(place, e.place().empty() ? "scene" : "scene." + e.place()), e.reason());
+  }
+}
+
+StoredCase from_scene(Scene scene) {
+  StoredCase s;
+  s.c.id = scene.name;
+  s.c.queries = default_queries(scene);
+  s.c.scene = std::move(scene);
+  return s;
+}
+
+void write_list(std::string& out, const std::string& name, const Json& items) {
+  out += ",\n \"" + name + "\": [";
+  for (std::size_t i = 0; i < items.size(); ++i) out += (i ? ",\n  " : "\n  ") + to_line(items[i]);
+  out += items.empty() ? "]" : "\n ]";
+}
+
+}  // namespace
+
+std::vector<Query> default_queries(const Scene& scene) {
+  const bool moves = std::any_of(scene.bodies.begin(), scene.bodies.end(),
+                                 [](const Body& b) { return b.motion.has_value(); });
+  std::vector<Query> q;
+  if (scene.bodies.size() == 2) {
+    for (Question question : {Question::overlap, Question::distance, Question::contact})
+      q.push_back({question, 0, 1});
+    if (moves) q.push_back({Question::time_of_impact, 0, 1});
+    if (!scene.script.empty()) q.push_back({Question::candidates, 0, 1});
+    return q;
+  }
+  return {{Question::candidates, 0, 1}, {Question::scene_contacts, 0, 1}};
+}
+
+nlohmann::ordered_json case_to_json(const Case& c) { return stored_case_to_json({c, "", "", {}}); }
+
+nlohmann::ordered_json stored_case_to_json(const StoredCase& s) {
+  Json j{{version_field, version}};
+  if (!s.c.id.empty()) j["id"] = s.c.id;
+  if (!s.description.empty()) j["description"] = s.description;
+  if (!s.source.empty()) j["source"] = s.source;
+  if (!s.c.family.empty()) j["family"] = s.c.family;
+  j["scene"] = touchstone::to_json(s.c.scene);
+  j["queries"] = Json::array();
+  for (const Query& q : s.c.queries) j["queries"].push_back(to_json(q));
+  if (Json e = scenarios::to_json(s.expect); !e.empty()) j["expect"] = std::move(e);
+  return j;
+}
+
+StoredCase stored_case_from_json(const nlohmann::ordered_json& j, const std::string& place) {
+  const JsonReader r(j, place);
+  r.require_object(case_fields);
+  read_version(r);
+  StoredCase s;
+  if (r.has("id")) s.c.id = r["id"].string();
+  if (r.has("description")) s.description = r["description"].string();
+  if (r.has("source")) s.source = r["source"].string();
+  if (r.has("family")) s.c.family = r["family"].string();
+  s.c.scene = read_scene(r["scene"], place);
+  if (r.has("queries"))
+    for (const JsonReader& q : r["queries"].items()) s.c.queries.push_back(read_query(q, s.c.scene));
+  else
+    s.c.queries = default_queries(s.c.scene);
+  if (r.has("expect")) s.expect = scenarios::read_expectation(r["expect"]);
+  return s;
+}
+
+Case case_from_json(const nlohmann::ordered_json& j, const std::string& place) {
+  return stored_case_from_json(j, place).c;
+}
+
+StoredCase load_stored_case(const std::filesystem::path& file) {
+  const std::string place = file.string();
+  const Json j = parse_json(read_file(file), place);
+  const bool bare_scene = j.is_object() && j.contains(scene_fields::version_field);
+  StoredCase s = bare_scene ? from_scene(scene_from_json(j, place)) : stored_case_from_json(j, place);
+  if (s.c.id.empty()) s.c.id = file.stem().string();
+  return s;
+}
+
+Case load_case(const std::filesystem::path& file) { return load_stored_case(file).c; }
+
+std::string to_text(const StoredCase& s) {
+  const Json j = stored_case_to_json(s);
+  std::string out = "{\"touchstone_case\": " + std::to_string(version);
+  for (const char* field : {"id", "description", "source", "family"})
+    if (j.contains(field)) out += ",\n \"" + std::string(field) + "\": " + to_line(j[field]);
+  std::string scene = touchstone::to_text(s.c.scene);
+  scene.pop_back();  // its line end
+  out += ",\n\"scene\": " + scene;
+  write_list(out, "queries", j["queries"]);
+  if (j.contains("expect")) out += ",\n \"expect\": " + to_line(j["expect"]);
+  return out + "\n}\n";
+}
+
+void save_case(const StoredCase& s, const std::filesystem::path& file) { write_file(file, to_text(s)); }
+
+namespace scenarios {
+
+std::vector<StoredCase> load_corpus(const std::filesystem::path& directory) {
+  std::error_code ec;
+  std::vector<std::filesystem::path> files;
+  for (const auto& entry : std::filesystem::directory_iterator(directory, ec))
+    if (entry.path().extension() == ".json") files.push_back(entry.path());
+  if (ec) throw InputError(directory.string(), "cannot be listed: " + ec.message());
+  std::sort(files.begin(), files.end());
+  std::vector<StoredCase> all;
+  for (const auto& file : files) all.push_back(load_stored_case(file));
+  return all;
+}
+
+}  // namespace scenarios
+}  // namespace touchstone

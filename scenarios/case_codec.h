@@ -1,0 +1,47 @@
+// JSON form of a case: {"touchstone_case": 1, "id", "description", "source", "family", "scene": {…},
+// "queries": […], "expect": {…}}. Only the version and the scene are required.
+#pragma once
+
+#include <filesystem>
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+
+#include "oracles/api/observation.h"
+#include "scenarios/scenario.h"
+
+namespace touchstone {
+
+/// A case with what people and tests want to know beside it.
+struct StoredCase {
+  Case c;
+  std::string description, source;
+  scenarios::Expectation expect;
+  bool operator==(const StoredCase&) const = default;
+};
+
+/// What is asked of a scene that comes without questions. Two bodies: overlap, distance, contact of (0, 1),
+/// and time of impact when one moves; otherwise, or when there is a script, candidates; scene contacts when
+/// there are more bodies.
+std::vector<Query> default_queries(const Scene& scene);
+
+nlohmann::ordered_json case_to_json(const Case& c);
+nlohmann::ordered_json stored_case_to_json(const StoredCase& s);
+/// Throws InputError "place: JSON path: reason". Validates the scene and that each query names two different
+/// bodies.
+Case case_from_json(const nlohmann::ordered_json& j, const std::string& place = "");
+StoredCase stored_case_from_json(const nlohmann::ordered_json& j, const std::string& place = "");
+
+/// Reads a case file, or a bare scene file with default_queries. The id defaults to the file's name.
+Case load_case(const std::filesystem::path& file);
+StoredCase load_stored_case(const std::filesystem::path& file);
+
+/// Bodies, steps and queries one a line.
+std::string to_text(const StoredCase& s);
+void save_case(const StoredCase& s, const std::filesystem::path& file);
+
+namespace scenarios {
+/// All *.json of a directory, by name.
+std::vector<StoredCase> load_corpus(const std::filesystem::path& directory);
+}  // namespace scenarios
+
+}  // namespace touchstone
