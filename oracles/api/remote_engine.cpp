@@ -19,6 +19,7 @@ constexpr auto tick = std::chrono::milliseconds(10);
 constexpr std::size_t send_ahead_bytes = std::size_t{1}
                                          << 18;  // questions encoded before the worker took them
 constexpr int max_failed_starts = 3;
+constexpr double death_wait_seconds = 2;  // from the end of the answers to the end of the process
 
 /// The next observation that is due.
 struct Cursor {
@@ -242,7 +243,7 @@ class RemoteEngine::Impl {
 
   void charge_death() {
     // Its standard output may be closed while the process lives on.
-    const bool by_itself = session_->process->has_ended();
+    const bool by_itself = session_->process->ends_within(death_wait_seconds);
     const std::string how = session_->process->end();
     charge(Outcome::crashed, by_itself ? how : "closed its answers");
   }

@@ -56,6 +56,8 @@ class WorkerProcess {
 
   /// Reaps the process if it has ended by itself.
   bool has_ended();
+  /// The same, after waiting for it: a dying process closes its streams before it can be reaped.
+  bool ends_within(double seconds);
   /// Kills the process if need be, reaps it, and says how it ended: "SIGSEGV", "exit code 3", and for an
   /// abort or an exit the last line of its standard error.
   std::string end();

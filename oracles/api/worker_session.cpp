@@ -33,7 +33,8 @@ protocol::Hello await_hello(WorkerSession& s, const std::string& place, double w
       throw InputError(place, std::string("the worker's first words are no hello: ") + e.what());
     }
     if (r == ReadResult::closed)
-      throw InputError(place, "the worker died while loading it: " + s.process->end());
+      throw InputError(place,
+                       "the worker died while loading it: " + (s.process->ends_within(2), s.process->end()));
     if (std::chrono::duration<double>(Clock::now() - start).count() > wall_seconds)
       throw InputError(place, "the worker did not finish loading it in time");
     if (r == ReadResult::nothing_yet) wait_for_output(*s.process);

@@ -1,0 +1,8 @@
+/* Dies while it is loaded, as a library with a failing static initialiser does. */
+#include <stdio.h>
+#include <stdlib.h>
+
+__attribute__((constructor)) static void die(void) {
+  fputs("bad: cannot live here\n", stderr);
+  abort();
+}

@@ -1,0 +1,41 @@
+#include "core/base/input_error.h"
+#include "oracles/api/engine.h"
+#include "tests/support/catch.h"
+
+using namespace touchstone;
+
+namespace {
+
+std::string error_of(const std::string& text) {
+  try {
+    card_from_json(text);
+  } catch (const InputError& e) {
+    return e.what();
+  }
+  return "";
+}
+
+EngineCard example() { return {"a \"b\"", "lib\\1", "1.2", "line\nbreak", 0x1p-24, 256, "page 7"}; }
+
+}  // namespace
+
+TEST_CASE("a card survives its JSON text exactly", "[oracles][card]") {
+  CHECK(card_from_json(to_json_text(example())) == example());
+}
+
+TEST_CASE("a bad card names the field and the reason", "[oracles][card][bad-input]") {
+  CHECK(error_of("{").find("not JSON") != std::string::npos);
+  CHECK(error_of("[]").find("not a JSON object") != std::string::npos);
+  const std::string good = to_json_text(example());
+  const auto with = [&](const std::string& from, const std::string& to) {
+    std::string s = good;
+    s.replace(s.find(from), from.size(), to);
+    return error_of(s);
+  };
+  CHECK(with("\"version\"", "\"versoin\"") == "versoin: is no field of an engine card");
+  CHECK(with("\"version\":\"1.2\",", "") == "version: is missing from the engine card");
+  CHECK(with("\"1.2\"", "12") == "version: is not a text");
+  CHECK(with("256.0", "\"many\"") == "tau_factor: is not a number");
+  CHECK(with("256.0", "-1") == "tau_factor: is not a positive finite number");
+  CHECK(with("256.0", "1e999").find("not JSON") != std::string::npos);
+}

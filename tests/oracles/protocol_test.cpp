@@ -1,0 +1,284 @@
+#include "oracles/api/protocol.h"
+
+#include <cmath>
+#include <limits>
+#include <optional>
+
+#include "core/base/hash.h"
+#include "core/base/rng.h"
+#include "core/scene/scene.h"
+#include "tests/support/catch.h"
+
+using namespace touchstone;
+using namespace touchstone::protocol;
+
+namespace {
+
+Vec3 any_vector(Rng& rng) {
+  const auto x = [&] {
+    return rng.chance(0.1) ? -0.0 : std::ldexp(rng.uniform(-1, 1), static_cast<int>(rng.below(80)) - 40);
+  };
+  return {x(), x(), x()};
+}
+
+std::vector<Vec3> any_points(Rng& rng, std::size_t n) {
+  std::vector<Vec3> v(n);
+  for (Vec3& p : v) p = rng.unit_vector();
+  return v;
+}
+
+Shape any_shape(Rng& rng) {
+  const double a = rng.uniform(0.1, 2), b = rng.uniform(0.1, 2);
+  switch (rng.below(9)) {
+    case 0:
+      return Sphere{a};
+    case 1:
+      return Box{Vec3(a, b, a)};
+    case 2:
+      return Capsule{a, b};
+    case 3:
+      return Cylinder{a, b};
+    case 4:
+      return Cone{a, b};
+    case 5:
+      return Ellipsoid{Vec3(a, b, b)};
+    case 6:
+      return make_hull(any_points(rng, 4 + rng.below(10)));
+    case 7:
+      return HalfSpace{any_vector(rng), a};
+    default:
+      return TriangleMesh{any_points(rng, 4), {{0, 1, 2}, {1, 2, 3}}};
+  }
+}
+
+Scene any_scene(Rng& rng) {
+  Scene s;
+  const std::size_t shapes = 1 + rng.below(3), bodies = 2 + rng.below(4);
+  for (std::size_t i = 0; i < shapes; ++i) s.shapes.push_back(any_shape(rng));
+  for (std::size_t i = 0; i < bodies; ++i) {
+    Body b;
+    b.shape = static_cast<int>(rng.below(shapes));
+    b.pose = {any_vector(rng), rng.rotation()};
+    if (rng.chance(0.5)) b.motion = Motion{any_vector(rng), any_vector(rng)};
+    b.is_static = rng.chance(0.5);
+    b.group = static_cast<int>(rng.below(3)) - 1;
+    s.bodies.push_back(b);
+  }
+  if (rng.chance(0.5)) s.ignored = {{0, 1}};
+  if (rng.chance(0.5)) {
+    s.script = {
+        {Step::Op::insert, 0, std::nullopt}, {Step::Op::insert, 1, Pose{any_vector(rng), rng.rotation()}},
+        {Step::Op::query, -1, std::nullopt}, {Step::Op::move, 1, Pose{}},
+        {Step::Op::remove, 0, std::nullopt}, {Step::Op::query, -1, std::nullopt}};
+  }
+  return s;
+}
+
+Observation any_observation(Rng& rng) {
+  Observation o;
+  o.outcome = static_cast<Outcome>(rng.below(7));
+  o.detail = std::string(rng.below(40), 'd');
+  const auto maybe = [&](auto& field, auto value) {
+    if (rng.chance(0.5)) field = value;
+  };
+  maybe(o.overlap, rng.chance(0.5));
+  maybe(o.distance, rng.uniform(-1, 1));
+  maybe(o.witness, std::array<Vec3, 2>{any_vector(rng), any_vector(rng)});
+  maybe(o.normal, any_vector(rng));
+  maybe(o.depth, std::numeric_limits<double>::infinity());
+  maybe(o.toi, rng.uniform());
+  for (std::size_t i = rng.below(3); i > 0; --i) o.manifold.push_back({any_vector(rng), rng.uniform()});
+  for (std::size_t i = rng.below(3); i > 0; --i) o.candidate_pairs.push_back({{0, 1}, {2, 7}});
+  for (std::size_t i = rng.below(3); i > 0; --i) o.contacts.push_back({0, 1, any_vector(rng), rng.uniform()});
+  o.claimed_tolerance = rng.uniform();
+  o.elapsed_ns = static_cast<std::int64_t>(rng.below(1000000));
+  return o;
+}
+
+std::vector<Query> any_queries(Rng& rng) {
+  std::vector<Query> q;
+  for (std::size_t i = rng.below(5); i > 0; --i)
+    q.push_back({static_cast<Question>(rng.below(6)), static_cast<int>(rng.below(5)),
+                 static_cast<int>(rng.below(5))});
+  return q;
+}
+
+/// The payload of the only frame in `bytes`.
+std::string payload_of(const std::string& bytes, Type type) {
+  FrameReader frames;
+  frames.append(bytes.data(), bytes.size());
+  const auto frame = frames.next();
+  REQUIRE(frame);
+  REQUIRE(frame->type == type);
+  return std::string(frame->payload);
+}
+
+/// Reads everything there is; the number of frames, or nothing when the stream is malformed. Decodes each
+/// payload.
+std::optional<int> consume(const std::string& bytes, const Scene& scene) {
+  try {
+    FrameReader frames;
+    frames.append(bytes.data(), bytes.size());
+    int n = 0;
+    for (; const auto f = frames.next(); ++n) {
+      if (f->type == Type::hello) decode_hello(f->payload);
+      if (f->type == Type::question) decode_question(f->payload);
+      if (f->type == Type::received) decode_received(f->payload, scene);
+      if (f->type == Type::answer) decode_answer(f->payload);
+    }
+    return n;
+  } catch (const Malformed&) {
+    return std::nullopt;
+  }
+}
+
+ReceivedScene any_received(Rng& rng, const Scene& scene) {
+  ReceivedScene r;
+  for (const Shape& s : scene.shapes) r.shapes.push_back(rng.chance(0.5) ? std::optional(s) : std::nullopt);
+  for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
+    std::optional<Placement> p;
+    if (rng.chance(0.7)) p = Placement{rotation_matrix(rng.rotation()), any_vector(rng)};
+    r.bodies.push_back(p);
+  }
+  return r;
+}
+
+}  // namespace
+
+TEST_CASE("questions keep every number, face and step of their scene", "[oracles][protocol]") {
+  Rng rng(1);
+  int hulls = 0;
+  for (int i = 0; i < 2000; ++i) {
+    const Scene scene = any_scene(rng);
+    const auto queries = any_queries(rng);
+    std::string bytes;
+    append(bytes, QuestionRef{77, 3, scene, queries});
+    const QuestionMessage m = decode_question(payload_of(bytes, Type::question));
+    Scene explicit_scene = scene;
+    explicit_scene.script = effective_script(scene);
+    REQUIRE(m.scene == explicit_scene);
+    REQUIRE(hash(m.scene) == hash(explicit_scene));
+    REQUIRE((m.queries == queries && m.sequence == 77 && m.first_query == 3));
+    for (std::size_t k = 0; k < scene.shapes.size(); ++k)
+      if (const auto* h = std::get_if<Hull>(&scene.shapes[k])) {
+        const Hull& got = std::get<Hull>(m.scene.shapes[k]);
+        REQUIRE((got.faces == h->faces && got.dimension == h->dimension));
+        ++hulls;
+      }
+  }
+  CHECK(hulls > 200);
+}
+
+TEST_CASE("answers, received scenes and hellos round-trip", "[oracles][protocol]") {
+  Rng rng(2);
+  for (int i = 0; i < 2000; ++i) {
+    const Observation o = any_observation(rng);
+    std::string bytes;
+    append(bytes, AnswerMessage{5, 6, o});
+    const AnswerMessage a = decode_answer(payload_of(bytes, Type::answer));
+    REQUIRE(
+        (a.observation == o && a.observation.elapsed_ns == o.elapsed_ns && a.sequence == 5 && a.query == 6));
+    const Scene scene = any_scene(rng);
+    const ReceivedScene received = any_received(rng, scene);
+    bytes.clear();
+    append(bytes, ReceivedMessage{9, received});
+    REQUIRE(decode_received(payload_of(bytes, Type::received), scene).scene == received);
+  }
+  const Hello hello{{"{}", "two"}, 1, "error"};
+  std::string bytes;
+  append(bytes, hello);
+  CHECK(decode_hello(payload_of(bytes, Type::hello)) == hello);
+}
+
+TEST_CASE("frames may arrive in pieces of any size", "[oracles][protocol]") {
+  Rng rng(3);
+  std::string bytes;
+  for (std::uint32_t i = 0; i < 200; ++i) append(bytes, AnswerMessage{1, i, any_observation(rng)});
+  FrameReader frames;
+  std::uint32_t next = 0;
+  for (std::size_t at = 0; at < bytes.size();) {
+    const std::size_t n = std::min<std::size_t>(1 + rng.below(300), bytes.size() - at);
+    frames.append(bytes.data() + at, n);
+    at += n;
+    while (const auto f = frames.next()) REQUIRE(decode_answer(f->payload).query == next++);
+  }
+  CHECK(next == 200);
+}
+
+TEST_CASE("damaged messages are malformed or other messages, never anything worse",
+          "[oracles][protocol][fuzz]") {
+  Rng rng(4);
+  int malformed = 0, accepted = 0;
+  for (int i = 0; i < 30000; ++i) {
+    const Scene scene = any_scene(rng);
+    std::string bytes;
+    switch (rng.below(4)) {
+      case 0:
+        append(bytes, Hello{{"{}", "x"}, 0, ""});
+        break;
+      case 1:
+        append(bytes, QuestionRef{1, 0, scene, any_queries(rng)});
+        break;
+      case 2:
+        append(bytes, ReceivedMessage{1, any_received(rng, scene)});
+        break;
+      default:
+        append(bytes, AnswerMessage{1, 0, any_observation(rng)});
+        break;
+    }
+    const std::size_t header = rng.chance(0.2) ? 0 : 16;
+    for (std::uint64_t flips = 1 + rng.below(2); flips > 0; --flips) {
+      // Lengths and tags sit among many more bytes of doubles: aim at small bytes, where they are.
+      std::size_t at = header + rng.below(bytes.size() - header);
+      for (int tries = 0; tries < 3 && static_cast<unsigned char>(bytes[at]) > 16; ++tries)
+        at = header + rng.below(bytes.size() - header);
+      bytes[at] = static_cast<char>(rng.chance(0.5) ? 0xff : rng.next());
+    }
+    consume(bytes, scene) ? ++accepted : ++malformed;
+  }
+  INFO("malformed " << malformed << ", accepted " << accepted);
+  CHECK(malformed > 9000);
+  CHECK(accepted > 9000);
+}
+
+TEST_CASE("a message cut short is never a message", "[oracles][protocol]") {
+  Rng rng(5);
+  int cut = 0;
+  for (int i = 0; i < 60; ++i) {
+    const Scene scene = any_scene(rng);
+    std::string bytes;
+    append(bytes, QuestionRef{1, 0, scene, any_queries(rng)});
+    const std::string payload = payload_of(bytes, Type::question);
+    for (std::size_t n = 0; n < payload.size(); n += 1 + rng.below(7), ++cut)
+      REQUIRE_THROWS_AS(decode_question(std::string_view(payload).substr(0, n)), Malformed);
+    REQUIRE_THROWS_AS(decode_question(payload + "x"), Malformed);
+  }
+  CHECK(cut > 2000);
+}
+
+TEST_CASE("pure noise is refused at its first bytes", "[oracles][protocol][fuzz]") {
+  Rng rng(6);
+  for (int i = 0; i < 5000; ++i) {
+    std::string noise(1 + rng.below(100), ' ');
+    for (char& c : noise) c = static_cast<char>(rng.next());
+    if (noise[0] == 'T') continue;
+    REQUIRE_FALSE(consume(noise, Scene{}));
+  }
+}
+
+TEST_CASE("an announced length allocates nothing", "[oracles][protocol]") {
+  std::string bytes;
+  append(bytes, AnswerMessage{1, 0, Observation{}});
+  const std::uint32_t most = max_payload_bytes, more = max_payload_bytes + 1;
+  FrameReader waits, refuses;
+  std::memcpy(bytes.data() + 8, &most, sizeof most);
+  waits.append(bytes.data(), bytes.size());
+  CHECK_FALSE(waits.next());
+  std::memcpy(bytes.data() + 8, &more, sizeof more);
+  refuses.append(bytes.data(), bytes.size());
+  CHECK_THROWS_AS(refuses.next(), Malformed);
+  // A list length inside a payload.
+  std::string payload;
+  Writer(payload).count(0xffffffff);
+  CHECK_THROWS_AS(decode_hello(payload), Malformed);
+}

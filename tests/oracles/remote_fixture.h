@@ -1,0 +1,59 @@
+// Cases for the misbehaving plug-ins, and where things are.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "oracles/api/remote_engine.h"
+
+namespace touchstone::testing {
+
+inline std::filesystem::path host_path() {
+  return std::filesystem::path(TS_BINARY_DIR) / "bin/touchstone-host";
+}
+inline std::filesystem::path plugin_path(const std::string& target) {
+  return std::filesystem::path(TS_BINARY_DIR) / ("lib/lib" + target + ".so");
+}
+
+/// Limits that keep the tests short; what they stop has no natural end.
+inline WorkerLimits short_limits() {
+  WorkerLimits l;
+  l.query_cpu_seconds = 0.3;
+  l.load_cpu_seconds = 0.3;
+  l.wall_seconds = 1;
+  l.resident_bytes = std::uint64_t{512} << 20;
+  return l;
+}
+
+inline RemoteSpec bad_spec(const std::string& engine) {
+  return {host_path(), plugin_path("ts_bad_behaviours"), engine, short_limits()};
+}
+
+/// Three spheres, asked for all pairs; the pair (0, 2) of a triggered case is the one that goes wrong.
+inline Case make_case(int index, bool triggered) {
+  Case c;
+  c.id = "bad/" + std::to_string(index);
+  c.scene.shapes = {Sphere{1}};
+  for (int i = 0; i < 3; ++i) {
+    Body b;
+    b.pose.translation = Vec3(triggered && i == 0 ? 666 : i, index, 0);
+    c.scene.bodies.push_back(b);
+  }
+  c.queries = {{Question::overlap, 0, 1}, {Question::overlap, 0, 2}, {Question::distance, 1, 2}};
+  return c;
+}
+
+inline std::vector<Case> make_cases(int n, int triggered) {
+  std::vector<Case> cases;
+  for (int i = 0; i < n; ++i) cases.push_back(make_case(i, i == triggered));
+  return cases;
+}
+
+/// True when the answer is the one that a well-behaved query of case `index` gets.
+inline bool is_good(const Observation& o, int index, const Query& q) {
+  return o.outcome == Outcome::answered && o.overlap == ((q.a + q.b) % 2 != 0) &&
+         o.distance == q.a + 10 * q.b + index;
+}
+
+}  // namespace touchstone::testing
