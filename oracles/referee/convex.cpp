@@ -32,6 +32,20 @@ void take_witness(ConvexTruth& t, const Difference& d, const Simplex& s) {
   t.witness_b = t.witness_b - static_cast<Real>(d.b.radius) * t.normal;
 }
 
+// A stall of rounded signs is met once more with exact ones.
+EpaResult grow(const Difference& d, const GjkResult& g, Real target) {
+  const int cap =
+      is_curved(d.a) || is_curved(d.b) ? tolerance::referee_curved_facet_cap : tolerance::referee_facet_cap;
+  EpaResult e = expand(d, g.simplex, target, cap, Orientation::rounded);
+  const Real lo = std::max(e.gap.lo, g.gap.lo), hi = std::min(e.gap.hi, g.gap.hi);
+  if (e.exit == EpaResult::Exit::flat || hi - lo <= 8 * target) return e;
+  ++counters().exact_expansions;
+  EpaResult f = expand(d, g.simplex, target, cap, Orientation::exact);
+  f.gap.raise(e.gap.lo, e.gap.direction);
+  if (e.gap.hi < f.gap.hi) f.gap.hi = e.gap.hi, f.nearest = e.nearest, f.polytope = std::move(e.polytope);
+  return f;
+}
+
 void settle_exactly(ConvexTruth& t, const Operand& a, const Operand& b, const Simplex& s) {
   std::vector<IndexPair> seed;
   for (int i = 0; i < s.size; ++i) {
@@ -90,8 +104,7 @@ ConvexTruth judge_convex(const Operand& a, const Operand& b, std::span<const Rea
   if (gap.hi - gap.lo > target && !verdict_suffices) {
     ++counters().expansions;
     const bool curved = is_curved(a.body) || is_curved(b.body);
-    EpaResult e = expand(d, g.simplex, target,
-                         curved ? tolerance::referee_curved_facet_cap : tolerance::referee_facet_cap);
+    EpaResult e = grow(d, g, target);
     gap.raise(e.gap.lo, e.gap.direction);
     if (e.gap.hi < gap.hi) gap.hi = e.gap.hi, nearest = e.nearest;
     if (curved && gap.hi - gap.lo > target) {

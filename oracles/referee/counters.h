@@ -6,10 +6,11 @@
 namespace touchstone::referee {
 
 struct Counters {
-  std::uint64_t convex_pairs = 0;  // pairs of convex parts judged
-  std::uint64_t expansions = 0;    // of them: GJK alone did not close the bracket
-  std::uint64_t exact = 0;         // of them: settled in exact arithmetic
-  std::uint64_t undecided = 0;     // of them: left undecided
+  std::uint64_t convex_pairs = 0;      // pairs of convex parts judged
+  std::uint64_t expansions = 0;        // of them: GJK alone did not close the bracket
+  std::uint64_t exact_expansions = 0;  // of them: rounded signs did not close it either
+  std::uint64_t exact = 0;             // of them: settled in exact arithmetic
+  std::uint64_t undecided = 0;         // of them: left undecided
 };
 
 inline Counters& counters() {

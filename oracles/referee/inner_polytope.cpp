@@ -36,17 +36,17 @@ struct Reach {
 };
 
 // How far the triangle stays from the origin: along its plane's normal, or, where the origin's foot is
-// outside of the triangle or the normal is a sliver's, along the nearest point. Origin behind the plane:
-// negative, along the normal.
+// outside of the triangle or the normal is a sliver's and not to be trusted, along the nearest point of its
+// border. A triangle that has the origin clearly behind it is measured along its normal only, negative, so
+// that it is the first to grow.
+constexpr Real behind = -0x1p-40L;  // of det/(|p||q||r|); far above its rounding, 2^-58
+
 Reach reach_of(const Real3& p, const Real3& q, const Real3& r) {
   const Real3 n = cross(q - p, r - p);
-  const bool in_front = dot(cross(p, q), r) >= 0;
-  const bool has_normal = largest(n) > 0;
   Reach best{-std::numeric_limits<Real>::infinity(), n};
-  if (has_normal) {
+  if (largest(n) > 0) {
     best.value = least_along(n, p, q, r);
-    if (!in_front) return best;
-    if (dot(cross(q, r), n) >= 0 && dot(cross(r, p), n) >= 0 && dot(cross(p, q), n) >= 0) return best;
+    if (dot(cross(p, q), r) < behind * norm(p) * norm(q) * norm(r)) return best;
   }
   const Real3 c = nearest_on_border(p, q, r);
   if (!(largest(c) > 0)) return best;
@@ -69,7 +69,8 @@ struct HorizonEdge {
 
 class Epa {
  public:
-  Epa(const Difference& d, Real target, int facet_cap) : d_(d), target_(target), cap_(facet_cap) {}
+  Epa(const Difference& d, Real target, int facet_cap, Orientation orientation)
+      : d_(d), target_(target), cap_(facet_cap), orientation_(orientation) {}
 
   EpaResult run(const Simplex& seed) {
     if (const auto t = tetrahedron(seed)) {
@@ -180,11 +181,13 @@ class Epa {
   bool insert(int f, const Vertex& p) {
     for (const Vertex& v : r_.polytope.vertices)
       if (v.w.x == p.w.x && v.w.y == p.w.y && v.w.z == p.w.z) return false;
-    visible_.assign(1, f);
+    const auto first = first_visible(f, p.w);
+    if (!first) return false;
+    visible_.assign(1, *first);
     horizon_.clear();
     ++stamp_;
     mark_.resize(facets_.size(), 0);
-    mark_[at(f)] = stamp_;
+    mark_[at(*first)] = stamp_;
     for (std::size_t k = 0; k < visible_.size(); ++k) look_around(visible_[k], p.w);
     first_.resize(r_.polytope.vertices.size() + 1, -1);
     bool simple = true;
@@ -199,12 +202,26 @@ class Epa {
     return simple;
   }
 
+  bool sees(const Facet& f, const Real3& p) const {
+    if (orientation_ == Orientation::rounded) return dot(f.normal, p) - f.offset > 8 * unit * d_.extent;
+    return orientation_sign(w(f.v[0]), w(f.v[1]), w(f.v[2]), p) > 0;
+  }
+
+  // The facet that asked; with exact signs the plane of a sliver may turn out to have the new point behind
+  // it.
+  std::optional<int> first_visible(int f, const Real3& p) const {
+    if (orientation_ == Orientation::rounded || sees(facets_[at(f)], p)) return f;
+    for (std::size_t g = 0; g < facets_.size(); ++g)
+      if (facets_[g].live && sees(facets_[g], p)) return static_cast<int>(g);
+    return std::nullopt;
+  }
+
   void look_around(int f, const Real3& p) {
     for (int i = 0; i < 3; ++i) {
       const int g = facets_[at(f)].neighbour[at(i)];
       if (mark_[at(g)] == stamp_) continue;
       const Facet& facet = facets_[at(g)];
-      if (dot(facet.normal, p) - facet.offset > 8 * unit * d_.extent) {
+      if (sees(facet, p)) {
         mark_[at(g)] = stamp_;
         visible_.push_back(g);
         continue;
@@ -246,6 +263,7 @@ class Epa {
   const Difference& d_;
   Real target_;
   int cap_;
+  Orientation orientation_;
   EpaResult r_;
   std::vector<Facet> facets_;
   using Entry = std::pair<Real, int>;
@@ -271,22 +289,26 @@ bool is_closed(const InnerPolytope& p) {
 
 Real proven_inner_radius(const InnerPolytope& p) {
   if (!is_closed(p)) return 0;
-  Real l = std::numeric_limits<Real>::infinity();
-  bool winds = false;
+  Real l = std::numeric_limits<Real>::infinity(), turning = 0, against = 0;
   for (const auto& f : p.facets) {
     const Real3 &a = p.vertices[at(f[0])].w, &b = p.vertices[at(f[1])].w, &c = p.vertices[at(f[2])].w;
-    const int sign = determinant_sign(a, b, c);
-    if (sign < 0) return 0;
-    winds = winds || sign > 0;
     const Real size = std::fmax(largest(a), std::fmax(largest(b), largest(c)));
     // A dot product, a norm and a division: within 8 units of the largest |v_i| <= 2·size.
-    l = std::fmin(l, reach_of(a, b, c).value - 16 * unit * size);
+    const Real reach = reach_of(a, b, c).value - 16 * unit * size;
+    if (!(reach > 0)) return 0;
+    l = std::fmin(l, reach);
+    if (determinant_sign(a, b, c) >= 0) {
+      turning += std::fmax(dot(cross(a, b), c) / (4 * norm(a) * norm(b) * norm(c)) - 32 * unit, Real{0});
+    } else {
+      against += norm(cross(b - a, c - a)) / (reach * reach);
+    }
   }
-  return winds ? std::fmax(l, 0) : 0;
+  return turning > 2 * against ? l : 0;
 }
 
-EpaResult expand(const Difference& d, const Simplex& seed, Real target, int facet_cap) {
-  return Epa(d, target, facet_cap).run(seed);
+EpaResult expand(const Difference& d, const Simplex& seed, Real target, int facet_cap,
+                 Orientation orientation) {
+  return Epa(d, target, facet_cap, orientation).run(seed);
 }
 
 }  // namespace touchstone::referee

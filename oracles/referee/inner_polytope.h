@@ -3,14 +3,17 @@
 // proof that a ball about the origin lies in D.
 //
 // Proof of `depth >= l`. Let F be a list of triangles whose vertices are points of a convex set D, such that
-// (1) every directed edge is matched by its reverse, (2) det(v0,v1,v2) >= 0 for every triangle and > 0 for
-// one, (3) every triangle has distance >= l > 0 from the origin. By (1) F is a closed oriented surface (a
-// 2-cycle; it need not be convex nor free of self-intersection), by (2) the signed solid angles of its
-// triangles at the origin are >= 0 and not all 0, so its winding number about the origin, an integer, is >=
-// 1; by (3) it is the same about every point of the open ball of radius l. A point outside D has winding
-// number 0, because F can be contracted inside the convex D. So the ball is in D. The distance in (3) is
-// proven by any direction n with n·v_i >= l|n| for the triangle's three vertices. Vertices that are within e
-// of D instead of in it cost e: h_D >= h_F - e, and h_F >= l for the convex hull of F.
+// (1) every directed edge is matched by its reverse, (2) the signed solid angles of the triangles at the
+// origin have a sum > 0, (3) every triangle has distance >= l > 0 from the origin. By (1) F is a closed
+// oriented surface (a 2-cycle; it need not be convex nor free of self-intersection) and has a winding number,
+// an integer, about each point off it: about the origin it is the sum in (2) over 4π, so it is >= 1; by (3)
+// it is the same about every point of the open ball of radius l. A point outside D has winding number 0,
+// because F can be contracted inside the convex D. So the ball is in D. For (2): tan(Ω/2) = det/(abc + ...)
+// (van Oosterom and Strackee 1983) with a denominator of at most 4abc, so a triangle with det(v0,v1,v2) >= 0
+// has Ω >= det/(4abc), and one with det < 0 (a sliver that rounding has turned over) has |Ω| <=
+// area/distance². The sums are compared with a factor of 4 to spare for their rounding. The distance in (3)
+// is proven by any direction n with n·v_i >= l|n| for the triangle's three vertices. Vertices that are within
+// e of D instead of in it cost e: h_D >= h_F - e, and h_F >= l for the convex hull of F.
 #pragma once
 
 #include <array>
@@ -37,8 +40,14 @@ struct EpaResult {
   InnerPolytope polytope;
 };
 
+/// How it is decided which side of a facet a point is on. Rounded signs are fast and fail on runs of slivers
+/// (many points of a flat face with a curved border), where the surface can fold and growth stalls; exact
+/// signs keep it convex. Either way only proven_inner_radius is believed.
+enum class Orientation { rounded, exact };
+
 /// `seed`: what GJK ended with. Also works when the origin is outside D, where it sharpens gap.lo for face
 /// contacts.
-EpaResult expand(const Difference& d, const Simplex& seed, Real target, int facet_cap);
+EpaResult expand(const Difference& d, const Simplex& seed, Real target, int facet_cap,
+                 Orientation orientation);
 
 }  // namespace touchstone::referee

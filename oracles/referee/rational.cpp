@@ -77,4 +77,15 @@ int determinant_sign(const Real3& a, const Real3& b, const Real3& c) {
   return dot(cross(x, y), z).sign();
 }
 
+int orientation_sign(const Real3& a, const Real3& b, const Real3& c, const Real3& p) {
+  const Real3 u = b - a, v = c - a, w = p - a;
+  const Real det = dot(cross(u, v), w);
+  // As above; the differences add one unit of relative error to each factor.
+  if (std::fabs(det) > 96 * unit * largest(u) * largest(v) * largest(w)) return det > 0 ? 1 : -1;
+  const int e = std::min(std::min(least_exponent(a), least_exponent(b)),
+                         std::min(least_exponent(c), least_exponent(p)));
+  const Integer3 o = on_grid(a, e);
+  return dot(cross(on_grid(b, e) - o, on_grid(c, e) - o), on_grid(p, e) - o).sign();
+}
+
 }  // namespace touchstone::referee
