@@ -1,0 +1,354 @@
+// Penetration depth of two convex cores that touch or overlap: the point of the boundary of D = B − A nearest to the
+// origin. Expanding polytope (van den Bergen 2001), with these departures:
+//
+// * Exit by bounds. Every direction m that is ever tried gives an upper bound h_D(m). Lower bound: the surface is closed
+//   and consists of triangles of points of D, so every ray from the origin leaves through one of them, and the ball whose
+//   radius is the least distance of a triangle lies in D. This needs no convexity of the surface, so a facet that
+//   rounding has bent does no harm. The run is closed when the bounds meet to `tolerance`.
+// * The horizon is repaired: where the new point is nearly on the line of a horizon edge, or would fold the surface over
+//   the origin, the facet behind that edge is taken out as well; pinched or many-looped horizons are filled up.
+// * Two phases. When minima form a curve (coaxial cylinders) or a surface (concentric spheroids), no number of facets
+//   closes the lower bound. After `explore` expansions the facet with the least upper bound is refined until it meets its
+//   own plane: a local minimum to `tolerance`, certified globally only to the bound reported in `lower`.
+#pragma once
+
+#include <array>
+#include <queue>
+#include <utility>
+#include <vector>
+
+#include "core/narrow/gjk.h"
+
+namespace touchstone::narrow {
+
+enum class EpaStatus {
+  closed,  // upper − lower <= tolerance
+  flat,    // D has no interior within rounding: the depth is upper, 0 up to rounding
+  local,   // a local minimum; lower says how far it is certified to be the least
+  broken,  // the surface could not be repaired in this arithmetic
+  capped
+};
+
+struct EpaBudget {
+  int explore = 400, refine = 400;
+};
+
+template <class R>
+struct EpaResult {
+  EpaStatus status = EpaStatus::broken;
+  R upper = std::numeric_limits<R>::infinity();  // h_D(-normal): valid whatever the status
+  R lower = 0;
+  V3<R> normal = V3<R>::UnitX();  // unit, A to B: minus the outward normal of D
+  V3<R> a = V3<R>::Zero(), b = V3<R>::Zero();
+  int iterations = 0;
+};
+
+template <class R>
+class Epa {
+ public:
+  /// `size` bounds the coordinates of D; tolerances scale with it.
+  Epa(const ConvexCore<R>& a, const ConvexCore<R>& b, R size, R tolerance)
+      : a_(a), b_(b), tolerance_(tolerance), thin_(128 * eps * size), level_(8 * eps * size) {}
+
+  EpaResult<R> run(const GjkResult<R>& g, EpaBudget budget) {
+    result_.a = g.a, result_.b = g.b;
+    std::vector<DifferenceVertex<R>> start(g.simplex.begin(), g.simplex.begin() + g.size);
+    drop_degenerate(start);
+    if (!grow(start)) return result_.status = EpaStatus::flat, result_;
+    build_tetrahedron(start);
+    for (int i = 0; i < budget.explore; ++i) {
+      const int f = least_key();
+      if (f < 0) return finish(EpaStatus::broken, -1);
+      result_.lower = facet(f).key;
+      if (result_.upper - result_.lower <= tolerance_) return finish(EpaStatus::closed, f);
+      if (!expand(f)) return finish(EpaStatus::broken, f);
+    }
+    return refine(budget.refine);
+  }
+
+ private:
+  static constexpr R eps = std::numeric_limits<R>::epsilon();
+  static constexpr R infinite = std::numeric_limits<R>::infinity();
+
+  struct Facet {
+    std::array<int, 3> v{}, adjacent{};  // adjacent[i] lies across v[i], v[i+1]
+    V3<R> normal;                        // outward
+    R plane = 0, key = infinite, upper = infinite;
+    DifferenceVertex<R> support;
+    bool alive = true, sliver = false, inside = false;  // inside: the origin projects into the triangle
+  };
+  struct Edge {
+    int from, to, behind;
+  };
+
+  Facet& facet(int i) { return facets_[static_cast<std::size_t>(i)]; }
+  const V3<R>& point(int i) const { return vertices_[static_cast<std::size_t>(i)].w; }
+
+  DifferenceVertex<R> probe(const V3<R>& m, R& value) {
+    const DifferenceVertex<R> s = difference_support<R>(a_, b_, m);
+    value = m.dot(s.w);
+    if (value < result_.upper) result_.upper = value, result_.normal = -m;
+    return s;
+  }
+  DifferenceVertex<R> probe(const V3<R>& m) {
+    R ignored;
+    return probe(m, ignored);
+  }
+
+  // A simplex that encloses the origin may be flat within rounding; its largest face then contains the origin as well
+  // as the whole does.
+  void drop_degenerate(std::vector<DifferenceVertex<R>>& s) const {
+    const auto w = [&](std::size_t i) -> const V3<R>& { return s[i].w; };
+    if (s.size() == 4) {
+      R best = -1;
+      std::size_t apex = 3;
+      for (std::size_t k = 0; k < 4; ++k) {
+        const auto [i, j, l] = others(k);
+        const R area = (w(j) - w(i)).cross(w(l) - w(i)).norm();
+        if (area > best) best = area, apex = k;
+      }
+      const auto [i, j, l] = others(apex);
+      const V3<R> n = (w(j) - w(i)).cross(w(l) - w(i));
+      if (!(std::abs(n.dot(w(apex) - w(i))) > thin_ * best)) s.erase(s.begin() + static_cast<long>(apex));
+    }
+    if (s.size() == 3 && height(w(0), w(1), w(2)) <= thin_) {
+      const R e0 = (w(1) - w(2)).squaredNorm(), e1 = (w(0) - w(2)).squaredNorm(), e2 = (w(0) - w(1)).squaredNorm();
+      s.erase(s.begin() + (e0 >= e1 && e0 >= e2 ? 0 : (e1 >= e2 ? 1 : 2)));
+    }
+    if (s.size() == 2 && (w(0) - w(1)).norm() <= thin_) s.pop_back();
+  }
+  static std::array<std::size_t, 3> others(std::size_t k) { return {k == 0 ? 1u : 0u, k <= 1 ? 2u : 1u, k <= 2 ? 3u : 2u}; }
+
+  // Height over the longest edge.
+  static R height(const V3<R>& a, const V3<R>& b, const V3<R>& c) {
+    const R longest = std::max({(b - a).squaredNorm(), (c - b).squaredNorm(), (a - c).squaredNorm()});
+    return longest > 0 ? detail::triangle_normal<R>(a, b, c).norm() / std::sqrt(longest) : R(0);
+  }
+
+  bool add_farthest(std::vector<DifferenceVertex<R>>& s, std::span<const V3<R>> directions, auto&& distance) {
+    R best = thin_;
+    DifferenceVertex<R> chosen;
+    for (const V3<R>& m : directions) {
+      const DifferenceVertex<R> p = probe(m);
+      if (const R d = distance(p.w); d > best) best = d, chosen = p;
+    }
+    if (!(best > thin_)) return false;
+    s.push_back(chosen);
+    return true;
+  }
+
+  // To a tetrahedron by support points away from the point, line, plane at hand; false when D is flat.
+  bool grow(std::vector<DifferenceVertex<R>>& s) {
+    if (s.size() == 1) {
+      const V3<R> x = V3<R>::UnitX(), y = V3<R>::UnitY(), z = V3<R>::UnitZ();
+      const std::array<V3<R>, 6> axes{x, V3<R>(-x), y, V3<R>(-y), z, V3<R>(-z)};
+      if (!add_farthest(s, axes, [&](const V3<R>& p) { return (p - s[0].w).norm(); })) return false;
+    }
+    if (s.size() == 2) {
+      const V3<R> d = (s[1].w - s[0].w).normalized();
+      const V3<R> u = d.unitOrthogonal(), v = d.cross(u);
+      const R c = R(0.5), h = std::sqrt(R(3)) / 2;
+      const std::array<V3<R>, 6> around{u,        V3<R>(u * c + v * h),   V3<R>(v * h - u * c),
+                                        V3<R>(-u), V3<R>(-u * c - v * h), V3<R>(u * c - v * h)};
+      if (!add_farthest(s, around, [&](const V3<R>& p) { return d.cross(p - s[0].w).norm(); })) return false;
+    }
+    if (s.size() == 3) {
+      const V3<R> n = (s[1].w - s[0].w).cross(s[2].w - s[0].w).normalized();
+      const std::array<V3<R>, 2> sides{n, V3<R>(-n)};
+      if (!add_farthest(s, sides, [&](const V3<R>& p) { return std::abs(n.dot(p - s[0].w)); })) return false;
+    }
+    return true;
+  }
+
+  void build_tetrahedron(const std::vector<DifferenceVertex<R>>& s) {
+    vertices_.assign(s.begin(), s.end());
+    const V3<R> n = (point(1) - point(0)).cross(point(2) - point(0));
+    if (n.dot(point(3) - point(0)) > 0) std::swap(vertices_[1], vertices_[2]);
+    // Counter-clockwise from outside, once vertex 3 is below triangle 0 1 2.
+    add_facet({0, 1, 2}, {3, 1, 2}), add_facet({1, 3, 2}, {3, 2, 0});
+    add_facet({0, 2, 3}, {0, 1, 3}), add_facet({0, 3, 1}, {2, 1, 0});
+    for (int i = 0; i < 4; ++i) push(i);
+  }
+
+  int add_facet(std::array<int, 3> v, std::array<int, 3> adjacent) {
+    Facet f;
+    f.v = v, f.adjacent = adjacent;
+    measure(f);
+    facets_.push_back(f);
+    return static_cast<int>(facets_.size()) - 1;
+  }
+
+  void measure(Facet& f) {
+    const V3<R>&a = point(f.v[0]), &b = point(f.v[1]), &c = point(f.v[2]);
+    f.normal = detail::triangle_normal<R>(a, b, c);
+    // A sliver's distance is that of its longest edge up to thin_, which the facet across that edge accounts for.
+    f.sliver = height(a, b, c) <= thin_;
+    if (f.sliver) return;
+    f.normal.normalize();
+    const R aa = a.squaredNorm(), bb = b.squaredNorm(), cc = c.squaredNorm();
+    f.plane = f.normal.dot(aa <= bb && aa <= cc ? a : (bb <= cc ? b : c));
+    const auto near = nearest(f);
+    f.inside = near.weight[0] > 0 && near.weight[1] > 0 && near.weight[2] > 0;
+    f.key = f.inside ? f.plane : std::max(f.plane, std::sqrt(near.dist_sq));
+    f.support = probe(f.normal, f.upper);
+  }
+
+  ClosestPoint<R> nearest(const Facet& f) const {
+    const std::array<const V3<R>*, 3> p{&point(f.v[0]), &point(f.v[1]), &point(f.v[2])};
+    return closest_to_origin<R>(std::span<const V3<R>* const>(p));
+  }
+
+  void push(int i) {
+    if (!facet(i).sliver) heap_.emplace(facet(i).key, i);
+  }
+
+  int least_key() {
+    while (!heap_.empty() && !facet(heap_.top().second).alive) heap_.pop();
+    return heap_.empty() ? -1 : heap_.top().second;
+  }
+
+  int least_upper() {
+    int best = -1;
+    for (int i = 0; i < static_cast<int>(facets_.size()); ++i)
+      if (facet(i).alive && facet(i).inside && (best < 0 || facet(i).upper < facet(best).upper)) best = i;
+    return best;
+  }
+
+  EpaResult<R> refine(int budget) {
+    for (int i = 0; i < budget; ++i) {
+      const int f = least_upper();
+      if (f < 0) return finish(EpaStatus::broken, -1);
+      if (facet(f).upper - facet(f).plane <= tolerance_) {
+        result_.upper = facet(f).upper, result_.normal = -facet(f).normal;
+        return finish(EpaStatus::local, f);
+      }
+      if (!expand(f)) return finish(EpaStatus::broken, f);
+    }
+    return finish(EpaStatus::capped, least_upper());
+  }
+
+  EpaResult<R> finish(EpaStatus status, int f) {
+    if (const int k = least_key(); k >= 0) result_.lower = facet(k).key;
+    if (f >= 0) {
+      const Facet& x = facet(f);
+      if (x.upper - result_.upper <= tolerance_) result_.upper = x.upper, result_.normal = -x.normal;
+      const auto near = nearest(x);
+      result_.a.setZero(), result_.b.setZero();
+      for (std::size_t i = 0; i < 3; ++i) {
+        const auto& v = vertices_[static_cast<std::size_t>(x.v[i])];
+        result_.a += near.weight[i] * v.a, result_.b += near.weight[i] * v.b;
+      }
+    }
+    result_.status = status;
+    result_.iterations = static_cast<int>(vertices_.size());
+    return result_;
+  }
+
+  bool visible(const Facet& f, const V3<R>& p) const { return f.sliver || f.normal.dot(p) - f.plane > level_; }
+
+  bool in_region(int f) const { return mark_[static_cast<std::size_t>(f)] == stamp_; }
+  void take(int f) { mark_[static_cast<std::size_t>(f)] = stamp_, region_.push_back(f); }
+
+  void flood(std::size_t from, const V3<R>& p) {
+    for (std::size_t i = from; i < region_.size(); ++i)
+      for (int n : std::array<int, 3>(facet(region_[i]).adjacent))
+        if (!in_region(n) && visible(facet(n), p)) take(n);
+  }
+
+  void collect_horizon() {
+    horizon_.clear();
+    for (int f : region_)
+      for (std::size_t i = 0; i < 3; ++i)
+        if (const int n = facet(f).adjacent[i]; !in_region(n))
+          horizon_.push_back({facet(f).v[i], facet(f).v[(i + 1) % 3], n});
+  }
+
+  bool bad_triangle(const Edge& e, const V3<R>& p) const {
+    const V3<R>&a = point(e.from), &b = point(e.to);
+    const R h = height(a, b, p);
+    if (h <= thin_) return true;
+    const V3<R> n = detail::triangle_normal<R>(a, b, p).normalized();
+    // The normal of a triangle of height h is known to about level_/h.
+    const R longest = std::sqrt(std::max({(b - a).squaredNorm(), (p - b).squaredNorm(), (a - p).squaredNorm()}));
+    return n.dot(a) < -level_ * (4 + longest / h) - tolerance_;
+  }
+
+  // Orders the horizon as one loop. Returns facets to absorb where it is pinched or has several loops.
+  std::vector<int> order_horizon() {
+    next_.assign(vertices_.size(), -1);
+    for (int i = 0; i < static_cast<int>(horizon_.size()); ++i) {
+      int& slot = next_[static_cast<std::size_t>(horizon_[static_cast<std::size_t>(i)].from)];
+      if (slot >= 0) return {horizon_[static_cast<std::size_t>(i)].behind};
+      slot = i;
+    }
+    std::vector<std::vector<Edge>> loops;
+    std::vector<bool> seen(horizon_.size(), false);
+    for (std::size_t i = 0; i < horizon_.size(); ++i) {
+      if (seen[i]) continue;
+      loops.emplace_back();
+      for (std::size_t k = i; !seen[k]; k = static_cast<std::size_t>(next_[static_cast<std::size_t>(horizon_[k].to)]))
+        seen[k] = true, loops.back().push_back(horizon_[k]);
+    }
+    std::size_t longest = 0;
+    for (std::size_t i = 1; i < loops.size(); ++i)
+      if (loops[i].size() > loops[longest].size()) longest = i;
+    std::vector<int> absorb;
+    for (std::size_t i = 0; i < loops.size(); ++i)
+      if (i != longest)
+        for (const Edge& e : loops[i]) absorb.push_back(e.behind);
+    if (absorb.empty() && !loops.empty()) horizon_ = loops[longest];
+    return absorb;
+  }
+
+  bool find_region(int f, const V3<R>& p) {
+    ++stamp_;
+    mark_.resize(facets_.size(), 0);
+    region_.clear();
+    take(f);
+    flood(0, p);
+    for (;;) {
+      collect_horizon();
+      if (horizon_.size() < 3) return false;
+      const std::size_t before = region_.size();
+      for (const Edge& e : horizon_)
+        if (!in_region(e.behind) && bad_triangle(e, p)) take(e.behind);
+      if (region_.size() == before)
+        for (int n : order_horizon())
+          if (!in_region(n)) take(n);
+      if (region_.size() == before) return true;
+      flood(before, p);
+    }
+  }
+
+  bool expand(int f) {
+    const DifferenceVertex<R> s = facet(f).support;
+    if (!(facet(f).upper - facet(f).plane > level_) || !find_region(f, s.w)) return false;
+    const int w = static_cast<int>(vertices_.size());
+    vertices_.push_back(s);
+    for (int r : region_) facet(r).alive = false;
+    const int first = static_cast<int>(facets_.size()), count = static_cast<int>(horizon_.size());
+    for (int i = 0; i < count; ++i) {
+      const Edge e = horizon_[static_cast<std::size_t>(i)];
+      const int created =
+          add_facet({e.from, e.to, w}, {e.behind, first + (i + 1) % count, first + (i + count - 1) % count});
+      Facet& behind = facet(e.behind);
+      for (std::size_t k = 0; k < 3; ++k)
+        if (behind.v[k] == e.to && behind.v[(k + 1) % 3] == e.from) behind.adjacent[k] = created;
+      push(created);
+    }
+    return true;
+  }
+
+  using HeapItem = std::pair<R, int>;
+  const ConvexCore<R>&a_, &b_;
+  R tolerance_, thin_, level_;
+  EpaResult<R> result_;
+  std::vector<DifferenceVertex<R>> vertices_;
+  std::vector<Facet> facets_;
+  std::priority_queue<HeapItem, std::vector<HeapItem>, std::greater<>> heap_;
+  std::vector<int> region_, mark_, next_;
+  std::vector<Edge> horizon_;
+  int stamp_ = 0;
+};
+
+}  // namespace touchstone::narrow

@@ -1,0 +1,21 @@
+// A point and a segment. Where the foot is inside the segment the difference is made orthogonal to it before it is
+// normalised: a component along the segment, however small, costs half the segment's length times itself in depth.
+#pragma once
+
+#include <algorithm>
+
+#include "core/narrow/convex_pair.h"
+
+namespace touchstone::narrow {
+
+inline Separation sphere_capsule(const ConvexCore<Wide>& a, const ConvexCore<Wide>& b) {
+  const WideVec u = b.frame.rotation.col(2), p = a.frame.translation, r = p - b.frame.translation;
+  const Wide h = b.size.z(), s = std::clamp<Wide>(r.dot(u), -h, h);
+  const WideVec q = b.frame.translation + s * u;
+  WideVec v = q - p;
+  if (std::abs(s) < h) v -= u * u.dot(v);
+  const Wide d = v.norm();
+  return certified_or_general(a, b, p, q, d > 0 ? WideVec(v / d) : WideVec(u.unitOrthogonal()));
+}
+
+}  // namespace touchstone::narrow

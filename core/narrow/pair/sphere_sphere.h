@@ -1,0 +1,14 @@
+// Two balls: the distance of two points. Concentric balls have every direction as a minimum; x is taken.
+#pragma once
+
+#include "core/narrow/convex_pair.h"
+
+namespace touchstone::narrow {
+
+inline Separation sphere_sphere(const ConvexCore<Wide>& a, const ConvexCore<Wide>& b) {
+  const WideVec pa = a.frame.translation, pb = b.frame.translation, v = pb - pa;
+  const Wide d = v.norm();
+  return certified_or_general(a, b, pa, pb, d > 0 ? WideVec(v / d) : WideVec::UnitX());
+}
+
+}  // namespace touchstone::narrow

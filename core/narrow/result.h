@@ -1,0 +1,55 @@
+// Answers of the narrow phase. `error_bound` is proven by the run itself (duality gap of GJK and EPA plus rounding), in
+// the scene's unit, except where said.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "core/base/outcome.h"
+#include "core/math/wide.h"
+
+namespace touchstone {
+
+/// The signed separation of a pair in extended precision, in coordinates whose origin is A's translation.
+struct Separation {
+  Outcome outcome = Outcome::answered;
+  Wide gap = 0;                        // > 0 distance, <= 0 minus the depth
+  WideVec normal = WideVec::UnitX();   // unit, A to B
+  WideVec a = WideVec::Zero(), b = WideVec::Zero();  // b − a = gap·normal
+  /// Distance: |gap − truth|. Depth: normal is feasible for −gap within rounding, and −gap exceeds the least depth by at
+  /// most `slack`, proven. Where minima form a curve or surface (coaxial or concentric round bodies) −gap is a local
+  /// minimum to `local_slack`, and `slack` says how far that is proven to be global.
+  Wide slack = 0, local_slack = 0;
+  Wide size = 0;  // the length that tolerances are relative to
+};
+
+struct OverlapAnswer {
+  Outcome outcome = Outcome::answered;
+  bool overlap = false;
+  double error_bound = 0;  // of the gap that decided
+};
+
+struct DistanceAnswer {
+  Outcome outcome = Outcome::answered;
+  double distance = 0;  // signed
+  Vec3 normal = Vec3::Zero();
+  std::array<Vec3, 2> witness{Vec3::Zero(), Vec3::Zero()};  // on A, on B: b − a = distance·normal
+  double error_bound = 0;
+};
+
+struct ContactPoint {
+  Vec3 position = Vec3::Zero();  // world, half way between the two surfaces
+  double depth = 0;
+};
+
+struct ContactAnswer {
+  Outcome outcome = Outcome::answered;
+  bool overlap = false;
+  Vec3 normal = Vec3::Zero();  // unit, A to B; zero when there is no overlap
+  double depth = 0;
+  std::vector<ContactPoint> manifold;
+  double error_bound = 0;   // of the depth along `normal`, and of normal's being a local minimum
+  double regret_bound = 0;  // proven: depth − least depth over all directions
+};
+
+}  // namespace touchstone
