@@ -1,5 +1,7 @@
 // Concentric and coaxial bodies: many directions tie for the least depth, and GJK starts at the origin
 // itself.
+#include <cmath>
+
 #include "scenarios/build.h"
 #include "scenarios/lists.h"
 
@@ -30,10 +32,13 @@ List deep_centred() {
            {Sphere{0.5}, {}, {}}, gap_is(-1.5, 0, x, "w(n) = |diag(1,2,3) n| + 0.5, least along x")),
       pair("deep", "cylinder_in_box", "coaxial, equal heights: the axis direction ties with none",
            {unit, {}, {}}, {Cylinder{0.5, 1}, {}, {}}, gap_is(-1.5, 0, x, "1 + 0.5 across, 2 along")),
-      pair("deep", "cone_in_cylinder", "coaxial; the way out is across", {Cylinder{1, 4}, {}, {}},
-           {Cone{0.5, 4}, {}, {}},
-           gap_is(-1.5, 0, x,
-                  "w is 1 + 0.5 across; any tilt adds 4|nz| of the cylinder and at least 0 of the cone")),
+      pair("deep", "cone_in_cylinder",
+           "coaxial; the way out is across and a little down, square to the cone's side",
+           {Cylinder{1, 4}, {}, {}}, {Cone{0.5, 4}, {}, {}},
+           // n = (cos a, 0, -sin a): the cylinder gives cos a + 4 sin a, the cone 0.5 cos a - 4 sin a while
+           // its rim leads, together 1.5 cos a; from tan a = 1/16 on its tip leads and w grows again.
+           gap_is(-24 / std::sqrt(257.0), roundings(4, 4), Vec3(16, 0, -1) / std::sqrt(257.0),
+                  "1.5 cos a with tan a = 1/16")),
   };
 }
 

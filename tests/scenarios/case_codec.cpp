@@ -1,0 +1,101 @@
+// A case as JSON: there and back, defaults, and what is refused.
+#include "scenarios/case_codec.h"
+
+#include "core/scene/codec.h"
+#include "core/scene/json_text.h"
+#include "scenarios/catalog.h"
+#include "tests/scene/expect_error.h"
+#include "tests/scene/temp_dir.h"
+
+using namespace touchstone;
+using test::contains;
+using test::refusal;
+
+namespace {
+
+const std::string two_balls =
+    R"({"touchstone_scene":1,"name":"two","shapes":[{"type":"sphere","radius":1}],"bodies":[{"shape":0},{"shape":0}]})";
+
+std::string with(const std::string& fields) {
+  return R"({"touchstone_case":1,"scene":)" + two_balls + fields + "}";
+}
+
+StoredCase read(const std::string& text) {
+  return stored_case_from_json(parse_json(text, "f.json"), "f.json");
+}
+
+}  // namespace
+
+TEST_CASE("every scenario with its expectation survives JSON and text", "[scenarios][codec]") {
+  int checked = 0;
+  for (const auto& s : scenarios::catalog()) {
+    const StoredCase stored{s.make(), s.line, "by hand", s.expect};
+    REQUIRE(stored_case_from_json(stored_case_to_json(stored)) == stored);
+    REQUIRE(stored_case_from_json(parse_json(to_text(stored))) == stored);
+    REQUIRE(case_from_json(case_to_json(stored.c)) == stored.c);
+    REQUIRE(hash(case_from_json(case_to_json(stored.c)).scene) == hash(stored.c.scene));
+    ++checked;
+  }
+  CHECK(checked >= 40);
+}
+
+TEST_CASE("a bare scene file becomes a case with the usual questions", "[scenarios][codec]") {
+  const test::TempDir dir;
+  const Case c = load_case(dir.write("a.json", two_balls));
+  CHECK(c.id == "two");
+  CHECK(c.queries ==
+        std::vector<Query>{{Question::overlap, 0, 1}, {Question::distance, 0, 1}, {Question::contact, 0, 1}});
+  Scene s = c.scene;
+  s.name.clear();
+  s.bodies[1].motion = Motion{};
+  save_scene(s, dir.path() / "b.json");
+  CHECK(load_case(dir.path() / "b.json").id == "b");
+  CHECK(load_case(dir.path() / "b.json").queries.back() == Query{Question::time_of_impact, 0, 1});
+  s.bodies.push_back(s.bodies[0]);
+  CHECK(default_queries(s) ==
+        std::vector<Query>{{Question::candidates, 0, 1}, {Question::scene_contacts, 0, 1}});
+  s.bodies.resize(2);
+  s.script = {{Step::Op::insert, 0, std::nullopt}, {}};
+  CHECK(default_queries(s).back().question == Question::candidates);
+}
+
+TEST_CASE("a case without questions gets the usual ones, a file without id its name", "[scenarios][codec]") {
+  const test::TempDir dir;
+  CHECK(read(with("")).c.queries.size() == 3);
+  CHECK(read(with(R"(,"queries":[])")).c.queries.empty());
+  CHECK(load_case(dir.write("named.json", with(""))).id == "named");
+}
+
+TEST_CASE("what is wrong with a case is said with its place", "[scenarios][codec][bad-input]") {
+  struct Bad {
+    std::string text, place, reason;
+  };
+  const std::vector<Bad> list{
+      {"[]", "f.json", "must be an object"},
+      {"{}", "f.json", "\"touchstone_case\" is missing"},
+      {R"({"touchstone_case":3,"scene":{}})", "f.json: touchstone_case", "version 3 is not known"},
+      {R"({"touchstone_case":1})", "f.json", "\"scene\" is missing"},
+      {R"({"touchstone_case":1,"scene":{}})", "f.json: scene", "\"touchstone_scene\" is missing"},
+      {R"({"touchstone_case":1,"scene":{"touchstone_scene":1,"shapes":[{"type":"sphere","radius":-1}],"bodies":[]}})",
+       "f.json: scene.shapes[0].radius", "negative"},
+      {with(R"(,"answer":42)"), "f.json", "unknown field \"answer\""},
+      {with(R"(,"id":42)"), "f.json: id", "must be a string"},
+      {with(R"(,"queries":[{"question":"colour"}])"), "f.json: queries[0].question", "unknown question"},
+      {with(R"(,"queries":[{"question":"overlap","a":0}])"), "f.json: queries[0]", "\"b\" is missing"},
+      {with(R"(,"queries":[{"question":"overlap","a":0,"b":2}])"), "f.json: queries[0].b", "is no body"},
+      {with(R"(,"queries":[{"question":"overlap","a":1,"b":1}])"), "f.json: queries[0]", "must differ"},
+      {with(R"(,"queries":[{"question":"candidates","a":0}])"), "f.json: queries[0]", "unknown field \"a\""},
+      {with(R"(,"expect":{"gap":1})"), "f.json: expect.gap", "must be an object"},
+      {with(R"(,"expect":{"gap":{"value":1,"tolerance":-1}})"), "f.json: expect.gap.tolerance", "negative"},
+      {with(R"(,"expect":{"impact":{"hit":false,"time":1}})"), "f.json: expect.impact.time", "without a hit"},
+      {with(R"(,"expect":{"box_pairs":-1})"), "f.json: expect.box_pairs", "negative"},
+      {with(R"(,"expect":{"mood":"good"})"), "f.json: expect", "unknown field \"mood\""},
+  };
+  for (const Bad& bad : list) {
+    const std::string what = refusal([&] { read(bad.text); });
+    INFO(bad.text << "\n  said: " << what);
+    CHECK(contains(what, bad.place + ": "));
+    CHECK(contains(what, bad.reason));
+  }
+  CHECK(contains(refusal([] { scenarios::load_corpus("/no/such/directory"); }), "cannot be listed"));
+}

@@ -1,0 +1,20 @@
+// What every case with an expectation must satisfy, whoever wrote it.
+#pragma once
+
+#include "scenarios/scenario.h"
+
+namespace touchstone::test {
+
+/// Checks (Catch2) that the scene is valid, the questions can be asked, and the expectation contradicts
+/// neither itself nor the scene.
+void check_case(const Case& c, const scenarios::Expectation& e);
+
+/// Pairs of bodies whose exact shapes share a point according to the referee, at the bodies' own poses,
+/// filtered ones excluded; `poses` replaces the bodies' own. Bodies for which `present` is false are left
+/// out.
+std::vector<BodyPair> overlapping_pairs(const Scene& scene, const std::vector<Pose>& poses,
+                                        const std::vector<bool>& present);
+
+std::vector<Pose> own_poses(const Scene& scene);
+
+}  // namespace touchstone::test
