@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <optional>
 
 #include "core/base/input_error.h"
 #include "core/scene/json_text.h"
@@ -38,11 +39,10 @@ JsonReader JsonReader::operator[](std::string_view field) const {
 }
 
 std::vector<JsonReader> JsonReader::items() const {
-  if (!j_->is_array()) fail(std::string("must be an array, is ") + j_->type_name());
+  require_array();
   std::vector<JsonReader> r;
   r.reserve(j_->size());
-  for (std::size_t i = 0; i < j_->size(); ++i)
-    r.emplace_back((*j_)[i], file_, path_ + "[" + std::to_string(i) + "]");
+  for (std::size_t i = 0; i < j_->size(); ++i) r.push_back(item(i));
   return r;
 }
 
@@ -77,22 +77,67 @@ std::string JsonReader::string() const {
   return j_->get<std::string>();
 }
 
+namespace {
+
+// Large meshes are read through these; whatever they do not take is read again by the slow path, which knows
+// its place.
+std::optional<Vec3> plain_vec3(const Json& j) {
+  if (!j.is_array() || j.size() != 3 || !j[0].is_number() || !j[1].is_number() || !j[2].is_number())
+    return std::nullopt;
+  return Vec3(j[0].get<double>(), j[1].get<double>(), j[2].get<double>());
+}
+
+std::optional<std::array<int, 3>> plain_triple(const Json& j) {
+  if (!j.is_array() || j.size() != 3) return std::nullopt;
+  std::array<int, 3> t{};
+  for (std::size_t i = 0; i < 3; ++i) {
+    if (!j[i].is_number_unsigned() || j[i].get<std::uint64_t>() > std::numeric_limits<int>::max())
+      return std::nullopt;
+    t[i] = j[i].get<int>();
+  }
+  return t;
+}
+
+}  // namespace
+
+JsonReader JsonReader::item(std::size_t i) const {
+  return JsonReader((*j_)[i], file_, path_ + "[" + std::to_string(i) + "]");
+}
+
+void JsonReader::require_array() const {
+  if (!j_->is_array()) fail(std::string("must be an array, is ") + j_->type_name());
+}
+
 Vec3 JsonReader::vec3() const {
+  if (const auto plain = plain_vec3(*j_)) return *plain;
   const auto v = items(3);
   return {v[0].number(), v[1].number(), v[2].number()};
 }
 
 std::vector<Vec3> JsonReader::points() const {
+  require_array();
   std::vector<Vec3> r;
-  for (const JsonReader& p : items()) r.push_back(p.vec3());
+  r.reserve(j_->size());
+  for (std::size_t i = 0; i < j_->size(); ++i) {
+    const auto plain = plain_vec3((*j_)[i]);
+    r.push_back(plain ? *plain : item(i).vec3());
+  }
   return r;
 }
 
+std::array<int, 3> JsonReader::triple() const {
+  if (const auto plain = plain_triple(*j_)) return *plain;
+  const auto v = items(3);
+  return {v[0].integer(), v[1].integer(), v[2].integer()};
+}
+
 std::vector<std::array<int, 3>> JsonReader::triples() const {
+  require_array();
   std::vector<std::array<int, 3>> r;
-  for (const JsonReader& t : items()) {
-    const auto v = t.items(3);
-    r.push_back({v[0].integer(), v[1].integer(), v[2].integer()});
+  r.reserve(j_->size());
+  for (std::size_t i = 0; i < j_->size(); ++i) {
+    const auto plain = plain_triple((*j_)[i]);
+    r.push_back(plain ? *plain : item(i).triple());
   }
   return r;
 }

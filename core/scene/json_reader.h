@@ -38,10 +38,14 @@ class JsonReader {
   bool boolean() const;
   std::string string() const;
   Vec3 vec3() const;
+  std::array<int, 3> triple() const;
   std::vector<Vec3> points() const;
   std::vector<std::array<int, 3>> triples() const;
 
  private:
+  void require_array() const;
+  JsonReader item(std::size_t i) const;
+
   const nlohmann::ordered_json* j_;
   std::string file_, path_;
 };
