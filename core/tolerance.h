@@ -1,54 +1,69 @@
-// Every number that the project chooses: unit, scale law, reason, and the test that bites when it is wrong. A comparison
-// divides by a stated scale; nothing here is an absolute length.
+// Every number that the project chooses: unit, scale law, reason, and the test that bites when it is wrong. A
+// comparison divides by a stated scale; nothing here is an absolute length.
 #pragma once
 
 namespace touchstone::tolerance {
 
-/// τ of our own core, in units of (unit roundoff 2⁻⁵³ · L): wrong beyond 128·2⁻⁵³·L = 64·ε·L (issue: 64·ε·L in double).
-/// About 30 roundings lie between a pose and a depth; the factor leaves a margin of 4. Bites: fuzz with the core as subject.
+/// τ of our own core, in units of (unit roundoff 2⁻⁵³ · L): wrong beyond 128·2⁻⁵³·L = 64·ε·L (issue: 64·ε·L
+/// in double). About 30 roundings lie between a pose and a depth; the factor leaves a margin of 4. Bites:
+/// fuzz with the core as subject.
 inline constexpr double core_tau_factor = 128;
 
-// ---- core/narrow, core/ccd, core/broad. `size` is the reach of both bodies plus their separation, at most about 6·L.
+// ---- core/narrow, core/ccd, core/broad. `size` is the reach of both bodies plus their separation, at most
+// about 6·L.
 
-/// GJK and EPA stop when upper and lower bound of the distance or depth are this close, in units of size: 2⁻⁵² · size is
-/// 1/20 of τ. Bites: tests/core duality gap; tests/core/stress.
+/// GJK and EPA stop when upper and lower bound of the distance or depth are this close, in units of size:
+/// 2⁻⁵² · size is 1/20 of τ. Bites: tests/core duality gap; tests/core/stress.
 inline constexpr double narrow_gap_factor = 0x1p-52;
 
-/// Cores nearer than this · size are treated as touching: their distance is below what their witness points resolve,
-/// so the normal comes from the boundary (EPA). Bites: tests/core "touching at every kind of feature".
+/// Cores nearer than this · size are treated as touching: their distance is below what their witness points
+/// resolve, so the normal comes from the boundary (EPA). Bites: tests/core "touching at every kind of
+/// feature".
 inline constexpr double narrow_touching_factor = 0x1p-54;
 
-/// A gap of at most this · size counts as touching, hence as overlap (truth.md §1): 64 units of the 64-bit arithmetic, in
-/// which a pair that touches exactly is computed. Bites: tests/core "exactly touching pairs overlap".
+/// A gap of at most this · size counts as touching, hence as overlap (truth.md §1): 64 units of the 64-bit
+/// arithmetic, in which a pair that touches exactly is computed. Bites: tests/core "exactly touching pairs
+/// overlap".
 inline constexpr double narrow_contact_factor = 0x1p-58;
 
 /// A slack worse than this · size is not_converged: a quarter of τ at size = L. Bites: tests/core/stress.
 inline constexpr double narrow_accept_factor = 0x1p-48;
 
-/// Vertices within this · size of a support plane belong to its face: about 64 roundings of the shape's own doubles, so
-/// that faces written in double are found whole; a manifold point is then off by at most 1/4 of τ. Bites: tests/core
-/// "manifold points lie on both bodies".
+/// Vertices within this · size of a support plane belong to its face: about 64 roundings of the shape's own
+/// doubles, so that faces written in double are found whole; a manifold point is then off by at most 1/4 of
+/// τ. Bites: tests/core "manifold points lie on both bodies".
 inline constexpr double manifold_face_factor = 0x1p-49;
 
-/// Conservative advancement stops at this gap, in units of size: a quarter of τ at size = L. Bites: tests/core "impact".
+/// Conservative advancement stops at this gap, in units of size: a quarter of τ at size = L. Bites:
+/// tests/core "impact".
 inline constexpr double impact_gap_factor = 0x1p-48;
 
-/// World boxes are widened by this · (size of the body + |translation|) before they are rounded outward; the bound that it
-/// covers is derived in core/broad/body_box.cpp. Bites: tests/core "boxes contain the exact body".
+/// World boxes are widened by this · (size of the body + |translation|) before they are rounded outward; the
+/// bound that it covers is derived in core/broad/body_box.cpp. Bites: tests/core "boxes contain the exact
+/// body".
 inline constexpr double box_error_factor = 0x1p-58;
 
-/// The referee refines a bracket of a curved pair until it is this narrow, in units of the pair's extent (>= L/4 or so);
-/// issue: 1e-14·L. Below 1e-17 extended precision has nothing left to give. Bites: tests/referee, width of brackets.
+/// The referee refines a bracket of a curved pair until it is this narrow, in units of the pair's extent (>=
+/// L/4 or so); issue: 1e-14·L. Below 1e-17 extended precision has nothing left to give. Bites: tests/referee,
+/// width of brackets.
 inline constexpr double referee_width_factor = 4e-16;
 
-/// Facets that the referee's inner polytope of a polytope pair / of a curved pair may use up before it returns the wider
-/// bracket that it has (counts, no scale). Two 256-vertex hulls in general position need under 3000; a curved pair with
-/// one nearest point about 400. Bites: tests/referee, width of brackets.
+/// Facets that the referee's inner polytope of a polytope pair / of a curved pair may use up before it
+/// returns the wider bracket that it has (counts, no scale). Two 256-vertex hulls in general position need
+/// under 3000; a curved pair with one nearest point about 400. Bites: tests/referee, width of brackets.
 inline constexpr int referee_facet_cap = 40000;
 inline constexpr int referee_curved_facet_cap = 3000;
 
-/// Gap evaluations that one judge_motion may spend (a count; lead's figure). A thin wall with |ω| = 500 needs about 5000.
-/// Bites: tests/referee, motion.
+/// Gap evaluations that one judge_motion may spend (a count; lead's figure). A thin wall with |ω| = 500 needs
+/// about 5000. Bites: tests/referee, motion.
 inline constexpr int referee_motion_evaluations = 20000;
+
+/// Taken off the gap before each step of conservative advancement, in units of 2⁻⁵³·L: rounding of two poses,
+/// of the direction and of four support values, about 20 roundings. Bites: the same test, "never late".
+inline constexpr double impact_slack_factor = 24;
+
+/// Steps of conservative advancement before it says not_converged. Count; a body of 500 rad a step needs
+/// about 2,000.
+inline constexpr int impact_step_cap = 20000;
 
 }  // namespace touchstone::tolerance

@@ -1,0 +1,139 @@
+// Bound. Let u = 2⁻⁶⁴ be the unit roundoff of Wide (x87: 64 bits; wider elsewhere) and R̃ the computed rotation.
+//  * Each entry of R is a quotient of at most four products of doubles by |q|². Products of doubles round once, sums of
+//    four such terms at most three more times, all terms are <= |q|² in size: numerator within 4u|q|², denominator within
+//    relative 4u, quotient one more: |R̃ − R| <= 10u entrywise. Squares of doubles cannot overflow or lose the largest
+//    term in Wide's exponent range.
+//  * A box bound along an axis is t + Σ R_k s_k, or a square root of Σ (R_k s_k)², or a maximum of dot products: at most
+//    eight more roundings, each relative to a partial result of size at most S + |t|, where S = Σ|s_k| (or the largest
+//    |vertex|₁): error <= (3·10 + 8)·u·S + 2u|t| < 2⁻⁵⁸·(S + |t|) = 64u(S + |t|).
+//  * The bound so widened is converted to double by rounding to nearest and stepped outward when that went inward.
+// Denormal results: the step outward is at least one denormal, and Wide itself does not underflow there.
+#include "core/broad/body_box.h"
+
+#include <cmath>
+#include <limits>
+
+#include "core/math/wide.h"
+#include "core/tolerance.h"
+
+namespace touchstone::broad {
+namespace {
+
+constexpr double inf = std::numeric_limits<double>::infinity();
+
+double round_down(Wide x) {
+  const double d = static_cast<double>(x);
+  return static_cast<Wide>(d) > x ? std::nextafter(d, -inf) : d;
+}
+double round_up(Wide x) { return -round_down(-x); }
+
+struct Interval {
+  Wide lo = 0, hi = 0;
+};
+
+Interval both_sides(Wide h) { return {-h, h}; }
+
+Wide rim(const WideVec& row, Wide radius) { return radius * std::sqrt(row.x() * row.x() + row.y() * row.y()); }
+
+Interval span(const std::vector<Vec3>& vertices, const WideVec& row) {
+  Interval r{std::numeric_limits<Wide>::infinity(), -std::numeric_limits<Wide>::infinity()};
+  for (const Vec3& v : vertices) {
+    const Wide d = row.dot(v.cast<Wide>());
+    r.lo = std::min(r.lo, d), r.hi = std::max(r.hi, d);
+  }
+  return r;
+}
+
+// Extent of the shape along one world axis about the body's origin; `row` is that row of the rotation.
+struct Extent {
+  WideVec row;
+  Interval operator()(const Sphere& s) const { return both_sides(s.radius); }
+  Interval operator()(const Box& s) const { return both_sides(row.cwiseAbs().dot(s.half_extents.cast<Wide>())); }
+  Interval operator()(const Capsule& s) const {
+    return both_sides(std::abs(row.z()) * static_cast<Wide>(s.half_height) + static_cast<Wide>(s.radius));
+  }
+  Interval operator()(const Cylinder& s) const {
+    return both_sides(std::abs(row.z()) * static_cast<Wide>(s.half_height) + rim(row, s.radius));
+  }
+  Interval operator()(const Cone& s) const {
+    const Wide apex = row.z() * static_cast<Wide>(s.half_height), r = rim(row, s.radius);
+    return {std::min(apex, -apex - r), std::max(apex, -apex + r)};
+  }
+  Interval operator()(const Ellipsoid& s) const {
+    return both_sides(row.cwiseProduct(s.semi_axes.cast<Wide>()).norm());
+  }
+  Interval operator()(const Hull& s) const { return span(s.vertices, row); }
+  Interval operator()(const TriangleMesh& s) const { return span(s.vertices, row); }
+  Interval operator()(const HalfSpace&) const {
+    return both_sides(std::numeric_limits<Wide>::infinity());
+  }
+};
+
+// S of the bound at the top.
+struct Size {
+  Wide operator()(const Sphere& s) const { return s.radius; }
+  Wide operator()(const Box& s) const { return s.half_extents.cast<Wide>().sum(); }
+  Wide operator()(const Capsule& s) const { return static_cast<Wide>(s.radius) + s.half_height; }
+  Wide operator()(const Cylinder& s) const { return 2 * static_cast<Wide>(s.radius) + s.half_height; }
+  Wide operator()(const Cone& s) const { return 2 * static_cast<Wide>(s.radius) + s.half_height; }
+  Wide operator()(const Ellipsoid& s) const { return s.semi_axes.cast<Wide>().sum(); }
+  Wide operator()(const Hull& s) const { return largest(s.vertices); }
+  Wide operator()(const TriangleMesh& s) const { return largest(s.vertices); }
+  Wide operator()(const HalfSpace&) const { return 0; }
+  static Wide largest(const std::vector<Vec3>& v) {
+    Wide r = 0;
+    for (const Vec3& p : v) r = std::max(r, p.cast<Wide>().lpNorm<1>());
+    return r;
+  }
+};
+
+// A plane exactly perpendicular to a world axis: the rotation is a half turn about a body axis or none, exactly, and the
+// normal has one component.
+void tighten_half_space(const HalfSpace& h, const Pose& pose, Aabb& box) {
+  const Quat& q = pose.rotation;
+  const int turning = (q.x != 0) + (q.y != 0) + (q.z != 0) + (q.w != 0);
+  const int components = static_cast<int>((h.normal.array() != 0).count());
+  if (turning != 1 || components != 1) return;
+  int axis = 0;
+  h.normal.cwiseAbs().maxCoeff(&axis);
+  const double kept[3] = {q.x, q.y, q.z};
+  const Wide flip = q.w != 0 || kept[axis] != 0 ? 1 : -1;
+  const Wide n = flip * static_cast<Wide>(h.normal[axis]), t = pose.translation[axis];
+  const Wide at = t + h.offset / n;
+  const Wide slack = tolerance::box_error_factor * (std::abs(t) + std::abs(h.offset / n));
+  if (n > 0)
+    box.hi[axis] = round_up(at + slack);
+  else
+    box.lo[axis] = round_down(at - slack);
+}
+
+}  // namespace
+
+Aabb body_box(const Shape& shape, const Pose& pose) {
+  const WideFrame f = wide_frame(pose);
+  const Wide size = std::visit(Size{}, shape);
+  Aabb box;
+  for (int axis = 0; axis < 3; ++axis) {
+    const Interval e = std::visit(Extent{WideVec(f.rotation.row(axis).transpose())}, shape);
+    const Wide t = f.translation[axis], slack = tolerance::box_error_factor * (size + std::abs(t));
+    box.lo[axis] = round_down(t + e.lo - slack), box.hi[axis] = round_up(t + e.hi + slack);
+  }
+  if (const auto* h = std::get_if<HalfSpace>(&shape)) tighten_half_space(*h, pose, box);
+  return box;
+}
+
+Aabb swept_box(const Shape& shape, const Pose& pose, const Motion& motion) {
+  Aabb start = body_box(shape, pose);
+  if (kind_of(shape) == ShapeKind::half_space) return start;
+  if (!motion.angular.isZero(0)) start = body_box(Sphere{bounding_radius(shape)}, pose);
+  Aabb box = start;
+  for (int axis = 0; axis < 3; ++axis) {
+    // The end box is the start box moved by v; the sum is rounded outward.
+    const Wide v = motion.linear[axis];
+    box.lo[axis] = std::min(box.lo[axis], round_down((start.lo[axis] + v) - 0x1p-62L * std::abs(start.lo[axis] + v)));
+    box.hi[axis] = std::max(box.hi[axis], round_up((start.hi[axis] + v) + 0x1p-62L * std::abs(start.hi[axis] + v)));
+  }
+  return box;
+}
+
+}  // namespace touchstone::broad

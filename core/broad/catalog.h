@@ -1,0 +1,29 @@
+// Every broad phase of the core by name. A new algorithm is one file and one row.
+#pragma once
+
+#include <array>
+#include <string_view>
+
+#include "core/broad/brute_force.h"
+#include "core/broad/sort_and_sweep.h"
+
+namespace touchstone::broad {
+
+struct CatalogRow {
+  std::string_view name;
+  BroadPhasePtr (*make)();
+};
+
+inline constexpr std::array<CatalogRow, 2> catalog{{
+    {"brute_force", &make_brute_force},
+    {"sort_and_sweep", &make_sort_and_sweep},
+}};
+
+/// Null when there is no such name.
+inline BroadPhasePtr make_broad_phase(std::string_view name) {
+  for (const CatalogRow& row : catalog)
+    if (row.name == name) return row.make();
+  return nullptr;
+}
+
+}  // namespace touchstone::broad

@@ -1,0 +1,18 @@
+// Our own core as an engine, in process.
+#pragma once
+
+#include "oracles/api/engine.h"
+
+namespace touchstone {
+
+class CoreEngine final : public Engine {
+ public:
+  CoreEngine();
+  const EngineCard& card() const override { return card_; }
+  std::vector<CaseObservations> run(std::span<const Case> cases) override;
+
+ private:
+  EngineCard card_;
+};
+
+}  // namespace touchstone
