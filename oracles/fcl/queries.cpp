@@ -28,44 +28,6 @@ constexpr double tuned_distance_tolerance = 1e-12;
 constexpr double tuned_depth_tolerance = 1e-7;  // below it FCL's EPA runs into its own assertions
 constexpr std::size_t max_contacts = 256;       // the default of 1 would make every manifold a point
 
-using LibccdSolver = fcl::detail::GJKSolver_libccd<double>;
-using IndepSolver = fcl::detail::GJKSolver_indep<double>;
-
-/// FCL answers a pair that it has no function for with a warning and "no contact" or the largest double; its
-/// users look into the table of functions instead. A mesh comes first, as FCL itself orders a pair.
-template <class Table>
-bool in_table(const Table& table, const Placed& a, const Placed& b) {
-  const bool swap = a.geometry->getObjectType() == fcl::OT_GEOM && b.geometry->getObjectType() == fcl::OT_BVH;
-  const fcl::NODE_TYPE first = (swap ? b : a).geometry->getNodeType(),
-                       second = (swap ? a : b).geometry->getNodeType();
-  return table[first][second] != nullptr;
-}
-
-void require_collide(const Placed& a, const Placed& b, const Settings& s) {
-  const bool there = s.libccd()
-                         ? in_table(fcl::getCollisionFunctionLookTable<LibccdSolver>().collision_matrix, a, b)
-                         : in_table(fcl::getCollisionFunctionLookTable<IndepSolver>().collision_matrix, a, b);
-  if (!there) throw kit::Unsupported("fcl::collide has no function for these shapes");
-}
-
-void require_distance(const Placed& a, const Placed& b, const Settings& s) {
-  const bool there = s.libccd()
-                         ? in_table(fcl::getDistanceFunctionLookTable<LibccdSolver>().distance_matrix, a, b)
-                         : in_table(fcl::getDistanceFunctionLookTable<IndepSolver>().distance_matrix, a, b);
-  if (!there) throw kit::Unsupported("fcl::distance has no function for these shapes");
-}
-
-void require_advancement(const Placed& a, const Placed& b, const Settings& s) {
-  const fcl::NODE_TYPE ta = a.geometry->getNodeType(), tb = b.geometry->getNodeType();
-  const bool there = s.libccd() ? fcl::getConservativeAdvancementFunctionLookTable<LibccdSolver>()
-                                          .conservative_advancement_matrix[ta][tb] != nullptr
-                                : fcl::getConservativeAdvancementFunctionLookTable<IndepSolver>()
-                                          .conservative_advancement_matrix[ta][tb] != nullptr;
-  // The table has rows for ellipsoids; what it calls says "not supported" on stderr and reports no hit.
-  if (!there || a.kind == TS_ELLIPSOID || b.kind == TS_ELLIPSOID)
-    throw kit::Unsupported("FCL has no conservative advancement for these shapes");
-}
-
 fcl::CollisionRequestd collision_request(const Settings& s, bool with_contacts) {
   fcl::CollisionRequestd r;
   r.gjk_solver_type = s.solver;
@@ -81,6 +43,9 @@ fcl::DistanceResultd run_distance(const Placed& a, const Placed& b, const Settin
   request.gjk_solver_type = s.solver;
   fcl::DistanceResultd result;
   fcl::distance(a.geometry, a.transform, b.geometry, b.transform, request, result);
+  // For a pair that it has no function for, FCL warns and leaves the largest double in place.
+  if (result.min_distance == std::numeric_limits<double>::max())
+    throw kit::Unsupported("fcl::distance has no function for these shapes in this order");
   return result;
 }
 
@@ -103,14 +68,12 @@ bool refine(const Placed& a, const Placed& b, const Settings& s, Contact& c) {
 double overlap_tolerance(const Settings& s) { return s.tuned ? tuned_overlap_tolerance : shipped_tolerance; }
 
 bool overlap(const Placed& a, const Placed& b, const Settings& s) {
-  require_collide(a, b, s);
   fcl::CollisionResultd result;
   fcl::collide(a.geometry, a.transform, b.geometry, b.transform, collision_request(s, false), result);
   return result.isCollision();
 }
 
 Contact contact(const Placed& a, const Placed& b, const Settings& s) {
-  require_collide(a, b, s);
   fcl::CollisionResultd result;
   fcl::collide(a.geometry, a.transform, b.geometry, b.transform, collision_request(s, true), result);
   Contact c;
@@ -132,7 +95,6 @@ Contact contact(const Placed& a, const Placed& b, const Settings& s) {
 }
 
 Distance distance(const Placed& a, const Placed& b, const Settings& s) {
-  require_distance(a, b, s);
   Distance d;
   d.claimed_tolerance = s.tuned ? tuned_distance_tolerance : shipped_tolerance;
   fcl::DistanceResultd r = run_distance(a, b, s, /*with_sign=*/!s.tuned, d.claimed_tolerance);
@@ -162,7 +124,6 @@ std::optional<double> time_of_impact(const Placed& a, const Pose& a_start, const
   request.gjk_solver_type = s.solver;
   fcl::ContinuousCollisionResultd result;
   if (s.tuned) {
-    require_advancement(a, b, s);
     request.ccd_motion_type = fcl::CCDM_LINEAR;
     request.ccd_solver_type = fcl::CCDC_CONSERVATIVE_ADVANCEMENT;
     const auto motion = [](const fcl::Transform3d& from, const fcl::Transform3d& to) {
@@ -170,10 +131,9 @@ std::optional<double> time_of_impact(const Placed& a, const Pose& a_start, const
                                        Vec3::Zero());
     };
     const fcl::InterpMotion<double> move_a = motion(a.transform, a_end), move_b = motion(b.transform, b_end);
-    fcl::continuousCollide(a.geometry, &move_a, b.geometry, &move_b, request, result);
+    const double t = fcl::continuousCollide(a.geometry, &move_a, b.geometry, &move_b, request, result);
+    if (t < 0) throw kit::Unsupported("FCL has no conservative advancement for these shapes");
   } else {
-    require_collide(
-        a, b, {fcl::GST_LIBCCD, false});  // CCDC_NAIVE collides with a default request, whatever the solver
     request.ccd_motion_type = turn > 0 ? fcl::CCDM_LINEAR : fcl::CCDM_TRANS;
     fcl::continuousCollide(a.geometry, a.transform, a_end, b.geometry, b.transform, b_end, request, result);
   }
