@@ -26,17 +26,17 @@ inline constexpr double narrow_touching_factor = 0x1p-54;
 /// overlap".
 inline constexpr double narrow_contact_factor = 0x1p-58;
 
-/// A slack worse than this · size is not_converged: a quarter of τ at size = L. Bites: tests/core/stress.
-inline constexpr double narrow_accept_factor = 0x1p-48;
+/// A slack worse than this · size is not_converged: 6·2⁻⁵⁰·L is 3/8 of τ. Bites: tests/core/stress.
+inline constexpr double narrow_accept_factor = 0x1p-50;
 
 /// Vertices within this · size of a support plane belong to its face: about 64 roundings of the shape's own
 /// doubles, so that faces written in double are found whole; a manifold point is then off by at most 1/4 of
 /// τ. Bites: tests/core "manifold points lie on both bodies".
-inline constexpr double manifold_face_factor = 0x1p-49;
+inline constexpr double manifold_face_factor = 0x1p-50;
 
-/// Conservative advancement stops at this gap, in units of size: a quarter of τ at size = L. Bites:
+/// Conservative advancement stops at this gap, in units of size: at most 3/8 of τ. Bites:
 /// tests/core "impact".
-inline constexpr double impact_gap_factor = 0x1p-48;
+inline constexpr double impact_gap_factor = 0x1p-50;
 
 /// World boxes are widened by this · (size of the body + |translation|) before they are rounded outward; the
 /// bound that it covers is derived in core/broad/body_box.cpp. Bites: tests/core "boxes contain the exact

@@ -1,12 +1,16 @@
-// Bound. Let u = 2⁻⁶⁴ be the unit roundoff of Wide (x87: 64 bits; wider elsewhere) and R̃ the computed rotation.
-//  * Each entry of R is a quotient of at most four products of doubles by |q|². Products of doubles round once, sums of
-//    four such terms at most three more times, all terms are <= |q|² in size: numerator within 4u|q|², denominator within
-//    relative 4u, quotient one more: |R̃ − R| <= 10u entrywise. Squares of doubles cannot overflow or lose the largest
-//    term in Wide's exponent range.
-//  * A box bound along an axis is t + Σ R_k s_k, or a square root of Σ (R_k s_k)², or a maximum of dot products: at most
-//    eight more roundings, each relative to a partial result of size at most S + |t|, where S = Σ|s_k| (or the largest
-//    |vertex|₁): error <= (3·10 + 8)·u·S + 2u|t| < 2⁻⁵⁸·(S + |t|) = 64u(S + |t|).
-//  * The bound so widened is converted to double by rounding to nearest and stepped outward when that went inward.
+// Bound. Let u = 2⁻⁶⁴ be the unit roundoff of Wide (x87: 64 bits; wider elsewhere) and R̃ the computed
+// rotation.
+//  * Each entry of R is a quotient of at most four products of doubles by |q|². Products of doubles round
+//  once, sums of
+//    four such terms at most three more times, all terms are <= |q|² in size: numerator within 4u|q|²,
+//    denominator within relative 4u, quotient one more: |R̃ − R| <= 10u entrywise. Squares of doubles cannot
+//    overflow or lose the largest term in Wide's exponent range.
+//  * A box bound along an axis is t + Σ R_k s_k, or a square root of Σ (R_k s_k)², or a maximum of dot
+//  products: at most
+//    eight more roundings, each relative to a partial result of size at most S + |t|, where S = Σ|s_k| (or
+//    the largest |vertex|₁): error <= (3·10 + 8)·u·S + 2u|t| < 2⁻⁵⁸·(S + |t|) = 64u(S + |t|).
+//  * The bound so widened is converted to double by rounding to nearest and stepped outward when that went
+//  inward.
 // Denormal results: the step outward is at least one denormal, and Wide itself does not underflow there.
 #include "core/broad/body_box.h"
 
@@ -33,7 +37,9 @@ struct Interval {
 
 Interval both_sides(Wide h) { return {-h, h}; }
 
-Wide rim(const WideVec& row, Wide radius) { return radius * std::sqrt(row.x() * row.x() + row.y() * row.y()); }
+Wide rim(const WideVec& row, Wide radius) {
+  return radius * std::sqrt(row.x() * row.x() + row.y() * row.y());
+}
 
 Interval span(const std::vector<Vec3>& vertices, const WideVec& row) {
   Interval r{std::numeric_limits<Wide>::infinity(), -std::numeric_limits<Wide>::infinity()};
@@ -48,7 +54,9 @@ Interval span(const std::vector<Vec3>& vertices, const WideVec& row) {
 struct Extent {
   WideVec row;
   Interval operator()(const Sphere& s) const { return both_sides(s.radius); }
-  Interval operator()(const Box& s) const { return both_sides(row.cwiseAbs().dot(s.half_extents.cast<Wide>())); }
+  Interval operator()(const Box& s) const {
+    return both_sides(row.cwiseAbs().dot(s.half_extents.cast<Wide>()));
+  }
   Interval operator()(const Capsule& s) const {
     return both_sides(std::abs(row.z()) * static_cast<Wide>(s.half_height) + static_cast<Wide>(s.radius));
   }
@@ -64,9 +72,7 @@ struct Extent {
   }
   Interval operator()(const Hull& s) const { return span(s.vertices, row); }
   Interval operator()(const TriangleMesh& s) const { return span(s.vertices, row); }
-  Interval operator()(const HalfSpace&) const {
-    return both_sides(std::numeric_limits<Wide>::infinity());
-  }
+  Interval operator()(const HalfSpace&) const { return both_sides(std::numeric_limits<Wide>::infinity()); }
 };
 
 // S of the bound at the top.
@@ -87,8 +93,8 @@ struct Size {
   }
 };
 
-// A plane exactly perpendicular to a world axis: the rotation is a half turn about a body axis or none, exactly, and the
-// normal has one component.
+// A plane exactly perpendicular to a world axis: the rotation is a half turn about a body axis or none,
+// exactly, and the normal has one component.
 void tighten_half_space(const HalfSpace& h, const Pose& pose, Aabb& box) {
   const Quat& q = pose.rotation;
   const int turning = (q.x != 0) + (q.y != 0) + (q.z != 0) + (q.w != 0);
@@ -130,8 +136,10 @@ Aabb swept_box(const Shape& shape, const Pose& pose, const Motion& motion) {
   for (int axis = 0; axis < 3; ++axis) {
     // The end box is the start box moved by v; the sum is rounded outward.
     const Wide v = motion.linear[axis];
-    box.lo[axis] = std::min(box.lo[axis], round_down((start.lo[axis] + v) - 0x1p-62L * std::abs(start.lo[axis] + v)));
-    box.hi[axis] = std::max(box.hi[axis], round_up((start.hi[axis] + v) + 0x1p-62L * std::abs(start.hi[axis] + v)));
+    box.lo[axis] =
+        std::min(box.lo[axis], round_down((start.lo[axis] + v) - 0x1p-62L * std::abs(start.lo[axis] + v)));
+    box.hi[axis] =
+        std::max(box.hi[axis], round_up((start.hi[axis] + v) + 0x1p-62L * std::abs(start.hi[axis] + v)));
   }
   return box;
 }

@@ -1,5 +1,5 @@
-// World boxes that provably contain the exact body: extended precision, widened by a forward error bound, rounded
-// outward (derivation in body_box.cpp).
+// World boxes that provably contain the exact body: extended precision, widened by a forward error bound,
+// rounded outward (derivation in body_box.cpp).
 #pragma once
 
 #include "core/math/aabb.h"
@@ -7,12 +7,12 @@
 
 namespace touchstone::broad {
 
-/// Tight up to a few ulp for every bounded shape. A half-space is infinite, except towards a face that is exactly
-/// perpendicular to a world axis.
+/// Tight up to a few ulp for every bounded shape. A half-space is infinite, except towards a face that is
+/// exactly perpendicular to a world axis.
 Aabb body_box(const Shape& shape, const Pose& pose);
 
-/// Contains the body at every t in [0,1]. Without rotation: both end boxes. With rotation: the ball about the body's
-/// origin along its path (tight enough for a first version).
+/// Contains the body at every t in [0,1]. Without rotation: both end boxes. With rotation: the ball about the
+/// body's origin along its path (tight enough for a first version).
 Aabb swept_box(const Shape& shape, const Pose& pose, const Motion& motion);
 
 }  // namespace touchstone::broad

@@ -32,7 +32,8 @@ void require_box(int id, const Aabb& box) {
 }
 
 std::vector<BoxSet::Entry>::iterator BoxSet::find(int id) {
-  return std::lower_bound(entries_.begin(), entries_.end(), id, [](const Entry& e, int i) { return e.id < i; });
+  return std::lower_bound(entries_.begin(), entries_.end(), id,
+                          [](const Entry& e, int i) { return e.id < i; });
 }
 
 void BoxSet::insert(int id, const Aabb& box) {

@@ -1,5 +1,5 @@
-// The broad phase: boxes with names in, pairs of names out. Conservative by contract: every pair of closed boxes that
-// overlap is reported, touching included, infinite boxes included.
+// The broad phase: boxes with names in, pairs of names out. Conservative by contract: every pair of closed
+// boxes that overlap is reported, touching included, infinite boxes included.
 #pragma once
 
 #include <memory>
@@ -29,7 +29,8 @@ struct IdPair {
 class BroadPhase {
  public:
   virtual ~BroadPhase() = default;
-  /// Throw Refused. A box must satisfy lo <= hi in each axis (infinities allowed); ids are any int, present once.
+  /// Throw Refused. A box must satisfy lo <= hi in each axis (infinities allowed); ids are any int, present
+  /// once.
   virtual void insert(int id, const Aabb& box) = 0;
   virtual void move(int id, const Aabb& box) = 0;
   virtual void remove(int id) = 0;

@@ -10,8 +10,8 @@ namespace {
 
 using Entry = BoxSet::Entry;
 
-// Variance of the centres of the finite intervals. Only a choice of axis: any answer is right, so rounding, overflow and
-// infinite boxes cannot cost a pair.
+// Variance of the centres of the finite intervals. Only a choice of axis: any answer is right, so rounding,
+// overflow and infinite boxes cannot cost a pair.
 int axis_of_most_spread(std::span<const Entry> boxes) {
   int best = 0;
   double most = -1;
@@ -41,7 +41,8 @@ class SortAndSweep final : public BroadPhase {
       return a.box.lo[axis] != b.box.lo[axis] ? a.box.lo[axis] < b.box.lo[axis] : a.id < b.id;
     });
     for (std::size_t i = 0; i < sorted_.size(); ++i)
-      for (std::size_t j = i + 1; j < sorted_.size() && sorted_[j].box.lo[axis] <= sorted_[i].box.hi[axis]; ++j)
+      for (std::size_t j = i + 1; j < sorted_.size() && sorted_[j].box.lo[axis] <= sorted_[i].box.hi[axis];
+           ++j)
         if (overlaps(sorted_[i].box, sorted_[j].box))
           out.push_back({std::min(sorted_[i].id, sorted_[j].id), std::max(sorted_[i].id, sorted_[j].id)});
     std::sort(out.begin(), out.end());

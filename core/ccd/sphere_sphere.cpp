@@ -1,52 +1,44 @@
-// |p + s·v| = r with p, v the relative position and velocity: a s² + 2 b s + c = 0, a = v·v, b = p·v, c = p·p
-// − r². The first root is c / (−b + √(b² − a c)), free of cancellation where b < 0 < c; in long double, so
-// that squares of coordinates keep the precision of the doubles.
 #include "core/ccd/sphere_sphere.h"
 
 #include <cmath>
 
-#include "core/ccd/pose_in_motion.h"
+#include "core/tolerance.h"
 
-namespace touchstone {
+namespace touchstone::ccd {
 namespace {
 
-using Real = long double;
-
-// The root, or a negative number for "none in [0,1]".
-Real first_root(const MovingShape& sa, const MovingShape& sb, Real radius) {
-  Real a = 0, b = 0, dist_sq = 0;
-  for (int i = 0; i < 3; ++i) {
-    const Real p = static_cast<Real>(sb.pose.translation[i]) - sa.pose.translation[i];
-    const Real v = static_cast<Real>(sb.motion.linear[i]) - sa.motion.linear[i];
-    a += v * v, b += p * v, dist_sq += p * p;
-  }
-  const Real dist = std::sqrt(dist_sq);
-  const Real c = (dist - radius) * (dist + radius);
-  if (c <= 0) return 0;
-  if (b >= 0) return -1;
-  const Real disc = b * b - a * c;
-  if (disc < 0) return -1;
-  const Real t = c / (-b + std::sqrt(disc));
-  return t <= 1 ? t : -1;
+// The root of a t² + 2 b t + c with c > 0, b < 0 that comes first, written without cancellation. The
+// discriminant is a (R² − d²) with d the closest approach, so that a graze loses no digits to b² − a c.
+std::optional<Wide> first_root(const WideVec& p, const WideVec& v, Wide radii) {
+  const Wide a = v.squaredNorm(), b = p.dot(v), dist = p.norm();
+  if (!(b < 0)) return std::nullopt;
+  const Wide d = p.cross(v).norm() / std::sqrt(a);
+  if (d > radii) return std::nullopt;
+  return (dist - radii) * (dist + radii) / (-b + std::sqrt(a * (radii - d) * (radii + d)));
 }
 
 }  // namespace
 
-TimeOfImpact sphere_sphere_impact(const MovingShape& a, const MovingShape& b) {
-  const Real radius =
-      static_cast<Real>(std::get<Sphere>(*a.shape).radius) + std::get<Sphere>(*b.shape).radius;
-  const Real root = first_root(a, b, radius);
-  TimeOfImpact out;
-  if (root < 0) return out;
-  out.hit = true;
-  out.t = static_cast<double>(root);
-  // Rounded down: never later than the contact.
-  if (static_cast<Real>(out.t) > root) out.t = std::nextafter(out.t, 0.0);
-  const DistanceAnswer d = distance({a.shape, pose_in_motion(a.pose, a.motion, out.t)},
-                                    {b.shape, pose_in_motion(b.pose, b.motion, out.t)});
-  out.outcome = d.outcome, out.gap = d.distance, out.normal = d.normal, out.witness = d.witness;
-  out.steps = 1;
-  return out;
+ImpactAnswer sphere_sphere(const MovingCore& a, const MovingCore& b) {
+  const WideVec p = b.start.frame.translation - a.start.frame.translation, v = b.linear - a.linear;
+  const Wide radii = a.start.radius + b.start.radius;
+  const auto gap_at = [&](Wide t) { return (p + t * v).norm() - radii; };
+  ImpactAnswer r;
+  r.separation = static_cast<double>(gap_at(0));
+  if (gap_at(0) <= tolerance::narrow_contact_factor * (p.norm() + radii)) return r.toi = 0, r;
+  const auto root = first_root(p, v, radii);
+  if (!root || *root > 1) {
+    r.clear_until = 1, r.separation = static_cast<double>(gap_at(1));
+    return r;
+  }
+  double t = static_cast<double>(*root);
+  if (static_cast<Wide>(t) > *root) t = std::nextafter(t, 0.0);
+  const double next = std::nextafter(t, 1.0);
+  if (std::abs(gap_at(next)) < std::abs(gap_at(t)) &&
+      gap_at(t) > tolerance::impact_gap_factor * (p.norm() + radii))
+    t = next;
+  r.toi = r.clear_until = t, r.separation = static_cast<double>(gap_at(t));
+  return r;
 }
 
-}  // namespace touchstone
+}  // namespace touchstone::ccd

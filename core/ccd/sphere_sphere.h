@@ -1,10 +1,10 @@
+// Two balls: |p + t v| = R. Turning does nothing to a ball about its own centre.
 #pragma once
 
-#include "core/ccd/time_of_impact.h"
+#include "core/ccd/advance.h"
 
-namespace touchstone {
+namespace touchstone::ccd {
 
-/// Closed form: the spheres' centres are their bodies' origins, so that rotation does not matter.
-TimeOfImpact sphere_sphere_impact(const MovingShape& a, const MovingShape& b);
+ImpactAnswer sphere_sphere(const MovingCore& a, const MovingCore& b);
 
-}  // namespace touchstone
+}  // namespace touchstone::ccd

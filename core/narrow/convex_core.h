@@ -1,6 +1,6 @@
-// A placed convex shape as core ⊕ ball: sphere = point ⊕ ball, capsule = segment ⊕ ball, every other shape its own core
-// with radius 0. GJK and EPA see the cores only, so a shallow contact of rounded shapes is a distance of cores, which is
-// well conditioned, and not a depth.
+// A placed convex shape as core ⊕ ball: sphere = point ⊕ ball, capsule = segment ⊕ ball, every other shape
+// its own core with radius 0. GJK and EPA see the cores only, so a shallow contact of rounded shapes is a
+// distance of cores, which is well conditioned, and not a depth.
 #pragma once
 
 #include <algorithm>
@@ -17,7 +17,7 @@ enum class CoreKind { point, segment, box, cylinder, cone, ellipsoid, vertices }
 template <class R>
 struct ConvexCore {
   CoreKind kind = CoreKind::point;
-  V3<R> size = V3<R>::Zero();     // half extents, semi-axes, or (radius, -, half height); segment: z only
+  V3<R> size = V3<R>::Zero();      // half extents, semi-axes, or (radius, -, half height); segment: z only
   std::span<const Vec3> vertices;  // kind vertices; the shape (or triangle) outlives the core
   R radius = 0;                    // of the ball
   R reach = 0;                     // no point of the core is farther from the frame's origin
@@ -95,7 +95,8 @@ inline ConvexCore<Wide> make_core(const Shape& shape, const WideFrame& frame) {
     c.kind = kind, c.size = WideVec(r, r, h), c.reach = std::sqrt(r * r + h * h);
   };
   if (const auto* s = std::get_if<Sphere>(&shape)) c.radius = s->radius;
-  if (const auto* s = std::get_if<Capsule>(&shape)) round(CoreKind::segment, 0, s->half_height), c.radius = s->radius;
+  if (const auto* s = std::get_if<Capsule>(&shape))
+    round(CoreKind::segment, 0, s->half_height), c.radius = s->radius;
   if (const auto* s = std::get_if<Cylinder>(&shape)) round(CoreKind::cylinder, s->radius, s->half_height);
   if (const auto* s = std::get_if<Cone>(&shape)) round(CoreKind::cone, s->radius, s->half_height);
   if (const auto* s = std::get_if<Hull>(&shape)) return vertices_core(s->vertices, frame);

@@ -7,13 +7,14 @@
 namespace touchstone::narrow {
 namespace {
 
-// GJK on smooth bodies gains a constant factor an iteration; 60 digits of safety over the worst seen (tests/core/stress).
+// GJK on smooth bodies gains a constant factor an iteration; 60 digits of safety over the worst seen
+// (tests/core/stress).
 constexpr int gjk_cap = 2000;
 
 using Core = ConvexCore<Wide>;
 
-// Witnesses move along their own difference, so that b − a stays parallel to it: the normal of the best support plane may
-// differ from it by the root of the tolerance.
+// Witnesses move along their own difference, so that b − a stays parallel to it: the normal of the best
+// support plane may differ from it by the root of the tolerance.
 void inflate(Separation& s, const Core& a, const Core& b) {
   const WideVec v = s.b - s.a;
   const Wide length = v.norm();
@@ -39,7 +40,8 @@ Separation from_epa(const EpaResult<Wide>& e, Wide size) {
   return s;
 }
 
-// A walk that stalled close to contact: the expanding polytope looks for the support plane from the other side.
+// A walk that stalled close to contact: the expanding polytope looks for the support plane from the other
+// side.
 void better_plane(Separation& s, const GjkResult<Wide>& g, const Core& a, const Core& b) {
   Epa<Wide> epa(a, b, s.size, tolerance::narrow_gap_factor * s.size);
   const EpaResult<Wide> e = epa.run(g, EpaBudget{});
@@ -57,8 +59,8 @@ Wide pair_size(const Core& a, const Core& b) {
 Separation separate_convex(const Core& a, const Core& b) {
   const Wide size = pair_size(a, b);
   Separation s;
-  const GjkResult<Wide> g = gjk<Wide>(a, b, tolerance::narrow_gap_factor * size,
-                                      tolerance::narrow_touching_factor * size, gjk_cap);
+  const GjkResult<Wide> g =
+      gjk<Wide>(a, b, tolerance::narrow_gap_factor * size, tolerance::narrow_touching_factor * size, gjk_cap);
   if (g.status == GjkStatus::enclosed || g.status == GjkStatus::touching) {
     Epa<Wide> epa(a, b, size, tolerance::narrow_gap_factor * size);
     s = from_epa(epa.run(g, EpaBudget{}), size);

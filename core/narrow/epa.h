@@ -1,15 +1,21 @@
-// Penetration depth of two convex cores that touch or overlap: the point of the boundary of D = B − A nearest to the
-// origin. Expanding polytope (van den Bergen 2001), with these departures:
+// Penetration depth of two convex cores that touch or overlap: the point of the boundary of D = B − A nearest
+// to the origin. Expanding polytope (van den Bergen 2001), with these departures:
 //
-// * Exit by bounds. Every direction m that is ever tried gives an upper bound h_D(m). Lower bound: the surface is closed
-//   and consists of triangles of points of D, so every ray from the origin leaves through one of them, and the ball whose
-//   radius is the least distance of a triangle lies in D. This needs no convexity of the surface, so a facet that
-//   rounding has bent does no harm. The run is closed when the bounds meet to `tolerance`.
-// * The horizon is repaired: where the new point is nearly on the line of a horizon edge, or would fold the surface over
-//   the origin, the facet behind that edge is taken out as well; pinched or many-looped horizons are filled up.
-// * Two phases. When minima form a curve (coaxial cylinders) or a surface (concentric spheroids), no number of facets
-//   closes the lower bound. After `explore` expansions the facet with the least upper bound is refined until it meets its
-//   own plane: a local minimum to `tolerance`, certified globally only to the bound reported in `lower`.
+// * Exit by bounds. Every direction m that is ever tried gives an upper bound h_D(m). Lower bound: the
+// surface is closed
+//   and consists of triangles of points of D, so every ray from the origin leaves through one of them, and
+//   the ball whose radius is the least distance of a triangle lies in D. This needs no convexity of the
+//   surface, so a facet that rounding has bent does no harm. The run is closed when the bounds meet to
+//   `tolerance`.
+// * The horizon is repaired: where the new point is nearly on the line of a horizon edge, or would fold the
+// surface over
+//   the origin, the facet behind that edge is taken out as well; pinched or many-looped horizons are filled
+//   up.
+// * Two phases. When minima form a curve (coaxial cylinders) or a surface (concentric spheroids), no number
+// of facets
+//   closes the lower bound. After `explore` expansions the facet with the least upper bound is refined until
+//   it meets its own plane: a local minimum to `tolerance`, certified globally only to the bound reported in
+//   `lower`.
 #pragma once
 
 #include <array>
@@ -95,8 +101,8 @@ class Epa {
     return probe(m, ignored);
   }
 
-  // A simplex that encloses the origin may be flat within rounding; its largest face then contains the origin as well
-  // as the whole does.
+  // A simplex that encloses the origin may be flat within rounding; its largest face then contains the origin
+  // as well as the whole does.
   void drop_degenerate(std::vector<DifferenceVertex<R>>& s) const {
     const auto w = [&](std::size_t i) -> const V3<R>& { return s[i].w; };
     if (s.size() == 4) {
@@ -112,12 +118,15 @@ class Epa {
       if (!(std::abs(n.dot(w(apex) - w(i))) > thin_ * best)) s.erase(s.begin() + static_cast<long>(apex));
     }
     if (s.size() == 3 && height(w(0), w(1), w(2)) <= thin_) {
-      const R e0 = (w(1) - w(2)).squaredNorm(), e1 = (w(0) - w(2)).squaredNorm(), e2 = (w(0) - w(1)).squaredNorm();
+      const R e0 = (w(1) - w(2)).squaredNorm(), e1 = (w(0) - w(2)).squaredNorm(),
+              e2 = (w(0) - w(1)).squaredNorm();
       s.erase(s.begin() + (e0 >= e1 && e0 >= e2 ? 0 : (e1 >= e2 ? 1 : 2)));
     }
     if (s.size() == 2 && (w(0) - w(1)).norm() <= thin_) s.pop_back();
   }
-  static std::array<std::size_t, 3> others(std::size_t k) { return {k == 0 ? 1u : 0u, k <= 1 ? 2u : 1u, k <= 2 ? 3u : 2u}; }
+  static std::array<std::size_t, 3> others(std::size_t k) {
+    return {k == 0 ? 1u : 0u, k <= 1 ? 2u : 1u, k <= 2 ? 3u : 2u};
+  }
 
   // Height over the longest edge.
   static R height(const V3<R>& a, const V3<R>& b, const V3<R>& c) {
@@ -148,7 +157,7 @@ class Epa {
       const V3<R> d = (s[1].w - s[0].w).normalized();
       const V3<R> u = d.unitOrthogonal(), v = d.cross(u);
       const R c = R(0.5), h = std::sqrt(R(3)) / 2;
-      const std::array<V3<R>, 6> around{u,        V3<R>(u * c + v * h),   V3<R>(v * h - u * c),
+      const std::array<V3<R>, 6> around{u,         V3<R>(u * c + v * h),  V3<R>(v * h - u * c),
                                         V3<R>(-u), V3<R>(-u * c - v * h), V3<R>(u * c - v * h)};
       if (!add_farthest(s, around, [&](const V3<R>& p) { return d.cross(p - s[0].w).norm(); })) return false;
     }
@@ -181,7 +190,8 @@ class Epa {
   void measure(Facet& f) {
     const V3<R>&a = point(f.v[0]), &b = point(f.v[1]), &c = point(f.v[2]);
     f.normal = detail::triangle_normal<R>(a, b, c);
-    // A sliver's distance is that of its longest edge up to thin_, which the facet across that edge accounts for.
+    // A sliver's distance is that of its longest edge up to thin_, which the facet across that edge accounts
+    // for.
     f.sliver = height(a, b, c) <= thin_;
     if (f.sliver) return;
     f.normal.normalize();
@@ -244,7 +254,9 @@ class Epa {
     return result_;
   }
 
-  bool visible(const Facet& f, const V3<R>& p) const { return f.sliver || f.normal.dot(p) - f.plane > level_; }
+  bool visible(const Facet& f, const V3<R>& p) const {
+    return f.sliver || f.normal.dot(p) - f.plane > level_;
+  }
 
   bool in_region(int f) const { return mark_[static_cast<std::size_t>(f)] == stamp_; }
   void take(int f) { mark_[static_cast<std::size_t>(f)] = stamp_, region_.push_back(f); }
@@ -269,7 +281,8 @@ class Epa {
     if (h <= thin_) return true;
     const V3<R> n = detail::triangle_normal<R>(a, b, p).normalized();
     // The normal of a triangle of height h is known to about level_/h.
-    const R longest = std::sqrt(std::max({(b - a).squaredNorm(), (p - b).squaredNorm(), (a - p).squaredNorm()}));
+    const R longest =
+        std::sqrt(std::max({(b - a).squaredNorm(), (p - b).squaredNorm(), (a - p).squaredNorm()}));
     return n.dot(a) < -level_ * (4 + longest / h) - tolerance_;
   }
 
@@ -286,7 +299,8 @@ class Epa {
     for (std::size_t i = 0; i < horizon_.size(); ++i) {
       if (seen[i]) continue;
       loops.emplace_back();
-      for (std::size_t k = i; !seen[k]; k = static_cast<std::size_t>(next_[static_cast<std::size_t>(horizon_[k].to)]))
+      for (std::size_t k = i; !seen[k];
+           k = static_cast<std::size_t>(next_[static_cast<std::size_t>(horizon_[k].to)]))
         seen[k] = true, loops.back().push_back(horizon_[k]);
     }
     std::size_t longest = 0;

@@ -1,7 +1,7 @@
-// Distance of two convex cores. Gilbert, Johnson, Keerthi 1988, in the form of van den Bergen 1999: the exit is the gap
-// between an upper bound |v| (v is a point of B − A) and the lower bound −w(n) of the best support plane seen, so that
-// both are true whatever the simplices were. No absolute epsilon: `tolerance` and `touching` are lengths that the caller
-// derives from the size of the pair.
+// Distance of two convex cores. Gilbert, Johnson, Keerthi 1988, in the form of van den Bergen 1999: the exit
+// is the gap between an upper bound |v| (v is a point of B − A) and the lower bound −w(n) of the best support
+// plane seen, so that both are true whatever the simplices were. No absolute epsilon: `tolerance` and
+// `touching` are lengths that the caller derives from the size of the pair.
 #pragma once
 
 #include <array>
@@ -25,9 +25,9 @@ struct GjkResult {
   std::array<DifferenceVertex<R>, 4> simplex;
   std::array<R, 4> weight{};
   int size = 0;
-  R upper = 0;                     // |v|
-  R lower = 0;                     // −w(normal), may be negative
-  V3<R> normal = V3<R>::Zero();    // unit, A to B, of the best lower bound
+  R upper = 0;                                 // |v|
+  R lower = 0;                                 // −w(normal), may be negative
+  V3<R> normal = V3<R>::Zero();                // unit, A to B, of the best lower bound
   V3<R> a = V3<R>::Zero(), b = V3<R>::Zero();  // core points with b − a = v
   int iterations = 0;
 };
@@ -55,10 +55,11 @@ ClosestPoint<R> closest_of(const GjkResult<R>& g) {
   return closest_to_origin<R>(std::span(p.data(), static_cast<std::size_t>(g.size)));
 }
 
-// When rounding stops the walk: the normals of all triangles of the last support points are tried as support planes. One
-// of them is the plane (or the plane through the edge) that the walk was circling.
+// When rounding stops the walk: the normals of all triangles of the last support points are tried as support
+// planes. One of them is the plane (or the plane through the edge) that the walk was circling.
 template <class R>
-void polish(GjkResult<R>& g, const ConvexCore<R>& a, const ConvexCore<R>& b, std::span<const DifferenceVertex<R>> seen) {
+void polish(GjkResult<R>& g, const ConvexCore<R>& a, const ConvexCore<R>& b,
+            std::span<const DifferenceVertex<R>> seen) {
   for (std::size_t i = 0; i < seen.size(); ++i)
     for (std::size_t j = i + 1; j < seen.size(); ++j)
       for (std::size_t k = j + 1; k < seen.size(); ++k) {
@@ -74,7 +75,8 @@ void polish(GjkResult<R>& g, const ConvexCore<R>& a, const ConvexCore<R>& b, std
 }  // namespace detail
 
 template <class R>
-GjkResult<R> gjk(const ConvexCore<R>& a, const ConvexCore<R>& b, R tolerance, R touching, int max_iterations) {
+GjkResult<R> gjk(const ConvexCore<R>& a, const ConvexCore<R>& b, R tolerance, R touching,
+                 int max_iterations) {
   GjkResult<R> g;
   V3<R> v = b.frame.translation - a.frame.translation;
   if (v.isZero(0)) v = V3<R>::UnitX();
@@ -102,7 +104,9 @@ GjkResult<R> gjk(const ConvexCore<R>& a, const ConvexCore<R>& b, R tolerance, R 
     recent[static_cast<std::size_t>(seen++) % recent.size()] = s;
   }
   if (g.iterations > max_iterations) return g.status = GjkStatus::capped, g;
-  detail::polish<R>(g, a, b, std::span(recent.data(), std::min<std::size_t>(static_cast<std::size_t>(seen), recent.size())));
+  detail::polish<R>(
+      g, a, b,
+      std::span(recent.data(), std::min<std::size_t>(static_cast<std::size_t>(seen), recent.size())));
   g.status = g.upper - g.lower <= tolerance ? GjkStatus::separated : GjkStatus::stalled;
   return g;
 }

@@ -102,8 +102,8 @@ Polygon clip(const Polygon& subject, const Polygon& window, Wide tolerance) {
   return in;
 }
 
-// Overlap of two segments: a stretch when they are parallel and in line, else nothing (their crossing is the deepest
-// point, which the caller has).
+// Overlap of two segments: a stretch when they are parallel and in line, else nothing (their crossing is the
+// deepest point, which the caller has).
 Polygon overlap_of_segments(const Polygon& a, const Polygon& b, Wide tolerance) {
   const Plane2 d = a[1] - a[0];
   const Wide length = d.norm();
@@ -144,7 +144,8 @@ std::vector<WideVec> support_face(const ConvexCore<Wide>& c, const WideVec& n, W
   return ordered;
 }
 
-std::vector<WideVec> contact_points(const ConvexCore<Wide>& a, const ConvexCore<Wide>* b, const Separation& s) {
+std::vector<WideVec> contact_points(const ConvexCore<Wide>& a, const ConvexCore<Wide>* b,
+                                    const Separation& s) {
   const Wide tolerance = tolerance::manifold_face_factor * s.size;
   const WideVec &n = s.normal, middle = (s.a + s.b) / 2;
   const Basis basis(n);

@@ -1,8 +1,8 @@
-// Contact manifold of a touching or overlapping pair: the overlap of the two faces that support the bodies along the
-// normal, as a polygon, a segment or a point, half way between the two support planes. Only points of the exact support
-// faces take part (within manifold_face_factor), so each lies within depth/2 of both bodies and has the full depth; a
-// face tilted by more than that against the normal contributes its deepest edge or vertex. Round faces (caps of
-// cylinders, bases of cones) are taken as inscribed octagons.
+// Contact manifold of a touching or overlapping pair: the overlap of the two faces that support the bodies
+// along the normal, as a polygon, a segment or a point, half way between the two support planes. Only points
+// of the exact support faces take part (within manifold_face_factor), so each lies within depth/2 of both
+// bodies and has the full depth; a face tilted by more than that against the normal contributes its deepest
+// edge or vertex. Round faces (caps of cylinders, bases of cones) are taken as inscribed octagons.
 #pragma once
 
 #include <vector>
@@ -16,6 +16,7 @@ namespace touchstone::narrow {
 std::vector<WideVec> support_face(const ConvexCore<Wide>& c, const WideVec& n, Wide tolerance);
 
 /// Support face of the plane's half-space is unbounded: the other face is the manifold.
-std::vector<WideVec> contact_points(const ConvexCore<Wide>& a, const ConvexCore<Wide>* b, const Separation& s);
+std::vector<WideVec> contact_points(const ConvexCore<Wide>& a, const ConvexCore<Wide>* b,
+                                    const Separation& s);
 
 }  // namespace touchstone::narrow

@@ -23,7 +23,8 @@ std::array<Vec3, 3> corners(const TriangleMesh& m, std::size_t triangle) {
           m.vertices[static_cast<std::size_t>(t[2])]};
 }
 
-std::vector<TriangleBound> triangles_near(const TriangleMesh& m, const WideVec& centre, Wide radius, Wide bound) {
+std::vector<TriangleBound> triangles_near(const TriangleMesh& m, const WideVec& centre, Wide radius,
+                                          Wide bound) {
   std::vector<TriangleBound> r;
   for (std::size_t i = 0; i < m.triangles.size(); ++i) {
     const auto c = corners(m, i);

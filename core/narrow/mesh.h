@@ -1,6 +1,6 @@
-// A convex body against a triangle mesh, triangle by triangle. The mesh is a surface: distance is that to the nearest
-// triangle; when triangles are hit, gap, normal and depth are those of the deepest one (the least motion that frees the
-// body from that triangle, not from the whole mesh).
+// A convex body against a triangle mesh, triangle by triangle. The mesh is a surface: distance is that to the
+// nearest triangle; when triangles are hit, gap, normal and depth are those of the deepest one (the least
+// motion that frees the body from that triangle, not from the whole mesh).
 #pragma once
 
 #include <vector>
@@ -13,13 +13,14 @@ namespace touchstone::narrow {
 /// Vertices that a triangle uses; others are no part of the set.
 std::vector<Vec3> used_vertices(const TriangleMesh& m);
 
-/// Triangles whose boxes are within `bound` of the ball about `centre` (mesh frame), with that lower bound of their
-/// distance to the ball, nearest first. Rounded to be safe.
+/// Triangles whose boxes are within `bound` of the ball about `centre` (mesh frame), with that lower bound of
+/// their distance to the ball, nearest first. Rounded to be safe.
 struct TriangleBound {
   Wide distance;
   std::size_t triangle;
 };
-std::vector<TriangleBound> triangles_near(const TriangleMesh& m, const WideVec& centre, Wide radius, Wide bound);
+std::vector<TriangleBound> triangles_near(const TriangleMesh& m, const WideVec& centre, Wide radius,
+                                          Wide bound);
 
 std::array<Vec3, 3> corners(const TriangleMesh& m, std::size_t triangle);
 

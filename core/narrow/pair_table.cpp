@@ -71,7 +71,8 @@ Separation separate_placed(const Shape& a, const WideFrame& fa, const Shape& b, 
 }
 
 Separation separate(const Shape& a, const WideFrame& fa, const Shape& b, const WideFrame& fb) {
-  return separate_placed(a, {fa.rotation, WideVec::Zero()}, b, {fb.rotation, fb.translation - fa.translation});
+  return separate_placed(a, {fa.rotation, WideVec::Zero()}, b,
+                         {fb.rotation, fb.translation - fa.translation});
 }
 
 }  // namespace touchstone::narrow

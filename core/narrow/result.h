@@ -1,5 +1,5 @@
-// Answers of the narrow phase. `error_bound` is proven by the run itself (duality gap of GJK and EPA plus rounding), in
-// the scene's unit, except where said.
+// Answers of the narrow phase. `error_bound` is proven by the run itself (duality gap of GJK and EPA plus
+// rounding), in the scene's unit, except where said.
 #pragma once
 
 #include <array>
@@ -13,12 +13,12 @@ namespace touchstone {
 /// The signed separation of a pair in extended precision, in coordinates whose origin is A's translation.
 struct Separation {
   Outcome outcome = Outcome::answered;
-  Wide gap = 0;                        // > 0 distance, <= 0 minus the depth
-  WideVec normal = WideVec::UnitX();   // unit, A to B
+  Wide gap = 0;                                      // > 0 distance, <= 0 minus the depth
+  WideVec normal = WideVec::UnitX();                 // unit, A to B
   WideVec a = WideVec::Zero(), b = WideVec::Zero();  // b − a = gap·normal
-  /// Distance: |gap − truth|. Depth: normal is feasible for −gap within rounding, and −gap exceeds the least depth by at
-  /// most `slack`, proven. Where minima form a curve or surface (coaxial or concentric round bodies) −gap is a local
-  /// minimum to `local_slack`, and `slack` says how far that is proven to be global.
+  /// Distance: |gap − truth|. Depth: normal is feasible for −gap within rounding, and −gap exceeds the least
+  /// depth by at most `slack`, proven. Where minima form a curve or surface (coaxial or concentric round
+  /// bodies) −gap is a local minimum to `local_slack`, and `slack` says how far that is proven to be global.
   Wide slack = 0, local_slack = 0;
   Wide size = 0;  // the length that tolerances are relative to
 };

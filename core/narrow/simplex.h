@@ -1,7 +1,7 @@
-// Closest point to the origin of a simplex of one to four points: every face is tried and the nearest admissible one is
-// taken. Slower than walking Voronoi regions, but a nearly flat face can only be skipped, never mistaken for another
-// region, and the chosen distance never exceeds that of any of its edges (the failure of Johnson's recursion that
-// Montanari, Petrinic, Barbieri 2017 describe cannot occur).
+// Closest point to the origin of a simplex of one to four points: every face is tried and the nearest
+// admissible one is taken. Slower than walking Voronoi regions, but a nearly flat face can only be skipped,
+// never mistaken for another region, and the chosen distance never exceeds that of any of its edges (the
+// failure of Johnson's recursion that Montanari, Petrinic, Barbieri 2017 describe cannot occur).
 #pragma once
 
 #include <array>
@@ -23,8 +23,8 @@ struct ClosestPoint {
 
 namespace detail {
 
-// A face of higher dimension wins a tie within rounding: the foot on an edge may improve the distance by less than an ulp
-// and yet turn the direction by 1e-12, which the support plane needs.
+// A face of higher dimension wins a tie within rounding: the foot on an edge may improve the distance by less
+// than an ulp and yet turn the direction by 1e-12, which the support plane needs.
 template <class R>
 inline constexpr R tie = 1 + 8 * std::numeric_limits<R>::epsilon();
 
@@ -42,8 +42,8 @@ void try_edge(const V3<R>* const* p, int i, int j, ClosestPoint<R>& best) {
   const R len_sq = d.squaredNorm(), t = -p[i]->dot(d);
   if (!(t > 0 && t < len_sq)) return;
   const R s = t / len_sq;
-  // Orthogonal to the edge up to its own rounding, not that of the ends: an edge may be 1e10 times longer than the
-  // distance, and a normal off by an angle costs half the edge times that angle.
+  // Orthogonal to the edge up to its own rounding, not that of the ends: an edge may be 1e10 times longer
+  // than the distance, and a normal off by an angle costs half the edge times that angle.
   V3<R> x = *p[i] + d * s;
   x -= d * (x.dot(d) / len_sq);
   const R dist_sq = x.squaredNorm();
@@ -52,9 +52,10 @@ void try_edge(const V3<R>* const* p, int i, int j, ClosestPoint<R>& best) {
   best.weight[static_cast<std::size_t>(i)] = 1 - s, best.weight[static_cast<std::size_t>(j)] = s;
 }
 
-/// Normal of a triangle from its two shorter edges. Of a needle, the cross product of the two long edges has a component
-/// along the needle as large as the rounding of their product, which tilts a plane 1e7 times longer than it is wide by
-/// 1e7 ulp; the short edge times a long one does not. Not normalised; counter-clockwise.
+/// Normal of a triangle from its two shorter edges. Of a needle, the cross product of the two long edges has
+/// a component along the needle as large as the rounding of their product, which tilts a plane 1e7 times
+/// longer than it is wide by 1e7 ulp; the short edge times a long one does not. Not normalised;
+/// counter-clockwise.
 template <class R>
 V3<R> triangle_normal(const V3<R>& a, const V3<R>& b, const V3<R>& c) {
   const V3<R> ab = b - a, bc = c - b, ca = a - c;
@@ -63,8 +64,8 @@ V3<R> triangle_normal(const V3<R>& a, const V3<R>& b, const V3<R>& c) {
   return lbc >= lca ? ca.cross(ab) : ab.cross(bc);
 }
 
-// The point is written as normal·(a·normal)/|normal|²: its direction is that of the plane even when its length is far
-// below the rounding of a weighted sum of the corners.
+// The point is written as normal·(a·normal)/|normal|²: its direction is that of the plane even when its
+// length is far below the rounding of a weighted sum of the corners.
 template <class R>
 void try_triangle(const V3<R>* const* p, int i, int j, int k, ClosestPoint<R>& best) {
   const V3<R>&a = *p[i], &b = *p[j], &c = *p[k];
@@ -80,12 +81,12 @@ void try_triangle(const V3<R>* const* p, int i, int j, int k, ClosestPoint<R>& b
   const R dist_sq = x.squaredNorm();
   if (!(dist_sq <= best.dist_sq * tie<R>)) return;
   best.point = x, best.dist_sq = dist_sq, best.weight = {};
-  // One step of refinement: the weights of a needle are known only to its aspect ratio; the residual in its plane mends
-  // them until their sum of corners is the foot to rounding.
+  // One step of refinement: the weights of a needle are known only to its aspect ratio; the residual in its
+  // plane mends them until their sum of corners is the foot to rounding.
   R la = wa / (wa + wb + wc), lb = wb / (wa + wb + wc), lc = wc / (wa + wb + wc);
   for (int step = 0; step < 2; ++step) {
     const V3<R> rest = x - (la * a + lb * b + lc * c);
-    const R da = n.dot(rest.cross(c - b)) / nn, db = n.dot(rest.cross(a - c)) / nn;
+    const R da = n.dot(rest.cross(b - c)) / nn, db = n.dot(rest.cross(c - a)) / nn;
     la += da, lb += db, lc -= da + db;
   }
   la = std::max<R>(la, 0), lb = std::max<R>(lb, 0), lc = std::max<R>(lc, 0);

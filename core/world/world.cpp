@@ -5,64 +5,70 @@
 namespace touchstone {
 namespace {
 
-bool counts(const Scene& s, const BodyPair& p) {
-  const bool both_static = s.bodies[static_cast<std::size_t>(p.first)].is_static &&
-                           s.bodies[static_cast<std::size_t>(p.second)].is_static;
-  return !both_static && !is_filtered(s, p.first, p.second);
-}
+const Body& body_of(const Scene& s, int i) { return s.bodies[static_cast<std::size_t>(i)]; }
 
-// The swept box when the body moves and still stands at its own pose; a script that moves it sets poses, not
-// motions.
-Aabb box_of(const Scene& s, int body, const std::optional<Pose>& pose) {
-  const Body& b = s.bodies[static_cast<std::size_t>(body)];
-  if (b.motion && !pose) return broad::swept_box(s.shape_of(body), b.pose, *b.motion);
-  return broad::body_box(s.shape_of(body), pose.value_or(b.pose));
-}
-
-std::vector<BodyPair> filtered(const Scene& s, broad::BroadPhase& broad_phase) {
+std::vector<BodyPair> reported(const Scene& scene, broad::BroadPhase& phase) {
   std::vector<broad::IdPair> all;
-  broad_phase.pairs(all);
+  phase.pairs(all);
   std::vector<BodyPair> kept;
-  for (const auto& [a, b] : all)
-    if (counts(s, {a, b})) kept.emplace_back(a, b);
+  for (const broad::IdPair& p : all)
+    if (is_reported(scene, p.first, p.second)) kept.emplace_back(p.first, p.second);
   return kept;
 }
 
+PlacedShape placed(const Scene& s, int i) { return {&s.shape_of(i), body_of(s, i).pose}; }
+
 }  // namespace
 
-std::vector<std::vector<BodyPair>> candidate_pairs(const Scene& s, broad::BroadPhase& broad_phase) {
-  std::vector<std::vector<BodyPair>> result;
-  for (const Step& step : effective_script(s)) {
+bool is_reported(const Scene& scene, int a, int b) {
+  return !(body_of(scene, a).is_static && body_of(scene, b).is_static) && !is_filtered(scene, a, b);
+}
+
+Aabb box_of(const Scene& scene, int body, const Pose& pose) {
+  const auto& motion = body_of(scene, body).motion;
+  return motion ? broad::swept_box(scene.shape_of(body), pose, *motion)
+                : broad::body_box(scene.shape_of(body), pose);
+}
+
+std::vector<std::vector<BodyPair>> candidate_pairs(const Scene& scene, broad::BroadPhase& phase) {
+  std::vector<std::vector<BodyPair>> answers;
+  for (const Step& step : effective_script(scene)) {
+    const auto box = [&] {
+      return box_of(scene, step.body, step.pose ? *step.pose : body_of(scene, step.body).pose);
+    };
     switch (step.op) {
       case Step::Op::insert:
-        broad_phase.insert(step.body, box_of(s, step.body, step.pose));
+        phase.insert(step.body, box());
         break;
       case Step::Op::move:
-        broad_phase.move(step.body, box_of(s, step.body, step.pose));
+        phase.move(step.body, box());
         break;
       case Step::Op::remove:
-        broad_phase.remove(step.body);
+        phase.remove(step.body);
         break;
       case Step::Op::query:
-        result.push_back(filtered(s, broad_phase));
+        answers.push_back(reported(scene, phase));
         break;
     }
   }
-  return result;
+  return answers;
 }
 
-std::vector<WorldContact> world_contacts(const Scene& s, broad::BroadPhase& broad_phase) {
-  for (int i = 0; i < static_cast<int>(s.bodies.size()); ++i)
-    broad_phase.insert(i, broad::body_box(s.shape_of(i), s.bodies[static_cast<std::size_t>(i)].pose));
-  std::vector<WorldContact> result;
-  for (const BodyPair& p : filtered(s, broad_phase)) {
-    const auto placed = [&](int i) {
-      return PlacedShape{&s.shape_of(i), s.bodies[static_cast<std::size_t>(i)].pose};
-    };
-    ContactAnswer c = contact(placed(p.first), placed(p.second));
-    if (c.outcome != Outcome::answered || c.overlap) result.push_back({p, std::move(c)});
+SceneContacts scene_contacts(const Scene& scene, broad::BroadPhase& phase) {
+  for (int i = 0; i < static_cast<int>(scene.bodies.size()); ++i)
+    phase.insert(i, broad::body_box(scene.shape_of(i), body_of(scene, i).pose));
+  SceneContacts r;
+  for (const auto& [a, b] : reported(scene, phase)) {
+    ++r.candidates;
+    ContactAnswer c = contact(placed(scene, a), placed(scene, b));
+    if (c.outcome == Outcome::unsupported) {
+      ++r.unsupported;
+      continue;
+    }
+    if (c.outcome != Outcome::answered) r.outcome = c.outcome;
+    if (c.overlap) r.contacts.push_back({a, b, std::move(c)});
   }
-  return result;
+  return r;
 }
 
 }  // namespace touchstone

@@ -1,8 +1,17 @@
-// Scenes as a whole: candidate pairs of a script, and contacts (broad and narrow phase together).
+// Whole scenes. Conventions, for every engine that is compared with the core:
 //
-// Which pairs count: two bodies that are not both static, not of one group, and not listed as ignored.
+// * Candidate pairs: at each `query` step the pairs (i < j, sorted) of bodies that are present, are not
+// filtered
+//   (is_filtered: one group, or listed in `ignored`) and are not both static. A body without motion has the
+//   box of its pose at that step; a body with motion has the box of the whole step from that pose, so that a
+//   swept contact is no miss.
+// * Scene contacts: at the bodies' own poses (the script is not run), the same pairs; those that overlap,
+// with normal from
+//   the first to the second body and depth. A pair that the narrow phase does not know (mesh–mesh,
+//   half-space–half-space) is left out and counted in `unsupported`.
 #pragma once
 
+#include <string_view>
 #include <vector>
 
 #include "core/broad/broad_phase.h"
@@ -11,18 +20,26 @@
 
 namespace touchstone {
 
-/// Throws broad::Refused when the broad phase refuses a step. For each query of the scene's script, the pairs
-/// whose boxes overlap, sorted. Bodies with a motion are given their swept boxes, so that pairs that meet at
-/// any time of the step are candidates.
-std::vector<std::vector<BodyPair>> candidate_pairs(const Scene& scene, broad::BroadPhase& broad_phase);
+/// False when the pair is filtered or both bodies are static.
+bool is_reported(const Scene& scene, int a, int b);
 
-struct WorldContact {
-  BodyPair bodies;
-  ContactAnswer contact;  // normal from bodies.first to bodies.second
+/// Box of body i at `pose`, of the whole step when it has a motion.
+Aabb box_of(const Scene& scene, int body, const Pose& pose);
+
+/// Runs effective_script(scene) through `phase`; one sorted list a query step.
+std::vector<std::vector<BodyPair>> candidate_pairs(const Scene& scene, broad::BroadPhase& phase);
+
+struct PairContact {
+  int a = 0, b = 0;  // a < b
+  ContactAnswer contact;
 };
 
-/// Contacts of all pairs that overlap at the bodies' own poses; pairs that the narrow phase has no answer for
-/// come with their outcome. Sorted by pair.
-std::vector<WorldContact> world_contacts(const Scene& scene, broad::BroadPhase& broad_phase);
+struct SceneContacts {
+  Outcome outcome = Outcome::answered;  // not_converged when a pair is; the others are still reported
+  std::vector<PairContact> contacts;    // overlapping pairs, sorted
+  long candidates = 0, unsupported = 0;
+};
+
+SceneContacts scene_contacts(const Scene& scene, broad::BroadPhase& phase);
 
 }  // namespace touchstone

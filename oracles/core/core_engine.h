@@ -1,4 +1,4 @@
-// Our own core as an engine, in process.
+// The project's own core behind the engine interface, in process.
 #pragma once
 
 #include "oracles/api/engine.h"
@@ -14,5 +14,7 @@ class CoreEngine final : public Engine {
  private:
   EngineCard card_;
 };
+
+EnginePtr make_core_engine();
 
 }  // namespace touchstone

@@ -1,5 +1,5 @@
-// Second opinion on depth: w(n) = h_A(n) + h_B(−n) from its definition, with support functions written out here in long
-// double, and its least value by search over the sphere. Shares no code with the narrow phase.
+// Second opinion on depth: w(n) = h_A(n) + h_B(−n) from its definition, with support functions written out
+// here in long double, and its least value by search over the sphere. Shares no code with the narrow phase.
 #pragma once
 
 #include <algorithm>
@@ -29,7 +29,10 @@ inline Wide height_along(const Shape& s, const WideVec& d) {
 class Width {
  public:
   Width(const Shape& a, const Pose& pa, const Shape& b, const Pose& pb)
-      : a_(a), b_(b), ra_(wide_rotation(pa.rotation)), rb_(wide_rotation(pb.rotation)),
+      : a_(a),
+        b_(b),
+        ra_(wide_rotation(pa.rotation)),
+        rb_(wide_rotation(pb.rotation)),
         offset_(pb.translation.cast<Wide>() - pa.translation.cast<Wide>()) {}
 
   Wide operator()(const WideVec& n) const {
@@ -46,7 +49,8 @@ class Width {
     for (int k = 0; k < 3; ++k) add(ra_.col(k)), add(-ra_.col(k)), add(rb_.col(k)), add(-rb_.col(k));
     add(offset_), add(-offset_);
     for (int k = 0; k < starts; ++k) add(r.unit_vector().cast<Wide>());
-    std::partial_sort(seeds.begin(), seeds.begin() + 4, seeds.end(), [](auto& x, auto& y) { return x.first < y.first; });
+    std::partial_sort(seeds.begin(), seeds.begin() + 4, seeds.end(),
+                      [](auto& x, auto& y) { return x.first < y.first; });
     Wide best = seeds[0].first;
     for (int k = 0; k < 4; ++k) best = std::min(best, improve(seeds[static_cast<std::size_t>(k)]));
     return best;

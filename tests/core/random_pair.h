@@ -1,5 +1,5 @@
-// Random placed pairs for the core's own tests: all convex shapes, sizes down to zero, and regimes in which an algorithm
-// gets into trouble. Not the harness's generator: a second opinion on what is worth trying.
+// Random placed pairs for the core's own tests: all convex shapes, sizes down to zero, and regimes in which
+// an algorithm gets into trouble. Not the harness's generator: a second opinion on what is worth trying.
 #pragma once
 
 #include <array>
@@ -144,21 +144,25 @@ inline Pair random_pair(Rng& r, ShapeKind ka, ShapeKind kb, Regime regime) {
       break;
     case Regime::coaxial:
       p.pose_b.rotation = p.pose_a.rotation;
-      if (r.chance(0.3)) p.pose_b.rotation = p.pose_a.rotation * Quat{0, 0, r.uniform(-1, 1), r.uniform(-1, 1)};
+      if (r.chance(0.3))
+        p.pose_b.rotation = p.pose_a.rotation * Quat{0, 0, r.uniform(-1, 1), r.uniform(-1, 1)};
       if (r.chance(0.3)) p.pose_b.rotation.x += fine;
       if (r.chance(0.5)) p.pose_b.translation = r.unit_vector() * fine;
-      if (r.chance(0.3)) p.pose_b.translation += rotation_matrix(p.pose_a.rotation).col(2) * r.uniform(-0.5, 0.5);
+      if (r.chance(0.3))
+        p.pose_b.translation += rotation_matrix(p.pose_a.rotation).col(2) * r.uniform(-0.5, 0.5);
       if (r.chance(0.2)) p.b = p.a;
       break;
     case Regime::aligned:
       p.pose_a.rotation = axis_rotation(r), p.pose_b.rotation = axis_rotation(r);
       p.pose_b.translation = Vec3(static_cast<double>(r.below(9)) - 4, static_cast<double>(r.below(9)) - 4,
-                                  static_cast<double>(r.below(9)) - 4) / 4;
+                                  static_cast<double>(r.below(9)) - 4) /
+                             4;
       break;
     case Regime::lattice_touch:
       p.pose_a.rotation = p.pose_b.rotation = {};
       p.pose_b.translation = Vec3(static_cast<double>(r.below(9)) - 4, static_cast<double>(r.below(9)) - 4,
-                                  static_cast<double>(r.below(9)) - 4) / 2;
+                                  static_cast<double>(r.below(9)) - 4) /
+                             2;
       aim(p, 0);
       break;
   }

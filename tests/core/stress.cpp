@@ -1,5 +1,6 @@
-// stress [CASES] [SEED] [SEARCH]: random pairs over every regime, judged by bounds and, every SEARCH-th overlapping one, by
-// a search for a better direction. Prints a table and the first failures; exit 1 on any. Run by hand, not by ctest.
+// stress [CASES] [SEED] [SEARCH]: random pairs over every regime, judged by bounds and, every SEARCH-th
+// overlapping one, by a search for a better direction. Prints a table and the first failures; exit 1 on any.
+// Run by hand, not by ctest.
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
@@ -21,20 +22,23 @@ struct Tally {
 
 void describe(const Pair& p) {
   for (const auto* s : {&p.a, &p.b})
-    std::visit([&](const auto& x) {
-      std::printf("    %s", std::string(std::remove_cvref_t<decltype(x)>::type).c_str());
-      for_each_field(x, [&](auto, const auto& v, Domain) {
-        using T = std::remove_cvref_t<decltype(v)>;
-        if constexpr (std::is_same_v<T, double>) std::printf(" %s", to_text(v).c_str());
-        if constexpr (std::is_same_v<T, Vec3>) std::printf(" (%.17g %.17g %.17g)", v.x(), v.y(), v.z());
-        if constexpr (std::is_same_v<T, std::vector<Vec3>>)
-          for (const Vec3& q : v) std::printf(" (%.17g %.17g %.17g)", q.x(), q.y(), q.z());
-      });
-      std::printf("\n");
-    }, *s);
+    std::visit(
+        [&](const auto& x) {
+          std::printf("    %s", std::string(std::remove_cvref_t<decltype(x)>::type).c_str());
+          for_each_field(x, [&](auto, const auto& v, Domain) {
+            using T = std::remove_cvref_t<decltype(v)>;
+            if constexpr (std::is_same_v<T, double>) std::printf(" %s", to_text(v).c_str());
+            if constexpr (std::is_same_v<T, Vec3>) std::printf(" (%.17g %.17g %.17g)", v.x(), v.y(), v.z());
+            if constexpr (std::is_same_v<T, std::vector<Vec3>>)
+              for (const Vec3& q : v) std::printf(" (%.17g %.17g %.17g)", q.x(), q.y(), q.z());
+          });
+          std::printf("\n");
+        },
+        *s);
   for (const auto* q : {&p.pose_a, &p.pose_b})
-    std::printf("    pose (%.17g %.17g %.17g) [%.17g %.17g %.17g %.17g]\n", q->translation.x(), q->translation.y(),
-                q->translation.z(), q->rotation.x, q->rotation.y, q->rotation.z, q->rotation.w);
+    std::printf("    pose (%.17g %.17g %.17g) [%.17g %.17g %.17g %.17g]\n", q->translation.x(),
+                q->translation.y(), q->translation.z(), q->rotation.x, q->rotation.y, q->rotation.z,
+                q->rotation.w);
 }
 
 }  // namespace
@@ -74,19 +78,21 @@ int main(int argc, char** argv) {
       if (regret > tau) ++t.regret, bad = true, why = "regret";
     }
     if (bad && ++failures <= 6) {
-      std::printf("case %ld %s: %s gap %.6Lg slack %.3Lg local %.3Lg size %.3Lg L %.3g feas %.3g |b-a| %.6Lg\n", i,
-                  regime_names[static_cast<std::size_t>(regime)].data(), why, s.gap, s.slack, s.local_slack, s.size, l, feasibility,
-                  (s.b - s.a).norm());
+      std::printf(
+          "case %ld %s: %s gap %.6Lg slack %.3Lg local %.3Lg size %.3Lg L %.3g feas %.3g |b-a| %.6Lg\n", i,
+          regime_names[static_cast<std::size_t>(regime)].data(), why, s.gap, s.slack, s.local_slack, s.size,
+          l, feasibility, (s.b - s.a).norm());
       describe(p);
     }
   }
-  std::printf("%-14s %8s %8s %6s %6s %6s %6s %6s %9s %9s %9s %8s\n", "regime", "cases", "overlap", "notcv", "loose", "feas",
-              "witn", "regret", "feas/L", "regret/L", "slack/L", "us");
+  std::printf("%-14s %8s %8s %6s %6s %6s %6s %6s %9s %9s %9s %8s\n", "regime", "cases", "overlap", "notcv",
+              "loose", "feas", "witn", "regret", "feas/L", "regret/L", "slack/L", "us");
   for (int k = 0; k < regime_count; ++k) {
     const Tally& t = table[static_cast<std::size_t>(k)];
-    std::printf("%-14s %8ld %8ld %6ld %6ld %6ld %6ld %6ld %9.2e %9.2e %9.2e %8.1f\n", regime_names[static_cast<std::size_t>(k)].data(),
-                t.cases, t.overlaps, t.not_converged, t.loose, t.feasibility, t.witness, t.regret, t.worst_feasibility,
-                t.worst_regret, t.worst_slack, t.ns / 1e3 / static_cast<double>(std::max(1L, t.cases)));
+    std::printf("%-14s %8ld %8ld %6ld %6ld %6ld %6ld %6ld %9.2e %9.2e %9.2e %8.1f\n",
+                regime_names[static_cast<std::size_t>(k)].data(), t.cases, t.overlaps, t.not_converged,
+                t.loose, t.feasibility, t.witness, t.regret, t.worst_feasibility, t.worst_regret,
+                t.worst_slack, t.ns / 1e3 / static_cast<double>(std::max(1L, t.cases)));
   }
   return failures ? 1 : 0;
 }

@@ -1,6 +1,7 @@
-// Two segments. The nearest pair is either an end of one and a point of the other, or inner points of both; then the
-// normal is u×v. Parameters come from cross products, so that their error grows as 1/sin of the angle and not as 1/sin²
-// (the usual normal equations): for nearly parallel segments that touch, the square would cost the normal.
+// Two segments. The nearest pair is either an end of one and a point of the other, or inner points of both;
+// then the normal is u×v. Parameters come from cross products, so that their error grows as 1/sin of the
+// angle and not as 1/sin² (the usual normal equations): for nearly parallel segments that touch, the square
+// would cost the normal.
 #pragma once
 
 #include <algorithm>

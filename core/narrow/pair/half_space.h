@@ -1,5 +1,5 @@
-// A bounded convex body A against a half-space B: only one direction separates them, so distance and depth are both one
-// support evaluation.
+// A bounded convex body A against a half-space B: only one direction separates them, so distance and depth
+// are both one support evaluation.
 #pragma once
 
 #include "core/narrow/convex_pair.h"

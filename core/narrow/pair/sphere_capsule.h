@@ -1,5 +1,6 @@
-// A point and a segment. Where the foot is inside the segment the difference is made orthogonal to it before it is
-// normalised: a component along the segment, however small, costs half the segment's length times itself in depth.
+// A point and a segment. Where the foot is inside the segment the difference is made orthogonal to it before
+// it is normalised: a component along the segment, however small, costs half the segment's length times
+// itself in depth.
 #pragma once
 
 #include <algorithm>
