@@ -37,10 +37,11 @@ class Watchdog {
     cpu_at_progress_ = w.cpu_seconds();
     idle_ = {};
   }
-  /// At most once a tick does anything. The reason to kill the worker, if there is one.
+  /// Once a tick.
+  bool is_due() const { return Clock::now() - last_check_ >= tick; }
+  /// The reason to kill the worker, if there is one.
   std::optional<std::pair<Outcome, std::string>> check(const WorkerProcess& w, bool loading) {
     const auto now = Clock::now();
-    if (now - last_check_ < tick) return std::nullopt;
     // The harness itself may have been stopped or starved: a gap in its own ticks is not the worker's.
     idle_ += std::min<Clock::duration>(now - last_check_, 5 * tick);
     last_check_ = now;
@@ -73,9 +74,9 @@ class RemoteEngine::Impl {
  public:
   explicit Impl(RemoteSpec spec) : spec_(std::move(spec)), watchdog_(spec_.limits) {
     start();
-    const auto chosen = static_cast<std::size_t>(session_->hello.chosen);
+    const auto chosen = static_cast<std::size_t>(nursery_->hello.chosen);
     try {
-      card_ = card_from_json(session_->hello.cards[chosen]);
+      card_ = card_from_json(nursery_->hello.cards[chosen]);
     } catch (const InputError& e) {
       throw e.within(spec_.plugin.string() + ": card");
     }
@@ -121,14 +122,14 @@ class RemoteEngine::Impl {
     resume();
   }
 
+  /// A new worker, and a new nursery too if there is none or it has died.
   void start() {
-    std::vector<std::string> arguments;
-    if (!spec_.engine.empty()) arguments.push_back(spec_.engine);
-    session_.emplace(start_worker(spec_.host, spec_.plugin, arguments, spec_.limits.start_wall_seconds));
-    if (session_->hello.chosen < 0) {
-      session_.reset();
-      throw InputError(spec_.plugin.string(), "the worker chose no engine");
+    const double patience = spec_.limits.start_wall_seconds;
+    if (!nursery_ || nursery_->process->has_ended()) {
+      nursery_.reset();
+      nursery_.emplace(start_nursery(spec_.host, spec_.plugin, spec_.engine, patience));
     }
+    session_.emplace(start_worker(*nursery_, spec_.plugin, patience));
     resume();
   }
 
@@ -161,12 +162,15 @@ class RemoteEngine::Impl {
       } catch (const protocol::Malformed& e) {
         return charge(Outcome::crashed, std::string("rubbish in place of an answer: ") + e.what());
       }
-      if (r == ReadResult::closed ||
-          (r == ReadResult::nothing_yet && session_->process->has_ended() && drained()))
-        return charge_death();
+      if (r == ReadResult::closed) return charge_death();
       if (at_.item == cases_.size()) return;
-      if (const auto verdict = watchdog_.check(*session_->process, !at_.loaded))
-        return charge(verdict->first, verdict->second);
+      if (watchdog_.is_due()) {
+        if (const auto verdict = watchdog_.check(*session_->process, !at_.loaded))
+          return charge(verdict->first, verdict->second);
+        // Usually the end of its answers tells; a child of its own may hold them open.
+        if (r == ReadResult::nothing_yet && session_->process->has_ended() && drained())
+          return charge_death();
+      }
       if (r == ReadResult::nothing_yet) wait();
     }
   }
@@ -269,7 +273,7 @@ class RemoteEngine::Impl {
 
   RemoteSpec spec_;
   Watchdog watchdog_;
-  std::optional<WorkerSession> session_;
+  std::optional<WorkerSession> nursery_, session_;  // a session ends before its nursery
   std::span<const Case> cases_;
   std::vector<CaseObservations> results_;
   Cursor at_;
@@ -288,7 +292,7 @@ int RemoteEngine::worker_pid() const { return impl_->pid(); }
 
 std::vector<EngineCard> list_plugin_engines(const std::filesystem::path& host,
                                             const std::filesystem::path& plugin) {
-  const WorkerSession s = start_worker(host, plugin, {"--cards"}, WorkerLimits{}.start_wall_seconds);
+  const WorkerSession s = start_nursery(host, plugin, "--cards", WorkerLimits{}.start_wall_seconds);
   std::vector<EngineCard> cards;
   for (std::size_t i = 0; i < s.hello.cards.size(); ++i) try {
       cards.push_back(card_from_json(s.hello.cards[i]));

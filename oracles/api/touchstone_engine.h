@@ -3,6 +3,8 @@
  * A plug-in is a shared object that exports one function, `touchstone_plugin_v1`. It returns a table that lists one or
  * more engines. The host process loads the plug-in, creates one engine, loads scenes and asks questions. The plug-in
  * may crash, hang, print and throw: the host is a process of its own and all of that is an observation.
+ * The process that loads the plug-in is forked before `create`, and again after each crash: start threads in `create`
+ * or later, not while loading.
  *
  * Units and frames: lengths in the scene's unit, angles in radians, world frame unless said otherwise, column vectors,
  * right-handed. Quaternions are x, y, z, w, non-zero and NOT necessarily unit. Matrices are row-major.

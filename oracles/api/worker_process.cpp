@@ -1,6 +1,7 @@
 #include "oracles/api/worker_process.h"
 
 #include <fcntl.h>
+#include <poll.h>
 #include <signal.h>
 #include <spawn.h>
 #include <sys/socket.h>
@@ -23,6 +24,7 @@ namespace touchstone {
 namespace {
 
 constexpr std::size_t error_tail_bytes = 4096;
+constexpr int nursery_reply_ms = 30000;  // it runs no engine; only a machine in trouble makes it this slow
 
 [[noreturn]] void fail(const char* what) { throw std::system_error(errno, std::generic_category(), what); }
 
@@ -158,7 +160,6 @@ void FileDescriptor::close() {
 
 WorkerProcess::WorkerProcess(const std::filesystem::path& host, const std::vector<std::string>& arguments) {
   TwoEnds questions = make_socket(), answers = make_pipe(), errors = make_pipe();
-  fcntl(answers.ours.get(), F_SETPIPE_SZ, 1 << 18);  // fewer wake-ups; the default works too
   const std::string program = host.string();
   const Streams streams{questions.theirs.get(), answers.theirs.get(), errors.theirs.get()};
   const int error = SpawnThread::instance().run([&] { return spawn(program, arguments, streams, &pid_); });
@@ -166,11 +167,69 @@ WorkerProcess::WorkerProcess(const std::filesystem::path& host, const std::vecto
     throw InputError(program, std::string("the worker program cannot be started: ") + std::strerror(error));
   questions_ = std::move(questions.ours), answers_ = std::move(answers.ours),
   errors_ = std::move(errors.ours);
+  open_clock();
+}
+
+WorkerProcess::WorkerProcess(std::shared_ptr<WorkerProcess> nursery) : nursery_(std::move(nursery)) {
+  TwoEnds questions = make_socket(), answers = make_pipe(), errors = make_pipe();
+  fcntl(answers.ours.get(), F_SETPIPE_SZ, 1 << 18);  // fewer wake-ups; the default works too
+  const std::array streams{questions.theirs.get(), answers.theirs.get(), errors.theirs.get()};
+  const auto reply = nursery_->request({nursery::Op::fork, 0}, &streams);
+  if (!reply || reply->value <= 0) throw InputError("", "the process that loaded the plug-in is gone");
+  pid_ = reply->value;
+  questions_ = std::move(questions.ours), answers_ = std::move(answers.ours),
+  errors_ = std::move(errors.ours);
+  open_clock();
+}
+
+WorkerProcess::~WorkerProcess() {
+  if (pid_ > 0) end();
+}
+
+void WorkerProcess::open_clock() {
   if (clock_getcpuclockid(pid_, &clock_) != 0)
     clock_ = CLOCK_PROCESS_CPUTIME_ID;  // gone already: has_ended() tells
 }
 
-WorkerProcess::~WorkerProcess() { end(); }
+std::optional<nursery::Reply> WorkerProcess::request(nursery::Request what,
+                                                     const std::array<int, nursery::descriptor_count>* with) {
+  iovec body{&what, sizeof what};
+  msghdr message{};
+  message.msg_iov = &body, message.msg_iovlen = 1;
+  alignas(cmsghdr) char control[CMSG_SPACE(sizeof *with)] = {};
+  if (with) {
+    message.msg_control = control, message.msg_controllen = sizeof control;
+    cmsghdr* const header = CMSG_FIRSTHDR(&message);
+    header->cmsg_level = SOL_SOCKET, header->cmsg_type = SCM_RIGHTS,
+    header->cmsg_len = CMSG_LEN(sizeof *with);
+    std::memcpy(CMSG_DATA(header), with->data(), sizeof *with);
+  }
+  if (sendmsg(questions_.get(), &message, MSG_NOSIGNAL) != static_cast<ssize_t>(sizeof what))
+    return std::nullopt;
+  pollfd ready{questions_.get(), POLLIN, 0};
+  if (poll(&ready, 1, nursery_reply_ms) <= 0) return std::nullopt;
+  nursery::Reply reply{};
+  if (recv(questions_.get(), &reply, sizeof reply, 0) != static_cast<ssize_t>(sizeof reply))
+    return std::nullopt;
+  return reply;
+}
+
+/// Sets reaped_ and status_ when the process has ended; waits for that if asked to.
+bool WorkerProcess::reap(bool wait) {
+  if (reaped_) return true;
+  if (!nursery_) {
+    pid_t ended = 0;
+    do ended = waitpid(pid_, &status_, wait ? 0 : WNOHANG);
+    while (ended < 0 && errno == EINTR);
+    reaped_ = ended == pid_;
+    return reaped_;
+  }
+  const auto reply = nursery_->request({wait ? nursery::Op::wait : nursery::Op::poll, pid_}, nullptr);
+  reaped_ = !reply || reply->value != 0;
+  // Workers die with their nursery, of SIGKILL.
+  if (reaped_) status_ = reply ? reply->status : SIGKILL;
+  return reaped_;
+}
 
 double WorkerProcess::cpu_seconds() const {
   timespec t{};
@@ -208,10 +267,7 @@ void WorkerProcess::drain_errors() {
   }
 }
 
-bool WorkerProcess::has_ended() {
-  if (!reaped_) reaped_ = waitpid(pid_, &status_, WNOHANG) == pid_;
-  return reaped_;
-}
+bool WorkerProcess::has_ended() { return reap(/*wait=*/false); }
 
 bool WorkerProcess::ends_within(double seconds) {
   using Clock = std::chrono::steady_clock;
@@ -224,12 +280,11 @@ bool WorkerProcess::ends_within(double seconds) {
 }
 
 std::string WorkerProcess::end() {
-  if (!has_ended()) {
+  if (!reaped_) {
+    // An ended process that nobody has reaped yet keeps its number and its status: the signals miss.
     kill(-pid_, SIGKILL);
     kill(pid_, SIGKILL);  // in case the group was left
-    while (waitpid(pid_, &status_, 0) < 0 && errno == EINTR) {
-    }
-    reaped_ = true;
+    reap(/*wait=*/true);
   } else {
     kill(-pid_, SIGKILL);  // children that it left behind
   }

@@ -1,18 +1,25 @@
-// One worker process: touchstone-host with one plug-in, its three streams, its clock and its end. Linux.
+// A process of the host program, its three streams, its clock and its end. Linux.
 //
-// The worker dies with the harness: it asks for SIGKILL on the death of its parent *thread*, so every worker
-// is spawned by one thread that lives as long as the process. It leads a process group of its own, and the
+// There are two kinds. A nursery is spawned by the harness and loads a plug-in; a worker is forked by a
+// nursery, which is several times cheaper than loading the plug-in's libraries again after every crash. Both
+// die with the harness: each asks for SIGKILL on the death of its parent *thread*, so every nursery is
+// spawned by one thread that lives as long as the harness. Each leads a process group of its own, and the
 // whole group is killed with it.
 #pragma once
 
 #include <sys/types.h>
 
+#include <array>
 #include <cstdint>
 #include <ctime>
 #include <filesystem>
+#include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
+
+#include "oracles/api/nursery_protocol.h"
 
 namespace touchstone {
 
@@ -35,8 +42,10 @@ class FileDescriptor {
 
 class WorkerProcess {
  public:
-  /// Throws InputError when the host program cannot be started.
+  /// A nursery. Throws InputError when the host program cannot be started.
   WorkerProcess(const std::filesystem::path& host, const std::vector<std::string>& arguments);
+  /// A worker of that nursery. Throws InputError when the nursery is gone.
+  explicit WorkerProcess(std::shared_ptr<WorkerProcess> nursery);
   ~WorkerProcess();
   WorkerProcess(const WorkerProcess&) = delete;
   WorkerProcess& operator=(const WorkerProcess&) = delete;
@@ -54,7 +63,8 @@ class WorkerProcess {
   /// Reads what the worker wrote to its standard error; only the end of it is kept.
   void drain_errors();
 
-  /// Reaps the process if it has ended by itself.
+  /// Reaps the process if it has ended by itself. Of a worker this is a question to the nursery: tens of
+  /// microseconds.
   bool has_ended();
   /// The same, after waiting for it: a dying process closes its streams before it can be reaped.
   bool ends_within(double seconds);
@@ -63,6 +73,13 @@ class WorkerProcess {
   std::string end();
 
  private:
+  /// One request to this nursery; nothing when it is gone or silent.
+  std::optional<nursery::Reply> request(nursery::Request what,
+                                        const std::array<int, nursery::descriptor_count>* with);
+  bool reap(bool wait);
+  void open_clock();
+
+  std::shared_ptr<WorkerProcess> nursery_;
   pid_t pid_ = -1;
   bool reaped_ = false;
   int status_ = 0;

@@ -5,6 +5,7 @@
 
 #include <cerrno>
 #include <chrono>
+#include <vector>
 
 #include "core/base/input_error.h"
 
@@ -57,19 +58,28 @@ ReadResult read_available(int fd, protocol::FrameReader& frames) {
   }
 }
 
-WorkerSession start_worker(const std::filesystem::path& host, const std::filesystem::path& plugin,
-                           const std::vector<std::string>& arguments, double wall_seconds) {
+WorkerSession start_nursery(const std::filesystem::path& host, const std::filesystem::path& plugin,
+                            const std::string& argument, double wall_seconds) {
   const std::string place = plugin.string();
   std::error_code error;
   if (!std::filesystem::is_regular_file(plugin, error))
     throw InputError(place, "there is no such plug-in file");
   // An absolute path, or the dynamic linker would search for a name without a slash elsewhere.
-  std::vector<std::string> all{std::filesystem::absolute(plugin).string()};
-  all.insert(all.end(), arguments.begin(), arguments.end());
+  std::vector<std::string> arguments{std::filesystem::absolute(plugin).string()};
+  if (!argument.empty()) arguments.push_back(argument);
   WorkerSession s;
-  s.process = std::make_unique<WorkerProcess>(host, all);
+  s.process = std::make_shared<WorkerProcess>(host, arguments);
   s.hello = await_hello(s, place, wall_seconds);
   if (!s.hello.error.empty()) throw InputError(place, s.hello.error);
+  return s;
+}
+
+WorkerSession start_worker(const WorkerSession& nursery, const std::filesystem::path& plugin,
+                           double wall_seconds) {
+  WorkerSession s;
+  s.process = std::make_shared<WorkerProcess>(nursery.process);
+  s.hello = await_hello(s, plugin.string(), wall_seconds);
+  if (!s.hello.error.empty()) throw InputError(plugin.string(), s.hello.error);
   return s;
 }
 

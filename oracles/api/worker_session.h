@@ -4,7 +4,6 @@
 #include <filesystem>
 #include <memory>
 #include <string>
-#include <vector>
 
 #include "oracles/api/protocol.h"
 #include "oracles/api/worker_process.h"
@@ -12,15 +11,20 @@
 namespace touchstone {
 
 struct WorkerSession {
-  std::unique_ptr<WorkerProcess> process;
+  std::shared_ptr<WorkerProcess> process;
   protocol::FrameReader frames;
   protocol::Hello hello;
 };
 
-/// `arguments` follow the plug-in's path. Throws InputError (place: the plug-in) when the worker dies, is
-/// silent for `wall_seconds`, or says that the plug-in cannot be used.
-WorkerSession start_worker(const std::filesystem::path& host, const std::filesystem::path& plugin,
-                           const std::vector<std::string>& arguments, double wall_seconds);
+/// A nursery for the plug-in, and its hello. `argument` follows the plug-in's path: an engine, "" or
+/// "--cards". Throws InputError (place: the plug-in) when the process dies, is silent for `wall_seconds`, or
+/// says that the plug-in cannot be used.
+WorkerSession start_nursery(const std::filesystem::path& host, const std::filesystem::path& plugin,
+                            const std::string& argument, double wall_seconds);
+
+/// A worker of the nursery. Throws InputError as above.
+WorkerSession start_worker(const WorkerSession& nursery, const std::filesystem::path& plugin,
+                           double wall_seconds);
 
 enum class ReadResult { some, nothing_yet, closed };
 /// Reads what is there, up to a bound, into `frames`.

@@ -1,5 +1,7 @@
-// touchstone-host PLUGIN.so [ENGINE | --cards]: loads one engine and answers questions on standard input with
-// answers on standard output (oracles/api/protocol.h). With --cards it only says which engines there are.
+// touchstone-host PLUGIN.so [ENGINE | --cards]: started by the harness, not by people. Loads a plug-in, says
+// on standard output which engines it has (oracles/api/protocol.h), and then, unless asked for the cards
+// alone, forks workers on request (oracles/api/nursery_protocol.h). Each worker creates the engine and
+// answers questions.
 #include <fcntl.h>
 #include <signal.h>
 #include <sys/prctl.h>
@@ -7,10 +9,10 @@
 
 #include <cstdio>
 #include <exception>
-#include <stdexcept>
 #include <string>
 
 #include "oracles/api/protocol.h"
+#include "oracles/host/nursery.h"
 #include "oracles/host/plugin.h"
 #include "oracles/host/serve.h"
 
@@ -27,26 +29,25 @@ namespace {
 using namespace touchstone;
 
 struct Streams {
-  int questions, answers;
+  int requests, answers;
 };
 
 // Engines print. Standard output becomes standard error, standard input is empty, and the protocol moves to
 // descriptors that no printf reaches.
 Streams protect_streams() {
-  const int questions = fcntl(0, F_DUPFD_CLOEXEC, 100), answers = fcntl(1, F_DUPFD_CLOEXEC, 100);
+  const int requests = fcntl(0, F_DUPFD_CLOEXEC, 100), answers = fcntl(1, F_DUPFD_CLOEXEC, 100);
   const int null = open("/dev/null", O_RDONLY | O_CLOEXEC);
-  if (questions < 0 || answers < 0 || null < 0 || dup2(null, 0) < 0 || dup2(2, 1) < 0) {
+  if (requests < 0 || answers < 0 || null < 0 || dup2(null, 0) < 0 || dup2(2, 1) < 0) {
     std::perror("touchstone-host");
     _exit(3);
   }
   close(null);
-  return {questions, answers};
+  return {requests, answers};
 }
 
 struct Loaded {
   protocol::Hello hello;
   const ts_plugin* plugin = nullptr;
-  ts_engine* engine = nullptr;
 };
 
 Loaded load(const std::string& file, const std::string& engine) {
@@ -54,10 +55,7 @@ Loaded load(const std::string& file, const std::string& engine) {
   try {
     l.plugin = &host::load_plugin(file);
     l.hello.cards = host::cards_of(*l.plugin);
-    if (engine == "--cards") return l;
-    l.hello.chosen = host::choose_engine(l.hello.cards, engine);
-    l.engine = l.plugin->create(static_cast<std::uint32_t>(l.hello.chosen));
-    if (!l.engine) throw std::runtime_error("created no engine");
+    if (engine != "--cards") l.hello.chosen = host::choose_engine(l.hello.cards, engine);
   } catch (const std::exception& e) {
     l.hello.error = e.what(), l.hello.chosen = -1;
   }
@@ -70,6 +68,20 @@ void say(int fd, const protocol::Hello& hello) {
   host::write_all(fd, out.data(), out.size());
 }
 
+/// The life of a forked worker.
+void work(const Loaded& l, host::WorkerStreams streams) {
+  protocol::Hello hello = l.hello;
+  ts_engine* engine = nullptr;
+  try {
+    engine = l.plugin->create(static_cast<std::uint32_t>(hello.chosen));
+    if (!engine) hello.error = "created no engine";
+  } catch (const std::exception& e) {
+    hello.error = std::string("could not create its engine: ") + e.what();
+  }
+  say(streams.answers, hello);
+  if (engine) host::serve(*l.plugin, engine, streams.questions, streams.answers);
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -77,14 +89,13 @@ int main(int argc, char** argv) {
     std::fprintf(stderr, "usage: touchstone-host PLUGIN.so [ENGINE | --cards]\n");
     return 2;
   }
-  // If the harness died between spawn and here, reading the questions finds their end.
+  // If the harness died between spawn and here, reading the requests finds their end.
   prctl(PR_SET_PDEATHSIG, SIGKILL);
   prctl(PR_SET_DUMPABLE, 0);  // expected crashes leave no core files
   const Streams streams = protect_streams();
   const Loaded l = load(argv[1], argc > 2 ? argv[2] : "");
   say(streams.answers, l.hello);
-  if (!l.engine) return l.hello.error.empty() ? 0 : 2;
-  host::serve(*l.plugin, l.engine, streams.questions, streams.answers);
-  // No destructors: a plug-in's exit handlers may hang, and nobody waits for them.
-  _exit(0);
+  close(streams.answers);
+  if (l.hello.chosen < 0) _exit(l.hello.error.empty() ? 0 : 2);
+  host::run_nursery(streams.requests, [&](host::WorkerStreams worker) { work(l, worker); });
 }

@@ -37,6 +37,15 @@ bool is_alive(pid_t pid) {
   return after_name == std::string::npos || text.substr(after_name + 2, 1) != "Z";
 }
 
+/// The fourth field of stat, after the name in parentheses.
+pid_t parent_of(pid_t pid) {
+  std::ifstream stat("/proc/" + std::to_string(pid) + "/stat");
+  std::string text;
+  std::getline(stat, text);
+  const auto after_name = text.rfind(')');
+  return after_name == std::string::npos ? -1 : std::atoi(text.c_str() + after_name + 4);
+}
+
 bool dies_eventually(pid_t pid) {
   for (int i = 0; i < 3000 && is_alive(pid); ++i) std::this_thread::sleep_for(10ms);
   return !is_alive(pid);
@@ -76,6 +85,28 @@ TEST_CASE("a worker that died between two runs is replaced without loss", "[orac
   const auto results = engine.run(cases);
   CHECK(is_good(results[0].answers[0], 0, cases[0].queries[0]));
   CHECK(is_good(results[2].answers[2], 2, cases[2].queries[2]));
+}
+
+TEST_CASE("the death of the process that forks the workers is survived too", "[oracles][remote]") {
+  RemoteEngine engine(bad_spec("slow"));
+  const auto cases = make_cases(30, -1);
+  const pid_t nursery = parent_of(engine.worker_pid());
+  REQUIRE(nursery > 1);
+  REQUIRE(nursery != getpid());
+  std::thread killer([nursery] {
+    std::this_thread::sleep_for(100ms);
+    kill(nursery, SIGKILL);
+  });
+  const auto results = engine.run(cases);
+  killer.join();
+  int good = 0, killed = 0;
+  for (std::size_t i = 0; i < cases.size(); ++i)
+    for (std::size_t k = 0; k < 3; ++k) {
+      good += is_good(results[i].answers[k], static_cast<int>(i), cases[i].queries[k]);
+      killed += results[i].answers[k].outcome == Outcome::crashed;
+    }
+  CHECK((killed == 1 || killed == 3));
+  CHECK(good + killed == 90);
 }
 
 TEST_CASE("workers outlive the thread that made them", "[oracles][remote]") {

@@ -1,0 +1,94 @@
+#include "oracles/host/nursery.h"
+
+#include <fcntl.h>
+#include <signal.h>
+#include <sys/prctl.h>
+#include <sys/socket.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
+#include <cstring>
+
+#include "oracles/api/nursery_protocol.h"
+
+namespace touchstone::host {
+namespace {
+
+using Descriptors = std::array<int, nursery::descriptor_count>;
+
+/// False at the end of the requests.
+bool receive(int fd, nursery::Request& request, Descriptors& descriptors) {
+  descriptors.fill(-1);
+  alignas(cmsghdr) char control[CMSG_SPACE(sizeof(Descriptors))] = {};
+  iovec body{&request, sizeof request};
+  msghdr message{};
+  message.msg_iov = &body, message.msg_iovlen = 1;
+  message.msg_control = control, message.msg_controllen = sizeof control;
+  ssize_t n = 0;
+  do n = recvmsg(fd, &message, MSG_CMSG_CLOEXEC);
+  while (n < 0 && errno == EINTR);
+  if (n != static_cast<ssize_t>(sizeof request)) return false;
+  const cmsghdr* const header = CMSG_FIRSTHDR(&message);
+  if (header && header->cmsg_type == SCM_RIGHTS && header->cmsg_len == CMSG_LEN(sizeof(Descriptors)))
+    std::memcpy(descriptors.data(), CMSG_DATA(header), sizeof(Descriptors));
+  return true;
+}
+
+/// A descriptor that no loop over small numbers and no printf reaches.
+int out_of_the_way(int fd) {
+  const int high = fcntl(fd, F_DUPFD_CLOEXEC, 100);
+  close(fd);
+  return high;
+}
+
+[[noreturn]] void become_worker(const Descriptors& d, pid_t parent,
+                                const std::function<void(WorkerStreams)>& work) {
+  prctl(PR_SET_PDEATHSIG, SIGKILL);
+  if (getppid() != parent) _exit(0);  // it died before the line above
+  setpgid(0, 0);
+  if (dup2(d[2], 2) < 0 || dup2(2, 1) < 0) _exit(3);
+  close(d[2]);
+  const WorkerStreams streams{out_of_the_way(d[0]), out_of_the_way(d[1])};
+  if (streams.questions < 0 || streams.answers < 0) _exit(3);
+  work(streams);
+  // No destructors: a plug-in's exit handlers may hang, and nobody waits for them.
+  _exit(0);
+}
+
+nursery::Reply answer(const nursery::Request& request, const Descriptors& d, int control_fd,
+                      const std::function<void(WorkerStreams)>& work) {
+  if (request.op == nursery::Op::fork) {
+    const pid_t parent = getpid();
+    const pid_t pid = d[0] < 0 ? -1 : fork();
+    if (pid == 0) {
+      close(control_fd);
+      become_worker(d, parent, work);
+    }
+    if (pid > 0) setpgid(pid, pid);  // whoever of the two is first
+    for (int fd : d)
+      if (fd >= 0) close(fd);
+    return {pid, 0};
+  }
+  int status = 0;
+  pid_t ended = 0;
+  do ended = waitpid(request.pid, &status, request.op == nursery::Op::wait ? 0 : WNOHANG);
+  while (ended < 0 && errno == EINTR);
+  // A child that a plug-in's handler for SIGCHLD reaped is gone as well.
+  return {ended == request.pid || ended < 0, status};
+}
+
+}  // namespace
+
+void run_nursery(int control_fd, const std::function<void(WorkerStreams)>& work) {
+  for (;;) {
+    nursery::Request request{};
+    Descriptors descriptors;
+    if (!receive(control_fd, request, descriptors)) _exit(0);
+    const nursery::Reply reply = answer(request, descriptors, control_fd, work);
+    if (send(control_fd, &reply, sizeof reply, MSG_NOSIGNAL) != static_cast<ssize_t>(sizeof reply)) _exit(0);
+  }
+}
+
+}  // namespace touchstone::host
