@@ -54,7 +54,7 @@ Real placement_error(const Frame& f, Real rho, Real extent) {
          ((f.matrix_error + 4 * unit * largest(f.matrix)) * rho + f.translation_error + 2 * unit * extent);
 }
 
-void finish_points(Body& b, std::span<const Vec3> local, const Frame& f) {
+void finish_points(Solid& b, std::span<const Vec3> local, const Frame& f) {
   Real rho = 0;
   b.points.reserve(local.size());
   for (const Vec3& v : local) {
@@ -86,7 +86,7 @@ Real stretch(const Frame& f) {
 // A curved core's local support point maximises m̃·x for the computed m̃ = Mᵀn, |m̃ - Mᵀn| <= 3(3 units·m +
 // matrix_error)|n|, so it misses the exact maximum by at most 2·rho times that; then it is placed and dotted
 // like any point. The local point itself is computed within 4 units of its size.
-void finish_curved(Body& b, const Frame& f, Real rho, Real reach) {
+void finish_curved(Solid& b, const Frame& f, Real rho, Real reach) {
   const Real m = largest(f.matrix);
   b.matrix = f.matrix;
   b.centre = f.translation;
@@ -97,7 +97,7 @@ void finish_curved(Body& b, const Frame& f, Real rho, Real reach) {
 }
 
 struct Sizes {
-  Body::Kind kind;
+  Solid::Kind kind;
   Real3 size;
   Real rho;    // bound of |x|₁ over the shape
   Real reach;  // bound of |x| over the shape
@@ -109,18 +109,18 @@ Real reach_of(Real radius, Real half_height) {
 
 std::optional<Sizes> curved_sizes(const Shape& s) {
   if (const auto* c = std::get_if<Cylinder>(&s))
-    return Sizes{Body::Kind::cylinder,
+    return Sizes{Solid::Kind::cylinder,
                  {c->radius, c->half_height, 0},
                  1.5L * c->radius + c->half_height,
                  reach_of(c->radius, c->half_height)};
   if (const auto* c = std::get_if<Cone>(&s))
-    return Sizes{Body::Kind::cone,
+    return Sizes{Solid::Kind::cone,
                  {c->radius, c->half_height, 0},
                  1.5L * c->radius + c->half_height,
                  reach_of(c->radius, c->half_height)};
   if (const auto* e = std::get_if<Ellipsoid>(&s)) {
     const Real3 a = referee::to_real(e->semi_axes);
-    return Sizes{Body::Kind::ellipsoid, a, 1.75L * largest(a), largest(a)};
+    return Sizes{Solid::Kind::ellipsoid, a, 1.75L * largest(a), largest(a)};
   }
   return std::nullopt;
 }
@@ -131,9 +131,9 @@ bool is_ball(const Placed& p) {
          e->semi_axes.y() == e->semi_axes.z();
 }
 
-Real3 local_support(const Body& b, const Real3& m) {
+Real3 local_support(const Solid& b, const Real3& m) {
   const Real r = b.size.x, h = b.size.y;
-  if (b.kind == Body::Kind::ellipsoid) {
+  if (b.kind == Solid::Kind::ellipsoid) {
     const Real3 s{b.size.x * m.x, b.size.y * m.y, b.size.z * m.z};
     const Real n = norm(s);
     if (!(n > 0)) return {b.size.x, 0, 0};
@@ -141,7 +141,7 @@ Real3 local_support(const Body& b, const Real3& m) {
   }
   const Real s = std::sqrt(m.x * m.x + m.y * m.y);
   const Real3 rim = s > 0 ? Real3{r * (m.x / s), r * (m.y / s), -h} : Real3{r, 0, -h};
-  if (b.kind == Body::Kind::cylinder) return {rim.x, rim.y, m.z < 0 ? -h : h};
+  if (b.kind == Solid::Kind::cylinder) return {rim.x, rim.y, m.z < 0 ? -h : h};
   return h * m.z > r * s - h * m.z ? Real3{0, 0, h} : rim;
 }
 
@@ -200,37 +200,37 @@ double core_radius(const Placed& p) {
   return is_ball(p) ? std::get<Ellipsoid>(*p.shape).semi_axes.x() : 0;
 }
 
-Body make_body(const Placed& p, const Frame& f) {
+Solid make_body(const Placed& p, const Frame& f) {
   if (const auto points = core_points(p)) return make_body(*points, core_radius(p), f);
   const auto s = curved_sizes(*p.shape);
-  Body b;
+  Solid b;
   b.kind = s->kind;
   b.size = s->size;
   finish_curved(b, f, s->rho, s->reach);
   return b;
 }
 
-Body make_body(const std::vector<Vec3>& core_points, double radius, const Frame& f) {
-  Body b;
+Solid make_body(const std::vector<Vec3>& core_points, double radius, const Frame& f) {
+  Solid b;
   b.radius = radius;
   finish_points(b, core_points, f);
   return b;
 }
 
 // The orbit's axis is within 4 units of the exact direction, heights and radii within 8 units of the extent.
-Body make_orbit(const Body& b, const Real3& centre, const Real3& angular) {
-  Body o;
+Solid make_orbit(const Solid& b, const Real3& centre, const Real3& angular) {
+  Solid o;
   o.centre = centre;
   o.radius = b.radius;
   o.extent = norm(centre) + b.spin_radius;
   o.spin_radius = b.spin_radius;
   o.error = b.error + 64 * unit * o.extent;
-  if (b.kind != Body::Kind::points) {
+  if (b.kind != Solid::Kind::points) {
     o.points = {centre};
     o.radius = round_up(static_cast<Real>(b.radius) + b.spin_radius);
     return o;
   }
-  o.kind = Body::Kind::orbit;
+  o.kind = Solid::Kind::orbit;
   const Real3 axis = normalized(angular);
   o.matrix.row[2] = axis;
   for (const Real3& p : b.points) {
@@ -241,7 +241,7 @@ Body make_orbit(const Body& b, const Real3& centre, const Real3& angular) {
   return o;
 }
 
-void add_sweep(Body& b, const Real3& sweep, Real sweep_error) {
+void add_sweep(Solid& b, const Real3& sweep, Real sweep_error) {
   b.sweep = sweep;
   b.is_swept = true;
   b.extent += 2 * largest(sweep);
@@ -250,7 +250,7 @@ void add_sweep(Body& b, const Real3& sweep, Real sweep_error) {
 
 namespace {
 
-Real3 orbit_support(const Body& b, const Real3& n) {
+Real3 orbit_support(const Solid& b, const Real3& n) {
   const Real3& axis = b.matrix.row[2];
   const Real along = dot(axis, n);
   const Real3 across = n - along * axis;
@@ -258,17 +258,17 @@ Real3 orbit_support(const Body& b, const Real3& n) {
   const Real3* best = &b.points[0];
   for (const Real3& p : b.points)
     if (along * p.x + turn * p.y > along * best->x + turn * best->y) best = &p;
-  const Real3 out = turn > 0 ? (1 / turn) * across : normalized(perpendicular(axis));
+  const Real3 out = unit_across(across, axis);
   return b.centre + best->x * axis + best->y * out;
 }
 
 }  // namespace
 
-SupportPoint support(const Body& b, const Real3& n) {
+SupportPoint support(const Solid& b, const Real3& n) {
   SupportPoint s;
-  if (b.kind == Body::Kind::orbit) {
+  if (b.kind == Solid::Kind::orbit) {
     s.point = orbit_support(b, n);
-  } else if (b.kind == Body::Kind::points) {
+  } else if (b.kind == Solid::Kind::points) {
     Real best = dot(b.points[0], n);
     s.index = 0;
     for (std::size_t i = 1; i < b.points.size(); ++i) {

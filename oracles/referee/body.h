@@ -32,7 +32,7 @@ std::optional<std::vector<Vec3>> core_points(const Placed& p);
 /// The radius of the ball around the core; 0 for what has none.
 double core_radius(const Placed& p);
 
-struct Body {
+struct Solid {
   /// orbit: the hull of the circles that the points of a polytope run through when it turns about an axis for
   /// ever.
   enum class Kind { points, cylinder, cone, ellipsoid, orbit };
@@ -57,15 +57,15 @@ struct SupportPoint {
 };
 
 /// Precondition: convex and bounded. `origin` as in frame_of.
-Body make_body(const Placed& p, const Frame& f);
+Solid make_body(const Placed& p, const Frame& f);
 /// Of a triangle of a mesh.
-Body make_body(const std::vector<Vec3>& core_points, double radius, const Frame& f);
+Solid make_body(const std::vector<Vec3>& core_points, double radius, const Frame& f);
 /// Makes the body core ⊕ [0, sweep]; `sweep_error` bounds the error of each component.
-void add_sweep(Body& b, const Real3& sweep, Real sweep_error);
+void add_sweep(Solid& b, const Real3& sweep, Real sweep_error);
 
 /// Holds the body turned by any angle about the axis `angular` (not zero) through `centre`, its own origin.
-Body make_orbit(const Body& b, const Real3& centre, const Real3& angular);
+Solid make_orbit(const Solid& b, const Real3& centre, const Real3& angular);
 
-SupportPoint support(const Body& b, const Real3& n);
+SupportPoint support(const Solid& b, const Real3& n);
 
 }  // namespace touchstone::referee

@@ -7,6 +7,6 @@
 namespace touchstone::referee {
 
 /// The body's numbers must be relative to the world origin.
-Aabb box_of(const Body& b);
+Aabb box_of(const Solid& b);
 
 }  // namespace touchstone::referee

@@ -9,11 +9,11 @@
 namespace touchstone::referee {
 namespace {
 
-bool is_curved(const Body& b) { return b.kind != Body::Kind::points; }
+bool is_curved(const Solid& b) { return b.kind != Solid::Kind::points; }
 
 std::vector<Real3> first_directions(const Difference& d, std::span<const Real3> hints) {
   std::vector<Real3> r(hints.begin(), hints.end());
-  const auto centre = [](const Body& b) { return is_curved(b) ? b.centre : b.points[0]; };
+  const auto centre = [](const Solid& b) { return is_curved(b) ? b.centre : b.points[0]; };
   Real3 n = centre(d.b) - centre(d.a);
   if (largest(n) == 0) n = {1, 0, 0};
   r.push_back(n);

@@ -12,7 +12,7 @@ namespace touchstone::referee {
 
 /// A bounded convex body, for the filter and, if it has one, for the exact level.
 struct Operand {
-  Body body;
+  Solid body;
   std::optional<ExactBody> exact;
 };
 /// The shape must be convex and bounded. `origin`: the filter's numbers are relative to it.

@@ -125,6 +125,11 @@ GjkResult gjk(const Difference& d, std::span<const Real3> hints, Real target) {
     s.vertex[static_cast<std::size_t>(s.size++)] = v;
     reduce(s);
   }
+  if (s.size == 0) {
+    s.vertex[0] = ask({1, 0, 0});
+    s.size = 1;
+    reduce(s);
+  }
   int idle = 0;
   for (int i = 0; i < iteration_cap; ++i) {
     const CoreGap before = r.gap;

@@ -83,7 +83,7 @@ ConvexTruth judge_half_space(const Placed& h, const Operand& body, const Vec3& o
   t.lo = -infinity, t.hi = infinity;
   const auto p = plane_of(h, origin);
   if (!p) return t;
-  const Body& b = body.body;
+  const Solid& b = body.body;
   const SupportPoint s = support(b, -p->normal);
   const Bounds g = signed_distance(*p, dot(p->normal, s.point), b.extent, b.error);
   t.lo = g.lo - b.radius;

@@ -251,6 +251,8 @@ class Epa {
     r_.nearest.size = 3;
     for (int i = 0; i < 3; ++i) r_.nearest.vertex[at(i)] = r_.polytope.vertices[at(f.v[at(i)])];
     reduce(r_.nearest);
+    // A point of D, whichever side of the origin it is on; the bound's roundings as in gjk.cpp.
+    r_.gap.lower(norm(r_.nearest.nearest) + 16 * unit * d_.extent + d_.error);
     for (const Facet& g : facets_)
       if (g.live) r_.polytope.facets.push_back(g.v);
     if (!(f.reach.value > 0)) return;

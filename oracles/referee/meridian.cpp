@@ -20,7 +20,7 @@ struct Revolved {
   Real slack = 0;  // Hausdorff distance from the body it stands for
 };
 
-std::optional<Revolved> of_points(const Body& b) {
+std::optional<Revolved> of_points(const Solid& b) {
   Revolved r;
   if (b.points.size() == 1) return r.centre = b.points[0], r;
   if (b.points.size() != 2) return std::nullopt;
@@ -35,11 +35,11 @@ std::optional<Revolved> of_points(const Body& b) {
 
 // The exactly round body nearest at hand: axis along the matrix's column k, the other two columns replaced by
 // unit vectors at right angles to it and to each other.
-std::optional<Revolved> of_curved(const Body& b) {
+std::optional<Revolved> of_curved(const Solid& b) {
   int k = 2;
   Revolved r;
   r.centre = b.centre;
-  if (b.kind == Body::Kind::ellipsoid) {
+  if (b.kind == Solid::Kind::ellipsoid) {
     const Real3& s = b.size;
     if (s.y == s.z)
       k = 0;
@@ -51,7 +51,7 @@ std::optional<Revolved> of_curved(const Body& b) {
     r.radial = s[(k + 1) % 3];
     r.axial = s[k];
   } else {
-    r.kind = b.kind == Body::Kind::cylinder ? Revolved::Kind::cylinder : Revolved::Kind::cone;
+    r.kind = b.kind == Solid::Kind::cylinder ? Revolved::Kind::cylinder : Revolved::Kind::cone;
     r.radial = b.size.x;
     r.axial = b.size.y;
   }
@@ -59,16 +59,16 @@ std::optional<Revolved> of_curved(const Body& b) {
   const Real length = norm(m);
   if (!(length > 0)) return std::nullopt;
   r.axis = (1 / length) * m;
-  const Real3 e = normalized(p - dot(p, r.axis) * r.axis), f = cross(r.axis, e);
+  const Real3 e = unit_across(p, r.axis), f = cross(r.axis, e);
   const Real off = norm(p - e) + std::fmin(norm(q - f), norm(q + f));
   r.slack = r.radial * (off + 8 * unit);
   r.axial *= length;
   return r;
 }
 
-std::optional<Revolved> revolved(const Body& b) {
-  if (b.is_swept || b.kind == Body::Kind::orbit) return std::nullopt;
-  auto r = b.kind == Body::Kind::points ? of_points(b) : of_curved(b);
+std::optional<Revolved> revolved(const Solid& b) {
+  if (b.is_swept || b.kind == Solid::Kind::orbit) return std::nullopt;
+  auto r = b.kind == Solid::Kind::points ? of_points(b) : of_curved(b);
   if (r) r->slack += b.error + 16 * unit * b.extent;
   return r;
 }
@@ -186,15 +186,15 @@ MeridianBound meridian_bound(const Difference& d, Real target) {
   if (largest(u) == 0) return m;
   // Turning B by the angle between the axes moves no point of it farther than 2|sin|·(its size).
   const Real slack = a->slack + b->slack + 2 * (norm(skew) + 8 * unit) * (b->radial + b->axial);
-  const Real3 e = a->centre - b->centre, along = dot(u, e) * u, across = e - along;
-  const Real3 radial = largest(across) > 0 ? normalized(across) : normalized(perpendicular(u));
-  // Both the tilt of `radial` against u and the rounding of e's split are of rounding size.
-  const Section section(*a, *b, dot(u, b->axis) < 0, {dot(radial, e), dot(u, e)});
+  const Real3 e = a->centre - b->centre, across = e - dot(u, e) * u;
+  // The length of `across` is right to a few units of |e| even where its direction is noise.
+  const Section section(*a, *b, dot(u, b->axis) < 0, {norm(across), dot(u, e)});
   const PolygonBound p = grow(section, d.extent, target);
   const Real rounding = 64 * unit * d.extent;
   m.applies = true;
   const Real l = p.inner - slack - rounding;
   if (l > 0) m.gap.lower(-l);
+  const Real3 radial = unit_across(across, u);
   const Real3 n = p.direction.r * radial + p.direction.z * u;
   m.gap.raise(-d.width_above(d.support(n), n), n);
   return m;

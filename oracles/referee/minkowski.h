@@ -15,14 +15,14 @@ struct Vertex {
 };
 
 struct Difference {
-  const Body& a;
-  const Body& b;
+  const Solid& a;
+  const Solid& b;
   Real extent;  // every point of D, and of its computed form, is this close to the origin
   Real error;   // computed support points are this close to D; support values err by at most error·|n|
   Real radius;  // rA + rB, rounded; its rounding is in radius_error
   Real radius_error;
 
-  Difference(const Body& a_, const Body& b_)
+  Difference(const Solid& a_, const Solid& b_)
       : a(a_),
         b(b_),
         extent(a_.extent + b_.extent),

@@ -337,7 +337,7 @@ TimeTruth join(const TimeTruth& x, const TimeTruth& y) {
 
 Aabb box_over(const Mover& m, const Vec3& origin) {
   if (!m.spins()) return box_of(m.swept(0, 1, origin).body);
-  Body whole = m.orbit(0, origin).body;
+  Solid whole = m.orbit(0, origin).body;
   const Real3 v = m.velocity();
   add_sweep(whole, v, 4 * unit * largest(v));
   const Aabb coarse = box_of(whole);
@@ -347,7 +347,7 @@ Aabb box_over(const Mover& m, const Vec3& origin) {
   const Real turn = m.at(0, origin).body.spin_radius * norm(m.angular()) / (2 * slices) * (1 + 16 * unit);
   Aabb fine;
   for (int i = 0; i < slices; ++i) {
-    Body b = m.at((i + 0.5) / slices, origin).body;
+    Solid b = m.at((i + 0.5) / slices, origin).body;
     const Real3 step = (1.0L / slices) * v;
     for (Real3& p : b.points) p = p - 0.5L * step;
     b.centre = b.centre - 0.5L * step;

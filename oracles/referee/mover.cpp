@@ -59,7 +59,7 @@ Frame Mover::frame(double t, const Vec3& origin, bool turned) const {
   return f;
 }
 
-Body Mover::body(const Frame& f) const {
+Solid Mover::body(const Frame& f) const {
   return core_ ? make_body(*core_, radius_, f) : make_body(placed_, f);
 }
 

@@ -24,7 +24,7 @@ class Mover {
 
  private:
   Frame frame(double t, const Vec3& origin, bool turned) const;
-  Body body(const Frame& f) const;
+  Solid body(const Frame& f) const;
 
   Placed placed_;
   Motion motion_;

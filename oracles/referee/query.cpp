@@ -21,7 +21,7 @@ Vec3 translation_of(const Placed& p) {
 }
 
 /// A mesh stands for the hull of its vertices, which has the same support function.
-Body hull_body(const Placed& p, const Vec3& origin) {
+Solid hull_body(const Placed& p, const Vec3& origin) {
   if (const auto* m = get<TriangleMesh>(p)) return make_body(m->vertices, 0, frame_of(p, origin));
   return make_body(p, frame_of(p, origin));
 }
@@ -70,7 +70,7 @@ Bracket half_space_distance(const Placed& a, const Vec3& point) {
 
 }  // namespace
 
-Aabb box_of(const Body& b) {
+Aabb box_of(const Solid& b) {
   Aabb box;
   for (int k = 0; k < 3; ++k) {
     const Real3 n{k == 0 ? 1.0L : 0.0L, k == 1 ? 1.0L : 0.0L, k == 2 ? 1.0L : 0.0L};
@@ -84,7 +84,7 @@ Aabb box_of(const Body& b) {
 Bracket width(const Placed& a, const Placed& b, const Vec3& n) {
   if (get<HalfSpace>(a) || get<HalfSpace>(b)) return half_space_width(a, b, n, get<HalfSpace>(a) != nullptr);
   const Vec3 origin = translation_of(a);
-  const Body x = hull_body(a, origin), y = hull_body(b, origin);
+  const Solid x = hull_body(a, origin), y = hull_body(b, origin);
   const Difference d(x, y);
   const Real3 u = normalized(to_real(n));
   const Real above = d.width_above(d.support(u), u),

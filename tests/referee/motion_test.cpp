@@ -1,0 +1,167 @@
+// Times of impact with known answers, thin walls, grazes, spins; and dense sampling as the slow second
+// opinion.
+#include "oracles/referee/counters.h"
+#include "tests/referee/support.h"
+#include "tests/support/catch.h"
+
+using namespace touchstone;
+using namespace touchstone::referee_test;
+using Hit = TimeTruth::Verdict;
+
+namespace {
+
+Placed at(const Shape& s, const Vec3& t, const Quat& q = {}) { return {&s, Pose{t, q}}; }
+Motion moving(const Vec3& v, const Vec3& w = Vec3::Zero()) { return {v, w}; }
+const Motion rest{};
+
+void require_hit(const TimeTruth& t, double toi, double tolerance) {
+  INFO("[" << t.t_lo << ", " << t.t_hi << "] " << t.note << " expected " << toi);
+  REQUIRE(t.verdict == Hit::hit);
+  REQUIRE(t.t_lo <= toi + tolerance);
+  REQUIRE(t.t_hi >= toi - tolerance);
+  REQUIRE(t.t_hi - t.t_lo <= tolerance);
+}
+
+}  // namespace
+
+TEST_CASE("translation: polytopes and rounded shapes are decided down to neighbouring doubles",
+          "[referee][motion]") {
+  const Shape cube = Box{{0.5, 0.5, 0.5}}, ball = Sphere{1};
+  require_hit(judge_motion(at(cube, {-5, 0, 0}), moving({10, 0, 0}), at(cube, {0, 0, 0}), rest), 0.4, 1e-15);
+  require_hit(judge_motion(at(cube, {-2, 0, 0}), moving({1, 0, 0}), at(cube, {0, 0, 0}), rest), 1.0, 1e-15);
+  require_hit(judge_motion(at(ball, {2, 2, 2}), moving({-0.5, -0.5, -0.5}),
+                           at(Shape(Box{{1, 1, 1}}), {0, 0, 0}), moving({1, 1, 1})),
+              (std::sqrt(3.0) - 1) / (1.5 * std::sqrt(3.0)), 1e-15);
+  // Touching from the start; moving apart; no motion at all.
+  require_hit(judge_motion(at(cube, {1, 0, 0}), moving({1, 0, 0}), at(cube, {0, 0, 0}), rest), 0, 0);
+  REQUIRE(judge_motion(at(cube, {1.1, 0, 0}), moving({1, 0, 0}), at(cube, {0, 0, 0}), rest).verdict ==
+          Hit::none);
+  REQUIRE(judge_motion(at(cube, {1.1, 0, 0}), rest, at(cube, {0, 0, 0}), rest).verdict == Hit::none);
+}
+
+TEST_CASE("translation: an exact graze is a hit, one ulp of clearance is none", "[referee][motion][exact]") {
+  const Shape cube = Box{{0.5, 0.5, 0.5}}, ball = Sphere{1};
+  require_hit(judge_motion(at(cube, {-5, 1, 0}), moving({10, 0, 0}), at(cube, {0, 0, 0}), rest), 0.4, 1e-15);
+  REQUIRE(
+      judge_motion(at(cube, {-5, std::nextafter(1.0, 2.0), 0}), moving({10, 0, 0}), at(cube, {0, 0, 0}), rest)
+          .verdict == Hit::none);
+  require_hit(judge_motion(at(ball, {-10, 2, 0}), moving({20, 0, 0}), at(ball, {0, 0, 0}), rest), 0.5, 1e-15);
+  const TimeTruth clear = judge_motion(at(ball, {-10, std::nextafter(2.0, 3.0), 0}), moving({20, 0, 0}),
+                                       at(ball, {0, 0, 0}), rest);
+  REQUIRE(clear.verdict == Hit::none);
+  REQUIRE(clear.least_gap.lo >= 0);
+  REQUIRE(clear.least_gap.hi <= 1e-15);
+}
+
+TEST_CASE("thin walls are never passed through", "[referee][motion]") {
+  Rng r(5);
+  int hits = 0;
+  for (int i = 0; i < 60; ++i) {
+    const double spin = i % 3 == 0 ? 0 : std::pow(10.0, r.uniform(-1, 2.69));
+    const Shape wall = Box{{5e-7, 0.9, 0.9}};
+    const Shape body = random_convex(r, convex_kinds[r.below(7)], 0.05);
+    const Placed a = at(body, {-0.5, r.uniform(-0.5, 0.5), r.uniform(-0.5, 0.5)}, r.rotation());
+    const TimeTruth t = judge_motion(a, moving({1, 0, 0}, spin * r.unit_vector()), at(wall, {0, 0, 0}), rest);
+    INFO(type_name(body) << " spin " << spin << " " << t.note << " [" << t.t_lo << ", " << t.t_hi << "]");
+    REQUIRE(t.verdict == Hit::hit);
+    REQUIRE(t.t_hi - t.t_lo <= 1e-9);
+    ++hits;
+  }
+  REQUIRE(hits == 60);
+}
+
+TEST_CASE("spinning in place beside a wall: none when the circle clears it, hit when it does not",
+          "[referee][motion]") {
+  const Shape bar = Box{{1, 0.1, 0.1}}, wall = Box{{0.1, 5, 5}};
+  const double reach = std::sqrt(1 + 0.01);
+  for (double spin : {1.0, 30.0, 500.0}) {
+    const Placed a = at(bar, {0, 0, 0}, {0, 0, 1, 1});
+    const TimeTruth clear =
+        judge_motion(a, moving(Vec3::Zero(), {0, 0, spin}), at(wall, {reach + 0.1 + 1e-6, 0, 0}), rest);
+    INFO("spin " << spin << " " << clear.note);
+    REQUIRE(clear.verdict == Hit::none);
+  }
+  // Turned by a right angle it lies along y; the corner reaches x = 0.9 at a known angle.
+  const TimeTruth t = judge_motion(at(bar, {0, 0, 0}, {0, 0, 1, 1}), moving(Vec3::Zero(), {0, 0, -2}),
+                                   at(wall, {1, 0, 0}), rest);
+  const double angle = std::acos(-1.0) / 2 - std::atan(0.1) - std::acos(0.9 / reach);
+  require_hit(t, angle / 2, 1e-14);
+}
+
+TEST_CASE("half-space and mesh in motion", "[referee][motion]") {
+  const Shape ground = HalfSpace{{0, 0, 1}, 0}, ball = Sphere{0.25}, stick = Capsule{0.1, 1};
+  require_hit(judge_motion(at(ball, {0, 0, 2}), moving({1, 0, -3}, {9, 9, 9}), at(ground, {0, 0, 0}), rest),
+              1.75 / 3, 1e-15);
+  require_hit(judge_motion(at(ground, {0, 0, 0}), rest, at(ball, {0, 0, 2}), moving({1, 0, -3})), 1.75 / 3,
+              1e-15);
+  // A level stick tips over: its end comes down by sin(angle).
+  require_hit(judge_motion(at(stick, {0, 0, 0.6}, {0, 1, 0, 1}), moving(Vec3::Zero(), {0, 1, 0}),
+                           at(ground, {0, 0, 0}), rest),
+              std::asin(0.5), 1e-14);
+  TriangleMesh m;
+  m.vertices = {{-5, -5, 0}, {5, -5, 0}, {5, 5, 0}, {-5, 5, 0}, {90, 90, 90}};
+  m.triangles = {{0, 1, 2}, {0, 2, 3}, {2, 3, 4}};
+  const Shape floor = m;
+  require_hit(judge_motion(at(ball, {0.1, 0.2, 2}), moving({0, 0, -3}), at(floor, {0, 0, 0}), rest), 1.75 / 3,
+              1e-15);
+  REQUIRE(judge_motion(at(ball, {0.1, 0.2, 2}), moving({0, 0, -1}), at(floor, {0, 0, 0}), rest).verdict ==
+          Hit::none);
+  REQUIRE(gap_at(at(ball, {0.1, 0.2, 2}), moving({0, 0, -1}), at(floor, {0, 0, 0}), rest, 1).lo ==
+          Approx(0.75));
+}
+
+TEST_CASE("dense sampling finds no contact before t_lo and none at all when the answer is none",
+          "[referee][motion]") {
+  Rng r(123);
+  int hits = 0, none = 0, undecided = 0;
+  constexpr int cases = 160;
+  for (int i = 0; i < cases; ++i) {
+    const Shape sa = random_convex(r, convex_kinds[r.below(7)]),
+                sb = random_convex(r, convex_kinds[r.below(7)]);
+    const Placed a = at(sa, 2.2 * r.unit_vector(), r.rotation()), b = at(sb, Vec3::Zero(), r.rotation());
+    const Vec3 p = std::get<Pose>(a.pose).translation;
+    const Motion ma = moving(-2 * p + 1.2 * r.unit_vector(), r.uniform(0, 6) * r.unit_vector()),
+                 mb = moving(Vec3::Zero(),
+                             r.chance(0.5) ? Vec3(r.uniform(0, 6) * r.unit_vector()) : Vec3(0, 0, 0));
+    const TimeTruth t = judge_motion(a, ma, b, mb);
+    INFO(i << " " << type_name(sa) << " " << type_name(sb) << " [" << t.t_lo << ", " << t.t_hi << "] "
+           << t.note);
+    hits += t.verdict == Hit::hit, none += t.verdict == Hit::none, undecided += t.verdict == Hit::undecided;
+    const double clear_until = t.verdict == Hit::none ? 1 : t.t_lo;
+    // Another road to the pose: core's pose_at in doubles and the discrete judge.
+    for (int k = 0; k < 100; ++k) {
+      const double s = clear_until * (k + 0.5) / 100;
+      const PairTruth g = judge_pair({&sa, pose_at(std::get<Pose>(a.pose), ma, s)},
+                                     {&sb, pose_at(std::get<Pose>(b.pose), mb, s)});
+      REQUIRE(g.gap.hi >= -1e-13);
+      const Bracket h = gap_at(a, ma, b, mb, s);
+      REQUIRE(h.lo <= g.gap.hi + 1e-13);
+      REQUIRE(g.gap.lo <= h.hi + 1e-13);
+    }
+    if (t.verdict == Hit::hit) {
+      REQUIRE(gap_at(a, ma, b, mb, t.t_hi).lo <= 0);
+      REQUIRE(t.t_hi - t.t_lo <= 1e-6);
+      REQUIRE(certified_depth_before(a, ma, b, mb, t.t_lo) == 0);
+    }
+    const Aabb box = outer_box(a, ma);
+    for (int k = 0; k <= 20; ++k) {
+      const Aabb inside = outer_box({&sa, pose_at(std::get<Pose>(a.pose), ma, k / 20.0)});
+      REQUIRE((inside.lo.array() >= box.lo.array() - 1e-13).all());
+      REQUIRE((inside.hi.array() <= box.hi.array() + 1e-13).all());
+    }
+  }
+  WARN(cases << " motions: " << hits << " hit, " << none << " none, " << undecided << " undecided");
+  REQUIRE(hits > cases * 3 / 10);
+  REQUIRE(hits < cases * 7 / 10);
+  REQUIRE(undecided <= 1);
+}
+
+TEST_CASE("certified depth is the deepest point of a passage", "[referee][motion]") {
+  const Shape ball = Sphere{1};
+  const double d =
+      certified_depth_before(at(ball, {-5, 1.5, 0}), moving({10, 0, 0}), at(ball, {0, 0, 0}), rest, 1);
+  REQUIRE(d <= 0.5);
+  REQUIRE(d >= 0.5 - 1e-12);
+  REQUIRE(certified_depth_before(at(ball, {-5, 1.5, 0}), moving({10, 0, 0}), at(ball, {0, 0, 0}), rest,
+                                 0.3) == 0);
+}
