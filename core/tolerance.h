@@ -58,12 +58,4 @@ inline constexpr int referee_curved_facet_cap = 3000;
 /// about 5000. Bites: tests/referee, motion.
 inline constexpr int referee_motion_evaluations = 20000;
 
-/// Taken off the gap before each step of conservative advancement, in units of 2⁻⁵³·L: rounding of two poses,
-/// of the direction and of four support values, about 20 roundings. Bites: the same test, "never late".
-inline constexpr double impact_slack_factor = 24;
-
-/// Steps of conservative advancement before it says not_converged. Count; a body of 500 rad a step needs
-/// about 2,000.
-inline constexpr int impact_step_cap = 20000;
-
 }  // namespace touchstone::tolerance
