@@ -172,7 +172,8 @@ class Epa {
       const Vertex p = ask(n);
       if (dot(n, p.w) - reach.value <= target_) return EpaResult::Exit::converged;
       if (-r_.gap.lo - reach.value <= target_) return EpaResult::Exit::converged;
-      if (!insert(f, p)) facets_[at(f)].settled = true;
+      // Where the nearest point lies on the border, the plane's own normal may still lead on.
+      if (!insert(f, p) && !insert(f, ask(facets_[at(f)].normal))) facets_[at(f)].settled = true;
     }
   }
 
@@ -210,7 +211,7 @@ class Epa {
   // The facet that asked; with exact signs the plane of a sliver may turn out to have the new point behind
   // it.
   std::optional<int> first_visible(int f, const Real3& p) const {
-    if (orientation_ == Orientation::rounded || sees(facets_[at(f)], p)) return f;
+    if (sees(facets_[at(f)], p)) return f;
     for (std::size_t g = 0; g < facets_.size(); ++g)
       if (facets_[g].live && sees(facets_[g], p)) return static_cast<int>(g);
     return std::nullopt;

@@ -49,8 +49,9 @@ inline Real3 perpendicular(const Real3& a) {
   return {-a.y, a.x, 0};
 }
 
-/// A near-unit vector at a right angle to the unit vector `u` within 4 units, along the part of `a` that is at a right
-/// angle to u; when that part is rounding noise (which may well point along u), still one at a right angle.
+/// A near-unit vector at a right angle to the unit vector `u` within 4 units, along the part of `a` that is
+/// at a right angle to u; when that part is rounding noise (which may well point along u), still one at a
+/// right angle.
 inline Real3 unit_across(const Real3& a, const Real3& u) {
   Real3 e = normalized(a - dot(a, u) * u);
   for (int i = 0; i < 2; ++i) e = normalized(e - dot(e, u) * u);

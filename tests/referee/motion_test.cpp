@@ -120,7 +120,7 @@ TEST_CASE("dense sampling finds no contact before t_lo and none at all when the 
                 sb = random_convex(r, convex_kinds[r.below(7)]);
     const Placed a = at(sa, 2.2 * r.unit_vector(), r.rotation()), b = at(sb, Vec3::Zero(), r.rotation());
     const Vec3 p = std::get<Pose>(a.pose).translation;
-    const Motion ma = moving(-2 * p + 1.2 * r.unit_vector(), r.uniform(0, 6) * r.unit_vector()),
+    const Motion ma = moving(-2 * p + 3.0 * r.unit_vector(), r.uniform(0, 6) * r.unit_vector()),
                  mb = moving(Vec3::Zero(),
                              r.chance(0.5) ? Vec3(r.uniform(0, 6) * r.unit_vector()) : Vec3(0, 0, 0));
     const TimeTruth t = judge_motion(a, ma, b, mb);
