@@ -1,5 +1,6 @@
 #include "core/narrow/convex_pair.h"
 
+#include "core/narrow/descend.h"
 #include "core/narrow/epa.h"
 #include "core/narrow/gjk.h"
 #include "core/tolerance.h"
@@ -10,6 +11,8 @@ namespace {
 // GJK on smooth bodies gains a constant factor an iteration; 60 digits of safety over the worst seen
 // (tests/core/stress).
 constexpr int gjk_cap = 2000;
+// Expansions before a ring of minima is suspected: isolated minima close in 50 to 250.
+constexpr int epa_budget = 400;
 
 using Core = ConvexCore<Wide>;
 
@@ -32,22 +35,38 @@ Separation from_gjk(const GjkResult<Wide>& g, Wide size) {
   return s;
 }
 
-Separation from_epa(const EpaResult<Wide>& e, Wide size) {
+EpaResult<Wide> expand(const GjkResult<Wide>& g, const Core& a, const Core& b, Wide size) {
+  const Wide tolerance = tolerance::narrow_gap_factor * size;
+  return Epa<Wide>(a, b, size, tolerance).run(g, epa_budget);
+}
+
+Separation from_epa(EpaResult<Wide> e, const Core& a, const Core& b, Wide size) {
+  const Wide tolerance = tolerance::narrow_gap_factor * size, proven = std::max<Wide>(0, e.lower);
+  bool local = false;
+  if (e.status == EpaStatus::explored) {
+    descend<Wide>(e, a, b, size, tolerance);
+    local = e.status == EpaStatus::closed;
+  }
   Separation s;
   s.size = size, s.gap = -e.upper, s.normal = e.normal, s.a = e.a, s.b = e.b;
-  s.slack = s.local_slack = std::max<Wide>(0, e.upper - std::max<Wide>(0, e.lower));
-  if (e.status == EpaStatus::local) s.local_slack = tolerance::narrow_gap_factor * size;
+  s.slack = std::max<Wide>(0, e.upper - proven);
+  s.local_slack = local ? tolerance : s.slack;
   return s;
 }
 
-// A walk that stalled close to contact: the expanding polytope looks for the support plane from the other
-// side.
-void better_plane(Separation& s, const GjkResult<Wide>& g, const Core& a, const Core& b) {
-  Epa<Wide> epa(a, b, s.size, tolerance::narrow_gap_factor * s.size);
-  const EpaResult<Wide> e = epa.run(g, EpaBudget{});
-  if (-e.upper <= g.lower) return;
-  s.normal = e.normal;
-  s.slack = s.local_slack = std::max<Wide>(0, s.gap + e.upper);
+// A walk that stalled close to contact: the expanding polytope looks at the same boundary from the other
+// side. Its signed planes decide whether the origin is inside; if not, its direction and point sharpen both
+// bounds of the distance.
+Separation second_opinion(const GjkResult<Wide>& g, const Core& a, const Core& b, Wide size) {
+  const EpaResult<Wide> e = expand(g, a, b, size);
+  if (e.status != EpaStatus::broken && e.upper >= 0 && e.lower >= -tolerance::narrow_gap_factor * size)
+    return from_epa(e, a, b, size);
+  Separation s = from_gjk(g, size);
+  Wide lower = g.lower;
+  if (-e.upper > lower) lower = -e.upper, s.normal = e.normal;
+  if (const Wide d = (e.b - e.a).norm(); d < s.gap) s.gap = d, s.a = e.a, s.b = e.b;
+  s.slack = s.local_slack = std::max<Wide>(0, s.gap - lower);
+  return s;
 }
 
 }  // namespace
@@ -62,11 +81,9 @@ Separation separate_convex(const Core& a, const Core& b) {
   const GjkResult<Wide> g =
       gjk<Wide>(a, b, tolerance::narrow_gap_factor * size, tolerance::narrow_touching_factor * size, gjk_cap);
   if (g.status == GjkStatus::enclosed || g.status == GjkStatus::touching) {
-    Epa<Wide> epa(a, b, size, tolerance::narrow_gap_factor * size);
-    s = from_epa(epa.run(g, EpaBudget{}), size);
+    s = from_epa(expand(g, a, b, size), a, b, size);
   } else {
-    s = from_gjk(g, size);
-    if (g.status != GjkStatus::separated) better_plane(s, g, a, b);
+    s = g.status == GjkStatus::separated ? from_gjk(g, size) : second_opinion(g, a, b, size);
   }
   inflate(s, a, b);
   if (!(s.local_slack <= tolerance::narrow_accept_factor * size)) s.outcome = Outcome::not_converged;

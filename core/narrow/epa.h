@@ -11,11 +11,9 @@
 // surface over
 //   the origin, the facet behind that edge is taken out as well; pinched or many-looped horizons are filled
 //   up.
-// * Two phases. When minima form a curve (coaxial cylinders) or a surface (concentric spheroids), no number
-// of facets
-//   closes the lower bound. After `explore` expansions the facet with the least upper bound is refined until
-//   it meets its own plane: a local minimum to `tolerance`, certified globally only to the bound reported in
-//   `lower`.
+// * When minima form a curve (coaxial cylinders) or a surface (concentric spheroids), no number of facets
+// closes the lower
+//   bound. The run then ends `explored`, with the best direction seen; descend.h takes it to a local minimum.
 #pragma once
 
 #include <array>
@@ -28,15 +26,10 @@
 namespace touchstone::narrow {
 
 enum class EpaStatus {
-  closed,  // upper − lower <= tolerance
-  flat,    // D has no interior within rounding: the depth is upper, 0 up to rounding
-  local,   // a local minimum; lower says how far it is certified to be the least
-  broken,  // the surface could not be repaired in this arithmetic
-  capped
-};
-
-struct EpaBudget {
-  int explore = 400, refine = 400;
+  closed,    // upper − lower <= tolerance
+  flat,      // D has no interior within rounding: the depth is upper, 0 up to rounding
+  explored,  // budget spent: upper and lower are valid but apart
+  broken     // the surface could not be repaired in this arithmetic
 };
 
 template <class R>
@@ -56,20 +49,21 @@ class Epa {
   Epa(const ConvexCore<R>& a, const ConvexCore<R>& b, R size, R tolerance)
       : a_(a), b_(b), tolerance_(tolerance), thin_(128 * eps * size), level_(8 * eps * size) {}
 
-  EpaResult<R> run(const GjkResult<R>& g, EpaBudget budget) {
+  EpaResult<R> run(const GjkResult<R>& g, int budget) {
     result_.a = g.a, result_.b = g.b;
+    outside_ = g.status == GjkStatus::enclosed ? 0 : 2 * g.upper;
     std::vector<DifferenceVertex<R>> start(g.simplex.begin(), g.simplex.begin() + g.size);
     drop_degenerate(start);
     if (!grow(start)) return result_.status = EpaStatus::flat, result_;
     build_tetrahedron(start);
-    for (int i = 0; i < budget.explore; ++i) {
+    for (int i = 0; i < budget; ++i) {
       const int f = least_key();
       if (f < 0) return finish(EpaStatus::broken, -1);
       result_.lower = facet(f).key;
       if (result_.upper - result_.lower <= tolerance_) return finish(EpaStatus::closed, f);
       if (!expand(f)) return finish(EpaStatus::broken, f);
     }
-    return refine(budget.refine);
+    return finish(EpaStatus::explored, least_key());
   }
 
  private:
@@ -81,7 +75,8 @@ class Epa {
     V3<R> normal;                        // outward
     R plane = 0, key = infinite, upper = infinite;
     DifferenceVertex<R> support;
-    bool alive = true, sliver = false, inside = false;  // inside: the origin projects into the triangle
+    bool alive = true, sliver = false,
+         inside = false;  // inside: the origin projects into the triangle
   };
   struct Edge {
     int from, to, behind;
@@ -199,7 +194,10 @@ class Epa {
     f.plane = f.normal.dot(aa <= bb && aa <= cc ? a : (bb <= cc ? b : c));
     const auto near = nearest(f);
     f.inside = near.weight[0] > 0 && near.weight[1] > 0 && near.weight[2] > 0;
-    f.key = f.inside ? f.plane : std::max(f.plane, std::sqrt(near.dist_sq));
+    const R dist = std::sqrt(near.dist_sq);
+    // Signed when the origin is beyond the plane: then the surface does not (yet) enclose it.
+    f.key = f.inside || f.plane < 0 ? f.plane : std::max(f.plane, dist);
+
     f.support = probe(f.normal, f.upper);
   }
 
@@ -215,26 +213,6 @@ class Epa {
   int least_key() {
     while (!heap_.empty() && !facet(heap_.top().second).alive) heap_.pop();
     return heap_.empty() ? -1 : heap_.top().second;
-  }
-
-  int least_upper() {
-    int best = -1;
-    for (int i = 0; i < static_cast<int>(facets_.size()); ++i)
-      if (facet(i).alive && facet(i).inside && (best < 0 || facet(i).upper < facet(best).upper)) best = i;
-    return best;
-  }
-
-  EpaResult<R> refine(int budget) {
-    for (int i = 0; i < budget; ++i) {
-      const int f = least_upper();
-      if (f < 0) return finish(EpaStatus::broken, -1);
-      if (facet(f).upper - facet(f).plane <= tolerance_) {
-        result_.upper = facet(f).upper, result_.normal = -facet(f).normal;
-        return finish(EpaStatus::local, f);
-      }
-      if (!expand(f)) return finish(EpaStatus::broken, f);
-    }
-    return finish(EpaStatus::capped, least_upper());
   }
 
   EpaResult<R> finish(EpaStatus status, int f) {
@@ -283,7 +261,7 @@ class Epa {
     // The normal of a triangle of height h is known to about level_/h.
     const R longest =
         std::sqrt(std::max({(b - a).squaredNorm(), (p - b).squaredNorm(), (a - p).squaredNorm()}));
-    return n.dot(a) < -level_ * (4 + longest / h) - tolerance_;
+    return n.dot(a) < -level_ * (4 + longest / h) - tolerance_ - outside_;
   }
 
   // Orders the horizon as one loop. Returns facets to absorb where it is pinched or has several loops.
@@ -356,6 +334,7 @@ class Epa {
   using HeapItem = std::pair<R, int>;
   const ConvexCore<R>&a_, &b_;
   R tolerance_, thin_, level_;
+  R outside_ = 0;  // the origin may lie this far outside of D
   EpaResult<R> result_;
   std::vector<DifferenceVertex<R>> vertices_;
   std::vector<Facet> facets_;

@@ -52,16 +52,19 @@ void try_edge(const V3<R>* const* p, int i, int j, ClosestPoint<R>& best) {
   best.weight[static_cast<std::size_t>(i)] = 1 - s, best.weight[static_cast<std::size_t>(j)] = s;
 }
 
-/// Normal of a triangle from its two shorter edges. Of a needle, the cross product of the two long edges has
-/// a component along the needle as large as the rounding of their product, which tilts a plane 1e7 times
-/// longer than it is wide by 1e7 ulp; the short edge times a long one does not. Not normalised;
-/// counter-clockwise.
+/// Normal of a triangle, counter-clockwise, not normalised: the cross product of the two shorter edges, made
+/// orthogonal to the longest one. Of a needle, a cross product has a component along the needle as large as
+/// the rounding of the edges' product, which would tilt a plane 1e7 times longer than wide by 1e7 ulp. What
+/// is left is a turn about the needle, which moves its points by no more than rounding.
 template <class R>
 V3<R> triangle_normal(const V3<R>& a, const V3<R>& b, const V3<R>& c) {
   const V3<R> ab = b - a, bc = c - b, ca = a - c;
   const R lab = ab.squaredNorm(), lbc = bc.squaredNorm(), lca = ca.squaredNorm();
-  if (lab >= lbc && lab >= lca) return bc.cross(ca);
-  return lbc >= lca ? ca.cross(ab) : ab.cross(bc);
+  const auto against = [](const V3<R>& n, const V3<R>& longest, R length_sq) {
+    return length_sq > 0 ? V3<R>(n - longest * (n.dot(longest) / length_sq)) : n;
+  };
+  if (lab >= lbc && lab >= lca) return against(bc.cross(ca), ab, lab);
+  return lbc >= lca ? against(ca.cross(ab), bc, lbc) : against(ab.cross(bc), ca, lca);
 }
 
 // The point is written as normal·(a·normal)/|normal|²: its direction is that of the plane even when its

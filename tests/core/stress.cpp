@@ -77,7 +77,7 @@ int main(int argc, char** argv) {
       t.worst_regret = std::max(t.worst_regret, l > 0 ? regret / l : 0);
       if (regret > tau) ++t.regret, bad = true, why = "regret";
     }
-    if (bad && ++failures <= 6) {
+    if (bad && ++failures <= 40) {
       std::printf(
           "case %ld %s: %s gap %.6Lg slack %.3Lg local %.3Lg size %.3Lg L %.3g feas %.3g |b-a| %.6Lg\n", i,
           regime_names[static_cast<std::size_t>(regime)].data(), why, s.gap, s.slack, s.local_slack, s.size,
