@@ -53,6 +53,8 @@ inline constexpr double referee_width_factor = 4e-16;
 /// under 3000; a curved pair with one nearest point about 400. Bites: tests/referee, width of brackets.
 inline constexpr int referee_facet_cap = 40000;
 inline constexpr int referee_curved_facet_cap = 3000;
+/// The same when symmetry has already closed the bracket and only witness points are wanted (1e-4 of the size).
+inline constexpr int referee_witness_facet_cap = 160;
 
 /// Gap evaluations that one judge_motion may spend (a count; lead's figure). A thin wall with |ω| = 500 needs
 /// about 5000. Bites: tests/referee, motion.

@@ -32,13 +32,17 @@ void take_witness(ConvexTruth& t, const Difference& d, const Simplex& s) {
   t.witness_b = t.witness_b - static_cast<Real>(d.b.radius) * t.normal;
 }
 
-// A stall of rounded signs is met once more with exact ones.
-EpaResult grow(const Difference& d, const GjkResult& g, Real target) {
-  const int cap =
-      is_curved(d.a) || is_curved(d.b) ? tolerance::referee_curved_facet_cap : tolerance::referee_facet_cap;
+// A stall of rounded signs is met once more with exact ones. A cap is not when the bracket is as narrow as
+// the capped number of facets makes it on a continuum of near-minima (a circle of 700 chords: 1e-5 of the
+// size): then the surface is sound and exact signs do not shorten the work.
+constexpr Real continuum_width = 1e-4L;  // in units of the pair's extent
+
+EpaResult grow(const Difference& d, const GjkResult& g, Real target, int cap) {
   EpaResult e = expand(d, g.simplex, target, cap, Orientation::rounded);
   const Real lo = std::max(e.gap.lo, g.gap.lo), hi = std::min(e.gap.hi, g.gap.hi);
-  if (e.exit == EpaResult::Exit::flat || hi - lo <= 8 * target) return e;
+  const bool final = e.exit == EpaResult::Exit::flat ||
+                     (e.exit == EpaResult::Exit::facet_cap && hi - lo < continuum_width * d.extent);
+  if (final || hi - lo <= 8 * target) return e;
   ++counters().exact_expansions;
   EpaResult f = expand(d, g.simplex, target, cap, Orientation::exact);
   f.gap.raise(e.gap.lo, e.gap.direction);
@@ -104,14 +108,18 @@ ConvexTruth judge_convex(const Operand& a, const Operand& b, std::span<const Rea
   if (gap.hi - gap.lo > target && !verdict_suffices) {
     ++counters().expansions;
     const bool curved = is_curved(a.body) || is_curved(b.body);
-    EpaResult e = grow(d, g, target);
-    gap.raise(e.gap.lo, e.gap.direction);
-    if (e.gap.hi < gap.hi) gap.hi = e.gap.hi, nearest = e.nearest;
-    if (curved && gap.hi - gap.lo > target) {
+    int cap = curved ? tolerance::referee_curved_facet_cap : tolerance::referee_facet_cap;
+    if (curved) {
       const MeridianBound m = meridian_bound(d, target);
       gap.raise(m.gap.lo, m.gap.direction);
       gap.lower(m.gap.hi);
+      // Symmetry has closed the bracket: what is left to find is a pair of points.
+      if (gap.hi - gap.lo <= target) cap = tolerance::referee_witness_facet_cap;
     }
+    EpaResult e = grow(d, g, target, cap);
+    gap.raise(e.gap.lo, e.gap.direction);
+    if (e.gap.hi < g.gap.hi) nearest = e.nearest;
+    gap.lower(e.gap.hi);
     if (e.gap.hi < 0) t.inner = std::move(e.polytope);
     settle();
   }
