@@ -1,5 +1,6 @@
-// The extended scalar in which the core works out what it reports in double, and rigid frames in any scalar. With 64
-// bits of significand (x87) the roundings between a pose and a depth add up to about 1e-18·L, 1/10000 of the core's τ.
+// The extended scalar in which the core works out what it reports in double, and rigid frames in any scalar.
+// With 64 bits of significand (x87) the roundings between a pose and a depth add up to about 1e-18·L, 1/10000
+// of the core's τ.
 #pragma once
 
 #include <cmath>
@@ -28,8 +29,9 @@ struct Frame {
 };
 using WideFrame = Frame<Wide>;
 
-/// R(q) of any finite non-zero quaternion. The exponent range of Wide holds the square of every double, so nothing is
-/// scaled first. Each entry is a quotient of sums of four products: error at most 12 units of 2⁻⁶⁴.
+/// R(q) of any finite non-zero quaternion. The exponent range of Wide holds the square of every double, so
+/// nothing is scaled first. Each entry is a quotient of sums of four products: error at most 12 units of
+/// 2⁻⁶⁴.
 inline WideMat wide_rotation(const Quat& q) {
   const Wide x = q.x, y = q.y, z = q.z, w = q.w, n = x * x + y * y + z * z + w * w;
   WideMat r;

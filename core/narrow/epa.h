@@ -215,17 +215,34 @@ class Epa {
     return heap_.empty() ? -1 : heap_.top().second;
   }
 
+  static R square(R x) { return x * x; }
+
+  void set_witness(const Facet& x) {
+    const auto near = nearest(x);
+    result_.a.setZero(), result_.b.setZero();
+    for (std::size_t i = 0; i < 3; ++i) {
+      const auto& v = vertices_[static_cast<std::size_t>(x.v[i])];
+      result_.a += near.weight[i] * v.a, result_.b += near.weight[i] * v.b;
+    }
+  }
+
+  // Where several facets share the least plane, the origin may project outside of the one at hand.
+  int nearest_facet() const {
+    int best = 0;
+    R least = infinite;
+    for (int i = 0; i < static_cast<int>(facets_.size()); ++i) {
+      if (!facets_[static_cast<std::size_t>(i)].alive) continue;
+      if (const R d = nearest(facets_[static_cast<std::size_t>(i)]).dist_sq; d < least) least = d, best = i;
+    }
+    return best;
+  }
+
   EpaResult<R> finish(EpaStatus status, int f) {
     if (const int k = least_key(); k >= 0) result_.lower = facet(k).key;
     if (f >= 0) {
       const Facet& x = facet(f);
       if (x.upper - result_.upper <= tolerance_) result_.upper = x.upper, result_.normal = -x.normal;
-      const auto near = nearest(x);
-      result_.a.setZero(), result_.b.setZero();
-      for (std::size_t i = 0; i < 3; ++i) {
-        const auto& v = vertices_[static_cast<std::size_t>(x.v[i])];
-        result_.a += near.weight[i] * v.a, result_.b += near.weight[i] * v.b;
-      }
+      set_witness(nearest(x).dist_sq <= square(std::abs(x.plane) + tolerance_) ? x : facet(nearest_facet()));
     }
     result_.status = status;
     result_.iterations = static_cast<int>(vertices_.size());

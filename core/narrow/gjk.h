@@ -88,6 +88,8 @@ GjkResult<R> gjk(const ConvexCore<R>& a, const ConvexCore<R>& b, R tolerance, R 
   R last_sq = std::numeric_limits<R>::infinity();
   for (g.iterations = 1; g.iterations <= max_iterations; ++g.iterations) {
     const ClosestPoint<R> c = detail::closest_of(g);
+    // A support plane with the origin outside is proof; a flat tetrahedron's signs are not.
+    if (c.encloses && g.lower > 0) break;
     if (c.encloses) return g.status = GjkStatus::enclosed, g;
     // Near the end the distance stands still to an ulp while the direction still improves.
     idle = c.dist_sq < last_sq ? 0 : idle + 1;
