@@ -1,6 +1,9 @@
 // One check: looks at one answer in one frame and adds what is wrong with it. Pure.
 #pragma once
 
+#include <cmath>
+#include <limits>
+
 #include "fuzz/judge/judgement.h"
 #include "fuzz/judge/truth.h"
 #include "oracles/api/engine.h"
@@ -23,15 +26,28 @@ struct CheckOutput {
   double worst_in_l = 0;
   bool undecided = false;
   std::uint64_t pairs_true = 0, pairs_reported = 0, pairs_duplicate = 0;
+  /// Largest error − τ over everything measured: > 0 wrong by that much, < 0 right with that much to spare.
+  /// Errors change by at most 2D between frames whose bodies are D apart, so that a large |excess| settles
+  /// both frames at once. NaN: something was measured in this frame alone, and another frame must be judged
+  /// for itself.
+  double excess = -std::numeric_limits<double>::infinity();
 
-  void error(double absolute, double l) {
+  void error(double absolute, double l, double tau) {
     if (absolute > 0 && l > 0) worst_in_l = std::max(worst_in_l, absolute / l);
+    if (!std::isnan(excess)) excess = std::max(excess, absolute - tau);
   }
+  /// A fault whose error was measured with error().
   void fault(Fault f, double absolute, double l, const Query& q, std::string words,
              referee::Certificate c = {}) {
     faults.push_back(
         {f, absolute, l > 0 ? absolute / l : absolute, q.a, q.b, -1, std::move(words), std::move(c)});
   }
+  /// A fault in every frame: the answer itself is no answer.
+  void fault_always(Fault f, double absolute, const Query& q, std::string words) {
+    excess = std::numeric_limits<double>::infinity();
+    fault(f, absolute, 1, q, std::move(words));
+  }
+  void frame_matters() { excess = std::numeric_limits<double>::quiet_NaN(); }
 };
 
 // One row a check in judge.cpp; each lives in fuzz/judge/checks/<name>.cpp.

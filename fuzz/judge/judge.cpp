@@ -43,6 +43,16 @@ Blame blame_of(const Judgement& j, const CheckInput& in) {
   return j.received_faults.empty() ? Blame::representation : Blame::algorithm;
 }
 
+// The second judgement, against the scene received. Bodies that are D apart change every error by at most 2D;
+// only an answer within that of the border is judged again.
+std::vector<FaultReport> faults_received(const CheckInput& asked, int frame, double excess,
+                                         const std::vector<FaultReport>& faults) {
+  const double change = 2 * asked.truth.displacement(frame);
+  if (frame == 0 || (excess > 0 && excess > change)) return faults;
+  if (excess + change <= 0) return {};
+  return run_checks({asked.truth, frame, asked.query, asked.answer, asked.card}).faults;
+}
+
 Judgement judge_one(const CheckInput& asked, int received_frame) {
   Judgement j;
   j.outcome = asked.answer.outcome;
@@ -63,11 +73,7 @@ Judgement judge_one(const CheckInput& asked, int received_frame) {
   j.worst_in_l = out.worst_in_l;
   j.pairs_true = out.pairs_true, j.pairs_reported = out.pairs_reported,
   j.pairs_duplicate = out.pairs_duplicate;
-  if (received_frame == 0)
-    j.received_faults = j.faults;
-  else
-    j.received_faults =
-        run_checks({asked.truth, received_frame, asked.query, asked.answer, asked.card}).faults;
+  j.received_faults = faults_received(asked, received_frame, out.excess, j.faults);
   j.blame = blame_of(j, asked);
   return j;
 }

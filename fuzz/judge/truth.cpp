@@ -1,6 +1,8 @@
 #include "fuzz/judge/truth.h"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <numeric>
 
 namespace touchstone::fuzz {
@@ -25,6 +27,63 @@ bool same_as_asked(const Scene& s, const ReceivedScene& r) {
   return true;
 }
 
+// How far the numbers of two shapes of one kind are apart: every point of one is within this of the other.
+double shape_difference(const Shape& x, const Shape& y) {
+  if (x.index() != y.index()) return std::numeric_limits<double>::infinity();
+  double sum = 0;
+  std::visit(
+      [&](const auto& sx) {
+        using S = std::decay_t<decltype(sx)>;
+        const S& sy = std::get<S>(y);
+        if constexpr (std::is_same_v<S, HalfSpace>) {
+          // Unbounded: a normal that differs displaces without limit.
+          sum = sx == sy ? 0 : std::numeric_limits<double>::infinity();
+        } else {
+          for_each_field(sx, [&](auto name, const auto& v, Domain) {
+            for_each_field(sy, [&](auto other, const auto& w, Domain) {
+              if (name != other) return;
+              using V = std::decay_t<decltype(v)>;
+              if constexpr (std::is_same_v<V, std::decay_t<decltype(w)>>) {
+                if constexpr (std::is_same_v<V, double>) sum += std::abs(v - w);
+                if constexpr (std::is_same_v<V, Vec3>) sum += (v - w).template lpNorm<1>();
+                if constexpr (std::is_same_v<V, std::vector<Vec3>>) {
+                  double worst = v.size() == w.size() ? 0 : std::numeric_limits<double>::infinity();
+                  for (std::size_t i = 0; i < std::min(v.size(), w.size()); ++i)
+                    worst = std::max(worst, (v[i] - w[i]).norm());
+                  sum += worst;
+                }
+              }
+            });
+          });
+        }
+      },
+      x);
+  return sum;
+}
+
+// A half-space turns about its body's origin; what matters of it is bounded by nothing, so that its frame
+// must be judged for itself unless it is the same.
+double displacement_of(const Scene& s, const ReceivedScene& r) {
+  constexpr double rounding = 16 * std::numeric_limits<double>::epsilon();  // of the differences formed here
+  double worst = 0;
+  for (std::size_t i = 0; i < s.bodies.size(); ++i) {
+    const Body& b = s.bodies[i];
+    const Shape& shape = s.shapes[static_cast<std::size_t>(b.shape)];
+    double moved = 0;
+    const auto k = static_cast<std::size_t>(b.shape);
+    if (k < r.shapes.size() && r.shapes[k]) moved += shape_difference(shape, *r.shapes[k]);
+    if (i < r.bodies.size() && r.bodies[i]) {
+      const double turned = (r.bodies[i]->matrix - rotation_matrix(b.pose.rotation)).norm() + rounding;
+      const double reach = bounding_radius(shape);
+      moved += (r.bodies[i]->translation - b.pose.translation).norm();
+      if (!(std::isinf(reach) && r.bodies[i]->matrix == Mat3::Identity() && b.pose.rotation == Quat{}))
+        moved += turned * reach;
+    }
+    worst = std::max(worst, moved * (1 + rounding));
+  }
+  return worst;
+}
+
 }  // namespace
 
 Truth::Truth(const Scene& asked) : asked_(asked), frames_(1) {}
@@ -35,6 +94,7 @@ int Truth::frame_of(const ReceivedScene& received) {
     if (frames_[i].received == received) return static_cast<int>(i);
   frames_.push_back({});
   frames_.back().received = received;
+  frames_.back().displacement = displacement_of(asked_, received);
   return static_cast<int>(frames_.size()) - 1;
 }
 
@@ -89,6 +149,25 @@ referee::Bracket Truth::gap_at(int frame, int a, int b, double t) const {
 double Truth::depth_before(int frame, int a, int b, double t) const {
   return referee::certified_depth_before(placed(frame, a), motion_of(asked_, a), placed(frame, b),
                                          motion_of(asked_, b), t);
+}
+
+double Truth::depth_in_step(int frame, int a, int b) {
+  auto& cache = frames_[static_cast<std::size_t>(frame)].depths;
+  const auto it = cache.find({a, b});
+  if (it != cache.end()) return it->second;
+  const double depth = depth_before(frame, a, b, 1.0);
+  frames_[static_cast<std::size_t>(frame)].depths[{a, b}] = depth;
+  return depth;
+}
+
+double Truth::displacement(int frame) const { return frames_[static_cast<std::size_t>(frame)].displacement; }
+
+double Truth::speed(int a, int b) const {
+  const Motion ma = motion_of(asked_, a), mb = motion_of(asked_, b);
+  const auto turning = [&](int body, const Motion& m) {
+    return m.angular.isZero(0) ? 0.0 : m.angular.norm() * bounding_radius(asked_.shape_of(body));
+  };
+  return ((ma.linear - mb.linear).norm() + turning(a, ma) + turning(b, mb)) * (1 + 1e-12);
 }
 
 const std::vector<Truth::StepState>& Truth::steps() {

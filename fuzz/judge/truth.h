@@ -25,6 +25,12 @@ class Truth {
   referee::Bracket distance_to(int frame, int body, const Vec3& p) const;
   referee::Bracket gap_at(int frame, int a, int b, double t) const;
   double depth_before(int frame, int a, int b, double t) const;
+  /// The same over the whole step; kept.
+  double depth_in_step(int frame, int a, int b);
+  /// Upper bound of how far any point of the bodies in the frame is from where it is in the scene asked.
+  double displacement(int frame) const;
+  /// Upper bound of the speed at which a point of a and one of b approach each other, lengths a step.
+  double speed(int a, int b) const;
   double scale(int a, int b) const { return scale_of_pair(asked_, a, b); }
 
   /// Per query step of the script: the bodies present with their poses (frame 0 only).
@@ -52,6 +58,8 @@ class Truth {
     ReceivedScene received;
     std::map<BodyPair, referee::PairTruth> pairs;
     std::map<BodyPair, referee::TimeTruth> motions;
+    std::map<BodyPair, double> depths;
+    double displacement = 0;
     std::optional<std::vector<TruePair>> scene_pairs;
   };
   std::vector<TruePair> overlapping(const std::vector<std::optional<referee::Placed>>& bodies);

@@ -29,7 +29,7 @@ void check_missed(const CheckInput& in, CheckOutput& out, int k, const TruePairs
     if (std::binary_search(reported.begin(), reported.end(), p.bodies)) continue;
     const auto [a, b] = p.bodies;
     const double l = in.truth.scale(a, b), depth = std::max(0.0, -p.truth.gap.hi);
-    out.error(depth, l);
+    out.error(depth, l, 0);
     out.fault(Fault::missed, depth, l, {in.query.question, a, b},
               fmt::format("query {}: pair ({}, {}) overlaps{} and is not a candidate", k, a, b,
                           depth > 0 ? fmt::format(" by {:.6g}", depth) : " (touching)"),

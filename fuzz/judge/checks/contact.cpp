@@ -30,16 +30,17 @@ void judge_normal_and_depth(const CheckInput& in, CheckOutput& out, int a, int b
   const double length = n.stableNorm();
   const double unit_error = std::abs(length - 1);
   if (!(unit_error <= in.card.tau_factor * in.card.unit_roundoff)) {
-    out.fault(Fault::normal_not_unit, unit_error, 1, q, fmt::format("the normal has length {:.9g}", length));
+    out.fault_always(Fault::normal_not_unit, unit_error, q,
+                     fmt::format("the normal has length {:.9g}", length));
     return;
   }
   if (!std::isfinite(depth)) {
-    out.fault(Fault::no_number, 0, l, q, fmt::format("the depth is {}", depth));
+    out.fault_always(Fault::no_number, 0, q, fmt::format("the depth is {}", depth));
     return;
   }
   const referee::Bracket w = in.truth.width(in.frame, a, b, n);
   const double infeasible = w.lo - depth, excess = depth - w.hi, regret = w.lo + truth.gap.lo;
-  out.error(std::max({infeasible, excess, regret}), l);
+  out.error(std::max({infeasible, excess, regret}), l, tau);
   const double d_star = -(truth.gap.lo + truth.gap.hi) / 2;
   if (infeasible > tau)
     out.fault(
@@ -64,6 +65,7 @@ void check_contact(const CheckInput& in, CheckOutput& out) {
   const referee::PairTruth& truth = in.truth.pair(in.frame, a, b);
   // A contact claimed where there is none, within τ: its depth is 0 within τ or the verdict is already a
   // ghost. Meshes have no depth in this definition. Both leave nothing to measure.
+  if (truth.verdict != referee::Verdict::overlap) out.frame_matters();
   if (truth.verdict != referee::Verdict::overlap || !std::isfinite(truth.gap.lo)) return;
   if (!in.answer.normal || !in.answer.depth) return;
   judge_normal_and_depth(in, out, a, b, truth, *in.answer.normal, *in.answer.depth);
@@ -82,13 +84,13 @@ void check_manifold(const CheckInput& in, CheckOutput& out) {
   double worst = 0;
   for (const ManifoldPoint& p : in.answer.manifold) {
     if (!p.position.allFinite()) {
-      out.fault(Fault::point_off, 0, l, in.query, "a manifold point is not finite");
+      out.fault_always(Fault::point_off, 0, in.query, "a manifold point is not finite");
       return;
     }
     worst = std::max({worst, in.truth.distance_to(in.frame, a, p.position).lo - inflate,
                       in.truth.distance_to(in.frame, b, p.position).lo - inflate});
   }
-  out.error(worst, l);
+  out.error(worst, l, tau);
   if (worst > tau)
     out.fault(Fault::point_off, worst, l, in.query,
               fmt::format("a manifold point is {:.6g} outside a body inflated by the stated depth", worst),

@@ -21,16 +21,16 @@ void check_distance(const CheckInput& in, CheckOutput& out) {
   if (!in.answer.distance) {
     // "They overlap, and I have no depth" is an honest answer; it is judged as a verdict.
     if (in.answer.overlap) return check_overlap(in, out);
-    out.fault(Fault::no_number, 0, l, in.query, "answered without a distance");
+    out.fault_always(Fault::no_number, 0, in.query, "answered without a distance");
     return;
   }
   const double d = *in.answer.distance;
   if (!std::isfinite(d)) {
-    out.fault(Fault::no_number, 0, l, in.query, fmt::format("the distance is {}", d));
+    out.fault_always(Fault::no_number, 0, in.query, fmt::format("the distance is {}", d));
     return;
   }
   const double error = outside(d, truth.gap);
-  out.error(error, l);
+  out.error(error, l, tau);
   if (error <= tau) return;
   const double mid = std::isfinite(truth.gap.lo) ? (truth.gap.lo + truth.gap.hi) / 2 : truth.gap.hi;
   Fault f = Fault::distance_off;
@@ -48,7 +48,7 @@ void check_witness(const CheckInput& in, CheckOutput& out) {
   const double l = in.truth.scale(a, b), tau = in.tau(l);
   const auto& [pa, pb] = *in.answer.witness;
   if (!pa.allFinite() || !pb.allFinite()) {
-    out.fault(Fault::witness_off, 0, l, in.query, "a witness point is not finite");
+    out.fault_always(Fault::witness_off, 0, in.query, "a witness point is not finite");
     return;
   }
   double worst = std::max(in.truth.distance_to(in.frame, a, pa).lo, in.truth.distance_to(in.frame, b, pb).lo);
@@ -64,7 +64,7 @@ void check_witness(const CheckInput& in, CheckOutput& out) {
                           (size.lo + size.hi) / 2);
     }
   }
-  out.error(worst, l);
+  out.error(worst, l, tau);
   if (worst > tau)
     out.fault(Fault::witness_off, worst, l, in.query, std::move(words), truth.verdict_certificate);
 }

@@ -11,19 +11,24 @@ void check_overlap(const CheckInput& in, CheckOutput& out) {
   const referee::PairTruth& truth = in.truth.pair(in.frame, a, b);
   const double l = in.truth.scale(a, b), tau = in.tau(l);
   if (!in.answer.overlap) {
-    out.fault(Fault::no_number, 0, l, in.query, "answered without saying whether the bodies overlap");
+    out.fault_always(Fault::no_number, 0, in.query, "answered without saying whether the bodies overlap");
     return;
   }
   if (truth.verdict == referee::Verdict::undecided) {
     out.undecided = true;
+    out.frame_matters();
     return;
   }
   const bool says = *in.answer.overlap, is = truth.verdict == referee::Verdict::overlap;
-  if (says == is) return;
+  if (says == is) {
+    // Right by |g|: in a frame where the bodies are farther apart than that, it may be wrong.
+    const double margin = is ? std::max(0.0, -truth.gap.hi) : std::max(0.0, truth.gap.lo);
+    return out.error(-margin, l, tau);
+  }
   // The certified part of |g|: a mesh that overlaps has no depth, so its verdict is judged without one.
   const bool no_depth = is && !std::isfinite(truth.gap.lo);
   const double error = is ? std::max(0.0, -truth.gap.hi) : std::max(0.0, truth.gap.lo);
-  out.error(error, l);
+  out.error(error, l, tau);
   if (no_depth || error <= tau) return;
   out.fault(is ? Fault::missed : Fault::ghost, error, l, in.query,
             is ? fmt::format("says apart; the bodies overlap by at least {:.6g}", error)

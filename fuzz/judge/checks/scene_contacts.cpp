@@ -14,8 +14,8 @@ namespace {
 void check_stated(const CheckInput& in, CheckOutput& out, const SceneContact& c, std::set<BodyPair>& stated) {
   const int n = static_cast<int>(in.truth.scene().bodies.size());
   if (c.a < 0 || c.b < 0 || c.a >= n || c.b >= n || c.a == c.b) {
-    out.fault(Fault::stale, 0, 1, {in.query.question, c.a, c.b},
-              fmt::format("contact names bodies {} and {}", c.a, c.b));
+    out.fault_always(Fault::stale, 0, {in.query.question, c.a, c.b},
+                     fmt::format("contact names bodies {} and {}", c.a, c.b));
     return;
   }
   const bool flip = c.a > c.b;
@@ -25,11 +25,13 @@ void check_stated(const CheckInput& in, CheckOutput& out, const SceneContact& c,
   const double l = in.truth.scale(a, b);
   if (truth.verdict == referee::Verdict::undecided) {
     out.undecided = true;
+    out.frame_matters();
     return;
   }
   if (truth.verdict == referee::Verdict::disjoint) {
     const double gap = std::max(0.0, truth.gap.lo);
-    out.error(gap, l);
+    out.error(gap, l, in.tau(l));
+    out.frame_matters();
     if (gap > in.tau(l))
       out.fault(Fault::ghost, gap, l, {in.query.question, a, b},
                 fmt::format("contact between {} and {}, which are {:.6g} apart", a, b, gap),
@@ -56,7 +58,7 @@ void check_scene_contacts(const CheckInput& in, CheckOutput& out) {
     if (stated.count(p.bodies)) continue;
     const auto [a, b] = p.bodies;
     const double l = in.truth.scale(a, b), depth = std::max(0.0, -p.truth.gap.hi);
-    out.error(depth, l);
+    out.error(depth, l, in.tau(l));
     if (depth > in.tau(l))
       out.fault(Fault::missed, depth, l, {in.query.question, a, b},
                 fmt::format("no contact between {} and {}, which overlap by {:.6g}", a, b, depth),

@@ -8,42 +8,60 @@
 
 namespace touchstone::fuzz {
 
+namespace {
+
+using Verdict = referee::TimeTruth::Verdict;
+
+// "No impact": wrong by the depth that is certain at some time of the step.
+void check_denied(const CheckInput& in, CheckOutput& out, double l, double tau) {
+  const auto [a, b] = std::pair{in.query.a, in.query.b};
+  const referee::TimeTruth& truth = in.truth.motion(in.frame, a, b);
+  if (truth.verdict == Verdict::none) return out.error(-std::max(0.0, truth.least_gap.lo), l, tau);
+  const double depth = std::max(-truth.least_gap.hi, in.truth.depth_in_step(in.frame, a, b));
+  out.error(depth, l, tau);
+  if (depth > tau) {
+    out.fault(
+        Fault::missed, depth, l, in.query,
+        fmt::format("says no impact; the bodies overlap by {:.6g} during the step, first near t = {:.9g}",
+                    depth, truth.t_hi));
+  } else if (truth.verdict == Verdict::undecided) {
+    out.undecided = true;
+    out.frame_matters();
+  }
+}
+
+// The largest certain depth before t. The bodies are apart before t_lo and close at no more than `speed`
+// after it, so that most answers need no search.
+double late_by(const CheckInput& in, double t, double at_t, double tau) {
+  const auto [a, b] = std::pair{in.query.a, in.query.b};
+  if (at_t > tau) return at_t;
+  const referee::TimeTruth& truth = in.truth.motion(in.frame, a, b);
+  const double after = truth.verdict == Verdict::none ? 0 : t - truth.t_lo;
+  if (after <= 0 || after * in.truth.speed(a, b) <= tau) return std::max(at_t, 0.0);
+  return std::max(at_t, in.truth.depth_before(in.frame, a, b, t));
+}
+
+}  // namespace
+
 void check_time_of_impact(const CheckInput& in, CheckOutput& out) {
   const auto [a, b] = std::pair{in.query.a, in.query.b};
   const double l = in.truth.scale(a, b), tau = in.tau(l);
-  using Verdict = referee::TimeTruth::Verdict;
-  if (!in.answer.toi) {
-    const referee::TimeTruth& truth = in.truth.motion(in.frame, a, b);
-    if (truth.verdict == Verdict::none) return;
-    // Depth that is certain at some time of the step: a miss deeper than τ is wrong.
-    const double depth = std::max(-truth.least_gap.hi, in.truth.depth_before(in.frame, a, b, 1.0));
-    out.error(depth, l);
-    if (depth > tau)
-      out.fault(
-          Fault::missed, depth, l, in.query,
-          fmt::format("says no impact; the bodies overlap by {:.6g} during the step, first near t = {:.9g}",
-                      depth, truth.t_hi));
-    else if (truth.verdict == Verdict::undecided)
-      out.undecided = true;
-    return;
-  }
+  if (!in.answer.toi) return check_denied(in, out, l, tau);
   const double t = *in.answer.toi;
-  if (!std::isfinite(t) || t < 0 || t > 1) {
-    out.fault(Fault::no_number, 0, l, in.query, fmt::format("the time of impact is {}, outside [0,1]", t));
-    return;
-  }
+  if (!std::isfinite(t) || t < 0 || t > 1)
+    return out.fault_always(Fault::no_number, 0, in.query,
+                            fmt::format("the time of impact is {}, outside [0,1]", t));
   const referee::Bracket gap = in.truth.gap_at(in.frame, a, b, t);
-  const double early = gap.lo, at_t = -gap.hi;
-  const double late = std::max(at_t, in.truth.depth_before(in.frame, a, b, t));
+  const double early = gap.lo;
   // Overlap from the start is reported as t = 0, however deep it is.
-  const bool start = t == 0;
-  out.error(std::max(early, start ? 0.0 : late), l);
+  const double late = t == 0 ? 0 : late_by(in, t, -gap.hi, tau);
+  out.error(std::max(early, late), l, tau);
   if (early > tau) {
     const bool none = in.truth.motion(in.frame, a, b).verdict == Verdict::none;
     out.fault(none ? Fault::ghost : Fault::early, early, l, in.query,
               fmt::format("says impact at t = {:.9g}, where the gap is {:.6g}{}", t, early,
                           none ? "; there is no impact in the step" : ""));
-  } else if (!start && late > tau) {
+  } else if (late > tau) {
     out.fault(
         Fault::late, late, l, in.query,
         fmt::format("says impact at t = {:.9g}; by then the bodies have overlapped by {:.6g}", t, late));
