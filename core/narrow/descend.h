@@ -1,34 +1,115 @@
-// From a good direction to a local minimum of the depth, where EPA cannot separate the candidates.
+// The least depth where EPA cannot separate the candidates: minima along a curve (nearly coaxial round
+// bodies) or a surface (nearly concentric spheroids), in which the depth differs by less than any affordable
+// polytope resolves.
 //
-// Let x = h(m) m be the foot of the support plane of direction m. EPA is asked for the boundary point nearest
-// to s·x (0 < s < 1) and not to the origin: near x that point is isolated even when the origin's nearest
-// points form a ring, so EPA closes. Its normal m1 minimises h(m) − s x·m, hence
-//     h(m1) <= h(m) (1 − s (1 − m·m1)) <= h(m):
-// a proximal step that never climbs and that respects kinks of h. A fixed point is a local minimum. Steps
-// along a flat ring are short, so the movement is extrapolated, doubling while h falls; the step from the
-// extrapolated direction brings it back onto the ring. When plain steps gain nothing more, long
-// extrapolations are tried once before the end.
+// Search: directions are written as (azimuth θ, polar angle α) about the axis of a round body. φ(θ) = min
+// over α of the height h(n(θ, α)) is a function of one variable with few minima. Both minimisations are
+// samples followed by golden sections, so kinks do no harm, and the search resolves differences of φ down to
+// rounding. What is proven globally stays what EPA proved (`lower`); samples of φ every 7.5° are what speaks
+// for the rest.
+//
+// Witness: one proximal step. EPA is asked for the boundary point nearest to s·x, x the foot of the found
+// plane, 0 < s < 1. Near x that point is isolated even when the origin's nearest points form a ring, so EPA
+// closes; its normal m1 satisfies h(m1) <= h(m) (1 − s (1 − m·m1)), and a fixed point is a local minimum.
 #pragma once
 
+#include <array>
 #include <cmath>
+#include <numbers>
+#include <utility>
 
 #include "core/narrow/epa.h"
 
 namespace touchstone::narrow {
 
-struct DescendLimits {
-  int steps = 150, budget = 2000;
-};
-
 namespace detail {
 
-/// The proximal step from direction n (A to B); status closed when it is to be believed.
+/// Least point of f in [lo, hi] by golden section to the arithmetic's resolution; returns (argument, value).
+template <class R, class F>
+std::pair<R, R> golden(R lo, R hi, F&& f) {
+  constexpr int sections = 80;  // 0.618^80 = 2e-17
+  const R ratio = (std::sqrt(R(5)) - 1) / 2;
+  R x1 = hi - ratio * (hi - lo), x2 = lo + ratio * (hi - lo), f1 = f(x1), f2 = f(x2);
+  for (int i = 0; i < sections; ++i) {
+    if (f1 <= f2) {
+      hi = x2, x2 = x1, f2 = f1, x1 = hi - ratio * (hi - lo), f1 = f(x1);
+    } else {
+      lo = x1, x1 = x2, f1 = f2, x2 = lo + ratio * (hi - lo), f2 = f(x2);
+    }
+  }
+  return f1 <= f2 ? std::pair{x1, f1} : std::pair{x2, f2};
+}
+
+/// Column of the frame about which a core is (most nearly) round; -1 when it has no such axis.
 template <class R>
-EpaResult<R> proximal(const V3<R>& n, const ConvexCore<R>& a, const ConvexCore<R>& b, R size, R tolerance,
-                      int budget) {
+int round_axis(const ConvexCore<R>& c) {
+  if (c.kind == CoreKind::segment || c.kind == CoreKind::cylinder || c.kind == CoreKind::cone) return 2;
+  if (c.kind != CoreKind::ellipsoid) return -1;
+  const V3<R>& s = c.size;
+  const R d0 = std::abs(s[1] - s[2]), d1 = std::abs(s[2] - s[0]), d2 = std::abs(s[0] - s[1]);
+  return d0 <= d1 && d0 <= d2 ? 0 : (d1 <= d2 ? 1 : 2);
+}
+
+template <class R>
+class MeridianSearch {
+ public:
+  MeridianSearch(const ConvexCore<R>& a, const ConvexCore<R>& b, const V3<R>& axis)
+      : a_(a), b_(b), w_(axis.normalized()), u_(w_.unitOrthogonal()), v_(w_.cross(u_)) {}
+
+  V3<R> direction(R theta, R alpha) const {
+    return std::sin(alpha) * (std::cos(theta) * u_ + std::sin(theta) * v_) + std::cos(alpha) * w_;
+  }
+  R height(const V3<R>& n) const { return -n.dot(difference_support<R>(a_, b_, -n).w); }
+
+  /// Least direction and height.
+  std::pair<V3<R>, R> least() const {
+    std::array<std::pair<R, R>, azimuths> at;  // α and φ at θ_i
+    for (int i = 0; i < azimuths; ++i) at[static_cast<std::size_t>(i)] = whole_meridian(i * step_theta);
+    std::pair<V3<R>, R> best{V3<R>::UnitX(), std::numeric_limits<R>::infinity()};
+    for (int i = 0; i < azimuths; ++i) {
+      const auto [alpha, phi] = at[static_cast<std::size_t>(i)];
+      const R before = at[static_cast<std::size_t>((i + azimuths - 1) % azimuths)].second;
+      const R after = at[static_cast<std::size_t>((i + 1) % azimuths)].second;
+      // On an exact ring φ differs by rounding only, and so does every choice.
+      if (phi > before || phi > after || phi > best.second) continue;
+      const R middle = alpha;
+      const auto near = [&](R theta) {
+        return golden<R>(middle - 2 * step_alpha, middle + 2 * step_alpha,
+                         [&](R x) { return height(direction(theta, x)); });
+      };
+      const R theta =
+          golden<R>((i - 1) * step_theta, (i + 1) * step_theta, [&](R t) { return near(t).second; }).first;
+      const auto [x, h] = near(theta);
+      if (h < best.second) best = {direction(theta, x).normalized(), h};
+    }
+    return best;
+  }
+
+ private:
+  static constexpr int azimuths = 48, polars = 32;
+  static constexpr R step_theta = 2 * std::numbers::pi_v<R> / azimuths,
+                     step_alpha = std::numbers::pi_v<R> / polars;
+
+  std::pair<R, R> whole_meridian(R theta) const {
+    int best = 0;
+    R least = std::numeric_limits<R>::infinity();
+    const auto h = [&](R x) { return height(direction(theta, x)); };
+    for (int k = 0; k <= polars; ++k)
+      if (const R x = h(k * step_alpha); x < least) least = x, best = k;
+    return golden<R>((best - 1) * step_alpha, (best + 1) * step_alpha, h);
+  }
+
+  const ConvexCore<R>&a_, &b_;
+  V3<R> w_, u_, v_;
+};
+
+/// The proximal step from direction n (A to B).
+template <class R>
+EpaResult<R> proximal(const V3<R>& n, const ConvexCore<R>& a, const ConvexCore<R>& b, R size, R tolerance) {
+  constexpr int budget = 2000;
   const auto height = [&](const V3<R>& m) { return -m.dot(difference_support<R>(a, b, -m).w); };
   EpaResult<R> step;
-  const V3<R> shift = -n * (height(n) / 16);  // D's outward normal is −n
+  const V3<R> shift = -n * (height(n) / 4);  // D's outward normal is −n
   ConvexCore<R> moved = b;
   moved.frame.translation -= shift;
   const GjkResult<R> g = gjk<R>(a, moved, tolerance, tolerance / 4, budget);
@@ -43,36 +124,17 @@ EpaResult<R> proximal(const V3<R>& n, const ConvexCore<R>& a, const ConvexCore<R
 /// Improves e in place; e.status becomes closed at a local minimum. `lower` is kept: it is what EPA proved of
 /// all directions.
 template <class R>
-void descend(EpaResult<R>& e, const ConvexCore<R>& a, const ConvexCore<R>& b, R size, R tolerance,
-             DescendLimits limits = {}) {
-  const R negligible = 64 * std::numeric_limits<R>::epsilon() * size;
-  const R lower = e.lower;
-  V3<R> turn = V3<R>::Zero(), plain_turn = turn;
-  R stretch = 0;       // 0: plain step
-  int last_tries = 0;  // long extrapolations since a plain step gained nothing
-  for (int i = 0; i < limits.steps; ++i) {
-    const V3<R> from = e.normal, anchor = (from + stretch * turn).normalized();
-    const EpaResult<R> step = detail::proximal<R>(anchor, a, b, size, tolerance, limits.budget);
-    const bool plain = stretch == 0;
-    if (step.status != EpaStatus::closed && plain) return;
-    const R gain = step.status == EpaStatus::closed ? e.upper - step.upper : -1;
-    if (plain) plain_turn = step.normal - from;
-    if (plain ? gain >= -tolerance : gain > negligible) e = step, turn = step.normal - from;
-    if (gain > negligible) {
-      stretch = turn.norm() < R(0.25) ? 2 : 0, last_tries = 0;
-      continue;
-    }
-    if (!plain && last_tries == 0) {
-      stretch = 0;
-      continue;
-    }
-    if (last_tries == 5) {
-      e.status = EpaStatus::closed, e.lower = lower;
-      return;
-    }
-    turn = plain_turn, stretch = std::ldexp(R(1), 4 * ++last_tries);
+void descend(EpaResult<R>& e, const ConvexCore<R>& a, const ConvexCore<R>& b, R size, R tolerance) {
+  for (const ConvexCore<R>* c : {&a, &b}) {
+    const int axis = detail::round_axis(*c);
+    if (axis < 0) continue;
+    const auto [n, h] = detail::MeridianSearch<R>(a, b, c->frame.rotation.col(axis)).least();
+    if (h < e.upper) e.upper = h, e.normal = n;
   }
-  e.status = EpaStatus::explored, e.lower = lower;
+  const EpaResult<R> step = detail::proximal<R>(e.normal, a, b, size, tolerance);
+  if (step.status != EpaStatus::closed || step.upper - e.upper > tolerance) return;
+  e.a = step.a, e.b = step.b, e.status = EpaStatus::closed;
+  if (step.upper <= e.upper) e.upper = step.upper, e.normal = step.normal;
 }
 
 }  // namespace touchstone::narrow
