@@ -105,11 +105,12 @@ class MeridianSearch {
 
 /// The proximal step from direction n (A to B).
 template <class R>
-EpaResult<R> proximal(const V3<R>& n, const ConvexCore<R>& a, const ConvexCore<R>& b, R size, R tolerance) {
+EpaResult<R> proximal(const V3<R>& n, R share, const ConvexCore<R>& a, const ConvexCore<R>& b, R size,
+                      R tolerance) {
   constexpr int budget = 2000;
   const auto height = [&](const V3<R>& m) { return -m.dot(difference_support<R>(a, b, -m).w); };
   EpaResult<R> step;
-  const V3<R> shift = -n * (height(n) / 4);  // D's outward normal is −n
+  const V3<R> shift = -n * (height(n) * share);  // D's outward normal is −n
   ConvexCore<R> moved = b;
   moved.frame.translation -= shift;
   const GjkResult<R> g = gjk<R>(a, moved, tolerance, tolerance / 4, budget);
@@ -131,10 +132,16 @@ void descend(EpaResult<R>& e, const ConvexCore<R>& a, const ConvexCore<R>& b, R 
     const auto [n, h] = detail::MeridianSearch<R>(a, b, c->frame.rotation.col(axis)).least();
     if (h < e.upper) e.upper = h, e.normal = n;
   }
-  const EpaResult<R> step = detail::proximal<R>(e.normal, a, b, size, tolerance);
-  if (step.status != EpaStatus::closed || step.upper - e.upper > tolerance) return;
-  e.a = step.a, e.b = step.b, e.status = EpaStatus::closed;
-  if (step.upper <= e.upper) e.upper = step.upper, e.normal = step.normal;
+  for (const R share : {R(0.25), R(0.5), R(0.75), R(0.9375)}) {
+    const EpaResult<R> step = detail::proximal<R>(e.normal, share, a, b, size, tolerance);
+    const R depth = std::min(step.upper, e.upper);
+    // EPA's own tolerance, seen through the shift, is paid once in height and once in length.
+    if (step.status == EpaStatus::broken || std::abs((step.b - step.a).norm() - depth) > 4 * tolerance)
+      continue;
+    e.a = step.a, e.b = step.b, e.status = EpaStatus::closed;
+    if (step.upper <= e.upper) e.upper = step.upper, e.normal = step.normal;
+    return;
+  }
 }
 
 }  // namespace touchstone::narrow
