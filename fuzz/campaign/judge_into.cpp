@@ -28,11 +28,9 @@ void add_findings(CampaignResult& r, const Case& c, std::uint64_t index, const s
     f.count = 1, f.worst_in_l = fault.error_in_l, f.first_index = index;
     auto& kept = r.findings[f.key()];
     if (kept.count == 0 || index < kept.first_index) {
-      f.words = fault.words;
-      f.case_json = case_to_json(c);
-      f.observation = to_json(o);
-      f.certificate = referee::to_json(fault.certificate);
-      f.received = to_json(all.received);
+      // The last words of a dying process stay out of the finding: they may differ from run to run.
+      f.words = fault.fault == Fault::failed ? std::string(to_string(j.outcome)) : fault.words;
+      f.evidence = std::make_shared<const Evidence>(Evidence{c, o, all.received, fault.certificate});
     }
     kept.merge(f);
   }

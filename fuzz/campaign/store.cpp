@@ -71,20 +71,20 @@ void save_findings(const CampaignConfig& config, const CampaignResult& result) {
     std::error_code ec;
     std::filesystem::create_directories(dir, ec);
     if (ec) throw InputError(dir.string(), "cannot be made: " + ec.message());
-    write_atomically(dir / "case.json", f.case_json.dump(1) + "\n");
+    const Json evidence = f.evidence_json();
+    write_atomically(dir / "case.json", evidence.at("case").dump(1) + "\n");
     const Json j = {{"key", key},
                     {"words", f.words},
                     {"count", f.count},
                     {"worst_in_l", number(f.worst_in_l)},
                     {"first_index", f.first_index},
-                    {"observation", f.observation},
-                    {"certificate", f.certificate},
-                    {"received", f.received}};
+                    {"observation", evidence.at("observation")},
+                    {"certificate", evidence.at("certificate")},
+                    {"received", evidence.at("received")}};
     write_atomically(dir / "finding.json", j.dump(1) + "\n");
   }
   Json summary = to_json(result, true);
-  for (auto& [key, f] : summary["findings"].items())
-    for (const char* bulky : {"case", "observation", "certificate", "received"}) f.erase(bulky);
+  for (auto& [key, f] : summary["findings"].items()) f.erase("evidence");
   summary["digest"] = digest(result);
   write_atomically(config.out / "summary.json", summary.dump(1) + "\n");
 }

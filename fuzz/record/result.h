@@ -5,6 +5,7 @@
 #include <array>
 #include <cstdint>
 #include <map>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -48,6 +49,14 @@ struct Tally {
   void merge(const Tally& o);
 };
 
+/// What shows a finding, kept as values and written as JSON only when somebody asks.
+struct Evidence {
+  Case c;
+  Observation observation;
+  ReceivedScene received;
+  referee::Certificate certificate;
+};
+
 /// One kind of wrong answer: same engine, question, fault, shapes and blame. Keeps its first case.
 struct Finding {
   std::string engine, question, fault, shapes, blame;
@@ -55,7 +64,10 @@ struct Finding {
   double worst_in_l = 0;
   std::uint64_t first_index = 0;
   std::string words;
-  Json case_json, observation, certificate, received;
+  std::shared_ptr<const Evidence> evidence;  // of the first case; empty when read back from disk:
+  Json stored;                               // then its JSON form
+  /// {"case", "observation", "certificate", "received"}
+  Json evidence_json() const;
   std::string key() const { return engine + "." + question + "." + fault + "." + shapes + "." + blame; }
   void merge(const Finding& o);
 };

@@ -17,6 +17,7 @@
 #include <mutex>
 #include <system_error>
 #include <thread>
+#include <vector>
 
 #include "core/base/input_error.h"
 
@@ -99,7 +100,15 @@ int spawn(const std::string& program, const std::vector<std::string>& arguments,
   std::vector<char*> argv{const_cast<char*>(program.c_str())};
   for (const std::string& a : arguments) argv.push_back(const_cast<char*>(a.c_str()));
   argv.push_back(nullptr);
-  const int error = posix_spawn(pid, program.c_str(), &actions, &attributes, argv.data(), environ);
+  // An engine that reads memory it never wrote (FCL's default continuous query does) would answer by what ran
+  // before it. glibc then hands out memory filled with zeros, the kindest content, so that the same question
+  // gets the same answer.
+  char perturb[] = "MALLOC_PERTURB_=255";
+  std::vector<char*> environment;
+  for (char** e = environ; *e != nullptr; ++e) environment.push_back(*e);
+  environment.push_back(perturb);
+  environment.push_back(nullptr);
+  const int error = posix_spawn(pid, program.c_str(), &actions, &attributes, argv.data(), environment.data());
   posix_spawn_file_actions_destroy(&actions);
   posix_spawnattr_destroy(&attributes);
   return error;

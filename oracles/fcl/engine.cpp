@@ -19,10 +19,10 @@ constexpr const char* tuned_libccd_settings =
 constexpr const char* tuned_indep_settings =
     "collide 1e-12; distance unsigned 1e-12, no depth; contact by collide; time of impact "
     "CCDC_CONSERVATIVE_ADVANCEMENT over InterpMotion, pivot 0";
-// continuousCollide documents toc_err as an error of time; no length is claimed for it.
+// continuousCollide documents toc_err as an error of time; as a length it is that times the closing speed.
 constexpr const char* source =
-    "fcl/narrowphase/collision_request.h: gjk_tolerance; distance_request.h: distance_tolerance; none for "
-    "time of impact";
+    "fcl/narrowphase/collision_request.h: gjk_tolerance; distance_request.h: distance_tolerance; "
+    "continuous_collision_request.h: toc_err times the closing speed";
 
 class Engine {
  public:
@@ -104,6 +104,7 @@ class Engine {
     const ts_body& two = scene_->bodies[b];
     const auto t = time_of_impact(body(a), kit::pose_of(one.pose), kit::motion_of(one), body(b),
                                   kit::pose_of(two.pose), kit::motion_of(two), settings_);
+    out.claimed_tolerance = impact_tolerance(body(a), kit::motion_of(one), body(b), kit::motion_of(two));
     if (t) kit::set_toi(out, *t);
   }
 

@@ -42,6 +42,9 @@ fcl::DistanceResultd run_distance(const Placed& a, const Placed& b, const Settin
   request.distance_tolerance = tolerance;
   request.gjk_solver_type = s.solver;
   fcl::DistanceResultd result;
+  // Some pairs leave the points unset, and their constructor does too: without this they would be leftovers
+  // of the stack.
+  for (Vec3& p : result.nearest_points) p.setConstant(std::numeric_limits<double>::quiet_NaN());
   fcl::distance(a.geometry, a.transform, b.geometry, b.transform, request, result);
   // For a pair that it has no function for, FCL warns and leaves the largest double in place.
   if (result.min_distance == std::numeric_limits<double>::max())
@@ -63,7 +66,18 @@ bool refine(const Placed& a, const Placed& b, const Settings& s, Contact& c) {
   return true;
 }
 
+// Upper bound of the speed of a body's points about its moving origin.
+double turning_speed(const Placed& p, const Motion& m) {
+  return m.angular.norm() * (p.geometry->aabb_center.norm() + p.geometry->aabb_radius);
+}
+
 }  // namespace
+
+double impact_tolerance(const Placed& a, const Motion& a_motion, const Placed& b, const Motion& b_motion) {
+  const fcl::ContinuousCollisionRequestd request;
+  return request.toc_err * ((a_motion.linear - b_motion.linear).norm() + turning_speed(a, a_motion) +
+                            turning_speed(b, b_motion));
+}
 
 double overlap_tolerance(const Settings& s) { return s.tuned ? tuned_overlap_tolerance : shipped_tolerance; }
 

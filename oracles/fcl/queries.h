@@ -51,6 +51,10 @@ std::optional<double> time_of_impact(const Placed& a, const Pose& a_start, const
                                      const Placed& b, const Pose& b_start, const Motion& b_motion,
                                      const Settings& s);
 
+/// What toc_err ("error in first contact time", 1e-4 of the step) comes to as a length: times the closing
+/// speed.
+double impact_tolerance(const Placed& a, const Motion& a_motion, const Placed& b, const Motion& b_motion);
+
 double overlap_tolerance(const Settings& s);
 
 }  // namespace touchstone::fcl_adapter

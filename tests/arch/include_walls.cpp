@@ -48,7 +48,7 @@ const std::map<std::string, std::vector<std::string>> may_include = {
     {"oracles/referee", with_values({"oracles/referee"})},
     {"scenarios", with_values({"scenarios", "core/scene", "oracles/api/observation.h"})},
     {"fuzz/judge", with_values({"fuzz/judge", "oracles/api", "oracles/referee/referee.h"})},
-    {"fuzz/record", with_values({"fuzz/record", "fuzz/judge", "oracles/api"})},
+    {"fuzz/record", with_values({"fuzz/record", "fuzz/judge", "oracles/api", "scenarios"})},
     {"fuzz/generate", with_values({"fuzz/generate", "oracles/api/observation.h"})},
     {"fuzz/campaign", with_values({"fuzz/campaign", "fuzz/generate", "fuzz/judge", "fuzz/record",
                                    "core/scene", "scenarios", "oracles/api"})},
