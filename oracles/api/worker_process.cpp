@@ -100,13 +100,14 @@ int spawn(const std::string& program, const std::vector<std::string>& arguments,
   std::vector<char*> argv{const_cast<char*>(program.c_str())};
   for (const std::string& a : arguments) argv.push_back(const_cast<char*>(a.c_str()));
   argv.push_back(nullptr);
-  // An engine that reads memory it never wrote (FCL's default continuous query does) would answer by what ran
-  // before it. glibc then hands out memory filled with zeros, the kindest content, so that the same question
-  // gets the same answer.
-  char perturb[] = "MALLOC_PERTURB_=255";
+  // An engine that reads memory it never wrote (FCL's mesh-sphere distance and its default continuous query
+  // do) would answer by what ran before it. glibc then hands out memory filled with zeros, the kindest
+  // content, so that the same question gets the same answer; its thread caches would bypass the filling.
+  char perturb[] = "MALLOC_PERTURB_=255", no_cache[] = "GLIBC_TUNABLES=glibc.malloc.tcache_count=0";
   std::vector<char*> environment;
   for (char** e = environ; *e != nullptr; ++e) environment.push_back(*e);
   environment.push_back(perturb);
+  environment.push_back(no_cache);
   environment.push_back(nullptr);
   const int error = posix_spawn(pid, program.c_str(), &actions, &attributes, argv.data(), environment.data());
   posix_spawn_file_actions_destroy(&actions);
