@@ -13,10 +13,12 @@
 // closes; its normal m1 satisfies h(m1) <= h(m) (1 − s (1 − m·m1)), and a fixed point is a local minimum.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
 #include <utility>
+#include <vector>
 
 #include "core/narrow/epa.h"
 
@@ -65,38 +67,49 @@ class MeridianSearch {
   std::pair<V3<R>, R> least() const {
     std::array<std::pair<R, R>, azimuths> at;  // α and φ at θ_i
     for (int i = 0; i < azimuths; ++i) at[static_cast<std::size_t>(i)] = whole_meridian(i * step_theta);
-    std::pair<V3<R>, R> best{V3<R>::UnitX(), std::numeric_limits<R>::infinity()};
+    // On an exact ring every sample is a minimum up to rounding; four of them are then as good as all.
+    constexpr std::size_t followed = 4;
+    std::vector<std::pair<R, int>> valleys;
     for (int i = 0; i < azimuths; ++i) {
-      const auto [alpha, phi] = at[static_cast<std::size_t>(i)];
+      const R phi = at[static_cast<std::size_t>(i)].second;
       const R before = at[static_cast<std::size_t>((i + azimuths - 1) % azimuths)].second;
       const R after = at[static_cast<std::size_t>((i + 1) % azimuths)].second;
-      // On an exact ring φ differs by rounding only, and so does every choice.
-      if (phi > before || phi > after || phi > best.second) continue;
-      const R middle = alpha;
-      const auto near = [&](R theta) {
-        return golden<R>(middle - 2 * step_alpha, middle + 2 * step_alpha,
-                         [&](R x) { return height(direction(theta, x)); });
-      };
-      const R theta =
-          golden<R>((i - 1) * step_theta, (i + 1) * step_theta, [&](R t) { return near(t).second; }).first;
-      const auto [x, h] = near(theta);
+      if (phi <= before && phi <= after) valleys.emplace_back(phi, i);
+    }
+    std::sort(valleys.begin(), valleys.end());
+    std::pair<V3<R>, R> best{V3<R>::UnitX(), std::numeric_limits<R>::infinity()};
+    for (std::size_t k = 0; k < std::min(followed, valleys.size()); ++k) {
+      const int i = valleys[k].second;
+      const R theta = golden<R>((i - 1) * step_theta, (i + 1) * step_theta, [&](R t) {
+                        return whole_meridian(t).second;
+                      }).first;
+      const auto [x, h] = whole_meridian(theta);
       if (h < best.second) best = {direction(theta, x).normalized(), h};
     }
     return best;
   }
 
  private:
-  static constexpr int azimuths = 48, polars = 32;
+  static constexpr int azimuths = 48, polars = 48;
   static constexpr R step_theta = 2 * std::numbers::pi_v<R> / azimuths,
                      step_alpha = std::numbers::pi_v<R> / polars;
 
+  // Two round bodies have two families of minima on a meridian, which may lie close and change places: every
+  // valley of the samples is followed down.
   std::pair<R, R> whole_meridian(R theta) const {
-    int best = 0;
-    R least = std::numeric_limits<R>::infinity();
     const auto h = [&](R x) { return height(direction(theta, x)); };
-    for (int k = 0; k <= polars; ++k)
-      if (const R x = h(k * step_alpha); x < least) least = x, best = k;
-    return golden<R>((best - 1) * step_alpha, (best + 1) * step_alpha, h);
+    std::array<R, polars + 1> sample;
+    for (int k = 0; k <= polars; ++k) sample[static_cast<std::size_t>(k)] = h(k * step_alpha);
+    std::pair<R, R> best{0, std::numeric_limits<R>::infinity()};
+    for (int k = 0; k <= polars; ++k) {
+      const R x = sample[static_cast<std::size_t>(k)];
+      if ((k > 0 && sample[static_cast<std::size_t>(k - 1)] < x) ||
+          (k < polars && sample[static_cast<std::size_t>(k + 1)] < x))
+        continue;
+      if (const auto low = golden<R>((k - 1) * step_alpha, (k + 1) * step_alpha, h); low.second < best.second)
+        best = low;
+    }
+    return best;
   }
 
   const ConvexCore<R>&a_, &b_;
