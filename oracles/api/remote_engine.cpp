@@ -35,7 +35,12 @@ class Watchdog {
   explicit Watchdog(const WorkerLimits& limits) : limits_(limits) {}
   void progress(const WorkerProcess& w) {
     cpu_at_progress_ = w.cpu_seconds();
+    progress_at_ = Clock::now();
     idle_ = {};
+  }
+  /// What a query that got no answer cost, its process's end included.
+  std::int64_t since_progress_ns() const {
+    return std::chrono::nanoseconds(Clock::now() - progress_at_).count();
   }
   /// Once a tick.
   bool is_due() const { return Clock::now() - last_check_ >= tick; }
@@ -58,7 +63,7 @@ class Watchdog {
   const WorkerLimits& limits_;
   double cpu_at_progress_ = 0;
   Clock::duration idle_{};
-  Clock::time_point last_check_ = Clock::now();
+  Clock::time_point last_check_ = Clock::now(), progress_at_ = last_check_;
 };
 
 Observation failure(Outcome outcome, std::string detail) {
@@ -256,7 +261,8 @@ class RemoteEngine::Impl {
   void charge(Outcome outcome, const std::string& why) {
     auto& answers = results_[at_.item].answers;
     if (at_.loaded) {
-      answers[at_.query++] = failure(outcome, why);
+      answers[at_.query] = failure(outcome, why);
+      answers[at_.query++].elapsed_ns = watchdog_.since_progress_ns();
     } else {
       const std::string detail = outcome == Outcome::crashed ? why + " while loading the scene" : why;
       while (at_.query < answers.size()) answers[at_.query++] = failure(outcome, detail);
