@@ -57,8 +57,10 @@ std::string certificate_lines(const referee::Certificate& c) {
     case Kind::common_point:
       if (!c.rationals.empty())
         return "    certificate: a common point with rational coordinates (--json shows it)\n";
-      return fmt::format("    certificate: common point ({}, {},\n      {})\n", to_text(c.point.x()),
-                         to_text(c.point.y()), to_text(c.point.z()));
+      return wrapped(fmt::format("    certificate: common point ({}, {}, {})", to_text(c.point.x()),
+                                 to_text(c.point.y()), to_text(c.point.z())),
+                     78, 6) +
+             "\n";
     case Kind::depth_direction:
       return fmt::format("    certificate: B moved by {} along\n      {} is free\n", to_text(c.offset),
                          vec(c.direction));
@@ -66,7 +68,7 @@ std::string certificate_lines(const referee::Certificate& c) {
       return fmt::format("    certificate of the depth: polytope of {} support points, {} facets (--json)\n",
                          c.support_pairs.size(), c.facets.size());
     case Kind::closed_form:
-      return c.note.empty() ? "" : "    certificate: " + wrapped(c.note, 76, 6) + "\n";
+      return c.note.empty() ? "" : wrapped("    certificate: " + c.note, 78, 6) + "\n";
   }
   return "";
 }
@@ -103,14 +105,10 @@ std::string stated(const Query& q, const Observation& o) {
 
 std::string engine_lines(const std::string& engine, const Query& q, const Observation& o,
                          const Judgement& j) {
-  const bool unsupported = o.outcome == Outcome::unsupported;
-  const std::string mark = unsupported                      ? "cannot"
-                           : j.faults.empty()               ? (j.undecided ? "undecided" : "right")
+  const std::string mark = j.faults.empty()                 ? (j.undecided ? "undecided" : "right")
                            : o.outcome == Outcome::answered ? "WRONG"
                                                             : "FAILED";
-  std::string s =
-      wrapped(fmt::format("  {:<22} {:<7} {}", engine, mark, unsupported ? o.detail : stated(q, o)), 79, 33) +
-      "\n";
+  std::string s = wrapped(fmt::format("  {:<22} {:<7} {}", engine, mark, stated(q, o)), 79, 33) + "\n";
   if (o.outcome != Outcome::answered) return s;
   for (std::size_t i = 0; i < std::min<std::size_t>(j.faults.size(), 5); ++i)
     s += wrapped(fmt::format("      {}: {} ({} L)", to_string(j.faults[i].fault), j.faults[i].words,
@@ -176,7 +174,14 @@ std::string ReplayText::str() const {
     out += is_pair_question(q.question) ? fmt::format("{} of {} and {}\n", to_string(q.question), q.a, q.b)
                                         : fmt::format("{}\n", to_string(q.question));
     out += referee_lines(q);
-    for (const Row& r : rows_) out += engine_lines(r.engine, q, r.observations.answers[i], r.judgements[i]);
+    std::string cannot;
+    for (const Row& r : rows_) {
+      if (r.observations.answers[i].outcome == Outcome::unsupported)
+        cannot += (cannot.empty() ? "  cannot: " : ", ") + r.engine;
+      else
+        out += engine_lines(r.engine, q, r.observations.answers[i], r.judgements[i]);
+    }
+    if (!cannot.empty()) out += wrapped(cannot, 78, 4) + "\n";
   }
   return out + "\n";
 }

@@ -38,17 +38,19 @@ std::string nanoseconds(double ns) {
 }
 
 std::string wrapped(const std::string& text, std::size_t width, std::size_t indent) {
-  std::string out, line(0, ' ');
-  std::size_t start = 0;
+  std::size_t start = std::min(text.find_first_not_of(' '), text.size());
+  std::string out, line(start, ' ');  // the first line keeps its own indentation
+  bool fresh = true;
   while (start < text.size()) {
     const std::size_t end = std::min(text.find(' ', start), text.size());
     const std::string word = text.substr(start, end - start);
-    if (!line.empty() && line.size() + 1 + word.size() > width) {
+    if (!fresh && line.size() + 1 + word.size() > width) {
       out += line + "\n";
-      line = std::string(indent, ' ') + word;
-    } else {
-      line += (line.empty() ? "" : " ") + word;
+      line = std::string(indent, ' ');
+      fresh = true;
     }
+    line += (fresh ? "" : " ") + word;
+    fresh = false;
     start = end + 1;
   }
   return out + line;
