@@ -80,7 +80,7 @@ struct Group {
 std::string group_lines(const std::string& title, const Group& g) {
   const std::string pairs = g.keys == 1 ? g.example->shapes : fmt::format("{} shape pairs", g.keys);
   const std::string worst = g.worst > 0 ? fmt::format(", worst {} L", small(g.worst)) : "";
-  std::string text = fmt::format("  {:<34} {:>7} times, {}{}\n", title, grouped(g.count), pairs, worst);
+  std::string text = fmt::format("  {:<26} {:>6} times, {}{}\n", title, grouped(g.count), pairs, worst);
   text += wrapped(fmt::format("    e.g. {}: {}", g.example->shapes, g.example->words), 78, 6) + "\n";
   return text;
 }

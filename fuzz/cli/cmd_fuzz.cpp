@@ -90,13 +90,16 @@ class ProgressPrinter {
 
 void print_text(const fuzz::CampaignConfig& c, const fuzz::CampaignResult& r) {
   fmt::print("{}\n", reports::campaign_table(r));
-  fmt::print("Findings by engine, the three most frequent kinds of each:\n{}\n",
-             reports::findings_summary(r, 3));
-  fmt::print("{}", reports::campaign_footer(r));
-  fmt::print("{} kinds of findings in {}/findings; look at one with\n", reports::grouped(r.findings.size()),
-             c.out.string());
   if (!r.findings.empty())
-    fmt::print("  ./touchstone replay {}/findings/{}/case.json\n", c.out.string(), r.findings.begin()->first);
+    fmt::print("Findings by engine, the three most frequent kinds of each:\n{}\n",
+               reports::findings_summary(r, 3));
+  fmt::print("{}", reports::campaign_footer(r));
+  if (r.findings.empty())
+    return fmt::print("no findings; the counts are in {}/summary.json\n", c.out.string());
+  fmt::print(
+      "{} kinds of findings in {}/findings; look at one with\n  ./touchstone replay "
+      "{}/findings/{}/case.json\n",
+      reports::grouped(r.findings.size()), c.out.string(), c.out.string(), r.findings.begin()->first);
 }
 
 int verdict(const fuzz::CampaignConfig& c, const fuzz::CampaignResult& r, bool json) {

@@ -32,10 +32,11 @@ struct Workspace {
     std::ofstream(dir / name) << text;
     return dir / name;
   }
-  Run touchstone(const std::string& args) const {
-    const std::string command = "cd " + dir.string() + " && " TS_BINARY_DIR "/bin/touchstone " + args + " >" +
-                                (dir / "out.txt").string() + " 2>" + (dir / "err.txt").string() +
-                                " </dev/null";
+  /// `before`: a program that runs the program, such as timeout.
+  Run touchstone(const std::string& args, const std::string& before = "") const {
+    const std::string command =
+        "cd " + dir.string() + " && " + before + " " TS_BINARY_DIR "/bin/touchstone " + args + " >" +
+        (dir / "out.txt").string() + " 2>" + (dir / "err.txt").string() + " </dev/null";
     const int status = std::system(command.c_str());
     return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, read_all(dir / "out.txt"),
             read_all(dir / "err.txt")};
@@ -140,4 +141,34 @@ TEST_CASE("a campaign prints its table in 80 columns and leaves replayable findi
   const Run again = w.touchstone("replay " + first.string());
   CHECK(again.code == 0);
   CHECK((again.out.find("WRONG") != std::string::npos || again.out.find("FAILED") != std::string::npos));
+}
+
+TEST_CASE("a flat hull works and is called what it is", "[cli]") {
+  const Workspace w;
+  w.write("flat.json", R"({"touchstone_scene":1,"shapes":[
+{"type":"hull","vertices":[[0,0,0],[1,0,0],[0,1,0]]},{"type":"hull","vertices":[[0,0,1]]}],
+"bodies":[{"shape":0,"pose":{"translation":[0,0,0],"rotation":[0,0,0,1]}},
+{"shape":1,"pose":{"translation":[0.25,0.25,0],"rotation":[0,0,0,1]}}]})");
+  const Run r = w.touchstone("replay flat.json --engines core");
+  INFO(r.out << r.err);
+  CHECK(r.code == 0);
+  CHECK(r.out.find("flat: a polygon") != std::string::npos);
+  CHECK(r.out.find("flat: a point") != std::string::npos);
+  CHECK(r.out.find("right   1\n") != std::string::npos);
+}
+
+TEST_CASE("an interrupted campaign keeps what it has and goes on", "[cli]") {
+  const Workspace w;
+  const Run r = w.touchstone("fuzz --engines core --minutes 5 --jobs 1 --out half",
+                             "timeout --preserve-status -s INT 2");
+  INFO(r.out << r.err);
+  CHECK(r.code == 3);
+  CHECK(r.out.find("interrupted; go on") != std::string::npos);
+  REQUIRE(fs::exists(w.dir / "half" / "state.json"));
+  const auto state = nlohmann::json::parse(read_all(w.dir / "half" / "state.json"));
+  CHECK(state.at("finished") == false);
+  CHECK(state.at("result").at("cases") > 0);
+  const Run on = w.touchstone("fuzz --engines core --minutes 0.01 --jobs 1 --out half");
+  INFO(on.out << on.err);
+  CHECK(on.code == 0);
 }
