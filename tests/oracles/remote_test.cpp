@@ -48,7 +48,6 @@ TEST_CASE("one misbehaving query costs one answer and no more", "[oracles][remot
       {"exits", Outcome::crashed, "exit code 0", 1},
       {"exits_3", Outcome::crashed, "exit code 3", 1},
       {"sprays", Outcome::crashed, "rubbish", 1},
-      {"announces", Outcome::timed_out, "wall time", 1},
       {"closes", Outcome::crashed, "closed its answers", 1},
       {"bad_outcome", Outcome::crashed, "outcome that does not exist", 0},
       {"bad_pair", Outcome::crashed, "bodies that do not exist", 0}};
@@ -66,7 +65,20 @@ TEST_CASE("one misbehaving query costs one answer and no more", "[oracles][remot
     CHECK(engine.restarts() == e.restarts);
     ++reached;
   }
-  CHECK(reached == 15);
+  CHECK(reached == 14);
+}
+
+// What it sprays reaches whatever descriptors the process has, which differ with who started the test: the
+// harness may see a message that never ends, or rubbish. Either way it allocates nothing for it and loses one
+// answer.
+TEST_CASE("a frame that announces a gigabyte costs one answer and no memory", "[oracles][remote]") {
+  RemoteEngine engine(bad_spec("announces"));
+  const auto cases = make_cases(case_count, bad_case);
+  const auto results = engine.run(cases);
+  CHECK(good_answers(cases, results) == 3 * case_count - 1);
+  const Outcome bad = results[bad_case].answers[1].outcome;
+  CHECK((bad == Outcome::timed_out || bad == Outcome::crashed));
+  CHECK(engine.restarts() == 1);
 }
 
 TEST_CASE("an engine may print megabytes to stdout and stderr", "[oracles][remote]") {
