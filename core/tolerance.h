@@ -4,6 +4,19 @@
 
 namespace touchstone::tolerance {
 
+/// Relative forward error bound of a 3×3 determinant of differences in double, below which its sign is worked
+/// out exactly: about ten times the bound of Shewchuk 1997 (7.8e-16), so that the rounded differences are
+/// covered too. Bites: tests/values "orientation is exact where rounding would lie".
+inline constexpr double orientation_filter = 0x1p-46;
+
+/// Cosine above which a direction counts as a half-space's own normal when a random pair is placed; a coarse
+/// choice of where to put a body, judged by nobody. Bites: tests/fuzz hit rate.
+inline constexpr double generate_parallel_cosine = 1 - 0x1p-30;
+
+/// Relative widening that covers the roundings of a speed bound (about ten). Bites: tests/fuzz judge, late
+/// impacts.
+inline constexpr double judge_speed_rounding = 0x1p-40;
+
 /// τ of our own core, in units of (unit roundoff 2⁻⁵³ · L): wrong beyond 128·2⁻⁵³·L = 64·ε·L (issue: 64·ε·L
 /// in double). About 30 roundings lie between a pose and a depth; the factor leaves a margin of 4. Bites:
 /// fuzz with the core as subject.
@@ -53,7 +66,8 @@ inline constexpr double referee_width_factor = 4e-16;
 /// under 3000; a curved pair with one nearest point about 400. Bites: tests/referee, width of brackets.
 inline constexpr int referee_facet_cap = 40000;
 inline constexpr int referee_curved_facet_cap = 3000;
-/// The same when symmetry has already closed the bracket and only witness points are wanted (1e-4 of the size).
+/// The same when symmetry has already closed the bracket and only witness points are wanted (1e-4 of the
+/// size).
 inline constexpr int referee_witness_facet_cap = 160;
 
 /// Gap evaluations that one judge_motion may spend (a count; lead's figure). A thin wall with |ω| = 500 needs

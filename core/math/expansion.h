@@ -1,7 +1,7 @@
-// Exact signs of small determinants of doubles, by floating-point expansions (Shewchuk 1997, "Adaptive precision
-// floating-point arithmetic and fast robust geometric predicates", §2). A sign that a forward error bound already
-// decides costs one determinant. Exact as long as no partial product underflows or overflows: coordinates between
-// 1e-95 and 1e+95 in size, or zero.
+// Exact signs of small determinants of doubles, by floating-point expansions (Shewchuk 1997, "Adaptive
+// precision floating-point arithmetic and fast robust geometric predicates", §2). A sign that a forward error
+// bound already decides costs one determinant. Exact as long as no partial product underflows or overflows:
+// coordinates between 1e-95 and 1e+95 in size, or zero.
 #pragma once
 
 #include <cmath>
@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/math/pose.h"
+#include "core/tolerance.h"
 
 namespace touchstone {
 
@@ -65,16 +66,18 @@ class Expansion {
 /// Sign of the determinant |b-a, c-a| in the plane.
 inline int orient2d_sign(double ax, double ay, double bx, double by, double cx, double cy) {
   using X = Expansion;
-  return (X::difference(bx, ax) * X::difference(cy, ay) - X::difference(by, ay) * X::difference(cx, ax)).sign();
+  return (X::difference(bx, ax) * X::difference(cy, ay) - X::difference(by, ay) * X::difference(cx, ax))
+      .sign();
 }
 
 /// Sign of det(b-a, c-a, d-a): > 0 when a, b, c appear clockwise seen from d.
 inline int orient3d_sign(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
   const Vec3 u = b - a, v = c - a, w = d - a;
   const double det = u.dot(v.cross(w));
-  const double bound = 1e-14 * u.cwiseAbs().dot(Vec3(std::abs(v.y() * w.z()) + std::abs(v.z() * w.y()),
-                                                     std::abs(v.z() * w.x()) + std::abs(v.x() * w.z()),
-                                                     std::abs(v.x() * w.y()) + std::abs(v.y() * w.x())));
+  const double bound = tolerance::orientation_filter *
+                       u.cwiseAbs().dot(Vec3(std::abs(v.y() * w.z()) + std::abs(v.z() * w.y()),
+                                             std::abs(v.z() * w.x()) + std::abs(v.x() * w.z()),
+                                             std::abs(v.x() * w.y()) + std::abs(v.y() * w.x())));
   if (std::abs(det) > bound && bound > std::numeric_limits<double>::min()) return det > 0 ? 1 : -1;
   using X = Expansion;
   const auto d3 = [&](const Vec3& p, int i) { return X::difference(p[i], a[i]); };

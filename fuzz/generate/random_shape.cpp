@@ -2,6 +2,8 @@
 
 #include <limits>
 
+#include "core/tolerance.h"
+
 namespace touchstone::fuzz {
 namespace {
 
@@ -77,7 +79,8 @@ double support_value(const Shape& shape, const Vec3& n) {
         using S = std::decay_t<decltype(s)>;
         if constexpr (std::is_same_v<S, HalfSpace>) {
           const double along = n.normalized().dot(s.normal.normalized());
-          return along > 1 - 1e-9 ? s.offset / s.normal.norm() : std::numeric_limits<double>::infinity();
+          return along > tolerance::generate_parallel_cosine ? s.offset / s.normal.norm()
+                                                             : std::numeric_limits<double>::infinity();
         } else if constexpr (std::is_same_v<S, TriangleMesh>) {
           double h = -std::numeric_limits<double>::infinity();
           for (const Vec3& v : s.vertices) h = std::max(h, v.dot(n));

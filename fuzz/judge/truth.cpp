@@ -5,6 +5,8 @@
 #include <limits>
 #include <numeric>
 
+#include "core/tolerance.h"
+
 namespace touchstone::fuzz {
 namespace {
 
@@ -167,7 +169,8 @@ double Truth::speed(int a, int b) const {
   const auto turning = [&](int body, const Motion& m) {
     return m.angular.isZero(0) ? 0.0 : m.angular.norm() * bounding_radius(asked_.shape_of(body));
   };
-  return ((ma.linear - mb.linear).norm() + turning(a, ma) + turning(b, mb)) * (1 + 1e-12);
+  return ((ma.linear - mb.linear).norm() + turning(a, ma) + turning(b, mb)) *
+         (1 + tolerance::judge_speed_rounding);
 }
 
 const std::vector<Truth::StepState>& Truth::steps() {
