@@ -53,11 +53,17 @@ inline constexpr double referee_width_factor = 4e-16;
 /// under 3000; a curved pair with one nearest point about 400. Bites: tests/referee, width of brackets.
 inline constexpr int referee_facet_cap = 40000;
 inline constexpr int referee_curved_facet_cap = 3000;
-/// The same when symmetry has already closed the bracket and only witness points are wanted (1e-4 of the size).
+/// The same when symmetry has already closed the bracket and only witness points are wanted (1e-4 of the
+/// size).
 inline constexpr int referee_witness_facet_cap = 160;
 
 /// Gap evaluations that one judge_motion may spend (a count; lead's figure). A thin wall with |ω| = 500 needs
 /// about 5000. Bites: tests/referee, motion.
 inline constexpr int referee_motion_evaluations = 20000;
+
+/// Support points in a certificate are doubles; the checker lets each be this · (its largest coordinate)
+/// outside the core and takes the same off the proven depth, so that the factor is never a matter of truth: 8
+/// roundings of a coordinate, where a rounded point is off by at most √3/2. Bites: tests/referee, checker.
+inline constexpr double checker_point_factor = 0x1p-50;
 
 }  // namespace touchstone::tolerance
