@@ -2,8 +2,10 @@
 #include <algorithm>
 
 #include "oracles/referee/certificate.h"
+#include "oracles/referee/counters.h"
 #include "oracles/referee/half_space.h"
 #include "oracles/referee/mesh.h"
+#include "oracles/referee/touching.h"
 
 namespace touchstone::referee {
 namespace {
@@ -131,8 +133,11 @@ std::string_view to_string(Verdict v) {
   return "undecided";
 }
 
-PairTruth judge_pair(const Placed& a, const Placed& b, std::span<const Vec3> hint_directions,
-                     std::span<const Vec3> hint_points) {
+namespace {
+
+// By brackets; exact only where both cores are polytopes.
+PairTruth judge_by_bracket(const Placed& a, const Placed& b, std::span<const Vec3> hint_directions,
+                           std::span<const Vec3> hint_points) {
   if (is<HalfSpace>(a) || is<HalfSpace>(b)) return with_half_space(a, b);
   if (is<TriangleMesh>(a) || is<TriangleMesh>(b)) {
     const Vec3 origin = translation_of(is<TriangleMesh>(a) ? b : a);
@@ -150,6 +155,23 @@ PairTruth judge_pair(const Placed& a, const Placed& b, std::span<const Vec3> hin
   }
   PairTruth r = convex_pair(a, b, hint_directions);
   offer_points(r, a, b, hint_points);
+  return r;
+}
+
+}  // namespace
+
+PairTruth judge_pair(const Placed& a, const Placed& b, std::span<const Vec3> hint_directions,
+                     std::span<const Vec3> hint_points) {
+  PairTruth r = judge_by_bracket(a, b, hint_directions, hint_points);
+  if (r.verdict != Verdict::undecided) return r;
+  Certificate c = guess_common_point(r.witness, a, b);
+  if (c.kind == Certificate::Kind::none) return r;
+  ++counters().exact;
+  if (counters().undecided > 0) --counters().undecided;
+  r.verdict = Verdict::overlap, r.level = 2;
+  r.gap.hi = std::min(r.gap.hi, 0.0), r.gap.lo = std::min(r.gap.lo, 0.0);
+  if (is<TriangleMesh>(a) || is<TriangleMesh>(b)) r.gap = {-std::numeric_limits<double>::infinity(), 0};
+  r.verdict_certificate = std::move(c);
   return r;
 }
 
