@@ -1,6 +1,8 @@
 #include "oracles/referee/touching.h"
 
 #include <algorithm>
+#include <iterator>
+#include <vector>
 
 #include "core/tolerance.h"
 #include "oracles/referee/checker.h"
@@ -35,7 +37,10 @@ Certificate guess_common_point(const std::array<Vec3, 2>& witness, const Placed&
     if (const double r = bounding_radius(*p.shape); std::isfinite(r)) size = std::max(size, r);
   Certificate c;
   c.kind = Certificate::Kind::common_point;
-  for (const double step : tolerance::referee_guess_factors)
+  std::vector<double> steps{0};  // the witness as it stands comes first
+  steps.insert(steps.end(), std::begin(tolerance::referee_guess_factors),
+               std::end(tolerance::referee_guess_factors));
+  for (const double step : steps)
     for (const Vec3& w : {middle, witness[0], witness[1]}) {
       const Rational e = exact(step * size);
       c.rationals.clear();
