@@ -74,4 +74,15 @@ inline constexpr int referee_witness_facet_cap = 160;
 /// about 5000. Bites: tests/referee, motion.
 inline constexpr int referee_motion_evaluations = 20000;
 
+/// Support points in a certificate are doubles; the checker lets each be this · (its largest coordinate)
+/// outside the core and takes the same off the proven depth, so that the factor is never a matter of truth: 8
+/// roundings of a coordinate, where a rounded point is off by at most √3/2. Bites: tests/referee, checker.
+inline constexpr double checker_point_factor = 0x1p-50;
+
+/// How far from a rounded witness, in units of the pair's size, the referee looks for a common point with
+/// simple coordinates: from the rounding of a double to the square root of its bracket's width (a smooth
+/// contact's point is known no better). A guess is proven or dropped, so the factors cost time, never truth.
+/// Bites: tests/referee, touching on a lattice.
+inline constexpr double referee_guess_factors[] = {0x1p-50, 0x1p-44, 0x1p-36, 0x1p-28, 0x1p-22, 0x1p-16};
+
 }  // namespace touchstone::tolerance

@@ -2,6 +2,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "core/tolerance.h"
 #include "oracles/referee/checker.h"
 #include "oracles/referee/half_space.h"
 #include "oracles/referee/world.h"
@@ -102,21 +103,48 @@ Certificate exact_certificate(const ExactPair& p, const ExactVerdict& v) {
   return c;
 }
 
-Certificate inner_certificate(const InnerPolytope& p, const Vec3& origin) {
+namespace {
+
+// What the rounding of the points to doubles costs: twice the checker's allowance for the points, and as much
+// again for facets that moved with them.
+double proven_depth(const Certificate& c, Real depth) {
+  double largest = 0;
+  for (const auto& [p, q] : c.support_pairs)
+    largest = std::max({largest, p.cwiseAbs().maxCoeff(), q.cwiseAbs().maxCoeff()});
+  return round_down(depth -
+                    4 * static_cast<Real>(tolerance::checker_point_factor) * static_cast<Real>(largest));
+}
+
+}  // namespace
+
+Certificate inner_certificate(const InnerPolytope& p, const Vec3& origin, Real depth) {
   Certificate c;
   c.kind = Certificate::Kind::inner_polytope;
   const Real3 o = to_real(origin);
   for (const Vertex& v : p.vertices) c.support_pairs.push_back({to_double(v.a + o), to_double(v.b + o)});
   c.facets = p.facets;
-  c.note = "support points of the cores, rounded to doubles; the radii of the balls add to the depth";
+  c.offset = proven_depth(c, depth);
+  c.note =
+      "depth >= offset: support points of the cores, rounded to doubles; the radii of the balls add to it";
+  return c;
+}
+
+Certificate core_pair_certificate(const Real3& a, const Real3& b, const Vec3& origin, Real depth) {
+  Certificate c;
+  c.kind = Certificate::Kind::inner_polytope;
+  const Real3 o = to_real(origin);
+  c.support_pairs.push_back({to_double(a + o), to_double(b + o)});
+  c.offset = proven_depth(c, depth);
+  c.note =
+      "depth >= offset: the radii minus the distance of two core points, or a point's depth in a half-space";
   return c;
 }
 
 namespace {
 
-// The deepest (or nearest) core point of the body against the half-space, moved by its radius: rational for
-// hulls and for axis-aligned normals; for a ball the point a·|m| is irrational, so its square-root is
-// replaced from below.
+// The deepest (or nearest) core point of the body against the half-space: itself, or, when it is outside by
+// over/|m|
+// <= r, its foot on the plane, which is rational.
 Certificate half_space_point(const Placed& h, const ExactBody& body) {
   const RationalPlane p = world_plane(h);
   Rational3 best;
@@ -126,16 +154,15 @@ Certificate half_space_point(const Placed& h, const ExactBody& body) {
   Certificate c;
   c.kind = Certificate::Kind::common_point;
   const Rational over = dot(p.normal, best) - p.offset;
-  // Foot of the core point on the plane: at distance over/|m| <= r, rational.
   if (over > 0) best = best - (over / dot(p.normal, p.normal)) * p.normal;
   c.rationals = texts(best);
   c.point = {best.x.convert_to<double>(), best.y.convert_to<double>(), best.z.convert_to<double>()};
   return c;
 }
 
-// The half-space's own plane when it is A; when it is B the plane must lie strictly inside the gap: a
-// fraction 2^-k of the core's distance away, for the first k that leaves the ball clear.
-Certificate half_space_plane(const Placed& h, const Placed& a, const Placed& b, const ExactBody& body) {
+// The half-space's own plane when it is A; when it is B the plane must lie strictly inside the gap: `inside`
+// of the normal's length away from the half-space, 0 < inside < gap, halved until the other body is clear.
+Certificate half_space_plane(const Placed& h, const Placed& a, const Placed& b, Rational inside) {
   const RationalPlane p = world_plane(h);
   Certificate c;
   c.kind = Certificate::Kind::separating_plane;
@@ -144,16 +171,13 @@ Certificate half_space_plane(const Placed& h, const Placed& a, const Placed& b, 
     c.rationals.push_back(text_of(p.offset));
     return c;
   }
-  std::optional<Rational> least;
-  for (const Rational3& x : world_points(body)) {
-    const Rational d = dot(p.normal, x) - p.offset;
-    if (!least || d < *least) least = d;
-  }
-  for (unsigned k = 1;; k *= 2) {
+  const Rational size =
+      std::max(Rational(abs(p.normal.x)), std::max(Rational(abs(p.normal.y)), Rational(abs(p.normal.z))));
+  for (unsigned k = 0;; ++k, inside /= Rational(shifted(Integer(1), 1 << std::min(k, 12U)))) {
     c.rationals = texts(Rational(-1) * p.normal);
-    c.rationals.push_back(
-        text_of(-p.offset - *least * Rational(Integer(1), shifted(Integer(1), static_cast<int>(k)))));
-    if (check(c, a, b) || k > (1U << 16)) return c;
+    c.rationals.push_back(text_of(-p.offset - inside * size));
+    if (check(c, a, b)) return c;
+    if (k > 24) return {};
   }
 }
 
@@ -161,24 +185,75 @@ bool is_half_space(const Placed& p) { return std::holds_alternative<HalfSpace>(*
 
 }  // namespace
 
+namespace {
+
+// Curved bodies have no exact nearest points; any point a little inside both will do. Candidates: the middle
+// of the witness points, and that drawn towards either body's centre.
+Certificate inner_point(const PairTruth& truth, const Placed& a, const Placed& b) {
+  const auto centre = [](const Placed& p) {
+    return std::visit([](const auto& x) -> Vec3 { return x.translation; }, p.pose);
+  };
+  const Vec3 middle = truth.witness[0] + 0.5 * (truth.witness[1] - truth.witness[0]);
+  for (const Vec3& to : {centre(a), centre(b), Vec3(0.5 * centre(a) + 0.5 * centre(b))})
+    for (const Vec3& from : {middle, truth.witness[0], truth.witness[1], truth.verdict_certificate.point})
+      for (double step : {0.0, 0x1p-50, 0x1p-40, 0x1p-25, 0x1p-10, 0.25}) {
+        Certificate c;
+        c.kind = Certificate::Kind::common_point;
+        c.point = from + step * (to - from);
+        if (check(c, a, b)) return c;
+      }
+  return {};
+}
+
+// One plane for each triangle, or fewer when the last one found serves again.
+Certificate mesh_planes(const Placed& a, const Placed& b) {
+  const bool first = std::holds_alternative<TriangleMesh>(*a.shape);
+  const auto& mesh = std::get<TriangleMesh>(*(first ? a : b).shape);
+  const Operand other = make_operand(first ? b : a, Vec3::Zero());
+  Certificate all;
+  all.kind = Certificate::Kind::separating_plane;
+  if (!other.exact) return {};
+  for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+    const Operand part = make_operand(first ? a : b, mesh, i, Vec3::Zero());
+    const ExactPair p = first ? make_exact(*part.exact, *other.exact) : make_exact(*other.exact, *part.exact);
+    const Certificate c = exact_certificate(p, decide(p, {}));
+    if (c.kind != Certificate::Kind::separating_plane) return {};
+    const auto known =
+        std::search(all.rationals.begin(), all.rationals.end(), c.rationals.begin(), c.rationals.end());
+    if (known == all.rationals.end())
+      all.rationals.insert(all.rationals.end(), c.rationals.begin(), c.rationals.end());
+  }
+  return all;
+}
+
+bool is_mesh(const Placed& p) { return std::holds_alternative<TriangleMesh>(*p.shape); }
+
+std::optional<ExactBody> exact_body(const Placed& p) {
+  auto core = core_points(p);
+  if (!core) return std::nullopt;
+  return ExactBody{std::move(*core), core_radius(p), p.pose};
+}
+
+}  // namespace
+
 Certificate checkable_certificate(const PairTruth& truth, const Placed& a, const Placed& b) {
   if (truth.verdict == Verdict::undecided) return {};
   if (check(truth.verdict_certificate, a, b)) return truth.verdict_certificate;
   const bool plane_a = is_half_space(a), plane_b = is_half_space(b);
-  const auto body = [](const Placed& p) -> std::optional<ExactBody> {
-    auto core = core_points(p);
-    if (!core) return std::nullopt;
-    return ExactBody{std::move(*core), core_radius(p), p.pose};
-  };
+  const bool overlap = truth.verdict == Verdict::overlap;
   if (plane_a && plane_b) return {};
-  if (plane_a || plane_b) {
-    const auto other = body(plane_a ? b : a);
-    if (!other) return {};
-    if (truth.verdict == Verdict::overlap) return half_space_point(plane_a ? a : b, *other);
-    return half_space_plane(plane_a ? a : b, a, b, *other);
+  if (is_mesh(a) || is_mesh(b)) {
+    const bool both = is_mesh(a) && is_mesh(b);
+    return overlap || both || plane_a || plane_b ? Certificate{} : mesh_planes(a, b);
   }
-  const auto x = body(a), y = body(b);
-  if (!x || !y) return {};
+  if (plane_a || plane_b) {
+    const Placed &h = plane_a ? a : b, &other = plane_a ? b : a;
+    if (!overlap) return half_space_plane(h, a, b, exact(truth.gap.lo > 0 ? truth.gap.lo : truth.gap.hi) / 2);
+    const auto body = exact_body(other);
+    return body ? half_space_point(h, *body) : inner_point(truth, a, b);
+  }
+  const auto x = exact_body(a), y = exact_body(b);
+  if (!x || !y) return overlap ? inner_point(truth, a, b) : Certificate{};
   const ExactPair p = make_exact(*x, *y);
   return exact_certificate(p, decide(p, {}));
 }
@@ -187,10 +262,15 @@ nlohmann::ordered_json to_json(const Certificate& c) {
   nlohmann::ordered_json j;
   j["kind"] = name_of(c.kind);
   const bool plane = c.kind == Certificate::Kind::separating_plane;
-  if (plane || c.kind == Certificate::Kind::depth_direction) j["direction"] = list(c.direction);
-  if (plane) j["offset"] = c.offset;
-  if (c.kind == Certificate::Kind::common_point) j["point"] = list(c.point);
-  if (!c.rationals.empty()) j["rationals"] = c.rationals;
+  const bool direction = c.kind == Certificate::Kind::depth_direction;
+  // Each number once: where there are rationals, the doubles are only their roundings.
+  if (!c.rationals.empty()) {
+    j["rationals"] = c.rationals;
+  } else {
+    if (plane || direction) j["direction"] = list(c.direction);
+    if (plane || direction || c.kind == Certificate::Kind::inner_polytope) j["offset"] = c.offset;
+    if (c.kind == Certificate::Kind::common_point) j["point"] = list(c.point);
+  }
   if (!c.support_pairs.empty()) {
     j["support_pairs"] = nlohmann::ordered_json::array();
     for (const auto& [p, q] : c.support_pairs) j["support_pairs"].push_back({list(p), list(q)});

@@ -10,6 +10,10 @@ namespace touchstone::referee {
 Certificate plane_certificate(const Difference& d, const Real3& direction, const Vec3& origin);
 Certificate point_certificate(const Real3& point, const Vec3& origin);
 Certificate exact_certificate(const ExactPair& p, const ExactVerdict& v);
-Certificate inner_certificate(const InnerPolytope& p, const Vec3& origin);
+/// `depth`: the proven lower bound of the depth, balls included; the certificate claims what survives its
+/// rounding.
+Certificate inner_certificate(const InnerPolytope& p, const Vec3& origin, Real depth);
+/// Of one point of each core, balls not included.
+Certificate core_pair_certificate(const Real3& a, const Real3& b, const Vec3& origin, Real depth);
 
 }  // namespace touchstone::referee

@@ -120,7 +120,7 @@ ConvexTruth judge_convex(const Operand& a, const Operand& b, std::span<const Rea
     gap.raise(e.gap.lo, e.gap.direction);
     if (e.gap.hi < g.gap.hi) nearest = e.nearest;
     gap.lower(e.gap.hi);
-    if (e.gap.hi < 0) t.inner = std::move(e.polytope);
+    if (e.gap.hi < 0) t.inner = std::move(e.polytope), t.inner_depth = d.radius - d.radius_error - e.gap.hi;
     settle();
   }
   t.normal = normalized(gap.direction);

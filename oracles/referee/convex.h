@@ -30,6 +30,7 @@ struct ConvexTruth {
   std::vector<ExactBody>
       exact_operands;  // of a mesh's deciding triangle: the two parts that `exact` is about
   std::optional<InnerPolytope> inner;
+  Real inner_depth = 0;  // that `inner` proves, balls included; symmetry may prove more (lo, hi)
   ExactPair exact_pair() const { return make_exact(exact_operands.at(0), exact_operands.at(1)); }
 };
 

@@ -19,10 +19,9 @@ Real3 nearest_on_segment(const Real3& p, const Real3& q) {
 }
 
 Real3 nearest_on_border(const Real3& p, const Real3& q, const Real3& r) {
-  Real3 best = nearest_on_segment(p, q);
-  for (const Real3& c : {nearest_on_segment(q, r), nearest_on_segment(r, p)})
-    if (dot(c, c) < dot(best, best)) best = c;
-  return best;
+  const Real3 a = nearest_on_segment(p, q), b = nearest_on_segment(q, r), c = nearest_on_segment(r, p);
+  const Real aa = dot(a, a), bb = dot(b, b), cc = dot(c, c);
+  return cc < aa && cc < bb ? c : bb < aa ? b : a;
 }
 
 /// A lower bound of the triangle's extent along n (not zero), up to rounding.
@@ -46,7 +45,15 @@ Reach reach_of(const Real3& p, const Real3& q, const Real3& r) {
   Reach best{-std::numeric_limits<Real>::infinity(), n};
   if (largest(n) > 0) {
     best.value = least_along(n, p, q, r);
-    if (dot(cross(p, q), r) < behind * norm(p) * norm(q) * norm(r)) return best;
+    const Real3 pq = cross(p, q);
+    const Real det = dot(pq, r);
+    if (det < 0 && det < behind * norm(p) * norm(q) * norm(r)) return best;
+    // The origin's foot well inside of a triangle that is no sliver: no direction does better than the
+    // normal.
+    const Real nn = dot(n, n), inside = 0x1p-20L * nn;
+    if (det > 0 && dot(pq, n) > inside && dot(cross(q, r), n) > inside && dot(cross(r, p), n) > inside &&
+        nn > 0x1p-40L * dot(q - p, q - p) * dot(r - p, r - p))
+      return best;
   }
   const Real3 c = nearest_on_border(p, q, r);
   if (!(largest(c) > 0)) return best;
@@ -257,7 +264,7 @@ class Epa {
     for (const Facet& g : facets_)
       if (g.live) r_.polytope.facets.push_back(g.v);
     if (!(f.reach.value > 0)) return;
-    const Real l = proven_inner_radius(r_.polytope) - d_.error;
+    const Real l = proven_inner_radius(r_.polytope, f.reach.value) - d_.error;
     if (l > 0) r_.gap.lower(-l);
   }
 
@@ -290,20 +297,24 @@ bool is_closed(const InnerPolytope& p) {
 
 }  // namespace
 
-Real proven_inner_radius(const InnerPolytope& p) {
+Real proven_inner_radius(const InnerPolytope& p, Real expected) {
   if (!is_closed(p)) return 0;
-  Real l = std::numeric_limits<Real>::infinity(), turning = 0, against = 0;
+  Real l = expected, turning = 0, against = 0;
   for (const auto& f : p.facets) {
     const Real3 &a = p.vertices[at(f[0])].w, &b = p.vertices[at(f[1])].w, &c = p.vertices[at(f[2])].w;
     const Real size = std::fmax(largest(a), std::fmax(largest(b), largest(c)));
-    // A dot product, a norm and a division: within 8 units of the largest |v_i| <= 2·size.
-    const Real reach = reach_of(a, b, c).value - 16 * unit * size;
+    const bool forward = determinant_sign(a, b, c) >= 0;
+    // Any direction proves a distance; where the plane's own already proves l, no better one is looked for. A
+    // dot product, a norm and a division: within 8 units of the largest |v_i| <= 2·size.
+    const Real3 n = cross(b - a, c - a);
+    Real reach = forward && largest(n) > 0 ? least_along(n, a, b, c) - 16 * unit * size : Real{0};
+    if (!(reach >= l)) reach = reach_of(a, b, c).value - 16 * unit * size;
     if (!(reach > 0)) return 0;
     l = std::fmin(l, reach);
-    if (determinant_sign(a, b, c) >= 0) {
+    if (forward) {
       turning += std::fmax(dot(cross(a, b), c) / (4 * norm(a) * norm(b) * norm(c)) - 32 * unit, Real{0});
     } else {
-      against += norm(cross(b - a, c - a)) / (reach * reach);
+      against += norm(n) / (reach * reach);
     }
   }
   return turning > 2 * against ? l : 0;

@@ -29,8 +29,9 @@ struct InnerPolytope {
 };
 
 /// The radius of a ball about the origin that the polytope proves to lie in the convex hull of its vertices
-/// (taken as exact numbers); 0 when it proves none. Reads nothing but vertices and facets.
-Real proven_inner_radius(const InnerPolytope& p);
+/// (taken as exact numbers); 0 when it proves none. Reads nothing but vertices and facets. Nothing above
+/// `expected`, the distance of the nearest facet, is looked for.
+Real proven_inner_radius(const InnerPolytope& p, Real expected);
 
 struct EpaResult {
   enum class Exit { converged, stalled, facet_cap, flat };

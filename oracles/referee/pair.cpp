@@ -2,8 +2,10 @@
 #include <algorithm>
 
 #include "oracles/referee/certificate.h"
+#include "oracles/referee/counters.h"
 #include "oracles/referee/half_space.h"
 #include "oracles/referee/mesh.h"
+#include "oracles/referee/touching.h"
 
 namespace touchstone::referee {
 namespace {
@@ -54,11 +56,28 @@ PairTruth with_half_space(const Placed& a, const Placed& b) {
                                    dot(outward, 0.5L * (t.witness_a + t.witness_b) + to_real(origin)));
     c.note = "plane of the half-space moved half-way to the body, rounded; exact form: checkable_certificate";
   }
-  if (t.verdict == Verdict::overlap && std::isfinite(r.gap.hi)) {
-    r.lower_depth.kind = Certificate::Kind::closed_form;
-    r.lower_depth.note = "depth is one support value along the half-space's normal";
+  if (t.verdict == Verdict::overlap && std::isfinite(r.gap.lo) && !is<HalfSpace>(other)) {
+    const Real3 deepest = first ? t.witness_b : t.witness_a;
+    const Real3 core = deepest + static_cast<Real>(core_radius(other)) * outward;
+    r.lower_depth = core_pair_certificate(core, core, origin, -t.hi);
   }
   return r;
+}
+
+// The normal is handed out as doubles, a little off the direction that proved the depth's upper bound: the
+// bound is widened to what the doubles prove, so that (normal, -gap.lo) is a certificate as it stands.
+void prove_by_rounded_normal(PairTruth& r, const Difference& d) {
+  if (!(r.gap.lo < 0)) return;
+  const Real3 n = to_real(r.normal);
+  const Real above = d.width_above(d.support(n), n) + d.radius + d.radius_error;
+  r.gap.lo = std::min(r.gap.lo, round_down(-above - 4 * unit * std::fabs(above)));
+}
+
+Certificate lower_depth_certificate(const ConvexTruth& t, const Difference& d, const Vec3& origin) {
+  if (t.inner) return inner_certificate(*t.inner, origin, std::min(t.inner_depth, -t.hi));
+  const Real3 a = t.witness_a - static_cast<Real>(d.a.radius) * t.normal;
+  const Real3 b = t.witness_b + static_cast<Real>(d.b.radius) * t.normal;
+  return core_pair_certificate(a, b, origin, -t.hi);
 }
 
 PairTruth convex_pair(const Placed& a, const Placed& b, std::span<const Vec3> hints) {
@@ -78,14 +97,9 @@ PairTruth convex_pair(const Placed& a, const Placed& b, std::span<const Vec3> hi
     if (!x.exact || !y.exact)
       r.verdict_certificate.note = "rounded; proven by the inner polytope, which holds the origin";
   }
-  if (t.verdict == Verdict::overlap) {
-    if (t.inner) {
-      r.lower_depth = inner_certificate(*t.inner, origin);
-    } else {
-      r.lower_depth.kind = Certificate::Kind::closed_form;
-      r.lower_depth.note = "radii minus the distance of the cores, or a flat pair of depth 0";
-    }
-  }
+  const Difference d(x.body, y.body);
+  prove_by_rounded_normal(r, d);
+  if (t.verdict == Verdict::overlap) r.lower_depth = lower_depth_certificate(t, d, origin);
   return r;
 }
 
@@ -119,8 +133,11 @@ std::string_view to_string(Verdict v) {
   return "undecided";
 }
 
-PairTruth judge_pair(const Placed& a, const Placed& b, std::span<const Vec3> hint_directions,
-                     std::span<const Vec3> hint_points) {
+namespace {
+
+// By brackets; exact only where both cores are polytopes.
+PairTruth judge_by_bracket(const Placed& a, const Placed& b, std::span<const Vec3> hint_directions,
+                           std::span<const Vec3> hint_points) {
   if (is<HalfSpace>(a) || is<HalfSpace>(b)) return with_half_space(a, b);
   if (is<TriangleMesh>(a) || is<TriangleMesh>(b)) {
     const Vec3 origin = translation_of(is<TriangleMesh>(a) ? b : a);
@@ -138,6 +155,23 @@ PairTruth judge_pair(const Placed& a, const Placed& b, std::span<const Vec3> hin
   }
   PairTruth r = convex_pair(a, b, hint_directions);
   offer_points(r, a, b, hint_points);
+  return r;
+}
+
+}  // namespace
+
+PairTruth judge_pair(const Placed& a, const Placed& b, std::span<const Vec3> hint_directions,
+                     std::span<const Vec3> hint_points) {
+  PairTruth r = judge_by_bracket(a, b, hint_directions, hint_points);
+  if (r.verdict != Verdict::undecided) return r;
+  Certificate c = guess_common_point(r.witness, a, b);
+  if (c.kind == Certificate::Kind::none) return r;
+  ++counters().exact;
+  if (counters().undecided > 0) --counters().undecided;
+  r.verdict = Verdict::overlap, r.level = 2;
+  r.gap.hi = std::min(r.gap.hi, 0.0), r.gap.lo = std::min(r.gap.lo, 0.0);
+  if (is<TriangleMesh>(a) || is<TriangleMesh>(b)) r.gap = {-std::numeric_limits<double>::infinity(), 0};
+  r.verdict_certificate = std::move(c);
   return r;
 }
 

@@ -34,10 +34,11 @@ struct Certificate {
   enum class Kind { none, separating_plane, common_point, depth_direction, inner_polytope, closed_form };
   Kind kind = Kind::none;
   Vec3 direction =
-      Vec3::Zero();  // separating_plane: A on the side direction·x <= offset, B on direction·x > offset
-  double offset = 0;
+      Vec3::Zero();   // separating_plane: A on the side direction·x <= offset, B on direction·x > offset
+  double offset = 0;  // depth_direction: depth <= offset; inner_polytope: depth >= offset
   Vec3 point = Vec3::Zero();  // common_point, when one with double coordinates exists
-  /// "n/d", when doubles do not suffice. common_point: x, y, z; separating_plane: direction x, y, z, offset.
+  /// "n/d", when doubles do not suffice. common_point: x, y, z; separating_plane: direction x, y, z, offset,
+  /// and so on when a mesh needs several planes.
   std::vector<std::string> rationals;
   /// inner_polytope: vertices of the Minkowski difference A-B as pairs of support points, and its facets.
   std::vector<std::array<Vec3, 2>> support_pairs;
