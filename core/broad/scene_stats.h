@@ -1,0 +1,22 @@
+// What a method is chosen by: sizes and spread of a fixed sample of the boxes. Only choices hang on these
+// numbers, never a pair: any value, NaN and infinity too, is safe.
+#pragma once
+
+#include "core/broad/box_store.h"
+
+namespace touchstone::broad {
+
+struct SceneStats {
+  double median_size[3] = {};        // of the sample
+  double spread[3] = {};             // standard deviation of the centres
+  double low[3] = {}, high[3] = {};  // extent of the sample's centres without 1/64 at each end
+  double largest_ratio = 1;          // 99th percentile of the largest side over its median
+};
+
+/// Up to 1024 boxes at equal steps through the slots.
+SceneStats sample_scene(const BoxStore& store);
+
+/// The axis on which a sweep prunes most: most spread for the size of its boxes.
+int best_axis(const SceneStats& stats);
+
+}  // namespace touchstone::broad
