@@ -60,4 +60,17 @@ inline constexpr int referee_witness_facet_cap = 160;
 /// about 5000. Bites: tests/referee, motion.
 inline constexpr int referee_motion_evaluations = 20000;
 
+// ---- core/broad: choices of speed alone; any value reports the same pairs (tests/core/broad_catalog_test.cpp).
+// Bites: tests/bench.
+
+/// Cells of a grid, in units of the median box: below 2 a box meets too many columns.
+inline constexpr double grid_cell_factor = 2;
+/// Boxes that a sweep of one column should find to compare with (a count): one comparison of 16 lanes.
+inline constexpr double grid_window = 10;
+/// A box that meets more columns than this, or is longer along the sweep than this many medians, is large.
+inline constexpr unsigned grid_cells_a_box = 16;
+inline constexpr double grid_large_factor = 8;
+/// Below this many boxes a level is swept without cells (a count).
+inline constexpr unsigned grid_least_boxes = 64;
+
 }  // namespace touchstone::tolerance

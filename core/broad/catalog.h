@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include "core/broad/brute_force.h"
+#include "core/broad/grid.h"
 #include "core/broad/sort_and_sweep.h"
 
 namespace touchstone::broad {
@@ -14,9 +15,11 @@ struct CatalogRow {
   BroadPhasePtr (*make)();
 };
 
-inline constexpr std::array<CatalogRow, 2> catalog{{
+inline constexpr std::array<CatalogRow, 4> catalog{{
     {"brute_force", &make_brute_force},
     {"sort_and_sweep", &make_sort_and_sweep},
+    {"grid", &make_grid},
+    {"hierarchical_grid", &make_hierarchical_grid},
 }};
 
 /// Null when there is no such name.

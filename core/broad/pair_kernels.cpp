@@ -93,6 +93,10 @@ void sweep(const BoxColumns& b, std::size_t begin, std::size_t end, PairSink& si
   }
 }
 
+void sweep_each(const BoxColumns& b, const std::vector<std::uint32_t>& begin, PairSink& sink) {
+  for (std::size_t g = 0; g + 1 < begin.size(); ++g) sweep(b, begin[g], begin[g + 1], sink);
+}
+
 void scan(const BoxColumns& from, std::size_t i, const BoxColumns& b, std::size_t begin, std::size_t end,
           PairSink& sink) {
   const I d;
@@ -129,6 +133,7 @@ HWY_AFTER_NAMESPACE();
 namespace touchstone::broad {
 
 HWY_EXPORT(sweep);
+HWY_EXPORT(sweep_each);
 HWY_EXPORT(scan);
 HWY_EXPORT(mask_16);
 
@@ -143,6 +148,10 @@ void BoxColumns::resize(std::size_t n) {
 
 void sweep_range(const BoxColumns& boxes, std::size_t begin, std::size_t end, PairSink& sink) {
   HWY_DYNAMIC_DISPATCH(sweep)(boxes, begin, end, sink);
+}
+
+void sweep_groups(const BoxColumns& boxes, const std::vector<std::uint32_t>& begin, PairSink& sink) {
+  HWY_DYNAMIC_DISPATCH(sweep_each)(boxes, begin, sink);
 }
 
 void scan_range(const BoxColumns& from, std::size_t i, const BoxColumns& boxes, std::size_t begin,

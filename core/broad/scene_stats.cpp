@@ -22,28 +22,72 @@ double deviation(const std::vector<double>& v) {
   return std::sqrt(sum / static_cast<double>(v.size()));
 }
 
-}  // namespace
-
-SceneStats sample_scene(const BoxStore& store) {
-  SceneStats stats;
+struct Sample {
   std::vector<double> centre[3], size[3], largest;
-  const std::size_t step = std::max<std::size_t>(1, store.slots() / sample_size);
-  for (std::size_t s = 0; s < store.slots(); s += step) {
-    const Aabb& b = store.boxes()[s];
+  void add(const Aabb& b) {
     const Vec3 c = b.lo / 2 + b.hi / 2, extent = b.hi - b.lo;
-    if (!store.is_present(static_cast<BoxStore::Slot>(s)) || !c.allFinite() || !extent.allFinite()) continue;
+    if (!c.allFinite() || !extent.allFinite()) return;
     for (int k = 0; k < 3; ++k) centre[k].push_back(c[k]), size[k].push_back(extent[k]);
     largest.push_back(extent.maxCoeff());
   }
-  if (largest.empty()) return stats;
+};
+
+// Share of the boxes in a unit of volume around the average box: the chance that two of the sample lie in one
+// cell of 32³ over the cell's volume. Clusters make it larger than one over the scene's volume.
+double seen_density(const Sample& sample, const SceneStats& s) {
+  constexpr int cells = 32;
+  const std::size_t n = sample.largest.size();
+  double volume = 1;
+  std::vector<int> at(n, 0);
   for (int k = 0; k < 3; ++k) {
-    stats.median_size[k] = quantile(size[k], 0.5);
-    stats.spread[k] = deviation(centre[k]);
-    stats.low[k] = quantile(centre[k], 1.0 / 64), stats.high[k] = quantile(centre[k], 63.0 / 64);
+    const double extent = s.high[k] - s.low[k];
+    volume *= std::max(extent, s.median_size[k]) / cells;
+    for (std::size_t i = 0; i < n; ++i) {
+      const double t = extent > 0 ? (sample.centre[k][i] - s.low[k]) / extent * cells : 0;
+      at[i] = at[i] * cells + static_cast<int>(std::clamp(t, 0.0, cells - 1.0));
+    }
   }
-  const double median = quantile(largest, 0.5), high = quantile(largest, 0.99);
+  std::sort(at.begin(), at.end());
+  double same = 0;
+  for (std::size_t i = 0, j = 0; i < n; i = j) {
+    while (j < n && at[j] == at[i]) ++j;
+    same += static_cast<double>(j - i) * static_cast<double>(j - i - 1);
+  }
+  const double pairs = static_cast<double>(n) * static_cast<double>(n - 1);
+  return n > 1 ? std::max(same, 1.0) / pairs / volume : 0;
+}
+
+SceneStats summary(Sample& sample) {
+  SceneStats stats;
+  if (sample.largest.empty()) return stats;
+  for (int k = 0; k < 3; ++k) {
+    std::vector<double> centre = sample.centre[k];
+    stats.median_size[k] = quantile(sample.size[k], 0.5);
+    stats.spread[k] = deviation(centre);
+    stats.low[k] = quantile(centre, 1.0 / 64), stats.high[k] = quantile(centre, 63.0 / 64);
+  }
+  stats.density = seen_density(sample, stats);
+  const double median = quantile(sample.largest, 0.5), high = quantile(sample.largest, 0.99);
   stats.largest_ratio = median > 0 ? high / median : 1;
   return stats;
+}
+
+std::size_t step_through(std::size_t n) { return std::max<std::size_t>(1, n / sample_size); }
+
+}  // namespace
+
+SceneStats sample_scene(const BoxStore& store) {
+  Sample sample;
+  for (std::size_t s = 0; s < store.slots(); s += step_through(store.slots()))
+    if (store.is_present(static_cast<BoxStore::Slot>(s))) sample.add(store.boxes()[s]);
+  return summary(sample);
+}
+
+SceneStats sample_scene(const BoxStore& store, std::span<const KeyedSlot> boxes) {
+  Sample sample;
+  for (std::size_t i = 0; i < boxes.size(); i += step_through(boxes.size()))
+    sample.add(store.boxes()[boxes[i].slot]);
+  return summary(sample);
 }
 
 int best_axis(const SceneStats& s) {

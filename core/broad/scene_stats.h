@@ -3,6 +3,7 @@
 #pragma once
 
 #include "core/broad/box_store.h"
+#include "core/broad/key_sort.h"
 
 namespace touchstone::broad {
 
@@ -10,11 +11,14 @@ struct SceneStats {
   double median_size[3] = {};        // of the sample
   double spread[3] = {};             // standard deviation of the centres
   double low[3] = {}, high[3] = {};  // extent of the sample's centres without 1/64 at each end
-  double largest_ratio = 1;          // 99th percentile of the largest side over its median
+  double density = 0;        // share of the boxes a unit of volume, as the average box sees it around itself
+  double largest_ratio = 1;  // 99th percentile of the largest side over its median
 };
 
 /// Up to 1024 boxes at equal steps through the slots.
 SceneStats sample_scene(const BoxStore& store);
+
+SceneStats sample_scene(const BoxStore& store, std::span<const KeyedSlot> boxes);
 
 /// The axis on which a sweep prunes most: most spread for the size of its boxes.
 int best_axis(const SceneStats& stats);
