@@ -61,6 +61,7 @@ void BoxStore::insert(int id, const Aabb& box, Mobility mobility) {
     if (ids_[s] != id) ascending_ = false;
     ids_[s] = id;
   }
+  if (id != static_cast<int>(s)) identical_ = false;
   index_.insert(id, s, present());
   state_[s] = static_cast<std::uint8_t>((state_[s] & touched_bit) | present_bit);
   if (mobility == Mobility::fixed) state_[s] |= fixed_bit, ++fixed_;
@@ -100,8 +101,6 @@ void BoxStore::forget_changes() {
   touched_.clear();
 }
 
-bool BoxStore::slots_ascend() const { return ascending_; }
-
 void BoxStore::validate() const {
   const auto require = [](bool holds, const char* what) {
     if (!holds) throw std::logic_error(what);
@@ -109,6 +108,8 @@ void BoxStore::validate() const {
   std::size_t present = 0, fixed = 0;
   int last = std::numeric_limits<int>::min();
   for (Slot s = 0; s < slots(); ++s) {
+    require(!identical_ || (ids_[s] == static_cast<int>(s) && ascending_),
+            "box store: an id is not its slot");
     if (ascending_) require(s == 0 || ids_[s] > last, "box store: slots do not ascend");
     last = ids_[s];
     const KeyBox expected = is_present(s) ? key_box(boxes_[s]) : KeyBox{};

@@ -42,7 +42,9 @@ class BoxStore {
   void forget_changes();
 
   /// True when ids ascend with slots, so that pairs sorted by slot are sorted by id.
-  bool slots_ascend() const;
+  bool slots_ascend() const { return ascending_; }
+  /// True when each id is its slot.
+  bool ids_are_slots() const { return identical_; }
 
   void validate() const;
   std::size_t memory_bytes() const;
@@ -59,7 +61,7 @@ class BoxStore {
   IdIndex index_;
   std::size_t fixed_ = 0;
   std::uint64_t membership_ = 0, fixed_changes_ = 0;
-  bool ascending_ = true;
+  bool ascending_ = true, identical_ = true;
 };
 
 }  // namespace touchstone::broad

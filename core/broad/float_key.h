@@ -28,7 +28,8 @@ inline std::int32_t key_of(float f) {
 }
 
 inline float value_of(std::int32_t key) {
-  return key < 0 ? -std::bit_cast<float>(-key) : std::bit_cast<float>(key);
+  const std::int32_t negative = key >> 31, size = (key ^ negative) - negative;
+  return std::bit_cast<float>(size | (negative & std::numeric_limits<std::int32_t>::min()));
 }
 
 /// Key of the largest float <= d.

@@ -7,7 +7,7 @@ namespace touchstone::broad {
 
 template <int max_levels>
 void GridFinder<max_levels>::find(const BoxStore& store, PairSink& sink) {
-  SceneStats stats = sample_scene(store);
+  SceneStats stats = stats_.of(store);
   axis_ = best_axis(stats), used_ = 0;
   boxes_.clear();
   for (BoxStore::Slot s = 0; s < store.slots(); ++s)

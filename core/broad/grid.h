@@ -20,6 +20,7 @@ class GridFinder {
 
  private:
   void sweep_rest(const BoxStore& store, PairSink& sink);
+  RememberedStats stats_;
   int axis_ = 0;
   std::size_t used_ = 0;
   std::vector<LevelGrid> levels_;

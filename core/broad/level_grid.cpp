@@ -55,51 +55,76 @@ LevelGrid::Span LevelGrid::span_of(const KeyBox& b) const {
   return {{cell(b.lo[u], 0), cell(b.lo[v], 1)}, {cell(b.hi[u], 0), cell(b.hi[v], 1)}};
 }
 
-bool LevelGrid::is_small(const KeyBox& b, const Span& s) const {
-  return s.size() <= tolerance::grid_cells_a_box && value_of(b.hi[axis_]) - value_of(b.lo[axis_]) <= longest_;
-}
-
 template <class Visit>
 void LevelGrid::each_cell(const Span& s, std::uint32_t code, Visit visit) const {
   for (std::uint32_t u = s.from[0]; u <= s.to[0]; ++u)
     for (std::uint32_t v = s.from[1]; v <= s.to[1]; ++v)
-      visit(static_cast<std::size_t>(u) * count_[1] + v,
-            code | (u == s.from[0] ? 0x80000000U : 0) | (v == s.from[1] ? 0x40000000U : 0));
+      visit(u * count_[1] + v, code | (u == s.from[0] ? 0x80000000U : 0) | (v == s.from[1] ? 0x40000000U : 0),
+            1U);
 }
 
-void LevelGrid::build(const BoxStore& store, const std::vector<KeyedSlot>& sorted, int axis,
-                      const SceneStats& stats, std::vector<KeyedSlot>& too_large) {
-  axis_ = axis, entered_ = 0;
-  choose_cells(stats, sorted.size());
+// The same for a box that meets at most 2 × 2 columns, without a branch: the visit to a column that is none
+// has weight 0. How many columns a box meets cannot be predicted; a wrong guess costs more than the visits.
+template <class Visit>
+void LevelGrid::each_of_four(const Span& s, std::uint32_t code, Visit visit) const {
+  const std::uint32_t more_u = s.to[0] - s.from[0], more_v = s.to[1] - s.from[1];
+  const std::uint32_t c = s.from[0] * count_[1] + s.from[1], below = c + more_u * count_[1];
+  visit(c, code | 0xc0000000U, 1U);
+  visit(c + more_v, code | 0x80000000U, more_v);
+  visit(below, code | 0x40000000U, more_u);
+  visit(below + more_v, code, more_u & more_v);
+}
+
+template <class Visit>
+void LevelGrid::visit_cells(const Span& s, std::uint32_t code, Visit visit) const {
+  if (((s.to[0] - s.from[0]) | (s.to[1] - s.from[1])) <= 1)
+    each_of_four(s, code, visit);
+  else
+    each_cell(s, code, visit);
+}
+
+std::size_t LevelGrid::count_entries(const BoxStore& store, const std::vector<KeyedSlot>& sorted,
+                                     std::vector<KeyedSlot>& too_large) {
   begin_.assign(static_cast<std::size_t>(count_[0]) * count_[1] + 1, 0);
-  too_large.clear();
+  spans_.clear(), entered_slots_.clear(), too_large.clear();
   std::size_t entries = 0;
   for (const KeyedSlot& k : sorted) {
     const KeyBox& b = store.keys()[k.slot];
     const Span s = span_of(b);
-    if (!is_small(b, s)) {
+    if (s.size() > tolerance::grid_cells_a_box ||
+        !(value_of(b.hi[axis_]) - value_of(b.lo[axis_]) <= longest_)) {
       too_large.push_back(k);
       continue;
     }
-    each_cell(s, 0, [&](std::size_t c, std::uint32_t) { ++begin_[c]; });
-    ++entered_, entries += s.size();
+    visit_cells(s, 0, [&](std::uint32_t c, std::uint32_t, std::uint32_t weight) { begin_[c] += weight; });
+    spans_.push_back(s), entered_slots_.push_back(k.slot | (store.is_fixed(k.slot) ? 0 : moving_flag));
+    entries += s.size();
   }
+  return entries;
+}
+
+void LevelGrid::build(const BoxStore& store, const std::vector<KeyedSlot>& sorted, int axis,
+                      const SceneStats& stats, std::vector<KeyedSlot>& too_large) {
+  axis_ = axis;
+  choose_cells(stats, sorted.size());
+  const std::size_t entries = count_entries(store, sorted, too_large);
+  entered_ = spans_.size();
   std::uint32_t sum = 0;
   for (std::uint32_t& b : begin_) sum += b, b = sum;
   columns_.resize(entries);
   // From the back, so that each column's begin ends where it belongs and the order along the axis is kept.
-  for (std::size_t i = sorted.size(); i-- > 0;) {
-    const BoxStore::Slot slot = sorted[i].slot;
-    const KeyBox& b = store.keys()[slot];
-    const Span s = span_of(b);
-    if (!is_small(b, s)) continue;
-    const std::uint32_t code = slot | (store.is_fixed(slot) ? 0 : moving_flag);
-    each_cell(s, code, [&](std::size_t c, std::uint32_t with) { columns_.code[--begin_[c]] = with; });
-  }
-  for (std::size_t i = 0; i < entries; ++i) {
-    const std::uint32_t code = columns_.code[i];
-    columns_.put(i, store.keys()[code & slot_mask], code, axis_);
-  }
+  // Visits without weight write behind the end.
+  const auto nowhere = static_cast<std::uint32_t>(entries);
+  std::uint32_t* const code = columns_.code.data();
+  std::uint32_t* const begin = begin_.data();
+  for (std::size_t i = entered_; i-- > 0;)
+    visit_cells(spans_[i], entered_slots_[i], [=](std::uint32_t c, std::uint32_t with, std::uint32_t weight) {
+      const std::uint32_t at = begin[c] - weight;
+      begin[c] = at;
+      code[weight != 0 ? at : nowhere] = with;
+    });
+  code[nowhere] = 0;
+  columns_.gather(store, axis_);
 }
 
 void LevelGrid::self_pairs(PairSink& sink) const { sweep_groups(columns_, begin_, sink); }
@@ -114,7 +139,7 @@ void LevelGrid::query(const BoxStore& store, BoxStore::Slot slot, PairSink& sink
   const std::int32_t to = b.hi[axis_];
   const auto& lo = columns_.lo[0];
   const std::uint32_t moving = store.is_fixed(slot) ? 0 : moving_flag;
-  each_cell(span_of(b), slot | moving, [&](std::size_t c, std::uint32_t with) {
+  each_cell(span_of(b), slot | moving, [&](std::uint32_t c, std::uint32_t with, std::uint32_t) {
     if (begin_[c] == begin_[c + 1]) return;
     const auto first = lo.begin() + begin_[c], last = lo.begin() + begin_[c + 1];
     const auto low = std::lower_bound(first, last, from);
@@ -140,7 +165,8 @@ void LevelGrid::validate() const {
 }
 
 std::size_t LevelGrid::memory_bytes() const {
-  return columns_.memory_bytes() + probe_.memory_bytes() + begin_.capacity() * sizeof(std::uint32_t);
+  return columns_.memory_bytes() + probe_.memory_bytes() + spans_.capacity() * sizeof(Span) +
+         (begin_.capacity() + entered_slots_.capacity()) * sizeof(std::uint32_t);
 }
 
 }  // namespace touchstone::broad

@@ -40,16 +40,23 @@ class LevelGrid {
   void choose_cells(const SceneStats& stats, std::size_t n);
   std::uint32_t cell(std::int32_t key, int k) const;
   Span span_of(const KeyBox& b) const;
-  bool is_small(const KeyBox& b, const Span& s) const;
+  std::size_t count_entries(const BoxStore& store, const std::vector<KeyedSlot>& sorted,
+                            std::vector<KeyedSlot>& too_large);
   template <class Visit>
   void each_cell(const Span& s, std::uint32_t code, Visit visit) const;
+  template <class Visit>
+  void each_of_four(const Span& s, std::uint32_t code, Visit visit) const;
+  template <class Visit>
+  void visit_cells(const Span& s, std::uint32_t code, Visit visit) const;
 
   int axis_ = 0;
   float origin_[2] = {}, scale_[2] = {1, 1};
   std::uint32_t count_[2] = {1, 1};
   float longest_ = 0;  // along axis_, of the boxes that may be entered
   std::size_t entered_ = 0;
-  std::vector<std::uint32_t> begin_;  // of each column; one more than columns
+  std::vector<std::uint32_t> begin_;          // of each column; one more than columns
+  std::vector<Span> spans_;                   // of the boxes entered, in order along the axis
+  std::vector<std::uint32_t> entered_slots_;  // with moving_flag
   BoxColumns columns_, probe_;
 };
 

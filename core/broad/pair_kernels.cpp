@@ -146,6 +146,17 @@ void BoxColumns::resize(std::size_t n) {
   if (code.size() < n + padding) code.resize(n + n / 4 + padding);
 }
 
+void BoxColumns::gather(const BoxStore& store, int first_axis) {
+  const KeyBox* const keys = store.keys().data();
+  const int a = first_axis, b = (a + 1) % 3, c = (a + 2) % 3;
+  for (std::size_t i = 0; i < size; ++i) {
+    const KeyBox& k = keys[code[i] & slot_mask];
+    lo[0][i] = k.lo[a], hi[0][i] = k.hi[a];
+    lo[1][i] = k.lo[b], hi[1][i] = k.hi[b];
+    lo[2][i] = k.lo[c], hi[2][i] = k.hi[c];
+  }
+}
+
 void sweep_range(const BoxColumns& boxes, std::size_t begin, std::size_t end, PairSink& sink) {
   HWY_DYNAMIC_DISPATCH(sweep)(boxes, begin, end, sink);
 }

@@ -30,6 +30,8 @@ struct BoxColumns {
     }
     code[at] = with_code;
   }
+  /// Fills the boxes in by the slots in their codes.
+  void gather(const BoxStore& store, int first_axis);
   std::size_t memory_bytes() const { return lo[0].capacity() * 7 * sizeof(std::int32_t); }
 };
 

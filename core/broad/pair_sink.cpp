@@ -70,6 +70,7 @@ void PairSink::finish(const BoxStore& store, std::vector<IdPair>& out) {
   std::uint32_t begin = 0;
   for (std::size_t s = 0; s < store.slots(); begin = count_[s], ++s)
     if (count_[s] - begin > 1) sort_bucket(out.data() + begin, out.data() + count_[s]);
+  if (store.ids_are_slots()) return;
   for (IdPair& p : out) {
     const auto a = static_cast<std::uint32_t>(p.first), b = static_cast<std::uint32_t>(p.second);
     p = ranked ? IdPair{by_rank_[a], by_rank_[b]} : IdPair{store.id(a), store.id(b)};

@@ -7,7 +7,10 @@
 namespace touchstone::broad {
 namespace {
 
-constexpr std::size_t sample_size = 1024;
+constexpr std::size_t sample_size = 256;
+
+// A sample costs about as much as 1000 boxes; a scene changes its kind seldom.
+constexpr int queries_a_sample = 8;
 
 double quantile(std::vector<double>& v, double q) {
   const auto k = static_cast<std::ptrdiff_t>(q * static_cast<double>(v.size() - 1));
@@ -33,9 +36,9 @@ struct Sample {
 };
 
 // Share of the boxes in a unit of volume around the average box: the chance that two of the sample lie in one
-// cell of 32³ over the cell's volume. Clusters make it larger than one over the scene's volume.
+// cell of 16³ over the cell's volume. Clusters make it larger than one over the scene's volume.
 double seen_density(const Sample& sample, const SceneStats& s) {
-  constexpr int cells = 32;
+  constexpr int cells = 16;
   const std::size_t n = sample.largest.size();
   double volume = 1;
   std::vector<int> at(n, 0);
@@ -88,6 +91,15 @@ SceneStats sample_scene(const BoxStore& store, std::span<const KeyedSlot> boxes)
   for (std::size_t i = 0; i < boxes.size(); i += step_through(boxes.size()))
     sample.add(store.boxes()[boxes[i].slot]);
   return summary(sample);
+}
+
+const SceneStats& RememberedStats::of(const BoxStore& store) {
+  if (age_ == 0 || store.present() > 2 * present_ || present_ > 2 * store.present()) {
+    stats_ = sample_scene(store);
+    age_ = queries_a_sample, present_ = store.present();
+  }
+  --age_;
+  return stats_;
 }
 
 int best_axis(const SceneStats& s) {

@@ -15,10 +15,21 @@ struct SceneStats {
   double largest_ratio = 1;  // 99th percentile of the largest side over its median
 };
 
-/// Up to 1024 boxes at equal steps through the slots.
+/// About 256 boxes at equal steps through the slots.
 SceneStats sample_scene(const BoxStore& store);
 
 SceneStats sample_scene(const BoxStore& store, std::span<const KeyedSlot> boxes);
+
+/// Samples anew every few queries, or when the number of boxes has doubled or halved.
+class RememberedStats {
+ public:
+  const SceneStats& of(const BoxStore& store);
+
+ private:
+  SceneStats stats_;
+  int age_ = 0;
+  std::size_t present_ = 0;
+};
 
 /// The axis on which a sweep prunes most: most spread for the size of its boxes.
 int best_axis(const SceneStats& stats);

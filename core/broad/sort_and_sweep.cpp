@@ -1,12 +1,11 @@
 #include "core/broad/sort_and_sweep.h"
 
-#include "core/broad/scene_stats.h"
 #include "core/broad/stored_phase.h"
 
 namespace touchstone::broad {
 
 void SortAndSweepFinder::find(const BoxStore& store, PairSink& sink) {
-  axis_ = best_axis(sample_scene(store));
+  axis_ = best_axis(stats_.of(store));
   order_.clear();
   for (BoxStore::Slot s = 0; s < store.slots(); ++s)
     if (store.is_present(s)) order_.push_back({unsigned_key(store.keys()[s].lo[axis_]), s});

@@ -6,6 +6,7 @@
 
 #include "core/broad/key_sort.h"
 #include "core/broad/pair_kernels.h"
+#include "core/broad/scene_stats.h"
 
 namespace touchstone::broad {
 
@@ -19,6 +20,7 @@ class SortAndSweepFinder {
   std::string explain() const;
 
  private:
+  RememberedStats stats_;
   int axis_ = 0;
   std::vector<KeyedSlot> order_, scratch_;
   BoxColumns columns_;
