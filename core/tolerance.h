@@ -72,5 +72,8 @@ inline constexpr unsigned grid_cells_a_box = 16;
 inline constexpr double grid_large_factor = 8;
 /// Below this many boxes a level is swept without cells (a count).
 inline constexpr unsigned grid_least_boxes = 64;
+/// A refitted tree is built anew when its lowest nodes have grown by this factor: a build costs about twice a
+/// refit, overlap of nodes grows with the cube of their reach.
+inline constexpr double tree_decay = 1.15;
 
 }  // namespace touchstone::tolerance

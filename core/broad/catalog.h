@@ -4,6 +4,7 @@
 #include <array>
 #include <string_view>
 
+#include "core/broad/bounding_volume_hierarchy.h"
 #include "core/broad/brute_force.h"
 #include "core/broad/grid.h"
 #include "core/broad/sort_and_sweep.h"
@@ -15,11 +16,12 @@ struct CatalogRow {
   BroadPhasePtr (*make)();
 };
 
-inline constexpr std::array<CatalogRow, 4> catalog{{
+inline constexpr std::array<CatalogRow, 5> catalog{{
     {"brute_force", &make_brute_force},
     {"sort_and_sweep", &make_sort_and_sweep},
     {"grid", &make_grid},
     {"hierarchical_grid", &make_hierarchical_grid},
+    {"bounding_volume_hierarchy", &make_bounding_volume_hierarchy},
 }};
 
 /// Null when there is no such name.

@@ -1,0 +1,28 @@
+// Bounding-volume hierarchies: one tree of the fixed boxes, one of the moving ones (wide_tree.h). Pairs: the
+// moving tree against itself and against the fixed tree; fixed boxes are never compared with each other. A
+// tree is refitted when boxes move and built anew when boxes come or go or its order has decayed; the fixed
+// tree is left alone while no fixed box changes.
+#pragma once
+
+#include "core/broad/wide_tree.h"
+
+namespace touchstone::broad {
+
+class HierarchyFinder {
+ public:
+  void find(const BoxStore& store, PairSink& sink);
+  void validate(const BoxStore& store) const;
+  std::size_t memory_bytes() const { return moving_.memory_bytes() + fixed_.memory_bytes(); }
+  std::string explain() const;
+
+ private:
+  void update(const BoxStore& store);
+  static constexpr std::uint64_t never = ~std::uint64_t{0};
+  WideTree moving_, fixed_;
+  std::uint64_t membership_ = never, fixed_changes_ = never;
+  long builds_ = 0, refits_ = 0;
+};
+
+BroadPhasePtr make_bounding_volume_hierarchy();
+
+}  // namespace touchstone::broad
