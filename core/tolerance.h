@@ -53,15 +53,16 @@ inline constexpr double referee_width_factor = 4e-16;
 /// under 3000; a curved pair with one nearest point about 400. Bites: tests/referee, width of brackets.
 inline constexpr int referee_facet_cap = 40000;
 inline constexpr int referee_curved_facet_cap = 3000;
-/// The same when symmetry has already closed the bracket and only witness points are wanted (1e-4 of the size).
+/// The same when symmetry has already closed the bracket and only witness points are wanted (1e-4 of the
+/// size).
 inline constexpr int referee_witness_facet_cap = 160;
 
 /// Gap evaluations that one judge_motion may spend (a count; lead's figure). A thin wall with |ω| = 500 needs
 /// about 5000. Bites: tests/referee, motion.
 inline constexpr int referee_motion_evaluations = 20000;
 
-// ---- core/broad: choices of speed alone; any value reports the same pairs (tests/core/broad_catalog_test.cpp).
-// Bites: tests/bench.
+// ---- core/broad: choices of speed alone; any value reports the same pairs
+// (tests/core/broad_catalog_test.cpp). Bites: tests/bench.
 
 /// Cells of a grid, in units of the median box: below 2 a box meets too many columns.
 inline constexpr double grid_cell_factor = 2;
@@ -72,6 +73,11 @@ inline constexpr unsigned grid_cells_a_box = 16;
 inline constexpr double grid_large_factor = 8;
 /// Below this many boxes a level is swept without cells (a count).
 inline constexpr unsigned grid_least_boxes = 64;
+/// Insertion sort may spend this many moves a box before the order is sorted anew: about the cost of a radix
+/// sort.
+inline constexpr unsigned sweep_moves_a_box = 8;
+/// Changed boxes are searched one by one when they are less than one in this many.
+inline constexpr unsigned sweep_local_share = 8;
 /// A refitted tree is built anew when its lowest nodes have grown by this factor: a build costs about twice a
 /// refit, overlap of nodes grows with the cube of their reach.
 inline constexpr double tree_decay = 1.15;

@@ -7,6 +7,7 @@
 #include "core/broad/bounding_volume_hierarchy.h"
 #include "core/broad/brute_force.h"
 #include "core/broad/grid.h"
+#include "core/broad/incremental_sweep.h"
 #include "core/broad/sort_and_sweep.h"
 
 namespace touchstone::broad {
@@ -16,9 +17,10 @@ struct CatalogRow {
   BroadPhasePtr (*make)();
 };
 
-inline constexpr std::array<CatalogRow, 5> catalog{{
+inline constexpr std::array<CatalogRow, 6> catalog{{
     {"brute_force", &make_brute_force},
     {"sort_and_sweep", &make_sort_and_sweep},
+    {"incremental_sweep", &make_incremental_sweep},
     {"grid", &make_grid},
     {"hierarchical_grid", &make_hierarchical_grid},
     {"bounding_volume_hierarchy", &make_bounding_volume_hierarchy},

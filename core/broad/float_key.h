@@ -44,6 +44,14 @@ inline std::int32_t key_above(double d) {
   return key_of(f) + (static_cast<double>(f) < d ? 1 : 0);
 }
 
+/// No box of key length value(hi) − value(lo) <= longest (computed in float or double) that reaches `lo`
+/// begins below this key. The computed length may be short of the exact one by 2⁻²⁴ of it: 2⁻²⁰ covers that
+/// and, for |lo| up to 2³⁰ lengths, the rounding of the difference here; beyond, one key less does.
+inline std::int32_t earliest_start(std::int32_t lo, double longest) {
+  if (!(longest < 0x1p120)) return -0x7ffffff0;
+  return key_below(value_of(lo) - longest * (1 + 0x1p-20)) - 1;
+}
+
 /// Beyond every key of a float by more than the margin of 2.
 inline constexpr std::int32_t no_key = 0x7ffffff0;
 

@@ -133,9 +133,7 @@ void LevelGrid::query(const BoxStore& store, BoxStore::Slot slot, PairSink& sink
   const KeyBox& b = store.keys()[slot];
   probe_.resize(1);
   probe_.put(0, b, 0, axis_);
-  // A box entered that begins more than `longest_` before b cannot reach it; one key more covers the
-  // rounding.
-  const std::int32_t from = key_below(static_cast<double>(value_of(b.lo[axis_])) - longest_) - 1;
+  const std::int32_t from = earliest_start(b.lo[axis_], longest_);
   const std::int32_t to = b.hi[axis_];
   const auto& lo = columns_.lo[0];
   const std::uint32_t moving = store.is_fixed(slot) ? 0 : moving_flag;

@@ -33,6 +33,7 @@ void PairSink::grow(std::size_t more) {
 void PairSink::decide_doubtful(const BoxStore& store) {
   for (const SlotPair& p : doubtful)
     if (overlaps(store.boxes()[p.first], store.boxes()[p.second])) add(p.first, p.second);
+  doubtful.clear();
 }
 
 // Slots were reused or filled out of order: each slot is renamed by the rank of its id.

@@ -27,6 +27,8 @@ class PairSink {
     return (first.capacity() + second.capacity() + count_.capacity() + rank_.capacity()) * 4 +
            doubtful.capacity() * sizeof(SlotPair) + by_rank_.capacity() * 4;
   }
+  /// Adds those doubtful pairs whose double boxes overlap.
+  void decide_doubtful(const BoxStore& store);
   /// Decides the doubtful pairs by their double boxes and writes all pairs by id, sorted. Each pair must have
   /// been put in once.
   void finish(const BoxStore& store, std::vector<IdPair>& out);
@@ -37,7 +39,6 @@ class PairSink {
 
  private:
   void grow(std::size_t more);
-  void decide_doubtful(const BoxStore& store);
   void rename_by_rank(const BoxStore& store);
   std::vector<std::uint32_t> count_, rank_;
   std::vector<int> by_rank_;

@@ -173,6 +173,24 @@ TEST_CASE("every broad phase finds the same pairs in large scenes, coherent or t
     }
 }
 
+TEST_CASE("a long box whose length rounds down is found by a box at its far end", "[broad]") {
+  for (const CatalogRow& row : catalog)
+    for (const double start : {-0.4, -0x1p-30, -0.9}) {
+      INFO(row.name << ", start " << start);
+      const auto phase = row.make();
+      const Vec3 one = Vec3::Ones();
+      for (int i = 0; i < 200; ++i) phase->insert(i, {Vec3(300.0 * i, 5, 5), Vec3(300.0 * i + 1, 6, 6)});
+      phase->insert(500, {Vec3(start, 0, 0), Vec3(0x1p24, 1, 1)});
+      phase->insert(501, {Vec3(0x1p24 + 2, 0, 0), Vec3(0x1p24 + 4, 0, 0) + one});
+      std::vector<IdPair> out;
+      phase->pairs(out);
+      CHECK(out.empty());
+      phase->move(501, {Vec3(0x1p24, 0, 0), Vec3(0x1p24 + 4, 0, 0) + one});
+      phase->pairs(out);
+      CHECK(out == std::vector<IdPair>{{500, 501}});
+    }
+}
+
 TEST_CASE("a batch with one bad move makes no move", "[broad]") {
   for (const CatalogRow& row : catalog) {
     const auto phase = row.make();
