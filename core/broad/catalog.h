@@ -4,6 +4,7 @@
 #include <array>
 #include <string_view>
 
+#include "core/broad/automatic.h"
 #include "core/broad/bounding_volume_hierarchy.h"
 #include "core/broad/brute_force.h"
 #include "core/broad/grid.h"
@@ -17,7 +18,8 @@ struct CatalogRow {
   BroadPhasePtr (*make)();
 };
 
-inline constexpr std::array<CatalogRow, 6> catalog{{
+inline constexpr std::array<CatalogRow, 7> catalog{{
+    {"automatic", &make_automatic},
     {"brute_force", &make_brute_force},
     {"sort_and_sweep", &make_sort_and_sweep},
     {"incremental_sweep", &make_incremental_sweep},
