@@ -47,7 +47,11 @@ void WideTree::build(const BoxStore& store, bool fixed, const SceneStats& stats)
   for (std::size_t n = order_.size(); n > 1; n = (n + width - 1) / width) ++needed;
   levels_.resize(needed);
   levels_[0].resize(order_.size());
-  for (std::size_t i = 0; i < order_.size(); ++i) levels_[0].code[i] = plain_code(store, order_[i].slot);
+  position_.resize(store.slots());
+  for (std::size_t i = 0; i < order_.size(); ++i) {
+    levels_[0].code[i] = plain_code(store, order_[i].slot);
+    position_[order_[i].slot] = static_cast<std::uint32_t>(i);
+  }
   refit(store);
   built_reach_ = reach();
 }
@@ -57,20 +61,41 @@ void WideTree::refit(const BoxStore& store) {
   unite();
 }
 
+void WideTree::unite_node(std::size_t level, std::size_t node) {
+  const BoxColumns& below = levels_[level - 1];
+  for (int k = 0; k < 3; ++k) {
+    // Entries beyond the end are empty boxes, which change no union.
+    std::int32_t lo = no_key, hi = -no_key;
+    for (std::size_t j = node * width; j < (node + 1) * width; ++j)
+      lo = std::min(lo, below.lo[k][j]), hi = std::max(hi, below.hi[k][j]);
+    levels_[level].lo[k][node] = lo, levels_[level].hi[k][node] = hi;
+  }
+}
+
 void WideTree::unite() {
   for (std::size_t l = 1; l < levels_.size(); ++l) {
-    const BoxColumns& below = levels_[l - 1];
-    BoxColumns& here = levels_[l];
-    here.resize((below.size + width - 1) / width);
-    for (int k = 0; k < 3; ++k)
-      for (std::size_t i = 0; i < here.size; ++i) {
-        // Entries beyond the end are empty boxes, which change no union.
-        std::int32_t lo = no_key, hi = -no_key;
-        for (std::size_t j = i * width; j < (i + 1) * width; ++j)
-          lo = std::min(lo, below.lo[k][j]), hi = std::max(hi, below.hi[k][j]);
-        here.lo[k][i] = lo, here.hi[k][i] = hi;
-      }
+    levels_[l].resize((levels_[l - 1].size + width - 1) / width);
+    for (std::size_t i = 0; i < levels_[l].size; ++i) unite_node(l, i);
   }
+}
+
+void WideTree::refit_one(const BoxStore& store, BoxStore::Slot s) {
+  std::size_t node = position_[s];
+  levels_[0].put(node, store.keys()[s], levels_[0].code[node], 0);
+  for (std::size_t l = 1; l < levels_.size(); ++l) node /= width, unite_node(l, node);
+}
+
+// The mark is the highest flag of a code: all set otherwise (pair_kernels.h).
+void WideTree::mark(BoxStore::Slot s, bool on) {
+  std::uint32_t& code = levels_[0].code[position_[s]];
+  code = on ? code | 0x80000000U : code & ~0x80000000U;
+}
+
+void WideTree::marked_partners(const BoxStore& store, BoxStore::Slot s, PairSink& sink) {
+  if (size() == 0) return;
+  probe_.resize(1);
+  probe_.put(0, store.keys()[s], plain_code(store, s) & ~0x80000000U, 0);
+  query(probe_, 0, levels_.size() - 1, 0, sink);
 }
 
 double WideTree::reach() const {
@@ -104,7 +129,7 @@ void WideTree::self(std::size_t level, std::size_t a, PairSink& sink) const {
 void WideTree::cross(std::size_t level, std::size_t a, const WideTree& other, std::size_t other_level,
                      std::size_t b, PairSink& sink) const {
   if (level == 0) {
-    query(a, other, other_level, b, sink);
+    other.query(levels_[0], a, other_level, b, sink);
   } else if (level >= other_level) {
     each_bit(overlap_mask_16(other.levels_[other_level], b, levels_[level - 1], a * width),
              [&](std::size_t i) { cross(level - 1, a * width + i, other, other_level, b, sink); });
@@ -114,15 +139,16 @@ void WideTree::cross(std::size_t level, std::size_t a, const WideTree& other, st
   }
 }
 
-void WideTree::query(std::size_t box, const WideTree& other, std::size_t level, std::size_t b,
+// Entry `box` of `from` against the boxes below entry b of a level of this tree.
+void WideTree::query(const BoxColumns& from, std::size_t box, std::size_t level, std::size_t b,
                      PairSink& sink) const {
   if (level == 0) {
-    scan_range(levels_[0], box, other.levels_[0], b, b + 1, sink);
+    scan_range(from, box, levels_[0], b, b + 1, sink);
   } else if (level == 1) {
-    scan_range(levels_[0], box, other.levels_[0], b * width, other.end_of(1, b), sink);
+    scan_range(from, box, levels_[0], b * width, end_of(1, b), sink);
   } else {
-    each_bit(overlap_mask_16(levels_[0], box, other.levels_[level - 1], b * width),
-             [&](std::size_t j) { query(box, other, level - 1, b * width + j, sink); });
+    each_bit(overlap_mask_16(from, box, levels_[level - 1], b * width),
+             [&](std::size_t j) { query(from, box, level - 1, b * width + j, sink); });
   }
 }
 
@@ -145,7 +171,8 @@ void WideTree::validate() const {
 }
 
 std::size_t WideTree::memory_bytes() const {
-  std::size_t sum = (order_.capacity() + scratch_.capacity()) * sizeof(KeyedSlot);
+  std::size_t sum = (order_.capacity() + scratch_.capacity()) * sizeof(KeyedSlot) +
+                    position_.capacity() * sizeof(std::uint32_t) + probe_.memory_bytes();
   for (const BoxColumns& l : levels_) sum += l.memory_bytes();
   return sum;
 }

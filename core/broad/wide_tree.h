@@ -18,6 +18,13 @@ class WideTree {
   void build(const BoxStore& store, bool fixed, const SceneStats& stats);
   /// The boxes have moved; none has come or gone.
   void refit(const BoxStore& store);
+  /// The same when only the box in slot `s`, which is in this tree, has moved.
+  void refit_one(const BoxStore& store, BoxStore::Slot s);
+  /// Sets or clears the mark of a box in this tree. Marks are set by build(); pairs count when one of the two
+  /// boxes is marked.
+  void mark(BoxStore::Slot s, bool on);
+  /// Pairs of an unmarked box, of this tree or not, with the marked boxes of this tree.
+  void marked_partners(const BoxStore& store, BoxStore::Slot s, PairSink& sink);
   void self_pairs(PairSink& sink) const;
   void pairs_with(const WideTree& other, PairSink& sink) const;
 
@@ -30,16 +37,19 @@ class WideTree {
 
  private:
   void unite();
+  void unite_node(std::size_t level, std::size_t node);
   double reach() const;
   void self(std::size_t level, std::size_t a, PairSink& sink) const;
   void cross(std::size_t level, std::size_t a, const WideTree& other, std::size_t other_level, std::size_t b,
              PairSink& sink) const;
-  void query(std::size_t box, const WideTree& other, std::size_t level, std::size_t b, PairSink& sink) const;
+  void query(const BoxColumns& from, std::size_t box, std::size_t level, std::size_t b, PairSink& sink) const;
   std::size_t end_of(std::size_t level, std::size_t node) const {
     return std::min(levels_[level - 1].size, width * (node + 1));
   }
   std::vector<BoxColumns> levels_;
   std::vector<KeyedSlot> order_, scratch_;
+  std::vector<std::uint32_t> position_;  // of a slot in level 0
+  BoxColumns probe_;
   double built_reach_ = 0;
 };
 
