@@ -79,10 +79,10 @@ inline constexpr unsigned sweep_moves_a_box = 8;
 /// Changed boxes are searched one by one when they are less than one in this many.
 inline constexpr unsigned sweep_local_share = 8;
 /// The automatic choice: up to this many boxes all pairs are tested; after this many queries in a row with
-/// few changes the incremental sweep begins (its first query sweeps all boxes); up to this many boxes in the
-/// reach of a sweep no cells are built (counts).
+/// few changes the hierarchy takes over (its first query is a build); up to this many boxes in the reach of a
+/// sweep no cells are built (counts).
 inline constexpr unsigned brute_force_most = 160;
-inline constexpr unsigned quiet_queries = 3;
+inline constexpr unsigned quiet_queries = 2;
 inline constexpr double sweep_reach_most = 130;
 /// A refitted tree is built anew when its lowest nodes have grown by this factor: a build costs about twice a
 /// refit, overlap of nodes grows with the cube of their reach.

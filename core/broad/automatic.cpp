@@ -25,7 +25,7 @@ AutomaticFinder::Method AutomaticFinder::choose(const BoxStore& store) {
   why_ = std::to_string(n) + " boxes";
   if (n <= tolerance::brute_force_most) return Method::brute_force;
   why_ += ", " + std::to_string(store.touched().size()) + " changed";
-  if (quiet_queries_ >= tolerance::quiet_queries) return Method::incremental;
+  if (quiet_queries_ >= tolerance::quiet_queries) return Method::hierarchy;
   why_ += ", " + std::to_string(store.fixed()) + " fixed";
   if (store.fixed() * 2 > n) return Method::hierarchy;
   const double reach = boxes_in_reach(stats_.of(store), n);
@@ -37,12 +37,10 @@ AutomaticFinder::Method AutomaticFinder::choose(const BoxStore& store) {
 void AutomaticFinder::find(const BoxStore& store, PairSink& sink) {
   const Method last = method_;
   method_ = choose(store);
-  if (method_ != last) incremental_.forget(), hierarchy_.forget();
+  if (method_ != last) hierarchy_.forget();
   switch (method_) {
     case Method::brute_force:
       return brute_force_.find(store, sink);
-    case Method::incremental:
-      return incremental_.find(store, sink);
     case Method::hierarchy:
       return hierarchy_.find(store, sink);
     case Method::sweep:
@@ -53,22 +51,19 @@ void AutomaticFinder::find(const BoxStore& store, PairSink& sink) {
 }
 
 void AutomaticFinder::validate(const BoxStore& store) const {
-  if (method_ == Method::incremental) incremental_.validate(store);
   if (method_ == Method::hierarchy) hierarchy_.validate(store);
   if (method_ == Method::sweep) sweep_.validate(store);
   if (method_ == Method::grid) grid_.validate(store);
 }
 
 std::size_t AutomaticFinder::memory_bytes() const {
-  return brute_force_.memory_bytes() + incremental_.memory_bytes() + hierarchy_.memory_bytes() +
-         sweep_.memory_bytes() + grid_.memory_bytes();
+  return brute_force_.memory_bytes() + hierarchy_.memory_bytes() + sweep_.memory_bytes() +
+         grid_.memory_bytes();
 }
 
 std::string AutomaticFinder::explain() const {
   const auto how = [this] {
     switch (method_) {
-      case Method::incremental:
-        return incremental_.explain();
       case Method::hierarchy:
         return hierarchy_.explain();
       case Method::sweep:

@@ -1,16 +1,15 @@
 // The method is chosen from the scene, anew at each query:
 //   few boxes                                   brute force: nothing to build
-//   few have changed for some queries in a row  incremental sweep: only the changed boxes are looked at
-//   most boxes are fixed                        bounding-volume hierarchy: fixed boxes are never compared
-//   few boxes in the reach of a sweep           sort and sweep: cheapest to build
-//   otherwise                                   hierarchical grid (with one level when sizes are even)
+//   few have changed for some queries in a row  bounding-volume hierarchy: only the changed boxes look for
+//   partners most boxes are fixed                        the same: fixed boxes are never compared few boxes
+//   in the reach of a sweep           sort and sweep: cheapest to build otherwise hierarchical grid (with one
+//   level when sizes are even)
 // explain() says which, and the figures that decided. The pairs are the same whatever is chosen.
 #pragma once
 
 #include "core/broad/bounding_volume_hierarchy.h"
 #include "core/broad/brute_force.h"
 #include "core/broad/grid.h"
-#include "core/broad/incremental_sweep.h"
 #include "core/broad/sort_and_sweep.h"
 
 namespace touchstone::broad {
@@ -23,7 +22,7 @@ class AutomaticFinder {
   std::string explain() const;
 
  private:
-  enum class Method { brute_force, incremental, hierarchy, sweep, grid };
+  enum class Method { brute_force, hierarchy, sweep, grid };
   Method choose(const BoxStore& store);
   Method method_ = Method::brute_force;
   std::string why_;
@@ -31,7 +30,6 @@ class AutomaticFinder {
   std::uint64_t membership_ = ~std::uint64_t{0};
   unsigned quiet_queries_ = 0;
   BruteForceFinder brute_force_;
-  IncrementalSweepFinder incremental_;
   HierarchyFinder hierarchy_;
   SortAndSweepFinder sweep_;
   HierarchicalGridFinder grid_;

@@ -14,8 +14,6 @@ namespace touchstone::broad {
 class IncrementalSweepFinder {
  public:
   void find(const BoxStore& store, PairSink& sink);
-  /// The next find() starts from nothing. To be called when a query was answered elsewhere.
-  void forget() { membership_ = never; }
   void validate(const BoxStore& store) const;
   std::size_t memory_bytes() const;
   std::string explain() const;
