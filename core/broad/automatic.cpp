@@ -27,7 +27,7 @@ AutomaticFinder::Method AutomaticFinder::choose(const BoxStore& store) {
   why_ += ", " + std::to_string(store.touched().size()) + " changed";
   if (quiet_queries_ >= tolerance::quiet_queries) return Method::hierarchy;
   why_ += ", " + std::to_string(store.fixed()) + " fixed";
-  if (store.fixed() * 2 > n) return Method::hierarchy;
+  if (store.fixed() * 2 > n || n >= tolerance::hierarchy_least) return Method::hierarchy;
   const double reach = boxes_in_reach(stats_.of(store), n);
   why_ += ", " + std::to_string(reach) + " in the reach of a sweep";
   return reach <= tolerance::sweep_reach_most ? Method::sweep : Method::grid;
