@@ -70,7 +70,7 @@ inline constexpr int referee_curved_facet_cap = 3000;
 /// size).
 inline constexpr int referee_witness_facet_cap = 160;
 
-/// Gap evaluations that one judge_motion may spend (a count; lead's figure). A thin wall with |ω| = 500 needs
+/// Gap evaluations that one judge_motion may spend (a count). A thin wall with |ω| = 500 needs
 /// about 5000. Bites: tests/referee, motion.
 inline constexpr int referee_motion_evaluations = 20000;
 
@@ -84,5 +84,35 @@ inline constexpr double checker_point_factor = 0x1p-50;
 /// contact's point is known no better). A guess is proven or dropped, so the factors cost time, never truth.
 /// Bites: tests/referee, touching on a lattice.
 inline constexpr double referee_guess_factors[] = {0x1p-50, 0x1p-44, 0x1p-36, 0x1p-28, 0x1p-22, 0x1p-16};
+
+// ---- core/broad: choices of speed alone; any value reports the same pairs
+// (tests/core/broad_catalog_test.cpp). Bites: tests/bench.
+
+/// Cells of a grid, in units of the median box: below 2 a box meets too many columns.
+inline constexpr double grid_cell_factor = 2;
+/// Boxes that a sweep of one column should find to compare with (a count): one comparison of 16 lanes.
+inline constexpr double grid_window = 10;
+/// A box that meets more columns than this, or is longer along the sweep than this many medians, is large.
+inline constexpr unsigned grid_cells_a_box = 16;
+inline constexpr double grid_large_factor = 8;
+/// Below this many boxes a level is swept without cells (a count).
+inline constexpr unsigned grid_least_boxes = 64;
+/// Insertion sort may spend this many moves a box before the order is sorted anew: about the cost of a radix
+/// sort.
+inline constexpr unsigned sweep_moves_a_box = 8;
+/// Changed boxes are searched one by one when they are less than one in this many.
+inline constexpr unsigned sweep_local_share = 8;
+/// The automatic choice: up to this many boxes all pairs are tested; after this many queries in a row with
+/// few changes the hierarchy takes over (its first query is a build); up to this many boxes in the reach of a
+/// sweep no cells are built (counts).
+inline constexpr unsigned brute_force_most = 160;
+inline constexpr unsigned quiet_queries = 2;
+/// From this many boxes on the hierarchy (1e6 uniform: 151 ms a frame against 224 ms of the grid; 1e5: 12
+/// against 10).
+inline constexpr unsigned hierarchy_least = 300000;
+inline constexpr double sweep_reach_most = 130;
+/// A refitted tree is built anew when its lowest nodes have grown by this factor: a build costs about twice a
+/// refit, overlap of nodes grows with the cube of their reach.
+inline constexpr double tree_decay = 1.15;
 
 }  // namespace touchstone::tolerance

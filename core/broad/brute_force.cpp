@@ -1,30 +1,17 @@
 #include "core/broad/brute_force.h"
 
-#include "core/broad/box_set.h"
+#include "core/broad/stored_phase.h"
 
 namespace touchstone::broad {
-namespace {
 
-class BruteForce final : public BroadPhase {
- public:
-  void insert(int id, const Aabb& box) override { set_.insert(id, box); }
-  void move(int id, const Aabb& box) override { set_.move(id, box); }
-  void remove(int id) override { set_.remove(id); }
-  void pairs(std::vector<IdPair>& out) override {
-    out.clear();
-    const auto e = set_.entries();
-    for (std::size_t i = 0; i < e.size(); ++i)
-      for (std::size_t j = i + 1; j < e.size(); ++j)
-        if (overlaps(e[i].box, e[j].box)) out.push_back({e[i].id, e[j].id});
-  }
-  void validate() const override { set_.validate(); }
+void BruteForceFinder::find(const BoxStore& store, PairSink& sink) {
+  columns_.resize(store.present());
+  std::size_t n = 0;
+  for (BoxStore::Slot s = 0; s < store.slots(); ++s)
+    if (store.is_present(s)) columns_.put(n++, store.keys()[s], plain_code(store, s), 0);
+  for (std::size_t i = 0; i + 1 < n; ++i) scan_range(columns_, i, columns_, i + 1, n, sink);
+}
 
- private:
-  BoxSet set_;
-};
-
-}  // namespace
-
-BroadPhasePtr make_brute_force() { return std::make_unique<BruteForce>(); }
+BroadPhasePtr make_brute_force() { return std::make_unique<StoredPhase<BruteForceFinder>>(); }
 
 }  // namespace touchstone::broad

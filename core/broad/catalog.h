@@ -4,7 +4,11 @@
 #include <array>
 #include <string_view>
 
+#include "core/broad/automatic.h"
+#include "core/broad/bounding_volume_hierarchy.h"
 #include "core/broad/brute_force.h"
+#include "core/broad/grid.h"
+#include "core/broad/incremental_sweep.h"
 #include "core/broad/sort_and_sweep.h"
 
 namespace touchstone::broad {
@@ -14,9 +18,14 @@ struct CatalogRow {
   BroadPhasePtr (*make)();
 };
 
-inline constexpr std::array<CatalogRow, 2> catalog{{
+inline constexpr std::array<CatalogRow, 7> catalog{{
+    {"automatic", &make_automatic},
     {"brute_force", &make_brute_force},
     {"sort_and_sweep", &make_sort_and_sweep},
+    {"incremental_sweep", &make_incremental_sweep},
+    {"grid", &make_grid},
+    {"hierarchical_grid", &make_hierarchical_grid},
+    {"bounding_volume_hierarchy", &make_bounding_volume_hierarchy},
 }};
 
 /// Null when there is no such name.

@@ -1,11 +1,30 @@
-// Sort and sweep (Baraff 1992, §"bounding boxes"), rebuilt for each query. The boxes are sorted by their
-// lower end on the axis on which their centres are spread most (least pruning left to do by the other two);
-// each box is compared with those that begin before it ends, ties included; all three axes are tested.
+// Sort and sweep (Baraff 1992, §"bounding boxes"), rebuilt for each query. The boxes are radix-sorted by
+// their lower end on the axis on which their centres are spread most, relative to their size (least pruning
+// left to do by the other two); each box is compared with those that begin before it ends, ties included; all
+// three axes are tested. O(n log n + n + k) with k the pairs that overlap on the axis swept.
 #pragma once
 
-#include "core/broad/broad_phase.h"
+#include "core/broad/key_sort.h"
+#include "core/broad/pair_kernels.h"
+#include "core/broad/scene_stats.h"
 
 namespace touchstone::broad {
+
+class SortAndSweepFinder {
+ public:
+  void find(const BoxStore& store, PairSink& sink);
+  void validate(const BoxStore& store) const;
+  std::size_t memory_bytes() const {
+    return columns_.memory_bytes() + (order_.capacity() + scratch_.capacity()) * sizeof(KeyedSlot);
+  }
+  std::string explain() const;
+
+ private:
+  RememberedStats stats_;
+  int axis_ = 0;
+  std::vector<KeyedSlot> order_, scratch_;
+  BoxColumns columns_;
+};
 
 BroadPhasePtr make_sort_and_sweep();
 

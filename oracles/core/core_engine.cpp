@@ -13,7 +13,7 @@
 namespace touchstone {
 namespace {
 
-constexpr std::string_view broad_phase_name = "sort_and_sweep";
+constexpr std::string_view broad_phase_name = "automatic";
 
 const Body& body_of(const Scene& s, int i) { return s.bodies[static_cast<std::size_t>(i)]; }
 PlacedShape placed(const Scene& s, int i) { return {&s.shape_of(i), body_of(s, i).pose}; }

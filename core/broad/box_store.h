@@ -1,0 +1,67 @@
+// The boxes that are present, in slots that do not move while a box lives, with what changed since the last
+// query: the part that all algorithms have in common.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "core/broad/broad_phase.h"
+#include "core/broad/float_key.h"
+#include "core/broad/id_index.h"
+
+namespace touchstone::broad {
+
+class BoxStore {
+ public:
+  using Slot = std::uint32_t;
+  /// Slots are 29 bits: three bits of a code are flags (pair_kernels.h).
+  static constexpr std::size_t max_slots = std::size_t{1} << 29;
+
+  void insert(int id, const Aabb& box, Mobility mobility);
+  void move(int id, const Aabb& box);
+  void remove(int id);
+  void update(std::span<const BoxUpdate> moves);
+
+  std::size_t slots() const { return boxes_.size(); }
+  std::size_t present() const { return boxes_.size() - free_.size(); }
+  /// By slot. A free slot holds a key box that overlaps nothing.
+  std::span<const KeyBox> keys() const { return keys_; }
+  std::span<const Aabb> boxes() const { return boxes_; }
+  bool is_present(Slot s) const { return (state_[s] & present_bit) != 0; }
+  bool is_fixed(Slot s) const { return (state_[s] & fixed_bit) != 0; }
+  int id(Slot s) const { return ids_[s]; }
+  std::size_t fixed() const { return fixed_; }
+
+  /// Slots inserted, moved or removed since forget_changes(), each once.
+  std::span<const Slot> touched() const { return touched_; }
+  /// Counts insertions and removals since ever.
+  std::uint64_t membership() const { return membership_; }
+  /// Counts every change of a fixed box, its coming and going included.
+  std::uint64_t fixed_changes() const { return fixed_changes_; }
+  void forget_changes();
+
+  /// True when ids ascend with slots, so that pairs sorted by slot are sorted by id.
+  bool slots_ascend() const { return ascending_; }
+  /// True when each id is its slot.
+  bool ids_are_slots() const { return identical_; }
+
+  void validate() const;
+  std::size_t memory_bytes() const;
+
+ private:
+  static constexpr std::uint8_t present_bit = 1, fixed_bit = 2, touched_bit = 4;
+  void touch(Slot s);
+  void put(Slot s, const Aabb& box);
+  std::vector<Aabb> boxes_;
+  std::vector<KeyBox> keys_;
+  std::vector<int> ids_;
+  std::vector<std::uint8_t> state_;
+  std::vector<Slot> free_, touched_;
+  IdIndex index_;
+  std::size_t fixed_ = 0;
+  std::uint64_t membership_ = 0, fixed_changes_ = 0;
+  bool ascending_ = true, identical_ = true;
+};
+
+}  // namespace touchstone::broad

@@ -1,0 +1,115 @@
+#include "core/broad/scene_stats.h"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+namespace touchstone::broad {
+namespace {
+
+constexpr std::size_t sample_size = 256;
+
+// A sample costs about as much as 1000 boxes; a scene changes its kind seldom.
+constexpr int queries_a_sample = 8;
+
+double quantile(std::vector<double>& v, double q) {
+  const auto k = static_cast<std::ptrdiff_t>(q * static_cast<double>(v.size() - 1));
+  std::nth_element(v.begin(), v.begin() + k, v.end());
+  return v[static_cast<std::size_t>(k)];
+}
+
+double deviation(const std::vector<double>& v) {
+  double mean = 0, sum = 0;
+  for (const double x : v) mean += x / static_cast<double>(v.size());
+  for (const double x : v) sum += (x - mean) * (x - mean);
+  return std::sqrt(sum / static_cast<double>(v.size()));
+}
+
+struct Sample {
+  std::vector<double> centre[3], size[3], largest;
+  void add(const Aabb& b) {
+    const Vec3 c = b.lo / 2 + b.hi / 2, extent = b.hi - b.lo;
+    if (!c.allFinite() || !extent.allFinite()) return;
+    for (int k = 0; k < 3; ++k) centre[k].push_back(c[k]), size[k].push_back(extent[k]);
+    largest.push_back(extent.maxCoeff());
+  }
+};
+
+// Share of the boxes in a unit of volume around the average box: the chance that two of the sample lie in one
+// cell of 16³ over the cell's volume. Clusters make it larger than one over the scene's volume.
+double seen_density(const Sample& sample, const SceneStats& s) {
+  constexpr int cells = 16;
+  const std::size_t n = sample.largest.size();
+  double volume = 1;
+  std::vector<int> at(n, 0);
+  for (int k = 0; k < 3; ++k) {
+    const double extent = s.high[k] - s.low[k];
+    volume *= std::max(extent, s.median_size[k]) / cells;
+    for (std::size_t i = 0; i < n; ++i) {
+      const double t = extent > 0 ? (sample.centre[k][i] - s.low[k]) / extent * cells : 0;
+      at[i] = at[i] * cells + static_cast<int>(std::clamp(t, 0.0, cells - 1.0));
+    }
+  }
+  std::sort(at.begin(), at.end());
+  double same = 0;
+  for (std::size_t i = 0, j = 0; i < n; i = j) {
+    while (j < n && at[j] == at[i]) ++j;
+    same += static_cast<double>(j - i) * static_cast<double>(j - i - 1);
+  }
+  const double pairs = static_cast<double>(n) * static_cast<double>(n - 1);
+  return n > 1 ? std::max(same, 1.0) / pairs / volume : 0;
+}
+
+SceneStats summary(Sample& sample) {
+  SceneStats stats;
+  if (sample.largest.empty()) return stats;
+  for (int k = 0; k < 3; ++k) {
+    std::vector<double> centre = sample.centre[k];
+    stats.median_size[k] = quantile(sample.size[k], 0.5);
+    stats.spread[k] = deviation(centre);
+    stats.low[k] = quantile(centre, 1.0 / 64), stats.high[k] = quantile(centre, 63.0 / 64);
+  }
+  stats.density = seen_density(sample, stats);
+  const double median = quantile(sample.largest, 0.5), high = quantile(sample.largest, 0.99);
+  stats.largest_ratio = median > 0 ? high / median : 1;
+  return stats;
+}
+
+std::size_t step_through(std::size_t n) { return std::max<std::size_t>(1, n / sample_size); }
+
+}  // namespace
+
+SceneStats sample_scene(const BoxStore& store) {
+  Sample sample;
+  for (std::size_t s = 0; s < store.slots(); s += step_through(store.slots()))
+    if (store.is_present(static_cast<BoxStore::Slot>(s))) sample.add(store.boxes()[s]);
+  return summary(sample);
+}
+
+SceneStats sample_scene(const BoxStore& store, std::span<const KeyedSlot> boxes) {
+  Sample sample;
+  for (std::size_t i = 0; i < boxes.size(); i += step_through(boxes.size()))
+    sample.add(store.boxes()[boxes[i].slot]);
+  return summary(sample);
+}
+
+const SceneStats& RememberedStats::of(const BoxStore& store) {
+  if (age_ == 0 || store.present() > 2 * present_ || present_ > 2 * store.present()) {
+    stats_ = sample_scene(store);
+    age_ = queries_a_sample, present_ = store.present();
+  }
+  --age_;
+  return stats_;
+}
+
+int best_axis(const SceneStats& s) {
+  int best = 0;
+  double most = -1;
+  for (int k = 0; k < 3; ++k) {
+    const double room = s.median_size[k] > 0 ? s.spread[k] / s.median_size[k] : s.spread[k];
+    if (room > most) most = room, best = k;
+  }
+  return best;
+}
+
+}  // namespace touchstone::broad

@@ -1,0 +1,40 @@
+// BroadPhase of a finder: the boxes, the changes and the output are kept here, a finder only finds. It has
+//   void find(const BoxStore&, PairSink&)   each overlapping pair of slots but fixed–fixed put in once;
+//   changes
+//                                           since the last call are in store.touched()
+//   void validate(const BoxStore&) const    throws std::logic_error
+//   std::size_t memory_bytes() const
+//   std::string explain() const
+#pragma once
+
+#include "core/broad/pair_sink.h"
+
+namespace touchstone::broad {
+
+template <class Finder>
+class StoredPhase final : public BroadPhase {
+ public:
+  using BroadPhase::insert;
+  void insert(int id, const Aabb& box, Mobility mobility) override { store_.insert(id, box, mobility); }
+  void move(int id, const Aabb& box) override { store_.move(id, box); }
+  void remove(int id) override { store_.remove(id); }
+  void update(std::span<const BoxUpdate> moves) override { store_.update(moves); }
+  void pairs(std::vector<IdPair>& out) override {
+    sink_.clear();
+    finder_.find(store_, sink_);
+    sink_.finish(store_, out);
+    store_.forget_changes();
+  }
+  void validate() const override { store_.validate(), finder_.validate(store_); }
+  std::size_t memory_bytes() const override {
+    return sizeof *this + store_.memory_bytes() + sink_.memory_bytes() + finder_.memory_bytes();
+  }
+  std::string explain() const override { return finder_.explain(); }
+
+ private:
+  BoxStore store_;
+  PairSink sink_;
+  Finder finder_;
+};
+
+}  // namespace touchstone::broad

@@ -1,0 +1,52 @@
+// The scripts that broad phases are timed on. Coordinates are exact floats, so that float and double engines
+// see the same boxes and must report the same pairs.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/base/rng.h"
+#include "core/broad/broad_phase.h"
+
+namespace touchstone::bench {
+
+inline constexpr std::string_view scene_names[] = {"uniform", "mixed", "clustered", "static95", "teleport"};
+
+class BoxScene {
+ public:
+  BoxScene(std::string_view kind, int n, std::uint64_t seed);
+  const std::vector<Aabb>& boxes() const { return boxes_; }
+  /// The next frame's moves.
+  const std::vector<broad::BoxUpdate>& step();
+
+ private:
+  void place(int i);
+  void shift(int i);
+  std::string kind_;
+  int n_;
+  Rng r_;
+  double side_ = 0;
+  std::vector<Vec3> blobs_;
+  std::vector<Aabb> boxes_;
+  std::vector<broad::BoxUpdate> moves_;
+};
+
+/// What is timed: a phase of the catalog, the plain sweep, or a peer.
+class Contestant {
+ public:
+  virtual ~Contestant() = default;
+  virtual void start(const std::vector<Aabb>& boxes) = 0;
+  virtual void frame(const std::vector<broad::BoxUpdate>& moves, std::vector<broad::IdPair>& out) = 0;
+  /// False when the pairs come in no order.
+  virtual bool sorted() const { return false; }
+  virtual std::string note() const { return {}; }
+  virtual std::size_t memory_bytes() const { return 0; }
+};
+
+std::unique_ptr<Contestant> make_plain_sweep();
+std::unique_ptr<Contestant> make_fcl_tree();
+std::unique_ptr<Contestant> make_bullet_dbvt();
+std::unique_ptr<Contestant> make_bullet_sweep();
+
+}  // namespace touchstone::bench
