@@ -16,22 +16,8 @@ std::string shapes_of(const Case& c, int a, int b) {
   return std::string(x) + "-" + std::string(y);
 }
 
-// Verdicts of exact pairs in a form that the short checker accepts.
-referee::Certificate printable(const FaultReport& f, Truth& truth) {
-  using Kind = referee::Certificate::Kind;
-  const Kind k = f.certificate.kind;
-  const int n = static_cast<int>(truth.scene().bodies.size());
-  if (f.step >= 0 || f.a < 0 || f.b < 0 || f.a >= n || f.b >= n ||
-      (k != Kind::separating_plane && k != Kind::common_point))
-    return f.certificate;
-  auto c =
-      referee::checkable_certificate(truth.pair(0, f.a, f.b), truth.placed(0, f.a), truth.placed(0, f.b));
-  return c.kind == Kind::none ? f.certificate : c;
-}
-
-void add_findings(CampaignResult& r, Truth& truth, const Case& c, std::uint64_t index,
-                  const std::string& engine, const Query& q, const Judgement& j, const CaseObservations& all,
-                  const Observation& o) {
+void add_findings(CampaignResult& r, const Case& c, std::uint64_t index, const std::string& engine,
+                  const Query& q, const Judgement& j, const CaseObservations& all, const Observation& o) {
   for (const FaultReport& fault : j.faults) {
     Finding f;
     f.engine = engine, f.question = to_string(q.question);
@@ -44,7 +30,8 @@ void add_findings(CampaignResult& r, Truth& truth, const Case& c, std::uint64_t 
     if (kept.count == 0 || index < kept.first_index) {
       // The last words of a dying process stay out of the finding: they may differ from run to run.
       f.words = fault.fault == Fault::failed ? std::string(to_string(j.outcome)) : fault.words;
-      f.evidence = std::make_shared<const Evidence>(Evidence{c, o, all.received, printable(fault, truth)});
+      f.evidence = std::make_shared<const Evidence>(
+          Evidence{c, o, all.received, fault.certificate, fault.step < 0 ? fault.a : -1, fault.b, {}});
     }
     kept.merge(f);
   }
@@ -92,7 +79,7 @@ void judge_into(CampaignResult& r, const Case& c, std::uint64_t index, std::span
       const Observation& o = observations[e].answers[i];
       r.tallies[card.name][c.queries[i].question].add(judgements[i], o);
       r.engine_ns += o.elapsed_ns;
-      add_findings(r, truth, c, index, card.name, c.queries[i], judgements[i], observations[e], o);
+      add_findings(r, c, index, card.name, c.queries[i], judgements[i], observations[e], o);
     }
   }
   count_hit(r, c, truth);

@@ -55,6 +55,10 @@ struct Evidence {
   Observation observation;
   ReceivedScene received;
   referee::Certificate certificate;
+  int a = -1, b = -1;  // bodies whose verdict it certifies; a < 0: none, or at a step of a script
+  /// {"case", "observation", "certificate", "received"}, made once; of one thread at a time.
+  const Json& json() const;
+  mutable Json made;
 };
 
 /// One kind of wrong answer: same engine, question, fault, shapes and blame. Keeps its first case.
@@ -66,7 +70,6 @@ struct Finding {
   std::string words;
   std::shared_ptr<const Evidence> evidence;  // of the first case; empty when read back from disk:
   Json stored;                               // then its JSON form
-  /// {"case", "observation", "certificate", "received"}
   Json evidence_json() const;
   std::string key() const { return engine + "." + question + "." + fault + "." + shapes + "." + blame; }
   void merge(const Finding& o);
