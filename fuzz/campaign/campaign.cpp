@@ -83,14 +83,8 @@ class Runner {
     const std::uint64_t end =
         config_.cases ? std::min(first + chunk_cases, *config_.cases) : first + chunk_cases;
     for (std::uint64_t i = first; i < end; ++i) cases.push_back(make_case(config_.seed, i, config_.family));
-    std::vector<std::vector<CaseObservations>> by_engine;
-    for (const EnginePtr& e : engines) by_engine.push_back(e->run(cases));
     CampaignResult r;
-    for (std::size_t i = 0; i < cases.size(); ++i) {
-      std::vector<CaseObservations> observations;
-      for (auto& of_engine : by_engine) observations.push_back(std::move(of_engine[i]));
-      judge_into(r, cases[i], first + i, engines, observations);
-    }
+    ask_and_judge(r, cases, first, engines);
     r.total_ns = std::chrono::nanoseconds(Clock::now() - start).count();
     return r;
   }

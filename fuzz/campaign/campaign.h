@@ -43,6 +43,10 @@ using ProgressCallback = std::function<void(const Progress&)>;
 void judge_into(CampaignResult& result, const Case& c, std::uint64_t index,
                 std::span<const EnginePtr> engines, std::span<const CaseObservations> observations);
 
+/// Asks every engine about all cases, then judges each case; case i is counted as index first_index + i.
+void ask_and_judge(CampaignResult& result, std::span<const Case> cases, std::uint64_t first_index,
+                   std::span<const EnginePtr> engines);
+
 /// Runs to the end, to the time limit, or until `stop` is set (what is done is kept and can be resumed from
 /// `out`). Throws InputError when `out` holds a finished campaign or one with other settings.
 CampaignResult run_campaign(const CampaignConfig& config, const EngineFactory& engines,

@@ -87,4 +87,15 @@ void judge_into(CampaignResult& r, const Case& c, std::uint64_t index, std::span
   r.judge_ns += std::chrono::nanoseconds(std::chrono::steady_clock::now() - start).count();
 }
 
+void ask_and_judge(CampaignResult& r, std::span<const Case> cases, std::uint64_t first_index,
+                   std::span<const EnginePtr> engines) {
+  std::vector<std::vector<CaseObservations>> by_engine;
+  for (const EnginePtr& e : engines) by_engine.push_back(e->run(cases));
+  for (std::size_t i = 0; i < cases.size(); ++i) {
+    std::vector<CaseObservations> observations;
+    for (auto& of_engine : by_engine) observations.push_back(std::move(of_engine[i]));
+    judge_into(r, cases[i], first_index + i, engines, observations);
+  }
+}
+
 }  // namespace touchstone::fuzz

@@ -65,13 +65,8 @@ bool replay_real_scene(const Options& o, const Engines& engines, const std::stri
     const auto cases = fuzz::real_scene_cases(scene, f);
     for (std::size_t first = 0; first < cases.size(); first += batch) {
       const std::span<const Case> part(cases.data() + first, std::min(batch, cases.size() - first));
-      std::vector<std::vector<CaseObservations>> by_engine;
-      for (const EnginePtr& e : engines) by_engine.push_back(e->run(part));
-      for (std::size_t i = 0; i < part.size(); ++i) {
-        std::vector<CaseObservations> observations;
-        for (auto& of_engine : by_engine) observations.push_back(std::move(of_engine[i]));
-        fuzz::judge_into(result, part[i], index++, engines, observations);
-      }
+      fuzz::ask_and_judge(result, part, index, engines);
+      index += part.size();
     }
     fmt::print(stderr, "{} frame {}: {} cases\n", scene.name, f, cases.size());
   }
