@@ -5,14 +5,13 @@
 #include "core/base/input_error.h"
 #include "core/scene/real_scene.h"
 #include "fuzz/campaign/campaign.h"
+#include "fuzz/cli/case_argument.h"
 #include "fuzz/cli/command.h"
 #include "fuzz/cli/engine_catalog.h"
 #include "fuzz/explore/real_scene_cases.h"
 #include "fuzz/judge/judge.h"
 #include "reports/replay_text.h"
 #include "reports/text.h"
-#include "scenarios/case_codec.h"
-#include "scenarios/catalog.h"
 
 namespace touchstone::cli {
 namespace {
@@ -81,14 +80,6 @@ bool replay_real_scene(const Options& o, const Engines& engines, const std::stri
   return result.wrong_of(o.subject) + result.failed_of(o.subject) > 0;
 }
 
-// A file, or the name of a scenario.
-Case case_named(const std::string& path) {
-  if (!std::filesystem::exists(path))
-    for (const auto& s : scenarios::catalog())
-      if (s.name == path) return s.make();
-  return load_case(path);
-}
-
 int run(const Options& o) {
   Engines engines;
   for (const auto& name : engine_names(o.engines)) engines.push_back(make_engine(name, o.limits));
@@ -98,7 +89,7 @@ int run(const Options& o) {
     if (std::filesystem::exists(std::filesystem::path(path) / "scene.txt"))
       subject_wrong |= replay_real_scene(o, engines, path, json);
     else
-      subject_wrong |= replay_case(o, engines, case_named(path), json);
+      subject_wrong |= replay_case(o, engines, case_argument(path).c, json);
   }
   if (o.json) fmt::print("{}\n", json.dump(1));
   return subject_wrong ? exit_wrong : exit_clean;
@@ -108,9 +99,10 @@ int run(const Options& o) {
 
 Run declare_replay(CLI::App& app) {
   auto o = std::make_shared<Options>();
-  app.add_option(
-         "case", o->paths,
-         "case or scene files, names of scenarios, or directories of recorded scenes (scene.txt, frames.npy)")
+  app.add_option("case", o->paths,
+                 "case or scene files, directories of findings, names of scenarios, or directories of "
+                 "recorded scenes "
+                 "(scene.txt, frames.npy)")
       ->required();
   app.add_option("--engines", o->engines, "engines to ask: names, plug-in paths, or all")
       ->capture_default_str();

@@ -14,10 +14,11 @@ namespace fs = std::filesystem;
 namespace {
 
 const std::vector<std::string> rooms = {
-    "core/base",      "core/math",      "core/shape",      "core/scene",      "core/broad",   "core/narrow",
-    "core/ccd",       "core/world",     "oracles/api",     "oracles/host",    "oracles/core", "oracles/fcl",
-    "oracles/bullet", "oracles/libccd", "oracles/referee", "oracles/example", "scenarios",    "fuzz/record",
-    "fuzz/judge",     "fuzz/generate",  "fuzz/campaign",   "fuzz/explore",    "fuzz/cli",     "reports"};
+    "core/base",       "core/math",   "core/shape",     "core/scene",     "core/broad",
+    "core/narrow",     "core/ccd",    "core/world",     "oracles/api",    "oracles/host",
+    "oracles/core",    "oracles/fcl", "oracles/bullet", "oracles/libccd", "oracles/referee",
+    "oracles/example", "scenarios",   "fuzz/record",    "fuzz/judge",     "fuzz/generate",
+    "fuzz/campaign",   "fuzz/shrink", "fuzz/explore",   "fuzz/cli",       "reports"};
 
 // The value types: scene.h and what it needs.
 const std::vector<std::string> values = {"core/base", "core/math", "core/shape", "core/scene/scene.h",
@@ -52,6 +53,7 @@ const std::map<std::string, std::vector<std::string>> may_include = {
     {"fuzz/generate", with_values({"fuzz/generate", "oracles/api/observation.h"})},
     {"fuzz/campaign", with_values({"fuzz/campaign", "fuzz/generate", "fuzz/judge", "fuzz/record",
                                    "core/scene", "scenarios", "oracles/api"})},
+    {"fuzz/shrink", with_values({"fuzz/shrink", "fuzz/campaign", "fuzz/record", "oracles/api"})},
     {"fuzz/explore", with_values({"fuzz/explore", "fuzz/campaign", "fuzz/judge", "fuzz/record", "core/scene",
                                   "scenarios", "oracles/api", "oracles/referee/referee.h"})},
     {"reports", with_values({"reports", "fuzz/record", "fuzz/judge"})},

@@ -143,6 +143,43 @@ TEST_CASE("a campaign prints its table in 80 columns and leaves replayable findi
   CHECK((again.out.find("WRONG") != std::string::npos || again.out.find("FAILED") != std::string::npos));
 }
 
+TEST_CASE("a finding shrinks from its directory and still shows", "[cli]") {
+  const Workspace w;
+  w.touchstone("fuzz --cases 96 --seed 3 --out results");
+  if (!fs::exists(w.dir / "results" / "findings")) {
+    WARN("no oracle is installed: no findings to shrink");
+    return;
+  }
+  std::size_t shrunk = 0;
+  for (const auto& entry : fs::directory_iterator(w.dir / "results" / "findings")) {
+    const std::string key = entry.path().filename();
+    if (key.find("timed_out") != std::string::npos) continue;  // a second a question
+    const Run r = w.touchstone("shrink " + entry.path().string() + " -o small.json --json");
+    INFO(key << " says: " << r.err);
+    REQUIRE(r.code == 0);
+    const auto doc = nlohmann::json::parse(r.out);
+    CHECK(doc.at("key") == key);
+    CHECK(doc.at("after").at("bodies") <= 2);
+    const std::string engine = key.substr(0, key.find('.'));
+    const Run again = w.touchstone("replay small.json --engines " + engine + " --subject " + engine);
+    CHECK(again.code == 1);
+    if (++shrunk == 6) break;
+  }
+  CHECK(shrunk == 6);
+  const Run clean = w.touchstone("shrink touching_boxes_nothing_of_this_name");
+  CHECK(clean.code == 2);
+}
+
+TEST_CASE("shrink says when there is nothing to shrink, and asks which finding when there are several",
+          "[cli]") {
+  const Workspace w;
+  w.write("spheres.json", spheres("1.5"));
+  const Run clean = w.touchstone("shrink spheres.json");
+  CHECK(clean.code == 3);
+  CHECK(clean.err == "core is not found wrong\n");
+  CHECK(w.touchstone("shrink spheres.json --key nobody.contact.missed.box-box.algorithm").code == 2);
+}
+
 TEST_CASE("a flat hull works and is called what it is", "[cli]") {
   const Workspace w;
   w.write("flat.json", R"({"touchstone_scene":1,"shapes":[

@@ -1,0 +1,103 @@
+#include "fuzz/shrink/measure.h"
+
+#include <bit>
+#include <cmath>
+
+namespace touchstone::fuzz {
+namespace {
+
+void collect(double& v, std::vector<double*>& out) { out.push_back(&v); }
+void collect(Vec3& v, std::vector<double*>& out) {
+  for (double& x : v) out.push_back(&x);
+}
+void collect(std::vector<Vec3>& v, std::vector<double*>& out) {
+  for (Vec3& p : v) collect(p, out);
+}
+void collect(std::vector<std::array<int, 3>>&, std::vector<double*>&) {}
+
+void collect(Pose& p, std::vector<double*>& out) {
+  collect(p.translation, out);
+  for (double* x : {&p.rotation.x, &p.rotation.y, &p.rotation.z, &p.rotation.w}) out.push_back(x);
+}
+
+void collect(Shape& shape, std::vector<double*>& out) {
+  std::visit([&](auto& s) { for_each_field(s, [&](auto, auto& value, Domain) { collect(value, out); }); },
+             shape);
+}
+
+std::size_t parts(const Shape& shape) {
+  if (const auto* h = std::get_if<Hull>(&shape)) return h->vertices.size();
+  if (const auto* m = std::get_if<TriangleMesh>(&shape)) return m->vertices.size() + 3 * m->triangles.size();
+  return 0;
+}
+
+// The identity costs nothing: w counts by its distance from 1.
+std::uint64_t bits_of(const Pose& p) {
+  std::uint64_t n = 0;
+  for (double x : p.translation) n += static_cast<std::uint64_t>(fuzz::bits_of(x));
+  for (double x : {p.rotation.x, p.rotation.y, p.rotation.z})
+    n += static_cast<std::uint64_t>(fuzz::bits_of(x));
+  return n + (p.rotation.w == 1 ? 0 : 1 + static_cast<std::uint64_t>(fuzz::bits_of(p.rotation.w)));
+}
+
+}  // namespace
+
+int bits_of(double v) {
+  if (v == 0) return std::signbit(v) ? 1 : 0;
+  if (!std::isfinite(v)) return 64;
+  int exponent = 0;
+  const auto mantissa = static_cast<std::uint64_t>(std::ldexp(std::frexp(std::abs(v), &exponent), 53));
+  const int significant = 53 - std::countr_zero(mantissa);
+  return significant + static_cast<int>(std::bit_width(static_cast<unsigned>(std::abs(exponent - 1)))) +
+         (std::signbit(v) ? 1 : 0);
+}
+
+double rounded_to(double v, int significant) {
+  if (v == 0 || !std::isfinite(v)) return v;
+  int exponent = 0;
+  const double m = std::frexp(v, &exponent);
+  const double r = std::ldexp(std::nearbyint(std::ldexp(m, significant)), exponent - significant);
+  return std::isfinite(r) ? r : v;
+}
+
+std::vector<double*> numbers(Case& c) {
+  std::vector<double*> out;
+  for (Shape& s : c.scene.shapes) collect(s, out);
+  for (Body& b : c.scene.bodies) {
+    collect(b.pose, out);
+    if (b.motion) collect(b.motion->linear, out), collect(b.motion->angular, out);
+  }
+  for (Step& s : c.scene.script)
+    if (s.pose) collect(*s.pose, out);
+  return out;
+}
+
+void renew(Case& c) {
+  for (Shape& s : c.scene.shapes)
+    if (auto* h = std::get_if<Hull>(&s)) *h = make_hull(std::move(h->vertices));
+}
+
+Measure measure(const Case& c) {
+  const Scene& s = c.scene;
+  Measure m{s.bodies.size(), s.script.size(), 0};
+  m.bits += s.shapes.size() + c.queries.size() + 2 * s.ignored.size();
+  std::vector<double*> found;
+  for (Shape shape : s.shapes) {
+    found.clear();
+    collect(shape, found);
+    for (const double* x : found) m.bits += static_cast<std::uint64_t>(bits_of(*x));
+    m.bits += parts(shape);
+  }
+  for (const Body& b : s.bodies) {
+    m.bits += bits_of(b.pose) + b.is_static + (b.group != -1) + !b.name.empty();
+    if (!b.motion) continue;
+    ++m.bits;
+    for (double x : b.motion->linear) m.bits += static_cast<std::uint64_t>(bits_of(x));
+    for (double x : b.motion->angular) m.bits += static_cast<std::uint64_t>(bits_of(x));
+  }
+  for (const Step& step : s.script)
+    if (step.pose) m.bits += 1 + bits_of(*step.pose);
+  return m;
+}
+
+}  // namespace touchstone::fuzz

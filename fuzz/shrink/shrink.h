@@ -1,0 +1,36 @@
+// The smallest case that still shows a finding: greedy reduction to a fixpoint, in the manner of delta
+// debugging (Zeller and Hildebrandt 2002, "Simplifying and isolating failure-inducing input", §3): drop
+// halves, quarters, …, single elements of every list in the case, then simplify single things, then round
+// numbers.
+//
+// Guarantee: the result shows what `still` asks for, is a valid scene, and is no larger than the case by
+// Measure. At exit `smallest` no single reduction of reductions.h makes it smaller; it is a local minimum,
+// not the least case.
+#pragma once
+
+#include <functional>
+#include <span>
+#include <string_view>
+
+#include "fuzz/shrink/measure.h"
+
+namespace touchstone::fuzz {
+
+/// For each case: does it still show what must be kept? Deterministic. Batches, because engines answer over a
+/// pipe.
+using StillShows = std::function<std::vector<bool>(std::span<const Case>)>;
+
+enum class ShrinkExit { smallest, out_of_tries, not_shown };
+std::string_view to_string(ShrinkExit e);
+
+struct Shrunk {
+  Case smallest;
+  Measure before, after;
+  std::size_t tried = 0;  // cases asked about
+  ShrinkExit exit = ShrinkExit::not_shown;
+};
+
+/// not_shown: c itself does not show it, and is returned as it is.
+Shrunk shrink(const Case& c, const StillShows& still, std::size_t max_tries = 20000);
+
+}  // namespace touchstone::fuzz
