@@ -3,6 +3,8 @@
 
 #include "fuzz/campaign/campaign.h"
 #include "fuzz/judge/judge.h"
+#include "fuzz/record/degeneracy.h"
+#include "fuzz/record/magnitude.h"
 #include "scenarios/case_codec.h"
 
 namespace touchstone::fuzz {
@@ -25,6 +27,8 @@ void add_findings(CampaignResult& r, const Case& c, std::uint64_t index, const s
     f.fault = fault.fault == Fault::failed ? to_string(j.outcome) : to_string(fault.fault);
     f.shapes = shapes_of(c, fault.a, fault.b);
     f.blame = to_string(j.blame);
+    f.degeneracy = degeneracy_of(c, fault.a, fault.b),
+    f.magnitude = to_string(magnitude_of(fault.error_in_l));
     f.count = 1, f.worst_in_l = fault.error_in_l, f.first_index = index;
     auto& kept = r.findings[f.key()];
     if (kept.count == 0 || index < kept.first_index) {

@@ -73,14 +73,9 @@ void save_findings(const CampaignConfig& config, const CampaignResult& result) {
     if (ec) throw InputError(dir.string(), "cannot be made: " + ec.message());
     const Json evidence = f.evidence_json();
     write_atomically(dir / "case.json", evidence.at("case").dump(1) + "\n");
-    const Json j = {{"key", key},
-                    {"words", f.words},
-                    {"count", f.count},
-                    {"worst_in_l", number(f.worst_in_l)},
-                    {"first_index", f.first_index},
-                    {"observation", evidence.at("observation")},
-                    {"certificate", evidence.at("certificate")},
-                    {"received", evidence.at("received")}};
+    Json j = {{"key", key}};
+    j.update(to_json(f));
+    for (const char* part : {"observation", "certificate", "received"}) j[part] = evidence.at(part);
     write_atomically(dir / "finding.json", j.dump(1) + "\n");
   }
   Json summary = to_json(result, true);

@@ -46,26 +46,16 @@ std::string engine_of(const std::string& key) {
   return found;
 }
 
-std::string list_of(const std::map<std::string, double>& findings) {
-  std::string text;
-  for (const auto& [key, error] : findings) text += fmt::format("\n  {}", key);
-  return text;
-}
+using Findings = std::map<std::string, fuzz::Finding>;
 
-struct Target {
-  std::string key;
-  double error_in_l = 0;
-};
-
-// The finding asked for, or the only one. Empty key: the case shows none (of that key).
-Target choose(const std::string& key, const std::map<std::string, double>& findings) {
-  if (!key.empty()) {
-    const auto it = findings.find(key);
-    return it == findings.end() ? Target{} : Target{it->first, it->second};
-  }
+// The finding asked for, or the only one; empty: the case shows none (of that key).
+std::string choose(const std::string& key, const Findings& findings) {
+  if (!key.empty()) return findings.contains(key) ? key : "";
   if (findings.empty()) return {};
-  if (findings.size() > 1) throw InputError("--key", "which finding? The case shows" + list_of(findings));
-  return {findings.begin()->first, findings.begin()->second};
+  std::string list;
+  for (const auto& [each, f] : findings) list += "\n  " + each;
+  if (findings.size() > 1) throw InputError("--key", "which finding? The case shows" + list);
+  return findings.begin()->first;
 }
 
 std::string in_words(const fuzz::Measure& m) {
@@ -74,15 +64,18 @@ std::string in_words(const fuzz::Measure& m) {
 
 Json to_json(const fuzz::Measure& m) { return {{"bodies", m.bodies}, {"steps", m.steps}, {"bits", m.bits}}; }
 
-void print(const Options& o, const Target& target, const fuzz::Shrunk& r, const StoredCase& result) {
+void print(const Options& o, const std::string& key, const fuzz::Shrunk& r, const StoredCase& result) {
   if (o.json) {
-    const Json j = {{"key", target.key},         {"exit", to_string(r.exit)},
-                    {"tried", r.tried},          {"before", to_json(r.before)},
-                    {"after", to_json(r.after)}, {"case", stored_case_to_json(result)}};
+    const Json j = {{"key", key},
+                    {"exit", to_string(r.exit)},
+                    {"tried", r.tried},
+                    {"before", to_json(r.before)},
+                    {"after", to_json(r.after)},
+                    {"case", stored_case_to_json(result)}};
     fmt::print("{}\n", j.dump(1));
     return;
   }
-  fmt::print(stderr, "{}\nbefore: {}\nafter:  {} ({}, {} cases tried)\n", target.key, in_words(r.before),
+  fmt::print(stderr, "{}\nbefore: {}\nafter:  {} ({}, {} cases tried)\n", key, in_words(r.before),
              in_words(r.after), to_string(r.exit), r.tried);
   if (o.out.empty())
     fmt::print("{}", to_text(result));
@@ -95,19 +88,18 @@ int run(Options o) {
   if (o.key.empty() && o.engine.empty()) o.key = stored_key(o.path);
   if (o.engine.empty()) o.engine = o.key.empty() ? "core" : engine_of(o.key);
   const EnginePtr engine = make_engine(engine_names(o.engine).at(0), o.limits);
-  const Target target = choose(o.key, fuzz::findings_of({&stored.c, 1}, engine)[0]);
-  if (target.key.empty()) {
+  const std::string key = choose(o.key, fuzz::findings_of({&stored.c, 1}, engine)[0]);
+  if (key.empty()) {
     fmt::print(stderr, "{} is not found wrong{}\n", o.engine, o.key.empty() ? "" : " in this way: " + o.key);
     return exit_failed;
   }
-  const auto shrunk =
-      fuzz::shrink(stored.c, fuzz::keeps_finding(engine, stored.c, target.key, target.error_in_l), o.tries);
+  const auto shrunk = fuzz::shrink(stored.c, fuzz::keeps_finding(engine, key), o.tries);
   StoredCase result;
   result.c = shrunk.smallest;
-  result.description = "shows " + target.key;
+  result.description = "shows " + key;
   result.source = "shrunk from " + (stored.source.empty() ? stored.c.id : stored.source);
   if (!o.out.empty()) save_case(result, o.out);
-  print(o, target, shrunk, result);
+  print(o, key, shrunk, result);
   if (shrunk.exit == fuzz::ShrinkExit::not_shown) {
     fmt::print(stderr, "the finding came once and not again: the engine does not answer the same twice\n");
     return exit_failed;

@@ -28,5 +28,6 @@ Run declare_scenarios(CLI::App& app);
 Run declare_fuzz(CLI::App& app);
 Run declare_replay(CLI::App& app);
 Run declare_shrink(CLI::App& app);
+Run declare_triage(CLI::App& app);
 
 }  // namespace touchstone::cli

@@ -14,6 +14,8 @@ constexpr Command table[] = {
     {"fuzz", "random differential campaign: every engine, every answer refereed", declare_fuzz},
     {"replay", "every engine's answer to stored cases, beside the referee's", declare_replay},
     {"shrink", "the smallest case that shows the same finding", declare_shrink},
+    {"triage", "the findings of a campaign against the ledger of known ones: new, known, gone",
+     declare_triage},
     {"check", "is a stored certificate a proof? in exact arithmetic, from the scene alone", declare_check},
     {"engines", "the engines present, their versions, settings and tolerances", declare_engines},
     {"families", "the families of random cases, a line each", declare_families},

@@ -31,8 +31,14 @@ inline bool is_flat(const Shape& shape) {
       shape);
 }
 
-inline bool has_flat_shape(const Case& c) {
-  return std::any_of(c.scene.shapes.begin(), c.scene.shapes.end(), [](const Shape& s) { return is_flat(s); });
+/// Of the two bodies when there are such, else of any: "flat" or "solid".
+inline std::string_view degeneracy_of(const Case& c, int a, int b) {
+  const int n = static_cast<int>(c.scene.bodies.size());
+  const bool flat = a >= 0 && b >= 0 && a < n && b < n
+                        ? is_flat(c.scene.shape_of(a)) || is_flat(c.scene.shape_of(b))
+                        : std::any_of(c.scene.shapes.begin(), c.scene.shapes.end(),
+                                      [](const Shape& s) { return is_flat(s); });
+  return flat ? "flat" : "solid";
 }
 
 }  // namespace touchstone::fuzz

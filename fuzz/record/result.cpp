@@ -1,5 +1,7 @@
 #include "fuzz/record/result.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -106,6 +108,10 @@ const Json& Evidence::json() const {
   return made;
 }
 
+std::string Finding::key() const {
+  return fmt::format("{}.{}.{}.{}.{}.{}.{}", engine, question, fault, shapes, blame, degeneracy, magnitude);
+}
+
 Json Finding::evidence_json() const { return evidence ? evidence->json() : stored; }
 
 void Finding::merge(const Finding& o) {
@@ -175,30 +181,24 @@ Tally tally_from_json(const Json& j) {
   return t;
 }
 
+}  // namespace
+
 Json to_json(const Finding& f) {
-  return {{"engine", f.engine},
-          {"question", f.question},
-          {"fault", f.fault},
-          {"shapes", f.shapes},
-          {"blame", f.blame},
-          {"count", f.count},
-          {"worst_in_l", number(f.worst_in_l)},
-          {"first_index", f.first_index},
-          {"words", f.words},
-          {"evidence", f.evidence_json()}};
+  return {{"engine", f.engine},           {"question", f.question}, {"fault", f.fault},
+          {"shapes", f.shapes},           {"blame", f.blame},       {"degeneracy", f.degeneracy},
+          {"magnitude", f.magnitude},     {"count", f.count},       {"worst_in_l", number(f.worst_in_l)},
+          {"first_index", f.first_index}, {"words", f.words}};
 }
 
 Finding finding_from_json(const Json& j) {
   Finding f;
   f.engine = j.at("engine"), f.question = j.at("question"), f.fault = j.at("fault"),
-  f.shapes = j.at("shapes");
+  f.shapes = j.at("shapes"), f.degeneracy = j.at("degeneracy"), f.magnitude = j.at("magnitude");
   f.blame = j.at("blame"), f.count = j.at("count"), f.worst_in_l = number_from(j.at("worst_in_l"));
   f.first_index = j.at("first_index"), f.words = j.at("words");
-  f.stored = j.at("evidence");
+  if (j.contains("evidence")) f.stored = j.at("evidence");
   return f;
 }
-
-}  // namespace
 
 Json to_json(const CampaignResult& r, bool with_times) {
   Json j;
@@ -212,6 +212,7 @@ Json to_json(const CampaignResult& r, bool with_times) {
   j["findings"] = Json::object();
   for (const auto& [key, f] : r.findings) {
     j["findings"][key] = to_json(f);
+    j["findings"][key]["evidence"] = f.evidence_json();
     // What a dying process last said may name addresses: for people, not for comparison.
     if (!with_times) j["findings"][key]["evidence"]["observation"].erase("detail");
   }

@@ -61,9 +61,10 @@ struct Evidence {
   mutable Json made;
 };
 
-/// One kind of wrong answer: same engine, question, fault, shapes and blame. Keeps its first case.
+/// One kind of wrong answer: same engine (which names its path), question, fault, shapes, blame, degeneracy
+/// (degeneracy.h) and magnitude of the error (magnitude.h). Keeps its first case.
 struct Finding {
-  std::string engine, question, fault, shapes, blame;
+  std::string engine, question, fault, shapes, blame, degeneracy, magnitude;
   std::uint64_t count = 0;
   double worst_in_l = 0;
   std::uint64_t first_index = 0;
@@ -71,9 +72,12 @@ struct Finding {
   std::shared_ptr<const Evidence> evidence;  // of the first case; empty when read back from disk:
   Json stored;                               // then its JSON form
   Json evidence_json() const;
-  std::string key() const { return engine + "." + question + "." + fault + "." + shapes + "." + blame; }
+  std::string key() const;
   void merge(const Finding& o);
 };
+/// The evidence may be missing. Throws nlohmann's exceptions.
+Finding finding_from_json(const Json& j);
+Json to_json(const Finding& f);  // without evidence
 
 struct CampaignResult {
   std::map<std::string, std::map<Question, Tally>> tallies;  // by engine

@@ -1,35 +1,25 @@
 #include "fuzz/shrink/keeps_finding.h"
 
 #include "fuzz/campaign/campaign.h"
-#include "fuzz/record/degeneracy.h"
-#include "fuzz/record/magnitude.h"
 
 namespace touchstone::fuzz {
 
-std::vector<std::map<std::string, double>> findings_of(std::span<const Case> cases, const EnginePtr& engine) {
+std::vector<std::map<std::string, Finding>> findings_of(std::span<const Case> cases,
+                                                        const EnginePtr& engine) {
   const auto observations = engine->run(cases);
-  std::vector<std::map<std::string, double>> out(cases.size());
+  std::vector<std::map<std::string, Finding>> out(cases.size());
   for (std::size_t i = 0; i < cases.size(); ++i) {
     CampaignResult r;
     judge_into(r, cases[i], i, {&engine, 1}, {&observations[i], 1});
-    for (const auto& [key, f] : r.findings) out[i].emplace(key, f.worst_in_l);
+    out[i] = std::move(r.findings);
   }
   return out;
 }
 
-StillShows keeps_finding(const EnginePtr& engine, const Case& c, std::string key, double error_in_l) {
-  return [&engine, key = std::move(key), magnitude = magnitude_of(error_in_l),
-          flat_allowed = has_flat_shape(c)](std::span<const Case> cases) {
-    std::vector<Case> asked;
-    std::vector<bool> shows(cases.size());
-    std::vector<std::size_t> index;
-    for (std::size_t i = 0; i < cases.size(); ++i)
-      if (flat_allowed || !has_flat_shape(cases[i])) asked.push_back(cases[i]), index.push_back(i);
-    const auto found = findings_of(asked, engine);
-    for (std::size_t i = 0; i < asked.size(); ++i) {
-      const auto it = found[i].find(key);
-      shows[index[i]] = it != found[i].end() && magnitude_of(it->second) == magnitude;
-    }
+StillShows keeps_finding(const EnginePtr& engine, std::string key) {
+  return [&engine, key = std::move(key)](std::span<const Case> cases) {
+    std::vector<bool> shows;
+    for (const auto& found : findings_of(cases, engine)) shows.push_back(found.contains(key));
     return shows;
   };
 }

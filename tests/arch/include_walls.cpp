@@ -14,11 +14,11 @@ namespace fs = std::filesystem;
 namespace {
 
 const std::vector<std::string> rooms = {
-    "core/base",       "core/math",   "core/shape",     "core/scene",     "core/broad",
-    "core/narrow",     "core/ccd",    "core/world",     "oracles/api",    "oracles/host",
-    "oracles/core",    "oracles/fcl", "oracles/bullet", "oracles/libccd", "oracles/referee",
-    "oracles/example", "scenarios",   "fuzz/record",    "fuzz/judge",     "fuzz/generate",
-    "fuzz/campaign",   "fuzz/shrink", "fuzz/explore",   "fuzz/cli",       "reports"};
+    "core/base",      "core/math",      "core/shape",      "core/scene",      "core/broad",   "core/narrow",
+    "core/ccd",       "core/world",     "oracles/api",     "oracles/host",    "oracles/core", "oracles/fcl",
+    "oracles/bullet", "oracles/libccd", "oracles/referee", "oracles/example", "scenarios",    "fuzz/record",
+    "fuzz/judge",     "fuzz/generate",  "fuzz/campaign",   "fuzz/shrink",     "fuzz/triage",  "fuzz/explore",
+    "fuzz/cli",       "reports"};
 
 // The value types: scene.h and what it needs.
 const std::vector<std::string> values = {"core/base", "core/math", "core/shape", "core/scene/scene.h",
@@ -54,9 +54,11 @@ const std::map<std::string, std::vector<std::string>> may_include = {
     {"fuzz/campaign", with_values({"fuzz/campaign", "fuzz/generate", "fuzz/judge", "fuzz/record",
                                    "core/scene", "scenarios", "oracles/api"})},
     {"fuzz/shrink", with_values({"fuzz/shrink", "fuzz/campaign", "fuzz/record", "oracles/api"})},
+    {"fuzz/triage",
+     with_values({"fuzz/triage", "fuzz/shrink", "fuzz/record", "core/scene", "scenarios", "oracles/api"})},
     {"fuzz/explore", with_values({"fuzz/explore", "fuzz/campaign", "fuzz/judge", "fuzz/record", "core/scene",
                                   "scenarios", "oracles/api", "oracles/referee/referee.h"})},
-    {"reports", with_values({"reports", "fuzz/record", "fuzz/judge"})},
+    {"reports", with_values({"reports", "fuzz/record", "fuzz/judge", "fuzz/triage"})},
     {"fuzz/cli", with_values({"fuzz", "reports", "scenarios", "core/scene", "oracles"})},
 };
 

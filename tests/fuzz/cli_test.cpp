@@ -170,6 +170,26 @@ TEST_CASE("a finding shrinks from its directory and still shows", "[cli]") {
   CHECK(clean.code == 2);
 }
 
+TEST_CASE("a second triage of the same campaign finds nothing new", "[cli]") {
+  const Workspace w;
+  w.touchstone("fuzz --cases 96 --seed 3 --out results");
+  if (!fs::exists(w.dir / "results" / "findings")) {
+    WARN("no oracle is installed: no findings to triage");
+    return;
+  }
+  const Run first = w.touchstone("triage results --no-shrink --junit junit.xml");
+  INFO(first.err);
+  CHECK(first.code == 1);
+  CHECK(read_all(w.dir / "junit.xml").find("<failure message=\"new\">") != std::string::npos);
+  CHECK(w.touchstone("triage results --no-shrink --ledger other.db --subject core").code == 0);
+  const Run second = w.touchstone("triage results --json");
+  CHECK(second.code == 0);
+  const auto doc = nlohmann::json::parse(second.out);
+  CHECK(doc.size() > 10);
+  for (const auto& f : doc) CHECK(f.at("standing") == "known");
+  CHECK(w.touchstone("triage nowhere").code == 2);
+}
+
 TEST_CASE("shrink says when there is nothing to shrink, and asks which finding when there are several",
           "[cli]") {
   const Workspace w;

@@ -33,7 +33,10 @@ std::string for_test(std::string c) {
   c = std::regex_replace(c, std::regex("--minutes 1"), "--minutes 0.05");
   c = std::regex_replace(c, std::regex("--cases [0-9]+"), "--cases 300");
   c = std::regex_replace(c, std::regex(R"(\./libmine\.so)"), TS_BINARY_DIR "/lib/libtouchstone_example.so");
-  if (c.find(" fuzz ") != std::string::npos) c += " --out " TS_BINARY_DIR "/readme-out";
+  c = std::regex_replace(c, std::regex("out/nightly"), TS_BINARY_DIR "/readme-out");
+  if (c.find(" fuzz ") != std::string::npos && c.find(" --out ") == std::string::npos)
+    c += " --out " TS_BINARY_DIR "/readme-out";
+  if (c.find(" triage ") != std::string::npos) c += " --ledger " TS_BINARY_DIR "/readme-out/findings.db";
   return c;
 }
 
@@ -43,7 +46,7 @@ TEST_CASE("every command line of the README runs", "[readme]") {
   std::size_t run = 0;
   for (const std::string& line : readme_commands()) {
     if (line == "./touchstone test") continue;
-    fs::remove_all(TS_BINARY_DIR "/readme-out");
+    if (line.find(" fuzz ") != std::string::npos) fs::remove_all(TS_BINARY_DIR "/readme-out");
     const std::string command = "cd " TS_SOURCE_DIR " && " + for_test(line) + " >/dev/null </dev/null";
     const int status = std::system(command.c_str());
     INFO(line);

@@ -1,0 +1,116 @@
+// touchstone triage DIR: the findings of a campaign against the ledger of known ones.
+#include <fmt/format.h>
+
+#include <chrono>
+#include <ctime>
+#include <map>
+
+#include "core/base/input_error.h"
+#include "core/scene/input_file.h"
+#include "fuzz/cli/command.h"
+#include "fuzz/cli/engine_catalog.h"
+#include "fuzz/shrink/keeps_finding.h"
+#include "fuzz/triage/triage.h"
+#include "reports/triage_text.h"
+
+namespace touchstone::cli {
+namespace {
+
+// Cases that the shrinker may ask about; each costs a second where the finding is that the engine hangs.
+constexpr std::size_t all_tries = 4000, tries_of_slow = 8;
+
+struct Options {
+  std::string directory, ledger = "findings.db", subject = "all", junit, date;
+  bool json = false, no_shrink = false;
+  WorkerLimits limits;
+};
+
+// The date and time, UTC.
+std::string now() {
+  const std::time_t t = std::chrono::system_clock::to_time_t(std::chrono::system_clock::now());
+  std::tm utc{};
+  gmtime_r(&t, &utc);
+  char text[32];
+  std::strftime(text, sizeof text, "%Y-%m-%dT%H:%M:%SZ", &utc);
+  return text;
+}
+
+// Engines as findings name them, made when first asked for. An engine that is not here is null.
+class Engines {
+ public:
+  explicit Engines(const WorkerLimits& limits) : limits_(limits) {}
+  const EnginePtr& named(const std::string& name) {
+    const auto [it, added] = made_.try_emplace(name);
+    if (added) try {
+        it->second = make_engine(engine_names(name).at(0), limits_);
+      } catch (const InputError&) {
+        // Not in the catalog, or not installed: its findings are "not asked", which the report says.
+      }
+    return it->second;
+  }
+
+ private:
+  WorkerLimits limits_;
+  std::map<std::string, EnginePtr> made_;
+};
+
+fuzz::TriageConfig config_of(const Options& o, Engines& engines) {
+  fuzz::TriageConfig c;
+  c.date = o.date.empty() ? now() : o.date;
+  c.build_of = [&](const std::string& engine) {
+    const EnginePtr& e = engines.named(engine);
+    return e ? e->card().library + " " + e->card().version : std::string();
+  };
+  c.ask = [&](const std::string& engine, const Case& asked) {
+    return fuzz::findings_of({&asked, 1}, engines.named(engine))[0];
+  };
+  c.smallest = [&, shrink = !o.no_shrink](const std::string& engine, const std::string& key,
+                                          const Case& found) {
+    if (!shrink) return found;
+    const bool slow = key.find(".timed_out.") != std::string::npos;
+    return fuzz::shrink(found, fuzz::keeps_finding(engines.named(engine), key),
+                        slow ? tries_of_slow : all_tries)
+        .smallest;
+  };
+  return c;
+}
+
+int run(const Options& o) {
+  const auto found = fuzz::load_findings(o.directory);
+  fuzz::Ledger ledger(o.ledger);
+  Engines engines(o.limits);
+  const auto triaged = fuzz::triage(found, ledger, config_of(o, engines));
+  ledger.commit();
+  if (!o.junit.empty()) write_file(o.junit, reports::triage_junit(triaged));
+  if (o.json)
+    fmt::print("{}\n", reports::triage_json(triaged).dump(1));
+  else
+    fmt::print("{}", reports::triage_text(triaged));
+  for (const fuzz::Triaged& t : triaged)
+    if ((t.standing == fuzz::Standing::fresh || t.standing == fuzz::Standing::back) &&
+        (o.subject == "all" || o.subject == t.finding.engine))
+      return exit_wrong;
+  return exit_clean;
+}
+
+}  // namespace
+
+Run declare_triage(CLI::App& app) {
+  auto o = std::make_shared<Options>();
+  app.add_option("directory", o->directory, "of a campaign (touchstone fuzz --out)")->required();
+  app.add_option("--ledger", o->ledger, "the file of known findings; made when it is not there")
+      ->capture_default_str();
+  app.add_option("--subject", o->subject, "the engine whose new findings make the exit code 1, or all")
+      ->capture_default_str();
+  app.add_option("--junit", o->junit, "write the result as JUnit XML to this file");
+  app.add_option("--date", o->date, "of the run, for the ledger (default: now)");
+  app.add_flag("--no-shrink", o->no_shrink, "store cases of new findings as they were found");
+  app.add_option("--case-seconds", o->limits.query_cpu_seconds,
+                 "CPU seconds that an engine may spend on one question")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+  app.add_flag("--json", o->json, "one JSON document on stdout");
+  return [o] { return run(*o); };
+}
+
+}  // namespace touchstone::cli

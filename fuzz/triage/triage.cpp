@@ -1,0 +1,115 @@
+#include "fuzz/triage/triage.h"
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "core/base/input_error.h"
+#include "core/scene/codec.h"
+#include "scenarios/case_codec.h"
+
+namespace touchstone::fuzz {
+namespace {
+
+std::string text_of(const Case& c) { return case_to_json(c).dump(); }
+
+Case case_of(const KnownFinding& f) {
+  try {
+    return case_from_json(Json::parse(f.smallest), "ledger, " + f.key);
+  } catch (const Json::exception& e) {
+    throw InputError("ledger, " + f.key, std::string("its case is not JSON: ") + e.what());
+  }
+}
+
+StoredFinding load_finding(const std::filesystem::path& directory) {
+  const auto file = directory / "finding.json";
+  try {
+    const Json j = Json::parse(read_file(file, std::uintmax_t{1} << 28));
+    StoredFinding s;
+    s.finding = finding_from_json(j);
+    s.c = load_case(directory / "case.json");
+    return s;
+  } catch (const Json::exception& e) {
+    throw InputError(file.string(), std::string("is not a finding: ") + e.what());
+  }
+}
+
+KnownFinding entry(const StoredFinding& s, const TriageConfig& config, const std::string& build) {
+  const Finding& f = s.finding;
+  const std::string key = f.key();
+  const Case smallest = build.empty() ? s.c : config.smallest(f.engine, key, s.c);
+  return {key,          f.engine,          f.question,        f.fault,     f.shapes, f.blame,
+          f.degeneracy, f.magnitude,       config.date,       config.date, build,    build,
+          f.count,      measure(smallest), text_of(smallest), f.words,     ""};
+}
+
+Triaged seen(const StoredFinding& s, Ledger& ledger, const TriageConfig& config) {
+  const std::string build = config.build_of(s.finding.engine);
+  auto known = ledger.find(s.finding.key());
+  if (!known) return {Standing::fresh, entry(s, config, build)};
+  const Standing standing = known->expired.empty() ? Standing::known : Standing::back;
+  known->expired.clear(), known->last_seen = config.date, known->count += s.finding.count;
+  if (!build.empty()) known->last_build = build;
+  return {standing, *known};
+}
+
+Triaged asked_again(KnownFinding f, const TriageConfig& config) {
+  const std::string build = config.build_of(f.engine);
+  if (build.empty()) return {Standing::not_asked, f};
+  if (config.ask(f.engine, case_of(f)).contains(f.key)) {
+    f.last_seen = config.date, f.last_build = build;
+    return {Standing::still, f};
+  }
+  f.expired = config.date;
+  return {Standing::gone, f};
+}
+
+}  // namespace
+
+std::string_view to_string(Standing s) {
+  switch (s) {
+    case Standing::fresh:
+      return "new";
+    case Standing::known:
+      return "known";
+    case Standing::back:
+      return "back";
+    case Standing::still:
+      return "still";
+    case Standing::gone:
+      return "gone";
+    case Standing::not_asked:
+      break;
+  }
+  return "not asked";
+}
+
+std::vector<StoredFinding> load_findings(const std::filesystem::path& directory) {
+  if (!std::filesystem::exists(directory / "state.json"))
+    throw InputError(directory.string(), "holds no campaign (touchstone fuzz --out DIR makes one)");
+  std::vector<StoredFinding> r;
+  if (std::filesystem::exists(directory / "findings"))
+    for (const auto& entry : std::filesystem::directory_iterator(directory / "findings"))
+      if (entry.is_directory()) r.push_back(load_finding(entry.path()));
+  std::sort(r.begin(), r.end(),
+            [](const auto& a, const auto& b) { return a.finding.key() < b.finding.key(); });
+  return r;
+}
+
+std::vector<Triaged> triage(const std::vector<StoredFinding>& found, Ledger& ledger,
+                            const TriageConfig& config) {
+  std::vector<Triaged> r;
+  std::set<std::string> keys;
+  for (const StoredFinding& s : found) {
+    r.push_back(seen(s, ledger, config));
+    keys.insert(r.back().finding.key);
+  }
+  for (const KnownFinding& f : ledger.all())
+    if (f.expired.empty() && !keys.contains(f.key)) r.push_back(asked_again(f, config));
+  for (const Triaged& t : r) ledger.put(t.finding);
+  std::sort(r.begin(), r.end(),
+            [](const Triaged& a, const Triaged& b) { return a.finding.key < b.finding.key; });
+  return r;
+}
+
+}  // namespace touchstone::fuzz

@@ -1,0 +1,54 @@
+// Which findings of a run are new, which are known, and which known ones are gone.
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "fuzz/record/result.h"
+#include "fuzz/triage/ledger.h"
+
+namespace touchstone::fuzz {
+
+enum class Standing {
+  fresh,     // not in the ledger until now
+  known,     // in the ledger, seen in this run
+  back,      // in the ledger as gone, seen again
+  still,     // in the ledger, not seen in this run; its case, asked again, still shows it
+  gone,      // in the ledger, and its case, asked again, no longer shows it: expired now
+  not_asked  // in the ledger, but its engine is not here
+};
+std::string_view to_string(Standing s);  // "new" for fresh
+
+struct Triaged {
+  Standing standing = Standing::fresh;
+  KnownFinding finding;  // as it is in the ledger now
+};
+
+/// A finding of a campaign as it lies in its directory.
+struct StoredFinding {
+  Finding finding;  // evidence empty
+  Case c;
+};
+/// All of DIR/findings, by key. Throws InputError naming the file when one is damaged, or DIR holds no
+/// campaign.
+std::vector<StoredFinding> load_findings(const std::filesystem::path& campaign_directory);
+
+struct TriageConfig {
+  std::string date;  // ISO 8601, of this run
+  /// Name and version of an engine's library; empty: the engine is not here.
+  std::function<std::string(const std::string& engine)> build_of;
+  /// Findings that the engine shows in a case, by key.
+  std::function<std::map<std::string, Finding>(const std::string& engine, const Case& c)> ask;
+  /// The smallest case that shows the key, c if it cannot be made smaller.
+  std::function<Case(const std::string& engine, const std::string& key, const Case& c)> smallest;
+};
+
+/// Updates the ledger (not yet committed) and says what became of each finding, sorted by key. Gone ones of
+/// former runs are not mentioned again.
+std::vector<Triaged> triage(const std::vector<StoredFinding>& found, Ledger& ledger,
+                            const TriageConfig& config);
+
+}  // namespace touchstone::fuzz
