@@ -1,8 +1,9 @@
-// Certificates read back from what to_json wrote.
+// Certificates read back from what to_json wrote; those of motions both ways.
 #include <nlohmann/json.hpp>
 
 #include "core/base/input_error.h"
 #include "oracles/referee/checker.h"
+#include "oracles/referee/impact_certificate.h"
 
 namespace touchstone::referee {
 namespace {
@@ -49,6 +50,45 @@ Certificate certificate_from_json(const nlohmann::ordered_json& j) {
         c.support_pairs.push_back({vector_of(p.at(0)), vector_of(p.at(1))});
       c.facets = j.at("facets").get<std::vector<std::array<int, 3>>>();
     }
+    return c;
+  } catch (const nlohmann::json::exception& e) {
+    throw InputError("certificate", std::string("cannot be read: ") + e.what());
+  }
+}
+
+nlohmann::ordered_json to_json(const ImpactCertificate& c) {
+  nlohmann::ordered_json j = {{"kind", "impact"}};
+  if (!c.tracks.empty()) {
+    j["clear_until"] = c.clear_until;
+    j["planes"] = nlohmann::ordered_json::array();
+    for (const auto& track : c.tracks) {
+      nlohmann::ordered_json keys = nlohmann::ordered_json::array();
+      for (const auto& k : track)
+        keys.push_back({{"t", k.t}, {"direction", k.direction}, {"offset", k.offset}});
+      j["planes"].push_back(std::move(keys));
+    }
+  }
+  if (c.contact) j["contact"] = {{"t", c.contact->t}, {"point", c.contact->point}};
+  return j;
+}
+
+ImpactCertificate impact_certificate_from_json(const nlohmann::ordered_json& j) {
+  try {
+    if (j.at("kind") != "impact") throw InputError("kind", "is not \"impact\"");
+    ImpactCertificate c;
+    if (j.contains("planes")) {
+      c.clear_until = j.at("clear_until").get<double>();
+      for (const auto& keys : j.at("planes")) {
+        auto& track = c.tracks.emplace_back();
+        for (const auto& k : keys)
+          track.push_back({k.at("t").get<double>(), k.at("direction").get<std::array<std::string, 3>>(),
+                           k.at("offset").get<std::string>()});
+      }
+      if (c.tracks.empty()) throw InputError("planes", "is empty");
+    }
+    if (j.contains("contact"))
+      c.contact = {j.at("contact").at("t").get<std::string>(),
+                   j.at("contact").at("point").get<std::array<std::string, 3>>()};
     return c;
   } catch (const nlohmann::json::exception& e) {
     throw InputError("certificate", std::string("cannot be read: ") + e.what());
