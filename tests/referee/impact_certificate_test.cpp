@@ -88,4 +88,195 @@ TEST_CASE("every random motion's certificate is accepted and nearly as sharp as 
   REQUIRE(none > 40);
 }
 
+TEST_CASE("translating polytopes and rounded shapes: one plane and the exact time, far away or grazing",
+          "[referee][motion][checker]") {
+  const Shape cube = Box{{0.5, 0.5, 0.5}}, ball = Sphere{1};
+  const double far = 1e6;
+  const Pairing pairs[] = {
+      {at(cube, {-5, 0, 0}), at(cube, {0, 0, 0}), moving({10, 0, 0}), rest},
+      {at(cube, {-5, 1, 0}), at(cube, {0, 0, 0}), moving({10, 0, 0}), rest},  // grazes a face
+      {at(cube, {-5, 1 + 0x1p-52, 0}), at(cube, {0, 0, 0}), moving({10, 0, 0}), rest},
+      {at(ball, {-10, 2, 0}), at(ball, {0, 0, 0}), moving({20, 0, 0}), rest},  // touches at t = 1/2 only
+      {at(ball, {-10, 2 + 0x1p-51, 0}), at(ball, {0, 0, 0}), moving({20, 0, 0}), rest},
+      {at(cube, {far - 3, far, far}), at(ball, {far, far, far}), moving({far + 4, 0, 0}),
+       moving({far, 0, 0})},
+      {at(cube, {1, 0, 0}), at(cube, {0, 0, 0}), moving({1, 0, 0}), rest}};  // touches from the start
+  int hits = 0;
+  for (const Pairing& p : pairs) {
+    const TimeTruth t = p.truth();
+    const ImpactCertificate c = p.certificate();
+    INFO(t.t_lo << " " << t.t_hi);
+    REQUIRE(p.accepts(c));
+    REQUIRE(t.verdict != Hit::undecided);
+    if (t.verdict == Hit::hit) {
+      REQUIRE(c.contact);
+      REQUIRE(time_of(*c.contact) == t.t_hi);
+      ++hits;
+    }
+    REQUIRE(c.tracks.empty() == (t.t_lo == 0));
+    if (!c.tracks.empty()) REQUIRE(c.clear_until == t.t_lo);
+    for (const auto& track : c.tracks) REQUIRE(track.size() == 2);
+  }
+  REQUIRE(hits == 5);
+}
+
+TEST_CASE("half-spaces and meshes have certificates of their motions", "[referee][motion][checker]") {
+  const Shape ground = HalfSpace{{0.1, 0.2, 1}, 0}, ball = Sphere{0.25}, stick = Capsule{0.1, 1},
+              die = Box{{1, 2, 3}};
+  TriangleMesh m;
+  m.vertices = {{-5, -5, 0}, {5, -5, 0}, {5, 5, 0}, {-5, 5, 0}, {9, 9, 9}};
+  m.triangles = {{0, 1, 2}, {0, 2, 3}, {2, 3, 4}};
+  const Shape floor = m;
+  const Pairing pairs[] = {
+      {at(ball, {0, 0, 2}), at(ground, {0, 0, 0}), moving({1, 0, -3}, {9, 9, 9}), rest},
+      {at(ground, {0, 0, 0}, {0.1, 0.2, 0.3, 1}), at(die, {0, 0, 6}), rest, moving({1, 0, -3}, {1, 2, 3})},
+      {at(ground, {0, 0, 0}), at(die, {0, 0, 4}), moving({0, 0, 1}), moving({1, 0, 1.5})},
+      {at(stick, {0, 0, 0.9}, {0, 1, 0, 1}), at(ground, {0, 0, 0}), moving({0, 0, 0}, {0, 1, 0}), rest},
+      {at(ball, {0.1, 0.2, 2}), at(floor, {0, 0, 0}), moving({0, 0, -3}), rest},
+      {at(ball, {0.1, 0.2, 2}), at(floor, {0, 0, 0}), moving({0, 0, -1}), rest},
+      {at(floor, {0, 0, 0}), at(die, {0.1, 0.2, 6}), rest, moving({0, 0, -4}, {3, 0, 0})}};
+  for (const Pairing& p : pairs) {
+    const TimeTruth t = p.truth();
+    const ImpactCertificate c = p.certificate();
+    INFO(type_name(*p.a.shape) << " " << type_name(*p.b.shape) << " " << t.t_lo << " " << t.t_hi);
+    REQUIRE(t.verdict != Hit::undecided);
+    REQUIRE(p.accepts(c));
+    REQUIRE(c.contact.has_value() == (t.verdict == Hit::hit));
+    if (c.contact) REQUIRE(time_of(*c.contact) <= t.t_hi + 1e-13);
+    REQUIRE_FALSE(c.tracks.empty());
+    REQUIRE(c.clear_until >= (t.verdict == Hit::none ? 1 : t.t_lo) - 1e-13);
+  }
+}
+
+TEST_CASE("a bar that swings through between two keys is caught by the bound of its bend",
+          "[referee][motion][checker]") {
+  // A unit bar about its middle; the plane x = 0.99 keeps its ends away at both keys and not in between.
+  const Shape bar = Capsule{0, 1}, wall = Box{{0.005, 9, 9}};
+  for (const double turn : {1.0, 0.1, 0.01}) {
+    // The upper end is straight up at the middle of the step; the wall begins at height `at` of the turn.
+    const double top = std::cos(turn / 2) + 0.25 * (1 - std::cos(turn / 2));
+    const Pairing p{at(bar, {0, 0, 0}, {0, -std::sin(turn / 4), 0, std::cos(turn / 4)}),
+                    at(wall, {0, 0, top + 0.005}, {0, std::sqrt(0.5), 0, std::sqrt(0.5)}),
+                    moving({0, 0, 0}, {0, turn, 0}), rest};
+    INFO(turn << " " << p.truth().note << " " << p.truth().t_lo << " " << p.truth().t_hi);
+    REQUIRE(p.truth().verdict == Hit::hit);
+    const auto claim = [&](double offset) {
+      ImpactCertificate c;
+      const std::string at_offset = text_of(exact(offset) - exact(top + 0.005));
+      c.tracks = {{{0, {"0", "0", "1"}, at_offset}, {1, {"0", "0", "1"}, at_offset}}};
+      c.clear_until = 1;
+      return c;
+    };
+    for (double part : {0.05, 0.1, 0.2, 0.24, 0.2499})
+      REQUIRE_FALSE(p.accepts(claim(std::cos(turn / 2) + part * (1 - std::cos(turn / 2)))));
+  }
+  // The bound is not far from sharp: a wall beyond the swing, by a quarter of its height, is clear in one
+  // piece.
+  const double turn = 0.01, rise = 1 - std::cos(turn / 2);
+  const Pairing clear{at(bar, {0, 0, 0}, {0, -std::sin(turn / 4), 0, std::cos(turn / 4)}),
+                      at(wall, {0, 0, 1 + 0.5 * rise + 0.005}, {0, std::sqrt(0.5), 0, std::sqrt(0.5)}),
+                      moving({0, 0, 0}, {0, turn, 0}), rest};
+  ImpactCertificate c;
+  const std::string offset = text_of(exact(1 + 0.25 * rise) - exact(1 + 0.5 * rise + 0.005));
+  c.tracks = {{{0, {"0", "0", "1"}, offset}, {1, {"0", "0", "1"}, offset}}};
+  c.clear_until = 1;
+  REQUIRE(clear.accepts(c));
+}
+
+TEST_CASE("planes that clear smaller bodies beyond the contact of the true ones are refused",
+          "[referee][motion][checker]") {
+  Rng r(907);
+  int refused = 0, kept = 0;
+  for (int i = 0; i < 160; ++i) {
+    const Shape x = random_convex(r, convex_kinds[i % 7]), y = random_convex(r, convex_kinds[i / 7 % 7]);
+    const Pairing p = random_pairing(r, x, y);
+    const TimeTruth t = p.truth();
+    if (t.verdict != Hit::hit || t.t_lo == 0) continue;
+    // The same bodies shrunk about their origins, so little that only the true contact tells.
+    for (const double by : {0.9, 0.999, 1 - 1e-6}) {
+      const auto shrunk = [&](const Shape& s) {
+        Shape q = s;
+        std::visit(
+            [&](auto& shape) {
+              if constexpr (requires { shape.fields(); })
+                for_each_field(shape, [&](auto, auto& v, Domain) {
+                  using F = std::decay_t<decltype(v)>;
+                  if constexpr (std::is_same_v<F, double> || std::is_same_v<F, Vec3>) v *= by;
+                  if constexpr (std::is_same_v<F, std::vector<Vec3>>)
+                    for (Vec3& w : v) w *= by;
+                });
+            },
+            q);
+        return q;
+      };
+      const Shape u = shrunk(x), w = shrunk(y);
+      const Pairing small{{&u, p.a.pose}, {&w, p.b.pose}, p.ma, p.mb};
+      const ImpactCertificate c = small.certificate();
+      if (c.tracks.empty()) continue;
+      ImpactCertificate planes = c;
+      planes.contact.reset();
+      REQUIRE(small.accepts(planes));
+      if (planes.clear_until >= t.t_hi) {
+        REQUIRE_FALSE(p.accepts(planes));
+        ++refused;
+      } else {
+        ++kept;
+      }
+    }
+  }
+  CAPTURE(kept);
+  REQUIRE(refused > 60);
+}
+
+TEST_CASE("a motion's certificate is refused with its times, planes or point changed",
+          "[referee][motion][checker]") {
+  Rng r(31);
+  int changed = 0, motions = 0;
+  for (int i = 0; i < 120 && motions < 24; ++i) {
+    const Shape x = random_convex(r, convex_kinds[i % 7]), y = random_convex(r, convex_kinds[i / 7 % 7]);
+    const Pairing p = random_pairing(r, x, y);
+    const TimeTruth t = p.truth();
+    if (t.verdict != Hit::hit || t.t_lo == 0) continue;
+    const ImpactCertificate c = p.certificate();
+    REQUIRE(p.accepts(c));
+    ++motions;
+    const auto refused = [&](auto change) {
+      ImpactCertificate d = c;
+      change(d);
+      REQUIRE_FALSE(p.accepts(stored(d)));
+      ++changed;
+    };
+    refused([&](auto& d) { d.clear_until = d.tracks[0].back().t = std::min(1.0, t.t_hi + 1e-9); });
+    refused([](auto& d) { d.clear_until = 1; });
+    refused([](auto& d) { d.tracks[0].front().t = 0x1p-1000; });
+    refused([](auto& d) { std::erase_if(d.tracks[0], [](const auto& k) { return k.t == 0; }); });
+    refused([](auto& d) { std::swap(d.tracks[0].front().t, d.tracks[0].back().t); });
+    refused([](auto& d) { d.tracks[0].clear(); });
+    refused([](auto& d) { d.contact->t = std::string("2"); });
+    refused([](auto& d) { d.contact->t = std::string("-1/1000000000000"); });
+    refused([&](auto& d) { d.contact->t = text_of(exact(t.t_lo / 2)); });
+    for (std::size_t k = 0; k < c.tracks[0].size(); ++k) {
+      refused(
+          [&](auto& d) { d.tracks[0][k].offset = text_of(rational_from_text(c.tracks[0][k].offset) + 9); });
+      refused(
+          [&](auto& d) { d.tracks[0][k].offset = text_of(rational_from_text(c.tracks[0][k].offset) - 9); });
+      refused([&](auto& d) { d.tracks[0][k].direction = {"0", "0", "0"}; });
+      refused([&](auto& d) {
+        for (auto& n : d.tracks[0][k].direction) n = text_of(-rational_from_text(n));
+        d.tracks[0][k].offset = text_of(-rational_from_text(d.tracks[0][k].offset));
+      });
+    }
+    for (std::size_t k = 0; k < 3; ++k)
+      refused([&](auto& d) { d.contact->point[k] = text_of(rational_from_text(c.contact->point[k]) + 9); });
+    // The bodies in the other order, or at other speeds, are other bodies.
+    REQUIRE_FALSE(check(c, p.b, p.mb, p.a, p.ma));
+    REQUIRE_FALSE(check(c, p.a, p.mb, p.b, p.ma));
+  }
+  REQUIRE(motions == 24);
+  REQUIRE(changed > 400);
+  ImpactCertificate nothing;
+  const Shape ball = Sphere{1};
+  REQUIRE_FALSE(check(nothing, at(ball, {0, 0, 0}), rest, at(ball, {9, 0, 0}), rest));
+}
+
 }  // namespace touchstone::referee_test
