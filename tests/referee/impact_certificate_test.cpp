@@ -152,7 +152,7 @@ TEST_CASE("a bar that swings through between two keys is caught by the bound of 
           "[referee][motion][checker]") {
   // A unit bar about its middle; the plane x = 0.99 keeps its ends away at both keys and not in between.
   const Shape bar = Capsule{0, 1}, wall = Box{{0.005, 9, 9}};
-  for (const double turn : {1.0, 0.1, 0.01}) {
+  for (const double turn : {1.0, 0.1, 0.01, 1e-3}) {
     // The upper end is straight up at the middle of the step; the wall begins at height `at` of the turn.
     const double top = std::cos(turn / 2) + 0.25 * (1 - std::cos(turn / 2));
     const Pairing p{at(bar, {0, 0, 0}, {0, -std::sin(turn / 4), 0, std::cos(turn / 4)}),
