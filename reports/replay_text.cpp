@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/base/exact_text.h"
+#include "fuzz/record/evidence.h"
 #include "reports/text.h"
 
 namespace touchstone::reports {
@@ -191,7 +192,11 @@ std::string ReplayText::str() const {
 fuzz::Json ReplayText::referee_json(const Query& q) const {
   if (q.question == Question::time_of_impact) {
     const auto& t = truth_.motion(0, q.a, q.b);
-    return {{"verdict", time_verdict(t)}, {"t_lo", t.t_lo}, {"t_hi", t.t_hi}, {"note", t.note}};
+    return {{"verdict", time_verdict(t)},
+            {"t_lo", t.t_lo},
+            {"t_hi", t.t_hi},
+            {"note", t.note},
+            {"certificate", fuzz::exact_certificate(case_.scene, q.question, q.a, q.b)}};
   }
   if (!is_pair_question(q.question)) {
     fuzz::Json sets = fuzz::Json::array();
@@ -207,10 +212,12 @@ fuzz::Json ReplayText::referee_json(const Query& q) const {
     return {{"overlapping_pairs", std::move(sets)}};
   }
   const referee::PairTruth& t = truth_.pair(0, q.a, q.b);
+  // As `touchstone check` accepts it, if there is such a form; else rounded.
+  const fuzz::Json exact = fuzz::exact_certificate(case_.scene, q.question, q.a, q.b);
   return {{"verdict", referee::to_string(t.verdict)},
           {"gap", {fuzz::number(t.gap.lo), fuzz::number(t.gap.hi)}},
           {"normal", fuzz::vector(t.normal)},
-          {"verdict_certificate", referee::to_json(t.verdict_certificate)},
+          {"verdict_certificate", exact.is_null() ? referee::to_json(t.verdict_certificate) : exact},
           {"depth_certificate", referee::to_json(t.lower_depth)},
           {"filter_level", t.level}};
 }

@@ -35,7 +35,7 @@ void add_findings(CampaignResult& r, const Case& c, std::uint64_t index, const s
       // The last words of a dying process stay out of the finding: they may differ from run to run.
       f.words = fault.fault == Fault::failed ? std::string(to_string(j.outcome)) : fault.words;
       f.evidence = std::make_shared<const Evidence>(
-          Evidence{c, o, all.received, fault.certificate, fault.step < 0 ? fault.a : -1, fault.b, {}});
+          Evidence{c, o, all.received, fault.certificate, fault.a, fault.b, fault.step, q.question, {}});
     }
     kept.merge(f);
   }

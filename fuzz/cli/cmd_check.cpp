@@ -3,12 +3,15 @@
 #include <fmt/format.h>
 
 #include <filesystem>
+#include <functional>
 #include <nlohmann/json.hpp>
 
 #include "core/base/input_error.h"
 #include "core/scene/input_file.h"
 #include "fuzz/cli/command.h"
+#include "fuzz/record/evidence.h"
 #include "oracles/referee/checker.h"
+#include "oracles/referee/impact_certificate.h"
 #include "scenarios/case_codec.h"
 
 namespace touchstone::cli {
@@ -35,49 +38,89 @@ std::string claim(const referee::Certificate& c) {
   using Kind = referee::Certificate::Kind;
   switch (c.kind) {
     case Kind::separating_plane:
-      return "apart";
+      return "are apart";
     case Kind::common_point:
-      return "overlapping";
+      return "are overlapping";
     case Kind::depth_direction:
-      return fmt::format("at most {} deep", c.offset);
+      return fmt::format("are at most {} deep", c.offset);
     case Kind::inner_polytope:
-      return fmt::format("at least {} deep", c.offset);
+      return fmt::format("are at least {} deep", c.offset);
     default:
       return "";
   }
 }
 
-referee::Placed placed(const Scene& s, int body) {
-  return {&s.shape_of(body), s.bodies[static_cast<std::size_t>(body)].pose};
+std::string claim(const referee::ImpactCertificate& c) {
+  std::string s;
+  if (!c.tracks.empty()) s = fmt::format("are apart up to t = {}", c.clear_until);
+  if (c.contact) s += fmt::format("{}meet at t = {}", s.empty() ? "" : " and ", c.contact->t);
+  return s;
 }
 
-// The pairs that the certificate may be about, in the order A, B: as asked for, else both orders of the only
-// two.
-std::vector<std::pair<int, int>> pairs_of(const Options& o, const Scene& s) {
+struct Bodies {
+  int a = 0, b = 1;
+};
+
+// The pairs that the certificate may be about, in the order A, B: as asked for or as it says, else both
+// orders of the only two.
+std::vector<Bodies> pairs_of(const Options& o, const Json& certificate, const Scene& s) {
   const int n = static_cast<int>(s.bodies.size());
-  if (o.pair.empty()) {
+  const std::vector<int> named = o.pair.empty() ? certificate.value("bodies", std::vector<int>{}) : o.pair;
+  if (named.empty()) {
     if (n != 2) throw InputError("--pair", fmt::format("which two of the {} bodies? (--pair A B)", n));
     return {{0, 1}, {1, 0}};
   }
-  for (int k : o.pair)
+  if (named.size() != 2) throw InputError("bodies", "names the two bodies A and B");
+  for (int k : named)
     if (k < 0 || k >= n) throw InputError("--pair", fmt::format("there is no body {}", k));
-  if (o.pair[0] == o.pair[1]) throw InputError("--pair", "names one body twice");
-  return {{o.pair[0], o.pair[1]}};
+  if (named[0] == named[1]) throw InputError("--pair", "names one body twice");
+  return {{named[0], named[1]}};
 }
 
-int run(const Options& o) {
-  const referee::Certificate c = referee::certificate_from_json(certificate_in(o.path));
+referee::Placed placed(const Scene& s, int body, int step) {
+  if (const auto p = fuzz::placed_at(s, body, step)) return *p;
+  throw InputError("step", fmt::format("body {} is not there at query {}", body, step));
+}
+
+// What the certificate claims of A and B, and whether it holds.
+struct Claim {
+  std::string words;
+  std::function<bool(const Scene&, Bodies, int step)> holds;
+};
+
+Claim claim_of(const Json& j) {
+  if (j.is_object() && j.value("kind", "") == "impact") {
+    const auto c = referee::impact_certificate_from_json(j);
+    return {claim(c), [c](const Scene& s, Bodies p, int step) {
+              const auto motion = [&](int i) {
+                return s.bodies[static_cast<std::size_t>(i)].motion.value_or(Motion{});
+              };
+              return referee::check(c, placed(s, p.a, step), motion(p.a), placed(s, p.b, step), motion(p.b));
+            }};
+  }
+  const auto c = referee::certificate_from_json(j);
+  return {claim(c), [c](const Scene& s, Bodies p, int step) {
+            return referee::check(c, placed(s, p.a, step), placed(s, p.b, step));
+          }};
+}
+
+int run(const Options& o) try {
+  const Json j = certificate_in(o.path);
+  const Claim c = claim_of(j);
   const std::string scene =
       o.scene.empty() ? (std::filesystem::path(o.path).parent_path() / "case.json").string() : o.scene;
   const Case stored = load_case(scene);
-  for (const auto& [a, b] : pairs_of(o, stored.scene)) {
-    if (!referee::check(c, placed(stored.scene, a), placed(stored.scene, b))) continue;
-    fmt::print("valid: bodies {} and {} are {}\n", a, b, claim(c));
+  const int step = j.value("step", -1);
+  for (const Bodies& p : pairs_of(o, j, stored.scene)) {
+    if (!c.holds(stored.scene, p, step)) continue;
+    fmt::print("valid: bodies {} and {} {}\n", p.a, p.b, c.words);
     return exit_clean;
   }
-  fmt::print("not valid: {}\n", claim(c).empty() ? "this kind of certificate proves nothing by itself"
-                                                 : "it does not prove that the bodies are " + claim(c));
+  fmt::print("not valid: {}\n", c.words.empty() ? "this kind of certificate proves nothing by itself"
+                                                : "it does not prove that the bodies " + c.words);
   return exit_wrong;
+} catch (const Json::exception& e) {
+  throw InputError(o.path, std::string("is not a certificate: ") + e.what());
 }
 
 }  // namespace

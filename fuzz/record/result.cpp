@@ -80,34 +80,6 @@ void Tally::merge(const Tally& o) {
   time.merge(o.time);
 }
 
-namespace {
-
-// Verdicts of exact pairs in a form that the short checker accepts.
-referee::Certificate printable(const Evidence& e) {
-  using Kind = referee::Certificate::Kind;
-  const Kind k = e.certificate.kind;
-  const int n = static_cast<int>(e.c.scene.bodies.size());
-  if (e.a < 0 || e.b < 0 || e.a >= n || e.b >= n || (k != Kind::separating_plane && k != Kind::common_point))
-    return e.certificate;
-  const auto placed = [&](int i) {
-    return referee::Placed{&e.c.scene.shape_of(i), e.c.scene.bodies[static_cast<std::size_t>(i)].pose};
-  };
-  const auto truth = referee::judge_pair(placed(e.a), placed(e.b));
-  auto c = referee::checkable_certificate(truth, placed(e.a), placed(e.b));
-  return c.kind == Kind::none ? e.certificate : c;
-}
-
-}  // namespace
-
-const Json& Evidence::json() const {
-  if (made.is_null())
-    made = {{"case", case_to_json(c)},
-            {"observation", to_json(observation)},
-            {"certificate", referee::to_json(printable(*this))},
-            {"received", to_json(received)}};
-  return made;
-}
-
 std::string Finding::key() const {
   return fmt::format("{}.{}.{}.{}.{}.{}.{}", engine, question, fault, shapes, blame, degeneracy, magnitude);
 }

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "fuzz/judge/judgement.h"
+#include "fuzz/record/evidence.h"
 #include "fuzz/record/observation_json.h"
 #include "oracles/api/engine.h"
 
@@ -47,18 +48,6 @@ struct Tally {
   std::uint64_t failed() const;  // neither answered nor unsupported
   void add(const Judgement& j, const Observation& o);
   void merge(const Tally& o);
-};
-
-/// What shows a finding, kept as values and written as JSON only when somebody asks.
-struct Evidence {
-  Case c;
-  Observation observation;
-  ReceivedScene received;
-  referee::Certificate certificate;
-  int a = -1, b = -1;  // bodies whose verdict it certifies; a < 0: none, or at a step of a script
-  /// {"case", "observation", "certificate", "received"}, made once; of one thread at a time.
-  const Json& json() const;
-  mutable Json made;
 };
 
 /// One kind of wrong answer: same engine (which names its path), question, fault, shapes, blame, degeneracy

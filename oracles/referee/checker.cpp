@@ -1,7 +1,6 @@
 #include "oracles/referee/checker.h"
 
 #include <algorithm>
-#include <nlohmann/json.hpp>
 
 #include "core/base/input_error.h"
 #include "core/tolerance.h"
@@ -11,12 +10,127 @@ namespace touchstone::referee {
 namespace {
 
 using namespace checker;
+using Sets = std::vector<Set>;
 
-bool is_zero(const V& v) { return v.x == 0 && v.y == 0 && v.z == 0; }
-V negated(const V& v) { return {-v.x, -v.y, -v.z}; }
+V minus(const V& v) { return Q(-1) * v; }
 bool is_half_space(const Set& s) { return s.kind == Set::Kind::half_space; }
 
-Q rational(const std::string& s) {
+bool has_plane(const Certificate& c, const Set& a, const Set& b) {
+  const auto separates = [&](const V& n, const Q& at) {
+    const auto top_a = core_support(a, n), top_b = core_support(b, minus(n));
+    return top_a && top_b && *top_a + times_root(a.ball, dot(n, n)) <= at &&
+           *top_b + times_root(b.ball, dot(n, n)) < -at;
+  };
+  if (c.rationals.empty()) return separates(exact_value(c.direction), Q(c.offset));
+  for (std::size_t i = 0; i + 3 < c.rationals.size(); i += 4) {
+    const auto r = [&](std::size_t k) { return rational_of(c.rationals[i + k]); };
+    if (separates({r(0), r(1), r(2)}, r(3))) return true;
+  }
+  return false;
+}
+
+bool check_planes(const Certificate& c, const Sets& a, const Sets& b) {
+  const auto has = [&](const Set& s) {
+    return std::all_of(b.begin(), b.end(), [&](const Set& t) { return has_plane(c, s, t); });
+  };
+  return c.rationals.size() % 4 == 0 && std::all_of(a.begin(), a.end(), has);
+}
+
+bool check_point(const Certificate& c, const Sets& a, const Sets& b) {
+  const auto& r = c.rationals;
+  if (!r.empty() && r.size() != 3) return false;
+  const V x = r.empty() ? exact_value(c.point) : V{rational_of(r[0]), rational_of(r[1]), rational_of(r[2])};
+  const auto in = [&](const Set& s) { return is_within(s, x, s.ball); };
+  return std::any_of(a.begin(), a.end(), in) && std::any_of(b.begin(), b.end(), in);
+}
+
+// B moved by d·n/|n| has a plane along k in common with A when h_A(k) + h_B(-k) <= d·(k·n)/|n|. k is n
+// itself, except that a half-space has a support value along its own normal alone.
+bool check_direction(const V& n, const Q& d, const Set& a, const Set& b) {
+  const Q nn = dot(n, n), balls = a.ball + b.ball;
+  const bool own = is_half_space(a) || is_half_space(b);
+  const V k = is_half_space(a) ? a.normal : is_half_space(b) ? minus(b.normal) : n;
+  const auto top_a = core_support(a, k), top_b = core_support(b, minus(k));
+  if (nn == 0 || !top_a || !top_b) return false;
+  const Q rest =
+      own ? times_root(balls, dot(k, k)) + times_root(-d * dot(k, n) / nn, nn) : times_root(balls - d, nn);
+  return *top_a + *top_b + rest <= 0;
+}
+
+// All points of the triangle are at distance >= r from the origin, and > 0: by its plane, or, where that is
+// not enough, by its nearest point.
+bool is_clear(const V& a, const V& b, const V& c, const Q& r) {
+  const V n = cross(b - a, c - a);
+  const Q height = dot(n, a);
+  if (height != 0 && height * height >= r * r * dot(n, n)) return true;
+  const V v = nearest_to_origin({a, b, c});
+  return dot(v, v) > 0 && dot(v, v) >= r * r;
+}
+
+// +1 or -1 where the ray from the origin leaves or enters through the triangle, 0 where it misses it, nothing
+// where it meets an edge.
+std::optional<int> crossing(const V& a, const V& b, const V& c, const V& ray) {
+  const int side = dot(a, cross(b, c)).sign();
+  const int part[] = {dot(ray, cross(b, c)).sign() * side, dot(ray, cross(c, a)).sign() * side,
+                      dot(ray, cross(a, b)).sign() * side};
+  const int least = *std::min_element(part, part + 3);
+  if (side == 0 || least < 0) return 0;
+  return least > 0 ? std::optional<int>(side) : std::nullopt;
+}
+
+// The hull of the points holds the ball of radius r about the origin, because a closed surface of triangles
+// between them (every directed edge as often as its reverse) stays out of the ball and winds about it: it
+// crosses a ray more often outward than inward. Any ray will do that meets no edge.
+bool holds_ball(const std::vector<V>& point, const std::vector<std::array<int, 3>>& facets, const Q& r) {
+  std::vector<std::pair<int, int>> forward, backward;
+  int crossings = 0;
+  for (const auto& f : facets) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      if (f[i] < 0 || f[i] >= static_cast<int>(point.size())) return false;
+      forward.emplace_back(f[i], f[(i + 1) % 3]);
+      backward.emplace_back(f[(i + 1) % 3], f[i]);
+    }
+    const auto at = [&](std::size_t i) { return point[static_cast<std::size_t>(f[i])]; };
+    const auto more = crossing(at(0), at(1), at(2), {1, Q(1009, 1013), Q(-499, 997)});
+    if (!more || !is_clear(at(0), at(1), at(2), r)) return false;
+    crossings += *more;
+  }
+  std::sort(forward.begin(), forward.end());
+  std::sort(backward.begin(), backward.end());
+  return crossings != 0 && forward == backward;
+}
+
+// The points of a pair are near the cores: each may be e off, which costs e of depth; the hull of their
+// differences is then within 2e of the difference of the cores. In a half-space m·x <= o a single point of
+// the other body shows its depth: m·x - o <= -(depth - ball + e)·|m|.
+bool check_inner(const Certificate& c, const Set& a, const Set& b) {
+  double largest = 0;
+  for (const auto& [p, q] : c.support_pairs)
+    largest = std::max({largest, p.cwiseAbs().maxCoeff(), q.cwiseAbs().maxCoeff()});
+  const Q e = Q(tolerance::checker_point_factor) * Q(largest);
+  const bool plane_a = is_half_space(a), plane_b = is_half_space(b);
+  std::vector<V> difference;
+  for (const auto& [p, q] : c.support_pairs) {
+    const V x = exact_value(p), y = exact_value(q);
+    if ((!plane_a && !is_within(a, x, e)) || (!plane_b && !is_within(b, y, e))) return false;
+    difference.push_back(x - y);
+  }
+  if (difference.empty() || (plane_a && plane_b)) return false;
+  if (plane_a || plane_b) {
+    const Set &h = plane_a ? a : b, &other = plane_a ? b : a;
+    const V x = exact_value(c.support_pairs[0][plane_a ? 1 : 0]);
+    return dot(h.normal, x) - h.offset + times_root(Q(c.offset) - other.ball + e, dot(h.normal, h.normal)) <=
+           0;
+  }
+  const Q depth = Q(c.offset) - a.ball - b.ball + 2 * e;
+  if (!c.facets.empty()) return holds_ball(difference, c.facets, std::max(depth, Q(0)));
+  const V& v = difference[0];
+  return depth <= 0 && dot(v, v) <= depth * depth;
+}
+
+}  // namespace
+
+Q checker::rational_of(const std::string& s) {
   const bool plain = !s.empty() && s.find_first_not_of("-0123456789/") == std::string::npos &&
                      s.back() != '/' && s.find("/0") == std::string::npos;
   try {
@@ -26,189 +140,8 @@ Q rational(const std::string& s) {
   throw InputError("", "is not a rational number \"n/d\" (" + s + ")");
 }
 
-/// h(n) <= bound, or < bound.
-bool is_below(const Set& s, const V& n, const Q& bound, bool strictly) {
-  if (is_half_space(s)) {
-    if (!is_zero(cross(s.normal, n)) || dot(s.normal, n) <= 0) return false;
-    const Q top = s.offset * dot(n, n) / dot(s.normal, n);
-    return strictly ? top < bound : top <= bound;
-  }
-  const auto values = support_values(s, n);
-  return std::all_of(values.begin(), values.end(), [&](const Sum& h) {
-    return is_at_most_zero(h + Sum{-bound, {}}, strictly);
-  });
-}
-
-bool has_plane(const Certificate& c, const Set& a, const Set& b) {
-  const auto separates = [&](const V& n, const Q& at) {
-    return !is_zero(n) && is_below(a, n, at, false) && is_below(b, negated(n), -at, true);
-  };
-  if (c.rationals.empty()) return separates(exact_value(c.direction), Q(c.offset));
-  for (std::size_t i = 0; i + 3 < c.rationals.size(); i += 4) {
-    const auto r = [&](std::size_t k) { return rational(c.rationals[i + k]); };
-    if (separates({r(0), r(1), r(2)}, r(3))) return true;
-  }
-  return false;
-}
-
-bool check_planes(const Certificate& c, const std::vector<Set>& a, const std::vector<Set>& b) {
-  if (c.rationals.size() % 4 != 0) return false;
-  for (const Set& s : a)
-    for (const Set& t : b)
-      if (!has_plane(c, s, t)) return false;
-  return true;
-}
-
-bool check_point(const Certificate& c, const std::vector<Set>& a, const std::vector<Set>& b) {
-  if (!c.rationals.empty() && c.rationals.size() != 3) return false;
-  const V x = c.rationals.empty()
-                  ? exact_value(c.point)
-                  : V{rational(c.rationals[0]), rational(c.rationals[1]), rational(c.rationals[2])};
-  const auto in = [&](const std::vector<Set>& sets) {
-    return std::any_of(sets.begin(), sets.end(), [&](const Set& s) { return contains(s, x); });
-  };
-  return in(a) && in(b);
-}
-
-// h_A(n) + h_B(-n) <= d·|n|. For a half-space m·x <= o: the lowest m·x of the other, moved along n, is o or
-// more.
-bool check_direction(const V& n, const Q& d, const Set& a, const Set& b) {
-  if (is_zero(n) || (is_half_space(a) && is_half_space(b))) return false;
-  if (is_half_space(b)) return check_direction(negated(n), d, b, a);
-  if (is_half_space(a)) {
-    const Q nn = dot(n, n);
-    for (const Sum& h : support_values(b, negated(a.normal)))
-      if (!is_at_most_zero(h + Sum{a.offset, {{-d * dot(a.normal, n) / nn, nn}}}, false)) return false;
-    return true;
-  }
-  for (const Sum& h : support_values(a, n))
-    for (const Sum& k : support_values(b, negated(n)))
-      if (!is_at_most_zero(h + k + Sum{0, {{-d, dot(n, n)}}}, false)) return false;
-  return true;
-}
-
-// Every directed edge as often as its reverse.
-bool is_closed(const std::vector<std::array<int, 3>>& facets) {
-  std::vector<std::pair<int, int>> forward, backward;
-  for (const auto& f : facets)
-    for (std::size_t i = 0; i < 3; ++i) {
-      forward.emplace_back(f[i], f[(i + 1) % 3]);
-      backward.emplace_back(f[(i + 1) % 3], f[i]);
-    }
-  std::sort(forward.begin(), forward.end());
-  std::sort(backward.begin(), backward.end());
-  return forward == backward;
-}
-
-using Triangle = std::array<V, 3>;
-
-// How often the surface winds about the origin: signed crossings of a ray. Nothing when the ray meets an
-// edge.
-std::optional<int> winding(const std::vector<Triangle>& surface, const V& ray) {
-  int sum = 0;
-  for (const auto& [a, b, c] : surface) {
-    const int side = dot(a, cross(b, c)).sign();
-    const int u = dot(ray, cross(b, c)).sign() * side, v = dot(a, cross(ray, c)).sign() * side,
-              w = dot(a, cross(b, ray)).sign() * side;
-    if (side == 0 || u < 0 || v < 0 || w < 0) continue;
-    if (u == 0 || v == 0 || w == 0) return std::nullopt;
-    sum += side;
-  }
-  return sum;
-}
-
-bool encloses_origin(const std::vector<Triangle>& surface) {
-  for (const auto& [a, b, c] : surface)
-    if (const auto n = winding(surface, a + Q(2) * b + Q(4) * c)) return *n != 0;
-  return false;
-}
-
-// All points of the triangle are at distance >= r: by its plane, or, where that is not enough, by its nearest
-// point.
-bool is_clear(const Triangle& t, const Q& r) {
-  const V n = cross(t[1] - t[0], t[2] - t[0]);
-  const Q reach = dot(n, t[0]);
-  if (reach != 0 && reach * reach >= r * r * dot(n, n)) return true;
-  const V v = nearest_to_origin({t[0], t[1], t[2]});
-  return dot(v, v) > 0 && dot(v, v) >= r * r;
-}
-
-using Pairs = std::vector<std::array<Vec3, 2>>;
-
-Q allowance(const Pairs& pairs) {
-  double largest = 0;
-  for (const auto& [p, q] : pairs)
-    largest = std::max({largest, p.cwiseAbs().maxCoeff(), q.cwiseAbs().maxCoeff()});
-  return Q(tolerance::checker_point_factor) * Q(largest);
-}
-
-// m·x - o <= -(depth - ball + e)·|m| for one point x within e of the body's core.
-bool check_depth_in_half_space(const Certificate& c, const Set& half_space, const Set& body,
-                               const Vec3& point) {
-  if (c.support_pairs.size() != 1 || !c.facets.empty()) return false;
-  const Q e = allowance(c.support_pairs), need = Q(c.offset) - body.ball + e;
-  const V x = exact_value(point), &m = half_space.normal;
-  if (!is_near_core(body, x, e)) return false;
-  Sum s;
-  s.rational = dot(m, x) - half_space.offset;
-  s.roots.push_back({need, dot(m, m)});
-  return is_at_most_zero(s, false);
-}
-
-// The surface of the facets holds a ball of this radius about the origin.
-bool holds_ball(const std::vector<V>& vertices, const std::vector<std::array<int, 3>>& facets,
-                const Q& radius) {
-  std::vector<Triangle> surface;
-  for (const auto& f : facets) {
-    for (int k : f)
-      if (k < 0 || k >= static_cast<int>(vertices.size())) return false;
-    const auto at = [&](std::size_t i) { return vertices[static_cast<std::size_t>(f[i])]; };
-    surface.push_back({at(0), at(1), at(2)});
-    if (!is_clear(surface.back(), radius)) return false;
-  }
-  return is_closed(facets) && encloses_origin(surface);
-}
-
-// Points within e of the cores cost e each: the hull of the differences is within 2e of the difference of the
-// cores.
-bool check_inner(const Certificate& c, const Set& a, const Set& b) {
-  if (c.support_pairs.empty() || (is_half_space(a) && is_half_space(b))) return false;
-  if (is_half_space(a)) return check_depth_in_half_space(c, a, b, c.support_pairs[0][1]);
-  if (is_half_space(b)) return check_depth_in_half_space(c, b, a, c.support_pairs[0][0]);
-  const Q e = allowance(c.support_pairs), core_depth = Q(c.offset) - a.ball - b.ball + 2 * e;
-  std::vector<V> difference;
-  for (const auto& [p, q] : c.support_pairs) {
-    const V x = exact_value(p), y = exact_value(q);
-    if (!is_near_core(a, x, e) || !is_near_core(b, y, e)) return false;
-    difference.push_back(x - y);
-  }
-  if (!c.facets.empty()) return holds_ball(difference, c.facets, core_depth > 0 ? core_depth : Q(0));
-  return core_depth <= 0 && difference.size() == 1 &&
-         dot(difference[0], difference[0]) <= core_depth * core_depth;
-}
-
-Certificate::Kind kind_named(const std::string& s) {
-  using K = Certificate::Kind;
-  constexpr std::pair<std::string_view, K> names[] = {{"none", K::none},
-                                                      {"separating_plane", K::separating_plane},
-                                                      {"common_point", K::common_point},
-                                                      {"depth_direction", K::depth_direction},
-                                                      {"inner_polytope", K::inner_polytope},
-                                                      {"closed_form", K::closed_form}};
-  for (const auto& [name, kind] : names)
-    if (s == name) return kind;
-  throw InputError("kind", "is not a kind of certificate (" + s + ")");
-}
-
-Vec3 vector_of(const nlohmann::ordered_json& j) {
-  if (!j.is_array() || j.size() != 3) throw InputError("", "a vector of a certificate has three numbers");
-  return {j[0].get<double>(), j[1].get<double>(), j[2].get<double>()};
-}
-
-}  // namespace
-
 bool check(const Certificate& c, const Placed& a, const Placed& b) {
-  const std::vector<Set> x = sets_of(a), y = sets_of(b);
+  const Sets x = sets_of(a), y = sets_of(b);
   if (x.empty() || y.empty()) return false;
   const bool finite = c.direction.allFinite() && std::isfinite(c.offset) && c.point.allFinite() &&
                       std::all_of(c.support_pairs.begin(), c.support_pairs.end(),
@@ -222,34 +155,6 @@ bool check(const Certificate& c, const Placed& a, const Placed& b) {
   if (is_mesh(a) || is_mesh(b)) return false;
   if (c.kind == K::depth_direction) return check_direction(exact_value(c.direction), Q(c.offset), x[0], y[0]);
   return c.kind == K::inner_polytope && check_inner(c, x[0], y[0]);
-}
-
-Certificate certificate_from_json(const nlohmann::ordered_json& j) {
-  try {
-    Certificate c;
-    c.kind = kind_named(j.at("kind").get<std::string>());
-    using K = Certificate::Kind;
-    const bool plane = c.kind == K::separating_plane, point = c.kind == K::common_point;
-    if ((plane || point) && j.contains("rationals")) {
-      c.rationals = j.at("rationals").get<std::vector<std::string>>();
-      if (c.rationals.empty()) throw InputError("rationals", "is empty");
-    } else if (point) {
-      c.point = vector_of(j.at("point"));
-    }
-    if ((plane && c.rationals.empty()) || c.kind == K::depth_direction)
-      c.direction = vector_of(j.at("direction"));
-    const bool has_offset =
-        (plane && c.rationals.empty()) || c.kind == K::depth_direction || c.kind == K::inner_polytope;
-    if (has_offset) c.offset = j.at("offset").get<double>();
-    if (c.kind == K::inner_polytope) {
-      for (const auto& p : j.at("support_pairs"))
-        c.support_pairs.push_back({vector_of(p.at(0)), vector_of(p.at(1))});
-      c.facets = j.at("facets").get<std::vector<std::array<int, 3>>>();
-    }
-    return c;
-  } catch (const nlohmann::json::exception& e) {
-    throw InputError("certificate", std::string("cannot be read: ") + e.what());
-  }
 }
 
 }  // namespace touchstone::referee

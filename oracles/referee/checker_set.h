@@ -1,5 +1,10 @@
-// The checker's own picture of a scene: exact sets in rationals and signs of sums of square roots. Nothing
-// here is used by what finds certificates, and nothing of that is used here.
+// The checker's own picture of a scene: exact sets in rationals. Nothing here is used by what finds
+// certificates, and nothing of that is used here.
+//
+// Every bounded convex piece is the hull of a few round pieces, core = conv ∪ {centre + Σ u_k·axis_k, |u| <=
+// 1}, plus a ball: a box is eight points, a capsule two points and a ball, a cylinder two discs, a cone a
+// disc and a point. So one formula gives every support value: h(n) = max (centre·n + √Σ(axis_k·n)²) +
+// ball·|n|.
 #pragma once
 
 #include <boost/multiprecision/gmp.hpp>
@@ -23,40 +28,41 @@ inline V cross(const V& a, const V& b) {
 }
 inline V exact_value(const Vec3& v) { return {Q(v.x()), Q(v.y()), Q(v.z())}; }
 
-/// rational + Σ factor·√square, squares >= 0.
-struct Sum {
-  Q rational;
-  struct Root {
-    Q factor, square;
-  };
-  std::vector<Root> roots;
-};
-Sum operator+(Sum a, const Sum& b);
-/// One-sided: true only when it is so. With two or more different irrational roots and a sum within 2^-4000
-/// of zero it says false.
-bool is_at_most_zero(const Sum& s, bool strictly);
+/// factor·√square, or a little more: exact when the root is rational, else within 2^-512 of it (relative).
+Q times_root(const Q& factor, const Q& square);
 
-/// A convex piece of a body where it stands.
+/// Throws InputError for what is not "n" or "n/d".
+Q rational_of(const std::string& s);
+
 struct Set {
-  enum class Kind { points, cylinder, cone, ellipsoid, half_space };
-  Kind kind = Kind::points;
-  std::vector<V> points;  // hull of these, plus a ball
+  enum class Kind { hull, cylinder, cone, ellipsoid, half_space };
+  struct Round {
+    V centre;
+    std::vector<V> axes;
+  };
+  Kind kind = Kind::hull;
+  std::vector<Round> core;
   Q ball = 0;
-  V column[3];  // others: world = Σ column[i]·local[i] + centre
-  V centre;
-  V size;    // (radius, half height, -) or semi-axes
-  V normal;  // half_space: normal·x <= offset, in the world
+  V column[3], origin;  // world = Σ column[i]·local[i] + origin
+  V size;               // cylinder, cone: (radius, half height, -); ellipsoid: semi-axes
+  V normal;             // half_space: normal·x <= offset, in the world
   Q offset = 0;
 };
-/// A mesh is its triangles, anything else one set. Empty when the placement leaves no such set (singular).
-std::vector<Set> sets_of(const Placed& p);
+/// A rigid motion x -> R(q)x + shift, q = (v, w) any quaternion but zero, about each body's own origin.
+struct Carrier {
+  V v{0, 0, 0};
+  Q w = 1;
+  V shift{0, 0, 0};
+};
+/// The placed body, moved on. A mesh is its triangles, anything else one set. Empty when the placement leaves
+/// no such set (singular).
+std::vector<Set> sets_of(const Placed& p, const Carrier& by = {});
 
-/// The support value h(n) is the largest of these. Not for a half-space.
-std::vector<Sum> support_values(const Set& s, const V& n);
-bool contains(const Set& s, const V& x);
-/// x is within e of the set without its ball. Not for a half-space.
-bool is_near_core(const Set& s, const V& x, const Q& e);
-/// The nearest point of a hull to the origin.
+/// h(n) of the core, or a little more (times_root). Nothing where it is infinite (half-space).
+std::optional<Q> core_support(const Set& s, const V& n);
+/// True only if x is within r of the core; exact for hulls, and for the others when r = 0.
+bool is_within(const Set& s, const V& x, const Q& r);
+/// The nearest point of a hull to the origin (Wolfe 1976).
 V nearest_to_origin(const std::vector<V>& hull);
 
 }  // namespace touchstone::referee::checker

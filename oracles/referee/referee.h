@@ -88,8 +88,8 @@ struct TimeTruth {
 };
 TimeTruth judge_motion(const Placed& a, const Motion& motion_a, const Placed& b, const Motion& motion_b);
 
-/// Signed gap at time t of the motion, t exact; and the largest certified depth at any time before t (0 if
-/// none).
+/// Signed gap at time t of the motion, t exact; and a certified lower bound of the largest depth at any time up
+/// to t (0 if none is found): the depth at the deepest time that a search finds, never more than the truth.
 Bracket gap_at(const Placed& a, const Motion& motion_a, const Placed& b, const Motion& motion_b, double t);
 double certified_depth_before(const Placed& a, const Motion& motion_a, const Placed& b,
                               const Motion& motion_b, double t);

@@ -232,7 +232,8 @@ TEST_CASE("depth in a half-space is certified from both sides", "[referee][check
     if (t.verdict != Verdict::overlap) continue;
     Certificate upper;
     upper.kind = Certificate::Kind::depth_direction;
-    upper.direction = t.normal, upper.offset = -t.gap.lo * (1 + 1e-15);
+    upper.direction = t.normal, upper.offset = width(a, b, t.normal).hi;
+    REQUIRE(upper.offset <= -t.gap.lo * (1 + 1e-15));
     REQUIRE(check(stored(t.lower_depth), a, b));
     REQUIRE(check(stored(upper), a, b));
     Certificate more = stored(t.lower_depth);

@@ -165,3 +165,118 @@ TEST_CASE("certified depth is the deepest point of a passage", "[referee][motion
   REQUIRE(certified_depth_before(at(ball, {-5, 1.5, 0}), moving({10, 0, 0}), at(ball, {0, 0, 0}), rest,
                                  0.3) == 0);
 }
+
+TEST_CASE("a half-space that turns: closed form of a ball, and a great box in its place",
+          "[referee][motion]") {
+  const Shape ground = HalfSpace{{0, 0, 2}, 0}, ball = Sphere{0.5};
+  // The plane through the origin tips up towards a ball at (3, 0, 1): -3 sin(wt) + cos(wt) = 1/2.
+  const double w = 0.7, expected = (std::acos(0.5 / std::sqrt(10.0)) - std::atan(3.0)) / -w;
+  for (const Vec3& v : {Vec3(0, 0, 0), Vec3(5, -7, 9)}) {
+    const TimeTruth t = judge_motion(at(ball, {3, 0, 1}), moving(v), at(ground, {0, 0, 0}),
+                                     moving(v, {0, expected > 0 ? w : -w, 0}));
+    require_hit(t, std::abs(expected), 1e-14);
+    require_hit(judge_motion(at(ground, {0, 0, 0}), moving(v, {0, expected > 0 ? w : -w, 0}),
+                             at(ball, {3, 0, 1}), moving(v)),
+                std::abs(expected), 1e-14);
+  }
+  REQUIRE(
+      judge_motion(at(ball, {3, 0, 1}), rest, at(ground, {0, 0, 0}), moving({0, 0, 0}, {0, 0, 8})).verdict ==
+      Hit::none);
+  Rng r(77);
+  int hits = 0, none = 0, undecided = 0;
+  const Shape slab = Box{{1000, 1000, 500}};
+  for (int i = 0; i < 60; ++i) {
+    const Shape x = random_convex(r, convex_kinds[i % 7]);
+    const Quat q = r.rotation();
+    const Vec3 up = rotation_matrix(q) * Vec3(0, 0, 1);
+    const Placed a = at(x, r.uniform(1, 3) * up + r.vector(0, 1), r.rotation());
+    const Motion ma = moving(r.vector(0, 1.5), r.vector(0, 3)), mb = moving(r.vector(0, 1), r.vector(0, 0.8));
+    const Shape half = HalfSpace{{0, 0, 1}, 0.25};
+    Hull lowered;  // the slab with its top at z = 1/4, about the same origin
+    for (int k = 0; k < 8; ++k)
+      lowered.vertices.emplace_back(k & 1 ? 1000 : -1000, k & 2 ? 1000 : -1000, k & 4 ? 0.25 : -1000);
+    const Shape great = lowered;
+    const TimeTruth t = judge_motion(a, ma, {&half, Pose{{0, 0, 0}, q}}, mb),
+                    u = judge_motion(a, ma, {&great, Pose{{0, 0, 0}, q}}, mb);
+    INFO(i << " " << type_name(x) << " [" << t.t_lo << ", " << t.t_hi << "] [" << u.t_lo << ", " << u.t_hi
+           << "] " << t.note << u.note);
+    undecided += t.verdict == Hit::undecided || u.verdict == Hit::undecided;
+    if (t.verdict == Hit::undecided || u.verdict == Hit::undecided) continue;
+    REQUIRE(t.verdict == u.verdict);
+    hits += t.verdict == Hit::hit, none += t.verdict == Hit::none;
+    if (t.verdict == Hit::hit) {
+      REQUIRE(t.t_lo <= u.t_hi);
+      REQUIRE(u.t_lo <= t.t_hi);
+      REQUIRE(t.t_hi - t.t_lo < 1e-12);
+    }
+    for (double s : {0.0, 0.3, 1.0}) {
+      const Bracket g = gap_at(a, ma, {&half, Pose{{0, 0, 0}, q}}, mb, s),
+                    h = gap_at(a, ma, {&great, Pose{{0, 0, 0}, q}}, mb, s);
+      REQUIRE(g.hi - g.lo < 1e-14);
+      REQUIRE(g.lo <= h.hi);
+      REQUIRE(h.lo <= g.hi);
+    }
+  }
+  CAPTURE(undecided);
+  REQUIRE(undecided <= 1);
+  REQUIRE(hits > 15);
+  REQUIRE(none > 10);
+}
+
+TEST_CASE("two half-spaces in motion", "[referee][motion]") {
+  const Shape up = HalfSpace{{0, 0, 1}, 0}, down = HalfSpace{{0, 0, -3}, 0},
+              slanted = HalfSpace{{0, 1e-9, -1}, 0};
+  const Placed a = at(up, {0, 0, 0}), b = at(down, {5, 5, 1});
+  const auto judged = [&](const Motion& ma, const Motion& mb) { return judge_motion(a, ma, b, mb); };
+  require_hit(judged(rest, moving({9, 9, -3})), 1.0 / 3, 1e-16);
+  require_hit(judged(moving({0, 0, 1}), rest), 1, 0);
+  require_hit(judged(moving({0, 0, 4}), rest), 0.25, 0);
+  const TimeTruth clear = judged(moving({0, 0, 1 - 0x1p-53}), moving({0, 0, 0}, {0, 0, 7}));
+  REQUIRE(clear.verdict == Hit::none);
+  REQUIRE(clear.least_gap.lo <= 0x1p-53);
+  REQUIRE(clear.least_gap.hi >= 0x1p-53);
+  REQUIRE(clear.least_gap.hi < 0x1p-52);
+  require_hit(judged(rest, moving({0, 0, 9}, {1e-300, 0, 0})), 0, 1e-300);
+  require_hit(judge_motion(a, rest, at(slanted, {0, 0, 1}), rest), 0, 0);
+  require_hit(judge_motion(a, rest, at(down, {0, 0, -1}), moving({0, 0, 9})), 0, 0);
+  for (const auto& [t, gap] : {std::pair{0.25, 0.25}, std::pair{0.5, -0.5}}) {
+    const Bracket g = gap_at(a, rest, b, moving({9, 9, -3}), t);
+    REQUIRE(g.lo <= gap);
+    REQUIRE(g.hi >= gap);
+    REQUIRE(g.hi - g.lo <= 1e-16);
+  }
+}
+
+TEST_CASE("the certified depth of a turning motion is that of a dense search, and never more",
+          "[referee][motion]") {
+  Rng r(501);
+  int deep = 0;
+  double worst = 0;
+  for (int i = 0; i < 42; ++i) {
+    const Shape sa = random_convex(r, convex_kinds[i % 7]), sb = random_convex(r, convex_kinds[i / 7 % 7]);
+    const Placed a = at(sa, 1.2 * r.unit_vector(), r.rotation()), b = at(sb, Vec3::Zero(), r.rotation());
+    const Vec3 p = std::get<Pose>(a.pose).translation;
+    const Motion ma = moving(-2 * p + 0.5 * r.unit_vector(), r.uniform(0, 9) * r.unit_vector()),
+                 mb = moving(Vec3::Zero(), r.uniform(0, 9) * r.unit_vector());
+    const double d = certified_depth_before(a, ma, b, mb, 1);
+    // By another road, poses in doubles: samples 1/400 apart, and as much more as the depth can change
+    // between.
+    double lo = 0, hi = 0;
+    constexpr int n = 400;
+    for (int k = 0; k <= n; ++k) {
+      const double s = k / static_cast<double>(n);
+      const PairTruth g = judge_pair({&sa, pose_at(std::get<Pose>(a.pose), ma, s)},
+                                     {&sb, pose_at(std::get<Pose>(b.pose), mb, s)});
+      lo = std::max(lo, -g.gap.hi), hi = std::max(hi, -g.gap.lo);
+    }
+    const double rate =
+        ma.linear.norm() + ma.angular.norm() * bounding_radius(sa) + mb.angular.norm() * bounding_radius(sb);
+    INFO(i << " " << type_name(sa) << " " << type_name(sb) << " " << d << " " << lo);
+    REQUIRE(d <= std::max(hi, 0.0) + rate / (2 * n) + 1e-12);
+    worst = std::max(worst, lo - d);
+    deep += d > 0.01;
+  }
+  CAPTURE(worst);
+  CHECK(worst <= 1e-4);
+  REQUIRE(deep > 20);
+}

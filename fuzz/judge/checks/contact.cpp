@@ -12,11 +12,14 @@
 namespace touchstone::fuzz {
 namespace {
 
-referee::Certificate direction_certificate(const referee::PairTruth& truth) {
+// The truth's direction is rounded, and the least depth is along the exact one: what is certified is the
+// width along the direction as it stands.
+referee::Certificate direction_certificate(const CheckInput& in, int a, int b,
+                                           const referee::PairTruth& truth) {
   referee::Certificate c;
   c.kind = referee::Certificate::Kind::depth_direction;
   c.direction = truth.normal;
-  c.offset = -truth.gap.lo;
+  c.offset = in.truth.width(in.frame, a, b, truth.normal).hi;
   c.note = "moving B by `offset` along `direction` separates the bodies";
   return c;
 }
@@ -51,11 +54,11 @@ void judge_normal_and_depth(const CheckInput& in, CheckOutput& out, int a, int b
   if (regret > tau)
     out.fault(Fault::not_minimal, regret, l, q,
               fmt::format("the stated normal needs {:.9g}; the least depth is {:.9g}", w.lo, d_star),
-              direction_certificate(truth));
+              direction_certificate(in, a, b, truth));
   if (excess > tau)
     out.fault(Fault::depth_excess, excess, l, q,
               fmt::format("states depth {:.9g}; its own normal needs only {:.9g}", depth, w.hi),
-              direction_certificate(truth));
+              direction_certificate(in, a, b, truth));
 }
 
 void check_contact(const CheckInput& in, CheckOutput& out) {

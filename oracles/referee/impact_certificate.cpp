@@ -1,0 +1,178 @@
+// What judge_motion found, in a form that the checker accepts: planes up to t_lo (moving_plane.h), a common
+// point at t_hi. Nothing is handed out that `check` has not accepted.
+#include "oracles/referee/impact_certificate.h"
+
+#include <algorithm>
+
+#include "oracles/referee/half_space.h"
+#include "oracles/referee/moving_plane.h"
+#include "oracles/referee/world.h"
+
+namespace touchstone::referee {
+namespace {
+
+using MovingParts = std::vector<MovingPart>;
+
+struct Scene2 {
+  const Placed &a, &b;
+  const Motion &motion_a, &motion_b;
+  bool accepts(const ImpactCertificate& c) const { return check(c, a, motion_a, b, motion_b); }
+};
+
+Vec3 translation_of(const Placed& p) {
+  return std::visit([](const auto& x) -> Vec3 { return x.translation; }, p.pose);
+}
+
+MovingParts parts(const Placed& p, const Motion& m, const Vec3& minus, const Vec3& origin) {
+  MovingParts r;
+  const auto* mesh = std::get_if<TriangleMesh>(p.shape);
+  if (!mesh) r.emplace_back(p, m, minus, origin, std::nullopt);
+  for (std::size_t i = 0; mesh && i < mesh->triangles.size(); ++i) r.emplace_back(p, m, minus, origin, i);
+  return r;
+}
+
+std::array<std::string, 3> texts(const Rational3& v) { return {text_of(v.x), text_of(v.y), text_of(v.z)}; }
+
+ImpactCertificate::Track printed(const PlaneTrack& track) {
+  ImpactCertificate::Track r;
+  for (const PlaneKey& k : track) r.push_back({k.t, texts(k.direction), text_of(k.offset)});
+  return r;
+}
+
+// Every pair of parts needs a track; one found earlier may do. When one of them ends early, all must end
+// there.
+std::vector<PlaneTrack> tracks(const MovingParts& a, const MovingParts& b, double& until) {
+  std::vector<PlaneTrack> r;
+  for (const MovingPart& x : a)
+    for (const MovingPart& y : b) {
+      if (std::any_of(r.begin(), r.end(), [&](const PlaneTrack& t) { return keeps_apart(t, x, y); }))
+        continue;
+      r.push_back(track_between(x, y, until));
+      if (r.back().empty()) return {};
+      if (const double reached = r.back().back().t; reached < until)
+        return until = reached, tracks(a, b, until);
+    }
+  return r;
+}
+
+void add_planes(ImpactCertificate& c, const Scene2& s, const MovingParts& a, const MovingParts& b,
+                double until) {
+  ImpactCertificate planes;
+  for (const PlaneTrack& t : tracks(a, b, until)) planes.tracks.push_back(printed(t));
+  planes.clear_until = until;
+  if (s.accepts(planes)) c = planes;
+}
+
+Rational exact_of(Real x) {
+  const auto high = static_cast<double>(x);
+  return exact(high) + exact(static_cast<double>(x - static_cast<Real>(high)));
+}
+Rational3 exact_of(const Real3& v) { return {exact_of(v.x), exact_of(v.y), exact_of(v.z)}; }
+
+// The deepest core point of the body against normal·x <= offset, or, when that is outside, its foot.
+Rational3 deepest(const std::vector<Rational3>& points, const Rational3& normal, const Rational& offset) {
+  Rational3 best = points.front();
+  for (const Rational3& x : points)
+    if (dot(normal, x) < dot(normal, best)) best = x;
+  const Rational over = dot(normal, best) - offset;
+  return over > 0 ? best - over / dot(normal, normal) * normal : best;
+}
+
+/// Points that are likely to be in both parts at time t, seen from the origin of B; the exact one alone if
+/// there is one.
+std::vector<Rational3> candidates(const MovingPart& a, const MovingPart& b, double t) {
+  const Rational3 origin = exact(a.origin());
+  const bool plane_a = a.is_half_space(), plane_b = b.is_half_space();
+  if (plane_a && plane_b) return {};
+  const MovingPart &body = plane_a ? b : a, &other = plane_a ? a : b;
+  const Operand x = body.at(t);
+  const Real3 centre_a = (static_cast<Real>(t) * body.mover().velocity()) +
+                         to_real(translation_of(body.mover().placed())) - to_real(body.origin());
+  std::vector<Real3> from;
+  Real3 centre_b{0, 0, 0};
+  if (plane_a || plane_b) {
+    if (x.exact) {
+      std::vector<Rational3> points = world_points(*x.exact);
+      for (Rational3& p : points) p = p - origin;
+      return {deepest(points, other.normal(), other.offset(exact(t)))};
+    }
+    const Rational3 m = other.normal();
+    from.push_back(
+        support(x.body, -Real3{m.x.convert_to<Real>(), m.y.convert_to<Real>(), m.z.convert_to<Real>()})
+            .point);
+    centre_b = centre_a;
+  } else {
+    const Operand y = other.at(t);
+    if (x.exact && y.exact) {
+      const ExactPair p = make_exact(*x.exact, *y.exact);
+      const ExactVerdict v = decide(p, {});
+      if (!v.overlap) return {};
+      return {common_point(p, v) - origin};
+    }
+    const ConvexTruth g = judge_convex(x, y, {}, Effort::gap);
+    from = {0.5L * (g.witness_a + g.witness_b), g.witness_a, g.witness_b, g.common};
+  }
+  std::vector<Rational3> r;
+  for (const Real s : {0.0L, 0x1p-60L, 0x1p-50L, 0x1p-40L, 0x1p-25L, 0x1p-8L, 0.25L})
+    for (const Real3& p : from)
+      for (const Real3& to : {0.5L * (centre_a + centre_b), centre_a, centre_b})
+        r.push_back(exact_of(p + s * (to - p)));
+  return r;
+}
+
+bool may_touch(const MovingPart& a, const MovingPart& b, double t) {
+  if (a.is_half_space() || b.is_half_space()) return true;
+  return judge_convex(a.at(t), b.at(t), {}, Effort::verdict_only).verdict != Verdict::disjoint;
+}
+
+bool add_contact_at(ImpactCertificate& c, const Scene2& s, const MovingParts& a, const MovingParts& b,
+                    double t) {
+  for (const MovingPart& x : a)
+    for (const MovingPart& y : b) {
+      if (!may_touch(x, y, t)) continue;
+      for (const Rational3& p : candidates(x, y, t)) {
+        ImpactCertificate only;
+        only.contact = {text_of(exact(t)), texts(p)};
+        if (!s.accepts(only)) continue;
+        c.contact = only.contact;
+        return true;
+      }
+    }
+  return false;
+}
+
+// At t_hi contact is certain up to rounding only, or (an exact graze) certain a little earlier: then a little
+// later will do if the bodies are deeper there.
+void add_contact(ImpactCertificate& c, const Scene2& s, const MovingParts& a, const MovingParts& b,
+                 double t_hi) {
+  if (add_contact_at(c, s, a, b, t_hi)) return;
+  for (const double later : {0x1p-53, 0x1p-51, 0x1p-48, 0x1p-44, 0x1p-40, 0x1p-34, 0x1p-27}) {
+    const double t = std::min(1.0, std::max(std::nextafter(t_hi, 2.0), t_hi + later));
+    if (add_contact_at(c, s, a, b, t)) return;
+  }
+}
+
+bool is_unbounded_and_turns(const Placed& p, const Motion& m) {
+  return std::holds_alternative<HalfSpace>(*p.shape) && !m.angular.isZero(0);
+}
+
+}  // namespace
+
+ImpactCertificate impact_certificate(const Placed& a, const Motion& motion_a, const Placed& b,
+                                     const Motion& motion_b, const TimeTruth& truth) {
+  ImpactCertificate c;
+  if (is_unbounded_and_turns(a, motion_a) || is_unbounded_and_turns(b, motion_b)) return c;
+  const Scene2 s{a, b, motion_a, motion_b};
+  const Vec3 origin = translation_of(b);
+  Motion turning = motion_b;
+  turning.linear = Vec3::Zero();
+  const MovingParts x = parts(a, motion_a, motion_b.linear, origin),
+                    y = parts(b, turning, Vec3::Zero(), origin);
+  const bool hit = truth.verdict == TimeTruth::Verdict::hit;
+  const double until = truth.verdict == TimeTruth::Verdict::none ? 1 : truth.t_lo;
+  if (!hit || until > 0) add_planes(c, s, x, y, until);
+  if (hit) add_contact(c, s, x, y, truth.t_hi);
+  return c;
+}
+
+}  // namespace touchstone::referee
