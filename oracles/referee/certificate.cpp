@@ -212,10 +212,11 @@ Certificate mesh_planes(const Placed& a, const Placed& b) {
   const Operand other = make_operand(first ? b : a, Vec3::Zero());
   Certificate all;
   all.kind = Certificate::Kind::separating_plane;
-  if (!other.exact) return {};
+  if (!other.has_exact()) return {};
   for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
     const Operand part = make_operand(first ? a : b, mesh, i, Vec3::Zero());
-    const ExactPair p = first ? make_exact(*part.exact, *other.exact) : make_exact(*other.exact, *part.exact);
+    const ExactPair p =
+        first ? make_exact(*part.exact, other.exact_body()) : make_exact(other.exact_body(), *part.exact);
     const Certificate c = exact_certificate(p, decide(p, {}));
     if (c.kind != Certificate::Kind::separating_plane) return {};
     const auto known =

@@ -84,7 +84,7 @@ ConvexTruth judge_half_space(const Placed& h, const Operand& body, const Vec3& o
   const auto p = plane_of(h, origin);
   if (!p) return t;
   const Solid& b = body.body;
-  const SupportPoint s = support(b, -p->normal);
+  const SupportPoint<Real> s = support(b, -p->normal);
   const Bounds g = signed_distance(*p, dot(p->normal, s.point), b.extent, b.error);
   t.lo = g.lo - b.radius;
   t.lo -= unit * std::fabs(t.lo);
@@ -95,8 +95,8 @@ ConvexTruth judge_half_space(const Placed& h, const Operand& body, const Vec3& o
   t.witness_b = s.point - static_cast<Real>(b.radius) * t.normal;
   t.witness_a = t.witness_b - (0.5L * (t.lo + t.hi)) * t.normal;
   t.common = t.witness_b;
-  if (t.verdict == Verdict::undecided && body.exact) {
-    t.verdict = exact_verdict(h, *body.exact);
+  if (t.verdict == Verdict::undecided && body.has_exact()) {
+    t.verdict = exact_verdict(h, body.exact_body());
     t.level = 2;
     ++counters().exact;
     if (t.verdict == Verdict::overlap)
@@ -105,6 +105,7 @@ ConvexTruth judge_half_space(const Placed& h, const Operand& body, const Vec3& o
       t.lo = std::max(t.lo, Real{0});
   }
   if (t.verdict == Verdict::undecided) ++counters().undecided;
+  if (t.verdict != Verdict::undecided && t.level == 1) ++counters().extended;
   return t;
 }
 

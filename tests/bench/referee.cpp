@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <cstdlib>
 #include <map>
 #include <string>
@@ -53,10 +54,9 @@ std::map<std::string, Row> rows() {
   for (std::uint64_t i = 0; i < n; ++i) {
     const Case c = fuzz::make_case(seed, i);
     if (!is_discrete_pair(c)) continue;
-    const auto [a, b] = std::minmax(kind_of(c.scene.shape_of(0)), kind_of(c.scene.shape_of(1)));
-    add(std::string(type_name(c.scene.shape_of(kind_of(c.scene.shape_of(0)) == a ? 0 : 1))) + "-" +
-            std::string(type_name(c.scene.shape_of(kind_of(c.scene.shape_of(0)) == a ? 1 : 0))),
-        c);
+    ShapeKind a = kind_of(c.scene.shape_of(0)), b = kind_of(c.scene.shape_of(1));
+    if (b < a) std::swap(a, b);
+    add(std::string(type_name(a)) + "-" + std::string(type_name(b)), c);
     add("all", c);
     if (is_rounded_or_polytope(a) && is_rounded_or_polytope(b)) add("polytope-or-rounded", c);
   }
@@ -80,7 +80,7 @@ void count_answers(benchmark::State& state, const Row& row) {
     const referee::PairTruth t = judge(row.cases[i].scene);
     ++count["level" + std::to_string(t.level)];
     count["undecided"] += t.verdict == referee::Verdict::undecided;
-    count["wide"] += t.gap.hi - t.gap.lo > 1e-14 * row.scale[i];
+    count["wide"] += std::isfinite(t.gap.lo) && t.gap.hi - t.gap.lo > 1e-14 * row.scale[i];
   }
   const auto n = static_cast<double>(row.cases.size());
   for (const char* k : {"level0", "level1", "level2"}) state.counters[k] = count[k] / n;
