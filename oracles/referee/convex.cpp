@@ -47,14 +47,21 @@ EpaResult grow(const Difference& d, const GjkResult& g, Real target, int cap) {
   return f;
 }
 
-void settle_exactly(ConvexTruth& t, const Operand& a, const Operand& b, const Simplex& s) {
+std::vector<IndexPair> index_pairs(const Simplex& s) {
   std::vector<IndexPair> seed;
   for (int i = 0; i < s.size; ++i) {
     const Vertex& v = s.vertex[static_cast<std::size_t>(i)];
     if (v.ia >= 0 && v.ib >= 0) seed.emplace_back(v.ia, v.ib);
   }
-  t.exact = decide(make_exact(a.exact_body(), b.exact_body()), seed);
-  t.level = 2;
+  return seed;
+}
+
+void settle_exactly(ConvexTruth& t, const Operand& a, const Operand& b, const Simplex& s) {
+  const std::vector<IndexPair> seed = index_pairs(s);
+  const ExactBody x = a.exact_body(), y = b.exact_body();
+  t.exact = decide_short(x, y, seed);
+  t.level = t.exact ? 1 : 2;
+  if (!t.exact) t.exact = decide(make_exact(x, y), seed);
   t.verdict = t.exact->overlap ? Verdict::overlap : Verdict::disjoint;
   if (t.exact->overlap) {
     t.hi = std::min(t.hi, Real{0});
@@ -136,6 +143,8 @@ class Judge {
     approach(hints);
     const bool verdict_suffices = effort_ == Effort::verdict_only && t_.verdict != Verdict::undecided;
     if (gap_.hi - gap_.lo > target_ && !verdict_suffices) go_inside();
+    // Slivers: extended precision may lose the way among them. 1e-15 of the extent at most.
+    if (gap_.hi - gap_.lo > 64 * target_ && gap_.hi > 0 && !verdict_suffices) measure_exactly();
     t_.normal = normalized(gap_.direction);
     take_witness(t_, d_, gjk_.simplex);
     const Real3 common = t_.common;
@@ -186,6 +195,23 @@ class Judge {
     take(e.gap, e.nearest);
     if (e.gap.hi < 0 && effort_ == Effort::certificate)
       t_.inner = std::move(e.polytope), t_.inner_depth = d_.radius - d_.radius_error - e.gap.hi;
+    settle();
+  }
+
+  // Apart, the cores' nearest points are found by finitely many exact steps.
+  void measure_exactly() {
+    if (!a_.has_exact() || !b_.has_exact()) return;
+    ++counters().exact_distances;
+    const ExactPair p = make_exact(a_.exact_body(), b_.exact_body());
+    const ExactVerdict v = nearest(p, index_pairs(nearest_));
+    if (!(v.core_distance > 0) || !std::isfinite(v.core_distance)) return;
+    const Real slack = 16 * unit * v.core_distance;
+    gap_.raise(v.core_distance - slack, -direction_of(v));
+    gap_.lower(v.core_distance + slack);
+    nearest_ = {};
+    for (const auto& [i, j] : v.simplex)
+      nearest_.vertex[static_cast<std::size_t>(nearest_.size++)] = vertex_at(d_, i, j);
+    reduce(nearest_);
     settle();
   }
 

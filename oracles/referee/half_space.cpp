@@ -43,6 +43,18 @@ Verdict exact_verdict(const Placed& h, const ExactBody& body) {
   return disjoint ? Verdict::disjoint : Verdict::overlap;
 }
 
+void settle_exactly(ConvexTruth& t, const Placed& h, const ExactBody& body) {
+  const auto& plane = std::get<HalfSpace>(*h.shape);
+  if (const auto* pose = std::get_if<Pose>(&h.pose))
+    if (const auto overlap = overlaps_half_space_short(plane.normal, plane.offset, *pose, body)) {
+      t.verdict = *overlap ? Verdict::overlap : Verdict::disjoint;
+      return;
+    }
+  t.verdict = exact_verdict(h, body);
+  t.level = 2;
+  ++counters().exact;
+}
+
 }  // namespace
 
 std::optional<Plane> plane_of(const Placed& half_space, const Vec3& origin) {
@@ -96,9 +108,7 @@ ConvexTruth judge_half_space(const Placed& h, const Operand& body, const Vec3& o
   t.witness_a = t.witness_b - (0.5L * (t.lo + t.hi)) * t.normal;
   t.common = t.witness_b;
   if (t.verdict == Verdict::undecided && body.has_exact()) {
-    t.verdict = exact_verdict(h, body.exact_body());
-    t.level = 2;
-    ++counters().exact;
+    settle_exactly(t, h, body.exact_body());
     if (t.verdict == Verdict::overlap)
       t.hi = std::min(t.hi, Real{0}), t.lo = std::min(t.lo, Real{0});
     else

@@ -85,6 +85,15 @@ Certificate lower_depth_certificate(const ConvexTruth& t, const Difference& d, c
   return core_pair_certificate(a, b, origin, -t.hi);
 }
 
+Certificate rounded_plane(const ExactVerdict& v, const ConvexTruth& t, const Vec3& origin) {
+  const Real3 n = -direction_of(v);
+  Certificate c;
+  c.kind = Certificate::Kind::separating_plane;
+  c.direction = to_double(n);
+  c.offset = static_cast<double>(dot(n, 0.5L * (t.witness_a + t.witness_b) + to_real(origin)));
+  return c;
+}
+
 PairTruth convex_pair(const Placed& a, const Placed& b, std::span<const Vec3> hints) {
   const Vec3 origin = translation_of(a);
   const Operand x = make_operand(a, origin), y = make_operand(b, origin);
@@ -94,7 +103,9 @@ PairTruth convex_pair(const Placed& a, const Placed& b, std::span<const Vec3> hi
   const ConvexTruth t = judge_convex(x, y, directions);
   PairTruth r = common_part(t, origin);
   if (t.exact) {
-    r.verdict_certificate = exact_certificate(make_exact(x.exact_body(), y.exact_body()), *t.exact);
+    r.verdict_certificate =
+        t.exact->overlap ? point_certificate(t.common, origin) : rounded_plane(*t.exact, t, origin);
+    r.verdict_certificate.note = "rounded; exact form: checkable_certificate";
   } else if (t.verdict == Verdict::disjoint) {
     r.verdict_certificate = plane_certificate(Difference(x.body, y.body), t.normal, origin);
   } else if (t.verdict == Verdict::overlap) {

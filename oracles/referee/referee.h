@@ -69,8 +69,8 @@ PairTruth judge_pair(const Placed& a, const Placed& b, std::span<const Vec3> hin
 /// not of that kind.
 Certificate checkable_certificate(const PairTruth& truth, const Placed& a, const Placed& b);
 
-/// Evidence that the depth is at least -gap.hi (less what rounding its points to doubles costs): inner_polytope.
-/// Computed when asked, and slower than judging. Kind none: not an overlap with a depth.
+/// Evidence that the depth is at least -gap.hi (less what rounding its points to doubles costs):
+/// inner_polytope. Computed when asked, and slower than judging. Kind none: not an overlap with a depth.
 Certificate depth_certificate(const PairTruth& truth, const Placed& a, const Placed& b);
 
 /// w(n)/|n| where w(n) = h_A(n) + h_B(-n): how far B must move along n to be separate from A. n finite,
