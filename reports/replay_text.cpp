@@ -160,7 +160,8 @@ std::string ReplayText::referee_lines(const Query& q) const {
   if (std::isfinite(t.gap.lo)) s += fmt::format(", signed distance {}", bracket(t.gap));
   s += "\n";
   if (q.question == Question::contact && t.verdict == referee::Verdict::overlap && std::isfinite(t.gap.lo))
-    s += fmt::format("    least depth along n = {}\n", vec(t.normal)) + certificate_lines(t.lower_depth);
+    s += fmt::format("    least depth along n = {}\n", vec(t.normal)) +
+         certificate_lines(depth_certificate(q));
   else
     s += certificate_lines(t.verdict_certificate);
   return s;
@@ -187,6 +188,10 @@ std::string ReplayText::str() const {
     if (!cannot.empty()) out += wrapped(cannot, 78, 4) + "\n";
   }
   return out + "\n";
+}
+
+referee::Certificate ReplayText::depth_certificate(const Query& q) const {
+  return referee::depth_certificate(truth_.pair(0, q.a, q.b), truth_.placed(0, q.a), truth_.placed(0, q.b));
 }
 
 fuzz::Json ReplayText::referee_json(const Query& q) const {
@@ -218,7 +223,7 @@ fuzz::Json ReplayText::referee_json(const Query& q) const {
           {"gap", {fuzz::number(t.gap.lo), fuzz::number(t.gap.hi)}},
           {"normal", fuzz::vector(t.normal)},
           {"verdict_certificate", exact.is_null() ? referee::to_json(t.verdict_certificate) : exact},
-          {"depth_certificate", referee::to_json(t.lower_depth)},
+          {"depth_certificate", referee::to_json(depth_certificate(q))},
           {"filter_level", t.level}};
 }
 

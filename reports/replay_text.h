@@ -28,6 +28,7 @@ class ReplayText {
   };
   std::string referee_lines(const Query& q) const;
   fuzz::Json referee_json(const Query& q) const;
+  referee::Certificate depth_certificate(const Query& q) const;
   const Case& case_;
   fuzz::Truth& truth_;
   std::vector<Row> rows_;

@@ -55,15 +55,17 @@ Real placement_error(const Frame& f, Real rho, Real extent) {
 }
 
 void finish_points(Solid& b, std::span<const Vec3> local, const Frame& f) {
-  Real rho = 0;
+  Real rho = 0, extent_sq = 0, spin_sq = 0;
   b.points.reserve(local.size());
   for (const Vec3& v : local) {
-    const Real3 x = referee::to_real(v), turned = f.matrix * x;
+    const Real3 x = referee::to_real(v), turned = f.matrix * x, placed = turned + f.translation;
     rho = std::max(rho, sum_of_sizes(x));
-    b.points.push_back(turned + f.translation);
-    b.extent = std::max(b.extent, norm(b.points.back()));
-    b.spin_radius = std::max(b.spin_radius, norm(turned));
+    b.points.push_back(placed);
+    extent_sq = std::max(extent_sq, dot(placed, placed));
+    spin_sq = std::max(spin_sq, dot(turned, turned));
   }
+  b.extent = std::sqrt(extent_sq);
+  b.spin_radius = std::sqrt(spin_sq);
   const Real placed = placement_error(f, rho, b.extent);
   b.spin_radius += placed;
   b.extent += placed;
@@ -131,18 +133,21 @@ bool is_ball(const Placed& p) {
          e->semi_axes.y() == e->semi_axes.z();
 }
 
-Real3 local_support(const Solid& b, const Real3& m) {
-  const Real r = b.size.x, h = b.size.y;
-  if (b.kind == Solid::Kind::ellipsoid) {
-    const Real3 s{b.size.x * m.x, b.size.y * m.y, b.size.z * m.z};
-    const Real n = norm(s);
-    if (!(n > 0)) return {b.size.x, 0, 0};
+template <class T>
+Triple<T> local_support(const BasicSolid<T>& b, const Triple<T>& m) {
+  using Kind = typename BasicSolid<T>::Kind;
+  const T r = b.size.x, h = b.size.y;
+  if (b.kind == Kind::ellipsoid) {
+    const Triple<T> s{b.size.x * m.x, b.size.y * m.y, b.size.z * m.z};
+    const T n = norm(s);
+    if (!(n * n > least_square<T>)) return {b.size.x, 0, 0};
     return {b.size.x * (s.x / n), b.size.y * (s.y / n), b.size.z * (s.z / n)};
   }
-  const Real s = std::sqrt(m.x * m.x + m.y * m.y);
-  const Real3 rim = s > 0 ? Real3{r * (m.x / s), r * (m.y / s), -h} : Real3{r, 0, -h};
-  if (b.kind == Solid::Kind::cylinder) return {rim.x, rim.y, m.z < 0 ? -h : h};
-  return h * m.z > r * s - h * m.z ? Real3{0, 0, h} : rim;
+  const T s_sq = m.x * m.x + m.y * m.y, s = std::sqrt(s_sq);
+  const Triple<T> rim =
+      s_sq > least_square<T> ? Triple<T>{r * (m.x / s), r * (m.y / s), -h} : Triple<T>{r, 0, -h};
+  if (b.kind == Kind::cylinder) return {rim.x, rim.y, m.z < 0 ? -h : h};
+  return h * m.z > r * s - h * m.z ? Triple<T>{0, 0, h} : rim;
 }
 
 }  // namespace
@@ -200,7 +205,16 @@ double core_radius(const Placed& p) {
   return is_ball(p) ? std::get<Ellipsoid>(*p.shape).semi_axes.x() : 0;
 }
 
+bool has_core_points(const Placed& p) {
+  const Shape& s = *p.shape;
+  if (const auto* c = std::get_if<Cylinder>(&s)) return c->radius == 0;
+  if (const auto* c = std::get_if<Cone>(&s)) return c->radius == 0;
+  return std::holds_alternative<Sphere>(s) || std::holds_alternative<Capsule>(s) ||
+         std::holds_alternative<Hull>(s) || std::holds_alternative<Box>(s) || is_ball(p);
+}
+
 Solid make_body(const Placed& p, const Frame& f) {
+  if (const auto* h = std::get_if<Hull>(p.shape)) return make_body(h->vertices, 0, f);
   if (const auto points = core_points(p)) return make_body(*points, core_radius(p), f);
   const auto s = curved_sizes(*p.shape);
   Solid b;
@@ -250,32 +264,77 @@ void add_sweep(Solid& b, const Real3& sweep, Real sweep_error) {
 
 namespace {
 
-Real3 orbit_support(const Solid& b, const Real3& n) {
-  const Real3& axis = b.matrix.row[2];
-  const Real along = dot(axis, n);
-  const Real3 across = n - along * axis;
-  const Real turn = norm(across);
-  const Real3* best = &b.points[0];
-  for (const Real3& p : b.points)
+template <class T>
+Triple<T> orbit_support(const BasicSolid<T>& b, const Triple<T>& n) {
+  const Triple<T>& axis = b.matrix.row[2];
+  const T along = dot(axis, n);
+  const Triple<T> across = n - along * axis;
+  const T turn = norm(across);
+  const Triple<T>* best = &b.points[0];
+  for (const Triple<T>& p : b.points)
     if (along * p.x + turn * p.y > along * best->x + turn * best->y) best = &p;
-  const Real3 out = unit_across(across, axis);
+  const Triple<T> out = unit_across(across, axis);
   return b.centre + best->x * axis + best->y * out;
 }
 
+// Squares to sixth powers of numbers in this range, and their quotients, are far from overflow; what
+// underflows is below 2^-1000 of the quantity that it is added to.
+constexpr Real double_range = 0x1p80L;
+
+bool fits(Real x) { return x < double_range; }
+
 }  // namespace
 
-SupportPoint support(const Solid& b, const Real3& n) {
-  SupportPoint s;
-  if (b.kind == Solid::Kind::orbit) {
-    s.point = orbit_support(b, n);
-  } else if (b.kind == Solid::Kind::points) {
-    Real best = dot(b.points[0], n);
-    s.index = 0;
-    for (std::size_t i = 1; i < b.points.size(); ++i) {
-      const Real d = dot(b.points[i], n);
-      if (d > best) best = d, s.index = static_cast<int>(i);
+// With v = 2^-53: a point's coordinates move by v of their size, so the point by v·extent; a computed dot
+// product of it is within 4v·|n|·extent (Cauchy-Schwarz on the absolute values), and it is used both to
+// choose and to bound: 16v·extent. An orbit's point is put together from an axis that is unit within 4v, two
+// coordinates and a direction at a right angle within 4v: as in extended precision, 64v·extent. A curved
+// core's point: rounding the matrix adds v·m to each entry, so, as in finish_curved with matrix_error = v·m
+// and translation_error = v·extent, 2(5v·m·rho + 3v·extent) + (32 + 6)v·m·rho + 4v·extent.
+bool round_to_double(const Solid& b, BasicSolid<double>& out) {
+  constexpr Real v = unit_of<double>;
+  using Kind = Solid::Kind;
+  out.kind = static_cast<BasicSolid<double>::Kind>(b.kind);
+  out.radius = b.radius, out.is_swept = b.is_swept;
+  if (!fits(b.extent) || !fits(b.radius) || !fits(b.spin_radius)) return false;
+  if (b.extent + static_cast<Real>(b.radius) < 1 / double_range) return false;
+  out.points.resize(b.points.size());
+  for (std::size_t i = 0; i < b.points.size(); ++i) out.points[i] = to_double3(b.points[i]);
+  out.sweep = to_double3(b.sweep);
+  Real error = b.error + 16 * v * b.extent;
+  if (b.kind != Kind::points) {
+    for (int i = 0; i < 3; ++i) out.matrix.row[i] = to_double3(b.matrix.row[i]);
+    out.centre = to_double3(b.centre), out.size = to_double3(b.size);
+    error += 64 * v * b.extent;
+    if (b.kind != Kind::orbit) {
+      const Real rho = b.kind == Kind::ellipsoid ? 1.75L * largest(b.size) : 1.5L * b.size.x + b.size.y;
+      const Real m = largest(b.matrix);
+      if (!fits(m) || !fits(rho)) return false;
+      error += 64 * v * m * rho;
     }
-    s.point = b.points[static_cast<std::size_t>(s.index)];
+  }
+  if (b.is_swept) error += 8 * v * b.extent;
+  out.error = static_cast<double>(error) * (1 + 4 * unit_of<double>);
+  out.extent = static_cast<double>(b.extent) * (1 + 4 * unit_of<double>);
+  out.spin_radius = static_cast<double>(b.spin_radius) * (1 + 4 * unit_of<double>);
+  return true;
+}
+
+template <class T>
+SupportPoint<T> support(const BasicSolid<T>& b, const Triple<T>& n) {
+  using Kind = typename BasicSolid<T>::Kind;
+  SupportPoint<T> s;
+  if (b.kind == Kind::orbit) {
+    s.point = orbit_support(b, n);
+  } else if (b.kind == Kind::points) {
+    T best = dot(b.points[0], n);
+    std::size_t index = 0;
+    for (std::size_t i = 1; i < b.points.size(); ++i) {
+      const T d = dot(b.points[i], n);
+      if (d > best) best = d, index = i;
+    }
+    s.index = static_cast<int>(index);
+    s.point = b.points[index];
   } else {
     s.point = b.matrix * local_support(b, transpose_times(b.matrix, n)) + b.centre;
   }
@@ -285,5 +344,8 @@ SupportPoint support(const Solid& b, const Real3& n) {
   }
   return s;
 }
+
+template SupportPoint<double> support(const BasicSolid<double>&, const Triple<double>&);
+template SupportPoint<Real> support(const BasicSolid<Real>&, const Triple<Real>&);
 
 }  // namespace touchstone::referee

@@ -187,15 +187,26 @@ bool is_half_space(const Placed& p) { return std::holds_alternative<HalfSpace>(*
 
 namespace {
 
+/// Inside the body: the mean of a hull's vertices, which may all be on one side of its origin.
+Vec3 centre(const Placed& p) {
+  const Solid b = make_body(p, frame_of(p, Vec3::Zero()));
+  if (b.kind != Solid::Kind::points) return to_double(b.centre);
+  Real3 sum;
+  for (const Real3& x : b.points) sum = sum + x;
+  return to_double((1.0L / static_cast<Real>(b.points.size())) * sum);
+}
+
 // Curved bodies have no exact nearest points; any point a little inside both will do. Candidates: the middle
-// of the witness points, and that drawn towards either body's centre.
+// of the witness points, the common point, and these drawn towards each other or towards either body's
+// centre.
 Certificate inner_point(const PairTruth& truth, const Placed& a, const Placed& b) {
-  const auto centre = [](const Placed& p) {
-    return std::visit([](const auto& x) -> Vec3 { return x.translation; }, p.pose);
-  };
   const Vec3 middle = truth.witness[0] + 0.5 * (truth.witness[1] - truth.witness[0]);
+  const Vec3& common = truth.verdict_certificate.point;
+  // The common point may lie on a border and the middle outside; what is between them is often inside.
+  const auto towards_common = [&](double step) { return Vec3(middle + step * (common - middle)); };
   for (const Vec3& to : {centre(a), centre(b), Vec3(0.5 * centre(a) + 0.5 * centre(b))})
-    for (const Vec3& from : {middle, truth.witness[0], truth.witness[1], truth.verdict_certificate.point})
+    for (const Vec3& from : {middle, truth.witness[0], truth.witness[1], common, towards_common(0.5),
+                             towards_common(0.9), towards_common(0.99)})
       for (double step : {0.0, 0x1p-50, 0x1p-40, 0x1p-25, 0x1p-10, 0.25}) {
         Certificate c;
         c.kind = Certificate::Kind::common_point;
@@ -212,10 +223,11 @@ Certificate mesh_planes(const Placed& a, const Placed& b) {
   const Operand other = make_operand(first ? b : a, Vec3::Zero());
   Certificate all;
   all.kind = Certificate::Kind::separating_plane;
-  if (!other.exact) return {};
+  if (!other.has_exact()) return {};
   for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
     const Operand part = make_operand(first ? a : b, mesh, i, Vec3::Zero());
-    const ExactPair p = first ? make_exact(*part.exact, *other.exact) : make_exact(*other.exact, *part.exact);
+    const ExactPair p =
+        first ? make_exact(*part.exact, other.exact_body()) : make_exact(other.exact_body(), *part.exact);
     const Certificate c = exact_certificate(p, decide(p, {}));
     if (c.kind != Certificate::Kind::separating_plane) return {};
     const auto known =

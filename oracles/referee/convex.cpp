@@ -11,13 +11,10 @@ namespace {
 
 bool is_curved(const Solid& b) { return b.kind != Solid::Kind::points; }
 
-std::vector<Real3> first_directions(const Difference& d, std::span<const Real3> hints) {
-  std::vector<Real3> r(hints.begin(), hints.end());
+Real3 between_centres(const Difference& d) {
   const auto centre = [](const Solid& b) { return is_curved(b) ? b.centre : b.points[0]; };
-  Real3 n = centre(d.b) - centre(d.a);
-  if (largest(n) == 0) n = {1, 0, 0};
-  r.push_back(n);
-  return r;
+  const Real3 n = normalized(centre(d.b) - centre(d.a));
+  return largest(n) == 0 ? Real3{1, 0, 0} : n;
 }
 
 void take_witness(ConvexTruth& t, const Difference& d, const Simplex& s) {
@@ -50,14 +47,21 @@ EpaResult grow(const Difference& d, const GjkResult& g, Real target, int cap) {
   return f;
 }
 
-void settle_exactly(ConvexTruth& t, const Operand& a, const Operand& b, const Simplex& s) {
+std::vector<IndexPair> index_pairs(const Simplex& s) {
   std::vector<IndexPair> seed;
   for (int i = 0; i < s.size; ++i) {
     const Vertex& v = s.vertex[static_cast<std::size_t>(i)];
     if (v.ia >= 0 && v.ib >= 0) seed.emplace_back(v.ia, v.ib);
   }
-  t.exact = decide(make_exact(*a.exact, *b.exact), seed);
-  t.level = 2;
+  return seed;
+}
+
+void settle_exactly(ConvexTruth& t, const Operand& a, const Operand& b, const Simplex& s) {
+  const std::vector<IndexPair> seed = index_pairs(s);
+  const ExactBody x = a.exact_body(), y = b.exact_body();
+  t.exact = decide_short(x, y, seed);
+  t.level = t.exact ? 1 : 2;
+  if (!t.exact) t.exact = decide(make_exact(x, y), seed);
   t.verdict = t.exact->overlap ? Verdict::overlap : Verdict::disjoint;
   if (t.exact->overlap) {
     t.hi = std::min(t.hi, Real{0});
@@ -70,9 +74,13 @@ void settle_exactly(ConvexTruth& t, const Operand& a, const Operand& b, const Si
 
 }  // namespace
 
+ExactBody Operand::exact_body() const {
+  return exact ? *exact : ExactBody{*core_points(placed), core_radius(placed), placed.pose};
+}
+
 Operand make_operand(const Placed& p, const Vec3& origin) {
   Operand r{make_body(p, frame_of(p, origin)), std::nullopt};
-  if (auto core = core_points(p)) r.exact = ExactBody{std::move(*core), core_radius(p), p.pose};
+  if (has_core_points(p)) r.placed = p;
   return r;
 }
 
@@ -90,48 +98,169 @@ Real target_width(const Difference& d) {
   return std::max(noise, static_cast<Real>(tolerance::referee_width_factor) * d.extent);
 }
 
-ConvexTruth judge_convex(const Operand& a, const Operand& b, std::span<const Real3> hints, Effort effort) {
-  ++counters().convex_pairs;
-  const Difference d(a.body, b.body);
-  const Real target = target_width(d);
-  GjkResult g = gjk(d, first_directions(d, hints), target);
-  CoreGap gap = g.gap;
-  ConvexTruth t;
-  Simplex nearest = g.simplex;
-  const auto settle = [&] {
-    t.lo = gap.lo - d.radius - d.radius_error;
-    t.hi = gap.hi - d.radius + d.radius_error;
-    t.verdict = t.lo > 0 ? Verdict::disjoint : t.hi <= 0 ? Verdict::overlap : Verdict::undecided;
-  };
-  settle();
-  const bool verdict_suffices = effort == Effort::verdict_only && t.verdict != Verdict::undecided;
-  if (gap.hi - gap.lo > target && !verdict_suffices) {
-    ++counters().expansions;
-    const bool curved = is_curved(a.body) || is_curved(b.body);
-    int cap = curved ? tolerance::referee_curved_facet_cap : tolerance::referee_facet_cap;
-    if (curved) {
-      const MeridianBound m = meridian_bound(d, target);
-      gap.raise(m.gap.lo, m.gap.direction);
-      gap.lower(m.gap.hi);
-      // Symmetry has closed the bracket: what is left to find is a pair of points.
-      if (gap.hi - gap.lo <= target) cap = tolerance::referee_witness_facet_cap;
+namespace {
+
+/// Level 0: the same search in doubles. Its brackets decide most verdicts; what it found is where extended
+/// precision begins, which then needs one step to prove the bracket that is handed out.
+struct Level0 {
+  BasicSolid<double> a, b;
+  std::optional<BasicDifference<double>> d;  // empty: the numbers are out of range for doubles
+  BasicGjkResult<double> gjk;
+  Verdict verdict = Verdict::undecided;
+
+  void run(const Difference& fine, std::span<const Real3> directions) {
+    d.reset();
+    verdict = Verdict::undecided;
+    if (!round_to_double(fine.a, a) || !round_to_double(fine.b, b)) return;
+    d.emplace(a, b);
+    std::array<Double3, 8> first;
+    const std::size_t n = std::min(directions.size(), first.size());
+    for (std::size_t i = 0; i < n; ++i) first[i] = to_double3(directions[i]);
+    gjk = referee::gjk(*d, std::span<const Double3>(first.data(), n), target());
+    if (gjk.gap.lo - d->radius - d->radius_error > 0) verdict = Verdict::disjoint;
+    if (gjk.gap.hi - d->radius + d->radius_error <= 0) verdict = Verdict::overlap;
+  }
+  double target() const { return 64 * unit_of<double> * d->extent + 4 * d->error; }
+
+  /// The simplex's vertices in extended precision; empty when they are not pairs of core vertices.
+  std::optional<Simplex> simplex(const Difference& fine) const {
+    Simplex s;
+    for (int i = 0; i < gjk.simplex.size; ++i) {
+      const auto& v = gjk.simplex.vertex[static_cast<std::size_t>(i)];
+      if (v.ia < 0 || v.ib < 0) return std::nullopt;
+      s.vertex[static_cast<std::size_t>(s.size++)] = vertex_at(fine, v.ia, v.ib);
     }
-    EpaResult e = grow(d, g, target, cap);
-    gap.raise(e.gap.lo, e.gap.direction);
-    if (e.gap.hi < g.gap.hi) nearest = e.nearest;
-    gap.lower(e.gap.hi);
-    if (e.gap.hi < 0) t.inner = std::move(e.polytope), t.inner_depth = d.radius - d.radius_error - e.gap.hi;
+    return s;
+  }
+};
+
+class Judge {
+ public:
+  Judge(const Operand& a, const Operand& b, Effort effort)
+      : a_(a), b_(b), effort_(effort), d_(a.body, b.body), target_(target_width(d_)) {}
+
+  ConvexTruth run(std::span<const Real3> hints) {
+    approach(hints);
+    const bool verdict_suffices = effort_ == Effort::verdict_only && t_.verdict != Verdict::undecided;
+    if (gap_.hi - gap_.lo > target_ && !verdict_suffices) go_inside();
+    // Slivers: extended precision may lose the way among them. 1e-15 of the extent at most.
+    if (gap_.hi - gap_.lo > 64 * target_ && gap_.hi > 0 && !verdict_suffices) measure_exactly();
+    t_.normal = normalized(gap_.direction);
+    take_witness(t_, d_, gjk_.simplex);
+    const Real3 common = t_.common;
+    take_witness(t_, d_, nearest_);
+    t_.common = common;
+    if (t_.verdict == Verdict::undecided && a_.has_exact() && b_.has_exact())
+      settle_exactly(t_, a_, b_, nearest_);
+    count();
+    return std::move(t_);
+  }
+
+ private:
+  void approach(std::span<const Real3> hints) {
+    std::vector<Real3> directions(hints.begin(), hints.end());
+    directions.push_back(between_centres(d_));
+    level0_.run(d_, directions);
+    std::optional<Simplex> seed;
+    if (level0_.d) {
+      seed = level0_.simplex(d_);
+      if (!seed) directions.push_back(to_real(level0_.gjk.gap.direction));
+    }
+    gjk_ = gjk(d_, std::span<const Real3>(directions), target_, seed ? &*seed : nullptr);
+    gap_ = gjk_.gap;
+    nearest_ = gjk_.simplex;
     settle();
   }
-  t.normal = normalized(gap.direction);
-  take_witness(t, d, g.simplex);
-  const Real3 common = t.common;
-  take_witness(t, d, nearest);
-  t.common = common;
-  if (t.verdict == Verdict::undecided && a.exact && b.exact) settle_exactly(t, a, b, nearest);
-  if (t.level == 2) ++counters().exact;
-  if (t.verdict == Verdict::undecided) ++counters().undecided;
-  return t;
+
+  void settle() {
+    t_.lo = gap_.lo - d_.radius - d_.radius_error;
+    t_.hi = gap_.hi - d_.radius + d_.radius_error;
+    t_.verdict = t_.lo > 0 ? Verdict::disjoint : t_.hi <= 0 ? Verdict::overlap : Verdict::undecided;
+  }
+
+  void go_inside() {
+    ++counters().expansions;
+    const bool curved = is_curved(a_.body) || is_curved(b_.body);
+    int cap = curved ? tolerance::referee_curved_facet_cap : tolerance::referee_facet_cap;
+    if (curved) {
+      const MeridianBound m = meridian_bound(d_, target_);
+      gap_.raise(m.gap.lo, m.gap.direction);
+      gap_.lower(m.gap.hi);
+      // Symmetry has closed the bracket: what is left to find is a pair of points.
+      if (gap_.hi - gap_.lo <= target_) cap = tolerance::referee_witness_facet_cap;
+    } else if (effort_ != Effort::certificate && confirm_level0(cap)) {
+      return settle();
+    }
+    EpaResult e = grow(d_, gjk_, target_, cap);
+    take(e.gap, e.nearest);
+    if (e.gap.hi < 0 && effort_ == Effort::certificate)
+      t_.inner = std::move(e.polytope), t_.inner_depth = d_.radius - d_.radius_error - e.gap.hi;
+    settle();
+  }
+
+  // Apart, the cores' nearest points are found by finitely many exact steps.
+  void measure_exactly() {
+    if (!a_.has_exact() || !b_.has_exact()) return;
+    ++counters().exact_distances;
+    const ExactPair p = make_exact(a_.exact_body(), b_.exact_body());
+    const ExactVerdict v = nearest(p, index_pairs(nearest_));
+    if (!(v.core_distance > 0) || !std::isfinite(v.core_distance)) return;
+    const Real slack = 16 * unit * v.core_distance;
+    gap_.raise(v.core_distance - slack, -direction_of(v));
+    gap_.lower(v.core_distance + slack);
+    nearest_ = {};
+    for (const auto& [i, j] : v.simplex)
+      nearest_.vertex[static_cast<std::size_t>(nearest_.size++)] = vertex_at(d_, i, j);
+    reduce(nearest_);
+    settle();
+  }
+
+  void take(const CoreGap& gap, const Simplex& nearest) {
+    gap_.raise(gap.lo, gap.direction);
+    if (gap.hi < gap_.hi) nearest_ = nearest;
+    gap_.lower(gap.hi);
+  }
+
+  bool confirm_level0(int cap) {
+    if (!level0_.d || level0_.gjk.simplex.size != 4) return false;
+    const auto found = search(*level0_.d, level0_.gjk.simplex, 16 * unit_of<double> * level0_.d->extent, cap);
+    const Confirmed c = confirm(d_, *level0_.d, found, 8 * target_);
+    take(c.gap, c.nearest);
+    if (c.doubles_prove) level0_.verdict = Verdict::overlap;
+    if (!c.closed) ++counters().refinements;
+    return c.closed;
+  }
+
+  void count() {
+    if (t_.level != 2) t_.level = level0_.verdict != Verdict::undecided ? 0 : 1;
+    Counters& c = counters();
+    if (t_.verdict == Verdict::undecided)
+      ++c.undecided;
+    else
+      ++(t_.level == 0 ? c.doubles : t_.level == 1 ? c.extended : c.exact);
+  }
+
+  static Level0& storage() {
+    thread_local Level0 s;
+    return s;
+  }
+
+  const Operand &a_, &b_;
+  Effort effort_;
+  Difference d_;
+  Real target_;
+  Level0& level0_ = storage();
+  GjkResult gjk_;
+  CoreGap gap_;
+  Simplex nearest_;
+  ConvexTruth t_;
+};
+
+}  // namespace
+
+ConvexTruth judge_convex(const Operand& a, const Operand& b, std::span<const Real3> hints, Effort effort) {
+  ++counters().convex_pairs;
+  return Judge(a, b, effort).run(hints);
 }
 
 }  // namespace touchstone::referee

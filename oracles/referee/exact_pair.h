@@ -25,12 +25,14 @@ struct ExactBody {
 };
 
 /// The value of an integer k here is k·2^exponent/denominator.
-struct ExactPair {
-  std::vector<Integer3> a, b;
-  Integer radius_a, radius_b;
+template <class I>
+struct BasicExactPair {
+  std::vector<Exact3<I>> a, b;
+  I radius_a, radius_b;
   int exponent = 0;
-  Integer denominator = 1;
+  I denominator = 1;
 };
+using ExactPair = BasicExactPair<Integer>;
 ExactPair make_exact(const ExactBody& a, const ExactBody& b);
 
 using IndexPair = std::pair<int, int>;
@@ -41,9 +43,24 @@ struct ExactVerdict {
       false;  // known to be exactly at gap 0 (found only for rounded shapes at positive core distance)
   std::vector<IndexPair> simplex;  // nearest face of the difference: vertices a[i] - b[j]
   Integer3 direction;              // disjoint: B to A, d·(a - b) >= d·(simplex) > 0 for all a, b
+  Real core_distance = 0;          // found by `nearest` only: of the cores, within 16 units of itself
 };
 /// `seed`: a first guess of the simplex, at most four index pairs.
 ExactVerdict decide(const ExactPair& p, std::span<const IndexPair> seed);
+/// The same, going on to the nearest points of the cores, unless these meet.
+ExactVerdict nearest(const ExactPair& p, std::span<const IndexPair> seed);
+/// `decide` in integers of 512 bits, which allocate nothing; nullopt when the bodies' numbers need longer
+/// ones.
+std::optional<ExactVerdict> decide_short(const ExactBody& a, const ExactBody& b,
+                                         std::span<const IndexPair> seed);
+
+/// A polytope or rounded shape against a half-space (placed by a Pose) in integers of 512 bits; nullopt: as
+/// above.
+std::optional<bool> overlaps_half_space_short(const Vec3& normal, double offset, const Pose& half_space,
+                                              const ExactBody& body);
+
+/// v.direction, not zero, as a unit vector within 8 units.
+Real3 direction_of(const ExactVerdict& v);
 
 /// A point of both bodies, world coordinates. Precondition: v.overlap.
 Rational3 common_point(const ExactPair& p, const ExactVerdict& v);

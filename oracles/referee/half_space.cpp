@@ -43,6 +43,18 @@ Verdict exact_verdict(const Placed& h, const ExactBody& body) {
   return disjoint ? Verdict::disjoint : Verdict::overlap;
 }
 
+void settle_exactly(ConvexTruth& t, const Placed& h, const ExactBody& body) {
+  const auto& plane = std::get<HalfSpace>(*h.shape);
+  if (const auto* pose = std::get_if<Pose>(&h.pose))
+    if (const auto overlap = overlaps_half_space_short(plane.normal, plane.offset, *pose, body)) {
+      t.verdict = *overlap ? Verdict::overlap : Verdict::disjoint;
+      return;
+    }
+  t.verdict = exact_verdict(h, body);
+  t.level = 2;
+  ++counters().exact;
+}
+
 }  // namespace
 
 std::optional<Plane> plane_of(const Placed& half_space, const Vec3& origin) {
@@ -84,7 +96,7 @@ ConvexTruth judge_half_space(const Placed& h, const Operand& body, const Vec3& o
   const auto p = plane_of(h, origin);
   if (!p) return t;
   const Solid& b = body.body;
-  const SupportPoint s = support(b, -p->normal);
+  const SupportPoint<Real> s = support(b, -p->normal);
   const Bounds g = signed_distance(*p, dot(p->normal, s.point), b.extent, b.error);
   t.lo = g.lo - b.radius;
   t.lo -= unit * std::fabs(t.lo);
@@ -95,16 +107,15 @@ ConvexTruth judge_half_space(const Placed& h, const Operand& body, const Vec3& o
   t.witness_b = s.point - static_cast<Real>(b.radius) * t.normal;
   t.witness_a = t.witness_b - (0.5L * (t.lo + t.hi)) * t.normal;
   t.common = t.witness_b;
-  if (t.verdict == Verdict::undecided && body.exact) {
-    t.verdict = exact_verdict(h, *body.exact);
-    t.level = 2;
-    ++counters().exact;
+  if (t.verdict == Verdict::undecided && body.has_exact()) {
+    settle_exactly(t, h, body.exact_body());
     if (t.verdict == Verdict::overlap)
       t.hi = std::min(t.hi, Real{0}), t.lo = std::min(t.lo, Real{0});
     else
       t.lo = std::max(t.lo, Real{0});
   }
   if (t.verdict == Verdict::undecided) ++counters().undecided;
+  if (t.verdict != Verdict::undecided && t.level == 1) ++counters().extended;
   return t;
 }
 

@@ -1,8 +1,8 @@
 #include "oracles/referee/inner_polytope.h"
 
 #include <algorithm>
+#include <functional>
 #include <optional>
-#include <queue>
 
 #include "oracles/referee/exact_sign.h"
 
@@ -11,62 +11,71 @@ namespace {
 
 std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
-Real3 nearest_on_segment(const Real3& p, const Real3& q) {
-  const Real3 d = q - p;
-  const Real dd = dot(d, d), t = -dot(p, d);
+template <class T>
+Triple<T> nearest_on_segment(const Triple<T>& p, const Triple<T>& q) {
+  const Triple<T> d = q - p;
+  const T dd = dot(d, d), t = -dot(p, d);
   if (!(t > 0)) return p;
   return t >= dd ? q : p + (t / dd) * d;
 }
 
-Real3 nearest_on_border(const Real3& p, const Real3& q, const Real3& r) {
-  const Real3 a = nearest_on_segment(p, q), b = nearest_on_segment(q, r), c = nearest_on_segment(r, p);
-  const Real aa = dot(a, a), bb = dot(b, b), cc = dot(c, c);
+template <class T>
+Triple<T> nearest_on_border(const Triple<T>& p, const Triple<T>& q, const Triple<T>& r) {
+  const Triple<T> a = nearest_on_segment(p, q), b = nearest_on_segment(q, r), c = nearest_on_segment(r, p);
+  const T aa = dot(a, a), bb = dot(b, b), cc = dot(c, c);
   return cc < aa && cc < bb ? c : bb < aa ? b : a;
 }
 
-/// A lower bound of the triangle's extent along n (not zero), up to rounding.
-Real least_along(const Real3& n, const Real3& p, const Real3& q, const Real3& r) {
-  return std::fmin(dot(n, p), std::fmin(dot(n, q), dot(n, r))) / norm(n);
+/// A lower bound of the triangle's extent along n, up to rounding.
+template <class T>
+T least_along(const Triple<T>& n, const Triple<T>& p, const Triple<T>& q, const Triple<T>& r) {
+  const T length_sq = dot(n, n);
+  if (!(length_sq > least_square<T>)) return -std::numeric_limits<T>::infinity();
+  return std::min(dot(n, p), std::min(dot(n, q), dot(n, r))) / std::sqrt(length_sq);
 }
 
+template <class T>
 struct Reach {
-  Real value;  // least_along(direction)
-  Real3 direction;
+  T value;  // least_along(direction)
+  Triple<T> direction;
+  T det = 0;  // det(p, q, r), rounded
 };
 
 // How far the triangle stays from the origin: along its plane's normal, or, where the origin's foot is
 // outside of the triangle or the normal is a sliver's and not to be trusted, along the nearest point of its
 // border. A triangle that has the origin clearly behind it is measured along its normal only, negative, so
 // that it is the first to grow.
-constexpr Real behind = -0x1p-40L;  // of det/(|p||q||r|); far above its rounding, 2^-58
+constexpr double behind = -0x1p-40;  // of det/(|p||q||r|); far above its rounding, 2^-58
 
-Reach reach_of(const Real3& p, const Real3& q, const Real3& r) {
-  const Real3 n = cross(q - p, r - p);
-  Reach best{-std::numeric_limits<Real>::infinity(), n};
+template <class T>
+Reach<T> reach_of(const Triple<T>& p, const Triple<T>& q, const Triple<T>& r) {
+  const Triple<T> n = cross(q - p, r - p);
+  Reach<T> best{-std::numeric_limits<T>::infinity(), n};
   if (largest(n) > 0) {
     best.value = least_along(n, p, q, r);
-    const Real3 pq = cross(p, q);
-    const Real det = dot(pq, r);
+    const Triple<T> pq = cross(p, q);
+    const T det = best.det = dot(pq, r);
     if (det < 0 && det < behind * norm(p) * norm(q) * norm(r)) return best;
     // The origin's foot well inside of a triangle that is no sliver: no direction does better than the
     // normal.
-    const Real nn = dot(n, n), inside = 0x1p-20L * nn;
+    const T nn = dot(n, n), inside = T(0x1p-20) * nn;
     if (det > 0 && dot(pq, n) > inside && dot(cross(q, r), n) > inside && dot(cross(r, p), n) > inside &&
-        nn > 0x1p-40L * dot(q - p, q - p) * dot(r - p, r - p))
+        nn > T(0x1p-40) * dot(q - p, q - p) * dot(r - p, r - p))
       return best;
   }
-  const Real3 c = nearest_on_border(p, q, r);
+  const Triple<T> c = nearest_on_border(p, q, r);
   if (!(largest(c) > 0)) return best;
-  const Real along = least_along(c, p, q, r);
-  return along > best.value ? Reach{along, c} : best;
+  const T along = least_along(c, p, q, r);
+  return along > best.value ? Reach<T>{along, c, best.det} : best;
 }
 
+template <class T>
 struct Facet {
   std::array<int, 3> v;
   std::array<int, 3> neighbour{-1, -1, -1};  // across edge v[i], v[i+1]
-  Real3 normal;                              // unit; zero for a triangle without area
-  Real offset = 0;
-  Reach reach;
+  Triple<T> normal;                          // unit; zero for a triangle without area
+  T offset = 0;
+  Reach<T> reach;
   bool live = true, settled = false;
 };
 
@@ -74,87 +83,101 @@ struct HorizonEdge {
   int from, to, neighbour, neighbour_edge;
 };
 
+template <class T>
+struct Storage {
+  using Entry = std::pair<T, int>;
+  std::vector<Facet<T>> facets;
+  std::vector<Entry> queue;  // a heap, nearest facet first
+  std::vector<int> visible, mark, first;
+  std::vector<HorizonEdge> horizon;
+};
+
+template <class T>
 class Epa {
  public:
-  Epa(const Difference& d, Real target, int facet_cap, Orientation orientation)
+  using Exit = typename BasicEpaResult<T>::Exit;
+
+  Epa(const BasicDifference<T>& d, T target, int facet_cap, Orientation orientation)
       : d_(d), target_(target), cap_(facet_cap), orientation_(orientation) {}
 
-  EpaResult run(const Simplex& seed) {
+  BasicEpaResult<T> run(const BasicSimplex<T>& seed) {
     if (const auto t = tetrahedron(seed)) {
       start(*t);
       r_.exit = grow();
       finish();
     } else {
-      r_.exit = EpaResult::Exit::flat;
+      r_.exit = Exit::flat;
       r_.nearest = seed;
     }
     return std::move(r_);
   }
 
  private:
-  Vertex ask(const Real3& n) {
-    const Vertex v = d_.support(n);
+  BasicVertex<T> ask(const Triple<T>& n) {
+    const BasicVertex<T> v = d_.support(n);
     r_.gap.raise(-d_.width_above(v, n), n);
     return v;
   }
 
   /// Four support points that span a volume; nullopt when D is flat up to rounding, and then `gap` has been
   /// raised along the flat's normals, which proves that.
-  std::optional<std::array<Vertex, 4>> tetrahedron(const Simplex& seed) {
-    std::vector<Vertex> found(seed.vertex.begin(), seed.vertex.begin() + seed.size);
-    const Real tiny = 64 * unit * d_.extent;
+  std::optional<std::array<BasicVertex<T>, 4>> tetrahedron(const BasicSimplex<T>& seed) {
+    const T tiny = 64 * unit_of<T> * d_.extent;
     if (seed.size == 4) {
-      const std::array<Vertex, 4> t = seed.vertex;
-      const Real3 n = cross(t[1].w - t[0].w, t[2].w - t[0].w);
-      if (largest(n) > 0 && std::fabs(dot(normalized(n), t[3].w - t[0].w)) > tiny) return t;
+      const std::array<BasicVertex<T>, 4> t = seed.vertex;
+      const Triple<T> n = cross(t[1].w - t[0].w, t[2].w - t[0].w);
+      if (largest(n) > 0 && std::abs(dot(normalized(n), t[3].w - t[0].w)) > tiny) return t;
     }
+    std::vector<BasicVertex<T>> found(seed.vertex.begin(), seed.vertex.begin() + seed.size);
     for (int k = 0; k < 3; ++k) {
-      const Real3 axis{k == 0 ? 1.0L : 0.0L, k == 1 ? 1.0L : 0.0L, k == 2 ? 1.0L : 0.0L};
+      const Triple<T> axis{k == 0 ? T(1) : T(0), k == 1 ? T(1) : T(0), k == 2 ? T(1) : T(0)};
       found.push_back(ask(axis)), found.push_back(ask(-axis));
     }
-    std::array<Vertex, 4> t;
+    std::array<BasicVertex<T>, 4> t;
     t[0] = found[0];
     const auto farthest = [&](auto&& measure) {
-      return *std::max_element(found.begin(), found.end(),
-                               [&](const Vertex& x, const Vertex& y) { return measure(x) < measure(y); });
+      return *std::max_element(
+          found.begin(), found.end(),
+          [&](const BasicVertex<T>& x, const BasicVertex<T>& y) { return measure(x) < measure(y); });
     };
-    t[1] = farthest([&](const Vertex& x) { return norm(x.w - t[0].w); });
-    const Real3 axis = t[1].w - t[0].w;
+    t[1] = farthest([&](const BasicVertex<T>& x) { return norm(x.w - t[0].w); });
+    const Triple<T> axis = t[1].w - t[0].w;
     if (norm(axis) <= tiny) return std::nullopt;
-    const Real3 u = normalized(axis), e = normalized(perpendicular(u)), f = cross(u, e);
-    for (const Real3& n : {e, -e, f, -f}) found.push_back(ask(n));
-    t[2] = farthest([&](const Vertex& x) { return norm(cross(u, x.w - t[0].w)); });
-    const Real3 n = cross(u, t[2].w - t[0].w);
+    const Triple<T> u = normalized(axis), e = normalized(perpendicular(u)), f = cross(u, e);
+    for (const Triple<T>& n : {e, -e, f, -f}) found.push_back(ask(n));
+    t[2] = farthest([&](const BasicVertex<T>& x) { return norm(cross(u, x.w - t[0].w)); });
+    const Triple<T> n = cross(u, t[2].w - t[0].w);
     if (norm(n) <= tiny) return raise_around(u, e, f), std::nullopt;
-    const Real3 m = normalized(n);
+    const Triple<T> m = normalized(n);
     found.push_back(ask(m)), found.push_back(ask(-m));
-    t[3] = farthest([&](const Vertex& x) { return std::fabs(dot(m, x.w - t[0].w)); });
-    if (std::fabs(dot(m, t[3].w - t[0].w)) <= tiny) return std::nullopt;
+    t[3] = farthest([&](const BasicVertex<T>& x) { return std::abs(dot(m, x.w - t[0].w)); });
+    if (std::abs(dot(m, t[3].w - t[0].w)) <= tiny) return std::nullopt;
     return t;
   }
 
   // D is a segment along u, or a point: the direction at a right angle to it in which the origin lies off it.
-  void raise_around(const Real3& u, const Real3& e, const Real3& f) {
-    const Vertex v = ask(u);
-    const Real3 off = v.w - dot(u, v.w) * u;
-    for (const Real3& n : {-off, e, f})
+  void raise_around(const Triple<T>& u, const Triple<T>& e, const Triple<T>& f) {
+    const BasicVertex<T> v = ask(u);
+    const Triple<T> off = v.w - dot(u, v.w) * u;
+    for (const Triple<T>& n : {-off, e, f})
       if (largest(n) > 0) ask(n);
   }
 
   int add(std::array<int, 3> v) {
-    Facet f;
+    Facet<T> f;
     f.v = v;
-    const Real3 &p = w(v[0]), &q = w(v[1]), &r = w(v[2]);
+    const Triple<T>&p = w(v[0]), &q = w(v[1]), &r = w(v[2]);
     f.normal = normalized(cross(q - p, r - p));
     f.offset = dot(f.normal, p);
     f.reach = reach_of(p, q, r);
     facets_.push_back(f);
     const int id = static_cast<int>(facets_.size()) - 1;
-    queue_.push({f.reach.value, id});
+    queue_.emplace_back(f.reach.value, id);
+    std::push_heap(queue_.begin(), queue_.end(), std::greater<Entry>());
     return id;
   }
 
-  void start(std::array<Vertex, 4> t) {
+  void start(std::array<BasicVertex<T>, 4> t) {
     if (dot(cross(t[1].w - t[0].w, t[2].w - t[0].w), t[3].w - t[0].w) > 0) std::swap(t[1], t[2]);
     r_.polytope.vertices.assign(t.begin(), t.end());
     // With det(t1-t0, t2-t0, t3-t0) < 0 these four are counter-clockwise from outside.
@@ -168,17 +191,17 @@ class Epa {
     facets_[at(g)].neighbour[at(j)] = f;
   }
 
-  EpaResult::Exit grow() {
+  Exit grow() {
     for (;;) {
-      while (!facets_[at(queue_.top().second)].live) queue_.pop();
-      const int f = queue_.top().second;
-      if (facets_[at(f)].settled) return EpaResult::Exit::stalled;
-      if (static_cast<int>(facets_.size()) > cap_) return EpaResult::Exit::facet_cap;
-      const Reach reach = facets_[at(f)].reach;
-      const Real3 n = normalized(reach.direction);
-      const Vertex p = ask(n);
-      if (dot(n, p.w) - reach.value <= target_) return EpaResult::Exit::converged;
-      if (-r_.gap.lo - reach.value <= target_) return EpaResult::Exit::converged;
+      drop_dead();
+      const int f = queue_.front().second;
+      if (facets_[at(f)].settled) return Exit::stalled;
+      if (static_cast<int>(facets_.size()) > cap_) return Exit::facet_cap;
+      const Reach<T> reach = facets_[at(f)].reach;
+      const Triple<T> n = normalized(reach.direction);
+      const BasicVertex<T> p = ask(n);
+      if (dot(n, p.w) - reach.value <= target_) return Exit::converged;
+      if (-r_.gap.lo - reach.value <= target_) return Exit::converged;
       // Where the nearest point lies on the border, the plane's own normal may still lead on.
       if (!insert(f, p) && !insert(f, ask(facets_[at(f)].normal))) facets_[at(f)].settled = true;
     }
@@ -186,8 +209,8 @@ class Epa {
 
   /// Replaces the facets that see p by a fan from p. False, and nothing changed, when p is not new or the
   /// horizon touches itself.
-  bool insert(int f, const Vertex& p) {
-    for (const Vertex& v : r_.polytope.vertices)
+  bool insert(int f, const BasicVertex<T>& p) {
+    for (const BasicVertex<T>& v : r_.polytope.vertices)
       if (v.w.x == p.w.x && v.w.y == p.w.y && v.w.z == p.w.z) return false;
     const auto first = first_visible(f, p.w);
     if (!first) return false;
@@ -210,25 +233,26 @@ class Epa {
     return simple;
   }
 
-  bool sees(const Facet& f, const Real3& p) const {
-    if (orientation_ == Orientation::rounded) return dot(f.normal, p) - f.offset > 8 * unit * d_.extent;
-    return orientation_sign(w(f.v[0]), w(f.v[1]), w(f.v[2]), p) > 0;
+  bool sees(const Facet<T>& f, const Triple<T>& p) const {
+    if constexpr (std::is_same_v<T, Real>)
+      if (orientation_ == Orientation::exact) return orientation_sign(w(f.v[0]), w(f.v[1]), w(f.v[2]), p) > 0;
+    return dot(f.normal, p) - f.offset > 8 * unit_of<T> * d_.extent;
   }
 
   // The facet that asked; with exact signs the plane of a sliver may turn out to have the new point behind
   // it.
-  std::optional<int> first_visible(int f, const Real3& p) const {
+  std::optional<int> first_visible(int f, const Triple<T>& p) const {
     if (sees(facets_[at(f)], p)) return f;
     for (std::size_t g = 0; g < facets_.size(); ++g)
       if (facets_[g].live && sees(facets_[g], p)) return static_cast<int>(g);
     return std::nullopt;
   }
 
-  void look_around(int f, const Real3& p) {
+  void look_around(int f, const Triple<T>& p) {
     for (int i = 0; i < 3; ++i) {
       const int g = facets_[at(f)].neighbour[at(i)];
       if (mark_[at(g)] == stamp_) continue;
-      const Facet& facet = facets_[at(g)];
+      const Facet<T>& facet = facets_[at(g)];
       if (sees(facet, p)) {
         mark_[at(g)] = stamp_;
         visible_.push_back(g);
@@ -240,7 +264,7 @@ class Epa {
     }
   }
 
-  void cone(const Vertex& p) {
+  void cone(const BasicVertex<T>& p) {
     for (int f : visible_) facets_[at(f)].live = false;
     r_.polytope.vertices.push_back(p);
     const int apex = static_cast<int>(r_.polytope.vertices.size()) - 1;
@@ -254,75 +278,191 @@ class Epa {
   }
 
   void finish() {
-    while (!facets_[at(queue_.top().second)].live) queue_.pop();
-    const Facet& f = facets_[at(queue_.top().second)];
+    drop_dead();
+    const int nearest = queue_.front().second;
     r_.nearest.size = 3;
-    for (int i = 0; i < 3; ++i) r_.nearest.vertex[at(i)] = r_.polytope.vertices[at(f.v[at(i)])];
+    for (int i = 0; i < 3; ++i)
+      r_.nearest.vertex[at(i)] = r_.polytope.vertices[at(facets_[at(nearest)].v[at(i)])];
     reduce(r_.nearest);
     // A point of D, whichever side of the origin it is on; the bound's roundings as in gjk.cpp.
-    r_.gap.lower(norm(r_.nearest.nearest) + 16 * unit * d_.extent + d_.error);
-    for (const Facet& g : facets_)
-      if (g.live) r_.polytope.facets.push_back(g.v);
-    if (!(f.reach.value > 0)) return;
-    const Real l = proven_inner_radius(r_.polytope, f.reach.value) - d_.error;
-    if (l > 0) r_.gap.lower(-l);
+    r_.gap.lower(norm(r_.nearest.nearest) + 16 * unit_of<T> * d_.extent + d_.error);
+    keep_live(nearest);
+    if constexpr (std::is_same_v<T, Real>) {
+      const Real expected = facets_[at(nearest)].reach.value;
+      if (!(expected > 0)) return;
+      const Real l = proven_inner_radius(r_.polytope, expected) - d_.error;
+      if (l > 0) r_.gap.lower(-l);
+    }
   }
 
-  const Real3& w(int i) const { return r_.polytope.vertices[at(i)].w; }
+  void keep_live(int nearest) {
+    mark_.assign(facets_.size(), -1);
+    int live = 0;
+    for (std::size_t g = 0; g < facets_.size(); ++g)
+      if (facets_[g].live) mark_[g] = live++;
+    r_.nearest_facet = mark_[at(nearest)];
+    for (const auto reserve : {&r_.polytope.facets, &r_.polytope.neighbours}) reserve->reserve(at(live));
+    r_.reach.reserve(at(live)), r_.det.reserve(at(live));
+    for (const Facet<T>& g : facets_) {
+      if (!g.live) continue;
+      r_.polytope.facets.push_back(g.v);
+      r_.polytope.neighbours.push_back(
+          {mark_[at(g.neighbour[0])], mark_[at(g.neighbour[1])], mark_[at(g.neighbour[2])]});
+      r_.reach.push_back(g.reach.value - 16 * unit_of<T> * size_of(g));
+      r_.det.push_back(g.reach.det);
+    }
+  }
 
-  const Difference& d_;
-  Real target_;
+  T size_of(const Facet<T>& f) const {
+    return std::max(largest(w(f.v[0])), std::max(largest(w(f.v[1])), largest(w(f.v[2]))));
+  }
+
+  void drop_dead() {
+    while (!facets_[at(queue_.front().second)].live) {
+      std::pop_heap(queue_.begin(), queue_.end(), std::greater<Entry>());
+      queue_.pop_back();
+    }
+  }
+
+  const Triple<T>& w(int i) const { return r_.polytope.vertices[at(i)].w; }
+
+  const BasicDifference<T>& d_;
+  T target_;
   int cap_;
   Orientation orientation_;
-  EpaResult r_;
-  std::vector<Facet> facets_;
-  using Entry = std::pair<Real, int>;
-  std::priority_queue<Entry, std::vector<Entry>, std::greater<Entry>> queue_;
-  std::vector<int> visible_, mark_, first_;
-  std::vector<HorizonEdge> horizon_;
+  BasicEpaResult<T> r_;
+  // Kept from run to run, so that a small polytope allocates nothing.
+  static Storage<T>& storage() {
+    thread_local Storage<T> s;
+    s.facets.clear(), s.queue.clear(), s.visible.clear(), s.mark.clear(), s.first.clear(), s.horizon.clear();
+    return s;
+  }
+  using Entry = typename Storage<T>::Entry;
+  Storage<T>& storage_ = storage();
+  std::vector<Facet<T>>& facets_ = storage_.facets;
+  std::vector<Entry>& queue_ = storage_.queue;
+  std::vector<int>&visible_ = storage_.visible, &mark_ = storage_.mark, &first_ = storage_.first;
+  std::vector<HorizonEdge>& horizon_ = storage_.horizon;
   int stamp_ = 0;
 };
 
-bool is_closed(const InnerPolytope& p) {
-  std::vector<std::pair<int, int>> forward, backward;
-  for (const auto& f : p.facets)
-    for (int i = 0; i < 3; ++i) {
-      forward.emplace_back(f[at(i)], f[at((i + 1) % 3)]);
-      backward.emplace_back(f[at((i + 1) % 3)], f[at(i)]);
-    }
-  std::sort(forward.begin(), forward.end());
-  std::sort(backward.begin(), backward.end());
-  return !forward.empty() && forward == backward;
+// Every directed edge is the reverse of one of its neighbour's, which has it as the reverse of that one: a
+// pairing of all directed edges with their reverses.
+template <class T>
+bool is_closed(const BasicInnerPolytope<T>& p) {
+  const auto holds_reverse = [&](std::size_t f, std::size_t i) {
+    const int g = p.neighbours[f][i];
+    if (g < 0 || at(g) >= p.facets.size()) return false;
+    for (std::size_t j = 0; j < 3; ++j)
+      if (p.neighbours[at(g)][j] == static_cast<int>(f) && p.facets[at(g)][j] == p.facets[f][(i + 1) % 3] &&
+          p.facets[at(g)][(j + 1) % 3] == p.facets[f][i])
+        return true;
+    return false;
+  };
+  if (p.facets.empty() || p.neighbours.size() != p.facets.size()) return false;
+  for (std::size_t f = 0; f < p.facets.size(); ++f) {
+    const auto& v = p.facets[f];
+    if (v[0] == v[1] || v[1] == v[2] || v[2] == v[0]) return false;
+    for (std::size_t i = 0; i < 3; ++i)
+      if (!holds_reverse(f, i)) return false;
+  }
+  return true;
+}
+
+/// The sums of proof (2), and the least reach so far.
+struct Turning {
+  Real forward = 0, backward = 0, least = 0;
+};
+
+// One facet of the proof in extended precision. False: it proves no distance.
+bool add_facet(Turning& t, const Real3& a, const Real3& b, const Real3& c) {
+  const Real size = std::max(largest(a), std::max(largest(b), largest(c)));
+  const bool forward = determinant_sign(a, b, c) >= 0;
+  // Any direction proves a distance; where the plane's own already proves l, no better one is looked for. A
+  // dot product, a norm and a division: within 8 units of the largest |v_i| <= 2·size.
+  const Real3 n = cross(b - a, c - a);
+  Real reach = forward ? least_along(n, a, b, c) - 16 * unit * size : Real{0};
+  if (!(reach >= t.least)) reach = reach_of(a, b, c).value - 16 * unit * size;
+  if (!(reach > 0)) return false;
+  t.least = std::min(t.least, reach);
+  if (forward) {
+    t.forward += std::max(dot(cross(a, b), c) / (4 * norm(a) * norm(b) * norm(c)) - 32 * unit, Real{0});
+  } else {
+    t.backward += norm(n) / (reach * reach);
+  }
+  return true;
 }
 
 }  // namespace
 
 Real proven_inner_radius(const InnerPolytope& p, Real expected) {
   if (!is_closed(p)) return 0;
-  Real l = expected, turning = 0, against = 0;
-  for (const auto& f : p.facets) {
-    const Real3 &a = p.vertices[at(f[0])].w, &b = p.vertices[at(f[1])].w, &c = p.vertices[at(f[2])].w;
-    const Real size = std::fmax(largest(a), std::fmax(largest(b), largest(c)));
-    const bool forward = determinant_sign(a, b, c) >= 0;
-    // Any direction proves a distance; where the plane's own already proves l, no better one is looked for. A
-    // dot product, a norm and a division: within 8 units of the largest |v_i| <= 2·size.
-    const Real3 n = cross(b - a, c - a);
-    Real reach = forward && largest(n) > 0 ? least_along(n, a, b, c) - 16 * unit * size : Real{0};
-    if (!(reach >= l)) reach = reach_of(a, b, c).value - 16 * unit * size;
-    if (!(reach > 0)) return 0;
-    l = std::fmin(l, reach);
-    if (forward) {
-      turning += std::fmax(dot(cross(a, b), c) / (4 * norm(a) * norm(b) * norm(c)) - 32 * unit, Real{0});
+  Turning t{0, 0, expected};
+  for (const auto& f : p.facets)
+    if (!add_facet(t, p.vertices[at(f[0])].w, p.vertices[at(f[1])].w, p.vertices[at(f[2])].w)) return 0;
+  return t.forward > 2 * t.backward ? t.least : 0;
+}
+
+Vertex vertex_at(const Difference& d, int ia, int ib) {
+  const auto point = [](const Solid& s, int i) {
+    const std::size_t n = s.points.size(), k = at(i);
+    return k < n ? s.points[k] : s.points[k - n] + s.sweep;
+  };
+  const Real3 a = point(d.a, ia), b = point(d.b, ib);
+  return {a - b, a, b, ia, ib};
+}
+
+// A double vertex is within `off` of the extended one: two roundings of a point, one of the difference, each
+// 2^-53 of at most the extent, and as much again for the sweep: off = 8·2^-53·extent. So a facet that is
+// `reach` away in doubles is reach - off away. Its determinant, of vertices no longer than the extent, is
+// within 64 roundings of extent³ as computed (rational.cpp) and moves by at most 3·off·extent² = 24 roundings
+// of extent³ with the vertices; what is above 256 of them is positive.
+Confirmed confirm(const Difference& d, const BasicDifference<double>& d0, const BasicEpaResult<double>& found,
+                  Real target) {
+  Confirmed r;
+  const auto& p = found.polytope;
+  if (found.nearest_facet < 0 || !is_closed(p)) return r;
+  constexpr double v = unit_of<double>;
+  const double off = 8 * v * d0.extent, det_slack = 256 * v * d0.extent * d0.extent * d0.extent;
+  const auto vertex = [&](int i) { return vertex_at(d, p.vertices[at(i)].ia, p.vertices[at(i)].ib); };
+  const auto facet = [&](std::size_t f) {
+    return std::array{vertex(p.facets[f][0]), vertex(p.facets[f][1]), vertex(p.facets[f][2])};
+  };
+  const auto nearest = facet(at(found.nearest_facet));
+  const Real3 &x = nearest[0].w, &y = nearest[1].w, &z = nearest[2].w;
+  const Reach<Real> expected = reach_of(x, y, z);
+  const Real3 n = normalized(expected.direction);
+  r.gap.raise(-d.width_above(d.support(n), n), n);
+  for (const Vertex& q : nearest) r.nearest.vertex[at(r.nearest.size++)] = q;
+  reduce(r.nearest);
+  r.gap.lower(norm(r.nearest.nearest) + 16 * unit * d.extent + d.error);
+  r.doubles_prove = true;
+  Turning t{0, 0, expected.value};
+  for (std::size_t f = 0; f < p.facets.size(); ++f) {
+    const bool forward = found.det[f] > det_slack;
+    r.doubles_prove = r.doubles_prove && forward && found.reach[f] > d0.error;
+    if (forward && static_cast<Real>(found.reach[f] - off) >= t.least) {
+      t.forward +=
+          static_cast<Real>(found.det[f] - det_slack) / (4 * d.extent * d.extent * d.extent) * (1 - 0x1p-40L);
     } else {
-      against += norm(n) / (reach * reach);
+      const auto q = facet(f);
+      if (!add_facet(t, q[0].w, q[1].w, q[2].w)) return r.doubles_prove = false, r;
     }
   }
-  return turning > 2 * against ? l : 0;
+  if (!(t.forward > 2 * t.backward)) return r.doubles_prove = false, r;
+  if (const Real l = t.least - d.error; l > 0) r.gap.lower(-l);
+  r.closed = r.gap.hi - r.gap.lo <= target;
+  return r;
 }
 
 EpaResult expand(const Difference& d, const Simplex& seed, Real target, int facet_cap,
                  Orientation orientation) {
-  return Epa(d, target, facet_cap, orientation).run(seed);
+  return Epa<Real>(d, target, facet_cap, orientation).run(seed);
+}
+
+BasicEpaResult<double> search(const BasicDifference<double>& d, const BasicSimplex<double>& seed,
+                              double target, int facet_cap) {
+  return Epa<double>(d, target, facet_cap, Orientation::rounded).run(seed);
 }
 
 }  // namespace touchstone::referee

@@ -23,23 +23,31 @@
 
 namespace touchstone::referee {
 
-struct InnerPolytope {
-  std::vector<Vertex> vertices;
+template <class T>
+struct BasicInnerPolytope {
+  std::vector<BasicVertex<T>> vertices;
   std::vector<std::array<int, 3>> facets;
+  std::vector<std::array<int, 3>> neighbours;  // facet across edge v[i], v[i+1]
 };
+using InnerPolytope = BasicInnerPolytope<Real>;
 
 /// The radius of a ball about the origin that the polytope proves to lie in the convex hull of its vertices
-/// (taken as exact numbers); 0 when it proves none. Reads nothing but vertices and facets. Nothing above
-/// `expected`, the distance of the nearest facet, is looked for.
+/// (taken as exact numbers); 0 when it proves none. Believes nothing but vertices and facets: `neighbours`
+/// are checked. Nothing above `expected`, the distance of the nearest facet, is looked for.
 Real proven_inner_radius(const InnerPolytope& p, Real expected);
 
-struct EpaResult {
+template <class T>
+struct BasicEpaResult {
   enum class Exit { converged, stalled, facet_cap, flat };
   Exit exit = Exit::stalled;
-  CoreGap gap;
-  Simplex nearest;  // the facet nearest to the origin, with weights
-  InnerPolytope polytope;
+  BasicCoreGap<T> gap;
+  BasicSimplex<T> nearest;  // the facet nearest to the origin, with weights
+  BasicInnerPolytope<T> polytope;
+  /// Of each facet: a proven lower bound of its distance from the origin, and det(v0, v1, v2), rounded.
+  std::vector<T> reach, det;
+  int nearest_facet = -1;
 };
+using EpaResult = BasicEpaResult<Real>;
 
 /// How it is decided which side of a facet a point is on. Rounded signs are fast and fail on runs of slivers
 /// (many points of a flat face with a curved border), where the surface can fold and growth stalls; exact
@@ -50,5 +58,24 @@ enum class Orientation { rounded, exact };
 /// contacts.
 EpaResult expand(const Difference& d, const Simplex& seed, Real target, int facet_cap,
                  Orientation orientation);
+
+/// The same search in doubles, without the proof: gap.hi holds nothing that a facet would have to prove.
+/// Precondition: `seed` has four vertices.
+BasicEpaResult<double> search(const BasicDifference<double>& d, const BasicSimplex<double>& seed,
+                              double target, int facet_cap);
+
+struct Confirmed {
+  bool closed = false;         // the bracket is true either way; closed: it is within `target`
+  bool doubles_prove = false;  // that the origin is inside needs no more than double arithmetic
+  CoreGap gap;
+  Simplex nearest;
+};
+/// What the polytope that `search` found in the doubles d0 of d proves of d itself. Facets that doubles show
+/// to be farther away than the nearest one are not looked at again. Precondition: both cores are `points`.
+Confirmed confirm(const Difference& d, const BasicDifference<double>& d0, const BasicEpaResult<double>& found,
+                  Real target);
+
+/// The vertex of D that belongs to the core vertices ia and ib, both cores being `points`.
+Vertex vertex_at(const Difference& d, int ia, int ib);
 
 }  // namespace touchstone::referee

@@ -103,7 +103,7 @@ ConvexTruth judge_parts(std::span<const Operand> a, std::span<const Operand> b, 
     // Everything from here on is farther than what is known to be reached.
     if (static_cast<Real>(c.distance) > std::max(t.hi, Real{0})) break;
     ConvexTruth part = judge_convex(a[c.i], b[c.j]);
-    if (part.exact) part.exact_operands = {*a[c.i].exact, *b[c.j].exact};
+    if (part.exact) part.exact_operands = {a[c.i].exact_body(), b[c.j].exact_body()};
     join(t, std::move(part));
     if (t.verdict == Verdict::overlap) break;
   }

@@ -56,12 +56,17 @@ PairTruth with_half_space(const Placed& a, const Placed& b) {
                                    dot(outward, 0.5L * (t.witness_a + t.witness_b) + to_real(origin)));
     c.note = "plane of the half-space moved half-way to the body, rounded; exact form: checkable_certificate";
   }
-  if (t.verdict == Verdict::overlap && std::isfinite(r.gap.lo) && !is<HalfSpace>(other)) {
-    const Real3 deepest = first ? t.witness_b : t.witness_a;
-    const Real3 core = deepest + static_cast<Real>(core_radius(other)) * outward;
-    r.lower_depth = core_pair_certificate(core, core, origin, -t.hi);
-  }
   return r;
+}
+
+Certificate half_space_depth(const Placed& a, const Placed& b) {
+  const bool first = is<HalfSpace>(a);
+  const Placed &h = first ? a : b, &other = first ? b : a;
+  if (is<HalfSpace>(other) || is<TriangleMesh>(other)) return {};
+  const Vec3 origin = translation_of(other);
+  const ConvexTruth t = judge_half_space(h, make_operand(other, origin), origin);
+  const Real3 core = t.witness_b + static_cast<Real>(core_radius(other)) * t.normal;
+  return core_pair_certificate(core, core, origin, -t.hi);
 }
 
 // The normal is handed out as doubles, a little off the direction that proved the depth's upper bound: the
@@ -80,6 +85,15 @@ Certificate lower_depth_certificate(const ConvexTruth& t, const Difference& d, c
   return core_pair_certificate(a, b, origin, -t.hi);
 }
 
+Certificate rounded_plane(const ExactVerdict& v, const ConvexTruth& t, const Vec3& origin) {
+  const Real3 n = -direction_of(v);
+  Certificate c;
+  c.kind = Certificate::Kind::separating_plane;
+  c.direction = to_double(n);
+  c.offset = static_cast<double>(dot(n, 0.5L * (t.witness_a + t.witness_b) + to_real(origin)));
+  return c;
+}
+
 PairTruth convex_pair(const Placed& a, const Placed& b, std::span<const Vec3> hints) {
   const Vec3 origin = translation_of(a);
   const Operand x = make_operand(a, origin), y = make_operand(b, origin);
@@ -89,17 +103,18 @@ PairTruth convex_pair(const Placed& a, const Placed& b, std::span<const Vec3> hi
   const ConvexTruth t = judge_convex(x, y, directions);
   PairTruth r = common_part(t, origin);
   if (t.exact) {
-    r.verdict_certificate = exact_certificate(make_exact(*x.exact, *y.exact), *t.exact);
+    r.verdict_certificate =
+        t.exact->overlap ? point_certificate(t.common, origin) : rounded_plane(*t.exact, t, origin);
+    r.verdict_certificate.note = "rounded; exact form: checkable_certificate";
   } else if (t.verdict == Verdict::disjoint) {
     r.verdict_certificate = plane_certificate(Difference(x.body, y.body), t.normal, origin);
   } else if (t.verdict == Verdict::overlap) {
     r.verdict_certificate = point_certificate(t.common, origin);
-    if (!x.exact || !y.exact)
+    if (!x.has_exact() || !y.has_exact())
       r.verdict_certificate.note = "rounded; proven by the inner polytope, which holds the origin";
   }
   const Difference d(x.body, y.body);
   prove_by_rounded_normal(r, d);
-  if (t.verdict == Verdict::overlap) r.lower_depth = lower_depth_certificate(t, d, origin);
   return r;
 }
 
@@ -159,6 +174,20 @@ PairTruth judge_by_bracket(const Placed& a, const Placed& b, std::span<const Vec
 }
 
 }  // namespace
+
+Certificate depth_certificate(const PairTruth& truth, const Placed& a, const Placed& b) {
+  if (truth.verdict != Verdict::overlap || !std::isfinite(truth.gap.lo)) return {};
+  if (is<HalfSpace>(a) || is<HalfSpace>(b)) return half_space_depth(a, b);
+  if (is<TriangleMesh>(a) || is<TriangleMesh>(b)) return {};
+  const Vec3 origin = translation_of(a);
+  const Operand x = make_operand(a, origin), y = make_operand(b, origin);
+  // The direction that is known to be nearly the best is where the search begins.
+  const Real3 known = normalized(to_real(truth.normal));
+  const ConvexTruth t =
+      judge_convex(x, y, std::span<const Real3>(&known, largest(known) > 0 ? 1 : 0), Effort::certificate);
+  if (t.verdict != Verdict::overlap) return {};  // touching: exact, and of depth 0
+  return lower_depth_certificate(t, Difference(x.body, y.body), origin);
+}
 
 PairTruth judge_pair(const Placed& a, const Placed& b, std::span<const Vec3> hint_directions,
                      std::span<const Vec3> hint_points) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 
 #include "core/base/input_error.h"
 #include "oracles/referee/exact_sign.h"
@@ -40,8 +41,9 @@ int least_exponent(const Real3& v) {
 Parts parts_of(double x) {
   if (x == 0) return {};
   int e = 0;
-  const double m = std::frexp(x, &e);
-  return {static_cast<long long>(std::ldexp(m, 53)), e - 53};
+  const auto m = static_cast<long long>(std::ldexp(std::frexp(x, &e), 53));
+  const int zeros = std::countr_zero(static_cast<unsigned long long>(m));
+  return {m >> zeros, e - 53 + zeros};
 }
 
 Integer shifted(Integer x, int bits) {

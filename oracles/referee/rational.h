@@ -46,7 +46,7 @@ bool is_zero(const Exact3<T>& a) {
   return a.x == 0 && a.y == 0 && a.z == 0;
 }
 
-/// x = mantissa·2^exponent. Zero has exponent 0 and says so by its mantissa.
+/// x = mantissa·2^exponent, the mantissa odd. Zero has exponent 0 and says so by its mantissa.
 struct Parts {
   long long mantissa = 0;
   int exponent = 0;

@@ -1,10 +1,13 @@
-// Vectors of 80-bit long doubles, the working arithmetic of the referee's filter: unit roundoff 2^-64,
-// exponents wide enough that no product of a few doubles overflows or underflows. All error bounds of this
-// room are stated in `unit`.
+// Vectors of 80-bit long doubles, the referee's working arithmetic: unit roundoff 2^-64, exponents wide
+// enough that no product of a few doubles overflows or underflows. The same vectors of doubles are what its
+// first level searches with. All error bounds of this room are stated in `unit`, or, where the arithmetic is
+// a parameter, in `unit_of<T>`.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
+#include <type_traits>
 
 #include "core/math/pose.h"
 
@@ -15,35 +18,74 @@ static_assert(std::numeric_limits<Real>::digits == 64,
               "the referee's error bounds assume x87 extended precision");
 inline constexpr Real unit = 0x1p-64L;
 
-struct Real3 {
-  Real x = 0, y = 0, z = 0;
-  Real operator[](int i) const { return i == 0 ? x : i == 1 ? y : z; }
-};
+/// Half an ulp of 1: every bound of this room is a multiple of the unit of the arithmetic that it is about.
+template <class T>
+inline constexpr T unit_of = static_cast<T>(1) /
+                             static_cast<T>(T(1ULL << 32) * T(1ULL << (std::numeric_limits<T>::digits - 32)));
+static_assert(unit_of<Real> == unit && unit_of<double> == 0x1p-53);
 
-inline Real3 operator+(const Real3& a, const Real3& b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
-inline Real3 operator-(const Real3& a, const Real3& b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
-inline Real3 operator-(const Real3& a) { return {-a.x, -a.y, -a.z}; }
-inline Real3 operator*(Real s, const Real3& a) { return {s * a.x, s * a.y, s * a.z}; }
-inline Real dot(const Real3& a, const Real3& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
-inline Real3 cross(const Real3& a, const Real3& b) {
+/// A square of a length that is smaller may have lost digits to underflow; nothing is divided by its root.
+template <class T>
+inline constexpr T least_square = std::numeric_limits<T>::min() * static_cast<T>(0x1p120);
+
+template <class T>
+struct Triple {
+  T x = 0, y = 0, z = 0;
+  T operator[](int i) const { return i == 0 ? x : i == 1 ? y : z; }
+};
+using Real3 = Triple<Real>;
+using Double3 = Triple<double>;
+
+template <class T>
+Triple<T> operator+(const Triple<T>& a, const Triple<T>& b) {
+  return {a.x + b.x, a.y + b.y, a.z + b.z};
+}
+template <class T>
+Triple<T> operator-(const Triple<T>& a, const Triple<T>& b) {
+  return {a.x - b.x, a.y - b.y, a.z - b.z};
+}
+template <class T>
+Triple<T> operator-(const Triple<T>& a) {
+  return {-a.x, -a.y, -a.z};
+}
+template <class T>
+Triple<T> operator*(std::type_identity_t<T> s, const Triple<T>& a) {
+  return {s * a.x, s * a.y, s * a.z};
+}
+template <class T>
+T dot(const Triple<T>& a, const Triple<T>& b) {
+  return a.x * b.x + a.y * b.y + a.z * b.z;
+}
+template <class T>
+Triple<T> cross(const Triple<T>& a, const Triple<T>& b) {
   return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
-inline Real norm(const Real3& a) { return std::sqrt(dot(a, a)); }
-inline Real largest(const Real3& a) {
-  return std::fmax(std::fabs(a.x), std::fmax(std::fabs(a.y), std::fabs(a.z)));
+template <class T>
+T norm(const Triple<T>& a) {
+  return std::sqrt(dot(a, a));
+}
+template <class T>
+T largest(const Triple<T>& a) {
+  return std::max(std::abs(a.x), std::max(std::abs(a.y), std::abs(a.z)));
 }
 inline Real3 to_real(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
+inline Real3 to_real(const Double3& v) { return {v.x, v.y, v.z}; }
 inline Vec3 to_double(const Real3& v) {
   return {static_cast<double>(v.x), static_cast<double>(v.y), static_cast<double>(v.z)};
 }
+inline Double3 to_double3(const Real3& v) {
+  return {static_cast<double>(v.x), static_cast<double>(v.y), static_cast<double>(v.z)};
+}
 /// Within a few units of a unit vector; zero stays zero.
-inline Real3 normalized(const Real3& a) {
-  const Real n = norm(a);
+template <class T>
+Triple<T> normalized(const Triple<T>& a) {
+  const T n = norm(a);
   return n > 0 ? (1 / n) * a : a;
 }
 /// A vector at a right angle to `a` (not zero), of length between |a|/2 and |a|.
-inline Real3 perpendicular(const Real3& a) {
-  const Real ax = std::fabs(a.x), ay = std::fabs(a.y), az = std::fabs(a.z);
+template <class T>
+Triple<T> perpendicular(const Triple<T>& a) {
+  const T ax = std::abs(a.x), ay = std::abs(a.y), az = std::abs(a.z);
   if (ax <= ay && ax <= az) return {0, -a.z, a.y};
   if (ay <= az) return {-a.z, 0, a.x};
   return {-a.y, a.x, 0};
@@ -52,28 +94,38 @@ inline Real3 perpendicular(const Real3& a) {
 /// A near-unit vector at a right angle to the unit vector `u` within 4 units, along the part of `a` that is
 /// at a right angle to u; when that part is rounding noise (which may well point along u), still one at a
 /// right angle.
-inline Real3 unit_across(const Real3& a, const Real3& u) {
-  Real3 e = normalized(a - dot(a, u) * u);
+template <class T>
+Triple<T> unit_across(const Triple<T>& a, const Triple<T>& u) {
+  Triple<T> e = normalized(a - dot(a, u) * u);
   for (int i = 0; i < 2; ++i) e = normalized(e - dot(e, u) * u);
-  return std::fabs(dot(e, u)) <= 4 * unit && largest(e) > 0 ? e : normalized(perpendicular(u));
+  return std::abs(dot(e, u)) <= 4 * unit_of<T> && largest(e) > 0 ? e : normalized(perpendicular(u));
 }
 
 /// Row-major.
-struct Matrix3 {
-  Real3 row[3];
+template <class T>
+struct Square {
+  Triple<T> row[3];
 };
-inline Real3 operator*(const Matrix3& m, const Real3& v) {
+using Matrix3 = Square<Real>;
+template <class T>
+Triple<T> operator*(const Square<T>& m, const Triple<T>& v) {
   return {dot(m.row[0], v), dot(m.row[1], v), dot(m.row[2], v)};
 }
-inline Real3 transpose_times(const Matrix3& m, const Real3& v) {
+template <class T>
+Triple<T> transpose_times(const Square<T>& m, const Triple<T>& v) {
   return v.x * m.row[0] + v.y * m.row[1] + v.z * m.row[2];
 }
-inline Real3 column(const Matrix3& m, int j) { return {m.row[0][j], m.row[1][j], m.row[2][j]}; }
-inline Real largest(const Matrix3& m) {
-  return std::fmax(largest(m.row[0]), std::fmax(largest(m.row[1]), largest(m.row[2])));
+template <class T>
+Triple<T> column(const Square<T>& m, int j) {
+  return {m.row[0][j], m.row[1][j], m.row[2][j]};
 }
-inline Matrix3 operator*(const Matrix3& a, const Matrix3& b) {
-  Matrix3 r;
+template <class T>
+T largest(const Square<T>& m) {
+  return std::max(largest(m.row[0]), std::max(largest(m.row[1]), largest(m.row[2])));
+}
+template <class T>
+Square<T> operator*(const Square<T>& a, const Square<T>& b) {
+  Square<T> r;
   for (int i = 0; i < 3; ++i) r.row[i] = transpose_times(b, a.row[i]);
   return r;
 }

@@ -55,8 +55,9 @@ struct PairTruth {
       Vec3::Zero();  // unit within rounding, A to B: separating direction, or a direction of (nearly) least w
   std::array<Vec3, 2> witness;      // rounded points of A and B that realise the gap
   Certificate verdict_certificate;  // separating_plane or common_point
-  Certificate lower_depth;          // inner_polytope or closed_form, when overlapping
-  int level = 0;  // which filter settled the verdict: 0 interval double, 1 extended, 2 rational
+  /// Which arithmetic settled the verdict: 0 doubles with their error bounds, 1 extended precision, 2 exact.
+  /// The bracket is proven in extended precision whichever it was.
+  int level = 0;
 };
 
 /// `hints`: directions (A to B) and points that engines proposed; tried first as certificates, trusted never.
@@ -67,6 +68,10 @@ PairTruth judge_pair(const Placed& a, const Placed& b, std::span<const Vec3> hin
 /// accepts: as it is if that holds, else with rationals found by the exact level. Kind none: the verdict is
 /// not of that kind.
 Certificate checkable_certificate(const PairTruth& truth, const Placed& a, const Placed& b);
+
+/// Evidence that the depth is at least -gap.hi (less what rounding its points to doubles costs):
+/// inner_polytope. Computed when asked, and slower than judging. Kind none: not an overlap with a depth.
+Certificate depth_certificate(const PairTruth& truth, const Placed& a, const Placed& b);
 
 /// w(n)/|n| where w(n) = h_A(n) + h_B(-n): how far B must move along n to be separate from A. n finite,
 /// non-zero. A half-space has no support value but along its own normal m; for it the same question is

@@ -43,7 +43,7 @@ TEST_CASE("every certificate of a pair in general position is accepted after a t
     }
     ++points;
     refused_points += !check(c, a, b);
-    const Certificate lower = stored(t.lower_depth);
+    const Certificate lower = stored(depth_certificate(t, a, b));
     refused_depths += !check(lower, a, b);
     Certificate upper;
     upper.kind = Certificate::Kind::depth_direction;
@@ -151,7 +151,7 @@ TEST_CASE("an inner polytope is refused when a point, a facet or the depth is ch
           "[referee][checker]") {
   const Shape box = Box{{1, 2, 3}}, other = Box{{1, 1, 1}};
   const Placed a{&box, Pose{{0, 0, 0}, {}}}, b{&other, Pose{{0.5, 0.25, 0.125}, {0.1, 0.2, 0.3, 1}}};
-  const Certificate c = stored(judge_pair(a, b).lower_depth);
+  const Certificate c = stored(depth_certificate(judge_pair(a, b), a, b));
   REQUIRE(c.kind == Certificate::Kind::inner_polytope);
   REQUIRE(c.facets.size() >= 4);
   REQUIRE(check(c, a, b));
@@ -234,9 +234,9 @@ TEST_CASE("depth in a half-space is certified from both sides", "[referee][check
     upper.kind = Certificate::Kind::depth_direction;
     upper.direction = t.normal, upper.offset = width(a, b, t.normal).hi;
     REQUIRE(upper.offset <= -t.gap.lo * (1 + 1e-15));
-    REQUIRE(check(stored(t.lower_depth), a, b));
+    REQUIRE(check(stored(depth_certificate(t, a, b)), a, b));
     REQUIRE(check(stored(upper), a, b));
-    Certificate more = stored(t.lower_depth);
+    Certificate more = stored(depth_certificate(t, a, b));
     more.offset += 1e-13, upper.offset -= 1e-13;
     REQUIRE_FALSE(check(more, a, b));
     REQUIRE_FALSE(check(upper, a, b));

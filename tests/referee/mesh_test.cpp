@@ -74,8 +74,8 @@ TEST_CASE("certificates print as JSON", "[referee][certificate]") {
   REQUIRE(plane["direction"].size() == 3);
   const auto point = to_json(judge_pair(x, near).verdict_certificate);
   REQUIRE(point["kind"] == "common_point");
-  const PairTruth deep = judge_pair(x, {&a, Pose{{0.5, 0.2, 0.1}, {}}});
-  const auto inner = to_json(deep.lower_depth);
+  const Placed overlapping{&a, Pose{{0.5, 0.2, 0.1}, {}}};
+  const auto inner = to_json(depth_certificate(judge_pair(x, overlapping), x, overlapping));
   REQUIRE(inner["kind"] == "inner_polytope");
   REQUIRE(inner["facets"].size() >= 4);
 }

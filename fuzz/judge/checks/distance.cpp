@@ -38,7 +38,9 @@ void check_distance(const CheckInput& in, CheckOutput& out) {
   if (truth.verdict == referee::Verdict::disjoint && d < -tau && truth.gap.lo > tau) f = Fault::ghost;
   out.fault(
       f, error, l, in.query, fmt::format("says {:.9g}; the signed distance is {:.9g}", d, mid),
-      truth.verdict == referee::Verdict::overlap && d < 0 ? truth.lower_depth : truth.verdict_certificate);
+      truth.verdict == referee::Verdict::overlap && d < 0
+          ? referee::depth_certificate(truth, in.truth.placed(in.frame, a), in.truth.placed(in.frame, b))
+          : truth.verdict_certificate);
 }
 
 void check_witness(const CheckInput& in, CheckOutput& out) {
