@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "core/broad/pair_kernels.h"
+
 namespace touchstone::broad {
 namespace {
 
@@ -94,6 +96,15 @@ void BoxStore::update(std::span<const BoxUpdate> moves) {
     if (index_.find(m.id) == IdIndex::none) throw Refused(Refusal::id_absent, m.id);
   }
   for (const BoxUpdate& m : moves) put(index_.find(m.id), m.box);
+}
+
+void BoxStore::codes(std::vector<std::uint32_t>& out) const {
+  out.resize(present());
+  std::size_t n = 0;
+  for (Slot s = 0; n < out.size(); ++s) {
+    out[n] = s | (is_fixed(s) ? 0 : moving_flag);
+    n += is_present(s) ? 1 : 0;
+  }
 }
 
 void BoxStore::forget_changes() {

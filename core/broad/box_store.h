@@ -33,6 +33,9 @@ class BoxStore {
   int id(Slot s) const { return ids_[s]; }
   std::size_t fixed() const { return fixed_; }
 
+  /// The slots present in order, with moving_flag (pair_kernels.h) where they move.
+  void codes(std::vector<std::uint32_t>& out) const;
+
   /// Slots inserted, moved or removed since forget_changes(), each once.
   std::span<const Slot> touched() const { return touched_; }
   /// Counts insertions and removals since ever.
@@ -50,7 +53,7 @@ class BoxStore {
   std::size_t memory_bytes() const;
 
  private:
-  static constexpr std::uint8_t present_bit = 1, fixed_bit = 2, touched_bit = 4;
+  static constexpr std::uint8_t touched_bit = 1, present_bit = 2, fixed_bit = 4;
   void touch(Slot s);
   void put(Slot s, const Aabb& box);
   std::vector<Aabb> boxes_;

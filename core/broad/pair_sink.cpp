@@ -36,6 +36,11 @@ void PairSink::decide_doubtful(const BoxStore& store) {
   doubtful.clear();
 }
 
+void PairSink::accept_doubtful() {
+  for (const SlotPair& p : doubtful) add(p.first, p.second);
+  doubtful.clear();
+}
+
 // Slots were reused or filled out of order: each slot is renamed by the rank of its id.
 void PairSink::rename_by_rank(const BoxStore& store) {
   if (ranked_at_ != store.membership()) {

@@ -29,6 +29,8 @@ class PairSink {
   }
   /// Adds those doubtful pairs whose double boxes overlap.
   void decide_doubtful(const BoxStore& store);
+  /// Adds all doubtful pairs.
+  void accept_doubtful();
   /// Decides the doubtful pairs by their double boxes and writes all pairs by id, sorted. Each pair must have
   /// been put in once.
   void finish(const BoxStore& store, std::vector<IdPair>& out);

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <vector>
 
+#include "core/broad/pair_kernels.h"
+
 namespace touchstone::broad {
 namespace {
 
@@ -86,10 +88,13 @@ SceneStats sample_scene(const BoxStore& store) {
   return summary(sample);
 }
 
-SceneStats sample_scene(const BoxStore& store, std::span<const KeyedSlot> boxes) {
+SceneStats sample_boxes(const KeyBox* boxes, std::span<const std::uint32_t> codes) {
   Sample sample;
-  for (std::size_t i = 0; i < boxes.size(); i += step_through(boxes.size()))
-    sample.add(store.boxes()[boxes[i].slot]);
+  for (std::size_t i = 0; i < codes.size(); i += step_through(codes.size())) {
+    const KeyBox& k = boxes[codes[i] & slot_mask];
+    sample.add({Vec3(value_of(k.lo[0]), value_of(k.lo[1]), value_of(k.lo[2])),
+                Vec3(value_of(k.hi[0]), value_of(k.hi[1]), value_of(k.hi[2]))});
+  }
   return summary(sample);
 }
 
