@@ -96,6 +96,10 @@ inline constexpr double grid_window = 8;
 inline constexpr double grid_cut = 0.3;
 /// Below this many boxes a level is swept without cells (a count).
 inline constexpr unsigned grid_least_boxes = 64;
+/// A box in a neighbour list is widened by so many of its last steps; when that is more than this share of its largest
+/// side, by nothing. The list is made anew when more than one box in so many has left its widened box (a count).
+inline constexpr double neighbour_margin_steps = 5, neighbour_margin_most = 0.3;
+inline constexpr unsigned neighbour_loose_share = 16;
 /// Insertion sort may spend this many moves a box before the order is sorted anew: about the cost of a radix
 /// sort.
 inline constexpr unsigned sweep_moves_a_box = 8;

@@ -1,6 +1,7 @@
 #include "core/broad/box_store.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "core/broad/pair_kernels.h"
 
@@ -27,6 +28,17 @@ std::string describe(Refusal why, int id) {
 // False for a NaN too.
 bool is_box(const Aabb& b) { return b.lo.x() <= b.hi.x() && b.lo.y() <= b.hi.y() && b.lo.z() <= b.hi.z(); }
 
+// A NaN, the difference of two infinities, is no step.
+float step_between(const Aabb& from, const Aabb& to) {
+  double step = 0;
+  for (int k = 0; k < 3; ++k) {
+    const double lo = std::abs(to.lo[k] - from.lo[k]), hi = std::abs(to.hi[k] - from.hi[k]);
+    step = lo > step ? lo : step;
+    step = hi > step ? hi : step;
+  }
+  return static_cast<float>(step < 1e30 ? step : 1e30);
+}
+
 }  // namespace
 
 Refused::Refused(Refusal w, int i) : std::invalid_argument(describe(w, i)), why(w), id(i) {}
@@ -42,8 +54,8 @@ void BoxStore::touch(Slot s) {
   touched_.push_back(s);
 }
 
-void BoxStore::put(Slot s, const Aabb& box) {
-  boxes_[s] = box, keys_[s] = key_box(box);
+void BoxStore::put(Slot s, const Aabb& box, float step) {
+  boxes_[s] = box, keys_[s] = key_box(box), steps_[s] = step;
   if ((state_[s] & fixed_bit) != 0) ++fixed_changes_;
   touch(s);
 }
@@ -56,7 +68,7 @@ void BoxStore::insert(int id, const Aabb& box, Mobility mobility) {
     if (slots() + 1 >= max_slots) throw Refused(Refusal::too_many, id);
     s = static_cast<Slot>(slots());
     if (s > 0 && ids_.back() > id) ascending_ = false;
-    boxes_.emplace_back(), keys_.emplace_back(), ids_.push_back(id), state_.push_back(0);
+    boxes_.emplace_back(), keys_.emplace_back(), ids_.push_back(id), state_.push_back(0), steps_.push_back(0);
   } else {
     s = free_.back(), free_.pop_back();
     // A box that returns to its old slot keeps the order; any other may break it.
@@ -68,14 +80,14 @@ void BoxStore::insert(int id, const Aabb& box, Mobility mobility) {
   state_[s] = static_cast<std::uint8_t>((state_[s] & touched_bit) | present_bit);
   if (mobility == Mobility::fixed) state_[s] |= fixed_bit, ++fixed_;
   ++membership_;
-  put(s, box);
+  put(s, box, 0);
 }
 
 void BoxStore::move(int id, const Aabb& box) {
   require_box(id, box);
   const Slot s = index_.find(id);
   if (s == IdIndex::none) throw Refused(Refusal::id_absent, id);
-  put(s, box);
+  put(s, box, step_between(boxes_[s], box));
 }
 
 void BoxStore::remove(int id) {
@@ -95,7 +107,10 @@ void BoxStore::update(std::span<const BoxUpdate> moves) {
     require_box(m.id, m.box);
     if (index_.find(m.id) == IdIndex::none) throw Refused(Refusal::id_absent, m.id);
   }
-  for (const BoxUpdate& m : moves) put(index_.find(m.id), m.box);
+  for (const BoxUpdate& m : moves) {
+    const Slot s = index_.find(m.id);
+    put(s, m.box, step_between(boxes_[s], m.box));
+  }
 }
 
 void BoxStore::codes(std::vector<std::uint32_t>& out) const {
@@ -136,7 +151,7 @@ void BoxStore::validate() const {
 
 std::size_t BoxStore::memory_bytes() const {
   return boxes_.capacity() * sizeof(Aabb) + keys_.capacity() * sizeof(KeyBox) +
-         ids_.capacity() * sizeof(int) + state_.capacity() +
+         ids_.capacity() * sizeof(int) + steps_.capacity() * sizeof(float) + state_.capacity() +
          (free_.capacity() + touched_.capacity()) * sizeof(Slot) + index_.memory_bytes();
 }
 

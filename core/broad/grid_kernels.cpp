@@ -5,11 +5,12 @@
 #include <hwy/foreach_target.h>  // includes this file once for each kind of processor
 #include <hwy/highway.h>
 
+#include "core/broad/pack_lanes-inl.h"
+
 HWY_BEFORE_NAMESPACE();
 namespace touchstone::broad::HWY_NAMESPACE {
 namespace {
 
-namespace hn = hwy::HWY_NAMESPACE;
 using I = hn::ScalableTag<std::int32_t>;
 using V = hn::Vec<I>;
 using M = hn::Mask<I>;
@@ -174,20 +175,20 @@ HWY_INLINE void emit(PairSink& sink, V theirs_coded, V mine_coded, M m) {
   const I d;
   const V mask = hn::Set(d, static_cast<std::int32_t>(slot_mask));
   const V theirs = hn::And(theirs_coded, mask), mine = hn::And(mine_coded, mask);
-  hn::StoreU(hn::Compress(hn::Min(theirs, mine), m), d,
-             reinterpret_cast<std::int32_t*>(sink.first.data()) + sink.n);
-  hn::StoreU(hn::Compress(hn::Max(theirs, mine), m), d,
-             reinterpret_cast<std::int32_t*>(sink.second.data()) + sink.n);
-  sink.n += hn::CountTrue(d, m);
+  const Packer pack(m);
+  hn::StoreU(pack(hn::Min(theirs, mine)), d, reinterpret_cast<std::int32_t*>(sink.first.data()) + sink.n);
+  hn::StoreU(pack(hn::Max(theirs, mine)), d, reinterpret_cast<std::int32_t*>(sink.second.data()) + sink.n);
+  sink.n += pack.count();
 }
 
 HWY_NOINLINE void emit_doubtful(PairSink& sink, V theirs, V mine, M m) {
   const I d;
   HWY_ALIGN std::uint32_t other[hn::MaxLanes(I())], self[hn::MaxLanes(I())];
   const V mask = hn::Set(d, static_cast<std::int32_t>(slot_mask));
-  hn::Store(hn::Compress(hn::And(theirs, mask), m), d, reinterpret_cast<std::int32_t*>(other));
+  const Packer pack(m);
+  hn::Store(pack(hn::And(theirs, mask)), d, reinterpret_cast<std::int32_t*>(other));
   hn::Store(hn::And(mine, mask), d, reinterpret_cast<std::int32_t*>(self));
-  for (std::size_t k = 0; k < hn::CountTrue(d, m); ++k)
+  for (std::size_t k = 0; k < pack.count(); ++k)
     sink.doubtful.push_back({std::min(self[0], other[k]), std::max(self[0], other[k])});
 }
 
