@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/broad/box_kernels.h"
 #include "core/broad/pair_kernels.h"
 
 namespace touchstone::broad {
@@ -26,17 +27,8 @@ std::string describe(Refusal why, int id) {
 }
 
 // False for a NaN too.
-bool is_box(const Aabb& b) { return b.lo.x() <= b.hi.x() && b.lo.y() <= b.hi.y() && b.lo.z() <= b.hi.z(); }
-
-// A NaN, the difference of two infinities, is no step.
-float step_between(const Aabb& from, const Aabb& to) {
-  double step = 0;
-  for (int k = 0; k < 3; ++k) {
-    const double lo = std::abs(to.lo[k] - from.lo[k]), hi = std::abs(to.hi[k] - from.hi[k]);
-    step = lo > step ? lo : step;
-    step = hi > step ? hi : step;
-  }
-  return static_cast<float>(step < 1e30 ? step : 1e30);
+bool is_box(const Aabb& b) {
+  return (b.lo.x() <= b.hi.x()) & (b.lo.y() <= b.hi.y()) & (b.lo.z() <= b.hi.z());
 }
 
 }  // namespace
@@ -54,8 +46,7 @@ void BoxStore::touch(Slot s) {
   touched_.push_back(s);
 }
 
-void BoxStore::put(Slot s, const Aabb& box, float step) {
-  boxes_[s] = box, keys_[s] = key_box(box), steps_[s] = step;
+void BoxStore::changed(Slot s) {
   if ((state_[s] & fixed_bit) != 0) ++fixed_changes_;
   touch(s);
 }
@@ -80,14 +71,13 @@ void BoxStore::insert(int id, const Aabb& box, Mobility mobility) {
   state_[s] = static_cast<std::uint8_t>((state_[s] & touched_bit) | present_bit);
   if (mobility == Mobility::fixed) state_[s] |= fixed_bit, ++fixed_;
   ++membership_;
-  put(s, box, 0);
+  boxes_[s] = box, keys_[s] = key_box(box), steps_[s] = 0;
+  changed(s);
 }
 
 void BoxStore::move(int id, const Aabb& box) {
-  require_box(id, box);
-  const Slot s = index_.find(id);
-  if (s == IdIndex::none) throw Refused(Refusal::id_absent, id);
-  put(s, box, step_between(boxes_[s], box));
+  const BoxUpdate one{id, box};
+  update({&one, 1});
 }
 
 void BoxStore::remove(int id) {
@@ -102,14 +92,18 @@ void BoxStore::remove(int id) {
   touch(s);
 }
 
+// In blocks, whose slots are kept between the two passes over them.
 void BoxStore::update(std::span<const BoxUpdate> moves) {
   for (const BoxUpdate& m : moves) {
     require_box(m.id, m.box);
-    if (index_.find(m.id) == IdIndex::none) throw Refused(Refusal::id_absent, m.id);
+    if (find(m.id) == IdIndex::none) throw Refused(Refusal::id_absent, m.id);
   }
-  for (const BoxUpdate& m : moves) {
-    const Slot s = index_.find(m.id);
-    put(s, m.box, step_between(boxes_[s], m.box));
+  constexpr std::size_t block = 256;
+  Slot at[block];
+  for (; !moves.empty(); moves = moves.subspan(std::min(block, moves.size()))) {
+    const auto some = moves.first(std::min(block, moves.size()));
+    for (std::size_t m = 0; m < some.size(); ++m) changed(at[m] = find(some[m].id));
+    put_boxes(some, at, boxes_.data(), keys_.data(), steps_.data());
   }
 }
 

@@ -57,7 +57,12 @@ class BoxStore {
  private:
   static constexpr std::uint8_t touched_bit = 1, present_bit = 2, fixed_bit = 4;
   void touch(Slot s);
-  void put(Slot s, const Aabb& box, float step);
+  void changed(Slot s);
+  Slot find(int id) const {
+    if (!identical_) return index_.find(id);
+    const auto s = static_cast<Slot>(id);
+    return s < slots() && is_present(s) ? s : IdIndex::none;
+  }
   std::vector<Aabb> boxes_;
   std::vector<KeyBox> keys_;
   std::vector<int> ids_;

@@ -171,15 +171,39 @@ struct Probe {
   }
 };
 
-HWY_INLINE void emit(PairSink& sink, V theirs_coded, V mine_coded, M m) {
-  const I d;
-  const V mask = hn::Set(d, static_cast<std::int32_t>(slot_mask));
-  const V theirs = hn::And(theirs_coded, mask), mine = hn::And(mine_coded, mask);
-  const Packer pack(m);
-  hn::StoreU(pack(hn::Min(theirs, mine)), d, reinterpret_cast<std::int32_t*>(sink.first.data()) + sink.n);
-  hn::StoreU(pack(hn::Max(theirs, mine)), d, reinterpret_cast<std::int32_t*>(sink.second.data()) + sink.n);
-  sink.n += pack.count();
-}
+// The sink's columns, in registers while pairs are written.
+class Writer {
+ public:
+  explicit HWY_INLINE Writer(PairSink& sink) : sink_(sink) { open(); }
+  HWY_INLINE ~Writer() { sink_.n = n_; }
+  Writer(const Writer&) = delete;
+  Writer& operator=(const Writer&) = delete;
+  HWY_INLINE void reserve(std::size_t more) {
+    if (HWY_LIKELY(n_ + more <= room_)) return;
+    sink_.n = n_;
+    sink_.reserve(more);
+    open();
+  }
+  HWY_INLINE void emit(V theirs_coded, V mine_coded, M m) {
+    const I d;
+    const V mask = hn::Set(d, static_cast<std::int32_t>(slot_mask));
+    const V theirs = hn::And(theirs_coded, mask), mine = hn::And(mine_coded, mask);
+    const Packer pack(m);
+    hn::StoreU(pack(hn::Min(theirs, mine)), d, first_ + n_);
+    hn::StoreU(pack(hn::Max(theirs, mine)), d, second_ + n_);
+    n_ += pack.count();
+  }
+
+ private:
+  HWY_INLINE void open() {
+    first_ = reinterpret_cast<std::int32_t*>(sink_.first.data());
+    second_ = reinterpret_cast<std::int32_t*>(sink_.second.data());
+    n_ = sink_.n, room_ = sink_.first.size();
+  }
+  PairSink& sink_;
+  std::int32_t *first_ = nullptr, *second_ = nullptr;
+  std::size_t n_ = 0, room_ = 0;
+};
 
 HWY_NOINLINE void emit_doubtful(PairSink& sink, V theirs, V mine, M m) {
   const I d;
@@ -243,29 +267,34 @@ template <Care care>
 HWY_INLINE bool sweep_chunk(const SweepScratch& s, std::size_t base, std::size_t n, PairSink& sink) {
   const I d;
   const std::size_t lanes = hn::Lanes(d);
+  const std::int32_t *const lo_x = s.lo[0].data(), *const lo_y = s.lo[1].data(), *const lo_z = s.lo[2].data(),
+                            *const hi_x = s.hi[0].data(), *const hi_y = s.hi[1].data(),
+                            *const hi_z = s.hi[2].data();
+  const auto* const codes = reinterpret_cast<const std::int32_t*>(s.code.data());
+  const auto* const columns = reinterpret_cast<const std::int32_t*>(s.column.data());
   M in_doubt = hn::FirstN(d, 0);
+  Writer out(sink);
   for (std::size_t i = 0; i < n; ++i) {
     const std::size_t end = s.end[i] - base;
-    Probe p;
-    for (int k = 0; k < 3; ++k) p.lo[k] = hn::Set(d, s.lo[k][i]), p.hi[k] = hn::Set(d, s.hi[k][i]);
-    p.code = hn::Set(d, static_cast<std::int32_t>(s.code[i]));
-    p.column = hn::Set(d, static_cast<std::int32_t>(s.column[i]));
-    sink.reserve(end - i + lanes);
+    const Probe p{{hn::Set(d, lo_x[i]), hn::Set(d, lo_y[i]), hn::Set(d, lo_z[i])},
+                  {hn::Set(d, hi_x[i]), hn::Set(d, hi_y[i]), hn::Set(d, hi_z[i])},
+                  hn::Set(d, codes[i]),
+                  hn::Set(d, columns[i])};
+    out.reserve(end - i + lanes);
     for (std::size_t j = i + 1; j < end; j += lanes) {
-      V lo[3], hi[3];
-      for (int k = 0; k < 3; ++k) lo[k] = hn::LoadU(d, &s.lo[k][j]), hi[k] = hn::LoadU(d, &s.hi[k][j]);
-      const V code = hn::LoadU(d, reinterpret_cast<const std::int32_t*>(&s.code[j]));
-      const V column = hn::LoadU(d, reinterpret_cast<const std::int32_t*>(&s.column[j]));
+      const V lo[3] = {hn::LoadU(d, lo_x + j), hn::LoadU(d, lo_y + j), hn::LoadU(d, lo_z + j)};
+      const V hi[3] = {hn::LoadU(d, hi_x + j), hn::LoadU(d, hi_y + j), hn::LoadU(d, hi_z + j)};
+      const V code = hn::LoadU(d, codes + j), column = hn::LoadU(d, columns + j);
       const M hit = hn::And(hn::And(hn::FirstN(d, end - j), p.counts(code, column)), p.overlaps(lo, hi));
       if constexpr (care == Care::none) {
-        emit(sink, code, p.code, hit);
+        out.emit(code, p.code, hit);
       } else {
         const M doubt = hn::And(hit, p.doubtful(lo, hi));
         if constexpr (care == Care::decide) {
-          emit(sink, code, p.code, hn::AndNot(doubt, hit));
+          out.emit(code, p.code, hn::AndNot(doubt, hit));
           if (!hn::AllFalse(d, doubt)) emit_doubtful(sink, code, p.code, doubt);
         } else {
-          emit(sink, code, p.code, hit);
+          out.emit(code, p.code, hit);
           in_doubt = hn::Or(in_doubt, doubt);
         }
       }
@@ -307,7 +336,8 @@ void scan(const KeyBox& box, std::uint32_t code, std::uint32_t column, const Gri
   p.code = hn::Set(d, static_cast<std::int32_t>(code)),
   p.column = hn::Set(d, static_cast<std::int32_t>(column));
   const V owner = hn::Set(d, static_cast<std::int32_t>(owner_flags));
-  sink.reserve(last - first + lanes);
+  Writer out(sink);
+  out.reserve(last - first + lanes);
   for (std::size_t j = first; j < last; j += lanes) {
     const Block b(entries + j);
     M in = hn::FirstN(d, last - j);
@@ -315,7 +345,7 @@ void scan(const KeyBox& box, std::uint32_t code, std::uint32_t column, const Gri
     const M hit = hn::And(hn::And(in, p.counts(b.code, column == any_column ? p.column : b.column)),
                           p.overlaps(b.lo, b.hi));
     const M unsure = doubt == Doubt::report ? hn::FirstN(d, 0) : hn::And(hit, p.doubtful(b.lo, b.hi));
-    emit(sink, b.code, p.code, hn::AndNot(unsure, hit));
+    out.emit(b.code, p.code, hn::AndNot(unsure, hit));
     if (!hn::AllFalse(d, unsure)) emit_doubtful(sink, b.code, p.code, unsure);
   }
 }

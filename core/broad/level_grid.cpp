@@ -61,7 +61,7 @@ void LevelGrid::choose_cells(const SceneStats& stats, std::size_t n) {
   }
   // Strides by the plastic number (the golden section's analogue for two dimensions): neighbouring columns
   // start far from each other, and starts fill the table evenly. Odd, so that they run through it.
-  places_ = std::bit_ceil(static_cast<std::size_t>(table)), ghosts_ = most_cells_a_box + 1;
+  places_ = std::bit_ceil(n + 512), ghosts_ = most_cells_a_box + 1;
   shape_.mask = static_cast<std::uint32_t>(places_ - 1);
   shape_.stride_u = static_cast<std::uint32_t>(0.7548776662466927 * static_cast<double>(places_)) | 1;
   shape_.stride_v = static_cast<std::uint32_t>(0.5698402909980532 * static_cast<double>(places_)) | 1;

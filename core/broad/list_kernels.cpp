@@ -119,10 +119,6 @@ HWY_INLINE Apart compare(const KeyBox& a, const KeyBox& b) {
   }
   return r;
 }
-struct Against {
-  const KeyBox& box;
-  HWY_INLINE Apart operator()(const KeyBox& b) const { return compare(box, b); }
-};
 HWY_INLINE bool inside(const KeyBox& a, const KeyBox& fat) {
   bool in = true;
   for (int k = 0; k < 3; ++k) in &= a.lo[k] >= fat.lo[k] && a.hi[k] <= fat.hi[k];
@@ -133,21 +129,15 @@ using I4 = hn::FixedTag<std::int32_t, 4>;
 struct Apart {
   bool apart, doubtful;
 };
-struct Against {
-  hn::Vec<I4> lo, hi, lo_2, hi_2;
-  explicit HWY_INLINE Against(const KeyBox& a) {
-    alignas(16) static constexpr std::int32_t margin[4] = {2, 2, 2, 0};
-    const I4 d;
-    lo = hn::Load(d, a.lo), hi = hn::Load(d, a.hi);
-    lo_2 = hn::Add(lo, hn::Load(d, margin)), hi_2 = hn::Sub(hi, hn::Load(d, margin));
-  }
-  HWY_INLINE Apart operator()(const KeyBox& b) const {
-    const I4 d;
-    const auto b_lo = hn::Load(d, b.lo), b_hi = hn::Load(d, b.hi);
-    return {!hn::AllFalse(d, hn::Or(hn::Gt(b_lo, hi), hn::Gt(lo, b_hi))),
-            !hn::AllFalse(d, hn::Or(hn::Gt(b_lo, hi_2), hn::Gt(lo_2, b_hi)))};
-  }
-};
+HWY_INLINE Apart compare(const KeyBox& a, const KeyBox& b) {
+  alignas(16) static constexpr std::int32_t margin[4] = {2, 2, 2, 0};
+  const I4 d;
+  const auto a_lo = hn::Load(d, a.lo), a_hi = hn::Load(d, a.hi), b_lo = hn::Load(d, b.lo),
+             b_hi = hn::Load(d, b.hi);
+  const auto two = hn::Load(d, margin);
+  return {!hn::AllFalse(d, hn::Or(hn::Gt(b_lo, a_hi), hn::Gt(a_lo, b_hi))),
+          !hn::AllFalse(d, hn::Or(hn::Gt(b_lo, hn::Sub(a_hi, two)), hn::Gt(hn::Add(a_lo, two), b_hi)))};
+}
 HWY_INLINE bool inside(const KeyBox& a, const KeyBox& fat) {
   const I4 d;
   // The fourth lane of a fat box holds other things.
@@ -158,23 +148,59 @@ HWY_INLINE bool inside(const KeyBox& a, const KeyBox& fat) {
 }
 #endif
 
+// The first of each candidate, for as many boxes as fit. How many candidates a box has cannot be predicted;
+// up to a vector's worth takes one store.
+struct Firsts {
+  static constexpr std::size_t most = 512;
+  std::uint32_t of[most + 64];
+  // Boxes [from, result).
+  HWY_INLINE std::size_t spread(const std::uint32_t* end, std::size_t from, std::size_t to,
+                                std::size_t begin) {
+    const hn::ScalableTag<std::uint32_t> d;
+    std::size_t n = 0, s = from;
+    for (; s < to; ++s) {
+      const std::size_t mine = end[s] - begin;
+      if (HWY_UNLIKELY(n + mine > most)) break;
+      std::size_t k = 0;
+      do {
+        hn::StoreU(hn::Set(d, static_cast<std::uint32_t>(s)), d, of + n + k);
+        k += hn::Lanes(d);
+      } while (HWY_UNLIKELY(k < mine));
+      n += mine, begin = end[s];
+    }
+    return s;
+  }
+};
+
+HWY_INLINE std::size_t filter_one(const KeyBox* keys, const Aabb* boxes, std::uint32_t s, std::uint32_t t,
+                                  IdPair* out) {
+  const Apart r = compare(keys[s], keys[t]);
+  *out = {static_cast<int>(s), static_cast<int>(t)};
+  bool hit = !r.apart;
+  if (HWY_UNLIKELY(r.doubtful & hit)) hit = overlaps(boxes[s], boxes[t]);
+  return hit ? 1 : 0;
+}
+
 std::size_t filter(const KeyBox* keys, const Aabb* boxes, const std::uint32_t* end,
                    const std::uint32_t* second, std::size_t from, std::size_t to, IdPair* out) {
   constexpr std::size_t ahead = 12;
   static_assert(ahead <= list_padding);
-  std::size_t n = 0;
-  std::uint32_t c = from > 0 ? end[from - 1] : 0;
-  for (std::size_t s = from; s < to; ++s) {
-    const Against against(keys[s]);
-    for (; c < end[s]; ++c) {
-      const std::uint32_t t = second[c];
-      __builtin_prefetch(&keys[second[c + ahead]]);
-      const Apart r = against(keys[t]);
-      out[n] = {static_cast<int>(s), static_cast<int>(t)};
-      bool hit = !r.apart;
-      if (HWY_UNLIKELY(r.doubtful & hit)) hit = overlaps(boxes[s], boxes[t]);
-      n += hit ? 1 : 0;
+  Firsts firsts;
+  std::size_t n = 0, c = from > 0 ? end[from - 1] : 0;
+  while (from < to) {
+    const std::size_t next = firsts.spread(end, from, to, c);
+    if (HWY_UNLIKELY(next == from)) {  // one box with more candidates than fit
+      for (; c < end[from]; ++c)
+        n += filter_one(keys, boxes, static_cast<std::uint32_t>(from), second[c], out + n);
+      ++from;
+      continue;
     }
+    const std::size_t last = end[next - 1];
+    for (const std::uint32_t* first = firsts.of; c < last; ++c, ++first) {
+      __builtin_prefetch(&keys[second[c + ahead]]);
+      n += filter_one(keys, boxes, *first, second[c], out + n);
+    }
+    from = next;
   }
   return n;
 }

@@ -87,7 +87,7 @@ void NeighbourListFinder::build(const BoxStore& store, PairSink& sink) {
   sort_buckets(end_.data(), end_.size(), codes_.data(), second_.data());
   std::fill_n(second_.begin() + static_cast<std::ptrdiff_t>(candidates_), list_padding, 0);
   sink.clear();
-  alive_ = true, age_ = 0, ++lists_;
+  alive_ = true, age_ = 0, work_ = 0, ++lists_;
 }
 
 const KeyBox& NeighbourListFinder::built_box(BoxStore::Slot s) const {
@@ -150,7 +150,11 @@ bool NeighbourListFinder::keep(const BoxStore& store, PairSink& sink) {
   if (built < store.slots()) fat_.resize(store.slots());
   escaped_.clear();
   find_escapes(store.keys().data(), fat_.data(), store.touched(), escaped_);
-  if ((loose_.size() + escaped_.size()) * tolerance::neighbour_loose_share > store.present()) return false;
+  // A loose box costs about as much in a query as a box in the making of a list; one that escapes, several
+  // times that.
+  work_ += loose_.size() + 4 * escaped_.size();
+  if (work_ > store.present() || escaped_.size() * tolerance::neighbour_loose_share > store.present())
+    return false;
   // The list leaves out pairs of boxes that were fixed when it was made.
   for (const BoxStore::Slot s : store.touched())
     if (store.is_present(s) && s < built && (fat_[s].hi[3] != 0) != store.is_fixed(s)) return false;

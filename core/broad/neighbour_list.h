@@ -43,6 +43,7 @@ class NeighbourListFinder {
   bool alive_ = false, answered_ = false;
   int age_ = 0, wait_ = 0, patience_ = 0;  // queries: of the list; to go without one; the last such wait
   long lists_ = 0;
+  std::size_t work_ = 0;  // spent on loose boxes since the list was made
   std::uint64_t membership_ = 0;
   // By slot. Fourth lanes: lo, 1 + its number among the loose, or 0; hi, whether the box was fixed when
   // filed.

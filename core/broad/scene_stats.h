@@ -16,7 +16,7 @@ struct SceneStats {
   double largest_ratio = 1;  // 99th percentile of the largest side over its median
 };
 
-/// About 256 boxes at equal steps through the slots.
+/// 256 boxes, of a large scene one in 64, at equal steps through the slots.
 SceneStats sample_scene(const BoxStore& store);
 
 /// The same of the boxes that `codes` name (their low bits, pair_kernels.h).
