@@ -88,15 +88,18 @@ inline constexpr double referee_guess_factors[] = {0x1p-50, 0x1p-44, 0x1p-36, 0x
 // ---- core/broad: choices of speed alone; any value reports the same pairs
 // (tests/core/broad_catalog_test.cpp). Bites: tests/bench.
 
-/// Cells of a grid, in units of the median box: below 2 a box meets too many columns.
+/// Columns of a grid, in units of the median box: narrower, a box meets too many.
 inline constexpr double grid_cell_factor = 2;
-/// Boxes that a sweep of one column should find to compare with (a count): one comparison of 16 lanes.
-inline constexpr double grid_window = 10;
-/// A box that meets more columns than this, or is longer along the sweep than this many medians, is large.
-inline constexpr unsigned grid_cells_a_box = 16;
-inline constexpr double grid_large_factor = 8;
+/// Boxes that a box should find to compare with in the cells that it reaches (a count): one comparison of 16 lanes.
+inline constexpr double grid_window = 8;
+/// Cells along a column, in units of the median box.
+inline constexpr double grid_cut = 0.3;
 /// Below this many boxes a level is swept without cells (a count).
 inline constexpr unsigned grid_least_boxes = 64;
+/// A box in a neighbour list is widened by so many of its last steps; when that is more than this share of its largest
+/// side, by nothing. The list is made anew when more than one box in so many has left its widened box (a count).
+inline constexpr double neighbour_margin_steps = 5, neighbour_margin_most = 0.3;
+inline constexpr unsigned neighbour_loose_share = 16;
 /// Insertion sort may spend this many moves a box before the order is sorted anew: about the cost of a radix
 /// sort.
 inline constexpr unsigned sweep_moves_a_box = 8;

@@ -1,6 +1,10 @@
 #include "core/broad/box_store.h"
 
 #include <algorithm>
+#include <cmath>
+
+#include "core/broad/box_kernels.h"
+#include "core/broad/pair_kernels.h"
 
 namespace touchstone::broad {
 namespace {
@@ -23,7 +27,9 @@ std::string describe(Refusal why, int id) {
 }
 
 // False for a NaN too.
-bool is_box(const Aabb& b) { return b.lo.x() <= b.hi.x() && b.lo.y() <= b.hi.y() && b.lo.z() <= b.hi.z(); }
+bool is_box(const Aabb& b) {
+  return (b.lo.x() <= b.hi.x()) & (b.lo.y() <= b.hi.y()) & (b.lo.z() <= b.hi.z());
+}
 
 }  // namespace
 
@@ -40,8 +46,7 @@ void BoxStore::touch(Slot s) {
   touched_.push_back(s);
 }
 
-void BoxStore::put(Slot s, const Aabb& box) {
-  boxes_[s] = box, keys_[s] = key_box(box);
+void BoxStore::changed(Slot s) {
   if ((state_[s] & fixed_bit) != 0) ++fixed_changes_;
   touch(s);
 }
@@ -54,7 +59,7 @@ void BoxStore::insert(int id, const Aabb& box, Mobility mobility) {
     if (slots() + 1 >= max_slots) throw Refused(Refusal::too_many, id);
     s = static_cast<Slot>(slots());
     if (s > 0 && ids_.back() > id) ascending_ = false;
-    boxes_.emplace_back(), keys_.emplace_back(), ids_.push_back(id), state_.push_back(0);
+    boxes_.emplace_back(), keys_.emplace_back(), ids_.push_back(id), state_.push_back(0), steps_.push_back(0);
   } else {
     s = free_.back(), free_.pop_back();
     // A box that returns to its old slot keeps the order; any other may break it.
@@ -66,14 +71,13 @@ void BoxStore::insert(int id, const Aabb& box, Mobility mobility) {
   state_[s] = static_cast<std::uint8_t>((state_[s] & touched_bit) | present_bit);
   if (mobility == Mobility::fixed) state_[s] |= fixed_bit, ++fixed_;
   ++membership_;
-  put(s, box);
+  boxes_[s] = box, keys_[s] = key_box(box), steps_[s] = 0;
+  changed(s);
 }
 
 void BoxStore::move(int id, const Aabb& box) {
-  require_box(id, box);
-  const Slot s = index_.find(id);
-  if (s == IdIndex::none) throw Refused(Refusal::id_absent, id);
-  put(s, box);
+  const BoxUpdate one{id, box};
+  update({&one, 1});
 }
 
 void BoxStore::remove(int id) {
@@ -88,12 +92,28 @@ void BoxStore::remove(int id) {
   touch(s);
 }
 
+// In blocks, whose slots are kept between the two passes over them.
 void BoxStore::update(std::span<const BoxUpdate> moves) {
   for (const BoxUpdate& m : moves) {
     require_box(m.id, m.box);
-    if (index_.find(m.id) == IdIndex::none) throw Refused(Refusal::id_absent, m.id);
+    if (find(m.id) == IdIndex::none) throw Refused(Refusal::id_absent, m.id);
   }
-  for (const BoxUpdate& m : moves) put(index_.find(m.id), m.box);
+  constexpr std::size_t block = 256;
+  Slot at[block];
+  for (; !moves.empty(); moves = moves.subspan(std::min(block, moves.size()))) {
+    const auto some = moves.first(std::min(block, moves.size()));
+    for (std::size_t m = 0; m < some.size(); ++m) changed(at[m] = find(some[m].id));
+    put_boxes(some, at, boxes_.data(), keys_.data(), steps_.data());
+  }
+}
+
+void BoxStore::codes(std::vector<std::uint32_t>& out) const {
+  out.resize(present());
+  std::size_t n = 0;
+  for (Slot s = 0; n < out.size(); ++s) {
+    out[n] = s | (is_fixed(s) ? 0 : moving_flag);
+    n += is_present(s) ? 1 : 0;
+  }
 }
 
 void BoxStore::forget_changes() {
@@ -125,7 +145,7 @@ void BoxStore::validate() const {
 
 std::size_t BoxStore::memory_bytes() const {
   return boxes_.capacity() * sizeof(Aabb) + keys_.capacity() * sizeof(KeyBox) +
-         ids_.capacity() * sizeof(int) + state_.capacity() +
+         ids_.capacity() * sizeof(int) + steps_.capacity() * sizeof(float) + state_.capacity() +
          (free_.capacity() + touched_.capacity()) * sizeof(Slot) + index_.memory_bytes();
 }
 

@@ -31,7 +31,12 @@ class BoxStore {
   bool is_present(Slot s) const { return (state_[s] & present_bit) != 0; }
   bool is_fixed(Slot s) const { return (state_[s] & fixed_bit) != 0; }
   int id(Slot s) const { return ids_[s]; }
+  /// How far the box went in its last move, the largest of its coordinates' changes; 0 for one just inserted.
+  float last_step(Slot s) const { return steps_[s]; }
   std::size_t fixed() const { return fixed_; }
+
+  /// The slots present in order, with moving_flag (pair_kernels.h) where they move.
+  void codes(std::vector<std::uint32_t>& out) const;
 
   /// Slots inserted, moved or removed since forget_changes(), each once.
   std::span<const Slot> touched() const { return touched_; }
@@ -50,12 +55,18 @@ class BoxStore {
   std::size_t memory_bytes() const;
 
  private:
-  static constexpr std::uint8_t present_bit = 1, fixed_bit = 2, touched_bit = 4;
+  static constexpr std::uint8_t touched_bit = 1, present_bit = 2, fixed_bit = 4;
   void touch(Slot s);
-  void put(Slot s, const Aabb& box);
+  void changed(Slot s);
+  Slot find(int id) const {
+    if (!identical_) return index_.find(id);
+    const auto s = static_cast<Slot>(id);
+    return s < slots() && is_present(s) ? s : IdIndex::none;
+  }
   std::vector<Aabb> boxes_;
   std::vector<KeyBox> keys_;
   std::vector<int> ids_;
+  std::vector<float> steps_;
   std::vector<std::uint8_t> state_;
   std::vector<Slot> free_, touched_;
   IdIndex index_;

@@ -9,6 +9,7 @@
 #include "core/broad/brute_force.h"
 #include "core/broad/grid.h"
 #include "core/broad/incremental_sweep.h"
+#include "core/broad/neighbour_list.h"
 #include "core/broad/sort_and_sweep.h"
 
 namespace touchstone::broad {
@@ -18,13 +19,14 @@ struct CatalogRow {
   BroadPhasePtr (*make)();
 };
 
-inline constexpr std::array<CatalogRow, 7> catalog{{
+inline constexpr std::array<CatalogRow, 8> catalog{{
     {"automatic", &make_automatic},
     {"brute_force", &make_brute_force},
     {"sort_and_sweep", &make_sort_and_sweep},
     {"incremental_sweep", &make_incremental_sweep},
     {"grid", &make_grid},
     {"hierarchical_grid", &make_hierarchical_grid},
+    {"neighbour_list", &make_neighbour_list},
     {"bounding_volume_hierarchy", &make_bounding_volume_hierarchy},
 }};
 

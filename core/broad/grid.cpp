@@ -5,56 +5,81 @@
 
 namespace touchstone::broad {
 
-template <int max_levels>
-void GridFinder<max_levels>::find(const BoxStore& store, PairSink& sink) {
-  SceneStats stats = stats_.of(store);
-  axis_ = best_axis(stats), used_ = 0;
-  boxes_.clear();
-  for (BoxStore::Slot s = 0; s < store.slots(); ++s)
-    if (store.is_present(s)) boxes_.push_back({unsigned_key(store.keys()[s].lo[axis_]), s});
-  sort_by_key(boxes_, scratch_);
-  while (used_ < max_levels && boxes_.size() > tolerance::grid_least_boxes) {
-    if (used_ > 0) stats = sample_scene(store, boxes_);
+void GridLevels::build(const KeyBox* boxes, std::vector<std::uint32_t>& codes, const SceneStats& stats,
+                       std::size_t max_levels) {
+  used_ = 0;
+  const std::vector<std::uint32_t>* left = &codes;
+  while (used_ < max_levels && left->size() > tolerance::grid_least_boxes) {
     if (levels_.size() == used_) levels_.emplace_back();
-    levels_[used_].build(store, boxes_, axis_, stats, large_);
+    Level& level = levels_[used_];
+    level.grid.build(boxes, *left, used_ > 0 ? sample_boxes(boxes, *left) : stats, level.too_large);
     // A level that takes less than half is not worth its queries.
-    if (levels_[used_].entered() * 2 < boxes_.size()) break;
-    levels_[used_++].self_pairs(sink);
-    boxes_.swap(large_);
-    for (const KeyedSlot& k : boxes_) levels_[used_ - 1].query(store, k.slot, sink);
+    if (level.grid.filed() * 2 < left->size()) break;
+    left = &level.too_large, ++used_;
   }
-  sweep_rest(store, sink);
+  sort_rest(boxes, *left);
 }
 
-template <int max_levels>
-void GridFinder<max_levels>::sweep_rest(const BoxStore& store, PairSink& sink) {
-  rest_.resize(boxes_.size());
-  for (std::size_t i = 0; i < boxes_.size(); ++i)
-    rest_.put(i, store.keys()[boxes_[i].slot], plain_code(store, boxes_[i].slot), axis_);
+void GridLevels::sort_rest(const KeyBox* boxes, const std::vector<std::uint32_t>& codes) {
+  order_.clear();
+  for (const std::uint32_t c : codes)
+    order_.push_back({unsigned_key(boxes[c & slot_mask].lo[0]), c | owner_flags});
+  sort_by_key(order_, scratch_);
+  rest_.resize(order_.size());
+  for (std::size_t i = 0; i < order_.size(); ++i)
+    rest_.put(i, boxes[order_[i].slot & slot_mask], order_[i].slot, 0);
+}
+
+void GridLevels::pairs(const KeyBox* boxes, Doubt doubt, PairSink& sink) {
+  for (std::size_t l = 0; l < used_; ++l) {
+    levels_[l].grid.self_pairs(doubt, sink);
+    for (const std::uint32_t c : levels_[l].too_large)
+      levels_[l].grid.query(boxes[c & slot_mask], c, doubt, sink);
+  }
   sweep_range(rest_, 0, rest_.size, sink);
+  if (doubt == Doubt::report) sink.accept_doubtful();
 }
 
-template <int max_levels>
-void GridFinder<max_levels>::validate(const BoxStore&) const {
-  for (std::size_t l = 0; l < used_; ++l) levels_[l].validate();
+void GridLevels::query(const KeyBox& box, std::uint32_t code, PairSink& sink) {
+  for (std::size_t l = 0; l < used_; ++l) levels_[l].grid.query(box, code, Doubt::report, sink);
+  probe_.resize(1);
+  probe_.put(0, box, code | owner_flags, 0);
+  scan_range(probe_, 0, rest_, 0, rest_.size, sink);
+  sink.accept_doubtful();
 }
 
-template <int max_levels>
-std::size_t GridFinder<max_levels>::memory_bytes() const {
-  std::size_t sum = (boxes_.capacity() + large_.capacity() + scratch_.capacity()) * sizeof(KeyedSlot) +
-                    rest_.memory_bytes();
-  for (const LevelGrid& l : levels_) sum += l.memory_bytes();
+void GridLevels::validate() const {
+  for (std::size_t l = 0; l < used_; ++l) levels_[l].grid.validate();
+  for (std::size_t i = 1; i < rest_.size; ++i)
+    if (rest_.lo[0][i - 1] > rest_.lo[0][i]) throw std::logic_error("grid: the rest is out of order");
+}
+
+std::size_t GridLevels::memory_bytes() const {
+  std::size_t sum = (order_.capacity() + scratch_.capacity()) * sizeof(KeyedSlot) + rest_.memory_bytes() +
+                    probe_.memory_bytes();
+  for (const Level& l : levels_)
+    sum += l.grid.memory_bytes() + l.too_large.capacity() * sizeof(std::uint32_t);
   return sum;
 }
 
-template <int max_levels>
-std::string GridFinder<max_levels>::explain() const {
-  std::string text = "columns along " + std::string(1, "xyz"[axis_]);
-  for (std::size_t l = 0; l < used_; ++l)
-    text += "; level " + std::to_string(l) + ": " + std::to_string(levels_[l].entered()) + " boxes, " +
-            std::to_string(levels_[l].entries()) + " entries in " + std::to_string(levels_[l].cells()) +
-            " columns " + std::to_string(levels_[l].cell_size(0)) + " wide";
+std::string GridLevels::explain() const {
+  std::string text = "grid";
+  for (std::size_t l = 0; l < used_; ++l) {
+    const LevelGrid& g = levels_[l].grid;
+    const int u = (g.axis() + 1) % 3;
+    text += "; level " + std::to_string(l) + ": " + std::to_string(g.filed()) + " boxes, " +
+            std::to_string(g.entries()) + " entries in " + std::to_string(g.places()) +
+            (g.hashed() ? " hashed" : "") + " places, columns along " + std::string(1, "xyz"[g.axis()]) +
+            " " + std::to_string(g.cell_size(u)) + " wide";
+  }
   return text + "; swept: " + std::to_string(rest_.size);
+}
+
+template <int max_levels>
+void GridFinder<max_levels>::find(const BoxStore& store, PairSink& sink) {
+  store.codes(codes_);
+  levels_.build(store.keys().data(), codes_, stats_.of(store), max_levels);
+  levels_.pairs(store.keys().data(), Doubt::decide, sink);
 }
 
 template class GridFinder<1>;

@@ -3,29 +3,55 @@
 // The grid's cells fit the usual box (level_grid.h). Boxes that are large for them make up the next level,
 // whose grid has cells to their measure, and so on; each large box looks into the grids of all finer levels.
 // The uniform grid has one level; its large boxes are swept. Ericson, Real-Time Collision Detection (2005),
-// §7.2, with columns that are swept in place of cubic cells.
+// §7.2, with columns in place of cubic cells.
 #pragma once
 
+#include "core/broad/key_sort.h"
 #include "core/broad/level_grid.h"
 
 namespace touchstone::broad {
+
+/// The levels of a grid over boxes that the caller holds.
+class GridLevels {
+ public:
+  /// Over the boxes of `codes` (indices with moving_flag).
+  void build(const KeyBox* boxes, std::vector<std::uint32_t>& codes, const SceneStats& stats,
+             std::size_t max_levels);
+  /// All pairs. `boxes` as they were built over.
+  void pairs(const KeyBox* boxes, Doubt doubt, PairSink& sink);
+  /// Pairs of another box with those built over.
+  void query(const KeyBox& box, std::uint32_t code, PairSink& sink);
+  std::size_t swept() const { return rest_.size; }
+  void validate() const;
+  std::size_t memory_bytes() const;
+  std::string explain() const;
+
+ private:
+  void sort_rest(const KeyBox* boxes, const std::vector<std::uint32_t>& codes);
+  struct Level {
+    LevelGrid grid;
+    std::vector<std::uint32_t> too_large;
+  };
+  std::vector<Level> levels_;
+  std::size_t used_ = 0;
+  std::vector<KeyedSlot> order_, scratch_;
+  BoxColumns rest_, probe_;  // what no level holds, in order along x
+};
 
 template <int max_levels>
 class GridFinder {
  public:
   void find(const BoxStore& store, PairSink& sink);
-  void validate(const BoxStore& store) const;
-  std::size_t memory_bytes() const;
-  std::string explain() const;
+  void validate(const BoxStore&) const { levels_.validate(); }
+  std::size_t memory_bytes() const {
+    return levels_.memory_bytes() + codes_.capacity() * sizeof(std::uint32_t);
+  }
+  std::string explain() const { return levels_.explain(); }
 
  private:
-  void sweep_rest(const BoxStore& store, PairSink& sink);
   RememberedStats stats_;
-  int axis_ = 0;
-  std::size_t used_ = 0;
-  std::vector<LevelGrid> levels_;
-  std::vector<KeyedSlot> boxes_, large_, scratch_;
-  BoxColumns rest_;
+  std::vector<std::uint32_t> codes_;
+  GridLevels levels_;
 };
 
 using UniformGridFinder = GridFinder<1>;

@@ -1,6 +1,7 @@
 #include "core/broad/level_grid.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <stdexcept>
 
@@ -9,144 +10,115 @@
 namespace touchstone::broad {
 namespace {
 
-// Finite, so that no difference of two of them and no product below is a NaN.
+constexpr std::size_t filling = 64;
+constexpr std::uint32_t most_cells_a_box = 64;
+constexpr double most_columns_an_axis = 1 << column_bits, most_cells_an_axis = 1 << 24;
+
+// Finite, so that no difference of two of them and no product is a NaN.
 float bounded(double x) { return static_cast<float>(std::clamp(x, -1e30, 1e30)); }
+
+double positive(double x, double otherwise) { return x > 0 && std::isfinite(x) ? x : otherwise; }
 
 }  // namespace
 
-// Cells at least twice the usual box, so that a box meets (1 + 1/2)² columns or fewer on average, and so wide
-// that a sweep finds about grid_window boxes to compare with in a column, which is what one wide comparison
-// takes.
+// Columns at least grid_cell_factor times the usual box, so that a box meets few of them, and so wide that a
+// box finds about grid_window others in the cells that it reaches, which is what one wide comparison takes.
+// Cells along w a fraction of the usual box, so that little of that is in vain.
 void LevelGrid::choose_cells(const SceneStats& stats, std::size_t n) {
-  const double along = stats.median_size[axis_];
-  const double area = tolerance::grid_window / (stats.density * static_cast<double>(n) * along);
-  const double window_side = std::isfinite(area) && area > 0 ? std::sqrt(area) : 0;
-  double cells[2] = {};
-  for (int k = 0; k < 2; ++k) {
-    const int a = (axis_ + 1 + k) % 3;
-    const double extent = std::max(0.0, stats.high[a] - stats.low[a]);
-    const double side = std::max(tolerance::grid_cell_factor * stats.median_size[a], window_side);
-    cells[k] = side > 0 ? std::clamp(extent / side, 1.0, static_cast<double>(n + 1)) : 1;
+  const int w = best_axis(stats), u = (w + 1) % 3, v = (w + 2) % 3;
+  shape_ = {};
+  shape_.axis_w = w, shape_.axis_u = u, shape_.axis_v = v, shape_.most_cells = most_cells_a_box;
+  const double along = positive(stats.median_size[w], 0);
+  const double area = tolerance::grid_window / (stats.density * static_cast<double>(n) * along * 1.25);
+  const double side = std::isfinite(area) && area > 0 ? std::sqrt(area) : 0;
+  double count[3] = {1, 1, 1};
+  for (const int k : {w, u, v}) {
+    const double extent = std::max(0.0, stats.high[k] - stats.low[k]);
+    const double cell = k == w ? along * tolerance::grid_cut
+                               : std::max(tolerance::grid_cell_factor * stats.median_size[k], side);
+    const double most = k == w ? most_cells_an_axis : most_columns_an_axis;
+    count[k] = cell > 0 ? std::clamp(std::ceil(extent / cell), 1.0, most) : 1;
+    // A world without extent has one cell, whatever its width.
+    const double width = extent > 0 ? extent / count[k] : positive(cell, 1);
+    shape_.origin[k] = bounded(stats.low[k]);
+    shape_.scale[k] = static_cast<float>(std::clamp(1 / width, 1e-30, 1e30));
+    shape_.last[k] = static_cast<float>(count[k] - 1);
   }
-  // No more columns than boxes: an empty column costs as much as an entry.
-  const double shrink = std::sqrt(std::max(1.0, cells[0] * cells[1] / static_cast<double>(n + 1)));
-  for (int k = 0; k < 2; ++k) {
-    const int a = (axis_ + 1 + k) % 3;
-    const double whole = std::max(std::floor(cells[k] / shrink), 1.0);
-    const double extent = stats.high[a] - stats.low[a];
-    origin_[k] = bounded(stats.low[a]);
-    scale_[k] = static_cast<float>(std::clamp(extent > 0 ? whole / extent : 1.0, 1e-30, 1e30));
-    count_[k] = static_cast<std::uint32_t>(whole);
+  const double all = count[0] * count[1] * count[2], table = static_cast<double>(2 * n + 512);
+  if (all <= 2 * table) {
+    shape_.stride_v = static_cast<std::uint32_t>(count[w]);
+    shape_.stride_u = static_cast<std::uint32_t>(count[w] * count[v]);
+    places_ = static_cast<std::size_t>(all), ghosts_ = 0;
+    return;
   }
-  longest_ = bounded(std::max(along * tolerance::grid_large_factor, stats.spread[axis_] / 256));
-}
-
-// Monotone: difference and product with a positive number round monotonically, and so do the clamps; an
-// infinity stays one.
-std::uint32_t LevelGrid::cell(std::int32_t key, int k) const {
-  const float t = (value_of(key) - origin_[k]) * scale_[k];
-  const auto last = static_cast<float>(count_[k] - 1);
-  const float in = t > 0 ? (t < last ? t : last) : 0;
-  return static_cast<std::uint32_t>(in);
-}
-
-LevelGrid::Span LevelGrid::span_of(const KeyBox& b) const {
-  const int u = (axis_ + 1) % 3, v = (axis_ + 2) % 3;
-  return {{cell(b.lo[u], 0), cell(b.lo[v], 1)}, {cell(b.hi[u], 0), cell(b.hi[v], 1)}};
-}
-
-template <class Visit>
-void LevelGrid::each_cell(const Span& s, std::uint32_t code, Visit visit) const {
-  for (std::uint32_t u = s.from[0]; u <= s.to[0]; ++u)
-    for (std::uint32_t v = s.from[1]; v <= s.to[1]; ++v)
-      visit(u * count_[1] + v, code | (u == s.from[0] ? 0x80000000U : 0) | (v == s.from[1] ? 0x40000000U : 0),
-            1U);
-}
-
-// The same for a box that meets at most 2 × 2 columns, without a branch: the visit to a column that is none
-// has weight 0. How many columns a box meets cannot be predicted; a wrong guess costs more than the visits.
-template <class Visit>
-void LevelGrid::each_of_four(const Span& s, std::uint32_t code, Visit visit) const {
-  const std::uint32_t more_u = s.to[0] - s.from[0], more_v = s.to[1] - s.from[1];
-  const std::uint32_t c = s.from[0] * count_[1] + s.from[1], below = c + more_u * count_[1];
-  visit(c, code | 0xc0000000U, 1U);
-  visit(c + more_v, code | 0x80000000U, more_v);
-  visit(below, code | 0x40000000U, more_u);
-  visit(below + more_v, code, more_u & more_v);
-}
-
-template <class Visit>
-void LevelGrid::visit_cells(const Span& s, std::uint32_t code, Visit visit) const {
-  if (((s.to[0] - s.from[0]) | (s.to[1] - s.from[1])) <= 1)
-    each_of_four(s, code, visit);
-  else
-    each_cell(s, code, visit);
-}
-
-std::size_t LevelGrid::count_entries(const BoxStore& store, const std::vector<KeyedSlot>& sorted,
-                                     std::vector<KeyedSlot>& too_large) {
-  begin_.assign(static_cast<std::size_t>(count_[0]) * count_[1] + 1, 0);
-  spans_.clear(), entered_slots_.clear(), too_large.clear();
-  std::size_t entries = 0;
-  for (const KeyedSlot& k : sorted) {
-    const KeyBox& b = store.keys()[k.slot];
-    const Span s = span_of(b);
-    if (s.size() > tolerance::grid_cells_a_box ||
-        !(value_of(b.hi[axis_]) - value_of(b.lo[axis_]) <= longest_)) {
-      too_large.push_back(k);
-      continue;
-    }
-    visit_cells(s, 0, [&](std::uint32_t c, std::uint32_t, std::uint32_t weight) { begin_[c] += weight; });
-    spans_.push_back(s), entered_slots_.push_back(k.slot | (store.is_fixed(k.slot) ? 0 : moving_flag));
-    entries += s.size();
+  // Columns cost nothing here: as many again on either side of the sample, which has not seen the outermost
+  // boxes.
+  for (int k = 0; k < 3; ++k) {
+    const double most = k == w ? most_cells_an_axis : most_columns_an_axis;
+    if (3 * count[k] > most) continue;
+    shape_.origin[k] = bounded(stats.low[k] - std::max(0.0, stats.high[k] - stats.low[k]));
+    shape_.last[k] = static_cast<float>(3 * count[k] - 1);
   }
-  return entries;
+  // Strides by the plastic number (the golden section's analogue for two dimensions): neighbouring columns
+  // start far from each other, and starts fill the table evenly. Odd, so that they run through it.
+  places_ = std::bit_ceil(n + 512), ghosts_ = most_cells_a_box + 1;
+  shape_.mask = static_cast<std::uint32_t>(places_ - 1);
+  shape_.stride_u = static_cast<std::uint32_t>(0.7548776662466927 * static_cast<double>(places_)) | 1;
+  shape_.stride_v = static_cast<std::uint32_t>(0.5698402909980532 * static_cast<double>(places_)) | 1;
 }
 
-void LevelGrid::build(const BoxStore& store, const std::vector<KeyedSlot>& sorted, int axis,
-                      const SceneStats& stats, std::vector<KeyedSlot>& too_large) {
-  axis_ = axis;
-  choose_cells(stats, sorted.size());
-  const std::size_t entries = count_entries(store, sorted, too_large);
-  entered_ = spans_.size();
+void LevelGrid::build(const KeyBox* boxes, const std::vector<std::uint32_t>& codes, const SceneStats& stats,
+                      std::vector<std::uint32_t>& too_large) {
+  choose_cells(stats, codes.size());
+  too_large.clear();
+  // Counts are kept two places ahead: when sums have been taken, next[c] = begin[c + 1] is where place c
+  // begins; when all entries have been written it is where place c ends, and begin[c] is where it begins.
+  begin_.assign(places_ + ghosts_ + 2, 0);
+  file_boxes(shape_, boxes, codes, filed_, too_large, begin_.data() + 2);
   std::uint32_t sum = 0;
-  for (std::uint32_t& b : begin_) sum += b, b = sum;
-  columns_.resize(entries);
-  // From the back, so that each column's begin ends where it belongs and the order along the axis is kept.
-  // Visits without weight write behind the end.
-  const auto nowhere = static_cast<std::uint32_t>(entries);
-  std::uint32_t* const code = columns_.code.data();
-  std::uint32_t* const begin = begin_.data();
-  for (std::size_t i = entered_; i-- > 0;)
-    visit_cells(spans_[i], entered_slots_[i], [=](std::uint32_t c, std::uint32_t with, std::uint32_t weight) {
-      const std::uint32_t at = begin[c] - weight;
-      begin[c] = at;
-      code[weight != 0 ? at : nowhere] = with;
-    });
-  code[nowhere] = 0;
-  columns_.gather(store, axis_);
+  for (std::size_t c = 2; c < places_ + 2; ++c) sum += begin_[c], begin_[c] = sum;
+  count_ = sum;
+  // Room for the copies: at most as many as there are entries.
+  if (entries_.size() < count_ + filling) entries_.resize(count_ + count_ / 8 + filling);
+  write_entries(shape_, boxes, filed_, begin_.data() + 1, entries_.data(), count_);
+  if (ghosts_ == 0) return;
+  const std::size_t copies = begin_[ghosts_];
+  if (entries_.size() < count_ + copies + filling) entries_.resize(count_ + copies + filling);
+  std::copy_n(entries_.begin(), copies, entries_.begin() + static_cast<std::ptrdiff_t>(count_));
+  for (std::size_t c = 0; c <= ghosts_; ++c) begin_[places_ + c] = sum + begin_[c];
 }
 
-void LevelGrid::self_pairs(PairSink& sink) const { sweep_groups(columns_, begin_, sink); }
+void LevelGrid::self_pairs(Doubt doubt, PairSink& sink) {
+  sweep_entries(shape_, entries_.data(), begin_.data(), 0, count_, doubt, scratch_, sink);
+}
 
-void LevelGrid::query(const BoxStore& store, BoxStore::Slot slot, PairSink& sink) {
-  const KeyBox& b = store.keys()[slot];
-  probe_.resize(1);
-  probe_.put(0, b, 0, axis_);
-  const std::int32_t from = earliest_start(b.lo[axis_], longest_);
-  const std::int32_t to = b.hi[axis_];
-  const auto& lo = columns_.lo[0];
-  const std::uint32_t moving = store.is_fixed(slot) ? 0 : moving_flag;
-  each_cell(span_of(b), slot | moving, [&](std::uint32_t c, std::uint32_t with, std::uint32_t) {
-    if (begin_[c] == begin_[c + 1]) return;
-    const auto first = lo.begin() + begin_[c], last = lo.begin() + begin_[c + 1];
-    const auto low = std::lower_bound(first, last, from);
-    const auto high = std::upper_bound(low, last, to);
-    if (low == high) return;
-    probe_.code[0] = with;
-    scan_range(probe_, 0, columns_, static_cast<std::size_t>(low - lo.begin()),
-               static_cast<std::size_t>(high - lo.begin()), sink);
-  });
+// `cells` places from `from` on, around the table's end.
+void LevelGrid::scan_places(const KeyBox& box, std::uint32_t code, std::uint32_t column, std::uint32_t from,
+                            std::uint32_t cells, Doubt doubt, PairSink& sink) const {
+  const std::size_t end = std::min<std::size_t>(std::size_t{from} + cells, places_);
+  if (begin_[from] < begin_[end])
+    scan_entries(box, code, column, entries_.data(), begin_[from], begin_[end], doubt, sink);
+  const std::size_t around = std::min<std::size_t>(std::size_t{from} + cells - end, from);
+  if (around > 0 && begin_[around] > 0)
+    scan_entries(box, code, column, entries_.data(), 0, begin_[around], doubt, sink);
+}
+
+void LevelGrid::query(const KeyBox& box, std::uint32_t code, Doubt doubt, PairSink& sink) const {
+  const CellRange r = cell_range(shape_, box);
+  const std::uint32_t from_w = r.lo[2] - std::min(r.lo[2], shape_.most_cells);
+  const std::uint32_t cells =
+      static_cast<std::uint32_t>(std::min<std::size_t>(r.hi[2] - from_w + 1, places_));
+  const double columns = (r.hi[0] - r.lo[0] + 1.0) * (r.hi[1] - r.lo[1] + 1.0);
+  // A column costs about as much as 16 entries.
+  if (columns * 16 > static_cast<double>(count_)) {
+    scan_entries(box, code | owner_flags, any_column, entries_.data(), 0, count_, doubt, sink);
+    return;
+  }
+  for (std::uint32_t u = r.lo[0]; u <= r.hi[0]; ++u)
+    for (std::uint32_t v = r.lo[1]; v <= r.hi[1]; ++v) {
+      const std::uint32_t owner = (u == r.lo[0] ? 0x80000000U : 0) | (v == r.lo[1] ? 0x40000000U : 0);
+      scan_places(box, code | owner, column_name(u, v), shape_.place(u, v, from_w), cells, doubt, sink);
+    }
 }
 
 void LevelGrid::validate() const {
@@ -154,17 +126,29 @@ void LevelGrid::validate() const {
     if (!holds) throw std::logic_error(what);
   };
   if (begin_.empty()) return;
-  require(begin_.front() == 0 && begin_.back() == columns_.size, "grid: columns do not cover the entries");
-  for (std::size_t c = 0; c + 1 < begin_.size(); ++c) {
-    require(begin_[c] <= begin_[c + 1], "grid: columns overlap");
-    for (std::size_t i = begin_[c] + 1; i < begin_[c + 1]; ++i)
-      require(columns_.lo[0][i - 1] <= columns_.lo[0][i], "grid: a column is out of order");
+  require(begin_.front() == 0 && begin_[places_] == count_, "grid: places do not cover the entries");
+  std::size_t owners = 0;
+  for (std::size_t c = 0; c < places_; ++c) {
+    require(begin_[c] <= begin_[c + 1], "grid: places overlap");
+    for (std::size_t i = begin_[c]; i < begin_[c + 1]; ++i) {
+      const GridEntry& e = entries_[i];
+      const CellRange r =
+          cell_range(shape_, {{e.lo[0], e.lo[1], e.lo[2], 0}, {e.hi[0], e.hi[1], e.hi[2], 0}});
+      const std::uint32_t u = e.column >> column_bits, v = e.column & ((1U << column_bits) - 1);
+      require(u >= r.lo[0] && u <= r.hi[0] && v >= r.lo[1] && v <= r.hi[1],
+              "grid: a box is in a wrong column");
+      require(shape_.place(u, v, r.lo[2]) == c, "grid: a box is in a wrong place");
+      require(((e.code >> 31) != 0) == (u == r.lo[0]) && ((e.code >> 30 & 1) != 0) == (v == r.lo[1]),
+              "grid: an owner flag is wrong");
+      owners += (e.code & owner_flags) == owner_flags ? 1 : 0;
+    }
   }
+  require(owners == filed_.size(), "grid: a box has no entry of its own");
 }
 
 std::size_t LevelGrid::memory_bytes() const {
-  return columns_.memory_bytes() + probe_.memory_bytes() + spans_.capacity() * sizeof(Span) +
-         (begin_.capacity() + entered_slots_.capacity()) * sizeof(std::uint32_t);
+  return entries_.capacity() * sizeof(GridEntry) + filed_.capacity() * sizeof(Filed) +
+         begin_.capacity() * sizeof(std::uint32_t) + scratch_.memory_bytes();
 }
 
 }  // namespace touchstone::broad

@@ -1,63 +1,51 @@
-// One level of a grid: columns of cells along two axes, unbounded in the third, along which each column is
-// swept.
+// One level of a grid. Columns of cells on two axes, cut along the third; a box is filed in each column that
+// it meets, there in the cell of its lower end, and compared with what is filed in the cells of the column
+// that it reaches. Two boxes that overlap share the column of the larger of their lower cells on both axes;
+// there, and only there, each owner flag is set in one of the two, so each pair is reported once.
 //
-// A box is entered in each column that it meets. Two boxes that overlap share the column of the larger of
-// their lower cells on both axes; there, and only there, each owner flag is set in one of the two, so each
-// pair is reported once. The cell of a coordinate is clamped to the grid, whose border columns thus extend to
-// infinity: a monotone map, so that boxes that overlap share a cell wherever they are (negative, far away,
-// infinite).
+// Counting sort by cell: no box is sorted or searched for. When the columns' cells do not fit in a table of
+// two to four places a box (clusters in a wide world), they are hashed into it: place = column's start + w,
+// modulo the size of the table, so that a column's cells still follow each other and one wide comparison
+// tests several cells. Teschner et al., Optimized Spatial Hashing (2003), with columns for cells.
 #pragma once
 
-#include "core/broad/key_sort.h"
-#include "core/broad/pair_kernels.h"
+#include <span>
+
+#include "core/broad/grid_kernels.h"
 #include "core/broad/scene_stats.h"
 
 namespace touchstone::broad {
 
 class LevelGrid {
  public:
-  /// Enters those of `sorted` (ascending in the key of lo along `axis`) that are small for the cells; the
+  /// Files those boxes of `codes` (indices into `boxes`, with moving_flag) that are small for the cells; the
   /// others are left in `too_large`, in order.
-  void build(const BoxStore& store, const std::vector<KeyedSlot>& sorted, int axis, const SceneStats& stats,
-             std::vector<KeyedSlot>& too_large);
-  /// Pairs among the boxes entered.
-  void self_pairs(PairSink& sink) const;
-  /// Pairs of the box in slot `s`, which is not entered here, with the boxes entered.
-  void query(const BoxStore& store, BoxStore::Slot s, PairSink& sink);
+  void build(const KeyBox* boxes, const std::vector<std::uint32_t>& codes, const SceneStats& stats,
+             std::vector<std::uint32_t>& too_large);
+  /// Pairs among the boxes filed.
+  void self_pairs(Doubt doubt, PairSink& sink);
+  /// Pairs of a box that is not filed here with the boxes filed; `code` without owner flags.
+  void query(const KeyBox& box, std::uint32_t code, Doubt doubt, PairSink& sink) const;
 
-  std::size_t entered() const { return entered_; }
-  std::size_t entries() const { return columns_.size; }
-  std::size_t cells() const { return begin_.empty() ? 0 : begin_.size() - 1; }
-  double cell_size(int k) const { return 1 / static_cast<double>(scale_[k]); }
+  std::size_t filed() const { return filed_.size(); }
+  std::size_t entries() const { return count_; }
+  std::size_t places() const { return places_; }
+  bool hashed() const { return shape_.mask != 0xffffffff; }
+  int axis() const { return shape_.axis_w; }
+  double cell_size(int axis) const { return 1 / static_cast<double>(shape_.scale[axis]); }
   void validate() const;
   std::size_t memory_bytes() const;
 
  private:
-  struct Span {
-    std::uint32_t from[2], to[2];
-    std::size_t size() const { return static_cast<std::size_t>(to[0] - from[0] + 1) * (to[1] - from[1] + 1); }
-  };
   void choose_cells(const SceneStats& stats, std::size_t n);
-  std::uint32_t cell(std::int32_t key, int k) const;
-  Span span_of(const KeyBox& b) const;
-  std::size_t count_entries(const BoxStore& store, const std::vector<KeyedSlot>& sorted,
-                            std::vector<KeyedSlot>& too_large);
-  template <class Visit>
-  void each_cell(const Span& s, std::uint32_t code, Visit visit) const;
-  template <class Visit>
-  void each_of_four(const Span& s, std::uint32_t code, Visit visit) const;
-  template <class Visit>
-  void visit_cells(const Span& s, std::uint32_t code, Visit visit) const;
-
-  int axis_ = 0;
-  float origin_[2] = {}, scale_[2] = {1, 1};
-  std::uint32_t count_[2] = {1, 1};
-  float longest_ = 0;  // along axis_, of the boxes that may be entered
-  std::size_t entered_ = 0;
-  std::vector<std::uint32_t> begin_;          // of each column; one more than columns
-  std::vector<Span> spans_;                   // of the boxes entered, in order along the axis
-  std::vector<std::uint32_t> entered_slots_;  // with moving_flag
-  BoxColumns columns_, probe_;
+  void scan_places(const KeyBox& box, std::uint32_t code, std::uint32_t column, std::uint32_t from,
+                   std::uint32_t cells, Doubt doubt, PairSink& sink) const;
+  GridShape shape_;
+  std::size_t places_ = 0, ghosts_ = 0, count_ = 0;
+  std::vector<std::uint32_t> begin_;  // of each place; places, ghosts, end
+  std::vector<GridEntry> entries_;  // count_, then copies of those of the first ghosts_ places, then filling
+  std::vector<Filed> filed_;
+  SweepScratch scratch_;
 };
 
 }  // namespace touchstone::broad

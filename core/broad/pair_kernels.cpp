@@ -5,11 +5,12 @@
 #include <hwy/foreach_target.h>  // includes this file once for each kind of processor
 #include <hwy/highway.h>
 
+#include "core/broad/pack_lanes-inl.h"
+
 HWY_BEFORE_NAMESPACE();
 namespace touchstone::broad::HWY_NAMESPACE {
 namespace {
 
-namespace hn = hwy::HWY_NAMESPACE;
 using I = hn::ScalableTag<std::int32_t>;
 using V = hn::Vec<I>;
 using M = hn::Mask<I>;
@@ -68,11 +69,10 @@ HWY_INLINE void emit(const BoxColumns& b, std::size_t j, std::uint32_t mine, con
   const V mask = hn::Set(d, static_cast<std::int32_t>(slot_mask));
   const V theirs = hn::And(hn::LoadU(d, reinterpret_cast<const std::int32_t*>(b.code.data()) + j), mask);
   const V self = hn::And(p.code, mask);
-  hn::StoreU(hn::Compress(hn::Min(theirs, self), sure), d,
-             reinterpret_cast<std::int32_t*>(sink.first.data()) + sink.n);
-  hn::StoreU(hn::Compress(hn::Max(theirs, self), sure), d,
-             reinterpret_cast<std::int32_t*>(sink.second.data()) + sink.n);
-  sink.n += hn::CountTrue(d, sure);
+  const Packer pack(sure);
+  hn::StoreU(pack(hn::Min(theirs, self)), d, reinterpret_cast<std::int32_t*>(sink.first.data()) + sink.n);
+  hn::StoreU(pack(hn::Max(theirs, self)), d, reinterpret_cast<std::int32_t*>(sink.second.data()) + sink.n);
+  sink.n += pack.count();
 }
 
 void sweep(const BoxColumns& b, std::size_t begin, std::size_t end, PairSink& sink) {

@@ -3,28 +3,9 @@
 #include <algorithm>
 #include <utility>
 
+#include "core/broad/list_kernels.h"
+
 namespace touchstone::broad {
-namespace {
-
-// Buckets of one first slot hold as many pairs as the box has later partners: a handful in most scenes.
-constexpr std::ptrdiff_t insertion_sort_up_to = 24;
-
-void sort_bucket(IdPair* begin, IdPair* end) {
-  const auto less = [](const IdPair& a, const IdPair& b) { return a.second < b.second; };
-  if (end - begin > insertion_sort_up_to) {
-    std::sort(begin, end, less);
-    return;
-  }
-  for (IdPair* i = begin + 1; i < end; ++i) {
-    const IdPair p = *i;
-    IdPair* j = i;
-    for (; j > begin && p.second < j[-1].second; --j) *j = j[-1];
-    *j = p;
-  }
-}
-
-}  // namespace
-
 void PairSink::grow(std::size_t more) {
   const std::size_t size = std::max(n + more, first.size() + first.size() / 2) + 64;
   first.resize(size), second.resize(size);
@@ -33,6 +14,11 @@ void PairSink::grow(std::size_t more) {
 void PairSink::decide_doubtful(const BoxStore& store) {
   for (const SlotPair& p : doubtful)
     if (overlaps(store.boxes()[p.first], store.boxes()[p.second])) add(p.first, p.second);
+  doubtful.clear();
+}
+
+void PairSink::accept_doubtful() {
+  for (const SlotPair& p : doubtful) add(p.first, p.second);
   doubtful.clear();
 }
 
@@ -55,27 +41,45 @@ void PairSink::rename_by_rank(const BoxStore& store) {
   }
 }
 
-// Counting sort by the first of the pair, then each bucket by the second: O(pairs + slots) and a sort of each
-// bucket, all but linear when no box has very many partners.
+// Counting sort.
+void PairSink::group(std::size_t slots, std::vector<std::uint32_t>& end,
+                     std::vector<std::uint32_t>& second_by_first) const {
+  end.assign(slots, 0);
+  for (std::size_t i = 0; i < n; ++i) ++end[first[i]];
+  std::uint32_t sum = 0;
+  for (std::uint32_t& c : end) sum += std::exchange(c, sum);
+  if (second_by_first.size() < n + list_padding) second_by_first.resize(n + list_padding);
+  for (std::size_t i = 0; i < n; ++i) second_by_first[end[first[i]]++] = second[i];
+}
+
+// Grouped by the first of the pair, each group sorted by the second: O(pairs + slots) and a sort of each
+// group, all but linear when no box has very many partners.
 void PairSink::finish(const BoxStore& store, std::vector<IdPair>& out) {
   decide_doubtful(store);
   const bool ranked = !store.slots_ascend();
   if (ranked) rename_by_rank(store);
-  count_.assign(store.slots() + 1, 0);
-  for (std::size_t i = 0; i < n; ++i) ++count_[first[i]];
-  std::uint32_t sum = 0;
-  for (std::uint32_t& c : count_) sum += std::exchange(c, sum);
+  group(store.slots(), count_, grouped_);
   out.resize(n);
-  for (std::size_t i = 0; i < n; ++i)
-    out[count_[first[i]]++] = {static_cast<int>(first[i]), static_cast<int>(second[i])};
-  std::uint32_t begin = 0;
-  for (std::size_t s = 0; s < store.slots(); begin = count_[s], ++s)
-    if (count_[s] - begin > 1) sort_bucket(out.data() + begin, out.data() + count_[s]);
+  write_buckets(count_.data(), count_.size(), grouped_.data(), out.data());
   if (store.ids_are_slots()) return;
   for (IdPair& p : out) {
     const auto a = static_cast<std::uint32_t>(p.first), b = static_cast<std::uint32_t>(p.second);
     p = ranked ? IdPair{by_rank_[a], by_rank_[b]} : IdPair{store.id(a), store.id(b)};
   }
+}
+
+void PairSink::name(const BoxStore& store, std::vector<IdPair>& out) {
+  if (store.ids_are_slots()) return;
+  if (store.slots_ascend()) {
+    for (IdPair& p : out)
+      p = {store.id(static_cast<std::uint32_t>(p.first)), store.id(static_cast<std::uint32_t>(p.second))};
+    return;
+  }
+  clear();
+  reserve(out.size());
+  for (const IdPair& p : out)
+    first[n] = static_cast<std::uint32_t>(p.first), second[n++] = static_cast<std::uint32_t>(p.second);
+  finish(store, out);
 }
 
 }  // namespace touchstone::broad

@@ -24,14 +24,25 @@ class PairSink {
     first[n] = a < b ? a : b, second[n] = a < b ? b : a, ++n;
   }
   std::size_t memory_bytes() const {
-    return (first.capacity() + second.capacity() + count_.capacity() + rank_.capacity()) * 4 +
+    return (first.capacity() + second.capacity() + grouped_.capacity() + count_.capacity() +
+            rank_.capacity()) *
+               4 +
            doubtful.capacity() * sizeof(SlotPair) + by_rank_.capacity() * 4;
   }
+  /// Groups the second slots by the first: bucket s ends at end[s]; the bucket before it ends where it
+  /// begins.
+  void group(std::size_t slots, std::vector<std::uint32_t>& end,
+             std::vector<std::uint32_t>& second_by_first) const;
   /// Adds those doubtful pairs whose double boxes overlap.
   void decide_doubtful(const BoxStore& store);
+  /// Adds all doubtful pairs.
+  void accept_doubtful();
   /// Decides the doubtful pairs by their double boxes and writes all pairs by id, sorted. Each pair must have
   /// been put in once.
   void finish(const BoxStore& store, std::vector<IdPair>& out);
+
+  /// Pairs of slots, in order, become pairs of ids, in order.
+  void name(const BoxStore& store, std::vector<IdPair>& out);
 
   std::vector<std::uint32_t> first, second;  // the first n entries count
   std::size_t n = 0;
@@ -40,7 +51,7 @@ class PairSink {
  private:
   void grow(std::size_t more);
   void rename_by_rank(const BoxStore& store);
-  std::vector<std::uint32_t> count_, rank_;
+  std::vector<std::uint32_t> count_, rank_, grouped_;
   std::vector<int> by_rank_;
   std::uint64_t ranked_at_ = ~std::uint64_t{0};
 };

@@ -4,13 +4,16 @@
 #include <cmath>
 #include <vector>
 
+#include "core/broad/morton.h"
+#include "core/broad/pair_kernels.h"
+
 namespace touchstone::broad {
 namespace {
 
-constexpr std::size_t sample_size = 256;
-
-// A sample costs about as much as 1000 boxes; a scene changes its kind seldom.
-constexpr int queries_a_sample = 8;
+// A sample of 256 costs about as much as 1000 boxes; a scene changes its kind seldom. One box in 64 of a
+// large scene sees clusters of a thousand boxes.
+constexpr int queries_a_sample = 16;
+constexpr std::size_t sample_least = 256, sample_most = 4096, sampled_share = 64;
 
 double quantile(std::vector<double>& v, double q) {
   const auto k = static_cast<std::ptrdiff_t>(q * static_cast<double>(v.size() - 1));
@@ -36,28 +39,34 @@ struct Sample {
 };
 
 // Share of the boxes in a unit of volume around the average box: the chance that two of the sample lie in one
-// cell of 16³ over the cell's volume. Clusters make it larger than one over the scene's volume.
+// cell, over the cell's volume. Clusters make it larger than one over the scene's volume, if cells are as
+// small as they: the finest of 2, 4, … 1024 cells an axis in which enough pairs of the sample meet. One sort:
+// cells of all sizes are prefixes of a Morton code.
 double seen_density(const Sample& sample, const SceneStats& s) {
-  constexpr int cells = 16;
+  constexpr int bits = 10;
+  constexpr double enough = 128;
   const std::size_t n = sample.largest.size();
   double volume = 1;
-  std::vector<int> at(n, 0);
+  std::vector<std::uint32_t> at(n, 0);
   for (int k = 0; k < 3; ++k) {
     const double extent = s.high[k] - s.low[k];
-    volume *= std::max(extent, s.median_size[k]) / cells;
+    volume *= std::max(extent, s.median_size[k]);
     for (std::size_t i = 0; i < n; ++i) {
-      const double t = extent > 0 ? (sample.centre[k][i] - s.low[k]) / extent * cells : 0;
-      at[i] = at[i] * cells + static_cast<int>(std::clamp(t, 0.0, cells - 1.0));
+      const double t = extent > 0 ? (sample.centre[k][i] - s.low[k]) / extent * (1 << bits) : 0;
+      at[i] |= spread_bits(static_cast<std::uint32_t>(std::clamp(t, 0.0, (1 << bits) - 1.0))) << k;
     }
   }
   std::sort(at.begin(), at.end());
-  double same = 0;
-  for (std::size_t i = 0, j = 0; i < n; i = j) {
-    while (j < n && at[j] == at[i]) ++j;
-    same += static_cast<double>(j - i) * static_cast<double>(j - i - 1);
-  }
   const double pairs = static_cast<double>(n) * static_cast<double>(n - 1);
-  return n > 1 ? std::max(same, 1.0) / pairs / volume : 0;
+  for (int shift = 0; shift < 3 * bits; shift += 3) {
+    double same = 0;
+    for (std::size_t i = 0, j = 0; i < n; i = j) {
+      while (j < n && at[j] >> shift == at[i] >> shift) ++j;
+      same += static_cast<double>(j - i) * static_cast<double>(j - i - 1);
+    }
+    if (same >= std::min(enough, pairs)) return same / pairs * std::exp2(3 * bits - shift) / volume;
+  }
+  return n > 1 ? 1 / volume : 0;
 }
 
 SceneStats summary(Sample& sample) {
@@ -75,7 +84,9 @@ SceneStats summary(Sample& sample) {
   return stats;
 }
 
-std::size_t step_through(std::size_t n) { return std::max<std::size_t>(1, n / sample_size); }
+std::size_t step_through(std::size_t n) {
+  return std::max<std::size_t>(1, n / std::clamp(n / sampled_share, sample_least, sample_most));
+}
 
 }  // namespace
 
@@ -86,10 +97,13 @@ SceneStats sample_scene(const BoxStore& store) {
   return summary(sample);
 }
 
-SceneStats sample_scene(const BoxStore& store, std::span<const KeyedSlot> boxes) {
+SceneStats sample_boxes(const KeyBox* boxes, std::span<const std::uint32_t> codes) {
   Sample sample;
-  for (std::size_t i = 0; i < boxes.size(); i += step_through(boxes.size()))
-    sample.add(store.boxes()[boxes[i].slot]);
+  for (std::size_t i = 0; i < codes.size(); i += step_through(codes.size())) {
+    const KeyBox& k = boxes[codes[i] & slot_mask];
+    sample.add({Vec3(value_of(k.lo[0]), value_of(k.lo[1]), value_of(k.lo[2])),
+                Vec3(value_of(k.hi[0]), value_of(k.hi[1]), value_of(k.hi[2]))});
+  }
   return summary(sample);
 }
 

@@ -2,8 +2,9 @@
 // numbers, never a pair: any value, NaN and infinity too, is safe.
 #pragma once
 
+#include <span>
+
 #include "core/broad/box_store.h"
-#include "core/broad/key_sort.h"
 
 namespace touchstone::broad {
 
@@ -15,10 +16,11 @@ struct SceneStats {
   double largest_ratio = 1;  // 99th percentile of the largest side over its median
 };
 
-/// About 256 boxes at equal steps through the slots.
+/// 256 boxes, of a large scene one in 64, at equal steps through the slots.
 SceneStats sample_scene(const BoxStore& store);
 
-SceneStats sample_scene(const BoxStore& store, std::span<const KeyedSlot> boxes);
+/// The same of the boxes that `codes` name (their low bits, pair_kernels.h).
+SceneStats sample_boxes(const KeyBox* boxes, std::span<const std::uint32_t> codes);
 
 /// Samples anew every few queries, or when the number of boxes has doubled or halved.
 class RememberedStats {

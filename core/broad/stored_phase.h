@@ -5,6 +5,10 @@
 //   void validate(const BoxStore&) const    throws std::logic_error
 //   std::size_t memory_bytes() const
 //   std::string explain() const
+// In place of find() it may have
+//   bool find_sorted(const BoxStore&, PairSink&, std::vector<IdPair>& out)
+//                                           either the pairs of slots in `out`, in order, and true; or in the
+//                                           sink and false
 #pragma once
 
 #include "core/broad/pair_sink.h"
@@ -21,8 +25,15 @@ class StoredPhase final : public BroadPhase {
   void update(std::span<const BoxUpdate> moves) override { store_.update(moves); }
   void pairs(std::vector<IdPair>& out) override {
     sink_.clear();
-    finder_.find(store_, sink_);
-    sink_.finish(store_, out);
+    if constexpr (requires { finder_.find_sorted(store_, sink_, out); }) {
+      if (finder_.find_sorted(store_, sink_, out))
+        sink_.name(store_, out);
+      else
+        sink_.finish(store_, out);
+    } else {
+      finder_.find(store_, sink_);
+      sink_.finish(store_, out);
+    }
     store_.forget_changes();
   }
   void validate() const override { store_.validate(), finder_.validate(store_); }

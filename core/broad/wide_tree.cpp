@@ -4,18 +4,12 @@
 #include <bit>
 #include <stdexcept>
 
+#include "core/broad/morton.h"
+
 namespace touchstone::broad {
 namespace {
 
 constexpr int bits_an_axis = 10;
-
-// 10 bits, two zeros between each and the next.
-std::uint32_t spread_bits(std::uint32_t x) {
-  x = (x | x << 16) & 0x030000ff;
-  x = (x | x << 8) & 0x0300f00f;
-  x = (x | x << 4) & 0x030c30c3;
-  return (x | x << 2) & 0x09249249;
-}
 
 // Only an order: a centre that is no number, or out of the sample's range, costs speed alone.
 std::uint32_t morton(const KeyBox& b, const SceneStats& s) {

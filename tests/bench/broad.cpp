@@ -1,20 +1,27 @@
-// Broad phases on scripts, ours and others' in one run: for each scene and size each contestant in turn,
-// several times (--benchmark_repetitions with --benchmark_enable_random_interleaving=true shuffles them
-// further). Timed, as CPU time: the moves handed over, the update, the whole set of pairs. Before it is
-// timed, each contestant's pairs are compared with those of our sort and sweep over the same frames; a
-// difference is an error of the row.
-//   bench_broad --benchmark_filter=uniform/10000
-#include <benchmark/benchmark.h>
+// Broad phases on scripts, ours and others' interleaved in one run: for each scene and size, each contestant
+// in turn on the same frames, several rounds, in rotated order. Timed, as CPU time of the thread: the moves
+// handed over, the update, the whole set of pairs. The pairs of three frames a cell are compared, as sets,
+// with those of the plain grid, which shares no code with ours; a contestant that differs is marked and is
+// nobody's best.
+//   bench_broad --cells uniform/10000,mixed/ --methods touchstone,plain --rounds 3 --csv out.csv --json
+//   out.json
+#include <fmt/format.h>
 
 #include <algorithm>
+#include <cstdlib>
+#include <ctime>
+#include <fstream>
 
 #include "core/broad/catalog.h"
 #include "tests/bench/broad_scenes.h"
+#include "tests/bench/broad_table.h"
 
 namespace {
 
 using namespace touchstone;
 using namespace touchstone::bench;
+
+using Pairs = std::vector<broad::IdPair>;
 
 class Ours final : public Contestant {
  public:
@@ -22,11 +29,10 @@ class Ours final : public Contestant {
   void start(const std::vector<Aabb>& boxes) override {
     for (std::size_t i = 0; i < boxes.size(); ++i) phase_->insert(static_cast<int>(i), boxes[i]);
   }
-  void frame(const std::vector<broad::BoxUpdate>& moves, std::vector<broad::IdPair>& out) override {
+  void frame(const std::vector<broad::BoxUpdate>& moves, Pairs& out) override {
     phase_->update(moves);
     phase_->pairs(out);
   }
-  bool sorted() const override { return true; }
   std::string note() const override { return phase_->explain(); }
   std::size_t memory_bytes() const override { return phase_->memory_bytes(); }
 
@@ -36,65 +42,27 @@ class Ours final : public Contestant {
 
 struct Entrant {
   std::string name;
-  std::unique_ptr<Contestant> (*make_peer)();
+  std::unique_ptr<Contestant> (*make_other)();
   const broad::CatalogRow* row;
-  int most;  // boxes; beyond, a frame takes seconds
-  std::unique_ptr<Contestant> make() const {
-    return row != nullptr ? std::make_unique<Ours>(row->make()) : make_peer();
+  int most;           // boxes; beyond, a frame takes seconds
+  int frames = 1000;  // at most, at 1e6
+  std::unique_ptr<Contestant> make(std::size_t pairs) const {
+    if (row != nullptr) return std::make_unique<Ours>(row->make());
+    return make_other != nullptr ? make_other() : make_bound(pairs);
   }
 };
-
-// Frames in which two contestants must agree before one is timed.
-constexpr int frames_compared = 3;
-
-bool agrees(const Entrant& entrant, std::string_view scene_name, int n) {
-  BoxScene scene(scene_name, n, 1);
-  const auto subject = entrant.make();
-  Ours reference(broad::make_broad_phase(n <= 1000 ? "brute_force" : "hierarchical_grid"));
-  subject->start(scene.boxes()), reference.start(scene.boxes());
-  std::vector<broad::IdPair> a, b;
-  for (int f = 0; f < frames_compared; ++f) {
-    const auto& moves = scene.step();
-    subject->frame(moves, a), reference.frame(moves, b);
-    if (!subject->sorted()) std::sort(a.begin(), a.end());
-    if (a != b) return false;
-  }
-  return true;
-}
-
-void run(benchmark::State& state, const Entrant& entrant, std::string_view scene_name, int n) {
-  if (!agrees(entrant, scene_name, n)) {
-    state.SkipWithError("pairs differ");
-    return;
-  }
-  BoxScene scene(scene_name, n, 2);
-  const auto subject = entrant.make();
-  subject->start(scene.boxes());
-  std::vector<broad::IdPair> out;
-  for (int f = 0; f < 2; ++f) subject->frame(scene.step(), out);
-  for ([[maybe_unused]] auto _ : state) {
-    state.PauseTiming();
-    const auto& moves = scene.step();
-    state.ResumeTiming();
-    subject->frame(moves, out);
-    benchmark::DoNotOptimize(out.data());
-  }
-  state.counters["pairs"] = static_cast<double>(out.size());
-  if (subject->memory_bytes() > 0)
-    state.counters["bytes/box"] = static_cast<double>(subject->memory_bytes()) / n;
-  state.SetLabel(subject->note());
-}
 
 std::vector<Entrant> entrants() {
   std::vector<Entrant> all;
   for (const broad::CatalogRow& row : broad::catalog)
-    all.push_back({"touchstone:" + std::string(row.name), nullptr, &row,
-                   row.name == "brute_force"      ? 10000
-                   : row.name == "sort_and_sweep" ? 100000
-                                                  : 1000000});
+    all.push_back(
+        {"touchstone:" + std::string(row.name), nullptr, &row, row.name == "brute_force" ? 10000 : 1000000});
   all.push_back({"plain_sweep", &make_plain_sweep, nullptr, 100000});
+  all.push_back({"plain_grid", &make_plain_grid, nullptr, 1000000});
+  all.push_back({"bound", nullptr, nullptr, 1000000});
 #ifdef TS_BENCH_FCL
-  all.push_back({"fcl:dyntree_array", &make_fcl_tree, nullptr, 1000000});
+  all.push_back({"fcl:dyntree", &make_fcl_tree, nullptr, 1000000, 3});
+  all.push_back({"fcl:dyntree_array", &make_fcl_tree_array, nullptr, 1000000, 3});
 #endif
 #ifdef TS_BENCH_BULLET
   all.push_back({"bullet:dbvt", &make_bullet_dbvt, nullptr, 100000});
@@ -105,29 +73,165 @@ std::vector<Entrant> entrants() {
 
 // Trees and incremental sweeps fall to O(n²) here: a frame of FCL at 1e5 takes half a minute.
 bool is_hopeless(const Entrant& e, std::string_view scene, int n) {
-  return scene == "teleport" && e.row == nullptr && e.name != "plain_sweep" &&
-         n > (e.name == "bullet:dbvt" ? 10000 : 1000);
+  const bool is_peer = e.name.starts_with("fcl") || e.name.starts_with("bullet");
+  if (scene == "teleport" && is_peer) return n > (e.name == "bullet:dbvt" ? 10000 : 1000);
+  // One axis is nothing to these.
+  const bool sweeps = e.name == "touchstone:sort_and_sweep" || e.name == "touchstone:incremental_sweep";
+  return sweeps && n > 100000;
+}
+
+struct Options {
+  std::vector<std::string> cells, methods;
+  int rounds = 3, frames = 0;
+  std::string csv, json;
+};
+
+bool chosen(const std::vector<std::string>& wanted, const std::string& name) {
+  return wanted.empty() || std::any_of(wanted.begin(), wanted.end(), [&](const std::string& w) {
+           return (name + "/").find(w) != std::string::npos;
+         });
+}
+
+double thread_ms() {
+  timespec t{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
+  return static_cast<double>(t.tv_sec) * 1e3 + static_cast<double>(t.tv_nsec) * 1e-6;
+}
+
+// The frames of a cell, drawn beforehand: drawing them must not warm or cool anybody's cache.
+struct Script {
+  std::vector<Aabb> start;
+  std::vector<std::vector<broad::BoxUpdate>> frames;
+  std::vector<Pairs> expected;  // of the first frames, sorted
+};
+
+constexpr std::size_t warm_frames = 2, frames_compared = 3;
+
+Script make_script(std::string_view name, int n, int frames) {
+  BoxScene scene(name, n, 2);
+  Script s;
+  s.start = scene.boxes();
+  for (std::size_t f = 0; f < warm_frames + static_cast<std::size_t>(frames); ++f)
+    s.frames.push_back(scene.step());
+  const auto reference = make_plain_grid();
+  reference->start(s.start);
+  for (std::size_t f = 0; f < std::min(frames_compared, s.frames.size()); ++f) {
+    s.expected.emplace_back();
+    reference->frame(s.frames[f], s.expected.back());
+    std::sort(s.expected.back().begin(), s.expected.back().end());
+  }
+  return s;
+}
+
+bool agrees(Contestant& c, const Script& s) {
+  c.start(s.start);
+  Pairs out;
+  for (std::size_t f = 0; f < s.expected.size(); ++f) {
+    c.frame(s.frames[f], out);
+    std::sort(out.begin(), out.end());
+    if (out != s.expected[f]) return false;
+  }
+  return true;
+}
+
+void run_round(const Entrant& e, const Script& s, BroadRow& row) {
+  const auto subject = e.make(s.expected.back().size());
+  subject->start(s.start);
+  Pairs out;
+  const std::size_t most =
+      s.start.size() < 1000000 ? s.frames.size() : warm_frames + static_cast<std::size_t>(e.frames);
+  for (std::size_t f = 0; f < std::min(s.frames.size(), most); ++f) {
+    const double before = thread_ms();
+    subject->frame(s.frames[f], out);
+    if (f >= warm_frames) row.frame_ms.push_back(thread_ms() - before);
+  }
+  ++row.rounds;
+  row.pairs = out.size(), row.reported = subject->reported();
+  row.bytes = subject->memory_bytes(), row.note = subject->note(), row.answers = subject->answers();
+}
+
+int frames_of(const Options& o, int n) {
+  if (o.frames > 0) return o.frames;
+  // Long enough for what is rebuilt every ten frames or so to be rebuilt several times.
+  return n <= 1000 ? 240 : n <= 10000 ? 80 : n <= 100000 ? 40 : 24;
+}
+
+std::vector<BroadRow> run_cell(const Options& o, const std::vector<Entrant>& all, std::string_view scene,
+                               int n) {
+  const Script script = make_script(scene, n, frames_of(o, n));
+  std::vector<BroadRow> rows;
+  std::vector<const Entrant*> who;
+  for (const Entrant& e : all) {
+    if (n > e.most || is_hopeless(e, scene, n) || !chosen(o.methods, e.name)) continue;
+    BroadRow r;
+    r.scene = scene, r.n = n, r.method = e.name;
+    const auto subject = e.make(0);
+    r.wrong = subject->answers() && !agrees(*subject, script);
+    rows.push_back(r), who.push_back(&e);
+  }
+  for (int round = 0; round < o.rounds; ++round)
+    for (std::size_t k = 0; k < rows.size(); ++k) {
+      const std::size_t i = (k + static_cast<std::size_t>(round)) % rows.size();
+      run_round(*who[i], script, rows[i]);
+    }
+  return rows;
+}
+
+std::vector<std::string> split(const std::string& s) {
+  std::vector<std::string> all;
+  for (std::size_t at = 0; at <= s.size();) {
+    const std::size_t end = std::min(s.find(',', at), s.size());
+    all.push_back(s.substr(at, end - at)), at = end + 1;
+  }
+  return all;
+}
+
+bool parse(int argc, char** argv, Options& o) {
+  for (int i = 1; i < argc; ++i) {
+    if (i + 1 == argc) return false;
+    const std::string name = argv[i], value = argv[++i];
+    if (name == "--cells")
+      o.cells = split(value);
+    else if (name == "--methods")
+      o.methods = split(value);
+    else if (name == "--rounds")
+      o.rounds = std::max(1, std::atoi(value.c_str()));
+    else if (name == "--frames")
+      o.frames = std::max(1, std::atoi(value.c_str()));
+    else if (name == "--csv")
+      o.csv = value;
+    else if (name == "--json")
+      o.json = value;
+    else
+      return false;
+  }
+  return true;
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
+  Options o;
+  if (!parse(argc, argv, o)) {
+    fmt::print(
+        stderr,
+        "bench_broad [--cells SCENE/N,...] [--methods NAME,...] [--rounds R] [--frames F] [--csv FILE] "
+        "[--json FILE]\nscenes: uniform mixed clustered static95 teleport; n: 1000 10000 100000 1000000\n");
+    return 2;
+  }
   const auto all = entrants();
+  std::vector<BroadRow> rows;
   for (const int n : {1000, 10000, 100000, 1000000})
-    for (const std::string_view scene : scene_names)
-      for (const Entrant& e : all) {
-        if (n > e.most || is_hopeless(e, scene, n)) continue;
-        const std::string name = std::string(scene) + "/" + std::to_string(n) + "/" + e.name;
-        benchmark::RegisterBenchmark(name.c_str(),
-                                     [&e, scene, n](benchmark::State& state) { run(state, e, scene, n); })
-            ->Unit(benchmark::kMillisecond)
-            ->Iterations(n <= 1000     ? 300
-                         : n <= 10000  ? 60
-                         : n <= 100000 ? 12
-                                       : 4);
-      }
-  benchmark::Initialize(&argc, argv);
-  if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 2;
-  benchmark::RunSpecifiedBenchmarks();
-  return 0;
+    for (const std::string_view scene : scene_names) {
+      if (!chosen(o.cells, fmt::format("{}/{}", scene, n))) continue;
+      const auto cell = run_cell(o, all, scene, n);
+      fmt::print("{}", broad_text(cell));
+      std::fflush(stdout);
+      rows.insert(rows.end(), cell.begin(), cell.end());
+    }
+  fmt::print("{}", broad_summary(rows));
+  if (!o.csv.empty()) std::ofstream(o.csv) << broad_csv(rows);
+  if (!o.json.empty()) std::ofstream(o.json) << broad_json(rows);
+  return std::any_of(rows.begin(), rows.end(),
+                     [](const BroadRow& r) { return r.wrong && r.method.starts_with("touchstone"); });
 }

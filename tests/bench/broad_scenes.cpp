@@ -15,11 +15,12 @@ double normal(Rng& r) {
 
 }  // namespace
 
-// About four partners a box: n boxes of mean side 1 see n·8/V of each other; with 1 % of boxes 50 times
-// larger the mean of (s_a + s_b)³/V over pairs is 1.3e5·0.02/V + …, hence 1100 units of volume a box.
-// Clusters hold 1000 boxes each with a deviation of 4.5, in a world 20 times as wide as the uniform one.
+// Uniform: n boxes of mean side 1 see n·8/V of each other, about four partners a box. Mixed: 1 % of the boxes
+// are 50 times larger, and the mean of (s_a + s_b)³/V over pairs is governed by them: 780 units of volume a
+// box give about three. Clusters hold 1000 boxes each with a deviation of 2.2 (about 14 partners a box), in a
+// world 20 times as wide as the uniform one.
 BoxScene::BoxScene(std::string_view kind, int n, std::uint64_t seed) : kind_(kind), n_(n), r_(seed) {
-  side_ = std::cbrt((kind == "mixed" ? 1100.0 : 2.0) * n);
+  side_ = std::cbrt((kind == "mixed" ? 780.0 : 2.0) * n);
   if (kind == "clustered") {
     side_ *= 20;
     for (int b = 0; b <= n / 1000; ++b) {
@@ -37,7 +38,7 @@ void BoxScene::place(int i) {
   Aabb& b = boxes_[static_cast<std::size_t>(i)];
   const std::size_t blob = blobs_.empty() ? 0 : r_.below(blobs_.size());
   for (int k = 0; k < 3; ++k) {
-    const double c = blobs_.empty() ? r_.uniform(0, side_) : blobs_[blob][k] + 4.5 * normal(r_);
+    const double c = blobs_.empty() ? r_.uniform(0, side_) : blobs_[blob][k] + 2.2 * normal(r_);
     const double h = r_.uniform(0.25, 0.75) * scale;
     b.lo[k] = exact(c - h), b.hi[k] = exact(c + h);
   }

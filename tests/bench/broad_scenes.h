@@ -2,6 +2,7 @@
 // see the same boxes and must report the same pairs.
 #pragma once
 
+#include <memory>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -32,20 +33,26 @@ class BoxScene {
   std::vector<broad::BoxUpdate> moves_;
 };
 
-/// What is timed: a phase of the catalog, the plain sweep, or a peer.
+/// What is timed: a phase of the catalog, a plain competitor, or a peer.
 class Contestant {
  public:
   virtual ~Contestant() = default;
   virtual void start(const std::vector<Aabb>& boxes) = 0;
   virtual void frame(const std::vector<broad::BoxUpdate>& moves, std::vector<broad::IdPair>& out) = 0;
-  /// False when the pairs come in no order.
-  virtual bool sorted() const { return false; }
+  /// False for what has no pairs to compare.
+  virtual bool answers() const { return true; }
+  /// Candidates that the last frame looked at by exact boxes, when the contestant filters its own: 0 for
+  /// none.
+  virtual std::size_t reported() const { return 0; }
   virtual std::string note() const { return {}; }
   virtual std::size_t memory_bytes() const { return 0; }
 };
 
 std::unique_ptr<Contestant> make_plain_sweep();
+std::unique_ptr<Contestant> make_plain_grid();
+std::unique_ptr<Contestant> make_bound(std::size_t pairs);
 std::unique_ptr<Contestant> make_fcl_tree();
+std::unique_ptr<Contestant> make_fcl_tree_array();
 std::unique_ptr<Contestant> make_bullet_dbvt();
 std::unique_ptr<Contestant> make_bullet_sweep();
 

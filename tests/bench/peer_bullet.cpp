@@ -46,6 +46,7 @@ class Bullet final : public Contestant {
     phase_->calculateOverlappingPairs(nullptr);
     out.clear();
     const btBroadphasePairArray& all = phase_->getOverlappingPairCache()->getOverlappingPairArray();
+    reported_ = static_cast<std::size_t>(all.size());
     for (int k = 0; k < all.size(); ++k) {
       if (all[k].m_pProxy0 == nullptr) continue;
       const int a = *static_cast<int*>(all[k].m_pProxy0->m_clientObject),
@@ -54,9 +55,11 @@ class Bullet final : public Contestant {
         out.push_back({std::min(a, b), std::max(a, b)});
     }
   }
+  std::size_t reported() const override { return reported_; }
 
  private:
   bool sweep_;
+  std::size_t reported_ = 0;
   std::unique_ptr<btBroadphaseInterface> phase_;
   std::vector<btBroadphaseProxy*> proxies_;
   std::vector<int> ids_;
