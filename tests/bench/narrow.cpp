@@ -1,0 +1,252 @@
+// The narrow phase on pairs near contact, ours and others' in one run: for each pair of shapes and question
+// every contestant in turn, round after round, so that a change of the machine's pace meets all alike.
+//
+//   bench_narrow [--cases 200] [--rounds 15] [--filter box-box] [--task contact] [--no-truth]
+//
+// mean: CPU time of the thread over a whole pass of different cases, least of all rounds. median, p99: over
+// the cases, of the least time that each took in any round, clock subtracted. Error: |gap − truth| / L
+// against the referee (depth along the reported normal for contacts is charted by its excess over the least
+// depth).
+#include <fmt/format.h>
+#include <time.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
+#include "core/narrow/narrow_phase.h"
+#include "core/scene/scene.h"
+#include "oracles/referee/referee.h"
+#include "tests/bench/narrow_cases.h"
+
+#if defined(__x86_64__)
+#include <x86intrin.h>
+#endif
+
+namespace {
+
+using namespace touchstone;
+using namespace touchstone::bench;
+
+class Ours final : public NarrowContestant {
+ public:
+  Ours(Task task, const std::vector<PairCase>& cases) : task_(task) {
+    for (const PairCase& c : cases) pairs_.push_back({{&c.a, c.pose_a}, {&c.b, c.pose_b}});
+  }
+  void ask(std::size_t i, Found& out) override {
+    const auto& [a, b] = pairs_[i];
+    if (task_ == Task::overlap) {
+      out.overlap = overlap(a, b).overlap;
+    } else if (task_ == Task::distance) {
+      const DistanceAnswer r = distance(a, b);
+      out.gap = r.distance, out.normal = r.normal, out.overlap = r.distance <= 0;
+    } else {
+      const ContactAnswer r = contact(a, b);
+      out.overlap = r.overlap, out.gap = -r.depth, out.normal = r.normal;
+      out.points = static_cast<int>(r.manifold.size());
+    }
+  }
+
+ private:
+  struct Placed2 {
+    PlacedShape a, b;
+  };
+  Task task_;
+  std::vector<Placed2> pairs_;
+};
+
+NarrowContestantPtr make_ours(Task task, const PairKind&, const std::vector<PairCase>& cases) {
+  return std::make_unique<Ours>(task, cases);
+}
+
+struct Entrant {
+  std::string_view name;
+  NarrowMaker make;
+};
+
+constexpr Entrant entrants[] = {
+    {"core", &make_ours},
+#ifdef TS_BENCH_FCL
+    {"fcl-libccd", &make_narrow_fcl_libccd},
+    {"fcl-indep", &make_narrow_fcl_indep},
+#endif
+#ifdef TS_BENCH_BULLET
+    {TS_BENCH_BULLET, &make_narrow_bullet},
+#endif
+#ifdef TS_BENCH_LIBCCD
+    {"libccd-gjk", &make_narrow_libccd_gjk},
+    {"libccd-mpr", &make_narrow_libccd_mpr},
+#endif
+#ifdef TS_BENCH_ODE
+    {"ode", &make_narrow_ode},
+#endif
+};
+
+std::uint64_t tick() {
+#if defined(__x86_64__)
+  return __rdtsc();
+#else
+  timespec t;
+  clock_gettime(CLOCK_MONOTONIC, &t);
+  return static_cast<std::uint64_t>(t.tv_sec) * 1000000000u + static_cast<std::uint64_t>(t.tv_nsec);
+#endif
+}
+
+double cpu_ns() {
+  timespec t;
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
+  return 1e9 * static_cast<double>(t.tv_sec) + static_cast<double>(t.tv_nsec);
+}
+
+// Ticks that an empty measurement shows, and nanoseconds a tick.
+struct Clock {
+  double overhead = 0, ns = 1;
+  Clock() {
+    const double start = cpu_ns();
+    const std::uint64_t from = tick();
+    std::uint64_t least = ~std::uint64_t{0};
+    while (cpu_ns() - start < 5e7) {
+      const std::uint64_t t = tick();
+      least = std::min(least, tick() - t);
+    }
+    ns = (cpu_ns() - start) / static_cast<double>(tick() - from);
+    overhead = static_cast<double>(least);
+  }
+};
+
+struct Row {
+  std::string_view name;
+  NarrowContestantPtr subject;
+  std::vector<Found> found;
+  std::vector<std::uint64_t> least;
+  double mean = HUGE_VAL;
+};
+
+void pass(Row& row) {
+  const std::size_t n = row.found.size();
+  const double start = cpu_ns();
+  for (std::size_t i = 0; i < n; ++i) row.subject->ask(i, row.found[i]);
+  row.mean = std::min(row.mean, (cpu_ns() - start) / static_cast<double>(n));
+  for (std::size_t i = 0; i < n; ++i) {
+    const std::uint64_t t = tick();
+    row.subject->ask(i, row.found[i]);
+    row.least[i] = std::min(row.least[i], tick() - t);
+  }
+}
+
+struct Truth {
+  referee::PairTruth pair;
+  double scale = 1;
+};
+
+double scale_of(const PairCase& c) {
+  return std::max({extent(c.a), extent(c.b), c.pose_a.translation.cwiseAbs().maxCoeff(),
+                   c.pose_b.translation.cwiseAbs().maxCoeff()});
+}
+
+double quantile(std::vector<double> v, double q) {
+  if (v.empty()) return std::nan("");
+  std::sort(v.begin(), v.end());
+  return v[static_cast<std::size_t>(q * static_cast<double>(v.size() - 1) + 0.5)];
+}
+
+double outside(double x, const referee::Bracket& b) { return std::max({b.lo - x, x - b.hi, 0.0}); }
+
+struct Judged {
+  long wrong = 0;
+  std::vector<double> error;
+};
+
+Judged judge(const Row& row, Task task, const std::vector<PairCase>& cases, const std::vector<Truth>& truth) {
+  Judged j;
+  for (std::size_t i = 0; i < truth.size(); ++i) {
+    const Found& f = row.found[i];
+    const Truth& t = truth[i];
+    const bool overlap = t.pair.verdict == referee::Verdict::overlap;
+    const double gap = std::min(std::abs(t.pair.gap.lo), std::abs(t.pair.gap.hi));
+    const bool states = task != Task::distance || overlap == (f.gap <= 0) || std::isnan(f.gap);
+    if ((task != Task::distance && f.overlap != overlap) || !states) j.wrong += gap > 1e-12 * t.scale;
+    if (task == Task::overlap || std::isnan(f.gap)) continue;
+    double error = outside(f.gap, t.pair.gap);
+    if (task == Task::contact && f.overlap && f.normal.allFinite()) {
+      const auto w = referee::width({&cases[i].a, cases[i].pose_a}, {&cases[i].b, cases[i].pose_b}, f.normal);
+      error = std::max(error, outside(-f.gap, w));
+    }
+    j.error.push_back(error / t.scale);
+  }
+  return j;
+}
+
+struct Options {
+  int cases = 200, rounds = 15;
+  std::string filter, task;
+  bool truth = true;
+};
+
+void run_cell(const PairKind& kind, Task task, const Options& o, const Clock& clock) {
+  const auto cases = make_cases(kind, task, o.cases, 1);
+  std::vector<Row> rows;
+  for (const Entrant& e : entrants)
+    if (auto subject = e.make(task, kind, cases))
+      rows.push_back({e.name, std::move(subject), std::vector<Found>(cases.size()),
+                      std::vector<std::uint64_t>(cases.size(), ~std::uint64_t{0})});
+  for (int r = 0; r < o.rounds; ++r)
+    for (Row& row : rows) pass(row);
+  std::vector<Truth> truth;
+  for (std::size_t i = 0; o.truth && i < cases.size(); ++i) {
+    const PairCase& c = cases[i];
+    truth.push_back({referee::judge_pair({&c.a, c.pose_a}, {&c.b, c.pose_b}), scale_of(c)});
+  }
+  for (const Row& row : rows) {
+    std::vector<double> ns;
+    for (const std::uint64_t t : row.least)
+      ns.push_back(std::max(0.0, static_cast<double>(t) - clock.overhead) * clock.ns);
+    const Judged j = judge(row, task, cases, truth);
+    fmt::print("{:<20} {:<9} {:<15} {:>9.1f} {:>9.1f} {:>9.1f} {:>6} {:>9.1e} {:>9.1e} {:>9.1e}\n", kind.name,
+               task_names[static_cast<int>(task)], row.name, row.mean, quantile(ns, 0.5), quantile(ns, 0.99),
+               j.wrong, quantile(j.error, 0.5), quantile(j.error, 0.99), quantile(j.error, 1));
+  }
+  std::fflush(stdout);
+}
+
+bool parse(int argc, char** argv, Options& o) {
+  for (int i = 1; i < argc; ++i) {
+    const std::string_view key = argv[i];
+    if (key == "--no-truth") {
+      o.truth = false;
+      continue;
+    }
+    if (++i == argc) return false;
+    if (key == "--cases")
+      o.cases = std::max(1, std::atoi(argv[i]));
+    else if (key == "--rounds")
+      o.rounds = std::max(1, std::atoi(argv[i]));
+    else if (key == "--filter")
+      o.filter = argv[i];
+    else if (key == "--task")
+      o.task = argv[i];
+    else
+      return false;
+  }
+  return true;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  Options o;
+  if (!parse(argc, argv, o)) {
+    fmt::print(stderr, "bench_narrow [--cases N] [--rounds N] [--filter PAIR] [--task TASK] [--no-truth]\n");
+    return 2;
+  }
+  const Clock clock;
+  fmt::print("{:<20} {:<9} {:<15} {:>9} {:>9} {:>9} {:>6} {:>9} {:>9} {:>9}\n", "pair", "question",
+             "contestant", "mean ns", "median ns", "p99 ns", "wrong", "err p50/L", "p99", "max");
+  for (const PairKind& kind : pair_kinds)
+    for (const Task task : {Task::overlap, Task::distance, Task::contact}) {
+      if (!o.filter.empty() && kind.name.find(o.filter) == std::string_view::npos) continue;
+      if (!o.task.empty() && o.task != task_names[static_cast<int>(task)]) continue;
+      run_cell(kind, task, o, clock);
+    }
+  return 0;
+}
