@@ -158,13 +158,15 @@ std::vector<Real> Course::least_along(const std::vector<Real3>& directions, doub
   return r;
 }
 
-Course::Clear Course::by_acceleration(double t, const ConvexTruth& g, double beyond) {
-  Clear best{beyond, 0};
+Course::Clear Course::by_acceleration(double t, const ConvexTruth& g, const Clear& first) {
+  const double beyond = first.until;
   const Real3 n = normalized(a_to_b(g));
   const Real now = least_along({n}, t)[0];
-  if (!(now > 0)) return best;
+  // The gap is down in the rounding: steps by speed would creep through it, one after another.
+  if (!(now > 0)) return beyond - t < 0x1p-30 ? Clear{t, 0} : first;
   const double rest = 1 - t;
-  for (double step = std::min(rest, stride_); t + step > beyond && step >= 0x1p-52; step /= 2) {
+  for (double step = std::min(rest, std::max(stride_, 16 * (beyond - t)));
+       t + step > beyond && step >= 0x1p-52; step /= 2) {
     const double end = step >= rest ? 1 : t + step;
     const Real length = static_cast<Real>(end) - static_cast<Real>(t);
     std::vector<Real3> directions{n};
@@ -180,16 +182,15 @@ Course::Clear Course::by_acceleration(double t, const ConvexTruth& g, double bey
       return {end >= 1 ? infinity : end, std::max(Real{0}, least - bend / 4)};
     }
   }
-  stride_ = std::max(0x1p-40, stride_ / 4);
-  return best;
+  stride_ /= 4;
+  return first;
 }
 
 Course::Clear Course::clear_from(double t, const ConvexTruth& g) {
   if (!(g.lo > 0)) return {t, 0};
   const Clear first = by_speed(t, g);
   if (first.until > 1) return first;
-  const Clear second = by_acceleration(t, g, first.until);
-  return second.until > first.until ? second : first;
+  return by_acceleration(t, g, first);
 }
 
 }  // namespace touchstone::referee

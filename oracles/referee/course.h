@@ -42,7 +42,8 @@ class Course {
   Real closing_speed(const Real3& n, bool turning) const;
   std::vector<Real> least_along(const std::vector<Real3>& directions, double t);
   Clear by_speed(double t, const ConvexTruth& g);
-  Clear by_acceleration(double t, const ConvexTruth& g, double beyond);
+  /// From what by_speed found: more, as much, or (the gap is lost in rounding) none.
+  Clear by_acceleration(double t, const ConvexTruth& g, const Clear& first);
 
   Mover a_;
   std::optional<Mover> b_;
