@@ -50,6 +50,7 @@ Course::Course(const Mover& a, const Mover& b, const Vec3& origin) : a_(a), b_(b
     return w * w * radius;
   };
   acceleration_ = (turning(a_, spin_a_) + turning(*b_, spin_b_)) * spare;
+  approach_ = (norm(a_.velocity()) + norm(a_.angular()) * spin_a_ + norm(b_->angular()) * spin_b_) * spare;
 }
 
 Course::Course(const Mover& a, const Placed& half_space, const Vec3& angular, const Vec3& origin)
@@ -136,39 +137,60 @@ Course::Clear Course::by_speed(double t, const ConvexTruth& g) {
   return far > c.until ? Clear{far, far > 1 ? o.lo - slow * rest : 0} : c;
 }
 
-/// Lower bound of the gap at time t: that along n, or, of a half-space, along its own normal.
-Real Course::least_along(const Real3& n, double t) {
-  if (half_space_) return half_space_turns_ ? against_turned_plane(t).lo : at(t).lo;
-  const Operand x = a_.at(t, origin_), y = b_at(t);
-  const Difference d(x.body, y.body);
-  return -(d.width_above(d.support(n), n) + d.radius + d.radius_error + 4 * unit * (d.extent + d.radius));
+// Rodrigues' formula, rounded: any direction may be tried.
+Real3 turned(const Real3& n, const Real3& angular, Real t) {
+  const Real speed = norm(angular), angle = speed * t;
+  if (!(angle > 0)) return n;
+  const Real3 k = (1 / speed) * angular;
+  return normalized(std::cos(angle) * n + std::sin(angle) * cross(k, n) +
+                    ((1 - std::cos(angle)) * dot(k, n)) * k);
 }
 
-Course::Clear Course::by_acceleration(double t, const ConvexTruth& g, double beyond) {
-  Clear best{beyond, 0};
-  const Real3 n = a_to_b(g);
-  const Real now = least_along(n, t);
-  if (!(now > 0)) return best;
+/// Lower bounds of the gap at time t: that along each n, or, of a half-space, along its own normal.
+std::vector<Real> Course::least_along(const std::vector<Real3>& directions, double t) {
+  if (half_space_) return {half_space_turns_ ? against_turned_plane(t).lo : at(t).lo};
+  const Operand x = a_.at(t, origin_), y = b_at(t);
+  const Difference d(x.body, y.body);
+  std::vector<Real> r;
+  for (const Real3& n : directions)
+    r.push_back(
+        -(d.width_above(d.support(n), n) + d.radius + d.radius_error + 4 * unit * (d.extent + d.radius)));
+  return r;
+}
+
+Course::Clear Course::by_acceleration(double t, const ConvexTruth& g, const Clear& first) {
+  const double beyond = first.until;
+  const Real3 n = normalized(a_to_b(g));
+  const Real now = least_along({n}, t)[0];
+  // The gap is down in the rounding: steps by speed would creep through it, one after another.
+  if (!(now > 0)) return beyond - t < 0x1p-30 ? Clear{t, 0} : first;
   const double rest = 1 - t;
-  for (double step = std::min(rest, stride_); t + step > beyond && step >= 0x1p-52; step /= 2) {
+  for (double step = std::min(rest, std::max(stride_, 16 * (beyond - t)));
+       t + step > beyond && step >= 0x1p-52; step /= 2) {
     const double end = step >= rest ? 1 : t + step;
-    const Real length = static_cast<Real>(end) - static_cast<Real>(t), then = least_along(n, end);
-    const Real bend = acceleration_ * length * length / 2 * spare, least = std::min(now, then);
-    if (!(then > 0) || !(bend < now + then + 2 * least)) continue;
-    stride_ = std::min(1.0, 4 * step);
-    const Real kept = std::max(Real{0}, least - bend / 4);
-    return {end >= 1 ? infinity : end, kept};
+    const Real length = static_cast<Real>(end) - static_cast<Real>(t);
+    std::vector<Real3> directions{n};
+    if (!half_space_ && a_.spins()) directions.push_back(turned(n, a_.angular(), length));
+    if (b_ && b_->spins()) directions.push_back(turned(n, b_->angular(), length));
+    const std::vector<Real> then = least_along(directions, end);
+    for (std::size_t i = 0; i < then.size(); ++i) {
+      const Real swing = norm(directions[i] - n) + 16 * unit * static_cast<Real>(i > 0);
+      const Real bend = (acceleration_ * length * length / 2 + length * swing * approach_) * spare;
+      const Real least = std::min(now, then[i]);
+      if (!(least > 0) || !(bend < now + then[i] + 2 * least)) continue;
+      stride_ = std::min(1.0, 4 * step);
+      return {end >= 1 ? infinity : end, std::max(Real{0}, least - bend / 4)};
+    }
   }
-  stride_ = std::max(0x1p-40, stride_ / 4);
-  return best;
+  stride_ /= 4;
+  return first;
 }
 
 Course::Clear Course::clear_from(double t, const ConvexTruth& g) {
   if (!(g.lo > 0)) return {t, 0};
   const Clear first = by_speed(t, g);
   if (first.until > 1) return first;
-  const Clear second = by_acceleration(t, g, first.until);
-  return second.until > first.until ? second : first;
+  return by_acceleration(t, g, first);
 }
 
 }  // namespace touchstone::referee

@@ -40,9 +40,10 @@ class Course {
   ConvexTruth judge(const Operand& x, const Operand& y, Effort effort);
   ConvexTruth against_turned_plane(double t) const;
   Real closing_speed(const Real3& n, bool turning) const;
-  Real least_along(const Real3& n, double t);
+  std::vector<Real> least_along(const std::vector<Real3>& directions, double t);
   Clear by_speed(double t, const ConvexTruth& g);
-  Clear by_acceleration(double t, const ConvexTruth& g, double beyond);
+  /// From what by_speed found: more, as much, or (the gap is lost in rounding) none.
+  Clear by_acceleration(double t, const ConvexTruth& g, const Clear& first);
 
   Mover a_;
   std::optional<Mover> b_;
@@ -50,9 +51,9 @@ class Course {
   bool half_space_turns_ = false;
   Vec3 angular_ = Vec3::Zero();  // of the half-space
   Vec3 origin_;
-  Real spin_a_ = 0, spin_b_ = 0;  // core radii about the origins, rounded up
-  Real acceleration_ = 0;
-  double stride_ = 1;  // what by_acceleration tries first
+  Real spin_a_ = 0, spin_b_ = 0;          // core radii about the origins, rounded up
+  Real acceleration_ = 0, approach_ = 0;  // bounds of |q'' - p''| and |q' - p'|, q of B, p of A
+  double stride_ = 1;                     // what by_acceleration tries first
 };
 
 }  // namespace touchstone::referee

@@ -104,11 +104,16 @@ Advance advance_from(Course& c, double start, double least_step) {
     const ConvexTruth g = c.at(r.t);
     r.least_hi = std::min(r.least_hi, g.hi);
     if (g.verdict == Verdict::overlap) return r.exit = Advance::Exit::contact, r;
-    const auto [next, kept] = c.clear_from(r.t, g);
-    r.least_lo = std::min(r.least_lo, kept);
-    if (next > 1) return r.t = 1, r.exit = Advance::Exit::passed, r;
-    if (next - r.t < least_step) return r.exit = Advance::Exit::stalled, r;
-    r.t = next;
+    Course::Clear clear = c.clear_from(r.t, g);
+    // A verdict's direction separates, but need not be that of the gap, along which the step is longer.
+    if (clear.until - r.t < 0x1p-6) {
+      const Course::Clear other = c.clear_from(r.t, c.at(r.t, Effort::gap));
+      if (other.until > clear.until) clear = other;
+    }
+    r.least_lo = std::min(r.least_lo, clear.kept);
+    if (clear.until > 1) return r.t = 1, r.exit = Advance::Exit::passed, r;
+    if (clear.until - r.t < least_step) return r.exit = Advance::Exit::stalled, r;
+    r.t = clear.until;
   }
   r.exit = Advance::Exit::evaluation_cap;
   return r;
