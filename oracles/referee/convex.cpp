@@ -29,17 +29,11 @@ void take_witness(ConvexTruth& t, const Difference& d, const Simplex& s) {
   t.witness_b = t.witness_b - static_cast<Real>(d.b.radius) * t.normal;
 }
 
-// A stall of rounded signs is met once more with exact ones. A cap is not when the bracket is as narrow as
-// the capped number of facets makes it on a continuum of near-minima (a circle of 700 chords: 1e-5 of the
-// size): then the surface is sound and exact signs do not shorten the work.
-constexpr Real continuum_width = 1e-4L;  // in units of the pair's extent
-
+// A stall or a cap of rounded signs is met once more with exact ones.
 EpaResult grow(const Difference& d, const GjkResult& g, Real target, int cap) {
   EpaResult e = expand(d, g.simplex, target, cap, Orientation::rounded);
   const Real lo = std::max(e.gap.lo, g.gap.lo), hi = std::min(e.gap.hi, g.gap.hi);
-  const bool final = e.exit == EpaResult::Exit::flat ||
-                     (e.exit == EpaResult::Exit::facet_cap && hi - lo < continuum_width * d.extent);
-  if (final || hi - lo <= 8 * target) return e;
+  if (e.exit == EpaResult::Exit::flat || hi - lo <= 8 * target) return e;
   ++counters().exact_expansions;
   EpaResult f = expand(d, g.simplex, target, cap, Orientation::exact);
   f.gap.raise(e.gap.lo, e.gap.direction);

@@ -49,7 +49,7 @@ constexpr double behind = -0x1p-40;  // of det/(|p||q||r|); far above its roundi
 
 template <class T>
 Reach<T> reach_of(const Triple<T>& p, const Triple<T>& q, const Triple<T>& r) {
-  const Triple<T> n = cross(q - p, r - p);
+  const Triple<T> n = triangle_normal(p, q, r);
   Reach<T> best{-std::numeric_limits<T>::infinity(), n};
   if (largest(n) > 0) {
     best.value = least_along(n, p, q, r);
@@ -167,7 +167,7 @@ class Epa {
     Facet<T> f;
     f.v = v;
     const Triple<T>&p = w(v[0]), &q = w(v[1]), &r = w(v[2]);
-    f.normal = normalized(cross(q - p, r - p));
+    f.normal = normalized(triangle_normal(p, q, r));
     f.offset = dot(f.normal, p);
     f.reach = reach_of(p, q, r);
     facets_.push_back(f);
@@ -380,7 +380,7 @@ bool add_facet(Turning& t, const Real3& a, const Real3& b, const Real3& c) {
   const bool forward = determinant_sign(a, b, c) >= 0;
   // Any direction proves a distance; where the plane's own already proves l, no better one is looked for. A
   // dot product, a norm and a division: within 8 units of the largest |v_i| <= 2·size.
-  const Real3 n = cross(b - a, c - a);
+  const Real3 n = triangle_normal(a, b, c);
   Real reach = forward ? least_along(n, a, b, c) - 16 * unit * size : Real{0};
   if (!(reach >= t.least)) reach = reach_of(a, b, c).value - 16 * unit * size;
   if (!(reach > 0)) return false;
