@@ -126,6 +126,9 @@ std::string campaign_footer(const CampaignResult& r) {
   std::string s =
       fmt::format("{} cases; {:.0f} % of the pairs touch or overlap; {} undecided by the referee\n",
                   grouped(r.cases), 100 * r.hit_rate(), grouped(r.undecided));
+  if (const std::uint64_t n = r.levels[0] + r.levels[1] + r.levels[2]; n > 0)
+    s += fmt::format("referee: {} pairs settled by doubles, {} in extended precision, {} exactly\n",
+                     grouped(r.levels[0]), grouped(r.levels[1]), grouped(r.levels[2]));
   s += fmt::format("time: engines {:.0f} %, harness {:.0f} % (of that referee and judge {:.0f} %)\n", engines,
                    100 - engines, judge);
   return s;

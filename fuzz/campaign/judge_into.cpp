@@ -62,11 +62,12 @@ void count_hit(CampaignResult& r, const Case& c, Truth& truth) {
       ++r.pair_cases, r.overlapping += v == referee::TimeTruth::Verdict::hit;
     return;
   }
-  const auto v = truth.pair(0, q.a, q.b).verdict;
-  if (v == referee::Verdict::undecided)
+  const auto& t = truth.pair(0, q.a, q.b);
+  if (t.verdict == referee::Verdict::undecided)
     ++r.undecided;
   else
-    ++r.pair_cases, r.overlapping += v == referee::Verdict::overlap;
+    ++r.pair_cases, r.overlapping += t.verdict == referee::Verdict::overlap,
+        ++r.levels[static_cast<std::size_t>(t.level)];
 }
 
 }  // namespace

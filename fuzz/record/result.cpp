@@ -99,6 +99,7 @@ void CampaignResult::merge(const CampaignResult& o) {
   for (const auto& [key, f] : o.findings) findings[key].merge(f);
   for (const auto& [f, n] : o.families) families[f] += n;
   cases += o.cases, pair_cases += o.pair_cases, overlapping += o.overlapping, undecided += o.undecided;
+  for (std::size_t k = 0; k < levels.size(); ++k) levels[k] += o.levels[k];
   total_ns += o.total_ns, engine_ns += o.engine_ns, judge_ns += o.judge_ns;
 }
 
@@ -175,7 +176,7 @@ Finding finding_from_json(const Json& j) {
 Json to_json(const CampaignResult& r, bool with_times) {
   Json j;
   j["cases"] = r.cases, j["pair_cases"] = r.pair_cases, j["overlapping"] = r.overlapping;
-  j["undecided"] = r.undecided;
+  j["undecided"] = r.undecided, j["levels"] = r.levels;
   j["families"] = r.families;
   j["engines"] = Json::object();
   for (const auto& [engine, questions] : r.tallies)
@@ -197,6 +198,7 @@ CampaignResult result_from_json(const Json& j) try {
   CampaignResult r;
   r.cases = j.at("cases"), r.pair_cases = j.at("pair_cases"), r.overlapping = j.at("overlapping");
   r.undecided = j.at("undecided");
+  if (j.contains("levels")) r.levels = j["levels"];  // absent from results of earlier versions
   for (const auto& [f, n] : j.at("families").items()) r.families[f] = n;
   for (const auto& [engine, questions] : j.at("engines").items())
     for (const auto& [q, t] : questions.items()) {

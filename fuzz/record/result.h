@@ -74,6 +74,7 @@ struct CampaignResult {
   std::uint64_t cases = 0, pair_cases = 0,
                 overlapping = 0;  // pair cases with a decided verdict, and how many overlap
   std::uint64_t undecided = 0;
+  std::array<std::uint64_t, 3> levels{};  // decided discrete pairs by referee::PairTruth::level
   std::map<std::string, std::uint64_t> families;
   // Times, never hashed: of all jobs together, and of that the engines' own and the referee's and judge's.
   std::int64_t total_ns = 0, engine_ns = 0, judge_ns = 0;

@@ -29,17 +29,11 @@ void take_witness(ConvexTruth& t, const Difference& d, const Simplex& s) {
   t.witness_b = t.witness_b - static_cast<Real>(d.b.radius) * t.normal;
 }
 
-// A stall of rounded signs is met once more with exact ones. A cap is not when the bracket is as narrow as
-// the capped number of facets makes it on a continuum of near-minima (a circle of 700 chords: 1e-5 of the
-// size): then the surface is sound and exact signs do not shorten the work.
-constexpr Real continuum_width = 1e-4L;  // in units of the pair's extent
-
+// A stall or a cap of rounded signs is met once more with exact ones.
 EpaResult grow(const Difference& d, const GjkResult& g, Real target, int cap) {
   EpaResult e = expand(d, g.simplex, target, cap, Orientation::rounded);
   const Real lo = std::max(e.gap.lo, g.gap.lo), hi = std::min(e.gap.hi, g.gap.hi);
-  const bool final = e.exit == EpaResult::Exit::flat ||
-                     (e.exit == EpaResult::Exit::facet_cap && hi - lo < continuum_width * d.extent);
-  if (final || hi - lo <= 8 * target) return e;
+  if (e.exit == EpaResult::Exit::flat || hi - lo <= 8 * target) return e;
   ++counters().exact_expansions;
   EpaResult f = expand(d, g.simplex, target, cap, Orientation::exact);
   f.gap.raise(e.gap.lo, e.gap.direction);
@@ -142,6 +136,7 @@ class Judge {
   ConvexTruth run(std::span<const Real3> hints) {
     approach(hints);
     const bool verdict_suffices = effort_ == Effort::verdict_only && t_.verdict != Verdict::undecided;
+    if (gap_.hi - gap_.lo > target_ && gap_.lo > 0 && !verdict_suffices) project();
     if (gap_.hi - gap_.lo > target_ && !verdict_suffices) go_inside();
     // Slivers: extended precision may lose the way among them. 1e-15 of the extent at most.
     if (gap_.hi - gap_.lo > 64 * target_ && gap_.hi > 0 && !verdict_suffices) measure_exactly();
@@ -196,6 +191,54 @@ class Judge {
     if (e.gap.hi < 0 && effort_ == Effort::certificate)
       t_.inner = std::move(e.polytope), t_.inner_depth = d_.radius - d_.radius_error - e.gap.hi;
     settle();
+  }
+
+  // Apart, a smooth body's simplex is a sliver of close points whose chord stays inside of it. From a point
+  // of one core to the nearest of the other and back (Cheney and Goldstein 1959, "Proximity maps for convex
+  // sets"): every pair of points is an upper bound, and its direction proposes a lower one.
+  void project() {
+    constexpr int rounds = 16;
+    Real3 b = support(d_.b, -normalized(gap_.direction)).point, a;
+    for (int i = 0; i < rounds && gap_.hi - gap_.lo > target_; ++i) {
+      const Real before = gap_.hi - gap_.lo;
+      const Solid at_b = core_point(b, d_.b.error);
+      a = nearest_to(Difference(d_.a, at_b), a, b).a;
+      const Solid at_a = core_point(a, d_.a.error);
+      b = nearest_to(Difference(at_a, d_.b), a, b).b;
+      if (!(gap_.hi - gap_.lo < before)) break;
+    }
+    settle();
+  }
+
+  static Solid core_point(const Real3& p, Real error) {
+    Solid s;
+    s.points = {p};
+    s.extent = norm(p) * (1 + 8 * unit);
+    s.error = error + 8 * unit * s.extent;
+    return s;
+  }
+
+  // The nearest points of the two, one of which is a single point of a core.
+  Vertex nearest_to(const Difference& d, const Real3& a, const Real3& b) {
+    const Real3 n = normalized(b - a), best = normalized(gap_.direction);
+    const std::array<Real3, 2> hints{best, n};
+    const GjkResult g = gjk(d, std::span<const Real3>(hints), 0);
+    Vertex v;
+    for (int i = 0; i < g.simplex.size; ++i) {
+      const auto k = static_cast<std::size_t>(i);
+      v.a = v.a + g.simplex.weight[k] * g.simplex.vertex[k].a;
+      v.b = v.b + g.simplex.weight[k] * g.simplex.vertex[k].b;
+    }
+    v.w = v.a - v.b;
+    if (const Real3 across = normalized(-v.w); largest(across) > 0)
+      gap_.raise(-d_.width_above(d_.support(across), across), across);
+    if (g.gap.hi < gap_.hi) {
+      gap_.lower(g.gap.hi);
+      nearest_ = {};
+      nearest_.vertex[0] = v, nearest_.weight[0] = 1, nearest_.size = 1;
+      nearest_.nearest = nearest_.outward = v.w;
+    }
+    return v;
   }
 
   // Apart, the cores' nearest points are found by finitely many exact steps.

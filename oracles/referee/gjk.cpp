@@ -48,7 +48,7 @@ template <class T>
 void try_triangle(Candidate<T>& best, const BasicSimplex<T>& s, int i, int j, int k) {
   const Triple<T>&p = s.vertex[static_cast<std::size_t>(i)].w, &q = s.vertex[static_cast<std::size_t>(j)].w,
         &r = s.vertex[static_cast<std::size_t>(k)].w;
-  Triple<T> n = cross(q - p, r - p);
+  Triple<T> n = triangle_normal(p, q, r);
   const T a = dot(cross(q, r), n), b = dot(cross(r, p), n), c = dot(cross(p, q), n);
   if (!(a > 0 && b > 0 && c > 0)) return;
   if (dot(n, p) < 0) n = -n;

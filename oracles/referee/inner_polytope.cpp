@@ -49,7 +49,7 @@ constexpr double behind = -0x1p-40;  // of det/(|p||q||r|); far above its roundi
 
 template <class T>
 Reach<T> reach_of(const Triple<T>& p, const Triple<T>& q, const Triple<T>& r) {
-  const Triple<T> n = cross(q - p, r - p);
+  const Triple<T> n = triangle_normal(p, q, r);
   Reach<T> best{-std::numeric_limits<T>::infinity(), n};
   if (largest(n) > 0) {
     best.value = least_along(n, p, q, r);
@@ -112,7 +112,56 @@ class Epa {
     return std::move(r_);
   }
 
+  // As run(), but a facet that D's support shows to lie in D's boundary is noted and left, and the search
+  // goes on to the next one. A local minimum of D at p = h·n has p on the ray through some facet of the inner
+  // polytope that is not farther than h; so once the nearest facet left is farther than h, that facet has
+  // been noted.
+  Minima minima(const BasicSimplex<T>& seed, T least_known, T slack) {
+    Minima m;
+    const auto t = tetrahedron(seed);
+    if (!t) return m.flat = true, m;
+    start(*t);
+    T limit = least_known + slack;
+    bool sure = true;
+    for (;;) {
+      while (!queue_.empty() && !facets_[at(queue_.front().second)].live) pop();
+      if (queue_.empty()) return m.complete = sure, m;
+      const auto [reach, f] = queue_.front();
+      if (!m.found.empty() && m.found.back().value > limit && reach > m.found.back().value)
+        return m.complete = sure, m;
+      if (static_cast<int>(facets_.size()) > cap_) return m;
+      const Facet<T> facet = facets_[at(f)];
+      const BasicVertex<T> p = ask(facet.normal);
+      if (largest(facet.normal) > 0 && dot(facet.normal, p.w) - facet.offset > target_) {
+        if (insert(f, p)) continue;
+        sure = false;
+      }
+      pop();
+      // The foot lies in the facet when no point of it is nearer along another direction.
+      if (!(largest(facet.normal) > 0) || reach - facet.offset > 1024 * target_) continue;
+      note(m, facet.normal, facet.offset, limit);
+      limit = std::max(limit, std::min(least_known, m.found.front().value) + slack);
+    }
+  }
+
  private:
+  static void note(Minima& m, const Triple<T>& normal, T value, T limit) {
+    constexpr double same_direction = 1e-9;
+    for (const auto& known : m.found)
+      if (norm(known.normal - normal) < same_direction) return;
+    // Beyond the limit only the least one is kept.
+    const bool has_second = !m.found.empty() && m.found.back().value > limit;
+    if (value > limit && has_second && value >= m.found.back().value) return;
+    if (value > limit && has_second) m.found.pop_back();
+    m.found.push_back({normal, value});
+    std::sort(m.found.begin(), m.found.end(), [](const auto& x, const auto& y) { return x.value < y.value; });
+  }
+
+  void pop() {
+    std::pop_heap(queue_.begin(), queue_.end(), std::greater<Entry>());
+    queue_.pop_back();
+  }
+
   BasicVertex<T> ask(const Triple<T>& n) {
     const BasicVertex<T> v = d_.support(n);
     r_.gap.raise(-d_.width_above(v, n), n);
@@ -167,7 +216,7 @@ class Epa {
     Facet<T> f;
     f.v = v;
     const Triple<T>&p = w(v[0]), &q = w(v[1]), &r = w(v[2]);
-    f.normal = normalized(cross(q - p, r - p));
+    f.normal = normalized(triangle_normal(p, q, r));
     f.offset = dot(f.normal, p);
     f.reach = reach_of(p, q, r);
     facets_.push_back(f);
@@ -318,10 +367,7 @@ class Epa {
   }
 
   void drop_dead() {
-    while (!facets_[at(queue_.front().second)].live) {
-      std::pop_heap(queue_.begin(), queue_.end(), std::greater<Entry>());
-      queue_.pop_back();
-    }
+    while (!facets_[at(queue_.front().second)].live) pop();
   }
 
   const Triple<T>& w(int i) const { return r_.polytope.vertices[at(i)].w; }
@@ -380,7 +426,7 @@ bool add_facet(Turning& t, const Real3& a, const Real3& b, const Real3& c) {
   const bool forward = determinant_sign(a, b, c) >= 0;
   // Any direction proves a distance; where the plane's own already proves l, no better one is looked for. A
   // dot product, a norm and a division: within 8 units of the largest |v_i| <= 2·size.
-  const Real3 n = cross(b - a, c - a);
+  const Real3 n = triangle_normal(a, b, c);
   Real reach = forward ? least_along(n, a, b, c) - 16 * unit * size : Real{0};
   if (!(reach >= t.least)) reach = reach_of(a, b, c).value - 16 * unit * size;
   if (!(reach > 0)) return false;
@@ -458,6 +504,11 @@ Confirmed confirm(const Difference& d, const BasicDifference<double>& d0, const 
 EpaResult expand(const Difference& d, const Simplex& seed, Real target, int facet_cap,
                  Orientation orientation) {
   return Epa<Real>(d, target, facet_cap, orientation).run(seed);
+}
+
+Minima local_minima(const Difference& d, const Simplex& seed, Real least_known, Real slack, Real target,
+                    int facet_cap) {
+  return Epa<Real>(d, target, facet_cap, Orientation::rounded).minima(seed, least_known, slack);
 }
 
 BasicEpaResult<double> search(const BasicDifference<double>& d, const BasicSimplex<double>& seed,

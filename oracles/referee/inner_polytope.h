@@ -64,6 +64,21 @@ EpaResult expand(const Difference& d, const Simplex& seed, Real target, int face
 BasicEpaResult<double> search(const BasicDifference<double>& d, const BasicSimplex<double>& seed,
                               double target, int facet_cap);
 
+/// The local minima of h_D(n) over unit n are the normals of those facets of D that hold the origin's foot.
+struct Minima {
+  struct Minimum {
+    Real3 normal;
+    Real value;  // h_D(normal), within the target of the search
+  };
+  std::vector<Minimum> found;  // least first; the last one is the first beyond the limit, if there is one
+  bool complete = false;       // no local minimum below the last one is missing
+  bool flat = false;           // D has no inside
+};
+/// Of a polytope D, up to the first whose value is above the least + `slack` (or above `least_known` +
+/// slack).
+Minima local_minima(const Difference& d, const Simplex& seed, Real least_known, Real slack, Real target,
+                    int facet_cap);
+
 struct Confirmed {
   bool closed = false;         // the bracket is true either way; closed: it is within `target`
   bool doubles_prove = false;  // that the origin is inside needs no more than double arithmetic

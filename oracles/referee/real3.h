@@ -101,6 +101,16 @@ Triple<T> unit_across(const Triple<T>& a, const Triple<T>& u) {
   return std::abs(dot(e, u)) <= 4 * unit_of<T> && largest(e) > 0 ? e : normalized(perpendicular(u));
 }
 
+/// Normal of a triangle, counter-clockwise, from the two edges that meet at its widest angle: of two long and
+/// nearly parallel edges the product's rounding is large beside its length and tilts it along them; a short
+/// edge is exact up to its own rounding (Sterbenz).
+template <class T>
+Triple<T> triangle_normal(const Triple<T>& p, const Triple<T>& q, const Triple<T>& r) {
+  const Triple<T> a = q - p, b = r - q, c = p - r;
+  const T aa = dot(a, a), bb = dot(b, b), cc = dot(c, c);
+  return bb >= aa && bb >= cc ? cross(c, a) : cc >= aa ? cross(a, b) : cross(b, c);
+}
+
 /// Row-major.
 template <class T>
 struct Square {

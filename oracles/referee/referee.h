@@ -73,6 +73,29 @@ Certificate checkable_certificate(const PairTruth& truth, const Placed& a, const
 /// inner_polytope. Computed when asked, and slower than judging. Kind none: not an overlap with a depth.
 Certificate depth_certificate(const PairTruth& truth, const Placed& a, const Placed& b);
 
+/// The directions in which B leaves A about equally fast: all local minima of w over unit n whose w is within
+/// `slack` of the depth, slack = max(1e-6·depth, 1e-9·extent of the pair). Judging does not need it; it is
+/// slower than judging.
+struct NearMinimalNormals {
+  std::vector<Vec3> normals;  // A to B, unit within rounding, least w first; no two within 1e-9 of each other
+  std::vector<double> widths;  // w of each, rounded
+  double depth = 0, slack = 0;
+  /// Conditioning: the least w among the other local minima, and by how much it exceeds the depth; infinite
+  /// when there is no other.
+  double second_best = 0, conditioning = 0;
+  /// The minima are not isolated (a sphere's centre in a sphere's, a circle of directions): `normals` is a
+  /// sample.
+  bool continuum = false;
+  bool capped = false;  // more than the cap of 256 normals; the rest is not listed
+  /// The list is complete and second_best is a lower bound, both up to rounding (1e-15 of the extent).
+  /// Otherwise (cylinder, cone, ellipsoid, flat bodies) they are what a descent from 512 directions found: an
+  /// estimate.
+  bool certified = false;
+};
+/// Bodies that are apart have one normal and infinite conditioning (the gap's direction is unique). Undecided
+/// pairs, meshes and half-spaces that overlap: the normal that judge_pair gives, not certified.
+NearMinimalNormals near_minimal_normals(const Placed& a, const Placed& b);
+
 /// w(n)/|n| where w(n) = h_A(n) + h_B(-n): how far B must move along n to be separate from A. n finite,
 /// non-zero. A half-space has no support value but along its own normal m; for it the same question is
 /// answered: depth/cos(n, m), infinite when n does not lead out of it.
