@@ -105,15 +105,10 @@ inline constexpr unsigned neighbour_loose_share = 16;
 inline constexpr unsigned sweep_moves_a_box = 8;
 /// Changed boxes are searched one by one when they are less than one in this many.
 inline constexpr unsigned sweep_local_share = 8;
-/// The automatic choice: up to this many boxes all pairs are tested; after this many queries in a row with
-/// few changes the hierarchy takes over (its first query is a build); up to this many boxes in the reach of a
-/// sweep no cells are built (counts).
+/// The automatic choice: up to this many boxes all pairs are tested; up to this many boxes in the reach of a sweep no
+/// cells are built (counts).
 inline constexpr unsigned brute_force_most = 160;
-inline constexpr unsigned quiet_queries = 2;
-/// From this many boxes on the hierarchy (1e6 uniform: 151 ms a frame against 224 ms of the grid; 1e5: 12
-/// against 10).
-inline constexpr unsigned hierarchy_least = 300000;
-inline constexpr double sweep_reach_most = 130;
+inline constexpr double sweep_reach_most = 40;
 /// A refitted tree is built anew when its lowest nodes have grown by this factor: a build costs about twice a
 /// refit, overlap of nodes grows with the cube of their reach.
 inline constexpr double tree_decay = 1.15;

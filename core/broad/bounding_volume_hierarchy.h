@@ -13,8 +13,6 @@ namespace touchstone::broad {
 class HierarchyFinder {
  public:
   void find(const BoxStore& store, PairSink& sink);
-  /// The next find() starts from nothing. To be called when a query was answered elsewhere.
-  void forget() { membership_ = never, fixed_changes_ = never, has_kept_ = false; }
   void validate(const BoxStore& store) const;
   std::size_t memory_bytes() const {
     return moving_.memory_bytes() + fixed_.memory_bytes() + touched_.capacity() +

@@ -176,9 +176,13 @@ HWY_INLINE std::size_t filter_one(const KeyBox* keys, const Aabb* boxes, std::ui
                                   IdPair* out) {
   const Apart r = compare(keys[s], keys[t]);
   *out = {static_cast<int>(s), static_cast<int>(t)};
-  bool hit = !r.apart;
-  if (HWY_UNLIKELY(r.doubtful & hit)) hit = overlaps(boxes[s], boxes[t]);
-  return hit ? 1 : 0;
+  // One branch, which is seldom taken: a third of the candidates are apart, unpredictably, and those are in
+  // "doubt" too. The empty statement keeps the compiler from making two of it (measured: 40 % of this loop,
+  // 2026-11-21, Zen 3).
+  unsigned state = (r.apart ? 2U : 0U) | (r.doubtful ? 1U : 0U);
+  asm volatile("" : "+r"(state));
+  if (HWY_UNLIKELY(state == 1)) return overlaps(boxes[s], boxes[t]) ? 1 : 0;
+  return 1 - (state >> 1);
 }
 
 std::size_t filter(const KeyBox* keys, const Aabb* boxes, const std::uint32_t* end,

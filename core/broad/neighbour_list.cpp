@@ -195,7 +195,7 @@ void NeighbourListFinder::report(const BoxStore& store, std::vector<IdPair>& out
   out.resize(n);
 }
 
-bool NeighbourListFinder::find_sorted(const BoxStore& store, PairSink& sink, std::vector<IdPair>& out) {
+bool NeighbourListFinder::keep_up(const BoxStore& store, PairSink& sink, std::vector<IdPair>& out) {
   answered_ = false;
   if (alive_ && !keep(store, sink)) {
     // A list that did not last three queries has cost more than it saved: the next is put off, longer each
@@ -207,9 +207,6 @@ bool NeighbourListFinder::find_sorted(const BoxStore& store, PairSink& sink, std
     const bool coherent = is_coherent(store);
     if (wait_ > 0 || !coherent) {
       wait_ -= wait_ > 0 ? 1 : 0;
-      store.codes(codes_);
-      levels_.build(store.keys().data(), codes_, stats_.of(store), levels);
-      levels_.pairs(store.keys().data(), Doubt::decide, sink);
       return false;
     }
     build(store, sink);
@@ -217,6 +214,13 @@ bool NeighbourListFinder::find_sorted(const BoxStore& store, PairSink& sink, std
   answered_ = true, membership_ = store.membership();
   report(store, out);
   return true;
+}
+
+void NeighbourListFinder::search(const BoxStore& store, PairSink& sink) {
+  alive_ = false;
+  store.codes(codes_);
+  levels_.build(store.keys().data(), codes_, stats_.of(store), levels);
+  levels_.pairs(store.keys().data(), Doubt::decide, sink);
 }
 
 void NeighbourListFinder::validate(const BoxStore& store) const {

@@ -21,7 +21,13 @@ namespace touchstone::broad {
 class NeighbourListFinder {
  public:
   /// Either fills `out` with pairs of slots in order and returns true, or fills `sink` and returns false.
-  bool find_sorted(const BoxStore& store, PairSink& sink, std::vector<IdPair>& out);
+  bool find_sorted(const BoxStore& store, PairSink& sink, std::vector<IdPair>& out) {
+    return keep_up(store, sink, out) || (search(store, sink), false);
+  }
+  /// The list's part of it: false, and nothing done, when the scene gets no list.
+  bool keep_up(const BoxStore& store, PairSink& sink, std::vector<IdPair>& out);
+  /// The grid's part: no list.
+  void search(const BoxStore& store, PairSink& sink);
   /// The next query starts from nothing. To be called when a query was answered elsewhere.
   void forget() { alive_ = false; }
   void validate(const BoxStore& store) const;
