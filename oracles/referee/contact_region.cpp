@@ -19,10 +19,9 @@
 namespace touchstone::referee {
 namespace {
 
-/// Extreme points, relative to the origin; with their exact selves where there are any.
+/// Extreme points, relative to the origin.
 struct Extremes {
   std::vector<Real3> points;
-  std::vector<Rational3> exact;
   Real error = 0;
 };
 
@@ -41,8 +40,6 @@ Extremes extremes_of(const Placed& p, const Vec3& origin, const Real3& n) {
   e.error = s.error + 16 * unit * s.extent;
   if (s.kind == Solid::Kind::points) {
     e.points = s.points;
-    const ExactBody exact_body{*core_points(p), core_radius(p), p.pose};
-    for (const Rational3& x : world_points(exact_body)) e.exact.push_back(x - exact(origin));
   } else if (s.kind == Solid::Kind::ellipsoid) {
     e.points = {support(s, n).point};
   } else {
@@ -55,11 +52,27 @@ Extremes extremes_of(const Placed& p, const Vec3& origin, const Real3& n) {
   return e;
 }
 
-// (top - n·x)/|n| <= slack, exactly.
-bool is_within(const Rational3& n, const Rational& top, const Rational3& x, const Rational& slack) {
-  const Rational below = top - dot(n, x);
-  return below * below <= slack * slack * dot(n, n);
-}
+/// Decides in rationals which vertices of a core are within slack of the support plane.
+class ExactFeature {
+ public:
+  ExactFeature(const Placed& p, const Vec3& direction, double slack)
+      : points_(world_points({*core_points(p), core_radius(p), p.pose})),
+        n_(exact(direction)),
+        limit_(exact(slack) * exact(slack) * dot(n_, n_)) {
+    top_ = dot(n_, points_.front());
+    for (const Rational3& x : points_) top_ = std::max(top_, dot(n_, x));
+  }
+  // (top - n·x)/|n| <= slack
+  bool has(std::size_t i) const {
+    const Rational below = top_ - dot(n_, points_[i]);
+    return below * below <= limit_;
+  }
+
+ private:
+  std::vector<Rational3> points_;
+  Rational3 n_;
+  Rational limit_, top_;
+};
 
 /// The points of the feature, and the height of the support plane over the origin, in units of |n|.
 struct Feature {
@@ -74,16 +87,14 @@ Feature feature_of(const Placed& p, const Vec3& origin, const Vec3& direction, d
   Feature f;
   f.height = -std::numeric_limits<Real>::infinity();
   for (const Real3& x : e.points) f.height = std::max(f.height, dot(n, x) / length);
-  std::optional<Rational> exact_top;
+  const bool has_vertices = core_points(p).has_value();
+  std::optional<ExactFeature> decide;
   for (std::size_t i = 0; i < e.points.size(); ++i) {
     const Real below = f.height - dot(n, e.points[i]) / length - slack;
     bool belongs = below <= 0;
-    if (!e.exact.empty() && std::fabs(below) <= 4 * e.error) {
-      const Rational3 m = exact(direction);
-      if (!exact_top)
-        for (const Rational3& x : e.exact)
-          if (!exact_top || dot(m, x) > *exact_top) exact_top = dot(m, x);
-      belongs = is_within(m, *exact_top, e.exact[i], exact(slack));
+    if (has_vertices && std::fabs(below) <= 4 * e.error) {
+      if (!decide) decide.emplace(p, direction, slack);
+      belongs = decide->has(i);
     }
     if (belongs) f.points.push_back(e.points[i]);
   }
