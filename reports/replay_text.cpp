@@ -241,11 +241,13 @@ fuzz::Json ReplayText::json() const {
                           {"words", f.words},
                           {"error", fuzz::number(f.error)},
                           {"error_in_l", fuzz::number(f.error_in_l)}});
-      item["engines"][r.engine] = {{"answer", fuzz::to_json(r.observations.answers[i])},
-                                   {"elapsed_ns", r.observations.answers[i].elapsed_ns},
-                                   {"right", g.right()},
-                                   {"blame", fuzz::to_string(g.blame)},
-                                   {"faults", std::move(faults)}};
+      item["engines"][r.engine] = {
+          {"answer", fuzz::to_json(r.observations.answers[i])},
+          {"elapsed_ns", r.observations.answers[i].elapsed_ns},
+          {"manifold_coverage", g.manifold_coverage ? fuzz::number(*g.manifold_coverage) : fuzz::Json()},
+          {"right", g.right()},
+          {"blame", fuzz::to_string(g.blame)},
+          {"faults", std::move(faults)}};
     }
     j["queries"].push_back(std::move(item));
   }

@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "fuzz/judge/judgement.h"
 #include "fuzz/judge/truth.h"
@@ -26,6 +27,7 @@ struct CheckOutput {
   double worst_in_l = 0;
   bool undecided = false;
   std::uint64_t pairs_true = 0, pairs_reported = 0, pairs_duplicate = 0;
+  std::optional<double> manifold_coverage;
   /// Largest error − τ over everything measured: > 0 wrong by that much, < 0 right with that much to spare.
   /// Errors change by at most 2D between frames whose bodies are D apart, so that a large |excess| settles
   /// both frames at once. NaN: something was measured in this frame alone, and another frame must be judged

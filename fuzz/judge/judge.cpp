@@ -73,6 +73,7 @@ Judgement judge_one(const CheckInput& asked, int received_frame) {
   j.worst_in_l = out.worst_in_l;
   j.pairs_true = out.pairs_true, j.pairs_reported = out.pairs_reported,
   j.pairs_duplicate = out.pairs_duplicate;
+  j.manifold_coverage = out.manifold_coverage;
   j.received_faults = faults_received(asked, received_frame, out.excess, j.faults);
   j.blame = blame_of(j, asked);
   return j;

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -61,6 +62,9 @@ struct Judgement {
   Blame blame = Blame::none;
   double worst_in_l = 0;  // largest error over all checks, also when right
   std::uint64_t pairs_true = 0, pairs_reported = 0, pairs_duplicate = 0;  // candidates: for precision
+  /// Area (or length) that the manifold's points span over that of the true contact region; empty where the
+  /// region is a point, or no manifold was stated for the true normal.
+  std::optional<double> manifold_coverage;
   bool right() const { return outcome == Outcome::answered && faults.empty(); }
 };
 

@@ -136,6 +136,18 @@ const referee::TimeTruth& Truth::motion(int frame, int a, int b) {
   return it->second;
 }
 
+const referee::ContactRegion& Truth::contact_region(int frame, int a, int b) {
+  auto& cache = frames_[static_cast<std::size_t>(frame)].regions;
+  auto it = cache.find({a, b});
+  if (it == cache.end())
+    it = cache
+             .emplace(BodyPair{a, b},
+                      referee::contact_region(placed(frame, a), placed(frame, b), pair(frame, a, b).normal,
+                                              referee::contact_slack_factor * scale(a, b)))
+             .first;
+  return it->second;
+}
+
 referee::Bracket Truth::width(int frame, int a, int b, const Vec3& n) const {
   return referee::width(placed(frame, a), placed(frame, b), n);
 }

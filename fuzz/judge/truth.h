@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "oracles/api/observation.h"
+#include "oracles/referee/contact_region.h"
 #include "oracles/referee/referee.h"
 
 namespace touchstone::fuzz {
@@ -21,6 +22,8 @@ class Truth {
   referee::Placed placed(int frame, int body) const;
   const referee::PairTruth& pair(int frame, int a, int b);
   const referee::TimeTruth& motion(int frame, int a, int b);
+  /// Of an overlapping pair, along the referee's normal; kept.
+  const referee::ContactRegion& contact_region(int frame, int a, int b);
   referee::Bracket width(int frame, int a, int b, const Vec3& n) const;
   referee::Bracket distance_to(int frame, int body, const Vec3& p) const;
   referee::Bracket gap_at(int frame, int a, int b, double t) const;
@@ -58,6 +61,7 @@ class Truth {
     ReceivedScene received;
     std::map<BodyPair, referee::PairTruth> pairs;
     std::map<BodyPair, referee::TimeTruth> motions;
+    std::map<BodyPair, referee::ContactRegion> regions;
     std::map<BodyPair, double> depths;
     double displacement = 0;
     std::optional<std::vector<TruePair>> scene_pairs;

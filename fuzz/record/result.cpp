@@ -68,6 +68,9 @@ void Tally::add(const Judgement& j, const Observation& o) {
   undecided += j.undecided;
   pairs_true += j.pairs_true, pairs_reported += j.pairs_reported, pairs_duplicate += j.pairs_duplicate;
   worst_in_l = std::max(worst_in_l, j.worst_in_l);
+  if (j.manifold_coverage)
+    ++manifolds,
+        coverage_permille += static_cast<std::uint64_t>(1000 * std::min(10.0, *j.manifold_coverage) + 0.5);
 }
 
 void Tally::merge(const Tally& o) {
@@ -76,6 +79,7 @@ void Tally::merge(const Tally& o) {
       representation += o.representation;
   undecided += o.undecided;
   pairs_true += o.pairs_true, pairs_reported += o.pairs_reported, pairs_duplicate += o.pairs_duplicate;
+  manifolds += o.manifolds, coverage_permille += o.coverage_permille;
   worst_in_l = std::max(worst_in_l, o.worst_in_l);
   time.merge(o.time);
 }
@@ -127,6 +131,10 @@ Json to_json(const Tally& t, bool with_times) {
   j["representation"] = t.representation, j["undecided"] = t.undecided;
   j["pairs_true"] = t.pairs_true, j["pairs_reported"] = t.pairs_reported,
   j["pairs_duplicate"] = t.pairs_duplicate;
+  if (t.manifolds > 0) {
+    j["manifolds"] = t.manifolds;
+    j["coverage_permille"] = t.coverage_permille;
+  }
   j["worst_in_l"] = number(t.worst_in_l);
   if (with_times) {
     j["ns_median"] = t.time.quantile(0.5), j["ns_p99"] = t.time.quantile(0.99);
@@ -149,6 +157,8 @@ Tally tally_from_json(const Json& j) {
   t.representation = j.at("representation"), t.undecided = j.at("undecided");
   t.pairs_true = j.at("pairs_true"), t.pairs_reported = j.at("pairs_reported");
   t.pairs_duplicate = j.at("pairs_duplicate");
+  t.manifolds = j.value("manifolds", std::uint64_t{0});
+  t.coverage_permille = j.value("coverage_permille", std::uint64_t{0});
   t.worst_in_l = number_from(j.at("worst_in_l"));
   if (j.contains("ns_histogram")) t.time = TimeHistogram::from_json(j.at("ns_histogram"));
   return t;

@@ -40,6 +40,9 @@ struct Tally {
   std::uint64_t representation = 0;  // of the wrong: right for the scene as received
   std::uint64_t undecided = 0;
   std::uint64_t pairs_true = 0, pairs_reported = 0, pairs_duplicate = 0;
+  /// Manifolds whose true region is a face or an edge, and the sum of their coverages in thousandths (each at
+  /// most 10): integers, so that they add in any order.
+  std::uint64_t manifolds = 0, coverage_permille = 0;
   double worst_in_l = 0;
   TimeHistogram time;  // of the answered; never hashed
 

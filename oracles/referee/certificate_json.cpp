@@ -3,6 +3,7 @@
 
 #include "core/base/input_error.h"
 #include "oracles/referee/checker.h"
+#include "oracles/referee/checker_set.h"
 #include "oracles/referee/impact_certificate.h"
 
 namespace touchstone::referee {
@@ -27,6 +28,16 @@ Vec3 vector_of(const nlohmann::ordered_json& j) {
 }
 
 }  // namespace
+
+checker::Q checker::rational_of(const std::string& s) {
+  const bool plain = !s.empty() && s.find_first_not_of("-0123456789/") == std::string::npos &&
+                     s.back() != '/' && s.find("/0") == std::string::npos;
+  try {
+    if (plain) return checker::Q(s);
+  } catch (const std::exception&) {
+  }
+  throw InputError("", "is not a rational number \"n/d\" (" + s + ")");
+}
 
 Certificate certificate_from_json(const nlohmann::ordered_json& j) {
   try {

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "core/base/input_error.h"
 #include "core/tolerance.h"
 #include "oracles/referee/checker_set.h"
 
@@ -57,16 +56,6 @@ bool check_direction(const V& n, const Q& d, const Set& a, const Set& b) {
   return *top_a + *top_b + rest <= 0;
 }
 
-// All points of the triangle are at distance >= r from the origin, and > 0: by its plane, or, where that is
-// not enough, by its nearest point.
-bool is_clear(const V& a, const V& b, const V& c, const Q& r) {
-  const V n = cross(b - a, c - a);
-  const Q height = dot(n, a);
-  if (height != 0 && height * height >= r * r * dot(n, n)) return true;
-  const V v = nearest_to_origin({a, b, c});
-  return dot(v, v) > 0 && dot(v, v) >= r * r;
-}
-
 // +1 or -1 where the ray from the origin leaves or enters through the triangle, 0 where it misses it, nothing
 // where it meets an edge.
 std::optional<int> crossing(const V& a, const V& b, const V& c, const V& ray) {
@@ -92,7 +81,8 @@ bool holds_ball(const std::vector<V>& point, const std::vector<std::array<int, 3
     }
     const auto at = [&](std::size_t i) { return point[static_cast<std::size_t>(f[i])]; };
     const auto more = crossing(at(0), at(1), at(2), {1, Q(1009, 1013), Q(-499, 997)});
-    if (!more || !is_clear(at(0), at(1), at(2), r)) return false;
+    const V near = nearest_to_origin({at(0), at(1), at(2)});
+    if (!more || dot(near, near) == 0 || dot(near, near) < r * r) return false;
     crossings += *more;
   }
   std::sort(forward.begin(), forward.end());
@@ -129,16 +119,6 @@ bool check_inner(const Certificate& c, const Set& a, const Set& b) {
 }
 
 }  // namespace
-
-Q checker::rational_of(const std::string& s) {
-  const bool plain = !s.empty() && s.find_first_not_of("-0123456789/") == std::string::npos &&
-                     s.back() != '/' && s.find("/0") == std::string::npos;
-  try {
-    if (plain) return Q(s);
-  } catch (const std::exception&) {
-  }
-  throw InputError("", "is not a rational number \"n/d\" (" + s + ")");
-}
 
 bool check(const Certificate& c, const Placed& a, const Placed& b) {
   const Sets x = sets_of(a), y = sets_of(b);

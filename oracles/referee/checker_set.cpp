@@ -13,70 +13,70 @@ V rotated(const V& v, const Q& w, const V& x) {
   return 1 / Q(dot(v, v) + w * w) * (2 * dot(v, x) * v + (w * w - dot(v, v)) * x + 2 * w * cross(v, x));
 }
 
-V unit(int axis) { return {Q(axis == 0), Q(axis == 1), Q(axis == 2)}; }
-
-V placed(const Set& s, const V& x) {
-  return x.x * s.column[0] + x.y * s.column[1] + x.z * s.column[2] + s.origin;
-}
-
 Set placed_axes(const Placed& p, const Carrier& by) {
   Set s;
-  V c[3], origin;
-  if (const auto* pose = std::get_if<Pose>(&p.pose)) {
-    const Quat& q = pose->rotation;
-    for (int i = 0; i < 3; ++i) c[i] = rotated({Q(q.x), Q(q.y), Q(q.z)}, Q(q.w), unit(i));
-    origin = exact_value(pose->translation);
-  } else {
-    const auto& place = std::get<Placement>(p.pose);
-    for (int i = 0; i < 3; ++i) c[i] = exact_value(Vec3(place.matrix.col(i)));
-    origin = exact_value(place.translation);
+  for (int i = 0; i < 3; ++i) {
+    V& c = s.column[i];
+    if (const auto* pose = std::get_if<Pose>(&p.pose)) {
+      const Quat& q = pose->rotation;
+      c = rotated({Q(q.x), Q(q.y), Q(q.z)}, Q(q.w), {Q(i == 0), Q(i == 1), Q(i == 2)});
+    } else {
+      c = exact_value(Vec3(std::get<Placement>(p.pose).matrix.col(i)));
+    }
+    if (dot(by.v, by.v) != 0) c = rotated(by.v, by.w, c);
   }
-  const bool turns = dot(by.v, by.v) != 0;
-  for (int i = 0; i < 3; ++i) s.column[i] = turns ? rotated(by.v, by.w, c[i]) : c[i];
-  s.origin = origin + by.shift;
+  s.origin = std::visit([](const auto& pose) { return exact_value(pose.translation); }, p.pose) + by.shift;
   return s;
 }
 
-Set hull(Set s, const std::vector<Vec3>& local, double ball = 0) {
-  for (const Vec3& v : local) s.core.push_back({placed(s, exact_value(v)), {}});
-  s.ball = Q(ball);
+/// In local coordinates: the round piece {centre + Σ u_k·radii_k·e_k, |u| <= 1}.
+struct Piece {
+  Vec3 centre, radii = Vec3::Zero();
+};
+using Pieces = std::vector<Piece>;
+
+// The round pieces of each convex part.
+template <class S>
+std::vector<Pieces> pieces_of(const S& s) {
+  std::vector<Pieces> parts(1);
+  if constexpr (std::is_same_v<S, Sphere>) parts[0] = {{Vec3::Zero()}};
+  if constexpr (std::is_same_v<S, Ellipsoid>) parts[0] = {{Vec3::Zero(), s.semi_axes}};
+  if constexpr (std::is_same_v<S, Hull>)
+    for (const Vec3& v : s.vertices) parts[0].push_back({v});
+  if constexpr (std::is_same_v<S, Box>)
+    for (int i = 0; i < 8; ++i)
+      parts[0].push_back({s.half_extents.cwiseProduct(Vec3(i & 1 ? 1 : -1, i & 2 ? 1 : -1, i & 4 ? 1 : -1))});
+  if constexpr (std::is_same_v<S, Capsule>) parts[0] = {{{0, 0, -s.half_height}}, {{0, 0, s.half_height}}};
+  if constexpr (std::is_same_v<S, Cylinder> || std::is_same_v<S, Cone>) {
+    const Vec3 disc(s.radius, s.radius, 0);
+    parts[0] = {{{0, 0, -s.half_height}, disc},
+                {{0, 0, s.half_height}, std::is_same_v<S, Cone> ? Vec3(Vec3::Zero()) : disc}};
+  }
+  if constexpr (std::is_same_v<S, TriangleMesh>) {
+    parts.clear();
+    const auto at = [&](int k) { return s.vertices[static_cast<std::size_t>(k)]; };
+    for (const auto& t : s.triangles) parts.push_back({{at(t[0])}, {at(t[1])}, {at(t[2])}});
+  }
+  return parts;
+}
+
+Set placed(Set s, const Pieces& pieces) {
+  for (const auto& [centre, radii] : pieces) {
+    const V c = exact_value(centre), r = exact_value(radii);
+    s.core.push_back({c.x * s.column[0] + c.y * s.column[1] + c.z * s.column[2] + s.origin, {}});
+    if (!radii.isZero(0)) s.core.back().axes = {r.x * s.column[0], r.y * s.column[1], r.z * s.column[2]};
+  }
+  const auto& [centre, radii] = pieces.front();
+  if (radii.isZero(0)) return s;
+  s.kind = pieces.size() == 1 ? Set::Kind::ellipsoid : Set::Kind::discs;
+  s.size =
+      exact_value(pieces.size() == 1 ? radii : Vec3(radii.x(), pieces[1].radii.x(), pieces[1].centre.z()));
   return s;
 }
 
-// A disc of the radius at each height (0: a point), in local coordinates.
-Set discs(Set s, Set::Kind kind, double radius, double half_height, bool top_is_point) {
-  const Q r(radius), h(half_height);
-  s.kind = kind, s.size = {r, h, 0};
-  const std::vector<V> rim{r * s.column[0], r * s.column[1]};
-  s.core = {{placed(s, {0, 0, -h}), rim}, {placed(s, {0, 0, h}), top_is_point ? std::vector<V>{} : rim}};
-  return s;
-}
-
-std::vector<Set> of_shape(const Set& s, const Sphere& x) { return {hull(s, {Vec3::Zero()}, x.radius)}; }
-std::vector<Set> of_shape(const Set& s, const Hull& x) { return {hull(s, x.vertices)}; }
-std::vector<Set> of_shape(const Set& s, const Capsule& x) {
-  return {hull(s, {{0, 0, -x.half_height}, {0, 0, x.half_height}}, x.radius)};
-}
-std::vector<Set> of_shape(const Set& s, const Box& x) {
-  std::vector<Vec3> corners;
-  for (int i = 0; i < 8; ++i)
-    corners.push_back(x.half_extents.cwiseProduct(Vec3(i & 1 ? 1 : -1, i & 2 ? 1 : -1, i & 4 ? 1 : -1)));
-  return {hull(s, corners)};
-}
-std::vector<Set> of_shape(const Set& s, const Cylinder& x) {
-  return {discs(s, Set::Kind::cylinder, x.radius, x.half_height, false)};
-}
-std::vector<Set> of_shape(const Set& s, const Cone& x) {
-  return {discs(s, Set::Kind::cone, x.radius, x.half_height, true)};
-}
-std::vector<Set> of_shape(Set s, const Ellipsoid& x) {
-  s.kind = Set::Kind::ellipsoid, s.size = exact_value(x.semi_axes);
-  s.core = {{s.origin, {s.size.x * s.column[0], s.size.y * s.column[1], s.size.z * s.column[2]}}};
-  return {s};
-}
 // {Mx + t : m·x <= o} = {y : C m·(y - t) <= o·det M}, C the cofactor matrix of M; both sides turn about with
 // the sign of det M.
-std::vector<Set> of_shape(Set s, const HalfSpace& x) {
+std::vector<Set> half_space(Set s, const HalfSpace& x) {
   const V &a = s.column[0], &b = s.column[1], &c = s.column[2], m = exact_value(x.normal);
   const Q det = dot(a, cross(b, c));
   if (det == 0) return {};
@@ -85,16 +85,10 @@ std::vector<Set> of_shape(Set s, const HalfSpace& x) {
   s.offset = abs(det) * Q(x.offset) + dot(s.normal, s.origin);
   return {s};
 }
-std::vector<Set> of_shape(const Set& s, const TriangleMesh& x) {
-  std::vector<Set> r;
-  const auto at = [&](int k) { return x.vertices[static_cast<std::size_t>(k)]; };
-  for (const auto& t : x.triangles) r.push_back(hull(s, {at(t[0]), at(t[1]), at(t[2])}));
-  return r;
-}
 
 // Local coordinates of a curved set by Cramer's rule. There, moves of g along each axis (g across the axis of
-// a cylinder or cone) are at most √2·g together, and at most twice as much in the world where |M|² <= 4: r in
-// all for g = r/4.
+// discs) are at most √2·g together, and at most twice as much in the world where |M|² <= 4: r in all for g =
+// r/4.
 bool is_within_curved(const Set& s, const V& x, const Q& r) {
   const V &a = s.column[0], &b = s.column[1], &c = s.column[2], d = x - s.origin;
   const Q det = dot(a, cross(b, c)), g = r / 4;
@@ -104,11 +98,10 @@ bool is_within_curved(const Set& s, const V& x, const Q& r) {
     const V k{u.x / (s.size.x + g), u.y / (s.size.y + g), u.z / (s.size.z + g)};
     return dot(k, k) <= 1;
   }
-  const Q &radius = s.size.x, &h = s.size.y, low = std::max(Q(-h), Q(u.z - g));
-  if (abs(u.z) > h + g) return false;
-  const bool narrows = s.kind == Set::Kind::cone && h > 0;
-  const Q room = (narrows ? Q(radius * (h - low) / (2 * h)) : radius) + g;
-  return u.x * u.x + u.y * u.y <= room * room;
+  const auto& [low, high, h] = s.size;  // low >= high: the room is widest at the lowest z in reach
+  const Q z = std::max(Q(-h), Q(u.z - g)),
+          room = (h > 0 ? Q(low + (high - low) * (z + h) / (2 * h)) : low) + g;
+  return abs(u.z) <= h + g && u.x * u.x + u.y * u.y <= room * room;
 }
 
 // Weights of the nearest point of the affine hull to the origin, from (Gram + 1)·w = 1 by elimination.
@@ -141,8 +134,14 @@ Q times_root(const Q& factor, const Q& square) {
 }
 
 std::vector<Set> sets_of(const Placed& p, const Carrier& by) {
-  const Set s = placed_axes(p, by);
-  return std::visit([&](const auto& shape) { return of_shape(s, shape); }, *p.shape);
+  Set axes = placed_axes(p, by);
+  if (const auto* h = std::get_if<HalfSpace>(p.shape)) return half_space(axes, *h);
+  if (const auto* x = std::get_if<Sphere>(p.shape)) axes.ball = Q(x->radius);
+  if (const auto* x = std::get_if<Capsule>(p.shape)) axes.ball = Q(x->radius);
+  std::vector<Set> r;
+  for (const Pieces& part : std::visit([](const auto& s) { return pieces_of(s); }, *p.shape))
+    r.push_back(placed(axes, part));
+  return r;
 }
 
 std::optional<Q> core_support(const Set& s, const V& n) {
@@ -156,7 +155,7 @@ std::optional<Q> core_support(const Set& s, const V& n) {
   for (const Set::Round& piece : s.core) {
     Q square = 0;
     for (const V& a : piece.axes) square += dot(a, n) * dot(a, n);
-    const Q h = dot(piece.centre, n) + times_root(1, square);
+    const Q h = dot(piece.centre, n) + (square > 0 ? times_root(1, square) : Q(0));
     if (!best || h > *best) best = h;
   }
   return best;

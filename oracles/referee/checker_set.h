@@ -35,7 +35,7 @@ Q times_root(const Q& factor, const Q& square);
 Q rational_of(const std::string& s);
 
 struct Set {
-  enum class Kind { hull, cylinder, cone, ellipsoid, half_space };
+  enum class Kind { hull, discs, ellipsoid, half_space };
   struct Round {
     V centre;
     std::vector<V> axes;
@@ -44,7 +44,7 @@ struct Set {
   std::vector<Round> core;
   Q ball = 0;
   V column[3], origin;  // world = Σ column[i]·local[i] + origin
-  V size;               // cylinder, cone: (radius, half height, -); ellipsoid: semi-axes
+  V size;               // discs: (radius below, radius above, half height); ellipsoid: semi-axes
   V normal;             // half_space: normal·x <= offset, in the world
   Q offset = 0;
 };

@@ -78,6 +78,14 @@ Rational3 deepest(const std::vector<Rational3>& points, const Rational3& normal,
   return over > 0 ? best - over / dot(normal, normal) * normal : best;
 }
 
+// Inside, if there is an inside.
+Real3 middle_of(const Solid& s) {
+  if (s.kind != Solid::Kind::points) return s.centre;
+  Real3 sum{0, 0, 0};
+  for (const Real3& p : s.points) sum = sum + p;
+  return (1 / static_cast<Real>(s.points.size())) * sum;
+}
+
 /// Points that are likely to be in both parts at time t, seen from the origin of B; the exact one alone if
 /// there is one.
 std::vector<Rational3> candidates(const MovingPart& a, const MovingPart& b, double t) {
@@ -86,10 +94,9 @@ std::vector<Rational3> candidates(const MovingPart& a, const MovingPart& b, doub
   if (plane_a && plane_b) return {};
   const MovingPart &body = plane_a ? b : a, &other = plane_a ? a : b;
   const Operand x = body.at(t);
-  const Real3 centre_a = (static_cast<Real>(t) * body.mover().velocity()) +
-                         to_real(translation_of(body.mover().placed())) - to_real(body.origin());
+  const Real3 centre_a = middle_of(x.body);
   std::vector<Real3> from;
-  Real3 centre_b{0, 0, 0};
+  Real3 centre_b = centre_a;
   if (plane_a || plane_b) {
     if (x.exact) {
       std::vector<Rational3> points = world_points(*x.exact);
@@ -97,12 +104,11 @@ std::vector<Rational3> candidates(const MovingPart& a, const MovingPart& b, doub
       return {deepest(points, other.normal(), other.offset(exact(t)))};
     }
     const Rational3 m = other.normal();
-    from.push_back(
-        support(x.body, -Real3{m.x.convert_to<Real>(), m.y.convert_to<Real>(), m.z.convert_to<Real>()})
-            .point);
-    centre_b = centre_a;
+    const Real3 n = normalized(Real3{m.x.convert_to<Real>(), m.y.convert_to<Real>(), m.z.convert_to<Real>()});
+    from.push_back(support(x.body, -n).point - static_cast<Real>(x.body.radius) * n);
   } else {
     const Operand y = other.at(t);
+    centre_b = middle_of(y.body);
     if (x.exact && y.exact) {
       const ExactPair p = make_exact(*x.exact, *y.exact);
       const ExactVerdict v = decide(p, {});

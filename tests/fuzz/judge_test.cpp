@@ -143,3 +143,22 @@ TEST_CASE("an answer without a number, and every way to fail, is a finding", "[j
   Observation cannot;
   CHECK(judge_one(spheres(2.5, Question::overlap), cannot).faults.empty());
 }
+
+TEST_CASE("coverage is the part of the true contact region that a manifold spans", "[judge]") {
+  Case c = spheres(0, Question::contact);
+  c.scene.shapes = {Box{{1, 1, 1}}};
+  c.scene.bodies[1].pose.translation = {0.5, 0, 1.75};  // the faces share 1.5 × 2
+  Observation o = contact({0, 0, 1}, 0.25);
+  const auto coverage = [&] { return judge_one(c, o).manifold_coverage; };
+  CHECK_FALSE(coverage());
+  const auto with = [&](std::vector<Vec3> points) {
+    o.manifold.clear();
+    for (const Vec3& p : points) o.manifold.push_back({p, 0.25});
+    return coverage().value_or(-1);
+  };
+  CHECK(with({{-0.5, -1, 1}, {1, -1, 1}, {1, 1, 0.75}, {-0.5, 1, 1}}) == Approx(1));
+  CHECK(with({{-0.5, -1, 1}, {1, -1, 1}, {1, 1, 1}}) == Approx(0.5));
+  CHECK(with({{0, 0, 1}}) == 0);
+  o.normal = Vec3(1, 0, 0);  // another question
+  CHECK(with({{0, 0, 1}}) == -1);
+}

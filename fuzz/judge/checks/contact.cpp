@@ -74,6 +74,25 @@ void check_contact(const CheckInput& in, CheckOutput& out) {
   judge_normal_and_depth(in, out, a, b, truth, *in.answer.normal, *in.answer.depth);
 }
 
+namespace {
+
+// Charted, never a fault: a manifold for another of several best normals spans another region, and is left
+// out.
+std::optional<double> coverage(const CheckInput& in, const referee::PairTruth& truth) {
+  constexpr double same_normal = 1 - 1e-6;
+  const auto [a, b] = std::pair{in.query.a, in.query.b};
+  if (in.answer.normal && !(in.answer.normal->dot(truth.normal) >= same_normal)) return std::nullopt;
+  const referee::ContactRegion& region = in.truth.contact_region(in.frame, a, b);
+  std::vector<Vec3> points;
+  for (const ManifoldPoint& p : in.answer.manifold) points.push_back(p.position);
+  using K = referee::ContactRegion::Kind;
+  if (region.kind == K::polygon) return referee::spanned_area(points, truth.normal) / region.area;
+  if (region.kind == K::segment) return referee::spanned_length(points, truth.normal) / region.length;
+  return std::nullopt;
+}
+
+}  // namespace
+
 void check_manifold(const CheckInput& in, CheckOutput& out) {
   if (!in.answer.overlap || !*in.answer.overlap || in.answer.manifold.empty()) return;
   const auto [a, b] = std::pair{in.query.a, in.query.b};
@@ -94,6 +113,7 @@ void check_manifold(const CheckInput& in, CheckOutput& out) {
                       in.truth.distance_to(in.frame, b, p.position).lo - inflate});
   }
   out.error(worst, l, tau);
+  out.manifold_coverage = coverage(in, truth);
   if (worst > tau)
     out.fault(Fault::point_off, worst, l, in.query,
               fmt::format("a manifold point is {:.6g} outside a body inflated by the stated depth", worst),

@@ -1,0 +1,148 @@
+// The true contact region: closed forms, and its definition asked point by point of touching bodies.
+#include "oracles/referee/contact_region.h"
+
+#include <numbers>
+
+#include "tests/referee/support.h"
+#include "tests/support/catch.h"
+
+using namespace touchstone;
+using namespace touchstone::referee_test;
+using Kind = ContactRegion::Kind;
+
+namespace {
+
+constexpr double slack = 1e-7;
+const Vec3 down(0, 0, -1);
+
+/// A stands on B: A's poses relative to B's are turned and moved together, so that nothing is axis-aligned.
+struct Stack {
+  Pose frame;
+  Placed a, b;
+  ContactRegion region() const { return contact_region(a, b, rotation_matrix(frame.rotation) * down, slack); }
+};
+
+Stack stacked(Rng& r, const Shape& a, const Pose& at, const Shape& b) {
+  const Pose frame{r.vector(0, 2), r.rotation()};
+  const Quat q = normalized(frame.rotation);
+  return {frame,
+          {&a, Pose{rotation_matrix(frame.rotation) * at.translation + frame.translation, q * at.rotation}},
+          {&b, Pose{frame.translation, q}}};
+}
+
+Quat about_z(double angle) { return {0, 0, std::sin(angle / 2), std::cos(angle / 2)}; }
+Quat about_y(double angle) { return {0, std::sin(angle / 2), 0, std::cos(angle / 2)}; }
+constexpr double right_angle = std::numbers::pi / 2;
+
+}  // namespace
+
+TEST_CASE("contact regions of closed form", "[referee][region]") {
+  Rng r(3);
+  const Shape cube = Box{{1, 1, 1}}, slab = Box{{4, 4, 1}}, rod = Cylinder{0.5, 2}, pill = Capsule{0.5, 2},
+              ball = Sphere{1}, top = Cone{1, 1}, egg = Ellipsoid{{1, 2, 3}},
+              ground = HalfSpace{{0, 0, 1}, 1};
+  constexpr double disc = 1 - 1.1e-4;
+  for (int i = 0; i < 20; ++i) {
+    const auto polygon = [&](const Stack& s, std::size_t corners, double area) {
+      const ContactRegion c = s.region();
+      REQUIRE(c.kind == Kind::polygon);
+      if (corners > 0) REQUIRE(c.vertices.size() == corners);
+      REQUIRE(c.area == Approx(area).epsilon(corners > 0 ? 1e-12 : 1e-4));
+      REQUIRE(spanned_area(c.vertices, rotation_matrix(s.frame.rotation) * down) ==
+              Approx(c.area).epsilon(1e-12));
+      REQUIRE(c.error < 2e-14);
+    };
+    const auto segment = [&](const Stack& s, double length) {
+      const ContactRegion c = s.region();
+      REQUIRE(c.kind == Kind::segment);
+      REQUIRE(c.length == Approx(length).epsilon(1e-6));
+      REQUIRE(spanned_length(c.vertices, rotation_matrix(s.frame.rotation) * down) == Approx(c.length));
+    };
+    const auto point = [&](const Stack& s, const Vec3& at) {
+      const ContactRegion c = s.region();
+      REQUIRE(c.kind == Kind::point);
+      const Vec3 expected = rotation_matrix(s.frame.rotation) * at + s.frame.translation;
+      REQUIRE((c.vertices[0] - expected).norm() < 1e-6);
+    };
+    polygon(stacked(r, cube, {{0.5, 0.25, 2}, {}}, cube), 4, 1.5 * 1.75);
+    polygon(stacked(r, cube, {{0, 0, 2}, about_z(right_angle / 2)}, cube), 8, 8 * (std::sqrt(2.0) - 1));
+    polygon(stacked(r, cube, {{0, 0, 1.9}, about_z(0.3)}, slab), 4, 4);
+    polygon(stacked(r, rod, {{0, 0, 3}, {}}, slab), 0, std::numbers::pi / 4 * disc);
+    polygon(stacked(r, rod, {{4, 0, 3}, {}}, slab), 0, std::numbers::pi / 8 * disc);  // half over the edge
+    polygon(stacked(r, top, {{0, 0, 2}, {}}, slab), 0, std::numbers::pi * disc);
+    polygon(stacked(r, rod, {{0, 0, 3}, {}}, ground), 0, std::numbers::pi / 4 * disc);
+    polygon(stacked(r, slab, {{0, 0, 1.5}, about_z(1)}, ground), 4, 64);
+    segment(stacked(r, rod, {{0, 0, 1.5}, about_y(right_angle)}, slab), 4);
+    segment(stacked(r, rod, {{3, 0, 1.5}, about_y(right_angle)}, slab), 3);  // a metre beyond the edge
+    segment(stacked(r, pill, {{0, 0, 1.5}, about_y(right_angle)}, slab), 4);
+    segment(stacked(r, pill, {{0, 0, 1.5}, about_y(right_angle)}, ground), 4);
+    segment(
+        stacked(r, top,
+                {{0, 0, 1 + 2 / std::sqrt(5.0) - 1 / std::sqrt(5.0)}, about_y(right_angle + std::atan(0.5))},
+                slab),
+        std::sqrt(5.0));
+    point(stacked(r, ball, {{0.5, 0.25, 2}, {}}, slab), {0.5, 0.25, 1});
+    point(stacked(r, egg, {{0.5, 0.25, 4}, {}}, slab), {0.5, 0.25, 1});
+    point(stacked(r, pill, {{0.5, 0.25, 3.5}, {}}, slab), {0.5, 0.25, 1});
+    point(stacked(r, top, {{0.5, 0.25, 2}, about_y(2 * right_angle)}, slab), {0.5, 0.25, 1});
+    point(stacked(r, ball, {{0.5, 0.25, 2}, {}}, ground), {0.5, 0.25, 1});
+    // Crossed edges: a cube on its edge over a slab on its edge, at a right angle.
+    point(
+        stacked(r, cube, {{0, 0, 2 * std::sqrt(2.0)}, about_y(right_angle / 2)},
+                Shape(Hull{{{-1, 0, std::sqrt(2.0)}, {1, 0, std::sqrt(2.0)}, {0, -1, 0}, {0, 1, 0}}, {}, 0})),
+        {0, 0, std::sqrt(2.0)});
+  }
+  const Shape mesh = TriangleMesh{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}}};
+  REQUIRE(contact_region({&mesh, Pose{}}, {&cube, Pose{}}, down, slack).kind == Kind::none);
+  REQUIRE(contact_region({&cube, Pose{{9, 0, 2}, {}}}, {&cube, Pose{}}, down, slack).kind == Kind::none);
+}
+
+TEST_CASE("prisms that touch: the region's points are in both bodies, those around it are not",
+          "[referee][region]") {
+  Rng r(11);
+  int inside = 0, outside = 0, none = 0;
+  for (int i = 0; i < 120; ++i) {
+    // Random polygons as the faces of prisms of height 1, one upright on the other, exactly at gap 0.
+    const auto prism = [&] {
+      Hull h;
+      const int n = 3 + static_cast<int>(r.below(6));
+      for (int k = 0; k < n; ++k) {
+        const double angle = r.uniform(0, 6.28), size = r.uniform(0.3, 1);
+        for (double z : {0.0, 1.0})
+          h.vertices.emplace_back(size * std::cos(angle), size * std::sin(angle), z);
+      }
+      return Shape(h);
+    };
+    const Shape x = prism(), y = prism();
+    const Placed a{&x, Pose{{r.uniform(-0.7, 0.7), r.uniform(-0.7, 0.7), 1}, {}}}, b{&y, Pose{}};
+    const ContactRegion c = contact_region(a, b, down, slack);
+    none += c.kind == Kind::none;
+    if (c.kind == Kind::point || c.kind == Kind::segment) continue;
+    const auto in_region = [&](const Vec3& p, double margin) {
+      for (std::size_t k = 0; k < c.vertices.size(); ++k) {
+        // Counter-clockwise against the normal, which is -z.
+        const Vec3 d = c.vertices[(k + 1) % c.vertices.size()] - c.vertices[k];
+        if (Vec3(d.cross(p - c.vertices[k])).dot(down) < -margin * d.norm()) return false;
+      }
+      return c.kind == Kind::polygon;
+    };
+    for (const Vec3& v : c.vertices) {
+      REQUIRE(distance_to(a, v).lo <= 4 * c.error);
+      REQUIRE(distance_to(b, v).lo <= 4 * c.error);
+    }
+    for (int k = 0; k < 60; ++k) {
+      const Vec3 p(r.uniform(-1, 1), r.uniform(-1, 1), 1);
+      const bool both = distance_to(a, p).hi <= 0 && distance_to(b, p).hi <= 0;
+      if (in_region(p, -1e-9)) {
+        REQUIRE(both);
+        ++inside;
+      } else if (!in_region(p, 1e-9)) {
+        REQUIRE_FALSE(both);
+        ++outside;
+      }
+    }
+  }
+  CAPTURE(none);
+  REQUIRE(inside > 200);
+  REQUIRE(outside > 1000);
+}
