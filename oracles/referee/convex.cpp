@@ -29,13 +29,13 @@ void take_witness(ConvexTruth& t, const Difference& d, const Simplex& s) {
   t.witness_b = t.witness_b - static_cast<Real>(d.b.radius) * t.normal;
 }
 
-// A stall or a cap of rounded signs is met once more with exact ones.
+// A stall or a cap of rounded signs is met once more with exact ones, and four times as many facets.
 EpaResult grow(const Difference& d, const GjkResult& g, Real target, int cap) {
   EpaResult e = expand(d, g.simplex, target, cap, Orientation::rounded);
   const Real lo = std::max(e.gap.lo, g.gap.lo), hi = std::min(e.gap.hi, g.gap.hi);
   if (e.exit == EpaResult::Exit::flat || hi - lo <= 8 * target) return e;
   ++counters().exact_expansions;
-  EpaResult f = expand(d, g.simplex, target, cap, Orientation::exact);
+  EpaResult f = expand(d, g.simplex, target, 4 * cap, Orientation::exact);
   f.gap.raise(e.gap.lo, e.gap.direction);
   if (e.gap.hi < f.gap.hi) f.gap.hi = e.gap.hi, f.nearest = e.nearest, f.polytope = std::move(e.polytope);
   return f;
@@ -94,6 +94,27 @@ Real target_width(const Difference& d) {
 
 namespace {
 
+// Whether the origin is inside of the tetrahedron and farther than `error` from its faces, so that D, which
+// its vertices are within `error` of, holds it. With v = 2^-53 and vertices no longer than s: a determinant
+// is within 64v·s³ (rational.cpp); all four of one sign, seen from outside, put the origin inside. The
+// distance of a face is det/|area vector|, whose computed length is within 32v·s² (edges up to 2s, a cross
+// product, a norm).
+bool holds_origin(const BasicSimplex<double>& x, double s, double error) {
+  constexpr double v = unit_of<double>;
+  constexpr int face[4][3] = {{0, 1, 2}, {0, 3, 1}, {1, 3, 2}, {2, 3, 0}};
+  if (x.size != 4) return false;
+  int sign = 0;
+  for (const auto& f : face) {
+    const auto w = [&](int k) -> const Double3& { return x.vertex[static_cast<std::size_t>(f[k])].w; };
+    const double det = dot(cross(w(0), w(1)), w(2)), slack = 64 * v * s * s * s;
+    const double area = norm(triangle_normal(w(0), w(1), w(2))) + 64 * v * s * s;
+    if (!(std::abs(det) - slack > error * area * (1 + 8 * v))) return false;
+    if (sign != 0 && (det > 0) != (sign > 0)) return false;
+    sign = det > 0 ? 1 : -1;
+  }
+  return true;
+}
+
 /// Level 0: the same search in doubles. Its brackets decide most verdicts; what it found is where extended
 /// precision begins, which then needs one step to prove the bracket that is handed out.
 struct Level0 {
@@ -112,7 +133,8 @@ struct Level0 {
     for (std::size_t i = 0; i < n; ++i) first[i] = to_double3(directions[i]);
     gjk = referee::gjk(*d, std::span<const Double3>(first.data(), n), target());
     if (gjk.gap.lo - d->radius - d->radius_error > 0) verdict = Verdict::disjoint;
-    if (gjk.gap.hi - d->radius + d->radius_error <= 0) verdict = Verdict::overlap;
+    if (gjk.gap.hi - d->radius + d->radius_error <= 0 || holds_origin(gjk.simplex, d->extent, d->error))
+      verdict = Verdict::overlap;
   }
   double target() const { return 64 * unit_of<double> * d->extent + 4 * d->error; }
 

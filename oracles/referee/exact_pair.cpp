@@ -9,19 +9,15 @@
 #include <algorithm>
 #include <array>
 #include <bit>
-#include <boost/multiprecision/cpp_int.hpp>
 #include <cstdlib>
 #include <limits>
+
+#include "oracles/referee/short_integer.h"
 
 namespace touchstone::referee {
 namespace {
 
 std::size_t at(int i) { return static_cast<std::size_t>(i); }
-
-using Short = boost::multiprecision::number<
-    boost::multiprecision::cpp_int_backend<512, 512, boost::multiprecision::signed_magnitude,
-                                           boost::multiprecision::unchecked, void>,
-    boost::multiprecision::et_off>;
 
 template <class I>
 I scaled(I x, int bits) {

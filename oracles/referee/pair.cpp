@@ -193,11 +193,12 @@ PairTruth judge_pair(const Placed& a, const Placed& b, std::span<const Vec3> hin
                      std::span<const Vec3> hint_points) {
   PairTruth r = judge_by_bracket(a, b, hint_directions, hint_points);
   if (r.verdict != Verdict::undecided) return r;
-  Certificate c = guess_common_point(r.witness, a, b);
+  int level = 2;
+  Certificate c = guess_common_point(r.witness, a, b, level);
   if (c.kind == Certificate::Kind::none) return r;
-  ++counters().exact;
+  ++(level == 1 ? counters().extended : counters().exact);
   if (counters().undecided > 0) --counters().undecided;
-  r.verdict = Verdict::overlap, r.level = 2;
+  r.verdict = Verdict::overlap, r.level = level;
   r.gap.hi = std::min(r.gap.hi, 0.0), r.gap.lo = std::min(r.gap.lo, 0.0);
   if (is<TriangleMesh>(a) || is<TriangleMesh>(b)) r.gap = {-std::numeric_limits<double>::infinity(), 0};
   r.verdict_certificate = std::move(c);

@@ -7,6 +7,7 @@
 #include "core/tolerance.h"
 #include "oracles/referee/checker.h"
 #include "oracles/referee/rational.h"
+#include "oracles/referee/short_point.h"
 
 namespace touchstone::referee {
 namespace {
@@ -26,9 +27,16 @@ Rational simplest_between(const Rational& lo, const Rational& hi) {
   return w + Rational(1) / simplest_between(Rational(1) / (hi - w), Rational(1) / (lo - w));
 }
 
+bool is_as_rounded(const Certificate& c) {
+  for (int k = 0; k < 3; ++k)
+    if (exact(c.point[k]) != rational_from_text(c.rationals[static_cast<std::size_t>(k)])) return false;
+  return true;
+}
+
 }  // namespace
 
-Certificate guess_common_point(const std::array<Vec3, 2>& witness, const Placed& a, const Placed& b) {
+Certificate guess_common_point(const std::array<Vec3, 2>& witness, const Placed& a, const Placed& b,
+                               int& level) {
   const Vec3 middle = witness[0] + 0.5 * (witness[1] - witness[0]);
   double size = 0;
   for (const Vec3& w : witness) size = std::max(size, w.cwiseAbs().maxCoeff());
@@ -49,7 +57,16 @@ Certificate guess_common_point(const std::array<Vec3, 2>& witness, const Placed&
         c.rationals.push_back(text_of(guess));
         c.point[k] = guess.convert_to<double>();
       }
-      if (check(c, a, b)) return c;
+      // Most guesses are doubles of a few bits, and most are wrong: short integers say so at once.
+      if (is_as_rounded(c)) {
+        const auto in_a = contains_short(a, c.point);
+        const auto in_b = in_a && !*in_a ? in_a : contains_short(b, c.point);
+        if (in_a && in_b) {
+          if (!*in_a || !*in_b) continue;
+          return level = 1, c;
+        }
+      }
+      if (check(c, a, b)) return level = 2, c;
     }
   return {};
 }

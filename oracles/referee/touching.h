@@ -8,6 +8,7 @@
 namespace touchstone::referee {
 
 /// common_point, or none: then nothing is known.
-Certificate guess_common_point(const std::array<Vec3, 2>& witness, const Placed& a, const Placed& b);
+Certificate guess_common_point(const std::array<Vec3, 2>& witness, const Placed& a, const Placed& b,
+                               int& level);
 
 }  // namespace touchstone::referee

@@ -4,8 +4,9 @@
 #include <array>
 #include <cmath>
 
+#include "oracles/referee/checker.h"
 #include "oracles/referee/convex.h"
-#include "oracles/referee/counters.h"
+#include "oracles/referee/short_point.h"
 #include "tests/referee/support.h"
 #include "tests/support/catch.h"
 
@@ -215,6 +216,40 @@ TEST_CASE("integers of 512 bits and rationals agree on half-spaces", "[referee][
   WARN(decided << " cases, " << overlaps << " overlap, " << touching << " touch");
   REQUIRE(decided == cases);
   REQUIRE(touching > 20);
+}
+
+TEST_CASE("a point of a curved body: integers of 512 bits and the checker's rationals agree",
+          "[referee][levels]") {
+  Rng r(79);
+  int inside = 0, on_border = 0, decided = 0;
+  constexpr int cases = 6000;
+  for (int i = 0; i < cases; ++i) {
+    const Pair placed = on_a_lattice(r);
+    const auto s = [&] { return static_cast<double>(1 + r.below(4)) / 8; };
+    Shape shape = Ellipsoid{{s(), s(), s()}};
+    if (i % 3 == 0) shape = Cylinder{s(), s()};
+    if (i % 3 == 1) shape = Cone{s(), s()};
+    if (i % 7 == 0) shape = placed.a;
+    const Placed body{&shape, placed.pose_a};
+    const auto c = [&] { return (static_cast<double>(r.below(9)) - 4) / 16; };
+    Vec3 point = placed.pose_a.translation + Vec3(c(), c(), c());
+    if (r.chance(0.2)) point = world_support(shape, placed.pose_a, Vec3(c(), c(), 1));
+    const auto brief = contains_short(body, point);
+    if (!brief) continue;
+    Certificate at;
+    at.kind = Certificate::Kind::common_point;
+    at.point = point;
+    REQUIRE(check(at, body, body) == *brief);
+    ++decided, inside += *brief;
+    // On the border exactly: inside as it is, outside a little farther from the centre.
+    const Vec3 out = point + 0x1p-30 * (point - placed.pose_a.translation);
+    if (const auto beyond = contains_short(body, out); *brief && beyond && !*beyond) ++on_border;
+  }
+  WARN(decided << " points, " << inside << " inside, " << on_border << " of them on the border");
+  REQUIRE(decided > cases * 8 / 10);
+  REQUIRE(inside > decided * 2 / 10);
+  REQUIRE(inside < decided * 8 / 10);
+  REQUIRE(on_border > 50);
 }
 
 }  // namespace touchstone::referee_test
