@@ -75,6 +75,13 @@ std::string GridLevels::explain() const {
   return text + "; swept: " + std::to_string(rest_.size);
 }
 
+Structure GridLevels::structure() const {
+  Structure s;
+  for (std::size_t l = 0; l < used_; ++l) s.grids.push_back(levels_[l].grid.picture());
+  if (rest_.size > 0) s.sweep_axis = 0;
+  return s;
+}
+
 template <int max_levels>
 void GridFinder<max_levels>::find(const BoxStore& store, PairSink& sink) {
   store.codes(codes_);

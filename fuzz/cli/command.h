@@ -27,5 +27,6 @@ Run declare_families(CLI::App& app);
 Run declare_scenarios(CLI::App& app);
 Run declare_fuzz(CLI::App& app);
 Run declare_replay(CLI::App& app);
+Run declare_view(CLI::App& app);
 
 }  // namespace touchstone::cli

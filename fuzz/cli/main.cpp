@@ -13,6 +13,7 @@ namespace {
 constexpr Command table[] = {
     {"fuzz", "random differential campaign: every engine, every answer refereed", declare_fuzz},
     {"replay", "every engine's answer to stored cases, beside the referee's", declare_replay},
+    {"view", "a page that shows what the broad phase makes of a scene", declare_view},
     {"check", "is a stored certificate a proof? in exact arithmetic, from the scene alone", declare_check},
     {"engines", "the engines present, their versions, settings and tolerances", declare_engines},
     {"families", "the families of random cases, a line each", declare_families},
