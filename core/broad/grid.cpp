@@ -8,6 +8,7 @@ namespace touchstone::broad {
 void GridLevels::build(const KeyBox* boxes, std::vector<std::uint32_t>& codes, const SceneStats& stats,
                        std::size_t max_levels) {
   used_ = 0;
+  levels_.reserve(max_levels);  // what is left of one level is read while the next is added
   const std::vector<std::uint32_t>* left = &codes;
   while (used_ < max_levels && left->size() > tolerance::grid_least_boxes) {
     if (levels_.size() == used_) levels_.emplace_back();
