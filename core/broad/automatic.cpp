@@ -56,6 +56,11 @@ std::string AutomaticFinder::explain() const {
   return how + " (" + why_ + ")";
 }
 
+Structure AutomaticFinder::structure() const {
+  if (method_ == Method::brute_force) return {};
+  return method_ == Method::sweep ? sweep_.structure() : list_.structure();
+}
+
 BroadPhasePtr make_automatic() { return std::make_unique<StoredPhase<AutomaticFinder>>(); }
 
 }  // namespace touchstone::broad

@@ -19,6 +19,7 @@ class AutomaticFinder {
   void validate(const BoxStore& store) const;
   std::size_t memory_bytes() const;
   std::string explain() const;
+  Structure structure() const;
 
  private:
   enum class Method { brute_force, neighbour_list, sweep, grid };

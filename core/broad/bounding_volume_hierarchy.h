@@ -19,6 +19,11 @@ class HierarchyFinder {
            kept_.capacity() * sizeof(SlotPair);
   }
   std::string explain() const;
+  Structure structure() const {
+    Structure s;
+    moving_.picture(s.nodes), fixed_.picture(s.nodes);
+    return s;
+  }
 
  private:
   void update(const BoxStore& store);

@@ -41,6 +41,18 @@ struct BoxUpdate {
   Aabb box;
 };
 
+/// What the last pairs() was done with, for pictures: any part may be empty.
+struct Structure {
+  struct Grid {
+    int along = 0;  // axis of the columns
+    double origin[3] = {}, cell[3] = {1, 1, 1};
+    long count[3] = {1, 1, 1};  // cells; those at the border extend to infinity
+  };
+  int sweep_axis = -1;
+  std::vector<Grid> grids;               // finest first
+  std::vector<std::vector<Aabb>> nodes;  // of trees, by level, lowest first
+};
+
 class BroadPhase {
  public:
   virtual ~BroadPhase() = default;
@@ -60,6 +72,7 @@ class BroadPhase {
   virtual std::size_t memory_bytes() const = 0;
   /// What the last pairs() did, in words, for instance which method was chosen and why.
   virtual std::string explain() const = 0;
+  virtual Structure structure() const = 0;
 };
 
 using BroadPhasePtr = std::unique_ptr<BroadPhase>;

@@ -8,6 +8,7 @@ namespace touchstone::broad {
 void GridLevels::build(const KeyBox* boxes, std::vector<std::uint32_t>& codes, const SceneStats& stats,
                        std::size_t max_levels) {
   used_ = 0;
+  levels_.reserve(max_levels);  // what is left of one level is read while the next is added
   const std::vector<std::uint32_t>* left = &codes;
   while (used_ < max_levels && left->size() > tolerance::grid_least_boxes) {
     if (levels_.size() == used_) levels_.emplace_back();
@@ -73,6 +74,13 @@ std::string GridLevels::explain() const {
             " " + std::to_string(g.cell_size(u)) + " wide";
   }
   return text + "; swept: " + std::to_string(rest_.size);
+}
+
+Structure GridLevels::structure() const {
+  Structure s;
+  for (std::size_t l = 0; l < used_; ++l) s.grids.push_back(levels_[l].grid.picture());
+  if (rest_.size > 0) s.sweep_axis = 0;
+  return s;
 }
 
 template <int max_levels>

@@ -25,6 +25,7 @@ class GridLevels {
   void validate() const;
   std::size_t memory_bytes() const;
   std::string explain() const;
+  Structure structure() const;
 
  private:
   void sort_rest(const KeyBox* boxes, const std::vector<std::uint32_t>& codes);
@@ -47,6 +48,7 @@ class GridFinder {
     return levels_.memory_bytes() + codes_.capacity() * sizeof(std::uint32_t);
   }
   std::string explain() const { return levels_.explain(); }
+  Structure structure() const { return levels_.structure(); }
 
  private:
   RememberedStats stats_;

@@ -17,6 +17,7 @@ class IncrementalSweepFinder {
   void validate(const BoxStore& store) const;
   std::size_t memory_bytes() const;
   std::string explain() const;
+  Structure structure() const { return {axis_, {}, {}}; }
 
  private:
   void start_order(const BoxStore& store);

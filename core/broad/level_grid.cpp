@@ -37,7 +37,8 @@ void LevelGrid::choose_cells(const SceneStats& stats, std::size_t n) {
     const double cell = k == w ? along * tolerance::grid_cut
                                : std::max(tolerance::grid_cell_factor * stats.median_size[k], side);
     const double most = k == w ? most_cells_an_axis : most_columns_an_axis;
-    count[k] = cell > 0 ? std::clamp(std::ceil(extent / cell), 1.0, most) : 1;
+    const double ratio = cell > 0 ? std::ceil(extent / cell) : 1;
+    count[k] = ratio > 1 ? std::min(ratio, most) : 1;  // 1 for a NaN, infinity over infinity
     // A world without extent has one cell, whatever its width.
     const double width = extent > 0 ? extent / count[k] : positive(cell, 1);
     shape_.origin[k] = bounded(stats.low[k]);
@@ -119,6 +120,16 @@ void LevelGrid::query(const KeyBox& box, std::uint32_t code, Doubt doubt, PairSi
       const std::uint32_t owner = (u == r.lo[0] ? 0x80000000U : 0) | (v == r.lo[1] ? 0x40000000U : 0);
       scan_places(box, code | owner, column_name(u, v), shape_.place(u, v, from_w), cells, doubt, sink);
     }
+}
+
+Structure::Grid LevelGrid::picture() const {
+  Structure::Grid g;
+  g.along = shape_.axis_w;
+  for (int k = 0; k < 3; ++k) {
+    g.origin[k] = static_cast<double>(shape_.origin[k]), g.cell[k] = cell_size(k);
+    g.count[k] = static_cast<long>(shape_.last[k]) + 1;
+  }
+  return g;
 }
 
 void LevelGrid::validate() const {

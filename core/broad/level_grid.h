@@ -32,6 +32,7 @@ class LevelGrid {
   std::size_t places() const { return places_; }
   bool hashed() const { return shape_.mask != 0xffffffff; }
   int axis() const { return shape_.axis_w; }
+  Structure::Grid picture() const;
   double cell_size(int axis) const { return 1 / static_cast<double>(shape_.scale[axis]); }
   void validate() const;
   std::size_t memory_bytes() const;

@@ -33,6 +33,7 @@ class NeighbourListFinder {
   void validate(const BoxStore& store) const;
   std::size_t memory_bytes() const;
   std::string explain() const;
+  Structure structure() const { return levels_.structure(); }
 
  private:
   bool is_coherent(const BoxStore& store);

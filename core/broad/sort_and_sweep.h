@@ -18,6 +18,7 @@ class SortAndSweepFinder {
     return columns_.memory_bytes() + (order_.capacity() + scratch_.capacity()) * sizeof(KeyedSlot);
   }
   std::string explain() const;
+  Structure structure() const { return {axis_, {}, {}}; }
 
  private:
   RememberedStats stats_;

@@ -9,6 +9,8 @@
 //   bool find_sorted(const BoxStore&, PairSink&, std::vector<IdPair>& out)
 //                                           either the pairs of slots in `out`, in order, and true; or in the
 //                                           sink and false
+// and
+//   Structure structure() const
 #pragma once
 
 #include "core/broad/pair_sink.h"
@@ -41,6 +43,12 @@ class StoredPhase final : public BroadPhase {
     return sizeof *this + store_.memory_bytes() + sink_.memory_bytes() + finder_.memory_bytes();
   }
   std::string explain() const override { return finder_.explain(); }
+  Structure structure() const override {
+    if constexpr (requires { finder_.structure(); })
+      return finder_.structure();
+    else
+      return {};
+  }
 
  private:
   BoxStore store_;

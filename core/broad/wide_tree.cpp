@@ -164,6 +164,17 @@ void WideTree::validate() const {
   if (!levels_.empty() && levels_.back().size > 1) throw std::logic_error("tree: more than one root");
 }
 
+void WideTree::picture(std::vector<std::vector<Aabb>>& nodes) const {
+  if (nodes.size() + 1 < levels_.size()) nodes.resize(levels_.size() - 1);
+  for (std::size_t l = 1; l < levels_.size(); ++l)
+    for (std::size_t i = 0; i < levels_[l].size; ++i) {
+      Aabb b;
+      for (int k = 0; k < 3; ++k)
+        b.lo[k] = value_of(levels_[l].lo[k][i]), b.hi[k] = value_of(levels_[l].hi[k][i]);
+      nodes[l - 1].push_back(b);
+    }
+}
+
 std::size_t WideTree::memory_bytes() const {
   std::size_t sum = (order_.capacity() + scratch_.capacity()) * sizeof(KeyedSlot) +
                     position_.capacity() * sizeof(std::uint32_t) + probe_.memory_bytes();

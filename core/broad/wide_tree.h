@@ -33,6 +33,8 @@ class WideTree {
   /// decayed.
   double decay() const { return built_reach_ > 0 ? reach() / built_reach_ : 1; }
   void validate() const;
+  /// Adds the boxes of the nodes, by level, lowest first.
+  void picture(std::vector<std::vector<Aabb>>& nodes) const;
   std::size_t memory_bytes() const;
 
  private:

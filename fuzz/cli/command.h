@@ -29,5 +29,6 @@ Run declare_fuzz(CLI::App& app);
 Run declare_replay(CLI::App& app);
 Run declare_shrink(CLI::App& app);
 Run declare_triage(CLI::App& app);
+Run declare_view(CLI::App& app);
 
 }  // namespace touchstone::cli

@@ -16,6 +16,7 @@ constexpr Command table[] = {
     {"shrink", "the smallest case that shows the same finding", declare_shrink},
     {"triage", "the findings of a campaign against the ledger of known ones: new, known, gone",
      declare_triage},
+    {"view", "a page that shows what the broad phase makes of a scene", declare_view},
     {"check", "is a stored certificate a proof? in exact arithmetic, from the scene alone", declare_check},
     {"engines", "the engines present, their versions, settings and tolerances", declare_engines},
     {"families", "the families of random cases, a line each", declare_families},

@@ -104,12 +104,19 @@ int main(int argc, char** argv) {
   Totals t;
   std::uint64_t seed = first;
   for (; cpu_minutes() < minutes; ++seed)
-    for (const CatalogRow& row : catalog)
-      if (!run_script(row, seed, t) || !run_crowd(row, seed, t)) {
+    for (const CatalogRow& row : catalog) {
+      bool right = false;
+      try {
+        right = run_script(row, seed, t) && run_crowd(row, seed, t);
+      } catch (const std::exception& e) {
+        std::printf("%s\n", e.what());
+      }
+      if (!right) {
         std::printf("%s differs, seed %llu: %ld missed, %ld superfluous\n", std::string(row.name).c_str(),
                     static_cast<unsigned long long>(seed), t.missed, t.superfluous);
         return 1;
       }
+    }
   std::printf(
       "%.1f CPU minutes, seeds %llu to %llu, %zu methods: scripts %ld queries, %ld pairs of %ld; crowds %ld "
       "queries, %ld pairs of %ld; 0 missed, 0 superfluous\n",

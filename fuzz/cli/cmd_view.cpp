@@ -1,0 +1,88 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+
+#include "core/base/input_error.h"
+#include "core/scene/real_scene.h"
+#include "fuzz/cli/command.h"
+#include "fuzz/explore/broad_view.h"
+#include "reports/broad_page.h"
+#include "scenarios/case_codec.h"
+#include "scenarios/catalog.h"
+
+namespace touchstone::cli {
+namespace {
+
+struct Options {
+  std::string scene, out, methods = "automatic,sort_and_sweep,hierarchical_grid,bounding_volume_hierarchy";
+  int frames = 100;
+  bool broad = false, json = false;
+};
+
+// A file, the name of a scenario, or the directory of a recorded scene: whatever replay takes.
+Scene scene_named(const Options& o) {
+  if (std::filesystem::exists(std::filesystem::path(o.scene) / "scene.txt")) {
+    const RealScene real = load_real_scene(o.scene);
+    Scene scene = real.script(0, std::min(o.frames, real.frame_count()) - 1);
+    scene.name = real.name;
+    return scene;
+  }
+  Case c;
+  if (!std::filesystem::exists(o.scene))
+    for (const auto& s : scenarios::catalog())
+      if (s.name == o.scene) c = s.make();
+  if (c.scene.bodies.empty()) c = load_case(o.scene);
+  if (c.scene.name.empty()) c.scene.name = std::filesystem::path(o.scene).stem().string();
+  return c.scene;
+}
+
+std::vector<std::string> split(const std::string& s) {
+  std::vector<std::string> all;
+  for (std::size_t at = 0; at <= s.size();) {
+    const std::size_t end = std::min(s.find(',', at), s.size());
+    all.push_back(s.substr(at, end - at)), at = end + 1;
+  }
+  return all;
+}
+
+int run(const Options& o) {
+  if (!o.broad) throw InputError("view", "say what to show: --broad");
+  if (o.out.empty() && !o.json) throw InputError("view", "say where to write the page: -o FILE");
+  const fuzz::BroadView view =
+      fuzz::broad_view(scene_named(o), split(o.methods), static_cast<std::size_t>(o.frames));
+  if (view.frames.empty()) throw InputError(o.scene, "its script has no query: nothing to show");
+  if (!o.out.empty()) {
+    std::ofstream file(o.out, std::ios::binary);
+    file << reports::broad_page(view);
+    if (!file.flush()) throw InputError(o.out, "cannot be written");
+  }
+  const auto& last = view.frames.back();
+  if (o.json)
+    fmt::print("{}\n", fuzz::to_json(view).dump(1));
+  else
+    fmt::print("{}: {} bodies, {} queries; at the last, {} pairs kept of {}\n", view.name, view.bodies.size(),
+               view.frames.size(), last.kept.size(), last.all_pairs);
+  return exit_clean;
+}
+
+}  // namespace
+
+Run declare_view(CLI::App& app) {
+  auto o = std::make_shared<Options>();
+  app.add_option(
+         "scene", o->scene,
+         "case or scene file, name of a scenario, or directory of a recorded scene (scene.txt, frames.npy)")
+      ->required();
+  app.add_flag("--broad", o->broad, "boxes, intervals, cells or trees, candidate pairs kept and pruned");
+  app.add_option("-o,--out", o->out, "the page to write (HTML, loads nothing)");
+  app.add_option("--method", o->methods, "broad phases to show, separated by commas")->capture_default_str();
+  app.add_option("--frames", o->frames, "queries to show, the first ones")
+      ->check(CLI::Range(1, 10000))
+      ->capture_default_str();
+  app.add_flag("--json", o->json, "what the page is drawn from, as one JSON document on stdout");
+  return [o] { return run(*o); };
+}
+
+}  // namespace touchstone::cli

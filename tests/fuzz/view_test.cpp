@@ -1,0 +1,107 @@
+// `touchstone view SCENE --broad`: the page's data against two loops over its own boxes, and refusals.
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <array>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "tests/support/catch.h"
+
+namespace fs = std::filesystem;
+
+namespace {
+
+using Json = nlohmann::json;
+
+std::string read_all(const fs::path& p) {
+  std::ifstream f(p, std::ios::binary);
+  return {std::istreambuf_iterator<char>(f), {}};
+}
+
+struct Folder {
+  fs::path dir = fs::temp_directory_path() / ("touchstone-view-" + std::to_string(getpid()));
+  Folder() { fs::remove_all(dir), fs::create_directories(dir); }
+  ~Folder() { fs::remove_all(dir); }
+  int run(const std::string& args) const {
+    const int status = std::system(("cd " + dir.string() + " && " TS_BINARY_DIR "/bin/touchstone view " +
+                                    args + " >out.txt 2>err.txt </dev/null")
+                                       .c_str());
+    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+  }
+  std::string err() const { return read_all(dir / "err.txt"); }
+};
+
+Json data_of(const std::string& page) {
+  const std::string open = "id=\"data\">";
+  const auto from = page.find(open) + open.size();
+  return Json::parse(page.substr(from, page.find("</script>", from) - from));
+}
+
+bool meet(const Json& a, const Json& b, std::size_t axis) {
+  constexpr double inf = std::numeric_limits<double>::infinity();
+  const auto low = [&](const Json& x) { return x[0][axis].is_null() ? -inf : x[0][axis].get<double>(); };
+  const auto high = [&](const Json& x) { return x[1][axis].is_null() ? inf : x[1][axis].get<double>(); };
+  return low(a) <= high(b) && low(b) <= high(a);
+}
+
+}  // namespace
+
+TEST_CASE("the page's pairs are those of two loops over its boxes", "[cli][view]") {
+  const Folder folder;
+  long kept = 0, pruned = 0;
+  for (const std::string scene : {"thousand_balls", "cubes_fill_space", "around_the_origin"}) {
+    INFO(scene);
+    REQUIRE(folder.run(scene + " --broad -o page.html") == 0);
+    const std::string page = read_all(folder.dir / "page.html");
+    CHECK(page.find("http") == std::string::npos);  // loads nothing
+    const Json data = data_of(page);
+    REQUIRE(data["methods"].size() == 4);
+    for (const Json& f : data["frames"]) {
+      Json expected = Json::array();
+      std::array<long, 3> on_axis{};
+      const Json& boxes = f["boxes"];
+      for (std::size_t a = 0; a < boxes.size(); ++a)
+        for (std::size_t b = a + 1; b < boxes.size(); ++b) {
+          if (boxes[a].is_null() || boxes[b].is_null()) continue;
+          bool all = true;
+          for (std::size_t k = 0; k < 3; ++k) {
+            const bool here = meet(boxes[a], boxes[b], k);
+            on_axis[k] += here ? 1 : 0, all &= here;
+          }
+          if (all) expected.push_back({a, b});
+        }
+      CHECK(f["kept"] == expected);
+      CHECK(f["overlap_on_axis"] == Json(on_axis));
+      for (const Json& look : f["looks"]) {
+        CHECK(look["considered"].get<long>() >= static_cast<long>(expected.size()));
+        CHECK(look["considered"].get<long>() <= f["all_pairs"].get<long>());
+        for (const Json& p : look["pruned"]) {
+          const Json &a = boxes[p[0].get<std::size_t>()], &b = boxes[p[1].get<std::size_t>()];
+          CHECK_FALSE((meet(a, b, 0) && meet(a, b, 1) && meet(a, b, 2)));
+          ++pruned;
+        }
+      }
+      kept += static_cast<long>(expected.size());
+    }
+  }
+  CHECK(kept > 1000);
+  CHECK(pruned > 1000);
+}
+
+TEST_CASE("view refuses what it cannot show, with place and reason", "[cli][view]") {
+  const Folder folder;
+  CHECK(folder.run("thousand_balls -o page.html") == 2);
+  CHECK(folder.run("thousand_balls --broad") == 2);
+  CHECK(folder.run("thousand_balls --broad -o page.html --method fastest") == 2);
+  CHECK(folder.err().find("fastest: unknown; expected automatic") != std::string::npos);
+  CHECK(folder.run("no_such_scene --broad -o page.html") == 2);
+  CHECK(folder.err().find("no_such_scene") != std::string::npos);
+  CHECK(folder.run("thousand_balls --broad -o no/such/folder/page.html") == 2);
+  CHECK(folder.err().find("cannot be written") != std::string::npos);
+  CHECK_FALSE(fs::exists(folder.dir / "page.html"));
+}
