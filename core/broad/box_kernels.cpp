@@ -16,7 +16,8 @@ namespace hn = hwy::HWY_NAMESPACE;
 
 static_assert(sizeof(Aabb) == 6 * sizeof(double));
 
-#if HWY_TARGET == HWY_SCALAR || HWY_TARGET == HWY_SSSE3 || HWY_TARGET == HWY_SSE4 || HWY_TARGET == HWY_NEON
+// Four doubles or eight keys at once: AVX2 and its betters, which Highway numbers below it.
+#if !(HWY_ARCH_X86 && HWY_TARGET <= HWY_AVX2)
 HWY_INLINE void put(const Aabb& box, Aabb& old, KeyBox& key, float& step) {
   double most = 0;
   for (int k = 0; k < 3; ++k) {

@@ -28,7 +28,8 @@ std::string describe(Refusal why, int id) {
 
 // False for a NaN too.
 bool is_box(const Aabb& b) {
-  return (b.lo.x() <= b.hi.x()) & (b.lo.y() <= b.hi.y()) & (b.lo.z() <= b.hi.z());
+  const int x = b.lo.x() <= b.hi.x(), y = b.lo.y() <= b.hi.y(), z = b.lo.z() <= b.hi.z();
+  return (x & y & z) != 0;
 }
 
 }  // namespace

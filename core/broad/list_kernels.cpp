@@ -29,7 +29,8 @@ HWY_INLINE void sort_few(const std::uint32_t* from, std::size_t n, std::uint32_t
   }
 }
 
-#if HWY_TARGET == HWY_SCALAR || HWY_TARGET == HWY_SSSE3 || HWY_TARGET == HWY_SSE4 || HWY_TARGET == HWY_NEON
+// Eight lanes: AVX2 and its betters, which Highway numbers below it.
+#if !(HWY_ARCH_X86 && HWY_TARGET <= HWY_AVX2)
 constexpr bool wide = false;
 
 HWY_INLINE void sort_eight(const std::uint32_t*, std::size_t, std::uint32_t*) {}
