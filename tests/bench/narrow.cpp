@@ -92,24 +92,26 @@ std::uint64_t tick() {
 #endif
 }
 
-double cpu_ns() {
+double now_ns(clockid_t clock) {
   timespec t;
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
+  clock_gettime(clock, &t);
   return 1e9 * static_cast<double>(t.tv_sec) + static_cast<double>(t.tv_nsec);
 }
+double cpu_ns() { return now_ns(CLOCK_THREAD_CPUTIME_ID); }
+double wall_ns() { return now_ns(CLOCK_MONOTONIC); }
 
 // Ticks that an empty measurement shows, and nanoseconds a tick.
 struct Clock {
   double overhead = 0, ns = 1;
   Clock() {
-    const double start = cpu_ns();
+    const double start = wall_ns();
     const std::uint64_t from = tick();
     std::uint64_t least = ~std::uint64_t{0};
-    while (cpu_ns() - start < 5e7) {
+    while (wall_ns() - start < 5e7) {
       const std::uint64_t t = tick();
       least = std::min(least, tick() - t);
     }
-    ns = (cpu_ns() - start) / static_cast<double>(tick() - from);
+    ns = (wall_ns() - start) / static_cast<double>(tick() - from);
     overhead = static_cast<double>(least);
   }
 };

@@ -182,6 +182,8 @@ TEST_CASE("manifold points lie on both bodies within half the depth", "[narrow][
     for (const ContactPoint& m : c.manifold) {
       ++points;
       const PlacedShape point{&probe, {m.position, {}}};
+      INFO(type_name(p.a) << " " << type_name(p.b) << " depth " << c.depth << " points " << c.manifold.size()
+                          << " id " << m.feature);
       CHECK(distance(point, p.placed_a()).distance <= c.depth + tau_of(p));
       CHECK(distance(point, p.placed_b()).distance <= c.depth + tau_of(p));
     }
