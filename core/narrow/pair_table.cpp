@@ -101,15 +101,14 @@ void separate_fast(const PlacedShape& a, const PlacedShape& b, fast::Asked asked
   out.mirrored = i > j;
   const fast::Function<R> f = function_of<R>(out.mirrored ? table[j][i] : table[i][j]);
   if (!f) return;
-  const fast::Stand<R> sa = fast::stand<R>(a.pose), sb = fast::stand<R>(b.pose);
-  if (!out.mirrored) {
-    out.answer = f(*a.shape, sa, *b.shape, sb, asked, out.scene);
-    return;
-  }
-  fast::Answer<R> r = f(*b.shape, sb, *a.shape, sa, asked, out.scene);
-  const V3<R> shift = sb.t - sa.t;
-  out.answer = r;
-  out.answer.normal = -r.normal, out.answer.a = r.b + shift, out.answer.b = r.a + shift;
+  if (!out.mirrored) return f(a, b, asked, out.answer, out.scene);
+  fast::Answer<R>& r = out.answer;
+  r.normal = r.a = r.b = V3<R>::Zero();
+  f(b, a, asked, r, out.scene);
+  const V3<R> shift = b.pose.translation.cast<R>() - a.pose.translation.cast<R>();
+  r.normal = -r.normal;
+  r.a += shift, r.b += shift;
+  r.a.swap(r.b);
 }
 
 template bool has_fast<double>(ShapeKind, ShapeKind);

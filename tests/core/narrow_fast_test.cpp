@@ -70,7 +70,7 @@ void check_pair(const Pair& p, Count& count) {
   ++count.answered;
   count.depths += gap < 0;
   const double bound = static_cast<double>(s.bound), tau = tolerance::core_tau_factor * fast::u<R> * scale;
-  CHECK(bound <= tau * 1.01);
+  CHECK(bound <= tau * (sizeof(R) == sizeof(float) ? 2.02 : 1.01));
   CHECK(std::abs(static_cast<double>(s.gap) - gap) <= bound + slack);
   if (s.found == fast::Found::apart) CHECK(gap > 0);
   if (s.found == fast::Found::meeting) CHECK(gap <= 0);
@@ -109,7 +109,7 @@ TEST_CASE("in double, a fast answer is within the bound that it states", "[narro
                << " depths");
   WARN(c.asked << " asked, " << c.answered << " values, " << c.verdicts << " verdicts, " << c.depths
                << " depths");
-  CHECK(c.answered > c.asked / 3);
+  CHECK(c.answered > c.asked * 9 / 10);
   CHECK(c.verdicts > c.asked / 2);
   CHECK(c.depths > c.answered / 4);
 }
@@ -120,6 +120,6 @@ TEST_CASE("in float, an answer is within the bound that it states", "[narrow][fa
                << " depths");
   WARN(c.asked << " asked, " << c.answered << " values, " << c.verdicts << " verdicts, " << c.depths
                << " depths");
-  CHECK(c.answered > c.asked / 3);
+  CHECK(c.answered > c.asked * 9 / 10);
   CHECK(c.depths > c.answered / 4);
 }

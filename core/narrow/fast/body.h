@@ -56,7 +56,28 @@ inline std::size_t farthest_vertex(std::span<const Vec3> v, const V3<double>& d)
   return best;
 }
 
-/// The same in float, for vertices rounded to float.
+/// Square of the largest distance from the origin.
+inline double largest_norm_sq(std::span<const Vec3> v) {
+  double most = 0;
+  std::size_t i = 0;
+#if defined(__SSE2__)
+  const double* p = v.front().data();
+  __m128d top = _mm_setzero_pd();
+  for (; i + 2 <= v.size(); i += 2, p += 6) {
+    const __m128d l0 = _mm_loadu_pd(p), l1 = _mm_loadu_pd(p + 2), l2 = _mm_loadu_pd(p + 4);
+    const __m128d xy = _mm_mul_pd(l0, l0), zx = _mm_mul_pd(l1, l1), yz = _mm_mul_pd(l2, l2);
+    const __m128d sum = _mm_add_pd(_mm_shuffle_pd(xy, zx, 2), _mm_shuffle_pd(xy, yz, 1));
+    top = _mm_max_pd(top, _mm_add_pd(sum, _mm_shuffle_pd(zx, yz, 2)));
+  }
+  double tops[2];
+  _mm_storeu_pd(tops, top);
+  most = std::max(tops[0], tops[1]);
+#endif
+  for (; i < v.size(); ++i) most = std::max(most, v[i].squaredNorm());
+  return most;
+}
+
+/// farthest_vertex in float, for vertices rounded to float.
 inline std::size_t farthest_vertex(std::span<const Vec3> v, const V3<float>& d) {
   std::size_t best = 0;
   float most = -std::numeric_limits<float>::infinity();
@@ -162,9 +183,7 @@ Body<R> make_body(const Shape& shape) {
       break;
     default: {
       c.kind = CoreKind::vertices, c.vertices = std::get_if<Hull>(&shape)->vertices;
-      double far_sq = 0;
-      for (const Vec3& v : c.vertices) far_sq = std::max(far_sq, v.squaredNorm());
-      c.reach = c.extent = static_cast<R>(std::sqrt(far_sq));
+      c.reach = c.extent = static_cast<R>(std::sqrt(largest_norm_sq(c.vertices)));
     }
   }
   return c;

@@ -19,28 +19,27 @@ R largest(const V3<R>& v) {
 
 /// From core points pa, pb (b − a = dist·n) to the rounded bodies; `scale` as in accuracy().
 template <class R>
-Answer<R> inflate(R dist, const V3<R>& n, const V3<R>& pa, const V3<R>& pb, R ra, R rb, R error, R scale) {
-  Answer<R> s;
+void inflate(Answer<R>& s, R dist, const V3<R>& n, const V3<R>& pa, const V3<R>& pb, R ra, R rb, R error,
+             R scale) {
   s.gap = dist - (ra + rb), s.normal = n, s.bound = error;
   s.a = pa + ra * n, s.b = pb - rb * n;
-  s.found = error <= accuracy(scale) ? decide(s.gap, error) : Found::unsure;
-  return s;
+  s.found = accepted(error, scale) ? decide(s.gap, error) : Found::unsure;
 }
 
 }  // namespace detail
 
 template <class R>
-Answer<R> sphere_sphere(const Shape& sa, const Stand<R>& a, const Shape& sb, const Stand<R>& b) {
+void sphere_sphere(const Shape& sa, const Stand<R>& a, const Shape& sb, const Stand<R>& b, Answer<R>& out) {
   const R ra = static_cast<R>(std::get_if<Sphere>(&sa)->radius),
           rb = static_cast<R>(std::get_if<Sphere>(&sb)->radius);
   const V3<R> d = b.t - a.t;
   const R dist = d.norm();
-  return detail::inflate<R>(dist, dist > 0 ? V3<R>(d / dist) : V3<R>::UnitX(), V3<R>::Zero(), d, ra, rb,
-                            u<R> * (8 * dist + 4 * (ra + rb)), std::max(std::max(ra, rb), dist * R(0.28)));
+  detail::inflate<R>(out, dist, dist > 0 ? V3<R>(d / dist) : V3<R>::UnitX(), V3<R>::Zero(), d, ra, rb,
+                     u<R> * (8 * dist + 4 * (ra + rb)), std::max(std::max(ra, rb), dist * R(0.28)));
 }
 
 template <class R>
-Answer<R> sphere_box(const Shape& sa, const Stand<R>& a, const Shape& sb, const Stand<R>& b) {
+void sphere_box(const Shape& sa, const Stand<R>& a, const Shape& sb, const Stand<R>& b, Answer<R>& out) {
   const R r = static_cast<R>(std::get_if<Sphere>(&sa)->radius);
   const V3<R> h = std::get_if<Box>(&sb)->half_extents.template cast<R>(), d = b.t - a.t;
   const M3<R> m = matrix(b);
@@ -50,19 +49,17 @@ Answer<R> sphere_box(const Shape& sa, const Stand<R>& a, const Shape& sb, const 
   const R far = d.norm(), error = u<R> * (24 * far + 4 * r + 2 * detail::largest(h));
   const R dist = v.norm();
   if (dist > 0)
-    return detail::inflate<R>(dist, m * (v / dist), V3<R>::Zero(), m * q + d, r, R(0), error,
+    return detail::inflate<R>(out, dist, m * (v / dist), V3<R>::Zero(), m * q + d, r, R(0), error,
                               std::max(std::max(r, detail::largest(h)), far * R(0.28)));
   int axis = 0;
   const R depth = (h - p.cwiseAbs()).minCoeff(&axis);
   const V3<R> n = m.col(axis) * (p[axis] < 0 ? R(1) : R(-1));
-  Answer<R> s;
-  s.gap = -depth - r, s.normal = n, s.a = r * n, s.b = -depth * n;
-  s.bound = error, s.found = decide(s.gap, error);
-  return s;
+  out.gap = -depth - r, out.normal = n, out.a = r * n, out.b = -depth * n;
+  out.bound = error, out.found = decide(out.gap, error);
 }
 
 template <class R>
-Answer<R> sphere_capsule(const Shape& sa, const Stand<R>& a, const Shape& sb, const Stand<R>& b) {
+void sphere_capsule(const Shape& sa, const Stand<R>& a, const Shape& sb, const Stand<R>& b, Answer<R>& out) {
   const auto& capsule = *std::get_if<Capsule>(&sb);
   const R ra = static_cast<R>(std::get_if<Sphere>(&sa)->radius), rb = static_cast<R>(capsule.radius);
   const R h = static_cast<R>(capsule.half_height);
@@ -74,9 +71,9 @@ Answer<R> sphere_capsule(const Shape& sa, const Stand<R>& a, const Shape& sb, co
   const R dist = v.norm();
   const V3<R> n = dist > 0 ? V3<R>(v / dist) : V3<R>(axis.unitOrthogonal());
   const R shortfall = std::max<R>(0, dist - (n.dot(d) - std::abs(n.dot(axis)) * h));
-  return detail::inflate<R>(dist, n, V3<R>::Zero(), q, ra, rb,
-                            shortfall + u<R> * (16 * d.norm() + 24 * h + 4 * (ra + rb)),
-                            std::max(std::max(ra, rb + h), detail::largest(d) / 2));
+  detail::inflate<R>(out, dist, n, V3<R>::Zero(), q, ra, rb,
+                     shortfall + u<R> * (16 * d.norm() + 24 * h + 4 * (ra + rb)),
+                     std::max(std::max(ra, rb + h), detail::largest(d) / 2));
 }
 
 namespace detail {
@@ -132,7 +129,7 @@ SegmentFeet<R> segment_feet(const SegmentPair<R>& p) {
 }  // namespace detail
 
 template <class R>
-Answer<R> capsule_capsule(const Shape& sa, const Stand<R>& a, const Shape& sb, const Stand<R>& b) {
+void capsule_capsule(const Shape& sa, const Stand<R>& a, const Shape& sb, const Stand<R>& b, Answer<R>& out) {
   const auto &ca = *std::get_if<Capsule>(&sa), &cb = *std::get_if<Capsule>(&sb);
   const detail::SegmentPair<R> p{axis_z(a), axis_z(b), b.t - a.t, static_cast<R>(ca.half_height),
                                  static_cast<R>(cb.half_height)};
@@ -141,9 +138,9 @@ Answer<R> capsule_capsule(const Shape& sa, const Stand<R>& a, const Shape& sb, c
   const V3<R>& n = f.normal;
   const R lower = n.dot(p.d) - std::abs(n.dot(p.axis_a)) * p.ha - std::abs(n.dot(p.axis_b)) * p.hb;
   const R error = u<R> * (8 * p.d.norm() + 24 * (p.ha + p.hb) + 4 * (ra + rb));
-  return detail::inflate<R>(f.dist, n, f.s * p.axis_a, p.d + f.t * p.axis_b, ra, rb,
-                            std::max<R>(0, f.dist - lower) + error,
-                            std::max(std::max(ra + p.ha, rb + p.hb), detail::largest(p.d) / 2));
+  detail::inflate<R>(out, f.dist, n, f.s * p.axis_a, p.d + f.t * p.axis_b, ra, rb,
+                     std::max<R>(0, f.dist - lower) + error,
+                     std::max(std::max(ra + p.ha, rb + p.hb), detail::largest(p.d) / 2));
 }
 
 }  // namespace touchstone::narrow::fast

@@ -39,20 +39,35 @@ struct Corner {
   std::uint32_t id;
 };
 
+/// Copies only what is there: the storage is thirteen hundred bytes.
 template <class R>
-struct Corners {
+class Corners {
+ public:
   static constexpr int capacity = 40;
-  std::array<Corner<R>, capacity> c;
   int size = 0;
   bool overflow = false;
+  Corners() {}
+  Corners(const Corners& o) { *this = o; }
+  Corners& operator=(const Corners& o) {
+    size = o.size, overflow = o.overflow;
+    std::copy(o.begin(), o.end(), c_.begin());
+    return *this;
+  }
   void add(const Corner<R>& x) {
     if (size < capacity)
-      c[static_cast<std::size_t>(size++)] = x;
+      c_[static_cast<std::size_t>(size++)] = x;
     else
       overflow = true;
   }
-  Corner<R>& operator[](int i) { return c[static_cast<std::size_t>(i)]; }
-  const Corner<R>& operator[](int i) const { return c[static_cast<std::size_t>(i)]; }
+  Corner<R>& operator[](int i) { return c_[static_cast<std::size_t>(i)]; }
+  const Corner<R>& operator[](int i) const { return c_[static_cast<std::size_t>(i)]; }
+  Corner<R>* begin() { return c_.data(); }
+  Corner<R>* end() { return c_.data() + size; }
+  const Corner<R>* begin() const { return c_.data(); }
+  const Corner<R>* end() const { return c_.data() + size; }
+
+ private:
+  std::array<Corner<R>, capacity> c_;
 };
 
 template <class R>
@@ -70,11 +85,11 @@ R turn(const Corner<R>& a, const Corner<R>& b, const Corner<R>& c) {
 template <class R>
 void convex_order(Corners<R>& p, R tolerance) {
   if (p.size < 2) return;
-  std::sort(p.c.begin(), p.c.begin() + p.size, [](const Corner<R>& a, const Corner<R>& b) {
+  std::sort(p.begin(), p.end(), [](const Corner<R>& a, const Corner<R>& b) {
     return a.x != b.x ? a.x < b.x : (a.y != b.y ? a.y < b.y : a.id < b.id);
   });
   Corners<R> h;
-  std::array<int, 2 * Corners<R>::capacity + 2> chain{};
+  std::array<int, 2 * Corners<R>::capacity + 2> chain;
   int n = 0;
   const auto push = [&](int i, int floor) {
     while (n >= floor + 2) {
@@ -106,7 +121,7 @@ class FeatureCorners {
     top_ = d_.dot(support_local<R>(c, d_));
   }
 
-  Corners<R> collect() {
+  const Corners<R>& collect() {
     const V3<R>& s = c_.size;
     const R flat = std::sqrt(d_[0] * d_[0] + d_[1] * d_[1]);
     switch (c_.kind) {
@@ -184,7 +199,7 @@ class FeatureCorners {
     if (frees != 2 || out_.size < 4)
       convex_order(out_, tolerance_);
     else if (turn(out_[0], out_[1], out_[2]) < 0)
-      std::reverse(out_.c.begin(), out_.c.begin() + out_.size);
+      std::reverse(out_.begin(), out_.end());
   }
 
   const Body<R>& c_;
@@ -287,11 +302,6 @@ Patch<R> contact_patch(const Body<R>& a, const Body<R>* b, const Relative<R>& at
   if (region.size == 0 && middle) {
     patch.point[0] = {*middle, depth, 0}, patch.size = 1;
     return patch;
-  }
-  if (region.size == 0) {
-    const bool vertex_of_a = fa.size == 1;
-    region = vertex_of_a || !b ? fa : (fb.size > 0 ? fb : of_b(tolerance));
-    region.size = std::min(region.size, 1);
   }
   // Height of A's support plane above plane.origin is the ball's radius.
   const int step = (region.size + Patch<R>::capacity - 1) / Patch<R>::capacity;

@@ -94,7 +94,7 @@ template <class R>
 struct Answer {
   Found found = Found::unsure;
   R gap = 0;
-  V3<R> normal = V3<R>::Zero(), a = V3<R>::Zero(), b = V3<R>::Zero();
+  V3<R> normal, a, b;  // set when a value was asked and is known
   /// |gap − truth|; for a depth also: its excess over the least depth, and what is missing along `normal`.
   R bound = std::numeric_limits<R>::infinity();
 };
@@ -109,6 +109,13 @@ R displacement_of(R reach_a, R reach_b, R offset) {
 template <class R>
 R accuracy(R scale) {
   return R(tolerance::core_tau_factor) * u<R> * scale;
+}
+
+/// Whether an answer of that bound is given. Float has no one to ask: it answers up to 2τ and states the
+/// bound, of which rounding of the input, that hardly ever adds up, is the larger part.
+template <class R>
+bool accepted(R bound, R scale) {
+  return bound <= accuracy(scale) * (sizeof(R) == sizeof(float) ? 2 : 1);
 }
 
 template <class R>

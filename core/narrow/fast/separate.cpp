@@ -33,15 +33,15 @@ void to_world(Answer<R>& r, const PairScene<R>& s, R l, Asked asked) {
   const bool verdict_is_enough = asked == Asked::contact && r.found == Found::apart;
   if (verdict_is_enough) return;
   const R tau = accuracy(l);
-  if (!(r.bound <= tau)) r.found = Found::unsure;
+  if (!accepted(r.bound, l)) r.found = Found::unsure;
   if ((asked == Asked::distance || s.has_middle) &&
       !(std::abs((r.b - r.a).norm() - std::abs(r.gap)) <= tau / 4))
     r.found = Found::unsure;
 }
 
 template <class R>
-Answer<R> from_walk(const Walk<R>& g, PairScene<R>& s, R error) {
-  Answer<R> r;
+void from_walk(const Walk<R>& g, R error, Answer<R>& r, PairScene<R>& s) {
+  r.a.setZero();
   V3<R> v = V3<R>::Zero();
   for (int i = 0; i < g.simplex.size; ++i) {
     const auto k = static_cast<std::size_t>(i);
@@ -56,92 +56,105 @@ Answer<R> from_walk(const Walk<R>& g, PairScene<R>& s, R error) {
   r.a += s.a.radius * d, r.b -= s.b.radius * d;
   r.bound = error + std::max<R>(0, g.upper - g.lower);
   s.middle = (r.a + r.b) / 2, s.has_middle = true;
-  return r;
 }
 
 template <class R>
-Answer<R> from_depth(const Depth<R>& e, PairScene<R>& s, R error) {
-  Answer<R> r;
-  if (e.end == ExpandEnd::flat) return r;
+void from_depth(const Depth<R>& e, R error, Answer<R>& r, PairScene<R>& s) {
   s.normal = r.normal = -e.outward;
   r.gap = -e.upper - s.a.radius - s.b.radius;
   r.a = e.a + s.a.radius * r.normal, r.b = e.a + e.w - s.b.radius * r.normal;
   r.bound = error + std::max<R>(0, e.upper - e.lower);
   s.middle = (r.a + r.b) / 2, s.has_middle = true;
-  return r;
 }
 
 }  // namespace
 
 template <class R>
-Answer<R> convex_pair(const Shape& sa, const Stand<R>& a, const Shape& sb, const Stand<R>& b, Asked asked,
-                      PairScene<R>& s) {
-  prepare(sa, a, sb, b, s), s.contact = ContactForm::cores;
+void convex_pair(const PlacedShape& pa, const PlacedShape& pb, Asked asked, Answer<R>& r, PairScene<R>& s) {
+  const Stand<R> a = stand<R>(pa.pose), b = stand<R>(pb.pose);
+  prepare(*pa.shape, a, *pb.shape, b, s), s.contact = ContactForm::cores;
   const Difference<R> d{s.a, s.b, s.at};
   const R error = displacement(s), radii = s.a.radius + s.b.radius;
   const R size = s.a.reach + s.b.reach + s.at.offset.norm();
   const R tolerance = accuracy(local_scale(s)) / 8;
   const R certain = asked == Asked::distance ? std::numeric_limits<R>::infinity() : error + radii;
   const Walk<R> g = walk<R>(d, tolerance, certain, 4 * u<R> * size);
-  Answer<R> r;
+  r.bound = error;
   if (g.lower > certain) {
-    r.found = Found::apart, r.bound = error;
-    return r;
+    r.found = Found::apart;
+    return;
   }
-  if (asked == Asked::overlap &&
-      (g.upper < radii - error || (g.end == WalkEnd::enclosed && g.margin + radii > error))) {
-    r.found = Found::meeting, r.bound = error;
-    return r;
+  const bool inside = g.end == WalkEnd::enclosed && g.margin + radii > error;
+  if (asked == Asked::overlap && (g.upper < radii - error || inside)) {
+    r.found = Found::meeting;
+    return;
   }
   if (g.end == WalkEnd::enclosed || g.end == WalkEnd::touching) {
     Expander<R> polytope(d, size, tolerance);
-    r = from_depth(polytope.run(g.simplex, g.end == WalkEnd::enclosed), s, error);
+    const Depth<R> e = polytope.run(g.simplex, g.end == WalkEnd::enclosed);
+    if (e.end == ExpandEnd::flat) return;
+    from_depth(e, error, r, s);
   } else {
-    r = from_walk(g, s, error);
+    from_walk(g, error, r, s);
   }
   to_world(r, s, scale(s.a, s.b, a, b), asked);
-  return r;
 }
 
+namespace {
+
 template <class R>
-Answer<R> box_box(const Shape& sa, const Stand<R>& a, const Shape& sb, const Stand<R>& b, Asked asked,
-                  PairScene<R>& s) {
-  const BoxPair<R> p = box_pair(sa, a, sb, b);
-  Answer<R> r;
+bool in_box(const V3<R>& p, const V3<R>& h, R tolerance) {
+  return ((p.cwiseAbs() - h).array() <= tolerance).all();
+}
+
+// Deepest points of two overlapping boxes, from their manifold; false when it does not show them.
+template <class R>
+bool box_witnesses(const BoxPair<R>& p, PairScene<R>& s, Answer<R>& r) {
+  const Patch<R> patch = contact_patch<R>(s.a, &s.b, s.at, s.normal, r.gap, nullptr);
+  if (patch.size == 0) return false;
+  std::size_t best = 0;
+  for (std::size_t i = 1; i < static_cast<std::size_t>(patch.size); ++i)
+    if (patch.point[i].depth > patch.point[best].depth) best = i;
+  r.a = patch.point[best].p - s.normal * (r.gap / 2);
+  r.b = r.a + s.normal * r.gap;
+  const R tolerance = p.displacement / 4;
+  return in_box<R>(r.a, p.ha, tolerance) &&
+         in_box<R>(s.at.b_to_a.transpose() * (r.b - s.at.offset), p.hb, tolerance);
+}
+
+}  // namespace
+
+template <class R>
+void box_box(const PlacedShape& pa, const PlacedShape& pb, Asked asked, Answer<R>& r, PairScene<R>& s) {
+  const Stand<R> a = stand<R>(pa.pose), b = stand<R>(pb.pose);
+  const BoxPair<R> p = box_pair(*pa.shape, a, *pb.shape, b);
+  r.bound = p.displacement;
   if (asked == Asked::overlap) {
-    r.found = boxes_meet(p), r.bound = p.displacement;
-    return r;
+    r.found = boxes_meet(p);
+    return;
   }
   const BoxAxis<R> axis = least_axis(p);
   if (axis.found == Found::apart) {
-    // Its separation bounds the distance from below only.
-    if (asked == Asked::distance) return convex_pair(sa, a, sb, b, asked, s);
     r.found = Found::apart;
-    return r;
+    // Its separation bounds the distance from below only.
+    if (asked == Asked::distance) convex_pair(pa, pb, asked, r, s);
+    return;
   }
-  s.a = make_body<R>(sa), s.b = make_body<R>(sb), s.at = p.at, s.contact = ContactForm::cores;
+  s.a = make_body<R>(*pa.shape), s.b = make_body<R>(*pb.shape), s.at = p.at, s.contact = ContactForm::cores;
   s.normal = r.normal = axis.normal, r.gap = axis.separation, r.bound = displacement(s) + p.displacement / 16;
-  if (asked == Asked::distance) {
-    const Patch<R> patch = contact_patch<R>(s.a, &s.b, s.at, s.normal, r.gap, nullptr);
-    int best = 0;
-    for (int i = 1; i < patch.size; ++i)
-      if (patch.point[static_cast<std::size_t>(i)].depth > patch.point[static_cast<std::size_t>(best)].depth)
-        best = i;
-    r.a = patch.point[static_cast<std::size_t>(best)].p - r.normal * (r.gap / 2);
-    r.b = r.a + r.normal * r.gap;
-  }
+  r.a = r.b = V3<R>::Zero();
+  if (asked == Asked::distance && !box_witnesses(p, s, r)) return convex_pair(pa, pb, asked, r, s);
   to_world(r, s, scale(s.a, s.b, a, b), asked);
-  return r;
 }
 
 template <class R>
-Answer<R> convex_half_space(const Shape& sa, const Stand<R>& a, const Shape& sb, const Stand<R>& b,
-                            Asked asked, PairScene<R>& s) {
-  s.a = make_body<R>(sa);
-  const HalfSpace& plane = *std::get_if<HalfSpace>(&sb);
+void convex_half_space(const PlacedShape& pa, const PlacedShape& pb, Asked asked, Answer<R>& r,
+                       PairScene<R>& s) {
+  const Stand<R> a = stand<R>(pa.pose), b = stand<R>(pb.pose);
+  s.a = make_body<R>(*pa.shape);
+  const HalfSpace& plane = *std::get_if<HalfSpace>(pb.shape);
   const double length = plane.normal.norm();
-  Answer<R> r;
-  if (!(length > 1e-100 && length < 1e100)) return r;
+  if (!(length > 1e-100 && length < 1e100)) return;
   const V3<R> m = (matrix(b) * (plane.normal / length).template cast<R>()).normalized();
   const R offset = static_cast<R>(plane.offset / length);
   s.at.a_to_world = matrix(a), s.contact = ContactForm::plane;
@@ -150,26 +163,18 @@ Answer<R> convex_half_space(const Shape& sa, const Stand<R>& a, const Shape& sb,
   r.a = s.at.a_to_world * support_local<R>(s.a, s.normal) + s.a.radius * n;
   r.gap = m.dot(r.a) - m.dot(d) - offset;
   r.b = r.a + r.gap * n;
-  const R reach = s.a.reach + s.a.radius, far = d.norm();
-  r.bound = u<R> * (48 * reach + 40 * far + 8 * std::abs(offset));
+  r.bound = u<R> * (48 * (s.a.reach + s.a.radius) + 40 * d.norm() + 8 * std::abs(offset));
   r.found = decide(r.gap, r.bound);
   s.b.extent = std::abs(offset);
-  const R l = scale(s.a, s.b, a, b);
-  if (asked != Asked::overlap && !(r.bound <= accuracy(l))) r.found = Found::unsure;
-  return r;
+  if (asked != Asked::overlap && !accepted(r.bound, scale(s.a, s.b, a, b))) r.found = Found::unsure;
 }
 
-template Answer<double> convex_pair(const Shape&, const Stand<double>&, const Shape&, const Stand<double>&,
-                                    Asked, PairScene<double>&);
-template Answer<float> convex_pair(const Shape&, const Stand<float>&, const Shape&, const Stand<float>&,
-                                   Asked, PairScene<float>&);
-template Answer<double> box_box(const Shape&, const Stand<double>&, const Shape&, const Stand<double>&, Asked,
-                                PairScene<double>&);
-template Answer<float> box_box(const Shape&, const Stand<float>&, const Shape&, const Stand<float>&, Asked,
-                               PairScene<float>&);
-template Answer<double> convex_half_space(const Shape&, const Stand<double>&, const Shape&,
-                                          const Stand<double>&, Asked, PairScene<double>&);
-template Answer<float> convex_half_space(const Shape&, const Stand<float>&, const Shape&, const Stand<float>&,
-                                         Asked, PairScene<float>&);
+#define TS_INSTANTIATE(R)                                                                              \
+  template void convex_pair(const PlacedShape&, const PlacedShape&, Asked, Answer<R>&, PairScene<R>&); \
+  template void box_box(const PlacedShape&, const PlacedShape&, Asked, Answer<R>&, PairScene<R>&);     \
+  template void convex_half_space(const PlacedShape&, const PlacedShape&, Asked, Answer<R>&, PairScene<R>&);
+TS_INSTANTIATE(double)
+TS_INSTANTIATE(float)
+#undef TS_INSTANTIATE
 
 }  // namespace touchstone::narrow::fast

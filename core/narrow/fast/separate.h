@@ -25,30 +25,27 @@ struct PairScene {
 };
 
 template <class R>
-using Function = Answer<R> (*)(const Shape&, const Stand<R>&, const Shape&, const Stand<R>&, Asked,
-                               PairScene<R>&);
+using Function = void (*)(const PlacedShape&, const PlacedShape&, Asked, Answer<R>&, PairScene<R>&);
 
 /// Any two bounded convex shapes: GJK, and the expanding polytope when their cores meet.
 template <class R>
-Answer<R> convex_pair(const Shape& sa, const Stand<R>& a, const Shape& sb, const Stand<R>& b, Asked asked,
-                      PairScene<R>& scene);
+void convex_pair(const PlacedShape& a, const PlacedShape& b, Asked asked, Answer<R>& out,
+                 PairScene<R>& scene);
 
 template <class R>
-Answer<R> box_box(const Shape& sa, const Stand<R>& a, const Shape& sb, const Stand<R>& b, Asked asked,
-                  PairScene<R>& scene);
+void box_box(const PlacedShape& a, const PlacedShape& b, Asked asked, Answer<R>& out, PairScene<R>& scene);
 
 /// A bounded convex A and a half-space B.
 template <class R>
-Answer<R> convex_half_space(const Shape& sa, const Stand<R>& a, const Shape& sb, const Stand<R>& b,
-                            Asked asked, PairScene<R>& scene);
+void convex_half_space(const PlacedShape& a, const PlacedShape& b, Asked asked, Answer<R>& out,
+                       PairScene<R>& scene);
 
 /// A closed form of closed_forms.h as a row of the table.
-template <class R, Answer<R> (*form)(const Shape&, const Stand<R>&, const Shape&, const Stand<R>&),
+template <class R, void (*form)(const Shape&, const Stand<R>&, const Shape&, const Stand<R>&, Answer<R>&),
           ContactForm contact = ContactForm::point>
-Answer<R> closed(const Shape& sa, const Stand<R>& a, const Shape& sb, const Stand<R>& b, Asked,
-                 PairScene<R>& scene) {
+void closed(const PlacedShape& a, const PlacedShape& b, Asked, Answer<R>& out, PairScene<R>& scene) {
   scene.contact = contact;
-  return form(sa, a, sb, b);
+  form(*a.shape, stand<R>(a.pose), *b.shape, stand<R>(b.pose), out);
 }
 
 /// Bodies and frames of two shapes, for contact_patch after a closed form.
