@@ -1,80 +1,154 @@
 #include "core/narrow/narrow_phase.h"
 
-#include "core/narrow/convex_pair.h"
-#include "core/narrow/manifold.h"
-#include "core/narrow/mesh.h"
 #include "core/narrow/pair_table.h"
-#include "core/tolerance.h"
+#include "core/narrow/wide_answer.h"
 
 namespace touchstone {
 namespace {
 
-using narrow::ConvexCore;
+namespace fast = narrow::fast;
+using fast::Asked;
+using fast::Found;
+using narrow::FastAnswer;
 
-bool is_bounded_convex(const Shape& s) {
-  return kind_of(s) != ShapeKind::half_space && kind_of(s) != ShapeKind::mesh;
+template <class R>
+Vec3 world(const V3<R>& p, const PlacedShape& origin) {
+  if constexpr (sizeof(R) == sizeof(double))
+    return p + origin.pose.translation;
+  else
+    return (p + origin.pose.translation.cast<R>()).template cast<double>();
 }
 
-// A gap this small is contact within the arithmetic that computed it.
-bool touches(const Separation& s) { return s.gap <= tolerance::narrow_contact_factor * s.size; }
-
-double arithmetic_error(const Separation& s) {
-  return static_cast<double>(s.local_slack + tolerance::narrow_contact_factor * s.size) +
-         0x1p-53 * static_cast<double>(std::abs(s.gap) + s.size);
+template <class R>
+bool known(const FastAnswer<R>& f) {
+  // In double a sign that is not certain is left to extended precision; in float there is no one to ask.
+  if (f.answer.found == Found::touching) return sizeof(R) == sizeof(float);
+  return f.answer.found != Found::unsure;
 }
 
-Vec3 world(const WideVec& p, const PlacedShape& a) {
-  return (p + a.pose.translation.cast<Wide>()).cast<double>();
+template <class R>
+bool overlaps(const FastAnswer<R>& f) {
+  return f.answer.found == Found::touching ? f.answer.gap <= 0 : f.answer.found == Found::meeting;
 }
 
-std::vector<WideVec> manifold_of(const PlacedShape& a, const PlacedShape& b, const Separation& s) {
-  const WideFrame fa = wide_frame(a.pose), fb = wide_frame(b.pose);
-  const WideFrame la{fa.rotation, WideVec::Zero()}, lb{fb.rotation, fb.translation - fa.translation};
-  if (is_bounded_convex(*a.shape) && is_bounded_convex(*b.shape)) {
-    const auto cb = narrow::make_core(*b.shape, lb);
-    return narrow::contact_points(narrow::make_core(*a.shape, la), &cb, s);
+// Points in the frame of the row's A, to the world.
+template <class R>
+bool fill_manifold(const FastAnswer<R>& f, const PlacedShape& a, const PlacedShape& b, Manifold& out) {
+  const fast::Answer<R>& s = f.answer;
+  if (f.scene.contact == fast::ContactForm::point) {
+    out.push_back({world<R>((s.a + s.b) / 2, a), std::max<double>(0, -s.gap), 0});
+    return true;
   }
-  if (is_bounded_convex(*a.shape) && kind_of(*b.shape) == ShapeKind::half_space)
-    return narrow::contact_points(narrow::make_core(*a.shape, la), nullptr, s);
-  if (is_bounded_convex(*b.shape) && kind_of(*a.shape) == ShapeKind::half_space) {
-    Separation t = narrow::mirrored(s);
-    return narrow::contact_points(narrow::make_core(*b.shape, lb), nullptr, t);
+  const PlacedShape& origin = f.mirrored ? b : a;
+  const fast::PairScene<R>& c = f.scene;
+  const auto patch = fast::contact_patch<R>(c.a, c.contact == fast::ContactForm::plane ? nullptr : &c.b, c.at,
+                                            c.normal, s.gap, c.has_middle ? &c.middle : nullptr);
+  for (int i = 0; i < patch.size; ++i) {
+    const auto& p = patch.point[static_cast<std::size_t>(i)];
+    out.push_back({world<R>(c.at.a_to_world * p.p, origin), static_cast<double>(p.depth), p.id});
   }
-  return {WideVec((s.a + s.b) / 2)};
+  return patch.size > 0;
+}
+
+// A closed form has left bodies and frames to us.
+template <class R>
+void prepare_segments(FastAnswer<R>& f, const PlacedShape& a, const PlacedShape& b) {
+  if (f.scene.contact != fast::ContactForm::segments) return;
+  const PlacedShape &x = f.mirrored ? b : a, &y = f.mirrored ? a : b;
+  fast::prepare<R>(*x.shape, fast::stand<R>(x.pose), *y.shape, fast::stand<R>(y.pose), f.scene);
+  const V3<R> n = f.mirrored ? V3<R>(-f.answer.normal) : f.answer.normal;
+  f.scene.normal = f.scene.at.a_to_world.transpose() * n;
+  // (a + b)/2 about the row's A; the answer's own is about the query's.
+  const V3<R> middle = (f.answer.a + f.answer.b) / 2 +
+                       (f.mirrored ? V3<R>(a.pose.translation.cast<R>() - b.pose.translation.cast<R>())
+                                   : V3<R>(V3<R>::Zero()));
+  f.scene.middle = f.scene.at.a_to_world.transpose() * middle, f.scene.has_middle = true;
+  // Only in line with each other do two segments share more than a point.
+  const V3<R>& u = f.scene.at.b_to_a.col(2);
+  const R sine_sq = u[0] * u[0] + u[1] * u[1];
+  f.scene.contact = sine_sq < R(1e-6) ? fast::ContactForm::cores : fast::ContactForm::point;
+}
+
+template <class R>
+void fill(const FastAnswer<R>& f, const PlacedShape& a, DistanceAnswer& r) {
+  r.distance = static_cast<double>(f.answer.gap), r.error_bound = static_cast<double>(f.answer.bound);
+  r.normal = f.answer.normal.template cast<double>();
+  r.witness = {world<R>(f.answer.a, a), world<R>(f.answer.b, a)};
+}
+
+template <class R>
+bool fill(FastAnswer<R>& f, const PlacedShape& a, const PlacedShape& b, ContactAnswer& r) {
+  r.overlap = overlaps(f), r.error_bound = r.regret_bound = static_cast<double>(f.answer.bound);
+  if (!r.overlap) return true;
+  r.normal = f.answer.normal.template cast<double>();
+  r.depth = std::max<double>(0, -f.answer.gap);
+  prepare_segments(f, a, b);
+  return fill_manifold(f, a, b, r.manifold);
+}
+
+template <class R, class A>
+bool refused(const PlacedShape& a, const PlacedShape& b, A& r) {
+  if (narrow::has_fast<R>(kind_of(*a.shape), kind_of(*b.shape))) return false;
+  r.outcome = Outcome::unsupported;
+  return true;
+}
+
+OverlapAnswer overlap_f32(const PlacedShape& a, const PlacedShape& b) {
+  OverlapAnswer r;
+  if (refused<float>(a, b, r)) return r;
+  FastAnswer<float> f;
+  narrow::separate_fast<float>(a, b, Asked::overlap, f);
+  if (!known(f)) narrow::separate_fast<float>(a, b, Asked::distance, f);
+  r.outcome = known(f) ? Outcome::answered : Outcome::not_converged;
+  r.overlap = overlaps(f), r.error_bound = static_cast<double>(f.answer.bound);
+  return r;
 }
 
 }  // namespace
 
-Separation separation(const PlacedShape& a, const PlacedShape& b) {
-  return narrow::separate(*a.shape, wide_frame(a.pose), *b.shape, wide_frame(b.pose));
+OverlapAnswer overlap(const PlacedShape& a, const PlacedShape& b, Arithmetic arithmetic) {
+  if (arithmetic == Arithmetic::float32) return overlap_f32(a, b);
+  FastAnswer<double> f;
+  narrow::separate_fast<double>(a, b, Asked::overlap, f);
+  if (!known(f)) return narrow::wide_overlap(a, b);
+  return {Outcome::answered, f.answer.found == Found::meeting, f.answer.bound};
 }
 
-OverlapAnswer overlap(const PlacedShape& a, const PlacedShape& b) {
-  const Separation s = separation(a, b);
-  return {s.outcome, s.outcome == Outcome::answered && touches(s), arithmetic_error(s)};
-}
-
-DistanceAnswer distance(const PlacedShape& a, const PlacedShape& b) {
-  const Separation s = separation(a, b);
+DistanceAnswer distance(const PlacedShape& a, const PlacedShape& b, Arithmetic arithmetic) {
   DistanceAnswer r;
-  r.outcome = s.outcome, r.error_bound = arithmetic_error(s);
-  if (s.outcome != Outcome::answered) return r;
-  r.distance = static_cast<double>(s.gap), r.normal = s.normal.cast<double>();
-  r.witness = {world(s.a, a), world(s.b, a)};
+  if (arithmetic == Arithmetic::float32) {
+    if (refused<float>(a, b, r)) return r;
+    FastAnswer<float> f;
+    narrow::separate_fast<float>(a, b, Asked::distance, f);
+    if (known(f))
+      fill<float>(f, a, r);
+    else
+      r.outcome = Outcome::not_converged;
+    return r;
+  }
+  FastAnswer<double> f;
+  narrow::separate_fast<double>(a, b, Asked::distance, f);
+  if (!known(f)) return narrow::wide_distance(a, b);
+  fill<double>(f, a, r);
   return r;
 }
 
-ContactAnswer contact(const PlacedShape& a, const PlacedShape& b) {
-  const Separation s = separation(a, b);
+ContactAnswer contact(const PlacedShape& a, const PlacedShape& b, Arithmetic arithmetic) {
   ContactAnswer r;
-  r.outcome = s.outcome, r.error_bound = arithmetic_error(s);
-  r.overlap = s.outcome == Outcome::answered && touches(s);
-  if (!r.overlap) return r;
-  r.normal = s.normal.cast<double>();
-  r.depth = static_cast<double>(std::max<Wide>(0, -s.gap));
-  r.regret_bound = static_cast<double>(s.slack) + r.error_bound;
-  for (const WideVec& p : manifold_of(a, b, s)) r.manifold.push_back({world(p, a), r.depth});
-  return r;
+  if (arithmetic == Arithmetic::float32) {
+    if (refused<float>(a, b, r)) return r;
+    FastAnswer<float> f;
+    narrow::separate_fast<float>(a, b, Asked::contact, f);
+    if (!known(f))
+      r.outcome = Outcome::not_converged;
+    else if (!fill<float>(f, a, b, r))
+      r.manifold.push_back({world<float>((f.answer.a + f.answer.b) / 2, a), r.depth, 0});
+    return r;
+  }
+  FastAnswer<double> f;
+  narrow::separate_fast<double>(a, b, Asked::contact, f);
+  if (known(f) && fill<double>(f, a, b, r)) return r;
+  return narrow::wide_contact(a, b);
 }
 
 }  // namespace touchstone

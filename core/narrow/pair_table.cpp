@@ -2,6 +2,7 @@
 
 #include <array>
 
+#include "core/narrow/fast/closed_forms.h"
 #include "core/narrow/mesh.h"
 #include "core/narrow/pair/capsule_capsule.h"
 #include "core/narrow/pair/half_space.h"
@@ -39,35 +40,85 @@ Separation unsupported(const Shape&, const WideFrame&, const Shape&, const WideF
   return s;
 }
 
+struct Row {
+  PairFunction wide;
+  fast::Function<double> f64;
+  fast::Function<float> f32;
+};
+
 constexpr std::size_t kinds = shape_kind_count;
-using Table = std::array<std::array<PairFunction, kinds>, kinds>;
+using Table = std::array<std::array<Row, kinds>, kinds>;
 
 constexpr std::size_t at(ShapeKind k) { return static_cast<std::size_t>(k); }
 
+// clang-format off
+#define TS_ROW(wide, form) Row{&on_cores<&wide>, &fast::form<double>, &fast::form<float>}
+#define TS_CLOSED(form, contact) \
+  Row{&on_cores<&form>, &fast::closed<double, &fast::form<double>, fast::ContactForm::contact>, \
+      &fast::closed<float, &fast::form<float>, fast::ContactForm::contact>}
+// clang-format on
+
 constexpr Table make_table() {
+  using K = ShapeKind;
   Table t{};
-  for (auto& row : t) row.fill(&on_cores<&separate_convex>);
+  for (auto& row : t) row.fill(TS_ROW(separate_convex, convex_pair));
   for (std::size_t i = 0; i < kinds; ++i) {
-    t[i][at(ShapeKind::half_space)] = &convex_half_space;
-    t[i][at(ShapeKind::mesh)] = &convex_mesh;
+    t[i][at(K::half_space)] = {&convex_half_space, &fast::convex_half_space<double>,
+                               &fast::convex_half_space<float>};
+    t[i][at(K::mesh)] = {&convex_mesh, nullptr, nullptr};
   }
-  t[at(ShapeKind::half_space)][at(ShapeKind::half_space)] = &unsupported;
-  t[at(ShapeKind::half_space)][at(ShapeKind::mesh)] = &half_space_mesh;
-  t[at(ShapeKind::mesh)][at(ShapeKind::mesh)] = &unsupported;
-  t[at(ShapeKind::sphere)][at(ShapeKind::sphere)] = &on_cores<&sphere_sphere>;
-  t[at(ShapeKind::sphere)][at(ShapeKind::capsule)] = &on_cores<&sphere_capsule>;
-  t[at(ShapeKind::sphere)][at(ShapeKind::box)] = &on_cores<&sphere_box>;
-  t[at(ShapeKind::capsule)][at(ShapeKind::capsule)] = &on_cores<&capsule_capsule>;
+  t[at(K::half_space)][at(K::half_space)] = {&unsupported, nullptr, nullptr};
+  t[at(K::half_space)][at(K::mesh)] = {&half_space_mesh, nullptr, nullptr};
+  t[at(K::mesh)][at(K::mesh)] = {&unsupported, nullptr, nullptr};
+  t[at(K::sphere)][at(K::sphere)] = TS_CLOSED(sphere_sphere, point);
+  t[at(K::sphere)][at(K::capsule)] = TS_CLOSED(sphere_capsule, point);
+  t[at(K::sphere)][at(K::box)] = TS_CLOSED(sphere_box, point);
+  t[at(K::capsule)][at(K::capsule)] = TS_CLOSED(capsule_capsule, segments);
+  t[at(K::box)][at(K::box)] = TS_ROW(separate_convex, box_box);
   return t;
 }
 
 constexpr Table table = make_table();
 
+template <class R>
+fast::Function<R> function_of(const Row& row) {
+  if constexpr (sizeof(R) == sizeof(double))
+    return row.f64;
+  else
+    return row.f32;
+}
+
 }  // namespace
+
+template <class R>
+bool has_fast(ShapeKind a, ShapeKind b) {
+  return function_of<R>(table[std::min(at(a), at(b))][std::max(at(a), at(b))]) != nullptr;
+}
+
+template <class R>
+void separate_fast(const PlacedShape& a, const PlacedShape& b, fast::Asked asked, FastAnswer<R>& out) {
+  const std::size_t i = a.shape->index(), j = b.shape->index();
+  out.mirrored = i > j;
+  const fast::Function<R> f = function_of<R>(out.mirrored ? table[j][i] : table[i][j]);
+  if (!f) return;
+  if (!out.mirrored) return f(a, b, asked, out.answer, out.scene);
+  fast::Answer<R>& r = out.answer;
+  r.normal = r.a = r.b = V3<R>::Zero();
+  f(b, a, asked, r, out.scene);
+  const V3<R> shift = b.pose.translation.cast<R>() - a.pose.translation.cast<R>();
+  r.normal = -r.normal;
+  r.a += shift, r.b += shift;
+  r.a.swap(r.b);
+}
+
+template bool has_fast<double>(ShapeKind, ShapeKind);
+template bool has_fast<float>(ShapeKind, ShapeKind);
+template void separate_fast(const PlacedShape&, const PlacedShape&, fast::Asked, FastAnswer<double>&);
+template void separate_fast(const PlacedShape&, const PlacedShape&, fast::Asked, FastAnswer<float>&);
 
 Separation separate_placed(const Shape& a, const WideFrame& fa, const Shape& b, const WideFrame& fb) {
   const std::size_t i = a.index(), j = b.index();
-  return i <= j ? table[i][j](a, fa, b, fb) : mirrored(table[j][i](b, fb, a, fa));
+  return i <= j ? table[i][j].wide(a, fa, b, fb) : mirrored(table[j][i].wide(b, fb, a, fa));
 }
 
 Separation separate(const Shape& a, const WideFrame& fa, const Shape& b, const WideFrame& fb) {

@@ -3,7 +3,7 @@
 #pragma once
 
 #include <array>
-#include <vector>
+#include <cstdint>
 
 #include "core/base/outcome.h"
 #include "core/math/wide.h"
@@ -38,8 +38,35 @@ struct DistanceAnswer {
 };
 
 struct ContactPoint {
-  Vec3 position = Vec3::Zero();  // world, half way between the two surfaces
-  double depth = 0;
+  Vec3 position;  // world, half way between the two surfaces
+  double depth;
+  std::uint32_t feature;  // same features of both bodies, same id; 0 where there is one point only
+};
+
+/// Contact points in place, no allocation; what is not used is not touched.
+class Manifold {
+ public:
+  static constexpr std::size_t capacity = 16;
+  Manifold() {}
+  Manifold(const Manifold& o) { *this = o; }
+  Manifold& operator=(const Manifold& o) {
+    size_ = o.size_;
+    for (std::size_t i = 0; i < size_; ++i) points_[i] = o.points_[i];
+    return *this;
+  }
+  std::size_t size() const { return size_; }
+  bool empty() const { return size_ == 0; }
+  /// Beyond capacity nothing is added.
+  void push_back(const ContactPoint& p) {
+    if (size_ < capacity) points_[size_++] = p;
+  }
+  const ContactPoint& operator[](std::size_t i) const { return points_[i]; }
+  const ContactPoint* begin() const { return points_.data(); }
+  const ContactPoint* end() const { return points_.data() + size_; }
+
+ private:
+  std::size_t size_ = 0;
+  std::array<ContactPoint, capacity> points_;
 };
 
 struct ContactAnswer {
@@ -47,7 +74,7 @@ struct ContactAnswer {
   bool overlap = false;
   Vec3 normal = Vec3::Zero();  // unit, A to B; zero when there is no overlap
   double depth = 0;
-  std::vector<ContactPoint> manifold;
+  Manifold manifold;        // up to the full clipped polygon; see reduced()
   double error_bound = 0;   // of the depth along `normal`, and of normal's being a local minimum
   double regret_bound = 0;  // proven: depth − least depth over all directions
 };

@@ -16,6 +16,7 @@ constexpr std::string_view fcl = "libtouchstone_fcl.so", f32 = "libtouchstone_bu
 
 constexpr EngineRow rows[] = {
     {"core", "", "our own core, in process"},
+    {"core-f32", "", "its narrow phase in float, in process"},
     {"fcl-libccd", fcl, "FCL as shipped, GST_LIBCCD"},
     {"fcl-libccd-tuned", fcl, "FCL, GST_LIBCCD, tolerances 1e-12 and 1e-7"},
     {"fcl-indep", fcl, "FCL as shipped, GST_INDEP"},
@@ -106,6 +107,7 @@ std::vector<std::string> engine_names(const std::string& text) {
 EnginePtr make_engine(const std::string& name, const WorkerLimits& limits) {
   check_name(name);
   if (name == "core") return std::make_unique<CoreEngine>();
+  if (name == "core-f32") return std::make_unique<CoreEngine>(Arithmetic::float32);
   RemoteSpec spec = is_path(name)
                         ? plugin_spec(name)
                         : RemoteSpec{host_program(), plugin_directory() / find_row(name)->library, name, {}};

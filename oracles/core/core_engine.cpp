@@ -6,6 +6,7 @@
 #include "core/base/input_error.h"
 #include "core/broad/catalog.h"
 #include "core/ccd/impact.h"
+#include "core/narrow/fast/query.h"
 #include "core/narrow/narrow_phase.h"
 #include "core/tolerance.h"
 #include "core/world/world.h"
@@ -28,21 +29,21 @@ void require_bodies(const Scene& s, const Query& q) {
     if (i < 0 || i >= n) throw InputError("query", "body " + std::to_string(i) + " is no body of the scene");
 }
 
-void ask_overlap(const Scene& s, const Query& q, Observation& o) {
-  const OverlapAnswer r = overlap(placed(s, q.a), placed(s, q.b));
+void ask_overlap(const Scene& s, const Query& q, Arithmetic arithmetic, Observation& o) {
+  const OverlapAnswer r = overlap(placed(s, q.a), placed(s, q.b), arithmetic);
   o.outcome = r.outcome;
   if (r.outcome == Outcome::answered) o.overlap = r.overlap;
 }
 
-void ask_distance(const Scene& s, const Query& q, Observation& o) {
-  const DistanceAnswer r = distance(placed(s, q.a), placed(s, q.b));
+void ask_distance(const Scene& s, const Query& q, Arithmetic arithmetic, Observation& o) {
+  const DistanceAnswer r = distance(placed(s, q.a), placed(s, q.b), arithmetic);
   o.outcome = r.outcome;
   if (r.outcome != Outcome::answered) return;
   o.distance = r.distance, o.witness = r.witness, o.normal = r.normal;
 }
 
-void ask_contact(const Scene& s, const Query& q, Observation& o) {
-  const ContactAnswer r = contact(placed(s, q.a), placed(s, q.b));
+void ask_contact(const Scene& s, const Query& q, Arithmetic arithmetic, Observation& o) {
+  const ContactAnswer r = contact(placed(s, q.a), placed(s, q.b), arithmetic);
   o.outcome = r.outcome;
   if (r.outcome != Outcome::answered) return;
   o.overlap = r.overlap;
@@ -73,15 +74,21 @@ void ask_scene_contacts(const Scene& s, Observation& o) {
   if (r.unsupported > 0) o.detail = std::to_string(r.unsupported) + " pairs of unsupported shapes left out";
 }
 
-void ask(const Scene& s, const Query& q, Observation& o) {
+void ask(const Scene& s, const Query& q, Arithmetic arithmetic, Observation& o) {
   require_bodies(s, q);
+  const bool narrow =
+      q.question == Question::overlap || q.question == Question::distance || q.question == Question::contact;
+  if (arithmetic == Arithmetic::float32 && !narrow) {
+    o.outcome = Outcome::unsupported, o.detail = "float is a narrow phase only";
+    return;
+  }
   switch (q.question) {
     case Question::overlap:
-      return ask_overlap(s, q, o);
+      return ask_overlap(s, q, arithmetic, o);
     case Question::distance:
-      return ask_distance(s, q, o);
+      return ask_distance(s, q, arithmetic, o);
     case Question::contact:
-      return ask_contact(s, q, o);
+      return ask_contact(s, q, arithmetic, o);
     case Question::time_of_impact:
       return ask_impact(s, q, o);
     case Question::candidates:
@@ -91,11 +98,11 @@ void ask(const Scene& s, const Query& q, Observation& o) {
   }
 }
 
-Observation observe(const Scene& s, const Query& q) {
+Observation observe(const Scene& s, const Query& q, Arithmetic arithmetic) {
   Observation o;
   const auto start = std::chrono::steady_clock::now();
   try {
-    ask(s, q, o);
+    ask(s, q, arithmetic, o);
   } catch (const InputError& e) {
     o = {}, o.outcome = Outcome::invalid_input, o.detail = e.what();
   } catch (const std::exception& e) {
@@ -106,15 +113,44 @@ Observation observe(const Scene& s, const Query& q) {
   return o;
 }
 
+// What the float path sees: every number rounded, the quaternion as rounded denotes the rotation.
+void round_to_float(const Scene& s, ReceivedScene& r) {
+  const auto f = [](double x) { return static_cast<double>(static_cast<float>(x)); };
+  for (std::size_t i = 0; i < s.bodies.size(); ++i) {
+    const auto stand = narrow::fast::stand<float>(s.bodies[i].pose);
+    r.bodies[i] = Placement{rotation_matrix({stand.x, stand.y, stand.z, stand.w}), stand.t.cast<double>()};
+  }
+  for (std::size_t i = 0; i < s.shapes.size(); ++i) {
+    Shape shape = s.shapes[i];
+    std::visit(
+        [&](auto& x) {
+          for_each_field(x, [&](std::string_view, auto& v, Domain) {
+            using T = std::remove_reference_t<decltype(v)>;
+            if constexpr (std::is_same_v<T, double>) v = f(v);
+            if constexpr (std::is_same_v<T, Vec3>) v = v.template cast<float>().template cast<double>();
+            if constexpr (std::is_same_v<T, std::vector<Vec3>>)
+              for (Vec3& p : v) p = p.cast<float>().cast<double>();
+          });
+        },
+        shape);
+    r.shapes[i] = std::move(shape);
+  }
+}
+
 }  // namespace
 
-CoreEngine::CoreEngine() {
-  card_.name = "core";
+CoreEngine::CoreEngine(Arithmetic arithmetic) : arithmetic_(arithmetic) {
+  const bool narrow_only = arithmetic == Arithmetic::float32;
+  card_.name = narrow_only ? "core-f32" : "core";
   card_.library = "Touchstone core";
   card_.version = "0.1.0";
-  card_.settings = "GJK and EPA in extended precision, closed forms, conservative advancement; broad phase " +
-                   std::string(broad_phase_name);
-  card_.unit_roundoff = 0x1p-53;
+  card_.settings =
+      narrow_only
+          ? "closed forms, GJK and EPA in float from pose to answer; no broad phase, no motion"
+          : "closed forms, GJK and EPA in double, in extended precision where the bound of the error asks "
+            "for it; conservative advancement; broad phase " +
+                std::string(broad_phase_name);
+  card_.unit_roundoff = narrow_only ? 0x1p-24 : 0x1p-53;
   card_.tau_factor = tolerance::core_tau_factor;
   card_.source = "core/tolerance.h: arithmetic alone, no margin";
 }
@@ -126,7 +162,8 @@ std::vector<CaseObservations> CoreEngine::run(std::span<const Case> cases) {
     CaseObservations& r = all.emplace_back();
     r.received.bodies.resize(c.scene.bodies.size());
     r.received.shapes.resize(c.scene.shapes.size());
-    for (const Query& q : c.queries) r.answers.push_back(observe(c.scene, q));
+    if (arithmetic_ == Arithmetic::float32) round_to_float(c.scene, r.received);
+    for (const Query& q : c.queries) r.answers.push_back(observe(c.scene, q, arithmetic_));
   }
   return all;
 }

@@ -1,0 +1,146 @@
+// Spheres, capsules and a box, without a search. Each proposes nearest points of the cores and a direction;
+// the direction's own support planes say how much, beyond rounding of the input, it falls short of being the
+// normal, and that shortfall goes into the bound. Centres that coincide have a direction by definition: any
+// that is orthogonal to the segments is a minimum, x or an orthogonal of the axis is taken.
+#pragma once
+
+#include <algorithm>
+
+#include "core/narrow/fast/query.h"
+
+namespace touchstone::narrow::fast {
+
+namespace detail {
+
+template <class R>
+R largest(const V3<R>& v) {
+  return std::max(std::max(std::abs(v[0]), std::abs(v[1])), std::abs(v[2]));
+}
+
+/// From core points pa, pb (b − a = dist·n) to the rounded bodies; `scale` as in accuracy().
+template <class R>
+void inflate(Answer<R>& s, R dist, const V3<R>& n, const V3<R>& pa, const V3<R>& pb, R ra, R rb, R error,
+             R scale) {
+  s.gap = dist - (ra + rb), s.normal = n, s.bound = error;
+  s.a = pa + ra * n, s.b = pb - rb * n;
+  s.found = accepted(error, scale) ? decide(s.gap, error) : Found::unsure;
+}
+
+}  // namespace detail
+
+template <class R>
+void sphere_sphere(const Shape& sa, const Stand<R>& a, const Shape& sb, const Stand<R>& b, Answer<R>& out) {
+  const R ra = static_cast<R>(std::get_if<Sphere>(&sa)->radius),
+          rb = static_cast<R>(std::get_if<Sphere>(&sb)->radius);
+  const V3<R> d = b.t - a.t;
+  const R dist = d.norm();
+  detail::inflate<R>(out, dist, dist > 0 ? V3<R>(d / dist) : V3<R>::UnitX(), V3<R>::Zero(), d, ra, rb,
+                     u<R> * (8 * dist + 4 * (ra + rb)), std::max(std::max(ra, rb), dist * R(0.28)));
+}
+
+template <class R>
+void sphere_box(const Shape& sa, const Stand<R>& a, const Shape& sb, const Stand<R>& b, Answer<R>& out) {
+  const R r = static_cast<R>(std::get_if<Sphere>(&sa)->radius);
+  const V3<R> h = std::get_if<Box>(&sb)->half_extents.template cast<R>(), d = b.t - a.t;
+  const M3<R> m = matrix(b);
+  V3<R> p;
+  for (int k = 0; k < 3; ++k) p[k] = -(m(0, k) * d[0] + m(1, k) * d[1] + m(2, k) * d[2]);
+  const V3<R> q = p.cwiseMax(-h).cwiseMin(h), v = q - p;
+  const R far = d.norm(), error = u<R> * (24 * far + 4 * r + 2 * detail::largest(h));
+  const R dist = v.norm();
+  if (dist > 0)
+    return detail::inflate<R>(out, dist, m * (v / dist), V3<R>::Zero(), m * q + d, r, R(0), error,
+                              std::max(std::max(r, detail::largest(h)), far * R(0.28)));
+  int axis = 0;
+  const R depth = (h - p.cwiseAbs()).minCoeff(&axis);
+  const V3<R> n = m.col(axis) * (p[axis] < 0 ? R(1) : R(-1));
+  out.gap = -depth - r, out.normal = n, out.a = r * n, out.b = -depth * n;
+  out.bound = error, out.found = decide(out.gap, error);
+}
+
+template <class R>
+void sphere_capsule(const Shape& sa, const Stand<R>& a, const Shape& sb, const Stand<R>& b, Answer<R>& out) {
+  const auto& capsule = *std::get_if<Capsule>(&sb);
+  const R ra = static_cast<R>(std::get_if<Sphere>(&sa)->radius), rb = static_cast<R>(capsule.radius);
+  const R h = static_cast<R>(capsule.half_height);
+  const V3<R> axis = axis_z(b), d = b.t - a.t;
+  const R along = -d.dot(axis), s = std::clamp(along, -h, h);
+  const V3<R> q = d + s * axis;
+  V3<R> v = q;
+  if (std::abs(along) < h) v -= axis * axis.dot(v), v -= axis * axis.dot(v);
+  const R dist = v.norm();
+  const V3<R> n = dist > 0 ? V3<R>(v / dist) : V3<R>(axis.unitOrthogonal());
+  const R shortfall = std::max<R>(0, dist - (n.dot(d) - std::abs(n.dot(axis)) * h));
+  detail::inflate<R>(out, dist, n, V3<R>::Zero(), q, ra, rb,
+                     shortfall + u<R> * (16 * d.norm() + 24 * h + 4 * (ra + rb)),
+                     std::max(std::max(ra, rb + h), detail::largest(d) / 2));
+}
+
+namespace detail {
+
+template <class R>
+struct SegmentPair {
+  V3<R> axis_a, axis_b, d;  // d: from A's centre to B's
+  R ha, hb;
+};
+
+template <class R>
+struct SegmentFeet {
+  R s = 0, t = 0, dist = std::numeric_limits<R>::infinity();
+  V3<R> normal = V3<R>::UnitX();
+};
+
+// The difference of the feet, orthogonal to every axis that it is inner to.
+template <class R>
+void try_feet(const SegmentPair<R>& p, R s, R t, SegmentFeet<R>& best) {
+  V3<R> v = p.d + t * p.axis_b - s * p.axis_a;
+  if (std::abs(s) < p.ha) v -= p.axis_a * p.axis_a.dot(v);
+  if (std::abs(t) < p.hb) v -= p.axis_b * p.axis_b.dot(v);
+  const R dist = v.norm();
+  if (!(dist < best.dist)) return;
+  best.s = s, best.t = t, best.dist = dist;
+  if (dist > 0) best.normal = v / dist;
+}
+
+// Parameters from cross products: their error grows as 1/sin of the angle, that of the normal equations as
+// 1/sin².
+template <class R>
+SegmentFeet<R> segment_feet(const SegmentPair<R>& p) {
+  SegmentFeet<R> best;
+  const V3<R> n = p.axis_a.cross(p.axis_b);
+  const R nn = n.squaredNorm();
+  if (nn > 64 * u<R> * u<R>) {
+    const R s = p.d.cross(p.axis_b).dot(n) / nn, t = p.d.cross(p.axis_a).dot(n) / nn;
+    if (std::abs(s) <= p.ha && std::abs(t) <= p.hb) {
+      const R along = p.d.dot(n), length = std::sqrt(nn);
+      best.s = s, best.t = t, best.dist = std::abs(along) / length;
+      best.normal = n * ((along < 0 ? -1 : 1) / length);
+      return best;
+    }
+  }
+  best.normal = p.axis_a.unitOrthogonal();
+  for (const R s : {-p.ha, p.ha})
+    try_feet(p, s, std::clamp((s * p.axis_a - p.d).dot(p.axis_b), -p.hb, p.hb), best);
+  for (const R t : {-p.hb, p.hb})
+    try_feet(p, std::clamp((p.d + t * p.axis_b).dot(p.axis_a), -p.ha, p.ha), t, best);
+  return best;
+}
+
+}  // namespace detail
+
+template <class R>
+void capsule_capsule(const Shape& sa, const Stand<R>& a, const Shape& sb, const Stand<R>& b, Answer<R>& out) {
+  const auto &ca = *std::get_if<Capsule>(&sa), &cb = *std::get_if<Capsule>(&sb);
+  const detail::SegmentPair<R> p{axis_z(a), axis_z(b), b.t - a.t, static_cast<R>(ca.half_height),
+                                 static_cast<R>(cb.half_height)};
+  const R ra = static_cast<R>(ca.radius), rb = static_cast<R>(cb.radius);
+  const detail::SegmentFeet<R> f = detail::segment_feet(p);
+  const V3<R>& n = f.normal;
+  const R lower = n.dot(p.d) - std::abs(n.dot(p.axis_a)) * p.ha - std::abs(n.dot(p.axis_b)) * p.hb;
+  const R error = u<R> * (8 * p.d.norm() + 24 * (p.ha + p.hb) + 4 * (ra + rb));
+  detail::inflate<R>(out, f.dist, n, f.s * p.axis_a, p.d + f.t * p.axis_b, ra, rb,
+                     std::max<R>(0, f.dist - lower) + error,
+                     std::max(std::max(ra + p.ha, rb + p.hb), detail::largest(p.d) / 2));
+}
+
+}  // namespace touchstone::narrow::fast

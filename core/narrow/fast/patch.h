@@ -1,0 +1,323 @@
+// Contact manifold in fixed storage. Reference: the face (three points or more) of one body that supports it
+// along the normal. Incident: the corners of the other body that lie beyond the reference's plane, in convex
+// order, clipped against the reference (Sutherland, Hodgman 1974); each point keeps its own depth, chords of
+// the incident body lie inside it, so every point lies within its depth of both bodies, half way between the
+// incident body and the plane. A face tilted by a few ulp is thus whole, and does not flicker. Without a
+// face: overlap or crossing of two edges, or the deepest vertex.
+//
+// Ids name features: corner of the incident body, and the reference's edge that cut, so that the same contact
+// has the same id in the next frame.
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+
+#include "core/narrow/fast/body.h"
+
+namespace touchstone::narrow::fast {
+
+template <class R>
+struct PatchPoint {
+  V3<R> p;  // A's frame
+  R depth;
+  std::uint32_t id;
+};
+
+template <class R>
+struct Patch {
+  static constexpr int capacity = 16;
+  std::array<PatchPoint<R>, capacity> point;
+  int size = 0;
+};
+
+namespace detail {
+
+/// A corner of a supporting feature: in the plane's coordinates, `below` the body's own support plane.
+template <class R>
+struct Corner {
+  R x, y, below;
+  std::uint32_t id;
+};
+
+/// Copies only what is there: the storage is thirteen hundred bytes.
+template <class R>
+class Corners {
+ public:
+  static constexpr int capacity = 40;
+  int size = 0;
+  bool overflow = false;
+  Corners() {}
+  Corners(const Corners& o) { *this = o; }
+  Corners& operator=(const Corners& o) {
+    size = o.size, overflow = o.overflow;
+    std::copy(o.begin(), o.end(), c_.begin());
+    return *this;
+  }
+  void add(const Corner<R>& x) {
+    if (size < capacity)
+      c_[static_cast<std::size_t>(size++)] = x;
+    else
+      overflow = true;
+  }
+  Corner<R>& operator[](int i) { return c_[static_cast<std::size_t>(i)]; }
+  const Corner<R>& operator[](int i) const { return c_[static_cast<std::size_t>(i)]; }
+  Corner<R>* begin() { return c_.data(); }
+  Corner<R>* end() { return c_.data() + size; }
+  const Corner<R>* begin() const { return c_.data(); }
+  const Corner<R>* end() const { return c_.data() + size; }
+
+ private:
+  std::array<Corner<R>, capacity> c_;
+};
+
+template <class R>
+struct PatchPlane {
+  V3<R> n, x, y, origin;  // A's frame
+  explicit PatchPlane(const V3<R>& normal) : n(normal), x(normal.unitOrthogonal()), y(normal.cross(x)) {}
+};
+
+template <class R>
+R turn(const Corner<R>& a, const Corner<R>& b, const Corner<R>& c) {
+  return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
+}
+
+/// Andrew's monotone chain, counter-clockwise; points on edges (within tolerance) are dropped.
+template <class R>
+void convex_order(Corners<R>& p, R tolerance) {
+  if (p.size < 2) return;
+  std::sort(p.begin(), p.end(), [](const Corner<R>& a, const Corner<R>& b) {
+    return a.x != b.x ? a.x < b.x : (a.y != b.y ? a.y < b.y : a.id < b.id);
+  });
+  Corners<R> h;
+  std::array<int, 2 * Corners<R>::capacity + 2> chain;
+  int n = 0;
+  const auto push = [&](int i, int floor) {
+    while (n >= floor + 2) {
+      const Corner<R>&a = p[chain[static_cast<std::size_t>(n - 2)]],
+            &b = p[chain[static_cast<std::size_t>(n - 1)]], &c = p[i];
+      const R length = std::abs(c.x - a.x) + std::abs(c.y - a.y);
+      if (turn(a, b, c) > tolerance * length) break;
+      --n;
+    }
+    chain[static_cast<std::size_t>(n++)] = i;
+  };
+  for (int i = 0; i < p.size; ++i) push(i, 0);
+  const int lower = n - 1;
+  for (int i = p.size - 2; i >= 0; --i) push(i, lower);
+  if (n > 1) --n;
+  for (int i = 0; i < n; ++i) h.add(p[chain[static_cast<std::size_t>(i)]]);
+  if (h.size == 2 && std::abs(h[0].x - h[1].x) + std::abs(h[0].y - h[1].y) <= tolerance) h.size = 1;
+  p = h;
+}
+
+/// Corners of `c` no more than `limit` below its support plane along d (its own frame, unit).
+template <class R>
+class FeatureCorners {
+ public:
+  FeatureCorners(const Body<R>& c, const M3<R>& to_a, const V3<R>& offset, const PatchPlane<R>& plane, R sign,
+                 R limit, R tolerance)
+      : c_(c), to_a_(to_a), offset_(offset), plane_(plane), limit_(limit), tolerance_(tolerance) {
+    d_ = to_a.transpose() * (sign * plane.n);
+    top_ = d_.dot(support_local<R>(c, d_));
+  }
+
+  const Corners<R>& collect() {
+    const V3<R>& s = c_.size;
+    const R flat = std::sqrt(d_[0] * d_[0] + d_[1] * d_[1]);
+    switch (c_.kind) {
+      case CoreKind::box:
+        box();
+        return out_;
+      case CoreKind::segment:
+        add({0, 0, s[2]}, 0), add({0, 0, -s[2]}, 1);
+        break;
+      case CoreKind::cylinder:
+        if (2 * flat * s[0] <= limit_) {
+          octagon(std::copysign(s[2], d_[2]));
+        } else {
+          const R k = flat > 0 ? s[0] / flat : 0;
+          add({d_[0] * k, d_[1] * k, s[2]}, 0), add({d_[0] * k, d_[1] * k, -s[2]}, 1);
+        }
+        break;
+      case CoreKind::cone:
+        if (d_[2] < 0 && 2 * flat * s[0] <= limit_) {
+          octagon(-s[2]);
+        } else {
+          const R k = flat > 0 ? s[0] / flat : 0;
+          add({0, 0, s[2]}, 0);
+          if (flat > 0) add({d_[0] * k, d_[1] * k, -s[2]}, 1);
+        }
+        break;
+      case CoreKind::vertices:
+        for (std::size_t i = 0; i < c_.vertices.size(); ++i)
+          add(c_.vertices[i].template cast<R>(), static_cast<std::uint32_t>(i));
+        break;
+      case CoreKind::point:
+      case CoreKind::ellipsoid:
+        add(support_local<R>(c_, d_), 0);
+        break;
+    }
+    if (out_.size == 0 && !out_.overflow) add_always(support_local<R>(c_, d_), 0);
+    convex_order(out_, tolerance_);
+    return out_;
+  }
+
+ private:
+  void add(const V3<R>& p, std::uint32_t id) {
+    if (top_ - d_.dot(p) <= limit_) add_always(p, id);
+  }
+  void add_always(const V3<R>& p, std::uint32_t id) {
+    const V3<R> q = to_a_ * p + offset_ - plane_.origin;
+    out_.add({plane_.x.dot(q), plane_.y.dot(q), std::max<R>(0, top_ - d_.dot(p)), id});
+  }
+  // Ids of rim points turn with the body.
+  void octagon(R z) {
+    const R r = c_.size[0], h = r * R(0.70710678118654752440);
+    const R xy[8][2] = {{r, 0}, {h, h}, {0, r}, {-h, h}, {-r, 0}, {-h, -h}, {0, -r}, {h, -h}};
+    for (std::uint32_t i = 0; i < 8; ++i) add({xy[i][0], xy[i][1], z}, i);
+  }
+  void box() {
+    const V3<R>& s = c_.size;
+    int free[3], frees = 0;
+    unsigned top = 0;
+    for (int k = 0; k < 3; ++k) {
+      if (d_[k] >= 0) top |= 1u << k;
+      if (2 * std::abs(d_[k]) * s[k] <= limit_) free[frees++] = k;
+    }
+    const auto corner = [&](unsigned bits) {
+      add({bits & 1 ? s[0] : -s[0], bits & 2 ? s[1] : -s[1], bits & 4 ? s[2] : -s[2]}, bits);
+    };
+    if (frees <= 1) {
+      corner(top);
+      if (frees == 1) corner(top ^ (1u << free[0]));
+    } else if (frees == 2) {
+      const unsigned p = 1u << free[0], q = 1u << free[1];
+      corner(top), corner(top ^ p), corner(top ^ p ^ q), corner(top ^ q);
+    } else {
+      for (unsigned bits = 0; bits < 8; ++bits) corner(bits);
+    }
+    if (frees != 2 || out_.size < 4)
+      convex_order(out_, tolerance_);
+    else if (turn(out_[0], out_[1], out_[2]) < 0)
+      std::reverse(out_.begin(), out_.end());
+  }
+
+  const Body<R>& c_;
+  const M3<R>& to_a_;
+  const V3<R>& offset_;
+  const PatchPlane<R>& plane_;
+  R limit_, tolerance_, top_;
+  V3<R> d_;
+  Corners<R> out_;
+};
+
+template <class R>
+void clip(Corners<R>& subject, const Corners<R>& window, R tolerance) {
+  for (int i = 0; i < window.size && subject.size > 0; ++i) {
+    const Corner<R>&w0 = window[i], &w1 = window[(i + 1) % window.size];
+    const R ex = w1.x - w0.x, ey = w1.y - w0.y, length = std::sqrt(ex * ex + ey * ey);
+    std::array<R, Corners<R>::capacity> side;
+    for (int k = 0; k < subject.size; ++k) {
+      const R s = ex * (subject[k].y - w0.y) - ey * (subject[k].x - w0.x);
+      side[static_cast<std::size_t>(k)] = std::abs(s) <= tolerance * length ? R(0) : s;
+    }
+    Corners<R> out;
+    for (int k = 0; k < subject.size; ++k) {
+      const int next = (k + 1) % subject.size;
+      const Corner<R>&p = subject[k], &q = subject[next];
+      const R sp = side[static_cast<std::size_t>(k)], sq = side[static_cast<std::size_t>(next)];
+      if (sp >= 0) out.add(p);
+      if (sp * sq < 0 && !(subject.size == 2 && k == 1)) {
+        const R t = sp / (sp - sq);
+        const std::uint32_t edge = std::min(p.id, q.id) * 31 + std::max(p.id, q.id);
+        out.add({p.x + (q.x - p.x) * t, p.y + (q.y - p.y) * t, p.below + (q.below - p.below) * t,
+                 (static_cast<std::uint32_t>(i + 1) << 16) + (edge & 0xffffu)});
+      }
+    }
+    subject = out;
+  }
+}
+
+/// Two edges: the stretch that they share when they are in line, else their crossing.
+template <class R>
+Corners<R> cross_edges(const Corners<R>& a, const Corners<R>& b, R tolerance) {
+  Corners<R> r;
+  const R dx = a[1].x - a[0].x, dy = a[1].y - a[0].y, length = std::sqrt(dx * dx + dy * dy);
+  const R s0 = (dx * (b[0].y - a[0].y) - dy * (b[0].x - a[0].x)) / length,
+          s1 = (dx * (b[1].y - a[0].y) - dy * (b[1].x - a[0].x)) / length;
+  const auto along = [&](const Corner<R>& p) { return (dx * (p.x - a[0].x) + dy * (p.y - a[0].y)) / length; };
+  if (std::abs(s0) <= tolerance && std::abs(s1) <= tolerance) {
+    const R t0 = along(b[0]), t1 = along(b[1]);
+    const R lo = std::max<R>(std::min(t0, t1), 0), hi = std::min(std::max(t0, t1), length);
+    if (!(lo <= hi)) return r;
+    for (const R t : {lo, hi})
+      r.add({a[0].x + dx * (t / length), a[0].y + dy * (t / length), 0, t == lo ? 0u : 1u});
+    return r;
+  }
+  if (!(s0 * s1 <= 0)) return r;
+  const R t = s0 / (s0 - s1);
+  r.add({b[0].x + (b[1].x - b[0].x) * t, b[0].y + (b[1].y - b[0].y) * t, 0, 2});
+  return r;
+}
+
+}  // namespace detail
+
+/// Manifold of cores a, b (b at `at`; null: a half-space) along n (A's frame, unit, A to B) with that gap <=
+/// 0 of the rounded bodies, up to rounding. size 0: too many corners for the storage.
+template <class R>
+Patch<R> contact_patch(const Body<R>& a, const Body<R>* b, const Relative<R>& at, const V3<R>& n, R gap,
+                       const V3<R>* middle) {
+  using namespace detail;
+  const R size = a.reach + a.radius + (b ? b->reach + b->radius + at.offset.norm() : 0);
+  const R tolerance = 32 * u<R> * size, depth = std::max<R>(0, -gap);
+  PatchPlane<R> plane(n);
+  const V3<R> top = support_local<R>(a, n);
+  plane.origin = top;
+  const M3<R> identity = M3<R>::Identity();
+  const V3<R> zero = V3<R>::Zero();
+  const auto of_a = [&](R limit) {
+    return FeatureCorners<R>(a, identity, zero, plane, 1, limit, tolerance).collect();
+  };
+  const auto of_b = [&](R limit) {
+    return FeatureCorners<R>(*b, at.b_to_a, at.offset, plane, -1, limit, tolerance).collect();
+  };
+  Patch<R> patch;
+  Corners<R> fa = of_a(tolerance), fb, region;
+  bool by_a = true;
+  if (!b) {
+    region = of_a(depth + tolerance), by_a = false;
+  } else if (fa.size >= 3) {
+    region = of_b(depth + tolerance);
+    clip(region, fa, tolerance);
+  } else {
+    fb = of_b(tolerance);
+    if (fb.size >= 3) {
+      region = of_a(depth + tolerance), by_a = false;
+      clip(region, fb, tolerance);
+    } else if (fa.size == 2 && fb.size == 2) {
+      region = cross_edges(fa, fb, 4 * tolerance);
+    }
+  }
+  if (region.overflow || fa.overflow || fb.overflow) return patch;
+  if (region.size == 0 && middle) {
+    patch.point[0] = {*middle, depth, 0}, patch.size = 1;
+    return patch;
+  }
+  // Height of A's support plane above plane.origin is the ball's radius.
+  const int step = (region.size + Patch<R>::capacity - 1) / Patch<R>::capacity;
+  for (int i = 0; i < region.size; i += step) {
+    const Corner<R>& c = region[i];
+    const R d = -gap - c.below;
+    const R height = a.radius + (gap + (by_a ? c.below : -c.below)) / 2;
+    bool repeat = false;
+    const V3<R> p = plane.origin + plane.x * c.x + plane.y * c.y + n * height;
+    for (int k = 0; k < patch.size; ++k)
+      repeat |= (patch.point[static_cast<std::size_t>(k)].p - p).norm() <= tolerance;
+    if (!repeat)
+      patch.point[static_cast<std::size_t>(patch.size++)] = {p, std::max<R>(0, d),
+                                                             (by_a ? 0u : 0x80000000u) + c.id};
+  }
+  return patch;
+}
+
+}  // namespace touchstone::narrow::fast

@@ -1,0 +1,83 @@
+#include "core/narrow/wide_answer.h"
+
+#include "core/narrow/convex_pair.h"
+#include "core/narrow/manifold.h"
+#include "core/narrow/mesh.h"
+#include "core/narrow/pair_table.h"
+#include "core/tolerance.h"
+
+namespace touchstone::narrow {
+namespace {
+
+bool is_bounded_convex(const Shape& s) {
+  return kind_of(s) != ShapeKind::half_space && kind_of(s) != ShapeKind::mesh;
+}
+
+// A gap this small is contact within the arithmetic that computed it.
+bool touches(const Separation& s) { return s.gap <= tolerance::narrow_contact_factor * s.size; }
+
+double arithmetic_error(const Separation& s) {
+  return static_cast<double>(s.local_slack + tolerance::narrow_contact_factor * s.size) +
+         0x1p-53 * static_cast<double>(std::abs(s.gap) + s.size);
+}
+
+Vec3 world(const WideVec& p, const PlacedShape& a) {
+  return (p + a.pose.translation.cast<Wide>()).cast<double>();
+}
+
+std::vector<WideVec> manifold_of(const PlacedShape& a, const PlacedShape& b, const Separation& s) {
+  const WideFrame fa = wide_frame(a.pose), fb = wide_frame(b.pose);
+  const WideFrame la{fa.rotation, WideVec::Zero()}, lb{fb.rotation, fb.translation - fa.translation};
+  if (is_bounded_convex(*a.shape) && is_bounded_convex(*b.shape)) {
+    const auto cb = narrow::make_core(*b.shape, lb);
+    return narrow::contact_points(narrow::make_core(*a.shape, la), &cb, s);
+  }
+  if (is_bounded_convex(*a.shape) && kind_of(*b.shape) == ShapeKind::half_space)
+    return narrow::contact_points(narrow::make_core(*a.shape, la), nullptr, s);
+  if (is_bounded_convex(*b.shape) && kind_of(*a.shape) == ShapeKind::half_space) {
+    Separation t = narrow::mirrored(s);
+    return narrow::contact_points(narrow::make_core(*b.shape, lb), nullptr, t);
+  }
+  return {WideVec((s.a + s.b) / 2)};
+}
+
+}  // namespace
+
+OverlapAnswer wide_overlap(const PlacedShape& a, const PlacedShape& b) {
+  const Separation s = separation(a, b);
+  return {s.outcome, s.outcome == Outcome::answered && touches(s), arithmetic_error(s)};
+}
+
+DistanceAnswer wide_distance(const PlacedShape& a, const PlacedShape& b) {
+  const Separation s = separation(a, b);
+  DistanceAnswer r;
+  r.outcome = s.outcome, r.error_bound = arithmetic_error(s);
+  if (s.outcome != Outcome::answered) return r;
+  r.distance = static_cast<double>(s.gap), r.normal = s.normal.cast<double>();
+  r.witness = {world(s.a, a), world(s.b, a)};
+  return r;
+}
+
+ContactAnswer wide_contact(const PlacedShape& a, const PlacedShape& b) {
+  const Separation s = separation(a, b);
+  ContactAnswer r;
+  r.outcome = s.outcome, r.error_bound = arithmetic_error(s);
+  r.overlap = s.outcome == Outcome::answered && touches(s);
+  if (!r.overlap) return r;
+  r.normal = s.normal.cast<double>();
+  r.depth = static_cast<double>(std::max<Wide>(0, -s.gap));
+  r.regret_bound = static_cast<double>(s.slack) + r.error_bound;
+  for (const WideVec& p : manifold_of(a, b, s))
+    r.manifold.push_back({world(p, a), r.depth, static_cast<std::uint32_t>(r.manifold.size())});
+  return r;
+}
+
+}  // namespace touchstone::narrow
+
+namespace touchstone {
+
+Separation separation(const PlacedShape& a, const PlacedShape& b) {
+  return narrow::separate(*a.shape, wide_frame(a.pose), *b.shape, wide_frame(b.pose));
+}
+
+}  // namespace touchstone

@@ -1,0 +1,13 @@
+// The three answers worked out in extended precision on the exact pose and rounded once: right wherever the
+// fast ones cannot tell, and a hundred times slower.
+#pragma once
+
+#include "core/narrow/narrow_phase.h"
+
+namespace touchstone::narrow {
+
+OverlapAnswer wide_overlap(const PlacedShape& a, const PlacedShape& b);
+DistanceAnswer wide_distance(const PlacedShape& a, const PlacedShape& b);
+ContactAnswer wide_contact(const PlacedShape& a, const PlacedShape& b);
+
+}  // namespace touchstone::narrow
