@@ -256,8 +256,8 @@ class Epa {
     }
   }
 
-  /// Replaces the facets that see p by a fan from p. False, and nothing changed, when p is not new or the
-  /// horizon touches itself.
+  /// Replaces the facets that see p by a fan from p. False, and nothing changed, when p is not new, or the
+  /// horizon touches itself or is none.
   bool insert(int f, const BasicVertex<T>& p) {
     for (const BasicVertex<T>& v : r_.polytope.vertices)
       if (v.w.x == p.w.x && v.w.y == p.w.y && v.w.z == p.w.z) return false;
@@ -270,7 +270,8 @@ class Epa {
     mark_[at(*first)] = stamp_;
     for (std::size_t k = 0; k < visible_.size(); ++k) look_around(visible_[k], p.w);
     first_.resize(r_.polytope.vertices.size() + 1, -1);
-    bool simple = true;
+    // Rounded normals may let p see every facet, and then there is no horizon to build on.
+    bool simple = horizon_.size() >= 3;
     for (std::size_t k = 0; k < horizon_.size(); ++k) {
       int& slot = first_[at(horizon_[k].from)];
       simple = simple && slot < 0;

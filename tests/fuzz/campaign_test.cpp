@@ -5,7 +5,9 @@
 #include "core/base/input_error.h"
 #include "fuzz/campaign/campaign.h"
 #include "fuzz/campaign/store.h"
+#include "fuzz/judge/truth.h"
 #include "oracles/core/core_engine.h"
+#include "scenarios/case_codec.h"
 #include "tests/mutants/lying_engine.h"
 #include "tests/support/catch.h"
 
@@ -118,4 +120,14 @@ TEST_CASE("a campaign stopped half way goes on to the same findings", "[campaign
     for (const auto& [key, f] : part.findings) n += fs::exists(dir.path / "findings" / key / "case.json");
     CHECK(n == part.findings.size());
   }
+}
+
+TEST_CASE("a point that sees every facet of the referee's polytope does not keep it for ever", "[campaign]") {
+  const Case c = load_case(TS_SOURCE_DIR "/tests/referee/cases/mesh_cone_no_horizon.json");
+  fuzz::Truth truth(c.scene);
+  const referee::TimeTruth& t = truth.motion(0, 0, 1);
+  CHECK(t.verdict == referee::TimeTruth::Verdict::hit);
+  // The time that our own core, which shares no code with the referee, finds too.
+  CHECK(t.t_lo <= 0.14125937686);
+  CHECK(t.t_hi >= 0.14125937684);
 }
