@@ -2,21 +2,22 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
 
 #include "core/base/input_error.h"
+#include "core/scene/input_file.h"
 #include "core/scene/real_scene.h"
+#include "fuzz/cli/case_argument.h"
 #include "fuzz/cli/command.h"
 #include "fuzz/explore/broad_view.h"
 #include "reports/broad_page.h"
-#include "scenarios/case_codec.h"
-#include "scenarios/catalog.h"
 
 namespace touchstone::cli {
 namespace {
 
 struct Options {
-  std::string scene, out, methods = "automatic,sort_and_sweep,hierarchical_grid,bounding_volume_hierarchy";
+  std::string scene, out;
+  std::vector<std::string> methods{"automatic", "sort_and_sweep", "hierarchical_grid",
+                                   "bounding_volume_hierarchy"};
   int frames = 100;
   bool broad = false, json = false;
 };
@@ -29,35 +30,18 @@ Scene scene_named(const Options& o) {
     scene.name = real.name;
     return scene;
   }
-  Case c;
-  if (!std::filesystem::exists(o.scene))
-    for (const auto& s : scenarios::catalog())
-      if (s.name == o.scene) c = s.make();
-  if (c.scene.bodies.empty()) c = load_case(o.scene);
+  Case c = case_argument(o.scene).c;
   if (c.scene.name.empty()) c.scene.name = std::filesystem::path(o.scene).stem().string();
   return c.scene;
-}
-
-std::vector<std::string> split(const std::string& s) {
-  std::vector<std::string> all;
-  for (std::size_t at = 0; at <= s.size();) {
-    const std::size_t end = std::min(s.find(',', at), s.size());
-    all.push_back(s.substr(at, end - at)), at = end + 1;
-  }
-  return all;
 }
 
 int run(const Options& o) {
   if (!o.broad) throw InputError("view", "say what to show: --broad");
   if (o.out.empty() && !o.json) throw InputError("view", "say where to write the page: -o FILE");
   const fuzz::BroadView view =
-      fuzz::broad_view(scene_named(o), split(o.methods), static_cast<std::size_t>(o.frames));
+      fuzz::broad_view(scene_named(o), o.methods, static_cast<std::size_t>(o.frames));
   if (view.frames.empty()) throw InputError(o.scene, "its script has no query: nothing to show");
-  if (!o.out.empty()) {
-    std::ofstream file(o.out, std::ios::binary);
-    file << reports::broad_page(view);
-    if (!file.flush()) throw InputError(o.out, "cannot be written");
-  }
+  if (!o.out.empty()) write_file(o.out, reports::broad_page(view));
   const auto& last = view.frames.back();
   if (o.json)
     fmt::print("{}\n", fuzz::to_json(view).dump(1));
@@ -77,7 +61,10 @@ Run declare_view(CLI::App& app) {
       ->required();
   app.add_flag("--broad", o->broad, "boxes, intervals, cells or trees, candidate pairs kept and pruned");
   app.add_option("-o,--out", o->out, "the page to write (HTML, loads nothing)");
-  app.add_option("--method", o->methods, "broad phases to show, separated by commas")->capture_default_str();
+  app.add_option("--method", o->methods, "broad phases to show, separated by commas")
+      ->delimiter(',')
+      ->allow_extra_args(false)
+      ->capture_default_str();
   app.add_option("--frames", o->frames, "queries to show, the first ones")
       ->check(CLI::Range(1, 10000))
       ->capture_default_str();
