@@ -182,10 +182,7 @@ Run declare_fuzz(CLI::App& app) {
       ->capture_default_str();
   app.add_option("--shard", o->shard, "i/n: only the i-th of n parts of the campaign, i from 0");
   app.add_option("--out", o->out, "directory of the results; an unfinished campaign in it is gone on with");
-  app.add_option("--case-seconds", o->limits.query_cpu_seconds,
-                 "CPU seconds that an engine may spend on one question")
-      ->check(CLI::PositiveNumber)
-      ->capture_default_str();
+  add_case_seconds(app, o->limits);
   app.add_flag("--json", o->json, "the whole result as one JSON document on stdout");
   return [o] { return run(*o); };
 }

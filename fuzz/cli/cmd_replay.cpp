@@ -109,10 +109,7 @@ Run declare_replay(CLI::App& app) {
   app.add_option("--subject", o->subject, "the engine whose faults decide the exit code")
       ->capture_default_str();
   app.add_option("--frames", o->frames, "of recorded scenes: first:end:step (default: about five frames)");
-  app.add_option("--case-seconds", o->limits.query_cpu_seconds,
-                 "CPU seconds that an engine may spend on one question")
-      ->check(CLI::PositiveNumber)
-      ->capture_default_str();
+  add_case_seconds(app, o->limits);
   app.add_flag("--json", o->json, "one JSON document on stdout");
   return [o] { return run(*o); };
 }

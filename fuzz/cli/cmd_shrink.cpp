@@ -120,10 +120,7 @@ Run declare_shrink(CLI::App& app) {
   app.add_option("--tries", o->tries, "cases to ask about at most")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
-  app.add_option("--case-seconds", o->limits.query_cpu_seconds,
-                 "CPU seconds that the engine may spend on one question")
-      ->check(CLI::PositiveNumber)
-      ->capture_default_str();
+  add_case_seconds(app, o->limits);
   app.add_flag("--json", o->json, "one JSON document on stdout");
   return [o] { return run(*o); };
 }

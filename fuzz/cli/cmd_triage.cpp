@@ -105,10 +105,7 @@ Run declare_triage(CLI::App& app) {
   app.add_option("--junit", o->junit, "write the result as JUnit XML to this file");
   app.add_option("--date", o->date, "of the run, for the ledger (default: now)");
   app.add_flag("--no-shrink", o->no_shrink, "store cases of new findings as they were found");
-  app.add_option("--case-seconds", o->limits.query_cpu_seconds,
-                 "CPU seconds that an engine may spend on one question")
-      ->check(CLI::PositiveNumber)
-      ->capture_default_str();
+  add_case_seconds(app, o->limits);
   app.add_flag("--json", o->json, "one JSON document on stdout");
   return [o] { return run(*o); };
 }

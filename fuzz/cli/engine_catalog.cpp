@@ -78,6 +78,13 @@ void check_name(const std::string& name) {
 
 std::span<const EngineRow> engine_catalog() { return rows; }
 
+void add_case_seconds(CLI::App& app, WorkerLimits& limits) {
+  app.add_option("--case-seconds", limits.query_cpu_seconds,
+                 "CPU seconds that an engine may spend on one question")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+}
+
 std::filesystem::path host_program() { return program_directory() / "touchstone-host"; }
 
 std::filesystem::path plugin_directory() { return program_directory().parent_path() / "lib"; }

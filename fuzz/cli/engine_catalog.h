@@ -2,6 +2,7 @@
 // every other engine in a worker process behind the C ABI, like a user's plug-in.
 #pragma once
 
+#include <CLI/CLI.hpp>
 #include <filesystem>
 #include <span>
 #include <string>
@@ -28,6 +29,9 @@ std::vector<std::string> engine_names(const std::string& text);
 
 /// Throws InputError when the plug-in is missing or does not offer the engine.
 EnginePtr make_engine(const std::string& name, const WorkerLimits& limits);
+
+/// The option --case-seconds of every command that asks engines.
+void add_case_seconds(CLI::App& app, WorkerLimits& limits);
 
 std::filesystem::path host_program();
 std::filesystem::path plugin_directory();
