@@ -2,15 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 #include "core/base/input_error.h"
 #include "fuzz/shrink/measure.h"
 
 namespace touchstone::fuzz {
 namespace {
-
-using Range = std::vector<bool>;  // true: stays
 
 template <class T>
 void erase_range(std::vector<T>& v, std::size_t first, std::size_t n) {
@@ -242,7 +239,6 @@ void about_one(const Case& c, std::vector<Case>& out) {
   for (Shape& s : r.scene.shapes) {
     Vec3 normal = Vec3::Zero();
     if (auto* h = std::get_if<HalfSpace>(&s)) normal = h->normal;
-    std::vector<double*> fields;
     Case only;
     only.scene.shapes = {s};
     for (double* x : numbers(only)) *x *= factor;

@@ -60,7 +60,7 @@ namespace {
 
 class Statement {
  public:
-  Statement(sqlite3* db, const std::string& sql) : db_(db) {
+  Statement(sqlite3* db, const std::string& sql) {
     ok_ = sqlite3_prepare_v2(db, sql.c_str(), -1, &s_, nullptr) == SQLITE_OK;
   }
   ~Statement() { sqlite3_finalize(s_); }
@@ -91,7 +91,6 @@ class Statement {
   }
 
  private:
-  sqlite3* db_;
   sqlite3_stmt* s_ = nullptr;
   int bound_ = 0;
   bool ok_ = false;
