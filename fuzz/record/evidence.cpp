@@ -1,5 +1,6 @@
 #include "fuzz/record/evidence.h"
 
+#include "fuzz/judge/truth.h"
 #include "oracles/referee/impact_certificate.h"
 #include "scenarios/case_codec.h"
 
@@ -34,16 +35,11 @@ std::optional<referee::Placed> placed_at(const Scene& s, int body, int step) {
   if (body < 0 || body >= static_cast<int>(s.bodies.size())) return std::nullopt;
   const Body& b = s.bodies[static_cast<std::size_t>(body)];
   if (step < 0) return referee::Placed{&s.shape_of(body), b.pose};
-  std::optional<Pose> pose;
-  for (const Step& x : effective_script(s)) {
-    if (x.op == Step::Op::query && step-- == 0)
-      return pose ? std::optional(referee::Placed{&s.shape_of(body), *pose}) : std::nullopt;
-    if (x.body != body) continue;
-    if (x.op == Step::Op::insert) pose = x.pose.value_or(b.pose);
-    if (x.op == Step::Op::move) pose = x.pose;
-    if (x.op == Step::Op::remove) pose.reset();
-  }
-  return std::nullopt;
+  Truth truth(s);
+  const auto& steps = truth.steps();
+  if (step >= static_cast<int>(steps.size())) return std::nullopt;
+  const auto& pose = steps[static_cast<std::size_t>(step)].pose[static_cast<std::size_t>(body)];
+  return pose ? std::optional(referee::Placed{&s.shape_of(body), *pose}) : std::nullopt;
 }
 
 Json exact_certificate(const Scene& s, Question q, int a, int b, int step) {
