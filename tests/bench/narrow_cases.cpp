@@ -1,34 +1,19 @@
 #include "tests/bench/narrow_cases.h"
 
-#include "core/base/rng.h"
 #include "core/narrow/narrow_phase.h"
+#include "tests/support/plain_shape.h"
 
 namespace touchstone::bench {
 namespace {
 
-Shape make_shape(Rng& r, ShapeKind kind, int vertices) {
-  const auto size = [&] { return r.uniform(0.3, 1); };
-  switch (kind) {
-    case ShapeKind::sphere:
-      return Sphere{size()};
-    case ShapeKind::box:
-      return Box{{size(), size(), size()}};
-    case ShapeKind::capsule:
-      return Capsule{size() / 2, size()};
-    case ShapeKind::cylinder:
-      return Cylinder{size(), size()};
-    case ShapeKind::cone:
-      return Cone{size(), size()};
-    case ShapeKind::ellipsoid:
-      return Ellipsoid{{size(), size(), size()}};
-    default: {
-      // On an ellipsoid, so that every vertex is extreme.
-      const Vec3 axes(size(), size(), size());
-      std::vector<Vec3> v;
-      for (int i = 0; i < vertices; ++i) v.push_back(axes.cwiseProduct(r.unit_vector()));
-      return make_hull(std::move(v));
-    }
-  }
+Shape make_shape(Rng& rng, ShapeKind kind, int vertices) {
+  return test::plain_shape(rng, kind, [vertices](Rng& r, auto&& size) {
+    // On an ellipsoid, so that every vertex is extreme.
+    const Vec3 axes(size(), size(), size());
+    std::vector<Vec3> v;
+    for (int i = 0; i < vertices; ++i) v.push_back(axes.cwiseProduct(r.unit_vector()));
+    return make_hull(std::move(v));
+  });
 }
 
 }  // namespace

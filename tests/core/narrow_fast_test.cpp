@@ -101,14 +101,17 @@ Count sweep(long rounds_a_kind, std::uint64_t seed) {
   return count;
 }
 
+// How many cases reached the assertions; said whether they hold or not.
+void report(const Count& c) {
+  WARN(c.asked << " asked, " << c.answered << " values, " << c.verdicts << " verdicts, " << c.depths
+               << " depths");
+}
+
 }  // namespace
 
 TEST_CASE("in double, a fast answer is within the bound that it states", "[narrow][fast]") {
   const Count c = sweep<double>(rounds(2), 21);
-  INFO(c.asked << " asked, " << c.answered << " values, " << c.verdicts << " verdicts, " << c.depths
-               << " depths");
-  WARN(c.asked << " asked, " << c.answered << " values, " << c.verdicts << " verdicts, " << c.depths
-               << " depths");
+  report(c);
   CHECK(c.answered > c.asked * 9 / 10);
   CHECK(c.verdicts > c.asked / 2);
   CHECK(c.depths > c.answered / 4);
@@ -116,10 +119,7 @@ TEST_CASE("in double, a fast answer is within the bound that it states", "[narro
 
 TEST_CASE("in float, an answer is within the bound that it states", "[narrow][fast][float]") {
   const Count c = sweep<float>(rounds(2), 22);
-  INFO(c.asked << " asked, " << c.answered << " values, " << c.verdicts << " verdicts, " << c.depths
-               << " depths");
-  WARN(c.asked << " asked, " << c.answered << " values, " << c.verdicts << " verdicts, " << c.depths
-               << " depths");
+  report(c);
   CHECK(c.answered > c.asked * 9 / 10);
   CHECK(c.depths > c.answered / 4);
 }

@@ -6,6 +6,7 @@
 #include "oracles/referee/referee.h"
 #include "tests/core/random_pair.h"
 #include "tests/support/catch.h"
+#include "tests/support/plain_shape.h"
 
 using namespace touchstone;
 using namespace touchstone::test;
@@ -17,27 +18,12 @@ long extra_rounds() {
   return text ? std::max(1L, std::atol(text)) : 0;
 }
 
-Shape plain_shape(Rng& r, ShapeKind kind) {
-  const auto size = [&] { return r.uniform(0.3, 1); };
-  switch (kind) {
-    case ShapeKind::sphere:
-      return Sphere{size()};
-    case ShapeKind::box:
-      return Box{{size(), size(), size()}};
-    case ShapeKind::capsule:
-      return Capsule{size() / 2, size()};
-    case ShapeKind::cylinder:
-      return Cylinder{size(), size()};
-    case ShapeKind::cone:
-      return Cone{size(), size()};
-    case ShapeKind::ellipsoid:
-      return Ellipsoid{{size(), size(), size()}};
-    default: {
-      std::vector<Vec3> v;
-      for (int i = 0; i < 12; ++i) v.push_back(r.unit_vector() * size());
-      return make_hull(std::move(v));
-    }
-  }
+Shape plain_shape(Rng& rng, ShapeKind kind) {
+  return test::plain_shape(rng, kind, [](Rng& r, auto&& size) {
+    std::vector<Vec3> v;
+    for (int i = 0; i < 12; ++i) v.push_back(r.unit_vector() * size());
+    return make_hull(std::move(v));
+  });
 }
 
 Pair plain_pair(Rng& r, ShapeKind a, ShapeKind b) {

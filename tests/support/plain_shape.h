@@ -1,0 +1,31 @@
+// Shapes of about unit size for tests and benches.
+#pragma once
+
+#include "core/base/rng.h"
+#include "core/shape/shape.h"
+
+namespace touchstone::test {
+
+/// Every size uniform in [0.3, 1]; what is none of the simple convex kinds is `hull(r, size)`.
+template <class MakeHull>
+Shape plain_shape(Rng& r, ShapeKind kind, MakeHull&& hull) {
+  const auto size = [&] { return r.uniform(0.3, 1); };
+  switch (kind) {
+    case ShapeKind::sphere:
+      return Sphere{size()};
+    case ShapeKind::box:
+      return Box{{size(), size(), size()}};
+    case ShapeKind::capsule:
+      return Capsule{size() / 2, size()};
+    case ShapeKind::cylinder:
+      return Cylinder{size(), size()};
+    case ShapeKind::cone:
+      return Cone{size(), size()};
+    case ShapeKind::ellipsoid:
+      return Ellipsoid{{size(), size(), size()}};
+    default:
+      return hull(r, size);
+  }
+}
+
+}  // namespace touchstone::test
