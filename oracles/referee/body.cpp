@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "oracles/referee/wide.h"
+
 namespace touchstone::referee {
 namespace {
 
@@ -143,7 +145,8 @@ Triple<T> local_support(const BasicSolid<T>& b, const Triple<T>& m) {
     if (!(n * n > least_square<T>)) return {b.size.x, 0, 0};
     return {b.size.x * (s.x / n), b.size.y * (s.y / n), b.size.z * (s.z / n)};
   }
-  const T s_sq = m.x * m.x + m.y * m.y, s = std::sqrt(s_sq);
+  using std::sqrt;
+  const T s_sq = m.x * m.x + m.y * m.y, s = sqrt(s_sq);
   const Triple<T> rim =
       s_sq > least_square<T> ? Triple<T>{r * (m.x / s), r * (m.y / s), -h} : Triple<T>{r, 0, -h};
   if (b.kind == Kind::cylinder) return {rim.x, rim.y, m.z < 0 ? -h : h};
@@ -347,5 +350,6 @@ SupportPoint<T> support(const BasicSolid<T>& b, const Triple<T>& n) {
 
 template SupportPoint<double> support(const BasicSolid<double>&, const Triple<double>&);
 template SupportPoint<Real> support(const BasicSolid<Real>&, const Triple<Real>&);
+template SupportPoint<Wide> support(const BasicSolid<Wide>&, const Triple<Wide>&);
 
 }  // namespace touchstone::referee

@@ -33,7 +33,8 @@ bool has_core_points(const Placed& p);
 /// The radius of the ball around the core; 0 for what has none.
 double core_radius(const Placed& p);
 
-/// T is the arithmetic: long double for everything that is handed out, double for the filter's first level.
+/// T is the arithmetic: long double for everything that is handed out, double for the filter's first level,
+/// Wide for a search whose finds the checker has to accept.
 template <class T>
 struct BasicSolid {
   /// orbit: the hull of the circles that the points of a polytope run through when it turns about an axis for
@@ -75,7 +76,7 @@ void add_sweep(Solid& b, const Real3& sweep, Real sweep_error);
 /// Holds the body turned by any angle about the axis `angular` (not zero) through `centre`, its own origin.
 Solid make_orbit(const Solid& b, const Real3& centre, const Real3& angular);
 
-/// Instantiated for double and Real.
+/// Instantiated for double, Real and Wide (wide.h).
 template <class T>
 SupportPoint<T> support(const BasicSolid<T>& b, const Triple<T>& n);
 

@@ -11,12 +11,12 @@
 namespace touchstone::referee {
 
 /// A bounded convex body, for the filter and, if it has one, for the exact level: either `exact` itself or,
-/// so that it is only made when it is needed, where it stands.
+/// so that it is only made when it is needed, where it stands (a curved body has no exact one).
 struct Operand {
   Solid body;
   std::optional<ExactBody> exact;
   Placed placed{};
-  bool has_exact() const { return exact || placed.shape != nullptr; }
+  bool has_exact() const { return exact || (placed.shape != nullptr && has_core_points(placed)); }
   ExactBody exact_body() const;
 };
 /// The shape must be convex and bounded. `origin`: the filter's numbers are relative to it.

@@ -7,6 +7,8 @@
 
 #include <algorithm>
 
+#include "oracles/referee/wide.h"
+
 namespace touchstone::referee {
 namespace {
 
@@ -155,9 +157,12 @@ BasicGjkResult<T> gjk(const BasicDifference<T>& d, std::span<const Triple<T>> hi
 
 template void reduce(BasicSimplex<double>&);
 template void reduce(BasicSimplex<Real>&);
+template void reduce(BasicSimplex<Wide>&);
 template BasicGjkResult<double> gjk(const BasicDifference<double>&, std::span<const Triple<double>>, double,
                                     const BasicSimplex<double>*);
 template BasicGjkResult<Real> gjk(const BasicDifference<Real>&, std::span<const Triple<Real>>, Real,
                                   const BasicSimplex<Real>*);
+template BasicGjkResult<Wide> gjk(const BasicDifference<Wide>&, std::span<const Triple<Wide>>, Wide,
+                                  const BasicSimplex<Wide>*);
 
 }  // namespace touchstone::referee

@@ -29,8 +29,8 @@ struct BasicGjkResult {
 using GjkResult = BasicGjkResult<Real>;
 
 /// Stops when the bracket is narrower than `target`. `hints`: first directions, A to B. `seed`: a simplex of
-/// support points to begin with, nullptr for none; with one, hints are not asked. Instantiated for double and
-/// Real, as is `reduce`.
+/// support points to begin with, nullptr for none; with one, hints are not asked. Instantiated for double,
+/// Real and Wide (wide.h), as is `reduce`.
 template <class T>
 BasicGjkResult<T> gjk(const BasicDifference<T>& d, std::span<const Triple<T>> hints,
                       std::type_identity_t<T> target, const BasicSimplex<T>* seed = nullptr);

@@ -39,7 +39,8 @@ struct BasicDifference {
   }
   /// Upper bound of h_D(n)/|n| given the support vertex of n.
   T width_above(const BasicVertex<T>& v, const Triple<T>& n) const {
-    const T length_sq = dot(n, n), length = std::sqrt(length_sq);
+    using std::sqrt;
+    const T length_sq = dot(n, n), length = sqrt(length_sq);
     if (!(length_sq > least_square<T>)) return std::numeric_limits<T>::infinity();
     return dot(n, v.w) / length + error + 8 * unit_of<T> * extent;
   }

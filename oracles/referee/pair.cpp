@@ -6,6 +6,7 @@
 #include "oracles/referee/half_space.h"
 #include "oracles/referee/mesh.h"
 #include "oracles/referee/touching.h"
+#include "oracles/referee/wide_search.h"
 
 namespace touchstone::referee {
 namespace {
@@ -195,12 +196,19 @@ PairTruth judge_pair(const Placed& a, const Placed& b, std::span<const Vec3> hin
   if (r.verdict != Verdict::undecided) return r;
   int level = 2;
   Certificate c = guess_common_point(r.witness, a, b, level);
+  if (c.kind == Certificate::Kind::none) c = search_wide(a, b);
   if (c.kind == Certificate::Kind::none) return r;
   ++(level == 1 ? counters().extended : counters().exact);
   if (counters().undecided > 0) --counters().undecided;
-  r.verdict = Verdict::overlap, r.level = level;
-  r.gap.hi = std::min(r.gap.hi, 0.0), r.gap.lo = std::min(r.gap.lo, 0.0);
-  if (is<TriangleMesh>(a) || is<TriangleMesh>(b)) r.gap = {-std::numeric_limits<double>::infinity(), 0};
+  r.level = level;
+  if (c.kind == Certificate::Kind::separating_plane) {
+    r.verdict = Verdict::disjoint;
+    r.gap.lo = std::max(r.gap.lo, 0.0);
+  } else {
+    r.verdict = Verdict::overlap;
+    r.gap.hi = std::min(r.gap.hi, 0.0), r.gap.lo = std::min(r.gap.lo, 0.0);
+    if (is<TriangleMesh>(a) || is<TriangleMesh>(b)) r.gap = {-std::numeric_limits<double>::infinity(), 0};
+  }
   r.verdict_certificate = std::move(c);
   return r;
 }

@@ -36,6 +36,12 @@ int least_exponent(const Real3& v) {
   return least - 64;
 }
 
+Integer floor_of(const Rational& x) {
+  const Integer n = numerator(x), d = denominator(x);
+  const Integer q = n / d;  // towards zero
+  return q * d > n ? Integer(q - 1) : q;
+}
+
 }  // namespace
 
 Parts parts_of(double x) {
@@ -55,6 +61,14 @@ Rational exact(double x) {
   const Parts p = parts_of(x);
   if (p.exponent >= 0) return Rational(shifted(Integer(p.mantissa), p.exponent));
   return Rational(Integer(p.mantissa), shifted(Integer(1), -p.exponent));
+}
+
+Rational simplest_between(const Rational& lo, const Rational& hi) {
+  const Integer whole = floor_of(lo);
+  if (Rational(whole) == lo) return lo;
+  if (Rational(whole + 1) <= hi) return Rational(whole + 1);
+  const Rational w(whole);
+  return w + Rational(1) / simplest_between(Rational(1) / (hi - w), Rational(1) / (lo - w));
 }
 
 std::string text_of(const Rational& x) { return x.str(); }

@@ -57,6 +57,9 @@ Rational exact(double x);
 inline Rational3 exact(const Vec3& v) { return {exact(v.x()), exact(v.y()), exact(v.z())}; }
 Integer shifted(Integer x, int bits);  // x·2^bits, bits >= 0
 
+/// The fraction of least denominator in [lo, hi], by the continued fractions of both ends.
+Rational simplest_between(const Rational& lo, const Rational& hi);
+
 /// "n/d" in lowest terms, "n" when d = 1; and back. Throws InputError on anything else.
 std::string text_of(const Rational& x);
 Rational rational_from_text(const std::string& s);

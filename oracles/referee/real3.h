@@ -62,11 +62,13 @@ Triple<T> cross(const Triple<T>& a, const Triple<T>& b) {
 }
 template <class T>
 T norm(const Triple<T>& a) {
-  return std::sqrt(dot(a, a));
+  using std::sqrt;
+  return sqrt(dot(a, a));
 }
 template <class T>
 T largest(const Triple<T>& a) {
-  return std::max(std::abs(a.x), std::max(std::abs(a.y), std::abs(a.z)));
+  using std::abs;
+  return std::max<T>(abs(a.x), std::max<T>(abs(a.y), abs(a.z)));
 }
 inline Real3 to_real(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
 inline Real3 to_real(const Double3& v) { return {v.x, v.y, v.z}; }
@@ -85,7 +87,8 @@ Triple<T> normalized(const Triple<T>& a) {
 /// A vector at a right angle to `a` (not zero), of length between |a|/2 and |a|.
 template <class T>
 Triple<T> perpendicular(const Triple<T>& a) {
-  const T ax = std::abs(a.x), ay = std::abs(a.y), az = std::abs(a.z);
+  using std::abs;
+  const T ax = abs(a.x), ay = abs(a.y), az = abs(a.z);
   if (ax <= ay && ax <= az) return {0, -a.z, a.y};
   if (ay <= az) return {-a.z, 0, a.x};
   return {-a.y, a.x, 0};
@@ -98,7 +101,8 @@ template <class T>
 Triple<T> unit_across(const Triple<T>& a, const Triple<T>& u) {
   Triple<T> e = normalized(a - dot(a, u) * u);
   for (int i = 0; i < 2; ++i) e = normalized(e - dot(e, u) * u);
-  return std::abs(dot(e, u)) <= 4 * unit_of<T> && largest(e) > 0 ? e : normalized(perpendicular(u));
+  using std::abs;
+  return abs(dot(e, u)) <= 4 * unit_of<T> && largest(e) > 0 ? e : normalized(perpendicular(u));
 }
 
 /// Normal of a triangle, counter-clockwise, from the two edges that meet at its widest angle: of two long and

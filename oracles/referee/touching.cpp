@@ -12,21 +12,6 @@
 namespace touchstone::referee {
 namespace {
 
-Integer floor_of(const Rational& x) {
-  const Integer n = numerator(x), d = denominator(x);
-  const Integer q = n / d;  // towards zero
-  return q * d > n ? Integer(q - 1) : q;
-}
-
-/// The fraction of least denominator in [lo, hi], by the continued fractions of both ends.
-Rational simplest_between(const Rational& lo, const Rational& hi) {
-  const Integer whole = floor_of(lo);
-  if (Rational(whole) == lo) return lo;
-  if (Rational(whole + 1) <= hi) return Rational(whole + 1);
-  const Rational w(whole);
-  return w + Rational(1) / simplest_between(Rational(1) / (hi - w), Rational(1) / (lo - w));
-}
-
 bool is_as_rounded(const Certificate& c) {
   for (int k = 0; k < 3; ++k)
     if (exact(c.point[k]) != rational_from_text(c.rationals[static_cast<std::size_t>(k)])) return false;

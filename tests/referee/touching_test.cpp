@@ -79,4 +79,54 @@ TEST_CASE("a body half a billionth of a unit away is not talked into contact", "
   REQUIRE(apart == 600);
 }
 
+// The two neighbouring doubles between which a shift of B leaves A: the gaps there are about 1e-17, less than
+// extended precision can tell from 0.
+TEST_CASE("curved bodies are decided on both sides of contact, one ulp apart", "[referee][touching]") {
+  Rng r(74);
+  const ShapeKind curved[] = {ShapeKind::cylinder, ShapeKind::cone, ShapeKind::ellipsoid};
+  int by_level[3] = {0, 0, 0}, certified = 0, undecided = 0;
+  constexpr int n = 150;
+  for (int i = 0; i < n; ++i) {
+    const Shape x = random_convex(r, curved[i % 3]), y = random_convex(r, convex_kinds[i / 3 % 7]);
+    const Pose p{Vec3::Zero(), r.rotation()};
+    const Quat turn = r.rotation();
+    const Vec3 along = r.unit_vector();
+    const auto at = [&](double s) { return judge_pair({&x, p}, {&y, Pose{s * along, turn}}); };
+    double in = 0, out = 8;
+    REQUIRE(at(in).verdict == Verdict::overlap);
+    REQUIRE(at(out).verdict == Verdict::disjoint);
+    for (double s = 4; s > in && s < out; s = in + 0.5 * (out - in))
+      (at(s).verdict == Verdict::disjoint ? out : in) = s;
+    for (const double s : {in, out}) {
+      const Pose q{s * along, turn};
+      const PairTruth t = judge_pair({&x, p}, {&y, q});
+      CAPTURE(i, s);
+      if (t.verdict == Verdict::undecided) {
+        ++undecided;
+        continue;
+      }
+      REQUIRE(t.verdict == (s == in ? Verdict::overlap : Verdict::disjoint));
+      ++by_level[t.level];
+      if (t.level < 2) continue;
+      REQUIRE(check(t.verdict_certificate, {&x, p}, {&y, q}));
+      REQUIRE((s == in ? t.gap.hi <= 0 : t.gap.lo >= 0));
+      ++certified;
+    }
+  }
+  CAPTURE(by_level[0], by_level[1], by_level[2], undecided);
+  REQUIRE(certified > n / 20);
+  REQUIRE(undecided <= n / 75);
+}
+
+TEST_CASE("contact in a point of a rim and along an edge is found among simple fractions",
+          "[referee][touching]") {
+  const Shape drum = Cylinder{0.625, 0.875}, rod = Capsule{0.375, 0.75};
+  const Pose lying{{0.25, 0.625, -1.25}, {1, 1, 1, 1}};
+  REQUIRE(judge_pair({&drum, Pose{}}, {&rod, lying}).verdict == Verdict::overlap);
+  const Shape roof = make_hull({{-2, -0.25, 0}, {2, 0.125, 0}, {-2, 1, -1}, {2, -1, -1}, {0, 0, -3}});
+  const Shape cone = Cone{1.125, 0.75};
+  const Pose below{{0.1, 0.3, -0.75}, {0, 0, 0, 1}};
+  REQUIRE(judge_pair({&cone, Pose{}}, {&roof, below}).verdict == Verdict::overlap);
+}
+
 }  // namespace touchstone::referee_test
