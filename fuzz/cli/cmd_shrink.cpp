@@ -1,62 +1,24 @@
 // touchstone shrink CASE: the smallest case that shows the same finding.
 #include <fmt/format.h>
 
-#include <filesystem>
 #include <nlohmann/json.hpp>
 
-#include "core/base/input_error.h"
-#include "core/scene/input_file.h"
-#include "fuzz/cli/case_argument.h"
 #include "fuzz/cli/command.h"
-#include "fuzz/cli/engine_catalog.h"
+#include "fuzz/cli/finding_argument.h"
 #include "fuzz/shrink/keeps_finding.h"
 
 namespace touchstone::cli {
 namespace {
 
 using Json = nlohmann::ordered_json;
-namespace fs = std::filesystem;
 
 struct Options {
-  std::string path, out, engine, key;
+  FindingArgument finding;
+  std::string out;
   std::size_t tries = 20000;
   bool json = false;
   WorkerLimits limits;
 };
-
-// Of a finding's directory: the key that its finding.json names.
-std::string stored_key(const std::string& path) {
-  const fs::path beside =
-      (fs::is_directory(path) ? fs::path(path) : fs::path(path).parent_path()) / "finding.json";
-  if (!fs::exists(beside)) return {};
-  try {
-    return Json::parse(read_file(beside, std::uintmax_t{1} << 28)).at("key");
-  } catch (const Json::exception& e) {
-    throw InputError(beside.string(), std::string("is not a finding: ") + e.what());
-  }
-}
-
-// A key starts with its engine's name; those of plug-ins may hold dots themselves.
-std::string engine_of(const std::string& key) {
-  std::string found;
-  for (const EngineRow& row : engine_catalog())
-    if (key.starts_with(std::string(row.name) + ".") && row.name.size() > found.size()) found = row.name;
-  if (found.empty())
-    throw InputError("--key", "names no engine of the catalog: " + key + " (give --engine for a plug-in)");
-  return found;
-}
-
-using Findings = std::map<std::string, fuzz::Finding>;
-
-// The finding asked for, or the only one; empty: the case shows none (of that key).
-std::string choose(const std::string& key, const Findings& findings) {
-  if (!key.empty()) return findings.contains(key) ? key : "";
-  if (findings.empty()) return {};
-  std::string list;
-  for (const auto& [each, f] : findings) list += "\n  " + each;
-  if (findings.size() > 1) throw InputError("--key", "which finding? The case shows" + list);
-  return findings.begin()->first;
-}
 
 std::string in_words(const fuzz::Measure& m) {
   return fmt::format("{} bodies, {} steps, {} bits", m.bodies, m.steps, m.bits);
@@ -83,14 +45,12 @@ void print(const Options& o, const std::string& key, const fuzz::Shrunk& r, cons
     fmt::print("{}\n", o.out);
 }
 
-int run(Options o) {
-  StoredCase stored = case_argument(o.path);
-  if (o.key.empty() && o.engine.empty()) o.key = stored_key(o.path);
-  if (o.engine.empty()) o.engine = o.key.empty() ? "core" : engine_of(o.key);
-  const EnginePtr engine = make_engine(engine_names(o.engine).at(0), o.limits);
-  const std::string key = choose(o.key, fuzz::findings_of({&stored.c, 1}, engine)[0]);
+int run(const Options& o) {
+  const AskedFinding asked = ask_for_finding(o.finding, o.limits);
+  const auto& [stored, engine_name, engine, key, findings] = asked;
   if (key.empty()) {
-    fmt::print(stderr, "{} is not found wrong{}\n", o.engine, o.key.empty() ? "" : " in this way: " + o.key);
+    fmt::print(stderr, "{} is not found wrong{}\n", engine_name,
+               o.finding.key.empty() ? "" : " in this way: " + o.finding.key);
     return exit_failed;
   }
   const auto shrunk = fuzz::shrink(stored.c, fuzz::keeps_finding(engine, key), o.tries);
@@ -111,12 +71,8 @@ int run(Options o) {
 
 Run declare_shrink(CLI::App& app) {
   auto o = std::make_shared<Options>();
-  app.add_option("case", o->path, "a finding's directory, a case or scene file, or the name of a scenario")
-      ->required();
+  add_finding_argument(app, o->finding);
   app.add_option("-o,--out", o->out, "file for the shrunk case (default: stdout)");
-  app.add_option("--key", o->key,
-                 "the finding to keep (default: that of finding.json beside the case, or the only one)");
-  app.add_option("--engine", o->engine, "the engine found wrong (default: that of the key, or core)");
   app.add_option("--tries", o->tries, "cases to ask about at most")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();

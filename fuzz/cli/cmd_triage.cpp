@@ -3,15 +3,18 @@
 
 #include <chrono>
 #include <ctime>
+#include <filesystem>
 #include <map>
 
 #include "core/base/input_error.h"
 #include "core/scene/input_file.h"
 #include "fuzz/cli/command.h"
 #include "fuzz/cli/engine_catalog.h"
+#include "fuzz/reproduce/reproducer.h"
 #include "fuzz/shrink/keeps_finding.h"
 #include "fuzz/triage/triage.h"
 #include "reports/triage_text.h"
+#include "scenarios/case_codec.h"
 
 namespace touchstone::cli {
 namespace {
@@ -20,7 +23,7 @@ namespace {
 constexpr std::size_t all_tries = 4000, tries_of_slow = 8;
 
 struct Options {
-  std::string directory, ledger = "findings.db", subject = "all", junit, date;
+  std::string directory, ledger = "findings.db", subject = "all", junit, date, reproducers;
   bool json = false, no_shrink = false;
   WorkerLimits limits;
 };
@@ -75,12 +78,41 @@ fuzz::TriageConfig config_of(const Options& o, Engines& engines) {
   return c;
 }
 
+// DIR/<key>/: case.json, the smallest case; certificate.json, what `touchstone check` verifies, when there is
+// one; reproduce.cpp, where the engine has a writer. Directories that are there already stay as they are.
+void write_reproducer(const std::filesystem::path& directory, const fuzz::KnownFinding& known,
+                      const EnginePtr& engine) {
+  if (!engine || !known.expired.empty() || std::filesystem::exists(directory / known.key)) return;
+  const Case smallest = fuzz::case_of(known);
+  const auto findings = fuzz::findings_of({&smallest, 1}, engine)[0];
+  const auto finding = findings.find(known.key);
+  if (finding == findings.end()) return;  // came once and not again; the ledger keeps its case
+  const auto to = directory / known.key;
+  std::filesystem::create_directories(to);
+  StoredCase stored;
+  stored.c = smallest;
+  stored.description = "shows " + known.key;
+  save_case(stored, to / "case.json");
+  const auto evidence = finding->second.evidence_json();
+  if (evidence.contains("certificate") && !evidence["certificate"].is_null())
+    write_file((to / "certificate.json").string(), evidence["certificate"].dump(1) + "\n");
+  if (!fuzz::has_reproducer(known.engine)) return;
+  try {
+    write_file((to / "reproduce.cpp").string(), fuzz::reproducer(finding->second, engine->card()));
+  } catch (const InputError& e) {
+    write_file((to / "no_reproducer.txt").string(), std::string(e.what()) + "\n");
+  }
+}
+
 int run(const Options& o) {
   const auto found = fuzz::load_findings(o.directory);
   fuzz::Ledger ledger(o.ledger);
   Engines engines(o.limits);
   const auto triaged = fuzz::triage(found, ledger, config_of(o, engines));
   ledger.commit();
+  if (!o.reproducers.empty())
+    for (const fuzz::Triaged& t : triaged)
+      write_reproducer(o.reproducers, t.finding, engines.named(t.finding.engine));
   if (!o.junit.empty()) write_file(o.junit, reports::triage_junit(triaged));
   if (o.json)
     fmt::print("{}\n", reports::triage_json(triaged).dump(1));
@@ -103,6 +135,9 @@ Run declare_triage(CLI::App& app) {
   app.add_option("--subject", o->subject, "the engine whose new findings make the exit code 1, or all")
       ->capture_default_str();
   app.add_option("--junit", o->junit, "write the result as JUnit XML to this file");
+  app.add_option(
+      "--reproducers", o->reproducers,
+      "directory that gets one directory a finding: case, certificate, a C++ program that shows it");
   app.add_option("--date", o->date, "of the run, for the ledger (default: now)");
   app.add_flag("--no-shrink", o->no_shrink, "store cases of new findings as they were found");
   add_case_seconds(app, o->limits);

@@ -14,6 +14,7 @@ constexpr Command table[] = {
     {"fuzz", "random differential campaign: every engine, every answer refereed", declare_fuzz},
     {"replay", "every engine's answer to stored cases, beside the referee's", declare_replay},
     {"shrink", "the smallest case that shows the same finding", declare_shrink},
+    {"reproduce", "a finding as one C++ file against the engine's own API", declare_reproduce},
     {"triage", "the findings of a campaign against the ledger of known ones: new, known, gone",
      declare_triage},
     {"view", "a page that shows what the broad phase makes of a scene", declare_view},

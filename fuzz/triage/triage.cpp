@@ -13,14 +13,6 @@ namespace {
 
 std::string text_of(const Case& c) { return case_to_json(c).dump(); }
 
-Case case_of(const KnownFinding& f) {
-  try {
-    return case_from_json(Json::parse(f.smallest), "ledger, " + f.key);
-  } catch (const Json::exception& e) {
-    throw InputError("ledger, " + f.key, std::string("its case is not JSON: ") + e.what());
-  }
-}
-
 StoredFinding load_finding(const std::filesystem::path& directory) {
   const auto file = directory / "finding.json";
   try {
@@ -65,6 +57,14 @@ Triaged asked_again(KnownFinding f, const TriageConfig& config) {
 }
 
 }  // namespace
+
+Case case_of(const KnownFinding& f) {
+  try {
+    return case_from_json(Json::parse(f.smallest), "ledger, " + f.key);
+  } catch (const Json::exception& e) {
+    throw InputError("ledger, " + f.key, std::string("its case is not JSON: ") + e.what());
+  }
+}
 
 std::string_view to_string(Standing s) {
   switch (s) {

@@ -36,6 +36,9 @@ struct StoredFinding {
 /// campaign.
 std::vector<StoredFinding> load_findings(const std::filesystem::path& campaign_directory);
 
+/// The smallest case of a finding in the ledger. Throws InputError when it is damaged.
+Case case_of(const KnownFinding& f);
+
 struct TriageConfig {
   std::string date;  // ISO 8601, of this run
   /// Name and version of an engine's library; empty: the engine is not here.

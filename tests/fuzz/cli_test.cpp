@@ -1,6 +1,4 @@
 // The command line as a user meets it: exit codes and messages.
-#include <sys/wait.h>
-#include <unistd.h>
 #include <array>
 #include <cstdio>
 #include <filesystem>
@@ -9,39 +7,12 @@
 #include <string>
 
 #include "tests/support/catch.h"
+#include "tests/support/workspace.h"
 
+using namespace touchstone::test;
 namespace fs = std::filesystem;
 
 namespace {
-
-struct Run {
-  int code = -1;
-  std::string out, err;
-};
-
-std::string read_all(const fs::path& p) {
-  std::ifstream f(p, std::ios::binary);
-  return {std::istreambuf_iterator<char>(f), {}};
-}
-
-struct Workspace {
-  fs::path dir = fs::temp_directory_path() / ("touchstone-cli-" + std::to_string(getpid()));
-  Workspace() { fs::remove_all(dir), fs::create_directories(dir); }
-  ~Workspace() { fs::remove_all(dir); }
-  fs::path write(const std::string& name, const std::string& text) const {
-    std::ofstream(dir / name) << text;
-    return dir / name;
-  }
-  /// `before`: a program that runs the program, such as timeout.
-  Run touchstone(const std::string& args, const std::string& before = "") const {
-    const std::string command =
-        "cd " + dir.string() + " && " + before + " " TS_BINARY_DIR "/bin/touchstone " + args + " >" +
-        (dir / "out.txt").string() + " 2>" + (dir / "err.txt").string() + " </dev/null";
-    const int status = std::system(command.c_str());
-    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, read_all(dir / "out.txt"),
-            read_all(dir / "err.txt")};
-  }
-};
 
 const std::string two_spheres = R"({"touchstone_scene":1,"shapes":[{"type":"sphere","radius":1}],
 "bodies":[{"shape":0,"pose":{"translation":[0,0,0],"rotation":[0,0,0,1]}},
@@ -68,7 +39,7 @@ std::size_t longest_line(const std::string& s) {
 }  // namespace
 
 TEST_CASE("bad usage and bad input exit with 2 and one line that names the place", "[cli]") {
-  const Workspace w;
+  const Workspace w("cli");
   w.write("truncated.json", spheres("1").substr(0, 60));
   w.write("nan.json", spheres("NaN"));
   w.write("infinite.json", spheres("1e999"));
@@ -110,7 +81,7 @@ TEST_CASE("bad usage and bad input exit with 2 and one line that names the place
 }
 
 TEST_CASE("replay shows every engine's answer beside the referee's", "[cli]") {
-  const Workspace w;
+  const Workspace w("cli");
   w.write("spheres.json", spheres("1.5"));
   const Run r = w.touchstone("replay spheres.json");
   INFO(r.out << r.err);
@@ -124,7 +95,7 @@ TEST_CASE("replay shows every engine's answer beside the referee's", "[cli]") {
 }
 
 TEST_CASE("a campaign prints its table in 80 columns and leaves replayable findings", "[cli]") {
-  const Workspace w;
+  const Workspace w("cli");
   const Run r = w.touchstone("fuzz --cases 96 --seed 3 --jobs 2 --out results");
   INFO(r.out << r.err);
   CHECK(r.code == 0);
@@ -144,7 +115,7 @@ TEST_CASE("a campaign prints its table in 80 columns and leaves replayable findi
 }
 
 TEST_CASE("a finding shrinks from its directory and still shows", "[cli]") {
-  const Workspace w;
+  const Workspace w("cli");
   w.touchstone("fuzz --cases 96 --seed 3 --out results");
   if (!fs::exists(w.dir / "results" / "findings")) {
     WARN("no oracle is installed: no findings to shrink");
@@ -171,7 +142,7 @@ TEST_CASE("a finding shrinks from its directory and still shows", "[cli]") {
 }
 
 TEST_CASE("a second triage of the same campaign finds nothing new", "[cli]") {
-  const Workspace w;
+  const Workspace w("cli");
   w.touchstone("fuzz --cases 96 --seed 3 --out results");
   if (!fs::exists(w.dir / "results" / "findings")) {
     WARN("no oracle is installed: no findings to triage");
@@ -192,7 +163,7 @@ TEST_CASE("a second triage of the same campaign finds nothing new", "[cli]") {
 
 TEST_CASE("shrink says when there is nothing to shrink, and asks which finding when there are several",
           "[cli]") {
-  const Workspace w;
+  const Workspace w("cli");
   w.write("spheres.json", spheres("1.5"));
   const Run clean = w.touchstone("shrink spheres.json");
   CHECK(clean.code == 3);
@@ -201,7 +172,7 @@ TEST_CASE("shrink says when there is nothing to shrink, and asks which finding w
 }
 
 TEST_CASE("a flat hull works and is called what it is", "[cli]") {
-  const Workspace w;
+  const Workspace w("cli");
   w.write("flat.json", R"({"touchstone_scene":1,"shapes":[
 {"type":"hull","vertices":[[0,0,0],[1,0,0],[0,1,0]]},{"type":"hull","vertices":[[0,0,1]]}],
 "bodies":[{"shape":0,"pose":{"translation":[0,0,0],"rotation":[0,0,0,1]}},
@@ -215,7 +186,7 @@ TEST_CASE("a flat hull works and is called what it is", "[cli]") {
 }
 
 TEST_CASE("an interrupted campaign keeps what it has and goes on", "[cli]") {
-  const Workspace w;
+  const Workspace w("cli");
   const Run r = w.touchstone("fuzz --engines core --minutes 5 --jobs 1 --out half",
                              "timeout --preserve-status -s INT 2");
   INFO(r.out << r.err);

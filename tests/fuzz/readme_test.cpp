@@ -34,6 +34,7 @@ std::string for_test(std::string c) {
   c = std::regex_replace(c, std::regex("--cases [0-9]+"), "--cases 300");
   c = std::regex_replace(c, std::regex(R"(\./libmine\.so)"), TS_BINARY_DIR "/lib/libtouchstone_example.so");
   c = std::regex_replace(c, std::regex("-o broad.html"), "-o " TS_BINARY_DIR "/readme-broad.html");
+  c = std::regex_replace(c, std::regex("-o reproduce.cpp"), "-o " TS_BINARY_DIR "/readme-reproduce.cpp");
   c = std::regex_replace(c, std::regex("out/nightly"), TS_BINARY_DIR "/readme-out");
   if (c.find(" fuzz ") != std::string::npos && c.find(" --out ") == std::string::npos)
     c += " --out " TS_BINARY_DIR "/readme-out";

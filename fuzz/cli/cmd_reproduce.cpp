@@ -1,0 +1,44 @@
+// touchstone reproduce CASE: a finding as one C++ file against the engine's own API.
+#include <fmt/format.h>
+
+#include "core/base/input_error.h"
+#include "core/scene/input_file.h"
+#include "fuzz/cli/command.h"
+#include "fuzz/cli/finding_argument.h"
+#include "fuzz/reproduce/reproducer.h"
+
+namespace touchstone::cli {
+namespace {
+
+struct Options {
+  FindingArgument finding;
+  std::string out;
+  WorkerLimits limits;
+};
+
+int run(const Options& o) {
+  const AskedFinding asked = ask_for_finding(o.finding, o.limits);
+  if (asked.key.empty()) {
+    fmt::print(stderr, "{} is not found wrong{}\n", asked.engine_name,
+               o.finding.key.empty() ? "" : " in this way: " + o.finding.key);
+    return exit_failed;
+  }
+  const std::string text = fuzz::reproducer(asked.findings.at(asked.key), asked.engine->card());
+  if (o.out.empty())
+    fmt::print("{}", text);
+  else
+    write_file(o.out, text);
+  return exit_clean;
+}
+
+}  // namespace
+
+Run declare_reproduce(CLI::App& app) {
+  auto o = std::make_shared<Options>();
+  add_finding_argument(app, o->finding);
+  app.add_option("-o,--out", o->out, "file for the program (default: stdout)");
+  add_case_seconds(app, o->limits);
+  return [o] { return run(*o); };
+}
+
+}  // namespace touchstone::cli

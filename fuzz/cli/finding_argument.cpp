@@ -1,0 +1,75 @@
+#include "fuzz/cli/finding_argument.h"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "core/base/input_error.h"
+#include "core/scene/input_file.h"
+#include "fuzz/cli/case_argument.h"
+#include "fuzz/shrink/keeps_finding.h"
+
+namespace touchstone::cli {
+namespace {
+
+using Json = nlohmann::ordered_json;
+namespace fs = std::filesystem;
+
+// Of a finding's directory: the key that its finding.json names.
+std::string stored_key(const std::string& path) {
+  const fs::path beside =
+      (fs::is_directory(path) ? fs::path(path) : fs::path(path).parent_path()) / "finding.json";
+  if (!fs::exists(beside)) return {};
+  try {
+    return Json::parse(read_file(beside, std::uintmax_t{1} << 28)).at("key");
+  } catch (const Json::exception& e) {
+    throw InputError(beside.string(), std::string("is not a finding: ") + e.what());
+  }
+}
+
+// A key starts with its engine's name; those of plug-ins may hold dots themselves.
+std::string engine_of(const std::string& key) {
+  std::string found;
+  for (const EngineRow& row : engine_catalog())
+    if (key.starts_with(std::string(row.name) + ".") && row.name.size() > found.size()) found = row.name;
+  if (found.empty())
+    throw InputError("--key", "names no engine of the catalog: " + key + " (give --engine for a plug-in)");
+  return found;
+}
+
+using Findings = std::map<std::string, fuzz::Finding>;
+
+// The finding asked for, or the only one; empty: the case shows none (of that key).
+std::string choose(const std::string& key, const Findings& findings) {
+  if (!key.empty()) return findings.contains(key) ? key : "";
+  if (findings.empty()) return {};
+  std::string list;
+  for (const auto& [each, f] : findings) list += "\n  " + each;
+  if (findings.size() > 1) throw InputError("--key", "which finding? The case shows" + list);
+  return findings.begin()->first;
+}
+
+}  // namespace
+
+void add_finding_argument(CLI::App& app, FindingArgument& to) {
+  app.add_option("case", to.path, "a finding's directory, a case or scene file, or the name of a scenario")
+      ->required();
+  app.add_option("--key", to.key,
+                 "the finding meant (default: that of finding.json beside the case, or the only one)");
+  app.add_option("--engine", to.engine, "the engine found wrong (default: that of the key, or core)");
+}
+
+AskedFinding ask_for_finding(FindingArgument o, const WorkerLimits& limits) {
+  AskedFinding r;
+  r.stored = case_argument(o.path);
+  if (o.key.empty() && o.engine.empty()) o.key = stored_key(o.path);
+  if (o.engine.empty()) o.engine = o.key.empty() ? "core" : engine_of(o.key);
+  r.engine_name = o.engine;
+  r.engine = make_engine(engine_names(o.engine).at(0), limits);
+  r.findings = fuzz::findings_of({&r.stored.c, 1}, r.engine)[0];
+  r.key = choose(o.key, r.findings);
+  return r;
+}
+
+}  // namespace touchstone::cli

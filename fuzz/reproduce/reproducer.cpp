@@ -1,0 +1,298 @@
+#include "fuzz/reproduce/reproducer.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "core/base/input_error.h"
+#include "fuzz/judge/truth.h"
+#include "fuzz/reproduce/engine_source.h"
+#include "fuzz/reproduce/source_text.h"
+
+namespace touchstone::fuzz {
+namespace {
+
+constexpr std::string_view program = R"(// @TITLE@
+// @WORDS@
+//
+//   g++ -std=c++17 reproduce.cpp -o reproduce @COMPILE@ && ./reproduce
+//
+// Exit code 0: the answer is right; 1: it is wrong (a finding may also be that the engine crashes or never ends). What
+// is expected is certain: it was decided in exact arithmetic.
+// A: @SHAPE_A@
+// B: @SHAPE_B@
+@INCLUDES@
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <exception>
+#include <vector>
+
+namespace {
+
+using Vec = std::array<double, 3>;
+
+[[maybe_unused]] double dot(const Vec& a, const Vec& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+[[maybe_unused]] Vec scaled(double s, const Vec& a) { return {s * a[0], s * a[1], s * a[2]}; }
+
+struct Placement {
+  double rotation[9];  // by rows
+  Vec translation;
+};
+[[maybe_unused]] Vec to_world(const Placement& t, const Vec& p) {
+  const double* r = t.rotation;
+  return {r[0] * p[0] + r[1] * p[1] + r[2] * p[2] + t.translation[0],
+          r[3] * p[0] + r[4] * p[1] + r[5] * p[2] + t.translation[1],
+          r[6] * p[0] + r[7] * p[1] + r[8] * p[2] + t.translation[2]};
+}
+[[maybe_unused]] Vec to_local(const Placement& t, const Vec& d) {
+  const double* r = t.rotation;
+  return {r[0] * d[0] + r[3] * d[1] + r[6] * d[2], r[1] * d[0] + r[4] * d[1] + r[7] * d[2],
+          r[2] * d[0] + r[5] * d[1] + r[8] * d[2]};
+}
+
+@SUPPORT@// What the engine says. Normals point from A to B.
+struct Answer {
+  bool overlap = false;
+  double distance = INFINITY, depth = -INFINITY, impact = NAN;  // impact NAN: none in the step
+  Vec normal{}, on_a{}, on_b{};
+  std::vector<Vec> points;
+};
+
+@CODE@
+@CHECK@
+}  // namespace
+
+int main() {
+  try {
+    const bool right = check(ask());
+    std::puts(right ? "right" : "WRONG");
+    return right ? 0 : 1;
+  } catch (const std::exception& e) {
+    std::printf("WRONG: threw: %s\n", e.what());
+    return 1;
+  }
+}
+)";
+
+constexpr std::string_view check_verdict = R"(bool check(const Answer& x) {
+  std::printf("says: %s\nexpected: %s\n", x.overlap ? "@YES@" : "@NO@", "@EXPECTED@");
+  return x.overlap == @VALUE@;
+}
+)";
+
+constexpr std::string_view check_distance =
+    R"(// The signed distance is certainly within [@LO@, @HI@]; what the engine may be off by is added.
+bool check(const Answer& x) {
+  std::printf("says: distance %.17g\nexpected: within [%.17g, %.17g], tolerance %g\n", x.distance, @LO@, @HI@,
+              @TAU@);
+  return x.distance >= @LO@ - @TAU@ && x.distance <= @HI@ + @TAU@;
+}
+)";
+
+constexpr std::string_view check_contact =
+    R"(// Moving B by width(n) along n separates the bodies, and by less does not. So a depth d with normal n
+// must be width(n), and width(n) must be the least there is, which is certainly within [@LO@, @HI@].
+double width(const Vec& n) { return dot(n, support_a(n)) - dot(n, support_b(scaled(-1, n))); }
+
+bool check(const Answer& x) {
+  std::printf("says: %s, depth %.17g, normal (%.17g, %.17g, %.17g)\n", x.overlap ? "overlap" : "apart", x.depth,
+              x.normal[0], x.normal[1], x.normal[2]);
+  std::printf("expected: overlap, depth within [%.17g, %.17g], tolerance %g\n", @LO@, @HI@, @TAU@);
+  if (!x.overlap) return false;
+  const double length = std::sqrt(dot(x.normal, x.normal));
+  if (!(std::fabs(length - 1) <= @UNIT@)) return std::printf("the normal has length %.17g\n", length), false;
+  const double w = width(x.normal);
+  std::printf("the stated normal needs a depth of %.17g\n", w);
+@POINTS@  return std::fabs(x.depth - w) <= @TAU@ && w <= @HI@ + @TAU@;
+}
+)";
+
+constexpr std::string_view check_depth_alone = R"(bool check(const Answer& x) {
+  std::printf("says: %s, depth %.17g\nexpected: overlap, depth within [%.17g, %.17g], tolerance %g\n",
+              x.overlap ? "overlap" : "apart", x.depth, @LO@, @HI@, @TAU@);
+  return x.overlap && x.depth >= @LO@ - @TAU@ && x.depth <= @HI@ + @TAU@;
+}
+)";
+
+constexpr std::string_view check_points =
+    R"(  // No point of the manifold may be farther than the depth from either body: along these directions one was.
+  for (const Vec& p : x.points)
+    for (const Vec& u : {@DIRECTIONS@}) {
+      const double off_a = dot(u, p) - dot(u, support_a(u)), off_b = dot(u, p) - dot(u, support_b(u));
+      const double off = std::fmax(off_a, off_b) - std::fmax(0, x.depth);
+      if (off > @TAU@) return std::printf("a point is %.17g farther out than the depth\n", off), false;
+    }
+)";
+
+constexpr std::string_view check_witness =
+    R"(// The points must be on the bodies and as far apart as the bodies are: within [@LO@, @HI@].
+bool check(const Answer& x) {
+  const Vec p = @P@, q = @Q@;
+  const double apart = std::hypot(q[0] - p[0], q[1] - p[1], q[2] - p[2]);
+  std::printf("says: (%.17g, %.17g, %.17g) and (%.17g, %.17g, %.17g), %.17g apart\n", p[0], p[1], p[2], q[0], q[1],
+              q[2], apart);
+  std::printf("expected: %.17g to %.17g apart, tolerance %g\n", @LO@, @HI@, @TAU@);
+  for (const Vec& u : {@DIRECTIONS@})
+    if (dot(u, p) - dot(u, support_a(u)) > @TAU@ || dot(u, q) - dot(u, support_b(u)) > @TAU@)
+      return std::puts("a point is off its body"), false;
+  return apart >= @LO@ - @TAU@ && apart <= @HI@ + @TAU@;
+}
+)";
+
+constexpr std::string_view check_impact =
+    R"(// The first contact is certainly within [@LO@, @HI@] of the step; the slack is half of what this answer was off by.
+bool check(const Answer& x) {
+  std::printf("says: impact at %.17g\nexpected: within [%.17g, %.17g], slack %g\n", x.impact, @LO@, @HI@, @SLACK@);
+  return x.impact >= @LO@ - @SLACK@ && x.impact <= @HI@ + @SLACK@;
+}
+)";
+constexpr std::string_view check_no_impact = R"(bool check(const Answer& x) {
+  std::printf("says: impact at %.17g (nan: none)\nexpected: none in the step\n", x.impact);
+  return std::isnan(x.impact);
+}
+)";
+
+struct Expected {
+  Truth& truth;
+  const Asked& q;
+  const Finding& finding;
+  double tau;
+};
+
+std::string verdict(std::string_view yes, std::string_view no, bool expected) {
+  return filled(check_verdict, {{"YES", std::string(yes)},
+                                {"NO", std::string(no)},
+                                {"EXPECTED", std::string(expected ? yes : no)},
+                                {"VALUE", expected ? "true" : "false"}});
+}
+
+// Directions from the body to a point that is off it: the gradient of the distance, by differences.
+void add_direction(std::string& list, Truth& truth, int body, const Vec3& p) {
+  const double d = truth.distance_to(0, body, p).lo, h = d * 1e-3;
+  if (!(d > 0) || !std::isfinite(d)) return;
+  Vec3 u = Vec3::Zero();
+  for (int k = 0; k < 3; ++k) {
+    Vec3 e = Vec3::Zero();
+    e[k] = h;
+    u[k] = truth.distance_to(0, body, p + e).lo - truth.distance_to(0, body, p - e).lo;
+  }
+  if (u.norm() > 0)
+    list += fmt::format("{}Vec{{{}}}", list.empty() ? "" : ", ", literals(Vec3(u.normalized())));
+}
+
+std::string contact_check(const Expected& e) {
+  const auto& t = e.truth.pair(0, e.q.a, e.q.b);
+  const std::string lo = literal(-t.gap.hi), hi = literal(-t.gap.lo), tau = literal(e.tau);
+  if (!has_support(e.q.scene.shape_of(e.q.a)) || !has_support(e.q.scene.shape_of(e.q.b)))
+    return filled(check_depth_alone, {{"LO", lo}, {"HI", hi}, {"TAU", tau}});
+  std::string directions;
+  if (e.finding.fault == to_string(Fault::point_off))
+    for (const ManifoldPoint& p : e.finding.evidence->observation.manifold) {
+      add_direction(directions, e.truth, e.q.a, p.position);
+      add_direction(directions, e.truth, e.q.b, p.position);
+    }
+  const std::string points =
+      directions.empty() ? "" : filled(check_points, {{"DIRECTIONS", directions}, {"TAU", tau}});
+  return filled(check_contact, {{"POINTS", points}, {"LO", lo}, {"HI", hi}, {"TAU", tau}, {"UNIT", "1e-6"}});
+}
+
+std::string witness_check(const Expected& e) {
+  const auto& t = e.truth.pair(0, e.q.a, e.q.b);
+  const auto& w = *e.finding.evidence->observation.witness;
+  std::string directions;
+  add_direction(directions, e.truth, e.q.a, w[0]);
+  add_direction(directions, e.truth, e.q.b, w[1]);
+  if (directions.empty()) directions = "Vec{1, 0, 0}";
+  const bool bullet = e.q.engine.starts_with("bullet");
+  const bool inside = t.gap.hi < 0;
+  return filled(check_witness, {{"LO", literal(inside ? -t.gap.hi : std::max(0.0, t.gap.lo))},
+                                {"HI", literal(inside ? -t.gap.lo : std::max(0.0, t.gap.hi))},
+                                {"TAU", literal(e.tau)},
+                                {"P", bullet ? "x.on_a" : "x.points[0]"},
+                                {"Q", bullet ? "x.on_b" : "x.points[1]"},
+                                {"DIRECTIONS", directions}});
+}
+
+std::string impact_check(const Expected& e) {
+  using V = referee::TimeTruth::Verdict;
+  const auto& t = e.truth.motion(0, e.q.a, e.q.b);
+  if (t.verdict == V::none) return std::string(check_no_impact);
+  const auto& said = e.finding.evidence->observation.toi;
+  const double off = !said ? 0.02 : *said < t.t_lo ? t.t_lo - *said : *said - t.t_hi;
+  return filled(
+      check_impact,
+      {{"LO", literal(t.t_lo)}, {"HI", literal(t.t_hi)}, {"SLACK", literal(std::max(off, 0.0) / 2)}});
+}
+
+std::string pair_check(const Expected& e) {
+  const bool overlaps = e.truth.pair(0, e.q.a, e.q.b).verdict == referee::Verdict::overlap;
+  const auto& t = e.truth.pair(0, e.q.a, e.q.b);
+  const bool has_depth = overlaps && std::isfinite(t.gap.lo);
+  const bool contact = e.q.question == Question::contact || e.q.question == Question::scene_contacts;
+  if (contact && has_depth) return contact_check(e);
+  if (e.q.question == Question::distance && e.finding.fault == to_string(Fault::witness_off) &&
+      e.finding.evidence->observation.witness && has_support(e.q.scene.shape_of(e.q.a)) &&
+      has_support(e.q.scene.shape_of(e.q.b)))
+    return witness_check(e);
+  if (e.q.question == Question::distance)
+    return filled(check_distance,
+                  {{"LO", literal(t.gap.lo)}, {"HI", literal(t.gap.hi)}, {"TAU", literal(e.tau)}});
+  return verdict("overlap", "apart", overlaps);
+}
+
+std::string check_of(const Expected& e) {
+  if (e.q.question == Question::candidates)
+    return verdict("the pair is reported", "the pair is not reported",
+                   e.finding.fault == to_string(Fault::missed));
+  if (e.q.question == Question::time_of_impact) return impact_check(e);
+  return pair_check(e);
+}
+
+EngineSource source_of(const Asked& q) {
+  if (q.engine.starts_with("fcl-")) return fcl_source(q);
+  if (q.engine.starts_with("bullet-")) return bullet_source(q);
+  if (q.engine.starts_with("libccd-")) return libccd_source(q);
+  throw InputError("reproduce", fmt::format("there is no writer for {}: FCL, Bullet and libccd have one",
+                                            std::string(q.engine)));
+}
+
+}  // namespace
+
+bool has_reproducer(std::string_view engine) {
+  return engine.starts_with("fcl-") || engine.starts_with("bullet-") || engine.starts_with("libccd-");
+}
+
+std::string reproducer(const Finding& finding, const EngineCard& card) {
+  const Evidence& v = *finding.evidence;
+  const int n = static_cast<int>(v.c.scene.bodies.size());
+  if (v.a < 0 || v.b < 0 || v.a >= n || v.b >= n)
+    throw InputError("reproduce", "the finding names no pair of bodies: " + finding.key());
+  const Asked q{v.c.scene, v.question, v.a, v.b, v.step, finding.engine};
+  Truth truth(v.c.scene);
+  const double tau =
+      card.tau_factor * card.unit_roundoff * truth.scale(v.a, v.b) + v.observation.claimed_tolerance;
+  const EngineSource source = source_of(q);
+  const Expected expected{truth, q, finding, tau};
+  const std::string check = check_of(expected);
+  const auto support_of = [&](std::string_view who, int body) {
+    const std::string call = fmt::format("support_{}(", who);
+    const bool used = source.code.find(call) != std::string::npos || check.find(call) != std::string::npos;
+    return used ? support_function(who, v.c.scene.shape_of(body),
+                                   v.c.scene.bodies[static_cast<std::size_t>(body)].pose)
+                : std::string();
+  };
+  return filled(
+      program,
+      {{"TITLE", fmt::format("{} {} ({}): {}", card.library, card.version, finding.engine, finding.key())},
+       {"WORDS", finding.words},
+       {"COMPILE", source.compile},
+       {"SHAPE_A", in_words(v.c.scene.shape_of(v.a))},
+       {"SHAPE_B", in_words(v.c.scene.shape_of(v.b))},
+       {"INCLUDES", source.includes},
+       {"SUPPORT", support_of("a", v.a) + support_of("b", v.b)},
+       {"CODE", source.code},
+       {"CHECK", check}});
+}
+
+}  // namespace touchstone::fuzz

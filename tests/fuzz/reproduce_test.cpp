@@ -1,0 +1,123 @@
+// Reproducers as a developer of an engine meets them: one file, compiled against that engine alone, that
+// shows the fault.
+#include <algorithm>
+#include <set>
+#include <vector>
+
+#include "tests/support/catch.h"
+#include "tests/support/workspace.h"
+
+using namespace touchstone::test;
+namespace fs = std::filesystem;
+
+namespace {
+
+// The command that the file names in its head.
+std::string compile_line(const std::string& program) {
+  const std::string mark = "//   g++ ";
+  const std::size_t at = program.find(mark);
+  return at == std::string::npos ? "" : program.substr(at + 5, program.find(" && ", at) - at - 5);
+}
+
+// "engine.question.fault" of a key.
+std::string kind_of(const std::string& key) {
+  std::size_t at = 0;
+  for (int i = 0; i < 3; ++i) at = key.find('.', at) + 1;
+  return key.substr(0, at - 1);
+}
+
+std::vector<std::string> findings(const Workspace& w, const std::string& engine,
+                                  const std::string& campaign) {
+  w.touchstone("fuzz --seed 3 --engines core," + engine + " --out " + engine + " " + campaign);
+  std::vector<std::string> keys;
+  if (!fs::exists(w.dir / engine / "findings")) return keys;
+  for (const auto& e : fs::directory_iterator(w.dir / engine / "findings"))
+    if (const std::string key = e.path().filename(); key.starts_with(engine + ".")) keys.push_back(key);
+  std::sort(keys.begin(), keys.end());
+  return keys;
+}
+
+// Of each kind of finding the first, up to `most`: the program compiles without a warning and shows the
+// fault.
+int shown(const Workspace& w, const std::string& engine, const std::string& campaign, int most) {
+  std::set<std::string> kinds;
+  int n = 0;
+  for (const std::string& key : findings(w, engine, campaign)) {
+    if (n == most) break;
+    if (key.find(".timed_out.") != std::string::npos || !kinds.insert(kind_of(key)).second) continue;
+    CAPTURE(key);
+    const Run made = w.touchstone("reproduce " + engine + "/findings/" + key + " -o reproduce.cpp");
+    CHECK(made.err == "");
+    REQUIRE(made.code == 0);
+    const std::string line = compile_line(read_all(w.dir / "reproduce.cpp"));
+    const Run compiled = w.run(line + " -Wall -Wextra -Werror");
+    CHECK(compiled.err == "");
+    REQUIRE(compiled.code == 0);
+    const Run result = w.run("timeout 20 ./reproduce");
+    CAPTURE(result.out);
+    if (key.find(".crashed.") != std::string::npos) {
+      CHECK(result.code != 0);
+    } else {
+      CHECK(result.code == 1);
+      CHECK(result.out.find("WRONG") != std::string::npos);
+    }
+    ++n;
+  }
+  if (n == 0) WARN(engine << " is not installed: no findings to show");
+  return n;
+}
+
+}  // namespace
+
+TEST_CASE("a finding about libccd is shown by a program that needs libccd alone", "[reproduce]") {
+  const Workspace w("reproduce");
+  const int n = shown(w, "libccd-mpr", "--cases 200", 4) + shown(w, "libccd-gjk-tuned", "--cases 200", 4);
+  CHECK((n == 0 || n >= 5));
+}
+
+TEST_CASE("a finding about Bullet is shown by a program that needs Bullet alone", "[reproduce]") {
+  const Workspace w("reproduce");
+  const int n =
+      shown(w, "bullet-f64-query-tuned", "--cases 300", 8) + shown(w, "bullet-f32-sim", "--cases 600", 3);
+  CHECK((n == 0 || n >= 6));
+}
+
+TEST_CASE("a finding about FCL is shown by a program that needs FCL alone", "[reproduce]") {
+  const Workspace w("reproduce");
+  const int n = shown(w, "fcl-indep", "--cases 200", 2);
+  CHECK((n == 0 || n == 2));
+}
+
+TEST_CASE("triage leaves a directory a finding, whose certificate holds and whose program compiles",
+          "[reproduce]") {
+  const Workspace w("reproduce");
+  const auto keys = findings(w, "libccd-mpr", "--cases 60");
+  if (keys.empty()) {
+    WARN("libccd is not installed: no findings to keep");
+    return;
+  }
+  const Run first = w.touchstone("triage libccd-mpr --reproducers kept");
+  INFO(first.err);
+  REQUIRE(first.code == 1);
+  int programs = 0, certificates = 0;
+  for (const std::string& key : keys) {
+    CAPTURE(key);
+    const fs::path kept = w.dir / "kept" / key;
+    REQUIRE(fs::exists(kept / "case.json"));
+    CHECK(w.touchstone("replay " + kept.string() + " --engines core,libccd-mpr --subject libccd-mpr").code ==
+          1);
+    programs += fs::exists(kept / "reproduce.cpp");
+    if (!fs::exists(kept / "certificate.json")) continue;
+    ++certificates;
+    CHECK(w.touchstone("check " + (kept / "certificate.json").string()).code == 0);
+  }
+  CHECK(programs == static_cast<int>(keys.size()));
+  CHECK(certificates > 0);
+}
+
+TEST_CASE("what cannot be shown is refused in words", "[reproduce]") {
+  const Workspace w("reproduce");
+  CHECK(w.touchstone("reproduce nothing_of_this_name").code == 2);
+  const Run clean = w.touchstone("reproduce touching_boxes --engine core");
+  CHECK((clean.code == 3 || clean.code == 2));
+}
