@@ -15,6 +15,7 @@ constexpr Command table[] = {
     {"replay", "every engine's answer to stored cases, beside the referee's", declare_replay},
     {"shrink", "the smallest case that shows the same finding", declare_shrink},
     {"reproduce", "a finding as one C++ file against the engine's own API", declare_reproduce},
+    {"bisect", "what a finding depends on: bodies, step, stage, a value, a commit", declare_bisect},
     {"triage", "the findings of a campaign against the ledger of known ones: new, known, gone",
      declare_triage},
     {"view", "a page that shows what the broad phase makes of a scene", declare_view},

@@ -18,7 +18,7 @@ const std::vector<std::string> rooms = {
     "core/ccd",       "core/world",     "oracles/api",     "oracles/host",    "oracles/core", "oracles/fcl",
     "oracles/bullet", "oracles/libccd", "oracles/referee", "oracles/example", "scenarios",    "fuzz/record",
     "fuzz/judge",     "fuzz/generate",  "fuzz/campaign",   "fuzz/shrink",     "fuzz/triage",  "fuzz/explore",
-    "fuzz/reproduce", "fuzz/cli",       "reports"};
+    "fuzz/reproduce", "fuzz/bisect",    "fuzz/cli",        "reports"};
 
 // The value types: scene.h and what it needs.
 const std::vector<std::string> values = {"core/base", "core/math", "core/shape", "core/scene/scene.h",
@@ -56,6 +56,8 @@ const std::map<std::string, std::vector<std::string>> may_include = {
     {"fuzz/campaign", with_values({"fuzz/campaign", "fuzz/generate", "fuzz/judge", "fuzz/record",
                                    "core/scene", "scenarios", "oracles/api"})},
     {"fuzz/shrink", with_values({"fuzz/shrink", "fuzz/campaign", "fuzz/record", "oracles/api"})},
+    {"fuzz/bisect",
+     with_values({"fuzz/bisect", "fuzz/shrink", "fuzz/judge", "fuzz/record", "scenarios", "oracles/api"})},
     {"fuzz/reproduce",
      with_values({"fuzz/reproduce", "fuzz/record", "fuzz/judge", "core/scene", "oracles/api"})},
     {"fuzz/triage",
