@@ -124,7 +124,9 @@ Pose next_pose(Rng& rng, const Scene& s, const std::vector<std::optional<Pose>>&
   if (way == 2) return pose.translation += rng.unit_vector() * rng.binary_scale(-12, -2), pose;
   if (way == 3) return pose.translation[axis] += rng.chance(0.5) ? 64.0 : -64.0, pose;
   const auto j = rng.below(present.size());
-  if (j == b || !present[j]) return s.bodies[b].pose;
+  // Beside a half-space is at infinity.
+  if (j == b || !present[j] || kind_of(s.shape_of(static_cast<int>(j))) == ShapeKind::half_space)
+    return s.bodies[b].pose;
   pose.translation = beside(rng, s, b, j, present[j]->translation, rng.chance(0.5));
   return pose;
 }
