@@ -11,20 +11,6 @@ void ask_impact(Case& c, Scene s) {
   c.queries = {{Question::time_of_impact, 0, 1}};
 }
 
-// Of a bounded convex shape: the point of the placed body farthest along n, relative to the body's origin.
-Vec3 farthest(const Scene& s, int body, const Vec3& n) {
-  const Mat3 r = rotation_matrix(s.bodies[static_cast<std::size_t>(body)].pose.rotation);
-  const Vec3 local = r.transpose() * n;
-  return std::visit(
-      [&](const auto& shape) -> Vec3 {
-        if constexpr (requires { support(shape, local); })
-          return r * support(shape, local);
-        else
-          return Vec3::Zero();
-      },
-      s.shape_of(body));
-}
-
 }  // namespace
 
 void start_in_contact(Rng& rng, Case& c) {
@@ -49,7 +35,7 @@ void graze(Rng& rng, Case& c) {
   const Vec3 n = rng.unit_vector();
   const double size = mean_extent(s);
   const double gap = (rng.chance(0.4) ? 1 : -1) * rng.binary_scale(-26, -7) * size;
-  const Vec3 at_contact = farthest(s, 0, n) - farthest(s, 1, -n) + n * gap;
+  const Vec3 at_contact = farthest_point(s, 0, n) - farthest_point(s, 1, -n) + n * gap;
   const Vec3 u = rng.unit_vector();
   const Vec3 along = (u - u.dot(n) * n) * (rng.uniform(1, 8) * size);
   const double tc = rng.uniform(0.2, 0.8);

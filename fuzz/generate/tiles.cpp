@@ -3,6 +3,7 @@
 #include <cmath>
 #include <limits>
 
+#include "fuzz/generate/place.h"
 #include "fuzz/generate/random_shape.h"
 
 namespace touchstone::fuzz {
@@ -39,18 +40,21 @@ double moved_by_ulps(double x, std::int64_t ulps) {
   return x;
 }
 
-// Where body i's box touches that of body j (which stands at `at`) face to face: exactly where the lattice
-// makes the sums exact, up to a few ulps to either side otherwise.
+// Where body i's box touches that of body j (which stands at `at`): exactly where the lattice makes the sums
+// exact, up to a few ulps to either side otherwise. Across, the boxes share a part of their faces, or the two
+// points that carry them lie near each other, so that the bodies touch where their boxes do.
 Vec3 beside(Rng& rng, const Scene& s, std::size_t i, std::size_t j, const Vec3& at, bool lattice) {
   const auto axis = static_cast<Eigen::Index>(rng.below(3));
   const double sign = rng.chance(0.5) ? 1 : -1;
   const Vec3 n = Vec3::Unit(axis) * sign;
+  const bool points_meet = !lattice && rng.chance(0.5);
+  const Vec3 meet = farthest_point(s, static_cast<int>(j), n) - farthest_point(s, static_cast<int>(i), -n);
   Vec3 t = at + n * (reach(s, j, n) + reach(s, i, -n));
   for (Eigen::Index k = 0; k < 3; ++k) {
     if (k == axis) continue;
     const double free = 0.4 * (reach(s, j, Vec3::Unit(k)) + reach(s, i, Vec3::Unit(k)));
     const double shift = rng.uniform(-free, free);
-    t[k] += lattice ? std::round(shift * 8) / 8 : shift;
+    t[k] += points_meet ? meet[k] + shift : (lattice ? std::round(shift * 8) / 8 : shift);
   }
   if (!lattice) t[axis] = moved_by_ulps(t[axis], static_cast<std::int64_t>(rng.below(7)) - 3);
   return t;
@@ -58,8 +62,8 @@ Vec3 beside(Rng& rng, const Scene& s, std::size_t i, std::size_t j, const Vec3& 
 
 Quat tile_rotation(Rng& rng, Sizes sizes) {
   static const Quat turns[] = {{1, 0, 0, 1}, {0, 1, 0, 1}, {0, 0, 1, 1}, {1, 1, 1, 1}, {1, 0, 0, 0}};
-  if (rng.chance(0.7)) return {};
-  if (sizes == Sizes::mixed && rng.chance(0.5)) return rng.rotation();
+  if (rng.chance(sizes == Sizes::eighths ? 0.7 : 0.5)) return {};
+  if (sizes != Sizes::eighths && rng.chance(0.7)) return rng.rotation();
   return turns[rng.below(std::size(turns))];
 }
 
