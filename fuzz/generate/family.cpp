@@ -4,8 +4,10 @@
 #include <cmath>
 
 #include "core/base/input_error.h"
+#include "fuzz/generate/courses.h"
 #include "fuzz/generate/place.h"
 #include "fuzz/generate/random_shape.h"
+#include "fuzz/generate/tiles.h"
 
 namespace touchstone::fuzz {
 namespace {
@@ -213,6 +215,12 @@ constexpr Family catalog[] = {
     {"spin", "time of impact, translation with slow and fast rotation", 5, spin},
     {"crowd", "4 to 31 bodies: candidate pairs and whole-scene contacts", 3, crowd},
     {"script", "insert, move, teleport, remove, re-insert with queries between", 3, script},
+    {"start", "time of impact, overlapping or all but touching from the start", 2, start_in_contact},
+    {"graze", "time of impact, passing with a gap of either sign, 1e-2 to 1e-8 of the size", 2, graze},
+    {"bullet", "time of impact, small and fast bodies through thin plates", 2, bullet},
+    {"tiles", "2 to 26 bodies that touch exactly or within ulps, far and near, of mixed sizes", 3, tiles},
+    {"errands", "tiles inserted, moved by ulps and more, removed, re-inserted, with queries", 3, errands},
+    {"throng", "40 to 400 tiles: candidate pairs", 1, throng},
 };
 
 const Family& pick(Rng& rng, std::string_view name) {

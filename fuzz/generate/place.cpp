@@ -44,6 +44,19 @@ Vec3 placement_direction(Rng& rng, const Scene& s) {
   return rng.unit_vector();
 }
 
+Vec3 farthest_point(const Scene& s, int body, const Vec3& n) {
+  const Mat3 r = rotation_matrix(s.bodies[static_cast<std::size_t>(body)].pose.rotation);
+  const Vec3 local = r.transpose() * n;
+  return std::visit(
+      [&](const auto& shape) -> Vec3 {
+        if constexpr (requires { support(shape, local); })
+          return r * support(shape, local);
+        else
+          return Vec3::Zero();
+      },
+      s.shape_of(body));
+}
+
 double mean_extent(const Scene& s) {
   const double a = extent(s.shape_of(0)), b = extent(s.shape_of(1));
   return a == 0 ? b : (b == 0 ? a : (a + b) / 2);

@@ -160,6 +160,20 @@ referee::Bracket Truth::gap_at(int frame, int a, int b, double t) const {
   return referee::gap_at(placed(frame, a), motion_of(asked_, a), placed(frame, b), motion_of(asked_, b), t);
 }
 
+double Truth::depth_in_mesh(int frame, int a, int b) const {
+  referee::Placed mesh = placed(frame, a), body = placed(frame, b);
+  if (!std::holds_alternative<TriangleMesh>(*mesh.shape)) std::swap(mesh, body);
+  const auto* m = std::get_if<TriangleMesh>(mesh.shape);
+  if (!m || std::holds_alternative<TriangleMesh>(*body.shape)) return 0;
+  double depth = 0;
+  for (const auto& [i, j, k] : m->triangles) {
+    const auto vertex = [&](int v) { return m->vertices[static_cast<std::size_t>(v)]; };
+    const Shape triangle = make_hull({vertex(i), vertex(j), vertex(k)});
+    depth = std::max(depth, -referee::judge_pair({&triangle, mesh.pose}, body).gap.hi);
+  }
+  return depth;
+}
+
 double Truth::depth_before(int frame, int a, int b, double t) const {
   return referee::certified_depth_before(placed(frame, a), motion_of(asked_, a), placed(frame, b),
                                          motion_of(asked_, b), t);

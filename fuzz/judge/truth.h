@@ -27,6 +27,9 @@ class Truth {
   referee::Bracket width(int frame, int a, int b, const Vec3& n) const;
   referee::Bracket distance_to(int frame, int body, const Vec3& p) const;
   referee::Bracket gap_at(int frame, int a, int b, double t) const;
+  /// Of a convex body and a mesh that overlap: the depth that is certain in the deepest triangle, that is, how
+  /// far the body must move at least to leave that triangle. 0 when neither is a mesh.
+  double depth_in_mesh(int frame, int a, int b) const;
   double depth_before(int frame, int a, int b, double t) const;
   /// The same over the whole step; kept.
   double depth_in_step(int frame, int a, int b);

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <set>
 
 #include "core/scene/scene.h"
 #include "fuzz/campaign/campaign.h"
@@ -100,16 +101,31 @@ TEST_CASE("an engine that does not answer the same twice is told apart from a sh
   CHECK(r.exit == fuzz::ShrinkExit::out_of_tries);
 }
 
-TEST_CASE("findings about every lying engine shrink to two bodies and keep their key", "[shrink][mutants]") {
+TEST_CASE("findings about lying engines shrink to two bodies and keep their key", "[shrink][mutants]") {
+  // One or two of each check; capacities and orders of lists need their many bodies.
+  const std::set<std::string_view> chosen{"last_pair_dropped",    "boxes_one_ulp_small",
+                                          "static_first_dropped", "stale_after_move",
+                                          "lost_on_reinsert",     "pair_of_no_body",
+                                          "overlap_always",       "overlap_flat_hull_denied",
+                                          "distance_absolute",    "contact_shallow_denied",
+                                          "witness_swapped",      "witness_centre",
+                                          "normal_flipped",       "normal_zero",
+                                          "normal_local",         "normal_of_centres",
+                                          "depth_halved",         "depth_doubled",
+                                          "point_far_off",        "impact_late",
+                                          "impact_early",         "impact_denied",
+                                          "impact_invented",      "impact_grazing_lost",
+                                          "not_a_number",         "cap_as_failure",
+                                          "contact_dropped"};
   std::size_t shrunk_findings = 0;
   for (const mutants::Mutant& m : mutants::mutants()) {
+    if (!chosen.contains(m.name)) continue;
     const EnginePtr engine = mutants::make_lying_engine(m);
-    for (std::uint64_t i = 0; i < 64; ++i) {
+    for (std::uint64_t i = 0; i < 512; ++i) {
       const Case c = fuzz::make_case(1, i, m.family);
       const auto found = fuzz::findings_of({&c, 1}, engine)[0];
-      const auto hit = std::find_if(found.begin(), found.end(), [&](const auto& f) {
-        return f.first.find(m.fault) != std::string::npos;
-      });
+      const auto hit =
+          std::find_if(found.begin(), found.end(), [&](const auto& f) { return f.second.fault == m.fault; });
       if (hit == found.end()) continue;
       INFO(m.name << " " << hit->first << " in " << c.id);
       const auto r = fuzz::shrink(c, fuzz::keeps_finding(engine, hit->first), 4000);
@@ -121,5 +137,5 @@ TEST_CASE("findings about every lying engine shrink to two bodies and keep their
       break;
     }
   }
-  CHECK(shrunk_findings >= 20);
+  CHECK(shrunk_findings == chosen.size());
 }

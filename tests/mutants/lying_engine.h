@@ -1,27 +1,18 @@
-// An engine that tells what our core tells, except for one lie. Each lie must be found by the check that it
-// is made for.
+// Engines that tell what our core tells, except for one lie each. Every lie must be found by a campaign, and
+// by the check that it is made for. A lie that the definition of the right answer allows (duplicate pairs, a
+// manifold of one point of a face, superfluous candidates) is no mutant: those are charted, not judged.
 #pragma once
 
-#include <functional>
-#include <memory>
-#include <string>
-#include <string_view>
+#include <vector>
 
 #include "oracles/api/engine.h"
+#include "tests/mutants/mutant.h"
 
 namespace touchstone::mutants {
 
-/// Changes an answer in place.
-using Lie = std::function<void(const Case&, const Query&, Observation&)>;
-
-struct Mutant {
-  std::string_view name;
-  std::string_view fault;   // name of the fault that the judge must find
-  std::string_view family;  // where to look for it
-  Lie lie;
-};
-
-std::vector<Mutant> mutants();
+/// All of them, in the order of their topics: broad phase, overlap, distance, contact, impact, outcome,
+/// scene.
+const std::vector<Mutant>& mutants();
 
 EnginePtr make_lying_engine(const Mutant& m);
 

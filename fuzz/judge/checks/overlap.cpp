@@ -25,11 +25,13 @@ void check_overlap(const CheckInput& in, CheckOutput& out) {
     const double margin = is ? std::max(0.0, -truth.gap.hi) : std::max(0.0, truth.gap.lo);
     return out.error(-margin, l, tau);
   }
-  // The certified part of |g|: a mesh that overlaps has no depth, so its verdict is judged without one.
+  // The certified part of |g|. A mesh that overlaps has no depth as a whole; that of its deepest triangle is a
+  // motion that the body must make to be apart.
   const bool no_depth = is && !std::isfinite(truth.gap.lo);
-  const double error = is ? std::max(0.0, -truth.gap.hi) : std::max(0.0, truth.gap.lo);
+  const double depth = no_depth ? in.truth.depth_in_mesh(in.frame, a, b) : -truth.gap.hi;
+  const double error = is ? std::max(0.0, depth) : std::max(0.0, truth.gap.lo);
   out.error(error, l, tau);
-  if (no_depth || error <= tau) return;
+  if (error <= tau) return;
   out.fault(is ? Fault::missed : Fault::ghost, error, l, in.query,
             is ? fmt::format("says apart; the bodies overlap by at least {:.6g}", error)
                : fmt::format("says overlap; the bodies are at least {:.6g} apart", error),

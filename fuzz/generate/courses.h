@@ -1,0 +1,14 @@
+// Motions that start or pass where a time of impact is decided by little: overlapping or touching at once,
+// past each other with a tangent plane in common, through a thin plate within a fraction of the step.
+#pragma once
+
+#include "core/base/rng.h"
+#include "oracles/api/observation.h"
+
+namespace touchstone::fuzz {
+
+void start_in_contact(Rng& rng, Case& c);
+void graze(Rng& rng, Case& c);
+void bullet(Rng& rng, Case& c);
+
+}  // namespace touchstone::fuzz

@@ -1,0 +1,23 @@
+// One lie, as a row.
+#pragma once
+
+#include <functional>
+#include <string_view>
+
+#include "oracles/api/observation.h"
+
+namespace touchstone::mutants {
+
+/// Changes the core's answer in place. May keep state between calls: every engine has a copy of its own.
+using Lie = std::function<void(const Case&, const Query&, Observation&)>;
+
+struct Mutant {
+  std::string_view name;
+  std::string_view fault;   // name of the fault that the judge must find
+  std::string_view family;  // a family of cases where it shows
+  std::string_view line;    // what is wrong with it, for people
+  Lie lie;
+  bool repeats = true;  // false: what it says depends on what it was asked before
+};
+
+}  // namespace touchstone::mutants

@@ -1,0 +1,39 @@
+// What lies about a pair need to know of it.
+#pragma once
+
+#include <utility>
+
+#include "core/narrow/narrow_phase.h"
+#include "tests/mutants/mutant.h"
+
+namespace touchstone::mutants {
+
+inline bool asks(const Query& q, Question question) { return q.question == question; }
+
+inline const Body& body(const Case& c, int i) { return c.scene.bodies[static_cast<std::size_t>(i)]; }
+inline PlacedShape placed(const Case& c, int i) { return {&c.scene.shape_of(i), body(c, i).pose}; }
+inline ShapeKind kind(const Case& c, int i) { return kind_of(c.scene.shape_of(i)); }
+inline bool are(const Case& c, const Query& q, ShapeKind x, ShapeKind y) {
+  return (kind(c, q.a) == x && kind(c, q.b) == y) || (kind(c, q.a) == y && kind(c, q.b) == x);
+}
+inline bool smooth(ShapeKind k) {
+  return k == ShapeKind::cylinder || k == ShapeKind::cone || k == ShapeKind::ellipsoid;
+}
+
+/// Largest extent of the smaller body that has one.
+double small_size(const Case& c, const Query& q);
+
+/// How far B must move along the unit vector n to separate, in plain arithmetic.
+double width(const Case& c, const Query& q, const Vec3& n);
+
+/// Signed distance by the core.
+double gap(const Case& c, const Query& q);
+
+/// True when the box of one body is strictly inside that of the other.
+bool contained(const Case& c, const Query& q);
+
+/// Of an answer to `contact` that states one.
+using ContactLie = void (*)(const Case&, const Query&, Observation&);
+Lie on_contact(ContactLie lie);
+
+}  // namespace touchstone::mutants

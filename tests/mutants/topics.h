@@ -1,0 +1,22 @@
+// The lies by topic; one file a topic.
+#pragma once
+
+#include <vector>
+
+#include "tests/mutants/mutant.h"
+
+namespace touchstone::mutants {
+
+std::vector<Mutant> broad_list_lies();    // the list of pairs
+std::vector<Mutant> broad_box_lies();     // the boxes
+std::vector<Mutant> broad_script_lies();  // what happened before the query
+std::vector<Mutant> overlap_lies();
+std::vector<Mutant> distance_lies();
+std::vector<Mutant> normal_lies();
+std::vector<Mutant> depth_lies();
+std::vector<Mutant> manifold_lies();
+std::vector<Mutant> impact_lies();
+std::vector<Mutant> outcome_lies();
+std::vector<Mutant> scene_lies();
+
+}  // namespace touchstone::mutants
