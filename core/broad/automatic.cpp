@@ -61,6 +61,8 @@ Structure AutomaticFinder::structure() const {
   return method_ == Method::sweep ? sweep_.structure() : list_.structure();
 }
 
-BroadPhasePtr make_automatic() { return std::make_unique<StoredPhase<AutomaticFinder>>(); }
+BroadPhasePtr make_automatic(const Options& options) {
+  return std::make_unique<StoredPhase<AutomaticFinder>>(options);
+}
 
 }  // namespace touchstone::broad

@@ -31,6 +31,6 @@ class AutomaticFinder {
   SortAndSweepFinder sweep_;
 };
 
-BroadPhasePtr make_automatic();
+BroadPhasePtr make_automatic(const Options& options = {});
 
 }  // namespace touchstone::broad

@@ -66,6 +66,8 @@ std::string HierarchyFinder::explain() const {
          (local_ ? "changed boxes searched" : "all boxes searched");
 }
 
-BroadPhasePtr make_bounding_volume_hierarchy() { return std::make_unique<StoredPhase<HierarchyFinder>>(); }
+BroadPhasePtr make_bounding_volume_hierarchy(const Options& options) {
+  return std::make_unique<StoredPhase<HierarchyFinder>>(options);
+}
 
 }  // namespace touchstone::broad

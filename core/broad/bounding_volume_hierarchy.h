@@ -37,6 +37,6 @@ class HierarchyFinder {
   long builds_ = 0, refits_ = 0;
 };
 
-BroadPhasePtr make_bounding_volume_hierarchy();
+BroadPhasePtr make_bounding_volume_hierarchy(const Options& options = {});
 
 }  // namespace touchstone::broad

@@ -61,7 +61,7 @@ using HierarchicalGridFinder = GridFinder<6>;
 extern template class GridFinder<1>;
 extern template class GridFinder<6>;
 
-BroadPhasePtr make_grid();
-BroadPhasePtr make_hierarchical_grid();
+BroadPhasePtr make_grid(const Options& options = {});
+BroadPhasePtr make_hierarchical_grid(const Options& options = {});
 
 }  // namespace touchstone::broad

@@ -96,7 +96,7 @@ void IncrementalSweepFinder::find(const BoxStore& store, PairSink& sink) {
     find_touched(store, sink);
     for (const BoxStore::Slot s : store.touched()) touched_[s] = 0;
   } else {
-    sweep_range(columns_, 0, columns_.size, sink);
+    sweep_all(columns_, sink);
   }
   sink.decide_doubtful(store);
   kept_.resize(sink.n);
@@ -124,6 +124,8 @@ std::string IncrementalSweepFinder::explain() const {
          (local_ ? ", changed boxes searched" : ", all boxes swept");
 }
 
-BroadPhasePtr make_incremental_sweep() { return std::make_unique<StoredPhase<IncrementalSweepFinder>>(); }
+BroadPhasePtr make_incremental_sweep(const Options& options) {
+  return std::make_unique<StoredPhase<IncrementalSweepFinder>>(options);
+}
 
 }  // namespace touchstone::broad

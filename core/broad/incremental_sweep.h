@@ -38,6 +38,6 @@ class IncrementalSweepFinder {
   bool local_ = false, full_sort_ = false;
 };
 
-BroadPhasePtr make_incremental_sweep();
+BroadPhasePtr make_incremental_sweep(const Options& options = {});
 
 }  // namespace touchstone::broad

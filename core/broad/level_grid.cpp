@@ -89,8 +89,10 @@ void LevelGrid::build(const KeyBox* boxes, const std::vector<std::uint32_t>& cod
   for (std::size_t c = 0; c <= ghosts_; ++c) begin_[places_ + c] = sum + begin_[c];
 }
 
-void LevelGrid::self_pairs(Doubt doubt, PairSink& sink) {
-  sweep_entries(shape_, entries_.data(), begin_.data(), 0, count_, doubt, scratch_, sink);
+void LevelGrid::self_pairs(Doubt doubt, std::size_t parts, std::size_t part, PairSink& sink) const {
+  deal_chunks(count_, 2048, parts, part, [&](std::size_t begin, std::size_t end) {
+    sweep_entries(shape_, entries_.data(), begin_.data(), begin, end, doubt, sink);
+  });
 }
 
 // `cells` places from `from` on, around the table's end.
@@ -159,7 +161,7 @@ void LevelGrid::validate() const {
 
 std::size_t LevelGrid::memory_bytes() const {
   return entries_.capacity() * sizeof(GridEntry) + filed_.capacity() * sizeof(Filed) +
-         begin_.capacity() * sizeof(std::uint32_t) + scratch_.memory_bytes();
+         begin_.capacity() * sizeof(std::uint32_t);
 }
 
 }  // namespace touchstone::broad

@@ -22,8 +22,8 @@ class LevelGrid {
   /// others are left in `too_large`, in order.
   void build(const KeyBox* boxes, const std::vector<std::uint32_t>& codes, const SceneStats& stats,
              std::vector<std::uint32_t>& too_large);
-  /// Pairs among the boxes filed.
-  void self_pairs(Doubt doubt, PairSink& sink);
+  /// Part `part` of `parts` of the pairs among the boxes filed.
+  void self_pairs(Doubt doubt, std::size_t parts, std::size_t part, PairSink& sink) const;
   /// Pairs of a box that is not filed here with the boxes filed; `code` without owner flags.
   void query(const KeyBox& box, std::uint32_t code, Doubt doubt, PairSink& sink) const;
 
@@ -46,7 +46,6 @@ class LevelGrid {
   std::vector<std::uint32_t> begin_;  // of each place; places, ghosts, end
   std::vector<GridEntry> entries_;  // count_, then copies of those of the first ghosts_ places, then filling
   std::vector<Filed> filed_;
-  SweepScratch scratch_;
 };
 
 }  // namespace touchstone::broad

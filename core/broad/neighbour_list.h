@@ -44,7 +44,9 @@ class NeighbourListFinder {
   void find_loose_pairs(PairSink& sink);
   bool is_listed(BoxStore::Slot a, BoxStore::Slot b) const;
   const KeyBox& built_box(BoxStore::Slot s) const;
-  void report(const BoxStore& store, std::vector<IdPair>& out) const;
+  void report(const BoxStore& store, const PairSink& sink, std::vector<IdPair>& out) const;
+  std::size_t report_range(const BoxStore& store, std::size_t from, std::size_t to, IdPair* out) const;
+  std::size_t loose_before(std::size_t slot) const;
 
   RememberedStats stats_;
   bool alive_ = false, answered_ = false;
@@ -66,6 +68,6 @@ class NeighbourListFinder {
   std::vector<std::uint32_t> codes_;
 };
 
-BroadPhasePtr make_neighbour_list();
+BroadPhasePtr make_neighbour_list(const Options& options = {});
 
 }  // namespace touchstone::broad

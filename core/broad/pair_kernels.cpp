@@ -75,10 +75,10 @@ HWY_INLINE void emit(const BoxColumns& b, std::size_t j, std::uint32_t mine, con
   sink.n += pack.count();
 }
 
-void sweep(const BoxColumns& b, std::size_t begin, std::size_t end, PairSink& sink) {
+void sweep(const BoxColumns& b, std::size_t first, std::size_t last, PairSink& sink) {
   const I d;
-  const std::size_t lanes = hn::Lanes(d);
-  for (std::size_t i = begin; i + 1 < end; ++i) {
+  const std::size_t lanes = hn::Lanes(d), end = b.size;
+  for (std::size_t i = first; i < last && i + 1 < end; ++i) {
     if (b.lo[0][i + 1] > b.hi[0][i]) continue;
     const Probe p(b, i);
     for (std::size_t j = i + 1; j < end; j += lanes) {
@@ -91,10 +91,6 @@ void sweep(const BoxColumns& b, std::size_t begin, std::size_t end, PairSink& si
       if (!hn::AllTrue(d, begun)) break;
     }
   }
-}
-
-void sweep_each(const BoxColumns& b, const std::vector<std::uint32_t>& begin, PairSink& sink) {
-  for (std::size_t g = 0; g + 1 < begin.size(); ++g) sweep(b, begin[g], begin[g + 1], sink);
 }
 
 void scan(const BoxColumns& from, std::size_t i, const BoxColumns& b, std::size_t begin, std::size_t end,
@@ -133,7 +129,6 @@ HWY_AFTER_NAMESPACE();
 namespace touchstone::broad {
 
 HWY_EXPORT(sweep);
-HWY_EXPORT(sweep_each);
 HWY_EXPORT(scan);
 HWY_EXPORT(mask_16);
 
@@ -161,8 +156,12 @@ void sweep_range(const BoxColumns& boxes, std::size_t begin, std::size_t end, Pa
   HWY_DYNAMIC_DISPATCH(sweep)(boxes, begin, end, sink);
 }
 
-void sweep_groups(const BoxColumns& boxes, const std::vector<std::uint32_t>& begin, PairSink& sink) {
-  HWY_DYNAMIC_DISPATCH(sweep_each)(boxes, begin, sink);
+void sweep_all(const BoxColumns& boxes, PairSink& sink) {
+  const std::size_t parts = sink.parts(boxes.size);
+  sink.in_parts(parts, [&](std::size_t p, PairSink& out) {
+    deal_chunks(boxes.size, 256, parts, p,
+                [&](std::size_t begin, std::size_t end) { sweep_range(boxes, begin, end, out); });
+  });
 }
 
 void scan_range(const BoxColumns& from, std::size_t i, const BoxColumns& boxes, std::size_t begin,

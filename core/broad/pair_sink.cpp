@@ -6,6 +6,31 @@
 #include "core/broad/list_kernels.h"
 
 namespace touchstone::broad {
+
+PairSink::PairSink(const Options& options) : options_(options) {
+  if (options.threads < 1) throw std::invalid_argument("broad phase: threads must be 1 or more");
+  threads_ = static_cast<std::size_t>(options.threads);
+  options_.least_a_part = std::max<std::size_t>(1, options.least_a_part);
+}
+
+std::size_t PairSink::memory_bytes() const {
+  std::size_t sum = (first.capacity() + second.capacity() + grouped_.capacity() + count_.capacity() +
+                     rank_.capacity() + by_rank_.capacity()) *
+                        sizeof(std::uint32_t) +
+                    doubtful.capacity() * sizeof(SlotPair) +
+                    (others_.capacity() - others_.size()) * sizeof(PairSink);
+  for (const PairSink& other : others_) sum += sizeof other + other.memory_bytes();
+  return sum;
+}
+
+void PairSink::append(const PairSink& other) {
+  reserve(other.n);
+  std::copy_n(other.first.begin(), other.n, first.begin() + static_cast<std::ptrdiff_t>(n));
+  std::copy_n(other.second.begin(), other.n, second.begin() + static_cast<std::ptrdiff_t>(n));
+  n += other.n;
+  doubtful.insert(doubtful.end(), other.doubtful.begin(), other.doubtful.end());
+}
+
 void PairSink::grow(std::size_t more) {
   const std::size_t size = std::max(n + more, first.size() + first.size() / 2) + 64;
   first.resize(size), second.resize(size);
@@ -44,12 +69,36 @@ void PairSink::rename_by_rank(const BoxStore& store) {
 // Counting sort.
 void PairSink::group(std::size_t slots, std::vector<std::uint32_t>& end,
                      std::vector<std::uint32_t>& second_by_first) const {
+  if (second_by_first.size() < n + list_padding) second_by_first.resize(n + list_padding);
+  if (const std::size_t parts = this->parts(n); parts > 1) {
+    group_in_parts(parts, slots, end, second_by_first.data());
+    return;
+  }
   end.assign(slots, 0);
   for (std::size_t i = 0; i < n; ++i) ++end[first[i]];
   std::uint32_t sum = 0;
   for (std::uint32_t& c : end) sum += std::exchange(c, sum);
-  if (second_by_first.size() < n + list_padding) second_by_first.resize(n + list_padding);
   for (std::size_t i = 0; i < n; ++i) second_by_first[end[first[i]]++] = second[i];
+}
+
+// Each part counts its share of the pairs in a table of its own, [p·slots, (p + 1)·slots) of `end` but the
+// last part's, which comes first: it ends where the bucket ends.
+void PairSink::group_in_parts(std::size_t parts, std::size_t slots, std::vector<std::uint32_t>& end,
+                              std::uint32_t* second_by_first) const {
+  end.assign(slots * parts, 0);
+  const auto table = [&](std::size_t p) { return end.data() + (parts - 1 - p) * slots; };
+  run_parts(parts, [&](std::size_t p) {
+    std::uint32_t* const count = table(p);
+    for (std::size_t i = part_begin(n, parts, p); i < part_begin(n, parts, p + 1); ++i) ++count[first[i]];
+  });
+  std::uint32_t sum = 0;
+  for (std::size_t s = 0; s < slots; ++s)
+    for (std::size_t p = 0; p < parts; ++p) sum += std::exchange(table(p)[s], sum);
+  run_parts(parts, [&](std::size_t p) {
+    std::uint32_t* const next = table(p);
+    for (std::size_t i = part_begin(n, parts, p); i < part_begin(n, parts, p + 1); ++i)
+      second_by_first[next[first[i]]++] = second[i];
+  });
 }
 
 // Grouped by the first of the pair, each group sorted by the second: O(pairs + slots) and a sort of each
@@ -60,7 +109,11 @@ void PairSink::finish(const BoxStore& store, std::vector<IdPair>& out) {
   if (ranked) rename_by_rank(store);
   group(store.slots(), count_, grouped_);
   out.resize(n);
-  write_buckets(count_.data(), count_.size(), grouped_.data(), out.data());
+  const std::size_t many = parts(n);
+  run_parts(many, [&](std::size_t p) {
+    write_buckets(count_.data(), part_begin(store.slots(), many, p), part_begin(store.slots(), many, p + 1),
+                  grouped_.data(), out.data());
+  });
   if (store.ids_are_slots()) return;
   for (IdPair& p : out) {
     const auto a = static_cast<std::uint32_t>(p.first), b = static_cast<std::uint32_t>(p.second);
