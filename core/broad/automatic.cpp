@@ -1,5 +1,7 @@
 #include "core/broad/automatic.h"
 
+#include <utility>
+
 #include "core/broad/stored_phase.h"
 #include "core/tolerance.h"
 
@@ -27,14 +29,15 @@ bool AutomaticFinder::find_sorted(const BoxStore& store, PairSink& sink, std::ve
   }
   why_ += ", " + std::to_string(store.touched().size()) + " changed";
   if (list_.keep_up(store, sink, out)) {
-    method_ = Method::neighbour_list;
+    if (std::exchange(method_, Method::neighbour_list) == Method::sweep) sweep_ = {};
     return true;
   }
   const double reach = boxes_in_reach(stats_.of(store), n);
   why_ += ", " + std::to_string(reach) + " in the reach of a sweep";
-  method_ = reach <= tolerance::sweep_reach_most ? Method::sweep : Method::grid;
+  const Method method = reach <= tolerance::sweep_reach_most ? Method::sweep : Method::grid;
+  if (std::exchange(method_, method) == Method::sweep && method != Method::sweep) sweep_ = {};
   if (method_ == Method::sweep)
-    sweep_.find(store, sink);
+    list_.forget(), sweep_.find(store, sink);
   else
     list_.search(store, sink);
   return false;

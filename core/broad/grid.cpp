@@ -1,5 +1,6 @@
 #include "core/broad/grid.h"
 
+#include "core/broad/release.h"
 #include "core/broad/stored_phase.h"
 #include "core/tolerance.h"
 
@@ -47,6 +48,11 @@ void GridLevels::pairs(const KeyBox* boxes, Doubt doubt, PairSink& sink) {
   });
   sweep_all(rest_, sink);
   if (doubt == Doubt::report) sink.accept_doubtful();
+}
+
+void GridLevels::thin_out() {
+  for (std::size_t l = 0; l < used_; ++l) levels_[l].grid.thin_out();
+  release(order_), release(scratch_);
 }
 
 void GridLevels::query(const KeyBox& box, std::uint32_t code, PairSink& sink) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/broad/list_kernels.h"
+#include "core/broad/release.h"
 #include "core/broad/stored_phase.h"
 #include "core/tolerance.h"
 
@@ -81,17 +82,20 @@ void NeighbourListFinder::build(const BoxStore& store, PairSink& sink) {
   levels_.build(fat_.data(), codes_, stats_.of(store), levels);
   levels_.pairs(fat_.data(), Doubt::report, sink);
   sink.group(store.slots(), end_, codes_);
-  end_.resize(store.slots());
   candidates_ = sink.n;
-  if (second_.size() < candidates_ + list_padding)
-    second_.resize(candidates_ + candidates_ / 8 + list_padding);
+  if (second_.size() < candidates_ + list_padding) {
+    release(second_);
+    second_.resize(candidates_ + candidates_ / 32 + list_padding);
+  }
   const std::size_t parts = sink.parts(candidates_);
   run_parts(parts, [&](std::size_t p) {
     sort_buckets(end_.data(), part_begin(end_.size(), parts, p), part_begin(end_.size(), parts, p + 1),
                  codes_.data(), second_.data());
   });
   std::fill_n(second_.begin() + static_cast<std::ptrdiff_t>(candidates_), list_padding, 0);
-  sink.clear();
+  sink.release_memory();
+  release(codes_);
+  levels_.thin_out();
   alive_ = true, age_ = 0, work_ = 0, ++lists_;
 }
 
@@ -146,7 +150,8 @@ void NeighbourListFinder::find_loose_pairs(PairSink& sink) {
     if (!is_listed(sink.first[i], sink.second[i]))
       loose_candidates_.push_back({sink.first[i], sink.second[i]});
   std::sort(loose_candidates_.begin(), loose_candidates_.end(), in_order);
-  sink.clear();
+  if (loose_levels_.memory_bytes() > little_memory) loose_levels_.forget();
+  sink.release_memory();
 }
 
 // False when the list is no longer worth keeping.
@@ -247,6 +252,7 @@ bool NeighbourListFinder::keep_up(const BoxStore& store, PairSink& sink, std::ve
 
 void NeighbourListFinder::search(const BoxStore& store, PairSink& sink) {
   alive_ = false;
+  release(fat_), release(second_), release(end_);
   store.codes(codes_);
   levels_.build(store.keys().data(), codes_, stats_.of(store), levels);
   levels_.pairs(store.keys().data(), Doubt::decide, sink);
@@ -272,6 +278,12 @@ void NeighbourListFinder::validate(const BoxStore& store) const {
               "neighbour list: candidates are out of order");
   require(std::is_sorted(loose_candidates_.begin(), loose_candidates_.end(), in_order),
           "neighbour list: loose candidates are out of order");
+}
+
+void NeighbourListFinder::forget() {
+  alive_ = false;
+  release(fat_), release(second_), release(end_), release(codes_);
+  levels_.forget(), loose_levels_.forget();
 }
 
 std::size_t NeighbourListFinder::memory_bytes() const {

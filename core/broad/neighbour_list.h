@@ -29,7 +29,7 @@ class NeighbourListFinder {
   /// The grid's part: no list.
   void search(const BoxStore& store, PairSink& sink);
   /// The next query starts from nothing. To be called when a query was answered elsewhere.
-  void forget() { alive_ = false; }
+  void forget();
   void validate(const BoxStore& store) const;
   std::size_t memory_bytes() const;
   std::string explain() const;

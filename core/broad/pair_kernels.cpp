@@ -135,10 +135,10 @@ HWY_EXPORT(mask_16);
 void BoxColumns::resize(std::size_t n) {
   size = n;
   for (int k = 0; k < 3; ++k) {
-    if (lo[k].size() < n + padding) lo[k].resize(n + n / 4 + padding), hi[k].resize(n + n / 4 + padding);
+    if (lo[k].size() < n + padding) lo[k].resize(n + n / 16 + padding), hi[k].resize(n + n / 16 + padding);
     for (std::size_t j = n; j < n + padding; ++j) lo[k][j] = no_key, hi[k][j] = -no_key;
   }
-  if (code.size() < n + padding) code.resize(n + n / 4 + padding);
+  if (code.size() < n + padding) code.resize(n + n / 16 + padding);
 }
 
 void BoxColumns::gather(const BoxStore& store, int first_axis) {

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "core/broad/list_kernels.h"
+#include "core/broad/release.h"
 
 namespace touchstone::broad {
 
@@ -14,13 +15,19 @@ PairSink::PairSink(const Options& options) : options_(options) {
 }
 
 std::size_t PairSink::memory_bytes() const {
-  std::size_t sum = (first.capacity() + second.capacity() + grouped_.capacity() + count_.capacity() +
-                     rank_.capacity() + by_rank_.capacity()) *
-                        sizeof(std::uint32_t) +
-                    doubtful.capacity() * sizeof(SlotPair) +
-                    (others_.capacity() - others_.size()) * sizeof(PairSink);
+  std::size_t sum =
+      (first.capacity() + second.capacity() + count_.capacity() + rank_.capacity() + by_rank_.capacity()) *
+          sizeof(std::uint32_t) +
+      doubtful.capacity() * sizeof(SlotPair) + (others_.capacity() - others_.size()) * sizeof(PairSink);
   for (const PairSink& other : others_) sum += sizeof other + other.memory_bytes();
   return sum;
+}
+
+void PairSink::release_memory() {
+  clear();
+  release(first), release(second), release(doubtful);
+  release(count_);
+  for (PairSink& other : others_) other.release_memory();
 }
 
 void PairSink::append(const PairSink& other) {
@@ -32,7 +39,8 @@ void PairSink::append(const PairSink& other) {
 }
 
 void PairSink::grow(std::size_t more) {
-  const std::size_t size = std::max(n + more, first.size() + first.size() / 2) + 64;
+  const std::size_t size = std::max(n + more, first.size() + first.size() / 8) + 64;
+  first.reserve(size), second.reserve(size);
   first.resize(size), second.resize(size);
 }
 
@@ -66,25 +74,11 @@ void PairSink::rename_by_rank(const BoxStore& store) {
   }
 }
 
-// Counting sort.
-void PairSink::group(std::size_t slots, std::vector<std::uint32_t>& end,
-                     std::vector<std::uint32_t>& second_by_first) const {
-  if (second_by_first.size() < n + list_padding) second_by_first.resize(n + list_padding);
-  if (const std::size_t parts = this->parts(n); parts > 1) {
-    group_in_parts(parts, slots, end, second_by_first.data());
-    return;
-  }
-  end.assign(slots, 0);
-  for (std::size_t i = 0; i < n; ++i) ++end[first[i]];
-  std::uint32_t sum = 0;
-  for (std::uint32_t& c : end) sum += std::exchange(c, sum);
-  for (std::size_t i = 0; i < n; ++i) second_by_first[end[first[i]]++] = second[i];
-}
-
-// Each part counts its share of the pairs in a table of its own, [p·slots, (p + 1)·slots) of `end` but the
-// last part's, which comes first: it ends where the bucket ends.
-void PairSink::group_in_parts(std::size_t parts, std::size_t slots, std::vector<std::uint32_t>& end,
-                              std::uint32_t* second_by_first) const {
+// Counting sort by the first slot: put(at, i) is told where pair i goes. Each part counts its share of the
+// pairs in a table of its own; that of the last part comes first in `end`, for it ends where the bucket ends.
+template <class Put>
+void PairSink::place(std::size_t slots, std::vector<std::uint32_t>& end, const Put& put) const {
+  const std::size_t parts = this->parts(n);
   end.assign(slots * parts, 0);
   const auto table = [&](std::size_t p) { return end.data() + (parts - 1 - p) * slots; };
   run_parts(parts, [&](std::size_t p) {
@@ -97,8 +91,15 @@ void PairSink::group_in_parts(std::size_t parts, std::size_t slots, std::vector<
   run_parts(parts, [&](std::size_t p) {
     std::uint32_t* const next = table(p);
     for (std::size_t i = part_begin(n, parts, p); i < part_begin(n, parts, p + 1); ++i)
-      second_by_first[next[first[i]]++] = second[i];
+      put(next[first[i]]++, i);
   });
+}
+
+void PairSink::group(std::size_t slots, std::vector<std::uint32_t>& end,
+                     std::vector<std::uint32_t>& second_by_first) const {
+  if (second_by_first.size() < n + list_padding) second_by_first.resize(n + list_padding);
+  place(slots, end, [&](std::size_t at, std::size_t i) { second_by_first[at] = second[i]; });
+  end.resize(slots);
 }
 
 // Grouped by the first of the pair, each group sorted by the second: O(pairs + slots) and a sort of each
@@ -107,12 +108,14 @@ void PairSink::finish(const BoxStore& store, std::vector<IdPair>& out) {
   decide_doubtful(store);
   const bool ranked = !store.slots_ascend();
   if (ranked) rename_by_rank(store);
-  group(store.slots(), count_, grouped_);
   out.resize(n);
-  const std::size_t many = parts(n);
-  run_parts(many, [&](std::size_t p) {
-    write_buckets(count_.data(), part_begin(store.slots(), many, p), part_begin(store.slots(), many, p + 1),
-                  grouped_.data(), out.data());
+  place(store.slots(), count_, [&](std::size_t at, std::size_t i) {
+    out[at] = {static_cast<int>(first[i]), static_cast<int>(second[i])};
+  });
+  const std::size_t parts = this->parts(n);
+  run_parts(parts, [&](std::size_t p) {
+    sort_pairs(count_.data(), part_begin(store.slots(), parts, p), part_begin(store.slots(), parts, p + 1),
+               out.data());
   });
   if (store.ids_are_slots()) return;
   for (IdPair& p : out) {

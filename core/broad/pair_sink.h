@@ -45,8 +45,10 @@ class PairSink {
     first[n] = a < b ? a : b, second[n] = a < b ? b : a, ++n;
   }
   std::size_t memory_bytes() const;
+  /// Empties it and gives back what is much.
+  void release_memory();
   /// Groups the second slots by the first: bucket s ends at end[s]; the bucket before it ends where it
-  /// begins. `end` may be longer than the slots.
+  /// begins.
   void group(std::size_t slots, std::vector<std::uint32_t>& end,
              std::vector<std::uint32_t>& second_by_first) const;
   /// Adds those doubtful pairs whose double boxes overlap.
@@ -67,13 +69,13 @@ class PairSink {
  private:
   void grow(std::size_t more);
   void append(const PairSink& other);
-  void group_in_parts(std::size_t parts, std::size_t slots, std::vector<std::uint32_t>& end,
-                      std::uint32_t* second_by_first) const;
+  template <class Put>
+  void place(std::size_t slots, std::vector<std::uint32_t>& end, const Put& put) const;
   Options options_;
   std::size_t threads_ = 1;
   std::vector<PairSink> others_;  // of the parts but the first
   void rename_by_rank(const BoxStore& store);
-  std::vector<std::uint32_t> count_, rank_, grouped_;
+  std::vector<std::uint32_t> count_, rank_;
   std::vector<int> by_rank_;
   std::uint64_t ranked_at_ = ~std::uint64_t{0};
 };

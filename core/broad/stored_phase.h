@@ -37,6 +37,7 @@ class StoredPhase final : public BroadPhase {
       finder_.find(store_, sink_);
       sink_.finish(store_, out);
     }
+    store_.settle();
     store_.forget_changes();
   }
   void validate() const override { store_.validate(), finder_.validate(store_); }
