@@ -20,21 +20,19 @@ double boxes_in_reach(const SceneStats& s, std::size_t n) {
 
 bool AutomaticFinder::find_sorted(const BoxStore& store, PairSink& sink, std::vector<IdPair>& out) {
   const std::size_t n = store.present();
-  why_ = std::to_string(n) + " boxes";
+  boxes_ = n, changed_ = store.touched().size(), reach_ = -1;
   if (n <= tolerance::brute_force_most) {
     method_ = Method::brute_force;
     list_.forget();
     brute_force_.find(store, sink);
     return false;
   }
-  why_ += ", " + std::to_string(store.touched().size()) + " changed";
   if (list_.keep_up(store, sink, out)) {
     if (std::exchange(method_, Method::neighbour_list) == Method::sweep) sweep_ = {};
     return true;
   }
-  const double reach = boxes_in_reach(stats_.of(store), n);
-  why_ += ", " + std::to_string(reach) + " in the reach of a sweep";
-  const Method method = reach <= tolerance::sweep_reach_most ? Method::sweep : Method::grid;
+  reach_ = boxes_in_reach(stats_.of(store), n);
+  const Method method = reach_ <= tolerance::sweep_reach_most ? Method::sweep : Method::grid;
   if (std::exchange(method_, method) == Method::sweep && method != Method::sweep) sweep_ = {};
   if (method_ == Method::sweep)
     list_.forget(), sweep_.find(store, sink);
@@ -56,7 +54,9 @@ std::string AutomaticFinder::explain() const {
   const std::string how = method_ == Method::brute_force ? brute_force_.explain()
                           : method_ == Method::sweep     ? sweep_.explain()
                                                          : list_.explain();
-  return how + " (" + why_ + ")";
+  std::string why = std::to_string(boxes_) + " boxes, " + std::to_string(changed_) + " changed";
+  if (reach_ >= 0) why += ", " + std::to_string(reach_) + " in the reach of a sweep";
+  return how + " (" + why + ")";
 }
 
 Structure AutomaticFinder::structure() const {

@@ -133,7 +133,7 @@ void BoxStore::update(std::span<const BoxUpdate> moves) {
 }
 
 void BoxStore::codes(std::vector<std::uint32_t>& out) const {
-  out.resize(present());
+  resize_exactly(out, present());
   std::size_t n = 0;
   for (Slot s = 0; n < out.size(); ++s) {
     out[n] = s | (is_fixed(s) ? 0 : moving_flag);

@@ -83,11 +83,11 @@ void LevelGrid::build(const KeyBox* boxes, const std::vector<std::uint32_t>& cod
   for (std::size_t c = 2; c < places_ + 2; ++c) sum += begin_[c], begin_[c] = sum;
   count_ = sum;
   // Room for the copies: at most as many as there are entries.
-  if (entries_.size() < count_ + filling) entries_.resize(count_ + count_ / 32 + filling);
+  if (entries_.size() < count_ + filling) resize_exactly(entries_, count_ + count_ / 32 + filling);
   write_entries(shape_, boxes, filed_, begin_.data() + 1, entries_.data(), count_);
   if (ghosts_ == 0) return;
   const std::size_t copies = begin_[ghosts_];
-  if (entries_.size() < count_ + copies + filling) entries_.resize(count_ + copies + filling);
+  if (entries_.size() < count_ + copies + filling) resize_exactly(entries_, count_ + copies + filling);
   std::copy_n(entries_.begin(), copies, entries_.begin() + static_cast<std::ptrdiff_t>(count_));
   for (std::size_t c = 0; c <= ghosts_; ++c) begin_[places_ + c] = sum + begin_[c];
 }

@@ -29,26 +29,12 @@ HWY_INLINE void sort_few(const std::uint32_t* from, std::size_t n, std::uint32_t
   }
 }
 
-HWY_INLINE void sort_few_pairs(IdPair* p, std::size_t n) {
-  constexpr std::size_t insertion_sort_up_to = 24;
-  if (n > insertion_sort_up_to) {
-    std::sort(p, p + n);
-    return;
-  }
-  for (std::size_t i = 1; i < n; ++i) {
-    const IdPair v = p[i];
-    std::size_t j = i;
-    for (; j > 0 && v.second < p[j - 1].second; --j) p[j] = p[j - 1];
-    p[j] = v;
-  }
-}
-
 // Eight lanes: AVX2 and its betters, which Highway numbers below it.
 #if !(HWY_ARCH_X86 && HWY_TARGET <= HWY_AVX2)
 constexpr bool wide = false;
 
 HWY_INLINE void sort_eight(const std::uint32_t*, std::size_t, std::uint32_t*) {}
-HWY_INLINE void sort_eight_pairs(IdPair*, std::size_t) {}
+HWY_INLINE void write_eight(const std::uint32_t*, std::size_t, std::uint32_t, IdPair*) {}
 #else
 constexpr bool wide = true;
 using U = hn::CappedTag<std::uint32_t, 8>;
@@ -75,27 +61,21 @@ HWY_INLINE V step(V v) {
   return hn::IfThenElse(hn::Xor(low, up), hn::Max(v, p), hn::Min(v, p));
 }
 
-HWY_INLINE V sorted_eight(V v) {
+HWY_INLINE V sorted_eight(const std::uint32_t* from, std::size_t n) {
+  const U d;
+  V v = hn::IfThenElse(hn::FirstN(d, n), hn::LoadU(d, from), hn::Set(d, 0xffffffff));
   v = step<2, 1>(v);
   v = step<4, 1>(step<4, 2>(v));
   return step<8, 1>(step<8, 2>(step<8, 4>(v)));
 }
 
 HWY_INLINE void sort_eight(const std::uint32_t* from, std::size_t n, std::uint32_t* to) {
-  const U d;
-  const V v = hn::IfThenElse(hn::FirstN(d, n), hn::LoadU(d, from), hn::Set(d, 0xffffffff));
-  hn::StoreU(sorted_eight(v), d, to);
+  hn::StoreU(sorted_eight(from, n), U(), to);
 }
 
-// What follows the n pairs is written back as it was.
-HWY_INLINE void sort_eight_pairs(IdPair* pairs, std::size_t n) {
-  const U d;
-  auto* const p = reinterpret_cast<std::uint32_t*>(pairs);
-  V first, second;
-  hn::LoadInterleaved2(d, p, first, second);
-  const auto in = hn::FirstN(d, n);
-  const V sorted = sorted_eight(hn::IfThenElse(in, second, hn::Set(d, 0xffffffff)));
-  hn::StoreInterleaved2(first, hn::IfThenElse(in, sorted, second), d, p);
+HWY_INLINE void write_eight(const std::uint32_t* from, std::size_t n, std::uint32_t bucket, IdPair* out) {
+  hn::StoreInterleaved2(hn::Set(U(), bucket), sorted_eight(from, n), U(),
+                        reinterpret_cast<std::uint32_t*>(out));
 }
 #endif
 
@@ -114,15 +94,20 @@ void sort(const std::uint32_t* end, std::size_t from, std::size_t to, const std:
   }
 }
 
-void sort_second(const std::uint32_t* end, std::size_t from, std::size_t to, IdPair* pairs) {
+void write(const std::uint32_t* end, std::size_t from, std::size_t to, const std::uint32_t* second,
+           IdPair* out) {
   const std::size_t all = to > from ? end[to - 1] : 0;
   std::uint32_t begin = from > 0 ? end[from - 1] : 0;
+  std::vector<std::uint32_t> few;
   for (std::size_t s = from; s < to; begin = end[s], ++s) {
     const std::size_t n = end[s] - begin;
-    if (wide && HWY_LIKELY((n <= 8) & (begin + 8 <= all)))
-      sort_eight_pairs(pairs + begin, n);
-    else
-      sort_few_pairs(pairs + begin, n);
+    if (wide && HWY_LIKELY((n <= 8) & (begin + 8 <= all))) {
+      write_eight(second + begin, n, static_cast<std::uint32_t>(s), out + begin);
+    } else if (n > 0) {
+      few.resize(std::max(few.size(), n));
+      sort_few(second + begin, n, few.data());
+      for (std::size_t k = 0; k < n; ++k) out[begin + k] = {static_cast<int>(s), static_cast<int>(few[k])};
+    }
   }
 }
 
@@ -242,7 +227,7 @@ HWY_AFTER_NAMESPACE();
 namespace touchstone::broad {
 
 HWY_EXPORT(sort);
-HWY_EXPORT(sort_second);
+HWY_EXPORT(write);
 HWY_EXPORT(filter);
 HWY_EXPORT(escapes);
 
@@ -251,8 +236,9 @@ void sort_buckets(const std::uint32_t* end, std::size_t from, std::size_t to, co
   HWY_DYNAMIC_DISPATCH(sort)(end, from, to, second, sorted);
 }
 
-void sort_pairs(const std::uint32_t* end, std::size_t from, std::size_t to, IdPair* pairs) {
-  HWY_DYNAMIC_DISPATCH(sort_second)(end, from, to, pairs);
+void write_buckets(const std::uint32_t* end, std::size_t from, std::size_t to, const std::uint32_t* second,
+                   IdPair* out) {
+  HWY_DYNAMIC_DISPATCH(write)(end, from, to, second, out);
 }
 
 std::size_t filter_candidates(const KeyBox* keys, const Aabb* boxes, const std::uint32_t* end,

@@ -16,8 +16,9 @@ inline constexpr std::size_t list_padding = 16;
 void sort_buckets(const std::uint32_t* end, std::size_t from, std::size_t to, const std::uint32_t* second,
                   std::uint32_t* sorted);
 
-/// The same of pairs in place: bucket s holds pairs (s, …), which are sorted by the second.
-void sort_pairs(const std::uint32_t* end, std::size_t from, std::size_t to, IdPair* pairs);
+/// The same, written as pairs (bucket, element).
+void write_buckets(const std::uint32_t* end, std::size_t from, std::size_t to, const std::uint32_t* second,
+                   IdPair* out);
 
 /// Of the candidates (s, t) for s in [from, to), t in second[end[s − 1] … end[s]), writes those whose boxes
 /// overlap; returns how many. By keys, or by doubles where keys leave doubt (float_key.h). Room for all.

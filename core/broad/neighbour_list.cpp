@@ -251,8 +251,7 @@ bool NeighbourListFinder::keep_up(const BoxStore& store, PairSink& sink, std::ve
 }
 
 void NeighbourListFinder::search(const BoxStore& store, PairSink& sink) {
-  alive_ = false;
-  release(fat_), release(second_), release(end_);
+  drop_list();
   store.codes(codes_);
   levels_.build(store.keys().data(), codes_, stats_.of(store), levels);
   levels_.pairs(store.keys().data(), Doubt::decide, sink);
@@ -280,9 +279,15 @@ void NeighbourListFinder::validate(const BoxStore& store) const {
           "neighbour list: loose candidates are out of order");
 }
 
-void NeighbourListFinder::forget() {
+void NeighbourListFinder::drop_list() {
   alive_ = false;
-  release(fat_), release(second_), release(end_), release(codes_);
+  release(fat_), release(second_), release(end_);
+  release(loose_), release(escaped_), release(filed_as_), release(with_filed_), release(loose_candidates_);
+}
+
+void NeighbourListFinder::forget() {
+  drop_list();
+  release(codes_);
   levels_.forget(), loose_levels_.forget();
 }
 

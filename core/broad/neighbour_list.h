@@ -37,6 +37,7 @@ class NeighbourListFinder {
 
  private:
   bool is_coherent(const BoxStore& store);
+  void drop_list();
   bool keep(const BoxStore& store, PairSink& sink);
   void build(const BoxStore& store, PairSink& sink);
   void make_fat(const BoxStore& store, BoxStore::Slot s, KeyBox& fat) const;

@@ -69,13 +69,11 @@ class PairSink {
  private:
   void grow(std::size_t more);
   void append(const PairSink& other);
-  template <class Put>
-  void place(std::size_t slots, std::vector<std::uint32_t>& end, const Put& put) const;
   Options options_;
   std::size_t threads_ = 1;
   std::vector<PairSink> others_;  // of the parts but the first
   void rename_by_rank(const BoxStore& store);
-  std::vector<std::uint32_t> count_, rank_;
+  std::vector<std::uint32_t> count_, rank_, grouped_;
   std::vector<int> by_rank_;
   std::uint64_t ranked_at_ = ~std::uint64_t{0};
 };

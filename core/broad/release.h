@@ -7,7 +7,7 @@
 namespace touchstone::broad {
 
 /// Less is kept for the next query, which would only ask for it again.
-inline constexpr std::size_t little_memory = std::size_t{1} << 18;  // bytes
+inline constexpr std::size_t little_memory = std::size_t{1} << 16;  // bytes
 
 template <class T>
 void release(std::vector<T>& v) {
@@ -18,7 +18,14 @@ void release(std::vector<T>& v) {
 template <class T>
 void trim(std::vector<T>& v) {
   const std::size_t spare = v.capacity() - v.size();
-  if (spare > v.size() / 16 && spare * sizeof(T) > little_memory / 4) v.shrink_to_fit();
+  if (spare > v.size() / 16 && spare * sizeof(T) > little_memory) v.shrink_to_fit();
+}
+
+/// A vector that must grow takes what it is asked for; resize() alone may take twice what it has.
+template <class T>
+void resize_exactly(std::vector<T>& v, std::size_t n) {
+  v.reserve(n);
+  v.resize(n);
 }
 
 /// Room for one more; grows by a quarter, not to the double.
