@@ -112,5 +112,10 @@ inline constexpr double sweep_reach_most = 40;
 /// A refitted tree is built anew when its lowest nodes have grown by this factor: a build costs about twice a
 /// refit, overlap of nodes grows with the cube of their reach.
 inline constexpr double tree_decay = 1.15;
+/// The same for changes box by box, of which a rebuild would undo many at once: split nodes are three quarters full
+/// and cost a search about that much more, once.
+inline constexpr double tree_rot = 1.6;
+/// A tree is built anew when more than one in so many of its boxes comes or goes at once (a count).
+inline constexpr unsigned tree_change_share = 8;
 
 }  // namespace touchstone::tolerance

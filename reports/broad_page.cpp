@@ -99,21 +99,26 @@ function plan(){
         for(let c=first;c<=last;c++){const at=grid.origin[k]+c*grid.cell[k];g.beginPath();if(k===u){g.moveTo(X(at),0);g.lineTo(X(at),h);}else{g.moveTo(0,Y(at));g.lineTo(w,Y(at));}g.stroke();}
       }
     });
-    look.nodes.forEach((level,l)=>{for(const b of level)rect(b,null,C.part,1+l);});
   }
   const touched=new Set();for(const[a,b]of f.kept)if(a===hovered||b===hovered){touched.add(a);touched.add(b);}
-  f.boxes.forEach((b,i)=>{if(b)rect(b,i===hovered||touched.has(i)?"#c8321f33":data.fixed[i]?"#8a949e1c":"#2f6fb21c",data.fixed[i]?C.fixed:C.moving,i===hovered?2.2:1);});
+  // Many boxes over each other would be one dark area: the more there are, the fainter each.
+  const here=f.boxes.reduce((n,b)=>n+(b?1:0),0),hex=x=>Math.max(3,Math.round(x)).toString(16).padStart(2,"0"),faint=Math.min(1,120/Math.max(here,1));
+  const rim=here>300?hex(255*Math.max(0.25,faint*2)):"ff";
+  f.boxes.forEach((b,i)=>{if(b)rect(b,i===hovered||touched.has(i)?"#c8321f33":(data.fixed[i]?"#8a949e":"#2f6fb2")+hex(28*faint),i===hovered?C.moving:(data.fixed[i]?C.fixed:C.moving)+rim,i===hovered?2.2:1);});
+  if($("show_structure").checked)look.nodes.forEach((level,l)=>{for(const b of level)rect(b,null,C.part,1.2+l);});
+  // A pair with a much larger box is drawn to where that box is nearest, not to its middle.
+  const towards=(b,from,k)=>high(b,k)-low(b,k)>4*(high(from,k)-low(from,k))?Math.max(low(b,k),Math.min(high(b,k),mid(from,k))):mid(b,k);
   const mid=(b,k)=>{const a=low(b,k),c=high(b,k);return isFinite(a)&&isFinite(c)?(a+c)/2:isFinite(a)?a:isFinite(c)?c:(k===u?cu:cv);};
   const link=(pairs,style,width,dash)=>{
     g.strokeStyle=style;g.lineWidth=width;g.setLineDash(dash);g.beginPath();
     for(const[a,b]of pairs){
       if(hovered>=0&&a!==hovered&&b!==hovered)continue;
-      const p=f.boxes[a],q=f.boxes[b];g.moveTo(X(mid(p,u)),Y(mid(p,v)));g.lineTo(X(mid(q,u)),Y(mid(q,v)));
+      const p=f.boxes[a],q=f.boxes[b];g.moveTo(X(towards(p,q,u)),Y(towards(p,q,v)));g.lineTo(X(towards(q,p,u)),Y(towards(q,p,v)));
     }
     g.stroke();g.setLineDash([]);
   };
-  if($("show_pruned").checked)link(look.pruned,C.pruned+(look.pruned.length>600&&hovered<0?"40":"aa"),1,[3,3]);
-  if($("show_kept").checked)link(f.kept,C.kept,f.kept.length>600?0.8:1.6,[]);
+  if($("show_pruned").checked)link(look.pruned,C.pruned+(look.pruned.length>600&&hovered<0?"28":"aa"),1,[3,3]);
+  if($("show_kept").checked)link(f.kept,C.kept+(f.kept.length>600&&hovered<0?"70":"ff"),f.kept.length>600?0.8:1.6,[]);
   g.fillStyle=C.soft;g.font="12px sans-serif";g.fillText("xyz"[u]+" \u2192",w-28,h-8);g.fillText("xyz"[v]+" \u2191",8,16);
 }
 function strips(){

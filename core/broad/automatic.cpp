@@ -1,5 +1,7 @@
 #include "core/broad/automatic.h"
 
+#include <utility>
+
 #include "core/broad/stored_phase.h"
 #include "core/tolerance.h"
 
@@ -18,23 +20,22 @@ double boxes_in_reach(const SceneStats& s, std::size_t n) {
 
 bool AutomaticFinder::find_sorted(const BoxStore& store, PairSink& sink, std::vector<IdPair>& out) {
   const std::size_t n = store.present();
-  why_ = std::to_string(n) + " boxes";
+  boxes_ = n, changed_ = store.touched().size(), reach_ = -1;
   if (n <= tolerance::brute_force_most) {
     method_ = Method::brute_force;
     list_.forget();
     brute_force_.find(store, sink);
     return false;
   }
-  why_ += ", " + std::to_string(store.touched().size()) + " changed";
   if (list_.keep_up(store, sink, out)) {
-    method_ = Method::neighbour_list;
+    if (std::exchange(method_, Method::neighbour_list) == Method::sweep) sweep_ = {};
     return true;
   }
-  const double reach = boxes_in_reach(stats_.of(store), n);
-  why_ += ", " + std::to_string(reach) + " in the reach of a sweep";
-  method_ = reach <= tolerance::sweep_reach_most ? Method::sweep : Method::grid;
+  reach_ = boxes_in_reach(stats_.of(store), n);
+  const Method method = reach_ <= tolerance::sweep_reach_most ? Method::sweep : Method::grid;
+  if (std::exchange(method_, method) == Method::sweep && method != Method::sweep) sweep_ = {};
   if (method_ == Method::sweep)
-    sweep_.find(store, sink);
+    list_.forget(), sweep_.find(store, sink);
   else
     list_.search(store, sink);
   return false;
@@ -53,7 +54,9 @@ std::string AutomaticFinder::explain() const {
   const std::string how = method_ == Method::brute_force ? brute_force_.explain()
                           : method_ == Method::sweep     ? sweep_.explain()
                                                          : list_.explain();
-  return how + " (" + why_ + ")";
+  std::string why = std::to_string(boxes_) + " boxes, " + std::to_string(changed_) + " changed";
+  if (reach_ >= 0) why += ", " + std::to_string(reach_) + " in the reach of a sweep";
+  return how + " (" + why + ")";
 }
 
 Structure AutomaticFinder::structure() const {
@@ -61,6 +64,8 @@ Structure AutomaticFinder::structure() const {
   return method_ == Method::sweep ? sweep_.structure() : list_.structure();
 }
 
-BroadPhasePtr make_automatic() { return std::make_unique<StoredPhase<AutomaticFinder>>(); }
+BroadPhasePtr make_automatic(const Options& options) {
+  return std::make_unique<StoredPhase<AutomaticFinder>>(options);
+}
 
 }  // namespace touchstone::broad

@@ -24,13 +24,15 @@ class AutomaticFinder {
  private:
   enum class Method { brute_force, neighbour_list, sweep, grid };
   Method method_ = Method::brute_force;
-  std::string why_;
+  // What decided; −1: not looked at.
+  std::size_t boxes_ = 0, changed_ = 0;
+  double reach_ = -1;
   RememberedStats stats_;
   BruteForceFinder brute_force_;
   NeighbourListFinder list_;
   SortAndSweepFinder sweep_;
 };
 
-BroadPhasePtr make_automatic();
+BroadPhasePtr make_automatic(const Options& options = {});
 
 }  // namespace touchstone::broad

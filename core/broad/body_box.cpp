@@ -35,6 +35,12 @@ struct Interval {
   Wide lo = 0, hi = 0;
 };
 
+// The sum, with its rounding added on the side of `b`.
+Wide outward(Wide a, Wide b) {
+  const Wide sum = a + b, slack = 0x1p-62L * std::abs(sum);
+  return b < 0 ? sum - slack : sum + slack;
+}
+
 Interval both_sides(Wide h) { return {-h, h}; }
 
 Wide rim(const WideVec& row, Wide radius) {
@@ -113,6 +119,21 @@ void tighten_half_space(const HalfSpace& h, const Pose& pose, Aabb& box) {
     box.lo[axis] = round_down(at - slack);
 }
 
+// Contains the body in each of its rotations, about its origin, through at most the angle θ = |ω|. Both boxes
+// do: that of the ball of radius r about the origin; and the box at the start widened by r·θ, for no point is
+// further than r from the axis, and a chord is no longer than its arc. θ and the product round by less than
+// 2⁻⁶⁰.
+Aabb turning_box(const Aabb& at_start, double r, const Pose& pose, const Vec3& angular) {
+  const Aabb ball = body_box(Sphere{r}, pose);
+  const Wide way = angular.cast<Wide>().norm() * static_cast<Wide>(r) * (1 + 0x1p-60L);
+  Aabb box;
+  for (int axis = 0; axis < 3; ++axis) {
+    box.lo[axis] = std::max(ball.lo[axis], round_down(outward(at_start.lo[axis], -way)));
+    box.hi[axis] = std::min(ball.hi[axis], round_up(outward(at_start.hi[axis], way)));
+  }
+  return box;
+}
+
 }  // namespace
 
 Aabb body_box(const Shape& shape, const Pose& pose) {
@@ -131,7 +152,7 @@ Aabb body_box(const Shape& shape, const Pose& pose) {
 Aabb swept_box(const Shape& shape, const Pose& pose, const Motion& motion) {
   Aabb start = body_box(shape, pose);
   if (kind_of(shape) == ShapeKind::half_space) return start;
-  if (!motion.angular.isZero(0)) start = body_box(Sphere{bounding_radius(shape)}, pose);
+  if (!motion.angular.isZero(0)) start = turning_box(start, bounding_radius(shape), pose, motion.angular);
   Aabb box = start;
   for (int axis = 0; axis < 3; ++axis) {
     // The end box is the start box moved by v; the sum is rounded outward.

@@ -11,8 +11,9 @@ namespace touchstone::broad {
 /// exactly perpendicular to a world axis.
 Aabb body_box(const Shape& shape, const Pose& pose);
 
-/// Contains the body at every t in [0,1]. Without rotation: both end boxes. With rotation: the ball about the
-/// body's origin along its path (tight enough for a first version).
+/// Contains the body at every t in [0,1]. Without rotation: both end boxes. With rotation: what the body may
+/// turn through, along its path: the box at the start widened by bounding radius · angle, or the ball about
+/// the body's origin, on each side the tighter of the two.
 Aabb swept_box(const Shape& shape, const Pose& pose, const Motion& motion);
 
 }  // namespace touchstone::broad

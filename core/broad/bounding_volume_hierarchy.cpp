@@ -1,17 +1,62 @@
 #include "core/broad/bounding_volume_hierarchy.h"
 
+#include "core/broad/release.h"
 #include "core/broad/stored_phase.h"
 #include "core/tolerance.h"
 
 namespace touchstone::broad {
 
-void HierarchyFinder::update(const BoxStore& store) {
-  const bool members = membership_ != store.membership();
-  if (fixed_changes_ != store.fixed_changes()) fixed_.build(store, true, sample_scene(store));
-  if (!members && !store.touched().empty()) moving_.refit(store), ++refits_;
-  if (members || moving_.decay() > tolerance::tree_decay)
-    moving_.build(store, false, sample_scene(store)), ++builds_;
-  membership_ = store.membership(), fixed_changes_ = store.fixed_changes();
+// Where a slot belongs, where it is; null for nowhere.
+WideTree* HierarchyFinder::home(const BoxStore& store, BoxStore::Slot s) {
+  return !store.is_present(s) ? nullptr : store.is_fixed(s) ? &fixed_ : &moving_;
+}
+WideTree* HierarchyFinder::holder(BoxStore::Slot s) {
+  return moving_.holds(s) ? &moving_ : fixed_.holds(s) ? &fixed_ : nullptr;
+}
+
+void HierarchyFinder::leave(const BoxStore& store, BoxStore::Slot s) {
+  WideTree* const from = holder(s);
+  if (from != nullptr && from != home(store, s)) from->remove(s), ++went_;
+}
+
+// After leave(). True when the slot has been where it belongs: its box may have moved.
+bool HierarchyFinder::enter(const BoxStore& store, BoxStore::Slot s) {
+  WideTree* const to = home(store, s);
+  if (to == nullptr) return false;
+  if (to->holds(s)) return true;
+  to->insert(store, s), ++came_;
+  return false;
+}
+
+void HierarchyFinder::build(const BoxStore& store, WideTree& tree) {
+  tree.build(store, &tree == &fixed_, sample_scene(store));
+  ++builds_;
+}
+
+void HierarchyFinder::update_all(const BoxStore& store) {
+  std::size_t changes[2] = {}, moved = 0;  // of each tree: came or went
+  for (const BoxStore::Slot s : store.touched()) {
+    const WideTree *const from = holder(s), *const to = home(store, s);
+    changes[0] += (from == &moving_) != (to == &moving_) ? 1 : 0;
+    changes[1] += (from == &fixed_) != (to == &fixed_) ? 1 : 0;
+    moved += to == &moving_ ? 1 : 0;
+    leave(store, s);
+  }
+  const auto many = [](std::size_t n, const WideTree& tree) {
+    return n * tolerance::tree_change_share > tree.size();
+  };
+  const bool build_moving = many(changes[0], moving_), build_fixed = many(changes[1], fixed_);
+  if (build_moving) build(store, moving_);
+  if (build_fixed) build(store, fixed_);
+  const bool refit = !build_moving && many(moved, moving_);
+  for (const BoxStore::Slot s : store.touched()) {
+    if (!enter(store, s)) continue;
+    if (store.is_fixed(s) ? !build_fixed : !build_moving && !refit) home(store, s)->refit_one(store, s);
+  }
+  if (refit) moving_.refit(store), ++refits_;
+  if (!build_moving && moving_.decay() > (refit ? tolerance::tree_decay : tolerance::tree_rot))
+    build(store, moving_);
+  if (!build_fixed && fixed_.decay() > tolerance::tree_rot) build(store, fixed_);
 }
 
 // Changed boxes begin unmarked and are marked once they have looked for partners among the marked ones: a
@@ -19,36 +64,40 @@ void HierarchyFinder::update(const BoxStore& store) {
 void HierarchyFinder::update_few(const BoxStore& store, PairSink& sink) {
   touched_.resize(store.slots());
   for (const BoxStore::Slot s : store.touched()) {
-    WideTree& own = store.is_fixed(s) ? fixed_ : moving_;
-    own.refit_one(store, s), own.mark(s, false), touched_[s] = 1;
+    touched_[s] = 1;
+    leave(store, s);
+    if (enter(store, s)) home(store, s)->refit_one(store, s);
+    if (store.is_present(s)) home(store, s)->mark(s, false);
   }
   sink.reserve(kept_.size());
   for (const SlotPair& p : kept_)
     if ((touched_[p.first] | touched_[p.second]) == 0) sink.add(p.first, p.second);
   for (const BoxStore::Slot s : store.touched()) {
+    touched_[s] = 0;
+    if (!store.is_present(s)) continue;
     moving_.marked_partners(store, s, sink);
     if (!store.is_fixed(s)) fixed_.marked_partners(store, s, sink);
-    (store.is_fixed(s) ? fixed_ : moving_).mark(s, true), touched_[s] = 0;
+    home(store, s)->mark(s, true);
   }
-  fixed_changes_ = store.fixed_changes();
+  for (WideTree* tree : {&moving_, &fixed_})
+    if (tree->decay() > tolerance::tree_rot) build(store, *tree);
 }
 
 void HierarchyFinder::find(const BoxStore& store, PairSink& sink) {
-  const bool few = membership_ == store.membership() &&
-                   store.touched().size() * tolerance::sweep_local_share < store.present();
-  local_ =
-      few && has_kept_ && moving_.decay() <= tolerance::tree_decay && fixed_.decay() <= tolerance::tree_decay;
+  const bool few = store.touched().size() * tolerance::sweep_local_share < store.present();
+  local_ = few && has_kept_;
   if (local_) {
     update_few(store, sink);
   } else {
-    // Paths were refitted after moves of fixed boxes: an order that has decayed is not left as it is.
-    if (fixed_.decay() > tolerance::tree_decay) fixed_changes_ = never;
-    update(store);
+    update_all(store);
     moving_.self_pairs(sink);
     moving_.pairs_with(fixed_, sink);
   }
   has_kept_ = few;
-  if (!few) return;
+  if (!few) {
+    release(kept_);
+    return;
+  }
   sink.decide_doubtful(store);
   kept_.resize(sink.n);
   for (std::size_t i = 0; i < sink.n; ++i) kept_[i] = {sink.first[i], sink.second[i]};
@@ -56,16 +105,23 @@ void HierarchyFinder::find(const BoxStore& store, PairSink& sink) {
 
 void HierarchyFinder::validate(const BoxStore& store) const {
   moving_.validate(), fixed_.validate();
-  if (membership_ == store.membership() && moving_.size() + fixed_.size() != store.present())
+  if (!store.touched().empty()) return;
+  if (moving_.size() + fixed_.size() != store.present())
     throw std::logic_error("hierarchy: a box is in no tree or in two");
+  for (BoxStore::Slot s = 0; s < store.slots(); ++s)
+    if (store.is_present(s) && !(store.is_fixed(s) ? fixed_ : moving_).holds(s))
+      throw std::logic_error("hierarchy: a box is in the wrong tree");
 }
 
 std::string HierarchyFinder::explain() const {
   return "trees of " + std::to_string(moving_.size()) + " moving and " + std::to_string(fixed_.size()) +
-         " fixed boxes; " + std::to_string(builds_) + " builds and " + std::to_string(refits_) + " refits; " +
-         (local_ ? "changed boxes searched" : "all boxes searched");
+         " fixed boxes; " + std::to_string(builds_) + " builds, " + std::to_string(refits_) + " refits, " +
+         std::to_string(came_) + " boxes put in and " + std::to_string(went_) + " taken out since, reach " +
+         std::to_string(moving_.decay()) + "; " + (local_ ? "changed boxes searched" : "all boxes searched");
 }
 
-BroadPhasePtr make_bounding_volume_hierarchy() { return std::make_unique<StoredPhase<HierarchyFinder>>(); }
+BroadPhasePtr make_bounding_volume_hierarchy(const Options& options) {
+  return std::make_unique<StoredPhase<HierarchyFinder>>(options);
+}
 
 }  // namespace touchstone::broad

@@ -5,6 +5,7 @@
 
 #include "core/broad/box_kernels.h"
 #include "core/broad/pair_kernels.h"
+#include "core/broad/release.h"
 
 namespace touchstone::broad {
 namespace {
@@ -44,7 +45,29 @@ void require_box(int id, const Aabb& box) {
 void BoxStore::touch(Slot s) {
   if ((state_[s] & touched_bit) != 0) return;
   state_[s] |= touched_bit;
+  make_room(touched_);
   touched_.push_back(s);
+}
+
+void BoxStore::make_room_for_one() {
+  make_room(boxes_), make_room(keys_), make_room(ids_), make_room(state_), make_room(steps_);
+  make_room(touched_);
+}
+
+// The first id that is not its slot. The slot being filled is not present yet.
+void BoxStore::name_slots_otherwise() {
+  if (!identical_) return;
+  identical_ = false;
+  for (Slot s = 0; s < slots(); ++s)
+    if (is_present(s)) index_.insert(ids_[s], s, present());
+}
+
+void BoxStore::settle() {
+  if (settled_at_ == membership_) {
+    trim(boxes_), trim(keys_), trim(ids_), trim(state_), trim(steps_);
+    if (touched_.size() == slots()) trim(touched_);
+  }
+  settled_at_ = membership_;
 }
 
 void BoxStore::changed(Slot s) {
@@ -54,12 +77,13 @@ void BoxStore::changed(Slot s) {
 
 void BoxStore::insert(int id, const Aabb& box, Mobility mobility) {
   require_box(id, box);
-  if (index_.find(id) != IdIndex::none) throw Refused(Refusal::id_present, id);
+  if (find(id) != IdIndex::none) throw Refused(Refusal::id_present, id);
   Slot s = 0;
   if (free_.empty()) {
     if (slots() + 1 >= max_slots) throw Refused(Refusal::too_many, id);
     s = static_cast<Slot>(slots());
     if (s > 0 && ids_.back() > id) ascending_ = false;
+    make_room_for_one();
     boxes_.emplace_back(), keys_.emplace_back(), ids_.push_back(id), state_.push_back(0), steps_.push_back(0);
   } else {
     s = free_.back(), free_.pop_back();
@@ -67,8 +91,8 @@ void BoxStore::insert(int id, const Aabb& box, Mobility mobility) {
     if (ids_[s] != id) ascending_ = false;
     ids_[s] = id;
   }
-  if (id != static_cast<int>(s)) identical_ = false;
-  index_.insert(id, s, present());
+  if (id != static_cast<int>(s)) name_slots_otherwise();
+  if (!identical_) index_.insert(id, s, present());
   state_[s] = static_cast<std::uint8_t>((state_[s] & touched_bit) | present_bit);
   if (mobility == Mobility::fixed) state_[s] |= fixed_bit, ++fixed_;
   ++membership_;
@@ -82,9 +106,9 @@ void BoxStore::move(int id, const Aabb& box) {
 }
 
 void BoxStore::remove(int id) {
-  const Slot s = index_.find(id);
+  const Slot s = find(id);
   if (s == IdIndex::none) throw Refused(Refusal::id_absent, id);
-  index_.remove(id);
+  if (!identical_) index_.remove(id);
   free_.push_back(s);
   if ((state_[s] & fixed_bit) != 0) --fixed_, ++fixed_changes_;
   state_[s] &= touched_bit;
@@ -109,7 +133,7 @@ void BoxStore::update(std::span<const BoxUpdate> moves) {
 }
 
 void BoxStore::codes(std::vector<std::uint32_t>& out) const {
-  out.resize(present());
+  resize_exactly(out, present());
   std::size_t n = 0;
   for (Slot s = 0; n < out.size(); ++s) {
     out[n] = s | (is_fixed(s) ? 0 : moving_flag);
@@ -139,7 +163,7 @@ void BoxStore::validate() const {
     if (!is_present(s)) continue;
     ++present, fixed += is_fixed(s) ? 1 : 0;
     require_box(ids_[s], boxes_[s]);
-    require(index_.find(ids_[s]) == s, "box store: an id does not lead to its slot");
+    require(find(ids_[s]) == s, "box store: an id does not lead to its slot");
   }
   require(present == this->present() && fixed == fixed_, "box store: a count is off");
 }

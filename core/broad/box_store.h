@@ -45,6 +45,8 @@ class BoxStore {
   /// Counts every change of a fixed box, its coming and going included.
   std::uint64_t fixed_changes() const { return fixed_changes_; }
   void forget_changes();
+  /// To be called at each query: gives memory back once boxes have ceased to come and go.
+  void settle();
 
   /// True when ids ascend with slots, so that pairs sorted by slot are sorted by id.
   bool slots_ascend() const { return ascending_; }
@@ -57,6 +59,8 @@ class BoxStore {
  private:
   static constexpr std::uint8_t touched_bit = 1, present_bit = 2, fixed_bit = 4;
   void touch(Slot s);
+  void make_room_for_one();
+  void name_slots_otherwise();
   void changed(Slot s);
   Slot find(int id) const {
     if (!identical_) return index_.find(id);
@@ -69,9 +73,9 @@ class BoxStore {
   std::vector<float> steps_;
   std::vector<std::uint8_t> state_;
   std::vector<Slot> free_, touched_;
-  IdIndex index_;
+  IdIndex index_;  // of ids that are not their slots
   std::size_t fixed_ = 0;
-  std::uint64_t membership_ = 0, fixed_changes_ = 0;
+  std::uint64_t membership_ = 0, fixed_changes_ = 0, settled_at_ = 0;
   bool ascending_ = true, identical_ = true;
 };
 

@@ -77,6 +77,15 @@ class BroadPhase {
 
 using BroadPhasePtr = std::unique_ptr<BroadPhase>;
 
+/// How pairs() does its work; what it reports is the same, byte for byte, whatever is said here. Parallel:
+/// the search of every method and the sorting of its pairs. On the caller's thread alone: the updates, the
+/// building of orders, cells and trees, and, of incremental_sweep and bounding_volume_hierarchy, queries in
+/// which few boxes have changed. The structures have one owner still: no two calls at the same time.
+struct Options {
+  int threads = 1;                   // at most; the caller's counts. 1: no thread is ever started
+  std::size_t least_a_part = 16384;  // boxes or pairs for which a thread is worth starting
+};
+
 /// Throws Refused when the box is no closed box.
 void require_box(int id, const Aabb& box);
 

@@ -17,6 +17,6 @@ class BruteForceFinder {
   BoxColumns columns_;
 };
 
-BroadPhasePtr make_brute_force();
+BroadPhasePtr make_brute_force(const Options& options = {});
 
 }  // namespace touchstone::broad

@@ -16,7 +16,9 @@ namespace touchstone::broad {
 
 struct CatalogRow {
   std::string_view name;
-  BroadPhasePtr (*make)();
+  BroadPhasePtr (*make_with)(const Options& options);
+  /// Throws std::invalid_argument when options.threads < 1.
+  BroadPhasePtr make(const Options& options = {}) const { return make_with(options); }
 };
 
 inline constexpr std::array<CatalogRow, 8> catalog{{
@@ -31,9 +33,9 @@ inline constexpr std::array<CatalogRow, 8> catalog{{
 }};
 
 /// Null when there is no such name.
-inline BroadPhasePtr make_broad_phase(std::string_view name) {
+inline BroadPhasePtr make_broad_phase(std::string_view name, const Options& options = {}) {
   for (const CatalogRow& row : catalog)
-    if (row.name == name) return row.make();
+    if (row.name == name) return row.make(options);
   return nullptr;
 }
 

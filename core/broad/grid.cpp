@@ -1,5 +1,6 @@
 #include "core/broad/grid.h"
 
+#include "core/broad/release.h"
 #include "core/broad/stored_phase.h"
 #include "core/tolerance.h"
 
@@ -32,13 +33,26 @@ void GridLevels::sort_rest(const KeyBox* boxes, const std::vector<std::uint32_t>
 }
 
 void GridLevels::pairs(const KeyBox* boxes, Doubt doubt, PairSink& sink) {
-  for (std::size_t l = 0; l < used_; ++l) {
-    levels_[l].grid.self_pairs(doubt, sink);
-    for (const std::uint32_t c : levels_[l].too_large)
-      levels_[l].grid.query(boxes[c & slot_mask], c, doubt, sink);
-  }
-  sweep_range(rest_, 0, rest_.size, sink);
+  std::size_t work = 0;
+  for (std::size_t l = 0; l < used_; ++l) work += levels_[l].grid.entries() + 4 * levels_[l].too_large.size();
+  const std::size_t parts = sink.parts(work);
+  sink.in_parts(parts, [&](std::size_t p, PairSink& out) {
+    for (std::size_t l = 0; l < used_; ++l) {
+      levels_[l].grid.self_pairs(doubt, parts, p, out);
+      const std::vector<std::uint32_t>& large = levels_[l].too_large;
+      deal_chunks(large.size(), 16, parts, p, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i)
+          levels_[l].grid.query(boxes[large[i] & slot_mask], large[i], doubt, out);
+      });
+    }
+  });
+  sweep_all(rest_, sink);
   if (doubt == Doubt::report) sink.accept_doubtful();
+}
+
+void GridLevels::thin_out() {
+  for (std::size_t l = 0; l < used_; ++l) levels_[l].grid.thin_out();
+  release(order_), release(scratch_);
 }
 
 void GridLevels::query(const KeyBox& box, std::uint32_t code, PairSink& sink) {
@@ -93,7 +107,11 @@ void GridFinder<max_levels>::find(const BoxStore& store, PairSink& sink) {
 template class GridFinder<1>;
 template class GridFinder<6>;
 
-BroadPhasePtr make_grid() { return std::make_unique<StoredPhase<UniformGridFinder>>(); }
-BroadPhasePtr make_hierarchical_grid() { return std::make_unique<StoredPhase<HierarchicalGridFinder>>(); }
+BroadPhasePtr make_grid(const Options& options) {
+  return std::make_unique<StoredPhase<UniformGridFinder>>(options);
+}
+BroadPhasePtr make_hierarchical_grid(const Options& options) {
+  return std::make_unique<StoredPhase<HierarchicalGridFinder>>(options);
+}
 
 }  // namespace touchstone::broad

@@ -21,6 +21,10 @@ class GridLevels {
   void pairs(const KeyBox* boxes, Doubt doubt, PairSink& sink);
   /// Pairs of another box with those built over.
   void query(const KeyBox& box, std::uint32_t code, PairSink& sink);
+  /// Keeps what query() needs.
+  void thin_out();
+  /// Gives everything back.
+  void forget() { *this = {}; }
   std::size_t swept() const { return rest_.size; }
   void validate() const;
   std::size_t memory_bytes() const;
@@ -61,7 +65,7 @@ using HierarchicalGridFinder = GridFinder<6>;
 extern template class GridFinder<1>;
 extern template class GridFinder<6>;
 
-BroadPhasePtr make_grid();
-BroadPhasePtr make_hierarchical_grid();
+BroadPhasePtr make_grid(const Options& options = {});
+BroadPhasePtr make_hierarchical_grid(const Options& options = {});
 
 }  // namespace touchstone::broad

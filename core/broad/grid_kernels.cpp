@@ -216,6 +216,17 @@ HWY_NOINLINE void emit_doubtful(PairSink& sink, V theirs, V mine, M m) {
     sink.doubtful.push_back({std::min(self[0], other[k]), std::max(self[0], other[k])});
 }
 
+// Part of the entries in columns.
+struct SweepScratch {
+  std::vector<std::int32_t> lo[3], hi[3];
+  std::vector<std::uint32_t> code, column, end;
+  void fit(std::size_t n) {
+    if (end.size() >= n) return;
+    for (int k = 0; k < 3; ++k) lo[k].resize(n + n / 2), hi[k].resize(n + n / 2);
+    code.resize(n + n / 2), column.resize(n + n / 2), end.resize(n + n / 2);
+  }
+};
+
 // Transposes [from, to) of the entries behind what the scratch holds of [base, from).
 HWY_INLINE void transpose(const GridEntry* entries, std::size_t base, std::size_t from, std::size_t to,
                           SweepScratch& s) {
@@ -306,8 +317,9 @@ HWY_INLINE bool sweep_chunk(const SweepScratch& s, std::size_t base, std::size_t
 // In chunks, so that the boxes in columns stay in the first cache. Doubt is rare where coordinates are
 // arbitrary: it is noticed, and its chunk swept again with care.
 void sweep(const GridShape& g, const GridEntry* entries, const std::uint32_t* begin, std::size_t first,
-           std::size_t last, Doubt doubt, SweepScratch& s, PairSink& sink) {
+           std::size_t last, Doubt doubt, PairSink& sink) {
   constexpr std::size_t chunk = 256, padding = 64;
+  SweepScratch s;
   for (std::size_t base = first; base < last; base += chunk) {
     const std::size_t n = std::min(chunk, last - base);
     s.fit(chunk + padding);
@@ -363,12 +375,6 @@ HWY_EXPORT(write);
 HWY_EXPORT(sweep);
 HWY_EXPORT(scan);
 
-void SweepScratch::fit(std::size_t n) {
-  if (end.size() >= n) return;
-  for (int k = 0; k < 3; ++k) lo[k].resize(n + n / 2), hi[k].resize(n + n / 2);
-  code.resize(n + n / 2), column.resize(n + n / 2), end.resize(n + n / 2);
-}
-
 CellRange cell_range(const GridShape& shape, const KeyBox& box) {
   return HWY_DYNAMIC_DISPATCH(range_of)(shape, box);
 }
@@ -386,8 +392,8 @@ void write_entries(const GridShape& shape, const KeyBox* boxes, const std::vecto
 }
 
 void sweep_entries(const GridShape& shape, const GridEntry* entries, const std::uint32_t* begin,
-                   std::size_t first, std::size_t last, Doubt doubt, SweepScratch& scratch, PairSink& sink) {
-  HWY_DYNAMIC_DISPATCH(sweep)(shape, entries, begin, first, last, doubt, scratch, sink);
+                   std::size_t first, std::size_t last, Doubt doubt, PairSink& sink) {
+  HWY_DYNAMIC_DISPATCH(sweep)(shape, entries, begin, first, last, doubt, sink);
 }
 
 void scan_entries(const KeyBox& box, std::uint32_t code, std::uint32_t column, const GridEntry* entries,

@@ -58,14 +58,6 @@ void file_boxes(const GridShape& shape, const KeyBox* boxes, const std::vector<s
 void write_entries(const GridShape& shape, const KeyBox* boxes, const std::vector<Filed>& filed,
                    std::uint32_t* next, GridEntry* entries, std::size_t nowhere);
 
-/// Part of the entries in columns.
-struct SweepScratch {
-  std::vector<std::int32_t> lo[3], hi[3];
-  std::vector<std::uint32_t> code, column, end;
-  void fit(std::size_t n);
-  std::size_t memory_bytes() const { return lo[0].capacity() * 9 * sizeof(std::int32_t); }
-};
-
 /// What to make of boxes that overlap by their keys alone (float_key.h).
 enum class Doubt { decide, report };
 
@@ -73,7 +65,7 @@ enum class Doubt { decide, report };
 /// begin[c] <= i < begin[c + 1]; `entries` is readable for 64 beyond the end. With Doubt::report all pairs of
 /// key boxes that overlap are reported.
 void sweep_entries(const GridShape& shape, const GridEntry* entries, const std::uint32_t* begin,
-                   std::size_t first, std::size_t last, Doubt doubt, SweepScratch& scratch, PairSink& sink);
+                   std::size_t first, std::size_t last, Doubt doubt, PairSink& sink);
 
 /// Pairs of a box with the entries of [first, last) that are in its column, or, for any_column, with those
 /// that own both axes.

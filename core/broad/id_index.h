@@ -40,7 +40,9 @@ class IdIndex {
  private:
   // Ids that the table now covers leave the map, so that each id has one place.
   void grow(std::size_t size) {
-    low_.resize(size > low_.size() * 3 / 2 ? size : low_.size() * 3 / 2, none);
+    const std::size_t room = std::max(size, low_.size() * 5 / 4);
+    low_.reserve(room);
+    low_.resize(room, none);
     for (auto it = far_.begin(); it != far_.end();) {
       const bool covered = it->first >= 0 && static_cast<std::size_t>(it->first) < low_.size();
       if (covered) low_[static_cast<std::size_t>(it->first)] = it->second;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "core/broad/release.h"
 #include "core/broad/scene_stats.h"
 #include "core/broad/stored_phase.h"
 #include "core/tolerance.h"
@@ -88,7 +89,8 @@ void IncrementalSweepFinder::find(const BoxStore& store, PairSink& sink) {
   else
     repair_order(store);
   fill_columns(store);
-  local_ = !members && store.touched().size() * tolerance::sweep_local_share < store.present();
+  const bool few = store.touched().size() * tolerance::sweep_local_share < store.present();
+  local_ = !members && few && has_kept_;
   if (local_) {
     touched_.resize(store.slots());
     for (const BoxStore::Slot s : store.touched()) touched_[s] = 1;
@@ -96,7 +98,12 @@ void IncrementalSweepFinder::find(const BoxStore& store, PairSink& sink) {
     find_touched(store, sink);
     for (const BoxStore::Slot s : store.touched()) touched_[s] = 0;
   } else {
-    sweep_range(columns_, 0, columns_.size, sink);
+    sweep_all(columns_, sink);
+  }
+  has_kept_ = few;
+  if (!few) {
+    release(kept_);
+    return;
   }
   sink.decide_doubtful(store);
   kept_.resize(sink.n);
@@ -124,6 +131,8 @@ std::string IncrementalSweepFinder::explain() const {
          (local_ ? ", changed boxes searched" : ", all boxes swept");
 }
 
-BroadPhasePtr make_incremental_sweep() { return std::make_unique<StoredPhase<IncrementalSweepFinder>>(); }
+BroadPhasePtr make_incremental_sweep(const Options& options) {
+  return std::make_unique<StoredPhase<IncrementalSweepFinder>>(options);
+}
 
 }  // namespace touchstone::broad

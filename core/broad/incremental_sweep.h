@@ -34,10 +34,10 @@ class IncrementalSweepFinder {
   std::vector<std::uint32_t> position_;  // of a slot in the order
   std::vector<std::uint8_t> touched_;    // of a slot
   BoxColumns columns_;
-  std::vector<SlotPair> kept_;
-  bool local_ = false, full_sort_ = false;
+  std::vector<SlotPair> kept_;  // of the last query, when few boxes had changed
+  bool has_kept_ = false, local_ = false, full_sort_ = false;
 };
 
-BroadPhasePtr make_incremental_sweep();
+BroadPhasePtr make_incremental_sweep(const Options& options = {});
 
 }  // namespace touchstone::broad

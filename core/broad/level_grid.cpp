@@ -5,6 +5,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "core/broad/release.h"
 #include "core/tolerance.h"
 
 namespace touchstone::broad {
@@ -71,26 +72,51 @@ void LevelGrid::choose_cells(const SceneStats& stats, std::size_t n) {
 void LevelGrid::build(const KeyBox* boxes, const std::vector<std::uint32_t>& codes, const SceneStats& stats,
                       std::vector<std::uint32_t>& too_large) {
   choose_cells(stats, codes.size());
+  thin_ = false;
   too_large.clear();
   // Counts are kept two places ahead: when sums have been taken, next[c] = begin[c + 1] is where place c
   // begins; when all entries have been written it is where place c ends, and begin[c] is where it begins.
   begin_.assign(places_ + ghosts_ + 2, 0);
   file_boxes(shape_, boxes, codes, filed_, too_large, begin_.data() + 2);
+  boxes_ = filed_.size();
   std::uint32_t sum = 0;
   for (std::size_t c = 2; c < places_ + 2; ++c) sum += begin_[c], begin_[c] = sum;
   count_ = sum;
   // Room for the copies: at most as many as there are entries.
-  if (entries_.size() < count_ + filling) entries_.resize(count_ + count_ / 8 + filling);
+  if (entries_.size() < count_ + filling) resize_exactly(entries_, count_ + count_ / 32 + filling);
   write_entries(shape_, boxes, filed_, begin_.data() + 1, entries_.data(), count_);
   if (ghosts_ == 0) return;
   const std::size_t copies = begin_[ghosts_];
-  if (entries_.size() < count_ + copies + filling) entries_.resize(count_ + copies + filling);
+  if (entries_.size() < count_ + copies + filling) resize_exactly(entries_, count_ + copies + filling);
   std::copy_n(entries_.begin(), copies, entries_.begin() + static_cast<std::ptrdiff_t>(count_));
   for (std::size_t c = 0; c <= ghosts_; ++c) begin_[places_ + c] = sum + begin_[c];
 }
 
-void LevelGrid::self_pairs(Doubt doubt, PairSink& sink) {
-  sweep_entries(shape_, entries_.data(), begin_.data(), 0, count_, doubt, scratch_, sink);
+void LevelGrid::self_pairs(Doubt doubt, std::size_t parts, std::size_t part, PairSink& sink) const {
+  deal_chunks(count_, 2048, parts, part, [&](std::size_t begin, std::size_t end) {
+    sweep_entries(shape_, entries_.data(), begin_.data(), begin, end, doubt, sink);
+  });
+}
+
+// An entry is the box's own when it owns both axes. Owners are kept in order, so that places keep theirs;
+// copies for the table's end are made anew.
+void LevelGrid::thin_out() {
+  std::size_t kept = 0;
+  for (std::size_t c = 0, i = 0; c < places_; ++c) {
+    const std::size_t end = begin_[c + 1];
+    begin_[c] = static_cast<std::uint32_t>(kept);
+    for (; i < end; ++i)
+      if ((entries_[i].code & owner_flags) == owner_flags) entries_[kept++] = entries_[i];
+  }
+  begin_[places_] = static_cast<std::uint32_t>(kept);
+  count_ = kept, thin_ = true;
+  const std::size_t copies = ghosts_ > 0 ? begin_[ghosts_] : 0;
+  for (std::size_t c = 0; c <= ghosts_; ++c)
+    begin_[places_ + c] = static_cast<std::uint32_t>(kept) + begin_[c];
+  entries_.resize(kept + copies + filling);
+  std::copy_n(entries_.begin(), copies, entries_.begin() + static_cast<std::ptrdiff_t>(kept));
+  entries_.shrink_to_fit();
+  release(filed_);
 }
 
 // `cells` places from `from` on, around the table's end.
@@ -105,7 +131,9 @@ void LevelGrid::scan_places(const KeyBox& box, std::uint32_t code, std::uint32_t
 }
 
 void LevelGrid::query(const KeyBox& box, std::uint32_t code, Doubt doubt, PairSink& sink) const {
-  const CellRange r = cell_range(shape_, box);
+  CellRange r = cell_range(shape_, box);
+  if (thin_)
+    for (int k = 0; k < 2; ++k) r.lo[k] -= std::min(r.lo[k], 1U);
   const std::uint32_t from_w = r.lo[2] - std::min(r.lo[2], shape_.most_cells);
   const std::uint32_t cells =
       static_cast<std::uint32_t>(std::min<std::size_t>(r.hi[2] - from_w + 1, places_));
@@ -117,7 +145,8 @@ void LevelGrid::query(const KeyBox& box, std::uint32_t code, Doubt doubt, PairSi
   }
   for (std::uint32_t u = r.lo[0]; u <= r.hi[0]; ++u)
     for (std::uint32_t v = r.lo[1]; v <= r.hi[1]; ++v) {
-      const std::uint32_t owner = (u == r.lo[0] ? 0x80000000U : 0) | (v == r.lo[1] ? 0x40000000U : 0);
+      const std::uint32_t owner =
+          (thin_ || u == r.lo[0] ? 0x80000000U : 0) | (thin_ || v == r.lo[1] ? 0x40000000U : 0);
       scan_places(box, code | owner, column_name(u, v), shape_.place(u, v, from_w), cells, doubt, sink);
     }
 }
@@ -154,12 +183,12 @@ void LevelGrid::validate() const {
       owners += (e.code & owner_flags) == owner_flags ? 1 : 0;
     }
   }
-  require(owners == filed_.size(), "grid: a box has no entry of its own");
+  require(owners == boxes_, "grid: a box has no entry of its own");
 }
 
 std::size_t LevelGrid::memory_bytes() const {
   return entries_.capacity() * sizeof(GridEntry) + filed_.capacity() * sizeof(Filed) +
-         begin_.capacity() * sizeof(std::uint32_t) + scratch_.memory_bytes();
+         begin_.capacity() * sizeof(std::uint32_t);
 }
 
 }  // namespace touchstone::broad

@@ -22,12 +22,16 @@ class LevelGrid {
   /// others are left in `too_large`, in order.
   void build(const KeyBox* boxes, const std::vector<std::uint32_t>& codes, const SceneStats& stats,
              std::vector<std::uint32_t>& too_large);
-  /// Pairs among the boxes filed.
-  void self_pairs(Doubt doubt, PairSink& sink);
+  /// Part `part` of `parts` of the pairs among the boxes filed.
+  void self_pairs(Doubt doubt, std::size_t parts, std::size_t part, PairSink& sink) const;
   /// Pairs of a box that is not filed here with the boxes filed; `code` without owner flags.
   void query(const KeyBox& box, std::uint32_t code, Doubt doubt, PairSink& sink) const;
 
-  std::size_t filed() const { return filed_.size(); }
+  /// Keeps one entry a box, that of its lowest column, and no more memory than that takes. There are no
+  /// self_pairs() then, and a query looks one column further down.
+  void thin_out();
+
+  std::size_t filed() const { return boxes_; }
   std::size_t entries() const { return count_; }
   std::size_t places() const { return places_; }
   bool hashed() const { return shape_.mask != 0xffffffff; }
@@ -42,11 +46,11 @@ class LevelGrid {
   void scan_places(const KeyBox& box, std::uint32_t code, std::uint32_t column, std::uint32_t from,
                    std::uint32_t cells, Doubt doubt, PairSink& sink) const;
   GridShape shape_;
-  std::size_t places_ = 0, ghosts_ = 0, count_ = 0;
+  std::size_t places_ = 0, ghosts_ = 0, count_ = 0, boxes_ = 0;
+  bool thin_ = false;
   std::vector<std::uint32_t> begin_;  // of each place; places, ghosts, end
   std::vector<GridEntry> entries_;  // count_, then copies of those of the first ghosts_ places, then filling
   std::vector<Filed> filed_;
-  SweepScratch scratch_;
 };
 
 }  // namespace touchstone::broad

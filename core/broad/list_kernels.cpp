@@ -79,24 +79,27 @@ HWY_INLINE void write_eight(const std::uint32_t* from, std::size_t n, std::uint3
 }
 #endif
 
-void sort(const std::uint32_t* end, std::size_t buckets, const std::uint32_t* second, std::uint32_t* sorted) {
-  std::uint32_t begin = 0;
-  for (std::size_t s = 0; s < buckets; begin = end[s], ++s) {
+// Eight elements are written where fewer are meant: those that follow are overwritten in turn, and near the
+// end it is done with care.
+void sort(const std::uint32_t* end, std::size_t from, std::size_t to, const std::uint32_t* second,
+          std::uint32_t* sorted) {
+  const std::size_t all = to > from ? end[to - 1] : 0;
+  std::uint32_t begin = from > 0 ? end[from - 1] : 0;
+  for (std::size_t s = from; s < to; begin = end[s], ++s) {
     const std::size_t n = end[s] - begin;
-    if (wide && HWY_LIKELY(n <= 8))
+    if (wide && HWY_LIKELY((n <= 8) & (begin + 8 <= all)))
       sort_eight(second + begin, n, sorted + begin);
     else
       sort_few(second + begin, n, sorted + begin);
   }
 }
 
-// Eight pairs are written where fewer are meant: those that follow are overwritten in turn, and near the end
-// it is done with care.
-void write(const std::uint32_t* end, std::size_t buckets, const std::uint32_t* second, IdPair* out) {
-  const std::size_t all = buckets > 0 ? end[buckets - 1] : 0;
-  std::uint32_t begin = 0;
+void write(const std::uint32_t* end, std::size_t from, std::size_t to, const std::uint32_t* second,
+           IdPair* out) {
+  const std::size_t all = to > from ? end[to - 1] : 0;
+  std::uint32_t begin = from > 0 ? end[from - 1] : 0;
   std::vector<std::uint32_t> few;
-  for (std::size_t s = 0; s < buckets; begin = end[s], ++s) {
+  for (std::size_t s = from; s < to; begin = end[s], ++s) {
     const std::size_t n = end[s] - begin;
     if (wide && HWY_LIKELY((n <= 8) & (begin + 8 <= all))) {
       write_eight(second + begin, n, static_cast<std::uint32_t>(s), out + begin);
@@ -228,13 +231,14 @@ HWY_EXPORT(write);
 HWY_EXPORT(filter);
 HWY_EXPORT(escapes);
 
-void sort_buckets(const std::uint32_t* end, std::size_t buckets, const std::uint32_t* second,
+void sort_buckets(const std::uint32_t* end, std::size_t from, std::size_t to, const std::uint32_t* second,
                   std::uint32_t* sorted) {
-  HWY_DYNAMIC_DISPATCH(sort)(end, buckets, second, sorted);
+  HWY_DYNAMIC_DISPATCH(sort)(end, from, to, second, sorted);
 }
 
-void write_buckets(const std::uint32_t* end, std::size_t buckets, const std::uint32_t* second, IdPair* out) {
-  HWY_DYNAMIC_DISPATCH(write)(end, buckets, second, out);
+void write_buckets(const std::uint32_t* end, std::size_t from, std::size_t to, const std::uint32_t* second,
+                   IdPair* out) {
+  HWY_DYNAMIC_DISPATCH(write)(end, from, to, second, out);
 }
 
 std::size_t filter_candidates(const KeyBox* keys, const Aabb* boxes, const std::uint32_t* end,

@@ -11,12 +11,14 @@ namespace touchstone::broad {
 /// Entries that must be readable and writable beyond the ends of the arrays below.
 inline constexpr std::size_t list_padding = 16;
 
-/// Bucket s is [s > 0 ? end[s − 1] : 0, end[s]) of `second`; each is sorted into the same place of `sorted`.
-void sort_buckets(const std::uint32_t* end, std::size_t buckets, const std::uint32_t* second,
+/// Bucket s is [s > 0 ? end[s − 1] : 0, end[s]) of `second`; buckets [from, to) are sorted into the same
+/// places of `sorted`, and nothing is written beyond them.
+void sort_buckets(const std::uint32_t* end, std::size_t from, std::size_t to, const std::uint32_t* second,
                   std::uint32_t* sorted);
 
-/// The same, written as pairs (bucket, element); not beyond the last pair.
-void write_buckets(const std::uint32_t* end, std::size_t buckets, const std::uint32_t* second, IdPair* out);
+/// The same, written as pairs (bucket, element).
+void write_buckets(const std::uint32_t* end, std::size_t from, std::size_t to, const std::uint32_t* second,
+                   IdPair* out);
 
 /// Of the candidates (s, t) for s in [from, to), t in second[end[s − 1] … end[s]), writes those whose boxes
 /// overlap; returns how many. By keys, or by doubles where keys leave doubt (float_key.h). Room for all.

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/broad/list_kernels.h"
+#include "core/broad/release.h"
 #include "core/broad/stored_phase.h"
 #include "core/tolerance.h"
 
@@ -82,11 +83,19 @@ void NeighbourListFinder::build(const BoxStore& store, PairSink& sink) {
   levels_.pairs(fat_.data(), Doubt::report, sink);
   sink.group(store.slots(), end_, codes_);
   candidates_ = sink.n;
-  if (second_.size() < candidates_ + list_padding)
-    second_.resize(candidates_ + candidates_ / 8 + list_padding);
-  sort_buckets(end_.data(), end_.size(), codes_.data(), second_.data());
+  if (second_.size() < candidates_ + list_padding) {
+    release(second_);
+    second_.resize(candidates_ + candidates_ / 32 + list_padding);
+  }
+  const std::size_t parts = sink.parts(candidates_);
+  run_parts(parts, [&](std::size_t p) {
+    sort_buckets(end_.data(), part_begin(end_.size(), parts, p), part_begin(end_.size(), parts, p + 1),
+                 codes_.data(), second_.data());
+  });
   std::fill_n(second_.begin() + static_cast<std::ptrdiff_t>(candidates_), list_padding, 0);
-  sink.clear();
+  sink.release_memory();
+  release(codes_);
+  levels_.thin_out();
   alive_ = true, age_ = 0, work_ = 0, ++lists_;
 }
 
@@ -141,7 +150,8 @@ void NeighbourListFinder::find_loose_pairs(PairSink& sink) {
     if (!is_listed(sink.first[i], sink.second[i]))
       loose_candidates_.push_back({sink.first[i], sink.second[i]});
   std::sort(loose_candidates_.begin(), loose_candidates_.end(), in_order);
-  sink.clear();
+  if (loose_levels_.memory_bytes() > little_memory) loose_levels_.forget();
+  sink.release_memory();
 }
 
 // False when the list is no longer worth keeping.
@@ -163,35 +173,59 @@ bool NeighbourListFinder::keep(const BoxStore& store, PairSink& sink) {
   return true;
 }
 
-void NeighbourListFinder::report(const BoxStore& store, std::vector<IdPair>& out) const {
+// Of the loose candidates, the number of the first whose first slot is not below `slot`.
+std::size_t NeighbourListFinder::loose_before(std::size_t slot) const {
+  const auto at = std::partition_point(loose_candidates_.begin(), loose_candidates_.end(),
+                                       [&](const SlotPair& p) { return p.first < slot; });
+  return static_cast<std::size_t>(at - loose_candidates_.begin());
+}
+
+// The pairs whose first slot is in [begin, end); how many. There is room for all their candidates.
+std::size_t NeighbourListFinder::report_range(const BoxStore& store, std::size_t begin, std::size_t end,
+                                              IdPair* out) const {
   const auto decided = [&](const SlotPair& p) {
     return key_overlap(store.keys()[p.first], store.keys()[p.second]) &&
            overlaps(store.boxes()[p.first], store.boxes()[p.second]);
   };
-  out.resize(candidates_ + loose_candidates_.size());
-  std::size_t n = 0, from = 0;
+  std::size_t n = 0, from = begin;
   const auto run_to = [&](std::size_t to) {
     to = std::min(to, end_.size());
     if (to > from)
       n += filter_candidates(store.keys().data(), store.boxes().data(), end_.data(), second_.data(), from, to,
-                             out.data() + n);
+                             out + n);
     from = std::max(from, to);
   };
-  for (std::size_t i = 0; i < loose_candidates_.size();) {
+  for (std::size_t i = loose_before(begin), last = loose_before(end); i < last;) {
     const std::uint32_t s = loose_candidates_[i].first;
     run_to(s);
-    const std::size_t begin = n;
+    const std::size_t before = n;
     run_to(std::size_t{s} + 1);
     const std::size_t middle = n;
-    for (; i < loose_candidates_.size() && loose_candidates_[i].first == s; ++i)
+    for (; i < last && loose_candidates_[i].first == s; ++i)
       if (decided(loose_candidates_[i]))
         out[n++] = {static_cast<int>(s), static_cast<int>(loose_candidates_[i].second)};
-    if (middle > begin && n > middle)
-      std::inplace_merge(out.begin() + static_cast<std::ptrdiff_t>(begin),
-                         out.begin() + static_cast<std::ptrdiff_t>(middle),
-                         out.begin() + static_cast<std::ptrdiff_t>(n));
+    if (middle > before && n > middle) std::inplace_merge(out + before, out + middle, out + n);
   }
-  run_to(end_.size());
+  run_to(end);
+  return n;
+}
+
+// Each part writes where its candidates would be if all were pairs.
+void NeighbourListFinder::report(const BoxStore& store, const PairSink& sink,
+                                 std::vector<IdPair>& out) const {
+  out.resize(candidates_ + loose_candidates_.size());
+  const std::size_t parts = sink.parts(out.size()), slots = store.slots();
+  std::vector<std::size_t> begin(parts), count(parts);
+  run_parts(parts, [&](std::size_t p) {
+    const std::size_t from = part_begin(slots, parts, p), to = part_begin(slots, parts, p + 1);
+    const std::size_t listed = std::min(from, end_.size());
+    begin[p] = (listed > 0 ? end_[listed - 1] : 0) + loose_before(from);
+    count[p] = report_range(store, from, to, out.data() + begin[p]);
+  });
+  std::size_t n = count[0];
+  for (std::size_t p = 1; p < parts; n += count[p], ++p)
+    std::copy_n(out.begin() + static_cast<std::ptrdiff_t>(begin[p]), count[p],
+                out.begin() + static_cast<std::ptrdiff_t>(n));
   out.resize(n);
 }
 
@@ -212,12 +246,12 @@ bool NeighbourListFinder::keep_up(const BoxStore& store, PairSink& sink, std::ve
     build(store, sink);
   }
   answered_ = true, membership_ = store.membership();
-  report(store, out);
+  report(store, sink, out);
   return true;
 }
 
 void NeighbourListFinder::search(const BoxStore& store, PairSink& sink) {
-  alive_ = false;
+  drop_list();
   store.codes(codes_);
   levels_.build(store.keys().data(), codes_, stats_.of(store), levels);
   levels_.pairs(store.keys().data(), Doubt::decide, sink);
@@ -245,6 +279,18 @@ void NeighbourListFinder::validate(const BoxStore& store) const {
           "neighbour list: loose candidates are out of order");
 }
 
+void NeighbourListFinder::drop_list() {
+  alive_ = false;
+  release(fat_), release(second_), release(end_);
+  release(loose_), release(escaped_), release(filed_as_), release(with_filed_), release(loose_candidates_);
+}
+
+void NeighbourListFinder::forget() {
+  drop_list();
+  release(codes_);
+  levels_.forget(), loose_levels_.forget();
+}
+
 std::size_t NeighbourListFinder::memory_bytes() const {
   return (fat_.capacity() + filed_as_.capacity()) * sizeof(KeyBox) +
          (end_.capacity() + second_.capacity() + loose_.capacity() + escaped_.capacity() +
@@ -261,6 +307,8 @@ std::string NeighbourListFinder::explain() const {
          " loose boxes with " + std::to_string(loose_candidates_.size()) + "; made by " + levels_.explain();
 }
 
-BroadPhasePtr make_neighbour_list() { return std::make_unique<StoredPhase<NeighbourListFinder>>(); }
+BroadPhasePtr make_neighbour_list(const Options& options) {
+  return std::make_unique<StoredPhase<NeighbourListFinder>>(options);
+}
 
 }  // namespace touchstone::broad

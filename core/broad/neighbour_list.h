@@ -29,7 +29,7 @@ class NeighbourListFinder {
   /// The grid's part: no list.
   void search(const BoxStore& store, PairSink& sink);
   /// The next query starts from nothing. To be called when a query was answered elsewhere.
-  void forget() { alive_ = false; }
+  void forget();
   void validate(const BoxStore& store) const;
   std::size_t memory_bytes() const;
   std::string explain() const;
@@ -37,6 +37,7 @@ class NeighbourListFinder {
 
  private:
   bool is_coherent(const BoxStore& store);
+  void drop_list();
   bool keep(const BoxStore& store, PairSink& sink);
   void build(const BoxStore& store, PairSink& sink);
   void make_fat(const BoxStore& store, BoxStore::Slot s, KeyBox& fat) const;
@@ -44,7 +45,9 @@ class NeighbourListFinder {
   void find_loose_pairs(PairSink& sink);
   bool is_listed(BoxStore::Slot a, BoxStore::Slot b) const;
   const KeyBox& built_box(BoxStore::Slot s) const;
-  void report(const BoxStore& store, std::vector<IdPair>& out) const;
+  void report(const BoxStore& store, const PairSink& sink, std::vector<IdPair>& out) const;
+  std::size_t report_range(const BoxStore& store, std::size_t from, std::size_t to, IdPair* out) const;
+  std::size_t loose_before(std::size_t slot) const;
 
   RememberedStats stats_;
   bool alive_ = false, answered_ = false;
@@ -66,6 +69,6 @@ class NeighbourListFinder {
   std::vector<std::uint32_t> codes_;
 };
 
-BroadPhasePtr make_neighbour_list();
+BroadPhasePtr make_neighbour_list(const Options& options = {});
 
 }  // namespace touchstone::broad

@@ -1,5 +1,7 @@
 #include "core/broad/pair_kernels.h"
 
+#include "core/broad/release.h"
+
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "core/broad/pair_kernels.cpp"
 #include <hwy/foreach_target.h>  // includes this file once for each kind of processor
@@ -26,10 +28,10 @@ struct Probe {
     for (int k = 0; k < 3; ++k) lo[k] = hn::Set(d, b.lo[k][i]), hi[k] = hn::Set(d, b.hi[k][i]);
     code = hn::Set(d, static_cast<std::int32_t>(b.code[i]));
   }
-  HWY_INLINE M overlaps(const BoxColumns& b, std::size_t j, int axis) const {
+  HWY_INLINE M apart(const BoxColumns& b, std::size_t j, int axis) const {
     const I d;
-    return hn::And(at_most(hn::LoadU(d, b.lo[axis].data() + j), hi[axis]),
-                   at_most(lo[axis], hn::LoadU(d, b.hi[axis].data() + j)));
+    return hn::Or(hn::Gt(hn::LoadU(d, b.lo[axis].data() + j), hi[axis]),
+                  hn::Gt(lo[axis], hn::LoadU(d, b.hi[axis].data() + j)));
   }
   // A margin of two keys on each side of each axis: the doubles overlap for sure (float_key.h).
   HWY_INLINE M certain(const BoxColumns& b, std::size_t j) const {
@@ -75,26 +77,22 @@ HWY_INLINE void emit(const BoxColumns& b, std::size_t j, std::uint32_t mine, con
   sink.n += pack.count();
 }
 
-void sweep(const BoxColumns& b, std::size_t begin, std::size_t end, PairSink& sink) {
+void sweep(const BoxColumns& b, std::size_t first, std::size_t last, PairSink& sink) {
   const I d;
-  const std::size_t lanes = hn::Lanes(d);
-  for (std::size_t i = begin; i + 1 < end; ++i) {
+  const std::size_t lanes = hn::Lanes(d), end = b.size;
+  for (std::size_t i = first; i < last && i + 1 < end; ++i) {
     if (b.lo[0][i + 1] > b.hi[0][i]) continue;
     const Probe p(b, i);
     for (std::size_t j = i + 1; j < end; j += lanes) {
       // lo[0] ascends: a later box that begins before box i ends overlaps it on this axis, since it ends no
       // earlier than it begins.
-      const M begun = hn::And(at_most(hn::LoadU(d, b.lo[0].data() + j), p.hi[0]), hn::FirstN(d, end - j));
-      const M hit =
-          hn::And(hn::And(begun, p.counts(b, j)), hn::And(p.overlaps(b, j, 1), p.overlaps(b, j, 2)));
+      // What follows the last box is beyond every box's end.
+      const M later = hn::Gt(hn::LoadU(d, b.lo[0].data() + j), p.hi[0]);
+      const M hit = hn::AndNot(hn::Or(later, hn::Or(p.apart(b, j, 1), p.apart(b, j, 2))), p.counts(b, j));
       if (!hn::AllFalse(d, hit)) emit(b, j, b.code[i], p, hit, sink);
-      if (!hn::AllTrue(d, begun)) break;
+      if (!hn::AllFalse(d, later)) break;
     }
   }
-}
-
-void sweep_each(const BoxColumns& b, const std::vector<std::uint32_t>& begin, PairSink& sink) {
-  for (std::size_t g = 0; g + 1 < begin.size(); ++g) sweep(b, begin[g], begin[g + 1], sink);
 }
 
 void scan(const BoxColumns& from, std::size_t i, const BoxColumns& b, std::size_t begin, std::size_t end,
@@ -104,8 +102,7 @@ void scan(const BoxColumns& from, std::size_t i, const BoxColumns& b, std::size_
   const Probe p(from, i);
   for (std::size_t j = begin; j < end; j += lanes) {
     const M in = hn::And(hn::FirstN(d, end - j), p.counts(b, j));
-    const M hit =
-        hn::And(hn::And(in, p.overlaps(b, j, 0)), hn::And(p.overlaps(b, j, 1), p.overlaps(b, j, 2)));
+    const M hit = hn::AndNot(hn::Or(p.apart(b, j, 0), hn::Or(p.apart(b, j, 1), p.apart(b, j, 2))), in);
     if (!hn::AllFalse(d, hit)) emit(b, j, from.code[i], p, hit, sink);
   }
 }
@@ -116,8 +113,8 @@ std::uint32_t mask_16(const BoxColumns& from, std::size_t i, const BoxColumns& b
   const Probe p(from, i);
   std::uint32_t all = 0;
   for (std::size_t j = 0; j < 16; j += lanes) {
-    const M hit = hn::And(p.overlaps(b, begin + j, 0),
-                          hn::And(p.overlaps(b, begin + j, 1), p.overlaps(b, begin + j, 2)));
+    const M hit =
+        hn::Not(hn::Or(p.apart(b, begin + j, 0), hn::Or(p.apart(b, begin + j, 1), p.apart(b, begin + j, 2))));
     std::uint8_t bits[8] = {};
     hn::StoreMaskBits(d, hit, bits);
     all |= (bits[0] | static_cast<std::uint32_t>(bits[1]) << 8) << j;
@@ -133,17 +130,16 @@ HWY_AFTER_NAMESPACE();
 namespace touchstone::broad {
 
 HWY_EXPORT(sweep);
-HWY_EXPORT(sweep_each);
 HWY_EXPORT(scan);
 HWY_EXPORT(mask_16);
 
 void BoxColumns::resize(std::size_t n) {
   size = n;
   for (int k = 0; k < 3; ++k) {
-    if (lo[k].size() < n + padding) lo[k].resize(n + n / 4 + padding), hi[k].resize(n + n / 4 + padding);
+    if (lo[k].size() < n + padding) resize_exactly(lo[k], n + n / 16 + padding), resize_exactly(hi[k], n + n / 16 + padding);
     for (std::size_t j = n; j < n + padding; ++j) lo[k][j] = no_key, hi[k][j] = -no_key;
   }
-  if (code.size() < n + padding) code.resize(n + n / 4 + padding);
+  if (code.size() < n + padding) resize_exactly(code, n + n / 16 + padding);
 }
 
 void BoxColumns::gather(const BoxStore& store, int first_axis) {
@@ -161,8 +157,12 @@ void sweep_range(const BoxColumns& boxes, std::size_t begin, std::size_t end, Pa
   HWY_DYNAMIC_DISPATCH(sweep)(boxes, begin, end, sink);
 }
 
-void sweep_groups(const BoxColumns& boxes, const std::vector<std::uint32_t>& begin, PairSink& sink) {
-  HWY_DYNAMIC_DISPATCH(sweep_each)(boxes, begin, sink);
+void sweep_all(const BoxColumns& boxes, PairSink& sink) {
+  const std::size_t parts = sink.parts(boxes.size);
+  sink.in_parts(parts, [&](std::size_t p, PairSink& out) {
+    deal_chunks(boxes.size, 256, parts, p,
+                [&](std::size_t begin, std::size_t end) { sweep_range(boxes, begin, end, out); });
+  });
 }
 
 void scan_range(const BoxColumns& from, std::size_t i, const BoxColumns& boxes, std::size_t begin,

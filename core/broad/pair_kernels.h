@@ -40,11 +40,11 @@ inline std::uint32_t plain_code(const BoxStore& store, BoxStore::Slot s) {
   return s | owner_flags | (store.is_fixed(s) ? 0 : moving_flag);
 }
 
-/// Pairs within [begin, end), whose lo[0] must ascend.
+/// Pairs of each of [begin, end) with those after it; lo[0] must ascend.
 void sweep_range(const BoxColumns& boxes, std::size_t begin, std::size_t end, PairSink& sink);
 
-/// The same for each range [begin[g], begin[g + 1]).
-void sweep_groups(const BoxColumns& boxes, const std::vector<std::uint32_t>& begin, PairSink& sink);
+/// All pairs, in parallel as the sink's options say; lo[0] must ascend.
+void sweep_all(const BoxColumns& boxes, PairSink& sink);
 
 /// Pairs of entry `i` of `from` with the entries [begin, end) of `boxes`; both in the same order of axes.
 void scan_range(const BoxColumns& from, std::size_t i, const BoxColumns& boxes, std::size_t begin,

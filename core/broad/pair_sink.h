@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/broad/box_store.h"
+#include "core/broad/parts.h"
 
 namespace touchstone::broad {
 
@@ -14,6 +15,26 @@ struct SlotPair {
 
 class PairSink {
  public:
+  /// Throws std::invalid_argument when options.threads < 1.
+  explicit PairSink(const Options& options = {});
+  /// How many parts so much work (boxes or pairs) is to be done in.
+  std::size_t parts(std::size_t work) const {
+    return std::clamp<std::size_t>(work / options_.least_a_part, 1, threads_);
+  }
+  /// Calls find(part, sink) for each part, at the same time, and adds what they have put in.
+  template <class Find>
+  void in_parts(std::size_t parts, const Find& find) {
+    if (parts <= 1) {
+      find(std::size_t{0}, *this);
+      return;
+    }
+    if (others_.size() + 1 < parts) others_.resize(parts - 1);
+    run_parts(parts, [&](std::size_t p) {
+      if (p > 0) others_[p - 1].clear();
+      find(p, p > 0 ? others_[p - 1] : *this);
+    });
+    for (std::size_t p = 1; p < parts; ++p) append(others_[p - 1]);
+  }
   void clear() { n = 0, doubtful.clear(); }
   /// Room for `more` entries beyond n in both columns.
   void reserve(std::size_t more) {
@@ -23,12 +44,9 @@ class PairSink {
     reserve(1);
     first[n] = a < b ? a : b, second[n] = a < b ? b : a, ++n;
   }
-  std::size_t memory_bytes() const {
-    return (first.capacity() + second.capacity() + grouped_.capacity() + count_.capacity() +
-            rank_.capacity()) *
-               4 +
-           doubtful.capacity() * sizeof(SlotPair) + by_rank_.capacity() * 4;
-  }
+  std::size_t memory_bytes() const;
+  /// Empties it and gives back what is much.
+  void release_memory();
   /// Groups the second slots by the first: bucket s ends at end[s]; the bucket before it ends where it
   /// begins.
   void group(std::size_t slots, std::vector<std::uint32_t>& end,
@@ -50,6 +68,10 @@ class PairSink {
 
  private:
   void grow(std::size_t more);
+  void append(const PairSink& other);
+  Options options_;
+  std::size_t threads_ = 1;
+  std::vector<PairSink> others_;  // of the parts but the first
   void rename_by_rank(const BoxStore& store);
   std::vector<std::uint32_t> count_, rank_, grouped_;
   std::vector<int> by_rank_;

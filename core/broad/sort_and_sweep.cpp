@@ -13,7 +13,7 @@ void SortAndSweepFinder::find(const BoxStore& store, PairSink& sink) {
   columns_.resize(order_.size());
   for (std::size_t i = 0; i < order_.size(); ++i)
     columns_.put(i, store.keys()[order_[i].slot], plain_code(store, order_[i].slot), axis_);
-  sweep_range(columns_, 0, columns_.size, sink);
+  sweep_all(columns_, sink);
 }
 
 void SortAndSweepFinder::validate(const BoxStore&) const {
@@ -25,6 +25,8 @@ std::string SortAndSweepFinder::explain() const {
   return std::string("sort and sweep along ") + "xyz"[axis_];
 }
 
-BroadPhasePtr make_sort_and_sweep() { return std::make_unique<StoredPhase<SortAndSweepFinder>>(); }
+BroadPhasePtr make_sort_and_sweep(const Options& options) {
+  return std::make_unique<StoredPhase<SortAndSweepFinder>>(options);
+}
 
 }  // namespace touchstone::broad

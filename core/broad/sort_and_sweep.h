@@ -27,6 +27,6 @@ class SortAndSweepFinder {
   BoxColumns columns_;
 };
 
-BroadPhasePtr make_sort_and_sweep();
+BroadPhasePtr make_sort_and_sweep(const Options& options = {});
 
 }  // namespace touchstone::broad

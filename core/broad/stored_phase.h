@@ -20,6 +20,7 @@ namespace touchstone::broad {
 template <class Finder>
 class StoredPhase final : public BroadPhase {
  public:
+  explicit StoredPhase(const Options& options) : sink_(options) {}
   using BroadPhase::insert;
   void insert(int id, const Aabb& box, Mobility mobility) override { store_.insert(id, box, mobility); }
   void move(int id, const Aabb& box) override { store_.move(id, box); }
@@ -36,6 +37,7 @@ class StoredPhase final : public BroadPhase {
       finder_.find(store_, sink_);
       sink_.finish(store_, out);
     }
+    store_.settle();
     store_.forget_changes();
   }
   void validate() const override { store_.validate(), finder_.validate(store_); }

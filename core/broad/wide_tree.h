@@ -1,7 +1,14 @@
-// A tree of boxes with 16 children a node and no pointers: level 0 holds the boxes in the order of their
-// centres along a Morton curve, entry i of level l + 1 is the union of entries 16i … 16i + 15 of level l. One
-// wide comparison tests a box against all children of a node. Build: a radix sort and a pass; refit: a pass.
-// (Order: Morton 1966; linear trees: Lauterbach et al. 2009.)
+// A tree of boxes with up to 16 children a node, all leaves at one depth. The entries of a level lie in
+// groups of 16, in columns, so that one wide comparison tests a box against all children of a node: level 0
+// holds the boxes, an entry of a level above the union of one group of the level below. Built by a radix sort
+// of the centres along a Morton curve into full groups (Morton 1966; linear trees: Lauterbach et al. 2009).
+//
+// A box that comes goes down to the group whose surface it enlarges least, and a full group is split where
+// the surfaces of its halves, weighted by their numbers, are least (Goldsmith and Salmon 1987; Guttman's
+// R-tree 1984 and Beckmann et al. 1990 for the nodes of many children). A box that goes leaves its place to
+// the last of its group; of a group with few left the boxes are put in again elsewhere. A box that moves out
+// of its group's box is taken out and put in again. All this is O(log n) a box and leaves the rest of the
+// tree alone.
 #pragma once
 
 #include "core/broad/key_sort.h"
@@ -16,43 +23,78 @@ class WideTree {
 
   /// Over the boxes present that are fixed, or over those that are not.
   void build(const BoxStore& store, bool fixed, const SceneStats& stats);
-  /// The boxes have moved; none has come or gone.
+  bool holds(BoxStore::Slot s) const { return s < position_.size() && position_[s] != nowhere; }
+  /// Of a box that this tree does not hold.
+  void insert(const BoxStore& store, BoxStore::Slot s);
+  /// Of a slot that this tree holds; its box may be gone from the store.
+  void remove(BoxStore::Slot s);
+  /// The boxes held have moved.
   void refit(const BoxStore& store);
   /// The same when only the box in slot `s`, which is in this tree, has moved.
   void refit_one(const BoxStore& store, BoxStore::Slot s);
-  /// Sets or clears the mark of a box in this tree. Marks are set by build(); pairs count when one of the two
-  /// boxes is marked.
+  /// Sets or clears the mark of a box in this tree. Marks are set by build() and insert(); pairs count when
+  /// one of the two boxes is marked.
   void mark(BoxStore::Slot s, bool on);
   /// Pairs of an unmarked box, of this tree or not, with the marked boxes of this tree.
   void marked_partners(const BoxStore& store, BoxStore::Slot s, PairSink& sink);
+  /// In parallel as the sink's options say.
   void self_pairs(PairSink& sink) const;
   void pairs_with(const WideTree& other, PairSink& sink) const;
 
-  std::size_t size() const { return levels_.empty() ? 0 : levels_[0].size; }
-  /// Mean reach of the unions of 16 boxes, in units of that after the last build: how far the order has
-  /// decayed.
-  double decay() const { return built_reach_ > 0 ? reach() / built_reach_ : 1; }
+  std::size_t size() const { return boxes_; }
+  /// Reach of the leaves a box held, in units of that after the last build: how much dearer a search is.
+  double decay() const { return built_cost_ > 0 ? cost() / built_cost_ : 1; }
   void validate() const;
   /// Adds the boxes of the nodes, by level, lowest first.
   void picture(std::vector<std::vector<Aabb>>& nodes) const;
   std::size_t memory_bytes() const;
 
  private:
-  void unite();
-  void unite_node(std::size_t level, std::size_t node);
-  double reach() const;
-  void self(std::size_t level, std::size_t a, PairSink& sink) const;
+  static constexpr std::uint32_t nowhere = 0xffffffff;
+  struct Level {
+    BoxColumns entries;  // by group; code: level 0, as in pair_kernels.h; above, the group below
+    std::vector<std::uint32_t> parent;  // of a group: entry of the level above
+    std::vector<std::uint8_t> used;     // entries of a group, the first ones; 0: the group is free
+    std::vector<std::uint32_t> free;
+  };
+  // Whose turn it is when tasks are dealt out to parts.
+  struct Turn {
+    std::size_t parts = 1, part = 0, task_level = 0, next = 0;
+    bool mine() { return parts == 1 || next++ % parts == part; }
+  };
+  std::size_t top() const { return levels_.size() - 1; }
+  // Groups of the task level, and what is between two neighbours above it, are tasks.
+  Turn turn_of(std::size_t parts, std::size_t part) const {
+    return {parts, part, top() > 3 ? std::size_t{2} : top() / 2, 0};
+  }
+  std::size_t child(std::size_t level, std::size_t entry) const {
+    return levels_[level].entries.code[entry] * width;
+  }
+  std::size_t end_of(std::size_t level, std::size_t group) const {
+    return group * width + levels_[level].used[group];
+  }
+  std::uint32_t add_group(std::size_t level);
+  void add_root();
+  void link(std::size_t level, std::size_t entry);
+  void put(std::size_t level, std::size_t entry, const KeyBox& box, std::uint32_t code);
+  void add(std::size_t level, std::size_t group, const KeyBox& box, std::uint32_t code);
+  void split(std::size_t level, std::size_t group, const KeyBox& box, std::uint32_t code);
+  void take_out(std::size_t level, std::size_t entry);
+  void dissolve(std::size_t group);
+  void add_box(const KeyBox& box, std::uint32_t code);
+  KeyBox box_of(std::size_t level, std::size_t entry) const;
+  KeyBox union_of(std::size_t level, std::size_t group) const;
+  void unite_above(std::size_t level, std::size_t group);
+  double cost() const;
+  void self(std::size_t level, std::size_t group, Turn& turn, PairSink& sink) const;
   void cross(std::size_t level, std::size_t a, const WideTree& other, std::size_t other_level, std::size_t b,
              PairSink& sink) const;
   void query(const BoxColumns& from, std::size_t box, std::size_t level, std::size_t b, PairSink& sink) const;
-  std::size_t end_of(std::size_t level, std::size_t node) const {
-    return std::min(levels_[level - 1].size, width * (node + 1));
-  }
-  std::vector<BoxColumns> levels_;
-  std::vector<KeyedSlot> order_, scratch_;
-  std::vector<std::uint32_t> position_;  // of a slot in level 0
+  std::vector<Level> levels_;            // the last has one group, 0
+  std::vector<std::uint32_t> position_;  // of a slot in level 0, or nowhere
   BoxColumns probe_;
-  double built_reach_ = 0;
+  std::size_t boxes_ = 0;
+  double built_cost_ = 0;
 };
 
 }  // namespace touchstone::broad

@@ -3,6 +3,7 @@
 // handed over, the update, the whole set of pairs. The pairs of three frames a cell are compared, as sets,
 // with those of the plain grid, which shares no code with ours; a contestant that differs is marked and is
 // nobody's best.
+// With --threads N ours may use N threads, and all are timed by the clock on the wall.
 //   bench_broad --cells uniform/10000,mixed/ --methods touchstone,plain --rounds 3 --csv out.csv --json
 //   out.json
 #include <fmt/format.h>
@@ -46,8 +47,8 @@ struct Entrant {
   const broad::CatalogRow* row;
   int most;           // boxes; beyond, a frame takes seconds
   int frames = 1000;  // at most, at 1e6
-  std::unique_ptr<Contestant> make(std::size_t pairs) const {
-    if (row != nullptr) return std::make_unique<Ours>(row->make());
+  std::unique_ptr<Contestant> make(std::size_t pairs, int threads) const {
+    if (row != nullptr) return std::make_unique<Ours>(row->make({threads}));
     return make_other != nullptr ? make_other() : make_bound(pairs);
   }
 };
@@ -82,7 +83,7 @@ bool is_hopeless(const Entrant& e, std::string_view scene, int n) {
 
 struct Options {
   std::vector<std::string> cells, methods;
-  int rounds = 3, frames = 0;
+  int rounds = 3, frames = 0, threads = 1;
   std::string csv, json;
 };
 
@@ -92,9 +93,9 @@ bool chosen(const std::vector<std::string>& wanted, const std::string& name) {
          });
 }
 
-double thread_ms() {
+double now_ms(int threads) {
   timespec t{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
+  clock_gettime(threads > 1 ? CLOCK_MONOTONIC : CLOCK_THREAD_CPUTIME_ID, &t);
   return static_cast<double>(t.tv_sec) * 1e3 + static_cast<double>(t.tv_nsec) * 1e-6;
 }
 
@@ -134,16 +135,16 @@ bool agrees(Contestant& c, const Script& s) {
   return true;
 }
 
-void run_round(const Entrant& e, const Script& s, BroadRow& row) {
-  const auto subject = e.make(s.expected.back().size());
+void run_round(const Entrant& e, const Script& s, int threads, BroadRow& row) {
+  const auto subject = e.make(s.expected.back().size(), threads);
   subject->start(s.start);
   Pairs out;
   const std::size_t most =
       s.start.size() < 1000000 ? s.frames.size() : warm_frames + static_cast<std::size_t>(e.frames);
   for (std::size_t f = 0; f < std::min(s.frames.size(), most); ++f) {
-    const double before = thread_ms();
+    const double before = now_ms(threads);
     subject->frame(s.frames[f], out);
-    if (f >= warm_frames) row.frame_ms.push_back(thread_ms() - before);
+    if (f >= warm_frames) row.frame_ms.push_back(now_ms(threads) - before);
   }
   ++row.rounds;
   row.pairs = out.size(), row.reported = subject->reported();
@@ -165,14 +166,14 @@ std::vector<BroadRow> run_cell(const Options& o, const std::vector<Entrant>& all
     if (n > e.most || is_hopeless(e, scene, n) || !chosen(o.methods, e.name)) continue;
     BroadRow r;
     r.scene = scene, r.n = n, r.method = e.name;
-    const auto subject = e.make(0);
+    const auto subject = e.make(0, o.threads);
     r.wrong = subject->answers() && !agrees(*subject, script);
     rows.push_back(r), who.push_back(&e);
   }
   for (int round = 0; round < o.rounds; ++round)
     for (std::size_t k = 0; k < rows.size(); ++k) {
       const std::size_t i = (k + static_cast<std::size_t>(round)) % rows.size();
-      run_round(*who[i], script, rows[i]);
+      run_round(*who[i], script, o.threads, rows[i]);
     }
   return rows;
 }
@@ -198,6 +199,8 @@ bool parse(int argc, char** argv, Options& o) {
       o.rounds = std::max(1, std::atoi(value.c_str()));
     else if (name == "--frames")
       o.frames = std::max(1, std::atoi(value.c_str()));
+    else if (name == "--threads")
+      o.threads = std::max(1, std::atoi(value.c_str()));
     else if (name == "--csv")
       o.csv = value;
     else if (name == "--json")
@@ -215,8 +218,9 @@ int main(int argc, char** argv) {
   if (!parse(argc, argv, o)) {
     fmt::print(
         stderr,
-        "bench_broad [--cells SCENE/N,...] [--methods NAME,...] [--rounds R] [--frames F] [--csv FILE] "
-        "[--json FILE]\nscenes: uniform mixed clustered static95 teleport; n: 1000 10000 100000 1000000\n");
+        "bench_broad [--cells SCENE/N,...] [--methods NAME,...] [--rounds R] [--frames F] [--threads N] "
+        "[--csv FILE] [--json FILE]\nscenes: uniform mixed clustered static95 teleport; n: 1000 10000 100000 "
+        "1000000\n");
     return 2;
   }
   const auto all = entrants();

@@ -94,19 +94,32 @@ std::string broad_text(const std::vector<BroadRow>& rows) {
 
 std::string broad_summary(const std::vector<BroadRow>& rows) {
   std::string text = fmt::format("\n{:<18} {:>9}  {:<28} {:<20} {:<28} {}\n", "automatic", "ms", "best peer",
-                                 "plain", "time / best fixed method", "time / bound");
+                                 "plain", "over best fixed", "time / bound");
+  double worst = 0, least_plain = HUGE_VAL;
+  std::string worst_cell, plain_cell;
   for (const BroadRow& r : rows) {
     if (r.method != "touchstone:automatic") continue;
     const double ms = r.mean_ms();
     const BroadRow* fixed =
         best(rows, r, [](const BroadRow& o) { return ours(o) && o.method != "touchstone:automatic"; });
     const BroadRow* bound = best(rows, r, [](const BroadRow& o) { return !o.answers; });
+    const BroadRow* simple = best(rows, r, plain);
+    const std::string cell = fmt::format("{} {}", r.scene, r.n);
+    if (fixed != nullptr && ms / fixed->mean_ms() > worst) worst = ms / fixed->mean_ms(), worst_cell = cell;
+    if (simple != nullptr && simple->mean_ms() / ms < least_plain)
+      least_plain = simple->mean_ms() / ms, plain_cell = cell;
     text += fmt::format(
-        "{:<18} {:>9.4f}  {:<28} {:<20} {:<28} {}\n", fmt::format("{} {}", r.scene, r.n), ms,
-        ratio_to(best(rows, r, peer), ms), ratio_to(best(rows, r, plain), ms),
+        "{:<18} {:>9.4f}  {:<28} {:<20} {:<28} {}\n", cell, ms, ratio_to(best(rows, r, peer), ms),
+        ratio_to(simple, ms),
         fixed == nullptr ? "-" : fmt::format("{:.2f} {}", ms / fixed->mean_ms(), fixed->method.substr(11)),
         bound == nullptr ? "-" : fmt::format("{:.2f}", ms / bound->mean_ms()));
   }
+  if (!worst_cell.empty())
+    text += fmt::format("automatic over the best fixed method, worst cell: {:.2f} at {} (limit 1.10: {})\n",
+                        worst, worst_cell, worst <= 1.1 ? "kept" : "exceeded");
+  if (!plain_cell.empty())
+    text += fmt::format("better plain competitor over automatic, worst cell: {:.2f} at {} (floor 2: {})\n",
+                        least_plain, plain_cell, least_plain >= 2 ? "kept" : "missed");
   return text + worked_example(rows) + slopes(rows);
 }
 

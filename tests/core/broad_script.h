@@ -13,8 +13,9 @@ struct Count {
 // A phase and the definition, driven by the same random operations.
 class Script {
  public:
-  Script(const broad::CatalogRow& row, std::uint64_t seed, BoxKind kind, int id_step)
-      : subject_(row.make()), r_(seed), kind_(kind), id_step_(id_step) {}
+  Script(const broad::CatalogRow& row, std::uint64_t seed, BoxKind kind, int id_step,
+         const broad::Options& options = {})
+      : subject_(row.make(options)), r_(seed), kind_(kind), id_step_(id_step) {}
 
   void insert_many(int n) {
     for (int i = 0; i < n; ++i) insert();

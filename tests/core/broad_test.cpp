@@ -135,8 +135,9 @@ TEST_CASE("swept boxes contain the body at all times", "[broad][box]") {
     Rng r(seed);
     const Shape shape = random_shape(r, static_cast<ShapeKind>(r.below(7)), false);
     const Pose pose{r.unit_vector() * r.uniform(0, 100), r.rotation()};
+    const double angle = std::pow(10, r.uniform(-4, 2.5));
     const Motion m{r.unit_vector() * r.uniform(0, 10),
-                   r.chance(0.5) ? Vec3(r.unit_vector() * r.uniform(0, 500)) : Vec3::Zero()};
+                   r.chance(0.7) ? Vec3(r.unit_vector() * angle) : Vec3::Zero()};
     const Aabb box = swept_box(shape, pose, m);
     for (int k = 0; k <= 20; ++k) {
       const WideFrame f = wide_frame_at(pose, m, k / Wide(20));
@@ -150,6 +151,19 @@ TEST_CASE("swept boxes contain the body at all times", "[broad][box]") {
     }
   }
   CHECK(checked == 300 * 21 * 3);
+}
+
+TEST_CASE("a body that turns a little has a swept box little larger than its box", "[broad][box]") {
+  const Box rod{Vec3(0.1, 0.2, 4)};
+  const Aabb still = body_box(rod, {}), turned = swept_box(rod, {}, {Vec3::Zero(), Vec3(0, 0, 1e-3)}),
+             far = swept_box(rod, {}, {Vec3::Zero(), Vec3(0, 0, 100)});
+  const double way = 1e-3 * bounding_radius(rod);
+  for (int axis = 0; axis < 3; ++axis) {
+    CHECK(turned.hi[axis] >= still.hi[axis]);
+    CHECK(turned.hi[axis] <= still.hi[axis] + way * (1 + 1e-12));
+    CHECK(far.hi[axis] >= 4.0);
+    CHECK(far.hi[axis] <= bounding_radius(rod) * (1 + 1e-12));
+  }
 }
 
 TEST_CASE("a scene's candidates leave out filtered and static pairs; contacts are those that overlap",
