@@ -291,10 +291,10 @@ class LocalMinimum {
     R least() const { return (xx + yy) / 2 - std::sqrt((xx - yy) * (xx - yy) / 4 + xy * xy); }
   };
 
-  // Directions within θ of m, T = tan(θ/2).
+  // Directions within θ of m, T = tan(θ/2): least cosine and largest sine.
   struct Cap {
     R cosine, sine;
-    explicit Cap(R t) : cosine((1 - t * t) / (1 + t * t)), sine(2 * t / (1 + t * t)) {}
+    explicit Cap(R t) : cosine((1 - t * t) / (1 + t * t)), sine(cosine > 0 ? 2 * t / (1 + t * t) : R(1)) {}
     /// Largest sine of an angle to an axis, for an axis of that |cosine| to m.
     R most_sine(R c) const {
       const R s = std::sqrt(std::max<R>(0, 1 - c * c));

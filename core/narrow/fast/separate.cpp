@@ -84,7 +84,8 @@ void convex_pair(const PlacedShape& pa, const PlacedShape& pb, Asked asked, Answ
     r.found = Found::apart;
     return;
   }
-  const bool inside = g.end == WalkEnd::enclosed && g.margin + radii > error;
+  // A tetrahedron without room for the origin proves nothing, whatever the radii: it may be a sliver of noise.
+  const bool inside = g.end == WalkEnd::enclosed && (g.margin > error || (g.margin > 0 && radii > error));
   if (asked == Asked::overlap && (g.upper < radii - error || inside)) {
     r.found = Found::meeting;
     return;
