@@ -5,7 +5,7 @@
 // least of those is a lower bound. When the storage is full or the horizon cannot be repaired it says so.
 #pragma once
 
-#include "core/narrow/fast/local_depth.h"
+#include "core/narrow/fast/gjk.h"
 
 namespace touchstone::narrow::fast {
 
@@ -107,7 +107,8 @@ class Expander {
     }
     for (std::size_t k = 0; k < static_cast<std::size_t>(foot.size); ++k)
       weight[static_cast<std::size_t>(foot.corner[k])] = foot.weight[k];
-    const LocalDepth<R> found = LocalMinimum<R>(d_, size_).run(facet, weight, facet_[f].n);
+    LocalMinimum<R> at(d_, size_);
+    const LocalDepth<R> found = at.find(facet, weight, facet_[f].n) ? at.certify() : LocalDepth<R>{};
     if (!found.found || !(found.tangent > 0) || !(found.upper <= result_.upper + level_) ||
         !(found.upper - found.lower <= tolerance_))
       return false;

@@ -3,7 +3,7 @@
 // still; along round parts the support point moves smoothly.
 #pragma once
 
-#include "core/narrow/fast/gjk.h"
+#include "core/narrow/fast/difference.h"
 
 namespace touchstone::narrow::fast {
 

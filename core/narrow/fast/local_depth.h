@@ -1,5 +1,6 @@
-// A local minimum of the penetration depth, and how far it is proven to be the least. An expanding polytope
-// needs some fifty support points to close on a curved boundary, most of them for the last digits; here the
+// A local minimum of the support function of B − A (the depth of bodies that meet, minus the distance of
+// others: then it is the only one), and how far it is proven to be the least. An expanding polytope needs
+// some fifty support points to close on a curved boundary, most of them for the last digits; here the
 // features that touch (feature.h) are guessed, the direction is Newton's, and the proof is a curvature
 // argument.
 //
@@ -45,7 +46,7 @@ class LocalMinimum {
   LocalMinimum(const Difference<R>& d, R size) : d_(d), level_(8 * u<R> * size), slight_(64 * u<R> * size) {}
 
   /// From a facet of support points with unit outward normal n, the origin's foot in it at those weights.
-  LocalDepth<R> run(const std::array<Vertex<R>, 3>& facet, const std::array<R, 3>& weight, const V3<R>& n) {
+  bool find(const std::array<Vertex<R>, 3>& facet, const std::array<R, 3>& weight, const V3<R>& n) {
     std::array<V3<R>, 3> a, b;
     V3<R> foot_a = V3<R>::Zero(), foot_b = V3<R>::Zero();
     for (std::size_t k = 0; k < 3; ++k) {
@@ -63,14 +64,42 @@ class LocalMinimum {
     feature_[1] = suggested_feature<R>(d_.b, b, foot_b, in(1, m_), level_);
     for (int round = 0; round < rounds; ++round) {
       if (!turn_direction() || !m_.allFinite()) {
-        if (!lay_flat(n)) return {};
+        if (!lay_flat(n)) return false;
         continue;
       }
       const Verdict v = confirm();
-      if (v == Verdict::confirmed) return certify();
-      if (v == Verdict::refuted) return {};
+      if (v == Verdict::confirmed) return true;
+      if (v == Verdict::refuted) return false;
     }
-    return {};
+    return false;
+  }
+
+  /// What find() has found: h, m, w and A's share of w.
+  R height() const { return upper_; }
+  const V3<R>& outward() const { return m_; }
+  const V3<R>& point() const { return w_; }
+  const V3<R>& on_a() const { return placed_[0].p; }
+
+  /// For bodies that meet: how far it is the least.
+  LocalDepth<R> certify() const {
+    LocalDepth<R> r;
+    r.found = true, r.upper = upper_, r.outward = m_, r.a = placed_[0].p, r.w = w_;
+    const V3<R> x = m_.unitOrthogonal(), y = m_.cross(x), q = d_.support(-m_).w;
+    const R far = -q.dot(m_), off = (q + far * m_).squaredNorm(), d = upper_;
+    if (!(far > d + slight_)) return r;
+    const R behind = (std::sqrt(off) + std::sqrt(off + far * far - d * d)) / (far - d) * (1 + 64 * u<R>);
+    for (R part = 1; part > R(0.001); part /= 2) {
+      const R t = behind * part;
+      Form ball, reach;
+      for (int i = 0; i < 2; ++i) add_side(i, x, y, Cap(t), part / 2, ball, reach);
+      ball.xx += reach.xx / t, ball.xy += reach.xy / t, ball.yy += reach.yy / t;
+      const R mu = ball.least() - d;
+      if (!(mu > d / 64 + slight_)) continue;
+      r.tangent = t, r.global = part == 1;
+      r.lower = d - rest_.squaredNorm() / (2 * mu);
+      return r;
+    }
+    return r;
   }
 
  private:
@@ -335,27 +364,6 @@ class LocalMinimum {
       // m × x = y, m × y = −x.
       ball.add(radius / (most * most * most), axis.dot(y), -axis.dot(x));
     }
-  }
-
-  LocalDepth<R> certify() const {
-    LocalDepth<R> r;
-    r.found = true, r.upper = upper_, r.outward = m_, r.a = placed_[0].p, r.w = w_;
-    const V3<R> x = m_.unitOrthogonal(), y = m_.cross(x), q = d_.support(-m_).w;
-    const R far = -q.dot(m_), off = (q + far * m_).squaredNorm(), d = upper_;
-    if (!(far > d + slight_)) return r;
-    const R behind = (std::sqrt(off) + std::sqrt(off + far * far - d * d)) / (far - d) * (1 + 64 * u<R>);
-    for (R part = 1; part > R(0.001); part /= 2) {
-      const R t = behind * part;
-      Form ball, reach;
-      for (int i = 0; i < 2; ++i) add_side(i, x, y, Cap(t), part / 2, ball, reach);
-      ball.xx += reach.xx / t, ball.xy += reach.xy / t, ball.yy += reach.yy / t;
-      const R mu = ball.least() - d;
-      if (!(mu > d / 64 + slight_)) continue;
-      r.tangent = t, r.global = part == 1;
-      r.lower = d - rest_.squaredNorm() / (2 * mu);
-      return r;
-    }
-    return r;
   }
 
   const Difference<R>& d_;

@@ -32,7 +32,7 @@ struct Stand {
 };
 
 template <class R>
-Stand<R> stand(const Pose& p) {
+inline Stand<R> stand(const Pose& p) {
   const Quat& q = p.rotation;
   const double n = q.x * q.x + q.y * q.y + q.z * q.z + q.w * q.w;
   const Quat s = n > 0x1p-40 && n < 0x1p40 ? q : normalized(q);

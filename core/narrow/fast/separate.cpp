@@ -78,7 +78,7 @@ void convex_pair(const PlacedShape& pa, const PlacedShape& pb, Asked asked, Answ
   const R size = s.a.reach + s.b.reach + s.at.offset.norm();
   const R tolerance = accuracy(local_scale(s)) / 8;
   const R certain = asked == Asked::distance ? std::numeric_limits<R>::infinity() : error + radii;
-  const Walk<R> g = walk<R>(d, tolerance, certain, 4 * u<R> * size);
+  const Walk<R> g = walk<R>(d, tolerance, certain, size);
   r.bound = error;
   if (g.lower > certain) {
     r.found = Found::apart;

@@ -41,11 +41,11 @@ void convex_half_space(const PlacedShape& a, const PlacedShape& b, Asked asked, 
                        PairScene<R>& scene);
 
 /// A closed form of closed_forms.h as a row of the table.
-template <class R, void (*form)(const Shape&, const Stand<R>&, const Shape&, const Stand<R>&, Answer<R>&),
+template <class R, void (*form)(const Shape&, const Pose&, const Shape&, const Pose&, Asked, Answer<R>&),
           ContactForm contact = ContactForm::point>
-void closed(const PlacedShape& a, const PlacedShape& b, Asked, Answer<R>& out, PairScene<R>& scene) {
+void closed(const PlacedShape& a, const PlacedShape& b, Asked asked, Answer<R>& out, PairScene<R>& scene) {
   scene.contact = contact;
-  form(*a.shape, stand<R>(a.pose), *b.shape, stand<R>(b.pose), out);
+  form(*a.shape, a.pose, *b.shape, b.pose, asked, out);
 }
 
 /// Bodies and frames of two shapes, for contact_patch after a closed form.

@@ -100,15 +100,16 @@ bool take_tetrahedron(const Simplex<R>& s, Foot<R>& best, R& margin) {
   for (const auto& f : faces) {
     const auto w = [&](int k) -> const V3<R>& { return s.p[static_cast<std::size_t>(f[k])].w; };
     const V3<R> e1 = w(1) - w(0), e2 = w(2) - w(0), n = e1.cross(e2);
-    const R apex = n.dot(w(3) - w(0)), origin = -n.dot(w(0));
-    if (!(apex * origin > 0)) {
+    const V3<R> e3 = w(3) - w(0);
+    const R apex = n.dot(e3), origin = -n.dot(w(0));
+    const R feigned = 8 * u<R> * e1.template lpNorm<1>() * e2.template lpNorm<1>() *
+                      std::max(w(0).template lpNorm<1>(), e3.template lpNorm<1>());
+    // A sliver's sign is noise, but then the origin lies farther from the plane than the apex does.
+    if (!(apex * origin > 0) || std::abs(origin) > std::abs(apex) + feigned) {
       enclosed = false;
       take_triangle(s, f[0], f[1], f[2], best);
     } else if (enclosed) {
-      const R length = n.norm();
-      const R feigned =
-          8 * u<R> * e1.template lpNorm<1>() * e2.template lpNorm<1>() * w(0).template lpNorm<1>();
-      margin = std::min(margin, (std::abs(origin) - feigned) / length);
+      margin = std::min(margin, (std::abs(origin) - feigned) / n.norm());
     }
   }
   return enclosed;
