@@ -93,6 +93,7 @@ enum class Found {
 template <class R>
 struct Answer {
   Found found = Found::unsure;
+  bool valued = false;  // searches: gap, normal and points are set
   R gap = 0;
   V3<R> normal, a, b;  // set when a value was asked and is known
   /// |gap − truth|; for a depth also: its excess over the least depth, and what is missing along `normal`.

@@ -32,6 +32,17 @@ template <class R>
 void convex_pair(const PlacedShape& a, const PlacedShape& b, Asked asked, Answer<R>& out,
                  PairScene<R>& scene);
 
+/// The same of bodies and frames that are set in `scene`. A distance beyond `enough` is `apart` without a
+/// value.
+template <class R>
+void separate_cores(const Stand<R>& a, const Stand<R>& b, Asked asked, R enough, Answer<R>& out,
+                    PairScene<R>& scene);
+
+/// A bounded convex A and a mesh B, in double.
+template <class R>
+void convex_mesh(const PlacedShape& a, const PlacedShape& b, Asked asked, Answer<R>& out,
+                 PairScene<R>& scene);
+
 template <class R>
 void box_box(const PlacedShape& a, const PlacedShape& b, Asked asked, Answer<R>& out, PairScene<R>& scene);
 
