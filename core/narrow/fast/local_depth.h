@@ -19,10 +19,11 @@
 //
 // With S(t), K(t) the sums of these quadratic forms and x = tan(θ/2), h >= d − δ follows from
 // (S − d) x² + (K − |v|) x + δ/2 >= 0. For x <= T it is enough that μ = min over t of S + K/T − d > 0, and
-// δ = |v|²/(2 μ). So much for the cap |θ| <= 2 atan T. Behind it the farthest point q of C along −m, at H =
-// −q·m and Q = |q + H m|, gives h >= −H cos θ − Q sin θ, which grows from 90° on and reaches d at T = (Q +
-// √(Q² + H² − d²))/(H − d): with that T the minimum is global. With a smaller one the expanding polytope
-// leaves the cap alone.
+// δ = |v|²/(2 μ); for any
+// μ, δ = |v| − 2 μ does (minima that form a ring have μ = 0). So much for the cap |θ| <= 2 atan T. Behind it
+// the farthest point q of C along −m, at H = −q·m and Q = |q + H m|, gives h >= −H cos θ − Q sin θ, which
+// grows from 90° on and reaches d at T = (Q + √(Q² + H² − d²))/(H − d): with that T the minimum is global.
+// With a smaller one the expanding polytope leaves the cap alone.
 //
 // Exits: found or not; `global` or with the cap of its proof. Everything about features is a guess until the
 // support points of both bodies have confirmed it.
@@ -94,9 +95,11 @@ class LocalMinimum {
       for (int i = 0; i < 2; ++i) add_side(i, x, y, Cap(t), part / 2, ball, reach);
       ball.xx += reach.xx / t, ball.xy += reach.xy / t, ball.yy += reach.yy / t;
       const R mu = ball.least() - d;
-      if (!(mu > d / 64 + slight_)) continue;
+      const R rest_sq = rest_.squaredNorm();
+      const bool curved = mu > d / 64 + slight_;
+      if (!curved && !(mu > -level_)) continue;
       r.tangent = t, r.global = part == 1;
-      r.lower = d - rest_.squaredNorm() / (2 * mu);
+      r.lower = d - (curved ? rest_sq / (2 * mu) : std::sqrt(rest_sq) + 2 * std::max<R>(0, -mu) + level_ / 4);
       return r;
     }
     return r;
@@ -195,6 +198,7 @@ class LocalMinimum {
       const V3<R> r = flat * (k / length), along = c.cross(r);
       m_ = r + c * s;
       place_both();
+      if (std::abs(w_.dot(along)) <= level_ / 4) return true;  // a ring of minima has no curvature either
       const R second = curvature(along, along) - w_.dot(r);
       if (!(second > 0)) return false;
       const R step = std::clamp(-w_.dot(along) / second, R(-0.5), R(0.5));
@@ -215,6 +219,7 @@ class LocalMinimum {
       place_both();
       const V3<R> x = m_.unitOrthogonal(), y = m_.cross(x);
       const R h = m_.dot(w_), gx = x.dot(w_), gy = y.dot(w_);
+      if (std::abs(gx) + std::abs(gy) <= level_ / 4) return true;
       const R xx = curvature(x, x) - h, xy = curvature(x, y), yy = curvature(y, y) - h,
               det = xx * yy - xy * xy;
       if (!(xx > 0 && det > 0)) return false;
