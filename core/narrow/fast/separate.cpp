@@ -2,6 +2,7 @@
 
 #include "core/narrow/fast/box_box.h"
 #include "core/narrow/fast/epa.h"
+#include "core/narrow/fast/revolved.h"
 
 namespace touchstone::narrow::fast {
 namespace {
@@ -58,8 +59,8 @@ void from_walk(const Walk<R>& g, R error, Answer<R>& r, PairScene<R>& s) {
   s.middle = (r.a + r.b) / 2, s.has_middle = true;
 }
 
-template <class R>
-void from_depth(const Depth<R>& e, R error, Answer<R>& r, PairScene<R>& s) {
+template <class R, class D>
+void from_depth(const D& e, R error, Answer<R>& r, PairScene<R>& s) {
   s.normal = r.normal = -e.outward;
   r.gap = -e.upper - s.a.radius - s.b.radius;
   r.a = e.a + s.a.radius * r.normal, r.b = e.a + e.w - s.b.radius * r.normal;
@@ -92,10 +93,14 @@ void separate_cores(const Stand<R>& a, const Stand<R>& b, Asked asked, R enough,
   }
   r.valued = true;
   if (g.end == WalkEnd::enclosed || g.end == WalkEnd::touching) {
-    Expander<R> polytope(d, size, tolerance);
-    const Depth<R> e = polytope.run(g.simplex, g.end == WalkEnd::enclosed);
-    if (e.end == ExpandEnd::flat) return;
-    from_depth(e, error, r, s);
+    if (const Revolved<R> e(d, size); e.found) {
+      from_depth(e, error, r, s);
+    } else {
+      Expander<R> polytope(d, size, tolerance);
+      const Depth<R> depth = polytope.run(g.simplex, g.end == WalkEnd::enclosed);
+      if (depth.end == ExpandEnd::flat) return;
+      from_depth(depth, error, r, s);
+    }
   } else {
     from_walk(g, error, r, s);
   }
