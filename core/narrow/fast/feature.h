@@ -13,8 +13,8 @@ enum class Shown { corner, edge, face, round };
 template <class R>
 struct Feature {
   Shown shown = Shown::corner;
-  V3<R> p =
-      V3<R>::Zero();  // corner; edge: its point at parameter 0 (round sides: of the axis, the apex of a cone)
+  /// Corner; edge: its point at parameter 0 (of a round side: of its axis; of a cone: the apex).
+  V3<R> p = V3<R>::Zero();
   V3<R> e = V3<R>::Zero();  // edge: unit; cones: set by place()
   R lo = 0, hi = 0;         // edge: parameters of its ends
   V3<R> c = V3<R>::Zero();  // edge: directions d that show it have d·c = s; face: its outward normal

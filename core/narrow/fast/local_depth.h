@@ -1,31 +1,28 @@
-// A local minimum of the support function of B − A (the depth of bodies that meet, minus the distance of
-// others: then it is the only one), and how far it is proven to be the least. An expanding polytope needs
-// some fifty support points to close on a curved boundary, most of them for the last digits; here the
-// features that touch (feature.h) are guessed, the direction is Newton's, and the proof is a curvature
-// argument.
+// A local minimum of the support function of B − A (the depth of bodies that meet; minus the distance of
+// others, and then the only one), and how far it is proven to be the least. An expanding polytope needs some
+// fifty support points to close on a curved boundary, most of them for the last digits; here the features
+// that touch (feature.h) are guessed, the direction is Newton's, and the proof is a curvature argument.
 //
 // C = B − A, h its support function, m a unit direction with h(m) = d, w a point of C along m, v = w − d m.
-// Bodies that lie in C and contain w bound h from below on the great circle m(θ) = m cos θ + t sin θ, t
-// orthogonal to m:
+// Bodies that lie in C and contain w bound h from below on the great circle m(θ) = m cos θ + t sin θ, t unit
+// and orthogonal to m:
 //
-// * a ball of radius ρ touching C from inside at w:              ρ + (d − ρ) cos θ + v·t sin θ.
-// * a disc of radius r with axis a, m anywhere on its rim: its part |P m(θ)| r has x = P m(θ) with x'' = −x,
-// so
-//   |x|'' + |x| = |x × x'|²/|x|³ >= (a·(m × t))², and by comparison the same with ρ = r (a·(m × t))². Sums
-//   add.
-// * a segment along e, e orthogonal to m, that reaches k to both sides of w: d cos θ + k |e·t| sin θ + v·t
-// sin θ;
-//   a face that reaches k in all directions: d cos θ + k sin θ. |e·t| >= (e·t)².
+// * a ball of radius ρ that touches C from inside at w: ρ + (d − ρ) cos θ + v·t sin θ.
+// * a disc of radius r and axis a, w on its rim: its part r |P m(θ)| has x = P m(θ) with x'' = −x, so that
+//   |x|'' + |x| = |x × x'|²/|x|³ >= (a·(m × t))²/X³, X the largest |x| in question, at most 1. By comparison
+//   the bound of the ball with ρ = r (a·(m × t))²/X³. Parts of a sum add.
+// * a segment along e, orthogonal to m, that reaches k to both sides of w:
+//   d cos θ + k |e·t| sin θ + v·t sin θ, and |e·t| >= (e·t)²; a face that reaches k to all sides: without e.
 //
 // With S(t), K(t) the sums of these quadratic forms and x = tan(θ/2), h >= d − δ follows from
-// (S − d) x² + (K − |v|) x + δ/2 >= 0. For x <= T it is enough that μ = min over t of S + K/T − d > 0, and
-// δ = |v|²/(2 μ); for any
-// μ, δ = |v| − 2 μ does (minima that form a ring have μ = 0). So much for the cap |θ| <= 2 atan T. Behind it
-// the farthest point q of C along −m, at H = −q·m and Q = |q + H m|, gives h >= −H cos θ − Q sin θ, which
-// grows from 90° on and reaches d at T = (Q + √(Q² + H² − d²))/(H − d): with that T the minimum is global.
-// With a smaller one the expanding polytope leaves the cap alone.
+// (S − d) x² + (K − |v|) x + δ (1 + x²)/2 >= 0. For 0 <= x <= T, with μ the least of S + K/T − d over t:
+// where μ > 0, δ = |v|²/(2 μ) will do, and δ = |v| + 2 max(0, −μ) always (minima that form a ring have μ =
+// 0). So much for the cap θ <= 2 atan T. Behind it the farthest point q of C along −m, at H = −q·m and Q = |q
+// + H m|, gives h >= −H cos θ − Q sin θ, which grows from 90° on and reaches d at T = (Q + √(Q² + H² −
+// d²))/(H − d): with that T the minimum is global. With a smaller one the expanding polytope leaves the cap
+// alone.
 //
-// Exits: found or not; `global` or with the cap of its proof. Everything about features is a guess until the
+// Exits: found or not; `global`, or with the cap of its proof. Everything about features is a guess until the
 // support points of both bodies have confirmed it.
 #pragma once
 
