@@ -55,7 +55,12 @@ template <class R>
 void prepare_segments(FastAnswer<R>& f, const PlacedShape& a, const PlacedShape& b) {
   if (f.scene.contact != fast::ContactForm::segments) return;
   const PlacedShape &x = f.mirrored ? b : a, &y = f.mirrored ? a : b;
-  fast::prepare<R>(*x.shape, fast::stand<R>(x.pose), *y.shape, fast::stand<R>(y.pose), f.scene);
+  const auto from = fast::stand<R>(x.pose), to = fast::stand<R>(y.pose);
+  // Only in line with each other do two segments share more than a point.
+  const R sine_sq = fast::axis_z(from).cross(fast::axis_z(to)).squaredNorm();
+  f.scene.contact = sine_sq < R(1e-6) ? fast::ContactForm::cores : fast::ContactForm::point;
+  if (f.scene.contact == fast::ContactForm::point) return;
+  fast::prepare<R>(*x.shape, from, *y.shape, to, f.scene);
   const V3<R> n = f.mirrored ? V3<R>(-f.answer.normal) : f.answer.normal;
   f.scene.normal = f.scene.at.a_to_world.transpose() * n;
   // (a + b)/2 about the row's A; the answer's own is about the query's.
@@ -63,10 +68,6 @@ void prepare_segments(FastAnswer<R>& f, const PlacedShape& a, const PlacedShape&
                        (f.mirrored ? V3<R>(a.pose.translation.cast<R>() - b.pose.translation.cast<R>())
                                    : V3<R>(V3<R>::Zero()));
   f.scene.middle = f.scene.at.a_to_world.transpose() * middle, f.scene.has_middle = true;
-  // Only in line with each other do two segments share more than a point.
-  const V3<R>& u = f.scene.at.b_to_a.col(2);
-  const R sine_sq = u[0] * u[0] + u[1] * u[1];
-  f.scene.contact = sine_sq < R(1e-6) ? fast::ContactForm::cores : fast::ContactForm::point;
 }
 
 template <class R>

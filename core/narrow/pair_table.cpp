@@ -65,7 +65,7 @@ constexpr Table make_table() {
   for (std::size_t i = 0; i < kinds; ++i) {
     t[i][at(K::half_space)] = {&convex_half_space, &fast::convex_half_space<double>,
                                &fast::convex_half_space<float>};
-    t[i][at(K::mesh)] = {&convex_mesh, nullptr, nullptr};
+    t[i][at(K::mesh)] = {&convex_mesh, &fast::convex_mesh<double>, nullptr};
   }
   t[at(K::half_space)][at(K::half_space)] = {&unsupported, nullptr, nullptr};
   t[at(K::half_space)][at(K::mesh)] = {&half_space_mesh, nullptr, nullptr};

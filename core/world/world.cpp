@@ -1,6 +1,7 @@
 #include "core/world/world.h"
 
 #include "core/broad/body_box.h"
+#include "core/narrow/mesh_tree.h"
 
 namespace touchstone {
 namespace {
@@ -16,7 +17,18 @@ std::vector<BodyPair> reported(const Scene& scene, broad::BroadPhase& phase) {
   return kept;
 }
 
-PlacedShape placed(const Scene& s, int i) { return {&s.shape_of(i), body_of(s, i).pose}; }
+// One tree a shape, empty but of meshes.
+std::vector<MeshTree> mesh_trees(const Scene& scene) {
+  std::vector<MeshTree> trees(scene.shapes.size());
+  for (std::size_t i = 0; i < trees.size(); ++i)
+    if (const auto* m = std::get_if<TriangleMesh>(&scene.shapes[i])) trees[i] = build_mesh_tree(*m);
+  return trees;
+}
+
+PlacedShape placed(const Scene& s, int i, const std::vector<MeshTree>& trees) {
+  const MeshTree& tree = trees[static_cast<std::size_t>(body_of(s, i).shape)];
+  return {&s.shape_of(i), body_of(s, i).pose, tree.nodes.empty() ? nullptr : &tree};
+}
 
 }  // namespace
 
@@ -58,9 +70,10 @@ SceneContacts scene_contacts(const Scene& scene, broad::BroadPhase& phase) {
   for (int i = 0; i < static_cast<int>(scene.bodies.size()); ++i)
     phase.insert(i, broad::body_box(scene.shape_of(i), body_of(scene, i).pose));
   SceneContacts r;
+  const auto trees = mesh_trees(scene);
   for (const auto& [a, b] : reported(scene, phase)) {
     ++r.candidates;
-    ContactAnswer c = contact(placed(scene, a), placed(scene, b));
+    ContactAnswer c = contact(placed(scene, a, trees), placed(scene, b, trees));
     if (c.outcome == Outcome::unsupported) {
       ++r.unsupported;
       continue;

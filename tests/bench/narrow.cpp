@@ -1,7 +1,7 @@
 // The narrow phase on pairs near contact, ours and others' in one run: for each pair of shapes and question
 // every contestant in turn, round after round, so that a change of the machine's pace meets all alike.
 //
-//   bench_narrow [--cases 200] [--rounds 15] [--filter box-box] [--task contact] [--no-truth]
+//   bench_narrow [--cases 200] [--rounds 15] [--filter box-box] [--task contact] [--only core] [--no-truth]
 //
 // mean: CPU time of the thread over a whole pass of different cases, least of all rounds. median, p99: over
 // the cases, of the least time that each took in any round, clock subtracted. Error: |gap − truth| / L
@@ -190,7 +190,7 @@ Judged judge(const Row& row, Task task, const std::vector<PairCase>& cases, cons
 
 struct Options {
   int cases = 200, rounds = 15;
-  std::string filter, task;
+  std::string filter, task, only;
   bool truth = true;
 };
 
@@ -198,7 +198,9 @@ void run_cell(const PairKind& kind, Task task, const Options& o, const Clock& cl
   const auto cases = make_cases(kind, task, o.cases, 1);
   std::vector<Row> rows;
   for (const Entrant& e : entrants)
-    if (auto subject = e.make(task, kind, cases))
+    if (!o.only.empty() && e.name != o.only)
+      continue;
+    else if (auto subject = e.make(task, kind, cases))
       rows.push_back({e.name, std::move(subject), std::vector<Found>(cases.size()),
                       std::vector<std::uint64_t>(cases.size(), ~std::uint64_t{0})});
   for (int r = 0; r < o.rounds; ++r)
@@ -234,6 +236,8 @@ bool parse(int argc, char** argv, Options& o) {
       o.rounds = std::max(1, std::atoi(argv[i]));
     else if (key == "--filter")
       o.filter = argv[i];
+    else if (key == "--only")
+      o.only = argv[i];
     else if (key == "--task")
       o.task = argv[i];
     else
@@ -247,7 +251,9 @@ bool parse(int argc, char** argv, Options& o) {
 int main(int argc, char** argv) {
   Options o;
   if (!parse(argc, argv, o)) {
-    fmt::print(stderr, "bench_narrow [--cases N] [--rounds N] [--filter PAIR] [--task TASK] [--no-truth]\n");
+    fmt::print(stderr,
+               "bench_narrow [--cases N] [--rounds N] [--filter PAIR] [--task TASK] [--only NAME] "
+               "[--no-truth]\n");
     return 2;
   }
   const Clock clock;

@@ -1,14 +1,11 @@
 // A convex body as core ⊕ ball for the search algorithms, and its support mapping, in its own frame.
 #pragma once
 
-#if defined(__SSE2__)
-#include <emmintrin.h>
-#endif
-
 #include <span>
 
 #include "core/narrow/convex_core.h"
 #include "core/narrow/fast/query.h"
+#include "core/narrow/fast/vertex_scan.h"
 
 namespace touchstone::narrow::fast {
 
@@ -21,73 +18,6 @@ struct Body {
   R reach = 0;                     // of the core about the body's origin, rounded
   R extent = 0;                    // no more than the body's share of L
 };
-
-/// Index of the first vertex farthest along d.
-inline std::size_t farthest_vertex(std::span<const Vec3> v, const V3<double>& d) {
-  std::size_t best = 0, i = 0;
-  double most = -std::numeric_limits<double>::infinity();
-#if defined(__SSE2__)
-  // Two vertices are three registers: x0 y0 | z0 x1 | y1 z1.
-  const double* p = v.front().data();
-  const __m128d d_xy = _mm_set_pd(d[1], d[0]), d_zx = _mm_set_pd(d[0], d[2]), d_yz = _mm_set_pd(d[2], d[1]);
-  __m128d top = _mm_set1_pd(most), where = _mm_setzero_pd(), at = _mm_set_pd(1, 0);
-  const __m128d two = _mm_set1_pd(2);
-  for (; i + 2 <= v.size(); i += 2, p += 6) {
-    const __m128d xy = _mm_mul_pd(_mm_loadu_pd(p), d_xy), zx = _mm_mul_pd(_mm_loadu_pd(p + 2), d_zx),
-                  yz = _mm_mul_pd(_mm_loadu_pd(p + 4), d_yz);
-    // (x0 + y0) + z0 | (x1 + y1) + z1
-    const __m128d first = _mm_shuffle_pd(xy, zx, 2), second = _mm_shuffle_pd(xy, yz, 1);
-    const __m128d dot = _mm_add_pd(_mm_add_pd(first, second), _mm_shuffle_pd(zx, yz, 2));
-    const __m128d more = _mm_cmpgt_pd(dot, top);
-    top = _mm_max_pd(dot, top);
-    where = _mm_or_pd(_mm_and_pd(more, at), _mm_andnot_pd(more, where));
-    at = _mm_add_pd(at, two);
-  }
-  if (i > 0) {
-    double tops[2], wheres[2];
-    _mm_storeu_pd(tops, top), _mm_storeu_pd(wheres, where);
-    const int k = tops[1] > tops[0] || (tops[1] == tops[0] && wheres[1] < wheres[0]);
-    most = tops[k], best = static_cast<std::size_t>(wheres[k]);
-  }
-#endif
-  for (; i < v.size(); ++i)
-    if (const double dot = (v[i][0] * d[0] + v[i][1] * d[1]) + v[i][2] * d[2]; dot > most)
-      most = dot, best = i;
-  return best;
-}
-
-/// Square of the largest distance from the origin.
-inline double largest_norm_sq(std::span<const Vec3> v) {
-  double most = 0;
-  std::size_t i = 0;
-#if defined(__SSE2__)
-  const double* p = v.front().data();
-  __m128d top = _mm_setzero_pd();
-  for (; i + 2 <= v.size(); i += 2, p += 6) {
-    const __m128d l0 = _mm_loadu_pd(p), l1 = _mm_loadu_pd(p + 2), l2 = _mm_loadu_pd(p + 4);
-    const __m128d xy = _mm_mul_pd(l0, l0), zx = _mm_mul_pd(l1, l1), yz = _mm_mul_pd(l2, l2);
-    const __m128d sum = _mm_add_pd(_mm_shuffle_pd(xy, zx, 2), _mm_shuffle_pd(xy, yz, 1));
-    top = _mm_max_pd(top, _mm_add_pd(sum, _mm_shuffle_pd(zx, yz, 2)));
-  }
-  double tops[2];
-  _mm_storeu_pd(tops, top);
-  most = std::max(tops[0], tops[1]);
-#endif
-  for (; i < v.size(); ++i) most = std::max(most, v[i].squaredNorm());
-  return most;
-}
-
-/// farthest_vertex in float, for vertices rounded to float.
-inline std::size_t farthest_vertex(std::span<const Vec3> v, const V3<float>& d) {
-  std::size_t best = 0;
-  float most = -std::numeric_limits<float>::infinity();
-  for (std::size_t i = 0; i < v.size(); ++i) {
-    const float dot = (static_cast<float>(v[i][0]) * d[0] + static_cast<float>(v[i][1]) * d[1]) +
-                      static_cast<float>(v[i][2]) * d[2];
-    if (dot > most) most = dot, best = i;
-  }
-  return best;
-}
 
 /// A core point farthest along d; d not zero.
 template <class R>

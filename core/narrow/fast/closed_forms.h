@@ -17,6 +17,16 @@ R largest(const V3<R>& v) {
   return std::max(std::max(std::abs(v[0]), std::abs(v[1])), std::abs(v[2]));
 }
 
+/// Whether the verdict alone is certain; sets it if so.
+template <class R>
+bool verdict(Answer<R>& s, R gap, R error) {
+  s.bound = error;
+  const Found found = decide(gap, error);
+  if (found == Found::touching) return false;
+  s.found = found;
+  return true;
+}
+
 /// From core points pa, pb (b − a = dist·n) to the rounded bodies; `scale` as in accuracy().
 template <class R>
 void inflate(Answer<R>& s, R dist, const V3<R>& n, const V3<R>& pa, const V3<R>& pb, R ra, R rb, R error,
@@ -29,28 +39,34 @@ void inflate(Answer<R>& s, R dist, const V3<R>& n, const V3<R>& pa, const V3<R>&
 }  // namespace detail
 
 template <class R>
-void sphere_sphere(const Shape& sa, const Stand<R>& a, const Shape& sb, const Stand<R>& b, Answer<R>& out) {
+void sphere_sphere(const Shape& sa, const Pose& a, const Shape& sb, const Pose& b, Asked asked,
+                   Answer<R>& out) {
   const R ra = static_cast<R>(std::get_if<Sphere>(&sa)->radius),
           rb = static_cast<R>(std::get_if<Sphere>(&sb)->radius);
-  const V3<R> d = b.t - a.t;
-  const R dist = d.norm();
-  detail::inflate<R>(out, dist, dist > 0 ? V3<R>(d / dist) : V3<R>::UnitX(), V3<R>::Zero(), d, ra, rb,
-                     u<R> * (8 * dist + 4 * (ra + rb)), std::max(std::max(ra, rb), dist * R(0.28)));
+  const V3<R> d = b.translation.cast<R>() - a.translation.cast<R>();
+  const R dist = std::sqrt(d.squaredNorm()), error = u<R> * (8 * dist + 4 * (ra + rb));
+  if (asked == Asked::overlap && detail::verdict(out, dist - (ra + rb), error)) return;
+  detail::inflate<R>(out, dist, dist > 0 ? V3<R>(d * (1 / dist)) : V3<R>::UnitX(), V3<R>::Zero(), d, ra, rb,
+                     error, std::max(std::max(ra, rb), dist * R(0.28)));
 }
 
 template <class R>
-void sphere_box(const Shape& sa, const Stand<R>& a, const Shape& sb, const Stand<R>& b, Answer<R>& out) {
+void sphere_box(const Shape& sa, const Pose& pa, const Shape& sb, const Pose& pb, Asked asked,
+                Answer<R>& out) {
   const R r = static_cast<R>(std::get_if<Sphere>(&sa)->radius);
-  const V3<R> h = std::get_if<Box>(&sb)->half_extents.template cast<R>(), d = b.t - a.t;
+  const Stand<R> b = stand<R>(pb);
+  const V3<R> h = std::get_if<Box>(&sb)->half_extents.template cast<R>(), d = b.t - pa.translation.cast<R>();
   const M3<R> m = matrix(b);
   V3<R> p;
   for (int k = 0; k < 3; ++k) p[k] = -(m(0, k) * d[0] + m(1, k) * d[1] + m(2, k) * d[2]);
   const V3<R> q = p.cwiseMax(-h).cwiseMin(h), v = q - p;
-  const R far = d.norm(), error = u<R> * (24 * far + 4 * r + 2 * detail::largest(h));
-  const R dist = v.norm();
+  // The 1-norm stands above the length, and costs no root.
+  const R far = d.template lpNorm<1>(), error = u<R> * (24 * far + 4 * r + 2 * detail::largest(h));
+  const R dist = std::sqrt(v.squaredNorm());
+  if (asked == Asked::overlap && detail::verdict(out, dist - r, error)) return;
   if (dist > 0)
-    return detail::inflate<R>(out, dist, m * (v / dist), V3<R>::Zero(), m * q + d, r, R(0), error,
-                              std::max(std::max(r, detail::largest(h)), far * R(0.28)));
+    return detail::inflate<R>(out, dist, m * (v * (1 / dist)), V3<R>::Zero(), m * q + d, r, R(0), error,
+                              std::max(std::max(r, detail::largest(h)), detail::largest(d) / 2));
   int axis = 0;
   const R depth = (h - p.cwiseAbs()).minCoeff(&axis);
   const V3<R> n = m.col(axis) * (p[axis] < 0 ? R(1) : R(-1));
@@ -59,20 +75,23 @@ void sphere_box(const Shape& sa, const Stand<R>& a, const Shape& sb, const Stand
 }
 
 template <class R>
-void sphere_capsule(const Shape& sa, const Stand<R>& a, const Shape& sb, const Stand<R>& b, Answer<R>& out) {
+void sphere_capsule(const Shape& sa, const Pose& pa, const Shape& sb, const Pose& pb, Asked asked,
+                    Answer<R>& out) {
   const auto& capsule = *std::get_if<Capsule>(&sb);
   const R ra = static_cast<R>(std::get_if<Sphere>(&sa)->radius), rb = static_cast<R>(capsule.radius);
   const R h = static_cast<R>(capsule.half_height);
-  const V3<R> axis = axis_z(b), d = b.t - a.t;
+  const Stand<R> b = stand<R>(pb);
+  const V3<R> axis = axis_z(b), d = b.t - pa.translation.cast<R>();
   const R along = -d.dot(axis), s = std::clamp(along, -h, h);
   const V3<R> q = d + s * axis;
   V3<R> v = q;
   if (std::abs(along) < h) v -= axis * axis.dot(v), v -= axis * axis.dot(v);
-  const R dist = v.norm();
-  const V3<R> n = dist > 0 ? V3<R>(v / dist) : V3<R>(axis.unitOrthogonal());
+  const R dist = std::sqrt(v.squaredNorm()),
+          error = u<R> * (16 * d.template lpNorm<1>() + 24 * h + 4 * (ra + rb));
+  const V3<R> n = dist > 0 ? V3<R>(v * (1 / dist)) : V3<R>(axis.unitOrthogonal());
   const R shortfall = std::max<R>(0, dist - (n.dot(d) - std::abs(n.dot(axis)) * h));
-  detail::inflate<R>(out, dist, n, V3<R>::Zero(), q, ra, rb,
-                     shortfall + u<R> * (16 * d.norm() + 24 * h + 4 * (ra + rb)),
+  if (asked == Asked::overlap && detail::verdict(out, dist - (ra + rb), error + shortfall)) return;
+  detail::inflate<R>(out, dist, n, V3<R>::Zero(), q, ra, rb, shortfall + error,
                      std::max(std::max(ra, rb + h), detail::largest(d) / 2));
 }
 
@@ -110,11 +129,12 @@ SegmentFeet<R> segment_feet(const SegmentPair<R>& p) {
   const V3<R> n = p.axis_a.cross(p.axis_b);
   const R nn = n.squaredNorm();
   if (nn > 64 * u<R> * u<R>) {
-    const R s = p.d.cross(p.axis_b).dot(n) / nn, t = p.d.cross(p.axis_a).dot(n) / nn;
+    const R inverse = 1 / nn, s = p.d.cross(p.axis_b).dot(n) * inverse,
+            t = p.d.cross(p.axis_a).dot(n) * inverse;
     if (std::abs(s) <= p.ha && std::abs(t) <= p.hb) {
-      const R along = p.d.dot(n), length = std::sqrt(nn);
-      best.s = s, best.t = t, best.dist = std::abs(along) / length;
-      best.normal = n * ((along < 0 ? -1 : 1) / length);
+      const R along = p.d.dot(n), scale = std::sqrt(inverse);
+      best.s = s, best.t = t, best.dist = std::abs(along) * scale;
+      best.normal = n * std::copysign(scale, along);
       return best;
     }
   }
@@ -129,17 +149,20 @@ SegmentFeet<R> segment_feet(const SegmentPair<R>& p) {
 }  // namespace detail
 
 template <class R>
-void capsule_capsule(const Shape& sa, const Stand<R>& a, const Shape& sb, const Stand<R>& b, Answer<R>& out) {
+void capsule_capsule(const Shape& sa, const Pose& pa, const Shape& sb, const Pose& pb, Asked asked,
+                     Answer<R>& out) {
   const auto &ca = *std::get_if<Capsule>(&sa), &cb = *std::get_if<Capsule>(&sb);
+  const Stand<R> a = stand<R>(pa), b = stand<R>(pb);
   const detail::SegmentPair<R> p{axis_z(a), axis_z(b), b.t - a.t, static_cast<R>(ca.half_height),
                                  static_cast<R>(cb.half_height)};
   const R ra = static_cast<R>(ca.radius), rb = static_cast<R>(cb.radius);
   const detail::SegmentFeet<R> f = detail::segment_feet(p);
   const V3<R>& n = f.normal;
   const R lower = n.dot(p.d) - std::abs(n.dot(p.axis_a)) * p.ha - std::abs(n.dot(p.axis_b)) * p.hb;
-  const R error = u<R> * (8 * p.d.norm() + 24 * (p.ha + p.hb) + 4 * (ra + rb));
-  detail::inflate<R>(out, f.dist, n, f.s * p.axis_a, p.d + f.t * p.axis_b, ra, rb,
-                     std::max<R>(0, f.dist - lower) + error,
+  const R error = std::max<R>(0, f.dist - lower) +
+                  u<R> * (8 * p.d.template lpNorm<1>() + 24 * (p.ha + p.hb) + 4 * (ra + rb));
+  if (asked == Asked::overlap && detail::verdict(out, f.dist - (ra + rb), error)) return;
+  detail::inflate<R>(out, f.dist, n, f.s * p.axis_a, p.d + f.t * p.axis_b, ra, rb, error,
                      std::max(std::max(ra + p.ha, rb + p.hb), detail::largest(p.d) / 2));
 }
 

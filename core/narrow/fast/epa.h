@@ -34,7 +34,12 @@ class Expander {
   static constexpr int patience = 64;
 
   Expander(const Difference<R>& d, R size, R tolerance)
-      : d_(d), tolerance_(tolerance), level_(4 * u<R> * size), thin_(64 * u<R> * size) {}
+      : d_(d),
+        size_(size),
+        tolerance_(tolerance),
+        level_(4 * u<R> * size),
+        thin_(64 * u<R> * size),
+        next_try_(is_curved(d.a) || is_curved(d.b) ? 4 : vertex_capacity + 1) {}
 
   Depth<R> run(const Simplex<R>& start, bool encloses) {
     for (int i = 0; i < start.size; ++i) set_vertex(i, start.p[static_cast<std::size_t>(i)]);
@@ -42,9 +47,14 @@ class Expander {
     if (!complete(encloses)) return result_.end = ExpandEnd::flat, result_;
     if (!build()) return result_;
     for (;;) {
-      const int f = nearest();
+      int f = nearest();
+      if (f >= 0 && vertices_ >= next_try_) {
+        next_try_ += try_step_, try_step_ *= settled_.found ? 2 : 1;
+        if (settle(f)) f = nearest();
+      }
+      if (settled_.found && (f < 0 || rank_[f] >= settled_.lower)) return finish_settled();
       if (f < 0) return finish(ExpandEnd::broken, -1);
-      result_.lower = key_[f];
+      result_.lower = rank_[f];
       if (result_.upper - result_.lower <= tolerance_) return finish(ExpandEnd::closed, f);
       const Vertex<R> s = probe(facet_[f].n);
       const R height = facet_[f].n.dot(s.w);
@@ -78,6 +88,49 @@ class Expander {
 
   const V3<R>& w(int i) const { return w_[i]; }
   void set_vertex(int i, const Vertex<R>& v) { w_[i] = v.w, a_[i] = v.a; }
+
+  // ---- a local minimum, and the cap of directions in which it is proven to be the least.
+  //
+  // The polytope need not say anything about the cap. Dual: the polar of the polytope, with vertices n/key,
+  // must not leave the ball of radius 1/L outside of the cap. A point of it that does lies between the ball
+  // and the hull of the vertices that do; if those are within half the cap's angle θ of its axis and no
+  // farther out than 1/(L cos(θ/2)), it is within θ of the axis.
+
+  // True: ranks have changed.
+  bool settle(int f) {
+    const Foot<R> foot = foot_of(f);
+    std::array<Vertex<R>, 3> facet;
+    std::array<R, 3> weight{};
+    for (std::size_t k = 0; k < 3; ++k) {
+      const short v = facet_[f].v[k];
+      facet[k] = {w_[v], a_[v]};
+    }
+    for (std::size_t k = 0; k < static_cast<std::size_t>(foot.size); ++k)
+      weight[static_cast<std::size_t>(foot.corner[k])] = foot.weight[k];
+    LocalMinimum<R> at(d_, size_);
+    const LocalDepth<R> found = at.find(facet, weight, facet_[f].n) ? at.certify() : LocalDepth<R>{};
+    if (!found.found || !(found.tangent > 0) || !(found.upper <= result_.upper + level_) ||
+        !(found.upper - found.lower <= tolerance_))
+      return false;
+    if (settled_.found && !(found.tangent > settled_.tangent || found.upper < settled_.lower)) return false;
+    settled_ = found;
+    cap_cosine_ = found.global ? R(-1) : 1 / std::sqrt(1 + found.tangent * found.tangent);
+    for (int i = 0; i < facets_; ++i) rank_[i] = rank(facet_[i].n, key_[i]);
+    return true;
+  }
+
+  R rank(const V3<R>& n, R key) const {
+    const bool in_cap =
+        settled_.found && n.dot(settled_.outward) >= cap_cosine_ && key >= settled_.lower * cap_cosine_;
+    return in_cap ? infinite : key;
+  }
+
+  Depth<R> finish_settled() {
+    result_.end = ExpandEnd::closed, result_.vertices = vertices_;
+    result_.upper = settled_.upper, result_.lower = settled_.lower, result_.outward = settled_.outward;
+    result_.a = settled_.a, result_.w = settled_.w;
+    return result_;
+  }
 
   // ---- start: a tetrahedron with height.
 
@@ -162,14 +215,19 @@ class Expander {
     Facet& f = facet_[facets_];
     f.v = v, f.adjacent = adjacent, f.stamp = 0;
     R stretch;
-    return measure(w(v[0]), w(v[1]), w(v[2]), f.n, key_[facets_++], stretch);
+    const bool good = measure(w(v[0]), w(v[1]), w(v[2]), f.n, key_[facets_], stretch);
+    rank_[facets_] = key_[facets_], ++facets_;
+    return good;
   }
 
-  int nearest() const {
+  int nearest() {
     int best = -1;
     R least = infinite;
-    for (int i = 0; i < facets_; ++i)
-      if (key_[i] < least) least = key_[i], best = i;
+    floor_ = infinite;
+    for (int i = 0; i < facets_; ++i) {
+      floor_ = std::min(floor_, key_[i]);
+      if (rank_[i] < least) least = rank_[i], best = i;
+    }
     return best;
   }
 
@@ -204,7 +262,7 @@ class Expander {
   bool bad(Edge& e, const V3<R>& p) const {
     R stretch;
     return !measure(w(e.from), w(e.to), p, e.n, e.key, stretch) ||
-           e.key < result_.lower - level_ * (4 + 4 * stretch);
+           e.key < floor_ - level_ * (4 + 4 * stretch);
   }
 
   // One loop, in order; false: pinched or several loops.
@@ -241,7 +299,8 @@ class Expander {
 
   ExpandEnd fan(const Vertex<R>& s) {
     // Rows of dead facets are used again.
-    for (int i = 0; i < regions_; ++i) key_[region_[i]] = infinite, free_[frees_++] = region_[i];
+    for (int i = 0; i < regions_; ++i)
+      key_[region_[i]] = rank_[region_[i]] = infinite, free_[frees_++] = region_[i];
     const short apex = static_cast<short>(vertices_);
     set_vertex(vertices_++, s);
     for (int i = 0; i < edges_; ++i) slot_[i] = frees_ > 0 ? free_[--frees_] : fresh();
@@ -249,7 +308,8 @@ class Expander {
       if (slot_[i] < 0) return ExpandEnd::full;
       const Edge& e = edge_[i];
       Facet& f = facet_[slot_[i]];
-      f.v = {e.from, e.to, apex}, f.stamp = 0, f.n = e.n, key_[slot_[i]] = e.key;
+      f.v = {e.from, e.to, apex}, f.stamp = 0, f.n = e.n;
+      key_[slot_[i]] = e.key, rank_[slot_[i]] = rank(e.n, e.key);
       f.adjacent = {e.behind, slot_[(i + 1) % edges_], slot_[(i + edges_ - 1) % edges_]};
       Facet& behind = facet_[e.behind];
       for (std::size_t k = 0; k < 3; ++k)
@@ -291,12 +351,15 @@ class Expander {
   }
 
   const Difference<R>& d_;
-  R tolerance_, level_, thin_;
+  R size_, tolerance_, level_, thin_, floor_ = 0;
+  int next_try_, try_step_ = 2;
+  LocalDepth<R> settled_;
+  R cap_cosine_ = 1;
   Depth<R> result_;
   int vertices_ = 0, facets_ = 0, regions_ = 0, edges_ = 0, frees_ = 0, stamp_ = 0;
   V3<R> w_[vertex_capacity + 1], a_[vertex_capacity + 1];
   Facet facet_[facet_capacity];
-  R key_[facet_capacity];
+  R key_[facet_capacity], rank_[facet_capacity];  // rank: key, or infinite where nothing is left to prove
   short region_[facet_capacity], free_[facet_capacity], slot_[3 * facet_capacity];
   Edge edge_[3 * facet_capacity];
 };

@@ -4,23 +4,9 @@
 // tetrahedron of support points around the origin, farther from its planes than rounding, is overlap.
 #pragma once
 
-#include "core/narrow/fast/body.h"
-#include "core/narrow/fast/simplex.h"
+#include "core/narrow/fast/local_depth.h"
 
 namespace touchstone::narrow::fast {
-
-template <class R>
-struct Difference {
-  const Body<R>&a, &b;
-  const Relative<R>& at;
-  /// A point of B − A farthest along d.
-  Vertex<R> support(const V3<R>& d) const {
-    Vertex<R> s;
-    s.a = support_local<R>(a, -d);
-    s.w = at.b_to_a * support_local<R>(b, at.b_to_a.transpose() * d) + at.offset - s.a;
-    return s;
-  }
-};
 
 /// Newton's step for the direction n (unit, A to B) whose support point w is parallel to it, as that of the
 /// nearest point is: (H + g) dn = w − g n with H the derivative of the support point, g = n·w. Where a body
@@ -69,9 +55,29 @@ void prefer_own_direction(const Difference<R>& d, Walk<R>& g, const V3<R>& v, R 
   if (g.upper - lower <= tolerance) g.lower = lower, g.normal = n;
 }
 
-/// `certain`: a lower bound that ends the walk when only the verdict is asked; infinite otherwise.
+/// Features guessed from the simplex and their own nearest points: a curved pair is done when they are right.
 template <class R>
-Walk<R> walk(const Difference<R>& d, R tolerance, R certain, R touching) {
+bool settle(const Difference<R>& d, Walk<R>& g, R size, R tolerance) {
+  std::array<Vertex<R>, 3> facet;
+  std::array<R, 3> weight{};
+  for (std::size_t k = 0; k < 3; ++k) {
+    const bool own = static_cast<int>(k) < g.simplex.size;
+    facet[k] = g.simplex.p[own ? k : 0], weight[k] = own ? g.simplex.weight[k] : R(0);
+  }
+  LocalMinimum<R> at(d, size);
+  if (!at.find(facet, weight, -g.normal)) return false;
+  const R length = at.point().norm();
+  if (!(length + at.height() <= tolerance)) return false;
+  g.simplex.size = 1, g.simplex.weight[0] = 1, g.simplex.p[0] = {at.point(), at.on_a()};
+  g.upper = length, g.lower = -at.height(), g.normal = -at.outward(), g.end = WalkEnd::bounded;
+  return true;
+}
+
+/// `certain`: a lower bound that ends the walk when only the verdict is asked; infinite otherwise. `size`: of
+/// the pair, what rounding is relative to.
+template <class R>
+Walk<R> walk(const Difference<R>& d, R tolerance, R certain, R size) {
+  const R touching = 4 * u<R> * size;
   Walk<R> g;
   V3<R> v = d.at.offset;
   R dist_sq = v.squaredNorm(), length = std::sqrt(dist_sq);
@@ -82,6 +88,9 @@ Walk<R> walk(const Difference<R>& d, R tolerance, R certain, R touching) {
   V3<R> best_w = V3<R>::Zero();  // support point of the best lower bound
   for (g.iterations = 1; g.iterations <= walk_cap; ++g.iterations) {
     V3<R> n = v / length;
+    if (curved && certain > size && g.iterations % 3 == 2 && g.iterations > 4 && g.lower > 0 &&
+        settle(d, g, size, tolerance))
+      return g;
     if (curved && g.iterations > walk_help && g.iterations % 2 == 0 && g.lower > 0) {
       const V3<R> step = newton_direction(d, g.normal, best_w);
       const R size = step.norm();

@@ -32,7 +32,7 @@ struct Stand {
 };
 
 template <class R>
-Stand<R> stand(const Pose& p) {
+inline Stand<R> stand(const Pose& p) {
   const Quat& q = p.rotation;
   const double n = q.x * q.x + q.y * q.y + q.z * q.z + q.w * q.w;
   const Quat s = n > 0x1p-40 && n < 0x1p40 ? q : normalized(q);
@@ -93,6 +93,7 @@ enum class Found {
 template <class R>
 struct Answer {
   Found found = Found::unsure;
+  bool valued = false;  // searches: gap, normal and points are set
   R gap = 0;
   V3<R> normal, a, b;  // set when a value was asked and is known
   /// |gap − truth|; for a depth also: its excess over the least depth, and what is missing along `normal`.

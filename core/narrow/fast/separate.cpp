@@ -2,6 +2,7 @@
 
 #include "core/narrow/fast/box_box.h"
 #include "core/narrow/fast/epa.h"
+#include "core/narrow/fast/revolved.h"
 
 namespace touchstone::narrow::fast {
 namespace {
@@ -58,8 +59,8 @@ void from_walk(const Walk<R>& g, R error, Answer<R>& r, PairScene<R>& s) {
   s.middle = (r.a + r.b) / 2, s.has_middle = true;
 }
 
-template <class R>
-void from_depth(const Depth<R>& e, R error, Answer<R>& r, PairScene<R>& s) {
+template <class R, class D>
+void from_depth(const D& e, R error, Answer<R>& r, PairScene<R>& s) {
   s.normal = r.normal = -e.outward;
   r.gap = -e.upper - s.a.radius - s.b.radius;
   r.a = e.a + s.a.radius * r.normal, r.b = e.a + e.w - s.b.radius * r.normal;
@@ -70,34 +71,47 @@ void from_depth(const Depth<R>& e, R error, Answer<R>& r, PairScene<R>& s) {
 }  // namespace
 
 template <class R>
-void convex_pair(const PlacedShape& pa, const PlacedShape& pb, Asked asked, Answer<R>& r, PairScene<R>& s) {
-  const Stand<R> a = stand<R>(pa.pose), b = stand<R>(pb.pose);
-  prepare(*pa.shape, a, *pb.shape, b, s), s.contact = ContactForm::cores;
+void separate_cores(const Stand<R>& a, const Stand<R>& b, Asked asked, R enough, Answer<R>& r,
+                    PairScene<R>& s) {
   const Difference<R> d{s.a, s.b, s.at};
   const R error = displacement(s), radii = s.a.radius + s.b.radius;
   const R size = s.a.reach + s.b.reach + s.at.offset.norm();
   const R tolerance = accuracy(local_scale(s)) / 8;
-  const R certain = asked == Asked::distance ? std::numeric_limits<R>::infinity() : error + radii;
-  const Walk<R> g = walk<R>(d, tolerance, certain, 4 * u<R> * size);
+  const R certain = error + radii + (asked == Asked::distance ? std::max<R>(0, enough) : R(0));
+  const Walk<R> g = walk<R>(d, tolerance, certain, size);
   r.bound = error;
   if (g.lower > certain) {
     r.found = Found::apart;
     return;
   }
-  const bool inside = g.end == WalkEnd::enclosed && g.margin + radii > error;
+  // A tetrahedron without room for the origin proves nothing, whatever the radii: it may be a sliver of
+  // noise.
+  const bool inside = g.end == WalkEnd::enclosed && (g.margin > error || (g.margin > 0 && radii > error));
   if (asked == Asked::overlap && (g.upper < radii - error || inside)) {
     r.found = Found::meeting;
     return;
   }
+  r.valued = true;
   if (g.end == WalkEnd::enclosed || g.end == WalkEnd::touching) {
-    Expander<R> polytope(d, size, tolerance);
-    const Depth<R> e = polytope.run(g.simplex, g.end == WalkEnd::enclosed);
-    if (e.end == ExpandEnd::flat) return;
-    from_depth(e, error, r, s);
+    if (const Revolved<R> e(d, size); e.found) {
+      from_depth(e, error, r, s);
+    } else {
+      Expander<R> polytope(d, size, tolerance);
+      const Depth<R> depth = polytope.run(g.simplex, g.end == WalkEnd::enclosed);
+      if (depth.end == ExpandEnd::flat) return;
+      from_depth(depth, error, r, s);
+    }
   } else {
     from_walk(g, error, r, s);
   }
   to_world(r, s, scale(s.a, s.b, a, b), asked);
+}
+
+template <class R>
+void convex_pair(const PlacedShape& pa, const PlacedShape& pb, Asked asked, Answer<R>& r, PairScene<R>& s) {
+  const Stand<R> a = stand<R>(pa.pose), b = stand<R>(pb.pose);
+  prepare(*pa.shape, a, *pb.shape, b, s), s.contact = ContactForm::cores;
+  separate_cores(a, b, asked, std::numeric_limits<R>::infinity(), r, s);
 }
 
 namespace {
@@ -171,6 +185,7 @@ void convex_half_space(const PlacedShape& pa, const PlacedShape& pb, Asked asked
 
 #define TS_INSTANTIATE(R)                                                                              \
   template void convex_pair(const PlacedShape&, const PlacedShape&, Asked, Answer<R>&, PairScene<R>&); \
+  template void separate_cores(const Stand<R>&, const Stand<R>&, Asked, R, Answer<R>&, PairScene<R>&); \
   template void box_box(const PlacedShape&, const PlacedShape&, Asked, Answer<R>&, PairScene<R>&);     \
   template void convex_half_space(const PlacedShape&, const PlacedShape&, Asked, Answer<R>&, PairScene<R>&);
 TS_INSTANTIATE(double)

@@ -32,6 +32,17 @@ template <class R>
 void convex_pair(const PlacedShape& a, const PlacedShape& b, Asked asked, Answer<R>& out,
                  PairScene<R>& scene);
 
+/// The same of bodies and frames that are set in `scene`. A distance beyond `enough` is `apart` without a
+/// value.
+template <class R>
+void separate_cores(const Stand<R>& a, const Stand<R>& b, Asked asked, R enough, Answer<R>& out,
+                    PairScene<R>& scene);
+
+/// A bounded convex A and a mesh B, in double.
+template <class R>
+void convex_mesh(const PlacedShape& a, const PlacedShape& b, Asked asked, Answer<R>& out,
+                 PairScene<R>& scene);
+
 template <class R>
 void box_box(const PlacedShape& a, const PlacedShape& b, Asked asked, Answer<R>& out, PairScene<R>& scene);
 
@@ -41,11 +52,11 @@ void convex_half_space(const PlacedShape& a, const PlacedShape& b, Asked asked, 
                        PairScene<R>& scene);
 
 /// A closed form of closed_forms.h as a row of the table.
-template <class R, void (*form)(const Shape&, const Stand<R>&, const Shape&, const Stand<R>&, Answer<R>&),
+template <class R, void (*form)(const Shape&, const Pose&, const Shape&, const Pose&, Asked, Answer<R>&),
           ContactForm contact = ContactForm::point>
-void closed(const PlacedShape& a, const PlacedShape& b, Asked, Answer<R>& out, PairScene<R>& scene) {
+void closed(const PlacedShape& a, const PlacedShape& b, Asked asked, Answer<R>& out, PairScene<R>& scene) {
   scene.contact = contact;
-  form(*a.shape, stand<R>(a.pose), *b.shape, stand<R>(b.pose), out);
+  form(*a.shape, a.pose, *b.shape, b.pose, asked, out);
 }
 
 /// Bodies and frames of two shapes, for contact_patch after a closed form.

@@ -91,26 +91,32 @@ void take_triangle(const Simplex<R>& s, int i, int j, int k, Foot<R>& best) {
 }
 
 /// Faces of the tetrahedron with the origin outside; none: enclosed, `margin` is the least distance to a
-/// plane, less what rounding of the normal may feign.
+/// plane, less what rounding of the normal may feign. The face that the newest corner, the last, has left
+/// behind comes last.
 template <class R>
 bool take_tetrahedron(const Simplex<R>& s, Foot<R>& best, R& margin) {
-  static constexpr int faces[4][4] = {{0, 1, 3, 2}, {1, 2, 3, 0}, {2, 0, 3, 1}, {0, 2, 1, 3}};
+  static constexpr int faces[4][4] = {{1, 2, 3, 0}, {2, 0, 3, 1}, {0, 1, 3, 2}, {0, 2, 1, 3}};
   bool enclosed = true;
   margin = std::numeric_limits<R>::infinity();
-  for (const auto& f : faces) {
+  for (int i = 0; i < 4; ++i) {
+    const int* f = faces[i];
     const auto w = [&](int k) -> const V3<R>& { return s.p[static_cast<std::size_t>(f[k])].w; };
-    const V3<R> e1 = w(1) - w(0), e2 = w(2) - w(0), n = e1.cross(e2);
-    const R apex = n.dot(w(3) - w(0)), origin = -n.dot(w(0));
-    if (!(apex * origin > 0)) {
-      enclosed = false;
-      take_triangle(s, f[0], f[1], f[2], best);
-    } else if (enclosed) {
-      const R length = n.norm();
-      const R feigned =
-          8 * u<R> * e1.template lpNorm<1>() * e2.template lpNorm<1>() * w(0).template lpNorm<1>();
-      margin = std::min(margin, (std::abs(origin) - feigned) / length);
+    const V3<R> e1 = w(1) - w(0), e2 = w(2) - w(0), e3 = w(3) - w(0), n = e1.cross(e2);
+    const R apex = n.dot(e3), origin = -n.dot(w(0));
+    bool outside = !(apex * origin > 0);
+    if (!outside) {
+      const R feigned = 8 * u<R> * e1.template lpNorm<1>() * e2.template lpNorm<1>() *
+                        std::max(w(0).template lpNorm<1>(), e3.template lpNorm<1>());
+      // A sliver's sign is noise, but then the origin lies farther from the plane than the apex does.
+      outside = std::abs(origin) > std::abs(apex) + feigned;
+      margin = std::min(margin, (std::abs(origin) - feigned) / n.norm());
     }
+    if (!outside) continue;
+    enclosed = false;
+    take_triangle(s, f[0], f[1], f[2], best);
   }
+  // No face was taken that rounding did not take back.
+  if (!enclosed && best.size == 0) take_triangle(s, 0, 2, 1, best);
   return enclosed;
 }
 

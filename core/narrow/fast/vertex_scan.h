@@ -1,0 +1,21 @@
+// Support mapping of many vertices by looking at all of them, as many at once as the processor compares.
+// The same vertex on every processor: products and sums in one order, the first of equal ones.
+#pragma once
+
+#include <cstddef>
+#include <span>
+
+#include "core/math/wide.h"
+
+namespace touchstone::narrow::fast {
+
+/// Index of the first vertex farthest along d. v not empty.
+std::size_t farthest_vertex(std::span<const Vec3> v, const V3<double>& d);
+
+/// The same in float, for vertices rounded to float.
+std::size_t farthest_vertex(std::span<const Vec3> v, const V3<float>& d);
+
+/// Square of the largest distance from the origin.
+double largest_norm_sq(std::span<const Vec3> v);
+
+}  // namespace touchstone::narrow::fast

@@ -1,0 +1,122 @@
+// A convex body against a mesh: with a tree as without, triangle by triangle as the referee judges it.
+#include "core/narrow/mesh_tree.h"
+#include "core/narrow/pair_table.h"
+#include "core/tolerance.h"
+#include "oracles/referee/referee.h"
+#include "tests/core/random_pair.h"
+#include "tests/support/catch.h"
+#include "tests/support/plain_shape.h"
+
+using namespace touchstone;
+using namespace touchstone::test;
+
+namespace {
+
+// A hilly field of 2·n² triangles over [−3, 3]².
+TriangleMesh field(Rng& r, int n) {
+  TriangleMesh m;
+  const double step = 6.0 / n;
+  for (int y = 0; y <= n; ++y)
+    for (int x = 0; x <= n; ++x) m.vertices.push_back({x * step - 3, y * step - 3, r.uniform(-0.3, 0.3)});
+  for (int y = 0; y < n; ++y)
+    for (int x = 0; x < n; ++x) {
+      const int k = y * (n + 1) + x;
+      m.triangles.push_back({k, k + 1, k + n + 1}), m.triangles.push_back({k + 1, k + n + 2, k + n + 1});
+    }
+  return m;
+}
+
+Shape body(Rng& r, int kind) {
+  return plain_shape(r, static_cast<ShapeKind>(kind), [](Rng& q, auto&& size) {
+    std::vector<Vec3> v;
+    for (int i = 0; i < 12; ++i) v.push_back(q.unit_vector() * size());
+    return make_hull(std::move(v));
+  });
+}
+
+struct MeshCase {
+  Shape a, mesh;
+  Pose pose_a, pose_mesh;
+};
+
+MeshCase mesh_case(int i, int kind, int n) {
+  Rng r = Rng::stream(91, static_cast<std::uint64_t>(i * 7 + kind));
+  MeshCase c{body(r, kind), field(r, n), {}, {}};
+  c.pose_a.rotation = r.rotation(), c.pose_mesh.rotation = r.rotation();
+  c.pose_mesh.translation = r.unit_vector() * 5;
+  const Vec3 local(r.uniform(-2.5, 2.5), r.uniform(-2.5, 2.5), r.uniform(-2, 2));
+  c.pose_a.translation = rotation_matrix(c.pose_mesh.rotation) * local + c.pose_mesh.translation;
+  return c;
+}
+
+}  // namespace
+
+TEST_CASE("a mesh tree holds every triangle once, inside its boxes", "[narrow][mesh]") {
+  for (const int n : {0, 1, 2, 7}) {
+    Rng r = Rng::stream(90, static_cast<std::uint64_t>(n));
+    const TriangleMesh m = field(r, n);
+    const MeshTree tree = build_mesh_tree(m);
+    std::vector<int> seen(m.triangles.size(), 0);
+    for (const MeshTree::Node& node : tree.nodes)
+      for (std::int32_t i = node.first; i < node.first + node.count; ++i) {
+        const auto t = static_cast<std::size_t>(tree.order[static_cast<std::size_t>(i)]);
+        ++seen[t];
+        for (const int k : m.triangles[t]) {
+          const Vec3& v = m.vertices[static_cast<std::size_t>(k)];
+          CHECK(((v.array() >= node.lo.array()) && (v.array() <= node.hi.array())).all());
+        }
+      }
+    for (const int s : seen) CHECK(s == 1);
+  }
+}
+
+TEST_CASE("a body against a mesh: the same with a tree, and what the referee says", "[narrow][mesh]") {
+  long overlaps = 0, cases = 0, fast = 0;
+  for (int i = 0; i < 8; ++i)
+    for (int kind = 0; kind < 7; ++kind) {
+      const MeshCase c = mesh_case(i, kind, i < 4 ? 3 : 6);
+      INFO(type_name(c.a) << " round " << i);
+      const auto& mesh = std::get<TriangleMesh>(c.mesh);
+      const MeshTree tree = build_mesh_tree(mesh);
+      const PlacedShape a{&c.a, c.pose_a}, plain{&c.mesh, c.pose_mesh}, b{&c.mesh, c.pose_mesh, &tree};
+      Scene scene;
+      scene.shapes = {c.a, c.mesh};
+      scene.bodies.resize(2);
+      scene.bodies[0].shape = 0, scene.bodies[0].pose = c.pose_a;
+      scene.bodies[1].shape = 1, scene.bodies[1].pose = c.pose_mesh;
+      const double tau = tolerance::core_tau_factor * 0x1p-53 * scale_of_pair(scene, 0, 1);
+      narrow::FastAnswer<double> f;
+      narrow::separate_fast<double>(a, b, narrow::fast::Asked::distance, f);
+      fast += f.answer.found != narrow::fast::Found::unsure;
+
+      // Truth of the surface: the least of the triangles', each a hull of three vertices.
+      double lo = std::numeric_limits<double>::infinity(), hi = lo;
+      for (const auto& t : mesh.triangles) {
+        std::vector<Vec3> v;
+        for (const int k : t) v.push_back(mesh.vertices[static_cast<std::size_t>(k)]);
+        const Shape triangle = make_hull(std::move(v));
+        const auto truth = referee::judge_pair({&c.a, c.pose_a}, {&triangle, c.pose_mesh});
+        lo = std::min(lo, truth.gap.lo), hi = std::min(hi, truth.gap.hi);
+      }
+      ++cases, overlaps += hi < 0;
+      for (const PlacedShape& m : {plain, b}) {
+        const DistanceAnswer d = distance(a, m);
+        REQUIRE(d.outcome == Outcome::answered);
+        CHECK(d.distance >= lo - tau);
+        CHECK(d.distance <= hi + tau);
+        CHECK(std::abs((d.witness[1] - d.witness[0]).norm() - std::abs(d.distance)) <= tau);
+        if (lo > tau || hi < -tau) CHECK(overlap(a, m).overlap == (hi < 0));
+        const ContactAnswer k = contact(m, a);
+        if (lo > tau || hi < -tau) CHECK(k.overlap == (hi < 0));
+        if (!k.overlap) continue;
+        CHECK(k.depth >= -hi - tau);
+        CHECK(k.depth <= -lo + tau);
+        REQUIRE(k.manifold.size() == 1);
+        CHECK(referee::distance_to({&c.a, c.pose_a}, k.manifold[0].position).lo <= k.depth + tau);
+      }
+    }
+  WARN(cases << " cases, " << overlaps << " overlap, " << fast << " without extended precision");
+  CHECK(overlaps * 10 > cases * 3);
+  CHECK(overlaps * 10 < cases * 7);
+  CHECK(fast * 10 > cases * 9);
+}
