@@ -200,3 +200,19 @@ TEST_CASE("an interrupted campaign keeps what it has and goes on", "[cli]") {
   INFO(on.out << on.err);
   CHECK(on.code == 0);
 }
+
+TEST_CASE("a lying engine behind the C ABI is found by fuzz", "[cli]") {
+  const Workspace w;
+  const std::string plugin = TS_BINARY_DIR "/lib/libtouchstone_mutants.so:";
+  // One of each question.
+  for (const std::string name :
+       {"boxes_one_ulp_small", "overlap_in_float", "distance_absolute", "normal_second_best",
+        "impact_grazing_lost", "contact_depths_shifted", "refuses_flat_hulls"}) {
+    const std::string engine = plugin + name;
+    INFO(name);
+    const Run r =
+        w.touchstone("fuzz --cases 96 --subject " + engine + " --engines " + engine + " --out " + name);
+    CHECK(r.code == 1);
+    CHECK(r.out.find(name + ": WRONG in ") != std::string::npos);
+  }
+}

@@ -127,7 +127,7 @@ void stops_at_y(const Scene& s, const QueryState& q, std::vector<BodyPair>& pair
 
 std::vector<Mutant> broad_box_lies() {
   return {
-      {"boxes_to_nearest", "missed", "tiles", "boxes rounded to nearest instead of outward",
+      {"boxes_to_nearest", "missed", "errands", "boxes rounded to nearest instead of outward",
        keep_overlapping(box_of)},
       {"boxes_one_ulp_small", "missed", "tiles", "boxes an ulp too small", keep_overlapping(one_ulp_less)},
       {"boxes_half_open", "missed", "tiles", "boxes without their upper faces: touching is apart",

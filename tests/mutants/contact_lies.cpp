@@ -130,7 +130,7 @@ std::vector<Mutant> normal_lies() {
        on_contact(from_centres)},
       {"normal_second_best", "not_minimal", "shallow", "of two boxes another face of A, with its depth",
        on_contact(second_best_face)},
-      {"normal_edges_forgotten", "not_minimal", "shallow", "of two boxes the best face, no edges",
+      {"normal_edges_forgotten", "not_minimal", "deep", "of two boxes the best face, no edges",
        on_contact(edges_forgotten)},
       {"normal_tilted", "not_minimal", "shallow", "tilted by 1e-6, with its depth", on_contact(tilted)},
       {"normal_snapped", "not_minimal", "deep", "within 8 degrees of an axis, that axis, with its depth",

@@ -148,7 +148,7 @@ std::vector<Mutant> impact_lies() {
       {"impact_rotation_reversed", "early", "spin", "bodies turn the other way", for_motion(turning_back)},
       {"impact_rotation_local", "early", "spin", "the angular velocity is taken in the body's frame",
        for_motion(in_body_frame)},
-      {"impact_rotation_clamped", "missed", "spin", "bodies turn by at most 3 radians",
+      {"impact_rotation_clamped", "late", "spin", "bodies turn by at most 3 radians",
        for_motion(spin_clamped)},
       {"impact_first_rests", "early", "translate", "the first body's motion is ignored",
        for_motion(second_only)},
