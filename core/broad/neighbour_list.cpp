@@ -80,6 +80,8 @@ void NeighbourListFinder::build(const BoxStore& store, PairSink& sink) {
   for (const std::uint32_t c : codes_) make_fat(store, c & slot_mask, fat_[c & slot_mask]);
   sink.clear();
   levels_.build(fat_.data(), codes_, stats_.of(store), levels);
+  // The sink was given back when the last list was made: as much again, not grown by and by.
+  sink.reserve(std::max(candidates_ + candidates_ / 32, codes_.size()));
   levels_.pairs(fat_.data(), Doubt::report, sink);
   sink.group(store.slots(), end_, codes_);
   candidates_ = sink.n;
@@ -254,6 +256,7 @@ void NeighbourListFinder::search(const BoxStore& store, PairSink& sink) {
   drop_list();
   store.codes(codes_);
   levels_.build(store.keys().data(), codes_, stats_.of(store), levels);
+  sink.reserve(codes_.size());
   levels_.pairs(store.keys().data(), Doubt::decide, sink);
 }
 
