@@ -202,7 +202,7 @@ TEST_CASE("an interrupted campaign keeps what it has and goes on", "[cli]") {
 }
 
 TEST_CASE("a lying engine behind the C ABI is found by fuzz", "[cli]") {
-  const Workspace w;
+  const Workspace w("cli");
   const std::string plugin = TS_BINARY_DIR "/lib/libtouchstone_mutants.so:";
   // One of each question.
   for (const std::string name :
