@@ -5,6 +5,7 @@
 #include "core/tolerance.h"
 #include "oracles/referee/checker.h"
 #include "oracles/referee/half_space.h"
+#include "oracles/referee/wide_search.h"
 #include "oracles/referee/world.h"
 
 namespace touchstone::referee {
@@ -246,11 +247,7 @@ std::optional<ExactBody> exact_body(const Placed& p) {
   return ExactBody{std::move(*core), core_radius(p), p.pose};
 }
 
-}  // namespace
-
-Certificate checkable_certificate(const PairTruth& truth, const Placed& a, const Placed& b) {
-  if (truth.verdict == Verdict::undecided) return {};
-  if (check(truth.verdict_certificate, a, b)) return truth.verdict_certificate;
+Certificate exact_form(const PairTruth& truth, const Placed& a, const Placed& b) {
   const bool plane_a = is_half_space(a), plane_b = is_half_space(b);
   const bool overlap = truth.verdict == Verdict::overlap;
   if (plane_a && plane_b) return {};
@@ -268,6 +265,25 @@ Certificate checkable_certificate(const PairTruth& truth, const Placed& a, const
   if (!x || !y) return overlap ? inner_point(truth, a, b) : Certificate{};
   const ExactPair p = make_exact(*x, *y);
   return exact_certificate(p, decide(p, {}));
+}
+
+std::size_t parts(const Placed& p) {
+  const auto* mesh = std::get_if<TriangleMesh>(p.shape);
+  return mesh ? mesh->triangles.size() : 1;
+}
+
+}  // namespace
+
+Certificate checkable_certificate(const PairTruth& truth, const Placed& a, const Placed& b) {
+  constexpr std::size_t most_pairs_of_parts = 256;  // the wide search takes a hundredth of a second for each
+  if (truth.verdict == Verdict::undecided) return {};
+  if (check(truth.verdict_certificate, a, b)) return truth.verdict_certificate;
+  Certificate c = exact_form(truth, a, b);
+  if (c.kind != Certificate::Kind::none || parts(a) * parts(b) > most_pairs_of_parts) return c;
+  c = search_wide(a, b);
+  const auto expected = truth.verdict == Verdict::overlap ? Certificate::Kind::common_point
+                                                          : Certificate::Kind::separating_plane;
+  return c.kind == expected ? c : Certificate{};
 }
 
 nlohmann::ordered_json to_json(const Certificate& c) {

@@ -129,4 +129,26 @@ TEST_CASE("contact in a point of a rim and along an edge is found among simple f
   REQUIRE(judge_pair({&cone, Pose{}}, {&roof, below}).verdict == Verdict::overlap);
 }
 
+TEST_CASE("the overlap of a curved body and a mesh has a point that the checker accepts",
+          "[referee][touching]") {
+  Rng r(75);
+  TriangleMesh roof;
+  roof.vertices = {{-1, -1, 0}, {1, -1, 0.1}, {1, 1, -0.2}, {-1, 1, 0.3}, {0, 0, 1}};
+  roof.triangles = {{0, 1, 4}, {1, 2, 4}, {2, 3, 4}, {3, 0, 4}};
+  const Shape mesh = roof;
+  const ShapeKind curved[] = {ShapeKind::cylinder, ShapeKind::cone, ShapeKind::ellipsoid};
+  int overlaps = 0, apart = 0;
+  for (int i = 0; i < 60; ++i) {
+    const Shape y = random_convex(r, curved[i % 3]);
+    const Pose p{r.vector(0, 0.1), r.rotation()}, q{1.2 * r.unit_vector(), r.rotation()};
+    const Placed a{&mesh, p}, b{&y, q};
+    const PairTruth t = judge_pair(a, b);
+    CAPTURE(i);
+    REQUIRE(check(checkable_certificate(t, a, b), a, b));
+    ++(t.verdict == Verdict::overlap ? overlaps : apart);
+  }
+  CHECK(overlaps > 10);
+  CHECK(apart > 10);
+}
+
 }  // namespace touchstone::referee_test
