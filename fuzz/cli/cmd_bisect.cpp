@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/base/input_error.h"
+#include "core/scene/codec_fields.h"
 #include "fuzz/bisect/bisect.h"
 #include "fuzz/cli/command.h"
 #include "fuzz/cli/finding_argument.h"
@@ -53,9 +54,8 @@ int bodies(const Options& o, const AskedFinding& asked, const fuzz::Finding& f) 
 }
 
 std::string in_words(const Step& s) {
-  constexpr std::string_view names[] = {"insert", "move", "remove", "query"};
-  const std::string name(names[static_cast<std::size_t>(s.op)]);
-  return s.op == Step::Op::query ? name : fmt::format("{} body {}", name, s.body);
+  const std::string_view name = scene_fields::op_names[static_cast<std::size_t>(s.op)];
+  return s.op == Step::Op::query ? std::string(name) : fmt::format("{} body {}", name, s.body);
 }
 
 int step(const Options& o, const AskedFinding& asked, const fuzz::Finding& f) {
@@ -146,11 +146,7 @@ constexpr Row verbs[] = {
 int run(const Options& o, Verb verb) {
   if (!verb) return commit(o);
   const AskedFinding asked = ask_for_finding(o.finding, o.limits);
-  if (asked.key.empty()) {
-    fmt::print(stderr, "{} is not found wrong{}\n", asked.engine_name,
-               o.finding.key.empty() ? "" : " in this way: " + o.finding.key);
-    return exit_failed;
-  }
+  if (asked.key.empty()) return not_found(asked, o.finding);
   return verb(o, asked, asked.findings.at(asked.key));
 }
 

@@ -1,7 +1,6 @@
 // touchstone reproduce CASE: a finding as one C++ file against the engine's own API.
 #include <fmt/format.h>
 
-#include "core/base/input_error.h"
 #include "core/scene/input_file.h"
 #include "fuzz/cli/command.h"
 #include "fuzz/cli/finding_argument.h"
@@ -18,11 +17,7 @@ struct Options {
 
 int run(const Options& o) {
   const AskedFinding asked = ask_for_finding(o.finding, o.limits);
-  if (asked.key.empty()) {
-    fmt::print(stderr, "{} is not found wrong{}\n", asked.engine_name,
-               o.finding.key.empty() ? "" : " in this way: " + o.finding.key);
-    return exit_failed;
-  }
+  if (asked.key.empty()) return not_found(asked, o.finding);
   const std::string text = fuzz::reproducer(asked.findings.at(asked.key), asked.engine->card());
   if (o.out.empty())
     fmt::print("{}", text);

@@ -48,11 +48,7 @@ void print(const Options& o, const std::string& key, const fuzz::Shrunk& r, cons
 int run(const Options& o) {
   const AskedFinding asked = ask_for_finding(o.finding, o.limits);
   const auto& [stored, engine_name, engine, key, findings] = asked;
-  if (key.empty()) {
-    fmt::print(stderr, "{} is not found wrong{}\n", engine_name,
-               o.finding.key.empty() ? "" : " in this way: " + o.finding.key);
-    return exit_failed;
-  }
+  if (key.empty()) return not_found(asked, o.finding);
   const auto shrunk = fuzz::shrink(stored.c, fuzz::keeps_finding(engine, key), o.tries);
   StoredCase result;
   result.c = shrunk.smallest;

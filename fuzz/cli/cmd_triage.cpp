@@ -104,7 +104,17 @@ void write_reproducer(const std::filesystem::path& directory, const fuzz::KnownF
   }
 }
 
+// Before any work is done: a directory that cannot be had is bad usage.
+void make_directory(const std::string& option, const std::string& path) {
+  std::error_code error;
+  std::filesystem::create_directories(path, error);
+  if (error || !std::filesystem::is_directory(path))
+    throw InputError(option, fmt::format("{} cannot be made a directory: {}", path,
+                                         error ? error.message() : "it is something else"));
+}
+
 int run(const Options& o) {
+  if (!o.reproducers.empty()) make_directory("--reproducers", o.reproducers);
   const auto found = fuzz::load_findings(o.directory);
   fuzz::Ledger ledger(o.ledger);
   Engines engines(o.limits);

@@ -8,6 +8,7 @@
 #include "core/base/input_error.h"
 #include "core/scene/input_file.h"
 #include "fuzz/cli/case_argument.h"
+#include "fuzz/cli/command.h"
 #include "fuzz/shrink/keeps_finding.h"
 
 namespace touchstone::cli {
@@ -70,6 +71,12 @@ AskedFinding ask_for_finding(FindingArgument o, const WorkerLimits& limits) {
   r.findings = fuzz::findings_of({&r.stored.c, 1}, r.engine)[0];
   r.key = choose(o.key, r.findings);
   return r;
+}
+
+int not_found(const AskedFinding& asked, const FindingArgument& o) {
+  fmt::print(stderr, "{} is not found wrong{}\n", asked.engine_name,
+             o.key.empty() ? "" : " in this way: " + o.key);
+  return exit_failed;
 }
 
 }  // namespace touchstone::cli

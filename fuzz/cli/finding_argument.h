@@ -25,4 +25,7 @@ struct AskedFinding {
 /// Asks the engine. Throws InputError: no such case or engine, several findings and no key.
 AskedFinding ask_for_finding(FindingArgument o, const WorkerLimits& limits);
 
+/// For an empty key: says so on stderr; the exit code.
+int not_found(const AskedFinding& asked, const FindingArgument& o);
+
 }  // namespace touchstone::cli

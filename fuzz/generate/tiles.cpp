@@ -11,8 +11,6 @@ namespace {
 
 enum class Sizes : std::uint8_t { eighths, any, mixed };
 
-Body& body_of(Scene& s, std::size_t i) { return s.bodies[i]; }
-
 double one_size(Rng& rng, Sizes sizes) {
   if (sizes == Sizes::eighths) return static_cast<double>(1 + rng.below(8)) / 8;
   if (sizes == Sizes::any) return rng.uniform(0.1, 1);
@@ -109,7 +107,7 @@ Scene tiled(Rng& rng, std::size_t n) {
       const auto j = rng.below(i);
       t = beside(rng, s, i, j, s.bodies[j].pose.translation, lattice);
     }
-    body_of(s, i).pose.translation = t;
+    s.bodies[i].pose.translation = t;
   }
   if (rng.below(8) == 0) add_ground(rng, s);
   return s;

@@ -1,6 +1,6 @@
 #include <fmt/format.h>
 
-#include <cmath>
+#include <algorithm>
 
 #include "core/base/input_error.h"
 #include "fuzz/reproduce/engine_source.h"
@@ -155,8 +155,6 @@ std::string shapes_of(const Asked& q, const std::vector<int>& bodies) {
 
 bool is_sim(const Asked& q) { return q.engine.find("-sim") != std::string_view::npos; }
 
-bool is_convex(const Shape& s) { return has_support(s); }
-
 std::string pair_question(const Asked& q) {
   std::string out = shapes_of(q, {q.a, q.b}) + object(q, q.a) + object(q, q.b);
   if (is_sim(q))
@@ -174,7 +172,7 @@ std::string pair_question(const Asked& q) {
 // One body is swept against the other at rest, as the adapter does: the one that turns, or the convex one.
 std::string impact(const Asked& q) {
   const auto motion = [&](int i) { return q.body(i).motion.value_or(Motion{}); };
-  const bool sweep_b = !motion(q.b).angular.isZero(0) || !is_convex(q.scene.shape_of(q.a));
+  const bool sweep_b = !motion(q.b).angular.isZero(0) || !has_support(q.scene.shape_of(q.a));
   const int mover = sweep_b ? q.b : q.a, target = sweep_b ? q.a : q.b;
   Motion relative = motion(mover);
   relative.linear -= motion(target).linear;

@@ -221,6 +221,8 @@ Answer ask() {
   };
 )";
 
+// What a campaign sets: as shipped, or tuned.
+std::string tolerance(const Asked& q) { return q.tuned() ? "1e-12" : "1e-6"; }
 std::string solver(const Asked& q) { return q.engine.starts_with("fcl-indep") ? "GST_INDEP" : "GST_LIBCCD"; }
 bool libccd(const Asked& q) { return !q.engine.starts_with("fcl-indep"); }
 
@@ -236,9 +238,9 @@ std::string pair_head(const Asked& q) {
 std::string contact_function(const Asked& q) {
   const bool refined =
       q.tuned() && libccd(q) && has_support(q.scene.shape_of(q.a)) && has_support(q.scene.shape_of(q.b));
-  return filled(contact_helper, {{"REFINE", refined ? std::string(refine) : ""},
-                                 {"SOLVER", solver(q)},
-                                 {"TOLERANCE", q.tuned() ? "1e-12" : "1e-6"}});
+  return filled(
+      contact_helper,
+      {{"REFINE", refined ? std::string(refine) : ""}, {"SOLVER", solver(q)}, {"TOLERANCE", tolerance(q)}});
 }
 
 std::string impact(const Asked& q) {
@@ -254,7 +256,7 @@ std::string impact(const Asked& q) {
 std::string distance(const Asked& q) {
   const bool again = q.tuned() && libccd(q);
   return filled(ask_distance, {{"SIGNED", q.tuned() ? "false" : "true"},
-                               {"TOLERANCE", q.tuned() ? "1e-12" : "1e-6"},
+                               {"TOLERANCE", tolerance(q)},
                                {"AGAIN", again ? std::string(distance_again) : ""},
                                {"SOLVER", solver(q)}});
 }
@@ -306,7 +308,7 @@ EngineSource fcl_source(const Asked& q) {
     out.code += contact_function(q);
   if (!pair) out.code += scene(q);
   if (q.question == Question::overlap)
-    out.code += filled(ask_overlap, {{"SOLVER", solver(q)}, {"TOLERANCE", q.tuned() ? "1e-12" : "1e-6"}});
+    out.code += filled(ask_overlap, {{"SOLVER", solver(q)}, {"TOLERANCE", tolerance(q)}});
   if (q.question == Question::contact) out.code += ask_contact;
   if (q.question == Question::distance) out.code += distance(q);
   if (q.question == Question::time_of_impact) out.code += impact(q);

@@ -33,14 +33,6 @@ nlohmann::ordered_json list(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
 
 std::vector<std::string> texts(const Rational3& v) { return {text_of(v.x), text_of(v.y), text_of(v.z)}; }
 
-Rational exact_of(Real x) {
-  const auto high = static_cast<double>(x);
-  const auto low = static_cast<double>(x - static_cast<Real>(high));  // 64 bits are at most two doubles
-  return exact(high) + exact(low);
-}
-
-Rational3 exact_of(const Real3& v) { return {exact_of(v.x), exact_of(v.y), exact_of(v.z)}; }
-
 // Bounds of n·x over the bodies in the filter's frame; false when they leave no gap.
 bool gap_along(const Difference& d, const Real3& n, Real& top_a, Real& bottom_b) {
   const Real length = norm(n) * (1 + 4 * unit);
@@ -267,19 +259,13 @@ Certificate exact_form(const PairTruth& truth, const Placed& a, const Placed& b)
   return exact_certificate(p, decide(p, {}));
 }
 
-std::size_t parts(const Placed& p) {
-  const auto* mesh = std::get_if<TriangleMesh>(p.shape);
-  return mesh ? mesh->triangles.size() : 1;
-}
-
 }  // namespace
 
 Certificate checkable_certificate(const PairTruth& truth, const Placed& a, const Placed& b) {
-  constexpr std::size_t most_pairs_of_parts = 256;  // the wide search takes a hundredth of a second for each
   if (truth.verdict == Verdict::undecided) return {};
   if (check(truth.verdict_certificate, a, b)) return truth.verdict_certificate;
   Certificate c = exact_form(truth, a, b);
-  if (c.kind != Certificate::Kind::none || parts(a) * parts(b) > most_pairs_of_parts) return c;
+  if (c.kind != Certificate::Kind::none) return c;
   c = search_wide(a, b);
   const auto expected = truth.verdict == Verdict::overlap ? Certificate::Kind::common_point
                                                           : Certificate::Kind::separating_plane;

@@ -63,12 +63,6 @@ void add_planes(ImpactCertificate& c, const Scene2& s, const MovingParts& a, con
   if (s.accepts(planes)) c = planes;
 }
 
-Rational exact_of(Real x) {
-  const auto high = static_cast<double>(x);
-  return exact(high) + exact(static_cast<double>(x - static_cast<Real>(high)));
-}
-Rational3 exact_of(const Real3& v) { return {exact_of(v.x), exact_of(v.y), exact_of(v.z)}; }
-
 // The deepest core point of the body against normal·x <= offset, or, when that is outside, its foot.
 Rational3 deepest(const std::vector<Rational3>& points, const Rational3& normal, const Rational& offset) {
   Rational3 best = points.front();

@@ -23,11 +23,6 @@ constexpr Real infinity = std::numeric_limits<Real>::infinity();
 constexpr Real spare = 1 + 0x1p-30L;
 constexpr int attempt_cap = 600;
 
-Rational exact_of(Real x) {
-  const auto high = static_cast<double>(x);
-  return exact(high) + exact(static_cast<double>(x - static_cast<Real>(high)));  // 64 bits: two doubles
-}
-
 Real rounded(const Rational& x) { return x.convert_to<Real>(); }
 
 struct Margins {

@@ -55,6 +55,18 @@ Parts parts_of(double x);
 
 Rational exact(double x);
 inline Rational3 exact(const Vec3& v) { return {exact(v.x()), exact(v.y()), exact(v.z())}; }
+/// A number of more bits is the sum of a few doubles, each the rounding of what the earlier ones leave.
+template <class T>
+Rational exact_of(T x) {
+  Rational sum = 0;
+  for (auto part = static_cast<double>(x); part != 0; part = static_cast<double>(x))
+    sum += exact(part), x -= T(part);
+  return sum;
+}
+template <class T>
+Rational3 exact_of(const Triple<T>& v) {
+  return {exact_of(v.x), exact_of(v.y), exact_of(v.z)};
+}
 Integer shifted(Integer x, int bits);  // x·2^bits, bits >= 0
 
 /// The fraction of least denominator in [lo, hi], by the continued fractions of both ends.

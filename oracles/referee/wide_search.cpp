@@ -23,28 +23,17 @@ using WideDifference = BasicDifference<Wide>;
 Wide wide(const Rational& x) { return Wide(numerator(x)) / Wide(denominator(x)); }
 Wide3 wide(const Rational3& v) { return {wide(v.x), wide(v.y), wide(v.z)}; }
 
-// A number of 237 bits is the sum of a few doubles, each the rounding of what the earlier ones leave.
-Rational exact_of(Wide x) {
-  Rational sum = 0;
-  for (double part = static_cast<double>(x); part != 0; part = static_cast<double>(x))
-    sum += exact(part), x -= Wide(part);
-  return sum;
-}
-Rational3 exact_of(const Wide3& v) { return {exact_of(v.x), exact_of(v.y), exact_of(v.z)}; }
-
-void measure(WideSolid& s) {
-  using std::sqrt;
-  Wide most = 0;
-  for (const Wide3& p : s.points) most = std::max<Wide>(most, dot(p, p));
-  s.extent = sqrt(most);
-}
-
 WidePart of_points(const ExactBody& b) {
   WidePart s;
   s.solid.radius = b.radius;
   s.exact_points = world_points(b);
-  for (const Rational3& v : s.exact_points) s.solid.points.push_back(wide(v));
-  measure(s.solid);
+  Wide most = 0;
+  for (const Rational3& v : s.exact_points) {
+    s.solid.points.push_back(wide(v));
+    most = std::max<Wide>(most, dot(s.solid.points.back(), s.solid.points.back()));
+  }
+  using std::sqrt;
+  s.solid.extent = sqrt(most);
   return s;
 }
 
@@ -77,6 +66,13 @@ std::vector<WidePart> parts_of(const Placed& p) {
     all.push_back(of_curved(p));
   }
   return all;
+}
+
+constexpr std::size_t most_pairs_of_parts = 256;  // a pair takes a hundredth of a second
+
+std::size_t count_parts(const Placed& p) {
+  const auto* mesh = std::get_if<TriangleMesh>(p.shape);
+  return mesh ? mesh->triangles.size() : 1;
 }
 
 bool stands(const Operand& x) { return x.exact ? x.exact->times.size() == 1 : x.placed.shape != nullptr; }
@@ -200,10 +196,14 @@ Certificate simple_point(const std::vector<Meeting>& found, const WidePart& x, c
   return {};
 }
 
-// Directions to begin with: where the search ends on a segment or an area depends on them.
-std::vector<Wide3> beginnings(const WideDifference& d) {
+Wide3 beginning(const WideDifference& d) {
   const Wide3 towards = normalized(middle(d.b) - middle(d.a));
-  std::vector<Wide3> all{largest(towards) > 0 ? towards : Wide3{1, 0, 0}};
+  return largest(towards) > 0 ? towards : Wide3{1, 0, 0};
+}
+
+// Where the search ends on a segment or an area depends on the direction to begin with.
+std::vector<Wide3> beginnings(const WideDifference& d) {
+  std::vector<Wide3> all{beginning(d)};
   for (int i = 0; i < 8; ++i)
     all.push_back(normalized(
         all[0] + Wide3{Wide(i & 1 ? 1 : -1) / 2, Wide(i & 2 ? 1 : -1) / 3, Wide(i & 4 ? 1 : -1) / 5}));
@@ -228,6 +228,7 @@ Certificate search(const WidePart& x, const WidePart& y, const Placed& a, const 
 
 Certificate search_wide(const Placed& a, const Placed& b) {
   if (std::holds_alternative<HalfSpace>(*a.shape) || std::holds_alternative<HalfSpace>(*b.shape)) return {};
+  if (count_parts(a) * count_parts(b) > most_pairs_of_parts) return {};
   const std::vector<WidePart> x = parts_of(a), y = parts_of(b);
   Certificate planes;
   planes.kind = Certificate::Kind::separating_plane;
@@ -248,7 +249,7 @@ std::optional<WideGap> wide_gap(const Operand& a, const Operand& b) {
   if (!stands(a) || !stands(b)) return std::nullopt;
   const WidePart x = part_of(a), y = part_of(b);
   const WideDifference d(x.solid, y.solid);
-  const Wide3 n = beginnings(d).front();
+  const Wide3 n = beginning(d);
   const auto g = gjk(d, std::span<const Wide3>(&n, 1), ldexp(d.extent, -80));
   const Real above = static_cast<Real>(norm(g.simplex.nearest));
   const Wide3& u = g.gap.direction;

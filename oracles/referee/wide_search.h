@@ -8,7 +8,7 @@
 namespace touchstone::referee {
 
 /// separating_plane (several for a mesh) or common_point, accepted by check(); or none: then nothing is
-/// known. Half-spaces are not searched for (none).
+/// known. Not searched (none): half-spaces, and meshes of so many parts that it would take seconds.
 Certificate search_wide(const Placed& a, const Placed& b);
 
 /// The distance of the cores of two convex bodies (balls about them left out) that stand still, at `placed`

@@ -88,6 +88,17 @@ TEST_CASE("a finding about FCL is shown by a program that needs FCL alone", "[re
   CHECK((n == 0 || n == 2));
 }
 
+TEST_CASE("triage says at once that it cannot make the directory for reproducers", "[reproduce]") {
+  const Workspace w("reproduce");
+  w.write("file", "");
+  REQUIRE(w.touchstone("fuzz --cases 2 --engines core --out empty").code == 0);
+  for (const std::string taken : {"file", "file/below"}) {
+    const Run r = w.touchstone("triage empty --reproducers " + taken);
+    CHECK(r.code == 2);
+    CHECK(r.err.find("--reproducers: " + taken + " cannot be made a directory") != std::string::npos);
+  }
+}
+
 TEST_CASE("triage leaves a directory a finding, whose certificate holds and whose program compiles",
           "[reproduce]") {
   const Workspace w("reproduce");

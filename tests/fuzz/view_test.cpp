@@ -1,40 +1,18 @@
 // `touchstone view SCENE --broad`: the page's data against two loops over its own boxes, and refusals.
-#include <sys/wait.h>
-#include <unistd.h>
-
 #include <array>
-#include <cstdlib>
-#include <filesystem>
-#include <fstream>
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <string>
 
 #include "tests/support/catch.h"
+#include "tests/support/workspace.h"
 
-namespace fs = std::filesystem;
+using touchstone::test::read_all;
+using touchstone::test::Workspace;
 
 namespace {
 
 using Json = nlohmann::json;
-
-std::string read_all(const fs::path& p) {
-  std::ifstream f(p, std::ios::binary);
-  return {std::istreambuf_iterator<char>(f), {}};
-}
-
-struct Folder {
-  fs::path dir = fs::temp_directory_path() / ("touchstone-view-" + std::to_string(getpid()));
-  Folder() { fs::remove_all(dir), fs::create_directories(dir); }
-  ~Folder() { fs::remove_all(dir); }
-  int run(const std::string& args) const {
-    const int status = std::system(("cd " + dir.string() + " && " TS_BINARY_DIR "/bin/touchstone view " +
-                                    args + " >out.txt 2>err.txt </dev/null")
-                                       .c_str());
-    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
-  }
-  std::string err() const { return read_all(dir / "err.txt"); }
-};
 
 Json data_of(const std::string& page) {
   const std::string open = "id=\"data\">";
@@ -52,12 +30,12 @@ bool meet(const Json& a, const Json& b, std::size_t axis) {
 }  // namespace
 
 TEST_CASE("the page's pairs are those of two loops over its boxes", "[cli][view]") {
-  const Folder folder;
+  const Workspace w("view");
   long kept = 0, pruned = 0;
   for (const std::string scene : {"thousand_balls", "cubes_fill_space", "around_the_origin"}) {
     INFO(scene);
-    REQUIRE(folder.run(scene + " --broad -o page.html") == 0);
-    const std::string page = read_all(folder.dir / "page.html");
+    REQUIRE(w.touchstone("view " + scene + " --broad -o page.html").code == 0);
+    const std::string page = read_all(w.dir / "page.html");
     CHECK(page.find("http") == std::string::npos);  // loads nothing
     const Json data = data_of(page);
     REQUIRE(data["methods"].size() == 4);
@@ -94,14 +72,17 @@ TEST_CASE("the page's pairs are those of two loops over its boxes", "[cli][view]
 }
 
 TEST_CASE("view refuses what it cannot show, with place and reason", "[cli][view]") {
-  const Folder folder;
-  CHECK(folder.run("thousand_balls -o page.html") == 2);
-  CHECK(folder.run("thousand_balls --broad") == 2);
-  CHECK(folder.run("thousand_balls --broad -o page.html --method fastest") == 2);
-  CHECK(folder.err().find("fastest: unknown; expected automatic") != std::string::npos);
-  CHECK(folder.run("no_such_scene --broad -o page.html") == 2);
-  CHECK(folder.err().find("no_such_scene") != std::string::npos);
-  CHECK(folder.run("thousand_balls --broad -o no/such/folder/page.html") == 2);
-  CHECK(folder.err().find("cannot be written") != std::string::npos);
-  CHECK_FALSE(fs::exists(folder.dir / "page.html"));
+  const Workspace w("view");
+  const auto refused = [&](const std::string& args, const std::string& reason) {
+    INFO(args);
+    const auto r = w.touchstone("view " + args);
+    CHECK(r.code == 2);
+    CHECK(r.err.find(reason) != std::string::npos);
+  };
+  refused("thousand_balls -o page.html", "--broad");
+  refused("thousand_balls --broad", "-o");
+  refused("thousand_balls --broad -o page.html --method fastest", "fastest: unknown; expected automatic");
+  refused("no_such_scene --broad -o page.html", "no_such_scene");
+  refused("thousand_balls --broad -o no/such/folder/page.html", "cannot be written");
+  CHECK_FALSE(std::filesystem::exists(w.dir / "page.html"));
 }
