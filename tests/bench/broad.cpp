@@ -60,6 +60,8 @@ std::vector<Entrant> entrants() {
         {"touchstone:" + std::string(row.name), nullptr, &row, row.name == "brute_force" ? 10000 : 1000000});
   all.push_back({"plain_sweep", &make_plain_sweep, nullptr, 100000});
   all.push_back({"plain_grid", &make_plain_grid, nullptr, 1000000});
+  all.push_back({"plain_sweep_sorted", &make_plain_sweep_sorted, nullptr, 100000});
+  all.push_back({"plain_grid_sorted", &make_plain_grid_sorted, nullptr, 1000000});
   all.push_back({"bound", nullptr, nullptr, 1000000});
 #ifdef TS_BENCH_FCL
   all.push_back({"fcl:dyntree", &make_fcl_tree, nullptr, 1000000, 3});

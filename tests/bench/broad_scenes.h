@@ -50,6 +50,8 @@ class Contestant {
 
 std::unique_ptr<Contestant> make_plain_sweep();
 std::unique_ptr<Contestant> make_plain_grid();
+std::unique_ptr<Contestant> make_plain_sweep_sorted();
+std::unique_ptr<Contestant> make_plain_grid_sorted();
 std::unique_ptr<Contestant> make_bound(std::size_t pairs);
 std::unique_ptr<Contestant> make_fcl_tree();
 std::unique_ptr<Contestant> make_fcl_tree_array();
