@@ -111,7 +111,7 @@ bool finite(const std::array<Vec3, 4>& x) {
 PrimitiveImpact primitive_impact(PrimitiveKind kind, const std::array<Vec3, 4>& start,
                                  const std::array<Vec3, 4>& end, const PrimitiveOptions& options) {
   PrimitiveImpact r;
-  if (!finite(start) || !finite(end)) {
+  if (!finite(start) || !finite(end) || !(options.min_separation >= 0 && options.tolerance >= 0)) {
     r.outcome = Outcome::invalid_input;
     return r;
   }

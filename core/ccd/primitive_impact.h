@@ -32,7 +32,8 @@ enum class PrimitiveExit {
 };
 
 struct PrimitiveImpact {
-  Outcome outcome = Outcome::answered;  // invalid_input: a coordinate is not finite; not_converged: stuck
+  Outcome outcome =
+      Outcome::answered;  // invalid_input: a coordinate is not finite, an option < 0; not_converged: stuck
   /// Set: never later than the first contact. Not set with `answered`: proven to be no contact over [0,1].
   std::optional<double> toi;
   double separation = 0;   // at `toi`: a lower bound along the last direction

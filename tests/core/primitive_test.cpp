@@ -286,10 +286,12 @@ TEST_CASE("primitives: a minimum separation is kept until the time of impact", "
   CHECK(hits < cases * 19 / 20);
 }
 
-TEST_CASE("primitives: a coordinate that is not finite is refused", "[primitive]") {
+TEST_CASE("primitives: what is not finite or negative is refused", "[primitive]") {
   Quad a = Quad{Vec3(0, 0, 1), Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0, 1, 0)}, b = a;
   b[2].y() = std::nan("");
   CHECK(primitive_impact(vf, a, b).outcome == Outcome::invalid_input);
   b[2].y() = -HUGE_VAL;
   CHECK(primitive_impact(ee, a, b).outcome == Outcome::invalid_input);
+  CHECK(primitive_impact(ee, a, a, {.min_separation = -1}).outcome == Outcome::invalid_input);
+  CHECK(primitive_impact(ee, a, a, {.tolerance = std::nan("")}).outcome == Outcome::invalid_input);
 }
