@@ -29,7 +29,8 @@ bool is_in_range(const MovingPolygon& p) {
   return p.size.minCoeff() > 0x1p-200 && p.size.maxCoeff() < 0x1p+300;
 }
 
-// Precondition: is_in_range, so that the least product of L's, (8u)³·2⁻⁶⁰⁰, and u of it are normal numbers.
+// With M between 2⁻²⁰⁰ and 2³⁰⁰ and L >= 8u·M, the bound is more than u·2⁻⁷⁰⁰; what underflows in a product
+// of two, 2⁻¹⁰⁷⁴, becomes at most 2⁻⁷⁷⁰ with the third factor.
 double volume_bound(const MovingPolygon& p, const Vec3& local) {
   return 48 * unit_roundoff * p.size.dot(pairs(local, local));
 }

@@ -1,6 +1,10 @@
 // One step of a whole scene: nothing that is swept tunnels, what is left unswept is what the criterion
 // allows.
 #include "core/world/step_world.h"
+
+#include <algorithm>
+#include <cmath>
+
 #include "oracles/referee/referee.h"
 #include "tests/bench/tunnel_scene.h"
 #include "tests/support/catch.h"
