@@ -1,0 +1,92 @@
+// One step of a whole scene: discrete contacts at the end pose, and times of impact only where a body could
+// pass something unseen (sweep_criterion.h: the criterion, its proof, and how deep an unswept pass can be).
+//
+// For a simulation: bodies stay inserted in a broad phase from step to step. The end pose of a step, or
+// wherever the caller puts the body after an impact, is the start pose of the next.
+#pragma once
+
+#include <memory>
+#include <string_view>
+#include <vector>
+
+#include "core/broad/broad_phase.h"
+#include "core/ccd/impact.h"
+#include "core/narrow/mesh_tree.h"
+#include "core/scene/scene.h"
+#include "core/world/sweep_criterion.h"
+#include "core/world/world.h"
+
+namespace touchstone {
+
+struct SweepOptions {
+  enum class Which { none, by_criterion, all };
+  /// none: discrete only. all: every moving body, for comparison.
+  Which which = Which::by_criterion;
+  double share = 0.5;  // of the inner extents, sweep_criterion.h
+};
+
+/// Why a body is swept. travel and turning: the larger part of its pass_bound.
+enum class SweepReason { by_hand, travel, turning, all };
+
+struct SweptBody {
+  int body = 0;
+  SweepReason reason = SweepReason::by_hand;
+  double pass_bound = 0, inner = 0;  // the bound was more than share · inner, unless by hand
+};
+
+struct PairImpact {
+  int a = 0, b = 0;  // a < b
+  ImpactAnswer impact;
+};
+
+struct StepReport {
+  /// not_converged when a contact or an impact is; the others are still reported.
+  Outcome outcome = Outcome::answered;
+  std::vector<PairContact> contacts;  // at the end poses, sorted
+  std::vector<PairImpact> impacts;    // pairs of which one is swept, that meet within the step; by time, a, b
+  std::vector<SweptBody> swept;       // by body
+  long candidates = 0;                // pairs whose end boxes meet
+  long swept_candidates = 0;          // pairs of a swept body whose swept boxes meet,
+  long asked = 0;                     // of which so many were asked for their time of impact;
+  long spared = 0;                    // the pair's own pass bound is small enough
+  long unsupported = 0;               // left out: contacts or impacts that the narrow phase does not know
+};
+
+class StepWorld {
+ public:
+  /// Poses at the start and motions are the scene's. Throws std::invalid_argument on an unknown broad phase.
+  explicit StepWorld(Scene scene, std::string_view broad_phase = "automatic");
+
+  /// Before the next step. A body without motion rests.
+  void set(int body, const Pose& start, const Motion& motion);
+  /// By hand: this body is swept against everything, whatever the criterion says.
+  void flag(int body, bool flagged);
+
+  StepReport step(const SweepOptions& options = {});
+
+  const Pose& end_pose(int body) const { return end_[static_cast<std::size_t>(body)]; }
+  /// The end poses become the start poses.
+  void accept();
+  const Scene& scene() const { return scene_; }
+
+ private:
+  void place_at_end();
+  void find_contacts(StepReport& r);
+  void choose(const SweepOptions& o, StepReport& r) const;
+  void find_impacts(const SweepOptions& o, StepReport& r);
+  std::vector<BodyPair> swept_pairs(const StepReport& r);
+  void ask(const BodyPair& pair, const SweepOptions& o, StepReport& r) const;
+  Motion motion_of(int body) const;
+
+  Scene scene_;
+  broad::BroadPhasePtr phase_;
+  std::vector<InnerExtent> extent_;  // of each body's shape
+  std::vector<MeshTree> trees_;      // of each shape
+  std::vector<Pose> end_;
+  std::vector<Aabb> end_box_;
+  std::vector<char> by_hand_, moved_;
+  std::vector<broad::BoxUpdate> updates_;
+  std::vector<broad::IdPair> pairs_;
+};
+
+}  // namespace touchstone

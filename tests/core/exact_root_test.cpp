@@ -1,0 +1,87 @@
+// Integers of any size and signs at roots of polynomials.
+#include "core/ccd/exact_root.h"
+#include "core/base/rng.h"
+#include "tests/support/catch.h"
+
+using namespace touchstone;
+using namespace touchstone::ccd;
+
+namespace {
+
+__extension__ using I128 = __int128;
+
+IntegerPolynomial poly(std::vector<std::int64_t> c) {
+  std::vector<Integer> r;
+  for (std::int64_t x : c) r.emplace_back(x);
+  return IntegerPolynomial(std::move(r));
+}
+Integer big(I128 x) {
+  const auto hi = static_cast<std::int64_t>(x >> 64);
+  const auto lo = static_cast<std::uint64_t>(x);
+  return Integer(hi).shifted(64) + Integer(static_cast<std::int64_t>(lo >> 1)).shifted(1) +
+         Integer(static_cast<std::int64_t>(lo & 1));
+}
+
+}  // namespace
+
+TEST_CASE("integers: sums and products agree with 128-bit arithmetic", "[exact]") {
+  Rng r(3);
+  const auto draw = [&](int bits) {
+    const I128 x = static_cast<I128>(r.next()) << 20 | static_cast<I128>(r.below(1 << 20));
+    return (r.chance(0.5) ? -x : x) >> (84 - bits);
+  };
+  for (int i = 0; i < 20000; ++i) {
+    const I128 a = draw(static_cast<int>(r.below(63))), b = draw(static_cast<int>(r.below(63)));
+    const I128 c = draw(static_cast<int>(r.below(84)));
+    REQUIRE((big(a) * big(b) - big(a * b)).sign() == 0);
+    REQUIRE((big(a) + big(c) - big(a + c)).sign() == 0);
+    REQUIRE((big(a) - big(c)).sign() == (a > c) - (a < c));
+    const auto shift = static_cast<unsigned>(r.below(40));
+    REQUIRE((big(c).shifted(shift) - big(c * (I128{1} << shift))).sign() == 0);
+    REQUIRE(((big(a) * big(c)).shifted(200) - big(c).shifted(130) * big(a).shifted(70)).sign() == 0);
+  }
+  CHECK(Integer(std::numeric_limits<std::int64_t>::min()).sign() == -1);
+  CHECK((-Integer(0)).sign() == 0);
+}
+
+TEST_CASE("roots: each is alone in its interval, whatever its multiplicity", "[exact]") {
+  const DyadicInterval all{Integer(-8), Integer(8), 0};
+  // (t − 1)²(t + 2): two distinct roots; t³ − 2: one; t² + 1: none; (t − 3)³: one.
+  CHECK(isolated_roots(poly({2, -3, 0, 1}), all).size() == 2);
+  CHECK(isolated_roots(poly({-2, 0, 0, 1}), all).size() == 1);
+  CHECK(isolated_roots(poly({1, 0, 1}), all).empty());
+  CHECK(isolated_roots(poly({-27, 27, -9, 1}), all).size() == 1);
+  CHECK(isolated_roots(poly({5}), all).empty());
+  // Roots at the ends of the interval are found too.
+  CHECK(isolated_roots(poly({0, 1}), {Integer(0), Integer(1), 0}).size() == 1);
+  // Two roots 2^-40 apart.
+  const std::int64_t two40 = std::int64_t{1} << 40;
+  CHECK(isolated_roots(poly({0, -1}) * poly({1, -two40}), all).size() == 2);
+}
+
+TEST_CASE("roots: signs of other polynomials there are exact, zero included", "[exact]") {
+  const auto p = poly({-2, 0, 1});  // ±√2
+  const auto roots = isolated_roots(p, {Integer(-8), Integer(8), 0});
+  REQUIRE(roots.size() == 2);
+  const auto sign = [&](std::size_t k, std::vector<std::int64_t> q) {
+    return sign_at_root(p, roots[k], poly(q));
+  };
+  CHECK(sign(0, {0, 1}) == -1);
+  CHECK(sign(1, {0, 1}) == 1);
+  CHECK(sign(1, {-4, 0, 2}) == 0);
+  CHECK(sign(0, {}) == 0);
+  // √2 against convergents of its continued fraction, within 2^-39, by turns below and above.
+  CHECK(sign(1, {-941664, 665857}) == 1);
+  CHECK(sign(1, {-665857, 470832}) == -1);
+  CHECK(sign(1, {-1607521, 1136689}) == 1);
+  const DyadicInterval near = narrowed(p, roots[1]);
+  CHECK(below({near.lo - Integer(1).shifted(near.bits), Integer(0), near.bits}) ==
+        Approx(0.41421356237309505));
+  // A root of even multiplicity is narrowed by counting.
+  const auto square = p * p;
+  const auto twice = isolated_roots(square, {Integer(0), Integer(8), 0});
+  REQUIRE(twice.size() == 1);
+  const DyadicInterval narrow = narrowed(square, twice[0]);
+  CHECK(p.sign_at(narrow.lo, narrow.bits) == -1);
+  CHECK(p.sign_at(narrow.hi, narrow.bits) == 1);
+}
