@@ -1,7 +1,9 @@
 #include "core/ccd/impact.h"
 
+#include <algorithm>
+
 #include "core/ccd/advance.h"
-#include "core/ccd/sphere_sphere.h"
+#include "core/ccd/fast/impact_search.h"
 #include "core/narrow/mesh.h"
 #include "core/narrow/narrow_phase.h"
 #include "core/tolerance.h"
@@ -23,15 +25,55 @@ WideFrame shifted(const Pose& p, const WideVec& origin) {
   return f;
 }
 
-ImpactAnswer at_rest(const MovingShape& a, const MovingShape& b) {
-  const Separation s = separation({a.shape, a.pose}, {b.shape, b.pose});
+// No more than L of the pair: what τ is relative to.
+double scale_of(const MovingShape& s, double extent) {
+  const double from = s.pose.translation.cwiseAbs().maxCoeff();
+  return std::max({extent, from, (s.pose.translation + s.motion.linear).cwiseAbs().maxCoeff()});
+}
+
+double accuracy_of(double scale) { return (tolerance::core_tau_factor - 4) * 0x1p-53 * scale; }
+
+ImpactAnswer contact_at_start(const MovingShape& a, const MovingShape& b) {
+  const DistanceAnswer d = distance({a.shape, a.pose, a.tree}, {b.shape, b.pose, b.tree});
   ImpactAnswer r;
-  r.outcome = s.outcome, r.separation = static_cast<double>(s.gap);
-  if (s.outcome != Outcome::answered) return r;
-  if (s.gap <= tolerance::narrow_contact_factor * s.size)
-    r.toi = 0;
-  else
-    r.clear_until = 1;
+  r.outcome = d.outcome;
+  if (d.outcome != Outcome::answered) return r;
+  r.toi = 0, r.separation = d.distance, r.normal_ab = d.normal, r.witness_w = d.witness;
+  return r;
+}
+
+ImpactAnswer at_rest(const MovingShape& a, const MovingShape& b) {
+  const PlacedShape pa{a.shape, a.pose, a.tree}, pb{b.shape, b.pose, b.tree};
+  const OverlapAnswer o = overlap(pa, pb);
+  ImpactAnswer r;
+  r.outcome = o.outcome;
+  if (o.outcome != Outcome::answered) return r;
+  if (o.overlap) return contact_at_start(a, b);
+  r.clear_until = 1;
+  const DistanceAnswer d = distance(pa, pb);
+  r.outcome = d.outcome, r.separation = d.distance;
+  return r;
+}
+
+// What the search in double knows; `unsure` and `start` are for others to decide.
+ImpactAnswer stated(const fast::Search& s, const MovingShape& a) {
+  ImpactAnswer r;
+  r.steps = s.steps, r.clear_until = s.clear_until, r.separation = s.gap;
+  if (s.end != fast::SearchEnd::hit) return r;
+  r.toi = s.clear_until, r.normal_ab = s.normal;
+  const Vec3 origin = a.pose.translation + *r.toi * a.motion.linear;
+  r.witness_w = {s.a + origin, s.b + origin};
+  return r;
+}
+
+bool settled(const fast::Search& s) {
+  return s.end == fast::SearchEnd::hit || s.end == fast::SearchEnd::clear;
+}
+
+// Coordinates of advance() are about A's start.
+ImpactAnswer continued(ImpactAnswer r, const fast::Search& s, const Vec3& origin) {
+  r.steps += s.steps;
+  for (Vec3& x : r.witness_w) x += origin;
   return r;
 }
 
@@ -45,7 +87,7 @@ ImpactAnswer against_mesh(const MovingCore& a, const TriangleMesh& mesh, const W
   Wide end = 1;
   for (const auto& near : narrow::triangles_near(mesh, centre, radius, 0)) {
     const auto corners = narrow::corners(mesh, near.triangle);
-    const ImpactAnswer r = advance(a, moving_core(narrow::vertices_core(corners, frame), {}), end);
+    const ImpactAnswer r = advance(a, moving_core(narrow::vertices_core(corners, frame), {}), 0, end);
     if (r.outcome != Outcome::answered) return r;
     if (r.toi && (!best.toi || *r.toi < *best.toi)) best = r, end = *r.toi;
     if (best.toi && *best.toi == 0) break;
@@ -53,16 +95,50 @@ ImpactAnswer against_mesh(const MovingCore& a, const TriangleMesh& mesh, const W
   return best;
 }
 
+ImpactAnswer convex_convex(const MovingShape& a, const MovingShape& b) {
+  const WideFrame fa = shifted(a.pose, a.pose.translation.cast<Wide>());
+  const WideFrame fb = shifted(b.pose, a.pose.translation.cast<Wide>());
+  const fast::Mover ma = fast::make_mover(*a.shape, fa.rotation, a.motion);
+  const fast::Mover mb = fast::make_mover(*b.shape, fb.rotation, b.motion);
+  const double scale = std::max(scale_of(a, ma.body.extent), scale_of(b, mb.body.extent));
+  const fast::Search s = search(fast::Sweep(ma, mb, fb.translation), 1, accuracy_of(scale), {});
+  if (settled(s)) return stated(s, a);
+  if (s.end == fast::SearchEnd::start && overlap({a.shape, a.pose}, {b.shape, b.pose}).overlap)
+    return contact_at_start(a, b);
+  const MovingCore ca = moving_core(narrow::make_core(*a.shape, fa), a.motion);
+  const MovingCore cb = moving_core(narrow::make_core(*b.shape, fb), b.motion);
+  return continued(advance(ca, cb, s.clear_until, 1), s, a.pose.translation);
+}
+
+ImpactAnswer convex_half_space(const MovingShape& a, const MovingShape& b) {
+  const WideFrame fa = shifted(a.pose, a.pose.translation.cast<Wide>());
+  const narrow::WidePlane plane =
+      narrow::place(*std::get_if<HalfSpace>(b.shape), shifted(b.pose, a.pose.translation.cast<Wide>()));
+  const fast::Mover ma = fast::make_mover(*a.shape, fa.rotation, a.motion);
+  const fast::Mover face;
+  const WideVec foot = plane.normal * plane.offset;
+  const fast::Search s = search(fast::Sweep(ma, face, foot), 1, accuracy_of(scale_of(a, ma.body.extent)),
+                                Vec3(-plane.normal.cast<double>()));
+  if (settled(s)) return stated(s, a);
+  if (s.end == fast::SearchEnd::start && overlap({a.shape, a.pose}, {b.shape, b.pose}).overlap)
+    return contact_at_start(a, b);
+  const MovingCore ca = moving_core(narrow::make_core(*a.shape, fa), a.motion);
+  return continued(advance(ca, plane, s.clear_until, 1), s, a.pose.translation);
+}
+
 ImpactAnswer from_convex(const MovingShape& a, const MovingShape& b) {
+  if (kind_of(*b.shape) == ShapeKind::half_space) return convex_half_space(a, b);
+  const auto* mesh = std::get_if<TriangleMesh>(b.shape);
+  if (!mesh) return convex_convex(a, b);
   const WideVec origin = a.pose.translation.cast<Wide>();
   const MovingCore ca = moving_core(narrow::make_core(*a.shape, shifted(a.pose, origin)), a.motion);
-  const WideFrame fb = shifted(b.pose, origin);
-  if (const auto* h = std::get_if<HalfSpace>(b.shape)) return advance(ca, narrow::place(*h, fb), 1);
-  if (const auto* m = std::get_if<TriangleMesh>(b.shape)) return against_mesh(ca, *m, fb);
-  const MovingCore cb = moving_core(narrow::make_core(*b.shape, fb), b.motion);
-  if (kind_of(*a.shape) == ShapeKind::sphere && kind_of(*b.shape) == ShapeKind::sphere)
-    return sphere_sphere(ca, cb);
-  return advance(ca, cb, 1);
+  return continued(against_mesh(ca, *mesh, shifted(b.pose, origin)), {}, a.pose.translation);
+}
+
+ImpactAnswer mirrored(ImpactAnswer r) {
+  r.normal_ab = -r.normal_ab;
+  std::swap(r.witness_w[0], r.witness_w[1]);
+  return r;
 }
 
 }  // namespace
@@ -75,7 +151,7 @@ ImpactAnswer time_of_impact(const MovingShape& a, const MovingShape& b) {
       return r;
     }
   if (!moves(a) && !moves(b)) return at_rest(a, b);
-  return is_static_shape(*a.shape) ? from_convex(b, a) : from_convex(a, b);
+  return is_static_shape(*a.shape) ? mirrored(from_convex(b, a)) : from_convex(a, b);
 }
 
 }  // namespace touchstone

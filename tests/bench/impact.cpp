@@ -143,7 +143,7 @@ void judge_one(const MovingCase& c, const referee::TimeTruth& truth, const Found
   using Verdict = referee::TimeTruth::Verdict;
   const referee::Placed a{&c.a, c.pose_a}, b{&c.b, c.pose_b};
   const double l = scale_of(c), tau = 0x1p-46 * l;
-  j.failed += f.failed, j.steps += f.steps;
+  j.failed += f.failed;
   if (f.failed) return;
   if (!f.t) {
     j.missed += truth.verdict == Verdict::hit &&
@@ -190,6 +190,7 @@ void run_cell(const MovingKind& kind, Course course, const Options& o, const Clo
     for (const std::uint64_t t : row.least)
       ns.push_back(std::max(0.0, static_cast<double>(t) - clock.overhead) * clock.ns);
     Judged j;
+    for (const FoundImpact& f : row.found) j.steps += f.steps;
     for (std::size_t i = 0; i < truth.size(); ++i) judge_one(cases[i], truth[i], row.found[i], j);
     fmt::print(
         "{:<20} {:<12} {:<18} {:>9.0f} {:>9.0f} {:>9.0f} {:>6.1f} {:>5} {:>6} {:>5} {:>5} {:>5} {:>6} "

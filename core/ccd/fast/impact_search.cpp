@@ -1,0 +1,64 @@
+#include "core/ccd/fast/impact_search.h"
+
+namespace touchstone::ccd::fast {
+namespace {
+
+constexpr int step_cap = 20000;
+// Far from contact a direction that is good to a tenth of the gap carries as far as the best.
+constexpr double far_look = 0.1;
+// A step ends three errors before contact; a few more are the direction's.
+constexpr double near_enough = 8;
+// Below so many errors of the gap, rotations are worked out in extended precision.
+constexpr double near_errors = 512;
+
+View look_at_plane(const Sweep& w, const Spot& x, const Vec& n) {
+  View v;
+  v.normal = n, v.side = w.along(x, n), v.upper = v.side.s;
+  v.a = v.side.pa, v.b = v.a + n * (v.side.s + w.radii());
+  return v;
+}
+
+// The ball of each core is added along the nearest points' own difference.
+void set_points(Search& r, const Sweep& w, const View& v) {
+  const Vec d = v.b - v.a;
+  const double length = d.norm();
+  const Vec n = length > 0 && w.radii() > 0 ? Vec(d / length) : v.normal;
+  r.normal = v.normal, r.a = v.a + w.a().body.radius * n, r.b = v.b - w.b().body.radius * n;
+}
+
+}  // namespace
+
+Search search(const Sweep& w, double end, double accuracy, const std::optional<Vec>& plane) {
+  Search r;
+  Features features;
+  Spot x = w.at(0, !w.turns());
+  const auto see = [&] {
+    return plane ? look_at_plane(w, x, *plane) : look(w, x, features, far_look, x.error);
+  };
+  for (r.steps = 0; r.steps < step_cap; ++r.steps) {
+    View v = see();
+    r.clear_until = x.t, r.gap = v.upper;
+    if (!x.precise && v.side.s < near_errors * x.error) x = w.at(x.t, true), v = see();
+    if (v.meeting || !(v.side.s > x.error)) {
+      r.end = x.t > 0 ? SearchEnd::unsure : SearchEnd::start;
+      return r;
+    }
+    if (v.upper + x.error <= std::min(accuracy, near_enough * x.error)) {
+      set_points(r, w, v);
+      r.gap = v.upper;
+      return r.end = SearchEnd::hit, r;
+    }
+    if (x.t >= end) return r.end = SearchEnd::clear, r;
+    const double before = x.t;
+    const Followed f = follow(w, v.normal, x, v.side, end);
+    if (f.clear) {
+      r.clear_until = end;
+      return r.end = SearchEnd::clear, r;
+    }
+    if (!(f.spot.t > before)) return r.end = SearchEnd::unsure, r;
+    x = f.spot;
+  }
+  return r.end = SearchEnd::unsure, r;
+}
+
+}  // namespace touchstone::ccd::fast
