@@ -1,18 +1,25 @@
-// How far the pair may go along one direction. With n fixed in the world, every pair of core points has a
-// separation along n whose second derivative is at most
+// How far the pair may go along one direction, that stands still in the world or turns with a constant Ω.
+// Every pair of core points has a separation n·(o + p_B − p_A), o the offset of the origins, whose second
+// derivative is at most
 //
-//   K = ρ_A |ω_A| |n×ω_A| + ρ_B |ω_B| |n×ω_B|,   ρ: distance of the core from its axis of rotation,
+//   K = Σ r |δ| (|Ω| + |ω|) + |Ω|² max|o| + 2 |Ω| |v|,   δ = ω − Ω, r: reach of a core,
 //
-// since the acceleration ω×(ω×r) is ω² r_perp long and perpendicular to ω. So each of them, and with them
-// their minimum s, lies on an interval of length h above the chord of its ends less K x (h − x)/2. From s1
-// and s2 at the ends, both beyond the error e of s, the minimum is beyond e when
+// for n·p changes at the rate n·(δ×p), and that at (Ω×n)·(δ×p) + n·(δ×(ω×p)); where Ω = 0 the acceleration
+// ω×(ω×p) is perpendicular to ω and K = Σ ρ |ω| |n×ω|, ρ the distance of the core from its axis. So each of
+// them, and with them their minimum s, lies on an interval of length h above the chord of its ends less
+// K x (h − x)/2. From s1 and s2 at the ends, both beyond the error e of s, the minimum is beyond e when
 //
 //   K h²/2 <= (√(s1 − e) + √(s2 − e))².
 //
 // The ends are where s is evaluated anew, so the bound is exact at contact: near it a step is as long as the
-// root of s along n, found by Newton's method with the second derivative of the present points, and the gap
-// left over is that of the direction alone, quadratic in the step. A turning core also stays inside what it
-// sweeps as a body of revolution, whatever the angle: that bounds s by a line.
+// root of s, found by Newton's method with the second derivative of the present points, and the gap left over
+// is that of the direction alone. That is quadratic in the step when the direction keeps to the features
+// that it comes from: with a face or an edge of one body, or perpendicular to an edge of each. (Held still in
+// the world, the far corner of a face that turns is the next support point, and steps shrink by a constant.)
+// Rounding of the turned n is that of Ω: 16 u / h is added to it.
+//
+// A turning core also stays inside what it sweeps as a body of revolution, whatever the angle: that bounds s
+// along a direction that stands still by a line.
 #pragma once
 
 #include "core/ccd/fast/look.h"
@@ -30,19 +37,20 @@ inline constexpr int follow_cap = 40, chain_cap = 6;
 
 class Follower {
  public:
-  Follower(const Sweep& w, const Vec& n, double end) : w_(w), n_(n), end_(end) {
-    approach_ = n.dot(w.velocity());
+  Follower(const Sweep& w, const Spot& from, const View& view, const Vec& turn, double end)
+      : w_(w), n_(view.normal), end_(end), spot_(from), side_(view.side) {
+    approach_ = n_.dot(w.velocity());
     for (const Mover* m : {&w.a(), &w.b()}) {
       if (!m->turns) continue;
-      const double turn = n.cross(m->angular).norm();
-      curvature_ += m->off_axis * m->speed * turn, jerk_ += m->off_axis * m->speed * m->speed * turn;
+      const double across = n_.cross(m->angular).norm();
+      still_ += m->off_axis * m->speed * across, jerk_ += m->off_axis * m->speed * m->speed * across;
     }
-    curvature_ *= 1 + 0x1p-40;
+    still_ *= 1 + 0x1p-40;
+    if (!turn.isZero(0)) try_turn(turn);
   }
 
-  Followed run(const Spot& from, const Side& side) {
-    spot_ = from, side_ = side;
-    const double s0 = side.s;
+  Followed run() {
+    const double s0 = side_.s;
     for (int i = 0; i < chain_cap; ++i) {
       const double before = spot_.t;
       if (revolve()) return {spot_, true};
@@ -56,11 +64,45 @@ class Follower {
  private:
   static double margin(const Spot& x) { return x.error * 1.25; }
 
+  // Turning pays when the whole of Newton's step is then proven.
+  void try_turn(const Vec& turn) {
+    const double still = rate();
+    turn_ = turn, turn_speed_ = turn.norm(), far_ = std::max(spot_.offset.norm(), offset_at(end_));
+    const double v = w_.velocity().norm(), turning = rate();
+    const double fastest = std::max(turning * turning, still * still);
+    if (side_.s * curvature(1) <= 2 * fastest) {
+      jerk_ = turn_speed_ * turn_speed_ * (turn_speed_ * far_ + 3 * v);
+      for (const Mover* m : {&w_.a(), &w_.b()})
+        jerk_ += m->body.reach * std::pow(turn_speed_ + m->speed, 2) * (m->angular - turn).norm();
+    } else {
+      turn_ = Vec::Zero(), turn_speed_ = 0;
+    }
+  }
+  bool turning() const { return turn_speed_ > 0; }
+  double offset_at(double t) const { return (spot_.offset + (t - spot_.t) * w_.velocity()).norm(); }
+
+  // K of the head comment for a step h.
+  double curvature(double h) const {
+    if (!turning()) return still_;
+    const double slack = 16 * u<double> / h, speed = turn_speed_ + slack;
+    double k = speed * (speed * far_ + 2 * w_.velocity().norm());
+    for (const Mover* m : {&w_.a(), &w_.b()})
+      k += m->body.reach * ((m->angular - turn_).norm() + slack) * (speed + m->speed);
+    return k * (1 + 0x1p-40);
+  }
+
+  Vec normal_at(double t) const {
+    if (!turning()) return n_;
+    const double angle = turn_speed_ * (t - spot_.t), s = std::sin(angle), half = std::sin(angle / 2);
+    const Vec axis = turn_ / turn_speed_, across = axis.cross(n_);
+    return n_ + s * across + 2 * half * half * axis.cross(across);
+  }
+
   void go(double t) { spot_ = w_.at(t, spot_.precise), side_ = w_.along(spot_, n_); }
 
   // By the bodies of revolution; true: clear to the end.
   bool revolve() {
-    if (!w_.turns()) return false;
+    if (!w_.turns() || turning()) return false;
     double s = n_.dot(spot_.offset) - w_.radii();
     for (int k = 0; k < 2; ++k) {
       const Mover& m = k == 0 ? w_.a() : w_.b();
@@ -81,14 +123,24 @@ class Follower {
     return false;
   }
 
+  // Of the present points: n·w + its derivatives, w = b − a.
+  Vec gap_velocity() const {
+    return w_.velocity() + w_.b().angular.cross(side_.pb) - w_.a().angular.cross(side_.pa);
+  }
   double rate() const {
-    return approach_ + n_.cross(w_.b().angular).dot(side_.pb) - n_.cross(w_.a().angular).dot(side_.pa);
+    const double r = n_.dot(gap_velocity());
+    return turning() ? r + turn_.cross(n_).dot(spot_.offset + side_.pb - side_.pa) : r;
   }
   double acceleration() const {
     const auto of = [&](const Mover& m, const Vec& p) {
       return m.turns ? m.angular.dot(p) * m.angular.dot(n_) - m.speed * m.speed * n_.dot(p) : 0.0;
     };
-    return of(w_.b(), side_.pb) - of(w_.a(), side_.pa);
+    double r = of(w_.b(), side_.pb) - of(w_.a(), side_.pa);
+    if (turning()) {
+      const Vec first = turn_.cross(n_);
+      r += 2 * first.dot(gap_velocity()) + turn_.cross(first).dot(spot_.offset + side_.pb - side_.pa);
+    }
+    return r;
   }
 
   // First h > 0 at which s + d h + a h²/2 is `aim`; infinite if there is none.
@@ -100,60 +152,63 @@ class Follower {
     return q > 0 ? 2 * c / q : std::numeric_limits<double>::infinity();
   }
 
-  double certain_step(double e2) const {
-    if (!(curvature_ > 0)) return std::numeric_limits<double>::infinity();
+  double certain_step(double e2, double h) const {
+    const double k = curvature(h);
+    if (!(k > 0)) return std::numeric_limits<double>::infinity();
     const double e1 = std::max(0.0, side_.s - margin(spot_));
-    return (std::sqrt(e1) + std::sqrt(std::max(e2, 0.0))) * std::sqrt(2 / curvature_);
+    return (std::sqrt(e1) + std::sqrt(std::max(e2, 0.0))) * std::sqrt(2 / k);
   }
 
-  double proposal(double h_end) const {
-    const double s = side_.s, d = rate(), a = acceleration(), goal = 3 * spot_.error;
+  double proposal(double h_end, double d) const {
+    const double s = side_.s, a = acceleration(), goal = 1.75 * spot_.error;
     double h = std::min(root(s, d, a, goal), h_end);
     // What the model leaves out: vertices that take over, and the third derivative.
     if (w_.turns()) h = std::min(root(s, d, a, goal + std::min(s / 16, jerk_ * h * h * h)), h_end);
     const double e2 = s + d * h + a * h * h / 2;
-    return std::min(h, certain_step(e2));
+    return std::min(h, certain_step(e2, h));
   }
 
   // To a later time that is proven; true: the end was reached.
   bool step() {
     const double h_end = end_ - spot_.t, s1 = side_.s, e1 = s1 - margin(spot_), d = rate();
     if (!(e1 > 0)) return false;
-    double h = proposal(h_end);
+    double h = proposal(h_end, d);
     for (int i = 0; i < follow_cap; ++i) {
       const double t = h >= h_end ? end_ : spot_.t + h;
       if (!(t > spot_.t)) return false;
       const Spot y = w_.at(t, spot_.precise);
-      const Side side = w_.along(y, n_);
+      const Vec n = normal_at(t);
+      const Side side = w_.along(y, n);
       const double e2 = side.s - margin(y), length = t - spot_.t;
       const double room = e2 < 0 ? -1 : std::sqrt(e1) + std::sqrt(e2);
-      if (room >= 0 && curvature_ * length * length / 2 <= room * room * (1 - 0x1p-40)) {
-        spot_ = y, side_ = side;
+      if (room >= 0 && curvature(length) * length * length / 2 <= room * room * (1 - 0x1p-40)) {
+        spot_ = y, side_ = side, n_ = n;
         return t >= end_;
       }
       if (e2 < 0) {
         const double q = (side.s - s1 - d * length) / (length * length);
         const double r = root(s1, d, 2 * q, 2 * spot_.error + (i > 3 ? s1 / 4 : 0));
-        h = std::clamp(r, 0.05 * length, 0.98 * length);
+        h = std::clamp(r, 0.05 * length, (i > 3 ? 0.5 : 0.98) * length);
       } else {
-        h = std::min(0.95 * certain_step(e2), 0.9 * length);
+        h = std::min(0.95 * certain_step(e2, length), 0.9 * length);
       }
     }
     return false;
   }
 
   const Sweep& w_;
-  Vec n_;
-  double end_, approach_ = 0, curvature_ = 0, jerk_ = 0;
+  Vec n_, turn_ = Vec::Zero();
+  double end_, turn_speed_ = 0, far_ = 0, approach_ = 0, still_ = 0, jerk_ = 0;
   Spot spot_;
   Side side_;
 };
 
 }  // namespace detail
 
-/// From a spot with `side` along n, side.s > error.
-inline Followed follow(const Sweep& w, const Vec& n, const Spot& from, const Side& side, double end) {
-  return detail::Follower(w, n, end).run(from, side);
+/// From a spot with view.side along view.normal, view.side.s > error. `turn`: of the features that the normal
+/// comes from.
+inline Followed follow(const Sweep& w, const Spot& from, const View& view, const Vec& turn, double end) {
+  return detail::Follower(w, from, view, turn, end).run();
 }
 
 }  // namespace touchstone::ccd::fast

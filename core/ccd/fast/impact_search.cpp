@@ -1,12 +1,14 @@
 #include "core/ccd/fast/impact_search.h"
 
+#include "core/ccd/fast/feature_turn.h"
+
 namespace touchstone::ccd::fast {
 namespace {
 
 constexpr int step_cap = 20000;
 // Far from contact a direction that is good to a tenth of the gap carries as far as the best.
 constexpr double far_look = 0.1;
-// A step ends three errors before contact; a few more are the direction's.
+// A step ends two errors before contact; a few more are the direction's.
 constexpr double near_enough = 8;
 // Below so many errors of the gap, rotations are worked out in extended precision.
 constexpr double near_errors = 512;
@@ -50,7 +52,8 @@ Search search(const Sweep& w, double end, double accuracy, const std::optional<V
     }
     if (x.t >= end) return r.end = SearchEnd::clear, r;
     const double before = x.t;
-    const Followed f = follow(w, v.normal, x, v.side, end);
+    const Vec turn = w.turns() && !plane ? feature_turn(w, x, features, v.normal) : Vec(Vec::Zero());
+    const Followed f = follow(w, x, v, turn, end);
     if (f.clear) {
       r.clear_until = end;
       return r.end = SearchEnd::clear, r;

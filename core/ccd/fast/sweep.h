@@ -9,12 +9,14 @@
 //
 //   rotation    2 rounded once from extended precision. Otherwise R(t) = Q·R0: R0 2, the turn Q 20 (axis,
 //               sine and cosine 11; entries 9), its angle 3 |ω| t, the product 9
-//   direction   Rᵀn is off by 5.2, so the vertex taken may be short of the farthest by twice that
-//   scan        dot products of the vertices 3 each, of two compared 6
-//   point       R·p 5, and n·p 3
+//   direction   Rᵀn is off by 5.2, so the point taken may be short of the farthest by twice that
+//   scan        dot products of vertices 3 each, of two compared 6; rims and quadrics no more
+//   point       R·p 5.2
+//   w = b − a   of offset and points, 1; n·w 3, of the offset too, which is itself rounded once and added
+//   once
 //
-// in all 28 (rotation rounded once or at rest) and 59 + 3 |ω| t; the offset, from extended precision, 1, its
-// dot product 3, n's own rounding 2; radii and sums 4 of all terms together.
+// in all 22, with a scan 28 (rotation rounded once or at rest), 31 + 3 |ω| t more otherwise, and 5 times the
+// offset; radii 2. n need not be unit to rounding: s scales with it.
 #pragma once
 
 #include <algorithm>
@@ -57,10 +59,12 @@ class Sweep {
     x.t = t, x.precise = precise;
     x.ra = rotation_at(a_, t, precise), x.rb = rotation_at(b_, t, precise);
     x.offset = (offset_ + static_cast<Wide>(t) * velocity_wide_).cast<double>();
-    const auto turn = [&](const Mover& m) {
-      return (m.turns && !precise ? 64 + 4 * m.speed * t : 32) * m.body.reach;
+    const auto body = [&](const Mover& m) {
+      const double scan =
+          m.body.kind == narrow::CoreKind::box || m.body.kind == narrow::CoreKind::segment ? 22 : 28;
+      return (scan + (m.turns && !precise ? 31 + 4 * m.speed * t : 0)) * m.body.reach;
     };
-    x.error = u<double> * (turn(a_) + turn(b_) + 10 * x.offset.lpNorm<1>() + 4 * radii_);
+    x.error = u<double> * (1 + 0x1p-20) * (body(a_) + body(b_) + 5 * x.offset.norm() + 3 * radii_);
     return x;
   }
 
