@@ -96,8 +96,9 @@ ImpactAnswer against_mesh(const MovingCore& a, const TriangleMesh& mesh, const W
 }
 
 ImpactAnswer convex_convex(const MovingShape& a, const MovingShape& b) {
-  const WideFrame fa = shifted(a.pose, a.pose.translation.cast<Wide>());
-  const WideFrame fb = shifted(b.pose, a.pose.translation.cast<Wide>());
+  const WideFrame fa{fast::rotation_of(a.pose.rotation), WideVec::Zero()};
+  const WideFrame fb{fast::rotation_of(b.pose.rotation),
+                     b.pose.translation.cast<Wide>() - a.pose.translation.cast<Wide>()};
   const fast::Mover ma = fast::make_mover(*a.shape, fa.rotation, a.motion);
   const fast::Mover mb = fast::make_mover(*b.shape, fb.rotation, b.motion);
   const double scale = std::max(scale_of(a, ma.body.extent), scale_of(b, mb.body.extent));

@@ -17,6 +17,13 @@ inline int distinct(const std::array<Vec, 4>& p, int size) {
   return n;
 }
 
+/// The box of a point and a box: its faces and edges count, its corners are no worse for it.
+inline const Mover* box_of_point(const Sweep& w) {
+  const auto a = w.a().body.kind, b = w.b().body.kind;
+  if (a == narrow::CoreKind::point && b == narrow::CoreKind::box) return &w.b();
+  return b == narrow::CoreKind::point && a == narrow::CoreKind::box ? &w.a() : nullptr;
+}
+
 /// From the first to the one that differs from it.
 inline Vec edge(const std::array<Vec, 4>& p, int size) {
   for (int i = 1; i < size; ++i)
@@ -29,6 +36,7 @@ inline Vec edge(const std::array<Vec, 4>& p, int size) {
 /// Ω of follow.h: a face or the only edge takes the direction with it; two edges e, f turn it as they turn
 /// e×f; corners leave it as it is.
 inline Vec feature_turn(const Sweep& w, const Spot& x, const Features& f, const Vec& n) {
+  if (const Mover* box = detail::box_of_point(w)) return box->angular;
   const int a = detail::distinct(f.a, f.size), b = detail::distinct(f.b, f.size);
   if (a >= 3 || (a == 2 && b < 2)) return w.a().angular;
   if (b >= 3 || (b == 2 && a < 2)) return w.b().angular;

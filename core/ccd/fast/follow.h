@@ -173,10 +173,12 @@ class Follower {
     const double h_end = end_ - spot_.t, s1 = side_.s, e1 = s1 - margin(spot_), d = rate();
     if (!(e1 > 0)) return false;
     double h = proposal(h_end, d);
+    // A step converges quadratically: what is left after it may be within the error of a rounded turn.
+    const bool precise = spot_.precise || s1 * s1 < 1024 * spot_.error * (s1 + spot_.offset.norm());
     for (int i = 0; i < follow_cap; ++i) {
       const double t = h >= h_end ? end_ : spot_.t + h;
       if (!(t > spot_.t)) return false;
-      const Spot y = w_.at(t, spot_.precise);
+      const Spot y = w_.at(t, precise);
       const Vec n = normal_at(t);
       const Side side = w_.along(y, n);
       const double e2 = side.s - margin(y), length = t - spot_.t;

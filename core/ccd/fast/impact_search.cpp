@@ -16,16 +16,24 @@ constexpr double near_errors = 512;
 View look_at_plane(const Sweep& w, const Spot& x, const Vec& n) {
   View v;
   v.normal = n, v.side = w.along(x, n), v.upper = v.side.s;
-  v.a = v.side.pa, v.b = v.a + n * (v.side.s + w.radii());
   return v;
 }
 
-// The ball of each core is added along the nearest points' own difference.
-void set_points(Search& r, const Sweep& w, const View& v) {
-  const Vec d = v.b - v.a;
+// Nearest points about A's origin; the ball of each core is added along their own difference.
+void set_points(Search& r, const Sweep& w, const Spot& x, const View& v, const Features& f) {
+  r.normal = v.normal, r.a = Vec::Zero(), r.b = Vec::Zero();
+  for (int i = 0; i < std::min(f.size, 3); ++i) {
+    const auto k = static_cast<std::size_t>(i);
+    r.a += f.weight[k] * (x.ra * f.a[k]), r.b += f.weight[k] * (x.rb * f.b[k]);
+  }
+  if (f.size == 0)  // a plane
+    r.a = v.side.pa, r.b = r.a + v.normal * (v.side.s + w.radii());
+  else
+    r.b += x.offset;
+  const Vec d = r.b - r.a;
   const double length = d.norm();
   const Vec n = length > 0 && w.radii() > 0 ? Vec(d / length) : v.normal;
-  r.normal = v.normal, r.a = v.a + w.a().body.radius * n, r.b = v.b - w.b().body.radius * n;
+  r.a += w.a().body.radius * n, r.b -= w.b().body.radius * n;
 }
 
 }  // namespace
@@ -46,13 +54,14 @@ Search search(const Sweep& w, double end, double accuracy, const std::optional<V
       return r;
     }
     if (v.upper + x.error <= std::min(accuracy, near_enough * x.error)) {
-      set_points(r, w, v);
+      set_points(r, w, x, v, features);
       r.gap = v.upper;
       return r.end = SearchEnd::hit, r;
     }
     if (x.t >= end) return r.end = SearchEnd::clear, r;
     const double before = x.t;
-    const Vec turn = w.turns() && !plane ? feature_turn(w, x, features, v.normal) : Vec(Vec::Zero());
+    const bool near = w.turns() && !plane && v.side.s < w.a().body.reach + w.b().body.reach;
+    const Vec turn = near ? feature_turn(w, x, features, v.normal) : Vec(Vec::Zero());
     const Followed f = follow(w, x, v, turn, end);
     if (f.clear) {
       r.clear_until = end;

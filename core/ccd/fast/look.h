@@ -15,6 +15,7 @@ namespace touchstone::ccd::fast {
 /// A few core points of each body, in its own frame: what the nearest points are made of.
 struct Features {
   std::array<Vec, 4> a, b;
+  std::array<double, 4> weight;  // of the last nearest points
   int size = 0;
 };
 
@@ -23,7 +24,6 @@ struct View {
   Vec normal = Vec::UnitX();
   Side side;                                               // along normal
   double upper = std::numeric_limits<double>::infinity();  // of the gap
-  Vec a, b;  // nearest points of the cores about A's origin, as good as `upper`
 };
 
 namespace detail {
@@ -57,7 +57,6 @@ class Looker {
       }
       v_.upper = std::min(v_.upper, length - w_.radii());
     }
-    finish();
   }
 
  private:
@@ -95,32 +94,19 @@ class Looker {
 
   // Down to what carries the nearest point; false: the simplex holds the origin.
   bool shrink(Vec& v) {
-    const narrow::fast::Simplex<double> before = simplex_;
+    const auto before = simplex_.p;
+    const int size = simplex_.size;
     double dist_sq = 0, margin = 0;
     if (narrow::fast::reduce(simplex_, v, dist_sq, margin)) return false;
-    Features kept;
-    kept.size = simplex_.size;
+    const Features had = f_;
+    f_.size = simplex_.size;
     for (int i = 0; i < simplex_.size; ++i) {
       const auto k = static_cast<std::size_t>(i);
       std::size_t from = 0;
-      while (from + 1 < static_cast<std::size_t>(before.size) && before.p[from].w != simplex_.p[k].w) ++from;
-      kept.a[k] = f_.a[from], kept.b[k] = f_.b[from];
+      while (from + 1 < static_cast<std::size_t>(size) && before[from].w != simplex_.p[k].w) ++from;
+      f_.a[k] = had.a[from], f_.b[k] = had.b[from], f_.weight[k] = simplex_.weight[k];
     }
-    f_ = kept;
     return true;
-  }
-
-  void finish() {
-    v_.a = v_.b = Vec::Zero();
-    if (f_.size == 0) {
-      v_.a = v_.side.pa, v_.b = x_.offset + v_.side.pb;
-      return;
-    }
-    for (int i = 0; i < std::min(f_.size, 3); ++i) {
-      const auto k = static_cast<std::size_t>(i);
-      v_.a += simplex_.weight[k] * (x_.ra * f_.a[k]), v_.b += simplex_.weight[k] * (x_.rb * f_.b[k]);
-    }
-    v_.b += x_.offset;
   }
 
   const Sweep& w_;
@@ -132,8 +118,41 @@ class Looker {
 
 }  // namespace detail
 
+namespace detail {
+
+// A point against a point or a box: no search. Features as the search would leave them; false: they meet.
+inline bool point_and_box(const Sweep& w, const Spot& x, Features& f, View& v) {
+  const bool first = w.a().body.kind == narrow::CoreKind::point;
+  const Mover& other = first ? w.b() : w.a();
+  const Mat& r = first ? x.rb : x.ra;
+  const Vec o = first ? Vec(-x.offset) : x.offset;  // of the point, from the box
+  const Vec p = r.transpose() * o,
+            h = other.body.kind == narrow::CoreKind::box ? other.body.size : Vec(Vec::Zero()),
+            q = p.cwiseMax(-h).cwiseMin(h);
+  const Vec away = r * (p - q);
+  const double length = away.norm();
+  v.meeting = !(length > 0);
+  if (v.meeting) return false;
+  v.normal = away * ((first ? -1 : 1) / length), v.side = w.along(x, v.normal);
+  v.upper = length - w.radii();
+  f.size = 1, f.weight[0] = 1;
+  (first ? f.a : f.b)[0] = Vec::Zero(), (first ? f.b : f.a)[0] = q;
+  return true;
+}
+
+}  // namespace detail
+
 inline View look(const Sweep& sweep, const Spot& x, Features& f, double relative, double absolute) {
   View v;
+  const auto kind = [](const Mover& m) { return m.body.kind; };
+  const auto simple = [](narrow::CoreKind k) {
+    return k == narrow::CoreKind::point || k == narrow::CoreKind::box;
+  };
+  const bool point = kind(sweep.a()) == narrow::CoreKind::point || kind(sweep.b()) == narrow::CoreKind::point;
+  if (point && simple(kind(sweep.a())) && simple(kind(sweep.b()))) {
+    detail::point_and_box(sweep, x, f, v);
+    return v;
+  }
   detail::Looker(sweep, x, f, v).run(relative, absolute);
   return v;
 }

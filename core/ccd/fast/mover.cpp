@@ -61,6 +61,17 @@ void set_turn(Mover& m, const Vec& angular) {
 
 }  // namespace
 
+WideMat rotation_of(const Quat& q) {
+  const Wide x = q.x, y = q.y, z = q.z, w = q.w;
+  const Wide k = 1 / (x * x + y * y + z * z + w * w), k2 = 2 * k;
+  const Wide xx = x * x, yy = y * y, zz = z * z, ww = w * w;
+  WideMat r;
+  r << (ww + xx - yy - zz) * k, (x * y - w * z) * k2, (x * z + w * y) * k2,  //
+      (x * y + w * z) * k2, (ww - xx + yy - zz) * k, (y * z - w * x) * k2,   //
+      (x * z - w * y) * k2, (y * z + w * x) * k2, (ww - xx - yy + zz) * k;
+  return r;
+}
+
 Mover make_mover(const Shape& shape, const WideMat& rotation, const Motion& motion) {
   Mover m;
   m.body = narrow::fast::make_body<double>(shape);
