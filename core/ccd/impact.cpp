@@ -4,6 +4,7 @@
 
 #include "core/ccd/advance.h"
 #include "core/ccd/fast/impact_search.h"
+#include "core/ccd/fast/translation.h"
 #include "core/narrow/mesh.h"
 #include "core/narrow/narrow_phase.h"
 #include "core/tolerance.h"
@@ -95,14 +96,39 @@ ImpactAnswer against_mesh(const MovingCore& a, const TriangleMesh& mesh, const W
   return best;
 }
 
-ImpactAnswer convex_convex(const MovingShape& a, const MovingShape& b) {
+bool turns(const MovingShape& s) { return !s.motion.angular.isZero(0); }
+
+// Closed forms of translations; `unsure` where there is none.
+fast::Search translated(const MovingShape& a, const MovingShape& b) {
+  const auto *box_a = std::get_if<Box>(a.shape), *box_b = std::get_if<Box>(b.shape);
+  const auto* ball = std::get_if<Sphere>(a.shape);
+  if (!box_b || turns(b)) return {};
+  const fast::Translation m{narrow::fast::stand<double>(a.pose), narrow::fast::stand<double>(b.pose),
+                            b.motion.linear - a.motion.linear};
+  if (ball) {
+    const double scale = std::max(scale_of(a, ball->radius), scale_of(b, box_b->half_extents.maxCoeff()));
+    return translating_ball_and_box(m, ball->radius, box_b->half_extents, accuracy_of(scale));
+  }
+  if (!box_a || turns(a)) return {};
+  const double scale =
+      std::max(scale_of(a, box_a->half_extents.maxCoeff()), scale_of(b, box_b->half_extents.maxCoeff()));
+  return translating_boxes(m, box_a->half_extents, box_b->half_extents, accuracy_of(scale));
+}
+
+ImpactAnswer convex_convex(const MovingShape& a, const MovingShape& b, ImpactDetail detail) {
+  const fast::Search at_once = translated(a, b);
+  const bool points = std::holds_alternative<Sphere>(*a.shape) || detail == ImpactDetail::time;
+  if (at_once.end == fast::SearchEnd::clear || (at_once.end == fast::SearchEnd::hit && points))
+    return stated(at_once, a);
   const WideFrame fa{fast::rotation_of(a.pose.rotation), WideVec::Zero()};
   const WideFrame fb{fast::rotation_of(b.pose.rotation),
                      b.pose.translation.cast<Wide>() - a.pose.translation.cast<Wide>()};
   const fast::Mover ma = fast::make_mover(*a.shape, fa.rotation, a.motion);
   const fast::Mover mb = fast::make_mover(*b.shape, fb.rotation, b.motion);
+  const fast::Sweep sweep(ma, mb, fb.translation);
+  if (at_once.end == fast::SearchEnd::hit) return stated(fast::with_points(sweep, at_once), a);
   const double scale = std::max(scale_of(a, ma.body.extent), scale_of(b, mb.body.extent));
-  const fast::Search s = search(fast::Sweep(ma, mb, fb.translation), 1, accuracy_of(scale), {});
+  const fast::Search s = search(sweep, 1, accuracy_of(scale), {});
   if (settled(s)) return stated(s, a);
   if (s.end == fast::SearchEnd::start && overlap({a.shape, a.pose}, {b.shape, b.pose}).overlap)
     return contact_at_start(a, b);
@@ -127,24 +153,26 @@ ImpactAnswer convex_half_space(const MovingShape& a, const MovingShape& b) {
   return continued(advance(ca, plane, s.clear_until, 1), s, a.pose.translation);
 }
 
-ImpactAnswer from_convex(const MovingShape& a, const MovingShape& b) {
-  if (kind_of(*b.shape) == ShapeKind::half_space) return convex_half_space(a, b);
-  const auto* mesh = std::get_if<TriangleMesh>(b.shape);
-  if (!mesh) return convex_convex(a, b);
-  const WideVec origin = a.pose.translation.cast<Wide>();
-  const MovingCore ca = moving_core(narrow::make_core(*a.shape, shifted(a.pose, origin)), a.motion);
-  return continued(against_mesh(ca, *mesh, shifted(b.pose, origin)), {}, a.pose.translation);
-}
-
 ImpactAnswer mirrored(ImpactAnswer r) {
   r.normal_ab = -r.normal_ab;
   std::swap(r.witness_w[0], r.witness_w[1]);
   return r;
 }
 
+ImpactAnswer from_convex(const MovingShape& a, const MovingShape& b, ImpactDetail detail) {
+  if (kind_of(*b.shape) == ShapeKind::half_space) return convex_half_space(a, b);
+  const auto* mesh = std::get_if<TriangleMesh>(b.shape);
+  if (!mesh && kind_of(*b.shape) == ShapeKind::sphere && kind_of(*a.shape) == ShapeKind::box)
+    return mirrored(convex_convex(b, a, detail));
+  if (!mesh) return convex_convex(a, b, detail);
+  const WideVec origin = a.pose.translation.cast<Wide>();
+  const MovingCore ca = moving_core(narrow::make_core(*a.shape, shifted(a.pose, origin)), a.motion);
+  return continued(against_mesh(ca, *mesh, shifted(b.pose, origin)), {}, a.pose.translation);
+}
+
 }  // namespace
 
-ImpactAnswer time_of_impact(const MovingShape& a, const MovingShape& b) {
+ImpactAnswer time_of_impact(const MovingShape& a, const MovingShape& b, ImpactDetail detail) {
   for (const MovingShape* s : {&a, &b})
     if (is_static_shape(*s->shape) && moves(*s)) {
       ImpactAnswer r;
@@ -152,7 +180,7 @@ ImpactAnswer time_of_impact(const MovingShape& a, const MovingShape& b) {
       return r;
     }
   if (!moves(a) && !moves(b)) return at_rest(a, b);
-  return is_static_shape(*a.shape) ? mirrored(from_convex(b, a)) : from_convex(a, b);
+  return is_static_shape(*a.shape) ? mirrored(from_convex(b, a, detail)) : from_convex(a, b, detail);
 }
 
 }  // namespace touchstone

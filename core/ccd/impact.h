@@ -33,8 +33,12 @@ struct ImpactAnswer {
   int steps = 0;
 };
 
+/// What is asked: `time` leaves the witness points out where they would be work of their own.
+enum class ImpactDetail { time, contact };
+
 /// Every pair of the narrow phase. A mesh or half-space with a velocity is unsupported: they are static
 /// shapes.
-ImpactAnswer time_of_impact(const MovingShape& a, const MovingShape& b);
+ImpactAnswer time_of_impact(const MovingShape& a, const MovingShape& b,
+                            ImpactDetail detail = ImpactDetail::contact);
 
 }  // namespace touchstone

@@ -36,7 +36,7 @@ class Ours final : public ImpactContestant {
       pairs_.push_back({{&c.a, c.pose_a, c.motion_a}, {&c.b, c.pose_b, c.motion_b}});
   }
   void ask(std::size_t i, FoundImpact& out) override {
-    const ImpactAnswer r = time_of_impact(pairs_[i].a, pairs_[i].b);
+    const ImpactAnswer r = time_of_impact(pairs_[i].a, pairs_[i].b, ImpactDetail::time);
     out.failed = r.outcome != Outcome::answered, out.t = r.toi, out.steps = r.steps;
   }
 

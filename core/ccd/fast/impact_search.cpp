@@ -73,4 +73,14 @@ Search search(const Sweep& w, double end, double accuracy, const std::optional<V
   return r.end = SearchEnd::unsure, r;
 }
 
+Search with_points(const Sweep& w, Search hit) {
+  Features features;
+  const Spot x = w.at(hit.clear_until, true);
+  const View v = look(w, x, features, 0, x.error);
+  const Vec normal = hit.normal;
+  set_points(hit, w, x, v, features);
+  hit.normal = normal;
+  return hit;
+}
+
 }  // namespace touchstone::ccd::fast

@@ -17,14 +17,17 @@ enum class SearchEnd {
 
 struct Search {
   SearchEnd end = SearchEnd::unsure;
-  double clear_until = 0;  // proven
-  double gap = 0;          // hit: as computed. Otherwise at the last look
-  Vec normal;              // A to B
-  Vec a, b;                // hit: nearest points at that time about A's origin, world axes
+  double clear_until = 0;                // proven
+  double gap = 0;                        // hit: as computed. Otherwise at the last look
+  Vec normal = Vec::Zero();              // A to B
+  Vec a = Vec::Zero(), b = Vec::Zero();  // hit: nearest points at that time about A's origin, world axes
   int steps = 0;
 };
 
 /// `plane`: B is a half-space, as a point on its face, with its inward normal.
 Search search(const Sweep& sweep, double end, double accuracy, const std::optional<Vec>& plane);
+
+/// A hit with its nearest points worked out anew.
+Search with_points(const Sweep& sweep, Search hit);
 
 }  // namespace touchstone::ccd::fast
