@@ -3,9 +3,9 @@
 #include <algorithm>
 
 #include "core/ccd/advance.h"
+#include "core/ccd/convex_mesh.h"
 #include "core/ccd/fast/impact_search.h"
 #include "core/ccd/fast/translation.h"
-#include "core/narrow/mesh.h"
 #include "core/narrow/narrow_phase.h"
 #include "core/tolerance.h"
 
@@ -56,14 +56,9 @@ ImpactAnswer at_rest(const MovingShape& a, const MovingShape& b) {
   return r;
 }
 
-// What the search in double knows; `unsure` and `start` are for others to decide.
 ImpactAnswer stated(const fast::Search& s, const MovingShape& a) {
-  ImpactAnswer r;
-  r.steps = s.steps, r.clear_until = s.clear_until, r.separation = s.gap;
-  if (s.end != fast::SearchEnd::hit) return r;
-  r.toi = s.clear_until, r.normal_ab = s.normal;
-  const Vec3 origin = a.pose.translation + *r.toi * a.motion.linear;
-  r.witness_w = {s.a + origin, s.b + origin};
+  ImpactAnswer r = fast::answer_of(s, a.motion.linear);
+  for (Vec3& x : r.witness_w) x += a.pose.translation;
   return r;
 }
 
@@ -76,24 +71,6 @@ ImpactAnswer continued(ImpactAnswer r, const fast::Search& s, const Vec3& origin
   r.steps += s.steps;
   for (Vec3& x : r.witness_w) x += origin;
   return r;
-}
-
-// Triangles near the ball that the body sweeps, nearest first; each is asked only up to the first hit so far.
-ImpactAnswer against_mesh(const MovingCore& a, const TriangleMesh& mesh, const WideFrame& frame) {
-  const WideVec middle = a.start.frame.translation + a.linear / 2;
-  const Wide radius = a.start.reach + a.start.radius + a.linear.norm() / 2;
-  const WideVec centre = frame.rotation.transpose() * (middle - frame.translation);
-  ImpactAnswer best;
-  best.clear_until = 1;
-  Wide end = 1;
-  for (const auto& near : narrow::triangles_near(mesh, centre, radius, 0)) {
-    const auto corners = narrow::corners(mesh, near.triangle);
-    const ImpactAnswer r = advance(a, moving_core(narrow::vertices_core(corners, frame), {}), 0, end);
-    if (r.outcome != Outcome::answered) return r;
-    if (r.toi && (!best.toi || *r.toi < *best.toi)) best = r, end = *r.toi;
-    if (best.toi && *best.toi == 0) break;
-  }
-  return best;
 }
 
 bool turns(const MovingShape& s) { return !s.motion.angular.isZero(0); }
@@ -165,9 +142,9 @@ ImpactAnswer from_convex(const MovingShape& a, const MovingShape& b, ImpactDetai
   if (!mesh && kind_of(*b.shape) == ShapeKind::sphere && kind_of(*a.shape) == ShapeKind::box)
     return mirrored(convex_convex(b, a, detail));
   if (!mesh) return convex_convex(a, b, detail);
-  const WideVec origin = a.pose.translation.cast<Wide>();
-  const MovingCore ca = moving_core(narrow::make_core(*a.shape, shifted(a.pose, origin)), a.motion);
-  return continued(against_mesh(ca, *mesh, shifted(b.pose, origin)), {}, a.pose.translation);
+  const WideFrame frame = shifted(b.pose, a.pose.translation.cast<Wide>());
+  const double accuracy = accuracy_of(std::max(scale_of(a, 0), scale_of(b, 0)));
+  return continued(convex_mesh(a, *mesh, b.tree, frame, accuracy), {}, a.pose.translation);
 }
 
 }  // namespace

@@ -73,6 +73,16 @@ Search search(const Sweep& w, double end, double accuracy, const std::optional<V
   return r.end = SearchEnd::unsure, r;
 }
 
+ImpactAnswer answer_of(const Search& s, const Vec& linear_a) {
+  ImpactAnswer r;
+  r.steps = s.steps, r.clear_until = s.clear_until, r.separation = s.gap;
+  if (s.end != SearchEnd::hit) return r;
+  r.toi = s.clear_until, r.normal_ab = s.normal;
+  const Vec origin = s.clear_until * linear_a;
+  r.witness_w = {Vec3(s.a + origin), Vec3(s.b + origin)};
+  return r;
+}
+
 Search with_points(const Sweep& w, Search hit) {
   Features features;
   const Spot x = w.at(hit.clear_until, true);

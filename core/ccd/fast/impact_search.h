@@ -27,6 +27,9 @@ struct Search {
 /// `plane`: B is a half-space, as a point on its face, with its inward normal.
 Search search(const Sweep& sweep, double end, double accuracy, const std::optional<Vec>& plane);
 
+/// What is known, in coordinates about A's start; of `unsure` and `start` nothing but the time that is clear.
+ImpactAnswer answer_of(const Search& s, const Vec& linear_a);
+
 /// A hit with its nearest points worked out anew.
 Search with_points(const Sweep& sweep, Search hit);
 
