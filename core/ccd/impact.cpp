@@ -34,7 +34,8 @@ double scale_of(const MovingShape& s, double extent) {
 
 double accuracy_of(double scale) { return (tolerance::core_tau_factor - 4) * 0x1p-53 * scale; }
 
-ImpactAnswer contact_at_start(const MovingShape& a, const MovingShape& b) {
+ImpactAnswer contact_at_start(const MovingShape& a, const MovingShape& b, ImpactDetail detail) {
+  if (detail == ImpactDetail::time) return {.toi = 0};
   const DistanceAnswer d = distance({a.shape, a.pose, a.tree}, {b.shape, b.pose, b.tree});
   ImpactAnswer r;
   r.outcome = d.outcome;
@@ -43,13 +44,13 @@ ImpactAnswer contact_at_start(const MovingShape& a, const MovingShape& b) {
   return r;
 }
 
-ImpactAnswer at_rest(const MovingShape& a, const MovingShape& b) {
+ImpactAnswer at_rest(const MovingShape& a, const MovingShape& b, ImpactDetail detail) {
   const PlacedShape pa{a.shape, a.pose, a.tree}, pb{b.shape, b.pose, b.tree};
   const OverlapAnswer o = overlap(pa, pb);
   ImpactAnswer r;
   r.outcome = o.outcome;
   if (o.outcome != Outcome::answered) return r;
-  if (o.overlap) return contact_at_start(a, b);
+  if (o.overlap) return contact_at_start(a, b, detail);
   r.clear_until = 1;
   const DistanceAnswer d = distance(pa, pb);
   r.outcome = d.outcome, r.separation = d.distance;
@@ -108,13 +109,13 @@ ImpactAnswer convex_convex(const MovingShape& a, const MovingShape& b, ImpactDet
   const fast::Search s = search(sweep, 1, accuracy_of(scale), {});
   if (settled(s)) return stated(s, a);
   if (s.end == fast::SearchEnd::start && overlap({a.shape, a.pose}, {b.shape, b.pose}).overlap)
-    return contact_at_start(a, b);
+    return contact_at_start(a, b, detail);
   const MovingCore ca = moving_core(narrow::make_core(*a.shape, fa), a.motion);
   const MovingCore cb = moving_core(narrow::make_core(*b.shape, fb), b.motion);
   return continued(advance(ca, cb, s.clear_until, 1), s, a.pose.translation);
 }
 
-ImpactAnswer convex_half_space(const MovingShape& a, const MovingShape& b) {
+ImpactAnswer convex_half_space(const MovingShape& a, const MovingShape& b, ImpactDetail detail) {
   const WideFrame fa = shifted(a.pose, a.pose.translation.cast<Wide>());
   const narrow::WidePlane plane =
       narrow::place(*std::get_if<HalfSpace>(b.shape), shifted(b.pose, a.pose.translation.cast<Wide>()));
@@ -125,7 +126,7 @@ ImpactAnswer convex_half_space(const MovingShape& a, const MovingShape& b) {
                                 Vec3(-plane.normal.cast<double>()));
   if (settled(s)) return stated(s, a);
   if (s.end == fast::SearchEnd::start && overlap({a.shape, a.pose}, {b.shape, b.pose}).overlap)
-    return contact_at_start(a, b);
+    return contact_at_start(a, b, detail);
   const MovingCore ca = moving_core(narrow::make_core(*a.shape, fa), a.motion);
   return continued(advance(ca, plane, s.clear_until, 1), s, a.pose.translation);
 }
@@ -137,7 +138,7 @@ ImpactAnswer mirrored(ImpactAnswer r) {
 }
 
 ImpactAnswer from_convex(const MovingShape& a, const MovingShape& b, ImpactDetail detail) {
-  if (kind_of(*b.shape) == ShapeKind::half_space) return convex_half_space(a, b);
+  if (kind_of(*b.shape) == ShapeKind::half_space) return convex_half_space(a, b, detail);
   const auto* mesh = std::get_if<TriangleMesh>(b.shape);
   if (!mesh && kind_of(*b.shape) == ShapeKind::sphere && kind_of(*a.shape) == ShapeKind::box)
     return mirrored(convex_convex(b, a, detail));
@@ -156,7 +157,7 @@ ImpactAnswer time_of_impact(const MovingShape& a, const MovingShape& b, ImpactDe
       r.outcome = Outcome::unsupported;
       return r;
     }
-  if (!moves(a) && !moves(b)) return at_rest(a, b);
+  if (!moves(a) && !moves(b)) return at_rest(a, b, detail);
   return is_static_shape(*a.shape) ? mirrored(from_convex(b, a, detail)) : from_convex(a, b, detail);
 }
 

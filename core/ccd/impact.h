@@ -33,7 +33,8 @@ struct ImpactAnswer {
   int steps = 0;
 };
 
-/// What is asked: `time` leaves the witness points out where they would be work of their own.
+/// What is asked: `time` leaves the witness points out, and at toi = 0 separation and normal too, where they
+/// would be work of their own.
 enum class ImpactDetail { time, contact };
 
 /// Every pair of the narrow phase. A mesh or half-space with a velocity is unsupported: they are static
