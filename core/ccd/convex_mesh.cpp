@@ -50,7 +50,7 @@ class Query {
       const double first = below / v, last = above / v;
       in = std::max(in, std::min(first, last)), out = std::min(out, std::max(first, last));
     }
-    return in <= out + 0x1p-40 ? std::max(0.0, in - 0x1p-40) : never;
+    return in > out + 0x1p-40 ? never : std::max(0.0, in - 0x1p-40);
   }
 
   double end() const { return best_.toi.value_or(1); }
