@@ -105,8 +105,9 @@ struct Snapshot {
 // One pair of bodies over time: what it looks like at t, and how far it may go from there.
 struct CorePair {
   const MovingCore &a, &b;
+  WideVec origin(Wide t) const { return a.start.frame.translation + t * a.linear; }
   Snapshot look(Wide t) const {
-    const WideVec origin = a.start.frame.translation + t * a.linear;
+    const WideVec origin = this->origin(t);
     Snapshot x{{}, at_time(a, t, origin), at_time(b, t, origin)};
     x.s = narrow::separate_convex(x.a, x.b);
     return x;
@@ -122,6 +123,7 @@ struct CorePair {
 struct PlanePair {
   const MovingCore& a;
   const narrow::WidePlane& plane;
+  WideVec origin(Wide) const { return WideVec::Zero(); }
   Snapshot look(Wide t) const {
     Snapshot x{{}, at_time(a, t, WideVec::Zero()), {}};
     x.s = narrow::convex_plane(x.a, plane);
@@ -138,9 +140,12 @@ struct PlanePair {
 // t in double: downwards, so that it is not late, unless the body moves so fast that only the next double is
 // in contact.
 template <class P>
-ImpactAnswer hit(const P& pair, Wide t, Wide gap, Wide target, int steps) {
+ImpactAnswer hit(const P& pair, Wide t, const Separation& s, Wide target, int steps) {
   ImpactAnswer r;
-  r.steps = steps, r.separation = static_cast<double>(gap), r.clear_until = static_cast<double>(t);
+  r.steps = steps, r.separation = static_cast<double>(s.gap), r.clear_until = static_cast<double>(t);
+  r.normal_ab = s.normal.template cast<double>();
+  const WideVec origin = pair.origin(t);
+  r.witness_w = {(s.a + origin).template cast<double>(), (s.b + origin).template cast<double>()};
   double d = static_cast<double>(t);
   if (static_cast<Wide>(d) > t) d = std::nextafter(d, 0.0);
   r.toi = r.clear_until = d;
@@ -155,15 +160,15 @@ ImpactAnswer hit(const P& pair, Wide t, Wide gap, Wide target, int steps) {
 }
 
 template <class P>
-ImpactAnswer run(const P& pair, Wide t_end) {
+ImpactAnswer run(const P& pair, Wide t_start, Wide t_end) {
   ImpactAnswer r;
-  Wide t = 0;
+  Wide t = t_start;
   for (r.steps = 0; r.steps < step_cap; ++r.steps) {
     const Snapshot x = pair.look(t);
     r.clear_until = static_cast<double>(t), r.separation = static_cast<double>(x.s.gap);
     if (x.s.outcome != Outcome::answered) return r.outcome = x.s.outcome, r;
     const Wide target = tolerance::impact_gap_factor * x.s.size;
-    if (x.s.gap <= target) return hit(pair, t, x.s.gap, target, r.steps);
+    if (x.s.gap <= target) return hit(pair, t, x.s, target, r.steps);
     if (t >= t_end) return r;
     const Wide step = pair.step(x, t_end - t);
     if (step >= t_end - t) {
@@ -190,12 +195,12 @@ Core at_time(const MovingCore& c, Wide t, const WideVec& origin) {
   return r;
 }
 
-ImpactAnswer advance(const MovingCore& a, const MovingCore& b, Wide t_end) {
-  return run(CorePair{a, b}, t_end);
+ImpactAnswer advance(const MovingCore& a, const MovingCore& b, Wide t_start, Wide t_end) {
+  return run(CorePair{a, b}, t_start, t_end);
 }
 
-ImpactAnswer advance(const MovingCore& a, const narrow::WidePlane& plane, Wide t_end) {
-  return run(PlanePair{a, plane}, t_end);
+ImpactAnswer advance(const MovingCore& a, const narrow::WidePlane& plane, Wide t_start, Wide t_end) {
+  return run(PlanePair{a, plane}, t_start, t_end);
 }
 
 }  // namespace touchstone::ccd

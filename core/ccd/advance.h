@@ -21,8 +21,8 @@ MovingCore moving_core(const Core& start, const Motion& motion);
 /// The core at time t with `origin` subtracted from its translation.
 Core at_time(const MovingCore& c, Wide t, const WideVec& origin);
 
-/// First contact in [0, t_end].
-ImpactAnswer advance(const MovingCore& a, const MovingCore& b, Wide t_end);
-ImpactAnswer advance(const MovingCore& a, const narrow::WidePlane& plane, Wide t_end);
+/// First contact in [t_start, t_end]; precondition: none before t_start.
+ImpactAnswer advance(const MovingCore& a, const MovingCore& b, Wide t_start, Wide t_end);
+ImpactAnswer advance(const MovingCore& a, const narrow::WidePlane& plane, Wide t_start, Wide t_end);
 
 }  // namespace touchstone::ccd

@@ -1,8 +1,11 @@
 #include "core/ccd/impact.h"
 
+#include <algorithm>
+
 #include "core/ccd/advance.h"
-#include "core/ccd/sphere_sphere.h"
-#include "core/narrow/mesh.h"
+#include "core/ccd/convex_mesh.h"
+#include "core/ccd/fast/impact_search.h"
+#include "core/ccd/fast/translation.h"
 #include "core/narrow/narrow_phase.h"
 #include "core/tolerance.h"
 
@@ -23,59 +26,139 @@ WideFrame shifted(const Pose& p, const WideVec& origin) {
   return f;
 }
 
-ImpactAnswer at_rest(const MovingShape& a, const MovingShape& b) {
-  const Separation s = separation({a.shape, a.pose}, {b.shape, b.pose});
+// No more than L of the pair: what τ is relative to.
+double scale_of(const MovingShape& s, double extent) {
+  const double from = s.pose.translation.cwiseAbs().maxCoeff();
+  return std::max({extent, from, (s.pose.translation + s.motion.linear).cwiseAbs().maxCoeff()});
+}
+
+double accuracy_of(double scale) { return (tolerance::core_tau_factor - 4) * 0x1p-53 * scale; }
+
+ImpactAnswer contact_at_start(const MovingShape& a, const MovingShape& b, ImpactDetail detail) {
+  if (detail == ImpactDetail::time) return {.toi = 0};
+  const DistanceAnswer d = distance({a.shape, a.pose, a.tree}, {b.shape, b.pose, b.tree});
   ImpactAnswer r;
-  r.outcome = s.outcome, r.separation = static_cast<double>(s.gap);
-  if (s.outcome != Outcome::answered) return r;
-  if (s.gap <= tolerance::narrow_contact_factor * s.size)
-    r.toi = 0;
-  else
-    r.clear_until = 1;
+  r.outcome = d.outcome;
+  if (d.outcome != Outcome::answered) return r;
+  r.toi = 0, r.separation = d.distance, r.normal_ab = d.normal, r.witness_w = d.witness;
   return r;
 }
 
-// Triangles near the ball that the body sweeps, nearest first; each is asked only up to the first hit so far.
-ImpactAnswer against_mesh(const MovingCore& a, const TriangleMesh& mesh, const WideFrame& frame) {
-  const WideVec middle = a.start.frame.translation + a.linear / 2;
-  const Wide radius = a.start.reach + a.start.radius + a.linear.norm() / 2;
-  const WideVec centre = frame.rotation.transpose() * (middle - frame.translation);
-  ImpactAnswer best;
-  best.clear_until = 1;
-  Wide end = 1;
-  for (const auto& near : narrow::triangles_near(mesh, centre, radius, 0)) {
-    const auto corners = narrow::corners(mesh, near.triangle);
-    const ImpactAnswer r = advance(a, moving_core(narrow::vertices_core(corners, frame), {}), end);
-    if (r.outcome != Outcome::answered) return r;
-    if (r.toi && (!best.toi || *r.toi < *best.toi)) best = r, end = *r.toi;
-    if (best.toi && *best.toi == 0) break;
-  }
-  return best;
+ImpactAnswer at_rest(const MovingShape& a, const MovingShape& b, ImpactDetail detail) {
+  const PlacedShape pa{a.shape, a.pose, a.tree}, pb{b.shape, b.pose, b.tree};
+  const OverlapAnswer o = overlap(pa, pb);
+  ImpactAnswer r;
+  r.outcome = o.outcome;
+  if (o.outcome != Outcome::answered) return r;
+  if (o.overlap) return contact_at_start(a, b, detail);
+  r.clear_until = 1;
+  const DistanceAnswer d = distance(pa, pb);
+  r.outcome = d.outcome, r.separation = d.distance;
+  return r;
 }
 
-ImpactAnswer from_convex(const MovingShape& a, const MovingShape& b) {
-  const WideVec origin = a.pose.translation.cast<Wide>();
-  const MovingCore ca = moving_core(narrow::make_core(*a.shape, shifted(a.pose, origin)), a.motion);
-  const WideFrame fb = shifted(b.pose, origin);
-  if (const auto* h = std::get_if<HalfSpace>(b.shape)) return advance(ca, narrow::place(*h, fb), 1);
-  if (const auto* m = std::get_if<TriangleMesh>(b.shape)) return against_mesh(ca, *m, fb);
+ImpactAnswer stated(const fast::Search& s, const MovingShape& a) {
+  ImpactAnswer r = fast::answer_of(s, a.motion.linear);
+  for (Vec3& x : r.witness_w) x += a.pose.translation;
+  return r;
+}
+
+bool settled(const fast::Search& s) {
+  return s.end == fast::SearchEnd::hit || s.end == fast::SearchEnd::clear;
+}
+
+// Coordinates of advance() are about A's start.
+ImpactAnswer continued(ImpactAnswer r, const fast::Search& s, const Vec3& origin) {
+  r.steps += s.steps;
+  for (Vec3& x : r.witness_w) x += origin;
+  return r;
+}
+
+bool turns(const MovingShape& s) { return !s.motion.angular.isZero(0); }
+
+// Closed forms of translations; `unsure` where there is none.
+fast::Search translated(const MovingShape& a, const MovingShape& b) {
+  const auto *box_a = std::get_if<Box>(a.shape), *box_b = std::get_if<Box>(b.shape);
+  const auto* ball = std::get_if<Sphere>(a.shape);
+  if (!box_b || turns(b)) return {};
+  const fast::Translation m{narrow::fast::stand<double>(a.pose), narrow::fast::stand<double>(b.pose),
+                            b.motion.linear - a.motion.linear};
+  if (ball) {
+    const double scale = std::max(scale_of(a, ball->radius), scale_of(b, box_b->half_extents.maxCoeff()));
+    return translating_ball_and_box(m, ball->radius, box_b->half_extents, accuracy_of(scale));
+  }
+  if (!box_a || turns(a)) return {};
+  const double scale =
+      std::max(scale_of(a, box_a->half_extents.maxCoeff()), scale_of(b, box_b->half_extents.maxCoeff()));
+  return translating_boxes(m, box_a->half_extents, box_b->half_extents, accuracy_of(scale));
+}
+
+ImpactAnswer convex_convex(const MovingShape& a, const MovingShape& b, ImpactDetail detail) {
+  const fast::Search at_once = translated(a, b);
+  const bool points = std::holds_alternative<Sphere>(*a.shape) || detail == ImpactDetail::time;
+  if (at_once.end == fast::SearchEnd::clear || (at_once.end == fast::SearchEnd::hit && points))
+    return stated(at_once, a);
+  const WideFrame fa{fast::rotation_of(a.pose.rotation), WideVec::Zero()};
+  const WideFrame fb{fast::rotation_of(b.pose.rotation),
+                     b.pose.translation.cast<Wide>() - a.pose.translation.cast<Wide>()};
+  const fast::Mover ma = fast::make_mover(*a.shape, fa.rotation, a.motion);
+  const fast::Mover mb = fast::make_mover(*b.shape, fb.rotation, b.motion);
+  const fast::Sweep sweep(ma, mb, fb.translation);
+  if (at_once.end == fast::SearchEnd::hit) return stated(fast::with_points(sweep, at_once), a);
+  const double scale = std::max(scale_of(a, ma.body.extent), scale_of(b, mb.body.extent));
+  const fast::Search s = search(sweep, 1, accuracy_of(scale), {});
+  if (settled(s)) return stated(s, a);
+  if (s.end == fast::SearchEnd::start && overlap({a.shape, a.pose}, {b.shape, b.pose}).overlap)
+    return contact_at_start(a, b, detail);
+  const MovingCore ca = moving_core(narrow::make_core(*a.shape, fa), a.motion);
   const MovingCore cb = moving_core(narrow::make_core(*b.shape, fb), b.motion);
-  if (kind_of(*a.shape) == ShapeKind::sphere && kind_of(*b.shape) == ShapeKind::sphere)
-    return sphere_sphere(ca, cb);
-  return advance(ca, cb, 1);
+  return continued(advance(ca, cb, s.clear_until, 1), s, a.pose.translation);
+}
+
+ImpactAnswer convex_half_space(const MovingShape& a, const MovingShape& b, ImpactDetail detail) {
+  const WideFrame fa = shifted(a.pose, a.pose.translation.cast<Wide>());
+  const narrow::WidePlane plane =
+      narrow::place(*std::get_if<HalfSpace>(b.shape), shifted(b.pose, a.pose.translation.cast<Wide>()));
+  const fast::Mover ma = fast::make_mover(*a.shape, fa.rotation, a.motion);
+  const fast::Mover face;
+  const WideVec foot = plane.normal * plane.offset;
+  const fast::Search s = search(fast::Sweep(ma, face, foot), 1, accuracy_of(scale_of(a, ma.body.extent)),
+                                Vec3(-plane.normal.cast<double>()));
+  if (settled(s)) return stated(s, a);
+  if (s.end == fast::SearchEnd::start && overlap({a.shape, a.pose}, {b.shape, b.pose}).overlap)
+    return contact_at_start(a, b, detail);
+  const MovingCore ca = moving_core(narrow::make_core(*a.shape, fa), a.motion);
+  return continued(advance(ca, plane, s.clear_until, 1), s, a.pose.translation);
+}
+
+ImpactAnswer mirrored(ImpactAnswer r) {
+  r.normal_ab = -r.normal_ab;
+  std::swap(r.witness_w[0], r.witness_w[1]);
+  return r;
+}
+
+ImpactAnswer from_convex(const MovingShape& a, const MovingShape& b, ImpactDetail detail) {
+  if (kind_of(*b.shape) == ShapeKind::half_space) return convex_half_space(a, b, detail);
+  const auto* mesh = std::get_if<TriangleMesh>(b.shape);
+  if (!mesh && kind_of(*b.shape) == ShapeKind::sphere && kind_of(*a.shape) == ShapeKind::box)
+    return mirrored(convex_convex(b, a, detail));
+  if (!mesh) return convex_convex(a, b, detail);
+  const WideFrame frame = shifted(b.pose, a.pose.translation.cast<Wide>());
+  const double accuracy = accuracy_of(std::max(scale_of(a, 0), scale_of(b, 0)));
+  return continued(convex_mesh(a, *mesh, b.tree, frame, accuracy), {}, a.pose.translation);
 }
 
 }  // namespace
 
-ImpactAnswer time_of_impact(const MovingShape& a, const MovingShape& b) {
+ImpactAnswer time_of_impact(const MovingShape& a, const MovingShape& b, ImpactDetail detail) {
   for (const MovingShape* s : {&a, &b})
     if (is_static_shape(*s->shape) && moves(*s)) {
       ImpactAnswer r;
       r.outcome = Outcome::unsupported;
       return r;
     }
-  if (!moves(a) && !moves(b)) return at_rest(a, b);
-  return is_static_shape(*a.shape) ? from_convex(b, a) : from_convex(a, b);
+  if (!moves(a) && !moves(b)) return at_rest(a, b, detail);
+  return is_static_shape(*a.shape) ? mirrored(from_convex(b, a, detail)) : from_convex(a, b, detail);
 }
 
 }  // namespace touchstone

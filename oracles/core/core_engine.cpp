@@ -53,7 +53,7 @@ void ask_contact(const Scene& s, const Query& q, Arithmetic arithmetic, Observat
 }
 
 void ask_impact(const Scene& s, const Query& q, Observation& o) {
-  const ImpactAnswer r = time_of_impact(moving(s, q.a), moving(s, q.b));
+  const ImpactAnswer r = time_of_impact(moving(s, q.a), moving(s, q.b), ImpactDetail::time);
   o.outcome = r.outcome;
   if (r.outcome == Outcome::answered) o.toi = r.toi;
   if (r.outcome == Outcome::not_converged)

@@ -1,0 +1,96 @@
+#include "core/ccd/fast/impact_search.h"
+
+#include "core/ccd/fast/feature_turn.h"
+
+namespace touchstone::ccd::fast {
+namespace {
+
+constexpr int step_cap = 20000;
+// Far from contact a direction that is good to a tenth of the gap carries as far as the best.
+constexpr double far_look = 0.1;
+// A step ends two errors before contact; a few more are the direction's.
+constexpr double near_enough = 8;
+// Below so many errors of the gap, rotations are worked out in extended precision.
+constexpr double near_errors = 512;
+
+View look_at_plane(const Sweep& w, const Spot& x, const Vec& n) {
+  View v;
+  v.normal = n, v.side = w.along(x, n), v.upper = v.side.s;
+  return v;
+}
+
+// Nearest points about A's origin; the ball of each core is added along their own difference.
+void set_points(Search& r, const Sweep& w, const Spot& x, const View& v, const Features& f) {
+  r.normal = v.normal, r.a = Vec::Zero(), r.b = Vec::Zero();
+  for (int i = 0; i < std::min(f.size, 3); ++i) {
+    const auto k = static_cast<std::size_t>(i);
+    r.a += f.weight[k] * (x.ra * f.a[k]), r.b += f.weight[k] * (x.rb * f.b[k]);
+  }
+  if (f.size == 0)  // a plane
+    r.a = v.side.pa, r.b = r.a + v.normal * (v.side.s + w.radii());
+  else
+    r.b += x.offset;
+  const Vec d = r.b - r.a;
+  const double length = d.norm();
+  const Vec n = length > 0 && w.radii() > 0 ? Vec(d / length) : v.normal;
+  r.a += w.a().body.radius * n, r.b -= w.b().body.radius * n;
+}
+
+}  // namespace
+
+Search search(const Sweep& w, double end, double accuracy, const std::optional<Vec>& plane) {
+  Search r;
+  Features features;
+  Spot x = w.at(0, !w.turns());
+  const auto see = [&] {
+    return plane ? look_at_plane(w, x, *plane) : look(w, x, features, far_look, x.error);
+  };
+  for (r.steps = 0; r.steps < step_cap; ++r.steps) {
+    View v = see();
+    r.clear_until = x.t, r.gap = v.upper;
+    if (!x.precise && v.side.s < near_errors * x.error) x = w.at(x.t, true), v = see();
+    if (v.meeting || !(v.side.s > x.error)) {
+      r.end = x.t > 0 ? SearchEnd::unsure : SearchEnd::start;
+      return r;
+    }
+    if (v.upper + x.error <= std::min(accuracy, near_enough * x.error)) {
+      set_points(r, w, x, v, features);
+      r.gap = v.upper;
+      return r.end = SearchEnd::hit, r;
+    }
+    if (x.t >= end) return r.end = SearchEnd::clear, r;
+    const double before = x.t;
+    const bool near = w.turns() && !plane && v.side.s < w.a().body.reach + w.b().body.reach;
+    const Vec turn = near ? feature_turn(w, x, features, v.normal) : Vec(Vec::Zero());
+    const Followed f = follow(w, x, v, turn, end);
+    if (f.clear) {
+      r.clear_until = end;
+      return r.end = SearchEnd::clear, r;
+    }
+    if (!(f.spot.t > before)) return r.end = SearchEnd::unsure, r;
+    x = f.spot;
+  }
+  return r.end = SearchEnd::unsure, r;
+}
+
+ImpactAnswer answer_of(const Search& s, const Vec& linear_a) {
+  ImpactAnswer r;
+  r.steps = s.steps, r.clear_until = s.clear_until, r.separation = s.gap;
+  if (s.end != SearchEnd::hit) return r;
+  r.toi = s.clear_until, r.normal_ab = s.normal;
+  const Vec origin = s.clear_until * linear_a;
+  r.witness_w = {Vec3(s.a + origin), Vec3(s.b + origin)};
+  return r;
+}
+
+Search with_points(const Sweep& w, Search hit) {
+  Features features;
+  const Spot x = w.at(hit.clear_until, true);
+  const View v = look(w, x, features, 0, x.error);
+  const Vec normal = hit.normal;
+  set_points(hit, w, x, v, features);
+  hit.normal = normal;
+  return hit;
+}
+
+}  // namespace touchstone::ccd::fast

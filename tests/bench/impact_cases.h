@@ -1,0 +1,74 @@
+// Moving pairs for the time-of-impact benchmark, and what a contestant of it does.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string_view>
+#include <vector>
+
+#include "core/shape/shape.h"
+
+namespace touchstone::bench {
+
+/// How the pairs of a cell move. A stands still but in `both`.
+enum class Course {
+  translation,  // 0.9 to 1.8 gap lengths towards A
+  graze,        // across: passes or touches by up to 1e-3 of the size
+  turn,         // as translation, and turns by 0.3 rad to 45 degrees
+  swing,        // 45 degrees to 2.5 rad
+  spin,         // three to ten turns
+  both          // both bodies travel and turn by up to 2.5 rad
+};
+inline constexpr std::string_view course_names[] = {"translation", "graze", "turn", "swing", "spin", "both"};
+
+struct MovingCase {
+  Shape a, b;
+  Pose pose_a, pose_b;
+  Motion motion_a, motion_b;
+};
+
+/// Hulls by their number of vertices, all of them extreme.
+struct MovingKind {
+  std::string_view name;
+  ShapeKind a, b;
+  int vertices = 0;
+};
+inline constexpr MovingKind moving_kinds[] = {
+    {"box-box", ShapeKind::box, ShapeKind::box},
+    {"hull32", ShapeKind::hull, ShapeKind::hull, 32},
+    {"sphere-box", ShapeKind::sphere, ShapeKind::box},
+    {"sphere-sphere", ShapeKind::sphere, ShapeKind::sphere},
+    {"sphere-capsule", ShapeKind::sphere, ShapeKind::capsule},
+    {"capsule-capsule", ShapeKind::capsule, ShapeKind::capsule},
+    {"capsule-box", ShapeKind::capsule, ShapeKind::box},
+    {"hull128", ShapeKind::hull, ShapeKind::hull, 128},
+    {"box-cylinder", ShapeKind::box, ShapeKind::cylinder},
+    {"ellipsoid-ellipsoid", ShapeKind::ellipsoid, ShapeKind::ellipsoid},
+};
+
+std::vector<MovingCase> make_moving_cases(const MovingKind& kind, Course course, int count,
+                                          std::uint64_t seed);
+
+/// What a contestant found; no time: no hit. `failed`: it said neither.
+struct FoundImpact {
+  std::optional<double> t;
+  bool failed = false;
+  int steps = 0;
+};
+
+/// Holds all cases of a cell in its own form; only ask() is timed.
+class ImpactContestant {
+ public:
+  virtual ~ImpactContestant() = default;
+  virtual void ask(std::size_t i, FoundImpact& out) = 0;
+};
+using ImpactContestantPtr = std::unique_ptr<ImpactContestant>;
+
+/// Null where the contestant does not take such pairs or motions.
+using ImpactMaker = ImpactContestantPtr (*)(const MovingKind&, Course, const std::vector<MovingCase>&);
+
+ImpactContestantPtr make_impact_fcl(const MovingKind&, Course, const std::vector<MovingCase>&);
+ImpactContestantPtr make_impact_bullet_subsimplex(const MovingKind&, Course, const std::vector<MovingCase>&);
+ImpactContestantPtr make_impact_bullet_continuous(const MovingKind&, Course, const std::vector<MovingCase>&);
+
+}  // namespace touchstone::bench

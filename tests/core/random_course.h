@@ -1,0 +1,102 @@
+// Random motions of random pairs for the tests of times of impact, with what is known of them by
+// construction.
+#pragma once
+
+#include <cmath>
+#include <numbers>
+
+#include "tests/core/random_pair.h"
+
+namespace touchstone::test {
+
+enum class CourseKind { translation, slow_turn, fast_turn, thin_wall, graze, near_start };
+inline constexpr int course_count = 6;
+inline constexpr std::array<std::string_view, course_count> course_names{
+    "translation", "slow turn", "fast turn", "thin wall", "graze", "near start"};
+
+struct CoursePair {
+  Pair p;
+  Motion ma, mb;
+  /// A time by which they are in contact, for certain; none: not known.
+  double contact_by = 2;
+  /// The gap over all times is at least this; −infinity: not known.
+  double least_gap = -HUGE_VAL;
+};
+
+/// L of truth.md §3 for the pair in motion.
+inline double scale_of(const CoursePair& c) {
+  double l = scale_of(c.p);
+  for (const auto& [pose, m] : {std::pair{&c.p.pose_a, &c.ma}, std::pair{&c.p.pose_b, &c.mb}})
+    l = std::max(l, (pose->translation + m->linear).cwiseAbs().maxCoeff());
+  return l;
+}
+
+namespace course {
+
+inline ShapeKind kind(Rng& r) { return static_cast<ShapeKind>(r.below(7)); }
+
+inline void travel(Rng& r, CoursePair& c) {
+  const Vec3 d = c.p.pose_b.translation - c.p.pose_a.translation;
+  c.ma.linear = d * r.uniform(0, 1.5) + r.unit_vector() * d.norm() * 0.2;
+  if (r.chance(0.5)) c.mb.linear = r.unit_vector() * d.norm() * r.uniform(0, 1);
+}
+
+inline void turn(Rng& r, CoursePair& c, double least, double most) {
+  if (r.chance(0.7)) c.ma.angular = r.vector(least, most);
+  if (r.chance(0.5) || c.ma.angular.isZero(0)) c.mb.angular = r.vector(least, most);
+  if (r.chance(0.1)) c.ma.linear.setZero(), c.mb.linear.setZero();
+}
+
+// A body flies through a plate, 1e-1 to 1e-6 of its travel thick, whose rim is far.
+inline void thin_wall(Rng& r, CoursePair& c) {
+  const double size = r.binary_scale(-8, 0), travel = size * r.binary_scale(3, 17);
+  const double thick = travel * std::pow(10, r.uniform(-6.5, -1));
+  c.p.a = Box{{0.5 * thick, 8 * size, 8 * size}};
+  c.p.b = random_shape(r, kind(r), false);
+  scale_shape(c.p.b, size);
+  c.p.pose_b.rotation = r.rotation();
+  const Vec3 way = Vec3(1, r.uniform(-0.3, 0.3), r.uniform(-0.3, 0.3)) * travel;
+  const Vec3 through(0, r.uniform(-2, 2) * size, r.uniform(-2, 2) * size);
+  c.contact_by = r.uniform(0.1, 0.9);
+  c.p.pose_b.translation = through - c.contact_by * way;
+  c.mb.linear = way;
+  if (r.chance(0.5)) c.mb.angular = r.vector(0, 12);
+  // The plate where a hull's points need not hold its origin.
+  if (kind_of(c.p.b) == ShapeKind::hull) c.contact_by = 2;
+}
+
+// At contact_by the gap along n is `gap`, and the velocity is across n: there and then it is the least.
+inline void graze(Rng& r, CoursePair& c) {
+  c.p = random_pair(r, kind(r), kind(r), Regime::separate);
+  const double size = std::max(extent(c.p.a), extent(c.p.b));
+  const double gap = (r.chance(0.5) ? 1 : -1) * r.binary_scale(-44, -6) * size;
+  aim(c.p, gap), aim(c.p, gap);
+  const Separation s = separation(c.p.placed_a(), c.p.placed_b());
+  const Vec3 n = s.normal.cast<double>(), u = r.unit_vector();
+  const Vec3 way = (u - u.dot(n) * n) * size * r.uniform(1, 9);
+  const double t = r.uniform(0.2, 0.8);
+  c.p.pose_b.translation -= t * way, c.mb.linear = way;
+  const double rounding = 0x1p-49 * scale_of(c);
+  if (gap < -rounding) c.contact_by = t;
+  if (gap > 0) c.least_gap = static_cast<double>(s.gap) - rounding;
+}
+
+}  // namespace course
+
+inline CoursePair random_course(Rng& r, CourseKind kind) {
+  CoursePair c;
+  if (kind == CourseKind::thin_wall) return course::thin_wall(r, c), c;
+  if (kind == CourseKind::graze) return course::graze(r, c), c;
+  c.p = random_pair(
+      r, course::kind(r), r.chance(0.1) ? ShapeKind::half_space : course::kind(r),
+      kind == CourseKind::near_start ? static_cast<Regime>(r.below(regime_count)) : Regime::separate);
+  course::travel(r, c);
+  if (kind == CourseKind::slow_turn) course::turn(r, c, 0.01, std::numbers::pi / 4);
+  if (kind == CourseKind::fast_turn) course::turn(r, c, 1, r.chance(0.2) ? 500 : 20);
+  if (kind == CourseKind::near_start && r.chance(0.5)) course::turn(r, c, 0.01, 6);
+  if (kind_of(c.p.a) == ShapeKind::half_space) c.ma = {};
+  if (kind_of(c.p.b) == ShapeKind::half_space) c.mb = {};
+  return c;
+}
+
+}  // namespace touchstone::test
