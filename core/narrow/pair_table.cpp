@@ -75,6 +75,7 @@ constexpr Table make_table() {
   t[at(K::sphere)][at(K::box)] = TS_CLOSED(sphere_box, point);
   t[at(K::capsule)][at(K::capsule)] = TS_CLOSED(capsule_capsule, segments);
   t[at(K::box)][at(K::box)] = TS_ROW(separate_convex, box_box);
+  t[at(K::box)][at(K::capsule)] = TS_ROW(separate_convex, box_and_capsule);
   return t;
 }
 

@@ -46,6 +46,10 @@ void convex_mesh(const PlacedShape& a, const PlacedShape& b, Asked asked, Answer
 template <class R>
 void box_box(const PlacedShape& a, const PlacedShape& b, Asked asked, Answer<R>& out, PairScene<R>& scene);
 
+template <class R>
+void box_and_capsule(const PlacedShape& a, const PlacedShape& b, Asked asked, Answer<R>& out,
+                     PairScene<R>& scene);
+
 /// A bounded convex A and a half-space B.
 template <class R>
 void convex_half_space(const PlacedShape& a, const PlacedShape& b, Asked asked, Answer<R>& out,
