@@ -177,7 +177,7 @@ BoxCapsule<R> box_capsule(const Shape& sa, const Stand<R>& a, const Shape& sb, c
   const V3<R> offset = b.t - a.t;
   p.half = std::get_if<Box>(&sa)->half_extents.template cast<R>(), p.h = static_cast<R>(capsule.half_height);
   p.c = r.to_world.transpose() * offset, p.d = r.to_world.transpose() * axis_z(b);
-  p.error = u<R> * (8 * p.half.sum() + 40 * p.h + 24 * p.c.template lpNorm<1>() + 4 * r.radius);
+  p.error = displacement_of<R>(p.half.norm(), p.h, p.c.norm()) + 4 * u<R> * r.radius;
   r.scale = std::max(std::max(detail::largest(p.half), r.radius + p.h), detail::largest(offset) / 2);
   return r;
 }
@@ -187,7 +187,7 @@ template <class R>
 bool solve(const BoxCapsule<R>& q, Asked asked, Answer<R>& out) {
   BoxSegmentGap<R> g = detail::apart(q.cores);
   const R far = g.gap;
-  if (!accepted(g.bound, q.scale)) g = detail::meeting(q.cores, far);
+  if (!(g.bound <= 2 * q.cores.error)) g = detail::meeting(q.cores, far);
   out.gap = g.gap - q.radius, out.bound = g.bound, out.found = decide(out.gap, out.bound);
   if (asked == Asked::overlap && out.found != Found::touching) return true;
   if (!accepted(g.bound, q.scale)) return false;

@@ -89,7 +89,10 @@ void sphere_capsule(const Shape& sa, const Pose& pa, const Shape& sb, const Pose
   // off by no more.
   if (asked == Asked::overlap && detail::verdict(out, std::sqrt(q.squaredNorm()) - (ra + rb), error)) return;
   V3<R> v = q;
-  if (std::abs(along) < h) v -= axis * axis.dot(v), v -= axis * axis.dot(v);
+  if (std::abs(along) < h) {
+    v -= axis * axis.dot(v);
+    if (v.squaredNorm() < R(1e-4) * q.squaredNorm()) v -= axis * axis.dot(v);
+  }
   const R dist = std::sqrt(v.squaredNorm());
   const V3<R> n = dist > 0 ? V3<R>(v * (1 / dist)) : V3<R>(axis.unitOrthogonal());
   const R shortfall = std::max<R>(0, dist - (n.dot(d) - std::abs(n.dot(axis)) * h));
@@ -112,8 +115,9 @@ struct SegmentPair {
 
 template <class R>
 struct SegmentFeet {
-  R s = 0, t = 0, dist = std::numeric_limits<R>::infinity();
-  V3<R> normal = V3<R>::UnitX();
+  R s = 0, t = 0, dist = std::numeric_limits<R>::infinity(), sine_sq = 0;
+  bool level = false;  // the normal does not come from the feet
+  V3<R> normal;
 };
 
 // The difference of the feet, orthogonal to every axis that it is inner to.
@@ -133,7 +137,7 @@ void try_feet(const SegmentPair<R>& p, R s, R t, SegmentFeet<R>& best) {
 template <class R>
 void try_level(const SegmentPair<R>& p, const V3<R>& n, SegmentFeet<R>& best) {
   const V3<R> m = n.dot(p.d) < 0 ? V3<R>(-n) : n;
-  if (p.separation(m) > p.separation(best.normal)) best.normal = m;
+  if (p.separation(m) > p.separation(best.normal)) best.normal = m, best.level = true;
 }
 
 // Parameters from cross products: their error grows as 1/sin of the angle, that of the normal equations as
@@ -142,7 +146,7 @@ template <class R>
 SegmentFeet<R> segment_feet(const SegmentPair<R>& p) {
   SegmentFeet<R> best;
   const V3<R> n = p.axis_a.cross(p.axis_b);
-  const R nn = n.squaredNorm();
+  const R nn = best.sine_sq = n.squaredNorm();
   R s = 0;
   if (nn > 64 * u<R> * u<R>) {
     const R inverse = 1 / nn, t = p.d.cross(p.axis_a).dot(n) * inverse;
@@ -172,15 +176,16 @@ void look_again(const SegmentPair<R>& p, SegmentFeet<R>& best) {
     try_feet(p, std::clamp((p.d + t * p.axis_b).dot(p.axis_a), -p.ha, p.ha), t, best);
   const V3<R> n = p.axis_a.cross(p.axis_b);
   const R nn = n.squaredNorm();
-  if (nn > 0) try_level(p, V3<R>(n * (1 / std::sqrt(nn))), best);
+  if (nn > 64 * u<R> * u<R>) try_level(p, V3<R>(n * (1 / std::sqrt(nn))), best);
   const V3<R> x = p.axis_a.unitOrthogonal(), y = p.axis_a.cross(x);
   try_level(p, x, best), try_level(p, y, best);
 }
 
 }  // namespace detail
 
+/// Whether the segments are so nearly parallel that they may share a stretch.
 template <class R>
-void capsule_capsule(const Shape& sa, const Pose& pa, const Shape& sb, const Pose& pb, Asked asked,
+bool capsule_capsule(const Shape& sa, const Pose& pa, const Shape& sb, const Pose& pb, Asked asked,
                      Answer<R>& out) {
   const auto &ca = *std::get_if<Capsule>(&sa), &cb = *std::get_if<Capsule>(&sb);
   const Stand<R> a = stand<R>(pa), b = stand<R>(pb);
@@ -193,9 +198,15 @@ void capsule_capsule(const Shape& sa, const Pose& pa, const Shape& sb, const Pos
   R error = rounding + shortfall();
   if (error > 2 * rounding) detail::look_again(p, f), error = rounding + shortfall();
   const V3<R>& n = f.normal;
-  if (asked == Asked::overlap && detail::verdict(out, f.dist - (ra + rb), error)) return;
-  detail::inflate<R>(out, f.dist, n, f.s * p.axis_a, p.d + f.t * p.axis_b, ra, rb, error,
+  if (asked == Asked::overlap && detail::verdict(out, f.dist - (ra + rb), error)) return false;
+  V3<R> foot_a = f.s * p.axis_a, foot_b = p.d + f.t * p.axis_b;
+  if (f.level) {
+    const V3<R> middle = (foot_a + foot_b) / 2;
+    foot_a = middle - f.dist / 2 * n, foot_b = middle + f.dist / 2 * n;
+  }
+  detail::inflate<R>(out, f.dist, n, foot_a, foot_b, ra, rb, error,
                      std::max(std::max(ra + p.ha, rb + p.hb), detail::largest(p.d) / 2));
+  return f.sine_sq < R(1e-6);
 }
 
 }  // namespace touchstone::narrow::fast
