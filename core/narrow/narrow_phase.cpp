@@ -56,10 +56,7 @@ void prepare_segments(FastAnswer<R>& f, const PlacedShape& a, const PlacedShape&
   if (f.scene.contact != fast::ContactForm::segments) return;
   const PlacedShape &x = f.mirrored ? b : a, &y = f.mirrored ? a : b;
   const auto from = fast::stand<R>(x.pose), to = fast::stand<R>(y.pose);
-  // Only in line with each other do two segments share more than a point.
-  const R sine_sq = fast::axis_z(from).cross(fast::axis_z(to)).squaredNorm();
-  f.scene.contact = sine_sq < R(1e-6) ? fast::ContactForm::cores : fast::ContactForm::point;
-  if (f.scene.contact == fast::ContactForm::point) return;
+  f.scene.contact = fast::ContactForm::cores;
   fast::prepare<R>(*x.shape, from, *y.shape, to, f.scene);
   const V3<R> n = f.mirrored ? V3<R>(-f.answer.normal) : f.answer.normal;
   f.scene.normal = f.scene.at.a_to_world.transpose() * n;

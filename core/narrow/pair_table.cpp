@@ -40,6 +40,13 @@ Separation unsupported(const Shape&, const WideFrame&, const Shape&, const WideF
   return s;
 }
 
+template <class R>
+void capsules(const PlacedShape& a, const PlacedShape& b, fast::Asked asked, fast::Answer<R>& out,
+              fast::PairScene<R>& scene) {
+  if (fast::capsule_capsule<R>(*a.shape, a.pose, *b.shape, b.pose, asked, out))
+    scene.contact = fast::ContactForm::segments;
+}
+
 struct Row {
   PairFunction wide;
   fast::Function<double> f64;
@@ -53,9 +60,9 @@ constexpr std::size_t at(ShapeKind k) { return static_cast<std::size_t>(k); }
 
 // clang-format off
 #define TS_ROW(wide, form) Row{&on_cores<&wide>, &fast::form<double>, &fast::form<float>}
-#define TS_CLOSED(form, contact) \
-  Row{&on_cores<&form>, &fast::closed<double, &fast::form<double>, fast::ContactForm::contact>, \
-      &fast::closed<float, &fast::form<float>, fast::ContactForm::contact>}
+#define TS_CLOSED(form) \
+  Row{&on_cores<&form>, &fast::closed<double, &fast::form<double>>, \
+      &fast::closed<float, &fast::form<float>>}
 // clang-format on
 
 constexpr Table make_table() {
@@ -70,11 +77,12 @@ constexpr Table make_table() {
   t[at(K::half_space)][at(K::half_space)] = {&unsupported, nullptr, nullptr};
   t[at(K::half_space)][at(K::mesh)] = {&half_space_mesh, nullptr, nullptr};
   t[at(K::mesh)][at(K::mesh)] = {&unsupported, nullptr, nullptr};
-  t[at(K::sphere)][at(K::sphere)] = TS_CLOSED(sphere_sphere, point);
-  t[at(K::sphere)][at(K::capsule)] = TS_CLOSED(sphere_capsule, point);
-  t[at(K::sphere)][at(K::box)] = TS_CLOSED(sphere_box, point);
-  t[at(K::capsule)][at(K::capsule)] = TS_CLOSED(capsule_capsule, segments);
+  t[at(K::sphere)][at(K::sphere)] = TS_CLOSED(sphere_sphere);
+  t[at(K::sphere)][at(K::capsule)] = TS_CLOSED(sphere_capsule);
+  t[at(K::sphere)][at(K::box)] = TS_CLOSED(sphere_box);
+  t[at(K::capsule)][at(K::capsule)] = {&on_cores<&capsule_capsule>, &capsules<double>, &capsules<float>};
   t[at(K::box)][at(K::box)] = TS_ROW(separate_convex, box_box);
+  t[at(K::box)][at(K::capsule)] = TS_ROW(separate_convex, box_and_capsule);
   return t;
 }
 

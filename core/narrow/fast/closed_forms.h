@@ -84,10 +84,16 @@ void sphere_capsule(const Shape& sa, const Pose& pa, const Shape& sb, const Pose
   const V3<R> axis = axis_z(b), d = b.t - pa.translation.cast<R>();
   const R along = -d.dot(axis), s = std::clamp(along, -h, h);
   const V3<R> q = d + s * axis;
+  const R error = u<R> * (16 * d.template lpNorm<1>() + 24 * h + 4 * (ra + rb));
+  // A foot off by the rounding of `along`, 4 u of d, is a point of the segment still, so that the distance is
+  // off by no more.
+  if (asked == Asked::overlap && detail::verdict(out, std::sqrt(q.squaredNorm()) - (ra + rb), error)) return;
   V3<R> v = q;
-  if (std::abs(along) < h) v -= axis * axis.dot(v), v -= axis * axis.dot(v);
-  const R dist = std::sqrt(v.squaredNorm()),
-          error = u<R> * (16 * d.template lpNorm<1>() + 24 * h + 4 * (ra + rb));
+  if (std::abs(along) < h) {
+    v -= axis * axis.dot(v);
+    if (v.squaredNorm() < R(1e-4) * q.squaredNorm()) v -= axis * axis.dot(v);
+  }
+  const R dist = std::sqrt(v.squaredNorm());
   const V3<R> n = dist > 0 ? V3<R>(v * (1 / dist)) : V3<R>(axis.unitOrthogonal());
   const R shortfall = std::max<R>(0, dist - (n.dot(d) - std::abs(n.dot(axis)) * h));
   if (asked == Asked::overlap && detail::verdict(out, dist - (ra + rb), error + shortfall)) return;
@@ -101,12 +107,17 @@ template <class R>
 struct SegmentPair {
   V3<R> axis_a, axis_b, d;  // d: from A's centre to B's
   R ha, hb;
+  /// Of the support planes along a unit n, A to B.
+  R separation(const V3<R>& n) const {
+    return n.dot(d) - std::abs(n.dot(axis_a)) * ha - std::abs(n.dot(axis_b)) * hb;
+  }
 };
 
 template <class R>
 struct SegmentFeet {
-  R s = 0, t = 0, dist = std::numeric_limits<R>::infinity();
-  V3<R> normal = V3<R>::UnitX();
+  R s = 0, t = 0, dist = std::numeric_limits<R>::infinity(), sine_sq = 0;
+  bool level = false;  // the normal does not come from the feet
+  V3<R> normal;
 };
 
 // The difference of the feet, orthogonal to every axis that it is inner to.
@@ -121,49 +132,81 @@ void try_feet(const SegmentPair<R>& p, R s, R t, SegmentFeet<R>& best) {
   if (dist > 0) best.normal = v / dist;
 }
 
+// A direction that the segments are level with, for feet that coincide within rounding: their own difference
+// is noise. It may not be the better one.
+template <class R>
+void try_level(const SegmentPair<R>& p, const V3<R>& n, SegmentFeet<R>& best) {
+  const V3<R> m = n.dot(p.d) < 0 ? V3<R>(-n) : n;
+  if (p.separation(m) > p.separation(best.normal)) best.normal = m, best.level = true;
+}
+
 // Parameters from cross products: their error grows as 1/sin of the angle, that of the normal equations as
-// 1/sin².
+// 1/sin². Outside of the segments, one foot is clamped, then the other (Ericson 2005, 5.1.9).
 template <class R>
 SegmentFeet<R> segment_feet(const SegmentPair<R>& p) {
   SegmentFeet<R> best;
   const V3<R> n = p.axis_a.cross(p.axis_b);
-  const R nn = n.squaredNorm();
+  const R nn = best.sine_sq = n.squaredNorm();
+  R s = 0;
   if (nn > 64 * u<R> * u<R>) {
-    const R inverse = 1 / nn, s = p.d.cross(p.axis_b).dot(n) * inverse,
-            t = p.d.cross(p.axis_a).dot(n) * inverse;
+    const R inverse = 1 / nn, t = p.d.cross(p.axis_a).dot(n) * inverse;
+    s = p.d.cross(p.axis_b).dot(n) * inverse;
     if (std::abs(s) <= p.ha && std::abs(t) <= p.hb) {
       const R along = p.d.dot(n), scale = std::sqrt(inverse);
       best.s = s, best.t = t, best.dist = std::abs(along) * scale;
       best.normal = n * std::copysign(scale, along);
       return best;
     }
+    s = std::clamp(s, -p.ha, p.ha);
   }
+  const R free_t = (s * p.axis_a - p.d).dot(p.axis_b), t = std::clamp(free_t, -p.hb, p.hb);
+  if (t != free_t) s = std::clamp((p.d + t * p.axis_b).dot(p.axis_a), -p.ha, p.ha);
   best.normal = p.axis_a.unitOrthogonal();
+  try_feet(p, s, t, best);
+  return best;
+}
+
+// Where those do not show that they are nearest (nearly parallel, or touching within rounding): all ends, and
+// directions that do not depend on the feet.
+template <class R>
+void look_again(const SegmentPair<R>& p, SegmentFeet<R>& best) {
   for (const R s : {-p.ha, p.ha})
     try_feet(p, s, std::clamp((s * p.axis_a - p.d).dot(p.axis_b), -p.hb, p.hb), best);
   for (const R t : {-p.hb, p.hb})
     try_feet(p, std::clamp((p.d + t * p.axis_b).dot(p.axis_a), -p.ha, p.ha), t, best);
-  return best;
+  const V3<R> n = p.axis_a.cross(p.axis_b);
+  const R nn = n.squaredNorm();
+  if (nn > 64 * u<R> * u<R>) try_level(p, V3<R>(n * (1 / std::sqrt(nn))), best);
+  const V3<R> x = p.axis_a.unitOrthogonal(), y = p.axis_a.cross(x);
+  try_level(p, x, best), try_level(p, y, best);
 }
 
 }  // namespace detail
 
+/// Whether the segments are so nearly parallel that they may share a stretch.
 template <class R>
-void capsule_capsule(const Shape& sa, const Pose& pa, const Shape& sb, const Pose& pb, Asked asked,
+bool capsule_capsule(const Shape& sa, const Pose& pa, const Shape& sb, const Pose& pb, Asked asked,
                      Answer<R>& out) {
   const auto &ca = *std::get_if<Capsule>(&sa), &cb = *std::get_if<Capsule>(&sb);
   const Stand<R> a = stand<R>(pa), b = stand<R>(pb);
   const detail::SegmentPair<R> p{axis_z(a), axis_z(b), b.t - a.t, static_cast<R>(ca.half_height),
                                  static_cast<R>(cb.half_height)};
   const R ra = static_cast<R>(ca.radius), rb = static_cast<R>(cb.radius);
-  const detail::SegmentFeet<R> f = detail::segment_feet(p);
+  const R rounding = u<R> * (8 * p.d.template lpNorm<1>() + 24 * (p.ha + p.hb) + 4 * (ra + rb));
+  detail::SegmentFeet<R> f = detail::segment_feet(p);
+  const auto shortfall = [&] { return std::max<R>(0, f.dist - p.separation(f.normal)); };
+  R error = rounding + shortfall();
+  if (error > 2 * rounding) detail::look_again(p, f), error = rounding + shortfall();
   const V3<R>& n = f.normal;
-  const R lower = n.dot(p.d) - std::abs(n.dot(p.axis_a)) * p.ha - std::abs(n.dot(p.axis_b)) * p.hb;
-  const R error = std::max<R>(0, f.dist - lower) +
-                  u<R> * (8 * p.d.template lpNorm<1>() + 24 * (p.ha + p.hb) + 4 * (ra + rb));
-  if (asked == Asked::overlap && detail::verdict(out, f.dist - (ra + rb), error)) return;
-  detail::inflate<R>(out, f.dist, n, f.s * p.axis_a, p.d + f.t * p.axis_b, ra, rb, error,
+  if (asked == Asked::overlap && detail::verdict(out, f.dist - (ra + rb), error)) return false;
+  V3<R> foot_a = f.s * p.axis_a, foot_b = p.d + f.t * p.axis_b;
+  if (f.level) {
+    const V3<R> middle = (foot_a + foot_b) / 2;
+    foot_a = middle - f.dist / 2 * n, foot_b = middle + f.dist / 2 * n;
+  }
+  detail::inflate<R>(out, f.dist, n, foot_a, foot_b, ra, rb, error,
                      std::max(std::max(ra + p.ha, rb + p.hb), detail::largest(p.d) / 2));
+  return f.sine_sq < R(1e-6);
 }
 
 }  // namespace touchstone::narrow::fast

@@ -5,8 +5,9 @@
 // incident body and the plane. A face tilted by a few ulp is thus whole, and does not flicker. Without a
 // face: overlap or crossing of two edges, or the deepest vertex.
 //
-// Ids name features: corner of the incident body, and the reference's edge that cut, so that the same contact
-// has the same id in the next frame.
+// Ids name features: a corner of A, a corner of B, or an edge of A that crosses an edge of B. They depend
+// neither on which body is the reference nor on where its outline starts, both of which change with an ulp
+// when faces lie on each other.
 #pragma once
 
 #include <algorithm>
@@ -37,6 +38,7 @@ template <class R>
 struct Corner {
   R x, y, below;
   std::uint32_t id;
+  std::uint32_t edge = 0;  // while clipped: what runs from here to the next corner
 };
 
 /// Copies only what is there: the storage is thirteen hundred bytes.
@@ -211,8 +213,33 @@ class FeatureCorners {
   Corners<R> out_;
 };
 
+// 0 is the point that is no feature's own.
+inline constexpr std::uint32_t of_a = 0x20000000u, of_b = 0x80000000u, crossing = 0x40000000u,
+                               on_window = 0x10000u;
+
+/// The same from both ends; 15 bits, without collisions among the corners of a box or an octagon.
+inline std::uint32_t edge_name(std::uint32_t a, std::uint32_t b) {
+  return (std::min(a, b) * 181 + std::max(a, b)) & 0x7fffu;
+}
+
+/// What the incident outline's edge and the window's edge i have in common.
 template <class R>
-void clip(Corners<R>& subject, const Corners<R>& window, R tolerance) {
+std::uint32_t crossing_id(std::uint32_t edge, const Corners<R>& window, int i, bool window_is_a) {
+  const int next = (i + 1) % window.size;
+  if (edge & on_window) {
+    // The outline runs along another edge of the window: their corner.
+    const bool before = static_cast<int>(edge & 0xffffu) == (i + window.size - 1) % window.size;
+    return window[before ? i : next].id | (window_is_a ? of_a : of_b);
+  }
+  const std::uint32_t own = edge_name(window[i].id, window[next].id);
+  return crossing | (window_is_a ? (own << 15 | edge) : (edge << 15 | own));
+}
+
+template <class R>
+void clip(Corners<R>& subject, const Corners<R>& window, R tolerance, bool window_is_a) {
+  for (int k = 0; k < subject.size; ++k)
+    subject[k].edge = edge_name(subject[k].id, subject[(k + 1) % subject.size].id);
+  for (Corner<R>& c : subject) c.id |= window_is_a ? of_b : of_a;
   for (int i = 0; i < window.size && subject.size > 0; ++i) {
     const Corner<R>&w0 = window[i], &w1 = window[(i + 1) % window.size];
     const R ex = w1.x - w0.x, ey = w1.y - w0.y, length = std::sqrt(ex * ex + ey * ey);
@@ -222,16 +249,19 @@ void clip(Corners<R>& subject, const Corners<R>& window, R tolerance) {
       side[static_cast<std::size_t>(k)] = std::abs(s) <= tolerance * length ? R(0) : s;
     }
     Corners<R> out;
+    const std::uint32_t along = on_window | static_cast<std::uint32_t>(i);
     for (int k = 0; k < subject.size; ++k) {
       const int next = (k + 1) % subject.size;
       const Corner<R>&p = subject[k], &q = subject[next];
       const R sp = side[static_cast<std::size_t>(k)], sq = side[static_cast<std::size_t>(next)];
-      if (sp >= 0) out.add(p);
+      if (sp >= 0) {
+        out.add(p);
+        if (sp == 0 && sq < 0) out[out.size - 1].edge = along;
+      }
       if (sp * sq < 0 && !(subject.size == 2 && k == 1)) {
         const R t = sp / (sp - sq);
-        const std::uint32_t edge = std::min(p.id, q.id) * 31 + std::max(p.id, q.id);
         out.add({p.x + (q.x - p.x) * t, p.y + (q.y - p.y) * t, p.below + (q.below - p.below) * t,
-                 (static_cast<std::uint32_t>(i + 1) << 16) + (edge & 0xffffu)});
+                 crossing_id(p.edge, window, i, window_is_a), sp > 0 ? along : p.edge});
       }
     }
     subject = out;
@@ -240,8 +270,10 @@ void clip(Corners<R>& subject, const Corners<R>& window, R tolerance) {
 
 /// Two edges: the stretch that they share when they are in line, else their crossing.
 template <class R>
-Corners<R> cross_edges(const Corners<R>& a, const Corners<R>& b, R tolerance) {
+Corners<R> cross_edges(Corners<R> a, const Corners<R>& b, R tolerance) {
   Corners<R> r;
+  if (a[1].id < a[0].id) std::swap(a[0], a[1]);  // the first end keeps its id
+  const std::uint32_t id = crossing | edge_name(a[0].id, a[1].id) << 15 | edge_name(b[0].id, b[1].id);
   const R dx = a[1].x - a[0].x, dy = a[1].y - a[0].y, length = std::sqrt(dx * dx + dy * dy);
   const R s0 = (dx * (b[0].y - a[0].y) - dy * (b[0].x - a[0].x)) / length,
           s1 = (dx * (b[1].y - a[0].y) - dy * (b[1].x - a[0].x)) / length;
@@ -251,12 +283,12 @@ Corners<R> cross_edges(const Corners<R>& a, const Corners<R>& b, R tolerance) {
     const R lo = std::max<R>(std::min(t0, t1), 0), hi = std::min(std::max(t0, t1), length);
     if (!(lo <= hi)) return r;
     for (const R t : {lo, hi})
-      r.add({a[0].x + dx * (t / length), a[0].y + dy * (t / length), 0, t == lo ? 0u : 1u});
+      r.add({a[0].x + dx * (t / length), a[0].y + dy * (t / length), 0, t == lo ? id : id | of_a});
     return r;
   }
   if (!(s0 * s1 <= 0)) return r;
   const R t = s0 / (s0 - s1);
-  r.add({b[0].x + (b[1].x - b[0].x) * t, b[0].y + (b[1].y - b[0].y) * t, 0, 2});
+  r.add({b[0].x + (b[1].x - b[0].x) * t, b[0].y + (b[1].y - b[0].y) * t, 0, id});
   return r;
 }
 
@@ -275,25 +307,25 @@ Patch<R> contact_patch(const Body<R>& a, const Body<R>* b, const Relative<R>& at
   plane.origin = top;
   const M3<R> identity = M3<R>::Identity();
   const V3<R> zero = V3<R>::Zero();
-  const auto of_a = [&](R limit) {
+  const auto show_a = [&](R limit) {
     return FeatureCorners<R>(a, identity, zero, plane, 1, limit, tolerance).collect();
   };
-  const auto of_b = [&](R limit) {
+  const auto show_b = [&](R limit) {
     return FeatureCorners<R>(*b, at.b_to_a, at.offset, plane, -1, limit, tolerance).collect();
   };
   Patch<R> patch;
-  Corners<R> fa = of_a(tolerance), fb, region;
+  Corners<R> fa = show_a(tolerance), fb, region;
   bool by_a = true;
   if (!b) {
-    region = of_a(depth + tolerance), by_a = false;
+    region = show_a(depth + tolerance), by_a = false;
   } else if (fa.size >= 3) {
-    region = of_b(depth + tolerance);
-    clip(region, fa, tolerance);
+    region = show_b(depth + tolerance);
+    clip(region, fa, tolerance, true);
   } else {
-    fb = of_b(tolerance);
+    fb = show_b(tolerance);
     if (fb.size >= 3) {
-      region = of_a(depth + tolerance), by_a = false;
-      clip(region, fb, tolerance);
+      region = show_a(depth + tolerance), by_a = false;
+      clip(region, fb, tolerance, false);
     } else if (fa.size == 2 && fb.size == 2) {
       region = cross_edges(fa, fb, 4 * tolerance);
     }
@@ -313,9 +345,7 @@ Patch<R> contact_patch(const Body<R>& a, const Body<R>* b, const Relative<R>& at
     const V3<R> p = plane.origin + plane.x * c.x + plane.y * c.y + n * height;
     for (int k = 0; k < patch.size; ++k)
       repeat |= (patch.point[static_cast<std::size_t>(k)].p - p).norm() <= tolerance;
-    if (!repeat)
-      patch.point[static_cast<std::size_t>(patch.size++)] = {p, std::max<R>(0, d),
-                                                             (by_a ? 0u : 0x80000000u) + c.id};
+    if (!repeat) patch.point[static_cast<std::size_t>(patch.size++)] = {p, std::max<R>(0, d), c.id};
   }
   return patch;
 }

@@ -1,6 +1,7 @@
 #include "core/narrow/fast/separate.h"
 
 #include "core/narrow/fast/box_box.h"
+#include "core/narrow/fast/box_capsule.h"
 #include "core/narrow/fast/epa.h"
 #include "core/narrow/fast/revolved.h"
 
@@ -68,6 +69,23 @@ void from_depth(const D& e, R error, Answer<R>& r, PairScene<R>& s) {
   s.middle = (r.a + r.b) / 2, s.has_middle = true;
 }
 
+// B − A has no interior within rounding: every direction that was tried bounds the depth, and the walk's own
+// point, as near to the origin as rounding tells, shows that it is not negative beyond that.
+template <class R>
+void from_flat(const Walk<R>& g, const Depth<R>& e, R size, R error, Answer<R>& r, PairScene<R>& s) {
+  if (g.end != WalkEnd::touching || !(e.upper < size)) {
+    r.bound = std::numeric_limits<R>::infinity();
+    return;
+  }
+  s.normal = r.normal = -e.outward, r.gap = -e.upper - s.a.radius - s.b.radius;
+  V3<R> a = V3<R>::Zero();
+  for (int i = 0; i < g.simplex.size; ++i)
+    a += g.simplex.weight[static_cast<std::size_t>(i)] * g.simplex.p[static_cast<std::size_t>(i)].a;
+  r.a = a + (e.upper / 2 + s.a.radius) * r.normal, r.b = a - (e.upper / 2 + s.b.radius) * r.normal;
+  r.bound = error + e.upper + 8 * u<R> * size;
+  s.middle = (r.a + r.b) / 2, s.has_middle = true;
+}
+
 }  // namespace
 
 template <class R>
@@ -98,8 +116,10 @@ void separate_cores(const Stand<R>& a, const Stand<R>& b, Asked asked, R enough,
     } else {
       Expander<R> polytope(d, size, tolerance);
       const Depth<R> depth = polytope.run(g.simplex, g.end == WalkEnd::enclosed);
-      if (depth.end == ExpandEnd::flat) return;
-      from_depth(depth, error, r, s);
+      if (depth.end == ExpandEnd::flat)
+        from_flat(g, depth, size, error, r, s);
+      else
+        from_depth(depth, error, r, s);
     }
   } else {
     from_walk(g, error, r, s);
@@ -162,6 +182,22 @@ void box_box(const PlacedShape& pa, const PlacedShape& pb, Asked asked, Answer<R
 }
 
 template <class R>
+void box_and_capsule(const PlacedShape& pa, const PlacedShape& pb, Asked asked, Answer<R>& r,
+                     PairScene<R>& s) {
+  const Stand<R> a = stand<R>(pa.pose), b = stand<R>(pb.pose);
+  const BoxCapsule<R> q = box_capsule(*pa.shape, a, *pb.shape, b);
+  if (!solve(q, asked, r)) return convex_pair(pa, pb, asked, r, s);
+  if (asked == Asked::overlap) return;
+  const BoxSegment<R>& p = q.cores;
+  const R depth = -r.gap, tolerance = 64 * u<R> * (p.half.sum() + p.h + q.radius + p.c.template lpNorm<1>());
+  if (asked == Asked::contact && depth >= -r.bound && detail::lies_along(p, r.normal, depth, tolerance)) {
+    prepare(*pa.shape, a, *pb.shape, b, s), s.contact = ContactForm::cores;
+    s.normal = r.normal, s.middle = (r.a + r.b) / 2, s.has_middle = true;
+  }
+  r.normal = q.to_world * r.normal, r.a = q.to_world * r.a, r.b = q.to_world * r.b;
+}
+
+template <class R>
 void convex_half_space(const PlacedShape& pa, const PlacedShape& pb, Asked asked, Answer<R>& r,
                        PairScene<R>& s) {
   const Stand<R> a = stand<R>(pa.pose), b = stand<R>(pb.pose);
@@ -183,10 +219,11 @@ void convex_half_space(const PlacedShape& pa, const PlacedShape& pb, Asked asked
   if (asked != Asked::overlap && !accepted(r.bound, scale(s.a, s.b, a, b))) r.found = Found::unsure;
 }
 
-#define TS_INSTANTIATE(R)                                                                              \
-  template void convex_pair(const PlacedShape&, const PlacedShape&, Asked, Answer<R>&, PairScene<R>&); \
-  template void separate_cores(const Stand<R>&, const Stand<R>&, Asked, R, Answer<R>&, PairScene<R>&); \
-  template void box_box(const PlacedShape&, const PlacedShape&, Asked, Answer<R>&, PairScene<R>&);     \
+#define TS_INSTANTIATE(R)                                                                                  \
+  template void convex_pair(const PlacedShape&, const PlacedShape&, Asked, Answer<R>&, PairScene<R>&);     \
+  template void separate_cores(const Stand<R>&, const Stand<R>&, Asked, R, Answer<R>&, PairScene<R>&);     \
+  template void box_box(const PlacedShape&, const PlacedShape&, Asked, Answer<R>&, PairScene<R>&);         \
+  template void box_and_capsule(const PlacedShape&, const PlacedShape&, Asked, Answer<R>&, PairScene<R>&); \
   template void convex_half_space(const PlacedShape&, const PlacedShape&, Asked, Answer<R>&, PairScene<R>&);
 TS_INSTANTIATE(double)
 TS_INSTANTIATE(float)

@@ -8,7 +8,7 @@ namespace touchstone::narrow::fast {
 /// Where a contact's points come from.
 enum class ContactForm {
   point,     // half way between the witnesses
-  segments,  // two capsules: a stretch when they are in line with each other
+  segments,  // two nearly parallel capsules: a stretch when they are in line with each other
   cores,     // contact_patch of a and b
   plane      // contact_patch of a alone
 };
@@ -46,16 +46,18 @@ void convex_mesh(const PlacedShape& a, const PlacedShape& b, Asked asked, Answer
 template <class R>
 void box_box(const PlacedShape& a, const PlacedShape& b, Asked asked, Answer<R>& out, PairScene<R>& scene);
 
+template <class R>
+void box_and_capsule(const PlacedShape& a, const PlacedShape& b, Asked asked, Answer<R>& out,
+                     PairScene<R>& scene);
+
 /// A bounded convex A and a half-space B.
 template <class R>
 void convex_half_space(const PlacedShape& a, const PlacedShape& b, Asked asked, Answer<R>& out,
                        PairScene<R>& scene);
 
 /// A closed form of closed_forms.h as a row of the table.
-template <class R, void (*form)(const Shape&, const Pose&, const Shape&, const Pose&, Asked, Answer<R>&),
-          ContactForm contact = ContactForm::point>
-void closed(const PlacedShape& a, const PlacedShape& b, Asked asked, Answer<R>& out, PairScene<R>& scene) {
-  scene.contact = contact;
+template <class R, void (*form)(const Shape&, const Pose&, const Shape&, const Pose&, Asked, Answer<R>&)>
+void closed(const PlacedShape& a, const PlacedShape& b, Asked asked, Answer<R>& out, PairScene<R>&) {
   form(*a.shape, a.pose, *b.shape, b.pose, asked, out);
 }
 

@@ -82,7 +82,8 @@ void take_triangle(const Simplex<R>& s, int i, int j, int k, Foot<R>& best) {
     const R dist_sq = x.squaredNorm();
     if (!(dist_sq < best.dist_sq)) return;
     best.point = x, best.dist_sq = dist_sq, best.size = 3;
-    best.corner = {i, j, k}, best.weight = {wa / sum, wb / sum, wc / sum};
+    const R share = 1 / sum;
+    best.corner = {i, j, k}, best.weight = {wa * share, wb * share, wc * share};
     return;
   }
   if (!(wa > 0)) take_edge(s, j, k, best);
@@ -92,13 +93,15 @@ void take_triangle(const Simplex<R>& s, int i, int j, int k, Foot<R>& best) {
 
 /// Faces of the tetrahedron with the origin outside; none: enclosed, `margin` is the least distance to a
 /// plane, less what rounding of the normal may feign. The face that the newest corner, the last, has left
-/// behind comes last.
+/// behind comes last, and only when the others have brought no progress on `last_sq` (never to look at it is
+/// no good: near triangles, walks stall).
 template <class R>
-bool take_tetrahedron(const Simplex<R>& s, Foot<R>& best, R& margin) {
+bool take_tetrahedron(const Simplex<R>& s, R last_sq, Foot<R>& best, R& margin) {
   static constexpr int faces[4][4] = {{1, 2, 3, 0}, {2, 0, 3, 1}, {0, 1, 3, 2}, {0, 2, 1, 3}};
   bool enclosed = true;
-  margin = std::numeric_limits<R>::infinity();
+  std::array<R, 4> height, square;  // of the origin above a face, times its normal, less what is feigned
   for (int i = 0; i < 4; ++i) {
+    if (i == 3 && best.dist_sq < last_sq) break;
     const int* f = faces[i];
     const auto w = [&](int k) -> const V3<R>& { return s.p[static_cast<std::size_t>(f[k])].w; };
     const V3<R> e1 = w(1) - w(0), e2 = w(2) - w(0), e3 = w(3) - w(0), n = e1.cross(e2);
@@ -109,11 +112,16 @@ bool take_tetrahedron(const Simplex<R>& s, Foot<R>& best, R& margin) {
                         std::max(w(0).template lpNorm<1>(), e3.template lpNorm<1>());
       // A sliver's sign is noise, but then the origin lies farther from the plane than the apex does.
       outside = std::abs(origin) > std::abs(apex) + feigned;
-      margin = std::min(margin, (std::abs(origin) - feigned) / n.norm());
+      height[static_cast<std::size_t>(i)] = std::abs(origin) - feigned;
+      square[static_cast<std::size_t>(i)] = n.squaredNorm();
     }
     if (!outside) continue;
     enclosed = false;
     take_triangle(s, f[0], f[1], f[2], best);
+  }
+  if (enclosed) {
+    margin = std::numeric_limits<R>::infinity();
+    for (std::size_t i = 0; i < 4; ++i) margin = std::min(margin, height[i] / std::sqrt(square[i]));
   }
   // No face was taken that rounding did not take back.
   if (!enclosed && best.size == 0) take_triangle(s, 0, 2, 1, best);
@@ -126,7 +134,7 @@ bool take_tetrahedron(const Simplex<R>& s, Foot<R>& best, R& margin) {
 template <class R>
 bool reduce(Simplex<R>& s, V3<R>& v, R& dist_sq, R& margin) {
   Foot<R> foot{};
-  if (s.size == 4 && detail::take_tetrahedron(s, foot, margin)) return true;
+  if (s.size == 4 && detail::take_tetrahedron(s, dist_sq, foot, margin)) return true;
   if (s.size == 3) detail::take_triangle(s, 0, 1, 2, foot);
   if (s.size == 2) detail::take_edge(s, 0, 1, foot);
   if (s.size == 1) detail::take_corner(s, 0, foot);

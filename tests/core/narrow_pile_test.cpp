@@ -1,0 +1,142 @@
+// Contacts of recorded piles at rest, from frame to frame: how much of what changes in the answers is not in
+// the motion of the bodies. A pair counts when it touches in both frames and has moved by 1 mm at most (sizes
+// are about 0.5 m).
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
+#include <vector>
+
+#include "core/narrow/narrow_phase.h"
+#include "core/scene/real_scene.h"
+#include "tests/support/catch.h"
+
+using namespace touchstone;
+
+namespace {
+
+const std::filesystem::path data_root = TS_SHARED_DATA;
+
+struct Jitter {
+  long pairs = 0, flips = 0, other_ids = 0, points = 0;
+  std::vector<double> normal, point;  // beyond the bodies' own turn and step; of pairs that keep theirs
+};
+
+struct Touching {
+  std::size_t a, b;
+  ContactAnswer before, after;
+};
+
+double ball(const Shape& s) {
+  if (const auto* h = std::get_if<Hull>(&s)) {
+    double most = 0;
+    for (const Vec3& v : h->vertices) most = std::max(most, v.norm());
+    return most;
+  }
+  return std::sqrt(3.0) * extent(s);
+}
+
+ContactAnswer ask(const Scene& s, std::size_t a, std::size_t b) {
+  return contact({&s.shape_of(static_cast<int>(a)), s.bodies[a].pose},
+                 {&s.shape_of(static_cast<int>(b)), s.bodies[b].pose});
+}
+
+std::vector<Touching> touching(const Scene& from, const Scene& to) {
+  std::vector<double> radius;
+  for (std::size_t i = 0; i < from.bodies.size(); ++i)
+    radius.push_back(ball(from.shape_of(static_cast<int>(i))));
+  std::vector<Touching> all;
+  for (std::size_t a = 0; a < from.bodies.size(); ++a)
+    for (std::size_t b = a + 1; b < from.bodies.size(); ++b) {
+      const Vec3 d = from.bodies[b].pose.translation - from.bodies[a].pose.translation;
+      if (!(d.norm() < radius[a] + radius[b])) continue;
+      Touching t{a, b, ask(from, a, b), {}};
+      if (t.before.outcome != Outcome::answered || !t.before.overlap) continue;
+      t.after = ask(to, a, b);
+      if (t.after.outcome == Outcome::answered && t.after.overlap) all.push_back(t);
+    }
+  return all;
+}
+
+std::vector<std::uint32_t> ids(const Manifold& m) {
+  std::vector<std::uint32_t> r;
+  for (const ContactPoint& p : m) r.push_back(p.feature);
+  std::sort(r.begin(), r.end());
+  return r;
+}
+
+// How far a point of a body within its ball has moved at most.
+double step_of(const Scene& from, const Scene& to, std::size_t i, double& turn) {
+  const Pose &p = from.bodies[i].pose, &q = to.bodies[i].pose;
+  const double angle = (rotation_matrix(q.rotation) - rotation_matrix(p.rotation)).norm();
+  turn = std::max(turn, angle);
+  return (q.translation - p.translation).norm() + angle * ball(from.shape_of(static_cast<int>(i)));
+}
+
+void compare(const Scene& from, const Scene& to, Jitter& j) {
+  for (const Touching& t : touching(from, to)) {
+    double turn = 0;
+    const double step = std::max(step_of(from, to, t.a, turn), step_of(from, to, t.b, turn));
+    if (step > 1e-3) continue;
+    ++j.pairs;
+    const double off = (t.after.normal - t.before.normal).norm();
+    if (off > 0.1) {
+      ++j.flips;
+      continue;
+    }
+    j.normal.push_back(std::max(0.0, off - turn));
+    if (ids(t.before.manifold) != ids(t.after.manifold)) {
+      ++j.other_ids;
+      continue;
+    }
+    for (const ContactPoint& p : t.after.manifold) {
+      double nearest = 1e9;
+      for (const ContactPoint& q : t.before.manifold)
+        if (q.feature == p.feature) nearest = std::min(nearest, (p.position - q.position).norm());
+      j.point.push_back(std::max(0.0, nearest - step)), ++j.points;
+    }
+  }
+}
+
+double quantile(std::vector<double> v, double q) {
+  if (v.empty()) return 0;
+  std::sort(v.begin(), v.end());
+  return v[static_cast<std::size_t>(q * static_cast<double>(v.size() - 1))];
+}
+
+Jitter measure(const char* name, int first, int last) {
+  const RealScene s = load_real_scene(data_root / "scenes" / name);
+  Jitter j;
+  Scene from = s.frame(first);
+  for (int f = first; f < last; ++f) {
+    Scene to = s.frame(f + 1);
+    compare(from, to, j);
+    from = std::move(to);
+  }
+  WARN(name << ": " << j.pairs << " pairs, " << j.flips << " other normals, " << j.other_ids << " other ids, "
+            << j.points << " points; normal off by " << quantile(j.normal, 0.5) << ", "
+            << quantile(j.normal, 0.99) << ", " << quantile(j.normal, 1) << "; point by "
+            << quantile(j.point, 0.5) << ", " << quantile(j.point, 0.99) << ", " << quantile(j.point, 1));
+  return j;
+}
+
+bool data_is_absent() {
+  if (std::filesystem::exists(data_root)) return false;
+  std::printf("skipped: %s is absent\n", data_root.c_str());
+  return true;
+}
+
+}  // namespace
+
+TEST_CASE("contacts of piles at rest stand still from frame to frame", "[narrow][manifold][data]") {
+  if (data_is_absent()) return;
+  // What is left is geometry: deepest points of rocking cylinders, crossings of nearly parallel edges.
+  for (const Jitter& j : {measure("stack_smash", 0, 9), measure("pile_mixed", 90, 99)}) {
+    CHECK(j.pairs > 1000);
+    CHECK(j.points > j.pairs);
+    CHECK(j.flips * 1000 <= j.pairs);
+    CHECK(quantile(j.normal, 0.5) <= 1e-12);
+    CHECK(quantile(j.normal, 0.99) <= 1e-3);
+    CHECK(quantile(j.point, 0.5) <= 1e-12);
+    CHECK(quantile(j.point, 0.99) <= 0.02);
+  }
+}
