@@ -129,6 +129,15 @@ std::string campaign_footer(const CampaignResult& r) {
   if (const std::uint64_t n = r.levels[0] + r.levels[1] + r.levels[2]; n > 0)
     s += fmt::format("referee: {} pairs settled by doubles, {} in extended precision, {} exactly\n",
                      grouped(r.levels[0]), grouped(r.levels[1]), grouped(r.levels[2]));
+  std::uint64_t asked = 0, broken = 0;
+  for (const auto& [engine, of_engine] : r.relations)
+    for (const auto& [name, n] : of_engine) asked += n.asked, broken += n.broken;
+  if (asked > 0)
+    s += fmt::format("relations: {} derived cases asked, {} contradict the engine's own answers\n",
+                     grouped(asked), grouped(broken));
+  if (r.pair_rate() > 0)
+    s += fmt::format("{} pair cases, {} a core-second (motions, crowds and relations apart)\n",
+                     grouped(r.pair_asked), grouped(static_cast<std::uint64_t>(r.pair_rate())));
   s += fmt::format("time: engines {:.0f} %, harness {:.0f} % (of that referee and judge {:.0f} %)\n", engines,
                    100 - engines, judge);
   return s;

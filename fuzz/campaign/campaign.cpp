@@ -1,10 +1,12 @@
 #include "fuzz/campaign/campaign.h"
 
+#include <condition_variable>
 #include <exception>
 #include <mutex>
 #include <thread>
 
 #include "core/base/input_error.h"
+#include "core/base/rng.h"
 #include "fuzz/campaign/store.h"
 #include "fuzz/generate/family.h"
 
@@ -15,6 +17,10 @@ using Clock = std::chrono::steady_clock;
 
 // A chunk is what a job takes at once and what a batch on a worker's pipe holds.
 constexpr std::uint64_t chunk_cases = 32;
+
+// A guided campaign draws from what was kept before its generation, so that it does not matter which job was
+// faster; jobs wait for each other so often.
+constexpr std::uint64_t generation_chunks = 16;
 
 double seconds(Clock::duration d) { return std::chrono::duration<double>(d).count(); }
 
@@ -33,7 +39,7 @@ class Runner {
     if (error_) std::rethrow_exception(error_);
     state_.finished = ended();
     if (!config_.out.empty()) {
-      save_findings(config_, state_.result);
+      save_findings(config_.out, state_.result);
       save_state(config_, state_);
     }
     report(true);
@@ -67,35 +73,84 @@ class Runner {
     const auto engines = factory_();
     for (;;) {
       const std::uint64_t k = next_.fetch_add(1);
-      if (stop_ || failed_ || exhausted(k) || out_of_time()) return;
+      if (exhausted(k)) return;
+      if (!wait_for_generation(k) || stop_ || failed_ || out_of_time()) return leave();
       finish(k, run_chunk(k, engines));
     }
   } catch (...) {
     std::lock_guard lock(mutex_);
     if (!error_) error_ = std::current_exception();
-    failed_ = true;
+    failed_ = gap_ = true;
+    merged_more_.notify_all();
   }
 
-  CampaignResult run_chunk(std::uint64_t k, const std::vector<EnginePtr>& engines) const {
+  // A chunk that was taken and is not done: whoever waits for it is let go.
+  void leave() {
+    std::lock_guard lock(mutex_);
+    gap_ = true;
+    merged_more_.notify_all();
+  }
+
+  struct Chunk {
+    CampaignResult result;
+    std::vector<Case> cases;  // guided only, with what was new about each
+    std::vector<std::vector<std::uint64_t>> features;
+  };
+
+  // Half of a guided campaign's cases are made from earlier ones.
+  Case next_case(std::uint64_t index) {
+    constexpr std::uint64_t apart = 0x677569646564ULL;  // another stream than the case's own
+    Rng rng = Rng::stream(config_.seed ^ apart, index);
+    if (config_.guided && rng.chance(0.5)) {
+      std::lock_guard lock(mutex_);
+      Case c = state_.pool.empty() ? Case{} : state_.pool.draw(rng);
+      c.id = "guided/" + std::to_string(config_.seed) + "/" + std::to_string(index);
+      if (!c.queries.empty()) return c;
+    }
+    return make_case(config_.seed, index, config_.family);
+  }
+
+  // Until all chunks of earlier generations are in the pool; false when they will not be.
+  bool wait_for_generation(std::uint64_t k) {
+    if (!config_.guided) return true;
+    std::unique_lock lock(mutex_);
+    const std::uint64_t first = k / generation_chunks * generation_chunks;
+    merged_more_.wait(lock, [&] { return merged_ >= first || gap_; });
+    return merged_ >= first;
+  }
+
+  Chunk run_chunk(std::uint64_t k, const std::vector<EnginePtr>& engines) {
     const auto start = Clock::now();
-    std::vector<Case> cases;
     const std::uint64_t first = first_case(k);
     const std::uint64_t end =
         config_.cases ? std::min(first + chunk_cases, *config_.cases) : first + chunk_cases;
-    for (std::uint64_t i = first; i < end; ++i) cases.push_back(make_case(config_.seed, i, config_.family));
-    CampaignResult r;
-    ask_and_judge(r, cases, first, engines);
+    Chunk chunk;
+    CampaignResult& r = chunk.result;
+    for (std::uint64_t i = first; i < end; ++i) {
+      const std::int64_t before = thread_cpu_ns();
+      chunk.cases.push_back(next_case(i));
+      const auto& queries = chunk.cases.back().queries;
+      if (!queries.empty() && queries[0].question < Question::time_of_impact)
+        r.pair_cpu_ns += thread_cpu_ns() - before;
+    }
+    ask_and_judge(r, chunk.cases, first, engines, config_.relations_every,
+                  config_.guided ? &chunk.features : nullptr);
+    if (!config_.guided) chunk.cases.clear();
     r.total_ns = std::chrono::nanoseconds(Clock::now() - start).count();
-    return r;
+    return chunk;
   }
 
-  void finish(std::uint64_t k, CampaignResult r) {
+  void finish(std::uint64_t k, Chunk c) {
     std::lock_guard lock(mutex_);
-    pending_.emplace(k, std::move(r));
+    pending_.emplace(k, std::move(c));
     for (auto it = pending_.find(merged_); it != pending_.end(); it = pending_.find(++merged_)) {
-      state_.result.merge(it->second);
+      state_.result.merge(it->second.result);
+      for (std::size_t i = 0; i < it->second.features.size(); ++i)
+        state_.pool.note(it->second.cases[i], it->second.features[i]);
       pending_.erase(it);
+      if ((merged_ + 1) % generation_chunks == 0) state_.pool.publish();
     }
+    merged_more_.notify_all();
     state_.next_chunk = merged_;
     const auto now = Clock::now();
     if (!config_.out.empty() && seconds(now - saved_) > 10)
@@ -129,7 +184,9 @@ class Runner {
   std::exception_ptr error_;
   std::uint64_t merged_ = 0;
   std::uint64_t resumed_cases_ = 0;
-  std::map<std::uint64_t, CampaignResult> pending_;
+  std::map<std::uint64_t, Chunk> pending_;
+  std::condition_variable merged_more_;
+  bool gap_ = false;
   StoredState state_;
 };
 

@@ -15,6 +15,9 @@
 
 namespace touchstone::fuzz {
 
+/// A case in all its derived forms costs an engine about fifteen times the case, and the referee nothing.
+inline constexpr std::uint64_t default_relations_every = 16;
+
 struct CampaignConfig {
   std::vector<std::string> engines;  // catalog names, for the record
   std::string subject = "core";
@@ -25,6 +28,10 @@ struct CampaignConfig {
   int jobs = 1;
   std::uint64_t shard = 0, shards = 1;
   std::filesystem::path out;  // empty: nothing is written
+  /// Every so many cases one is also asked in the forms that the relations derive from it; 0: none.
+  std::uint64_t relations_every = default_relations_every;
+  /// Half of the cases are changed forms of earlier ones that made an engine do something new (novelty.h).
+  bool guided = false;
 };
 
 /// Makes the engines of one job, in the order of CampaignConfig::engines.
@@ -39,13 +46,26 @@ struct Progress {
 };
 using ProgressCallback = std::function<void(const Progress&)>;
 
+/// CPU time of the calling thread.
+std::int64_t thread_cpu_ns();
+
 /// Judges the answers of one case and adds them to the result. Used by campaigns and by replay.
+/// What was new about it is added to `features` when that is given.
 void judge_into(CampaignResult& result, const Case& c, std::uint64_t index,
-                std::span<const EnginePtr> engines, std::span<const CaseObservations> observations);
+                std::span<const EnginePtr> engines, std::span<const CaseObservations> observations,
+                std::vector<std::uint64_t>* features = nullptr);
+
+/// Asks the engine about the cases derived from c by every relation, and adds what contradicts `base`.
+void relate_into(CampaignResult& result, const Case& c, std::uint64_t index, const EnginePtr& engine,
+                 const CaseObservations& base);
 
 /// Asks every engine about all cases, then judges each case; case i is counted as index first_index + i.
+/// Those whose index is a multiple of relations_every are asked under the relations too. `features`, when
+/// given, gets one list a case.
 void ask_and_judge(CampaignResult& result, std::span<const Case> cases, std::uint64_t first_index,
-                   std::span<const EnginePtr> engines);
+                   std::span<const EnginePtr> engines,
+                   std::uint64_t relations_every = default_relations_every,
+                   std::vector<std::vector<std::uint64_t>>* features = nullptr);
 
 /// Runs to the end, to the time limit, or until `stop` is set (what is done is kept and can be resumed from
 /// `out`). Throws InputError when `out` holds a finished campaign or one with other settings.

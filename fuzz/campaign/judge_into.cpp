@@ -1,7 +1,10 @@
 #include <algorithm>
 #include <chrono>
+#include <ctime>
 
 #include "fuzz/campaign/campaign.h"
+#include "fuzz/campaign/novelty.h"
+#include "fuzz/campaign/shapes_of.h"
 #include "fuzz/judge/judge.h"
 #include "fuzz/record/degeneracy.h"
 #include "fuzz/record/magnitude.h"
@@ -9,14 +12,6 @@
 
 namespace touchstone::fuzz {
 namespace {
-
-std::string shapes_of(const Case& c, int a, int b) {
-  const int n = static_cast<int>(c.scene.bodies.size());
-  if (a < 0 || b < 0 || a >= n || b >= n) return "scene";
-  auto x = type_name(c.scene.shape_of(a)), y = type_name(c.scene.shape_of(b));
-  if (y < x) std::swap(x, y);
-  return std::string(x) + "-" + std::string(y);
-}
 
 void add_findings(CampaignResult& r, const Case& c, std::uint64_t index, const std::string& engine,
                   const Query& q, const Judgement& j, const CaseObservations& all, const Observation& o) {
@@ -70,10 +65,36 @@ void count_hit(CampaignResult& r, const Case& c, Truth& truth) {
         ++r.levels[static_cast<std::size_t>(t.level)];
 }
 
+bool asks_pair(const Case& c) {
+  return !c.queries.empty() && c.queries[0].question < Question::time_of_impact;
+}
+
+// This thread's CPU time while it asked a batch (pipes, and engines of this process) is shared in proportion
+// to engines' own time, to which that of workers is added: an engine of this process counts twice, and a busy
+// machine counts as slow engines. So the rate is at most too low.
+void share_asking(CampaignResult& r, std::span<const Case> cases,
+                  const std::vector<std::vector<CaseObservations>>& by_engine, std::int64_t cpu_ns) {
+  std::int64_t own = 0, of_pairs = 0;
+  for (std::size_t i = 0; i < cases.size(); ++i) {
+    const bool pair = asks_pair(cases[i]);
+    for (const auto& of_engine : by_engine)
+      for (const Observation& o : of_engine[i].answers)
+        own += o.elapsed_ns, of_pairs += pair ? o.elapsed_ns : 0;
+  }
+  const double share = own > 0 ? static_cast<double>(of_pairs) / static_cast<double>(own) : 0;
+  r.pair_cpu_ns += of_pairs + static_cast<std::int64_t>(share * static_cast<double>(cpu_ns));
+}
+
 }  // namespace
 
+std::int64_t thread_cpu_ns() {
+  timespec t{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
+  return std::int64_t{1'000'000'000} * t.tv_sec + t.tv_nsec;
+}
+
 void judge_into(CampaignResult& r, const Case& c, std::uint64_t index, std::span<const EnginePtr> engines,
-                std::span<const CaseObservations> observations) {
+                std::span<const CaseObservations> observations, std::vector<std::uint64_t>* features) {
   const auto start = std::chrono::steady_clock::now();
   Truth truth(c.scene);
   if (!observations.empty()) give_hints(truth, c, observations[0]);
@@ -85,21 +106,34 @@ void judge_into(CampaignResult& r, const Case& c, std::uint64_t index, std::span
       r.tallies[card.name][c.queries[i].question].add(judgements[i], o);
       r.engine_ns += o.elapsed_ns;
       add_findings(r, c, index, card.name, c.queries[i], judgements[i], observations[e], o);
+      if (features) add_features(c, c.queries[i], card, o, judgements[i], *features);
     }
   }
+  if (features)
+    for (std::size_t i = 0; i < c.queries.size(); ++i) add_pattern(c, i, observations, *features);
   count_hit(r, c, truth);
   ++r.cases, ++r.families[c.family];
   r.judge_ns += std::chrono::nanoseconds(std::chrono::steady_clock::now() - start).count();
 }
 
 void ask_and_judge(CampaignResult& r, std::span<const Case> cases, std::uint64_t first_index,
-                   std::span<const EnginePtr> engines) {
+                   std::span<const EnginePtr> engines, std::uint64_t relations_every,
+                   std::vector<std::vector<std::uint64_t>>* features) {
+  if (features) features->resize(cases.size());
   std::vector<std::vector<CaseObservations>> by_engine;
+  const std::int64_t before = thread_cpu_ns();
   for (const EnginePtr& e : engines) by_engine.push_back(e->run(cases));
+  share_asking(r, cases, by_engine, thread_cpu_ns() - before);
   for (std::size_t i = 0; i < cases.size(); ++i) {
+    const std::uint64_t index = first_index + i;
     std::vector<CaseObservations> observations;
     for (auto& of_engine : by_engine) observations.push_back(std::move(of_engine[i]));
-    judge_into(r, cases[i], first_index + i, engines, observations);
+    const std::int64_t start = thread_cpu_ns();
+    judge_into(r, cases[i], index, engines, observations, features ? &(*features)[i] : nullptr);
+    if (asks_pair(cases[i])) ++r.pair_asked, r.pair_cpu_ns += thread_cpu_ns() - start;
+    if (relations_every == 0 || index % relations_every != 0) continue;
+    for (std::size_t e = 0; e < engines.size(); ++e)
+      relate_into(r, cases[i], index, engines[e], observations[e]);
   }
 }
 

@@ -5,6 +5,7 @@
 
 #include "core/base/input_error.h"
 #include "core/scene/codec.h"
+#include "scenarios/case_codec.h"
 
 namespace touchstone::fuzz {
 namespace {
@@ -12,10 +13,32 @@ namespace {
 // The settings that decide which cases are made and what is asked; jobs and time limits may change between
 // sessions.
 Json settings(const CampaignConfig& c) {
-  Json j = {{"touchstone_campaign", 1}, {"subject", c.subject}, {"engines", c.engines}, {"family", c.family},
-            {"seed", c.seed},           {"shard", c.shard},     {"shards", c.shards}};
+  Json j = {{"touchstone_campaign", 1}, {"subject", c.subject},
+            {"engines", c.engines},     {"family", c.family},
+            {"seed", c.seed},           {"shard", c.shard},
+            {"shards", c.shards},       {"relations_every", c.relations_every},
+            {"guided", c.guided}};
   j["cases"] = c.cases ? Json(*c.cases) : Json(nullptr);
   return j;
+}
+
+Json pool_json(const Pool& p) {
+  Json cases = Json::array();
+  for (const Case& c : p.cases) cases.push_back(case_to_json(c));
+  return {{"published", p.published}, {"features", p.features}, {"cases", std::move(cases)}};
+}
+
+Pool pool_from_json(const Json& j) {
+  Pool p;
+  p.published = j.at("published");
+  p.features = j.at("features").get<std::set<std::uint64_t>>();
+  for (const Json& c : j.at("cases")) {
+    p.cases.push_back(case_from_json(c, "state.json, pool"));
+    // Bodies of a question about the whole scene mean nothing and are not stored; families make them -1.
+    for (Query& q : p.cases.back().queries)
+      if (!is_pair_question(q.question)) q.a = q.b = -1;
+  }
+  return p;
 }
 
 }  // namespace
@@ -49,6 +72,7 @@ std::optional<StoredState> load_state(const CampaignConfig& config) {
       throw InputError(config.out.string(),
                        "holds a finished campaign; give another --out, or look at summary.json");
     s.result = result_from_json(j.at("result"));
+    if (j.contains("pool")) s.pool = pool_from_json(j["pool"]);
     return s;
   } catch (const Json::exception& e) {
     throw InputError(file.string(), std::string("is not a campaign's state: ") + e.what());
@@ -56,18 +80,22 @@ std::optional<StoredState> load_state(const CampaignConfig& config) {
 }
 
 void save_state(const CampaignConfig& config, const StoredState& s) {
-  if (config.out.empty()) return;
-  const Json j = {{"settings", settings(config)},
-                  {"finished", s.finished},
-                  {"next_chunk", s.next_chunk},
-                  {"result", to_json(s.result, true)}};
-  write_atomically(config.out / "state.json", j.dump());
+  if (!config.out.empty()) save_state(config.out, settings(config), s);
 }
 
-void save_findings(const CampaignConfig& config, const CampaignResult& result) {
-  if (config.out.empty()) return;
+void save_state(const std::filesystem::path& out, const Json& settings, const StoredState& s) {
+  Json j = {{"settings", settings},
+            {"finished", s.finished},
+            {"next_chunk", s.next_chunk},
+            {"result", to_json(s.result, true)}};
+  // Needed to go on, and by nobody else.
+  if (!s.finished && s.pool.size() > 0) j["pool"] = pool_json(s.pool);
+  write_atomically(out / "state.json", j.dump());
+}
+
+void save_findings(const std::filesystem::path& out, const CampaignResult& result) {
   for (const auto& [key, f] : result.findings) {
-    const auto dir = config.out / "findings" / key;
+    const auto dir = out / "findings" / key;
     std::error_code ec;
     std::filesystem::create_directories(dir, ec);
     if (ec) throw InputError(dir.string(), "cannot be made: " + ec.message());
@@ -81,7 +109,7 @@ void save_findings(const CampaignConfig& config, const CampaignResult& result) {
   Json summary = to_json(result, true);
   for (auto& [key, f] : summary["findings"].items()) f.erase("evidence");
   summary["digest"] = digest(result);
-  write_atomically(config.out / "summary.json", summary.dump(1) + "\n");
+  write_atomically(out / "summary.json", summary.dump(1) + "\n");
 }
 
 }  // namespace touchstone::fuzz

@@ -9,6 +9,7 @@
 #include <optional>
 
 #include "fuzz/campaign/campaign.h"
+#include "fuzz/campaign/novelty.h"
 
 namespace touchstone::fuzz {
 
@@ -16,13 +17,16 @@ struct StoredState {
   std::uint64_t next_chunk = 0;
   bool finished = false;
   CampaignResult result;
+  Pool pool;  // of a guided campaign
 };
 
 /// The state in config.out, or nothing when the directory is new. Throws InputError when it is finished,
 /// damaged or made with other settings.
 std::optional<StoredState> load_state(const CampaignConfig& config);
 void save_state(const CampaignConfig& config, const StoredState& state);
-void save_findings(const CampaignConfig& config, const CampaignResult& result);
+/// With settings as they are in another state.
+void save_state(const std::filesystem::path& out, const Json& settings, const StoredState& state);
+void save_findings(const std::filesystem::path& out, const CampaignResult& result);
 void write_atomically(const std::filesystem::path& file, const std::string& text);
 
 }  // namespace touchstone::fuzz

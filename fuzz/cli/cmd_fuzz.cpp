@@ -4,12 +4,14 @@
 #include <algorithm>
 #include <atomic>
 #include <csignal>
+#include <cstdlib>
 #include <ctime>
 #include <set>
 #include <thread>
 
 #include "core/base/input_error.h"
 #include "fuzz/campaign/campaign.h"
+#include "fuzz/campaign/shard.h"
 #include "fuzz/cli/command.h"
 #include "fuzz/cli/engine_catalog.h"
 #include "fuzz/generate/family.h"
@@ -31,14 +33,13 @@ struct Options {
   WorkerLimits limits;
 };
 
-void parse_shard(const std::string& text, fuzz::CampaignConfig& c) {
-  if (text.empty()) return;
-  unsigned long long i = 0, n = 0;
-  int used = 0;
-  if (std::sscanf(text.c_str(), "%llu/%llu%n", &i, &n, &used) != 2 ||
-      static_cast<std::size_t>(used) != text.size() || n == 0 || i >= n)
-    throw InputError("--shard " + text, "expected i/n with 0 <= i < n");
-  c.shard = i, c.shards = n;
+void take_shard(const std::string& text, fuzz::CampaignConfig& c) {
+  const fuzz::Shard s = fuzz::which_shard(text, [](const char* name) -> std::optional<std::string> {
+    const char* v = std::getenv(name);
+    return v ? std::optional<std::string>(v) : std::nullopt;
+  });
+  c.shard = s.index, c.shards = s.count;
+  if (s.count > 1) fmt::print(stderr, "shard {} of {}, by {}\n", s.index, s.count, s.source);
 }
 
 std::string default_out() {
@@ -132,7 +133,7 @@ int verdict(const fuzz::CampaignConfig& c, const fuzz::CampaignResult& r, bool j
 }
 
 int run(Options& o) {
-  parse_shard(o.shard, o.config);
+  take_shard(o.shard, o.config);
   o.config.engines = engine_names(o.engines);
   const auto subjects = engine_names(o.config.subject);
   if (subjects.size() != 1) throw InputError("--subject " + o.config.subject, "names more than one engine");
@@ -180,7 +181,15 @@ Run declare_fuzz(CLI::App& app) {
   app.add_option("--jobs", o->config.jobs, "jobs side by side")
       ->check(CLI::Range(1, 1024))
       ->capture_default_str();
-  app.add_option("--shard", o->shard, "i/n: only the i-th of n parts of the campaign, i from 0");
+  app.add_option(
+      "--shard", o->shard,
+      "i/n: only the i-th of n parts of the campaign, i from 0 (default: SLURM_ARRAY_TASK_ID of _COUNT, or "
+      "JOB_COMPLETION_INDEX of JOB_COMPLETIONS, if they are set)");
+  app.add_flag("--guided", o->config.guided,
+               "half of the cases are changed forms of those that made an engine do something new");
+  app.add_option("--relations", o->config.relations_every,
+                 "every so many cases one is also asked swapped, scaled, moved, ...; 0: none")
+      ->capture_default_str();
   app.add_option("--out", o->out, "directory of the results; an unfinished campaign in it is gone on with");
   add_case_seconds(app, o->limits);
   app.add_flag("--json", o->json, "the whole result as one JSON document on stdout");

@@ -44,10 +44,20 @@ bool replay_case(const Options& o, const Engines& engines, const Case& c, fuzz::
     if (card.name == o.subject)
       for (const auto& j : judgements) subject_wrong |= !j.faults.empty();
   }
-  if (o.json)
+  fuzz::CampaignResult related;
+  for (std::size_t e = 0; e < engines.size(); ++e)
+    fuzz::relate_into(related, c, 0, engines[e], observations[e]);
+  subject_wrong |= related.wrong_of(o.subject) > 0;
+  if (o.json) {
     json.push_back(text.json());
-  else
-    fmt::print("{}", text.str());
+    json.back()["relations"] = fuzz::Json::array();
+    for (const auto& [key, f] : related.findings) json.back()["relations"].push_back(fuzz::to_json(f));
+    return subject_wrong;
+  }
+  fmt::print("{}", text.str());
+  if (!related.findings.empty()) fmt::print("\nAgainst their own answers:\n");
+  for (const auto& [key, f] : related.findings)
+    fmt::print("  {}\n", reports::wrapped(fmt::format("{} {}: {}", f.engine, f.fault, f.words), 76, 4));
   return subject_wrong;
 }
 

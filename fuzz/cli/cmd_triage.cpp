@@ -3,6 +3,7 @@
 
 #include <chrono>
 #include <ctime>
+#include <deque>
 #include <filesystem>
 #include <map>
 
@@ -10,6 +11,7 @@
 #include "core/scene/input_file.h"
 #include "fuzz/cli/command.h"
 #include "fuzz/cli/engine_catalog.h"
+#include "fuzz/judge/relation.h"
 #include "fuzz/reproduce/reproducer.h"
 #include "fuzz/shrink/keeps_finding.h"
 #include "fuzz/triage/triage.h"
@@ -25,6 +27,7 @@ constexpr std::size_t all_tries = 4000, tries_of_slow = 8;
 struct Options {
   std::string directory, ledger = "findings.db", subject = "all", junit, date, reproducers;
   bool json = false, no_shrink = false;
+  int jobs = 1;
   WorkerLimits limits;
 };
 
@@ -57,15 +60,15 @@ class Engines {
   std::map<std::string, EnginePtr> made_;
 };
 
-fuzz::TriageConfig config_of(const Options& o, Engines& engines) {
+fuzz::TriageConfig config_of(const Options& o, const std::string& date, Engines& engines) {
   fuzz::TriageConfig c;
-  c.date = o.date.empty() ? now() : o.date;
+  c.date = date;
   c.build_of = [&](const std::string& engine) {
     const EnginePtr& e = engines.named(engine);
     return e ? e->card().library + " " + e->card().version : std::string();
   };
   c.ask = [&](const std::string& engine, const Case& asked) {
-    return fuzz::findings_of({&asked, 1}, engines.named(engine))[0];
+    return fuzz::findings_of({&asked, 1}, engines.named(engine), fuzz::FoundBy::both)[0];
   };
   c.smallest = [&, shrink = !o.no_shrink](const std::string& engine, const std::string& key,
                                           const Case& found) {
@@ -84,7 +87,7 @@ void write_reproducer(const std::filesystem::path& directory, const fuzz::KnownF
                       const EnginePtr& engine) {
   if (!engine || !known.expired.empty() || std::filesystem::exists(directory / known.key)) return;
   const Case smallest = fuzz::case_of(known);
-  const auto findings = fuzz::findings_of({&smallest, 1}, engine)[0];
+  const auto findings = fuzz::findings_of({&smallest, 1}, engine, fuzz::FoundBy::both)[0];
   const auto finding = findings.find(known.key);
   if (finding == findings.end()) return;  // came once and not again; the ledger keeps its case
   const auto to = directory / known.key;
@@ -96,7 +99,8 @@ void write_reproducer(const std::filesystem::path& directory, const fuzz::KnownF
   const auto evidence = finding->second.evidence_json();
   if (evidence.contains("certificate") && !evidence["certificate"].is_null())
     write_file((to / "certificate.json").string(), evidence["certificate"].dump(1) + "\n");
-  if (!fuzz::has_reproducer(known.engine)) return;
+  // A relation is about two scenes; `touchstone replay` shows both.
+  if (!fuzz::has_reproducer(known.engine) || fuzz::is_relation(known.fault)) return;
   try {
     write_file((to / "reproduce.cpp").string(), fuzz::reproducer(finding->second, engine->card()));
   } catch (const InputError& e) {
@@ -117,8 +121,15 @@ int run(const Options& o) {
   if (!o.reproducers.empty()) make_directory("--reproducers", o.reproducers);
   const auto found = fuzz::load_findings(o.directory);
   fuzz::Ledger ledger(o.ledger);
-  Engines engines(o.limits);
-  const auto triaged = fuzz::triage(found, ledger, config_of(o, engines));
+  const std::string date = o.date.empty() ? now() : o.date;
+  std::deque<Engines> of_job;
+  std::vector<fuzz::TriageConfig> jobs;
+  for (int i = 0; i < o.jobs; ++i) {
+    of_job.emplace_back(o.limits);
+    jobs.push_back(config_of(o, date, of_job.back()));
+  }
+  Engines& engines = of_job.front();
+  const auto triaged = fuzz::triage(found, ledger, jobs);
   ledger.commit();
   if (!o.reproducers.empty())
     for (const fuzz::Triaged& t : triaged)
@@ -149,6 +160,9 @@ Run declare_triage(CLI::App& app) {
       "--reproducers", o->reproducers,
       "directory that gets one directory a finding: case, certificate, a C++ program that shows it");
   app.add_option("--date", o->date, "of the run, for the ledger (default: now)");
+  app.add_option("--jobs", o->jobs, "findings shrunk side by side")
+      ->check(CLI::Range(1, 1024))
+      ->capture_default_str();
   app.add_flag("--no-shrink", o->no_shrink, "store cases of new findings as they were found");
   add_case_seconds(app, o->limits);
   app.add_flag("--json", o->json, "one JSON document on stdout");

@@ -30,6 +30,7 @@ Run declare_replay(CLI::App& app);
 Run declare_shrink(CLI::App& app);
 Run declare_reproduce(CLI::App& app);
 Run declare_bisect(CLI::App& app);
+Run declare_merge(CLI::App& app);
 Run declare_triage(CLI::App& app);
 Run declare_view(CLI::App& app);
 

@@ -18,6 +18,7 @@ constexpr Command table[] = {
     {"bisect", "what a finding depends on: bodies, step, stage, a value, a commit", declare_bisect},
     {"triage", "the findings of a campaign against the ledger of known ones: new, known, gone",
      declare_triage},
+    {"merge", "shards of a campaign into one, or ledgers into one", declare_merge},
     {"view", "a page that shows what the broad phase makes of a scene", declare_view},
     {"check", "is a stored certificate a proof? in exact arithmetic, from the scene alone", declare_check},
     {"engines", "the engines present, their versions, settings and tolerances", declare_engines},

@@ -152,8 +152,8 @@ referee::Bracket Truth::width(int frame, int a, int b, const Vec3& n) const {
   return referee::width(placed(frame, a), placed(frame, b), n);
 }
 
-referee::Bracket Truth::distance_to(int frame, int body, const Vec3& p) const {
-  return referee::distance_to(placed(frame, body), p);
+referee::Bracket Truth::distance_to(int frame, int body, const Vec3& p, double enough) const {
+  return referee::distance_to(placed(frame, body), p, enough);
 }
 
 referee::Bracket Truth::gap_at(int frame, int a, int b, double t) const {

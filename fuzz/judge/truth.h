@@ -25,10 +25,10 @@ class Truth {
   /// Of an overlapping pair, along the referee's normal; kept.
   const referee::ContactRegion& contact_region(int frame, int a, int b);
   referee::Bracket width(int frame, int a, int b, const Vec3& n) const;
-  referee::Bracket distance_to(int frame, int body, const Vec3& p) const;
+  referee::Bracket distance_to(int frame, int body, const Vec3& p, double enough = 0) const;
   referee::Bracket gap_at(int frame, int a, int b, double t) const;
-  /// Of a convex body and a mesh that overlap: the depth that is certain in the deepest triangle, that is, how
-  /// far the body must move at least to leave that triangle. 0 when neither is a mesh.
+  /// Of a convex body and a mesh that overlap: the depth that is certain in the deepest triangle, that is,
+  /// how far the body must move at least to leave that triangle. 0 when neither is a mesh.
   double depth_in_mesh(int frame, int a, int b) const;
   double depth_before(int frame, int a, int b, double t) const;
   /// The same over the whole step; kept.

@@ -101,16 +101,24 @@ void CampaignResult::merge(const CampaignResult& o) {
   for (const auto& [engine, questions] : o.tallies)
     for (const auto& [q, t] : questions) tallies[engine][q].merge(t);
   for (const auto& [key, f] : o.findings) findings[key].merge(f);
+  for (const auto& [engine, of_engine] : o.relations)
+    for (const auto& [name, n] : of_engine) {
+      RelationCount& sum = relations[engine][name];
+      sum.asked += n.asked, sum.broken += n.broken;
+    }
   for (const auto& [f, n] : o.families) families[f] += n;
   cases += o.cases, pair_cases += o.pair_cases, overlapping += o.overlapping, undecided += o.undecided;
   for (std::size_t k = 0; k < levels.size(); ++k) levels[k] += o.levels[k];
   total_ns += o.total_ns, engine_ns += o.engine_ns, judge_ns += o.judge_ns;
+  pair_asked += o.pair_asked, pair_cpu_ns += o.pair_cpu_ns;
 }
 
 std::uint64_t CampaignResult::wrong_of(const std::string& engine) const {
   std::uint64_t n = 0;
   if (const auto it = tallies.find(engine); it != tallies.end())
     for (const auto& [q, t] : it->second) n += t.wrong;
+  if (const auto it = relations.find(engine); it != relations.end())
+    for (const auto& [name, count] : it->second) n += count.broken;
   return n;
 }
 
@@ -192,6 +200,10 @@ Json to_json(const CampaignResult& r, bool with_times) {
   for (const auto& [engine, questions] : r.tallies)
     for (const auto& [q, t] : questions)
       j["engines"][engine][std::string(to_string(q))] = to_json(t, with_times);
+  j["relations"] = Json::object();
+  for (const auto& [engine, of_engine] : r.relations)
+    for (const auto& [name, n] : of_engine)
+      j["relations"][engine][name] = {{"asked", n.asked}, {"broken", n.broken}};
   j["findings"] = Json::object();
   for (const auto& [key, f] : r.findings) {
     j["findings"][key] = to_json(f);
@@ -200,7 +212,11 @@ Json to_json(const CampaignResult& r, bool with_times) {
     if (!with_times) j["findings"][key]["evidence"]["observation"].erase("detail");
   }
   if (with_times)
-    j["times"] = {{"total_ns", r.total_ns}, {"engine_ns", r.engine_ns}, {"judge_ns", r.judge_ns}};
+    j["times"] = {{"total_ns", r.total_ns},
+                  {"engine_ns", r.engine_ns},
+                  {"judge_ns", r.judge_ns},
+                  {"pair_asked", r.pair_asked},
+                  {"pair_cpu_ns", r.pair_cpu_ns}};
   return j;
 }
 
@@ -216,10 +232,16 @@ CampaignResult result_from_json(const Json& j) try {
       if (!question) throw InputError("engines." + engine, "unknown question " + q);
       r.tallies[engine][*question] = tally_from_json(t);
     }
+  if (j.contains("relations"))  // absent from results of earlier versions
+    for (const auto& [engine, of_engine] : j["relations"].items())
+      for (const auto& [name, n] : of_engine.items())
+        r.relations[engine][name] = {n.at("asked"), n.at("broken")};
   for (const auto& [key, f] : j.at("findings").items()) r.findings[key] = finding_from_json(f);
   if (j.contains("times")) {
     r.total_ns = j["times"].at("total_ns"), r.engine_ns = j["times"].at("engine_ns");
     r.judge_ns = j["times"].at("judge_ns");
+    r.pair_asked = j["times"].value("pair_asked", std::uint64_t{0});
+    r.pair_cpu_ns = j["times"].value("pair_cpu_ns", std::int64_t{0});
   }
   return r;
 } catch (const Json::exception& e) {

@@ -74,6 +74,12 @@ Json to_json(const Finding& f);  // without evidence
 struct CampaignResult {
   std::map<std::string, std::map<Question, Tally>> tallies;  // by engine
   std::map<std::string, Finding> findings;                   // by key
+  /// Relations (judge/relation.h) by engine and name: cases derived and asked, and how many of them
+  /// contradict what the engine said before.
+  struct RelationCount {
+    std::uint64_t asked = 0, broken = 0;
+  };
+  std::map<std::string, std::map<std::string, RelationCount>> relations;
   std::uint64_t cases = 0, pair_cases = 0,
                 overlapping = 0;  // pair cases with a decided verdict, and how many overlap
   std::uint64_t undecided = 0;
@@ -81,12 +87,20 @@ struct CampaignResult {
   std::map<std::string, std::uint64_t> families;
   // Times, never hashed: of all jobs together, and of that the engines' own and the referee's and judge's.
   std::int64_t total_ns = 0, engine_ns = 0, judge_ns = 0;
+  /// Cases that ask overlap, distance or contact of a pair, and the CPU time that they took of the harness's
+  /// threads and of engines: what all took but the other cases and the relations.
+  std::uint64_t pair_asked = 0;
+  std::int64_t pair_cpu_ns = 0;
 
   void merge(const CampaignResult& o);
   double hit_rate() const {
     return pair_cases == 0 ? 0 : static_cast<double>(overlapping) / static_cast<double>(pair_cases);
   }
-  /// Wrong or failed answers of one engine.
+  /// Pair cases a core-second, 0 when there are none.
+  double pair_rate() const {
+    return pair_cpu_ns > 0 ? 1e9 * static_cast<double>(pair_asked) / static_cast<double>(pair_cpu_ns) : 0;
+  }
+  /// Wrong or failed answers of one engine; broken relations are wrong.
   std::uint64_t wrong_of(const std::string& engine) const;
   std::uint64_t failed_of(const std::string& engine) const;
 };

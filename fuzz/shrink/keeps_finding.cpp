@@ -4,22 +4,24 @@
 
 namespace touchstone::fuzz {
 
-std::vector<std::map<std::string, Finding>> findings_of(std::span<const Case> cases,
-                                                        const EnginePtr& engine) {
+std::vector<std::map<std::string, Finding>> findings_of(std::span<const Case> cases, const EnginePtr& engine,
+                                                        FoundBy by) {
   const auto observations = engine->run(cases);
   std::vector<std::map<std::string, Finding>> out(cases.size());
   for (std::size_t i = 0; i < cases.size(); ++i) {
     CampaignResult r;
-    judge_into(r, cases[i], i, {&engine, 1}, {&observations[i], 1});
+    if (by != FoundBy::referee) relate_into(r, cases[i], i, engine, observations[i]);
+    if (by != FoundBy::relations) judge_into(r, cases[i], i, {&engine, 1}, {&observations[i], 1});
     out[i] = std::move(r.findings);
   }
   return out;
 }
 
 StillShows keeps_finding(const EnginePtr& engine, std::string key) {
-  return [&engine, key = std::move(key)](std::span<const Case> cases) {
+  const FoundBy by = key.find(".relation_") != std::string::npos ? FoundBy::relations : FoundBy::referee;
+  return [&engine, by, key = std::move(key)](std::span<const Case> cases) {
     std::vector<bool> shows;
-    for (const auto& found : findings_of(cases, engine)) shows.push_back(found.contains(key));
+    for (const auto& found : findings_of(cases, engine, by)) shows.push_back(found.contains(key));
     return shows;
   };
 }

@@ -11,8 +11,12 @@
 
 namespace touchstone::fuzz {
 
+/// Who says what is wrong: the referee, the relations (judge/relation.h), or both.
+enum class FoundBy { referee, relations, both };
+
 /// For each case, what the engine is found wrong about, by key (record/result.h).
-std::vector<std::map<std::string, Finding>> findings_of(std::span<const Case> cases, const EnginePtr& engine);
+std::vector<std::map<std::string, Finding>> findings_of(std::span<const Case> cases, const EnginePtr& engine,
+                                                        FoundBy by = FoundBy::referee);
 
 /// `engine` must outlive the result.
 StillShows keeps_finding(const EnginePtr& engine, std::string key);

@@ -6,25 +6,6 @@
 namespace touchstone::fuzz {
 namespace {
 
-void collect(double& v, std::vector<double*>& out) { out.push_back(&v); }
-void collect(Vec3& v, std::vector<double*>& out) {
-  for (double& x : v) out.push_back(&x);
-}
-void collect(std::vector<Vec3>& v, std::vector<double*>& out) {
-  for (Vec3& p : v) collect(p, out);
-}
-void collect(std::vector<std::array<int, 3>>&, std::vector<double*>&) {}
-
-void collect(Pose& p, std::vector<double*>& out) {
-  collect(p.translation, out);
-  for (double* x : {&p.rotation.x, &p.rotation.y, &p.rotation.z, &p.rotation.w}) out.push_back(x);
-}
-
-void collect(Shape& shape, std::vector<double*>& out) {
-  std::visit([&](auto& s) { for_each_field(s, [&](auto, auto& value, Domain) { collect(value, out); }); },
-             shape);
-}
-
 std::size_t parts(const Shape& shape) {
   if (const auto* h = std::get_if<Hull>(&shape)) return h->vertices.size();
   if (const auto* m = std::get_if<TriangleMesh>(&shape)) return m->vertices.size() + 3 * m->triangles.size();
@@ -60,32 +41,12 @@ double rounded_to(double v, int significant) {
   return std::isfinite(r) ? r : v;
 }
 
-std::vector<double*> numbers(Case& c) {
-  std::vector<double*> out;
-  for (Shape& s : c.scene.shapes) collect(s, out);
-  for (Body& b : c.scene.bodies) {
-    collect(b.pose, out);
-    if (b.motion) collect(b.motion->linear, out), collect(b.motion->angular, out);
-  }
-  for (Step& s : c.scene.script)
-    if (s.pose) collect(*s.pose, out);
-  return out;
-}
-
-void renew(Case& c) {
-  for (Shape& s : c.scene.shapes)
-    if (auto* h = std::get_if<Hull>(&s)) *h = make_hull(std::move(h->vertices));
-}
-
 Measure measure(const Case& c) {
   const Scene& s = c.scene;
   Measure m{s.bodies.size(), s.script.size(), 0};
   m.bits += s.shapes.size() + c.queries.size() + 2 * s.ignored.size();
-  std::vector<double*> found;
   for (Shape shape : s.shapes) {
-    found.clear();
-    collect(shape, found);
-    for (const double* x : found) m.bits += static_cast<std::uint64_t>(bits_of(*x));
+    for (const double* x : numbers(shape)) m.bits += static_cast<std::uint64_t>(bits_of(*x));
     m.bits += parts(shape);
   }
   for (const Body& b : s.bodies) {

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "fuzz/generate/numbers.h"
 #include "oracles/api/observation.h"
 
 namespace touchstone::fuzz {
@@ -25,11 +26,5 @@ int bits_of(double v);
 
 /// v rounded to `significant` bits, to nearest.
 double rounded_to(double v, int significant);
-
-/// Every double of the case that a person would have to write down, in a fixed order: fields of shapes, then
-/// poses and motions of bodies, then poses of steps. What is derived from them (faces of hulls) is stale
-/// after a change until renew().
-std::vector<double*> numbers(Case& c);
-void renew(Case& c);
 
 }  // namespace touchstone::fuzz

@@ -1,8 +1,11 @@
 #include "fuzz/triage/triage.h"
 
 #include <algorithm>
+#include <atomic>
+#include <exception>
 #include <nlohmann/json.hpp>
 #include <set>
+#include <thread>
 
 #include "core/base/input_error.h"
 #include "core/scene/codec.h"
@@ -35,9 +38,8 @@ KnownFinding entry(const StoredFinding& s, const TriageConfig& config, const std
           f.count,      measure(smallest), text_of(smallest), f.words,     ""};
 }
 
-Triaged seen(const StoredFinding& s, Ledger& ledger, const TriageConfig& config) {
+Triaged seen(const StoredFinding& s, std::optional<KnownFinding> known, const TriageConfig& config) {
   const std::string build = config.build_of(s.finding.engine);
-  auto known = ledger.find(s.finding.key());
   if (!known) return {Standing::fresh, entry(s, config, build)};
   const Standing standing = known->expired.empty() ? Standing::known : Standing::back;
   known->expired.clear(), known->last_seen = config.date, known->count += s.finding.count;
@@ -96,16 +98,53 @@ std::vector<StoredFinding> load_findings(const std::filesystem::path& directory)
   return r;
 }
 
+namespace {
+
+// One row of the result: found in this run, or known and not found.
+struct Task {
+  const StoredFinding* found = nullptr;
+  std::optional<KnownFinding> known;
+};
+
+Triaged done(const Task& t, const TriageConfig& config) {
+  return t.found ? seen(*t.found, t.known, config) : asked_again(*t.known, config);
+}
+
+// Tasks are taken in order by whoever is free; each has a place of its own in the result.
+std::vector<Triaged> run_tasks(const std::vector<Task>& tasks, std::span<const TriageConfig> jobs) {
+  std::vector<Triaged> r(tasks.size());
+  std::vector<std::exception_ptr> errors(tasks.size());
+  std::atomic<std::size_t> next{0};
+  const auto work = [&](const TriageConfig& config) {
+    for (std::size_t i = next++; i < tasks.size(); i = next++) try {
+        r[i] = done(tasks[i], config);
+      } catch (...) {
+        errors[i] = std::current_exception();
+      }
+  };
+  std::vector<std::thread> threads;
+  for (std::size_t j = 1; j < jobs.size(); ++j) threads.emplace_back(work, std::cref(jobs[j]));
+  work(jobs[0]);
+  for (std::thread& t : threads) t.join();
+  for (const auto& e : errors)
+    if (e) std::rethrow_exception(e);
+  return r;
+}
+
+}  // namespace
+
 std::vector<Triaged> triage(const std::vector<StoredFinding>& found, Ledger& ledger,
-                            const TriageConfig& config) {
-  std::vector<Triaged> r;
+                            std::span<const TriageConfig> jobs) {
+  std::vector<Task> tasks;
   std::set<std::string> keys;
   for (const StoredFinding& s : found) {
-    r.push_back(seen(s, ledger, config));
-    keys.insert(r.back().finding.key);
+    const std::string key = s.finding.key();
+    tasks.push_back({&s, ledger.find(key)});
+    keys.insert(key);
   }
   for (const KnownFinding& f : ledger.all())
-    if (f.expired.empty() && !keys.contains(f.key)) r.push_back(asked_again(f, config));
+    if (f.expired.empty() && !keys.contains(f.key)) tasks.push_back({nullptr, f});
+  std::vector<Triaged> r = run_tasks(tasks, jobs);
   for (const Triaged& t : r) ledger.put(t.finding);
   std::sort(r.begin(), r.end(),
             [](const Triaged& a, const Triaged& b) { return a.finding.key < b.finding.key; });

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <functional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -51,7 +52,12 @@ struct TriageConfig {
 
 /// Updates the ledger (not yet committed) and says what became of each finding, sorted by key. Gone ones of
 /// former runs are not mentioned again.
+/// One job for each of `jobs`, which ask engines of their own; the result does not depend on how many.
 std::vector<Triaged> triage(const std::vector<StoredFinding>& found, Ledger& ledger,
-                            const TriageConfig& config);
+                            std::span<const TriageConfig> jobs);
+inline std::vector<Triaged> triage(const std::vector<StoredFinding>& found, Ledger& ledger,
+                                   const TriageConfig& config) {
+  return triage(found, ledger, std::span<const TriageConfig>(&config, 1));
+}
 
 }  // namespace touchstone::fuzz

@@ -300,7 +300,9 @@ bool round_to_double(const Solid& b, BasicSolid<double>& out) {
   out.kind = static_cast<BasicSolid<double>::Kind>(b.kind);
   out.radius = b.radius, out.is_swept = b.is_swept;
   if (!fits(b.extent) || !fits(b.radius) || !fits(b.spin_radius)) return false;
-  if (b.extent + static_cast<Real>(b.radius) < 1 / double_range) return false;
+  // A single point at the origin is exact; what is merely tiny underflows.
+  const Real size = b.extent + static_cast<Real>(b.radius);
+  if (size > 0 && size < 1 / double_range) return false;
   out.points.resize(b.points.size());
   for (std::size_t i = 0; i < b.points.size(); ++i) out.points[i] = to_double3(b.points[i]);
   out.sweep = to_double3(b.sweep);

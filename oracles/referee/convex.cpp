@@ -339,4 +339,17 @@ ConvexTruth judge_convex(const Operand& a, const Operand& b, std::span<const Rea
   return Judge(a, b, effort).run(hints);
 }
 
+std::optional<std::array<double, 2>> gap_at_most(const Operand& a, const Operand& b, double enough) {
+  thread_local Level0 level0;
+  const Difference fine(a.body, b.body);
+  const Real3 across = between_centres(fine);
+  level0.run(fine, std::span<const Real3>(&across, 1));
+  if (!level0.d) return std::nullopt;
+  const auto& gap = level0.gjk.gap;
+  const auto& d = *level0.d;
+  const double hi = level0.verdict == Verdict::overlap ? 0.0 : gap.hi - d.radius + d.radius_error;
+  if (!(hi <= enough)) return std::nullopt;
+  return {{std::min(hi, gap.lo - d.radius - d.radius_error), hi}};
+}
+
 }  // namespace touchstone::referee

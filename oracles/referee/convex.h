@@ -2,6 +2,7 @@
 // made of.
 #pragma once
 
+#include <array>
 #include <optional>
 #include <span>
 
@@ -42,6 +43,10 @@ struct ConvexTruth {
 enum class Effort { verdict_only, gap, certificate };
 ConvexTruth judge_convex(const Operand& a, const Operand& b, std::span<const Real3> hints = {},
                          Effort effort = Effort::gap);
+
+/// Doubles alone: proven bounds [lo, hi] of the gap, when hi is at most `enough`; nothing otherwise. Touching
+/// or inside by a rounding, where a verdict needs more than doubles, is where this saves most.
+std::optional<std::array<double, 2>> gap_at_most(const Operand& a, const Operand& b, double enough);
 
 /// The width that a bracket is refined to before the referee stops, absolute.
 Real target_width(const Difference& d);

@@ -93,10 +93,13 @@ Bracket width(const Placed& a, const Placed& b, const Vec3& n) {
                  above + d.radius + d.radius_error + 4 * unit * std::fabs(above));
 }
 
-Bracket distance_to(const Placed& a, const Vec3& point_w) {
+Bracket distance_to(const Placed& a, const Vec3& point_w, double enough) {
   if (get<HalfSpace>(a)) return half_space_distance(a, point_w);
   static const Shape dot_shape = Sphere{0};
   const Placed p{&dot_shape, Pose{point_w, {}}};
+  if (!get<TriangleMesh>(a))
+    if (const auto near = gap_at_most(make_operand(a, point_w), make_operand(p, point_w), enough))
+      return {std::max(0.0, (*near)[0]), std::max(0.0, (*near)[1])};
   const ConvexTruth t =
       judge_parts(parts_of(a, point_w), parts_of(p, point_w), get<TriangleMesh>(a) != nullptr);
   if (t.verdict == Verdict::overlap) return {0, 0};

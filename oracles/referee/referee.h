@@ -101,8 +101,9 @@ NearMinimalNormals near_minimal_normals(const Placed& a, const Placed& b);
 /// answered: depth/cos(n, m), infinite when n does not lead out of it.
 Bracket width(const Placed& a, const Placed& b, const Vec3& n);
 
-/// Distance of a point from the closed body; 0 inside.
-Bracket distance_to(const Placed& a, const Vec3& point_w);
+/// Distance of a point from the closed body; 0 inside. The bracket is as narrow as it can be made, or wider
+/// where it is certain that the distance is at most `enough`.
+Bracket distance_to(const Placed& a, const Vec3& point_w, double enough = 0);
 
 /// First contact over t in [0,1] under constant velocities. hit: contact is certain at some t <= t_hi, and
 /// there is none (gap > 0) for t < t_lo. none: certain that there is none in [0,1]. undecided: grazing within

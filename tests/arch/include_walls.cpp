@@ -18,7 +18,7 @@ const std::vector<std::string> rooms = {
     "core/ccd",       "core/world",     "oracles/api",     "oracles/host",    "oracles/core", "oracles/fcl",
     "oracles/bullet", "oracles/libccd", "oracles/referee", "oracles/example", "scenarios",    "fuzz/record",
     "fuzz/judge",     "fuzz/generate",  "fuzz/campaign",   "fuzz/shrink",     "fuzz/triage",  "fuzz/explore",
-    "fuzz/reproduce", "fuzz/bisect",    "fuzz/cli",        "reports"};
+    "fuzz/reproduce", "fuzz/bisect",    "fuzz/libfuzzer",  "fuzz/cli",        "reports"};
 
 // The value types: scene.h and what it needs.
 const std::vector<std::string> values = {"core/base", "core/math", "core/shape", "core/scene/scene.h",
@@ -55,7 +55,10 @@ const std::map<std::string, std::vector<std::string>> may_include = {
     {"fuzz/generate", with_values({"fuzz/generate", "oracles/api/observation.h"})},
     {"fuzz/campaign", with_values({"fuzz/campaign", "fuzz/generate", "fuzz/judge", "fuzz/record",
                                    "core/scene", "scenarios", "oracles/api"})},
-    {"fuzz/shrink", with_values({"fuzz/shrink", "fuzz/campaign", "fuzz/record", "oracles/api"})},
+    {"fuzz/shrink",
+     with_values({"fuzz/shrink", "fuzz/campaign", "fuzz/generate", "fuzz/record", "oracles/api"})},
+    {"fuzz/libfuzzer", with_values({"fuzz/libfuzzer", "fuzz/generate", "fuzz/campaign", "fuzz/record",
+                                    "scenarios", "core/scene", "oracles/api", "oracles/core"})},
     {"fuzz/bisect",
      with_values({"fuzz/bisect", "fuzz/shrink", "fuzz/judge", "fuzz/record", "scenarios", "oracles/api"})},
     {"fuzz/reproduce",

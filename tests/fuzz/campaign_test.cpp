@@ -41,6 +41,22 @@ struct TemporaryDirectory {
 
 const std::atomic<bool> go{false};
 
+// The core, which asks for the end of the campaign when it has been asked so often.
+class StopsAfter final : public Engine {
+ public:
+  StopsAfter(int batches, std::atomic<bool>& stop) : left_(batches), stop_(stop) {}
+  const EngineCard& card() const override { return core_.card(); }
+  std::vector<CaseObservations> run(std::span<const Case> cases) override {
+    if (--left_ == 0) stop_ = true;
+    return core_.run(cases);
+  }
+
+ private:
+  CoreEngine core_;
+  int left_;
+  std::atomic<bool>& stop_;
+};
+
 }  // namespace
 
 TEST_CASE("one job and two jobs find the same, byte for byte", "[campaign]") {
@@ -51,6 +67,31 @@ TEST_CASE("one job and two jobs find the same, byte for byte", "[campaign]") {
   CHECK(a.cases == 400);
   CHECK(a.findings.size() > 5);
   CHECK(fuzz::to_json(a, false).dump() == fuzz::to_json(b, false).dump());
+}
+
+TEST_CASE("a guided campaign is the same for one job and three, and after a stop", "[campaign][guided]") {
+  auto one = config_of(1600), three = one;
+  one.guided = three.guided = true;
+  one.jobs = 1, three.jobs = 3;
+  const auto a = fuzz::run_campaign(one, two_engines, {}, go),
+             b = fuzz::run_campaign(three, two_engines, {}, go);
+  CHECK(a.cases == 1600);
+  CHECK(fuzz::digest(a) == fuzz::digest(b));
+  CHECK(fuzz::digest(a) != fuzz::digest(fuzz::run_campaign(config_of(1600), two_engines, {}, go)));
+  CHECK(a.wrong_of("core") == 0);
+  TemporaryDirectory dir;
+  auto resumed = one;
+  resumed.out = dir.path;
+  std::atomic<bool> stop{false};
+  const auto stopping = [&] {
+    auto e = two_engines();
+    e[0] = std::make_unique<StopsAfter>(40, stop);
+    return e;
+  };
+  const auto part = fuzz::run_campaign(resumed, stopping, {}, stop);
+  CHECK(part.cases < 1600);
+  CHECK(part.cases > 0);
+  CHECK(fuzz::digest(fuzz::run_campaign(resumed, two_engines, {}, go)) == fuzz::digest(a));
 }
 
 TEST_CASE("the default mix is not vacuous: 30 to 70 % of its pairs overlap", "[campaign]") {

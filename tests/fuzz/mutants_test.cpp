@@ -3,6 +3,7 @@
 
 #include "fuzz/campaign/campaign.h"
 #include "fuzz/generate/family.h"
+#include "fuzz/judge/relation.h"
 #include "tests/mutants/lying_engine.h"
 #include "tests/support/catch.h"
 
@@ -43,6 +44,7 @@ TEST_CASE("no two mutants share a name, and their faults cover all that the judg
   CHECK(names.size() == mutants::mutants().size());
   for (const std::string_view fault : fuzz::fault_names)
     if (fault != "failed") CHECK(faults.contains(fault));
+  for (const fuzz::Relation& r : fuzz::relations()) CHECK(faults.contains(r.name));
   // `failed` goes by the outcome's name.
   for (const char* outcome : {"not_converged", "invalid_input", "threw"}) CHECK(faults.contains(outcome));
 }

@@ -18,5 +18,6 @@ std::vector<Mutant> manifold_lies();
 std::vector<Mutant> impact_lies();
 std::vector<Mutant> outcome_lies();
 std::vector<Mutant> scene_lies();
+std::vector<Mutant> relation_lies();  // what only another form of the case shows
 
 }  // namespace touchstone::mutants

@@ -109,8 +109,8 @@ void check_manifold(const CheckInput& in, CheckOutput& out) {
       out.fault_always(Fault::point_off, 0, in.query, "a manifold point is not finite");
       return;
     }
-    worst = std::max({worst, in.truth.distance_to(in.frame, a, p.position).lo - inflate,
-                      in.truth.distance_to(in.frame, b, p.position).lo - inflate});
+    worst = std::max({worst, in.truth.distance_to(in.frame, a, p.position, tau + inflate).lo - inflate,
+                      in.truth.distance_to(in.frame, b, p.position, tau + inflate).lo - inflate});
   }
   out.error(worst, l, tau);
   out.manifold_coverage = coverage(in, truth);

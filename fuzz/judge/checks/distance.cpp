@@ -53,7 +53,8 @@ void check_witness(const CheckInput& in, CheckOutput& out) {
     out.fault_always(Fault::witness_off, 0, in.query, "a witness point is not finite");
     return;
   }
-  double worst = std::max(in.truth.distance_to(in.frame, a, pa).lo, in.truth.distance_to(in.frame, b, pb).lo);
+  double worst =
+      std::max(in.truth.distance_to(in.frame, a, pa, tau).lo, in.truth.distance_to(in.frame, b, pb, tau).lo);
   std::string words = fmt::format("a witness point is {:.6g} away from its body", worst);
   if (std::isfinite(truth.gap.lo)) {
     const referee::Bracket size = truth.gap.hi < 0

@@ -1,0 +1,115 @@
+#include "fuzz/campaign/merge.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "core/base/input_error.h"
+#include "core/scene/codec.h"
+#include "fuzz/campaign/store.h"
+
+namespace touchstone::fuzz {
+namespace {
+
+struct Part {
+  std::filesystem::path from;
+  Json settings;                      // as of an unsharded run
+  std::uint64_t of = 1;               // shards of the whole
+  std::vector<std::uint64_t> shards;  // those in it, sorted
+  std::uint64_t chunks = 0;
+  CampaignResult result;
+};
+
+Part load_part(const std::filesystem::path& directory) {
+  const auto file = directory / "state.json";
+  if (!std::filesystem::exists(file))
+    throw InputError(directory.string(), "holds no campaign (touchstone fuzz --out DIR makes one)");
+  try {
+    const Json j = Json::parse(read_file(file, std::uintmax_t{1} << 32));
+    if (!j.at("finished").get<bool>())
+      throw InputError(directory.string(), "is unfinished; go on with it first (same command, same --out)");
+    Part p;
+    p.from = directory;
+    p.settings = j.at("settings");
+    p.of = p.settings.at("shards");
+    p.shards = p.settings.contains("merged") ? p.settings["merged"].get<std::vector<std::uint64_t>>()
+                                             : std::vector<std::uint64_t>{p.settings.at("shard")};
+    p.settings["shard"] = 0, p.settings["shards"] = 1;
+    p.settings.erase("merged");
+    p.chunks = j.at("next_chunk");
+    p.result = result_from_json(j.at("result"));
+    return p;
+  } catch (const Json::exception& e) {
+    throw InputError(file.string(), std::string("is not a campaign's state: ") + e.what());
+  }
+}
+
+void require_same_campaign(const Part& x, const Part& y) {
+  if (x.settings != y.settings || x.of != y.of)
+    throw InputError(y.from.string(),
+                     fmt::format("is of another campaign than {}: {} of {} shards, not {} of {}",
+                                 x.from.string(), y.settings.dump(), y.of, x.settings.dump(), x.of));
+}
+
+bool includes(const Part& x, const Part& y) {
+  return std::includes(x.shards.begin(), x.shards.end(), y.shards.begin(), y.shards.end());
+}
+
+// Of parts that hold the same shards one is kept: they must say the same.
+std::vector<Part> without_repeated(std::vector<Part> parts) {
+  std::stable_sort(parts.begin(), parts.end(),
+                   [](const Part& x, const Part& y) { return x.shards.size() > y.shards.size(); });
+  std::vector<Part> kept;
+  for (Part& p : parts) {
+    const auto holder = std::find_if(kept.begin(), kept.end(), [&](const Part& k) { return includes(k, p); });
+    if (holder != kept.end()) {
+      if (holder->shards == p.shards && digest(holder->result) != digest(p.result))
+        throw InputError(p.from.string(),
+                         "is the same shard as " + holder->from.string() + ", with other results");
+      continue;
+    }
+    for (const Part& k : kept)
+      for (const std::uint64_t s : p.shards)
+        if (std::binary_search(k.shards.begin(), k.shards.end(), s))
+          throw InputError(p.from.string(), fmt::format("shares shard {} with {}, which has not all of it", s,
+                                                        k.from.string()));
+    kept.push_back(std::move(p));
+  }
+  std::sort(kept.begin(), kept.end(), [](const Part& x, const Part& y) { return x.shards < y.shards; });
+  return kept;
+}
+
+}  // namespace
+
+Merged merge_campaigns(const std::filesystem::path& out, std::span<const std::filesystem::path> in) {
+  if (in.empty()) throw InputError("merge", "names no campaign");
+  if (std::filesystem::exists(out / "state.json"))
+    throw InputError(out.string(), "holds a campaign already; give another directory");
+  std::vector<Part> parts;
+  for (const auto& directory : in) {
+    parts.push_back(load_part(directory));
+    require_same_campaign(parts.front(), parts.back());
+  }
+  parts = without_repeated(std::move(parts));
+  Merged m;
+  StoredState state;
+  state.finished = true;
+  for (const Part& p : parts) {
+    state.result.merge(p.result), state.next_chunk += p.chunks;
+    m.shards.insert(m.shards.end(), p.shards.begin(), p.shards.end());
+  }
+  std::sort(m.shards.begin(), m.shards.end());
+  for (std::uint64_t s = 0; s < parts[0].of; ++s)
+    if (!std::binary_search(m.shards.begin(), m.shards.end(), s)) m.missing.push_back(s);
+  Json settings = parts[0].settings;
+  if (!m.missing.empty()) settings["shards"] = parts[0].of, settings["merged"] = m.shards;
+  std::error_code ec;
+  std::filesystem::create_directories(out, ec);
+  if (ec) throw InputError(out.string(), "cannot be made: " + ec.message());
+  save_findings(out, state.result);
+  save_state(out, settings, state);
+  m.result = std::move(state.result);
+  return m;
+}
+
+}  // namespace touchstone::fuzz

@@ -1,0 +1,70 @@
+// The relations of one case: derived cases are asked in one batch, and what contradicts the base is a finding
+// about the base, which is all that is stored: the derivations are functions of it and of its answers.
+#include <algorithm>
+
+#include "fuzz/campaign/campaign.h"
+#include "fuzz/campaign/shapes_of.h"
+#include "fuzz/judge/relation.h"
+#include "fuzz/record/degeneracy.h"
+#include "fuzz/record/magnitude.h"
+
+namespace touchstone::fuzz {
+namespace {
+
+struct Asked {
+  const Relation* relation;
+  Derived derived;
+};
+
+std::vector<Asked> derive_all(const RelationInput& in) {
+  std::vector<Asked> all;
+  for (const Relation& r : relations())
+    for (Derived& d : r.derive(in)) all.push_back({&r, std::move(d)});
+  return all;
+}
+
+void add_break(CampaignResult& r, const Case& c, std::uint64_t index, const RelationInput& in,
+               const RelationBreak& b) {
+  const auto q = static_cast<std::size_t>(b.query);
+  const Question question = c.queries[q].question;
+  Finding f;
+  f.engine = in.card.name, f.question = to_string(question), f.fault = b.relation;
+  f.shapes = shapes_of(c, b.a, b.b), f.blame = to_string(b.blame);
+  f.degeneracy = degeneracy_of(c, b.a, b.b), f.magnitude = to_string(magnitude_of(b.error_in_l));
+  f.count = 1, f.worst_in_l = b.error_in_l, f.first_index = index, f.words = b.words;
+  auto& kept = r.findings[f.key()];
+  if (kept.count == 0 || index < kept.first_index)
+    f.evidence = std::make_shared<const Evidence>(
+        Evidence{c, in.base.answers[q], in.base.received, {}, b.a, b.b, -1, question, {}});
+  kept.merge(f);
+}
+
+bool answered_any(const CaseObservations& o) {
+  return std::any_of(o.answers.begin(), o.answers.end(),
+                     [](const Observation& a) { return a.outcome == Outcome::answered; });
+}
+
+}  // namespace
+
+void relate_into(CampaignResult& r, const Case& c, std::uint64_t index, const EnginePtr& engine,
+                 const CaseObservations& base) {
+  // What an engine does not answer at all is not asked again in fifteen forms; a crash or a hang is not
+  // provoked fifteen times.
+  if (!answered_any(base)) return;
+  const RelationInput in{c, engine->card(), base};
+  const std::vector<Asked> asked = derive_all(in);
+  std::vector<Case> cases;
+  for (const Asked& a : asked) cases.push_back(a.derived.c);
+  const auto observed = engine->run(cases);
+  for (std::size_t i = 0; i < asked.size(); ++i) {
+    for (const Observation& o : observed[i].answers) r.engine_ns += o.elapsed_ns;
+    auto& count = r.relations[in.card.name][std::string(asked[i].relation->name)];
+    ++count.asked;
+    const auto broken = find_break(*asked[i].relation, in, asked[i].derived, observed[i]);
+    if (!broken) continue;
+    ++count.broken;
+    add_break(r, c, index, in, *broken);
+  }
+}
+
+}  // namespace touchstone::fuzz

@@ -1,0 +1,183 @@
+#include "fuzz/judge/relation.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "fuzz/judge/truth.h"
+
+namespace touchstone::fuzz {
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+constexpr std::array rows{
+    Relation{"relation_questions", "overlap, distance and contact of a pair agree, and the same twice",
+             derive_questions},
+    Relation{"relation_swap", "A and B exchanged", derive_swap},
+    Relation{"relation_axes", "axes permuted or their signs flipped: exact", derive_axes},
+    Relation{"relation_scale", "everything scaled by a power of two: exact", derive_scale},
+    Relation{"relation_rigid", "both bodies moved by one rigid motion", derive_rigid},
+    Relation{"relation_push", "B pushed by the stated depth along the stated normal touches", derive_push},
+    Relation{"relation_grow", "a body grown: the gap does not grow", derive_grow},
+    Relation{"relation_step", "the bodies placed where they are during the step", derive_step},
+    Relation{"relation_order", "bodies in another order: the same pairs", derive_order},
+    Relation{"relation_reinsert", "bodies removed and inserted again: the same pairs", derive_reinsert},
+};
+
+bool is_mesh(const Scene& s, int i) { return kind_of(s.shape_of(i)) == ShapeKind::mesh; }
+
+GapInterval of_verdict(bool overlap, double tau) {
+  return overlap ? GapInterval{-infinity, tau} : GapInterval{-tau, infinity};
+}
+
+// A mesh has no depth: an overlap says of its gap only that there is none.
+GapInterval of_distance(double d, double tau, bool mesh) {
+  if (mesh && d <= 0) return {-infinity, tau};
+  return {d - tau, d + tau};
+}
+
+// 0 in exact numbers where they meet.
+double miss(const GapInterval& x, const GapInterval& y) {
+  return std::max(x.lo, y.lo) - std::min(x.hi, y.hi);
+}
+
+double displacement(const Scene& s, const ReceivedScene& received) {
+  Truth truth(s);
+  return truth.displacement(truth.frame_of(received));
+}
+
+// A contradiction that the rounding of the scenes received can explain is blamed on that rounding: bodies
+// that are D apart from those asked change a gap by at most 2D.
+Blame blame_of(double miss_by, const RelationInput& in, const Derived& d, const CaseObservations& observed) {
+  const double explained = 2 * (d.base_scale * displacement(in.c.scene, in.base.received) +
+                                displacement(d.c.scene, observed.received));
+  return miss_by <= explained ? Blame::representation : Blame::algorithm;
+}
+
+std::string interval_text(const GapInterval& g) { return fmt::format("[{:.9g}, {:.9g}]", g.lo, g.hi); }
+
+std::optional<RelationBreak> find_gap_break(const Relation& r, const RelationInput& in, const Derived& d,
+                                            const CaseObservations& observed) {
+  std::optional<RelationBreak> worst;
+  double worst_miss = 0;
+  for (const Expected& e : d.expected)
+    for (std::size_t k = 0; k < d.c.queries.size(); ++k) {
+      const Query& q = d.c.queries[k];
+      const GapInterval here = implied_gap(d.c.scene, q, observed.answers[k], in.card);
+      const GapInterval due{d.base_scale * e.gap.lo - d.rounding, d.base_scale * e.gap.hi + d.rounding};
+      const double by = miss(here, due);
+      if (!(by > worst_miss)) continue;
+      worst_miss = by;
+      const Query& base = in.c.queries[static_cast<std::size_t>(e.query)];
+      worst = RelationBreak{r.name, e.query, base.a, base.b, by / scale_of_pair(d.c.scene, q.a, q.b), {}, {}};
+      worst->words =
+          fmt::format("{}: by `{}` the gap is in {}, by `{}` before in {}", d.words, to_string(q.question),
+                      interval_text(here), to_string(base.question), interval_text(due));
+    }
+  if (worst) worst->blame = blame_of(worst_miss, in, d, observed);
+  return worst;
+}
+
+// An engine that answers in one form and has no answer in the other. A time-out depends on the machine, and
+// is left to the case itself.
+std::optional<RelationBreak> find_missing_answer(const Relation& r, const RelationInput& in, const Derived& d,
+                                                 const CaseObservations& observed) {
+  std::size_t k = 0;
+  for (std::size_t i = 0; i < in.c.queries.size() && k < observed.answers.size(); ++i) {
+    const Query& q = in.c.queries[i];
+    if (d.body_of.empty() && !is_pair_question(q.question)) continue;
+    const Outcome before = in.base.answers[i].outcome, after = observed.answers[k++].outcome;
+    if (before == after || before == Outcome::timed_out || after == Outcome::timed_out) continue;
+    if (before != Outcome::answered && after != Outcome::answered) continue;
+    return RelationBreak{r.name,
+                         static_cast<int>(i),
+                         q.a,
+                         q.b,
+                         0,
+                         Blame::algorithm,
+                         fmt::format("{}: `{}` was {}, and is {}", d.words, to_string(q.question),
+                                     to_string(before), to_string(after))};
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+std::span<const Relation> relations() { return rows; }
+
+bool is_relation(std::string_view fault) {
+  return std::any_of(rows.begin(), rows.end(), [&](const Relation& r) { return r.name == fault; });
+}
+
+double tau_of(const EngineCard& card, const Observation& o, double l) {
+  return card.tau_factor * card.unit_roundoff * l + o.claimed_tolerance;
+}
+
+GapInterval implied_gap(const Scene& s, const Query& q, const Observation& o, const EngineCard& card) {
+  if (o.outcome != Outcome::answered || !is_pair_question(q.question)) return {};
+  const double tau = tau_of(card, o, scale_of_pair(s, q.a, q.b));
+  const bool mesh = is_mesh(s, q.a) || is_mesh(s, q.b);
+  if (q.question == Question::distance && o.distance)
+    return std::isfinite(*o.distance) ? of_distance(*o.distance, tau, mesh) : GapInterval{};
+  if (q.question == Question::contact && o.overlap && *o.overlap && o.normal && o.depth && !mesh) {
+    const double p = *o.depth;
+    return std::isfinite(p) ? GapInterval{-p - tau, -p + 2 * tau} : GapInterval{};
+  }
+  if (q.question != Question::time_of_impact && o.overlap) return of_verdict(*o.overlap, tau);
+  return {};
+}
+
+std::optional<BodyPair> pair_asked(const Case& c) {
+  std::optional<BodyPair> pair;
+  for (const Query& q : c.queries) {
+    if (!is_pair_question(q.question) || q.question == Question::time_of_impact) continue;
+    if (pair && *pair != BodyPair{q.a, q.b}) return std::nullopt;
+    pair = BodyPair{q.a, q.b};
+  }
+  return pair;
+}
+
+std::vector<Expected> implied_gaps(const RelationInput& in) {
+  std::vector<Expected> r;
+  for (std::size_t i = 0; i < in.c.queries.size(); ++i) {
+    const GapInterval g = implied_gap(in.c.scene, in.c.queries[i], in.base.answers[i], in.card);
+    if (!g.says_nothing()) r.push_back({static_cast<int>(i), g});
+  }
+  return r;
+}
+
+std::vector<Query> same_queries(const Case& c) {
+  std::vector<Query> r;
+  for (const Query& q : c.queries)
+    if (is_pair_question(q.question)) r.push_back({q.question, 0, 1});
+  return r;
+}
+
+double pose_rounding(const Scene& pair) {
+  double size = 0;
+  for (std::size_t i = 0; i < pair.bodies.size(); ++i) {
+    const Shape& shape = pair.shape_of(static_cast<int>(i));
+    size += pair.bodies[i].pose.translation.norm();
+    if (const auto* h = std::get_if<HalfSpace>(&shape))
+      size += std::abs(h->offset) / h->normal.stableNorm();
+    else
+      size += bounding_radius(shape);
+  }
+  // A quaternion's product and a rotated vector: about 16 roundings, twice for the two bodies, twice in
+  // reserve.
+  constexpr double roundings = 64;
+  return roundings * 0x1p-53 * size;
+}
+
+std::optional<RelationBreak> find_break(const Relation& r, const RelationInput& in, const Derived& d,
+                                        const CaseObservations& observed) {
+  if (d.same_questions)
+    if (auto b = find_missing_answer(r, in, d, observed)) return b;
+  if (!d.body_of.empty()) return find_scene_break(r, in, d, observed);
+  return find_gap_break(r, in, d, observed);
+}
+
+}  // namespace touchstone::fuzz

@@ -1,0 +1,110 @@
+// Relations that need no truth (truth.md's relations): what an engine says of a case binds what it may say of
+// a case derived from it, whatever the truth is.
+//
+// Every answer that is right says that the signed gap g of the pair lies in an interval:
+//   overlap            g in (-inf, τ]                apart            g in [-τ, inf)
+//   distance d         g in [d - τ, d + τ]           contact, depth p g in [-p - τ, -p + 2τ]
+// (a right depth lies between d* - τ, else infeasible, and d* + 2τ, else excess or regret). A derivation maps
+// g exactly, or up to a stated rounding: the intervals of the base's and of the derived answers, mapped, must
+// meet. Where two of them do not, one of the two answers is wrong, and both are the same engine's. Nothing is
+// accused that the definition of a right answer allows.
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "fuzz/judge/judgement.h"
+#include "oracles/api/engine.h"
+
+namespace touchstone::fuzz {
+
+/// Closed; empty when lo > hi.
+struct GapInterval {
+  double lo = -std::numeric_limits<double>::infinity();
+  double hi = std::numeric_limits<double>::infinity();
+  bool says_nothing() const {
+    return lo == -std::numeric_limits<double>::infinity() && hi == std::numeric_limits<double>::infinity();
+  }
+};
+
+/// What the answer to one query of the base says of the gap of the derived pair.
+struct Expected {
+  int query = 0;  // of the base
+  GapInterval gap;
+};
+
+/// A case made from another, and what the answers to that one say of it.
+struct Derived {
+  Case c;
+  std::vector<Expected> expected;  // pair questions
+  double rounding = 0;             // of the derivation: g is known up to this
+  double base_scale = 1;           // gap here / gap in the base
+  /// Queries are the base's, one for one: an engine that answers one must answer the other.
+  bool same_questions = false;
+  std::vector<int> body_of;  // scene questions: body i here is body_of[i] of the base
+  std::string words;         // what was done: "scaled by 2^10"
+};
+
+struct RelationInput {
+  const Case& c;
+  const EngineCard& card;
+  const CaseObservations& base;
+};
+
+/// An engine contradicts itself.
+struct RelationBreak {
+  std::string_view relation;
+  int query = 0;  // of the base
+  int a = -1, b = -1;
+  double error_in_l = 0;  // by how much the intervals miss each other; 0: an answer is missing
+  Blame blame = Blame::algorithm;
+  std::string words;
+};
+
+struct Relation {
+  std::string_view name;  // as a fault in the key of a finding
+  std::string_view line;
+  std::vector<Derived> (*derive)(const RelationInput& in);
+};
+std::span<const Relation> relations();
+/// True for a fault that is the name of a relation.
+bool is_relation(std::string_view fault);
+
+/// The worst break between the base's answers and those to one derived case, if there is one.
+std::optional<RelationBreak> find_break(const Relation& r, const RelationInput& in, const Derived& d,
+                                        const CaseObservations& observed);
+
+// ---- shared by the relations, one file a topic in relations/
+
+/// The pair that all pair questions of the case, but time of impact, are about; nothing when there are none.
+std::optional<BodyPair> pair_asked(const Case& c);
+/// The interval that a right answer implies; says_nothing() when it implies none.
+GapInterval implied_gap(const Scene& s, const Query& q, const Observation& o, const EngineCard& card);
+/// One a pair question of the base that implies something, in the base's units.
+std::vector<Expected> implied_gaps(const RelationInput& in);
+/// Queries of the base about the pair, as queries about bodies 0 and 1.
+std::vector<Query> same_queries(const Case& c);
+double tau_of(const EngineCard& card, const Observation& o, double l);
+/// Upper bound of what rounding to nearest does to g where poses are computed anew: each body is moved by at
+/// most 16 roundings of its coordinates and extent.
+double pose_rounding(const Scene& pair);
+
+std::vector<Derived> derive_swap(const RelationInput& in);
+std::vector<Derived> derive_axes(const RelationInput& in);
+std::vector<Derived> derive_scale(const RelationInput& in);
+std::vector<Derived> derive_rigid(const RelationInput& in);
+std::vector<Derived> derive_questions(const RelationInput& in);
+std::vector<Derived> derive_push(const RelationInput& in);
+std::vector<Derived> derive_grow(const RelationInput& in);
+std::vector<Derived> derive_step(const RelationInput& in);
+std::vector<Derived> derive_order(const RelationInput& in);
+std::vector<Derived> derive_reinsert(const RelationInput& in);
+std::optional<RelationBreak> find_scene_break(const Relation& r, const RelationInput& in, const Derived& d,
+                                              const CaseObservations& observed);
+
+}  // namespace touchstone::fuzz

@@ -1,0 +1,196 @@
+// The same pair in another form: A and B exchanged, axes permuted, scaled, moved. The gap is the same
+// exactly, or up to the rounding of the new poses.
+#include <algorithm>
+#include <cmath>
+
+#include "fuzz/judge/relation.h"
+
+namespace touchstone::fuzz {
+namespace {
+
+Derived same_pair(const RelationInput& in, std::string words) {
+  const auto pair = pair_asked(in.c);
+  Derived d;
+  d.c.family = in.c.family;
+  d.c.scene = extract_pair(in.c.scene, pair->first, pair->second);
+  d.c.queries = same_queries(in.c);
+  d.expected = implied_gaps(in);
+  d.same_questions = true;
+  d.words = std::move(words);
+  return d;
+}
+
+// f(number, domain) for doubles and vectors of the shape; what is derived from them is renewed.
+template <class F>
+void change_numbers(Shape& shape, F&& f) {
+  std::visit(
+      [&](auto& s) {
+        for_each_field(s, [&](auto, auto& v, Domain domain) {
+          using V = std::decay_t<decltype(v)>;
+          if constexpr (std::is_same_v<V, double> || std::is_same_v<V, Vec3>) f(v, domain);
+          if constexpr (std::is_same_v<V, std::vector<Vec3>>)
+            for (Vec3& p : v) f(p, domain);
+        });
+      },
+      shape);
+  if (auto* h = std::get_if<Hull>(&shape)) *h = make_hull(std::move(h->vertices));
+}
+
+bool is_size(Domain d) { return d == Domain::positive || d == Domain::non_negative; }
+
+// World and body axes together by a signed permutation m of determinant 1: every number keeps its bits.
+void turn_axes(Scene& s, const Mat3& m) {
+  for (Shape& shape : s.shapes)
+    change_numbers(shape, [&](auto& v, Domain domain) {
+      if constexpr (std::is_same_v<std::decay_t<decltype(v)>, Vec3>)
+        v = is_size(domain) ? Vec3((m * v).cwiseAbs()) : Vec3(m * v);
+    });
+  for (Body& b : s.bodies) {
+    b.pose.translation = m * b.pose.translation;
+    const Vec3 q = m * Vec3(b.pose.rotation.x, b.pose.rotation.y, b.pose.rotation.z);
+    b.pose.rotation = {q.x(), q.y(), q.z(), b.pose.rotation.w};
+    if (b.motion) b.motion->linear = m * b.motion->linear, b.motion->angular = m * b.motion->angular;
+  }
+}
+
+bool has_own_axis(const Shape& s) {
+  const ShapeKind k = kind_of(s);
+  return k == ShapeKind::capsule || k == ShapeKind::cylinder || k == ShapeKind::cone;
+}
+
+// False when a number is so small or large that the product is not exact.
+bool scale_by(Scene& s, double factor) {
+  bool exact = true;
+  const auto number = [&](double& v) {
+    const double scaled = v * factor;
+    exact &= std::isfinite(scaled) && scaled / factor == v && (v == 0 || std::abs(scaled) > 0x1p-500);
+    v = scaled;
+  };
+  for (Shape& shape : s.shapes)
+    change_numbers(shape, [&](auto& v, Domain domain) {
+      if constexpr (std::is_same_v<std::decay_t<decltype(v)>, double>)
+        number(v);
+      else if (domain != Domain::nonzero_vector)
+        for (double& e : v) number(e);
+    });
+  for (Body& b : s.bodies) {
+    for (double& e : b.pose.translation) number(e);
+    if (b.motion)
+      for (double& e : b.motion->linear) number(e);
+  }
+  return exact;
+}
+
+// By a rotation of rational matrix about `centre`, which comes to `to`.
+void move_rigidly(Scene& s, const Quat& turn, const Vec3& centre, const Vec3& to) {
+  const Mat3 r = rotation_matrix(turn);
+  for (Body& b : s.bodies) {
+    b.pose.translation = r * (b.pose.translation - centre) + to;
+    b.pose.rotation = turn * b.pose.rotation;
+    if (b.motion) b.motion->linear = r * b.motion->linear, b.motion->angular = r * b.motion->angular;
+  }
+}
+
+Derived moved(const RelationInput& in, const Quat& turn, const Vec3& centre, const Vec3& to,
+              std::string words) {
+  Derived d = same_pair(in, std::move(words));
+  d.rounding = pose_rounding(d.c.scene);
+  move_rigidly(d.c.scene, turn, centre, to);
+  d.rounding += pose_rounding(d.c.scene);
+  return d;
+}
+
+}  // namespace
+
+std::vector<Derived> derive_questions(const RelationInput& in) {
+  if (!pair_asked(in.c)) return {};
+  return {same_pair(in, "asked again")};
+}
+
+std::vector<Derived> derive_swap(const RelationInput& in) {
+  if (!pair_asked(in.c)) return {};
+  Derived d = same_pair(in, "A and B exchanged");
+  std::swap(d.c.scene.bodies[0], d.c.scene.bodies[1]);
+  return {d};
+}
+
+std::vector<Derived> derive_axes(const RelationInput& in) {
+  if (!pair_asked(in.c)) return {};
+  std::vector<Derived> r{same_pair(in, "x and y with other signs")};
+  const Vec3 signs(-1, -1, 1);
+  turn_axes(r[0].c.scene, signs.asDiagonal());
+  Derived turned = same_pair(in, "x, y, z turned into y, z, x");
+  const auto& shapes = turned.c.scene.shapes;
+  if (std::any_of(shapes.begin(), shapes.end(), has_own_axis)) return r;
+  Mat3 cycle;
+  cycle << 0, 1, 0, 0, 0, 1, 1, 0, 0;
+  turn_axes(turned.c.scene, cycle);
+  r.push_back(std::move(turned));
+  return r;
+}
+
+std::vector<Derived> derive_scale(const RelationInput& in) {
+  if (!pair_asked(in.c)) return {};
+  std::vector<Derived> r;
+  for (const auto& [factor, words] : {std::pair{0x1p20, "scaled by 2^20"}, {0x1p-12, "scaled by 2^-12"}}) {
+    Derived d = same_pair(in, words);
+    d.base_scale = factor;
+    if (scale_by(d.c.scene, factor)) r.push_back(std::move(d));
+  }
+  return r;
+}
+
+std::vector<Derived> derive_rigid(const RelationInput& in) {
+  const auto pair = pair_asked(in.c);
+  if (!pair) return {};
+  const double l = scale_of_pair(in.c.scene, pair->first, pair->second);
+  const Vec3 a = in.c.scene.bodies[static_cast<std::size_t>(pair->first)].pose.translation;
+  std::vector<Derived> r{moved(in, {1, 2, -2, 4}, a, Vec3::Zero(), "turned, and A brought to the origin")};
+  r.push_back(moved(in, {2, -1, 4, 2}, Vec3::Zero(), Vec3(3, -2, 5) * l, "turned, and moved away by 6 L"));
+  return r;
+}
+
+std::vector<Derived> derive_push(const RelationInput& in) {
+  const auto pair = pair_asked(in.c);
+  if (!pair) return {};
+  std::vector<Derived> r;
+  for (std::size_t i = 0; i < in.c.queries.size(); ++i) {
+    const Observation& o = in.base.answers[i];
+    if (in.c.queries[i].question != Question::contact || o.outcome != Outcome::answered) continue;
+    if (!o.overlap || !*o.overlap || !o.normal || !o.depth || !std::isfinite(*o.depth)) continue;
+    Derived d = same_pair(in, "B pushed by the depth along the normal");
+    // Neither a surface nor a direction that is none (which is another fault) can be pushed apart.
+    const double length = o.normal->stableNorm();
+    if (kind_of(d.c.scene.shape_of(0)) == ShapeKind::mesh ||
+        kind_of(d.c.scene.shape_of(1)) == ShapeKind::mesh || !(length > 0.5 && length < 2))
+      continue;
+    d.same_questions = false;
+    d.rounding = pose_rounding(d.c.scene);
+    d.c.scene.bodies[1].pose.translation += *o.normal / length * *o.depth;
+    d.rounding += pose_rounding(d.c.scene);
+    // The Minkowski difference holds a ball of radius d* about the origin and lies behind the plane w(n): a
+    // point at p along n is outside of it by at most p - d* <= 2τ and inside by at most w(n) - p <= τ.
+    const double tau = tau_of(in.card, o, scale_of_pair(in.c.scene, pair->first, pair->second));
+    d.expected = {{static_cast<int>(i), {-tau, 2 * tau}}};
+    r.push_back(std::move(d));
+  }
+  return r;
+}
+
+std::vector<Derived> derive_grow(const RelationInput& in) {
+  if (!pair_asked(in.c)) return {};
+  Derived d = same_pair(in, "");
+  for (const int i : {1, 0}) {
+    Shape& shape =
+        d.c.scene.shapes[static_cast<std::size_t>(d.c.scene.bodies[static_cast<std::size_t>(i)].shape)];
+    if (kind_of(shape) > ShapeKind::ellipsoid) continue;  // the origin need not be inside of the others
+    d.words = i == 0 ? "A grown by an eighth" : "B grown by an eighth";
+    d.rounding = 8 * 0x1p-53 * 2 * bounding_radius(shape);
+    change_numbers(shape, [](auto& v, Domain) { v *= 1.125; });
+    for (Expected& e : d.expected) e.gap.lo = -std::numeric_limits<double>::infinity();
+    return {d};
+  }
+  return {};
+}
+
+}  // namespace touchstone::fuzz

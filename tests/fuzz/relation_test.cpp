@@ -1,0 +1,159 @@
+// Relations: they find what the referee cannot see, and accuse nobody whom the definition acquits.
+#include <filesystem>
+
+#include "fuzz/campaign/campaign.h"
+#include "fuzz/generate/family.h"
+#include "fuzz/judge/judge.h"
+#include "fuzz/judge/relation.h"
+#include "fuzz/shrink/keeps_finding.h"
+#include "oracles/api/remote_engine.h"
+#include "oracles/core/core_engine.h"
+#include "tests/mutants/lying_engine.h"
+#include "tests/support/catch.h"
+
+using namespace touchstone;
+
+namespace {
+
+const mutants::Mutant& mutant(std::string_view name) {
+  for (const auto& m : mutants::mutants())
+    if (m.name == name) return m;
+  throw std::logic_error("no such mutant");
+}
+
+struct Count {
+  std::size_t derived = 0, broken = 0, explained = 0, only_relation = 0;
+};
+
+bool referee_finds_fault(const Case& c, const EngineCard& card, const CaseObservations& o) {
+  fuzz::Truth truth(c.scene);
+  for (const auto& j : fuzz::judge(c, card, o, truth))
+    if (!j.faults.empty()) return true;
+  return false;
+}
+
+// Every relation that is broken by intervals that miss each other must have a wrong answer on one side.
+void count_case(const Case& c, const EnginePtr& engine, Count& n) {
+  const auto base = engine->run({&c, 1})[0];
+  const fuzz::RelationInput in{c, engine->card(), base};
+  for (const fuzz::Relation& r : fuzz::relations())
+    for (const fuzz::Derived& d : r.derive(in)) {
+      ++n.derived;
+      const auto observed = engine->run({&d.c, 1})[0];
+      const auto broken = fuzz::find_break(r, in, d, observed);
+      if (!broken) continue;
+      ++n.broken;
+      if (broken->error_in_l == 0 || !d.body_of.empty()) {
+        ++n.only_relation;  // an answer that is missing, a superfluous pair: no error to measure
+        continue;
+      }
+      const bool wrong = referee_finds_fault(c, in.card, base) || referee_finds_fault(d.c, in.card, observed);
+      n.explained += wrong;
+      if (!wrong) UNSCOPED_INFO(in.card.name << " " << c.id << " " << r.name << ": " << broken->words);
+    }
+}
+
+}  // namespace
+
+TEST_CASE("the core breaks no relation", "[relations][core]") {
+  const EnginePtr core = make_core_engine();
+  Count n;
+  for (std::uint64_t i = 0; i < 800; ++i) count_case(fuzz::make_case(3, i), core, n);
+  INFO(n.derived << " derived cases");
+  CHECK(n.derived > 4000);
+  CHECK(n.broken == 0);
+}
+
+TEST_CASE("whoever breaks a relation is wrong by the referee too, where that one can see it", "[relations]") {
+  std::size_t explained = 0, only = 0;
+  for (const char* name : {"depth_halved", "depth_absolute", "distance_relative", "errs_when_large", "distance_one_order",
+                           "jumps_when_touching", "casts_nothing", "normal_tilted", "overlap_deep_denied"}) {
+    for (const auto& m : mutants::mutants()) {
+      if (m.name != name) continue;
+      Count n;
+      const EnginePtr engine = mutants::make_lying_engine(m);
+      for (std::uint64_t i = 0; i < 60; ++i) count_case(fuzz::make_case(4, i), engine, n);
+      CHECK(n.explained + n.only_relation == n.broken);
+      explained += n.explained, only += n.only_relation;
+    }
+  }
+  CHECK(explained > 100);
+}
+
+TEST_CASE("other engines too are accused by relations only where the referee finds them wrong",
+          "[relations]") {
+  const std::filesystem::path build = TS_BINARY_DIR;
+  struct Row {
+    const char *library, *engine;
+  };
+  std::size_t engines = 0, explained = 0;
+  for (const Row& row :
+       {Row{"libtouchstone_fcl.so", "fcl-libccd"}, Row{"libtouchstone_bullet_f64.so", "bullet-f64-query"},
+        Row{"libtouchstone_libccd.so", "libccd-mpr"}}) {
+    if (!std::filesystem::exists(build / "lib" / row.library)) {
+      WARN(row.engine << " is not built; left out");
+      continue;
+    }
+    const EnginePtr engine = std::make_unique<RemoteEngine>(
+        RemoteSpec{build / "bin/touchstone-host", build / "lib" / row.library, row.engine, {}});
+    Count n;
+    for (std::uint64_t i = 0; i < 120; ++i) count_case(fuzz::make_case(8, i), engine, n);
+    CHECK(n.explained + n.only_relation == n.broken);
+    explained += n.explained, ++engines;
+  }
+  if (engines == 3) CHECK(explained > 50);
+}
+
+TEST_CASE("some lies are seen by relations alone", "[relations][mutants]") {
+  for (const char* name :
+       {"declines_one_order", "declines_one_side", "declines_large", "errs_when_large", "declines_off_origin",
+        "superfluous_by_order", "superfluous_once", "answers_once"}) {
+    std::vector<EnginePtr> engine;
+    engine.push_back(mutants::make_lying_engine(mutant(name)));
+    std::vector<Case> cases;
+    for (std::uint64_t i = 0; i < 300; ++i) cases.push_back(fuzz::make_case(1, i, mutant(name).family));
+    fuzz::CampaignResult without, with;
+    fuzz::ask_and_judge(without, cases, 0, engine, 0);
+    fuzz::ask_and_judge(with, cases, 0, engine, 4);
+    INFO(name);
+    CHECK(without.findings.empty());
+    CHECK(with.wrong_of(name) > 0);
+  }
+}
+
+TEST_CASE("a broken relation shrinks and keeps its key", "[relations][shrink]") {
+  const EnginePtr engine = mutants::make_lying_engine(mutant("errs_when_large"));
+  for (std::uint64_t i = 0; i < 20; ++i) {
+    const Case c = fuzz::make_case(2, i, "separate");
+    const auto found = fuzz::findings_of({&c, 1}, engine, fuzz::FoundBy::relations)[0];
+    if (found.empty()) continue;
+    const std::string key = found.begin()->first;
+    const fuzz::Shrunk s = fuzz::shrink(c, fuzz::keeps_finding(engine, key));
+    CHECK(s.exit == fuzz::ShrinkExit::smallest);
+    CHECK(s.after < s.before);
+    CHECK(fuzz::findings_of({&s.smallest, 1}, engine, fuzz::FoundBy::relations)[0].contains(key));
+    return;
+  }
+  FAIL("nothing found to shrink");
+}
+
+TEST_CASE("an answer says of the gap what a right answer may say, and no more", "[relations]") {
+  Case c;
+  c.scene.shapes = {Sphere{1}};
+  c.scene.bodies.resize(2);
+  c.scene.bodies[1].pose.translation.x() = 1.5;
+  const EngineCard card{"test", "", "", "", 0, 0, ""};
+  Observation o;
+  o.outcome = Outcome::answered, o.overlap = true, o.claimed_tolerance = 0.125;
+  const auto of = [&](Question q) { return fuzz::implied_gap(c.scene, {q, 0, 1}, o, card); };
+  CHECK(of(Question::overlap).hi == 0.125);
+  CHECK(of(Question::overlap).lo == -std::numeric_limits<double>::infinity());
+  o.normal = Vec3(1, 0, 0), o.depth = 0.5;
+  CHECK(of(Question::contact).lo == -0.625);
+  CHECK(of(Question::contact).hi == -0.25);
+  o.distance = -0.5;
+  CHECK(of(Question::distance).lo == -0.625);
+  CHECK(of(Question::distance).hi == -0.375);
+  o.outcome = Outcome::unsupported;
+  CHECK(of(Question::distance).says_nothing());
+}

@@ -1,0 +1,210 @@
+// A campaign in shards: who runs which, and what is left when they are put together again.
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <atomic>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "core/base/input_error.h"
+#include "fuzz/campaign/merge.h"
+#include "fuzz/campaign/shard.h"
+#include "fuzz/triage/merge_ledgers.h"
+#include "fuzz/triage/triage.h"
+#include "oracles/core/core_engine.h"
+#include "tests/mutants/lying_engine.h"
+#include "tests/support/catch.h"
+
+using namespace touchstone;
+namespace fs = std::filesystem;
+
+namespace {
+
+struct Workspace {
+  fs::path path = fs::temp_directory_path() / ("touchstone-shards-" + std::to_string(getpid()));
+  Workspace() { fs::remove_all(path), fs::create_directories(path); }
+  ~Workspace() { fs::remove_all(path); }
+};
+
+std::string read(const fs::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  std::stringstream s;
+  s << in.rdbuf();
+  return s.str();
+}
+
+// Findings and state of a campaign without what is a time.
+std::map<std::string, std::string> files_of(const fs::path& campaign) {
+  std::map<std::string, std::string> r;
+  for (const auto& e : fs::recursive_directory_iterator(campaign / "findings"))
+    if (e.is_regular_file()) r[fs::relative(e.path(), campaign).string()] = read(e.path());
+  for (const char* name : {"state.json", "summary.json"}) {
+    auto j = nlohmann::ordered_json::parse(read(campaign / name));
+    auto& result = j.contains("result") ? j["result"] : j;
+    result.erase("times");
+    for (auto& [engine, questions] : result["engines"].items())
+      for (auto& [question, tally] : questions.items())
+        for (const char* time : {"ns_median", "ns_p99", "ns_histogram"}) tally.erase(time);
+    r[name] = j.dump();
+  }
+  return r;
+}
+
+std::vector<EnginePtr> liar() {
+  std::vector<EnginePtr> e;
+  for (const auto& m : mutants::mutants())
+    if (m.name == "depth_halved") e.push_back(mutants::make_lying_engine(m));
+  return e;
+}
+
+const std::atomic<bool> go{false};
+
+fs::path campaign(const fs::path& out, std::uint64_t shard, std::uint64_t shards) {
+  fuzz::CampaignConfig c;
+  c.engines = {"depth_halved"}, c.subject = "depth_halved";
+  c.cases = 400, c.seed = 9, c.shard = shard, c.shards = shards, c.out = out;
+  fuzz::run_campaign(c, liar, {}, go);
+  return out;
+}
+
+fuzz::Shard shard_of(const std::string& text, const std::map<std::string, std::string>& environment) {
+  return fuzz::which_shard(text, [&](const char* name) -> std::optional<std::string> {
+    const auto it = environment.find(name);
+    return it == environment.end() ? std::nullopt : std::optional(it->second);
+  });
+}
+
+}  // namespace
+
+TEST_CASE("a task of a cluster knows its shard", "[shards]") {
+  const auto is = [](const fuzz::Shard& s, std::uint64_t i, std::uint64_t n) {
+    return s.index == i && s.count == n;
+  };
+  CHECK(is(shard_of("", {}), 0, 1));
+  CHECK(is(shard_of("3/8", {}), 3, 8));
+  CHECK(is(shard_of("", {{"SLURM_ARRAY_TASK_ID", "2"}, {"SLURM_ARRAY_TASK_COUNT", "4"}}), 2, 4));
+  CHECK(is(shard_of("", {{"SLURM_ARRAY_TASK_ID", "7"},
+                         {"SLURM_ARRAY_TASK_COUNT", "4"},
+                         {"SLURM_ARRAY_TASK_MIN", "1"},
+                         {"SLURM_ARRAY_TASK_STEP", "2"}}),
+           3, 4));
+  CHECK(is(shard_of("", {{"JOB_COMPLETION_INDEX", "1"}, {"JOB_COMPLETIONS", "3"}}), 1, 3));
+  // What is asked for by name goes before what the cluster says.
+  CHECK(is(shard_of("0/2", {{"SLURM_ARRAY_TASK_ID", "2"}, {"SLURM_ARRAY_TASK_COUNT", "4"}}), 0, 2));
+  for (const char* wrong : {"2/2", "1", "a/b", "1/0", "-1/3", "1/3x", "/"})
+    CHECK_THROWS_AS(shard_of(wrong, {}), InputError);
+  CHECK_THROWS_AS(shard_of("", {{"SLURM_ARRAY_TASK_ID", "2"}}), InputError);
+  CHECK_THROWS_AS(shard_of("", {{"JOB_COMPLETION_INDEX", "2"}}), InputError);
+  CHECK_THROWS_AS(shard_of("", {{"JOB_COMPLETION_INDEX", "2"}, {"JOB_COMPLETIONS", "2"}}), InputError);
+}
+
+TEST_CASE("merged shards are the unsharded campaign, byte for byte but for times", "[shards][merge]") {
+  const Workspace w;
+  const auto whole = files_of(campaign(w.path / "whole", 0, 1));
+  CHECK(whole.size() > 10);
+  std::vector<fs::path> s;
+  for (std::uint64_t i = 0; i < 3; ++i) s.push_back(campaign(w.path / ("shard" + std::to_string(i)), i, 3));
+  const auto merge = [&](const char* name, const std::vector<fs::path>& in) {
+    return fuzz::merge_campaigns(w.path / name, in);
+  };
+  CHECK(merge("a", {s[0], s[1], s[2]}).missing.empty());
+  CHECK(files_of(w.path / "a") == whole);
+  merge("b", {s[2], s[0], s[2], s[1], s[0]});
+  CHECK(files_of(w.path / "b") == whole);
+  CHECK(merge("part", {s[2], s[0]}).missing == std::vector<std::uint64_t>{1});
+  merge("c", {s[1], w.path / "part", s[0]});
+  CHECK(files_of(w.path / "c") == whole);
+  SECTION("parts that do not fit are refused") {
+    merge("other", {s[0], s[1]});
+    CHECK_THROWS_AS(merge("d", {w.path / "part", w.path / "other"}), InputError);
+    CHECK_THROWS_AS(merge("a", {s[0]}), InputError);
+    CHECK_THROWS_AS(merge("d", {s[0], campaign(w.path / "two", 0, 2)}), InputError);
+    CHECK_THROWS_AS(merge("d", {w.path / "nothing"}), InputError);
+  }
+}
+
+TEST_CASE("the sbatch script's tasks together are the campaign of one machine", "[shards][cluster]") {
+  const Workspace w;
+  const std::string program = TS_BINARY_DIR "/bin/touchstone", out = w.path.string();
+  const auto run = [](const std::string& command) {
+    const int status = std::system((command + " >/dev/null 2>&1").c_str());
+    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+  };
+  for (int task = 5; task < 8; ++task)
+    REQUIRE(run("cd '" TS_SOURCE_DIR "' && SLURM_ARRAY_TASK_ID=" + std::to_string(task) +
+                " SLURM_ARRAY_TASK_MIN=5 SLURM_ARRAY_TASK_COUNT=3 SLURM_CPUS_PER_TASK=1 TOUCHSTONE='" +
+                program + "' CASES=200 SEED=3 ENGINES=core,core-f32 OUT='" + out +
+                "' sh fuzz/cluster/campaign.sbatch") == 0);
+  REQUIRE(run(program + " merge " + out + "/all " + out + "/shard-*") == 0);
+  REQUIRE(run(program + " fuzz --cases 200 --seed 3 --engines core,core-f32 --jobs 1 --out " + out +
+              "/whole") == 0);
+  CHECK(files_of(w.path / "all") == files_of(w.path / "whole"));
+}
+
+namespace {
+
+fuzz::KnownFinding row(const char* first, const char* last, std::uint64_t count, const char* expired) {
+  fuzz::KnownFinding f;
+  f.key = "k", f.engine = "e", f.first_seen = first, f.last_seen = last, f.count = count, f.expired = expired;
+  f.smallest = std::string("case of ") + first, f.size.bits = count;
+  return f;
+}
+
+}  // namespace
+
+TEST_CASE("ledgers merge in any order, and again, to the same", "[shards][merge][ledger]") {
+  const auto x = row("2026-01-02", "2026-01-05", 7, "2026-01-09"), y = row("2026-01-01", "2026-01-07", 3, ""),
+             z = row("2026-01-03", "2026-01-11", 5, "");
+  const auto xy = fuzz::merged(x, y);
+  CHECK(xy.first_seen == "2026-01-01");
+  CHECK(xy.last_seen == "2026-01-07");
+  CHECK(xy.expired == "2026-01-09");  // the latest word on it
+  CHECK(xy.count == 7);
+  CHECK(xy.size.bits == 3);
+  CHECK(xy == fuzz::merged(y, x));
+  CHECK(xy == fuzz::merged(xy, x));
+  CHECK(fuzz::merged(xy, z) == fuzz::merged(x, fuzz::merged(z, y)));
+  CHECK(fuzz::merged(xy, z).expired.empty());  // seen again since
+  const Workspace w;
+  const fs::path a = w.path / "a.db", b = w.path / "b.db", sum = w.path / "sum.db";
+  for (const auto& [file, f] : {std::pair{a, x}, {b, y}}) {
+    fuzz::Ledger l(file);
+    l.put(f);
+    l.commit();
+  }
+  for (const auto& in : {std::vector{a, b}, std::vector{b, a, a}}) {
+    CHECK(fuzz::merge_ledgers(sum, in) == 1);
+    CHECK(fuzz::Ledger(sum).find("k") == xy);
+  }
+  CHECK_THROWS_AS(fuzz::merge_ledgers(sum, std::vector{w.path / "none.db"}), InputError);
+}
+
+TEST_CASE("triage by several jobs says what triage by one says", "[shards][triage]") {
+  const Workspace w;
+  const auto found = fuzz::load_findings(campaign(w.path / "c", 0, 1));
+  CHECK(found.size() > 5);
+  const auto triaged = [&](std::size_t jobs) {
+    fuzz::TriageConfig c;
+    c.date = "2026-01-01";
+    c.build_of = [](const std::string&) { return "b"; };
+    c.ask = [](const std::string&, const Case&) { return std::map<std::string, fuzz::Finding>{}; };
+    c.smallest = [](const std::string&, const std::string&, const Case& x) {
+      Case smaller = x;
+      smaller.queries.resize(1);
+      return smaller;
+    };
+    const std::vector<fuzz::TriageConfig> configs(jobs, c);
+    fuzz::Ledger ledger(w.path / ("ledger" + std::to_string(jobs) + ".db"));
+    const auto r = fuzz::triage(found, ledger, configs);
+    std::vector<fuzz::KnownFinding> rows;
+    for (const auto& t : r) rows.push_back(t.finding);
+    ledger.commit();
+    CHECK(ledger.all() == rows);
+    return rows;
+  };
+  CHECK(triaged(1) == triaged(3));
+}
