@@ -86,7 +86,14 @@ ImpactAnswer answer_of(const Search& s, const Vec& linear_a) {
 Search with_points(const Sweep& w, Search hit) {
   Features features;
   const Spot x = w.at(hit.clear_until, true);
-  const View v = look(w, x, features, 0, x.error);
+  View v = look(w, x, features, 0, x.error);
+  // Too near for a simplex to tell: the features of a moment before.
+  if (const double speed = w.velocity().norm(); (v.meeting || v.upper > 16 * x.error) && speed > 0) {
+    const double back = 0x1p-30 * (w.a().body.reach + w.b().body.reach) / speed;
+    Features before;
+    look(w, w.at(std::max(0.0, hit.clear_until - back), true), before, 0, x.error);
+    if (before.size > 0) features = before;
+  }
   const Vec normal = hit.normal;
   set_points(hit, w, x, v, features);
   hit.normal = normal;

@@ -39,6 +39,8 @@ class Looker {
     const double touching = 4 * u<double> * (w_.a().body.reach + w_.b().body.reach + x_.offset.norm());
     Vec v = x_.offset;
     if (!start(v)) return;
+    // Of the smallest upper bound: a later simplex may be worse, or hold the origin.
+    Features best_features = f_;
     double length = v.norm(), best = -std::numeric_limits<double>::infinity();
     if (!(length > 0)) v = Vec::UnitX(), length = 1;
     int idle = 0;
@@ -55,8 +57,9 @@ class Looker {
         v_.meeting = true;
         break;
       }
-      v_.upper = std::min(v_.upper, length - w_.radii());
+      if (length - w_.radii() < v_.upper) v_.upper = length - w_.radii(), best_features = f_;
     }
+    if (best_features.size > 0) f_ = best_features;
   }
 
  private:
