@@ -62,6 +62,7 @@ class StepWorld {
   /// By hand: this body is swept against everything, whatever the criterion says.
   void flag(int body, bool flagged);
 
+  /// Throws broad::Refused when an end pose is not finite.
   StepReport step(const SweepOptions& options = {});
 
   const Pose& end_pose(int body) const { return end_[static_cast<std::size_t>(body)]; }

@@ -13,7 +13,7 @@
 // at most R − r₀, since both supports lie between r₀ and R. So h_D(n) loses at most f(|t' − t|) with f(s) =
 // |v_a − v_b|·s + Σ min(R·|ω|·s, R − r₀). When δ > f(1 − t) the origin is still in D(1), the pair overlaps at
 // the end; when δ > f(t) it overlaps at the start. A pass therefore has δ <= min(f(t), f(1 − t)) <= f(1/2), f
-// being non-decreasing. ∎
+// being non-decreasing. ∎ (An end pose that is rounded to doubles adds its rounding to what stays unseen.)
 //
 // Inner extent. r is the radius of a ball inside the body, anywhere. D holds a ball of radius r_a + r_b,
 // which is the depth of a pass through the middle: a ball through a plate is r_a + half the thickness deep. A

@@ -4,29 +4,23 @@
 #include <cstdlib>
 #include <filesystem>
 
-#include "core/base/rng.h"
 #include "core/ccd/primitive_impact.h"
 #include "core/narrow/narrow_phase.h"
 #include "core/scene/ccd_queries.h"
 #include "oracles/referee/primitive_motion.h"
+#include "tests/core/primitive_motions.h"
 #include "tests/support/catch.h"
 
 using namespace touchstone;
+using namespace touchstone::test;
 
 namespace {
 
-using Quad = std::array<Vec3, 4>;
 constexpr auto vf = PrimitiveKind::vertex_face, ee = PrimitiveKind::edge_edge;
 
 referee::PrimitiveTruth truth_of(PrimitiveKind kind, const Quad& a, const Quad& b) {
   return referee::judge_primitive_motion(
       kind == vf ? referee::PrimitivePair::vertex_face : referee::PrimitivePair::edge_edge, a, b);
-}
-
-Quad at(const Quad& a, const Quad& b, double t) {
-  Quad q;
-  for (std::size_t i = 0; i < 4; ++i) q[i] = (1 - t) * a[i] + t * b[i];
-  return q;
 }
 
 // By the narrow phase, on hulls of one, two or three points.
@@ -49,68 +43,6 @@ double rounding_of(const Quad& a, const Quad& b) {
   double most = 0;
   for (std::size_t i = 0; i < 4; ++i) most = std::max({most, a[i].norm(), b[i].norm()});
   return 8 * 0x1p-53 * most;
-}
-
-// Coordinates in units that make degenerate and touching primitives common.
-Quad lattice_quad(Rng& r, std::uint64_t n) {
-  Quad q;
-  for (Vec3& v : q)
-    for (int k = 0; k < 3; ++k) v[k] = static_cast<double>(r.below(n));
-  return q;
-}
-
-Quad loose_quad(Rng& r) {
-  Quad q;
-  for (Vec3& v : q) v = r.unit_vector() * r.uniform(0, 1);
-  return q;
-}
-
-struct Motion2 {
-  Quad a, b;
-};
-
-// By turns: anywhere; small integers; a rigid passage of the second primitive; one aimed at a feature to
-// within 2^-50; the same far from the origin; at the ends of the exponents; one whose last coordinate hardly
-// moves.
-Motion2 random_motion(Rng& r, std::uint64_t i) {
-  Motion2 m{loose_quad(r), loose_quad(r)};
-  switch (i % 7) {
-    case 1:
-      m = {lattice_quad(r, 4), lattice_quad(r, 4)};
-      break;
-    case 2: {
-      const Vec3 shift = r.unit_vector() * r.uniform(0, 3);
-      for (std::size_t k = 0; k < 4; ++k) m.b[k] = m.a[k] + (k < 2 ? shift : -shift);
-      break;
-    }
-    case 3:
-    case 4: {
-      // Vertex 0 meets edge 2-3 in the middle of the step, nearly.
-      const Quad half = at(m.a, m.b, 0.5);
-      const Vec3 target = half[2] + r.uniform() * (half[3] - half[2]);
-      m.b[0] = 2 * target - m.a[0] + r.unit_vector() * std::ldexp(1.0, -20 - static_cast<int>(r.below(36)));
-      if (i % 7 == 4)
-        for (Quad* q : {&m.a, &m.b})
-          for (Vec3& v : *q) v += Vec3(1e6, -3e6, 5e5);
-      break;
-    }
-    case 5: {
-      const std::uint64_t range =
-          r.below(10) == 0 ? 950 : 90;  // the referee's rationals are slow at the ends
-      const double scale = std::ldexp(1.0, static_cast<int>(r.below(2 * range)) - static_cast<int>(range));
-      for (Quad* q : {&m.a, &m.b})
-        for (Vec3& v : *q) v *= scale;
-      break;
-    }
-    case 6:
-      m = {lattice_quad(r, 3), lattice_quad(r, 3)};
-      for (Quad* q : {&m.a, &m.b})
-        for (Vec3& v : *q) v.z() = std::ldexp(v.z(), -60);
-      break;
-    default:
-      break;
-  }
-  return m;
 }
 
 }  // namespace
@@ -218,7 +150,7 @@ TEST_CASE("primitives: random queries are decided as the referee decides them", 
   std::array<long, 6> exits{};
   for (std::uint64_t i = 0; i < n; ++i) {
     Rng r = Rng::stream(901, i);
-    const Motion2 m = random_motion(r, i);
+    const PrimitiveMotion m = random_motion(r, i);
     for (const PrimitiveKind kind : {vf, ee}) {
       const auto truth = truth_of(kind, m.a, m.b);
       const PrimitiveImpact x = primitive_impact(kind, m.a, m.b);
@@ -267,7 +199,7 @@ TEST_CASE("primitives: a minimum separation is kept until the time of impact", "
   long hits = 0, cases = 0;
   for (std::uint64_t i = 0; i < 1400; ++i) {
     Rng r = Rng::stream(902, i);
-    const Motion2 m = random_motion(r, i % 7 == 5 ? 0 : i);
+    const PrimitiveMotion m = random_motion(r, i % 7 == 5 ? 0 : i);
     const double size = size_of(m.a, m.b), least = size * std::ldexp(1.0, -static_cast<int>(r.below(20)));
     const double tolerance = r.chance(0.5) ? 0 : least / 1024;
     for (const PrimitiveKind kind : {vf, ee}) {

@@ -1,0 +1,83 @@
+// Random motions of two primitives for the core's own tests: by turns easy, degenerate, nearly touching, far
+// away and extreme.
+#pragma once
+
+#include <array>
+#include <cmath>
+
+#include "core/base/rng.h"
+#include "core/math/pose.h"
+
+namespace touchstone::test {
+
+using Quad = std::array<Vec3, 4>;
+
+inline Quad at(const Quad& a, const Quad& b, double t) {
+  Quad q;
+  for (std::size_t i = 0; i < 4; ++i) q[i] = (1 - t) * a[i] + t * b[i];
+  return q;
+}
+
+// Coordinates in units that make degenerate and touching primitives common.
+inline Quad lattice_quad(Rng& r, std::uint64_t n) {
+  Quad q;
+  for (Vec3& v : q)
+    for (int k = 0; k < 3; ++k) v[k] = static_cast<double>(r.below(n));
+  return q;
+}
+
+inline Quad loose_quad(Rng& r) {
+  Quad q;
+  for (Vec3& v : q) v = r.unit_vector() * r.uniform(0, 1);
+  return q;
+}
+
+struct PrimitiveMotion {
+  Quad a, b;
+};
+
+// By turns: anywhere; small integers; a rigid passage of the second primitive; one aimed at a feature to
+// within 2^-50; the same far from the origin; at the ends of the exponents; one whose last coordinate hardly
+// moves.
+inline PrimitiveMotion random_motion(Rng& r, std::uint64_t i) {
+  PrimitiveMotion m{loose_quad(r), loose_quad(r)};
+  switch (i % 7) {
+    case 1:
+      m = {lattice_quad(r, 4), lattice_quad(r, 4)};
+      break;
+    case 2: {
+      const Vec3 shift = r.unit_vector() * r.uniform(0, 3);
+      for (std::size_t k = 0; k < 4; ++k) m.b[k] = m.a[k] + (k < 2 ? shift : -shift);
+      break;
+    }
+    case 3:
+    case 4: {
+      // Vertex 0 meets edge 2-3 in the middle of the step, nearly.
+      const Quad half = at(m.a, m.b, 0.5);
+      const Vec3 target = half[2] + r.uniform() * (half[3] - half[2]);
+      m.b[0] = 2 * target - m.a[0] + r.unit_vector() * std::ldexp(1.0, -20 - static_cast<int>(r.below(36)));
+      if (i % 7 == 4)
+        for (Quad* q : {&m.a, &m.b})
+          for (Vec3& v : *q) v += Vec3(1e6, -3e6, 5e5);
+      break;
+    }
+    case 5: {
+      const std::uint64_t range =
+          r.below(10) == 0 ? 950 : 90;  // the referee's rationals are slow at the ends
+      const double scale = std::ldexp(1.0, static_cast<int>(r.below(2 * range)) - static_cast<int>(range));
+      for (Quad* q : {&m.a, &m.b})
+        for (Vec3& v : *q) v *= scale;
+      break;
+    }
+    case 6:
+      m = {lattice_quad(r, 3), lattice_quad(r, 3)};
+      for (Quad* q : {&m.a, &m.b})
+        for (Vec3& v : *q) v.z() = std::ldexp(v.z(), -60);
+      break;
+    default:
+      break;
+  }
+  return m;
+}
+
+}  // namespace touchstone::test
