@@ -129,7 +129,8 @@ void try_feet(const SegmentPair<R>& p, R s, R t, SegmentFeet<R>& best) {
   const R dist = v.norm();
   if (!(dist < best.dist)) return;
   best.s = s, best.t = t, best.dist = dist;
-  if (dist > 0) best.normal = v / dist;
+  // The square of a length may underflow, in float, where the length does not.
+  if (dist > 0) best.normal = dist > R(1e-15) ? V3<R>(v / dist) : V3<R>(v.stableNormalized());
 }
 
 // A direction that the segments are level with, for feet that coincide within rounding: their own difference

@@ -38,7 +38,7 @@ template <class R>
 struct Corner {
   R x, y, below;
   std::uint32_t id;
-  std::uint32_t edge = 0;  // while clipped: what runs from here to the next corner
+  std::uint32_t edge;  // while clipped: what runs from here to the next corner
 };
 
 /// Copies only what is there: the storage is thirteen hundred bytes.
@@ -170,7 +170,7 @@ class FeatureCorners {
   }
   void add_always(const V3<R>& p, std::uint32_t id) {
     const V3<R> q = to_a_ * p + offset_ - plane_.origin;
-    out_.add({plane_.x.dot(q), plane_.y.dot(q), std::max<R>(0, top_ - d_.dot(p)), id});
+    out_.add({plane_.x.dot(q), plane_.y.dot(q), std::max<R>(0, top_ - d_.dot(p)), id, 0});
   }
   // Ids of rim points turn with the body.
   void octagon(R z) {
@@ -283,12 +283,12 @@ Corners<R> cross_edges(Corners<R> a, const Corners<R>& b, R tolerance) {
     const R lo = std::max<R>(std::min(t0, t1), 0), hi = std::min(std::max(t0, t1), length);
     if (!(lo <= hi)) return r;
     for (const R t : {lo, hi})
-      r.add({a[0].x + dx * (t / length), a[0].y + dy * (t / length), 0, t == lo ? id : id | of_a});
+      r.add({a[0].x + dx * (t / length), a[0].y + dy * (t / length), 0, t == lo ? id : id | of_a, 0});
     return r;
   }
   if (!(s0 * s1 <= 0)) return r;
   const R t = s0 / (s0 - s1);
-  r.add({b[0].x + (b[1].x - b[0].x) * t, b[0].y + (b[1].y - b[0].y) * t, 0, id});
+  r.add({b[0].x + (b[1].x - b[0].x) * t, b[0].y + (b[1].y - b[0].y) * t, 0, id, 0});
   return r;
 }
 
