@@ -100,7 +100,8 @@ std::vector<Method> methods(int most) {
     all.push_back(
         {fmt::format("speculative, margin {:g}", margin),
          [margin](const MovingShape& a, const MovingShape& b) { return speculative_impact(a, b, margin); }});
-  all.push_back({"time of impact", &time_of_impact});
+  all.push_back(
+      {"time of impact", [](const MovingShape& a, const MovingShape& b) { return time_of_impact(a, b); }});
   return all;
 }
 
