@@ -118,7 +118,7 @@ Case alone(const Case& c, int a, int b, int step) {
 StillShows commits_fault(const EnginePtr& engine, const Finding& finding) {
   return [&engine, finding](std::span<const Case> cases) {
     std::vector<bool> r;
-    for (const auto& found : findings_of(cases, engine))
+    for (const auto& found : findings_of(cases, engine, found_by(finding.key())))
       r.push_back(std::any_of(found.begin(), found.end(), [&](const auto& x) {
         const Finding& f = x.second;
         return f.question == finding.question && f.fault == finding.fault && f.shapes == finding.shapes;

@@ -97,10 +97,9 @@ void write_reproducer(const std::filesystem::path& directory, const fuzz::KnownF
   stored.description = "shows " + known.key;
   save_case(stored, to / "case.json");
   const auto evidence = finding->second.evidence_json();
-  if (evidence.contains("certificate") && !evidence["certificate"].is_null())
+  if (evidence.contains("certificate") && evidence["certificate"].value("kind", "none") != "none")
     write_file((to / "certificate.json").string(), evidence["certificate"].dump(1) + "\n");
-  // A relation is about two scenes; `touchstone replay` shows both.
-  if (!fuzz::has_reproducer(known.engine) || fuzz::is_relation(known.fault)) return;
+  if (!fuzz::has_reproducer(known.engine)) return;
   try {
     write_file((to / "reproduce.cpp").string(), fuzz::reproducer(finding->second, engine->card()));
   } catch (const InputError& e) {

@@ -68,9 +68,10 @@ AskedFinding ask_for_finding(FindingArgument o, const WorkerLimits& limits) {
   if (o.engine.empty()) o.engine = o.key.empty() ? "core" : engine_of(o.key);
   r.engine_name = o.engine;
   r.engine = make_engine(engine_names(o.engine).at(0), limits);
-  // A relation is asked for only where the referee has nothing to say: mostly it shows the same error again.
-  r.findings = fuzz::findings_of({&r.stored.c, 1}, r.engine)[0];
-  if (r.findings.empty())
+  // Without a key, a relation is asked for only where the referee has nothing to say: mostly it shows the
+  // same error again.
+  r.findings = fuzz::findings_of({&r.stored.c, 1}, r.engine, fuzz::found_by(o.key))[0];
+  if (r.findings.empty() && o.key.empty())
     r.findings = fuzz::findings_of({&r.stored.c, 1}, r.engine, fuzz::FoundBy::relations)[0];
   r.key = choose(o.key, r.findings);
   return r;

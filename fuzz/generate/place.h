@@ -17,7 +17,8 @@ void place_along(Rng& rng, Scene& pair, const Vec3& n, double gap, double sidewa
 /// The direction to place along: random, or the outward normal when body 0 is a half-space.
 Vec3 placement_direction(Rng& rng, const Scene& pair);
 
-/// Of a convex body: its point farthest along n (world), relative to its origin; zero for a half-space or mesh.
+/// Of a convex body: its point farthest along n (world), relative to its origin; zero for a half-space or
+/// mesh.
 Vec3 farthest_point(const Scene& s, int body, const Vec3& n);
 
 double mean_extent(const Scene& pair);

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/base/input_error.h"
+#include "fuzz/judge/relation.h"
 #include "fuzz/judge/truth.h"
 #include "fuzz/reproduce/engine_source.h"
 #include "fuzz/reproduce/source_text.h"
@@ -153,7 +154,7 @@ constexpr std::string_view check_no_impact = R"(bool check(const Answer& x) {
 }
 )";
 
-struct Expected {
+struct Wanted {
   Truth& truth;
   const Asked& q;
   const Finding& finding;
@@ -181,7 +182,7 @@ void add_direction(std::string& list, Truth& truth, int body, const Vec3& p) {
     list += fmt::format("{}Vec{{{}}}", list.empty() ? "" : ", ", literals(Vec3(u.normalized())));
 }
 
-std::string contact_check(const Expected& e) {
+std::string contact_check(const Wanted& e) {
   const auto& t = e.truth.pair(0, e.q.a, e.q.b);
   const std::string lo = literal(-t.gap.hi), hi = literal(-t.gap.lo), tau = literal(e.tau);
   if (!has_support(e.q.scene.shape_of(e.q.a)) || !has_support(e.q.scene.shape_of(e.q.b)))
@@ -197,7 +198,7 @@ std::string contact_check(const Expected& e) {
   return filled(check_contact, {{"POINTS", points}, {"LO", lo}, {"HI", hi}, {"TAU", tau}});
 }
 
-std::string witness_check(const Expected& e) {
+std::string witness_check(const Wanted& e) {
   const auto& t = e.truth.pair(0, e.q.a, e.q.b);
   const auto& w = *e.finding.evidence->observation.witness;
   std::string directions;
@@ -214,7 +215,7 @@ std::string witness_check(const Expected& e) {
                                 {"DIRECTIONS", directions}});
 }
 
-std::string impact_check(const Expected& e) {
+std::string impact_check(const Wanted& e) {
   using V = referee::TimeTruth::Verdict;
   const auto& t = e.truth.motion(0, e.q.a, e.q.b);
   if (t.verdict == V::none) return std::string(check_no_impact);
@@ -225,7 +226,7 @@ std::string impact_check(const Expected& e) {
       {{"LO", literal(t.t_lo)}, {"HI", literal(t.t_hi)}, {"SLACK", literal(std::max(off, 0.0) / 2)}});
 }
 
-std::string pair_check(const Expected& e) {
+std::string pair_check(const Wanted& e) {
   const auto& t = e.truth.pair(0, e.q.a, e.q.b);
   const bool overlaps = t.verdict == referee::Verdict::overlap;
   const bool has_depth = overlaps && std::isfinite(t.gap.lo);
@@ -241,7 +242,7 @@ std::string pair_check(const Expected& e) {
   return verdict("overlap", "apart", overlaps);
 }
 
-std::string check_of(const Expected& e) {
+std::string check_of(const Wanted& e) {
   if (e.q.question == Question::candidates)
     return verdict("the pair is reported", "the pair is not reported",
                    e.finding.fault == to_string(Fault::missed));
@@ -265,6 +266,9 @@ bool has_reproducer(std::string_view engine) {
 
 std::string reproducer(const Finding& finding, const EngineCard& card) {
   const Evidence& v = *finding.evidence;
+  if (is_relation(finding.fault))
+    throw InputError("reproduce",
+                     "a relation is about two scenes, which `touchstone replay` shows: " + finding.key());
   const int n = static_cast<int>(v.c.scene.bodies.size());
   if (v.a < 0 || v.b < 0 || v.a >= n || v.b >= n)
     throw InputError("reproduce", "the finding names no pair of bodies: " + finding.key());
@@ -273,7 +277,7 @@ std::string reproducer(const Finding& finding, const EngineCard& card) {
   const double tau =
       card.tau_factor * card.unit_roundoff * truth.scale(v.a, v.b) + v.observation.claimed_tolerance;
   const EngineSource source = source_of(q);
-  const Expected expected{truth, q, finding, tau};
+  const Wanted expected{truth, q, finding, tau};
   const std::string check = check_of(expected);
   const auto support_of = [&](std::string_view who, int body) {
     const std::string call = fmt::format("support_{}(", who);

@@ -17,9 +17,12 @@ std::vector<std::map<std::string, Finding>> findings_of(std::span<const Case> ca
   return out;
 }
 
+FoundBy found_by(const std::string& key) {
+  return key.find(".relation_") != std::string::npos ? FoundBy::relations : FoundBy::referee;
+}
+
 StillShows keeps_finding(const EnginePtr& engine, std::string key) {
-  const FoundBy by = key.find(".relation_") != std::string::npos ? FoundBy::relations : FoundBy::referee;
-  return [&engine, by, key = std::move(key)](std::span<const Case> cases) {
+  return [&engine, by = found_by(key), key = std::move(key)](std::span<const Case> cases) {
     std::vector<bool> shows;
     for (const auto& found : findings_of(cases, engine, by)) shows.push_back(found.contains(key));
     return shows;

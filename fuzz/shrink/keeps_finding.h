@@ -18,6 +18,9 @@ enum class FoundBy { referee, relations, both };
 std::vector<std::map<std::string, Finding>> findings_of(std::span<const Case> cases, const EnginePtr& engine,
                                                         FoundBy by = FoundBy::referee);
 
+/// Who says what is found under this key.
+FoundBy found_by(const std::string& key);
+
 /// `engine` must outlive the result.
 StillShows keeps_finding(const EnginePtr& engine, std::string key);
 
