@@ -115,12 +115,6 @@ double gap_at(const Case& c, double t) {
   return distance(a, b).distance;
 }
 
-double quantile(std::vector<double> v, double q) {
-  if (v.empty()) return std::nan("");
-  std::sort(v.begin(), v.end());
-  return v[static_cast<std::size_t>(q * static_cast<double>(v.size() - 1) + 0.5)];
-}
-
 struct Result {
   long missed = 0, ghosts = 0, failed = 0;
   std::vector<double> us, error;

@@ -9,7 +9,6 @@
 // none; late, early: by depth and by gap at the time reported, the same units; |dt|: outside the referee's
 // bracket, as a fraction of the step, of hits that were found; gap: at the time reported, over L.
 #include <fmt/format.h>
-#include <time.h>
 
 #include <algorithm>
 #include <cmath>
@@ -19,10 +18,7 @@
 #include "core/scene/scene.h"
 #include "oracles/referee/referee.h"
 #include "tests/bench/impact_cases.h"
-
-#if defined(__x86_64__)
-#include <x86intrin.h>
-#endif
+#include "tests/bench/ticks.h"
 
 namespace {
 
@@ -67,38 +63,6 @@ constexpr Entrant entrants[] = {
 #endif
 };
 
-std::uint64_t tick() {
-#if defined(__x86_64__)
-  return __rdtsc();
-#else
-  timespec t;
-  clock_gettime(CLOCK_MONOTONIC, &t);
-  return static_cast<std::uint64_t>(t.tv_sec) * 1000000000u + static_cast<std::uint64_t>(t.tv_nsec);
-#endif
-}
-
-double now_ns(clockid_t clock) {
-  timespec t;
-  clock_gettime(clock, &t);
-  return 1e9 * static_cast<double>(t.tv_sec) + static_cast<double>(t.tv_nsec);
-}
-
-// Ticks that an empty measurement shows, and nanoseconds a tick.
-struct Clock {
-  double overhead = 0, ns = 1;
-  Clock() {
-    const double start = now_ns(CLOCK_MONOTONIC);
-    const std::uint64_t from = tick();
-    std::uint64_t least = ~std::uint64_t{0};
-    while (now_ns(CLOCK_MONOTONIC) - start < 5e7) {
-      const std::uint64_t t = tick();
-      least = std::min(least, tick() - t);
-    }
-    ns = (now_ns(CLOCK_MONOTONIC) - start) / static_cast<double>(tick() - from);
-    overhead = static_cast<double>(least);
-  }
-};
-
 struct Row {
   std::string_view name;
   ImpactContestantPtr subject;
@@ -109,20 +73,14 @@ struct Row {
 
 void pass(Row& row) {
   const std::size_t n = row.found.size();
-  const double start = now_ns(CLOCK_THREAD_CPUTIME_ID);
+  const double start = clock_ns(CLOCK_THREAD_CPUTIME_ID);
   for (std::size_t i = 0; i < n; ++i) row.subject->ask(i, row.found[i]);
-  row.mean = std::min(row.mean, (now_ns(CLOCK_THREAD_CPUTIME_ID) - start) / static_cast<double>(n));
+  row.mean = std::min(row.mean, (clock_ns(CLOCK_THREAD_CPUTIME_ID) - start) / static_cast<double>(n));
   for (std::size_t i = 0; i < n; ++i) {
     const std::uint64_t t = tick();
     row.subject->ask(i, row.found[i]);
     row.least[i] = std::min(row.least[i], tick() - t);
   }
-}
-
-double quantile(std::vector<double> v, double q) {
-  if (v.empty()) return std::nan("");
-  std::sort(v.begin(), v.end());
-  return v[static_cast<std::size_t>(q * static_cast<double>(v.size() - 1) + 0.5)];
 }
 
 double scale_of(const MovingCase& c) {
@@ -166,7 +124,7 @@ struct Options {
   bool truth = true;
 };
 
-void run_cell(const MovingKind& kind, Course course, const Options& o, const Clock& clock) {
+void run_cell(const MovingKind& kind, Course course, const Options& o, const Ticks& clock) {
   const auto cases = make_moving_cases(kind, course, o.cases, 1);
   std::vector<Row> rows;
   for (const Entrant& e : entrants)
@@ -187,8 +145,7 @@ void run_cell(const MovingKind& kind, Course course, const Options& o, const Clo
   });
   for (const Row& row : rows) {
     std::vector<double> ns;
-    for (const std::uint64_t t : row.least)
-      ns.push_back(std::max(0.0, static_cast<double>(t) - clock.overhead) * clock.ns);
+    for (const std::uint64_t t : row.least) ns.push_back(clock.ns(t));
     Judged j;
     for (const FoundImpact& f : row.found) j.steps += f.steps;
     for (std::size_t i = 0; i < truth.size(); ++i) judge_one(cases[i], truth[i], row.found[i], j);
@@ -236,7 +193,7 @@ int main(int argc, char** argv) {
                "[--no-truth]\n");
     return 2;
   }
-  const Clock clock;
+  const Ticks clock;
   fmt::print(
       "{:<20} {:<12} {:<18} {:>9} {:>9} {:>9} {:>6} {:>5} {:>6} {:>5} {:>5} {:>5} {:>6} {:>8} {:>8} {:>8}\n",
       "pair", "course", "contestant", "mean ns", "median ns", "p99 ns", "steps", "hits", "missed", "ghost",

@@ -3,19 +3,10 @@
 #include <numbers>
 
 #include "core/narrow/narrow_phase.h"
-#include "tests/support/plain_shape.h"
+#include "tests/bench/bench_shape.h"
 
 namespace touchstone::bench {
 namespace {
-
-Shape make_shape(Rng& rng, ShapeKind kind, int vertices) {
-  return test::plain_shape(rng, kind, [vertices](Rng& r, auto&& size) {
-    const Vec3 axes(size(), size(), size());
-    std::vector<Vec3> v;
-    for (int i = 0; i < vertices; ++i) v.push_back(axes.cwiseProduct(r.unit_vector()));
-    return make_hull(std::move(v));
-  });
-}
 
 Vec3 spin_of(Rng& r, Course course) {
   constexpr double eighth = std::numbers::pi / 4, turn = 2 * std::numbers::pi;

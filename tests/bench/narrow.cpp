@@ -8,7 +8,6 @@
 // against the referee (depth along the reported normal for contacts is charted by its excess over the least
 // depth).
 #include <fmt/format.h>
-#include <time.h>
 
 #include <algorithm>
 #include <cmath>
@@ -18,10 +17,7 @@
 #include "core/scene/scene.h"
 #include "oracles/referee/referee.h"
 #include "tests/bench/narrow_cases.h"
-
-#if defined(__x86_64__)
-#include <x86intrin.h>
-#endif
+#include "tests/bench/ticks.h"
 
 namespace {
 
@@ -88,40 +84,6 @@ constexpr Entrant entrants[] = {
 #endif
 };
 
-std::uint64_t tick() {
-#if defined(__x86_64__)
-  return __rdtsc();
-#else
-  timespec t;
-  clock_gettime(CLOCK_MONOTONIC, &t);
-  return static_cast<std::uint64_t>(t.tv_sec) * 1000000000u + static_cast<std::uint64_t>(t.tv_nsec);
-#endif
-}
-
-double now_ns(clockid_t clock) {
-  timespec t;
-  clock_gettime(clock, &t);
-  return 1e9 * static_cast<double>(t.tv_sec) + static_cast<double>(t.tv_nsec);
-}
-double cpu_ns() { return now_ns(CLOCK_THREAD_CPUTIME_ID); }
-double wall_ns() { return now_ns(CLOCK_MONOTONIC); }
-
-// Ticks that an empty measurement shows, and nanoseconds a tick.
-struct Clock {
-  double overhead = 0, ns = 1;
-  Clock() {
-    const double start = wall_ns();
-    const std::uint64_t from = tick();
-    std::uint64_t least = ~std::uint64_t{0};
-    while (wall_ns() - start < 5e7) {
-      const std::uint64_t t = tick();
-      least = std::min(least, tick() - t);
-    }
-    ns = (wall_ns() - start) / static_cast<double>(tick() - from);
-    overhead = static_cast<double>(least);
-  }
-};
-
 struct Row {
   std::string_view name;
   NarrowContestantPtr subject;
@@ -134,10 +96,11 @@ void pass(Row& row) {
   const std::size_t n = row.found.size();
   // Reading the thread's clock is a system call of half a microsecond: several passes a reading.
   constexpr int passes = 4;
-  const double start = cpu_ns();
+  const double start = clock_ns(CLOCK_THREAD_CPUTIME_ID);
   for (int k = 0; k < passes; ++k)
     for (std::size_t i = 0; i < n; ++i) row.subject->ask(i, row.found[i]);
-  row.mean = std::min(row.mean, (cpu_ns() - start) / static_cast<double>(n * passes));
+  row.mean =
+      std::min(row.mean, (clock_ns(CLOCK_THREAD_CPUTIME_ID) - start) / static_cast<double>(n * passes));
   for (std::size_t i = 0; i < n; ++i) {
     const std::uint64_t t = tick();
     row.subject->ask(i, row.found[i]);
@@ -153,12 +116,6 @@ struct Truth {
 double scale_of(const PairCase& c) {
   return std::max({extent(c.a), extent(c.b), c.pose_a.translation.cwiseAbs().maxCoeff(),
                    c.pose_b.translation.cwiseAbs().maxCoeff()});
-}
-
-double quantile(std::vector<double> v, double q) {
-  if (v.empty()) return std::nan("");
-  std::sort(v.begin(), v.end());
-  return v[static_cast<std::size_t>(q * static_cast<double>(v.size() - 1) + 0.5)];
 }
 
 double outside(double x, const referee::Bracket& b) { return std::max({b.lo - x, x - b.hi, 0.0}); }
@@ -194,7 +151,7 @@ struct Options {
   bool truth = true;
 };
 
-void run_cell(const PairKind& kind, Task task, const Options& o, const Clock& clock) {
+void run_cell(const PairKind& kind, Task task, const Options& o, const Ticks& clock) {
   const auto cases = make_cases(kind, task, o.cases, 1);
   std::vector<Row> rows;
   for (const Entrant& e : entrants)
@@ -212,8 +169,7 @@ void run_cell(const PairKind& kind, Task task, const Options& o, const Clock& cl
   }
   for (const Row& row : rows) {
     std::vector<double> ns;
-    for (const std::uint64_t t : row.least)
-      ns.push_back(std::max(0.0, static_cast<double>(t) - clock.overhead) * clock.ns);
+    for (const std::uint64_t t : row.least) ns.push_back(clock.ns(t));
     const Judged j = judge(row, task, cases, truth);
     fmt::print("{:<20} {:<9} {:<15} {:>9.1f} {:>9.1f} {:>9.1f} {:>6} {:>9.1e} {:>9.1e} {:>9.1e}\n", kind.name,
                task_names[static_cast<int>(task)], row.name, row.mean, quantile(ns, 0.5), quantile(ns, 0.99),
@@ -256,7 +212,7 @@ int main(int argc, char** argv) {
                "[--no-truth]\n");
     return 2;
   }
-  const Clock clock;
+  const Ticks clock;
   fmt::print("{:<20} {:<9} {:<15} {:>9} {:>9} {:>9} {:>6} {:>9} {:>9} {:>9}\n", "pair", "question",
              "contestant", "mean ns", "median ns", "p99 ns", "wrong", "err p50/L", "p99", "max");
   for (const PairKind& kind : pair_kinds)

@@ -1,23 +1,9 @@
 #include "tests/bench/narrow_cases.h"
 
 #include "core/narrow/narrow_phase.h"
-#include "tests/support/plain_shape.h"
+#include "tests/bench/bench_shape.h"
 
 namespace touchstone::bench {
-namespace {
-
-Shape make_shape(Rng& rng, ShapeKind kind, int vertices) {
-  return test::plain_shape(rng, kind, [vertices](Rng& r, auto&& size) {
-    // On an ellipsoid, so that every vertex is extreme.
-    const Vec3 axes(size(), size(), size());
-    std::vector<Vec3> v;
-    for (int i = 0; i < vertices; ++i) v.push_back(axes.cwiseProduct(r.unit_vector()));
-    return make_hull(std::move(v));
-  });
-}
-
-}  // namespace
-
 std::vector<PairCase> make_cases(const PairKind& kind, Task task, int count, std::uint64_t seed) {
   std::vector<PairCase> all;
   for (int i = 0; i < count; ++i) {

@@ -41,11 +41,6 @@ void count(Tally& t, const CcdQuery& q, const PrimitiveImpact& r, double us) {
   ++t.exits[r.exit];
 }
 
-double quantile(std::vector<double> v, double q) {
-  std::sort(v.begin(), v.end());
-  return v[static_cast<std::size_t>(q * static_cast<double>(v.size() - 1) + 0.5)];
-}
-
 void print(const std::string& name, const Tally& t) {
   double sum = 0;
   for (double x : t.us) sum += x;

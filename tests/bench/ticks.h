@@ -1,10 +1,13 @@
 // The processor's own counter as a clock for single queries: what an empty measurement shows is subtracted.
+// And the quantiles of what it measured.
 #pragma once
 
 #include <time.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
+#include <vector>
 
 #if defined(__x86_64__)
 #include <x86intrin.h>
@@ -47,5 +50,12 @@ class Ticks {
   std::uint64_t overhead_ = 0;
   double ns_ = 1;
 };
+
+/// NaN of nothing.
+inline double quantile(std::vector<double> v, double q) {
+  if (v.empty()) return std::nan("");
+  std::sort(v.begin(), v.end());
+  return v[static_cast<std::size_t>(q * static_cast<double>(v.size() - 1) + 0.5)];
+}
 
 }  // namespace touchstone::bench
