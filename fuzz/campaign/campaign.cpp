@@ -50,9 +50,7 @@ class Runner {
   void prepare() {
     if (!config_.out.empty()) {
       if (auto s = load_state(config_)) state_ = std::move(*s);
-      std::error_code ec;
-      std::filesystem::create_directories(config_.out, ec);
-      if (ec) throw InputError(config_.out.string(), "cannot be made: " + ec.message());
+      make_directory(config_.out);
       save_state(config_, state_);
     }
     next_ = merged_ = state_.next_chunk;

@@ -103,9 +103,7 @@ Merged merge_campaigns(const std::filesystem::path& out, std::span<const std::fi
     if (!std::binary_search(m.shards.begin(), m.shards.end(), s)) m.missing.push_back(s);
   Json settings = parts[0].settings;
   if (!m.missing.empty()) settings["shards"] = parts[0].of, settings["merged"] = m.shards;
-  std::error_code ec;
-  std::filesystem::create_directories(out, ec);
-  if (ec) throw InputError(out.string(), "cannot be made: " + ec.message());
+  make_directory(out);
   save_findings(out, state.result);
   save_state(out, settings, state);
   m.result = std::move(state.result);

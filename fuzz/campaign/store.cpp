@@ -93,12 +93,16 @@ void save_state(const std::filesystem::path& out, const Json& settings, const St
   write_atomically(out / "state.json", j.dump());
 }
 
+void make_directory(const std::filesystem::path& directory) {
+  std::error_code ec;
+  std::filesystem::create_directories(directory, ec);
+  if (ec) throw InputError(directory.string(), "cannot be made: " + ec.message());
+}
+
 void save_findings(const std::filesystem::path& out, const CampaignResult& result) {
   for (const auto& [key, f] : result.findings) {
     const auto dir = out / "findings" / key;
-    std::error_code ec;
-    std::filesystem::create_directories(dir, ec);
-    if (ec) throw InputError(dir.string(), "cannot be made: " + ec.message());
+    make_directory(dir);
     const Json evidence = f.evidence_json();
     write_atomically(dir / "case.json", evidence.at("case").dump(1) + "\n");
     Json j = {{"key", key}};

@@ -20,6 +20,9 @@ struct StoredState {
   Pool pool;  // of a guided campaign
 };
 
+/// Throws InputError with the reason; one that is there is fine.
+void make_directory(const std::filesystem::path& directory);
+
 /// The state in config.out, or nothing when the directory is new. Throws InputError when it is finished,
 /// damaged or made with other settings.
 std::optional<StoredState> load_state(const CampaignConfig& config);
