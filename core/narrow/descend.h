@@ -4,9 +4,9 @@
 //
 // Search: directions are written as (azimuth θ, polar angle α) about the axis of a round body. φ(θ) = min
 // over α of the height h(n(θ, α)) is a function of one variable with few minima. Both minimisations are
-// samples followed by golden sections, so kinks do no harm, and the search resolves differences of φ down to
-// rounding. What is proven globally stays what EPA proved (`lower`); samples of φ every 7.5° are what speaks
-// for the rest.
+// samples whose valleys are followed down (kinks do no harm), and the search resolves differences of φ down
+// to rounding. What is proven globally stays what EPA proved (`lower`); samples of φ every 7.5° are what
+// speaks for the rest.
 //
 // Witness: one proximal step. EPA is asked for the boundary point nearest to s·x, x the foot of the found
 // plane, 0 < s < 1. Near x that point is isolated even when the origin's nearest points form a ring, so EPA
@@ -26,20 +26,42 @@ namespace touchstone::narrow {
 
 namespace detail {
 
-/// Least point of f in [lo, hi] by golden section to the arithmetic's resolution; returns (argument, value).
+/// Least point of f in [lo, hi]; returns (argument, value). Brent 1973, ch. 5: a parabola through the three
+/// best points where that shrinks the steps, golden sections elsewhere, so kinks do no harm. Departure: it
+/// also ends when the values at both ends of what is left exceed the least by rounding only, which for a
+/// smooth minimum comes long before the arguments are as close as they get.
 template <class R, class F>
-std::pair<R, R> golden(R lo, R hi, F&& f) {
-  constexpr int sections = 80;  // 0.618^80 = 2e-17
-  const R ratio = (std::sqrt(R(5)) - 1) / 2;
-  R x1 = hi - ratio * (hi - lo), x2 = lo + ratio * (hi - lo), f1 = f(x1), f2 = f(x2);
-  for (int i = 0; i < sections; ++i) {
-    if (f1 <= f2) {
-      hi = x2, x2 = x1, f2 = f1, x1 = hi - ratio * (hi - lo), f1 = f(x1);
+std::pair<R, R> least_between(R lo, R hi, R noise, F&& f) {
+  constexpr int steps = 100;  // 0.618^100 = 1e-21
+  constexpr R eps = std::numeric_limits<R>::epsilon();
+  const R section = (3 - std::sqrt(R(5))) / 2, finest = eps * (hi - lo);
+  R x = lo + section * (hi - lo), fx = f(x), f_lo = f(lo), f_hi = f(hi);
+  R second = x, third = x, f_second = fx, f_third = fx, step = 0, before = 0;
+  for (int i = 0; i < steps; ++i) {
+    const R middle = (lo + hi) / 2;
+    if (hi - lo <= 4 * finest || std::max(f_lo, f_hi) - fx <= noise) break;
+    R p = (x - second) * (fx - f_third), q = (x - third) * (fx - f_second);
+    R num = (x - third) * q - (x - second) * p, den = 2 * (q - p);
+    if (den > 0) num = -num;
+    den = std::abs(den);
+    if (std::abs(num) < std::abs(den * before / 2) && num > den * (lo - x) && num < den * (hi - x)) {
+      before = step, step = num / den;
     } else {
-      lo = x1, x1 = x2, f1 = f2, x2 = lo + ratio * (hi - lo), f2 = f(x2);
+      before = x < middle ? hi - x : lo - x, step = section * before;
+    }
+    const R u = std::abs(step) >= finest ? x + step : x + (step > 0 ? finest : -finest), fu = f(u);
+    if (fu <= fx) {
+      (u < x ? hi : lo) = x, (u < x ? f_hi : f_lo) = fx;
+      third = second, f_third = f_second, second = x, f_second = fx, x = u, fx = fu;
+    } else {
+      (u < x ? lo : hi) = u, (u < x ? f_lo : f_hi) = fu;
+      if (fu <= f_second || second == x)
+        third = second, f_third = f_second, second = u, f_second = fu;
+      else if (fu <= f_third || third == x || third == second)
+        third = u, f_third = fu;
     }
   }
-  return f1 <= f2 ? std::pair{x1, f1} : std::pair{x2, f2};
+  return {x, fx};
 }
 
 /// Column of the frame about which a core is (most nearly) round; -1 when it has no such axis.
@@ -55,12 +77,16 @@ int round_axis(const ConvexCore<R>& c) {
 template <class R>
 class MeridianSearch {
  public:
-  MeridianSearch(const ConvexCore<R>& a, const ConvexCore<R>& b, const V3<R>& axis)
-      : a_(a), b_(b), w_(axis.normalized()), u_(w_.unitOrthogonal()), v_(w_.cross(u_)) {}
+  MeridianSearch(const ConvexCore<R>& a, const ConvexCore<R>& b, const V3<R>& axis, R size)
+      : a_(a),
+        b_(b),
+        noise_(16 * std::numeric_limits<R>::epsilon() * size),
+        w_(axis.normalized()),
+        u_(w_.unitOrthogonal()),
+        v_(w_.cross(u_)) {}
 
-  V3<R> direction(R theta, R alpha) const {
-    return std::sin(alpha) * (std::cos(theta) * u_ + std::sin(theta) * v_) + std::cos(alpha) * w_;
-  }
+  V3<R> across(R theta) const { return std::cos(theta) * u_ + std::sin(theta) * v_; }
+  V3<R> direction(R theta, R alpha) const { return std::sin(alpha) * across(theta) + std::cos(alpha) * w_; }
   R height(const V3<R>& n) const { return -n.dot(difference_support<R>(a_, b_, -n).w); }
 
   /// Least direction and height.
@@ -80,7 +106,7 @@ class MeridianSearch {
     std::pair<V3<R>, R> best{V3<R>::UnitX(), std::numeric_limits<R>::infinity()};
     for (std::size_t k = 0; k < std::min(followed, valleys.size()); ++k) {
       const int i = valleys[k].second;
-      const R theta = golden<R>((i - 1) * step_theta, (i + 1) * step_theta, [&](R t) {
+      const R theta = least_between<R>((i - 1) * step_theta, (i + 1) * step_theta, noise_, [&](R t) {
                         return whole_meridian(t).second;
                       }).first;
       const auto [x, h] = whole_meridian(theta);
@@ -97,7 +123,8 @@ class MeridianSearch {
   // Two round bodies have two families of minima on a meridian, which may lie close and change places: every
   // valley of the samples is followed down.
   std::pair<R, R> whole_meridian(R theta) const {
-    const auto h = [&](R x) { return height(direction(theta, x)); };
+    const V3<R> out = across(theta);
+    const auto h = [&](R x) { return height(std::sin(x) * out + std::cos(x) * w_); };
     std::array<R, polars + 1> sample;
     for (int k = 0; k <= polars; ++k) sample[static_cast<std::size_t>(k)] = h(k * step_alpha);
     std::pair<R, R> best{0, std::numeric_limits<R>::infinity()};
@@ -106,13 +133,15 @@ class MeridianSearch {
       if ((k > 0 && sample[static_cast<std::size_t>(k - 1)] < x) ||
           (k < polars && sample[static_cast<std::size_t>(k + 1)] < x))
         continue;
-      if (const auto low = golden<R>((k - 1) * step_alpha, (k + 1) * step_alpha, h); low.second < best.second)
+      if (const auto low = least_between<R>((k - 1) * step_alpha, (k + 1) * step_alpha, noise_, h);
+          low.second < best.second)
         best = low;
     }
     return best;
   }
 
   const ConvexCore<R>&a_, &b_;
+  R noise_;
   V3<R> w_, u_, v_;
 };
 
@@ -142,7 +171,7 @@ void descend(EpaResult<R>& e, const ConvexCore<R>& a, const ConvexCore<R>& b, R 
   for (const ConvexCore<R>* c : {&a, &b}) {
     const int axis = detail::round_axis(*c);
     if (axis < 0) continue;
-    const auto [n, h] = detail::MeridianSearch<R>(a, b, c->frame.rotation.col(axis)).least();
+    const auto [n, h] = detail::MeridianSearch<R>(a, b, c->frame.rotation.col(axis), size).least();
     if (h < e.upper) e.upper = h, e.normal = n;
   }
   for (const R share : {R(0.25), R(0.5), R(0.75), R(0.9375)}) {

@@ -69,20 +69,19 @@ bool asks_pair(const Case& c) {
   return !c.queries.empty() && c.queries[0].question < Question::time_of_impact;
 }
 
-// This thread's CPU time while it asked a batch (pipes, and engines of this process) is shared in proportion
-// to engines' own time, to which that of workers is added: an engine of this process counts twice, and a busy
-// machine counts as slow engines. So the rate is at most too low.
+// What asking one engine for a batch cost: this thread's CPU time and, where that is less than what the
+// engine says it took, the engine worked elsewhere and its time comes on top (an engine of this process that
+// was held up by others counts twice, so the rate is at most too low). It is shared by the engine's own
+// times.
 void share_asking(CampaignResult& r, std::span<const Case> cases,
-                  const std::vector<std::vector<CaseObservations>>& by_engine, std::int64_t cpu_ns) {
+                  const std::vector<CaseObservations>& answers, std::int64_t cpu_ns) {
   std::int64_t own = 0, of_pairs = 0;
-  for (std::size_t i = 0; i < cases.size(); ++i) {
-    const bool pair = asks_pair(cases[i]);
-    for (const auto& of_engine : by_engine)
-      for (const Observation& o : of_engine[i].answers)
-        own += o.elapsed_ns, of_pairs += pair ? o.elapsed_ns : 0;
-  }
+  for (std::size_t i = 0; i < cases.size(); ++i)
+    for (const Observation& o : answers[i].answers)
+      own += o.elapsed_ns, of_pairs += asks_pair(cases[i]) ? o.elapsed_ns : 0;
   const double share = own > 0 ? static_cast<double>(of_pairs) / static_cast<double>(own) : 0;
-  r.pair_cpu_ns += of_pairs + static_cast<std::int64_t>(share * static_cast<double>(cpu_ns));
+  r.pair_cpu_ns +=
+      static_cast<std::int64_t>(share * static_cast<double>(cpu_ns < own ? cpu_ns + own : cpu_ns));
 }
 
 }  // namespace
@@ -121,9 +120,11 @@ void ask_and_judge(CampaignResult& r, std::span<const Case> cases, std::uint64_t
                    std::vector<std::vector<std::uint64_t>>* features) {
   if (features) features->resize(cases.size());
   std::vector<std::vector<CaseObservations>> by_engine;
-  const std::int64_t before = thread_cpu_ns();
-  for (const EnginePtr& e : engines) by_engine.push_back(e->run(cases));
-  share_asking(r, cases, by_engine, thread_cpu_ns() - before);
+  for (const EnginePtr& e : engines) {
+    const std::int64_t before = thread_cpu_ns();
+    by_engine.push_back(e->run(cases));
+    share_asking(r, cases, by_engine.back(), thread_cpu_ns() - before);
+  }
   for (std::size_t i = 0; i < cases.size(); ++i) {
     const std::uint64_t index = first_index + i;
     std::vector<CaseObservations> observations;

@@ -189,6 +189,7 @@ Run declare_fuzz(CLI::App& app) {
                "half of the cases are changed forms of those that made an engine do something new");
   app.add_option("--relations", o->config.relations_every,
                  "every so many cases one is also asked swapped, scaled, moved, ...; 0: none")
+      ->check(CLI::Range(0, 1'000'000'000))
       ->capture_default_str();
   app.add_option("--out", o->out, "directory of the results; an unfinished campaign in it is gone on with");
   add_case_seconds(app, o->limits);

@@ -10,6 +10,7 @@
 // on both edges all the same: the area is off by at most error·perimeter.
 #include "oracles/referee/contact_region.h"
 
+#include <array>
 #include <numbers>
 
 #include "oracles/referee/convex.h"
@@ -25,16 +26,34 @@ struct Extremes {
   Real error = 0;
 };
 
-void add_rim(Extremes& e, const Solid& s, Real height, const Real3& n) {
+/// Cosine and sine of the corners of a regular polygon, the first at angle 0.
+const std::array<std::array<Real, 2>, rim_corners>& corners() {
+  static const auto table = [] {
+    std::array<std::array<Real, 2>, rim_corners> t;
+    for (int k = 0; k < rim_corners; ++k) {
+      const Real angle = 2 * std::numbers::pi_v<Real> * k / rim_corners;
+      t[static_cast<std::size_t>(k)] = {std::cos(angle), std::sin(angle)};
+    }
+    return t;
+  }();
+  return table;
+}
+
+// The first corner is the highest along n; of a rim that leans, the others are below it by more than the
+// slack and would be dropped again.
+void add_rim(Extremes& e, const Solid& s, Real height, const Real3& n, Real slack) {
   const Real3 u = column(s.matrix, 0), v = column(s.matrix, 1), w = column(s.matrix, 2);
-  const Real towards = dot(u, n) != 0 || dot(v, n) != 0 ? std::atan2(dot(v, n), dot(u, n)) : 0;
-  for (int k = 0; k < rim_corners; ++k) {
-    const Real angle = towards + 2 * std::numbers::pi_v<Real> * k / rim_corners;
-    e.points.push_back(s.centre + height * w + s.size.x * (std::cos(angle) * u + std::sin(angle) * v));
+  const Real x = dot(u, n), y = dot(v, n), lean = std::sqrt(x * x + y * y);
+  const Real cos = lean > 0 ? x / lean : 1, sin = lean > 0 ? y / lean : 0;
+  const Real3 first = cos * u + sin * v, second = cos * v - sin * u;
+  const Real next_below = s.size.x * lean / norm(n) * (1 - corners()[1][0]);
+  for (const auto& [along, across] : corners()) {
+    e.points.push_back(s.centre + height * w + s.size.x * (along * first + across * second));
+    if (next_below > 2 * slack + 64 * unit * s.extent) break;
   }
 }
 
-Extremes extremes_of(const Placed& p, const Vec3& origin, const Real3& n) {
+Extremes extremes_of(const Placed& p, const Vec3& origin, const Real3& n, Real slack) {
   Extremes e;
   const Solid s = make_body(p, frame_of(p, origin));
   e.error = s.error + 16 * unit * s.extent;
@@ -43,9 +62,9 @@ Extremes extremes_of(const Placed& p, const Vec3& origin, const Real3& n) {
   } else if (s.kind == Solid::Kind::ellipsoid) {
     e.points = {support(s, n).point};
   } else {
-    add_rim(e, s, -s.size.y, n);
+    add_rim(e, s, -s.size.y, n, slack);
     if (s.kind == Solid::Kind::cylinder)
-      add_rim(e, s, s.size.y, n);
+      add_rim(e, s, s.size.y, n, slack);
     else
       e.points.push_back(s.centre + s.size.y * column(s.matrix, 2));
   }
@@ -83,7 +102,7 @@ struct Feature {
 Feature feature_of(const Placed& p, const Vec3& origin, const Vec3& direction, double slack) {
   const Real3 n = to_real(direction);
   const Real length = norm(n);
-  const Extremes e = extremes_of(p, origin, n);
+  const Extremes e = extremes_of(p, origin, n, slack);
   Feature f;
   f.height = -std::numeric_limits<Real>::infinity();
   for (const Real3& x : e.points) f.height = std::max(f.height, dot(n, x) / length);
@@ -122,9 +141,12 @@ Convex2 projected(const std::vector<Real3>& points, const ProjectionPlane& plane
 
 std::pair<Point2, Point2> farthest(const Convex2& p) {
   std::pair<Point2, Point2> best{p.front(), p.front()};
-  for (const Point2& a : p)
-    for (const Point2& b : p)
-      if (norm(b - a) > norm(best.second - best.first)) best = {a, b};
+  double most = 0;
+  for (std::size_t i = 0; i < p.size(); ++i)
+    for (std::size_t j = i + 1; j < p.size(); ++j) {
+      const Point2 d = p[j] - p[i];
+      if (const double square = dot(d, d); square > most) most = square, best = {p[i], p[j]};
+    }
   return best;
 }
 

@@ -4,6 +4,7 @@
 #include "oracles/referee/box_of.h"
 #include "oracles/referee/half_space.h"
 #include "oracles/referee/mesh.h"
+#include "oracles/referee/point_distance.h"
 #include "oracles/referee/world.h"
 
 namespace touchstone::referee {
@@ -95,15 +96,25 @@ Bracket width(const Placed& a, const Placed& b, const Vec3& n) {
 
 Bracket distance_to(const Placed& a, const Vec3& point_w, double enough) {
   if (get<HalfSpace>(a)) return half_space_distance(a, point_w);
+  const auto from_zero = [](Real lo, Real hi) -> Bracket {
+    return {std::max(0.0, round_down(lo)), std::max(0.0, round_up(hi))};
+  };
   static const Shape dot_shape = Sphere{0};
   const Placed p{&dot_shape, Pose{point_w, {}}};
-  if (!get<TriangleMesh>(a))
-    if (const auto near = gap_at_most(make_operand(a, point_w), make_operand(p, point_w), enough))
-      return {std::max(0.0, (*near)[0]), std::max(0.0, (*near)[1])};
+  if (const auto* m = get<TriangleMesh>(a)) {
+    const auto [lo, hi] = origin_to_triangles(hull_body(a, point_w), m->triangles);
+    if (hi <= enough) return from_zero(lo, hi);
+  } else {
+    const Operand x = make_operand(a, point_w);
+    if (const auto near = origin_to_curved(x.body); near && (*near)[1] <= enough)
+      return from_zero((*near)[0], (*near)[1]);
+    if (const auto near = gap_at_most(x, make_operand(p, point_w), enough))
+      return from_zero((*near)[0], (*near)[1]);
+  }
   const ConvexTruth t =
       judge_parts(parts_of(a, point_w), parts_of(p, point_w), get<TriangleMesh>(a) != nullptr);
   if (t.verdict == Verdict::overlap) return {0, 0};
-  return {std::max(0.0, round_down(t.lo)), std::max(0.0, round_up(t.hi))};
+  return from_zero(t.lo, t.hi);
 }
 
 Aabb outer_box(const Placed& a) {

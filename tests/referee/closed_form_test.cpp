@@ -168,3 +168,40 @@ TEST_CASE("distance_to is 0 inside and the distance outside", "[referee]") {
   const Shape mesh = m;
   REQUIRE(holds(distance_to(at(mesh, {0, 0, 0}), {0.25, 0.25, -2}), 2));
 }
+
+// The forms answer when they prove that the distance is at most what suffices; 0 suffices never, so that the
+// search answers.
+TEST_CASE("the closed forms of a point's distance agree with the search", "[referee]") {
+  Rng r(515);
+  int closed = 0;
+  for (int i = 0; i < 4000; ++i) {
+    const double size = r.binary_scale(-19, 19), aspect = std::pow(10.0, r.uniform(-3, 0));
+    TriangleMesh m;
+    for (int k = 0; k < 6; ++k) m.vertices.push_back(size * r.unit_vector());
+    m.triangles = {{0, 1, 2}, {1, 2, 3}, {2, 4, 5}, {0, 0, 5}};
+    const Shape shapes[] = {Cylinder{size, aspect * size},
+                            Cylinder{aspect * size, size},
+                            Cone{size, aspect * size},
+                            Cone{aspect * size, size},
+                            Ellipsoid{{size, aspect * size, r.uniform(0.1, 1) * size}},
+                            m};
+    const Shape& s = shapes[i % 6];
+    const Pose pose{size * std::pow(10.0, r.uniform(-1, 3)) * r.unit_vector(), r.rotation()};
+    const Placed p{&s, pose};
+    // In it, on it within rounding and some way off.
+    const double out = std::pow(10.0, r.uniform(-17, 0.5));
+    const Vec3 n = r.unit_vector();
+    const Vec3 point = i % 6 == 5      ? Vec3(pose.translation + size * r.uniform(0, 2) * n)
+                       : r.chance(0.2) ? Vec3(pose.translation + 0.01 * aspect * size * n)
+                                       : Vec3(world_support(s, pose, n) + out * size * n);
+    const Bracket found = distance_to(p, point, 1e3 * size), known = distance_to(p, point);
+    INFO("case " << i << " " << type_name(s) << ": " << found.lo << " " << found.hi << " and " << known.lo
+                 << " " << known.hi);
+    REQUIRE(found.lo <= found.hi);
+    REQUIRE(found.lo <= known.hi);
+    REQUIRE(known.lo <= found.hi);
+    const double length = size + pose.translation.norm();
+    closed += found.hi - known.hi <= 1e-15 * length;
+  }
+  REQUIRE(closed == 4000);
+}

@@ -91,7 +91,9 @@ void sphere_capsule(const Shape& sa, const Pose& pa, const Shape& sb, const Pose
   V3<R> v = q;
   if (std::abs(along) < h) {
     v -= axis * axis.dot(v);
-    if (v.squaredNorm() < R(1e-4) * q.squaredNorm()) v -= axis * axis.dot(v);
+    // Where half of the length is lost, a second pass makes it orthogonal (Parlett 1980, 6-9: twice is
+    // enough).
+    if (v.squaredNorm() < R(0.25) * q.squaredNorm()) v -= axis * axis.dot(v);
   }
   const R dist = std::sqrt(v.squaredNorm());
   const V3<R> n = dist > 0 ? V3<R>(v * (1 / dist)) : V3<R>(axis.unitOrthogonal());
