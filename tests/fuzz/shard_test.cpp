@@ -3,6 +3,7 @@
 #include <unistd.h>
 
 #include <atomic>
+#include <cstdio>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -127,22 +128,56 @@ TEST_CASE("merged shards are the unsharded campaign, byte for byte but for times
   }
 }
 
+namespace {
+
+int exit_of(const std::string& command, const char* output = " >/dev/null 2>&1") {
+  const int status = std::system((command + output).c_str());
+  return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+}
+
+// Shards in `out` merged against one campaign of all, both by the command line.
+void check_shards_are_whole(const std::string& out) {
+  const std::string program = TS_BINARY_DIR "/bin/touchstone";
+  REQUIRE(exit_of(program + " merge " + out + "/all " + out + "/shard-*") == 0);
+  REQUIRE(exit_of(program + " fuzz --cases 200 --seed 3 --engines core,core-f32 --jobs 1 --out " + out +
+                  "/whole") == 0);
+  CHECK(files_of(out + "/all") == files_of(out + "/whole"));
+}
+
+const std::string task_settings =
+    "TOUCHSTONE='" TS_BINARY_DIR "/bin/touchstone' CASES=200 SEED=3 ENGINES=core,core-f32 ";
+
+}  // namespace
+
 TEST_CASE("the sbatch script's tasks together are the campaign of one machine", "[shards][cluster]") {
   const Workspace w;
-  const std::string program = TS_BINARY_DIR "/bin/touchstone", out = w.path.string();
-  const auto run = [](const std::string& command) {
-    const int status = std::system((command + " >/dev/null 2>&1").c_str());
-    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
-  };
+  const std::string out = w.path.string();
   for (int task = 5; task < 8; ++task)
-    REQUIRE(run("cd '" TS_SOURCE_DIR "' && SLURM_ARRAY_TASK_ID=" + std::to_string(task) +
-                " SLURM_ARRAY_TASK_MIN=5 SLURM_ARRAY_TASK_COUNT=3 SLURM_CPUS_PER_TASK=1 TOUCHSTONE='" +
-                program + "' CASES=200 SEED=3 ENGINES=core,core-f32 OUT='" + out +
-                "' sh fuzz/cluster/campaign.sbatch") == 0);
-  REQUIRE(run(program + " merge " + out + "/all " + out + "/shard-*") == 0);
-  REQUIRE(run(program + " fuzz --cases 200 --seed 3 --engines core,core-f32 --jobs 1 --out " + out +
-              "/whole") == 0);
-  CHECK(files_of(w.path / "all") == files_of(w.path / "whole"));
+    REQUIRE(exit_of("cd '" TS_SOURCE_DIR "' && SLURM_ARRAY_TASK_ID=" + std::to_string(task) +
+                    " SLURM_ARRAY_TASK_MIN=5 SLURM_ARRAY_TASK_COUNT=3 SLURM_CPUS_PER_TASK=1 " +
+                    task_settings + "OUT='" + out + "' sh fuzz/cluster/campaign.sbatch") == 0);
+  check_shards_are_whole(out);
+}
+
+TEST_CASE("the same under a Slurm of one node", "[shards][cluster][slurm]") {
+  for (const char* daemon : {"slurmctld", "slurmd", "munged", "sbatch"})
+    if (exit_of(std::string("PATH=\"$PATH:/usr/sbin\" command -v ") + daemon) != 0) {
+      std::printf("skipped: %s is not installed\n", daemon);
+      return;
+    }
+  if (geteuid() != 0) {
+    std::printf("skipped: a Slurm by hand wants root\n");
+    return;
+  }
+  const Workspace w;
+  const std::string out = w.path.string();
+  const std::string cluster = "sh tests/fuzz/single_node_slurm.sh " + out + "/slurm",
+                    batch = " sbatch --wait --array=5-7 --cpus-per-task=1 --export=ALL --output=" + out +
+                            "/task-%a.log fuzz/cluster/campaign.sbatch";
+  REQUIRE(exit_of("cd '" TS_SOURCE_DIR "' && PATH=\"$PATH:/usr/sbin\" OUT='" + out + "' " + task_settings +
+                      cluster + batch,
+                  " >/dev/null") == 0);
+  check_shards_are_whole(out);
 }
 
 namespace {
