@@ -14,7 +14,8 @@ namespace touchstone::fuzz {
 namespace {
 
 void add_findings(CampaignResult& r, const Case& c, std::uint64_t index, const std::string& engine,
-                  const Query& q, const Judgement& j, const CaseObservations& all, const Observation& o) {
+                  const Query& q, const Judgement& j, const CaseObservations& all, const Observation& o,
+                  const std::shared_ptr<CaseCertificates>& shared) {
   for (const FaultReport& fault : j.faults) {
     Finding f;
     f.engine = engine, f.question = to_string(q.question);
@@ -30,7 +31,7 @@ void add_findings(CampaignResult& r, const Case& c, std::uint64_t index, const s
       // The last words of a dying process stay out of the finding: they may differ from run to run.
       f.words = fault.fault == Fault::failed ? std::string(to_string(j.outcome)) : fault.words;
       f.evidence = std::make_shared<const Evidence>(
-          Evidence{c, o, all.received, fault.certificate, fault.a, fault.b, fault.step, q.question, {}});
+          Evidence{c, o, all.received, fault.certificate, fault.a, fault.b, fault.step, q.question, shared});
     }
     kept.merge(f);
   }
@@ -96,6 +97,7 @@ void judge_into(CampaignResult& r, const Case& c, std::uint64_t index, std::span
                 std::span<const CaseObservations> observations, std::vector<std::uint64_t>* features) {
   const auto start = std::chrono::steady_clock::now();
   Truth truth(c.scene);
+  const auto shared = std::make_shared<CaseCertificates>();
   if (!observations.empty()) give_hints(truth, c, observations[0]);
   for (std::size_t e = 0; e < engines.size(); ++e) {
     const EngineCard& card = engines[e]->card();
@@ -104,7 +106,7 @@ void judge_into(CampaignResult& r, const Case& c, std::uint64_t index, std::span
       const Observation& o = observations[e].answers[i];
       r.tallies[card.name][c.queries[i].question].add(judgements[i], o);
       r.engine_ns += o.elapsed_ns;
-      add_findings(r, c, index, card.name, c.queries[i], judgements[i], observations[e], o);
+      add_findings(r, c, index, card.name, c.queries[i], judgements[i], observations[e], o, shared);
       if (features) add_features(c, c.queries[i], card, o, judgements[i], *features);
     }
   }

@@ -18,12 +18,21 @@ Json named(Json certificate, int a, int b, int step) {
   return certificate;
 }
 
+Json exact_certificate_of(const Evidence& e) {
+  const auto make = [&] { return exact_certificate(e.c.scene, e.question, e.a, e.b, e.step); };
+  if (!e.shared) return make();
+  const auto [it, is_new] =
+      e.shared->try_emplace({e.question == Question::time_of_impact, e.a, e.b, e.step}, nullptr);
+  if (is_new) it->second = make();
+  return it->second;
+}
+
 Json certificate_of(const Evidence& e) {
   using Kind = referee::Certificate::Kind;
   const Kind k = e.certificate.kind;
   const bool verdict = k == Kind::separating_plane || k == Kind::common_point;
   if (verdict || e.question == Question::time_of_impact)
-    if (Json j = exact_certificate(e.c.scene, e.question, e.a, e.b, e.step); !j.is_null()) return j;
+    if (Json j = exact_certificate_of(e); !j.is_null()) return j;
   const int n = static_cast<int>(e.c.scene.bodies.size());
   const bool names = e.a >= 0 && e.b >= 0 && e.a < n && e.b < n;
   return names ? named(referee::to_json(e.certificate), e.a, e.b, e.step) : referee::to_json(e.certificate);
