@@ -57,7 +57,7 @@ void prepare_segments(FastAnswer<R>& f, const PlacedShape& a, const PlacedShape&
   const PlacedShape &x = f.mirrored ? b : a, &y = f.mirrored ? a : b;
   const auto from = fast::stand<R>(x.pose), to = fast::stand<R>(y.pose);
   f.scene.contact = fast::ContactForm::cores;
-  fast::prepare<R>(*x.shape, from, *y.shape, to, f.scene);
+  fast::prepare<R>(x, from, y, to, f.scene);
   const V3<R> n = f.mirrored ? V3<R>(-f.answer.normal) : f.answer.normal;
   f.scene.normal = f.scene.at.a_to_world.transpose() * n;
   // (a + b)/2 about the row's A; the answer's own is about the query's.

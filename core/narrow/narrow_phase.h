@@ -10,12 +10,15 @@
 namespace touchstone {
 
 struct MeshTree;
+struct HullGraph;
 
 struct PlacedShape {
   const Shape* shape = nullptr;
   Pose pose;
   /// Of a mesh, mesh_tree.h: what spares looking at every triangle. Same answers without.
   const MeshTree* tree = nullptr;
+  /// Of a hull, hull_graph.h: what spares looking at every vertex. Same answers without.
+  const HullGraph* graph = nullptr;
 };
 
 /// float64: as above. float32: poses and sizes are rounded to float and every step is taken in float, nothing

@@ -13,6 +13,7 @@
 #include <cmath>
 #include <cstring>
 
+#include "core/narrow/hull_graph.h"
 #include "core/narrow/narrow_phase.h"
 #include "core/scene/scene.h"
 #include "oracles/referee/referee.h"
@@ -26,9 +27,11 @@ using namespace touchstone::bench;
 
 class Ours final : public NarrowContestant {
  public:
-  Ours(Task task, Arithmetic arithmetic, const std::vector<PairCase>& cases)
-      : task_(task), arithmetic_(arithmetic) {
-    for (const PairCase& c : cases) pairs_.push_back({{&c.a, c.pose_a}, {&c.b, c.pose_b}});
+  Ours(Task task, Arithmetic arithmetic, const std::vector<PairCase>& cases, bool graphs = true)
+      : task_(task), arithmetic_(arithmetic), with_graphs_(graphs) {
+    graphs_.reserve(2 * cases.size());
+    for (const PairCase& c : cases)
+      pairs_.push_back({{&c.a, c.pose_a, nullptr, graph_of(c.a)}, {&c.b, c.pose_b, nullptr, graph_of(c.b)}});
   }
   void ask(std::size_t i, Found& out) override {
     const auto& [a, b] = pairs_[i];
@@ -48,8 +51,14 @@ class Ours final : public NarrowContestant {
   struct Placed2 {
     PlacedShape a, b;
   };
+  const HullGraph* graph_of(const Shape& s) {
+    const auto* hull = std::get_if<Hull>(&s);
+    return hull && with_graphs_ ? &graphs_.emplace_back(build_hull_graph(*hull)) : nullptr;
+  }
   Task task_;
   Arithmetic arithmetic_;
+  bool with_graphs_;
+  std::vector<HullGraph> graphs_;
   std::vector<Placed2> pairs_;
 };
 
@@ -60,6 +69,12 @@ NarrowContestantPtr make_ours_f32(Task task, const PairKind&, const std::vector<
   return std::make_unique<Ours>(task, Arithmetic::float32, cases);
 }
 
+// Large hulls by looking at all vertices.
+NarrowContestantPtr make_ours_scan(Task task, const PairKind& kind, const std::vector<PairCase>& cases) {
+  if (static_cast<std::size_t>(kind.vertices) < hull_graph_least) return nullptr;
+  return std::make_unique<Ours>(task, Arithmetic::float64, cases, false);
+}
+
 struct Entrant {
   std::string_view name;
   NarrowMaker make;
@@ -68,6 +83,7 @@ struct Entrant {
 constexpr Entrant entrants[] = {
     {"core", &make_ours},
     {"core-f32", &make_ours_f32},
+    {"core-scan", &make_ours_scan},
 #ifdef TS_BENCH_FCL
     {"fcl-libccd", &make_narrow_fcl_libccd},
     {"fcl-indep", &make_narrow_fcl_indep},

@@ -21,7 +21,7 @@ class MeshQuery {
         b_(stand<R>(b.pose)),
         best_(best),
         s_(s) {
-    s.a = make_body<R>(*a.shape), s.at = relative(a_, b_), s.contact = ContactForm::point;
+    s.a = make_body<R>(*a.shape, a.graph), s.at = relative(a_, b_), s.contact = ContactForm::point;
     const Vec3 d = a.pose.translation - b.pose.translation;
     centre_ = matrix(stand<double>(b.pose)).transpose() * d;
     const double ball = static_cast<double>(s.a.reach) + static_cast<double>(s.a.radius);
