@@ -73,6 +73,7 @@ class MeshQuery {
     s_.b.kind = CoreKind::vertices, s_.b.vertices = corner_;
     s_.b.reach = s_.b.extent = static_cast<R>(std::sqrt(largest_norm_sq(corner_)));
     Answer<R> r;
+    s_.guess.setZero();
     separate_cores(a_, b_, asked_, best_.gap, r, s_);
     take(r);
   }

@@ -96,7 +96,8 @@ void separate_cores(const Stand<R>& a, const Stand<R>& b, Asked asked, R enough,
   const R size = s.a.reach + s.b.reach + s.at.offset.norm();
   const R tolerance = accuracy(local_scale(s)) / 8;
   const R certain = error + radii + (asked == Asked::distance ? std::max<R>(0, enough) : R(0));
-  const Walk<R> g = walk<R>(d, tolerance, certain, size);
+  const Walk<R> g = walk<R>(d, tolerance, certain, size, s.guess);
+  s.guess = g.normal;
   r.bound = error;
   if (g.lower > certain) {
     r.found = Found::apart;
@@ -121,6 +122,7 @@ void separate_cores(const Stand<R>& a, const Stand<R>& b, Asked asked, R enough,
       else
         from_depth(depth, error, r, s);
     }
+    s.guess = s.normal;
   } else {
     from_walk(g, error, r, s);
   }

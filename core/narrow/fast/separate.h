@@ -22,6 +22,8 @@ struct PairScene {
   V3<R> middle;  // A's frame: half way between the witnesses; set with `has_middle`
   bool has_middle = false;
   ContactForm contact = ContactForm::point;
+  /// A's frame: where a search begins, zero for nowhere in particular, and where it has ended.
+  V3<R> guess = V3<R>::Zero();
 };
 
 template <class R>
