@@ -87,7 +87,7 @@ bool fill(FastAnswer<R>& f, const PlacedShape& a, const PlacedShape& b, ContactA
 // The fast answer, begun and remembered by `memory` if there is one.
 template <class R>
 void separate(const PlacedShape& a, const PlacedShape& b, Asked asked, PairMemory* memory, FastAnswer<R>& f) {
-  if (memory) f.scene.guess = memory->direction.cast<R>();
+  f.scene.guess = memory ? V3<R>(memory->direction.cast<R>()) : V3<R>(V3<R>::Zero());
   narrow::separate_fast<R>(a, b, asked, f);
   if (memory) memory->direction = f.scene.guess.template cast<double>();
 }
