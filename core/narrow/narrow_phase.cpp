@@ -57,7 +57,7 @@ void prepare_segments(FastAnswer<R>& f, const PlacedShape& a, const PlacedShape&
   const PlacedShape &x = f.mirrored ? b : a, &y = f.mirrored ? a : b;
   const auto from = fast::stand<R>(x.pose), to = fast::stand<R>(y.pose);
   f.scene.contact = fast::ContactForm::cores;
-  fast::prepare<R>(*x.shape, from, *y.shape, to, f.scene);
+  fast::prepare<R>(x, from, y, to, f.scene);
   const V3<R> n = f.mirrored ? V3<R>(-f.answer.normal) : f.answer.normal;
   f.scene.normal = f.scene.at.a_to_world.transpose() * n;
   // (a + b)/2 about the row's A; the answer's own is about the query's.
@@ -84,6 +84,14 @@ bool fill(FastAnswer<R>& f, const PlacedShape& a, const PlacedShape& b, ContactA
   return fill_manifold(f, a, b, r.manifold);
 }
 
+// The fast answer, begun and remembered by `memory` if there is one.
+template <class R>
+void separate(const PlacedShape& a, const PlacedShape& b, Asked asked, PairMemory* memory, FastAnswer<R>& f) {
+  f.scene.guess = memory ? V3<R>(memory->direction.cast<R>()) : V3<R>(V3<R>::Zero());
+  narrow::separate_fast<R>(a, b, asked, f);
+  if (memory) memory->direction = f.scene.guess.template cast<double>();
+}
+
 template <class R, class A>
 bool refused(const PlacedShape& a, const PlacedShape& b, A& r) {
   if (narrow::has_fast<R>(kind_of(*a.shape), kind_of(*b.shape))) return false;
@@ -91,12 +99,12 @@ bool refused(const PlacedShape& a, const PlacedShape& b, A& r) {
   return true;
 }
 
-OverlapAnswer overlap_f32(const PlacedShape& a, const PlacedShape& b) {
+OverlapAnswer overlap_f32(const PlacedShape& a, const PlacedShape& b, PairMemory* memory) {
   OverlapAnswer r;
   if (refused<float>(a, b, r)) return r;
   FastAnswer<float> f;
-  narrow::separate_fast<float>(a, b, Asked::overlap, f);
-  if (!known(f)) narrow::separate_fast<float>(a, b, Asked::distance, f);
+  separate<float>(a, b, Asked::overlap, memory, f);
+  if (!known(f)) separate<float>(a, b, Asked::distance, memory, f);
   r.outcome = known(f) ? Outcome::answered : Outcome::not_converged;
   r.overlap = overlaps(f), r.error_bound = static_cast<double>(f.answer.bound);
   return r;
@@ -104,20 +112,21 @@ OverlapAnswer overlap_f32(const PlacedShape& a, const PlacedShape& b) {
 
 }  // namespace
 
-OverlapAnswer overlap(const PlacedShape& a, const PlacedShape& b, Arithmetic arithmetic) {
-  if (arithmetic == Arithmetic::float32) return overlap_f32(a, b);
+OverlapAnswer overlap(const PlacedShape& a, const PlacedShape& b, Arithmetic arithmetic, PairMemory* memory) {
+  if (arithmetic == Arithmetic::float32) return overlap_f32(a, b, memory);
   FastAnswer<double> f;
-  narrow::separate_fast<double>(a, b, Asked::overlap, f);
+  separate<double>(a, b, Asked::overlap, memory, f);
   if (!known(f)) return narrow::wide_overlap(a, b);
   return {Outcome::answered, f.answer.found == Found::meeting, f.answer.bound};
 }
 
-DistanceAnswer distance(const PlacedShape& a, const PlacedShape& b, Arithmetic arithmetic) {
+DistanceAnswer distance(const PlacedShape& a, const PlacedShape& b, Arithmetic arithmetic,
+                        PairMemory* memory) {
   DistanceAnswer r;
   if (arithmetic == Arithmetic::float32) {
     if (refused<float>(a, b, r)) return r;
     FastAnswer<float> f;
-    narrow::separate_fast<float>(a, b, Asked::distance, f);
+    separate<float>(a, b, Asked::distance, memory, f);
     if (known(f))
       fill<float>(f, a, r);
     else
@@ -125,18 +134,18 @@ DistanceAnswer distance(const PlacedShape& a, const PlacedShape& b, Arithmetic a
     return r;
   }
   FastAnswer<double> f;
-  narrow::separate_fast<double>(a, b, Asked::distance, f);
+  separate<double>(a, b, Asked::distance, memory, f);
   if (!known(f)) return narrow::wide_distance(a, b);
   fill<double>(f, a, r);
   return r;
 }
 
-ContactAnswer contact(const PlacedShape& a, const PlacedShape& b, Arithmetic arithmetic) {
+ContactAnswer contact(const PlacedShape& a, const PlacedShape& b, Arithmetic arithmetic, PairMemory* memory) {
   ContactAnswer r;
   if (arithmetic == Arithmetic::float32) {
     if (refused<float>(a, b, r)) return r;
     FastAnswer<float> f;
-    narrow::separate_fast<float>(a, b, Asked::contact, f);
+    separate<float>(a, b, Asked::contact, memory, f);
     if (!known(f))
       r.outcome = Outcome::not_converged;
     else if (!fill<float>(f, a, b, r))
@@ -144,7 +153,7 @@ ContactAnswer contact(const PlacedShape& a, const PlacedShape& b, Arithmetic ari
     return r;
   }
   FastAnswer<double> f;
-  narrow::separate_fast<double>(a, b, Asked::contact, f);
+  separate<double>(a, b, Asked::contact, memory, f);
   if (known(f) && fill<double>(f, a, b, r)) return r;
   return narrow::wide_contact(a, b);
 }

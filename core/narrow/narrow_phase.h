@@ -10,12 +10,23 @@
 namespace touchstone {
 
 struct MeshTree;
+struct HullGraph;
 
 struct PlacedShape {
   const Shape* shape = nullptr;
   Pose pose;
   /// Of a mesh, mesh_tree.h: what spares looking at every triangle. Same answers without.
   const MeshTree* tree = nullptr;
+  /// Of a hull, hull_graph.h: what spares looking at every vertex. Same answers without.
+  const HullGraph* graph = nullptr;
+};
+
+/// What a caller may keep of a pair from one query to the next, of either kind of question, for a search to
+/// begin where the last one ended: a direction that parted the two bodies, or the last normal. A guess and no
+/// more: verdicts, bounds and their proofs do not depend on it, numbers do within their bounds. Goes with the
+/// ordered pair.
+struct PairMemory {
+  Vec3 direction = Vec3::Zero();  // in a body's frame; zero: nothing is known yet
 };
 
 /// float64: as above. float32: poses and sizes are rounded to float and every step is taken in float, nothing
@@ -25,17 +36,17 @@ enum class Arithmetic { float64, float32 };
 /// Gap, normal and witness points before rounding to double; coordinates relative to A's translation.
 Separation separation(const PlacedShape& a, const PlacedShape& b);
 
-OverlapAnswer overlap(const PlacedShape& a, const PlacedShape& b,
-                      Arithmetic arithmetic = Arithmetic::float64);
+OverlapAnswer overlap(const PlacedShape& a, const PlacedShape& b, Arithmetic arithmetic = Arithmetic::float64,
+                      PairMemory* memory = nullptr);
 
 /// Of a convex body and a mesh that it hits: minus the depth in the deepest triangle.
 DistanceAnswer distance(const PlacedShape& a, const PlacedShape& b,
-                        Arithmetic arithmetic = Arithmetic::float64);
+                        Arithmetic arithmetic = Arithmetic::float64, PairMemory* memory = nullptr);
 
 /// Of a mesh: normal, depth and point of the deepest triangle. The normal is a minimum of the depth over
 /// directions.
-ContactAnswer contact(const PlacedShape& a, const PlacedShape& b,
-                      Arithmetic arithmetic = Arithmetic::float64);
+ContactAnswer contact(const PlacedShape& a, const PlacedShape& b, Arithmetic arithmetic = Arithmetic::float64,
+                      PairMemory* memory = nullptr);
 
 /// At most four points of a manifold: the deepest, the one farthest from it, and on either side of their line
 /// the one that spans most area.

@@ -49,6 +49,8 @@ StepWorld::StepWorld(Scene scene, std::string_view broad_phase)
     of_shape.push_back(inner_extent(s));
     const auto* mesh = std::get_if<TriangleMesh>(&s);
     trees_.push_back(mesh ? build_mesh_tree(*mesh) : MeshTree{});
+    const auto* hull = std::get_if<Hull>(&s);
+    graphs_.push_back(hull ? build_hull_graph(*hull) : HullGraph{});
   }
   for (std::size_t i = 0; i < n; ++i) {
     const Body& b = scene_.bodies[i];
@@ -91,8 +93,10 @@ void StepWorld::place_at_end() {
 void StepWorld::find_contacts(StepReport& r) {
   phase_->pairs(pairs_);
   const auto placed = [&](int i) {
-    const MeshTree& tree = trees_[at(scene_.bodies[at(i)].shape)];
-    return PlacedShape{&scene_.shape_of(i), end_[at(i)], tree.nodes.empty() ? nullptr : &tree};
+    const auto shape = at(scene_.bodies[at(i)].shape);
+    const MeshTree& tree = trees_[shape];
+    return PlacedShape{&scene_.shape_of(i), end_[at(i)], tree.nodes.empty() ? nullptr : &tree,
+                       &graphs_[shape]};
   };
   for (const auto& [a, b] : pairs_) {
     if (!is_reported(scene_, a, b)) continue;

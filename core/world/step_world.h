@@ -11,6 +11,7 @@
 
 #include "core/broad/broad_phase.h"
 #include "core/ccd/impact.h"
+#include "core/narrow/hull_graph.h"
 #include "core/narrow/mesh_tree.h"
 #include "core/scene/scene.h"
 #include "core/world/sweep_criterion.h"
@@ -83,6 +84,7 @@ class StepWorld {
   broad::BroadPhasePtr phase_;
   std::vector<InnerExtent> extent_;  // of each body's shape
   std::vector<MeshTree> trees_;      // of each shape
+  std::vector<HullGraph> graphs_;    // of each shape
   std::vector<Pose> end_;
   std::vector<Aabb> end_box_;
   std::vector<char> by_hand_, moved_;

@@ -13,6 +13,7 @@
 #include <cmath>
 #include <cstring>
 
+#include "core/narrow/hull_graph.h"
 #include "core/narrow/narrow_phase.h"
 #include "core/scene/scene.h"
 #include "oracles/referee/referee.h"
@@ -26,19 +27,22 @@ using namespace touchstone::bench;
 
 class Ours final : public NarrowContestant {
  public:
-  Ours(Task task, Arithmetic arithmetic, const std::vector<PairCase>& cases)
-      : task_(task), arithmetic_(arithmetic) {
-    for (const PairCase& c : cases) pairs_.push_back({{&c.a, c.pose_a}, {&c.b, c.pose_b}});
+  Ours(Task task, Arithmetic arithmetic, const std::vector<PairCase>& cases, bool graphs = true)
+      : task_(task), arithmetic_(arithmetic), with_graphs_(graphs) {
+    graphs_.reserve(2 * cases.size());
+    for (const PairCase& c : cases)
+      pairs_.push_back({{&c.a, c.pose_a, nullptr, graph_of(c.a)}, {&c.b, c.pose_b, nullptr, graph_of(c.b)}});
   }
-  void ask(std::size_t i, Found& out) override {
+  void ask(std::size_t i, Found& out) override { ask_with(i, out, nullptr); }
+  void ask_with(std::size_t i, Found& out, PairMemory* memory) const {
     const auto& [a, b] = pairs_[i];
     if (task_ == Task::overlap) {
-      out.overlap = overlap(a, b, arithmetic_).overlap;
+      out.overlap = overlap(a, b, arithmetic_, memory).overlap;
     } else if (task_ == Task::distance) {
-      const DistanceAnswer r = distance(a, b, arithmetic_);
+      const DistanceAnswer r = distance(a, b, arithmetic_, memory);
       out.gap = r.distance, out.normal = r.normal, out.overlap = r.distance <= 0;
     } else {
-      const ContactAnswer r = contact(a, b, arithmetic_);
+      const ContactAnswer r = contact(a, b, arithmetic_, memory);
       out.overlap = r.overlap, out.gap = -r.depth, out.normal = r.normal;
       out.points = static_cast<int>(r.manifold.size());
     }
@@ -48,8 +52,14 @@ class Ours final : public NarrowContestant {
   struct Placed2 {
     PlacedShape a, b;
   };
+  const HullGraph* graph_of(const Shape& s) {
+    const auto* hull = std::get_if<Hull>(&s);
+    return hull && with_graphs_ ? &graphs_.emplace_back(build_hull_graph(*hull)) : nullptr;
+  }
   Task task_;
   Arithmetic arithmetic_;
+  bool with_graphs_;
+  std::vector<HullGraph> graphs_;
   std::vector<Placed2> pairs_;
 };
 
@@ -60,6 +70,43 @@ NarrowContestantPtr make_ours_f32(Task task, const PairKind&, const std::vector<
   return std::make_unique<Ours>(task, Arithmetic::float32, cases);
 }
 
+// Large hulls by looking at all vertices.
+NarrowContestantPtr make_ours_scan(Task task, const PairKind& kind, const std::vector<PairCase>& cases) {
+  if (static_cast<std::size_t>(kind.vertices) < hull_graph_least) return nullptr;
+  return std::make_unique<Ours>(task, Arithmetic::float64, cases, false);
+}
+
+// With what a query a frame ago has left: there B stood 1 % of its size away and turned by 1/100.
+class Warm final : public NarrowContestant {
+ public:
+  Warm(Task task, const std::vector<PairCase>& cases) : task_(task), now_(task, Arithmetic::float64, cases) {
+    for (const PairCase& c : cases) {
+      Pose before = c.pose_b;
+      before.translation += Vec3(0.006, -0.005, 0.006);
+      before.rotation = Quat{0.003, 0.004, -0.003, 1} * before.rotation;
+      ask_pair({&c.a, c.pose_a}, {&c.b, before}, memory_.emplace_back());
+    }
+  }
+  void ask(std::size_t i, Found& out) override {
+    PairMemory memory = memory_[i];
+    now_.ask_with(i, out, &memory);
+  }
+
+ private:
+  void ask_pair(const PlacedShape& a, const PlacedShape& b, PairMemory& m) const {
+    if (task_ == Task::overlap) static_cast<void>(overlap(a, b, Arithmetic::float64, &m));
+    if (task_ == Task::distance) static_cast<void>(distance(a, b, Arithmetic::float64, &m));
+    if (task_ == Task::contact) static_cast<void>(contact(a, b, Arithmetic::float64, &m));
+  }
+  Task task_;
+  Ours now_;
+  std::vector<PairMemory> memory_;
+};
+
+NarrowContestantPtr make_ours_warm(Task task, const PairKind&, const std::vector<PairCase>& cases) {
+  return std::make_unique<Warm>(task, cases);
+}
+
 struct Entrant {
   std::string_view name;
   NarrowMaker make;
@@ -68,6 +115,8 @@ struct Entrant {
 constexpr Entrant entrants[] = {
     {"core", &make_ours},
     {"core-f32", &make_ours_f32},
+    {"core-scan", &make_ours_scan},
+    {"core-warm", &make_ours_warm},
 #ifdef TS_BENCH_FCL
     {"fcl-libccd", &make_narrow_fcl_libccd},
     {"fcl-indep", &make_narrow_fcl_indep},

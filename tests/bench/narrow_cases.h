@@ -39,6 +39,7 @@ inline constexpr PairKind pair_kinds[] = {
     {"hull8", ShapeKind::hull, ShapeKind::hull, 8},
     {"hull32", ShapeKind::hull, ShapeKind::hull, 32},
     {"hull128", ShapeKind::hull, ShapeKind::hull, 128},
+    {"hull512", ShapeKind::hull, ShapeKind::hull, 512},
 };
 
 /// Half of them overlap; gap or depth uniform up to 5 % of the size. Contacts: all overlap.

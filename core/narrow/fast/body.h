@@ -5,6 +5,7 @@
 
 #include "core/narrow/convex_core.h"
 #include "core/narrow/fast/query.h"
+#include "core/narrow/fast/vertex_climb.h"
 #include "core/narrow/fast/vertex_scan.h"
 
 namespace touchstone::narrow::fast {
@@ -12,11 +13,12 @@ namespace touchstone::narrow::fast {
 template <class R>
 struct Body {
   CoreKind kind = CoreKind::point;
-  V3<R> size;                      // as in ConvexCore
-  std::span<const Vec3> vertices;  // kind vertices
-  R radius = 0;                    // of the ball
-  R reach = 0;                     // of the core about the body's origin, rounded
-  R extent = 0;                    // no more than the body's share of L
+  V3<R> size;                        // as in ConvexCore
+  std::span<const Vec3> vertices;    // kind vertices
+  const HullGraph* graph = nullptr;  // of them, or none
+  R radius = 0;                      // of the ball
+  R reach = 0;                       // of the core about the body's origin, rounded
+  R extent = 0;                      // no more than the body's share of L
 };
 
 /// A core point farthest along d; d not zero.
@@ -45,7 +47,8 @@ V3<R> support_local(const Body<R>& c, const V3<R>& d) {
       return n > 0 ? V3<R>(s.cwiseProduct(e) * (1 / n)) : V3<R>(s[0], 0, 0);
     }
     case CoreKind::vertices:
-      return c.vertices[farthest_vertex(c.vertices, d)].template cast<R>();
+      return c.vertices[c.graph ? farthest_vertex(*c.graph, c.vertices, d) : farthest_vertex(c.vertices, d)]
+          .template cast<R>();
   }
   return V3<R>::Zero();
 }
@@ -78,9 +81,9 @@ M3<R> support_derivative(const Body<R>& c, const V3<R>& d) {
   return m;
 }
 
-/// Precondition: bounded and convex. The span views the shape.
+/// Precondition: bounded and convex. The span views the shape; a graph is of that shape.
 template <class R>
-Body<R> make_body(const Shape& shape) {
+Body<R> make_body(const Shape& shape, const HullGraph* graph = nullptr) {
   Body<R> c;
   const auto round = [&](CoreKind kind, double r, double h) {
     c.kind = kind, c.size = V3<R>(static_cast<R>(r), static_cast<R>(r), static_cast<R>(h));
@@ -113,7 +116,8 @@ Body<R> make_body(const Shape& shape) {
       break;
     default: {
       c.kind = CoreKind::vertices, c.vertices = std::get_if<Hull>(&shape)->vertices;
-      c.reach = c.extent = static_cast<R>(std::sqrt(largest_norm_sq(c.vertices)));
+      if (graph && *graph) c.graph = graph;
+      c.reach = c.extent = static_cast<R>(c.graph ? c.graph->reach : std::sqrt(largest_norm_sq(c.vertices)));
     }
   }
   return c;

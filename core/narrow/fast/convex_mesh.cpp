@@ -21,7 +21,7 @@ class MeshQuery {
         b_(stand<R>(b.pose)),
         best_(best),
         s_(s) {
-    s.a = make_body<R>(*a.shape), s.at = relative(a_, b_), s.contact = ContactForm::point;
+    s.a = make_body<R>(*a.shape, a.graph), s.at = relative(a_, b_), s.contact = ContactForm::point;
     const Vec3 d = a.pose.translation - b.pose.translation;
     centre_ = matrix(stand<double>(b.pose)).transpose() * d;
     const double ball = static_cast<double>(s.a.reach) + static_cast<double>(s.a.radius);
@@ -73,6 +73,7 @@ class MeshQuery {
     s_.b.kind = CoreKind::vertices, s_.b.vertices = corner_;
     s_.b.reach = s_.b.extent = static_cast<R>(std::sqrt(largest_norm_sq(corner_)));
     Answer<R> r;
+    s_.guess.setZero();
     separate_cores(a_, b_, asked_, best_.gap, r, s_);
     take(r);
   }

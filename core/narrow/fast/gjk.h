@@ -74,12 +74,13 @@ bool settle(const Difference<R>& d, Walk<R>& g, R size, R tolerance) {
 }
 
 /// `certain`: a lower bound that ends the walk when only the verdict is asked; infinite otherwise. `size`: of
-/// the pair, what rounding is relative to.
+/// the pair, what rounding is relative to. `guess`: a direction from A to B to begin with, or zero.
 template <class R>
-Walk<R> walk(const Difference<R>& d, R tolerance, R certain, R size) {
+Walk<R> walk(const Difference<R>& d, R tolerance, R certain, R size, const V3<R>& guess) {
   const R touching = 4 * u<R> * size;
   Walk<R> g;
-  V3<R> v = d.at.offset;
+  const R guessed = guess.squaredNorm();
+  V3<R> v = guessed > R(0.5) && guessed < 2 ? guess : d.at.offset;
   R dist_sq = v.squaredNorm(), length = std::sqrt(dist_sq);
   if (!(length > 0)) v = V3<R>::UnitX(), length = 1;
   dist_sq = std::numeric_limits<R>::infinity();

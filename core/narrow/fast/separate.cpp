@@ -96,7 +96,8 @@ void separate_cores(const Stand<R>& a, const Stand<R>& b, Asked asked, R enough,
   const R size = s.a.reach + s.b.reach + s.at.offset.norm();
   const R tolerance = accuracy(local_scale(s)) / 8;
   const R certain = error + radii + (asked == Asked::distance ? std::max<R>(0, enough) : R(0));
-  const Walk<R> g = walk<R>(d, tolerance, certain, size);
+  const Walk<R> g = walk<R>(d, tolerance, certain, size, s.guess);
+  s.guess = g.normal;
   r.bound = error;
   if (g.lower > certain) {
     r.found = Found::apart;
@@ -121,6 +122,7 @@ void separate_cores(const Stand<R>& a, const Stand<R>& b, Asked asked, R enough,
       else
         from_depth(depth, error, r, s);
     }
+    s.guess = s.normal;
   } else {
     from_walk(g, error, r, s);
   }
@@ -130,7 +132,7 @@ void separate_cores(const Stand<R>& a, const Stand<R>& b, Asked asked, R enough,
 template <class R>
 void convex_pair(const PlacedShape& pa, const PlacedShape& pb, Asked asked, Answer<R>& r, PairScene<R>& s) {
   const Stand<R> a = stand<R>(pa.pose), b = stand<R>(pb.pose);
-  prepare(*pa.shape, a, *pb.shape, b, s), s.contact = ContactForm::cores;
+  prepare(pa, a, pb, b, s), s.contact = ContactForm::cores;
   separate_cores(a, b, asked, std::numeric_limits<R>::infinity(), r, s);
 }
 
@@ -174,7 +176,8 @@ void box_box(const PlacedShape& pa, const PlacedShape& pb, Asked asked, Answer<R
     if (asked == Asked::distance) convex_pair(pa, pb, asked, r, s);
     return;
   }
-  s.a = make_body<R>(*pa.shape), s.b = make_body<R>(*pb.shape), s.at = p.at, s.contact = ContactForm::cores;
+  s.a = make_body<R>(*pa.shape, pa.graph), s.b = make_body<R>(*pb.shape, pb.graph), s.at = p.at,
+  s.contact = ContactForm::cores;
   s.normal = r.normal = axis.normal, r.gap = axis.separation, r.bound = displacement(s) + p.displacement / 16;
   r.a = r.b = V3<R>::Zero();
   if (asked == Asked::distance && !box_witnesses(p, s, r)) return convex_pair(pa, pb, asked, r, s);
@@ -191,7 +194,7 @@ void box_and_capsule(const PlacedShape& pa, const PlacedShape& pb, Asked asked, 
   const BoxSegment<R>& p = q.cores;
   const R depth = -r.gap, tolerance = 64 * u<R> * (p.half.sum() + p.h + q.radius + p.c.template lpNorm<1>());
   if (asked == Asked::contact && depth >= -r.bound && detail::lies_along(p, r.normal, depth, tolerance)) {
-    prepare(*pa.shape, a, *pb.shape, b, s), s.contact = ContactForm::cores;
+    prepare(pa, a, pb, b, s), s.contact = ContactForm::cores;
     s.normal = r.normal, s.middle = (r.a + r.b) / 2, s.has_middle = true;
   }
   r.normal = q.to_world * r.normal, r.a = q.to_world * r.a, r.b = q.to_world * r.b;
@@ -201,7 +204,7 @@ template <class R>
 void convex_half_space(const PlacedShape& pa, const PlacedShape& pb, Asked asked, Answer<R>& r,
                        PairScene<R>& s) {
   const Stand<R> a = stand<R>(pa.pose), b = stand<R>(pb.pose);
-  s.a = make_body<R>(*pa.shape);
+  s.a = make_body<R>(*pa.shape, pa.graph);
   const HalfSpace& plane = *std::get_if<HalfSpace>(pb.shape);
   const double length = plane.normal.norm();
   if (!(length > 1e-100 && length < 1e100)) return;

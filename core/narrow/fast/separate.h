@@ -22,6 +22,8 @@ struct PairScene {
   V3<R> middle;  // A's frame: half way between the witnesses; set with `has_middle`
   bool has_middle = false;
   ContactForm contact = ContactForm::point;
+  /// A's frame: where a search begins, zero for nowhere in particular, and where it has ended.
+  V3<R> guess = V3<R>::Zero();
 };
 
 template <class R>
@@ -63,8 +65,9 @@ void closed(const PlacedShape& a, const PlacedShape& b, Asked asked, Answer<R>& 
 
 /// Bodies and frames of two shapes, for contact_patch after a closed form.
 template <class R>
-void prepare(const Shape& sa, const Stand<R>& a, const Shape& sb, const Stand<R>& b, PairScene<R>& s) {
-  s.a = make_body<R>(sa), s.b = make_body<R>(sb), s.at = relative(a, b);
+void prepare(const PlacedShape& pa, const Stand<R>& a, const PlacedShape& pb, const Stand<R>& b,
+             PairScene<R>& s) {
+  s.a = make_body<R>(*pa.shape, pa.graph), s.b = make_body<R>(*pb.shape, pb.graph), s.at = relative(a, b);
 }
 
 }  // namespace touchstone::narrow::fast

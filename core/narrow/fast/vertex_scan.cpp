@@ -1,6 +1,7 @@
 #include "core/narrow/fast/vertex_scan.h"
 
 #include <algorithm>
+#include <cstdint>
 #include <limits>
 
 #undef HWY_TARGET_INCLUDE
@@ -89,6 +90,42 @@ std::size_t farthest(const double* p, std::size_t n, const R* d) {
 std::size_t farthest_64(const double* p, std::size_t n, const double* d) { return farthest<double>(p, n, d); }
 std::size_t farthest_32(const double* p, std::size_t n, const float* d) { return farthest<float>(p, n, d); }
 
+template <class R>
+std::size_t above(const double* p, std::size_t n, const R* d, R least, std::int32_t* out, std::size_t room) {
+  const Dots<R> dots(d);
+  const auto tag = dots.tag;
+  const std::size_t lanes = hn::Lanes(tag);
+  const auto limit = hn::Set(tag, least);
+  std::size_t found = 0, i = 0;
+  const auto take = [&](std::size_t k) {
+    if (found < room) out[found] = static_cast<std::int32_t>(k);
+    ++found;
+  };
+  for (; i + lanes <= n; i += lanes) {
+    const auto mask = hn::Ge(dots(p + 3 * i), limit);
+    if (hn::AllFalse(tag, mask)) continue;
+    std::uint8_t bits[8] = {};
+    hn::StoreMaskBits(tag, mask, bits);
+    for (std::size_t k = 0; k < lanes; ++k)
+      if (bits[k / 8] >> (k % 8) & 1) take(i + k);
+  }
+  for (; i < n; ++i) {
+    const double* q = p + 3 * i;
+    if ((static_cast<R>(q[0]) * d[0] + static_cast<R>(q[1]) * d[1]) + static_cast<R>(q[2]) * d[2] >= least)
+      take(i);
+  }
+  return found;
+}
+
+std::size_t above_64(const double* p, std::size_t n, const double* d, double least, std::int32_t* out,
+                     std::size_t room) {
+  return above<double>(p, n, d, least, out, room);
+}
+std::size_t above_32(const double* p, std::size_t n, const float* d, float least, std::int32_t* out,
+                     std::size_t room) {
+  return above<float>(p, n, d, least, out, room);
+}
+
 double largest(const double* p, std::size_t n) {
   const D tag;
   const std::size_t lanes = hn::Lanes(tag);
@@ -119,6 +156,8 @@ namespace touchstone::narrow::fast {
 
 HWY_EXPORT(farthest_64);
 HWY_EXPORT(farthest_32);
+HWY_EXPORT(above_64);
+HWY_EXPORT(above_32);
 HWY_EXPORT(largest);
 
 std::size_t farthest_vertex(std::span<const Vec3> v, const V3<double>& d) {
@@ -127,6 +166,16 @@ std::size_t farthest_vertex(std::span<const Vec3> v, const V3<double>& d) {
 
 std::size_t farthest_vertex(std::span<const Vec3> v, const V3<float>& d) {
   return HWY_DYNAMIC_DISPATCH(farthest_32)(v.front().data(), v.size(), d.data());
+}
+
+std::size_t vertices_above(std::span<const Vec3> v, const V3<double>& d, double least,
+                           std::span<std::int32_t> out) {
+  return HWY_DYNAMIC_DISPATCH(above_64)(v.front().data(), v.size(), d.data(), least, out.data(), out.size());
+}
+
+std::size_t vertices_above(std::span<const Vec3> v, const V3<float>& d, float least,
+                           std::span<std::int32_t> out) {
+  return HWY_DYNAMIC_DISPATCH(above_32)(v.front().data(), v.size(), d.data(), least, out.data(), out.size());
 }
 
 double largest_norm_sq(std::span<const Vec3> v) {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <span>
 
 #include "core/math/wide.h"
@@ -14,6 +15,13 @@ std::size_t farthest_vertex(std::span<const Vec3> v, const V3<double>& d);
 
 /// The same in float, for vertices rounded to float.
 std::size_t farthest_vertex(std::span<const Vec3> v, const V3<float>& d);
+
+/// Indices of the vertices with d·p >= least, in order, no more of them than `out` holds; returns their
+/// number even so.
+std::size_t vertices_above(std::span<const Vec3> v, const V3<double>& d, double least,
+                           std::span<std::int32_t> out);
+std::size_t vertices_above(std::span<const Vec3> v, const V3<float>& d, float least,
+                           std::span<std::int32_t> out);
 
 /// Square of the largest distance from the origin.
 double largest_norm_sq(std::span<const Vec3> v);
