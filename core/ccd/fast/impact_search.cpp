@@ -36,7 +36,54 @@ void set_points(Search& r, const Sweep& w, const Spot& x, const View& v, const F
   r.a += w.a().body.radius * n, r.b -= w.b().body.radius * n;
 }
 
+// How far the points are from being where the bodies meet, but for a few errors: along n, and across it.
+double off(const Search& r, double error) {
+  const Vec d = r.b - r.a;
+  const double along = d.dot(r.normal);
+  const double e =
+      std::max({along - 16 * error, -8 * error - along, (d - along * r.normal).norm() - 64 * error, 0.0});
+  return std::isfinite(e) ? e : std::numeric_limits<double>::infinity();
+}
+
+// Where a hit's features are too near each other to tell (a simplex of length 0 has no direction): B is
+// pushed along n by h, which leaves n and the nearest points as they are and the gap h longer. Bounds that
+// are e apart leave the points √(2he) across n, and e along it. The best of what is found; a short h first.
+void improve_points(Search& r, const Sweep& w, const Spot& hit, const Features& near) {
+  const double size = w.a().body.reach + w.b().body.reach + w.radii();
+  double best = off(r, hit.error);
+  for (const double share : {0x1p-20, 0x1p-13, 0x1p-7})
+    for (const bool warm : {true, false}) {
+      if (!(best > 0)) return;
+      Spot x = hit;
+      const Vec away = r.normal * std::max(0.0, share * size - w.radii());
+      x.offset += away;
+      Features f = warm ? near : Features{};
+      View v = look(w, x, f, 0, x.error / 2);
+      if (f.size == 0 || f.size > 3) continue;
+      v.normal = r.normal;
+      Search tried = r;
+      set_points(tried, w, x, v, f);
+      tried.b -= away;
+      if (const double e = off(tried, hit.error); e < best) best = e, r = tried;
+    }
+}
+
+// Worse than the gap may be along n, or visibly across it.
+bool is_rough(const Search& r, const Sweep& w, double accuracy) {
+  const Vec d = r.b - r.a;
+  const double along = d.dot(r.normal), size = w.a().body.reach + w.b().body.reach + w.radii();
+  return !(std::abs(along) <= accuracy && (d - along * r.normal).norm() <= 0x1p-30 * size);
+}
+
 }  // namespace
+
+Search with_points(const Sweep& w, Search hit, double accuracy) {
+  const Spot x = w.at(hit.clear_until, true);
+  hit.b = Vec::Constant(std::numeric_limits<double>::infinity());
+  improve_points(hit, w, x, {});
+  hit.rough = is_rough(hit, w, accuracy);
+  return hit;
+}
 
 Search search(const Sweep& w, double end, double accuracy, const std::optional<Vec>& plane) {
   Search r;
@@ -55,6 +102,7 @@ Search search(const Sweep& w, double end, double accuracy, const std::optional<V
     }
     if (v.upper + x.error <= std::min(accuracy, near_enough * x.error)) {
       set_points(r, w, x, v, features);
+      if (!plane) improve_points(r, w, x, features), r.rough = is_rough(r, w, accuracy);
       r.gap = v.upper;
       return r.end = SearchEnd::hit, r;
     }
@@ -81,23 +129,6 @@ ImpactAnswer answer_of(const Search& s, const Vec& linear_a) {
   const Vec origin = s.clear_until * linear_a;
   r.witness_w = {Vec3(s.a + origin), Vec3(s.b + origin)};
   return r;
-}
-
-Search with_points(const Sweep& w, Search hit) {
-  Features features;
-  const Spot x = w.at(hit.clear_until, true);
-  View v = look(w, x, features, 0, x.error);
-  // Too near for a simplex to tell: the features of a moment before.
-  if (const double speed = w.velocity().norm(); (v.meeting || v.upper > 16 * x.error) && speed > 0) {
-    const double back = 0x1p-30 * (w.a().body.reach + w.b().body.reach) / speed;
-    Features before;
-    look(w, w.at(std::max(0.0, hit.clear_until - back), true), before, 0, x.error);
-    if (before.size > 0) features = before;
-  }
-  const Vec normal = hit.normal;
-  set_points(hit, w, x, v, features);
-  hit.normal = normal;
-  return hit;
 }
 
 }  // namespace touchstone::ccd::fast

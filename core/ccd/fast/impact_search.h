@@ -21,6 +21,7 @@ struct Search {
   double gap = 0;                        // hit: as computed. Otherwise at the last look
   Vec normal = Vec::Zero();              // A to B
   Vec a = Vec::Zero(), b = Vec::Zero();  // hit: nearest points at that time about A's origin, world axes
+  bool rough = false;                    // hit: a and b are not as good as the gap
   int steps = 0;
 };
 
@@ -31,6 +32,6 @@ Search search(const Sweep& sweep, double end, double accuracy, const std::option
 ImpactAnswer answer_of(const Search& s, const Vec& linear_a);
 
 /// A hit with its nearest points worked out anew.
-Search with_points(const Sweep& sweep, Search hit);
+Search with_points(const Sweep& sweep, Search hit, double accuracy);
 
 }  // namespace touchstone::ccd::fast
