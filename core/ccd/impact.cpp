@@ -3,10 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/ccd/advance.h"
 #include "core/ccd/convex_mesh.h"
-#include "core/ccd/fast/impact_search.h"
 #include "core/ccd/fast/translation.h"
+#include "core/ccd/pursue.h"
 #include "core/narrow/pair_table.h"
 #include "core/tolerance.h"
 
@@ -35,38 +34,44 @@ double scale_of(const MovingShape& s, double extent) {
 
 double accuracy_of(double scale) { return (tolerance::core_tau_factor - 4) * 0x1p-53 * scale; }
 
-// Bodies that meet at t = 0. No time depends on their depth, so where double does not show that its depth is
-// the least, it is stated all the same: along its normal they separate by it. (In extended precision two
-// ellipsoids about one centre take up to a minute: the polytope needs every facet that it may have.)
-ImpactAnswer contact_at_start(const MovingShape& a, const MovingShape& b, ImpactDetail detail) {
+narrow::FastAnswer<double> in_double(const MovingShape& a, const MovingShape& b, narrow::fast::Asked asked) {
+  narrow::FastAnswer<double> f;
+  narrow::separate_fast<double>({a.shape, a.pose, a.tree}, {b.shape, b.pose, b.tree}, asked, f);
+  return f;
+}
+
+// Whether they meet at t = 0, and how, in bounded time. A depth that double does not show to be the least
+// decides all the same, and is stated: they separate by it, and no time depends on it. (In extended precision
+// two ellipsoids about one centre take up to a minute: every facet that the polytope may have.)
+std::optional<ImpactAnswer> contact_at_start(const MovingShape& a, const MovingShape& b,
+                                             ImpactDetail detail) {
+  using narrow::fast::Asked;
+  using narrow::fast::Found;
   ImpactAnswer r;
   r.toi = 0;
-  if (detail == ImpactDetail::time) return r;
-  const PlacedShape pa{a.shape, a.pose, a.tree}, pb{b.shape, b.pose, b.tree};
-  narrow::FastAnswer<double> f;
-  narrow::separate_fast<double>(pa, pb, narrow::fast::Asked::distance, f);
-  const auto& x = f.answer;
-  if (x.valued && x.gap < 0 && std::isfinite(x.bound)) {
+  const Found found = in_double(a, b, Asked::overlap).answer.found;
+  if (found == Found::apart) return std::nullopt;
+  if (found == Found::meeting && detail == ImpactDetail::time) return r;
+  const auto x = in_double(a, b, Asked::distance).answer;
+  if (x.valued && x.gap < -x.bound) {
     r.separation = x.gap, r.normal_ab = x.normal;
     r.witness_w = {Vec3(x.a + a.pose.translation), Vec3(x.b + a.pose.translation)};
     return r;
   }
+  const PlacedShape pa{a.shape, a.pose, a.tree}, pb{b.shape, b.pose, b.tree};
+  if (const OverlapAnswer o = overlap(pa, pb); o.outcome != Outcome::answered || !o.overlap)
+    return std::nullopt;
+  if (detail == ImpactDetail::time) return r;
   const DistanceAnswer d = distance(pa, pb);
-  if (d.outcome != Outcome::answered) {
-    r.outcome = d.outcome, r.toi.reset();
-    return r;
-  }
   r.separation = d.distance, r.normal_ab = d.normal, r.witness_w = d.witness;
+  if (d.outcome != Outcome::answered) r.outcome = d.outcome, r.toi.reset();
   return r;
 }
 
 ImpactAnswer at_rest(const MovingShape& a, const MovingShape& b, ImpactDetail detail) {
   const PlacedShape pa{a.shape, a.pose, a.tree}, pb{b.shape, b.pose, b.tree};
-  const OverlapAnswer o = overlap(pa, pb);
+  if (const auto met = contact_at_start(a, b, detail)) return *met;
   ImpactAnswer r;
-  r.outcome = o.outcome;
-  if (o.outcome != Outcome::answered) return r;
-  if (o.overlap) return contact_at_start(a, b, detail);
   r.clear_until = 1;
   const DistanceAnswer d = distance(pa, pb);
   r.outcome = d.outcome, r.separation = d.distance;
@@ -93,13 +98,8 @@ ImpactAnswer stated_finely(const fast::Search& s, const MovingShape& a, const Mo
   return r;
 }
 
-bool settled(const fast::Search& s) {
-  return s.end == fast::SearchEnd::hit || s.end == fast::SearchEnd::clear;
-}
-
 // Coordinates of advance() are about A's start.
-ImpactAnswer continued(ImpactAnswer r, const fast::Search& s, const Vec3& origin) {
-  r.steps += s.steps;
+ImpactAnswer about(ImpactAnswer r, const Vec3& origin) {
   for (Vec3& x : r.witness_w) x += origin;
   return r;
 }
@@ -137,13 +137,17 @@ ImpactAnswer convex_convex(const MovingShape& a, const MovingShape& b, ImpactDet
   const double accuracy = accuracy_of(std::max(scale_of(a, ma.body.extent), scale_of(b, mb.body.extent)));
   if (at_once.end == fast::SearchEnd::hit)
     return stated_finely(fast::with_points(sweep, at_once, accuracy), a, b);
-  const fast::Search s = search(sweep, 1, accuracy, {});
+  const auto search_from = [&](double t) { return search(sweep, t, 1, accuracy, {}); };
+  const fast::Search s = search_from(0);
   if (settled(s)) return stated_finely(s, a, b);
-  if (s.end == fast::SearchEnd::start && overlap({a.shape, a.pose}, {b.shape, b.pose}).overlap)
-    return contact_at_start(a, b, detail);
+  if (s.end == fast::SearchEnd::start)
+    if (const auto met = contact_at_start(a, b, detail)) return *met;
   const MovingCore ca = moving_core(narrow::make_core(*a.shape, fa), a.motion);
   const MovingCore cb = moving_core(narrow::make_core(*b.shape, fb), b.motion);
-  return continued(advance(ca, cb, s.clear_until, 1), s, a.pose.translation);
+  const Pursuit p = pursue(sweep, s, search_from, [&](double t, double leave) {
+    return advance(ca, cb, t, {1, accuracy, leave});
+  });
+  return settled(p.search) ? stated_finely(p.search, a, b) : about(p.fine, a.pose.translation);
 }
 
 ImpactAnswer convex_half_space(const MovingShape& a, const MovingShape& b, ImpactDetail detail) {
@@ -153,13 +157,19 @@ ImpactAnswer convex_half_space(const MovingShape& a, const MovingShape& b, Impac
   const fast::Mover ma = fast::make_mover(*a.shape, fa.rotation, a.motion);
   const fast::Mover face;
   const WideVec foot = plane.normal * plane.offset;
-  const fast::Search s = search(fast::Sweep(ma, face, foot), 1, accuracy_of(scale_of(a, ma.body.extent)),
-                                Vec3(-plane.normal.cast<double>()));
+  const fast::Sweep sweep(ma, face, foot);
+  const Vec3 normal = -plane.normal.cast<double>();
+  const double accuracy = accuracy_of(scale_of(a, ma.body.extent));
+  const auto search_from = [&](double t) { return search(sweep, t, 1, accuracy, normal); };
+  const fast::Search s = search_from(0);
   if (settled(s)) return stated(s, a);
-  if (s.end == fast::SearchEnd::start && overlap({a.shape, a.pose}, {b.shape, b.pose}).overlap)
-    return contact_at_start(a, b, detail);
+  if (s.end == fast::SearchEnd::start)
+    if (const auto met = contact_at_start(a, b, detail)) return *met;
   const MovingCore ca = moving_core(narrow::make_core(*a.shape, fa), a.motion);
-  return continued(advance(ca, plane, s.clear_until, 1), s, a.pose.translation);
+  const Pursuit p = pursue(sweep, s, search_from, [&](double t, double leave) {
+    return advance(ca, plane, t, {1, accuracy, leave});
+  });
+  return settled(p.search) ? stated(p.search, a) : about(p.fine, a.pose.translation);
 }
 
 ImpactAnswer mirrored(ImpactAnswer r) {
@@ -176,7 +186,7 @@ ImpactAnswer from_convex(const MovingShape& a, const MovingShape& b, ImpactDetai
   if (!mesh) return convex_convex(a, b, detail);
   const WideFrame frame = shifted(b.pose, a.pose.translation.cast<Wide>());
   const double accuracy = accuracy_of(std::max(scale_of(a, 0), scale_of(b, 0)));
-  return continued(convex_mesh(a, *mesh, b.tree, frame, accuracy), {}, a.pose.translation);
+  return about(convex_mesh(a, *mesh, b.tree, frame, accuracy), a.pose.translation);
 }
 
 }  // namespace

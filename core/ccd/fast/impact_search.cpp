@@ -85,10 +85,10 @@ Search with_points(const Sweep& w, Search hit, double accuracy) {
   return hit;
 }
 
-Search search(const Sweep& w, double end, double accuracy, const std::optional<Vec>& plane) {
+Search search(const Sweep& w, double start, double end, double accuracy, const std::optional<Vec>& plane) {
   Search r;
   Features features;
-  Spot x = w.at(0, !w.turns());
+  Spot x = w.at(start, !w.turns());
   const auto see = [&] {
     return plane ? look_at_plane(w, x, *plane) : look(w, x, features, far_look, x.error);
   };
@@ -97,7 +97,7 @@ Search search(const Sweep& w, double end, double accuracy, const std::optional<V
     r.clear_until = x.t, r.gap = v.upper;
     if (!x.precise && v.side.s < near_errors * x.error) x = w.at(x.t, true), v = see();
     if (v.meeting || !(v.side.s > x.error)) {
-      r.end = x.t > 0 ? SearchEnd::unsure : SearchEnd::start;
+      r.end = x.t > start ? SearchEnd::unsure : SearchEnd::start;
       return r;
     }
     if (v.upper + x.error <= std::min(accuracy, near_enough * x.error)) {

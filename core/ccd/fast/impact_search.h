@@ -25,8 +25,9 @@ struct Search {
   int steps = 0;
 };
 
-/// `plane`: B is a half-space, as a point on its face, with its inward normal.
-Search search(const Sweep& sweep, double end, double accuracy, const std::optional<Vec>& plane);
+/// From `start` on, before which there is no contact. `plane`: B is a half-space, as a point on its face,
+/// with its inward normal.
+Search search(const Sweep& sweep, double start, double end, double accuracy, const std::optional<Vec>& plane);
 
 /// What is known, in coordinates about A's start; of `unsure` and `start` nothing but the time that is clear.
 ImpactAnswer answer_of(const Search& s, const Vec& linear_a);
