@@ -189,9 +189,19 @@ ImpactAnswer from_convex(const MovingShape& a, const MovingShape& b, ImpactDetai
   return about(convex_mesh(a, *mesh, b.tree, frame, accuracy), a.pose.translation);
 }
 
+// A ball turns into itself.
+MovingShape without_idle_turn(MovingShape s) {
+  const auto* e = std::get_if<Ellipsoid>(s.shape);
+  const bool ball =
+      e ? (e->semi_axes.array() == e->semi_axes[0]).all() : kind_of(*s.shape) == ShapeKind::sphere;
+  if (ball) s.motion.angular.setZero();
+  return s;
+}
+
 }  // namespace
 
-ImpactAnswer time_of_impact(const MovingShape& a, const MovingShape& b, ImpactDetail detail) {
+ImpactAnswer time_of_impact(const MovingShape& first, const MovingShape& second, ImpactDetail detail) {
+  const MovingShape a = without_idle_turn(first), b = without_idle_turn(second);
   for (const MovingShape* s : {&a, &b})
     if (is_static_shape(*s->shape) && moves(*s)) {
       ImpactAnswer r;

@@ -23,7 +23,7 @@ struct Pursuit {
 template <class Search, class Wider>
 Pursuit pursue(const fast::Sweep& sweep, fast::Search s, const Search& search_from,
                const Wider& advance_from) {
-  constexpr int step_cap = 100000;
+  constexpr int step_cap = 40000;
   int steps = s.steps;
   double leave = 64 * sweep.at(s.clear_until, true).error;
   while (!settled(s)) {

@@ -36,6 +36,22 @@ void set_points(Search& r, const Sweep& w, const Spot& x, const View& v, const F
   r.a += w.a().body.radius * n, r.b -= w.b().body.radius * n;
 }
 
+// Two features that are nearly parallel, or roll on each other, hide which of them the direction goes with: a
+// wrong guess proves steps that shrink by a constant. After this many steps every guess is followed.
+constexpr int sure_steps = 8;
+
+// The farthest of all: with either body, still, and as it has turned since the last look.
+Followed follow_any(const Sweep& w, const Spot& x, const View& v, const Vec& seen, double end,
+                    Followed best) {
+  const Vec still = Vec::Zero();
+  for (const Vec* turn : {&still, &w.a().angular, &w.b().angular, &seen}) {
+    if (best.clear) break;
+    const Followed f = follow(w, x, v, *turn, end);
+    if (f.clear || f.spot.t > best.spot.t) best = f;
+  }
+  return best;
+}
+
 // How far the points are from being where the bodies meet, but for a few errors: along n, and across it.
 double off(const Search& r, double error) {
   const Vec d = r.b - r.a;
@@ -89,6 +105,8 @@ Search search(const Sweep& w, double start, double end, double accuracy, const s
   Search r;
   Features features;
   Spot x = w.at(start, !w.turns());
+  double last_time = start;
+  Vec last_normal = Vec::Zero();
   const auto see = [&] {
     return plane ? look_at_plane(w, x, *plane) : look(w, x, features, far_look, x.error);
   };
@@ -110,7 +128,13 @@ Search search(const Sweep& w, double start, double end, double accuracy, const s
     const double before = x.t;
     const bool near = w.turns() && !plane && v.side.s < w.a().body.reach + w.b().body.reach;
     const Vec turn = near ? feature_turn(w, x, features, v.normal) : Vec(Vec::Zero());
-    const Followed f = follow(w, x, v, turn, end);
+    Followed f = follow(w, x, v, turn, end);
+    if (r.steps >= sure_steps && w.turns() && !plane) {
+      const double since = x.t - last_time;
+      const Vec seen = since > 0 ? Vec(last_normal.cross(v.normal) / since) : Vec(Vec::Zero());
+      f = follow_any(w, x, v, seen, end, f);
+    }
+    last_time = x.t, last_normal = v.normal;
     if (f.clear) {
       r.clear_until = end;
       return r.end = SearchEnd::clear, r;
