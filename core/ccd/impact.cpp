@@ -106,26 +106,42 @@ ImpactAnswer about(ImpactAnswer r, const Vec3& origin) {
 
 bool turns(const MovingShape& s) { return !s.motion.angular.isZero(0); }
 
+std::optional<fast::Round> round_of(const Shape& s) {
+  if (const auto* x = std::get_if<Sphere>(&s)) return fast::Round{0, x->radius};
+  if (const auto* x = std::get_if<Capsule>(&s)) return fast::Round{x->half_height, x->radius};
+  return std::nullopt;
+}
+
+bool is_polytope(const Shape& s) { return kind_of(s) == ShapeKind::box || kind_of(s) == ShapeKind::hull; }
+
 // Closed forms of translations; `unsure` where there is none.
 fast::Search translated(const MovingShape& a, const MovingShape& b) {
-  const auto *box_a = std::get_if<Box>(a.shape), *box_b = std::get_if<Box>(b.shape);
-  const auto* ball = std::get_if<Sphere>(a.shape);
-  if (!box_b || turns(b)) return {};
+  if (turns(a) || turns(b)) return {};
   const fast::Translation m{narrow::fast::stand<double>(a.pose), narrow::fast::stand<double>(b.pose),
                             b.motion.linear - a.motion.linear};
-  if (ball) {
-    const double scale = std::max(scale_of(a, ball->radius), scale_of(b, box_b->half_extents.maxCoeff()));
-    return translating_ball_and_box(m, ball->radius, box_b->half_extents, accuracy_of(scale));
-  }
-  if (!box_a || turns(a)) return {};
-  const double scale =
-      std::max(scale_of(a, box_a->half_extents.maxCoeff()), scale_of(b, box_b->half_extents.maxCoeff()));
-  return translating_boxes(m, box_a->half_extents, box_b->half_extents, accuracy_of(scale));
+  const auto accuracy = [&](double extent_a, double extent_b) {
+    return accuracy_of(std::max(scale_of(a, extent_a), scale_of(b, extent_b)));
+  };
+  const auto *box_a = std::get_if<Box>(a.shape), *box_b = std::get_if<Box>(b.shape);
+  if (box_a && box_b)
+    return translating_boxes(m, box_a->half_extents, box_b->half_extents,
+                             accuracy(box_a->half_extents.maxCoeff(), box_b->half_extents.maxCoeff()));
+  if (const auto* ball = std::get_if<Sphere>(a.shape); ball && box_b)
+    return translating_ball_and_box(m, ball->radius, box_b->half_extents,
+                                    accuracy(ball->radius, box_b->half_extents.maxCoeff()));
+  if (const auto ra = round_of(*a.shape), rb = round_of(*b.shape); ra && rb)
+    return translating_rounds(m, *ra, *rb,
+                              accuracy(ra->half_height + ra->radius, rb->half_height + rb->radius));
+  if (!is_polytope(*a.shape) || !is_polytope(*b.shape)) return {};
+  const auto ca = narrow::fast::make_body<double>(*a.shape), cb = narrow::fast::make_body<double>(*b.shape);
+  return translating_polytopes(m, ca, cb, accuracy(ca.extent, cb.extent));
 }
 
 ImpactAnswer convex_convex(const MovingShape& a, const MovingShape& b, ImpactDetail detail) {
   const fast::Search at_once = translated(a, b);
-  const bool points = std::holds_alternative<Sphere>(*a.shape) || detail == ImpactDetail::time;
+  // Two boxes alone leave their points to be worked out.
+  const bool points = kind_of(*a.shape) != ShapeKind::box || kind_of(*b.shape) != ShapeKind::box ||
+                      detail == ImpactDetail::time;
   if (at_once.end == fast::SearchEnd::clear || (at_once.end == fast::SearchEnd::hit && points))
     return stated(at_once, a);
   const WideFrame fa{fast::rotation_of(a.pose.rotation), WideVec::Zero()};
