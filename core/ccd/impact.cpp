@@ -132,16 +132,14 @@ fast::Search translated(const MovingShape& a, const MovingShape& b) {
   if (const auto ra = round_of(*a.shape), rb = round_of(*b.shape); ra && rb)
     return translating_rounds(m, *ra, *rb,
                               accuracy(ra->half_height + ra->radius, rb->half_height + rb->radius));
-  if (!is_polytope(*a.shape) || !is_polytope(*b.shape)) return {};
-  const auto ca = narrow::fast::make_body<double>(*a.shape), cb = narrow::fast::make_body<double>(*b.shape);
-  return translating_polytopes(m, ca, cb, accuracy(ca.extent, cb.extent));
+  return {};
 }
 
 ImpactAnswer convex_convex(const MovingShape& a, const MovingShape& b, ImpactDetail detail) {
   const fast::Search at_once = translated(a, b);
   // Two boxes alone leave their points to be worked out.
-  const bool points = kind_of(*a.shape) != ShapeKind::box || kind_of(*b.shape) != ShapeKind::box ||
-                      detail == ImpactDetail::time;
+  const bool both_boxes = kind_of(*a.shape) == ShapeKind::box && kind_of(*b.shape) == ShapeKind::box;
+  const bool points = !both_boxes || detail == ImpactDetail::time;
   if (at_once.end == fast::SearchEnd::clear || (at_once.end == fast::SearchEnd::hit && points))
     return stated(at_once, a);
   const WideFrame fa{fast::rotation_of(a.pose.rotation), WideVec::Zero()};
@@ -153,6 +151,8 @@ ImpactAnswer convex_convex(const MovingShape& a, const MovingShape& b, ImpactDet
   const double accuracy = accuracy_of(std::max(scale_of(a, ma.body.extent), scale_of(b, mb.body.extent)));
   if (at_once.end == fast::SearchEnd::hit)
     return stated_finely(fast::with_points(sweep, at_once, accuracy), a, b);
+  if (!sweep.turns() && is_polytope(*a.shape) && is_polytope(*b.shape) && !both_boxes)
+    if (const fast::Search s = translating_polytopes(sweep, accuracy); settled(s)) return stated(s, a);
   const auto search_from = [&](double t) { return search(sweep, t, 1, accuracy, {}); };
   const fast::Search s = search_from(0);
   if (settled(s)) return stated_finely(s, a, b);

@@ -8,7 +8,7 @@
 #include <cmath>
 
 #include "core/ccd/fast/translation.h"
-#include "core/narrow/fast/difference.h"
+#include "core/narrow/fast/simplex.h"
 
 namespace touchstone::ccd::fast {
 namespace {
@@ -21,17 +21,13 @@ enum class Pass { on, clear, lost };
 
 class Cast {
  public:
-  Cast(const narrow::fast::Body<double>& a, const narrow::fast::Body<double>& b, const Translation& m)
-      : at_(relative(m.a, m.b)), d_{a, b, at_} {
-    v_ = at_.a_to_world.transpose() * m.velocity, speed_ = v_.norm();
-    // As translation.h has it, and 8 u each for the scan of vertices.
-    constant_ = 16 * a.reach + 44 * b.reach + 5 * at_.offset.norm();
-  }
+  explicit Cast(const Sweep& w) : sweep_(w), start_(w.at(0, true)), v_(w.velocity()), speed_(v_.norm()) {}
 
   Search run(double accuracy) {
     if (!(speed_ > 0)) return {};
     way_ = v_ / speed_;
-    e0_ = error(0), e1_ = error(1);
+    // The end is reckoned from the start: both errors, and that of n·v.
+    end_error_ = start_.error + sweep_.at(1, true).error + 8 * u<double> * speed_;
     Pass p = find_portal();
     if (p == Pass::on) p = refine();
     if (p == Pass::clear) return {.end = SearchEnd::clear, .clear_until = 1, .steps = steps_};
@@ -39,16 +35,13 @@ class Cast {
   }
 
  private:
-  double error(double t) const {
-    return u<double> * (1 + 0x1p-20) * (constant_ + 16 * (at_.offset + t * v_).norm() + 6 * t * speed_);
-  }
-
   // The support plane along n: separation at t = 0, and its point. Proof of a miss: both ends beyond the
   // error.
   Pass look(const Vec& n, Vertex<double>& p, double& s) {
     ++steps_;
-    p = d_.support(-n), s = n.dot(p.w);
-    return s > 1.25 * e0_ && s + n.dot(v_) > 1.25 * e1_ ? Pass::clear : Pass::on;
+    const Side x = sweep_.along(start_, n);
+    p.a = x.pa, p.w = start_.offset + x.pb - x.pa, s = x.s;
+    return s > start_.error && s + n.dot(v_) > end_error_ ? Pass::clear : Pass::on;
   }
 
   // Seen along the ray: positive if the origin is to the left from p to q.
@@ -106,15 +99,15 @@ class Cast {
       Vertex<double> q;
       if (look(n, q, s_) == Pass::clear) return Pass::clear;
       n_ = n;
-      if (n.dot(p_[0].w) - s_ <= 0.25 * e0_) return Pass::on;
+      if (n.dot(p_[0].w) - s_ <= 0.1 * start_.error) return Pass::on;
       // The ray passes one of the three triangles with q.
       const double sign = side(p_[0], p_[1]) + side(p_[1], p_[2]) + side(p_[2], p_[0]) < 0 ? -1 : 1;
       const double a = sign * side(p_[0], q), b = sign * side(p_[1], q), c = sign * side(p_[2], q);
-      if (a >= 0 && b <= 0)
+      if (b >= 0 && a <= 0)
         p_[2] = q;
-      else if (b >= 0 && c <= 0)
+      else if (c >= 0 && b <= 0)
         p_[0] = q;
-      else if (c >= 0 && a <= 0)
+      else if (a >= 0 && c <= 0)
         p_[1] = q;
       else
         return Pass::lost;
@@ -125,40 +118,37 @@ class Cast {
   Search hit(double accuracy) const {
     const double rate = -n_.dot(v_);
     if (!(rate > 0)) return {};
-    double e = error(std::max(0.0, s_ / rate));
-    const double t = (s_ - 1.75 * e) / rate;
+    const double e = sweep_.at(std::clamp(s_ / rate, 0.0, 1.0), true).error;
+    const double t = (s_ - 1.1 * e) / rate;
     if (!(t >= 0 && t <= 1)) return {};
-    e = error(t);
-    const double s = s_ - t * rate;
-    if (!(s_ > 1.25 * e0_ && s > 1.25 * e)) return {};
+    const Spot spot = sweep_.at(t, true);
+    const double s = sweep_.along(spot, n_).s;
+    if (!(s_ > start_.error && s > spot.error)) return {};
     narrow::fast::Simplex<double> x;
     x.size = 3;
-    for (std::size_t k = 0; k < 3; ++k) x.p[k] = p_[k], x.p[k].w += t * v_;
+    for (std::size_t k = 0; k < 3; ++k) x.p[k] = p_[k], x.p[k].w += spot.offset - start_.offset;
     Vec w = Vec::Zero();
     double dist_sq = 0, margin = 0;
     if (narrow::fast::reduce(x, w, dist_sq, margin)) return {};
     const double dist = std::sqrt(dist_sq);
-    if (!(dist + e <= accuracy)) return {};
+    if (!(dist + spot.error <= accuracy)) return {};
     Search r{.end = SearchEnd::hit, .clear_until = t, .gap = s, .steps = steps_};
     for (int k = 0; k < x.size; ++k)
       r.a += x.weight[static_cast<std::size_t>(k)] * x.p[static_cast<std::size_t>(k)].a;
-    r.b = at_.a_to_world * (r.a + w), r.a = at_.a_to_world * r.a, r.normal = at_.a_to_world * n_;
+    r.b = r.a + w, r.normal = n_;
     return r;
   }
 
-  narrow::fast::Relative<double> at_;
-  narrow::fast::Difference<double> d_;
+  const Sweep& sweep_;
+  Spot start_;
   Vec v_, way_, n_;
-  double speed_ = 0, constant_ = 0, e0_ = 0, e1_ = 0, s_ = 0;
+  double speed_ = 0, end_error_ = 0, s_ = 0;
   std::array<Vertex<double>, 3> p_;
   int steps_ = 0;
 };
 
 }  // namespace
 
-Search translating_polytopes(const Translation& m, const narrow::fast::Body<double>& a,
-                             const narrow::fast::Body<double>& b, double accuracy) {
-  return Cast(a, b, m).run(accuracy);
-}
+Search translating_polytopes(const Sweep& sweep, double accuracy) { return Cast(sweep).run(accuracy); }
 
 }  // namespace touchstone::ccd::fast

@@ -37,8 +37,7 @@ struct Round {
 /// Two of these: Newton's method on the distance of their axes, at most a few steps.
 Search translating_rounds(const Translation& m, const Round& a, const Round& b, double accuracy);
 
-/// Hulls and boxes: a ray cast against their Minkowski difference.
-Search translating_polytopes(const Translation& m, const narrow::fast::Body<double>& a,
-                             const narrow::fast::Body<double>& b, double accuracy);
+/// Hulls and boxes: a ray cast against their Minkowski difference, with the errors of sweep.h.
+Search translating_polytopes(const Sweep& sweep, double accuracy);
 
 }  // namespace touchstone::ccd::fast
