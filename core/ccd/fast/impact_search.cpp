@@ -52,6 +52,25 @@ Followed follow_any(const Sweep& w, const Spot& x, const View& v, const Vec& see
   return best;
 }
 
+struct Direction {
+  double t = 0;
+  Vec normal = Vec::Zero();
+};
+
+// From one look towards the next.
+Followed go_on(const Sweep& w, const Spot& x, const View& v, const Features& features, Direction& last,
+               int steps, double end) {
+  const bool near = w.turns() && v.side.s < w.a().body.reach + w.b().body.reach;
+  Followed f = follow(w, x, v, near ? feature_turn(w, x, features, v.normal) : Vec(Vec::Zero()), end);
+  if (steps >= sure_steps && w.turns()) {
+    const double since = x.t - last.t;
+    const Vec seen = since > 0 ? Vec(last.normal.cross(v.normal) / since) : Vec(Vec::Zero());
+    f = follow_any(w, x, v, seen, end, f);
+  }
+  last = {x.t, v.normal};
+  return f;
+}
+
 // How far the points are from being where the bodies meet, but for a few errors: along n, and across it.
 double off(const Search& r, double error) {
   const Vec d = r.b - r.a;
@@ -105,8 +124,7 @@ Search search(const Sweep& w, double start, double end, double accuracy, const s
   Search r;
   Features features;
   Spot x = w.at(start, !w.turns());
-  double last_time = start;
-  Vec last_normal = Vec::Zero();
+  Direction last{start};
   const auto see = [&] {
     return plane ? look_at_plane(w, x, *plane) : look(w, x, features, far_look, x.error);
   };
@@ -126,15 +144,8 @@ Search search(const Sweep& w, double start, double end, double accuracy, const s
     }
     if (x.t >= end) return r.end = SearchEnd::clear, r;
     const double before = x.t;
-    const bool near = w.turns() && !plane && v.side.s < w.a().body.reach + w.b().body.reach;
-    const Vec turn = near ? feature_turn(w, x, features, v.normal) : Vec(Vec::Zero());
-    Followed f = follow(w, x, v, turn, end);
-    if (r.steps >= sure_steps && w.turns() && !plane) {
-      const double since = x.t - last_time;
-      const Vec seen = since > 0 ? Vec(last_normal.cross(v.normal) / since) : Vec(Vec::Zero());
-      f = follow_any(w, x, v, seen, end, f);
-    }
-    last_time = x.t, last_normal = v.normal;
+    const Followed f =
+        plane ? follow(w, x, v, Vec::Zero(), end) : go_on(w, x, v, features, last, r.steps, end);
     if (f.clear) {
       r.clear_until = end;
       return r.end = SearchEnd::clear, r;
