@@ -34,7 +34,7 @@ struct Round {
   double half_height, radius;
 };
 
-/// Two of these: Newton's method on the distance of their axes, at most a few steps.
+/// Two of these: Newton's method on the distance of their axes.
 Search translating_rounds(const Translation& m, const Round& a, const Round& b, double accuracy);
 
 /// Hulls and boxes: a ray cast against their Minkowski difference, with the errors of sweep.h.
