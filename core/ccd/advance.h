@@ -1,6 +1,8 @@
 // Conservative advancement of two convex cores, or of a core against a plane.
 #pragma once
 
+#include <limits>
+
 #include "core/ccd/impact.h"
 #include "core/narrow/convex_core.h"
 #include "core/narrow/pair/half_space.h"
@@ -21,8 +23,21 @@ MovingCore moving_core(const Core& start, const Motion& motion);
 /// The core at time t with `origin` subtracted from its translation.
 Core at_time(const MovingCore& c, Wide t, const WideVec& origin);
 
-/// First contact in [t_start, t_end]; precondition: none before t_start.
-ImpactAnswer advance(const MovingCore& a, const MovingCore& b, Wide t_start, Wide t_end);
-ImpactAnswer advance(const MovingCore& a, const narrow::WidePlane& plane, Wide t_start, Wide t_end);
+struct Advance {
+  ImpactAnswer answer;  // `wide_open`: of what is clear so far
+  bool wide_open = false;
+};
+
+/// What ends an advance before `end`.
+struct Goal {
+  Wide end = 1;
+  double accuracy = 0;  // a gap that is at most this is contact where it is not known any better
+  /// After a step to where the gap is more than this: `wide_open`, no extended precision is needed there.
+  Wide leave = std::numeric_limits<Wide>::infinity();
+};
+
+/// First contact from t_start on; precondition: none before.
+Advance advance(const MovingCore& a, const MovingCore& b, Wide t_start, const Goal& goal);
+Advance advance(const MovingCore& a, const narrow::WidePlane& plane, Wide t_start, const Goal& goal);
 
 }  // namespace touchstone::ccd

@@ -2,8 +2,7 @@
 
 #include <cmath>
 
-#include "core/ccd/advance.h"
-#include "core/ccd/fast/impact_search.h"
+#include "core/ccd/pursue.h"
 #include "core/narrow/mesh.h"
 #include "core/narrow/mesh_tree.h"
 
@@ -78,13 +77,17 @@ class Query {
     const Vec3 hi = corners[0].cwiseMax(corners[1]).cwiseMax(corners[2]);
     if (entry(lo, hi) > end()) return;
     const fast::Mover face = fast::make_points(corners, frame_.rotation);
-    const fast::Search s = search(fast::Sweep(mover_, face, frame_.translation), end(), accuracy_, {});
-    if (s.end == fast::SearchEnd::clear) return count(s.steps);
-    if (s.end == fast::SearchEnd::hit) return take(fast::answer_of(s, shape_.motion.linear));
-    ImpactAnswer r =
-        advance(core(), moving_core(narrow::vertices_core(corners, frame_), {}), s.clear_until, end());
-    r.steps += s.steps;
-    take(r);
+    const fast::Sweep sweep(mover_, face, frame_.translation);
+    const auto search_from = [&](double t) { return search(sweep, t, end(), accuracy_, {}); };
+    Pursuit p{search_from(0), {}};
+    if (!settled(p.search)) {
+      const MovingCore still = moving_core(narrow::vertices_core(corners, frame_), {});
+      p = pursue(sweep, p.search, search_from, [&](double t, double leave) {
+        return advance(core(), still, t, {end(), accuracy_, leave});
+      });
+    }
+    if (p.search.end == fast::SearchEnd::clear) return count(p.search.steps);
+    take(settled(p.search) ? fast::answer_of(p.search, shape_.motion.linear) : p.fine);
   }
 
   const MovingCore& core() {

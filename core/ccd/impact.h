@@ -26,8 +26,9 @@ struct ImpactAnswer {
   std::optional<double> toi;
   double separation = 0;   // signed gap at `toi`: at most the core's τ, 0 or less only at toi = 0
   double clear_until = 0;  // no contact before this time: proven, also when not_converged
-  /// With a toi: unit, world axes, from A to B, and the nearest points (deepest, at toi = 0 in overlap) on A
-  /// and on B at that time, in the world.
+  /// With a toi: unit, world axes, from A to B, and the nearest points on A and on B at that time, in the
+  /// world. At toi = 0 in overlap: a normal along which −separation separates them, the least such depth as
+  /// far as double tells, and the deepest points.
   Vec3 normal_ab = Vec3::Zero();
   std::array<Vec3, 2> witness_w{Vec3::Zero(), Vec3::Zero()};
   int steps = 0;

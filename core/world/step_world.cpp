@@ -171,7 +171,9 @@ void StepWorld::ask(const BodyPair& pair, const SweepOptions& o, StepReport& r) 
   }
   ++r.asked;
   const auto moving = [&](int i) {
-    return MovingShape{&scene_.shape_of(i), scene_.bodies[at(i)].pose, motion_of(i)};
+    const Body& b = scene_.bodies[at(i)];
+    const MeshTree& tree = trees_[at(b.shape)];
+    return MovingShape{&scene_.shape_of(i), b.pose, motion_of(i), tree.nodes.empty() ? nullptr : &tree};
   };
   const ImpactAnswer x = time_of_impact(moving(a), moving(b));
   if (x.outcome == Outcome::unsupported) {

@@ -3,9 +3,10 @@
 
 #include "core/ccd/impact.h"
 #include "core/narrow/mesh_tree.h"
+#include "core/narrow/narrow_phase.h"
 #include "core/narrow/pair_table.h"
 #include "core/tolerance.h"
-#include "tests/core/random_pair.h"
+#include "tests/core/random_course.h"
 #include "tests/support/catch.h"
 
 using namespace touchstone;
@@ -94,6 +95,72 @@ TEST_CASE("impact: never late, never early, never missed by more than tau, again
   INFO(cases << " motions, " << hits << " hits, " << samples << " samples");
   CHECK(hits > 0.3 * static_cast<double>(cases));
   CHECK(hits < 0.7 * static_cast<double>(cases));
+}
+
+TEST_CASE("impact: in translation no later and no earlier than tau, points where the bodies meet",
+          "[impact][random]") {
+  using enum ShapeKind;
+  const ShapeKind kinds[] = {sphere, capsule, box, hull};
+  int cases = 0, hits = 0;
+  for (std::uint64_t i = 0; i < 640; ++i) {
+    Rng r = Rng::stream(4711, i);
+    const Pair p = random_pair(r, kinds[i % 4], kinds[i / 4 % 4], Regime::separate);
+    const Vec3 d = p.pose_b.translation - p.pose_a.translation;
+    const Motion ma{d * r.uniform(0.4, 1.5) + r.unit_vector() * d.norm() * 0.3, Vec3::Zero()};
+    const ImpactAnswer x = time_of_impact({&p.a, p.pose_a, ma}, {&p.b, p.pose_b, {}});
+    REQUIRE(x.outcome == Outcome::answered);
+    if (x.toi == 0.0) continue;
+    ++cases;
+    const auto gap = [&](Wide t) {
+      return narrow::separate(p.a, wide_frame_at(p.pose_a, ma, t), p.b, wide_frame(p.pose_b)).gap;
+    };
+    const double l = scale_of(p) + ma.linear.norm(), tau = tolerance::core_tau_factor * 0x1p-53 * l;
+    INFO("case " << i);
+    for (int k = 0; k < 20; ++k) CHECK(static_cast<double>(gap(x.toi.value_or(1) * r.uniform())) >= -tau);
+    if (!x.toi) continue;
+    ++hits;
+    CHECK(std::abs(static_cast<double>(gap(*x.toi))) <= tau);
+    CHECK((x.witness_w[1] - x.witness_w[0]).norm() < 1e-8 * l);
+    CHECK(x.normal_ab.norm() == Approx(1).epsilon(1e-12));
+  }
+  INFO(cases << " motions, " << hits << " hits");
+  CHECK(hits > 0.3 * cases);
+  CHECK(hits < 0.7 * cases);
+}
+
+TEST_CASE("impact: pairs that nearly touch at the start, or roll on each other, take few steps",
+          "[impact][random]") {
+  int most = 0, open = 0;
+  for (std::uint64_t i = 0; i < 1200; ++i) {
+    Rng r = Rng::stream(12 ^ 0x70f1, 6 * i + static_cast<std::uint64_t>(CourseKind::near_start));
+    const CoursePair c = random_course(r, CourseKind::near_start);
+    const ImpactAnswer x = time_of_impact({&c.p.a, c.p.pose_a, c.ma}, {&c.p.b, c.p.pose_b, c.mb});
+    INFO("case " << i);
+    REQUIRE(x.outcome == Outcome::answered);
+    open += !x.toi || *x.toi > 0;
+    most = std::max(most, x.steps);
+  }
+  CHECK(open > 200);
+  // Along directions that stand still some of these need thousands.
+  CHECK(most < 400);
+}
+
+TEST_CASE("impact: round bodies about one centre overlap, by a depth that separates them", "[impact]") {
+  for (int i = 0; i < 40; ++i) {
+    Rng r = Rng::stream(31, static_cast<std::uint64_t>(i));
+    const auto kind =
+        i % 3 == 0 ? ShapeKind::cylinder : (i % 3 == 1 ? ShapeKind::cone : ShapeKind::ellipsoid);
+    const Shape a = random_shape(r, kind, false), b = random_shape(r, ShapeKind::ellipsoid, false);
+    const Pose at_a{Vec3::Zero(), r.rotation()}, at_b{Vec3::Zero(), r.rotation()};
+    const ImpactAnswer x = time_of_impact({&a, at_a, going(1, 0, 0)}, {&b, at_b, {}});
+    REQUIRE(x.outcome == Outcome::answered);
+    REQUIRE(x.toi);
+    CHECK(*x.toi == 0);
+    CHECK(x.separation < 0);
+    // A hair farther than stated they are apart.
+    const Pose moved{x.normal_ab * (-x.separation * (1 + 1e-9)), at_b.rotation};
+    CHECK_FALSE(overlap({&a, at_a}, {&b, moved}).overlap);
+  }
 }
 
 TEST_CASE("impact: no motion, overlap from the start, spin without travel, many turns", "[impact]") {

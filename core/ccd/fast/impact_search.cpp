@@ -36,12 +36,95 @@ void set_points(Search& r, const Sweep& w, const Spot& x, const View& v, const F
   r.a += w.a().body.radius * n, r.b -= w.b().body.radius * n;
 }
 
+// Two features that are nearly parallel, or roll on each other, hide which of them the direction goes with: a
+// wrong guess proves steps that shrink by a constant. After this many steps every guess is followed.
+constexpr int sure_steps = 8;
+
+// The farthest of all: with either body, still, and as it has turned since the last look.
+Followed follow_any(const Sweep& w, const Spot& x, const View& v, const Vec& seen, double end,
+                    Followed best) {
+  const Vec still = Vec::Zero();
+  for (const Vec* turn : {&still, &w.a().angular, &w.b().angular, &seen}) {
+    if (best.clear) break;
+    const Followed f = follow(w, x, v, *turn, end);
+    if (f.clear || f.spot.t > best.spot.t) best = f;
+  }
+  return best;
+}
+
+struct Direction {
+  double t = 0;
+  Vec normal = Vec::Zero();
+};
+
+// From one look towards the next.
+Followed go_on(const Sweep& w, const Spot& x, const View& v, const Features& features, Direction& last,
+               int steps, double end) {
+  const bool near = w.turns() && v.side.s < w.a().body.reach + w.b().body.reach;
+  Followed f = follow(w, x, v, near ? feature_turn(w, x, features, v.normal) : Vec(Vec::Zero()), end);
+  if (steps >= sure_steps && w.turns()) {
+    const double since = x.t - last.t;
+    const Vec seen = since > 0 ? Vec(last.normal.cross(v.normal) / since) : Vec(Vec::Zero());
+    f = follow_any(w, x, v, seen, end, f);
+  }
+  last = {x.t, v.normal};
+  return f;
+}
+
+// How far the points are from being where the bodies meet, but for a few errors: along n, and across it.
+double off(const Search& r, double error) {
+  const Vec d = r.b - r.a;
+  const double along = d.dot(r.normal);
+  const double e =
+      std::max({along - 16 * error, -8 * error - along, (d - along * r.normal).norm() - 64 * error, 0.0});
+  return std::isfinite(e) ? e : std::numeric_limits<double>::infinity();
+}
+
+// Where a hit's features are too near each other to tell (a simplex of length 0 has no direction): B is
+// pushed along n by h, which leaves n and the nearest points as they are and the gap h longer. Bounds that
+// are e apart leave the points √(2he) across n, and e along it. The best of what is found; a short h first.
+void improve_points(Search& r, const Sweep& w, const Spot& hit, const Features& near) {
+  const double size = w.a().body.reach + w.b().body.reach + w.radii();
+  double best = off(r, hit.error);
+  for (const double share : {0x1p-20, 0x1p-13, 0x1p-7})
+    for (const bool warm : {true, false}) {
+      if (!(best > 0)) return;
+      Spot x = hit;
+      const Vec away = r.normal * std::max(0.0, share * size - w.radii());
+      x.offset += away;
+      Features f = warm ? near : Features{};
+      View v = look(w, x, f, 0, x.error / 2);
+      if (f.size == 0 || f.size > 3) continue;
+      v.normal = r.normal;
+      Search tried = r;
+      set_points(tried, w, x, v, f);
+      tried.b -= away;
+      if (const double e = off(tried, hit.error); e < best) best = e, r = tried;
+    }
+}
+
+// Worse than the gap may be along n, or visibly across it.
+bool is_rough(const Search& r, const Sweep& w, double accuracy) {
+  const Vec d = r.b - r.a;
+  const double along = d.dot(r.normal), size = w.a().body.reach + w.b().body.reach + w.radii();
+  return !(std::abs(along) <= accuracy && (d - along * r.normal).norm() <= 0x1p-30 * size);
+}
+
 }  // namespace
 
-Search search(const Sweep& w, double end, double accuracy, const std::optional<Vec>& plane) {
+Search with_points(const Sweep& w, Search hit, double accuracy) {
+  const Spot x = w.at(hit.clear_until, true);
+  hit.b = Vec::Constant(std::numeric_limits<double>::infinity());
+  improve_points(hit, w, x, {});
+  hit.rough = is_rough(hit, w, accuracy);
+  return hit;
+}
+
+Search search(const Sweep& w, double start, double end, double accuracy, const std::optional<Vec>& plane) {
   Search r;
   Features features;
-  Spot x = w.at(0, !w.turns());
+  Spot x = w.at(start, !w.turns());
+  Direction last{start};
   const auto see = [&] {
     return plane ? look_at_plane(w, x, *plane) : look(w, x, features, far_look, x.error);
   };
@@ -50,19 +133,19 @@ Search search(const Sweep& w, double end, double accuracy, const std::optional<V
     r.clear_until = x.t, r.gap = v.upper;
     if (!x.precise && v.side.s < near_errors * x.error) x = w.at(x.t, true), v = see();
     if (v.meeting || !(v.side.s > x.error)) {
-      r.end = x.t > 0 ? SearchEnd::unsure : SearchEnd::start;
+      r.end = x.t > start ? SearchEnd::unsure : SearchEnd::start;
       return r;
     }
     if (v.upper + x.error <= std::min(accuracy, near_enough * x.error)) {
       set_points(r, w, x, v, features);
+      if (!plane) improve_points(r, w, x, features), r.rough = is_rough(r, w, accuracy);
       r.gap = v.upper;
       return r.end = SearchEnd::hit, r;
     }
     if (x.t >= end) return r.end = SearchEnd::clear, r;
     const double before = x.t;
-    const bool near = w.turns() && !plane && v.side.s < w.a().body.reach + w.b().body.reach;
-    const Vec turn = near ? feature_turn(w, x, features, v.normal) : Vec(Vec::Zero());
-    const Followed f = follow(w, x, v, turn, end);
+    const Followed f =
+        plane ? follow(w, x, v, Vec::Zero(), end) : go_on(w, x, v, features, last, r.steps, end);
     if (f.clear) {
       r.clear_until = end;
       return r.end = SearchEnd::clear, r;
@@ -81,23 +164,6 @@ ImpactAnswer answer_of(const Search& s, const Vec& linear_a) {
   const Vec origin = s.clear_until * linear_a;
   r.witness_w = {Vec3(s.a + origin), Vec3(s.b + origin)};
   return r;
-}
-
-Search with_points(const Sweep& w, Search hit) {
-  Features features;
-  const Spot x = w.at(hit.clear_until, true);
-  View v = look(w, x, features, 0, x.error);
-  // Too near for a simplex to tell: the features of a moment before.
-  if (const double speed = w.velocity().norm(); (v.meeting || v.upper > 16 * x.error) && speed > 0) {
-    const double back = 0x1p-30 * (w.a().body.reach + w.b().body.reach) / speed;
-    Features before;
-    look(w, w.at(std::max(0.0, hit.clear_until - back), true), before, 0, x.error);
-    if (before.size > 0) features = before;
-  }
-  const Vec normal = hit.normal;
-  set_points(hit, w, x, v, features);
-  hit.normal = normal;
-  return hit;
 }
 
 }  // namespace touchstone::ccd::fast

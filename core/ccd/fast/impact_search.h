@@ -21,16 +21,18 @@ struct Search {
   double gap = 0;                        // hit: as computed. Otherwise at the last look
   Vec normal = Vec::Zero();              // A to B
   Vec a = Vec::Zero(), b = Vec::Zero();  // hit: nearest points at that time about A's origin, world axes
+  bool rough = false;                    // hit: a and b are not as good as the gap
   int steps = 0;
 };
 
-/// `plane`: B is a half-space, as a point on its face, with its inward normal.
-Search search(const Sweep& sweep, double end, double accuracy, const std::optional<Vec>& plane);
+/// From `start` on, before which there is no contact. `plane`: B is a half-space, as a point on its face,
+/// with its inward normal.
+Search search(const Sweep& sweep, double start, double end, double accuracy, const std::optional<Vec>& plane);
 
 /// What is known, in coordinates about A's start; of `unsure` and `start` nothing but the time that is clear.
 ImpactAnswer answer_of(const Search& s, const Vec& linear_a);
 
 /// A hit with its nearest points worked out anew.
-Search with_points(const Sweep& sweep, Search hit);
+Search with_points(const Sweep& sweep, Search hit, double accuracy);
 
 }  // namespace touchstone::ccd::fast

@@ -12,7 +12,7 @@
 #pragma once
 
 #include "core/ccd/fast/impact_search.h"
-#include "core/narrow/fast/query.h"
+#include "core/narrow/fast/body.h"
 
 namespace touchstone::ccd::fast {
 
@@ -28,5 +28,16 @@ Search translating_boxes(const Translation& m, const Vec& half_a, const Vec& hal
 
 /// Ball A and box B: the ray of the centre against the rounded box, piece by piece of its surface.
 Search translating_ball_and_box(const Translation& m, double radius, const Vec& half, double accuracy);
+
+/// A sphere, half_height 0, or a capsule about its z axis.
+struct Round {
+  double half_height, radius;
+};
+
+/// Two of these: Newton's method on the distance of their axes.
+Search translating_rounds(const Translation& m, const Round& a, const Round& b, double accuracy);
+
+/// Hulls and boxes: a ray cast against their Minkowski difference, with the errors of sweep.h.
+Search translating_polytopes(const Sweep& sweep, double accuracy);
 
 }  // namespace touchstone::ccd::fast
