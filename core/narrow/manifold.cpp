@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "core/narrow/rim.h"
 #include "core/tolerance.h"
 
 namespace touchstone::narrow {
@@ -25,12 +26,9 @@ Points candidates(const ConvexCore<Wide>& c, const WideVec& d, Wide tolerance) {
   const WideVec& s = c.size;
   const Wide flat = std::sqrt(d.x() * d.x() + d.y() * d.y());
   const WideVec deepest = support_local<Wide>(c, d);
-  const auto octagon = [&](Wide z) {
+  const auto rim_at = [&](Wide z) {
     Points p;
-    const Wide r = s.x(), h = r * std::sqrt(Wide(0.5));
-    for (const auto& [x, y] : std::array<std::pair<Wide, Wide>, 8>{
-             {{r, 0}, {h, h}, {0, r}, {-h, h}, {-r, 0}, {-h, -h}, {0, -r}, {h, -h}}})
-      p.emplace_back(x, y, z);
+    for (const auto& [x, y] : rim()) p.emplace_back(s.x() * Wide(x), s.x() * Wide(y), z);
     return p;
   };
   Points p;
@@ -45,10 +43,10 @@ Points candidates(const ConvexCore<Wide>& c, const WideVec& d, Wide tolerance) {
         p.emplace_back(i & 1 ? s.x() : -s.x(), i & 2 ? s.y() : -s.y(), i & 4 ? s.z() : -s.z());
       return p;
     case CoreKind::cylinder:
-      if (2 * flat * s.x() <= tolerance) return octagon(deepest.z());
+      if (2 * flat * s.x() <= tolerance) return rim_at(deepest.z());
       return {{deepest.x(), deepest.y(), s.z()}, {deepest.x(), deepest.y(), -s.z()}};
     case CoreKind::cone:
-      if (2 * flat * s.x() <= tolerance && d.z() < 0) return octagon(-s.z());
+      if (2 * flat * s.x() <= tolerance && d.z() < 0) return rim_at(-s.z());
       if (!(flat > 0)) return {deepest};
       return {{0, 0, s.z()}, {d.x() / flat * s.x(), d.y() / flat * s.x(), -s.z()}};
     case CoreKind::vertices:
@@ -164,8 +162,13 @@ std::vector<WideVec> contact_points(const ConvexCore<Wide>& a, const ConvexCore<
   }
   drop_repeats(region, tolerance);
   if (region.empty()) return {middle};
+  // Evenly of what is more than there is room for.
   Points r;
-  for (const Plane2& p : region) r.push_back(middle + basis.u * p.x() + basis.v * p.y());
+  const std::size_t kept = std::min(region.size(), Manifold::capacity);
+  for (std::size_t i = 0; i < kept; ++i) {
+    const Plane2& p = region[i * region.size() / kept];
+    r.push_back(middle + basis.u * p.x() + basis.v * p.y());
+  }
   return r;
 }
 

@@ -2,7 +2,8 @@
 // along the normal, as a polygon, a segment or a point, half way between the two support planes. Only points
 // of the exact support faces take part (within manifold_face_factor), so each lies within depth/2 of both
 // bodies and has the full depth; a face tilted by more than that against the normal contributes its deepest
-// edge or vertex. Round faces (caps of cylinders, bases of cones) are taken as inscribed octagons.
+// edge or vertex. Round faces (caps of cylinders, bases of cones) are taken as inscribed
+// polygons (rim.h).
 #pragma once
 
 #include <vector>

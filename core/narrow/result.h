@@ -46,7 +46,7 @@ struct ContactPoint {
 /// Contact points in place, no allocation; what is not used is not touched.
 class Manifold {
  public:
-  static constexpr std::size_t capacity = 16;
+  static constexpr std::size_t capacity = 32;
   Manifold() {}
   Manifold(const Manifold& o) { *this = o; }
   Manifold& operator=(const Manifold& o) {

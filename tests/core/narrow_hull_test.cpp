@@ -180,14 +180,15 @@ TEST_CASE("answers with a graph are those without", "[narrow][hull]") {
 }
 
 TEST_CASE("the manifold of a face of many corners covers it", "[narrow][hull]") {
-  // 64 corners lie on a box: the polygon of as many has 2 % more area than that of what is kept, 16.
+  // 64 corners lie on a box: their polygon has 0.5 % more area than that of what is kept, 32. At depth 0
+  // extended precision answers.
   const Hull h = prism(64, 512);
   const HullGraph g = build_hull_graph(h, 4);
   REQUIRE(g);
   const Shape wheel = h, floor = Box{{8192, 8192, 100}};
   const PlacedShape below{&floor, {Vec3(0, 0, -100), Quat{}}};
   for (const HullGraph* graph : {static_cast<const HullGraph*>(nullptr), &g})
-    for (const double depth : {0.5, 1.0}) {
+    for (const double depth : {0.0, 0.5, 1.0}) {
       const ContactAnswer c = contact(below, {&wheel, {Vec3(0, 0, 512 - depth), Quat{}}, nullptr, graph});
       REQUIRE(c.overlap);
       CHECK(c.depth == Approx(depth).margin(1e-9));
@@ -197,6 +198,6 @@ TEST_CASE("the manifold of a face of many corners covers it", "[narrow][hull]") 
         const Vec3 &p = c.manifold[i].position, &q = c.manifold[(i + 1) % n].position;
         area += (p.x() * q.y() - p.y() * q.x()) / 2;
       }
-      CHECK(std::abs(area) > 0.9 * 3.14159 * 4096 * 4096);
+      CHECK(std::abs(area) > 0.99 * 3.14159 * 4096 * 4096);
     }
 }

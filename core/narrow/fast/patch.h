@@ -14,6 +14,8 @@
 #include <cstdint>
 
 #include "core/narrow/fast/body.h"
+#include "core/narrow/result.h"
+#include "core/narrow/rim.h"
 
 namespace touchstone::narrow::fast {
 
@@ -26,7 +28,7 @@ struct PatchPoint {
 
 template <class R>
 struct Patch {
-  static constexpr int capacity = 16;
+  static constexpr int capacity = static_cast<int>(Manifold::capacity);
   std::array<PatchPoint<R>, capacity> point;
   int size = 0;
 };
@@ -41,11 +43,11 @@ struct Corner {
   std::uint32_t edge;  // while clipped: what runs from here to the next corner
 };
 
-/// Copies only what is there: the storage is thirteen hundred bytes.
+/// Room for what two rims leave of each other. Copies only what is there.
 template <class R>
 class Corners {
  public:
-  static constexpr int capacity = 40;
+  static constexpr int capacity = 72;
   int size = 0;
   bool overflow = false;
   Corners() {}
@@ -135,7 +137,7 @@ class FeatureCorners {
         break;
       case CoreKind::cylinder:
         if (2 * flat * s[0] <= limit_) {
-          octagon(std::copysign(s[2], d_[2]));
+          rim_of(std::copysign(s[2], d_[2]));
         } else {
           const R k = flat > 0 ? s[0] / flat : 0;
           add({d_[0] * k, d_[1] * k, s[2]}, 0), add({d_[0] * k, d_[1] * k, -s[2]}, 1);
@@ -143,7 +145,7 @@ class FeatureCorners {
         break;
       case CoreKind::cone:
         if (d_[2] < 0 && 2 * flat * s[0] <= limit_) {
-          octagon(-s[2]);
+          rim_of(-s[2]);
         } else {
           const R k = flat > 0 ? s[0] / flat : 0;
           add({0, 0, s[2]}, 0);
@@ -181,8 +183,8 @@ class FeatureCorners {
       add_always(c_.vertices[static_cast<std::size_t>(high[i])].template cast<R>(),
                  static_cast<std::uint32_t>(high[i]));
   }
-  // Their outline. Where that has more corners than there is room for, every other one: 20 corners of a
-  // circle still have 98 % of its area.
+  // Their outline. Where that has more corners than there is room for, every other one: 36 corners of a
+  // circle still have 99.5 % of its area.
   void many_vertices() {
     for (std::size_t i = 0; i < c_.vertices.size(); ++i) {
       add(c_.vertices[i].template cast<R>(), static_cast<std::uint32_t>(i));
@@ -194,10 +196,10 @@ class FeatureCorners {
     }
   }
   // Ids of rim points turn with the body.
-  void octagon(R z) {
-    const R r = c_.size[0], h = r * R(0.70710678118654752440);
-    const R xy[8][2] = {{r, 0}, {h, h}, {0, r}, {-h, h}, {-r, 0}, {-h, -h}, {0, -r}, {h, -h}};
-    for (std::uint32_t i = 0; i < 8; ++i) add({xy[i][0], xy[i][1], z}, i);
+  void rim_of(R z) {
+    const R r = c_.size[0];
+    std::uint32_t id = 0;
+    for (const auto& [x, y] : rim()) add({r * static_cast<R>(x), r * static_cast<R>(y), z}, id++);
   }
   void box() {
     const V3<R>& s = c_.size;
@@ -238,7 +240,7 @@ class FeatureCorners {
 inline constexpr std::uint32_t of_a = 0x20000000u, of_b = 0x80000000u, crossing = 0x40000000u,
                                on_window = 0x10000u;
 
-/// The same from both ends; 15 bits, without collisions among the corners of a box or an octagon.
+/// The same from both ends; 15 bits, without collisions among the corners of a box or a rim.
 inline std::uint32_t edge_name(std::uint32_t a, std::uint32_t b) {
   return (std::min(a, b) * 181 + std::max(a, b)) & 0x7fffu;
 }
@@ -357,9 +359,9 @@ Patch<R> contact_patch(const Body<R>& a, const Body<R>* b, const Relative<R>& at
     return patch;
   }
   // Height of A's support plane above plane.origin is the ball's radius.
-  const int step = (region.size + Patch<R>::capacity - 1) / Patch<R>::capacity;
-  for (int i = 0; i < region.size; i += step) {
-    const Corner<R>& c = region[i];
+  const int kept = std::min(region.size, Patch<R>::capacity);
+  for (int i = 0; i < kept; ++i) {
+    const Corner<R>& c = region[i * region.size / kept];
     const R d = -gap - c.below;
     const R height = a.radius + (gap + (by_a ? c.below : -c.below)) / 2;
     bool repeat = false;
