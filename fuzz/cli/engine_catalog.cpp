@@ -111,6 +111,12 @@ std::vector<std::string> engine_names(const std::string& text) {
   return names;
 }
 
+std::filesystem::path plugin_file(const std::string& name) {
+  if (is_path(name)) return plugin_spec(name).plugin;
+  const EngineRow* row = find_row(name);
+  return !row || row->library.empty() ? std::filesystem::path{} : plugin_directory() / row->library;
+}
+
 EnginePtr make_engine(const std::string& name, const WorkerLimits& limits) {
   check_name(name);
   if (name == "core") return std::make_unique<CoreEngine>();
