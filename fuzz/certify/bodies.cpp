@@ -1,15 +1,31 @@
 #include "fuzz/certify/bodies.h"
 
 #include "fuzz/generate/family.h"
+#include "fuzz/generate/numbers.h"
 
 namespace touchstone::fuzz {
 namespace {
 
-void of_family(const Draw& d, std::uint64_t index, std::string_view family, Case& out) {
+bool is_unbounded(const Scene& s, int body) { return kind_of(s.shape_of(body)) == ShapeKind::half_space; }
+
+// A subject of floats is asked in floats: what it cannot hold says nothing of its broad phase.
+void round_to(Scalar scalar, Case& c) {
+  if (scalar == Scalar::float64) return;
+  for (double* x : numbers(c)) *x = nearest(*x, scalar);
+  renew(c);
+}
+
+// The ground is put in only where it is what is asked about.
+void of_family(const Draw& d, std::uint64_t index, std::string_view family, bool grounded, Case& out) {
   out.scene = make_case(d.seed, index, family).scene;
-  for (Body& b : out.scene.bodies) b.motion.reset();
-  if (out.scene.script.empty()) insert_all(out.scene), step_query(out.scene);
+  Scene& s = out.scene;
+  for (Body& b : s.bodies) b.motion.reset();
+  if (s.script.empty()) insert_all(s), step_query(s);
+  if (!grounded)
+    std::erase_if(s.script,
+                  [&](const Step& step) { return step.op != Step::Op::query && is_unbounded(s, step.body); });
   out.queries = {{Question::candidates, -1, -1}};
+  round_to(d.scalar, out);
 }
 
 Shape slender(Rng& rng) {
@@ -27,11 +43,25 @@ Shape slender(Rng& rng) {
 
 }  // namespace
 
-void family_tiles(const Draw& d, std::uint64_t i, Case& out) { of_family(d, i, "tiles", out); }
-void family_errands(const Draw& d, std::uint64_t i, Case& out) { of_family(d, i, "errands", out); }
-void family_script(const Draw& d, std::uint64_t i, Case& out) { of_family(d, i, "script", out); }
-void family_throng(const Draw& d, std::uint64_t i, Case& out) { of_family(d, i, "throng", out); }
-void family_crowd(const Draw& d, std::uint64_t i, Case& out) { of_family(d, i, "crowd", out); }
+void family_tiles(const Draw& d, std::uint64_t i, Case& out) { of_family(d, i, "tiles", false, out); }
+void family_errands(const Draw& d, std::uint64_t i, Case& out) { of_family(d, i, "errands", false, out); }
+void family_script(const Draw& d, std::uint64_t i, Case& out) { of_family(d, i, "script", false, out); }
+void family_throng(const Draw& d, std::uint64_t i, Case& out) { of_family(d, i, "throng", false, out); }
+void family_crowd(const Draw& d, std::uint64_t i, Case& out) { of_family(d, i, "crowd", false, out); }
+
+void grounded(const Draw& d, std::uint64_t index, Case& out) {
+  of_family(d, index, "tiles", true, out);
+  Scene& s = out.scene;
+  for (int i = 0; i < static_cast<int>(s.bodies.size()); ++i)
+    if (is_unbounded(s, i)) return;
+  Body ground;
+  ground.shape = static_cast<int>(s.shapes.size());
+  ground.is_static = true;
+  ground.pose.translation = s.bodies[0].pose.translation;
+  s.shapes.push_back(HalfSpace{Vec3::UnitZ(), 0});
+  s.bodies.push_back(std::move(ground));
+  s.script.insert(s.script.begin(), {Step::Op::insert, static_cast<int>(s.bodies.size()) - 1, std::nullopt});
+}
 
 // The small body stands somewhere in the shell that the slender one's ends pass, so that about half meet.
 void turning_pairs(const Draw& d, std::uint64_t index, Case& out) {
@@ -51,6 +81,7 @@ void turning_pairs(const Draw& d, std::uint64_t index, Case& out) {
   s.bodies = {long_one, small_one};
   insert_all(s), step_query(s);
   out.queries = {{Question::candidates, -1, -1}};
+  round_to(d.scalar, out);
 }
 
 }  // namespace touchstone::fuzz

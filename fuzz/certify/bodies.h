@@ -12,6 +12,9 @@ void family_script(const Draw&, std::uint64_t index, Case& out);
 void family_throng(const Draw&, std::uint64_t index, Case& out);
 void family_crowd(const Draw&, std::uint64_t index, Case& out);
 
+/// Bodies on and in a half-space.
+void grounded(const Draw&, std::uint64_t index, Case& out);
+
 /// A slender body that turns by up to two turns and moves, and a small one that it may sweep over.
 void turning_pairs(const Draw&, std::uint64_t index, Case& out);
 

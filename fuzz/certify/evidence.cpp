@@ -45,11 +45,6 @@ constexpr EvidenceRow table[] = {
      far_from_the_origin},
     {"huge_coordinates", adversarial, boxes, "coordinates of 2^980 (float: 2^100)", 2000, 50000, nullptr,
      huge_coordinates},
-    {"unbounded", adversarial, boxes, "half-spaces: boxes infinite on five sides", 2000, 50000, nullptr,
-     unbounded},
-    {"no_boxes", adversarial, boxes,
-     "a NaN, infinite or inverted box among others, which must not cost a pair of theirs", 2000, 50000,
-     nullptr, no_boxes, true},
     {"long_scripts", temporal, boxes,
      "500 steps of insert, drift, teleport, turn, remove, refit, on up to 24 boxes", 250, 4000, nullptr,
      long_scripts, false, false, 4},
@@ -60,6 +55,11 @@ constexpr EvidenceRow table[] = {
     {"uniform_boxes", random_kind, boxes,
      "2 to 33 boxes, centres uniform in a cube of 2 units of volume a box, sides in [1/4, 7/4]", 15000,
      1000000, nullptr, uniform_boxes},
+    {"unbounded", adversarial, boxes, "half-spaces: boxes infinite on five sides", 2000, 50000, nullptr,
+     unbounded},
+    {"no_boxes", adversarial, boxes,
+     "a NaN, infinite or inverted box among others, which must not cost a pair of theirs", 2000, 50000,
+     nullptr, no_boxes, true},
     {"tiles", adversarial, bodies,
      "2 to 25 bodies, turned or not, whose boxes touch exactly or by the last place", 1200, 40000, nullptr,
      family_tiles, false, false, 32},
@@ -73,6 +73,8 @@ constexpr EvidenceRow table[] = {
      family_crowd, false, false, 16},
     {"turning", random_kind, bodies, "two bodies, one of which moves and turns within the step", 1000, 40000,
      nullptr, turning_pairs, false, true, 32},
+    {"grounded", adversarial, bodies, "such bodies on and in a half-space, which is unbounded", 300, 5000,
+     nullptr, grounded, false, false, 32},
 };
 
 }  // namespace

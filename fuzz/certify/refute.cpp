@@ -45,6 +45,7 @@ class Asker {
   // At the level of boxes a body stays a box whose corners are exact in the format of the subject.
   bool is_fit(const Case& c) {
     if (c.queries.size() != 1 || c.queries[0].question != Question::candidates) return false;
+    if (c.scene.script.empty()) return false;  // would mean: insert all
     if (level_ == Level::bodies) return true;
     const Scalar scalar = engine_->card().unit_roundoff > 0x1p-50 ? Scalar::float32 : Scalar::float64;
     for (const Step& step : c.scene.script) {

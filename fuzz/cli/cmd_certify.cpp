@@ -14,6 +14,7 @@
 #include "fuzz/cli/broad_subject.h"
 #include "fuzz/cli/command.h"
 #include "fuzz/cli/engine_catalog.h"
+#include "oracles/core/broad_engine.h"
 #include "reports/certificate_text.h"
 #include "reports/text.h"
 #include "scenarios/case_codec.h"
@@ -32,7 +33,7 @@ struct Options {
   std::vector<std::string> without;
   std::uint64_t seed = 1, limit = 0;
   int jobs = 1;
-  bool sweeps = false, json = false;
+  bool sweeps = false, json = false, list = false;
   WorkerLimits limits;
 };
 
@@ -114,6 +115,14 @@ void write_scripts(const Options& o, const BroadCertificate& c) {
     fuzz::write_atomically(file, to_text(stored));
     fmt::print("script: {}\n", file);
   }
+}
+
+int list_subjects() {
+  for (const auto name : core_broad_phases()) fmt::print("{:<26}core, in process\n", name);
+  for (const EngineRow& row : broad_catalog())
+    fmt::print("{:<26}{}{}\n", row.name, row.line, is_present(row) ? "" : " (absent: not built)");
+  fmt::print("and every engine of `touchstone engines`, ./libmine.so, pipe:COMMAND\n");
+  return exit_clean;
 }
 
 int certify_subject(const Options& o) {
@@ -218,9 +227,10 @@ Run declare_certify(CLI::App& app) {
   app.add_option("--jobs", o->jobs, "jobs side by side")->check(CLI::Range(1, 1024))->capture_default_str();
   app.add_flag("--sweeps", o->sweeps,
                "the subject's candidates are those of the whole step: ask it about motion");
+  app.add_flag("--list", o->list, "the subjects there are by name");
   add_case_seconds(app, o->limits);
   app.add_flag("--json", o->json, "the certificate as one JSON document on stdout");
-  return [o] { return o->check.empty() ? certify_subject(*o) : check(*o); };
+  return [o] { return o->list ? list_subjects() : o->check.empty() ? certify_subject(*o) : check(*o); };
 }
 
 }  // namespace touchstone::cli

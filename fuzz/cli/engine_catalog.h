@@ -19,6 +19,8 @@ struct EngineRow {
   std::string_view line;     // for people
 };
 std::span<const EngineRow> engine_catalog();
+/// Broad phases of the oracles alone: they answer `candidates` and nothing else, and are asked by name only.
+std::span<const EngineRow> broad_catalog();
 
 /// True when the engine's plug-in file is there.
 bool is_present(const EngineRow& row);
