@@ -29,15 +29,18 @@ class Asker {
     return judge_candidates(c, o[0].answers[0], level_);
   }
   std::vector<bool> shows(std::span<const Case> cases) {
-    std::vector<bool> out;
+    std::vector<bool> out(cases.size());
+    std::vector<Case> fit;
+    std::vector<std::size_t> place;
+    for (std::size_t i = 0; i < cases.size(); ++i)
+      if (is_fit(cases[i])) fit.push_back(cases[i]), place.push_back(i);
     if (anew_) {
-      for (const Case& c : cases) out.push_back(is_fit(c) && verdict(c).fault == fault_);
+      for (std::size_t i = 0; i < fit.size(); ++i) out[place[i]] = verdict(fit[i]).fault == fault_;
       return out;
     }
-    const auto all = engine().run(cases);
-    for (std::size_t i = 0; i < cases.size(); ++i)
-      out.push_back(is_fit(cases[i]) &&
-                    judge_candidates(cases[i], all[i].answers[0], level_).fault == fault_);
+    const auto all = engine().run(fit);
+    for (std::size_t i = 0; i < fit.size(); ++i)
+      out[place[i]] = judge_candidates(fit[i], all[i].answers[0], level_).fault == fault_;
     return out;
   }
 
@@ -45,9 +48,10 @@ class Asker {
   // At the level of boxes a body stays a box whose corners are exact in the format of the subject.
   bool is_fit(const Case& c) {
     if (c.queries.size() != 1 || c.queries[0].question != Question::candidates) return false;
-    if (c.scene.script.empty()) return false;  // would mean: insert all
+    // No script would mean: insert all.
+    if (c.scene.script.empty() || c.scene.bodies.empty()) return false;
     if (level_ == Level::bodies) return true;
-    const Scalar scalar = engine_->card().unit_roundoff > 0x1p-50 ? Scalar::float32 : Scalar::float64;
+    const Scalar scalar = engine().card().unit_roundoff > 0x1p-50 ? Scalar::float32 : Scalar::float64;
     for (const Step& step : c.scene.script) {
       if (step.op != Step::Op::insert && step.op != Step::Op::move) continue;
       const Pose p = step.pose.value_or(c.scene.bodies[static_cast<std::size_t>(step.body)].pose);
