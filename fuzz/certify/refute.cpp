@@ -121,6 +121,22 @@ bool has_json_form(const Case& c) {
   }
 }
 
+std::string in_words(const Vec3& v) { return fmt::format("({:g}, {:g}, {:g})", v.x(), v.y(), v.z()); }
+
+// What has no JSON form: the bodies whose numbers are not finite, or make no box.
+std::string what_is_no_box(const Scene& s) {
+  std::string out;
+  for (std::size_t i = 0; i < s.bodies.size(); ++i) {
+    const auto* box = std::get_if<Box>(&s.shape_of(static_cast<int>(i)));
+    const Vec3& t = s.bodies[i].pose.translation;
+    if (!box || (t.allFinite() && box->half_extents.allFinite() && (box->half_extents.array() >= 0).all()))
+      continue;
+    out += fmt::format("; body {} is no box: at {}, half extents {}", i, in_words(t),
+                       in_words(box->half_extents));
+  }
+  return out;
+}
+
 }  // namespace
 
 std::size_t bodies_used(const Scene& s) {
@@ -134,7 +150,7 @@ Refutation refute(const Subject& subject, const EvidenceRow& e, std::uint64_t in
                   const CandidateVerdict& found) {
   Refutation r{e.level, std::string(e.name), index, found.fault, found.words, "not shrunk", 0, 0, {}};
   r.bodies = bodies_used(c.scene), r.steps = c.scene.script.size();
-  if (!has_json_form(c)) return r;
+  if (!has_json_form(c)) return r.words += what_is_no_box(c.scene), r;
   Asker asker(subject, e.level, found.fault);
   if (!asker.shows({&c, 1})[0]) asker.ask_anew();
   const StillShows still = [&](std::span<const Case> cases) { return asker.shows(cases); };
