@@ -117,7 +117,7 @@ std::vector<Pairs> true_pairs_of_bodies(const Scene& s, std::uint64_t& undecided
 class Judge {
  public:
   Judge(const Case& c, const Observation& answer, Level level, bool invalid)
-      : s_(c.scene), answer_(answer), level_(level), replay_(c.scene, level, invalid) {}
+      : s_(c.scene), answer_(answer), level_(level), invalid_(invalid), replay_(c.scene, level, invalid) {}
 
   CandidateVerdict run() {
     hash_.add(hash(s_));
@@ -132,8 +132,10 @@ class Judge {
   }
 
  private:
+  // To throw at what is no box is to refuse it.
   void failed() {
-    v_.refused = answer_.outcome == Outcome::unsupported || answer_.outcome == Outcome::invalid_input;
+    v_.refused = answer_.outcome == Outcome::unsupported || answer_.outcome == Outcome::invalid_input ||
+                 (invalid_ && answer_.outcome == Outcome::threw);
     v_.words = answer_.detail.empty() ? std::string(to_string(answer_.outcome)) : answer_.detail;
     if (!v_.refused) v_.fault = to_string(answer_.outcome);
   }
@@ -182,6 +184,7 @@ class Judge {
   const Scene& s_;
   const Observation& answer_;
   Level level_;
+  bool invalid_;
   Replay replay_;
   Hasher hash_;
   CandidateVerdict v_;

@@ -36,11 +36,12 @@ struct Walk {
 struct Course {
   int bodies, places, length;
   std::array<double, 3> at;  // the places along the axis, of boxes of side 1
+  double far;                // along z they are so many times as far apart: a move is a teleport
 };
 
 // Two places apart from each other; or three, each touching the next.
-Course course_of_two(const Draw&) { return {2, 2, 6, {-0.5, 1.5, 0}}; }
-Course course_of_three(const Draw& d) { return {3, 3, d.scope == Scope::quick ? 5 : 6, {-1, 0, 1}}; }
+Course course_of_two(const Draw&) { return {2, 2, 6, {-0.5, 1.5, 0}, 16}; }
+Course course_of_three(const Draw& d) { return {3, 3, d.scope == Scope::quick ? 5 : 6, {-1, 0, 1}, 1}; }
 
 const std::vector<std::string>& all_of(const Course& c) { return histories(c.bodies, c.places, c.length); }
 
@@ -52,6 +53,7 @@ void play(const Course& course, std::uint64_t index, Case& out) {
   Scene& s = out.scene;
   for (int b = 0; b < course.bodies; ++b)
     add_box(s, {Vec3::Zero(), Vec3::Constant(0.5)}, b == 0 && index % variants == 1);
+  const auto axis = static_cast<Eigen::Index>(index / variants % 3);
   std::vector<bool> present(static_cast<std::size_t>(course.bodies));
   for (const char op : ops) {
     const int body = op / (course.places + 1), what = op % (course.places + 1);
@@ -65,8 +67,7 @@ void play(const Course& course, std::uint64_t index, Case& out) {
       continue;
     }
     Pose p;
-    p.translation[static_cast<Eigen::Index>(index / variants % 3)] =
-        course.at[static_cast<std::size_t>(what)];
+    p.translation[axis] = course.at[static_cast<std::size_t>(what)] * (axis == 2 ? course.far : 1);
     present[b] ? step_move(s, body, p) : step_insert(s, body, p);
     present[b] = true;
   }
