@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include "core/base/input_error.h"
+#include "fuzz/certify/conformance.h"
 #include "fuzz/cli/command.h"
 #include "fuzz/cli/engine_catalog.h"
 #include "fuzz/record/observation_json.h"
@@ -42,6 +43,23 @@ int list(const std::string& which, bool json) {
   return exit_clean;
 }
 
+// 0: every probe is answered rightly or said to be unsupported; 3: nothing is answered.
+int check(const std::string& which) {
+  const auto names = engine_names(which);
+  if (names.size() != 1) throw InputError("--check " + which, "names more than one engine");
+  const EnginePtr engine = make_engine(names[0], {});
+  print_card(engine->card());
+  int right = 0, wrong = 0;
+  for (const fuzz::Remark& r : fuzz::conformance(*engine)) {
+    fmt::print("{:<12} {}\n", r.verdict, r.probe);
+    if (r.verdict == "wrong") fmt::print("             {}\n", reports::wrapped(r.words, 66, 13));
+    right += r.verdict == "right", wrong += r.verdict == "wrong";
+  }
+  fmt::print("{}: {} right, {} wrong\n", engine->card().name, right, wrong);
+  if (wrong > 0) return exit_wrong;
+  return right > 0 ? exit_clean : exit_failed;
+}
+
 }  // namespace
 
 Run declare_engines(CLI::App& app) {
@@ -49,7 +67,10 @@ Run declare_engines(CLI::App& app) {
   auto json = std::make_shared<bool>(false);
   app.add_option("engines", *which, "only these: names or paths of plug-ins, separated by commas");
   app.add_flag("--json", *json, "one JSON document");
-  return [which, json] { return list(*which, *json); };
+  auto checked = std::make_shared<std::string>();
+  app.add_option("--check", *checked,
+                 "does this engine (./libmine.so, pipe:COMMAND) speak the interface as it is meant?");
+  return [which, json, checked] { return checked->empty() ? list(*which, *json) : check(*checked); };
 }
 
 }  // namespace touchstone::cli

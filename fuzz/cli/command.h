@@ -21,6 +21,7 @@ std::span<const Command> commands();
 
 inline constexpr int exit_clean = 0, exit_wrong = 1, exit_usage = 2, exit_failed = 3;
 
+Run declare_certify(CLI::App& app);
 Run declare_check(CLI::App& app);
 Run declare_engines(CLI::App& app);
 Run declare_families(CLI::App& app);

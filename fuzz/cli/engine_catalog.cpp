@@ -35,20 +35,45 @@ constexpr EngineRow rows[] = {
     {"libccd-mpr-tuned", ccd, "libccd, MPR, tight tolerances"},
 };
 
+constexpr std::string_view fcl_broad = "libtouchstone_fcl_broad.so",
+                           f32_broad = "libtouchstone_bullet_broad_f32.so",
+                           f64_broad = "libtouchstone_bullet_broad_f64.so";
+
+constexpr EngineRow broad_rows[] = {
+    {"fcl-naive", fcl_broad, "FCL, NaiveCollisionManager"},
+    {"fcl-sap", fcl_broad, "FCL, SaPCollisionManager"},
+    {"fcl-ssap", fcl_broad, "FCL, SSaPCollisionManager"},
+    {"fcl-interval-tree", fcl_broad, "FCL, IntervalTreeCollisionManager"},
+    {"fcl-spatial-hash", fcl_broad, "FCL, SpatialHashingCollisionManager"},
+    {"fcl-dynamic-tree", fcl_broad, "FCL, DynamicAABBTreeCollisionManager"},
+    {"fcl-dynamic-tree-array", fcl_broad, "FCL, DynamicAABBTreeCollisionManager_Array"},
+    {"bullet-f32-dbvt", f32_broad, "Bullet float, btDbvtBroadphase"},
+    {"bullet-f32-axis-sweep", f32_broad, "Bullet float, btAxisSweep3"},
+    {"bullet-f32-axis-sweep-32", f32_broad, "Bullet float, bt32BitAxisSweep3"},
+    {"bullet-f32-simple", f32_broad, "Bullet float, btSimpleBroadphase"},
+    {"bullet-f64-dbvt", f64_broad, "Bullet double, btDbvtBroadphase"},
+    {"bullet-f64-axis-sweep", f64_broad, "Bullet double, btAxisSweep3"},
+    {"bullet-f64-axis-sweep-32", f64_broad, "Bullet double, bt32BitAxisSweep3"},
+    {"bullet-f64-simple", f64_broad, "Bullet double, btSimpleBroadphase"},
+};
+
 std::filesystem::path program_directory() {
   std::error_code ec;
   const auto exe = std::filesystem::read_symlink("/proc/self/exe", ec);
   return ec ? std::filesystem::current_path() : exe.parent_path();
 }
 
+bool is_pipe(const std::string& name) { return name.starts_with("pipe:"); }
+
 bool is_path(const std::string& name) {
   return name.find('/') != std::string::npos || (name.size() > 3 && name.ends_with(".so"));
 }
 
 const EngineRow* find_row(const std::string& name) {
-  const auto it =
-      std::find_if(std::begin(rows), std::end(rows), [&](const EngineRow& r) { return r.name == name; });
-  return it == std::end(rows) ? nullptr : it;
+  for (const auto catalog : {engine_catalog(), broad_catalog()})
+    for (const EngineRow& r : catalog)
+      if (r.name == name) return &r;
+  return nullptr;
 }
 
 // "./libmine.so:name" names one engine of a plug-in, "./libmine.so" the only one it offers.
@@ -59,8 +84,10 @@ RemoteSpec plugin_spec(const std::string& name) {
 }
 
 void check_name(const std::string& name) {
-  if (name.starts_with("pipe:"))
-    throw InputError(name, "engines behind a pipe are not supported by this version");
+  if (is_pipe(name)) {
+    if (name == "pipe:") throw InputError(name, "names no command: pipe:COMMAND");
+    return;
+  }
   if (is_path(name)) {
     const auto file = plugin_spec(name).plugin;
     if (!std::filesystem::exists(file)) throw InputError(file.string(), "no such plug-in file");
@@ -77,6 +104,7 @@ void check_name(const std::string& name) {
 }  // namespace
 
 std::span<const EngineRow> engine_catalog() { return rows; }
+std::span<const EngineRow> broad_catalog() { return broad_rows; }
 
 void add_case_seconds(CLI::App& app, WorkerLimits& limits) {
   app.add_option("--case-seconds", limits.query_cpu_seconds,
@@ -111,11 +139,19 @@ std::vector<std::string> engine_names(const std::string& text) {
   return names;
 }
 
+std::filesystem::path plugin_file(const std::string& name) {
+  if (is_pipe(name)) return {};
+  if (is_path(name)) return plugin_spec(name).plugin;
+  const EngineRow* row = find_row(name);
+  return !row || row->library.empty() ? std::filesystem::path{} : plugin_directory() / row->library;
+}
+
 EnginePtr make_engine(const std::string& name, const WorkerLimits& limits) {
   check_name(name);
   if (name == "core") return std::make_unique<CoreEngine>();
   if (name == "core-f32") return std::make_unique<CoreEngine>(Arithmetic::float32);
-  RemoteSpec spec = is_path(name)
+  RemoteSpec spec = is_pipe(name) ? RemoteSpec{host_program(), name, "", {}}
+                    : is_path(name)
                         ? plugin_spec(name)
                         : RemoteSpec{host_program(), plugin_directory() / find_row(name)->library, name, {}};
   spec.limits = limits;

@@ -19,6 +19,8 @@ struct EngineRow {
   std::string_view line;     // for people
 };
 std::span<const EngineRow> engine_catalog();
+/// Broad phases of the oracles alone: they answer `candidates` and nothing else, and are asked by name only.
+std::span<const EngineRow> broad_catalog();
 
 /// True when the engine's plug-in file is there.
 bool is_present(const EngineRow& row);
@@ -29,6 +31,9 @@ std::vector<std::string> engine_names(const std::string& text);
 
 /// Throws InputError when the plug-in is missing or does not offer the engine.
 EnginePtr make_engine(const std::string& name, const WorkerLimits& limits);
+
+/// The file of a plug-in or of a catalog engine in one; empty: in process, or no file.
+std::filesystem::path plugin_file(const std::string& name);
 
 /// The option --case-seconds of every command that asks engines.
 void add_case_seconds(CLI::App& app, WorkerLimits& limits);

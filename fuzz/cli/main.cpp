@@ -20,6 +20,8 @@ constexpr Command table[] = {
      declare_triage},
     {"merge", "shards of a campaign into one, or ledgers into one", declare_merge},
     {"view", "a page that shows what the broad phase makes of a scene", declare_view},
+    {"certify", "is a broad phase conservative? a certificate, or the smallest script that loses a pair",
+     declare_certify},
     {"check", "is a stored certificate a proof? in exact arithmetic, from the scene alone", declare_check},
     {"engines", "the engines present, their versions, settings and tolerances", declare_engines},
     {"families", "the families of random cases, a line each", declare_families},

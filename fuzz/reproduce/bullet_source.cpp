@@ -10,6 +10,9 @@ namespace touchstone::fuzz {
 namespace {
 
 std::string scalar(double x) { return fmt::format("btScalar({})", literal(x)); }
+// Of a broad phase alone: its declaration; empty for any other engine.
+std::string phase_of(const Asked& q);
+
 std::string vector(const Vec3& v) {
   return fmt::format("btVector3({}, {}, {})", scalar(v.x()), scalar(v.y()), scalar(v.z()));
 }
@@ -147,7 +150,7 @@ std::string shapes_of(const Asked& q, const std::vector<int>& bodies) {
     const int s = q.body(i).shape;
     if (std::find(made.begin(), made.end(), s) != made.end()) continue;
     made.push_back(s);
-    out += std::visit(Maker{static_cast<std::size_t>(s), q.tuned()},
+    out += std::visit(Maker{static_cast<std::size_t>(s), q.tuned() || !phase_of(q).empty()},
                       q.scene.shapes[static_cast<std::size_t>(s)]);
   }
   return out;
@@ -234,7 +237,82 @@ std::string scene_contacts(const Asked& q) {
   return out;
 }
 
+// The broad phases alone, by the names under which they are certified.
+constexpr std::string_view phase_head = R"(  btDefaultCollisionConfiguration configuration;
+  btCollisionDispatcher dispatcher(&configuration);
+  @PHASE@;
+  btBroadphaseProxy* proxy[@COUNT@] = {};
+  int number[@COUNT@] = {};
+  [[maybe_unused]] const auto box_of = [](const btCollisionShape& shape, const btTransform& at, btVector3& lo, btVector3& hi) {
+    shape.getAabb(at, lo, hi);
+  };
+  // An upright box has no need of its shape's margin.
+  [[maybe_unused]] const auto corners = [](const btVector3& h, const btTransform& at, btVector3& lo, btVector3& hi) {
+    lo = at.getOrigin() - h, hi = at.getOrigin() + h;
+  };
+)";
+
+std::string phase_of(const Asked& q) {
+  const std::string name(q.engine.substr(std::string_view("bullet-f64-").size()));
+  const std::string world = "btVector3(-1000, -1000, -1000), btVector3(1000, 1000, 1000), 16384";
+  if (name == "dbvt") return "btDbvtBroadphase phase";
+  if (name == "axis-sweep") return "btAxisSweep3 phase(" + world + ")";
+  if (name == "axis-sweep-32") return "bt32BitAxisSweep3 phase(" + world + ")";
+  return name == "simple" ? "btSimpleBroadphase phase(16384)" : "";
+}
+
+// lo and hi of body i at a pose.
+std::string box_of(const Asked& q, int i, const Pose& pose) {
+  const auto* box = std::get_if<Box>(&q.scene.shape_of(i));
+  const Quat& r = pose.rotation;
+  const bool thirds = r.x == r.y && r.y == r.z && (r.w == r.x || r.w == -r.x);
+  if (!box || (!thirds && !(r.x == 0 && r.y == 0 && r.z == 0)))
+    return fmt::format("  box_of(object_{}.getCollisionShape()[0], {}, lo, hi);\n", i, transform(pose));
+  const Vec3& h = box->half_extents;
+  const Vec3 turned = !thirds || r.x == 0 ? h
+                      : r.w == r.x        ? Vec3(h.z(), h.x(), h.y())
+                                          : Vec3(h.y(), h.z(), h.x());
+  return fmt::format("  corners({}, {}, lo, hi);\n", vector(turned), transform({pose.translation, {}}));
+}
+
+std::string phase_candidates(const Asked& q) {
+  std::vector<int> bodies;
+  for (std::size_t i = 0; i < q.scene.bodies.size(); ++i) bodies.push_back(static_cast<int>(i));
+  std::string out =
+      filled(phase_head, {{"PHASE", phase_of(q)}, {"COUNT", std::to_string(q.scene.bodies.size())}});
+  out += all_objects(q) + "  btVector3 lo, hi;\n";
+  int k = 0;
+  for (const Step& s : effective_script(q.scene)) {
+    if (s.op == Step::Op::insert || s.op == Step::Op::move)
+      out += box_of(q, s.body, s.pose.value_or(q.body(s.body).pose));
+    const std::string p = fmt::format("proxy[{}]", s.body);
+    const bool fixed = s.body >= 0 && q.body(s.body).is_static;
+    if (s.op == Step::Op::insert)
+      out += fmt::format(
+          "  {0} = phase.createProxy(lo, hi, BOX_SHAPE_PROXYTYPE, &number[{1}], {2}, {3}, &dispatcher);\n", p,
+          s.body, fixed ? "btBroadphaseProxy::StaticFilter" : "btBroadphaseProxy::DefaultFilter",
+          fixed ? "btBroadphaseProxy::AllFilter ^ btBroadphaseProxy::StaticFilter"
+                : "btBroadphaseProxy::AllFilter");
+    if (s.op == Step::Op::move) out += fmt::format("  phase.setAabb({}, lo, hi, &dispatcher);\n", p);
+    if (s.op == Step::Op::remove) out += fmt::format("  phase.destroyProxy({}, &dispatcher);\n", p);
+    if (s.op != Step::Op::query) continue;
+    out += "  phase.calculateOverlappingPairs(&dispatcher);\n";
+    if (k++ == q.step) break;
+  }
+  return out +
+         fmt::format(
+             "  const auto& pairs = phase.getOverlappingPairCache()->getOverlappingPairArray();\n"
+             "  for (int i = 0; i < pairs.size(); ++i) {{\n"
+             "    const auto *one = pairs[i].m_pProxy0, *two = pairs[i].m_pProxy1;\n"
+             "    if ((one == proxy[{0}] && two == proxy[{1}]) || (one == proxy[{1}] && two == proxy[{0}])) "
+             "x.overlap = true;\n  }}\n",
+             q.a, q.b);
+}
+
+bool is_phase(const Asked& q) { return q.question == Question::candidates && !phase_of(q).empty(); }
+
 std::string body_of(const Asked& q) {
+  if (is_phase(q)) return phase_candidates(q);
   if (q.question == Question::time_of_impact) return impact(q);
   if (q.question == Question::candidates) return candidates(q);
   if (q.question == Question::scene_contacts) return scene_contacts(q);
@@ -254,7 +332,8 @@ EngineSource bullet_source(const Asked& q) {
   if (!is_sim(q) && q.question != Question::time_of_impact && q.question != Question::candidates)
     out.code += filled(query_helper,
                        {{"THRESHOLD", q.question == Question::distance ? "btScalar(BT_LARGE_FLOAT)" : "0"}});
-  out.code += "Answer ask() {\n  World w;\n  Answer x;\n" + body_of(q) + "  return x;\n}\n";
+  if (is_phase(q)) out.includes += "#include <BulletCollision/BroadphaseCollision/btSimpleBroadphase.h>\n";
+  out.code += "Answer ask() {\n  [[maybe_unused]] World w;\n  Answer x;\n" + body_of(q) + "  return x;\n}\n";
   return out;
 }
 

@@ -221,6 +221,85 @@ Answer ask() {
   };
 )";
 
+// The managers alone, by the names under which they are certified: the first objects are registered at once,
+// update() once after moves, setup() before a query.
+constexpr std::string_view manager_head = R"(const Geometry shapes[] = {@SHAPES@
+};
+
+Answer ask() {
+  Answer x;
+  @MANAGER@;
+  std::unique_ptr<fcl::CollisionObjectd> object[@COUNT@];
+  std::vector<fcl::CollisionObjectd*> first;
+  bool started = false, moved = false;
+  const auto start = [&] {
+    if (started) return;
+    started = true;
+    manager.registerObjects(first);
+    manager.setup();
+  };
+  const auto update = [&] {
+    if (moved) manager.update();
+    moved = false;
+  };
+  const auto insert = [&](int i, int shape, const Placement& at) {
+    update();
+    object[i] = std::make_unique<fcl::CollisionObjectd>(shapes[shape], transform(at));
+    object[i]->computeAABB();
+    if (started)
+      manager.registerObject(object[i].get());
+    else
+      first.push_back(object[i].get());
+  };
+  [[maybe_unused]] const auto move = [&](int i, const Placement& at) {
+    start();
+    object[i]->setTransform(transform(at));
+    object[i]->computeAABB();
+    moved = true;
+  };
+  [[maybe_unused]] const auto remove = [&](int i) {
+    update();
+    start();
+    manager.unregisterObject(object[i].get());
+    object[i].reset();
+  };
+  struct Wanted {
+    const fcl::CollisionObjectd *a, *b;
+    bool found;
+  } wanted{};
+  const auto query = [&] {
+    wanted = {object[@A@].get(), object[@B@].get(), false};
+    start();
+    update();
+    manager.setup();
+    manager.collide(&wanted, [](fcl::CollisionObjectd* one, fcl::CollisionObjectd* two, void* data) {
+      Wanted& w = *static_cast<Wanted*>(data);
+      w.found = w.found || (one == w.a && two == w.b) || (one == w.b && two == w.a);
+      return false;
+    });
+  };
+)";
+
+struct ManagerRow {
+  std::string_view engine, declaration;
+};
+constexpr ManagerRow managers[] = {
+    {"fcl-naive", "fcl::NaiveCollisionManagerd manager"},
+    {"fcl-sap", "fcl::SaPCollisionManagerd manager"},
+    {"fcl-ssap", "fcl::SSaPCollisionManagerd manager"},
+    {"fcl-interval-tree", "fcl::IntervalTreeCollisionManagerd manager"},
+    {"fcl-spatial-hash",
+     "fcl::SpatialHashingCollisionManagerd<> manager(1.0, fcl::Vector3d::Constant(-1000), "
+     "fcl::Vector3d::Constant(1000))"},
+    {"fcl-dynamic-tree", "fcl::DynamicAABBTreeCollisionManagerd manager"},
+    {"fcl-dynamic-tree-array", "fcl::DynamicAABBTreeCollisionManager_Arrayd manager"},
+};
+std::string manager_of(std::string_view engine) {
+  for (const ManagerRow& row : managers)
+    if (row.engine == engine) return std::string(row.declaration);
+  return "";
+}
+
 // What a campaign sets: as shipped, or tuned.
 std::string tolerance(const Asked& q) { return q.tuned() ? "1e-12" : "1e-6"; }
 std::string solver(const Asked& q) { return q.engine.starts_with("fcl-indep") ? "GST_INDEP" : "GST_LIBCCD"; }
@@ -264,10 +343,12 @@ std::string distance(const Asked& q) {
 std::string scene(const Asked& q) {
   std::string shapes, out;
   for (const Shape& s : q.scene.shapes) shapes += fmt::format("\n    {},", std::visit(Maker{}, s));
-  out = filled(scene_head, {{"SHAPES", shapes},
-                            {"COUNT", std::to_string(q.scene.bodies.size())},
-                            {"A", std::to_string(q.a)},
-                            {"B", std::to_string(q.b)}});
+  const std::string manager = manager_of(q.engine);
+  out = filled(manager.empty() ? scene_head : manager_head, {{"SHAPES", shapes},
+                                                             {"MANAGER", manager},
+                                                             {"COUNT", std::to_string(q.scene.bodies.size())},
+                                                             {"A", std::to_string(q.a)},
+                                                             {"B", std::to_string(q.b)}});
   if (q.question == Question::scene_contacts) {
     for (std::size_t i = 0; i < q.scene.bodies.size(); ++i)
       out += fmt::format("  insert({}, {}, {});\n", i, q.scene.bodies[i].shape,

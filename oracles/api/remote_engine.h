@@ -24,7 +24,7 @@ struct WorkerLimits {
 
 struct RemoteSpec {
   std::filesystem::path host;    // the program touchstone-host
-  std::filesystem::path plugin;  // shared object with touchstone_plugin_v1
+  std::filesystem::path plugin;  // shared object with touchstone_plugin_v1, or pipe:COMMAND
   std::string engine;            // name on its card; empty: the only one that the plug-in offers
   WorkerLimits limits;
 };

@@ -61,11 +61,12 @@ ReadResult read_available(int fd, protocol::FrameReader& frames) {
 WorkerSession start_nursery(const std::filesystem::path& host, const std::filesystem::path& plugin,
                             const std::string& argument, double wall_seconds) {
   const std::string place = plugin.string();
+  const bool is_command = place.starts_with("pipe:");
   std::error_code error;
-  if (!std::filesystem::is_regular_file(plugin, error))
+  if (!is_command && !std::filesystem::is_regular_file(plugin, error))
     throw InputError(place, "there is no such plug-in file");
   // An absolute path, or the dynamic linker would search for a name without a slash elsewhere.
-  std::vector<std::string> arguments{std::filesystem::absolute(plugin).string()};
+  std::vector<std::string> arguments{is_command ? place : std::filesystem::absolute(plugin).string()};
   if (!argument.empty()) arguments.push_back(argument);
   WorkerSession s;
   s.process = std::make_shared<WorkerProcess>(host, arguments);

@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "oracles/api/engine.h"
+#include "oracles/host/pipe.h"
 
 namespace touchstone::host {
 namespace {
@@ -15,6 +16,7 @@ constexpr std::uint32_t max_engines = 4096;
 }  // namespace
 
 const ts_plugin& load_plugin(const std::string& file) {
+  if (file.starts_with(pipe_prefix)) return load_pipe(file.substr(std::string(pipe_prefix).size()));
   void* const library = dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL);
   if (!library) throw std::runtime_error(dlerror());
   using Entry = const ts_plugin* (*)();

@@ -9,7 +9,7 @@
 
 namespace touchstone::host {
 
-/// Throws std::runtime_error with the reason when the file is no plug-in of this ABI. Stays loaded for ever:
+/// "pipe:COMMAND" is a command behind a pipe (pipe.h). Throws std::runtime_error with the reason when the file is no plug-in of this ABI. Stays loaded for ever:
 /// engines may have threads and exit handlers in it.
 const ts_plugin& load_plugin(const std::string& file);
 

@@ -18,7 +18,7 @@ const std::vector<std::string> rooms = {
     "core/ccd",       "core/world",     "oracles/api",     "oracles/host",    "oracles/core", "oracles/fcl",
     "oracles/bullet", "oracles/libccd", "oracles/referee", "oracles/example", "scenarios",    "fuzz/record",
     "fuzz/judge",     "fuzz/generate",  "fuzz/campaign",   "fuzz/shrink",     "fuzz/triage",  "fuzz/explore",
-    "fuzz/reproduce", "fuzz/bisect",    "fuzz/libfuzzer",  "fuzz/cli",        "reports"};
+    "fuzz/reproduce", "fuzz/bisect",    "fuzz/certify",    "fuzz/libfuzzer",  "fuzz/cli",        "reports"};
 
 // The value types: scene.h and what it needs.
 const std::vector<std::string> values = {"core/base", "core/math", "core/shape", "core/scene/scene.h",
@@ -59,6 +59,8 @@ const std::map<std::string, std::vector<std::string>> may_include = {
      with_values({"fuzz/shrink", "fuzz/campaign", "fuzz/generate", "fuzz/record", "oracles/api"})},
     {"fuzz/libfuzzer", with_values({"fuzz/libfuzzer", "fuzz/generate", "fuzz/campaign", "fuzz/record",
                                     "scenarios", "core/scene", "oracles/api", "oracles/core"})},
+    {"fuzz/certify", with_values({"fuzz/certify", "fuzz/generate", "fuzz/judge", "fuzz/record", "fuzz/shrink",
+                                  "oracles/api"})},
     {"fuzz/bisect",
      with_values({"fuzz/bisect", "fuzz/shrink", "fuzz/judge", "fuzz/record", "scenarios", "oracles/api"})},
     {"fuzz/reproduce",

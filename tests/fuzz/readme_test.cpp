@@ -35,6 +35,8 @@ std::string for_test(std::string c) {
   c = std::regex_replace(c, std::regex(R"(\./libmine\.so)"), TS_BINARY_DIR "/lib/libtouchstone_example.so");
   c = std::regex_replace(c, std::regex("-o broad.html"), "-o " TS_BINARY_DIR "/readme-broad.html");
   c = std::regex_replace(c, std::regex("-o reproduce.cpp"), "-o " TS_BINARY_DIR "/readme-reproduce.cpp");
+  c = std::regex_replace(c, std::regex("out/grid"), TS_BINARY_DIR "/readme-grid");
+  if (c.find("certify --subject") != std::string::npos) c += " --limit 100";
   c = std::regex_replace(c, std::regex("out/nightly"), TS_BINARY_DIR "/readme-out");
   c = std::regex_replace(c, std::regex("out/(part|merged)"), TS_BINARY_DIR "/readme-shards/$1");
   if (c.find(" fuzz ") != std::string::npos && c.find(" --out ") == std::string::npos)

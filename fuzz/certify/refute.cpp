@@ -1,0 +1,168 @@
+#include "fuzz/certify/refute.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <set>
+
+#include "core/base/input_error.h"
+#include "fuzz/shrink/shrink.h"
+
+namespace touchstone::fuzz {
+namespace {
+
+// A case that hangs costs its time at every try.
+std::size_t most_tries(const std::string& fault) {
+  if (fault == "timed_out") return 40;
+  return fault == "crashed" ? 1500 : 12000;
+}
+
+class Asker {
+ public:
+  Asker(const Subject& s, Level level, std::string fault) : s_(s), level_(level), fault_(std::move(fault)) {}
+
+  /// From now on every case is asked of an engine that was asked nothing before.
+  void ask_anew() { anew_ = true; }
+
+  CandidateVerdict verdict(const Case& c) {
+    const auto o = engine().run({&c, 1});
+    return judge_candidates(c, o[0].answers[0], level_);
+  }
+  std::vector<bool> shows(std::span<const Case> cases) {
+    std::vector<bool> out(cases.size());
+    std::vector<Case> fit;
+    std::vector<std::size_t> place;
+    for (std::size_t i = 0; i < cases.size(); ++i)
+      if (is_fit(cases[i])) fit.push_back(cases[i]), place.push_back(i);
+    if (anew_) {
+      for (std::size_t i = 0; i < fit.size(); ++i) out[place[i]] = verdict(fit[i]).fault == fault_;
+      return out;
+    }
+    const auto all = engine().run(fit);
+    for (std::size_t i = 0; i < fit.size(); ++i)
+      out[place[i]] = judge_candidates(fit[i], all[i].answers[0], level_).fault == fault_;
+    return out;
+  }
+
+ private:
+  // At the level of boxes a body stays a box whose corners are exact in the format of the subject.
+  bool is_fit(const Case& c) {
+    if (c.queries.size() != 1 || c.queries[0].question != Question::candidates) return false;
+    // No script would mean: insert all.
+    if (c.scene.script.empty() || c.scene.bodies.empty()) return false;
+    if (level_ == Level::bodies) return true;
+    const Scalar scalar = engine().card().unit_roundoff > 0x1p-50 ? Scalar::float32 : Scalar::float64;
+    for (const Step& step : c.scene.script) {
+      if (step.op != Step::Op::insert && step.op != Step::Op::move) continue;
+      const Pose p = step.pose.value_or(c.scene.bodies[static_cast<std::size_t>(step.body)].pose);
+      const auto box = exact_box(c.scene.shape_of(step.body), p);
+      if (!box) return false;
+      if (box->lo.allFinite() && box->hi.allFinite() &&
+          !exact_corners(p.translation, box->hi - p.translation, scalar))
+        return false;
+    }
+    return true;
+  }
+  Engine& engine() {
+    if (!engine_ || anew_) engine_ = s_.make(level_);
+    return *engine_;
+  }
+  const Subject& s_;
+  Level level_;
+  std::string fault_;
+  bool anew_ = false;
+  EnginePtr engine_;
+};
+
+// The script up to the query at which it went wrong.
+Case cut_after(Case c, int query) {
+  int k = 0;
+  auto& script = c.scene.script;
+  for (std::size_t i = 0; i < script.size(); ++i)
+    if (script[i].op == Step::Op::query && k++ == query) {
+      script.resize(i + 1);
+      break;
+    }
+  return c;
+}
+
+void keep_steps_of(Case& c, const std::set<int>& bodies) {
+  std::erase_if(c.scene.script,
+                [&](const Step& s) { return s.op != Step::Op::query && !bodies.contains(s.body); });
+}
+
+// What often suffices of a long script: the two bodies, alone; then with one query only.
+std::vector<Case> guesses(const Case& c, const CandidateVerdict& v) {
+  std::vector<Case> out;
+  if (v.a < 0 || v.b < 0) return out;
+  Case both = c;
+  keep_steps_of(both, {v.a, v.b});
+  Case last = both;
+  std::size_t left = last.scene.script.size();
+  std::erase_if(last.scene.script, [&](const Step& s) { return --left > 0 && s.op == Step::Op::query; });
+  out.push_back(std::move(last)), out.push_back(std::move(both));
+  return out;
+}
+
+Case start_of(Asker& asker, const Case& c, const CandidateVerdict& v) {
+  const Case cut = v.query < 0 ? c : cut_after(c, v.query);
+  if (!asker.shows({&cut, 1})[0]) return c;
+  for (const Case& g : guesses(cut, v))
+    if (asker.shows({&g, 1})[0]) return g;
+  return cut;
+}
+
+bool has_json_form(const Case& c) {
+  try {
+    validate(c.scene);
+    return true;
+  } catch (const InputError&) {
+    return false;
+  }
+}
+
+std::string in_words(const Vec3& v) { return fmt::format("({:g}, {:g}, {:g})", v.x(), v.y(), v.z()); }
+
+// What has no JSON form: the bodies whose numbers are not finite, or make no box.
+std::string what_is_no_box(const Scene& s) {
+  std::string out;
+  for (std::size_t i = 0; i < s.bodies.size(); ++i) {
+    const auto* box = std::get_if<Box>(&s.shape_of(static_cast<int>(i)));
+    const Vec3& t = s.bodies[i].pose.translation;
+    if (!box || (t.allFinite() && box->half_extents.allFinite() && (box->half_extents.array() >= 0).all()))
+      continue;
+    out += fmt::format("; body {} is no box: at {}, half extents {}", i, in_words(t),
+                       in_words(box->half_extents));
+  }
+  return out;
+}
+
+}  // namespace
+
+std::size_t bodies_used(const Scene& s) {
+  std::set<int> used;
+  for (const Step& step : s.script)
+    if (step.op == Step::Op::insert) used.insert(step.body);
+  return used.size();
+}
+
+Refutation refute(const Subject& subject, const EvidenceRow& e, std::uint64_t index, const Case& c,
+                  const CandidateVerdict& found) {
+  Refutation r{e.level, std::string(e.name), index, found.fault, found.words, "not shrunk", 0, 0, {}};
+  r.bodies = bodies_used(c.scene), r.steps = c.scene.script.size();
+  if (!has_json_form(c)) return r.words += what_is_no_box(c.scene), r;
+  Asker asker(subject, e.level, found.fault);
+  if (!asker.shows({&c, 1})[0]) asker.ask_anew();
+  const StillShows still = [&](std::span<const Case> cases) { return asker.shows(cases); };
+  const Shrunk shrunk = shrink(start_of(asker, c, found), still, most_tries(found.fault));
+  r.shrink = to_string(shrunk.exit);
+  r.script = shrunk.smallest;
+  r.bodies = bodies_used(shrunk.smallest.scene), r.steps = shrunk.smallest.scene.script.size();
+  if (shrunk.exit == ShrinkExit::not_shown)
+    r.shrink = "not shown again: the subject does not answer the same twice";
+  else
+    r.words = asker.verdict(shrunk.smallest).words;
+  return r;
+}
+
+}  // namespace touchstone::fuzz

@@ -1,0 +1,44 @@
+#include "fuzz/cli/broad_subject.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <fstream>
+
+#include "core/base/hash.h"
+#include "core/base/input_error.h"
+#include "fuzz/cli/engine_catalog.h"
+#include "oracles/core/broad_engine.h"
+
+namespace touchstone::cli {
+namespace {
+
+std::string hash_of_file(const std::filesystem::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  if (!in) throw InputError(file.string(), "cannot be read");
+  Hasher h;
+  char buffer[1 << 16];
+  while (in.read(buffer, sizeof buffer) || in.gcount() > 0)
+    h.bytes(buffer, static_cast<std::size_t>(in.gcount()));
+  return fmt::format("{:016x}", h.value());
+}
+
+}  // namespace
+
+fuzz::Subject broad_subject(const std::string& name, const WorkerLimits& limits, bool sweeps) {
+  const auto phases = core_broad_phases();
+  if (std::find(phases.begin(), phases.end(), name) != phases.end())
+    return {name, "", true, [name](fuzz::Level level) {
+              return make_broad_engine(name,
+                                       level == fuzz::Level::boxes ? BroadBoxes::exact : BroadBoxes::bodies);
+            }};
+  if (engine_names(name).size() != 1 || name == "all")
+    throw InputError("--subject " + name, "is more than one engine");
+  const auto file = plugin_file(name);
+  fuzz::Subject s{name, file.empty() ? "" : hash_of_file(file), sweeps || name == "core",
+                  [name, limits](fuzz::Level) { return make_engine(name, limits); }};
+  s.make(fuzz::Level::boxes);  // what is wrong with it is said before anything is asked
+  return s;
+}
+
+}  // namespace touchstone::cli

@@ -1,0 +1,14 @@
+// The subject of `certify`: a broad phase of the core, one of an oracle, any engine of the catalog, a
+// plug-in, a command behind a pipe.
+#pragma once
+
+#include "fuzz/certify/certify.h"
+#include "oracles/api/remote_engine.h"
+
+namespace touchstone::cli {
+
+/// Throws InputError, place and reason, when there is no such subject. `sweeps`: the user says that its
+/// candidates are those of the whole step; the core's are.
+fuzz::Subject broad_subject(const std::string& name, const WorkerLimits& limits, bool sweeps);
+
+}  // namespace touchstone::cli

@@ -1,0 +1,236 @@
+// touchstone certify --subject X: is a broad phase conservative? A certificate, or the smallest script that
+// loses a pair. --check CERT makes one again from itself alone and compares.
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <csignal>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <thread>
+
+#include "core/base/input_error.h"
+#include "core/scene/input_file.h"
+#include "fuzz/campaign/store.h"
+#include "fuzz/cli/broad_subject.h"
+#include "fuzz/cli/command.h"
+#include "fuzz/cli/engine_catalog.h"
+#include "oracles/core/broad_engine.h"
+#include "reports/certificate_text.h"
+#include "reports/text.h"
+#include "scenarios/case_codec.h"
+
+namespace touchstone::cli {
+namespace {
+
+using Json = nlohmann::ordered_json;
+using fuzz::BroadCertificate;
+
+std::atomic<bool> interrupted{false};
+void on_signal(int) { interrupted = true; }
+
+struct Options {
+  std::string subject, scope = "quick", level = "both", out, page, script, check;
+  std::vector<std::string> without;
+  std::uint64_t seed = 1, limit = 0;
+  int jobs = 1;
+  bool sweeps = false, json = false, list = false;
+  WorkerLimits limits;
+};
+
+class ProgressPrinter {
+ public:
+  void operator()(const fuzz::EvidenceCount& e, std::size_t index, std::size_t count) {
+    const auto now = std::chrono::steady_clock::now();
+    if (now < next_) return;
+    next_ = now + (live_ ? std::chrono::milliseconds(200) : std::chrono::milliseconds(10000));
+    fmt::print(stderr, "{}{}/{} {}: {} of {} cases{}", live_ ? "\r\033[K" : "", index + 1, count, e.name,
+               reports::grouped(e.cases), reports::grouped(e.planned), live_ ? "" : "\n");
+    std::fflush(stderr);
+  }
+  ~ProgressPrinter() {
+    if (live_) fmt::print(stderr, "\r\033[K");
+  }
+
+ private:
+  bool live_ = isatty(2) == 1;
+  std::chrono::steady_clock::time_point next_ =
+      std::chrono::steady_clock::now() + std::chrono::seconds(live_ ? 0 : 10);
+};
+
+// Before minutes of work, not after.
+void require_writable(const std::string& file) {
+  if (file.empty()) return;
+  const bool there = std::filesystem::exists(file);
+  const auto directory = std::filesystem::absolute(file).parent_path();
+  if (std::filesystem::is_directory(file)) throw InputError(file, "cannot be written: it is a directory");
+  if (!there && !std::filesystem::is_directory(directory))
+    throw InputError(file, "cannot be written: there is no directory " + directory.string());
+  if (access(directory.c_str(), W_OK) != 0) throw InputError(file, "cannot be written: no permission");
+}
+
+fuzz::CertifyConfig config_of(const Options& o) {
+  fuzz::CertifyConfig c;
+  c.scope = o.scope == "full" ? fuzz::Scope::full : fuzz::Scope::quick;
+  c.seed = o.seed, c.limit = o.limit, c.jobs = o.jobs, c.without = o.without;
+  if (o.level == "boxes") c.levels = {fuzz::Level::boxes};
+  if (o.level == "bodies") c.levels = {fuzz::Level::bodies};
+  c.program = "touchstone " TOUCHSTONE_VERSION;
+  return c;
+}
+
+std::optional<BroadCertificate> make(const fuzz::Subject& s, const fuzz::CertifyConfig& c) {
+  std::signal(SIGINT, on_signal);
+  std::signal(SIGTERM, on_signal);
+  ProgressPrinter printer;
+  return fuzz::certify(s, c, std::ref(printer), interrupted);
+}
+
+// The script beside the certificate, ready for `touchstone replay`.
+std::string script_file(const Options& o, const fuzz::Refutation& r) {
+  const std::string base = !o.script.empty() ? o.script
+                           : o.out.empty()
+                               ? ""
+                               : std::filesystem::path(o.out).replace_extension().string() + ".case.json";
+  if (base.empty() || o.level != "both") return base;
+  const std::filesystem::path p(base);
+  const std::string name = p.filename().string();
+  const auto dot = std::min(name.find('.'), name.size());
+  return (p.parent_path() / (name.substr(0, dot) + "." + std::string(to_string(r.level)) + name.substr(dot)))
+      .string();
+}
+
+void write_scripts(const Options& o, const BroadCertificate& c) {
+  for (const auto& r : c.refutations) {
+    if (!r.script) continue;
+    StoredCase stored;
+    stored.c = *r.script;
+    stored.description = fmt::format("{}: {}", c.subject, r.words);
+    stored.source = fmt::format("certify, level of {}, shrunk from {} case {}, seed {}", to_string(r.level),
+                                r.evidence, r.index, c.seed);
+    const std::string file = script_file(o, r);
+    if (file.empty()) {
+      fmt::print("the script that refutes it ({}):\n{}", to_string(r.level), to_text(stored));
+      continue;
+    }
+    fuzz::write_atomically(file, to_text(stored));
+    fmt::print("script: {}\n", file);
+  }
+}
+
+int list_subjects() {
+  for (const auto name : core_broad_phases()) fmt::print("{:<26}core, in process\n", name);
+  for (const EngineRow& row : broad_catalog())
+    fmt::print("{:<26}{}{}\n", row.name, row.line, is_present(row) ? "" : " (absent: not built)");
+  fmt::print("and every engine of `touchstone engines`, ./libmine.so, pipe:COMMAND\n");
+  return exit_clean;
+}
+
+int certify_subject(const Options& o) {
+  if (o.subject.empty()) throw InputError("certify", "say what to certify: --subject NAME, or --check CERT");
+  for (const std::string& file : {o.out, o.page, o.script}) require_writable(file);
+  const auto c = make(broad_subject(o.subject, o.limits, o.sweeps), config_of(o));
+  if (!c) {
+    fmt::print(stderr, "interrupted: no certificate\n");
+    return exit_failed;
+  }
+  if (!o.out.empty()) fuzz::write_atomically(o.out, to_json(*c).dump(1) + "\n");
+  if (!o.page.empty()) fuzz::write_atomically(o.page, reports::certificate_page(*c));
+  if (o.json) {
+    fmt::print("{}\n", to_json(*c).dump(1));
+  } else {
+    fmt::print("{}", reports::certificate_text(*c, true));
+    write_scripts(o, *c);
+    fmt::print("{}\n", reports::certificate_line(*c));
+  }
+  return exit_code(*c);
+}
+
+// The first field in which two certificates differ, for people.
+std::string first_difference(const Json& was, const Json& is, const std::string& place) {
+  if (was == is) return "";
+  if (was.is_structured() && is.is_structured() && was.is_object() == is.is_object() &&
+      was.size() == is.size()) {
+    const Json a = was.flatten(), b = is.flatten();
+    for (const auto& [key, value] : a.items())
+      if (!b.contains(key) || b.at(key) != value)
+        return fmt::format("{}{}: {} is now {}", place, key, value.dump(),
+                           b.contains(key) ? b.at(key).dump() : "absent");
+  }
+  return place + "another number of entries";
+}
+
+int differs(const std::string& file, const std::string& why) {
+  fmt::print("{}: not valid: {}\n", file, why);
+  return exit_wrong;
+}
+
+Json read_certificate(const std::string& file) {
+  try {
+    return Json::parse(read_file(file, std::uintmax_t{1} << 28));
+  } catch (const Json::exception& e) {
+    throw InputError(file, std::string("is not JSON: ") + e.what());
+  }
+}
+
+int check(const Options& o) {
+  const Json stored = read_certificate(o.check);
+  bool digest_holds = false;
+  BroadCertificate was;
+  try {
+    was = fuzz::broad_certificate_from_json(stored, digest_holds);
+  } catch (const InputError& e) {
+    throw e.within(o.check);
+  }
+  if (!digest_holds) return differs(o.check, "its digest is not that of what it says");
+  fuzz::CertifyConfig c;
+  c.scope = was.scope == "full" ? fuzz::Scope::full : fuzz::Scope::quick;
+  c.seed = was.seed, c.limit = was.limit, c.levels = was.levels, c.without = was.without, c.jobs = o.jobs;
+  c.program = was.program;
+  const fuzz::Subject s = broad_subject(was.subject, o.limits, was.sweeps);
+  if (s.plugin_hash != was.plugin_hash)
+    return differs(o.check, "the plug-in is another build than the one certified");
+  const auto again = make(s, c);
+  if (!again) {
+    fmt::print(stderr, "interrupted: nothing is said\n");
+    return exit_failed;
+  }
+  const std::string difference = first_difference(stored, to_json(*again), "");
+  if (!difference.empty()) return differs(o.check, difference);
+  fmt::print("{}: valid, made again with the same digest\n{}\n", o.check, reports::certificate_line(was));
+  return exit_code(was);
+}
+
+}  // namespace
+
+Run declare_certify(CLI::App& app) {
+  auto o = std::make_shared<Options>();
+  o->jobs = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+  app.add_option("--subject", o->subject,
+                 "a broad phase of the core, an engine (`touchstone engines`), ./libmine.so, pipe:COMMAND");
+  app.add_option("--scope", o->scope, "quick (a minute) or full (half an hour)")
+      ->check(CLI::IsMember({"quick", "full"}))
+      ->capture_default_str();
+  app.add_option("--level", o->level, "boxes, bodies or both")
+      ->check(CLI::IsMember({"boxes", "bodies", "both"}))
+      ->capture_default_str();
+  app.add_option("-o,--out", o->out, "file for the certificate (JSON)");
+  app.add_option("--page", o->page, "file for the certificate as a page (HTML, loads nothing)");
+  app.add_option("--script", o->script,
+                 "file for the script of a refutation (default: beside the certificate)");
+  app.add_option("--check", o->check, "a certificate to make again and compare; 0: it holds as it is");
+  app.add_option("--without", o->without,
+                 "evidence to leave out, separated by commas; the certificate says so")
+      ->delimiter(',')
+      ->allow_extra_args(false);
+  app.add_option("--seed", o->seed, "same seed, same certificate")->capture_default_str();
+  app.add_option("--limit", o->limit, "cases of an evidence at most; the certificate says so");
+  app.add_option("--jobs", o->jobs, "jobs side by side")->check(CLI::Range(1, 1024))->capture_default_str();
+  app.add_flag("--sweeps", o->sweeps,
+               "the subject's candidates are those of the whole step: ask it about motion");
+  app.add_flag("--list", o->list, "the subjects there are by name");
+  add_case_seconds(app, o->limits);
+  app.add_flag("--json", o->json, "the certificate as one JSON document on stdout");
+  return [o] { return o->list ? list_subjects() : o->check.empty() ? certify_subject(*o) : check(*o); };
+}
+
+}  // namespace touchstone::cli

@@ -1,0 +1,23 @@
+// One broad phase of the core as an engine that answers `candidates`, in process.
+#pragma once
+
+#include <span>
+#include <string_view>
+
+#include "oracles/api/engine.h"
+
+namespace touchstone {
+
+/// What box a body is given. exact: that of a body which is one, as it stands (an upright box, or one turned
+/// by thirds about the diagonal; a half-space perpendicular to an axis); any other body makes the answer
+/// `unsupported`. bodies: the core's own box around the body, of the whole step when it moves.
+enum class BroadBoxes { exact, bodies };
+
+/// Names of core/broad/catalog.h.
+std::span<const std::string_view> core_broad_phases();
+
+/// Null when there is no such broad phase. Boxes that the broad phase refuses (NaN, inverted) are left out;
+/// the answer's detail says so.
+EnginePtr make_broad_engine(std::string_view name, BroadBoxes boxes);
+
+}  // namespace touchstone

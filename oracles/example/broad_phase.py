@@ -1,0 +1,57 @@
+#!/usr/bin/env python3
+"""A broad phase behind a pipe: a box around each body, all pairs. See pipe_protocol.md.
+
+    touchstone certify --subject 'pipe:python3 broad_phase.py'
+"""
+import json
+import math
+import sys
+
+INF = math.inf
+
+
+def reach(shape):
+    """No point is further from the body's origin: |x| + |y| + |z| is never less than the length."""
+    if shape["type"] == "half_space":
+        return INF
+    r = shape.get("radius", 0) + shape.get("half_height", 0)
+    r += sum(shape.get("half_extents", [])) + sum(shape.get("semi_axes", []))
+    for v in shape.get("vertices", []):
+        r = max(r, sum(abs(x) for x in v))
+    return r * (1 + 2**-48)
+
+
+def box_of(scene, step):
+    """Rounded outward: one place too small, and a pair is lost."""
+    r, t = reach(scene["shapes"][scene["bodies"][step["body"]]["shape"]]), step["pose"]["translation"]
+    return [math.nextafter(x - r, -INF) for x in t], [math.nextafter(x + r, INF) for x in t]
+
+
+def overlap(a, b):
+    return all(a[0][k] <= b[1][k] and b[0][k] <= a[1][k] for k in range(3))
+
+
+def candidates(scene):
+    present, lists = {}, []
+    for step in scene["steps"]:
+        if step["op"] == "query":
+            ids = sorted(present)
+            lists.append([[i, j] for n, i in enumerate(ids) for j in ids[n + 1:] if overlap(present[i], present[j])])
+        elif step["op"] == "remove":
+            del present[step["body"]]
+        else:
+            present[step["body"]] = box_of(scene, step)
+    return {"pairs": lists}
+
+
+print(json.dumps({"touchstone_pipe": 1, "name": "mine-py", "library": "mine", "version": "1",
+                  "settings": "all pairs of boxes", "unit_roundoff": 1.1102230246251565e-16,
+                  "tau_factor": 64, "source": "arithmetic only"}), flush=True)
+scene = None
+for line in sys.stdin:
+    message = json.loads(line)
+    if "scene" in message:
+        scene = message["scene"]
+    else:
+        answer = candidates(scene) if message["ask"] == "candidates" else {"outcome": "unsupported"}
+        print(json.dumps(answer), flush=True)

@@ -1,0 +1,168 @@
+// FCL's broad-phase managers, each an engine that answers `candidates` alone. Driven as FCL's documentation
+// has it: objects are registered, those that come first at once; computeAABB after every move, update() once
+// after the moves and before anything else; setup() before every query.
+#include <fcl/broadphase/broadphase_SSaP.h>
+#include <fcl/broadphase/broadphase_SaP.h>
+#include <fcl/broadphase/broadphase_bruteforce.h>
+#include <fcl/broadphase/broadphase_dynamic_AABB_tree.h>
+#include <fcl/broadphase/broadphase_dynamic_AABB_tree_array.h>
+#include <fcl/broadphase/broadphase_interval_tree.h>
+#include <fcl/broadphase/broadphase_spatialhash.h>
+#include <fcl/config.h>
+#include <fcl/narrowphase/collision_object.h>
+
+#include <functional>
+#include <memory>
+
+#include "oracles/api/plugin_kit.h"
+#include "oracles/fcl/shapes.h"
+
+namespace touchstone::fcl_adapter {
+namespace {
+
+using Manager = fcl::BroadPhaseCollisionManagerd;
+using ManagerPtr = std::unique_ptr<Manager>;
+
+struct Row {
+  const char *name, *settings;
+  ManagerPtr (*make)();
+};
+template <class M>
+ManagerPtr plain() {
+  return std::make_unique<M>();
+}
+// FCL asks for a cell size and a world; what is outside goes to a list of its own.
+ManagerPtr spatial_hash() {
+  return std::make_unique<fcl::SpatialHashingCollisionManagerd<>>(1.0, fcl::Vector3d::Constant(-1000),
+                                                                  fcl::Vector3d::Constant(1000));
+}
+
+constexpr Row rows[] = {
+    {"fcl-naive", "NaiveCollisionManager", &plain<fcl::NaiveCollisionManagerd>},
+    {"fcl-sap", "SaPCollisionManager", &plain<fcl::SaPCollisionManagerd>},
+    {"fcl-ssap", "SSaPCollisionManager", &plain<fcl::SSaPCollisionManagerd>},
+    {"fcl-interval-tree", "IntervalTreeCollisionManager", &plain<fcl::IntervalTreeCollisionManagerd>},
+    {"fcl-spatial-hash", "SpatialHashingCollisionManager, cells of 1, world of ±1000", &spatial_hash},
+    {"fcl-dynamic-tree", "DynamicAABBTreeCollisionManager", &plain<fcl::DynamicAABBTreeCollisionManagerd>},
+    {"fcl-dynamic-tree-array", "DynamicAABBTreeCollisionManager_Array",
+     &plain<fcl::DynamicAABBTreeCollisionManager_Arrayd>},
+};
+
+class Run {
+ public:
+  using Pair = std::function<void(int, int)>;
+
+  Run(const ts_scene& scene, const std::vector<Geometry>& geometries, ManagerPtr manager)
+      : scene_(scene), geometries_(geometries), objects_(scene.body_count), manager_(std::move(manager)) {}
+
+  void apply(const ts_step& step) {
+    // A manager finds objects by the boxes that it last saw.
+    if (step.op != TS_MOVE) flush();
+    auto& o = objects_[static_cast<std::size_t>(step.body)];
+    if (step.op == TS_REMOVE) {
+      register_first();
+      manager_->unregisterObject(o.get());
+      o.reset();
+      return;
+    }
+    if (step.op == TS_INSERT)
+      o = std::make_unique<fcl::CollisionObjectd>(
+          geometries_[static_cast<std::size_t>(scene_.bodies[step.body].shape)]);
+    else
+      register_first(), moved_ = true;
+    o->setTransform(make_transform(kit::pose_of(step.pose)));
+    o->setUserData(reinterpret_cast<void*>(static_cast<std::intptr_t>(step.body)));
+    o->computeAABB();
+    if (step.op != TS_INSERT) return;
+    if (started_)
+      manager_->registerObject(o.get());
+    else
+      first_.push_back(o.get());
+  }
+
+  void query(Pair pair) {
+    register_first();
+    flush();
+    manager_->setup();
+    manager_->collide(&pair, [](fcl::CollisionObjectd* one, fcl::CollisionObjectd* two, void* data) {
+      const auto index = [](const fcl::CollisionObjectd* o) {
+        return static_cast<int>(reinterpret_cast<std::intptr_t>(o->getUserData()));
+      };
+      (*static_cast<Pair*>(data))(index(one), index(two));
+      return false;
+    });
+  }
+
+ private:
+  // All that come before anything else, at once: what FCL's managers are best at.
+  void register_first() {
+    if (started_) return;
+    started_ = true;
+    manager_->registerObjects(first_);
+    manager_->setup();
+  }
+  void flush() {
+    if (moved_) manager_->update();
+    moved_ = false;
+  }
+
+  const ts_scene& scene_;
+  const std::vector<Geometry>& geometries_;
+  std::vector<std::unique_ptr<fcl::CollisionObjectd>> objects_;  // outlive the manager
+  std::vector<fcl::CollisionObjectd*> first_;
+  ManagerPtr manager_;
+  bool started_ = false, moved_ = false;
+};
+
+class Engine {
+ public:
+  static std::vector<kit::CardText> cards() {
+    std::vector<kit::CardText> all;
+    for (const Row& r : rows)
+      all.push_back(
+          {r.name, "FCL", FCL_VERSION,
+           std::string(r.settings) + " alone; computeAABB and update() after moves, setup() before queries",
+           0x1p-53, kit::oracle_tau_factor, "fcl/broadphase: no tolerance"});
+    return all;
+  }
+  explicit Engine(unsigned index) : row_(rows[index]) {}
+
+  void load(const ts_scene& scene, const ts_received&) {
+    unload();
+    for (std::size_t i = 0; i < scene.shape_count; ++i) {
+      geometries_.push_back(make_geometry(scene.shapes[i]));
+      geometries_.back()->computeLocalAABB();
+    }
+    scene_ = &scene, filter_ = kit::PairFilter(scene);
+  }
+  void unload() { geometries_.clear(), scene_ = nullptr; }
+
+  void ask(ts_question question, int, int, ts_answer&, const ts_sink& sink) {
+    if (question != TS_CANDIDATES) throw kit::Unsupported("a broad phase alone");
+    Run run(*scene_, geometries_, row_.make());
+    int k = 0;
+    for (std::size_t i = 0; i < scene_->step_count; ++i) {
+      if (scene_->steps[i].op != TS_QUERY) {
+        run.apply(scene_->steps[i]);
+        continue;
+      }
+      run.query([&](int a, int b) { report(sink, k, a, b); });
+      ++k;
+    }
+  }
+
+ private:
+  void report(const ts_sink& sink, int k, int a, int b) const {
+    if (filter_.drops(a, b) || (scene_->bodies[a].is_static && scene_->bodies[b].is_static)) return;
+    sink.pair(sink.ctx, k, a, b);
+  }
+  const Row& row_;
+  const ts_scene* scene_ = nullptr;
+  std::vector<Geometry> geometries_;
+  kit::PairFilter filter_;
+};
+
+}  // namespace
+}  // namespace touchstone::fcl_adapter
+
+TS_PLUGIN(touchstone::fcl_adapter::Engine)

@@ -1,0 +1,279 @@
+#include "oracles/host/pipe.h"
+
+#include <signal.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <nlohmann/json.hpp>
+#include <stdexcept>
+#include <string_view>
+
+namespace touchstone::host {
+namespace {
+
+using Json = nlohmann::ordered_json;
+constexpr int protocol_version = 1;
+constexpr std::size_t longest_line = std::size_t{1} << 28;
+
+// What the command has to be, once loaded; a process serves one.
+std::string command_line, card_text;
+
+/// The command, its standard input and output; standard error stays that of the worker.
+class Child {
+ public:
+  explicit Child(const std::string& command) {
+    int to[2], from[2];
+    if (pipe(to) != 0 || pipe(from) != 0) throw std::runtime_error("no pipe could be made");
+    pid_ = fork();
+    if (pid_ < 0) throw std::runtime_error("could not be started");
+    if (pid_ == 0) {
+      dup2(to[0], 0), dup2(from[1], 1);
+      for (int fd : {to[0], to[1], from[0], from[1]}) close(fd);
+      execl("/bin/sh", "sh", "-c", ("exec " + command).c_str(), static_cast<char*>(nullptr));
+      _exit(127);
+    }
+    close(to[0]), close(from[1]);
+    to_ = to[1], from_ = from[0];
+  }
+  ~Child() {
+    close(to_), close(from_);
+    kill(pid_, SIGKILL);
+    waitpid(pid_, nullptr, 0);
+  }
+  Child(const Child&) = delete;
+  Child& operator=(const Child&) = delete;
+
+  void write_line(std::string line) const {
+    line.push_back('\n');
+    for (std::size_t done = 0; done < line.size();) {
+      const ssize_t n = write(to_, line.data() + done, line.size() - done);
+      if (n < 0 && errno == EINTR) continue;
+      if (n <= 0) throw std::runtime_error("the command reads no more");
+      done += static_cast<std::size_t>(n);
+    }
+  }
+  std::string read_line() {
+    for (std::size_t seen = 0;;) {
+      const auto end = buffer_.find('\n', seen);
+      if (end != std::string::npos) {
+        std::string line = buffer_.substr(0, end);
+        buffer_.erase(0, end + 1);
+        return line;
+      }
+      seen = buffer_.size();
+      char bytes[1 << 14];
+      const ssize_t n = read(from_, bytes, sizeof bytes);
+      if (n < 0 && errno == EINTR) continue;
+      if (n <= 0) throw std::runtime_error("the command ended without an answer");
+      buffer_.append(bytes, static_cast<std::size_t>(n));
+      if (buffer_.size() > longest_line) throw std::runtime_error("the command's line has no end");
+    }
+  }
+
+ private:
+  pid_t pid_ = -1;
+  int to_ = -1, from_ = -1;
+  std::string buffer_;
+};
+
+Json parsed(const std::string& line) {
+  Json j = Json::parse(line, nullptr, false);
+  if (!j.is_object())
+    throw std::runtime_error("the command wrote a line that is no JSON object: " + line.substr(0, 80));
+  return j;
+}
+
+struct NotFinite {};
+
+double finite(double x) { return std::isfinite(x) ? x : throw NotFinite{}; }
+Json numbers(const double* p, std::size_t n) {
+  Json j = Json::array();
+  for (std::size_t i = 0; i < n; ++i) j.push_back(finite(p[i]));
+  return j;
+}
+Json points(const double* p, std::size_t n) {
+  Json j = Json::array();
+  for (std::size_t i = 0; i < n; ++i) j.push_back(numbers(p + 3 * i, 3));
+  return j;
+}
+Json triangles(const ts_shape& s) {
+  Json j = Json::array();
+  for (std::size_t i = 0; i < s.triangle_count; ++i)
+    j.push_back({s.triangles[3 * i], s.triangles[3 * i + 1], s.triangles[3 * i + 2]});
+  return j;
+}
+
+// Field names as in the scene's JSON form (scene.schema.json).
+Json shape(const ts_shape& s) {
+  const auto round_one = [&](const char* type) {
+    return Json{{"type", type}, {"radius", finite(s.size[0])}, {"half_height", finite(s.size[1])}};
+  };
+  switch (s.kind) {
+    case TS_SPHERE:
+      return {{"type", "sphere"}, {"radius", finite(s.size[0])}};
+    case TS_BOX:
+      return {{"type", "box"}, {"half_extents", numbers(s.size, 3)}};
+    case TS_CAPSULE:
+      return round_one("capsule");
+    case TS_CYLINDER:
+      return round_one("cylinder");
+    case TS_CONE:
+      return round_one("cone");
+    case TS_ELLIPSOID:
+      return {{"type", "ellipsoid"}, {"semi_axes", numbers(s.size, 3)}};
+    case TS_HALF_SPACE:
+      return {{"type", "half_space"}, {"normal", numbers(s.size, 3)}, {"offset", finite(s.size[3])}};
+    default:
+      return {{"type", s.kind == TS_HULL ? "hull" : "mesh"},
+              {"vertices", points(s.vertices, s.vertex_count)},
+              {"triangles", triangles(s)}};
+  }
+}
+
+Json pose(const ts_pose& p) {
+  return {{"translation", numbers(p.translation, 3)}, {"rotation", numbers(p.rotation, 4)}};
+}
+
+Json body(const ts_body& b) {
+  Json j = {{"shape", b.shape}, {"static", b.is_static != 0}, {"group", b.group}, {"pose", pose(b.pose)}};
+  if (b.has_motion) j["motion"] = {{"linear", numbers(b.linear, 3)}, {"angular", numbers(b.angular, 3)}};
+  return j;
+}
+
+Json step(const ts_step& s) {
+  constexpr std::array<const char*, 4> names{"insert", "move", "remove", "query"};
+  Json j = {{"op", names[static_cast<std::size_t>(s.op)]}};
+  if (s.op != TS_QUERY) j["body"] = s.body;
+  if (s.op == TS_INSERT || s.op == TS_MOVE) j["pose"] = pose(s.pose);
+  return j;
+}
+
+Json scene_of(const ts_scene& s) {
+  Json j = {{"shapes", Json::array()},
+            {"bodies", Json::array()},
+            {"steps", Json::array()},
+            {"ignored", Json::array()}};
+  for (std::size_t i = 0; i < s.shape_count; ++i) j["shapes"].push_back(shape(s.shapes[i]));
+  for (std::size_t i = 0; i < s.body_count; ++i) j["bodies"].push_back(body(s.bodies[i]));
+  for (std::size_t i = 0; i < s.step_count; ++i) j["steps"].push_back(step(s.steps[i]));
+  for (std::size_t i = 0; i < s.ignored_count; ++i)
+    j["ignored"].push_back({s.ignored[2 * i], s.ignored[2 * i + 1]});
+  return j;
+}
+
+void read3(const Json& j, double out[3]) {
+  for (std::size_t k = 0; k < 3; ++k) out[k] = j.at(k).get<double>();
+}
+
+void read_lists(const Json& j, const ts_sink& sink) {
+  double v[3];
+  if (j.contains("pairs")) {
+    std::int32_t k = 0;
+    for (const Json& list : j.at("pairs")) {
+      for (const Json& p : list)
+        sink.pair(sink.ctx, k, p.at(0).get<std::int32_t>(), p.at(1).get<std::int32_t>());
+      ++k;
+    }
+  }
+  for (const Json& p : j.value("points", Json::array()))
+    read3(p.at("position"), v), sink.point(sink.ctx, v, p.at("depth").get<double>());
+  for (const Json& c : j.value("contacts", Json::array()))
+    read3(c.at("normal"), v), sink.contact(sink.ctx, c.at("a").get<std::int32_t>(),
+                                           c.at("b").get<std::int32_t>(), v, c.at("depth").get<double>());
+}
+
+std::int32_t outcome_of(const std::string& name) {
+  constexpr std::array<std::string_view, 5> names{"answered", "unsupported", "not_converged", "invalid_input",
+                                                  "threw"};
+  for (std::size_t i = 0; i < names.size(); ++i)
+    if (names[i] == name) return static_cast<std::int32_t>(i);
+  throw std::runtime_error("the command names an outcome that there is not: " + name);
+}
+
+void read_answer(const Json& j, ts_answer& out, const ts_sink& sink) {
+  out.outcome = outcome_of(j.value("outcome", "answered"));
+  std::snprintf(out.detail, sizeof out.detail, "%s", j.value("detail", "").c_str());
+  if (out.outcome != TS_ANSWERED) return;
+  const auto number = [&](const char* name, std::uint32_t bit, double& field) {
+    if (j.contains(name) && j.at(name).is_number()) out.has |= bit, field = j.at(name).get<double>();
+  };
+  number("distance", TS_HAS_DISTANCE, out.distance), number("depth", TS_HAS_DEPTH, out.depth);
+  number("toi", TS_HAS_TOI, out.toi);
+  if (j.contains("overlap")) out.has |= TS_HAS_OVERLAP, out.overlap = j.at("overlap").get<bool>();
+  if (j.contains("normal")) out.has |= TS_HAS_NORMAL, read3(j.at("normal"), out.normal);
+  if (j.contains("point_a") && j.contains("point_b"))
+    out.has |= TS_HAS_POINTS, read3(j.at("point_a"), out.point_a), read3(j.at("point_b"), out.point_b);
+  out.claimed_tolerance = j.value("claimed_tolerance", 0.0);
+  read_lists(j, sink);
+}
+
+// A command that breaks the protocol is a crash with a reason: nothing it says afterwards can be trusted.
+[[noreturn]] void broken(const char* why) {
+  std::fprintf(stderr, "%s\n", why);
+  std::fflush(stderr);
+  std::abort();
+}
+
+Child& child(ts_engine* e) { return *reinterpret_cast<Child*>(e); }
+
+const char* card(std::uint32_t) { return card_text.c_str(); }
+ts_engine* create(std::uint32_t) {
+  auto* c = new Child(command_line);
+  c->read_line();  // its card again
+  return reinterpret_cast<ts_engine*>(c);
+}
+void destroy(ts_engine* e) { delete &child(e); }
+std::int32_t load(ts_engine* e, const ts_scene* scene, const ts_received*, char* detail) {
+  try {
+    child(e).write_line(Json{{"scene", scene_of(*scene)}}.dump());
+    return TS_ANSWERED;
+  } catch (const NotFinite&) {
+    std::snprintf(detail, 256, "a number that is not finite has no form in JSON");
+    return TS_INVALID_INPUT;
+  } catch (const std::exception& why) {
+    broken(why.what());
+  }
+}
+void unload(ts_engine*) {}
+
+void ask(ts_engine* e, std::int32_t question, std::int32_t a, std::int32_t b, ts_answer* out,
+         const ts_sink* sink) {
+  constexpr std::array<const char*, 6> names{"overlap",        "distance",   "contact",
+                                             "time_of_impact", "candidates", "scene_contacts"};
+  Json j = {{"ask", names[static_cast<std::size_t>(question)]}};
+  if (question <= TS_TIME_OF_IMPACT) j["a"] = a, j["b"] = b;
+  try {
+    child(e).write_line(j.dump());
+    read_answer(parsed(child(e).read_line()), *out, *sink);
+  } catch (const Json::exception& why) {
+    broken(("the command's answer is not of the form asked: " + std::string(why.what())).c_str());
+  } catch (const std::exception& why) {
+    broken(why.what());
+  }
+}
+
+}  // namespace
+
+const ts_plugin& load_pipe(const std::string& command) {
+  signal(SIGPIPE, SIG_IGN);
+  command_line = command;
+  Child first(command);
+  Json j = parsed(first.read_line());
+  if (!j.contains("touchstone_pipe"))
+    throw std::runtime_error("its first line is no card: \"touchstone_pipe\" is missing");
+  if (j["touchstone_pipe"] != protocol_version)
+    throw std::runtime_error("speaks version " + j["touchstone_pipe"].dump() +
+                             " of the pipe protocol, and not 1");
+  j.erase("touchstone_pipe");
+  card_text = j.dump();
+  static const ts_plugin table{TS_ABI_VERSION, 1, card, create, destroy, load, unload, ask};
+  return table;
+}
+
+}  // namespace touchstone::host

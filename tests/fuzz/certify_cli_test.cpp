@@ -1,0 +1,178 @@
+// `certify`, `engines --check` and the plug-in kit as a user meets them.
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <regex>
+
+#include "tests/support/catch.h"
+#include "tests/support/workspace.h"
+
+using namespace touchstone::test;
+namespace fs = std::filesystem;
+
+namespace {
+
+const std::string mutants = TS_BINARY_DIR "/lib/libtouchstone_mutants.so:";
+
+// An engine behind a pipe: `body` answers `m`, the message, about `scene`.
+std::string python(const std::string& body) {
+  return R"(import json, sys
+print(json.dumps({"touchstone_pipe": 1, "name": "small", "library": "small", "version": "1", "settings": "",
+  "unit_roundoff": 1.1e-16, "tau_factor": 64, "source": ""}), flush=True)
+scene = None
+def say(x): print(json.dumps(x), flush=True)
+for line in sys.stdin:
+  m = json.loads(line)
+  if "scene" in m: scene = m["scene"]; continue
+)" + body;
+}
+
+std::string section(const std::string& text, const std::string& from, const std::string& to) {
+  const auto a = text.find(from), b = text.find(to, a);
+  REQUIRE(a != std::string::npos);
+  return text.substr(a, b - a);
+}
+
+// The fenced blocks of one language, in order.
+std::vector<std::string> blocks(const std::string& text, const std::string& language) {
+  std::vector<std::string> out;
+  const std::string open = "```" + language + "\n";
+  for (auto a = text.find(open); a != std::string::npos; a = text.find(open, a + 1)) {
+    const auto begin = a + open.size();
+    out.push_back(text.substr(begin, text.find("```", begin) - begin));
+  }
+  return out;
+}
+
+}  // namespace
+
+TEST_CASE("certify refuses bad input with 2, the place and the reason, and writes nothing",
+          "[certify][cli]") {
+  const Workspace w("certify");
+  w.write("no_plugin.so", "text");
+  w.write("truncated.json", "{\"touchstone_broad_certificate\": 1,");
+  w.write("other.json", "{\"touchstone_scene\": 1}");
+  const std::pair<const char*, const char*> commands[] = {{"--subject nothing", "nothing"},
+                                                          {"--subject ./libmissing.so", "libmissing.so"},
+                                                          {"--subject ./no_plugin.so", "no_plugin.so"},
+                                                          {"--subject grid --scope huge", "--scope"},
+                                                          {"--subject grid -o nowhere/c.json", "nowhere"},
+                                                          {"--subject grid --without nothing", "nothing"},
+                                                          {"--subject core,core-f32", "core"},
+                                                          {"--subject pipe:true", "pipe:true"},
+                                                          {"--subject pipe:./missing", "missing"},
+                                                          {"--check missing.json", "missing.json"},
+                                                          {"--check truncated.json", "truncated.json"},
+                                                          {"--check other.json", "other.json"},
+                                                          {"", "--subject"}};
+  for (const auto& [options, place] : commands) {
+    const Run r = w.touchstone("certify " + std::string(options) + " --limit 10");
+    INFO(options << " says: " << r.err);
+    CHECK(r.code == 2);
+    CHECK(r.err.find(place) != std::string::npos);
+    CHECK(r.out.empty());
+  }
+  CHECK_FALSE(fs::exists(w.dir / "nowhere"));
+}
+
+TEST_CASE("a certificate is checked from itself alone, a tampered one is not valid", "[certify][cli]") {
+  const Workspace w("certify");
+  const Run made = w.touchstone("certify --subject sort_and_sweep --limit 60 -o c.json --page c.html");
+  INFO(made.out << made.err);
+  REQUIRE(made.code == 0);
+  CHECK(made.out.find("sort_and_sweep: boxes certified, bodies certified") != std::string::npos);
+  for (std::size_t a = 0; a < made.out.size(); a = made.out.find('\n', a) + 1)
+    CHECK(made.out.find('\n', a) - a <= 80);
+  const Run again = w.touchstone("certify --check c.json --jobs 2");
+  INFO(again.out << again.err);
+  CHECK(again.code == 0);
+  const std::string page = read_all(w.dir / "c.html");
+  CHECK(page.find("histories_of_three") != std::string::npos);
+  CHECK(page.find("src=") == std::string::npos);
+  auto j = nlohmann::ordered_json::parse(read_all(w.dir / "c.json"));
+  j["evidence"][0]["cases"] = 35152;
+  w.write("tampered.json", j.dump());
+  CHECK(w.touchstone("certify --check tampered.json").code == 1);
+}
+
+TEST_CASE("a plug-in that loses pairs is refuted by a script that replay takes", "[certify][cli]") {
+  const Workspace w("certify");
+  const std::string subject = mutants + "stale_after_move";
+  const Run r = w.touchstone("certify --subject " + subject +
+                             " --level boxes --without no_boxes --limit 2000 -o c.json");
+  INFO(r.out << r.err);
+  REQUIRE(r.code == 1);
+  const auto script = w.dir / "c.case.json";
+  REQUIRE(fs::exists(script));
+  const auto doc = nlohmann::json::parse(read_all(script));
+  CHECK(doc.at("scene").at("bodies").size() == 2);
+  CHECK(doc.at("scene").at("script").size() <= 6);
+  CHECK(w.touchstone("replay c.case.json --engines " + subject + " --subject stale_after_move").code == 1);
+  CHECK(w.touchstone("certify --check c.json").code == 1);
+}
+
+TEST_CASE("engines --check says in words what is wrong with how an engine speaks", "[certify][cli]") {
+  const Workspace w("certify");
+  w.write("whole.py", python(R"(
+  if m["ask"] != "overlap": say({"outcome": "unsupported"}); continue
+  a, b = scene["bodies"][m["a"]], scene["bodies"][m["b"]]
+  def half(x):
+    s = scene["shapes"][x["shape"]]
+    return [h / 2 for h in s["half_extents"]] if s["type"] == "box" else [s["radius"]] * 3 if s["type"] == "sphere" else None
+  p, q = half(a), half(b)
+  if p is None or q is None: say({"outcome": "unsupported"}); continue
+  say({"overlap": all(abs(x - y) <= h + k for x, y, h, k in
+       zip(a["pose"]["translation"], b["pose"]["translation"], p, q))})
+)"));
+  const Run r = w.touchstone("engines --check 'pipe:python3 whole.py'");
+  INFO(r.out << r.err);
+  CHECK(r.code == 1);
+  CHECK(r.out.find("extents, not whole sides") != std::string::npos);
+  CHECK(r.out.find("wrong        boxes take half extents") != std::string::npos);
+  CHECK(r.out.find("right        two spheres apart") != std::string::npos);
+  CHECK(w.touchstone("engines --check core").code == 0);
+}
+
+TEST_CASE("a command behind a pipe that dies or talks nonsense is refuted, not our failure",
+          "[certify][cli]") {
+  const Workspace w("certify");
+  w.write("dies.py", python("  sys.exit('it died of ' + m['ask'])\n"));
+  w.write("nonsense.py", python("  print('hello', flush=True)\n"));
+  for (const char* file : {"dies.py", "nonsense.py"}) {
+    const Run r =
+        w.touchstone("certify --level boxes --limit 4 --subject 'pipe:python3 " + std::string(file) + "'");
+    INFO(r.out << r.err);
+    CHECK(r.code == 1);
+    CHECK(r.out.find("crashed in orders_of_two") != std::string::npos);
+  }
+}
+
+TEST_CASE(
+    "a plug-in written from the README, outside the tree, against what is installed, gets its certificate",
+    "[certify][readme]") {
+  const Workspace w("kit");
+  const std::string text = section(read_all(TS_SOURCE_DIR "/README.md"), "## Your own engine", "## Licence");
+  const auto cmake = blocks(text, "cmake");
+  REQUIRE(cmake.size() == 1);
+  std::ofstream(w.dir / "CMakeLists.txt") << cmake[0];
+  const auto filled = [&](std::string line) {
+    line = std::regex_replace(line, std::regex("build/release"), TS_BINARY_DIR);
+    line = std::regex_replace(line, std::regex("PREFIX(?!_)"), (w.dir / "prefix").string());
+    line = std::regex_replace(line, std::regex(" --limit [0-9]+"), "");
+    if (line.find(" certify ") != std::string::npos) line += " --limit 40";
+    return line;
+  };
+  std::size_t run = 0, certified = 0;
+  for (const std::string& block : blocks(text, "sh")) {
+    std::istringstream lines(block);
+    for (std::string line; std::getline(lines, line);) {
+      if (line.starts_with("./touchstone")) continue;  // run by the test of the whole README
+      const Run r = w.run(filled(line));
+      INFO(filled(line) << "\n" << r.out << r.err);
+      CHECK(r.code == 0);
+      ++run, certified += r.out.find("boxes certified, bodies certified") != std::string::npos;
+    }
+  }
+  CHECK(run == 6);
+  CHECK(certified == 2);
+  CHECK(fs::exists(w.dir / "mine.html"));
+}

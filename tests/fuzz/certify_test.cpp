@@ -1,0 +1,145 @@
+// Certificates of broad phases: every broad phase of the core gets one, every lying one is refuted.
+#include "fuzz/certify/certify.h"
+
+#include <algorithm>
+#include <map>
+#include <nlohmann/json.hpp>
+
+#include "fuzz/certify/candidate_verdict.h"
+#include "fuzz/certify/histories.h"
+#include "fuzz/certify/orders.h"
+#include "fuzz/certify/refute.h"
+#include "fuzz/shrink/keeps_finding.h"
+#include "oracles/core/broad_engine.h"
+#include "tests/mutants/lying_engine.h"
+#include "tests/mutants/topics.h"
+#include "tests/support/catch.h"
+
+using namespace touchstone;
+using namespace touchstone::fuzz;
+
+namespace {
+
+const std::atomic<bool> never{false};
+
+Subject core_subject(std::string_view name) {
+  return {std::string(name), "", true, [name](Level level) {
+            return make_broad_engine(name, level == Level::boxes ? BroadBoxes::exact : BroadBoxes::bodies);
+          }};
+}
+
+BroadCertificate certificate(const Subject& s, std::uint64_t limit, int jobs = 1,
+                             std::vector<Level> levels = {Level::boxes, Level::bodies}) {
+  CertifyConfig c;
+  c.levels = std::move(levels);
+  c.limit = limit, c.jobs = jobs, c.program = "test";
+  return *certify(s, c, {}, never);
+}
+
+std::vector<mutants::Mutant> broad_mutants() {
+  std::vector<mutants::Mutant> all;
+  for (const auto topic : {mutants::broad_list_lies, mutants::broad_box_lies, mutants::broad_script_lies})
+    for (mutants::Mutant& m : topic()) all.push_back(std::move(m));
+  return all;
+}
+
+// What a lie needs at least, where that is more than 3 bodies or 6 steps: 17 pairs are those of 7 bodies;
+// a fourth move needs two inserts, four moves and a query.
+std::pair<std::size_t, std::size_t> least_script(std::string_view mutant) {
+  if (mutant == "sixteen_pairs") return {7, 8};
+  if (mutant == "stale_at_fourth_move" || mutant == "lost_on_second_reinsert") return {2, 7};
+  return {3, 6};
+}
+
+}  // namespace
+
+TEST_CASE("ends of n intervals have the orders that are counted by hand", "[certify]") {
+  // Allen's 13 relations of two intervals, 5 of a point and an interval twice over, 3 of two points.
+  CHECK(axis_orders(2).size() == 13 + 5 + 5 + 3);
+  // Two intervals of a triple are in one of the 26 relations; each occurs.
+  std::map<std::vector<bool>, int> seen;
+  for (const AxisOrder& r : axis_orders(3)) {
+    std::vector<bool> relation;
+    for (int i : {0, 1})
+      for (int j : {2, 3}) relation.insert(relation.end(), {r[i] < r[j], r[i] == r[j]});
+    relation.push_back(r[0] == r[1]), relation.push_back(r[2] == r[3]);
+    ++seen[relation];
+  }
+  CHECK(seen.size() == 26);
+  CHECK(axis_orders(3).size() == 818);
+}
+
+TEST_CASE("histories are all there and no two the same", "[certify]") {
+  // One body, one place: insert or query; once in, move, remove or query. Of length 2: II' no: I{M,R,Q},
+  // Q{I,Q}.
+  CHECK(histories(1, 1, 2).size() == 5);
+  auto all = histories(2, 2, 6);
+  const auto n = all.size();
+  std::sort(all.begin(), all.end());
+  CHECK(std::unique(all.begin(), all.end()) == all.end());
+  CHECK(n > 20000);
+}
+
+TEST_CASE("every broad phase of the core gets its certificate", "[certify]") {
+  std::size_t certified = 0;
+  for (const auto name : core_broad_phases()) {
+    const BroadCertificate c = certificate(core_subject(name), 150);
+    INFO(to_json(c).dump(1));
+    CHECK(verdict(c, Level::boxes) == LevelVerdict::certified);
+    CHECK(verdict(c, Level::bodies) == LevelVerdict::certified);
+    CHECK(exit_code(c) == 0);
+    CHECK(c.evidence.size() == all_evidence().size());
+    for (const EvidenceCount& e : c.evidence) {
+      CHECK(e.refused == 0);
+      CHECK(e.answered == e.planned);
+      CHECK(e.pairs_true > 0);
+    }
+    ++certified;
+  }
+  CHECK(certified == 8);
+}
+
+TEST_CASE("a certificate is the same bytes whatever the number of jobs, and comes back from its JSON",
+          "[certify]") {
+  const BroadCertificate one = certificate(core_subject("grid"), 700),
+                         three = certificate(core_subject("grid"), 700, 3);
+  CHECK(to_json(one).dump() == to_json(three).dump());
+  bool holds = false;
+  const BroadCertificate back = broad_certificate_from_json(to_json(one), holds);
+  CHECK(holds);
+  CHECK(to_json(back) == to_json(one));
+  auto tampered = to_json(one);
+  tampered["evidence"][3]["cases"] = 1000000;
+  broad_certificate_from_json(tampered, holds);
+  CHECK_FALSE(holds);
+}
+
+TEST_CASE("every lying broad phase is refuted by a script of few bodies and steps", "[certify]") {
+  std::size_t refuted = 0, small = 0;
+  for (const mutants::Mutant& m : broad_mutants()) {
+    const Subject s{std::string(m.name), "", true, [&m](Level) { return mutants::make_lying_engine(m); }};
+    BroadCertificate c = certificate(s, 12000, 1, {Level::boxes});
+    if (exit_code(c) == 0) c = certificate(s, 12000, 1, {Level::bodies});
+    INFO(m.name);
+    CHECK(exit_code(c) == 1);
+    refuted += !c.refutations.empty();
+    bool is_small = false;
+    for (const Refutation& r : c.refutations) {
+      const auto [bodies, steps] = least_script(m.name);
+      is_small = is_small || (r.bodies <= bodies && r.steps <= steps);
+      UNSCOPED_INFO(to_string(r.level) << ' ' << r.evidence << ' ' << r.fault << ": " << r.bodies
+                                       << " bodies, " << r.steps << " steps, " << r.shrink);
+      // What refutes is a case that replay and shrink judge the same way.
+      if (!m.repeats || !r.script) continue;
+      const EnginePtr engine = mutants::make_lying_engine(m);
+      bool found = false;
+      const auto findings = findings_of({&*r.script, 1}, engine);
+      for (const auto& [key, f] : findings[0]) found = found || f.fault == r.fault;
+      CHECK(found);
+    }
+    CHECK(is_small);
+    small += is_small;
+  }
+  CHECK(refuted == broad_mutants().size());
+  CHECK(small == refuted);
+}
