@@ -209,6 +209,15 @@ TEST_CASE("capsules on each other's axis have unit normals and feet that agree w
   CHECK(count.verdicts > 0);
 }
 
+TEST_CASE("spheres whose centres all but coincide have a unit normal", "[narrow][fast][float]") {
+  // Found by a run of 1,000 rounds: the square of their distance underflows.
+  Count count;
+  Rng r = Rng::stream(22, std::uint64_t{941 * 49} * regime_count + 5);
+  check_pair<float>(received<float>(random_pair(r, ShapeKind::sphere, ShapeKind::sphere, Regime::coaxial)),
+                    count);
+  CHECK(count.verdicts > 0);
+}
+
 TEST_CASE("round bodies with parallel axes have their depth without help, rings of minima and all",
           "[narrow][fast]") {
   // Kinds: sphere 0, capsule 2, cylinder 3, cone 4.

@@ -17,6 +17,12 @@ R largest(const V3<R>& v) {
   return std::max(std::max(std::abs(v[0]), std::abs(v[1])), std::abs(v[2]));
 }
 
+/// v/|v| given |v| > 0. The square of a length may underflow, in float, where the length does not.
+template <class R>
+V3<R> direction(const V3<R>& v, R length) {
+  return length > R(1e-15) ? V3<R>(v * (1 / length)) : V3<R>(v.stableNormalized());
+}
+
 /// Whether the verdict alone is certain; sets it if so.
 template <class R>
 bool verdict(Answer<R>& s, R gap, R error) {
@@ -46,8 +52,8 @@ void sphere_sphere(const Shape& sa, const Pose& a, const Shape& sb, const Pose& 
   const V3<R> d = b.translation.cast<R>() - a.translation.cast<R>();
   const R dist = std::sqrt(d.squaredNorm()), error = u<R> * (8 * dist + 4 * (ra + rb));
   if (asked == Asked::overlap && detail::verdict(out, dist - (ra + rb), error)) return;
-  detail::inflate<R>(out, dist, dist > 0 ? V3<R>(d * (1 / dist)) : V3<R>::UnitX(), V3<R>::Zero(), d, ra, rb,
-                     error, std::max(std::max(ra, rb), dist * R(0.28)));
+  detail::inflate<R>(out, dist, dist > 0 ? detail::direction<R>(d, dist) : V3<R>::UnitX(), V3<R>::Zero(), d,
+                     ra, rb, error, std::max(std::max(ra, rb), dist * R(0.28)));
 }
 
 template <class R>
@@ -65,8 +71,8 @@ void sphere_box(const Shape& sa, const Pose& pa, const Shape& sb, const Pose& pb
   const R dist = std::sqrt(v.squaredNorm());
   if (asked == Asked::overlap && detail::verdict(out, dist - r, error)) return;
   if (dist > 0)
-    return detail::inflate<R>(out, dist, m * (v * (1 / dist)), V3<R>::Zero(), m * q + d, r, R(0), error,
-                              std::max(std::max(r, detail::largest(h)), detail::largest(d) / 2));
+    return detail::inflate<R>(out, dist, m * detail::direction<R>(v, dist), V3<R>::Zero(), m * q + d, r, R(0),
+                              error, std::max(std::max(r, detail::largest(h)), detail::largest(d) / 2));
   int axis = 0;
   const R depth = (h - p.cwiseAbs()).minCoeff(&axis);
   const V3<R> n = m.col(axis) * (p[axis] < 0 ? R(1) : R(-1));
@@ -96,7 +102,7 @@ void sphere_capsule(const Shape& sa, const Pose& pa, const Shape& sb, const Pose
     if (v.squaredNorm() < R(0.25) * q.squaredNorm()) v -= axis * axis.dot(v);
   }
   const R dist = std::sqrt(v.squaredNorm());
-  const V3<R> n = dist > 0 ? V3<R>(v * (1 / dist)) : V3<R>(axis.unitOrthogonal());
+  const V3<R> n = dist > 0 ? detail::direction<R>(v, dist) : V3<R>(axis.unitOrthogonal());
   const R shortfall = std::max<R>(0, dist - (n.dot(d) - std::abs(n.dot(axis)) * h));
   if (asked == Asked::overlap && detail::verdict(out, dist - (ra + rb), error + shortfall)) return;
   detail::inflate<R>(out, dist, n, V3<R>::Zero(), q, ra, rb, shortfall + error,
@@ -131,8 +137,7 @@ void try_feet(const SegmentPair<R>& p, R s, R t, SegmentFeet<R>& best) {
   const R dist = v.norm();
   if (!(dist < best.dist)) return;
   best.s = s, best.t = t, best.dist = dist;
-  // The square of a length may underflow, in float, where the length does not.
-  if (dist > 0) best.normal = dist > R(1e-15) ? V3<R>(v / dist) : V3<R>(v.stableNormalized());
+  if (dist > 0) best.normal = direction<R>(v, dist);
 }
 
 // A direction that the segments are level with, for feet that coincide within rounding: their own difference
