@@ -76,6 +76,11 @@ void StepWorld::accept() {
 
 Motion StepWorld::motion_of(int body) const { return scene_.bodies[at(body)].motion.value_or(Motion{}); }
 
+const MeshTree* StepWorld::tree_of(int body) const {
+  const MeshTree& tree = trees_[at(scene_.bodies[at(body)].shape)];
+  return tree.nodes.empty() ? nullptr : &tree;
+}
+
 void StepWorld::place_at_end() {
   updates_.clear();
   for (std::size_t i = 0; i < end_.size(); ++i) {
@@ -93,10 +98,8 @@ void StepWorld::place_at_end() {
 void StepWorld::find_contacts(StepReport& r) {
   phase_->pairs(pairs_);
   const auto placed = [&](int i) {
-    const auto shape = at(scene_.bodies[at(i)].shape);
-    const MeshTree& tree = trees_[shape];
-    return PlacedShape{&scene_.shape_of(i), end_[at(i)], tree.nodes.empty() ? nullptr : &tree,
-                       &graphs_[shape]};
+    return PlacedShape{&scene_.shape_of(i), end_[at(i)], tree_of(i),
+                       &graphs_[at(scene_.bodies[at(i)].shape)]};
   };
   for (const auto& [a, b] : pairs_) {
     if (!is_reported(scene_, a, b)) continue;
@@ -171,9 +174,7 @@ void StepWorld::ask(const BodyPair& pair, const SweepOptions& o, StepReport& r) 
   }
   ++r.asked;
   const auto moving = [&](int i) {
-    const Body& b = scene_.bodies[at(i)];
-    const MeshTree& tree = trees_[at(b.shape)];
-    return MovingShape{&scene_.shape_of(i), b.pose, motion_of(i), tree.nodes.empty() ? nullptr : &tree};
+    return MovingShape{&scene_.shape_of(i), scene_.bodies[at(i)].pose, motion_of(i), tree_of(i)};
   };
   const ImpactAnswer x = time_of_impact(moving(a), moving(b));
   if (x.outcome == Outcome::unsupported) {

@@ -79,6 +79,7 @@ class StepWorld {
   std::vector<BodyPair> swept_pairs(const StepReport& r);
   void ask(const BodyPair& pair, const SweepOptions& o, StepReport& r) const;
   Motion motion_of(int body) const;
+  const MeshTree* tree_of(int body) const;  // null: no mesh
 
   Scene scene_;
   broad::BroadPhasePtr phase_;

@@ -206,19 +206,6 @@ Answer ask() {
     manager.unregisterObject(object[i].get());
     object[i].reset();
   };
-  struct Wanted {
-    const fcl::CollisionObjectd *a, *b;
-    bool found;
-  } wanted{};
-  const auto query = [&] {
-    wanted = {object[@A@].get(), object[@B@].get(), false};
-    manager.setup();
-    manager.collide(&wanted, [](fcl::CollisionObjectd* one, fcl::CollisionObjectd* two, void* data) {
-      Wanted& w = *static_cast<Wanted*>(data);
-      w.found = w.found || (one == w.a && two == w.b) || (one == w.b && two == w.a);
-      return false;
-    });
-  };
 )";
 
 // The managers alone, by the names under which they are certified: the first objects are registered at once,
@@ -263,15 +250,16 @@ Answer ask() {
     manager.unregisterObject(object[i].get());
     object[i].reset();
   };
-  struct Wanted {
+)";
+
+// Ends both heads.
+constexpr std::string_view script_query = R"(  struct Wanted {
     const fcl::CollisionObjectd *a, *b;
     bool found;
   } wanted{};
   const auto query = [&] {
     wanted = {object[@A@].get(), object[@B@].get(), false};
-    start();
-    update();
-    manager.setup();
+@BEFORE@    manager.setup();
     manager.collide(&wanted, [](fcl::CollisionObjectd* one, fcl::CollisionObjectd* two, void* data) {
       Wanted& w = *static_cast<Wanted*>(data);
       w.found = w.found || (one == w.a && two == w.b) || (one == w.b && two == w.a);
@@ -344,11 +332,13 @@ std::string scene(const Asked& q) {
   std::string shapes, out;
   for (const Shape& s : q.scene.shapes) shapes += fmt::format("\n    {},", std::visit(Maker{}, s));
   const std::string manager = manager_of(q.engine);
-  out = filled(manager.empty() ? scene_head : manager_head, {{"SHAPES", shapes},
-                                                             {"MANAGER", manager},
-                                                             {"COUNT", std::to_string(q.scene.bodies.size())},
-                                                             {"A", std::to_string(q.a)},
-                                                             {"B", std::to_string(q.b)}});
+  out = filled(std::string(manager.empty() ? scene_head : manager_head) + std::string(script_query),
+               {{"SHAPES", shapes},
+                {"MANAGER", manager},
+                {"BEFORE", manager.empty() ? "" : "    start();\n    update();\n"},
+                {"COUNT", std::to_string(q.scene.bodies.size())},
+                {"A", std::to_string(q.a)},
+                {"B", std::to_string(q.b)}});
   if (q.question == Question::scene_contacts) {
     for (std::size_t i = 0; i < q.scene.bodies.size(); ++i)
       out += fmt::format("  insert({}, {}, {});\n", i, q.scene.bodies[i].shape,
