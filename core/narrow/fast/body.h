@@ -19,6 +19,7 @@ struct Body {
   R radius = 0;                      // of the ball
   R reach = 0;                       // of the core about the body's origin, rounded
   R extent = 0;                      // no more than the body's share of L
+  R unit = 1;                        // power of two: the core's vertices are this times `vertices`
 };
 
 /// A core point farthest along d; d not zero.
@@ -48,7 +49,8 @@ V3<R> support_local(const Body<R>& c, const V3<R>& d) {
     }
     case CoreKind::vertices:
       return c.vertices[c.graph ? farthest_vertex(*c.graph, c.vertices, d) : farthest_vertex(c.vertices, d)]
-          .template cast<R>();
+                 .template cast<R>() *
+             c.unit;
   }
   return V3<R>::Zero();
 }

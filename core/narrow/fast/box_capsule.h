@@ -82,7 +82,7 @@ BoxSegmentGap<R> apart(const BoxSegment<R>& p) {
   if (std::abs(t) < p.h) free_of_segment(p, v);
   g.gap = std::sqrt(v.squaredNorm());
   if (!(g.gap > 0)) return g;
-  g.n = v * (1 / g.gap);
+  g.n = detail::direction<R>(v, g.gap);
   g.bound = p.error + std::max<R>(0, g.gap - p.separation(g.n));
   return g;
 }

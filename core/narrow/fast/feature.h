@@ -15,10 +15,10 @@ struct Feature {
   Shown shown = Shown::corner;
   /// Corner; edge: its point at parameter 0 (of a round side: of its axis; of a cone: the apex).
   V3<R> p = V3<R>::Zero();
-  V3<R> e = V3<R>::Zero();  // edge: unit; cones: set by place()
-  R lo = 0, hi = 0;         // edge: parameters of its ends
-  V3<R> c = V3<R>::Zero();  // edge: directions d that show it have d·c = s; face: its outward normal
-  R s = 0;
+  V3<R> e = V3<R>::Zero();      // edge: unit; cones: set by place()
+  R lo = 0, hi = 0;             // edge: parameters of its ends
+  V3<R> c = V3<R>::Zero();      // edge: directions d that show it have d·c = s; face: its outward normal
+  R s = 0, k = 1;               // k = √(1 − s²), which s close to 1 would not tell
   std::array<V3<R>, 3> corner;  // face of vertices
 };
 
@@ -132,7 +132,7 @@ Feature<R> suggested_feature(const Body<R>& b, const std::array<V3<R>, 3>& q, co
       if (most > least) {
         const R length = std::sqrt(s[0] * s[0] + 4 * s[2] * s[2]);
         Feature<R> f = edge_feature<R>(V3<R>(0, 0, s[2]), V3<R>::UnitZ(), 0, length);
-        f.s = s[0] / length;
+        f.s = s[0] / length, f.k = 2 * s[2] / length;
         return f;
       }
       return least > 0 ? corner_feature<R>(q[0]) : rim_or_disc();

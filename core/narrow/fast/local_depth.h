@@ -85,6 +85,7 @@ class LocalMinimum {
     const V3<R> x = m_.unitOrthogonal(), y = m_.cross(x), q = d_.support(-m_).w;
     const R far = -q.dot(m_), off = (q + far * m_).squaredNorm(), d = upper_;
     if (!(far > d + slight_)) return r;
+    const R tilt = unevenness();
     const R behind = (std::sqrt(off) + std::sqrt(off + far * far - d * d)) / (far - d) * (1 + 64 * u<R>);
     for (R part = 1; part > R(0.001); part /= 2) {
       const R t = behind * part;
@@ -96,7 +97,8 @@ class LocalMinimum {
       const bool curved = mu > d / 64 + slight_;
       if (!curved && !(mu > -level_)) continue;
       r.tangent = t, r.global = part == 1;
-      r.lower = d - (curved ? rest_sq / (2 * mu) : std::sqrt(rest_sq) + 2 * std::max<R>(0, -mu) + level_ / 4);
+      r.lower = d - tilt -
+                (curved ? rest_sq / (2 * mu) : std::sqrt(rest_sq) + 2 * std::max<R>(0, -mu) + level_ / 4);
       return r;
     }
     return r;
@@ -139,7 +141,7 @@ class LocalMinimum {
 
   bool turn_direction() {
     V3<R> c[2];
-    R s[2];
+    R s[2], k[2];
     int circles = 0;
     for (int i = 0; i < 2; ++i) {
       const Feature<R>& f = feature_[i];
@@ -148,10 +150,10 @@ class LocalMinimum {
         place_both();
         return true;
       }
-      if (f.shown == Shown::edge) c[circles] = out(i, f.c), s[circles++] = f.s;
+      if (f.shown == Shown::edge) c[circles] = out(i, f.c), k[circles] = f.k, s[circles++] = f.s;
     }
     if (circles == 2) return meet(c, s);
-    return circles == 1 ? along_circle(c[0], s[0]) : freely();
+    return circles == 1 ? along_circle(c[0], s[0], k[0]) : freely();
   }
 
   // The direction of two circles, the nearer of two.
@@ -166,7 +168,18 @@ class LocalMinimum {
     const V3<R> up = q * std::sqrt(rest / qq);
     m_ = (p + (up.dot(m_) < 0 ? V3<R>(-up) : up)).normalized();
     place_both();
+    if (s[0] != 0 || s[1] != 0) level_edges();
     return true;
+  }
+
+  // Circles that are small lose digits in `meet`: one step of Newton on m·e = 0, whose gradient is e, since a
+  // generator turns with m along the rim and the rim is orthogonal to m.
+  void level_edges() {
+    const V3<R> e[2] = {out(0, feature_[0].e), out(1, feature_[1].e)};
+    const R g = e[0].dot(e[1]), det = 1 - g * g, p = m_.dot(e[0]), q = m_.dot(e[1]);
+    if (!(det > R(1e-6))) return;
+    m_ = (m_ - (e[0] * (p - g * q) + e[1] * (q - g * p)) / det).normalized();
+    place_both();
   }
 
   // xᵀ H y of both supports, for tangents x, y.
@@ -186,8 +199,7 @@ class LocalMinimum {
     return sum;
   }
 
-  bool along_circle(const V3<R>& c, R s) {
-    const R k = std::sqrt(1 - s * s);
+  bool along_circle(const V3<R>& c, R s, R k) {
     for (int i = 0; i < steps; ++i) {
       const V3<R> flat = m_ - c * c.dot(m_);
       const R length = flat.norm();
@@ -332,6 +344,14 @@ class LocalMinimum {
       return cosine > 0 && c * cosine - s * sine > 0 ? s * cosine + c * sine : R(1);
     }
   };
+
+  // An edge that is not orthogonal to m by a little reaches as much less far.
+  R unevenness() const {
+    R sum = 0;
+    for (int i = 0; i < 2; ++i)
+      if (feature_[i].shown == Shown::edge) sum += reach_[i] * std::abs(out(i, feature_[i].e).dot(m_));
+    return sum;
+  }
 
   // |E m(θ)|, E with the semi-axes: as for a disc, (|E m × E t|)²/X³.
   void add_ellipsoid(int i, const V3<R>& x, const V3<R>& y, const Cap& cap, Form& ball) const {

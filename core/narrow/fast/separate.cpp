@@ -86,6 +86,34 @@ void from_flat(const Walk<R>& g, const Depth<R>& e, R size, R error, Answer<R>& 
   s.middle = (r.a + r.b) / 2, s.has_middle = true;
 }
 
+// Searches take squares of areas: a fourth power of lengths. Bodies for which that would leave R's range are
+// enlarged, or reduced, by a power of two, which rounds nothing. Range of sizes that need it not: at L =
+// 2^-22 the fourth power of float still holds slivers of L·2^-18.
+template <class R>
+bool in_range(R size) {
+  constexpr bool single = sizeof(R) == sizeof(float);
+  return size > R(single ? 0x1p-22 : 0x1p-230) && size < R(single ? 0x1p+30 : 0x1p+250);
+}
+
+template <class R>
+void separate_scaled(const Stand<R>& a, const Stand<R>& b, Asked asked, R enough, R size, Answer<R>& r,
+                     PairScene<R>& s) {
+  const R unit = std::ldexp(R(1), -std::ilogb(size)), back = 1 / unit;
+  PairScene<R> t = s;
+  Stand<R> at_a = a, at_b = b;
+  for (Body<R>* c : {&t.a, &t.b}) {
+    c->size *= unit, c->unit *= unit;
+    c->radius *= unit, c->reach *= unit, c->extent *= unit;
+  }
+  t.at.offset *= unit, at_a.t *= unit, at_b.t *= unit;
+  // Not even so: they are so small, or large, where they stand that R holds no scale for both.
+  const R fits = at_a.t.cwiseAbs().sum() + at_b.t.cwiseAbs().sum() + unit + back;
+  if (!(fits < std::numeric_limits<R>::max())) return;
+  separate_cores(at_a, at_b, asked, enough * unit, r, t);
+  r.gap *= back, r.bound *= back, r.a *= back, r.b *= back;
+  s.normal = t.normal, s.middle = t.middle * back, s.has_middle = t.has_middle, s.guess = t.guess;
+}
+
 }  // namespace
 
 template <class R>
@@ -94,6 +122,9 @@ void separate_cores(const Stand<R>& a, const Stand<R>& b, Asked asked, R enough,
   const Difference<R> d{s.a, s.b, s.at};
   const R error = displacement(s), radii = s.a.radius + s.b.radius;
   const R size = s.a.reach + s.b.reach + s.at.offset.norm();
+  if (!in_range(size))
+    if (const R exact = s.a.reach + s.b.reach + s.at.offset.stableNorm(); exact > 0)
+      return separate_scaled(a, b, asked, enough, exact, r, s);
   const R tolerance = accuracy(local_scale(s)) / 8;
   const R certain = error + radii + (asked == Asked::distance ? std::max<R>(0, enough) : R(0));
   const Walk<R> g = walk<R>(d, tolerance, certain, size, s.guess);
