@@ -21,7 +21,7 @@ inline constexpr std::uint64_t default_relations_every = 16;
 struct CampaignConfig {
   std::vector<std::string> engines;  // catalog names, for the record
   std::string subject = "core";
-  std::string family;  // empty: the default mix
+  std::string family;  // one, several (`a,b`), or empty: the default mix
   std::uint64_t seed = 1;
   std::optional<std::uint64_t> cases;
   std::optional<double> minutes;

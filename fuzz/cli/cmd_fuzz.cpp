@@ -173,7 +173,8 @@ Run declare_fuzz(CLI::App& app) {
       ->capture_default_str();
   app.add_option("--engines", o->engines, "engines to ask: names, plug-in paths, or all")
       ->capture_default_str();
-  app.add_option("--family", o->config.family, "only this family of cases (see `touchstone families`)");
+  app.add_option("--family", o->config.family,
+                 "only these families of cases: a,b,… (see `touchstone families`)");
   app.add_option("--seed", o->config.seed, "same seed and flags, same findings")->capture_default_str();
   app.add_option("--cases", o->cases, "stop after this many cases")->check(CLI::PositiveNumber);
   app.add_option("--minutes", o->minutes, "stop after this time (default 1 when --cases is not given)")

@@ -1,6 +1,7 @@
 #include "fuzz/generate/family.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "core/base/input_error.h"
@@ -223,29 +224,44 @@ constexpr Family catalog[] = {
     {"throng", "40 to 400 tiles: candidate pairs", 1, throng},
 };
 
-const Family& pick(Rng& rng, std::string_view name) {
-  if (!name.empty()) {
-    const auto it =
-        std::find_if(std::begin(catalog), std::end(catalog), [&](const Family& f) { return f.name == name; });
-    if (it == std::end(catalog))
-      throw InputError("--family " + std::string(name), "no such family; see `touchstone families`");
-    return *it;
+const Family& named(std::string_view name) {
+  const auto it =
+      std::find_if(std::begin(catalog), std::end(catalog), [&](const Family& f) { return f.name == name; });
+  if (it == std::end(catalog)) {
+    std::string place = "--family ";
+    throw InputError(place.append(name), "no such family; see `touchstone families`");
   }
+  return *it;
+}
+
+// Of `a`, `b,c` or, empty, all: by their weights.
+const Family& pick(Rng& rng, std::string_view names) {
+  std::array<bool, std::size(catalog)> among{};
   int total = 0;
-  for (const Family& f : catalog) total += f.weight;
+  for (std::size_t from = 0; !names.empty() && from <= names.size();) {
+    const std::size_t comma = std::min(names.find(',', from), names.size());
+    among[static_cast<std::size_t>(&named(names.substr(from, comma - from)) - catalog)] = true;
+    from = comma + 1;
+  }
+  for (std::size_t i = 0; i < std::size(catalog); ++i) {
+    among[i] |= names.empty();
+    if (among[i]) total += catalog[i].weight;
+  }
+  const auto one = static_cast<std::size_t>(std::find(among.begin(), among.end(), true) - among.begin());
+  if (total == catalog[one].weight) return catalog[one];
   auto k = static_cast<int>(rng.below(static_cast<std::uint64_t>(total)));
-  for (const Family& f : catalog)
-    if ((k -= f.weight) < 0) return f;
-  return catalog[0];
+  for (std::size_t i = 0; i < std::size(catalog); ++i)
+    if (among[i] && (k -= catalog[i].weight) < 0) return catalog[i];
+  return catalog[one];
 }
 
 }  // namespace
 
 std::span<const Family> families() { return catalog; }
 
-Case make_case(std::uint64_t seed, std::uint64_t index, std::string_view family) {
+Case make_case(std::uint64_t seed, std::uint64_t index, std::string_view names) {
   Rng rng = Rng::stream(seed, index);
-  const Family& f = pick(rng, family);
+  const Family& f = pick(rng, names);
   Case c;
   c.family = std::string(f.name);
   c.id = c.family + "/" + std::to_string(seed) + "/" + std::to_string(index);

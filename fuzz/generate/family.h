@@ -23,7 +23,8 @@ struct Family {
 /// The catalog.
 std::span<const Family> families();
 
-/// The index-th case of a campaign: `family` empty = the default mix. Throws InputError on an unknown family.
-Case make_case(std::uint64_t seed, std::uint64_t index, std::string_view family = {});
+/// The index-th case of a campaign of one family, of several by their weights (`deep,far`), or, empty, of
+/// all. Throws InputError on an unknown family.
+Case make_case(std::uint64_t seed, std::uint64_t index, std::string_view names = {});
 
 }  // namespace touchstone::fuzz

@@ -1,3 +1,4 @@
+#include <map>
 #include <set>
 
 #include "core/base/input_error.h"
@@ -33,5 +34,16 @@ TEST_CASE("the mix reaches every family and every pair of convex shapes", "[gene
 
 TEST_CASE("other seeds give other cases; unknown families are refused", "[generate]") {
   CHECK(hash(fuzz::make_case(1, 0).scene) != hash(fuzz::make_case(2, 0).scene));
-  CHECK_THROWS_AS(fuzz::make_case(1, 0, "nonsense"), InputError);
+  for (const char* names : {"nonsense", "deep,", ",", "deep,nonsense"})
+    CHECK_THROWS_AS(fuzz::make_case(1, 0, names), InputError);
+}
+
+TEST_CASE("several families mix by their weights", "[generate]") {
+  std::map<std::string, int> count;
+  for (std::uint64_t i = 0; i < 2000; ++i) ++count[fuzz::make_case(3, i, "throng,deep,contained").family];
+  CHECK(count.size() == 3);
+  // Weights 1, 14 and 8.
+  CHECK(count["deep"] > count["contained"]);
+  CHECK(count["contained"] > 4 * count["throng"]);
+  CHECK(count["throng"] > 40);
 }
