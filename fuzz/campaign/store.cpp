@@ -45,13 +45,17 @@ Pool pool_from_json(const Json& j) {
 
 void write_atomically(const std::filesystem::path& file, const std::string& text) {
   const std::filesystem::path temporary = file.string() + ".part";
+  std::error_code ec;
   {
     std::ofstream f(temporary, std::ios::binary);
     f << text;
     f.flush();
-    if (!f) throw InputError(temporary.string(), "cannot be written (disk full, or no permission?)");
+    if (!f) {
+      f.close();
+      std::filesystem::remove(temporary, ec);
+      throw InputError(temporary.string(), "cannot be written (disk full, or no permission?)");
+    }
   }
-  std::error_code ec;
   std::filesystem::rename(temporary, file, ec);
   if (ec) throw InputError(file.string(), "cannot be replaced: " + ec.message());
 }

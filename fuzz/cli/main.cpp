@@ -1,8 +1,13 @@
 #include <fmt/format.h>
 
+#include <cerrno>
 #include <csignal>
 #include <cstdio>
+#include <cstring>
 #include <exception>
+#include <stdexcept>
+#include <string>
+#include <system_error>
 
 #include "core/base/input_error.h"
 #include "fuzz/cli/command.h"
@@ -60,10 +65,18 @@ int main(int argc, char** argv) {
   using namespace touchstone;
   std::signal(SIGPIPE, SIG_IGN);
   try {
-    return cli::run(argc, argv);
+    const int code = cli::run(argc, argv);
+    // A result that nobody got is no result. A reader that has seen enough (EPIPE) has what it wanted.
+    if ((std::fflush(stdout) != 0 || std::ferror(stdout)) && errno != EPIPE)
+      throw std::runtime_error(std::string("the output cannot be written: ") + std::strerror(errno));
+    return code;
   } catch (const InputError& e) {
     fmt::print(stderr, "touchstone: {}\n", e.what());
     return cli::exit_usage;
+  } catch (const std::system_error& e) {
+    // Of `| head` nobody needs to be told.
+    if (e.code() != std::errc::broken_pipe) fmt::print(stderr, "touchstone: failed: {}\n", e.what());
+    return cli::exit_failed;
   } catch (const std::exception& e) {
     fmt::print(stderr, "touchstone: failed: {}\n", e.what());
     return cli::exit_failed;
