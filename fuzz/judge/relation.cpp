@@ -11,8 +11,6 @@
 namespace touchstone::fuzz {
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
-
 constexpr std::array rows{
     Relation{"relation_questions", "overlap, distance and contact of a pair agree, and the same twice",
              derive_questions},
@@ -51,7 +49,8 @@ double displacement(const Scene& s, const ReceivedScene& received) {
 
 // A contradiction that the rounding of the scenes received can explain is blamed on that rounding: bodies
 // that are D apart from those asked change a gap by at most 2D.
-Blame blame_of(double miss_by, const RelationInput& in, const Derived& d, const CaseObservations& observed) {
+Blame blame_of_contradiction(double miss_by, const RelationInput& in, const Derived& d,
+                             const CaseObservations& observed) {
   const double explained = 2 * (d.base_scale * displacement(in.c.scene, in.base.received) +
                                 displacement(d.c.scene, observed.received));
   return miss_by <= explained ? Blame::representation : Blame::algorithm;
@@ -77,7 +76,7 @@ std::optional<RelationBreak> find_gap_break(const Relation& r, const RelationInp
           fmt::format("{}: by `{}` the gap is in {}, by `{}` before in {}", d.words, to_string(q.question),
                       interval_text(here), to_string(base.question), interval_text(due));
     }
-  if (worst) worst->blame = blame_of(worst_miss, in, d, observed);
+  if (worst) worst->blame = blame_of_contradiction(worst_miss, in, d, observed);
   return worst;
 }
 

@@ -23,13 +23,13 @@
 
 namespace touchstone::fuzz {
 
+inline constexpr double infinity = std::numeric_limits<double>::infinity();
+
 /// Closed; empty when lo > hi.
 struct GapInterval {
-  double lo = -std::numeric_limits<double>::infinity();
-  double hi = std::numeric_limits<double>::infinity();
-  bool says_nothing() const {
-    return lo == -std::numeric_limits<double>::infinity() && hi == std::numeric_limits<double>::infinity();
-  }
+  double lo = -infinity;
+  double hi = infinity;
+  bool says_nothing() const { return lo == -infinity && hi == infinity; }
 };
 
 /// What the answer to one query of the base says of the gap of the derived pair.

@@ -26,13 +26,6 @@ Scene lattice(const Shape& shape, const Lattice& l) {
   return s;
 }
 
-Expectation counts(int all, int boxes, int overlapping, std::string reason) {
-  Expectation e;
-  e.all_pairs = all, e.box_pairs = boxes, e.overlapping_pairs = overlapping;
-  e.reason = std::move(reason);
-  return e;
-}
-
 Scene with_outlier() {
   Scene s = lattice(Sphere{0.5}, {5, 5, 4, Vec3(1, 1, 1)});
   Body far;

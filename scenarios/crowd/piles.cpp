@@ -5,13 +5,6 @@
 namespace touchstone::scenarios {
 namespace {
 
-Expectation counts(int all, std::optional<int> boxes, int overlapping, std::string reason) {
-  Expectation e;
-  e.all_pairs = all, e.box_pairs = boxes, e.overlapping_pairs = overlapping;
-  e.reason = std::move(reason);
-  return e;
-}
-
 // n·n copies of `shape` at `height`, `spacing` apart, over `ground`.
 Scene on_ground(const Shape& ground, const Shape& shape, int n, double spacing, double height) {
   std::vector<Part> parts{{ground, {}, {}}};

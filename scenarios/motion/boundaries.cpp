@@ -7,8 +7,6 @@
 namespace touchstone::scenarios {
 namespace {
 
-Motion moving(double x, double y, double z) { return {Vec3(x, y, z), Vec3::Zero()}; }
-
 Expectation with_gap(Expectation e, double gap) {
   e.gap = {gap, 0};
   e.overlap = gap <= 0;

@@ -5,8 +5,6 @@
 namespace touchstone::scenarios {
 namespace {
 
-Motion moving(double x, double y, double z) { return {Vec3(x, y, z), Vec3::Zero()}; }
-
 TriangleMesh wall_of_two_triangles() {
   return {{{0, -1, -1}, {0, 1, -1}, {0, 1, 1}, {0, -1, 1}}, {{0, 1, 2}, {0, 2, 3}}};
 }

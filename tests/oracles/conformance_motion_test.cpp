@@ -6,7 +6,7 @@ using namespace touchstone::testing;
 
 namespace {
 
-struct Row {
+struct MotionRow {
   const char* what;
   Scene scene;
   std::optional<double> t;
@@ -19,7 +19,7 @@ Scene moving(Scene s, const Vec3& linear_a, const Vec3& angular_a, const Vec3& l
   return s;
 }
 
-std::vector<Row> rows() {
+std::vector<MotionRow> motion_rows() {
   const Vec3 none = Vec3::Zero();
   // A sphere off the line of motion of the other one by 0.3; contact when they are 1 apart.
   const double reach = std::sqrt(1 - 0.09);
@@ -41,7 +41,7 @@ std::vector<Row> rows() {
 /// Ten samples over the step, reported at the first one in contact.
 double lateness(const Subject& s) { return s.is("fcl") && !s.has("tuned") ? 1.0 / 9 : 0; }
 
-void check(Subject& s, const Row& row) {
+void check(Subject& s, const MotionRow& row) {
   INFO("engine " << s.name << ": " << row.what);
   const Observation o = ask(s, case_of(row.scene, {{Question::time_of_impact, 0, 1}})).answers[0];
   INFO("outcome " << to_string(o.outcome) << " " << o.detail);
@@ -62,9 +62,9 @@ void check(Subject& s, const Row& row) {
 TEST_CASE("impacts happen when they must, whoever moves", "[oracles][conformance]") {
   int checked = 0;
   for_each_engine([&](Subject s) {
-    for (const Row& row : rows()) {
+    for (const MotionRow& row : motion_rows()) {
       check(s, row);
-      Row swapped = row;
+      MotionRow swapped = row;
       std::swap(swapped.scene.bodies[0], swapped.scene.bodies[1]);
       check(s, swapped);
       checked += 2;

@@ -187,7 +187,7 @@ std::vector<Derived> derive_grow(const RelationInput& in) {
     d.words = i == 0 ? "A grown by an eighth" : "B grown by an eighth";
     d.rounding = 8 * 0x1p-53 * 2 * bounding_radius(shape);
     change_numbers(shape, [](auto& v, Domain) { v *= 1.125; });
-    for (Expected& e : d.expected) e.gap.lo = -std::numeric_limits<double>::infinity();
+    for (Expected& e : d.expected) e.gap.lo = -infinity;
     return {d};
   }
   return {};
