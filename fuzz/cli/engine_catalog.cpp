@@ -13,7 +13,8 @@ namespace touchstone::cli {
 namespace {
 
 constexpr std::string_view fcl = "libtouchstone_fcl.so", f32 = "libtouchstone_bullet_f32.so",
-                           f64 = "libtouchstone_bullet_f64.so", ccd = "libtouchstone_libccd.so";
+                           f64 = "libtouchstone_bullet_f64.so", ccd = "libtouchstone_libccd.so",
+                           ode = "libtouchstone_ode.so";
 
 constexpr EngineRow rows[] = {
     {"core", "", "our own core, in process"},
@@ -34,11 +35,13 @@ constexpr EngineRow rows[] = {
     {"libccd-gjk-tuned", ccd, "libccd, GJK and EPA, tight tolerances"},
     {"libccd-mpr", ccd, "libccd as shipped, MPR"},
     {"libccd-mpr-tuned", ccd, "libccd, MPR, tight tolerances"},
+    {"ode", ode, "ODE as shipped, dCollide"},
 };
 
 constexpr std::string_view fcl_broad = "libtouchstone_fcl_broad.so",
                            f32_broad = "libtouchstone_bullet_broad_f32.so",
-                           f64_broad = "libtouchstone_bullet_broad_f64.so";
+                           f64_broad = "libtouchstone_bullet_broad_f64.so",
+                           ode_broad = "libtouchstone_ode_broad.so";
 
 constexpr EngineRow broad_rows[] = {
     {"fcl-naive", fcl_broad, "FCL, NaiveCollisionManager"},
@@ -56,6 +59,10 @@ constexpr EngineRow broad_rows[] = {
     {"bullet-f64-axis-sweep", f64_broad, "Bullet double, btAxisSweep3"},
     {"bullet-f64-axis-sweep-32", f64_broad, "Bullet double, bt32BitAxisSweep3"},
     {"bullet-f64-simple", f64_broad, "Bullet double, btSimpleBroadphase"},
+    {"ode-simple", ode_broad, "ODE, dSimpleSpace"},
+    {"ode-hash", ode_broad, "ODE, dHashSpace"},
+    {"ode-quadtree", ode_broad, "ODE, dQuadTreeSpace"},
+    {"ode-sap", ode_broad, "ODE, dSweepAndPruneSpace"},
 };
 
 std::filesystem::path program_directory() {

@@ -147,8 +147,28 @@ TEST_CASE("engines from npm speak the interface as it is meant", "[pipe][npm]") 
     const Run r = w.touchstone("engines --check " + std::string(name));
     INFO(r.out << r.err);
     CHECK(r.code == 0);
-    CHECK(r.out.find(std::string(name) + ": 14 right, 0 wrong") != std::string::npos);
+    CHECK(r.out.find(std::string(name) + ": 19 right, 0 wrong") != std::string::npos);
     ++asked;
   }
   if (asked == 0) SUCCEED();
+}
+
+TEST_CASE("ODE is asked as it is meant, and its spaces keep every pair of boxes", "[ode][certify]") {
+  const Workspace w("ode");
+  if (w.touchstone("engines ode").code != 0) {
+    std::printf("skipped: ODE was not built in\n");
+    SUCCEED();
+    return;
+  }
+  const Run asked = w.touchstone("engines --check ode");
+  INFO(asked.out << asked.err);
+  CHECK(asked.code == 0);
+  CHECK(asked.out.find("ode: 14 right, 0 wrong") != std::string::npos);
+  for (const char* space : {"ode-simple", "ode-hash", "ode-quadtree", "ode-sap"}) {
+    const Run r =
+        w.touchstone("certify --level boxes --without no_boxes --limit 40 --subject " + std::string(space));
+    INFO(r.out << r.err);
+    CHECK(r.code == 0);
+    CHECK(r.out.find("boxes certified") != std::string::npos);
+  }
 }
