@@ -104,13 +104,14 @@ std::string only(const std::string& evidence, const std::string& level) {
 
 }  // namespace
 
-TEST_CASE("a broad phase that a bad box or a turned one makes lose a pair is shown by a program of its own",
+TEST_CASE("a broad phase that loses a pair, to a bad box, a turned one or freed memory, is shown by a program",
           "[reproduce][certify]") {
   const Workspace w("reproduce");
   int shown_ones = refutation_shown(w, "bullet-f64-dbvt", only("no_boxes", "boxes")) +
                    refutation_shown(w, "bullet-f64-dbvt", only("", "bodies")) +
-                   refutation_shown(w, "ode-sap", only("no_boxes", "boxes"));
-  if (shown_ones == 0) WARN("neither Bullet nor ODE is installed: no refutations to show");
+                   refutation_shown(w, "ode-sap", only("no_boxes", "boxes")) +
+                   refutation_shown(w, "fcl-dynamic-tree-array", only("", "bodies"));
+  if (shown_ones == 0) WARN("neither FCL nor Bullet nor ODE is installed: no refutations to show");
 }
 
 TEST_CASE("a finding about libccd is shown by a program that needs libccd alone", "[reproduce]") {
