@@ -88,7 +88,7 @@ class Engine {
   static std::vector<kit::CardText> cards() {
     std::vector<kit::CardText> all;
     for (const Row& r : rows)
-      all.push_back({r.name, "ODE", "0.16", std::string(r.settings) + " alone", 0x1p-53,
+      all.push_back({r.name, "ODE", dODE_VERSION, std::string(r.settings) + " alone", 0x1p-53,
                      kit::oracle_tau_factor, "collision_space.cpp: no tolerance"});
     return all;
   }

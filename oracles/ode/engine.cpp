@@ -22,7 +22,7 @@ class Engine {
  public:
   static std::vector<kit::CardText> cards() {
     return {
-        {"ode", "ODE", "0.16", "dCollide as shipped", 0x1p-53, kit::oracle_tau_factor,
+        {"ode", "ODE", dODE_VERSION, "dCollide as shipped", 0x1p-53, kit::oracle_tau_factor,
          "collision_libccd.cpp: mpr_tolerance 1e-6, for hulls and for cylinders with cylinders and capsules; "
          "none elsewhere"}};
   }
