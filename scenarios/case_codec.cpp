@@ -1,6 +1,8 @@
 #include "scenarios/case_codec.h"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <nlohmann/json.hpp>
 
 #include "core/base/input_error.h"
@@ -9,6 +11,7 @@
 #include "core/scene/input_file.h"
 #include "core/scene/json_reader.h"
 #include "core/scene/json_text.h"
+#include "core/scene/odd_numbers.h"
 #include "scenarios/expectation_codec.h"
 
 namespace touchstone {
@@ -18,8 +21,8 @@ using Json = nlohmann::ordered_json;
 
 constexpr std::string_view version_field = "touchstone_case";
 constexpr int version = 1;
-constexpr std::array<std::string_view, 8> case_fields{version_field, "id",    "description", "source",
-                                                      "family",      "scene", "queries",     "expect"};
+constexpr std::array<std::string_view, 9> case_fields{
+    version_field, "id", "description", "source", "family", "scene", "queries", "expect", "odd_numbers"};
 constexpr std::array<std::string_view, 3> pair_query_fields{"question", "a", "b"};
 constexpr std::array<std::string_view, 1> scene_query_fields{"question"};
 
@@ -70,6 +73,33 @@ Scene read_scene(const JsonReader& r, const std::string& place) {
   }
 }
 
+// JSON has no NaN and no infinity.
+Json odd_to_json(double x) {
+  if (std::isnan(x)) return "NaN";
+  if (std::isinf(x)) return x > 0 ? "Infinity" : "-Infinity";
+  return x;
+}
+double read_odd(const JsonReader& r) {
+  if (r.json().is_number()) return r.number();
+  const std::string text = r.string();
+  if (text == "NaN") return std::numeric_limits<double>::quiet_NaN();
+  if (text != "Infinity" && text != "-Infinity")
+    r.fail("must be a number, \"NaN\", \"Infinity\" or \"-Infinity\"");
+  return text[0] == '-' ? -HUGE_VAL : HUGE_VAL;
+}
+
+// They have no exact set: only what they do to other bodies' pairs can be judged.
+void read_odd_numbers(const JsonReader& r, Case& c) {
+  for (const Query& q : c.queries)
+    if (q.question != Question::candidates) r.fail("only candidates can be asked of such a scene");
+  for (const auto& [place, value] : r.json().items()) try {
+      put_in(c.scene, {place, read_odd(r[place])});
+    } catch (const InputError& e) {
+      if (e.place() != place) throw;
+      r.fail(place + " " + e.reason());
+    }
+}
+
 StoredCase from_scene(Scene scene) {
   StoredCase s;
   s.c.id = scene.name;
@@ -108,7 +138,9 @@ nlohmann::ordered_json stored_case_to_json(const StoredCase& s) {
   if (!s.description.empty()) j["description"] = s.description;
   if (!s.source.empty()) j["source"] = s.source;
   if (!s.c.family.empty()) j["family"] = s.c.family;
-  j["scene"] = touchstone::to_json(s.c.scene);
+  const auto odd = odd_numbers(s.c.scene);
+  j["scene"] = touchstone::to_json(odd.empty() ? s.c.scene : without_odd_numbers(s.c.scene));
+  for (const OddNumber& n : odd) j["odd_numbers"][n.place] = odd_to_json(n.value);
   j["queries"] = Json::array();
   for (const Query& q : s.c.queries) j["queries"].push_back(to_json(q));
   if (Json e = scenarios::to_json(s.expect); !e.empty()) j["expect"] = std::move(e);
@@ -129,6 +161,7 @@ StoredCase stored_case_from_json(const nlohmann::ordered_json& j, const std::str
     for (const JsonReader& q : r["queries"].items()) s.c.queries.push_back(read_query(q, s.c.scene));
   else
     s.c.queries = default_queries(s.c.scene);
+  if (r.has("odd_numbers")) read_odd_numbers(r["odd_numbers"], s.c);
   if (r.has("expect")) s.expect = scenarios::read_expectation(r["expect"]);
   return s;
 }
@@ -153,9 +186,10 @@ std::string to_text(const StoredCase& s) {
   std::string out = "{\"touchstone_case\": " + std::to_string(version);
   for (const char* field : {"id", "description", "source", "family"})
     if (j.contains(field)) out += ",\n \"" + std::string(field) + "\": " + to_line(j[field]);
-  std::string scene = touchstone::to_text(s.c.scene);
+  std::string scene = touchstone::to_text(without_odd_numbers(s.c.scene));
   scene.pop_back();  // its line end
   out += ",\n\"scene\": " + scene;
+  if (j.contains("odd_numbers")) out += ",\n \"odd_numbers\": " + to_line(j["odd_numbers"]);
   write_list(out, "queries", j["queries"]);
   if (j.contains("expect")) out += ",\n \"expect\": " + to_line(j["expect"]);
   return out + "\n}\n";

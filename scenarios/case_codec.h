@@ -1,5 +1,8 @@
 // JSON form of a case: {"touchstone_case": 1, "id", "description", "source", "family", "scene": {…},
-// "queries": […], "expect": {…}}. Only the version and the scene are required.
+// "queries": […], "expect": {…}, "odd_numbers": {…}}. Only the version and the scene are required. A scene is
+// valid JSON and denotes closed sets; "odd_numbers" ({"/bodies/2/pose/translation/0": "NaN"}, also
+// "Infinity", "-Infinity" and negative half extents) puts into it afterwards what does neither, for
+// candidates alone.
 #pragma once
 
 #include <filesystem>

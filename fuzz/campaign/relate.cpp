@@ -2,6 +2,7 @@
 // about the base, which is all that is stored: the derivations are functions of it and of its answers.
 #include <algorithm>
 
+#include "core/scene/odd_numbers.h"
 #include "fuzz/campaign/campaign.h"
 #include "fuzz/campaign/shapes_of.h"
 #include "fuzz/judge/relation.h"
@@ -50,7 +51,7 @@ void relate_into(CampaignResult& r, const Case& c, std::uint64_t index, const En
                  const CaseObservations& base) {
   // What an engine does not answer at all is not asked again in fifteen forms; a crash or a hang is not
   // provoked fifteen times.
-  if (!answered_any(base)) return;
+  if (!answered_any(base) || !odd_numbers(c.scene).empty()) return;
   const RelationInput in{c, engine->card(), base};
   const std::vector<Asked> asked = derive_all(in);
   std::vector<Case> cases;

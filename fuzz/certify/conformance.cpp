@@ -76,6 +76,23 @@ void overlap_probes(std::vector<Probe>& all) {
                               "the axis is z; size[1] is half the height of the segment, without the caps"));
   all.push_back(
       overlap_probe("capsules do not lie along y", rod, at(small, 0, 2.5, 0), false, "the axis is z"));
+  const Placed can{Cylinder{0.5, 2}, Vec3::Zero()}, hat{Cone{1, 1}, Vec3::Zero()};
+  all.push_back(overlap_probe("cylinders stand along z", can, at(small, 0.6, 0, 1.9), true,
+                              "the axis is z; size[1] is half the height"));
+  all.push_back(overlap_probe("cones have their apex up", hat, at(small, 0.8, 0, 0.9), false,
+                              "the axis is z, the apex at +size[1], the base at -size[1]"));
+  all.push_back(overlap_probe("cones have their base down", hat, at(small, 0.9, 0, -0.9), true,
+                              "the axis is z, the apex at +size[1], the base at -size[1]"));
+  const Placed corner{make_hull({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}), Vec3(1, 0, 0)};
+  all.push_back(overlap_probe("hulls are where their vertices are", corner, at(small, 1.9, 0, 0), true,
+                              "vertices are about the body's origin, which may be anywhere"));
+  all.push_back(overlap_probe("hulls do not stand on their centre", corner, at(small, 0.5, 0.1, 0.1), false,
+                              "vertices are about the body's origin, which may be anywhere"));
+  const Placed ground{HalfSpace{Vec3(0, 0, 2), 1}, Vec3::Zero()};
+  all.push_back(overlap_probe("half-spaces are solid below", ground, at(small, 3, 4, 0.65), true,
+                              "solid where n.x <= d: size[0..2] is n of any length, size[3] is d"));
+  all.push_back(overlap_probe("half-spaces end where n.x = d", ground, at(small, 3, 4, 0.9), false,
+                              "solid where n.x <= d: here n is (0, 0, 2) and d is 1"));
   Placed turned = box;
   turned.shape = Box{Vec3(3, 0.1, 0.1)}, turned.q = {0, 0, 1, 1};
   all.push_back(

@@ -19,14 +19,15 @@ std::size_t most_tries(const std::string& fault) {
 
 class Asker {
  public:
-  Asker(const Subject& s, Level level, std::string fault) : s_(s), level_(level), fault_(std::move(fault)) {}
+  Asker(const Subject& s, const EvidenceRow& e, std::string fault)
+      : s_(s), level_(e.level), invalid_(e.invalid), fault_(std::move(fault)) {}
 
   /// From now on every case is asked of an engine that was asked nothing before.
   void ask_anew() { anew_ = true; }
 
   CandidateVerdict verdict(const Case& c) {
     const auto o = engine().run({&c, 1});
-    return judge_candidates(c, o[0].answers[0], level_);
+    return judge_candidates(c, o[0].answers[0], level_, invalid_);
   }
   std::vector<bool> shows(std::span<const Case> cases) {
     std::vector<bool> out(cases.size());
@@ -40,7 +41,7 @@ class Asker {
     }
     const auto all = engine().run(fit);
     for (std::size_t i = 0; i < fit.size(); ++i)
-      out[place[i]] = judge_candidates(fit[i], all[i].answers[0], level_).fault == fault_;
+      out[place[i]] = judge_candidates(fit[i], all[i].answers[0], level_, invalid_).fault == fault_;
     return out;
   }
 
@@ -57,6 +58,7 @@ class Asker {
       const Pose p = step.pose.value_or(c.scene.bodies[static_cast<std::size_t>(step.body)].pose);
       const auto box = exact_box(c.scene.shape_of(step.body), p);
       if (!box) return false;
+      if (invalid_ && !(box->lo.array() <= box->hi.array()).all()) continue;
       if (box->lo.allFinite() && box->hi.allFinite() &&
           !exact_corners(p.translation, box->hi - p.translation, scalar))
         return false;
@@ -69,6 +71,7 @@ class Asker {
   }
   const Subject& s_;
   Level level_;
+  bool invalid_;
   std::string fault_;
   bool anew_ = false;
   EnginePtr engine_;
@@ -112,18 +115,9 @@ Case start_of(Asker& asker, const Case& c, const CandidateVerdict& v) {
   return cut;
 }
 
-bool has_json_form(const Case& c) {
-  try {
-    validate(c.scene);
-    return true;
-  } catch (const InputError&) {
-    return false;
-  }
-}
-
 std::string in_words(const Vec3& v) { return fmt::format("({:g}, {:g}, {:g})", v.x(), v.y(), v.z()); }
 
-// What has no JSON form: the bodies whose numbers are not finite, or make no box.
+// The bodies whose numbers are not finite, or make no box.
 std::string what_is_no_box(const Scene& s) {
   std::string out;
   for (std::size_t i = 0; i < s.bodies.size(); ++i) {
@@ -150,8 +144,7 @@ Refutation refute(const Subject& subject, const EvidenceRow& e, std::uint64_t in
                   const CandidateVerdict& found) {
   Refutation r{e.level, std::string(e.name), index, found.fault, found.words, "not shrunk", 0, 0, {}};
   r.bodies = bodies_used(c.scene), r.steps = c.scene.script.size();
-  if (!has_json_form(c)) return r.words += what_is_no_box(c.scene), r;
-  Asker asker(subject, e.level, found.fault);
+  Asker asker(subject, e, found.fault);
   if (!asker.shows({&c, 1})[0]) asker.ask_anew();
   const StillShows still = [&](std::span<const Case> cases) { return asker.shows(cases); };
   const Shrunk shrunk = shrink(start_of(asker, c, found), still, most_tries(found.fault));
@@ -161,7 +154,7 @@ Refutation refute(const Subject& subject, const EvidenceRow& e, std::uint64_t in
   if (shrunk.exit == ShrinkExit::not_shown)
     r.shrink = "not shown again: the subject does not answer the same twice";
   else
-    r.words = asker.verdict(shrunk.smallest).words;
+    r.words = asker.verdict(shrunk.smallest).words + what_is_no_box(shrunk.smallest.scene);
   return r;
 }
 

@@ -13,13 +13,16 @@
 namespace touchstone::cli {
 namespace {
 
-std::string hash_of_file(const std::filesystem::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  if (!in) throw InputError(file.string(), "cannot be read");
+std::string hash_of(const std::vector<std::filesystem::path>& files) {
+  if (files.empty()) return "";
   Hasher h;
   char buffer[1 << 16];
-  while (in.read(buffer, sizeof buffer) || in.gcount() > 0)
-    h.bytes(buffer, static_cast<std::size_t>(in.gcount()));
+  for (const auto& file : files) {
+    std::ifstream in(file, std::ios::binary);
+    if (!in) throw InputError(file.string(), "cannot be read");
+    while (in.read(buffer, sizeof buffer) || in.gcount() > 0)
+      h.bytes(buffer, static_cast<std::size_t>(in.gcount()));
+  }
   return fmt::format("{:016x}", h.value());
 }
 
@@ -34,8 +37,7 @@ fuzz::Subject broad_subject(const std::string& name, const WorkerLimits& limits,
             }};
   if (engine_names(name).size() != 1 || name == "all")
     throw InputError("--subject " + name, "is more than one engine");
-  const auto file = plugin_file(name);
-  fuzz::Subject s{name, file.empty() ? "" : hash_of_file(file), sweeps || name == "core",
+  fuzz::Subject s{name, hash_of(engine_files(name)), sweeps || name == "core",
                   [name, limits](fuzz::Level) { return make_engine(name, limits); }};
   s.make(fuzz::Level::boxes);  // what is wrong with it is said before anything is asked
   return s;

@@ -4,6 +4,7 @@
 #include "fuzz/certify/conformance.h"
 #include "fuzz/cli/command.h"
 #include "fuzz/cli/engine_catalog.h"
+#include "fuzz/cli/npm_engines.h"
 #include "fuzz/record/observation_json.h"
 #include "reports/text.h"
 
@@ -38,6 +39,14 @@ int list(const std::string& which, bool json) {
       else
         fmt::print("{:<24} absent: {} was not built (its library was not found)\n", row.name, row.library);
     }
+    for (const NpmRow& row : npm_catalog()) {
+      if (is_installed(row))
+        show(std::string(row.name));
+      else if (json)
+        j.push_back({{"name", row.name}, {"absent", true}});
+      else
+        fmt::print("{:<24} absent: {} from npm; engines --install {}\n", row.name, row.line, row.name);
+    }
   }
   if (json) fmt::print("{}\n", j.dump(1));
   return exit_clean;
@@ -70,7 +79,15 @@ Run declare_engines(CLI::App& app) {
   auto checked = std::make_shared<std::string>();
   app.add_option("--check", *checked,
                  "does this engine (./libmine.so, pipe:COMMAND) speak the interface as it is meant?");
-  return [which, json, checked] { return checked->empty() ? list(*which, *json) : check(*checked); };
+  auto wanted = std::make_shared<std::vector<std::string>>();
+  app.add_option("--install", *wanted,
+                 "engines to bring from npm: jolt, jolt-tuned, rapier; separated by commas")
+      ->delimiter(',')
+      ->allow_extra_args(false);
+  return [which, json, checked, wanted] {
+    if (!wanted->empty()) return install_npm_engines(*wanted);
+    return checked->empty() ? list(*which, *json) : check(*checked);
+  };
 }
 
 }  // namespace touchstone::cli

@@ -40,6 +40,10 @@ int merge_shards(const Options& o) {
 }
 
 int run(const Options& o) {
+  if (o.in.empty())
+    throw InputError("merge",
+                     "say where to and what: touchstone merge OUT SHARD..., or touchstone merge --ledgers "
+                     "OUT.db LEDGER.db...");
   if (!o.ledgers) return merge_shards(o);
   const std::size_t n = fuzz::merge_ledgers(o.out, paths(o));
   fmt::print("{} findings in {}\n", reports::grouped(n), o.out);
@@ -50,9 +54,9 @@ int run(const Options& o) {
 
 Run declare_merge(CLI::App& app) {
   auto o = std::make_shared<Options>();
-  app.add_option("out", o->out, "directory (with --ledgers: file) of the result")->required();
-  app.add_option("in", o->in, "directories of finished shards, or of merged ones; any order, repeated or not")
-      ->required();
+  app.add_option("out", o->out, "directory (with --ledgers: file) of the result");
+  app.add_option("in", o->in,
+                 "directories of finished shards, or of merged ones; any order, repeated or not");
   app.add_flag("--ledgers", o->ledgers, "merge ledgers (findings.db) instead");
   app.add_flag("--json", o->json, "one JSON document on stdout");
   return [o] { return run(*o); };

@@ -6,13 +6,15 @@
 #include <algorithm>
 
 #include "core/base/input_error.h"
+#include "fuzz/cli/npm_engines.h"
 #include "oracles/core/core_engine.h"
 
 namespace touchstone::cli {
 namespace {
 
 constexpr std::string_view fcl = "libtouchstone_fcl.so", f32 = "libtouchstone_bullet_f32.so",
-                           f64 = "libtouchstone_bullet_f64.so", ccd = "libtouchstone_libccd.so";
+                           f64 = "libtouchstone_bullet_f64.so", ccd = "libtouchstone_libccd.so",
+                           ode = "libtouchstone_ode.so";
 
 constexpr EngineRow rows[] = {
     {"core", "", "our own core, in process"},
@@ -33,11 +35,13 @@ constexpr EngineRow rows[] = {
     {"libccd-gjk-tuned", ccd, "libccd, GJK and EPA, tight tolerances"},
     {"libccd-mpr", ccd, "libccd as shipped, MPR"},
     {"libccd-mpr-tuned", ccd, "libccd, MPR, tight tolerances"},
+    {"ode", ode, "ODE as shipped, dCollide"},
 };
 
 constexpr std::string_view fcl_broad = "libtouchstone_fcl_broad.so",
                            f32_broad = "libtouchstone_bullet_broad_f32.so",
-                           f64_broad = "libtouchstone_bullet_broad_f64.so";
+                           f64_broad = "libtouchstone_bullet_broad_f64.so",
+                           ode_broad = "libtouchstone_ode_broad.so";
 
 constexpr EngineRow broad_rows[] = {
     {"fcl-naive", fcl_broad, "FCL, NaiveCollisionManager"},
@@ -55,6 +59,10 @@ constexpr EngineRow broad_rows[] = {
     {"bullet-f64-axis-sweep", f64_broad, "Bullet double, btAxisSweep3"},
     {"bullet-f64-axis-sweep-32", f64_broad, "Bullet double, bt32BitAxisSweep3"},
     {"bullet-f64-simple", f64_broad, "Bullet double, btSimpleBroadphase"},
+    {"ode-simple", ode_broad, "ODE, dSimpleSpace"},
+    {"ode-hash", ode_broad, "ODE, dHashSpace"},
+    {"ode-quadtree", ode_broad, "ODE, dQuadTreeSpace"},
+    {"ode-sap", ode_broad, "ODE, dSweepAndPruneSpace"},
 };
 
 std::filesystem::path program_directory() {
@@ -83,6 +91,28 @@ RemoteSpec plugin_spec(const std::string& name) {
   return {host_program(), name.substr(0, colon + 3), name.substr(colon + 4), {}};
 }
 
+// The words of a command that are files as they stand: the program or its script, wherever it has a path.
+std::vector<std::filesystem::path> files_named_in(const std::string& command) {
+  std::vector<std::filesystem::path> out;
+  std::string word;
+  char quote = 0;
+  const auto end_word = [&] {
+    std::error_code error;
+    if (std::filesystem::is_regular_file(word, error)) out.emplace_back(word);
+    word.clear();
+  };
+  for (const char c : command) {
+    if (quote ? c == quote : c == '\'' || c == '"')
+      quote = quote ? char{0} : c;
+    else if (!quote && (c == ' ' || c == '\t'))
+      end_word();
+    else
+      word += c;
+  }
+  end_word();
+  return out;
+}
+
 void check_name(const std::string& name) {
   if (is_pipe(name)) {
     if (name == "pipe:") throw InputError(name, "names no command: pipe:COMMAND");
@@ -92,6 +122,12 @@ void check_name(const std::string& name) {
     const auto file = plugin_spec(name).plugin;
     if (!std::filesystem::exists(file)) throw InputError(file.string(), "no such plug-in file");
     return;
+  }
+  if (const NpmRow* npm = find_npm_row(name)) {
+    if (is_installed(*npm)) return;
+    throw InputError("engine " + name,
+                     fmt::format("is not installed: ./touchstone engines --install {} brings {} {}", name,
+                                 npm->package, npm->version));
   }
   const EngineRow* row = find_row(name);
   if (!row) throw InputError("engine " + name, "unknown; `touchstone engines` lists those there are");
@@ -139,18 +175,21 @@ std::vector<std::string> engine_names(const std::string& text) {
   return names;
 }
 
-std::filesystem::path plugin_file(const std::string& name) {
-  if (is_pipe(name)) return {};
-  if (is_path(name)) return plugin_spec(name).plugin;
+std::vector<std::filesystem::path> engine_files(const std::string& name) {
+  if (is_pipe(name)) return files_named_in(name.substr(5));
+  if (is_path(name)) return {plugin_spec(name).plugin};
+  if (const NpmRow* npm = find_npm_row(name)) return files_of(*npm);
   const EngineRow* row = find_row(name);
-  return !row || row->library.empty() ? std::filesystem::path{} : plugin_directory() / row->library;
+  if (!row || row->library.empty()) return {};
+  return {plugin_directory() / row->library};
 }
 
 EnginePtr make_engine(const std::string& name, const WorkerLimits& limits) {
   check_name(name);
   if (name == "core") return std::make_unique<CoreEngine>();
   if (name == "core-f32") return std::make_unique<CoreEngine>(Arithmetic::float32);
-  RemoteSpec spec = is_pipe(name) ? RemoteSpec{host_program(), name, "", {}}
+  const NpmRow* npm = find_npm_row(name);
+  RemoteSpec spec = is_pipe(name) || npm ? RemoteSpec{host_program(), npm ? pipe_of(*npm) : name, "", {}}
                     : is_path(name)
                         ? plugin_spec(name)
                         : RemoteSpec{host_program(), plugin_directory() / find_row(name)->library, name, {}};

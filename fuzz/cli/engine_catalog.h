@@ -32,8 +32,9 @@ std::vector<std::string> engine_names(const std::string& text);
 /// Throws InputError when the plug-in is missing or does not offer the engine.
 EnginePtr make_engine(const std::string& name, const WorkerLimits& limits);
 
-/// The file of a plug-in or of a catalog engine in one; empty: in process, or no file.
-std::filesystem::path plugin_file(const std::string& name);
+/// The files that an engine is made of: its plug-in, or those that the command of a pipe names. Empty: in
+/// process.
+std::vector<std::filesystem::path> engine_files(const std::string& name);
 
 /// The option --case-seconds of every command that asks engines.
 void add_case_seconds(CLI::App& app, WorkerLimits& limits);

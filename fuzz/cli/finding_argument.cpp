@@ -9,6 +9,7 @@
 #include "core/scene/input_file.h"
 #include "fuzz/cli/case_argument.h"
 #include "fuzz/cli/command.h"
+#include "fuzz/cli/npm_engines.h"
 #include "fuzz/shrink/keeps_finding.h"
 
 namespace touchstone::cli {
@@ -32,8 +33,12 @@ std::string stored_key(const std::string& path) {
 // A key starts with its engine's name; those of plug-ins may hold dots themselves.
 std::string engine_of(const std::string& key) {
   std::string found;
-  for (const EngineRow& row : engine_catalog())
-    if (key.starts_with(std::string(row.name) + ".") && row.name.size() > found.size()) found = row.name;
+  const auto consider = [&](std::string_view name) {
+    if (key.starts_with(std::string(name) + ".") && name.size() > found.size()) found = name;
+  };
+  for (const EngineRow& row : engine_catalog()) consider(row.name);
+  for (const EngineRow& row : broad_catalog()) consider(row.name);
+  for (const NpmRow& row : npm_catalog()) consider(row.name);
   if (found.empty())
     throw InputError("--key", "names no engine of the catalog: " + key + " (give --engine for a plug-in)");
   return found;

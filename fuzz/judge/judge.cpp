@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "core/scene/odd_numbers.h"
 #include "fuzz/judge/check.h"
 
 namespace touchstone::fuzz {
@@ -53,10 +54,16 @@ std::vector<FaultReport> faults_received(const CheckInput& asked, int frame, dou
   return run_checks({asked.truth, frame, asked.query, asked.answer, asked.card}).faults;
 }
 
+// Of bodies that are none: to throw at them is to refuse them.
+bool is_refusal(const CheckInput& asked) {
+  return (asked.answer.outcome == Outcome::threw || asked.answer.outcome == Outcome::invalid_input) &&
+         asked.query.question == Question::candidates && !odd_numbers(asked.truth.scene()).empty();
+}
+
 Judgement judge_one(const CheckInput& asked, int received_frame) {
   Judgement j;
   j.outcome = asked.answer.outcome;
-  if (j.outcome == Outcome::unsupported) return j;
+  if (j.outcome == Outcome::unsupported || is_refusal(asked)) return j;
   if (j.outcome != Outcome::answered) {
     FaultReport f;
     f.a = asked.query.a, f.b = asked.query.b;

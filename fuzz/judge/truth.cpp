@@ -255,13 +255,27 @@ std::vector<Truth::TruePair> Truth::overlapping(const std::vector<std::optional<
   return result;
 }
 
+namespace {
+
+// Candidates alone may be asked about bodies that are none (core/scene/odd_numbers.h): they are in no true
+// pair.
+bool is_a_set(const Shape& shape, const Pose& pose) {
+  const auto* box = std::get_if<Box>(&shape);
+  return pose.translation.allFinite() &&
+         (!box || (box->half_extents.allFinite() && (box->half_extents.array() >= 0).all()));
+}
+
+}  // namespace
+
 const std::vector<std::vector<Truth::TruePair>>& Truth::true_pairs() {
   if (true_pairs_) return *true_pairs_;
   true_pairs_.emplace();
   for (const StepState& state : steps()) {
     std::vector<std::optional<referee::Placed>> bodies(asked_.bodies.size());
     for (std::size_t i = 0; i < bodies.size(); ++i)
-      if (state.pose[i]) bodies[i] = referee::Placed{&asked_.shape_of(static_cast<int>(i)), *state.pose[i]};
+      if (const Shape& shape = asked_.shape_of(static_cast<int>(i));
+          state.pose[i] && is_a_set(shape, *state.pose[i]))
+        bodies[i] = referee::Placed{&shape, *state.pose[i]};
     true_pairs_->push_back(overlapping(bodies));
   }
   return *true_pairs_;

@@ -29,5 +29,6 @@ struct EngineSource {
 EngineSource fcl_source(const Asked& q);
 EngineSource bullet_source(const Asked& q);
 EngineSource libccd_source(const Asked& q);
+EngineSource ode_source(const Asked& q);
 
 }  // namespace touchstone::fuzz

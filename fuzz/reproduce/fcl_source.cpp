@@ -268,6 +268,25 @@ constexpr std::string_view script_query = R"(  struct Wanted {
   };
 )";
 
+// Whether reading freed memory shows depends on what the heap made of it; this makes it show.
+constexpr std::string_view freed_is_overwritten = R"(#include <malloc.h>
+
+#include <cstdlib>
+#include <new>
+
+// What is freed is overwritten, so that whoever still reads it is found out.
+void operator delete[](void* p) noexcept {
+  volatile unsigned char* bytes = static_cast<unsigned char*>(p);
+  for (std::size_t i = 0, n = malloc_usable_size(p); i < n; ++i) bytes[i] = 0xff;
+  std::free(p);
+}
+void operator delete[](void* p, std::size_t) noexcept { operator delete[](p); }
+void* operator new[](std::size_t n) {
+  if (void* p = std::malloc(n > 0 ? n : 1)) return p;
+  throw std::bad_alloc();
+}
+)";
+
 struct ManagerRow {
   std::string_view engine, declaration;
 };
@@ -372,6 +391,7 @@ EngineSource fcl_source(const Asked& q) {
   EngineSource out;
   out.compile = "-I/usr/include/eigen3 -lfcl -lccd";
   out.includes = "#include <fcl/fcl.h>\n\n#include <memory>\n";
+  if (q.engine == "fcl-dynamic-tree-array") out.includes += freed_is_overwritten;
   out.code = std::string(shape_helpers);
   const bool pair = is_pair_question(q.question);
   if (pair) out.code += pair_head(q);

@@ -250,18 +250,22 @@ std::string check_of(const Wanted& e) {
   return pair_check(e);
 }
 
+bool is_ode(std::string_view engine) { return engine == "ode" || engine.starts_with("ode-"); }
+
 EngineSource source_of(const Asked& q) {
   if (q.engine.starts_with("fcl-")) return fcl_source(q);
   if (q.engine.starts_with("bullet-")) return bullet_source(q);
   if (q.engine.starts_with("libccd-")) return libccd_source(q);
-  throw InputError("reproduce", fmt::format("there is no writer for {}: FCL, Bullet and libccd have one",
+  if (is_ode(q.engine)) return ode_source(q);
+  throw InputError("reproduce", fmt::format("there is no writer for {}: FCL, Bullet, libccd and ODE have one",
                                             std::string(q.engine)));
 }
 
 }  // namespace
 
 bool has_reproducer(std::string_view engine) {
-  return engine.starts_with("fcl-") || engine.starts_with("bullet-") || engine.starts_with("libccd-");
+  return engine.starts_with("fcl-") || engine.starts_with("bullet-") || engine.starts_with("libccd-") ||
+         is_ode(engine);
 }
 
 std::string reproducer(const Finding& finding, const EngineCard& card) {

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/base/input_error.h"
+#include "core/scene/odd_numbers.h"
 #include "fuzz/shrink/measure.h"
 
 namespace touchstone::fuzz {
@@ -308,10 +309,11 @@ std::vector<Case> round_one(const Case& c, std::size_t i) {
 
 std::vector<Case> smaller_and_valid(const Case& c, std::vector<Case> proposals) {
   const Measure m = measure(c);
+  const bool odd = !odd_numbers(c.scene).empty();
   std::erase_if(proposals, [&](const Case& p) {
     if (!(measure(p) < m)) return true;
     try {
-      validate(p.scene);
+      validate(odd ? without_odd_numbers(p.scene) : p.scene);
     } catch (const InputError&) {
       return true;
     }

@@ -14,15 +14,17 @@
 #include <stdexcept>
 #include <string_view>
 
+#include "oracles/host/pipe_scene.h"
+
 namespace touchstone::host {
 namespace {
 
-using Json = nlohmann::ordered_json;
 constexpr int protocol_version = 1;
 constexpr std::size_t longest_line = std::size_t{1} << 28;
 
 // What the command has to be, once loaded; a process serves one.
 std::string command_line, card_text;
+bool gives_receipts = false;
 
 /// The command, its standard input and output; standard error stays that of the worker.
 class Child {
@@ -43,6 +45,7 @@ class Child {
   }
   ~Child() {
     close(to_), close(from_);
+    if (pid_ < 0) return;
     kill(pid_, SIGKILL);
     waitpid(pid_, nullptr, 0);
   }
@@ -70,13 +73,26 @@ class Child {
       char bytes[1 << 14];
       const ssize_t n = read(from_, bytes, sizeof bytes);
       if (n < 0 && errno == EINTR) continue;
-      if (n <= 0) throw std::runtime_error("the command ended without an answer");
+      if (n <= 0) throw std::runtime_error(how_it_ended());
       buffer_.append(bytes, static_cast<std::size_t>(n));
       if (buffer_.size() > longest_line) throw std::runtime_error("the command's line has no end");
     }
   }
 
  private:
+  // Its output has ended: mostly it has too. 127 and 126 are the shell's own.
+  std::string how_it_ended() {
+    int status = 0;
+    for (int tries = 0; tries < 100 && waitpid(pid_, &status, WNOHANG) == 0; ++tries) usleep(10000);
+    if (kill(pid_, 0) == 0) return "the command closed its output without an answer";
+    pid_ = -1;
+    if (WIFEXITED(status) && WEXITSTATUS(status) == 127) return "there is no such command";
+    if (WIFEXITED(status) && WEXITSTATUS(status) == 126) return "the command is no program that may be run";
+    if (WIFEXITED(status))
+      return "the command ended without an answer, exit code " + std::to_string(WEXITSTATUS(status));
+    return "the command ended without an answer, by signal " + std::to_string(WTERMSIG(status));
+  }
+
   pid_t pid_ = -1;
   int to_ = -1, from_ = -1;
   std::string buffer_;
@@ -86,84 +102,6 @@ Json parsed(const std::string& line) {
   Json j = Json::parse(line, nullptr, false);
   if (!j.is_object())
     throw std::runtime_error("the command wrote a line that is no JSON object: " + line.substr(0, 80));
-  return j;
-}
-
-struct NotFinite {};
-
-double finite(double x) { return std::isfinite(x) ? x : throw NotFinite{}; }
-Json numbers(const double* p, std::size_t n) {
-  Json j = Json::array();
-  for (std::size_t i = 0; i < n; ++i) j.push_back(finite(p[i]));
-  return j;
-}
-Json points(const double* p, std::size_t n) {
-  Json j = Json::array();
-  for (std::size_t i = 0; i < n; ++i) j.push_back(numbers(p + 3 * i, 3));
-  return j;
-}
-Json triangles(const ts_shape& s) {
-  Json j = Json::array();
-  for (std::size_t i = 0; i < s.triangle_count; ++i)
-    j.push_back({s.triangles[3 * i], s.triangles[3 * i + 1], s.triangles[3 * i + 2]});
-  return j;
-}
-
-// Field names as in the scene's JSON form (scene.schema.json).
-Json shape(const ts_shape& s) {
-  const auto round_one = [&](const char* type) {
-    return Json{{"type", type}, {"radius", finite(s.size[0])}, {"half_height", finite(s.size[1])}};
-  };
-  switch (s.kind) {
-    case TS_SPHERE:
-      return {{"type", "sphere"}, {"radius", finite(s.size[0])}};
-    case TS_BOX:
-      return {{"type", "box"}, {"half_extents", numbers(s.size, 3)}};
-    case TS_CAPSULE:
-      return round_one("capsule");
-    case TS_CYLINDER:
-      return round_one("cylinder");
-    case TS_CONE:
-      return round_one("cone");
-    case TS_ELLIPSOID:
-      return {{"type", "ellipsoid"}, {"semi_axes", numbers(s.size, 3)}};
-    case TS_HALF_SPACE:
-      return {{"type", "half_space"}, {"normal", numbers(s.size, 3)}, {"offset", finite(s.size[3])}};
-    default:
-      return {{"type", s.kind == TS_HULL ? "hull" : "mesh"},
-              {"vertices", points(s.vertices, s.vertex_count)},
-              {"triangles", triangles(s)}};
-  }
-}
-
-Json pose(const ts_pose& p) {
-  return {{"translation", numbers(p.translation, 3)}, {"rotation", numbers(p.rotation, 4)}};
-}
-
-Json body(const ts_body& b) {
-  Json j = {{"shape", b.shape}, {"static", b.is_static != 0}, {"group", b.group}, {"pose", pose(b.pose)}};
-  if (b.has_motion) j["motion"] = {{"linear", numbers(b.linear, 3)}, {"angular", numbers(b.angular, 3)}};
-  return j;
-}
-
-Json step(const ts_step& s) {
-  constexpr std::array<const char*, 4> names{"insert", "move", "remove", "query"};
-  Json j = {{"op", names[static_cast<std::size_t>(s.op)]}};
-  if (s.op != TS_QUERY) j["body"] = s.body;
-  if (s.op == TS_INSERT || s.op == TS_MOVE) j["pose"] = pose(s.pose);
-  return j;
-}
-
-Json scene_of(const ts_scene& s) {
-  Json j = {{"shapes", Json::array()},
-            {"bodies", Json::array()},
-            {"steps", Json::array()},
-            {"ignored", Json::array()}};
-  for (std::size_t i = 0; i < s.shape_count; ++i) j["shapes"].push_back(shape(s.shapes[i]));
-  for (std::size_t i = 0; i < s.body_count; ++i) j["bodies"].push_back(body(s.bodies[i]));
-  for (std::size_t i = 0; i < s.step_count; ++i) j["steps"].push_back(step(s.steps[i]));
-  for (std::size_t i = 0; i < s.ignored_count; ++i)
-    j["ignored"].push_back({s.ignored[2 * i], s.ignored[2 * i + 1]});
   return j;
 }
 
@@ -229,13 +167,19 @@ ts_engine* create(std::uint32_t) {
   return reinterpret_cast<ts_engine*>(c);
 }
 void destroy(ts_engine* e) { delete &child(e); }
-std::int32_t load(ts_engine* e, const ts_scene* scene, const ts_received*, char* detail) {
+std::int32_t load(ts_engine* e, const ts_scene* scene, const ts_received* received, char* detail) {
   try {
     child(e).write_line(Json{{"scene", scene_of(*scene)}}.dump());
-    return TS_ANSWERED;
+    if (!gives_receipts) return TS_ANSWERED;
+    const Json receipt = parsed(child(e).read_line());
+    std::snprintf(detail, 256, "%s", receipt.value("detail", "").c_str());
+    if (receipt.contains("received")) read_receipt(receipt["received"], *scene, *received);
+    return outcome_of(receipt.value("outcome", "answered"));
   } catch (const NotFinite&) {
     std::snprintf(detail, 256, "a number that is not finite has no form in JSON");
     return TS_INVALID_INPUT;
+  } catch (const Json::exception& why) {
+    broken(("the command's receipt is not of the form agreed: " + std::string(why.what())).c_str());
   } catch (const std::exception& why) {
     broken(why.what());
   }
@@ -270,7 +214,8 @@ const ts_plugin& load_pipe(const std::string& command) {
   if (j["touchstone_pipe"] != protocol_version)
     throw std::runtime_error("speaks version " + j["touchstone_pipe"].dump() +
                              " of the pipe protocol, and not 1");
-  j.erase("touchstone_pipe");
+  gives_receipts = j.value("receipts", false);
+  j.erase("touchstone_pipe"), j.erase("receipts");
   card_text = j.dump();
   static const ts_plugin table{TS_ABI_VERSION, 1, card, create, destroy, load, unload, ask};
   return table;

@@ -216,3 +216,13 @@ TEST_CASE("a lying engine behind the C ABI is found by fuzz", "[cli]") {
     CHECK(r.out.find(name + ": WRONG in ") != std::string::npos);
   }
 }
+
+TEST_CASE("merge without arguments says what it wants", "[cli][merge]") {
+  const Workspace w("merge");
+  for (const char* arguments : {"merge", "merge out", "merge --ledgers all.db"}) {
+    const Run r = w.touchstone(arguments);
+    INFO(r.err);
+    CHECK(r.code == 2);
+    CHECK(r.err.find("touchstone merge OUT SHARD...") != std::string::npos);
+  }
+}

@@ -71,7 +71,48 @@ int shown(const Workspace& w, const std::string& engine, const std::string& camp
   return n;
 }
 
+// The script that refutes a broad phase: replay shows it, and so does its program. False: not installed.
+bool refutation_shown(const Workspace& w, const std::string& engine, const std::string& options) {
+  if (w.touchstone("engines " + engine).code != 0) return false;
+  const Run certified =
+      w.touchstone("certify --subject " + engine + " -o c.json --script c.case.json " + options);
+  INFO(engine << certified.out << certified.err);
+  REQUIRE(certified.code == 1);
+  CHECK(w.touchstone("replay c.case.json --engines core," + engine + " --subject " + engine).code == 1);
+  CHECK(w.touchstone("replay c.case.json --engines core," + engine).code == 0);
+  const Run made = w.touchstone("reproduce c.case.json --engine " + engine + " -o reproduce.cpp");
+  INFO(made.err);
+  REQUIRE(made.code == 0);
+  REQUIRE(w.run(compile_line(read_all(w.dir / "reproduce.cpp")) + " -Wall -Wextra -Werror").code == 0);
+  CHECK(w.run("timeout 20 ./reproduce").code == 1);
+  return true;
+}
+
+// All evidence but one.
+std::string only(const std::string& evidence, const std::string& level) {
+  std::string without;
+  const std::vector<std::string> of_boxes{"orders_of_two",       "orders_on_an_axis", "histories_of_two",
+                                          "histories_of_three",  "orders_of_three",   "cell_borders",
+                                          "touching_by_an_ulp",  "sizes_far_apart",   "zeros_and_denormals",
+                                          "far_from_the_origin", "huge_coordinates",  "long_scripts",
+                                          "longest_script",      "moving_crowds",     "uniform_boxes",
+                                          "unbounded",           "no_boxes"};
+  for (const std::string& e : of_boxes)
+    if (e != evidence) without += (without.empty() ? "" : ",") + e;
+  return "--level " + level + (level == "boxes" ? " --without " + without : "");
+}
+
 }  // namespace
+
+TEST_CASE("a broad phase that loses a pair, to a bad box, a turned one or freed memory, is shown by a program",
+          "[reproduce][certify]") {
+  const Workspace w("reproduce");
+  int shown_ones = refutation_shown(w, "bullet-f64-dbvt", only("no_boxes", "boxes")) +
+                   refutation_shown(w, "bullet-f64-dbvt", only("", "bodies")) +
+                   refutation_shown(w, "ode-sap", only("no_boxes", "boxes")) +
+                   refutation_shown(w, "fcl-dynamic-tree-array", only("", "bodies"));
+  if (shown_ones == 0) WARN("neither FCL nor Bullet nor ODE is installed: no refutations to show");
+}
 
 TEST_CASE("a finding about libccd is shown by a program that needs libccd alone", "[reproduce]") {
   const Workspace w("reproduce");

@@ -1,0 +1,122 @@
+#include "oracles/host/pipe_scene.h"
+
+#include <array>
+#include <cmath>
+#include <stdexcept>
+#include <vector>
+
+namespace touchstone::host {
+namespace {
+
+double finite(double x) { return std::isfinite(x) ? x : throw NotFinite{}; }
+Json numbers(const double* p, std::size_t n) {
+  Json j = Json::array();
+  for (std::size_t i = 0; i < n; ++i) j.push_back(finite(p[i]));
+  return j;
+}
+Json points(const double* p, std::size_t n) {
+  Json j = Json::array();
+  for (std::size_t i = 0; i < n; ++i) j.push_back(numbers(p + 3 * i, 3));
+  return j;
+}
+Json triangles(const ts_shape& s) {
+  Json j = Json::array();
+  for (std::size_t i = 0; i < s.triangle_count; ++i)
+    j.push_back({s.triangles[3 * i], s.triangles[3 * i + 1], s.triangles[3 * i + 2]});
+  return j;
+}
+
+// Field names as in the scene's JSON form (scene.schema.json).
+Json shape(const ts_shape& s) {
+  const auto round_one = [&](const char* type) {
+    return Json{{"type", type}, {"radius", finite(s.size[0])}, {"half_height", finite(s.size[1])}};
+  };
+  switch (s.kind) {
+    case TS_SPHERE:
+      return {{"type", "sphere"}, {"radius", finite(s.size[0])}};
+    case TS_BOX:
+      return {{"type", "box"}, {"half_extents", numbers(s.size, 3)}};
+    case TS_CAPSULE:
+      return round_one("capsule");
+    case TS_CYLINDER:
+      return round_one("cylinder");
+    case TS_CONE:
+      return round_one("cone");
+    case TS_ELLIPSOID:
+      return {{"type", "ellipsoid"}, {"semi_axes", numbers(s.size, 3)}};
+    case TS_HALF_SPACE:
+      return {{"type", "half_space"}, {"normal", numbers(s.size, 3)}, {"offset", finite(s.size[3])}};
+    default:
+      return {{"type", s.kind == TS_HULL ? "hull" : "mesh"},
+              {"vertices", points(s.vertices, s.vertex_count)},
+              {"triangles", triangles(s)}};
+  }
+}
+
+Json pose(const ts_pose& p) {
+  return {{"translation", numbers(p.translation, 3)}, {"rotation", numbers(p.rotation, 4)}};
+}
+
+Json body(const ts_body& b) {
+  Json j = {{"shape", b.shape}, {"static", b.is_static != 0}, {"group", b.group}, {"pose", pose(b.pose)}};
+  if (b.has_motion) j["motion"] = {{"linear", numbers(b.linear, 3)}, {"angular", numbers(b.angular, 3)}};
+  return j;
+}
+
+Json step(const ts_step& s) {
+  constexpr std::array<const char*, 4> names{"insert", "move", "remove", "query"};
+  Json j = {{"op", names[static_cast<std::size_t>(s.op)]}};
+  if (s.op != TS_QUERY) j["body"] = s.body;
+  if (s.op == TS_INSERT || s.op == TS_MOVE) j["pose"] = pose(s.pose);
+  return j;
+}
+
+// The number of a shape or a body, one that there is.
+std::int32_t number_of(const Json& j, const char* what, std::size_t count) {
+  const auto n = j.at(what).get<std::int64_t>();
+  if (n < 0 || n >= static_cast<std::int64_t>(count))
+    throw std::runtime_error("the command's receipt names a " + std::string(what) + " that there is not");
+  return static_cast<std::int32_t>(n);
+}
+
+template <std::size_t N>
+void read_into(const Json& j, double (&out)[N]) {
+  if (j.size() > N) throw std::runtime_error("the command's receipt has more numbers than there are");
+  for (std::size_t k = 0; k < j.size(); ++k) out[k] = j.at(k).get<double>();
+}
+
+}  // namespace
+
+Json scene_of(const ts_scene& s) {
+  Json j = {{"shapes", Json::array()},
+            {"bodies", Json::array()},
+            {"steps", Json::array()},
+            {"ignored", Json::array()}};
+  for (std::size_t i = 0; i < s.shape_count; ++i) j["shapes"].push_back(shape(s.shapes[i]));
+  for (std::size_t i = 0; i < s.body_count; ++i) j["bodies"].push_back(body(s.bodies[i]));
+  for (std::size_t i = 0; i < s.step_count; ++i) j["steps"].push_back(step(s.steps[i]));
+  for (std::size_t i = 0; i < s.ignored_count; ++i)
+    j["ignored"].push_back({s.ignored[2 * i], s.ignored[2 * i + 1]});
+  return j;
+}
+
+void read_receipt(const Json& j, const ts_scene& scene, const ts_received& received) {
+  for (const Json& s : j.value("shapes", Json::array())) {
+    double size[4] = {};
+    std::vector<double> vertices;
+    read_into(s.at("size"), size);
+    for (const Json& v : s.value("vertices", Json::array()))
+      for (std::size_t k = 0; k < 3; ++k) vertices.push_back(v.at(k).get<double>());
+    received.shape(received.ctx, number_of(s, "shape", scene.shape_count), size, vertices.data(),
+                   vertices.size() / 3);
+  }
+  for (const Json& b : j.value("bodies", Json::array())) {
+    double matrix[9] = {}, translation[3] = {};
+    if (b.at("matrix").size() != 9 || b.at("translation").size() != 3)
+      throw std::runtime_error("the command's receipt lacks a matrix of 9 or a translation of 3 numbers");
+    read_into(b["matrix"], matrix), read_into(b["translation"], translation);
+    received.body(received.ctx, number_of(b, "body", scene.body_count), matrix, translation);
+  }
+}
+
+}  // namespace touchstone::host

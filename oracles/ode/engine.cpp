@@ -1,0 +1,67 @@
+// ODE as an oracle: dCollide for overlap and contact, its spaces as broad phases. It has no distance and no
+// time of impact. Its warnings go to standard output, which the host keeps away from the protocol.
+#include <optional>
+
+#include "oracles/ode/shapes.h"
+
+namespace touchstone::ode_adapter {
+namespace {
+
+// collision_libccd.cpp: mpr_tolerance. The pairs that have no code of their own go there.
+constexpr double mpr_tolerance = 1e-6;
+constexpr int most_contacts = 64;
+
+bool goes_to_libccd(int a, int b) {
+  if (a > b) std::swap(a, b);
+  if (b == TS_HALF_SPACE) return false;
+  return a == TS_HULL || b == TS_HULL || (a == TS_CYLINDER && b == TS_CYLINDER) ||
+         (a == TS_CAPSULE && b == TS_CYLINDER);
+}
+
+class Engine {
+ public:
+  static std::vector<kit::CardText> cards() {
+    return {
+        {"ode", "ODE", dODE_VERSION, "dCollide as shipped", 0x1p-53, kit::oracle_tau_factor,
+         "collision_libccd.cpp: mpr_tolerance 1e-6, for hulls and for cylinders with cylinders and capsules; "
+         "none elsewhere"}};
+  }
+  explicit Engine(unsigned) {}
+  void load(const ts_scene& scene, const ts_received& received) { world_.emplace(scene, received); }
+  void unload() { world_.reset(); }
+
+  void ask(ts_question question, int a, int b, ts_answer& out, const ts_sink& sink) {
+    if (question != TS_OVERLAP && question != TS_CONTACT) throw kit::Unsupported("ODE has no such query");
+    if (world_->kind(a) == TS_HALF_SPACE && world_->kind(b) == TS_HALF_SPACE)
+      throw kit::Unsupported("ODE has no code for two planes");
+    ask_contact(a, b, out, question == TS_CONTACT ? &sink : nullptr);
+  }
+
+ private:
+  /// With a sink the whole contact, without one the overlap alone.
+  void ask_contact(int a, int b, ts_answer& out, const ts_sink* sink) {
+    std::vector<dContactGeom> all(most_contacts);
+    const int n = dCollide(world_->geom(a), world_->geom(b), sink ? most_contacts : 1, all.data(),
+                           sizeof(dContactGeom));
+    kit::set_overlap(out, n > 0);
+    out.claimed_tolerance = goes_to_libccd(world_->kind(a), world_->kind(b)) ? mpr_tolerance : 0;
+    if (n == 0 || !sink) return;
+    const dContactGeom* deepest = all.data();
+    for (int i = 0; i < n; ++i) {
+      const dContactGeom& c = all[static_cast<std::size_t>(i)];
+      if (c.depth > deepest->depth) deepest = &c;
+      const double position[3] = {c.pos[0], c.pos[1], c.pos[2]};
+      sink->point(sink->ctx, position, c.depth);
+    }
+    // ODE's points from the second into the first.
+    kit::set_normal(out, {-deepest->normal[0], -deepest->normal[1], -deepest->normal[2]});
+    kit::set_depth(out, deepest->depth);
+  }
+
+  std::optional<World> world_;
+};
+
+}  // namespace
+}  // namespace touchstone::ode_adapter
+
+TS_PLUGIN(touchstone::ode_adapter::Engine)

@@ -1,0 +1,174 @@
+// Engines behind a pipe as a user meets them: receipts, commands that are not there, engines from npm.
+#include <cstdio>
+#include <cstdlib>
+
+#include "tests/support/catch.h"
+#include "tests/support/workspace.h"
+
+using namespace touchstone::test;
+namespace fs = std::filesystem;
+
+namespace {
+
+bool python_is_there() {
+  if (std::system("command -v python3 >/dev/null 2>&1") == 0) return true;
+  std::printf("skipped: python3 is not installed\n");
+  return false;
+}
+
+// Spheres of radius 1 on whole numbers; `receipt` is what follows a scene.
+std::string on_whole_numbers(const std::string& card, const std::string& receipt) {
+  return R"(import json, sys
+def say(x): print(json.dumps(x), flush=True)
+card = {"touchstone_pipe": 1, "name": "whole", "library": "whole", "version": "1", "settings": "",
+  "unit_roundoff": 1.1e-16, "tau_factor": 64, "source": ""}
+)" + card +
+         R"(
+say(card)
+for line in sys.stdin:
+  m = json.loads(line)
+  if "scene" in m:
+    at = [[float(round(x)) for x in b["pose"]["translation"]] for b in m["scene"]["bodies"]]
+)" + receipt +
+         R"(
+  else: say({"overlap": sum((x - y) ** 2 for x, y in zip(at[m["a"]], at[m["b"]])) <= 4})
+)";
+}
+
+const char* const give =
+    R"(    say({"received": {"bodies": [{"body": i, "matrix": [1, 0, 0, 0, 1, 0, 0, 0, 1], "translation": t}
+      for i, t in enumerate(at)], "shapes": [{"shape": 0, "size": [1]}]}}))";
+
+const char* const two_spheres = R"({"touchstone_case": 1, "scene": {"touchstone_scene": 1,
+  "shapes": [{"type": "sphere", "radius": 1}],
+  "bodies": [{"shape": 0}, {"shape": 0, "pose": {"translation": [2.4, 0, 0]}}]},
+  "queries": [{"question": "overlap", "a": 0, "b": 1}]})";
+
+Run replay(const Workspace& w, const std::string& card, const std::string& receipt) {
+  w.write("whole.py", on_whole_numbers(card, receipt)), w.write("two.json", two_spheres);
+  return w.touchstone("replay two.json --engines 'pipe:python3 whole.py' --subject whole");
+}
+
+}  // namespace
+
+TEST_CASE("a receipt tells what was lost on the way in from what the algorithm does", "[pipe]") {
+  if (!python_is_there()) return;
+  const Workspace w("pipe");
+  const Run with = replay(w, "card['receipts'] = True", give), without = replay(w, "", "");
+  INFO(with.out << with.err << without.out << without.err);
+  CHECK(with.code == 1);
+  CHECK(with.out.find("lost in its rounding") != std::string::npos);
+  CHECK(without.code == 1);
+  CHECK(without.out.find("ghost: says overlap") != std::string::npos);
+  CHECK(without.out.find("lost in its rounding") == std::string::npos);
+}
+
+TEST_CASE("a receipt may refuse the scene; one of another form is a crash with its reason", "[pipe]") {
+  if (!python_is_there()) return;
+  const Workspace w("pipe");
+  const std::string card = "card['receipts'] = True";
+  const Run refused = replay(w, card, "    say({'outcome': 'unsupported'})");
+  INFO(refused.out << refused.err);
+  CHECK(refused.out.find("cannot: whole") != std::string::npos);
+  for (const char* bad :
+       {"    say({'received': {'bodies': [{'body': 7, 'matrix': [0] * 9, 'translation': [0] * 3}]}})",
+        "    say({'received': {'bodies': [{'body': 0, 'matrix': [1], 'translation': [0] * 3}]}})",
+        "    say({'received': {'shapes': [{'shape': 0}]}})"}) {
+    const Run r = replay(w, card, bad);
+    INFO(bad << r.out << r.err);
+    CHECK(r.code != 0);
+    CHECK(r.out.find("crashed") != std::string::npos);
+    CHECK(r.out.find("receipt") != std::string::npos);
+  }
+}
+
+TEST_CASE("a command that is not there is named, with the reason", "[pipe]") {
+  const Workspace w("pipe");
+  w.write("text", "no program");
+  const std::pair<const char*, const char*> commands[] = {
+      {"pipe:./missing --option", "there is no such command"},
+      {"pipe:./text", "the command is no program that may be run"},
+      {"pipe:false", "the command ended without an answer, exit code"},
+  };
+  for (const auto& [command, reason] : commands)
+    for (const char* how : {"certify --limit 4 --subject", "engines --check", "replay two.json --engines"}) {
+      w.write("two.json", two_spheres);
+      const Run r = w.touchstone(std::string(how) + " '" + command + "'");
+      INFO(how << " " << command << " says: " << r.out << r.err);
+      CHECK(r.code == 2);
+      CHECK(r.err.find(command) != std::string::npos);
+      CHECK(r.err.find(reason) != std::string::npos);
+    }
+}
+
+TEST_CASE("a certificate of a command holds for the scripts that it names and no others", "[pipe][certify]") {
+  if (!python_is_there()) return;
+  const Workspace w("pipe");
+  fs::copy(TS_SOURCE_DIR "/oracles/example/broad_phase.py", w.dir / "mine.py");
+  const Run made = w.touchstone("certify --subject 'pipe:python3 mine.py' --limit 8 -o c.json");
+  INFO(made.out << made.err);
+  REQUIRE(made.code == 0);
+  CHECK(made.out.find("plug-in ") != std::string::npos);
+  CHECK(w.touchstone("certify --check c.json").code == 0);
+  std::ofstream(w.dir / "mine.py", std::ios::app) << "# another\n";
+  const Run changed = w.touchstone("certify --check c.json");
+  CHECK(changed.code == 1);
+  CHECK(changed.out.find("another build than the one certified") != std::string::npos);
+}
+
+TEST_CASE("engines from npm say what to do when they are not installed", "[pipe][npm]") {
+  const Workspace w("npm");
+  for (const char* name : {"jolt", "jolt-tuned", "rapier"}) {
+    const Run r =
+        w.run("TOUCHSTONE_NPM=" + w.dir.string() + "/none " TS_BINARY_DIR "/bin/touchstone engines " + name);
+    INFO(r.out << r.err);
+    CHECK(r.code == 2);
+    CHECK(r.err.find("./touchstone engines --install " + std::string(name)) != std::string::npos);
+  }
+  const Run unknown = w.touchstone("engines --install physx");
+  CHECK(unknown.code == 2);
+  CHECK(unknown.err.find("jolt, jolt-tuned and rapier") != std::string::npos);
+  const Run no_npm = w.run("PATH=" + w.dir.string() +
+                           " TOUCHSTONE_NPM=none " TS_BINARY_DIR "/bin/touchstone engines --install rapier");
+  INFO(no_npm.out << no_npm.err);
+  CHECK(no_npm.code == 2);
+  CHECK(no_npm.err.find("nodejs and npm") != std::string::npos);
+  CHECK_FALSE(fs::exists(w.dir / "none"));
+}
+
+TEST_CASE("engines from npm speak the interface as it is meant", "[pipe][npm]") {
+  const Workspace w("npm");
+  std::size_t asked = 0;
+  for (const char* name : {"jolt", "jolt-tuned", "rapier"}) {
+    if (w.touchstone("engines " + std::string(name)).code != 0) {
+      std::printf("skipped: %s is not installed (touchstone engines --install %s)\n", name, name);
+      continue;
+    }
+    const Run r = w.touchstone("engines --check " + std::string(name));
+    INFO(r.out << r.err);
+    CHECK(r.code == 0);
+    CHECK(r.out.find(std::string(name) + ": 19 right, 0 wrong") != std::string::npos);
+    ++asked;
+  }
+  if (asked == 0) SUCCEED();
+}
+
+TEST_CASE("ODE is asked as it is meant, and its spaces keep every pair of boxes", "[ode][certify]") {
+  const Workspace w("ode");
+  if (w.touchstone("engines ode").code != 0) {
+    std::printf("skipped: ODE was not built in\n");
+    SUCCEED();
+    return;
+  }
+  const Run asked = w.touchstone("engines --check ode");
+  INFO(asked.out << asked.err);
+  CHECK(asked.code == 0);
+  CHECK(asked.out.find("ode: 14 right, 0 wrong") != std::string::npos);
+  for (const char* space : {"ode-simple", "ode-hash", "ode-quadtree", "ode-sap"}) {
+    const Run r =
+        w.touchstone("certify --level boxes --without no_boxes --limit 40 --subject " + std::string(space));
+    INFO(r.out << r.err);
+    CHECK(r.code == 0);
+    CHECK(r.out.find("boxes certified") != std::string::npos);
+  }
+}
