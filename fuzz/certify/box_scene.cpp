@@ -6,7 +6,7 @@
 namespace touchstone::fuzz {
 namespace {
 
-constexpr double inf = std::numeric_limits<double>::infinity();
+constexpr double unbounded = std::numeric_limits<double>::infinity();
 
 // Knuth's TwoSum: the rounding error of a + b is a double, also where it underflows.
 bool sum_is_exact(double a, double b) {
@@ -31,7 +31,7 @@ Vec3 turned(const Vec3& h, unsigned thirds) {
 
 std::optional<Aabb> half_space_box(const HalfSpace& s, const Pose& pose) {
   if (thirds_of(pose.rotation) != 0) return std::nullopt;
-  Aabb box{Vec3::Constant(-inf), Vec3::Constant(inf)};
+  Aabb box{Vec3::Constant(-unbounded), Vec3::Constant(unbounded)};
   for (int k = 0; k < 3; ++k) {
     if (s.normal[k] == 0) continue;
     if (std::abs(s.normal[k]) != 1 || std::abs(s.normal.sum()) != 1) return std::nullopt;
@@ -48,7 +48,7 @@ double nearest(double x, Scalar scalar) {
 }
 
 double next_number(double x, int direction, Scalar scalar) {
-  const double to = direction < 0 ? -inf : inf;
+  const double to = direction < 0 ? -unbounded : unbounded;
   if (scalar == Scalar::float64) return std::nextafter(x, to);
   return static_cast<double>(std::nextafter(static_cast<float>(x), static_cast<float>(to)));
 }

@@ -73,8 +73,8 @@ std::optional<Placing> draw_box(Rng& rng, const Draw& d, Coordinate coordinate,
   return placing_of(box, d.scalar);
 }
 
-void boxes(Rng& rng, const Draw& d, Coordinate coordinate, std::uint64_t least, std::uint64_t most,
-           Scene& s) {
+void draw_boxes(Rng& rng, const Draw& d, Coordinate coordinate, std::uint64_t least, std::uint64_t most,
+                Scene& s) {
   const std::uint64_t n = least + rng.below(most - least + 1);
   std::vector<Aabb> placed;
   while (placed.size() < n) {
@@ -105,7 +105,7 @@ void short_script(Rng& rng, Scene& s) {
 
 void hard(const Draw& d, std::uint64_t index, Case& out, std::string_view name, Coordinate coordinate) {
   Rng rng = Rng::stream(d.seed ^ (name.size() * 0x9e3779b97f4a7c15ULL), index);
-  boxes(rng, d, coordinate, 2, 8, out.scene);
+  draw_boxes(rng, d, coordinate, 2, 8, out.scene);
   short_script(rng, out.scene);
   out.queries = {{Question::candidates, -1, -1}};
 }
@@ -122,7 +122,7 @@ void huge_coordinates(const Draw& d, std::uint64_t i, Case& out) { hard(d, i, ou
 // Half-spaces perpendicular to an axis: boxes infinite on five sides.
 void unbounded(const Draw& d, std::uint64_t index, Case& out) {
   Rng rng = Rng::stream(d.seed + 7, index);
-  boxes(rng, d, on_a_border, 2, 6, out.scene);
+  draw_boxes(rng, d, on_a_border, 2, 6, out.scene);
   for (std::uint64_t k = 1 + rng.below(2); k > 0; --k) {
     Body b;
     b.shape = static_cast<int>(out.scene.shapes.size());
@@ -142,7 +142,7 @@ void unbounded(const Draw& d, std::uint64_t index, Case& out) {
 void no_boxes(const Draw& d, std::uint64_t index, Case& out) {
   Rng rng = Rng::stream(d.seed + 8, index);
   Scene& s = out.scene;
-  boxes(rng, d, on_a_border, 2, 5, s);
+  draw_boxes(rng, d, on_a_border, 2, 5, s);
   const double bad[] = {std::numeric_limits<double>::quiet_NaN(), inf, -inf};
   Placing p{Vec3::Zero(), Vec3::Ones()};
   const auto axis = static_cast<Eigen::Index>(rng.below(3));
