@@ -28,6 +28,7 @@ Run declare_families(CLI::App& app);
 Run declare_scenarios(CLI::App& app);
 Run declare_fuzz(CLI::App& app);
 Run declare_replay(CLI::App& app);
+Run declare_report(CLI::App& app);
 Run declare_shrink(CLI::App& app);
 Run declare_reproduce(CLI::App& app);
 Run declare_bisect(CLI::App& app);
