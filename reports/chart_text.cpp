@@ -61,15 +61,15 @@ std::string fronts(const fuzz::Chart& c, const std::string& question) {
 
 std::string crowds(const fuzz::Chart& c) {
   std::map<std::string, std::map<std::uint64_t, const ChartRow*>> engines;
-  std::uint64_t most = 0;
+  std::set<std::uint64_t> crowd_sizes;
   for (const ChartRow& r : c.rows)
     if (r.question == "candidates" && r.answers > 0)
-      engines[r.engine][r.bodies] = &r, most = std::max(most, r.bodies);
+      engines[r.engine][r.bodies] = &r, crowd_sizes.insert(r.bodies);
   if (engines.empty()) return "";
   std::vector<std::pair<double, std::string>> lines;
   for (const auto& [name, sizes] : engines) {
     std::string line = fmt::format("{} {:<26}", mark(*sizes.rbegin()->second), name);
-    for (const std::uint64_t n : all)
+    for (const std::uint64_t n : crowd_sizes)
       line += fmt::format("{:>9}", sizes.contains(n) ? nanoseconds(sizes.at(n)->ns_median) : "");
     const ChartRow &first = *sizes.begin()->second, &last = *sizes.rbegin()->second;
     // Slope in the log-log plane between the smallest crowd and the largest.
@@ -82,7 +82,7 @@ std::string crowds(const fuzz::Chart& c) {
   }
   std::sort(lines.begin(), lines.end());
   std::string head = fmt::format("candidates, inserted and asked once, ns by bodies\n  {:<26}", "");
-  for (const std::uint64_t n : all) head += fmt::format("{:>9}", n);
+  for (const std::uint64_t n : crowd_sizes) head += fmt::format("{:>9}", n);
   head += "   growth  true\n";
   for (const auto& [t, line] : lines) head += line + "\n";
   return head + "\n";

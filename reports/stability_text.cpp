@@ -34,14 +34,15 @@ std::string table(const fuzz::Stability& s, const std::string& question) {
   for (const LadderResult& r : s.results)
     if (r.question == question) note(engines, r.engine), note(names, r.ladder);
   if (engines.empty()) return "";
-  std::string text = fmt::format("{:<24}", question);
-  for (const auto& l : names) text += fmt::format("{:>8}", l);
+  std::string text = fmt::format("{:<23}", question);
+  const auto wide = [](const std::string& name) { return std::max<std::size_t>(8, name.size() + 1); };
+  for (const auto& l : names) text += fmt::format("{:>{}}", l, wide(l));
   text += "\n";
   for (const auto& e : engines) {
-    text += fmt::format("{:<24}", "  " + e);
+    text += fmt::format("{:<23}", " " + e);
     for (const auto& l : names) {
       const LadderResult* r = result_of(s, l, e, question);
-      text += fmt::format("{:>8}", !r ? "" : !r->fails_at() ? "-" : rung(*r->fails_at()));
+      text += fmt::format("{:>{}}", !r ? "" : !r->fails_at() ? "-" : rung(*r->fails_at()), wide(l));
     }
     text += "\n";
   }

@@ -1,9 +1,11 @@
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <cstdlib>
 
 #include "core/base/input_error.h"
 #include "core/scene/input_file.h"
+#include "fuzz/campaign/store.h"
 #include "fuzz/cli/broad_subject.h"
 #include "fuzz/cli/command.h"
 #include "fuzz/cli/engine_catalog.h"
@@ -43,17 +45,19 @@ std::vector<EnginePtr> broad_engines(const Options& o) {
 }
 
 int run(const Options& o) {
+  const bool live = isatty(2) == 1;
   // Before any engine is made: its worker inherits it.
   setenv(measure_variable, std::to_string(o.measure).c_str(), 1);
   std::vector<EnginePtr> engines;
   for (const auto& name : engine_names(o.engines)) engines.push_back(make_engine(name, o.limits));
   const auto broad = broad_engines(o);
-  const fuzz::Chart chart =
-      fuzz::measure_chart(o.quick ? fuzz::quick_chart() : fuzz::full_chart(), o.seed, engines, broad,
-                          [](const std::string& what) { fmt::print(stderr, "\r\033[K{}", what); });
-  fmt::print(stderr, "\r\033[K");
+  const fuzz::Chart chart = fuzz::measure_chart(o.quick ? fuzz::quick_chart() : fuzz::full_chart(), o.seed,
+                                                engines, broad, [live](const std::string& what) {
+                                                  if (live) fmt::print(stderr, "\r\033[K{}", what);
+                                                });
+  if (live) fmt::print(stderr, "\r\033[K");
   const std::filesystem::path out = o.out;
-  std::filesystem::create_directories(out);
+  fuzz::make_directory(out);
   const std::string json = fuzz::to_json(chart).dump();
   write_file(out / "chart.json", json);
   write_file(out / "chart.csv", fuzz::to_csv(chart));

@@ -1,6 +1,8 @@
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include "core/scene/input_file.h"
+#include "fuzz/campaign/store.h"
 #include "fuzz/cli/command.h"
 #include "fuzz/cli/engine_catalog.h"
 #include "fuzz/cli/pages.h"
@@ -18,14 +20,17 @@ struct Options {
 };
 
 int run(const Options& o) {
+  const bool live = isatty(2) == 1;
   std::vector<EnginePtr> engines;
   for (const auto& name : engine_names(o.engines)) engines.push_back(make_engine(name, o.limits));
-  fuzz::Stability s = fuzz::climb(o.ladder, o.seed, o.quick ? 12 : 100, engines,
-                                  [](const std::string& what) { fmt::print(stderr, "\r\033[K{}", what); });
-  fmt::print(stderr, "\r\033[K");
+  fuzz::Stability s =
+      fuzz::climb(o.ladder, o.seed, o.quick ? 12 : 100, engines, [live](const std::string& what) {
+        if (live) fmt::print(stderr, "\r\033[K{}", what);
+      });
+  if (live) fmt::print(stderr, "\r\033[K");
   s.scope = o.quick ? "quick" : "full";
   const std::filesystem::path out = o.out;
-  std::filesystem::create_directories(out);
+  fuzz::make_directory(out);
   const std::string json = fuzz::to_json(s).dump();
   write_file(out / "stability.json", json);
   write_file(out / "stability.csv", fuzz::to_csv(s));

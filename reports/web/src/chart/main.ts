@@ -72,7 +72,7 @@ function draw(): void {
   const list = shown();
   const crowd = question.value === "candidates";
   for (const s of [regime, pair, scale]) s.disabled = crowd;
-  const point = (r: Row): [number, number] => [Math.max(r[time.value as "ns_median"], 0.5), Math.max(inaccuracy(r), crowd ? 1e-4 : floor)];
+  const point = (r: Row): [number, number] => [Math.max(r[time.value as "ns_median"], 0.5), crowd ? inaccuracy(r) : Math.max(inaccuracy(r), floor)];
   const ink = css("--ink");
   const one = (r: Row): object => {
     const c = colourOf(engineIndex.get(r.engine) ?? 0);
@@ -90,12 +90,12 @@ function draw(): void {
     tooltip: { trigger: "item", confine: true, formatter: (p: { data?: { row?: Row } }) => (p.data?.row ? words(p.data.row) : "") },
     grid: { left: 76, right: 130, top: 16, bottom: 50 },
     xAxis: axis(`${time.selectedOptions[0]!.text} of a query, ns`, true),
-    yAxis: axis(crowd ? "share of superfluous pairs" : `${measure.selectedOptions[0]!.text} / L (0 is drawn at ${floor})`, true,
-      { nameGap: 58, min: crowd ? 1e-4 : floor, axisLabel: { color: ink, formatter: (x: number) => (x === floor ? "0" : x.toExponential(0)) } }),
+    yAxis: crowd ? axis("share of superfluous pairs", false, { nameGap: 48, min: 0, max: 1 }) : axis(`${measure.selectedOptions[0]!.text} / L (0 is drawn at ${floor})`, true,
+      { nameGap: 58, splitNumber: 9, min: floor, axisLabel: { color: ink, formatter: (x: number) => (x === floor ? "0" : x.toExponential(0)) } }),
     series: [
       { type: "line", data: front.map(point), lineStyle: { color: css("--good"), width: 2 }, symbol: "none", silent: true, z: 1 },
       ...curves.map((c) => ({ type: "line", data: c.map(point), lineStyle: { color: css("--soft"), type: "dashed", width: 1 }, symbol: "none", silent: true, z: 1 })),
-      { type: "scatter", id: "engines", data: list.map(one), labelLayout: { hideOverlap: true }, z: 3 },
+      { type: "scatter", id: "engines", data: list.map(one), labelLayout: { hideOverlap: true, moveOverlap: "shiftY" }, z: 3 },
     ],
   }, { notMerge: true });
   note.textContent = (crowd ? `Crowds of ${grouped(shown()[0]?.bodies ?? 0)} bodies, inserted and asked once. ` : "") +
