@@ -37,10 +37,10 @@ std::string question_table(const fuzz::Chart& c, const std::string& question) {
     return r.question == question && r.regime.empty() && r.pair.empty() && r.scale.empty();
   });
   if (rows.empty()) return "";
-  std::string s = fmt::format("{}\n  {:<24}{:>7}{:>7} {:>8}{:>8}{:>8}{:>6}{:>6}{:>5}\n", question, "",
+  std::string s = fmt::format("{}\n  {:<22}{:>7}{:>7} {:>8}{:>8}{:>8}{:>6}{:>6}{:>5}\n", question, "",
                               "ns p50", "ns p99", "err p50", "err p99", "err max", "miss%", "ghst%", "fail");
   for (const ChartRow* r : rows)
-    s += fmt::format("{} {:<24}{:>7}{:>7} {:>8}{:>8}{:>8}{:>6}{:>6}{:>5}\n", mark(*r), r->engine,
+    s += fmt::format("{} {:<22}{:>7}{:>7} {:>8}{:>8}{:>8}{:>6}{:>6}{:>5}\n", mark(*r), r->engine,
                      nanoseconds(r->ns_median), nanoseconds(r->ns_p99), small(r->error_p50),
                      small(r->error_p99), small(r->error_max), percent(r->missed, r->answers),
                      percent(r->ghost, r->answers), r->failed);
@@ -91,7 +91,7 @@ std::string crowds(const fuzz::Chart& c) {
 std::string reasons(const fuzz::Chart& c) {
   std::map<std::string, std::string> why;
   for (const ChartRow& r : c.rows)
-    if (!r.unsound.empty() && r.answers > 0 && r.pair.empty() && r.scale.empty() &&
+    if (!r.unsound.empty() && r.answers + r.failed > 0 && r.pair.empty() && r.scale.empty() &&
         (r.regime.empty() || r.question == "candidates")) {
       std::string what = r.question;
       if (r.question == "candidates") what += fmt::format(" of {}", r.bodies);

@@ -10,6 +10,7 @@
 #include "fuzz/cli/command.h"
 #include "fuzz/cli/engine_catalog.h"
 #include "fuzz/cli/pages.h"
+#include "fuzz/cli/sweep_catalog.h"
 #include "fuzz/explore/chart.h"
 #include "oracles/api/measure.h"
 #include "oracles/core/broad_engine.h"
@@ -50,6 +51,9 @@ int run(const Options& o) {
   setenv(measure_variable, std::to_string(o.measure).c_str(), 1);
   std::vector<EnginePtr> engines;
   for (const auto& name : engine_names(o.engines)) engines.push_back(make_engine(name, o.limits));
+  if (o.engines == "all")
+    for (const EngineRow& row : sweep_catalog())
+      if (is_present(row)) engines.push_back(make_engine(std::string(row.name), o.limits));
   const auto broad = broad_engines(o);
   const fuzz::Chart chart = fuzz::measure_chart(o.quick ? fuzz::quick_chart() : fuzz::full_chart(), o.seed,
                                                 engines, broad, [live](const std::string& what) {

@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "core/base/input_error.h"
+#include "fuzz/cli/sweep_catalog.h"
 #include "oracles/core/core_engine.h"
 
 namespace touchstone::cli {
@@ -33,6 +34,19 @@ constexpr EngineRow rows[] = {
     {"libccd-gjk-tuned", ccd, "libccd, GJK and EPA, tight tolerances"},
     {"libccd-mpr", ccd, "libccd as shipped, MPR"},
     {"libccd-mpr-tuned", ccd, "libccd, MPR, tight tolerances"},
+};
+
+constexpr EngineRow sweep_rows[] = {
+    {"fcl-libccd@1e-3", fcl, "FCL, GST_LIBCCD, tolerances 1e-3"},
+    {"fcl-libccd@1e-9", fcl, "FCL, GST_LIBCCD, tolerances 1e-9"},
+    {"fcl-indep@1e-3", fcl, "FCL, GST_INDEP, tolerances 1e-3"},
+    {"fcl-indep@1e-9", fcl, "FCL, GST_INDEP, tolerances 1e-9"},
+    {"libccd-gjk@1e-2", ccd, "libccd, GJK and EPA, tolerances 1e-2"},
+    {"libccd-gjk@1e-6", ccd, "libccd, GJK and EPA, tolerances 1e-6"},
+    {"libccd-gjk@1e-8", ccd, "libccd, GJK and EPA, tolerances 1e-8"},
+    {"libccd-mpr@1e-2", ccd, "libccd, MPR, tolerance 1e-2"},
+    {"libccd-mpr@1e-6", ccd, "libccd, MPR, tolerance 1e-6"},
+    {"libccd-mpr@1e-8", ccd, "libccd, MPR, tolerance 1e-8"},
 };
 
 constexpr std::string_view fcl_broad = "libtouchstone_fcl_broad.so",
@@ -70,7 +84,7 @@ bool is_path(const std::string& name) {
 }
 
 const EngineRow* find_row(const std::string& name) {
-  for (const auto catalog : {engine_catalog(), broad_catalog()})
+  for (const auto catalog : {engine_catalog(), broad_catalog(), sweep_catalog()})
     for (const EngineRow& r : catalog)
       if (r.name == name) return &r;
   return nullptr;
@@ -105,6 +119,7 @@ void check_name(const std::string& name) {
 
 std::span<const EngineRow> engine_catalog() { return rows; }
 std::span<const EngineRow> broad_catalog() { return broad_rows; }
+std::span<const EngineRow> sweep_catalog() { return sweep_rows; }
 
 void add_case_seconds(CLI::App& app, WorkerLimits& limits) {
   app.add_option("--case-seconds", limits.query_cpu_seconds,

@@ -3,8 +3,8 @@
 #include <cmath>
 
 #include "core/base/rng.h"
+#include "fuzz/explore/at_gap.h"
 #include "fuzz/generate/family.h"
-#include "fuzz/generate/place.h"
 #include "fuzz/generate/random_shape.h"
 
 namespace touchstone::fuzz {
@@ -54,10 +54,8 @@ std::vector<ChartCase> narrow_chart_cases(std::uint64_t seed, int per_cell, bool
           Rng rng = Rng::stream(seed, cases.size());
           const Vec3 origin = rng.unit_vector() * scale.offset;
           Scene s = random_pair(rng, a, b, scale.size, origin);
-          const Vec3 n = placement_direction(rng, s);
-          const double sideways = rng.uniform(0, 0.3);
-          const double gap = regime.gap(rng) * mean_extent(s);
-          place_along(rng, s, n, gap, sideways);
+          const double gap = regime.gap(rng);
+          s = at_gap(rng, std::move(s), gap);
           ChartCase c{{}, regime.name, pair_name(a, b), scale.name, 2};
           c.c.id = "chart/" + std::to_string(seed) + "/" + std::to_string(cases.size());
           c.c.family = "chart";

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "fuzz/generate/place.h"
+#include "fuzz/explore/at_gap.h"
 #include "fuzz/generate/random_shape.h"
 
 namespace touchstone::fuzz {
@@ -19,11 +19,8 @@ std::vector<double> powers(int first, int step, int n) {
 
 // Half of the pairs apart, half of them in each other, by a fraction `gap` of their size.
 Scene placed(Rng& rng, Scene s, double gap) {
-  const Vec3 n = placement_direction(rng, s);
   const double signed_gap = rng.chance(0.5) ? gap : -gap;
-  const double sideways = rng.uniform(0, 0.2);
-  place_along(rng, s, n, signed_gap * mean_extent(s), sideways);
-  return s;
+  return at_gap(rng, std::move(s), signed_gap);
 }
 
 Scene convex_pair(Rng& rng, double size, const Vec3& origin) {

@@ -270,7 +270,7 @@ export class Picture {
   }
 
   cameraText(): string {
-    return [...this.camera.position.toArray(), ...this.controls.target.toArray()].map((x) => Number(x.toFixed(5))).join(",");
+    return [...this.camera.position.toArray(), ...this.controls.target.toArray()].map((x) => Number(x.toPrecision(9))).join(",");
   }
 
   setCamera(text: string): void {

@@ -91,7 +91,7 @@ function draw(): void {
     grid: { left: 76, right: 130, top: 16, bottom: 50 },
     xAxis: axis(`${time.selectedOptions[0]!.text} of a query, ns`, true),
     yAxis: crowd ? axis("share of superfluous pairs", false, { nameGap: 48, min: 0, max: 1 }) : axis(`${measure.selectedOptions[0]!.text} / L (0 is drawn at ${floor})`, true,
-      { nameGap: 58, splitNumber: 9, min: floor, axisLabel: { color: ink, formatter: (x: number) => (x === floor ? "0" : x.toExponential(0)) } }),
+      { nameGap: 58, splitNumber: 9, min: floor, max: 10 ** Math.ceil(Math.log10(Math.max(1e-9, ...list.map(inaccuracy))) + 0.5), axisLabel: { color: ink, formatter: (x: number) => (x === floor ? "0" : x.toExponential(0)) } }),
     series: [
       { type: "line", data: front.map(point), lineStyle: { color: css("--good"), width: 2 }, symbol: "none", silent: true, z: 1 },
       ...curves.map((c) => ({ type: "line", data: c.map(point), lineStyle: { color: css("--soft"), type: "dashed", width: 1 }, symbol: "none", silent: true, z: 1 })),
