@@ -36,17 +36,20 @@ constexpr EngineRow rows[] = {
     {"libccd-mpr-tuned", ccd, "libccd, MPR, tight tolerances"},
 };
 
+constexpr std::string_view fcl_sweep = "libtouchstone_fcl_sweep.so",
+                           ccd_sweep = "libtouchstone_libccd_sweep.so";
+
 constexpr EngineRow sweep_rows[] = {
-    {"fcl-libccd@1e-3", fcl, "FCL, GST_LIBCCD, tolerances 1e-3"},
-    {"fcl-libccd@1e-9", fcl, "FCL, GST_LIBCCD, tolerances 1e-9"},
-    {"fcl-indep@1e-3", fcl, "FCL, GST_INDEP, tolerances 1e-3"},
-    {"fcl-indep@1e-9", fcl, "FCL, GST_INDEP, tolerances 1e-9"},
-    {"libccd-gjk@1e-2", ccd, "libccd, GJK and EPA, tolerances 1e-2"},
-    {"libccd-gjk@1e-6", ccd, "libccd, GJK and EPA, tolerances 1e-6"},
-    {"libccd-gjk@1e-8", ccd, "libccd, GJK and EPA, tolerances 1e-8"},
-    {"libccd-mpr@1e-2", ccd, "libccd, MPR, tolerance 1e-2"},
-    {"libccd-mpr@1e-6", ccd, "libccd, MPR, tolerance 1e-6"},
-    {"libccd-mpr@1e-8", ccd, "libccd, MPR, tolerance 1e-8"},
+    {"fcl-libccd@1e-3", fcl_sweep, "FCL, GST_LIBCCD, tolerances 1e-3"},
+    {"fcl-libccd@1e-9", fcl_sweep, "FCL, GST_LIBCCD, tolerances 1e-9"},
+    {"fcl-indep@1e-3", fcl_sweep, "FCL, GST_INDEP, tolerances 1e-3"},
+    {"fcl-indep@1e-9", fcl_sweep, "FCL, GST_INDEP, tolerances 1e-9"},
+    {"libccd-gjk@1e-2", ccd_sweep, "libccd, GJK and EPA, tolerances 1e-2"},
+    {"libccd-gjk@1e-6", ccd_sweep, "libccd, GJK and EPA, tolerances 1e-6"},
+    {"libccd-gjk@1e-8", ccd_sweep, "libccd, GJK and EPA, tolerances 1e-8"},
+    {"libccd-mpr@1e-2", ccd_sweep, "libccd, MPR, tolerance 1e-2"},
+    {"libccd-mpr@1e-6", ccd_sweep, "libccd, MPR, tolerance 1e-6"},
+    {"libccd-mpr@1e-8", ccd_sweep, "libccd, MPR, tolerance 1e-8"},
 };
 
 constexpr std::string_view fcl_broad = "libtouchstone_fcl_broad.so",
