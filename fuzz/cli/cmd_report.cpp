@@ -25,7 +25,12 @@ fuzz::Json read_json(const std::filesystem::path& file) {
 // What reports/web/src/report draws: the summary without histograms, and findings as a list.
 fuzz::Json report_page(const std::filesystem::path& directory, fuzz::Json summary) {
   fuzz::Json findings = fuzz::Json::array();
-  for (auto& [key, f] : summary.at("findings").items()) findings.push_back({key, std::move(f)});
+  constexpr const char* columns[] = {"engine",     "question",  "fault", "shapes",     "blame",
+                                     "degeneracy", "magnitude", "count", "worst_in_l", "words"};
+  for (const auto& [key, f] : summary.at("findings").items()) {
+    fuzz::Json& row = findings.emplace_back(fuzz::Json::array());
+    for (const char* c : columns) row.push_back(f.at(c));
+  }
   summary.erase("findings");
   for (auto& [engine, questions] : summary.at("engines").items())
     for (auto& [question, tally] : questions.items()) tally.erase("ns_histogram");
@@ -38,6 +43,7 @@ fuzz::Json report_page(const std::filesystem::path& directory, fuzz::Json summar
           {"directory", directory.string()},
           {"settings", std::move(settings)},
           {"summary", std::move(summary)},
+          {"columns", columns},
           {"findings", std::move(findings)}};
 }
 

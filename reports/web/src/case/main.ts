@@ -41,6 +41,7 @@ const view = el("div", { id: "view" });
 const table = el("div", { id: "answers", class: "scroll" });
 const tabs = el("div", { class: "controls", id: "questions" });
 const words = el("div", { id: "referee" });
+const commands = el("div", { id: "commands" });
 const timeline = el("div", { id: "timeline" });
 const tick = el("datalist", { id: "marks" });
 
@@ -52,7 +53,7 @@ app().append(
       el("p", { class: "soft screen-only", id: "keys" },
         "Drag to turn, wheel to zoom, right button to move. Keys: arrows turn, + and − zoom, f whole scene, c contact, n and p next and previous engine, " +
         (frames.length > 1 ? "[ and ] back and forth in time, space plays, " : "") + "l light or dark.")),
-    el("section", { id: "right" }, tabs, words, table, el("h2", {}, "Ask again"), commandLine(data.command),
+    el("section", { id: "right" }, tabs, words, table, el("h2", {}, "Ask again"), commands,
       el("h2", {}, "Bodies"), bodyList(), data.case.source ? el("p", { class: "soft" }, `Source: ${data.case.source}`) : null)),
 );
 
@@ -256,6 +257,13 @@ function refresh(): void {
   words.replaceChildren(
     el("p", {}, el("span", { class: "swatch", style: `background:${refereeColour()}` }), el("b", {}, "referee: "), refereeLine(now)),
     ...[...new Set(evidence.map((d) => d.words))].map((w) => el("p", { class: "soft" }, `drawn: ${w}`)));
+  // Of the engine chosen, or of the only one that is wrong: the smaller case and the program against its own API.
+  const wrong = engineNames.filter((n) => (now.engines?.[n]?.faults.length ?? 0) > 0);
+  const of = wrong.includes(chosen) ? chosen : wrong.length === 1 ? wrong[0]! : "";
+  const asked = data.command.replace(/^\S+ replay /, "");
+  commands.replaceChildren(commandLine(data.command), ...(of
+    ? [commandLine(`./touchstone shrink ${asked} --engine ${of}`), ...(/^(fcl|bullet|libccd)/.test(of) ? [commandLine(`./touchstone reproduce ${asked} --engine ${of} -o reproduce.cpp`)] : [])]
+    : []));
   document.body.dataset["drawn"] = evidence.map((d) => d.kind).join(" ");
   if (!picture) return;
   const style = getComputedStyle(document.documentElement);
@@ -292,6 +300,11 @@ function nextEngine(by: number): void {
   choose(shown[(shown.indexOf(chosen) + by + shown.length) % shown.length]!);
 }
 
+addEventListener("beforeprint", () => {
+  picture?.theme("#ffffff", "#888888");
+  picture?.draw();
+});
+addEventListener("afterprint", () => refresh());
 link.onChange(() => {
   query = Math.min(data.queries.length - 1, Math.max(0, link.number("q") ?? query));
   chosen = link.get("engine") ?? "";

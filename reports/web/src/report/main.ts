@@ -24,11 +24,16 @@ interface ReportPage {
     engines: Record<string, Record<string, Tally>>;
     families?: Record<string, number>;
   };
-  findings: [string, Finding][];
+  columns: (keyof Finding)[];
+  findings: unknown[][];
 }
 
 const data = pageData<ReportPage>();
 const link = new LinkState();
+const findings = data.findings.map((row) => {
+  const f = Object.fromEntries(data.columns.map((c, i) => [c, row[i]])) as unknown as Finding;
+  return [[f.engine, f.question, f.fault, f.shapes, f.blame, f.degeneracy, f.magnitude].join("."), f] as const;
+});
 document.title = `Touchstone: ${data.title}`;
 const style = (name: string): string => getComputedStyle(document.documentElement).getPropertyValue(name).trim();
 
@@ -58,7 +63,7 @@ function summaryLine(): string {
   const s = data.summary;
   const rate = s.pair_cases ? ` ${Math.round((100 * s.overlapping) / s.pair_cases)} % of the pairs overlap.` : "";
   const set = data.settings ? ` Seed ${data.settings.seed}, subject ${data.settings.subject}.` : "";
-  return `${grouped(s.cases)} cases, ${grouped(data.findings.length)} kinds of findings.${rate}${set} ${s.digest ? "Digest " + s.digest + "." : ""}`;
+  return `${grouped(s.cases)} cases, ${grouped(findings.length)} kinds of findings.${rate}${set} ${s.digest ? "Digest " + s.digest + "." : ""}`;
 }
 
 const failed = (t: Tally): number => Object.entries(t.outcomes).reduce((n, [k, v]) => (k === "answered" || k === "unsupported" ? n : n + v), 0);
@@ -107,7 +112,7 @@ let sort: { key: (typeof columns)[number]["key"]; down: boolean } = { key: (link
 const selects = new Map<Filter, HTMLSelectElement>();
 for (const f of filters) {
   const counts = new Map<string, number>();
-  for (const [, x] of data.findings) counts.set(x[f], (counts.get(x[f]) ?? 0) + 1);
+  for (const [, x] of findings) counts.set(x[f], (counts.get(x[f]) ?? 0) + 1);
   if (counts.size < 2) continue;
   const select = el("select", { "aria-label": f, id: `filter-${f}` }, el("option", { value: "" }, `any ${f}`),
     ...[...counts].sort((a, b) => b[1] - a[1]).map(([v, n]) => el("option", { value: v }, `${v} (${n})`)));
@@ -131,14 +136,14 @@ controls.append(search);
 function drawFindings(): void {
   const wanted = [...selects].filter(([, s]) => s.value);
   const words = search.value.toLowerCase();
-  const rows = data.findings.filter(([, f]) => wanted.every(([k, s]) => f[k] === s.value) && (!words || f.words.toLowerCase().includes(words)));
+  const rows = findings.filter(([, f]) => wanted.every(([k, s]) => f[k] === s.value) && (!words || f.words.toLowerCase().includes(words)));
   const value = (f: Finding): string | number => (sort.key === "worst_in_l" ? numberOf(f.worst_in_l) || 0 : f[sort.key]);
   rows.sort(([ka, a], [kb, b]) => {
     const x = value(a), y = value(b);
     const order = x < y ? -1 : x > y ? 1 : ka < kb ? -1 : 1;
     return sort.down ? -order : order;
   });
-  found.textContent = `${grouped(rows.length)} of ${grouped(data.findings.length)} kinds, ${grouped(rows.reduce((s, [, f]) => s + f.count, 0))} answers. Press a row for its replay.`;
+  found.textContent = `${grouped(rows.length)} of ${grouped(findings.length)} kinds, ${grouped(rows.reduce((s, [, f]) => s + f.count, 0))} answers. Press a row for its replay.`;
   const head = el("tr", {}, ...columns.map((c) => {
     const th = el("th", { "data-key": c.key, class: c.number ? "n" : "" }, c.head + (sort.key === c.key ? (sort.down ? " ↓" : " ↑") : ""));
     th.addEventListener("click", () => {
@@ -172,7 +177,7 @@ function drawFindings(): void {
 }
 
 function drawDetail(key: string): void {
-  const f = data.findings.find(([k]) => k === key)?.[1];
+  const f = findings.find(([k]) => k === key)?.[1];
   if (!f) return detail.replaceChildren();
   const path = `${data.directory}/findings/${key}`;
   detail.replaceChildren(el("h2", {}, key), el("p", {}, f.words),
