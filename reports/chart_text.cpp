@@ -117,13 +117,12 @@ std::string chart_text(const fuzz::Chart& c) {
   for (const ChartRow& r : c.rows)
     if (r.regime.empty() && r.pair.empty() && r.scale.empty()) spread = std::max(spread, r.ns_spread);
   return s +
-         wrapped(
-             fmt::format(
-                 "{}, {} cores, load {:.1f}, {}, {}; {} chart, seed {}, {} rounds; the medians of the rounds "
-                 "differ by at most {:.0f} %.",
-                 c.machine.processor, c.machine.cores, c.machine.load, c.machine.system, c.machine.date,
-                 c.scope, c.seed, c.rounds, 100 * spread),
-             79, 0) +
+         wrapped(fmt::format("{}, {} cores, load {:.1f}, {}, {}; {} chart, seed {}, {} rounds; a typical "
+                             "round is at most "
+                             "{:.0f} % slower than the fastest.",
+                             c.machine.processor, c.machine.cores, c.machine.load, c.machine.system,
+                             c.machine.date, c.scope, c.seed, c.rounds, 100 * spread),
+                 79, 0) +
          "\n";
 }
 

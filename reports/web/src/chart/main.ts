@@ -64,7 +64,7 @@ const shown = (): Row[] => {
 };
 const method = (name: string): string => name.replace(/-tuned$|@.*$/, "");
 const words = (r: Row): string =>
-  `<b>${r.engine}</b><br>median ${nanoseconds(r.ns_median)}, 99 % ${nanoseconds(r.ns_p99)}, rounds differ by ${Math.round(100 * r.ns_spread)} %<br>` +
+  `<b>${r.engine}</b><br>median ${nanoseconds(r.ns_median)}, 99 % ${nanoseconds(r.ns_p99)}, a typical round ${Math.round(100 * r.ns_spread)} % slower than the fastest<br>` +
   (r.question === "candidates" ? `precision ${(100 * precision(r)).toFixed(1)} %<br>` : `error/L ${numberOf(r.error_p50).toExponential(1)}, 99 % ${numberOf(r.error_p99).toExponential(1)}, most ${numberOf(r.error_max).toExponential(1)}<br>`) +
   `${grouped(r.answers)} answers, ${r.wrong} wrong` + (r.unsound ? `<br>not on the front: ${r.unsound}` : r.front ? "<br>on the Pareto front" : "");
 
