@@ -2,6 +2,7 @@
 # does not fail the build, which needs no network.
 file(MAKE_DIRECTORY ${WORK})
 file(COPY ${SOURCE}/ DESTINATION ${WORK} PATTERN node_modules EXCLUDE PATTERN dist EXCLUDE)
+file(REMOVE ${WORK}/failed.log)
 file(SHA256 ${SOURCE}/package-lock.json lock)
 
 function(step what)
