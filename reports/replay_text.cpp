@@ -222,6 +222,7 @@ fuzz::Json ReplayText::referee_json(const Query& q) const {
   return {{"verdict", referee::to_string(t.verdict)},
           {"gap", {fuzz::number(t.gap.lo), fuzz::number(t.gap.hi)}},
           {"normal", fuzz::vector(t.normal)},
+          {"witness", {fuzz::vector(t.witness[0]), fuzz::vector(t.witness[1])}},
           {"verdict_certificate", exact.is_null() ? referee::to_json(t.verdict_certificate) : exact},
           {"depth_certificate", referee::to_json(depth_certificate(q))},
           {"filter_level", t.level}};
@@ -246,6 +247,7 @@ fuzz::Json ReplayText::json() const {
           {"elapsed_ns", r.observations.answers[i].elapsed_ns},
           {"manifold_coverage", g.manifold_coverage ? fuzz::number(*g.manifold_coverage) : fuzz::Json()},
           {"right", g.right()},
+          {"undecided", g.undecided},
           {"blame", fuzz::to_string(g.blame)},
           {"faults", std::move(faults)}};
     }

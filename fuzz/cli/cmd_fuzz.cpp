@@ -161,7 +161,10 @@ int run(Options& o) {
   } else {
     print_text(o.config, result);
   }
-  return verdict(o.config, result, o.json);
+  const int code = verdict(o.config, result, o.json);
+  if (!o.json && !interrupted)
+    fmt::print("All of it as a page: ./touchstone report {0} -o {0}/report.html\n", o.config.out.string());
+  return code;
 }
 
 }  // namespace

@@ -8,8 +8,12 @@
 #include "core/scene/real_scene.h"
 #include "fuzz/cli/case_argument.h"
 #include "fuzz/cli/command.h"
+#include "fuzz/cli/engine_catalog.h"
+#include "fuzz/cli/pages.h"
 #include "fuzz/explore/broad_view.h"
+#include "fuzz/judge/judge.h"
 #include "reports/broad_page.h"
+#include "reports/replay_text.h"
 
 namespace touchstone::cli {
 namespace {
@@ -19,7 +23,9 @@ struct Options {
   std::vector<std::string> methods{"automatic", "sort_and_sweep", "hierarchical_grid",
                                    "bounding_volume_hierarchy"};
   int frames = 100;
+  std::string engines = "all";
   bool broad = false, json = false;
+  WorkerLimits limits;
 };
 
 // A file, the name of a scenario, or the directory of a recorded scene: whatever replay takes.
@@ -35,9 +41,44 @@ Scene scene_named(const Options& o) {
   return c.scene;
 }
 
+// What reports/web/src/case draws: the case, the answers as `replay --json` has them, and the faces of hulls.
+fuzz::Json case_page(const Options& o, const StoredCase& stored) {
+  const Case& c = stored.c;
+  fuzz::Truth truth(c.scene);
+  reports::ReplayText text(c, truth);
+  fuzz::Json engines = fuzz::Json::object(), faces = fuzz::Json::object();
+  for (const auto& name : engine_names(o.engines)) {
+    const EnginePtr engine = make_engine(name, o.limits);
+    const EngineCard& card = engine->card();
+    const auto answers = engine->run({&c, 1})[0];
+    text.add(card.name, answers, fuzz::judge(c, card, answers, truth));
+    engines[card.name] = {{"library", card.library}, {"version", card.version}, {"settings", card.settings}};
+  }
+  for (std::size_t i = 0; i < c.scene.shapes.size(); ++i)
+    if (const auto* h = std::get_if<Hull>(&c.scene.shapes[i])) faces[std::to_string(i)] = h->faces;
+  const std::string id = c.id.empty() ? std::filesystem::path(o.scene).stem().string() : c.id;
+  return {{"page", "case"},
+          {"version", 1},
+          {"title", id},
+          {"command", "./touchstone replay " + o.scene},
+          {"case", stored_case_to_json(stored)},
+          {"hull_faces", std::move(faces)},
+          {"engines", std::move(engines)},
+          {"queries", std::move(text.json()["queries"])}};
+}
+
+int view_case(const Options& o) {
+  const fuzz::Json page = case_page(o, case_argument(o.scene));
+  if (o.json) fmt::print("{}\n", page.dump(1));
+  if (o.out.empty()) return exit_clean;
+  if (!write_page("case", page.dump(), o.out)) return exit_failed;
+  if (!o.json) fmt::print("{}: open it in a browser\n", o.out);
+  return exit_clean;
+}
+
 int run(const Options& o) {
-  if (!o.broad) throw InputError("view", "say what to show: --broad");
   if (o.out.empty() && !o.json) throw InputError("view", "say where to write the page: -o FILE");
+  if (!o.broad) return view_case(o);
   const fuzz::BroadView view =
       fuzz::broad_view(scene_named(o), o.methods, static_cast<std::size_t>(o.frames));
   if (view.frames.empty()) throw InputError(o.scene, "its script has no query: nothing to show");
@@ -59,7 +100,12 @@ Run declare_view(CLI::App& app) {
          "scene", o->scene,
          "case or scene file, name of a scenario, or directory of a recorded scene (scene.txt, frames.npy)")
       ->required();
-  app.add_flag("--broad", o->broad, "boxes, intervals, cells or trees, candidate pairs kept and pruned");
+  app.add_option("--engines", o->engines, "engines to ask: names, plug-in paths, or all")
+      ->capture_default_str();
+  add_case_seconds(app, o->limits);
+  app.add_flag("--broad", o->broad,
+               "instead of the answers, the broad phase: boxes, intervals, cells or trees, candidate pairs "
+               "kept and pruned");
   app.add_option("-o,--out", o->out, "the page to write (HTML, loads nothing)");
   app.add_option("--method", o->methods, "broad phases to show, separated by commas")
       ->delimiter(',')

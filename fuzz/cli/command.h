@@ -22,13 +22,16 @@ std::span<const Command> commands();
 inline constexpr int exit_clean = 0, exit_wrong = 1, exit_usage = 2, exit_failed = 3;
 
 Run declare_certify(CLI::App& app);
+Run declare_chart(CLI::App& app);
 Run declare_check(CLI::App& app);
 Run declare_engines(CLI::App& app);
 Run declare_families(CLI::App& app);
 Run declare_scenarios(CLI::App& app);
 Run declare_fuzz(CLI::App& app);
 Run declare_replay(CLI::App& app);
+Run declare_report(CLI::App& app);
 Run declare_shrink(CLI::App& app);
+Run declare_stability(CLI::App& app);
 Run declare_reproduce(CLI::App& app);
 Run declare_bisect(CLI::App& app);
 Run declare_merge(CLI::App& app);

@@ -7,6 +7,7 @@
 
 #include "core/base/input_error.h"
 #include "fuzz/cli/npm_engines.h"
+#include "fuzz/cli/sweep_catalog.h"
 #include "oracles/core/core_engine.h"
 
 namespace touchstone::cli {
@@ -36,6 +37,22 @@ constexpr EngineRow rows[] = {
     {"libccd-mpr", ccd, "libccd as shipped, MPR"},
     {"libccd-mpr-tuned", ccd, "libccd, MPR, tight tolerances"},
     {"ode", ode, "ODE as shipped, dCollide"},
+};
+
+constexpr std::string_view fcl_sweep = "libtouchstone_fcl_sweep.so",
+                           ccd_sweep = "libtouchstone_libccd_sweep.so";
+
+constexpr EngineRow sweep_rows[] = {
+    {"fcl-libccd@1e-3", fcl_sweep, "FCL, GST_LIBCCD, tolerances 1e-3"},
+    {"fcl-libccd@1e-9", fcl_sweep, "FCL, GST_LIBCCD, tolerances 1e-9"},
+    {"fcl-indep@1e-3", fcl_sweep, "FCL, GST_INDEP, tolerances 1e-3"},
+    {"fcl-indep@1e-9", fcl_sweep, "FCL, GST_INDEP, tolerances 1e-9"},
+    {"libccd-gjk@1e-2", ccd_sweep, "libccd, GJK and EPA, tolerances 1e-2"},
+    {"libccd-gjk@1e-6", ccd_sweep, "libccd, GJK and EPA, tolerances 1e-6"},
+    {"libccd-gjk@1e-8", ccd_sweep, "libccd, GJK and EPA, tolerances 1e-8"},
+    {"libccd-mpr@1e-2", ccd_sweep, "libccd, MPR, tolerance 1e-2"},
+    {"libccd-mpr@1e-6", ccd_sweep, "libccd, MPR, tolerance 1e-6"},
+    {"libccd-mpr@1e-8", ccd_sweep, "libccd, MPR, tolerance 1e-8"},
 };
 
 constexpr std::string_view fcl_broad = "libtouchstone_fcl_broad.so",
@@ -78,7 +95,7 @@ bool is_path(const std::string& name) {
 }
 
 const EngineRow* find_row(const std::string& name) {
-  for (const auto catalog : {engine_catalog(), broad_catalog()})
+  for (const auto catalog : {engine_catalog(), broad_catalog(), sweep_catalog()})
     for (const EngineRow& r : catalog)
       if (r.name == name) return &r;
   return nullptr;
@@ -141,6 +158,7 @@ void check_name(const std::string& name) {
 
 std::span<const EngineRow> engine_catalog() { return rows; }
 std::span<const EngineRow> broad_catalog() { return broad_rows; }
+std::span<const EngineRow> sweep_catalog() { return sweep_rows; }
 
 void add_case_seconds(CLI::App& app, WorkerLimits& limits) {
   app.add_option("--case-seconds", limits.query_cpu_seconds,

@@ -10,6 +10,7 @@
 #include "core/narrow/narrow_phase.h"
 #include "core/tolerance.h"
 #include "core/world/world.h"
+#include "oracles/api/measure.h"
 
 namespace touchstone {
 namespace {
@@ -98,7 +99,7 @@ void ask(const Scene& s, const Query& q, Arithmetic arithmetic, Observation& o) 
   }
 }
 
-Observation observe(const Scene& s, const Query& q, Arithmetic arithmetic) {
+Observation observe(const Scene& s, const Query& q, Arithmetic arithmetic, std::int64_t measure) {
   Observation o;
   const auto start = std::chrono::steady_clock::now();
   try {
@@ -110,6 +111,13 @@ Observation observe(const Scene& s, const Query& q, Arithmetic arithmetic) {
   }
   o.elapsed_ns =
       std::chrono::duration_cast<std::chrono::nanoseconds>(std::chrono::steady_clock::now() - start).count();
+  if (measure > 0 && o.outcome == Outcome::answered && is_pair_question(q.question)) {
+    Observation again;
+    o.elapsed_ns = least_mean_ns(o.elapsed_ns, measure, [&] {
+      again.manifold.clear();
+      ask(s, q, arithmetic, again);
+    });
+  }
   return o;
 }
 
@@ -158,12 +166,13 @@ CoreEngine::CoreEngine(Arithmetic arithmetic) : arithmetic_(arithmetic) {
 std::vector<CaseObservations> CoreEngine::run(std::span<const Case> cases) {
   std::vector<CaseObservations> all;
   all.reserve(cases.size());
+  const std::int64_t measure = measure_ns();
   for (const Case& c : cases) {
     CaseObservations& r = all.emplace_back();
     r.received.bodies.resize(c.scene.bodies.size());
     r.received.shapes.resize(c.scene.shapes.size());
     if (arithmetic_ == Arithmetic::float32) round_to_float(c.scene, r.received);
-    for (const Query& q : c.queries) r.answers.push_back(observe(c.scene, q, arithmetic_));
+    for (const Query& q : c.queries) r.answers.push_back(observe(c.scene, q, arithmetic_, measure));
   }
   return all;
 }

@@ -1,4 +1,5 @@
-// The FCL plug-in: four engines, two solvers in two settings.
+// The FCL plug-in: two solvers as shipped and tuned. fcl-libccd@1e-3 and so on (TOUCHSTONE_SWEEP, a plug-in
+// of its own): as shipped with other tolerances, so that a chart shows a method as a curve.
 #include <fcl/config.h>
 
 #include "oracles/api/plugin_kit.h"
@@ -30,11 +31,23 @@ class Engine {
     const auto card = [](const char* name, const char* settings) {
       return kit::CardText{name, "FCL", FCL_VERSION, settings, 0x1p-53, kit::oracle_tau_factor, source};
     };
+#ifndef TOUCHSTONE_SWEEP
     return {card("fcl-libccd", shipped_settings), card("fcl-indep", shipped_settings),
             card("fcl-libccd-tuned", tuned_libccd_settings), card("fcl-indep-tuned", tuned_indep_settings)};
+#else
+    return {card("fcl-libccd@1e-3", "as fcl-libccd with tolerances 1e-3"),
+            card("fcl-indep@1e-3", "as fcl-indep with tolerances 1e-3"),
+            card("fcl-libccd@1e-9", "as fcl-libccd with tolerances 1e-9"),
+            card("fcl-indep@1e-9", "as fcl-indep with tolerances 1e-9")};
+#endif
   }
 
-  explicit Engine(unsigned index) : settings_{index % 2 ? fcl::GST_INDEP : fcl::GST_LIBCCD, index >= 2} {}
+#ifndef TOUCHSTONE_SWEEP
+  explicit Engine(unsigned index) : settings_{index % 2 ? fcl::GST_INDEP : fcl::GST_LIBCCD, index >= 2, 0} {}
+#else
+  explicit Engine(unsigned index)
+      : settings_{index % 2 ? fcl::GST_INDEP : fcl::GST_LIBCCD, false, index < 2 ? 1e-3 : 1e-9} {}
+#endif
 
   void load(const ts_scene& scene, const ts_received& received) {
     unload();

@@ -79,7 +79,10 @@ double impact_tolerance(const Placed& a, const Motion& a_motion, const Placed& b
                             turning_speed(b, b_motion));
 }
 
-double overlap_tolerance(const Settings& s) { return s.tuned ? tuned_overlap_tolerance : shipped_tolerance; }
+double overlap_tolerance(const Settings& s) {
+  if (s.tolerance > 0) return s.tolerance;
+  return s.tuned ? tuned_overlap_tolerance : shipped_tolerance;
+}
 
 bool overlap(const Placed& a, const Placed& b, const Settings& s) {
   fcl::CollisionResultd result;
@@ -110,7 +113,9 @@ Contact contact(const Placed& a, const Placed& b, const Settings& s) {
 
 Distance distance(const Placed& a, const Placed& b, const Settings& s) {
   Distance d;
-  d.claimed_tolerance = s.tuned ? tuned_distance_tolerance : shipped_tolerance;
+  d.claimed_tolerance = s.tolerance > 0 ? s.tolerance
+                        : s.tuned       ? tuned_distance_tolerance
+                                        : shipped_tolerance;
   fcl::DistanceResultd r = run_distance(a, b, s, /*with_sign=*/!s.tuned, d.claimed_tolerance);
   if (s.tuned && r.min_distance < 0) {
     // Unsigned: "in collision, the result distance is implementation defined (mostly -1)".

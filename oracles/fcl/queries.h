@@ -19,6 +19,7 @@ struct Placed {
 struct Settings {
   fcl::GJKSolverType solver;
   bool tuned;
+  double tolerance = 0;  // of a search; 0: that of the setting
   bool libccd() const { return solver == fcl::GST_LIBCCD; }
 };
 

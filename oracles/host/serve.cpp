@@ -10,6 +10,7 @@
 #include <optional>
 #include <string>
 
+#include "oracles/api/measure.h"
 #include "oracles/api/plugin_scene.h"
 #include "oracles/api/protocol.h"
 
@@ -93,6 +94,8 @@ class Server {
       const auto stop = Clock::now();
       o = answer.take(q.question);
       o.elapsed_ns = std::chrono::duration_cast<std::chrono::nanoseconds>(stop - start).count();
+      if (measure_ns_ > 0 && o.outcome == Outcome::answered && is_pair_question(q.question))
+        o.elapsed_ns = ask_again(q, o.elapsed_ns);
       return o;
     } catch (const std::exception& e) {
       o = failure(Outcome::threw, e.what());
@@ -101,6 +104,23 @@ class Server {
     }
     o.elapsed_ns = std::chrono::duration_cast<std::chrono::nanoseconds>(Clock::now() - start).count();
     return o;
+  }
+
+  // With nobody who listens, so that the engine is timed and not our collecting. What goes wrong now went
+  // right before.
+  std::int64_t ask_again(const Query& q, std::int64_t first) {
+    const ts_sink sink{nullptr, [](void*, const double*, double) {},
+                       [](void*, std::int32_t, std::int32_t, std::int32_t) {},
+                       [](void*, std::int32_t, std::int32_t, const double*, double) {}};
+    const ts_answer blank = AnswerCollector(0, 0).answer();
+    try {
+      return least_mean_ns(first, measure_ns_, [&] {
+        ts_answer answer = blank;
+        plugin_.ask(engine_, static_cast<std::int32_t>(q.question), q.a, q.b, &answer, &sink);
+      });
+    } catch (...) {
+      return first;
+    }
   }
 
   // Each message is written at once: a crash then loses the running query and nothing else.
@@ -115,6 +135,7 @@ class Server {
   ts_engine* engine_;
   int answers_fd_;
   std::string out_;
+  const std::int64_t measure_ns_ = measure_ns();
 };
 
 }  // namespace

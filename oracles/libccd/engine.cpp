@@ -2,7 +2,8 @@
 //
 // As shipped: CCD_INIT and nothing else, so max_iterations is unlimited and a search that cycles never ends.
 // Tuned: 1e-10 in both tolerances, at most 1000 iterations; a search that used them all is reported as
-// not_converged, which the library itself cannot say.
+// not_converged, which the library itself cannot say. libccd-gjk@1e-2 and so on: the same with that
+// tolerance, so that a chart shows a method as a curve.
 #include <limits>
 
 #include "oracles/api/plugin_kit.h"
@@ -12,7 +13,19 @@ namespace touchstone::libccd {
 namespace {
 
 constexpr unsigned long tuned_iterations = 1000;
-constexpr double tuned_tolerance = 1e-10;
+struct Setting {
+  const char *gjk, *mpr;
+  double tolerance;  // 0: as shipped
+  const char* text;
+};
+#ifndef TOUCHSTONE_SWEEP
+constexpr Setting rows[] = {{"libccd-gjk", "libccd-mpr", 0, ""},
+                            {"libccd-gjk-tuned", "libccd-mpr-tuned", 1e-10, "1e-10"}};
+#else
+constexpr Setting rows[] = {{"libccd-gjk@1e-2", "libccd-mpr@1e-2", 1e-2, "1e-2"},
+                            {"libccd-gjk@1e-6", "libccd-mpr@1e-6", 1e-6, "1e-6"},
+                            {"libccd-gjk@1e-8", "libccd-mpr@1e-8", 1e-8, "1e-8"}};
+#endif
 constexpr double nan_value = std::numeric_limits<double>::quiet_NaN();
 
 constexpr const char* source =
@@ -21,24 +34,27 @@ constexpr const char* source =
 class Engine {
  public:
   static std::vector<kit::CardText> cards() {
-    const auto card = [](const char* name, const char* settings) {
-      return kit::CardText{name, "libccd", "2.1", settings, 0x1p-53, kit::oracle_tau_factor, source};
+    std::vector<kit::CardText> cards;
+    const auto add = [&](const char* name, const std::string& calls, const std::string& tolerances,
+                         const Setting& r) {
+      const std::string how = r.tolerance > 0 ? tolerances + " " + r.text + ", max_iterations 1000"
+                                              : "CCD_INIT defaults, unlimited iterations";
+      cards.push_back({name, "libccd", "2.1", calls + "; " + how, 0x1p-53, kit::oracle_tau_factor, source});
     };
-    return {
-        card("libccd-gjk", "ccdGJKIntersect and ccdGJKPenetration; CCD_INIT defaults, unlimited iterations"),
-        card("libccd-mpr", "ccdMPRIntersect and ccdMPRPenetration; CCD_INIT defaults, unlimited iterations"),
-        card("libccd-gjk-tuned",
-             "as libccd-gjk; epa_tolerance 1e-10, dist_tolerance 1e-10, max_iterations 1000"),
-        card("libccd-mpr-tuned", "as libccd-mpr; mpr_tolerance 1e-10, max_iterations 1000")};
+    for (const Setting& r : rows) {
+      add(r.gjk, "ccdGJKIntersect and ccdGJKPenetration", "epa_tolerance and dist_tolerance", r);
+      add(r.mpr, "ccdMPRIntersect and ccdMPRPenetration", "mpr_tolerance", r);
+    }
+    return cards;
   }
 
-  explicit Engine(unsigned index) : mpr_(index % 2 == 1), tuned_(index >= 2) {
+  explicit Engine(unsigned index) : mpr_(index % 2 == 1) {
     CCD_INIT(&ccd_);
     ccd_.support1 = ccd_.support2 = support;
     ccd_.center1 = ccd_.center2 = center;
-    if (tuned_) {
+    if (const double tolerance = rows[index / 2].tolerance; tolerance > 0) {
       ccd_.max_iterations = tuned_iterations;
-      ccd_.epa_tolerance = ccd_.mpr_tolerance = ccd_.dist_tolerance = tuned_tolerance;
+      ccd_.epa_tolerance = ccd_.mpr_tolerance = ccd_.dist_tolerance = tolerance;
     }
   }
 
@@ -95,7 +111,7 @@ class Engine {
     sink.point(sink.ctx, point, depth);
   }
 
-  bool mpr_, tuned_;
+  bool mpr_;
   ccd_t ccd_;
   std::vector<Object> objects_;
 };

@@ -35,6 +35,14 @@ std::string for_test(std::string c) {
   c = std::regex_replace(c, std::regex(R"(\./libmine\.so)"), TS_BINARY_DIR "/lib/libtouchstone_example.so");
   c = std::regex_replace(c, std::regex("-o broad.html"), "-o " TS_BINARY_DIR "/readme-broad.html");
   c = std::regex_replace(c, std::regex("-o reproduce.cpp"), "-o " TS_BINARY_DIR "/readme-reproduce.cpp");
+  if (c.find(" view ") != std::string::npos && c.find("--broad") == std::string::npos &&
+      !fs::exists(TS_BINARY_DIR "/share/touchstone/web/case.html"))
+    c = std::regex_replace(c, std::regex("-o page.html"), "--json");  // pages are built where Node is
+  c = std::regex_replace(c, std::regex("-o page.html"), "-o " TS_BINARY_DIR "/readme-page.html");
+  // All engines take a minute of either; the core alone shows that the line works.
+  if (c.find(" chart ") != std::string::npos) c += " --engines core --broad grid --measure 0";
+  if (c.find(" stability ") != std::string::npos) c += " --engines core --ladder gap";
+  c = std::regex_replace(c, std::regex("out/(chart|stability)"), TS_BINARY_DIR "/readme-$1");
   c = std::regex_replace(c, std::regex("out/grid"), TS_BINARY_DIR "/readme-grid");
   if (c.find("certify --subject") != std::string::npos) c += " --limit 100";
   c = std::regex_replace(c, std::regex("out/nightly"), TS_BINARY_DIR "/readme-out");

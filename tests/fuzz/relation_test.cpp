@@ -66,8 +66,9 @@ TEST_CASE("the core breaks no relation", "[relations][core]") {
 
 TEST_CASE("whoever breaks a relation is wrong by the referee too, where that one can see it", "[relations]") {
   std::size_t explained = 0, only = 0;
-  for (const char* name : {"depth_halved", "depth_absolute", "distance_relative", "errs_when_large", "distance_one_order",
-                           "jumps_when_touching", "casts_nothing", "normal_tilted", "overlap_deep_denied"}) {
+  for (const char* name :
+       {"depth_halved", "depth_absolute", "distance_relative", "errs_when_large", "distance_one_order",
+        "jumps_when_touching", "casts_nothing", "normal_tilted", "overlap_deep_denied"}) {
     for (const auto& m : mutants::mutants()) {
       if (m.name != name) continue;
       Count n;

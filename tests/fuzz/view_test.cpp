@@ -79,7 +79,7 @@ TEST_CASE("view refuses what it cannot show, with place and reason", "[cli][view
     CHECK(r.code == 2);
     CHECK(r.err.find(reason) != std::string::npos);
   };
-  refused("thousand_balls -o page.html", "--broad");
+  refused("thousand_balls", "-o");
   refused("thousand_balls --broad", "-o");
   refused("thousand_balls --broad -o page.html --method fastest", "fastest: unknown; expected automatic");
   refused("no_such_scene --broad -o page.html", "no_such_scene");

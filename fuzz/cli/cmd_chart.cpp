@@ -1,0 +1,101 @@
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <cstdlib>
+
+#include "core/base/input_error.h"
+#include "core/scene/input_file.h"
+#include "fuzz/campaign/store.h"
+#include "fuzz/cli/broad_subject.h"
+#include "fuzz/cli/command.h"
+#include "fuzz/cli/engine_catalog.h"
+#include "fuzz/cli/pages.h"
+#include "fuzz/cli/sweep_catalog.h"
+#include "fuzz/explore/chart.h"
+#include "oracles/api/measure.h"
+#include "oracles/core/broad_engine.h"
+#include "reports/chart_text.h"
+
+namespace touchstone::cli {
+namespace {
+
+struct Options {
+  std::string engines = "all", broad = "all", subject = "core", out = "out/chart";
+  std::uint64_t seed = 1;
+  std::int64_t measure = 20'000;
+  bool quick = false, json = false;
+  WorkerLimits limits;
+};
+
+std::vector<EnginePtr> broad_engines(const Options& o) {
+  std::vector<std::string> names;
+  if (o.broad == "all") {
+    for (std::string_view name : core_broad_phases()) names.emplace_back(name);
+    for (const EngineRow& row : broad_catalog())
+      if (is_present(row)) names.emplace_back(row.name);
+  } else {
+    for (std::size_t start = 0; start < o.broad.size(); start = o.broad.find(',', start) + 1) {
+      names.push_back(o.broad.substr(start, o.broad.find(',', start) - start));
+      if (o.broad.find(',', start) == std::string::npos) break;
+    }
+  }
+  std::vector<EnginePtr> engines;
+  for (const auto& name : names)
+    engines.push_back(broad_subject(name, o.limits, false).make(fuzz::Level::bodies));
+  return engines;
+}
+
+int run(const Options& o) {
+  const bool live = isatty(2) == 1;
+  // Before any engine is made: its worker inherits it.
+  setenv(measure_variable, std::to_string(o.measure).c_str(), 1);
+  std::vector<EnginePtr> engines;
+  for (const auto& name : engine_names(o.engines)) engines.push_back(make_engine(name, o.limits));
+  if (o.engines == "all")
+    for (const EngineRow& row : sweep_catalog())
+      if (is_present(row)) engines.push_back(make_engine(std::string(row.name), o.limits));
+  const auto broad = broad_engines(o);
+  const fuzz::Chart chart = fuzz::measure_chart(o.quick ? fuzz::quick_chart() : fuzz::full_chart(), o.seed,
+                                                engines, broad, [live](const std::string& what) {
+                                                  if (live) fmt::print(stderr, "\r\033[K{}", what);
+                                                });
+  if (live) fmt::print(stderr, "\r\033[K");
+  const std::filesystem::path out = o.out;
+  fuzz::make_directory(out);
+  const std::string json = fuzz::to_json(chart).dump();
+  write_file(out / "chart.json", json);
+  write_file(out / "chart.csv", fuzz::to_csv(chart));
+  if (o.json)
+    fmt::print("{}\n", json);
+  else
+    fmt::print("{}", reports::chart_text(chart));
+  const bool page = write_page("chart", json, out / "chart.html");
+  fmt::print(o.json ? stderr : stdout, "{0}/chart.json, {0}/chart.csv{1}\n", o.out,
+             page ? ", page: " + o.out + "/chart.html" : "");
+  for (const fuzz::ChartRow& r : chart.rows)
+    if (r.engine == o.subject && r.wrong + r.failed > 0) return exit_wrong;
+  return exit_clean;
+}
+
+}  // namespace
+
+Run declare_chart(CLI::App& app) {
+  auto o = std::make_shared<Options>();
+  app.add_flag("--quick", o->quick, "fewer cases: minutes instead of half an hour");
+  app.add_option("--engines", o->engines, "engines for pairs and motions: names, plug-in paths, or all")
+      ->capture_default_str();
+  app.add_option("--broad", o->broad, "broad phases, as for certify --subject, or all")
+      ->capture_default_str();
+  app.add_option("--subject", o->subject, "the engine whose faults decide the exit code")
+      ->capture_default_str();
+  app.add_option("--seed", o->seed, "same seed, same cases and errors")->capture_default_str();
+  app.add_option("--measure", o->measure, "ns that each question about a pair is asked again for, to time it")
+      ->check(CLI::Range(0, 100'000'000))
+      ->capture_default_str();
+  app.add_option("--out", o->out, "directory of chart.json, chart.csv, chart.html")->capture_default_str();
+  add_case_seconds(app, o->limits);
+  app.add_flag("--json", o->json, "the whole result as one JSON document on stdout");
+  return [o] { return run(*o); };
+}
+
+}  // namespace touchstone::cli

@@ -1,0 +1,80 @@
+#include <fmt/format.h>
+
+#include "core/base/input_error.h"
+#include "core/scene/codec.h"
+#include "fuzz/cli/command.h"
+#include "fuzz/cli/pages.h"
+#include "fuzz/record/result.h"
+#include "reports/text.h"
+
+namespace touchstone::cli {
+namespace {
+
+struct Options {
+  std::string directory, out;
+};
+
+fuzz::Json read_json(const std::filesystem::path& file) {
+  try {
+    return fuzz::Json::parse(read_file(file, std::uintmax_t{1} << 30));
+  } catch (const fuzz::Json::exception& e) {
+    throw InputError(file.string(), std::string("is no JSON: ") + e.what());
+  }
+}
+
+// What reports/web/src/report draws: the summary without histograms, and findings as a list.
+fuzz::Json report_page(const std::filesystem::path& directory, fuzz::Json summary) {
+  fuzz::Json findings = fuzz::Json::array();
+  constexpr const char* columns[] = {"engine",     "question",  "fault", "shapes",     "blame",
+                                     "degeneracy", "magnitude", "count", "worst_in_l", "words"};
+  for (const auto& [key, f] : summary.at("findings").items()) {
+    fuzz::Json& row = findings.emplace_back(fuzz::Json::array());
+    for (const char* c : columns) row.push_back(f.at(c));
+  }
+  summary.erase("findings");
+  for (auto& [engine, questions] : summary.at("engines").items())
+    for (auto& [question, tally] : questions.items()) tally.erase("ns_histogram");
+  fuzz::Json settings;
+  if (std::filesystem::exists(directory / "state.json"))
+    settings = read_json(directory / "state.json").value("settings", fuzz::Json());
+  return {{"page", "report"},
+          {"version", 1},
+          {"title", "campaign " + directory.string()},
+          {"directory", directory.string()},
+          {"settings", std::move(settings)},
+          {"summary", std::move(summary)},
+          {"columns", columns},
+          {"findings", std::move(findings)}};
+}
+
+int run(const Options& o) {
+  std::filesystem::path directory = o.directory;
+  if (!directory.has_filename()) directory = directory.parent_path();
+  const auto file = directory / "summary.json";
+  if (!std::filesystem::exists(file))
+    throw InputError(o.directory,
+                     "holds no summary.json: not the directory of a campaign, or it is not finished");
+  const fuzz::Json summary = read_json(file);
+  try {
+    const fuzz::CampaignResult result = fuzz::result_from_json(summary);
+    fmt::print("{}\n{}{}", reports::campaign_table(result), reports::findings_summary(result, 3),
+               reports::campaign_footer(result));
+    if (o.out.empty()) return exit_clean;
+    if (!write_page("report", report_page(directory, summary).dump(), o.out)) return exit_failed;
+  } catch (const fuzz::Json::exception& e) {
+    throw InputError(file.string(), std::string("is not a campaign's summary: ") + e.what());
+  }
+  fmt::print("{}: open it in a browser\n", o.out);
+  return exit_clean;
+}
+
+}  // namespace
+
+Run declare_report(CLI::App& app) {
+  auto o = std::make_shared<Options>();
+  app.add_option("directory", o->directory, "what `fuzz --out` wrote")->required();
+  app.add_option("-o,--out", o->out, "the page to write (HTML, loads nothing)");
+  return [o] { return run(*o); };
+}
+
+}  // namespace touchstone::cli

@@ -1,0 +1,31 @@
+#include "fuzz/cli/pages.h"
+
+#include <fmt/format.h>
+
+#include "core/scene/input_file.h"
+#include "fuzz/cli/engine_catalog.h"
+#include "reports/web_page.h"
+
+namespace touchstone::cli {
+
+std::filesystem::path built_page(std::string_view kind) {
+  return plugin_directory().parent_path() / "share/touchstone/web" / fmt::format("{}.html", kind);
+}
+
+bool write_page(std::string_view kind, const std::string& json, const std::filesystem::path& out) {
+  const auto built = built_page(kind);
+  if (!std::filesystem::exists(built)) {
+    auto data = out;
+    write_file(data.replace_extension(".json"), json);
+    fmt::print(
+        stderr,
+        "touchstone: no page: those of reports/web are not built (./touchstone pages --install builds them "
+        "with nodejs and npm); its data is in {}\n",
+        data.string());
+    return false;
+  }
+  write_file(out, reports::web_page(read_file(built, std::uintmax_t{1} << 26), json));
+  return true;
+}
+
+}  // namespace touchstone::cli

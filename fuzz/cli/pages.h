@@ -1,0 +1,18 @@
+// Writes pages: the built ones of reports/web lie beside the program (share/touchstone/web), if Node was
+// there to build them.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+namespace touchstone::cli {
+
+/// What `kind`.html of reports/web is looked for as.
+std::filesystem::path built_page(std::string_view kind);
+
+/// Writes the page with `json` in it to `out`. Without a built page the JSON goes to `out` with the extension
+/// .json and one line on stderr says what is missing; then false.
+bool write_page(std::string_view kind, const std::string& json, const std::filesystem::path& out);
+
+}  // namespace touchstone::cli

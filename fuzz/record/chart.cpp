@@ -1,0 +1,94 @@
+#include "fuzz/record/chart.h"
+
+#include <cmath>
+
+namespace touchstone::fuzz {
+namespace {
+
+constexpr const char* columns[] = {
+    "engine",    "question",   "regime",         "pair",   "scale",     "bodies",    "asked",
+    "answers",   "failed",     "missed",         "ghost",  "no_number", "wrong",     "rounding",
+    "undecided", "ns_min",     "ns_median",      "ns_p99", "ns_spread", "error_p50", "error_p99",
+    "error_max", "pairs_true", "pairs_reported", "front",  "unsound"};
+
+// Four digits are more than a time repeats.
+Json rounded(double x) {
+  if (x == 0 || !std::isfinite(x)) return number(x);
+  const double unit = std::pow(10.0, std::floor(std::log10(std::fabs(x))) - 3);
+  return std::round(x / unit) * unit;
+}
+
+Json cells(const ChartRow& r) {
+  return {r.engine,
+          r.question,
+          r.regime,
+          r.pair,
+          r.scale,
+          r.bodies,
+          r.asked,
+          r.answers,
+          r.failed,
+          r.missed,
+          r.ghost,
+          r.no_number,
+          r.wrong,
+          r.rounding,
+          r.undecided,
+          rounded(r.ns_min),
+          rounded(r.ns_median),
+          rounded(r.ns_p99),
+          rounded(r.ns_spread),
+          number(r.error_p50),
+          number(r.error_p99),
+          number(r.error_max),
+          r.pairs_true,
+          r.pairs_reported,
+          r.front,
+          r.unsound};
+}
+
+}  // namespace
+
+Json to_json(const Machine& m) {
+  return {{"processor", m.processor}, {"cores", m.cores},       {"load", m.load},
+          {"system", m.system},       {"compiler", m.compiler}, {"date", m.date}};
+}
+
+Json to_json(const Chart& c) {
+  Json engines = Json::array(), rows = Json::array();
+  for (const ChartEngine& e : c.engines)
+    engines.push_back(
+        {{"name", e.name}, {"library", e.library}, {"version", e.version}, {"settings", e.settings}});
+  for (const ChartRow& r : c.rows) rows.push_back(cells(r));
+  return {{"page", "chart"},
+          {"version", 1},
+          {"scope", c.scope},
+          {"seed", c.seed},
+          {"rounds", c.rounds},
+          {"measure_ns", c.measure_ns},
+          {"machine", to_json(c.machine)},
+          {"engines", std::move(engines)},
+          {"columns", columns},
+          {"rows", std::move(rows)}};
+}
+
+std::string to_csv(const Chart& c) {
+  std::string text;
+  for (const char* name : columns) {
+    if (!text.empty()) text += ',';
+    text += name;
+  }
+  text += '\n';
+  for (const ChartRow& r : c.rows) {
+    bool first = true;
+    // dump() quotes strings; none of ours holds a quote.
+    for (const Json& cell : cells(r)) {
+      if (!first) text += ',';
+      text += cell.dump(), first = false;
+    }
+    text += '\n';
+  }
+  return text;
+}
+
+}  // namespace touchstone::fuzz

@@ -1,0 +1,318 @@
+// One case, one page: the bodies with every engine's answer and the referee's, and who is wrong.
+import { LinkState, app, colourOf, commandLine, el, isDark, isTyping, nanoseconds, numberOf, pageData, short, themeButton } from "../common/page";
+import "./case.css";
+import { drawn } from "./certificate";
+import { standAt, standsOfScript, type Stand } from "./motion";
+import { Picture, type Mark } from "./scene3d";
+import { shapeLine } from "./shapes";
+import type { CasePage, EngineAnswer, QueryJson, V3 } from "./types";
+
+const data = pageData<CasePage>();
+const link = new LinkState();
+const { bodies, shapes, script } = data.case.scene;
+const engineNames = [...new Set(data.queries.flatMap((q) => Object.keys(q.engines ?? {})))];
+const scripted = (script ?? []).some((s) => s.op === "query");
+const frames: (Stand | null)[][] = scripted
+  ? standsOfScript(bodies, script!)
+  : bodies.some((b) => b.motion)
+    ? Array.from({ length: 33 }, (_, i) => bodies.map((b) => standAt(b, i / 32)))
+    : [bodies.map((b) => standAt(b, 0))];
+const moves = !scripted && frames.length > 1;
+
+// State: which query, which engine stands out, what is hidden, when.
+let query = Math.min(data.queries.length - 1, Math.max(0, link.number("q") ?? firstInteresting()));
+let chosen = link.get("engine") ?? "";
+const hidden = new Set((link.get("hide") ?? "").split(",").filter(Boolean));
+let time = link.number("t") ?? 0;
+
+// The first question that somebody answers wrong; else the first about contact.
+function firstInteresting(): number {
+  const wrong = data.queries.findIndex((q) => Object.values(q.engines ?? {}).some((e) => e.faults.length > 0));
+  return Math.max(0, wrong >= 0 ? wrong : data.queries.findIndex((q) => q.question === "contact"));
+}
+
+const stands = (): (Stand | null)[] =>
+  scripted ? frames[Math.min(frames.length - 1, Math.round(time))]! : bodies.map((b) => standAt(b, moves ? time : 0));
+const colour = (engine: string): string => colourOf(engineNames.indexOf(engine));
+const refereeColour = (): string => (isDark() ? "#4ade80" : "#0a7a3f");
+
+document.title = `Touchstone: ${data.title}`;
+const view = el("div", { id: "view" });
+const table = el("div", { id: "answers", class: "scroll" });
+const tabs = el("div", { class: "controls", id: "questions" });
+const words = el("div", { id: "referee" });
+const commands = el("div", { id: "commands" });
+const timeline = el("div", { id: "timeline" });
+const tick = el("datalist", { id: "marks" });
+
+app().append(
+  el("header", {}, el("div", { class: "grow" }, el("h1", {}, data.title), data.case.description ? el("p", { class: "soft" }, data.case.description) : null),
+    el("div", { class: "controls screen-only" }, themeButton(link, () => refresh()))),
+  el("div", { id: "layout" },
+    el("section", { id: "left" }, view, timeline,
+      el("p", { class: "soft screen-only", id: "keys" },
+        "Drag to turn, wheel to zoom, right button to move. Keys: arrows turn, + and − zoom, f whole scene, c contact, n and p next and previous engine, " +
+        (frames.length > 1 ? "[ and ] back and forth in time, space plays, " : "") + "l light or dark.")),
+    el("section", { id: "right" }, tabs, words, table, el("h2", {}, "Ask again"), commands,
+      el("h2", {}, "Bodies"), bodyList(), data.case.source ? el("p", { class: "soft" }, `Source: ${data.case.source}`) : null)),
+);
+
+function bodyList(): HTMLElement {
+  const list = el("div", { class: "soft mono", id: "bodies" });
+  bodies.slice(0, 12).forEach((b, i) => {
+    const p = b.pose?.translation ?? [0, 0, 0];
+    list.append(el("div", {}, el("span", { class: "swatch", style: `background:${i % 2 ? "#e0a33c" : "#4f8fd0"}` }),
+      `${i}${b.name ? " " + b.name : ""}: ${shapeLine(shapes[b.shape]!)}, at (${p.map((x) => short(x, 6)).join(" ")})` +
+      (b.motion ? `, moves (${(b.motion.linear ?? [0, 0, 0]).map((x) => short(x)).join(" ")}) turns (${(b.motion.angular ?? [0, 0, 0]).map((x) => short(x)).join(" ")})` : "")));
+  });
+  if (bodies.length > 12) list.append(el("div", {}, `and ${bodies.length - 12} more`));
+  return list;
+}
+
+let picture: Picture | null = null;
+try {
+  picture = new Picture(data, frames, view, () => {
+    if (picture) link.set("camera", picture.cameraText());
+  });
+} catch (e) {
+  view.append(el("p", { class: "soft", style: "padding:1rem" }, `No picture: this browser draws no WebGL (${String(e)}). The table says the same in numbers.`));
+}
+
+/** Where arrows begin: what the referee or the engine points at, else between the bodies. */
+function anchorOf(q: QueryJson, e?: EngineAnswer): V3 {
+  const points = e?.answer.manifold?.map((m) => m.position).filter((p) => p.every(Number.isFinite)) ?? [];
+  if (points.length > 0) return [0, 1, 2].map((k) => points.reduce((s, p) => s + p[k]! / points.length, 0)) as V3;
+  const w = e?.answer.witness ?? q.referee.witness;
+  if (w && w.flat().every(Number.isFinite)) return w[0].map((x, k) => (x + w[1][k]!) / 2) as V3;
+  if (q.referee.witness && q.question !== "time_of_impact") return anchorOf(q);
+  const now = stands();
+  const a = now[q.a]?.position, b = now[q.b]?.position;
+  const bounded = [a, b].filter((p, i) => p && shapes[bodies[[q.a, q.b][i]!]!.shape]!.type !== "half_space") as V3[];
+  if (bounded.length === 0) return [0, 0, 0];
+  return [0, 1, 2].map((k) => bounded.reduce((s, p) => s + p[k]! / bounded.length, 0)) as V3;
+}
+
+function marksOf(q: QueryJson): Mark[] {
+  const out: Mark[] = [];
+  for (const name of engineNames) {
+    const e = q.engines?.[name];
+    if (!e || hidden.has(name) || e.answer.outcome !== "answered") continue;
+    const a = e.answer;
+    const base = { colour: colour(name), strong: name === chosen || !chosen };
+    const contacts = a.contacts ?? [];
+    for (const c of contacts.slice(0, 200)) {
+      const now = stands();
+      const p = now[c.a]?.position, r = now[c.b]?.position;
+      if (p && r) out.push({ ...base, at: p.map((x, k) => (x + r[k]!) / 2) as V3, normal: c.normal, depth: numberOf(c.depth), points: [] });
+    }
+    const sets = scripted ? a.candidate_pairs?.[Math.round(time)] : a.candidate_pairs?.[0];
+    if (sets && (name === chosen || (!chosen && name === engineNames[0])))
+      for (const [i, j] of sets.slice(0, 3000)) {
+        const p = stands()[i]?.position, r = stands()[j]?.position;
+        if (p && r) out.push({ ...base, at: p, points: [], segment: [p, r] });
+      }
+    if (!a.normal && !a.witness && !a.manifold?.length) continue;
+    const mark: Mark = { ...base, at: anchorOf(q, e), points: [...(a.manifold?.map((m) => m.position) ?? []), ...(a.witness ?? [])] };
+    if (a.normal) mark.normal = a.normal;
+    if (a.depth !== undefined) mark.depth = numberOf(a.depth);
+    if (a.witness) mark.segment = a.witness;
+    out.push(mark);
+  }
+  return out;
+}
+
+function stated(q: QueryJson, e: EngineAnswer): string {
+  const a = e.answer;
+  if (a.outcome !== "answered") return a.outcome.replace("_", " ");
+  switch (q.question) {
+    case "overlap": return a.overlap === undefined ? "–" : a.overlap ? "overlap" : "apart";
+    case "distance": return a.distance !== undefined ? short(numberOf(a.distance), 10) : a.overlap ? "overlap, no distance" : "apart, no distance";
+    case "contact": {
+      if (!a.overlap) return "apart";
+      const n = a.normal ? ` n (${a.normal.map((x) => short(numberOf(x), 3)).join(" ")})` : "";
+      return `depth ${a.depth === undefined ? "–" : short(numberOf(a.depth), 9)}${n}, ${a.manifold?.length ?? 0} points`;
+    }
+    case "time_of_impact": return a.toi === undefined ? "no impact" : `t = ${short(numberOf(a.toi), 10)}`;
+    case "candidates": return `${(a.candidate_pairs ?? []).reduce((s, p) => s + p.length, 0)} pairs in ${(a.candidate_pairs ?? []).length} queries`;
+    default: return `${a.contacts?.length ?? 0} contacts`;
+  }
+}
+
+function refereeLine(q: QueryJson): string {
+  const r = q.referee;
+  if (r.overlapping_pairs) return `${r.overlapping_pairs.reduce((s, p) => s + p.length, 0)} pairs overlap in ${r.overlapping_pairs.length} queries`;
+  if (q.question === "time_of_impact")
+    return r.verdict === "impact" ? `impact, t in [${r.t_lo}, ${r.t_hi}]` : `${r.verdict}${r.note ? "; " + r.note : ""}`;
+  const lo = numberOf(r.gap?.[0]), hi = numberOf(r.gap?.[1]);
+  const gap = Number.isFinite(lo) ? `, signed distance ${short((lo + hi) / 2, 14)}${hi > lo ? `, known to ${(hi - lo).toExponential(1)}` : " exactly"}` : "";
+  return `${r.verdict}${gap}` + (q.question === "contact" && r.verdict === "overlap" && r.normal ? `, least along (${r.normal.map((x) => short(x)).join(" ")})` : "");
+}
+
+function drawTable(q: QueryJson): void {
+  const rows = engineNames.filter((n) => q.engines?.[n] && q.engines[n]!.answer.outcome !== "unsupported");
+  const cannot = engineNames.filter((n) => !rows.includes(n));
+  const t = el("table", {}, el("thead", {}, el("tr", {}, ...["", "engine", "", "says", "error / L", "time"].map((h, i) => el("th", i > 3 ? { class: "n" } : i === 0 ? { class: "screen-only" } : {}, h)))));
+  const body = el("tbody");
+  for (const name of rows) {
+    const e = q.engines[name]!;
+    const wrong = e.faults.length > 0;
+    const verdict = !wrong ? (e.undecided ? "undecided" : "right") : e.answer.outcome === "answered" ? "WRONG" : "FAILED";
+    const see = el("input", { type: "checkbox", title: `draw ${name}` });
+    see.checked = !hidden.has(name);
+    see.addEventListener("change", () => {
+      see.checked ? hidden.delete(name) : hidden.add(name);
+      link.set("hide", hidden.size ? [...hidden].join(",") : null);
+      refresh();
+    });
+    const pick = el("button", { type: "button", "aria-pressed": String(name === chosen), title: data.engines[name]?.settings ?? "" }, name);
+    pick.addEventListener("click", () => choose(name === chosen ? "" : name));
+    const worst = e.faults.reduce((m, f) => Math.max(m, numberOf(f.error_in_l) || 0), 0);
+    const row = el("tr", { "data-engine": name }, el("td", { class: "screen-only" }, see),
+      el("td", {}, el("span", { class: "swatch", style: `background:${colour(name)}` }), pick),
+      el("td", { class: wrong ? "bad" : e.undecided ? "warn" : "good" }, verdict),
+      el("td", {}, stated(q, e)), el("td", { class: "n" }, worst > 0 ? worst.toExponential(1) : "–"),
+      el("td", { class: "n" }, nanoseconds(e.elapsed_ns)));
+    if (wrong || e.blame !== "none") row.className = "open";
+    body.append(row);
+    if (row.className === "open") body.append(el("tr", {}, el("td", { class: "screen-only" }), el("td", { colspan: "5", class: "soft faults" }, ...faultLines(e))));
+  }
+  t.append(body);
+  table.replaceChildren(t, cannot.length ? el("p", { class: "soft" }, `cannot: ${cannot.join(", ")}`) : "");
+}
+
+function faultLines(e: EngineAnswer): HTMLElement[] {
+  const lines = e.faults.slice(0, 4).map((f) => el("div", {}, el("b", {}, f.fault.replaceAll("_", " ")), `: ${f.words}`));
+  if (e.faults.length > 4) lines.push(el("div", {}, `and ${e.faults.length - 4} more`));
+  if (e.blame === "representation") lines.push(el("div", {}, "blame: its rounding of the scene; right for the scene as received"));
+  if (e.blame === "algorithm") lines.push(el("div", {}, "blame: its algorithm; wrong for the scene as received too"));
+  return lines;
+}
+
+function drawTabs(): void {
+  tabs.replaceChildren(...data.queries.map((q, i) => {
+    const wrong = Object.values(q.engines ?? {}).filter((e) => e.faults.length > 0).length;
+    const b = el("button", { type: "button", "aria-pressed": String(i === query) }, `${q.question.replaceAll("_", " ")}${data.queries.length > 4 ? ` ${q.a}–${q.b}` : ""}${wrong ? ` · ${wrong} wrong` : ""}`);
+    b.addEventListener("click", () => {
+      query = i;
+      link.set("q", String(i));
+      refresh();
+    });
+    return b;
+  }));
+}
+
+function choose(name: string): void {
+  chosen = name;
+  link.set("engine", name || null);
+  const t = q().engines?.[name]?.answer.toi;
+  if (moves && t !== undefined) setTime(numberOf(t));
+  refresh();
+}
+const q = (): QueryJson => data.queries[query]!;
+
+// The slider: t of the step, or the queries of a script.
+let slider: HTMLInputElement | null = null;
+const clock = el("output", { id: "clock", class: "mono" });
+let playing = 0;
+if (frames.length > 1) {
+  slider = el("input", scripted ? { type: "range", id: "time", min: "0", max: String(frames.length - 1), step: "1" } : { type: "range", id: "time", min: "0", max: "1", step: "0.0005", list: "marks" });
+  slider.setAttribute("aria-label", scripted ? "query of the script" : "time");
+  slider.addEventListener("input", () => setTime(Number(slider!.value)));
+  const play = el("button", { type: "button", id: "play", title: "play (space)" }, "▶");
+  play.addEventListener("click", togglePlay);
+  timeline.append(play, slider, clock, tick);
+}
+function setTime(t: number): void {
+  const last = scripted ? frames.length - 1 : 1;
+  time = Math.max(0, Math.min(last, Number.isFinite(t) ? t : 0));
+  link.set("t", String(time));
+  refresh();
+}
+function togglePlay(): void {
+  if (playing) {
+    clearInterval(playing);
+    playing = 0;
+    return;
+  }
+  const last = scripted ? frames.length - 1 : 1;
+  playing = window.setInterval(() => setTime(time >= last ? 0 : time + (scripted ? 1 : 0.005)), scripted ? 500 : 33);
+}
+
+function drawTimeline(): void {
+  if (!slider) return;
+  slider.value = String(time);
+  clock.value = scripted ? `query ${Math.round(time) + 1} of ${frames.length}` : `t = ${time.toFixed(4)}`;
+  // Marks at the impact that each engine states, and at the referee's.
+  const impacts = data.queries.filter((x) => x.question === "time_of_impact");
+  tick.replaceChildren(...impacts.flatMap((x) => [x.referee.t_hi, ...Object.values(x.engines ?? {}).map((e) => e.answer.toi)])
+    .map(numberOf).filter(Number.isFinite).map((t) => el("option", { value: String(t) })));
+}
+
+function refresh(): void {
+  const now = q();
+  drawTabs();
+  drawTable(now);
+  drawTimeline();
+  const evidence = drawn(now.referee, now.question, moves ? time : 0, stands()[now.b]?.position ?? [0, 0, 0]);
+  words.replaceChildren(
+    el("p", {}, el("span", { class: "swatch", style: `background:${refereeColour()}` }), el("b", {}, "referee: "), refereeLine(now)),
+    ...[...new Set(evidence.map((d) => d.words))].map((w) => el("p", { class: "soft" }, `drawn: ${w}`)));
+  // Of the engine chosen, or of the only one that is wrong: the smaller case and the program against its own API.
+  const wrong = engineNames.filter((n) => (now.engines?.[n]?.faults.length ?? 0) > 0);
+  const of = wrong.includes(chosen) ? chosen : wrong.length === 1 ? wrong[0]! : "";
+  const asked = data.command.replace(/^\S+ replay /, "");
+  commands.replaceChildren(commandLine(data.command), ...(of
+    ? [commandLine(`./touchstone shrink ${asked} --engine ${of}`), ...(/^(fcl|bullet|libccd)/.test(of) ? [commandLine(`./touchstone reproduce ${asked} --engine ${of} -o reproduce.cpp`)] : [])]
+    : []));
+  document.body.dataset["drawn"] = evidence.map((d) => d.kind).join(" ");
+  if (!picture) return;
+  const style = getComputedStyle(document.documentElement);
+  picture.theme(style.getPropertyValue("--back").trim(), style.getPropertyValue("--soft").trim());
+  picture.place(stands());
+  const anchor = anchorOf(now);
+  picture.setFocus(anchor);
+  picture.showEvidence(evidence, anchor, refereeColour());
+  picture.showMarks(marksOf(now));
+  picture.draw();
+}
+
+addEventListener("keydown", (e) => {
+  if (isTyping(e)) return;
+  const turn = 0.08;
+  const step = scripted ? 1 : 0.01;
+  const overSlider = e.target === slider && e.key.startsWith("Arrow");
+  const keys: Record<string, () => void> = {
+    ArrowLeft: () => picture?.orbit(-turn, 0, 1), ArrowRight: () => picture?.orbit(turn, 0, 1),
+    ArrowUp: () => picture?.orbit(0, turn, 1), ArrowDown: () => picture?.orbit(0, -turn, 1),
+    "+": () => picture?.orbit(0, 0, 0.85), "=": () => picture?.orbit(0, 0, 0.85), "-": () => picture?.orbit(0, 0, 1 / 0.85),
+    f: () => { picture?.fit(); link.set("camera", null); }, c: () => { picture?.approach(); if (picture) link.set("camera", picture.cameraText()); },
+    n: () => nextEngine(1), p: () => nextEngine(-1),
+    "]": () => setTime(time + step), "[": () => setTime(time - step),
+  };
+  if (frames.length > 1 && !(e.target instanceof HTMLButtonElement)) keys[" "] = togglePlay;
+  const f = keys[e.key];
+  if (!f || overSlider) return;
+  e.preventDefault();
+  f();
+});
+function nextEngine(by: number): void {
+  const shown = ["", ...engineNames.filter((n) => q().engines?.[n]?.answer.outcome === "answered")];
+  choose(shown[(shown.indexOf(chosen) + by + shown.length) % shown.length]!);
+}
+
+addEventListener("beforeprint", () => {
+  picture?.theme("#ffffff", "#888888");
+  picture?.draw();
+});
+addEventListener("afterprint", () => refresh());
+link.onChange(() => {
+  query = Math.min(data.queries.length - 1, Math.max(0, link.number("q") ?? query));
+  chosen = link.get("engine") ?? "";
+  time = link.number("t") ?? 0;
+  const camera = link.get("camera");
+  if (camera) picture?.setCamera(camera);
+  refresh();
+});
+const camera = link.get("camera");
+refresh();
+if (camera) picture?.setCamera(camera);

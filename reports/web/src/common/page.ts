@@ -1,0 +1,114 @@
+// What every page shares: its data, elements, the state kept in the address, light and dark.
+import "./style.css";
+
+export function pageData<T>(): T {
+  return JSON.parse(document.getElementById("data")!.textContent!) as T;
+}
+
+type Child = Node | string | null | undefined;
+
+export function el<K extends keyof HTMLElementTagNameMap>(
+  tag: K,
+  attributes: Record<string, string> = {},
+  ...children: Child[]
+): HTMLElementTagNameMap[K] {
+  const e = document.createElement(tag);
+  for (const [k, v] of Object.entries(attributes)) e.setAttribute(k, v);
+  for (const c of children) if (c !== null && c !== undefined) e.append(c);
+  return e;
+}
+
+export const app = (): HTMLElement => document.getElementById("app")!;
+
+/** Key-value pairs in the address behind '#', so that a link shows what its sender saw. */
+export class LinkState {
+  private values = new URLSearchParams(location.hash.slice(1));
+  private timer = 0;
+  get(key: string): string | null {
+    return this.values.get(key);
+  }
+  number(key: string): number | null {
+    const v = this.values.get(key);
+    return v === null || v === "" || !Number.isFinite(Number(v)) ? null : Number(v);
+  }
+  set(key: string, value: string | null): void {
+    if (value === null) this.values.delete(key);
+    else this.values.set(key, value);
+    clearTimeout(this.timer);
+    // Browsers refuse more than some hundred changes of the address in half a minute.
+    this.timer = window.setTimeout(() => history.replaceState(null, "", "#" + this.values.toString()), 150);
+  }
+  /** Calls back when a person edits the address or follows a link into the same page. */
+  onChange(f: () => void): void {
+    addEventListener("hashchange", () => {
+      this.values = new URLSearchParams(location.hash.slice(1));
+      f();
+    });
+  }
+}
+
+export const isDark = (): boolean => {
+  const chosen = document.documentElement.dataset["theme"];
+  return chosen ? chosen === "dark" : matchMedia("(prefers-color-scheme: dark)").matches;
+};
+
+/** The button that changes between light and dark; `changed` redraws what CSS does not reach. */
+export function themeButton(link: LinkState, changed: () => void): HTMLButtonElement {
+  const apply = (theme: string | null): void => {
+    if (theme === "dark" || theme === "light") document.documentElement.dataset["theme"] = theme;
+  };
+  apply(link.get("theme"));
+  const button = el("button", { type: "button", id: "theme", title: "light or dark (key l)" }, "◐");
+  const toggle = (): void => {
+    const next = isDark() ? "light" : "dark";
+    apply(next);
+    link.set("theme", next);
+    changed();
+  };
+  button.addEventListener("click", toggle);
+  addEventListener("keydown", (e) => {
+    if (e.key === "l" && !isTyping(e)) toggle();
+  });
+  matchMedia("(prefers-color-scheme: dark)").addEventListener("change", changed);
+  return button;
+}
+
+export const isTyping = (e: KeyboardEvent): boolean =>
+  e.ctrlKey || e.metaKey || e.altKey || (e.target instanceof HTMLElement && /^(INPUT|SELECT|TEXTAREA)$/.test(e.target.tagName) &&
+    (e.target as HTMLInputElement).type !== "range" && (e.target as HTMLInputElement).type !== "checkbox");
+
+/** A line of shell with a button that copies it. */
+export function commandLine(command: string): HTMLElement {
+  const copy = el("button", { type: "button", title: "copy" }, "copy");
+  copy.addEventListener("click", () => {
+    void navigator.clipboard?.writeText(command).then(() => (copy.textContent = "copied"));
+  });
+  return el("div", { class: "command" }, el("code", {}, command), copy);
+}
+
+/** A number as JSON has it: NaN and infinities are strings there. */
+export const numberOf = (x: unknown): number =>
+  typeof x === "number" ? x : x === "inf" ? Infinity : x === "-inf" ? -Infinity : NaN;
+
+/** Short, in the way of C's %.{digits}g. */
+export function short(x: number, digits = 4): string {
+  if (!Number.isFinite(x)) return String(x);
+  if (x === 0) return "0";
+  const a = Math.abs(x);
+  if (a >= 1e6 || a < 1e-3) return x.toExponential(Math.max(0, digits - 3)).replace("e+", "e");
+  return String(Number(x.toPrecision(digits)));
+}
+
+export const grouped = (n: number): string => n.toLocaleString("en-US");
+
+export function nanoseconds(ns: number): string {
+  if (ns < 1e3) return `${Number(ns.toPrecision(3))} ns`;
+  if (ns < 1e6) return `${Number((ns / 1e3).toPrecision(3))} µs`;
+  return `${Number((ns / 1e6).toPrecision(3))} ms`;
+}
+
+/** Colours that differ for eyes that confuse red and green too (Okabe and Ito 2008), then turned hues. */
+const palette = ["#0072b2", "#e69f00", "#cc79a7", "#56b4e9", "#d55e00", "#8c6bb1", "#b59f00", "#7f7f7f"];
+export function colourOf(index: number): string {
+  return palette[index] ?? `hsl(${Math.round((index * 137.5) % 360)} 60% ${index % 2 ? 45 : 60}%)`;
+}

@@ -1,0 +1,207 @@
+// The chart's statistics by hand-made samples, the chart of our core and of engines that lie, ladders, and
+// both commands as a user meets them.
+#include <algorithm>
+#include <array>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "core/base/input_error.h"
+#include "fuzz/explore/chart.h"
+#include "fuzz/explore/chart_rows.h"
+#include "fuzz/explore/ladders.h"
+#include "fuzz/explore/stability.h"
+#include "oracles/api/measure.h"
+#include "oracles/core/core_engine.h"
+#include "tests/support/catch.h"
+#include "tests/support/workspace.h"
+
+using namespace touchstone;
+using namespace touchstone::fuzz;
+using touchstone::test::read_all;
+using touchstone::test::Workspace;
+
+namespace {
+
+ChartSample sample(const std::string& engine, double error, std::vector<double> ns) {
+  ChartSample s{engine, "contact", "near", "box-box", "1", 2, {}, std::move(ns)};
+  s.judgement.outcome = Outcome::answered, s.judgement.worst_in_l = error;
+  return s;
+}
+
+ChartSample wrong(ChartSample s, Fault f) {
+  FaultReport r;
+  r.fault = f;
+  s.judgement.faults.push_back(r);
+  return s;
+}
+
+const ChartRow& overall(const std::vector<ChartRow>& rows, const std::string& engine) {
+  for (const ChartRow& r : rows)
+    if (r.engine == engine && r.regime.empty() && r.pair.empty() && r.scale.empty()) return r;
+  throw std::runtime_error("no row of " + engine);
+}
+
+std::vector<EnginePtr> the_core() {
+  std::vector<EnginePtr> e;
+  e.push_back(make_core_engine());
+  return e;
+}
+
+// Says "apart" whatever it is asked: fast, and wrong.
+class Denier final : public Engine {
+ public:
+  Denier() { card_.name = "denier"; }
+  const EngineCard& card() const override { return card_; }
+  std::vector<CaseObservations> run(std::span<const Case> cases) override {
+    std::vector<CaseObservations> all;
+    for (const Case& c : cases) {
+      auto& r = all.emplace_back();
+      r.received.bodies.resize(c.scene.bodies.size()), r.received.shapes.resize(c.scene.shapes.size());
+      for (std::size_t i = 0; i < c.queries.size(); ++i) {
+        Observation& o = r.answers.emplace_back();
+        o.outcome = Outcome::answered, o.overlap = false, o.elapsed_ns = 1;
+      }
+    }
+    return all;
+  }
+
+ private:
+  EngineCard card_;
+};
+
+}  // namespace
+
+TEST_CASE("a row's times are quantiles of each query's least time, its spread that of the rounds",
+          "[chart]") {
+  ChartRows rows;
+  for (int i = 1; i <= 101; ++i) rows.add(sample("a", i * 1e-3, {i + 100.0, i * 1.0, i + 50.0}));
+  const auto all = rows.rows();
+  CHECK(all.size() == 6);  // all, regime, scale, pair, regime × scale, pair × regime
+  const ChartRow& r = overall(all, "a");
+  CHECK(r.answers == 101);
+  CHECK(r.ns_min == 1);
+  CHECK(r.ns_median == 51);
+  CHECK(r.ns_p99 == 100);
+  CHECK(r.ns_spread == Approx((101.0 - 51.0) / 51.0));
+  CHECK(r.error_p50 == Approx(0.051));
+  CHECK(r.error_p99 == Approx(0.1));
+  CHECK(r.error_max == Approx(0.101));
+  CHECK(r.unsound.empty());
+}
+
+TEST_CASE("who is wrong, fails or leaves out cannot be on the front, and the row says why", "[chart]") {
+  ChartRows rows;
+  for (int i = 0; i < 10; ++i) {
+    rows.add(sample("exact", 1e-16, {900}));
+    rows.add(sample("rough", 1e-6, {100}));
+    rows.add(sample("dominated", 1e-6, {500}));
+    rows.add(sample("alike", 1e-6, {102}));  // no faster and no slower than rough
+    rows.add(i ? sample("misses", 0, {1}) : wrong(sample("misses", 0.5, {1}), Fault::missed));
+    rows.add(i ? sample("off", 0, {1}) : wrong(sample("off", 0.5, {1}), Fault::infeasible));
+    ChartSample crashes = sample("crashes", 0, {1}), partial = sample("partial", 0, {1});
+    if (i == 0)
+      crashes.judgement.outcome = Outcome::crashed, partial.judgement.outcome = Outcome::unsupported;
+    rows.add(crashes), rows.add(partial);
+  }
+  const auto all = rows.rows();
+  CHECK(overall(all, "exact").front);
+  CHECK(overall(all, "rough").front);
+  CHECK(overall(all, "alike").front);
+  CHECK_FALSE(overall(all, "dominated").front);
+  CHECK(overall(all, "dominated").unsound.empty());
+  for (const char* name : {"misses", "off", "crashes", "partial"}) CHECK_FALSE(overall(all, name).front);
+  CHECK(overall(all, "misses").unsound == "1 missed of 10");
+  CHECK(overall(all, "off").unsound == "1 wrong of 10");
+  CHECK(overall(all, "crashes").unsound == "1 failed of 10");
+  CHECK(overall(all, "partial").unsound == "answers 9 of 10");
+}
+
+TEST_CASE("repeated asking gives the least mean of a batch", "[chart]") {
+  int asked = 0;
+  const auto ns = least_mean_ns(1'000'000, 2'000'000, [&] { ++asked; });
+  CHECK(asked > 100);
+  CHECK(ns < 1'000'000);
+  CHECK(least_mean_ns(5'000, 1'000, [&] { FAIL("the budget was spent before"); }) == 5'000);
+}
+
+TEST_CASE("the core is sound on the chart's cases, and an engine that denies contacts is not", "[chart]") {
+  auto engines = the_core();
+  engines.push_back(std::make_unique<Denier>());
+  const auto broad = the_core();
+  const ChartScope scope{"test", 1, 4, 2, false, {24}};
+  const Chart chart = measure_chart(scope, 5, engines, broad, {});
+  CHECK(chart.engines.size() == 3);
+  std::size_t core = 0;
+  std::uint64_t denied = 0;
+  for (const ChartRow& r : chart.rows) {
+    INFO(r.question << " " << r.regime << " " << r.pair << " " << r.scale);
+    if (r.engine == "core") {
+      ++core;
+      CHECK(r.unsound == "");
+      CHECK(r.wrong == 0);
+      CHECK(r.ns_min > 0);
+    } else if (r.question == "overlap" && r.regime.empty() && r.pair.empty() && r.scale.empty()) {
+      denied = r.missed;
+      CHECK_FALSE(r.front);
+    }
+  }
+  CHECK(core > 400);
+  CHECK(denied > 200);  // of 420, of which two regimes and half of another overlap
+  const Json j = Json::parse(fuzz::to_json(chart).dump());
+  const std::string csv = to_csv(chart);
+  CHECK(j["rows"].size() == chart.rows.size());
+  CHECK(static_cast<std::size_t>(std::count(csv.begin(), csv.end(), '\n')) == chart.rows.size() + 1);
+  for (const auto& row : j["rows"]) CHECK(row.size() == j["columns"].size());
+}
+
+TEST_CASE("ladders name where a liar begins to fail, and the core fails nowhere", "[stability]") {
+  auto engines = the_core();
+  engines.push_back(std::make_unique<Denier>());
+  const Stability s = climb("gap", 3, 6, engines, {});
+  REQUIRE(s.results.size() == 6);
+  for (const LadderResult& r : s.results) {
+    INFO(r.engine << " " << r.question);
+    CHECK(r.rungs.size() == 9);
+    if (r.engine == "core") CHECK_FALSE(r.fails_at());
+    if (r.engine == "denier" && r.question == "overlap") CHECK(r.fails_at() == 0x1p-4);
+    for (const Rung& rung : r.rungs) CHECK(rung.asked == 6);
+  }
+  CHECK_THROWS_AS(climb("no-such", 1, 1, engines, {}), InputError);
+}
+
+TEST_CASE("every ladder makes scenes of its questions at every rung", "[stability]") {
+  std::size_t made = 0;
+  for (const LadderRow& l : ladders())
+    for (double v : l.values) {
+      INFO(l.name << " " << v);
+      Rng rng(made);
+      const Scene s = l.make(rng, v);
+      CHECK_NOTHROW(validate(s));
+      const bool moves =
+          std::any_of(s.bodies.begin(), s.bodies.end(), [](const Body& b) { return b.motion.has_value(); });
+      CHECK(moves == (l.questions[0] == Question::time_of_impact));
+      CHECK(s.script.empty() == (l.questions[0] != Question::candidates));
+      ++made;
+    }
+  CHECK(made > 70);
+}
+
+TEST_CASE("chart and stability write text, CSV and JSON, page or no page", "[cli][chart]") {
+  const Workspace w("chart");
+  const auto s = w.touchstone("stability --quick --ladder angle --engines core --out s");
+  INFO(s.err);
+  CHECK(s.code == 0);
+  CHECK(s.out.find("angle: faces out of parallel") != std::string::npos);
+  CHECK(Json::parse(read_all(w.dir / "s/stability.json"))["results"].size() == 3);
+  CHECK(read_all(w.dir / "s/stability.csv").starts_with("ladder,engine,question,value"));
+  const auto c = w.touchstone("chart --quick --engines core --broad grid --measure 0 --out c");
+  INFO(c.out << c.err);
+  CHECK(c.code == 0);
+  std::istringstream lines(c.out);
+  for (std::string line; std::getline(lines, line);) CHECK(line.size() <= 80);
+  const Json chart = Json::parse(read_all(w.dir / "c/chart.json"));
+  CHECK(chart["rows"].size() > 100);
+  CHECK(chart["machine"]["cores"].get<int>() > 0);
+  CHECK(w.touchstone("stability --ladder nothing --engines core").code == 2);
+  CHECK(w.touchstone("chart --engines core --broad nothing").code == 2);
+}
