@@ -15,7 +15,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-struct Options {
+struct BisectOptions {
   FindingArgument finding;
   std::string out, at, build;
   double to = 0;
@@ -33,7 +33,7 @@ std::string listed(const std::vector<T>& all, std::string_view between) {
   return out;
 }
 
-void keep(const Options& o, const AskedFinding& asked, Case c, const std::string& what) {
+void keep(const BisectOptions& o, const AskedFinding& asked, Case c, const std::string& what) {
   if (o.out.empty()) return;
   StoredCase stored;
   stored.c = std::move(c);
@@ -42,7 +42,7 @@ void keep(const Options& o, const AskedFinding& asked, Case c, const std::string
   save_case(stored, o.out);
 }
 
-int bodies(const Options& o, const AskedFinding& asked, const fuzz::Finding& f) {
+int bodies(const BisectOptions& o, const AskedFinding& asked, const fuzz::Finding& f) {
   const auto r = fuzz::which_bodies(asked.stored.c, fuzz::commits_fault(asked.engine, f));
   keep(o, asked, r.smallest, "the bodies that it needs");
   if (o.json)
@@ -58,7 +58,7 @@ std::string in_words(const Step& s) {
   return s.op == Step::Op::query ? std::string(name) : fmt::format("{} body {}", name, s.body);
 }
 
-int step(const Options& o, const AskedFinding& asked, const fuzz::Finding& f) {
+int step(const BisectOptions& o, const AskedFinding& asked, const fuzz::Finding& f) {
   const auto r = fuzz::which_step(asked.stored.c, fuzz::commits_fault(asked.engine, f));
   keep(o, asked, r.shortest, "up to the query by which it shows");
   std::vector<std::string> changes;
@@ -73,7 +73,7 @@ int step(const Options& o, const AskedFinding& asked, const fuzz::Finding& f) {
   return exit_clean;
 }
 
-int stage(const Options& o, const AskedFinding& asked, const fuzz::Finding& f) {
+int stage(const BisectOptions& o, const AskedFinding& asked, const fuzz::Finding& f) {
   const fuzz::Evidence& e = *f.evidence;
   if (e.a < 0 || e.b < 0) throw InputError("bisect stage", "the finding names no pair of bodies");
   const auto all = fuzz::which_stage(asked.stored.c, e.a, e.b, e.step, asked.engine);
@@ -95,7 +95,7 @@ int stage(const Options& o, const AskedFinding& asked, const fuzz::Finding& f) {
   return exit_clean;
 }
 
-int value(const Options& o, const AskedFinding& asked, const fuzz::Finding& f) {
+int value(const BisectOptions& o, const AskedFinding& asked, const fuzz::Finding& f) {
   const auto t = fuzz::which_value(asked.stored.c, o.at, o.to, fuzz::commits_fault(asked.engine, f));
   if (o.json)
     fmt::print("{}\n", Json{{"key", asked.key},
@@ -114,7 +114,7 @@ int value(const Options& o, const AskedFinding& asked, const fuzz::Finding& f) {
 // For `git bisect run`: 0 good, 1 bad, 125 cannot be told.
 constexpr int exit_skip = 125;
 
-int commit(const Options& o) {
+int commit(const BisectOptions& o) {
   if (!o.build.empty() && std::system(o.build.c_str()) != 0) {
     fmt::print(stderr, "the build failed: {}\n", o.build);
     return exit_skip;
@@ -129,7 +129,7 @@ int commit(const Options& o) {
   }
 }
 
-using Verb = int (*)(const Options&, const AskedFinding&, const fuzz::Finding&);
+using Verb = int (*)(const BisectOptions&, const AskedFinding&, const fuzz::Finding&);
 
 struct Row {
   const char *name, *line;
@@ -143,7 +143,7 @@ constexpr Row verbs[] = {
     {"commit", "for `git bisect run`: exit code 0 right, 1 wrong, 125 not to be told", nullptr},
 };
 
-int run(const Options& o, Verb verb) {
+int run(const BisectOptions& o, Verb verb) {
   if (!verb) return commit(o);
   const AskedFinding asked = ask_for_finding(o.finding, o.limits);
   if (asked.key.empty()) return not_found(asked, o.finding);
@@ -153,7 +153,7 @@ int run(const Options& o, Verb verb) {
 }  // namespace
 
 Run declare_bisect(CLI::App& app) {
-  auto o = std::make_shared<Options>();
+  auto o = std::make_shared<BisectOptions>();
   auto verb = std::make_shared<Verb>(nullptr);
   app.require_subcommand(1);
   for (const Row& row : verbs) {

@@ -26,9 +26,9 @@ using Json = nlohmann::ordered_json;
 using fuzz::BroadCertificate;
 
 std::atomic<bool> interrupted{false};
-void on_signal(int) { interrupted = true; }
+void on_stop_signal(int) { interrupted = true; }
 
-struct Options {
+struct CertifyOptions {
   std::string subject, scope = "quick", level = "both", out, page, script, check;
   std::vector<std::string> without;
   std::uint64_t seed = 1, limit = 0;
@@ -37,7 +37,7 @@ struct Options {
   WorkerLimits limits;
 };
 
-class ProgressPrinter {
+class CertifyProgress {
  public:
   void operator()(const fuzz::EvidenceCount& e, std::size_t index, std::size_t count) {
     const auto now = std::chrono::steady_clock::now();
@@ -47,7 +47,7 @@ class ProgressPrinter {
                reports::grouped(e.cases), reports::grouped(e.planned), live_ ? "" : "\n");
     std::fflush(stderr);
   }
-  ~ProgressPrinter() {
+  ~CertifyProgress() {
     if (live_) fmt::print(stderr, "\r\033[K");
   }
 
@@ -68,7 +68,7 @@ void require_writable(const std::string& file) {
   if (access(directory.c_str(), W_OK) != 0) throw InputError(file, "cannot be written: no permission");
 }
 
-fuzz::CertifyConfig config_of(const Options& o) {
+fuzz::CertifyConfig config_of(const CertifyOptions& o) {
   fuzz::CertifyConfig c;
   c.scope = o.scope == "full" ? fuzz::Scope::full : fuzz::Scope::quick;
   c.seed = o.seed, c.limit = o.limit, c.jobs = o.jobs, c.without = o.without;
@@ -79,14 +79,14 @@ fuzz::CertifyConfig config_of(const Options& o) {
 }
 
 std::optional<BroadCertificate> make(const fuzz::Subject& s, const fuzz::CertifyConfig& c) {
-  std::signal(SIGINT, on_signal);
-  std::signal(SIGTERM, on_signal);
-  ProgressPrinter printer;
+  std::signal(SIGINT, on_stop_signal);
+  std::signal(SIGTERM, on_stop_signal);
+  CertifyProgress printer;
   return fuzz::certify(s, c, std::ref(printer), interrupted);
 }
 
 // The script beside the certificate, ready for `touchstone replay`.
-std::string script_file(const Options& o, const fuzz::Refutation& r) {
+std::string script_file(const CertifyOptions& o, const fuzz::Refutation& r) {
   const std::string base = !o.script.empty() ? o.script
                            : o.out.empty()
                                ? ""
@@ -99,7 +99,7 @@ std::string script_file(const Options& o, const fuzz::Refutation& r) {
       .string();
 }
 
-void write_scripts(const Options& o, const BroadCertificate& c) {
+void write_scripts(const CertifyOptions& o, const BroadCertificate& c) {
   for (const auto& r : c.refutations) {
     if (!r.script) continue;
     StoredCase stored;
@@ -125,7 +125,7 @@ int list_subjects() {
   return exit_clean;
 }
 
-int certify_subject(const Options& o) {
+int certify_subject(const CertifyOptions& o) {
   if (o.subject.empty()) throw InputError("certify", "say what to certify: --subject NAME, or --check CERT");
   for (const std::string& file : {o.out, o.page, o.script}) require_writable(file);
   const auto c = make(broad_subject(o.subject, o.limits, o.sweeps), config_of(o));
@@ -172,7 +172,7 @@ Json read_certificate(const std::string& file) {
   }
 }
 
-int check(const Options& o) {
+int check(const CertifyOptions& o) {
   const Json stored = read_certificate(o.check);
   bool digest_holds = false;
   BroadCertificate was;
@@ -203,7 +203,7 @@ int check(const Options& o) {
 }  // namespace
 
 Run declare_certify(CLI::App& app) {
-  auto o = std::make_shared<Options>();
+  auto o = std::make_shared<CertifyOptions>();
   o->jobs = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
   app.add_option("--subject", o->subject,
                  "a broad phase of the core, an engine (`touchstone engines`), ./libmine.so, pipe:COMMAND");

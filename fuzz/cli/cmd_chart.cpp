@@ -19,7 +19,7 @@
 namespace touchstone::cli {
 namespace {
 
-struct Options {
+struct ChartOptions {
   std::string engines = "all", broad = "all", subject = "core", out = "out/chart";
   std::uint64_t seed = 1;
   std::int64_t measure = 20'000;
@@ -27,7 +27,7 @@ struct Options {
   WorkerLimits limits;
 };
 
-std::vector<EnginePtr> broad_engines(const Options& o) {
+std::vector<EnginePtr> broad_engines(const ChartOptions& o) {
   std::vector<std::string> names;
   if (o.broad == "all") {
     for (std::string_view name : core_broad_phases()) names.emplace_back(name);
@@ -45,7 +45,7 @@ std::vector<EnginePtr> broad_engines(const Options& o) {
   return engines;
 }
 
-int run(const Options& o) {
+int run(const ChartOptions& o) {
   const bool live = isatty(2) == 1;
   // Before any engine is made: its worker inherits it.
   setenv(measure_variable, std::to_string(o.measure).c_str(), 1);
@@ -80,7 +80,7 @@ int run(const Options& o) {
 }  // namespace
 
 Run declare_chart(CLI::App& app) {
-  auto o = std::make_shared<Options>();
+  auto o = std::make_shared<ChartOptions>();
   app.add_flag("--quick", o->quick, "fewer cases: minutes instead of half an hour");
   app.add_option("--engines", o->engines, "engines for pairs and motions: names, plug-in paths, or all")
       ->capture_default_str();

@@ -19,7 +19,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-struct Options {
+struct CheckOptions {
   std::string path, scene;
   std::vector<int> pair;
 };
@@ -63,7 +63,7 @@ struct Bodies {
 
 // The pairs that the certificate may be about, in the order A, B: as asked for or as it says, else both
 // orders of the only two.
-std::vector<Bodies> pairs_of(const Options& o, const Json& certificate, const Scene& s) {
+std::vector<Bodies> pairs_of(const CheckOptions& o, const Json& certificate, const Scene& s) {
   const int n = static_cast<int>(s.bodies.size());
   const std::vector<int> named = o.pair.empty() ? certificate.value("bodies", std::vector<int>{}) : o.pair;
   if (named.empty()) {
@@ -104,7 +104,7 @@ Claim claim_of(const Json& j) {
           }};
 }
 
-int run(const Options& o) try {
+int run(const CheckOptions& o) try {
   const Json j = certificate_in(o.path);
   const Claim c = claim_of(j);
   const std::string scene =
@@ -126,7 +126,7 @@ int run(const Options& o) try {
 }  // namespace
 
 Run declare_check(CLI::App& app) {
-  auto o = std::make_shared<Options>();
+  auto o = std::make_shared<CheckOptions>();
   app.add_option("certificate", o->path, "a finding.json, or a certificate by itself")->required();
   app.add_option("--case", o->scene, "the case or scene (default: case.json beside the certificate)");
   app.add_option("--pair", o->pair, "bodies A and B, when the scene has more than two")->expected(2);

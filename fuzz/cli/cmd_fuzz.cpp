@@ -24,7 +24,7 @@ std::atomic<bool> interrupted{false};
 
 void on_signal(int) { interrupted = true; }
 
-struct Options {
+struct FuzzOptions {
   fuzz::CampaignConfig config;
   std::string engines = "all", shard, out;
   std::uint64_t cases = 0;
@@ -132,7 +132,7 @@ int verdict(const fuzz::CampaignConfig& c, const fuzz::CampaignResult& r, bool j
   return exit_clean;
 }
 
-int run(Options& o) {
+int run(FuzzOptions& o) {
   take_shard(o.shard, o.config);
   o.config.engines = engine_names(o.engines);
   const auto subjects = engine_names(o.config.subject);
@@ -170,7 +170,7 @@ int run(Options& o) {
 }  // namespace
 
 Run declare_fuzz(CLI::App& app) {
-  auto o = std::make_shared<Options>();
+  auto o = std::make_shared<FuzzOptions>();
   o->config.jobs = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
   app.add_option("--subject", o->config.subject, "the engine whose faults decide the exit code")
       ->capture_default_str();

@@ -13,15 +13,15 @@
 namespace touchstone::cli {
 namespace {
 
-struct Options {
+struct MergeOptions {
   std::string out;
   std::vector<std::string> in;
   bool ledgers = false, json = false;
 };
 
-std::vector<std::filesystem::path> paths(const Options& o) { return {o.in.begin(), o.in.end()}; }
+std::vector<std::filesystem::path> paths(const MergeOptions& o) { return {o.in.begin(), o.in.end()}; }
 
-int merge_shards(const Options& o) {
+int merge_shards(const MergeOptions& o) {
   const fuzz::Merged m = fuzz::merge_campaigns(o.out, paths(o));
   if (o.json) {
     const fuzz::Json j = {{"out", o.out},
@@ -39,7 +39,7 @@ int merge_shards(const Options& o) {
   return exit_clean;
 }
 
-int run(const Options& o) {
+int run(const MergeOptions& o) {
   if (o.in.empty())
     throw InputError("merge",
                      "say where to and what: touchstone merge OUT SHARD..., or touchstone merge --ledgers "
@@ -53,7 +53,7 @@ int run(const Options& o) {
 }  // namespace
 
 Run declare_merge(CLI::App& app) {
-  auto o = std::make_shared<Options>();
+  auto o = std::make_shared<MergeOptions>();
   app.add_option("out", o->out, "directory (with --ledgers: file) of the result");
   app.add_option("in", o->in,
                  "directories of finished shards, or of merged ones; any order, repeated or not");

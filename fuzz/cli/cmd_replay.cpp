@@ -16,7 +16,7 @@
 namespace touchstone::cli {
 namespace {
 
-struct Options {
+struct ReplayOptions {
   std::vector<std::string> paths;
   std::string engines = "all", subject = "core", frames;
   bool json = false;
@@ -32,7 +32,7 @@ std::vector<CaseObservations> ask(const Engines& engines, const Case& c) {
 }
 
 // One case in full. True when the subject is wrong or fails.
-bool replay_case(const Options& o, const Engines& engines, const Case& c, fuzz::Json& json) {
+bool replay_case(const ReplayOptions& o, const Engines& engines, const Case& c, fuzz::Json& json) {
   fuzz::Truth truth(c.scene);
   reports::ReplayText text(c, truth);
   bool subject_wrong = false;
@@ -62,7 +62,7 @@ bool replay_case(const Options& o, const Engines& engines, const Case& c, fuzz::
 }
 
 // A recorded scene: thousands of pairs, so counts and findings instead of every answer.
-bool replay_real_scene(const Options& o, const Engines& engines, const std::string& directory,
+bool replay_real_scene(const ReplayOptions& o, const Engines& engines, const std::string& directory,
                        fuzz::Json& json) {
   const RealScene scene = load_real_scene(directory);
   const auto frames = fuzz::frames_from_text(o.frames, scene.frame_count());
@@ -90,7 +90,7 @@ bool replay_real_scene(const Options& o, const Engines& engines, const std::stri
   return result.wrong_of(o.subject) + result.failed_of(o.subject) > 0;
 }
 
-int run(const Options& o) {
+int run(const ReplayOptions& o) {
   Engines engines;
   for (const auto& name : engine_names(o.engines)) engines.push_back(make_engine(name, o.limits));
   bool subject_wrong = false;
@@ -108,7 +108,7 @@ int run(const Options& o) {
 }  // namespace
 
 Run declare_replay(CLI::App& app) {
-  auto o = std::make_shared<Options>();
+  auto o = std::make_shared<ReplayOptions>();
   app.add_option("case", o->paths,
                  "case or scene files, directories of findings, names of scenarios, or directories of "
                  "recorded scenes "

@@ -10,7 +10,7 @@
 namespace touchstone::cli {
 namespace {
 
-struct Options {
+struct ReportOptions {
   std::string directory, out;
 };
 
@@ -47,7 +47,7 @@ fuzz::Json report_page(const std::filesystem::path& directory, fuzz::Json summar
           {"findings", std::move(findings)}};
 }
 
-int run(const Options& o) {
+int run(const ReportOptions& o) {
   std::filesystem::path directory = o.directory;
   if (!directory.has_filename()) directory = directory.parent_path();
   const auto file = directory / "summary.json";
@@ -71,7 +71,7 @@ int run(const Options& o) {
 }  // namespace
 
 Run declare_report(CLI::App& app) {
-  auto o = std::make_shared<Options>();
+  auto o = std::make_shared<ReportOptions>();
   app.add_option("directory", o->directory, "what `fuzz --out` wrote")->required();
   app.add_option("-o,--out", o->out, "the page to write (HTML, loads nothing)");
   return [o] { return run(*o); };

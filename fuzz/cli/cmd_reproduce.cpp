@@ -9,13 +9,13 @@
 namespace touchstone::cli {
 namespace {
 
-struct Options {
+struct ReproduceOptions {
   FindingArgument finding;
   std::string out;
   WorkerLimits limits;
 };
 
-int run(const Options& o) {
+int run(const ReproduceOptions& o) {
   const AskedFinding asked = ask_for_finding(o.finding, o.limits);
   if (asked.key.empty()) return not_found(asked, o.finding);
   const std::string text = fuzz::reproducer(asked.findings.at(asked.key), asked.engine->card());
@@ -29,7 +29,7 @@ int run(const Options& o) {
 }  // namespace
 
 Run declare_reproduce(CLI::App& app) {
-  auto o = std::make_shared<Options>();
+  auto o = std::make_shared<ReproduceOptions>();
   add_finding_argument(app, o->finding);
   app.add_option("-o,--out", o->out, "file for the program (default: stdout)");
   add_case_seconds(app, o->limits);

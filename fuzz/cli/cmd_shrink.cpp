@@ -12,7 +12,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-struct Options {
+struct ShrinkOptions {
   FindingArgument finding;
   std::string out;
   std::size_t tries = 20000;
@@ -20,13 +20,13 @@ struct Options {
   WorkerLimits limits;
 };
 
-std::string in_words(const fuzz::Measure& m) {
+std::string measure_in_words(const fuzz::Measure& m) {
   return fmt::format("{} bodies, {} steps, {} bits", m.bodies, m.steps, m.bits);
 }
 
 Json to_json(const fuzz::Measure& m) { return {{"bodies", m.bodies}, {"steps", m.steps}, {"bits", m.bits}}; }
 
-void print(const Options& o, const std::string& key, const fuzz::Shrunk& r, const StoredCase& result) {
+void print(const ShrinkOptions& o, const std::string& key, const fuzz::Shrunk& r, const StoredCase& result) {
   if (o.json) {
     const Json j = {{"key", key},
                     {"exit", to_string(r.exit)},
@@ -37,15 +37,15 @@ void print(const Options& o, const std::string& key, const fuzz::Shrunk& r, cons
     fmt::print("{}\n", j.dump(1));
     return;
   }
-  fmt::print(stderr, "{}\nbefore: {}\nafter:  {} ({}, {} cases tried)\n", key, in_words(r.before),
-             in_words(r.after), to_string(r.exit), r.tried);
+  fmt::print(stderr, "{}\nbefore: {}\nafter:  {} ({}, {} cases tried)\n", key, measure_in_words(r.before),
+             measure_in_words(r.after), to_string(r.exit), r.tried);
   if (o.out.empty())
     fmt::print("{}", to_text(result));
   else
     fmt::print("{}\n", o.out);
 }
 
-int run(const Options& o) {
+int run(const ShrinkOptions& o) {
   const AskedFinding asked = ask_for_finding(o.finding, o.limits);
   const auto& [stored, engine_name, engine, key, findings] = asked;
   if (key.empty()) return not_found(asked, o.finding);
@@ -66,7 +66,7 @@ int run(const Options& o) {
 }  // namespace
 
 Run declare_shrink(CLI::App& app) {
-  auto o = std::make_shared<Options>();
+  auto o = std::make_shared<ShrinkOptions>();
   add_finding_argument(app, o->finding);
   app.add_option("-o,--out", o->out, "file for the shrunk case (default: stdout)");
   app.add_option("--tries", o->tries, "cases to ask about at most")

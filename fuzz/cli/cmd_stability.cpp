@@ -12,14 +12,14 @@
 namespace touchstone::cli {
 namespace {
 
-struct Options {
+struct StabilityOptions {
   std::string engines = "all", ladder, subject = "core", out = "out/stability";
   std::uint64_t seed = 1;
   bool quick = false, json = false;
   WorkerLimits limits{.query_cpu_seconds = 0.2};
 };
 
-int run(const Options& o) {
+int run(const StabilityOptions& o) {
   const bool live = isatty(2) == 1;
   std::vector<EnginePtr> engines;
   for (const auto& name : engine_names(o.engines)) engines.push_back(make_engine(name, o.limits));
@@ -49,7 +49,7 @@ int run(const Options& o) {
 }  // namespace
 
 Run declare_stability(CLI::App& app) {
-  auto o = std::make_shared<Options>();
+  auto o = std::make_shared<StabilityOptions>();
   app.add_flag("--quick", o->quick, "a dozen cases a rung instead of a hundred");
   app.add_option("--ladder", o->ladder, "only this ladder (default: all)");
   app.add_option("--engines", o->engines, "engines to ask: names, plug-in paths, or all")

@@ -24,7 +24,7 @@ namespace {
 // Cases that the shrinker may ask about; each costs a second where the finding is that the engine hangs.
 constexpr std::size_t all_tries = 4000, tries_of_slow = 8;
 
-struct Options {
+struct TriageOptions {
   std::string directory, ledger = "findings.db", subject = "all", junit, date, reproducers;
   bool json = false, no_shrink = false;
   int jobs = 1;
@@ -60,7 +60,7 @@ class Engines {
   std::map<std::string, EnginePtr> made_;
 };
 
-fuzz::TriageConfig config_of(const Options& o, const std::string& date, Engines& engines) {
+fuzz::TriageConfig config_of(const TriageOptions& o, const std::string& date, Engines& engines) {
   fuzz::TriageConfig c;
   c.date = date;
   c.build_of = [&](const std::string& engine) {
@@ -116,7 +116,7 @@ void make_directory(const std::string& option, const std::string& path) {
                                          error ? error.message() : "it is something else"));
 }
 
-int run(const Options& o) {
+int run(const TriageOptions& o) {
   if (!o.reproducers.empty()) make_directory("--reproducers", o.reproducers);
   const auto found = fuzz::load_findings(o.directory);
   fuzz::Ledger ledger(o.ledger);
@@ -148,7 +148,7 @@ int run(const Options& o) {
 }  // namespace
 
 Run declare_triage(CLI::App& app) {
-  auto o = std::make_shared<Options>();
+  auto o = std::make_shared<TriageOptions>();
   app.add_option("directory", o->directory, "of a campaign (touchstone fuzz --out)")->required();
   app.add_option("--ledger", o->ledger, "the file of known findings; made when it is not there")
       ->capture_default_str();

@@ -18,7 +18,7 @@
 namespace touchstone::cli {
 namespace {
 
-struct Options {
+struct ViewOptions {
   std::string scene, out;
   std::vector<std::string> methods{"automatic", "sort_and_sweep", "hierarchical_grid",
                                    "bounding_volume_hierarchy"};
@@ -29,7 +29,7 @@ struct Options {
 };
 
 // A file, the name of a scenario, or the directory of a recorded scene: whatever replay takes.
-Scene scene_named(const Options& o) {
+Scene scene_named(const ViewOptions& o) {
   if (std::filesystem::exists(std::filesystem::path(o.scene) / "scene.txt")) {
     const RealScene real = load_real_scene(o.scene);
     Scene scene = real.script(0, std::min(o.frames, real.frame_count()) - 1);
@@ -42,7 +42,7 @@ Scene scene_named(const Options& o) {
 }
 
 // What reports/web/src/case draws: the case, the answers as `replay --json` has them, and the faces of hulls.
-fuzz::Json case_page(const Options& o, const StoredCase& stored) {
+fuzz::Json case_page(const ViewOptions& o, const StoredCase& stored) {
   const Case& c = stored.c;
   fuzz::Truth truth(c.scene);
   reports::ReplayText text(c, truth);
@@ -67,7 +67,7 @@ fuzz::Json case_page(const Options& o, const StoredCase& stored) {
           {"queries", std::move(text.json()["queries"])}};
 }
 
-int view_case(const Options& o) {
+int view_case(const ViewOptions& o) {
   const fuzz::Json page = case_page(o, case_argument(o.scene));
   if (o.json) fmt::print("{}\n", page.dump(1));
   if (o.out.empty()) return exit_clean;
@@ -76,7 +76,7 @@ int view_case(const Options& o) {
   return exit_clean;
 }
 
-int run(const Options& o) {
+int run(const ViewOptions& o) {
   if (o.out.empty() && !o.json) throw InputError("view", "say where to write the page: -o FILE");
   if (!o.broad) return view_case(o);
   const fuzz::BroadView view =
@@ -95,7 +95,7 @@ int run(const Options& o) {
 }  // namespace
 
 Run declare_view(CLI::App& app) {
-  auto o = std::make_shared<Options>();
+  auto o = std::make_shared<ViewOptions>();
   app.add_option(
          "scene", o->scene,
          "case or scene file, name of a scenario, or directory of a recorded scene (scene.txt, frames.npy)")

@@ -18,7 +18,7 @@ namespace {
 namespace fs = std::filesystem;
 
 // The versions that the adapters were written against.
-constexpr NpmRow rows[] = {
+constexpr NpmRow npm_rows[] = {
     {"jolt", "jolt-physics", "1.1.0", "jolt/jolt.mjs", "", "Jolt Physics as shipped, WASM"},
     {"jolt-tuned", "jolt-physics", "1.1.0", "jolt/jolt.mjs", "tuned",
      "Jolt Physics, convex radius 0, tolerances 1e-7, WASM"},
@@ -77,12 +77,12 @@ int fetch(const std::set<std::string>& packages) {
 
 }  // namespace
 
-std::span<const NpmRow> npm_catalog() { return rows; }
+std::span<const NpmRow> npm_catalog() { return npm_rows; }
 
 const NpmRow* find_npm_row(const std::string& name) {
   const auto row =
-      std::find_if(std::begin(rows), std::end(rows), [&](const NpmRow& r) { return r.name == name; });
-  return row == std::end(rows) ? nullptr : row;
+      std::find_if(std::begin(npm_rows), std::end(npm_rows), [&](const NpmRow& r) { return r.name == name; });
+  return row == std::end(npm_rows) ? nullptr : row;
 }
 
 fs::path npm_folder() {
