@@ -1,4 +1,5 @@
 #include "fuzz/certify/box_scene.h"
+#include "core/math/through_float.h"
 
 #include <cmath>
 #include <limits>
@@ -43,9 +44,7 @@ std::optional<Aabb> half_space_box(const HalfSpace& s, const Pose& pose) {
 
 }  // namespace
 
-double nearest(double x, Scalar scalar) {
-  return scalar == Scalar::float64 ? x : static_cast<double>(static_cast<float>(x));
-}
+double nearest(double x, Scalar scalar) { return scalar == Scalar::float64 ? x : through_float(x); }
 
 double next_number(double x, int direction, Scalar scalar) {
   const double to = direction < 0 ? -unbounded : unbounded;

@@ -6,6 +6,7 @@
 #include "core/base/input_error.h"
 #include "core/broad/catalog.h"
 #include "core/ccd/impact.h"
+#include "core/math/through_float.h"
 #include "core/narrow/fast/query.h"
 #include "core/narrow/narrow_phase.h"
 #include "core/tolerance.h"
@@ -123,10 +124,11 @@ Observation observe(const Scene& s, const Query& q, Arithmetic arithmetic, std::
 
 // What the float path sees: every number rounded, the quaternion as rounded denotes the rotation.
 void round_to_float(const Scene& s, ReceivedScene& r) {
-  const auto f = [](double x) { return static_cast<double>(static_cast<float>(x)); };
   for (std::size_t i = 0; i < s.bodies.size(); ++i) {
     const auto stand = narrow::fast::stand<float>(s.bodies[i].pose);
-    r.bodies[i] = Placement{rotation_matrix({stand.x, stand.y, stand.z, stand.w}), stand.t.cast<double>()};
+    const Quat q{through_float(stand.x), through_float(stand.y), through_float(stand.z),
+                 through_float(stand.w)};
+    r.bodies[i] = Placement{rotation_matrix(q), through_float(s.bodies[i].pose.translation)};
   }
   for (std::size_t i = 0; i < s.shapes.size(); ++i) {
     Shape shape = s.shapes[i];
@@ -134,10 +136,10 @@ void round_to_float(const Scene& s, ReceivedScene& r) {
         [&](auto& x) {
           for_each_field(x, [&](std::string_view, auto& v, Domain) {
             using T = std::remove_reference_t<decltype(v)>;
-            if constexpr (std::is_same_v<T, double>) v = f(v);
-            if constexpr (std::is_same_v<T, Vec3>) v = v.template cast<float>().template cast<double>();
+            if constexpr (std::is_same_v<T, double>) v = through_float(v);
+            if constexpr (std::is_same_v<T, Vec3>) v = through_float(v);
             if constexpr (std::is_same_v<T, std::vector<Vec3>>)
-              for (Vec3& p : v) p = p.cast<float>().cast<double>();
+              for (Vec3& p : v) p = through_float(p);
           });
         },
         shape);

@@ -2,10 +2,12 @@
 
 #include <cmath>
 
+#include "core/math/through_float.h"
+
 namespace touchstone::bench {
 namespace {
 
-double exact(double x) { return static_cast<double>(static_cast<float>(x)); }
+double exact(double x) { return through_float(x); }
 
 double normal(Rng& r) {
   double sum = -6;

@@ -1,4 +1,5 @@
 // The core behind the engine interface: complete, and no exception gets out.
+#include "core/math/through_float.h"
 #include "oracles/core/core_engine.h"
 #include "tests/support/catch.h"
 
@@ -30,4 +31,25 @@ TEST_CASE("the core engine answers every question of a case, in order", "[engine
   CHECK(a[7].outcome == Outcome::unsupported);
   CHECK(engine->card().name == "core");
   CHECK(engine->card().tau_factor == 128);
+}
+
+TEST_CASE("what the float core has received is float in every number", "[engine][float]") {
+  Case c;
+  const Vec3 odd(1.0 / 3, 0.1, 0.7);
+  c.scene.shapes = {Box{odd}, make_hull({odd, -odd, Vec3(0.1, -0.7, 0.3), Vec3(-0.9, 0.2, 0.1)}),
+                    Ellipsoid{odd}, Capsule{1.0 / 3, 0.1}};
+  c.scene.bodies.resize(4);
+  for (std::size_t i = 0; i < 4; ++i) {
+    c.scene.bodies[i].shape = static_cast<int>(i);
+    c.scene.bodies[i].pose.translation = odd * 3;
+  }
+  c.queries = {{Question::overlap, 0, 1}};
+  const auto answers = CoreEngine(Arithmetic::float32).run(std::span(&c, 1));
+  const ReceivedScene& r = answers.at(0).received;
+  CHECK(std::get<Box>(*r.shapes.at(0)).half_extents == through_float(odd));
+  CHECK(std::get<Hull>(*r.shapes.at(1)).vertices[0] == through_float(odd));
+  CHECK(std::get<Ellipsoid>(*r.shapes.at(2)).semi_axes == through_float(odd));
+  CHECK(std::get<Capsule>(*r.shapes.at(3)).radius == through_float(1.0 / 3));
+  for (std::size_t i = 0; i < 4; ++i) CHECK(r.bodies.at(i)->translation == through_float(odd * 3));
+  CHECK(through_float(odd) != odd);
 }

@@ -4,6 +4,7 @@
 // others.
 #include <cstdlib>
 
+#include "core/math/through_float.h"
 #include "core/narrow/pair_table.h"
 #include "core/tolerance.h"
 #include "tests/core/least_width.h"
@@ -28,17 +29,17 @@ std::uint64_t seeded(std::uint64_t usual) {
 
 template <class R>
 void round_shape(Shape& s) {
-  std::visit(
-      [](auto& x) {
-        for_each_field(x, [](std::string_view, auto& v, Domain) {
-          using T = std::remove_reference_t<decltype(v)>;
-          if constexpr (std::is_same_v<T, double>) v = static_cast<R>(v);
-          if constexpr (std::is_same_v<T, Vec3>) v = v.template cast<R>().template cast<double>();
-          if constexpr (std::is_same_v<T, std::vector<Vec3>>)
-            for (Vec3& p : v) p = p.cast<R>().template cast<double>();
-        });
-      },
-      s);
+  if constexpr (sizeof(R) == sizeof(float))
+    std::visit(
+        [](auto& x) {
+          for_each_field(x, [](std::string_view, auto& v, Domain) {
+            using T = std::remove_reference_t<decltype(v)>;
+            if constexpr (std::is_same_v<T, double> || std::is_same_v<T, Vec3>) v = through_float(v);
+            if constexpr (std::is_same_v<T, std::vector<Vec3>>)
+              for (Vec3& p : v) p = through_float(p);
+          });
+        },
+        s);
 }
 
 void enlarge(Shape& s, double by) {
@@ -60,7 +61,10 @@ Pair received(Pair p) {
   round_shape<R>(p.a), round_shape<R>(p.b);
   for (Pose* q : {&p.pose_a, &p.pose_b}) {
     const auto s = fast::stand<R>(*q);
-    q->translation = s.t.template cast<double>(), q->rotation = {s.x, s.y, s.z, s.w};
+    q->rotation = {s.x, s.y, s.z, s.w};
+    if constexpr (sizeof(R) == sizeof(float))
+      q->translation = through_float(q->translation),
+      q->rotation = {through_float(s.x), through_float(s.y), through_float(s.z), through_float(s.w)};
   }
   return p;
 }

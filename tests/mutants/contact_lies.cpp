@@ -3,6 +3,7 @@
 #include <cmath>
 #include <limits>
 
+#include "core/math/through_float.h"
 #include "tests/mutants/pair.h"
 #include "tests/mutants/topics.h"
 
@@ -34,9 +35,7 @@ void not_a_number(const Case& c, const Query& q, Observation& o) {
   if (body(c, q.a).pose.translation == body(c, q.b).pose.translation) o.normal->setConstant(nan_value);
 }
 void not_unit(const Case&, const Query&, Observation& o) { *o.normal *= 1 + 1e-9; }
-void as_float(const Case&, const Query&, Observation& o) {
-  *o.normal = o.normal->cast<float>().cast<double>();
-}
+void as_float(const Case&, const Query&, Observation& o) { *o.normal = through_float(*o.normal); }
 void local(const Case& c, const Query& q, Observation& o) {
   *o.normal = rotation(c, q.a).transpose() * *o.normal;
 }
@@ -91,9 +90,7 @@ void margin_added(const Case& c, const Query& q, Observation& o) {
 void zero_depth_near(const Case&, const Query&, Observation& o) {
   if (*o.depth < 1e-8) o.depth = 0;
 }
-void depth_in_float(const Case&, const Query&, Observation& o) {
-  o.depth = static_cast<double>(static_cast<float>(*o.depth));
-}
+void depth_in_float(const Case&, const Query&, Observation& o) { o.depth = through_float(*o.depth); }
 void not_past_the_smaller(const Case& c, const Query& q, Observation& o) {
   o.depth = std::min(*o.depth, 1.5 * small_size(c, q));
 }

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <limits>
 
+#include "core/math/through_float.h"
 #include "tests/mutants/pair.h"
 #include "tests/mutants/topics.h"
 
@@ -29,7 +30,7 @@ double loose_when_near(const Case&, const Query&, double d) { return d > 0 && d 
 double unsigned_distance(const Case&, const Query&, double d) { return std::abs(d); }
 double clamped(const Case&, const Query&, double d) { return std::max(0.0, d); }
 double squared(const Case&, const Query&, double d) { return d > 0 ? d * d : d; }
-double as_float(const Case&, const Query&, double d) { return static_cast<double>(static_cast<float>(d)); }
+double as_float(const Case&, const Query&, double d) { return through_float(d); }
 double margin(const Case& c, const Query& q, double d) {
   return kind(c, q.a) == ShapeKind::box || kind(c, q.b) == ShapeKind::box ? d - 0.04 : d;
 }

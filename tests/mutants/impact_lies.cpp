@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "core/ccd/impact.h"
+#include "core/math/through_float.h"
 #include "tests/mutants/pair.h"
 #include "tests/mutants/topics.h"
 
@@ -86,7 +87,7 @@ void reversed(const Case&, const Query&, Observation& o) {
   if (o.toi) o.toi = 1 - *o.toi;
 }
 void as_float(const Case&, const Query&, Observation& o) {
-  if (o.toi) o.toi = static_cast<double>(static_cast<float>(*o.toi));
+  if (o.toi) o.toi = through_float(*o.toi);
 }
 
 double gap_at(const Case& c, const Query& q, double t) {

@@ -1,6 +1,7 @@
 // Every built engine on pairs whose answers are plain: overlap, distance, contact, in both orders of the
 // arguments, and the scene as received.
 #include "tests/oracles/conformance.h"
+#include "core/math/through_float.h"
 
 using namespace touchstone;
 using namespace touchstone::testing;
@@ -256,7 +257,7 @@ TEST_CASE("received shapes are the asked ones up to the engine's rounding", "[or
     near3(got(HalfSpace{}, 7).normal, Vec3(0.6, 0.8, 0)), near(got(HalfSpace{}, 7).offset, third);
     for (std::size_t v = 0; v < 4; ++v) near3(got(TriangleMesh{}, 8).vertices[v], mesh.vertices[v]);
     CHECK(got(TriangleMesh{}, 8).triangles == mesh.triangles);
-    if (s.is_float()) CHECK(got(Sphere{}, 0).radius == static_cast<double>(static_cast<float>(third)));
+    if (s.is_float()) CHECK(got(Sphere{}, 0).radius == through_float(third));
   });
   CHECK(compared >= 20 * 4);
 }
