@@ -259,7 +259,7 @@ TEST_CASE("what a long run in float found stays right", "[narrow][fast][float]")
 TEST_CASE("pairs at the ends of float's range are answered as those in its middle", "[narrow][fast][float]") {
   Count count;
   for (const double unit : {0x1p-60, 0x1p-30, 0x1p-24, 0x1p-20, 0x1p+28, 0x1p+32, 0x1p+60})
-    for (int i = 0; i < 40; ++i)
+    for (int i = 0; i < 12; ++i)
       for (const auto& [a, b] : {std::pair{3, 3}, std::pair{4, 5}, std::pair{1, 2}, std::pair{6, 6},
                                  std::pair{6, 1}, std::pair{1, 1}, std::pair{2, 4}}) {
         Rng r = Rng::stream(96, static_cast<std::uint64_t>(i * 64 + a * 8 + b));
