@@ -1,8 +1,9 @@
 #include "fuzz/certify/box_scene.h"
-#include "core/math/through_float.h"
 
 #include <cmath>
 #include <limits>
+
+#include "core/math/through_float.h"
 
 namespace touchstone::fuzz {
 namespace {

@@ -3,8 +3,7 @@
 
 #include <cstdlib>
 
-#include "core/base/input_error.h"
-#include "core/scene/input_file.h"
+#include "core/base/comma_list.h"
 #include "fuzz/campaign/store.h"
 #include "fuzz/cli/broad_subject.h"
 #include "fuzz/cli/command.h"
@@ -33,11 +32,8 @@ std::vector<EnginePtr> broad_engines(const ChartOptions& o) {
     for (std::string_view name : core_broad_phases()) names.emplace_back(name);
     for (const EngineRow& row : broad_catalog())
       if (is_present(row)) names.emplace_back(row.name);
-  } else {
-    for (std::size_t start = 0; start < o.broad.size(); start = o.broad.find(',', start) + 1) {
-      names.push_back(o.broad.substr(start, o.broad.find(',', start) - start));
-      if (o.broad.find(',', start) == std::string::npos) break;
-    }
+  } else if (!o.broad.empty()) {
+    for_each_in_list(o.broad, [&](std::string_view name) { names.emplace_back(name); });
   }
   std::vector<EnginePtr> engines;
   for (const auto& name : names)
@@ -47,6 +43,7 @@ std::vector<EnginePtr> broad_engines(const ChartOptions& o) {
 
 int run(const ChartOptions& o) {
   const bool live = isatty(2) == 1;
+  fuzz::make_directory(o.out);  // before half an hour of work for it
   // Before any engine is made: its worker inherits it.
   setenv(measure_variable, std::to_string(o.measure).c_str(), 1);
   std::vector<EnginePtr> engines;
@@ -60,18 +57,8 @@ int run(const ChartOptions& o) {
                                                   if (live) fmt::print(stderr, "\r\033[K{}", what);
                                                 });
   if (live) fmt::print(stderr, "\r\033[K");
-  const std::filesystem::path out = o.out;
-  fuzz::make_directory(out);
-  const std::string json = fuzz::to_json(chart).dump();
-  write_file(out / "chart.json", json);
-  write_file(out / "chart.csv", fuzz::to_csv(chart));
-  if (o.json)
-    fmt::print("{}\n", json);
-  else
-    fmt::print("{}", reports::chart_text(chart));
-  const bool page = write_page("chart", json, out / "chart.html");
-  fmt::print(o.json ? stderr : stdout, "{0}/chart.json, {0}/chart.csv{1}\n", o.out,
-             page ? ", page: " + o.out + "/chart.html" : "");
+  write_result("chart", o.out, fuzz::to_json(chart).dump(), fuzz::to_csv(chart), reports::chart_text(chart),
+               o.json);
   for (const fuzz::ChartRow& r : chart.rows)
     if (r.engine == o.subject && r.wrong + r.failed > 0) return exit_wrong;
   return exit_clean;

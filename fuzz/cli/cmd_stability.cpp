@@ -1,7 +1,6 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
-#include "core/scene/input_file.h"
 #include "fuzz/campaign/store.h"
 #include "fuzz/cli/command.h"
 #include "fuzz/cli/engine_catalog.h"
@@ -21,6 +20,7 @@ struct StabilityOptions {
 
 int run(const StabilityOptions& o) {
   const bool live = isatty(2) == 1;
+  fuzz::make_directory(o.out);  // before half an hour of work for it
   std::vector<EnginePtr> engines;
   for (const auto& name : engine_names(o.engines)) engines.push_back(make_engine(name, o.limits));
   fuzz::Stability s =
@@ -29,18 +29,8 @@ int run(const StabilityOptions& o) {
       });
   if (live) fmt::print(stderr, "\r\033[K");
   s.scope = o.quick ? "quick" : "full";
-  const std::filesystem::path out = o.out;
-  fuzz::make_directory(out);
-  const std::string json = fuzz::to_json(s).dump();
-  write_file(out / "stability.json", json);
-  write_file(out / "stability.csv", fuzz::to_csv(s));
-  if (o.json)
-    fmt::print("{}\n", json);
-  else
-    fmt::print("{}", reports::stability_text(s));
-  const bool page = write_page("stability", json, out / "stability.html");
-  fmt::print(o.json ? stderr : stdout, "{0}/stability.json, {0}/stability.csv{1}\n", o.out,
-             page ? ", page: " + o.out + "/stability.html" : "");
+  write_result("stability", o.out, fuzz::to_json(s).dump(), fuzz::to_csv(s), reports::stability_text(s),
+               o.json);
   for (const fuzz::LadderResult& r : s.results)
     if (r.engine == o.subject && r.fails_at()) return exit_wrong;
   return exit_clean;

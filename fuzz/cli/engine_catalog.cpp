@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "core/base/comma_list.h"
 #include "core/base/input_error.h"
 #include "fuzz/cli/npm_engines.h"
 #include "fuzz/cli/sweep_catalog.h"
@@ -182,14 +183,12 @@ std::vector<std::string> engine_names(const std::string& text) {
       if (is_present(row)) names.emplace_back(row.name);
     return names;
   }
-  for (std::size_t start = 0; start <= text.size();) {
-    const std::size_t end = std::min(text.find(',', start), text.size());
-    const std::string name = text.substr(start, end - start);
+  for_each_in_list(text, [&](std::string_view part) {
+    const std::string name(part);
     if (name.empty()) throw InputError("engines '" + text + "'", "an empty name");
     check_name(name);
     if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
-    start = end + 1;
-  }
+  });
   return names;
 }
 

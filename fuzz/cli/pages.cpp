@@ -28,4 +28,18 @@ bool write_page(std::string_view kind, const std::string& json, const std::files
   return true;
 }
 
+void write_result(const std::string& name, const std::string& out, const std::string& json,
+                  const std::string& csv, const std::string& text, bool as_json) {
+  const std::string file = fmt::format("{}/{}", out, name);
+  write_file(file + ".json", json);
+  write_file(file + ".csv", csv);
+  if (as_json)
+    fmt::print("{}\n", json);
+  else
+    fmt::print("{}", text);
+  const bool page = write_page(name, json, file + ".html");
+  fmt::print(as_json ? stderr : stdout, "{0}.json, {0}.csv{1}\n", file,
+             page ? fmt::format(", page: {}.html", file) : "");
+}
+
 }  // namespace touchstone::cli

@@ -15,4 +15,9 @@ std::filesystem::path built_page(std::string_view kind);
 /// .json and one line on stderr says what is missing; then false.
 bool write_page(std::string_view kind, const std::string& json, const std::filesystem::path& out);
 
+/// What a command of measurements leaves: `name`.json, .csv and .html in the directory `out`, and on stdout
+/// the text, or with `as_json` the JSON; last the files' names (then on stderr).
+void write_result(const std::string& name, const std::string& out, const std::string& json,
+                  const std::string& csv, const std::string& text, bool as_json);
+
 }  // namespace touchstone::cli

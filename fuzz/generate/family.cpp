@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "core/base/comma_list.h"
 #include "core/base/input_error.h"
 #include "fuzz/generate/courses.h"
 #include "fuzz/generate/place.h"
@@ -238,11 +239,10 @@ const Family& named(std::string_view name) {
 const Family& pick(Rng& rng, std::string_view names) {
   std::array<bool, std::size(catalog)> among{};
   int total = 0;
-  for (std::size_t from = 0; !names.empty() && from <= names.size();) {
-    const std::size_t comma = std::min(names.find(',', from), names.size());
-    among[static_cast<std::size_t>(&named(names.substr(from, comma - from)) - catalog)] = true;
-    from = comma + 1;
-  }
+  if (!names.empty())
+    for_each_in_list(names, [&](std::string_view name) {
+      among[static_cast<std::size_t>(&named(name) - catalog)] = true;
+    });
   for (std::size_t i = 0; i < std::size(catalog); ++i) {
     among[i] |= names.empty();
     if (among[i]) total += catalog[i].weight;

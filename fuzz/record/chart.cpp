@@ -79,15 +79,7 @@ std::string to_csv(const Chart& c) {
     text += name;
   }
   text += '\n';
-  for (const ChartRow& r : c.rows) {
-    bool first = true;
-    // dump() quotes strings; none of ours holds a quote.
-    for (const Json& cell : cells(r)) {
-      if (!first) text += ',';
-      text += cell.dump(), first = false;
-    }
-    text += '\n';
-  }
+  for (const ChartRow& r : c.rows) text.append(csv_cells(cells(r))).append(1, '\n');
   return text;
 }
 

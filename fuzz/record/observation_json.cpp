@@ -11,6 +11,15 @@ Json number(double x) {
   return to_text(x);
 }
 
+std::string csv_cells(const Json& cells) {
+  std::string text;
+  for (const Json& cell : cells) {
+    if (!text.empty()) text += ',';
+    text += cell.dump();
+  }
+  return text;
+}
+
 Json vector(const Vec3& v) { return Json::array({number(v.x()), number(v.y()), number(v.z())}); }
 
 Json to_json(const Observation& o) {

@@ -11,6 +11,8 @@ namespace touchstone::fuzz {
 using Json = nlohmann::ordered_json;
 
 Json number(double x);
+/// The elements of an array, with commas between. Strings are quoted as in JSON: ours hold no quotes.
+std::string csv_cells(const Json& cells);
 Json vector(const Vec3& v);
 Json to_json(const Observation& o);
 Json to_json(const ReceivedScene& r);

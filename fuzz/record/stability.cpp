@@ -57,8 +57,7 @@ std::string to_csv(const Stability& s) {
   for (const LadderResult& r : s.results)
     for (const Rung& rung : r.rungs) {
       text.append(r.ladder).append(1, ',').append(r.engine).append(1, ',').append(r.question);
-      for (const Json& cell : cells(rung)) text.append(1, ',').append(cell.dump());
-      text += '\n';
+      text.append(1, ',').append(csv_cells(cells(rung))).append(1, '\n');
     }
   return text;
 }

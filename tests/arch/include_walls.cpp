@@ -70,8 +70,8 @@ const std::map<std::string, std::vector<std::string>> may_include = {
     {"fuzz/triage",
      with_values({"fuzz/triage", "fuzz/shrink", "fuzz/record", "core/scene", "scenarios", "oracles/api"})},
     {"fuzz/explore",
-     with_values({"fuzz/explore", "fuzz/campaign", "fuzz/generate", "fuzz/judge", "fuzz/record", "core/scene", "scenarios",
-                  "oracles/api", "oracles/referee/referee.h", "core/broad", "core/world"})},
+     with_values({"fuzz/explore", "fuzz/campaign", "fuzz/generate", "fuzz/judge", "fuzz/record", "core/scene",
+                  "scenarios", "oracles/api", "oracles/referee/referee.h", "core/broad", "core/world"})},
     {"reports", with_values({"reports", "fuzz/record", "fuzz/judge", "fuzz/triage"})},
     {"fuzz/cli", with_values({"fuzz", "reports", "scenarios", "core/scene", "oracles"})},
 };

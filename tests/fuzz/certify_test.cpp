@@ -47,9 +47,9 @@ std::vector<mutants::Mutant> broad_mutants() {
   return all;
 }
 
-// What a lie needs at least, where that is more than 3 bodies or 6 steps; no script shows it with less. A list of 16
-// is too short for 17 pairs, and 6 bodies have 15. A fourth move needs two inserts, four moves and a query; a body
-// inserted a third time three inserts, two removes, the other's insert and a query.
+// What a lie needs at least, where that is more than 3 bodies or 6 steps; no script shows it with less. A
+// list of 16 is too short for 17 pairs, and 6 bodies have 15. A fourth move needs two inserts, four moves and
+// a query; a body inserted a third time three inserts, two removes, the other's insert and a query.
 std::pair<std::size_t, std::size_t> least_script(std::string_view mutant) {
   if (mutant == "sixteen_pairs") return {7, 8};
   if (mutant == "stale_at_fourth_move" || mutant == "lost_on_second_reinsert") return {2, 7};

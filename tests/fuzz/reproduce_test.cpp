@@ -104,8 +104,9 @@ std::string only(const std::string& evidence, const std::string& level) {
 
 }  // namespace
 
-TEST_CASE("a broad phase that loses a pair, to a bad box, a turned one or freed memory, is shown by a program",
-          "[reproduce][certify]") {
+TEST_CASE(
+    "a broad phase that loses a pair, to a bad box, a turned one or freed memory, is shown by a program",
+    "[reproduce][certify]") {
   const Workspace w("reproduce");
   int shown_ones = refutation_shown(w, "bullet-f64-dbvt", only("no_boxes", "boxes")) +
                    refutation_shown(w, "bullet-f64-dbvt", only("", "bodies")) +

@@ -141,7 +141,7 @@ class LocalMinimum {
 
   bool turn_direction() {
     V3<R> c[2];
-    R s[2], k[2];
+    R s[2], k = 1;
     int circles = 0;
     for (int i = 0; i < 2; ++i) {
       const Feature<R>& f = feature_[i];
@@ -150,10 +150,10 @@ class LocalMinimum {
         place_both();
         return true;
       }
-      if (f.shown == Shown::edge) c[circles] = out(i, f.c), k[circles] = f.k, s[circles++] = f.s;
+      if (f.shown == Shown::edge) c[circles] = out(i, f.c), s[circles++] = f.s, k = f.k;
     }
     if (circles == 2) return meet(c, s);
-    return circles == 1 ? along_circle(c[0], s[0], k[0]) : freely();
+    return circles == 1 ? along_circle(c[0], s[0], k) : freely();
   }
 
   // The direction of two circles, the nearer of two.

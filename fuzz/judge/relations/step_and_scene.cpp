@@ -12,7 +12,6 @@
 namespace touchstone::fuzz {
 namespace {
 
-
 // A body where it is at time t, at rest.
 Body at_time(const Body& b, double t) {
   Body r = b;
