@@ -73,7 +73,9 @@ class Runner {
       const std::uint64_t k = next_.fetch_add(1);
       if (exhausted(k)) return;
       if (!wait_for_generation(k) || stop_ || failed_ || out_of_time()) return leave();
-      finish(k, run_chunk(k, engines));
+      Chunk chunk = run_chunk(k, engines);
+      show_what_is_new(chunk.result);
+      finish(k, std::move(chunk));
     }
   } catch (...) {
     std::lock_guard lock(mutex_);
@@ -136,6 +138,20 @@ class Runner {
     if (!config_.guided) chunk.cases.clear();
     r.total_ns = std::chrono::nanoseconds(Clock::now() - start).count();
     return chunk;
+  }
+
+  // A certificate may take seconds of exact arithmetic. It is made by the job that has found the new kind,
+  // while the others go on, and within the time limit: not all of them under the lock when the state is
+  // saved. What another job adds meanwhile is made twice, to the same bytes.
+  void show_what_is_new(const CampaignResult& found) {
+    if (config_.out.empty()) return;
+    std::vector<const Evidence*> fresh;
+    {
+      std::lock_guard lock(mutex_);
+      for (const auto& [key, f] : found.findings)
+        if (f.evidence && !state_.result.findings.contains(key)) fresh.push_back(f.evidence.get());
+    }
+    for (const Evidence* e : fresh) e->json();
   }
 
   void finish(std::uint64_t k, Chunk c) {

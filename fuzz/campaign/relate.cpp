@@ -40,18 +40,19 @@ void add_break(CampaignResult& r, const Case& c, std::uint64_t index, const Rela
   kept.merge(f);
 }
 
-bool answered_any(const CaseObservations& o) {
+bool any_is(const CaseObservations& o, Outcome outcome) {
   return std::any_of(o.answers.begin(), o.answers.end(),
-                     [](const Observation& a) { return a.outcome == Outcome::answered; });
+                     [&](const Observation& a) { return a.outcome == outcome; });
 }
 
 }  // namespace
 
 void relate_into(CampaignResult& r, const Case& c, std::uint64_t index, const EnginePtr& engine,
                  const CaseObservations& base) {
-  // What an engine does not answer at all is not asked again in fifteen forms; a crash or a hang is not
-  // provoked fifteen times.
-  if (!answered_any(base) || !odd_numbers(c.scene).empty()) return;
+  // What an engine does not answer at all is not asked again in fifteen forms, and what hangs it is not,
+  // though another query of the case was answered: each form would wait for the time limit.
+  if (!any_is(base, Outcome::answered) || any_is(base, Outcome::timed_out)) return;
+  if (!odd_numbers(c.scene).empty()) return;
   const RelationInput in{c, engine->card(), base};
   const std::vector<Asked> asked = derive_all(in);
   std::vector<Case> cases;

@@ -1,10 +1,13 @@
 #include <unistd.h>
 #include <atomic>
+#include <chrono>
 #include <filesystem>
+#include <thread>
 
 #include "core/base/input_error.h"
 #include "fuzz/campaign/campaign.h"
 #include "fuzz/campaign/store.h"
+#include "fuzz/generate/family.h"
 #include "fuzz/judge/truth.h"
 #include "oracles/core/core_engine.h"
 #include "scenarios/case_codec.h"
@@ -55,6 +58,23 @@ class StopsAfter final : public Engine {
   CoreEngine core_;
   int left_;
   std::atomic<bool>& stop_;
+};
+
+// The core, counting the cases that it is asked, and taking its time.
+class Counts final : public Engine {
+ public:
+  explicit Counts(int& asked, int ms_a_batch = 0) : asked_(asked), ms_(ms_a_batch) {}
+  const EngineCard& card() const override { return core_.card(); }
+  std::vector<CaseObservations> run(std::span<const Case> cases) override {
+    asked_ += static_cast<int>(cases.size());
+    std::this_thread::sleep_for(std::chrono::milliseconds(ms_));
+    return core_.run(cases);
+  }
+
+ private:
+  CoreEngine core_;
+  int& asked_;
+  int ms_;
 };
 
 }  // namespace
@@ -161,6 +181,44 @@ TEST_CASE("a campaign stopped half way goes on to the same findings", "[campaign
     for (const auto& [key, f] : part.findings) n += fs::exists(dir.path / "findings" / key / "case.json");
     CHECK(n == part.findings.size());
   }
+}
+
+TEST_CASE("an engine that hangs on a query of a case is not asked in the case's other forms", "[campaign]") {
+  const Case c = fuzz::make_case(1, 0, "near");
+  REQUIRE(c.queries.size() > 1);
+  int asked = 0;
+  const EnginePtr engine = std::make_unique<Counts>(asked);
+  auto base = engine->run(std::span(&c, 1)).front();
+  fuzz::CampaignResult r;
+  fuzz::relate_into(r, c, 0, engine, base);
+  CHECK(asked > 5);
+  asked = 0;
+  base.answers.back().outcome = Outcome::timed_out;
+  fuzz::relate_into(r, c, 0, engine, base);
+  CHECK(asked == 0);
+}
+
+TEST_CASE("a finding's certificate is made by the job that found it, not when the state is saved",
+          "[campaign]") {
+  TemporaryDirectory dir;
+  auto c = config_of(320);
+  c.out = dir.path;
+  int asked = 0;
+  const auto slow_ones = [&] {  // progress is reported twice a second
+    auto engines = two_engines();
+    engines.push_back(std::make_unique<Counts>(asked, 200));
+    return engines;
+  };
+  std::size_t seen = 0, made = 0;
+  fuzz::run_campaign(
+      c, slow_ones,
+      [&](const fuzz::Progress& p) {
+        if (p.last) return;
+        for (const auto& [key, f] : p.result.findings) ++seen, made += !f.evidence->made.is_null();
+      },
+      go);
+  REQUIRE(seen > 0);
+  CHECK(made == seen);
 }
 
 TEST_CASE("a point that sees every facet of the referee's polytope does not keep it for ever", "[campaign]") {
