@@ -39,27 +39,65 @@ Aabb widened(const Aabb& end, const InnerExtent& e, const Motion& m) {
 
 }  // namespace
 
+namespace {
+
+Fidelity with_phase(std::string_view broad_phase) {
+  Fidelity f;
+  f.broad_phase = broad_phase;
+  return f;
+}
+
+}  // namespace
+
 StepWorld::StepWorld(Scene scene, std::string_view broad_phase)
-    : scene_(std::move(scene)), phase_(broad::make_broad_phase(broad_phase)) {
-  if (!phase_) throw std::invalid_argument("no broad phase is called " + std::string(broad_phase));
+    : StepWorld(std::move(scene), with_phase(broad_phase)) {}
+
+StepWorld::StepWorld(Scene scene, Fidelity fidelity)
+    : scene_(std::move(scene)),
+      fidelity_(std::move(fidelity)),
+      phase_(broad::make_broad_phase(fidelity_.broad_phase)) {
+  if (!phase_) throw std::invalid_argument("no broad phase is called " + fidelity_.broad_phase);
+  fidelity_.simpler.resize(scene_.shapes.size());
   const std::size_t n = scene_.bodies.size();
   by_hand_.assign(n, 0), moved_.assign(n, 1);
   std::vector<InnerExtent> of_shape;
-  for (const Shape& s : scene_.shapes) {
+  for (std::size_t i = 0; i < scene_.shapes.size(); ++i) {
+    const Shape& s = scene_.shapes[i];
     of_shape.push_back(inner_extent(s));
     const auto* mesh = std::get_if<TriangleMesh>(&s);
     trees_.push_back(mesh ? build_mesh_tree(*mesh) : MeshTree{});
-    const auto* hull = std::get_if<Hull>(&s);
+    const auto* hull = std::get_if<Hull>(fidelity_.simpler[i] ? &fidelity_.simpler[i]->shape : &s);
     graphs_.push_back(hull ? build_hull_graph(*hull) : HullGraph{});
   }
   for (std::size_t i = 0; i < n; ++i) {
     const Body& b = scene_.bodies[i];
     extent_.push_back(of_shape[at(b.shape)]);
     end_.push_back(b.pose);
-    end_box_.push_back(broad::body_box(scene_.shape_of(static_cast<int>(i)), b.pose));
+    seen_.push_back(seen_of(b));
+    place_seen(static_cast<int>(i));
+    end_box_.push_back(broad::body_box(*seen_[i].shape, seen_[i].pose));
     phase_->insert(static_cast<int>(i), end_box_[i],
                    b.is_static ? broad::Mobility::fixed : broad::Mobility::moving);
   }
+}
+
+StepWorld::Seen StepWorld::seen_of(const Body& b) const {
+  Seen s;
+  s.shape = &scene_.shapes[at(b.shape)];
+  if (const auto& simpler = fidelity_.simpler[at(b.shape)]) s.simpler = &*simpler, s.shape = &simpler->shape;
+  const MeshTree& tree = trees_[at(b.shape)];
+  s.tree = tree.nodes.empty() ? nullptr : &tree;
+  s.graph = &graphs_[at(b.shape)];
+  s.reach = bounding_radius(*s.shape);
+  const BoundingBall ball = bounding_ball(*s.shape);
+  s.middle = ball.middle, s.radius = ball.radius;
+  return s;
+}
+
+void StepWorld::place_seen(int body) {
+  Seen& s = seen_[at(body)];
+  s.pose = s.simpler && s.simpler->moved ? placed_in(end_[at(body)], s.simpler->in_body) : end_[at(body)];
+  s.middle_w = s.middle.isZero(0) ? s.pose.translation : to_transform(s.pose) * s.middle;
 }
 
 void StepWorld::set(int body, const Pose& start, const Motion& motion) {
@@ -89,22 +127,38 @@ void StepWorld::place_at_end() {
     if (!going && !moved_[i]) continue;
     moved_[i] = 0;
     end_[i] = going ? pose_at(b.pose, *b.motion, 1) : b.pose;
-    end_box_[i] = broad::body_box(scene_.shape_of(static_cast<int>(i)), end_[i]);
+    place_seen(static_cast<int>(i));
+    end_box_[i] = broad::body_box(*seen_[i].shape, seen_[i].pose);
     updates_.push_back({static_cast<int>(i), end_box_[i]});
   }
   phase_->update(updates_);
 }
 
+ContactAnswer StepWorld::contact_of(int a, int b, PairMemory* memory) const {
+  const Seen &x = seen_[at(a)], &y = seen_[at(b)];
+  const PlacedShape px{x.shape, x.pose, x.tree, x.graph}, py{y.shape, y.pose, y.tree, y.graph};
+  const PairMethod& method = fidelity_.of(kind_of(*x.shape), kind_of(*y.shape));
+  if (method.balls_first && balls_apart(x.middle_w, x.radius, y.middle_w, y.radius)) return {};
+  if (method.arithmetic == Arithmetic::float64) return contact(px, py, Arithmetic::float64, memory);
+  const double shapes = (x.simpler ? x.simpler->error : 0) + (y.simpler ? y.simpler->error : 0);
+  return contact_by(method, fidelity_.error, shapes, px, x.reach, py, y.reach, memory);
+}
+
 void StepWorld::find_contacts(StepReport& r) {
   phase_->pairs(pairs_);
-  const auto placed = [&](int i) {
-    return PlacedShape{&scene_.shape_of(i), end_[at(i)], tree_of(i),
-                       &graphs_[at(scene_.bodies[at(i)].shape)]};
-  };
-  for (const auto& [a, b] : pairs_) {
+  std::vector<std::pair<broad::IdPair, PairMemory>> memory;
+  auto last = memory_.begin();
+  for (const broad::IdPair& pair : pairs_) {
+    const auto [a, b] = pair;
     if (!is_reported(scene_, a, b)) continue;
     ++r.candidates;
-    ContactAnswer c = contact(placed(a), placed(b));
+    PairMemory* remembered = nullptr;
+    if (fidelity_.remember) {
+      while (last != memory_.end() && last->first < pair) ++last;
+      memory.emplace_back(pair, last != memory_.end() && last->first == pair ? last->second : PairMemory{});
+      remembered = &memory.back().second;
+    }
+    ContactAnswer c = contact_of(a, b, remembered);
     if (c.outcome == Outcome::unsupported) {
       ++r.unsupported;
       continue;
@@ -112,6 +166,7 @@ void StepWorld::find_contacts(StepReport& r) {
     if (c.outcome != Outcome::answered) r.outcome = c.outcome;
     if (c.overlap) r.contacts.push_back({a, b, std::move(c)});
   }
+  memory_.swap(memory);
 }
 
 void StepWorld::choose(const SweepOptions& o, StepReport& r) const {
@@ -137,8 +192,13 @@ std::vector<BodyPair> StepWorld::swept_pairs(const StepReport& r) {
     return broad::swept_box(scene_.shape_of(i), scene_.bodies[at(i)].pose, motion_of(i));
   };
   const auto box_of_other = [&](int i) {
-    return scene_.bodies[at(i)].motion ? widened(end_box_[at(i)], extent_[at(i)], motion_of(i))
-                                       : end_box_[at(i)];
+    // Impacts are of the shape itself, which may reach a little out of the simpler one.
+    Aabb end = end_box_[at(i)];
+    if (const SimplerShape* s = seen_[at(i)].simpler) {
+      const double out = s->error + 0x1p-40 * (seen_[at(i)].reach + end_[at(i)].translation.lpNorm<1>());
+      end.lo.array() -= out, end.hi.array() += out;
+    }
+    return scene_.bodies[at(i)].motion ? widened(end, extent_[at(i)], motion_of(i)) : end;
   };
   std::vector<BodyPair> found;
   if (r.swept.size() <= few_swept) {

@@ -14,17 +14,11 @@
 #include "core/narrow/hull_graph.h"
 #include "core/narrow/mesh_tree.h"
 #include "core/scene/scene.h"
+#include "core/world/fidelity.h"
 #include "core/world/sweep_criterion.h"
 #include "core/world/world.h"
 
 namespace touchstone {
-
-struct SweepOptions {
-  enum class Which { none, by_criterion, all };
-  /// none: discrete only. all: every moving body, for comparison.
-  Which which = Which::by_criterion;
-  double share = 0.5;  // of the inner extents, sweep_criterion.h
-};
 
 /// Why a body is swept. travel and turning: the larger part of its pass_bound.
 enum class SweepReason { by_hand, travel, turning, all };
@@ -57,6 +51,9 @@ class StepWorld {
  public:
   /// Poses at the start and motions are the scene's. Throws std::invalid_argument on an unknown broad phase.
   explicit StepWorld(Scene scene, std::string_view broad_phase = "automatic");
+  /// Runs a plan: contacts within fidelity.error of the truth (fidelity.h). Throws std::invalid_argument on
+  /// an unknown broad phase.
+  StepWorld(Scene scene, Fidelity fidelity);
 
   /// Before the next step. A body without motion rests.
   void set(int body, const Pose& start, const Motion& motion);
@@ -64,7 +61,8 @@ class StepWorld {
   void flag(int body, bool flagged);
 
   /// Throws broad::Refused when an end pose is not finite.
-  StepReport step(const SweepOptions& options = {});
+  StepReport step(const SweepOptions& options);
+  StepReport step() { return step(fidelity_.sweep); }
 
   const Pose& end_pose(int body) const { return end_[static_cast<std::size_t>(body)]; }
   /// The end poses become the start poses.
@@ -72,7 +70,11 @@ class StepWorld {
   const Scene& scene() const { return scene_; }
 
  private:
+  struct Seen;
+  Seen seen_of(const Body& b) const;
+  void place_seen(int body);
   void place_at_end();
+  ContactAnswer contact_of(int a, int b, PairMemory* memory) const;
   void find_contacts(StepReport& r);
   void choose(const SweepOptions& o, StepReport& r) const;
   void find_impacts(const SweepOptions& o, StepReport& r);
@@ -81,13 +83,28 @@ class StepWorld {
   Motion motion_of(int body) const;
   const MeshTree* tree_of(int body) const;  // null: no mesh
 
+  // What contacts see of a body: its shape, or a simpler one, where it is at the end.
+  struct Seen {
+    const Shape* shape = nullptr;
+    const MeshTree* tree = nullptr;
+    const HullGraph* graph = nullptr;
+    const SimplerShape* simpler = nullptr;
+    Vec3 middle = Vec3::Zero();  // of the bounding ball, body frame
+    double radius = 0, reach = 0;
+    Pose pose;
+    Vec3 middle_w = Vec3::Zero();
+  };
+
   Scene scene_;
+  Fidelity fidelity_;
   broad::BroadPhasePtr phase_;
   std::vector<InnerExtent> extent_;  // of each body's shape
   std::vector<MeshTree> trees_;      // of each shape
   std::vector<HullGraph> graphs_;    // of each shape
   std::vector<Pose> end_;
-  std::vector<Aabb> end_box_;
+  std::vector<Aabb> end_box_;  // of what is seen
+  std::vector<Seen> seen_;
+  std::vector<std::pair<broad::IdPair, PairMemory>> memory_;  // of the last step's pairs, sorted
   std::vector<char> by_hand_, moved_;
   std::vector<broad::BoxUpdate> updates_;
   std::vector<broad::IdPair> pairs_;
