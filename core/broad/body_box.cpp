@@ -11,7 +11,9 @@
 //    the largest |vertex|₁): error <= (3·10 + 8)·u·S + 2u|t| < 2⁻⁵⁸·(S + |t|) = 64u(S + |t|).
 //  * The bound so widened is converted to double by rounding to nearest and stepped outward when that went
 //  inward.
-// Denormal results: the step outward is at least one denormal, and Wide itself does not underflow there.
+// The same with u = 2⁻⁵³ for double: 2⁻⁴⁷·(S + |t|) = 64u(S + |t|), which covers the last sum's rounding too,
+// so that nothing is stepped; what underflows is less than 2⁻¹⁰⁰⁰. Denormal results: the step outward is at
+// least one denormal, and Wide itself does not underflow there.
 #include "core/broad/body_box.h"
 
 #include <cmath>
@@ -31,8 +33,9 @@ double round_down(Wide x) {
 }
 double round_up(Wide x) { return -round_down(-x); }
 
+template <class T>
 struct Interval {
-  Wide lo = 0, hi = 0;
+  T lo = 0, hi = 0;
 };
 
 // The sum, with its rounding added on the side of `b`.
@@ -41,44 +44,49 @@ Wide outward(Wide a, Wide b) {
   return b < 0 ? sum - slack : sum + slack;
 }
 
-Interval both_sides(Wide h) { return {-h, h}; }
+template <class T>
+using Row = Eigen::Matrix<T, 3, 1>;
 
-Wide rim(const WideVec& row, Wide radius) {
+template <class T>
+T rim(const Row<T>& row, T radius) {
   return radius * std::sqrt(row.x() * row.x() + row.y() * row.y());
 }
 
-Interval span(const std::vector<Vec3>& vertices, const WideVec& row) {
-  Interval r{std::numeric_limits<Wide>::infinity(), -std::numeric_limits<Wide>::infinity()};
+template <class T>
+Interval<T> span(const std::vector<Vec3>& vertices, const Row<T>& row) {
+  Interval<T> r{std::numeric_limits<T>::infinity(), -std::numeric_limits<T>::infinity()};
   for (const Vec3& v : vertices) {
-    const Wide d = row.dot(v.cast<Wide>());
+    const T d = row.dot(v.cast<T>());
     r.lo = std::min(r.lo, d), r.hi = std::max(r.hi, d);
   }
   return r;
 }
 
 // Extent of the shape along one world axis about the body's origin; `row` is that row of the rotation.
+template <class T>
 struct Extent {
-  WideVec row;
-  Interval operator()(const Sphere& s) const { return both_sides(s.radius); }
-  Interval operator()(const Box& s) const {
-    return both_sides(row.cwiseAbs().dot(s.half_extents.cast<Wide>()));
+  Row<T> row;
+  static Interval<T> both_sides(T h) { return {-h, h}; }
+  Interval<T> operator()(const Sphere& s) const { return both_sides(s.radius); }
+  Interval<T> operator()(const Box& s) const {
+    return both_sides(row.cwiseAbs().dot(s.half_extents.cast<T>()));
   }
-  Interval operator()(const Capsule& s) const {
-    return both_sides(std::abs(row.z()) * static_cast<Wide>(s.half_height) + static_cast<Wide>(s.radius));
+  Interval<T> operator()(const Capsule& s) const {
+    return both_sides(std::abs(row.z()) * static_cast<T>(s.half_height) + static_cast<T>(s.radius));
   }
-  Interval operator()(const Cylinder& s) const {
-    return both_sides(std::abs(row.z()) * static_cast<Wide>(s.half_height) + rim(row, s.radius));
+  Interval<T> operator()(const Cylinder& s) const {
+    return both_sides(std::abs(row.z()) * static_cast<T>(s.half_height) + rim<T>(row, s.radius));
   }
-  Interval operator()(const Cone& s) const {
-    const Wide apex = row.z() * static_cast<Wide>(s.half_height), r = rim(row, s.radius);
+  Interval<T> operator()(const Cone& s) const {
+    const T apex = row.z() * static_cast<T>(s.half_height), r = rim<T>(row, s.radius);
     return {std::min(apex, -apex - r), std::max(apex, -apex + r)};
   }
-  Interval operator()(const Ellipsoid& s) const {
-    return both_sides(row.cwiseProduct(s.semi_axes.cast<Wide>()).norm());
+  Interval<T> operator()(const Ellipsoid& s) const {
+    return both_sides(row.cwiseProduct(s.semi_axes.cast<T>()).norm());
   }
-  Interval operator()(const Hull& s) const { return span(s.vertices, row); }
-  Interval operator()(const TriangleMesh& s) const { return span(s.vertices, row); }
-  Interval operator()(const HalfSpace&) const { return both_sides(std::numeric_limits<Wide>::infinity()); }
+  Interval<T> operator()(const Hull& s) const { return span<T>(s.vertices, row); }
+  Interval<T> operator()(const TriangleMesh& s) const { return span<T>(s.vertices, row); }
+  Interval<T> operator()(const HalfSpace&) const { return both_sides(std::numeric_limits<T>::infinity()); }
 };
 
 // S of the bound at the top.
@@ -134,6 +142,20 @@ Aabb turning_box(const Aabb& at_start, double r, const Pose& pose, const Vec3& a
   return box;
 }
 
+constexpr double loose_factor = 0x1p-47;
+
+// R(q) of a quaternion whose square n is far from the ends of double's range.
+Mat3 plain_rotation(const Quat& q, double n) {
+  const double k = 1 / n;
+  const double xx = q.x * q.x, yy = q.y * q.y, zz = q.z * q.z, ww = q.w * q.w;
+  const double xy = q.x * q.y, xz = q.x * q.z, yz = q.y * q.z, wx = q.w * q.x, wy = q.w * q.y, wz = q.w * q.z;
+  Mat3 r;
+  r << (ww + xx - yy - zz) * k, 2 * (xy - wz) * k, 2 * (xz + wy) * k,  //
+      2 * (xy + wz) * k, (ww - xx + yy - zz) * k, 2 * (yz - wx) * k,   //
+      2 * (xz - wy) * k, 2 * (yz + wx) * k, (ww - xx - yy + zz) * k;
+  return r;
+}
+
 }  // namespace
 
 Aabb body_box(const Shape& shape, const Pose& pose) {
@@ -141,7 +163,7 @@ Aabb body_box(const Shape& shape, const Pose& pose) {
   const Wide size = std::visit(Size{}, shape);
   Aabb box;
   for (int axis = 0; axis < 3; ++axis) {
-    const Interval e = std::visit(Extent{WideVec(f.rotation.row(axis).transpose())}, shape);
+    const auto e = std::visit(Extent<Wide>{WideVec(f.rotation.row(axis).transpose())}, shape);
     const Wide t = f.translation[axis], slack = tolerance::box_error_factor * (size + std::abs(t));
     box.lo[axis] = round_down(t + e.lo - slack), box.hi[axis] = round_up(t + e.hi + slack);
   }
@@ -164,5 +186,39 @@ Aabb swept_box(const Shape& shape, const Pose& pose, const Motion& motion) {
   }
   return box;
 }
+
+Aabb loose_box(const Shape& shape, const Pose& pose, double size) {
+  if (kind_of(shape) == ShapeKind::half_space) return body_box(shape, pose);
+  const Quat& q = pose.rotation;
+  const double n = q.x * q.x + q.y * q.y + q.z * q.z + q.w * q.w;
+  const Eigen::Matrix3d r = n > 0x1p-40 && n < 0x1p40 ? plain_rotation(q, n) : rotation_matrix(q);
+  Aabb box;
+  for (int axis = 0; axis < 3; ++axis) {
+    const auto e = std::visit(Extent<double>{Vec3(r.row(axis).transpose())}, shape);
+    const double t = pose.translation[axis], slack = loose_factor * (size + std::abs(t)) + 0x1p-1000;
+    box.lo[axis] = t + e.lo - slack, box.hi[axis] = t + e.hi + slack;
+  }
+  return box;
+}
+
+Aabb loose_swept_box(const Aabb& start, const Pose& pose, const Motion& motion, double reach) {
+  Aabb box = start;
+  if (!motion.angular.isZero(0)) {
+    const double way = motion.angular.norm() * reach * (1 + loose_factor);
+    box.lo.array() -= way, box.hi.array() += way;
+    const Vec3 slack = loose_factor * (pose.translation.cwiseAbs() + Vec3::Constant(reach));
+    box.lo = box.lo.cwiseMax(pose.translation - Vec3::Constant(reach) - slack);
+    box.hi = box.hi.cwiseMin(pose.translation + Vec3::Constant(reach) + slack);
+  }
+  const Aabb first = box;
+  box.lo = box.lo.cwiseMin(first.lo + motion.linear), box.hi = box.hi.cwiseMax(first.hi + motion.linear);
+  const Vec3 slack =
+      loose_factor * (box.lo.cwiseAbs().cwiseMax(box.hi.cwiseAbs()) + motion.linear.cwiseAbs()) +
+      Vec3::Constant(0x1p-1000);
+  box.lo -= slack, box.hi += slack;
+  return box;
+}
+
+double box_size(const Shape& shape) { return static_cast<double>(std::visit(Size{}, shape)) * (1 + 0x1p-52); }
 
 }  // namespace touchstone::broad

@@ -16,4 +16,11 @@ Aabb body_box(const Shape& shape, const Pose& pose);
 /// the body's origin, on each side the tighter of the two.
 Aabb swept_box(const Shape& shape, const Pose& pose, const Motion& motion);
 
+/// Contains the body as body_box does, looser by about 2^-46 of its coordinates and size, and several times
+/// cheaper: in double. `size`: box_size of the shape. A half-space has its body_box.
+Aabb loose_box(const Shape& shape, const Pose& pose, double size);
+/// Contains the body at every t in [0,1]; `start` is its box at the start, `reach` its bounding_radius.
+Aabb loose_swept_box(const Aabb& start, const Pose& pose, const Motion& motion, double reach);
+double box_size(const Shape& shape);
+
 }  // namespace touchstone::broad

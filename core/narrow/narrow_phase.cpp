@@ -19,11 +19,10 @@ Vec3 world(const V3<R>& p, const PlacedShape& origin) {
     return (p + origin.pose.translation.cast<R>()).template cast<double>();
 }
 
+// A sign that is not certain is left to extended precision, where there is someone to ask.
 template <class R>
-bool known(const FastAnswer<R>& f) {
-  // In double a sign that is not certain is left to extended precision; in float there is no one to ask.
-  if (f.answer.found == Found::touching) return sizeof(R) == sizeof(float);
-  return f.answer.found != Found::unsure;
+bool known(const FastAnswer<R>& f, bool alone) {
+  return f.answer.found == Found::touching ? alone : f.answer.found != Found::unsure;
 }
 
 template <class R>
@@ -99,62 +98,75 @@ bool refused(const PlacedShape& a, const PlacedShape& b, A& r) {
   return true;
 }
 
-OverlapAnswer overlap_f32(const PlacedShape& a, const PlacedShape& b, PairMemory* memory) {
+// In the arithmetic R and no other.
+template <class R>
+OverlapAnswer overlap_alone(const PlacedShape& a, const PlacedShape& b, PairMemory* memory) {
   OverlapAnswer r;
-  if (refused<float>(a, b, r)) return r;
-  FastAnswer<float> f;
-  separate<float>(a, b, Asked::overlap, memory, f);
-  if (!known(f)) separate<float>(a, b, Asked::distance, memory, f);
-  r.outcome = known(f) ? Outcome::answered : Outcome::not_converged;
+  if (refused<R>(a, b, r)) return r;
+  FastAnswer<R> f;
+  separate<R>(a, b, Asked::overlap, memory, f);
+  if (!known(f, true)) separate<R>(a, b, Asked::distance, memory, f);
+  r.outcome = known(f, true) ? Outcome::answered : Outcome::not_converged;
   r.overlap = overlaps(f), r.error_bound = static_cast<double>(f.answer.bound);
+  return r;
+}
+
+template <class R>
+DistanceAnswer distance_alone(const PlacedShape& a, const PlacedShape& b, PairMemory* memory) {
+  DistanceAnswer r;
+  if (refused<R>(a, b, r)) return r;
+  FastAnswer<R> f;
+  separate<R>(a, b, Asked::distance, memory, f);
+  if (known(f, true))
+    fill<R>(f, a, r);
+  else
+    r.outcome = Outcome::not_converged;
+  return r;
+}
+
+template <class R>
+ContactAnswer contact_alone(const PlacedShape& a, const PlacedShape& b, PairMemory* memory) {
+  ContactAnswer r;
+  if (refused<R>(a, b, r)) return r;
+  FastAnswer<R> f;
+  separate<R>(a, b, Asked::contact, memory, f);
+  if (!known(f, true))
+    r.outcome = Outcome::not_converged;
+  else if (!fill<R>(f, a, b, r))
+    r.manifold.push_back({world<R>((f.answer.a + f.answer.b) / 2, a), r.depth, 0});
   return r;
 }
 
 }  // namespace
 
 OverlapAnswer overlap(const PlacedShape& a, const PlacedShape& b, Arithmetic arithmetic, PairMemory* memory) {
-  if (arithmetic == Arithmetic::float32) return overlap_f32(a, b, memory);
+  if (arithmetic == Arithmetic::float32) return overlap_alone<float>(a, b, memory);
+  if (arithmetic == Arithmetic::float64_alone) return overlap_alone<double>(a, b, memory);
   FastAnswer<double> f;
   separate<double>(a, b, Asked::overlap, memory, f);
-  if (!known(f)) return narrow::wide_overlap(a, b);
+  if (!known(f, false)) return narrow::wide_overlap(a, b);
   return {Outcome::answered, f.answer.found == Found::meeting, f.answer.bound};
 }
 
 DistanceAnswer distance(const PlacedShape& a, const PlacedShape& b, Arithmetic arithmetic,
                         PairMemory* memory) {
+  if (arithmetic == Arithmetic::float32) return distance_alone<float>(a, b, memory);
+  if (arithmetic == Arithmetic::float64_alone) return distance_alone<double>(a, b, memory);
   DistanceAnswer r;
-  if (arithmetic == Arithmetic::float32) {
-    if (refused<float>(a, b, r)) return r;
-    FastAnswer<float> f;
-    separate<float>(a, b, Asked::distance, memory, f);
-    if (known(f))
-      fill<float>(f, a, r);
-    else
-      r.outcome = Outcome::not_converged;
-    return r;
-  }
   FastAnswer<double> f;
   separate<double>(a, b, Asked::distance, memory, f);
-  if (!known(f)) return narrow::wide_distance(a, b);
+  if (!known(f, false)) return narrow::wide_distance(a, b);
   fill<double>(f, a, r);
   return r;
 }
 
 ContactAnswer contact(const PlacedShape& a, const PlacedShape& b, Arithmetic arithmetic, PairMemory* memory) {
+  if (arithmetic == Arithmetic::float32) return contact_alone<float>(a, b, memory);
+  if (arithmetic == Arithmetic::float64_alone) return contact_alone<double>(a, b, memory);
   ContactAnswer r;
-  if (arithmetic == Arithmetic::float32) {
-    if (refused<float>(a, b, r)) return r;
-    FastAnswer<float> f;
-    separate<float>(a, b, Asked::contact, memory, f);
-    if (!known(f))
-      r.outcome = Outcome::not_converged;
-    else if (!fill<float>(f, a, b, r))
-      r.manifold.push_back({world<float>((f.answer.a + f.answer.b) / 2, a), r.depth, 0});
-    return r;
-  }
   FastAnswer<double> f;
   separate<double>(a, b, Asked::contact, memory, f);
-  if (known(f) && fill<double>(f, a, b, r)) return r;
+  if (known(f, false) && fill<double>(f, a, b, r)) return r;
   return narrow::wide_contact(a, b);
 }
 

@@ -29,9 +29,10 @@ struct PairMemory {
   Vec3 direction = Vec3::Zero();  // in a body's frame; zero: nothing is known yet
 };
 
-/// float64: as above. float32: poses and sizes are rounded to float and every step is taken in float, nothing
-/// else comes to its aid: `not_converged` where float cannot tell, meshes are `unsupported`.
-enum class Arithmetic { float64, float32 };
+/// float64: as above. float64_alone: every step is taken in double, nothing else comes to its aid: the
+/// verdict is the sign of the gap however small, `not_converged` where double cannot tell the gap as well as
+/// asked. float32: poses and sizes are rounded to float, and the same in float; meshes are `unsupported`.
+enum class Arithmetic { float64, float64_alone, float32 };
 
 /// Gap, normal and witness points before rounding to double; coordinates relative to A's translation.
 Separation separation(const PlacedShape& a, const PlacedShape& b);

@@ -4,7 +4,7 @@
 // contact has a gap of at most E, one that is left out is no deeper than E; the depth along the reported
 // normal is right to E and exceeds the least depth by no more than E. (Unsupported and not_converged are
 // reported as ever.) Of E, 0.6 at most goes to simpler shapes, 0.125 to placing them, the rest to arithmetic:
-// an answer in float whose proven bound with the rounding of its input is larger is worked out in double.
+// a cheap answer whose proven bound, with the rounding of its input, is larger is worked out anew.
 #pragma once
 
 #include <array>
@@ -29,7 +29,8 @@ struct SweepOptions {
 struct PairMethod {
   /// Bodies whose bounding balls are apart are apart: not asked.
   bool balls_first = false;
-  /// float32: first, and double where float does not prove enough.
+  /// float32, float64_alone: first, and float64, with extended precision behind it, where that does not prove
+  /// enough.
   Arithmetic arithmetic = Arithmetic::float64;
   bool operator==(const PairMethod&) const = default;
 };
@@ -41,7 +42,8 @@ struct Fidelity {
                                                      // times of impact are of the shapes as they are
   /// By the kinds of the shapes as they are run, the lesser first.
   std::array<std::array<PairMethod, shape_kind_count>, shape_kind_count> method{};
-  bool remember = false;  // begin each pair's search where the last step's ended (PairMemory)
+  bool loose_boxes = false;  // broad-phase boxes worked out in double, a little larger (broad/body_box.h)
+  bool remember = false;     // begin each pair's search where the last step's ended (PairMemory)
   SweepOptions sweep;
 
   static constexpr double shape_share = 0.3, placing_share = 0.0625, answer_share = 0.85;
@@ -53,28 +55,5 @@ struct Fidelity {
     return const_cast<PairMethod&>(static_cast<const Fidelity&>(*this).of(a, b));
   }
 };
-
-/// A ball that holds the shape, body frame; infinite for a half-space. Not the least one.
-struct BoundingBall {
-  Vec3 middle = Vec3::Zero();
-  double radius = 0;  // rounded up
-};
-BoundingBall bounding_ball(const Shape& shape);
-
-/// True only when the balls, and middles rounded by 2^-48 of their coordinates, are apart.
-inline bool balls_apart(const Vec3& a, double radius_a, const Vec3& b, double radius_b) {
-  const double reach = radius_a + radius_b + 0x1p-47 * (a.lpNorm<1>() + b.lpNorm<1>());
-  return (b - a).squaredNorm() > reach * reach * (1 + 0x1p-48);
-}
-
-/// What float's rounding of a pose and of sizes moves the body by at most: u of each coordinate, 2u·|q| of
-/// the quaternion, which turns by twice that, and u of the sizes; u = 2^-24.
-double float_rounding(const Pose& pose, double reach);
-
-/// A contact by a method within `error` (as Fidelity says, shapes_error being spent already). `by_float`,
-/// when given, says whether float's answer was the one.
-ContactAnswer contact_by(const PairMethod& method, double error, double shapes_error, const PlacedShape& a,
-                         double reach_a, const PlacedShape& b, double reach_b, PairMemory* memory = nullptr,
-                         bool* by_float = nullptr);
 
 }  // namespace touchstone

@@ -57,48 +57,24 @@ StepWorld::StepWorld(Scene scene, Fidelity fidelity)
       fidelity_(std::move(fidelity)),
       phase_(broad::make_broad_phase(fidelity_.broad_phase)) {
   if (!phase_) throw std::invalid_argument("no broad phase is called " + fidelity_.broad_phase);
-  fidelity_.simpler.resize(scene_.shapes.size());
+  shapes_ = seen_shapes(scene_, fidelity_);
   const std::size_t n = scene_.bodies.size();
   by_hand_.assign(n, 0), moved_.assign(n, 1);
   std::vector<InnerExtent> of_shape;
-  for (std::size_t i = 0; i < scene_.shapes.size(); ++i) {
-    const Shape& s = scene_.shapes[i];
-    of_shape.push_back(inner_extent(s));
-    const auto* mesh = std::get_if<TriangleMesh>(&s);
-    trees_.push_back(mesh ? build_mesh_tree(*mesh) : MeshTree{});
-    const auto* hull = std::get_if<Hull>(fidelity_.simpler[i] ? &fidelity_.simpler[i]->shape : &s);
-    graphs_.push_back(hull ? build_hull_graph(*hull) : HullGraph{});
-  }
+  for (const Shape& s : scene_.shapes) of_shape.push_back(inner_extent(s));
   for (std::size_t i = 0; i < n; ++i) {
     const Body& b = scene_.bodies[i];
     extent_.push_back(of_shape[at(b.shape)]);
+    box_size_.push_back(broad::box_size(scene_.shape_of(static_cast<int>(i))));
     end_.push_back(b.pose);
-    seen_.push_back(seen_of(b));
-    place_seen(static_cast<int>(i));
-    end_box_.push_back(broad::body_box(*seen_[i].shape, seen_[i].pose));
+    seen_.push_back(seen_body(seen(static_cast<int>(i)), b.pose));
+    end_box_.push_back(seen_box(fidelity_, seen(static_cast<int>(i)), seen_[i]));
     phase_->insert(static_cast<int>(i), end_box_[i],
                    b.is_static ? broad::Mobility::fixed : broad::Mobility::moving);
   }
 }
 
-StepWorld::Seen StepWorld::seen_of(const Body& b) const {
-  Seen s;
-  s.shape = &scene_.shapes[at(b.shape)];
-  if (const auto& simpler = fidelity_.simpler[at(b.shape)]) s.simpler = &*simpler, s.shape = &simpler->shape;
-  const MeshTree& tree = trees_[at(b.shape)];
-  s.tree = tree.nodes.empty() ? nullptr : &tree;
-  s.graph = &graphs_[at(b.shape)];
-  s.reach = bounding_radius(*s.shape);
-  const BoundingBall ball = bounding_ball(*s.shape);
-  s.middle = ball.middle, s.radius = ball.radius;
-  return s;
-}
-
-void StepWorld::place_seen(int body) {
-  Seen& s = seen_[at(body)];
-  s.pose = s.simpler && s.simpler->moved ? placed_in(end_[at(body)], s.simpler->in_body) : end_[at(body)];
-  s.middle_w = s.middle.isZero(0) ? s.pose.translation : to_transform(s.pose) * s.middle;
-}
+const SeenShape& StepWorld::seen(int body) const { return shapes_[at(scene_.bodies[at(body)].shape)]; }
 
 void StepWorld::set(int body, const Pose& start, const Motion& motion) {
   scene_.bodies.at(at(body)).pose = start;
@@ -115,7 +91,7 @@ void StepWorld::accept() {
 Motion StepWorld::motion_of(int body) const { return scene_.bodies[at(body)].motion.value_or(Motion{}); }
 
 const MeshTree* StepWorld::tree_of(int body) const {
-  const MeshTree& tree = trees_[at(scene_.bodies[at(body)].shape)];
+  const MeshTree& tree = seen(body).tree;
   return tree.nodes.empty() ? nullptr : &tree;
 }
 
@@ -127,21 +103,16 @@ void StepWorld::place_at_end() {
     if (!going && !moved_[i]) continue;
     moved_[i] = 0;
     end_[i] = going ? pose_at(b.pose, *b.motion, 1) : b.pose;
-    place_seen(static_cast<int>(i));
-    end_box_[i] = broad::body_box(*seen_[i].shape, seen_[i].pose);
+    const SeenShape& shape = seen(static_cast<int>(i));
+    seen_[i] = seen_body(shape, end_[i]);
+    end_box_[i] = seen_box(fidelity_, shape, seen_[i]);
     updates_.push_back({static_cast<int>(i), end_box_[i]});
   }
   phase_->update(updates_);
 }
 
 ContactAnswer StepWorld::contact_of(int a, int b, PairMemory* memory) const {
-  const Seen &x = seen_[at(a)], &y = seen_[at(b)];
-  const PlacedShape px{x.shape, x.pose, x.tree, x.graph}, py{y.shape, y.pose, y.tree, y.graph};
-  const PairMethod& method = fidelity_.of(kind_of(*x.shape), kind_of(*y.shape));
-  if (method.balls_first && balls_apart(x.middle_w, x.radius, y.middle_w, y.radius)) return {};
-  if (method.arithmetic == Arithmetic::float64) return contact(px, py, Arithmetic::float64, memory);
-  const double shapes = (x.simpler ? x.simpler->error : 0) + (y.simpler ? y.simpler->error : 0);
-  return contact_by(method, fidelity_.error, shapes, px, x.reach, py, y.reach, memory);
+  return contact_seen(fidelity_, seen(a), seen_[at(a)], seen(b), seen_[at(b)], memory);
 }
 
 void StepWorld::find_contacts(StepReport& r) {
@@ -189,13 +160,17 @@ std::vector<BodyPair> StepWorld::swept_pairs(const StepReport& r) {
   std::vector<char> is_swept(end_.size(), 0);
   for (const SweptBody& s : r.swept) is_swept[at(s.body)] = 1;
   const auto box_of_swept = [&](int i) {
+    const Pose& start = scene_.bodies[at(i)].pose;
+    if (fidelity_.loose_boxes && kind_of(scene_.shape_of(i)) != ShapeKind::half_space)
+      return broad::loose_swept_box(broad::loose_box(scene_.shape_of(i), start, box_size_[at(i)]), start,
+                                    motion_of(i), extent_[at(i)].reach);
     return broad::swept_box(scene_.shape_of(i), scene_.bodies[at(i)].pose, motion_of(i));
   };
   const auto box_of_other = [&](int i) {
     // Impacts are of the shape itself, which may reach a little out of the simpler one.
     Aabb end = end_box_[at(i)];
-    if (const SimplerShape* s = seen_[at(i)].simpler) {
-      const double out = s->error + 0x1p-40 * (seen_[at(i)].reach + end_[at(i)].translation.lpNorm<1>());
+    if (seen(i).simpler) {
+      const double out = seen(i).error() + 0x1p-40 * (seen(i).reach + end_[at(i)].translation.lpNorm<1>());
       end.lo.array() -= out, end.hi.array() += out;
     }
     return scene_.bodies[at(i)].motion ? widened(end, extent_[at(i)], motion_of(i)) : end;

@@ -11,10 +11,9 @@
 
 #include "core/broad/broad_phase.h"
 #include "core/ccd/impact.h"
-#include "core/narrow/hull_graph.h"
-#include "core/narrow/mesh_tree.h"
 #include "core/scene/scene.h"
 #include "core/world/fidelity.h"
+#include "core/world/seen.h"
 #include "core/world/sweep_criterion.h"
 #include "core/world/world.h"
 
@@ -70,9 +69,7 @@ class StepWorld {
   const Scene& scene() const { return scene_; }
 
  private:
-  struct Seen;
-  Seen seen_of(const Body& b) const;
-  void place_seen(int body);
+  const SeenShape& seen(int body) const;
   void place_at_end();
   ContactAnswer contact_of(int a, int b, PairMemory* memory) const;
   void find_contacts(StepReport& r);
@@ -83,27 +80,15 @@ class StepWorld {
   Motion motion_of(int body) const;
   const MeshTree* tree_of(int body) const;  // null: no mesh
 
-  // What contacts see of a body: its shape, or a simpler one, where it is at the end.
-  struct Seen {
-    const Shape* shape = nullptr;
-    const MeshTree* tree = nullptr;
-    const HullGraph* graph = nullptr;
-    const SimplerShape* simpler = nullptr;
-    Vec3 middle = Vec3::Zero();  // of the bounding ball, body frame
-    double radius = 0, reach = 0;
-    Pose pose;
-    Vec3 middle_w = Vec3::Zero();
-  };
-
   Scene scene_;
   Fidelity fidelity_;
   broad::BroadPhasePtr phase_;
   std::vector<InnerExtent> extent_;  // of each body's shape
-  std::vector<MeshTree> trees_;      // of each shape
-  std::vector<HullGraph> graphs_;    // of each shape
+  std::vector<double> box_size_;     // of each body's own shape
+  std::vector<SeenShape> shapes_;
   std::vector<Pose> end_;
   std::vector<Aabb> end_box_;  // of what is seen
-  std::vector<Seen> seen_;
+  std::vector<SeenBody> seen_;
   std::vector<std::pair<broad::IdPair, PairMemory>> memory_;  // of the last step's pairs, sorted
   std::vector<char> by_hand_, moved_;
   std::vector<broad::BoxUpdate> updates_;

@@ -23,6 +23,7 @@ constexpr Command table[] = {
     {"bisect", "what a finding depends on: bodies, step, stage, a value, a commit", declare_bisect},
     {"triage", "the findings of a campaign against the ledger of known ones: new, known, gone",
      declare_triage},
+    {"plan", "the least model that a scene needs, with the evidence", declare_plan},
     {"merge", "shards of a campaign into one, or ledgers into one", declare_merge},
     {"report", "the run and the findings of a campaign by key: text, and a page", declare_report},
     {"view", "a page of one case: bodies, answers, certificate; or of its broad phase", declare_view},

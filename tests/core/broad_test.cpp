@@ -108,6 +108,40 @@ TEST_CASE("boxes contain the exact body and are a few ulp wide of it", "[broad][
   CHECK(checked == 6000);
 }
 
+TEST_CASE("loose boxes contain the exact body too, at rest and in motion", "[broad][box]") {
+  for (std::uint64_t seed = 0; seed < 2000; ++seed) {
+    Rng r(seed);
+    const Shape shape = random_shape(r, static_cast<ShapeKind>(r.below(7)), r.chance(0.3));
+    Pose pose{r.unit_vector() * r.binary_scale(-20, 40), r.rotation()};
+    const double k = r.binary_scale(-300, 300);
+    pose.rotation = {pose.rotation.x * k, pose.rotation.y * k, pose.rotation.z * k, pose.rotation.w * k};
+    const Aabb box = loose_box(shape, pose, box_size(shape)), tight = body_box(shape, pose);
+    const double size = box_size(shape);
+    const Vec3 slack = 0x1p-45 * (pose.translation.cwiseAbs() + Vec3::Constant(size));
+    const WideMat rot = wide_rotation(pose.rotation);
+    for (int axis = 0; axis < 3; ++axis) {
+      const WideVec row = rot.row(axis).transpose();
+      CHECK(static_cast<Wide>(box.hi[axis]) >= pose.translation[axis] + height_along(shape, row));
+      CHECK(static_cast<Wide>(box.lo[axis]) <= pose.translation[axis] - height_along(shape, -row));
+      CHECK(box.hi[axis] <= tight.hi[axis] + slack[axis]);
+      CHECK(box.lo[axis] >= tight.lo[axis] - slack[axis]);
+    }
+    const Motion motion{r.unit_vector() * r.binary_scale(-10, 10) * size, r.unit_vector() * r.uniform(0, 7)};
+    const Aabb swept = loose_swept_box(box, pose, motion, bounding_radius(shape));
+    for (const double t : {0.0, 0.25, 0.5, 0.75, 1.0}) {
+      // pose_at rounds; its body's box is shrunk by more than that.
+      const Pose then = pose_at(pose, motion, t);
+      const Aabb at_t = body_box(shape, then);
+      const Vec3 rounding = 0x1p-46 * (then.translation.cwiseAbs() + motion.linear.cwiseAbs() +
+                                       pose.translation.cwiseAbs() + Vec3::Constant(8 * size));
+      for (int axis = 0; axis < 3; ++axis) {
+        CHECK(swept.lo[axis] <= at_t.lo[axis] + rounding[axis]);
+        CHECK(swept.hi[axis] >= at_t.hi[axis] - rounding[axis]);
+      }
+    }
+  }
+}
+
 TEST_CASE("exact rational boxes: a 3-4-5 rotation by a non-unit quaternion", "[broad][box]") {
   // q = (0,0,1,2): cos = 3/5, sin = 4/5. The corner (5,5,5) goes to x = -1..7: 5·(3+4)/5 = 7 exactly.
   const Aabb box = body_box(Box{{5, 5, 5}}, {Vec3(0x1p40, 0, 0), {0, 0, 1, 2}});

@@ -1,8 +1,7 @@
 // Simpler shapes are within the error that they state, and a world run by a plan is within the plan's error
 // of the truth as the referee has it.
-#include "core/world/fidelity.h"
-
 #include "core/base/rng.h"
+#include "core/world/seen.h"
 #include "core/world/step_world.h"
 #include "oracles/referee/referee.h"
 #include "tests/support/catch.h"
@@ -96,12 +95,12 @@ Scene crowd(Rng& rng, int n) {
   return s;
 }
 
-Fidelity coarse(const Scene& s, double error) {
+Fidelity coarse(const Scene& s, double error, Arithmetic arithmetic) {
   Fidelity f;
-  f.error = error, f.remember = true;
+  f.error = error, f.remember = f.loose_boxes = true;
   for (const Shape& shape : s.shapes)
     f.simpler.push_back(simpler_shape(shape, Fidelity::shape_share * error));
-  for (auto& row : f.method) row.fill({true, Arithmetic::float32});
+  for (auto& row : f.method) row.fill({true, arithmetic});
   return f;
 }
 
@@ -168,8 +167,9 @@ TEST_CASE("a simpler shape is within the error that it states", "[fidelity]") {
 TEST_CASE("a world run by a plan is within the plan's error of the truth", "[fidelity][world]") {
   Rng rng(12);
   const double error = GENERATE(1e-2, 1e-4, 1e-6);
+  const Arithmetic arithmetic = GENERATE(Arithmetic::float32, Arithmetic::float64_alone);
   const Scene s = crowd(rng, 40);
-  StepWorld plain(s), planned(s, coarse(s, error));
+  StepWorld plain(s), planned(s, coarse(s, error, arithmetic));
   for (int step = 0; step < 3; ++step) {
     const StepReport truth = plain.step(), r = planned.step();
     REQUIRE(r.outcome == Outcome::answered);
@@ -196,6 +196,31 @@ TEST_CASE("a world run by a plan is within the plan's error of the truth", "[fid
       plain.set(i, p, {}), planned.set(i, p, {});
     }
   }
+}
+
+TEST_CASE("double alone takes the sign of the gap for the verdict, and proves its bound", "[fidelity]") {
+  Rng rng(14);
+  int touching = 0;
+  for (int i = 0; i < 200; ++i) {
+    const Shape a = some_shape(rng), b = some_shape(rng);
+    const Pose pa{Vec3::Zero(), rotation(rng)};
+    Pose pb{0.5 * direction(rng), rotation(rng)};
+    for (int k = 0; k < 3; ++k) {  // moved together until they touch
+      const DistanceAnswer d = distance({&a, pa}, {&b, pb});
+      REQUIRE(d.outcome == Outcome::answered);
+      pb.translation -= d.distance * d.normal;
+    }
+    const ContactAnswer alone = contact({&a, pa}, {&b, pb}, Arithmetic::float64_alone);
+    if (alone.outcome == Outcome::not_converged) continue;
+    REQUIRE(alone.outcome == Outcome::answered);
+    ++touching;
+    const auto w = referee::judge_pair({&a, pa}, {&b, pb});
+    if (alone.overlap)
+      CHECK(alone.depth <= alone.error_bound - w.gap.lo);
+    else if (std::isfinite(alone.error_bound))
+      CHECK(w.gap.hi >= -alone.error_bound);
+  }
+  CHECK(touching > 150);
 }
 
 TEST_CASE("balls decide no pair that touches", "[fidelity]") {

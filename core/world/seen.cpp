@@ -1,0 +1,115 @@
+#include "core/world/seen.h"
+
+#include <cmath>
+
+#include "core/broad/body_box.h"
+
+namespace touchstone {
+namespace {
+
+// What float's rounding of a pose and of sizes moves the body by at most: u of each coordinate, 2u·|q| of the
+// quaternion, which turns by twice that, and u of the sizes; u = 2^-24.
+double float_rounding(const Pose& pose, double reach) {
+  constexpr double u = 0x1p-24;
+  return u * (pose.translation.lpNorm<1>() + 8 * reach);
+}
+
+// A verdict `apart` is certain, and may come without a value.
+double proven(const ContactAnswer& r) {
+  const bool no_value = !r.overlap && !std::isfinite(r.error_bound);
+  return no_value ? 0 : std::max(r.error_bound, r.regret_bound);
+}
+
+// Float's answer with what rounding the bodies costs in its bounds, or `unsupported`, `not_converged`.
+ContactAnswer contact_by_float(const PlacedShape& a, double reach_a, const PlacedShape& b, double reach_b,
+                               PairMemory* memory) {
+  // About A's translation, so that what float loses does not grow with the distance from the world's origin.
+  const Vec3 origin = a.pose.translation;
+  PlacedShape x = a, y = b;
+  x.pose.translation.setZero();
+  y.pose.translation -= origin;
+  ContactAnswer r = contact(x, y, Arithmetic::float32, memory);
+  const double rounding =
+      float_rounding(x.pose, reach_a) + float_rounding(y.pose, reach_b) + 0x1p-52 * origin.lpNorm<1>();
+  r.error_bound = r.regret_bound = proven(r) + rounding;
+  Manifold at_home;
+  for (const ContactPoint& p : r.manifold) at_home.push_back({p.position + origin, p.depth, p.feature});
+  r.manifold = at_home;
+  return r;
+}
+
+PlacedShape placed(const SeenShape& s, const SeenBody& at) {
+  return {s.shape, at.pose, s.tree.nodes.empty() ? nullptr : &s.tree, &s.graph};
+}
+
+}  // namespace
+
+BoundingBall bounding_ball(const Shape& shape) {
+  const auto* hull = std::get_if<Hull>(&shape);
+  const auto* mesh = std::get_if<TriangleMesh>(&shape);
+  if (!hull && !mesh) return {Vec3::Zero(), bounding_radius(shape)};
+  const std::vector<Vec3>& points = hull ? hull->vertices : mesh->vertices;
+  Aabb box;
+  for (const Vec3& p : points) box.extend(p);
+  BoundingBall ball{(box.lo + box.hi) / 2, 0};
+  for (const Vec3& p : points) ball.radius = std::max(ball.radius, (p - ball.middle).norm());
+  ball.radius += 0x1p-48 * (ball.radius + ball.middle.lpNorm<1>());
+  return ball;
+}
+
+std::vector<SeenShape> seen_shapes(const Scene& scene, const Fidelity& fidelity) {
+  std::vector<SeenShape> seen(scene.shapes.size());
+  for (std::size_t i = 0; i < seen.size(); ++i) {
+    SeenShape& s = seen[i];
+    s.shape = &scene.shapes[i];
+    if (i < fidelity.simpler.size() && fidelity.simpler[i])
+      s.simpler = &*fidelity.simpler[i], s.shape = &s.simpler->shape;
+    if (const auto* mesh = std::get_if<TriangleMesh>(s.shape)) s.tree = build_mesh_tree(*mesh);
+    if (const auto* hull = std::get_if<Hull>(s.shape)) s.graph = build_hull_graph(*hull);
+    s.ball = bounding_ball(*s.shape);
+    s.reach = bounding_radius(*s.shape), s.size = broad::box_size(*s.shape);
+  }
+  return seen;
+}
+
+SeenBody seen_body(const SeenShape& shape, const Pose& body) {
+  SeenBody r;
+  r.pose = shape.simpler && shape.simpler->moved ? placed_in(body, shape.simpler->in_body) : body;
+  r.middle_w = shape.ball.middle.isZero(0) ? r.pose.translation : to_transform(r.pose) * shape.ball.middle;
+  return r;
+}
+
+Aabb seen_box(const Fidelity& f, const SeenShape& s, const SeenBody& body) {
+  return f.loose_boxes ? broad::loose_box(*s.shape, body.pose, s.size) : broad::body_box(*s.shape, body.pose);
+}
+
+ContactAnswer contact_seen(const Fidelity& fidelity, const SeenShape& a, const SeenBody& at_a,
+                           const SeenShape& b, const SeenBody& at_b, PairMemory* memory, DecidedBy* decided,
+                           double* bound) {
+  const auto decide = [&](DecidedBy by, double error) {
+    if (decided) *decided = by;
+    if (bound) *bound = error;
+  };
+  const PairMethod& method = fidelity.of(kind_of(*a.shape), kind_of(*b.shape));
+  if (method.balls_first && balls_apart(at_a.middle_w, a.ball.radius, at_b.middle_w, b.ball.radius)) {
+    decide(DecidedBy::balls, 0);
+    return {};
+  }
+  const PlacedShape x = placed(a, at_a), y = placed(b, at_b);
+  const double shapes = a.error() + b.error();
+  if (method.arithmetic != Arithmetic::float64) {
+    const ContactAnswer r = method.arithmetic == Arithmetic::float32
+                                ? contact_by_float(x, a.reach, y, b.reach, memory)
+                                : contact(x, y, Arithmetic::float64_alone, memory);
+    // A NaN is no proof.
+    if (r.outcome == Outcome::answered && proven(r) + shapes <= Fidelity::answer_share * fidelity.error) {
+      decide(DecidedBy::cheap, proven(r) + shapes);
+      return r;
+    }
+  }
+  ContactAnswer r = contact(x, y, Arithmetic::float64, memory);
+  decide(DecidedBy::rest, proven(r) + shapes);
+  return r;
+}
+
+}  // namespace touchstone

@@ -1,0 +1,98 @@
+#include "fuzz/explore/fidelity_json.h"
+
+#include "core/base/input_error.h"
+#include "core/broad/catalog.h"
+#include "core/scene/codec.h"
+
+namespace touchstone::fuzz {
+namespace {
+
+std::string pair_name(std::size_t a, std::size_t b) {
+  return std::string(type_name(static_cast<ShapeKind>(a)))
+      .append(1, '-')
+      .append(type_name(static_cast<ShapeKind>(b)));
+}
+
+// The simpler shapes as a scene: body k is shape k, placed in the body that it stands for.
+Json simpler_to_json(const Fidelity& f) {
+  Scene s;
+  Json of = Json::array(), errors = Json::array();
+  for (std::size_t i = 0; i < f.simpler.size(); ++i) {
+    if (!f.simpler[i]) continue;
+    Body b;
+    b.shape = static_cast<int>(s.shapes.size()), b.pose = f.simpler[i]->in_body;
+    s.shapes.push_back(f.simpler[i]->shape), s.bodies.push_back(b);
+    of.push_back(i), errors.push_back(f.simpler[i]->error);
+  }
+  if (s.shapes.empty()) return nullptr;
+  return {{"of_shape", std::move(of)}, {"error", std::move(errors)}, {"scene", touchstone::to_json(s)}};
+}
+
+void read_simpler(const Json& j, const std::string& place, Fidelity& f) {
+  const Scene s = scene_from_json(j.at("scene"), place + ".scene");
+  const auto of = j.at("of_shape").get<std::vector<std::size_t>>();
+  const auto errors = j.at("error").get<std::vector<double>>();
+  if (of.size() != s.bodies.size() || errors.size() != of.size())
+    throw InputError(place, "of_shape, error and scene.bodies differ in length");
+  for (std::size_t k = 0; k < of.size(); ++k) {
+    constexpr std::size_t most = 1u << 24;
+    if (of[k] >= most || !(errors[k] >= 0)) throw InputError(place, "a shape or an error out of range");
+    if (f.simpler.size() <= of[k]) f.simpler.resize(of[k] + 1);
+    const Pose& p = s.bodies[k].pose;
+    f.simpler[of[k]] = SimplerShape{s.shape_of(static_cast<int>(k)), p, errors[k], !(p == Pose{})};
+  }
+}
+
+constexpr std::string_view arithmetic_names[] = {"double", "double alone", "float"};
+
+Arithmetic arithmetic_of(const std::string& name) {
+  for (std::size_t i = 0; i < std::size(arithmetic_names); ++i)
+    if (arithmetic_names[i] == name) return static_cast<Arithmetic>(i);
+  throw InputError("arithmetic '" + name + "'", "is none of double, double alone, float");
+}
+
+Json method_json(const PairMethod& m) {
+  return {{"balls_first", m.balls_first}, {"arithmetic", to_string(m.arithmetic)}};
+}
+
+}  // namespace
+
+std::string_view to_string(Arithmetic a) { return arithmetic_names[static_cast<std::size_t>(a)]; }
+
+Json to_json(const Fidelity& f) {
+  Json methods = Json::object();
+  for (std::size_t a = 0; a < f.method.size(); ++a)
+    for (std::size_t b = a; b < f.method.size(); ++b)
+      if (f.method[a][b] != PairMethod{}) methods[pair_name(a, b)] = method_json(f.method[a][b]);
+  return {{"error", f.error},
+          {"broad_phase", f.broad_phase},
+          {"loose_boxes", f.loose_boxes},
+          {"remember", f.remember},
+          {"sweep_share", f.sweep.share},
+          {"methods", std::move(methods)},
+          {"simpler", simpler_to_json(f)}};
+}
+
+Fidelity fidelity_from_json(const Json& j, const std::string& place) try {
+  Fidelity f;
+  f.error = j.at("error"), f.broad_phase = j.at("broad_phase"), f.remember = j.at("remember");
+  f.loose_boxes = j.at("loose_boxes"), f.sweep.share = j.at("sweep_share");
+  if (!(f.error > 0) || !(f.sweep.share > 0))
+    throw InputError(place, "error and sweep_share must be positive");
+  if (!broad::make_broad_phase(f.broad_phase))
+    throw InputError(place + ".broad_phase", "no broad phase is called '" + f.broad_phase + "'");
+  const Json& methods = j.at("methods");
+  std::size_t read = 0;
+  for (std::size_t a = 0; a < f.method.size(); ++a)
+    for (std::size_t b = a; b < f.method.size(); ++b)
+      if (const auto m = methods.find(pair_name(a, b)); m != methods.end())
+        f.method[a][b] = {m->at("balls_first"), arithmetic_of(m->at("arithmetic"))}, ++read;
+  if (read != methods.size())
+    throw InputError(place + ".methods", "names a pair of shapes that there is not");
+  if (!j.at("simpler").is_null()) read_simpler(j.at("simpler"), place + ".simpler", f);
+  return f;
+} catch (const Json::exception& e) {
+  throw InputError(place, std::string("is not a plan: ") + e.what());
+}
+
+}  // namespace touchstone::fuzz
