@@ -1,6 +1,8 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <cmath>
+
 #include "core/base/input_error.h"
 #include "core/scene/input_file.h"
 #include "core/scene/real_scene.h"
@@ -40,7 +42,9 @@ Fidelity plan_in(const std::string& file) {
   return fuzz::fidelity_from_json(j["run"], file + ": run");
 }
 
-int run(PlanArguments o) {
+int run(PlanArguments o, bool error_given) {
+  if (error_given && !(o.plan.error > 0 && std::isfinite(o.plan.error)))
+    throw InputError("--error", fmt::format("{} is no positive length", o.plan.error));
   if (!o.use.empty()) o.plan.given = plan_in(o.use);
   const fuzz::Course course = course_named(o);
   const bool live = isatty(2) == 1;
@@ -68,7 +72,6 @@ Run declare_plan(CLI::App& app) {
       app.add_option("--error", o->plan.error,
                      "what a gap or depth may be off by, in the scene's unit (default: a millionth of "
                      "the smallest body)");
-  error->check(CLI::PositiveNumber);
   app.add_option("--use", o->use, "measure and judge this plan instead of choosing one")->excludes(error);
   app.add_option("-o,--out", o->out, "file for the plan as JSON, which StepWorld can run");
   app.add_option("--steps", o->steps, "steps of a recording to look at")
@@ -82,7 +85,7 @@ Run declare_plan(CLI::App& app) {
       ->capture_default_str();
   app.add_option("--seed", o->plan.seed, "of the samples")->capture_default_str();
   app.add_flag("--json", o->json, "the whole result as one JSON document on stdout");
-  return [o] { return run(*o); };
+  return [o, error] { return run(*o, error->count() > 0); };
 }
 
 }  // namespace touchstone::cli

@@ -77,6 +77,9 @@ TEST_CASE("bad usage and bad input exit with 2 and one line that names the place
   CHECK(w.touchstone("").code == 2);
   CHECK(w.touchstone("nonsense").code == 2);
   CHECK(w.touchstone("fuzz --cases -3").code == 2);
+  CHECK(w.touchstone("plan thousand_balls --error nan").code == 2);
+  CHECK(w.touchstone("plan thousand_balls --error 1e-30").code == 2);
+  CHECK(w.touchstone("plan thousand_balls --use spheres.json").code == 2);
   CHECK(w.touchstone("--help").code == 0);
 }
 
