@@ -51,6 +51,20 @@ std::string shapes(const Plan& p) {
   return text;
 }
 
+std::string meshes(const Plan& p) {
+  if (p.convex_meshes == 0) return "";
+  return wrapped(p.solid_meshes
+                     ? fmt::format(
+                           "{} meshes are closed and convex and stand for solids; the fixed choices below "
+                           "take them as surfaces, so that their errors are of another scene.",
+                           p.convex_meshes)
+                     : fmt::format(
+                           "{} meshes are closed and convex: if they stand for solids, say --solid-meshes.",
+                           p.convex_meshes),
+                 79, 2) +
+         "\n";
+}
+
 std::string method(const PlanPair& x) {
   return fmt::format("{}{}", x.balls_first ? "balls, " : "", x.arithmetic);
 }
@@ -140,7 +154,7 @@ std::string plan_text(const Plan& p) {
                                          small(p.error), small(p.least_error)),
                              79, 2) +
                      "\n";
-  text += phases(p) + shapes(p);
+  text += phases(p) + shapes(p) + meshes(p);
   text += p.remember ? "Searches begin where the last step's ended.\n" : "";
   text += pairs(p) + sweeps(p) + "\n" + rows(p) + saving(p);
   const auto plan = std::find_if(p.rows.begin(), p.rows.end(), [](const PlanRow& r) { return r.is_plan; });

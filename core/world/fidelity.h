@@ -40,6 +40,7 @@ struct Fidelity {
   std::string broad_phase = "automatic";             // broad/catalog.h
   std::vector<std::optional<SimplerShape>> simpler;  // by shape of the scene; may be shorter. For contacts:
                                                      // times of impact are of the shapes as they are
+  bool solid_meshes = false;  // how `simpler` was made: closed convex meshes stand for solids
   /// By the kinds of the shapes as they are run, the lesser first.
   std::array<std::array<PairMethod, shape_kind_count>, shape_kind_count> method{};
   bool loose_boxes = false;  // broad-phase boxes worked out in double, a little larger (broad/body_box.h)

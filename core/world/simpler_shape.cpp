@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <queue>
 
+#include "core/math/expansion.h"
 #include "core/narrow/narrow_phase.h"
 
 namespace touchstone {
@@ -183,7 +185,40 @@ std::optional<SimplerShape> simpler(const S&, double) {
 
 }  // namespace
 
-std::optional<SimplerShape> simpler_shape(const Shape& shape, double allowed) {
+std::optional<Hull> convex_solid(const TriangleMesh& mesh) {
+  const auto at = [&](int i) -> const Vec3& { return mesh.vertices[static_cast<std::size_t>(i)]; };
+  std::map<std::pair<int, int>, int> edges;  // directed
+  std::vector<char> used(mesh.vertices.size(), 0);
+  for (const auto& t : mesh.triangles)
+    for (std::size_t k = 0; k < 3; ++k) {
+      used[static_cast<std::size_t>(t[k])] = 1;
+      if (++edges[{t[k], t[(k + 1) % 3]}] > 1) return std::nullopt;
+    }
+  for (const auto& [edge, n] : edges)
+    if (!edges.contains({edge.second, edge.first})) return std::nullopt;
+  std::vector<Vec3> corners;
+  for (std::size_t i = 0; i < used.size(); ++i)
+    if (used[i]) corners.push_back(mesh.vertices[i]);
+  if (corners.size() < 4) return std::nullopt;
+  // All on one side of every triangle, the same side: triangles may be given from outside or from inside.
+  int side = 0;
+  for (const auto& t : mesh.triangles)
+    for (const Vec3& v : corners) {
+      const int sign = orient3d_sign(at(t[0]), at(t[1]), at(t[2]), v);
+      if (sign != 0 && side == 0) side = sign;
+      if (sign != 0 && sign != side) return std::nullopt;
+    }
+  if (side == 0) return std::nullopt;  // flat
+  return make_hull(std::move(corners));
+}
+
+std::optional<SimplerShape> simpler_shape(const Shape& shape, double allowed, bool solid_meshes) {
+  if (const auto* mesh = std::get_if<TriangleMesh>(&shape); mesh && solid_meshes) {
+    std::optional<Hull> hull = convex_solid(*mesh);
+    if (!hull) return std::nullopt;
+    if (auto simple = simpler(*hull, allowed)) return simple;
+    return SimplerShape{std::move(*hull), {}, 0, false};
+  }
   return std::visit([&](const auto& s) { return simpler(s, allowed); }, shape);
 }
 

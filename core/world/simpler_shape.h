@@ -13,7 +13,8 @@
 //                           first (greedy ε-nets; Agarwal, Har-Peled, Varadarajan 2004, §3)
 //   ellipsoid  as a ball    (largest − smallest semi-axis)/2
 //   capsule    as a ball    half its half height
-// Meshes are surfaces without an inside and stay as they are.
+// A mesh is a surface without an inside and stays as it is, unless the caller says that his stand for solids:
+// then one that is closed and convex, exactly, is its hull, and that may be simpler still.
 #pragma once
 
 #include <optional>
@@ -31,7 +32,11 @@ struct SimplerShape {
 
 /// The simplest of those whose error is at most `allowed`: ball, box, fewer vertices, in this order; nothing
 /// when none is, or when none is simpler.
-std::optional<SimplerShape> simpler_shape(const Shape& shape, double allowed);
+std::optional<SimplerShape> simpler_shape(const Shape& shape, double allowed, bool solid_meshes = false);
+
+/// The hull of a mesh whose every edge joins two triangles and whose every triangle has all vertices behind
+/// it, both decided exactly; nothing for others.
+std::optional<Hull> convex_solid(const TriangleMesh& mesh);
 
 /// body ∘ in_body, in double: coordinates within 2^-48 of (|translation| + |in_body|).
 Pose placed_in(const Pose& body, const Pose& in_body);

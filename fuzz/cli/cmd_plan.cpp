@@ -72,6 +72,7 @@ Run declare_plan(CLI::App& app) {
       app.add_option("--error", o->plan.error,
                      "what a gap or depth may be off by, in the scene's unit (default: a millionth of "
                      "the smallest body)");
+  app.add_flag("--solid-meshes", o->plan.solid_meshes, "meshes that are closed and convex stand for solids");
   app.add_option("--use", o->use, "measure and judge this plan instead of choosing one")->excludes(error);
   app.add_option("-o,--out", o->out, "file for the plan as JSON, which StepWorld can run");
   app.add_option("--steps", o->steps, "steps of a recording to look at")

@@ -67,6 +67,7 @@ Json to_json(const Fidelity& f) {
   return {{"error", f.error},
           {"broad_phase", f.broad_phase},
           {"loose_boxes", f.loose_boxes},
+          {"solid_meshes", f.solid_meshes},
           {"remember", f.remember},
           {"sweep_share", f.sweep.share},
           {"methods", std::move(methods)},
@@ -76,6 +77,7 @@ Json to_json(const Fidelity& f) {
 Fidelity fidelity_from_json(const Json& j, const std::string& place) try {
   Fidelity f;
   f.error = j.at("error"), f.broad_phase = j.at("broad_phase"), f.remember = j.at("remember");
+  f.solid_meshes = j.at("solid_meshes");
   f.loose_boxes = j.at("loose_boxes"), f.sweep.share = j.at("sweep_share");
   if (!(f.error > 0) || !(f.sweep.share > 0))
     throw InputError(place, "error and sweep_share must be positive");

@@ -20,7 +20,13 @@ std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 void simplify(const Course& c, Fidelity& f) {
   for (const Shape& s : c.scene.shapes)
-    f.simpler.push_back(simpler_shape(s, Fidelity::shape_share * f.error));
+    f.simpler.push_back(simpler_shape(s, Fidelity::shape_share * f.error, f.solid_meshes));
+}
+
+void make_solid(Scene& scene) {
+  for (Shape& s : scene.shapes)
+    if (const auto* mesh = std::get_if<TriangleMesh>(&s))
+      if (auto hull = convex_solid(*mesh)) s = std::move(*hull);
 }
 
 std::uint64_t vertices_of(const Shape& s) {
@@ -100,10 +106,12 @@ std::vector<Way> planned_ways(const Scenery& s, const PlanOptions& o, double err
   Fidelity f;
   f.error = error;
   f.loose_boxes = true;  // as certain, and cheaper
+  f.solid_meshes = o.solid_meshes;
   std::vector<Way> ways;
-  add_plans(s, o, f, ways);
+  if (!f.solid_meshes) add_plans(s, o, f, ways);
   simplify(s.course, f);
-  if (std::any_of(f.simpler.begin(), f.simpler.end(), [](const auto& x) { return x.has_value(); }))
+  if (std::any_of(f.simpler.begin(), f.simpler.end(), [](const auto& x) { return x.has_value(); }) ||
+      ways.empty())
     add_plans(s, o, f, ways);
   return ways;
 }
@@ -165,7 +173,7 @@ void require_fits(const Course& c, const Fidelity& f) {
   // What the plan says of a shape is found again, or it is of another scene.
   for (std::size_t i = 0; i < f.simpler.size(); ++i) {
     if (!f.simpler[i]) continue;
-    const auto again = simpler_shape(c.scene.shapes[i], Fidelity::shape_share * f.error);
+    const auto again = simpler_shape(c.scene.shapes[i], Fidelity::shape_share * f.error, f.solid_meshes);
     if (!again || !(again->shape == f.simpler[i]->shape))
       throw InputError("run.simpler", fmt::format("shape {} is another one in this scene", i));
   }
@@ -209,6 +217,12 @@ Plan make_plan(const Course& c, const PlanOptions& o, const Progress& progress) 
                                           p.least_error));
   if (o.given) require_fits(c, *o.given);
 
+  // What the referee judges: solids where the caller says so.
+  Course solid = c;
+  if (o.given ? o.given->solid_meshes : o.solid_meshes) make_solid(solid.scene);
+  for (const Shape& s : c.scene.shapes)
+    if (const auto* mesh = std::get_if<TriangleMesh>(&s)) p.convex_meshes += convex_solid(*mesh).has_value();
+
   say("broad phases");
   Scenery scenery{c, end_poses(c), {}, {}};
   const EndPoses& poses = scenery.poses;
@@ -229,7 +243,7 @@ Plan make_plan(const Course& c, const PlanOptions& o, const Progress& progress) 
     if (least(times[w]) < least(times[best])) best = w;
 
   say("the referee");
-  const PlanSample sample(c, poses, scenery.candidates, o.seed, o.judged);
+  const PlanSample sample(solid, poses, scenery.candidates, o.seed, o.judged);
   p.judged = sample.judged(), p.undecided = sample.undecided();
   std::vector<std::uint64_t> needed(c.steps.size(), 0);
   for (std::size_t w = 0; w < ways.size(); ++w) {
@@ -257,7 +271,8 @@ Plan make_plan(const Course& c, const PlanOptions& o, const Progress& progress) 
   });
   const Fidelity& chosen = ways[best].fidelity;
   p.pairs = ways[best].pairs, p.shapes = shape_rows(c, chosen);
-  p.broad_phase = chosen.broad_phase, p.remember = chosen.remember, p.sweep_share = chosen.sweep.share;
+  p.broad_phase = chosen.broad_phase, p.solid_meshes = chosen.solid_meshes, p.remember = chosen.remember,
+  p.sweep_share = chosen.sweep.share;
   p.run = to_json(chosen);
   return p;
 }

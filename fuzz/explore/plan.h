@@ -14,8 +14,9 @@ namespace touchstone::fuzz {
 struct PlanOptions {
   double error = 0;  // in the scene's unit; 0: default_error
   std::uint64_t seed = 1;
-  int rounds = 5;   // measurements of each way, interleaved; the least counts
-  int judged = 48;  // pairs that the referee judges
+  int rounds = 5;             // measurements of each way, interleaved; the least counts
+  int judged = 48;            // pairs that the referee judges
+  bool solid_meshes = false;  // a mesh that is closed and convex stands for a solid
   /// A plan that is measured and judged as it is, instead of choosing one.
   std::optional<Fidelity> given;
 };

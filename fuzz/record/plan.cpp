@@ -49,6 +49,7 @@ Json to_json(const Plan& p) {
           {"steps", p.steps},
           {"rounds", p.rounds},
           {"least_error", p.least_error},
+          {"convex_meshes", p.convex_meshes},
           {"run", p.run},
           {"phases", std::move(phases)},
           {"pairs", std::move(pairs)},

@@ -59,7 +59,8 @@ struct Plan {
   std::uint64_t seed = 0, bodies = 0, steps = 0, rounds = 0;
   double error = 0, least_error = 0;  // asked for; what double proves on this scene
   std::string broad_phase;
-  bool remember = false;
+  bool remember = false, solid_meshes = false;
+  std::uint64_t convex_meshes = 0;  // meshes that are closed and convex
   double sweep_share = 0;
   Json run;                       // what StepWorld needs, explore/fidelity_json.h
   std::vector<PlanPhase> phases;  // quickest first

@@ -164,6 +164,31 @@ TEST_CASE("a simpler shape is within the error that it states", "[fidelity]") {
   }
 }
 
+TEST_CASE("a mesh is a convex solid only when it is closed and convex", "[fidelity]") {
+  Rng rng(15);
+  const Hull h = ball_like(rng, 30);
+  TriangleMesh mesh{h.vertices, h.faces};
+  const auto solid = convex_solid(mesh);
+  REQUIRE(solid);
+  CHECK(solid->vertices == h.vertices);
+  CHECK(simpler_shape(mesh, 1e-9) == std::nullopt);
+  CHECK(kind_of(simpler_shape(mesh, 1e-9, true)->shape) == ShapeKind::hull);
+  for (auto& t : mesh.triangles) std::swap(t[0], t[1]);  // seen from inside
+  CHECK(convex_solid(mesh));
+  TriangleMesh open = mesh;
+  open.triangles.pop_back();
+  CHECK_FALSE(convex_solid(open));
+  TriangleMesh twice = mesh;
+  twice.triangles.push_back(twice.triangles.front());
+  CHECK_FALSE(convex_solid(twice));
+  TriangleMesh dented = mesh;
+  const Vec3 middle(1, 2, 3);
+  dented.vertices[0] = middle + 0.5 * (dented.vertices[0] - middle);
+  CHECK_FALSE(convex_solid(dented));
+  const TriangleMesh sheet{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}, {1, 0, 2}}};
+  CHECK_FALSE(convex_solid(sheet));
+}
+
 TEST_CASE("a world run by a plan is within the plan's error of the truth", "[fidelity][world]") {
   Rng rng(12);
   const double error = GENERATE(1e-2, 1e-4, 1e-6);
