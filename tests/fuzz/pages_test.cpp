@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdlib>
 #include <nlohmann/json.hpp>
+#include <regex>
 
 #include "tests/support/catch.h"
 #include "tests/support/workspace.h"
@@ -53,6 +54,27 @@ TEST_CASE("pages load, show the numbers of their JSON, draw, move and link in a 
   INFO(node.out << node.err);
   CHECK(node.code == 0);
   CHECK(node.out.find("all checks hold") != std::string::npos);
+}
+
+TEST_CASE("what builds and tests the pages runs on Debian 12's Node 18 and npm 9", "[pages]") {
+  const fs::path web = TS_SOURCE_DIR "/reports/web";
+  // npm 9 cannot read an alias ("npm:…") among overrides: npm ci ends with "Invalid comparator".
+  CHECK_FALSE(Json::parse(read_all(web / "package.json")).contains("overrides"));
+  int asked = 0;
+  const Json lock = Json::parse(read_all(web / "package-lock.json"));
+  for (const auto& [name, package] : lock["packages"].items()) {
+    if (package.value("optional", false) || !package.contains("engines")) continue;
+    const std::string node = package["engines"].value("node", ">=18");
+    // The first number after an operator: versions from this one on.
+    static const std::regex lower_bound(R"((>=|\^)\s*(\d+))");
+    bool runs = false;
+    for (std::sregex_iterator m(node.begin(), node.end(), lower_bound), end; m != end; ++m)
+      runs |= (*m)[1] == "^" ? (*m)[2] == "18" : std::stoi((*m)[2]) <= 18;
+    INFO(name << " wants node " << node);
+    CHECK(runs);
+    ++asked;
+  }
+  CHECK(asked >= 5);
 }
 
 TEST_CASE("without built pages the data remains and one line says what is missing", "[pages][cli]") {
