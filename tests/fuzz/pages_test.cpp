@@ -1,10 +1,14 @@
 // The pages: their data in a browser when node, playwright-core and chromium are there (else said and
 // skipped), and what happens where the pages are not built.
+#include <zlib.h>
 #include <algorithm>
 #include <cstdlib>
 #include <nlohmann/json.hpp>
+#include <random>
 #include <regex>
 
+#include "reports/findings_columns.h"
+#include "reports/web_page.h"
 #include "tests/support/catch.h"
 #include "tests/support/workspace.h"
 
@@ -25,6 +29,53 @@ std::string missing_for_browser() {
   if (std::system("command -v node >/dev/null 2>&1") != 0) return "node";
   if (!fs::exists("/usr/bin/chromium")) return "/usr/bin/chromium";
   return "";
+}
+
+std::string inflated(const std::string& base64) {
+  const std::string digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::string bytes;
+  unsigned bits = 0;
+  int held = 0;
+  for (const char c : base64) {
+    if (c == '=') break;
+    bits = bits << 6 | static_cast<unsigned>(digits.find(c)), held += 6;
+    if (held >= 8) bytes += static_cast<char>(bits >> (held -= 8) & 255);
+  }
+  std::string text(1 << 20, '\0');
+  uLongf size = text.size();
+  REQUIRE(uncompress(reinterpret_cast<Bytef*>(text.data()), &size,
+                     reinterpret_cast<const Bytef*>(bytes.data()), bytes.size()) == Z_OK);
+  return text.substr(0, size);
+}
+
+// The findings of a campaign, over and over with other shapes and numbers, until there are `count`.
+void many_findings(const fs::path& from, const fs::path& to, std::size_t count) {
+  using Sorted = nlohmann::json;
+  Sorted summary = Sorted::parse(read_all(from));
+  const std::vector<Sorted> base(summary["findings"].begin(), summary["findings"].end());
+  REQUIRE(base.size() > 10);
+  std::mt19937_64 random(5);
+  Sorted findings = Sorted::object();
+  for (std::size_t i = 0; i < count; ++i) {
+    Sorted f = base[i % base.size()];
+    f.erase("evidence");
+    f["shapes"] = f["shapes"].get<std::string>() + "-" + std::to_string(i / base.size());
+    f["count"] = 1 + random() % 1000;
+    f["worst_in_l"] = static_cast<double>(random() >> 11) * 0x1p-60;
+    std::string words = f["words"];
+    for (std::size_t k = 1; k < words.size(); ++k)  // other digits: as hard to pack as true ones
+      if (std::isdigit(words[k]) && std::isdigit(words[k - 1]))
+        words[k] = static_cast<char>('0' + random() % 10);
+    f["words"] = words;
+    std::string key;
+    for (const char* part : {"engine", "question", "fault", "shapes", "blame", "degeneracy", "magnitude"})
+      key += (key.empty() ? "" : ".") + f[part].get<std::string>();
+    findings[key] = std::move(f);
+  }
+  REQUIRE(findings.size() == count);
+  summary["findings"] = std::move(findings);
+  fs::create_directories(to.parent_path());
+  std::ofstream(to) << summary.dump();
 }
 
 }  // namespace
@@ -50,6 +101,8 @@ TEST_CASE("pages load, show the numbers of their JSON, draw, move and link in a 
   }
   CHECK(w.touchstone("fuzz --cases 200 --seed 7 --relations 0 --out run --subject core" + few).code == 0);
   REQUIRE(w.touchstone("report run -o report.html").code == 0);
+  many_findings(w.dir / "run/summary.json", w.dir / "many/summary.json", 100000);
+  REQUIRE(w.touchstone("report many -o many.html").code == 0);
   const auto node = w.run("node " TS_BINARY_DIR "/web/test/pages.mjs /usr/bin/chromium " + w.dir.string());
   INFO(node.out << node.err);
   CHECK(node.code == 0);
@@ -94,6 +147,47 @@ TEST_CASE("without built pages the data remains and one line says what is missin
   CHECK(s.code == 0);
   CHECK(fs::exists(w.dir / "s/stability.json"));
   CHECK_FALSE(fs::exists(w.dir / "s/stability.html"));
+}
+
+TEST_CASE("findings are packed without loss: words come back, numbers of the key too", "[pages]") {
+  using touchstone::fuzz::Json;
+  using namespace touchstone::reports;
+  std::string numbers;
+  const std::string text = template_of("says -2.5e-05 in [-inf, 3.]; 2^20, e17 x_9 1e 12", numbers);
+  CHECK(numbers == "-2.5e-05 3 2 20 1 12");
+  CHECK(std::count(text.begin(), text.end(), number_mark) == 6);
+  const auto finding = [](const char* engine, const char* words, const Json& worst) {
+    return Json{{"engine", engine},    {"question", "contact"}, {"fault", "missed"},    {"shapes", "box-box"},
+                {"blame", "none"},     {"degeneracy", "solid"}, {"magnitude", "small"}, {"count", 3},
+                {"worst_in_l", worst}, {"words", words}};
+  };
+  const Json j = findings_columns(
+      {{"b", finding("fcl", "off by 0.25", 0.123456)}, {"a", finding("core", "off by 7", "inf")}});
+  CHECK(j["count"] == 2);
+  CHECK(j["coded"]["engine"]["values"] == Json({"core", "fcl"}));
+  CHECK(j["coded"]["engine"]["codes"] == Json({1, 0}));
+  CHECK(j["worst_in_l"] == Json({0.123, "inf"}));
+  CHECK(j["words"]["templates"].size() == 1);
+  CHECK(j["words"]["numbers"] == "0.25 7");
+}
+
+TEST_CASE("long data goes into a page compressed, and comes out as it was", "[pages]") {
+  using namespace touchstone::reports;
+  const std::string shell = "<script>__TOUCHSTONE_DATA__</script>";
+  CHECK(web_page(shell, R"(["<b>"])") == "<script>[\"\\u003cb>\"]</script>");
+  std::string json = "[0";
+  for (int i = 1; json.size() < compressed_from; ++i) json += "," + std::to_string(i * 7919 % 10007);
+  json += "]";
+  for (int cut = 0; cut < 3; ++cut) {  // every remainder of base64's three bytes, most likely
+    const std::string page = web_page(shell, json);
+    CHECK(page.size() < json.size());
+    CHECK(page.rfind("<script>{\"deflate\":\"", 0) == 0);
+    const std::string packed = Json::parse(deflated(json))["deflate"];
+    CHECK(packed.size() % 4 == 0);
+    CHECK(inflated(packed) == json);
+    json.insert(1, "1,");
+  }
+  CHECK_THROWS(web_page("no place", "{}"));
 }
 
 TEST_CASE("report says what is not a campaign", "[pages][cli]") {

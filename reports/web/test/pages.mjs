@@ -1,5 +1,5 @@
 // Pages in a real browser: node pages.mjs CHROMIUM DIR, where DIR holds case.html (two bodies that touch or overlap),
-// motion.html, report.html, chart.html, stability.html. Prints one line a check; exit code 1 when one fails.
+// motion.html, report.html, chart.html, stability.html and many.html, a report of 1e5 kinds of findings. Prints one line a check; exit code 1 when one fails.
 import { statSync } from "node:fs";
 import { join } from "node:path";
 import { chromium } from "playwright-core";
@@ -15,17 +15,17 @@ function check(what, ok, more = "") {
   if (!ok) ++failed;
 }
 
-async function open(name, { hash = "", width = 1280, height = 720, dark = false } = {}) {
+async function open(name, { settle = 150, hash = "", width = 1280, height = 720, dark = false } = {}) {
   const page = await browser.newPage({ viewport: { width, height }, colorScheme: dark ? "dark" : "light" });
   const errors = [];
   page.on("console", (m) => m.type() === "error" && errors.push(m.text()));
   page.on("pageerror", (e) => errors.push(String(e)));
   page.on("request", (r) => /^https?:/.test(r.url()) && errors.push(`asks the network for ${r.url()}`));
   await page.goto(`file://${join(dir, name)}${hash}`);
-  await page.waitForTimeout(150);
+  await page.waitForTimeout(settle);
   return { page, errors };
 }
-const data = (page) => page.evaluate(() => JSON.parse(document.getElementById("data").textContent));
+const data = (page) => page.evaluate(() => globalThis.touchstoneData);
 
 // Different colours in the middle of the canvas: a picture, not a background.
 const colours = (page) =>
@@ -46,7 +46,7 @@ const colours = (page) =>
 const picture = (page) => page.evaluate(() => document.querySelector("#view canvas").toDataURL());
 const wide = (page) => page.evaluate(() => document.documentElement.scrollWidth <= innerWidth + 1);
 
-for (const name of ["case.html", "motion.html", "report.html", "chart.html", "stability.html"]) {
+for (const name of ["case.html", "motion.html", "report.html", "many.html", "chart.html", "stability.html"]) {
   check(`${name} is smaller than 5 MB`, statSync(join(dir, name)).size < 5e6);
   for (const size of [{ width: 1280, height: 720 }, { width: 390, height: 844, dark: true }]) {
     const { page, errors } = await open(name, size);
@@ -113,11 +113,52 @@ for (const name of ["case.html", "motion.html", "report.html", "chart.html", "st
   const { page } = await open("report.html");
   const d = await data(page);
   check("the report has a row an answered question", (await page.$$("#engines tbody tr")).length > 0);
-  check("the report counts its findings", (await page.textContent("#found")).includes(`of ${d.findings.length.toLocaleString("en-US")} kinds`));
-  const most = Math.max(...d.findings.map((f) => f[d.columns.indexOf("count")]));
-  check("the most frequent finding comes first", (await page.textContent("#findings tbody tr td:nth-child(7)")) === most.toLocaleString("en-US"));
+  const f = d.findings;
+  check("the report counts its findings", (await page.textContent("#found")).includes(`of ${f.count.toLocaleString("en-US")} kinds`) && f.count === f.answers.length && f.count > 0);
+  await page.selectOption("#group", { label: "not grouped" });
+  check("the most frequent finding comes first", (await page.textContent("#findings tbody tr td.answers")) === Math.max(...f.answers).toLocaleString("en-US"));
   await page.click("#findings tbody tr");
   check("a finding opens with its replay", (await page.textContent("#detail")).includes("./touchstone replay "));
+  await page.selectOption("#group", { label: "by engine" });
+  const engine = f.coded.engine.values.find((e) => f.coded.engine.codes.some((c) => f.coded.engine.values[c] === e));
+  await page.selectOption("#filter-engine", engine).catch(() => undefined);
+  const kinds = f.coded.engine.codes.filter((c) => f.coded.engine.values[c] === engine).length;
+  check("a filter leaves its own", (await page.textContent("#found")).startsWith(`${kinds.toLocaleString("en-US")} of `), await page.textContent("#found"));
+  await page.close();
+}
+
+{
+  const before = Date.now();
+  const { page, errors } = await open("many.html", { settle: 0 });
+  await page.evaluate(() => new Promise((r) => requestAnimationFrame(() => requestAnimationFrame(r))));
+  const opened = Date.now() - before;
+  const { findings: f } = await data(page);
+  console.log(`     many.html: ${f.count} findings, ${(statSync(join(dir, "many.html")).size / 1e6).toFixed(2)} MB, drawn after ${opened} ms`);
+  check("many findings load without an error", errors.length === 0 && f.count === 100000, errors.join("; "));
+  const rows = () => page.$$eval("#findings tbody tr:not(.gap)", (r) => r.length);
+  await page.selectOption("#group", { label: "not grouped" });
+  check("only the lines in sight are in the document", (await rows()) > 5 && (await rows()) < 120, String(await rows()));
+  await page.focus("#findings");
+  await page.keyboard.press("End");
+  await page.waitForTimeout(100);
+  const last = await page.$$eval("#findings tbody tr:not(.gap)", (r) => Number(r.at(-1).getAttribute("aria-rowindex")));
+  check("the End key reaches the last of them", last === f.count, String(last));
+  await page.keyboard.press("Enter");
+  const fewest = Math.min(...f.answers);
+  check("it is the least frequent", (await page.textContent("#findings tr.chosen td.answers")) === String(fewest));
+  // What the page says of a finding is what was packed: 100 of them, words and all.
+  const wrong = await page.evaluate(async () => {
+    const packed = globalThis.touchstoneData.findings;
+    const numbers = packed.words.numbers.split(" ");
+    let next = 0, bad = 0;
+    packed.words.codes.forEach((c, i) => {
+      const t = packed.words.templates[c], n = t.split("\u0001").length - 1;
+      if (i % 1000 === 0) bad += globalThis.touchstoneFindings.words(i) !== t.replaceAll("\u0001", () => numbers[next++]);
+      else next += n;
+    });
+    return bad + (next !== numbers.length);
+  });
+  check("a finding has its own words", wrong === 0, String(wrong));
   await page.close();
 }
 

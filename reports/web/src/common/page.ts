@@ -1,8 +1,21 @@
 // What every page shares: its data, elements, the state kept in the address, light and dark.
+import { unzlibSync } from "fflate";
 import "./style.css";
 
+/** What the program wrote into the page: JSON, or when it is long {"deflate": base64 of its zlib stream}. */
 export function pageData<T>(): T {
-  return JSON.parse(document.getElementById("data")!.textContent!) as T;
+  const holder = document.getElementById("data")!;
+  let value = JSON.parse(holder.textContent!) as { deflate?: string };
+  if (typeof value.deflate === "string") {
+    const bytes = atob(value.deflate);
+    const packed = new Uint8Array(bytes.length);
+    for (let i = 0; i < bytes.length; ++i) packed[i] = bytes.charCodeAt(i);
+    holder.textContent = "";
+    value = JSON.parse(new TextDecoder().decode(unzlibSync(packed))) as object;
+  }
+  // For tests and for people at the console.
+  (globalThis as unknown as { touchstoneData: unknown }).touchstoneData = value;
+  return value as T;
 }
 
 type Child = Node | string | null | undefined;
