@@ -23,7 +23,7 @@ const fs::path built = TS_BINARY_DIR "/share/touchstone/web";
 
 // Empty when all is there that a browser test needs.
 std::string missing_for_browser() {
-  for (const char* kind : {"case", "report", "chart", "stability"})
+  for (const char* kind : {"case", "report", "chart", "stability", "certificate"})
     if (!fs::exists(built / (std::string(kind) + ".html"))) return "the built pages";
   if (!fs::exists(TS_BINARY_DIR "/web/node_modules/playwright-core")) return "playwright-core";
   if (std::system("command -v node >/dev/null 2>&1") != 0) return "node";
@@ -103,6 +103,12 @@ TEST_CASE("pages load, show the numbers of their JSON, draw, move and link in a 
   REQUIRE(w.touchstone("report run -o report.html").code == 0);
   many_findings(w.dir / "run/summary.json", w.dir / "many/summary.json", 100000);
   REQUIRE(w.touchstone("report many -o many.html").code == 0);
+  CHECK(w.touchstone("certify --subject grid --limit 60 --page certified.html").code == 0);
+  CHECK(w.touchstone(
+             "certify --subject " TS_BINARY_DIR
+             "/lib/libtouchstone_mutants.so:stale_after_move --level boxes --without no_boxes --limit 2000 "
+             "-o refuted.json --page refuted.html")
+            .code == 1);
   const auto node = w.run("node " TS_BINARY_DIR "/web/test/pages.mjs /usr/bin/chromium " + w.dir.string());
   INFO(node.out << node.err);
   CHECK(node.code == 0);

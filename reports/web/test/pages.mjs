@@ -1,5 +1,6 @@
 // Pages in a real browser: node pages.mjs CHROMIUM DIR, where DIR holds case.html (two bodies that touch or overlap),
-// motion.html, report.html, chart.html, stability.html and many.html, a report of 1e5 kinds of findings. Prints one line a check; exit code 1 when one fails.
+// motion.html, report.html, chart.html, stability.html, many.html: a report of 1e5 kinds of
+// findings, certified.html, refuted.html: certificates of broad phases. Prints one line a check; exit code 1 when one fails.
 import { statSync } from "node:fs";
 import { join } from "node:path";
 import { chromium } from "playwright-core";
@@ -46,7 +47,7 @@ const colours = (page) =>
 const picture = (page) => page.evaluate(() => document.querySelector("#view canvas").toDataURL());
 const wide = (page) => page.evaluate(() => document.documentElement.scrollWidth <= innerWidth + 1);
 
-for (const name of ["case.html", "motion.html", "report.html", "many.html", "chart.html", "stability.html"]) {
+for (const name of ["case.html", "motion.html", "report.html", "many.html", "chart.html", "stability.html", "certified.html", "refuted.html"]) {
   check(`${name} is smaller than 5 MB`, statSync(join(dir, name)).size < 5e6);
   for (const size of [{ width: 1280, height: 720 }, { width: 390, height: 844, dark: true }]) {
     const { page, errors } = await open(name, size);
@@ -191,6 +192,24 @@ for (const name of ["case.html", "motion.html", "report.html", "many.html", "cha
   const cells = await page.$$eval("#rows tbody td:not(:first-child)", (t) => t.map((x) => x.textContent).filter(Boolean));
   check("the table has a rung a ladder and engine", cells.length === failing.length && failing.length > 0);
   check("who never fails has a dash", cells.filter((x) => x === "–").length === failing.filter((r) => r.fails_at === null).length);
+  await page.close();
+}
+
+for (const name of ["certified.html", "refuted.html"]) {
+  const { page } = await open(name);
+  const { certificate: c } = await data(page);
+  const numbers = (text) => Number(text.replaceAll(",", ""));
+  const rows = await page.$$eval("tr[data-evidence]", (r) => r.map((x) => [x.dataset.evidence, ...[3, 9, 10].map((i) => x.children[i - 1].textContent)]));
+  const same = rows.every(([n, cases, truth, reported], i) => {
+    const e = c.evidence[i];
+    return e.name === n && e.cases === numbers(cases) && e.pairs_true === numbers(truth) && e.pairs_reported === numbers(reported);
+  });
+  check(`${name} has the evidence of the certificate`, same && rows.length === c.evidence.length && rows.length > 0, JSON.stringify(rows[0]));
+  const verdicts = await page.$$eval(".tile b", (t) => t.map((x) => x.textContent.slice(2)));
+  check(`${name} says so first`, verdicts.join() === Object.values(c.verdict).filter((v) => v !== "not_asked").join(), verdicts.join());
+  check(`${name} says what is not proved`, (await page.$$("#not-proved li")).length === c.not_proved.length);
+  const scripts = await page.$$eval(".refutation a[download]", (a) => a.map((x) => JSON.parse(decodeURIComponent(x.href.replace("data:application/json,", "")))));
+  check(`${name} hands out what refutes it`, JSON.stringify(scripts) === JSON.stringify(c.refutations.map((r) => r.script)) && (scripts.length > 0) === name.startsWith("refuted"));
   await page.close();
 }
 

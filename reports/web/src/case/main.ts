@@ -4,7 +4,7 @@ import "./case.css";
 import { drawn } from "./certificate";
 import { standAt, standsOfScript, type Stand } from "./motion";
 import { Picture, type Mark } from "./scene3d";
-import { shapeLine } from "./shapes";
+import { shapeLine } from "./shape_line";
 import type { CasePage, EngineAnswer, QueryJson, V3 } from "./types";
 
 const data = pageData<CasePage>();
