@@ -1,6 +1,6 @@
 // Pages in a real browser: node pages.mjs CHROMIUM DIR, where DIR holds case.html (two bodies that touch or overlap),
 // motion.html, report.html, chart.html, stability.html, many.html: a report of 1e5 kinds of
-// findings, certified.html, refuted.html: certificates of broad phases. Prints one line a check; exit code 1 when one fails.
+// findings, separate.html, touching.html, curved.html, mesh.html, script.html: cases of these kinds, certified.html, refuted.html: certificates of broad phases. Prints one line a check; exit code 1 when one fails.
 import { statSync } from "node:fs";
 import { join } from "node:path";
 import { chromium } from "playwright-core";
@@ -94,6 +94,55 @@ for (const name of ["case.html", "motion.html", "report.html", "many.html", "cha
   const again = await open("case.html", { hash });
   check("a link shows the same picture again", (await picture(again.page)) === was);
   await again.page.close();
+}
+
+{
+  const { page } = await open("case.html");
+  const d = await data(page);
+  const shown = await page.$$eval("tr[data-stages]", (r) => r.map((x) => [x.dataset.stages, [...x.children].slice(2).map((c) => c.textContent === "✗")]));
+  const traced = Object.entries(d.engines).filter(([, e]) => e.stages);
+  check("the stages of each wrong engine are those of the JSON", shown.length > 0 && shown.length === traced.length &&
+    shown.every(([n, marks]) => JSON.stringify(marks) === JSON.stringify(d.engines[n].stages[0].stages.map((s) => s.faults.length > 0))), JSON.stringify(shown));
+  const programs = Object.values(d.engines).flatMap((e) => e.programs ?? []);
+  if (programs.length > 0) {
+    const text = await page.textContent("#program pre");
+    check("the stand-alone test is there as it is", programs.some((p) => p.program === text) && text.includes("int main"));
+  }
+  const all = await picture(page);
+  await page.uncheck("#part-normals");
+  const fewer = await picture(page);
+  check("normals can be left out", fewer !== all);
+  await page.keyboard.press("5");
+  check("the certificate can be left out by its key", (await picture(page)) !== fewer && (await page.evaluate(() => document.body.dataset.drawn)) === "");
+  await page.waitForTimeout(250);
+  const hash = await page.evaluate(() => location.hash);
+  const left = await picture(page);
+  await page.close();
+  const again = await open("case.html", { hash });
+  check("the link has what is left out", (await picture(again.page)) === left, hash);
+  await again.page.close();
+}
+
+// A case of each kind: what of the referee's evidence is drawn, and what it says that it did.
+for (const [name, question, drawn, words] of [
+  ["separate.html", "distance", ["plane", "segment"], /a plane between A and B/],
+  ["touching.html", "contact", ["point"], /a point of both/],
+  ["curved.html", "contact", ["point", "polytope", "direction"], /a polytope of \d+ true points of A − B, \d+ facets/],
+  ["mesh.html", "contact", ["point"], /depth: not defined/],
+  ["motion.html", "time_of_impact", ["point"], /planes that move, checked until t = /],
+  ["script.html", "candidates", [], /every pair of bodies/],
+]) {
+  const first = await open(name);
+  const q = (await data(first.page)).queries.findIndex((x) => x.question === question);
+  await first.page.close();
+  const { page, errors } = await open(name, { hash: `#q=${q}` });
+  const kinds = await page.evaluate(() => document.body.dataset.drawn.split(" "));
+  check(`${name} draws ${drawn.join(", ") || "no certificate"}`, drawn.every((k) => kinds.includes(k)) && (name !== "mesh.html" || !kinds.includes("direction")), kinds.join());
+  const said = (await page.textContent("#referee-trace ul")) ?? "";
+  check(`${name} says how the referee knows`, words.test(said), said);
+  const c = await colours(page);
+  check(`${name} draws bodies`, errors.length === 0 && c.kinds > 5 && c.share > 0.01, JSON.stringify(c) + errors.join());
+  await page.close();
 }
 
 {

@@ -15,13 +15,16 @@ export interface Mark {
   colour: string;
   strong: boolean;
   at: V3;
-  normal?: V3;
-  depth?: number;
+  normal?: V3 | undefined;
+  /** What the depth is along, when the arrow itself is not drawn. */
+  along?: V3 | undefined;
+  depth?: number | undefined;
   points: V3[];
-  segment?: [V3, V3];
+  segment?: [V3, V3] | undefined;
 }
 
-const bodyColours = ["#4f8fd0", "#e0a33c"];
+/** Paler than what engines are drawn in. */
+export const bodyColours = ["#7f93ad", "#c4b184"] as const;
 const up = new Vector3(0, 0, 1);
 
 export class Picture {
@@ -155,6 +158,12 @@ export class Picture {
         plane.position.copy(p.clone().addScaledVector(n, distance - p.dot(n)));
         plane.add(new LineSegments(new EdgesGeometry(plane.geometry), new LineBasicMaterial({ color: colour })));
         this.evidence.add(plane);
+      } else if (d.kind === "polytope") {
+        const g = new BufferGeometry();
+        g.setAttribute("position", new Float32BufferAttribute(d.edges.flatMap((e) => e.flatMap((v) => this.local(v).toArray())), 3));
+        this.evidence.add(new LineSegments(g, new LineBasicMaterial({ color: colour, transparent: true, opacity: 0.75 })));
+      } else if (d.kind === "segment") {
+        this.evidence.add(this.stick(this.local(d.from), this.local(d.to), colour, 0.007), this.ball(this.local(d.from), colour, 0.013), this.ball(this.local(d.to), colour, 0.013));
       } else if (d.kind === "point") {
         this.evidence.add(this.ball(this.local(d.at), colour, 0.02));
       } else {
@@ -209,9 +218,10 @@ export class Picture {
     for (const m of marks) {
       const at = this.local(m.at);
       const size = m.strong ? 1 : 0.6;
-      if (m.normal && Math.hypot(...m.normal) > 0 && m.normal.every(Number.isFinite)) {
-        const n = new Vector3(...m.normal).normalize();
-        this.marks.add(this.arrow(at, n, m.colour, m.strong ? 0.36 : 0.26, 0.008 * size));
+      const along = m.normal ?? m.along;
+      if (along && Math.hypot(...along) > 0 && along.every(Number.isFinite)) {
+        const n = new Vector3(...along).normalize();
+        if (m.normal) this.marks.add(this.arrow(at, n, m.colour, m.strong ? 0.36 : 0.26, 0.008 * size));
         if (m.depth !== undefined && Number.isFinite(m.depth))
           this.marks.add(this.stick(at, at.clone().addScaledVector(n, m.depth / this.size), m.colour, 0.006 * size));
       }

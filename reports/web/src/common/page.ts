@@ -123,5 +123,15 @@ export function nanoseconds(ns: number): string {
 /** Colours that differ for eyes that confuse red and green too (Okabe and Ito 2008), then turned hues. */
 const palette = ["#0072b2", "#e69f00", "#cc79a7", "#56b4e9", "#d55e00", "#8c6bb1", "#b59f00", "#7f7f7f"];
 export function colourOf(index: number): string {
-  return palette[index] ?? `hsl(${Math.round((index * 137.5) % 360)} 60% ${index % 2 ? 45 : 60}%)`;
+  return palette[index] ?? hex((index * 137.5) % 360, 0.6, index % 2 ? 0.42 : 0.6);
+}
+
+// "#rrggbb", which WebGL's colours know too; they do not know hsl() without commas.
+function hex(hue: number, saturation: number, lightness: number): string {
+  const channel = (n: number): string => {
+    const k = (n + hue / 30) % 12;
+    const x = lightness - saturation * Math.min(lightness, 1 - lightness) * Math.max(-1, Math.min(k - 3, 9 - k, 1));
+    return Math.round(255 * x).toString(16).padStart(2, "0");
+  };
+  return `#${channel(0)}${channel(8)}${channel(4)}`;
 }
