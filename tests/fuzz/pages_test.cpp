@@ -3,9 +3,11 @@
 #include <zlib.h>
 #include <algorithm>
 #include <cstdlib>
+#include <iostream>
 #include <nlohmann/json.hpp>
 #include <random>
 #include <regex>
+#include <sstream>
 
 #include "reports/findings_columns.h"
 #include "reports/web_page.h"
@@ -46,6 +48,15 @@ std::string inflated(const std::string& base64) {
   REQUIRE(uncompress(reinterpret_cast<Bytef*>(text.data()), &size,
                      reinterpret_cast<const Bytef*>(bytes.data()), bytes.size()) == Z_OK);
   return text.substr(0, size);
+}
+
+// The lines of the browser's test that measure: sizes and times, which no check asks about.
+std::string figures_of(const std::string& out) {
+  std::istringstream lines(out);
+  std::string figures;
+  for (std::string line; std::getline(lines, line);)
+    if (line.starts_with("     ")) figures += line.substr(5) + "\n";
+  return figures;
 }
 
 // The findings of a campaign, over and over with other shapes and numbers, until there are `count`.
@@ -112,10 +123,18 @@ TEST_CASE("pages load, show the numbers of their JSON, draw, move and link in a 
              "/lib/libtouchstone_mutants.so:stale_after_move --level boxes --without no_boxes --limit 2000 "
              "-o refuted.json --page refuted.html")
             .code == 1);
-  const auto node = w.run("node " TS_BINARY_DIR "/web/test/pages.mjs /usr/bin/chromium " + w.dir.string());
+  // Kept for whoever wants to see them (continuous integration: as artefacts).
+  const char* wanted = std::getenv("TOUCHSTONE_SCREENSHOTS");
+  const std::string pictures =
+      fs::absolute(wanted && *wanted ? wanted : TS_BINARY_DIR "/screenshots").string();
+  const auto node =
+      w.run("node " TS_BINARY_DIR "/web/test/pages.mjs /usr/bin/chromium " + w.dir.string() + " " + pictures);
+  std::cout << figures_of(node.out) << "screenshots: " << pictures << "\n";
   INFO(node.out << node.err);
   CHECK(node.code == 0);
   CHECK(node.out.find("all checks hold") != std::string::npos);
+  for (const char* name : {"case-1280", "motion-390-dark", "report-print", "curved-contact"})
+    CHECK(fs::file_size(fs::path(pictures) / (std::string(name) + ".png")) > 5000);
 }
 
 TEST_CASE("what builds and tests the pages runs on Debian 12's Node 18 and npm 9", "[pages]") {

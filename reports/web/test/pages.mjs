@@ -1,11 +1,12 @@
-// Pages in a real browser: node pages.mjs CHROMIUM DIR, where DIR holds case.html (two bodies that touch or overlap),
+// Pages in a real browser: node pages.mjs CHROMIUM DIR [SCREENSHOTS], where DIR holds case.html (two bodies that touch or overlap),
 // motion.html, report.html, chart.html, stability.html, many.html: a report of 1e5 kinds of
 // findings, separate.html, touching.html, curved.html, mesh.html, script.html: cases of these kinds, certified.html, refuted.html: certificates of broad phases. Prints one line a check; exit code 1 when one fails.
-import { statSync } from "node:fs";
+import { mkdirSync, statSync } from "node:fs";
 import { join } from "node:path";
 import { chromium } from "playwright-core";
 
-const [, , executablePath, dir] = process.argv;
+const [, , executablePath, dir, pictures] = process.argv;
+if (pictures) mkdirSync(pictures, { recursive: true });
 const browser = await chromium.launch({
   executablePath,
   args: ["--no-sandbox", "--use-angle=swiftshader", "--enable-unsafe-swiftshader", "--ignore-gpu-blocklist"],
@@ -26,6 +27,7 @@ async function open(name, { settle = 150, hash = "", width = 1280, height = 720,
   await page.waitForTimeout(settle);
   return { page, errors };
 }
+const shoot = (page, name, more = {}) => (pictures ? page.screenshot({ path: join(pictures, `${name}.png`), ...more }) : undefined);
 const data = (page) => page.evaluate(() => globalThis.touchstoneData);
 
 // Different colours in the middle of the canvas: a picture, not a background.
@@ -55,9 +57,16 @@ for (const name of ["case.html", "motion.html", "report.html", "many.html", "cha
     check(`${name} at ${size.width} does not scroll sideways`, await wide(page));
     const back = await page.evaluate(() => getComputedStyle(document.documentElement).backgroundColor);
     check(`${name} is ${size.dark ? "dark" : "light"}`, (back === "rgb(255, 255, 255)") !== Boolean(size.dark), back);
+    await shoot(page, `${name.replace(".html", "")}-${size.width}${size.dark ? "-dark" : ""}`, { fullPage: size.width < 500 });
     await page.click("#theme");
     const other = await page.evaluate(() => getComputedStyle(document.documentElement).backgroundColor);
     check(`${name} changes its light`, other !== back);
+    if (!size.dark) {
+      await page.emulateMedia({ media: "print" });
+      const paper = await page.evaluate(() => [getComputedStyle(document.documentElement).backgroundColor, getComputedStyle(document.querySelector("#theme").parentElement).display]);
+      check(`${name} prints on white, without buttons`, paper.join() === "rgb(255, 255, 255),none", paper.join());
+      await shoot(page, `${name.replace(".html", "")}-print`);
+    }
     await page.close();
   }
 }
@@ -141,6 +150,7 @@ for (const [name, question, drawn, words] of [
   const said = (await page.textContent("#referee-trace ul")) ?? "";
   check(`${name} says how the referee knows`, words.test(said), said);
   const c = await colours(page);
+  await shoot(page, `${name.replace(".html", "")}-${question}`);
   check(`${name} draws bodies`, errors.length === 0 && c.kinds > 5 && c.share > 0.01, JSON.stringify(c) + errors.join());
   await page.close();
 }
@@ -168,6 +178,7 @@ for (const [name, question, drawn, words] of [
   await page.selectOption("#group", { label: "not grouped" });
   check("the most frequent finding comes first", (await page.textContent("#findings tbody tr td.answers")) === Math.max(...f.answers).toLocaleString("en-US"));
   await page.click("#findings tbody tr");
+  await shoot(page, "report-finding");
   check("a finding opens with its replay", (await page.textContent("#detail")).includes("./touchstone replay "));
   await page.selectOption("#group", { label: "by engine" });
   const engine = f.coded.engine.values.find((e) => f.coded.engine.codes.some((c) => f.coded.engine.values[c] === e));
