@@ -107,7 +107,9 @@ TEST_CASE("pages load, show the numbers of their JSON, draw, move and link in a 
         "view bullet_through_thin_wall -o motion.html" + few,
         "view rods_crossed_apart -o separate.html" + few, "view spheres_kiss -o touching.html" + few,
         "view cylinder_in_box -o curved.html" + few, "view mesh_cut_by_box -o mesh.html" + few,
-        "view swap_places -o script.html" + few, "stability --quick --ladder gap --out ." + few,
+        "view swap_places -o script.html" + few,
+        std::string("view thousand_balls -o crowd.html --engines core"),
+        "stability --quick --ladder gap --out ." + few,
         "chart --quick --measure 0 --broad grid,brute_force --out ." + few}) {
     const auto r = w.touchstone(line);
     INFO(line << "\n" << r.err);

@@ -1,6 +1,6 @@
 // Pages in a real browser: node pages.mjs CHROMIUM DIR [SCREENSHOTS], where DIR holds case.html (two bodies that touch or overlap),
 // motion.html, report.html, chart.html, stability.html, many.html: a report of 1e5 kinds of
-// findings, separate.html, touching.html, curved.html, mesh.html, script.html: cases of these kinds, certified.html, refuted.html: certificates of broad phases. Prints one line a check; exit code 1 when one fails.
+// findings, separate.html, touching.html, curved.html, mesh.html, script.html, crowd.html: cases of these kinds, certified.html, refuted.html: certificates of broad phases. Prints one line a check; exit code 1 when one fails.
 import { mkdirSync, statSync } from "node:fs";
 import { join } from "node:path";
 import { chromium } from "playwright-core";
@@ -49,7 +49,7 @@ const colours = (page) =>
 const picture = (page) => page.evaluate(() => document.querySelector("#view canvas").toDataURL());
 const wide = (page) => page.evaluate(() => document.documentElement.scrollWidth <= innerWidth + 1);
 
-for (const name of ["case.html", "motion.html", "report.html", "many.html", "chart.html", "stability.html", "certified.html", "refuted.html"]) {
+for (const name of ["case.html", "crowd.html", "motion.html", "report.html", "many.html", "chart.html", "stability.html", "certified.html", "refuted.html"]) {
   check(`${name} is smaller than 5 MB`, statSync(join(dir, name)).size < 5e6);
   for (const size of [{ width: 1280, height: 720 }, { width: 390, height: 844, dark: true }]) {
     const { page, errors } = await open(name, size);
@@ -65,6 +65,9 @@ for (const name of ["case.html", "motion.html", "report.html", "many.html", "cha
       await page.emulateMedia({ media: "print" });
       const paper = await page.evaluate(() => [getComputedStyle(document.documentElement).backgroundColor, getComputedStyle(document.querySelector("#theme").parentElement).display]);
       check(`${name} prints on white, without buttons`, paper.join() === "rgb(255, 255, 255),none", paper.join());
+      await page.waitForTimeout(100);
+      const pale = await page.$$eval("svg text", (t) => t.map((x) => getComputedStyle(x).fill.match(/\d+/g)?.map(Number) ?? [0]).filter((c) => c.length === 3 && Math.min(...c) > 200).length);
+      check(`${name} prints no pale letters`, pale === 0, String(pale));
       await shoot(page, `${name.replace(".html", "")}-print`);
     }
     await page.close();

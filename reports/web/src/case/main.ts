@@ -1,7 +1,7 @@
 // One case, one page: the bodies with every engine's answer and the referee's, and who is wrong.
 import { LinkState, app, colourOf, commandLine, el, isDark, isTyping, nanoseconds, numberOf, pageData, short, themeButton } from "../common/page";
 import "./case.css";
-import { drawn, type Drawn } from "./certificate";
+import { drawn, rational, type Drawn } from "./certificate";
 import { Parts } from "./parts";
 import { refereeTrace, stageTable, standAlone } from "./trace";
 import { standAt, standsOfScript, type Stand } from "./motion";
@@ -84,11 +84,28 @@ function bodyList(): HTMLElement {
   return list;
 }
 
+// Where there is no keyboard, and for who does not read about keys.
+function lookButtons(p: Picture): HTMLElement[] {
+  const whole = el("button", { type: "button", title: "key f" }, "whole scene"), contact = el("button", { type: "button", title: "key c", id: "near" }, "go to the contact");
+  whole.addEventListener("click", () => lookAtAll());
+  contact.addEventListener("click", () => lookNear());
+  return p.smallness < 0.03 ? [whole, contact, el("span", { class: "soft" }, "a body is tiny beside the scene")] : [whole, contact];
+}
+function lookAtAll(): void {
+  picture?.fit();
+  link.set("camera", null);
+}
+function lookNear(): void {
+  picture?.approach();
+  if (picture) link.set("camera", picture.cameraText());
+}
+
 let picture: Picture | null = null;
 try {
   picture = new Picture(data, frames, view, () => {
     if (picture) link.set("camera", picture.cameraText());
   });
+  parts.element.append(el("span", { class: "grow" }), ...lookButtons(picture));
 } catch (e) {
   view.append(el("p", { class: "soft", style: "padding:1rem" }, `No picture: this browser draws no WebGL (${String(e)}). The table says the same in numbers.`));
 }
@@ -102,6 +119,8 @@ function anchorOf(q: QueryJson, e?: EngineAnswer): V3 {
   if (q.referee.witness && q.question !== "time_of_impact") return anchorOf(q);
   const now = stands();
   const a = now[q.a]?.position, b = now[q.b]?.position;
+  const contact = q.question === "time_of_impact" ? q.referee.certificate?.contact : undefined;
+  if (contact && b) return contact.point.map((x, k) => rational(x) + b[k]!) as V3;
   const bounded = [a, b].filter((p, i) => p && shapes[bodies[[q.a, q.b][i]!]!.shape]!.type !== "half_space") as V3[];
   if (bounded.length === 0) return [0, 0, 0];
   return [0, 1, 2].map((k) => bounded.reduce((s, p) => s + p[k]! / bounded.length, 0)) as V3;
@@ -121,18 +140,18 @@ function marksOf(q: QueryJson): Mark[] {
       if (p && r) out.push({ ...base, at: p.map((x, k) => (x + r[k]!) / 2) as V3, normal: c.normal, depth: numberOf(c.depth), points: [] });
     }
     const sets = scripted ? a.candidate_pairs?.[Math.round(time)] : a.candidate_pairs?.[0];
+    const between = ([i, j]: [number, number]): [V3, V3][] => {
+      const p = stands()[i]?.position, r = stands()[j]?.position;
+      return p && r ? [[p, r]] : [];
+    };
     if (sets && (name === chosen || (!chosen && name === engineNames[0])))
-      for (const [i, j] of sets.slice(0, 3000)) {
-        const p = stands()[i]?.position, r = stands()[j]?.position;
-        if (p && r) out.push({ ...base, at: p, points: [], segment: [p, r] });
-      }
+      out.push({ ...base, at: [0, 0, 0], points: [], lines: sets.slice(0, 20000).flatMap(between) });
     const truth = q.question === "candidates" ? (scripted ? q.referee.overlapping_pairs?.[Math.round(time)] : q.referee.overlapping_pairs?.[0]) : undefined;
     if (truth && sets && (name === chosen || (!chosen && e.faults.length > 0))) {
       const has = new Set(sets.flatMap(([i, j]) => [`${i},${j}`, `${j},${i}`]));
-      for (const [i, j] of truth.filter(([i, j]) => !has.has(`${i},${j}`)).slice(0, 200)) {
-        const p = stands()[i]?.position, r = stands()[j]?.position;
-        if (p && r) out.push({ colour: isDark() ? "#ff5c4d" : "#d00000", strong: true, at: p, points: [p, r], segment: [p, r] });
-      }
+      const lost = truth.filter(([i, j]) => !has.has(`${i},${j}`)).slice(0, 200);
+      for (const [p, r] of lost.flatMap(between))
+        out.push({ colour: isDark() ? "#ff5c4d" : "#d00000", strong: true, at: p, points: [p, r], segment: [p, r] });
     }
     if (!a.normal && !a.witness && !a.manifold?.length) continue;
     const mark: Mark = { ...base, at: anchorOf(q, e), points: [...(a.manifold?.map((m) => m.position) ?? []), ...(a.witness ?? [])] };
@@ -313,7 +332,7 @@ function refresh(): void {
   picture.showEvidence(evidence, anchor, refereeColour());
   picture.showMarks(marksOf(now).map((m) => ({
     ...m, normal: parts.has("normals") ? m.normal : undefined, along: m.normal, depth: parts.has("depths") ? m.depth : undefined,
-    points: parts.has("points") ? m.points : [], segment: parts.has("lines") ? m.segment : undefined,
+    points: parts.has("points") ? m.points : [], segment: parts.has("lines") ? m.segment : undefined, lines: parts.has("lines") ? m.lines : undefined,
   })));
   picture.draw();
 }
@@ -327,7 +346,7 @@ addEventListener("keydown", (e) => {
     ArrowLeft: () => picture?.orbit(-turn, 0, 1), ArrowRight: () => picture?.orbit(turn, 0, 1),
     ArrowUp: () => picture?.orbit(0, turn, 1), ArrowDown: () => picture?.orbit(0, -turn, 1),
     "+": () => picture?.orbit(0, 0, 0.85), "=": () => picture?.orbit(0, 0, 0.85), "-": () => picture?.orbit(0, 0, 1 / 0.85),
-    f: () => { picture?.fit(); link.set("camera", null); }, c: () => { picture?.approach(); if (picture) link.set("camera", picture.cameraText()); },
+    f: lookAtAll, c: lookNear,
     q: () => { query = (query + 1) % data.queries.length; link.set("q", String(query)); refresh(); },
     n: () => nextEngine(1), p: () => nextEngine(-1),
     "]": () => setTime(time + step), "[": () => setTime(time - step),

@@ -21,6 +21,8 @@ export interface Mark {
   depth?: number | undefined;
   points: V3[];
   segment?: [V3, V3] | undefined;
+  /** Pairs of a crowd: one thing to draw, thin. */
+  lines?: [V3, V3][] | undefined;
 }
 
 /** Paler than what engines are drawn in. */
@@ -40,6 +42,7 @@ export class Picture {
   private centre: V3;
   private size: number;
   private focus: V3 | null = null;
+  private ready = false;  // nothing is drawn before there is all that is to be seen
   private smallest = 1;  // reach of the smallest body, in the picture's unit
 
   constructor(private data: CasePage, stands: (Stand | null)[][], host: HTMLElement, moved: () => void) {
@@ -78,12 +81,16 @@ export class Picture {
   private makeBodies(): void {
     const { shapes, bodies } = this.data.case.scene;
     const many = bodies.length > 2;
+    // Bodies of one shape share it; in a crowd each is small, and coarser.
+    const made = new Map<number, BufferGeometry>();
+    const fine = bodies.length > 60 ? 0.25 : 1;
     bodies.forEach((b, i) => {
       const shape = shapes[b.shape]!;
       const group = new Group();
       const colour = many && b.static ? "#8b949e" : bodyColours[i % 2]!;
       const flat = shape.type === "half_space" || shape.type === "mesh";
-      const geometry = geometryOf(shape, this.data.hull_faces[String(b.shape)], 1 / this.size, 3);
+      const geometry = made.get(b.shape) ?? geometryOf(shape, this.data.hull_faces[String(b.shape)], 1 / this.size, 3, fine);
+      made.set(b.shape, geometry);
       const material = new MeshStandardMaterial({
         color: colour, transparent: true, opacity: flat ? 0.35 : 0.5, roughness: 0.75, side: DoubleSide, depthWrite: false,
       });
@@ -203,7 +210,7 @@ export class Picture {
       return new LineSegments(g, new LineBasicMaterial({ color: colour, depthTest: false }));
     }
     const m = new Mesh(
-      geometryOf({ type: "cylinder", radius, half_height: length / 2 }, undefined, 1, 1),
+      geometryOf({ type: "cylinder", radius, half_height: length / 2 }, undefined, 1, 1, 0.2),
       new MeshBasicMaterial({ color: colour, depthTest: false, transparent: true, opacity: 0.85 }),
     );
     m.position.copy(from).addScaledVector(along, 0.5);
@@ -214,6 +221,7 @@ export class Picture {
   }
 
   showMarks(marks: Mark[]): void {
+    this.ready = true;
     this.dispose(this.marks);
     for (const m of marks) {
       const at = this.local(m.at);
@@ -225,10 +233,22 @@ export class Picture {
         if (m.depth !== undefined && Number.isFinite(m.depth))
           this.marks.add(this.stick(at, at.clone().addScaledVector(n, m.depth / this.size), m.colour, 0.006 * size));
       }
+      if (m.lines?.length) {
+        const g = new BufferGeometry();
+        g.setAttribute("position", new Float32BufferAttribute(m.lines.flatMap((l) => l.flatMap((v) => this.local(v).toArray())), 3));
+        const lines = new LineSegments(g, new LineBasicMaterial({ color: m.colour, depthTest: false, transparent: true }));
+        lines.renderOrder = 2;
+        this.marks.add(lines);
+      }
       for (const p of m.points) if (p.every(Number.isFinite)) this.marks.add(this.ball(this.local(p), m.colour, 0.011 * size));
       if (m.segment && m.segment.flat().every(Number.isFinite))
         this.marks.add(this.stick(this.local(m.segment[0]), this.local(m.segment[1]), m.colour, 0.004 * size));
     }
+  }
+
+  /** Reach of the smallest body, where the scene has size 1. */
+  get smallness(): number {
+    return this.smallest;
   }
 
   setFocus(p: V3 | null): void {
@@ -301,6 +321,7 @@ export class Picture {
   }
 
   draw(): void {
+    if (!this.ready) return;
     const distance = this.controls ? this.camera.position.distanceTo(this.controls.target) : 3;
     this.camera.near = Math.max(1e-7, distance * 1e-3);
     this.camera.updateProjectionMatrix();

@@ -83,6 +83,19 @@ export function themeButton(link: LinkState, changed: () => void): HTMLButtonEle
     if (e.key === "l" && !isTyping(e)) toggle();
   });
   matchMedia("(prefers-color-scheme: dark)").addEventListener("change", changed);
+  // Paper is white, and what scripts draw takes its colours when it is drawn.
+  matchMedia("print").addEventListener("change", changed);
+  let chosen: string | undefined;
+  addEventListener("beforeprint", () => {
+    chosen = document.documentElement.dataset["theme"];
+    apply("light");
+    changed();
+  });
+  addEventListener("afterprint", () => {
+    if (chosen) apply(chosen);
+    else delete document.documentElement.dataset["theme"];
+    changed();
+  });
   return button;
 }
 

@@ -204,7 +204,7 @@ export class FindingsBrowser {
     });
     const say = (words: string, command: string): HTMLElement[] => [el("p", { class: "soft" }, words), commandLine(command)];
     this.detail.replaceChildren(el("div", { class: "title" }, el("h2", {}, parts.slice(0, 4).map((p) => spaced(f.value(i, p))).join(" · ")), close),
-      el("p", {}, f.words(i)), el("p", { class: "soft" }, `${grouped(f.answers[i]!)} answers like this; the worst is off by ${f.worst[i]!.toExponential(1)} of the scene's scale L. ${blameWords[f.value(i, "blame")] ?? ""}`),
+      el("p", {}, f.words(i)), el("p", { class: "soft" }, `${grouped(f.answers[i]!)} ${f.answers[i] === 1 ? "answer" : "answers"} like this${f.worst[i]! > 0 ? `; the worst is off by ${f.worst[i]!.toExponential(1)} of the scene's scale L` : ""}. ${blameWords[f.value(i, "blame")] ?? ""}`),
       ...say("Every engine's answer beside the referee's:", `./touchstone replay ${path}`), ...say("The same as a picture:", `./touchstone view ${path} -o page.html`),
       ...say("The smallest case that shows it:", `./touchstone shrink ${path} --engine ${engine}`),
       ...say("As one C++ file against the engine alone:", `./touchstone reproduce ${path} --engine ${engine} -o reproduce.cpp`));

@@ -91,6 +91,7 @@ function drawEngines(): void {
 
 const plot = init(chart, null, { renderer: "svg" });
 new ResizeObserver(() => plot.resize()).observe(chart);
+addEventListener("beforeprint", () => plot.getZr().flush());
 function drawChart(): void {
   const questions = [...new Set(Object.values(data.summary.engines).flatMap((q) => Object.keys(q)))];
   const ink = style("--ink"), line = style("--line");
