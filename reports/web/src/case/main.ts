@@ -128,6 +128,7 @@ function anchorOf(q: QueryJson, e?: EngineAnswer): V3 {
 
 function marksOf(q: QueryJson): Mark[] {
   const out: Mark[] = [];
+  const now = stands();
   for (const name of engineNames) {
     const e = q.engines?.[name];
     if (!e || hidden.has(name) || e.answer.outcome !== "answered") continue;
@@ -135,13 +136,12 @@ function marksOf(q: QueryJson): Mark[] {
     const base = { colour: colour(name), strong: name === chosen || !chosen };
     const contacts = a.contacts ?? [];
     for (const c of contacts.slice(0, 200)) {
-      const now = stands();
       const p = now[c.a]?.position, r = now[c.b]?.position;
       if (p && r) out.push({ ...base, at: p.map((x, k) => (x + r[k]!) / 2) as V3, normal: c.normal, depth: numberOf(c.depth), points: [] });
     }
     const sets = scripted ? a.candidate_pairs?.[Math.round(time)] : a.candidate_pairs?.[0];
     const between = ([i, j]: [number, number]): [V3, V3][] => {
-      const p = stands()[i]?.position, r = stands()[j]?.position;
+      const p = now[i]?.position, r = now[j]?.position;
       return p && r ? [[p, r]] : [];
     };
     if (sets && (name === chosen || (!chosen && name === engineNames[0])))

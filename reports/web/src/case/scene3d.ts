@@ -42,6 +42,7 @@ export class Picture {
   private centre: V3;
   private size: number;
   private focus: V3 | null = null;
+  private drawnSize = "";
   private ready = false;  // nothing is drawn before there is all that is to be seen
   private smallest = 1;  // reach of the smallest body, in the picture's unit
 
@@ -82,7 +83,7 @@ export class Picture {
     const { shapes, bodies } = this.data.case.scene;
     const many = bodies.length > 2;
     // Bodies of one shape share it; in a crowd each is small, and coarser.
-    const made = new Map<number, BufferGeometry>();
+    const made = new Map<number, BufferGeometry>(), materials = new Map<string, MeshStandardMaterial>();
     const fine = bodies.length > 60 ? 0.25 : 1;
     bodies.forEach((b, i) => {
       const shape = shapes[b.shape]!;
@@ -91,9 +92,10 @@ export class Picture {
       const flat = shape.type === "half_space" || shape.type === "mesh";
       const geometry = made.get(b.shape) ?? geometryOf(shape, this.data.hull_faces[String(b.shape)], 1 / this.size, 3, fine);
       made.set(b.shape, geometry);
-      const material = new MeshStandardMaterial({
-        color: colour, transparent: true, opacity: flat ? 0.35 : 0.5, roughness: 0.75, side: DoubleSide, depthWrite: false,
-      });
+      const opacity = flat ? 0.35 : 0.5;
+      const material = materials.get(`${colour} ${opacity}`) ??
+        new MeshStandardMaterial({ color: colour, transparent: true, opacity, roughness: 0.75, side: DoubleSide, depthWrite: false, forceSinglePass: fine < 1 });
+      materials.set(`${colour} ${opacity}`, material);
       const mesh = new Mesh(geometry, material);
       group.add(mesh);
       const round = !["box", "hull", "mesh", "half_space", "cylinder", "cone"].includes(shape.type);
@@ -312,7 +314,8 @@ export class Picture {
 
   private resize(host: HTMLElement): void {
     const { clientWidth: w, clientHeight: h } = host;
-    if (w === 0 || h === 0) return;
+    if (w === 0 || h === 0 || `${w} ${h}` === this.drawnSize) return;
+    this.drawnSize = `${w} ${h}`;
     this.renderer.setPixelRatio(Math.min(devicePixelRatio, 2));
     this.renderer.setSize(w, h, false);
     this.camera.aspect = w / h;
