@@ -69,94 +69,6 @@ std::string level_text(const BroadCertificate& c, Level level, bool times) {
   return out;
 }
 
-std::string escaped(const std::string& s) {
-  std::string out;
-  for (const char c : s) {
-    if (c == '<')
-      out += "&lt;";
-    else if (c == '&')
-      out += "&amp;";
-    else if (c == '>')
-      out += "&gt;";
-    else if (c == '"')
-      out += "&quot;";
-    else
-      out += c;
-  }
-  return out;
-}
-
-constexpr const char* head = R"html(<!DOCTYPE html>
-<html lang="en"><head><meta charset="utf-8"><meta name="viewport" content="width=device-width">
-<title>Certificate</title>
-<style>
-:root{--ink:#1c2733;--soft:#66727f;--line:#d9dee4}
-*{box-sizing:border-box}
-body{margin:0 auto;padding:24px;max-width:1000px;font:15px/1.5 system-ui,"DejaVu Sans",sans-serif;color:var(--ink);background:#fff}
-h1{font-size:22px;margin:0 0 4px}h2{font-size:16px;margin:26px 0 6px}
-p{margin:4px 0;max-width:80ch}.soft{color:var(--soft)}
-table{border-collapse:collapse;width:100%;margin:8px 0}
-th{font-weight:600;text-align:left;border-bottom:1px solid var(--ink);padding:4px 8px 4px 0}
-td{padding:4px 8px 4px 0;border-bottom:1px solid var(--line);vertical-align:top}
-.n{text-align:right;font-variant-numeric:tabular-nums;white-space:nowrap}
-.certified{color:#1d6b3a;font-weight:600}.refuted{color:#b3261e;font-weight:600}
-dl{display:grid;grid-template-columns:max-content 1fr;gap:2px 16px;margin:10px 0}dt{color:var(--soft)}dd{margin:0}
-pre{background:#f5f7f9;border:1px solid var(--line);padding:10px;overflow:auto;font-size:13px}
-</style></head><body>
-)html";
-
-std::string page_facts(const BroadCertificate& c) {
-  std::string out = "<dl>";
-  const auto fact = [&](const char* name, const std::string& value) {
-    if (!value.empty()) out += fmt::format("<dt>{}</dt><dd>{}</dd>", name, escaped(value));
-  };
-  fact("Subject", c.subject);
-  fact("Library", c.card.library + " " + c.card.version);
-  fact("Settings", c.card.settings);
-  fact("Hash of the plug-in", c.plugin_hash);
-  fact("Arithmetic", c.card.unit_roundoff > 0x1p-50 ? "float" : "double");
-  fact("Scope and seed", fmt::format("{}, seed {}{}", c.scope, c.seed,
-                                     c.limit ? fmt::format(", at most {} cases an evidence", c.limit) : ""));
-  fact("Made by", c.program);
-  fact("Digest", fmt::format("{:016x}", digest(c)));
-  return out + "</dl>\n";
-}
-
-std::string page_table(const BroadCertificate& c, Level level) {
-  std::string out =
-      "<table><tr><th>Evidence<th>What was tried<th class=n>Cases<th class=n>Refused<th class=n>Steps"
-      "<th class=n>Queries<th class=n>True pairs<th class=n>Price</tr>\n";
-  for (const EvidenceCount& e : c.evidence)
-    if (e.level == level)
-      out += fmt::format(
-          "<tr><td>{}<br><span class=soft>{}</span><td>{}<td class=n>{}<td class=n>{}<td class=n>{}<td "
-          "class=n>{}<td class=n>{}<td class=n>{}</tr>\n",
-          e.name, to_string(e.kind), escaped(e.line), grouped(e.cases), grouped(e.refused), grouped(e.steps),
-          grouped(e.queries), grouped(e.pairs_true), price(e.pairs_reported, e.pairs_true));
-  return out + "</table>\n";
-}
-
-std::string page_level(const BroadCertificate& c, Level level) {
-  const auto v = to_string(verdict(c, level));
-  std::string out =
-      fmt::format("<h2>Level of {}: <span class=\"{}\">{}</span></h2>\n", to_string(level), v, v);
-  out +=
-      level == Level::boxes
-          ? "<p class=soft>Candidates must contain every pair of the boxes given that overlap, touching "
-            "included. "
-            "The boxes are exact in the subject's arithmetic.</p>\n"
-          : "<p class=soft>Candidates must contain every pair of bodies that truly overlap, decided in exact "
-            "arithmetic, whatever boxes the subject makes.</p>\n";
-  out += page_table(c, level);
-  for (const auto& r : c.refutations)
-    if (r.level == level)
-      out += fmt::format("<p>{}</p>\n<pre>{}</pre>\n", escaped(fmt::format("{}: {}", r.fault, r.words)),
-                         escaped(refutation(r)));
-  const std::string bound = verdict(c, level) == LevelVerdict::certified ? random_bound(c, level) : "";
-  if (!bound.empty()) out += fmt::format("<pre>{}</pre>\n", escaped(bound));
-  return out;
-}
-
 }  // namespace
 
 std::string certificate_line(const BroadCertificate& c) {
@@ -174,20 +86,6 @@ std::string certificate_text(const BroadCertificate& c, bool times) {
   out += "\nprice: superfluous pairs per true pair. Not proved:\n";
   for (const std::string& line : not_proved(c)) out += "- " + wrapped(line, 76, 2) + "\n";
   return out + fmt::format("digest {:016x}\n", digest(c));
-}
-
-std::string certificate_page(const BroadCertificate& c) {
-  std::string out = head;
-  out += fmt::format("<h1>{}</h1>\n<p>Is this broad phase conservative: does it ever lose a pair?</p>\n",
-                     escaped(certificate_line(c)));
-  out += page_facts(c);
-  for (const Level l : c.levels) out += page_level(c, l);
-  out += "<h2>What this does not prove</h2>\n<ul>\n";
-  for (const std::string& line : not_proved(c)) out += "<li>" + escaped(line) + "\n";
-  return out +
-         "</ul>\n<p class=soft>Price: superfluous pairs per true pair. The certificate can be made again "
-         "from "
-         "itself alone: touchstone certify --check FILE.</p>\n</body></html>\n";
 }
 
 }  // namespace touchstone::reports

@@ -53,15 +53,16 @@ std::string shapes(const Plan& p) {
 
 std::string meshes(const Plan& p) {
   if (p.convex_meshes == 0) return "";
-  return wrapped(p.solid_meshes
-                     ? fmt::format(
-                           "{} meshes are closed and convex and stand for solids; the fixed choices below "
-                           "take them as surfaces, so that their errors are of another scene.",
-                           p.convex_meshes)
-                     : fmt::format(
-                           "{} meshes are closed and convex: if they stand for solids, say --solid-meshes.",
-                           p.convex_meshes),
-                 79, 2) +
+  return wrapped(
+             p.solid_meshes
+                 ? fmt::format("Meshes that are closed and convex: {}. They stand for solids; the fixed "
+                               "choices below "
+                               "take them as surfaces, so that their errors are of another scene.",
+                               p.convex_meshes)
+                 : fmt::format(
+                       "Meshes that are closed and convex: {}. If they stand for solids, say --solid-meshes.",
+                       p.convex_meshes),
+             79, 2) +
          "\n";
 }
 

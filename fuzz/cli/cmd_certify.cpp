@@ -14,6 +14,7 @@
 #include "fuzz/cli/broad_subject.h"
 #include "fuzz/cli/command.h"
 #include "fuzz/cli/engine_catalog.h"
+#include "fuzz/cli/pages.h"
 #include "oracles/core/broad_engine.h"
 #include "reports/certificate_text.h"
 #include "reports/text.h"
@@ -125,6 +126,18 @@ int list_subjects() {
   return exit_clean;
 }
 
+// What reports/web/src/certificate draws: the certificate as it is stored, and where things lie.
+bool write_certificate_page(const CertifyOptions& o, const BroadCertificate& c) {
+  Json scripts = Json::object();
+  for (const auto& r : c.refutations)
+    if (const auto file = script_file(o, r); r.script && !file.empty())
+      scripts[std::string(to_string(r.level))] = file;
+  const Json page = {{"page", "certificate"},    {"version", 1},  {"title", reports::certificate_line(c)},
+                     {"subject", o.subject},     {"file", o.out}, {"scripts", std::move(scripts)},
+                     {"certificate", to_json(c)}};
+  return write_page("certificate", page.dump(), o.page, o.out);
+}
+
 int certify_subject(const CertifyOptions& o) {
   if (o.subject.empty()) throw InputError("certify", "say what to certify: --subject NAME, or --check CERT");
   for (const std::string& file : {o.out, o.page, o.script}) require_writable(file);
@@ -134,12 +147,13 @@ int certify_subject(const CertifyOptions& o) {
     return exit_failed;
   }
   if (!o.out.empty()) fuzz::write_atomically(o.out, to_json(*c).dump(1) + "\n");
-  if (!o.page.empty()) fuzz::write_atomically(o.page, reports::certificate_page(*c));
+  const bool page = !o.page.empty() && write_certificate_page(o, *c);
   if (o.json) {
     fmt::print("{}\n", to_json(*c).dump(1));
   } else {
     fmt::print("{}", reports::certificate_text(*c, true));
     write_scripts(o, *c);
+    if (page) fmt::print("page: {}\n", o.page);
     fmt::print("{}\n", reports::certificate_line(*c));
   }
   return exit_code(*c);

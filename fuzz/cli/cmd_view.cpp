@@ -7,13 +7,12 @@
 #include "core/scene/input_file.h"
 #include "core/scene/real_scene.h"
 #include "fuzz/cli/case_argument.h"
+#include "fuzz/cli/case_page.h"
 #include "fuzz/cli/command.h"
 #include "fuzz/cli/engine_catalog.h"
 #include "fuzz/cli/pages.h"
 #include "fuzz/explore/broad_view.h"
-#include "fuzz/judge/judge.h"
 #include "reports/broad_page.h"
-#include "reports/replay_text.h"
 
 namespace touchstone::cli {
 namespace {
@@ -41,34 +40,8 @@ Scene scene_named(const ViewOptions& o) {
   return c.scene;
 }
 
-// What reports/web/src/case draws: the case, the answers as `replay --json` has them, and the faces of hulls.
-fuzz::Json case_page(const ViewOptions& o, const StoredCase& stored) {
-  const Case& c = stored.c;
-  fuzz::Truth truth(c.scene);
-  reports::ReplayText text(c, truth);
-  fuzz::Json engines = fuzz::Json::object(), faces = fuzz::Json::object();
-  for (const auto& name : engine_names(o.engines)) {
-    const EnginePtr engine = make_engine(name, o.limits);
-    const EngineCard& card = engine->card();
-    const auto answers = engine->run({&c, 1})[0];
-    text.add(card.name, answers, fuzz::judge(c, card, answers, truth));
-    engines[card.name] = {{"library", card.library}, {"version", card.version}, {"settings", card.settings}};
-  }
-  for (std::size_t i = 0; i < c.scene.shapes.size(); ++i)
-    if (const auto* h = std::get_if<Hull>(&c.scene.shapes[i])) faces[std::to_string(i)] = h->faces;
-  const std::string id = c.id.empty() ? std::filesystem::path(o.scene).stem().string() : c.id;
-  return {{"page", "case"},
-          {"version", 1},
-          {"title", id},
-          {"command", "./touchstone replay " + o.scene},
-          {"case", stored_case_to_json(stored)},
-          {"hull_faces", std::move(faces)},
-          {"engines", std::move(engines)},
-          {"queries", std::move(text.json()["queries"])}};
-}
-
 int view_case(const ViewOptions& o) {
-  const fuzz::Json page = case_page(o, case_argument(o.scene));
+  const fuzz::Json page = case_page(o.scene, case_argument(o.scene), o.engines, o.limits);
   if (o.json) fmt::print("{}\n", page.dump(1));
   if (o.out.empty()) return exit_clean;
   if (!write_page("case", page.dump(), o.out)) return exit_failed;

@@ -12,11 +12,12 @@ std::filesystem::path built_page(std::string_view kind) {
   return plugin_directory().parent_path() / "share/touchstone/web" / fmt::format("{}.html", kind);
 }
 
-bool write_page(std::string_view kind, const std::string& json, const std::filesystem::path& out) {
+bool write_page(std::string_view kind, const std::string& json, const std::filesystem::path& out,
+                const std::filesystem::path& stored) {
   const auto built = built_page(kind);
   if (!std::filesystem::exists(built)) {
-    auto data = out;
-    write_file(data.replace_extension(".json"), json);
+    auto data = stored;
+    if (data.empty()) write_file((data = out).replace_extension(".json"), json);
     fmt::print(
         stderr,
         "touchstone: no page: those of reports/web are not built (./touchstone pages --install builds them "

@@ -12,8 +12,9 @@ namespace touchstone::cli {
 std::filesystem::path built_page(std::string_view kind);
 
 /// Writes the page with `json` in it to `out`. Without a built page the JSON goes to `out` with the extension
-/// .json and one line on stderr says what is missing; then false.
-bool write_page(std::string_view kind, const std::string& json, const std::filesystem::path& out);
+/// .json, if it is not in the file `stored` anyway, and one line on stderr says what is missing; then false.
+bool write_page(std::string_view kind, const std::string& json, const std::filesystem::path& out,
+                const std::filesystem::path& stored = {});
 
 /// What a command of measurements leaves: `name`.json, .csv and .html in the directory `out`, and on stdout
 /// the text, or with `as_json` the JSON; last the files' names (then on stderr).

@@ -1,10 +1,12 @@
-// Pages in a real browser: node pages.mjs CHROMIUM DIR, where DIR holds case.html (two bodies that touch or overlap),
-// motion.html, report.html, chart.html, stability.html. Prints one line a check; exit code 1 when one fails.
-import { statSync } from "node:fs";
+// Pages in a real browser: node pages.mjs CHROMIUM DIR [SCREENSHOTS], where DIR holds case.html (two bodies that touch or overlap),
+// motion.html, report.html, chart.html, stability.html, many.html: a report of 1e5 kinds of
+// findings, separate.html, touching.html, curved.html, mesh.html, script.html, crowd.html: cases of these kinds, certified.html, refuted.html: certificates of broad phases. Prints one line a check; exit code 1 when one fails.
+import { mkdirSync, statSync } from "node:fs";
 import { join } from "node:path";
 import { chromium } from "playwright-core";
 
-const [, , executablePath, dir] = process.argv;
+const [, , executablePath, dir, pictures] = process.argv;
+if (pictures) mkdirSync(pictures, { recursive: true });
 const browser = await chromium.launch({
   executablePath,
   args: ["--no-sandbox", "--use-angle=swiftshader", "--enable-unsafe-swiftshader", "--ignore-gpu-blocklist"],
@@ -15,17 +17,18 @@ function check(what, ok, more = "") {
   if (!ok) ++failed;
 }
 
-async function open(name, { hash = "", width = 1280, height = 720, dark = false } = {}) {
+async function open(name, { settle = 150, hash = "", width = 1280, height = 720, dark = false } = {}) {
   const page = await browser.newPage({ viewport: { width, height }, colorScheme: dark ? "dark" : "light" });
   const errors = [];
   page.on("console", (m) => m.type() === "error" && errors.push(m.text()));
   page.on("pageerror", (e) => errors.push(String(e)));
   page.on("request", (r) => /^https?:/.test(r.url()) && errors.push(`asks the network for ${r.url()}`));
   await page.goto(`file://${join(dir, name)}${hash}`);
-  await page.waitForTimeout(150);
+  await page.waitForTimeout(settle);
   return { page, errors };
 }
-const data = (page) => page.evaluate(() => JSON.parse(document.getElementById("data").textContent));
+const shoot = (page, name, more = {}) => (pictures ? page.screenshot({ path: join(pictures, `${name}.png`), ...more }) : undefined);
+const data = (page) => page.evaluate(() => globalThis.touchstoneData);
 
 // Different colours in the middle of the canvas: a picture, not a background.
 const colours = (page) =>
@@ -46,7 +49,7 @@ const colours = (page) =>
 const picture = (page) => page.evaluate(() => document.querySelector("#view canvas").toDataURL());
 const wide = (page) => page.evaluate(() => document.documentElement.scrollWidth <= innerWidth + 1);
 
-for (const name of ["case.html", "motion.html", "report.html", "chart.html", "stability.html"]) {
+for (const name of ["case.html", "crowd.html", "motion.html", "report.html", "many.html", "chart.html", "stability.html", "certified.html", "refuted.html"]) {
   check(`${name} is smaller than 5 MB`, statSync(join(dir, name)).size < 5e6);
   for (const size of [{ width: 1280, height: 720 }, { width: 390, height: 844, dark: true }]) {
     const { page, errors } = await open(name, size);
@@ -54,9 +57,19 @@ for (const name of ["case.html", "motion.html", "report.html", "chart.html", "st
     check(`${name} at ${size.width} does not scroll sideways`, await wide(page));
     const back = await page.evaluate(() => getComputedStyle(document.documentElement).backgroundColor);
     check(`${name} is ${size.dark ? "dark" : "light"}`, (back === "rgb(255, 255, 255)") !== Boolean(size.dark), back);
+    await shoot(page, `${name.replace(".html", "")}-${size.width}${size.dark ? "-dark" : ""}`, { fullPage: size.width < 500 });
     await page.click("#theme");
     const other = await page.evaluate(() => getComputedStyle(document.documentElement).backgroundColor);
     check(`${name} changes its light`, other !== back);
+    if (!size.dark) {
+      await page.emulateMedia({ media: "print" });
+      const paper = await page.evaluate(() => [getComputedStyle(document.documentElement).backgroundColor, getComputedStyle(document.querySelector("#theme").parentElement).display]);
+      check(`${name} prints on white, without buttons`, paper.join() === "rgb(255, 255, 255),none", paper.join());
+      await page.waitForTimeout(100);
+      const pale = await page.$$eval("svg text", (t) => t.map((x) => getComputedStyle(x).fill.match(/\d+/g)?.map(Number) ?? [0]).filter((c) => c.length === 3 && Math.min(...c) > 200).length);
+      check(`${name} prints no pale letters`, pale === 0, String(pale));
+      await shoot(page, `${name.replace(".html", "")}-print`);
+    }
     await page.close();
   }
 }
@@ -96,6 +109,56 @@ for (const name of ["case.html", "motion.html", "report.html", "chart.html", "st
 }
 
 {
+  const { page } = await open("case.html");
+  const d = await data(page);
+  const shown = await page.$$eval("tr[data-stages]", (r) => r.map((x) => [x.dataset.stages, [...x.children].slice(2).map((c) => c.textContent === "✗")]));
+  const traced = Object.entries(d.engines).filter(([, e]) => e.stages);
+  check("the stages of each wrong engine are those of the JSON", shown.length > 0 && shown.length === traced.length &&
+    shown.every(([n, marks]) => JSON.stringify(marks) === JSON.stringify(d.engines[n].stages[0].stages.map((s) => s.faults.length > 0))), JSON.stringify(shown));
+  const programs = Object.values(d.engines).flatMap((e) => e.programs ?? []);
+  if (programs.length > 0) {
+    const text = await page.textContent("#program pre");
+    check("the stand-alone test is there as it is", programs.some((p) => p.program === text) && text.includes("int main"));
+  }
+  const all = await picture(page);
+  await page.uncheck("#part-normals");
+  const fewer = await picture(page);
+  check("normals can be left out", fewer !== all);
+  await page.keyboard.press("5");
+  check("the certificate can be left out by its key", (await picture(page)) !== fewer && (await page.evaluate(() => document.body.dataset.drawn)) === "");
+  await page.waitForTimeout(250);
+  const hash = await page.evaluate(() => location.hash);
+  const left = await picture(page);
+  await page.close();
+  const again = await open("case.html", { hash });
+  check("the link has what is left out", (await picture(again.page)) === left, hash);
+  await again.page.close();
+}
+
+// A case of each kind: what of the referee's evidence is drawn, and what it says that it did.
+for (const [name, question, drawn, words] of [
+  ["separate.html", "distance", ["plane", "segment"], /a plane between A and B/],
+  ["touching.html", "contact", ["point"], /a point of both/],
+  ["curved.html", "contact", ["point", "polytope", "direction"], /a polytope of \d+ true points of A − B, \d+ facets/],
+  ["mesh.html", "contact", ["point"], /depth: not defined/],
+  ["motion.html", "time_of_impact", ["point"], /planes that move, checked until t = /],
+  ["script.html", "candidates", [], /every pair of bodies/],
+]) {
+  const first = await open(name);
+  const q = (await data(first.page)).queries.findIndex((x) => x.question === question);
+  await first.page.close();
+  const { page, errors } = await open(name, { hash: `#q=${q}` });
+  const kinds = await page.evaluate(() => document.body.dataset.drawn.split(" "));
+  check(`${name} draws ${drawn.join(", ") || "no certificate"}`, drawn.every((k) => kinds.includes(k)) && (name !== "mesh.html" || !kinds.includes("direction")), kinds.join());
+  const said = (await page.textContent("#referee-trace ul")) ?? "";
+  check(`${name} says how the referee knows`, words.test(said), said);
+  const c = await colours(page);
+  await shoot(page, `${name.replace(".html", "")}-${question}`);
+  check(`${name} draws bodies`, errors.length === 0 && c.kinds > 5 && c.share > 0.01, JSON.stringify(c) + errors.join());
+  await page.close();
+}
+
+{
   const { page } = await open("motion.html", { hash: "#t=0.2" });
   const at = (await page.inputValue("#time")) * 1;
   check("the link sets the time", Math.abs(at - 0.2) < 1e-3, String(at));
@@ -113,11 +176,53 @@ for (const name of ["case.html", "motion.html", "report.html", "chart.html", "st
   const { page } = await open("report.html");
   const d = await data(page);
   check("the report has a row an answered question", (await page.$$("#engines tbody tr")).length > 0);
-  check("the report counts its findings", (await page.textContent("#found")).includes(`of ${d.findings.length.toLocaleString("en-US")} kinds`));
-  const most = Math.max(...d.findings.map((f) => f[d.columns.indexOf("count")]));
-  check("the most frequent finding comes first", (await page.textContent("#findings tbody tr td:nth-child(7)")) === most.toLocaleString("en-US"));
+  const f = d.findings;
+  check("the report counts its findings", (await page.textContent("#found")).includes(`of ${f.count.toLocaleString("en-US")} kinds`) && f.count === f.answers.length && f.count > 0);
+  await page.selectOption("#group", { label: "not grouped" });
+  check("the most frequent finding comes first", (await page.textContent("#findings tbody tr td.answers")) === Math.max(...f.answers).toLocaleString("en-US"));
   await page.click("#findings tbody tr");
+  await shoot(page, "report-finding");
   check("a finding opens with its replay", (await page.textContent("#detail")).includes("./touchstone replay "));
+  await page.selectOption("#group", { label: "by engine" });
+  const engine = f.coded.engine.values.find((e) => f.coded.engine.codes.some((c) => f.coded.engine.values[c] === e));
+  await page.selectOption("#filter-engine", engine).catch(() => undefined);
+  const kinds = f.coded.engine.codes.filter((c) => f.coded.engine.values[c] === engine).length;
+  check("a filter leaves its own", (await page.textContent("#found")).startsWith(`${kinds.toLocaleString("en-US")} of `), await page.textContent("#found"));
+  await page.close();
+}
+
+{
+  const before = Date.now();
+  const { page, errors } = await open("many.html", { settle: 0 });
+  await page.evaluate(() => new Promise((r) => requestAnimationFrame(() => requestAnimationFrame(r))));
+  const opened = Date.now() - before;
+  const { findings: f } = await data(page);
+  console.log(`     many.html: ${f.count} findings, ${(statSync(join(dir, "many.html")).size / 1e6).toFixed(2)} MB, drawn after ${opened} ms`);
+  check("many findings load without an error", errors.length === 0 && f.count === 100000, errors.join("; "));
+  const rows = () => page.$$eval("#findings tbody tr:not(.gap)", (r) => r.length);
+  await page.selectOption("#group", { label: "not grouped" });
+  check("only the lines in sight are in the document", (await rows()) > 5 && (await rows()) < 120, String(await rows()));
+  await page.focus("#findings");
+  await page.keyboard.press("End");
+  await page.waitForTimeout(100);
+  const last = await page.$$eval("#findings tbody tr:not(.gap)", (r) => Number(r.at(-1).getAttribute("aria-rowindex")));
+  check("the End key reaches the last of them", last === f.count, String(last));
+  await page.keyboard.press("Enter");
+  const fewest = Math.min(...f.answers);
+  check("it is the least frequent", (await page.textContent("#findings tr.chosen td.answers")) === String(fewest));
+  // What the page says of a finding is what was packed: 100 of them, words and all.
+  const wrong = await page.evaluate(async () => {
+    const packed = globalThis.touchstoneData.findings;
+    const numbers = packed.words.numbers.split(" ");
+    let next = 0, bad = 0;
+    packed.words.codes.forEach((c, i) => {
+      const t = packed.words.templates[c], n = t.split("\u0001").length - 1;
+      if (i % 1000 === 0) bad += globalThis.touchstoneFindings.words(i) !== t.replaceAll("\u0001", () => numbers[next++]);
+      else next += n;
+    });
+    return bad + (next !== numbers.length);
+  });
+  check("a finding has its own words", wrong === 0, String(wrong));
   await page.close();
 }
 
@@ -150,6 +255,24 @@ for (const name of ["case.html", "motion.html", "report.html", "chart.html", "st
   const cells = await page.$$eval("#rows tbody td:not(:first-child)", (t) => t.map((x) => x.textContent).filter(Boolean));
   check("the table has a rung a ladder and engine", cells.length === failing.length && failing.length > 0);
   check("who never fails has a dash", cells.filter((x) => x === "–").length === failing.filter((r) => r.fails_at === null).length);
+  await page.close();
+}
+
+for (const name of ["certified.html", "refuted.html"]) {
+  const { page } = await open(name);
+  const { certificate: c } = await data(page);
+  const numbers = (text) => Number(text.replaceAll(",", ""));
+  const rows = await page.$$eval("tr[data-evidence]", (r) => r.map((x) => [x.dataset.evidence, ...[3, 9, 10].map((i) => x.children[i - 1].textContent)]));
+  const same = rows.every(([n, cases, truth, reported], i) => {
+    const e = c.evidence[i];
+    return e.name === n && e.cases === numbers(cases) && e.pairs_true === numbers(truth) && e.pairs_reported === numbers(reported);
+  });
+  check(`${name} has the evidence of the certificate`, same && rows.length === c.evidence.length && rows.length > 0, JSON.stringify(rows[0]));
+  const verdicts = await page.$$eval(".tile b", (t) => t.map((x) => x.textContent.slice(2)));
+  check(`${name} says so first`, verdicts.join() === Object.values(c.verdict).filter((v) => v !== "not_asked").join(), verdicts.join());
+  check(`${name} says what is not proved`, (await page.$$("#not-proved li")).length === c.not_proved.length);
+  const scripts = await page.$$eval(".refutation a[download]", (a) => a.map((x) => JSON.parse(decodeURIComponent(x.href.replace("data:application/json,", "")))));
+  check(`${name} hands out what refutes it`, JSON.stringify(scripts) === JSON.stringify(c.refutations.map((r) => r.script)) && (scripts.length > 0) === name.startsWith("refuted"));
   await page.close();
 }
 

@@ -1,4 +1,5 @@
 // The referee's certificates as things to draw, rounded from their exact numbers.
+import { numberOf } from "../common/page";
 import type { CertificateJson, RefereeJson, V3 } from "./types";
 
 /** "n/d" with integers of any length. */
@@ -14,6 +15,8 @@ export function rational(text: string): number {
 export type Drawn =
   | { kind: "plane"; normal: V3; offset: number; words: string }
   | { kind: "point"; at: V3; words: string }
+  | { kind: "segment"; from: V3; to: V3; words: string }
+  | { kind: "polytope"; edges: [V3, V3][]; words: string }
   | { kind: "direction"; along: V3; depth: number; words: string };
 
 const unit = (v: V3): [V3, number] => {
@@ -35,6 +38,24 @@ function drawnVerdict(c: CertificateJson): Drawn[] {
     return [{ kind: "point", at, words: "a point that lies in both bodies" }];
   }
   return [];
+}
+
+// The polytope lies in A − B, which no picture shows well. Each of its vertices is a point of A and one of B: the edges
+// of its facets, drawn among the points of A and among those of B, are polytopes inside the two bodies.
+function drawnPolytope(c: CertificateJson): Drawn[] {
+  const pairs = c.support_pairs ?? [], seen = new Set<string>();
+  const edges: [V3, V3][] = [];
+  for (const f of c.facets ?? [])
+    for (let k = 0; k < 3; ++k)
+      for (const body of [0, 1] as const) {
+        const from = pairs[f[k]!]?.[body], to = pairs[f[(k + 1) % 3]!]?.[body];
+        if (!from || !to || from.every((x, i) => x === to[i])) continue;
+        const key = [from.join(), to.join()].sort().join(";");
+        if (seen.has(key)) continue;
+        seen.add(key);
+        edges.push([from, to]);
+      }
+  return edges.length ? [{ kind: "polytope", edges, words: `the ${pairs.length} points of A and of B that prove the depth, as polytopes inside them` }] : [];
 }
 
 // Planes that move, in the frame that travels with B: x = x_world − (B's translation at t).
@@ -63,8 +84,12 @@ function drawnImpact(c: CertificateJson, t: number, originOfB: V3): Drawn[] {
 export function drawn(r: RefereeJson, question: string, t: number, originOfB: V3): Drawn[] {
   if (question === "time_of_impact") return r.certificate ? drawnImpact(r.certificate, t, originOfB) : [];
   const out: Drawn[] = r.verdict_certificate ? drawnVerdict(r.verdict_certificate) : [];
-  const depth = r.gap ? -Number(r.gap[1]) : NaN;
-  if (r.verdict === "overlap" && Number.isFinite(depth) && r.normal)
+  const gap = numberOf(r.gap?.[0]);
+  if (r.verdict === "disjoint" && gap > 0 && r.witness && question !== "overlap")
+    out.push({ kind: "segment", from: r.witness[0], to: r.witness[1], words: "the closest points" });
+  if (question === "contact" && r.depth_certificate) out.push(...drawnPolytope(r.depth_certificate));
+  const depth = r.gap ? -numberOf(r.gap[1]) : NaN;
+  if (r.verdict === "overlap" && Number.isFinite(gap) && Number.isFinite(depth) && r.normal)
     out.push({ kind: "direction", along: r.normal, depth, words: "the direction of least depth: B moved so far along it is free" });
   return out;
 }

@@ -1,10 +1,12 @@
 // One case, one page: the bodies with every engine's answer and the referee's, and who is wrong.
 import { LinkState, app, colourOf, commandLine, el, isDark, isTyping, nanoseconds, numberOf, pageData, short, themeButton } from "../common/page";
 import "./case.css";
-import { drawn } from "./certificate";
+import { drawn, rational, type Drawn } from "./certificate";
+import { Parts } from "./parts";
+import { refereeTrace, stageTable, standAlone } from "./trace";
 import { standAt, standsOfScript, type Stand } from "./motion";
-import { Picture, type Mark } from "./scene3d";
-import { shapeLine } from "./shapes";
+import { Picture, bodyColours, type Mark } from "./scene3d";
+import { shapeLine } from "./shape_line";
 import type { CasePage, EngineAnswer, QueryJson, V3 } from "./types";
 
 const data = pageData<CasePage>();
@@ -23,12 +25,20 @@ const moves = !scripted && frames.length > 1;
 let query = Math.min(data.queries.length - 1, Math.max(0, link.number("q") ?? firstInteresting()));
 let chosen = link.get("engine") ?? "";
 const hidden = new Set((link.get("hide") ?? "").split(",").filter(Boolean));
-let time = link.number("t") ?? 0;
+let time = link.number("t") ?? momentOf(query);
 
-// The first question that somebody answers wrong; else the first about contact.
+// Of a time of impact, the impact: before it there is nothing to see.
+function momentOf(i: number): number {
+  const q = data.queries[i];
+  const t = q?.question === "time_of_impact" && q.referee.verdict === "impact" ? numberOf(q.referee.t_hi) : 0;
+  return Number.isFinite(t) ? t : 0;
+}
+
+// The question that most answer wrong; else the one about contact.
 function firstInteresting(): number {
-  const wrong = data.queries.findIndex((q) => Object.values(q.engines ?? {}).some((e) => e.faults.length > 0));
-  return Math.max(0, wrong >= 0 ? wrong : data.queries.findIndex((q) => q.question === "contact"));
+  const wrong = data.queries.map((q) => Object.values(q.engines ?? {}).filter((e) => e.faults.length > 0).length);
+  const most = Math.max(0, ...wrong);
+  return Math.max(0, most > 0 ? wrong.lastIndexOf(most) : data.queries.findIndex((q) => q.question === "contact"));
 }
 
 const stands = (): (Stand | null)[] =>
@@ -37,11 +47,16 @@ const colour = (engine: string): string => colourOf(engineNames.indexOf(engine))
 const refereeColour = (): string => (isDark() ? "#4ade80" : "#0a7a3f");
 
 document.title = `Touchstone: ${data.title}`;
+// Flat shapes are their own polytopes: their wires would only hide the edges.
+const curved = shapes.some((s) => s.type === "cylinder" || s.type === "cone" || s.type === "ellipsoid");
+const parts = new Parts(link, curved ? [] : ["polytope"], () => refresh());
 const view = el("div", { id: "view" });
 const table = el("div", { id: "answers", class: "scroll" });
 const tabs = el("div", { class: "controls", id: "questions" });
 const words = el("div", { id: "referee" });
 const commands = el("div", { id: "commands" });
+const trace = el("div", { id: "trace" });
+const how = el("details", { id: "referee-trace" });
 const timeline = el("div", { id: "timeline" });
 const tick = el("datalist", { id: "marks" });
 
@@ -49,11 +64,11 @@ app().append(
   el("header", {}, el("div", { class: "grow" }, el("h1", {}, data.title), data.case.description ? el("p", { class: "soft" }, data.case.description) : null),
     el("div", { class: "controls screen-only" }, themeButton(link, () => refresh()))),
   el("div", { id: "layout" },
-    el("section", { id: "left" }, view, timeline,
+    el("section", { id: "left" }, parts.element, view, timeline,
       el("p", { class: "soft screen-only", id: "keys" },
-        "Drag to turn, wheel to zoom, right button to move. Keys: arrows turn, + and − zoom, f whole scene, c contact, n and p next and previous engine, " +
+        "Drag to turn, wheel to zoom, right button to move. Keys: arrows turn, + and − zoom, f whole scene, c contact, n and p next and previous engine, q next question, 1 to 6 what is drawn, " +
         (frames.length > 1 ? "[ and ] back and forth in time, space plays, " : "") + "l light or dark.")),
-    el("section", { id: "right" }, tabs, words, table, el("h2", {}, "Ask again"), commands,
+    el("section", { id: "right" }, tabs, words, table, trace, el("h2", {}, "Ask again"), commands,
       el("h2", {}, "Bodies"), bodyList(), data.case.source ? el("p", { class: "soft" }, `Source: ${data.case.source}`) : null)),
 );
 
@@ -61,7 +76,7 @@ function bodyList(): HTMLElement {
   const list = el("div", { class: "soft mono", id: "bodies" });
   bodies.slice(0, 12).forEach((b, i) => {
     const p = b.pose?.translation ?? [0, 0, 0];
-    list.append(el("div", {}, el("span", { class: "swatch", style: `background:${i % 2 ? "#e0a33c" : "#4f8fd0"}` }),
+    list.append(el("div", {}, el("span", { class: "swatch", style: `background:${bodyColours[i % 2]}` }),
       `${i}${b.name ? " " + b.name : ""}: ${shapeLine(shapes[b.shape]!)}, at (${p.map((x) => short(x, 6)).join(" ")})` +
       (b.motion ? `, moves (${(b.motion.linear ?? [0, 0, 0]).map((x) => short(x)).join(" ")}) turns (${(b.motion.angular ?? [0, 0, 0]).map((x) => short(x)).join(" ")})` : "")));
   });
@@ -69,11 +84,28 @@ function bodyList(): HTMLElement {
   return list;
 }
 
+// Where there is no keyboard, and for who does not read about keys.
+function lookButtons(p: Picture): HTMLElement[] {
+  const whole = el("button", { type: "button", title: "key f" }, "whole scene"), contact = el("button", { type: "button", title: "key c", id: "near" }, "go to the contact");
+  whole.addEventListener("click", () => lookAtAll());
+  contact.addEventListener("click", () => lookNear());
+  return p.smallness < 0.03 ? [whole, contact, el("span", { class: "soft" }, "a body is tiny beside the scene")] : [whole, contact];
+}
+function lookAtAll(): void {
+  picture?.fit();
+  link.set("camera", null);
+}
+function lookNear(): void {
+  picture?.approach();
+  if (picture) link.set("camera", picture.cameraText());
+}
+
 let picture: Picture | null = null;
 try {
   picture = new Picture(data, frames, view, () => {
     if (picture) link.set("camera", picture.cameraText());
   });
+  parts.element.append(el("span", { class: "grow" }), ...lookButtons(picture));
 } catch (e) {
   view.append(el("p", { class: "soft", style: "padding:1rem" }, `No picture: this browser draws no WebGL (${String(e)}). The table says the same in numbers.`));
 }
@@ -87,6 +119,8 @@ function anchorOf(q: QueryJson, e?: EngineAnswer): V3 {
   if (q.referee.witness && q.question !== "time_of_impact") return anchorOf(q);
   const now = stands();
   const a = now[q.a]?.position, b = now[q.b]?.position;
+  const contact = q.question === "time_of_impact" ? q.referee.certificate?.contact : undefined;
+  if (contact && b) return contact.point.map((x, k) => rational(x) + b[k]!) as V3;
   const bounded = [a, b].filter((p, i) => p && shapes[bodies[[q.a, q.b][i]!]!.shape]!.type !== "half_space") as V3[];
   if (bounded.length === 0) return [0, 0, 0];
   return [0, 1, 2].map((k) => bounded.reduce((s, p) => s + p[k]! / bounded.length, 0)) as V3;
@@ -94,6 +128,7 @@ function anchorOf(q: QueryJson, e?: EngineAnswer): V3 {
 
 function marksOf(q: QueryJson): Mark[] {
   const out: Mark[] = [];
+  const now = stands();
   for (const name of engineNames) {
     const e = q.engines?.[name];
     if (!e || hidden.has(name) || e.answer.outcome !== "answered") continue;
@@ -101,16 +136,23 @@ function marksOf(q: QueryJson): Mark[] {
     const base = { colour: colour(name), strong: name === chosen || !chosen };
     const contacts = a.contacts ?? [];
     for (const c of contacts.slice(0, 200)) {
-      const now = stands();
       const p = now[c.a]?.position, r = now[c.b]?.position;
       if (p && r) out.push({ ...base, at: p.map((x, k) => (x + r[k]!) / 2) as V3, normal: c.normal, depth: numberOf(c.depth), points: [] });
     }
     const sets = scripted ? a.candidate_pairs?.[Math.round(time)] : a.candidate_pairs?.[0];
+    const between = ([i, j]: [number, number]): [V3, V3][] => {
+      const p = now[i]?.position, r = now[j]?.position;
+      return p && r ? [[p, r]] : [];
+    };
     if (sets && (name === chosen || (!chosen && name === engineNames[0])))
-      for (const [i, j] of sets.slice(0, 3000)) {
-        const p = stands()[i]?.position, r = stands()[j]?.position;
-        if (p && r) out.push({ ...base, at: p, points: [], segment: [p, r] });
-      }
+      out.push({ ...base, at: [0, 0, 0], points: [], lines: sets.slice(0, 20000).flatMap(between) });
+    const truth = q.question === "candidates" ? (scripted ? q.referee.overlapping_pairs?.[Math.round(time)] : q.referee.overlapping_pairs?.[0]) : undefined;
+    if (truth && sets && (name === chosen || (!chosen && e.faults.length > 0))) {
+      const has = new Set(sets.flatMap(([i, j]) => [`${i},${j}`, `${j},${i}`]));
+      const lost = truth.filter(([i, j]) => !has.has(`${i},${j}`)).slice(0, 200);
+      for (const [p, r] of lost.flatMap(between))
+        out.push({ colour: isDark() ? "#ff5c4d" : "#d00000", strong: true, at: p, points: [p, r], segment: [p, r] });
+    }
     if (!a.normal && !a.witness && !a.manifold?.length) continue;
     const mark: Mark = { ...base, at: anchorOf(q, e), points: [...(a.manifold?.map((m) => m.position) ?? []), ...(a.witness ?? [])] };
     if (a.normal) mark.normal = a.normal;
@@ -177,7 +219,14 @@ function drawTable(q: QueryJson): void {
     if (row.className === "open") body.append(el("tr", {}, el("td", { class: "screen-only" }), el("td", { colspan: "5", class: "soft faults" }, ...faultLines(e))));
   }
   t.append(body);
-  table.replaceChildren(t, cannot.length ? el("p", { class: "soft" }, `cannot: ${cannot.join(", ")}`) : "");
+  const every = el("button", { type: "button", id: "every" }, hidden.size ? "draw all" : "draw none");
+  every.addEventListener("click", () => {
+    if (hidden.size) hidden.clear();
+    else for (const n of rows) hidden.add(n);
+    link.set("hide", hidden.size ? [...hidden].join(",") : null);
+    refresh();
+  });
+  table.replaceChildren(t, rows.length > 1 ? el("div", { class: "controls screen-only" }, every) : "", cannot.length ? el("p", { class: "soft" }, `cannot: ${cannot.join(", ")}`) : "");
 }
 
 function faultLines(e: EngineAnswer): HTMLElement[] {
@@ -248,22 +297,31 @@ function drawTimeline(): void {
     .map(numberOf).filter(Number.isFinite).map((t) => el("option", { value: String(t) })));
 }
 
+const allDrawn = (q: QueryJson): Drawn[] => drawn(q.referee, q.question, moves ? time : 0, stands()[q.b]?.position ?? [0, 0, 0]);
+
 function refresh(): void {
   const now = q();
   drawTabs();
   drawTable(now);
   drawTimeline();
-  const evidence = drawn(now.referee, now.question, moves ? time : 0, stands()[now.b]?.position ?? [0, 0, 0]);
+  const evidence = allDrawn(now).filter((d) => parts.has(d.kind === "polytope" ? "polytope" : "certificate"));
+  const stages = stageTable(data, now, colour);
+  trace.replaceChildren(...(stages ? [el("h2", {}, "Stages of the engines that are wrong"), stages] : []));
   words.replaceChildren(
     el("p", {}, el("span", { class: "swatch", style: `background:${refereeColour()}` }), el("b", {}, "referee: "), refereeLine(now)),
-    ...[...new Set(evidence.map((d) => d.words))].map((w) => el("p", { class: "soft" }, `drawn: ${w}`)));
+    ...[...new Set(evidence.map((d) => d.words))].map((w) => el("p", { class: "soft" }, `drawn: ${w}`)),
+    how);
+  how.replaceChildren(el("summary", { class: "soft" }, "how the referee knows"), el("ul", { class: "soft" }, ...refereeTrace(now).map((x) => el("li", {}, x))));
   // Of the engine chosen, or of the only one that is wrong: the smaller case and the program against its own API.
   const wrong = engineNames.filter((n) => (now.engines?.[n]?.faults.length ?? 0) > 0);
-  const of = wrong.includes(chosen) ? chosen : wrong.length === 1 ? wrong[0]! : "";
+  const of = wrong.includes(chosen) ? chosen : wrong.length === 1 ? wrong[0]! : (wrong.find((n) => data.engines[n]?.programs?.some((p) => p.question === now.question)) ?? "");
   const asked = data.command.replace(/^\S+ replay /, "");
+  const open = document.querySelector<HTMLDetailsElement>("#program")?.open ?? false;
   commands.replaceChildren(commandLine(data.command), ...(of
-    ? [commandLine(`./touchstone shrink ${asked} --engine ${of}`), ...(/^(fcl|bullet|libccd)/.test(of) ? [commandLine(`./touchstone reproduce ${asked} --engine ${of} -o reproduce.cpp`)] : [])]
+    ? [el("p", { class: "soft" }, `What ${of} gets wrong, as the smallest case:`), commandLine(`./touchstone shrink ${asked} --engine ${of}`), ...standAlone(data, of, now.question, asked)]
     : []));
+  const program = document.querySelector<HTMLDetailsElement>("#program");
+  if (program) program.open = open;
   document.body.dataset["drawn"] = evidence.map((d) => d.kind).join(" ");
   if (!picture) return;
   const style = getComputedStyle(document.documentElement);
@@ -272,7 +330,10 @@ function refresh(): void {
   const anchor = anchorOf(now);
   picture.setFocus(anchor);
   picture.showEvidence(evidence, anchor, refereeColour());
-  picture.showMarks(marksOf(now));
+  picture.showMarks(marksOf(now).map((m) => ({
+    ...m, normal: parts.has("normals") ? m.normal : undefined, along: m.normal, depth: parts.has("depths") ? m.depth : undefined,
+    points: parts.has("points") ? m.points : [], segment: parts.has("lines") ? m.segment : undefined, lines: parts.has("lines") ? m.lines : undefined,
+  })));
   picture.draw();
 }
 
@@ -285,7 +346,8 @@ addEventListener("keydown", (e) => {
     ArrowLeft: () => picture?.orbit(-turn, 0, 1), ArrowRight: () => picture?.orbit(turn, 0, 1),
     ArrowUp: () => picture?.orbit(0, turn, 1), ArrowDown: () => picture?.orbit(0, -turn, 1),
     "+": () => picture?.orbit(0, 0, 0.85), "=": () => picture?.orbit(0, 0, 0.85), "-": () => picture?.orbit(0, 0, 1 / 0.85),
-    f: () => { picture?.fit(); link.set("camera", null); }, c: () => { picture?.approach(); if (picture) link.set("camera", picture.cameraText()); },
+    f: lookAtAll, c: lookNear,
+    q: () => { query = (query + 1) % data.queries.length; link.set("q", String(query)); refresh(); },
     n: () => nextEngine(1), p: () => nextEngine(-1),
     "]": () => setTime(time + step), "[": () => setTime(time - step),
   };
@@ -309,6 +371,7 @@ link.onChange(() => {
   query = Math.min(data.queries.length - 1, Math.max(0, link.number("q") ?? query));
   chosen = link.get("engine") ?? "";
   time = link.number("t") ?? 0;
+  parts.follow();
   const camera = link.get("camera");
   if (camera) picture?.setCamera(camera);
   refresh();

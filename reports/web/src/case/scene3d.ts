@@ -15,13 +15,18 @@ export interface Mark {
   colour: string;
   strong: boolean;
   at: V3;
-  normal?: V3;
-  depth?: number;
+  normal?: V3 | undefined;
+  /** What the depth is along, when the arrow itself is not drawn. */
+  along?: V3 | undefined;
+  depth?: number | undefined;
   points: V3[];
-  segment?: [V3, V3];
+  segment?: [V3, V3] | undefined;
+  /** Pairs of a crowd: one thing to draw, thin. */
+  lines?: [V3, V3][] | undefined;
 }
 
-const bodyColours = ["#4f8fd0", "#e0a33c"];
+/** Paler than what engines are drawn in. */
+export const bodyColours = ["#7f93ad", "#c4b184"] as const;
 const up = new Vector3(0, 0, 1);
 
 export class Picture {
@@ -37,6 +42,8 @@ export class Picture {
   private centre: V3;
   private size: number;
   private focus: V3 | null = null;
+  private drawnSize = "";
+  private ready = false;  // nothing is drawn before there is all that is to be seen
   private smallest = 1;  // reach of the smallest body, in the picture's unit
 
   constructor(private data: CasePage, stands: (Stand | null)[][], host: HTMLElement, moved: () => void) {
@@ -75,15 +82,20 @@ export class Picture {
   private makeBodies(): void {
     const { shapes, bodies } = this.data.case.scene;
     const many = bodies.length > 2;
+    // Bodies of one shape share it; in a crowd each is small, and coarser.
+    const made = new Map<number, BufferGeometry>(), materials = new Map<string, MeshStandardMaterial>();
+    const fine = bodies.length > 60 ? 0.25 : 1;
     bodies.forEach((b, i) => {
       const shape = shapes[b.shape]!;
       const group = new Group();
       const colour = many && b.static ? "#8b949e" : bodyColours[i % 2]!;
       const flat = shape.type === "half_space" || shape.type === "mesh";
-      const geometry = geometryOf(shape, this.data.hull_faces[String(b.shape)], 1 / this.size, 3);
-      const material = new MeshStandardMaterial({
-        color: colour, transparent: true, opacity: flat ? 0.35 : 0.5, roughness: 0.75, side: DoubleSide, depthWrite: false,
-      });
+      const geometry = made.get(b.shape) ?? geometryOf(shape, this.data.hull_faces[String(b.shape)], 1 / this.size, 3, fine);
+      made.set(b.shape, geometry);
+      const opacity = flat ? 0.35 : 0.5;
+      const material = materials.get(`${colour} ${opacity}`) ??
+        new MeshStandardMaterial({ color: colour, transparent: true, opacity, roughness: 0.75, side: DoubleSide, depthWrite: false, forceSinglePass: fine < 1 });
+      materials.set(`${colour} ${opacity}`, material);
       const mesh = new Mesh(geometry, material);
       group.add(mesh);
       const round = !["box", "hull", "mesh", "half_space", "cylinder", "cone"].includes(shape.type);
@@ -155,6 +167,12 @@ export class Picture {
         plane.position.copy(p.clone().addScaledVector(n, distance - p.dot(n)));
         plane.add(new LineSegments(new EdgesGeometry(plane.geometry), new LineBasicMaterial({ color: colour })));
         this.evidence.add(plane);
+      } else if (d.kind === "polytope") {
+        const g = new BufferGeometry();
+        g.setAttribute("position", new Float32BufferAttribute(d.edges.flatMap((e) => e.flatMap((v) => this.local(v).toArray())), 3));
+        this.evidence.add(new LineSegments(g, new LineBasicMaterial({ color: colour, transparent: true, opacity: 0.75 })));
+      } else if (d.kind === "segment") {
+        this.evidence.add(this.stick(this.local(d.from), this.local(d.to), colour, 0.007), this.ball(this.local(d.from), colour, 0.013), this.ball(this.local(d.to), colour, 0.013));
       } else if (d.kind === "point") {
         this.evidence.add(this.ball(this.local(d.at), colour, 0.02));
       } else {
@@ -194,7 +212,7 @@ export class Picture {
       return new LineSegments(g, new LineBasicMaterial({ color: colour, depthTest: false }));
     }
     const m = new Mesh(
-      geometryOf({ type: "cylinder", radius, half_height: length / 2 }, undefined, 1, 1),
+      geometryOf({ type: "cylinder", radius, half_height: length / 2 }, undefined, 1, 1, 0.2),
       new MeshBasicMaterial({ color: colour, depthTest: false, transparent: true, opacity: 0.85 }),
     );
     m.position.copy(from).addScaledVector(along, 0.5);
@@ -205,20 +223,34 @@ export class Picture {
   }
 
   showMarks(marks: Mark[]): void {
+    this.ready = true;
     this.dispose(this.marks);
     for (const m of marks) {
       const at = this.local(m.at);
       const size = m.strong ? 1 : 0.6;
-      if (m.normal && Math.hypot(...m.normal) > 0 && m.normal.every(Number.isFinite)) {
-        const n = new Vector3(...m.normal).normalize();
-        this.marks.add(this.arrow(at, n, m.colour, m.strong ? 0.36 : 0.26, 0.008 * size));
+      const along = m.normal ?? m.along;
+      if (along && Math.hypot(...along) > 0 && along.every(Number.isFinite)) {
+        const n = new Vector3(...along).normalize();
+        if (m.normal) this.marks.add(this.arrow(at, n, m.colour, m.strong ? 0.36 : 0.26, 0.008 * size));
         if (m.depth !== undefined && Number.isFinite(m.depth))
           this.marks.add(this.stick(at, at.clone().addScaledVector(n, m.depth / this.size), m.colour, 0.006 * size));
+      }
+      if (m.lines?.length) {
+        const g = new BufferGeometry();
+        g.setAttribute("position", new Float32BufferAttribute(m.lines.flatMap((l) => l.flatMap((v) => this.local(v).toArray())), 3));
+        const lines = new LineSegments(g, new LineBasicMaterial({ color: m.colour, depthTest: false, transparent: true }));
+        lines.renderOrder = 2;
+        this.marks.add(lines);
       }
       for (const p of m.points) if (p.every(Number.isFinite)) this.marks.add(this.ball(this.local(p), m.colour, 0.011 * size));
       if (m.segment && m.segment.flat().every(Number.isFinite))
         this.marks.add(this.stick(this.local(m.segment[0]), this.local(m.segment[1]), m.colour, 0.004 * size));
     }
+  }
+
+  /** Reach of the smallest body, where the scene has size 1. */
+  get smallness(): number {
+    return this.smallest;
   }
 
   setFocus(p: V3 | null): void {
@@ -282,7 +314,8 @@ export class Picture {
 
   private resize(host: HTMLElement): void {
     const { clientWidth: w, clientHeight: h } = host;
-    if (w === 0 || h === 0) return;
+    if (w === 0 || h === 0 || `${w} ${h}` === this.drawnSize) return;
+    this.drawnSize = `${w} ${h}`;
     this.renderer.setPixelRatio(Math.min(devicePixelRatio, 2));
     this.renderer.setSize(w, h, false);
     this.camera.aspect = w / h;
@@ -291,6 +324,7 @@ export class Picture {
   }
 
   draw(): void {
+    if (!this.ready) return;
     const distance = this.controls ? this.camera.position.distanceTo(this.controls.target) : 3;
     this.camera.near = Math.max(1e-7, distance * 1e-3);
     this.camera.updateProjectionMatrix();

@@ -37,19 +37,20 @@ function flat(vertices: V3[]): V3[] {
   return faces;
 }
 
-/** `scale`: from the scene's unit to the picture's. `ground`: half the side of the patch that stands for a half-space. */
-export function geometryOf(s: ShapeJson, faces: V3[] | undefined, scale: number, ground: number): BufferGeometry {
+/** `scale`: from the scene's unit to the picture's. `ground`: half the side of the patch that stands for a half-space.
+ * `fine`: of how many parts round shapes are, 1 for a close look. */
+export function geometryOf(s: ShapeJson, faces: V3[] | undefined, scale: number, ground: number, fine = 1): BufferGeometry {
   const alongZ = new Matrix4().makeRotationX(Math.PI / 2);
   switch (s.type) {
-    case "sphere": return new SphereGeometry(s.radius! * scale, 64, 40);
+    case "sphere": return new SphereGeometry(s.radius! * scale, 64 * fine, 40 * fine);
     case "box": return new BoxGeometry(...(s.half_extents!.map((x) => 2 * x * scale) as V3));
     case "capsule":
-      return new CapsuleGeometry(s.radius! * scale, 2 * s.half_height! * scale, 16, 48).applyMatrix4(alongZ);
+      return new CapsuleGeometry(s.radius! * scale, 2 * s.half_height! * scale, Math.ceil(16 * fine), 48 * fine).applyMatrix4(alongZ);
     case "cylinder":
-      return new CylinderGeometry(s.radius! * scale, s.radius! * scale, 2 * s.half_height! * scale, 64).applyMatrix4(alongZ);
-    case "cone": return new ConeGeometry(s.radius! * scale, 2 * s.half_height! * scale, 64).applyMatrix4(alongZ);
+      return new CylinderGeometry(s.radius! * scale, s.radius! * scale, 2 * s.half_height! * scale, 64 * fine).applyMatrix4(alongZ);
+    case "cone": return new ConeGeometry(s.radius! * scale, 2 * s.half_height! * scale, 64 * fine).applyMatrix4(alongZ);
     case "ellipsoid":
-      return new SphereGeometry(1, 64, 40).applyMatrix4(new Matrix4().makeScale(...(s.semi_axes!.map((x) => x * scale) as V3)));
+      return new SphereGeometry(1, 64 * fine, 40 * fine).applyMatrix4(new Matrix4().makeScale(...(s.semi_axes!.map((x) => x * scale) as V3)));
     case "hull": return triangles(s.vertices!, faces && faces.length > 0 ? faces : flat(s.vertices!), scale);
     case "mesh": return triangles(s.vertices!, s.triangles!, scale);
     case "half_space": {
@@ -59,14 +60,4 @@ export function geometryOf(s: ShapeJson, faces: V3[] | undefined, scale: number,
       return g;
     }
   }
-}
-
-export function shapeLine(s: ShapeJson): string {
-  const parts: string[] = [s.type.replace("_", "-")];
-  for (const [k, v] of Object.entries(s)) {
-    if (k === "type") continue;
-    if (Array.isArray(v) && Array.isArray(v[0])) parts.push(`${v.length} ${k}`);
-    else parts.push(`${k.replace("_", " ")} ${Array.isArray(v) ? "(" + v.join(" ") + ")" : String(v)}`);
-  }
-  return parts.join(", ");
 }

@@ -39,6 +39,7 @@ export interface CertificateJson {
   clear_until?: number;
   contact?: { t: string; point: string[] };
   support_pairs?: [V3, V3][];
+  facets?: V3[];
 }
 export interface RefereeJson {
   verdict?: string;
@@ -51,6 +52,7 @@ export interface RefereeJson {
   t_lo?: number;
   t_hi?: number;
   note?: string;
+  filter_level?: number;
   overlapping_pairs?: [number, number][][];
 }
 export interface AnswerJson {
@@ -95,6 +97,14 @@ export interface CasePage {
   };
   /** Triangles of hulls, by index of the shape. */
   hull_faces: Record<string, V3[]>;
-  engines: Record<string, { library: string; version: string; settings: string }>;
+  engines: Record<string, {
+    library: string;
+    version: string;
+    settings: string;
+    has_reproducer?: boolean;
+    /** Of an engine that is wrong: a pair's stages, and its programs, one a question. */
+    stages?: { a: number; b: number; stages: { name: string; faults: string[] }[] }[];
+    programs?: { key: string; question: string; program: string }[];
+  }>;
   queries: QueryJson[];
 }

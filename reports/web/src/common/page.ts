@@ -1,8 +1,21 @@
 // What every page shares: its data, elements, the state kept in the address, light and dark.
+import { unzlibSync } from "fflate";
 import "./style.css";
 
+/** What the program wrote into the page: JSON, or when it is long {"deflate": base64 of its zlib stream}. */
 export function pageData<T>(): T {
-  return JSON.parse(document.getElementById("data")!.textContent!) as T;
+  const holder = document.getElementById("data")!;
+  let value = JSON.parse(holder.textContent!) as { deflate?: string };
+  if (typeof value.deflate === "string") {
+    const bytes = atob(value.deflate);
+    const packed = new Uint8Array(bytes.length);
+    for (let i = 0; i < bytes.length; ++i) packed[i] = bytes.charCodeAt(i);
+    holder.textContent = "";
+    value = JSON.parse(new TextDecoder().decode(unzlibSync(packed))) as object;
+  }
+  // For tests and for people at the console.
+  (globalThis as unknown as { touchstoneData: unknown }).touchstoneData = value;
+  return value as T;
 }
 
 type Child = Node | string | null | undefined;
@@ -70,6 +83,19 @@ export function themeButton(link: LinkState, changed: () => void): HTMLButtonEle
     if (e.key === "l" && !isTyping(e)) toggle();
   });
   matchMedia("(prefers-color-scheme: dark)").addEventListener("change", changed);
+  // Paper is white, and what scripts draw takes its colours when it is drawn.
+  matchMedia("print").addEventListener("change", changed);
+  let chosen: string | undefined;
+  addEventListener("beforeprint", () => {
+    chosen = document.documentElement.dataset["theme"];
+    apply("light");
+    changed();
+  });
+  addEventListener("afterprint", () => {
+    if (chosen) apply(chosen);
+    else delete document.documentElement.dataset["theme"];
+    changed();
+  });
   return button;
 }
 
@@ -110,5 +136,15 @@ export function nanoseconds(ns: number): string {
 /** Colours that differ for eyes that confuse red and green too (Okabe and Ito 2008), then turned hues. */
 const palette = ["#0072b2", "#e69f00", "#cc79a7", "#56b4e9", "#d55e00", "#8c6bb1", "#b59f00", "#7f7f7f"];
 export function colourOf(index: number): string {
-  return palette[index] ?? `hsl(${Math.round((index * 137.5) % 360)} 60% ${index % 2 ? 45 : 60}%)`;
+  return palette[index] ?? hex((index * 137.5) % 360, 0.6, index % 2 ? 0.42 : 0.6);
+}
+
+// "#rrggbb", which WebGL's colours know too; they do not know hsl() without commas.
+function hex(hue: number, saturation: number, lightness: number): string {
+  const channel = (n: number): string => {
+    const k = (n + hue / 30) % 12;
+    const x = lightness - saturation * Math.min(lightness, 1 - lightness) * Math.max(-1, Math.min(k - 3, 9 - k, 1));
+    return Math.round(255 * x).toString(16).padStart(2, "0");
+  };
+  return `#${channel(0)}${channel(8)}${channel(4)}`;
 }

@@ -12,6 +12,7 @@ export const css = (name: string): string => getComputedStyle(document.documentE
 export function plotIn(host: HTMLElement): EChartsType {
   const plot = init(host, null, { renderer: "svg" });
   new ResizeObserver(() => plot.resize()).observe(host);
+  addEventListener("beforeprint", () => plot.getZr().flush());  // at once, not at the next frame: paper has none
   return plot;
 }
 
