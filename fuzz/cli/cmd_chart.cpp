@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cstdlib>
 
 #include "core/base/comma_list.h"
@@ -11,6 +12,7 @@
 #include "fuzz/cli/pages.h"
 #include "fuzz/cli/sweep_catalog.h"
 #include "fuzz/explore/chart.h"
+#include "fuzz/explore/sub_steps.h"
 #include "oracles/api/measure.h"
 #include "oracles/core/broad_engine.h"
 #include "reports/chart_text.h"
@@ -41,16 +43,28 @@ std::vector<EnginePtr> broad_engines(const ChartOptions& o) {
   return engines;
 }
 
+// The engines named; of all of them other settings too, and sub-stepping.
+std::vector<EnginePtr> pair_engines(const ChartOptions& o) {
+  std::vector<EnginePtr> engines;
+  for (const auto& name : engine_names(o.engines)) engines.push_back(make_engine(name, o.limits));
+  if (o.engines != "all") return engines;
+  for (const EngineRow& row : sweep_catalog())
+    if (is_present(row)) engines.push_back(make_engine(std::string(row.name), o.limits));
+  const auto stepped = stepped_engines();
+  for (const EngineRow& row : engine_catalog()) {
+    if (!is_present(row) || std::find(stepped.begin(), stepped.end(), row.name) == stepped.end()) continue;
+    const std::shared_ptr<Engine> inner = make_engine(std::string(row.name), o.limits);
+    for (const int steps : step_counts) engines.push_back(fuzz::sub_stepped(inner, steps));
+  }
+  return engines;
+}
+
 int run(const ChartOptions& o) {
   const bool live = isatty(2) == 1;
   fuzz::make_directory(o.out);  // before half an hour of work for it
   // Before any engine is made: its worker inherits it.
   setenv(measure_variable, std::to_string(o.measure).c_str(), 1);
-  std::vector<EnginePtr> engines;
-  for (const auto& name : engine_names(o.engines)) engines.push_back(make_engine(name, o.limits));
-  if (o.engines == "all")
-    for (const EngineRow& row : sweep_catalog())
-      if (is_present(row)) engines.push_back(make_engine(std::string(row.name), o.limits));
+  const auto engines = pair_engines(o);
   const auto broad = broad_engines(o);
   const fuzz::Chart chart = fuzz::measure_chart(o.quick ? fuzz::quick_chart() : fuzz::full_chart(), o.seed,
                                                 engines, broad, [live](const std::string& what) {

@@ -9,6 +9,7 @@
 #include "core/base/input_error.h"
 #include "fuzz/cli/npm_engines.h"
 #include "fuzz/cli/sweep_catalog.h"
+#include "fuzz/explore/sub_steps.h"
 #include "oracles/core/core_engine.h"
 
 namespace touchstone::cli {
@@ -55,6 +56,9 @@ constexpr EngineRow sweep_rows[] = {
     {"libccd-mpr@1e-6", ccd_sweep, "libccd, MPR, tolerance 1e-6"},
     {"libccd-mpr@1e-8", ccd_sweep, "libccd, MPR, tolerance 1e-8"},
 };
+
+constexpr std::string_view stepped[] = {"core", "fcl-libccd", "bullet-f32-query", "bullet-f64-query",
+                                        "libccd-gjk"};
 
 constexpr std::string_view fcl_broad = "libtouchstone_fcl_broad.so",
                            f32_broad = "libtouchstone_bullet_broad_f32.so",
@@ -136,6 +140,7 @@ void check_name(const std::string& name) {
     if (name == "pipe:") throw InputError(name, "names no command: pipe:COMMAND");
     return;
   }
+  if (const auto stepped = fuzz::sub_steps_name(name)) return check_name(stepped->engine);
   if (is_path(name)) {
     const auto file = plugin_spec(name).plugin;
     if (!std::filesystem::exists(file)) throw InputError(file.string(), "no such plug-in file");
@@ -160,6 +165,7 @@ void check_name(const std::string& name) {
 std::span<const EngineRow> engine_catalog() { return rows; }
 std::span<const EngineRow> broad_catalog() { return broad_rows; }
 std::span<const EngineRow> sweep_catalog() { return sweep_rows; }
+std::span<const std::string_view> stepped_engines() { return stepped; }
 
 void add_case_seconds(CLI::App& app, WorkerLimits& limits) {
   app.add_option("--case-seconds", limits.query_cpu_seconds,
@@ -194,6 +200,7 @@ std::vector<std::string> engine_names(const std::string& text) {
 
 std::vector<std::filesystem::path> engine_files(const std::string& name) {
   if (is_pipe(name)) return files_named_in(name.substr(5));
+  if (const auto stepped = fuzz::sub_steps_name(name)) return engine_files(stepped->engine);
   if (is_path(name)) return {plugin_spec(name).plugin};
   if (const NpmRow* npm = find_npm_row(name)) return files_of(*npm);
   const EngineRow* row = find_row(name);
@@ -205,6 +212,8 @@ EnginePtr make_engine(const std::string& name, const WorkerLimits& limits) {
   check_name(name);
   if (name == "core") return std::make_unique<CoreEngine>();
   if (name == "core-f32") return std::make_unique<CoreEngine>(Arithmetic::float32);
+  if (const auto stepped = fuzz::sub_steps_name(name); stepped && !is_pipe(name))
+    return fuzz::sub_stepped(make_engine(stepped->engine, limits), stepped->steps);
   const NpmRow* npm = find_npm_row(name);
   RemoteSpec spec = is_pipe(name) || npm ? RemoteSpec{host_program(), npm ? pipe_of(*npm) : name, "", {}}
                     : is_path(name)

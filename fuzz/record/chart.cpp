@@ -1,5 +1,7 @@
 #include "fuzz/record/chart.h"
 
+#include <fmt/format.h>
+
 #include <cmath>
 
 namespace touchstone::fuzz {
@@ -11,12 +13,8 @@ constexpr const char* columns[] = {
     "undecided", "ns_min",     "ns_median",      "ns_p99", "ns_spread", "error_p50", "error_p99",
     "error_max", "pairs_true", "pairs_reported", "front",  "unsound"};
 
-// Four digits are more than a time repeats.
-Json rounded(double x) {
-  if (x == 0 || !std::isfinite(x)) return number(x);
-  const double unit = std::pow(10.0, std::floor(std::log10(std::fabs(x))) - 3);
-  return std::round(x / unit) * unit;
-}
+// Four digits are more than a time repeats and an error is worth; the page of a full chart has 4e4 rows.
+Json rounded(double x) { return std::isfinite(x) ? number(std::stod(fmt::format("{:.4g}", x))) : number(x); }
 
 Json cells(const ChartRow& r) {
   return {r.engine,
@@ -38,9 +36,9 @@ Json cells(const ChartRow& r) {
           rounded(r.ns_median),
           rounded(r.ns_p99),
           rounded(r.ns_spread),
-          number(r.error_p50),
-          number(r.error_p99),
-          number(r.error_max),
+          rounded(r.error_p50),
+          rounded(r.error_p99),
+          rounded(r.error_max),
           r.pairs_true,
           r.pairs_reported,
           r.front,

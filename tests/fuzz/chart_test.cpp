@@ -10,6 +10,8 @@
 #include "fuzz/explore/chart_rows.h"
 #include "fuzz/explore/ladders.h"
 #include "fuzz/explore/stability.h"
+#include "fuzz/explore/sub_steps.h"
+#include "fuzz/judge/judge.h"
 #include "oracles/api/measure.h"
 #include "oracles/core/core_engine.h"
 #include "tests/support/catch.h"
@@ -152,6 +154,65 @@ TEST_CASE("the core is sound on the chart's cases, and an engine that denies con
   CHECK(j["rows"].size() == chart.rows.size());
   CHECK(static_cast<std::size_t>(std::count(csv.begin(), csv.end(), '\n')) == chart.rows.size() + 1);
   for (const auto& row : j["rows"]) CHECK(row.size() == j["columns"].size());
+}
+
+TEST_CASE("sub-stepping says the first sample that overlaps, and misses what passes between two", "[chart]") {
+  // A ball of radius 1 goes 16 along x past the middle of another: they overlap from t = 6/16 to 10/16.
+  Case c;
+  c.scene.shapes = {Sphere{1}};
+  c.scene.bodies.resize(2);
+  c.scene.bodies[0].pose.translation = Vec3(-8, 0, 0);
+  c.scene.bodies[0].motion = Motion{Vec3(16, 0, 0), Vec3::Zero()};
+  c.queries = {{Question::time_of_impact, 0, 1}, {Question::overlap, 0, 1}};
+  const std::shared_ptr<Engine> core = make_core_engine();
+  const std::pair<int, std::optional<double>> expected[] = {
+      {1, std::nullopt}, {2, 0.5}, {3, std::nullopt}, {4, 0.5}, {5, 0.4}, {16, 0.375}, {256, 0.375}};
+  for (const auto& [steps, t] : expected) {
+    INFO(steps);
+    const EnginePtr e = sub_stepped(core, steps);
+    CHECK(e->card().name == "core-steps@" + std::to_string(steps));
+    const auto answers = e->run({&c, 1});
+    REQUIRE(answers.size() == 1);
+    REQUIRE(answers[0].answers.size() == 2);
+    CHECK(answers[0].answers[0].outcome == Outcome::answered);
+    CHECK(answers[0].answers[0].toi == t);
+    CHECK(answers[0].answers[1].outcome == Outcome::unsupported);
+    Truth truth(c.scene);
+    const auto judged = judge(c, e->card(), answers[0], truth);
+    CHECK(judged[0].right() == (steps == 16 || steps == 256));
+  }
+}
+
+TEST_CASE("sub-steps of many motions are those of each, and refusals stay refusals", "[chart]") {
+  const auto some = impact_chart_cases(9, 6);
+  std::vector<Case> cases;
+  for (const ChartCase& c : some) cases.push_back(c.c);
+  const std::shared_ptr<Engine> core = make_core_engine();
+  const EnginePtr many = sub_stepped(core, 40);
+  const auto together = many->run(cases);
+  std::size_t hits = 0;
+  for (std::size_t i = 0; i < cases.size(); ++i) {
+    const auto alone = many->run({&cases[i], 1});
+    CHECK(alone[0].answers[0] == together[i].answers[0]);
+    hits += together[i].answers[0].toi.has_value();
+  }
+  CHECK(hits > 6);
+  CHECK(hits < cases.size());
+  const EnginePtr floats = sub_stepped(std::make_shared<CoreEngine>(Arithmetic::float32), 4);
+  Case mesh = cases[0];
+  mesh.scene.shapes[0] = TriangleMesh{{Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0, 1, 0)}, {{0, 1, 2}}};
+  mesh.scene.bodies[0].shape = 0;
+  CHECK(floats->run({&mesh, 1})[0].answers[0].outcome == Outcome::unsupported);
+}
+
+TEST_CASE("names of sub-stepped engines", "[chart]") {
+  const auto n = sub_steps_name("bullet-f64-query-steps@16");
+  REQUIRE(n);
+  CHECK(n->engine == "bullet-f64-query");
+  CHECK(n->steps == 16);
+  for (const char* bad : {"core", "core-steps@", "core-steps@0", "core-steps@-1", "core-steps@4x", "-steps@4",
+                          "core-steps@9999999"})
+    CHECK_FALSE(sub_steps_name(bad));
 }
 
 TEST_CASE("ladders name where a liar begins to fail, and the core fails nowhere", "[stability]") {
