@@ -37,10 +37,10 @@ std::string question_table(const fuzz::Chart& c, const std::string& question) {
     return r.question == question && r.regime.empty() && r.pair.empty() && r.scale.empty();
   });
   if (rows.empty()) return "";
-  std::string s = fmt::format("{}\n  {:<22}{:>7}{:>7} {:>8}{:>8}{:>8}{:>6}{:>6}{:>5}\n", question, "",
-                              "ns p50", "ns p99", "err p50", "err p99", "err max", "miss%", "ghst%", "fail");
+  std::string s = fmt::format("{}\n  {:<26}{:>6}{:>7}{:>8}{:>8}{:>8}{:>5}{:>5}{:>5}\n", question, "",
+                              "ns p50", "ns p99", "err p50", "err p99", "err max", "mis%", "gho%", "fail");
   for (const ChartRow* r : rows)
-    s += fmt::format("{} {:<22}{:>7}{:>7} {:>8}{:>8}{:>8}{:>6}{:>6}{:>5}\n", mark(*r), r->engine,
+    s += fmt::format("{} {:<26}{:>6}{:>7}{:>8}{:>8}{:>8}{:>5}{:>5}{:>5}\n", mark(*r), r->engine,
                      nanoseconds(r->ns_median), nanoseconds(r->ns_p99), small(r->error_p50),
                      small(r->error_p99), small(r->error_max), percent(r->missed, r->answers),
                      percent(r->ghost, r->answers), r->failed);

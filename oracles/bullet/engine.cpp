@@ -1,11 +1,18 @@
 // The Bullet plug-in, in one precision: query path and simulation path, each with Bullet's own margins and
-// with none.
+// with none. TOUCHSTONE_SWEEP, a plug-in of its own: other margins (bullet-f64-query@0.01), the other solver
+// of depths (-minkowski@margin: btMinkowskiPenetrationDepthSolver), other tolerances of the default one
+// (-epa@tolerance) and of the sweep (-cast@length: its allowedCcdPenetration), so that a chart shows a method
+// as a curve. Bullet has no other settings of GJK and EPA outside its macros.
 #include <limits>
 #include <numbers>
+#include <optional>
 #include <string>
 
 #include "oracles/api/plugin_kit.h"
 #include "oracles/bullet/pair.h"
+
+// btGjkPairDetector.cpp: global, without a header that declares it.
+extern btScalar gGjkEpaPenetrationTolerance;
 
 namespace touchstone::bullet_adapter {
 namespace {
@@ -25,6 +32,52 @@ constexpr const char* source =
     "btCollisionMargin.h: 0.04; inside for box and cylinder (setSafeMargin), outside for hull, cone; "
     "btContinuousConvexCollision.cpp: sweep ends at a gap of 0.001";
 
+// One engine: the names of what is not here are left at Bullet's defaults.
+struct Setting {
+  std::string_view name;  // after bullet-f32- or bullet-f64-
+  bool sim = false;
+  std::optional<double> margin = {};
+  bool minkowski = false;
+  std::optional<double> epa_tolerance = {};
+  std::optional<double> allowed_penetration = {};  // of sweeps, and then of nothing else
+};
+#ifndef TOUCHSTONE_SWEEP
+constexpr Setting settings[] = {{"query"}, {"sim", true}, {"query-tuned", false, 0}, {"sim-tuned", true, 0}};
+#else
+constexpr Setting settings[] = {{"query@0.001", false, 0.001},
+                                {"query@0.01", false, 0.01},
+                                {"sim@0.01", true, 0.01},
+                                {"minkowski@0", false, 0, true},
+                                {"minkowski@0.01", false, 0.01, true},
+                                {"minkowski@0.04", false, 0.04, true},
+                                {"epa@1e-1", false, 0, false, 1e-1},
+                                {"epa@1e-5", false, 0, false, 1e-5},
+                                {"epa@1e-9", false, 0, false, 1e-9},
+                                {"cast@0.001", false, 0, false, {}, 0.001},
+                                {"cast@0.01", false, 0, false, {}, 0.01},
+                                {"cast@0.1", false, 0, false, {}, 0.1}};
+#endif
+
+std::string text_of(const Setting& s) {
+  std::string text = s.sim ? sim_settings : query_settings;
+  if (!s.margin)
+    text += "default margins";
+  else if (*s.margin == 0)
+    text += "margin 0, hull boxes recomputed";
+  else
+    text += "margin as named, hull boxes recomputed";
+  if (s.minkowski) text = "as named; m_useEpaPenetrationAlgorithm false; " + text;
+  if (s.epa_tolerance) text = "gGjkEpaPenetrationTolerance as named; " + text;
+  if (s.allowed_penetration) text = "sweeps with allowedCcdPenetration as named; " + text;
+  return text;
+}
+
+btDefaultCollisionConstructionInfo construction_of(const Setting& s) {
+  btDefaultCollisionConstructionInfo info;
+  info.m_useEpaPenetrationAlgorithm = !s.minkowski;
+  return info;
+}
+
 class Engine {
  public:
   static std::vector<kit::CardText> cards() {
@@ -32,21 +85,24 @@ class Engine {
     const std::string version =
         std::to_string(BT_BULLET_VERSION / 100) + "." + std::to_string(BT_BULLET_VERSION % 100);
     std::vector<kit::CardText> all;
-    for (const bool tuned : {false, true})
-      for (const bool sim : {false, true})
-        all.push_back({prefix + (sim ? "sim" : "query") + (tuned ? "-tuned" : ""), "Bullet", version,
-                       std::string(sim ? sim_settings : query_settings) +
-                           (tuned ? "margin 0, hull boxes recomputed" : "default margins"),
-                       unit_roundoff, kit::oracle_tau_factor, source});
+    for (const Setting& s : settings)
+      all.push_back({prefix + std::string(s.name), "Bullet", version, text_of(s), unit_roundoff,
+                     kit::oracle_tau_factor, source});
     return all;
   }
 
-  explicit Engine(unsigned index) : sim_(index % 2 == 1), tuned_(index >= 2), query_world_(configuration_) {}
+  explicit Engine(unsigned index)
+      : setting_(settings[index]),
+        sim_(setting_.sim),
+        configuration_(construction_of(setting_)),
+        query_world_(configuration_) {
+    if (setting_.epa_tolerance) gGjkEpaPenetrationTolerance = static_cast<btScalar>(*setting_.epa_tolerance);
+  }
 
   void load(const ts_scene& scene, const ts_received& received) {
     unload();
     for (std::size_t i = 0; i < scene.shape_count; ++i) {
-      shapes_.push_back(make_shape(scene.shapes[i], tuned_));
+      shapes_.push_back(make_shape(scene.shapes[i], setting_.margin));
       report_shape(static_cast<int>(i), *shapes_.back(), received);
     }
     for (std::size_t i = 0; i < scene.body_count; ++i) {
@@ -63,6 +119,9 @@ class Engine {
   void unload() { objects_.clear(), shapes_.clear(), scene_ = nullptr; }
 
   void ask(ts_question question, int a, int b, ts_answer& out, const ts_sink& sink) {
+    if ((question == TS_TIME_OF_IMPACT) ? setting_.minkowski || setting_.epa_tolerance
+                                        : setting_.allowed_penetration.has_value())
+      throw kit::Unsupported("its setting is of no matter to this question");
     if (question == TS_CANDIDATES || question == TS_SCENE_CONTACTS) {
       for (const auto& s : shapes_)
         if (!s->shape) throw kit::Unsupported("Bullet has no ellipsoid, and the scene has one");
@@ -151,8 +210,9 @@ class Engine {
     relative.linear -= motion(target).linear;
     const Pose start = kit::pose_of(scene_->bodies[mover].pose);
     const auto t = sweep(configuration_, static_cast<const btConvexShape&>(*shape(mover).shape),
-                         make_transform(start), make_transform(pose_at(start, relative, 1)), object(target));
-    out.claimed_tolerance = claimed_margin(a, b) + sweep_gap;
+                         make_transform(start), make_transform(pose_at(start, relative, 1)), object(target),
+                         setting_.allowed_penetration.value_or(0));
+    out.claimed_tolerance = claimed_margin(a, b) + sweep_gap + setting_.allowed_penetration.value_or(0);
     if (t) kit::set_toi(out, *t);
   }
 
@@ -194,7 +254,8 @@ class Engine {
     for (auto& o : objects_) world->removeCollisionObject(o.get());
   }
 
-  bool sim_, tuned_;
+  const Setting& setting_;
+  bool sim_;
   btDefaultCollisionConfiguration configuration_;
   World query_world_;
   const ts_scene* scene_ = nullptr;
