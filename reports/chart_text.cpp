@@ -63,14 +63,20 @@ std::string crowds(const fuzz::Chart& c) {
   std::map<std::string, std::map<std::uint64_t, const ChartRow*>> engines;
   std::set<std::uint64_t> crowd_sizes;
   for (const ChartRow& r : c.rows)
-    if (r.question == "candidates" && r.answers > 0)
-      engines[r.engine][r.bodies] = &r, crowd_sizes.insert(r.bodies);
+    if (r.question == "candidates") engines[r.engine][r.bodies] = &r, crowd_sizes.insert(r.bodies);
   if (engines.empty()) return "";
   std::vector<std::pair<double, std::string>> lines;
-  for (const auto& [name, sizes] : engines) {
+  for (auto& [name, sizes] : engines) {
     std::string line = fmt::format("{} {:<26}", mark(*sizes.rbegin()->second), name);
     for (const std::uint64_t n : crowd_sizes)
-      line += fmt::format("{:>9}", sizes.contains(n) ? nanoseconds(sizes.at(n)->ns_median) : "");
+      line += fmt::format("{:>9}", !sizes.contains(n)          ? ""
+                                   : sizes.at(n)->answers == 0 ? "none"
+                                                               : nanoseconds(sizes.at(n)->ns_median));
+    std::erase_if(sizes, [](const auto& x) { return x.second->answers == 0; });
+    if (sizes.empty()) {
+      lines.emplace_back(HUGE_VAL, line);
+      continue;
+    }
     const ChartRow &first = *sizes.begin()->second, &last = *sizes.rbegin()->second;
     // Slope in the log-log plane between the smallest crowd and the largest.
     if (sizes.size() > 1)

@@ -28,7 +28,12 @@ struct ChartOptions {
   WorkerLimits limits;
 };
 
+// A crowd of thousands is one question.
+constexpr double crowd_cpu_seconds = 10;
+
 std::vector<EnginePtr> broad_engines(const ChartOptions& o) {
+  WorkerLimits limits = o.limits;
+  limits.query_cpu_seconds = std::max(limits.query_cpu_seconds, crowd_cpu_seconds);
   std::vector<std::string> names;
   if (o.broad == "all") {
     for (std::string_view name : core_broad_phases()) names.emplace_back(name);
@@ -39,7 +44,7 @@ std::vector<EnginePtr> broad_engines(const ChartOptions& o) {
   }
   std::vector<EnginePtr> engines;
   for (const auto& name : names)
-    engines.push_back(broad_subject(name, o.limits, false).make(fuzz::Level::bodies));
+    engines.push_back(broad_subject(name, limits, false).make(fuzz::Level::bodies));
   return engines;
 }
 

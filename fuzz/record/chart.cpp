@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <map>
 
 namespace touchstone::fuzz {
 namespace {
@@ -16,12 +17,28 @@ constexpr const char* columns[] = {
 // Four digits are more than a time repeats and an error is worth; the page of a full chart has 4e4 rows.
 Json rounded(double x) { return std::isfinite(x) ? number(std::stod(fmt::format("{:.4g}", x))) : number(x); }
 
-Json cells(const ChartRow& r) {
-  return {r.engine,
-          r.question,
-          r.regime,
-          r.pair,
-          r.scale,
+// The strings of a chart, each once: rows name them by their place.
+class Strings {
+ public:
+  Json place(const std::string& text) {
+    const auto [at, is_new] = places_.try_emplace(text, all_.size());
+    if (is_new) all_.push_back(text);
+    return at->second;
+  }
+  Json take() { return std::move(all_); }
+
+ private:
+  std::map<std::string, std::size_t> places_;
+  Json all_ = Json::array();
+};
+
+template <class Text>
+Json cells(const ChartRow& r, Text&& text) {
+  return {text(r.engine),
+          text(r.question),
+          text(r.regime),
+          text(r.pair),
+          text(r.scale),
           r.bodies,
           r.asked,
           r.answers,
@@ -42,7 +59,7 @@ Json cells(const ChartRow& r) {
           r.pairs_true,
           r.pairs_reported,
           r.front,
-          r.unsound};
+          text(r.unsound)};
 }
 
 }  // namespace
@@ -54,12 +71,13 @@ Json to_json(const Machine& m) {
 
 Json to_json(const Chart& c) {
   Json engines = Json::array(), rows = Json::array();
+  Strings strings;
   for (const ChartEngine& e : c.engines)
     engines.push_back(
         {{"name", e.name}, {"library", e.library}, {"version", e.version}, {"settings", e.settings}});
-  for (const ChartRow& r : c.rows) rows.push_back(cells(r));
+  for (const ChartRow& r : c.rows) rows.push_back(cells(r, [&](const auto& t) { return strings.place(t); }));
   return {{"page", "chart"},
-          {"version", 1},
+          {"version", 2},
           {"scope", c.scope},
           {"seed", c.seed},
           {"rounds", c.rounds},
@@ -67,6 +85,8 @@ Json to_json(const Chart& c) {
           {"machine", to_json(c.machine)},
           {"engines", std::move(engines)},
           {"columns", columns},
+          {"text_columns", {"engine", "question", "regime", "pair", "scale", "unsound"}},
+          {"strings", strings.take()},
           {"rows", std::move(rows)}};
 }
 
@@ -77,7 +97,8 @@ std::string to_csv(const Chart& c) {
     text += name;
   }
   text += '\n';
-  for (const ChartRow& r : c.rows) text.append(csv_cells(cells(r))).append(1, '\n');
+  for (const ChartRow& r : c.rows)
+    text.append(csv_cells(cells(r, [](const std::string& t) { return t; }))).append(1, '\n');
   return text;
 }
 

@@ -52,7 +52,7 @@ struct Chart {
   std::vector<ChartRow> rows;
 };
 
-/// Rows as arrays, named by "columns".
+/// Rows as arrays, named by "columns"; of "text_columns" a cell is a place in "strings".
 Json to_json(const Chart& c);
 std::string to_csv(const Chart& c);
 

@@ -8,9 +8,11 @@
 #include "core/base/input_error.h"
 #include "fuzz/explore/chart.h"
 #include "fuzz/explore/chart_rows.h"
+#include "fuzz/explore/forms.h"
 #include "fuzz/explore/ladders.h"
 #include "fuzz/explore/stability.h"
 #include "fuzz/explore/sub_steps.h"
+#include "fuzz/judge/exact_map.h"
 #include "fuzz/judge/judge.h"
 #include "oracles/api/measure.h"
 #include "oracles/core/core_engine.h"
@@ -69,6 +71,29 @@ class Denier final : public Engine {
 
  private:
   EngineCard card_;
+};
+
+// The core, but where `lies` holds it says a distance that is too large by half the size.
+class Fickle final : public Engine {
+ public:
+  using Lies = bool (*)(const Case&, const Query&);
+  Fickle(const std::string& name, Lies lies) : lies_(lies) { card_.name = name; }
+  const EngineCard& card() const override { return card_; }
+  std::vector<CaseObservations> run(std::span<const Case> cases) override {
+    auto all = core_->run(cases);
+    for (std::size_t i = 0; i < cases.size(); ++i)
+      for (std::size_t q = 0; q < cases[i].queries.size(); ++q) {
+        Observation& o = all[i].answers[q];
+        if (o.distance && lies_(cases[i], cases[i].queries[q]))
+          *o.distance += 0.5 * std::get<Box>(cases[i].scene.shape_of(0)).half_extents.x();
+      }
+    return all;
+  }
+
+ private:
+  Lies lies_;
+  EngineCard card_;
+  EnginePtr core_ = make_core_engine();
 };
 
 }  // namespace
@@ -226,8 +251,76 @@ TEST_CASE("ladders name where a liar begins to fail, and the core fails nowhere"
     if (r.engine == "core") CHECK_FALSE(r.fails_at());
     if (r.engine == "denier" && r.question == "overlap") CHECK(r.fails_at() == 0x1p-4);
     for (const Rung& rung : r.rungs) CHECK(rung.asked == 6);
+    for (std::size_t form = 0; form < form_count; ++form) CHECK_FALSE(r.breaks_at(form));
   }
   CHECK_THROWS_AS(climb("no-such", 1, 1, engines, {}), InputError);
+}
+
+TEST_CASE("who depends on the frame, the order or the unit fails in that and in nothing else",
+          "[stability]") {
+  std::vector<EnginePtr> engines;
+  engines.push_back(std::make_unique<Fickle>("order", [](const Case&, const Query& q) { return q.a > q.b; }));
+  engines.push_back(std::make_unique<Fickle>("frame", [](const Case& c, const Query&) {
+    const Body& a = c.scene.bodies[0];  // it lies at the origin, and its axes are permuted or turned
+    return a.pose.rotation.w == 0 && a.pose.rotation.x == 1;
+  }));
+  engines.push_back(std::make_unique<Fickle>("unit", [](const Case& c, const Query&) {
+    const auto& box = std::get<Box>(c.scene.shape_of(0));
+    return box.half_extents.x() > 100;
+  }));
+  const Stability s = climb("angle", 3, 4, engines, {});
+  REQUIRE(s.results.size() == 9);
+  for (const LadderResult& r : s.results) {
+    INFO(r.engine << " " << r.question);
+    CHECK_FALSE(r.fails_at());  // as asked they are right
+    for (std::size_t k = 0; k < form_count; ++k) {
+      const bool fails = r.engine == form_columns[k] && r.question == "distance";
+      CHECK(r.breaks_at(k) == (fails ? std::optional(0x1p-2) : std::nullopt));
+      if (fails) CHECK(r.rungs.back().spread[k] > 0.1);
+      if (fails) CHECK(r.rungs.back().broken[k] == 4);
+    }
+  }
+}
+
+TEST_CASE("other forms of a pair are the same to the last bit", "[stability]") {
+  std::size_t frames = 0, moved = 0, with_axis = 0;
+  for (const LadderRow& l : ladders()) {
+    if (l.questions[0] != Question::overlap) continue;
+    for (int i = 0; i < 12; ++i) {
+      Rng rng = Rng::stream(11, static_cast<std::uint64_t>(i));
+      Case c;
+      c.scene = l.make(rng, l.values[0]);
+      c.queries = {{Question::distance, 0, 1}};
+      Truth truth(c.scene);
+      const auto gap = truth.pair(0, 0, 1).gap;
+      for (const Form& f : other_forms(c, rng)) {
+        if (f.kind == FormKind::nudged) continue;
+        INFO(l.name << " " << i << " " << form_names[static_cast<std::size_t>(f.kind)]);
+        Truth there(f.c.scene);
+        const Query& q = f.c.queries[0];
+        const auto same = there.pair(0, q.a, q.b).gap;
+        CHECK(same.lo <= f.scale * gap.hi);
+        CHECK(same.hi >= f.scale * gap.lo);
+        frames += f.kind == FormKind::frame;
+        moved += f.kind == FormKind::frame && f.c.scene.bodies[0].pose.translation.isZero() &&
+                 !c.scene.bodies[0].pose.translation.isZero();
+      }
+      with_axis += std::any_of(c.scene.shapes.begin(), c.scene.shapes.end(), has_own_axis);
+    }
+  }
+  CHECK(frames > 200);
+  CHECK(with_axis > 10);
+  CHECK(moved > 2);
+}
+
+TEST_CASE("a translation that rounds is no other form of the scene", "[stability]") {
+  Scene s;
+  s.shapes = {Sphere{1}};
+  s.bodies.resize(2);
+  s.bodies[1].pose.translation = Vec3(0x1p-60, 0, 0);
+  CHECK_FALSE(translate_by(s, Vec3(1, 0, 0)));
+  s.bodies[1].pose.translation = Vec3(0x1p-50, 0, 0);
+  CHECK(translate_by(s, Vec3(1, 0, 0)));
 }
 
 TEST_CASE("every ladder makes scenes of its questions at every rung", "[stability]") {

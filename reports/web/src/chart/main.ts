@@ -13,12 +13,15 @@ interface ChartPage {
   machine: { processor: string; cores: number; load: number; system: string; compiler: string; date: string };
   engines: { name: string; library: string; version: string; settings: string }[];
   columns: string[];
+  text_columns: string[];
+  strings: string[];
   rows: unknown[][];
 }
 
 const data = pageData<ChartPage>();
 const link = new LinkState();
-const rows: Row[] = data.rows.map((r) => Object.fromEntries(data.columns.map((c, i) => [c, r[i]])) as unknown as Row);
+const isText = data.columns.map((c) => data.text_columns.includes(c));
+const rows: Row[] = data.rows.map((r) => Object.fromEntries(data.columns.map((c, i) => [c, isText[i] ? data.strings[r[i] as number] : r[i]])) as unknown as Row);
 document.title = "Touchstone: speed against accuracy";
 const values = (key: "question" | "regime" | "pair" | "scale"): string[] => [...new Set(rows.map((r) => r[key]))].filter(Boolean).sort();
 const engineIndex = new Map(data.engines.map((e, i) => [e.name, i]));
