@@ -12,7 +12,7 @@ constexpr const char* columns[] = {
     "engine",    "question",   "regime",         "pair",   "scale",     "bodies",    "asked",
     "answers",   "failed",     "missed",         "ghost",  "no_number", "wrong",     "rounding",
     "undecided", "ns_min",     "ns_median",      "ns_p99", "ns_spread", "error_p50", "error_p99",
-    "error_max", "pairs_true", "pairs_reported", "front",  "unsound"};
+    "error_max", "pairs_true", "pairs_reported", "front",  "tie",       "unsound"};
 
 // Four digits are more than a time repeats and an error is worth; the page of a full chart has 4e4 rows.
 Json rounded(double x) { return std::isfinite(x) ? number(std::stod(fmt::format("{:.4g}", x))) : number(x); }
@@ -59,6 +59,7 @@ Json cells(const ChartRow& r, Text&& text) {
           r.pairs_true,
           r.pairs_reported,
           r.front,
+          r.tie,
           text(r.unsound)};
 }
 

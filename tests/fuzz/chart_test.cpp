@@ -135,12 +135,37 @@ TEST_CASE("who is wrong, fails or leaves out cannot be on the front, and the row
   CHECK(overall(all, "rough").front);
   CHECK(overall(all, "alike").front);
   CHECK_FALSE(overall(all, "dominated").front);
+  CHECK(overall(all, "rough").tie);
+  CHECK(overall(all, "alike").tie);
+  CHECK_FALSE(overall(all, "exact").tie);
   CHECK(overall(all, "dominated").unsound.empty());
   for (const char* name : {"misses", "off", "crashes", "partial"}) CHECK_FALSE(overall(all, name).front);
   CHECK(overall(all, "misses").unsound == "1 missed of 10");
   CHECK(overall(all, "off").unsound == "1 wrong of 10");
   CHECK(overall(all, "crashes").unsound == "1 failed of 10");
   CHECK(overall(all, "partial").unsound == "answers 9 of 10");
+}
+
+TEST_CASE("noise of the times moves nobody from the front to behind it or back", "[chart]") {
+  std::size_t clear = 0, moved = 0;
+  const auto place = [](const ChartRow& r) { return r.front ? r.tie ? 1 : 2 : 0; };
+  for (std::uint64_t seed = 0; seed < 200; ++seed) {
+    std::vector<ChartRow> one(8);
+    Rng rng = Rng::stream(77, seed);
+    for (std::size_t i = 0; i < one.size(); ++i) {
+      one[i].engine = std::to_string(i), one[i].ns_median = std::exp(rng.uniform(4, 9));
+      one[i].error_p99 = one[i].error_max = std::pow(10, -static_cast<double>(rng.below(4)));
+    }
+    auto other = one;
+    for (ChartRow& r : other) r.ns_median *= rng.uniform(0.7, 1.0 / 0.7);
+    mark_fronts(one), mark_fronts(other);
+    for (std::size_t i = 0; i < one.size(); ++i) {
+      CHECK(std::abs(place(one[i]) - place(other[i])) < 2);
+      clear += place(one[i]) == 2, moved += place(one[i]) != place(other[i]);
+    }
+  }
+  CHECK(clear > 200);
+  CHECK(moved > 20);  // the noise is felt
 }
 
 TEST_CASE("repeated asking gives the least mean of a batch", "[chart]") {

@@ -6,7 +6,7 @@ interface Row {
   engine: string; question: string; regime: string; pair: string; scale: string; bodies: number;
   asked: number; answers: number; failed: number; missed: number; ghost: number; no_number: number; wrong: number; rounding: number; undecided: number;
   ns_min: number; ns_median: number; ns_p99: number; ns_spread: number;
-  error_p50: unknown; error_p99: unknown; error_max: unknown; pairs_true: number; pairs_reported: number; front: boolean; unsound: string;
+  error_p50: unknown; error_p99: unknown; error_max: unknown; pairs_true: number; pairs_reported: number; front: boolean; tie: boolean; unsound: string;
 }
 interface ChartPage {
   scope: string; seed: number; rounds: number; measure_ns: number;
@@ -69,7 +69,7 @@ const method = (name: string): string => name.replace(/-tuned$|@.*$/, "");
 const words = (r: Row): string =>
   `<b>${r.engine}</b><br>median ${nanoseconds(r.ns_median)}, 99 % ${nanoseconds(r.ns_p99)}, a typical round ${Math.round(100 * r.ns_spread)} % slower than the fastest<br>` +
   (r.question === "candidates" ? `precision ${(100 * precision(r)).toFixed(1)} %<br>` : `error/L ${numberOf(r.error_p50).toExponential(1)}, 99 % ${numberOf(r.error_p99).toExponential(1)}, most ${numberOf(r.error_max).toExponential(1)}<br>`) +
-  `${grouped(r.answers)} answers, ${r.wrong} wrong` + (r.unsound ? `<br>not on the front: ${r.unsound}` : r.front ? "<br>on the Pareto front" : "");
+  `${grouped(r.answers)} answers, ${r.wrong} wrong` + (r.unsound ? `<br>not on the front: ${r.unsound}` : r.front ? `<br>on the Pareto front${r.tie ? ", tied within noise" : ""}` : "");
 
 function draw(): void {
   const list = shown();
@@ -80,7 +80,7 @@ function draw(): void {
   const one = (r: Row): object => {
     const c = colourOf(engineIndex.get(r.engine) ?? 0);
     return {
-      name: r.engine, value: point(r), row: r, symbol: r.front ? "diamond" : "circle", symbolSize: r.front ? 17 : 12,
+      name: r.engine, value: point(r), row: r, symbol: r.front ? "diamond" : "circle", symbolSize: r.tie ? 14 : r.front ? 17 : 12,
       itemStyle: r.unsound ? { color: "transparent", borderColor: c, borderWidth: 2 } : { color: c, borderColor: ink, borderWidth: r.front ? 1.5 : 0 },
       label: { show: true, formatter: r.engine, position: "right", color: r.unsound ? css("--soft") : ink, fontSize: 11 },
     };
@@ -102,7 +102,7 @@ function draw(): void {
     ],
   }, { notMerge: true });
   note.textContent = (crowd ? `Crowds of ${grouped(shown()[0]?.bodies ?? 0)} bodies, inserted and asked once. ` : "") +
-    "Diamonds and the line: the Pareto front. Hollow: unsound or incomplete, which cannot be on it; the table says why. Dashed: settings of one method.";
+    "Diamonds and the line: the Pareto front; small ones are as accurate and as fast as another, within noise. Hollow: unsound or incomplete, which cannot be on it; the table says why. Dashed: settings of one method.";
   drawTable(list);
   drawGrowth();
 }
@@ -112,7 +112,7 @@ function drawTable(list: Row[]): void {
   const e = (x: unknown): string => (numberOf(x) === 0 ? "0" : numberOf(x).toExponential(1));
   const body = el("tbody", {}, ...[...list].sort((a, b) => a.ns_median - b.ns_median).map((r) => {
     const n = (text: string, bad = false): HTMLElement => el("td", { class: bad ? "n bad" : "n" }, text);
-    return el("tr", { "data-engine": r.engine }, el("td", {}, el("span", { class: "swatch", style: `background:${colourOf(engineIndex.get(r.engine) ?? 0)}` }), r.engine), el("td", { class: "good" }, r.front ? "front" : ""),
+    return el("tr", { "data-engine": r.engine }, el("td", {}, el("span", { class: "swatch", style: `background:${colourOf(engineIndex.get(r.engine) ?? 0)}` }), r.engine), el("td", { class: "good" }, r.tie ? "front, tie" : r.front ? "front" : ""),
       n(grouped(r.answers)), n(nanoseconds(r.ns_median)), n(nanoseconds(r.ns_p99)), n(`${Math.round(100 * r.ns_spread)} %`),
       ...(r.question === "candidates" ? [n(""), n(`${(100 * precision(r)).toFixed(1)} %`), n("")] : [n(e(r.error_p50)), n(e(r.error_p99)), n(e(r.error_max))]),
       n(grouped(r.missed), r.missed > 0), n(grouped(r.ghost), r.ghost > 0), n(grouped(r.failed), r.failed > 0), n(grouped(r.wrong), r.wrong > 0), el("td", { class: "soft" }, r.unsound));
