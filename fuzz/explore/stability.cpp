@@ -13,6 +13,9 @@
 namespace touchstone::fuzz {
 namespace {
 
+// Pairs held at a time, each in ten forms: hulls of a thousand vertices take a megabyte in all of them.
+constexpr int at_once = 16;
+
 struct Asked {
   Case c;
   std::vector<Form> forms;
@@ -88,10 +91,9 @@ void add_forms(std::span<LadderResult> results, const Asked& asked,
   }
 }
 
-// One engine at one rung; results[q] is the ladder's q-th question.
-void add_rung(std::span<LadderResult> results, double value, const std::vector<Asked>& all, Engine& engine,
-              std::vector<Truth>& truths) {
-  for (LadderResult& r : results) r.rungs.emplace_back().value = value;
+// One engine's answers to pairs of the last rung; results[q] is the ladder's q-th question.
+void add_pairs(std::span<LadderResult> results, const std::vector<Asked>& all, Engine& engine,
+               std::vector<Truth>& truths) {
   std::vector<Case> cases;
   for (const Asked& a : all) {
     cases.push_back(a.c);
@@ -117,12 +119,16 @@ void climb_one(Stability& s, const LadderRow& l, std::span<const EnginePtr> engi
   }
   for (std::size_t rung = 0; rung < l.values.size(); ++rung) {
     if (progress) progress(fmt::format("{}: rung {} of {}", l.name, rung + 1, l.values.size()));
-    std::vector<Asked> all;
-    for (int i = 0; i < s.per_rung; ++i) all.push_back(make_asked(l, s.seed, rung, i));
-    std::vector<Truth> truths;
-    for (const Asked& a : all) truths.emplace_back(a.c.scene);
-    for (std::size_t e = 0; e < engines.size(); ++e)
-      add_rung(results[e], l.values[rung], all, *engines[e], truths);
+    for (auto& of_engine : results)
+      for (LadderResult& r : of_engine) r.rungs.emplace_back().value = l.values[rung];
+    for (int first = 0; first < s.per_rung; first += at_once) {
+      std::vector<Asked> all;
+      for (int i = first; i < std::min(first + at_once, s.per_rung); ++i)
+        all.push_back(make_asked(l, s.seed, rung, i));
+      std::vector<Truth> truths;
+      for (const Asked& a : all) truths.emplace_back(a.c.scene);
+      for (std::size_t e = 0; e < engines.size(); ++e) add_pairs(results[e], all, *engines[e], truths);
+    }
   }
   for (auto& of_engine : results)
     for (LadderResult& r : of_engine)

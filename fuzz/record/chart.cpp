@@ -5,6 +5,9 @@
 #include <cmath>
 #include <map>
 
+#include "core/base/exact_text.h"
+#include "core/base/input_error.h"
+
 namespace touchstone::fuzz {
 namespace {
 
@@ -89,6 +92,68 @@ Json to_json(const Chart& c) {
           {"text_columns", {"engine", "question", "regime", "pair", "scale", "unsound"}},
           {"strings", strings.take()},
           {"rows", std::move(rows)}};
+}
+
+namespace {
+
+double real(const Json& j) {
+  return j.is_string() ? double_from_text(j.get<std::string>()).value_or(std::nan("")) : j.get<double>();
+}
+
+// Cells of one row by the names of their columns.
+class RowReader {
+ public:
+  RowReader(const Json& chart, const Json& row) : strings_(chart.at("strings")) {
+    const Json& names = chart.at("columns");
+    for (std::size_t i = 0; i < names.size(); ++i) cells_[names[i].get<std::string>()] = &row.at(i);
+  }
+  void operator()(const char* name, std::string& v) const {
+    v = strings_.at(cells_.at(name)->get<std::size_t>()).get<std::string>();
+  }
+  void operator()(const char* name, double& v) const { v = real(*cells_.at(name)); }
+  void operator()(const char* name, std::uint64_t& v) const { v = cells_.at(name)->get<std::uint64_t>(); }
+  void operator()(const char* name, bool& v) const { v = cells_.at(name)->get<bool>(); }
+
+ private:
+  const Json& strings_;
+  std::map<std::string, const Json*> cells_;
+};
+
+ChartRow row_from_json(const RowReader& read) {
+  ChartRow r;
+  read("engine", r.engine), read("question", r.question), read("regime", r.regime), read("pair", r.pair);
+  read("scale", r.scale), read("unsound", r.unsound), read("bodies", r.bodies), read("asked", r.asked);
+  read("answers", r.answers), read("failed", r.failed), read("missed", r.missed), read("ghost", r.ghost);
+  read("no_number", r.no_number), read("wrong", r.wrong), read("rounding", r.rounding);
+  read("undecided", r.undecided), read("ns_min", r.ns_min), read("ns_median", r.ns_median);
+  read("ns_p99", r.ns_p99), read("ns_spread", r.ns_spread), read("error_p50", r.error_p50);
+  read("error_p99", r.error_p99), read("error_max", r.error_max), read("pairs_true", r.pairs_true);
+  read("pairs_reported", r.pairs_reported), read("front", r.front), read("tie", r.tie);
+  return r;
+}
+
+}  // namespace
+
+Chart chart_from_json(const Json& j, const std::string& file) {
+  try {
+    if (j.at("page") != "chart" || j.at("version") != 2)
+      throw InputError(file, "is no chart of this version");
+    Chart c;
+    const Json& m = j.at("machine");
+    m.at("processor").get_to(c.machine.processor), m.at("cores").get_to(c.machine.cores);
+    m.at("load").get_to(c.machine.load), m.at("system").get_to(c.machine.system);
+    m.at("compiler").get_to(c.machine.compiler), m.at("date").get_to(c.machine.date);
+    j.at("scope").get_to(c.scope), j.at("seed").get_to(c.seed), j.at("rounds").get_to(c.rounds);
+    j.at("measure_ns").get_to(c.measure_ns);
+    for (const Json& e : j.at("engines"))
+      c.engines.push_back({e.at("name"), e.at("library"), e.at("version"), e.at("settings")});
+    for (const Json& row : j.at("rows")) c.rows.push_back(row_from_json({j, row}));
+    return c;
+  } catch (const InputError&) {
+    throw;
+  } catch (const std::exception& e) {
+    throw InputError(file, std::string("is no chart: ") + e.what());
+  }
 }
 
 std::string to_csv(const Chart& c) {

@@ -55,6 +55,8 @@ struct Chart {
 
 /// Rows as arrays, named by "columns"; of "text_columns" a cell is a place in "strings".
 Json to_json(const Chart& c);
+/// Of a document that to_json wrote. Throws InputError, which names `file`.
+Chart chart_from_json(const Json& j, const std::string& file);
 std::string to_csv(const Chart& c);
 
 }  // namespace touchstone::fuzz
