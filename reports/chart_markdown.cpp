@@ -76,9 +76,16 @@ std::vector<ChartRow> rows_of(const Chart& c, const Part& part) {
   return rows;
 }
 
+// The core's broad phases have names without its own.
+std::string name_of(const ChartRow& r) {
+  if (r.question == "candidates" && (r.engine == "automatic" || r.engine == "neighbour_list"))
+    return "core (" + r.engine + ")";
+  return r.engine;
+}
+
 std::string line(const ChartRow& r, const std::string& asked) {
   const bool crowd = r.question == "candidates";
-  const std::string name = is_core(r) ? "**" + r.engine + "**" : r.engine;
+  const std::string name = is_core(r) ? "**" + name_of(r) + "**" : name_of(r);
   const std::string worst = crowd ? fmt::format("{:.0f} % true", 100 * r.precision()) : small(r.error_max);
   // Of candidates a ghost is no fault.
   const std::uint64_t ghosts = crowd ? 0 : r.ghost, verdicts = r.missed + ghosts;
@@ -104,7 +111,7 @@ std::string faster(const Chart& c) {
     if (core == rows.end()) continue;
     std::string names;
     for (auto r = rows.begin(); r != core; ++r) {
-      names += (names.empty() ? "" : ", ") + r->engine;
+      names += (names.empty() ? "" : ", ") + name_of(*r);
       if (!r->unsound.empty()) names += fmt::format(" ({})", r->unsound);
     }
     text += fmt::format("{}{}: {}", text.empty() ? "" : "; ", part.words, names.empty() ? "nobody" : names);
@@ -138,17 +145,17 @@ std::string chart_markdown(const Chart& c) {
       if (r.question == "candidates") crowd = r.bodies;
     }
   }
-  s += fmt::format("\nFaster than the core by the median: {}.\n", faster(c));
-  return s +
-         fmt::format(
-             "Measured {} on {}, {} cores, load {:.1f}, compiler {}; {}; {} chart, seed {}, {} interleaved "
-             "rounds, {} bodies for candidates, inserted and asked once. "
-             "Engines as shipped; `fcl-libccd-tuned` is its conservative advancement, `core-steps@16` the "
-             "core's overlap at 17 times of the step. Errors are the referee's, over the size L of the "
-             "scene. "
-             "All settings and groups: `./touchstone chart`; these numbers: `docs/chart.json`.\n",
-             c.machine.date, c.machine.processor, c.machine.cores, c.machine.load, c.machine.compiler,
-             versions(c), c.scope, c.seed, c.rounds, grouped(crowd));
+  const std::string words = fmt::format(
+      "Faster than the core by the median: {}. Measured {} on {}, {} cores, load {:.1f}, compiler {}, {}; {} "
+      "chart, seed {}, {} interleaved rounds, candidates of {} bodies, inserted and asked once. Engines as "
+      "shipped; `fcl-libccd-tuned` is FCL's conservative advancement, `core-steps@16` the core's overlap at "
+      "17 "
+      "times of the step. Errors are the referee's over the size L of the scene; wrong is what exceeds the "
+      "tolerance that the engine's own documentation claims. Every setting and group: `./touchstone chart`; "
+      "these numbers: `docs/chart.json`.",
+      faster(c), c.machine.date, c.machine.processor, c.machine.cores, c.machine.load, c.machine.compiler,
+      versions(c), c.scope, c.seed, c.rounds, grouped(crowd));
+  return s + "\n" + wrapped(words, 125, 0) + "\n";
 }
 
 std::string with_chart_block(const std::string& text, const std::string& block, const std::string& file) {
