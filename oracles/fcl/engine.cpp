@@ -11,6 +11,7 @@
 namespace touchstone::fcl_adapter {
 namespace {
 
+#ifndef TOUCHSTONE_SWEEP
 constexpr const char* shipped_settings =
     "default tolerances 1e-6; distance with enable_signed_distance; contact by collide, up to 256 points; "
     "time of impact CCDC_NAIVE, 10 samples, CCDM_TRANS or CCDM_LINEAR; candidates "
@@ -22,6 +23,7 @@ constexpr const char* tuned_libccd_settings =
 constexpr const char* tuned_indep_settings =
     "collide 1e-12; distance unsigned 1e-12, no depth; contact by collide; time of impact "
     "CCDC_CONSERVATIVE_ADVANCEMENT over InterpMotion, pivot 0";
+#endif
 // continuousCollide documents toc_err as an error of time; as a length it is that times the closing speed.
 constexpr const char* source =
     "fcl/narrowphase/collision_request.h: gjk_tolerance; distance_request.h: distance_tolerance; "
