@@ -45,7 +45,7 @@ const heatPlot = plotIn(heat), curvePlot = plotIn(curves);
 
 export const rungText = (x: number): string => {
   const e = Math.log2(x);
-  return Number.isInteger(e) && (x > 4096 || x < 1) ? `2^${e}` : String(Number(x.toPrecision(3)));
+  return Number.isInteger(e) && (x > 4096 || x < 1) ? `2^${e}` : String(Number(x.toPrecision(4)));
 };
 const failsAt = (r: Result): number | null => r[kind.value as Kind] ?? null;
 const of = (engine: string, name: string): Result | undefined => data.results.find((r) => r.engine === engine && r.ladder === name && r.question === question.value);
