@@ -1,8 +1,5 @@
 // The Bullet plug-in, in one precision: query path and simulation path, each with Bullet's own margins and
-// with none. TOUCHSTONE_SWEEP, a plug-in of its own: other margins (bullet-f64-query@0.01), the other solver
-// of depths (-minkowski@margin: btMinkowskiPenetrationDepthSolver), other tolerances of the default one
-// (-epa@tolerance) and of the sweep (-cast@length: its allowedCcdPenetration), so that a chart shows a method
-// as a curve. Bullet has no other settings of GJK and EPA outside its macros.
+// with none, and, as a plug-in of its own, with other settings (settings.h).
 #include <limits>
 #include <numbers>
 #include <optional>
@@ -10,6 +7,7 @@
 
 #include "oracles/api/plugin_kit.h"
 #include "oracles/bullet/pair.h"
+#include "oracles/bullet/settings.h"
 
 // btGjkPairDetector.cpp: global, without a header that declares it.
 extern btScalar gGjkEpaPenetrationTolerance;
@@ -22,55 +20,9 @@ constexpr double unit_roundoff = is_double ? 0x1p-53 : 0x1p-24;
 // btContinuousConvexCollision ends at a gap of 0.001, a length fixed in its source.
 constexpr double sweep_gap = 0.001;
 
-constexpr const char* query_settings =
-    "btCollisionWorld::contactPairTest (distance: m_closestDistanceThreshold BT_LARGE_FLOAT); time of impact "
-    "convexSweepTest; candidates btDbvtBroadphase; ";
-constexpr const char* sim_settings =
-    "performDiscreteCollisionDetection in a fresh world; no distance, no time of impact; candidates "
-    "btDbvtBroadphase; ";
 constexpr const char* source =
     "btCollisionMargin.h: 0.04; inside for box and cylinder (setSafeMargin), outside for hull, cone; "
     "btContinuousConvexCollision.cpp: sweep ends at a gap of 0.001";
-
-// One engine: the names of what is not here are left at Bullet's defaults.
-struct Setting {
-  std::string_view name;  // after bullet-f32- or bullet-f64-
-  bool sim = false;
-  std::optional<double> margin = {};
-  bool minkowski = false;
-  std::optional<double> epa_tolerance = {};
-  std::optional<double> allowed_penetration = {};  // of sweeps, and then of nothing else
-};
-#ifndef TOUCHSTONE_SWEEP
-constexpr Setting settings[] = {{"query"}, {"sim", true}, {"query-tuned", false, 0}, {"sim-tuned", true, 0}};
-#else
-constexpr Setting settings[] = {{"query@0.001", false, 0.001},
-                                {"query@0.01", false, 0.01},
-                                {"sim@0.01", true, 0.01},
-                                {"minkowski@0", false, 0, true},
-                                {"minkowski@0.01", false, 0.01, true},
-                                {"minkowski@0.04", false, 0.04, true},
-                                {"epa@1e-1", false, 0, false, 1e-1},
-                                {"epa@1e-5", false, 0, false, 1e-5},
-                                {"epa@1e-9", false, 0, false, 1e-9},
-                                {"cast@0.001", false, 0, false, {}, 0.001},
-                                {"cast@0.01", false, 0, false, {}, 0.01},
-                                {"cast@0.1", false, 0, false, {}, 0.1}};
-#endif
-
-std::string text_of(const Setting& s) {
-  std::string text = s.sim ? sim_settings : query_settings;
-  if (!s.margin)
-    text += "default margins";
-  else if (*s.margin == 0)
-    text += "margin 0, hull boxes recomputed";
-  else
-    text += "margin as named, hull boxes recomputed";
-  if (s.minkowski) text = "as named; m_useEpaPenetrationAlgorithm false; " + text;
-  if (s.epa_tolerance) text = "gGjkEpaPenetrationTolerance as named; " + text;
-  if (s.allowed_penetration) text = "sweeps with allowedCcdPenetration as named; " + text;
-  return text;
-}
 
 btDefaultCollisionConstructionInfo construction_of(const Setting& s) {
   btDefaultCollisionConstructionInfo info;
