@@ -99,6 +99,17 @@ bool refused(const PlacedShape& a, const PlacedShape& b, A& r) {
   return true;
 }
 
+// A contact whose patch is empty (no face, no crossing of edges in float's sight): the witnesses of the
+// distance, for rows that have patches leave them out of a contact.
+void fill_point_f32(const PlacedShape& a, const PlacedShape& b, ContactAnswer& r) {
+  FastAnswer<float> f;
+  separate<float>(a, b, Asked::distance, nullptr, f);
+  if (known(f))
+    r.manifold.push_back({world<float>((f.answer.a + f.answer.b) / 2, a), r.depth, 0});
+  else
+    r.outcome = Outcome::not_converged;
+}
+
 OverlapAnswer overlap_f32(const PlacedShape& a, const PlacedShape& b, PairMemory* memory) {
   OverlapAnswer r;
   if (refused<float>(a, b, r)) return r;
@@ -149,7 +160,7 @@ ContactAnswer contact(const PlacedShape& a, const PlacedShape& b, Arithmetic ari
     if (!known(f))
       r.outcome = Outcome::not_converged;
     else if (!fill<float>(f, a, b, r))
-      r.manifold.push_back({world<float>((f.answer.a + f.answer.b) / 2, a), r.depth, 0});
+      fill_point_f32(a, b, r);
     return r;
   }
   FastAnswer<double> f;

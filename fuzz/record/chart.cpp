@@ -61,8 +61,8 @@ Json cells(const ChartRow& r, Text&& text) {
           rounded(r.error_max),
           r.pairs_true,
           r.pairs_reported,
-          r.front,
-          r.tie,
+          r.front ? 1 : 0,  // a page of a full chart is to stay below 5 MB
+          r.tie ? 1 : 0,
           text(r.unsound)};
 }
 
@@ -112,7 +112,7 @@ class RowReader {
   }
   void operator()(const char* name, double& v) const { v = real(*cells_.at(name)); }
   void operator()(const char* name, std::uint64_t& v) const { v = cells_.at(name)->get<std::uint64_t>(); }
-  void operator()(const char* name, bool& v) const { v = cells_.at(name)->get<bool>(); }
+  void operator()(const char* name, bool& v) const { v = *cells_.at(name) != 0; }
 
  private:
   const Json& strings_;

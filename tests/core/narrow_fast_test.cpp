@@ -256,6 +256,22 @@ TEST_CASE("what a long run in float found stays right", "[narrow][fast][float]")
   CHECK(count.judged >= 8);
 }
 
+TEST_CASE("boxes that touch with an edge have their contact where they touch", "[narrow][fast][float]") {
+  // Touching within 2e-12 of 4e-3; in float the patch is empty, and the point was at A's origin.
+  const Shape a = Box{Vec3(0.0008378817558754865, 0.0010415040637389214, 0.0009899889049220735)};
+  const Shape b = Box{Vec3(0.00045869123321934824, 0.00034670013758641516, 0.0010688537889161842)};
+  const Pose at_a{Vec3::Zero(),
+                  {-0.5149730109038431, 0.777176754703347, -0.35682440033216756, -0.05895283977038766}};
+  const Pose at_b{Vec3(0.0014595390615086033, -0.002460040307083016, 0.00023641745641491782),
+                  {-0.6206150032866496, 0.06275553905063276, 0.7043539745934816, 0.3387982268081422}};
+  const ContactAnswer r = contact({&a, at_a}, {&b, at_b}, Arithmetic::float32);
+  REQUIRE(r.outcome == Outcome::answered);
+  REQUIRE(r.overlap);
+  REQUIRE(r.manifold.size() == 1);
+  const Vec3 where(0.00076295435, -0.00146850060, 0.00016811070);
+  CHECK((r.manifold.begin()->position - where).norm() < 1e-9);
+}
+
 TEST_CASE("pairs at the ends of float's range are answered as those in its middle", "[narrow][fast][float]") {
   Count count;
   for (const double unit : {0x1p-60, 0x1p-30, 0x1p-24, 0x1p-20, 0x1p+28, 0x1p+32, 0x1p+60})

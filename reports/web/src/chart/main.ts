@@ -6,7 +6,7 @@ interface Row {
   engine: string; question: string; regime: string; pair: string; scale: string; bodies: number;
   asked: number; answers: number; failed: number; missed: number; ghost: number; no_number: number; wrong: number; rounding: number; undecided: number;
   ns_min: number; ns_median: number; ns_p99: number; ns_spread: number;
-  error_p50: unknown; error_p99: unknown; error_max: unknown; pairs_true: number; pairs_reported: number; front: boolean; tie: boolean; unsound: string;
+  error_p50: unknown; error_p99: unknown; error_max: unknown; pairs_true: number; pairs_reported: number; front: number; tie: number; unsound: string;
 }
 interface ChartPage {
   scope: string; seed: number; rounds: number; measure_ns: number;
