@@ -36,7 +36,10 @@ std::string why_unsound(const ChartRow& r) {
   std::string why;
   for (const auto& [n, what] : kinds)
     if (n > 0) why += fmt::format("{}{} {}", why.empty() ? "" : ", ", n, what);
-  if (why.empty() && r.wrong > 0) why = fmt::format("{} wrong", r.wrong);
+  const std::uint64_t named = r.missed + r.ghost + r.no_number;
+  if (r.wrong > named)
+    why +=
+        why.empty() ? fmt::format("{} wrong", r.wrong) : fmt::format(", {} otherwise wrong", r.wrong - named);
   if (!why.empty()) return fmt::format("{} of {}", why, r.answers + r.failed);
   if (r.answers == 0) return "answers nothing";
   // Who leaves out the hard ones is not comparable.
