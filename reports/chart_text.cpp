@@ -24,7 +24,7 @@ Rows by_time(const fuzz::Chart& c, const auto& keep) {
   return rows;
 }
 
-const char* mark(const ChartRow& r) { return r.front ? "*" : r.unsound.empty() ? " " : "o"; }
+const char* mark(const ChartRow& r) { return r.tie ? "~" : r.front ? "*" : r.unsound.empty() ? " " : "o"; }
 
 std::string percent(std::uint64_t n, std::uint64_t of) {
   if (n == 0) return "0";
@@ -37,10 +37,10 @@ std::string question_table(const fuzz::Chart& c, const std::string& question) {
     return r.question == question && r.regime.empty() && r.pair.empty() && r.scale.empty();
   });
   if (rows.empty()) return "";
-  std::string s = fmt::format("{}\n  {:<22}{:>7}{:>7} {:>8}{:>8}{:>8}{:>6}{:>6}{:>5}\n", question, "",
-                              "ns p50", "ns p99", "err p50", "err p99", "err max", "miss%", "ghst%", "fail");
+  std::string s = fmt::format("{}\n  {:<26}{:>6}{:>7}{:>8}{:>8}{:>8}{:>5}{:>5}{:>5}\n", question, "",
+                              "ns p50", "ns p99", "err p50", "err p99", "err max", "mis%", "gho%", "fail");
   for (const ChartRow* r : rows)
-    s += fmt::format("{} {:<22}{:>7}{:>7} {:>8}{:>8}{:>8}{:>6}{:>6}{:>5}\n", mark(*r), r->engine,
+    s += fmt::format("{} {:<26}{:>6}{:>7}{:>8}{:>8}{:>8}{:>5}{:>5}{:>5}\n", mark(*r), r->engine,
                      nanoseconds(r->ns_median), nanoseconds(r->ns_p99), small(r->error_p50),
                      small(r->error_p99), small(r->error_max), percent(r->missed, r->answers),
                      percent(r->ghost, r->answers), r->failed);
@@ -52,7 +52,7 @@ std::string fronts(const fuzz::Chart& c, const std::string& question) {
   for (const ChartRow* r : by_time(c, [&](const ChartRow& x) {
          return x.front && x.question == question && !x.regime.empty() && x.pair.empty() && x.scale.empty();
        }))
-    by_regime[r->regime] += (by_regime[r->regime].empty() ? "" : ", ") + r->engine;
+    by_regime[r->regime] += (by_regime[r->regime].empty() ? "" : ", ") + r->engine + (r->tie ? "~" : "");
   std::string s;
   for (const auto& [regime, engines] : by_regime)
     s += "  " + wrapped(fmt::format("front, {}: {}", regime, engines), 76, 4) + "\n";
@@ -63,14 +63,20 @@ std::string crowds(const fuzz::Chart& c) {
   std::map<std::string, std::map<std::uint64_t, const ChartRow*>> engines;
   std::set<std::uint64_t> crowd_sizes;
   for (const ChartRow& r : c.rows)
-    if (r.question == "candidates" && r.answers > 0)
-      engines[r.engine][r.bodies] = &r, crowd_sizes.insert(r.bodies);
+    if (r.question == "candidates") engines[r.engine][r.bodies] = &r, crowd_sizes.insert(r.bodies);
   if (engines.empty()) return "";
   std::vector<std::pair<double, std::string>> lines;
-  for (const auto& [name, sizes] : engines) {
+  for (auto& [name, sizes] : engines) {
     std::string line = fmt::format("{} {:<26}", mark(*sizes.rbegin()->second), name);
     for (const std::uint64_t n : crowd_sizes)
-      line += fmt::format("{:>9}", sizes.contains(n) ? nanoseconds(sizes.at(n)->ns_median) : "");
+      line += fmt::format("{:>9}", !sizes.contains(n)          ? ""
+                                   : sizes.at(n)->answers == 0 ? "none"
+                                                               : nanoseconds(sizes.at(n)->ns_median));
+    std::erase_if(sizes, [](const auto& x) { return x.second->answers == 0; });
+    if (sizes.empty()) {
+      lines.emplace_back(HUGE_VAL, line);
+      continue;
+    }
     const ChartRow &first = *sizes.begin()->second, &last = *sizes.rbegin()->second;
     // Slope in the log-log plane between the smallest crowd and the largest.
     if (sizes.size() > 1)
@@ -107,8 +113,8 @@ std::string reasons(const fuzz::Chart& c) {
 
 std::string chart_text(const fuzz::Chart& c) {
   std::string s =
-      "Errors are the referee's, divided by the scale L. * Pareto front (time p50, error p99), o wrong"
-      " somewhere.\n";
+      "Errors are the referee's, divided by the scale L. * Pareto front (time p50, error p99), ~ on it "
+      "beside one as accurate and as fast within noise, o wrong somewhere.\n";
   s = wrapped(s, 79, 0) + "\n";
   for (const char* q : {"overlap", "distance", "contact", "time_of_impact"})
     if (const std::string table = question_table(c, q); !table.empty()) s += table + fronts(c, q);

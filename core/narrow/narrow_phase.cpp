@@ -124,6 +124,18 @@ DistanceAnswer distance_alone(const PlacedShape& a, const PlacedShape& b, PairMe
   return r;
 }
 
+// A contact whose patch is empty (no face, no crossing of edges that R can see): the witnesses of the
+// distance, for rows that have patches leave them out of a contact.
+template <class R>
+void fill_point_alone(const PlacedShape& a, const PlacedShape& b, ContactAnswer& r) {
+  FastAnswer<R> f;
+  separate<R>(a, b, Asked::distance, nullptr, f);
+  if (known(f, true))
+    r.manifold.push_back({world<R>((f.answer.a + f.answer.b) / 2, a), r.depth, 0});
+  else
+    r.outcome = Outcome::not_converged;
+}
+
 template <class R>
 ContactAnswer contact_alone(const PlacedShape& a, const PlacedShape& b, PairMemory* memory) {
   ContactAnswer r;
@@ -133,7 +145,7 @@ ContactAnswer contact_alone(const PlacedShape& a, const PlacedShape& b, PairMemo
   if (!known(f, true))
     r.outcome = Outcome::not_converged;
   else if (!fill<R>(f, a, b, r))
-    r.manifold.push_back({world<R>((f.answer.a + f.answer.b) / 2, a), r.depth, 0});
+    fill_point_alone<R>(a, b, r);
   return r;
 }
 

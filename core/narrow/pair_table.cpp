@@ -129,9 +129,18 @@ Separation separate_placed(const Shape& a, const WideFrame& fa, const Shape& b, 
   return i <= j ? table[i][j].wide(a, fa, b, fb) : mirrored(table[j][i].wide(b, fb, a, fa));
 }
 
+// 2026-11-22, a cylinder's rim 1.1e-14 deep in a box of size 1, one of 900 pairs of a ladder: about A's
+// origin the search stalls between both verdicts, about B's it has the depth to 4e-20. So B's is asked when
+// A's fails.
 Separation separate(const Shape& a, const WideFrame& fa, const Shape& b, const WideFrame& fb) {
-  return separate_placed(a, {fa.rotation, WideVec::Zero()}, b,
-                         {fb.rotation, fb.translation - fa.translation});
+  const WideVec b_from_a = fb.translation - fa.translation;
+  const Separation s = separate_placed(a, {fa.rotation, WideVec::Zero()}, b, {fb.rotation, b_from_a});
+  if (s.outcome != Outcome::not_converged) return s;
+  Separation other =
+      mirrored(separate_placed(b, {fb.rotation, WideVec::Zero()}, a, {fa.rotation, WideVec(-b_from_a)}));
+  if (other.outcome != Outcome::answered) return s;
+  other.a += b_from_a, other.b += b_from_a;
+  return other;
 }
 
 }  // namespace touchstone::narrow

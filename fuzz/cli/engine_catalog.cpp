@@ -9,6 +9,8 @@
 #include "core/base/input_error.h"
 #include "fuzz/cli/npm_engines.h"
 #include "fuzz/cli/sweep_catalog.h"
+#include "fuzz/explore/sub_steps.h"
+#include "oracles/core/alternative_engine.h"
 #include "oracles/core/core_engine.h"
 
 namespace touchstone::cli {
@@ -41,20 +43,67 @@ constexpr EngineRow rows[] = {
 };
 
 constexpr std::string_view fcl_sweep = "libtouchstone_fcl_sweep.so",
-                           ccd_sweep = "libtouchstone_libccd_sweep.so";
+                           ccd_sweep = "libtouchstone_libccd_sweep.so",
+                           f32_sweep = "libtouchstone_bullet_sweep_f32.so",
+                           f64_sweep = "libtouchstone_bullet_sweep_f64.so";
 
 constexpr EngineRow sweep_rows[] = {
+    {"core-extended", "", "our core, every pair in extended precision"},
+    {"core-speculative@0.25", "", "our core, speculative contact, margin a quarter of the farthest approach"},
+    {"core-speculative@0.5", "", "our core, speculative contact, margin half of the farthest approach"},
+    {"core-speculative@1", "", "our core, speculative contact, margin the farthest approach"},
     {"fcl-libccd@1e-3", fcl_sweep, "FCL, GST_LIBCCD, tolerances 1e-3"},
-    {"fcl-libccd@1e-9", fcl_sweep, "FCL, GST_LIBCCD, tolerances 1e-9"},
     {"fcl-indep@1e-3", fcl_sweep, "FCL, GST_INDEP, tolerances 1e-3"},
+    {"fcl-libccd@1e-9", fcl_sweep, "FCL, GST_LIBCCD, tolerances 1e-9"},
     {"fcl-indep@1e-9", fcl_sweep, "FCL, GST_INDEP, tolerances 1e-9"},
+    {"fcl-naive@4", fcl_sweep, "FCL, CCDC_NAIVE, 4 samples"},
+    {"fcl-naive@16", fcl_sweep, "FCL, CCDC_NAIVE, 16 samples"},
+    {"fcl-naive@64", fcl_sweep, "FCL, CCDC_NAIVE, 64 samples"},
+    {"fcl-naive@256", fcl_sweep, "FCL, CCDC_NAIVE, 256 samples"},
+    {"fcl-advance@1e-2", fcl_sweep, "FCL, CCDC_CONSERVATIVE_ADVANCEMENT, toc_err 1e-2"},
+    {"fcl-advance@1e-8", fcl_sweep, "FCL, CCDC_CONSERVATIVE_ADVANCEMENT, toc_err 1e-8"},
     {"libccd-gjk@1e-2", ccd_sweep, "libccd, GJK and EPA, tolerances 1e-2"},
-    {"libccd-gjk@1e-6", ccd_sweep, "libccd, GJK and EPA, tolerances 1e-6"},
-    {"libccd-gjk@1e-8", ccd_sweep, "libccd, GJK and EPA, tolerances 1e-8"},
     {"libccd-mpr@1e-2", ccd_sweep, "libccd, MPR, tolerance 1e-2"},
+    {"libccd-gjk@1e-6", ccd_sweep, "libccd, GJK and EPA, tolerances 1e-6"},
     {"libccd-mpr@1e-6", ccd_sweep, "libccd, MPR, tolerance 1e-6"},
+    {"libccd-gjk@1e-8", ccd_sweep, "libccd, GJK and EPA, tolerances 1e-8"},
     {"libccd-mpr@1e-8", ccd_sweep, "libccd, MPR, tolerance 1e-8"},
+    {"libccd-gjk-iterations@8", ccd_sweep, "libccd, GJK and EPA, at most 8 iterations"},
+    {"libccd-mpr-iterations@8", ccd_sweep, "libccd, MPR, at most 8 iterations"},
+    {"libccd-gjk-iterations@16", ccd_sweep, "libccd, GJK and EPA, at most 16 iterations"},
+    {"libccd-mpr-iterations@16", ccd_sweep, "libccd, MPR, at most 16 iterations"},
+    {"libccd-gjk-iterations@32", ccd_sweep, "libccd, GJK and EPA, at most 32 iterations"},
+    {"libccd-mpr-iterations@32", ccd_sweep, "libccd, MPR, at most 32 iterations"},
+    {"libccd-gjk-iterations@128", ccd_sweep, "libccd, GJK and EPA, at most 128 iterations"},
+    {"libccd-mpr-iterations@128", ccd_sweep, "libccd, MPR, at most 128 iterations"},
+    {"bullet-f32-query@0.001", f32_sweep, "Bullet float, contactPairTest, margin 0.001"},
+    {"bullet-f32-query@0.01", f32_sweep, "Bullet float, contactPairTest, margin 0.01"},
+    {"bullet-f32-sim@0.01", f32_sweep, "Bullet float, performDiscreteCollisionDetection, margin 0.01"},
+    {"bullet-f32-minkowski@0", f32_sweep, "Bullet float, Minkowski depth solver, margin 0"},
+    {"bullet-f32-minkowski@0.01", f32_sweep, "Bullet float, Minkowski depth solver, margin 0.01"},
+    {"bullet-f32-minkowski@0.04", f32_sweep, "Bullet float, Minkowski depth solver, margin 0.04"},
+    {"bullet-f32-epa@1e-1", f32_sweep, "Bullet float, margin 0, EPA tolerance 1e-1"},
+    {"bullet-f32-epa@1e-5", f32_sweep, "Bullet float, margin 0, EPA tolerance 1e-5"},
+    {"bullet-f32-epa@1e-9", f32_sweep, "Bullet float, margin 0, EPA tolerance 1e-9"},
+    {"bullet-f32-cast@0.001", f32_sweep, "Bullet float, convexSweepTest, allowed penetration 0.001"},
+    {"bullet-f32-cast@0.01", f32_sweep, "Bullet float, convexSweepTest, allowed penetration 0.01"},
+    {"bullet-f32-cast@0.1", f32_sweep, "Bullet float, convexSweepTest, allowed penetration 0.1"},
+    {"bullet-f64-query@0.001", f64_sweep, "Bullet double, contactPairTest, margin 0.001"},
+    {"bullet-f64-query@0.01", f64_sweep, "Bullet double, contactPairTest, margin 0.01"},
+    {"bullet-f64-sim@0.01", f64_sweep, "Bullet double, performDiscreteCollisionDetection, margin 0.01"},
+    {"bullet-f64-minkowski@0", f64_sweep, "Bullet double, Minkowski depth solver, margin 0"},
+    {"bullet-f64-minkowski@0.01", f64_sweep, "Bullet double, Minkowski depth solver, margin 0.01"},
+    {"bullet-f64-minkowski@0.04", f64_sweep, "Bullet double, Minkowski depth solver, margin 0.04"},
+    {"bullet-f64-epa@1e-1", f64_sweep, "Bullet double, margin 0, EPA tolerance 1e-1"},
+    {"bullet-f64-epa@1e-5", f64_sweep, "Bullet double, margin 0, EPA tolerance 1e-5"},
+    {"bullet-f64-epa@1e-9", f64_sweep, "Bullet double, margin 0, EPA tolerance 1e-9"},
+    {"bullet-f64-cast@0.001", f64_sweep, "Bullet double, convexSweepTest, allowed penetration 0.001"},
+    {"bullet-f64-cast@0.01", f64_sweep, "Bullet double, convexSweepTest, allowed penetration 0.01"},
+    {"bullet-f64-cast@0.1", f64_sweep, "Bullet double, convexSweepTest, allowed penetration 0.1"},
 };
+
+constexpr std::string_view stepped[] = {"core", "fcl-libccd", "bullet-f32-query", "bullet-f64-query",
+                                        "libccd-gjk"};
 
 constexpr std::string_view fcl_broad = "libtouchstone_fcl_broad.so",
                            f32_broad = "libtouchstone_bullet_broad_f32.so",
@@ -136,6 +185,7 @@ void check_name(const std::string& name) {
     if (name == "pipe:") throw InputError(name, "names no command: pipe:COMMAND");
     return;
   }
+  if (const auto stepped = fuzz::sub_steps_name(name)) return check_name(stepped->engine);
   if (is_path(name)) {
     const auto file = plugin_spec(name).plugin;
     if (!std::filesystem::exists(file)) throw InputError(file.string(), "no such plug-in file");
@@ -160,6 +210,7 @@ void check_name(const std::string& name) {
 std::span<const EngineRow> engine_catalog() { return rows; }
 std::span<const EngineRow> broad_catalog() { return broad_rows; }
 std::span<const EngineRow> sweep_catalog() { return sweep_rows; }
+std::span<const std::string_view> stepped_engines() { return stepped; }
 
 void add_case_seconds(CLI::App& app, WorkerLimits& limits) {
   app.add_option("--case-seconds", limits.query_cpu_seconds,
@@ -194,6 +245,7 @@ std::vector<std::string> engine_names(const std::string& text) {
 
 std::vector<std::filesystem::path> engine_files(const std::string& name) {
   if (is_pipe(name)) return files_named_in(name.substr(5));
+  if (const auto stepped = fuzz::sub_steps_name(name)) return engine_files(stepped->engine);
   if (is_path(name)) return {plugin_spec(name).plugin};
   if (const NpmRow* npm = find_npm_row(name)) return files_of(*npm);
   const EngineRow* row = find_row(name);
@@ -205,6 +257,10 @@ EnginePtr make_engine(const std::string& name, const WorkerLimits& limits) {
   check_name(name);
   if (name == "core") return std::make_unique<CoreEngine>();
   if (name == "core-f32") return std::make_unique<CoreEngine>(Arithmetic::float32);
+  for (const std::string_view other : core_alternatives())
+    if (name == other) return make_core_alternative(other);
+  if (const auto stepped = fuzz::sub_steps_name(name); stepped && !is_pipe(name))
+    return fuzz::sub_stepped(make_engine(stepped->engine, limits), stepped->steps);
   const NpmRow* npm = find_npm_row(name);
   RemoteSpec spec = is_pipe(name) || npm ? RemoteSpec{host_program(), npm ? pipe_of(*npm) : name, "", {}}
                     : is_path(name)

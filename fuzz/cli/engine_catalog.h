@@ -25,8 +25,8 @@ std::span<const EngineRow> broad_catalog();
 /// True when the engine's plug-in file is there.
 bool is_present(const EngineRow& row);
 
-/// Names of `text` ("a,b", "all", "./libmine.so", "./libmine.so:name"); "all" is every engine present. Throws
-/// InputError for a name that is unknown or absent.
+/// Names of `text` ("a,b", "all", "./libmine.so", "./libmine.so:name", "core-steps@16"); "all" is every
+/// engine present. Throws InputError for a name that is unknown or absent.
 std::vector<std::string> engine_names(const std::string& text);
 
 /// Throws InputError when the plug-in is missing or does not offer the engine.

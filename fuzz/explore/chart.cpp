@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "fuzz/explore/chart_rows.h"
 #include "fuzz/explore/machine.h"
 #include "fuzz/judge/judge.h"
@@ -18,6 +20,14 @@ struct Asked {
   std::vector<std::vector<double>> ns;  // by query, by round
 };
 
+bool answered_any(std::span<const Asked> asked) {
+  return std::any_of(asked.begin(), asked.end(), [](const Asked& a) {
+    const auto& answers = a.first.answers;
+    return std::any_of(answers.begin(), answers.end(),
+                       [](const Observation& o) { return o.outcome == Outcome::answered; });
+  });
+}
+
 std::vector<std::vector<Asked>> ask(std::span<const ChartCase> cases, std::span<const EnginePtr> engines,
                                     int rounds) {
   std::vector<Case> plain;
@@ -25,6 +35,7 @@ std::vector<std::vector<Asked>> ask(std::span<const ChartCase> cases, std::span<
   std::vector<std::vector<Asked>> all(engines.size(), std::vector<Asked>(cases.size()));
   for (int round = 0; round < rounds; ++round)
     for (std::size_t k = 0; k < engines.size(); ++k) {
+      if (round > 0 && !answered_any(all[k])) continue;  // a time-out costs seconds, each time
       auto answers = engines[k]->run(plain);
       for (std::size_t i = 0; i < answers.size(); ++i) {
         Asked& a = all[k][i];

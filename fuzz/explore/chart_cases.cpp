@@ -86,7 +86,13 @@ ChartCase broad_chart_case(std::uint64_t seed, std::uint64_t bodies) {
   Scene& s = c.c.scene;
   // Kinds that every engine has.
   constexpr ShapeKind kinds[] = {ShapeKind::sphere, ShapeKind::box, ShapeKind::capsule, ShapeKind::hull};
-  for (std::size_t i = 0; i < 32; ++i) s.shapes.push_back(random_shape(rng, kinds[i % 4], 1));
+  for (std::size_t i = 0; i < 32; ++i) {
+    Shape shape = random_shape(rng, kinds[i % 4], 1);
+    // ODE has no flat hulls.
+    while (kind_of(shape) == ShapeKind::hull && std::get<Hull>(shape).dimension < 3)
+      shape = random_shape(rng, ShapeKind::hull, 1);
+    s.shapes.push_back(std::move(shape));
+  }
   // 40 units of volume a body, whose own is 2 to 4.
   const double side = std::cbrt(static_cast<double>(bodies) * 40);
   for (std::uint64_t i = 0; i < bodies; ++i) {

@@ -36,7 +36,8 @@ class ChartRows {
 double quantile(std::vector<double>& values, double q);
 
 /// Marks the sound rows of each group (question, regime, pair, scale, bodies) that nobody sound dominates in
-/// median time, error p99 and largest error (candidates: precision).
+/// median time, error p99 and largest error (candidates: precision), and as ties those of them that somebody
+/// as accurate is as fast as, within noise.
 void mark_fronts(std::vector<ChartRow>& rows);
 
 }  // namespace touchstone::fuzz

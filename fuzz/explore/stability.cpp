@@ -6,50 +6,30 @@
 #include <cmath>
 
 #include "core/base/input_error.h"
+#include "fuzz/explore/forms.h"
 #include "fuzz/explore/ladders.h"
 #include "fuzz/judge/judge.h"
 
 namespace touchstone::fuzz {
 namespace {
 
-// Each coordinate of B to the next double, up or down.
-Scene nudged(Scene s, Rng& rng) {
-  for (double& x : s.bodies[1].pose.translation)
-    x = std::nextafter(x, rng.chance(0.5) ? HUGE_VAL : -HUGE_VAL);
-  return s;
-}
+// Pairs held at a time, each in ten forms: hulls of a thousand vertices take a megabyte in all of them.
+constexpr int at_once = 16;
 
-struct Trio {
-  Case asked, near, exchanged;
+struct Asked {
+  Case c;
+  std::vector<Form> forms;
 };
 
-Trio trio(const LadderRow& l, std::uint64_t seed, std::size_t rung, int i) {
+Asked make_asked(const LadderRow& l, std::uint64_t seed, std::size_t rung, int i) {
   Rng rng = Rng::stream(seed, (rung << 32) + static_cast<std::uint64_t>(i));
-  Trio t;
-  t.asked.id = fmt::format("{}/{}/{}", l.name, rung, i), t.asked.family = l.name;
-  t.asked.scene = l.make(rng, l.values[rung]);
+  Asked a;
+  a.c.id = fmt::format("{}/{}/{}", l.name, rung, i), a.c.family = l.name;
+  a.c.scene = l.make(rng, l.values[rung]);
   for (Question q : l.questions)
-    t.asked.queries.push_back(is_pair_question(q) ? Query{q, 0, 1} : Query{q, -1, -1});
-  t.near = t.exchanged = t.asked;
-  t.near.scene = nudged(t.asked.scene, rng);
-  for (Query& q : t.exchanged.queries) std::swap(q.a, q.b);
-  return t;
-}
-
-// The number that an answer is about; NaN when it states none.
-double number_of(const Query& q, const Observation& o) {
-  const double nan = std::nan("");
-  if (o.outcome != Outcome::answered) return nan;
-  switch (q.question) {
-    case Question::distance:
-      return o.distance.value_or(nan);
-    case Question::contact:
-      return o.overlap && *o.overlap ? o.depth.value_or(nan) : nan;
-    case Question::time_of_impact:
-      return o.toi.value_or(nan);
-    default:
-      return nan;
-  }
+    a.c.queries.push_back(is_pair_question(q) ? Query{q, 0, 1} : Query{q, -1, -1});
+  if (is_pair_question(l.questions[0])) a.forms = other_forms(a.c, rng);
+  return a;
 }
 
 void raise(double& most, double x) {
@@ -85,25 +65,47 @@ void count(Rung& r, const Judgement& j) {
     }
 }
 
-// One engine at one rung; results[q] is the ladder's q-th question.
-void add_rung(std::span<LadderResult> results, double value, const std::vector<Trio>& trios, Engine& engine,
-              std::vector<Truth>& truths) {
-  for (LadderResult& r : results) r.rungs.emplace_back().value = value;
-  std::vector<Case> cases;
-  for (const Trio& t : trios) cases.insert(cases.end(), {t.asked, t.near, t.exchanged});
-  const auto answers = engine.run(cases);
-  for (std::size_t i = 0; i < trios.size(); ++i) {
-    const auto judgements = judge(trios[i].asked, engine.card(), answers[3 * i], truths[i]);
-    for (std::size_t q = 0; q < judgements.size(); ++q) {
-      Rung& r = results[q].rungs.back();
-      count(r, judgements[q]);
-      const Query& query = trios[i].asked.queries[q];
-      if (!is_pair_question(query.question)) continue;
-      const double l = query.question == Question::time_of_impact ? 1 : truths[i].scale(0, 1);
-      const double x = number_of(query, answers[3 * i].answers[q]);
-      raise(r.jitter, std::fabs(x - number_of(query, answers[3 * i + 1].answers[q])) / l);
-      raise(r.order, std::fabs(x - number_of(query, answers[3 * i + 2].answers[q])) / l);
+// Answers of one engine to one pair and to its forms: `observed` begins with those to the pair.
+void add_forms(std::span<LadderResult> results, const Asked& asked,
+               std::span<const CaseObservations> observed, std::span<const Judgement> judgements,
+               const EngineCard& card, Truth& truth) {
+  const FormAnswer base{asked.c, observed[0]};
+  for (std::size_t q = 0; q < asked.c.queries.size(); ++q) {
+    const Query& query = asked.c.queries[q];
+    if (judgements[q].outcome == Outcome::unsupported) continue;
+    const double l = query.question == Question::time_of_impact ? 1 : truth.scale(0, 1);
+    const double x = number_of(query, observed[0].answers[q]);
+    Rung& r = results[q].rungs.back();
+    std::array<bool, form_names.size()> broken{};
+    for (std::size_t f = 0; f < asked.forms.size(); ++f) {
+      const Form& form = asked.forms[f];
+      const auto kind = static_cast<std::size_t>(form.kind);
+      const CaseObservations& there = observed[f + 1];
+      const double y = number_of(query, there.answers[q]);
+      const double of_length = query.question == Question::time_of_impact ? 1 : form.scale;
+      raise(r.spread[kind], std::fabs(x - y / of_length) / l);
+      if (form.kind == FormKind::nudged || broken[kind]) continue;
+      broken[kind] = contradicts(base, !judgements[q].faults.empty(), form, there, q, card, truth);
     }
+    for (std::size_t kind = 0; kind < broken.size(); ++kind) r.broken[kind] += broken[kind];
+  }
+}
+
+// One engine's answers to pairs of the last rung; results[q] is the ladder's q-th question.
+void add_pairs(std::span<LadderResult> results, const std::vector<Asked>& all, Engine& engine,
+               std::vector<Truth>& truths) {
+  std::vector<Case> cases;
+  for (const Asked& a : all) {
+    cases.push_back(a.c);
+    for (const Form& f : a.forms) cases.push_back(f.c);
+  }
+  const auto answers = engine.run(cases);
+  std::span<const CaseObservations> rest = answers;
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    const auto judgements = judge(all[i].c, engine.card(), rest[0], truths[i]);
+    for (std::size_t q = 0; q < judgements.size(); ++q) count(results[q].rungs.back(), judgements[q]);
+    add_forms(results, all[i], rest, judgements, engine.card(), truths[i]);
+    rest = rest.subspan(all[i].forms.size() + 1);
   }
 }
 
@@ -117,12 +119,16 @@ void climb_one(Stability& s, const LadderRow& l, std::span<const EnginePtr> engi
   }
   for (std::size_t rung = 0; rung < l.values.size(); ++rung) {
     if (progress) progress(fmt::format("{}: rung {} of {}", l.name, rung + 1, l.values.size()));
-    std::vector<Trio> trios;
-    for (int i = 0; i < s.per_rung; ++i) trios.push_back(trio(l, s.seed, rung, i));
-    std::vector<Truth> truths;
-    for (const Trio& t : trios) truths.emplace_back(t.asked.scene);
-    for (std::size_t e = 0; e < engines.size(); ++e)
-      add_rung(results[e], l.values[rung], trios, *engines[e], truths);
+    for (auto& of_engine : results)
+      for (LadderResult& r : of_engine) r.rungs.emplace_back().value = l.values[rung];
+    for (int first = 0; first < s.per_rung; first += at_once) {
+      std::vector<Asked> all;
+      for (int i = first; i < std::min(first + at_once, s.per_rung); ++i)
+        all.push_back(make_asked(l, s.seed, rung, i));
+      std::vector<Truth> truths;
+      for (const Asked& a : all) truths.emplace_back(a.c.scene);
+      for (std::size_t e = 0; e < engines.size(); ++e) add_pairs(results[e], all, *engines[e], truths);
+    }
   }
   for (auto& of_engine : results)
     for (LadderResult& r : of_engine)

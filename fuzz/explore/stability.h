@@ -1,5 +1,5 @@
-// Climbs ladders: asks engines at every rung, judges, and asks again with B an ulp away and with A and B
-// exchanged.
+// Climbs ladders: asks engines at every rung, judges, and asks again in other forms: with B an ulp away, with
+// A and B exchanged, in other frames, in another unit.
 #pragma once
 
 #include <functional>

@@ -1,6 +1,12 @@
 #include "fuzz/record/chart.h"
 
+#include <fmt/format.h>
+
 #include <cmath>
+#include <map>
+
+#include "core/base/exact_text.h"
+#include "core/base/input_error.h"
 
 namespace touchstone::fuzz {
 namespace {
@@ -9,21 +15,33 @@ constexpr const char* columns[] = {
     "engine",    "question",   "regime",         "pair",   "scale",     "bodies",    "asked",
     "answers",   "failed",     "missed",         "ghost",  "no_number", "wrong",     "rounding",
     "undecided", "ns_min",     "ns_median",      "ns_p99", "ns_spread", "error_p50", "error_p99",
-    "error_max", "pairs_true", "pairs_reported", "front",  "unsound"};
+    "error_max", "pairs_true", "pairs_reported", "front",  "tie",       "unsound"};
 
-// Four digits are more than a time repeats.
-Json rounded(double x) {
-  if (x == 0 || !std::isfinite(x)) return number(x);
-  const double unit = std::pow(10.0, std::floor(std::log10(std::fabs(x))) - 3);
-  return std::round(x / unit) * unit;
-}
+// Four digits are more than a time repeats and an error is worth; the page of a full chart has 4e4 rows.
+Json rounded(double x) { return std::isfinite(x) ? number(std::stod(fmt::format("{:.4g}", x))) : number(x); }
 
-Json cells(const ChartRow& r) {
-  return {r.engine,
-          r.question,
-          r.regime,
-          r.pair,
-          r.scale,
+// The strings of a chart, each once: rows name them by their place.
+class Strings {
+ public:
+  Json place(const std::string& text) {
+    const auto [at, is_new] = places_.try_emplace(text, all_.size());
+    if (is_new) all_.push_back(text);
+    return at->second;
+  }
+  Json take() { return std::move(all_); }
+
+ private:
+  std::map<std::string, std::size_t> places_;
+  Json all_ = Json::array();
+};
+
+template <class Text>
+Json cells(const ChartRow& r, Text&& text) {
+  return {text(r.engine),
+          text(r.question),
+          text(r.regime),
+          text(r.pair),
+          text(r.scale),
           r.bodies,
           r.asked,
           r.answers,
@@ -38,13 +56,14 @@ Json cells(const ChartRow& r) {
           rounded(r.ns_median),
           rounded(r.ns_p99),
           rounded(r.ns_spread),
-          number(r.error_p50),
-          number(r.error_p99),
-          number(r.error_max),
+          rounded(r.error_p50),
+          rounded(r.error_p99),
+          rounded(r.error_max),
           r.pairs_true,
           r.pairs_reported,
-          r.front,
-          r.unsound};
+          r.front ? 1 : 0,  // a page of a full chart is to stay below 5 MB
+          r.tie ? 1 : 0,
+          text(r.unsound)};
 }
 
 }  // namespace
@@ -56,12 +75,13 @@ Json to_json(const Machine& m) {
 
 Json to_json(const Chart& c) {
   Json engines = Json::array(), rows = Json::array();
+  Strings strings;
   for (const ChartEngine& e : c.engines)
     engines.push_back(
         {{"name", e.name}, {"library", e.library}, {"version", e.version}, {"settings", e.settings}});
-  for (const ChartRow& r : c.rows) rows.push_back(cells(r));
+  for (const ChartRow& r : c.rows) rows.push_back(cells(r, [&](const auto& t) { return strings.place(t); }));
   return {{"page", "chart"},
-          {"version", 1},
+          {"version", 2},
           {"scope", c.scope},
           {"seed", c.seed},
           {"rounds", c.rounds},
@@ -69,7 +89,71 @@ Json to_json(const Chart& c) {
           {"machine", to_json(c.machine)},
           {"engines", std::move(engines)},
           {"columns", columns},
+          {"text_columns", {"engine", "question", "regime", "pair", "scale", "unsound"}},
+          {"strings", strings.take()},
           {"rows", std::move(rows)}};
+}
+
+namespace {
+
+double real(const Json& j) {
+  return j.is_string() ? double_from_text(j.get<std::string>()).value_or(std::nan("")) : j.get<double>();
+}
+
+// Cells of one row by the names of their columns.
+class RowReader {
+ public:
+  RowReader(const Json& chart, const Json& row) : strings_(chart.at("strings")) {
+    const Json& names = chart.at("columns");
+    for (std::size_t i = 0; i < names.size(); ++i) cells_[names[i].get<std::string>()] = &row.at(i);
+  }
+  void operator()(const char* name, std::string& v) const {
+    v = strings_.at(cells_.at(name)->get<std::size_t>()).get<std::string>();
+  }
+  void operator()(const char* name, double& v) const { v = real(*cells_.at(name)); }
+  void operator()(const char* name, std::uint64_t& v) const { v = cells_.at(name)->get<std::uint64_t>(); }
+  void operator()(const char* name, bool& v) const { v = *cells_.at(name) != 0; }
+
+ private:
+  const Json& strings_;
+  std::map<std::string, const Json*> cells_;
+};
+
+ChartRow row_from_json(const RowReader& read) {
+  ChartRow r;
+  read("engine", r.engine), read("question", r.question), read("regime", r.regime), read("pair", r.pair);
+  read("scale", r.scale), read("unsound", r.unsound), read("bodies", r.bodies), read("asked", r.asked);
+  read("answers", r.answers), read("failed", r.failed), read("missed", r.missed), read("ghost", r.ghost);
+  read("no_number", r.no_number), read("wrong", r.wrong), read("rounding", r.rounding);
+  read("undecided", r.undecided), read("ns_min", r.ns_min), read("ns_median", r.ns_median);
+  read("ns_p99", r.ns_p99), read("ns_spread", r.ns_spread), read("error_p50", r.error_p50);
+  read("error_p99", r.error_p99), read("error_max", r.error_max), read("pairs_true", r.pairs_true);
+  read("pairs_reported", r.pairs_reported), read("front", r.front), read("tie", r.tie);
+  return r;
+}
+
+}  // namespace
+
+Chart chart_from_json(const Json& j, const std::string& file) {
+  try {
+    if (j.at("page") != "chart" || j.at("version") != 2)
+      throw InputError(file, "is no chart of this version");
+    Chart c;
+    const Json& m = j.at("machine");
+    m.at("processor").get_to(c.machine.processor), m.at("cores").get_to(c.machine.cores);
+    m.at("load").get_to(c.machine.load), m.at("system").get_to(c.machine.system);
+    m.at("compiler").get_to(c.machine.compiler), m.at("date").get_to(c.machine.date);
+    j.at("scope").get_to(c.scope), j.at("seed").get_to(c.seed), j.at("rounds").get_to(c.rounds);
+    j.at("measure_ns").get_to(c.measure_ns);
+    for (const Json& e : j.at("engines"))
+      c.engines.push_back({e.at("name"), e.at("library"), e.at("version"), e.at("settings")});
+    for (const Json& row : j.at("rows")) c.rows.push_back(row_from_json({j, row}));
+    return c;
+  } catch (const InputError&) {
+    throw;
+  } catch (const std::exception& e) {
+    throw InputError(file, std::string("is no chart: ") + e.what());
+  }
 }
 
 std::string to_csv(const Chart& c) {
@@ -79,7 +163,8 @@ std::string to_csv(const Chart& c) {
     text += name;
   }
   text += '\n';
-  for (const ChartRow& r : c.rows) text.append(csv_cells(cells(r))).append(1, '\n');
+  for (const ChartRow& r : c.rows)
+    text.append(csv_cells(cells(r, [](const std::string& t) { return t; }))).append(1, '\n');
   return text;
 }
 

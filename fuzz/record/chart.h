@@ -32,7 +32,8 @@ struct ChartRow {
   double error_p50 = 0, error_p99 = 0, error_max = 0;  // referee's, in L
   std::uint64_t pairs_true = 0, pairs_reported = 0;    // candidates
   std::string unsound;                                 // why it cannot be on the front; empty: it can
-  bool front = false;  // nobody sound is both faster (median) and more accurate (p99; candidates: precision)
+  bool front = false;  // nobody sound is both faster (median) and as accurate (p99; candidates: precision)
+  bool tie = false;    // on the front, but somebody as accurate is as fast within noise
   double precision() const {
     return pairs_reported ? static_cast<double>(pairs_true) / static_cast<double>(pairs_reported) : 1;
   }
@@ -52,8 +53,10 @@ struct Chart {
   std::vector<ChartRow> rows;
 };
 
-/// Rows as arrays, named by "columns".
+/// Rows as arrays, named by "columns"; of "text_columns" a cell is a place in "strings".
 Json to_json(const Chart& c);
+/// Of a document that to_json wrote. Throws InputError, which names `file`.
+Chart chart_from_json(const Json& j, const std::string& file);
 std::string to_csv(const Chart& c);
 
 }  // namespace touchstone::fuzz

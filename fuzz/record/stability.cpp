@@ -5,22 +5,25 @@
 namespace touchstone::fuzz {
 namespace {
 
-constexpr const char* columns[] = {"value", "asked",       "answers",      "failed",       "missed", "ghost",
-                                   "wrong", "depth_error", "normal_error", "impact_error", "jitter", "order"};
+constexpr const char* columns[] = {
+    "value", "asked",       "answers",      "failed",       "missed",     "ghost",
+    "wrong", "depth_error", "normal_error", "impact_error", "jitter",     "order",
+    "frame", "unit",        "order_broken", "frame_broken", "unit_broken"};
 
 Json cells(const Rung& r) {
-  return {r.value,
-          r.asked,
-          r.answers,
-          r.failed,
-          r.missed,
-          r.ghost,
-          r.wrong,
-          number(r.depth_error),
-          number(r.normal_error),
-          number(r.impact_error),
-          number(r.jitter),
-          number(r.order)};
+  Json all{r.value,
+           r.asked,
+           r.answers,
+           r.failed,
+           r.missed,
+           r.ghost,
+           r.wrong,
+           number(r.depth_error),
+           number(r.normal_error),
+           number(r.impact_error)};
+  for (const double x : r.spread) all.push_back(number(x));
+  for (std::size_t k = 1; k < form_count; ++k) all.push_back(r.broken[k]);
+  return all;
 }
 
 }  // namespace
@@ -31,18 +34,25 @@ std::optional<double> LadderResult::fails_at() const {
   return std::nullopt;
 }
 
+std::optional<double> LadderResult::breaks_at(std::size_t form) const {
+  for (const Rung& r : rungs)
+    if (r.broken[form] > 0) return r.value;
+  return std::nullopt;
+}
+
 Json to_json(const Stability& s) {
   Json ladders = Json::array(), results = Json::array();
   for (const auto& l : s.ladders) ladders.push_back({{"name", l.name}, {"line", l.line}, {"unit", l.unit}});
   for (const LadderResult& r : s.results) {
     Json rungs = Json::array();
     for (const Rung& rung : r.rungs) rungs.push_back(cells(rung));
-    const auto at = r.fails_at();
-    results.push_back({{"ladder", r.ladder},
-                       {"engine", r.engine},
-                       {"question", r.question},
-                       {"fails_at", at ? Json(*at) : Json()},
-                       {"rungs", std::move(rungs)}});
+    const auto rung = [](const std::optional<double>& at) { return at ? Json(*at) : Json(); };
+    Json result{{"ladder", r.ladder}, {"engine", r.engine}, {"question", r.question}};
+    result["fails_at"] = rung(r.fails_at());
+    for (std::size_t k = 1; k < form_count; ++k)
+      result[std::string(form_columns[k]) + "_fails_at"] = rung(r.breaks_at(k));
+    result["rungs"] = std::move(rungs);
+    results.push_back(std::move(result));
   }
   return {{"page", "stability"},    {"version", 1},
           {"scope", s.scope},       {"seed", s.seed},

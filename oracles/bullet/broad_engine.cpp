@@ -127,7 +127,7 @@ class Engine {
   void load(const ts_scene& scene, const ts_received&) {
     unload();
     for (std::size_t i = 0; i < scene.shape_count; ++i) {
-      shapes_.push_back(make_shape(scene.shapes[i], true));
+      shapes_.push_back(make_shape(scene.shapes[i], 0));
       if (!shapes_.back()->shape) throw kit::Unsupported("Bullet has no ellipsoid");
     }
     scene_ = &scene, filter_ = kit::PairFilter(scene);

@@ -1,11 +1,16 @@
 // The Bullet plug-in, in one precision: query path and simulation path, each with Bullet's own margins and
-// with none.
+// with none, and, as a plug-in of its own, with other settings (settings.h).
 #include <limits>
 #include <numbers>
+#include <optional>
 #include <string>
 
 #include "oracles/api/plugin_kit.h"
 #include "oracles/bullet/pair.h"
+#include "oracles/bullet/settings.h"
+
+// btGjkPairDetector.cpp: global, without a header that declares it.
+extern btScalar gGjkEpaPenetrationTolerance;
 
 namespace touchstone::bullet_adapter {
 namespace {
@@ -15,15 +20,15 @@ constexpr double unit_roundoff = is_double ? 0x1p-53 : 0x1p-24;
 // btContinuousConvexCollision ends at a gap of 0.001, a length fixed in its source.
 constexpr double sweep_gap = 0.001;
 
-constexpr const char* query_settings =
-    "btCollisionWorld::contactPairTest (distance: m_closestDistanceThreshold BT_LARGE_FLOAT); time of impact "
-    "convexSweepTest; candidates btDbvtBroadphase; ";
-constexpr const char* sim_settings =
-    "performDiscreteCollisionDetection in a fresh world; no distance, no time of impact; candidates "
-    "btDbvtBroadphase; ";
 constexpr const char* source =
     "btCollisionMargin.h: 0.04; inside for box and cylinder (setSafeMargin), outside for hull, cone; "
     "btContinuousConvexCollision.cpp: sweep ends at a gap of 0.001";
+
+btDefaultCollisionConstructionInfo construction_of(const Setting& s) {
+  btDefaultCollisionConstructionInfo info;
+  info.m_useEpaPenetrationAlgorithm = !s.minkowski;
+  return info;
+}
 
 class Engine {
  public:
@@ -32,21 +37,24 @@ class Engine {
     const std::string version =
         std::to_string(BT_BULLET_VERSION / 100) + "." + std::to_string(BT_BULLET_VERSION % 100);
     std::vector<kit::CardText> all;
-    for (const bool tuned : {false, true})
-      for (const bool sim : {false, true})
-        all.push_back({prefix + (sim ? "sim" : "query") + (tuned ? "-tuned" : ""), "Bullet", version,
-                       std::string(sim ? sim_settings : query_settings) +
-                           (tuned ? "margin 0, hull boxes recomputed" : "default margins"),
-                       unit_roundoff, kit::oracle_tau_factor, source});
+    for (const Setting& s : settings)
+      all.push_back({prefix + std::string(s.name), "Bullet", version, text_of(s), unit_roundoff,
+                     kit::oracle_tau_factor, source});
     return all;
   }
 
-  explicit Engine(unsigned index) : sim_(index % 2 == 1), tuned_(index >= 2), query_world_(configuration_) {}
+  explicit Engine(unsigned index)
+      : setting_(settings[index]),
+        sim_(setting_.sim),
+        configuration_(construction_of(setting_)),
+        query_world_(configuration_) {
+    if (setting_.epa_tolerance) gGjkEpaPenetrationTolerance = static_cast<btScalar>(*setting_.epa_tolerance);
+  }
 
   void load(const ts_scene& scene, const ts_received& received) {
     unload();
     for (std::size_t i = 0; i < scene.shape_count; ++i) {
-      shapes_.push_back(make_shape(scene.shapes[i], tuned_));
+      shapes_.push_back(make_shape(scene.shapes[i], setting_.margin));
       report_shape(static_cast<int>(i), *shapes_.back(), received);
     }
     for (std::size_t i = 0; i < scene.body_count; ++i) {
@@ -63,6 +71,9 @@ class Engine {
   void unload() { objects_.clear(), shapes_.clear(), scene_ = nullptr; }
 
   void ask(ts_question question, int a, int b, ts_answer& out, const ts_sink& sink) {
+    if ((question == TS_TIME_OF_IMPACT) ? setting_.minkowski || setting_.epa_tolerance
+                                        : setting_.allowed_penetration.has_value())
+      throw kit::Unsupported("its setting is of no matter to this question");
     if (question == TS_CANDIDATES || question == TS_SCENE_CONTACTS) {
       for (const auto& s : shapes_)
         if (!s->shape) throw kit::Unsupported("Bullet has no ellipsoid, and the scene has one");
@@ -151,8 +162,9 @@ class Engine {
     relative.linear -= motion(target).linear;
     const Pose start = kit::pose_of(scene_->bodies[mover].pose);
     const auto t = sweep(configuration_, static_cast<const btConvexShape&>(*shape(mover).shape),
-                         make_transform(start), make_transform(pose_at(start, relative, 1)), object(target));
-    out.claimed_tolerance = claimed_margin(a, b) + sweep_gap;
+                         make_transform(start), make_transform(pose_at(start, relative, 1)), object(target),
+                         setting_.allowed_penetration.value_or(0));
+    out.claimed_tolerance = claimed_margin(a, b) + sweep_gap + setting_.allowed_penetration.value_or(0);
     if (t) kit::set_toi(out, *t);
   }
 
@@ -194,7 +206,8 @@ class Engine {
     for (auto& o : objects_) world->removeCollisionObject(o.get());
   }
 
-  bool sim_, tuned_;
+  const Setting& setting_;
+  bool sim_;
   btDefaultCollisionConfiguration configuration_;
   World query_world_;
   const ts_scene* scene_ = nullptr;

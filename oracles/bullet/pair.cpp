@@ -64,11 +64,12 @@ const Point* deepest(const std::vector<Point>& points) {
 }
 
 std::optional<double> sweep(btDefaultCollisionConfiguration& configuration, const btConvexShape& mover,
-                            const btTransform& from, const btTransform& to, btCollisionObject& target) {
+                            const btTransform& from, const btTransform& to, btCollisionObject& target,
+                            double allowed_penetration) {
   World world(configuration);
   world->addCollisionObject(&target);
   btCollisionWorld::ClosestConvexResultCallback closest(from.getOrigin(), to.getOrigin());
-  world->convexSweepTest(&mover, from, to, closest);
+  world->convexSweepTest(&mover, from, to, closest, static_cast<btScalar>(allowed_penetration));
   world->removeCollisionObject(&target);
   if (!closest.hasHit()) return std::nullopt;
   return static_cast<double>(closest.m_closestHitFraction);

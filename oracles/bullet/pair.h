@@ -29,8 +29,10 @@ std::vector<Point> simulated_points(btDefaultCollisionConfiguration& configurati
 /// The point of least distance, if any.
 const Point* deepest(const std::vector<Point>& points);
 
-/// btCollisionWorld::convexSweepTest of `mover` against a world that holds `target` alone.
+/// btCollisionWorld::convexSweepTest of `mover` against a world that holds `target` alone;
+/// `allowed_penetration` is its last argument.
 std::optional<double> sweep(btDefaultCollisionConfiguration& configuration, const btConvexShape& mover,
-                            const btTransform& from, const btTransform& to, btCollisionObject& target);
+                            const btTransform& from, const btTransform& to, btCollisionObject& target,
+                            double allowed_penetration);
 
 }  // namespace touchstone::bullet_adapter

@@ -8,9 +8,9 @@ namespace {
 btScalar scalar(double x) { return static_cast<btScalar>(x); }
 btVector3 vector(const double* v) { return {scalar(v[0]), scalar(v[1]), scalar(v[2])}; }
 
-std::unique_ptr<btCollisionShape> make_hull(const ts_shape& asked, bool tuned) {
+std::unique_ptr<btCollisionShape> make_hull(const ts_shape& asked, std::optional<double> margin) {
   auto hull = std::make_unique<btConvexHullShape>();
-  if (tuned) hull->setMargin(0);
+  if (margin) hull->setMargin(scalar(*margin));
   for (std::size_t i = 0; i < asked.vertex_count; ++i)
     hull->addPoint(vector(asked.vertices + 3 * i), /*recalculateLocalAabb=*/false);
   hull->recalcLocalAabb();
@@ -88,7 +88,7 @@ double Shape::outside_margin() const {
   return kind == TS_HULL || kind == TS_CONE || kind == TS_MESH ? shape->getMargin() : 0;
 }
 
-std::unique_ptr<Shape> make_shape(const ts_shape& asked, bool tuned) {
+std::unique_ptr<Shape> make_shape(const ts_shape& asked, std::optional<double> margin) {
   auto out = std::make_unique<Shape>();
   out->kind = asked.kind;
   const btScalar r = scalar(asked.size[0]), h = scalar(asked.size[1]);
@@ -111,7 +111,7 @@ std::unique_ptr<Shape> make_shape(const ts_shape& asked, bool tuned) {
       out->shape = std::make_unique<btConeShapeZ>(r, 2 * h);
       break;
     case TS_HULL:
-      out->shape = make_hull(asked, tuned);
+      out->shape = make_hull(asked, margin);
       break;
     case TS_HALF_SPACE:
       out->shape = make_plane(asked);
@@ -123,7 +123,7 @@ std::unique_ptr<Shape> make_shape(const ts_shape& asked, bool tuned) {
       throw std::runtime_error("unknown shape");
   }
   // The margin of a sphere or capsule is its radius, which setMargin leaves alone.
-  if (tuned) out->shape->setMargin(0);
+  if (margin) out->shape->setMargin(scalar(*margin));
   return out;
 }
 

@@ -4,6 +4,7 @@
 #include <btBulletCollisionCommon.h>
 
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "core/math/pose.h"
@@ -27,9 +28,9 @@ struct Shape {
   double outside_margin() const;
 };
 
-/// Half extents, z axes. Tuned: margin 0, set before hulls get their points, because the cached box of a hull
-/// keeps the margin it was made with.
-std::unique_ptr<Shape> make_shape(const ts_shape& asked, bool tuned);
+/// Half extents, z axes. Another margin than Bullet's is set before hulls get their points, because the
+/// cached box of a hull keeps the margin it was made with.
+std::unique_ptr<Shape> make_shape(const ts_shape& asked, std::optional<double> margin);
 
 /// As a user writes it: a unit quaternion in Bullet's scalar, made into a matrix by Bullet.
 btTransform make_transform(const Pose& pose);

@@ -1,5 +1,7 @@
-// The FCL plug-in: two solvers as shipped and tuned. fcl-libccd@1e-3 and so on (TOUCHSTONE_SWEEP, a plug-in
-// of its own): as shipped with other tolerances, so that a chart shows a method as a curve.
+// The FCL plug-in: two solvers as shipped and tuned. TOUCHSTONE_SWEEP, a plug-in of its own: as shipped with
+// one other setting, for narrow questions (fcl-libccd@1e-3) or for motions (fcl-naive@64: CCDC_NAIVE with
+// that many samples; fcl-advance@1e-2: conservative advancement with that toc_err), so that a chart shows a
+// method as a curve. The limits of iterations are no part of FCL's requests.
 #include <fcl/config.h>
 
 #include "oracles/api/plugin_kit.h"
@@ -9,6 +11,7 @@
 namespace touchstone::fcl_adapter {
 namespace {
 
+#ifndef TOUCHSTONE_SWEEP
 constexpr const char* shipped_settings =
     "default tolerances 1e-6; distance with enable_signed_distance; contact by collide, up to 256 points; "
     "time of impact CCDC_NAIVE, 10 samples, CCDM_TRANS or CCDM_LINEAR; candidates "
@@ -20,10 +23,34 @@ constexpr const char* tuned_libccd_settings =
 constexpr const char* tuned_indep_settings =
     "collide 1e-12; distance unsigned 1e-12, no depth; contact by collide; time of impact "
     "CCDC_CONSERVATIVE_ADVANCEMENT over InterpMotion, pivot 0";
+#endif
 // continuousCollide documents toc_err as an error of time; as a length it is that times the closing speed.
 constexpr const char* source =
     "fcl/narrowphase/collision_request.h: gjk_tolerance; distance_request.h: distance_tolerance; "
     "continuous_collision_request.h: toc_err times the closing speed";
+
+#ifdef TOUCHSTONE_SWEEP
+struct Sweep {
+  const char *name, *text;
+  Settings settings;
+};
+constexpr const char* naive = "as fcl-libccd; CCDC_NAIVE with num_max_iterations as named";
+constexpr const char* advance =
+    "as fcl-libccd-tuned; CCDC_CONSERVATIVE_ADVANCEMENT with toc_err as named, which FCL 0.7.0 reads in "
+    "CCDC_NAIVE only";
+constexpr Sweep sweeps[] = {
+    {"fcl-libccd@1e-3", "as fcl-libccd with tolerances 1e-3", {fcl::GST_LIBCCD, false, 1e-3}},
+    {"fcl-indep@1e-3", "as fcl-indep with tolerances 1e-3", {fcl::GST_INDEP, false, 1e-3}},
+    {"fcl-libccd@1e-9", "as fcl-libccd with tolerances 1e-9", {fcl::GST_LIBCCD, false, 1e-9}},
+    {"fcl-indep@1e-9", "as fcl-indep with tolerances 1e-9", {fcl::GST_INDEP, false, 1e-9}},
+    {"fcl-naive@4", naive, {fcl::GST_LIBCCD, false, 0, 4}},
+    {"fcl-naive@16", naive, {fcl::GST_LIBCCD, false, 0, 16}},
+    {"fcl-naive@64", naive, {fcl::GST_LIBCCD, false, 0, 64}},
+    {"fcl-naive@256", naive, {fcl::GST_LIBCCD, false, 0, 256}},
+    {"fcl-advance@1e-2", advance, {fcl::GST_LIBCCD, true, 0, 0, 1e-2}},
+    {"fcl-advance@1e-8", advance, {fcl::GST_LIBCCD, true, 0, 0, 1e-8}},
+};
+#endif
 
 class Engine {
  public:
@@ -35,18 +62,16 @@ class Engine {
     return {card("fcl-libccd", shipped_settings), card("fcl-indep", shipped_settings),
             card("fcl-libccd-tuned", tuned_libccd_settings), card("fcl-indep-tuned", tuned_indep_settings)};
 #else
-    return {card("fcl-libccd@1e-3", "as fcl-libccd with tolerances 1e-3"),
-            card("fcl-indep@1e-3", "as fcl-indep with tolerances 1e-3"),
-            card("fcl-libccd@1e-9", "as fcl-libccd with tolerances 1e-9"),
-            card("fcl-indep@1e-9", "as fcl-indep with tolerances 1e-9")};
+    std::vector<kit::CardText> all;
+    for (const Sweep& s : sweeps) all.push_back(card(s.name, s.text));
+    return all;
 #endif
   }
 
 #ifndef TOUCHSTONE_SWEEP
-  explicit Engine(unsigned index) : settings_{index % 2 ? fcl::GST_INDEP : fcl::GST_LIBCCD, index >= 2, 0} {}
+  explicit Engine(unsigned index) : settings_{index % 2 ? fcl::GST_INDEP : fcl::GST_LIBCCD, index >= 2} {}
 #else
-  explicit Engine(unsigned index)
-      : settings_{index % 2 ? fcl::GST_INDEP : fcl::GST_LIBCCD, false, index < 2 ? 1e-3 : 1e-9} {}
+  explicit Engine(unsigned index) : settings_(sweeps[index].settings) {}
 #endif
 
   void load(const ts_scene& scene, const ts_received& received) {
@@ -69,6 +94,9 @@ class Engine {
   void unload() { bodies_.clear(), geometries_.clear(), scene_ = nullptr; }
 
   void ask(ts_question question, int a, int b, ts_answer& out, const ts_sink& sink) {
+    const bool of_motions = settings_.samples > 0 || settings_.impact_tolerance > 0;
+    if (question == TS_TIME_OF_IMPACT ? settings_.tolerance > 0 : of_motions)
+      throw kit::Unsupported("its setting is of no matter to this question");
     switch (question) {
       case TS_OVERLAP:
         kit::set_overlap(out, overlap(body(a), body(b), settings_));
@@ -117,7 +145,8 @@ class Engine {
     const ts_body& two = scene_->bodies[b];
     const auto t = time_of_impact(body(a), kit::pose_of(one.pose), kit::motion_of(one), body(b),
                                   kit::pose_of(two.pose), kit::motion_of(two), settings_);
-    out.claimed_tolerance = impact_tolerance(body(a), kit::motion_of(one), body(b), kit::motion_of(two));
+    out.claimed_tolerance =
+        impact_tolerance(body(a), kit::motion_of(one), body(b), kit::motion_of(two), settings_);
     if (t) kit::set_toi(out, *t);
   }
 

@@ -73,10 +73,12 @@ double turning_speed(const Placed& p, const Motion& m) {
 
 }  // namespace
 
-double impact_tolerance(const Placed& a, const Motion& a_motion, const Placed& b, const Motion& b_motion) {
+double impact_tolerance(const Placed& a, const Motion& a_motion, const Placed& b, const Motion& b_motion,
+                        const Settings& s) {
   const fcl::ContinuousCollisionRequestd request;
-  return request.toc_err * ((a_motion.linear - b_motion.linear).norm() + turning_speed(a, a_motion) +
-                            turning_speed(b, b_motion));
+  const double toc_err = s.impact_tolerance > 0 ? s.impact_tolerance : request.toc_err;
+  return toc_err * ((a_motion.linear - b_motion.linear).norm() + turning_speed(a, a_motion) +
+                    turning_speed(b, b_motion));
 }
 
 double overlap_tolerance(const Settings& s) {
@@ -141,6 +143,8 @@ std::optional<double> time_of_impact(const Placed& a, const Pose& a_start, const
   const fcl::Transform3d b_end = make_transform(pose_at(b_start, b_motion, 1));
   fcl::ContinuousCollisionRequestd request;
   request.gjk_solver_type = s.solver;
+  if (s.samples > 0) request.num_max_iterations = s.samples;
+  if (s.impact_tolerance > 0) request.toc_err = s.impact_tolerance;
   fcl::ContinuousCollisionResultd result;
   if (s.tuned) {
     request.ccd_motion_type = fcl::CCDM_LINEAR;

@@ -20,6 +20,9 @@ struct Settings {
   fcl::GJKSolverType solver;
   bool tuned;
   double tolerance = 0;  // of a search; 0: that of the setting
+  // Of continuousCollide; 0: its default.
+  std::size_t samples = 0;
+  double impact_tolerance = 0;
   bool libccd() const { return solver == fcl::GST_LIBCCD; }
 };
 
@@ -52,9 +55,10 @@ std::optional<double> time_of_impact(const Placed& a, const Pose& a_start, const
                                      const Placed& b, const Pose& b_start, const Motion& b_motion,
                                      const Settings& s);
 
-/// What toc_err ("error in first contact time", 1e-4 of the step) comes to as a length: times the closing
-/// speed.
-double impact_tolerance(const Placed& a, const Motion& a_motion, const Placed& b, const Motion& b_motion);
+/// What toc_err ("error in first contact time", by default 1e-4 of the step) comes to as a length: times the
+/// closing speed.
+double impact_tolerance(const Placed& a, const Motion& a_motion, const Placed& b, const Motion& b_motion,
+                        const Settings& s);
 
 double overlap_tolerance(const Settings& s);
 

@@ -3,7 +3,8 @@
 // As shipped: CCD_INIT and nothing else, so max_iterations is unlimited and a search that cycles never ends.
 // Tuned: 1e-10 in both tolerances, at most 1000 iterations; a search that used them all is reported as
 // not_converged, which the library itself cannot say. libccd-gjk@1e-2 and so on: the same with that
-// tolerance, so that a chart shows a method as a curve.
+// tolerance, libccd-gjk-iterations@16: default tolerances and that limit, so that a chart shows a method as a
+// curve.
 #include <limits>
 
 #include "oracles/api/plugin_kit.h"
@@ -17,6 +18,7 @@ struct Setting {
   const char *gjk, *mpr;
   double tolerance;  // 0: as shipped
   const char* text;
+  unsigned long iterations = 0;  // 0: tuned_iterations with a tolerance, else as shipped
 };
 #ifndef TOUCHSTONE_SWEEP
 constexpr Setting rows[] = {{"libccd-gjk", "libccd-mpr", 0, ""},
@@ -24,7 +26,11 @@ constexpr Setting rows[] = {{"libccd-gjk", "libccd-mpr", 0, ""},
 #else
 constexpr Setting rows[] = {{"libccd-gjk@1e-2", "libccd-mpr@1e-2", 1e-2, "1e-2"},
                             {"libccd-gjk@1e-6", "libccd-mpr@1e-6", 1e-6, "1e-6"},
-                            {"libccd-gjk@1e-8", "libccd-mpr@1e-8", 1e-8, "1e-8"}};
+                            {"libccd-gjk@1e-8", "libccd-mpr@1e-8", 1e-8, "1e-8"},
+                            {"libccd-gjk-iterations@8", "libccd-mpr-iterations@8", 0, "", 8},
+                            {"libccd-gjk-iterations@16", "libccd-mpr-iterations@16", 0, "", 16},
+                            {"libccd-gjk-iterations@32", "libccd-mpr-iterations@32", 0, "", 32},
+                            {"libccd-gjk-iterations@128", "libccd-mpr-iterations@128", 0, "", 128}};
 #endif
 constexpr double nan_value = std::numeric_limits<double>::quiet_NaN();
 
@@ -38,7 +44,9 @@ class Engine {
     const auto add = [&](const char* name, const std::string& calls, const std::string& tolerances,
                          const Setting& r) {
       const std::string how = r.tolerance > 0 ? tolerances + " " + r.text + ", max_iterations 1000"
-                                              : "CCD_INIT defaults, unlimited iterations";
+                              : r.iterations > 0
+                                  ? "CCD_INIT defaults, max_iterations " + std::to_string(r.iterations)
+                                  : "CCD_INIT defaults, unlimited iterations";
       cards.push_back({name, "libccd", "2.1", calls + "; " + how, 0x1p-53, kit::oracle_tau_factor, source});
     };
     for (const Setting& r : rows) {
@@ -52,6 +60,7 @@ class Engine {
     CCD_INIT(&ccd_);
     ccd_.support1 = ccd_.support2 = support;
     ccd_.center1 = ccd_.center2 = center;
+    if (const auto limit = rows[index / 2].iterations; limit > 0) ccd_.max_iterations = limit;
     if (const double tolerance = rows[index / 2].tolerance; tolerance > 0) {
       ccd_.max_iterations = tuned_iterations;
       ccd_.epa_tolerance = ccd_.mpr_tolerance = ccd_.dist_tolerance = tolerance;
@@ -89,7 +98,7 @@ class Engine {
       contact(one, two, out, sink);
     if (one.support_calls > ccd_.max_iterations) {
       out.outcome = TS_NOT_CONVERGED, out.has = 0;
-      kit::set_detail(out, "used all " + std::to_string(tuned_iterations) + " iterations");
+      kit::set_detail(out, "used all " + std::to_string(ccd_.max_iterations) + " iterations");
     }
   }
 

@@ -256,6 +256,40 @@ TEST_CASE("what a long run in float found stays right", "[narrow][fast][float]")
   CHECK(count.judged >= 8);
 }
 
+TEST_CASE("a rim that is 1e-14 deep in a box is answered from either side", "[narrow]") {
+  const Shape cylinder = Cylinder{0.5335119698586661, 1.1713497465331093};
+  const Shape box = Box{Vec3(0.5018618568409898, 1.0446832487049202, 0.32099408757356696)};
+  const PlacedShape a{&cylinder,
+                      {Vec3(0.0, 0.0, 0.0),
+                       {0.4855254900126458, 0.4393965269059434, 0.21392102530980292, 0.7248679090850811}}};
+  const PlacedShape b{&box,
+                      {Vec3(-1.2849060214318535, 1.784703230124429, 0.658116422118532),
+                       {-0.15372466296880344, 0.48699470979105347, 0.2403449542217629, -0.8254932971325654}}};
+  for (const ContactAnswer& r : {contact(a, b), contact(b, a)}) {
+    REQUIRE(r.outcome == Outcome::answered);
+    CHECK(r.overlap);
+    CHECK(r.depth == Approx(1.079e-14).epsilon(1e-3).margin(0));
+  }
+  CHECK(distance(a, b).distance < 0);
+  CHECK(overlap(a, b).overlap);
+}
+
+TEST_CASE("boxes that touch with an edge have their contact where they touch", "[narrow][fast][float]") {
+  // Touching within 2e-12 of 4e-3; in float the patch is empty, and the point was at A's origin.
+  const Shape a = Box{Vec3(0.0008378817558754865, 0.0010415040637389214, 0.0009899889049220735)};
+  const Shape b = Box{Vec3(0.00045869123321934824, 0.00034670013758641516, 0.0010688537889161842)};
+  const Pose at_a{Vec3::Zero(),
+                  {-0.5149730109038431, 0.777176754703347, -0.35682440033216756, -0.05895283977038766}};
+  const Pose at_b{Vec3(0.0014595390615086033, -0.002460040307083016, 0.00023641745641491782),
+                  {-0.6206150032866496, 0.06275553905063276, 0.7043539745934816, 0.3387982268081422}};
+  const ContactAnswer r = contact({&a, at_a}, {&b, at_b}, Arithmetic::float32);
+  REQUIRE(r.outcome == Outcome::answered);
+  REQUIRE(r.overlap);
+  REQUIRE(r.manifold.size() == 1);
+  const Vec3 where(0.00076295435, -0.00146850060, 0.00016811070);
+  CHECK((r.manifold.begin()->position - where).norm() < 1e-9);
+}
+
 TEST_CASE("pairs at the ends of float's range are answered as those in its middle", "[narrow][fast][float]") {
   Count count;
   for (const double unit : {0x1p-60, 0x1p-30, 0x1p-24, 0x1p-20, 0x1p+28, 0x1p+32, 0x1p+60})

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "fuzz/judge/exact_map.h"
 #include "fuzz/judge/relation.h"
 
 namespace touchstone::fuzz {
@@ -18,67 +19,6 @@ Derived same_pair(const RelationInput& in, std::string words) {
   d.same_questions = true;
   d.words = std::move(words);
   return d;
-}
-
-// f(number, domain) for doubles and vectors of the shape; what is derived from them is renewed.
-template <class F>
-void change_numbers(Shape& shape, F&& f) {
-  std::visit(
-      [&](auto& s) {
-        for_each_field(s, [&](auto, auto& v, Domain domain) {
-          using V = std::decay_t<decltype(v)>;
-          if constexpr (std::is_same_v<V, double> || std::is_same_v<V, Vec3>) f(v, domain);
-          if constexpr (std::is_same_v<V, std::vector<Vec3>>)
-            for (Vec3& p : v) f(p, domain);
-        });
-      },
-      shape);
-  if (auto* h = std::get_if<Hull>(&shape)) *h = make_hull(std::move(h->vertices));
-}
-
-bool is_size(Domain d) { return d == Domain::positive || d == Domain::non_negative; }
-
-// World and body axes together by a signed permutation m of determinant 1: every number keeps its bits.
-void turn_axes(Scene& s, const Mat3& m) {
-  for (Shape& shape : s.shapes)
-    change_numbers(shape, [&](auto& v, Domain domain) {
-      if constexpr (std::is_same_v<std::decay_t<decltype(v)>, Vec3>)
-        v = is_size(domain) ? Vec3((m * v).cwiseAbs()) : Vec3(m * v);
-    });
-  for (Body& b : s.bodies) {
-    b.pose.translation = m * b.pose.translation;
-    const Vec3 q = m * Vec3(b.pose.rotation.x, b.pose.rotation.y, b.pose.rotation.z);
-    b.pose.rotation = {q.x(), q.y(), q.z(), b.pose.rotation.w};
-    if (b.motion) b.motion->linear = m * b.motion->linear, b.motion->angular = m * b.motion->angular;
-  }
-}
-
-bool has_own_axis(const Shape& s) {
-  const ShapeKind k = kind_of(s);
-  return k == ShapeKind::capsule || k == ShapeKind::cylinder || k == ShapeKind::cone;
-}
-
-// False when a number is so small or large that the product is not exact.
-bool scale_by(Scene& s, double factor) {
-  bool exact = true;
-  const auto number = [&](double& v) {
-    const double scaled = v * factor;
-    exact &= std::isfinite(scaled) && scaled / factor == v && (v == 0 || std::abs(scaled) > 0x1p-500);
-    v = scaled;
-  };
-  for (Shape& shape : s.shapes)
-    change_numbers(shape, [&](auto& v, Domain domain) {
-      if constexpr (std::is_same_v<std::decay_t<decltype(v)>, double>)
-        number(v);
-      else if (domain != Domain::nonzero_vector)
-        for (double& e : v) number(e);
-    });
-  for (Body& b : s.bodies) {
-    for (double& e : b.pose.translation) number(e);
-    if (b.motion)
-      for (double& e : b.motion->linear) number(e);
-  }
-  return exact;
 }
 
 // By a rotation of rational matrix about `centre`, which comes to `to`.

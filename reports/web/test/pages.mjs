@@ -230,6 +230,7 @@ for (const [name, question, drawn, words] of [
   const { page } = await open("chart.html", { hash: "#question=distance" });
   const d = await data(page);
   const column = (name) => d.columns.indexOf(name);
+  for (const r of d.rows) for (const name of d.text_columns) r[column(name)] = d.strings[r[column(name)]];
   const rows = d.rows.filter((r) => r[column("question")] === "distance" && ["regime", "pair", "scale"].every((k) => r[column(k)] === "") && r[column("answers")] > 0);
   const points = await page.evaluate(() => touchstonePlot.getOption().series.find((s) => s.id === "engines").data.map((p) => [p.name, ...p.value]));
   const same = rows.every((r) => {

@@ -6,22 +6,28 @@ interface Row {
   engine: string; question: string; regime: string; pair: string; scale: string; bodies: number;
   asked: number; answers: number; failed: number; missed: number; ghost: number; no_number: number; wrong: number; rounding: number; undecided: number;
   ns_min: number; ns_median: number; ns_p99: number; ns_spread: number;
-  error_p50: unknown; error_p99: unknown; error_max: unknown; pairs_true: number; pairs_reported: number; front: boolean; unsound: string;
+  error_p50: unknown; error_p99: unknown; error_max: unknown; pairs_true: number; pairs_reported: number; front: number; tie: number; unsound: string;
 }
 interface ChartPage {
   scope: string; seed: number; rounds: number; measure_ns: number;
   machine: { processor: string; cores: number; load: number; system: string; compiler: string; date: string };
   engines: { name: string; library: string; version: string; settings: string }[];
   columns: string[];
+  text_columns: string[];
+  strings: string[];
   rows: unknown[][];
 }
 
 const data = pageData<ChartPage>();
 const link = new LinkState();
-const rows: Row[] = data.rows.map((r) => Object.fromEntries(data.columns.map((c, i) => [c, r[i]])) as unknown as Row);
+const isText = data.columns.map((c) => data.text_columns.includes(c));
+const rows: Row[] = data.rows.map((r) => Object.fromEntries(data.columns.map((c, i) => [c, isText[i] ? data.strings[r[i] as number] : r[i]])) as unknown as Row);
 document.title = "Touchstone: speed against accuracy";
 const values = (key: "question" | "regime" | "pair" | "scale"): string[] => [...new Set(rows.map((r) => r[key]))].filter(Boolean).sort();
-const engineIndex = new Map(data.engines.map((e, i) => [e.name, i]));
+// Settings of one method share a colour and are one curve.
+const method = (name: string): string => name.replace(/-tuned$|@.*$/, "");
+const methods = [...new Set(data.engines.map((e) => method(e.name)))];
+const colour = (engine: string): string => colourOf(Math.max(0, methods.indexOf(method(engine))));
 
 // Errors of 0 are drawn at this floor, below the unit roundoff of a double.
 const floor = 1e-18;
@@ -62,11 +68,10 @@ const shown = (): Row[] => {
   return rows.filter((r) => r.question === question.value && r.answers > 0 &&
     (crowd ? r.bodies === most : r.regime === regime.value && r.pair === pair.value && r.scale === scale.value));
 };
-const method = (name: string): string => name.replace(/-tuned$|@.*$/, "");
 const words = (r: Row): string =>
   `<b>${r.engine}</b><br>median ${nanoseconds(r.ns_median)}, 99 % ${nanoseconds(r.ns_p99)}, a typical round ${Math.round(100 * r.ns_spread)} % slower than the fastest<br>` +
   (r.question === "candidates" ? `precision ${(100 * precision(r)).toFixed(1)} %<br>` : `error/L ${numberOf(r.error_p50).toExponential(1)}, 99 % ${numberOf(r.error_p99).toExponential(1)}, most ${numberOf(r.error_max).toExponential(1)}<br>`) +
-  `${grouped(r.answers)} answers, ${r.wrong} wrong` + (r.unsound ? `<br>not on the front: ${r.unsound}` : r.front ? "<br>on the Pareto front" : "");
+  `${grouped(r.answers)} answers, ${r.wrong} wrong` + (r.unsound ? `<br>not on the front: ${r.unsound}` : r.front ? `<br>on the Pareto front${r.tie ? ", tied within noise" : ""}` : "");
 
 function draw(): void {
   const list = shown();
@@ -74,16 +79,17 @@ function draw(): void {
   for (const s of [regime, pair, scale]) s.disabled = crowd;
   const point = (r: Row): [number, number] => [Math.max(r[time.value as "ns_median"], 0.5), crowd ? inaccuracy(r) : Math.max(inaccuracy(r), floor)];
   const ink = css("--ink");
+  const curves = [...new Set(list.map((r) => method(r.engine)))].map((m) => list.filter((r) => method(r.engine) === m).sort((a, b) => a.ns_median - b.ns_median)).filter((c) => c.length > 1);
+  // A curve is named at its first point, the others by their setting.
+  const label = (r: Row): string => (curves.some((c) => c.slice(1).includes(r)) && r.engine.includes("@") ? r.engine.slice(r.engine.indexOf("@")) : r.engine);
   const one = (r: Row): object => {
-    const c = colourOf(engineIndex.get(r.engine) ?? 0);
+    const c = colour(r.engine);
     return {
-      name: r.engine, value: point(r), row: r, symbol: r.front ? "diamond" : "circle", symbolSize: r.front ? 17 : 12,
+      name: r.engine, value: point(r), row: r, symbol: r.front ? "diamond" : "circle", symbolSize: r.tie ? 14 : r.front ? 17 : 12,
       itemStyle: r.unsound ? { color: "transparent", borderColor: c, borderWidth: 2 } : { color: c, borderColor: ink, borderWidth: r.front ? 1.5 : 0 },
-      label: { show: true, formatter: r.engine, position: "right", color: r.unsound ? css("--soft") : ink, fontSize: 11 },
+      label: { show: true, formatter: label(r), position: "right", color: r.unsound ? css("--soft") : ink, fontSize: 11 },
     };
   };
-  // Settings of one method are one curve.
-  const curves = [...new Set(list.map((r) => method(r.engine)))].map((m) => list.filter((r) => method(r.engine) === m).sort((a, b) => a.ns_median - b.ns_median)).filter((c) => c.length > 1);
   const front = list.filter((r) => r.front).sort((a, b) => a.ns_median - b.ns_median);
   plot.setOption({
     animation: false,
@@ -94,12 +100,12 @@ function draw(): void {
       { nameGap: 58, splitNumber: 9, min: floor, max: 10 ** Math.ceil(Math.log10(Math.max(1e-9, ...list.map(inaccuracy))) + 0.5), axisLabel: { color: ink, formatter: (x: number) => (x === floor ? "0" : x.toExponential(0)) } }),
     series: [
       { type: "line", data: front.map(point), lineStyle: { color: css("--good"), width: 2 }, symbol: "none", silent: true, z: 1 },
-      ...curves.map((c) => ({ type: "line", data: c.map(point), lineStyle: { color: css("--soft"), type: "dashed", width: 1 }, symbol: "none", silent: true, z: 1 })),
+      ...curves.map((c) => ({ type: "line", data: c.map(point), lineStyle: { color: colour(c[0]!.engine), type: "dashed", width: 1 }, symbol: "none", silent: true, z: 1 })),
       { type: "scatter", id: "engines", data: list.map(one), labelLayout: { hideOverlap: true, moveOverlap: "shiftY" }, z: 3 },
     ],
   }, { notMerge: true });
   note.textContent = (crowd ? `Crowds of ${grouped(shown()[0]?.bodies ?? 0)} bodies, inserted and asked once. ` : "") +
-    "Diamonds and the line: the Pareto front. Hollow: unsound or incomplete, which cannot be on it; the table says why. Dashed: settings of one method.";
+    "Diamonds and the line: the Pareto front; small ones are as accurate and as fast as another, within noise. Hollow: unsound or incomplete, which cannot be on it; the table says why. Dashed: settings of one method.";
   drawTable(list);
   drawGrowth();
 }
@@ -109,7 +115,7 @@ function drawTable(list: Row[]): void {
   const e = (x: unknown): string => (numberOf(x) === 0 ? "0" : numberOf(x).toExponential(1));
   const body = el("tbody", {}, ...[...list].sort((a, b) => a.ns_median - b.ns_median).map((r) => {
     const n = (text: string, bad = false): HTMLElement => el("td", { class: bad ? "n bad" : "n" }, text);
-    return el("tr", { "data-engine": r.engine }, el("td", {}, el("span", { class: "swatch", style: `background:${colourOf(engineIndex.get(r.engine) ?? 0)}` }), r.engine), el("td", { class: "good" }, r.front ? "front" : ""),
+    return el("tr", { "data-engine": r.engine }, el("td", { style: "white-space:nowrap" }, el("span", { class: "swatch", style: `background:${colour(r.engine)}` }), r.engine), el("td", { class: "good" }, r.tie ? "front, tie" : r.front ? "front" : ""),
       n(grouped(r.answers)), n(nanoseconds(r.ns_median)), n(nanoseconds(r.ns_p99)), n(`${Math.round(100 * r.ns_spread)} %`),
       ...(r.question === "candidates" ? [n(""), n(`${(100 * precision(r)).toFixed(1)} %`), n("")] : [n(e(r.error_p50)), n(e(r.error_p99)), n(e(r.error_max))]),
       n(grouped(r.missed), r.missed > 0), n(grouped(r.ghost), r.ghost > 0), n(grouped(r.failed), r.failed > 0), n(grouped(r.wrong), r.wrong > 0), el("td", { class: "soft" }, r.unsound));
@@ -131,7 +137,7 @@ function drawGrowth(): void {
     grid: { left: 76, right: 30, top: 40, bottom: 50 },
     xAxis: axis("bodies", true), yAxis: axis("time to insert all and ask, ns", true, { nameGap: 58, axisLabel: { color: css("--ink"), formatter: (x: number) => x.toExponential(0) } }),
     series: names.map((n) => {
-      const c = colourOf(engineIndex.get(n) ?? 0);
+      const c = colour(n);
       return { name: n, type: "line", lineStyle: { color: c }, itemStyle: { color: c }, data: crowds.filter((r) => r.engine === n).sort((a, b) => a.bodies - b.bodies).map((r) => ({ value: [r.bodies, r.ns_median], row: r })) };
     }),
   }, { notMerge: true });

@@ -3,8 +3,10 @@ import { LinkState, app, colourOf, el, grouped, numberOf, pageData, themeButton 
 import { axis, choice, css, plotIn } from "../common/plot";
 
 interface Result {
-  ladder: string; engine: string; question: string; fails_at: number | null; rungs: unknown[][];
+  ladder: string; engine: string; question: string; rungs: unknown[][];
+  fails_at: number | null; order_fails_at: number | null; frame_fails_at: number | null; unit_fails_at: number | null;
 }
+type Kind = "fails_at" | "order_fails_at" | "frame_fails_at" | "unit_fails_at";
 interface StabilityPage {
   scope: string; seed: number; per_rung: number;
   ladders: { name: string; line: string; unit: string }[];
@@ -22,25 +24,30 @@ const questions = [...new Set(data.results.map((r) => r.question))];
 
 const question = choice(link, "question", "question", questions.map((q) => [q, q.replaceAll("_", " ")]), () => draw());
 if (link.get("question") === null && questions.includes("contact")) question.value = "contact";
+const kind = choice(link, "kind", "how it fails", [
+  ["fails_at", "wrong or no answer"], ["order_fails_at", "contradicts itself when A and B are exchanged"],
+  ["frame_fails_at", "contradicts itself in another frame"], ["unit_fails_at", "contradicts itself in another unit of length"]], () => draw());
 const metric = choice(link, "metric", "what is drawn", [
   ["wrong", "wrong or no answer, share"], ["missed", "missed, share"], ["ghost", "ghosts, share"], ["failed", "failed, share"],
   ["depth_error", "error of distance or depth / L"], ["normal_error", "error of the normal / L"], ["impact_error", "error of the impact / L"],
-  ["jitter", "change when B moves an ulp / L"], ["order", "change when A and B are exchanged / L"]], () => draw());
+  ["jitter", "change when B moves an ulp / L"], ["order", "change when A and B are exchanged / L"], ["frame", "change in other frames / L"], ["unit", "change in other units / L"],
+  ["order_broken", "contradicts itself, A and B exchanged, share"], ["frame_broken", "contradicts itself, other frames, share"], ["unit_broken", "contradicts itself, other units, share"]], () => draw());
 let ladder = link.get("ladder") ?? data.ladders[0]?.name ?? "";
 
 const heat = el("div", { class: "chart", id: "heat" }), curves = el("div", { class: "chart", id: "curves" });
 const title = el("h2", {}), table = el("div", { class: "scroll", id: "rows" });
 app().append(
-  el("header", {}, el("div", { class: "grow" }, el("h1", {}, "Where engines begin to fail"), el("p", { class: "soft" }, `${data.scope}: ${data.per_rung} cases a rung, seed ${data.seed}. A cell names the first rung with a wrong answer or none; – never.`)),
+  el("header", {}, el("div", { class: "grow" }, el("h1", {}, "Where engines begin to fail"), el("p", { class: "soft" }, `${data.scope}: ${data.per_rung} cases a rung, seed ${data.seed}. A cell names the first rung with a wrong answer or none, or with two answers to one pair that contradict each other by more than the engine's tolerances; – never.`)),
     el("div", { class: "controls screen-only" }, themeButton(link, () => draw()))),
-  el("main", {}, el("div", { class: "controls screen-only", style: "margin:0.6rem 0" }, question), heat, title, el("div", { class: "controls screen-only" }, metric), curves, el("h2", {}, "The rungs of failure"), table),
+  el("main", {}, el("div", { class: "controls screen-only", style: "margin:0.6rem 0" }, question, kind), heat, title, el("div", { class: "controls screen-only" }, metric), curves, el("h2", {}, "The rungs of failure"), table),
 );
 const heatPlot = plotIn(heat), curvePlot = plotIn(curves);
 
 export const rungText = (x: number): string => {
   const e = Math.log2(x);
-  return Number.isInteger(e) && (x > 4096 || x < 1) ? `2^${e}` : String(Number(x.toPrecision(3)));
+  return Number.isInteger(e) && (x > 4096 || x < 1) ? `2^${e}` : String(Number(x.toPrecision(4)));
 };
+const failsAt = (r: Result): number | null => r[kind.value as Kind] ?? null;
 const of = (engine: string, name: string): Result | undefined => data.results.find((r) => r.engine === engine && r.ladder === name && r.question === question.value);
 
 function draw(): void {
@@ -54,8 +61,8 @@ function draw(): void {
   const cells = here.flatMap((e, y) => names.flatMap((n, x) => {
     const r = of(e, n);
     if (!r) return [];
-    const i = r.rungs.findIndex((k) => cell(k, "value") === r.fails_at);
-    return [{ value: [x, y, r.fails_at === null ? 1 : i / r.rungs.length], label: { formatter: r.fails_at === null ? "–" : rungText(r.fails_at) }, ladder: n }];
+    const at = failsAt(r), i = r.rungs.findIndex((k) => cell(k, "value") === at);
+    return [{ value: [x, y, at === null ? 1 : i / r.rungs.length], label: { formatter: at === null ? "–" : rungText(at) }, ladder: n }];
   }));
   heatPlot.setOption({
     animation: false, tooltip: { formatter: (p: { data: { ladder: string; value: number[] } }) => `${here[p.data.value[1]!]}: ${data.ladders.find((l) => l.name === p.data.ladder)?.line}` },
@@ -67,7 +74,7 @@ function draw(): void {
   }, { notMerge: true });
   const l = data.ladders.find((x) => x.name === ladder);
   title.textContent = `${ladder}: ${l?.line ?? ""}`;
-  const share = ["wrong", "missed", "ghost", "failed"].includes(metric.value);
+  const share = ["wrong", "missed", "ghost", "failed", "order_broken", "frame_broken", "unit_broken"].includes(metric.value);
   const y = (k: unknown[]): number => {
     if (!share) return Math.max(cell(k, metric.value), 1e-18);
     const n = metric.value === "wrong" ? cell(k, "wrong") + cell(k, "failed") : cell(k, metric.value);
@@ -86,8 +93,8 @@ function draw(): void {
   table.replaceChildren(el("table", {}, el("thead", {}, el("tr", {}, el("th", {}, "engine"), ...names.map((n) => el("th", { class: "n" }, n)))),
     el("tbody", {}, ...here.map((e) => el("tr", { "data-engine": e }, el("td", {}, e), ...names.map((n) => {
       const r = of(e, n);
-      const asked = r?.rungs.reduce((s, k) => s + cell(k, "asked"), 0) ?? 0;
-      return el("td", { class: "n", title: `${grouped(asked)} asked` }, !r ? "" : r.fails_at === null ? "–" : rungText(r.fails_at));
+      const at = r ? failsAt(r) : null, asked = r?.rungs.reduce((s, k) => s + cell(k, "asked"), 0) ?? 0;
+      return el("td", { class: "n", title: `${grouped(asked)} asked` }, !r ? "" : at === null ? "–" : rungText(at));
     }))))));
 }
 heatPlot.on("click", (p) => {
@@ -98,7 +105,7 @@ heatPlot.on("click", (p) => {
 draw();
 link.onChange(() => {
   ladder = link.get("ladder") ?? ladder;
-  for (const s of [question, metric]) {
+  for (const s of [question, kind, metric]) {
     const v = link.get(s.id);
     if (v !== null) s.value = v;
   }

@@ -1,0 +1,43 @@
+// The same scene in another frame or unit of length, without a rounding: what is true of the one is true of
+// the other, to the last bit. Scripts stay as they are.
+#pragma once
+
+#include <type_traits>
+
+#include "core/scene/scene.h"
+
+namespace touchstone::fuzz {
+
+/// f(number, domain) for doubles and vectors of the shape; what is derived from them is renewed.
+template <class F>
+void change_numbers(Shape& shape, F&& f) {
+  std::visit(
+      [&](auto& s) {
+        for_each_field(s, [&](auto, auto& v, Domain domain) {
+          using V = std::decay_t<decltype(v)>;
+          if constexpr (std::is_same_v<V, double> || std::is_same_v<V, Vec3>) f(v, domain);
+          if constexpr (std::is_same_v<V, std::vector<Vec3>>)
+            for (Vec3& p : v) f(p, domain);
+        });
+      },
+      shape);
+  if (auto* h = std::get_if<Hull>(&shape)) *h = make_hull(std::move(h->vertices));
+}
+
+/// World and body axes together by a signed permutation m of determinant 1: every number keeps its bits.
+/// Precondition: no shape whose axis m moves.
+void turn_axes(Scene& s, const Mat3& m);
+/// Capsule, cylinder, cone: their z axis is no field.
+bool has_own_axis(const Shape& s);
+
+/// The world by half a turn about one of its axes (0, 1, 2): signs change, and components of quaternions
+/// change places. Any shape.
+void half_turn(Scene& s, int axis);
+
+/// False when a sum is not exact: the scene is then another one.
+bool translate_by(Scene& s, const Vec3& by);
+
+/// By a power of two; false when a number is so small or large that the product is not exact.
+bool scale_by(Scene& s, double factor);
+
+}  // namespace touchstone::fuzz

@@ -1,0 +1,61 @@
+// The engines that the Bullet plug-in offers, by their settings. TOUCHSTONE_SWEEP, a plug-in of its own:
+// other margins (bullet-f64-query@0.01), the other solver of depths (-minkowski@margin:
+// btMinkowskiPenetrationDepthSolver), other tolerances of the default one (-epa@tolerance) and of the sweep
+// (-cast@length: its allowedCcdPenetration), so that a chart shows a method as a curve. Bullet has no other
+// settings of GJK and EPA outside its macros.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace touchstone::bullet_adapter {
+
+// One engine: the names of what is not here are left at Bullet's defaults.
+struct Setting {
+  std::string_view name;  // after bullet-f32- or bullet-f64-
+  bool sim = false;
+  std::optional<double> margin = {};
+  bool minkowski = false;
+  std::optional<double> epa_tolerance = {};
+  std::optional<double> allowed_penetration = {};  // of sweeps, and then of nothing else
+};
+#ifndef TOUCHSTONE_SWEEP
+inline constexpr Setting settings[] = {
+    {"query"}, {"sim", true}, {"query-tuned", false, 0}, {"sim-tuned", true, 0}};
+#else
+inline constexpr Setting settings[] = {{"query@0.001", false, 0.001},
+                                       {"query@0.01", false, 0.01},
+                                       {"sim@0.01", true, 0.01},
+                                       {"minkowski@0", false, 0, true},
+                                       {"minkowski@0.01", false, 0.01, true},
+                                       {"minkowski@0.04", false, 0.04, true},
+                                       {"epa@1e-1", false, 0, false, 1e-1},
+                                       {"epa@1e-5", false, 0, false, 1e-5},
+                                       {"epa@1e-9", false, 0, false, 1e-9},
+                                       {"cast@0.001", false, 0, false, {}, 0.001},
+                                       {"cast@0.01", false, 0, false, {}, 0.01},
+                                       {"cast@0.1", false, 0, false, {}, 0.1}};
+#endif
+
+inline constexpr const char* query_settings =
+    "btCollisionWorld::contactPairTest (distance: m_closestDistanceThreshold BT_LARGE_FLOAT); time of impact "
+    "convexSweepTest; candidates btDbvtBroadphase; ";
+inline constexpr const char* sim_settings =
+    "performDiscreteCollisionDetection in a fresh world; no distance, no time of impact; candidates "
+    "btDbvtBroadphase; ";
+inline std::string text_of(const Setting& s) {
+  std::string text = s.sim ? sim_settings : query_settings;
+  if (!s.margin)
+    text += "default margins";
+  else if (*s.margin == 0)
+    text += "margin 0, hull boxes recomputed";
+  else
+    text += "margin as named, hull boxes recomputed";
+  if (s.minkowski) text = "as named; m_useEpaPenetrationAlgorithm false; " + text;
+  if (s.epa_tolerance) text = "gGjkEpaPenetrationTolerance as named; " + text;
+  if (s.allowed_penetration) text = "sweeps with allowedCcdPenetration as named; " + text;
+  return text;
+}
+
+}  // namespace touchstone::bullet_adapter

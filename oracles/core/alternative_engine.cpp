@@ -1,0 +1,113 @@
+#include "oracles/core/alternative_engine.h"
+
+#include <chrono>
+
+#include "core/ccd/alternatives.h"
+#include "core/narrow/narrow_phase.h"
+#include "core/tolerance.h"
+#include "oracles/api/measure.h"
+
+namespace touchstone {
+namespace {
+
+struct Row {
+  std::string_view name, settings;
+  double margin;  // of speculative contact; 0: the narrow phase
+};
+constexpr Row rows[] = {
+    {"core-extended", "every pair by separation() in extended precision, no manifold; no motion", 0},
+    {"core-speculative@0.25", "speculative_impact, margin a quarter of the farthest approach", 0.25},
+    {"core-speculative@0.5", "speculative_impact, margin half of the farthest approach", 0.5},
+    {"core-speculative@1", "speculative_impact, margin the farthest approach", 1},
+};
+constexpr auto names = [] {
+  std::array<std::string_view, std::size(rows)> all{};
+  for (std::size_t i = 0; i < all.size(); ++i) all[i] = rows[i].name;
+  return all;
+}();
+
+const Body& body_of(const Scene& s, int i) { return s.bodies.at(static_cast<std::size_t>(i)); }
+PlacedShape placed(const Scene& s, int i) { return {&s.shape_of(i), body_of(s, i).pose}; }
+MovingShape moving(const Scene& s, int i) {
+  return {&s.shape_of(i), body_of(s, i).pose, body_of(s, i).motion.value_or(Motion{})};
+}
+Vec3 to_double(const WideVec& v) { return v.cast<double>(); }
+
+void ask_extended(const Scene& s, const Query& q, Observation& o) {
+  const PlacedShape a = placed(s, q.a), b = placed(s, q.b);
+  const Separation r = separation(a, b);
+  o.outcome = r.outcome;
+  if (r.outcome != Outcome::answered) return;
+  const bool overlap = r.gap <= 0;
+  if (q.question != Question::distance) o.overlap = overlap;
+  if (q.question == Question::distance) {
+    o.distance = static_cast<double>(r.gap);
+    o.witness = {a.pose.translation + to_double(r.a), a.pose.translation + to_double(r.b)};
+  } else if (q.question == Question::contact && overlap) {
+    o.normal = to_double(r.normal), o.depth = static_cast<double>(-r.gap);
+  }
+}
+
+class AlternativeEngine final : public Engine {
+ public:
+  explicit AlternativeEngine(const Row& row) : row_(row) {
+    card_.name = row.name, card_.library = "Touchstone core", card_.version = "0.1.0";
+    card_.settings = row.settings;
+    card_.tau_factor = tolerance::core_tau_factor;
+    card_.source = "core/tolerance.h: arithmetic alone, no margin";
+  }
+  const EngineCard& card() const override { return card_; }
+  std::vector<CaseObservations> run(std::span<const Case> cases) override;
+
+ private:
+  void ask(const Scene& s, const Query& q, Observation& o) const {
+    const bool pairs = q.question <= Question::contact, motion = q.question == Question::time_of_impact;
+    if (row_.margin > 0 ? !motion : !pairs) return;  // unsupported
+    if (pairs) return ask_extended(s, q, o);
+    const ImpactAnswer r = speculative_impact(moving(s, q.a), moving(s, q.b), row_.margin);
+    o.outcome = r.outcome, o.toi = r.toi;
+  }
+  Observation observe(const Scene& s, const Query& q) const;
+
+  const Row& row_;
+  EngineCard card_;
+};
+
+Observation AlternativeEngine::observe(const Scene& s, const Query& q) const {
+  Observation o;
+  const auto start = std::chrono::steady_clock::now();
+  try {
+    ask(s, q, o);
+  } catch (const std::exception& e) {
+    o = {}, o.outcome = Outcome::threw, o.detail = e.what();
+  }
+  const auto took = std::chrono::steady_clock::now() - start;
+  o.elapsed_ns = std::chrono::duration_cast<std::chrono::nanoseconds>(took).count();
+  if (o.outcome != Outcome::answered || measure_ns() == 0) return o;
+  Observation again;
+  o.elapsed_ns = least_mean_ns(o.elapsed_ns, measure_ns(), [&] { ask(s, q, again); });
+  return o;
+}
+
+std::vector<CaseObservations> AlternativeEngine::run(std::span<const Case> cases) {
+  std::vector<CaseObservations> all;
+  for (const Case& c : cases) {
+    CaseObservations& r = all.emplace_back();
+    r.received.bodies.resize(c.scene.bodies.size());
+    r.received.shapes.resize(c.scene.shapes.size());
+    for (const Query& q : c.queries) r.answers.push_back(observe(c.scene, q));
+  }
+  return all;
+}
+
+}  // namespace
+
+std::span<const std::string_view> core_alternatives() { return names; }
+
+EnginePtr make_core_alternative(std::string_view name) {
+  for (const Row& row : rows)
+    if (row.name == name) return std::make_unique<AlternativeEngine>(row);
+  throw std::logic_error("no alternative of the core is called " + std::string(name));
+}
+
+}  // namespace touchstone

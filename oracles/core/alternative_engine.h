@@ -1,0 +1,18 @@
+// The core's other ways, for charts to set beside the way it goes: every pair in extended precision, and
+// speculative contact instead of a time of impact.
+#pragma once
+
+#include <span>
+#include <string_view>
+
+#include "oracles/api/engine.h"
+
+namespace touchstone {
+
+/// core-extended, core-speculative@0.25 and so on.
+std::span<const std::string_view> core_alternatives();
+
+/// Precondition: a name of core_alternatives().
+EnginePtr make_core_alternative(std::string_view name);
+
+}  // namespace touchstone
