@@ -82,21 +82,22 @@ fuzz::Chart measured(const ChartOptions& o) {
   return chart;
 }
 
-// Its numbers are kept beside it, so that a test can hold the one against the other.
-void write_readme(const std::filesystem::path& readme, const fuzz::Chart& chart) {
-  const fuzz::Chart excerpt = reports::chart_excerpt(chart);
-  const std::string text = reports::with_chart_block(read_file(readme, std::uintmax_t{1} << 24),
-                                                     reports::chart_markdown(excerpt), readme.string());
-  const auto docs = readme.parent_path() / "docs";
-  fuzz::make_directory(docs.string());
-  write_file(docs / "chart.json", fuzz::to_json(excerpt).dump() + "\n");
-  write_file(readme, text);
-  fmt::print("{}, {}\n", readme.string(), (docs / "chart.json").string());
-}
-
 fuzz::Chart stored(const std::string& file) {
   const auto j = nlohmann::json::parse(read_file(file, std::uintmax_t{1} << 28), nullptr, false);
   return fuzz::chart_from_json(j, file);
+}
+
+// Its numbers are kept beside it, so that a test can hold the one against the other: the block is made of
+// what is kept, which has fewer digits than what was measured.
+void write_readme(const std::filesystem::path& readme, const fuzz::Chart& chart) {
+  const std::string before = read_file(readme, std::uintmax_t{1} << 24);
+  const auto docs = readme.parent_path() / "docs";
+  fuzz::make_directory(docs.string());
+  const auto kept = docs / "chart.json";
+  write_file(kept, fuzz::to_json(reports::chart_excerpt(chart)).dump() + "\n");
+  const std::string block = reports::chart_markdown(stored(kept.string()));
+  write_file(readme, reports::with_chart_block(before, block, readme.string()));
+  fmt::print("{}, {}\n", readme.string(), kept.string());
 }
 
 int run(const ChartOptions& o) {
