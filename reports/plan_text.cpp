@@ -147,6 +147,18 @@ std::string saving(const Plan& p) {
          "\n";
 }
 
+std::string proven(const Plan& p) {
+  std::uint64_t sampled = 0;
+  double worst = 0;
+  for (const PlanPair& x : p.pairs) sampled += x.sampled, worst = std::max(worst, x.certified_error);
+  if (sampled == 0) return "";
+  return fmt::format(
+      "The answers' own bounds on {} sampled pairs: at most {}.{}", grouped(sampled), small(worst),
+      worst > p.error ? " That is more than the error: the core cannot prove some of them to be "
+                        "least (regret_bound)."
+                      : "");
+}
+
 }  // namespace
 
 std::string plan_text(const Plan& p) {
@@ -161,8 +173,8 @@ std::string plan_text(const Plan& p) {
   const auto plan = std::find_if(p.rows.begin(), p.rows.end(), [](const PlanRow& r) { return r.is_plan; });
   text += wrapped(
       fmt::format("Evidence: the referee judged {} pairs, {} of them undecided: {} outside the error, "
-                  "the worst off by {}.{}",
-                  p.judged, p.undecided, plan->outside, small(plan->error),
+                  "the worst off by {}. {}{}",
+                  p.judged, p.undecided, plan->outside, small(plan->error), proven(p),
                   p.unsupported ? fmt::format(" {} pairs that the core does not answer are left out.",
                                               grouped(p.unsupported))
                                 : ""),

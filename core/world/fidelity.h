@@ -3,8 +3,10 @@
 // Contract. With `error` E > 0, every pair that is answered has been decided within E: a pair reported in
 // contact has a gap of at most E, one that is left out is no deeper than E; the depth along the reported
 // normal is right to E and exceeds the least depth by no more than E. (Unsupported and not_converged are
-// reported as ever.) Of E, 0.6 at most goes to simpler shapes, 0.125 to placing them, the rest to arithmetic:
-// a cheap answer whose proven bound, with the rounding of its input, is larger is worked out anew.
+// reported as ever; where the core itself cannot prove that a depth is the least, regret_bound is larger than
+// E and says so.) E must be 2^-44 of the scene's largest coordinate or more. Of E, 0.6 at most goes to
+// simpler shapes, 0.125 to placing them, the rest to arithmetic: a cheap answer whose proven bound, with the
+// rounding of its input, is larger is worked out anew.
 #pragma once
 
 #include <array>

@@ -9,8 +9,6 @@ namespace {
 
 constexpr int window = 8;
 
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
-
 Course::Step step_of(const Scene& s) {
   Course::Step step;
   for (std::size_t i = 0; i < s.bodies.size(); ++i)

@@ -24,6 +24,9 @@ struct Course {
   bool moves() const;
 };
 
+/// An index of bodies, shapes or steps.
+inline std::size_t at(int i) { return static_cast<std::size_t>(i); }
+
 /// Windows of 8 steps that follow each other, spread evenly over the recording, `steps` in all.
 Course course_of(const RealScene& scene, int steps = 24);
 

@@ -14,10 +14,6 @@
 namespace touchstone::fuzz {
 namespace {
 
-using Progress = std::function<void(const std::string&)>;
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
-
 void simplify(const Course& c, Fidelity& f) {
   for (const Shape& s : c.scene.shapes)
     f.simpler.push_back(simpler_shape(s, Fidelity::shape_share * f.error, f.solid_meshes));
@@ -121,7 +117,7 @@ double least(const std::vector<double>& v) { return *std::min_element(v.begin(),
 // Rounds in which every way runs the course once, or after the first those that may still be the quickest:
 // `rounds`, or more while they are short. ns of each way and round.
 std::vector<std::vector<double>> run_ways(const Course& c, const std::vector<Way>& ways, int rounds,
-                                          const Progress& progress) {
+                                          const PlanProgress& progress) {
   constexpr double after_one = 1.6, after_more = 1.25, enough_ns = 1e9;
   constexpr int most = 64;
   std::vector<std::vector<double>> times(ways.size());
@@ -203,7 +199,7 @@ double default_error(const Course& c) {
   return std::max(least_error(c), std::isfinite(smallest) ? of_a_body * smallest : 0);
 }
 
-Plan make_plan(const Course& c, const PlanOptions& o, const Progress& progress) {
+Plan make_plan(const Course& c, const PlanOptions& o, const PlanProgress& progress) {
   const auto say = [&](const std::string& what) {
     if (progress) progress(what);
   };

@@ -11,6 +11,8 @@
 
 namespace touchstone::fuzz {
 
+using PlanProgress = std::function<void(const std::string&)>;
+
 struct PlanOptions {
   double error = 0;  // in the scene's unit; 0: default_error
   std::uint64_t seed = 1;
@@ -27,7 +29,6 @@ double least_error(const Course& course);
 double default_error(const Course& course);
 
 /// Throws InputError when the error is below the least, or a given plan is not of this scene.
-Plan make_plan(const Course& course, const PlanOptions& options,
-               const std::function<void(const std::string&)>& progress = {});
+Plan make_plan(const Course& course, const PlanOptions& options, const PlanProgress& progress = {});
 
 }  // namespace touchstone::fuzz

@@ -7,8 +7,6 @@
 namespace touchstone::fuzz {
 namespace {
 
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
-
 using Kinds = std::pair<ShapeKind, ShapeKind>;
 
 // Candidates in an order in which kinds of shapes take turns, at random within each.

@@ -16,8 +16,6 @@ namespace {
 // CPU time of this thread, which is all that works here: others on the machine count less.
 double ns_since(std::int64_t start) { return static_cast<double>(thread_cpu_ns() - start); }
 
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
-
 // Boxes of one step, and which of them are news to a broad phase.
 std::vector<std::vector<broad::BoxUpdate>> box_updates(const Course& c, const EndPoses& poses) {
   std::vector<std::vector<broad::BoxUpdate>> all;
