@@ -144,18 +144,6 @@ Aabb turning_box(const Aabb& at_start, double r, const Pose& pose, const Vec3& a
 
 constexpr double loose_factor = 0x1p-47;
 
-// R(q) of a quaternion whose square n is far from the ends of double's range.
-Mat3 plain_rotation(const Quat& q, double n) {
-  const double k = 1 / n;
-  const double xx = q.x * q.x, yy = q.y * q.y, zz = q.z * q.z, ww = q.w * q.w;
-  const double xy = q.x * q.y, xz = q.x * q.z, yz = q.y * q.z, wx = q.w * q.x, wy = q.w * q.y, wz = q.w * q.z;
-  Mat3 r;
-  r << (ww + xx - yy - zz) * k, 2 * (xy - wz) * k, 2 * (xz + wy) * k,  //
-      2 * (xy + wz) * k, (ww - xx + yy - zz) * k, 2 * (yz - wx) * k,   //
-      2 * (xz - wy) * k, 2 * (yz + wx) * k, (ww - xx - yy + zz) * k;
-  return r;
-}
-
 }  // namespace
 
 Aabb body_box(const Shape& shape, const Pose& pose) {
@@ -189,9 +177,7 @@ Aabb swept_box(const Shape& shape, const Pose& pose, const Motion& motion) {
 
 Aabb loose_box(const Shape& shape, const Pose& pose, double size) {
   if (kind_of(shape) == ShapeKind::half_space) return body_box(shape, pose);
-  const Quat& q = pose.rotation;
-  const double n = q.x * q.x + q.y * q.y + q.z * q.z + q.w * q.w;
-  const Eigen::Matrix3d r = n > 0x1p-40 && n < 0x1p40 ? plain_rotation(q, n) : rotation_matrix(q);
+  const Mat3 r = rotation_matrix(pose.rotation);
   Aabb box;
   for (int axis = 0; axis < 3; ++axis) {
     const auto e = std::visit(Extent<double>{Vec3(r.row(axis).transpose())}, shape);

@@ -74,7 +74,7 @@ std::vector<SeenShape> seen_shapes(const Scene& scene, const Fidelity& fidelity)
 
 SeenBody seen_body(const SeenShape& shape, const Pose& body) {
   SeenBody r;
-  r.pose = shape.simpler && shape.simpler->moved ? placed_in(body, shape.simpler->in_body) : body;
+  r.pose = shape.simpler && shape.simpler->moved() ? placed_in(body, shape.simpler->in_body) : body;
   r.middle_w = shape.ball.middle.isZero(0) ? r.pose.translation : to_transform(r.pose) * shape.ball.middle;
   return r;
 }

@@ -68,7 +68,7 @@ std::optional<SimplerShape> ball_of(const Hull& h, double allowed) {
   }
   const double error = rounded_up((outer - inner) / 2, size_of(h));
   if (!(inner > 0 && error <= allowed)) return std::nullopt;
-  return SimplerShape{Sphere{(outer + inner) / 2}, {centre, {}}, error, true};
+  return SimplerShape{Sphere{(outer + inner) / 2}, {centre, {}}, error};
 }
 
 // Axes from the two largest faces that are about perpendicular; the body's own where there are none.
@@ -105,8 +105,7 @@ std::optional<SimplerShape> box_of(const Hull& h, const Mat3& axes, double allow
   const double error = rounded_up(worst, size_of(h));
   if (error > allowed) return std::nullopt;
   const Eigen::Quaterniond q(axes);
-  const bool moved = !(middle.isZero(0) && axes == Mat3::Identity());
-  return SimplerShape{Box{half}, {axes * middle, {q.x(), q.y(), q.z(), q.w()}}, error, moved};
+  return SimplerShape{Box{half}, {axes * middle, {q.x(), q.y(), q.z(), q.w()}}, error};
 }
 
 // How far a point is at most from the hull.
@@ -154,7 +153,7 @@ std::optional<SimplerShape> fewer_vertices(const Hull& h, double allowed) {
   Hull result = make_hull(std::move(kept.vertices));
   // A flat remainder of a body that is not flat is a change of kind that nobody asked for.
   if (result.dimension < 3) return std::nullopt;
-  return SimplerShape{std::move(result), {}, error, false};
+  return SimplerShape{std::move(result), {}, error};
 }
 
 std::optional<SimplerShape> simpler(const Hull& h, double allowed) {
@@ -169,13 +168,13 @@ std::optional<SimplerShape> simpler(const Ellipsoid& e, double allowed) {
   const double lo = e.semi_axes.minCoeff(), hi = e.semi_axes.maxCoeff();
   const double error = hi > lo ? rounded_up((hi - lo) / 2, hi) : 0;
   if (error > allowed) return std::nullopt;
-  return SimplerShape{Sphere{lo + (hi - lo) / 2}, {}, error, false};
+  return SimplerShape{Sphere{lo + (hi - lo) / 2}, {}, error};
 }
 
 std::optional<SimplerShape> simpler(const Capsule& c, double allowed) {
   const double error = c.half_height > 0 ? rounded_up(c.half_height / 2, c.radius + c.half_height) : 0;
   if (error > allowed) return std::nullopt;
-  return SimplerShape{Sphere{c.radius + c.half_height / 2}, {}, error, false};
+  return SimplerShape{Sphere{c.radius + c.half_height / 2}, {}, error};
 }
 
 template <class S>
@@ -217,7 +216,7 @@ std::optional<SimplerShape> simpler_shape(const Shape& shape, double allowed, bo
     std::optional<Hull> hull = convex_solid(*mesh);
     if (!hull) return std::nullopt;
     if (auto simple = simpler(*hull, allowed)) return simple;
-    return SimplerShape{std::move(*hull), {}, 0, false};
+    return SimplerShape{std::move(*hull), {}, 0};
   }
   return std::visit([&](const auto& s) { return simpler(s, allowed); }, shape);
 }

@@ -25,9 +25,10 @@ namespace touchstone {
 
 struct SimplerShape {
   Shape shape;
-  Pose in_body;        // of the simpler shape in the frame of the one it stands for; unit quaternion
-  double error = 0;    // δ, in the scene's unit, rounded up; placing `in_body` costs its rounding on top
-  bool moved = false;  // in_body is not the identity
+  Pose in_body;      // of the simpler shape in the frame of the one it stands for; unit quaternion
+  double error = 0;  // δ, in the scene's unit, rounded up; placing `in_body` costs its rounding on top
+  bool moved() const { return !(in_body == Pose{}); }
+  bool operator==(const SimplerShape&) const = default;
 };
 
 /// The simplest of those whose error is at most `allowed`: ball, box, fewer vertices, in this order; nothing

@@ -38,8 +38,7 @@ void read_simpler(const Json& j, const std::string& place, Fidelity& f) {
     constexpr std::size_t most = 1u << 24;
     if (of[k] >= most || !(errors[k] >= 0)) throw InputError(place, "a shape or an error out of range");
     if (f.simpler.size() <= of[k]) f.simpler.resize(of[k] + 1);
-    const Pose& p = s.bodies[k].pose;
-    f.simpler[of[k]] = SimplerShape{s.shape_of(static_cast<int>(k)), p, errors[k], !(p == Pose{})};
+    f.simpler[of[k]] = SimplerShape{s.shape_of(static_cast<int>(k)), s.bodies[k].pose, errors[k]};
   }
 }
 

@@ -162,6 +162,40 @@ void mark_front(std::vector<PlanRow>& rows) {
               });
 }
 
+// Runs ways under the referee's eyes; the plan first, which says who must be swept.
+struct Judging {
+  const Course& course;
+  const PlanSample& sample;
+  Plan& plan;
+  std::vector<std::uint64_t> needed;  // bodies swept by the plan, of each step
+
+  void judge(const Way& way, const std::vector<double>& times, bool is_plan) {
+    PlanRow row;
+    row.name = way.name, row.is_plan = is_plan;
+    row.ns_min = least(times), row.ns_median = median(times);
+    run_course(course, way.fidelity, [&](int step, const StepReport& r) {
+      sample.judge(step, r, plan.error, row);
+      row.unanswered += r.outcome != Outcome::answered;
+      if (is_plan) {
+        needed[at(step)] = r.swept.size(), plan.unsupported += static_cast<std::uint64_t>(r.unsupported);
+        note_swept(course, r, plan.swept);
+      } else if (r.swept.size() < needed[at(step)]) {
+        row.unswept += needed[at(step)] - r.swept.size();
+      }
+    });
+    plan.rows.push_back(row);
+  }
+};
+
+void sort_rows(Plan& p) {
+  std::stable_sort(p.rows.begin(), p.rows.end(),
+                   [](const PlanRow& x, const PlanRow& y) { return x.ns_min < y.ns_min; });
+  mark_front(p.rows);
+  std::stable_sort(p.swept.begin(), p.swept.end(), [](const PlanSwept& x, const PlanSwept& y) {
+    return x.pass_bound * y.inner > y.pass_bound * x.inner;
+  });
+}
+
 void require_fits(const Course& c, const Fidelity& f) {
   if (f.simpler.size() > c.scene.shapes.size())
     throw InputError("run.simpler", fmt::format("names shape {}; the scene has {}", f.simpler.size() - 1,
@@ -170,7 +204,7 @@ void require_fits(const Course& c, const Fidelity& f) {
   for (std::size_t i = 0; i < f.simpler.size(); ++i) {
     if (!f.simpler[i]) continue;
     const auto again = simpler_shape(c.scene.shapes[i], Fidelity::shape_share * f.error, f.solid_meshes);
-    if (!again || !(again->shape == f.simpler[i]->shape))
+    if (again != f.simpler[i])
       throw InputError("run.simpler", fmt::format("shape {} is another one in this scene", i));
   }
 }
@@ -241,30 +275,10 @@ Plan make_plan(const Course& c, const PlanOptions& o, const PlanProgress& progre
   say("the referee");
   const PlanSample sample(solid, poses, scenery.candidates, o.seed, o.judged);
   p.judged = sample.judged(), p.undecided = sample.undecided();
-  std::vector<std::uint64_t> needed(c.steps.size(), 0);
-  for (std::size_t w = 0; w < ways.size(); ++w) {
-    if (w < planned && w != best) continue;
-    PlanRow row;
-    row.name = ways[w].name, row.is_plan = w == best;
-    row.ns_min = least(times[w]), row.ns_median = median(times[w]);
-    run_course(c, ways[w].fidelity, [&](int step, const StepReport& r, const StepWorld&) {
-      sample.judge(step, r, p.error, row);
-      row.unanswered += r.outcome != Outcome::answered;
-      if (row.is_plan) {
-        needed[at(step)] = r.swept.size(), p.unsupported += at(static_cast<int>(r.unsupported));
-        note_swept(c, r, p.swept);
-      } else if (r.swept.size() < needed[at(step)]) {
-        row.unswept += needed[at(step)] - r.swept.size();
-      }
-    });
-    p.rows.push_back(row);
-  }
-  std::stable_sort(p.rows.begin(), p.rows.end(),
-                   [](const PlanRow& x, const PlanRow& y) { return x.ns_min < y.ns_min; });
-  mark_front(p.rows);
-  std::stable_sort(p.swept.begin(), p.swept.end(), [](const PlanSwept& x, const PlanSwept& y) {
-    return x.pass_bound * y.inner > y.pass_bound * x.inner;
-  });
+  Judging judging{c, sample, p, std::vector<std::uint64_t>(c.steps.size(), 0)};
+  judging.judge(ways[best], times[best], true);
+  for (std::size_t w = planned; w < ways.size(); ++w) judging.judge(ways[w], times[w], false);
+  sort_rows(p);
   const Fidelity& chosen = ways[best].fidelity;
   p.pairs = ways[best].pairs, p.shapes = shape_rows(c, chosen);
   p.broad_phase = chosen.broad_phase, p.solid_meshes = chosen.solid_meshes, p.remember = chosen.remember,

@@ -205,7 +205,7 @@ std::vector<PlanPair> choose_methods(const Course& c, const EndPoses& poses,
 }
 
 double run_course(const Course& c, const Fidelity& f,
-                  const std::function<void(int, const StepReport&, const StepWorld&)>& each) {
+                  const std::function<void(int, const StepReport&)>& each) {
   StepWorld world(c.scene, f);
   const bool any_follows =
       std::any_of(c.steps.begin(), c.steps.end(), [](const Course::Step& s) { return s.follows; });
@@ -216,7 +216,7 @@ double run_course(const Course& c, const Fidelity& f,
     for (const Course::Move& m : c.steps[s].moves) world.set(m.body, m.start, m.motion);
     const StepReport r = world.step();
     if (c.steps[s].follows || !any_follows) total += ns_since(start), ++counted;
-    if (each) each(static_cast<int>(s), r, world);
+    if (each) each(static_cast<int>(s), r);
   }
   return total / counted;
 }

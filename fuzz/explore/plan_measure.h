@@ -40,6 +40,6 @@ struct Way {
 /// Runs the course once; ns of a step on average, of those that follow another one where there are such.
 /// `each`, when given, sees every report.
 double run_course(const Course& course, const Fidelity& fidelity,
-                  const std::function<void(int step, const StepReport&, const StepWorld&)>& each = {});
+                  const std::function<void(int step, const StepReport&)>& each = {});
 
 }  // namespace touchstone::fuzz

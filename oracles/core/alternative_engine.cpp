@@ -1,11 +1,9 @@
 #include "oracles/core/alternative_engine.h"
 
-#include <chrono>
-
 #include "core/ccd/alternatives.h"
 #include "core/narrow/narrow_phase.h"
 #include "core/tolerance.h"
-#include "oracles/api/measure.h"
+#include "oracles/core/answer_cases.h"
 
 namespace touchstone {
 namespace {
@@ -57,7 +55,11 @@ class AlternativeEngine final : public Engine {
     card_.source = "core/tolerance.h: arithmetic alone, no margin";
   }
   const EngineCard& card() const override { return card_; }
-  std::vector<CaseObservations> run(std::span<const Case> cases) override;
+  std::vector<CaseObservations> run(std::span<const Case> cases) override {
+    return answer_cases(cases, [&](const Scene& s, const Query& q) {
+      return measured_answer(measure_ns(), [&](Observation& o) { ask(s, q, o); });
+    });
+  }
 
  private:
   void ask(const Scene& s, const Query& q, Observation& o) const {
@@ -67,38 +69,10 @@ class AlternativeEngine final : public Engine {
     const ImpactAnswer r = speculative_impact(moving(s, q.a), moving(s, q.b), row_.margin);
     o.outcome = r.outcome, o.toi = r.toi;
   }
-  Observation observe(const Scene& s, const Query& q) const;
 
   const Row& row_;
   EngineCard card_;
 };
-
-Observation AlternativeEngine::observe(const Scene& s, const Query& q) const {
-  Observation o;
-  const auto start = std::chrono::steady_clock::now();
-  try {
-    ask(s, q, o);
-  } catch (const std::exception& e) {
-    o = {}, o.outcome = Outcome::threw, o.detail = e.what();
-  }
-  const auto took = std::chrono::steady_clock::now() - start;
-  o.elapsed_ns = std::chrono::duration_cast<std::chrono::nanoseconds>(took).count();
-  if (o.outcome != Outcome::answered || measure_ns() == 0) return o;
-  Observation again;
-  o.elapsed_ns = least_mean_ns(o.elapsed_ns, measure_ns(), [&] { ask(s, q, again); });
-  return o;
-}
-
-std::vector<CaseObservations> AlternativeEngine::run(std::span<const Case> cases) {
-  std::vector<CaseObservations> all;
-  for (const Case& c : cases) {
-    CaseObservations& r = all.emplace_back();
-    r.received.bodies.resize(c.scene.bodies.size());
-    r.received.shapes.resize(c.scene.shapes.size());
-    for (const Query& q : c.queries) r.answers.push_back(observe(c.scene, q));
-  }
-  return all;
-}
 
 }  // namespace
 

@@ -1,12 +1,12 @@
 #include "oracles/core/broad_engine.h"
 
 #include <array>
-#include <chrono>
 #include <limits>
 
 #include "core/broad/catalog.h"
 #include "core/tolerance.h"
 #include "core/world/world.h"
+#include "oracles/core/answer_cases.h"
 
 namespace touchstone {
 namespace {
@@ -120,35 +120,24 @@ class BroadEngine final : public Engine {
   }
   const EngineCard& card() const override { return card_; }
   std::vector<CaseObservations> run(std::span<const Case> cases) override {
-    std::vector<CaseObservations> all;
-    all.reserve(cases.size());
-    for (const Case& c : cases) {
-      CaseObservations& r = all.emplace_back();
-      r.received.bodies.resize(c.scene.bodies.size());
-      r.received.shapes.resize(c.scene.shapes.size());
-      for (const Query& q : c.queries) r.answers.push_back(answer(c.scene, q));
-    }
-    return all;
+    return answer_cases(cases, [&](const Scene& s, const Query& q) {
+      return timed_answer([&](Observation& o) { ask(s, q, o); });
+    });
   }
 
  private:
-  Observation answer(const Scene& s, const Query& q) const {
-    Observation o;
-    if (q.question != Question::candidates) return o.detail = "a broad phase alone", o;
-    const auto start = std::chrono::steady_clock::now();
+  void ask(const Scene& s, const Query& q, Observation& o) const {
+    if (q.question != Question::candidates) {
+      o.detail = "a broad phase alone";
+      return;
+    }
     try {
       const auto phase = row_.make();
       Run(s, *phase, boxes_, o).script();
       o.outcome = Outcome::answered;
     } catch (const NoBox&) {
       o = {}, o.detail = "a body that is no box";
-    } catch (const std::exception& e) {
-      o = {}, o.outcome = Outcome::threw, o.detail = e.what();
     }
-    o.elapsed_ns =
-        std::chrono::duration_cast<std::chrono::nanoseconds>(std::chrono::steady_clock::now() - start)
-            .count();
-    return o;
   }
   const broad::CatalogRow& row_;
   BroadBoxes boxes_;

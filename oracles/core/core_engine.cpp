@@ -1,8 +1,5 @@
 #include "oracles/core/core_engine.h"
 
-#include <chrono>
-#include <exception>
-
 #include "core/base/input_error.h"
 #include "core/broad/catalog.h"
 #include "core/ccd/impact.h"
@@ -11,7 +8,7 @@
 #include "core/narrow/narrow_phase.h"
 #include "core/tolerance.h"
 #include "core/world/world.h"
-#include "oracles/api/measure.h"
+#include "oracles/core/answer_cases.h"
 
 namespace touchstone {
 namespace {
@@ -100,26 +97,9 @@ void ask(const Scene& s, const Query& q, Arithmetic arithmetic, Observation& o) 
   }
 }
 
-Observation observe(const Scene& s, const Query& q, Arithmetic arithmetic, std::int64_t measure) {
-  Observation o;
-  const auto start = std::chrono::steady_clock::now();
-  try {
-    ask(s, q, arithmetic, o);
-  } catch (const InputError& e) {
-    o = {}, o.outcome = Outcome::invalid_input, o.detail = e.what();
-  } catch (const std::exception& e) {
-    o = {}, o.outcome = Outcome::threw, o.detail = e.what();
-  }
-  o.elapsed_ns =
-      std::chrono::duration_cast<std::chrono::nanoseconds>(std::chrono::steady_clock::now() - start).count();
-  if (measure > 0 && o.outcome == Outcome::answered && is_pair_question(q.question)) {
-    Observation again;
-    o.elapsed_ns = least_mean_ns(o.elapsed_ns, measure, [&] {
-      again.manifold.clear();
-      ask(s, q, arithmetic, again);
-    });
-  }
-  return o;
+Observation observe(const Scene& s, const Query& q, Arithmetic arithmetic) {
+  const auto answer = [&](Observation& o) { ask(s, q, arithmetic, o); };
+  return is_pair_question(q.question) ? measured_answer(measure_ns(), answer) : timed_answer(answer);
 }
 
 // What the float path sees: every number rounded, the quaternion as rounded denotes the rotation.
@@ -166,16 +146,9 @@ CoreEngine::CoreEngine(Arithmetic arithmetic) : arithmetic_(arithmetic) {
 }
 
 std::vector<CaseObservations> CoreEngine::run(std::span<const Case> cases) {
-  std::vector<CaseObservations> all;
-  all.reserve(cases.size());
-  const std::int64_t measure = measure_ns();
-  for (const Case& c : cases) {
-    CaseObservations& r = all.emplace_back();
-    r.received.bodies.resize(c.scene.bodies.size());
-    r.received.shapes.resize(c.scene.shapes.size());
-    if (arithmetic_ == Arithmetic::float32) round_to_float(c.scene, r.received);
-    for (const Query& q : c.queries) r.answers.push_back(observe(c.scene, q, arithmetic_, measure));
-  }
+  auto all = answer_cases(cases, [&](const Scene& s, const Query& q) { return observe(s, q, arithmetic_); });
+  if (arithmetic_ == Arithmetic::float32)
+    for (std::size_t i = 0; i < cases.size(); ++i) round_to_float(cases[i].scene, all[i].received);
   return all;
 }
 

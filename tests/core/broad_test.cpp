@@ -29,6 +29,20 @@ Aabb random_box(Rng& r, bool lattice) {
   return b;
 }
 
+struct Placed {
+  Shape shape;
+  Pose pose;  // its quaternion has any length
+};
+
+Placed random_body(Rng& r) {
+  Placed p{random_shape(r, static_cast<ShapeKind>(r.below(7)), r.chance(0.3)), {}};
+  p.pose = {r.unit_vector() * r.binary_scale(-20, 40), r.rotation()};
+  const double k = r.binary_scale(-300, 300);
+  Quat& q = p.pose.rotation;
+  q = {q.x * k, q.y * k, q.z * k, q.w * k};
+  return p;
+}
+
 }  // namespace
 
 TEST_CASE("every broad phase reports the pairs of brute force through insert, move and remove", "[broad]") {
@@ -87,10 +101,7 @@ TEST_CASE("boxes contain the exact body and are a few ulp wide of it", "[broad][
   long checked = 0;
   for (std::uint64_t seed = 0; seed < 2000; ++seed) {
     Rng r(seed);
-    const Shape shape = random_shape(r, static_cast<ShapeKind>(r.below(7)), r.chance(0.3));
-    Pose pose{r.unit_vector() * r.binary_scale(-20, 40), r.rotation()};
-    const double k = r.binary_scale(-300, 300);
-    pose.rotation = {pose.rotation.x * k, pose.rotation.y * k, pose.rotation.z * k, pose.rotation.w * k};
+    const auto [shape, pose] = random_body(r);
     const Aabb box = body_box(shape, pose);
     const WideMat rot = wide_rotation(pose.rotation);
     for (int axis = 0; axis < 3; ++axis) {
@@ -111,10 +122,7 @@ TEST_CASE("boxes contain the exact body and are a few ulp wide of it", "[broad][
 TEST_CASE("loose boxes contain the exact body too, at rest and in motion", "[broad][box]") {
   for (std::uint64_t seed = 0; seed < 2000; ++seed) {
     Rng r(seed);
-    const Shape shape = random_shape(r, static_cast<ShapeKind>(r.below(7)), r.chance(0.3));
-    Pose pose{r.unit_vector() * r.binary_scale(-20, 40), r.rotation()};
-    const double k = r.binary_scale(-300, 300);
-    pose.rotation = {pose.rotation.x * k, pose.rotation.y * k, pose.rotation.z * k, pose.rotation.w * k};
+    const auto [shape, pose] = random_body(r);
     const Aabb box = loose_box(shape, pose, box_size(shape)), tight = body_box(shape, pose);
     const double size = box_size(shape);
     const Vec3 slack = 0x1p-45 * (pose.translation.cwiseAbs() + Vec3::Constant(size));

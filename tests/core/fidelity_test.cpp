@@ -121,7 +121,7 @@ TEST_CASE("a simpler shape is within the error that it states", "[fidelity]") {
     const auto s = simpler_shape(h, 2e-3);
     REQUIRE(s);
     CHECK(kind_of(s->shape) == ShapeKind::box);
-    CHECK(s->moved);
+    CHECK(s->moved());
     CHECK(difference(rng, h, *s) <= s->error + 1e-12);
     CHECK(s->error >= 0.5e-3);  // the corner that was cut, seen along the diagonal
     CHECK(simpler_shape(h, 1e-5) == std::nullopt);

@@ -93,17 +93,31 @@ TEST_CASE("a plan that is wrong is found out by the referee", "[plan]") {
   const Course course = course_of(heap(24));
   Fidelity lie;
   lie.error = 1e-3;
-  lie.simpler = {std::nullopt, SimplerShape{Sphere{0.25}, {}, 1e-4, false}};
+  lie.simpler = {std::nullopt, SimplerShape{Sphere{0.25}, {}, 1e-4}};
   const EndPoses poses = end_poses(course);
   const PlanSample sample(course, poses, course_candidates(course, poses), 1, 24);
   PlanRow row;
-  run_course(course, lie,
-             [&](int step, const StepReport& r, const StepWorld&) { sample.judge(step, r, 1e-3, row); });
+  run_course(course, lie, [&](int step, const StepReport& r) { sample.judge(step, r, 1e-3, row); });
   CHECK(row.outside > 0);
   CHECK(row.error > 1e-3);
   // And is not taken over from elsewhere.
   PlanOptions o = quick(0);
   o.given = lie;
+  CHECK_THROWS_AS(make_plan(course, o), InputError);
+}
+
+TEST_CASE("a plan that was altered by hand is refused", "[plan]") {
+  const Course course = course_of(heap(4));
+  PlanOptions o = quick(0);
+  Fidelity& f = o.given.emplace();
+  f.error = 0.2;
+  f.simpler = {std::nullopt, simpler_shape(course.scene.shapes[1], Fidelity::shape_share * f.error)};
+  REQUIRE(f.simpler[1]);
+  const SimplerShape found = *f.simpler[1];
+  CHECK_NOTHROW(make_plan(course, o));
+  f.simpler[1]->error = 0;
+  CHECK_THROWS_AS(make_plan(course, o), InputError);
+  f.simpler[1] = found, f.simpler[1]->in_body.translation.x() += 0.01;
   CHECK_THROWS_AS(make_plan(course, o), InputError);
 }
 
