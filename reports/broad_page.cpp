@@ -1,22 +1,34 @@
 #include "reports/broad_page.h"
 
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <nlohmann/json.hpp>
+
+#include "reports/web_page.h"
+
 namespace touchstone::reports {
 namespace {
 
-constexpr const char* head = R"html(<!DOCTYPE html>
+using Json = nlohmann::json;
+
+constexpr const char* page = R"html(<!DOCTYPE html>
 <html lang="en"><head><meta charset="utf-8"><meta name="viewport" content="width=device-width">
 <title>Broad phase</title>
 <style>
-:root{--ink:#1c2733;--soft:#66727f;--line:#d9dee4;--fixed:#8a949e;--moving:#2f6fb2;--kept:#c8321f;--pruned:#b9a24a;--part:#3a9a6b}
+:root{color-scheme:light dark;background:var(--back);--back:#fff;--ink:#1c2733;--soft:#66727f;--line:#d9dee4;--fixed:#8a949e;--moving:#2f6fb2;--kept:#c8321f;--pruned:#b9a24a;--part:#3a9a6b}
+@media screen and (prefers-color-scheme:dark){:root{--back:#14181d;--ink:#dbe2ea;--soft:#93a0ad;--line:#333c46;--fixed:#7d8893;--moving:#5c9de0;--kept:#ff6b57;--pruned:#c9b35c}}
 *{box-sizing:border-box}
-body{margin:0;padding:20px 24px;font:14px/1.45 system-ui,"DejaVu Sans",sans-serif;color:var(--ink);background:#fff}
+body{margin:0;padding:20px 24px;font:14px/1.45 system-ui,"DejaVu Sans",sans-serif;color:var(--ink)}
 h1{font-size:20px;margin:0 0 2px}h2{font-size:13px;margin:14px 0 4px;font-weight:600}
 p{margin:4px 0;color:var(--soft);max-width:90ch}
 .bar{display:flex;flex-wrap:wrap;gap:8px 18px;align-items:center;margin:12px 0;padding:8px 12px;border:1px solid var(--line);border-radius:6px}
 .bar label{display:flex;gap:6px;align-items:center}
 .grid{display:grid;grid-template-columns:minmax(360px,1.25fr) minmax(320px,1fr);gap:22px}
 @media(max-width:900px){.grid{grid-template-columns:1fr}}
-canvas{width:100%;display:block;border:1px solid var(--line);border-radius:4px;background:#fff}
+canvas{width:100%;display:block;border:1px solid var(--line);border-radius:4px}
 table{border-collapse:collapse;width:100%}td{padding:3px 0;border-bottom:1px solid var(--line)}td:last-child{text-align:right;font-variant-numeric:tabular-nums;white-space:nowrap}
 .dot{display:inline-block;width:10px;height:10px;border-radius:2px;margin-right:6px}
 select,input{font:inherit}#hover{min-height:1.5em;color:var(--ink)}
@@ -42,12 +54,30 @@ their intervals overlap on x, on y and on z.</p>
 <h2>Intervals on z</h2><canvas class="strip" id="strip2"></canvas>
 </div></div>
 <p id="explanation"></p>
-<script type="application/json" id="data">)html";
+<script type="application/json" id="data">__TOUCHSTONE_DATA__</script>
 
-constexpr const char* tail = R"html(</script>
-<script>
-"use strict";
-const data=JSON.parse(document.getElementById("data").textContent);
+<script type="module">
+// JSON, or when it is long {"deflate": its zlib stream in base64}.
+async function pageData(){
+  const value=JSON.parse(document.getElementById("data").textContent);
+  if(typeof value.deflate!=="string")return value;
+  const bytes=Uint8Array.from(atob(value.deflate),c=>c.charCodeAt(0));
+  return new Response(new Blob([bytes]).stream().pipeThrough(new DecompressionStream("deflate"))).json();
+}
+// Boxes as six differences in steps to the body's box before, pairs as differences to the pair before.
+function unpack(d){
+  const end=k=>k===null?null:d.origin+k*d.step,box=v=>[v.slice(0,3).map(end),v.slice(3).map(end)];
+  const last=d.bodies.map(()=>[0,0,0,0,0,0]);
+  const pairs=p=>{const r=[];let a=0,b=0;for(let i=0;i<p.length;i+=2){if(p[i]){a+=p[i];b=a;}b+=p[i+1];r.push([a,b]);}return r;};
+  for(const f of d.frames){
+    f.boxes=f.boxes.map((v,i)=>v&&box(v.map((x,k)=>x===null?null:last[i][k]+=x)));
+    f.kept=pairs(f.kept);
+    for(const l of f.looks){l.pruned=pairs(l.pruned);l.nodes=l.nodes.map(level=>level.map(box));}
+  }
+  return d;
+}
+const data=unpack(await pageData());
+globalThis.touchstoneData=data;  // for tests and for people at the console
 const $=id=>document.getElementById(id);
 const colour=name=>getComputedStyle(document.documentElement).getPropertyValue("--"+name).trim();
 const C={};for(const k of["ink","soft","line","fixed","moving","kept","pruned","part"])C[k]=colour(k);
@@ -174,17 +204,86 @@ draw();
 </script></body></html>
 )html";
 
-// Inside a script element nothing may look like its end: '<' is written as an escape, which JSON knows.
-std::string for_script(const std::string& json) {
-  std::string text;
-  for (const char c : json) text += c == '<' ? std::string("\\u003c") : std::string(1, c);
-  return text;
+// Lengths in the page are whole steps from `origin`, finer than any screen shows. An infinite end is null.
+struct Ruler {
+  double origin = 0, step = 1;
+  std::optional<std::int64_t> operator()(double x) const {
+    constexpr double far = 1e15;
+    if (!std::isfinite(x)) return std::nullopt;
+    return std::llround(std::clamp((x - origin) / step, -far, far));
+  }
+};
+
+std::array<double, 6> ends(const Aabb& b) {
+  return {b.lo.x(), b.lo.y(), b.lo.z(), b.hi.x(), b.hi.y(), b.hi.z()};
+}
+
+Ruler ruler_for(const fuzz::BroadView& view) {
+  constexpr double steps = 1e5;
+  double lo = std::numeric_limits<double>::infinity(), hi = -lo;
+  for (const auto& f : view.frames)
+    for (const auto& b : f.boxes)
+      for (const double x : b ? ends(*b) : std::array<double, 6>{})
+        if (b && std::isfinite(x)) lo = std::min(lo, x), hi = std::max(hi, x);
+  if (!(hi > lo) || !std::isfinite(hi - lo)) return {};
+  return {lo, (hi - lo) / steps};
+}
+
+// A box as differences to `last`, which is what it was in the frame before.
+Json packed(const Aabb& b, const Ruler& ruler, std::array<std::int64_t, 6>& last) {
+  Json j = Json::array();
+  const auto all = ends(b);
+  for (std::size_t k = 0; k < 6; ++k) {
+    const auto x = ruler(all[k]);
+    j.push_back(x ? Json(*x - last[k]) : Json());
+    if (x) last[k] = *x;
+  }
+  return j;
+}
+
+// Sorted pairs (a, b), a < b: a as the difference to the a before, b to the b before or to a new a.
+Json packed(const std::vector<BodyPair>& pairs) {
+  Json j = Json::array();
+  int last_a = 0, last_b = 0;
+  for (const auto& [a, b] : pairs) {
+    if (a != last_a) last_b = a;
+    j.push_back(a - last_a), j.push_back(b - last_b);
+    last_a = a, last_b = b;
+  }
+  return j;
+}
+
+Json packed_nodes(const std::vector<std::vector<Aabb>>& levels, const Ruler& ruler) {
+  Json j = Json::array();
+  for (const auto& level : levels) {
+    Json& boxes = j.emplace_back(Json::array());
+    for (const Aabb& b : level) {
+      std::array<std::int64_t, 6> none{};
+      boxes.push_back(packed(b, ruler, none));
+    }
+  }
+  return j;
 }
 
 }  // namespace
 
 std::string broad_page(const fuzz::BroadView& view) {
-  return head + for_script(fuzz::to_json(view).dump()) + tail;
+  const Ruler ruler = ruler_for(view);
+  Json j = fuzz::to_json(view);
+  j["origin"] = ruler.origin, j["step"] = ruler.step;
+  std::vector<std::array<std::int64_t, 6>> last(view.bodies.size());
+  for (std::size_t i = 0; i < view.frames.size(); ++i) {
+    const auto& f = view.frames[i];
+    Json& frame = j["frames"][i];
+    for (std::size_t b = 0; b < f.boxes.size(); ++b)
+      if (f.boxes[b]) frame["boxes"][b] = packed(*f.boxes[b], ruler, last[b]);
+    frame["kept"] = packed(f.kept);
+    for (std::size_t m = 0; m < f.looks.size(); ++m) {
+      frame["looks"][m]["nodes"] = packed_nodes(f.looks[m].nodes, ruler);
+      frame["looks"][m]["pruned"] = packed(f.looks[m].pruned);
+    }
+  }
+  return web_page(page, j.dump());
 }
 
 }  // namespace touchstone::reports

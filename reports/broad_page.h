@@ -9,6 +9,7 @@
 
 namespace touchstone::reports {
 
+/// Boxes are rounded to a 1e-5th of the picture; counts and pairs are those of the boxes as they were.
 std::string broad_page(const fuzz::BroadView& view);
 
 }  // namespace touchstone::reports

@@ -60,8 +60,8 @@ int run(const ViewOptions& o) {
   if (o.json)
     fmt::print("{}\n", fuzz::to_json(view).dump(1));
   else
-    fmt::print("{}: {} bodies, {} queries; at the last, {} pairs kept of {}\n", view.name, view.bodies.size(),
-               view.frames.size(), last.kept.size(), last.all_pairs);
+    fmt::print("{}: {} bodies, {} queries; at the last, {} pairs kept of {}\n{}: open it in a browser\n",
+               view.name, view.bodies.size(), view.frames.size(), last.kept.size(), last.all_pairs, o.out);
   return exit_clean;
 }
 

@@ -109,6 +109,7 @@ TEST_CASE("pages load, show the numbers of their JSON, draw, move and link in a 
         "view cylinder_in_box -o curved.html" + few, "view mesh_cut_by_box -o mesh.html" + few,
         "view swap_places -o script.html" + few,
         std::string("view thousand_balls -o crowd.html --engines core"),
+        std::string("view swap_places --broad -o broad.html --json > broad.json"),
         "stability --quick --ladder gap --out ." + few,
         "chart --quick --measure 0 --broad grid,brute_force --out ." + few}) {
     const auto r = w.touchstone(line);

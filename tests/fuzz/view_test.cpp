@@ -14,12 +14,6 @@ namespace {
 
 using Json = nlohmann::json;
 
-Json data_of(const std::string& page) {
-  const std::string open = "id=\"data\">";
-  const auto from = page.find(open) + open.size();
-  return Json::parse(page.substr(from, page.find("</script>", from) - from));
-}
-
 bool meet(const Json& a, const Json& b, std::size_t axis) {
   constexpr double inf = std::numeric_limits<double>::infinity();
   const auto low = [&](const Json& x) { return x[0][axis].is_null() ? -inf : x[0][axis].get<double>(); };
@@ -34,10 +28,10 @@ TEST_CASE("the page's pairs are those of two loops over its boxes", "[cli][view]
   long kept = 0, pruned = 0;
   for (const std::string scene : {"thousand_balls", "cubes_fill_space", "around_the_origin"}) {
     INFO(scene);
-    REQUIRE(w.touchstone("view " + scene + " --broad -o page.html").code == 0);
-    const std::string page = read_all(w.dir / "page.html");
-    CHECK(page.find("http") == std::string::npos);  // loads nothing
-    const Json data = data_of(page);
+    const auto r = w.touchstone("view " + scene + " --broad -o page.html --json");
+    REQUIRE(r.code == 0);
+    CHECK(read_all(w.dir / "page.html").find("http") == std::string::npos);  // loads nothing
+    const Json data = Json::parse(r.out);
     REQUIRE(data["methods"].size() == 4);
     for (const Json& f : data["frames"]) {
       Json expected = Json::array();

@@ -1,7 +1,8 @@
 // Pages in a real browser: node pages.mjs CHROMIUM DIR [SCREENSHOTS], where DIR holds case.html (two bodies that touch or overlap),
 // motion.html, report.html, chart.html, stability.html, many.html: a report of 1e5 kinds of
-// findings, separate.html, touching.html, curved.html, mesh.html, script.html, crowd.html: cases of these kinds, certified.html, refuted.html: certificates of broad phases. Prints one line a check; exit code 1 when one fails.
-import { mkdirSync, statSync } from "node:fs";
+// findings, separate.html, touching.html, curved.html, mesh.html, script.html, crowd.html: cases of these kinds, certified.html, refuted.html: certificates of broad phases,
+// broad.html, broad.json: a script's broad phases as a page and as `--json`. Prints one line a check; exit code 1 when one fails.
+import { mkdirSync, readFileSync, statSync } from "node:fs";
 import { join } from "node:path";
 import { chromium } from "playwright-core";
 
@@ -70,6 +71,26 @@ for (const name of ["case.html", "crowd.html", "motion.html", "report.html", "ma
       check(`${name} prints no pale letters`, pale === 0, String(pale));
       await shoot(page, `${name.replace(".html", "")}-print`);
     }
+    await page.close();
+  }
+}
+
+{
+  check("broad.html is smaller than 5 MB", statSync(join(dir, "broad.html")).size < 5e6);
+  for (const dark of [false, true]) {
+    const { page, errors } = await open("broad.html", { dark });
+    check(`broad.html, ${dark ? "dark" : "light"}, loads without an error`, errors.length === 0, errors.join("; "));
+    const back = await page.evaluate(() => getComputedStyle(document.documentElement).backgroundColor);
+    check(`broad.html is ${dark ? "dark" : "light"}`, (back === "rgb(255, 255, 255)") !== dark, back);
+    await shoot(page, `broad-1280${dark ? "-dark" : ""}`);
+    const d = await data(page), full = JSON.parse(readFileSync(join(dir, "broad.json"), "utf8"));
+    const near = (x, y) => x === y || Math.abs(x - y) <= d.step;
+    check("broad.html has the pairs of the JSON", full.frames.every((f, i) => JSON.stringify([f.kept, f.looks.map((l) => l.pruned)]) === JSON.stringify([d.frames[i].kept, d.frames[i].looks.map((l) => l.pruned)])));
+    check("broad.html has the boxes of the JSON", full.frames.every((f, i) => f.boxes.every((b, k) => (b === null ? d.frames[i].boxes[k] === null : b.flat().every((x, m) => near(x, d.frames[i].boxes[k].flat()[m]))))));
+    const drawn = () => page.evaluate(() => document.querySelector("#plan").toDataURL());
+    const first = await drawn();
+    await page.$eval("#frame", (e) => { e.value = e.max; e.dispatchEvent(new Event("input")); });
+    check("broad.html's slider moves the boxes", full.frames.length > 1 && (await drawn()) !== first);
     await page.close();
   }
 }
