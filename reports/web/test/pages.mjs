@@ -244,7 +244,14 @@ for (const [name, question, drawn, words] of [
     return bad + (next !== numbers.length);
   });
   check("a finding has its own words", wrong === 0, String(wrong));
+  await page.focus("#filter-shapes");
+  check("a filter of many values has them once it is wanted", (await page.$$eval("#filter-shapes option", (o) => o.length)) === f.coded.shapes.values.length + 1);
   await page.close();
+  const shapes = f.coded.shapes.values.at(-1);
+  const linked = await open("many.html", { hash: `#shapes=${encodeURIComponent(shapes)}` });
+  const own = f.coded.shapes.codes.filter((c) => c === f.coded.shapes.values.length - 1).length;
+  check("a link filters by one of them", (await linked.page.textContent("#found")).startsWith(`${own} of `), await linked.page.textContent("#found"));
+  await linked.page.close();
 }
 
 {

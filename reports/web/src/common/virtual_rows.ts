@@ -1,5 +1,5 @@
 // A table of any length: only the lines in sight are in the document, the rest is two empty lines as high as they are.
-import { el } from "./page";
+import { el, grouped } from "./page";
 
 const lineHeight = 27;
 const spare = 12;  // lines kept above and below, so that a turn of the wheel shows no hole
@@ -86,7 +86,7 @@ export class VirtualRows {
       rows.push(tr);
     }
     const gap = (lines: number): HTMLElement => el("tr", { class: "gap", "aria-hidden": "true" }, el("td", { style: `height:${lines * lineHeight}px` }));
-    const rest = el("tr", { class: "print-only" }, el("td", { colspan: "4" }, `and ${(n - last).toLocaleString("en-US")} more lines`));
+    const rest = el("tr", { class: "print-only" }, el("td", { colspan: "4" }, `and ${grouped(n - last)} more lines`));
     this.body.replaceChildren(...(first > 0 ? [gap(first)] : []), ...rows, ...(last < n ? [all ? rest : gap(n - last)] : []));
   }
 }

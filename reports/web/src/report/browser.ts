@@ -23,6 +23,7 @@ export class FindingsBrowser {
   private detail = el("div", { id: "detail" });
   private rows = new VirtualRows("findings");
   private selects = new Map<Part, HTMLSelectElement>();
+  private fills = new Map<Part, () => void>();
   private group = el("select", { id: "group", "aria-label": "grouped by" });
   private search = el("input", { type: "search", placeholder: "words in it (key /)", "aria-label": "words in the finding" });
   private all = el("button", { type: "button", id: "open-all" });
@@ -57,9 +58,16 @@ export class FindingsBrowser {
     const counts = new Int32Array(this.f.values(p).length);
     for (let i = 0; i < this.f.count; ++i) counts[this.f.code(i, p)]! += 1;
     if (counts.length < 2) return;
-    const options = this.f.values(p).map((v, i) => [v, counts[i]!] as const).sort((a, b) => b[1] - a[1]);
-    const select = el("select", { "aria-label": p, id: `filter-${p}` }, el("option", { value: "" }, p === "magnitude" ? "any size" : `any ${p}`),
-      ...options.map(([v, n]) => el("option", { value: v }, `${spaced(v)} (${grouped(n)})`)));
+    const select = el("select", { "aria-label": p, id: `filter-${p}` }, el("option", { value: "" }, p === "magnitude" ? "any size" : `any ${p}`));
+    const fill = (): void => {
+      if (select.length > 1) return;
+      const options = this.f.values(p).map((v, i) => [v, counts[i]!] as const).sort((a, b) => b[1] - a[1]);
+      select.append(...options.map(([v, n]) => el("option", { value: v }, `${spaced(v)} (${grouped(n)})`)));
+    };
+    // Thousands of options cost more than the rest of the page: they come when somebody wants one.
+    this.fills.set(p, fill);
+    if (counts.length <= 500) fill();
+    else for (const event of ["pointerdown", "focus"]) select.addEventListener(event, fill);
     select.addEventListener("change", () => this.changed(p, select.value || null, true));
     this.selects.set(p, select);
     this.controls.append(select);
@@ -73,7 +81,11 @@ export class FindingsBrowser {
 
   /** Takes the state over from the address. */
   follow(): void {
-    for (const [p, s] of this.selects) s.value = this.link.get(p) ?? "";
+    for (const [p, s] of this.selects) {
+      const value = this.link.get(p) ?? "";
+      if (value) this.fills.get(p)!();
+      s.value = value;
+    }
     this.search.value = this.link.get("words") ?? "";
     this.group.value = String(Math.min(groupings.length - 1, Math.max(0, this.link.number("group") ?? 0)));
     this.open = new Set((this.link.get("open") ?? "").split(",").filter(Boolean));
