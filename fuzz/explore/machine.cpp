@@ -34,8 +34,10 @@ Machine this_machine() {
   m.processor = processor(), m.cores = std::thread::hardware_concurrency(), m.date = today();
   utsname u{};
   if (uname(&u) == 0) m.system = std::string(u.sysname) + " " + u.release + " " + u.machine;
-#ifdef __VERSION__
-  m.compiler = __VERSION__;
+#ifdef __clang__
+  m.compiler = __VERSION__;  // names itself
+#elif defined(__GNUC__)
+  m.compiler = "GCC " __VERSION__;
 #endif
   double load[1] = {0};
   if (getloadavg(load, 1) == 1) m.load = load[0];

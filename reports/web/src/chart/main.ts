@@ -79,6 +79,7 @@ function draw(): void {
   for (const s of [regime, pair, scale]) s.disabled = crowd;
   const point = (r: Row): [number, number] => [Math.max(r[time.value as "ns_median"], 0.5), crowd ? inaccuracy(r) : Math.max(inaccuracy(r), floor)];
   const ink = css("--ink");
+  const narrow = innerWidth < 600;  // no room for names beside the points
   const curves = [...new Set(list.map((r) => method(r.engine)))].map((m) => list.filter((r) => method(r.engine) === m).sort((a, b) => a.ns_median - b.ns_median)).filter((c) => c.length > 1);
   // A curve is named at its first point, the others by their setting.
   const label = (r: Row): string => (curves.some((c) => c.slice(1).includes(r)) && r.engine.includes("@") ? r.engine.slice(r.engine.indexOf("@")) : r.engine);
@@ -87,16 +88,16 @@ function draw(): void {
     return {
       name: r.engine, value: point(r), row: r, symbol: r.front ? "diamond" : "circle", symbolSize: r.tie ? 14 : r.front ? 17 : 12,
       itemStyle: r.unsound ? { color: "transparent", borderColor: c, borderWidth: 2 } : { color: c, borderColor: ink, borderWidth: r.front ? 1.5 : 0 },
-      label: { show: true, formatter: label(r), position: "right", color: r.unsound ? css("--soft") : ink, fontSize: 11 },
+      label: { show: true, formatter: label(r), position: narrow ? "top" : "right", color: r.unsound ? css("--soft") : ink, fontSize: 11 },
     };
   };
   const front = list.filter((r) => r.front).sort((a, b) => a.ns_median - b.ns_median);
   plot.setOption({
     animation: false,
     tooltip: { trigger: "item", confine: true, formatter: (p: { data?: { row?: Row } }) => (p.data?.row ? words(p.data.row) : "") },
-    grid: { left: 76, right: 130, top: 16, bottom: 50 },
+    grid: { left: 76, right: narrow ? 36 : 130, top: narrow ? 24 : 16, bottom: 50 },
     xAxis: axis(`${time.selectedOptions[0]!.text} of a query, ns`, true),
-    yAxis: crowd ? axis("share of superfluous pairs", false, { nameGap: 48, min: 0, max: 1 }) : axis(`${measure.selectedOptions[0]!.text} / L (0 is drawn at ${floor})`, true,
+    yAxis: crowd ? axis("share of superfluous pairs", false, { nameGap: 48, min: 0, max: 1 }) : axis(`${measure.selectedOptions[0]!.text}${measure.value.startsWith("error") ? " / L" : ""} (0 is drawn at ${floor})`, true,
       { nameGap: 58, splitNumber: 9, min: floor, max: 10 ** Math.ceil(Math.log10(Math.max(1e-9, ...list.map(inaccuracy))) + 0.5), axisLabel: { color: ink, formatter: (x: number) => (x === floor ? "0" : x.toExponential(0)) } }),
     series: [
       { type: "line", data: front.map(point), lineStyle: { color: css("--good"), width: 2 }, symbol: "none", silent: true, z: 1 },
@@ -118,7 +119,7 @@ function drawTable(list: Row[]): void {
     return el("tr", { "data-engine": r.engine }, el("td", { style: "white-space:nowrap" }, el("span", { class: "swatch", style: `background:${colour(r.engine)}` }), r.engine), el("td", { class: "good" }, r.tie ? "front, tie" : r.front ? "front" : ""),
       n(grouped(r.answers)), n(nanoseconds(r.ns_median)), n(nanoseconds(r.ns_p99)), n(`${Math.round(100 * r.ns_spread)} %`),
       ...(r.question === "candidates" ? [n(""), n(`${(100 * precision(r)).toFixed(1)} %`), n("")] : [n(e(r.error_p50)), n(e(r.error_p99)), n(e(r.error_max))]),
-      n(grouped(r.missed), r.missed > 0), n(grouped(r.ghost), r.ghost > 0), n(grouped(r.failed), r.failed > 0), n(grouped(r.wrong), r.wrong > 0), el("td", { class: "soft" }, r.unsound));
+      n(grouped(r.missed), r.missed > 0), n(grouped(r.ghost), r.ghost > 0), n(grouped(r.failed), r.failed > 0), n(grouped(r.wrong), r.wrong > 0), el("td", { class: "soft", style: "min-width:16rem" }, r.unsound));
   }));
   table.replaceChildren(el("table", {}, el("thead", {}, el("tr", {}, ...head.map((h, i) => el("th", i > 1 && i < 13 ? { class: "n" } : {}, h)))), body));
 }
