@@ -81,14 +81,15 @@ function draw(): void {
   const ink = css("--ink");
   const narrow = innerWidth < 600;  // no room for names beside the points
   const curves = [...new Set(list.map((r) => method(r.engine)))].map((m) => list.filter((r) => method(r.engine) === m).sort((a, b) => a.ns_median - b.ns_median)).filter((c) => c.length > 1);
-  // A curve is named at its first point, the others by their setting.
+  // A curve is named at its first point, its last by its setting; what lies between is in the table and under the mouse.
+  const between = (r: Row): boolean => !r.front && curves.some((c) => c.slice(1, -1).includes(r));
   const label = (r: Row): string => (curves.some((c) => c.slice(1).includes(r)) && r.engine.includes("@") ? r.engine.slice(r.engine.indexOf("@")) : r.engine);
   const one = (r: Row): object => {
     const c = colour(r.engine);
     return {
       name: r.engine, value: point(r), row: r, symbol: r.front ? "diamond" : "circle", symbolSize: r.tie ? 14 : r.front ? 17 : 12,
       itemStyle: r.unsound ? { color: "transparent", borderColor: c, borderWidth: 2 } : { color: c, borderColor: ink, borderWidth: r.front ? 1.5 : 0 },
-      label: { show: true, formatter: label(r), position: narrow ? "top" : "right", color: r.unsound ? css("--soft") : ink, fontSize: 11 },
+      label: { show: !between(r), formatter: label(r), position: narrow ? "top" : "right", color: r.unsound ? css("--soft") : ink, fontSize: 11 },
     };
   };
   const front = list.filter((r) => r.front).sort((a, b) => a.ns_median - b.ns_median);
@@ -119,7 +120,7 @@ function drawTable(list: Row[]): void {
     return el("tr", { "data-engine": r.engine }, el("td", { style: "white-space:nowrap" }, el("span", { class: "swatch", style: `background:${colour(r.engine)}` }), r.engine), el("td", { class: "good" }, r.tie ? "front, tie" : r.front ? "front" : ""),
       n(grouped(r.answers)), n(nanoseconds(r.ns_median)), n(nanoseconds(r.ns_p99)), n(`${Math.round(100 * r.ns_spread)} %`),
       ...(r.question === "candidates" ? [n(""), n(`${(100 * precision(r)).toFixed(1)} %`), n("")] : [n(e(r.error_p50)), n(e(r.error_p99)), n(e(r.error_max))]),
-      n(grouped(r.missed), r.missed > 0), n(grouped(r.ghost), r.ghost > 0), n(grouped(r.failed), r.failed > 0), n(grouped(r.wrong), r.wrong > 0), el("td", { class: "soft", style: "min-width:16rem" }, r.unsound));
+      n(grouped(r.missed), r.missed > 0), n(grouped(r.ghost), r.ghost > 0), n(grouped(r.failed), r.failed > 0), n(grouped(r.wrong), r.wrong > 0), el("td", { class: "soft", style: "min-width:10rem" }, r.unsound));
   }));
   table.replaceChildren(el("table", {}, el("thead", {}, el("tr", {}, ...head.map((h, i) => el("th", i > 1 && i < 13 ? { class: "n" } : {}, h)))), body));
 }
