@@ -19,6 +19,20 @@ std::string mebibytes(std::uintmax_t bytes) { return std::to_string(bytes >> 20)
                    "is " + size + "; files larger than " + mebibytes(max_bytes) + " are refused");
 }
 
+void require_written(const std::filesystem::path& file, int why) {
+  if (why != 0) throw InputError(file.string(), std::string("cannot be written: ") + std::strerror(why));
+}
+
+// 0, or the system's reason why not.
+int write_in_place(const std::filesystem::path& file, std::string_view text) {
+  errno = 0;
+  std::ofstream out(file, std::ios::binary | std::ios::trunc);
+  if (out) out.write(text.data(), static_cast<std::streamsize>(text.size()));
+  out.close();
+  if (out) return 0;
+  return errno != 0 ? errno : EIO;
+}
+
 }  // namespace
 
 std::string read_file(const std::filesystem::path& file, std::uintmax_t max_bytes) {
@@ -47,13 +61,19 @@ std::string read_file(const std::filesystem::path& file, std::uintmax_t max_byte
 }
 
 void write_file(const std::filesystem::path& file, std::string_view text) {
-  errno = 0;
-  std::ofstream out(file, std::ios::binary | std::ios::trunc);
-  if (!out) throw InputError(file.string(), std::string("cannot be written: ") + std::strerror(errno));
-  out.write(text.data(), static_cast<std::streamsize>(text.size()));
-  out.close();
-  if (!out)
-    throw InputError(file.string(), std::string("could not be written to the end: ") + std::strerror(errno));
+  namespace fs = std::filesystem;
+  std::error_code ec;
+  const fs::file_status status = fs::status(file, ec);
+  if (fs::exists(status) && !fs::is_regular_file(status))
+    return require_written(file, write_in_place(file, text));
+  const fs::path target = fs::is_symlink(file, ec) ? fs::canonical(file, ec) : file;
+  const fs::path temporary = target.string() + ".part";
+  if (const int why = write_in_place(temporary, text); why != 0) {
+    if (fs::is_regular_file(temporary, ec)) fs::remove(temporary, ec);
+    require_written(file, why);
+  }
+  fs::rename(temporary, target, ec);
+  if (ec) throw InputError(file.string(), "cannot be replaced: " + ec.message());
 }
 
 }  // namespace touchstone

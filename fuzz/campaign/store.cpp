@@ -4,7 +4,7 @@
 #include <system_error>
 
 #include "core/base/input_error.h"
-#include "core/scene/codec.h"
+#include "core/scene/input_file.h"
 #include "scenarios/case_codec.h"
 
 namespace touchstone::fuzz {
@@ -43,23 +43,6 @@ Pool pool_from_json(const Json& j) {
 
 }  // namespace
 
-void write_atomically(const std::filesystem::path& file, const std::string& text) {
-  const std::filesystem::path temporary = file.string() + ".part";
-  std::error_code ec;
-  {
-    std::ofstream f(temporary, std::ios::binary);
-    f << text;
-    f.flush();
-    if (!f) {
-      f.close();
-      std::filesystem::remove(temporary, ec);
-      throw InputError(temporary.string(), "cannot be written (disk full, or no permission?)");
-    }
-  }
-  std::filesystem::rename(temporary, file, ec);
-  if (ec) throw InputError(file.string(), "cannot be replaced: " + ec.message());
-}
-
 std::optional<StoredState> load_state(const CampaignConfig& config) {
   const auto file = config.out / "state.json";
   if (!std::filesystem::exists(file)) return std::nullopt;
@@ -94,7 +77,7 @@ void save_state(const std::filesystem::path& out, const Json& settings, const St
             {"result", to_json(s.result, true)}};
   // Needed to go on, and by nobody else.
   if (!s.finished && s.pool.size() > 0) j["pool"] = pool_json(s.pool);
-  write_atomically(out / "state.json", j.dump());
+  write_file(out / "state.json", j.dump());
 }
 
 void make_directory(const std::filesystem::path& directory) {
@@ -108,16 +91,16 @@ void save_findings(const std::filesystem::path& out, const CampaignResult& resul
     const auto dir = out / "findings" / key;
     make_directory(dir);
     const Json evidence = f.evidence_json();
-    write_atomically(dir / "case.json", evidence.at("case").dump(1) + "\n");
+    write_file(dir / "case.json", evidence.at("case").dump(1) + "\n");
     Json j = {{"key", key}};
     j.update(to_json(f));
     for (const char* part : {"observation", "certificate", "received"}) j[part] = evidence.at(part);
-    write_atomically(dir / "finding.json", j.dump(1) + "\n");
+    write_file(dir / "finding.json", j.dump(1) + "\n");
   }
   Json summary = to_json(result, true);
   for (auto& [key, f] : summary["findings"].items()) f.erase("evidence");
   summary["digest"] = digest(result);
-  write_atomically(out / "summary.json", summary.dump(1) + "\n");
+  write_file(out / "summary.json", summary.dump(1) + "\n");
 }
 
 }  // namespace touchstone::fuzz

@@ -30,6 +30,5 @@ void save_state(const CampaignConfig& config, const StoredState& state);
 /// With settings as they are in another state.
 void save_state(const std::filesystem::path& out, const Json& settings, const StoredState& state);
 void save_findings(const std::filesystem::path& out, const CampaignResult& result);
-void write_atomically(const std::filesystem::path& file, const std::string& text);
 
 }  // namespace touchstone::fuzz

@@ -113,7 +113,7 @@ void write_scripts(const CertifyOptions& o, const BroadCertificate& c) {
       fmt::print("the script that refutes it ({}):\n{}", to_string(r.level), to_text(stored));
       continue;
     }
-    fuzz::write_atomically(file, to_text(stored));
+    write_file(file, to_text(stored));
     fmt::print("script: {}\n", file);
   }
 }
@@ -146,7 +146,7 @@ int certify_subject(const CertifyOptions& o) {
     fmt::print(stderr, "interrupted: no certificate\n");
     return exit_failed;
   }
-  if (!o.out.empty()) fuzz::write_atomically(o.out, to_json(*c).dump(1) + "\n");
+  if (!o.out.empty()) write_file(o.out, to_json(*c).dump(1) + "\n");
   const bool page = !o.page.empty() && write_certificate_page(o, *c);
   if (o.json) {
     fmt::print("{}\n", to_json(*c).dump(1));
