@@ -125,8 +125,33 @@ bool may_touch(const MovingPart& a, const MovingPart& b, double t) {
   return judge_convex(a.at(t), b.at(t), {}, Effort::verdict_only).verdict != Verdict::disjoint;
 }
 
+// Four vertices that are not in one plane, exactly.
+bool is_solid(const Hull& hull) {
+  const Rational3 origin = exact(hull.vertices.front()), zero{0, 0, 0};
+  Rational3 edge = zero, normal = zero;
+  for (const Vec3& v : hull.vertices) {
+    const Rational3 d = exact(v) - origin;
+    if (dot(normal, d) != 0) return true;
+    if (dot(normal, normal) != 0) continue;
+    if (dot(edge, edge) == 0)
+      edge = d;
+    else
+      normal = cross(edge, d);
+  }
+  return false;
+}
+
+// Where a body that turns is at t > 0 is known up to a rounding, and the checker wants a ball of that size
+// inside of it about the common point: a surface has none.
+bool has_room(const Placed& p, const Motion& m) {
+  if (m.angular.isZero(0)) return true;
+  const auto* hull = std::get_if<Hull>(p.shape);
+  return hull ? is_solid(*hull) : !std::holds_alternative<TriangleMesh>(*p.shape);
+}
+
 bool add_contact_at(ImpactCertificate& c, const Scene2& s, const MovingParts& a, const MovingParts& b,
                     double t) {
+  if (t > 0 && !(has_room(s.a, s.motion_a) && has_room(s.b, s.motion_b))) return false;
   for (const MovingPart& x : a)
     for (const MovingPart& y : b) {
       if (!may_touch(x, y, t)) continue;

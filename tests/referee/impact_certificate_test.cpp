@@ -148,6 +148,23 @@ TEST_CASE("half-spaces and meshes have certificates of their motions", "[referee
   }
 }
 
+// The checker knows where it is up to a rounding only, and no ball of that size is in it; exact tests of
+// points that cannot be accepted have cost 40 s for one pair.
+TEST_CASE("a flat body that turns has planes and no common point; one that does not turn has both",
+          "[referee][motion][checker]") {
+  const Shape leaf = Hull{{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0.25, 1, 0}}, {}, 2}, die = Box{{1, 1, 1}};
+  for (const bool turns : {true, false}) {
+    const Pairing p{at(die, {0, 0, 0}), at(leaf, {4, 0.25, 0.5}), rest,
+                    moving({-4, 0, 0}, turns ? Vec3(0.5, 0.25, 0.125) : Vec3(0, 0, 0))};
+    REQUIRE(p.truth().verdict == Hit::hit);
+    const ImpactCertificate c = p.certificate();
+    REQUIRE(p.accepts(c));
+    REQUIRE_FALSE(c.tracks.empty());
+    REQUIRE(c.clear_until >= p.truth().t_lo - 1e-13);
+    REQUIRE(c.contact.has_value() == !turns);
+  }
+}
+
 TEST_CASE("a bar that swings through between two keys is caught by the bound of its bend",
           "[referee][motion][checker]") {
   // A unit bar about its middle; the plane x = 0.99 keeps its ends away at both keys and not in between.
