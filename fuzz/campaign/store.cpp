@@ -1,6 +1,5 @@
 #include "fuzz/campaign/store.h"
 
-#include <fstream>
 #include <system_error>
 
 #include "core/base/input_error.h"

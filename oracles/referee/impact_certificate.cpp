@@ -151,7 +151,6 @@ bool has_room(const Placed& p, const Motion& m) {
 
 bool add_contact_at(ImpactCertificate& c, const Scene2& s, const MovingParts& a, const MovingParts& b,
                     double t) {
-  if (t > 0 && !(has_room(s.a, s.motion_a) && has_room(s.b, s.motion_b))) return false;
   for (const MovingPart& x : a)
     for (const MovingPart& y : b) {
       if (!may_touch(x, y, t)) continue;
@@ -170,7 +169,9 @@ bool add_contact_at(ImpactCertificate& c, const Scene2& s, const MovingParts& a,
 // later will do if the bodies are deeper there.
 void add_contact(ImpactCertificate& c, const Scene2& s, const MovingParts& a, const MovingParts& b,
                  double t_hi) {
-  if (add_contact_at(c, s, a, b, t_hi)) return;
+  const bool room = has_room(s.a, s.motion_a) && has_room(s.b, s.motion_b);
+  if (!room && t_hi > 0) return;
+  if (add_contact_at(c, s, a, b, t_hi) || !room) return;
   for (const double later : {0x1p-53, 0x1p-51, 0x1p-48, 0x1p-44, 0x1p-40, 0x1p-34, 0x1p-27}) {
     const double t = std::min(1.0, std::max(std::nextafter(t_hi, 2.0), t_hi + later));
     if (add_contact_at(c, s, a, b, t)) return;
