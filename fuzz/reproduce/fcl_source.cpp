@@ -138,7 +138,9 @@ constexpr std::string_view ask_distance = R"(Answer ask() {
   request.gjk_solver_type = fcl::@SOLVER@;
   fcl::DistanceResultd result;
   fcl::distance(shape_a.get(), transform(at_a), shape_b.get(), transform(at_b), request, result);
-@AGAIN@  Answer x;
+@AGAIN@  // A mesh is put first by FCL, and its point then too.
+  if (result.o1 == shape_b.get()) std::swap(result.nearest_points[0], result.nearest_points[1]);
+  Answer x;
   x.distance = result.min_distance;
   x.overlap = x.distance <= 0;
   x.points = {vec(result.nearest_points[0]), vec(result.nearest_points[1])};

@@ -27,6 +27,7 @@ constexpr std::string_view program = R"(// @TITLE@
 #include <cmath>
 #include <cstdio>
 #include <exception>
+#include <utility>
 #include <vector>
 
 namespace {

@@ -16,6 +16,7 @@
 
 #include <limits>
 #include <numbers>
+#include <utility>
 
 #include "oracles/api/plugin_kit.h"
 
@@ -36,6 +37,13 @@ fcl::CollisionRequestd collision_request(const Settings& s, bool with_contacts) 
   return r;
 }
 
+/// FCL takes a mesh first, whatever the order of its arguments: o1 and o2 of a contact or of a distance say
+/// whose the normal and the points are. One shape in both roles is never reordered.
+template <class Result>
+bool has_b_first(const Result& r, const Placed& a, const Placed& b) {
+  return r.o1 == b.geometry && r.o2 == a.geometry && a.geometry != b.geometry;
+}
+
 fcl::DistanceResultd run_distance(const Placed& a, const Placed& b, const Settings& s, bool with_sign,
                                   double tolerance) {
   fcl::DistanceRequestd request(/*enable_nearest_points=*/true, with_sign);
@@ -49,6 +57,7 @@ fcl::DistanceResultd run_distance(const Placed& a, const Placed& b, const Settin
   // For a pair that it has no function for, FCL warns and leaves the largest double in place.
   if (result.min_distance == std::numeric_limits<double>::max())
     throw kit::Unsupported("fcl::distance has no function for these shapes in this order");
+  if (has_b_first(result, a, b)) std::swap(result.nearest_points[0], result.nearest_points[1]);
   return result;
 }
 
@@ -104,10 +113,7 @@ Contact contact(const Placed& a, const Placed& b, const Settings& s) {
     c.points.push_back({k.pos, k.penetration_depth});
     if (!(k.penetration_depth > c.depth)) continue;
     c.depth = k.penetration_depth;
-    // Contact::normal points from o1 to o2, and FCL puts a mesh first. One shape in both roles is never
-    // reordered.
-    c.normal = k.o1 == b.geometry && k.o2 == a.geometry && a.geometry != b.geometry ? Vec3(-k.normal)
-                                                                                    : Vec3(k.normal);
+    c.normal = has_b_first(k, a, b) ? Vec3(-k.normal) : Vec3(k.normal);  // it points from o1 to o2
   }
   if (s.tuned && s.libccd() && c.overlap && is_bounded_convex(a) && is_bounded_convex(b)) refine(a, b, s, c);
   return c;
