@@ -90,7 +90,7 @@ std::optional<bool> contains_short(const Placed& body, const Vec3& point_w) {
   Grid g, turn;
   g.fit(point_w), g.fit(pose->translation);
   for (double q : {pose->rotation.x, pose->rotation.y, pose->rotation.z, pose->rotation.w}) turn.fit(q);
-  Vec3 size;
+  Vec3 size = Vec3::Zero();
   if (const auto* s = std::get_if<Cylinder>(body.shape)) {
     size = {s->radius, s->half_height, 1};
   } else if (const auto* s = std::get_if<Cone>(body.shape)) {
