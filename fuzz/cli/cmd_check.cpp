@@ -54,6 +54,9 @@ std::string claim(const referee::ImpactCertificate& c) {
   std::string s;
   if (!c.tracks.empty()) s = fmt::format("are apart up to t = {}", c.clear_until);
   if (c.contact) s += fmt::format("{}meet at t = {}", s.empty() ? "" : " and ", c.contact->t);
+  if (c.overlap)
+    s += fmt::format("{}are at least {} deep at t = {}", s.empty() ? "" : " and ", c.overlap->inner.offset,
+                     c.overlap->t);
   return s;
 }
 

@@ -174,9 +174,11 @@ double Truth::depth_in_mesh(int frame, int a, int b) const {
   return depth;
 }
 
-double Truth::depth_before(int frame, int a, int b, double t) const {
+double Truth::depth_before(int frame, int a, int b, double t) {
+  const referee::TimeTruth& truth = motion(frame, a, b);
+  const double contact = truth.verdict == referee::TimeTruth::Verdict::hit ? truth.t_hi : 0;
   return referee::certified_depth_before(placed(frame, a), motion_of(asked_, a), placed(frame, b),
-                                         motion_of(asked_, b), t);
+                                         motion_of(asked_, b), t, contact);
 }
 
 double Truth::depth_in_step(int frame, int a, int b) {

@@ -27,12 +27,33 @@ Json exact_certificate_of(const Evidence& e) {
   return it->second;
 }
 
+// Of an answer that is none or late: how deep the bodies are in each other at some time up to it.
+Json with_depth(Json certificate, const Evidence& e) {
+  const double t = e.observation.toi.value_or(1);
+  const auto a = placed_at(e.c.scene, e.a, e.step), b = placed_at(e.c.scene, e.b, e.step);
+  const double clear = certificate.is_null() ? 0 : certificate.value("clear_until", 0.0);
+  if (e.observation.outcome != Outcome::answered || !a || !b || e.a == e.b) return certificate;
+  if (!(t > clear && t <= 1)) return certificate;
+  const Motion ma = motion_of(e.c.scene, e.a), mb = motion_of(e.c.scene, e.b);
+  const referee::TimeTruth truth = referee::judge_motion(*a, ma, *b, mb);
+  const bool hit = truth.verdict == referee::TimeTruth::Verdict::hit;
+  referee::ImpactCertificate depth;
+  add_overlap(depth, *a, ma, *b, mb, referee::deepest_before(*a, ma, *b, mb, t, hit ? truth.t_hi : 0));
+  if (!depth.overlap) return certificate;
+  if (certificate.is_null()) return named(referee::to_json(depth), e.a, e.b, e.step);
+  certificate["overlap"] = referee::to_json(depth).at("overlap");
+  return certificate;
+}
+
 Json certificate_of(const Evidence& e) {
   using Kind = referee::Certificate::Kind;
   const Kind k = e.certificate.kind;
   const bool verdict = k == Kind::separating_plane || k == Kind::common_point;
-  if (verdict || e.question == Question::time_of_impact)
+  if (e.question == Question::time_of_impact) {
+    if (Json j = with_depth(exact_certificate_of(e), e); !j.is_null()) return j;
+  } else if (verdict) {
     if (Json j = exact_certificate_of(e); !j.is_null()) return j;
+  }
   const int n = static_cast<int>(e.c.scene.bodies.size());
   const bool names = e.a >= 0 && e.b >= 0 && e.a < n && e.b < n;
   return names ? named(referee::to_json(e.certificate), e.a, e.b, e.step) : referee::to_json(e.certificate);

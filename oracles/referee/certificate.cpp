@@ -133,6 +133,13 @@ Certificate core_pair_certificate(const Real3& a, const Real3& b, const Vec3& or
   return c;
 }
 
+Certificate lower_depth_certificate(const ConvexTruth& t, const Difference& d, const Vec3& origin) {
+  if (t.inner) return inner_certificate(*t.inner, origin, std::min(t.inner_depth, -t.hi));
+  const Real3 a = t.witness_a - static_cast<Real>(d.a.radius) * t.normal;
+  const Real3 b = t.witness_b + static_cast<Real>(d.b.radius) * t.normal;
+  return core_pair_certificate(a, b, origin, -t.hi);
+}
+
 namespace {
 
 // The deepest (or nearest) core point of the body against the half-space: itself, or, when it is outside by

@@ -15,5 +15,7 @@ Certificate exact_certificate(const ExactPair& p, const ExactVerdict& v);
 Certificate inner_certificate(const InnerPolytope& p, const Vec3& origin, Real depth);
 /// Of one point of each core, balls not included.
 Certificate core_pair_certificate(const Real3& a, const Real3& b, const Vec3& origin, Real depth);
+/// That the two are at least -t.hi deep in each other; `t` is of an overlap, found with Effort::certificate.
+Certificate lower_depth_certificate(const ConvexTruth& t, const Difference& d, const Vec3& origin);
 
 }  // namespace touchstone::referee

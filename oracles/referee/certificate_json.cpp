@@ -80,6 +80,10 @@ nlohmann::ordered_json to_json(const ImpactCertificate& c) {
     }
   }
   if (c.contact) j["contact"] = {{"t", c.contact->t}, {"point", c.contact->point}};
+  if (c.overlap)
+    j["overlap"] = {{"t", c.overlap->t},
+                    {"parts", {c.overlap->part_a, c.overlap->part_b}},
+                    {"depth", to_json(c.overlap->inner)}};
   return j;
 }
 
@@ -100,6 +104,11 @@ ImpactCertificate impact_certificate_from_json(const nlohmann::ordered_json& j) 
     if (j.contains("contact"))
       c.contact = {j.at("contact").at("t").get<std::string>(),
                    j.at("contact").at("point").get<std::array<std::string, 3>>()};
+    if (j.contains("overlap")) {
+      const auto& o = j.at("overlap");
+      const auto parts = o.at("parts").get<std::array<std::size_t, 2>>();
+      c.overlap = {o.at("t").get<double>(), parts[0], parts[1], certificate_from_json(o.at("depth"))};
+    }
     return c;
   } catch (const nlohmann::json::exception& e) {
     throw InputError("certificate", std::string("cannot be read: ") + e.what());

@@ -90,19 +90,24 @@ bool holds_ball(const std::vector<V>& point, const std::vector<std::array<int, 3
   return crossings != 0 && forward == backward;
 }
 
+}  // namespace
+
 // The points of a pair are near the cores: each may be e off, which costs e of depth; the hull of their
 // differences is then within 2e of the difference of the cores. In a half-space m·x <= o a single point of
-// the other body shows its depth: m·x - o <= -(depth - ball + e)·|m|.
-bool check_inner(const Certificate& c, const Set& a, const Set& b) {
+// the other body shows its depth: m·x - o <= -(depth - ball + e)·|m|. A point within near of a core is within
+// near + loose·(its distance from the origin + near) of the core as it truly is.
+bool checker::shows_depth(const Certificate& c, const Set& a, const Set& b, const Q& loose) {
   double largest = 0;
   for (const auto& [p, q] : c.support_pairs)
     largest = std::max({largest, p.cwiseAbs().maxCoeff(), q.cwiseAbs().maxCoeff()});
-  const Q e = Q(tolerance::checker_point_factor) * Q(largest);
+  const Q near = Q(tolerance::checker_point_factor) * Q(largest);
+  const auto far = [&](const V& o) { return times_root(1, dot(o, o)) + 2 * Q(largest) + near; };
+  const Q e = loose > 0 ? Q(near + loose * std::max(far(a.origin), far(b.origin))) : near;
   const bool plane_a = is_half_space(a), plane_b = is_half_space(b);
   std::vector<V> difference;
   for (const auto& [p, q] : c.support_pairs) {
     const V x = exact_value(p), y = exact_value(q);
-    if ((!plane_a && !is_within(a, x, e)) || (!plane_b && !is_within(b, y, e))) return false;
+    if ((!plane_a && !is_within(a, x, near)) || (!plane_b && !is_within(b, y, near))) return false;
     difference.push_back(x - y);
   }
   if (difference.empty() || (plane_a && plane_b)) return false;
@@ -118,15 +123,15 @@ bool check_inner(const Certificate& c, const Set& a, const Set& b) {
   return depth <= 0 && dot(v, v) <= depth * depth;
 }
 
-}  // namespace
+bool checker::is_finite(const Certificate& c) {
+  return c.direction.allFinite() && std::isfinite(c.offset) && c.point.allFinite() &&
+         std::all_of(c.support_pairs.begin(), c.support_pairs.end(),
+                     [](const auto& p) { return p[0].allFinite() && p[1].allFinite(); });
+}
 
 bool check(const Certificate& c, const Placed& a, const Placed& b) {
   const Sets x = sets_of(a), y = sets_of(b);
-  if (x.empty() || y.empty()) return false;
-  const bool finite = c.direction.allFinite() && std::isfinite(c.offset) && c.point.allFinite() &&
-                      std::all_of(c.support_pairs.begin(), c.support_pairs.end(),
-                                  [](const auto& p) { return p[0].allFinite() && p[1].allFinite(); });
-  if (!finite) return false;
+  if (x.empty() || y.empty() || !is_finite(c)) return false;
   using K = Certificate::Kind;
   if (c.kind == K::separating_plane) return check_planes(c, x, y);
   if (c.kind == K::common_point) return check_point(c, x, y);
@@ -134,7 +139,7 @@ bool check(const Certificate& c, const Placed& a, const Placed& b) {
   const auto is_mesh = [](const Placed& p) { return std::holds_alternative<TriangleMesh>(*p.shape); };
   if (is_mesh(a) || is_mesh(b)) return false;
   if (c.kind == K::depth_direction) return check_direction(exact_value(c.direction), Q(c.offset), x[0], y[0]);
-  return c.kind == K::inner_polytope && check_inner(c, x[0], y[0]);
+  return c.kind == K::inner_polytope && shows_depth(c, x[0], y[0]);
 }
 
 }  // namespace touchstone::referee

@@ -1,5 +1,5 @@
 // Checks the certificate of a motion: do its planes keep the bodies apart from t = 0 to clear_until, and is
-// its point in both at its time?
+// its point in both at its time? Are two parts as deep in each other as it says, at its time?
 //
 // At a key the plane is checked as any plane, against the bodies turned by exp(tω) up to a proven error. In
 // between, a point of a body at r from the body's origin is at z(t) with z' = v + ω×r, |z''| = |ω×(ω×r)|, and
@@ -142,6 +142,15 @@ bool check_contact(const ImpactCertificate::Contact& c, const Mover& a, const Mo
   return t >= 0 && t <= 1 && holds(at(a, t), x) && holds(at(b, t), x);
 }
 
+bool check_overlap(const ImpactCertificate::Overlap& o, const Mover& a, const Mover& b) {
+  if (!(o.t >= 0 && o.t <= 1) || o.inner.kind != Certificate::Kind::inner_polytope) return false;
+  const Moment x = at(a, Q(o.t)), y = at(b, Q(o.t));
+  if (o.part_a >= x.parts.size() || o.part_b >= y.parts.size()) return false;
+  const Set &s = x.parts[o.part_a], &t = y.parts[o.part_b];
+  const bool bounded = s.kind != Set::Kind::half_space && t.kind != Set::Kind::half_space;
+  return bounded && is_finite(o.inner) && shows_depth(o.inner, s, t, std::max(x.loose, y.loose));
+}
+
 V translation_of(const Placed& p) {
   return std::visit([](const auto& pose) { return exact_value(pose.translation); }, p.pose);
 }
@@ -155,7 +164,8 @@ bool check(const ImpactCertificate& c, const Placed& a, const Motion& motion_a, 
                 exact_value(motion_a.angular)};
   const Mover y{b, seen_from, still, exact_value(motion_b.angular)};
   if (c.claims_nothing()) return false;
-  return (c.tracks.empty() || check_apart(c, x, y)) && (!c.contact || check_contact(*c.contact, x, y));
+  return (c.tracks.empty() || check_apart(c, x, y)) && (!c.contact || check_contact(*c.contact, x, y)) &&
+         (!c.overlap || check_overlap(*c.overlap, x, y));
 }
 
 }  // namespace touchstone::referee

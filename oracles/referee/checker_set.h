@@ -62,6 +62,12 @@ std::vector<Set> sets_of(const Placed& p, const Carrier& by = {});
 std::optional<Q> core_support(const Set& s, const V& n);
 /// True only if x is within r of the core; exact for hulls, and for the others when r = 0.
 bool is_within(const Set& s, const V& x, const Q& r);
+/// Whether all its doubles are numbers.
+bool is_finite(const Certificate& c);
+/// Whether an inner polytope (checker.h) shows that a and b are at least c.offset deep in each other. The true
+/// sets may be turned a little from a and b: a point at d from the body's origin is within loose·d of where it
+/// is here.
+bool shows_depth(const Certificate& c, const Set& a, const Set& b, const Q& loose = 0);
 /// The nearest point of a hull to the origin (Wolfe 1976).
 V nearest_to_origin(const std::vector<V>& hull);
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "oracles/referee/certificate.h"
 #include "oracles/referee/half_space.h"
 #include "oracles/referee/moving_plane.h"
 #include "oracles/referee/world.h"
@@ -183,6 +184,23 @@ bool is_unbounded_and_turns(const Placed& p, const Motion& m) {
 }
 
 }  // namespace
+
+void add_overlap(ImpactCertificate& c, const Placed& a, const Motion& motion_a, const Placed& b,
+                 const Motion& motion_b, const DepthInTime& deepest) {
+  const auto is_half_space = [](const Placed& p) { return std::holds_alternative<HalfSpace>(*p.shape); };
+  if (!(deepest.depth > 0) || is_half_space(a) || is_half_space(b)) return;
+  const Vec3 origin = translation_of(b);
+  Motion turning = motion_b;
+  turning.linear = Vec3::Zero();
+  const Operand x = parts(a, motion_a, motion_b.linear, origin).at(deepest.part_a).at(deepest.t),
+                y = parts(b, turning, Vec3::Zero(), origin).at(deepest.part_b).at(deepest.t);
+  const ConvexTruth g = judge_convex(x, y, {}, Effort::certificate);
+  if (g.verdict != Verdict::overlap) return;
+  ImpactCertificate only;
+  only.overlap = {deepest.t, deepest.part_a, deepest.part_b,
+                  lower_depth_certificate(g, Difference(x.body, y.body), Vec3::Zero())};
+  if (Scene2{a, b, motion_a, motion_b}.accepts(only)) c.overlap = only.overlap;
+}
 
 ImpactCertificate impact_certificate(const Placed& a, const Motion& motion_a, const Placed& b,
                                      const Motion& motion_b, const TimeTruth& truth) {

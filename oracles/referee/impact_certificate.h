@@ -33,7 +33,15 @@ struct ImpactCertificate {
     std::array<std::string, 3> point;
   };
   std::optional<Contact> contact;
-  bool claims_nothing() const { return tracks.empty() && !contact; }
+  /// At time t convex part a of A and part b of B (triangles of meshes; 0 of anything else) are at least
+  /// inner.offset deep in each other: an inner polytope as in checker.h, in the frame above.
+  struct Overlap {
+    double t = 0;
+    std::size_t part_a = 0, part_b = 0;
+    Certificate inner;
+  };
+  std::optional<Overlap> overlap;
+  bool claims_nothing() const { return tracks.empty() && !contact && !overlap; }
 };
 nlohmann::ordered_json to_json(const ImpactCertificate& c);
 /// Reads what to_json wrote. Throws InputError when it is not such a certificate.
@@ -45,6 +53,11 @@ ImpactCertificate impact_certificate_from_json(const nlohmann::ordered_json& j);
 /// while spinning, a spinning half-space.
 ImpactCertificate impact_certificate(const Placed& a, const Motion& motion_a, const Placed& b,
                                      const Motion& motion_b, const TimeTruth& truth);
+
+/// Adds that the bodies are (about) as deep in each other as deepest_before said; nothing where the checker does
+/// not accept it, nor of half-spaces, whose common point says as much.
+void add_overlap(ImpactCertificate& c, const Placed& a, const Motion& motion_a, const Placed& b,
+                 const Motion& motion_b, const DepthInTime& deepest);
 
 /// Whether all that the certificate claims holds for these bodies, in exact arithmetic (checker_motion.cpp).
 /// False when it claims nothing. Throws InputError for a rational that is none.

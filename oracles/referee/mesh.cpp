@@ -111,6 +111,16 @@ ConvexTruth judge_parts(std::span<const Operand> a, std::span<const Operand> b, 
   return t;
 }
 
+Bracket gap_of_deepest(std::span<const Operand> a, std::span<const Operand> b) {
+  ConvexTruth t = no_part_yet();
+  for (const Candidate& c : by_box_distance(a, b)) {
+    if (c.distance > 0) break;
+    const ConvexTruth part = judge_convex(a[c.i], b[c.j]);
+    t.lo = std::min(t.lo, part.lo), t.hi = std::min(t.hi, part.hi);
+  }
+  return {round_down(t.lo), round_up(t.hi)};
+}
+
 ConvexTruth judge_parts_half_space(std::span<const Operand> a, const Placed& half_space, const Vec3& origin,
                                    bool surface) {
   if (!surface) return judge_half_space(half_space, a[0], origin);

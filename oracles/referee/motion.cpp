@@ -12,7 +12,6 @@
 #include <algorithm>
 
 #include "core/tolerance.h"
-#include "oracles/referee/course.h"
 #include "oracles/referee/half_space_motion.h"
 
 namespace touchstone::referee {
@@ -222,40 +221,6 @@ const Vec3& translation_of(const Placed& p) {
   return std::get<Placement>(p.pose).translation;
 }
 
-/// The courses of the convex parts of A and B that can meet at all.
-std::vector<Course> courses(const Placed& a, const Motion& ma, const Placed& b, const Motion& mb) {
-  const auto count = [](const Placed& p) {
-    const auto* m = std::get_if<TriangleMesh>(p.shape);
-    return m ? m->triangles.size() : std::size_t{1};
-  };
-  const auto part = [](const Placed& p, std::size_t i) -> std::optional<std::size_t> {
-    if (is<TriangleMesh>(p)) return i;
-    return std::nullopt;
-  };
-  std::vector<Course> r;
-  if (is<HalfSpace>(b)) {
-    const Vec3 turn = shown_turn(b, mb.angular);
-    for (std::size_t i = 0; i < count(a); ++i)
-      r.emplace_back(Mover(a, ma, mb.linear, part(a, i)), b, turn, translation_of(turn.isZero(0) ? a : b));
-    return r;
-  }
-  const Vec3 origin = translation_of(a);
-  Motion turning = mb;
-  turning.linear = Vec3::Zero();
-  std::vector<Mover> y;
-  for (std::size_t j = 0; j < count(b); ++j) y.emplace_back(b, turning, Vec3::Zero(), part(b, j));
-  std::vector<Aabb> boxes;
-  for (const Mover& m : y) boxes.push_back(box_over(m, origin));
-  const bool filter = count(a) > 1 || count(b) > 1;
-  for (std::size_t i = 0; i < count(a); ++i) {
-    const Mover x(a, ma, mb.linear, part(a, i));
-    const Aabb box = filter ? box_over(x, origin) : Aabb{};
-    for (std::size_t j = 0; j < y.size(); ++j)
-      if (!filter || overlaps(box, boxes[j])) r.emplace_back(x, y[j], origin);
-  }
-  return r;
-}
-
 TimeTruth join(const TimeTruth& x, const TimeTruth& y) {
   using V = TimeTruth::Verdict;
   TimeTruth r = x;
@@ -272,6 +237,40 @@ TimeTruth join(const TimeTruth& x, const TimeTruth& y) {
 
 }  // namespace
 
+std::vector<PartPair> part_pairs(const Placed& a, const Motion& ma, const Placed& b, const Motion& mb) {
+  const auto count = [](const Placed& p) {
+    const auto* m = std::get_if<TriangleMesh>(p.shape);
+    return m ? m->triangles.size() : std::size_t{1};
+  };
+  const auto part = [](const Placed& p, std::size_t i) -> std::optional<std::size_t> {
+    if (is<TriangleMesh>(p)) return i;
+    return std::nullopt;
+  };
+  std::vector<PartPair> r;
+  if (is<HalfSpace>(b)) {
+    const Vec3 turn = shown_turn(b, mb.angular);
+    const Vec3 origin = translation_of(turn.isZero(0) ? a : b);
+    for (std::size_t i = 0; i < count(a); ++i)
+      r.push_back({i, 0, Course(Mover(a, ma, mb.linear, part(a, i)), b, turn, origin)});
+    return r;
+  }
+  const Vec3 origin = translation_of(a);
+  Motion turning = mb;
+  turning.linear = Vec3::Zero();
+  std::vector<Mover> y;
+  for (std::size_t j = 0; j < count(b); ++j) y.emplace_back(b, turning, Vec3::Zero(), part(b, j));
+  std::vector<Aabb> boxes;
+  for (const Mover& m : y) boxes.push_back(box_over(m, origin));
+  const bool filter = count(a) > 1 || count(b) > 1;
+  for (std::size_t i = 0; i < count(a); ++i) {
+    const Mover x(a, ma, mb.linear, part(a, i));
+    const Aabb box = filter ? box_over(x, origin) : Aabb{};
+    for (std::size_t j = 0; j < y.size(); ++j)
+      if (!filter || overlaps(box, boxes[j])) r.push_back({i, j, Course(x, y[j], origin)});
+  }
+  return r;
+}
+
 TimeTruth judge_motion(const Placed& a, const Motion& motion_a, const Placed& b, const Motion& motion_b) {
   if (is<HalfSpace>(a) && is<HalfSpace>(b)) return judge_half_spaces_in_motion(a, motion_a, b, motion_b);
   if (is<HalfSpace>(a)) return judge_motion(b, motion_b, a, motion_a);
@@ -279,10 +278,9 @@ TimeTruth judge_motion(const Placed& a, const Motion& motion_a, const Placed& b,
   r.verdict = TimeTruth::Verdict::none;
   r.t_lo = 1;
   r.least_gap = {0, infinity};
-  std::vector<Course> all = courses(a, motion_a, b, motion_b);
   bool first = true;
-  for (Course& c : all) {
-    const TimeTruth t = judge_course(c);
+  for (PartPair& p : part_pairs(a, motion_a, b, motion_b)) {
+    const TimeTruth t = judge_course(p.course);
     r = first ? t : join(r, t);
     first = false;
   }

@@ -79,13 +79,6 @@ void prove_by_rounded_normal(PairTruth& r, const Difference& d) {
   r.gap.lo = std::min(r.gap.lo, round_down(-above - 4 * unit * std::fabs(above)));
 }
 
-Certificate lower_depth_certificate(const ConvexTruth& t, const Difference& d, const Vec3& origin) {
-  if (t.inner) return inner_certificate(*t.inner, origin, std::min(t.inner_depth, -t.hi));
-  const Real3 a = t.witness_a - static_cast<Real>(d.a.radius) * t.normal;
-  const Real3 b = t.witness_b + static_cast<Real>(d.b.radius) * t.normal;
-  return core_pair_certificate(a, b, origin, -t.hi);
-}
-
 Certificate rounded_plane(const ExactVerdict& v, const ConvexTruth& t, const Vec3& origin) {
   const Real3 n = -direction_of(v);
   Certificate c;

@@ -117,11 +117,22 @@ struct TimeTruth {
 };
 TimeTruth judge_motion(const Placed& a, const Motion& motion_a, const Placed& b, const Motion& motion_b);
 
-/// Signed gap at time t of the motion, t exact; and a certified lower bound of the largest depth at any time up
-/// to t (0 if none is found): the depth at the deepest time that a search finds, never more than the truth.
+/// Signed gap at time t of the motion, t exact. A mesh has no inside, but each of its triangles is a convex set:
+/// bodies that overlap have the gap of the two parts that overlap most, that is, one body must move by -gap at
+/// least for those parts to separate.
 Bracket gap_at(const Placed& a, const Motion& motion_a, const Placed& b, const Motion& motion_b, double t);
+
+/// A depth that is certain at time t, in the sense of gap_at, and the parts that are this deep in each other.
+struct DepthInTime {
+  double depth = 0, t = 0;
+  std::size_t part_a = 0, part_b = 0;  // triangles of meshes; 0 of anything else
+};
+/// The deepest that a search finds at any time up to t: never more than the truth, 0 if none is found.
+/// `contact`: a time at which the bodies are known to touch, for the search to begin with.
+DepthInTime deepest_before(const Placed& a, const Motion& motion_a, const Placed& b, const Motion& motion_b,
+                           double t, double contact = 0);
 double certified_depth_before(const Placed& a, const Motion& motion_a, const Placed& b,
-                              const Motion& motion_b, double t);
+                              const Motion& motion_b, double t, double contact = 0);
 
 /// Exact bounding box of the placed body, rounded outward; used to judge broad phases without asking every
 /// pair.

@@ -119,6 +119,85 @@ TEST_CASE("time of impact is judged by gaps", "[judge][toi]") {
   CHECK(has(judge_one(c, o), Fault::ghost));
 }
 
+namespace {
+
+// A ball of radius 1/4 that comes down on a floor of two triangles: touches at t = 0.7 / speed.
+Case ball_on_floor(double speed, double x = 0.5) {
+  TriangleMesh floor;
+  floor.vertices = {{-5, -5, 0}, {5, -5, 0}, {5, 5, 0}, {-5, 5, 0}};
+  floor.triangles = {{0, 1, 2}, {0, 2, 3}};
+  Case c;
+  c.scene.shapes = {floor, Sphere{0.25}};
+  c.scene.bodies.resize(2);
+  c.scene.bodies[1].shape = 1;
+  c.scene.bodies[1].pose.translation = {x, 0.25, 0.95};
+  c.scene.bodies[1].motion = Motion{Vec3(0, 0, -speed), Vec3::Zero()};
+  c.queries = {{Question::time_of_impact, 0, 1}};
+  return c;
+}
+
+Observation impact_at(std::optional<double> t) {
+  Observation o = answered();
+  o.toi = t;
+  return o;
+}
+
+}  // namespace
+
+TEST_CASE("late and missed impacts with a mesh are wrong by the depth in one triangle", "[judge][toi]") {
+  const double speed = 7.0 / 3, t = 0.3;  // touches at 0.3
+  for (const bool swap : {false, true}) {
+    Case c = ball_on_floor(speed);
+    if (swap) std::swap(c.scene.bodies[0], c.scene.bodies[1]);
+    CHECK(judge_one(c, impact_at(t)).right());
+    CHECK(judge_one(c, impact_at(t + 1e-15)).right());
+    const fuzz::Judgement late = judge_one(c, impact_at(t + 1.0 / 30));
+    REQUIRE(has(late, Fault::late));
+    CHECK(std::abs(late.faults.front().error - speed / 30) < 1e-12);
+    CHECK(has(judge_one(c, impact_at(t + 1e-12)), Fault::late));
+    // Long through, and clear again.
+    CHECK_FALSE(judge_one(c, impact_at(0.99)).right());
+    const fuzz::Judgement none = judge_one(c, impact_at(std::nullopt));
+    REQUIRE(has(none, Fault::missed));
+    CHECK(std::abs(none.faults.front().error - 0.25) < 1e-9);
+    CHECK(has(judge_one(c, impact_at(0.2)), Fault::early));
+    // A claimed tolerance is a gap, not a time.
+    Observation within = impact_at(t + 0.02 / speed);
+    within.claimed_tolerance = 0.0201;
+    CHECK(judge_one(c, within).right());
+    within.claimed_tolerance = 0.0199;
+    CHECK(has(judge_one(c, within), Fault::late));
+  }
+}
+
+TEST_CASE("a graze of a mesh may be denied, and so may a touch at the very end", "[judge][toi]") {
+  Case graze = ball_on_floor(0);
+  graze.scene.bodies[1].pose.translation = {0.5, 0.25, 0.25};
+  graze.scene.bodies[1].motion = Motion{Vec3(0, 0, 0), Vec3(1, 2, 3)};
+  for (const auto t : {std::optional<double>(), std::optional(0.5), std::optional(0.0)})
+    CHECK(judge_one(graze, impact_at(t)).right());
+  graze.scene.bodies[1].motion->linear = Vec3(1, 0.5, 0);
+  for (const auto t : {std::optional<double>(), std::optional(0.5), std::optional(0.0)})
+    CHECK(judge_one(graze, impact_at(t)).right());
+  CHECK(judge_one(ball_on_floor(0.7), impact_at(std::nullopt)).right());
+  CHECK(judge_one(ball_on_floor(0.7), impact_at(1)).right());
+  // Beside the floor's edge, by more than the radius.
+  CHECK(judge_one(ball_on_floor(2, 5.26), impact_at(std::nullopt)).right());
+  CHECK(has(judge_one(ball_on_floor(2, 5.26), impact_at(0.5)), Fault::ghost));
+}
+
+TEST_CASE("a box that turns through a mesh while it flies is not let off", "[judge][toi]") {
+  Case c = ball_on_floor(2);
+  c.scene.shapes[1] = Box{{0.25, 0.25, 0.25}};
+  c.scene.bodies[1].motion->angular = Vec3(3, -1, 2);
+  fuzz::Truth truth(c.scene);
+  const referee::TimeTruth hit = truth.motion(0, 0, 1);
+  REQUIRE(hit.verdict == referee::TimeTruth::Verdict::hit);
+  CHECK(judge_one(c, impact_at(hit.t_lo)).right());
+  CHECK(has(judge_one(c, impact_at(hit.t_hi + 1e-6)), Fault::late));
+  CHECK(has(judge_one(c, impact_at(std::nullopt)), Fault::missed));
+}
+
 TEST_CASE("candidate pairs: no tolerance for a missed touching pair, stale names told apart",
           "[judge][pairs]") {
   const Case c = spheres(2, Question::candidates);

@@ -122,6 +122,36 @@ void thin_lost(const Case& c, const Query& q, Observation& o) {
 void fast_lost(const Case& c, const Query& q, Observation& o) {
   if ((motion(c, q.b).linear - motion(c, q.a).linear).norm() > 500 * small_size(c, q)) o.toi.reset();
 }
+bool with_mesh(const Case& c, const Query& q) {
+  return kind(c, q.a) == ShapeKind::mesh || kind(c, q.b) == ShapeKind::mesh;
+}
+void mesh_never(const Case& c, const Query& q, Observation& o) {
+  if (with_mesh(c, q)) o.toi.reset();
+}
+void mesh_late(const Case& c, const Query& q, Observation& o) {
+  if (with_mesh(c, q) && o.toi && *o.toi > 0) o.toi = std::min(1.0, *o.toi + 0.02);
+}
+void mesh_late_a_little(const Case& c, const Query& q, Observation& o) {
+  if (with_mesh(c, q) && o.toi && *o.toi > 0) o.toi = std::min(1.0, *o.toi + 1e-9);
+}
+void mesh_ends_lost(const Case& c, const Query& q, Observation& o) {
+  if (with_mesh(c, q) && o.toi && *o.toi > 0.75) o.toi.reset();
+}
+// Not the earliest: the first in the list that is hit at all.
+void first_triangle(const Case& c, const Query& q, Observation& o) {
+  const auto* mesh = std::get_if<TriangleMesh>(&c.scene.shape_of(q.a));
+  if (!mesh || !o.toi) return;
+  for (const auto& t : mesh->triangles) {
+    TriangleMesh one;
+    for (const int v : t) one.vertices.push_back(mesh->vertices[static_cast<std::size_t>(v)]);
+    one.triangles = {{0, 1, 2}};
+    const Shape shape = one;
+    MovingShape a = moving(c, q.a);
+    a.shape = &shape;
+    const ImpactAnswer r = time_of_impact(a, moving(c, q.b));
+    if (r.outcome == Outcome::answered && r.toi) return void(o.toi = r.toi);
+  }
+}
 // Curved bodies that turn take most steps.
 void cap_as_miss(const Case& c, const Query& q, Observation& o) {
   if (smooth(kind(c, q.a)) && smooth(kind(c, q.b)) && spin(c, q) > 2) o.toi.reset();
@@ -168,6 +198,13 @@ std::vector<Mutant> impact_lies() {
        on_impact(thin_lost)},
       {"impact_fast_lost", "missed", "bullet", "none beyond 500 times the smaller body's extent a step",
        on_impact(fast_lost)},
+      {"impact_mesh_never", "missed", "translate", "nothing ever hits a mesh", on_impact(mesh_never)},
+      {"impact_mesh_late", "late", "translate", "0.02 too late into a mesh", on_impact(mesh_late)},
+      {"impact_mesh_late_little", "late", "spin", "1e-9 too late into a mesh", on_impact(mesh_late_a_little)},
+      {"impact_mesh_end_lost", "missed", "spin", "no mesh is hit in the last quarter of the step",
+       on_impact(mesh_ends_lost)},
+      {"impact_first_triangle", "late", "translate", "the first triangle of the list that is hit ends the search",
+       on_impact(first_triangle)},
       {"impact_cap_as_miss", "missed", "spin",
        "of two curved bodies turning fast, an iteration cap is no hit", on_impact(cap_as_miss)},
   };

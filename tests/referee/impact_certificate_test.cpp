@@ -148,6 +148,53 @@ TEST_CASE("half-spaces and meshes have certificates of their motions", "[referee
   }
 }
 
+TEST_CASE("how deep bodies are in each other on the way is certified, of triangles and of bodies that turn",
+          "[referee][motion][checker]") {
+  TriangleMesh m;
+  m.vertices = {{-3, -3, 0}, {3, -3, 0.5}, {3, 3, 0}, {-3, 3, -0.5}, {0.125, 0.25, 0.5}};
+  m.triangles = {{0, 1, 4}, {1, 2, 4}, {2, 3, 4}, {3, 0, 4}};
+  const Shape field = m;
+  Rng r(77);
+  int shown = 0, deep = 0;
+  for (int i = 0; i < 56; ++i) {
+    const Shape x = random_convex(r, convex_kinds[i % 7]), y = random_convex(r, convex_kinds[i / 7 % 7]);
+    Pairing p = random_pairing(r, x, y);
+    if (i % 4 != 0) {
+      p.a = at(x, {0.25, -0.5, 2.5}, r.rotation());
+      p.b = at(field, {0, 0, 0});
+      p.ma.linear = {0, 0, -4};
+      p.mb = i % 2 == 0 ? moving({0, 0, 0.5}, p.mb.angular) : rest;
+    }
+    if (i % 8 == 3) {
+      std::swap(p.a, p.b);
+      std::swap(p.ma, p.mb);
+    }
+    const DepthInTime d = deepest_before(p.a, p.ma, p.b, p.mb, 1);
+    INFO(i << " " << type_name(*p.a.shape) << " " << type_name(*p.b.shape) << " " << d.depth << " at " << d.t);
+    if (!(d.depth > 1e-3)) continue;
+    ++deep;
+    ImpactCertificate c;
+    add_overlap(c, p.a, p.ma, p.b, p.mb, d);
+    if (!c.overlap) continue;
+    ++shown;
+    REQUIRE(p.accepts(stored(c)));
+    REQUIRE(c.overlap->inner.offset > d.depth * (1 - 1e-6));
+    const auto refused = [&](auto change) {
+      ImpactCertificate e = c;
+      change(*e.overlap);
+      REQUIRE_FALSE(p.accepts(stored(e)));
+    };
+    refused([&](auto& o) { o.inner.offset *= 1.001; });
+    refused([&](auto& o) { o.part_a = 99; });
+    refused([&](auto& o) { o.t = 1.5; });
+    refused([&](auto& o) { o.t = d.t > 0.5 ? 0 : 1; });
+    refused([&](auto& o) { o.inner.support_pairs[0][0].x() += 9; });
+  }
+  CAPTURE(deep, shown);
+  REQUIRE(deep > 30);
+  REQUIRE(shown >= deep - 2);  // an inner polytope of curved bodies may stall
+}
+
 // The checker knows where it is up to a rounding only, and no ball of that size is in it; exact tests of
 // points that cannot be accepted have cost 40 s for one pair.
 TEST_CASE("a flat body that turns has planes and no common point; one that does not turn has both",

@@ -166,6 +166,34 @@ TEST_CASE("certified depth is the deepest point of a passage", "[referee][motion
                                  0.3) == 0);
 }
 
+TEST_CASE("the depth of a passage through a mesh is that in one triangle", "[referee][motion]") {
+  TriangleMesh m;
+  m.vertices = {{-5, -5, 0}, {5, -5, 0}, {5, 5, 0}, {-5, 5, 0}};
+  m.triangles = {{0, 1, 2}, {0, 2, 3}};
+  const Shape floor = m, ball = Sphere{0.5}, die = Box{{1, 2, 0.5}}, ground = HalfSpace{{0, 0, 1}, 0};
+  const Placed flat = at(floor, {0, 0, 0});
+  // Half way through it, whichever comes first; with some of the way to go, by how far the lowest point is.
+  const auto of_ball = [&](double t) {
+    return deepest_before(flat, rest, at(ball, {3, 1, 2}), moving({0, 0, -4}), t);
+  };
+  REQUIRE(std::abs(of_ball(1).depth - 0.5) < 1e-9);
+  REQUIRE(std::abs(of_ball(1).t - 0.5) < 1e-6);
+  REQUIRE(of_ball(1).part_a == 0);
+  REQUIRE(of_ball(0.375).depth == 0);
+  REQUIRE(of_ball(0.4).depth == Approx(0.1));
+  REQUIRE(certified_depth_before(at(ball, {3, 1, 2}), moving({0, 0, -4}), flat, rest, 0.4) == Approx(0.1));
+  const Placed box = at(die, {-2, 1, 2});
+  REQUIRE(gap_at(box, moving({0, 0, -4}), flat, rest, 0.45).hi == Approx(-0.3));
+  REQUIRE(gap_at(box, moving({0, 0, -4}), flat, rest, 0.45).lo == Approx(-0.3));
+  REQUIRE(gap_at(box, moving({0, 0, -4}), flat, rest, 0.95).lo == Approx(1.3));  // out below
+  REQUIRE(std::abs(certified_depth_before(box, moving({0, 0, -4}), flat, rest, 1) - 0.5) < 1e-9);
+  // Past the border it can leave sideways: 0.25 of it is over the floor.
+  REQUIRE(std::abs(certified_depth_before(at(die, {5.75, 1, 2}), moving({0, 0, -4}), flat, rest, 1) - 0.25) <
+          1e-9);
+  REQUIRE(gap_at(flat, moving({0, 0, -4}), at(ground, {0, 0, -2}), rest, 0.75).hi == Approx(-1));
+  REQUIRE(certified_depth_before(at(ground, {0, 0, -2}), rest, flat, moving({0, 0, -4}), 1) == Approx(2));
+}
+
 TEST_CASE("a half-space that turns: closed form of a ball, and a great box in its place",
           "[referee][motion]") {
   const Shape ground = HalfSpace{{0, 0, 2}, 0}, ball = Sphere{0.5};

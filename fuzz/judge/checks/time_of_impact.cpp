@@ -1,5 +1,8 @@
 // Time of impact, judged by gaps, never by times: grazing makes the time ill-conditioned, the gap stays
-// well-conditioned (truth.md §3). Every accusation rests on a gap bracket at one certain time.
+// well-conditioned (truth.md §3). Every accusation rests on a gap bracket at one certain time. A mesh has no
+// inside; the depth in it is that in its deepest triangle, a convex set of its own: how far the body must move
+// at least to leave that triangle. Before the first contact every triangle is clear, so that a body within τ
+// of touching at the reported time is within τ of every triangle, however it passes on.
 #include <fmt/format.h>
 
 #include <cmath>
@@ -12,6 +15,14 @@ namespace {
 
 using Verdict = referee::TimeTruth::Verdict;
 
+// Whose depth it is that the words name.
+std::string_view of_what(const CheckInput& in) {
+  const auto is_mesh = [&](int body) {
+    return std::holds_alternative<TriangleMesh>(in.truth.scene().shape_of(body));
+  };
+  return is_mesh(in.query.a) || is_mesh(in.query.b) ? " (in one triangle)" : "";
+}
+
 // "No impact": wrong by the depth that is certain at some time of the step.
 void check_denied(const CheckInput& in, CheckOutput& out, double l, double tau) {
   const auto [a, b] = std::pair{in.query.a, in.query.b};
@@ -22,8 +33,8 @@ void check_denied(const CheckInput& in, CheckOutput& out, double l, double tau) 
   if (depth > tau) {
     out.fault(
         Fault::missed, depth, l, in.query,
-        fmt::format("says no impact; the bodies overlap by {:.6g} during the step, first near t = {:.9g}",
-                    depth, truth.t_hi));
+        fmt::format("says no impact; the bodies overlap by {:.6g}{} during the step, first near t = {:.9g}",
+                    depth, of_what(in), truth.t_hi));
   } else if (truth.verdict == Verdict::undecided) {
     out.undecided = true;
     out.frame_matters();
@@ -64,7 +75,8 @@ void check_time_of_impact(const CheckInput& in, CheckOutput& out) {
   } else if (late > tau) {
     out.fault(
         Fault::late, late, l, in.query,
-        fmt::format("says impact at t = {:.9g}; by then the bodies have overlapped by {:.6g}", t, late));
+        fmt::format("says impact at t = {:.9g}; by then the bodies have overlapped by {:.6g}{}", t, late,
+                    of_what(in)));
   }
 }
 
