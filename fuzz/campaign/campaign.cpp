@@ -9,6 +9,7 @@
 #include "core/base/rng.h"
 #include "fuzz/campaign/store.h"
 #include "fuzz/generate/family.h"
+#include "oracles/api/worker_limits.h"
 
 namespace touchstone::fuzz {
 namespace {
@@ -77,6 +78,8 @@ class Runner {
       show_what_is_new(chunk.result);
       finish(k, std::move(chunk));
     }
+  } catch (const Stopped&) {
+    leave();
   } catch (...) {
     std::lock_guard lock(mutex_);
     if (!error_) error_ = std::current_exception();

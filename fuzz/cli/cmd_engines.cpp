@@ -1,5 +1,7 @@
 #include <fmt/format.h>
 
+#include <set>
+
 #include "core/base/input_error.h"
 #include "fuzz/certify/conformance.h"
 #include "fuzz/cli/command.h"
@@ -19,14 +21,26 @@ void print_card(const EngineCard& c) {
   fmt::print("\n");
 }
 
-int list(const std::string& which, bool json) {
+std::string sandbox_of(const Engine& e) {
+  const auto* remote = dynamic_cast<const RemoteEngine*>(&e);
+  return remote ? remote->sandbox() : "";
+}
+
+void print_sandboxes(const std::set<std::string>& sandboxes) {
+  for (const std::string& words : sandboxes)
+    fmt::print("{}\n", reports::wrapped("sandbox of plug-ins and commands: " + words, 76, 4));
+}
+
+int list(const std::string& which, bool json, const WorkerLimits& limits) {
   fuzz::Json j = fuzz::Json::array();
+  std::set<std::string> sandboxes;
   const auto show = [&](const std::string& name) {
-    const EnginePtr e = make_engine(name, {});
-    if (json)
-      j.push_back(fuzz::Json::parse(to_json_text(e->card())));
-    else
-      print_card(e->card());
+    const EnginePtr e = make_engine(name, limits);
+    const std::string sandbox = sandbox_of(*e);
+    if (!sandbox.empty()) sandboxes.insert(sandbox);
+    if (!json) return print_card(e->card());
+    j.push_back(fuzz::Json::parse(to_json_text(e->card())));
+    if (!sandbox.empty()) j.back()["sandbox"] = sandbox;
   };
   if (!which.empty()) {
     for (const auto& name : engine_names(which)) show(name);
@@ -49,14 +63,15 @@ int list(const std::string& which, bool json) {
     }
   }
   if (json) fmt::print("{}\n", j.dump(1));
+  if (!json) print_sandboxes(sandboxes);
   return exit_clean;
 }
 
 // 0: every probe is answered rightly or said to be unsupported; 3: nothing is answered.
-int check(const std::string& which) {
+int check(const std::string& which, const WorkerLimits& limits) {
   const auto names = engine_names(which);
   if (names.size() != 1) throw InputError("--check " + which, "names more than one engine");
-  const EnginePtr engine = make_engine(names[0], {});
+  const EnginePtr engine = make_engine(names[0], limits);
   print_card(engine->card());
   int right = 0, wrong = 0;
   for (const fuzz::Remark& r : fuzz::conformance(*engine)) {
@@ -84,9 +99,11 @@ Run declare_engines(CLI::App& app) {
                  "engines to bring from npm: jolt, jolt-tuned, rapier; separated by commas")
       ->delimiter(',')
       ->allow_extra_args(false);
-  return [which, json, checked, wanted] {
+  auto limits = std::make_shared<WorkerLimits>();
+  add_no_sandbox(app, *limits);
+  return [which, json, checked, wanted, limits] {
     if (!wanted->empty()) return install_npm_engines(*wanted);
-    return checked->empty() ? list(*which, *json) : check(*checked);
+    return checked->empty() ? list(*which, *json, *limits) : check(*checked, *limits);
   };
 }
 

@@ -149,6 +149,7 @@ int run(FuzzOptions& o) {
     for (const auto& name : o.config.engines) engines.push_back(make_engine(name, o.limits));
     return engines;
   };
+  o.limits.stop = &interrupted;
   // The subject's own name, which for a plug-in is that of its card.
   o.config.subject = make_engine(subjects[0], o.limits)->card().name;
   std::signal(SIGINT, on_signal);

@@ -217,6 +217,13 @@ void add_case_seconds(CLI::App& app, WorkerLimits& limits) {
                  "CPU seconds that an engine may spend on one question")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
+  add_no_sandbox(app, limits);
+}
+
+void add_no_sandbox(CLI::App& app, WorkerLimits& limits) {
+  app.add_flag_callback(
+      "--no-sandbox", [&limits] { limits.sandbox = false; },
+      "engines may write files, use the network and start processes; for debuggers");
 }
 
 std::filesystem::path host_program() { return program_directory() / "touchstone-host"; }

@@ -36,8 +36,9 @@ EnginePtr make_engine(const std::string& name, const WorkerLimits& limits);
 /// process.
 std::vector<std::filesystem::path> engine_files(const std::string& name);
 
-/// The option --case-seconds of every command that asks engines.
+/// The options of every command that asks engines: --case-seconds and --no-sandbox.
 void add_case_seconds(CLI::App& app, WorkerLimits& limits);
+void add_no_sandbox(CLI::App& app, WorkerLimits& limits);
 
 std::filesystem::path host_program();
 std::filesystem::path plugin_directory();

@@ -11,6 +11,7 @@
 
 #include "core/base/input_error.h"
 #include "fuzz/cli/command.h"
+#include "oracles/api/worker_limits.h"
 
 namespace touchstone::cli {
 namespace {
@@ -74,6 +75,9 @@ int main(int argc, char** argv) {
     if ((std::fflush(stdout) != 0 || std::ferror(stdout)) && errno != EPIPE)
       throw std::runtime_error(std::string("the output cannot be written: ") + std::strerror(errno));
     return code;
+  } catch (const Stopped&) {
+    fmt::print(stderr, "touchstone: interrupted\n");
+    return cli::exit_failed;
   } catch (const InputError& e) {
     fmt::print(stderr, "touchstone: {}\n", e.what());
     return cli::exit_usage;

@@ -127,7 +127,7 @@ void append(std::string& out, const Hello& m) {
   framed(out, Type::hello, [&](Writer& w) {
     w.count(m.cards.size());
     for (const std::string& c : m.cards) w.text(c);
-    w.put(m.chosen).text(m.error);
+    w.put(m.chosen).text(m.error).text(m.sandbox);
   });
 }
 
@@ -161,6 +161,7 @@ Hello decode_hello(std::string_view payload) {
   for (std::string& c : m.cards) c = r.text();
   m.chosen = r.get<std::int32_t>();
   m.error = r.text();
+  m.sandbox = r.text();
   r.finish();
   if (m.chosen < -1 || m.chosen >= static_cast<std::int32_t>(m.cards.size()))
     throw Malformed("hello names an engine that it does not list");

@@ -8,14 +8,14 @@
 #include <optional>
 
 #include "core/base/input_error.h"
+#include "oracles/api/patience.h"
+#include "oracles/api/process_usage.h"
+#include "oracles/api/watchdog.h"
 #include "oracles/api/worker_session.h"
 
 namespace touchstone {
 namespace {
 
-using Clock = std::chrono::steady_clock;
-
-constexpr auto tick = std::chrono::milliseconds(10);
 constexpr std::size_t send_ahead_bytes = std::size_t{1}
                                          << 18;  // questions encoded before the worker took them
 constexpr int max_failed_starts = 3;
@@ -27,43 +27,6 @@ struct Cursor {
   std::uint32_t query = 0;
   bool loaded = false;  // the worker has taken the scene of `item`
   bool operator==(const Cursor&) const = default;
-};
-
-/// CPU, wall time and memory of the worker since its last progress.
-class Watchdog {
- public:
-  explicit Watchdog(const WorkerLimits& limits) : limits_(limits) {}
-  void progress(const WorkerProcess& w) {
-    cpu_at_progress_ = w.cpu_seconds();
-    progress_at_ = Clock::now();
-    idle_ = {};
-  }
-  /// What a query that got no answer cost, its process's end included.
-  std::int64_t since_progress_ns() const {
-    return std::chrono::nanoseconds(Clock::now() - progress_at_).count();
-  }
-  /// Once a tick.
-  bool is_due() const { return Clock::now() - last_check_ >= tick; }
-  /// The reason to kill the worker, if there is one.
-  std::optional<std::pair<Outcome, std::string>> check(const WorkerProcess& w, bool loading) {
-    const auto now = Clock::now();
-    // The harness itself may have been stopped or starved: a gap in its own ticks is not the worker's.
-    idle_ += std::min<Clock::duration>(now - last_check_, 5 * tick);
-    last_check_ = now;
-    if (w.resident_bytes() > limits_.resident_bytes) return {{Outcome::crashed, "memory limit"}};
-    const double cpu = w.cpu_seconds() - cpu_at_progress_;
-    if (cpu > (loading ? limits_.load_cpu_seconds : limits_.query_cpu_seconds))
-      return {{Outcome::timed_out, loading ? "CPU time while loading the scene" : "CPU time"}};
-    if (std::chrono::duration<double>(idle_).count() > limits_.wall_seconds)
-      return {{Outcome::timed_out, loading ? "wall time while loading the scene" : "wall time"}};
-    return std::nullopt;
-  }
-
- private:
-  const WorkerLimits& limits_;
-  double cpu_at_progress_ = 0;
-  Clock::duration idle_{};
-  Clock::time_point last_check_ = Clock::now(), progress_at_ = last_check_;
 };
 
 Observation failure(Outcome outcome, std::string detail) {
@@ -87,28 +50,25 @@ class RemoteEngine::Impl {
     }
   }
 
-  std::vector<CaseObservations> run(std::span<const Case> cases) {
+  std::vector<CaseObservations> run(std::span<const Case> cases) try {
     prepare(cases);
-    int failed_starts = 0;
-    while (at_.item < cases_.size()) {
-      if (!session_ || session_->process->has_ended()) {
-        if (session_) replace_worker();
-        try {
-          start();
-          failed_starts = 0;
-        } catch (const InputError& e) {
-          if (++failed_starts < max_failed_starts) continue;
-          give_up(std::string("the worker cannot be restarted: ") + e.what());
-          break;
-        }
-      }
-      converse();
+    while (at_.item < cases_.size() && patience_.left()) {
+      if (is_ready())
+        converse();
+      else if (at_.item < cases_.size())
+        charge_failed_start();
     }
+    leave_unasked();
     return std::move(results_);
+  } catch (const Stopped&) {
+    session_.reset();  // it is in the middle of something
+    throw;
   }
 
   EngineCard card_;
   int restarts_ = 0;
+  Patience patience_;
+  const std::string& sandbox() const { return nursery_->hello.sandbox; }
   int pid() const { return session_ ? session_->process->pid() : -1; }
 
  private:
@@ -123,18 +83,31 @@ class RemoteEngine::Impl {
     at_ = {};
     skip_done();
     // Memory that earlier batches left behind must not be charged to a query of this one.
-    if (session_ && session_->process->resident_bytes() > spec_.limits.resident_bytes / 2) session_.reset();
+    if (session_ && usage_of(session_->process->pid()).resident_bytes > spec_.limits.resident_bytes / 2)
+      session_.reset();
     resume();
+  }
+
+  /// There is a worker, started anew if need be.
+  bool is_ready() {
+    if (session_ && !session_->process->has_ended()) return true;
+    if (session_) replace_worker();
+    for (int tries = 1;; ++tries) try {
+        start();
+        return true;
+      } catch (const InputError& e) {
+        failed_start_ = std::string("the worker cannot be restarted: ") + e.what();
+        if (tries == max_failed_starts) return false;
+      }
   }
 
   /// A new worker, and a new nursery too if there is none or it has died.
   void start() {
-    const double patience = spec_.limits.start_wall_seconds;
     if (!nursery_ || nursery_->process->has_ended()) {
       nursery_.reset();
-      nursery_.emplace(start_nursery(spec_.host, spec_.plugin, spec_.engine, patience));
+      nursery_.emplace(start_nursery(spec_.host, spec_.plugin, spec_.engine, spec_.limits));
     }
-    session_.emplace(start_worker(*nursery_, spec_.plugin, patience));
+    session_.emplace(start_worker(*nursery_, spec_.plugin, spec_.limits));
     resume();
   }
 
@@ -170,14 +143,18 @@ class RemoteEngine::Impl {
       if (r == ReadResult::closed) return charge_death();
       if (at_.item == cases_.size()) return;
       if (watchdog_.is_due()) {
-        if (const auto verdict = watchdog_.check(*session_->process, !at_.loaded))
-          return charge(verdict->first, verdict->second);
+        throw_if_stopped(spec_.limits);
+        if (const auto verdict = watchdog_.check(*session_->process, phase())) return charge_late(*verdict);
         // Usually the end of its answers tells; a child of its own may hold them open.
         if (r == ReadResult::nothing_yet && session_->process->has_ended() && drained())
           return charge_death();
       }
       if (r == ReadResult::nothing_yet) wait();
     }
+  }
+
+  Watchdog::Phase phase() const {
+    return at_.loaded ? Watchdog::Phase::answering : Watchdog::Phase::loading_scene;
   }
 
   /// After the end of the process: true when its last words have been read.
@@ -191,7 +168,7 @@ class RemoteEngine::Impl {
     const short want_out = outgoing_begin_ < outgoing_.size() ? POLLOUT : 0;
     pollfd fds[3] = {
         {w.answers_fd(), POLLIN, 0}, {w.errors_fd(), POLLIN, 0}, {w.questions_fd(), want_out, 0}};
-    poll(fds, 3, static_cast<int>(tick.count()));
+    poll(fds, 3, static_cast<int>(Watchdog::tick.count()));
     if (fds[1].revents != 0 && w.errors_fd() >= 0) w.drain_errors();
   }
 
@@ -247,7 +224,13 @@ class RemoteEngine::Impl {
     if (m.sequence != sequence_of(at_.item) || m.query != at_.query || !at_.loaded)
       throw protocol::Malformed("an answer out of turn");
     results_[at_.item].answers[at_.query++] = std::move(m.observation);
+    patience_.note_answer();
     skip_done();
+  }
+
+  void charge_late(const Watchdog::Verdict& v) {
+    if (v.outcome == Outcome::timed_out) patience_.note_time_out(v.blocked);
+    charge(v.outcome, v.why);
   }
 
   void charge_death() {
@@ -271,10 +254,16 @@ class RemoteEngine::Impl {
     replace_worker();
   }
 
-  void give_up(const std::string& why) {
+  void charge_failed_start() {
+    results_[at_.item].answers[at_.query++] = failure(Outcome::crashed, failed_start_);
+    skip_done();
+    patience_.end("set aside: " + failed_start_);
+  }
+
+  void leave_unasked() {
     for (; at_.item < cases_.size(); at_ = {at_.item + 1, 0, false})
       for (; at_.query < results_[at_.item].answers.size(); ++at_.query)
-        results_[at_.item].answers[at_.query] = failure(Outcome::crashed, why);
+        results_[at_.item].answers[at_.query] = failure(Outcome::crashed, patience_.why());
   }
 
   RemoteSpec spec_;
@@ -287,18 +276,20 @@ class RemoteEngine::Impl {
   std::uint64_t sequence_ = 0, first_sequence_ = 0;
   std::string outgoing_;
   std::size_t outgoing_begin_ = 0;
+  std::string failed_start_;
 };
 
 RemoteEngine::RemoteEngine(RemoteSpec spec) : impl_(std::make_unique<Impl>(std::move(spec))) {}
 RemoteEngine::~RemoteEngine() = default;
 const EngineCard& RemoteEngine::card() const { return impl_->card_; }
 std::vector<CaseObservations> RemoteEngine::run(std::span<const Case> cases) { return impl_->run(cases); }
+std::string RemoteEngine::sandbox() const { return impl_->sandbox(); }
 int RemoteEngine::restarts() const { return impl_->restarts_; }
 int RemoteEngine::worker_pid() const { return impl_->pid(); }
 
 std::vector<EngineCard> list_plugin_engines(const std::filesystem::path& host,
                                             const std::filesystem::path& plugin) {
-  const WorkerSession s = start_nursery(host, plugin, "--cards", WorkerLimits{}.start_wall_seconds);
+  const WorkerSession s = start_nursery(host, plugin, "--cards", WorkerLimits{});
   std::vector<EngineCard> cards;
   for (std::size_t i = 0; i < s.hello.cards.size(); ++i) try {
       cards.push_back(card_from_json(s.hello.cards[i]));

@@ -1,5 +1,6 @@
 // An engine in a worker process. Whatever the engine does — crash, hang, print, eat memory — every query gets
-// an observation: the running one is charged, the worker is restarted, and the rest is asked of the new one.
+// an observation: the running one is charged, the worker is restarted, and the rest is asked of the new one. An
+// engine that times out again and again (patience.h) is set aside: what is left gets no answer.
 #pragma once
 
 #include <cstdint>
@@ -9,18 +10,9 @@
 #include <vector>
 
 #include "oracles/api/engine.h"
+#include "oracles/api/worker_limits.h"
 
 namespace touchstone {
-
-/// CPU time is what the watchdog goes by, so that a loaded machine does not turn answers into time-outs; wall
-/// time only catches an engine that sleeps.
-struct WorkerLimits {
-  double query_cpu_seconds = 1;
-  double load_cpu_seconds = 10;  // taking a scene: hierarchies of large meshes are built here
-  double wall_seconds = 20;      // without any progress
-  double start_wall_seconds = 60;
-  std::uint64_t resident_bytes = std::uint64_t{2} << 30;
-};
 
 struct RemoteSpec {
   std::filesystem::path host;    // the program touchstone-host
@@ -38,6 +30,8 @@ class RemoteEngine final : public Engine {
   const EngineCard& card() const override;
   std::vector<CaseObservations> run(std::span<const Case> cases) override;
 
+  /// What the worker is kept from, in words; "none" without a sandbox.
+  std::string sandbox() const;
   /// How often a worker had to be replaced so far.
   int restarts() const;
   /// Process id of the current worker, or -1. For tests that kill it.

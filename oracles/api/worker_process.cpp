@@ -8,8 +8,8 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
-#include <charconv>
 #include <chrono>
 #include <condition_variable>
 #include <cstring>
@@ -20,12 +20,15 @@
 #include <vector>
 
 #include "core/base/input_error.h"
+#include "oracles/api/process_usage.h"
 
 namespace touchstone {
 namespace {
 
 constexpr std::size_t error_tail_bytes = 4096;
 constexpr int nursery_reply_ms = 30000;  // it runs no engine; only a machine in trouble makes it this slow
+constexpr int slice_ms = 50;             // of waiting, between two looks at whether it can answer at all
+constexpr double orderly_end_seconds = 3;
 
 [[noreturn]] void fail(const char* what) { throw std::system_error(errno, std::generic_category(), what); }
 
@@ -128,6 +131,31 @@ struct TwoEnds {
   FileDescriptor ours, theirs;
 };
 
+// Messages then carry the number of the process that sent them, in our numbers and not in those of its
+// namespace.
+void ask_for_senders(int fd) {
+  const int yes = 1;
+  if (setsockopt(fd, SOL_SOCKET, SO_PASSCRED, &yes, sizeof yes) < 0) fail("setsockopt(SO_PASSCRED)");
+}
+
+/// Who sent the one byte that every process of the host says first; -1 when it is not there within `ms`.
+pid_t sender(int fd, int ms) {
+  pollfd ready{fd, POLLIN, 0};
+  if (poll(&ready, 1, ms) <= 0) return -1;
+  char byte = 0;
+  iovec body{&byte, 1};
+  alignas(cmsghdr) char control[CMSG_SPACE(sizeof(ucred))] = {};
+  msghdr message{};
+  message.msg_iov = &body, message.msg_iovlen = 1;
+  message.msg_control = control, message.msg_controllen = sizeof control;
+  if (recvmsg(fd, &message, MSG_CMSG_CLOEXEC) != 1) return -1;
+  const cmsghdr* const header = CMSG_FIRSTHDR(&message);
+  if (!header || header->cmsg_type != SCM_CREDENTIALS) return -1;
+  ucred who{};
+  std::memcpy(&who, CMSG_DATA(header), sizeof who);
+  return who.pid > 0 ? who.pid : -1;
+}
+
 TwoEnds make_pipe() {
   int ends[2];
   if (pipe2(ends, O_CLOEXEC) < 0) fail("pipe2");
@@ -143,6 +171,7 @@ TwoEnds make_socket() {
   if (socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends) < 0) fail("socketpair");
   TwoEnds p{lift(ends[0]), lift(ends[1])};
   make_non_blocking(p.ours.get());
+  ask_for_senders(p.ours.get());
   return p;
 }
 
@@ -168,7 +197,23 @@ void FileDescriptor::close() {
   fd_ = -1;
 }
 
-WorkerProcess::WorkerProcess(const std::filesystem::path& host, const std::vector<std::string>& arguments) {
+ScratchDirectory::ScratchDirectory() {
+  std::error_code error;
+  std::filesystem::path pattern = std::filesystem::temp_directory_path(error) / "touchstone-XXXXXX";
+  path_ = pattern.string();
+  if (error || !mkdtemp(path_.data()))
+    throw InputError(pattern.parent_path().string(),
+                     std::string("no directory can be made here for an engine: ") + std::strerror(errno));
+}
+
+ScratchDirectory::~ScratchDirectory() {
+  std::error_code ignored;  // the supervisor removes it too
+  std::filesystem::remove_all(path_, ignored);
+}
+
+WorkerProcess::WorkerProcess(const std::filesystem::path& host, const std::vector<std::string>& arguments,
+                             std::unique_ptr<ScratchDirectory> scratch)
+    : scratch_(std::move(scratch)) {
   TwoEnds questions = make_socket(), answers = make_pipe(), errors = make_pipe();
   const std::string program = host.string();
   const Streams streams{questions.theirs.get(), answers.theirs.get(), errors.theirs.get()};
@@ -186,7 +231,9 @@ WorkerProcess::WorkerProcess(std::shared_ptr<WorkerProcess> nursery) : nursery_(
   const std::array streams{questions.theirs.get(), answers.theirs.get(), errors.theirs.get()};
   const auto reply = nursery_->request({nursery::Op::fork, 0}, &streams);
   if (!reply || reply->value <= 0) throw InputError("", "the process that loaded the plug-in is gone");
-  pid_ = reply->value;
+  number_ = reply->value;
+  pid_ = sender(questions.ours.get(), nursery_reply_ms);
+  if (pid_ <= 0) throw InputError("", "the worker died at its start");
   questions_ = std::move(questions.ours), answers_ = std::move(answers.ours),
   errors_ = std::move(errors.ours);
   open_clock();
@@ -214,31 +261,54 @@ std::optional<nursery::Reply> WorkerProcess::request(nursery::Request what,
     header->cmsg_len = CMSG_LEN(sizeof *with);
     std::memcpy(CMSG_DATA(header), with->data(), sizeof *with);
   }
-  if (sendmsg(questions_.get(), &message, MSG_NOSIGNAL) != static_cast<ssize_t>(sizeof what))
-    return std::nullopt;
+  if (inner_pid_ < 0) inner_pid_ = sender(questions_.get(), nursery_reply_ms);
+  std::optional<nursery::Reply> reply;
+  if (sendmsg(questions_.get(), &message, MSG_NOSIGNAL) == static_cast<ssize_t>(sizeof what))
+    reply = await_reply();
+  // One that does not answer a request never will: its plug-in stopped it, or worse.
+  if (!reply) end();
+  return reply;
+}
+
+std::optional<nursery::Reply> WorkerProcess::await_reply() {
   pollfd ready{questions_.get(), POLLIN, 0};
-  if (poll(&ready, 1, nursery_reply_ms) <= 0) return std::nullopt;
+  for (int waited = 0; poll(&ready, 1, slice_ms) <= 0; waited += slice_ms)
+    if (waited > nursery_reply_ms || is_stuck()) return std::nullopt;
   nursery::Reply reply{};
   if (recv(questions_.get(), &reply, sizeof reply, 0) != static_cast<ssize_t>(sizeof reply))
     return std::nullopt;
   return reply;
 }
 
+/// True of a nursery that was stopped by a signal, or is gone.
+bool WorkerProcess::is_stuck() const {
+  const ProcessUsage u = usage_of(inner_pid_);
+  return u.state == 'T' || u.is_gone();
+}
+
 /// Sets reaped_ and status_ when the process has ended; waits for that if asked to.
 bool WorkerProcess::reap(bool wait) {
   if (reaped_) return true;
-  if (!nursery_) {
-    pid_t ended = 0;
-    do ended = waitpid(pid_, &status_, wait ? 0 : WNOHANG);
-    while (ended < 0 && errno == EINTR);
-    reaped_ = ended == pid_;
-    return reaped_;
-  }
-  const auto reply = nursery_->request({wait ? nursery::Op::wait : nursery::Op::poll, pid_}, nullptr);
+  if (!nursery_) return reap_child(wait);
+  const auto reply = nursery_->request({wait ? nursery::Op::wait : nursery::Op::poll, number_}, nullptr);
   reaped_ = !reply || reply->value != 0;
   // Workers die with their nursery, of SIGKILL.
   if (reaped_) status_ = reply ? reply->status : SIGKILL;
   return reaped_;
+}
+
+bool WorkerProcess::reap_child(bool wait) {
+  pid_t ended = 0;
+  do ended = waitpid(pid_, &status_, wait ? 0 : WNOHANG);
+  while (ended < 0 && errno == EINTR);
+  return reaped_ = ended == pid_;
+}
+
+/// Its supervisor ends whatever is below it, and then itself.
+void WorkerProcess::end_supervised() {
+  kill(pid_, SIGTERM);
+  if (!ends_within(orderly_end_seconds)) kill(pid_, SIGKILL);
+  reap(/*wait=*/true);
 }
 
 double WorkerProcess::cpu_seconds() const {
@@ -246,22 +316,6 @@ double WorkerProcess::cpu_seconds() const {
   if (!reaped_ && clock_ != CLOCK_PROCESS_CPUTIME_ID && clock_gettime(clock_, &t) == 0)
     last_cpu_ = static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
   return last_cpu_;
-}
-
-std::uint64_t WorkerProcess::resident_bytes() const {
-  const std::string name = "/proc/" + std::to_string(pid_) + "/statm";
-  const FileDescriptor file(open(name.c_str(), O_RDONLY | O_CLOEXEC));
-  if (file.get() < 0) return 0;
-  char text[128];
-  const ssize_t n = read(file.get(), text, sizeof text);
-  if (n <= 0) return 0;
-  // total and resident size, in pages
-  const std::string_view fields(text, static_cast<std::size_t>(n));
-  const auto space = fields.find(' ');
-  if (space == std::string_view::npos) return 0;
-  std::uint64_t pages = 0;
-  std::from_chars(fields.data() + space + 1, fields.data() + fields.size(), pages);
-  return pages * static_cast<std::uint64_t>(sysconf(_SC_PAGESIZE));
 }
 
 void WorkerProcess::drain_errors() {
@@ -290,13 +344,15 @@ bool WorkerProcess::ends_within(double seconds) {
 }
 
 std::string WorkerProcess::end() {
-  if (!reaped_) {
+  if (scratch_ && !reaped_) {
+    end_supervised();
+  } else if (!reaped_) {
     // An ended process that nobody has reaped yet keeps its number and its status: the signals miss.
     kill(-pid_, SIGKILL);
     kill(pid_, SIGKILL);  // in case the group was left
     reap(/*wait=*/true);
-  } else {
-    kill(-pid_, SIGKILL);  // children that it left behind
+  } else if (!nursery_ || !nursery_->scratch_) {
+    kill(-pid_, SIGKILL);  // children that it left behind; in a sandbox the nursery has ended them
   }
   if (errors_.get() >= 0) drain_errors();
   const bool by_signal = WIFSIGNALED(status_);

@@ -4,7 +4,8 @@
 // nursery, which is several times cheaper than loading the plug-in's libraries again after every crash. Both
 // die with the harness: each asks for SIGKILL on the death of its parent *thread*, so every nursery is
 // spawned by one thread that lives as long as the harness. Each leads a process group of its own, and the
-// whole group is killed with it.
+// whole group is killed with it. With a sandbox (oracles/host/sandbox.h) a nursery has a supervisor, which is
+// the process that is spawned, and ends whatever it leaves behind.
 #pragma once
 
 #include <sys/types.h>
@@ -40,10 +41,26 @@ class FileDescriptor {
   int fd_ = -1;
 };
 
+/// A directory of its own, removed at the end.
+class ScratchDirectory {
+ public:
+  /// Throws InputError when it cannot be made.
+  ScratchDirectory();
+  ~ScratchDirectory();
+  ScratchDirectory(const ScratchDirectory&) = delete;
+  ScratchDirectory& operator=(const ScratchDirectory&) = delete;
+  const std::string& path() const { return path_; }
+
+ private:
+  std::string path_;
+};
+
 class WorkerProcess {
  public:
-  /// A nursery. Throws InputError when the host program cannot be started.
-  WorkerProcess(const std::filesystem::path& host, const std::vector<std::string>& arguments);
+  /// A nursery, within a sandbox when `scratch` is given. Throws InputError when the host program cannot be
+  /// started.
+  WorkerProcess(const std::filesystem::path& host, const std::vector<std::string>& arguments,
+                std::unique_ptr<ScratchDirectory> scratch);
   /// A worker of that nursery. Throws InputError when the nursery is gone.
   explicit WorkerProcess(std::shared_ptr<WorkerProcess> nursery);
   ~WorkerProcess();
@@ -51,15 +68,14 @@ class WorkerProcess {
   WorkerProcess& operator=(const WorkerProcess&) = delete;
 
   pid_t pid() const { return pid_; }
+  /// Of a worker: the process that forked it, which adopts what it leaves behind.
+  pid_t parent_pid() const { return nursery_ ? nursery_->inner_pid_ : -1; }
   int questions_fd() const { return questions_.get(); }  // a socket, non-blocking
   int answers_fd() const { return answers_.get(); }      // non-blocking
   int errors_fd() const { return errors_.get(); }        // non-blocking
 
   /// CPU seconds that the whole process has used; stays at its last value once the process is gone.
   double cpu_seconds() const;
-  /// 0 once the process is gone.
-  std::uint64_t resident_bytes() const;
-
   /// Reads what the worker wrote to its standard error; only the end of it is kept.
   void drain_errors();
 
@@ -76,11 +92,18 @@ class WorkerProcess {
   /// One request to this nursery; nothing when it is gone or silent.
   std::optional<nursery::Reply> request(nursery::Request what,
                                         const std::array<int, nursery::descriptor_count>* with);
+  std::optional<nursery::Reply> await_reply();
   bool reap(bool wait);
+  bool reap_child(bool wait);
+  void end_supervised();
+  bool is_stuck() const;
   void open_clock();
 
   std::shared_ptr<WorkerProcess> nursery_;
+  std::unique_ptr<ScratchDirectory> scratch_;
   pid_t pid_ = -1;
+  pid_t inner_pid_ = -1;      // of a nursery: the process that loads the plug-in, once it has said so
+  std::int32_t number_ = -1;  // of a worker, as its nursery knows it: another than pid_ in a namespace
   bool reaped_ = false;
   int status_ = 0;
   clockid_t clock_{};

@@ -4,15 +4,13 @@
 #include <unistd.h>
 
 #include <cerrno>
-#include <chrono>
 #include <vector>
 
 #include "core/base/input_error.h"
+#include "oracles/api/watchdog.h"
 
 namespace touchstone {
 namespace {
-
-using Clock = std::chrono::steady_clock;
 
 /// Waits up to 50 ms for the worker to say something on either stream.
 void wait_for_output(WorkerProcess& worker) {
@@ -21,9 +19,11 @@ void wait_for_output(WorkerProcess& worker) {
   if (worker.errors_fd() >= 0) worker.drain_errors();
 }
 
-protocol::Hello await_hello(WorkerSession& s, const std::string& place, double wall_seconds) {
-  const auto start = Clock::now();
+protocol::Hello await_hello(WorkerSession& s, const std::string& place, const WorkerLimits& limits) {
+  Watchdog watchdog(limits);
+  watchdog.progress(*s.process);
   for (;;) {
+    throw_if_stopped(limits);
     const ReadResult r = read_available(s.process->answers_fd(), s.frames);
     try {
       if (const auto frame = s.frames.next()) {
@@ -36,8 +36,8 @@ protocol::Hello await_hello(WorkerSession& s, const std::string& place, double w
     if (r == ReadResult::closed)
       throw InputError(place,
                        "the worker died while loading it: " + (s.process->ends_within(2), s.process->end()));
-    if (std::chrono::duration<double>(Clock::now() - start).count() > wall_seconds)
-      throw InputError(place, "the worker did not finish loading it in time");
+    if (const auto verdict = watchdog.check(*s.process, Watchdog::Phase::starting))
+      throw InputError(place, "the worker was ended: " + verdict->why);
     if (r == ReadResult::nothing_yet) wait_for_output(*s.process);
   }
 }
@@ -59,7 +59,7 @@ ReadResult read_available(int fd, protocol::FrameReader& frames) {
 }
 
 WorkerSession start_nursery(const std::filesystem::path& host, const std::filesystem::path& plugin,
-                            const std::string& argument, double wall_seconds) {
+                            const std::string& argument, const WorkerLimits& limits) {
   const std::string place = plugin.string();
   const bool is_command = place.starts_with("pipe:");
   std::error_code error;
@@ -67,19 +67,25 @@ WorkerSession start_nursery(const std::filesystem::path& host, const std::filesy
     throw InputError(place, "there is no such plug-in file");
   // An absolute path, or the dynamic linker would search for a name without a slash elsewhere.
   std::vector<std::string> arguments{is_command ? place : std::filesystem::absolute(plugin).string()};
-  if (!argument.empty()) arguments.push_back(argument);
+  if (!argument.empty() || limits.sandbox) arguments.push_back(argument);
+  std::unique_ptr<ScratchDirectory> scratch;
+  if (limits.sandbox) {
+    scratch = std::make_unique<ScratchDirectory>();
+    arguments.push_back(scratch->path());
+    arguments.push_back(std::to_string(limits.resident_bytes));
+  }
   WorkerSession s;
-  s.process = std::make_shared<WorkerProcess>(host, arguments);
-  s.hello = await_hello(s, place, wall_seconds);
+  s.process = std::make_shared<WorkerProcess>(host, arguments, std::move(scratch));
+  s.hello = await_hello(s, place, limits);
   if (!s.hello.error.empty()) throw InputError(place, s.hello.error);
   return s;
 }
 
 WorkerSession start_worker(const WorkerSession& nursery, const std::filesystem::path& plugin,
-                           double wall_seconds) {
+                           const WorkerLimits& limits) {
   WorkerSession s;
   s.process = std::make_shared<WorkerProcess>(nursery.process);
-  s.hello = await_hello(s, plugin.string(), wall_seconds);
+  s.hello = await_hello(s, plugin.string(), limits);
   if (!s.hello.error.empty()) throw InputError(plugin.string(), s.hello.error);
   return s;
 }

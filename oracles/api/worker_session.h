@@ -6,6 +6,7 @@
 #include <string>
 
 #include "oracles/api/protocol.h"
+#include "oracles/api/worker_limits.h"
 #include "oracles/api/worker_process.h"
 
 namespace touchstone {
@@ -17,14 +18,14 @@ struct WorkerSession {
 };
 
 /// A nursery for the plug-in, and its hello. `argument` follows the plug-in's path: an engine, "" or
-/// "--cards". Throws InputError (place: the plug-in) when the process dies, is silent for `wall_seconds`, or
+/// "--cards". Throws InputError (place: the plug-in) when the process dies, exceeds a limit, or
 /// says that the plug-in cannot be used.
 WorkerSession start_nursery(const std::filesystem::path& host, const std::filesystem::path& plugin,
-                            const std::string& argument, double wall_seconds);
+                            const std::string& argument, const WorkerLimits& limits);
 
 /// A worker of the nursery. Throws InputError as above.
 WorkerSession start_worker(const WorkerSession& nursery, const std::filesystem::path& plugin,
-                           double wall_seconds);
+                           const WorkerLimits& limits);
 
 enum class ReadResult { some, nothing_yet, closed };
 /// Reads what is there, up to a bound, into `frames`.

@@ -1,19 +1,24 @@
-// touchstone-host PLUGIN.so [ENGINE | --cards]: started by the harness, not by people. Loads a plug-in, says
-// on standard output which engines it has (oracles/api/protocol.h), and then, unless asked for the cards
-// alone, forks workers on request (oracles/api/nursery_protocol.h). Each worker creates the engine and
-// answers questions.
+// touchstone-host PLUGIN.so [ENGINE | --cards] [SCRATCH BYTES]: started by the harness, not by people.
+// Confines itself to the directory SCRATCH and that much memory (sandbox.h) where they are given, loads a
+// plug-in, says on standard output which engines it has (oracles/api/protocol.h), and then, unless asked for
+// the cards alone, forks workers on request (oracles/api/nursery_protocol.h). Each worker creates the engine
+// and answers questions.
 #include <fcntl.h>
 #include <signal.h>
 #include <sys/prctl.h>
+#include <sys/syscall.h>
 #include <unistd.h>
 
 #include <cstdio>
+#include <cstdlib>
 #include <exception>
 #include <string>
 
 #include "oracles/api/protocol.h"
 #include "oracles/host/nursery.h"
+#include "oracles/host/pipe.h"
 #include "oracles/host/plugin.h"
+#include "oracles/host/sandbox.h"
 #include "oracles/host/serve.h"
 
 #if defined(__SANITIZE_ADDRESS__)
@@ -35,10 +40,10 @@ struct Streams {
 // Engines print. Standard output becomes standard error, standard input is empty, and the protocol moves to
 // descriptors that no printf reaches.
 Streams protect_streams() {
-  const int requests = fcntl(0, F_DUPFD_CLOEXEC, 100), answers = fcntl(1, F_DUPFD_CLOEXEC, 100);
+  const int requests = host::out_of_the_way(0), answers = host::out_of_the_way(1);
   const int null = open("/dev/null", O_RDONLY | O_CLOEXEC);
   if (requests < 0 || answers < 0 || null < 0 || dup2(null, 0) < 0 || dup2(2, 1) < 0) {
-    std::perror("touchstone-host");
+    std::perror("touchstone-host: a descriptor cannot be had (ulimit -n)");
     _exit(3);
   }
   close(null);
@@ -82,20 +87,40 @@ void work(const Loaded& l, host::WorkerStreams streams) {
   if (engine) host::serve(*l.plugin, engine, streams.questions, streams.answers);
 }
 
+struct Arguments {
+  std::string plugin, engine;
+  host::SandboxWish wish;
+};
+
+Arguments read_arguments(int argc, char** argv) {
+  Arguments a{argv[1], argc > 2 ? argv[2] : "", {}};
+  if (argc == 5) a.wish.scratch = argv[3], a.wish.memory_bytes = std::strtoull(argv[4], nullptr, 10);
+  a.wish.is_command = a.plugin.starts_with(host::pipe_prefix);
+  return a;
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
-  if (argc < 2 || argc > 3) {
-    std::fprintf(stderr, "usage: touchstone-host PLUGIN.so [ENGINE | --cards]\n");
+  if (argc < 2 || argc > 5 || argc == 4) {
+    std::fprintf(stderr, "usage: touchstone-host PLUGIN.so [ENGINE | --cards] [SCRATCH BYTES]\n");
     return 2;
   }
+  // Files that the harness has open are none of a plug-in's business. Older kernels lack the call.
+  syscall(SYS_close_range, 3U, ~0U, 0U);
   // If the harness died between spawn and here, reading the requests finds their end.
   prctl(PR_SET_PDEATHSIG, SIGKILL);
+  const Arguments a = read_arguments(argc, argv);
+  host::Sandbox sandbox{"none", {}};
+  if (!a.wish.scratch.empty()) sandbox = host::enter_sandbox(a.wish);
   prctl(PR_SET_DUMPABLE, 0);  // expected crashes leave no core files
   const Streams streams = protect_streams();
-  const Loaded l = load(argv[1], argc > 2 ? argv[2] : "");
+  host::say_who(streams.requests);
+  Loaded l = load(a.plugin, a.engine);
+  l.hello.sandbox = sandbox.words;
   say(streams.answers, l.hello);
   close(streams.answers);
   if (l.hello.chosen < 0) _exit(l.hello.error.empty() ? 0 : 2);
-  host::run_nursery(streams.requests, [&](host::WorkerStreams worker) { work(l, worker); });
+  const host::Nursery nursery{streams.requests, sandbox.apart, a.wish.scratch, a.wish.is_command};
+  host::run_nursery(nursery, [&](host::WorkerStreams worker) { work(l, worker); });
 }

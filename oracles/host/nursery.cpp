@@ -4,12 +4,16 @@
 #include <signal.h>
 #include <sys/prctl.h>
 #include <sys/socket.h>
+#include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <array>
 #include <cerrno>
+#include <cstdio>
+#include <cstdlib>
 #include <cstring>
+#include <filesystem>
 
 #include "oracles/api/nursery_protocol.h"
 
@@ -36,35 +40,49 @@ bool receive(int fd, nursery::Request& request, Descriptors& descriptors) {
   return true;
 }
 
-/// A descriptor that no loop over small numbers and no printf reaches.
-int out_of_the_way(int fd) {
-  const int high = fcntl(fd, F_DUPFD_CLOEXEC, 100);
-  close(fd);
-  return high;
+std::string directory_of_worker(const Nursery& n) { return n.scratch + "/worker"; }
+
+void go_to_own_directory(const Nursery& n) {
+  if (n.scratch.empty()) return;
+  const std::string own = directory_of_worker(n);
+  if (mkdir(own.c_str(), 0700) != 0 || (!n.stays_where_it_is && chdir(own.c_str()) != 0))
+    std::perror(("touchstone-host: " + own).c_str());
+  setenv("TMPDIR", own.c_str(), 1);
 }
 
-[[noreturn]] void become_worker(const Descriptors& d, pid_t parent,
+void clean_up_after_worker(const Nursery& n) {
+  if (n.scratch.empty()) return;
+  end_others(n.apart);
+  std::error_code ignored;  // the next worker's mkdir tells
+  std::filesystem::remove_all(directory_of_worker(n), ignored);
+}
+
+[[noreturn]] void become_worker(const Nursery& n, const Descriptors& d, pid_t parent,
                                 const std::function<void(WorkerStreams)>& work) {
   prctl(PR_SET_PDEATHSIG, SIGKILL);
   if (getppid() != parent) _exit(0);  // it died before the line above
   setpgid(0, 0);
+  say_who(d[0]);
   if (dup2(d[2], 2) < 0 || dup2(2, 1) < 0) _exit(3);
   close(d[2]);
   const WorkerStreams streams{out_of_the_way(d[0]), out_of_the_way(d[1])};
   if (streams.questions < 0 || streams.answers < 0) _exit(3);
+  close(d[0]);
+  close(d[1]);
+  go_to_own_directory(n);
   work(streams);
   // No destructors: a plug-in's exit handlers may hang, and nobody waits for them.
   _exit(0);
 }
 
-nursery::Reply answer(const nursery::Request& request, const Descriptors& d, int control_fd,
+nursery::Reply answer(const Nursery& n, const nursery::Request& request, const Descriptors& d,
                       const std::function<void(WorkerStreams)>& work) {
   if (request.op == nursery::Op::fork) {
     const pid_t parent = getpid();
     const pid_t pid = d[0] < 0 ? -1 : fork();
     if (pid == 0) {
-      close(control_fd);
-      become_worker(d, parent, work);
+      close(n.control_fd);
+      become_worker(n, d, parent, work);
     }
     if (pid > 0) setpgid(pid, pid);  // whoever of the two is first
     for (int fd : d)
@@ -76,18 +94,32 @@ nursery::Reply answer(const nursery::Request& request, const Descriptors& d, int
   do ended = waitpid(request.pid, &status, request.op == nursery::Op::wait ? 0 : WNOHANG);
   while (ended < 0 && errno == EINTR);
   // A child that a plug-in's handler for SIGCHLD reaped is gone as well.
-  return {ended == request.pid || ended < 0, status};
+  const bool gone = ended == request.pid || ended < 0;
+  if (gone) clean_up_after_worker(n);
+  return {gone, status};
 }
 
 }  // namespace
 
-void run_nursery(int control_fd, const std::function<void(WorkerStreams)>& work) {
+int out_of_the_way(int fd) {
+  int high = fcntl(fd, F_DUPFD_CLOEXEC, 100);
+  if (high < 0) high = fcntl(fd, F_DUPFD_CLOEXEC, 10);  // ulimit -n 64
+  return high;
+}
+
+void say_who(int fd) {
+  const char byte = 0;
+  send(fd, &byte, 1, MSG_NOSIGNAL);
+}
+
+void run_nursery(const Nursery& nursery, const std::function<void(WorkerStreams)>& work) {
   for (;;) {
     nursery::Request request{};
     Descriptors descriptors;
-    if (!receive(control_fd, request, descriptors)) _exit(0);
-    const nursery::Reply reply = answer(request, descriptors, control_fd, work);
-    if (send(control_fd, &reply, sizeof reply, MSG_NOSIGNAL) != static_cast<ssize_t>(sizeof reply)) _exit(0);
+    if (!receive(nursery.control_fd, request, descriptors)) _exit(0);
+    const nursery::Reply reply = answer(nursery, request, descriptors, work);
+    if (send(nursery.control_fd, &reply, sizeof reply, MSG_NOSIGNAL) != static_cast<ssize_t>(sizeof reply))
+      _exit(0);
   }
 }
 

@@ -2,6 +2,9 @@
 #pragma once
 
 #include <functional>
+#include <string>
+
+#include "oracles/host/supervisor.h"
 
 namespace touchstone::host {
 
@@ -9,8 +12,22 @@ struct WorkerStreams {
   int questions, answers;
 };
 
+struct Nursery {
+  int control_fd;
+  Apart apart;
+  std::string scratch;             // each worker gets a directory in it, gone with the worker; empty: none
+  bool stays_where_it_is = false;  // the workers' working directory is the user's own
+};
+
+/// The same open file as a descriptor that no loop over small numbers and no printf reaches.
+int out_of_the_way(int fd);
+
+/// Says one byte on `fd`, a socket: the kernel adds this process's number as the harness sees it.
+void say_who(int fd);
+
 /// Serves requests (oracles/api/nursery_protocol.h) until the harness closes its end; never returns. `work`
-/// runs in each forked worker, whose standard streams have been protected.
-[[noreturn]] void run_nursery(int control_fd, const std::function<void(WorkerStreams)>& work);
+/// runs in each forked worker, whose standard streams have been protected. What a worker leaves behind, its
+/// processes and its directory, ends with it.
+[[noreturn]] void run_nursery(const Nursery& nursery, const std::function<void(WorkerStreams)>& work);
 
 }  // namespace touchstone::host

@@ -1,5 +1,6 @@
 #include "oracles/host/pipe.h"
 
+#include <poll.h>
 #include <signal.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -52,7 +53,16 @@ class Child {
   Child(const Child&) = delete;
   Child& operator=(const Child&) = delete;
 
+  /// What it has said that nobody asked for would be taken for the answer to the next question.
+  void require_silence() const {
+    pollfd fd{from_, POLLIN, 0};
+    const bool more = poll(&fd, 1, 0) > 0 && (fd.revents & POLLIN);
+    if (more || !buffer_.empty())
+      throw std::runtime_error("the command wrote more than one line for a question, or without one: " +
+                               buffer_.substr(0, 80));
+  }
   void write_line(std::string line) const {
+    require_silence();
     line.push_back('\n');
     for (std::size_t done = 0; done < line.size();) {
       const ssize_t n = write(to_, line.data() + done, line.size() - done);
@@ -195,6 +205,7 @@ void ask(ts_engine* e, std::int32_t question, std::int32_t a, std::int32_t b, ts
   try {
     child(e).write_line(j.dump());
     read_answer(parsed(child(e).read_line()), *out, *sink);
+    child(e).require_silence();
   } catch (const Json::exception& why) {
     broken(("the command's answer is not of the form asked: " + std::string(why.what())).c_str());
   } catch (const std::exception& why) {

@@ -184,7 +184,7 @@ TEST_CASE("answers, received scenes and hellos round-trip", "[oracles][protocol]
     append(bytes, ReceivedMessage{9, received});
     REQUIRE(decode_received(payload_of(bytes, Type::received), scene).scene == received);
   }
-  const Hello hello{{"{}", "two"}, 1, "error"};
+  const Hello hello{{"{}", "two"}, 1, "error", "read-only"};
   std::string bytes;
   append(bytes, hello);
   CHECK(decode_hello(payload_of(bytes, Type::hello)) == hello);

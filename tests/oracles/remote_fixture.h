@@ -23,6 +23,7 @@ inline WorkerLimits short_limits(bool sleeper = false) {
   l.query_cpu_seconds = 0.3;
   l.load_cpu_seconds = 0.3;
   l.wall_seconds = sleeper ? 2 : 600;
+  l.blocked_seconds = sleeper ? 0.5 : 600;
   l.resident_bytes = std::uint64_t{512} << 20;
   return l;
 }

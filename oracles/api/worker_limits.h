@@ -1,0 +1,34 @@
+// How much an engine may take of the machine and of the harness's patience.
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <exception>
+
+namespace touchstone {
+
+/// CPU time is what the watchdog goes by, so that a loaded machine does not turn answers into time-outs. Wall
+/// time only catches an engine that waits: for a short time if nothing of it uses the CPU, for a longer one
+/// if its own children or a disk do the work.
+struct WorkerLimits {
+  double query_cpu_seconds = 1;
+  double load_cpu_seconds = 10;   // taking a scene: hierarchies of large meshes are built here
+  double start_cpu_seconds = 20;  // loading the plug-in and making its engine, its children included
+  double blocked_seconds = 5;     // without any use of the CPU
+  double wall_seconds = 20;       // without any progress
+  double start_wall_seconds = 60;
+  std::uint64_t resident_bytes = std::uint64_t{2} << 30;  // of the worker and all that it started
+  bool sandbox = true;
+  /// Set by whoever wants all engines to stop: they then throw Stopped, whatever they wait for.
+  const std::atomic<bool>* stop = nullptr;
+};
+
+struct Stopped final : std::exception {
+  const char* what() const noexcept override { return "interrupted"; }
+};
+
+inline void throw_if_stopped(const WorkerLimits& limits) {
+  if (limits.stop && *limits.stop) throw Stopped();
+}
+
+}  // namespace touchstone

@@ -1,0 +1,178 @@
+#include "oracles/host/supervisor.h"
+
+#include <fcntl.h>
+#include <sched.h>
+#include <signal.h>
+#include <sys/prctl.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+
+namespace touchstone::host {
+namespace {
+
+constexpr int most_rounds = 10000;  // of ending children that start others meanwhile
+
+bool write_text(const char* file, const std::string& text) {
+  const int fd = open(file, O_WRONLY | O_CLOEXEC);
+  if (fd < 0) return false;
+  const bool written = write(fd, text.data(), text.size()) == static_cast<ssize_t>(text.size());
+  close(fd);
+  return written;
+}
+
+/// Every user and group is itself in the new user namespace.
+bool map_ids(uid_t user, gid_t group) {
+  const auto line = [](unsigned id) { return std::to_string(id) + " " + std::to_string(id) + " 1"; };
+  write_text("/proc/self/setgroups", "deny");
+  return write_text("/proc/self/gid_map", line(group)) && write_text("/proc/self/uid_map", line(user));
+}
+
+/// Children are in new namespaces from here on. Root needs no user namespace, in which it could read less.
+Apart leave_namespaces() {
+  const uid_t user = geteuid();
+  const gid_t group = getegid();
+  if (user == 0 && unshare(CLONE_NEWPID) == 0) return {true, false, true};
+  if (unshare(CLONE_NEWUSER | CLONE_NEWPID) != 0) return {};
+  return {true, true, map_ids(user, group)};
+}
+
+void close_all_but(int kept) {
+  for (int fd = 0; fd < 1024; ++fd)
+    if (fd != kept) close(fd);
+}
+
+/// The first process of a PID namespace; with its end the kernel ends all others. It lives as long as someone
+/// holds the other end of the pipe.
+[[noreturn]] void be_init(int alive) {
+  prctl(PR_SET_PDEATHSIG, SIGKILL);
+  signal(SIGCHLD, SIG_IGN);
+  close_all_but(alive);
+  char byte;
+  while (read(alive, &byte, 1) < 0 && errno == EINTR) {
+  }
+  _exit(0);
+}
+
+[[noreturn]] void fail(const char* what) {
+  std::perror(what);
+  _exit(3);
+}
+
+/// Dies as the child did, without a core file.
+[[noreturn]] void end_like(int status) {
+  if (WIFEXITED(status)) _exit(WEXITSTATUS(status));
+  const rlimit none{0, 0};
+  setrlimit(RLIMIT_CORE, &none);
+  prctl(PR_SET_DUMPABLE, 0);
+  const int how = WTERMSIG(status);
+  signal(how, SIG_DFL);
+  sigset_t one;
+  sigemptyset(&one);
+  sigaddset(&one, how);
+  raise(how);
+  sigprocmask(SIG_UNBLOCK, &one, nullptr);
+  _exit(3);
+}
+
+sigset_t awaited_signals() {
+  sigset_t s;
+  sigemptyset(&s);
+  sigaddset(&s, SIGCHLD);
+  sigaddset(&s, SIGTERM);
+  return s;
+}
+
+/// Until the child has ended or somebody wants it to.
+int wait_for(pid_t child) {
+  const sigset_t awaited = awaited_signals();
+  for (;;) {
+    int status = 0;
+    if (waitpid(child, &status, WNOHANG) == child) return status;
+    if (sigwaitinfo(&awaited, nullptr) != SIGTERM) continue;
+    kill(child, SIGKILL);
+    while (waitpid(child, &status, 0) < 0 && errno == EINTR) {
+    }
+    return status;
+  }
+}
+
+struct Init {
+  pid_t pid = -1;
+  int alive = -1;  // closed: it ends
+};
+
+[[noreturn]] void watch(pid_t child, const Init& init, const std::string& scratch) {
+  close_all_but(init.alive);
+  const int status = wait_for(child);
+  if (init.pid > 0) {
+    kill(init.pid, SIGKILL);
+    while (waitpid(init.pid, nullptr, 0) < 0 && errno == EINTR) {
+    }
+  }
+  end_others({});
+  std::error_code ignored;  // the harness removes it too
+  std::filesystem::remove_all(scratch, ignored);
+  end_like(status);
+}
+
+Init start_init() {
+  int alive[2];
+  Init init;
+  if (pipe2(alive, O_CLOEXEC) != 0 || (init.pid = fork()) < 0) fail("touchstone-host: init");
+  if (init.pid == 0) {
+    close(alive[1]);
+    be_init(alive[0]);
+  }
+  close(alive[0]);
+  init.alive = alive[1];
+  return init;
+}
+
+/// False when there are none.
+bool kill_children() {
+  std::ifstream list("/proc/thread-self/children");
+  bool any = false;
+  for (pid_t child; list >> child; any = true) kill(child, SIGKILL);
+  return any;
+}
+
+}  // namespace
+
+void end_others(const Apart& apart) {
+  // From within a PID namespace whose parent is outside, "all" is all of it but the first and this one.
+  if (apart.pid_namespace && getppid() == 0) {
+    kill(-1, SIGKILL);
+    while (waitpid(-1, nullptr, 0) > 0 || errno == EINTR) {
+    }
+    return;
+  }
+  // What loses its parent becomes a child of this process, its subreaper.
+  for (int round = 0; round < most_rounds && kill_children(); ++round) waitpid(-1, nullptr, 0);
+}
+
+Apart supervise(const std::string& scratch) {
+  prctl(PR_SET_PDEATHSIG, SIGTERM);
+  prctl(PR_SET_CHILD_SUBREAPER, 1);
+  const sigset_t awaited = awaited_signals();
+  sigset_t before;
+  sigprocmask(SIG_BLOCK, &awaited, &before);
+  const Apart apart = leave_namespaces();
+  const Init init = apart.pid_namespace ? start_init() : Init{};
+  const pid_t child = fork();
+  if (child < 0) fail("touchstone-host: fork");
+  if (child > 0) watch(child, init, scratch);
+  if (init.alive >= 0) close(init.alive);
+  prctl(PR_SET_PDEATHSIG, SIGKILL);
+  prctl(PR_SET_CHILD_SUBREAPER, 1);
+  setpgid(0, 0);
+  sigprocmask(SIG_SETMASK, &before, nullptr);
+  return apart;
+}
+
+}  // namespace touchstone::host
