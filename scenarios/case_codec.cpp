@@ -13,6 +13,7 @@
 #include "core/scene/json_text.h"
 #include "core/scene/odd_numbers.h"
 #include "scenarios/expectation_codec.h"
+#include "scenarios/moving_pairs.h"
 
 namespace touchstone {
 namespace {
@@ -117,17 +118,23 @@ void write_list(std::string& out, const std::string& name, const Json& items) {
 }  // namespace
 
 std::vector<Query> default_queries(const Scene& scene) {
-  const bool moves = std::any_of(scene.bodies.begin(), scene.bodies.end(),
-                                 [](const Body& b) { return b.motion.has_value(); });
+  const bool has_motion = std::any_of(scene.bodies.begin(), scene.bodies.end(),
+                                      [](const Body& b) { return b.motion.has_value(); });
   std::vector<Query> q;
   if (scene.bodies.size() == 2) {
     for (Question question : {Question::overlap, Question::distance, Question::contact})
       q.push_back({question, 0, 1});
-    if (moves) q.push_back({Question::time_of_impact, 0, 1});
+    if (has_motion) q.push_back({Question::time_of_impact, 0, 1});
     if (!scene.script.empty()) q.push_back({Question::candidates, 0, 1});
     return q;
   }
-  return {{Question::candidates, 0, 1}, {Question::scene_contacts, 0, 1}};
+  q = {{Question::candidates, 0, 1}, {Question::scene_contacts, 0, 1}};
+  if (!moves(scene)) return q;
+  q.push_back({Question::swept_candidates, 0, 1});
+  const auto pairs = moving_pairs(scene);
+  for (std::size_t i = 0; i < std::min(pairs.size(), most_impacts_asked); ++i)
+    q.push_back({Question::time_of_impact, pairs[i].first, pairs[i].second});
+  return q;
 }
 
 nlohmann::ordered_json case_to_json(const Case& c) { return stored_case_to_json({c, "", "", {}}); }

@@ -63,6 +63,70 @@ void grounded(const Draw& d, std::uint64_t index, Case& out) {
   s.script.insert(s.script.begin(), {Step::Op::insert, static_cast<int>(s.bodies.size()) - 1, std::nullopt});
 }
 
+namespace {
+
+// Two bodies of which the first moves; the other stands where the first comes by, or a little off its way.
+void swept_case(const Draw& d, Body first, const Shape& other, const Vec3& at, Case& out) {
+  Scene& s = out.scene;
+  Body second;
+  first.shape = 0, second.shape = 1;
+  second.pose.translation = at;
+  s.shapes.push_back(other);
+  s.bodies = {std::move(first), std::move(second)};
+  insert_all(s), step_query(s);
+  out.queries = {{Question::candidates, -1, -1}};
+  round_to(d.scalar, out);
+}
+
+// A ball for the first to meet: beside the point `way` of its path by up to 1.6 times what still touches.
+void drift_case(const Draw& d, Rng& rng, const Vec3& start, const Vec3& travel, Case& out) {
+  out.scene.shapes.push_back(slender(rng));
+  Body first;
+  first.pose = {start, rng.rotation()};
+  first.motion = Motion{travel, Vec3::Zero()};
+  const double radius = rng.uniform(0.05, 0.3), way = rng.uniform(0.1, 1.0);
+  const Vec3 aside = rng.vector(0, 1.2);
+  swept_case(d, std::move(first), Sphere{radius}, start + way * travel + aside, out);
+}
+
+}  // namespace
+
+void drifting_along_an_axis(const Draw& d, std::uint64_t index, Case& out) {
+  Rng rng = Rng::stream(d.seed + 13, index);
+  const int axis = static_cast<int>(index % 3);
+  const double length = rng.uniform(1, 8), sign = rng.chance(0.5) ? 1 : -1;
+  const Vec3 start = rng.vector(0, 2);
+  drift_case(d, rng, start, Vec3::Unit(axis) * (sign * length), out);
+}
+
+void drifting(const Draw& d, std::uint64_t index, Case& out) {
+  Rng rng = Rng::stream(d.seed + 14, index);
+  const Vec3 start = rng.vector(0, 2), travel = rng.vector(1, 8);
+  drift_case(d, rng, start, travel, out);
+}
+
+// Thousands of lengths a step, from near or far; the ball stands near the way of the body's middle.
+void fast_and_far(const Draw& d, std::uint64_t index, Case& out) {
+  Rng rng = Rng::stream(d.seed + 15, index);
+  const Vec3 from = rng.unit_vector(), along = rng.unit_vector();
+  const double far = rng.binary_scale(2, 10), fast = rng.binary_scale(4, 12);
+  const Vec3 start = from * far, travel = along * fast;
+  drift_case(d, rng, start, travel, out);
+  if (rng.chance(0.3)) out.scene.bodies[0].motion->angular = rng.vector(0.5, 40);
+  round_to(d.scalar, out);
+}
+
+void turning_in_place(const Draw& d, std::uint64_t index, Case& out) {
+  Rng rng = Rng::stream(d.seed + 16, index);
+  out.scene.shapes.push_back(slender(rng));
+  const double reach = bounding_radius(out.scene.shapes[0]);
+  Body first;
+  first.pose.rotation = rng.rotation();
+  first.motion = Motion{Vec3::Zero(), rng.vector(0.5, 12)};
+  const double radius = rng.uniform(0.02, 0.15);
+  swept_case(d, std::move(first), Sphere{radius}, rng.vector(0.6 * reach, 1.1 * reach), out);
+}
+
 // The small body stands somewhere in the shell that the slender one's ends pass, so that about half meet.
 void turning_pairs(const Draw& d, std::uint64_t index, Case& out) {
   Rng rng = Rng::stream(d.seed + 12, index);

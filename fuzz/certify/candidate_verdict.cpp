@@ -110,7 +110,13 @@ std::vector<Pairs> true_pairs_of_bodies(const Scene& s, std::uint64_t& undecided
   undecided += truth.undecided_pairs();
   if (!moves) return out;
   const Pairs swept = meeting_in_step(s, truth, undecided);
-  for (Pairs& p : out) p.insert(p.end(), swept.begin(), swept.end()), p = sorted_unique(std::move(p));
+  for (std::size_t k = 0; k < out.size(); ++k) {
+    const auto& pose = truth.steps()[k].pose;
+    const auto is_there = [&](int body) { return pose[static_cast<std::size_t>(body)].has_value(); };
+    for (const BodyPair& p : swept)
+      if (is_there(p.first) && is_there(p.second)) out[k].push_back(p);
+    out[k] = sorted_unique(std::move(out[k]));
+  }
   return out;
 }
 

@@ -12,6 +12,7 @@
 #include "fuzz/judge/judge.h"
 #include "reports/replay_text.h"
 #include "reports/text.h"
+#include "scenarios/moving_pairs.h"
 
 namespace touchstone::cli {
 namespace {
@@ -50,11 +51,14 @@ bool replay_case(const ReplayOptions& o, const Engines& engines, const Case& c, 
   subject_wrong |= related.wrong_of(o.subject) > 0;
   if (o.json) {
     json.push_back(text.json());
+    json.back()["impacts_not_asked"] = impacts_not_asked(c);
     json.back()["relations"] = fuzz::Json::array();
     for (const auto& [key, f] : related.findings) json.back()["relations"].push_back(fuzz::to_json(f));
     return subject_wrong;
   }
   fmt::print("{}", text.str());
+  if (const std::string words = words_on_impacts_not_asked(c); !words.empty())
+    fmt::print("{}\n\n", reports::wrapped(words, 78, 4));
   if (!related.findings.empty()) fmt::print("\nAgainst their own answers:\n");
   for (const auto& [key, f] : related.findings)
     fmt::print("  {}\n", reports::wrapped(fmt::format("{} {}: {}", f.engine, f.fault, f.words), 76, 4));

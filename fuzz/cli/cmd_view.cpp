@@ -13,6 +13,7 @@
 #include "fuzz/cli/pages.h"
 #include "fuzz/explore/broad_view.h"
 #include "reports/broad_page.h"
+#include "scenarios/moving_pairs.h"
 
 namespace touchstone::cli {
 namespace {
@@ -41,7 +42,10 @@ Scene scene_named(const ViewOptions& o) {
 }
 
 int view_case(const ViewOptions& o) {
-  const fuzz::Json page = case_page(o.scene, case_argument(o.scene), o.engines, o.limits);
+  const StoredCase stored = case_argument(o.scene);
+  if (const std::string words = words_on_impacts_not_asked(stored.c); !words.empty())
+    fmt::print(stderr, "{}\n", words);
+  const fuzz::Json page = case_page(o.scene, stored, o.engines, o.limits);
   if (o.json) fmt::print("{}\n", page.dump(1));
   if (o.out.empty()) return exit_clean;
   if (!write_page("case", page.dump(), o.out)) return exit_failed;

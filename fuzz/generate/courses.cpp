@@ -1,5 +1,7 @@
 #include "fuzz/generate/courses.h"
 
+#include <cmath>
+
 #include "fuzz/generate/place.h"
 #include "fuzz/generate/random_shape.h"
 
@@ -60,6 +62,103 @@ void bullet(Rng& rng, Case& c) {
   if (rng.chance(0.3)) m.angular = rng.vector(0.1, 9);
   s.bodies[1].motion = m;
   ask_impact(c, std::move(s));
+}
+
+// The bodies meet, if at all, within 0.05 % of the step's end, a fifth of them just after it: A stands still,
+// B's farthest point reaches A's farthest along n at that time. Half of them turn.
+void last_moment(Rng& rng, Case& c) {
+  const auto [a, b] = random_kinds(rng);
+  Scene s = random_pair(rng, a, b, 1, Vec3::Zero());
+  const Vec3 n = placement_direction(rng, s);
+  place_along(rng, s, n, 0, 0.2);
+  const double before_end = rng.binary_scale(-36, -11);
+  const double t = rng.chance(0.2) ? 1 + before_end : 1 - before_end;
+  const Vec3 u = rng.unit_vector();
+  const Vec3 towards = -n + 0.8 * (u - u.dot(n) * n);
+  Motion m{towards * (rng.uniform(0.2, 3) * mean_extent(s)), Vec3::Zero()};
+  Body& body = s.bodies[1];
+  body.pose.translation -= t * m.linear;
+  if (rng.chance(0.5)) {
+    m.angular = rng.vector(0.1, 6);
+    // Turned back, so that it touches near t as it was placed.
+    body.pose = pose_at(body.pose, Motion{Vec3::Zero(), -m.angular}, std::min(t, 1.0));
+  }
+  body.motion = m;
+  ask_impact(c, std::move(s));
+}
+
+// Bodies that turn by 9 to 60 radians in the step while they close in or pass.
+void whirl(Rng& rng, Case& c) {
+  const auto [a, b] = random_kinds(rng);
+  Scene s = random_pair(rng, a, b, 1, Vec3::Zero());
+  const Vec3 n = placement_direction(rng, s);
+  const double size = mean_extent(s);
+  const double gap = rng.uniform(0.05, 1) * size, way = rng.uniform(0, 2.5) * size;
+  place_along(rng, s, n, gap, 0.5);
+  const Vec3 aside = rng.vector(0, 0.5) * size;
+  s.bodies[1].motion = Motion{aside - n * way, rng.vector(9, 60)};
+  if (!s.bodies[0].is_static && rng.chance(0.3)) s.bodies[0].motion = Motion{Vec3::Zero(), rng.vector(9, 60)};
+  ask_impact(c, std::move(s));
+}
+
+namespace {
+
+enum class Going { along_an_axis, straight, turning, both, fast };
+
+// Long and thin: turning matters.
+Shape rod(Rng& rng) {
+  const double length = rng.uniform(0.5, 2), width = rng.uniform(0.03, 0.3);
+  if (rng.chance(0.5)) return Box{{width, width * rng.uniform(0.5, 1), length}};
+  return rng.chance(0.5) ? Shape{Capsule{width, length}} : Shape{Cylinder{width, length}};
+}
+
+Motion motion_of(Rng& rng, Going g, double way) {
+  const double length = rng.uniform(-1.5, 1.5) * way;
+  const Vec3 any = rng.unit_vector();
+  switch (g) {
+    case Going::along_an_axis:
+      return {Vec3::Unit(static_cast<int>(rng.below(3))) * length, Vec3::Zero()};
+    case Going::straight:
+      return {any * length, Vec3::Zero()};
+    case Going::turning:
+      return {Vec3::Zero(), rng.vector(0.3, 9)};
+    case Going::both:
+      return {any * length, rng.vector(0.3, 9)};
+    case Going::fast:
+      return {any * (length * rng.binary_scale(3, 7)), rng.chance(0.3) ? rng.vector(0.3, 20) : Vec3(0, 0, 0)};
+  }
+  return {};
+}
+
+}  // namespace
+
+// 3 to 20 bodies, most of which move in one of five ways: along one axis of the world, straight, turning in
+// place, both, or fast, and then from so far that they arrive about midway.
+void swarm(Rng& rng, Case& c) {
+  const auto n = 3 + rng.below(18);
+  const auto going = static_cast<Going>(rng.below(5));
+  const bool slender = going == Going::turning || rng.chance(0.3);
+  const double side = 2.2 * std::cbrt(static_cast<double>(n));
+  Scene& s = c.scene;
+  for (std::uint64_t i = 0; i < n; ++i) {
+    Body b;
+    b.shape = static_cast<int>(i);
+    const ShapeKind kind = random_convex_kind(rng);
+    s.shapes.push_back(slender ? rod(rng) : random_shape(rng, kind, 0.7));
+    b.pose.rotation = rng.chance(0.3) ? Quat{} : rng.rotation();
+    const double x = rng.uniform(-0.5, 0.5), y = rng.uniform(-0.5, 0.5), z = rng.uniform(-0.5, 0.5);
+    b.pose.translation = Vec3(x, y, z) * side;
+    if (rng.below(6) == 0) {
+      b.is_static = rng.chance(0.5);
+    } else {
+      b.motion = motion_of(rng, going, side / 2);
+      if (going == Going::fast) b.pose.translation -= rng.uniform(0.1, 0.9) * b.motion->linear;
+    }
+    s.bodies.push_back(std::move(b));
+  }
+  c.queries = {{Question::swept_candidates, -1, -1}, {Question::candidates, -1, -1}};
+  for (const auto& [a, b] : {BodyPair{0, 1}, BodyPair{0, 2}, BodyPair{1, 2}})
+    c.queries.push_back({Question::time_of_impact, a, b});
 }
 
 }  // namespace touchstone::fuzz

@@ -11,4 +11,8 @@ void start_in_contact(Rng& rng, Case& c);
 void graze(Rng& rng, Case& c);
 void bullet(Rng& rng, Case& c);
 
+void last_moment(Rng& rng, Case& c);
+void whirl(Rng& rng, Case& c);
+void swarm(Rng& rng, Case& c);
+
 }  // namespace touchstone::fuzz

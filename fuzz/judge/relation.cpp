@@ -131,12 +131,14 @@ GapInterval implied_gap(const Scene& s, const Query& q, const Observation& o, co
 
 std::optional<BodyPair> pair_asked(const Case& c) {
   std::optional<BodyPair> pair;
+  bool at_rest = false;
   for (const Query& q : c.queries) {
-    if (!is_pair_question(q.question) || q.question == Question::time_of_impact) continue;
+    if (!is_pair_question(q.question)) continue;
     if (pair && *pair != BodyPair{q.a, q.b}) return std::nullopt;
     pair = BodyPair{q.a, q.b};
+    at_rest |= q.question != Question::time_of_impact;
   }
-  return pair;
+  return at_rest ? pair : std::nullopt;
 }
 
 std::vector<Expected> implied_gaps(const RelationInput& in) {

@@ -56,6 +56,35 @@ std::pair<std::size_t, std::size_t> least_script(std::string_view mutant) {
   return {3, 6};
 }
 
+// The core, told of another motion than the one asked about.
+class OtherMotion final : public Engine {
+ public:
+  using Change = void (*)(Motion&);
+  explicit OtherMotion(Change change)
+      : change_(change), inner_(make_broad_engine("automatic", BroadBoxes::bodies)) {}
+  const EngineCard& card() const override { return inner_->card(); }
+  std::vector<CaseObservations> run(std::span<const Case> cases) override {
+    std::vector<Case> told(cases.begin(), cases.end());
+    for (Case& c : told)
+      for (Body& b : c.scene.bodies)
+        if (b.motion) change_(*b.motion);
+    return inner_->run(told);
+  }
+
+ private:
+  Change change_;
+  EnginePtr inner_;
+};
+
+BroadCertificate certificate_of_sweeps(OtherMotion::Change change) {
+  const Subject s{"other motion", "", true, [=](Level) { return std::make_unique<OtherMotion>(change); }};
+  CertifyConfig c;
+  c.levels = {Level::bodies}, c.program = "test";
+  for (const EvidenceRow& e : all_evidence())
+    if (!e.sweeps && e.level == Level::bodies) c.without.emplace_back(e.name);
+  return *certify(s, c, {}, never);
+}
+
 }  // namespace
 
 TEST_CASE("ends of n intervals have the orders that are counted by hand", "[certify]") {
@@ -147,6 +176,35 @@ TEST_CASE("every lying broad phase is refuted by a script of few bodies and step
   }
   CHECK(refuted == broad_mutants().size());
   CHECK(small == refuted);
+}
+
+TEST_CASE("a subject that leaves out a part of the motion is refuted in the quick scope", "[certify]") {
+  const std::pair<const char*, OtherMotion::Change> liars[] = {
+      {"no motion", [](Motion& m) { m = {}; }},
+      {"no travel", [](Motion& m) { m.linear.setZero(); }},
+      {"no turning", [](Motion& m) { m.angular.setZero(); }},
+      {"not along x", [](Motion& m) { m.linear.x() = 0; }},
+      {"not along y", [](Motion& m) { m.linear.y() = 0; }},
+      {"not along z", [](Motion& m) { m.linear.z() = 0; }},
+      {"half of the way", [](Motion& m) { m.linear *= 0.5; }},
+      {"the other way", [](Motion& m) { m.linear = -m.linear; }},
+      {"no farther than 16", [](Motion& m) { m.linear *= std::min(1.0, 16 / (m.linear.norm() + 1e-300)); }}};
+  for (const auto& [name, change] : liars) {
+    const BroadCertificate c = certificate_of_sweeps(change);
+    INFO(name);
+    CHECK(exit_code(c) == 1);
+    REQUIRE_FALSE(c.refutations.empty());
+    CHECK(c.refutations[0].fault == "missed");
+    CHECK(c.refutations[0].bodies == 2);
+  }
+  const BroadCertificate honest = certificate_of_sweeps([](Motion&) {});
+  CHECK(exit_code(honest) == 0);
+  // About half of the pairs meet, and what a lie about one part of the motion would lose is asked for itself.
+  for (const EvidenceCount& e : honest.evidence) {
+    INFO(e.name);
+    CHECK(e.pairs_true > e.answered / 8);
+    CHECK(e.pairs_true < e.answered * 9 / 10);
+  }
 }
 
 TEST_CASE("a bad box goes into a case file beside the scene and comes back, for candidates alone",

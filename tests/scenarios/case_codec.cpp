@@ -1,9 +1,12 @@
 // A case as JSON: there and back, defaults, and what is refused.
 #include "scenarios/case_codec.h"
 
+#include <algorithm>
+
 #include "core/scene/codec.h"
 #include "core/scene/json_text.h"
 #include "scenarios/catalog.h"
+#include "scenarios/moving_pairs.h"
 #include "tests/scene/expect_error.h"
 #include "tests/scene/temp_dir.h"
 
@@ -57,6 +60,64 @@ TEST_CASE("a bare scene file becomes a case with the usual questions", "[scenari
   s.bodies.resize(2);
   s.script = {{Step::Op::insert, 0, std::nullopt}, {}};
   CHECK(default_queries(s).back().question == Question::candidates);
+}
+
+namespace {
+
+// A box at the origin, a ball that flies through it, a bystander out of its way.
+Scene ball_through_box() {
+  Scene s;
+  s.shapes = {Box{{1, 1, 1}}, Sphere{0.25}};
+  s.bodies.resize(3);
+  s.bodies[1].shape = s.bodies[2].shape = 1;
+  s.bodies[1].pose.translation = {-5, 0.1, 0.2};
+  s.bodies[1].motion = Motion{Vec3(10, 0, 0), Vec3::Zero()};
+  s.bodies[2].pose.translation = {0, 8, 0};
+  return s;
+}
+
+bool asks_impact(const std::vector<Query>& all, int a, int b) {
+  return std::find(all.begin(), all.end(), Query{Question::time_of_impact, a, b}) != all.end();
+}
+
+}  // namespace
+
+TEST_CASE("of a scene with motion the moving pairs that may meet are asked, whoever stands by",
+          "[scenarios][codec]") {
+  Scene s = ball_through_box();
+  CHECK(moving_pairs(s) == std::vector<BodyPair>{{0, 1}});
+  const auto asked = default_queries(s);
+  CHECK(asks_impact(asked, 0, 1));
+  CHECK(std::count(asked.begin(), asked.end(), Query{Question::swept_candidates, 0, 1}) == 1);
+  CHECK(asked.size() == 4);
+  CHECK(words_on_impacts_not_asked({"", "", s, asked}).empty());
+  CHECK(words_on_impacts_not_asked({"", "", s, {{Question::candidates, 0, 1}}}).find("1 pair that") !=
+        std::string::npos);
+  // Which way and how it turns counts; filtered pairs and those of bodies that stand still do not.
+  s.bodies[1].motion->linear = {0, 10, 0};
+  CHECK(moving_pairs(s).empty());
+  s.bodies[1].pose.translation = {0, 0.1, 0.2};
+  CHECK(moving_pairs(s) == std::vector<BodyPair>{{0, 1}, {1, 2}});
+  s.ignored = {{0, 1}};
+  CHECK(moving_pairs(s) == std::vector<BodyPair>{{1, 2}});
+  s.bodies[1].motion = Motion{};
+  CHECK(moving_pairs(s).empty());
+  CHECK(default_queries(s).size() == 2);
+  s.shapes[1] = Capsule{0.1, 9};
+  s.bodies[1].motion->angular = {1, 0, 0};
+  CHECK(moving_pairs(s) == std::vector<BodyPair>{{1, 2}});
+}
+
+TEST_CASE("of many moving pairs a stated number is asked, and how many are not is said",
+          "[scenarios][codec]") {
+  Scene s;
+  s.shapes = {Sphere{1}};
+  s.bodies.resize(20);
+  for (Body& b : s.bodies) b.motion = Motion{Vec3(1, 0, 0), Vec3::Zero()};
+  const auto asked = default_queries(s);
+  CHECK(asked.size() == 3 + most_impacts_asked);
+  CHECK(impacts_not_asked({"", "", s, asked}) == 190 - most_impacts_asked);
+  CHECK(words_on_impacts_not_asked({"", "", s, asked}).find("126 pairs") != std::string::npos);
 }
 
 TEST_CASE("a case without questions gets the usual ones, a file without id its name", "[scenarios][codec]") {

@@ -84,6 +84,8 @@ std::vector<Derived> derive_order(const RelationInput& in) {
   const auto mapped = [n](int i) { return n - 1 - i; };
   for (int i = 0; i < n; ++i) d.body_of.push_back(mapped(i));
   std::reverse(t.bodies.begin(), t.bodies.end());
+  for (Query& q : d.c.queries)
+    if (is_pair_question(q.question)) q = {q.question, mapped(q.a), mapped(q.b)};
   for (BodyPair& p : t.ignored) p = {mapped(p.second), mapped(p.first)};
   std::sort(t.ignored.begin(), t.ignored.end());
   for (Step& step : t.script)
