@@ -44,7 +44,7 @@ struct Hello {
   std::vector<std::string> cards;  // JSON
   std::int32_t chosen = -1;        // index into cards; -1: cards only
   std::string error;               // not empty: the plug-in cannot be used, and this is why
-  std::string sandbox;             // what of it is in force, in words
+  std::string sandbox{};           // what of it is in force, in words
   bool operator==(const Hello&) const = default;
 };
 
