@@ -24,8 +24,8 @@ struct StoredCase {
 
 /// What is asked of a scene that comes without questions. Two bodies: overlap, distance, contact of (0, 1),
 /// and time of impact when one moves; otherwise, or when there is a script, candidates; scene contacts when
-/// there are more bodies; when one of these moves, candidates of the step and the time of impact of the first
-/// `most_impacts_asked` pairs that may meet (moving_pairs.h).
+/// there are more bodies; when one of these moves, the time of impact of the first `most_impacts_asked` pairs
+/// that may meet (moving_pairs.h).
 std::vector<Query> default_queries(const Scene& scene);
 
 nlohmann::ordered_json case_to_json(const Case& c);
