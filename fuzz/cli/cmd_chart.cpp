@@ -55,8 +55,11 @@ std::vector<EnginePtr> broad_engines(const ChartOptions& o) {
 // The engines named; of all of them other settings too, and sub-stepping.
 std::vector<EnginePtr> pair_engines(const ChartOptions& o) {
   std::vector<EnginePtr> engines;
-  for (const auto& name : engine_names(o.engines)) engines.push_back(make_engine(name, o.limits));
-  if (o.engines != "all") return engines;
+  const bool all = o.engines == "all";
+  // core-kept builds for one question what a program builds once: its times say nothing.
+  for (const auto& name : engine_names(o.engines))
+    if (!all || name != "core-kept") engines.push_back(make_engine(name, o.limits));
+  if (!all) return engines;
   for (const EngineRow& row : sweep_catalog())
     if (is_present(row)) engines.push_back(make_engine(std::string(row.name), o.limits));
   const auto stepped = stepped_engines();

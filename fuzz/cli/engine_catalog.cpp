@@ -12,6 +12,7 @@
 #include "fuzz/explore/sub_steps.h"
 #include "oracles/core/alternative_engine.h"
 #include "oracles/core/core_engine.h"
+#include "oracles/core/kept_engine.h"
 
 namespace touchstone::cli {
 namespace {
@@ -23,6 +24,7 @@ constexpr std::string_view fcl = "libtouchstone_fcl.so", f32 = "libtouchstone_bu
 constexpr EngineRow rows[] = {
     {"core", "", "our own core, in process"},
     {"core-f32", "", "its narrow phase in float, in process"},
+    {"core-kept", "", "our core with all that it may build and keep: hull graphs, pair memory, StepWorld"},
     {"fcl-libccd", fcl, "FCL as shipped, GST_LIBCCD"},
     {"fcl-libccd-tuned", fcl, "FCL, GST_LIBCCD, tolerances 1e-12 and 1e-7"},
     {"fcl-indep", fcl, "FCL as shipped, GST_INDEP"},
@@ -264,6 +266,7 @@ EnginePtr make_engine(const std::string& name, const WorkerLimits& limits) {
   check_name(name);
   if (name == "core") return std::make_unique<CoreEngine>();
   if (name == "core-f32") return std::make_unique<CoreEngine>(Arithmetic::float32);
+  if (name == "core-kept") return make_kept_engine();
   for (const std::string_view other : core_alternatives())
     if (name == other) return make_core_alternative(other);
   if (const auto stepped = fuzz::sub_steps_name(name); stepped && !is_pipe(name))

@@ -6,7 +6,11 @@
 
 #include "core/base/comma_list.h"
 #include "core/base/input_error.h"
+#include "fuzz/generate/company.h"
 #include "fuzz/generate/courses.h"
+#include "fuzz/generate/forms.h"
+#include "fuzz/generate/large_shapes.h"
+#include "fuzz/generate/odd_sizes.h"
 #include "fuzz/generate/place.h"
 #include "fuzz/generate/random_shape.h"
 #include "fuzz/generate/tiles.h"
@@ -226,6 +230,13 @@ constexpr Family catalog[] = {
     {"tiles", "2 to 26 bodies that touch exactly or within ulps, far and near, of mixed sizes", 3, tiles},
     {"errands", "tiles inserted, moved by ulps and more, removed, re-inserted, with queries", 3, errands},
     {"throng", "40 to 400 tiles: candidate pairs", 1, throng},
+    {"zero", "sizes of zero: points, segments, discs, plates, flat hulls", 7, zero_sizes},
+    {"unequal", "a body 250 to 4e6 times smaller than the other", 5, unequal_sizes},
+    {"parallel", "boxes and prisms turned against each other by 1e-14 to 0.1", 6, nearly_parallel},
+    {"mesh", "meshes of 1 to 450 triangles: single, folded, closed, flat, scattered", 8, meshes},
+    {"vertices", "hulls of 64 to 300 vertices", 4, many_vertices},
+    {"company", "3 to 14 bodies with meshes, groups, ignored pairs: candidates and contacts", 4, company},
+    {"dialogue", "3 to 6 bodies of few shapes; pairs asked in turn, in both orders, and again", 5, dialogue},
 };
 
 const Family& named(std::string_view name) {
@@ -258,17 +269,28 @@ const Family& pick(Rng& rng, std::string_view names) {
   return catalog[one];
 }
 
+constexpr std::uint64_t forms_apart = 0x666f726d73ULL;  // another stream than the case's own
+
+Case make_new(std::uint64_t seed, std::uint64_t index, std::string_view names) {
+  Rng rng = Rng::stream(seed, index);
+  const Family& f = pick(rng, names);
+  Case c;
+  c.family = std::string(f.name);
+  f.make(rng, c);
+  return c;
+}
+
 }  // namespace
 
 std::span<const Family> families() { return catalog; }
 
 Case make_case(std::uint64_t seed, std::uint64_t index, std::string_view names) {
-  Rng rng = Rng::stream(seed, index);
-  const Family& f = pick(rng, names);
-  Case c;
-  c.family = std::string(f.name);
+  Rng rng = Rng::stream(seed ^ forms_apart, index);
+  const bool sequel = is_sequel(rng) && index > 0;
+  Case c = sequel ? make_case(seed, index - 1, names) : make_new(seed, index, names);
+  if (sequel) move_a_body(rng, c);
+  apply_forms(rng, c);
   c.id = c.family + "/" + std::to_string(seed) + "/" + std::to_string(index);
-  f.make(rng, c);
   return c;
 }
 

@@ -3,6 +3,7 @@
 
 #include "core/base/input_error.h"
 #include "fuzz/generate/family.h"
+#include "fuzz/generate/regimes.h"
 #include "tests/support/catch.h"
 
 using namespace touchstone;
@@ -46,4 +47,19 @@ TEST_CASE("several families mix by their weights", "[generate]") {
   CHECK(count["deep"] > count["contained"]);
   CHECK(count["contained"] > 4 * count["throng"]);
   CHECK(count["throng"] > 40);
+}
+
+TEST_CASE("the default mix shows every regime as often as is stated", "[generate]") {
+  constexpr std::uint64_t cases = 6000;
+  std::map<std::string_view, std::uint64_t> count;
+  Case before = fuzz::make_case(7, 0);
+  for (std::uint64_t i = 1; i <= cases; ++i) {
+    Case c = fuzz::make_case(7, i);
+    for (const fuzz::Regime& r : fuzz::regimes()) count[r.name] += r.shown(c, before);
+    before = std::move(c);
+  }
+  for (const fuzz::Regime& r : fuzz::regimes()) {
+    INFO(r.name << ": one case in " << r.one_in << " is stated, of " << cases << " there are " << count[r.name]);
+    CHECK(count[r.name] * static_cast<std::uint64_t>(r.one_in) >= cases);
+  }
 }

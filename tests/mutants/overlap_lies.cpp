@@ -82,7 +82,7 @@ std::vector<Mutant> overlap_lies() {
       {"overlap_one_pair_denied", "missed", "shallow", "a capsule and a cone never overlap",
        denied_where(capsule_cone)},
       {"overlap_mesh_denied", "missed", "deep", "a mesh overlaps nothing", denied_where(mesh)},
-      {"overlap_flat_hull_denied", "missed", "far", "a flat hull as the second body overlaps nothing",
+      {"overlap_flat_hull_denied", "missed", "zero", "a flat hull as the second body overlaps nothing",
        denied_where(flat_hull)},
       {"overlap_one_order_denied", "missed", "shallow", "apart when the second body's kind is the lower one",
        denied_where(second_kind_lower)},

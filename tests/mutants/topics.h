@@ -19,5 +19,7 @@ std::vector<Mutant> impact_lies();
 std::vector<Mutant> outcome_lies();
 std::vector<Mutant> scene_lies();
 std::vector<Mutant> relation_lies();  // what only another form of the case shows
+std::vector<Mutant> regime_lies();    // what only a regime of the generator shows
+std::vector<Mutant> memory_lies();    // what was asked before
 
 }  // namespace touchstone::mutants

@@ -57,7 +57,10 @@ void check_scene_contacts(const CheckInput& in, CheckOutput& out) {
   for (const Truth::TruePair& p : in.truth.scene_pairs(in.frame)) {
     if (stated.count(p.bodies)) continue;
     const auto [a, b] = p.bodies;
-    const double l = in.truth.scale(a, b), depth = std::max(0.0, -p.truth.gap.hi);
+    // A mesh has no depth as a whole: that of its deepest triangle counts.
+    const bool has_depth = std::isfinite(p.truth.gap.lo);
+    const double l = in.truth.scale(a, b),
+                 depth = std::max(0.0, has_depth ? -p.truth.gap.hi : in.truth.depth_in_mesh(in.frame, a, b));
     out.error(depth, l, in.tau(l));
     if (depth > in.tau(l))
       out.fault(Fault::missed, depth, l, {in.query.question, a, b},

@@ -1,0 +1,176 @@
+#include "oracles/core/kept_engine.h"
+
+#include <map>
+
+#include "core/broad/catalog.h"
+#include "core/narrow/hull_graph.h"
+#include "core/narrow/mesh_tree.h"
+#include "core/narrow/narrow_phase.h"
+#include "core/tolerance.h"
+#include "core/world/step_world.h"
+#include "oracles/core/answer_cases.h"
+
+namespace touchstone {
+namespace {
+
+// A graph of fewer vertices than pays, so that small hulls climb too.
+constexpr std::size_t least_graph = 12;
+
+// How far from its place a body is taken to have been a moment ago, of its size.
+constexpr double moment = 1.0 / 64;
+
+std::size_t at(int i) { return static_cast<std::size_t>(i); }
+
+Pose a_moment_ago(const Scene& s, int body) {
+  const Pose& now = s.bodies[at(body)].pose;
+  const double way = moment * extent(s.shape_of(body));
+  return {now.translation + Vec3(way, -way / 2, way / 4), now.rotation};
+}
+
+// What is built once a scene, and what is kept of its pairs.
+class Kept {
+ public:
+  explicit Kept(const Scene& s) : s_(s), graphs_(s.shapes.size()), trees_(s.shapes.size()) {
+    for (std::size_t i = 0; i < s.shapes.size(); ++i) {
+      if (const auto* h = std::get_if<Hull>(&s.shapes[i])) graphs_[i] = build_hull_graph(*h, least_graph);
+      if (const auto* m = std::get_if<TriangleMesh>(&s.shapes[i])) trees_[i] = build_mesh_tree(*m);
+    }
+  }
+
+  PlacedShape placed(int i, const Pose& pose) const {
+    const std::size_t shape = at(s_.bodies.at(at(i)).shape);
+    return {&s_.shapes[shape], pose, trees_[shape].nodes.empty() ? nullptr : &trees_[shape],
+            graphs_[shape] ? &graphs_[shape] : nullptr};
+  }
+  PlacedShape placed(int i) const { return placed(i, s_.bodies.at(at(i)).pose); }
+
+  PairMemory& memory(const Query& q) {
+    const auto [it, is_new] = memory_.try_emplace({q.a, q.b});
+    if (is_new) contact(placed(q.a), placed(q.b, a_moment_ago(s_, q.b)), Arithmetic::float64, &it->second);
+    return it->second;
+  }
+
+ private:
+  const Scene& s_;
+  std::vector<HullGraph> graphs_;
+  std::vector<MeshTree> trees_;
+  std::map<std::pair<int, int>, PairMemory> memory_;
+};
+
+void ask_overlap(Kept& kept, const Query& q, Observation& o) {
+  const OverlapAnswer r = overlap(kept.placed(q.a), kept.placed(q.b), Arithmetic::float64, &kept.memory(q));
+  o.outcome = r.outcome;
+  if (r.outcome == Outcome::answered) o.overlap = r.overlap;
+}
+
+void ask_distance(Kept& kept, const Query& q, Observation& o) {
+  const DistanceAnswer r = distance(kept.placed(q.a), kept.placed(q.b), Arithmetic::float64, &kept.memory(q));
+  o.outcome = r.outcome;
+  if (r.outcome == Outcome::answered) o.distance = r.distance, o.witness = r.witness, o.normal = r.normal;
+}
+
+void ask_contact(Kept& kept, const Query& q, Observation& o) {
+  const ContactAnswer r = contact(kept.placed(q.a), kept.placed(q.b), Arithmetic::float64, &kept.memory(q));
+  o.outcome = r.outcome;
+  if (r.outcome != Outcome::answered) return;
+  o.overlap = r.overlap;
+  if (!r.overlap) return;
+  o.normal = r.normal, o.depth = r.depth;
+  for (const ContactPoint& p : reduced(r)) o.manifold.push_back({p.position, p.depth});
+}
+
+// Swept by hand, so that the criterion leaves nothing out.
+void ask_impact(const Scene& s, const Query& q, Observation& o) {
+  StepWorld world(extract_pair(s, q.a, q.b));
+  for (const int body : {0, 1}) world.flag(body, true);
+  const StepReport r = world.step();
+  o.outcome = r.unsupported > 0 ? Outcome::unsupported : r.outcome;
+  for (const PairImpact& hit : r.impacts)
+    if (hit.impact.outcome == Outcome::answered) o.toi = hit.impact.toi;
+}
+
+void ask_candidates(const Scene& s, Observation& o) {
+  const auto row = hash(s) % broad::catalog.size();
+  const auto phase = broad::catalog[row].make();
+  o.candidate_pairs = candidate_pairs(s, *phase);
+  o.outcome = Outcome::answered;
+}
+
+Fidelity remembering() {
+  Fidelity f;
+  f.remember = true;
+  return f;
+}
+
+// The second of two steps; the bodies come from where they were a moment ago. Nothing moves within a step.
+void ask_scene_contacts(const Scene& asked, Observation& o) {
+  Scene s = asked;
+  for (int i = 0; i < static_cast<int>(s.bodies.size()); ++i) {
+    Body& b = s.bodies[at(i)];
+    b.motion.reset();
+    if (!b.is_static) b.pose = a_moment_ago(asked, i);
+  }
+  StepWorld world(s, remembering());
+  world.step();
+  for (int i = 0; i < static_cast<int>(s.bodies.size()); ++i)
+    if (!s.bodies[at(i)].is_static) world.set(i, asked.bodies[at(i)].pose, {});
+  const StepReport r = world.step();
+  o.outcome = r.outcome;
+  for (const PairContact& c : r.contacts) o.contacts.push_back({c.a, c.b, c.contact.normal, c.contact.depth});
+  if (r.unsupported > 0) o.detail = std::to_string(r.unsupported) + " pairs of unsupported shapes left out";
+}
+
+void ask(const Scene& s, Kept& kept, const Query& q, Observation& o) {
+  switch (q.question) {
+    case Question::overlap:
+      return ask_overlap(kept, q, o);
+    case Question::distance:
+      return ask_distance(kept, q, o);
+    case Question::contact:
+      return ask_contact(kept, q, o);
+    case Question::time_of_impact:
+      return ask_impact(s, q, o);
+    case Question::candidates:
+      return ask_candidates(s, o);
+    case Question::scene_contacts:
+      return ask_scene_contacts(s, o);
+  }
+}
+
+class KeptEngine final : public Engine {
+ public:
+  KeptEngine() {
+    card_.name = "core-kept", card_.library = "Touchstone core", card_.version = "0.1.0";
+    card_.settings =
+        "as core, with hull graphs, mesh trees, the memory of each pair and manifolds of four points; "
+        "motions "
+        "and scenes by StepWorld; every broad phase in turn";
+    card_.unit_roundoff = 0x1p-53;
+    card_.tau_factor = tolerance::core_tau_factor;
+    card_.source = "core/tolerance.h: arithmetic alone, no margin";
+  }
+  const EngineCard& card() const override { return card_; }
+  std::vector<CaseObservations> run(std::span<const Case> cases) override {
+    std::vector<CaseObservations> all;
+    for (const Case& c : cases) {
+      std::optional<Kept> kept;
+      const auto answer = [&](const Scene& s, const Query& q) {
+        return timed_answer([&](Observation& o) {
+          if (!kept) kept.emplace(s);
+          ask(s, *kept, q, o);
+        });
+      };
+      all.push_back(std::move(answer_cases({&c, 1}, answer).front()));
+    }
+    return all;
+  }
+
+ private:
+  EngineCard card_;
+};
+
+}  // namespace
+
+EnginePtr make_kept_engine() { return std::make_unique<KeptEngine>(); }
+
+}  // namespace touchstone
