@@ -338,3 +338,21 @@ TEST_CASE("round bodies with parallel axes have their depth without help, rings 
   CHECK(in_double.answered * 100 > in_double.asked * 97);
   CHECK(in_float.answered * 100 > in_float.asked * 97);
 }
+
+TEST_CASE("a flat box has no face where its corners are one", "[narrow][manifold]") {
+  // A segment, 0.1 deep in the top of a cube; its end is the only contact.
+  const Shape segment = Box{{0, 0, 0.5}}, cube = Box{{1, 1, 1}};
+  std::vector<Vec3> corners;
+  for (int i = 0; i < 8; ++i) corners.push_back({i & 1 ? 1. : -1., i & 2 ? 1. : -1., i & 4 ? 1. : -1.});
+  const Shape hull = make_hull(corners);
+  const Pose above{{0.25, 0, 1.4}, {}};
+  for (const Shape* other : {&cube, &hull})
+    for (const bool first : {true, false}) {
+      const PlacedShape a{&segment, above}, b{other, {}};
+      const ContactAnswer c = first ? contact(a, b) : contact(b, a);
+      REQUIRE(c.overlap);
+      CHECK(c.depth == Approx(0.1));
+      REQUIRE_FALSE(c.manifold.empty());
+      for (const ContactPoint& p : c.manifold) CHECK((p.position - Vec3(0.25, 0, 0.95)).norm() < 0.06);
+    }
+}

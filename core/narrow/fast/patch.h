@@ -207,7 +207,8 @@ class FeatureCorners {
     unsigned top = 0;
     for (int k = 0; k < 3; ++k) {
       if (d_[k] >= 0) top |= 1u << k;
-      if (2 * std::abs(d_[k]) * s[k] <= limit_) free[frees++] = k;
+      // Across a flat box the corners are one: four of them are no face.
+      if (s[k] > tolerance_ && 2 * std::abs(d_[k]) * s[k] <= limit_) free[frees++] = k;
     }
     const auto corner = [&](unsigned bits) {
       add({bits & 1 ? s[0] : -s[0], bits & 2 ? s[1] : -s[1], bits & 4 ? s[2] : -s[2]}, bits);
