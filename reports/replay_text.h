@@ -18,7 +18,8 @@ class ReplayText {
            const std::vector<fuzz::Judgement>& judgements);
   /// At most 80 columns.
   std::string str() const;
-  fuzz::Json json() const;
+  /// `certificates`: also those in exact arithmetic, which may take minutes for a moving mesh.
+  fuzz::Json json(bool certificates) const;
 
  private:
   struct Row {
@@ -27,7 +28,7 @@ class ReplayText {
     std::vector<fuzz::Judgement> judgements;
   };
   std::string referee_lines(const Query& q) const;
-  fuzz::Json referee_json(const Query& q) const;
+  fuzz::Json referee_json(const Query& q, bool certificates) const;
   referee::Certificate depth_certificate(const Query& q) const;
   const Case& case_;
   fuzz::Truth& truth_;

@@ -33,7 +33,11 @@ std::string escaped(const std::string& s) {
 
 bool is_failure(Standing s) { return s == Standing::fresh || s == Standing::back; }
 bool is_skipped(Standing s) {
-  return s == Standing::known || s == Standing::still || s == Standing::not_asked;
+  return s == Standing::known || s == Standing::still || s == Standing::flaky || s == Standing::not_asked;
+}
+
+std::string asked_in_words(const Triaged& t) {
+  return t.standing == Standing::flaky ? fmt::format(", shown {} of {} times asked", t.shown, t.asked) : "";
 }
 
 std::string named(const std::vector<Triaged>& all, Standing standing, const char* title) {
@@ -43,7 +47,10 @@ std::string named(const std::vector<Triaged>& all, Standing standing, const char
     if (r.empty()) r = fmt::format("{}\n", title);
     r += fmt::format("  {}\n    {}\n", t.finding.key, wrapped(t.finding.words, 76, 4));
     if (standing == Standing::gone)
-      r += fmt::format("    first seen {}, {}\n", t.finding.first_seen, t.finding.first_build);
+      r += fmt::format("    first seen {}, {}; not shown in {} of {} times asked\n", t.finding.first_seen,
+                       t.finding.first_build, t.asked - t.shown, t.asked);
+    if (standing == Standing::flaky)
+      r += fmt::format("    shown in {} of {} times asked\n", t.shown, t.asked);
   }
   return r;
 }
@@ -54,8 +61,8 @@ std::string junit_case(const Triaged& t) {
   if (is_failure(t.standing))
     r += fmt::format("<failure message=\"{}\">{}</failure>", to_string(t.standing), escaped(t.finding.words));
   if (is_skipped(t.standing))
-    r += fmt::format("<skipped message=\"{} since {}\"/>", to_string(t.standing),
-                     escaped(t.finding.first_seen));
+    r += fmt::format("<skipped message=\"{} since {}{}\"/>", to_string(t.standing),
+                     escaped(t.finding.first_seen), asked_in_words(t));
   return r + "</testcase>\n";
 }
 
@@ -66,12 +73,20 @@ std::string triage_text(const std::vector<Triaged>& all) {
   for (const Triaged& t : all) ++count[t.standing];
   std::string r = named(all, Standing::fresh, "new:") +
                   named(all, Standing::back, "back, after they were gone:") +
+                  named(all, Standing::flaky, "flaky: their cases do not show them every time") +
                   named(all, Standing::gone, "gone: their cases no longer show them");
   return r + fmt::format(
                  "{} new, {} back, {} known and seen, {} known and still there when asked,\n"
-                 "{} gone, {} not asked (their engines are not here)\n",
+                 "{} flaky, {} gone, {} not asked (their engines are not here)\n",
                  count[Standing::fresh], count[Standing::back], count[Standing::known],
-                 count[Standing::still], count[Standing::gone], count[Standing::not_asked]);
+                 count[Standing::still], count[Standing::flaky], count[Standing::gone],
+                 count[Standing::not_asked]);
+}
+
+// A ledger may be damaged.
+static fuzz::Json case_json(const std::string& text) {
+  fuzz::Json j = fuzz::Json::parse(text, nullptr, false);
+  return j.is_discarded() ? fuzz::Json() : j;
 }
 
 fuzz::Json triage_json(const std::vector<Triaged>& all) {
@@ -80,6 +95,9 @@ fuzz::Json triage_json(const std::vector<Triaged>& all) {
     const auto& f = t.finding;
     j.push_back({{"key", f.key},
                  {"standing", to_string(t.standing)},
+                 {"asked", t.asked},
+                 {"shown", t.shown},
+                 {"trouble", t.trouble},
                  {"engine", f.engine},
                  {"words", f.words},
                  {"first_seen", f.first_seen},
@@ -90,7 +108,7 @@ fuzz::Json triage_json(const std::vector<Triaged>& all) {
                  {"bodies", f.size.bodies},
                  {"steps", f.size.steps},
                  {"bits", f.size.bits},
-                 {"case", fuzz::Json::parse(f.smallest)}});
+                 {"case", case_json(f.smallest)}});
   }
   return j;
 }

@@ -7,6 +7,7 @@
 
 #include "core/base/input_error.h"
 #include "core/base/rng.h"
+#include "fuzz/campaign/directory_lock.h"
 #include "fuzz/campaign/store.h"
 #include "fuzz/generate/family.h"
 #include "oracles/api/worker_limits.h"
@@ -22,6 +23,10 @@ constexpr std::uint64_t chunk_cases = 32;
 // A guided campaign draws from what was kept before its generation, so that it does not matter which job was
 // faster; jobs wait for each other so often.
 constexpr std::uint64_t generation_chunks = 16;
+
+// What a killed campaign loses, at most: saving takes a twentieth of the time, and the first states are
+// small.
+constexpr double least_seconds_unsaved = 0.25, saves_per_cost = 20;
 
 double seconds(Clock::duration d) { return std::chrono::duration<double>(d).count(); }
 
@@ -50,8 +55,13 @@ class Runner {
  private:
   void prepare() {
     if (!config_.out.empty()) {
-      if (auto s = load_state(config_)) state_ = std::move(*s);
       make_directory(config_.out);
+      lock_.emplace(config_.out, DirectoryLock::For::writing);
+      if (config_.fresh && move_aside(config_.out)) {
+        make_directory(config_.out);
+        lock_.emplace(config_.out, DirectoryLock::For::writing);
+      }
+      if (auto s = load_state(config_)) state_ = std::move(*s);
       save_state(config_, state_);
     }
     next_ = merged_ = state_.next_chunk;
@@ -170,9 +180,17 @@ class Runner {
     merged_more_.notify_all();
     state_.next_chunk = merged_;
     const auto now = Clock::now();
-    if (!config_.out.empty() && seconds(now - saved_) > 10)
-      save_state(config_, state_), saved_ = Clock::now();
+    if (!config_.out.empty() &&
+        seconds(now - saved_) > std::max(least_seconds_unsaved, saves_per_cost * save_cost_))
+      save();
     if (seconds(now - shown_) > 0.5) report(false), shown_ = now;
+  }
+
+  void save() {
+    const auto before = Clock::now();
+    save_state(config_, state_);
+    saved_ = Clock::now();
+    save_cost_ = seconds(saved_ - before);
   }
 
   void report(bool last) {
@@ -195,6 +213,7 @@ class Runner {
   const std::atomic<bool>& stop_;
   const Clock::time_point start_ = Clock::now();
   Clock::time_point saved_ = start_, shown_ = start_;
+  double save_cost_ = 0;
   std::atomic<std::uint64_t> next_{0};
   std::atomic<bool> failed_{false};
   std::mutex mutex_;
@@ -205,6 +224,7 @@ class Runner {
   std::condition_variable merged_more_;
   bool gap_ = false;
   StoredState state_;
+  std::optional<DirectoryLock> lock_;  // of config_.out
 };
 
 }  // namespace

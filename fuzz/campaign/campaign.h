@@ -28,6 +28,7 @@ struct CampaignConfig {
   int jobs = 1;
   std::uint64_t shard = 0, shards = 1;
   std::filesystem::path out;  // empty: nothing is written
+  bool fresh = false;         // a campaign that is in `out` is moved aside, not resumed
   /// Every so many cases one is also asked in the forms that the relations derive from it; 0: none.
   std::uint64_t relations_every = default_relations_every;
   /// Half of the cases are changed forms of earlier ones that made an engine do something new (novelty.h).

@@ -6,6 +6,7 @@
 
 #include "core/base/input_error.h"
 #include "core/scene/codec.h"
+#include "fuzz/campaign/directory_lock.h"
 #include "fuzz/campaign/store.h"
 
 namespace touchstone::fuzz {
@@ -104,6 +105,7 @@ Merged merge_campaigns(const std::filesystem::path& out, std::span<const std::fi
   Json settings = parts[0].settings;
   if (!m.missing.empty()) settings["shards"] = parts[0].of, settings["merged"] = m.shards;
   make_directory(out);
+  const DirectoryLock lock(out, DirectoryLock::For::writing);
   save_findings(out, state.result);
   save_state(out, settings, state);
   m.result = std::move(state.result);

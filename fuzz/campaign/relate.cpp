@@ -20,7 +20,8 @@ struct Asked {
 std::vector<Asked> derive_all(const RelationInput& in) {
   std::vector<Asked> all;
   for (const Relation& r : relations())
-    for (Derived& d : r.derive(in)) all.push_back({&r, std::move(d)});
+    for (Derived& d : r.derive(in))
+      if (is_within_numbers(in.c.scene, d.c.scene)) all.push_back({&r, std::move(d)});
   return all;
 }
 

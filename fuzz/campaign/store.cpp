@@ -48,15 +48,15 @@ std::optional<StoredState> load_state(const CampaignConfig& config) {
   try {
     const Json j = Json::parse(read_file(file, std::uintmax_t{1} << 30));
     if (j.at("settings") != settings(config))
-      throw InputError(config.out.string(), "holds a campaign with other settings (" +
-                                                j.at("settings").dump() +
-                                                "); give another --out or the same settings");
+      throw InputError(config.out.string(),
+                       "holds a campaign with other settings (" + j.at("settings").dump() +
+                           "); give another --out or the same settings, or --fresh, which moves it aside");
     StoredState s;
     s.finished = j.at("finished");
     s.next_chunk = j.at("next_chunk");
     if (s.finished)
       throw InputError(config.out.string(),
-                       "holds a finished campaign; give another --out, or look at summary.json");
+                       "holds a finished campaign; give another --out, or --fresh, which moves it aside");
     s.result = result_from_json(j.at("result"));
     if (j.contains("pool")) s.pool = pool_from_json(j["pool"]);
     return s;
@@ -79,6 +79,21 @@ void save_state(const std::filesystem::path& out, const Json& settings, const St
   write_file(out / "state.json", j.dump());
 }
 
+bool move_aside(const std::filesystem::path& out) {
+  namespace fs = std::filesystem;
+  if (!fs::exists(out / "state.json")) return false;
+  fs::path from = fs::absolute(out).lexically_normal();
+  if (!from.has_filename()) from = from.parent_path();
+  for (int n = 1;; ++n) {
+    const fs::path to = from.string() + "." + std::to_string(n);
+    if (fs::exists(fs::symlink_status(to))) continue;
+    std::error_code ec;
+    fs::rename(from, to, ec);
+    if (ec) throw InputError(out.string(), "cannot be moved aside to " + to.string() + ": " + ec.message());
+    return true;
+  }
+}
+
 void make_directory(const std::filesystem::path& directory) {
   std::error_code ec;
   std::filesystem::create_directories(directory, ec);
@@ -98,6 +113,7 @@ void save_findings(const std::filesystem::path& out, const CampaignResult& resul
   }
   Json summary = to_json(result, true);
   for (auto& [key, f] : summary["findings"].items()) f.erase("evidence");
+  summary.erase("documents");
   summary["digest"] = digest(result);
   write_file(out / "summary.json", summary.dump(1) + "\n");
 }

@@ -23,6 +23,10 @@ struct StoredState {
 /// Throws InputError with the reason; one that is there is fine.
 void make_directory(const std::filesystem::path& directory);
 
+/// Renames a directory that holds a campaign to DIR.1, or the first such name that is free; false: it holds
+/// none.
+bool move_aside(const std::filesystem::path& out);
+
 /// The state in config.out, or nothing when the directory is new. Throws InputError when it is finished,
 /// damaged or made with other settings.
 std::optional<StoredState> load_state(const CampaignConfig& config);

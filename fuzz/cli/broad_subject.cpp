@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <fstream>
 
+#include "core/base/did_you_mean.h"
 #include "core/base/hash.h"
 #include "core/base/input_error.h"
 #include "fuzz/cli/engine_catalog.h"
@@ -35,6 +36,13 @@ fuzz::Subject broad_subject(const std::string& name, const WorkerLimits& limits,
               return make_broad_engine(name,
                                        level == fuzz::Level::boxes ? BroadBoxes::exact : BroadBoxes::bodies);
             }};
+  if (!is_foreign(name) && name != "all" && name.find(',') == std::string::npos && !is_catalogued(name)) {
+    std::vector<std::string> known = catalogued_names();
+    known.insert(known.begin(), phases.begin(), phases.end());
+    const std::string near = did_you_mean(name, known);
+    throw InputError("--subject " + name,
+                     "unknown" + (near.empty() ? "; `touchstone certify --list` lists them" : near));
+  }
   if (engine_names(name).size() != 1 || name == "all")
     throw InputError("--subject " + name, "is more than one engine");
   fuzz::Subject s{name, hash_of(engine_files(name)), sweeps || name == "core",

@@ -5,6 +5,7 @@
 
 #include "core/base/input_error.h"
 #include "fuzz/bisect/bisect.h"
+#include "fuzz/cli/command.h"
 #include "fuzz/judge/judge.h"
 #include "fuzz/reproduce/reproducer.h"
 #include "fuzz/shrink/keeps_finding.h"
@@ -70,6 +71,15 @@ Json engine_json(const Case& c, const EnginePtr& engine, bool wrong) {
   return j;
 }
 
+// An exact certificate of a motion against a mesh takes minutes when the mesh is large.
+bool has_large_mesh(const Scene& scene) {
+  constexpr std::size_t large = 200;
+  return std::any_of(scene.shapes.begin(), scene.shapes.end(), [](const Shape& s) {
+    const auto* mesh = std::get_if<TriangleMesh>(&s);
+    return mesh && mesh->triangles.size() > large;
+  });
+}
+
 Json hull_faces(const Scene& scene) {
   Json faces = Json::object();
   for (std::size_t i = 0; i < scene.shapes.size(); ++i)
@@ -98,11 +108,11 @@ Json case_page(const std::string& named, const StoredCase& stored, const std::st
   return {{"page", "case"},
           {"version", 2},
           {"title", c.id.empty() ? std::filesystem::path(named).stem().string() : c.id},
-          {"command", "./touchstone replay " + named},
+          {"command", program_name() + " replay " + shell_word(named)},
           {"case", stored_case_to_json(stored)},
           {"hull_faces", hull_faces(c.scene)},
           {"engines", std::move(cards)},
-          {"queries", std::move(text.json()["queries"])}};
+          {"queries", std::move(text.json(!has_large_mesh(c.scene))["queries"])}};
 }
 
 }  // namespace touchstone::cli

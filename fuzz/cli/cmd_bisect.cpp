@@ -9,6 +9,7 @@
 #include "fuzz/bisect/bisect.h"
 #include "fuzz/cli/command.h"
 #include "fuzz/cli/finding_argument.h"
+#include "fuzz/cli/output_file.h"
 
 namespace touchstone::cli {
 namespace {
@@ -145,6 +146,7 @@ constexpr Row verbs[] = {
 
 int run(const BisectOptions& o, Verb verb) {
   if (!verb) return commit(o);
+  require_writable(o.out);
   const AskedFinding asked = ask_for_finding(o.finding, o.limits);
   if (asked.key.empty()) return not_found(asked, o.finding);
   return verb(o, asked, asked.findings.at(asked.key));

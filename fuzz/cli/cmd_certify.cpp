@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
-#include <csignal>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <thread>
@@ -14,7 +13,9 @@
 #include "fuzz/cli/broad_subject.h"
 #include "fuzz/cli/command.h"
 #include "fuzz/cli/engine_catalog.h"
+#include "fuzz/cli/output_file.h"
 #include "fuzz/cli/pages.h"
+#include "fuzz/cli/stop_signals.h"
 #include "oracles/core/broad_engine.h"
 #include "reports/certificate_text.h"
 #include "reports/text.h"
@@ -25,9 +26,6 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 using fuzz::BroadCertificate;
-
-std::atomic<bool> interrupted{false};
-void on_stop_signal(int) { interrupted = true; }
 
 struct CertifyOptions {
   std::string subject, scope = "quick", level = "both", out, page, script, check;
@@ -58,17 +56,6 @@ class CertifyProgress {
       std::chrono::steady_clock::now() + std::chrono::seconds(live_ ? 0 : 10);
 };
 
-// Before minutes of work, not after.
-void require_writable(const std::string& file) {
-  if (file.empty()) return;
-  const bool there = std::filesystem::exists(file);
-  const auto directory = std::filesystem::absolute(file).parent_path();
-  if (std::filesystem::is_directory(file)) throw InputError(file, "cannot be written: it is a directory");
-  if (!there && !std::filesystem::is_directory(directory))
-    throw InputError(file, "cannot be written: there is no directory " + directory.string());
-  if (access(directory.c_str(), W_OK) != 0) throw InputError(file, "cannot be written: no permission");
-}
-
 fuzz::CertifyConfig config_of(const CertifyOptions& o) {
   fuzz::CertifyConfig c;
   c.scope = o.scope == "full" ? fuzz::Scope::full : fuzz::Scope::quick;
@@ -80,8 +67,7 @@ fuzz::CertifyConfig config_of(const CertifyOptions& o) {
 }
 
 std::optional<BroadCertificate> make(const fuzz::Subject& s, const fuzz::CertifyConfig& c) {
-  std::signal(SIGINT, on_stop_signal);
-  std::signal(SIGTERM, on_stop_signal);
+  catch_stop_signals();
   CertifyProgress printer;
   return fuzz::certify(s, c, std::ref(printer), interrupted);
 }

@@ -9,6 +9,7 @@
 #include "core/base/comma_list.h"
 #include "core/scene/input_file.h"
 #include "fuzz/campaign/store.h"
+#include "fuzz/cli/asked_engines.h"
 #include "fuzz/cli/broad_subject.h"
 #include "fuzz/cli/command.h"
 #include "fuzz/cli/engine_catalog.h"
@@ -25,7 +26,8 @@ namespace touchstone::cli {
 namespace {
 
 struct ChartOptions {
-  std::string engines = "all", broad = "all", subject = "core", out = "out/chart", from, readme;
+  EngineChoice choice;
+  std::string broad = "all", out = "out/chart", from, readme;
   std::uint64_t seed = 1;
   std::int64_t measure = 20'000;
   bool quick = false, json = false;
@@ -53,12 +55,11 @@ std::vector<EnginePtr> broad_engines(const ChartOptions& o) {
 }
 
 // The engines named; of all of them other settings too, and sub-stepping.
-std::vector<EnginePtr> pair_engines(const ChartOptions& o) {
-  std::vector<EnginePtr> engines;
-  const bool all = o.engines == "all";
+std::vector<EnginePtr> pair_engines(const ChartOptions& o, std::vector<std::string> names) {
+  const bool all = o.choice.engines == "all";
   // core-kept builds for one question what a program builds once: its times say nothing.
-  for (const auto& name : engine_names(o.engines))
-    if (!all || name != "core-kept") engines.push_back(make_engine(name, o.limits));
+  if (all) std::erase(names, "core-kept");
+  std::vector<EnginePtr> engines = make_engines(names, o.limits);
   if (!all) return engines;
   for (const EngineRow& row : sweep_catalog())
     if (is_present(row)) engines.push_back(make_engine(std::string(row.name), o.limits));
@@ -71,14 +72,33 @@ std::vector<EnginePtr> pair_engines(const ChartOptions& o) {
   return engines;
 }
 
-fuzz::Chart measured(const ChartOptions& o) {
+// Broad phases may be the subject too, by the names that the chart gives them.
+struct ChartEngines {
+  std::vector<EnginePtr> pairs, broad;
+  std::string subject;
+};
+
+ChartEngines chart_engines(const ChartOptions& o) {
+  ChartEngines r;
+  r.broad = broad_engines(o);
+  const bool is_broad = std::any_of(r.broad.begin(), r.broad.end(),
+                                    [&](const EnginePtr& e) { return e->card().name == o.choice.subject; });
+  EngineChoice choice = o.choice;
+  if (is_broad) choice.subject = engine_names(o.choice.engines)[0];  // any that adds none to those asked
+  const AskedEngines asked = asked_engines(choice, o.limits);
+  r.pairs = pair_engines(o, asked.names);
+  r.subject = is_broad ? o.choice.subject : asked.subject;
+  return r;
+}
+
+fuzz::Chart measured(const ChartOptions& o, std::string& subject) {
   const bool live = isatty(2) == 1;
   // Before any engine is made: its worker inherits it.
   setenv(measure_variable, std::to_string(o.measure).c_str(), 1);
-  const auto engines = pair_engines(o);
-  const auto broad = broad_engines(o);
-  fuzz::Chart chart = fuzz::measure_chart(o.quick ? fuzz::quick_chart() : fuzz::full_chart(), o.seed, engines,
-                                          broad, [live](const std::string& what) {
+  const ChartEngines asked = chart_engines(o);
+  subject = asked.subject;
+  fuzz::Chart chart = fuzz::measure_chart(o.quick ? fuzz::quick_chart() : fuzz::full_chart(), o.seed,
+                                          asked.pairs, asked.broad, [live](const std::string& what) {
                                             if (live) fmt::print(stderr, "\r\033[K{}", what);
                                           });
   if (live) fmt::print(stderr, "\r\033[K");
@@ -103,18 +123,44 @@ void write_readme(const std::filesystem::path& readme, const fuzz::Chart& chart)
   fmt::print("{}, {}\n", readme.string(), kept.string());
 }
 
+// Of a stored chart: those of its rows are all there are.
+std::string subject_of(const fuzz::Chart& chart, const std::string& given) {
+  std::vector<std::string> known;
+  for (const fuzz::ChartRow& r : chart.rows)
+    if (std::find(known.begin(), known.end(), r.engine) == known.end()) known.push_back(r.engine);
+  const std::string subject = given.empty() && known.size() == 1 ? known[0] : given.empty() ? "core" : given;
+  require_subject(subject, known, "the chart's engines");
+  return subject;
+}
+
+int verdict(const fuzz::Chart& chart, const std::string& subject, bool json) {
+  std::uint64_t asked = 0, wrong = 0, failed = 0, answers = 0;
+  for (const fuzz::ChartRow& r : chart.rows) {
+    const bool whole =
+        r.regime.empty() && r.pair.empty() && r.scale.empty();  // the others are parts of these
+    if (r.engine != subject || !whole) continue;
+    asked += r.asked, wrong += r.wrong, failed += r.failed, answers += r.answers;
+  }
+  if (wrong + failed > 0)
+    return say_verdict(exit_wrong, subject,
+                       fmt::format("wrong in {} and failed in {} of {} queries", wrong, failed, asked), json);
+  if (answers == 0)
+    return say_verdict(exit_failed, subject, "it answered nothing, which proves nothing", json);
+  return say_verdict(exit_clean, subject, fmt::format("0 wrong in {} queries", asked), json);
+}
+
 int run(const ChartOptions& o) {
   if (o.from.empty()) fuzz::make_directory(o.out);  // before half an hour of work for it
-  const fuzz::Chart chart = o.from.empty() ? measured(o) : stored(o.from);
+  std::string subject;
+  const fuzz::Chart chart = o.from.empty() ? measured(o, subject) : stored(o.from);
+  if (!o.from.empty()) subject = subject_of(chart, o.choice.subject);
   if (o.from.empty())
     write_result("chart", o.out, fuzz::to_json(chart).dump(), fuzz::to_csv(chart), reports::chart_text(chart),
                  o.json);
   else
     fmt::print("{}", o.json ? fuzz::to_json(chart).dump() + "\n" : reports::chart_text(chart));
   if (!o.readme.empty()) write_readme(o.readme, chart);
-  for (const fuzz::ChartRow& r : chart.rows)
-    if (r.engine == o.subject && r.wrong + r.failed > 0) return exit_wrong;
-  return exit_clean;
+  return verdict(chart, subject, o.json);
 }
 
 }  // namespace
@@ -122,11 +168,8 @@ int run(const ChartOptions& o) {
 Run declare_chart(CLI::App& app) {
   auto o = std::make_shared<ChartOptions>();
   app.add_flag("--quick", o->quick, "fewer cases: minutes instead of half an hour");
-  app.add_option("--engines", o->engines, "engines for pairs and motions: names, plug-in paths, or all")
-      ->capture_default_str();
+  add_engine_choice(app, o->choice);
   app.add_option("--broad", o->broad, "broad phases, as for certify --subject, or all")
-      ->capture_default_str();
-  app.add_option("--subject", o->subject, "the engine whose faults decide the exit code")
       ->capture_default_str();
   app.add_option("--seed", o->seed, "same seed, same cases and errors")->capture_default_str();
   app.add_option("--measure", o->measure, "ns that each question about a pair is asked again for, to time it")

@@ -107,9 +107,21 @@ Claim claim_of(const Json& j) {
           }};
 }
 
+// How an answer failed, when the file is a finding about that: a crash is observed, not proved.
+std::string failure_in(const std::string& path) {
+  const Json j = Json::parse(read_file(path, std::uintmax_t{1} << 28));
+  const bool is_finding = j.is_object() && j.contains("fault") && j.contains("certificate");
+  return is_finding && j["fault"].is_string() ? j["fault"].get<std::string>() : "";
+}
+
 int run(const CheckOptions& o) try {
   const Json j = certificate_in(o.path);
   const Claim c = claim_of(j);
+  if (const std::string fault = c.words.empty() ? failure_in(o.path) : ""; !fault.empty()) {
+    fmt::print("nothing to check: {} has no certificate\n",
+               fault == "crashed" ? "a crash" : "`" + fault + "`");
+    return exit_failed;
+  }
   const std::string scene =
       o.scene.empty() ? (std::filesystem::path(o.path).parent_path() / "case.json").string() : o.scene;
   const Case stored = load_case(scene);

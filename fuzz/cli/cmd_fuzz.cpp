@@ -2,8 +2,6 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <atomic>
-#include <csignal>
 #include <cstdlib>
 #include <ctime>
 #include <set>
@@ -12,21 +10,19 @@
 #include "core/base/input_error.h"
 #include "fuzz/campaign/campaign.h"
 #include "fuzz/campaign/shard.h"
+#include "fuzz/cli/asked_engines.h"
 #include "fuzz/cli/command.h"
-#include "fuzz/cli/engine_catalog.h"
+#include "fuzz/cli/stop_signals.h"
 #include "fuzz/generate/family.h"
 #include "reports/text.h"
 
 namespace touchstone::cli {
 namespace {
 
-std::atomic<bool> interrupted{false};
-
-void on_signal(int) { interrupted = true; }
-
 struct FuzzOptions {
   fuzz::CampaignConfig config;
-  std::string engines = "all", shard, out;
+  EngineChoice choice;
+  std::string shard, out;
   std::uint64_t cases = 0;
   double minutes = 0;
   bool json = false;
@@ -97,63 +93,48 @@ void print_text(const fuzz::CampaignConfig& c, const fuzz::CampaignResult& r) {
   fmt::print("{}", reports::campaign_footer(r));
   if (r.findings.empty())
     return fmt::print("no findings; the counts are in {}/summary.json\n", c.out.string());
-  fmt::print(
-      "{} kinds of findings in {}/findings; look at one with\n  ./touchstone replay "
-      "{}/findings/{}/case.json\n",
-      reports::grouped(r.findings.size()), c.out.string(), c.out.string(), r.findings.begin()->first);
+  const std::string out = c.out.string();
+  fmt::print("{} kinds of findings in {}/findings; look at one with\n  {} replay {}\n",
+             reports::grouped(r.findings.size()), out, program_name(),
+             shell_word(out + "/findings/" + r.findings.begin()->first));
+  if (interrupted) return;
+  fmt::print("All of it as a page: {} report {} -o {}\n", program_name(), shell_word(out),
+             shell_word(out + "/report.html"));
 }
 
 int verdict(const fuzz::CampaignConfig& c, const fuzz::CampaignResult& r, bool json) {
-  const auto say = [&](const std::string& text) { fmt::print(json ? stderr : stdout, "{}\n", text); };
+  const auto say = [&](int code, const std::string& why) { return say_verdict(code, c.subject, why, json); };
   const auto wrong = r.wrong_of(c.subject), failed = r.failed_of(c.subject);
-  std::uint64_t answers = 0;
-  if (const auto it = r.tallies.find(c.subject); it != r.tallies.end())
-    for (const auto& [q, t] : it->second) answers += t.answered();
-  if (interrupted) {
-    say(fmt::format("interrupted; go on with the same command and --out {}", c.out.string()));
-    return exit_failed;
-  }
-  if (wrong + failed > 0) {
-    say(fmt::format("{}: WRONG in {} and failed in {} of {} answers", c.subject, reports::grouped(wrong),
-                    reports::grouped(failed), reports::grouped(answers + failed)));
-    return exit_wrong;
-  }
-  if (answers == 0) {
-    say(fmt::format("{}: answered nothing; this run proves nothing", c.subject));
-    return exit_failed;
-  }
+  const std::uint64_t answers = r.answered_by(c.subject);
+  const std::string counts =
+      fmt::format("WRONG in {} and failed in {} of {} answers", reports::grouped(wrong),
+                  reports::grouped(failed), reports::grouped(answers + failed));
+  if (interrupted)
+    return say(exit_failed, fmt::format("interrupted; resume with the same command and --out {}; so far {}",
+                                        shell_word(c.out.string()), counts));
+  if (wrong + failed > 0) return say(exit_wrong, counts);
+  if (answers == 0) return say(exit_failed, "it answered nothing; this run proves nothing");
   // A campaign whose pairs nearly all overlap, or nearly none, tests half of what it says.
-  if (c.family.empty() && r.pair_cases >= 200 && (r.hit_rate() < 0.3 || r.hit_rate() > 0.7)) {
-    say(fmt::format("{:.0f} % of the pairs overlap, outside 30-70 %: this run proves nothing",
-                    100 * r.hit_rate()));
-    return exit_failed;
-  }
-  say(fmt::format("{}: 0 wrong in {} answers", c.subject, reports::grouped(answers)));
-  return exit_clean;
+  if (c.family.empty() && r.pair_cases >= 200 && (r.hit_rate() < 0.3 || r.hit_rate() > 0.7))
+    return say(exit_failed,
+               fmt::format("{:.0f} % of the pairs overlap, outside 30-70 %: this run proves nothing",
+                           100 * r.hit_rate()));
+  return say(exit_clean, fmt::format("0 wrong in {} answers", reports::grouped(answers)));
 }
 
 int run(FuzzOptions& o) {
   take_shard(o.shard, o.config);
-  o.config.engines = engine_names(o.engines);
-  const auto subjects = engine_names(o.config.subject);
-  if (subjects.size() != 1) throw InputError("--subject " + o.config.subject, "names more than one engine");
-  if (std::find(o.config.engines.begin(), o.config.engines.end(), subjects[0]) == o.config.engines.end())
-    o.config.engines.insert(o.config.engines.begin(), subjects[0]);
+  const AskedEngines asked = asked_engines(o.choice, o.limits);
+  o.config.engines = asked.names;
+  o.config.subject = asked.subject;
   if (o.cases > 0) o.config.cases = o.cases;
   if (o.minutes > 0) o.config.minutes = o.minutes;
   if (!o.config.cases && !o.config.minutes) o.config.minutes = 1;
   if (!o.config.family.empty()) fuzz::make_case(1, 0, o.config.family);  // refuses an unknown family at once
   o.config.out = o.out.empty() ? default_out() : o.out;
-  const auto make_all = [&] {
-    std::vector<EnginePtr> engines;
-    for (const auto& name : o.config.engines) engines.push_back(make_engine(name, o.limits));
-    return engines;
-  };
   o.limits.stop = &interrupted;
-  // The subject's own name, which for a plug-in is that of its card.
-  o.config.subject = make_engine(subjects[0], o.limits)->card().name;
-  std::signal(SIGINT, on_signal);
-  std::signal(SIGTERM, on_signal);
+  const auto make_all = [&] { return make_engines(o.config.engines, o.limits); };
+  catch_stop_signals();
   const auto result = fuzz::run_campaign(o.config, make_all, ProgressPrinter(o.config), interrupted);
   if (o.json) {
     auto j = fuzz::to_json(result, true);
@@ -162,10 +143,7 @@ int run(FuzzOptions& o) {
   } else {
     print_text(o.config, result);
   }
-  const int code = verdict(o.config, result, o.json);
-  if (!o.json && !interrupted)
-    fmt::print("All of it as a page: ./touchstone report {0} -o {0}/report.html\n", o.config.out.string());
-  return code;
+  return verdict(o.config, result, o.json);
 }
 
 }  // namespace
@@ -173,16 +151,13 @@ int run(FuzzOptions& o) {
 Run declare_fuzz(CLI::App& app) {
   auto o = std::make_shared<FuzzOptions>();
   o->config.jobs = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
-  app.add_option("--subject", o->config.subject, "the engine whose faults decide the exit code")
-      ->capture_default_str();
-  app.add_option("--engines", o->engines, "engines to ask: names, plug-in paths, or all")
-      ->capture_default_str();
+  add_engine_choice(app, o->choice);
   app.add_option("--family", o->config.family,
                  "only these families of cases: a,b,… (see `touchstone families`)");
   app.add_option("--seed", o->config.seed, "same seed and flags, same findings")->capture_default_str();
-  app.add_option("--cases", o->cases, "stop after this many cases")->check(CLI::PositiveNumber);
+  app.add_option("--cases", o->cases, "stop after this many cases")->check(a_count());
   app.add_option("--minutes", o->minutes, "stop after this time (default 1 when --cases is not given)")
-      ->check(CLI::PositiveNumber);
+      ->check(a_positive_number());
   app.add_option("--jobs", o->config.jobs, "jobs side by side")
       ->check(CLI::Range(1, 1024))
       ->capture_default_str();
@@ -196,7 +171,10 @@ Run declare_fuzz(CLI::App& app) {
                  "every so many cases one is also asked swapped, scaled, moved, ...; 0: none")
       ->check(CLI::Range(0, 1'000'000'000))
       ->capture_default_str();
-  app.add_option("--out", o->out, "directory of the results; an unfinished campaign in it is gone on with");
+  app.add_option("--out", o->out, "output directory; an unfinished campaign in it is resumed");
+  app.add_flag(
+      "--fresh", o->config.fresh,
+      "a campaign that is in --out already is moved aside, to the first free name of OUT.1, OUT.2, …");
   add_case_seconds(app, o->limits);
   app.add_flag("--json", o->json, "the whole result as one JSON document on stdout");
   return [o] { return run(*o); };

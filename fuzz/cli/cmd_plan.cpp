@@ -8,6 +8,7 @@
 #include "core/scene/real_scene.h"
 #include "fuzz/cli/case_argument.h"
 #include "fuzz/cli/command.h"
+#include "fuzz/cli/output_file.h"
 #include "fuzz/explore/fidelity_json.h"
 #include "fuzz/explore/plan.h"
 #include "reports/plan_text.h"
@@ -23,8 +24,7 @@ struct PlanArguments {
 };
 
 fuzz::Course course_named(const PlanArguments& o) {
-  if (std::filesystem::exists(std::filesystem::path(o.scene) / "scene.txt"))
-    return fuzz::course_of(load_real_scene(o.scene), o.steps);
+  if (is_recording(o.scene)) return fuzz::course_of(load_real_scene(o.scene), o.steps);
   Case c = case_argument(o.scene).c;
   if (c.scene.name.empty()) c.scene.name = std::filesystem::path(o.scene).stem().string();
   return fuzz::course_of(c.scene);
@@ -45,6 +45,7 @@ Fidelity plan_in(const std::string& file) {
 int run(PlanArguments o, bool error_given) {
   if (error_given && !(o.plan.error > 0 && std::isfinite(o.plan.error)))
     throw InputError("--error", fmt::format("{} is no positive length", o.plan.error));
+  require_writable(o.out);
   if (!o.use.empty()) o.plan.given = plan_in(o.use);
   const fuzz::Course course = course_named(o);
   const bool live = isatty(2) == 1;

@@ -5,9 +5,9 @@
 #include "core/base/input_error.h"
 #include "core/scene/real_scene.h"
 #include "fuzz/campaign/campaign.h"
+#include "fuzz/cli/asked_engines.h"
 #include "fuzz/cli/case_argument.h"
 #include "fuzz/cli/command.h"
-#include "fuzz/cli/engine_catalog.h"
 #include "fuzz/explore/real_scene_cases.h"
 #include "fuzz/judge/judge.h"
 #include "reports/replay_text.h"
@@ -19,8 +19,9 @@ namespace {
 
 struct ReplayOptions {
   std::vector<std::string> paths;
-  std::string engines = "all", subject = "core", frames;
-  bool json = false;
+  EngineChoice choice;
+  std::string frames;
+  bool json = false, certificates = false;
   WorkerLimits limits;
 };
 
@@ -32,8 +33,24 @@ std::vector<CaseObservations> ask(const Engines& engines, const Case& c) {
   return r;
 }
 
-// One case in full. True when the subject is wrong or fails.
-bool replay_case(const ReplayOptions& o, const Engines& engines, const Case& c, fuzz::Json& json) {
+// What the exit code is made of: cases in which the subject is wrong or fails; of recordings, with thousands
+// of cases each, answers.
+struct Count {
+  std::uint64_t cases = 0, wrong_cases = 0;
+  std::uint64_t recorded = 0, wrong_recorded = 0;  // answers about recordings
+  std::uint64_t answered = 0;                      // by the subject, right or wrong
+  std::vector<std::string> bad;                    // arguments that could not be judged
+  bool failed = false;                             // one of them for another reason than bad input
+};
+
+struct Asked {
+  Engines engines;
+  std::string subject;
+};
+
+// One case in full.
+void replay_case(const ReplayOptions& o, const Asked& asked, const Case& c, Count& count, fuzz::Json& json) {
+  const Engines& engines = asked.engines;
   fuzz::Truth truth(c.scene);
   reports::ReplayText text(c, truth);
   bool subject_wrong = false;
@@ -42,19 +59,24 @@ bool replay_case(const ReplayOptions& o, const Engines& engines, const Case& c, 
     const EngineCard& card = engines[e]->card();
     const auto judgements = fuzz::judge(c, card, observations[e], truth);
     text.add(card.name, observations[e], judgements);
-    if (card.name == o.subject)
-      for (const auto& j : judgements) subject_wrong |= !j.faults.empty();
+    if (card.name != asked.subject) continue;
+    for (const auto& j : judgements) {
+      subject_wrong |= !j.faults.empty();
+      count.answered += j.outcome == Outcome::answered;
+    }
   }
   fuzz::CampaignResult related;
   for (std::size_t e = 0; e < engines.size(); ++e)
     fuzz::relate_into(related, c, 0, engines[e], observations[e]);
-  subject_wrong |= related.wrong_of(o.subject) > 0;
+  subject_wrong |= related.wrong_of(asked.subject) > 0;
+  ++count.cases;
+  count.wrong_cases += subject_wrong;
   if (o.json) {
-    json.push_back(text.json());
+    json.push_back(text.json(o.certificates));
     json.back()["impacts_not_asked"] = impacts_not_asked(c);
     json.back()["relations"] = fuzz::Json::array();
     for (const auto& [key, f] : related.findings) json.back()["relations"].push_back(fuzz::to_json(f));
-    return subject_wrong;
+    return;
   }
   fmt::print("{}", text.str());
   if (const std::string words = words_on_impacts_not_asked(c); !words.empty())
@@ -62,11 +84,10 @@ bool replay_case(const ReplayOptions& o, const Engines& engines, const Case& c, 
   if (!related.findings.empty()) fmt::print("\nAgainst their own answers:\n");
   for (const auto& [key, f] : related.findings)
     fmt::print("  {}\n", reports::wrapped(fmt::format("{} {}: {}", f.engine, f.fault, f.words), 76, 4));
-  return subject_wrong;
 }
 
 // A recorded scene: thousands of pairs, so counts and findings instead of every answer.
-bool replay_real_scene(const ReplayOptions& o, const Engines& engines, const std::string& directory,
+void replay_real_scene(const ReplayOptions& o, const Asked& asked, const std::string& directory, Count& count,
                        fuzz::Json& json) {
   const RealScene scene = load_real_scene(directory);
   const auto frames = fuzz::frames_from_text(o.frames, scene.frame_count());
@@ -78,7 +99,7 @@ bool replay_real_scene(const ReplayOptions& o, const Engines& engines, const std
     const auto cases = fuzz::real_scene_cases(scene, f);
     for (std::size_t first = 0; first < cases.size(); first += batch) {
       const std::span<const Case> part(cases.data() + first, std::min(batch, cases.size() - first));
-      fuzz::ask_and_judge(result, part, index, engines);
+      fuzz::ask_and_judge(result, part, index, asked.engines);
       index += part.size();
     }
     fmt::print(stderr, "{} frame {}: {} cases\n", scene.name, f, cases.size());
@@ -91,22 +112,66 @@ bool replay_real_scene(const ReplayOptions& o, const Engines& engines, const std
                frames.size(), scene.frame_count(), reports::campaign_table(result));
     fmt::print("{}{}\n", reports::findings_summary(result, 3), reports::campaign_footer(result));
   }
-  return result.wrong_of(o.subject) + result.failed_of(o.subject) > 0;
+  const std::uint64_t answered = result.answered_by(asked.subject), failed = result.failed_of(asked.subject);
+  count.answered += answered;
+  count.recorded += answered + failed;
+  count.wrong_recorded += result.wrong_of(asked.subject) + failed;
+}
+
+std::string in_words(const Count& count) {
+  std::string text;
+  if (count.cases > 0 || count.recorded == 0)
+    text = fmt::format("{} of {} cases", reports::grouped(count.wrong_cases), reports::grouped(count.cases));
+  if (count.recorded > 0)
+    text += fmt::format("{}{} of {} answers about recordings", text.empty() ? "" : " and ",
+                        reports::grouped(count.wrong_recorded), reports::grouped(count.recorded));
+  return text;
+}
+
+int verdict(const Count& count, const std::string& subject, bool json) {
+  if (!count.bad.empty() && count.cases + count.recorded == 0)  // which has been said
+    return count.failed ? exit_failed : exit_usage;
+  if (!count.bad.empty())
+    return say_verdict(count.failed ? exit_failed : exit_usage, count.bad[0],
+                       fmt::format("{} of the arguments could not be judged; in the others {} is wrong in {}",
+                                   count.bad.size(), subject, in_words(count)),
+                       json);
+  if (count.wrong_cases + count.wrong_recorded > 0)
+    return say_verdict(exit_wrong, subject, "wrong in " + in_words(count), json);
+  if (count.answered == 0)
+    return say_verdict(exit_failed, subject, "it answered nothing, which proves nothing", json);
+  return say_verdict(exit_clean, subject, "wrong in " + in_words(count), json);
+}
+
+// One argument. What is wrong with it is said, and the others go on.
+void replay(const ReplayOptions& o, const Asked& asked, const std::string& path, Count& count,
+            fuzz::Json& json) {
+  const auto refuse = [&](const std::string& why) {
+    fmt::print(stderr, "touchstone: {}\n", why);
+    count.bad.push_back(path);
+    if (o.json) json.push_back({{"argument", path}, {"error", why}});
+  };
+  try {
+    if (is_recording(path))
+      replay_real_scene(o, asked, path, count, json);
+    else
+      replay_case(o, asked, case_argument(path).c, count, json);
+  } catch (const InputError& e) {
+    refuse(e.what());
+  } catch (const std::exception& e) {
+    count.failed = true;
+    refuse(path + ": failed: " + e.what());
+  }
 }
 
 int run(const ReplayOptions& o) {
-  Engines engines;
-  for (const auto& name : engine_names(o.engines)) engines.push_back(make_engine(name, o.limits));
-  bool subject_wrong = false;
+  const AskedEngines chosen = asked_engines(o.choice, o.limits);
+  const Asked asked{make_engines(chosen.names, o.limits), chosen.subject};
+  Count count;
   fuzz::Json json = fuzz::Json::array();
-  for (const std::string& path : o.paths) {
-    if (std::filesystem::exists(std::filesystem::path(path) / "scene.txt"))
-      subject_wrong |= replay_real_scene(o, engines, path, json);
-    else
-      subject_wrong |= replay_case(o, engines, case_argument(path).c, json);
-  }
+  for (const std::string& path : o.paths) replay(o, asked, path, count, json);
   if (o.json) fmt::print("{}\n", json.dump(1));
-  return subject_wrong ? exit_wrong : exit_clean;
+  return verdict(count, asked.subject, o.json);
 }
 
 }  // namespace
@@ -118,13 +183,14 @@ Run declare_replay(CLI::App& app) {
                  "recorded scenes "
                  "(scene.txt, frames.npy)")
       ->required();
-  app.add_option("--engines", o->engines, "engines to ask: names, plug-in paths, or all")
-      ->capture_default_str();
-  app.add_option("--subject", o->subject, "the engine whose faults decide the exit code")
-      ->capture_default_str();
+  add_engine_choice(app, o->choice);
   app.add_option("--frames", o->frames, "of recorded scenes: first:end:step (default: about five frames)");
   add_case_seconds(app, o->limits);
   app.add_flag("--json", o->json, "one JSON document on stdout");
+  app.add_flag(
+      "--certificates", o->certificates,
+      "in the JSON, also certificates in exact arithmetic, as `touchstone check` takes them (for moving "
+      "meshes: minutes)");
   return [o] { return run(*o); };
 }
 

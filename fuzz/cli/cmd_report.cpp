@@ -3,6 +3,7 @@
 #include "core/base/input_error.h"
 #include "core/scene/codec.h"
 #include "fuzz/cli/command.h"
+#include "fuzz/cli/output_file.h"
 #include "fuzz/cli/pages.h"
 #include "fuzz/record/result.h"
 #include "reports/findings_columns.h"
@@ -50,6 +51,7 @@ int run(const ReportOptions& o) {
   if (!std::filesystem::exists(file))
     throw InputError(o.directory,
                      "holds no summary.json: not the directory of a campaign, or it is not finished");
+  require_writable(o.out);
   const fuzz::Json summary = read_json(file);
   try {
     const fuzz::CampaignResult result = fuzz::result_from_json(summary);

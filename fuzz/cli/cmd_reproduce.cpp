@@ -4,6 +4,7 @@
 #include "core/scene/input_file.h"
 #include "fuzz/cli/command.h"
 #include "fuzz/cli/finding_argument.h"
+#include "fuzz/cli/output_file.h"
 #include "fuzz/reproduce/reproducer.h"
 
 namespace touchstone::cli {
@@ -16,6 +17,7 @@ struct ReproduceOptions {
 };
 
 int run(const ReproduceOptions& o) {
+  require_writable(o.out);
   const AskedFinding asked = ask_for_finding(o.finding, o.limits);
   if (asked.key.empty()) return not_found(asked, o.finding);
   const std::string text = fuzz::reproducer(asked.findings.at(asked.key), asked.engine->card());

@@ -5,6 +5,7 @@
 
 #include "fuzz/cli/command.h"
 #include "fuzz/cli/finding_argument.h"
+#include "fuzz/cli/output_file.h"
 #include "fuzz/shrink/keeps_finding.h"
 
 namespace touchstone::cli {
@@ -46,6 +47,7 @@ void print(const ShrinkOptions& o, const std::string& key, const fuzz::Shrunk& r
 }
 
 int run(const ShrinkOptions& o) {
+  require_writable(o.out);
   const AskedFinding asked = ask_for_finding(o.finding, o.limits);
   const auto& [stored, engine_name, engine, key, findings] = asked;
   if (key.empty()) return not_found(asked, o.finding);
@@ -69,9 +71,7 @@ Run declare_shrink(CLI::App& app) {
   auto o = std::make_shared<ShrinkOptions>();
   add_finding_argument(app, o->finding);
   app.add_option("-o,--out", o->out, "file for the shrunk case (default: stdout)");
-  app.add_option("--tries", o->tries, "cases to ask about at most")
-      ->check(CLI::PositiveNumber)
-      ->capture_default_str();
+  app.add_option("--tries", o->tries, "cases to ask about at most")->check(a_count())->capture_default_str();
   add_case_seconds(app, o->limits);
   app.add_flag("--json", o->json, "one JSON document on stdout");
   return [o] { return run(*o); };

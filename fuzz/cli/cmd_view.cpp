@@ -10,6 +10,7 @@
 #include "fuzz/cli/case_page.h"
 #include "fuzz/cli/command.h"
 #include "fuzz/cli/engine_catalog.h"
+#include "fuzz/cli/output_file.h"
 #include "fuzz/cli/pages.h"
 #include "fuzz/explore/broad_view.h"
 #include "reports/broad_page.h"
@@ -30,7 +31,7 @@ struct ViewOptions {
 
 // A file, the name of a scenario, or the directory of a recorded scene: whatever replay takes.
 Scene scene_named(const ViewOptions& o) {
-  if (std::filesystem::exists(std::filesystem::path(o.scene) / "scene.txt")) {
+  if (is_recording(o.scene)) {
     const RealScene real = load_real_scene(o.scene);
     Scene scene = real.script(0, std::min(o.frames, real.frame_count()) - 1);
     scene.name = real.name;
@@ -55,6 +56,7 @@ int view_case(const ViewOptions& o) {
 
 int run(const ViewOptions& o) {
   if (o.out.empty() && !o.json) throw InputError("view", "say where to write the page: -o FILE");
+  require_writable(o.out);
   if (!o.broad) return view_case(o);
   const fuzz::BroadView view =
       fuzz::broad_view(scene_named(o), o.methods, static_cast<std::size_t>(o.frames));

@@ -6,6 +6,7 @@
 #include <CLI/CLI.hpp>
 #include <functional>
 #include <span>
+#include <string>
 #include <string_view>
 
 namespace touchstone::cli {
@@ -18,6 +19,16 @@ struct Command {
 };
 
 std::span<const Command> commands();
+
+/// The program as it was called, for commands that are printed; as a word of the shell. main() sets it.
+void set_program_name(std::string name);
+const std::string& program_name();
+/// `text` as one word of the shell: quoted where it needs to be.
+std::string shell_word(const std::string& text);
+
+/// Of options: what is refused is refused in words (CLI11's own name the largest double in full).
+CLI::Validator a_count();
+CLI::Validator a_positive_number();
 
 inline constexpr int exit_clean = 0, exit_wrong = 1, exit_usage = 2, exit_failed = 3;
 

@@ -6,7 +6,9 @@
 #include <algorithm>
 
 #include "core/base/comma_list.h"
+#include "core/base/did_you_mean.h"
 #include "core/base/input_error.h"
+#include "fuzz/cli/command.h"
 #include "fuzz/cli/npm_engines.h"
 #include "fuzz/cli/sweep_catalog.h"
 #include "fuzz/explore/sub_steps.h"
@@ -182,6 +184,11 @@ std::vector<std::filesystem::path> files_named_in(const std::string& command) {
   return out;
 }
 
+[[noreturn]] void refuse_unknown(const std::string& name) {
+  const std::string near = did_you_mean(name, catalogued_names());
+  throw InputError("engine " + name, "unknown" + (near.empty() ? "; `touchstone engines` lists them" : near));
+}
+
 void check_name(const std::string& name) {
   if (is_pipe(name)) {
     if (name == "pipe:") throw InputError(name, "names no command: pipe:COMMAND");
@@ -200,7 +207,7 @@ void check_name(const std::string& name) {
                                  npm->package, npm->version));
   }
   const EngineRow* row = find_row(name);
-  if (!row) throw InputError("engine " + name, "unknown; `touchstone engines` lists those there are");
+  if (!row) refuse_unknown(name);
   if (!is_present(*row))
     throw InputError("engine " + name,
                      fmt::format("is not installed: {} was not built, its library was not found",
@@ -217,7 +224,7 @@ std::span<const std::string_view> stepped_engines() { return stepped; }
 void add_case_seconds(CLI::App& app, WorkerLimits& limits) {
   app.add_option("--case-seconds", limits.query_cpu_seconds,
                  "CPU seconds that an engine may spend on one question")
-      ->check(CLI::PositiveNumber)
+      ->check(a_positive_number())
       ->capture_default_str();
   add_no_sandbox(app, limits);
 }
@@ -250,6 +257,20 @@ std::vector<std::string> engine_names(const std::string& text) {
     if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
   });
   return names;
+}
+
+std::vector<std::string> catalogued_names() {
+  std::vector<std::string> names;
+  for (const auto catalog : {engine_catalog(), broad_catalog(), sweep_catalog()})
+    for (const EngineRow& row : catalog) names.emplace_back(row.name);
+  for (const NpmRow& row : npm_catalog()) names.emplace_back(row.name);
+  return names;
+}
+
+bool is_foreign(const std::string& name) { return is_pipe(name) || is_path(name); }
+
+bool is_catalogued(const std::string& name) {
+  return !is_foreign(name) && (find_npm_row(name) || find_row(name) || fuzz::sub_steps_name(name));
 }
 
 std::vector<std::filesystem::path> engine_files(const std::string& name) {

@@ -29,6 +29,13 @@ bool is_present(const EngineRow& row);
 /// engine present. Throws InputError for a name that is unknown or absent.
 std::vector<std::string> engine_names(const std::string& text);
 
+/// A plug-in's path or a pipe's command, not a name of a catalogue.
+bool is_foreign(const std::string& name);
+/// A name of a catalogue, whether its library is there or not.
+bool is_catalogued(const std::string& name);
+/// Of all catalogues, in their order.
+std::vector<std::string> catalogued_names();
+
 /// Throws InputError when the plug-in is missing or does not offer the engine.
 EnginePtr make_engine(const std::string& name, const WorkerLimits& limits);
 

@@ -2,8 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <system_error>
 
 #include "core/base/input_error.h"
 #include "core/scene/input_file.h"
@@ -18,11 +20,18 @@ namespace {
 using Json = nlohmann::ordered_json;
 namespace fs = std::filesystem;
 
-// Of a finding's directory: the key that its finding.json names.
+// The key of a finding's directory: that in its finding.json; of those that `triage --reproducers` makes, its
+// name.
 std::string stored_key(const std::string& path) {
-  const fs::path beside =
-      (fs::is_directory(path) ? fs::path(path) : fs::path(path).parent_path()) / "finding.json";
-  if (!fs::exists(beside)) return {};
+  std::error_code ec;
+  const fs::path directory = fs::is_directory(path, ec) ? fs::path(path) : fs::path(path).parent_path();
+  const fs::path beside = directory / "finding.json";
+  if (!fs::exists(beside, ec)) {
+    const std::string name = fs::absolute(directory, ec).lexically_normal().filename();
+    constexpr int dots_of_a_key = 6;
+    const bool is_case = fs::exists(directory / "case.json", ec);
+    return is_case && std::count(name.begin(), name.end(), '.') >= dots_of_a_key ? name : "";
+  }
   try {
     return Json::parse(read_file(beside, std::uintmax_t{1} << 28)).at("key");
   } catch (const Json::exception& e) {
@@ -69,10 +78,14 @@ void add_finding_argument(CLI::App& app, FindingArgument& to) {
 AskedFinding ask_for_finding(FindingArgument o, const WorkerLimits& limits) {
   AskedFinding r;
   r.stored = case_argument(o.path);
-  if (o.key.empty() && o.engine.empty()) o.key = stored_key(o.path);
-  if (o.engine.empty()) o.engine = o.key.empty() ? "core" : engine_of(o.key);
+  const std::string stored = o.key.empty() ? stored_key(o.path) : "";
+  if (o.engine.empty()) {
+    if (o.key.empty()) o.key = stored;
+    o.engine = o.key.empty() ? "core" : engine_of(o.key);
+  }
   r.engine_name = o.engine;
   r.engine = make_engine(engine_names(o.engine).at(0), limits);
+  if (o.key.empty() && stored.starts_with(r.engine->card().name + ".")) o.key = stored;
   // Without a key, a relation is asked for only where the referee has nothing to say: mostly it shows the
   // same error again.
   r.findings = fuzz::findings_of({&r.stored.c, 1}, r.engine, fuzz::found_by(o.key))[0];

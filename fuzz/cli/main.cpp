@@ -1,14 +1,18 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <csignal>
 #include <cstdio>
+#include <cstdlib>
 #include <cstring>
 #include <exception>
 #include <stdexcept>
 #include <string>
 #include <system_error>
+#include <vector>
 
+#include "core/base/did_you_mean.h"
 #include "core/base/input_error.h"
 #include "fuzz/cli/command.h"
 #include "oracles/api/worker_limits.h"
@@ -38,12 +42,24 @@ constexpr Command table[] = {
     {"scenarios", "the hand-built scenarios: list them, or write one as a case file", declare_scenarios},
 };
 
+// CLI11 only says that a subcommand is missing.
+void refuse_unknown_command(const std::string& word) {
+  if (word.empty() || word[0] == '-') return;
+  std::vector<std::string> known;
+  for (const Command& c : commands()) known.emplace_back(c.name);
+  if (std::find(known.begin(), known.end(), word) != known.end()) return;
+  const std::string near = did_you_mean(word, known);
+  throw InputError(word, "unknown command" + (near.empty() ? "; --help lists them" : near));
+}
+
 int run(int argc, char** argv) {
+  if (argc > 1) refuse_unknown_command(argv[1]);
   CLI::App app{"Touchstone: says which collision engine is wrong, with a certificate"};
   app.set_version_flag("--version", "touchstone " TOUCHSTONE_VERSION);
   app.require_subcommand(1);
   app.footer(
-      "Exit codes: 0 clean, 1 subject found wrong, 2 bad usage or input, 3 run failed or proved nothing.");
+      "Exit codes: 0 clean, 1 subject found wrong, 2 bad usage or input, 3 run failed or proved nothing,\n"
+      "125 cannot tell (bisect commit).");
   std::vector<std::pair<CLI::App*, Run>> runs;
   for (const Command& c : commands()) {
     CLI::App* sub = app.add_subcommand(std::string(c.name), std::string(c.line));
@@ -69,6 +85,9 @@ std::span<const Command> commands() { return table; }
 int main(int argc, char** argv) {
   using namespace touchstone;
   std::signal(SIGPIPE, SIG_IGN);
+  // The launcher's own name stands for the program that it runs.
+  const char* launcher = std::getenv("TOUCHSTONE_LAUNCHER");
+  cli::set_program_name(launcher ? launcher : argc > 0 ? argv[0] : "touchstone");
   try {
     const int code = cli::run(argc, argv);
     // A result that nobody got is no result. A reader that has seen enough (EPIPE) has what it wanted.

@@ -29,26 +29,55 @@ bool has_own_axis(const Shape& s) {
   return k == ShapeKind::capsule || k == ShapeKind::cylinder || k == ShapeKind::cone;
 }
 
+namespace {
+
+bool scales(double v, double factor) {
+  const double scaled = v * factor;
+  return std::isfinite(scaled) && scaled / factor == v && (v == 0 || std::abs(scaled) > 0x1p-500);
+}
+
+bool scales(const Vec3& v, double factor) {
+  return scales(v[0], factor) && scales(v[1], factor) && scales(v[2], factor);
+}
+
+bool is_length(Domain domain) { return domain != Domain::nonzero_vector; }
+
+bool scales(const Shape& shape, double factor) {
+  bool all = true;
+  std::visit(
+      [&](const auto& s) {
+        for_each_field(s, [&](auto, const auto& v, Domain domain) {
+          using V = std::decay_t<decltype(v)>;
+          if constexpr (std::is_same_v<V, double>) all &= scales(v, factor);
+          if constexpr (std::is_same_v<V, Vec3>) all &= !is_length(domain) || scales(v, factor);
+          if constexpr (std::is_same_v<V, std::vector<Vec3>>)
+            for (const Vec3& p : v) all &= scales(p, factor);
+        });
+      },
+      shape);
+  return all;
+}
+
+}  // namespace
+
 bool scale_by(Scene& s, double factor) {
-  bool exact = true;
-  const auto number = [&](double& v) {
-    const double scaled = v * factor;
-    exact &= std::isfinite(scaled) && scaled / factor == v && (v == 0 || std::abs(scaled) > 0x1p-500);
-    v = scaled;
-  };
+  // Before anything is changed: a hull of numbers that are none cannot be made.
+  for (const Shape& shape : s.shapes)
+    if (!scales(shape, factor)) return false;
+  for (const Body& b : s.bodies)
+    if (!scales(b.pose.translation, factor) || (b.motion && !scales(b.motion->linear, factor))) return false;
   for (Shape& shape : s.shapes)
     change_numbers(shape, [&](auto& v, Domain domain) {
       if constexpr (std::is_same_v<std::decay_t<decltype(v)>, double>)
-        number(v);
-      else if (domain != Domain::nonzero_vector)
-        for (double& e : v) number(e);
+        v *= factor;
+      else if (is_length(domain))
+        v *= factor;
     });
   for (Body& b : s.bodies) {
-    for (double& e : b.pose.translation) number(e);
-    if (b.motion)
-      for (double& e : b.motion->linear) number(e);
+    b.pose.translation *= factor;
+    if (b.motion) b.motion->linear *= factor;
   }
-  return exact;
+  return true;
 }
 
 void half_turn(Scene& s, int axis) {

@@ -37,7 +37,8 @@ void half_turn(Scene& s, int axis);
 /// False when a sum is not exact: the scene is then another one.
 bool translate_by(Scene& s, const Vec3& by);
 
-/// By a power of two; false when a number is so small or large that the product is not exact.
+/// By a power of two; false, and nothing done, when a number is so small or large that the product is not
+/// exact.
 bool scale_by(Scene& s, double factor);
 
 }  // namespace touchstone::fuzz

@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 
+#include "core/base/input_error.h"
 #include "fuzz/judge/truth.h"
 
 namespace touchstone::fuzz {
@@ -109,6 +110,36 @@ std::span<const Relation> relations() { return rows; }
 
 bool is_relation(std::string_view fault) {
   return std::any_of(rows.begin(), rows.end(), [&](const Relation& r) { return r.name == fault; });
+}
+
+namespace {
+
+// Of all bodies; infinite or NaN where a number is.
+double largest_length(const Scene& s) {
+  double largest = 0;
+  const auto take = [&](double x) {
+    if (!(x <= largest)) largest = x;  // a NaN stays
+  };
+  for (int i = 0; i < static_cast<int>(s.bodies.size()) && !std::isnan(largest); ++i) {
+    take(scale_of_pair(s, i, i));
+    const Body& b = s.bodies[static_cast<std::size_t>(i)];
+    for (const double x : b.pose.translation) take(std::abs(x));
+  }
+  return largest;
+}
+
+}  // namespace
+
+bool is_within_numbers(const Scene& base, const Scene& derived) {
+  try {
+    validate(derived);
+  } catch (const InputError&) {
+    return false;
+  }
+  // The sum of a few coordinates is still a double.
+  constexpr double far = 0x1p1020;
+  const double l = largest_length(derived);
+  return l <= far || l <= largest_length(base);
 }
 
 double tau_of(const EngineCard& card, const Observation& o, double l) {

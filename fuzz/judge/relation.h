@@ -75,6 +75,10 @@ std::span<const Relation> relations();
 /// True for a fault that is the name of a relation.
 bool is_relation(std::string_view fault);
 
+/// Whether a derived case is still within the numbers: what is derived may not leave the doubles, nor come
+/// near their end where its base was not, for there nobody can be expected to answer.
+bool is_within_numbers(const Scene& base, const Scene& derived);
+
 /// The worst break between the base's answers and those to one derived case, if there is one.
 std::optional<RelationBreak> find_break(const Relation& r, const RelationInput& in, const Derived& d,
                                         const CaseObservations& observed);

@@ -129,6 +129,13 @@ std::uint64_t CampaignResult::failed_of(const std::string& engine) const {
   return n;
 }
 
+std::uint64_t CampaignResult::answered_by(const std::string& engine) const {
+  std::uint64_t n = 0;
+  if (const auto it = tallies.find(engine); it != tallies.end())
+    for (const auto& [q, t] : it->second) n += t.answered();
+  return n;
+}
+
 namespace {
 
 Json to_json(const Tally& t, bool with_times) {
@@ -191,6 +198,45 @@ Finding finding_from_json(const Json& j) {
   return f;
 }
 
+namespace {
+
+// A case, and a scene as an engine received it, is stored once, by its hash, however many findings it shows:
+// that of a recording has a megabyte.
+class Documents {
+ public:
+  /// Moved here; its name stays in its place.
+  void take(Json& document) {
+    if (!document.is_object()) return;
+    std::string name = hex64(Hasher().add(document.dump()).value());
+    stored_.try_emplace(name, std::move(document));
+    document = std::move(name);
+  }
+  Json json() && {
+    Json j = Json::object();
+    for (auto& [name, document] : stored_) j[name] = std::move(document);
+    return j;
+  }
+
+ private:
+  std::map<std::string, Json> stored_;
+};
+
+constexpr const char* documents_of_evidence[] = {"case", "received"};
+
+// Puts documents back; results of earlier versions hold them in place.
+void fill_in(Json& evidence, const std::map<std::string, const Json*>& documents) {
+  for (const char* part : documents_of_evidence) {
+    if (!evidence.is_object() || !evidence.contains(part) || !evidence[part].is_string()) continue;
+    const auto name = evidence[part].get<std::string>();
+    const auto document = documents.find(name);
+    if (document == documents.end())
+      throw InputError("stored result", "documents: " + name + " is not there");
+    evidence[part] = *document->second;
+  }
+}
+
+}  // namespace
+
 Json to_json(const CampaignResult& r, bool with_times) {
   Json j;
   j["cases"] = r.cases, j["pair_cases"] = r.pair_cases, j["overlapping"] = r.overlapping;
@@ -204,13 +250,18 @@ Json to_json(const CampaignResult& r, bool with_times) {
   for (const auto& [engine, of_engine] : r.relations)
     for (const auto& [name, n] : of_engine)
       j["relations"][engine][name] = {{"asked", n.asked}, {"broken", n.broken}};
+  Documents documents;
   j["findings"] = Json::object();
   for (const auto& [key, f] : r.findings) {
-    j["findings"][key] = to_json(f);
-    j["findings"][key]["evidence"] = f.evidence_json();
+    Json item = to_json(f), evidence = f.evidence_json();
+    for (const char* part : documents_of_evidence)
+      if (evidence.contains(part)) documents.take(evidence[part]);
     // What a dying process last said may name addresses: for people, not for comparison.
-    if (!with_times) j["findings"][key]["evidence"]["observation"].erase("detail");
+    if (!with_times && evidence.contains("observation")) evidence["observation"].erase("detail");
+    item["evidence"] = std::move(evidence);
+    j["findings"][key] = std::move(item);
   }
+  j["documents"] = std::move(documents).json();
   if (with_times)
     j["times"] = {{"total_ns", r.total_ns},
                   {"engine_ns", r.engine_ns},
@@ -236,7 +287,13 @@ CampaignResult result_from_json(const Json& j) try {
     for (const auto& [engine, of_engine] : j["relations"].items())
       for (const auto& [name, n] : of_engine.items())
         r.relations[engine][name] = {n.at("asked"), n.at("broken")};
-  for (const auto& [key, f] : j.at("findings").items()) r.findings[key] = finding_from_json(f);
+  std::map<std::string, const Json*> documents;
+  if (j.contains("documents"))
+    for (const auto& [name, document] : j["documents"].items()) documents[name] = &document;
+  for (const auto& [key, f] : j.at("findings").items()) {
+    Finding& finding = r.findings[key] = finding_from_json(f);
+    fill_in(finding.stored, documents);
+  }
   if (j.contains("times")) {
     r.total_ns = j["times"].at("total_ns"), r.engine_ns = j["times"].at("engine_ns");
     r.judge_ns = j["times"].at("judge_ns");

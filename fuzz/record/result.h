@@ -103,6 +103,7 @@ struct CampaignResult {
   /// Wrong or failed answers of one engine; broken relations are wrong.
   std::uint64_t wrong_of(const std::string& engine) const;
   std::uint64_t failed_of(const std::string& engine) const;
+  std::uint64_t answered_by(const std::string& engine) const;
 };
 
 /// The whole result; `with_times` false gives the part that the same seed must reproduce byte for byte.

@@ -192,7 +192,7 @@ constexpr std::string_view scene_head = R"(const Geometry shapes[] = {@SHAPES@
 
 Answer ask() {
   Answer x;
-  fcl::DynamicAABBTreeCollisionManagerd manager;
+  @MANAGER@;
   std::unique_ptr<fcl::CollisionObjectd> object[@COUNT@];
   const auto insert = [&](int i, int shape, const Placement& at) {
     object[i] = std::make_unique<fcl::CollisionObjectd>(shapes[shape], transform(at));
@@ -355,7 +355,7 @@ std::string scene(const Asked& q) {
   const std::string manager = manager_of(q.engine);
   out = filled(std::string(manager.empty() ? scene_head : manager_head) + std::string(script_query),
                {{"SHAPES", shapes},
-                {"MANAGER", manager},
+                {"MANAGER", manager.empty() ? "fcl::DynamicAABBTreeCollisionManagerd manager" : manager},
                 {"BEFORE", manager.empty() ? "" : "    start();\n    update();\n"},
                 {"COUNT", std::to_string(q.scene.bodies.size())},
                 {"A", std::to_string(q.a)},

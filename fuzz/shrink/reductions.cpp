@@ -230,6 +230,16 @@ void shared_shape(const Case& c, std::vector<Case>& out) {
   }
 }
 
+// Rounding may lead out of the doubles, and of such numbers no hull can be made.
+void propose_renewed(std::vector<Case>& out, Case r) {
+  try {
+    renew(r);
+  } catch (const InputError&) {
+    return;
+  }
+  out.push_back(std::move(r));
+}
+
 // Lengths times a power of two that brings the largest to about 1; exact.
 void about_one(const Case& c, std::vector<Case>& out) {
   Case r = c;
@@ -237,6 +247,7 @@ void about_one(const Case& c, std::vector<Case>& out) {
   for (const double* x : numbers(r)) largest = std::max(largest, std::abs(*x));
   if (!(largest > 0) || !std::isfinite(largest)) return;
   const double factor = std::ldexp(1.0, -std::ilogb(largest));
+  if (!std::isfinite(factor)) return;
   for (Shape& s : r.scene.shapes) {
     Vec3 normal = Vec3::Zero();
     if (auto* h = std::get_if<HalfSpace>(&s)) normal = h->normal;
@@ -252,8 +263,7 @@ void about_one(const Case& c, std::vector<Case>& out) {
   }
   for (Step& s : r.scene.script)
     if (s.pose) s.pose->translation *= factor;
-  renew(r);
-  out.push_back(std::move(r));
+  propose_renewed(out, std::move(r));
 }
 
 constexpr Simplification simplifications_table[] = {
@@ -281,8 +291,7 @@ std::vector<Case> round_all(const Case& c) {
   for (int bits : coarse_bits) {
     Case r = c;
     for (double* x : numbers(r)) *x = rounded_to(*x, bits);
-    renew(r);
-    out.push_back(std::move(r));
+    propose_renewed(out, std::move(r));
   }
   return out;
 }
@@ -300,9 +309,7 @@ std::vector<Case> round_one(const Case& c, std::size_t i) {
   values.erase(std::unique(values.begin(), values.end()), values.end());
   for (double w : values) {
     *all[i] = w;
-    Case r = probe;
-    renew(r);
-    out.push_back(std::move(r));
+    propose_renewed(out, probe);
   }
   return out;
 }

@@ -157,9 +157,6 @@ void Ledger::put(const KnownFinding& f) {
   if (!s.ok()) db_->fail();
 }
 
-void Ledger::commit() {
-  db_->run("COMMIT");
-  db_->run("BEGIN IMMEDIATE");
-}
+void Ledger::commit() { db_->run("COMMIT"); }
 
 }  // namespace touchstone::fuzz

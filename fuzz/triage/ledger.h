@@ -44,6 +44,7 @@ class Ledger {
   std::vector<KnownFinding> all() const;
   /// Inserts, or replaces the row of the same key.
   void put(const KnownFinding& f);
+  /// Ends the transaction: afterwards it is only read.
   void commit();
 
  private:

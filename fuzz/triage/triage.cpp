@@ -29,33 +29,61 @@ StoredFinding load_finding(const std::filesystem::path& directory) {
   }
 }
 
-KnownFinding entry(const StoredFinding& s, const TriageConfig& config, const std::string& build) {
+// A finding that cannot be shrunk is kept as it was found.
+Triaged fresh(const StoredFinding& s, const TriageConfig& config, const std::string& build) {
   const Finding& f = s.finding;
   const std::string key = f.key();
-  const Case smallest = build.empty() ? s.c : config.smallest(f.engine, key, s.c);
-  return {key,          f.engine,          f.question,        f.fault,     f.shapes, f.blame,
-          f.degeneracy, f.magnitude,       config.date,       config.date, build,    build,
-          f.count,      measure(smallest), text_of(smallest), f.words,     ""};
+  Triaged t;
+  Case smallest = s.c;
+  try {
+    if (!build.empty()) smallest = config.smallest(f.engine, key, s.c);
+  } catch (const std::exception& e) {
+    t.trouble = std::string("not shrunk: ") + e.what();
+  }
+  t.finding = {key,          f.engine,          f.question,        f.fault,     f.shapes, f.blame,
+               f.degeneracy, f.magnitude,       config.date,       config.date, build,    build,
+               f.count,      measure(smallest), text_of(smallest), f.words,     ""};
+  return t;
 }
 
 Triaged seen(const StoredFinding& s, std::optional<KnownFinding> known, const TriageConfig& config) {
   const std::string build = config.build_of(s.finding.engine);
-  if (!known) return {Standing::fresh, entry(s, config, build)};
-  const Standing standing = known->expired.empty() ? Standing::known : Standing::back;
-  known->expired.clear(), known->last_seen = config.date, known->count += s.finding.count;
+  if (!known) return fresh(s, config, build);
+  Triaged t;
+  t.standing = known->expired.empty() ? Standing::known : Standing::back;
+  known->expired.clear();
+  known->last_seen = config.date;
+  known->count += s.finding.count;
   if (!build.empty()) known->last_build = build;
-  return {standing, *known};
+  t.finding = std::move(*known);
+  return t;
 }
 
-Triaged asked_again(KnownFinding f, const TriageConfig& config) {
+Triaged asked_again(KnownFinding f, const TriageConfig& config) try {
+  Triaged t;
+  t.standing = Standing::not_asked;
+  t.finding = f;
   const std::string build = config.build_of(f.engine);
-  if (build.empty()) return {Standing::not_asked, f};
-  if (config.ask(f.engine, case_of(f)).contains(f.key)) {
-    f.last_seen = config.date, f.last_build = build;
-    return {Standing::still, f};
+  if (build.empty()) return t;
+  const Case c = case_of(f);
+  while (t.asked < asks_before_gone && (t.asked == 0 || t.shown < t.asked)) {
+    ++t.asked;
+    t.shown += config.ask(f.engine, c).contains(f.key);
   }
-  f.expired = config.date;
-  return {Standing::gone, f};
+  t.standing = t.shown == t.asked ? Standing::still : t.shown > 0 ? Standing::flaky : Standing::gone;
+  if (t.shown > 0) {
+    t.finding.last_seen = config.date;
+    t.finding.last_build = build;
+  } else {
+    t.finding.expired = config.date;
+  }
+  return t;
+} catch (const std::exception& e) {
+  Triaged t;
+  t.standing = Standing::not_asked;
+  t.finding = std::move(f);
+  t.trouble = std::string("not asked: ") + e.what();
+  return t;
 }
 
 }  // namespace
@@ -78,6 +106,8 @@ std::string_view to_string(Standing s) {
       return "back";
     case Standing::still:
       return "still";
+    case Standing::flaky:
+      return "flaky";
     case Standing::gone:
       return "gone";
     case Standing::not_asked:

@@ -18,14 +18,17 @@ enum class Standing {
   known,     // in the ledger, seen in this run
   back,      // in the ledger as gone, seen again
   still,     // in the ledger, not seen in this run; its case, asked again, still shows it
-  gone,      // in the ledger, and its case, asked again, no longer shows it: expired now
-  not_asked  // in the ledger, but its engine is not here
+  flaky,     // as still, but some of the times it was asked its case did not show it
+  gone,      // in the ledger, and its case, asked several times, never showed it: expired now
+  not_asked  // in the ledger, but its engine is not here, or could not be asked
 };
 std::string_view to_string(Standing s);  // "new" for fresh
 
 struct Triaged {
   Standing standing = Standing::fresh;
-  KnownFinding finding;  // as it is in the ledger now
+  KnownFinding finding;      // as it is in the ledger now
+  int asked = 0, shown = 0;  // of a finding not seen in this run: how often its case was asked, and showed it
+  std::string trouble;       // why it could not be shrunk or asked; the others go on
 };
 
 /// A finding of a campaign as it lies in its directory.
@@ -40,6 +43,10 @@ std::vector<StoredFinding> load_findings(const std::filesystem::path& campaign_d
 /// The smallest case of a finding in the ledger. Throws InputError when it is damaged.
 Case case_of(const KnownFinding& f);
 
+/// One answer proves nothing: an engine may depend on load, or on what its memory held. A finding is gone
+/// when its case does not show it this often in a row.
+inline constexpr int asks_before_gone = 5;
+
 struct TriageConfig {
   std::string date;  // ISO 8601, of this run
   /// Name and version of an engine's library; empty: the engine is not here.
@@ -50,9 +57,9 @@ struct TriageConfig {
   std::function<Case(const std::string& engine, const std::string& key, const Case& c)> smallest;
 };
 
-/// Updates the ledger (not yet committed) and says what became of each finding, sorted by key. Gone ones of
-/// former runs are not mentioned again.
-/// One job for each of `jobs`, which ask engines of their own; the result does not depend on how many.
+/// Updates the ledger (commit it last: what is committed is not new any more) and says what became of each
+/// finding, sorted by key. Gone ones of former runs are not mentioned again. One job for each of `jobs`,
+/// which ask engines of their own; the result does not depend on how many.
 std::vector<Triaged> triage(const std::vector<StoredFinding>& found, Ledger& ledger,
                             std::span<const TriageConfig> jobs);
 inline std::vector<Triaged> triage(const std::vector<StoredFinding>& found, Ledger& ledger,

@@ -230,3 +230,25 @@ TEST_CASE("a point that sees every facet of the referee's polytope does not keep
   CHECK(t.t_lo <= 0.14125937686);
   CHECK(t.t_hi >= 0.14125937684);
 }
+
+TEST_CASE("a case that shows several findings is stored once, and read back whole", "[campaign]") {
+  fuzz::CampaignResult r;
+  fuzz::Evidence evidence;
+  evidence.c.scene.shapes = {Sphere{1}};
+  evidence.c.scene.bodies.resize(2);
+  evidence.c.queries = {{Question::overlap, 0, 1}};
+  const auto shared = std::make_shared<const fuzz::Evidence>(evidence);
+  for (const std::string fault : {"missed", "ghost", "crashed"}) {
+    fuzz::Finding f;
+    f.engine = "e", f.question = "overlap", f.fault = fault, f.count = 1;
+    f.evidence = shared;
+    r.findings[f.key()] = f;
+  }
+  const auto j = fuzz::to_json(r, true);
+  const std::string text = j.dump();
+  CHECK(text.find("\"radius\"") != std::string::npos);
+  CHECK(text.find("\"radius\"") == text.rfind("\"radius\""));
+  const fuzz::CampaignResult back = fuzz::result_from_json(j);
+  for (const auto& [key, f] : back.findings) CHECK(f.evidence_json() == shared->json());
+  CHECK(fuzz::to_json(back, true).dump() == text);
+}

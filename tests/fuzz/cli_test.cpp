@@ -36,6 +36,15 @@ std::size_t longest_line(const std::string& s) {
   return longest;
 }
 
+std::string last_line(const std::string& s) {
+  if (s.size() < 2) return s;
+  const auto before = s.rfind('\n', s.size() - 2);
+  return s.substr(before == std::string::npos ? 0 : before + 1);
+}
+
+const std::string mutant = TS_BINARY_DIR "/lib/libtouchstone_mutants.so:";
+const std::string program = TS_BINARY_DIR "/bin/touchstone ";
+
 }  // namespace
 
 TEST_CASE("bad usage and bad input exit with 2 and one line that names the place", "[cli]") {
@@ -103,9 +112,10 @@ TEST_CASE("a campaign prints its table in 80 columns and leaves replayable findi
   INFO(r.out << r.err);
   CHECK(r.code == 0);
   // A command to copy stays on one line, however long its path.
-  const auto command = r.out.find("  ./touchstone replay");
-  CHECK(longest_line(r.out.substr(0, command)) <= 80);
-  CHECK(r.out.find("core: 0 wrong") != std::string::npos);
+  const auto command = r.out.find("/touchstone replay ");
+  REQUIRE(command != std::string::npos);
+  CHECK(longest_line(r.out.substr(0, r.out.rfind('\n', command))) <= 80);
+  CHECK(last_line(r.out).starts_with("exit code 0 is about core: 0 wrong in "));
   REQUIRE(fs::exists(w.dir / "results" / "summary.json"));
   if (!fs::exists(w.dir / "results" / "findings")) {
     WARN("no oracle is installed: no findings to replay");
@@ -194,7 +204,7 @@ TEST_CASE("an interrupted campaign keeps what it has and goes on", "[cli]") {
                              "timeout --preserve-status -s INT 2");
   INFO(r.out << r.err);
   CHECK(r.code == 3);
-  CHECK(r.out.find("interrupted; go on") != std::string::npos);
+  CHECK(r.out.find("interrupted; resume") != std::string::npos);
   REQUIRE(fs::exists(w.dir / "half" / "state.json"));
   const auto state = nlohmann::json::parse(read_all(w.dir / "half" / "state.json"));
   CHECK(state.at("finished") == false);
@@ -206,7 +216,7 @@ TEST_CASE("an interrupted campaign keeps what it has and goes on", "[cli]") {
 
 TEST_CASE("a lying engine behind the C ABI is found by fuzz", "[cli]") {
   const Workspace w("cli");
-  const std::string plugin = TS_BINARY_DIR "/lib/libtouchstone_mutants.so:";
+  const std::string& plugin = mutant;
   // One of each question.
   for (const std::string name :
        {"boxes_one_ulp_small", "overlap_in_float", "distance_absolute", "normal_second_best",
@@ -228,4 +238,191 @@ TEST_CASE("merge without arguments says what it wants", "[cli][merge]") {
     CHECK(r.code == 2);
     CHECK(r.err.find("touchstone merge OUT SHARD...") != std::string::npos);
   }
+}
+
+TEST_CASE("the exit code is about the engine that is meant, by whatever name, and the last line says so",
+          "[cli]") {
+  const Workspace w("cli");
+  w.write("apart.json", spheres("3"));
+  const std::string liar = mutant + "overlap_always";
+  const auto replay = [&](const std::string& choice) { return w.touchstone("replay apart.json " + choice); };
+  for (const std::string& choice :
+       {"--engines " + liar, "--engines core," + liar + " --subject " + liar,
+        "--engines core," + liar + " --subject overlap_always", "--engines core --subject " + liar}) {
+    const Run r = replay(choice);
+    INFO(choice << r.out << r.err);
+    CHECK(r.code == 1);
+    CHECK(last_line(r.out) == "exit code 1 is about overlap_always: wrong in 1 of 1 cases\n");
+  }
+  const Run core = replay("--engines core," + liar);
+  CHECK(core.code == 0);
+  CHECK(last_line(core.out) == "exit code 0 is about core: wrong in 0 of 1 cases\n");
+  const Run unsaid = replay("--engines " + liar + "," + mutant + "distance_absolute");
+  CHECK(unsaid.code == 2);
+  CHECK(unsaid.err.find("--subject: which of ") != std::string::npos);
+  const Run nobody = replay("--subject cor");
+  CHECK(nobody.code == 2);
+  CHECK(nobody.err.find("did you mean core") != std::string::npos);
+  const Run silent = replay("--engines core-steps@4");  // answers times of impact alone
+  CHECK(silent.code == 3);
+  CHECK(last_line(silent.out).find("answered nothing") != std::string::npos);
+  const Run twice = replay("--subject " + liar + " --engines " + liar + ",./../../" + liar);
+  CHECK(twice.code == 2);
+  CHECK(twice.err.find("are both called overlap_always") != std::string::npos);
+}
+
+TEST_CASE("a chart and a ladder want a subject that they know", "[cli]") {
+  const Workspace w("cli");
+  const std::string chart = "chart --from " TS_SOURCE_DIR "/docs/chart.json ";
+  const Run liar = w.touchstone(chart + "--subject libccd-gjk");
+  CHECK(liar.code == 1);
+  CHECK(last_line(liar.out).starts_with("exit code 1 is about libccd-gjk: wrong in "));
+  CHECK(w.touchstone(chart).code == 0);
+  const Run unknown = w.touchstone(chart + "--subject libccd-gjc");
+  CHECK(unknown.code == 2);
+  CHECK(unknown.err.find("did you mean libccd-gjk") != std::string::npos);
+  CHECK(w.touchstone("stability --engines core --subject nothing --out s").code == 2);
+  CHECK(w.touchstone("chart --engines core --broad grid --subject nothing --out c").code == 2);
+}
+
+TEST_CASE("what is misspelt gets a suggestion, and numbers are refused in words", "[cli]") {
+  const Workspace w("cli");
+  const auto says = [&](const std::string& command, const std::string& words) {
+    const Run r = w.touchstone(command);
+    INFO(command << " says: " << r.err);
+    CHECK(r.code == 2);
+    CHECK(r.err.find(words) != std::string::npos);
+    CHECK(r.err.size() < 300);
+  };
+  says("fuzzz", "fuzzz: unknown command; did you mean fuzz?");
+  says("certify --subject gird", "did you mean grid?");
+  says("replay drake-1668-cubes-corner-overlp", "did you mean drake-1668-cubes-corner-overlap?");
+  says("replay bullet_through_thin_wal", "did you mean bullet_through_thin_wall?");
+  says("fuzz --engines fcl-libcd", "did you mean fcl-libccd");
+  says("fuzz --cases -3", "-3 is not a whole number from 1 on");
+  says("fuzz --cases 1e4", "1e4 is not a whole number");
+  says("fuzz --minutes 0", "0 is not a positive number");
+}
+
+TEST_CASE("cases of the corpus go by their names", "[cli]") {
+  const Workspace w("cli");
+  for (const std::string name :
+       {"drake-1668-cubes-corner-overlap", "corpus/drake-1668-cubes-corner-overlap"}) {
+    const Run r = w.touchstone("replay " + name + " --engines core");
+    INFO(r.err);
+    CHECK(r.code == 0);
+    CHECK(r.out.find("referee: overlap") != std::string::npos);
+  }
+  CHECK(w.touchstone("shrink drake-1668-cubes-corner-overlap").code == 3);  // the core is right
+  fs::create_symlink("loop.json", w.dir / "loop.json");
+  CHECK(w.touchstone("replay loop.json --engines core").code == 2);
+}
+
+TEST_CASE("one bad file costs the others nothing", "[cli]") {
+  const Workspace w("cli");
+  w.write("apart.json", spheres("3"));
+  w.write("bad.json", spheres("NaN"));
+  const Run r =
+      w.touchstone("replay apart.json bad.json touching_boxes_of_no_name apart.json --json --engines core");
+  INFO(r.err);
+  CHECK(r.code == 2);
+  const auto doc = nlohmann::json::parse(r.out);
+  REQUIRE(doc.size() == 4);
+  CHECK(doc[0].contains("queries"));
+  CHECK(doc[1].at("argument") == "bad.json");
+  CHECK(doc[3].contains("queries"));
+  CHECK(r.err.find("bad.json") != std::string::npos);
+  CHECK(
+      last_line(r.err).starts_with("exit code 2 is about bad.json: 2 of the arguments could not be judged"));
+}
+
+TEST_CASE("a result that cannot be written is refused before the work", "[cli]") {
+  const Workspace w("cli");
+  w.write("apart.json", spheres("3"));
+  const std::string liar = mutant + "overlap_always";
+  for (const std::string command : {"shrink", "reproduce"}) {
+    const Run r = w.touchstone(command + " apart.json --engine " + liar + " -o no/such/folder.json");
+    CHECK(r.code == 2);
+    CHECK(r.err.find("there is no directory") != std::string::npos);
+  }
+}
+
+TEST_CASE("two campaigns cannot write one directory; the lock ends with its process", "[cli]") {
+  const Workspace w("cli");
+  const std::string fuzz = program + "fuzz --engines core --jobs 1 --out one ";
+  const Run second =
+      w.run(fuzz + "--minutes 5 >/dev/null 2>&1 & p=$!; while [ ! -e one/state.json ]; do sleep 0.1; done; " +
+            fuzz + "--minutes 0.01; r=$?; kill -9 $p; wait $p; exit $r");
+  INFO(second.out << second.err);
+  CHECK(second.code == 2);
+  CHECK(second.err.find("one: is in use: process ") != std::string::npos);
+  CHECK(w.run(fuzz + "--minutes 0.01").code == 0);
+}
+
+TEST_CASE("a finished campaign stays; --fresh moves it aside and loses nothing", "[cli]") {
+  const Workspace w("cli");
+  const std::string fuzz = "fuzz --engines core --cases 32 --out done ";
+  REQUIRE(w.touchstone(fuzz).code == 0);
+  const std::string before = read_all(w.dir / "done" / "summary.json");
+  const Run again = w.touchstone(fuzz);
+  CHECK(again.code == 2);
+  CHECK(again.err.find("--fresh") != std::string::npos);
+  CHECK(w.touchstone(fuzz + "--seed 2 --fresh").code == 0);
+  CHECK(read_all(w.dir / "done.1" / "summary.json") == before);
+  CHECK(w.touchstone(fuzz + "--fresh").code == 0);
+  CHECK(fs::exists(w.dir / "done.2" / "summary.json"));
+  CHECK(fs::exists(w.dir / "done" / "summary.json"));
+}
+
+TEST_CASE("a closed terminal interrupts a campaign like a kill", "[cli]") {
+  const Workspace w("cli");
+  const Run r = w.touchstone("fuzz --engines core --minutes 5 --jobs 1 --out half",
+                             "timeout --preserve-status -s HUP 2");
+  CHECK(r.code == 3);
+  CHECK(last_line(r.out).find("interrupted; resume") != std::string::npos);
+}
+
+TEST_CASE("spheres 1e308 apart: what is derived is not asked beyond the doubles", "[cli][relations]") {
+  const Workspace w("cli");
+  w.write("far.json", spheres("1e308"));
+  const Run r = w.touchstone("replay far.json --engines core");
+  INFO(r.out << r.err);
+  CHECK(r.code == 0);
+  CHECK(r.out.find("relation_") == std::string::npos);
+}
+
+TEST_CASE("what triage could not say is not known in the next run", "[cli][triage]") {
+  const Workspace w("cli");
+  const std::string liar = mutant + "overlap_always";
+  REQUIRE(w.touchstone("fuzz --cases 64 --relations 0 --engines " + liar + " --out lies").code == 1);
+  const std::string asked = "triage lies --no-shrink --engines " + liar,
+                    triage = asked + " --ledger known.db ";
+  CHECK(w.touchstone(triage + "--junit /dev/full").code == 2);
+  CHECK(w.run(program + triage + " >/dev/full").code == 3);
+  const Run bad = w.touchstone(triage + "--junit no/such/file.xml");
+  CHECK(bad.code == 2);
+  CHECK(w.touchstone(triage + "--subject overlap_alway").err.find("did you mean overlap_always?") !=
+        std::string::npos);
+  CHECK(w.touchstone(asked + " --ledger other.db --subject core").code == 3);  // the campaign did not ask it
+  const Run first = w.touchstone(triage + "--subject overlap_always --junit junit.xml --reproducers kept");
+  INFO(first.out << first.err);
+  CHECK(first.code == 1);
+  CHECK(last_line(first.out).starts_with("exit code 1 is about overlap_always: "));
+  CHECK(read_all(w.dir / "junit.xml").find("<failure message=\"new\">") != std::string::npos);
+  CHECK(!fs::is_empty(w.dir / "kept"));
+  const auto kept = fs::directory_iterator(w.dir / "kept")->path().string();
+  CHECK(w.touchstone("shrink " + kept + " --engine " + liar + " -o small.json").code ==
+        0);  // its key is its name
+  // Another night, which finds nothing: the plug-in is asked again only when it is named.
+  REQUIRE(w.touchstone("fuzz --cases 32 --engines core --out clean").code == 0);
+  const auto standings = [&](const std::string& engines, const std::string& standing) {
+    const Run r = w.touchstone("triage clean --ledger known.db --json " + engines);
+    INFO(r.err);
+    CHECK(r.code == 0);
+    for (const auto& f : nlohmann::json::parse(r.out)) CHECK(f.at("standing") == standing);
+  };
+  standings("", "not asked");
+  standings("--engines " + liar, "still");
+  const Run empty = w.touchstone("triage clean --ledger known.db --reproducers none");
+  CHECK(empty.err.find("there is nothing in it") != std::string::npos);
 }

@@ -3,6 +3,7 @@
 
 #include "fuzz/campaign/campaign.h"
 #include "fuzz/generate/family.h"
+#include "fuzz/judge/exact_map.h"
 #include "fuzz/judge/judge.h"
 #include "fuzz/judge/relation.h"
 #include "fuzz/shrink/keeps_finding.h"
@@ -157,4 +158,22 @@ TEST_CASE("an answer says of the gap what a right answer may say, and no more", 
   CHECK(of(Question::distance).hi == -0.375);
   o.outcome = Outcome::unsupported;
   CHECK(of(Question::distance).says_nothing());
+}
+
+TEST_CASE("what is derived stays within the doubles, or is not asked", "[relations]") {
+  Scene far;
+  far.shapes = {make_hull({{1e308, 0, 0}, {0, 1e308, 0}, {0, 0, 1e308}, {-1e308, 0, 0}})};
+  far.bodies.resize(2);
+  Scene scaled = far;
+  CHECK(!fuzz::scale_by(scaled, 0x1p20));
+  CHECK(scaled.shapes == far.shapes);
+  CHECK(fuzz::scale_by(scaled, 0x1p-12));
+  CHECK(scaled.shapes != far.shapes);
+  CHECK(fuzz::is_within_numbers(far, far));  // exchanged, permuted: as far out as its base
+  CHECK(fuzz::is_within_numbers(far, scaled));
+  Scene beyond = far;
+  beyond.bodies[1].pose.translation = {1.5e308, 0, 0};
+  CHECK(!fuzz::is_within_numbers(far, beyond));
+  beyond.bodies[1].pose.translation = {fuzz::infinity, 0, 0};
+  CHECK(!fuzz::is_within_numbers(beyond, beyond));
 }

@@ -9,7 +9,9 @@
 #include "core/scene/scene.h"
 #include "fuzz/campaign/campaign.h"
 #include "fuzz/generate/family.h"
+#include "fuzz/generate/numbers.h"
 #include "fuzz/shrink/keeps_finding.h"
+#include "fuzz/shrink/reductions.h"
 #include "scenarios/case_codec.h"
 #include "tests/mutants/lying_engine.h"
 #include "tests/support/catch.h"
@@ -138,4 +140,18 @@ TEST_CASE("findings about lying engines shrink to two bodies and keep their key"
     }
   }
   CHECK(shrunk_findings == chosen.size());
+}
+
+TEST_CASE("numbers at the end of the doubles are rounded or left, never lost", "[shrink]") {
+  Case c;
+  const double far = 0x1.fffffffffffffp1023;
+  c.scene.shapes = {make_hull({{far, 0, 0}, {0, far, 0}, {0, 0, far}, {-far, -1, -2}})};
+  c.scene.bodies.resize(2);
+  c.queries = {{Question::overlap, 0, 1}};
+  for (std::size_t i = 0; i < fuzz::numbers(c).size(); ++i) fuzz::round_one(c, i);
+  fuzz::round_all(c);
+  const auto shrunk =
+      fuzz::shrink(c, [](std::span<const Case> cases) { return std::vector<bool>(cases.size(), true); });
+  CHECK(shrunk.exit == fuzz::ShrinkExit::smallest);
+  validate(shrunk.smallest.scene);
 }

@@ -89,7 +89,7 @@ TEST_CASE("a finding is new once, then known, still there, gone, and back", "[tr
   CHECK(fake.asked == 0);
   fake.shows = {missed.finding.key()};
   CHECK(night({}, "d3") == S{{"one missed", Standing::still}, {"two ghost", Standing::gone}});
-  CHECK(fake.asked == 2);
+  CHECK(fake.asked == 1 + asks_before_gone);
   CHECK(night({}, "d4") == S{{"one missed", Standing::still}});
   CHECK(night({ghost}, "d5") == S{{"one missed", Standing::still}, {"two ghost", Standing::back}});
   fake.here.erase("one");
@@ -106,6 +106,68 @@ TEST_CASE("a finding is new once, then known, still there, gone, and back", "[tr
   CHECK(g->last_seen == "d6");
   CHECK(g->expired.empty());
   CHECK(case_from_json(nlohmann::ordered_json::parse(m->smallest)).scene.name == "small");
+}
+
+TEST_CASE("a finding that shows only sometimes is flaky, not gone", "[triage]") {
+  const Place place;
+  const auto missed = finding("one", "missed");
+  Fake fake;
+  const auto night = [&](const std::vector<StoredFinding>& found, int shows_at) {
+    TriageConfig c = fake.config("d");
+    int asked = 0;
+    c.ask = [&](const std::string&, const Case&) {
+      std::map<std::string, Finding> r;
+      if (++asked == shows_at) r[missed.finding.key()] = {};
+      return r;
+    };
+    Ledger ledger(place.ledger);
+    const auto r = triage(found, ledger, c);
+    ledger.commit();
+    return r.at(0);
+  };
+  night({missed}, 0);
+  const Triaged flaky = night({}, 3);
+  CHECK(flaky.standing == Standing::flaky);
+  CHECK(flaky.shown == 1);
+  CHECK(flaky.asked == asks_before_gone);
+  CHECK(flaky.finding.expired.empty());
+  CHECK(reports::triage_text({flaky}).find("shown in 1 of 5 times asked") != std::string::npos);
+  CHECK(night({}, 1).standing == Standing::still);
+  CHECK(night({}, 0).standing == Standing::gone);
+}
+
+TEST_CASE("a finding that cannot be shrunk or asked leaves the others as they are", "[triage]") {
+  const Place place;
+  Fake fake;
+  const auto with_trouble = [&](const std::vector<StoredFinding>& found) {
+    TriageConfig c = fake.config("d");
+    const auto fail_for_one = [](const std::string& engine) {
+      if (engine == "one") throw std::runtime_error("its worker does not start");
+    };
+    c.smallest = [=](const std::string& engine, const std::string&, const Case& as_found) {
+      fail_for_one(engine);
+      return as_found;
+    };
+    c.ask = [=](const std::string& engine, const Case&) {
+      fail_for_one(engine);
+      return std::map<std::string, Finding>();
+    };
+    Ledger ledger(place.ledger);
+    const auto r = triage(found, ledger, c);
+    ledger.commit();
+    return r;
+  };
+  const auto first = with_trouble({finding("one", "missed"), finding("two", "ghost")});
+  REQUIRE(first.size() == 2);
+  CHECK(first[0].standing == Standing::fresh);
+  CHECK(first[0].trouble.find("its worker does not start") != std::string::npos);
+  CHECK(first[1].trouble.empty());
+  const auto second = with_trouble({});
+  REQUIRE(second.size() == 2);
+  CHECK(second[0].standing == Standing::not_asked);
+  CHECK(!second[0].trouble.empty());
+  CHECK(second[1].standing == Standing::gone);
+  CHECK(Ledger(place.ledger).find(second[0].finding.key)->expired.empty());
 }
 
 TEST_CASE("what is not committed is not in the ledger", "[triage]") {

@@ -88,8 +88,9 @@ TEST_CASE(
   std::filesystem::remove_all(dir);
 }
 
-TEST_CASE("what replay --json prints of a verdict and of a time of impact is accepted by check",
-          "[referee][checker]") {
+TEST_CASE(
+    "what replay --json --certificates prints of a verdict and of a time of impact is accepted by check",
+    "[referee][checker]") {
   const auto dir = std::filesystem::temp_directory_path() / ("touchstone-replay-" + std::to_string(getpid()));
   std::filesystem::create_directories(dir);
   write(dir / "case.json", R"({"touchstone_case": 1, "scene": {"touchstone_scene": 1,
@@ -99,9 +100,9 @@ TEST_CASE("what replay --json prints of a verdict and of a time of impact is acc
                {"shape": 1, "pose": {"translation": [0, 0, 0], "rotation": [0.1, 0.2, 0.3, 1]},
                 "motion": {"angular": [1, 2, 3]}}]},
     "queries": [{"question": "overlap", "a": 1, "b": 2}, {"question": "time_of_impact", "a": 1, "b": 2}]})");
-  const std::string replay = std::string(TS_BINARY_DIR) + "/bin/touchstone replay --json --engines core " +
-                             (dir / "case.json").string() + " > " + (dir / "replay.json").string() +
-                             " 2>/dev/null";
+  const std::string replay =
+      std::string(TS_BINARY_DIR) + "/bin/touchstone replay --json --certificates --engines core " +
+      (dir / "case.json").string() + " > " + (dir / "replay.json").string() + " 2>/dev/null";
   REQUIRE(WEXITSTATUS(std::system(replay.c_str())) <= 1);
   std::ifstream f(dir / "replay.json");
   const auto j = nlohmann::ordered_json::parse(f);

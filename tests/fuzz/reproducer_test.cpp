@@ -1,0 +1,102 @@
+// The text of reproducers: one for every engine that has a writer, every question and every fault.
+#include "fuzz/reproduce/reproducer.h"
+
+#include <string>
+#include <vector>
+
+#include "core/base/input_error.h"
+#include "oracles/core/core_engine.h"
+#include "tests/support/catch.h"
+
+using namespace touchstone;
+using namespace touchstone::fuzz;
+
+namespace {
+
+Case case_of(Question question, const Shape& a, const Shape& b) {
+  Case c;
+  c.scene.shapes = {a, b};
+  c.scene.bodies.resize(2);
+  c.scene.bodies[1].shape = 1;
+  c.scene.bodies[1].pose.translation = {0.5, 0.25, 0.125};
+  if (question == Question::time_of_impact) c.scene.bodies[1].motion = Motion{{-1, 0, 0}, {0, 0.5, 0}};
+  c.queries = {is_pair_question(question) ? Query{question, 0, 1} : Query{question, -1, -1}};
+  return c;
+}
+
+Finding finding_of(const std::string& engine, const Case& c, std::string_view fault) {
+  const Question question = c.queries[0].question;
+  Finding f;
+  f.engine = engine, f.question = to_string(question), f.fault = fault;
+  Evidence e;
+  e.c = c;
+  e.observation = make_core_engine()->run({&c, 1})[0].answers[0];
+  e.a = 0, e.b = 1;
+  e.step = question == Question::candidates ? 0 : -1;
+  e.question = question;
+  f.evidence = std::make_shared<const Evidence>(std::move(e));
+  return f;
+}
+
+// A token that was not filled in looks like @NAME@.
+bool has_open_token(const std::string& text) {
+  for (std::size_t at = text.find('@'); at != std::string::npos; at = text.find('@', at + 1)) {
+    const std::size_t end = text.find_first_not_of("ABCDEFGHIJKLMNOPQRSTUVWXYZ_", at + 1);
+    if (end != std::string::npos && end > at + 1 && text[end] == '@') return true;
+  }
+  return false;
+}
+
+}  // namespace
+
+TEST_CASE("every engine with a writer has a program for every question and every fault", "[reproduce]") {
+  const std::vector<std::string> engines{"fcl-libccd",
+                                         "fcl-libccd-tuned",
+                                         "fcl-indep",
+                                         "fcl-indep-tuned",
+                                         "bullet-f32-query",
+                                         "bullet-f32-sim",
+                                         "bullet-f64-query-tuned",
+                                         "bullet-f64-sim",
+                                         "libccd-gjk",
+                                         "libccd-mpr-tuned",
+                                         "ode",
+                                         "fcl-naive",
+                                         "fcl-sap",
+                                         "fcl-spatial-hash",
+                                         "fcl-dynamic-tree-array",
+                                         "bullet-f64-dbvt",
+                                         "bullet-f32-axis-sweep",
+                                         "bullet-f32-simple",
+                                         "ode-hash",
+                                         "ode-sap"};
+  const std::vector<Question> questions{Question::overlap,    Question::distance,
+                                        Question::contact,    Question::time_of_impact,
+                                        Question::candidates, Question::scene_contacts};
+  const std::vector<std::pair<Shape, Shape>> pairs{{Box{{0.5, 0.5, 0.5}}, Sphere{0.5}},
+                                                   {Capsule{0.5, 0.5}, Cylinder{0.5, 0.5}}};
+  std::size_t written = 0;
+  for (const Question question : questions)
+    for (const auto& [a, b] : pairs) {
+      const Case c = case_of(question, a, b);
+      for (std::size_t i = 0; i < fault_names.size(); ++i) {
+        const Finding base = finding_of("core", c, fault_names[i]);
+        for (const std::string& engine : engines) {
+          Finding f = base;
+          f.engine = engine;
+          CAPTURE(engine, to_string(question), fault_names[i]);
+          try {
+            const std::string text = reproducer(f, EngineCard{});
+            CHECK(!has_open_token(text));
+            CHECK(text.find("int main()") != std::string::npos);
+            ++written;
+          } catch (const InputError&) {
+            // Refused in words: this engine does not answer this question.
+          } catch (const std::exception& e) {
+            FAIL_CHECK(e.what());
+          }
+        }
+      }
+    }
+  CHECK(written > 1000);
+}
