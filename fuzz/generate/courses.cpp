@@ -71,6 +71,10 @@ void last_moment(Rng& rng, Case& c) {
   Scene s = random_pair(rng, a, b, 1, Vec3::Zero());
   const Vec3 n = placement_direction(rng, s);
   place_along(rng, s, n, 0, 0.2);
+  // Of two convex bodies the farthest points meet, not only the planes through them.
+  if (a != ShapeKind::half_space && a != ShapeKind::mesh)
+    s.bodies[1].pose.translation =
+        s.bodies[0].pose.translation + farthest_point(s, 0, n) - farthest_point(s, 1, -n);
   const double before_end = rng.binary_scale(-36, -11);
   const double t = rng.chance(0.2) ? 1 + before_end : 1 - before_end;
   const Vec3 u = rng.unit_vector();

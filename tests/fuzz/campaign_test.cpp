@@ -8,6 +8,7 @@
 #include "fuzz/campaign/campaign.h"
 #include "fuzz/campaign/store.h"
 #include "fuzz/generate/family.h"
+#include "fuzz/judge/judge.h"
 #include "fuzz/judge/truth.h"
 #include "oracles/core/core_engine.h"
 #include "scenarios/case_codec.h"
@@ -135,6 +136,28 @@ TEST_CASE("our core is right on random cases", "[campaign][core]") {
   CHECK(r.failed_of("core") == 0);
   for (const auto& [key, f] : r.findings) UNSCOPED_INFO(key << " case " << f.first_index << ": " << f.words);
   CHECK(r.findings.empty());
+}
+
+TEST_CASE("our core is right on fast spins, at the end of the step and in scenes that move",
+          "[campaign][core]") {
+  for (const char* family : {"whirl", "last", "swarm"}) {
+    std::uint64_t impacts = 0;
+    for (std::uint64_t i = 0; i < 150; ++i) {
+      const Case c = fuzz::make_case(9, i, family);
+      CoreEngine core;
+      const auto answers = core.run({&c, 1});
+      fuzz::Truth truth(c.scene);
+      for (const fuzz::Judgement& j : fuzz::judge(c, core.card(), answers[0], truth)) {
+        INFO(c.id << (j.faults.empty() ? "" : ": " + j.faults[0].words));
+        REQUIRE((j.undecided || j.right()));
+      }
+      for (const Query& q : c.queries)
+        if (q.question == Question::time_of_impact)
+          impacts += truth.motion(0, q.a, q.b).verdict == referee::TimeTruth::Verdict::hit;
+    }
+    INFO(family << ": " << impacts << " impacts");
+    CHECK(impacts >= 30);
+  }
 }
 
 TEST_CASE("shards together are the whole campaign", "[campaign]") {
