@@ -114,18 +114,31 @@ bool is_relation(std::string_view fault) {
 
 namespace {
 
-// Of all bodies; infinite or NaN where a number is.
+double largest(double v) { return std::abs(v); }
+double largest(const Vec3& v) { return v.cwiseAbs().maxCoeff(); }
+double largest(const std::vector<Vec3>& v) {
+  double most = 0;
+  for (const Vec3& p : v) most = std::max(most, largest(p));
+  return most;
+}
+
+// Of all bodies' sizes, places and motions, each number by itself: their squares may be beyond the doubles.
 double largest_length(const Scene& s) {
-  double largest = 0;
-  const auto take = [&](double x) {
-    if (!(x <= largest)) largest = x;  // a NaN stays
-  };
-  for (int i = 0; i < static_cast<int>(s.bodies.size()) && !std::isnan(largest); ++i) {
-    take(scale_of_pair(s, i, i));
-    const Body& b = s.bodies[static_cast<std::size_t>(i)];
-    for (const double x : b.pose.translation) take(std::abs(x));
+  double most = 0;
+  for (const Shape& shape : s.shapes)
+    std::visit(
+        [&](const auto& x) {
+          for_each_field(x, [&](auto, const auto& v, Domain) {
+            if constexpr (!std::is_same_v<std::decay_t<decltype(v)>, std::vector<std::array<int, 3>>>)
+              most = std::max(most, largest(v));
+          });
+        },
+        shape);
+  for (const Body& b : s.bodies) {
+    most = std::max(most, largest(b.pose.translation));
+    if (b.motion) most = std::max(most, largest(b.motion->linear));
   }
-  return largest;
+  return most;
 }
 
 }  // namespace
