@@ -10,7 +10,7 @@ namespace touchstone::reports {
 /// `times`: with the seconds that each evidence took.
 std::string certificate_text(const fuzz::BroadCertificate& c, bool times);
 
-/// "SUBJECT: boxes certified, bodies refuted".
+/// "SUBJECT: boxes certified, bodies refuted"; with what was too slow, and the time to ask for.
 std::string certificate_line(const fuzz::BroadCertificate& c);
 
 }  // namespace touchstone::reports

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "core/base/hash.h"
 #include "core/base/input_error.h"
@@ -24,6 +25,43 @@ Pairs sorted_unique(Pairs r) {
 bool counts(const Scene& s, int a, int b) {
   const auto fixed = [&](int i) { return s.bodies[static_cast<std::size_t>(i)].is_static; };
   return !(fixed(a) && fixed(b)) && !is_filtered(s, a, b);
+}
+
+// A pair that must be reported, and what losing it would be.
+struct Due {
+  BodyPair pair;
+  FaultKind kind = FaultKind::touching;
+  double share = 0;
+};
+using Dues = std::vector<Due>;
+
+constexpr double least_solid_share = 0.01;
+
+Due due_of_share(BodyPair pair, double share) {
+  return {pair, share > least_solid_share ? FaultKind::solid : FaultKind::touching, share > 0 ? share : 0};
+}
+
+// Of boxes: the least over the axes of the overlap over the smaller side.
+Due due_of_boxes(BodyPair pair, const Aabb& a, const Aabb& b) {
+  if (!(a.lo.allFinite() && a.hi.allFinite() && b.lo.allFinite() && b.hi.allFinite()))
+    return {pair, FaultKind::unbounded, 0};
+  double share = 1;
+  for (int k = 0; k < 3; ++k) {
+    // Halved before they are subtracted, for boxes near the largest number.
+    const double side = std::min(a.hi[k] / 2 - a.lo[k] / 2, b.hi[k] / 2 - b.lo[k] / 2);
+    const double shared = std::min(a.hi[k], b.hi[k]) / 2 - std::max(a.lo[k], b.lo[k]) / 2;
+    share = side > 0 ? std::min(share, shared / side) : 0;
+  }
+  return due_of_share(pair, share);
+}
+
+// Of bodies: the certain depth over the diameter of the smaller.
+Due due_of_bodies(const Scene& s, const Truth::TruePair& p) {
+  const auto [a, b] = p.bodies;
+  const double ra = bounding_radius(s.shape_of(a)), rb = bounding_radius(s.shape_of(b));
+  if (!(std::isfinite(ra) && std::isfinite(rb))) return {p.bodies, FaultKind::unbounded, 0};
+  const double size = 2 * std::min(ra, rb);
+  return due_of_share(p.bodies, size > 0 ? std::clamp(-p.truth.gap.hi / size, 0.0, 1.0) : 0);
 }
 
 // Who is there, and where; at the level of boxes also in which box.
@@ -49,7 +87,7 @@ class Replay {
   }
   const State& now() const { return now_; }
 
-  Pairs overlapping_boxes() {
+  Dues overlapping_boxes() {
     order_.clear();
     for (int i = 0; i < static_cast<int>(now_.present.size()); ++i)
       if (now_.present[static_cast<std::size_t>(i)] && now_.asked[static_cast<std::size_t>(i)])
@@ -58,12 +96,12 @@ class Replay {
     std::sort(order_.begin(), order_.end(), [&](int i, int j) {
       return box(i).lo.x() < box(j).lo.x() || (box(i).lo.x() == box(j).lo.x() && i < j);
     });
-    Pairs out;
+    Dues out;
     for (std::size_t i = 0; i < order_.size(); ++i)
       for (std::size_t j = i + 1; j < order_.size() && box(order_[j]).lo.x() <= box(order_[i]).hi.x(); ++j)
         if (overlaps(box(order_[i]), box(order_[j])) && counts(s_, order_[i], order_[j]))
-          out.push_back(std::minmax(order_[i], order_[j]));
-    std::sort(out.begin(), out.end());
+          out.push_back(due_of_boxes(std::minmax(order_[i], order_[j]), box(order_[i]), box(order_[j])));
+    std::sort(out.begin(), out.end(), [](const Due& x, const Due& y) { return x.pair < y.pair; });
     return out;
   }
 
@@ -85,39 +123,49 @@ class Replay {
 };
 
 // Pairs that meet at some time of the step, for scenes with motion; the bodies stand at their own poses.
-Pairs meeting_in_step(const Scene& s, Truth& truth, std::uint64_t& undecided) {
-  Pairs out;
+Dues meeting_in_step(const Scene& s, Truth& truth, std::uint64_t& undecided) {
+  Dues out;
   const int n = static_cast<int>(s.bodies.size());
   for (int a = 0; a < n; ++a)
     for (int b = a + 1; b < n; ++b) {
       if (!counts(s, a, b)) continue;
       const auto& t = truth.motion(0, a, b);
-      if (t.verdict == referee::TimeTruth::Verdict::hit) out.emplace_back(a, b);
+      if (t.verdict == referee::TimeTruth::Verdict::hit) out.push_back({{a, b}, FaultKind::moving, 0});
       if (t.verdict == referee::TimeTruth::Verdict::undecided) ++undecided;
     }
   return out;
 }
 
-std::vector<Pairs> true_pairs_of_bodies(const Scene& s, std::uint64_t& undecided) {
+std::vector<Dues> true_pairs_of_bodies(const Scene& s, std::uint64_t& undecided) {
   Truth truth(s);
-  std::vector<Pairs> out;
+  std::vector<Dues> out;
   const bool moves =
       std::any_of(s.bodies.begin(), s.bodies.end(), [](const Body& b) { return b.motion.has_value(); });
   for (const auto& step : truth.true_pairs()) {
-    Pairs& pairs = out.emplace_back();
-    for (const auto& p : step) pairs.push_back(p.bodies);
+    Dues& pairs = out.emplace_back();
+    for (const auto& p : step) pairs.push_back(due_of_bodies(s, p));
   }
   undecided += truth.undecided_pairs();
   if (!moves) return out;
-  const Pairs swept = meeting_in_step(s, truth, undecided);
+  const Dues swept = meeting_in_step(s, truth, undecided);
   for (std::size_t k = 0; k < out.size(); ++k) {
     const auto& pose = truth.steps()[k].pose;
     const auto is_there = [&](int body) { return pose[static_cast<std::size_t>(body)].has_value(); };
-    for (const BodyPair& p : swept)
-      if (is_there(p.first) && is_there(p.second)) out[k].push_back(p);
-    out[k] = sorted_unique(std::move(out[k]));
+    Dues& due = out[k];
+    for (const Due& d : swept)
+      if (is_there(d.pair.first) && is_there(d.pair.second)) due.push_back(d);
+    // What overlaps from the start counts as that.
+    std::stable_sort(due.begin(), due.end(), [](const Due& x, const Due& y) { return x.pair < y.pair; });
+    due.erase(
+        std::unique(due.begin(), due.end(), [](const Due& x, const Due& y) { return x.pair == y.pair; }),
+        due.end());
   }
   return out;
+}
+
+// An engine that timed out too often is asked no more (oracles/api/patience.h): that is no crash.
+bool is_set_aside_for_time(const std::string& detail) {
+  return detail.starts_with("set aside: timed out") || detail.starts_with("set aside: waited");
 }
 
 class Judge {
@@ -133,6 +181,9 @@ class Judge {
       judge();
     else
       failed();
+    std::stable_sort(
+        v_.faults.begin(), v_.faults.end(),
+        [](const CandidateFault& x, const CandidateFault& y) { return is_graver(x.what, y.what); });
     v_.digest = hash_.value();
     return std::move(v_);
   }
@@ -140,26 +191,31 @@ class Judge {
  private:
   // To throw at what is no box is to refuse it.
   void failed() {
-    v_.refused = answer_.outcome == Outcome::unsupported || answer_.outcome == Outcome::invalid_input ||
-                 (invalid_ && answer_.outcome == Outcome::threw);
-    v_.words = answer_.detail.empty() ? std::string(to_string(answer_.outcome)) : answer_.detail;
-    if (!v_.refused) v_.fault = to_string(answer_.outcome);
+    const Outcome o = answer_.outcome;
+    v_.refused =
+        o == Outcome::unsupported || o == Outcome::invalid_input || (invalid_ && o == Outcome::threw);
+    v_.timed_out = o == Outcome::timed_out || is_set_aside_for_time(answer_.detail);
+    v_.words = answer_.detail.empty() ? std::string(to_string(o)) : answer_.detail;
+    if (!v_.refused && !v_.timed_out) wrong({{std::string(to_string(o)), FaultKind::numbers}, v_.words});
   }
   void judge() {
-    std::vector<Pairs> truth;
+    std::vector<Dues> truth;
     if (level_ == Level::bodies) truth = true_pairs_of_bodies(s_, v_.undecided);
     std::size_t k = 0;
     for (const Step& step : s_.script) {
-      if (step.op != Step::Op::query)
+      if (step.op != Step::Op::query) {
         replay_.apply(step);
-      else
-        judge_query(static_cast<int>(k), level_ == Level::bodies ? truth[k] : replay_.overlapping_boxes()),
-            ++k;
+        continue;
+      }
+      judge_query(static_cast<int>(k), level_ == Level::bodies ? truth[k] : replay_.overlapping_boxes());
+      ++k;
     }
     if (answer_.candidate_pairs.size() > k)
-      wrong("no_number", static_cast<int>(k), {-1, -1}, "more queries are answered than the script asks");
+      wrong({{"no_number", FaultKind::numbers},
+             "more queries are answered than the script asks",
+             static_cast<int>(k)});
   }
-  void judge_query(int k, const Pairs& truth) {
+  void judge_query(int k, const Dues& truth) {
     static const Pairs none;
     const auto at = static_cast<std::size_t>(k);
     const Pairs reported =
@@ -167,24 +223,44 @@ class Judge {
     ++v_.queries, v_.pairs_true += truth.size(), v_.pairs_reported += reported.size();
     hash_.add(reported.size());
     for (const auto& [a, b] : reported) hash_.add(a).add(b);
-    for (const BodyPair& p : truth)
-      if (!std::binary_search(reported.begin(), reported.end(), p))
-        return wrong(
-            "missed", k, p,
-            fmt::format("query {}: bodies {} and {} overlap and are no candidates", k, p.first, p.second));
+    for (const Due& d : truth)
+      if (!std::binary_search(reported.begin(), reported.end(), d.pair)) missed(k, d);
     for (const BodyPair& p : reported)
-      if (p.first == p.second || absent(p.first) || absent(p.second))
-        return wrong(
-            "stale", k, p,
-            fmt::format("query {}: the pair ({}, {}) names a body that is not there", k, p.first, p.second));
+      if (p.first == p.second || absent(p.first) || absent(p.second)) stale(k, p);
   }
   bool absent(int i) const {
     return i < 0 || i >= static_cast<int>(s_.bodies.size()) ||
            !replay_.now().present[static_cast<std::size_t>(i)];
   }
-  void wrong(const char* fault, int k, BodyPair p, std::string words) {
-    if (!v_.fault.empty()) return;
-    v_.fault = fault, v_.query = k, v_.a = p.first, v_.b = p.second, v_.words = std::move(words);
+  void missed(int k, const Due& d) {
+    const auto [a, b] = d.pair;
+    const std::string how = d.kind == FaultKind::solid
+                                ? fmt::format("overlap by {:.2g} of the smaller's size", d.share)
+                            : d.kind == FaultKind::moving ? std::string("meet within the step")
+                            : d.kind == FaultKind::unbounded
+                                ? std::string("overlap, one of them unbounded,")
+                                : std::string("touch, or overlap by 1 % at most, or have no volume,");
+    wrong({{"missed", d.kind},
+           fmt::format("query {}: bodies {} and {} {} and are no candidates", k, a, b, how),
+           k,
+           a,
+           b,
+           d.share});
+  }
+  void stale(int k, const BodyPair& p) {
+    wrong({{"stale", FaultKind::numbers},
+           fmt::format("query {}: the pair ({}, {}) names a body that is not there", k, p.first, p.second),
+           k,
+           p.first,
+           p.second});
+  }
+  void wrong(CandidateFault f) {
+    const auto same = std::find_if(v_.faults.begin(), v_.faults.end(),
+                                   [&](const CandidateFault& x) { return x.what == f.what; });
+    if (same == v_.faults.end())
+      v_.faults.push_back(std::move(f));
+    else if (f.share > same->share)
+      *same = std::move(f);
   }
 
   const Scene& s_;
@@ -197,6 +273,10 @@ class Judge {
 };
 
 }  // namespace
+
+bool CandidateVerdict::shows(const FaultClass& c) const {
+  return std::any_of(faults.begin(), faults.end(), [&](const CandidateFault& f) { return f.what == c; });
+}
 
 CandidateVerdict judge_candidates(const Case& c, const Observation& answer, Level level, bool invalid) {
   return Judge(c, answer, level, invalid).run();

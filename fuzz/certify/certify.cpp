@@ -8,29 +8,32 @@
 
 #include "core/base/hash.h"
 #include "core/base/input_error.h"
-#include "fuzz/certify/candidate_verdict.h"
+#include "fuzz/certify/fault_cause.h"
 #include "fuzz/certify/refute.h"
 
 namespace touchstone::fuzz {
 namespace {
 
-// Asked at once: pipes cost little then, and an engine that hangs at every case is found out soon.
-constexpr std::uint64_t batch = 32;
-
-struct Wrong {
-  std::uint64_t index = 0;
-  Case c;
-  CandidateVerdict verdict;
-};
+// Asked at once, at most: pipes cost little then. One at first and after a failure, so that an engine that
+// hangs at every case is found out soon.
+constexpr std::uint64_t largest_batch = 32;
+// A part in which a quarter of the answers cost a worker is the last of its evidence; before that, what else the
+// subject does wrong is worth its crashes.
+std::uint64_t most_failures(const EvidenceRow& e) { return std::max<std::uint64_t>(4, e.chunk / 4); }
+// How often the time for a question is doubled to learn what it needs.
+constexpr int most_doublings = 3;
 
 struct Part {
   EvidenceCount count;
-  std::optional<Wrong> wrong;
+  std::vector<FaultCount> faults;
+  std::uint64_t failures = 0;             // crashed, threw, …
+  std::optional<std::uint64_t> too_slow;  // the case that was not answered in time
+  bool is_last = false;
 };
 
 void add(EvidenceCount& to, const CandidateVerdict& v) {
   ++to.cases;
-  to.answered += v.refused || !v.fault.empty() ? 0 : 1, to.refused += v.refused;
+  to.answered += v.refused || v.timed_out || !v.faults.empty() ? 0 : 1, to.refused += v.refused;
   if (v.refused && to.refusal.empty()) to.refusal = v.words;
   to.steps += v.steps, to.queries += v.queries, to.undecided += v.undecided;
   to.pairs_true += v.pairs_true, to.pairs_reported += v.pairs_reported;
@@ -45,23 +48,59 @@ void add(EvidenceCount& to, const EvidenceCount& part) {
   to.digest = Hasher().add(to.digest).add(part.digest).value();
 }
 
-Part run_part(const EvidenceRow& e, const Draw& d, std::uint64_t planned, std::uint64_t first, Engine& engine,
-              const std::atomic<bool>& stop) {
-  Part part;
-  const std::uint64_t end = std::min(first + e.chunk, planned);
-  for (std::uint64_t i = first; i < end && !stop && !part.wrong; i += batch) {
-    std::vector<Case> cases;
-    for (std::uint64_t k = i; k < std::min(i + batch, end); ++k)
-      cases.push_back(evidence_case(e, d, k, planned));
-    const auto observed = engine.run(cases);
-    for (std::size_t k = 0; k < cases.size() && !part.wrong; ++k) {
-      CandidateVerdict v = judge_candidates(cases[k], observed[k].answers.at(0), e.level, e.invalid);
-      add(part.count, v);
-      if (!v.fault.empty()) part.wrong = Wrong{i + k, std::move(cases[k]), std::move(v)};
-    }
+// The better of two of the same class: of the larger share, the earlier case.
+void add(std::vector<FaultCount>& to, const FaultCount& f) {
+  const auto same = std::find_if(to.begin(), to.end(), [&](const FaultCount& x) { return x.what == f.what; });
+  if (same == to.end()) {
+    to.push_back(f);
+    return;
   }
-  return part;
+  const std::uint64_t cases = same->cases + f.cases;
+  if (f.share > same->share) *same = f;
+  same->cases = cases;
 }
+
+class PartRun {
+ public:
+  PartRun(const EvidenceRow& e, const Draw& d, std::uint64_t planned, Engine& engine)
+      : e_(e), d_(d), planned_(planned), engine_(engine) {}
+
+  Part run(std::uint64_t first, const std::atomic<bool>& stop) {
+    const std::uint64_t end = std::min(first + e_.chunk, planned_);
+    std::uint64_t batch = 1;
+    for (std::uint64_t i = first; i < end && !stop && !part_.is_last;) {
+      const std::uint64_t n = std::min(batch, end - i), failed_before = part_.failures;
+      ask(i, n);
+      i += n;
+      batch = part_.failures > failed_before ? 1 : std::min(2 * batch, largest_batch);
+    }
+    return std::move(part_);
+  }
+
+ private:
+  void ask(std::uint64_t first, std::uint64_t n) {
+    std::vector<Case> cases;
+    for (std::uint64_t k = 0; k < n; ++k) cases.push_back(evidence_case(e_, d_, first + k, planned_));
+    const auto observed = engine_.run(cases);
+    for (std::size_t k = 0; k < cases.size() && !part_.is_last; ++k)
+      judge(first + k, cases[k], observed[k].answers.at(0));
+  }
+  void judge(std::uint64_t index, const Case& c, const Observation& o) {
+    const CandidateVerdict v = judge_with_cause(engine_, c, o, e_.level, e_.invalid);
+    add(part_.count, v);
+    if (v.timed_out) part_.too_slow = index;
+    if (o.outcome != Outcome::answered && !v.refused && !v.timed_out) ++part_.failures;
+    part_.is_last = part_.too_slow || part_.failures >= most_failures(e_);
+    for (const CandidateFault& f : v.faults)
+      add(part_.faults, FaultCount{e_.level, std::string(e_.name), f.what, 1, index, f.share, f.words});
+  }
+
+  const EvidenceRow& e_;
+  const Draw& d_;
+  std::uint64_t planned_;
+  Engine& engine_;
+  Part part_;
+};
 
 // The engines of one job live as long as the certificate is made.
 struct Job {
@@ -89,6 +128,7 @@ class Certifier {
     out_.scope = config_.scope == Scope::quick ? "quick" : "full";
     out_.seed = config_.seed, out_.limit = config_.limit, out_.levels = config_.levels;
     out_.sweeps = subject_.sweeps, out_.without = config_.without;
+    out_.first_fault = config_.first_fault;
     draw_ = {config_.seed, out_.card.unit_roundoff > 0x1p-50 ? Scalar::float32 : Scalar::float64,
              config_.scope};
     std::size_t index = 0;
@@ -97,6 +137,7 @@ class Certifier {
       if (is_asked(e)) gather(e, index);
       ++index;
     }
+    for (const Level l : config_.levels) refute_level(l);
     if (stop_) return std::nullopt;
     return std::move(out_);
   }
@@ -113,26 +154,86 @@ class Certifier {
       return std::find(list.begin(), list.end(), x) != list.end();
     };
     return has(config_.levels, e.level) && !has(config_.without, std::string(e.name)) &&
-           (!e.sweeps || subject_.sweeps) && verdict(out_, e.level) != LevelVerdict::refuted;
+           (!e.sweeps || subject_.sweeps) && !(config_.first_fault && has_fault(e.level));
+  }
+
+  bool has_fault(Level level) const {
+    return std::any_of(out_.faults.begin(), out_.faults.end(),
+                       [&](const FaultCount& f) { return f.level == level; });
   }
 
   void gather(const EvidenceRow& e, std::size_t index) {
     const auto start = std::chrono::steady_clock::now();
     EvidenceCount total;
     total.name = e.name, total.line = e.line, total.kind = e.kind, total.level = e.level;
-    total.planned = planned_cases(e, draw_);
-    if (config_.limit > 0) total.planned = std::min(total.planned, config_.limit);
+    total.planned = planned(e);
     total.population = e.population ? e.population(draw_) : 0;
-    const auto wrong = run_parts(e, total, index);
+    Part sum = run_parts(e, total, index);
     if (stop_) return;
     total.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     out_.evidence.push_back(total);
-    if (wrong) out_.refutations.push_back(refute(subject_, e, wrong->index, wrong->c, wrong->verdict));
+    std::stable_sort(sum.faults.begin(), sum.faults.end(),
+                     [](const FaultCount& x, const FaultCount& y) { return is_graver(x.what, y.what); });
+    out_.faults.insert(out_.faults.end(), sum.faults.begin(), sum.faults.end());
+    if (sum.too_slow) out_.too_slow.push_back(too_slow(e, *sum.too_slow, total.planned));
     if (progress_) progress_(total, index, all_evidence().size());
   }
 
-  // Parts are counted up to the first that found something wrong, whoever finished first.
-  std::optional<Wrong> run_parts(const EvidenceRow& e, EvidenceCount& total, std::size_t index) {
+  // What the question needs, by doubling; not once it has been seen to help nothing.
+  TooSlow too_slow(const EvidenceRow& e, std::uint64_t index, std::uint64_t planned) {
+    const Case c = evidence_case(e, draw_, index, planned);
+    TooSlow t{e.level,
+              std::string(e.name),
+              index,
+              bodies_used(c.scene),
+              c.scene.script.size(),
+              subject_.case_seconds,
+              0,
+              subject_.case_seconds};
+    if (!subject_.make_patient || hopeless_) return t;
+    double times = 1;
+    for (int k = 0; k < most_doublings && t.sufficient == 0 && !stop_; ++k) {
+      times *= 2;
+      t.tried = times * subject_.case_seconds;
+      const auto o = subject_.make_patient(e.level, times)->run({&c, 1});
+      if (o[0].answers.at(0).outcome != Outcome::timed_out) t.sufficient = t.tried;
+    }
+    hopeless_ = t.sufficient == 0;
+    return t;
+  }
+
+  // Each class of fault once, from the first evidence whose case shows it again.
+  void refute_level(Level level) {
+    std::vector<FaultClass> classes;
+    for (const FaultCount& f : out_.faults)
+      if (f.level == level && std::find(classes.begin(), classes.end(), f.what) == classes.end())
+        classes.push_back(f.what);
+    std::stable_sort(classes.begin(), classes.end(), is_graver);
+    for (const FaultClass& c : classes)
+      if (!stop_) out_.refutations.push_back(refute_class(level, c));
+  }
+  Refutation refute_class(Level level, const FaultClass& what) {
+    std::optional<Refutation> first;
+    for (const FaultCount& f : out_.faults) {
+      if (f.level != level || !(f.what == what)) continue;
+      const EvidenceRow& e = row_of(f.evidence);
+      Refutation r = refute(subject_, e, f, evidence_case(e, draw_, f.index, planned(e)));
+      if (r.is_shown_again || stop_) return r;
+      if (!first) first = std::move(r);
+    }
+    return std::move(*first);
+  }
+  static const EvidenceRow& row_of(const std::string& name) {
+    const auto all = all_evidence();
+    return *std::find_if(all.begin(), all.end(), [&](const EvidenceRow& e) { return e.name == name; });
+  }
+  std::uint64_t planned(const EvidenceRow& e) const {
+    const std::uint64_t n = planned_cases(e, draw_);
+    return config_.limit > 0 ? std::min(n, config_.limit) : n;
+  }
+
+  // Parts are counted up to the first that is the last, whoever finished first.
+  Part run_parts(const EvidenceRow& e, EvidenceCount& total, std::size_t index) {
     const std::uint64_t parts = (total.planned + e.chunk - 1) / e.chunk;
     std::vector<Part> done(parts);
     std::atomic<std::uint64_t> next{0}, last{parts};
@@ -141,9 +242,10 @@ class Certifier {
     EvidenceCount so_far = total;
     const auto do_parts = [&](Job& job) {
       for (std::uint64_t p = next++; p < last.load() && !stop_; p = next++) {
-        done[p] = run_part(e, draw_, total.planned, p * e.chunk, job.engine(subject_, e.level), stop_);
+        done[p] = PartRun(e, draw_, total.planned, job.engine(subject_, e.level)).run(p * e.chunk, stop_);
         const std::lock_guard lock(guard);
-        if (done[p].wrong) last = std::min(last.load(), p + 1);
+        if (done[p].is_last || (config_.first_fault && !done[p].faults.empty()))
+          last = std::min(last.load(), p + 1);
         so_far.cases += done[p].count.cases;
         if (progress_) progress_(so_far, index, all_evidence().size());
       }
@@ -158,12 +260,13 @@ class Certifier {
     };
     run_jobs(work);
     if (failure) std::rethrow_exception(failure);
-    std::optional<Wrong> wrong;
+    Part sum;
     for (std::uint64_t p = 0; p < last.load() && !stop_; ++p) {
       add(total, done[p].count);
-      if (done[p].wrong) wrong = std::move(done[p].wrong);
+      for (const FaultCount& f : done[p].faults) add(sum.faults, f);
+      if (done[p].too_slow) sum.too_slow = done[p].too_slow;
     }
-    return wrong;
+    return sum;
   }
   template <class Work>
   void run_jobs(const Work& work) {
@@ -179,6 +282,7 @@ class Certifier {
   const std::atomic<bool>& stop_;
   std::vector<Job> jobs_;
   Draw draw_;
+  bool hopeless_ = false;  // more time did not help
   BroadCertificate out_;
 };
 

@@ -1,6 +1,8 @@
 // Certifies a broad phase as conservative, or refutes it (truth.md §6): asks the subject about every case of
-// every evidence and judges each answer; the first wrong one is shrunk to a script of few bodies and steps.
-// Same seed, same bytes, whatever the number of jobs; times are kept apart.
+// every evidence and judges each answer. Every class of fault that an evidence shows is listed, and each
+// class is shrunk to a script of few bodies and steps. A question that is not answered in time proves
+// nothing: it is neither a fault nor certified. Same seed, same bytes, whatever the number of jobs, for a
+// subject that answers in time; times are kept apart.
 #pragma once
 
 #include <atomic>
@@ -16,6 +18,9 @@ struct Subject {
   bool sweeps = false;  // candidates of a body with motion are those of the whole step
   /// An engine that answers `candidates`; the same for both levels unless the subject takes boxes as such.
   std::function<EnginePtr(Level)> make;
+  double case_seconds = 1;  // CPU seconds that it may spend on one question
+  /// The same with `times` of these seconds, to learn what a question needs. Null: it is not asked again.
+  std::function<EnginePtr(Level, double times)> make_patient = {};
 };
 
 struct CertifyConfig {
@@ -24,6 +29,7 @@ struct CertifyConfig {
   std::uint64_t limit = 0;  // cases of an evidence at most; 0: as the scope says
   std::vector<Level> levels{Level::boxes, Level::bodies};
   std::vector<std::string> without;  // names of evidence to leave out; throws InputError on an unknown one
+  bool first_fault = false;          // a level ends with the first evidence that shows a fault
   int jobs = 1;
   std::string program;
 };

@@ -11,23 +11,22 @@
 namespace touchstone::fuzz {
 namespace {
 
-// A case that hangs costs its time at every try.
-std::size_t most_tries(const std::string& fault) {
-  if (fault == "timed_out") return 40;
-  return fault == "crashed" ? 1500 : 12000;
-}
+// A case that crashes costs a worker at every try.
+std::size_t most_tries(const std::string& fault) { return fault == "crashed" ? 1500 : 12000; }
 
 class Asker {
  public:
-  Asker(const Subject& s, const EvidenceRow& e, std::string fault)
-      : s_(s), level_(e.level), invalid_(e.invalid), fault_(std::move(fault)) {}
+  Asker(const Subject& s, const EvidenceRow& e, FaultClass what)
+      : s_(s), level_(e.level), invalid_(e.invalid), what_(std::move(what)) {}
 
   /// From now on every case is asked of an engine that was asked nothing before.
   void ask_anew() { anew_ = true; }
 
-  CandidateVerdict verdict(const Case& c) {
-    const auto o = engine().run({&c, 1});
-    return judge_candidates(c, o[0].answers[0], level_, invalid_);
+  /// The fault of that class, if the subject shows it.
+  std::optional<CandidateFault> fault(const Case& c) {
+    Engine& e = engine();
+    const auto o = e.run({&c, 1});
+    return fault_of(e, c, o[0]);
   }
   std::vector<bool> shows(std::span<const Case> cases) {
     std::vector<bool> out(cases.size());
@@ -36,16 +35,22 @@ class Asker {
     for (std::size_t i = 0; i < cases.size(); ++i)
       if (is_fit(cases[i])) fit.push_back(cases[i]), place.push_back(i);
     if (anew_) {
-      for (std::size_t i = 0; i < fit.size(); ++i) out[place[i]] = verdict(fit[i]).fault == fault_;
+      for (std::size_t i = 0; i < fit.size(); ++i) out[place[i]] = fault(fit[i]).has_value();
       return out;
     }
-    const auto all = engine().run(fit);
-    for (std::size_t i = 0; i < fit.size(); ++i)
-      out[place[i]] = judge_candidates(fit[i], all[i].answers[0], level_, invalid_).fault == fault_;
+    Engine& e = engine();
+    const auto all = e.run(fit);
+    for (std::size_t i = 0; i < fit.size(); ++i) out[place[i]] = fault_of(e, fit[i], all[i]).has_value();
     return out;
   }
 
  private:
+  std::optional<CandidateFault> fault_of(Engine& e, const Case& c, const CaseObservations& o) const {
+    CandidateVerdict v = judge_with_cause(e, c, o.answers.at(0), level_, invalid_);
+    for (CandidateFault& f : v.faults)
+      if (f.what == what_) return std::move(f);
+    return std::nullopt;
+  }
   // At the level of boxes a body stays a box whose corners are exact in the format of the subject.
   bool is_fit(const Case& c) {
     if (c.queries.size() != 1 || c.queries[0].question != Question::candidates) return false;
@@ -72,7 +77,7 @@ class Asker {
   const Subject& s_;
   Level level_;
   bool invalid_;
-  std::string fault_;
+  FaultClass what_;
   bool anew_ = false;
   EnginePtr engine_;
 };
@@ -95,7 +100,7 @@ void keep_steps_of(Case& c, const std::set<int>& bodies) {
 }
 
 // What often suffices of a long script: the two bodies, alone; then with one query only.
-std::vector<Case> guesses(const Case& c, const CandidateVerdict& v) {
+std::vector<Case> guesses(const Case& c, const CandidateFault& v) {
   std::vector<Case> out;
   if (v.a < 0 || v.b < 0) return out;
   Case both = c;
@@ -107,7 +112,7 @@ std::vector<Case> guesses(const Case& c, const CandidateVerdict& v) {
   return out;
 }
 
-Case start_of(Asker& asker, const Case& c, const CandidateVerdict& v) {
+Case start_of(Asker& asker, const Case& c, const CandidateFault& v) {
   const Case cut = v.query < 0 ? c : cut_after(c, v.query);
   if (!asker.shows({&cut, 1})[0]) return c;
   for (const Case& g : guesses(cut, v))
@@ -140,21 +145,29 @@ std::size_t bodies_used(const Scene& s) {
   return used.size();
 }
 
-Refutation refute(const Subject& subject, const EvidenceRow& e, std::uint64_t index, const Case& c,
-                  const CandidateVerdict& found) {
-  Refutation r{e.level, std::string(e.name), index, found.fault, found.words, "not shrunk", 0, 0, {}};
+Refutation refute(const Subject& subject, const EvidenceRow& e, const FaultCount& found, const Case& c) {
+  Refutation r{e.level, found.evidence, found.index, found.what, found.words, "not shrunk", 0, 0, false, {}};
   r.bodies = bodies_used(c.scene), r.steps = c.scene.script.size();
-  Asker asker(subject, e, found.fault);
-  if (!asker.shows({&c, 1})[0]) asker.ask_anew();
+  Asker asker(subject, e, found.what);
+  auto fault = asker.fault(c);
+  if (!fault) {
+    asker.ask_anew();
+    fault = asker.fault(c);
+  }
+  if (!fault) {
+    r.shrink = "not shown again: the subject does not answer the same twice";
+    r.script = c;
+    return r;
+  }
   const StillShows still = [&](std::span<const Case> cases) { return asker.shows(cases); };
-  const Shrunk shrunk = shrink(start_of(asker, c, found), still, most_tries(found.fault));
-  r.shrink = to_string(shrunk.exit);
+  const Shrunk shrunk = shrink(start_of(asker, c, *fault), still, most_tries(found.what.fault));
+  r.is_shown_again = shrunk.exit != ShrinkExit::not_shown;
+  r.shrink = r.is_shown_again ? std::string(to_string(shrunk.exit))
+                              : "not shown every time: the subject does not answer the same twice";
   r.script = shrunk.smallest;
   r.bodies = bodies_used(shrunk.smallest.scene), r.steps = shrunk.smallest.scene.script.size();
-  if (shrunk.exit == ShrinkExit::not_shown)
-    r.shrink = "not shown again: the subject does not answer the same twice";
-  else
-    r.words = asker.verdict(shrunk.smallest).words + what_is_no_box(shrunk.smallest.scene);
+  if (const auto smallest = asker.fault(shrunk.smallest))
+    r.words = smallest->words + what_is_no_box(shrunk.smallest.scene);
   return r;
 }
 

@@ -1,15 +1,14 @@
 // A wrong answer as the smallest script that shows it.
 #pragma once
 
-#include "fuzz/certify/candidate_verdict.h"
 #include "fuzz/certify/certify.h"
+#include "fuzz/certify/fault_cause.h"
 
 namespace touchstone::fuzz {
 
-/// `found`: what was wrong with the case when the evidence was gathered. A subject whose answers depend on
-/// what it was asked before is asked anew each time.
-Refutation refute(const Subject& subject, const EvidenceRow& e, std::uint64_t index, const Case& c,
-                  const CandidateVerdict& found);
+/// `c` is the case of `found`. A subject whose answers depend on what it was asked before is asked anew each
+/// time. What is kept while shrinking is the class of the fault: a solid pair stays solid.
+Refutation refute(const Subject& subject, const EvidenceRow& e, const FaultCount& found, const Case& c);
 
 /// Bodies that the script inserts.
 std::size_t bodies_used(const Scene& s);

@@ -27,15 +27,27 @@ std::string hash_of(const std::vector<std::filesystem::path>& files) {
   return fmt::format("{:016x}", h.value());
 }
 
+WorkerLimits limits_times(WorkerLimits limits, double times) {
+  limits.query_cpu_seconds *= times;
+  limits.load_cpu_seconds *= times;
+  limits.wall_seconds *= times;
+  return limits;
+}
+
 }  // namespace
 
 fuzz::Subject broad_subject(const std::string& name, const WorkerLimits& limits, bool sweeps) {
   const auto phases = core_broad_phases();
   if (std::find(phases.begin(), phases.end(), name) != phases.end())
-    return {name, "", true, [name](fuzz::Level level) {
+    return {name,
+            "",
+            true,
+            [name](fuzz::Level level) {
               return make_broad_engine(name,
                                        level == fuzz::Level::boxes ? BroadBoxes::exact : BroadBoxes::bodies);
-            }};
+            },
+            limits.query_cpu_seconds,
+            {}};
   if (!is_foreign(name) && name != "all" && name.find(',') == std::string::npos && !is_catalogued(name)) {
     std::vector<std::string> known = catalogued_names();
     known.insert(known.begin(), phases.begin(), phases.end());
@@ -45,8 +57,13 @@ fuzz::Subject broad_subject(const std::string& name, const WorkerLimits& limits,
   }
   if (engine_names(name).size() != 1 || name == "all")
     throw InputError("--subject " + name, "is more than one engine");
-  fuzz::Subject s{name, hash_of(engine_files(name)), sweeps || name == "core",
-                  [name, limits](fuzz::Level) { return make_engine(name, limits); }};
+  fuzz::Subject s{
+      name,
+      hash_of(engine_files(name)),
+      sweeps || name == "core",
+      [name, limits](fuzz::Level) { return make_engine(name, limits); },
+      limits.query_cpu_seconds,
+      [name, limits](fuzz::Level, double times) { return make_engine(name, limits_times(limits, times)); }};
   s.make(fuzz::Level::boxes);  // what is wrong with it is said before anything is asked
   return s;
 }

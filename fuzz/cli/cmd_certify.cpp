@@ -15,6 +15,7 @@
 #include "fuzz/cli/engine_catalog.h"
 #include "fuzz/cli/output_file.h"
 #include "fuzz/cli/pages.h"
+#include "fuzz/reproduce/reproducer.h"
 #include "fuzz/cli/stop_signals.h"
 #include "oracles/core/broad_engine.h"
 #include "reports/certificate_text.h"
@@ -32,7 +33,7 @@ struct CertifyOptions {
   std::vector<std::string> without;
   std::uint64_t seed = 1, limit = 0;
   int jobs = 1;
-  bool sweeps = false, json = false, list = false;
+  bool sweeps = false, first_fault = false, json = false, list = false;
   WorkerLimits limits;
 };
 
@@ -59,7 +60,7 @@ class CertifyProgress {
 fuzz::CertifyConfig config_of(const CertifyOptions& o) {
   fuzz::CertifyConfig c;
   c.scope = o.scope == "full" ? fuzz::Scope::full : fuzz::Scope::quick;
-  c.seed = o.seed, c.limit = o.limit, c.jobs = o.jobs, c.without = o.without;
+  c.seed = o.seed, c.limit = o.limit, c.jobs = o.jobs, c.without = o.without, c.first_fault = o.first_fault;
   if (o.level == "boxes") c.levels = {fuzz::Level::boxes};
   if (o.level == "bodies") c.levels = {fuzz::Level::bodies};
   c.program = "touchstone " TOUCHSTONE_VERSION;
@@ -72,18 +73,35 @@ std::optional<BroadCertificate> make(const fuzz::Subject& s, const fuzz::Certify
   return fuzz::certify(s, c, std::ref(printer), interrupted);
 }
 
-// The script beside the certificate, ready for `touchstone replay`.
-std::string script_file(const CertifyOptions& o, const fuzz::Refutation& r) {
+// The script beside the certificate, ready for `touchstone replay`: c.case.json, with both levels
+// c.boxes.case.json; that of a further class of fault has its name too, c.boxes.crashed-numbers.case.json.
+std::string script_file(const CertifyOptions& o, const BroadCertificate& c, const fuzz::Refutation& r) {
   const std::string base = !o.script.empty() ? o.script
                            : o.out.empty()
                                ? ""
                                : std::filesystem::path(o.out).replace_extension().string() + ".case.json";
-  if (base.empty() || o.level != "both") return base;
+  if (base.empty()) return base;
+  std::string tag = o.level == "both" ? "." + std::string(to_string(r.level)) : "";
+  const auto first = std::find_if(c.refutations.begin(), c.refutations.end(),
+                                  [&](const fuzz::Refutation& x) { return x.level == r.level; });
+  if (&*first != &r) tag += fmt::format(".{}-{}", r.what.fault, to_string(r.what.kind));
   const std::filesystem::path p(base);
   const std::string name = p.filename().string();
   const auto dot = std::min(name.find('.'), name.size());
-  return (p.parent_path() / (name.substr(0, dot) + "." + std::string(to_string(r.level)) + name.substr(dot)))
-      .string();
+  return (p.parent_path() / (name.substr(0, dot) + tag + name.substr(dot))).string();
+}
+
+// Longer scripts are not for a terminal.
+constexpr auto most_printed_lines = 80;
+
+void print_script(const fuzz::Refutation& r, const std::string& text) {
+  const std::string what = fmt::format("{}, level of {}", in_words(r.what), to_string(r.level));
+  const auto lines = std::count(text.begin(), text.end(), '\n');
+  if (lines > most_printed_lines)
+    fmt::print("the script that shows it ({}) has {} lines: -o FILE or --script FILE writes it\n", what,
+               reports::grouped(static_cast<std::uint64_t>(lines)));
+  else
+    fmt::print("the script that shows it ({}):\n{}", what, text);
 }
 
 void write_scripts(const CertifyOptions& o, const BroadCertificate& c) {
@@ -91,35 +109,38 @@ void write_scripts(const CertifyOptions& o, const BroadCertificate& c) {
     if (!r.script) continue;
     StoredCase stored;
     stored.c = *r.script;
-    stored.description = fmt::format("{}: {}", c.subject, r.words);
-    stored.source = fmt::format("certify, level of {}, shrunk from {} case {}, seed {}", to_string(r.level),
-                                r.evidence, r.index, c.seed);
-    const std::string file = script_file(o, r);
+    stored.description = fmt::format("{}: {}: {}", c.subject, in_words(r.what), r.words);
+    stored.source = fmt::format("certify {}, level of {}, shrunk from {} case {}, seed {}", c.subject,
+                                to_string(r.level), r.evidence, r.index, c.seed);
+    const std::string file = script_file(o, c, r), text = to_text(stored);
     if (file.empty()) {
-      fmt::print("the script that refutes it ({}):\n{}", to_string(r.level), to_text(stored));
+      if (!o.json) print_script(r, text);
       continue;
     }
-    write_file(file, to_text(stored));
-    fmt::print("script: {}\n", file);
+    write_file(file, text);
+    if (!o.json) fmt::print("script ({}): {}\n", in_words(r.what), file);
   }
 }
 
 int list_subjects() {
-  for (const auto name : core_broad_phases()) fmt::print("{:<26}core, in process\n", name);
+  for (const auto name : core_broad_phases()) fmt::print("{:<34}core, in process\n", name);
   for (const EngineRow& row : broad_catalog())
-    fmt::print("{:<26}{}{}\n", row.name, row.line, is_present(row) ? "" : " (absent: not built)");
+    fmt::print("{:<34}{}{}\n", row.name, row.line, is_present(row) ? "" : " (absent: not built)");
   fmt::print("and every engine of `touchstone engines`, ./libmine.so, pipe:COMMAND\n");
   return exit_clean;
 }
 
 // What reports/web/src/certificate draws: the certificate as it is stored, and where things lie.
 bool write_certificate_page(const CertifyOptions& o, const BroadCertificate& c) {
-  Json scripts = Json::object();
-  for (const auto& r : c.refutations)
-    if (const auto file = script_file(o, r); r.script && !file.empty())
-      scripts[std::string(to_string(r.level))] = file;
-  const Json page = {{"page", "certificate"},    {"version", 1},  {"title", reports::certificate_line(c)},
-                     {"subject", o.subject},     {"file", o.out}, {"scripts", std::move(scripts)},
+  Json scripts = Json::array();  // one a refutation, empty: not written
+  for (const auto& r : c.refutations) scripts.push_back(r.script ? script_file(o, c, r) : "");
+  const Json page = {{"page", "certificate"},
+                     {"version", 2},
+                     {"title", reports::certificate_line(c)},
+                     {"subject", o.subject},
+                     {"file", o.out},
+                     {"scripts", std::move(scripts)},
+                     {"has_writer", fuzz::has_reproducer(o.subject)},
                      {"certificate", to_json(c)}};
   return write_page("certificate", page.dump(), o.page, o.out);
 }
@@ -136,6 +157,7 @@ int certify_subject(const CertifyOptions& o) {
   const bool page = !o.page.empty() && write_certificate_page(o, *c);
   if (o.json) {
     fmt::print("{}\n", to_json(*c).dump(1));
+    write_scripts(o, *c);
   } else {
     fmt::print("{}", reports::certificate_text(*c, true));
     write_scripts(o, *c);
@@ -184,7 +206,8 @@ int check(const CertifyOptions& o) {
   if (!digest_holds) return differs(o.check, "its digest is not that of what it says");
   fuzz::CertifyConfig c;
   c.scope = was.scope == "full" ? fuzz::Scope::full : fuzz::Scope::quick;
-  c.seed = was.seed, c.limit = was.limit, c.levels = was.levels, c.without = was.without, c.jobs = o.jobs;
+  c.seed = was.seed, c.limit = was.limit, c.levels = was.levels, c.without = was.without,
+  c.first_fault = was.first_fault, c.jobs = o.jobs;
   c.program = was.program;
   const fuzz::Subject s = broad_subject(was.subject, o.limits, was.sweeps);
   if (s.plugin_hash != was.plugin_hash)
@@ -227,6 +250,8 @@ Run declare_certify(CLI::App& app) {
   app.add_option("--jobs", o->jobs, "jobs side by side")->check(CLI::Range(1, 1024))->capture_default_str();
   app.add_flag("--sweeps", o->sweeps,
                "the subject's candidates are those of the whole step: ask it about motion");
+  app.add_flag("--first-fault", o->first_fault,
+               "end a level with its first fault instead of listing every one; the certificate says so");
   app.add_flag("--list", o->list, "the subjects there are by name");
   add_case_seconds(app, o->limits);
   app.add_flag("--json", o->json, "the certificate as one JSON document on stdout");

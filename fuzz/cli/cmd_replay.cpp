@@ -27,6 +27,14 @@ struct ReplayOptions {
 
 using Engines = std::vector<EnginePtr>;
 
+// A name from a file on a terminal: no control characters, no more than a line.
+std::string shown(std::string name) {
+  if (name.size() > 200) name = name.substr(0, 197) + "...";
+  for (char& c : name)
+    if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = '?';
+  return name;
+}
+
 std::vector<CaseObservations> ask(const Engines& engines, const Case& c) {
   std::vector<CaseObservations> r;
   for (const EnginePtr& e : engines) r.push_back(e->run({&c, 1})[0]);
@@ -143,6 +151,25 @@ int verdict(const Count& count, const std::string& subject, bool json) {
   return say_verdict(exit_clean, subject, "wrong in " + in_words(count), json);
 }
 
+// Where the file says that it comes from: words to show, never a name to run.
+void print_origin(const std::string& path, const StoredCase& stored, const Engines& engines) {
+  constexpr std::string_view made_by = "certify ";
+  if (!stored.source.starts_with(made_by)) return;
+  const std::string subject =
+      shown(stored.source.substr(made_by.size(), stored.source.find(", ") - made_by.size()));
+  const bool asked = std::any_of(engines.begin(), engines.end(),
+                                 [&](const EnginePtr& e) { return e->card().name == subject; });
+  fmt::print("{}: a script against {} ({})\n", path, subject,
+             asked ? "asked below" : "which is not asked here; --engines names it");
+}
+
+void replay_stored(const ReplayOptions& o, const Asked& asked, const std::string& path, Count& count,
+                   fuzz::Json& json) {
+  const StoredCase stored = case_argument(path);
+  if (!o.json) print_origin(path, stored, asked.engines);
+  replay_case(o, asked, stored.c, count, json);
+}
+
 // One argument. What is wrong with it is said, and the others go on.
 void replay(const ReplayOptions& o, const Asked& asked, const std::string& path, Count& count,
             fuzz::Json& json) {
@@ -155,7 +182,7 @@ void replay(const ReplayOptions& o, const Asked& asked, const std::string& path,
     if (is_recording(path))
       replay_real_scene(o, asked, path, count, json);
     else
-      replay_case(o, asked, case_argument(path).c, count, json);
+      replay_stored(o, asked, path, count, json);
   } catch (const InputError& e) {
     refuse(e.what());
   } catch (const std::exception& e) {

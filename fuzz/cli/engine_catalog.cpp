@@ -13,6 +13,7 @@
 #include "fuzz/cli/sweep_catalog.h"
 #include "fuzz/explore/sub_steps.h"
 #include "oracles/core/alternative_engine.h"
+#include "oracles/core/broad_engine.h"
 #include "oracles/core/core_engine.h"
 #include "oracles/core/kept_engine.h"
 
@@ -122,6 +123,11 @@ constexpr EngineRow broad_rows[] = {
     {"fcl-spatial-hash", fcl_broad, "FCL, SpatialHashingCollisionManager"},
     {"fcl-dynamic-tree", fcl_broad, "FCL, DynamicAABBTreeCollisionManager"},
     {"fcl-dynamic-tree-array", fcl_broad, "FCL, DynamicAABBTreeCollisionManager_Array"},
+    {"fcl-sap-update-one", fcl_broad, "FCL, update(object) after each move"},
+    {"fcl-interval-tree-update-one", fcl_broad, "FCL, update(object) after each move"},
+    {"fcl-spatial-hash-update-one", fcl_broad, "FCL, update(object) after each move"},
+    {"fcl-dynamic-tree-update-one", fcl_broad, "FCL, update(object) after each move"},
+    {"fcl-dynamic-tree-array-update-one", fcl_broad, "FCL, update(object) after each move"},
     {"bullet-f32-dbvt", f32_broad, "Bullet float, btDbvtBroadphase"},
     {"bullet-f32-axis-sweep", f32_broad, "Bullet float, btAxisSweep3"},
     {"bullet-f32-axis-sweep-32", f32_broad, "Bullet float, bt32BitAxisSweep3"},
@@ -146,6 +152,11 @@ bool is_pipe(const std::string& name) { return name.starts_with("pipe:"); }
 
 bool is_path(const std::string& name) {
   return name.find('/') != std::string::npos || (name.size() > 3 && name.ends_with(".so"));
+}
+
+bool is_core_broad_phase(std::string_view name) {
+  const auto phases = core_broad_phases();
+  return std::find(phases.begin(), phases.end(), name) != phases.end();
 }
 
 const EngineRow* find_row(const std::string& name) {
@@ -206,6 +217,7 @@ void check_name(const std::string& name) {
                      fmt::format("is not installed: ./touchstone engines --install {} brings {} {}", name,
                                  npm->package, npm->version));
   }
+  if (is_core_broad_phase(name)) return;
   const EngineRow* row = find_row(name);
   if (!row) refuse_unknown(name);
   if (!is_present(*row))
@@ -288,6 +300,7 @@ EnginePtr make_engine(const std::string& name, const WorkerLimits& limits) {
   if (name == "core") return std::make_unique<CoreEngine>();
   if (name == "core-f32") return std::make_unique<CoreEngine>(Arithmetic::float32);
   if (name == "core-kept") return make_kept_engine();
+  if (is_core_broad_phase(name)) return make_broad_engine(name, BroadBoxes::bodies);
   for (const std::string_view other : core_alternatives())
     if (name == other) return make_core_alternative(other);
   if (const auto stepped = fuzz::sub_steps_name(name); stepped && !is_pipe(name))

@@ -25,8 +25,9 @@ std::span<const EngineRow> broad_catalog();
 /// True when the engine's plug-in file is there.
 bool is_present(const EngineRow& row);
 
-/// Names of `text` ("a,b", "all", "./libmine.so", "./libmine.so:name", "core-steps@16"); "all" is every
-/// engine present. Throws InputError for a name that is unknown or absent.
+/// Names of `text` ("a,b", "all", "./libmine.so", "./libmine.so:name", "core-steps@16", a broad phase of the
+/// core or of an oracle); "all" is every engine present that answers more than candidates. Throws InputError
+/// for a name that is unknown or absent.
 std::vector<std::string> engine_names(const std::string& text);
 
 /// A plug-in's path or a pipe's command, not a name of a catalogue.

@@ -192,9 +192,11 @@ constexpr std::string_view scene_head = R"(const Geometry shapes[] = {@SHAPES@
 
 Answer ask() {
   Answer x;
-  @MANAGER@;
+  fcl::DynamicAABBTreeCollisionManagerd manager;
   std::unique_ptr<fcl::CollisionObjectd> object[@COUNT@];
+  std::vector<std::unique_ptr<fcl::CollisionObjectd>> former;  // a manager may still name them
   const auto insert = [&](int i, int shape, const Placement& at) {
+    if (object[i]) former.push_back(std::move(object[i]));
     object[i] = std::make_unique<fcl::CollisionObjectd>(shapes[shape], transform(at));
     object[i]->computeAABB();
     manager.registerObject(object[i].get());
@@ -204,10 +206,7 @@ Answer ask() {
     object[i]->computeAABB();
     manager.update(object[i].get());
   };
-  [[maybe_unused]] const auto remove = [&](int i) {
-    manager.unregisterObject(object[i].get());
-    object[i].reset();
-  };
+  [[maybe_unused]] const auto remove = [&](int i) { manager.unregisterObject(object[i].get()); };
 )";
 
 // The managers alone, by the names under which they are certified: the first objects are registered at once,
@@ -219,6 +218,7 @@ Answer ask() {
   Answer x;
   @MANAGER@;
   std::unique_ptr<fcl::CollisionObjectd> object[@COUNT@];
+  std::vector<std::unique_ptr<fcl::CollisionObjectd>> former;  // a manager may still name them
   std::vector<fcl::CollisionObjectd*> first;
   bool started = false, moved = false;
   const auto start = [&] {
@@ -233,6 +233,7 @@ Answer ask() {
   };
   const auto insert = [&](int i, int shape, const Placement& at) {
     update();
+    if (object[i]) former.push_back(std::move(object[i]));
     object[i] = std::make_unique<fcl::CollisionObjectd>(shapes[shape], transform(at));
     object[i]->computeAABB();
     if (started)
@@ -244,13 +245,12 @@ Answer ask() {
     start();
     object[i]->setTransform(transform(at));
     object[i]->computeAABB();
-    moved = true;
+    @MOVED@;
   };
   [[maybe_unused]] const auto remove = [&](int i) {
     update();
     start();
     manager.unregisterObject(object[i].get());
-    object[i].reset();
   };
 )";
 
@@ -303,7 +303,10 @@ constexpr ManagerRow managers[] = {
     {"fcl-dynamic-tree", "fcl::DynamicAABBTreeCollisionManagerd manager"},
     {"fcl-dynamic-tree-array", "fcl::DynamicAABBTreeCollisionManager_Arrayd manager"},
 };
+constexpr std::string_view one_by_one = "-update-one";  // ends the names of engines that update so
+
 std::string manager_of(std::string_view engine) {
+  if (engine.ends_with(one_by_one)) engine.remove_suffix(one_by_one.size());
   for (const ManagerRow& row : managers)
     if (row.engine == engine) return std::string(row.declaration);
   return "";
@@ -349,14 +352,20 @@ std::string distance(const Asked& q) {
                                {"SOLVER", solver(q)}});
 }
 
+// update(object) after each move, or update() once after the moves.
+std::string manager_text(std::string_view engine) {
+  return filled(manager_head, {{"MANAGER", manager_of(engine)},
+                               {"MOVED", engine.ends_with(one_by_one) ? "manager.update(object[i].get())"
+                                                                      : "moved = true"}});
+}
+
 std::string scene(const Asked& q) {
   std::string shapes, out;
   for (const Shape& s : q.scene.shapes) shapes += fmt::format("\n    {},", std::visit(Maker{}, s));
-  const std::string manager = manager_of(q.engine);
-  out = filled(std::string(manager.empty() ? scene_head : manager_head) + std::string(script_query),
+  const bool managed = !manager_of(q.engine).empty();
+  out = filled((managed ? manager_text(q.engine) : std::string(scene_head)) + std::string(script_query),
                {{"SHAPES", shapes},
-                {"MANAGER", manager.empty() ? "fcl::DynamicAABBTreeCollisionManagerd manager" : manager},
-                {"BEFORE", manager.empty() ? "" : "    start();\n    update();\n"},
+                {"BEFORE", managed ? "    start();\n    update();\n" : ""},
                 {"COUNT", std::to_string(q.scene.bodies.size())},
                 {"A", std::to_string(q.a)},
                 {"B", std::to_string(q.b)}});

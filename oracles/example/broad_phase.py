@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""A broad phase behind a pipe: a box around each body, all pairs. See pipe_protocol.md.
+"""A broad phase behind a pipe: a box around each body, sorted and swept along x. See pipe_protocol.md.
 
     touchstone certify --subject 'pipe:python3 broad_phase.py'
 """
@@ -28,15 +28,28 @@ def box_of(scene, step):
 
 
 def overlap(a, b):
-    return all(a[0][k] <= b[1][k] and b[0][k] <= a[1][k] for k in range(3))
+    return all(a[0][k] <= b[1][k] and b[0][k] <= a[1][k] for k in (1, 2))
+
+
+def pairs(present):
+    """Sweep and prune: whoever begins before the end of a box along x is compared with it; a tie counts."""
+    order = sorted(present.items(), key=lambda item: item[1][0][0])
+    found = []
+    for n, (i, a) in enumerate(order):
+        for m in range(n + 1, len(order)):
+            j, b = order[m]
+            if b[0][0] > a[1][0]:
+                break
+            if overlap(a, b):
+                found.append([i, j])
+    return found
 
 
 def candidates(scene):
     present, lists = {}, []
     for step in scene["steps"]:
         if step["op"] == "query":
-            ids = sorted(present)
-            lists.append([[i, j] for n, i in enumerate(ids) for j in ids[n + 1:] if overlap(present[i], present[j])])
+            lists.append(pairs(present))
         elif step["op"] == "remove":
             del present[step["body"]]
         else:
@@ -45,7 +58,7 @@ def candidates(scene):
 
 
 print(json.dumps({"touchstone_pipe": 1, "name": "mine-py", "library": "mine", "version": "1",
-                  "settings": "all pairs of boxes", "unit_roundoff": 1.1102230246251565e-16,
+                  "settings": "sweep and prune along x", "unit_roundoff": 1.1102230246251565e-16,
                   "tau_factor": 64, "source": "arithmetic only"}), flush=True)
 scene = None
 for line in sys.stdin:

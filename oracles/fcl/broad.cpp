@@ -15,12 +15,14 @@ class Tree {
       : scene_(scene), geometries_(geometries), objects_(scene.body_count) {}
 
   void insert(int body, const ts_pose& pose) {
-    auto& o = objects_[static_cast<std::size_t>(body)];
-    o = std::make_unique<fcl::CollisionObjectd>(
-        geometries_[static_cast<std::size_t>(scene_.bodies[body].shape)], make_transform(kit::pose_of(pose)));
+    owned_.push_back(std::make_unique<fcl::CollisionObjectd>(
+        geometries_[static_cast<std::size_t>(scene_.bodies[body].shape)],
+        make_transform(kit::pose_of(pose))));
+    fcl::CollisionObjectd* o = owned_.back().get();
+    objects_[static_cast<std::size_t>(body)] = o;
     o->setUserData(reinterpret_cast<void*>(static_cast<std::intptr_t>(body)));
     o->computeAABB();
-    manager_.registerObject(o.get());
+    manager_.registerObject(o);
     stale_ = true;
   }
   // Managers do not call computeAABB themselves.
@@ -30,10 +32,7 @@ class Tree {
     o.computeAABB();
     manager_.update(&o);
   }
-  void remove(int body) {
-    manager_.unregisterObject(objects_[static_cast<std::size_t>(body)].get());
-    objects_[static_cast<std::size_t>(body)].reset();
-  }
+  void remove(int body) { manager_.unregisterObject(objects_[static_cast<std::size_t>(body)]); }
   void query(const std::function<void(int, int)>& pair) {
     if (stale_) manager_.setup();
     stale_ = false;
@@ -50,7 +49,9 @@ class Tree {
  private:
   const ts_scene& scene_;
   const std::vector<Geometry>& geometries_;
-  std::vector<std::unique_ptr<fcl::CollisionObjectd>> objects_;  // outlive the manager's use of them
+  // Until the end, removed ones too: the manager may still name them.
+  std::vector<std::unique_ptr<fcl::CollisionObjectd>> owned_;
+  std::vector<fcl::CollisionObjectd*> objects_;
   fcl::DynamicAABBTreeCollisionManagerd manager_;
   bool stale_ = false;
 };

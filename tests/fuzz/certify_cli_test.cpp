@@ -1,4 +1,5 @@
 // `certify`, `engines --check` and the plug-in kit as a user meets them.
+#include <algorithm>
 #include <cstdio>
 #include <cstdlib>
 #include <fstream>
@@ -112,6 +113,12 @@ TEST_CASE("a plug-in that loses pairs is refuted by a script that replay takes",
   CHECK(doc.at("scene").at("script").size() <= 6);
   CHECK(w.touchstone("replay c.case.json --engines " + subject + " --subject stale_after_move").code == 1);
   CHECK(w.touchstone("certify --check c.json").code == 1);
+  // A broad phase of the core is asked by name; whom the script is against is said, and not asked.
+  const Run others = w.touchstone("replay c.case.json --engines core,grid --subject grid");
+  INFO(others.out << others.err);
+  CHECK(others.code == 0);
+  CHECK(others.out.find(":stale_after_move (which is not asked here") != std::string::npos);
+  CHECK(others.out.find("grid") != std::string::npos);
 }
 
 namespace {
@@ -158,8 +165,69 @@ TEST_CASE("a command behind a pipe that dies or talks nonsense is refuted, not o
         w.touchstone("certify --level boxes --limit 4 --subject 'pipe:python3 " + std::string(file) + "'");
     INFO(r.out << r.err);
     CHECK(r.code == 1);
-    CHECK(r.out.find("crashed in orders_of_two") != std::string::npos);
+    CHECK(r.out.find("crashed (orders_of_two, case 0)") != std::string::npos);
   }
+}
+
+TEST_CASE("FCL is asked both ways of telling a move, and a removed body that it still names is stale, no crash",
+          "[certify][cli]") {
+  const Workspace w("certify");
+  const Run there = w.touchstone("engines fcl-interval-tree-update-one");
+  if (there.code != 0 || there.out.find("0.7.0") == std::string::npos) {
+    std::printf("skipped: FCL 0.7.0 is not installed\n");
+    return;
+  }
+  const auto script = [](const std::string& halves, const std::string& steps) {
+    return R"({"touchstone_case": 1, "scene": {"touchstone_scene": 1, "shapes": [{"type": "box", "half_extents": )" +
+           halves + R"(}, {"type": "box", "half_extents": [1, 1, 1]}], "bodies": [{"shape": 0}, {"shape": 1,
+             "pose": {"translation": [0, 0, 0]}}], "script": [)" +
+           steps + R"(, {"op": "query"}]}, "queries": [{"question": "candidates"}]})";
+  };
+  const std::string in = R"({"op": "insert", "body": 0}, )";
+  w.write("moved.json",
+          script("[1, 1, 1]",
+                 in + R"({"op": "insert", "body": 1, "pose": {"translation": [-4, -4, -2.5]}},
+                         {"op": "move", "body": 1, "pose": {"translation": [0, 0, -1]}})"));
+  w.write("removed.json",
+          script("[0, 0, 0]", in + R"({"op": "insert", "body": 1}, {"op": "remove", "body": 0})"));
+  const auto says = [&](const std::string& engine, const std::string& file) {
+    return w.touchstone("replay " + file + " --engines " + engine + " --subject " + engine);
+  };
+  CHECK(says("fcl-interval-tree", "moved.json").code == 0);
+  const Run lost = says("fcl-interval-tree-update-one", "moved.json");
+  CHECK(lost.code == 1);
+  CHECK(lost.out.find("missed: query 0: pair (0, 1)") != std::string::npos);
+  for (const char* engine : {"fcl-interval-tree", "fcl-interval-tree-update-one"}) {
+    const Run stale = says(engine, "removed.json");
+    INFO(stale.out);
+    CHECK(stale.code == 1);
+    CHECK(stale.out.find("stale: query 0: pair (0, 1)") != std::string::npos);
+  }
+}
+
+TEST_CASE("a subject that is too slow is not certified: exit code 3, the time to ask for, no script",
+          "[certify][cli]") {
+  if (!python_is_there()) return;
+  const Workspace w("certify");
+  w.write("slow.py", python(R"(
+  while len(scene["steps"]) > 100: pass
+  lists, here = [], set()
+  for s in scene["steps"]:
+    if s["op"] == "query": lists.append([[a, b] for a in here for b in here if a < b])
+    elif s["op"] == "remove": here.remove(s["body"])
+    else: here.add(s["body"])
+  say({"pairs": lists})
+)"));
+  const Run r = w.touchstone(
+      "certify --level boxes --limit 2 --case-seconds 0.1 --without no_boxes,long_scripts,longest_script "
+      "--subject 'pipe:python3 slow.py'");
+  INFO(r.out << r.err);
+  CHECK(r.code == 3);
+  CHECK(r.out.find("Level of boxes: not certified") != std::string::npos);
+  CHECK(r.out.find("too slow for moving_crowds") != std::string::npos);
+  CHECK(r.out.find("0.1 CPU s a question); raise --case-seconds") != std::string::npos);
+  CHECK(r.out.find("refuted") == std::string::npos);
+  CHECK(std::count(r.out.begin(), r.out.end(), '\n') < 60);
 }
 
 TEST_CASE(

@@ -40,6 +40,12 @@ BroadCertificate certificate(const Subject& s, std::uint64_t limit, int jobs = 1
   return *certify(s, c, {}, never);
 }
 
+BroadCertificate first_fault(const Subject& s, Level level) {
+  CertifyConfig c;
+  c.levels = {level}, c.limit = 12000, c.first_fault = true, c.program = "test";
+  return *certify(s, c, {}, never);
+}
+
 std::vector<mutants::Mutant> broad_mutants() {
   std::vector<mutants::Mutant> all;
   for (const auto topic : {mutants::broad_list_lies, mutants::broad_box_lies, mutants::broad_script_lies})
@@ -79,7 +85,7 @@ class OtherMotion final : public Engine {
 BroadCertificate certificate_of_sweeps(OtherMotion::Change change) {
   const Subject s{"other motion", "", true, [=](Level) { return std::make_unique<OtherMotion>(change); }};
   CertifyConfig c;
-  c.levels = {Level::bodies}, c.program = "test";
+  c.levels = {Level::bodies}, c.first_fault = true, c.program = "test";
   for (const EvidenceRow& e : all_evidence())
     if (!e.sweeps && e.level == Level::bodies) c.without.emplace_back(e.name);
   return *certify(s, c, {}, never);
@@ -152,8 +158,8 @@ TEST_CASE("every lying broad phase is refuted by a script of few bodies and step
   std::size_t refuted = 0, small = 0;
   for (const mutants::Mutant& m : broad_mutants()) {
     const Subject s{std::string(m.name), "", true, [&m](Level) { return mutants::make_lying_engine(m); }};
-    BroadCertificate c = certificate(s, 12000, 1, {Level::boxes});
-    if (exit_code(c) == 0) c = certificate(s, 12000, 1, {Level::bodies});
+    BroadCertificate c = first_fault(s, Level::boxes);
+    if (exit_code(c) == 0) c = first_fault(s, Level::bodies);
     INFO(m.name);
     CHECK(exit_code(c) == 1);
     refuted += !c.refutations.empty();
@@ -161,14 +167,14 @@ TEST_CASE("every lying broad phase is refuted by a script of few bodies and step
     for (const Refutation& r : c.refutations) {
       const auto [bodies, steps] = least_script(m.name);
       is_small = is_small || (r.bodies <= bodies && r.steps <= steps);
-      UNSCOPED_INFO(to_string(r.level) << ' ' << r.evidence << ' ' << r.fault << ": " << r.bodies
+      UNSCOPED_INFO(to_string(r.level) << ' ' << r.evidence << ' ' << in_words(r.what) << ": " << r.bodies
                                        << " bodies, " << r.steps << " steps, " << r.shrink);
       // What refutes is a case that replay and shrink judge the same way.
       if (!m.repeats || !r.script) continue;
       const EnginePtr engine = mutants::make_lying_engine(m);
       bool found = false;
       const auto findings = findings_of({&*r.script, 1}, engine);
-      for (const auto& [key, f] : findings[0]) found = found || f.fault == r.fault;
+      for (const auto& [key, f] : findings[0]) found = found || f.fault == r.what.fault;
       CHECK(found);
     }
     CHECK(is_small);
@@ -194,7 +200,7 @@ TEST_CASE("a subject that leaves out a part of the motion is refuted in the quic
     INFO(name);
     CHECK(exit_code(c) == 1);
     REQUIRE_FALSE(c.refutations.empty());
-    CHECK(c.refutations[0].fault == "missed");
+    CHECK(c.refutations[0].what.fault == "missed");
     CHECK(c.refutations[0].bodies == 2);
   }
   const BroadCertificate honest = certificate_of_sweeps([](Motion&) {});
@@ -205,6 +211,146 @@ TEST_CASE("a subject that leaves out a part of the motion is refuted in the quic
     CHECK(e.pairs_true > e.answered / 8);
     CHECK(e.pairs_true < e.answered * 9 / 10);
   }
+}
+
+namespace {
+
+// The core's brute force with faults put in: `fault` alters an answer or takes it away.
+class Faulty final : public Engine {
+ public:
+  using Fault = void (*)(const Scene&, Observation&);
+  explicit Faulty(Fault fault) : fault_(fault), inner_(make_broad_engine("brute_force", BroadBoxes::exact)) {}
+  const EngineCard& card() const override { return inner_->card(); }
+  std::vector<CaseObservations> run(std::span<const Case> cases) override {
+    auto all = inner_->run(cases);
+    for (std::size_t i = 0; i < cases.size(); ++i) fault_(cases[i].scene, all[i].answers[0]);
+    return all;
+  }
+
+ private:
+  Fault fault_;
+  EnginePtr inner_;
+};
+
+Subject faulty(Faulty::Fault fault) {
+  return {"faulty", "", false, [fault](Level) { return std::make_unique<Faulty>(fault); }, 1, {}};
+}
+
+void fail(Observation& o, Outcome outcome) { o = {}, o.outcome = outcome; }
+
+std::size_t inserts(const Scene& s) {
+  return static_cast<std::size_t>(std::count_if(
+      s.script.begin(), s.script.end(), [](const Step& step) { return step.op == Step::Op::insert; }));
+}
+
+bool has_half_space(const Scene& s) {
+  return std::any_of(s.script.begin(), s.script.end(), [&](const Step& step) {
+    return step.op == Step::Op::insert && kind_of(s.shape_of(step.body)) == ShapeKind::half_space;
+  });
+}
+
+bool has_nan(const Scene& s) {
+  return std::any_of(s.script.begin(), s.script.end(), [&](const Step& step) {
+    return step.op == Step::Op::insert &&
+           !s.bodies[static_cast<std::size_t>(step.body)].pose.translation.allFinite();
+  });
+}
+
+bool touches(const Scene& s, const BodyPair& p) {
+  const auto a = exact_box(s.shape_of(p.first), s.bodies[static_cast<std::size_t>(p.first)].pose),
+             b = exact_box(s.shape_of(p.second), s.bodies[static_cast<std::size_t>(p.second)].pose);
+  return a && b && (a->hi.x() == b->lo.x() || b->hi.x() == a->lo.x());
+}
+
+std::size_t count_of(const BroadCertificate& c, std::string_view fault, FaultKind kind) {
+  return static_cast<std::size_t>(
+      std::count_if(c.refutations.begin(), c.refutations.end(), [&](const Refutation& r) {
+        return r.what == FaultClass{std::string(fault), kind};
+      }));
+}
+
+}  // namespace
+
+TEST_CASE("what is not answered in time is neither refuted nor certified, and the time to ask for is named",
+          "[certify]") {
+  Subject s = faulty([](const Scene& scene, Observation& o) {
+    if (scene.bodies.size() > 60) fail(o, Outcome::timed_out);
+  });
+  static std::vector<double> asked;  // how much longer
+  asked.clear();
+  s.make_patient = [&](Level, double times) -> EnginePtr {
+    asked.push_back(times);
+    if (times >= 4) return make_broad_engine("brute_force", BroadBoxes::exact);
+    return s.make(Level::boxes);
+  };
+  const BroadCertificate c = certificate(s, 40, 1, {Level::boxes});
+  INFO(to_json(c).dump(1));
+  CHECK(exit_code(c) == 3);
+  CHECK(verdict(c, Level::boxes) == LevelVerdict::not_certified);
+  CHECK(c.refutations.empty());
+  CHECK(c.faults.empty());
+  REQUIRE(c.too_slow.size() == 1);
+  CHECK(c.too_slow[0].evidence == "moving_crowds");
+  CHECK(c.too_slow[0].bodies > 60);
+  CHECK(c.too_slow[0].allowed == 1);
+  CHECK(c.too_slow[0].sufficient == 4);
+  CHECK(asked == std::vector<double>{2, 4});
+  // Nor does an engine that is asked no more, as it timed out too often.
+  s.make = faulty([](const Scene& scene, Observation& o) {
+             if (scene.bodies.size() <= 60) return;
+             fail(o, Outcome::crashed);
+             o.detail = "set aside: waited 4 times without using the CPU until time was up";
+           }).make;
+  CHECK(exit_code(certificate(s, 40, 1, {Level::boxes})) == 3);
+  // What is seen beside it still refutes.
+  s.make = faulty([](const Scene& scene, Observation& o) {
+             if (scene.bodies.size() > 60) fail(o, Outcome::timed_out);
+             if (inserts(scene) == 3 && !o.candidate_pairs.empty()) o.candidate_pairs.back().clear();
+           }).make;
+  CHECK(exit_code(certificate(s, 40, 1, {Level::boxes})) == 1);
+}
+
+TEST_CASE("every class of fault is listed, a solid pair first; what a bad box causes is a class of its own",
+          "[certify]") {
+  const Subject s = faulty([](const Scene& scene, Observation& o) {
+    const std::size_t n = inserts(scene);
+    if (scene.bodies.size() > 60) return fail(o, Outcome::crashed);
+    for (auto& list : o.candidate_pairs)
+      std::erase_if(list, [&](const BodyPair& p) { return touches(scene, p); });
+    if (n == 3 && scene.script.back().op == Step::Op::query && !o.candidate_pairs.empty())
+      std::erase_if(o.candidate_pairs.back(), [](const BodyPair& p) { return p == BodyPair{1, 2}; });
+    if (has_nan(scene) || has_half_space(scene))
+      for (auto& list : o.candidate_pairs) list.clear();
+  });
+  const BroadCertificate c = certificate(s, 400, 1, {Level::boxes});
+  INFO(to_json(c).dump(1));
+  CHECK(exit_code(c) == 1);
+  CHECK(c.evidence.size() == certificate(core_subject("brute_force"), 1, 1, {Level::boxes}).evidence.size());
+  for (const auto kind : {FaultKind::solid, FaultKind::touching, FaultKind::invalid, FaultKind::unbounded})
+    CHECK(count_of(c, "missed", kind) == 1);
+  CHECK(count_of(c, "crashed", FaultKind::numbers) == 1);
+  REQUIRE(c.refutations.size() == 5);
+  CHECK(c.refutations[0].what == FaultClass{"missed", FaultKind::solid});
+  CHECK(c.refutations[0].bodies == 3);
+  CHECK(c.refutations[0].steps == 4);
+  // Shrunk, it is solid still.
+  const Case& script = *c.refutations[0].script;
+  const auto v =
+      judge_candidates(script, s.make(Level::boxes)->run({&script, 1})[0].answers[0], Level::boxes);
+  CHECK(v.shows({"missed", FaultKind::solid}));
+  for (const FaultCount& f : c.faults)
+    if (f.what.kind == FaultKind::solid) CHECK(f.share > 0.01);
+  // A pair that touches is lost with and without a NaN beside it.
+  CHECK(std::any_of(c.faults.begin(), c.faults.end(), [](const FaultCount& f) {
+    return f.evidence == "no_boxes" && f.what == FaultClass{"missed", FaultKind::touching};
+  }));
+  CHECK(to_json(c) == to_json(certificate(s, 400, 3, {Level::boxes})));
+  bool holds = false;
+  CHECK(to_json(broad_certificate_from_json(to_json(c), holds)) == to_json(c));
+  CHECK(holds);
+  auto old = to_json(c);
+  old["touchstone_broad_certificate"] = 1;
+  CHECK_THROWS_AS(broad_certificate_from_json(old, holds), InputError);
 }
 
 TEST_CASE("a bad box goes into a case file beside the scene and comes back, for candidates alone",

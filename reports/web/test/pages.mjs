@@ -301,6 +301,9 @@ for (const name of ["certified.html", "refuted.html"]) {
   check(`${name} says so first`, verdicts.join() === Object.values(c.verdict).filter((v) => v !== "not_asked").join(), verdicts.join());
   check(`${name} says what is not proved`, (await page.$$("#not-proved li")).length === c.not_proved.length);
   const scripts = await page.$$eval(".refutation a[download]", (a) => a.map((x) => JSON.parse(decodeURIComponent(x.href.replace("data:application/json,", "")))));
+  const faults = await page.$$eval("tr[data-fault]", (t) => t.map((x) => x.dataset.fault));
+  check(`${name} lists every fault`, faults.join() === c.faults.map((f) => `${f.fault}/${f.kind}/${f.evidence}`).join() && (faults.length > 0) === name.startsWith("refuted"));
+  check(`${name} offers no program where there is no writer`, !(await page.evaluate(() => document.body.textContent)).includes("touchstone reproduce"));
   check(`${name} hands out what refutes it`, JSON.stringify(scripts) === JSON.stringify(c.refutations.map((r) => r.script)) && (scripts.length > 0) === name.startsWith("refuted"));
   await page.close();
 }

@@ -1,7 +1,7 @@
 // A certificate of a broad phase: is it conservative, what was tried, what is not proved; or what refutes it.
 import { LinkState, app, commandLine, el, grouped, numberOf, pageData, themeButton } from "../common/page";
 import { drawScript } from "./script";
-import type { CertificatePage, Evidence, Level, Refutation } from "./types";
+import type { CertificatePage, Evidence, FaultClass, Level, Refutation, TooSlow } from "./types";
 import "./certificate.css";
 
 const data = pageData<CertificatePage>();
@@ -25,13 +25,20 @@ const badge = (verdict: string): HTMLElement => {
 const price = (truth: number, reported: number): string => (truth === 0 ? "–" : String(Number((Math.max(0, reported - truth) / truth).toPrecision(3))));
 const sum = (list: Evidence[], key: "cases" | "queries" | "pairs_true" | "pairs_reported" | "refused" | "steps" | "undecided"): number => list.reduce((s, e) => s + e[key], 0);
 
+const kindWords: Record<string, string> = {
+  solid: "solid pair", touching: "pair that touches", moving: "pair that meets within the step", numbers: "", unbounded: "infinite box", invalid: "NaN, infinite or inverted box",
+};
+const inWords = (f: FaultClass): string => `${spaced(f.fault)}${kindWords[f.kind] ? `, ${kindWords[f.kind]}` : ""}`;
+
 function tile(level: Level): HTMLElement {
   const list = c.evidence.filter((e) => e.level === level);
   const r = c.refutations.find((x) => x.level === level);
+  const others = c.refutations.filter((x) => x.level === level).length - 1;
+  const slow = c.too_slow.filter((x) => x.level === level);
   const cut = list.some((e) => e.cases < e.population);
-  return el("a", { class: `tile ${c.verdict[level]}`, href: `#${level}` }, el("div", {}, `Level of ${level}: `, badge(c.verdict[level]!)),
-    el("div", { class: "soft" }, r ? `loses a pair with ${r.bodies} bodies in ${r.steps} steps` :
-      `${grouped(sum(list, "cases"))} cases${cut ? " (some are samples)" : ""}, ${grouped(sum(list, "pairs_true"))} true pairs, none lost; price ${price(sum(list, "pairs_true"), sum(list, "pairs_reported"))}`));
+  return el("a", { class: `tile ${c.verdict[level]!.replaceAll(" ", "_")}`, href: `#${level}` }, el("div", {}, `Level of ${level}: `, badge(c.verdict[level]!)),
+    el("div", { class: "soft" }, r ? `${inWords(r)}, shown with ${r.bodies} bodies in ${r.steps} steps${others ? `; ${others} more ${others > 1 ? "kinds" : "kind"} of fault` : ""}` :
+      slow.length ? `too slow for ${slow.map((x) => spaced(x.evidence)).join(", ")}: no fault was seen, and nothing is certified` : `${grouped(sum(list, "cases"))} cases${cut ? " (some are samples)" : ""}, ${grouped(sum(list, "pairs_true"))} true pairs, none lost; price ${price(sum(list, "pairs_true"), sum(list, "pairs_reported"))}`));
 }
 
 function facts(): HTMLElement {
@@ -68,25 +75,44 @@ function evidenceTable(level: Level): HTMLElement {
   return el("div", { class: "scroll" }, el("table", { class: "evidence" }, el("thead", {}, el("tr", {}, ...heads.map(([h, s]) => el("th", { class: s }, h)))), body));
 }
 
+// Every class of fault and every evidence that shows it.
+function faultTable(level: Level): HTMLElement[] {
+  const list = c.faults.filter((f) => f.level === level);
+  if (list.length === 0) return [];
+  const body = el("tbody");
+  for (const f of list)
+    body.append(el("tr", { "data-fault": `${f.fault}/${f.kind}/${f.evidence}` }, el("td", { class: "bad" }, inWords(f)), el("td", { class: "name" }, spaced(f.evidence)), el("td", { class: "n" }, grouped(f.cases)),
+      el("td", { class: "n" }, f.kind === "solid" ? `${Number((100 * f.share).toPrecision(2))} %` : "–"), el("td", { class: "tried" }, f.words)));
+  const heads: [string, string][] = [["fault", ""], ["evidence", ""], ["cases", "n"], ["overlap lost", "n"], ["for example", ""]];
+  return [el("h3", {}, "Faults seen"), el("div", { class: "scroll" }, el("table", { class: "faults" }, el("thead", {}, el("tr", {}, ...heads.map(([h, s]) => el("th", { class: s }, h)))), body))];
+}
+
+function slowLine(t: TooSlow): HTMLElement {
+  const enough = t.sufficient ? `it answers within ${t.sufficient}: --case-seconds ${t.sufficient}` : t.tried > t.allowed ? `nor within ${t.tried}` : "raise --case-seconds";
+  return el("p", { class: "slow" }, el("b", { class: "warn" }, "too slow"), ` for ${spaced(t.evidence)}: no answer within ${t.allowed} CPU seconds a question in case ${t.index}, ${t.bodies} bodies, ${grouped(t.steps)} steps; ${enough}.`);
+}
+
 function refutation(r: Refutation): HTMLElement {
-  const out = el("div", { class: "refutation" }, el("p", {}, el("b", { class: "bad" }, spaced(r.fault)), `: ${r.words}`),
+  const out = el("div", { class: "refutation" }, el("p", {}, el("b", { class: "bad" }, inWords(r)), `: ${r.words}`),
     el("p", { class: "soft" }, `Found in ${spaced(r.evidence)}, case ${r.index}. Smallest script: ${r.bodies} bodies, ${r.steps} steps (${spaced(r.shrink)}).`));
   if (!r.script) return out;
   out.append(...drawScript(r));
-  const file = data.scripts[r.level] ?? `${c.subject}.${r.level}.case.json`;
+  const written = data.scripts[c.refutations.indexOf(r)];
+  const file = written || `${c.subject.replace(/[^\w.-]+/g, "_")}.${r.level}.${r.fault}-${r.kind}.case.json`;
   const text = JSON.stringify(r.script, null, 1);
   const download = el("a", { download: file.replace(/^.*\//, ""), href: `data:application/json,${encodeURIComponent(text)}` }, "save the script");
-  out.append(el("p", { class: "soft" }, data.scripts[r.level] ? `The script is in ${file}; or ` : "Save it first: ", download, "."),
-    commandLine(`./touchstone replay ${file} --engines ${data.subject}`), commandLine(`./touchstone view ${file} --broad -o page.html`),
-    commandLine(`./touchstone reproduce ${file} --engine ${data.subject} -o reproduce.cpp`),
-    el("details", {}, el("summary", {}, "the script as JSON"), el("pre", {}, text)));
+  out.append(el("p", { class: "soft" }, written ? `The script is in ${file}; or ` : "Save it first: ", download, "."),
+    commandLine(`./touchstone replay ${file} --engines ${data.subject}`), commandLine(`./touchstone view ${file} --broad -o page.html`));
+  if (data.has_writer) out.append(commandLine(`./touchstone reproduce ${file} --engine ${data.subject} -o reproduce.cpp`));
+  out.append(el("details", {}, el("summary", {}, "the script as JSON"), el("pre", {}, text)));
   return out;
 }
 
 function levelSection(level: Level): HTMLElement {
   const out = el("section", { id: level }, el("h2", {}, `Level of ${level}: `, badge(c.verdict[level]!)), el("p", { class: "soft" }, about[level]));
   for (const r of c.refutations) if (r.level === level) out.append(refutation(r));
-  out.append(evidenceTable(level));
+  for (const t of c.too_slow) if (t.level === level) out.append(slowLine(t));
+  out.append(...faultTable(level), evidenceTable(level));
   // Of a draw without a miss, the rate is below 3/N at 95 % (the rule of three).
   if (c.verdict[level] === "certified")
     for (const e of c.evidence)

@@ -56,7 +56,7 @@ export function drawScript(r: Refutation): HTMLElement[] {
   const drawable = boxes.length > 0 && boxes.length <= 24 && turned.size === 0 && boxes.every(([, b]) => b && b.flat().every(Number.isFinite));
   const list = el("ol", { class: "steps mono" }, ...steps.slice(0, 40).map((s) => el("li", {}, stepLine(s, name))));
   if (steps.length > 40) list.append(el("li", {}, `and ${steps.length - 40} more`));
-  return [...(drawable ? [el("p", { class: "soft" }, `Where it asks, the boxes on each axis; bodies ${lost.join(" and ")}, in red, overlap on all three and are not reported.`), strips(boxes as [number, Box][], lost)] : []),
+  return [...(drawable ? [el("p", { class: "soft" }, `Where it asks, the boxes on each axis${lost.length === 2 ? `; bodies ${lost.join(" and ")}, in red, overlap on all three and are not reported` : ""}.`), strips(boxes as [number, Box][], lost)] : []),
     el("div", { class: "columns" }, el("div", {}, el("h3", {}, "Bodies"), el("div", { class: "mono soft" }, ...bodies.slice(0, 24).map((b, i) => el("div", {}, `${i}: ${shapeLine(shapes[b.shape]!)}`)))),
       el("div", {}, el("h3", {}, "Steps"), list))];
 }
