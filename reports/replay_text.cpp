@@ -120,7 +120,8 @@ std::string engine_lines(const std::string& engine, const Query& q, const Observ
          "\n";
   if (j.faults.size() > 5) s += fmt::format("      and {} more\n", j.faults.size() - 5);
   if (j.blame == Blame::representation)
-    s += "      right for the scene as the engine received it: lost in its rounding\n";
+    s += j.holds_other_shape ? "      right for the scene as the engine received it: it holds another shape\n"
+                             : "      right for the scene as the engine received it: lost in its rounding\n";
   return s;
 }
 

@@ -129,6 +129,11 @@ std::string campaign_footer(const CampaignResult& r) {
   if (const std::uint64_t n = r.levels[0] + r.levels[1] + r.levels[2]; n > 0)
     s += fmt::format("referee: {} pairs settled by doubles, {} in extended precision, {} exactly\n",
                      grouped(r.levels[0]), grouped(r.levels[1]), grouped(r.levels[2]));
+  for (const auto& [engine, questions] : r.tallies)
+    for (const auto& [q, t] : questions)
+      if (t.slow > 0)
+        s += fmt::format("slow: {} of {}'s answers to {} took longer than the time limit\n", grouped(t.slow),
+                         engine, to_string(q));
   std::uint64_t asked = 0, broken = 0;
   for (const auto& [engine, of_engine] : r.relations)
     for (const auto& [name, n] : of_engine) asked += n.asked, broken += n.broken;

@@ -1,17 +1,26 @@
 #include <algorithm>
 #include <chrono>
 #include <ctime>
+#include <optional>
 
 #include "fuzz/campaign/campaign.h"
 #include "fuzz/campaign/novelty.h"
 #include "fuzz/campaign/shapes_of.h"
+#include "fuzz/campaign/unstable.h"
 #include "fuzz/judge/judge.h"
 #include "fuzz/record/degeneracy.h"
 #include "fuzz/record/magnitude.h"
+#include "oracles/api/last_words.h"
 #include "scenarios/case_codec.h"
 
 namespace touchstone::fuzz {
 namespace {
+
+// One place in an engine's code is one fault, whatever it was asked about: the first case shows with what.
+void name_by_site(Finding& f, const std::string& site) {
+  f.fault += "_" + site_word(site);
+  f.shapes = "any", f.degeneracy = "any";
+}
 
 void add_findings(CampaignResult& r, const Case& c, std::uint64_t index, const std::string& engine,
                   const Query& q, const Judgement& j, const CaseObservations& all, const Observation& o,
@@ -25,16 +34,23 @@ void add_findings(CampaignResult& r, const Case& c, std::uint64_t index, const s
     f.blame = to_string(j.blame);
     f.degeneracy = degeneracy_of(c, fault.a, fault.b),
     f.magnitude = to_string(magnitude_of(fault.error_in_l));
+    if (!o.site.empty()) name_by_site(f, o.site);
     f.count = 1, f.worst_in_l = fault.error_in_l, f.first_index = index;
     auto& kept = r.findings[f.key()];
     if (kept.count == 0 || index < kept.first_index) {
       // The last words of a dying process stay out of the finding: they may differ from run to run.
       f.words = fault.fault == Fault::failed ? std::string(to_string(j.outcome)) : fault.words;
+      if (!o.site.empty()) f.words += " at " + o.site;
       f.evidence = std::make_shared<const Evidence>(
           Evidence{c, o, all.received, fault.certificate, fault.a, fault.b, fault.step, q.question, shared});
     }
     kept.merge(f);
   }
+}
+
+bool any_fault(const std::vector<Judgement>& judgements) {
+  return std::any_of(judgements.begin(), judgements.end(),
+                     [](const Judgement& j) { return !j.faults.empty(); });
 }
 
 // The direction that the subject found is the first certificate that the referee tries.
@@ -101,12 +117,18 @@ void judge_into(CampaignResult& r, const Case& c, std::uint64_t index, std::span
   if (!observations.empty()) give_hints(truth, c, observations[0]);
   for (std::size_t e = 0; e < engines.size(); ++e) {
     const EngineCard& card = engines[e]->card();
-    const auto judgements = judge(c, card, observations[e], truth);
+    auto judgements = judge(c, card, observations[e], truth);
+    std::optional<CaseObservations> without_unstable;
+    if (any_fault(judgements)) {
+      without_unstable = observations[e];
+      set_unstable_aside(c, *engines[e], *without_unstable, judgements);
+    }
+    const CaseObservations& all = without_unstable ? *without_unstable : observations[e];
     for (std::size_t i = 0; i < c.queries.size(); ++i) {
-      const Observation& o = observations[e].answers[i];
+      const Observation& o = all.answers[i];
       r.tallies[card.name][c.queries[i].question].add(judgements[i], o);
       r.engine_ns += o.elapsed_ns;
-      add_findings(r, c, index, card.name, c.queries[i], judgements[i], observations[e], o, shared);
+      add_findings(r, c, index, card.name, c.queries[i], judgements[i], all, o, shared);
       if (features) add_features(c, c.queries[i], card, o, judgements[i], *features);
     }
   }

@@ -5,6 +5,7 @@
 #include "core/scene/odd_numbers.h"
 #include "fuzz/campaign/campaign.h"
 #include "fuzz/campaign/shapes_of.h"
+#include "fuzz/campaign/unstable.h"
 #include "fuzz/judge/relation.h"
 #include "fuzz/record/degeneracy.h"
 #include "fuzz/record/magnitude.h"
@@ -41,6 +42,27 @@ void add_break(CampaignResult& r, const Case& c, std::uint64_t index, const Rela
   kept.merge(f);
 }
 
+// No two forms of the case need to be compared: one of them is not answered the same way twice. The answers
+// are not kept, for they may differ from run to run.
+void add_unstable(CampaignResult& r, const Case& c, std::uint64_t index, const RelationInput& in,
+                  const RelationBreak& b) {
+  const auto q = static_cast<std::size_t>(b.query);
+  const Question question = c.queries[q].question;
+  Finding f;
+  f.engine = in.card.name, f.question = to_string(question), f.fault = to_string(Fault::unstable);
+  f.shapes = shapes_of(c, b.a, b.b), f.blame = to_string(Blame::algorithm);
+  f.degeneracy = degeneracy_of(c, b.a, b.b), f.magnitude = to_string(magnitude_of(0));
+  f.count = 1, f.first_index = index, f.words = "asked again, it answers differently";
+  auto& kept = r.findings[f.key()];
+  if (kept.count == 0 || index < kept.first_index) {
+    Observation outcome_alone;
+    outcome_alone.outcome = in.base.answers[q].outcome;
+    f.evidence = std::make_shared<const Evidence>(
+        Evidence{c, outcome_alone, in.base.received, {}, b.a, b.b, -1, question, {}});
+  }
+  kept.merge(f);
+}
+
 bool any_is(const CaseObservations& o, Outcome outcome) {
   return std::any_of(o.answers.begin(), o.answers.end(),
                      [&](const Observation& a) { return a.outcome == outcome; });
@@ -66,7 +88,10 @@ void relate_into(CampaignResult& r, const Case& c, std::uint64_t index, const En
     const auto broken = find_break(*asked[i].relation, in, asked[i].derived, observed[i]);
     if (!broken) continue;
     ++count.broken;
-    add_break(r, c, index, in, *broken);
+    if (repeats(c, *engine, base) && repeats(asked[i].derived.c, *engine, observed[i]))
+      add_break(r, c, index, in, *broken);
+    else
+      add_unstable(r, c, index, in, *broken);
   }
 }
 

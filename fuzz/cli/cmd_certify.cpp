@@ -34,7 +34,7 @@ struct CertifyOptions {
   std::uint64_t seed = 1, limit = 0;
   int jobs = 1;
   bool sweeps = false, first_fault = false, json = false, list = false;
-  WorkerLimits limits;
+  WorkerLimits limits{.patience = 1};
 };
 
 class CertifyProgress {

@@ -31,7 +31,7 @@ struct ChartOptions {
   std::uint64_t seed = 1;
   std::int64_t measure = 20'000;
   bool quick = false, json = false;
-  WorkerLimits limits;
+  WorkerLimits limits{.patience = 1};
 };
 
 // A crowd of thousands is one question.

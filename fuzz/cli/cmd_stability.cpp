@@ -16,7 +16,7 @@ struct StabilityOptions {
   std::string ladder, out = "out/stability";
   std::uint64_t seed = 1;
   bool quick = false, json = false;
-  WorkerLimits limits{.query_cpu_seconds = 0.2};
+  WorkerLimits limits{.query_cpu_seconds = 0.2, .patience = 1};
 };
 
 int verdict(const fuzz::Stability& s, const std::string& subject, bool json) {

@@ -234,8 +234,10 @@ std::span<const EngineRow> sweep_catalog() { return sweep_rows; }
 std::span<const std::string_view> stepped_engines() { return stepped; }
 
 void add_case_seconds(CLI::App& app, WorkerLimits& limits) {
-  app.add_option("--case-seconds", limits.query_cpu_seconds,
-                 "CPU seconds that an engine may spend on one question")
+  app.add_option(
+         "--case-seconds", limits.query_cpu_seconds,
+         "CPU seconds that an engine may spend on one question; campaigns and what replays their findings "
+         "end it after four times that, and count what answers in between as slow")
       ->check(a_positive_number())
       ->capture_default_str();
   add_no_sandbox(app, limits);

@@ -94,9 +94,11 @@ std::vector<Judgement> judge(const Case& c, const EngineCard& card, const CaseOb
   const int received = truth.frame_of(observations.received);
   for (std::size_t i = 0; i < c.queries.size(); ++i) {
     static const Observation missing{
-        Outcome::crashed, "the engine gave no answer", {}, {}, {}, {}, {}, {}, {}, {}, {}, 0, 0};
+        Outcome::crashed, "the engine gave no answer", {}, {}, {}, {}, {}, {}, {}, {}, {}, 0, 0, false, {}};
     const Observation& answer = i < observations.answers.size() ? observations.answers[i] : missing;
     result.push_back(judge_one({truth, 0, c.queries[i], answer, card}, received));
+    result.back().holds_other_shape =
+        result.back().blame == Blame::representation && holds_other_shape(c.scene, observations.received);
   }
   return result;
 }

@@ -29,13 +29,14 @@ enum class Fault : std::uint8_t {
   late,             // time of impact after the bodies have penetrated
   early,            // time of impact while they are still apart
   stale,            // a pair that names a body which is not there
+  unstable,         // asked twice, it answers differently: memory that it never wrote, or state that it keeps
   no_number,        // an answered question without the number it asks for, or a non-finite one
   failed            // threw, crashed, timed out, did not converge
 };
-inline constexpr std::array<std::string_view, 14> fault_names{
+inline constexpr std::array<std::string_view, 15> fault_names{
     "missed",     "ghost",       "distance_off", "witness_off", "normal_not_unit",
     "infeasible", "not_minimal", "depth_excess", "point_off",   "late",
-    "early",      "stale",       "no_number",    "failed"};
+    "early",      "stale",       "unstable",     "no_number",   "failed"};
 constexpr std::string_view to_string(Fault f) { return fault_names[static_cast<std::size_t>(f)]; }
 
 struct FaultReport {
@@ -60,7 +61,8 @@ struct Judgement {
   std::vector<FaultReport> faults;  // against the scene asked, worst first; empty: right (if answered)
   std::vector<FaultReport> received_faults;  // against the scene received
   Blame blame = Blame::none;
-  double worst_in_l = 0;  // largest error over all checks, also when right
+  bool holds_other_shape = false;  // blamed on a representation that is more than rounding
+  double worst_in_l = 0;           // largest error over all checks, also when right
   std::uint64_t pairs_true = 0, pairs_reported = 0, pairs_duplicate = 0;  // candidates: for precision
   /// Area (or length) that the manifold's points span over that of the true contact region; empty where the
   /// region is a point, or no manifold was stated for the true normal.

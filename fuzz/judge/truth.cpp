@@ -29,9 +29,35 @@ bool same_as_asked(const Scene& s, const ReceivedScene& r) {
   return true;
 }
 
-// How far the numbers of two shapes of one kind are apart: every point of one is within this of the other.
+constexpr double unbounded = std::numeric_limits<double>::infinity();
+
+// Each point of the one set is within this of the other set, and so is each point of their hulls: a convex
+// combination of points is as near to the same combination of their neighbours. Too many to compare: no
+// bound.
+double hausdorff_distance(const std::vector<Vec3>& v, const std::vector<Vec3>& w) {
+  constexpr std::size_t most_pairs = 1 << 20;
+  if (v.empty() || w.empty() || v.size() > most_pairs / w.size()) return unbounded;
+  const auto one_way = [](const std::vector<Vec3>& from, const std::vector<Vec3>& to) {
+    double worst = 0;
+    for (const Vec3& p : from) {
+      double least = unbounded;
+      for (const Vec3& q : to) least = std::min(least, (p - q).norm());
+      worst = std::max(worst, least);
+    }
+    return worst;
+  };
+  return std::max(one_way(v, w), one_way(w, v));
+}
+
+// How far the numbers of two shapes are apart: every point of one is within this of the other. Infinity for
+// shapes of two kinds: what an engine then says is always judged for what it holds.
 double shape_difference(const Shape& x, const Shape& y) {
-  if (x.index() != y.index()) return std::numeric_limits<double>::infinity();
+  if (x.index() != y.index()) return unbounded;
+  if (const auto* m = std::get_if<TriangleMesh>(&x))
+    if (m->triangles != std::get<TriangleMesh>(y).triangles) return unbounded;
+  if (const auto* h = std::get_if<Hull>(&x))
+    if (const auto& held = std::get<Hull>(y).vertices; held.size() != h->vertices.size())
+      return hausdorff_distance(h->vertices, held);
   double sum = 0;
   std::visit(
       [&](const auto& sx) {
@@ -39,7 +65,7 @@ double shape_difference(const Shape& x, const Shape& y) {
         const S& sy = std::get<S>(y);
         if constexpr (std::is_same_v<S, HalfSpace>) {
           // Unbounded: a normal that differs displaces without limit.
-          sum = sx == sy ? 0 : std::numeric_limits<double>::infinity();
+          sum = sx == sy ? 0 : unbounded;
         } else {
           for_each_field(sx, [&](auto name, const auto& v, Domain) {
             for_each_field(sy, [&](auto other, const auto& w, Domain) {
@@ -49,7 +75,7 @@ double shape_difference(const Shape& x, const Shape& y) {
                 if constexpr (std::is_same_v<V, double>) sum += std::abs(v - w);
                 if constexpr (std::is_same_v<V, Vec3>) sum += (v - w).template lpNorm<1>();
                 if constexpr (std::is_same_v<V, std::vector<Vec3>>) {
-                  double worst = v.size() == w.size() ? 0 : std::numeric_limits<double>::infinity();
+                  double worst = v.size() == w.size() ? 0 : unbounded;
                   for (std::size_t i = 0; i < std::min(v.size(), w.size()); ++i)
                     worst = std::max(worst, (v[i] - w[i]).norm());
                   sum += worst;
@@ -81,12 +107,27 @@ double displacement_of(const Scene& s, const ReceivedScene& r) {
       if (!(std::isinf(reach) && r.bodies[i]->matrix == Mat3::Identity() && b.pose.rotation == Quat{}))
         moved += turned * reach;
     }
+    if (!(moved < unbounded)) return unbounded;  // NaN too: inf - inf
     worst = std::max(worst, moved * (1 + rounding));
   }
   return worst;
 }
 
 }  // namespace
+
+bool is_other_shape(const Shape& asked, const Shape& held) {
+  if (asked.index() != held.index()) return true;
+  if (const auto* h = std::get_if<Hull>(&asked))
+    return h->vertices.size() != std::get<Hull>(held).vertices.size();
+  const auto* m = std::get_if<TriangleMesh>(&asked);
+  return m && m->triangles != std::get<TriangleMesh>(held).triangles;
+}
+
+bool holds_other_shape(const Scene& asked, const ReceivedScene& received) {
+  for (std::size_t i = 0; i < asked.shapes.size() && i < received.shapes.size(); ++i)
+    if (received.shapes[i] && is_other_shape(asked.shapes[i], *received.shapes[i])) return true;
+  return false;
+}
 
 Truth::Truth(const Scene& asked) : asked_(asked), frames_(1) {}
 

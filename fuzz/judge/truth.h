@@ -12,6 +12,10 @@
 
 namespace touchstone::fuzz {
 
+/// A shape of another kind, a hull of more or fewer vertices, other triangles: more than rounding.
+bool is_other_shape(const Shape& asked, const Shape& held);
+bool holds_other_shape(const Scene& asked, const ReceivedScene& received);
+
 class Truth {
  public:
   explicit Truth(const Scene& asked);

@@ -1,5 +1,6 @@
 #include "fuzz/record/evidence.h"
 
+#include "core/scene/codec.h"
 #include "fuzz/judge/truth.h"
 #include "oracles/referee/impact_certificate.h"
 #include "scenarios/case_codec.h"
@@ -59,6 +60,16 @@ Json certificate_of(const Evidence& e) {
   return names ? named(referee::to_json(e.certificate), e.a, e.b, e.step) : referee::to_json(e.certificate);
 }
 
+// Shapes that differ by rounding alone are left out.
+Json received_json(const Evidence& e) {
+  Json j = to_json(e.received);
+  const std::vector<Shape>& asked = e.c.scene.shapes;
+  for (std::size_t i = 0; i < asked.size() && i < e.received.shapes.size(); ++i)
+    if (const auto& held = e.received.shapes[i]; held && is_other_shape(asked[i], *held))
+      j["shapes"].push_back({{"shape", i}, {"as", touchstone::to_json(*held)}});
+  return j;
+}
+
 }  // namespace
 
 std::optional<referee::Placed> placed_at(const Scene& s, int body, int step) {
@@ -89,7 +100,7 @@ const Json& Evidence::json() const {
     made = {{"case", case_to_json(c)},
             {"observation", to_json(observation)},
             {"certificate", certificate_of(*this)},
-            {"received", to_json(received)}};
+            {"received", received_json(*this)}};
   return made;
 }
 

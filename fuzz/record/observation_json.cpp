@@ -26,6 +26,7 @@ Json to_json(const Observation& o) {
   Json j;
   j["outcome"] = to_string(o.outcome);
   if (!o.detail.empty()) j["detail"] = o.detail;
+  if (!o.site.empty()) j["site"] = o.site;
   if (o.overlap) j["overlap"] = *o.overlap;
   if (o.distance) j["distance"] = number(*o.distance);
   if (o.witness) j["witness"] = Json::array({vector((*o.witness)[0]), vector((*o.witness)[1])});

@@ -59,6 +59,7 @@ void Tally::add(const Judgement& j, const Observation& o) {
   ++outcomes[static_cast<std::size_t>(j.outcome)];
   if (j.outcome != Outcome::answered) return;
   time.add(o.elapsed_ns);
+  slow += o.slow;
   ++(j.faults.empty() ? right : wrong);
   const auto has = [&](Fault f) {
     return std::any_of(j.faults.begin(), j.faults.end(), [&](const FaultReport& r) { return r.fault == f; });
@@ -82,6 +83,7 @@ void Tally::merge(const Tally& o) {
   manifolds += o.manifolds, coverage_permille += o.coverage_permille;
   worst_in_l = std::max(worst_in_l, o.worst_in_l);
   time.merge(o.time);
+  slow += o.slow;
 }
 
 std::string Finding::key() const {
@@ -154,6 +156,7 @@ Json to_json(const Tally& t, bool with_times) {
   if (with_times) {
     j["ns_median"] = t.time.quantile(0.5), j["ns_p99"] = t.time.quantile(0.99);
     j["ns_histogram"] = t.time.json();
+    j["slow"] = t.slow;
   }
   return j;
 }
@@ -175,6 +178,7 @@ Tally tally_from_json(const Json& j) {
   t.manifolds = j.value("manifolds", std::uint64_t{0});
   t.coverage_permille = j.value("coverage_permille", std::uint64_t{0});
   t.worst_in_l = number_from(j.at("worst_in_l"));
+  t.slow = j.value("slow", std::uint64_t{0});
   if (j.contains("ns_histogram")) t.time = TimeHistogram::from_json(j.at("ns_histogram"));
   return t;
 }

@@ -44,7 +44,8 @@ struct Tally {
   /// most 10): integers, so that they add in any order.
   std::uint64_t manifolds = 0, coverage_permille = 0;
   double worst_in_l = 0;
-  TimeHistogram time;  // of the answered; never hashed
+  std::uint64_t slow = 0;  // of the answered, beyond the time limit; never hashed
+  TimeHistogram time;      // of the answered; never hashed
 
   std::uint64_t answered() const { return outcomes[static_cast<std::size_t>(Outcome::answered)]; }
   std::uint64_t unsupported() const { return outcomes[static_cast<std::size_t>(Outcome::unsupported)]; }

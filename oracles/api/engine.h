@@ -11,7 +11,8 @@
 namespace touchstone {
 
 /// What an engine says of itself. Parsed from the JSON that a plug-in's `card` returns:
-///   {"name", "library", "version", "settings", "unit_roundoff", "tau_factor", "source", "candidates_are_boxes"}
+///   {"name", "library", "version", "settings", "unit_roundoff", "tau_factor", "source",
+///   "candidates_are_boxes"}
 /// τ of an answer = tau_factor · unit_roundoff · L + the answer's claimed_tolerance (truth.md §3).
 struct EngineCard {
   std::string name;      // catalog name, e.g. "fcl-libccd-tuned"
@@ -32,8 +33,12 @@ class Engine {
  public:
   virtual ~Engine() = default;
   virtual const EngineCard& card() const = 0;
-  /// One CaseObservations a case, one Observation a query, always: whatever the engine does, the result is complete.
+  /// One CaseObservations a case, one Observation a query, always: whatever the engine does, the result is
+  /// complete.
   virtual std::vector<CaseObservations> run(std::span<const Case> cases) = 0;
+  /// The same cases asked again, in memory that held something else before: an answer that differs was made
+  /// of memory that nobody wrote, or of what was asked before. Empty: this engine cannot be asked so.
+  virtual std::vector<CaseObservations> run_again(std::span<const Case>) { return {}; }
 };
 
 using EnginePtr = std::unique_ptr<Engine>;

@@ -15,8 +15,8 @@ namespace touchstone {
 
 /// Numbers are those of ts_question.
 enum class Question : std::uint8_t { overlap, distance, contact, time_of_impact, candidates, scene_contacts };
-inline constexpr std::array<std::string_view, 6> question_names{"overlap",        "distance",   "contact",
-                                                                "time_of_impact", "candidates", "scene_contacts"};
+inline constexpr std::array<std::string_view, 6> question_names{
+    "overlap", "distance", "contact", "time_of_impact", "candidates", "scene_contacts"};
 constexpr std::string_view to_string(Question q) { return question_names[static_cast<std::size_t>(q)]; }
 constexpr std::optional<Question> question_from_string(std::string_view s) {
   for (std::size_t i = 0; i < question_names.size(); ++i)
@@ -65,15 +65,19 @@ struct Observation {
   std::optional<Vec3> normal;  // A to B
   std::optional<double> depth;
   std::vector<ManifoldPoint> manifold;
-  std::optional<double> toi;                           // time_of_impact answered, empty: "no hit"
-  std::vector<std::vector<BodyPair>> candidate_pairs;  // per query step; as reported (unsorted, duplicates kept)
+  std::optional<double> toi;  // time_of_impact answered, empty: "no hit"
+  std::vector<std::vector<BodyPair>>
+      candidate_pairs;  // per query step; as reported (unsorted, duplicates kept)
   std::vector<SceneContact> contacts;
   double claimed_tolerance = 0;
   std::int64_t elapsed_ns = 0;  // the engine's own time; never hashed or compared
+  bool slow = false;            // it took more than the time limit; never hashed or compared
+  std::string site;  // of a crash: "distance-inl.h:177", "libfcl:detail::collide"; empty when it is not known
   bool operator==(const Observation& o) const {
     return outcome == o.outcome && detail == o.detail && overlap == o.overlap && distance == o.distance &&
-           witness == o.witness && normal == o.normal && depth == o.depth && manifold == o.manifold && toi == o.toi &&
-           candidate_pairs == o.candidate_pairs && contacts == o.contacts && claimed_tolerance == o.claimed_tolerance;
+           witness == o.witness && normal == o.normal && depth == o.depth && manifold == o.manifold &&
+           toi == o.toi && candidate_pairs == o.candidate_pairs && contacts == o.contacts &&
+           claimed_tolerance == o.claimed_tolerance && site == o.site;
   }
 };
 

@@ -12,6 +12,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cstdint>
 #include <cstdio>
 #include <cstring>
 #include <exception>
@@ -102,6 +103,15 @@ class PairFilter {
   std::vector<std::pair<int, int>> ignored_;
 };
 
+/// The host's TS_ABI_MINOR; 0 when it is too old to say so.
+inline std::uint32_t host_minor = 0;
+
+/// The engine holds `held` in place of the scene's shape `index`. A host that cannot be told takes the shape
+/// as asked.
+inline void report_other_shape(const ts_received& to, int index, const ts_shape& held) {
+  if (host_minor >= 1) to.other_shape(to.ctx, index, &held);
+}
+
 template <class Engine>
 struct Table {
   static const std::vector<std::string>& cards() {
@@ -153,5 +163,6 @@ struct Table {
 
 }  // namespace touchstone::kit
 
-#define TS_PLUGIN(Engine) \
+#define TS_PLUGIN(Engine)                                                                          \
+  extern "C" void touchstone_host_v1(std::uint32_t minor) { touchstone::kit::host_minor = minor; } \
   extern "C" const ts_plugin* touchstone_plugin_v1(void) { return touchstone::kit::Table<Engine>::plugin(); }

@@ -5,6 +5,7 @@
 #include <cstring>
 #include <limits>
 #include <string>
+#include <utility>
 
 namespace touchstone {
 namespace {
@@ -96,6 +97,44 @@ Shape with_vertices(const Shape& asked, std::vector<Vec3> vertices) {
   return h;
 }
 
+std::vector<Vec3> points_from(const double* p, std::size_t count) {
+  std::vector<Vec3> points;
+  points.reserve(count);
+  for (std::size_t k = 0; k < count; ++k) points.push_back(vec3(p + 3 * k));
+  return points;
+}
+
+template <std::size_t... I>
+Shape empty_shape(std::size_t kind, std::index_sequence<I...>) {
+  Shape s;
+  ((kind == I ? static_cast<void>(s.emplace<I>()) : static_cast<void>(0)), ...);
+  return s;
+}
+
+/// The shape that a plug-in describes; nothing when it is none.
+std::optional<Shape> shape_from(const ts_shape& t) {
+  constexpr std::size_t kinds = std::variant_size_v<Shape>;
+  if (t.kind < 0 || static_cast<std::size_t>(t.kind) >= kinds) return std::nullopt;
+  Shape s = empty_shape(static_cast<std::size_t>(t.kind), std::make_index_sequence<kinds>{});
+  std::visit(FromSizes{t.size}, s);
+  if (!vertices_of(s)) return s;
+  if (!t.vertices || t.vertex_count == 0) return std::nullopt;
+  std::vector<Vec3> points = points_from(t.vertices, t.vertex_count);
+  if (std::holds_alternative<Hull>(s)) {
+    Hull none;
+    none.vertices = {Vec3::Zero()};
+    return with_vertices(none, std::move(points));
+  }
+  TriangleMesh m{std::move(points), {}};
+  for (std::size_t k = 0; k < t.triangle_count; ++k) {
+    const std::int32_t* c = t.triangles + 3 * k;
+    for (int i = 0; i < 3; ++i)
+      if (c[i] < 0 || static_cast<std::size_t>(c[i]) >= t.vertex_count) return std::nullopt;
+    m.triangles.push_back({c[0], c[1], c[2]});
+  }
+  return m;
+}
+
 }  // namespace
 
 PluginScene::PluginScene(const Scene& scene) {
@@ -139,6 +178,9 @@ ts_received ReceivedCollector::callbacks() {
              std::size_t n) noexcept { static_cast<ReceivedCollector*>(ctx)->shape(i, size, vertices, n); },
           [](void* ctx, std::int32_t i, const double matrix[9], const double translation[3]) noexcept {
             static_cast<ReceivedCollector*>(ctx)->body(i, matrix, translation);
+          },
+          [](void* ctx, std::int32_t i, const ts_shape* held) noexcept {
+            static_cast<ReceivedCollector*>(ctx)->other_shape(i, *held);
           }};
 }
 
@@ -151,19 +193,26 @@ void ReceivedCollector::shape(int index, const double* size, const double* verti
   const auto i = static_cast<std::size_t>(index);
   const Shape& asked = scene_.shapes[i];
   if (const std::vector<Vec3>* v = vertices_of(asked)) {
-    if (vertex_count != v->size() || !vertices) {
+    const bool is_hull = std::holds_alternative<Hull>(asked);
+    if (!vertices || vertex_count == 0 || (!is_hull && vertex_count != v->size())) {
       ++rejected_;
       return;
     }
-    std::vector<Vec3> points;
-    points.reserve(vertex_count);
-    for (std::size_t k = 0; k < vertex_count; ++k) points.push_back(vec3(vertices + 3 * k));
-    received_.shapes[i] = with_vertices(asked, std::move(points));
+    received_.shapes[i] = with_vertices(asked, points_from(vertices, vertex_count));
     return;
   }
   Shape s = asked;
   std::visit(FromSizes{size}, s);
   received_.shapes[i] = std::move(s);
+}
+
+void ReceivedCollector::other_shape(int index, const ts_shape& held) {
+  const bool exists = index >= 0 && static_cast<std::size_t>(index) < scene_.shapes.size();
+  std::optional<Shape> s = exists ? shape_from(held) : std::nullopt;
+  if (s)
+    received_.shapes[static_cast<std::size_t>(index)] = std::move(s);
+  else
+    ++rejected_;
 }
 
 void ReceivedCollector::body(int index, const double* matrix, const double* translation) {

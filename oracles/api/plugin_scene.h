@@ -30,8 +30,8 @@ class PluginScene {
   std::vector<std::vector<double>> vertices_;
 };
 
-/// Collects what a plug-in says it received. Reports about shapes or bodies that do not exist are dropped and
-/// counted.
+/// Collects what a plug-in says it received. Reports about shapes or bodies that do not exist, and of shapes
+/// that are none, are dropped and counted.
 class ReceivedCollector {
  public:
   explicit ReceivedCollector(const Scene& scene);
@@ -41,6 +41,7 @@ class ReceivedCollector {
 
  private:
   void shape(int index, const double* size, const double* vertices, std::size_t vertex_count);
+  void other_shape(int index, const ts_shape& held);
   void body(int index, const double* matrix, const double* translation);
   const Scene& scene_;
   ReceivedScene received_;

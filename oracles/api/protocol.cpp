@@ -133,7 +133,7 @@ void append(std::string& out, const Hello& m) {
 
 void append(std::string& out, const QuestionRef& m) {
   framed(out, Type::question, [&](Writer& w) {
-    w.put(m.sequence).put(m.first_query);
+    w.put(m.sequence).put(m.first_query).put(m.fill);
     put_scene(w, m.scene);
     w.count(m.queries.size());
     for (const Query& q : m.queries) w.put(static_cast<std::uint8_t>(q.question)).put(q.a).put(q.b);
@@ -173,6 +173,7 @@ QuestionMessage decode_question(std::string_view payload) {
   QuestionMessage m;
   m.sequence = r.get<std::uint64_t>();
   m.first_query = r.get<std::uint32_t>();
+  m.fill = r.get<std::uint8_t>();
   m.scene = get_scene(r);
   m.queries.resize(r.count(9));
   for (Query& q : m.queries) {

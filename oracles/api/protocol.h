@@ -54,12 +54,14 @@ struct QuestionRef {
   std::uint32_t first_query;
   const Scene& scene;
   std::span<const Query> queries;
+  std::uint8_t fill = 0;  // what memory that the engine has not written yet is filled with
 };
 struct QuestionMessage {
   std::uint64_t sequence = 0;
   std::uint32_t first_query = 0;
   Scene scene;  // script made explicit; names and ids left out
   std::vector<Query> queries;
+  std::uint8_t fill = 0;
 };
 
 /// Worker → harness after loading, before the first query.

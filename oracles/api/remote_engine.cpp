@@ -19,6 +19,9 @@ namespace {
 constexpr std::size_t send_ahead_bytes = std::size_t{1}
                                          << 18;  // questions encoded before the worker took them
 constexpr int max_failed_starts = 3;
+// Read as a double about 2e6, as an index beyond any array, as a pointer to nowhere: what was never written
+// is found out. Zeros, the kindest content, are what is asked with otherwise.
+constexpr std::uint8_t other_fill = 0x41;
 constexpr double death_wait_seconds = 2;  // from the end of the answers to the end of the process
 
 /// The next observation that is due.
@@ -29,10 +32,11 @@ struct Cursor {
   bool operator==(const Cursor&) const = default;
 };
 
-Observation failure(Outcome outcome, std::string detail) {
+Observation failure(Outcome outcome, std::string detail, std::string site = "") {
   Observation o;
   o.outcome = outcome;
   o.detail = std::move(detail);
+  o.site = std::move(site);
   return o;
 }
 
@@ -50,7 +54,8 @@ class RemoteEngine::Impl {
     }
   }
 
-  std::vector<CaseObservations> run(std::span<const Case> cases) try {
+  std::vector<CaseObservations> run(std::span<const Case> cases, std::uint8_t fill) try {
+    fill_ = fill;
     prepare(cases);
     while (at_.item < cases_.size() && patience_.left()) {
       if (is_ready())
@@ -178,7 +183,7 @@ class RemoteEngine::Impl {
       const std::uint32_t first = next_to_send_ == at_.item ? at_.query : 0;
       if (first < c.queries.size()) {
         protocol::append(outgoing_,
-                         protocol::QuestionRef{sequence_of(next_to_send_), first, c.scene, c.queries});
+                         protocol::QuestionRef{sequence_of(next_to_send_), first, c.scene, c.queries, fill_});
         sequence_ = sequence_of(next_to_send_) + 1;
       }
       ++next_to_send_;
@@ -223,6 +228,7 @@ class RemoteEngine::Impl {
     auto m = protocol::decode_answer(payload);
     if (m.sequence != sequence_of(at_.item) || m.query != at_.query || !at_.loaded)
       throw protocol::Malformed("an answer out of turn");
+    m.observation.slow = watchdog_.was_slow(*session_->process, m.observation.elapsed_ns);
     results_[at_.item].answers[at_.query++] = std::move(m.observation);
     patience_.note_answer();
     skip_done();
@@ -236,19 +242,22 @@ class RemoteEngine::Impl {
   void charge_death() {
     // Its standard output may be closed while the process lives on.
     const bool by_itself = session_->process->ends_within(death_wait_seconds);
-    const std::string how = session_->process->end();
-    charge(Outcome::crashed, by_itself ? how : "closed its answers");
+    const LastWords last = session_->process->end();
+    if (by_itself)
+      charge(Outcome::crashed, last.detail, last.site);
+    else
+      charge(Outcome::crashed, "closed its answers");
   }
 
   /// The running query is charged; while a scene is being taken, all that is left of its case.
-  void charge(Outcome outcome, const std::string& why) {
+  void charge(Outcome outcome, const std::string& why, const std::string& site = "") {
     auto& answers = results_[at_.item].answers;
     if (at_.loaded) {
-      answers[at_.query] = failure(outcome, why);
+      answers[at_.query] = failure(outcome, why, site);
       answers[at_.query++].elapsed_ns = watchdog_.since_progress_ns();
     } else {
       const std::string detail = outcome == Outcome::crashed ? why + " while loading the scene" : why;
-      while (at_.query < answers.size()) answers[at_.query++] = failure(outcome, detail);
+      while (at_.query < answers.size()) answers[at_.query++] = failure(outcome, detail, site);
     }
     skip_done();
     replace_worker();
@@ -273,6 +282,7 @@ class RemoteEngine::Impl {
   std::vector<CaseObservations> results_;
   Cursor at_;
   std::size_t next_to_send_ = 0;
+  std::uint8_t fill_ = 0;
   std::uint64_t sequence_ = 0, first_sequence_ = 0;
   std::string outgoing_;
   std::size_t outgoing_begin_ = 0;
@@ -282,7 +292,10 @@ class RemoteEngine::Impl {
 RemoteEngine::RemoteEngine(RemoteSpec spec) : impl_(std::make_unique<Impl>(std::move(spec))) {}
 RemoteEngine::~RemoteEngine() = default;
 const EngineCard& RemoteEngine::card() const { return impl_->card_; }
-std::vector<CaseObservations> RemoteEngine::run(std::span<const Case> cases) { return impl_->run(cases); }
+std::vector<CaseObservations> RemoteEngine::run(std::span<const Case> cases) { return impl_->run(cases, 0); }
+std::vector<CaseObservations> RemoteEngine::run_again(std::span<const Case> cases) {
+  return impl_->run(cases, other_fill);
+}
 std::string RemoteEngine::sandbox() const { return impl_->sandbox(); }
 int RemoteEngine::restarts() const { return impl_->restarts_; }
 int RemoteEngine::worker_pid() const { return impl_->pid(); }

@@ -29,6 +29,7 @@ class RemoteEngine final : public Engine {
   ~RemoteEngine() override;
   const EngineCard& card() const override;
   std::vector<CaseObservations> run(std::span<const Case> cases) override;
+  std::vector<CaseObservations> run_again(std::span<const Case> cases) override;
 
   /// What the worker is kept from, in words; "none" without a sandbox.
   std::string sandbox() const;

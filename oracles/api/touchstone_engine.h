@@ -9,6 +9,11 @@
  * Units and frames: lengths in the scene's unit, angles in radians, world frame unless said otherwise, column vectors,
  * right-handed. Quaternions are x, y, z, w, non-zero and NOT necessarily unit. Matrices are row-major.
  * All arrays that the host passes stay valid until the function returns, those of a scene until it is unloaded.
+ *
+ * Within version 1 what is here keeps its name, its place and its meaning, so that a plug-in that was built with an
+ * earlier header works as it did. What may change: tables that the host makes (ts_scene, ts_sink, ts_received) get new
+ * fields at their ends, and enumerations new values at theirs. Each such change has a minor number; a plug-in that uses
+ * one asks for the host's by exporting touchstone_host_v1, at the end of this header.
  */
 #ifndef TOUCHSTONE_ENGINE_H
 #define TOUCHSTONE_ENGINE_H
@@ -21,6 +26,7 @@ extern "C" {
 #endif
 
 #define TS_ABI_VERSION 1
+#define TS_ABI_MINOR 1 /* 1: ts_received.other_shape, and hulls of another number of vertices */
 
 #if defined(_WIN32)
 #define TS_EXPORT __declspec(dllexport)
@@ -139,12 +145,19 @@ typedef struct ts_sink {
 } ts_sink;
 
 /* The scene as the engine received it, in exact numbers: what its own types hold after conversion. Sizes are in the
- * units of ts_shape (half extents, half heights, n and d), whatever the engine's own are. Vertices: all of them, in order.
- * A body that is not reported is taken to be as asked. */
+ * units of ts_shape (half extents, half heights, n and d), whatever the engine's own are. Vertices of a mesh: all of them,
+ * in order. Vertices of a hull: those that the engine holds. When their number is another than asked (a cooker merged
+ * some, or gave a flat hull a thickness), the engine holds another hull: their convex hull. An answer that is right for
+ * what is reported and wrong for what was asked is blamed on the representation, not on the algorithm.
+ * A shape or body that is not reported is taken to be as asked. */
 typedef struct ts_received {
   void* ctx;
   void (*shape)(void* ctx, int32_t shape, const double size[4], const double* vertices, size_t vertex_count);
   void (*body)(void* ctx, int32_t body, const double matrix[9], const double translation[3]);
+  /* Since minor 1. The engine holds a shape of another kind, or other triangles: a box for a flat hull, a hull for a
+   * cylinder. `held` is read as a shape of a scene is, but for the dimension and the triangles of a hull, which the host
+   * computes. In place of `shape` for this one. */
+  void (*other_shape)(void* ctx, int32_t shape, const ts_shape* held);
 } ts_received;
 
 typedef struct ts_engine ts_engine; /* yours */
@@ -152,7 +165,7 @@ typedef struct ts_engine ts_engine; /* yours */
 typedef struct ts_plugin {
   uint32_t abi_version; /* TS_ABI_VERSION */
   uint32_t engine_count;
-  /* JSON card of the i-th engine: name, version, settings, unit roundoff, ... (see oracles/api/card.h) */
+  /* JSON card of the i-th engine: name, version, settings, unit roundoff, ... (tau_factor, source, ...: see the examples) */
   const char* (*card)(uint32_t i);
   ts_engine* (*create)(uint32_t i);
   void (*destroy)(ts_engine*);
@@ -163,8 +176,11 @@ typedef struct ts_plugin {
   void (*ask)(ts_engine*, int32_t question, int32_t a, int32_t b, ts_answer* answer, const ts_sink* sink);
 } ts_plugin;
 
-/* The one exported symbol. */
+/* The one exported symbol that every plug-in has. */
 TS_EXPORT const ts_plugin* touchstone_plugin_v1(void);
+
+/* Optional: called once, before touchstone_plugin_v1, with the host's TS_ABI_MINOR. Hosts of minor 0 do not call it. */
+TS_EXPORT void touchstone_host_v1(uint32_t minor);
 
 #ifdef __cplusplus
 }

@@ -30,6 +30,11 @@ void Watchdog::progress(const WorkerProcess& w) {
   idle_ = blocked_ = {};
 }
 
+bool Watchdog::was_slow(const WorkerProcess& w, std::int64_t elapsed_ns) const {
+  return 1e-9 * static_cast<double>(elapsed_ns) > limits_.query_cpu_seconds &&
+         w.cpu_seconds() - cpu_at_progress_ > limits_.query_cpu_seconds;
+}
+
 std::optional<Watchdog::Verdict> Watchdog::check(const WorkerProcess& w, Phase phase) {
   const auto now = Clock::now();
   // The harness itself may have been stopped or starved: a gap in its own ticks is not the worker's.
@@ -65,7 +70,7 @@ std::optional<Watchdog::Verdict> Watchdog::over_cpu(const WorkerProcess& w, Phas
   const double used = starting ? cpu_of_all_ - cpu_of_all_at_progress_ : w.cpu_seconds() - cpu_at_progress_;
   const double most = starting                        ? limits_.start_cpu_seconds
                       : phase == Phase::loading_scene ? limits_.load_cpu_seconds
-                                                      : limits_.query_cpu_seconds;
+                                                      : limits_.patience * limits_.query_cpu_seconds;
   if (used <= most) return std::nullopt;
   return Verdict{Outcome::timed_out, std::string("CPU time") + while_what(phase)};
 }

@@ -27,6 +27,8 @@ class Watchdog {
   void progress(const WorkerProcess& w);
   /// What a query that got no answer cost, its process's end included.
   std::int64_t since_progress_ns() const { return (Clock::now() - progress_at_).count(); }
+  /// Whether a query that took so long by the wall took more CPU time than it may.
+  bool was_slow(const WorkerProcess& w, std::int64_t elapsed_ns) const;
   /// Once a tick.
   bool is_due() const { return Clock::now() - last_check_ >= tick; }
   /// The reason to kill the worker, if there is one.

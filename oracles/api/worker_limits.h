@@ -12,6 +12,9 @@ namespace touchstone {
 /// if its own children or a disk do the work.
 struct WorkerLimits {
   double query_cpu_seconds = 1;
+  /// A query ends after this many times query_cpu_seconds: the speed of a machine varies, and an answer that
+  /// comes in between is judged like any other, and counted as slow.
+  double patience = 4;
   double load_cpu_seconds = 10;   // taking a scene: hierarchies of large meshes are built here
   double start_cpu_seconds = 20;  // loading the plug-in and making its engine, its children included
   double blocked_seconds = 5;     // without any use of the CPU

@@ -25,7 +25,6 @@
 namespace touchstone {
 namespace {
 
-constexpr std::size_t error_tail_bytes = 4096;
 constexpr int nursery_reply_ms = 30000;  // it runs no engine; only a machine in trouble makes it this slow
 constexpr int slice_ms = 50;             // of waiting, between two looks at whether it can answer at all
 constexpr double orderly_end_seconds = 3;
@@ -104,8 +103,8 @@ int spawn(const std::string& program, const std::vector<std::string>& arguments,
   for (const std::string& a : arguments) argv.push_back(const_cast<char*>(a.c_str()));
   argv.push_back(nullptr);
   // An engine that reads memory it never wrote (FCL's mesh-sphere distance and its default continuous query
-  // do) would answer by what ran before it. glibc then hands out memory filled with zeros, the kindest
-  // content, so that the same question gets the same answer; its thread caches would bypass the filling.
+  // do) would answer by what ran before it. glibc then hands out memory filled with zeros, so that the same
+  // question gets the same answer (oracles/host/memory_fill.h); its thread caches would bypass the filling.
   char perturb[] = "MALLOC_PERTURB_=255", no_cache[] = "GLIBC_TUNABLES=glibc.malloc.tcache_count=0";
   std::vector<char*> environment;
   for (char** e = environ; *e != nullptr; ++e) environment.push_back(*e);
@@ -178,16 +177,6 @@ TwoEnds make_socket() {
 std::string signal_name(int signal) {
   const char* abbreviation = sigabbrev_np(signal);
   return abbreviation ? std::string("SIG") + abbreviation : "signal " + std::to_string(signal);
-}
-
-std::string last_line(std::string_view text) {
-  while (!text.empty() && (text.back() == '\n' || text.back() == '\r')) text.remove_suffix(1);
-  const auto start = text.rfind('\n');
-  std::string line(start == std::string_view::npos ? text : text.substr(start + 1));
-  if (line.size() > 240) line.resize(240);
-  for (char& c : line)
-    if (static_cast<unsigned char>(c) < 0x20) c = ' ';
-  return line;
 }
 
 }  // namespace
@@ -326,8 +315,8 @@ void WorkerProcess::drain_errors() {
     if (n == 0) errors_.close();  // or poll() would report the end for ever
     if (n <= 0) return;
     error_tail_.append(buffer, static_cast<std::size_t>(n));
-    if (error_tail_.size() > 2 * error_tail_bytes)
-      error_tail_.erase(0, error_tail_.size() - error_tail_bytes);
+    if (error_tail_.size() > 2 * last_words_bytes)
+      error_tail_.erase(0, error_tail_.size() - last_words_bytes);
   }
 }
 
@@ -343,7 +332,7 @@ bool WorkerProcess::ends_within(double seconds) {
   return true;
 }
 
-std::string WorkerProcess::end() {
+LastWords WorkerProcess::end() {
   if (scratch_ && !reaped_) {
     end_supervised();
   } else if (!reaped_) {
@@ -356,13 +345,12 @@ std::string WorkerProcess::end() {
   }
   if (errors_.get() >= 0) drain_errors();
   const bool by_signal = WIFSIGNALED(status_);
-  std::string how =
+  const std::string how =
       by_signal ? signal_name(WTERMSIG(status_)) : "exit code " + std::to_string(WEXITSTATUS(status_));
   // Only where the end itself prints: the last line before a segmentation fault belongs to some earlier
   // query.
   const bool speaks = by_signal ? WTERMSIG(status_) == SIGABRT : WEXITSTATUS(status_) != 0;
-  if (const std::string line = last_line(error_tail_); speaks && !line.empty()) how += ": " + line;
-  return how;
+  return last_words(how, error_tail_, speaks);
 }
 
 }  // namespace touchstone

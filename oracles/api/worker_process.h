@@ -20,6 +20,7 @@
 #include <utility>
 #include <vector>
 
+#include "oracles/api/last_words.h"
 #include "oracles/api/nursery_protocol.h"
 
 namespace touchstone {
@@ -84,9 +85,8 @@ class WorkerProcess {
   bool has_ended();
   /// The same, after waiting for it: a dying process closes its streams before it can be reaped.
   bool ends_within(double seconds);
-  /// Kills the process if need be, reaps it, and says how it ended: "SIGSEGV", "exit code 3", and for an
-  /// abort or an exit the last line of its standard error.
-  std::string end();
+  /// Kills the process if need be, reaps it, and says how it ended and where.
+  LastWords end();
 
  private:
   /// One request to this nursery; nothing when it is gone or silent.

@@ -35,7 +35,7 @@ protocol::Hello await_hello(WorkerSession& s, const std::string& place, const Wo
     }
     if (r == ReadResult::closed)
       throw InputError(place,
-                       "the worker died while loading it: " + (s.process->ends_within(2), s.process->end()));
+                       "the worker died while loading it: " + (s.process->ends_within(2), s.process->end().detail));
     if (const auto verdict = watchdog.check(*s.process, Watchdog::Phase::starting))
       throw InputError(place, "the worker was ended: " + verdict->why);
     if (r == ReadResult::nothing_yet) wait_for_output(*s.process);

@@ -15,6 +15,7 @@
 #include <string>
 
 #include "oracles/api/protocol.h"
+#include "oracles/host/crash_report.h"
 #include "oracles/host/nursery.h"
 #include "oracles/host/pipe.h"
 #include "oracles/host/plugin.h"
@@ -75,6 +76,7 @@ void say(int fd, const protocol::Hello& hello) {
 
 /// The life of a forked worker.
 void work(const Loaded& l, host::WorkerStreams streams) {
+  host::report_crashes();
   protocol::Hello hello = l.hello;
   ts_engine* engine = nullptr;
   try {
@@ -121,6 +123,7 @@ int main(int argc, char** argv) {
   say(streams.answers, l.hello);
   close(streams.answers);
   if (l.hello.chosen < 0) _exit(l.hello.error.empty() ? 0 : 2);
+  host::prepare_crash_reports();
   const host::Nursery nursery{streams.requests, sandbox.apart, a.wish.scratch, a.wish.is_command};
   host::run_nursery(nursery, [&](host::WorkerStreams worker) { work(l, worker); });
 }

@@ -1,5 +1,6 @@
 #include "oracles/host/pipe.h"
 
+#include <fcntl.h>
 #include <poll.h>
 #include <signal.h>
 #include <sys/wait.h>
@@ -14,6 +15,7 @@
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 #include <string_view>
+#include <vector>
 
 #include "oracles/host/pipe_scene.h"
 
@@ -27,25 +29,27 @@ constexpr std::size_t longest_line = std::size_t{1} << 28;
 std::string command_line, card_text;
 bool gives_receipts = false;
 
-/// The command, its standard input and output; standard error stays that of the worker.
+/// The command and its three streams.
 class Child {
  public:
   explicit Child(const std::string& command) {
-    int to[2], from[2];
-    if (pipe(to) != 0 || pipe(from) != 0) throw std::runtime_error("no pipe could be made");
+    int to[2], from[2], errors[2];
+    if (pipe(to) != 0 || pipe(from) != 0 || pipe(errors) != 0)
+      throw std::runtime_error("no pipe could be made");
     pid_ = fork();
     if (pid_ < 0) throw std::runtime_error("could not be started");
     if (pid_ == 0) {
-      dup2(to[0], 0), dup2(from[1], 1);
-      for (int fd : {to[0], to[1], from[0], from[1]}) close(fd);
+      dup2(to[0], 0), dup2(from[1], 1), dup2(errors[1], 2);
+      for (int fd : {to[0], to[1], from[0], from[1], errors[0], errors[1]}) close(fd);
       execl("/bin/sh", "sh", "-c", ("exec " + command).c_str(), static_cast<char*>(nullptr));
       _exit(127);
     }
-    close(to[0]), close(from[1]);
-    to_ = to[1], from_ = from[0];
+    close(to[0]), close(from[1]), close(errors[1]);
+    to_ = to[1], from_ = from[0], errors_ = errors[0];
+    for (int fd : {to_, errors_}) fcntl(fd, F_SETFL, fcntl(fd, F_GETFL) | O_NONBLOCK);
   }
   ~Child() {
-    close(to_), close(from_);
+    close(to_), close(from_), close(errors_);
     if (pid_ < 0) return;
     kill(pid_, SIGKILL);
     waitpid(pid_, nullptr, 0);
@@ -61,14 +65,18 @@ class Child {
       throw std::runtime_error("the command wrote more than one line for a question, or without one: " +
                                buffer_.substr(0, 80));
   }
-  void write_line(std::string line) const {
+  void write_line(std::string line) {
     require_silence();
     line.push_back('\n');
     for (std::size_t done = 0; done < line.size();) {
       const ssize_t n = write(to_, line.data() + done, line.size() - done);
       if (n < 0 && errno == EINTR) continue;
-      if (n <= 0) throw std::runtime_error("the command reads no more");
-      done += static_cast<std::size_t>(n);
+      if (n < 0 && errno == EAGAIN)
+        wait({to_, POLLOUT, 0});
+      else if (n <= 0)
+        throw std::runtime_error(how_it_ended());
+      else
+        done += static_cast<std::size_t>(n);
     }
   }
   std::string read_line() {
@@ -81,6 +89,7 @@ class Child {
       }
       seen = buffer_.size();
       char bytes[1 << 14];
+      wait({from_, POLLIN, 0});
       const ssize_t n = read(from_, bytes, sizeof bytes);
       if (n < 0 && errno == EINTR) continue;
       if (n <= 0) throw std::runtime_error(how_it_ended());
@@ -90,12 +99,61 @@ class Child {
   }
 
  private:
-  // Its output has ended: mostly it has too. 127 and 126 are the shell's own.
+  static constexpr std::size_t kept_bytes = 600, kept_lines = 4;
+
+  /// Until that stream is ready; what the command says on standard error meanwhile is taken, or it would
+  /// wait for us while we wait for it.
+  void wait(pollfd wanted) {
+    for (;;) {
+      pollfd fds[2] = {wanted, {errors_, POLLIN, 0}};
+      if (poll(fds, errors_ < 0 ? 1 : 2, -1) < 0 && errno != EINTR) return;
+      if (errors_ >= 0 && fds[1].revents != 0) take_errors();
+      if (fds[0].revents != 0) return;
+    }
+  }
+
+  void take_errors() {
+    char bytes[1 << 12];
+    for (;;) {
+      const ssize_t n = errors_ < 0 ? 0 : read(errors_, bytes, sizeof bytes);
+      if (n < 0 && errno == EINTR) continue;
+      if (n == 0 && errors_ >= 0) close(errors_), errors_ = -1;
+      if (n <= 0) return;
+      said_.append(bytes, static_cast<std::size_t>(n));
+      if (said_.size() > 4 * kept_bytes) said_.erase(0, said_.size() - kept_bytes);
+    }
+  }
+
+  /// ": " and the last lines of its standard error, the last of them last; nothing when it said nothing.
+  std::string last_lines() {
+    take_errors();
+    std::vector<std::string> lines;
+    for (std::size_t end = said_.size(); end > 0 && lines.size() < kept_lines;) {
+      const auto before = said_.rfind('\n', end - 1);
+      const std::size_t begin = before == std::string::npos ? 0 : before + 1;
+      if (const std::string line = said_.substr(begin, end - begin);
+          line.find_first_not_of(" \r\n") != line.npos)
+        lines.push_back(line.substr(line.find_first_not_of(' ')));
+      end = begin > 0 ? begin - 1 : 0;
+    }
+    std::string text;
+    for (auto line = lines.rbegin(); line != lines.rend(); ++line)
+      text += (text.empty() ? ": " : " | ") + *line;
+    if (text.size() > kept_bytes) text = ": ..." + text.substr(text.size() - kept_bytes);
+    return text;
+  }
+
+  // Its output has ended: mostly it has too.
   std::string how_it_ended() {
     int status = 0;
     for (int tries = 0; tries < 100 && waitpid(pid_, &status, WNOHANG) == 0; ++tries) usleep(10000);
-    if (kill(pid_, 0) == 0) return "the command closed its output without an answer";
+    if (kill(pid_, 0) == 0) return "the command closed its output without an answer" + last_lines();
     pid_ = -1;
+    return end_of(status) + last_lines();
+  }
+
+  // 127 and 126 are the shell's own.
+  static std::string end_of(int status) {
     if (WIFEXITED(status) && WEXITSTATUS(status) == 127) return "there is no such command";
     if (WIFEXITED(status) && WEXITSTATUS(status) == 126) return "the command is no program that may be run";
     if (WIFEXITED(status))
@@ -104,8 +162,8 @@ class Child {
   }
 
   pid_t pid_ = -1;
-  int to_ = -1, from_ = -1;
-  std::string buffer_;
+  int to_ = -1, from_ = -1, errors_ = -1;
+  std::string buffer_, said_;
 };
 
 Json parsed(const std::string& line) {

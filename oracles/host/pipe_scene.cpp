@@ -3,6 +3,7 @@
 #include <array>
 #include <cmath>
 #include <stdexcept>
+#include <string>
 #include <vector>
 
 namespace touchstone::host {
@@ -85,6 +86,60 @@ void read_into(const Json& j, double (&out)[N]) {
   for (std::size_t k = 0; k < j.size(); ++k) out[k] = j.at(k).get<double>();
 }
 
+/// A shape in the form of the scene's JSON, as the ABI has it; keeps what that points to.
+struct HeldShape {
+  ts_shape shape{};
+  std::vector<double> vertices;
+  std::vector<std::int32_t> triangles;
+
+  explicit HeldShape(const Json& j) {
+    const std::string type = j.at("type");
+    double* const size = shape.size;
+    const auto round_one = [&](std::int32_t kind) {
+      shape.kind = kind;
+      size[0] = j.at("radius"), size[1] = j.at("half_height");
+    };
+    const auto three = [&](std::int32_t kind, const char* field) {
+      shape.kind = kind;
+      for (std::size_t k = 0; k < 3; ++k) size[k] = j.at(field).at(k);
+    };
+    if (type == "sphere") {
+      shape.kind = TS_SPHERE, size[0] = j.at("radius");
+    } else if (type == "box") {
+      three(TS_BOX, "half_extents");
+    } else if (type == "capsule") {
+      round_one(TS_CAPSULE);
+    } else if (type == "cylinder") {
+      round_one(TS_CYLINDER);
+    } else if (type == "cone") {
+      round_one(TS_CONE);
+    } else if (type == "ellipsoid") {
+      three(TS_ELLIPSOID, "semi_axes");
+    } else if (type == "half_space") {
+      three(TS_HALF_SPACE, "normal");
+      size[3] = j.at("offset");
+    } else if (type == "hull" || type == "mesh") {
+      shape.kind = type == "hull" ? TS_HULL : TS_MESH;
+      read_lists(j);
+    } else {
+      throw std::runtime_error("the command's receipt names a type of shape that there is not: " +
+                               type.substr(0, 40));
+    }
+  }
+  HeldShape(const HeldShape&) = delete;
+  HeldShape& operator=(const HeldShape&) = delete;
+
+ private:
+  void read_lists(const Json& j) {
+    for (const Json& v : j.at("vertices"))
+      for (std::size_t k = 0; k < 3; ++k) vertices.push_back(v.at(k).get<double>());
+    for (const Json& t : j.value("triangles", Json::array()))
+      for (std::size_t k = 0; k < 3; ++k) triangles.push_back(t.at(k).get<std::int32_t>());
+    shape.vertices = vertices.data(), shape.vertex_count = vertices.size() / 3;
+    shape.triangles = triangles.data(), shape.triangle_count = triangles.size() / 3;
+  }
+};
+
 }  // namespace
 
 Json scene_of(const ts_scene& s) {
@@ -102,6 +157,11 @@ Json scene_of(const ts_scene& s) {
 
 void read_receipt(const Json& j, const ts_scene& scene, const ts_received& received) {
   for (const Json& s : j.value("shapes", Json::array())) {
+    if (s.contains("as")) {
+      const HeldShape held(s["as"]);
+      received.other_shape(received.ctx, number_of(s, "shape", scene.shape_count), &held.shape);
+      continue;
+    }
     double size[4] = {};
     std::vector<double> vertices;
     read_into(s.at("size"), size);

@@ -22,6 +22,8 @@ const ts_plugin& load_plugin(const std::string& file) {
   using Entry = const ts_plugin* (*)();
   const auto entry = reinterpret_cast<Entry>(dlsym(library, "touchstone_plugin_v1"));
   if (!entry) throw std::runtime_error("exports no touchstone_plugin_v1: it is no Touchstone plug-in");
+  using TellMinor = void (*)(std::uint32_t);
+  if (const auto tell = reinterpret_cast<TellMinor>(dlsym(library, "touchstone_host_v1"))) tell(TS_ABI_MINOR);
   const ts_plugin* const plugin = entry();
   if (!plugin) throw std::runtime_error("touchstone_plugin_v1 returned nothing");
   if (plugin->abi_version != TS_ABI_VERSION)

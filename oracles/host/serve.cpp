@@ -13,6 +13,7 @@
 #include "oracles/api/measure.h"
 #include "oracles/api/plugin_scene.h"
 #include "oracles/api/protocol.h"
+#include "oracles/host/memory_fill.h"
 
 namespace touchstone::host {
 namespace {
@@ -37,6 +38,8 @@ class Server {
       : plugin_(plugin), engine_(engine), answers_fd_(answers_fd) {}
 
   void answer(const protocol::QuestionMessage& m) {
+    fill_ = m.fill;
+    fill_new_memory(fill_);
     const PluginScene scene(m.scene);
     LoadResult loaded = load(m.scene, scene.view());
     send(protocol::ReceivedMessage{m.sequence, std::move(loaded.received)});
@@ -53,6 +56,7 @@ class Server {
     char detail[256] = {};
     LoadResult result;
     try {
+      fill_free_stack(fill_);
       const std::int32_t outcome = plugin_.load(engine_, &view, &callbacks, detail);
       const std::string why(detail, strnlen(detail, sizeof detail));
       if (outcome < TS_ANSWERED || outcome > TS_THREW)
@@ -87,8 +91,9 @@ class Server {
                                      [](const Step& s) { return s.op == Step::Op::query; });
     AnswerCollector answer(bodies, static_cast<int>(steps));
     const ts_sink sink = answer.callbacks();
-    const auto start = Clock::now();
     Observation o;
+    fill_free_stack(fill_);
+    const auto start = Clock::now();
     try {
       plugin_.ask(engine_, static_cast<std::int32_t>(q.question), q.a, q.b, &answer.answer(), &sink);
       const auto stop = Clock::now();
@@ -134,6 +139,7 @@ class Server {
   const ts_plugin& plugin_;
   ts_engine* engine_;
   int answers_fd_;
+  std::uint8_t fill_ = 0;
   std::string out_;
   const std::int64_t measure_ns_ = measure_ns();
 };

@@ -2,6 +2,8 @@
 #include <atomic>
 #include <chrono>
 #include <filesystem>
+#include <set>
+#include <string>
 #include <thread>
 
 #include "core/base/input_error.h"
@@ -78,7 +80,64 @@ class Counts final : public Engine {
   int ms_;
 };
 
+// Says of distances what memory held, and crashes at one of two places when asked for a contact.
+class Unwritten final : public Engine {
+ public:
+  const EngineCard& card() const override { return core_.card(); }
+  std::vector<CaseObservations> run(std::span<const Case> cases) override { return asked(cases, 7); }
+  std::vector<CaseObservations> run_again(std::span<const Case> cases) override { return asked(cases, 70); }
+
+ private:
+  std::vector<CaseObservations> asked(std::span<const Case> cases, double garbage) {
+    auto all = core_.run(cases);
+    for (std::size_t i = 0; i < cases.size(); ++i)
+      for (std::size_t k = 0; k < cases[i].queries.size(); ++k) {
+        Observation& o = all[i].answers[k];
+        if (cases[i].queries[k].question == Question::distance && o.distance)
+          o.distance = garbage + drawn_++ % 2;
+        if (cases[i].queries[k].question != Question::contact) continue;
+        o = Observation{};
+        o.outcome = Outcome::crashed;
+        o.site = kind_of(cases[i].scene.shapes[0]) == ShapeKind::box ? "a-inl.h:1" : "b-inl.h:2";
+        o.detail = "SIGABRT at " + std::to_string(drawn_++);
+      }
+    return all;
+  }
+  CoreEngine core_;
+  int drawn_ = 0;  // what memory holds changes from run to run
+};
+
 }  // namespace
+
+TEST_CASE("answers made of unwritten memory are findings without the answer, crashes are named by their site",
+          "[campaign]") {
+  fuzz::CampaignResult results[2];
+  for (fuzz::CampaignResult& r : results) {
+    static std::vector<EnginePtr> engines = [] {
+      std::vector<EnginePtr> one;
+      one.push_back(std::make_unique<Unwritten>());
+      return one;
+    }();
+    for (std::uint64_t i = 0; i < 120; ++i) {
+      const Case c = fuzz::make_case(3, i, "shallow");
+      fuzz::ask_and_judge(r, {&c, 1}, i, engines);
+    }
+  }
+  std::set<std::string> crashes;
+  int unstable = 0;
+  for (const auto& [key, f] : results[0].findings) {
+    if (f.fault.starts_with("crashed")) crashes.insert(key);
+    if (f.question != "distance") continue;
+    CHECK(f.fault == "unstable");
+    CHECK(f.words == "asked again, it answers differently: distance");
+    CHECK_FALSE(f.evidence->observation.distance);
+    ++unstable;
+  }
+  CHECK(crashes == std::set<std::string>{"core.contact.crashed_a-inl-h-1.any.algorithm.any.none",
+                                         "core.contact.crashed_b-inl-h-2.any.algorithm.any.none"});
+  CHECK(unstable > 3);
+  CHECK(fuzz::digest(results[0]) == fuzz::digest(results[1]));
+}
 
 TEST_CASE("one job and two jobs find the same, byte for byte", "[campaign]") {
   auto one = config_of(400), two = config_of(400);

@@ -1,6 +1,7 @@
 // Answers made by hand against truths that can be done in the head.
 #include <cmath>
 
+#include "core/base/rng.h"
 #include "fuzz/judge/judge.h"
 #include "tests/support/catch.h"
 
@@ -99,6 +100,71 @@ TEST_CASE("an error that is right for the scene received is blamed on representa
   received.bodies[1] = Placement{Mat3::Identity(), Vec3(1.99, 0, 0)};
   CHECK(judge_one(c, o, double_card(), received).blame == fuzz::Blame::representation);
   CHECK(judge_one(c, o).blame == fuzz::Blame::algorithm);
+}
+
+TEST_CASE("an engine that holds another hull is judged for that one too", "[judge]") {
+  // A flat triangle, cooked to a prism of 0.01 about it, and a ball 0.005 above it.
+  const std::vector<Vec3> corners{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+  std::vector<Vec3> cooked;
+  for (const Vec3& v : corners)
+    for (const double z : {-0.01, 0.01}) cooked.emplace_back(v.x(), v.y(), z);
+  Case c = spheres(0, Question::overlap);
+  c.scene.shapes.push_back(make_hull(corners));
+  c.scene.bodies[0].shape = 1;
+  c.scene.bodies[1].pose.translation = Vec3(0.2, 0.2, 1.005);
+  Observation o = answered();
+  o.overlap = true;
+  ReceivedScene received;
+  received.shapes.resize(2);
+  received.shapes[1] = make_hull(cooked);
+  const auto told = judge_one(c, o, double_card(), received);
+  CHECK(has(told, Fault::ghost));
+  CHECK(told.blame == fuzz::Blame::representation);
+  CHECK(told.holds_other_shape);
+  // Of another kind: the same; and what is wrong for what is held is the algorithm's.
+  received.shapes[1] = Box{Vec3(1, 1, 0.01)};
+  CHECK(judge_one(c, o, double_card(), received).holds_other_shape);
+  received.shapes[1] = Box{Vec3(1, 1, 0.001)};
+  const auto wrong = judge_one(c, o, double_card(), received);
+  CHECK(wrong.blame == fuzz::Blame::algorithm);
+  CHECK_FALSE(wrong.holds_other_shape);
+}
+
+TEST_CASE("the bound of how far a received hull is from the one asked holds", "[judge]") {
+  Rng rng(3);
+  int other_counts = 0;
+  const auto points = [&](std::uint64_t n) {
+    std::vector<Vec3> p;
+    for (std::uint64_t i = 0; i < n; ++i)
+      p.emplace_back(rng.uniform(-1, 1), rng.uniform(-1, 1), rng.uniform(-1, 1));
+    return p;
+  };
+  const auto reach = [](const Shape& s, const Vec3& n) {
+    double most = -HUGE_VAL;
+    for (const Vec3& v : std::get<Hull>(s).vertices) most = std::max(most, n.dot(v));
+    return most;
+  };
+  for (int i = 0; i < 300; ++i) {
+    Case c = spheres(5, Question::overlap);
+    c.scene.shapes[0] = make_hull(points(4 + rng.below(5)));
+    ReceivedScene received;
+    received.shapes = {make_hull(points(4 + rng.below(5)))};
+    other_counts += fuzz::is_other_shape(c.scene.shapes[0], *received.shapes[0]);
+    fuzz::Truth truth(c.scene);
+    const double bound = truth.displacement(truth.frame_of(received));
+    for (const Vec3& n : points(50)) {
+      const Vec3 u = n.normalized();
+      REQUIRE(std::abs(reach(c.scene.shapes[0], u) - reach(*received.shapes[0], u)) <= bound);
+    }
+  }
+  CHECK(other_counts > 100);
+  // No bound between two kinds, nor of what is not finite.
+  Case c = spheres(5, Question::overlap);
+  fuzz::Truth truth(c.scene);
+  ReceivedScene box, nan;
+  box.shapes = {Box{Vec3(1, 1, 1)}}, nan.shapes = {Sphere{std::nan("")}};
+  CHECK(std::isinf(truth.displacement(truth.frame_of(box))));
+  CHECK(std::isinf(truth.displacement(truth.frame_of(nan))));
 }
 
 TEST_CASE("time of impact is judged by gaps", "[judge][toi]") {

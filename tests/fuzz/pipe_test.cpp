@@ -63,6 +63,56 @@ TEST_CASE("a receipt tells what was lost on the way in from what the algorithm d
   CHECK(without.out.find("lost in its rounding") == std::string::npos);
 }
 
+TEST_CASE("an engine that holds another shape is not blamed for its algorithm", "[pipe]") {
+  if (!python_is_there()) return;
+  const Workspace w("pipe");
+  const std::string card = "card['receipts'] = True";
+  // It cooks every sphere to one of radius 1.3, and is right about those.
+  const std::string cooked = R"(    reach = 2.6 ** 2
+    say({"received": {"shapes": [{"shape": 0, "as": %}]}}))";
+  const auto receipt = [&](const std::string& shape) {
+    return cooked.substr(0, cooked.find('%')) + shape + cooked.substr(cooked.find('%') + 1);
+  };
+  std::string engine = on_whole_numbers(card, receipt(R"({"type": "sphere", "radius": 1.3})"));
+  engine.replace(engine.find("float(round(x))"), 15, "x");
+  engine.replace(engine.find("<= 4"), 4, "<= reach");
+  w.write("whole.py", engine), w.write("two.json", two_spheres);
+  const Run told = w.touchstone("replay two.json --engines 'pipe:python3 whole.py' --subject whole");
+  INFO(told.out << told.err);
+  CHECK(told.code == 1);
+  CHECK(told.out.find("ghost") != std::string::npos);
+  CHECK(told.out.find("holds another shape") != std::string::npos);
+  // A shape of another kind, and none that there is.
+  const std::string box = R"({"type": "box", "half_extents": [1.3, 1.3, 1.3]})";
+  engine.replace(engine.find(R"({"type": "sphere", "radius": 1.3})"), 33, box);
+  w.write("whole.py", engine);
+  const Run boxes = w.touchstone("replay two.json --engines 'pipe:python3 whole.py' --subject whole");
+  INFO(boxes.out << boxes.err);
+  CHECK(boxes.out.find("holds another shape") != std::string::npos);
+  engine.replace(engine.find(box), box.size(), R"({"type": "blob"})");
+  w.write("whole.py", engine);
+  const Run blob = w.touchstone("replay two.json --engines 'pipe:python3 whole.py' --subject whole");
+  INFO(blob.out << blob.err);
+  CHECK(blob.out.find("a type of shape that there is not: blob") != std::string::npos);
+}
+
+TEST_CASE("what a command writes to standard error is shown when it dies", "[pipe]") {
+  if (!python_is_there()) return;
+  const Workspace w("pipe");
+  w.write("two.json", two_spheres);
+  w.write("broken.py", "import sys\ndef f(:\n");
+  const Run at_start = w.touchstone("replay two.json --engines 'pipe:python3 broken.py'");
+  CHECK(at_start.code == 2);
+  CHECK(at_start.err.find("exit code 1: ") != std::string::npos);
+  CHECK(at_start.err.find("SyntaxError: invalid syntax") != std::string::npos);
+  // More than a pipe holds, while the harness waits for an answer.
+  const std::string chatty =
+      "    [print('x' * 1000, file=sys.stderr) for _ in range(300)]; sys.exit('no licence')";
+  const Run later = replay(w, "", chatty);
+  INFO(later.out << later.err);
+  CHECK(later.out.find("no licence") != std::string::npos);
+}
+
 TEST_CASE("a receipt may refuse the scene; one of another form is a crash with its reason", "[pipe]") {
   if (!python_is_there()) return;
   const Workspace w("pipe");

@@ -8,7 +8,10 @@ namespace {
 
 class LyingEngine final : public Engine {
  public:
-  explicit LyingEngine(const Mutant& m) : lie_(m.lie), card_(core_.card()) { card_.name = m.name; }
+  explicit LyingEngine(const Mutant& m)
+      : lie_(m.lie), card_(core_.card()), reads_unwritten_(m.reads_unwritten) {
+    card_.name = m.name;
+  }
   const EngineCard& card() const override { return card_; }
   std::vector<CaseObservations> run(std::span<const Case> cases) override {
     auto result = core_.run(cases);
@@ -17,11 +20,15 @@ class LyingEngine final : public Engine {
         lie_(cases[i], cases[i].queries[k], result[i].answers[k]);
     return result;
   }
+  std::vector<CaseObservations> run_again(std::span<const Case> cases) override {
+    return reads_unwritten_ ? core_.run(cases) : std::vector<CaseObservations>{};
+  }
 
  private:
   CoreEngine core_;
   Lie lie_;
   EngineCard card_;
+  bool reads_unwritten_;
 };
 
 }  // namespace

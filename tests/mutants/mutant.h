@@ -17,7 +17,8 @@ struct Mutant {
   std::string_view family;  // a family of cases where it shows
   std::string_view line;    // what is wrong with it, for people
   Lie lie;
-  bool repeats = true;  // false: what it says depends on what it was asked before
+  bool repeats = true;           // false: what it says depends on what it was asked before
+  bool reads_unwritten = false;  // its lie is what memory held that it never wrote
 };
 
 }  // namespace touchstone::mutants

@@ -91,6 +91,9 @@ Lie contact_left_over() {
       o = last;
   };
 }
+void unwritten_witness(const Case&, const Query& q, Observation& o) {
+  if (asks(q, Question::distance) && o.witness) o.witness = {Vec3::Zero(), Vec3::Zero()};
+}
 // Warms up: the first hundred questions are answered rightly.
 Lie worn_out() {
   return [n = 0](const Case&, const Query& q, Observation& o) mutable {
@@ -126,6 +129,8 @@ std::vector<Mutant> outcome_lies() {
       {"contact_left_over", "ghost", "near", "no contact: the contact before", contact_left_over(), false},
       {"worn_out", "distance_off", "separate", "right for a hundred distances, then ever farther off",
        worn_out(), false},
+      {"unwritten_witness", "unstable", "separate", "witness points that were never set", unwritten_witness,
+       true, true},
   };
 }
 

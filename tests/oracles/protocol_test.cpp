@@ -152,7 +152,7 @@ TEST_CASE("questions keep every number, face and step of their scene", "[oracles
     const Scene scene = any_scene(rng);
     const auto queries = any_queries(rng);
     std::string bytes;
-    append(bytes, QuestionRef{77, 3, scene, queries});
+    append(bytes, QuestionRef{77, 3, scene, queries, 0x41});
     const QuestionMessage m = decode_question(payload_of(bytes, Type::question));
     Scene explicit_scene = scene;
     explicit_scene.script = effective_script(scene);

@@ -21,6 +21,7 @@ inline std::filesystem::path plugin_path(const std::string& target) {
 inline WorkerLimits short_limits(bool sleeper = false) {
   WorkerLimits l;
   l.query_cpu_seconds = 0.3;
+  l.patience = 1;
   l.load_cpu_seconds = 0.3;
   l.wall_seconds = sleeper ? 2 : 600;
   l.blocked_seconds = sleeper ? 0.5 : 600;

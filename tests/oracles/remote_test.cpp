@@ -1,6 +1,8 @@
 // Every way in which an engine can misbehave while it answers: the running query is charged, and nothing else
 // is lost.
+#include <cmath>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "tests/oracles/remote_fixture.h"
@@ -124,6 +126,69 @@ TEST_CASE("trouble while loading a scene is charged to that scene alone", "[orac
     }
     CHECK(engine.restarts() == e.restarts);
   }
+}
+
+TEST_CASE("a crash is named by where it happened, the same every time", "[oracles][remote]") {
+  const std::pair<const char*, const char*> expected[] = {
+      {"writes_nowhere", "libts_bad_behaviours:bad_writes_nowhere"},
+      {"calls_nothing", "libts_bad_behaviours:bad_calls_nothing"},
+      {"asserts", "behaviours.cpp:"}};
+  for (const auto& [name, site] : expected) {
+    INFO("engine " << name);
+    std::vector<std::string> sites, details;
+    for (int run = 0; run < 2; ++run) {
+      RemoteEngine engine(bad_spec(name));
+      const Case c = make_case(0, true);
+      const Observation o = engine.run({&c, 1})[0].answers[1];
+      INFO(o.detail);
+      CHECK(o.outcome == Outcome::crashed);
+      CHECK(o.site.starts_with(site));
+      sites.push_back(o.site), details.push_back(o.detail);
+    }
+    CHECK(sites[0] == sites[1]);
+    CHECK(details[0] == details[1]);  // no addresses
+  }
+}
+
+TEST_CASE("memory that an engine never wrote is always the same, and other when asked again",
+          "[oracles][remote]") {
+  for (const char* name : {"reads_the_stack", "reads_the_heap"}) {
+    INFO("engine " << name);
+    RemoteEngine engine(bad_spec(name));
+    const std::vector<Case> cases = make_cases(3, 1);
+    const double first = *engine.run(cases)[1].answers[1].distance;
+    const auto again = engine.run_again(cases);
+    CHECK(first == 0);
+    CHECK(*again[1].answers[1].distance > 1e6);
+    CHECK(good_answers(cases, again) == 8);
+    CHECK(*engine.run(cases)[1].answers[1].distance == 0);
+  }
+}
+
+TEST_CASE("an answer that takes longer than its time is an answer, and slow", "[oracles][remote]") {
+  const Case c = make_case(0, true);
+  RemoteSpec spec = bad_spec("ponders");
+  CHECK(RemoteEngine(spec).run({&c, 1})[0].answers[1].outcome == Outcome::timed_out);
+  spec.limits.patience = 100;
+  const auto answers = RemoteEngine(spec).run({&c, 1})[0].answers;
+  CHECK(answers[1].outcome == Outcome::answered);
+  CHECK(answers[1].slow);
+  CHECK_FALSE(answers[0].slow);
+  Observation quick = answers[1];
+  quick.slow = false;
+  CHECK(quick == answers[1]);
+}
+
+TEST_CASE("an engine may say that it holds another shape", "[oracles][remote]") {
+  RemoteEngine engine(bad_spec("holds_others"));
+  const auto cases = make_cases(2, 1);
+  const auto results = engine.run(cases);
+  CHECK_FALSE(results[0].received.shapes[0]);
+  REQUIRE(results[1].received.shapes[0]);
+  const Hull& held = std::get<Hull>(*results[1].received.shapes[0]);
+  CHECK(held.vertices.size() == 4);
+  CHECK(held.dimension == 3);
+  CHECK(good_answers(cases, results) == 6);
 }
 
 TEST_CASE("every case of a batch may kill its worker", "[oracles][remote]") {

@@ -1,15 +1,18 @@
 // Engines that answer well, except to the pair (0, 2) of a scene whose body 0 lies at x = 666.
+#undef NDEBUG  // one of them dies of an assertion
 #include <fcntl.h>
 #include <signal.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
 #include <array>
+#include <cassert>
 #include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
+#include <ctime>
 #include <limits>
 #include <stdexcept>
 #include <string>
@@ -71,11 +74,48 @@ void close_everything() {
   std::this_thread::sleep_for(3600s);
 }
 
+// A double that was never written. Nothing is known about it, so that no compiler may choose its value.
+double unwritten_on_the_stack() {
+  volatile double numbers[64];
+  asm volatile("" : "=m"(numbers));
+  return numbers[32];
+}
+double unwritten_on_the_heap() {
+  double* numbers = static_cast<double*>(std::malloc(64 * sizeof(double)));
+  asm volatile("" : "+r"(numbers) : : "memory");
+  const double x = numbers[32];
+  std::free(numbers);
+  return x;
+}
+
+/// Half a second of CPU time, whatever the machine.
+void ponder() {
+  for (const std::clock_t start = std::clock(); std::clock() - start < CLOCKS_PER_SEC / 2;)
+    sink_value = sink_value + 1;
+}
+
 void answer_nan(ts_answer* out) {
   out->has = TS_HAS_OVERLAP | TS_HAS_DISTANCE | TS_HAS_NORMAL | TS_HAS_DEPTH;
   out->overlap = 1;
   out->distance = out->depth = std::numeric_limits<double>::quiet_NaN();
   out->normal[0] = std::numeric_limits<double>::infinity();
+}
+
+// Functions that a call stack can name.
+extern "C" {
+TS_EXPORT [[gnu::noinline]] void bad_writes_nowhere() {
+  *reinterpret_cast<volatile int*>(sink_value & 1) = 1;
+  sink_value = sink_value + 2;
+}
+TS_EXPORT [[gnu::noinline]] void bad_calls_nothing() {
+  void (*volatile nothing)() = nullptr;
+  nothing();
+  sink_value = sink_value + 2;
+}
+TS_EXPORT [[gnu::noinline]] void bad_asserts(const ts_answer* out) {
+  assert(out == nullptr && "an answer is not wanted");
+  sink_value = sink_value + 2;
+}
 }
 
 struct Behaviour {
@@ -117,7 +157,16 @@ const std::array behaviours{
               }},
     Behaviour{"long_detail",
               [](ts_answer* out, const ts_sink*) { std::memset(out->detail, 'd', sizeof out->detail); }},
+    Behaviour{"writes_nowhere", [](ts_answer*, const ts_sink*) { bad_writes_nowhere(); }},
+    Behaviour{"calls_nothing", [](ts_answer*, const ts_sink*) { bad_calls_nothing(); }},
+    Behaviour{"asserts", [](ts_answer* out, const ts_sink*) { bad_asserts(out); }},
+    Behaviour{"reads_the_stack",
+              [](ts_answer* out, const ts_sink*) { out->distance = unwritten_on_the_stack(); }},
+    Behaviour{"reads_the_heap",
+              [](ts_answer* out, const ts_sink*) { out->distance = unwritten_on_the_heap(); }},
+    Behaviour{"ponders", [](ts_answer*, const ts_sink*) { ponder(); }},
     // These act on other occasions.
+    Behaviour{"holds_others", [](ts_answer*, const ts_sink*) {}},
     Behaviour{"aborts_in_load", [](ts_answer*, const ts_sink*) {}},
     Behaviour{"loops_in_load", [](ts_answer*, const ts_sink*) {}},
     Behaviour{"refuses_load", [](ts_answer*, const ts_sink*) {}},
@@ -150,6 +199,14 @@ ts_engine* create(uint32_t i) { return reinterpret_cast<ts_engine*>(new Bad{i});
 void destroy(ts_engine* e) { delete &self(e); }
 void unload(ts_engine* e) { self(e).scene = nullptr; }
 
+/// A tetrahedron in place of the sphere.
+void hold_another(const ts_received& received) {
+  const double corners[] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1};
+  ts_shape held{};
+  held.kind = TS_HULL, held.vertices = corners, held.vertex_count = 4;
+  received.other_shape(received.ctx, 0, &held);
+}
+
 int32_t load(ts_engine* e, const ts_scene* scene, const ts_received* received, char* detail) {
   Bad& bad = self(e);
   bad.scene = scene;
@@ -159,6 +216,7 @@ int32_t load(ts_engine* e, const ts_scene* scene, const ts_received* received, c
   if (!bad.triggered()) return TS_ANSWERED;
   if (is(bad.kind, "aborts_in_load")) std::abort();
   if (is(bad.kind, "loops_in_load")) loop_for_ever();
+  if (is(bad.kind, "holds_others")) hold_another(*received);
   if (is(bad.kind, "reports_strangers")) received->body(received->ctx, 1000, identity, identity);
   if (!is(bad.kind, "refuses_load")) return TS_ANSWERED;
   std::strcpy(detail, "not this scene");
