@@ -106,12 +106,37 @@ std::string stated(const Query& q, const Observation& o) {
   return s;
 }
 
+// As in the table of a campaign; what is wrong is loud.
+std::string mark(const Judgement& j) {
+  switch (j.ruling()) {
+    case fuzz::Ruling::wrong:
+      return "WRONG";
+    case fuzz::Ruling::failed:
+      return "FAILED";
+    default:
+      return std::string(to_string(j.ruling()));
+  }
+}
+
+// What is to be known of a verdict that is not wrong.
+std::string small_print(const Judgement& j) {
+  std::string s;
+  if (j.wide_claim > 0)
+    s += wrapped(
+             fmt::format("      {} claimed tolerance of {:.3g} ({:.2g} L)",
+                         j.right() ? "right within its" : "judged with its", j.wide_claim, j.wide_claim_in_l),
+             79, 8) +
+         "\n";
+  for (const fuzz::Unjudged& u : j.unjudged)
+    s += wrapped(fmt::format("      not judged: {}{}", u.claim, u.by_definition ? " (of a surface)" : ""), 79,
+                 8) +
+         "\n";
+  return s;
+}
+
 std::string engine_lines(const std::string& engine, const Query& q, const Observation& o,
                          const Judgement& j) {
-  const std::string mark = j.faults.empty()                 ? (j.undecided ? "undecided" : "right")
-                           : o.outcome == Outcome::answered ? "WRONG"
-                                                            : "FAILED";
-  std::string s = wrapped(fmt::format("  {:<22} {:<7} {}", engine, mark, stated(q, o)), 79, 33) + "\n";
+  std::string s = wrapped(fmt::format("  {:<22} {:<7} {}", engine, mark(j), stated(q, o)), 79, 33) + "\n";
   if (o.outcome != Outcome::answered) return s;
   for (std::size_t i = 0; i < std::min<std::size_t>(j.faults.size(), 5); ++i)
     s += wrapped(fmt::format("      {}: {} ({} L)", to_string(j.faults[i].fault), j.faults[i].words,
@@ -119,6 +144,7 @@ std::string engine_lines(const std::string& engine, const Query& q, const Observ
                  79, 8) +
          "\n";
   if (j.faults.size() > 5) s += fmt::format("      and {} more\n", j.faults.size() - 5);
+  s += small_print(j);
   if (j.blame == Blame::representation)
     s += j.holds_other_shape ? "      right for the scene as the engine received it: it holds another shape\n"
                              : "      right for the scene as the engine received it: lost in its rounding\n";
@@ -228,6 +254,17 @@ fuzz::Json ReplayText::referee_json(const Query& q, bool certificates) const {
           {"filter_level", t.level}};
 }
 
+namespace {
+
+fuzz::Json unjudged_json(const Judgement& j) {
+  fuzz::Json all = fuzz::Json::array();
+  for (const fuzz::Unjudged& u : j.unjudged)
+    all.push_back({{"claim", u.claim}, {"by_definition", u.by_definition}});
+  return all;
+}
+
+}  // namespace
+
 fuzz::Json ReplayText::json(bool certificates) const {
   fuzz::Json j = {{"case", case_.id}, {"queries", fuzz::Json::array()}};
   for (std::size_t i = 0; i < case_.queries.size(); ++i) {
@@ -248,8 +285,11 @@ fuzz::Json ReplayText::json(bool certificates) const {
           {"answer", fuzz::to_json(r.observations.answers[i])},
           {"elapsed_ns", r.observations.answers[i].elapsed_ns},
           {"manifold_coverage", g.manifold_coverage ? fuzz::number(*g.manifold_coverage) : fuzz::Json()},
+          {"ruling", fuzz::to_string(g.ruling())},
           {"right", g.right()},
           {"undecided", g.undecided},
+          {"not_judged", unjudged_json(g)},
+          {"claimed_in_l", fuzz::number(g.wide_claim_in_l)},
           {"blame", fuzz::to_string(g.blame)},
           {"faults", std::move(faults)}};
     }

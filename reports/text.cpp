@@ -70,6 +70,23 @@ std::string row(Question q, const Tally& t) {
                      nanoseconds(t.time.quantile(0.99)));
 }
 
+// What the row's counts leave out, when there is any of it.
+std::string open_line(const Tally& t) {
+  std::vector<std::string> parts;
+  if (t.undecided > 0) parts.push_back(fmt::format("{} undecided", grouped(t.undecided)));
+  if (t.by_definition > 0)
+    parts.push_back(
+        fmt::format("{} not judged by definition (depth of a surface)", grouped(t.by_definition)));
+  if (const auto n = t.not_judged - t.by_definition; n > 0)
+    parts.push_back(fmt::format("{} not judged", grouped(n)));
+  if (t.within_wide_claim > 0)
+    parts.push_back(
+        fmt::format("{} right only within a claimed tolerance above 1e-2 L", grouped(t.within_wide_claim)));
+  std::string s;
+  for (const std::string& p : parts) s += (s.empty() ? "          " : ", ") + p;
+  return s.empty() ? s : wrapped(s, 79, 12) + "\n";
+}
+
 struct Group {
   std::uint64_t count = 0;
   std::size_t keys = 0;
@@ -92,7 +109,7 @@ std::string campaign_table(const CampaignResult& r) {
                               "right", "wrong", "missed", "ghost", "failed", "worst/L", "ns med", "ns p99");
   for (const auto& [engine, questions] : r.tallies) {
     s += engine + "\n";
-    for (const auto& [q, t] : questions) s += row(q, t);
+    for (const auto& [q, t] : questions) s += row(q, t) + open_line(t);
   }
   return s;
 }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "core/base/hash.h"
 #include "core/base/input_error.h"
@@ -138,18 +139,23 @@ std::vector<Step> effective_script(const Scene& s) {
 
 double scale_of_pair(const Scene& s, int a, int b) {
   double l = 0;
+  Vec3 apart_at_start = Vec3::Zero(), apart_at_end = Vec3::Zero();
   for (int i : {a, b}) {
     const Body& body = s.bodies[static_cast<std::size_t>(i)];
     const Shape& shape = s.shape_of(i);
-    l = std::max({l, extent(shape), body.pose.translation.cwiseAbs().maxCoeff()});
+    const Vec3& start = body.pose.translation;
+    const Vec3 end = body.motion ? Vec3(start + body.motion->linear) : start;
+    apart_at_start = start - apart_at_start, apart_at_end = end - apart_at_end;
+    // A shape's whole length: `extent` is half of it.
+    l = std::max({l, 2 * extent(shape), start.cwiseAbs().maxCoeff(), end.cwiseAbs().maxCoeff()});
     if (const auto* h = std::get_if<HalfSpace>(&shape))
       l = std::max(l, std::abs(h->offset) / h->normal.stableNorm());
     // Vertices far from their body's origin are coordinates too.
     if (kind_of(shape) == ShapeKind::hull || kind_of(shape) == ShapeKind::mesh)
       l = std::max(l, bounding_radius(shape));
-    if (body.motion) l = std::max(l, (body.pose.translation + body.motion->linear).cwiseAbs().maxCoeff());
   }
-  return l;
+  l = std::max(std::max(l, apart_at_start.stableNorm()), apart_at_end.stableNorm());
+  return std::min(l, std::numeric_limits<double>::max());  // lengths beyond the doubles
 }
 
 Scene extract_pair(const Scene& s, int a, int b) {

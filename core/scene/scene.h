@@ -59,8 +59,8 @@ bool is_filtered(const Scene& scene, int a, int b);
 /// The script itself, or, when it is empty, "insert all, query".
 std::vector<Step> effective_script(const Scene& scene);
 
-/// L of truth.md §3: the largest extent or coordinate among both bodies and their separation. Half-spaces count by the
-/// distance of their plane from the world origin. With motion: of the whole step.
+/// L of docs/truth.md §2: the largest of both shapes' whole lengths, of the coordinates of positions and vertices, and of
+/// the distance between the positions. A half-space's plane counts by its distance. With motion: of the whole step.
 double scale_of_pair(const Scene& scene, int a, int b);
 
 /// A two-body scene with bodies 0 and 1 = bodies a and b of `scene`, no script.

@@ -83,7 +83,11 @@ constexpr StageRow stages[] = {
      [](const Finding& f) {
        return f.question == "contact" && (f.fault == "infeasible" || f.fault == "depth_excess");
      }},
-    {"manifold", [](const Finding& f) { return f.question == "contact" && f.fault == "point_off"; }},
+    {"manifold",
+     [](const Finding& f) {
+       return f.question == "contact" &&
+              (f.fault == "point_off" || f.fault == "point_depth" || f.fault == "incomplete");
+     }},
     {"cast", [](const Finding& f) { return f.question == "time_of_impact"; }},
 };
 

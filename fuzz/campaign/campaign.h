@@ -33,6 +33,7 @@ struct CampaignConfig {
   std::uint64_t relations_every = default_relations_every;
   /// Half of the cases are changed forms of earlier ones that made an engine do something new (novelty.h).
   bool guided = false;
+  std::string error;  // the user's own tolerance (--error); empty: what the engines claim
 };
 
 /// Makes the engines of one job, in the order of CampaignConfig::engines.

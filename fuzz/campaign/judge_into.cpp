@@ -63,6 +63,15 @@ void give_hints(Truth& truth, const Case& c, const CaseObservations& o) {
   }
 }
 
+void count_open(CampaignResult& r, const Case& c, const std::string& engine, const Query& q,
+                const Judgement& j) {
+  if (j.outcome != Outcome::answered) return;
+  const Ruling ruling = j.ruling();
+  OpenCount& n = r.open[engine][q.question][is_pair_question(q.question) ? shapes_of(c, q.a, q.b) : "scenes"];
+  ++n.answers;
+  n.open += ruling == Ruling::undecided || (ruling == Ruling::not_judged && !j.unjudged_by_definition());
+}
+
 void count_hit(CampaignResult& r, const Case& c, Truth& truth) {
   if (c.queries.empty() || !is_pair_question(c.queries[0].question)) return;
   const Query& q = c.queries[0];
@@ -127,6 +136,7 @@ void judge_into(CampaignResult& r, const Case& c, std::uint64_t index, std::span
     for (std::size_t i = 0; i < c.queries.size(); ++i) {
       const Observation& o = all.answers[i];
       r.tallies[card.name][c.queries[i].question].add(judgements[i], o);
+      count_open(r, c, card.name, c.queries[i], judgements[i]);
       r.engine_ns += o.elapsed_ns;
       add_findings(r, c, index, card.name, c.queries[i], judgements[i], all, o, shared);
       if (features) add_features(c, c.queries[i], card, o, judgements[i], *features);

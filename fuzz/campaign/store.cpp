@@ -18,6 +18,7 @@ Json settings(const CampaignConfig& c) {
             {"shards", c.shards},       {"relations_every", c.relations_every},
             {"guided", c.guided}};
   j["cases"] = c.cases ? Json(*c.cases) : Json(nullptr);
+  if (!c.error.empty()) j["error"] = c.error;
   return j;
 }
 

@@ -12,6 +12,7 @@
 #include "fuzz/campaign/shard.h"
 #include "fuzz/cli/asked_engines.h"
 #include "fuzz/cli/command.h"
+#include "fuzz/cli/judged_by.h"
 #include "fuzz/cli/stop_signals.h"
 #include "fuzz/generate/family.h"
 #include "reports/text.h"
@@ -86,6 +87,7 @@ class ProgressPrinter {
 };
 
 void print_text(const fuzz::CampaignConfig& c, const fuzz::CampaignResult& r) {
+  for (const std::string& line : r.too_open(c.subject)) fmt::print("{}\n", reports::wrapped(line, 79, 2));
   fmt::print("{}\n", reports::campaign_table(r));
   if (!r.findings.empty())
     fmt::print("Findings by engine, the three most frequent kinds of each:\n{}\n",
@@ -119,7 +121,15 @@ int verdict(const fuzz::CampaignConfig& c, const fuzz::CampaignResult& r, bool j
     return say(exit_failed,
                fmt::format("{:.0f} % of the pairs overlap, outside 30-70 %: this run proves nothing",
                            100 * r.hit_rate()));
-  return say(exit_clean, fmt::format("0 wrong in {} answers", reports::grouped(answers)));
+  if (const auto open = r.too_open(c.subject); !open.empty())
+    return say(exit_failed, fmt::format("0 wrong, and too much left open to say so: {}", open.front()));
+  const auto exempt = r.by_definition_of(c.subject);
+  return say(exit_clean,
+             fmt::format("0 wrong in {} answers{}", reports::grouped(answers),
+                         exempt > 0
+                             ? fmt::format(" ({} state a depth of a surface, which has none: not judged)",
+                                           reports::grouped(exempt))
+                             : ""));
 }
 
 int run(FuzzOptions& o) {
@@ -127,18 +137,20 @@ int run(FuzzOptions& o) {
   const AskedEngines asked = asked_engines(o.choice, o.limits);
   o.config.engines = asked.names;
   o.config.subject = asked.subject;
+  if (!o.config.error.empty()) length_from_text(o.config.error);  // refuses what is no length at once
   if (o.cases > 0) o.config.cases = o.cases;
   if (o.minutes > 0) o.config.minutes = o.minutes;
   if (!o.config.cases && !o.config.minutes) o.config.minutes = 1;
   if (!o.config.family.empty()) fuzz::make_case(1, 0, o.config.family);  // refuses an unknown family at once
   o.config.out = o.out.empty() ? default_out() : o.out;
   o.limits.stop = &interrupted;
-  const auto make_all = [&] { return make_engines(o.config.engines, o.limits); };
+  const auto make_all = [&] { return judged_by(make_engines(o.config.engines, o.limits), o.config.error); };
   catch_stop_signals();
   const auto result = fuzz::run_campaign(o.config, make_all, ProgressPrinter(o.config), interrupted);
   if (o.json) {
     auto j = fuzz::to_json(result, true);
     j["digest"] = fuzz::digest(result), j["out"] = o.config.out.string();
+    j["too_open"] = result.too_open(o.config.subject);
     fmt::print("{}\n", j.dump(1));
   } else {
     print_text(o.config, result);
@@ -175,6 +187,7 @@ Run declare_fuzz(CLI::App& app) {
   app.add_flag(
       "--fresh", o->config.fresh,
       "a campaign that is in --out already is moved aside, to the first free name of OUT.1, OUT.2, …");
+  add_error(app, o->config.error);
   add_case_seconds(app, o->limits);
   app.add_flag("--json", o->json, "the whole result as one JSON document on stdout");
   return [o] { return run(*o); };

@@ -8,6 +8,7 @@
 #include "fuzz/cli/asked_engines.h"
 #include "fuzz/cli/case_argument.h"
 #include "fuzz/cli/command.h"
+#include "fuzz/cli/judged_by.h"
 #include "fuzz/explore/real_scene_cases.h"
 #include "fuzz/judge/judge.h"
 #include "reports/replay_text.h"
@@ -20,7 +21,7 @@ namespace {
 struct ReplayOptions {
   std::vector<std::string> paths;
   EngineChoice choice;
-  std::string frames;
+  std::string frames, error;
   bool json = false, certificates = false;
   WorkerLimits limits;
 };
@@ -193,7 +194,7 @@ void replay(const ReplayOptions& o, const Asked& asked, const std::string& path,
 
 int run(const ReplayOptions& o) {
   const AskedEngines chosen = asked_engines(o.choice, o.limits);
-  const Asked asked{make_engines(chosen.names, o.limits), chosen.subject};
+  const Asked asked{judged_by(make_engines(chosen.names, o.limits), o.error), chosen.subject};
   Count count;
   fuzz::Json json = fuzz::Json::array();
   for (const std::string& path : o.paths) replay(o, asked, path, count, json);
@@ -212,6 +213,7 @@ Run declare_replay(CLI::App& app) {
       ->required();
   add_engine_choice(app, o->choice);
   app.add_option("--frames", o->frames, "of recorded scenes: first:end:step (default: about five frames)");
+  add_error(app, o->error);
   add_case_seconds(app, o->limits);
   app.add_flag("--json", o->json, "one JSON document on stdout");
   app.add_flag(

@@ -17,6 +17,7 @@
 #include "fuzz/campaign/directory_lock.h"
 #include "fuzz/cli/asked_engines.h"
 #include "fuzz/cli/command.h"
+#include "fuzz/cli/judged_by.h"
 #include "fuzz/cli/output_file.h"
 #include "fuzz/judge/relation.h"
 #include "fuzz/reproduce/reproducer.h"
@@ -32,7 +33,7 @@ namespace {
 constexpr std::size_t all_tries = 4000, tries_of_slow = 8;
 
 struct TriageOptions {
-  std::string directory, ledger = "findings.db", engines, subject = "all", junit, date, reproducers;
+  std::string directory, ledger = "findings.db", engines, subject = "all", junit, date, reproducers, error;
   bool json = false, no_shrink = false;
   int jobs = 1;
   WorkerLimits limits;
@@ -69,10 +70,12 @@ Foreign foreign_engines(const TriageOptions& o) {
 // Engines as findings name them, made when first asked for. An engine that is not here is null.
 class Engines {
  public:
-  Engines(const WorkerLimits& limits, const Foreign& foreign) : limits_(limits), foreign_(foreign) {}
+  Engines(const WorkerLimits& limits, const Foreign& foreign, std::string error)
+      : limits_(limits), foreign_(foreign), error_(std::move(error)) {}
   const EnginePtr& named(const std::string& name) {
     const auto [it, added] = made_.try_emplace(name);
     if (added) it->second = made(name);
+    if (added && it->second) it->second = judged_by(std::move(it->second), error_);
     return it->second;
   }
 
@@ -87,6 +90,7 @@ class Engines {
 
   WorkerLimits limits_;
   const Foreign& foreign_;
+  std::string error_;
   std::map<std::string, EnginePtr> made_;
 };
 
@@ -265,6 +269,7 @@ void require_no_error_of_stdout() {
 
 int run(const TriageOptions& o) {
   if (!o.reproducers.empty()) make_directory("--reproducers", o.reproducers);
+  if (!o.error.empty()) length_from_text(o.error);  // refuses what is no length at once
   require_writable(o.junit);
   const Foreign foreign = foreign_engines(o);
   const fuzz::DirectoryLock lock(o.directory, fuzz::DirectoryLock::For::reading);
@@ -276,7 +281,7 @@ int run(const TriageOptions& o) {
   std::deque<Engines> of_job;
   std::vector<fuzz::TriageConfig> jobs;
   for (int i = 0; i < o.jobs; ++i) {
-    of_job.emplace_back(o.limits, foreign);
+    of_job.emplace_back(o.limits, foreign, o.error);
     jobs.push_back(config_of(o, date, of_job.back()));
   }
   const auto triaged = fuzz::triage(found, ledger, jobs);
@@ -313,6 +318,7 @@ Run declare_triage(CLI::App& app) {
       ->check(CLI::Range(1, 1024))
       ->capture_default_str();
   app.add_flag("--no-shrink", o->no_shrink, "store cases of new findings as they were found");
+  add_error(app, o->error);
   add_case_seconds(app, o->limits);
   app.add_flag("--json", o->json, "one JSON document on stdout");
   return [o] { return run(*o); };

@@ -26,6 +26,8 @@ void count(ChartRow& r, const Judgement& j) {
   r.no_number += has(j, {Fault::no_number, Fault::normal_not_unit});
   r.wrong += !j.faults.empty(), r.rounding += j.blame == Blame::representation;
   r.undecided += j.undecided;
+  r.not_judged += j.ruling() == Ruling::not_judged && !j.unjudged_by_definition();
+  r.wide_claim += j.wide_claim > 0;
   r.pairs_true += j.pairs_true, r.pairs_reported += j.pairs_reported;
 }
 
@@ -42,6 +44,10 @@ std::string why_unsound(const ChartRow& r) {
         why.empty() ? fmt::format("{} wrong", r.wrong) : fmt::format(", {} otherwise wrong", r.wrong - named);
   if (!why.empty()) return fmt::format("{} of {}", why, r.answers + r.failed);
   if (r.answers == 0) return "answers nothing";
+  if (r.not_judged > 0) return fmt::format("{} of {} not judged", r.not_judged, r.answers);
+  // Right within a tolerance that anybody could claim is no accuracy.
+  if (r.wide_claim > 0)
+    return fmt::format("claims a tolerance above 1e-2 L for {} of {}", r.wide_claim, r.answers);
   // Who leaves out the hard ones is not comparable.
   if (r.answers < r.asked) return fmt::format("answers {} of {}", r.answers, r.asked);
   return "";

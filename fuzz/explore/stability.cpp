@@ -44,6 +44,7 @@ void count(Rung& r, const Judgement& j) {
     return;
   }
   ++r.answers, r.wrong += !j.faults.empty();
+  r.open += j.ruling() == Ruling::undecided || j.ruling() == Ruling::not_judged;
   for (const FaultReport& f : j.faults) switch (f.fault) {
       case Fault::missed:
         ++r.missed;

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "fuzz/judge/judgement.h"
+#include "fuzz/judge/tau.h"
 #include "fuzz/judge/truth.h"
 #include "oracles/api/engine.h"
 
@@ -18,14 +19,17 @@ struct CheckInput {
   const Observation& answer;
   const EngineCard& card;
 
-  /// τ for a pair of scale l (truth.md §3).
-  double tau(double l) const { return card.tau_factor * card.unit_roundoff * l + answer.claimed_tolerance; }
+  /// τ for a pair of scale l.
+  double tau(double l) const { return tau_of(card, answer, l); }
+  bool is_surface(int body) const { return kind_of(truth.scene().shape_of(body)) == ShapeKind::mesh; }
 };
 
 struct CheckOutput {
   std::vector<FaultReport> faults;
   double worst_in_l = 0;
   bool undecided = false;
+  std::vector<Unjudged> unjudged;
+  double wide_claim = 0, wide_claim_in_l = 0;
   std::uint64_t pairs_true = 0, pairs_reported = 0, pairs_duplicate = 0;
   std::optional<double> manifold_coverage;
   /// Largest error − τ over everything measured: > 0 wrong by that much, < 0 right with that much to spare.
@@ -49,6 +53,11 @@ struct CheckOutput {
     excess = std::numeric_limits<double>::infinity();
     fault(f, absolute, 1, q, std::move(words));
   }
+  /// Each claim once.
+  void not_judged(std::string claim, bool by_definition);
+  /// The engine's own tolerance for a pair of scale l, where it is wide; as wide as the pair, it leaves
+  /// nothing to judge.
+  void note_claim(const CheckInput& in, double l);
   void frame_matters() { excess = std::numeric_limits<double>::quiet_NaN(); }
 };
 
@@ -62,9 +71,21 @@ void check_time_of_impact(const CheckInput& in, CheckOutput& out);
 void check_candidates(const CheckInput& in, CheckOutput& out);
 void check_scene_contacts(const CheckInput& in, CheckOutput& out);
 
-/// The part of `contact` that scene contacts share: normal, feasibility, regret, excess of one stated
-/// contact.
-void judge_normal_and_depth(const CheckInput& in, CheckOutput& out, int a, int b,
-                            const referee::PairTruth& truth, const Vec3& normal, double depth);
+/// The part of `contact` that scene contacts share: one stated contact of a pair that is not certainly apart
+/// by more than τ. What is not stated is empty.
+struct StatedContact {
+  int a = 0, b = 1;
+  std::optional<Vec3> normal;
+  std::optional<double> depth;
+};
+/// A normal that is none, a depth that is no number: wrong whatever the truth is. True when both can be
+/// measured.
+bool judge_as_numbers(const CheckInput& in, CheckOutput& out, const StatedContact& c);
+/// Feasibility, regret, excess.
+void judge_normal_and_depth(const CheckInput& in, CheckOutput& out, const StatedContact& c,
+                            const referee::PairTruth& truth);
+/// Of a pair that overlaps: the depth that is certain. A surface has none as a whole; that of its deepest
+/// triangle is a motion that the body must make to be apart.
+double certain_depth(const CheckInput& in, int a, int b, const referee::PairTruth& truth);
 
 }  // namespace touchstone::fuzz

@@ -1,5 +1,7 @@
 #include "fuzz/judge/judge.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include "core/scene/odd_numbers.h"
@@ -21,8 +23,17 @@ constexpr CheckRow checks[] = {
     {Question::candidates, check_candidates}, {Question::scene_contacts, check_scene_contacts},
 };
 
+// A tolerance that is no length is no tolerance.
+void check_claim(const CheckInput& in, CheckOutput& out) {
+  const double c = in.answer.claimed_tolerance;
+  if (!std::isfinite(c) || c < 0)
+    out.fault_always(Fault::no_number, 0, in.query, fmt::format("claims a tolerance of {}", c));
+  if (is_pair_question(in.query.question)) out.note_claim(in, in.truth.scale(in.query.a, in.query.b));
+}
+
 CheckOutput run_checks(const CheckInput& in) {
   CheckOutput out;
+  check_claim(in, out);
   for (const CheckRow& row : checks)
     if (row.question == in.query.question) row.check(in, out);
   std::stable_sort(out.faults.begin(), out.faults.end(),
@@ -76,6 +87,8 @@ Judgement judge_one(const CheckInput& asked, int received_frame) {
   }
   CheckOutput out = run_checks(asked);
   j.undecided = out.undecided;
+  j.unjudged = std::move(out.unjudged);
+  j.wide_claim = out.wide_claim, j.wide_claim_in_l = out.wide_claim_in_l;
   j.faults = std::move(out.faults);
   j.worst_in_l = out.worst_in_l;
   j.pairs_true = out.pairs_true, j.pairs_reported = out.pairs_reported,
@@ -87,6 +100,31 @@ Judgement judge_one(const CheckInput& asked, int received_frame) {
 }
 
 }  // namespace
+
+void CheckOutput::not_judged(std::string claim, bool by_definition) {
+  const auto same = [&](const Unjudged& u) { return u.claim == claim; };
+  if (std::none_of(unjudged.begin(), unjudged.end(), same))
+    unjudged.push_back({std::move(claim), by_definition});
+}
+
+void CheckOutput::note_claim(const CheckInput& in, double l) {
+  const double claim = in.card.source == claimed_by_user ? 0 : believed_claim(in.card, in.answer);
+  if (!(claim > fuzz::wide_claim * l) || claim / l <= wide_claim_in_l) return;
+  wide_claim = claim, wide_claim_in_l = claim / l;
+  if (claim >= l) not_judged("anything: the engine claims a tolerance as large as the bodies", false);
+}
+
+Ruling Judgement::ruling() const {
+  if (outcome == Outcome::unsupported) return Ruling::unsupported;
+  if (outcome != Outcome::answered) return faults.empty() ? Ruling::refused : Ruling::failed;
+  if (!faults.empty()) return Ruling::wrong;
+  if (undecided) return Ruling::undecided;
+  return unjudged.empty() ? Ruling::right : Ruling::not_judged;
+}
+
+bool Judgement::unjudged_by_definition() const {
+  return std::all_of(unjudged.begin(), unjudged.end(), [](const Unjudged& u) { return u.by_definition; });
+}
 
 std::vector<Judgement> judge(const Case& c, const EngineCard& card, const CaseObservations& observations,
                              Truth& truth) {

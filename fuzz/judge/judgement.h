@@ -26,6 +26,8 @@ enum class Fault : std::uint8_t {
   not_minimal,      // a valid direction, but not the least: regret
   depth_excess,     // the depth is larger than its own normal needs
   point_off,        // a manifold point is farther than the depth from a body
+  point_depth,      // a manifold point is deeper than the bodies can be there
+  incomplete,       // a manifold claimed to be complete leaves out part of the contact region
   late,             // time of impact after the bodies have penetrated
   early,            // time of impact while they are still apart
   stale,            // a pair that names a body which is not there
@@ -33,10 +35,10 @@ enum class Fault : std::uint8_t {
   no_number,        // an answered question without the number it asks for, or a non-finite one
   failed            // threw, crashed, timed out, did not converge
 };
-inline constexpr std::array<std::string_view, 15> fault_names{
-    "missed",     "ghost",       "distance_off", "witness_off", "normal_not_unit",
-    "infeasible", "not_minimal", "depth_excess", "point_off",   "late",
-    "early",      "stale",       "unstable",     "no_number",   "failed"};
+inline constexpr std::array<std::string_view, 17> fault_names{
+    "missed",      "ghost",        "distance_off", "witness_off", "normal_not_unit", "infeasible",
+    "not_minimal", "depth_excess", "point_off",    "point_depth", "incomplete",      "late",
+    "early",       "stale",        "unstable",     "no_number",   "failed"};
 constexpr std::string_view to_string(Fault f) { return fault_names[static_cast<std::size_t>(f)]; }
 
 struct FaultReport {
@@ -55,10 +57,27 @@ enum class Blame : std::uint8_t { none, algorithm, representation };
 inline constexpr std::array<std::string_view, 3> blame_names{"none", "algorithm", "representation"};
 constexpr std::string_view to_string(Blame b) { return blame_names[static_cast<std::size_t>(b)]; }
 
+/// A claim of an answer that was not checked.
+struct Unjudged {
+  std::string claim;
+  /// The definition of a right answer says nothing about it (the depth of a surface). Otherwise it could have
+  /// been checked, and was not.
+  bool by_definition = false;
+};
+
+/// The one word for an answer, by the first that applies: a claim is wrong; the referee could not decide one;
+/// one was not checked; all were checked, and none is wrong. `failed`: no answer. `refused`: no answer, which
+/// is right for bodies that are none.
+enum class Ruling : std::uint8_t { wrong, undecided, not_judged, right, failed, refused, unsupported };
+inline constexpr std::array<std::string_view, 7> ruling_names{"wrong",  "undecided", "not judged", "right",
+                                                              "failed", "refused",   "unsupported"};
+constexpr std::string_view to_string(Ruling r) { return ruling_names[static_cast<std::size_t>(r)]; }
+
 struct Judgement {
   Outcome outcome = Outcome::unsupported;
-  bool undecided = false;           // the referee could not decide: counted, never dropped
-  std::vector<FaultReport> faults;  // against the scene asked, worst first; empty: right (if answered)
+  bool undecided = false;                    // the referee could not decide: counted, never dropped
+  std::vector<Unjudged> unjudged;            // claims that nobody checked: neither right nor wrong
+  std::vector<FaultReport> faults;           // against the scene asked, worst first
   std::vector<FaultReport> received_faults;  // against the scene received
   Blame blame = Blame::none;
   bool holds_other_shape = false;  // blamed on a representation that is more than rounding
@@ -67,7 +86,13 @@ struct Judgement {
   /// Area (or length) that the manifold's points span over that of the true contact region; empty where the
   /// region is a point, or no manifold was stated for the true normal.
   std::optional<double> manifold_coverage;
-  bool right() const { return outcome == Outcome::answered && faults.empty(); }
+  /// The tolerance that the engine claims for this answer, where it is more than `wide_claim` of L: what is
+  /// right within it says little. Else 0.
+  double wide_claim = 0, wide_claim_in_l = 0;
+  Ruling ruling() const;
+  bool right() const { return ruling() == Ruling::right; }
+  /// Everything that was not checked is so by definition.
+  bool unjudged_by_definition() const;
 };
 
 }  // namespace touchstone::fuzz

@@ -155,10 +155,6 @@ bool is_within_numbers(const Scene& base, const Scene& derived) {
   return l <= far || l <= largest_length(base);
 }
 
-double tau_of(const EngineCard& card, const Observation& o, double l) {
-  return card.tau_factor * card.unit_roundoff * l + o.claimed_tolerance;
-}
-
 GapInterval implied_gap(const Scene& s, const Query& q, const Observation& o, const EngineCard& card) {
   if (o.outcome != Outcome::answered || !is_pair_question(q.question)) return {};
   const double tau = tau_of(card, o, scale_of_pair(s, q.a, q.b));

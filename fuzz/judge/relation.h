@@ -19,6 +19,7 @@
 #include <vector>
 
 #include "fuzz/judge/judgement.h"
+#include "fuzz/judge/tau.h"
 #include "oracles/api/engine.h"
 
 namespace touchstone::fuzz {
@@ -93,7 +94,6 @@ GapInterval implied_gap(const Scene& s, const Query& q, const Observation& o, co
 std::vector<Expected> implied_gaps(const RelationInput& in);
 /// Queries of the base about the pair, as queries about bodies 0 and 1.
 std::vector<Query> same_queries(const Case& c);
-double tau_of(const EngineCard& card, const Observation& o, double l);
 /// Upper bound of what rounding to nearest does to g where poses are computed anew: each body is moved by at
 /// most 16 roundings of its coordinates and extent.
 double pose_rounding(const Scene& pair);

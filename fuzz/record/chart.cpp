@@ -11,11 +11,12 @@
 namespace touchstone::fuzz {
 namespace {
 
-constexpr const char* columns[] = {
-    "engine",    "question",   "regime",         "pair",   "scale",     "bodies",    "asked",
-    "answers",   "failed",     "missed",         "ghost",  "no_number", "wrong",     "rounding",
-    "undecided", "ns_min",     "ns_median",      "ns_p99", "ns_spread", "error_p50", "error_p99",
-    "error_max", "pairs_true", "pairs_reported", "front",  "tie",       "unsound"};
+constexpr const char* columns[] = {"engine",    "question",  "regime",     "pair",           "scale",
+                                   "bodies",    "asked",     "answers",    "failed",         "missed",
+                                   "ghost",     "no_number", "wrong",      "rounding",       "undecided",
+                                   "ns_min",    "ns_median", "ns_p99",     "ns_spread",      "error_p50",
+                                   "error_p99", "error_max", "pairs_true", "pairs_reported", "front",
+                                   "tie",       "unsound",   "not_judged", "wide_claim"};
 
 // Four digits are more than a time repeats and an error is worth; the page of a full chart has 4e4 rows.
 Json rounded(double x) { return std::isfinite(x) ? number(std::stod(fmt::format("{:.4g}", x))) : number(x); }
@@ -63,7 +64,9 @@ Json cells(const ChartRow& r, Text&& text) {
           r.pairs_reported,
           r.front ? 1 : 0,  // a page of a full chart is to stay below 5 MB
           r.tie ? 1 : 0,
-          text(r.unsound)};
+          text(r.unsound),
+          r.not_judged,
+          r.wide_claim};
 }
 
 }  // namespace
@@ -112,6 +115,7 @@ class RowReader {
   }
   void operator()(const char* name, double& v) const { v = real(*cells_.at(name)); }
   void operator()(const char* name, std::uint64_t& v) const { v = cells_.at(name)->get<std::uint64_t>(); }
+  bool has(const char* name) const { return cells_.contains(name); }
   void operator()(const char* name, bool& v) const { v = *cells_.at(name) != 0; }
 
  private:
@@ -128,6 +132,10 @@ ChartRow row_from_json(const RowReader& read) {
   read("undecided", r.undecided), read("ns_min", r.ns_min), read("ns_median", r.ns_median);
   read("ns_p99", r.ns_p99), read("ns_spread", r.ns_spread), read("error_p50", r.error_p50);
   read("error_p99", r.error_p99), read("error_max", r.error_max), read("pairs_true", r.pairs_true);
+  if (read.has("not_judged")) {  // absent from charts of earlier versions
+    read("not_judged", r.not_judged);
+    read("wide_claim", r.wide_claim);
+  }
   read("pairs_reported", r.pairs_reported), read("front", r.front), read("tie", r.tie);
   return r;
 }

@@ -23,9 +23,10 @@ struct ChartRow {
   std::uint64_t bodies = 0;         // candidates: of the scene
   /// Of `asked` queries: `answers` answered, `failed` neither answered nor unsupported. Of the answers:
   /// `missed`, `ghost` verdicts, `no_number` (NaN, no unit normal, no number), `wrong` in any way, `rounding`
-  /// of them right for the scene as received; `undecided` by the referee.
+  /// of them right for the scene as received; `undecided` by the referee; `not_judged`: a claim was not
+  /// checked, and could have been; `wide_claim`: the engine claims a tolerance above 1e-2 L.
   std::uint64_t asked = 0, answers = 0, failed = 0, missed = 0, ghost = 0, no_number = 0, wrong = 0,
-                rounding = 0, undecided = 0;
+                rounding = 0, undecided = 0, not_judged = 0, wide_claim = 0;
   /// Of the least time of each query over the rounds; spread: of the rounds' medians, (largest − least) /
   /// least.
   double ns_min = 0, ns_median = 0, ns_p99 = 0, ns_spread = 0;

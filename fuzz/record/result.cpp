@@ -60,13 +60,16 @@ void Tally::add(const Judgement& j, const Observation& o) {
   if (j.outcome != Outcome::answered) return;
   time.add(o.elapsed_ns);
   slow += o.slow;
-  ++(j.faults.empty() ? right : wrong);
+  const Ruling ruling = j.ruling();
+  right += ruling == Ruling::right, wrong += ruling == Ruling::wrong;
+  undecided += ruling == Ruling::undecided, not_judged += ruling == Ruling::not_judged;
+  by_definition += ruling == Ruling::not_judged && j.unjudged_by_definition();
+  within_wide_claim += ruling == Ruling::right && j.wide_claim > 0;
   const auto has = [&](Fault f) {
     return std::any_of(j.faults.begin(), j.faults.end(), [&](const FaultReport& r) { return r.fault == f; });
   };
   missed += has(Fault::missed), ghost += has(Fault::ghost);
   representation += j.blame == Blame::representation;
-  undecided += j.undecided;
   pairs_true += j.pairs_true, pairs_reported += j.pairs_reported, pairs_duplicate += j.pairs_duplicate;
   worst_in_l = std::max(worst_in_l, j.worst_in_l);
   if (j.manifold_coverage)
@@ -76,9 +79,9 @@ void Tally::add(const Judgement& j, const Observation& o) {
 
 void Tally::merge(const Tally& o) {
   for (std::size_t i = 0; i < outcomes.size(); ++i) outcomes[i] += o.outcomes[i];
-  right += o.right, wrong += o.wrong, missed += o.missed, ghost += o.ghost,
-      representation += o.representation;
-  undecided += o.undecided;
+  right += o.right, wrong += o.wrong, undecided += o.undecided, not_judged += o.not_judged;
+  missed += o.missed, ghost += o.ghost, representation += o.representation;
+  by_definition += o.by_definition, within_wide_claim += o.within_wide_claim;
   pairs_true += o.pairs_true, pairs_reported += o.pairs_reported, pairs_duplicate += o.pairs_duplicate;
   manifolds += o.manifolds, coverage_permille += o.coverage_permille;
   worst_in_l = std::max(worst_in_l, o.worst_in_l);
@@ -108,6 +111,12 @@ void CampaignResult::merge(const CampaignResult& o) {
       RelationCount& sum = relations[engine][name];
       sum.asked += n.asked, sum.broken += n.broken;
     }
+  for (const auto& [engine, questions] : o.open)
+    for (const auto& [q, pairs] : questions)
+      for (const auto& [shapes, n] : pairs) {
+        OpenCount& sum = open[engine][q][shapes];
+        sum.answers += n.answers, sum.open += n.open;
+      }
   for (const auto& [f, n] : o.families) families[f] += n;
   cases += o.cases, pair_cases += o.pair_cases, overlapping += o.overlapping, undecided += o.undecided;
   for (std::size_t k = 0; k < levels.size(); ++k) levels[k] += o.levels[k];
@@ -138,6 +147,34 @@ std::uint64_t CampaignResult::answered_by(const std::string& engine) const {
   return n;
 }
 
+std::uint64_t CampaignResult::by_definition_of(const std::string& engine) const {
+  std::uint64_t n = 0;
+  if (const auto it = tallies.find(engine); it != tallies.end())
+    for (const auto& [q, t] : it->second) n += t.by_definition;
+  return n;
+}
+
+std::vector<std::string> CampaignResult::too_open(const std::string& engine) const {
+  std::vector<std::string> all;
+  const auto note = [&](Question q, const std::string& shapes, const OpenCount& n) {
+    const double share = n.answers > 0 ? static_cast<double>(n.open) / static_cast<double>(n.answers) : 0;
+    if (n.answers < least_answers || share <= most_open) return;
+    all.push_back(fmt::format(
+        "{}: {} of {} answers to {}{} undecided or not judged, more than {:.0f} %: "
+        "this run proves nothing of them",
+        engine, n.open, n.answers, to_string(q), shapes.empty() ? "" : " of " + shapes, 100 * most_open));
+  };
+  const auto of_engine = open.find(engine);
+  if (of_engine == open.end()) return all;
+  for (const auto& [q, pairs] : of_engine->second) {
+    OpenCount every;
+    for (const auto& [shapes, n] : pairs) every.answers += n.answers, every.open += n.open;
+    note(q, "", every);
+    for (const auto& [shapes, n] : pairs) note(q, shapes, n);
+  }
+  return all;
+}
+
 namespace {
 
 Json to_json(const Tally& t, bool with_times) {
@@ -146,6 +183,8 @@ Json to_json(const Tally& t, bool with_times) {
     j["outcomes"][std::string(outcome_names[i])] = t.outcomes[i];
   j["right"] = t.right, j["wrong"] = t.wrong, j["missed"] = t.missed, j["ghost"] = t.ghost;
   j["representation"] = t.representation, j["undecided"] = t.undecided;
+  j["not_judged"] = t.not_judged, j["by_definition"] = t.by_definition;
+  j["within_wide_claim"] = t.within_wide_claim;
   j["pairs_true"] = t.pairs_true, j["pairs_reported"] = t.pairs_reported,
   j["pairs_duplicate"] = t.pairs_duplicate;
   if (t.manifolds > 0) {
@@ -173,6 +212,9 @@ Tally tally_from_json(const Json& j) {
     t.outcomes[i] = j.at("outcomes").at(std::string(outcome_names[i]));
   t.right = j.at("right"), t.wrong = j.at("wrong"), t.missed = j.at("missed"), t.ghost = j.at("ghost");
   t.representation = j.at("representation"), t.undecided = j.at("undecided");
+  constexpr std::uint64_t none = 0;  // absent from results of earlier versions
+  t.not_judged = j.value("not_judged", none), t.by_definition = j.value("by_definition", none);
+  t.within_wide_claim = j.value("within_wide_claim", none);
   t.pairs_true = j.at("pairs_true"), t.pairs_reported = j.at("pairs_reported");
   t.pairs_duplicate = j.at("pairs_duplicate");
   t.manifolds = j.value("manifolds", std::uint64_t{0});
@@ -250,6 +292,11 @@ Json to_json(const CampaignResult& r, bool with_times) {
   for (const auto& [engine, questions] : r.tallies)
     for (const auto& [q, t] : questions)
       j["engines"][engine][std::string(to_string(q))] = to_json(t, with_times);
+  j["open"] = Json::object();
+  for (const auto& [engine, questions] : r.open)
+    for (const auto& [q, pairs] : questions)
+      for (const auto& [shapes, n] : pairs)
+        j["open"][engine][std::string(to_string(q))][shapes] = {n.answers, n.open};
   j["relations"] = Json::object();
   for (const auto& [engine, of_engine] : r.relations)
     for (const auto& [name, n] : of_engine)
@@ -287,6 +334,13 @@ CampaignResult result_from_json(const Json& j) try {
       if (!question) throw InputError("engines." + engine, "unknown question " + q);
       r.tallies[engine][*question] = tally_from_json(t);
     }
+  if (j.contains("open"))  // absent from results of earlier versions
+    for (const auto& [engine, questions] : j["open"].items())
+      for (const auto& [q, pairs] : questions.items()) {
+        const auto question = question_from_string(q);
+        if (!question) throw InputError("open." + engine, "unknown question " + q);
+        for (const auto& [shapes, n] : pairs.items()) r.open[engine][*question][shapes] = {n.at(0), n.at(1)};
+      }
   if (j.contains("relations"))  // absent from results of earlier versions
     for (const auto& [engine, of_engine] : j["relations"].items())
       for (const auto& [name, n] : of_engine.items())

@@ -35,10 +35,11 @@ class TimeHistogram {
 /// One engine, one question.
 struct Tally {
   std::array<std::uint64_t, outcome_names.size()> outcomes{};  // by Outcome
-  std::uint64_t right = 0, wrong = 0, missed = 0,
-                ghost = 0;           // of the answered; missed and ghost are within wrong
-  std::uint64_t representation = 0;  // of the wrong: right for the scene as received
-  std::uint64_t undecided = 0;
+  /// The answered are right, wrong, undecided or not judged (judge/judgement.h), each one of these. Of the
+  /// wrong: missed, ghost, and representation, right for the scene as received. Of the not judged: those that
+  /// are so by definition. Of the right: those with a claimed tolerance above `wide_claim` of L.
+  std::uint64_t right = 0, wrong = 0, undecided = 0, not_judged = 0;
+  std::uint64_t missed = 0, ghost = 0, representation = 0, by_definition = 0, within_wide_claim = 0;
   std::uint64_t pairs_true = 0, pairs_reported = 0, pairs_duplicate = 0;
   /// Manifolds whose true region is a face or an edge, and the sum of their coverages in thousandths (each at
   /// most 10): integers, so that they add in any order.
@@ -72,6 +73,16 @@ struct Finding {
 Finding finding_from_json(const Json& j);
 Json to_json(const Finding& f);  // without evidence
 
+/// Answers to one question about one kind of pair, and how many of them the judge left open: undecided, or
+/// not judged but by definition.
+struct OpenCount {
+  std::uint64_t answers = 0, open = 0;
+};
+/// A campaign proves nothing of a question about a kind of pair (or of all kinds) of which the share of open
+/// answers is above `most_open`, among at least `least_answers`.
+inline constexpr double most_open = 0.25;
+inline constexpr std::uint64_t least_answers = 12;
+
 struct CampaignResult {
   std::map<std::string, std::map<Question, Tally>> tallies;  // by engine
   std::map<std::string, Finding> findings;                   // by key
@@ -81,6 +92,8 @@ struct CampaignResult {
     std::uint64_t asked = 0, broken = 0;
   };
   std::map<std::string, std::map<std::string, RelationCount>> relations;
+  /// By engine, question and kinds of shapes.
+  std::map<std::string, std::map<Question, std::map<std::string, OpenCount>>> open;
   std::uint64_t cases = 0, pair_cases = 0,
                 overlapping = 0;  // pair cases with a decided verdict, and how many overlap
   std::uint64_t undecided = 0;
@@ -105,6 +118,10 @@ struct CampaignResult {
   std::uint64_t wrong_of(const std::string& engine) const;
   std::uint64_t failed_of(const std::string& engine) const;
   std::uint64_t answered_by(const std::string& engine) const;
+  /// Answers of one engine that are not judged by definition.
+  std::uint64_t by_definition_of(const std::string& engine) const;
+  /// One sentence a question and kind of pair of which the campaign proves nothing.
+  std::vector<std::string> too_open(const std::string& engine) const;
 };
 
 /// The whole result; `with_times` false gives the part that the same seed must reproduce byte for byte.

@@ -6,9 +6,9 @@ namespace touchstone::fuzz {
 namespace {
 
 constexpr const char* columns[] = {
-    "value", "asked",       "answers",      "failed",       "missed",     "ghost",
-    "wrong", "depth_error", "normal_error", "impact_error", "jitter",     "order",
-    "frame", "unit",        "order_broken", "frame_broken", "unit_broken"};
+    "value", "asked",       "answers",      "failed",       "missed",      "ghost",
+    "wrong", "depth_error", "normal_error", "impact_error", "jitter",      "order",
+    "frame", "unit",        "order_broken", "frame_broken", "unit_broken", "open"};
 
 Json cells(const Rung& r) {
   Json all{r.value,
@@ -23,6 +23,7 @@ Json cells(const Rung& r) {
            number(r.impact_error)};
   for (const double x : r.spread) all.push_back(number(x));
   for (std::size_t k = 1; k < form_count; ++k) all.push_back(r.broken[k]);
+  all.push_back(r.open);
   return all;
 }
 

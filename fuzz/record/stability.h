@@ -19,6 +19,7 @@ inline constexpr std::array<const char*, form_count> form_columns{"jitter", "ord
 struct Rung {
   double value = 0;
   std::uint64_t asked = 0, answers = 0, failed = 0, missed = 0, ghost = 0, wrong = 0;
+  std::uint64_t open = 0;  // undecided or not judged
   /// Largest errors in L of wrong answers: of depths and distances (off, infeasible, excess), of normals (not
   /// minimal, not unit), of times of impact (late, early).
   double depth_error = 0, normal_error = 0, impact_error = 0;

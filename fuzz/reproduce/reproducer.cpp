@@ -232,6 +232,11 @@ std::string pair_check(const Wanted& e) {
   const bool overlaps = t.verdict == referee::Verdict::overlap;
   const bool has_depth = overlaps && std::isfinite(t.gap.lo);
   const bool contact = e.q.question == Question::contact || e.q.question == Question::scene_contacts;
+  const std::string& fault = e.finding.fault;
+  const bool verdict_alone = fault == to_string(Fault::missed) || fault == to_string(Fault::ghost);
+  if (contact && (fault == to_string(Fault::point_depth) || (!has_depth && !verdict_alone)))
+    throw InputError("reproduce",
+                     "there is no program that checks this fault of this pair: " + e.finding.key());
   if (contact && has_depth) return contact_check(e);
   if (e.q.question == Question::distance && e.finding.fault == to_string(Fault::witness_off) &&
       e.finding.evidence->observation.witness && has_support(e.q.scene.shape_of(e.q.a)) &&
@@ -279,8 +284,7 @@ std::string reproducer(const Finding& finding, const EngineCard& card) {
     throw InputError("reproduce", "the finding names no pair of bodies: " + finding.key());
   const Asked q{v.c.scene, v.question, v.a, v.b, v.step, finding.engine};
   Truth truth(v.c.scene);
-  const double tau =
-      card.tau_factor * card.unit_roundoff * truth.scale(v.a, v.b) + v.observation.claimed_tolerance;
+  const double tau = tau_of(card, v.observation, truth.scale(v.a, v.b));
   const EngineSource source = source_of(q);
   const Wanted expected{truth, q, finding, tau};
   const std::string check = check_of(expected);

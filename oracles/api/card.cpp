@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <string_view>
 
+#include "core/base/exact_text.h"
 #include "core/base/input_error.h"
 #include "oracles/api/engine.h"
 
@@ -20,20 +21,26 @@ struct TextField {
 struct NumberField {
   const char* name;
   double EngineCard::*member;
+  double most;
 };
+constexpr const char* complete_field = "complete_manifolds";
 constexpr std::array text_fields{
     TextField{"name", &EngineCard::name}, TextField{"library", &EngineCard::library},
     TextField{"version", &EngineCard::version}, TextField{"settings", &EngineCard::settings},
     TextField{"source", &EngineCard::source}};
-constexpr std::array number_fields{NumberField{"unit_roundoff", &EngineCard::unit_roundoff},
-                                   NumberField{"tau_factor", &EngineCard::tau_factor}};
+// What an engine may say of itself is bounded: the coarsest arithmetic is bfloat16's, 2⁻⁸; an answer takes no
+// more than some thousands of roundings; and both together explain at most a hundredth of L. What is beyond
+// would be believed in every verdict.
+constexpr std::array number_fields{NumberField{"unit_roundoff", &EngineCard::unit_roundoff, 0x1p-8},
+                                   NumberField{"tau_factor", &EngineCard::tau_factor, 0x1p14}};
+constexpr double most_of_l = 1e-2;
 
 bool is_known(std::string_view key) {
   for (const auto& f : text_fields)
     if (key == f.name) return true;
   for (const auto& f : number_fields)
     if (key == f.name) return true;
-  return false;
+  return key == complete_field;
 }
 
 std::string text_of(const Json& j, const char* field) {
@@ -42,11 +49,16 @@ std::string text_of(const Json& j, const char* field) {
   return j[field].get<std::string>();
 }
 
-double positive_number_of(const Json& j, const char* field) {
+std::string too_large(double x, double most) {
+  return "is " + to_text(x) + "; at most " + to_text(most) + " is accepted";
+}
+
+double positive_number_of(const Json& j, const char* field, double most) {
   if (!j.contains(field)) throw InputError(field, "is missing from the engine card");
   if (!j[field].is_number()) throw InputError(field, "is not a number");
   const double x = j[field].get<double>();
   if (!(x > 0 && std::isfinite(x))) throw InputError(field, "is not a positive finite number");
+  if (x > most) throw InputError(field, too_large(x, most));
   return x;
 }
 
@@ -60,7 +72,13 @@ EngineCard card_from_json(const std::string& text) {
     if (!is_known(key)) throw InputError(key, "is no field of an engine card");
   EngineCard card;
   for (const auto& f : text_fields) card.*f.member = text_of(j, f.name);
-  for (const auto& f : number_fields) card.*f.member = positive_number_of(j, f.name);
+  for (const auto& f : number_fields) card.*f.member = positive_number_of(j, f.name, f.most);
+  if (card.tau_factor * card.unit_roundoff > most_of_l)
+    throw InputError("tau_factor", "times unit_roundoff " + too_large(card.tau_factor * card.unit_roundoff, most_of_l));
+  if (j.contains(complete_field)) {
+    if (!j[complete_field].is_boolean()) throw InputError(complete_field, "is neither true nor false");
+    card.complete_manifolds = j[complete_field].get<bool>();
+  }
   if (card.name.empty()) throw InputError("name", "is empty");
   return card;
 }
@@ -74,6 +92,7 @@ std::string to_json_text(const EngineCard& card) {
   j["unit_roundoff"] = card.unit_roundoff;
   j["tau_factor"] = card.tau_factor;
   j["source"] = card.source;
+  if (card.complete_manifolds) j[complete_field] = true;
   return j.dump();
 }
 

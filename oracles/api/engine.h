@@ -10,10 +10,8 @@
 
 namespace touchstone {
 
-/// What an engine says of itself. Parsed from the JSON that a plug-in's `card` returns:
-///   {"name", "library", "version", "settings", "unit_roundoff", "tau_factor", "source",
-///   "candidates_are_boxes"}
-/// τ of an answer = tau_factor · unit_roundoff · L + the answer's claimed_tolerance (truth.md §3).
+/// What an engine says of itself: the JSON card of touchstone_engine.h.
+/// τ of an answer = tau_factor · unit_roundoff · L + the answer's claimed_tolerance (docs/truth.md §3).
 struct EngineCard {
   std::string name;      // catalog name, e.g. "fcl-libccd-tuned"
   std::string library;   // "FCL"
@@ -21,7 +19,9 @@ struct EngineCard {
   std::string settings;  // one line: what differs from the default, what path is asked
   double unit_roundoff = 0x1p-53;
   double tau_factor = 64;
-  std::string source;  // where the tolerance claims come from
+  std::string source;  // where the tolerance claims come from; empty: they are not believed
+  /// Its manifolds span the whole contact region, not a few points of it.
+  bool complete_manifolds = false;
   bool operator==(const EngineCard&) const = default;
 };
 

@@ -16,6 +16,7 @@
 #include <cstdio>
 #include <cstring>
 #include <exception>
+#include <limits>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -34,6 +35,7 @@ struct CardText {
   std::string name, library, version, settings;
   double unit_roundoff, tau_factor;
   std::string source;
+  bool complete_manifolds = false;
   std::string json() const {
     std::string out;
     const auto field = [&out](const char* key, const std::string& value) {
@@ -47,9 +49,9 @@ struct CardText {
     field("name", name), field("library", library), field("version", version);
     field("settings", settings), field("source", source);
     char numbers[120];
-    std::snprintf(numbers, sizeof numbers, ",\"unit_roundoff\":%.17g,\"tau_factor\":%.17g}", unit_roundoff,
+    std::snprintf(numbers, sizeof numbers, ",\"unit_roundoff\":%.17g,\"tau_factor\":%.17g", unit_roundoff,
                   tau_factor);
-    return out.append(numbers);
+    return out.append(numbers).append(complete_manifolds ? ",\"complete_manifolds\":true}" : "}");
   }
 };
 
@@ -81,6 +83,12 @@ inline void set_points(ts_answer& out, const Vec3& a, const Vec3& b) {
 }
 inline void set_normal(ts_answer& out, const Vec3& n) { out.has |= TS_HAS_NORMAL, store(n, out.normal); }
 inline void set_depth(ts_answer& out, double d) { out.has |= TS_HAS_DEPTH, out.depth = d; }
+/// The depth of a manifold point whose own normal is `n`, in an answer that states `stated`: along another
+/// normal it is none of this answer's.
+inline double depth_along(const Vec3& stated, const Vec3& n, double depth) {
+  constexpr double same = 1e-6;
+  return (n - stated).norm() <= same ? depth : std::numeric_limits<double>::quiet_NaN();
+}
 inline void set_toi(ts_answer& out, double t) { out.has |= TS_HAS_TOI, out.toi = t; }
 
 /// Pairs that a user of the engine would filter: of one group, or listed.

@@ -107,7 +107,8 @@ enum ts_outcome {
   TS_THREW = 4
 };
 
-/* Which fields of an answer the engine states. What is not stated is not judged. */
+/* Which fields of an answer the engine states. What is not stated is not judged: leave out what the engine's own
+ * documentation disclaims. */
 enum ts_has {
   TS_HAS_OVERLAP = 1,
   TS_HAS_DISTANCE = 2,
@@ -126,17 +127,23 @@ typedef struct ts_answer {
   double point_a[3]; /* witness on A, world */
   double point_b[3]; /* witness on B, world */
   double normal[3];  /* unit, world, from A to B: B moves along +normal to separate */
-  double depth;      /* >= 0 */
+  double depth;      /* >= 0: how far B must move along `normal` to separate from A, as whole bodies */
   double toi;
   double claimed_tolerance; /* absolute: margin and solver tolerance that the engine's documentation claims for this
-                               answer on these shapes; 0 when it claims none beyond arithmetic */
+                               answer on these shapes; 0 when it claims none beyond arithmetic. Believed only with
+                               a `source` on the card; above 1e-2 L it is shown beside the verdict */
   char detail[128];         /* zero-terminated, for people */
 } ts_answer;
 
 /* Variable-length parts of an answer go to the host through these. `ctx` is passed back as it is. */
 typedef struct ts_sink {
   void* ctx;
-  /* manifold of TS_CONTACT: a point (world) and its depth along the answer's normal */
+  /* A point of TS_CONTACT's manifold (world), anywhere between the two surfaces, and how deep the bodies are there:
+   * on the line through the point along the answer's normal, by how much A reaches ahead of where B begins. NaN: not
+   * stated, as for a point with a normal of its own, or when the engine knows the depth of the contact alone.
+   * The depth of the contact is at least that of each point, and more where the manifold was clipped or reduced: an
+   * engine that knows its separating axis states the depth along that as the answer's; one that does not leaves
+   * TS_HAS_DEPTH out, and its points are judged by themselves. */
   void (*point)(void* ctx, const double position[3], double depth);
   /* TS_CANDIDATES: a pair at the k-th TS_QUERY step (k from 0); any order */
   void (*pair)(void* ctx, int32_t k, int32_t a, int32_t b);
@@ -165,7 +172,14 @@ typedef struct ts_engine ts_engine; /* yours */
 typedef struct ts_plugin {
   uint32_t abi_version; /* TS_ABI_VERSION */
   uint32_t engine_count;
-  /* JSON card of the i-th engine: name, version, settings, unit roundoff, ... (tau_factor, source, ...: see the examples) */
+  /* JSON card of the i-th engine, an object of these fields and no others:
+   *   "name", "library", "version", "settings": texts; the name is not empty
+   *   "source": text: where the documentation makes the claims of claimed_tolerance; empty: they are not believed
+   *   "unit_roundoff": of its arithmetic, 1.1102230246251565e-16 for doubles, 5.960464477539063e-08 for floats;
+   *     at most 2^-8
+   *   "tau_factor": how many roundings an answer may be off, in units of unit_roundoff times the scale L of the
+   *     pair; 64 is usual; at most 16384, and times unit_roundoff at most 0.01
+   *   "complete_manifolds", optional: true when manifolds span the whole contact region; they are held to it */
   const char* (*card)(uint32_t i);
   ts_engine* (*create)(uint32_t i);
   void (*destroy)(ts_engine*);

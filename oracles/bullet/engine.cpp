@@ -128,7 +128,8 @@ class Engine {
     kit::set_normal(out, d->normal_ab);
     kit::set_depth(out, -d->distance);
     for (const Point& p : all)
-      if (p.distance <= 0) sink->point(sink->ctx, p.on_b.data(), -p.distance);
+      if (p.distance <= 0)
+        sink->point(sink->ctx, p.on_b.data(), kit::depth_along(d->normal_ab, p.normal_ab, -p.distance));
   }
 
   void ask_distance(int a, int b, ts_answer& out) {

@@ -143,6 +143,7 @@ CoreEngine::CoreEngine(Arithmetic arithmetic) : arithmetic_(arithmetic) {
   card_.unit_roundoff = narrow_only ? 0x1p-24 : 0x1p-53;
   card_.tau_factor = tolerance::core_tau_factor;
   card_.source = "core/tolerance.h: arithmetic alone, no margin";
+  card_.complete_manifolds = !narrow_only;
 }
 
 std::vector<CaseObservations> CoreEngine::run(std::span<const Case> cases) {

@@ -127,7 +127,7 @@ class Engine {
     if (d.overlap) kit::set_overlap(out, true);
     if (!d.distance) return;
     kit::set_distance(out, *d.distance);
-    kit::set_points(out, d.point_a, d.point_b);
+    if (d.points) kit::set_points(out, (*d.points)[0], (*d.points)[1]);
   }
 
   void ask_contact(int a, int b, ts_answer& out, const ts_sink& sink) {
@@ -137,7 +137,8 @@ class Engine {
     if (!c.overlap) return;
     kit::set_normal(out, c.normal);
     kit::set_depth(out, c.depth);
-    for (const Point& p : c.points) sink.point(sink.ctx, p.position.data(), p.depth);
+    for (const Point& p : c.points)
+      sink.point(sink.ctx, p.position.data(), kit::depth_along(c.normal, p.normal, p.depth));
   }
 
   void ask_time(int a, int b, ts_answer& out) {

@@ -63,6 +63,12 @@ fcl::DistanceResultd run_distance(const Placed& a, const Placed& b, const Settin
 
 bool is_bounded_convex(const Placed& p) { return p.kind != TS_HALF_SPACE && p.kind != TS_MESH; }
 
+/// distance_request.h, of enable_signed_distance: GST_INDEP, and any mesh, is NP_X, nearest points "NOT
+/// guaranteed to be on the surface of objects". Of bodies that are apart they are the ordinary ones.
+bool guarantees_deepest_points(const Placed& a, const Placed& b, const Settings& s) {
+  return s.libccd() && a.kind != TS_MESH && b.kind != TS_MESH;
+}
+
 /// Depth and normal from the signed distance: the witness points of an overlap are the deepest points.
 bool refine(const Placed& a, const Placed& b, const Settings& s, Contact& c) {
   const fcl::DistanceResultd r = run_distance(a, b, s, /*with_sign=*/true, tuned_depth_tolerance);
@@ -110,10 +116,11 @@ Contact contact(const Placed& a, const Placed& b, const Settings& s) {
   c.depth = -std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < result.numContacts(); ++i) {
     const fcl::Contactd& k = result.getContact(i);
-    c.points.push_back({k.pos, k.penetration_depth});
+    // It points from o1 to o2.
+    const Vec3 normal = has_b_first(k, a, b) ? Vec3(-k.normal) : Vec3(k.normal);
+    c.points.push_back({k.pos, k.penetration_depth, normal});
     if (!(k.penetration_depth > c.depth)) continue;
-    c.depth = k.penetration_depth;
-    c.normal = has_b_first(k, a, b) ? Vec3(-k.normal) : Vec3(k.normal);  // it points from o1 to o2
+    c.depth = k.penetration_depth, c.normal = normal;
   }
   if (s.tuned && s.libccd() && c.overlap && is_bounded_convex(a) && is_bounded_convex(b)) refine(a, b, s, c);
   return c;
@@ -135,7 +142,8 @@ Distance distance(const Placed& a, const Placed& b, const Settings& s) {
     d.claimed_tolerance = tuned_depth_tolerance;
   }
   d.distance = r.min_distance;
-  d.point_a = r.nearest_points[0], d.point_b = r.nearest_points[1];
+  if (d.distance > 0 || guarantees_deepest_points(a, b, s))
+    d.points = {r.nearest_points[0], r.nearest_points[1]};
   return d;
 }
 

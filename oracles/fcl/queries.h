@@ -3,6 +3,7 @@
 
 #include <fcl/narrowphase/gjk_solver_type.h>
 
+#include <array>
 #include <optional>
 #include <vector>
 
@@ -29,6 +30,7 @@ struct Settings {
 struct Point {
   Vec3 position;
   double depth;
+  Vec3 normal;
 };
 
 struct Contact {
@@ -45,7 +47,7 @@ Contact contact(const Placed& a, const Placed& b, const Settings& s);
 struct Distance {
   bool overlap = false;  // the answer of an unsigned query that found no distance
   std::optional<double> distance;
-  Vec3 point_a, point_b;
+  std::optional<std::array<Vec3, 2>> points;  // nothing where FCL's documentation disclaims them
   double claimed_tolerance = 0;
 };
 Distance distance(const Placed& a, const Placed& b, const Settings& s);

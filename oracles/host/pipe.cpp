@@ -12,6 +12,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
+#include <limits>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 #include <string_view>
@@ -177,6 +178,12 @@ void read3(const Json& j, double out[3]) {
   for (std::size_t k = 0; k < 3; ++k) out[k] = j.at(k).get<double>();
 }
 
+// Missing or null: not stated.
+double depth_of_point(const Json& p) {
+  return p.contains("depth") && !p.at("depth").is_null() ? p.at("depth").get<double>()
+                                                         : std::numeric_limits<double>::quiet_NaN();
+}
+
 void read_lists(const Json& j, const ts_sink& sink) {
   double v[3];
   if (j.contains("pairs")) {
@@ -188,7 +195,7 @@ void read_lists(const Json& j, const ts_sink& sink) {
     }
   }
   for (const Json& p : j.value("points", Json::array()))
-    read3(p.at("position"), v), sink.point(sink.ctx, v, p.at("depth").get<double>());
+    read3(p.at("position"), v), sink.point(sink.ctx, v, depth_of_point(p));
   for (const Json& c : j.value("contacts", Json::array()))
     read3(c.at("normal"), v), sink.contact(sink.ctx, c.at("a").get<std::int32_t>(),
                                            c.at("b").get<std::int32_t>(), v, c.at("depth").get<double>());

@@ -50,11 +50,15 @@ class Engine {
     for (int i = 0; i < n; ++i) {
       const dContactGeom& c = all[static_cast<std::size_t>(i)];
       if (c.depth > deepest->depth) deepest = &c;
+    }
+    const auto normal = [](const dContactGeom& c) { return Vec3(c.normal[0], c.normal[1], c.normal[2]); };
+    for (int i = 0; i < n; ++i) {
+      const dContactGeom& c = all[static_cast<std::size_t>(i)];
       const double position[3] = {c.pos[0], c.pos[1], c.pos[2]};
-      sink->point(sink->ctx, position, c.depth);
+      sink->point(sink->ctx, position, kit::depth_along(normal(*deepest), normal(c), c.depth));
     }
     // ODE's points from the second into the first.
-    kit::set_normal(out, {-deepest->normal[0], -deepest->normal[1], -deepest->normal[2]});
+    kit::set_normal(out, -normal(*deepest));
     kit::set_depth(out, deepest->depth);
   }
 

@@ -239,6 +239,36 @@ ContactRegion contact_region(const Placed& a, const Placed& b, const Vec3& norma
   return r;
 }
 
+std::optional<double> covered_share(const ContactRegion& region, const std::vector<Vec3>& points,
+                                    const Vec3& normal) {
+  using K = ContactRegion::Kind;
+  if (region.kind != K::polygon && region.kind != K::segment) return std::nullopt;
+  if (points.empty()) return 0.0;
+  const ProjectionPlane plane(normal);
+  const Vec3& origin = region.vertices.front();
+  const auto about = [&](const std::vector<Vec3>& v) {
+    std::vector<Real3> r;
+    for (const Vec3& p : v) r.push_back(to_real(p) - to_real(origin));
+    return projected(r, plane);
+  };
+  Convex2 part = about(points);
+  const Convex2 whole = about(region.vertices);
+  if (region.kind == K::segment) {
+    // Of the points only how far along the segment they are.
+    const Point2 way = whole.back() - whole.front();
+    double lo = 1, hi = 0;
+    for (const Point2& p : part) {
+      const double t = std::clamp(dot(p - whole.front(), way) / dot(way, way), 0.0, 1.0);
+      lo = std::min(lo, t), hi = std::max(hi, t);
+    }
+    return std::max(0.0, hi - lo);
+  }
+  if (part.size() < 3) return 0.0;
+  for (const HalfPlane& h : half_planes(whole, 0, 0))
+    if (!part.empty()) part = clipped(part, h);
+  return std::min(1.0, area_of(part) / area_of(whole));
+}
+
 double spanned_area(const std::vector<Vec3>& points, const Vec3& normal) {
   if (points.size() < 3) return 0;
   std::vector<Real3> about;

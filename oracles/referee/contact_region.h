@@ -1,6 +1,7 @@
 // The true contact region of two bodies: what a contact manifold should span (truth.md §2, §3).
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "oracles/referee/referee.h"
@@ -39,6 +40,11 @@ inline constexpr int rim_corners = 256;
 /// plane. Features that miss each other by less than slack in the plane are taken to meet. slack: a length >
 /// 0. normal_ab: finite, not zero.
 ContactRegion contact_region(const Placed& a, const Placed& b, const Vec3& normal_ab, double slack);
+
+/// The part of a polygon's area, or of a segment's length, that the hull of the points projected along the
+/// normal covers: at most 1. Nothing when the region is neither.
+std::optional<double> covered_share(const ContactRegion& region, const std::vector<Vec3>& points,
+                                    const Vec3& normal);
 
 /// Area of the hull of the points projected along the normal.
 double spanned_area(const std::vector<Vec3>& points, const Vec3& normal);

@@ -182,6 +182,52 @@ TEST_CASE("the default mix is not vacuous: 30 to 70 % of its pairs overlap", "[c
   CHECK(r.hit_rate() < 0.7);
 }
 
+TEST_CASE("what is left open has a bound, by question and kind of pair", "[campaign][open]") {
+  using touchstone::Question;
+  fuzz::CampaignResult r;
+  auto& of_contact = r.open["core"][Question::contact];
+  of_contact["box-box"] = {100, 0};
+  of_contact["box-cylinder"] = {20, 5};
+  CHECK(r.too_open("core").empty());
+  of_contact["cone-cylinder"] = {11, 11};  // too few to tell
+  CHECK(r.too_open("core").empty());
+  of_contact["cylinder-cylinder"] = {12, 12};  // a referee that decides no cylinder
+  REQUIRE(r.too_open("core").size() == 1);
+  CHECK(r.too_open("core")[0] ==
+        "core: 12 of 12 answers to contact of cylinder-cylinder undecided or not judged, more than 25 %: this "
+        "run proves nothing of them");
+  of_contact["capsule-cylinder"] = {400, 400};
+  CHECK(r.too_open("core").size() == 3);  // the question as a whole, too
+  CHECK(r.too_open("fcl-libccd").empty());
+
+  const auto back = fuzz::result_from_json(fuzz::to_json(r, true));
+  CHECK(back.too_open("core") == r.too_open("core"));
+  CHECK(fuzz::digest(back) == fuzz::digest(r));
+  fuzz::CampaignResult twice = r;
+  twice.merge(r);
+  CHECK(twice.open["core"][Question::contact]["cone-cylinder"].answers == 22);
+  CHECK(twice.too_open("core").size() == 4);
+}
+
+TEST_CASE("every answer is right, wrong, undecided or not judged, and a surface's depth is no open question",
+          "[campaign][open]") {
+  fuzz::CampaignResult r;
+  std::vector<EnginePtr> engines;
+  engines.push_back(std::make_unique<CoreEngine>());
+  std::vector<Case> cases;
+  for (std::uint64_t i = 0; i < 300; ++i) cases.push_back(fuzz::make_case(5, i, "shallow"));
+  fuzz::ask_and_judge(r, cases, 0, engines, 0);
+  std::uint64_t not_judged = 0;
+  for (const auto& [q, t] : r.tallies.at("core")) {
+    CHECK(t.right + t.wrong + t.undecided + t.not_judged == t.answered());
+    CHECK(t.not_judged == t.by_definition);
+    not_judged += t.not_judged;
+  }
+  CHECK(not_judged > 0);
+  CHECK(r.by_definition_of("core") == not_judged);
+  CHECK(r.too_open("core").empty());
+}
+
 TEST_CASE("our core is right on random cases", "[campaign][core]") {
   auto config = config_of(3000);
   config.engines = {"core"}, config.jobs = 2;

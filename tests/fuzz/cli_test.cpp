@@ -230,6 +230,44 @@ TEST_CASE("a lying engine behind the C ABI is found by fuzz", "[cli]") {
   }
 }
 
+TEST_CASE("--error judges by the user's own tolerance, and a wide claim is named", "[cli]") {
+  const Workspace w("cli");
+  w.write("apart.json", spheres("2.5"));
+  const std::string replay =
+      "replay apart.json --engines " TS_BINARY_DIR "/lib/libtouchstone_mutants.so:distance_absolute";
+  const auto says = [&](const std::string& more, const char* word) {
+    const Run r = w.touchstone(replay + more);
+    INFO(more << r.out << r.err);
+    CHECK(r.out.find(word) != std::string::npos);
+  };
+  says("", "WRONG");
+  says(" --error 1nm", "right   0.5");
+  says(" --error '1e-6 mm'", "right   0.5");
+  says(" --error 1e-15", "WRONG");
+  for (const char* none : {"3parsec", "0", "-1mm", "mm", "1e400"}) {
+    const Run r = w.touchstone(replay + " --error " + none);
+    INFO(none << r.err);
+    CHECK(r.code == 2);
+    CHECK(r.err.find("--error") != std::string::npos);
+  }
+
+  w.write("links.json", R"({"touchstone_scene":1,"shapes":[{"type":"hull","vertices":
+[[0,0,0],[0.1,0,0],[0,0.1,0],[0,0,0.1]]}],
+"bodies":[{"shape":0,"pose":{"translation":[0,0,0],"rotation":[0,0,0,1]}},
+{"shape":0,"pose":{"translation":[0.14,0,0],"rotation":[0,0,0,1]}}]})");
+  const Run bullet = w.touchstone("replay links.json --engines bullet-f64-query");
+  if (bullet.code == 2) {
+    WARN("Bullet is not there: " << bullet.err);
+    return;
+  }
+  INFO(bullet.out << bullet.err);
+  CHECK(bullet.out.find("right within its claimed tolerance of 0.08") != std::string::npos);
+  const Run own = w.touchstone("replay links.json --engines bullet-f64-query --error 1mm");
+  INFO(own.out << own.err);
+  CHECK(own.out.find("claimed") == std::string::npos);
+  CHECK(own.out.find("WRONG") != std::string::npos);
+}
+
 TEST_CASE("merge without arguments says what it wants", "[cli][merge]") {
   const Workspace w("merge");
   for (const char* arguments : {"merge", "merge out", "merge --ledgers all.db"}) {

@@ -20,7 +20,7 @@ Case spheres(double distance, Question q) {
   return c;
 }
 
-EngineCard double_card() { return {"test", "", "", "", 0x1p-53, 64, ""}; }
+EngineCard double_card() { return {"test", "", "", "", 0x1p-53, 64, "a page"}; }
 
 Observation answered() {
   Observation o;
@@ -276,6 +276,133 @@ TEST_CASE("candidate pairs: no tolerance for a missed touching pair, stale names
   CHECK(has(judge_one(c, o), Fault::stale));
   o.candidate_pairs = {{{0, 1}, {0, 1}}};
   CHECK(judge_one(c, o).pairs_duplicate == 1);
+}
+
+namespace {
+
+// A unit ball and the one triangle below its centre; `below` 1: they touch.
+Case ball_on_triangle(double below, Question q) {
+  Case c;
+  c.scene.shapes = {Sphere{1}, TriangleMesh{{{-4, -4, 0}, {4, -4, 0}, {0, 4, 0}}, {{0, 1, 2}}}};
+  c.scene.bodies.resize(2);
+  c.scene.bodies[1].shape = 1;
+  c.scene.bodies[1].pose.translation.z() = -below;
+  c.queries = {{q, 0, 1}};
+  return c;
+}
+
+}  // namespace
+
+TEST_CASE("a normal that is none is wrong, also where the bodies are apart by less than the tolerance",
+          "[judge]") {
+  const Case apart = spheres(2 + 1e-15, Question::contact);
+  CHECK(judge_one(apart, contact({1, 0, 0}, 0)).right());
+  CHECK(has(judge_one(apart, contact({0, 0, 0}, 0)), Fault::normal_not_unit));
+  CHECK(has(judge_one(apart, contact({NAN, 0, 0}, 0)), Fault::normal_not_unit));
+  CHECK(has(judge_one(apart, contact({2, 0, 0}, 0)), Fault::normal_not_unit));
+  CHECK(has(judge_one(apart, contact({1, 0, 0}, NAN)), Fault::no_number));
+  CHECK(has(judge_one(apart, contact({1, 0, 0}, 0.5)), Fault::depth_excess));
+  CHECK(has(judge_one(apart, contact({-1, 0, 0}, 0)), Fault::not_minimal));
+  Observation wide = contact({0, 0, 0}, 0);
+  wide.claimed_tolerance = 0.5;
+  CHECK(has(judge_one(spheres(2.25, Question::contact), wide), Fault::normal_not_unit));
+  wide.normal = Vec3(1, 0, 0);
+  CHECK(judge_one(spheres(2.25, Question::contact), wide).right());
+  wide.manifold = {{{40, 0, 0}, 0}};
+  CHECK(has(judge_one(spheres(2.25, Question::contact), wide), Fault::point_off));
+}
+
+TEST_CASE("of a contact with a surface is judged what can be, and the rest is not judged", "[judge][mesh]") {
+  const Case c = ball_on_triangle(0.75, Question::contact);
+  const auto stated = judge_one(c, contact({0, 0, -1}, 0.25));
+  CHECK(stated.ruling() == fuzz::Ruling::not_judged);
+  CHECK(stated.unjudged_by_definition());
+  CHECK_FALSE(stated.right());
+  CHECK(has(judge_one(c, contact({0, 0, 0}, 0.25)), Fault::normal_not_unit));
+  CHECK(has(judge_one(c, contact({0, 0, -1}, NAN)), Fault::no_number));
+  CHECK(has(judge_one(c, contact({0.6, 0, 0.8}, -0.107)), Fault::infeasible));
+  CHECK(has(judge_one(c, contact({0, 0, -1}, 2)), Fault::depth_excess));
+  Observation o = contact({0, 0, -1}, 0.25);
+  o.manifold = {{{0, 0, -3}, 0.25}};
+  CHECK(has(judge_one(c, o), Fault::point_off));
+  Observation verdict = answered();
+  verdict.overlap = true;  // states no more than that
+  CHECK(judge_one(c, verdict).right());
+
+  Observation d = answered();
+  d.distance = 0;
+  CHECK(judge_one(ball_on_triangle(0.75, Question::distance), d).right());
+  d.distance = -7;
+  CHECK(judge_one(ball_on_triangle(0.75, Question::distance), d).ruling() == fuzz::Ruling::not_judged);
+  CHECK(has(judge_one(ball_on_triangle(2, Question::distance), d), Fault::ghost));
+}
+
+TEST_CASE("in a scene each contact is judged by its numbers, and one with a surface is missed too",
+          "[judge][mesh]") {
+  const Case c = ball_on_triangle(0.75, Question::scene_contacts);
+  Observation o = answered();
+  CHECK(has(judge_one(c, o), Fault::missed));
+  o.contacts = {{0, 1, {0, 0, -1}, 0.25}};
+  CHECK(judge_one(c, o).ruling() == fuzz::Ruling::not_judged);
+  o.contacts.push_back({0, 1, {0, 0, 0}, 0.1});  // not the deepest
+  CHECK(has(judge_one(c, o), Fault::normal_not_unit));
+  o.contacts.back() = {0, 1, {0, 0, -1}, NAN};
+  CHECK(has(judge_one(c, o), Fault::no_number));
+}
+
+TEST_CASE("what is stated of a contact is judged, however little it is", "[judge]") {
+  Observation o = answered();
+  o.overlap = true, o.normal = Vec3(0, 1, 0);
+  CHECK(has(judge_one(spheres(1.5, Question::contact), o), Fault::not_minimal));
+  o.normal.reset(), o.depth = 0.4;
+  CHECK(has(judge_one(spheres(1.5, Question::contact), o), Fault::infeasible));
+  o.depth = 0.6;
+  CHECK(has(judge_one(spheres(1.5, Question::contact), o), Fault::depth_excess));
+  o.depth = 0.5;
+  CHECK(judge_one(spheres(1.5, Question::contact), o).right());
+  Observation d = answered();
+  d.distance = 0.5, d.overlap = true;
+  CHECK(has(judge_one(spheres(2.5, Question::distance), d), Fault::ghost));
+  Observation points = answered();
+  points.overlap = false, points.witness = {Vec3(1, 0, 0), Vec3(7, 0, 0)};
+  CHECK(has(judge_one(spheres(2.5, Question::distance), points), Fault::witness_off));
+}
+
+TEST_CASE("a claimed tolerance is believed as far as it can be, and shown where it is wide", "[judge]") {
+  Observation o = answered();
+  o.distance = 0.5;
+  const Case c = spheres(2.5, Question::distance);  // L = 2.5
+  const auto with = [&](double claim) {
+    o.claimed_tolerance = claim;
+    return judge_one(c, o);
+  };
+  CHECK(with(0.02).wide_claim == 0);
+  CHECK(with(0.05).right());
+  CHECK(with(0.05).wide_claim == 0.05);
+  CHECK(with(0.05).wide_claim_in_l == 0.02);
+  for (const double claim : {2.5, 1e300}) {
+    CHECK(with(claim).ruling() == fuzz::Ruling::not_judged);
+    CHECK_FALSE(with(claim).unjudged_by_definition());
+  }
+  for (const double claim : {-1.0, double(NAN), double(INFINITY)}) CHECK(has(with(claim), Fault::no_number));
+  o.distance = 0.6, o.claimed_tolerance = 0.5;
+  CHECK(judge_one(c, o).right());
+  EngineCard nameless = double_card();
+  nameless.source.clear();
+  CHECK(has(judge_one(c, o, nameless), Fault::distance_off));
+}
+
+TEST_CASE("L is the largest of lengths, coordinates and separation", "[judge][scale]") {
+  const auto scale = [](const Case& c) { return scale_of_pair(c.scene, 0, 1); };
+  CHECK(scale(spheres(0.5, Question::overlap)) == 2);  // a diameter
+  CHECK(scale(spheres(7, Question::overlap)) == 7);
+  Case c = spheres(5, Question::overlap);
+  c.scene.bodies[0].pose.translation.x() = -5;
+  CHECK(scale(c) == 10);
+  c.scene.shapes = {Box{{1, 8, 2}}};
+  CHECK(scale(c) == 16);
+  c.scene.bodies[1].motion = Motion{Vec3(30, 0, 0), Vec3::Zero()};
+  CHECK(scale(c) == 40);
 }
 
 TEST_CASE("an answer without a number, and every way to fail, is a finding", "[judge]") {

@@ -31,6 +31,12 @@ void zero(const Case&, const Query&, Observation& o) { o.normal->setZero(); }
 void zero_when_touching(const Case&, const Query&, Observation& o) {
   if (*o.depth < 1e-9) o.normal->setZero();
 }
+bool on_surface(const Case& c, const Query& q) {
+  return kind(c, q.a) == ShapeKind::mesh || kind(c, q.b) == ShapeKind::mesh;
+}
+void zero_on_surface(const Case& c, const Query& q, Observation& o) {
+  if (on_surface(c, q)) o.normal->setZero();
+}
 void not_a_number(const Case& c, const Query& q, Observation& o) {
   if (body(c, q.a).pose.translation == body(c, q.b).pose.translation) o.normal->setConstant(nan_value);
 }
@@ -95,6 +101,17 @@ void not_past_the_smaller(const Case& c, const Query& q, Observation& o) {
   o.depth = std::min(*o.depth, 1.5 * small_size(c, q));
 }
 void negative(const Case&, const Query&, Observation& o) { *o.depth = -*o.depth; }
+void negative_on_surface(const Case& c, const Query& q, Observation& o) {
+  if (on_surface(c, q)) o.depth = -0.107, o.normal = o.normal->unitOrthogonal();
+}
+void huge_on_surface(const Case& c, const Query& q, Observation& o) {
+  if (on_surface(c, q)) *o.depth += 10 * scale_of_pair(c.scene, q.a, q.b);
+}
+void not_a_number_on_surface(const Case& c, const Query& q, Observation& o) {
+  if (on_surface(c, q)) o.depth = nan_value;
+}
+void not_a_claim(const Case&, const Query&, Observation& o) { o.claimed_tolerance = nan_value; }
+void negative_claim(const Case&, const Query&, Observation& o) { o.claimed_tolerance = -1; }
 void not_a_depth(const Case&, const Query&, Observation& o) {
   if (*o.depth < 1e-10) o.depth = nan_value;
 }
@@ -120,6 +137,7 @@ std::vector<Mutant> normal_lies() {
        on_contact(zero_when_touching)},
       {"normal_not_a_number", "normal_not_unit", "contained", "NaN for bodies with equal origins",
        on_contact(not_a_number)},
+      {"normal_zero_on_mesh", "normal_not_unit", "shallow", "zero for meshes", on_contact(zero_on_surface)},
       {"normal_not_unit", "normal_not_unit", "shallow", "longer than 1 by 1e-9", on_contact(not_unit)},
       {"normal_in_float", "normal_not_unit", "shallow", "rounded to float", on_contact(as_float)},
       {"normal_local", "infeasible", "shallow", "in A's frame", on_contact(local)},
@@ -150,6 +168,13 @@ std::vector<Mutant> depth_lies() {
        on_contact(not_past_the_smaller)},
       {"depth_negative", "infeasible", "shallow", "with the sign of a distance", on_contact(negative)},
       {"depth_not_a_number", "no_number", "near", "NaN for less than 1e-10", on_contact(not_a_depth)},
+      {"depth_negative_on_mesh", "infeasible", "shallow", "negative for meshes, along another normal",
+       on_contact(negative_on_surface)},
+      {"depth_huge_on_mesh", "depth_excess", "shallow", "of meshes larger by ten times L",
+       on_contact(huge_on_surface)},
+      {"depth_nan_on_mesh", "no_number", "shallow", "NaN for meshes", on_contact(not_a_number_on_surface)},
+      {"claim_not_a_number", "no_number", "shallow", "claims a tolerance of NaN", on_contact(not_a_claim)},
+      {"claim_negative", "no_number", "shallow", "claims a tolerance of -1", on_contact(negative_claim)},
       {"depth_of_pair_before", "infeasible", "shallow", "that of the contact before", of_pair_before(),
        false},
   };

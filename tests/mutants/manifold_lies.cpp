@@ -1,4 +1,4 @@
-// Lies about the points of a contact manifold. Their number is no lie: coverage is charted.
+// Lies about the points of a contact manifold: where they are, how deep they are, and what they span.
 #include <limits>
 
 #include "tests/mutants/pair.h"
@@ -56,6 +56,55 @@ Lie cached() {
   };
 }
 
+// What is left of a face.
+void every_second(const Case&, const Query&, Observation& o) {
+  Points kept;
+  for (std::size_t i = 0; i < o.manifold.size(); i += 2) kept.push_back(o.manifold[i]);
+  o.manifold = std::move(kept);
+}
+void last_dropped(const Case&, const Query&, Observation& o) {
+  if (o.manifold.size() > 3) o.manifold.pop_back();
+}
+void first_three(const Case&, const Query&, Observation& o) {
+  if (o.manifold.size() > 3) o.manifold.resize(3);
+}
+void first_repeated(const Case&, const Query&, Observation& o) {
+  if (o.manifold.size() > 3) o.manifold[2] = o.manifold[0];
+}
+Vec3 centre(const Points& points) {
+  Vec3 sum = Vec3::Zero();
+  for (const ManifoldPoint& p : points) sum += p.position;
+  return sum / static_cast<double>(points.size());
+}
+void drawn_together(const Case&, const Query&, Observation& o) {
+  if (o.manifold.size() < 3) return;
+  const Vec3 c = centre(o.manifold);
+  for (ManifoldPoint& p : o.manifold) p.position += 0.2 * (c - p.position);
+}
+void centre_alone(const Case&, const Query&, Observation& o) {
+  if (o.manifold.size() > 2) o.manifold = {{centre(o.manifold), *o.depth}};
+}
+void one_side_forgotten(const Case&, const Query&, Observation& o) {
+  if (o.manifold.size() < 3) return;
+  const double x = centre(o.manifold).x();
+  std::erase_if(o.manifold, [&](const ManifoldPoint& p) { return p.position.x() > x; });
+}
+
+void each_twice_as_deep(const Case&, const Query&, Observation& o) {
+  for (ManifoldPoint& p : o.manifold) p.depth *= 2;
+}
+void last_deeper(const Case&, const Query&, Observation& o) {
+  if (!o.manifold.empty()) o.manifold.back().depth += 1e-9;
+}
+void infinitely_deep(const Case&, const Query&, Observation& o) {
+  if (o.manifold.size() > 3) o.manifold[0].depth = std::numeric_limits<double>::infinity();
+}
+// A corner in a face is that deep at the corner alone.
+void as_deep_beside(const Case&, const Query&, Observation& o) {
+  if (o.manifold.size() == 1)
+    o.manifold.push_back({o.manifold[0].position + 0.4 * *o.depth * o.normal->unitOrthogonal(), *o.depth});
+}
+
 }  // namespace
 
 std::vector<Mutant> manifold_lies() {
@@ -73,6 +122,26 @@ std::vector<Mutant> manifold_lies() {
       {"point_extrapolated", "point_off", "shallow", "the first point 10 % too far from the second",
        on_contact(extrapolated)},
       {"point_not_a_number", "point_off", "lattice", "the fourth point is NaN", on_contact(not_a_number)},
+      {"manifold_every_second", "incomplete", "lattice", "every second point is left out",
+       on_contact(every_second)},
+      {"manifold_last_dropped", "incomplete", "lattice", "of four points and more the last is left out",
+       on_contact(last_dropped)},
+      {"manifold_three", "incomplete", "lattice", "the first three points", on_contact(first_three)},
+      {"manifold_repeated", "incomplete", "lattice", "the first point again in place of the third",
+       on_contact(first_repeated)},
+      {"manifold_drawn_together", "incomplete", "lattice", "all points a fifth nearer to their centre",
+       on_contact(drawn_together)},
+      {"manifold_centre", "incomplete", "lattice", "of three points and more their centre alone",
+       on_contact(centre_alone)},
+      {"manifold_one_side", "incomplete", "lattice", "the points on one side of the centre",
+       on_contact(one_side_forgotten)},
+      {"point_twice_as_deep", "point_depth", "shallow", "each point twice as deep",
+       on_contact(each_twice_as_deep)},
+      {"point_deeper", "point_depth", "shallow", "the last point deeper by 1e-9", on_contact(last_deeper)},
+      {"point_infinitely_deep", "no_number", "lattice", "the first of four points infinitely deep",
+       on_contact(infinitely_deep)},
+      {"point_deep_beside", "point_depth", "shallow", "a second point beside a corner, as deep",
+       on_contact(as_deep_beside)},
       {"point_cached", "point_off", "shallow", "a point of the contact before is kept", cached(), false},
   };
 }

@@ -97,7 +97,7 @@ class Plugin {
     for (const Mutant& m : mutants()) {
       const EngineCard c = make_lying_engine(m)->card();
       all.push_back({c.name, c.library, c.version, "a lie: " + std::string(m.line), c.unit_roundoff,
-                     c.tau_factor, c.source});
+                     c.tau_factor, c.source, c.complete_manifolds});
     }
     return all;
   }

@@ -20,7 +20,10 @@ EngineCard example() { return {"a \"b\"", "lib\\1", "1.2", "line\nbreak", 0x1p-2
 }  // namespace
 
 TEST_CASE("a card survives its JSON text exactly", "[oracles][card]") {
-  CHECK(card_from_json(to_json_text(example())) == example());
+  EngineCard card = example();
+  CHECK(card_from_json(to_json_text(card)) == card);
+  card.complete_manifolds = true;
+  CHECK(card_from_json(to_json_text(card)) == card);
 }
 
 TEST_CASE("a bad card names the field and the reason", "[oracles][card][bad-input]") {
@@ -37,5 +40,11 @@ TEST_CASE("a bad card names the field and the reason", "[oracles][card][bad-inpu
   CHECK(with("\"1.2\"", "12") == "version: is not a text");
   CHECK(with("256.0", "\"many\"") == "tau_factor: is not a number");
   CHECK(with("256.0", "-1") == "tau_factor: is not a positive finite number");
+  CHECK(with("256.0", "1e300").find("tau_factor: is 1e+300; at most") == 0);
+  CHECK(with("256.0", "1e6").find("tau_factor: is 1000000; at most 16384") == 0);
+  CHECK(with("5.960464477539063e-08", "0.5").find("unit_roundoff: is 0.5; at most") == 0);
+  CHECK(with("5.960464477539063e-08", "0.001").find("tau_factor: times unit_roundoff is 0.256; at most 0.01") == 0);
+  CHECK(with("\"source\"", "\"complete_manifolds\":1,\"source\"") ==
+        "complete_manifolds: is neither true nor false");
   CHECK(with("256.0", "1e999").find("not JSON") != std::string::npos);
 }

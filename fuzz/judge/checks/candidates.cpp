@@ -1,5 +1,5 @@
 // Candidate pairs: every pair whose closed exact bodies overlap must be there, with no tolerance at all
-// (truth.md §3). Superfluous pairs are counted as precision; a pair that names an absent body is stale.
+// (docs/truth.md §3). Superfluous pairs are counted as precision; a pair that names an absent body is stale.
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// Signed distance |reported - g| and the witness points (truth.md §3).
+// Signed distance |reported - g| and the witness points (docs/truth.md §3).
 #include <fmt/format.h>
 
 #include <cmath>
@@ -18,10 +18,10 @@ void check_distance(const CheckInput& in, CheckOutput& out) {
   const auto [a, b] = std::pair{in.query.a, in.query.b};
   const referee::PairTruth& truth = in.truth.pair(in.frame, a, b);
   const double l = in.truth.scale(a, b), tau = in.tau(l);
+  // "They overlap, and I have no depth" is an honest answer.
+  if (in.answer.overlap) check_overlap(in, out);
   if (!in.answer.distance) {
-    // "They overlap, and I have no depth" is an honest answer; it is judged as a verdict.
-    if (in.answer.overlap) return check_overlap(in, out);
-    out.fault_always(Fault::no_number, 0, in.query, "answered without a distance");
+    if (!in.answer.overlap) out.fault_always(Fault::no_number, 0, in.query, "answered without a distance");
     return;
   }
   const double d = *in.answer.distance;
@@ -31,6 +31,9 @@ void check_distance(const CheckInput& in, CheckOutput& out) {
   }
   const double error = outside(d, truth.gap);
   out.error(error, l, tau);
+  // The two of a surface that overlap are at no distance; a depth they do not have.
+  if (truth.verdict == referee::Verdict::overlap && !std::isfinite(truth.gap.lo) && d < -tau)
+    out.not_judged("depth", true);
   if (error <= tau) return;
   const double mid = std::isfinite(truth.gap.lo) ? (truth.gap.lo + truth.gap.hi) / 2 : truth.gap.hi;
   Fault f = Fault::distance_off;
@@ -44,7 +47,7 @@ void check_distance(const CheckInput& in, CheckOutput& out) {
 }
 
 void check_witness(const CheckInput& in, CheckOutput& out) {
-  if (!in.answer.witness || !in.answer.distance) return;
+  if (!in.answer.witness) return;
   const auto [a, b] = std::pair{in.query.a, in.query.b};
   const referee::PairTruth& truth = in.truth.pair(in.frame, a, b);
   const double l = in.truth.scale(a, b), tau = in.tau(l);
@@ -66,6 +69,8 @@ void check_witness(const CheckInput& in, CheckOutput& out) {
       words = fmt::format("the witness points are {:.9g} apart, |g| is {:.9g}", (pb - pa).stableNorm(),
                           (size.lo + size.hi) / 2);
     }
+  } else {
+    out.not_judged("how far the witness points are apart", true);
   }
   out.error(worst, l, tau);
   if (worst > tau)

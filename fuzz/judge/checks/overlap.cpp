@@ -25,11 +25,8 @@ void check_overlap(const CheckInput& in, CheckOutput& out) {
     const double margin = is ? std::max(0.0, -truth.gap.hi) : std::max(0.0, truth.gap.lo);
     return out.error(-margin, l, tau);
   }
-  // The certified part of |g|. A mesh that overlaps has no depth as a whole; that of its deepest triangle is a
-  // motion that the body must make to be apart.
-  const bool no_depth = is && !std::isfinite(truth.gap.lo);
-  const double depth = no_depth ? in.truth.depth_in_mesh(in.frame, a, b) : -truth.gap.hi;
-  const double error = is ? std::max(0.0, depth) : std::max(0.0, truth.gap.lo);
+  // The certified part of |g|.
+  const double error = is ? certain_depth(in, a, b, truth) : std::max(0.0, truth.gap.lo);
   out.error(error, l, tau);
   if (error <= tau) return;
   out.fault(is ? Fault::missed : Fault::ghost, error, l, in.query,

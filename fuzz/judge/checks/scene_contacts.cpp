@@ -18,11 +18,13 @@ void check_stated(const CheckInput& in, CheckOutput& out, const SceneContact& c,
                      fmt::format("contact names bodies {} and {}", c.a, c.b));
     return;
   }
-  const bool flip = c.a > c.b;
   const auto [a, b] = std::minmax(c.a, c.b);
   stated.insert({a, b});
+  const StatedContact contact{a, b, c.a > c.b ? Vec3(-c.normal) : c.normal, c.depth};
+  if (!judge_as_numbers(in, out, contact)) return;
   const referee::PairTruth& truth = in.truth.pair(in.frame, a, b);
   const double l = in.truth.scale(a, b);
+  out.note_claim(in, l);
   if (truth.verdict == referee::Verdict::undecided) {
     out.undecided = true;
     out.frame_matters();
@@ -36,10 +38,9 @@ void check_stated(const CheckInput& in, CheckOutput& out, const SceneContact& c,
       out.fault(Fault::ghost, gap, l, {in.query.question, a, b},
                 fmt::format("contact between {} and {}, which are {:.6g} apart", a, b, gap),
                 truth.verdict_certificate);
-    return;
+    if (gap > in.tau(l)) return;
   }
-  if (std::isfinite(truth.gap.lo))
-    judge_normal_and_depth(in, out, a, b, truth, flip ? Vec3(-c.normal) : c.normal, c.depth);
+  judge_normal_and_depth(in, out, contact, truth);
 }
 
 }  // namespace
@@ -49,18 +50,19 @@ void check_scene_contacts(const CheckInput& in, CheckOutput& out) {
   std::map<BodyPair, SceneContact> deepest;
   for (const SceneContact& c : in.answer.contacts) {
     const BodyPair key = std::minmax(c.a, c.b);
-    const auto it = deepest.find(key);
-    if (it == deepest.end() || c.depth > it->second.depth) deepest[key] = c;
+    const auto [it, first] = deepest.try_emplace(key, c);
+    if (first) continue;
+    judge_as_numbers(in, out, {key.first, key.second, c.normal, c.depth});
+    if (!(c.depth <= it->second.depth)) it->second = c;
   }
   std::set<BodyPair> stated;
   for (const auto& [pair, c] : deepest) check_stated(in, out, c, stated);
-  for (const Truth::TruePair& p : in.truth.scene_pairs(in.frame)) {
+  const auto& due = in.truth.scene_pairs(in.frame);
+  out.undecided |= in.truth.undecided_pairs() > 0;
+  for (const Truth::TruePair& p : due) {
     if (stated.count(p.bodies)) continue;
     const auto [a, b] = p.bodies;
-    // A mesh has no depth as a whole: that of its deepest triangle counts.
-    const bool has_depth = std::isfinite(p.truth.gap.lo);
-    const double l = in.truth.scale(a, b),
-                 depth = std::max(0.0, has_depth ? -p.truth.gap.hi : in.truth.depth_in_mesh(in.frame, a, b));
+    const double l = in.truth.scale(a, b), depth = certain_depth(in, a, b, p.truth);
     out.error(depth, l, in.tau(l));
     if (depth > in.tau(l))
       out.fault(Fault::missed, depth, l, {in.query.question, a, b},

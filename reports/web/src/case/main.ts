@@ -198,7 +198,9 @@ function drawTable(q: QueryJson): void {
   for (const name of rows) {
     const e = q.engines[name]!;
     const wrong = e.faults.length > 0;
-    const verdict = !wrong ? (e.undecided ? "undecided" : "right") : e.answer.outcome === "answered" ? "WRONG" : "FAILED";
+    const claimed = numberOf(e.claimed_in_l) || 0;
+    const verdict = wrong ? e.ruling.toUpperCase() : e.right && claimed > 0 ? `right within its claimed ${claimed.toPrecision(2)} L` : e.ruling;
+    const left = (e.not_judged ?? []).map((u) => u.claim).join("; ");
     const see = el("input", { type: "checkbox", title: `draw ${name}` });
     see.checked = !hidden.has(name);
     see.addEventListener("change", () => {
@@ -211,7 +213,7 @@ function drawTable(q: QueryJson): void {
     const worst = e.faults.reduce((m, f) => Math.max(m, numberOf(f.error_in_l) || 0), 0);
     const row = el("tr", { "data-engine": name }, el("td", { class: "screen-only" }, see),
       el("td", {}, el("span", { class: "swatch", style: `background:${colour(name)}` }), pick),
-      el("td", { class: wrong ? "bad" : e.undecided ? "warn" : "good" }, verdict),
+      el("td", { class: wrong ? "bad" : e.right && !claimed ? "good" : "warn", title: left ? `not judged: ${left}` : "" }, verdict),
       el("td", {}, stated(q, e)), el("td", { class: "n" }, worst > 0 ? worst.toExponential(1) : "–"),
       el("td", { class: "n" }, nanoseconds(e.elapsed_ns)));
     if (wrong || e.blame !== "none") row.className = "open";

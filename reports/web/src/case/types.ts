@@ -71,7 +71,11 @@ export interface AnswerJson {
 export interface EngineAnswer {
   answer: AnswerJson;
   elapsed_ns: number;
+  ruling: string;
   right: boolean;
+  not_judged?: { claim: string; by_definition: boolean }[];
+  /** Of L, where the engine's own tolerance is wide. */
+  claimed_in_l?: unknown;
   blame: string;
   undecided?: boolean;
   faults: { fault: string; words: string; error: unknown; error_in_l: unknown }[];

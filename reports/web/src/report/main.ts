@@ -12,7 +12,7 @@ use([BarChart, GridComponent, LegendComponent, TooltipComponent, SVGRenderer]);
 
 interface Tally {
   outcomes: Record<string, number>;
-  right: number; wrong: number; missed: number; ghost: number; undecided: number; representation: number;
+  right: number; wrong: number; missed: number; ghost: number; undecided: number; not_judged?: number; representation: number;
   worst_in_l: unknown; ns_median?: number; ns_p99?: number;
 }
 interface ReportPage {
@@ -74,7 +74,7 @@ function failed(t: Tally): number {
 }
 
 function drawEngines(): void {
-  const head = ["engine", "question", "answered", "right", "wrong", "missed", "ghost", "failed", "undecided", "worst / L", "median", "p99"];
+  const head = ["engine", "question", "answered", "right", "wrong", "missed", "ghost", "failed", "undecided", "not judged", "worst / L", "median", "p99"];
   const body = el("tbody");
   for (const [engine, questions] of Object.entries(data.summary.engines))
     for (const [question, t] of Object.entries(questions)) {
@@ -83,7 +83,7 @@ function drawEngines(): void {
       const n = (x: number, bad = false): HTMLElement => el("td", { class: bad && x > 0 ? "n bad" : "n" }, grouped(x));
       const same = body.lastElementChild?.getAttribute("data-engine") === engine;
       body.append(el("tr", { "data-engine": engine, class: same ? "same" : "" }, el("td", {}, engine), el("td", {}, question.replaceAll("_", " ")), n(answered), n(t.right), n(t.wrong, true), n(t.missed, true), n(t.ghost, true), n(failed(t), true),
-        n(t.undecided), el("td", { class: "n" }, numberOf(t.worst_in_l) > 0 ? numberOf(t.worst_in_l).toExponential(1) : "0"),
+        n(t.undecided), n(t.not_judged ?? 0), el("td", { class: "n" }, numberOf(t.worst_in_l) > 0 ? numberOf(t.worst_in_l).toExponential(1) : "0"),
         el("td", { class: "n" }, t.ns_median ? nanoseconds(t.ns_median) : "–"), el("td", { class: "n" }, t.ns_p99 ? nanoseconds(t.ns_p99) : "–")));
     }
   engineTable.replaceChildren(el("table", {}, el("thead", {}, el("tr", {}, ...head.map((h, i) => el("th", i > 1 ? { class: "n" } : {}, h)))), body));
