@@ -28,6 +28,7 @@ void Watchdog::progress(const WorkerProcess& w) {
   progress_at_ = Clock::now();
   progressed_ = true;
   idle_ = blocked_ = {};
+  resident_of_all_ = 0;  // it may be that of the worker before
 }
 
 bool Watchdog::was_slow(const WorkerProcess& w, std::int64_t elapsed_ns) const {
