@@ -5,6 +5,8 @@
 #include <cctype>
 #include <map>
 
+#include "core/base/exact_text.h"
+
 namespace touchstone::reports {
 namespace {
 
@@ -45,7 +47,9 @@ Json coded(const std::vector<std::string>& column) {
 }
 
 Json three_digits(const Json& x) {
-  return x.is_number_float() ? Json(std::stod(fmt::format("{:.3g}", x.get<double>()))) : x;
+  return x.is_number_float()
+             ? Json(double_from_text(fmt::format("{:.3g}", x.get<double>())).value_or(x.get<double>()))
+             : x;
 }
 
 }  // namespace

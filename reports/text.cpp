@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/base/printable.h"
+
 namespace touchstone::reports {
 
 using fuzz::CampaignResult;
@@ -37,7 +39,8 @@ std::string nanoseconds(double ns) {
   return fmt::format("{:.1f}G", ns / 1e9);
 }
 
-std::string wrapped(const std::string& text, std::size_t width, std::size_t indent) {
+std::string wrapped(const std::string& words, std::size_t width, std::size_t indent) {
+  const std::string text = printable(words, "\n");
   std::size_t start = std::min(text.find_first_not_of(' '), text.size());
   std::string out, line(start, ' ');  // the first line keeps its own indentation
   bool fresh = true;

@@ -7,6 +7,7 @@
 
 #include "core/base/exact_text.h"
 #include "core/base/input_error.h"
+#include "core/scene/json_file.h"
 
 namespace touchstone {
 namespace {
@@ -25,8 +26,7 @@ std::string line_and_column(std::string_view text, std::size_t offset) {
 std::string reason_of(const nlohmann::detail::exception& e, std::string_view at_error) {
   for (std::string_view word : {"NaN", "Infinity", "nan", "inf"})
     if (at_error.starts_with(word)) return std::string(word) + " is not a JSON number";
-  std::string s = e.what();
-  if (const auto bracket = s.find("] "); bracket != std::string::npos) s.erase(0, bracket + 2);
+  std::string s = touchstone::reason_of(e);
   if (s.starts_with("parse error at"))
     if (const auto colon = s.find(": "); colon != std::string::npos) s.erase(0, colon + 2);
   if (const auto last = s.find("; last read: '"); last != std::string::npos) {
@@ -38,7 +38,8 @@ std::string reason_of(const nlohmann::detail::exception& e, std::string_view at_
 
 class Builder final : public nlohmann::json_sax<Json> {
  public:
-  Builder(std::string_view text, const std::string& place) : text_(text), place_(place) {}
+  Builder(std::string_view text, const std::string& place, std::size_t max_values)
+      : text_(text), place_(place), left_(max_values) {}
   Json take() { return std::move(root_); }
 
   bool null() override { return put(nullptr), true; }
@@ -67,6 +68,7 @@ class Builder final : public nlohmann::json_sax<Json> {
 
  private:
   Json* put(Json v) {
+    if (left_-- == 0) throw InputError(place_, "holds more values than are read");
     if (stack_.empty()) return root_ = std::move(v), &root_;
     Json& top = *stack_.back();
     if (top.is_array()) return top.push_back(std::move(v)), &top.back();
@@ -84,6 +86,7 @@ class Builder final : public nlohmann::json_sax<Json> {
 
   std::string_view text_;
   const std::string& place_;
+  std::size_t left_;
   Json root_;
   std::vector<Json*> stack_;  // open containers; a container's address is stable while it is open
   std::vector<std::unordered_set<std::string>> keys_;
@@ -131,8 +134,12 @@ void write(const Json& j, std::string& out) {
 }  // namespace
 
 nlohmann::ordered_json parse_json(std::string_view text, const std::string& place) {
+  return parse_json(text, place, {});
+}
+
+nlohmann::ordered_json parse_json(std::string_view text, const std::string& place, const JsonLimits& limits) {
   if (text.find_first_not_of(" \t\r\n") == std::string_view::npos) throw InputError(place, "is empty");
-  Builder builder(text, place);
+  Builder builder(text, place, limits.values);
   if (!Json::sax_parse(text, &builder)) throw InputError(place, "is not JSON text");
   return builder.take();
 }

@@ -6,6 +6,7 @@
 
 #include "core/base/input_error.h"
 #include "core/scene/codec.h"
+#include "core/scene/json_file.h"
 #include "fuzz/campaign/directory_lock.h"
 #include "fuzz/campaign/store.h"
 
@@ -26,7 +27,7 @@ Part load_part(const std::filesystem::path& directory) {
   if (!std::filesystem::exists(file))
     throw InputError(directory.string(), "holds no campaign (touchstone fuzz --out DIR makes one)");
   try {
-    const Json j = Json::parse(read_file(file, std::uintmax_t{1} << 32));
+    const Json j = load_json(file, campaign_limits);
     if (!j.at("finished").get<bool>())
       throw InputError(directory.string(), "is unfinished; go on with it first (same command, same --out)");
     Part p;
@@ -39,6 +40,10 @@ Part load_part(const std::filesystem::path& directory) {
     p.settings.erase("merged");
     p.chunks = j.at("next_chunk");
     p.result = result_from_json(j.at("result"));
+    for (const auto& [key, f] : p.result.findings)
+      for (const char* part : {"case", "observation", "certificate", "received"})
+        if (!f.stored.is_object() || !f.stored.contains(part))
+          throw InputError(file.string(), "the finding " + key + " has no evidence: " + part + " is missing");
     return p;
   } catch (const Json::exception& e) {
     throw InputError(file.string(), std::string("is not a campaign's state: ") + e.what());

@@ -4,6 +4,7 @@
 
 #include "core/base/input_error.h"
 #include "core/scene/input_file.h"
+#include "core/scene/json_file.h"
 #include "scenarios/case_codec.h"
 
 namespace touchstone::fuzz {
@@ -47,7 +48,7 @@ std::optional<StoredState> load_state(const CampaignConfig& config) {
   const auto file = config.out / "state.json";
   if (!std::filesystem::exists(file)) return std::nullopt;
   try {
-    const Json j = Json::parse(read_file(file, std::uintmax_t{1} << 30));
+    const Json j = load_json(file, campaign_limits);
     if (j.at("settings") != settings(config))
       throw InputError(config.out.string(),
                        "holds a campaign with other settings (" + j.at("settings").dump() +

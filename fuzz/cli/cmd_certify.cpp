@@ -3,12 +3,14 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <thread>
 
 #include "core/base/input_error.h"
 #include "core/scene/input_file.h"
+#include "core/scene/json_file.h"
 #include "fuzz/campaign/store.h"
 #include "fuzz/cli/broad_subject.h"
 #include "fuzz/cli/command.h"
@@ -188,10 +190,22 @@ int differs(const std::string& file, const std::string& why) {
 
 Json read_certificate(const std::string& file) {
   try {
-    return Json::parse(read_file(file, std::uintmax_t{1} << 28));
+    return load_json(file);
   } catch (const Json::exception& e) {
     throw InputError(file, std::string("is not JSON: ") + e.what());
   }
+}
+
+// What the file names is a label: a path or a command is run only when the command line says the same words.
+void require_same_subject(const CertifyOptions& o, const std::string& named) {
+  const auto phases = core_broad_phases();
+  const bool known = std::find(phases.begin(), phases.end(), named) != phases.end() || is_catalogued(named);
+  if (o.subject.empty() && !known)
+    throw InputError(o.check, "subject: " + json_text(named) +
+                                  " is not in the catalogue, and what a file names is not run; say --subject with "
+                                  "these words to run it");
+  if (!o.subject.empty() && o.subject != named)
+    throw InputError(o.check, "subject: it is of " + json_text(named) + ", not of --subject " + o.subject);
 }
 
 int check(const CertifyOptions& o) {
@@ -208,7 +222,10 @@ int check(const CertifyOptions& o) {
   c.scope = was.scope == "full" ? fuzz::Scope::full : fuzz::Scope::quick;
   c.seed = was.seed, c.limit = was.limit, c.levels = was.levels, c.without = was.without,
   c.first_fault = was.first_fault, c.jobs = o.jobs;
-  c.program = was.program;
+  c.program = config_of(o).program;
+  if (was.program != c.program)
+    return differs(o.check, "it was made by " + json_text(was.program) + ", and this is " + c.program);
+  require_same_subject(o, was.subject);
   const fuzz::Subject s = broad_subject(was.subject, o.limits, was.sweeps);
   if (s.plugin_hash != was.plugin_hash)
     return differs(o.check, "the plug-in is another build than the one certified");

@@ -8,6 +8,7 @@
 
 #include "core/base/comma_list.h"
 #include "core/scene/input_file.h"
+#include "core/scene/json_file.h"
 #include "fuzz/campaign/store.h"
 #include "fuzz/cli/asked_engines.h"
 #include "fuzz/cli/broad_subject.h"
@@ -106,7 +107,7 @@ fuzz::Chart measured(const ChartOptions& o, std::string& subject) {
 }
 
 fuzz::Chart stored(const std::string& file) {
-  const auto j = nlohmann::json::parse(read_file(file, std::uintmax_t{1} << 28), nullptr, false);
+  const auto j = load_json(file);
   return fuzz::chart_from_json(j, file);
 }
 

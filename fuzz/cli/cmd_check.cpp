@@ -8,6 +8,7 @@
 
 #include "core/base/input_error.h"
 #include "core/scene/input_file.h"
+#include "core/scene/json_file.h"
 #include "fuzz/cli/command.h"
 #include "fuzz/record/evidence.h"
 #include "oracles/referee/checker.h"
@@ -27,7 +28,7 @@ struct CheckOptions {
 // A finding holds its certificate under that name; a bare certificate is one itself.
 Json certificate_in(const std::string& path) {
   try {
-    const Json j = Json::parse(read_file(path, std::uintmax_t{1} << 28));
+    const Json j = load_json(path);
     return j.is_object() && j.contains("certificate") ? j.at("certificate") : j;
   } catch (const Json::exception& e) {
     throw InputError(path, std::string("is not JSON: ") + e.what());
@@ -109,7 +110,7 @@ Claim claim_of(const Json& j) {
 
 // How an answer failed, when the file is a finding about that: a crash is observed, not proved.
 std::string failure_in(const std::string& path) {
-  const Json j = Json::parse(read_file(path, std::uintmax_t{1} << 28));
+  const Json j = load_json(path);
   const bool is_finding = j.is_object() && j.contains("fault") && j.contains("certificate");
   return is_finding && j["fault"].is_string() ? j["fault"].get<std::string>() : "";
 }

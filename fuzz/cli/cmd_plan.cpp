@@ -5,6 +5,7 @@
 
 #include "core/base/input_error.h"
 #include "core/scene/input_file.h"
+#include "core/scene/json_file.h"
 #include "core/scene/real_scene.h"
 #include "fuzz/cli/case_argument.h"
 #include "fuzz/cli/command.h"
@@ -33,7 +34,7 @@ fuzz::Course course_named(const PlanArguments& o) {
 Fidelity plan_in(const std::string& file) {
   fuzz::Json j;
   try {
-    j = fuzz::Json::parse(read_file(file));
+    j = load_json(file);
   } catch (const fuzz::Json::exception& e) {
     throw InputError(file, std::string("is not JSON: ") + e.what());
   }

@@ -2,6 +2,7 @@
 
 #include "core/base/input_error.h"
 #include "core/scene/codec.h"
+#include "core/scene/json_file.h"
 #include "fuzz/cli/command.h"
 #include "fuzz/cli/output_file.h"
 #include "fuzz/cli/pages.h"
@@ -20,7 +21,7 @@ struct ReportOptions {
 // a minute.
 fuzz::Json read_json(const std::filesystem::path& file) {
   try {
-    return nlohmann::json::parse(read_file(file, std::uintmax_t{1} << 30));
+    return load_json(file, campaign_limits);
   } catch (const fuzz::Json::exception& e) {
     throw InputError(file.string(), std::string("is no JSON: ") + e.what());
   }

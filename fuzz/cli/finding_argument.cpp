@@ -9,6 +9,7 @@
 
 #include "core/base/input_error.h"
 #include "core/scene/input_file.h"
+#include "core/scene/json_file.h"
 #include "fuzz/cli/case_argument.h"
 #include "fuzz/cli/command.h"
 #include "fuzz/cli/npm_engines.h"
@@ -33,7 +34,7 @@ std::string stored_key(const std::string& path) {
     return is_case && std::count(name.begin(), name.end(), '.') >= dots_of_a_key ? name : "";
   }
   try {
-    return Json::parse(read_file(beside, std::uintmax_t{1} << 28)).at("key");
+    return load_json(beside).at("key");
   } catch (const Json::exception& e) {
     throw InputError(beside.string(), std::string("is not a finding: ") + e.what());
   }

@@ -3,6 +3,7 @@
 #include "core/base/input_error.h"
 #include "core/broad/catalog.h"
 #include "core/scene/codec.h"
+#include "core/scene/json_file.h"
 
 namespace touchstone::fuzz {
 namespace {
@@ -30,12 +31,13 @@ Json simpler_to_json(const Fidelity& f) {
 
 void read_simpler(const Json& j, const std::string& place, Fidelity& f) {
   const Scene s = scene_from_json(j.at("scene"), place + ".scene");
-  const auto of = j.at("of_shape").get<std::vector<std::size_t>>();
+  std::vector<std::uint64_t> of;
+  for (const JsonReader& shape : JsonReader(j, place)["of_shape"].items()) of.push_back(count_of(shape));
   const auto errors = j.at("error").get<std::vector<double>>();
   if (of.size() != s.bodies.size() || errors.size() != of.size())
     throw InputError(place, "of_shape, error and scene.bodies differ in length");
   for (std::size_t k = 0; k < of.size(); ++k) {
-    constexpr std::size_t most = 1u << 24;
+    constexpr std::size_t most = 1U << 18;
     if (of[k] >= most || !(errors[k] >= 0)) throw InputError(place, "a shape or an error out of range");
     if (f.simpler.size() <= of[k]) f.simpler.resize(of[k] + 1);
     f.simpler[of[k]] = SimplerShape{s.shape_of(static_cast<int>(k)), s.bodies[k].pose, errors[k]};
@@ -44,10 +46,15 @@ void read_simpler(const Json& j, const std::string& place, Fidelity& f) {
 
 constexpr std::string_view arithmetic_names[] = {"double", "double alone", "float"};
 
-Arithmetic arithmetic_of(const std::string& name) {
+Arithmetic arithmetic_of(const JsonReader& j) {
+  const std::string name = j.string();
   for (std::size_t i = 0; i < std::size(arithmetic_names); ++i)
     if (arithmetic_names[i] == name) return static_cast<Arithmetic>(i);
-  throw InputError("arithmetic '" + name + "'", "is none of double, double alone, float");
+  j.fail("is none of double, double alone, float");
+}
+
+PairMethod method_of(const JsonReader& j) {
+  return {j["balls_first"].boolean(), arithmetic_of(j["arithmetic"])};
 }
 
 Json method_json(const PairMethod& m) {
@@ -87,13 +94,13 @@ Fidelity fidelity_from_json(const Json& j, const std::string& place) try {
   for (std::size_t a = 0; a < f.method.size(); ++a)
     for (std::size_t b = a; b < f.method.size(); ++b)
       if (const auto m = methods.find(pair_name(a, b)); m != methods.end())
-        f.method[a][b] = {m->at("balls_first"), arithmetic_of(m->at("arithmetic"))}, ++read;
+        f.method[a][b] = method_of(JsonReader(*m, place + ".methods." + pair_name(a, b))), ++read;
   if (read != methods.size())
     throw InputError(place + ".methods", "names a pair of shapes that there is not");
   if (!j.at("simpler").is_null()) read_simpler(j.at("simpler"), place + ".simpler", f);
   return f;
 } catch (const Json::exception& e) {
-  throw InputError(place, std::string("is not a plan: ") + e.what());
+  throw InputError(place, "is not a plan: " + reason_of(e));
 }
 
 }  // namespace touchstone::fuzz

@@ -19,7 +19,9 @@ constexpr const char* columns[] = {"engine",    "question",  "regime",     "pair
                                    "tie",       "unsound",   "not_judged", "wide_claim"};
 
 // Four digits are more than a time repeats and an error is worth; the page of a full chart has 4e4 rows.
-Json rounded(double x) { return std::isfinite(x) ? number(std::stod(fmt::format("{:.4g}", x))) : number(x); }
+Json rounded(double x) {
+  return std::isfinite(x) ? number(double_from_text(fmt::format("{:.4g}", x)).value_or(x)) : number(x);
+}
 
 // The strings of a chart, each once: rows name them by their place.
 class Strings {

@@ -8,6 +8,8 @@
 #include "core/base/exact_text.h"
 #include "core/base/hash.h"
 #include "core/base/input_error.h"
+#include "core/base/printable.h"
+#include "oracles/api/engine_name.h"
 #include "scenarios/case_codec.h"
 
 namespace touchstone::fuzz {
@@ -234,6 +236,23 @@ Json to_json(const Finding& f) {
           {"first_index", f.first_index}, {"words", f.words}};
 }
 
+namespace {
+
+// Directories are named by keys: nothing but the name of an engine and words of our own, no longer than a name may be.
+void require_plain_key(const Finding& f) {
+  constexpr std::size_t longest = 240;
+  const auto is_word = [](const std::string& s) {
+    return !s.empty() && std::all_of(s.begin(), s.end(), [](char c) {
+      return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '_' || c == '-';
+    });
+  };
+  if (!is_engine_name(f.engine) || !is_word(f.question) || !is_word(f.fault) || !is_word(f.shapes) ||
+      !is_word(f.blame) || !is_word(f.degeneracy) || !is_word(f.magnitude) || f.key().size() > longest)
+    throw InputError("stored result", "a finding's key may not name a directory: " + printable(f.key()));
+}
+
+}  // namespace
+
 Finding finding_from_json(const Json& j) {
   Finding f;
   f.engine = j.at("engine"), f.question = j.at("question"), f.fault = j.at("fault"),
@@ -241,6 +260,7 @@ Finding finding_from_json(const Json& j) {
   f.blame = j.at("blame"), f.count = j.at("count"), f.worst_in_l = number_from(j.at("worst_in_l"));
   f.first_index = j.at("first_index"), f.words = j.at("words");
   if (j.contains("evidence")) f.stored = j.at("evidence");
+  require_plain_key(f);
   return f;
 }
 
@@ -350,6 +370,8 @@ CampaignResult result_from_json(const Json& j) try {
     for (const auto& [name, document] : j["documents"].items()) documents[name] = &document;
   for (const auto& [key, f] : j.at("findings").items()) {
     Finding& finding = r.findings[key] = finding_from_json(f);
+    if (finding.key() != key)
+      throw InputError("stored result", "a finding is filed under another key than its own: " + printable(key));
     fill_in(finding.stored, documents);
   }
   if (j.contains("times")) {

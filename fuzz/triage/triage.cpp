@@ -9,6 +9,7 @@
 
 #include "core/base/input_error.h"
 #include "core/scene/codec.h"
+#include "core/scene/json_file.h"
 #include "scenarios/case_codec.h"
 
 namespace touchstone::fuzz {
@@ -19,7 +20,7 @@ std::string text_of(const Case& c) { return case_to_json(c).dump(); }
 StoredFinding load_finding(const std::filesystem::path& directory) {
   const auto file = directory / "finding.json";
   try {
-    const Json j = Json::parse(read_file(file, std::uintmax_t{1} << 28));
+    const Json j = load_json(file);
     StoredFinding s;
     s.finding = finding_from_json(j);
     s.c = load_case(directory / "case.json");

@@ -1,5 +1,6 @@
 // EngineCard ↔ JSON. Strict in both directions: a card is the place where an engine's tolerance claims are
 // made, and a misspelt field would silently change a verdict.
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <nlohmann/json.hpp>
@@ -7,7 +8,9 @@
 
 #include "core/base/exact_text.h"
 #include "core/base/input_error.h"
+#include "core/base/printable.h"
 #include "oracles/api/engine.h"
+#include "oracles/api/engine_name.h"
 
 namespace touchstone {
 namespace {
@@ -35,6 +38,9 @@ constexpr std::array number_fields{NumberField{"unit_roundoff", &EngineCard::uni
                                    NumberField{"tau_factor", &EngineCard::tau_factor, 0x1p14}};
 constexpr double most_of_l = 1e-2;
 
+// What people read, on a terminal too.
+constexpr std::size_t max_name_bytes = 64, max_text_bytes = 1000;
+
 bool is_known(std::string_view key) {
   for (const auto& f : text_fields)
     if (key == f.name) return true;
@@ -46,7 +52,10 @@ bool is_known(std::string_view key) {
 std::string text_of(const Json& j, const char* field) {
   if (!j.contains(field)) throw InputError(field, "is missing from the engine card");
   if (!j[field].is_string()) throw InputError(field, "is not a text");
-  return j[field].get<std::string>();
+  std::string text = j[field].get<std::string>();
+  if (text.size() > max_text_bytes)
+    throw InputError(field, "is longer than " + std::to_string(max_text_bytes) + " bytes");
+  return printable(text, "\n");
 }
 
 std::string too_large(double x, double most) {
@@ -62,7 +71,17 @@ double positive_number_of(const Json& j, const char* field, double most) {
   return x;
 }
 
+bool is_letter_or_digit(char c) {
+  return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9');
+}
+
 }  // namespace
+
+bool is_engine_name(std::string_view name) {
+  if (name.empty() || name.size() > max_name_bytes || !is_letter_or_digit(name.front())) return false;
+  return std::all_of(name.begin(), name.end(),
+                     [](char c) { return c >= ' ' && c <= '~' && c != '/' && c != '\\'; });
+}
 
 EngineCard card_from_json(const std::string& text) {
   const Json j = Json::parse(text, nullptr, /*allow_exceptions=*/false);
@@ -80,6 +99,9 @@ EngineCard card_from_json(const std::string& text) {
     card.complete_manifolds = j[complete_field].get<bool>();
   }
   if (card.name.empty()) throw InputError("name", "is empty");
+  if (!is_engine_name(card.name))
+    throw InputError(
+        "name", "must begin with a letter or digit and be at most 64 printable ASCII characters, no / or \\");
   return card;
 }
 
@@ -93,7 +115,7 @@ std::string to_json_text(const EngineCard& card) {
   j["tau_factor"] = card.tau_factor;
   j["source"] = card.source;
   if (card.complete_manifolds) j[complete_field] = true;
-  return j.dump();
+  return j.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
 }  // namespace touchstone

@@ -1,5 +1,7 @@
 // Certificates read back from what to_json wrote; those of motions both ways.
+#include <algorithm>
 #include <nlohmann/json.hpp>
+#include <string_view>
 
 #include "core/base/input_error.h"
 #include "oracles/referee/checker.h"
@@ -27,16 +29,44 @@ Vec3 vector_of(const nlohmann::ordered_json& j) {
   return {j[0].get<double>(), j[1].get<double>(), j[2].get<double>()};
 }
 
+// Without the library's name and number.
+std::string said(const nlohmann::json::exception& e) {
+  const std::string s = e.what();
+  const auto bracket = s.find("] ");
+  return bracket == std::string::npos ? s : s.substr(bracket + 2);
+}
+
+// A certificate of ours has some thousands of digits at most; beyond, to check one takes longer than a person
+// waits.
+constexpr std::size_t max_digits = 50'000, max_digits_in_all = 2'000'000;
+
+// Digits without leading zeros.
+bool is_whole(std::string_view s) {
+  return !s.empty() && s.size() <= max_digits && (s.size() == 1 || s[0] != '0') &&
+         s.find_first_not_of("0123456789") == std::string_view::npos;
+}
+
+void require_readable_size(const nlohmann::ordered_json& rationals) {
+  std::size_t digits = 0;
+  for (const auto& r : rationals) digits += r.is_string() ? r.get_ref<const std::string&>().size() : 0;
+  if (digits > max_digits_in_all) throw InputError("rationals", "have more digits in all than are read");
+}
+
 }  // namespace
 
+// Lowest terms are not asked for, but a denominator has no sign and is not zero: GMP takes both for granted.
 checker::Q checker::rational_of(const std::string& s) {
-  const bool plain = !s.empty() && s.find_first_not_of("-0123456789/") == std::string::npos &&
-                     s.back() != '/' && s.find("/0") == std::string::npos;
-  try {
-    if (plain) return checker::Q(s);
-  } catch (const std::exception&) {
-  }
-  throw InputError("", "is not a rational number \"n/d\" (" + s + ")");
+  using Integer =
+      boost::multiprecision::number<boost::multiprecision::gmp_int, boost::multiprecision::et_off>;
+  const auto slash = std::min(s.find('/'), s.size());
+  const std::string numerator = s.substr(0, slash),
+                    denominator = slash < s.size() ? s.substr(slash + 1) : "1";
+  if (is_whole(std::string_view(numerator).substr(numerator.starts_with('-') ? 1 : 0)) &&
+      is_whole(denominator) && denominator != "0")
+    return Q(Integer(numerator), Integer(denominator));
+  constexpr std::size_t shown = 40;
+  throw InputError("", "is not a rational number \"n/d\" of at most " + std::to_string(max_digits) +
+                           " digits (" + (s.size() > shown ? s.substr(0, shown) + "..." : s) + ")");
 }
 
 Certificate certificate_from_json(const nlohmann::ordered_json& j) {
@@ -46,6 +76,7 @@ Certificate certificate_from_json(const nlohmann::ordered_json& j) {
     using K = Certificate::Kind;
     const bool plane = c.kind == K::separating_plane, point = c.kind == K::common_point;
     if ((plane || point) && j.contains("rationals")) {
+      require_readable_size(j.at("rationals"));
       c.rationals = j.at("rationals").get<std::vector<std::string>>();
       if (c.rationals.empty()) throw InputError("rationals", "is empty");
     } else if (point) {
@@ -63,7 +94,7 @@ Certificate certificate_from_json(const nlohmann::ordered_json& j) {
     }
     return c;
   } catch (const nlohmann::json::exception& e) {
-    throw InputError("certificate", std::string("cannot be read: ") + e.what());
+    throw InputError("certificate", "cannot be read: " + said(e));
   }
 }
 
@@ -111,7 +142,7 @@ ImpactCertificate impact_certificate_from_json(const nlohmann::ordered_json& j) 
     }
     return c;
   } catch (const nlohmann::json::exception& e) {
-    throw InputError("certificate", std::string("cannot be read: ") + e.what());
+    throw InputError("certificate", "cannot be read: " + said(e));
   }
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <string_view>
 
 #include "core/base/input_error.h"
 #include "oracles/referee/exact_sign.h"
@@ -74,14 +75,15 @@ Rational simplest_between(const Rational& lo, const Rational& hi) {
 std::string text_of(const Rational& x) { return x.str(); }
 
 Rational rational_from_text(const std::string& s) {
-  const bool plain =
-      !s.empty() && s.find_first_not_of("-0123456789/") == std::string::npos && s.back() != '/';
-  if (!plain) throw InputError("", "is not a rational number \"n/d\" (" + s + ")");
-  try {
-    return Rational(s);
-  } catch (const std::exception&) {
+  const auto slash = std::min(s.find('/'), s.size());
+  const std::string n = s.substr(0, slash), d = slash < s.size() ? s.substr(slash + 1) : "1";
+  const auto is_whole = [](std::string_view t) {
+    return !t.empty() && (t.size() == 1 || t[0] != '0') &&
+           t.find_first_not_of("0123456789") == std::string_view::npos;
+  };
+  if (!is_whole(std::string_view(n).substr(n.starts_with('-') ? 1 : 0)) || !is_whole(d) || d == "0")
     throw InputError("", "is not a rational number \"n/d\" (" + s + ")");
-  }
+  return Rational(Integer(n), Integer(d));
 }
 
 int determinant_sign(const Real3& a, const Real3& b, const Real3& c) {

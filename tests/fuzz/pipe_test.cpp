@@ -159,9 +159,10 @@ TEST_CASE("a certificate of a command holds for the scripts that it names and no
   INFO(made.out << made.err);
   REQUIRE(made.code == 0);
   CHECK(made.out.find("plug-in ") != std::string::npos);
-  CHECK(w.touchstone("certify --check c.json").code == 0);
+  const std::string check = "certify --check c.json --subject 'pipe:python3 mine.py'";
+  CHECK(w.touchstone(check).code == 0);
   std::ofstream(w.dir / "mine.py", std::ios::app) << "# another\n";
-  const Run changed = w.touchstone("certify --check c.json");
+  const Run changed = w.touchstone(check);
   CHECK(changed.code == 1);
   CHECK(changed.out.find("another build than the one certified") != std::string::npos);
 }

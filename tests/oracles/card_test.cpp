@@ -47,4 +47,10 @@ TEST_CASE("a bad card names the field and the reason", "[oracles][card][bad-inpu
   CHECK(with("\"source\"", "\"complete_manifolds\":1,\"source\"") ==
         "complete_manifolds: is neither true nor false");
   CHECK(with("256.0", "1e999").find("not JSON") != std::string::npos);
+  // A name is part of keys, of names of files and of what terminals show.
+  for (const char* name : {"../victim", "/etc/x", "..", "", " x", "a\\nb", "\\u001b[2J", "caf\u00e9"})
+    CHECK(with("a \\\"b\\\"", name).starts_with("name: "));
+  CHECK(with("a \\\"b\\\"", std::string(65, 'x')).starts_with("name: must begin"));
+  CHECK(with("a \\\"b\\\"", std::string(64, 'x')).empty());
+  CHECK(with("page 7", std::string(1001, 'x')) == "source: is longer than 1000 bytes");
 }

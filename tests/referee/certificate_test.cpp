@@ -253,4 +253,33 @@ TEST_CASE("what is not a certificate is bad input", "[referee][checker]") {
     REQUIRE_THROWS_AS(certificate_from_json(nlohmann::ordered_json::parse(text)), InputError);
 }
 
+TEST_CASE("a rational has a denominator of 1 or more, lowest terms or not, and a bounded length",
+          "[referee][checker]") {
+  const Shape ball = Sphere{1};
+  const Placed a{&ball, Pose{}}, b{&ball, Pose{}};
+  const auto point = [](const std::string& x) {
+    Certificate c;
+    c.kind = Certificate::Kind::common_point;
+    c.rationals = {x, "0", "0"};
+    return c;
+  };
+  for (const char* good : {"1", "0", "-1", "-0", "2/4", "-3/6", "8/8", "0/5"})
+    CHECK(check(point(good), a, b));
+  CHECK_FALSE(check(point("9/8"), a, b));
+  const std::string digits(50'001, '1');
+  for (const std::string& bad :
+       {std::string("-1/-2"), std::string("1/-0"),  std::string("1/-1"), std::string("1/0"),
+        std::string("1/00"),  std::string("01"),    std::string("1/01"), std::string("--1"),
+        std::string("1//2"),  std::string("1/2/3"), std::string(),       std::string("/"),
+        std::string("/1"),    std::string("1/"),    std::string("-"),    std::string("+1"),
+        std::string(" 1"),    std::string("1.5"),   std::string("0x1"),  digits,
+        "1/" + digits}) {
+    INFO(bad.substr(0, 10));
+    CHECK_THROWS_AS(check(point(bad), a, b), InputError);
+  }
+  nlohmann::ordered_json many = {{"kind", "separating_plane"}};
+  for (int i = 0; i < 44; ++i) many["rationals"].push_back(std::string(49'000, '7'));
+  CHECK_THROWS_AS(certificate_from_json(many), InputError);
+}
+
 }  // namespace touchstone::referee_test
