@@ -14,6 +14,7 @@
 
 #include "core/base/did_you_mean.h"
 #include "core/base/input_error.h"
+#include "core/base/printable.h"
 #include "fuzz/cli/command.h"
 #include "oracles/api/worker_limits.h"
 
@@ -98,14 +99,15 @@ int main(int argc, char** argv) {
     fmt::print(stderr, "touchstone: interrupted\n");
     return cli::exit_failed;
   } catch (const InputError& e) {
-    fmt::print(stderr, "touchstone: {}\n", e.what());
+    fmt::print(stderr, "touchstone: {}\n", printable(e.what(), "\n"));
     return cli::exit_usage;
   } catch (const std::system_error& e) {
     // Of `| head` nobody needs to be told.
-    if (e.code() != std::errc::broken_pipe) fmt::print(stderr, "touchstone: failed: {}\n", e.what());
+    if (e.code() != std::errc::broken_pipe)
+      fmt::print(stderr, "touchstone: failed: {}\n", printable(e.what(), "\n"));
     return cli::exit_failed;
   } catch (const std::exception& e) {
-    fmt::print(stderr, "touchstone: failed: {}\n", e.what());
+    fmt::print(stderr, "touchstone: failed: {}\n", printable(e.what(), "\n"));
     return cli::exit_failed;
   }
 }

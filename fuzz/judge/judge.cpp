@@ -3,9 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <optional>
 
 #include "core/scene/odd_numbers.h"
 #include "fuzz/judge/check.h"
+#include "fuzz/judge/held.h"
 
 namespace touchstone::fuzz {
 namespace {
@@ -71,7 +73,9 @@ bool is_refusal(const CheckInput& asked) {
          asked.query.question == Question::candidates && !odd_numbers(asked.truth.scene()).empty();
 }
 
-Judgement judge_one(const CheckInput& asked, int received_frame) {
+// received_frame: empty when the engine did not hold the bodies asked about. No answer can then be right for
+// what it received, and what is wrong with it is lost in the representation.
+Judgement judge_one(const CheckInput& asked, std::optional<int> received_frame) {
   Judgement j;
   j.outcome = asked.answer.outcome;
   if (j.outcome == Outcome::unsupported || is_refusal(asked)) return j;
@@ -81,8 +85,8 @@ Judgement judge_one(const CheckInput& asked, int received_frame) {
     f.words =
         std::string(to_string(j.outcome)) + (asked.answer.detail.empty() ? "" : ": " + asked.answer.detail);
     j.faults.push_back(f);
-    j.received_faults.push_back(std::move(f));
-    j.blame = Blame::algorithm;
+    if (received_frame) j.received_faults.push_back(std::move(f));
+    j.blame = received_frame ? Blame::algorithm : Blame::representation;
     return j;
   }
   CheckOutput out = run_checks(asked);
@@ -94,7 +98,11 @@ Judgement judge_one(const CheckInput& asked, int received_frame) {
   j.pairs_true = out.pairs_true, j.pairs_reported = out.pairs_reported,
   j.pairs_duplicate = out.pairs_duplicate;
   j.manifold_coverage = out.manifold_coverage;
-  j.received_faults = faults_received(asked, received_frame, out.excess, j.faults);
+  if (!received_frame) {
+    j.blame = j.faults.empty() ? Blame::none : Blame::representation;
+    return j;
+  }
+  j.received_faults = faults_received(asked, *received_frame, out.excess, j.faults);
   j.blame = blame_of(j, asked);
   return j;
 }
@@ -134,9 +142,11 @@ std::vector<Judgement> judge(const Case& c, const EngineCard& card, const CaseOb
     static const Observation missing{
         Outcome::crashed, "the engine gave no answer", {}, {}, {}, {}, {}, {}, {}, {}, {}, 0, 0, false, {}};
     const Observation& answer = i < observations.answers.size() ? observations.answers[i] : missing;
-    result.push_back(judge_one({truth, 0, c.queries[i], answer, card}, received));
+    const bool held = is_held(c.scene, observations.received, c.queries[i]);
+    result.push_back(
+        judge_one({truth, 0, c.queries[i], answer, card}, held ? std::optional(received) : std::nullopt));
     result.back().holds_other_shape =
-        result.back().blame == Blame::representation && holds_other_shape(c.scene, observations.received);
+        held && result.back().blame == Blame::representation && holds_other_shape(c.scene, observations.received);
   }
   return result;
 }

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "core/base/input_error.h"
+#include "fuzz/judge/held.h"
 #include "fuzz/judge/truth.h"
 
 namespace touchstone::fuzz {
@@ -44,6 +45,7 @@ double miss(const GapInterval& x, const GapInterval& y) {
 }
 
 double displacement(const Scene& s, const ReceivedScene& received) {
+  if (!is_held(s, received, {Question::scene_contacts})) return infinity;
   Truth truth(s);
   return truth.displacement(truth.frame_of(received));
 }

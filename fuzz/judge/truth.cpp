@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "core/tolerance.h"
+#include "fuzz/judge/held.h"
 
 namespace touchstone::fuzz {
 namespace {
@@ -131,7 +132,8 @@ bool holds_other_shape(const Scene& asked, const ReceivedScene& received) {
 
 Truth::Truth(const Scene& asked) : asked_(asked), frames_(1) {}
 
-int Truth::frame_of(const ReceivedScene& received) {
+int Truth::frame_of(const ReceivedScene& whole) {
+  const ReceivedScene received = held_part(asked_, whole);
   if (same_as_asked(asked_, received)) return 0;
   for (std::size_t i = 1; i < frames_.size(); ++i)
     if (frames_[i].received == received) return static_cast<int>(i);

@@ -3,6 +3,8 @@
 #include <cmath>
 
 #include "core/base/exact_text.h"
+#include "core/base/printable.h"
+#include "core/scene/json_file.h"
 
 namespace touchstone::fuzz {
 
@@ -15,7 +17,7 @@ std::string csv_cells(const Json& cells) {
   std::string text;
   for (const Json& cell : cells) {
     if (!text.empty()) text += ',';
-    text += cell.dump();
+    text += json_text(cell);
   }
   return text;
 }
@@ -25,7 +27,7 @@ Json vector(const Vec3& v) { return Json::array({number(v.x()), number(v.y()), n
 Json to_json(const Observation& o) {
   Json j;
   j["outcome"] = to_string(o.outcome);
-  if (!o.detail.empty()) j["detail"] = o.detail;
+  if (!o.detail.empty()) j["detail"] = valid_utf8(o.detail);
   if (!o.site.empty()) j["site"] = o.site;
   if (o.overlap) j["overlap"] = *o.overlap;
   if (o.distance) j["distance"] = number(*o.distance);

@@ -1,5 +1,6 @@
 #include "oracles/api/protocol.h"
 
+#include "core/base/printable.h"
 #include "oracles/api/protocol_scene.h"
 
 namespace touchstone::protocol {
@@ -79,7 +80,7 @@ Observation get_observation(Reader& r) {
   o.outcome = static_cast<Outcome>(r.tag(static_cast<std::uint8_t>(outcome_names.size())));
   const auto present = r.get<std::uint16_t>();
   if (present > all_present) throw Malformed("an unknown field");
-  o.detail = r.text();
+  o.detail = printable(r.text(), "\n\t");
   o.claimed_tolerance = r.get<double>();
   o.elapsed_ns = r.get<std::int64_t>();
   if (present & has_overlap) o.overlap = r.flag();
@@ -158,10 +159,10 @@ Hello decode_hello(std::string_view payload) {
   Reader r(payload);
   Hello m;
   m.cards.resize(r.count(4));
-  for (std::string& c : m.cards) c = r.text();
+  for (std::string& c : m.cards) c = valid_utf8(r.text());
   m.chosen = r.get<std::int32_t>();
-  m.error = r.text();
-  m.sandbox = r.text();
+  m.error = valid_utf8(r.text());
+  m.sandbox = printable(r.text());
   r.finish();
   if (m.chosen < -1 || m.chosen >= static_cast<std::int32_t>(m.cards.size()))
     throw Malformed("hello names an engine that it does not list");

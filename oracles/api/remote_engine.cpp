@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "core/base/input_error.h"
+#include "core/base/printable.h"
 #include "oracles/api/patience.h"
 #include "oracles/api/process_usage.h"
 #include "oracles/api/watchdog.h"
@@ -32,10 +33,10 @@ struct Cursor {
   bool operator==(const Cursor&) const = default;
 };
 
-Observation failure(Outcome outcome, std::string detail, std::string site = "") {
+Observation failure(Outcome outcome, const std::string& detail, std::string site = "") {
   Observation o;
   o.outcome = outcome;
-  o.detail = std::move(detail);
+  o.detail = printable(detail, "\n\t");
   o.site = std::move(site);
   return o;
 }

@@ -434,3 +434,49 @@ TEST_CASE("coverage is the part of the true contact region that a manifold spans
   o.normal = Vec3(1, 0, 0);  // another question
   CHECK(with({{0, 0, 1}}) == -1);
 }
+
+TEST_CASE("a scene received that is none is representation, never a crash", "[judge]") {
+  const double nan = std::nan(""), inf = HUGE_VAL;
+  const auto placed = [](const Vec3& t, double m = 1) { return Placement{m * Mat3::Identity(), t}; };
+  const auto at = [&](const Placement& p) { return ReceivedScene{{std::nullopt, p}, {}}; };
+  const Vec3 there(1.5, 0, 0);
+  const ReceivedScene none[] = {at(placed({nan, 0, 0})), at(placed({inf, 0, 0})),   at(placed(there, nan)),
+                                at(placed(there, -inf)), at(placed({1e300, 0, 0})), at(placed(there, 1e300)),
+                                {{}, {Sphere{1e300}}},   {{}, {Sphere{inf}}},       {{}, {Sphere{nan}}},
+                                {{}, {Sphere{-1}}}};
+  Observation missed = answered();
+  missed.overlap = false;
+  Observation crashed;
+  crashed.outcome = Outcome::crashed;
+  for (const ReceivedScene& received : none) {
+    for (const auto& [q, o] : {std::pair{Question::overlap, missed}, std::pair{Question::overlap, crashed},
+                               std::pair{Question::contact, contact({0, 1, 0}, 0.1)}}) {
+      const auto j = judge_one(spheres(1.5, q), o, double_card(), received);
+      CHECK_FALSE(j.faults.empty());
+      CHECK(j.blame == fuzz::Blame::representation);
+      CHECK(j.received_faults.empty());
+    }
+    CHECK(
+        judge_one(spheres(1.5, Question::contact), contact({1, 0, 0}, 0.5), double_card(), received).right());
+  }
+  // A body that the question is not about takes nothing from the blame.
+  Case three = spheres(1.5, Question::overlap);
+  three.scene.bodies.resize(3);
+  const ReceivedScene third{{std::nullopt, std::nullopt, placed({nan, 0, 0})}, {}};
+  CHECK(judge_one(three, missed, double_card(), third).blame == fuzz::Blame::algorithm);
+}
+
+TEST_CASE("a mesh or half-space received that is none does not reach the referee", "[judge]") {
+  Case c = spheres(0.5, Question::overlap);
+  c.scene.shapes.push_back(TriangleMesh{{{-1, -1, 0}, {1, -1, 0}, {0, 1, 0}}, {{0, 1, 2}}});
+  c.scene.bodies[1].shape = 1;
+  Observation missed = answered();
+  missed.overlap = false;
+  TriangleMesh broken = std::get<TriangleMesh>(c.scene.shapes[1]);
+  broken.vertices[1].y() = std::nan("");
+  CHECK(judge_one(c, missed, double_card(), {{}, {std::nullopt, broken}}).blame ==
+        fuzz::Blame::representation);
+  c.scene.shapes[1] = HalfSpace{};
+  CHECK(judge_one(c, missed, double_card(), {{}, {std::nullopt, HalfSpace{Vec3::Zero(), 1}}}).blame ==
+        fuzz::Blame::representation);
+}

@@ -1,0 +1,103 @@
+#include "fuzz/judge/held.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace touchstone::fuzz {
+namespace {
+
+bool is_good(double v, Domain d) { return std::isfinite(v) && (d == Domain::any || v >= 0); }
+bool is_good(const Vec3& v, Domain d) {
+  if (!v.allFinite()) return false;
+  if (d == Domain::nonzero_vector) return !v.isZero(0);
+  return d == Domain::any || (v.array() >= 0).all();
+}
+bool is_good(const std::vector<Vec3>& v, Domain) {
+  return std::all_of(v.begin(), v.end(), [](const Vec3& p) { return p.allFinite(); });
+}
+bool is_good(const std::vector<std::array<int, 3>>&, Domain) { return true; }
+
+double largest(double v) { return std::abs(v); }
+double largest(const Vec3& v) { return v.lpNorm<Eigen::Infinity>(); }
+double largest(const std::vector<Vec3>& v) {
+  double m = 0;
+  for (const Vec3& p : v) m = std::max(m, largest(p));
+  return m;
+}
+double largest(const std::vector<std::array<int, 3>>&) { return 0; }
+// A plane may be scaled as the engine likes.
+double largest(const Shape& shape) {
+  if (std::holds_alternative<HalfSpace>(shape)) return 0;
+  double m = 0;
+  std::visit(
+      [&](const auto& s) {
+        for_each_field(s, [&](auto, const auto& v, Domain) { m = std::max(m, largest(v)); });
+      },
+      shape);
+  return m;
+}
+
+// Rounding moves a number by a part of the largest one. What is a million times as large has nothing to do
+// with the scene asked, and numbers of 1e300 beside those of 1 cost the referee minutes.
+class Plausible {
+ public:
+  explicit Plausible(const Scene& asked) {
+    constexpr double times = 1e6;
+    double m = 1;  // and what a unit is worth
+    for (const Shape& s : asked.shapes) m = std::max(m, largest(s));
+    for (const Body& b : asked.bodies) m = std::max(m, largest(b.pose.translation));
+    limit_ = times * m;
+  }
+  bool operator()(const Shape& s) const { return is_a_set(s) && largest(s) <= limit_; }
+  bool operator()(const Placement& p) const {
+    constexpr double largest_turn = 1e6;  // of a matrix that should turn and no more
+    return p.matrix.allFinite() && p.matrix.lpNorm<Eigen::Infinity>() <= largest_turn &&
+           p.translation.allFinite() && largest(p.translation) <= limit_;
+  }
+
+ private:
+  double limit_;
+};
+
+// Candidates may be asked about bodies that are none (core/scene/odd_numbers.h): to hold those is no fault.
+bool is_body_held(const Plausible& plausible, const Scene& asked, const ReceivedScene& r, std::size_t body) {
+  if (!asked.bodies[body].pose.translation.allFinite() || !is_a_set(asked.shape_of(static_cast<int>(body))))
+    return true;
+  if (body < r.bodies.size() && r.bodies[body] && !plausible(*r.bodies[body])) return false;
+  const auto shape = static_cast<std::size_t>(asked.bodies[body].shape);
+  return shape >= r.shapes.size() || !r.shapes[shape] || plausible(*r.shapes[shape]);
+}
+
+}  // namespace
+
+bool is_a_set(const Shape& shape) {
+  bool good = true;
+  std::visit(
+      [&](const auto& s) {
+        for_each_field(s, [&](auto, const auto& v, Domain d) { good = good && is_good(v, d); });
+      },
+      shape);
+  return good;
+}
+
+ReceivedScene held_part(const Scene& asked, const ReceivedScene& received) {
+  const Plausible plausible(asked);
+  ReceivedScene r = received;
+  for (auto& s : r.shapes)
+    if (s && !plausible(*s)) s.reset();
+  for (auto& b : r.bodies)
+    if (b && !plausible(*b)) b.reset();
+  return r;
+}
+
+bool is_held(const Scene& asked, const ReceivedScene& received, const Query& query) {
+  const Plausible plausible(asked);
+  if (is_pair_question(query.question))
+    return is_body_held(plausible, asked, received, static_cast<std::size_t>(query.a)) &&
+           is_body_held(plausible, asked, received, static_cast<std::size_t>(query.b));
+  for (std::size_t i = 0; i < asked.bodies.size(); ++i)
+    if (!is_body_held(plausible, asked, received, i)) return false;
+  return true;
+}
+
+}  // namespace touchstone::fuzz
