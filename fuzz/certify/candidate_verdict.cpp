@@ -196,7 +196,7 @@ class Judge {
         o == Outcome::unsupported || o == Outcome::invalid_input || (invalid_ && o == Outcome::threw);
     v_.timed_out = o == Outcome::timed_out || is_set_aside_for_time(answer_.detail);
     v_.words = answer_.detail.empty() ? std::string(to_string(o)) : answer_.detail;
-    if (!v_.refused && !v_.timed_out) wrong({{std::string(to_string(o)), FaultKind::numbers}, v_.words});
+    if (!v_.refused && !v_.timed_out) wrong(to_string(o), FaultKind::numbers, v_.words, Place{});
   }
   void judge() {
     std::vector<Dues> truth;
@@ -211,9 +211,8 @@ class Judge {
       ++k;
     }
     if (answer_.candidate_pairs.size() > k)
-      wrong({{"no_number", FaultKind::numbers},
-             "more queries are answered than the script asks",
-             static_cast<int>(k)});
+      wrong("no_number", FaultKind::numbers, "more queries are answered than the script asks",
+            {static_cast<int>(k)});
   }
   void judge_query(int k, const Dues& truth) {
     static const Pairs none;
@@ -240,21 +239,28 @@ class Judge {
                             : d.kind == FaultKind::unbounded
                                 ? std::string("overlap, one of them unbounded,")
                                 : std::string("touch, or overlap by 1 % at most, or have no volume,");
-    wrong({{"missed", d.kind},
-           fmt::format("query {}: bodies {} and {} {} and are no candidates", k, a, b, how),
-           k,
-           a,
-           b,
-           d.share});
+    wrong("missed", d.kind, fmt::format("query {}: bodies {} and {} {} and are no candidates", k, a, b, how),
+          {k, a, b, d.share});
   }
   void stale(int k, const BodyPair& p) {
-    wrong({{"stale", FaultKind::numbers},
-           fmt::format("query {}: the pair ({}, {}) names a body that is not there", k, p.first, p.second),
-           k,
-           p.first,
-           p.second});
+    wrong("stale", FaultKind::numbers,
+          fmt::format("query {}: the pair ({}, {}) names a body that is not there", k, p.first, p.second),
+          {k, p.first, p.second});
   }
-  void wrong(CandidateFault f) {
+  struct Place {
+    int query = -1, a = -1, b = -1;
+    double share = 0;
+  };
+  // Filled member by member: g++ 12 sees uninitialised texts in a braced one.
+  void wrong(std::string_view fault, FaultKind kind, std::string words, const Place& at) {
+    CandidateFault f;
+    f.what.fault = fault;
+    f.what.kind = kind;
+    f.words = std::move(words);
+    f.query = at.query;
+    f.a = at.a;
+    f.b = at.b;
+    f.share = at.share;
     const auto same = std::find_if(v_.faults.begin(), v_.faults.end(),
                                    [&](const CandidateFault& x) { return x.what == f.what; });
     if (same == v_.faults.end())

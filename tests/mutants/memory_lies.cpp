@@ -28,7 +28,7 @@ void no_depth_left(const Case&, const Query&, Observation& o) {
 void twice_as_deep(const Case&, const Query&, Observation& o) {
   if (o.depth) *o.depth *= 2;
 }
-void apart(const Case&, const Query&, Observation& o) { o.overlap = false; }
+void says_apart(const Case&, const Query&, Observation& o) { o.overlap = false; }
 void points_of_contact(const Case&, const Query&, Observation& o) {
   if (o.witness) (*o.witness)[1] = (*o.witness)[0];
 }
@@ -186,7 +186,7 @@ std::vector<Mutant> memory_lies() {
       {"memory_contact_after_overlap", "depth_excess", "shallow", "twice the depth right after an overlap",
        after_question(over, cont, twice_as_deep), false},
       {"memory_overlap_after_contact", "missed", "shallow", "apart right after a contact",
-       after_question(cont, over, apart), false},
+       after_question(cont, over, says_apart), false},
       {"memory_distance_kept", "distance_off", "separate", "the distance before a body was moved",
        when_shapes_return(dist, the_same), false},
       {"memory_points_kept", "witness_off", "separate", "the points before a body was moved",
