@@ -6,32 +6,32 @@
 namespace touchstone::fuzz {
 namespace {
 
-bool is_good(double v, Domain d) { return std::isfinite(v) && (d == Domain::any || v >= 0); }
-bool is_good(const Vec3& v, Domain d) {
+bool is_fit(double v, Domain d) { return std::isfinite(v) && (d == Domain::any || v >= 0); }
+bool is_fit(const Vec3& v, Domain d) {
   if (!v.allFinite()) return false;
   if (d == Domain::nonzero_vector) return !v.isZero(0);
   return d == Domain::any || (v.array() >= 0).all();
 }
-bool is_good(const std::vector<Vec3>& v, Domain) {
+bool is_fit(const std::vector<Vec3>& v, Domain) {
   return std::all_of(v.begin(), v.end(), [](const Vec3& p) { return p.allFinite(); });
 }
-bool is_good(const std::vector<std::array<int, 3>>&, Domain) { return true; }
+bool is_fit(const std::vector<std::array<int, 3>>&, Domain) { return true; }
 
-double largest(double v) { return std::abs(v); }
-double largest(const Vec3& v) { return v.lpNorm<Eigen::Infinity>(); }
-double largest(const std::vector<Vec3>& v) {
+double largest_number(double v) { return std::abs(v); }
+double largest_number(const Vec3& v) { return v.lpNorm<Eigen::Infinity>(); }
+double largest_number(const std::vector<Vec3>& v) {
   double m = 0;
-  for (const Vec3& p : v) m = std::max(m, largest(p));
+  for (const Vec3& p : v) m = std::max(m, largest_number(p));
   return m;
 }
-double largest(const std::vector<std::array<int, 3>>&) { return 0; }
+double largest_number(const std::vector<std::array<int, 3>>&) { return 0; }
 // A plane may be scaled as the engine likes.
-double largest(const Shape& shape) {
+double largest_number(const Shape& shape) {
   if (std::holds_alternative<HalfSpace>(shape)) return 0;
   double m = 0;
   std::visit(
       [&](const auto& s) {
-        for_each_field(s, [&](auto, const auto& v, Domain) { m = std::max(m, largest(v)); });
+        for_each_field(s, [&](auto, const auto& v, Domain) { m = std::max(m, largest_number(v)); });
       },
       shape);
   return m;
@@ -44,15 +44,15 @@ class Plausible {
   explicit Plausible(const Scene& asked) {
     constexpr double times = 1e6;
     double m = 1;  // and what a unit is worth
-    for (const Shape& s : asked.shapes) m = std::max(m, largest(s));
-    for (const Body& b : asked.bodies) m = std::max(m, largest(b.pose.translation));
+    for (const Shape& s : asked.shapes) m = std::max(m, largest_number(s));
+    for (const Body& b : asked.bodies) m = std::max(m, largest_number(b.pose.translation));
     limit_ = times * m;
   }
-  bool operator()(const Shape& s) const { return is_a_set(s) && largest(s) <= limit_; }
+  bool operator()(const Shape& s) const { return is_a_set(s) && largest_number(s) <= limit_; }
   bool operator()(const Placement& p) const {
     constexpr double largest_turn = 1e6;  // of a matrix that should turn and no more
     return p.matrix.allFinite() && p.matrix.lpNorm<Eigen::Infinity>() <= largest_turn &&
-           p.translation.allFinite() && largest(p.translation) <= limit_;
+           p.translation.allFinite() && largest_number(p.translation) <= limit_;
   }
 
  private:
@@ -74,7 +74,7 @@ bool is_a_set(const Shape& shape) {
   bool good = true;
   std::visit(
       [&](const auto& s) {
-        for_each_field(s, [&](auto, const auto& v, Domain d) { good = good && is_good(v, d); });
+        for_each_field(s, [&](auto, const auto& v, Domain d) { good = good && is_fit(v, d); });
       },
       shape);
   return good;
