@@ -90,7 +90,8 @@ PlacedShape first_vertices(const Case& c, int i, Shape& room) {
 template <std::size_t most>
 PlacedShape first_triangles(const Case& c, int i, Shape& room) {
   room = c.scene.shape_of(i);
-  if (auto* m = std::get_if<TriangleMesh>(&room); m && m->triangles.size() > most) m->triangles.resize(most);
+  if (auto* m = std::get_if<TriangleMesh>(&room); m && m->triangles.size() > most)
+    m->triangles.erase(m->triangles.begin() + static_cast<std::ptrdiff_t>(most), m->triangles.end());
   return {&room, body(c, i).pose};
 }
 
