@@ -52,8 +52,10 @@ const std::map<std::string, std::vector<std::string>> may_include = {
     {"scenarios", with_values({"scenarios", "core/scene", "oracles/api/observation.h"})},
     {"fuzz/judge", with_values({"fuzz/judge", "core/scene/odd_numbers.h", "oracles/api",
                                 "oracles/referee/referee.h", "oracles/referee/contact_region.h"})},
-    {"fuzz/record", with_values({"fuzz/record", "fuzz/judge", "oracles/api", "scenarios",
-                                 "oracles/referee/impact_certificate.h"})},
+    // Records are stored: the scene's text form and the one writer of JSON are what they are stored with.
+    {"fuzz/record",
+     with_values({"fuzz/record", "fuzz/judge", "oracles/api", "scenarios", "core/scene/codec.h",
+                  "core/scene/json_file.h", "oracles/referee/impact_certificate.h"})},
     {"fuzz/generate", with_values({"fuzz/generate", "oracles/api/observation.h"})},
     {"fuzz/campaign", with_values({"fuzz/campaign", "fuzz/generate", "fuzz/judge", "fuzz/record",
                                    "core/scene", "scenarios", "oracles/api"})},
