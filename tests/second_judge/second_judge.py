@@ -159,6 +159,10 @@ def contact_errors(pair, answer):
     if answer.get("normal") is not None:
         found.update(normal_errors(pair, answer["normal"], answer.get("depth")))
     found.update(point_errors(pair, answer.get("manifold", []), answer.get("depth")))
+    depths = [p["depth"] for p in answer.get("manifold", []) if p.get("depth") is not None and math.isfinite(p["depth"])]
+    if depths and finite(answer.get("normal")) and any(answer["normal"]):
+        w = needed(pair.a, pair.b, exact(answer["normal"]))
+        found["point_depth"] = (F(max(depths)) - w[1] if w else -FAR, FAR)  # the depth on its own line is not asked here
     if answer.get("depth") is not None and pair.gap[1] < 0 and answer.get("normal") is None and not pair.surface():
         found["depth_off"] = off((-pair.gap[1], -pair.gap[0]), F(answer["depth"]))
     return found
@@ -194,7 +198,7 @@ def impact_errors(scene, a, b, answer, tau, certificate):
     toi = answer.get("toi")
     hints = []
     if certificate.get("kind") == "impact":
-        t = F(certificate["contact"]["t"])
+        t = F((certificate.get("contact") or {}).get("t", certificate.get("clear_until", 0)))
         hints = [min(F(1), t + d) for d in (F(0), F(1, 1000), F(1, 100), F(1, 20))]
     if toi is None:
         return {"missed": deepest(scene, a, b, F(1), tau, hints)}
@@ -202,9 +206,7 @@ def impact_errors(scene, a, b, answer, tau, certificate):
         return {"early": (FAR, FAR)}
     t = F(toi)
     early = signed_gap(world(scene, a, t), world(scene, b, t))
-    if early[0] > tau:
-        return {"early": early, "false_hit": early}
-    return {"early": early, "false_hit": early, "late": deepest(scene, a, b, t, tau, [t] + hints)}
+    return {"early": early, "ghost": (early[0], FAR) if early[0] <= tau else early, "late": deepest(scene, a, b, t, tau, [t] + hints)}
 
 
 def live_poses(scene, k):
