@@ -306,9 +306,7 @@ class Judge:
             return "cannot tell", "no such engine", finding
         certificate = finding.get("certificate") or {}
         query = next(q for q in case["queries"] if q["question"] == finding["question"])
-        a, b = query.get("a"), query.get("b")
-        if a is None:
-            a, b = certificate.get("bodies", [None, None])
+        a, b = certificate.get("bodies") or (query.get("a"), query.get("b"))  # a case may ask several pairs
         if a is None and finding["question"] == "scene_contacts":
             odd = max(numbers(finding["observation"])["contacts"], key=lambda c: abs(math.hypot(*c["normal"]) - 1) if finite(c["normal"]) else math.inf)
             a, b = odd["a"], odd["b"]
