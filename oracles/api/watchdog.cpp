@@ -7,6 +7,9 @@ namespace {
 
 // Every process below the worker is looked at, which takes longer than the worker alone.
 constexpr auto look_every = std::chrono::milliseconds(50);
+// What a command may use for each second that a plug-in may: it reads and writes lines, often in an
+// interpreter.
+constexpr double cpu_of_children = 5;
 constexpr double least_cpu_use = 1e-3;  // seconds between two looks; less is waiting
 
 double seconds(Watchdog::Clock::duration d) { return std::chrono::duration<double>(d).count(); }
@@ -72,8 +75,9 @@ std::optional<Watchdog::Verdict> Watchdog::over_cpu(const WorkerProcess& w, Phas
   const double most = starting                        ? limits_.start_cpu_seconds
                       : phase == Phase::loading_scene ? limits_.load_cpu_seconds
                                                       : limits_.patience * limits_.query_cpu_seconds;
-  if (used <= most) return std::nullopt;
-  return Verdict{Outcome::timed_out, std::string("CPU time") + while_what(phase)};
+  if (used > most) return Verdict{Outcome::timed_out, std::string("CPU time") + while_what(phase)};
+  if (starting || cpu_of_all_ - cpu_of_all_at_progress_ <= cpu_of_children * most) return std::nullopt;
+  return Verdict{Outcome::timed_out, std::string("CPU time of its children") + while_what(phase)};
 }
 
 std::optional<Watchdog::Verdict> Watchdog::over_wall_time(Phase phase) const {

@@ -3,6 +3,9 @@
 
 #include "core/base/rng.h"
 #include "fuzz/judge/judge.h"
+#include "fuzz/judge/truth.h"
+#include "oracles/core/core_engine.h"
+#include "scenarios/case_codec.h"
 #include "tests/support/catch.h"
 
 using namespace touchstone;
@@ -158,13 +161,23 @@ TEST_CASE("the bound of how far a received hull is from the one asked holds", "[
     }
   }
   CHECK(other_counts > 100);
-  // No bound between two kinds, nor of what is not finite.
+  // No bound between two kinds. What is not finite is not held, and counts as asked.
   Case c = spheres(5, Question::overlap);
   fuzz::Truth truth(c.scene);
   ReceivedScene box, nan;
   box.shapes = {Box{Vec3(1, 1, 1)}}, nan.shapes = {Sphere{std::nan("")}};
   CHECK(std::isinf(truth.displacement(truth.frame_of(box))));
-  CHECK(std::isinf(truth.displacement(truth.frame_of(nan))));
+  CHECK(truth.frame_of(nan) == 0);
+}
+
+TEST_CASE("witness points of bodies whose depth is open are held to no more than is known", "[judge]") {
+  const Case c = load_case(TS_SOURCE_DIR "/tests/referee/cases/wide_depth_bracket.json");
+  fuzz::Truth truth(c.scene);
+  REQUIRE(truth.pair(0, 0, 1).gap.lo < -1);
+  REQUIRE(truth.pair(0, 0, 1).gap.hi > -1);
+  CoreEngine core;
+  const auto answers = core.run({&c, 1});
+  for (const fuzz::Judgement& j : fuzz::judge(c, core.card(), answers[0], truth)) CHECK(j.faults.empty());
 }
 
 TEST_CASE("time of impact is judged by gaps", "[judge][toi]") {

@@ -144,7 +144,7 @@ TEST_CASE("an answer says of the gap what a right answer may say, and no more", 
   c.scene.shapes = {Sphere{1}};
   c.scene.bodies.resize(2);
   c.scene.bodies[1].pose.translation.x() = 1.5;
-  const EngineCard card{"test", "", "", "", 0, 0, ""};
+  const EngineCard card{"test", "", "", "", 0, 0, "its documentation"};
   Observation o;
   o.outcome = Outcome::answered, o.overlap = true, o.claimed_tolerance = 0.125;
   const auto of = [&](Question q) { return fuzz::implied_gap(c.scene, {q, 0, 1}, o, card); };

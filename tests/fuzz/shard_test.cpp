@@ -41,8 +41,9 @@ std::string read(const fs::path& file) {
 // Findings and state of a campaign without what is a time.
 std::map<std::string, std::string> files_of(const fs::path& campaign) {
   std::map<std::string, std::string> r;
-  for (const auto& e : fs::recursive_directory_iterator(campaign / "findings"))
-    if (e.is_regular_file()) r[fs::relative(e.path(), campaign).string()] = read(e.path());
+  if (fs::exists(campaign / "findings"))
+    for (const auto& e : fs::recursive_directory_iterator(campaign / "findings"))
+      if (e.is_regular_file()) r[fs::relative(e.path(), campaign).string()] = read(e.path());
   for (const char* name : {"state.json", "summary.json"}) {
     auto j = nlohmann::ordered_json::parse(read(campaign / name));
     auto& result = j.contains("result") ? j["result"] : j;

@@ -46,6 +46,17 @@ void check_distance(const CheckInput& in, CheckOutput& out) {
           : truth.verdict_certificate);
 }
 
+namespace {
+
+// Of a gap whose sign is open, anything from 0 to its farther end.
+referee::Bracket magnitude(const referee::Bracket& gap) {
+  if (gap.hi < 0) return {-gap.hi, -gap.lo};
+  if (gap.lo > 0) return gap;
+  return {0, std::max(-gap.lo, gap.hi)};
+}
+
+}  // namespace
+
 void check_witness(const CheckInput& in, CheckOutput& out) {
   if (!in.answer.witness) return;
   const auto [a, b] = std::pair{in.query.a, in.query.b};
@@ -60,9 +71,7 @@ void check_witness(const CheckInput& in, CheckOutput& out) {
       std::max(in.truth.distance_to(in.frame, a, pa, tau).lo, in.truth.distance_to(in.frame, b, pb, tau).lo);
   std::string words = fmt::format("a witness point is {:.6g} away from its body", worst);
   if (std::isfinite(truth.gap.lo)) {
-    const referee::Bracket size = truth.gap.hi < 0
-                                      ? referee::Bracket{-truth.gap.hi, -truth.gap.lo}
-                                      : referee::Bracket{std::max(0.0, truth.gap.lo), truth.gap.hi};
+    const referee::Bracket size = magnitude(truth.gap);
     const double apart = outside((pb - pa).stableNorm(), size);
     if (apart > worst) {
       worst = apart;

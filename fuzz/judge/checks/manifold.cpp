@@ -71,8 +71,8 @@ double too_deep(const CheckInput& in, const ManifoldPoint& p, const Vec3& n, dou
   return !last || !first ? p.depth : std::max(0.0, p.depth - (*last + *first));
 }
 
-// The depth of each point: never more than its normal needs as a whole; of manifolds claimed to be complete no
-// more than the bodies can have there (others state depths along normals of their own).
+// The depth of each point: never more than its normal needs as a whole; of manifolds claimed to be complete
+// no more than the bodies can have there (others state depths along normals of their own).
 void check_point_depths(const CheckInput& in, CheckOutput& out, double l, double tau,
                         const referee::PairTruth& truth) {
   const Vec3& n = *in.answer.normal;
@@ -100,10 +100,16 @@ void check_point_depths(const CheckInput& in, CheckOutput& out, double l, double
 
 // Of an engine whose card says that its manifolds are complete. The region is of what lies within a few
 // roundings of the planes of support across the stated normal, so that a face that is nearly parallel and is
-// left out for good reason is none of it; what is nearly a segment or a point is not asked for.
+// left out for good reason is none of it; what is nearly a segment or a point is not asked for. A region
+// bounded by a rim is spanned by as many points as an engine cares to give: polytopes alone are asked.
 void check_completeness(const CheckInput& in, CheckOutput& out, double l, const referee::PairTruth& truth) {
   constexpr double parallel = 0x1p-52, least_width = 1e-6, least_covered = 0.9;
   const auto [a, b] = std::pair{in.query.a, in.query.b};
+  const auto has_rim = [&](int body) {
+    const ShapeKind kind = kind_of(in.truth.scene().shape_of(body));
+    return kind == ShapeKind::cylinder || kind == ShapeKind::cone;
+  };
+  if (has_rim(a) || has_rim(b)) return;
   const Vec3& n = *in.answer.normal;
   const referee::ContactRegion region =
       referee::contact_region(in.truth.placed(in.frame, a), in.truth.placed(in.frame, b), n, parallel * l);
