@@ -47,6 +47,9 @@ Part load_part(const std::filesystem::path& directory) {
     return p;
   } catch (const Json::exception& e) {
     throw InputError(file.string(), std::string("is not a campaign's state: ") + e.what());
+  } catch (const InputError& e) {
+    // What is wrong with the result itself names its own place, but not the file.
+    throw e.place() == "stored result" ? InputError(file.string(), e.reason()) : e;
   }
 }
 

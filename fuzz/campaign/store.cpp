@@ -64,6 +64,9 @@ std::optional<StoredState> load_state(const CampaignConfig& config) {
     return s;
   } catch (const Json::exception& e) {
     throw InputError(file.string(), std::string("is not a campaign's state: ") + e.what());
+  } catch (const InputError& e) {
+    // What is wrong with the result itself names its own place, but not the file.
+    throw e.place() == "stored result" ? InputError(file.string(), e.reason()) : e;
   }
 }
 

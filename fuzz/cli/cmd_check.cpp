@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <functional>
+#include <limits>
 #include <nlohmann/json.hpp>
 
 #include "core/base/input_error.h"
@@ -115,6 +116,16 @@ std::string failure_in(const std::string& path) {
   return is_finding && j["fault"].is_string() ? j["fault"].get<std::string>() : "";
 }
 
+// The query of a script at which the bodies stand; -1, their own poses, when the certificate names none.
+int step_of(const Json& j, const std::string& file) {
+  if (!j.contains("step")) return -1;
+  const Json& step = j["step"];
+  const auto query = step.is_number_integer() ? step.get<std::int64_t>() : -1;
+  if (query < 0 || query > std::numeric_limits<int>::max())
+    throw InputError(file, "step: is not the number of a query, 0 or more");
+  return static_cast<int>(query);
+}
+
 int run(const CheckOptions& o) try {
   const Json j = certificate_in(o.path);
   const Claim c = claim_of(j);
@@ -126,7 +137,7 @@ int run(const CheckOptions& o) try {
   const std::string scene =
       o.scene.empty() ? (std::filesystem::path(o.path).parent_path() / "case.json").string() : o.scene;
   const Case stored = load_case(scene);
-  const int step = j.value("step", -1);
+  const int step = step_of(j, o.path);
   for (const Bodies& p : pairs_of(o, j, stored.scene)) {
     if (!c.holds(stored.scene, p, step)) continue;
     fmt::print("valid: bodies {} and {} {}\n", p.a, p.b, c.words);

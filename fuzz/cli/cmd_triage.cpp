@@ -14,6 +14,7 @@
 #include "core/base/did_you_mean.h"
 #include "core/base/input_error.h"
 #include "core/scene/input_file.h"
+#include "core/scene/json_file.h"
 #include "fuzz/campaign/directory_lock.h"
 #include "fuzz/cli/asked_engines.h"
 #include "fuzz/cli/command.h"
@@ -203,12 +204,15 @@ std::set<std::string> answered_in(const std::string& directory) {
   std::set<std::string> names;
   try {
     const fuzz::CampaignResult r =
-        fuzz::result_from_json(fuzz::Json::parse(read_file(file, std::uintmax_t{1} << 30)));
+        fuzz::result_from_json(load_json(file, campaign_limits));
     for (const auto& [engine, questions] : r.tallies)
       if (r.answered_by(engine) + r.failed_of(engine) > 0) names.insert(engine);
     return names;
   } catch (const fuzz::Json::exception& e) {
     throw InputError(file.string(), std::string("is not a campaign's summary: ") + e.what());
+  } catch (const InputError& e) {
+    // What is wrong with the result itself names its own place, but not the file.
+    throw e.place() == "stored result" ? InputError(file.string(), e.reason()) : e;
   }
 }
 

@@ -27,6 +27,9 @@ StoredFinding load_finding(const std::filesystem::path& directory) {
     return s;
   } catch (const Json::exception& e) {
     throw InputError(file.string(), std::string("is not a finding: ") + e.what());
+  } catch (const InputError& e) {
+    // What is wrong with the result itself names its own place, but not the file.
+    throw e.place() == "stored result" ? InputError(file.string(), e.reason()) : e;
   }
 }
 

@@ -120,6 +120,17 @@ TEST_CASE("merged shards are the unsharded campaign, byte for byte but for times
   CHECK(merge("part", {s[2], s[0]}).missing == std::vector<std::uint64_t>{1});
   merge("c", {s[1], w.path / "part", s[0]});
   CHECK(files_of(w.path / "c") == whole);
+  SECTION("a key that names another directory is refused, and nothing is written") {
+    const fs::path file = s[0] / "state.json";
+    auto j = nlohmann::ordered_json::parse(read(file));
+    auto& findings = j["result"]["findings"];
+    REQUIRE_FALSE(findings.empty());
+    findings["../../victim"] = nlohmann::ordered_json(findings.begin().value());
+    std::ofstream(file) << j.dump();
+    CHECK_THROWS_WITH(merge("evil", {s[0], s[1], s[2]}), Catch::Contains("state.json"));
+    CHECK_FALSE(fs::exists(w.path / "evil"));
+    CHECK_FALSE(fs::exists(w.path / "victim"));
+  }
   SECTION("parts that do not fit are refused") {
     merge("other", {s[0], s[1]});
     CHECK_THROWS_AS(merge("d", {w.path / "part", w.path / "other"}), InputError);

@@ -42,6 +42,10 @@ TEST_CASE("check exits 0 for a proof, 1 for none, 2 for bad input", "[referee][c
   CHECK(check(finding(R"({"kind": "none"})")) == 1);
   CHECK(check(finding(R"({"kind": "common_point", "rationals": ["1", "0", "1/0"]})")) == 2);
   CHECK(check(finding(R"({"kind": "rumour"})")) == 2);
+  CHECK(check(finding(R"({"kind": "separating_plane", "direction": [1, 0, 0], "offset": 1, "step": -5})")) ==
+        2);
+  CHECK(check(finding(R"({"kind": "separating_plane", "direction": [1, 0, 0], "offset": 1, "step": "a"})")) ==
+        2);
   CHECK(check(dir / "absent.json") == 2);
   CHECK(check(finding(R"({"kind": "none"})"), "--pair 0 7") == 2);
   std::filesystem::remove_all(dir);
