@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "fuzz/judge/largest_number.h"
+
 namespace touchstone::fuzz {
 namespace {
 
@@ -17,24 +19,9 @@ bool is_fit(const std::vector<Vec3>& v, Domain) {
 }
 bool is_fit(const std::vector<std::array<int, 3>>&, Domain) { return true; }
 
-double largest_number(double v) { return std::abs(v); }
-double largest_number(const Vec3& v) { return v.lpNorm<Eigen::Infinity>(); }
-double largest_number(const std::vector<Vec3>& v) {
-  double m = 0;
-  for (const Vec3& p : v) m = std::max(m, largest_number(p));
-  return m;
-}
-double largest_number(const std::vector<std::array<int, 3>>&) { return 0; }
 // A plane may be scaled as the engine likes.
-double largest_number(const Shape& shape) {
-  if (std::holds_alternative<HalfSpace>(shape)) return 0;
-  double m = 0;
-  std::visit(
-      [&](const auto& s) {
-        for_each_field(s, [&](auto, const auto& v, Domain) { m = std::max(m, largest_number(v)); });
-      },
-      shape);
-  return m;
+double largest_size(const Shape& shape) {
+  return std::holds_alternative<HalfSpace>(shape) ? 0 : largest_number(shape);
 }
 
 // Rounding moves a number by a part of the largest one. What is a million times as large has nothing to do
@@ -44,11 +31,11 @@ class Plausible {
   explicit Plausible(const Scene& asked) {
     constexpr double times = 1e6;
     double m = 1;  // and what a unit is worth
-    for (const Shape& s : asked.shapes) m = std::max(m, largest_number(s));
+    for (const Shape& s : asked.shapes) m = std::max(m, largest_size(s));
     for (const Body& b : asked.bodies) m = std::max(m, largest_number(b.pose.translation));
     limit_ = times * m;
   }
-  bool operator()(const Shape& s) const { return is_a_set(s) && largest_number(s) <= limit_; }
+  bool operator()(const Shape& s) const { return is_a_set(s) && largest_size(s) <= limit_; }
   bool operator()(const Placement& p) const {
     constexpr double largest_turn = 1e6;  // of a matrix that should turn and no more
     return p.matrix.allFinite() && p.matrix.lpNorm<Eigen::Infinity>() <= largest_turn &&

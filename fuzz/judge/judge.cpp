@@ -138,15 +138,16 @@ std::vector<Judgement> judge(const Case& c, const EngineCard& card, const CaseOb
                              Truth& truth) {
   std::vector<Judgement> result;
   const int received = truth.frame_of(observations.received);
+  const bool all_held = is_held(c.scene, observations.received, {Question::scene_contacts});
   for (std::size_t i = 0; i < c.queries.size(); ++i) {
     static const Observation missing{
         Outcome::crashed, "the engine gave no answer", {}, {}, {}, {}, {}, {}, {}, {}, {}, 0, 0, false, {}};
     const Observation& answer = i < observations.answers.size() ? observations.answers[i] : missing;
-    const bool held = is_held(c.scene, observations.received, c.queries[i]);
+    const bool held = all_held || is_held(c.scene, observations.received, c.queries[i]);
     result.push_back(
         judge_one({truth, 0, c.queries[i], answer, card}, held ? std::optional(received) : std::nullopt));
-    result.back().holds_other_shape =
-        held && result.back().blame == Blame::representation && holds_other_shape(c.scene, observations.received);
+    result.back().holds_other_shape = held && result.back().blame == Blame::representation &&
+                                      holds_other_shape(c.scene, observations.received);
   }
   return result;
 }

@@ -8,6 +8,7 @@
 
 #include "core/base/input_error.h"
 #include "fuzz/judge/held.h"
+#include "fuzz/judge/largest_number.h"
 #include "fuzz/judge/truth.h"
 
 namespace touchstone::fuzz {
@@ -116,29 +117,13 @@ bool is_relation(std::string_view fault) {
 
 namespace {
 
-double largest(double v) { return std::abs(v); }
-double largest(const Vec3& v) { return v.cwiseAbs().maxCoeff(); }
-double largest(const std::vector<Vec3>& v) {
-  double most = 0;
-  for (const Vec3& p : v) most = std::max(most, largest(p));
-  return most;
-}
-
 // Of all bodies' sizes, places and motions, each number by itself: their squares may be beyond the doubles.
 double largest_length(const Scene& s) {
   double most = 0;
-  for (const Shape& shape : s.shapes)
-    std::visit(
-        [&](const auto& x) {
-          for_each_field(x, [&](auto, const auto& v, Domain) {
-            if constexpr (!std::is_same_v<std::decay_t<decltype(v)>, std::vector<std::array<int, 3>>>)
-              most = std::max(most, largest(v));
-          });
-        },
-        shape);
+  for (const Shape& shape : s.shapes) most = std::max(most, largest_number(shape));
   for (const Body& b : s.bodies) {
-    most = std::max(most, largest(b.pose.translation));
-    if (b.motion) most = std::max(most, largest(b.motion->linear));
+    most = std::max(most, largest_number(b.pose.translation));
+    if (b.motion) most = std::max(most, largest_number(b.motion->linear));
   }
   return most;
 }
