@@ -65,7 +65,7 @@ namespace {
 constexpr std::string_view short_names[] = {"overlap", "distance", "contact", "impact", "pairs", "scene"};
 
 std::string row(Question q, const Tally& t) {
-  if (t.answered() == 0 && t.failed() == 0)
+  if (t.answered() == 0 && t.failed() == 0 && t.not_asked() == 0)
     return fmt::format(" {:<8} {:>7}\n", short_names[static_cast<std::size_t>(q)], "cannot");
   return fmt::format(" {:<8} {:>7} {:>7} {:>6} {:>6} {:>6} {:>6} {:>8} {:>7} {:>8}\n",
                      short_names[static_cast<std::size_t>(q)], t.answered(), t.right, t.wrong, t.missed,
@@ -163,6 +163,11 @@ std::string campaign_footer(const CampaignResult& r) {
   if (r.pair_rate() > 0)
     s += fmt::format("{} pair cases, {} a core-second (motions, crowds and relations apart)\n",
                      grouped(r.pair_asked), grouped(static_cast<std::uint64_t>(r.pair_rate())));
+  for (const auto& [engine, aside] : r.set_aside)
+    s += wrapped(fmt::format("{}: {}; from case {} on {} of its answers were not asked for", engine,
+                             aside.why, grouped(aside.first_index), grouped(r.not_asked_of(engine))),
+                 78, 2) +
+         "\n";
   s += fmt::format("time: engines {:.0f} %, harness {:.0f} % (of that referee and judge {:.0f} %)\n", engines,
                    100 - engines, judge);
   return s;

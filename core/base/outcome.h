@@ -1,5 +1,5 @@
-// How a question ended. Every exit of every algorithm and every engine is one of these; "iteration cap reached"
-// is not_converged and is never reported as a number or as "no hit" (truth.md §3).
+// How a question ended. Every exit of every algorithm and every engine is one of these; "iteration cap
+// reached" is not_converged and is never reported as a number or as "no hit" (truth.md §3).
 #pragma once
 
 #include <array>
@@ -16,11 +16,14 @@ enum class Outcome : std::uint8_t {
   invalid_input,   // refused with a reason
   threw,           // a C++ exception left the engine
   crashed,         // signal, abort, exit, memory limit, or bytes on the pipe that are no answer
-  timed_out        // watchdog
+  timed_out,       // watchdog
+  invalid_answer,  // names a body, a shape, a pair or an outcome that there is not
+  not_asked        // the engine had been set aside: it timed out too often before
 };
 
-inline constexpr std::array<std::string_view, 7> outcome_names{
-    "answered", "unsupported", "not_converged", "invalid_input", "threw", "crashed", "timed_out"};
+inline constexpr std::array<std::string_view, 9> outcome_names{
+    "answered", "unsupported", "not_converged",  "invalid_input", "threw",
+    "crashed",  "timed_out",   "invalid_answer", "not_asked"};
 
 constexpr std::string_view to_string(Outcome o) { return outcome_names[static_cast<std::size_t>(o)]; }
 

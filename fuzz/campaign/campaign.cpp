@@ -1,5 +1,6 @@
 #include "fuzz/campaign/campaign.h"
 
+#include <algorithm>
 #include <condition_variable>
 #include <exception>
 #include <mutex>
@@ -84,9 +85,7 @@ class Runner {
       const std::uint64_t k = next_.fetch_add(1);
       if (exhausted(k)) return;
       if (!wait_for_generation(k) || stop_ || failed_ || out_of_time()) return leave();
-      Chunk chunk = run_chunk(k, engines);
-      show_what_is_new(chunk.result);
-      finish(k, std::move(chunk));
+      finish(k, ask(k, engines), engines);
     }
   } catch (const Stopped&) {
     leave();
@@ -104,8 +103,10 @@ class Runner {
     merged_more_.notify_all();
   }
 
+  using SetAside = std::map<std::string, CampaignResult::SetAside>;
   struct Chunk {
     CampaignResult result;
+    SetAside known;           // what had been set aside when it was asked
     std::vector<Case> cases;  // guided only, with what was new about each
     std::vector<std::vector<std::uint64_t>> features;
   };
@@ -130,6 +131,26 @@ class Runner {
     const std::uint64_t first = k / generation_chunks * generation_chunks;
     merged_more_.wait(lock, [&] { return merged_ >= first || gap_; });
     return merged_ >= first;
+  }
+
+  Chunk ask(std::uint64_t k, const std::vector<EnginePtr>& engines) {
+    SetAside known;
+    {
+      const std::lock_guard lock(mutex_);
+      known = state_.result.set_aside;
+    }
+    for (const EnginePtr& e : engines) {
+      const auto aside = known.find(e->card().name);
+      e->take_back();
+      if (aside != known.end()) e->put_aside(aside->second.why);
+    }
+    Chunk chunk = run_chunk(k, engines);
+    for (const EnginePtr& e : engines)
+      if (const auto& name = e->card().name; !e->set_aside().empty() && !known.contains(name))
+        chunk.result.set_aside[name] = {first_case(k), e->set_aside()};
+    chunk.known = std::move(known);
+    show_what_is_new(chunk.result);
+    return chunk;
   }
 
   Chunk run_chunk(std::uint64_t k, const std::vector<EnginePtr>& engines) {
@@ -167,15 +188,35 @@ class Runner {
     for (const Evidence* e : fresh) e->json();
   }
 
-  void finish(std::uint64_t k, Chunk c) {
-    std::lock_guard lock(mutex_);
+  void merge(const Chunk& c) {
+    state_.result.merge(c.result);
+    for (std::size_t i = 0; i < c.features.size(); ++i) state_.pool.note(c.cases[i], c.features[i]);
+    if ((merged_ + 1) % generation_chunks == 0) state_.pool.publish();
+    ++merged_;
+  }
+
+  static bool same_engines(const SetAside& a, const SetAside& b) {
+    return std::equal(a.begin(), a.end(), b.begin(), b.end(),
+                      [](const auto& x, const auto& y) { return x.first == y.first; });
+  }
+
+  void finish(std::uint64_t k, Chunk c, const std::vector<EnginePtr>& engines) {
+    std::unique_lock lock(mutex_);
     pending_.emplace(k, std::move(c));
-    for (auto it = pending_.find(merged_); it != pending_.end(); it = pending_.find(++merged_)) {
-      state_.result.merge(it->second.result);
-      for (std::size_t i = 0; i < it->second.features.size(); ++i)
-        state_.pool.note(it->second.cases[i], it->second.features[i]);
+    for (auto it = pending_.find(merged_); it != pending_.end(); it = pending_.find(merged_)) {
+      Chunk next = std::move(it->second);
       pending_.erase(it);
-      if ((merged_ + 1) % generation_chunks == 0) state_.pool.publish();
+      if (same_engines(next.known, state_.result.set_aside)) {
+        merge(next);
+        continue;
+      }
+      // Asked while an earlier chunk, slower, found that an engine has to be set aside: whichever was first,
+      // the result is that of one job.
+      const std::uint64_t again = merged_;
+      lock.unlock();
+      next = ask(again, engines);
+      lock.lock();
+      pending_.emplace(again, std::move(next));
     }
     merged_more_.notify_all();
     state_.next_chunk = merged_;

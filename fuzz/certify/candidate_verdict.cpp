@@ -194,7 +194,8 @@ class Judge {
     const Outcome o = answer_.outcome;
     v_.refused =
         o == Outcome::unsupported || o == Outcome::invalid_input || (invalid_ && o == Outcome::threw);
-    v_.timed_out = o == Outcome::timed_out || is_set_aside_for_time(answer_.detail);
+    v_.timed_out =
+        o == Outcome::timed_out || o == Outcome::not_asked || is_set_aside_for_time(answer_.detail);
     v_.words = answer_.detail.empty() ? std::string(to_string(o)) : answer_.detail;
     if (!v_.refused && !v_.timed_out) wrong(to_string(o), FaultKind::numbers, v_.words, Place{});
   }

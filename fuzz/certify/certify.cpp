@@ -17,8 +17,8 @@ namespace {
 // Asked at once, at most: pipes cost little then. One at first and after a failure, so that an engine that
 // hangs at every case is found out soon.
 constexpr std::uint64_t largest_batch = 32;
-// A part in which a quarter of the answers cost a worker is the last of its evidence; before that, what else the
-// subject does wrong is worth its crashes.
+// A part in which a quarter of the answers cost a worker is the last of its evidence; before that, what else
+// the subject does wrong is worth its crashes.
 std::uint64_t most_failures(const EvidenceRow& e) { return std::max<std::uint64_t>(4, e.chunk / 4); }
 // How often the time for a question is doubled to learn what it needs.
 constexpr int most_doublings = 3;
@@ -242,7 +242,9 @@ class Certifier {
     EvidenceCount so_far = total;
     const auto do_parts = [&](Job& job) {
       for (std::uint64_t p = next++; p < last.load() && !stop_; p = next++) {
-        done[p] = PartRun(e, draw_, total.planned, job.engine(subject_, e.level)).run(p * e.chunk, stop_);
+        Engine& engine = job.engine(subject_, e.level);
+        engine.take_back();  // which part a job takes next depends on how fast the others are
+        done[p] = PartRun(e, draw_, total.planned, engine).run(p * e.chunk, stop_);
         const std::lock_guard lock(guard);
         if (done[p].is_last || (config_.first_fault && !done[p].faults.empty()))
           last = std::min(last.load(), p + 1);

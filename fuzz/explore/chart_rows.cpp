@@ -16,7 +16,7 @@ bool has(const Judgement& j, std::initializer_list<Fault> faults) {
 
 void count(ChartRow& r, const Judgement& j) {
   ++r.asked;
-  if (j.outcome == Outcome::unsupported) return;
+  if (j.outcome == Outcome::unsupported || j.outcome == Outcome::not_asked) return;
   if (j.outcome != Outcome::answered) {
     ++r.failed;
     return;

@@ -75,7 +75,8 @@ double number_of(const Query& q, const Observation& o) {
 bool contradicts(const FormAnswer& asked, bool asked_is_wrong, const Form& form,
                  const CaseObservations& observed, std::size_t query, const EngineCard& card, Truth& truth) {
   const Observation &x = asked.observed.answers[query], &y = observed.answers[query];
-  if (x.outcome == Outcome::timed_out || y.outcome == Outcome::timed_out) return false;
+  if (x.outcome == Outcome::timed_out || y.outcome == Outcome::timed_out || y.outcome == Outcome::not_asked)
+    return false;
   const bool answered = x.outcome == Outcome::answered;
   if (answered != (y.outcome == Outcome::answered)) return true;
   if (!answered) return false;

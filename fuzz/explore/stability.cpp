@@ -37,7 +37,7 @@ void raise(double& most, double x) {
 }
 
 void count(Rung& r, const Judgement& j) {
-  if (j.outcome == Outcome::unsupported) return;
+  if (j.outcome == Outcome::unsupported || j.outcome == Outcome::not_asked) return;
   ++r.asked;
   if (j.outcome != Outcome::answered) {
     ++r.failed;
@@ -73,7 +73,8 @@ void add_forms(std::span<LadderResult> results, const Asked& asked,
   const FormAnswer base{asked.c, observed[0]};
   for (std::size_t q = 0; q < asked.c.queries.size(); ++q) {
     const Query& query = asked.c.queries[q];
-    if (judgements[q].outcome == Outcome::unsupported) continue;
+    const Outcome outcome = judgements[q].outcome;
+    if (outcome == Outcome::unsupported || outcome == Outcome::not_asked) continue;
     const double l = query.question == Question::time_of_impact ? 1 : truth.scale(0, 1);
     const double x = number_of(query, observed[0].answers[q]);
     Rung& r = results[q].rungs.back();

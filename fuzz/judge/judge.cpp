@@ -78,7 +78,7 @@ bool is_refusal(const CheckInput& asked) {
 Judgement judge_one(const CheckInput& asked, std::optional<int> received_frame) {
   Judgement j;
   j.outcome = asked.answer.outcome;
-  if (j.outcome == Outcome::unsupported || is_refusal(asked)) return j;
+  if (j.outcome == Outcome::unsupported || j.outcome == Outcome::not_asked || is_refusal(asked)) return j;
   if (j.outcome != Outcome::answered) {
     FaultReport f;
     f.a = asked.query.a, f.b = asked.query.b;

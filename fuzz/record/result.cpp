@@ -54,7 +54,7 @@ TimeHistogram TimeHistogram::from_json(const Json& j) {
 std::uint64_t Tally::failed() const {
   std::uint64_t n = 0;
   for (auto c : outcomes) n += c;
-  return n - answered() - unsupported();
+  return n - answered() - unsupported() - not_asked();
 }
 
 void Tally::add(const Judgement& j, const Observation& o) {
@@ -119,6 +119,10 @@ void CampaignResult::merge(const CampaignResult& o) {
         OpenCount& sum = open[engine][q][shapes];
         sum.answers += n.answers, sum.open += n.open;
       }
+  for (const auto& [engine, s] : o.set_aside)
+    if (const auto [at, is_new] = set_aside.emplace(engine, s);
+        !is_new && s.first_index < at->second.first_index)
+      at->second = s;
   for (const auto& [f, n] : o.families) families[f] += n;
   cases += o.cases, pair_cases += o.pair_cases, overlapping += o.overlapping, undecided += o.undecided;
   for (std::size_t k = 0; k < levels.size(); ++k) levels[k] += o.levels[k];
@@ -177,6 +181,13 @@ std::vector<std::string> CampaignResult::too_open(const std::string& engine) con
   return all;
 }
 
+std::uint64_t CampaignResult::not_asked_of(const std::string& engine) const {
+  std::uint64_t n = 0;
+  if (const auto it = tallies.find(engine); it != tallies.end())
+    for (const auto& [q, t] : it->second) n += t.not_asked();
+  return n;
+}
+
 namespace {
 
 Json to_json(const Tally& t, bool with_times) {
@@ -211,7 +222,7 @@ double number_from(const Json& j) {
 Tally tally_from_json(const Json& j) {
   Tally t;
   for (std::size_t i = 0; i < t.outcomes.size(); ++i)
-    t.outcomes[i] = j.at("outcomes").at(std::string(outcome_names[i]));
+    t.outcomes[i] = j.at("outcomes").value(std::string(outcome_names[i]), std::uint64_t{0});
   t.right = j.at("right"), t.wrong = j.at("wrong"), t.missed = j.at("missed"), t.ghost = j.at("ghost");
   t.representation = j.at("representation"), t.undecided = j.at("undecided");
   constexpr std::uint64_t none = 0;  // absent from results of earlier versions
@@ -321,6 +332,11 @@ Json to_json(const CampaignResult& r, bool with_times) {
   for (const auto& [engine, of_engine] : r.relations)
     for (const auto& [name, n] : of_engine)
       j["relations"][engine][name] = {{"asked", n.asked}, {"broken", n.broken}};
+  for (const auto& [engine, s] : r.set_aside) {
+    j["set_aside"][engine]["first_index"] = s.first_index;
+    // What a dying process last said may be in it.
+    if (with_times) j["set_aside"][engine]["why"] = s.why;
+  }
   Documents documents;
   j["findings"] = Json::object();
   for (const auto& [key, f] : r.findings) {
@@ -365,6 +381,9 @@ CampaignResult result_from_json(const Json& j) try {
     for (const auto& [engine, of_engine] : j["relations"].items())
       for (const auto& [name, n] : of_engine.items())
         r.relations[engine][name] = {n.at("asked"), n.at("broken")};
+  if (j.contains("set_aside"))  // only where there are any
+    for (const auto& [engine, s] : j["set_aside"].items())
+      r.set_aside[engine] = {s.at("first_index"), s.value("why", "")};
   std::map<std::string, const Json*> documents;
   if (j.contains("documents"))
     for (const auto& [name, document] : j["documents"].items()) documents[name] = &document;

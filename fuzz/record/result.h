@@ -50,7 +50,8 @@ struct Tally {
 
   std::uint64_t answered() const { return outcomes[static_cast<std::size_t>(Outcome::answered)]; }
   std::uint64_t unsupported() const { return outcomes[static_cast<std::size_t>(Outcome::unsupported)]; }
-  std::uint64_t failed() const;  // neither answered nor unsupported
+  std::uint64_t not_asked() const { return outcomes[static_cast<std::size_t>(Outcome::not_asked)]; }
+  std::uint64_t failed() const;  // asked, and neither answered nor unsupported
   void add(const Judgement& j, const Observation& o);
   void merge(const Tally& o);
 };
@@ -94,6 +95,12 @@ struct CampaignResult {
   std::map<std::string, std::map<std::string, RelationCount>> relations;
   /// By engine, question and kinds of shapes.
   std::map<std::string, std::map<Question, std::map<std::string, OpenCount>>> open;
+  /// Engines that are asked no more, with the index of the first case of the chunk in which that began.
+  struct SetAside {
+    std::uint64_t first_index = 0;
+    std::string why;
+  };
+  std::map<std::string, SetAside> set_aside;
   std::uint64_t cases = 0, pair_cases = 0,
                 overlapping = 0;  // pair cases with a decided verdict, and how many overlap
   std::uint64_t undecided = 0;
@@ -122,6 +129,7 @@ struct CampaignResult {
   std::uint64_t by_definition_of(const std::string& engine) const;
   /// One sentence a question and kind of pair of which the campaign proves nothing.
   std::vector<std::string> too_open(const std::string& engine) const;
+  std::uint64_t not_asked_of(const std::string& engine) const;
 };
 
 /// The whole result; `with_times` false gives the part that the same seed must reproduce byte for byte.

@@ -264,7 +264,7 @@ Observation AnswerCollector::take(Question question) {
   if (a.outcome < TS_ANSWERED || a.outcome > TS_THREW) fault_ = "has an outcome that does not exist";
   if (fault_) {
     Observation broken;
-    broken.outcome = Outcome::crashed;
+    broken.outcome = Outcome::invalid_answer;
     broken.detail = std::string("the answer ") + fault_;
     return broken;
   }

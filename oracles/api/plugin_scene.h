@@ -55,7 +55,7 @@ class AnswerCollector {
   ts_sink callbacks();
   ts_answer& answer() { return answer_; }
   /// The answer as an observation; an answer that is none (unknown outcome, a body that does not exist) is
-  /// `crashed`.
+  /// `invalid_answer`.
   Observation take(Question question);
 
  private:

@@ -77,7 +77,8 @@ void put_observation(Writer& w, const Observation& o) {
 
 Observation get_observation(Reader& r) {
   Observation o;
-  o.outcome = static_cast<Outcome>(r.tag(static_cast<std::uint8_t>(outcome_names.size())));
+  // Whether it was asked is not for the worker to say.
+  o.outcome = static_cast<Outcome>(r.tag(static_cast<std::uint8_t>(Outcome::not_asked)));
   const auto present = r.get<std::uint16_t>();
   if (present > all_present) throw Malformed("an unknown field");
   o.detail = printable(r.text(), "\n\t");

@@ -273,7 +273,7 @@ class RemoteEngine::Impl {
   void leave_unasked() {
     for (; at_.item < cases_.size(); at_ = {at_.item + 1, 0, false})
       for (; at_.query < results_[at_.item].answers.size(); ++at_.query)
-        results_[at_.item].answers[at_.query] = failure(Outcome::crashed, patience_.why());
+        results_[at_.item].answers[at_.query] = failure(Outcome::not_asked, patience_.why());
   }
 
   RemoteSpec spec_;
@@ -297,6 +297,9 @@ std::vector<CaseObservations> RemoteEngine::run(std::span<const Case> cases) { r
 std::vector<CaseObservations> RemoteEngine::run_again(std::span<const Case> cases) {
   return impl_->run(cases, other_fill);
 }
+std::string RemoteEngine::set_aside() const { return impl_->patience_.why(); }
+void RemoteEngine::take_back() { impl_->patience_ = {}; }
+void RemoteEngine::put_aside(const std::string& why) { impl_->patience_.end(why); }
 std::string RemoteEngine::sandbox() const { return impl_->sandbox(); }
 int RemoteEngine::restarts() const { return impl_->restarts_; }
 int RemoteEngine::worker_pid() const { return impl_->pid(); }

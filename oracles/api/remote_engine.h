@@ -1,6 +1,6 @@
 // An engine in a worker process. Whatever the engine does — crash, hang, print, eat memory — every query gets
 // an observation: the running one is charged, the worker is restarted, and the rest is asked of the new one. An
-// engine that times out again and again (patience.h) is set aside: what is left gets no answer.
+// engine that times out again and again (patience.h) is set aside: what is left is `not_asked`.
 #pragma once
 
 #include <cstdint>
@@ -30,6 +30,9 @@ class RemoteEngine final : public Engine {
   const EngineCard& card() const override;
   std::vector<CaseObservations> run(std::span<const Case> cases) override;
   std::vector<CaseObservations> run_again(std::span<const Case> cases) override;
+  std::string set_aside() const override;
+  void take_back() override;
+  void put_aside(const std::string& why) override;
 
   /// What the worker is kept from, in words; "none" without a sandbox.
   std::string sandbox() const;

@@ -60,7 +60,7 @@ class Server {
       const std::int32_t outcome = plugin_.load(engine_, &view, &callbacks, detail);
       const std::string why(detail, strnlen(detail, sizeof detail));
       if (outcome < TS_ANSWERED || outcome > TS_THREW)
-        result.refusal = failure(Outcome::crashed, "load() returned an outcome that does not exist");
+        result.refusal = failure(Outcome::invalid_answer, "load() returned an outcome that does not exist");
       else if (outcome != TS_ANSWERED)
         result.refusal = failure(static_cast<Outcome>(outcome), why);
     } catch (const std::exception& e) {
@@ -70,7 +70,8 @@ class Server {
           failure(Outcome::threw, "something that is no std::exception, while loading the scene");
     }
     if (received.rejected() > 0 && !result.refusal)
-      result.refusal = failure(Outcome::crashed, "reported shapes or bodies that the scene does not have");
+      result.refusal =
+          failure(Outcome::invalid_answer, "reported shapes or bodies as received that the scene does not have");
     result.received = received.take();
     return result;
   }

@@ -1,6 +1,8 @@
 #include <unistd.h>
+
 #include <atomic>
 #include <chrono>
+#include <cstdlib>
 #include <filesystem>
 #include <set>
 #include <string>
@@ -107,6 +109,37 @@ class Unwritten final : public Engine {
   int drawn_ = 0;  // what memory holds changes from run to run
 };
 
+// The core, which gives up at the case of this index.
+class TiresAt final : public Engine {
+ public:
+  TiresAt(std::uint64_t index, std::atomic<int>& asked_later) : index_(index), asked_later_(asked_later) {
+    card_ = core_.card();
+    card_.name = "tires";
+  }
+  const EngineCard& card() const override { return card_; }
+  std::string set_aside() const override { return why_; }
+  void take_back() override { why_.clear(); }
+  void put_aside(const std::string& why) override { why_ = why; }
+  std::vector<CaseObservations> run(std::span<const Case> cases) override {
+    auto all = core_.run(cases);
+    for (std::size_t i = 0; i < cases.size(); ++i) {
+      const auto index = std::strtoull(cases[i].id.substr(cases[i].id.rfind('/') + 1).c_str(), nullptr, 10);
+      asked_later_ += why_.empty() && index >= index_ + 32;
+      if (why_.empty() && index >= index_) why_ = "set aside: tired";
+      if (why_.empty()) continue;
+      for (Observation& o : all[i].answers) o = {}, o.outcome = Outcome::not_asked, o.detail = why_;
+    }
+    return all;
+  }
+
+ private:
+  CoreEngine core_;
+  EngineCard card_;
+  std::uint64_t index_;
+  std::atomic<int>& asked_later_;
+  std::string why_;
+};
+
 }  // namespace
 
 TEST_CASE("answers made of unwritten memory are findings without the answer, crashes are named by their site",
@@ -137,6 +170,38 @@ TEST_CASE("answers made of unwritten memory are findings without the answer, cra
                                          "core.contact.crashed_b-inl-h-2.any.algorithm.any.none"});
   CHECK(unstable > 3);
   CHECK(fuzz::digest(results[0]) == fuzz::digest(results[1]));
+}
+
+TEST_CASE("an engine that gives up is set aside from one case on, whatever the number of jobs",
+          "[campaign][set-aside]") {
+  std::atomic<int> asked_later{0};
+  const auto engines = [&] {
+    auto e = two_engines();
+    e.push_back(std::make_unique<TiresAt>(100, asked_later));
+    return e;
+  };
+  auto one = config_of(320), three = config_of(320);
+  one.jobs = 1, three.jobs = 3;
+  const auto a = fuzz::run_campaign(one, engines, {}, go);
+  CHECK(asked_later == 0);
+  REQUIRE(a.set_aside.contains("tires"));
+  CHECK(a.set_aside.at("tires").first_index == 96);
+  CHECK(a.set_aside.size() == 1);
+  CHECK(a.failed_of("tires") == 0);
+  std::uint64_t core = 0, tired = 0;
+  for (const auto& [q, t] : a.tallies.at("core"))
+    for (const std::uint64_t n : t.outcomes) core += n;
+  for (const auto& [q, t] : a.tallies.at("tires"))
+    for (const std::uint64_t n : t.outcomes) tired += n;
+  CHECK(tired == core);
+  CHECK(a.not_asked_of("tires") > core / 2);
+  CHECK(a.not_asked_of("core") == 0);
+  for (const auto& [key, f] : a.findings) CHECK(f.fault != "not_asked");
+  const auto b = fuzz::run_campaign(three, engines, {}, go);
+  CHECK(fuzz::to_json(a, false).dump() == fuzz::to_json(b, false).dump());
+  const auto stored = fuzz::result_from_json(fuzz::to_json(a, true));
+  CHECK(stored.set_aside.at("tires").why == "set aside: tired");
+  CHECK(fuzz::digest(stored) == fuzz::digest(a));
 }
 
 TEST_CASE("one job and two jobs find the same, byte for byte", "[campaign]") {

@@ -51,8 +51,8 @@ TEST_CASE("one misbehaving query costs one answer and no more", "[oracles][remot
       {"exits_3", Outcome::crashed, "exit code 3", 1},
       {"sprays", Outcome::crashed, "rubbish", 1},
       {"closes", Outcome::crashed, "closed its answers", 1},
-      {"bad_outcome", Outcome::crashed, "outcome that does not exist", 0},
-      {"bad_pair", Outcome::crashed, "bodies that do not exist", 0}};
+      {"bad_outcome", Outcome::invalid_answer, "outcome that does not exist", 0},
+      {"bad_pair", Outcome::invalid_answer, "bodies that do not exist", 0}};
   int reached = 0;
   for (const Expectation& e : expectations) {
     INFO("engine " << e.engine);
@@ -113,7 +113,7 @@ TEST_CASE("trouble while loading a scene is charged to that scene alone", "[orac
       {"aborts_in_load", Outcome::crashed, "SIGABRT", 1},
       {"loops_in_load", Outcome::timed_out, "CPU time while loading the scene", 1},
       {"refuses_load", Outcome::invalid_input, "not this scene", 0},
-      {"reports_strangers", Outcome::crashed, "that the scene does not have", 0}};
+      {"reports_strangers", Outcome::invalid_answer, "that the scene does not have", 0}};
   for (const Expectation& e : expectations) {
     INFO("engine " << e.engine);
     RemoteEngine engine(bad_spec(e.engine));
