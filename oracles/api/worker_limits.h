@@ -18,7 +18,7 @@ struct WorkerLimits {
   double load_cpu_seconds = 10;   // taking a scene: hierarchies of large meshes are built here
   double start_cpu_seconds = 20;  // loading the plug-in and making its engine, its children included
   double blocked_seconds = 5;     // without any use of the CPU
-  double wall_seconds = 20;       // without any progress
+  double wall_seconds = 80;       // without any progress; what works is stopped by its CPU time before
   double start_wall_seconds = 60;
   std::uint64_t resident_bytes = std::uint64_t{2} << 30;  // of the worker and all that it started
   bool sandbox = true;

@@ -6,6 +6,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <cmath>
@@ -64,7 +65,7 @@ class Child {
     const bool more = poll(&fd, 1, 0) > 0 && (fd.revents & POLLIN);
     if (more || !buffer_.empty())
       throw std::runtime_error("the command wrote more than one line for a question, or without one: " +
-                               buffer_.substr(0, 80));
+                               buffer_.substr(0, std::min<std::size_t>(buffer_.find('\n'), 80)));
   }
   void write_line(std::string line) {
     require_silence();
