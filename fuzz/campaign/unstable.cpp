@@ -45,7 +45,9 @@ Judgement unstable(const Query& q, const Judgement& was, const std::vector<std::
   return j;
 }
 
-bool took_too_long(const Observation& o) { return o.outcome == Outcome::timed_out; }
+bool took_too_long(const Observation& o) {
+  return o.outcome == Outcome::timed_out || o.outcome == Outcome::not_asked;
+}
 
 struct Again {
   std::vector<std::size_t> of;  // index in the case's queries
