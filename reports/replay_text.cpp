@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/base/exact_text.h"
@@ -102,6 +103,8 @@ std::string stated(const Query& q, const Observation& o) {
     }
     case Question::scene_contacts:
       return fmt::format("{} contacts", o.contacts.size());
+    case Question::swept_candidates:
+      return fmt::format("{} pairs", o.candidate_pairs.empty() ? 0 : o.candidate_pairs[0].size());
   }
   return s;
 }
@@ -151,6 +154,13 @@ std::string engine_lines(const std::string& engine, const Query& q, const Observ
   return s;
 }
 
+// What is asked of bodies as they stand although they move.
+std::string_view at_rest(const Scene& s, const Query& q) {
+  const bool moves =
+      std::any_of(s.bodies.begin(), s.bodies.end(), [](const Body& b) { return b.motion.has_value(); });
+  return moves && q.question != Question::swept_candidates ? " (at t = 0: motions are left out)" : "";
+}
+
 std::string_view time_verdict(const referee::TimeTruth& t) {
   using V = referee::TimeTruth::Verdict;
   return t.verdict == V::hit ? "impact" : t.verdict == V::none ? "no impact" : "undecided";
@@ -179,6 +189,12 @@ std::string ReplayText::referee_lines(const Query& q) const {
     }
     case Question::scene_contacts:
       return fmt::format("  referee: {} pairs overlap\n", truth_.scene_pairs(0).size());
+    case Question::swept_candidates: {
+      const auto n = truth_.meeting_pairs().size();
+      const auto open = truth_.undecided_meetings();
+      return fmt::format("  referee: {} pairs overlap at some time of the step{}\n", n,
+                         open > 0 ? fmt::format(", {} undecided", open) : "");
+    }
     default:
       break;
   }
@@ -203,7 +219,7 @@ std::string ReplayText::str() const {
   for (std::size_t i = 0; i < case_.queries.size(); ++i) {
     const Query& q = case_.queries[i];
     out += is_pair_question(q.question) ? fmt::format("{} of {} and {}\n", to_string(q.question), q.a, q.b)
-                                        : fmt::format("{}\n", to_string(q.question));
+                                        : fmt::format("{}{}\n", to_string(q.question), at_rest(s, q));
     out += referee_lines(q);
     std::string cannot;
     for (const Row& r : rows_) {
@@ -235,6 +251,8 @@ fuzz::Json ReplayText::referee_json(const Query& q, bool certificates) const {
       for (const auto& p : set) pairs.push_back({p.bodies.first, p.bodies.second});
       sets.push_back(std::move(pairs));
     };
+    if (q.question == Question::swept_candidates)
+      return {{"meeting_pairs", truth_.meeting_pairs()}, {"undecided_pairs", truth_.undecided_meetings()}};
     if (q.question == Question::scene_contacts)
       add(truth_.scene_pairs(0));
     else

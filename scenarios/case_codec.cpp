@@ -130,6 +130,7 @@ std::vector<Query> default_queries(const Scene& scene) {
   }
   q = {{Question::candidates, 0, 1}, {Question::scene_contacts, 0, 1}};
   if (!moves(scene)) return q;
+  q.push_back({Question::swept_candidates, 0, 1});
   const auto pairs = moving_pairs(scene);
   for (std::size_t i = 0; i < std::min(pairs.size(), most_impacts_asked); ++i)
     q.push_back({Question::time_of_impact, pairs[i].first, pairs[i].second});

@@ -46,7 +46,8 @@ std::vector<std::vector<BodyPair>> candidate_pairs(const Scene& scene, broad::Br
   std::vector<std::vector<BodyPair>> answers;
   for (const Step& step : effective_script(scene)) {
     const auto box = [&] {
-      return box_of(scene, step.body, step.pose ? *step.pose : body_of(scene, step.body).pose);
+      return broad::body_box(scene.shape_of(step.body),
+                             step.pose ? *step.pose : body_of(scene, step.body).pose);
     };
     switch (step.op) {
       case Step::Op::insert:
@@ -64,6 +65,12 @@ std::vector<std::vector<BodyPair>> candidate_pairs(const Scene& scene, broad::Br
     }
   }
   return answers;
+}
+
+std::vector<BodyPair> swept_candidate_pairs(const Scene& scene, broad::BroadPhase& phase) {
+  for (int i = 0; i < static_cast<int>(scene.bodies.size()); ++i)
+    phase.insert(i, box_of(scene, i, body_of(scene, i).pose));
+  return reported(scene, phase);
 }
 
 SceneContacts scene_contacts(const Scene& scene, broad::BroadPhase& phase) {

@@ -26,8 +26,10 @@ bool is_reported(const Scene& scene, int a, int b);
 /// Box of body i at `pose`, of the whole step when it has a motion.
 Aabb box_of(const Scene& scene, int body, const Pose& pose);
 
-/// Runs effective_script(scene) through `phase`; one sorted list a query step.
+/// Runs effective_script(scene) through `phase`, of bodies that stand still; one sorted list a query step.
 std::vector<std::vector<BodyPair>> candidate_pairs(const Scene& scene, broad::BroadPhase& phase);
+/// The pairs that may overlap at some time of the step, from the bodies' own poses; sorted.
+std::vector<BodyPair> swept_candidate_pairs(const Scene& scene, broad::BroadPhase& phase);
 
 struct PairContact {
   int a = 0, b = 0;  // a < b

@@ -74,7 +74,7 @@ void swept_case(const Draw& d, Body first, const Shape& other, const Vec3& at, C
   s.shapes.push_back(other);
   s.bodies = {std::move(first), std::move(second)};
   insert_all(s), step_query(s);
-  out.queries = {{Question::candidates, -1, -1}};
+  out.queries = {{Question::swept_candidates, -1, -1}};
   round_to(d.scalar, out);
 }
 
@@ -144,7 +144,7 @@ void turning_pairs(const Draw& d, std::uint64_t index, Case& out) {
   small_one.pose.translation = rng.vector(0.5 * reach, 1.15 * reach);
   s.bodies = {long_one, small_one};
   insert_all(s), step_query(s);
-  out.queries = {{Question::candidates, -1, -1}};
+  out.queries = {{Question::swept_candidates, -1, -1}};
   round_to(d.scalar, out);
 }
 

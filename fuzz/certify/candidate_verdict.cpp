@@ -122,44 +122,21 @@ class Replay {
   std::vector<int> order_;
 };
 
-// Pairs that meet at some time of the step, for scenes with motion; the bodies stand at their own poses.
-Dues meeting_in_step(const Scene& s, Truth& truth, std::uint64_t& undecided) {
-  Dues out;
-  const int n = static_cast<int>(s.bodies.size());
-  for (int a = 0; a < n; ++a)
-    for (int b = a + 1; b < n; ++b) {
-      if (!counts(s, a, b)) continue;
-      const auto& t = truth.motion(0, a, b);
-      if (t.verdict == referee::TimeTruth::Verdict::hit) out.push_back({{a, b}, FaultKind::moving, 0});
-      if (t.verdict == referee::TimeTruth::Verdict::undecided) ++undecided;
-    }
-  return out;
-}
-
-std::vector<Dues> true_pairs_of_bodies(const Scene& s, std::uint64_t& undecided) {
+// swept_candidates: pairs that meet at some time of the step, from the bodies' own poses.
+std::vector<Dues> true_pairs_of_bodies(const Scene& s, bool swept, std::uint64_t& undecided) {
   Truth truth(s);
+  if (swept) {
+    Dues meeting;
+    for (const BodyPair& p : truth.meeting_pairs()) meeting.push_back({p, FaultKind::moving, 0});
+    undecided += truth.undecided_meetings();
+    return {meeting};
+  }
   std::vector<Dues> out;
-  const bool moves =
-      std::any_of(s.bodies.begin(), s.bodies.end(), [](const Body& b) { return b.motion.has_value(); });
   for (const auto& step : truth.true_pairs()) {
     Dues& pairs = out.emplace_back();
     for (const auto& p : step) pairs.push_back(due_of_bodies(s, p));
   }
   undecided += truth.undecided_pairs();
-  if (!moves) return out;
-  const Dues swept = meeting_in_step(s, truth, undecided);
-  for (std::size_t k = 0; k < out.size(); ++k) {
-    const auto& pose = truth.steps()[k].pose;
-    const auto is_there = [&](int body) { return pose[static_cast<std::size_t>(body)].has_value(); };
-    Dues& due = out[k];
-    for (const Due& d : swept)
-      if (is_there(d.pair.first) && is_there(d.pair.second)) due.push_back(d);
-    // What overlaps from the start counts as that.
-    std::stable_sort(due.begin(), due.end(), [](const Due& x, const Due& y) { return x.pair < y.pair; });
-    due.erase(
-        std::unique(due.begin(), due.end(), [](const Due& x, const Due& y) { return x.pair == y.pair; }),
-        due.end());
-  }
   return out;
 }
 
@@ -171,7 +148,12 @@ bool is_set_aside_for_time(const std::string& detail) {
 class Judge {
  public:
   Judge(const Case& c, const Observation& answer, Level level, bool invalid)
-      : s_(c.scene), answer_(answer), level_(level), invalid_(invalid), replay_(c.scene, level, invalid) {}
+      : s_(c.scene),
+        swept_(!c.queries.empty() && c.queries[0].question == Question::swept_candidates),
+        answer_(answer),
+        level_(level),
+        invalid_(invalid),
+        replay_(c.scene, level, invalid) {}
 
   CandidateVerdict run() {
     hash_.add(hash(s_));
@@ -201,13 +183,14 @@ class Judge {
   }
   void judge() {
     std::vector<Dues> truth;
-    if (level_ == Level::bodies) truth = true_pairs_of_bodies(s_, v_.undecided);
+    if (level_ == Level::bodies) truth = true_pairs_of_bodies(s_, swept_, v_.undecided);
     std::size_t k = 0;
     for (const Step& step : s_.script) {
       if (step.op != Step::Op::query) {
         replay_.apply(step);
         continue;
       }
+      if (swept_ && k > 0) continue;
       judge_query(static_cast<int>(k), level_ == Level::bodies ? truth[k] : replay_.overlapping_boxes());
       ++k;
     }
@@ -271,6 +254,7 @@ class Judge {
   }
 
   const Scene& s_;
+  bool swept_;  // its script inserts all and queries once
   const Observation& answer_;
   Level level_;
   bool invalid_;

@@ -15,7 +15,7 @@ namespace touchstone::fuzz {
 struct Subject {
   std::string name;
   std::string plugin_hash;
-  bool sweeps = false;  // candidates of a body with motion are those of the whole step
+  bool sweeps = false;  // answers `swept_candidates` too
   /// An engine that answers `candidates`; the same for both levels unless the subject takes boxes as such.
   std::function<EnginePtr(Level)> make;
   double case_seconds = 1;  // CPU seconds that it may spend on one question

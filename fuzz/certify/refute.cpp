@@ -53,7 +53,7 @@ class Asker {
   }
   // At the level of boxes a body stays a box whose corners are exact in the format of the subject.
   bool is_fit(const Case& c) {
-    if (c.queries.size() != 1 || c.queries[0].question != Question::candidates) return false;
+    if (c.queries.size() != 1 || !is_broad_question(c.queries[0].question)) return false;
     // No script would mean: insert all.
     if (c.scene.script.empty() || c.scene.bodies.empty()) return false;
     if (level_ == Level::bodies) return true;

@@ -266,7 +266,7 @@ Run declare_certify(CLI::App& app) {
   app.add_option("--limit", o->limit, "cases of an evidence at most; the certificate says so");
   app.add_option("--jobs", o->jobs, "jobs side by side")->check(CLI::Range(1, 1024))->capture_default_str();
   app.add_flag("--sweeps", o->sweeps,
-               "the subject's candidates are those of the whole step: ask it about motion");
+               "ask the subject for swept_candidates too: pairs that meet while the bodies move");
   app.add_flag("--first-fault", o->first_fault,
                "end a level with its first fault instead of listing every one; the certificate says so");
   app.add_flag("--list", o->list, "the subjects there are by name");

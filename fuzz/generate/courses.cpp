@@ -160,7 +160,7 @@ void swarm(Rng& rng, Case& c) {
     }
     s.bodies.push_back(std::move(b));
   }
-  c.queries = {{Question::candidates, -1, -1}};
+  c.queries = {{Question::swept_candidates, -1, -1}, {Question::candidates, -1, -1}};
   for (const auto& [a, b] : {BodyPair{0, 1}, BodyPair{0, 2}, BodyPair{1, 2}})
     c.queries.push_back({Question::time_of_impact, a, b});
 }

@@ -226,7 +226,7 @@ constexpr Family catalog[] = {
     {"bullet", "time of impact, small and fast bodies through thin plates", 2, bullet},
     {"last", "time of impact in the last 0.05 % of the step, or just after it", 1, last_moment},
     {"whirl", "time of impact, turning by 9 to 60 radians", 1, whirl},
-    {"swarm", "3 to 20 bodies that move: times of impact, and candidate pairs at the start", 3, swarm},
+    {"swarm", "3 to 20 bodies that move: candidate pairs of the step, times of impact", 3, swarm},
     {"tiles", "2 to 26 bodies that touch exactly or within ulps, far and near, of mixed sizes", 3, tiles},
     {"errands", "tiles inserted, moved by ulps and more, removed, re-inserted, with queries", 3, errands},
     {"throng", "40 to 400 tiles: candidate pairs", 1, throng},

@@ -70,6 +70,7 @@ void check_manifold(const CheckInput& in, CheckOutput& out);
 void check_time_of_impact(const CheckInput& in, CheckOutput& out);
 void check_candidates(const CheckInput& in, CheckOutput& out);
 void check_scene_contacts(const CheckInput& in, CheckOutput& out);
+void check_swept_candidates(const CheckInput& in, CheckOutput& out);
 
 /// The part of `contact` that scene contacts share: one stated contact of a pair that is not certainly apart
 /// by more than τ. What is not stated is empty.

@@ -19,10 +19,15 @@ struct CheckRow {
 
 // A check is one row here, one function in checks/, and one lying engine in tests/fuzz.
 constexpr CheckRow checks[] = {
-    {Question::overlap, check_overlap},       {Question::distance, check_distance},
-    {Question::distance, check_witness},      {Question::contact, check_contact},
-    {Question::contact, check_manifold},      {Question::time_of_impact, check_time_of_impact},
-    {Question::candidates, check_candidates}, {Question::scene_contacts, check_scene_contacts},
+    {Question::overlap, check_overlap},
+    {Question::distance, check_distance},
+    {Question::distance, check_witness},
+    {Question::contact, check_contact},
+    {Question::contact, check_manifold},
+    {Question::time_of_impact, check_time_of_impact},
+    {Question::candidates, check_candidates},
+    {Question::scene_contacts, check_scene_contacts},
+    {Question::swept_candidates, check_swept_candidates},
 };
 
 // A tolerance that is no length is no tolerance.
@@ -47,7 +52,7 @@ CheckOutput run_checks(const CheckInput& in) {
 // overlap thinner than the engine's own rounding of the scene is then blamed on that rounding.
 Blame blame_of(const Judgement& j, const CheckInput& in) {
   if (j.faults.empty()) return Blame::none;
-  if (in.query.question == Question::candidates) {
+  if (is_broad_question(in.query.question)) {
     const FaultReport& worst = j.faults.front();
     if (worst.fault != Fault::missed) return Blame::algorithm;
     return worst.error > in.tau(in.truth.scale(worst.a, worst.b)) || in.card.unit_roundoff <= 0x1p-53

@@ -15,6 +15,25 @@ Motion motion_of(const Scene& s, int body) {
   return s.bodies[static_cast<std::size_t>(body)].motion.value_or(Motion{});
 }
 
+struct BoxedBody {
+  Aabb box;
+  int body;
+};
+
+// Sorted pairs (a < b) of bodies whose boxes overlap.
+std::vector<BodyPair> overlapping_boxes(std::vector<BoxedBody> entries) {
+  std::sort(entries.begin(), entries.end(), [](const BoxedBody& x, const BoxedBody& y) {
+    return std::pair{x.box.lo.x(), x.body} < std::pair{y.box.lo.x(), y.body};
+  });
+  std::vector<BodyPair> result;
+  for (std::size_t i = 0; i < entries.size(); ++i)
+    for (std::size_t j = i + 1; j < entries.size() && entries[j].box.lo.x() <= entries[i].box.hi.x(); ++j)
+      if (overlaps(entries[i].box, entries[j].box))
+        result.push_back(std::minmax(entries[i].body, entries[j].body));
+  std::sort(result.begin(), result.end());
+  return result;
+}
+
 // True when every number that the engine reports equals the one asked, so that frame 0 serves. A Placement
 // never equals a Pose exactly unless the rotation is one whose matrix the double holds exactly.
 bool same_as_asked(const Scene& s, const ReceivedScene& r) {
@@ -271,36 +290,42 @@ const std::vector<Truth::StepState>& Truth::steps() {
   return *steps_;
 }
 
-// Sweep over the exact outer boxes along the axis on which they spread most, then the exact verdict of each
-// pair left.
+// A broad phase must report a < b: neither filtered nor both static.
+bool Truth::counts(int a, int b) const {
+  const auto fixed = [&](int i) { return asked_.bodies[static_cast<std::size_t>(i)].is_static; };
+  return !is_filtered(asked_, a, b) && !(fixed(a) && fixed(b));
+}
+
+// Sweep over the exact outer boxes along x, then the exact verdict of each pair left.
 std::vector<Truth::TruePair> Truth::overlapping(const std::vector<std::optional<referee::Placed>>& bodies) {
-  struct Entry {
-    Aabb box;
-    int body;
-  };
-  std::vector<Entry> entries;
+  std::vector<BoxedBody> entries;
   for (std::size_t i = 0; i < bodies.size(); ++i)
     if (bodies[i]) entries.push_back({referee::outer_box(*bodies[i]), static_cast<int>(i)});
-  std::sort(entries.begin(), entries.end(), [](const Entry& x, const Entry& y) {
-    return std::pair{x.box.lo.x(), x.body} < std::pair{y.box.lo.x(), y.body};
-  });
   std::vector<TruePair> result;
-  for (std::size_t i = 0; i < entries.size(); ++i)
-    for (std::size_t j = i + 1; j < entries.size() && entries[j].box.lo.x() <= entries[i].box.hi.x(); ++j) {
-      if (!overlaps(entries[i].box, entries[j].box)) continue;
-      const auto [a, b] = std::minmax(entries[i].body, entries[j].body);
-      const auto& body_a = asked_.bodies[static_cast<std::size_t>(a)];
-      const auto& body_b = asked_.bodies[static_cast<std::size_t>(b)];
-      if (is_filtered(asked_, a, b) || (body_a.is_static && body_b.is_static)) continue;
-      const auto& pa = *bodies[static_cast<std::size_t>(a)];
-      const auto& pb = *bodies[static_cast<std::size_t>(b)];
-      TruePair p{{a, b}, referee::judge_pair(pa, pb)};
-      if (p.truth.verdict == referee::Verdict::undecided) ++undecided_pairs_;
-      if (p.truth.verdict == referee::Verdict::overlap) result.push_back(std::move(p));
-    }
-  std::sort(result.begin(), result.end(),
-            [](const TruePair& x, const TruePair& y) { return x.bodies < y.bodies; });
+  for (const auto& [a, b] : overlapping_boxes(std::move(entries))) {
+    if (!counts(a, b)) continue;
+    TruePair p{
+        {a, b},
+        referee::judge_pair(*bodies[static_cast<std::size_t>(a)], *bodies[static_cast<std::size_t>(b)])};
+    if (p.truth.verdict == referee::Verdict::undecided) ++undecided_pairs_;
+    if (p.truth.verdict == referee::Verdict::overlap) result.push_back(std::move(p));
+  }
   return result;
+}
+
+const std::vector<BodyPair>& Truth::meeting_pairs() {
+  if (meeting_pairs_) return *meeting_pairs_;
+  meeting_pairs_.emplace();
+  std::vector<BoxedBody> entries;
+  for (int i = 0; i < static_cast<int>(asked_.bodies.size()); ++i)
+    entries.push_back({referee::outer_box(placed(0, i), motion_of(asked_, i)), i});
+  for (const auto& [a, b] : overlapping_boxes(std::move(entries))) {
+    if (!counts(a, b)) continue;
+    const auto verdict = motion(0, a, b).verdict;
+    if (verdict == referee::TimeTruth::Verdict::undecided) ++undecided_meetings_;
+    if (verdict == referee::TimeTruth::Verdict::hit) meeting_pairs_->push_back({a, b});
+  }
+  return *meeting_pairs_;
 }
 
 namespace {

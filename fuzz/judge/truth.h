@@ -59,6 +59,10 @@ class Truth {
   /// Pairs that overlap at the bodies' own poses in the given frame, as above.
   const std::vector<TruePair>& scene_pairs(int frame);
   std::uint64_t undecided_pairs() const { return undecided_pairs_; }
+  /// Pairs that overlap at some time of the step, from the bodies' own poses and by their motions (frame 0
+  /// only), as above. Pairs for which that is neither certain nor excluded are left out and counted.
+  const std::vector<BodyPair>& meeting_pairs();
+  std::uint64_t undecided_meetings() const { return undecided_meetings_; }
 
   const Scene& scene() const { return asked_; }
   /// Directions worth trying first as certificates; from engines' answers.
@@ -74,6 +78,7 @@ class Truth {
     double displacement = 0;
     std::optional<std::vector<TruePair>> scene_pairs;
   };
+  bool counts(int a, int b) const;
   std::vector<TruePair> overlapping(const std::vector<std::optional<referee::Placed>>& bodies);
 
   const Scene& asked_;
@@ -82,6 +87,8 @@ class Truth {
   std::optional<std::vector<StepState>> steps_;
   std::optional<std::vector<std::vector<TruePair>>> true_pairs_;
   std::uint64_t undecided_pairs_ = 0;
+  std::optional<std::vector<BodyPair>> meeting_pairs_;
+  std::uint64_t undecided_meetings_ = 0;
 };
 
 }  // namespace touchstone::fuzz

@@ -12,6 +12,8 @@ Motion motion_of(const Scene& s, int body) {
   return s.bodies[static_cast<std::size_t>(body)].motion.value_or(Motion{});
 }
 
+bool is_of_motion(Question q) { return q == Question::time_of_impact || q == Question::swept_candidates; }
+
 Json named(Json certificate, int a, int b, int step) {
   if (certificate.at("kind") == "none") return certificate;
   certificate["bodies"] = {a, b};
@@ -22,8 +24,7 @@ Json named(Json certificate, int a, int b, int step) {
 Json exact_certificate_of(const Evidence& e) {
   const auto make = [&] { return exact_certificate(e.c.scene, e.question, e.a, e.b, e.step); };
   if (!e.shared) return make();
-  const auto [it, is_new] =
-      e.shared->try_emplace({e.question == Question::time_of_impact, e.a, e.b, e.step}, nullptr);
+  const auto [it, is_new] = e.shared->try_emplace({is_of_motion(e.question), e.a, e.b, e.step}, nullptr);
   if (is_new) it->second = make();
   return it->second;
 }
@@ -50,7 +51,7 @@ Json certificate_of(const Evidence& e) {
   using Kind = referee::Certificate::Kind;
   const Kind k = e.certificate.kind;
   const bool verdict = k == Kind::separating_plane || k == Kind::common_point;
-  if (e.question == Question::time_of_impact) {
+  if (is_of_motion(e.question)) {
     if (Json j = with_depth(exact_certificate_of(e), e); !j.is_null()) return j;
   } else if (verdict) {
     if (Json j = exact_certificate_of(e); !j.is_null()) return j;
@@ -86,7 +87,7 @@ std::optional<referee::Placed> placed_at(const Scene& s, int body, int step) {
 Json exact_certificate(const Scene& s, Question q, int a, int b, int step) {
   const auto x = placed_at(s, a, step), y = placed_at(s, b, step);
   if (!x || !y || a == b) return nullptr;
-  if (q == Question::time_of_impact) {
+  if (is_of_motion(q)) {
     const Motion ma = motion_of(s, a), mb = motion_of(s, b);
     const auto c = referee::impact_certificate(*x, ma, *y, mb, referee::judge_motion(*x, ma, *y, mb));
     return c.claims_nothing() ? Json() : named(referee::to_json(c), a, b, step);

@@ -279,6 +279,11 @@ std::string reproducer(const Finding& finding, const EngineCard& card) {
   if (is_relation(finding.fault))
     throw InputError("reproduce",
                      "a relation is about two scenes, which `touchstone replay` shows: " + finding.key());
+  if (v.question == Question::swept_candidates)
+    throw InputError("reproduce",
+                     "no writer asks for the candidates of bodies that move, which `touchstone replay` "
+                     "shows: " +
+                         finding.key());
   const int n = static_cast<int>(v.c.scene.bodies.size());
   if (v.a < 0 || v.b < 0 || v.a >= n || v.b >= n)
     throw InputError("reproduce", "the finding names no pair of bodies: " + finding.key());

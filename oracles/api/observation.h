@@ -14,9 +14,17 @@
 namespace touchstone {
 
 /// Numbers are those of ts_question.
-enum class Question : std::uint8_t { overlap, distance, contact, time_of_impact, candidates, scene_contacts };
-inline constexpr std::array<std::string_view, 6> question_names{
-    "overlap", "distance", "contact", "time_of_impact", "candidates", "scene_contacts"};
+enum class Question : std::uint8_t {
+  overlap,
+  distance,
+  contact,
+  time_of_impact,
+  candidates,       // of the bodies as they stand: motions are ignored
+  scene_contacts,   // likewise
+  swept_candidates  // pairs that overlap at some time of the step, from the bodies' own poses; no script
+};
+inline constexpr std::array<std::string_view, 7> question_names{
+    "overlap", "distance", "contact", "time_of_impact", "candidates", "scene_contacts", "swept_candidates"};
 constexpr std::string_view to_string(Question q) { return question_names[static_cast<std::size_t>(q)]; }
 constexpr std::optional<Question> question_from_string(std::string_view s) {
   for (std::size_t i = 0; i < question_names.size(); ++i)
@@ -24,6 +32,9 @@ constexpr std::optional<Question> question_from_string(std::string_view s) {
   return std::nullopt;
 }
 constexpr bool is_pair_question(Question q) { return q <= Question::time_of_impact; }
+constexpr bool is_broad_question(Question q) {
+  return q == Question::candidates || q == Question::swept_candidates;
+}
 
 struct Query {
   Question question = Question::overlap;

@@ -277,7 +277,7 @@ Observation AnswerCollector::take(Question question) {
   if (a.has & TS_HAS_TOI) o.toi = a.toi;
   if (std::isfinite(a.claimed_tolerance) && a.claimed_tolerance > 0)
     o.claimed_tolerance = a.claimed_tolerance;
-  if (question != Question::candidates || o.outcome != Outcome::answered) o.candidate_pairs.clear();
+  if (!is_broad_question(question) || o.outcome != Outcome::answered) o.candidate_pairs.clear();
   return o;
 }
 

@@ -95,9 +95,14 @@ enum ts_question {
   TS_DISTANCE = 1,      /* signed distance and witness points */
   TS_CONTACT = 2,       /* overlap; if so normal, depth, manifold */
   TS_TIME_OF_IMPACT = 3, /* first t in [0,1] at which they share a point */
-  TS_CANDIDATES = 4,    /* broad phase: run the steps, report pairs at each TS_QUERY; a, b unused */
-  TS_SCENE_CONTACTS = 5 /* broad and narrow phase together at the bodies' own poses; a, b unused */
-};
+  /* Broad phase: run the steps, report pairs at each TS_QUERY; a, b unused. Bodies stand still, whatever `linear` and
+   * `angular` say. */
+  TS_CANDIDATES = 4,
+  TS_SCENE_CONTACTS = 5, /* broad and narrow phase together at the bodies' own poses; a, b unused */
+  /* Broad phase of a motion: report, at k = 0, every pair that overlaps at some t in [0,1] of the bodies' motions from
+   * their own poses. The steps are not run; a, b unused. */
+  TS_SWEPT_CANDIDATES = 6
+}; /* Questions may be added: leave the answer to one that you do not know as it comes, TS_UNSUPPORTED. */
 
 enum ts_outcome {
   TS_ANSWERED = 0,
@@ -145,7 +150,7 @@ typedef struct ts_sink {
    * engine that knows its separating axis states the depth along that as the answer's; one that does not leaves
    * TS_HAS_DEPTH out, and its points are judged by themselves. */
   void (*point)(void* ctx, const double position[3], double depth);
-  /* TS_CANDIDATES: a pair at the k-th TS_QUERY step (k from 0); any order */
+  /* TS_CANDIDATES: a pair at the k-th TS_QUERY step (k from 0); any order. TS_SWEPT_CANDIDATES: k = 0 */
   void (*pair)(void* ctx, int32_t k, int32_t a, int32_t b);
   /* TS_SCENE_CONTACTS */
   void (*contact)(void* ctx, int32_t a, int32_t b, const double normal[3], double depth);

@@ -74,6 +74,8 @@ class Engine {
     if ((question == TS_TIME_OF_IMPACT) ? setting_.minkowski || setting_.epa_tolerance
                                         : setting_.allowed_penetration.has_value())
       throw kit::Unsupported("its setting is of no matter to this question");
+    if (question == TS_SWEPT_CANDIDATES)
+      throw kit::Unsupported("Bullet's broad phases take bodies that stand still");
     if (question == TS_CANDIDATES || question == TS_SCENE_CONTACTS) {
       for (const auto& s : shapes_)
         if (!s->shape) throw kit::Unsupported("Bullet has no ellipsoid, and the scene has one");

@@ -3,6 +3,7 @@
 #include <array>
 #include <limits>
 
+#include "core/broad/body_box.h"
 #include "core/broad/catalog.h"
 #include "core/tolerance.h"
 #include "core/world/world.h"
@@ -46,6 +47,13 @@ class Run {
   Run(const Scene& s, broad::BroadPhase& phase, BroadBoxes boxes, Observation& out)
       : s_(s), phase_(phase), boxes_(boxes), out_(out) {}
 
+  /// One step of the bodies' motions, from their own poses.
+  void step() {
+    swept_ = true;
+    for (int i = 0; i < static_cast<int>(s_.bodies.size()); ++i) apply({Step::Op::insert, i, std::nullopt});
+    query();
+  }
+
   void script() {
     if (!s_.script.empty()) {
       for (const Step& step : s_.script) apply(step);
@@ -58,7 +66,8 @@ class Run {
  private:
   Aabb box(const Step& step) const {
     const Pose& p = step.pose ? *step.pose : body_of(s_, step.body).pose;
-    return boxes_ == BroadBoxes::exact ? exact_box(s_.shape_of(step.body), p) : box_of(s_, step.body, p);
+    if (boxes_ == BroadBoxes::exact) return exact_box(s_.shape_of(step.body), p);
+    return swept_ ? box_of(s_, step.body, p) : broad::body_box(s_.shape_of(step.body), p);
   }
   void apply(const Step& step) {
     if (step.op == Step::Op::move) {
@@ -103,6 +112,7 @@ class Run {
   broad::BroadPhase& phase_;
   BroadBoxes boxes_;
   Observation& out_;
+  bool swept_ = false;
   std::vector<broad::BoxUpdate> moves_;
   std::vector<broad::IdPair> found_;
 };
@@ -127,13 +137,15 @@ class BroadEngine final : public Engine {
 
  private:
   void ask(const Scene& s, const Query& q, Observation& o) const {
-    if (q.question != Question::candidates) {
-      o.detail = "a broad phase alone";
+    const bool swept = q.question == Question::swept_candidates;
+    if (!is_broad_question(q.question) || (swept && boxes_ == BroadBoxes::exact)) {
+      o.detail = swept ? "a box that moves is none" : "a broad phase alone";
       return;
     }
     try {
       const auto phase = row_.make();
-      Run(s, *phase, boxes_, o).script();
+      Run run(s, *phase, boxes_, o);
+      swept ? run.step() : run.script();
       o.outcome = Outcome::answered;
     } catch (const NoBox&) {
       o = {}, o.detail = "a body that is no box";

@@ -1,4 +1,4 @@
-// One broad phase of the core as an engine that answers `candidates`, in process.
+// One broad phase of the core as an engine that answers `candidates` and `swept_candidates`, in process.
 #pragma once
 
 #include <span>
@@ -10,7 +10,8 @@ namespace touchstone {
 
 /// What box a body is given. exact: that of a body which is one, as it stands (an upright box, or one turned
 /// by thirds about the diagonal; a half-space perpendicular to an axis); any other body makes the answer
-/// `unsupported`. bodies: the core's own box around the body, of the whole step when it moves.
+/// `unsupported`. bodies: the core's own box around the body; of the whole step for swept_candidates, which
+/// exact boxes do not answer.
 enum class BroadBoxes { exact, bodies };
 
 /// Names of core/broad/catalog.h.

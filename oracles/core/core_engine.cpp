@@ -65,6 +65,12 @@ void ask_candidates(const Scene& s, Observation& o) {
   o.outcome = Outcome::answered;
 }
 
+void ask_swept_candidates(const Scene& s, Observation& o) {
+  const auto phase = broad::make_broad_phase(broad_phase_name);
+  o.candidate_pairs = {swept_candidate_pairs(s, *phase)};
+  o.outcome = Outcome::answered;
+}
+
 void ask_scene_contacts(const Scene& s, Observation& o) {
   const auto phase = broad::make_broad_phase(broad_phase_name);
   const SceneContacts r = scene_contacts(s, *phase);
@@ -94,6 +100,8 @@ void ask(const Scene& s, const Query& q, Arithmetic arithmetic, Observation& o) 
       return ask_candidates(s, o);
     case Question::scene_contacts:
       return ask_scene_contacts(s, o);
+    case Question::swept_candidates:
+      return ask_swept_candidates(s, o);
   }
 }
 

@@ -114,6 +114,8 @@ class Engine {
         });
       case TS_SCENE_CONTACTS:
         return ask_scene(out, sink);
+      case TS_SWEPT_CANDIDATES:
+        throw kit::Unsupported("FCL's broad phases take bodies that stand still");
     }
     throw kit::Unsupported("unknown question");
   }

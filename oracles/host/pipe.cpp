@@ -19,6 +19,7 @@
 #include <string_view>
 #include <vector>
 
+#include "oracles/api/observation.h"
 #include "oracles/host/pipe_scene.h"
 
 namespace touchstone::host {
@@ -264,9 +265,7 @@ void unload(ts_engine*) {}
 
 void ask(ts_engine* e, std::int32_t question, std::int32_t a, std::int32_t b, ts_answer* out,
          const ts_sink* sink) {
-  constexpr std::array<const char*, 6> names{"overlap",        "distance",   "contact",
-                                             "time_of_impact", "candidates", "scene_contacts"};
-  Json j = {{"ask", names[static_cast<std::size_t>(question)]}};
+  Json j = {{"ask", std::string(question_names.at(static_cast<std::size_t>(question)))}};
   if (question <= TS_TIME_OF_IMPACT) j["a"] = a, j["b"] = b;
   try {
     child(e).write_line(j.dump());

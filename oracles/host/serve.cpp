@@ -88,8 +88,10 @@ class Server {
     const int bodies = static_cast<int>(scene.bodies.size());
     if (is_pair_question(q.question) && (q.a < 0 || q.b < 0 || q.a >= bodies || q.b >= bodies || q.a == q.b))
       return failure(Outcome::invalid_input, "the query names no pair of bodies of the scene");
-    const auto steps = std::count_if(scene.script.begin(), scene.script.end(),
-                                     [](const Step& s) { return s.op == Step::Op::query; });
+    const auto steps = q.question == Question::swept_candidates
+                           ? 1
+                           : std::count_if(scene.script.begin(), scene.script.end(),
+                                           [](const Step& s) { return s.op == Step::Op::query; });
     AnswerCollector answer(bodies, static_cast<int>(steps));
     const ts_sink sink = answer.callbacks();
     Observation o;

@@ -277,6 +277,42 @@ TEST_CASE("a box that turns through a mesh while it flies is not let off", "[jud
   CHECK(has(judge_one(c, impact_at(std::nullopt)), Fault::missed));
 }
 
+TEST_CASE("candidates of a step: every pair that meets on the way, those of the start are not enough",
+          "[judge][pairs]") {
+  Case c = ball_on_floor(2);
+  c.scene.bodies.push_back(c.scene.bodies[1]);
+  c.scene.bodies[2].pose.translation.z() = 3;  // follows, and arrives nowhere
+  c.scene.bodies.push_back(c.scene.bodies[1]);
+  c.scene.bodies[3].pose.translation = {9, 9, 0};
+  c.scene.bodies[3].motion = Motion{Vec3::Zero(), Vec3(0, 9, 0)};
+  c.queries = {{Question::swept_candidates, -1, -1}};
+  const auto answer = [](std::vector<BodyPair> pairs) {
+    Observation o = answered();
+    o.candidate_pairs = {std::move(pairs)};
+    return o;
+  };
+  CHECK(judge_one(c, answer({{1, 0}})).right());
+  const fuzz::Judgement more = judge_one(c, answer({{0, 1}, {0, 2}, {2, 1}}));
+  CHECK(more.right());
+  CHECK(more.pairs_true == 1);
+  CHECK(more.pairs_reported == 3);
+  const fuzz::Judgement none = judge_one(c, answer({{0, 2}}));
+  REQUIRE(has(none, Fault::missed));
+  CHECK(std::abs(none.faults.front().error - 0.25) < 1e-9);
+  Observation nothing = answered();
+  CHECK(has(judge_one(c, nothing), Fault::missed));
+  CHECK(has(judge_one(c, answer({{0, 1}, {1, 4}})), Fault::stale));
+  // Where the bodies stand, none overlap.
+  c.queries = {{Question::candidates, -1, -1}};
+  CHECK(judge_one(c, answer({})).right());
+  // A touch in passing counts too.
+  c.queries = {{Question::swept_candidates, -1, -1}};
+  c.scene.bodies[1].motion->linear = Vec3(0, 0, -0.7);
+  c.scene.bodies[1].pose.translation.z() = 0.75;
+  c.scene.bodies[1].motion->linear.z() = -0.5;
+  CHECK(has(judge_one(c, answer({})), Fault::missed));
+}
+
 TEST_CASE("candidate pairs: no tolerance for a missed touching pair, stale names told apart",
           "[judge][pairs]") {
   const Case c = spheres(2, Question::candidates);

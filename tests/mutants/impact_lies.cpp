@@ -203,8 +203,8 @@ std::vector<Mutant> impact_lies() {
       {"impact_mesh_late_little", "late", "spin", "1e-9 too late into a mesh", on_impact(mesh_late_a_little)},
       {"impact_mesh_end_lost", "missed", "spin", "no mesh is hit in the last quarter of the step",
        on_impact(mesh_ends_lost)},
-      {"impact_first_triangle", "late", "translate", "the first triangle of the list that is hit ends the search",
-       on_impact(first_triangle)},
+      {"impact_first_triangle", "late", "translate",
+       "the first triangle of the list that is hit ends the search", on_impact(first_triangle)},
       {"impact_cap_as_miss", "missed", "spin",
        "of two curved bodies turning fast, an iteration cap is no hit", on_impact(cap_as_miss)},
   };

@@ -72,4 +72,34 @@ void check_candidates(const CheckInput& in, CheckOutput& out) {
   }
 }
 
+// Every pair that overlaps at some time of the step. How deep is only measured of what is missed.
+void check_swept_candidates(const CheckInput& in, CheckOutput& out) {
+  if (in.frame != 0) return;
+  const auto& truth = in.truth.meeting_pairs();
+  out.undecided = in.truth.undecided_meetings() > 0;
+  if (in.answer.candidate_pairs.size() > 1) {
+    out.fault(Fault::no_number, 0, 1, in.query, "answers more than one step");
+    return;
+  }
+  static const std::vector<BodyPair> none;
+  const auto reported = sorted_unique(in.answer.candidate_pairs.empty() ? none : in.answer.candidate_pairs[0],
+                                      out.pairs_duplicate);
+  out.pairs_true += truth.size(), out.pairs_reported += reported.size();
+  for (const auto& [a, b] : truth) {
+    if (std::binary_search(reported.begin(), reported.end(), BodyPair{a, b})) continue;
+    const double l = in.truth.scale(a, b), depth = in.truth.depth_in_step(0, a, b);
+    out.error(depth, l, 0);
+    out.fault(Fault::missed, depth, l, {in.query.question, a, b},
+              fmt::format("pair ({}, {}) overlaps during the step{}, first near t = {:.9g}, and is not a "
+                          "candidate",
+                          a, b, depth > 0 ? fmt::format(" by {:.6g}", depth) : " (touching)",
+                          in.truth.motion(0, a, b).t_hi));
+  }
+  const int n = static_cast<int>(in.truth.scene().bodies.size());
+  for (const auto& [a, b] : reported)
+    if (a < 0 || b >= n || a == b)
+      out.fault(Fault::stale, 0, 1, {in.query.question, a, b},
+                fmt::format("pair ({}, {}) names a body that is not there", a, b));
+}
+
 }  // namespace touchstone::fuzz

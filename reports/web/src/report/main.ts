@@ -30,7 +30,7 @@ const data = pageData<ReportPage>();
 const link = new LinkState();
 const findings = new Findings(data.findings);
 // In the order in which one asks, not of the alphabet.
-const order = ["overlap", "distance", "contact", "time_of_impact", "candidates", "scene_contacts"];
+const order = ["overlap", "distance", "contact", "time_of_impact", "candidates", "swept_candidates", "scene_contacts"];
 for (const [engine, tallies] of Object.entries(data.summary.engines))
   data.summary.engines[engine] = Object.fromEntries(Object.entries(tallies).sort(([a], [b]) => order.indexOf(a) - order.indexOf(b)));
 document.title = `Touchstone: ${data.title}`;
