@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "core/base/printable.h"
@@ -62,7 +63,8 @@ std::string wrapped(const std::string& words, std::size_t width, std::size_t ind
 namespace {
 
 // Names short enough for the table's column.
-constexpr std::string_view short_names[] = {"overlap", "distance", "contact", "impact", "pairs", "scene"};
+constexpr std::array<std::string_view, question_names.size()> short_names{
+    "overlap", "distance", "contact", "impact", "pairs", "scene", "swept"};
 
 std::string row(Question q, const Tally& t) {
   if (t.answered() == 0 && t.failed() == 0 && t.not_asked() == 0)

@@ -140,11 +140,6 @@ std::vector<Dues> true_pairs_of_bodies(const Scene& s, bool swept, std::uint64_t
   return out;
 }
 
-// An engine that timed out too often is asked no more (oracles/api/patience.h): that is no crash.
-bool is_set_aside_for_time(const std::string& detail) {
-  return detail.starts_with("set aside: timed out") || detail.starts_with("set aside: waited");
-}
-
 class Judge {
  public:
   Judge(const Case& c, const Observation& answer, Level level, bool invalid)
@@ -176,8 +171,7 @@ class Judge {
     const Outcome o = answer_.outcome;
     v_.refused =
         o == Outcome::unsupported || o == Outcome::invalid_input || (invalid_ && o == Outcome::threw);
-    v_.timed_out =
-        o == Outcome::timed_out || o == Outcome::not_asked || is_set_aside_for_time(answer_.detail);
+    v_.timed_out = o == Outcome::timed_out || o == Outcome::not_asked;
     v_.words = answer_.detail.empty() ? std::string(to_string(o)) : answer_.detail;
     if (!v_.refused && !v_.timed_out) wrong(to_string(o), FaultKind::numbers, v_.words, Place{});
   }

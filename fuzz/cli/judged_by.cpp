@@ -26,15 +26,24 @@ class JudgedBy final : public Engine {
   }
   const EngineCard& card() const override { return card_; }
   std::vector<CaseObservations> run(std::span<const Case> cases) override {
-    auto all = engine_->run(cases);
+    return claimed(engine_->run(cases), cases);
+  }
+  std::vector<CaseObservations> run_again(std::span<const Case> cases) override {
+    return claimed(engine_->run_again(cases), cases);
+  }
+  std::string set_aside() const override { return engine_->set_aside(); }
+  void take_back() override { engine_->take_back(); }
+  void put_aside(const std::string& why) override { engine_->put_aside(why); }
+
+ private:
+  std::vector<CaseObservations> claimed(std::vector<CaseObservations> all,
+                                        std::span<const Case> cases) const {
     for (std::size_t i = 0; i < all.size(); ++i)
       for (std::size_t q = 0; q < all[i].answers.size(); ++q)
-        if (cases[i].queries[q].question != Question::candidates)
-          all[i].answers[q].claimed_tolerance = error_;
+        if (!is_broad_question(cases[i].queries[q].question)) all[i].answers[q].claimed_tolerance = error_;
     return all;
   }
 
- private:
   EnginePtr engine_;
   EngineCard card_;
   double error_;

@@ -32,6 +32,9 @@ class SubStepped final : public Engine {
   }
   const EngineCard& card() const override { return card_; }
   std::vector<CaseObservations> run(std::span<const Case> cases) override;
+  std::string set_aside() const override { return inner_->set_aside(); }
+  void take_back() override { inner_->take_back(); }
+  void put_aside(const std::string& why) override { inner_->put_aside(why); }
 
  private:
   struct Open {

@@ -89,10 +89,19 @@ void ask_impact(const Scene& s, const Query& q, Observation& o) {
     if (hit.impact.outcome == Outcome::answered) o.toi = hit.impact.toi;
 }
 
+std::unique_ptr<broad::BroadPhase> phase_in_turn(const Scene& s) {
+  return broad::catalog[hash(s) % broad::catalog.size()].make();
+}
+
 void ask_candidates(const Scene& s, Observation& o) {
-  const auto row = hash(s) % broad::catalog.size();
-  const auto phase = broad::catalog[row].make();
+  const auto phase = phase_in_turn(s);
   o.candidate_pairs = candidate_pairs(s, *phase);
+  o.outcome = Outcome::answered;
+}
+
+void ask_swept_candidates(const Scene& s, Observation& o) {
+  const auto phase = phase_in_turn(s);
+  o.candidate_pairs = {swept_candidate_pairs(s, *phase)};
   o.outcome = Outcome::answered;
 }
 
@@ -134,6 +143,8 @@ void ask(const Scene& s, Kept& kept, const Query& q, Observation& o) {
       return ask_candidates(s, o);
     case Question::scene_contacts:
       return ask_scene_contacts(s, o);
+    case Question::swept_candidates:
+      return ask_swept_candidates(s, o);
   }
 }
 
