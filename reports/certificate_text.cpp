@@ -67,7 +67,10 @@ std::string refutation(const BroadCertificate& c, const fuzz::Refutation& r) {
   std::string out =
       "  " +
       wrapped(fmt::format("{} ({}, case {}): {}", in_words(r.what), r.evidence, r.index, r.words), 76, 4);
-  out += fmt::format("\n    smallest script: {} bodies, {} steps ({})\n", r.bodies, r.steps, r.shrink);
+  if (r.steps > 0)
+    out += fmt::format("\n    smallest script: {} bodies, {} steps ({})\n", r.bodies, r.steps, r.shrink);
+  else
+    out += fmt::format("\n    smallest scene: {} bodies ({})\n", r.bodies, r.shrink);
   std::string seen;
   for (const fuzz::FaultCount& f : c.faults)
     if (f.level == r.level && f.what == r.what)

@@ -201,6 +201,8 @@ std::string ReplayText::referee_lines(const Query& q) const {
   const referee::PairTruth& t = truth_.pair(0, q.a, q.b);
   std::string s = fmt::format("  referee: {}", referee::to_string(t.verdict));
   if (std::isfinite(t.gap.lo)) s += fmt::format(", signed distance {}", bracket(t.gap));
+  if (t.verdict == referee::Verdict::undecided && !t.verdict_certificate.note.empty())
+    s += "; " + t.verdict_certificate.note;
   s += "\n";
   if (q.question == Question::contact && t.verdict == referee::Verdict::overlap && std::isfinite(t.gap.lo))
     s += fmt::format("    least depth along n = {}\n", vec(t.normal)) +

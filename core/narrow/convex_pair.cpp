@@ -11,8 +11,9 @@ namespace {
 // GJK on smooth bodies gains a constant factor an iteration; 60 digits of safety over the worst seen
 // (tests/core/stress).
 constexpr int gjk_cap = 2000;
-// Expansions before a ring of minima is suspected: isolated minima close in 50 to 250.
-constexpr int epa_budget = 400;
+// Expansions before a ring of minima is suspected: isolated minima close in 50 to 250. Polytopes have none,
+// and those of thousands of vertices about one centre need thousands.
+constexpr int epa_budget = 400, epa_budget_of_polytopes = 16384;
 
 using Core = ConvexCore<Wide>;
 
@@ -35,9 +36,14 @@ Separation from_gjk(const GjkResult<Wide>& g, Wide size) {
   return s;
 }
 
+bool is_polytope(const Core& c) {
+  return c.kind != CoreKind::cylinder && c.kind != CoreKind::cone && c.kind != CoreKind::ellipsoid;
+}
+
 EpaResult<Wide> expand(const GjkResult<Wide>& g, const Core& a, const Core& b, Wide size) {
   const Wide tolerance = tolerance::narrow_gap_factor * size;
-  return Epa<Wide>(a, b, size, tolerance).run(g, epa_budget);
+  const bool polytopes = is_polytope(a) && is_polytope(b);
+  return Epa<Wide>(a, b, size, tolerance).run(g, polytopes ? epa_budget_of_polytopes : epa_budget);
 }
 
 Separation from_epa(EpaResult<Wide> e, const Core& a, const Core& b, Wide size) {

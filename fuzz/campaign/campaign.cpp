@@ -84,7 +84,8 @@ class Runner {
     for (;;) {
       const std::uint64_t k = next_.fetch_add(1);
       if (exhausted(k)) return;
-      if (!wait_for_generation(k) || stop_ || failed_ || out_of_time()) return leave();
+      // The first chunk is asked however slow the machine is: no answer at all proves nothing.
+      if (!wait_for_generation(k) || stop_ || failed_ || (k > 0 && out_of_time())) return leave();
       finish(k, ask(k, engines), engines);
     }
   } catch (const Stopped&) {

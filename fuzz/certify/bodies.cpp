@@ -73,7 +73,6 @@ void swept_case(const Draw& d, Body first, const Shape& other, const Vec3& at, C
   second.pose.translation = at;
   s.shapes.push_back(other);
   s.bodies = {std::move(first), std::move(second)};
-  insert_all(s), step_query(s);
   out.queries = {{Question::swept_candidates, -1, -1}};
   round_to(d.scalar, out);
 }
@@ -143,7 +142,6 @@ void turning_pairs(const Draw& d, std::uint64_t index, Case& out) {
   const double reach = bounding_radius(s.shapes[0]);
   small_one.pose.translation = rng.vector(0.5 * reach, 1.15 * reach);
   s.bodies = {long_one, small_one};
-  insert_all(s), step_query(s);
   out.queries = {{Question::swept_candidates, -1, -1}};
   round_to(d.scalar, out);
 }

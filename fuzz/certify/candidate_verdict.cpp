@@ -178,13 +178,13 @@ class Judge {
   void judge() {
     std::vector<Dues> truth;
     if (level_ == Level::bodies) truth = true_pairs_of_bodies(s_, swept_, v_.undecided);
+    if (swept_) return judge_query(0, truth.at(0));
     std::size_t k = 0;
     for (const Step& step : s_.script) {
       if (step.op != Step::Op::query) {
         replay_.apply(step);
         continue;
       }
-      if (swept_ && k > 0) continue;
       judge_query(static_cast<int>(k), level_ == Level::bodies ? truth[k] : replay_.overlapping_boxes());
       ++k;
     }
@@ -206,8 +206,8 @@ class Judge {
       if (p.first == p.second || absent(p.first) || absent(p.second)) stale(k, p);
   }
   bool absent(int i) const {
-    return i < 0 || i >= static_cast<int>(s_.bodies.size()) ||
-           !replay_.now().present[static_cast<std::size_t>(i)];
+    if (i < 0 || i >= static_cast<int>(s_.bodies.size())) return true;
+    return !swept_ && !replay_.now().present[static_cast<std::size_t>(i)];
   }
   void missed(int k, const Due& d) {
     const auto [a, b] = d.pair;
@@ -248,7 +248,7 @@ class Judge {
   }
 
   const Scene& s_;
-  bool swept_;  // its script inserts all and queries once
+  bool swept_;  // of all bodies, without a script
   const Observation& answer_;
   Level level_;
   bool invalid_;

@@ -182,14 +182,9 @@ class Certifier {
   // What the question needs, by doubling; not once it has been seen to help nothing.
   TooSlow too_slow(const EvidenceRow& e, std::uint64_t index, std::uint64_t planned) {
     const Case c = evidence_case(e, draw_, index, planned);
-    TooSlow t{e.level,
-              std::string(e.name),
-              index,
-              bodies_used(c.scene),
-              c.scene.script.size(),
-              subject_.case_seconds,
-              0,
-              subject_.case_seconds};
+    TooSlow t{
+        e.level, std::string(e.name),  index, bodies_used(c), c.scene.script.size(), subject_.case_seconds,
+        0,       subject_.case_seconds};
     if (!subject_.make_patient || hopeless_) return t;
     double times = 1;
     for (int k = 0; k < most_doublings && t.sufficient == 0 && !stop_; ++k) {

@@ -54,8 +54,9 @@ class Asker {
   // At the level of boxes a body stays a box whose corners are exact in the format of the subject.
   bool is_fit(const Case& c) {
     if (c.queries.size() != 1 || !is_broad_question(c.queries[0].question)) return false;
-    // No script would mean: insert all.
-    if (c.scene.script.empty() || c.scene.bodies.empty()) return false;
+    if (c.scene.bodies.empty()) return false;
+    if (c.queries[0].question == Question::swept_candidates) return level_ == Level::bodies;
+    if (c.scene.script.empty()) return false;  // that would mean: insert all
     if (level_ == Level::bodies) return true;
     const Scalar scalar = engine().card().unit_roundoff > 0x1p-50 ? Scalar::float32 : Scalar::float64;
     for (const Step& step : c.scene.script) {
@@ -138,16 +139,17 @@ std::string what_is_no_box(const Scene& s) {
 
 }  // namespace
 
-std::size_t bodies_used(const Scene& s) {
+std::size_t bodies_used(const Case& c) {
+  if (c.queries[0].question == Question::swept_candidates) return c.scene.bodies.size();
   std::set<int> used;
-  for (const Step& step : s.script)
+  for (const Step& step : c.scene.script)
     if (step.op == Step::Op::insert) used.insert(step.body);
   return used.size();
 }
 
 Refutation refute(const Subject& subject, const EvidenceRow& e, const FaultCount& found, const Case& c) {
   Refutation r{e.level, found.evidence, found.index, found.what, found.words, "not shrunk", 0, 0, false, {}};
-  r.bodies = bodies_used(c.scene), r.steps = c.scene.script.size();
+  r.bodies = bodies_used(c), r.steps = c.scene.script.size();
   Asker asker(subject, e, found.what);
   auto fault = asker.fault(c);
   if (!fault) {
@@ -165,7 +167,7 @@ Refutation refute(const Subject& subject, const EvidenceRow& e, const FaultCount
   r.shrink = r.is_shown_again ? std::string(to_string(shrunk.exit))
                               : "not shown every time: the subject does not answer the same twice";
   r.script = shrunk.smallest;
-  r.bodies = bodies_used(shrunk.smallest.scene), r.steps = shrunk.smallest.scene.script.size();
+  r.bodies = bodies_used(shrunk.smallest), r.steps = shrunk.smallest.scene.script.size();
   if (const auto smallest = asker.fault(shrunk.smallest))
     r.words = smallest->words + what_is_no_box(shrunk.smallest.scene);
   return r;

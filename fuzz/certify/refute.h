@@ -10,7 +10,7 @@ namespace touchstone::fuzz {
 /// time. What is kept while shrinking is the class of the fault: a solid pair stays solid.
 Refutation refute(const Subject& subject, const EvidenceRow& e, const FaultCount& found, const Case& c);
 
-/// Bodies that the script inserts.
-std::size_t bodies_used(const Scene& s);
+/// Bodies that the script inserts; without one all.
+std::size_t bodies_used(const Case& c);
 
 }  // namespace touchstone::fuzz

@@ -190,7 +190,7 @@ double pose_rounding(const Scene& pair) {
   double size = 0;
   for (std::size_t i = 0; i < pair.bodies.size(); ++i) {
     const Shape& shape = pair.shape_of(static_cast<int>(i));
-    size += pair.bodies[i].pose.translation.norm();
+    size += pair.bodies[i].pose.translation.stableNorm();
     if (const auto* h = std::get_if<HalfSpace>(&shape))
       size += std::abs(h->offset) / h->normal.stableNorm();
     else

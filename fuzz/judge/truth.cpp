@@ -123,7 +123,7 @@ double displacement_of(const Scene& s, const ReceivedScene& r) {
     if (i < r.bodies.size() && r.bodies[i]) {
       const double turned = (r.bodies[i]->matrix - rotation_matrix(b.pose.rotation)).norm() + rounding;
       const double reach = bounding_radius(shape);
-      moved += (r.bodies[i]->translation - b.pose.translation).norm();
+      moved += (r.bodies[i]->translation - b.pose.translation).stableNorm();
       if (!(std::isinf(reach) && r.bodies[i]->matrix == Mat3::Identity() && b.pose.rotation == Quat{}))
         moved += turned * reach;
     }
@@ -260,9 +260,9 @@ double Truth::displacement(int frame) const { return frames_[static_cast<std::si
 double Truth::speed(int a, int b) const {
   const Motion ma = motion_of(asked_, a), mb = motion_of(asked_, b);
   const auto turning = [&](int body, const Motion& m) {
-    return m.angular.isZero(0) ? 0.0 : m.angular.norm() * bounding_radius(asked_.shape_of(body));
+    return m.angular.isZero(0) ? 0.0 : m.angular.stableNorm() * bounding_radius(asked_.shape_of(body));
   };
-  return ((ma.linear - mb.linear).norm() + turning(a, ma) + turning(b, mb)) *
+  return ((ma.linear - mb.linear).stableNorm() + turning(a, ma) + turning(b, mb)) *
          (1 + tolerance::judge_speed_rounding);
 }
 

@@ -34,7 +34,8 @@ class Truth {
   /// Of a convex body and a mesh that overlap: the depth that is certain in the deepest triangle, that is,
   /// how far the body must move at least to leave that triangle. 0 when neither is a mesh.
   double depth_in_mesh(int frame, int a, int b) const;
-  /// The largest depth that is certain at a time up to t (of a mesh: in the deepest triangle).
+  /// The largest depth that is certain at a time up to t (of a mesh: in the deepest triangle); -infinity: it
+  /// is too expensive to find.
   double depth_before(int frame, int a, int b, double t);
   /// The same over the whole step; kept.
   double depth_in_step(int frame, int a, int b);

@@ -6,6 +6,7 @@
 #include "oracles/referee/checker.h"
 #include "oracles/referee/half_space.h"
 #include "oracles/referee/wide_search.h"
+#include "oracles/referee/work.h"
 #include "oracles/referee/world.h"
 
 namespace touchstone::referee {
@@ -268,8 +269,9 @@ Certificate exact_form(const PairTruth& truth, const Placed& a, const Placed& b)
 
 }  // namespace
 
-Certificate checkable_certificate(const PairTruth& truth, const Placed& a, const Placed& b) {
-  if (truth.verdict == Verdict::undecided) return {};
+namespace {
+
+Certificate certificate_that_holds(const PairTruth& truth, const Placed& a, const Placed& b) {
   if (check(truth.verdict_certificate, a, b)) return truth.verdict_certificate;
   Certificate c = exact_form(truth, a, b);
   if (c.kind != Certificate::Kind::none) return c;
@@ -277,6 +279,15 @@ Certificate checkable_certificate(const PairTruth& truth, const Placed& a, const
   const auto expected = truth.verdict == Verdict::overlap ? Certificate::Kind::common_point
                                                           : Certificate::Kind::separating_plane;
   return c.kind == expected ? c : Certificate{};
+}
+
+}  // namespace
+
+Certificate checkable_certificate(const PairTruth& truth, const Placed& a, const Placed& b) {
+  if (truth.verdict == Verdict::undecided) return {};
+  Certificate none;
+  none.note = too_expensive;
+  return within_limit(std::move(none), [&] { return certificate_that_holds(truth, a, b); });
 }
 
 nlohmann::ordered_json to_json(const Certificate& c) {

@@ -231,7 +231,7 @@ ContactRegion contact_region(const Placed& a, const Placed& b, const Vec3& norma
     const Convex2 common = intersection(simplified(projected(x.points, plane), slack),
                                         simplified(projected(y.points, plane), slack), slack);
     r = region_of(simplified(common, slack), plane, 0.5L * (x.height - y.height), origin);
-    size = bounding_radius(*a.shape) + bounding_radius(*b.shape) + (translation_of(b) - origin).norm();
+    size = bounding_radius(*a.shape) + bounding_radius(*b.shape) + (translation_of(b) - origin).stableNorm();
   }
   double far = 0;
   for (const Vec3& v : r.vertices) far = std::max(far, v.cwiseAbs().maxCoeff());

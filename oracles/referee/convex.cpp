@@ -6,11 +6,16 @@
 #include "oracles/referee/counters.h"
 #include "oracles/referee/meridian.h"
 #include "oracles/referee/wide_search.h"
+#include "oracles/referee/work.h"
 
 namespace touchstone::referee {
 namespace {
 
 bool is_curved(const Solid& b) { return b.kind != Solid::Kind::points; }
+
+std::int64_t work_of_support(const Solid& a, const Solid& b) {
+  return 50 + 2 * static_cast<std::int64_t>(a.points.size() + b.points.size());
+}
 
 Real3 between_centres(const Difference& d) {
   const auto centre = [](const Solid& b) { return is_curved(b) ? b.centre : b.points[0]; };
@@ -200,6 +205,7 @@ class Judge {
     const bool curved = is_curved(a_.body) || is_curved(b_.body);
     int cap = curved ? tolerance::referee_curved_facet_cap : tolerance::referee_facet_cap;
     if (curved) {
+      spend(100'000);
       const MeridianBound m = meridian_bound(d_, target_);
       gap_.raise(m.gap.lo, m.gap.direction);
       gap_.lower(m.gap.hi);
@@ -235,6 +241,7 @@ class Judge {
   // What stops above is the rounding of slivers: 237 bits have none to speak of. A thousandth of the cases of
   // two smooth bodies come here.
   void search_wider() {
+    spend(5'000'000);
     const auto g = wide_gap(a_, b_);
     if (!g) return;
     if (largest(g->direction) > 0)
@@ -336,6 +343,7 @@ class Judge {
 
 ConvexTruth judge_convex(const Operand& a, const Operand& b, std::span<const Real3> hints, Effort effort) {
   ++counters().convex_pairs;
+  spend(work_of_support(a.body, b.body) * 24);  // a dozen steps in doubles, then a few more
   return Judge(a, b, effort).run(hints);
 }
 

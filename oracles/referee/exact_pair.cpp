@@ -13,6 +13,7 @@
 #include <limits>
 
 #include "oracles/referee/short_integer.h"
+#include "oracles/referee/work.h"
 
 namespace touchstone::referee {
 namespace {
@@ -250,12 +251,26 @@ Real length_of(const BasicExactPair<I>& p, const I& reach, const I& length_sq) {
   return std::ldexp(x / y / p.denominator.template convert_to<Real>(), p.exponent);
 }
 
+// Of one product of a coordinate and a direction made of three of them, and of the sums.
+template <class I>
+std::int64_t work_of_products(const BasicExactPair<I>& p) {
+  I most = 1;
+  for (const auto* points : {&p.a, &p.b})
+    for (const Exact3<I>& x : *points)
+      for (const I* c : {&x.x, &x.y, &x.z})
+        if (const I size = abs(*c); size > most) most = size;
+  const auto limbs = static_cast<std::int64_t>(msb(most) / 64 + 1);
+  return 100 + 10 * limbs * limbs;
+}
+
 template <class I>
 ExactVerdict decide_in(const BasicExactPair<I>& p, std::span<const IndexPair> seed, bool to_the_end = false) {
   const I radius = p.radius_a + p.radius_b, radius_sq = square(radius);
   std::vector<IndexPair> simplex(seed.begin(), seed.end());
   if (simplex.empty()) simplex.emplace_back(0, 0);
+  const std::int64_t work = work_of_products(p) * static_cast<std::int64_t>(64 + p.a.size() + p.b.size());
   for (;;) {
+    spend(work);
     std::vector<Exact3<I>> points;
     for (const auto& [i, j] : simplex) points.push_back(p.a[at(i)] - p.b[at(j)]);
     const Nearest<I> v = nearest_face<I>(points);

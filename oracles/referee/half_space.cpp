@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "oracles/referee/counters.h"
+#include "oracles/referee/work.h"
 #include "oracles/referee/world.h"
 
 namespace touchstone::referee {
@@ -91,6 +92,7 @@ std::optional<Plane> plane_of(const Placed& half_space, const Vec3& origin) {
 
 ConvexTruth judge_half_space(const Placed& h, const Operand& body, const Vec3& origin) {
   ++counters().convex_pairs;
+  spend(2000 + 4 * static_cast<std::int64_t>(body.body.points.size()));
   ConvexTruth t;
   t.lo = -infinity, t.hi = infinity;
   const auto p = plane_of(h, origin);

@@ -7,6 +7,7 @@
 #include "oracles/referee/certificate.h"
 #include "oracles/referee/half_space.h"
 #include "oracles/referee/moving_plane.h"
+#include "oracles/referee/work.h"
 #include "oracles/referee/world.h"
 
 namespace touchstone::referee {
@@ -46,6 +47,7 @@ std::vector<PlaneTrack> tracks(const MovingParts& a, const MovingParts& b, doubl
   std::vector<PlaneTrack> r;
   for (const MovingPart& x : a)
     for (const MovingPart& y : b) {
+      spend(50'000 + 5'000 * static_cast<std::int64_t>(r.size()));
       if (std::any_of(r.begin(), r.end(), [&](const PlaneTrack& t) { return keeps_apart(t, x, y); }))
         continue;
       r.push_back(track_between(x, y, until));
@@ -156,6 +158,7 @@ bool add_contact_at(ImpactCertificate& c, const Scene2& s, const MovingParts& a,
     for (const MovingPart& y : b) {
       if (!may_touch(x, y, t)) continue;
       for (const Rational3& p : candidates(x, y, t)) {
+        spend(100'000);
         ImpactCertificate only;
         only.contact = {text_of(exact(t)), texts(p)};
         if (!s.accepts(only)) continue;
@@ -183,9 +186,7 @@ bool is_unbounded_and_turns(const Placed& p, const Motion& m) {
   return std::holds_alternative<HalfSpace>(*p.shape) && !m.angular.isZero(0);
 }
 
-}  // namespace
-
-void add_overlap(ImpactCertificate& c, const Placed& a, const Motion& motion_a, const Placed& b,
+void overlap_for(ImpactCertificate& c, const Placed& a, const Motion& motion_a, const Placed& b,
                  const Motion& motion_b, const DepthInTime& deepest) {
   const auto is_half_space = [](const Placed& p) { return std::holds_alternative<HalfSpace>(*p.shape); };
   if (!(deepest.depth > 0) || is_half_space(a) || is_half_space(b)) return;
@@ -202,8 +203,8 @@ void add_overlap(ImpactCertificate& c, const Placed& a, const Motion& motion_a, 
   if (Scene2{a, b, motion_a, motion_b}.accepts(only)) c.overlap = only.overlap;
 }
 
-ImpactCertificate impact_certificate(const Placed& a, const Motion& motion_a, const Placed& b,
-                                     const Motion& motion_b, const TimeTruth& truth) {
+ImpactCertificate certificate_for(const Placed& a, const Motion& motion_a, const Placed& b,
+                                  const Motion& motion_b, const TimeTruth& truth) {
   ImpactCertificate c;
   if (is_unbounded_and_turns(a, motion_a) || is_unbounded_and_turns(b, motion_b)) return c;
   const Scene2 s{a, b, motion_a, motion_b};
@@ -217,6 +218,22 @@ ImpactCertificate impact_certificate(const Placed& a, const Motion& motion_a, co
   if (!hit || until > 0) add_planes(c, s, x, y, until);
   if (hit) add_contact(c, s, x, y, truth.t_hi);
   return c;
+}
+
+}  // namespace
+
+void add_overlap(ImpactCertificate& c, const Placed& a, const Motion& motion_a, const Placed& b,
+                 const Motion& motion_b, const DepthInTime& deepest) {
+  c = within_limit(c, [&] {
+    ImpactCertificate with = c;
+    overlap_for(with, a, motion_a, b, motion_b, deepest);
+    return with;
+  });
+}
+
+ImpactCertificate impact_certificate(const Placed& a, const Motion& motion_a, const Placed& b,
+                                     const Motion& motion_b, const TimeTruth& truth) {
+  return within_limit(ImpactCertificate{}, [&] { return certificate_for(a, motion_a, b, motion_b, truth); });
 }
 
 }  // namespace touchstone::referee

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "oracles/referee/exact_sign.h"
+#include "oracles/referee/work.h"
 
 namespace touchstone::referee {
 namespace {
@@ -259,10 +260,13 @@ class Epa {
   /// Replaces the facets that see p by a fan from p. False, and nothing changed, when p is not new, or the
   /// horizon touches itself or is none.
   bool insert(int f, const BasicVertex<T>& p) {
+    spend(work_of_point * static_cast<std::int64_t>(16 + d_.a.points.size() + d_.b.points.size() +
+                                                    r_.polytope.vertices.size()));
     for (const BasicVertex<T>& v : r_.polytope.vertices)
       if (v.w.x == p.w.x && v.w.y == p.w.y && v.w.z == p.w.z) return false;
     const auto first = first_visible(f, p.w);
     if (!first) return false;
+    spend(40 * work_of_point);
     visible_.assign(1, *first);
     horizon_.clear();
     ++stamp_;
@@ -302,6 +306,7 @@ class Epa {
     for (int i = 0; i < 3; ++i) {
       const int g = facets_[at(f)].neighbour[at(i)];
       if (mark_[at(g)] == stamp_) continue;
+      spend(orientation_ == Orientation::exact ? 2000 : 10 * work_of_point);
       const Facet<T>& facet = facets_[at(g)];
       if (sees(facet, p)) {
         mark_[at(g)] = stamp_;
@@ -373,6 +378,10 @@ class Epa {
 
   const Triple<T>& w(int i) const { return r_.polytope.vertices[at(i)].w; }
 
+  // A support point, the facets that see it and the new ones, a vertex.
+  static constexpr std::int64_t work_of_point = std::is_same_v<T, double> ? 4
+                                                : std::is_same_v<T, Real> ? 10
+                                                                          : 400;
   const BasicDifference<T>& d_;
   T target_;
   int cap_;

@@ -5,6 +5,7 @@
 
 #include "oracles/referee/box_of.h"
 #include "oracles/referee/half_space.h"
+#include "oracles/referee/work.h"
 
 namespace touchstone::referee {
 namespace {
@@ -12,26 +13,26 @@ namespace {
 constexpr Real infinity = std::numeric_limits<Real>::infinity();
 
 // Lower and upper bound of the distance of two closed sets that lie in these boxes and touch all their faces
-// or not.
-double least_distance(const Aabb& a, const Aabb& b) {
-  double sq = 0;
+// or not. Squares of doubles fit a Real, whatever their size.
+Real least_distance(const Aabb& a, const Aabb& b) {
+  Real sq = 0;
   for (int k = 0; k < 3; ++k) {
-    const double d = std::max({0.0, a.lo[k] - b.hi[k], b.lo[k] - a.hi[k]});
+    const Real d = std::max({Real{0}, Real{a.lo[k]} - b.hi[k], Real{b.lo[k]} - a.hi[k]});
     sq += d * d;
   }
-  return std::sqrt(sq) * (1 - 0x1p-48);  // a dozen roundings of 2^-53
+  return std::sqrt(sq) * (1 - 0x1p-48L);  // a dozen roundings of 2^-64
 }
-double greatest_distance(const Aabb& a, const Aabb& b) {
-  double sq = 0;
+Real greatest_distance(const Aabb& a, const Aabb& b) {
+  Real sq = 0;
   for (int k = 0; k < 3; ++k) {
-    const double d = std::max(a.hi[k] - b.lo[k], b.hi[k] - a.lo[k]);
+    const Real d = std::max(Real{a.hi[k]} - b.lo[k], Real{b.hi[k]} - a.lo[k]);
     sq += d * d;
   }
-  return std::sqrt(sq) * (1 + 0x1p-48);
+  return std::sqrt(sq) * (1 + 0x1p-48L);
 }
 
 struct Candidate {
-  double distance;
+  Real distance;
   std::size_t i, j;
 };
 
@@ -43,14 +44,15 @@ std::vector<Aabb> boxes_of(std::span<const Operand> parts) {
 
 // Pairs of parts that can hold the least distance, nearest boxes first.
 std::vector<Candidate> by_box_distance(std::span<const Operand> a, std::span<const Operand> b) {
+  spend(static_cast<std::int64_t>(a.size() * b.size()) * 10);
   const std::vector<Aabb> x = boxes_of(a), y = boxes_of(b);
-  double reached = std::numeric_limits<double>::infinity();
+  Real reached = infinity;
   for (const Aabb& p : x)
     for (const Aabb& q : y) reached = std::min(reached, greatest_distance(p, q));
   std::vector<Candidate> r;
   for (std::size_t i = 0; i < x.size(); ++i)
     for (std::size_t j = 0; j < y.size(); ++j)
-      if (const double d = least_distance(x[i], y[j]); d <= reached) r.push_back({d, i, j});
+      if (const Real d = least_distance(x[i], y[j]); d <= reached) r.push_back({d, i, j});
   std::sort(r.begin(), r.end(), [](const Candidate& p, const Candidate& q) {
     return std::tie(p.distance, p.i, p.j) < std::tie(q.distance, q.i, q.j);
   });
@@ -89,6 +91,7 @@ void finish_mesh(ConvexTruth& t) {
 std::vector<Operand> parts_of(const Placed& p, const Vec3& origin) {
   std::vector<Operand> r;
   if (const auto* m = std::get_if<TriangleMesh>(p.shape)) {
+    spend(static_cast<std::int64_t>(m->triangles.size()) * 500);
     for (std::size_t i = 0; i < m->triangles.size(); ++i) r.push_back(make_operand(p, *m, i, origin));
   } else {
     r.push_back(make_operand(p, origin));
@@ -101,7 +104,7 @@ ConvexTruth judge_parts(std::span<const Operand> a, std::span<const Operand> b, 
   ConvexTruth t = no_part_yet();
   for (const Candidate& c : by_box_distance(a, b)) {
     // Everything from here on is farther than what is known to be reached.
-    if (static_cast<Real>(c.distance) > std::max(t.hi, Real{0})) break;
+    if (c.distance > std::max(t.hi, Real{0})) break;
     ConvexTruth part = judge_convex(a[c.i], b[c.j]);
     if (part.exact) part.exact_operands = {a[c.i].exact_body(), b[c.j].exact_body()};
     join(t, std::move(part));

@@ -13,6 +13,7 @@
 
 #include "core/tolerance.h"
 #include "oracles/referee/half_space_motion.h"
+#include "oracles/referee/work.h"
 
 namespace touchstone::referee {
 namespace {
@@ -271,9 +272,11 @@ std::vector<PartPair> part_pairs(const Placed& a, const Motion& ma, const Placed
   return r;
 }
 
-TimeTruth judge_motion(const Placed& a, const Motion& motion_a, const Placed& b, const Motion& motion_b) {
+namespace {
+
+TimeTruth judge(const Placed& a, const Motion& motion_a, const Placed& b, const Motion& motion_b) {
   if (is<HalfSpace>(a) && is<HalfSpace>(b)) return judge_half_spaces_in_motion(a, motion_a, b, motion_b);
-  if (is<HalfSpace>(a)) return judge_motion(b, motion_b, a, motion_a);
+  if (is<HalfSpace>(a)) return judge(b, motion_b, a, motion_a);
   TimeTruth r;
   r.verdict = TimeTruth::Verdict::none;
   r.t_lo = 1;
@@ -288,6 +291,15 @@ TimeTruth judge_motion(const Placed& a, const Motion& motion_a, const Placed& b,
   // Parts whose boxes stay apart have not been measured.
   if (is<TriangleMesh>(a) || is<TriangleMesh>(b)) r.least_gap.lo = std::min(0.0, r.least_gap.lo);
   return r;
+}
+
+}  // namespace
+
+TimeTruth judge_motion(const Placed& a, const Motion& motion_a, const Placed& b, const Motion& motion_b) {
+  TimeTruth open;
+  open.least_gap = {-infinity, infinity};
+  open.note = too_expensive;
+  return within_limit(std::move(open), [&] { return judge(a, motion_a, b, motion_b); });
 }
 
 }  // namespace touchstone::referee

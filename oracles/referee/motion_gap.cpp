@@ -4,6 +4,7 @@
 #include "oracles/referee/half_space_motion.h"
 #include "oracles/referee/mesh.h"
 #include "oracles/referee/motion.h"
+#include "oracles/referee/work.h"
 
 namespace touchstone::referee {
 namespace {
@@ -67,16 +68,18 @@ Sample refined(const auto& gap, double from, double to, Sample best) {
 double rate_of_gap(const Placed& a, const Motion& ma, const Placed& b, const Motion& mb) {
   const auto turning = [](const Placed& p, const Motion& m) {
     const double radius = bounding_radius(*p.shape);
-    return m.angular.isZero(0) || !std::isfinite(radius) ? 0.0 : m.angular.norm() * radius;
+    return m.angular.isZero(0) || !std::isfinite(radius) ? 0.0 : m.angular.stableNorm() * radius;
   };
-  return (ma.linear - mb.linear).norm() + turning(a, ma) + turning(b, mb);
+  return (ma.linear - mb.linear).stableNorm() + turning(a, ma) + turning(b, mb);
 }
 
 }  // namespace
 
-Bracket gap_at(const Placed& a, const Motion& motion_a, const Placed& b, const Motion& motion_b, double t) {
+namespace {
+
+Bracket gap_then(const Placed& a, const Motion& motion_a, const Placed& b, const Motion& motion_b, double t) {
   if (is<HalfSpace>(a) && is<HalfSpace>(b)) return gap_of_half_spaces(a, motion_a, b, motion_b, t);
-  if (is<HalfSpace>(a)) return gap_at(b, motion_b, a, motion_a, t);
+  if (is<HalfSpace>(a)) return gap_then(b, motion_b, a, motion_a, t);
   const bool surface = is<TriangleMesh>(a) || is<TriangleMesh>(b);
   const std::vector<Mover> movers_a = movers(a, motion_a, motion_b.linear);
   if (is<HalfSpace>(b)) {
@@ -92,6 +95,12 @@ Bracket gap_at(const Placed& a, const Motion& motion_a, const Placed& b, const M
   const ConvexTruth g = judge_parts(x, y, surface);
   if (surface && g.verdict == Verdict::overlap) return gap_of_deepest(x, y);
   return {round_down(g.lo), round_up(g.hi)};
+}
+
+}  // namespace
+
+Bracket gap_at(const Placed& a, const Motion& motion_a, const Placed& b, const Motion& motion_b, double t) {
+  return within_limit(Bracket{-infinity, infinity}, [&] { return gap_then(a, motion_a, b, motion_b, t); });
 }
 
 namespace {
@@ -163,13 +172,11 @@ std::vector<PartPair> worth_searching(std::vector<PartPair> parts, double t, dou
   return r;
 }
 
-}  // namespace
-
-DepthInTime deepest_before(const Placed& a, const Motion& motion_a, const Placed& b, const Motion& motion_b,
-                           double t, double contact) {
+DepthInTime deepest(const Placed& a, const Motion& motion_a, const Placed& b, const Motion& motion_b,
+                    double t, double contact) {
   DepthInTime r;
   if (!(t > 0)) return r;
-  const double turning = t * std::max(motion_a.angular.norm(), motion_b.angular.norm());
+  const double turning = t * std::max(motion_a.angular.stableNorm(), motion_b.angular.stableNorm());
   const double rate = rate_of_gap(a, motion_a, b, motion_b);
   const auto take = [&](const Sample& s, std::size_t part_a, std::size_t part_b) {
     if (-s.gap > r.depth) r = {-s.gap, s.t, part_a, part_b};
@@ -180,7 +187,7 @@ DepthInTime deepest_before(const Placed& a, const Motion& motion_a, const Placed
     return r;
   }
   if (is<HalfSpace>(a)) {
-    r = deepest_before(b, motion_b, a, motion_a, t, contact);
+    r = deepest(b, motion_b, a, motion_a, t, contact);
     std::swap(r.part_a, r.part_b);
     return r;
   }
@@ -189,6 +196,13 @@ DepthInTime deepest_before(const Placed& a, const Motion& motion_a, const Placed
     take(least(gap, {t, p.course.turns() ? turning : 0, rate}), p.a, p.b);
   }
   return r;
+}
+
+}  // namespace
+
+DepthInTime deepest_before(const Placed& a, const Motion& motion_a, const Placed& b, const Motion& motion_b,
+                           double t, double contact) {
+  return within_limit(DepthInTime{-infinity}, [&] { return deepest(a, motion_a, b, motion_b, t, contact); });
 }
 
 double certified_depth_before(const Placed& a, const Motion& motion_a, const Placed& b,

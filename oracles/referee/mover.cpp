@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "oracles/referee/work.h"
 #include "oracles/referee/world.h"
 
 namespace touchstone::referee {
@@ -60,6 +61,7 @@ Frame Mover::frame(double t, const Vec3& origin, bool turned) const {
 }
 
 Solid Mover::body(const Frame& f) const {
+  spend(300 + 10 * static_cast<std::int64_t>(core_ ? core_->size() : 1));
   return core_ ? make_body(*core_, radius_, f) : make_body(placed_, f);
 }
 

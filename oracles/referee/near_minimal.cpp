@@ -6,6 +6,7 @@
 
 #include "core/tolerance.h"
 #include "oracles/referee/convex.h"
+#include "oracles/referee/work.h"
 
 namespace touchstone::referee {
 namespace {
@@ -35,6 +36,7 @@ Real width_along(const Difference& d, const Real3& n) { return dot(n, d.support(
 // h is convex, so n moves against the part of its support point that is at a right angle to n; a step that
 // does not lower w is halved.
 Minimum descend(const Difference& d, Real3 n) {
+  spend(20'000 + 400 * static_cast<std::int64_t>(d.a.points.size() + d.b.points.size()));
   Real value = width_along(d, n);
   for (Real step = 0.25L; step > 1e-10L;) {
     const Real3 v = d.support(n).w, across = v - dot(n, v) * n;
@@ -105,9 +107,7 @@ void estimate(NearMinimalNormals& r, const Difference& d, const Real3& best) {
   list(r, minima, limit);
 }
 
-}  // namespace
-
-NearMinimalNormals near_minimal_normals(const Placed& a, const Placed& b) {
+NearMinimalNormals all_of(const Placed& a, const Placed& b) {
   const PairTruth t = judge_pair(a, b);
   NearMinimalNormals r;
   r.second_best = r.conditioning = std::numeric_limits<double>::infinity();
@@ -137,6 +137,14 @@ NearMinimalNormals near_minimal_normals(const Placed& a, const Placed& b) {
   list(r, distinct(std::move(minima), 1e-9L), static_cast<Real>(r.depth) + static_cast<Real>(r.slack));
   r.certified = m.complete;
   return r;
+}
+
+}  // namespace
+
+NearMinimalNormals near_minimal_normals(const Placed& a, const Placed& b) {
+  NearMinimalNormals open;  // no normal is known, and none to be the only one
+  open.continuum = true;
+  return within_limit(std::move(open), [&] { return all_of(a, b); });
 }
 
 }  // namespace touchstone::referee

@@ -7,6 +7,7 @@
 #include "oracles/referee/mesh.h"
 #include "oracles/referee/touching.h"
 #include "oracles/referee/wide_search.h"
+#include "oracles/referee/work.h"
 
 namespace touchstone::referee {
 namespace {
@@ -167,9 +168,7 @@ PairTruth judge_by_bracket(const Placed& a, const Placed& b, std::span<const Vec
   return r;
 }
 
-}  // namespace
-
-Certificate depth_certificate(const PairTruth& truth, const Placed& a, const Placed& b) {
+Certificate deepest_inside(const PairTruth& truth, const Placed& a, const Placed& b) {
   if (truth.verdict != Verdict::overlap || !std::isfinite(truth.gap.lo)) return {};
   if (is<HalfSpace>(a) || is<HalfSpace>(b)) return half_space_depth(a, b);
   if (is<TriangleMesh>(a) || is<TriangleMesh>(b)) return {};
@@ -183,8 +182,8 @@ Certificate depth_certificate(const PairTruth& truth, const Placed& a, const Pla
   return lower_depth_certificate(t, Difference(x.body, y.body), origin);
 }
 
-PairTruth judge_pair(const Placed& a, const Placed& b, std::span<const Vec3> hint_directions,
-                     std::span<const Vec3> hint_points) {
+PairTruth judge(const Placed& a, const Placed& b, std::span<const Vec3> hint_directions,
+                std::span<const Vec3> hint_points) {
   PairTruth r = judge_by_bracket(a, b, hint_directions, hint_points);
   if (r.verdict != Verdict::undecided) return r;
   int level = 2;
@@ -204,6 +203,28 @@ PairTruth judge_pair(const Placed& a, const Placed& b, std::span<const Vec3> hin
   }
   r.verdict_certificate = std::move(c);
   return r;
+}
+
+PairTruth nothing_known() {
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  PairTruth r;
+  r.gap = {-infinity, infinity};
+  r.witness.fill(Vec3::Zero());
+  r.verdict_certificate.note = too_expensive;
+  return r;
+}
+
+}  // namespace
+
+Certificate depth_certificate(const PairTruth& truth, const Placed& a, const Placed& b) {
+  Certificate none;
+  none.note = too_expensive;
+  return within_limit(std::move(none), [&] { return deepest_inside(truth, a, b); });
+}
+
+PairTruth judge_pair(const Placed& a, const Placed& b, std::span<const Vec3> hint_directions,
+                     std::span<const Vec3> hint_points) {
+  return within_limit(nothing_known(), [&] { return judge(a, b, hint_directions, hint_points); });
 }
 
 }  // namespace touchstone::referee

@@ -8,6 +8,7 @@
 // falling); the result is scaled back onto the surface. Triangle: the nearest of its plane's foot and its
 // edges'.
 #include "oracles/referee/point_distance.h"
+#include "oracles/referee/work.h"
 
 #include <cmath>
 
@@ -103,6 +104,7 @@ std::optional<std::array<Real, 2>> origin_to_curved(const Solid& b) {
 }
 
 std::array<Real, 2> origin_to_triangles(const Solid& points, std::span<const std::array<int, 3>> triangles) {
+  spend(static_cast<std::int64_t>(triangles.size()) * 100);
   std::array<Real, 2> least{std::numeric_limits<Real>::infinity(), std::numeric_limits<Real>::infinity()};
   for (const auto& [i, j, k] : triangles) {
     const auto at = [&](int v) -> const Real3& { return points.points[static_cast<std::size_t>(v)]; };

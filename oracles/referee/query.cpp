@@ -5,6 +5,7 @@
 #include "oracles/referee/half_space.h"
 #include "oracles/referee/mesh.h"
 #include "oracles/referee/point_distance.h"
+#include "oracles/referee/work.h"
 #include "oracles/referee/world.h"
 
 namespace touchstone::referee {
@@ -94,7 +95,9 @@ Bracket width(const Placed& a, const Placed& b, const Vec3& n) {
                  above + d.radius + d.radius_error + 4 * unit * std::fabs(above));
 }
 
-Bracket distance_to(const Placed& a, const Vec3& point_w, double enough) {
+namespace {
+
+Bracket from_body(const Placed& a, const Vec3& point_w, double enough) {
   if (get<HalfSpace>(a)) return half_space_distance(a, point_w);
   const auto from_zero = [](Real lo, Real hi) -> Bracket {
     return {std::max(0.0, round_down(lo)), std::max(0.0, round_up(hi))};
@@ -115,6 +118,12 @@ Bracket distance_to(const Placed& a, const Vec3& point_w, double enough) {
       judge_parts(parts_of(a, point_w), parts_of(p, point_w), get<TriangleMesh>(a) != nullptr);
   if (t.verdict == Verdict::overlap) return {0, 0};
   return from_zero(t.lo, t.hi);
+}
+
+}  // namespace
+
+Bracket distance_to(const Placed& a, const Vec3& point_w, double enough) {
+  return within_limit(Bracket{0, infinity}, [&] { return from_body(a, point_w, enough); });
 }
 
 Aabb outer_box(const Placed& a) {

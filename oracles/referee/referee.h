@@ -21,7 +21,8 @@ struct Placed {
   std::variant<Pose, Placement> pose;
 };
 
-/// lo <= truth <= hi, proven.
+/// lo <= truth <= hi, proven. What is too expensive to find (work.h) is undecided, from -infinity to
+/// infinity.
 struct Bracket {
   double lo = 0, hi = 0;
 };
@@ -127,8 +128,9 @@ struct DepthInTime {
   double depth = 0, t = 0;
   std::size_t part_a = 0, part_b = 0;  // triangles of meshes; 0 of anything else
 };
-/// The deepest that a search finds at any time up to t: never more than the truth, 0 if none is found.
-/// `contact`: a time at which the bodies are known to touch, for the search to begin with.
+/// The deepest that a search finds at any time up to t: never more than the truth, 0 if none is found,
+/// -infinity if the search is too expensive. `contact`: a time at which the bodies are known to touch, for
+/// the search to begin with.
 DepthInTime deepest_before(const Placed& a, const Motion& motion_a, const Placed& b, const Motion& motion_b,
                            double t, double contact = 0);
 double certified_depth_before(const Placed& a, const Motion& motion_a, const Placed& b,

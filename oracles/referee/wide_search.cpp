@@ -7,6 +7,7 @@
 #include "oracles/referee/checker.h"
 #include "oracles/referee/gjk.h"
 #include "oracles/referee/wide.h"
+#include "oracles/referee/work.h"
 #include "oracles/referee/world.h"
 
 namespace touchstone::referee {
@@ -212,6 +213,7 @@ std::vector<Wide3> beginnings(const WideDifference& d) {
 
 // Of two convex parts, one of each body: a plane between them (not yet checked), or a point of both bodies.
 Certificate search(const WidePart& x, const WidePart& y, const Placed& a, const Placed& b) {
+  spend(10'000'000);
   const WideDifference d(x.solid, y.solid);
   std::vector<Meeting> found;
   for (const Wide3& n : beginnings(d)) {

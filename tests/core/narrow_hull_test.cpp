@@ -7,6 +7,7 @@
 #include "core/narrow/fast/vertex_scan.h"
 #include "core/narrow/hull_graph.h"
 #include "core/narrow/narrow_phase.h"
+#include "tests/core/least_width.h"
 #include "tests/support/catch.h"
 
 using namespace touchstone;
@@ -177,6 +178,25 @@ TEST_CASE("answers with a graph are those without", "[narrow][hull]") {
     }
   }
   CHECK((overlaps > 20 && overlaps < 100));
+}
+
+TEST_CASE("hulls of a thousand vertices about one centre have a depth", "[narrow][hull]") {
+  Rng rng(9);
+  for (const int vertices : {300, 1000, 2000}) {
+    Hull x, y;
+    for (int i = 0; i < vertices; ++i)
+      x.vertices.push_back(rng.unit_vector()), y.vertices.push_back(rng.unit_vector());
+    const Shape a = x, b = y;
+    const Pose at{Vec3(0, 0, 0), rng.rotation()};
+    const ContactAnswer c = contact({&a, Pose{}}, {&b, at});
+    CAPTURE(vertices);
+    REQUIRE(c.outcome == Outcome::answered);
+    // Two balls but for what is cut off them, which is less the more vertices they have.
+    CHECK(c.depth > 1.85);
+    CHECK(c.depth < 2);
+    CHECK(std::abs(static_cast<double>(test::Width(a, Pose{}, b, at)(c.normal.cast<Wide>())) - c.depth) <
+          1e-14);
+  }
 }
 
 TEST_CASE("the manifold of a face of many corners covers it", "[narrow][hull]") {

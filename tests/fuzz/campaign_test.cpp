@@ -172,6 +172,13 @@ TEST_CASE("answers made of unwritten memory are findings without the answer, cra
   CHECK(fuzz::digest(results[0]) == fuzz::digest(results[1]));
 }
 
+TEST_CASE("a campaign asks its first chunk however little time it has", "[campaign]") {
+  auto config = config_of(0);
+  config.cases.reset();
+  config.minutes = 0;
+  CHECK(fuzz::run_campaign(config, two_engines, {}, go).cases == 32);
+}
+
 TEST_CASE("an engine that gives up is set aside from one case on, whatever the number of jobs",
           "[campaign][set-aside]") {
   std::atomic<int> asked_later{0};

@@ -5,6 +5,7 @@
 #include "fuzz/judge/judge.h"
 #include "fuzz/judge/truth.h"
 #include "oracles/core/core_engine.h"
+#include "oracles/referee/work.h"
 #include "scenarios/case_codec.h"
 #include "tests/support/catch.h"
 
@@ -397,6 +398,21 @@ TEST_CASE("in a scene each contact is judged by its numbers, and one with a surf
   CHECK(has(judge_one(c, o), Fault::normal_not_unit));
   o.contacts.back() = {0, 1, {0, 0, -1}, NAN};
   CHECK(has(judge_one(c, o), Fault::no_number));
+}
+
+TEST_CASE("what is too expensive to referee is undecided: neither held against an engine nor right",
+          "[judge]") {
+  const referee::WorkLimit nothing(0);
+  Observation o = answered();
+  o.overlap = true, o.distance = 7, o.normal = Vec3(0, 1, 0), o.depth = 3, o.toi = 0.5;
+  for (const Question q :
+       {Question::overlap, Question::distance, Question::contact, Question::time_of_impact}) {
+    Case c = spheres(2.5, q);
+    c.scene.bodies[1].motion = Motion{Vec3(-1, 0, 0), Vec3::Zero()};
+    const auto j = judge_one(c, o);
+    CAPTURE(to_string(q));
+    CHECK(j.ruling() == fuzz::Ruling::undecided);
+  }
 }
 
 TEST_CASE("what is stated of a contact is judged, however little it is", "[judge]") {

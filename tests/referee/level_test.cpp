@@ -7,6 +7,7 @@
 #include "oracles/referee/checker.h"
 #include "oracles/referee/convex.h"
 #include "oracles/referee/short_point.h"
+#include "oracles/referee/work.h"
 #include "tests/referee/support.h"
 #include "tests/support/catch.h"
 
@@ -23,6 +24,9 @@ using Draw = Pair (*)(Rng&);
 Shape exact_shape(Rng& r, double size = 1) {
   return random_convex(r, convex_kinds[r.below(exact_kind_count)], size);
 }
+
+// Some number of [0, 1).
+double r_of(int i) { return std::fmod(0.618033988749895 * i * (1 + i % 5), 1.0); }
 
 Pair anywhere(Rng& r) {
   Pair p{exact_shape(r), exact_shape(r), {}, {}};
@@ -250,6 +254,53 @@ TEST_CASE("a point of a curved body: integers of 512 bits and the checker's rati
   REQUIRE(inside > decided * 2 / 10);
   REQUIRE(inside < decided * 8 / 10);
   REQUIRE(on_border > 50);
+}
+
+TEST_CASE("what takes too much work is left open, says so, and is never guessed", "[referee][work]") {
+  Rng r(71);
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  std::size_t open = 0;
+  for (const std::int64_t limit : {0, 300, 3000, 30000, 300000})
+    for (int i = 0; i < 60; ++i) {
+      const Pair p = anywhere(r);
+      const Placed a{&p.a, p.pose_a}, b{&p.b, p.pose_b};
+      const Motion turning{r.vector(0, 2), r.vector(0, 3)}, still;
+      const PairTruth whole = judge_pair(a, b);
+      const TimeTruth in_time = judge_motion(a, turning, b, still);
+      const WorkLimit less(limit);
+      const PairTruth t = judge_pair(a, b);
+      const bool unknown = t.verdict_certificate.note == too_expensive;
+      CHECK(t.verdict == (unknown ? Verdict::undecided : whole.verdict));
+      CHECK(t.gap.lo == (unknown ? -infinity : whole.gap.lo));
+      CHECK(t.gap.hi == (unknown ? infinity : whole.gap.hi));
+      CHECK(t.normal.allFinite());
+      open += unknown;
+      const TimeTruth m = judge_motion(a, turning, b, still);
+      if (m.note == too_expensive)
+        CHECK(m.verdict == TimeTruth::Verdict::undecided);
+      else
+        CHECK((m.verdict == in_time.verdict && m.t_lo == in_time.t_lo && m.t_hi == in_time.t_hi));
+      const Bracket d = distance_to(a, p.pose_b.translation);
+      CHECK(d.lo <= d.hi);
+      const double depth = deepest_before(a, turning, b, still, 1).depth;
+      CHECK((depth >= 0 || depth == -infinity));
+      CHECK(gap_at(a, turning, b, still, 0.5).lo <= gap_at(a, turning, b, still, 0.5).hi);
+    }
+  CHECK(open > 60);
+  CHECK(open < 300);
+}
+
+TEST_CASE("two meshes of which all pairs are too many are left open at once", "[referee][work]") {
+  TriangleMesh m;
+  for (int i = 0; i < 60000; ++i) m.vertices.emplace_back(r_of(i), r_of(i + 7), r_of(i + 13));
+  for (int i = 0; i + 2 < 60000; ++i) m.triangles.push_back({i, i + 1, i + 2});
+  const Shape mesh = m;
+  const PairTruth t = judge_pair({&mesh, Pose{}}, {&mesh, Pose{Vec3(0, 0, 0.25), Quat{}}});
+  CHECK(t.verdict == Verdict::undecided);
+  CHECK(t.verdict_certificate.note == too_expensive);
+  // The next question has its own limit.
+  const Shape box = Box{{1, 1, 1}};
+  CHECK(judge_pair({&box, Pose{}}, {&box, Pose{}}).verdict == Verdict::overlap);
 }
 
 }  // namespace touchstone::referee_test

@@ -49,6 +49,21 @@ TEST_CASE("a mesh is its surface: verdict and distance are those of the same fla
   REQUIRE(overlaps < cases * 7 / 10);
 }
 
+TEST_CASE("the nearest triangle is found however large or small the scene", "[referee][mesh]") {
+  for (const int exponent : {-560, -300, 0, 300, 600, 1000}) {
+    const double unit = std::ldexp(1.0, exponent);
+    TriangleMesh m = std::get<TriangleMesh>(sheet(8));
+    for (Vec3& v : m.vertices) v *= unit;
+    const Shape mesh = m, ball = Sphere{unit / 4};
+    const PairTruth t = judge_pair({&mesh, Pose{}}, {&ball, Pose{Vec3(0.6, 0.7, 0.75) * unit, Quat{}}});
+    CAPTURE(exponent);
+    CHECK(t.verdict == Verdict::disjoint);
+    CHECK(t.gap.lo <= 0.5 * unit);
+    CHECK(t.gap.hi >= 0.5 * unit);
+    CHECK(t.gap.hi - t.gap.lo <= 1e-12 * unit);
+  }
+}
+
 TEST_CASE("a body inside a closed mesh is disjoint from it, one that touches is not", "[referee][mesh]") {
   TriangleMesh m;
   for (int i = 0; i < 8; ++i) m.vertices.emplace_back(i & 1 ? 1 : -1, i & 2 ? 1 : -1, i & 4 ? 1 : -1);

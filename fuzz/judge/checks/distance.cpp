@@ -34,6 +34,10 @@ void check_distance(const CheckInput& in, CheckOutput& out) {
     out.fault_always(Fault::no_number, 0, in.query, fmt::format("the distance is {}", d));
     return;
   }
+  if (truth.verdict == referee::Verdict::undecided && !std::isfinite(truth.gap.lo)) {
+    out.undecided = true;  // nothing is known of it
+    return;
+  }
   const double error = outside(d, truth.gap);
   out.error(error, l, tau);
   // The two of a surface that overlap are at no distance; a depth they do not have.

@@ -28,14 +28,15 @@ void check_denied(const CheckInput& in, CheckOutput& out, double l, double tau) 
   const auto [a, b] = std::pair{in.query.a, in.query.b};
   const referee::TimeTruth& truth = in.truth.motion(in.frame, a, b);
   if (truth.verdict == Verdict::none) return out.error(-std::max(0.0, truth.least_gap.lo), l, tau);
-  const double depth = std::max(-truth.least_gap.hi, in.truth.depth_in_step(in.frame, a, b));
+  const double searched = in.truth.depth_in_step(in.frame, a, b);
+  const double depth = std::max(-truth.least_gap.hi, searched);
   out.error(depth, l, tau);
   if (depth > tau) {
     out.fault(
         Fault::missed, depth, l, in.query,
         fmt::format("says no impact; the bodies overlap by {:.6g}{} during the step, first near t = {:.9g}",
                     depth, of_what(in), truth.t_hi));
-  } else if (truth.verdict == Verdict::undecided) {
+  } else if (truth.verdict == Verdict::undecided || std::isinf(searched)) {
     out.undecided = true;
     out.frame_matters();
   }
@@ -43,13 +44,15 @@ void check_denied(const CheckInput& in, CheckOutput& out, double l, double tau) 
 
 // The largest certain depth before t. The bodies are apart before t_lo and close at no more than `speed`
 // after it, so that most answers need no search.
-double late_by(const CheckInput& in, double t, double at_t, double tau) {
+double late_by(const CheckInput& in, CheckOutput& out, double t, double at_t, double tau) {
   const auto [a, b] = std::pair{in.query.a, in.query.b};
   if (at_t > tau) return at_t;
   const referee::TimeTruth& truth = in.truth.motion(in.frame, a, b);
   const double after = truth.verdict == Verdict::none ? 0 : t - truth.t_lo;
   if (after <= 0 || after * in.truth.speed(a, b) <= tau) return std::max(at_t, 0.0);
-  return std::max(at_t, in.truth.depth_before(in.frame, a, b, t));
+  const double searched = in.truth.depth_before(in.frame, a, b, t);
+  out.undecided |= std::isinf(searched);
+  return std::max(at_t, searched);
 }
 
 }  // namespace
@@ -63,9 +66,13 @@ void check_time_of_impact(const CheckInput& in, CheckOutput& out) {
     return out.fault_always(Fault::no_number, 0, in.query,
                             fmt::format("the time of impact is {}, outside [0,1]", t));
   const referee::Bracket gap = in.truth.gap_at(in.frame, a, b, t);
+  if (std::isinf(gap.lo) && std::isinf(gap.hi) && gap.lo < gap.hi) {
+    out.undecided = true;  // nothing is known of it
+    return;
+  }
   const double early = gap.lo;
   // Overlap from the start is reported as t = 0, however deep it is.
-  const double late = t == 0 ? 0 : late_by(in, t, -gap.hi, tau);
+  const double late = t == 0 ? 0 : late_by(in, out, t, -gap.hi, tau);
   out.error(std::max(early, late), l, tau);
   if (early > tau) {
     const bool none = in.truth.motion(in.frame, a, b).verdict == Verdict::none;

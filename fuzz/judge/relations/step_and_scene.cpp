@@ -29,7 +29,8 @@ Derived snapshot(const RelationInput& in, const Query& q, double t) {
   // The rotation by an angle of |ω|t is off by that many roundings of the angle.
   double spin = 0;
   for (const int i : {q.a, q.b})
-    if (const auto& m = in.c.scene.bodies[static_cast<std::size_t>(i)].motion) spin += m->angular.norm();
+    if (const auto& m = in.c.scene.bodies[static_cast<std::size_t>(i)].motion)
+      spin += m->angular.stableNorm();
   d.rounding = (1 + spin) * pose_rounding(d.c.scene);
   d.words = fmt::format("at t = {:.9g}", t);
   return d;
@@ -146,8 +147,8 @@ bool boxes_overlap(const RelationInput& in, const Observation& o, const Truth::S
   const auto x = box(p.first), y = box(p.second);
   if (!x || !y || is_filtered(in.c.scene, p.first, p.second)) return false;
   const double l = std::max(scale_of_pair(in.c.scene, p.first, p.second),
-                            std::max(at.pose[static_cast<std::size_t>(p.first)]->translation.norm(),
-                                     at.pose[static_cast<std::size_t>(p.second)]->translation.norm()));
+                            std::max(at.pose[static_cast<std::size_t>(p.first)]->translation.stableNorm(),
+                                     at.pose[static_cast<std::size_t>(p.second)]->translation.stableNorm()));
   const double tau = tau_of(in.card, o, l);
   return ((x->hi.cwiseMin(y->hi) - x->lo.cwiseMax(y->lo)).array() > tau).all();
 }
