@@ -14,7 +14,7 @@ inline constexpr std::int64_t most_work = 20'000'000'000;
 
 /// What a public function says in a note instead of an answer.
 inline constexpr const char* too_expensive =
-    "too expensive: it takes more work than the referee does on one question";
+    "too expensive: beyond the limit of work";
 
 /// Thrown by `spend`; it never leaves a public function of the referee.
 struct TooExpensive {};
