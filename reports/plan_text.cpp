@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <map>
 
+#include "core/base/printable.h"
 #include "reports/text.h"
 
 namespace touchstone::reports {
@@ -108,8 +109,9 @@ std::string sweeps(const Plan& p) {
   constexpr std::size_t most = 5;
   for (std::size_t i = 0; i < std::min(most, p.swept.size()); ++i) {
     const PlanSwept& s = p.swept[i];
-    text += fmt::format("  body {:<6} {:<18} {:<7} {:>7} deep of {:>7} inner, {} steps\n", s.body,
-                        s.name.substr(0, 18), s.reason, small(s.pass_bound), small(s.inner), s.steps);
+    text +=
+        fmt::format("  body {:<6} {:<18} {:<7} {:>7} deep of {:>7} inner, {} steps\n", s.body,
+                    cut_utf8(printable(s.name), 18), s.reason, small(s.pass_bound), small(s.inner), s.steps);
   }
   if (p.swept.size() > most) text += fmt::format("  and {} more\n", p.swept.size() - most);
   return text;
@@ -163,8 +165,8 @@ std::string proven(const Plan& p) {
 
 std::string plan_text(const Plan& p) {
   std::string text = wrapped(fmt::format("Plan for {}: {} bodies, {} steps, within {} (double proves {}).",
-                                         p.scene.empty() ? "a scene" : p.scene, grouped(p.bodies), p.steps,
-                                         small(p.error), small(p.least_error)),
+                                         p.scene.empty() ? "a scene" : printable(p.scene), grouped(p.bodies),
+                                         p.steps, small(p.error), small(p.least_error)),
                              79, 2) +
                      "\n";
   text += phases(p) + shapes(p) + meshes(p);

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "core/base/exact_text.h"
+#include "core/base/printable.h"
 #include "fuzz/record/evidence.h"
 #include "reports/text.h"
 
@@ -214,7 +215,7 @@ std::string ReplayText::referee_lines(const Query& q) const {
 
 std::string ReplayText::str() const {
   const Scene& s = case_.scene;
-  std::string out = fmt::format("{}\n", case_.id);
+  std::string out = fmt::format("{}\n", printable(case_.id));
   const int n = static_cast<int>(s.bodies.size());
   for (int i = 0; i < std::min(n, 4); ++i) out += body_line(s, i);
   if (n > 4) out += fmt::format("  and {} more bodies\n", n - 4);

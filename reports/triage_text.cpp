@@ -4,6 +4,7 @@
 
 #include <map>
 
+#include "core/base/input_error.h"
 #include "reports/text.h"
 
 namespace touchstone::reports {
@@ -84,9 +85,10 @@ std::string triage_text(const std::vector<Triaged>& all) {
 }
 
 // A ledger may be damaged.
-static fuzz::Json case_json(const std::string& text) {
-  fuzz::Json j = fuzz::Json::parse(text, nullptr, false);
-  return j.is_discarded() ? fuzz::Json() : j;
+static fuzz::Json case_json(const fuzz::KnownFinding& f) try {
+  return fuzz::case_json_of(f);
+} catch (const InputError&) {
+  return {};  // what is asked again says why; the others are shown
 }
 
 fuzz::Json triage_json(const std::vector<Triaged>& all) {
@@ -108,7 +110,7 @@ fuzz::Json triage_json(const std::vector<Triaged>& all) {
                  {"bodies", f.size.bodies},
                  {"steps", f.size.steps},
                  {"bits", f.size.bits},
-                 {"case", case_json(f.smallest)}});
+                 {"case", case_json(f)}});
   }
   return j;
 }

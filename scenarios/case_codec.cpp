@@ -9,6 +9,7 @@
 #include "core/scene/codec.h"
 #include "core/scene/codec_fields.h"
 #include "core/scene/input_file.h"
+#include "core/scene/json_file.h"
 #include "core/scene/json_reader.h"
 #include "core/scene/json_text.h"
 #include "core/scene/odd_numbers.h"
@@ -93,12 +94,13 @@ double read_odd(const JsonReader& r) {
 void read_odd_numbers(const JsonReader& r, Case& c) {
   for (const Query& q : c.queries)
     if (q.question != Question::candidates) r.fail("only candidates can be asked of such a scene");
-  for (const auto& [place, value] : r.json().items()) try {
-      put_in(c.scene, {place, read_odd(r[place])});
-    } catch (const InputError& e) {
-      if (e.place() != place) throw;
-      r.fail(place + " " + e.reason());
-    }
+  std::vector<OddNumber> all;
+  for (const auto& [place, value] : members_of(r)) all.push_back({place, read_odd(value)});
+  try {
+    put_in(c.scene, all);
+  } catch (const InputError& e) {
+    r.fail(e.place() + " " + e.reason());
+  }
 }
 
 StoredCase from_scene(Scene scene) {

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "core/base/input_error.h"
+#include "core/base/printable.h"
 #include "core/scene/json_text.h"
 
 namespace touchstone {
@@ -74,7 +75,7 @@ bool JsonReader::boolean() const {
 
 std::string JsonReader::string() const {
   if (!j_->is_string()) fail(std::string("must be a string, is ") + j_->type_name());
-  return j_->get<std::string>();
+  return printable(j_->get_ref<const std::string&>(), "\n\t");
 }
 
 namespace {

@@ -1,6 +1,7 @@
 #include "core/scene/odd_numbers.h"
 
 #include <cmath>
+#include <unordered_map>
 
 #include "core/base/input_error.h"
 
@@ -42,15 +43,24 @@ Scene without_odd_numbers(Scene s) {
   return s;
 }
 
-void put_in(Scene& s, const OddNumber& n) {
-  bool found = false;
+// By a table of the places: a file may name as many as it has numbers.
+void put_in(Scene& s, const std::vector<OddNumber>& all) {
+  struct Place {
+    double* number = nullptr;
+    bool may_be_negative = false;
+  };
+  std::unordered_map<std::string, Place> places;
   for_each_place(s, [&](const std::string& place, double& x, bool signed_number) {
-    if (place != n.place) return;
-    if (!is_odd(n.value, signed_number))
-      throw InputError(n.place, "is an ordinary number: it belongs into the scene itself");
-    x = n.value, found = true;
+    places[place] = {&x, signed_number};
   });
-  if (!found) throw InputError(n.place, "is no place of a coordinate or a half extent in this scene");
+  for (const OddNumber& n : all) {
+    const auto found = places.find(n.place);
+    if (found == places.end())
+      throw InputError(n.place, "is no place of a coordinate or a half extent in this scene");
+    if (!is_odd(n.value, found->second.may_be_negative))
+      throw InputError(n.place, "is an ordinary number: it belongs into the scene itself");
+    *found->second.number = n.value;
+  }
 }
 
 }  // namespace touchstone

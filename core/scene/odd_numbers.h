@@ -20,7 +20,7 @@ struct OddNumber {
 std::vector<OddNumber> odd_numbers(const Scene& s);
 /// The same scene with 0 in their places.
 Scene without_odd_numbers(Scene s);
-/// Throws InputError when there is no such place, or the number is an ordinary one.
-void put_in(Scene& s, const OddNumber& n);
+/// Throws InputError, whose place is the number's, when there is no such place, or the number is an ordinary one.
+void put_in(Scene& s, const std::vector<OddNumber>& all);
 
 }  // namespace touchstone

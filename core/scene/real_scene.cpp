@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/base/input_error.h"
+#include "core/base/printable.h"
 #include "core/scene/text_lines.h"
 
 namespace touchstone {
@@ -113,7 +114,7 @@ std::vector<RealFrame> read_frames(const std::filesystem::path& file, int count)
   while (in.next()) {
     if (in.integer(0) != static_cast<int>(frames.size()))
       in.fail("frames must be numbered from 0 without gaps");
-    frames.push_back({in.integer(1), std::string(in.token(2))});
+    frames.push_back({in.integer(1), printable(in.token(2))});
   }
   if (static_cast<int>(frames.size()) != count)
     in.fail("has " + std::to_string(frames.size()) + " frames, scene.txt announces " + std::to_string(count));

@@ -1,5 +1,6 @@
 // The grammar of scene.txt, one statement a line.
 #include "core/base/input_error.h"
+#include "core/base/printable.h"
 #include "core/scene/real_scene.h"
 #include "core/scene/text_lines.h"
 
@@ -66,7 +67,7 @@ RealBody read_body(TextLines& in, int id, bool is_static, int shape_count) {
     in.fail("moving bodies come first; this one must be " + std::string(is_static ? "static" : "dynamic"));
   in.need_tokens(is_static ? 12 : 5);
   RealBody b;
-  b.name = std::string(in.token(3));
+  b.name = printable(in.token(3));
   b.is_static = is_static;
   const int geoms = in.integer(4, 1, max_count);
   if (is_static) b.pose = {in.vec3(5), in.quat(8)};
@@ -99,7 +100,7 @@ RealSceneText read_real_scene_text(const std::filesystem::path& file) {
   in.need_tokens(2);
   RealSceneText r;
   RealScene& s = r.scene;
-  s.name = std::string(in.token(1));
+  s.name = printable(in.token(1));
   const Counts c = read_counts(in);
   r.moving = c.moving, r.frames = c.frames, r.columns = c.columns;
   for (int i = 0; i < c.shapes; ++i) {

@@ -3,12 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <functional>
 
 #include "core/base/input_error.h"
-#include "core/scene/codec.h"
 #include "core/scene/json_file.h"
 #include "fuzz/campaign/directory_lock.h"
 #include "fuzz/campaign/store.h"
+#include "fuzz/record/stored.h"
 
 namespace touchstone::fuzz {
 namespace {
@@ -22,35 +23,43 @@ struct Part {
   CampaignResult result;
 };
 
+// Sorted, and of those there are: a whole campaign of a number beyond belief would be listed as missing.
+std::vector<std::uint64_t> shards_of(const JsonReader& settings) {
+  constexpr std::uint64_t most = 1'000'000;
+  const std::uint64_t of = count_of(settings["shards"]);
+  if (of == 0 || of > most) settings["shards"].fail("is no number of shards");
+  std::vector<std::uint64_t> shards;
+  if (settings.has("merged"))
+    for (const JsonReader& shard : settings["merged"].items()) shards.push_back(count_of(shard));
+  else
+    shards.push_back(count_of(settings["shard"]));
+  const bool ascends =
+      std::adjacent_find(shards.begin(), shards.end(), std::greater_equal<>()) == shards.end();
+  if (shards.empty() || !ascends || shards.back() >= of)
+    settings.fail("names shards that there are not, or not in ascending order");
+  return shards;
+}
+
 Part load_part(const std::filesystem::path& directory) {
   const auto file = directory / "state.json";
   if (!std::filesystem::exists(file))
     throw InputError(directory.string(), "holds no campaign (touchstone fuzz --out DIR makes one)");
-  try {
-    const Json j = load_json(file, campaign_limits);
-    if (!j.at("finished").get<bool>())
-      throw InputError(directory.string(), "is unfinished; go on with it first (same command, same --out)");
-    Part p;
-    p.from = directory;
-    p.settings = j.at("settings");
-    p.of = p.settings.at("shards");
-    p.shards = p.settings.contains("merged") ? p.settings["merged"].get<std::vector<std::uint64_t>>()
-                                             : std::vector<std::uint64_t>{p.settings.at("shard")};
-    p.settings["shard"] = 0, p.settings["shards"] = 1;
-    p.settings.erase("merged");
-    p.chunks = j.at("next_chunk");
-    p.result = result_from_json(j.at("result"));
-    for (const auto& [key, f] : p.result.findings)
-      for (const char* part : {"case", "observation", "certificate", "received"})
-        if (!f.stored.is_object() || !f.stored.contains(part))
-          throw InputError(file.string(), "the finding " + key + " has no evidence: " + part + " is missing");
-    return p;
-  } catch (const Json::exception& e) {
-    throw InputError(file.string(), std::string("is not a campaign's state: ") + e.what());
-  } catch (const InputError& e) {
-    // What is wrong with the result itself names its own place, but not the file.
-    throw e.place() == "stored result" ? InputError(file.string(), e.reason()) : e;
-  }
+  const Json json = load_json(file, campaign_limits);
+  const JsonReader j(json, file.string());
+  if (!j["finished"].boolean())
+    throw InputError(directory.string(), "is unfinished; go on with it first (same command, same --out)");
+  Part p;
+  p.from = directory;
+  const JsonReader settings = j["settings"];
+  settings.require_object();
+  p.settings = settings.json();
+  p.of = count_of(settings["shards"]);
+  p.shards = shards_of(settings);
+  p.settings["shard"] = 0, p.settings["shards"] = 1;
+  p.settings.erase("merged");
+  p.chunks = count_of(j["next_chunk"]);
+  p.result = result_with_evidence(j["result"]);
+  return p;
 }
 
 void require_same_campaign(const Part& x, const Part& y) {

@@ -5,6 +5,7 @@
 #include "core/base/input_error.h"
 #include "core/scene/input_file.h"
 #include "core/scene/json_file.h"
+#include "fuzz/record/stored.h"
 #include "scenarios/case_codec.h"
 
 namespace touchstone::fuzz {
@@ -29,12 +30,12 @@ Json pool_json(const Pool& p) {
   return {{"published", p.published}, {"features", p.features}, {"cases", std::move(cases)}};
 }
 
-Pool pool_from_json(const Json& j) {
+Pool pool_from_json(const JsonReader& j) {
   Pool p;
-  p.published = j.at("published");
-  p.features = j.at("features").get<std::set<std::uint64_t>>();
-  for (const Json& c : j.at("cases")) {
-    p.cases.push_back(case_from_json(c, "state.json, pool"));
+  p.published = count_of(j["published"]);
+  for (const JsonReader& feature : j["features"].items()) p.features.insert(count_of(feature));
+  for (const JsonReader& c : j["cases"].items()) {
+    p.cases.push_back(case_from_json(c.json(), c.place()));
     // Bodies of a question about the whole scene mean nothing and are not stored; families make them -1.
     for (Query& q : p.cases.back().queries)
       if (!is_pair_question(q.question)) q.a = q.b = -1;
@@ -47,27 +48,21 @@ Pool pool_from_json(const Json& j) {
 std::optional<StoredState> load_state(const CampaignConfig& config) {
   const auto file = config.out / "state.json";
   if (!std::filesystem::exists(file)) return std::nullopt;
-  try {
-    const Json j = load_json(file, campaign_limits);
-    if (j.at("settings") != settings(config))
-      throw InputError(config.out.string(),
-                       "holds a campaign with other settings (" + j.at("settings").dump() +
-                           "); give another --out or the same settings, or --fresh, which moves it aside");
-    StoredState s;
-    s.finished = j.at("finished");
-    s.next_chunk = j.at("next_chunk");
-    if (s.finished)
-      throw InputError(config.out.string(),
-                       "holds a finished campaign; give another --out, or --fresh, which moves it aside");
-    s.result = result_from_json(j.at("result"));
-    if (j.contains("pool")) s.pool = pool_from_json(j["pool"]);
-    return s;
-  } catch (const Json::exception& e) {
-    throw InputError(file.string(), std::string("is not a campaign's state: ") + e.what());
-  } catch (const InputError& e) {
-    // What is wrong with the result itself names its own place, but not the file.
-    throw e.place() == "stored result" ? InputError(file.string(), e.reason()) : e;
-  }
+  const Json json = load_json(file, campaign_limits);
+  const JsonReader j(json, file.string());
+  if (j["settings"].json() != settings(config))
+    throw InputError(config.out.string(),
+                     "holds a campaign with other settings (" + json_text(j["settings"].json()) +
+                         "); give another --out or the same settings, or --fresh, which moves it aside");
+  StoredState s;
+  s.finished = j["finished"].boolean();
+  s.next_chunk = count_of(j["next_chunk"]);
+  if (s.finished)
+    throw InputError(config.out.string(),
+                     "holds a finished campaign; give another --out, or --fresh, which moves it aside");
+  s.result = result_with_evidence(j["result"]);
+  if (j.has("pool")) s.pool = pool_from_json(j["pool"]);
+  return s;
 }
 
 void save_state(const CampaignConfig& config, const StoredState& s) {

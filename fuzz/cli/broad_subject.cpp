@@ -3,11 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <fstream>
 
 #include "core/base/did_you_mean.h"
 #include "core/base/hash.h"
 #include "core/base/input_error.h"
+#include "core/scene/input_file.h"
 #include "fuzz/cli/engine_catalog.h"
 #include "oracles/core/broad_engine.h"
 
@@ -17,12 +17,10 @@ namespace {
 std::string hash_of(const std::vector<std::filesystem::path>& files) {
   if (files.empty()) return "";
   Hasher h;
-  char buffer[1 << 16];
+  constexpr std::uintmax_t largest_program = std::uintmax_t{1} << 30;
   for (const auto& file : files) {
-    std::ifstream in(file, std::ios::binary);
-    if (!in) throw InputError(file.string(), "cannot be read");
-    while (in.read(buffer, sizeof buffer) || in.gcount() > 0)
-      h.bytes(buffer, static_cast<std::size_t>(in.gcount()));
+    const std::string program = read_file(file, largest_program);
+    h.bytes(program.data(), program.size());
   }
   return fmt::format("{:016x}", h.value());
 }

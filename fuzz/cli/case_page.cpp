@@ -5,6 +5,7 @@
 
 #include "core/base/input_error.h"
 #include "fuzz/bisect/bisect.h"
+#include "fuzz/cli/asked_engines.h"
 #include "fuzz/cli/command.h"
 #include "fuzz/judge/judge.h"
 #include "fuzz/reproduce/reproducer.h"
@@ -95,8 +96,7 @@ Json case_page(const std::string& named, const StoredCase& stored, const std::st
   fuzz::Truth truth(c.scene);
   reports::ReplayText text(c, truth);
   Json cards = Json::object();
-  for (const auto& name : engine_names(engines)) {
-    const EnginePtr engine = make_engine(name, limits);
+  for (const EnginePtr& engine : make_engines(engine_names(engines), limits)) {
     const EngineCard& card = engine->card();
     const auto answers = engine->run({&c, 1})[0];
     const auto judgements = fuzz::judge(c, card, answers, truth);

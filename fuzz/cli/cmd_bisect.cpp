@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/base/input_error.h"
+#include "core/base/printable.h"
 #include "core/scene/codec_fields.h"
 #include "fuzz/bisect/bisect.h"
 #include "fuzz/cli/command.h"
@@ -125,7 +126,7 @@ int commit(const BisectOptions& o) {
     fmt::print("{}\n", asked.key.empty() ? "right" : "wrong: " + asked.key);
     return asked.key.empty() ? exit_clean : exit_wrong;
   } catch (const InputError& e) {
-    fmt::print(stderr, "touchstone: {}\n", e.what());
+    fmt::print(stderr, "touchstone: {}\n", printable(e.what(), "\n"));
     return exit_skip;
   }
 }

@@ -188,14 +188,6 @@ int differs(const std::string& file, const std::string& why) {
   return exit_wrong;
 }
 
-Json read_certificate(const std::string& file) {
-  try {
-    return load_json(file);
-  } catch (const Json::exception& e) {
-    throw InputError(file, std::string("is not JSON: ") + e.what());
-  }
-}
-
 // What the file names is a label: a path or a command is run only when the command line says the same words.
 void require_same_subject(const CertifyOptions& o, const std::string& named) {
   const auto phases = core_broad_phases();
@@ -209,7 +201,7 @@ void require_same_subject(const CertifyOptions& o, const std::string& named) {
 }
 
 int check(const CertifyOptions& o) {
-  const Json stored = read_certificate(o.check);
+  const Json stored = load_json(o.check);
   bool digest_holds = false;
   BroadCertificate was;
   try {

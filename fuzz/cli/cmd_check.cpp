@@ -28,12 +28,8 @@ struct CheckOptions {
 
 // A finding holds its certificate under that name; a bare certificate is one itself.
 Json certificate_in(const std::string& path) {
-  try {
-    const Json j = load_json(path);
-    return j.is_object() && j.contains("certificate") ? j.at("certificate") : j;
-  } catch (const Json::exception& e) {
-    throw InputError(path, std::string("is not JSON: ") + e.what());
-  }
+  const Json j = load_json(path);
+  return j.is_object() && j.contains("certificate") ? j.at("certificate") : j;
 }
 
 std::string claim(const referee::Certificate& c) {
@@ -70,15 +66,18 @@ struct Bodies {
 // orders of the only two.
 std::vector<Bodies> pairs_of(const CheckOptions& o, const Json& certificate, const Scene& s) {
   const int n = static_cast<int>(s.bodies.size());
-  const std::vector<int> named = o.pair.empty() ? certificate.value("bodies", std::vector<int>{}) : o.pair;
+  std::vector<int> named = o.pair;
+  if (const JsonReader j(certificate, o.path); named.empty() && j.has("bodies"))
+    for (const JsonReader& body : j["bodies"].items()) named.push_back(body.integer());
   if (named.empty()) {
     if (n != 2) throw InputError("--pair", fmt::format("which two of the {} bodies? (--pair A B)", n));
     return {{0, 1}, {1, 0}};
   }
-  if (named.size() != 2) throw InputError("bodies", "names the two bodies A and B");
+  const std::string place = o.pair.empty() ? o.path + ": bodies" : "--pair";
+  if (named.size() != 2) throw InputError(place, "names the two bodies A and B");
   for (int k : named)
-    if (k < 0 || k >= n) throw InputError("--pair", fmt::format("there is no body {}", k));
-  if (named[0] == named[1]) throw InputError("--pair", "names one body twice");
+    if (k < 0 || k >= n) throw InputError(place, fmt::format("there is no body {}", k));
+  if (named[0] == named[1]) throw InputError(place, "names one body twice");
   return {{named[0], named[1]}};
 }
 
@@ -94,7 +93,7 @@ struct Claim {
 };
 
 Claim claim_of(const Json& j) {
-  if (j.is_object() && j.value("kind", "") == "impact") {
+  if (j.is_object() && j.contains("kind") && j["kind"] == "impact") {
     const auto c = referee::impact_certificate_from_json(j);
     return {claim(c), [c](const Scene& s, Bodies p, int step) {
               const auto motion = [&](int i) {
@@ -126,9 +125,17 @@ int step_of(const Json& j, const std::string& file) {
   return static_cast<int>(query);
 }
 
-int run(const CheckOptions& o) try {
+Claim claim_in(const Json& j, const std::string& file) try {
+  return claim_of(j);
+} catch (const InputError& e) {
+  throw InputError(e.place().empty() ? file : file + ": " + e.place(), e.reason());
+} catch (const Json::exception& e) {
+  throw InputError(file, "is not a certificate: " + reason_of(e));
+}
+
+int run(const CheckOptions& o) {
   const Json j = certificate_in(o.path);
-  const Claim c = claim_of(j);
+  const Claim c = claim_in(j, o.path);
   if (const std::string fault = c.words.empty() ? failure_in(o.path) : ""; !fault.empty()) {
     fmt::print("nothing to check: {} has no certificate\n",
                fault == "crashed" ? "a crash" : "`" + fault + "`");
@@ -146,8 +153,6 @@ int run(const CheckOptions& o) try {
   fmt::print("not valid: {}\n", c.words.empty() ? "this kind of certificate proves nothing by itself"
                                                 : "it does not prove that the bodies " + c.words);
   return exit_wrong;
-} catch (const Json::exception& e) {
-  throw InputError(o.path, std::string("is not a certificate: ") + e.what());
 }
 
 }  // namespace

@@ -25,22 +25,28 @@ struct PlanArguments {
 };
 
 fuzz::Course course_named(const PlanArguments& o) {
-  if (is_recording(o.scene)) return fuzz::course_of(load_real_scene(o.scene), o.steps);
+  const auto of = [&](const auto& make) {
+    try {
+      return make();
+    } catch (const InputError& e) {
+      throw InputError(o.scene + ": " + e.place(), e.reason());
+    }
+  };
+  if (is_recording(o.scene)) {
+    const RealScene recorded = load_real_scene(o.scene);
+    return of([&] { return fuzz::course_of(recorded, o.steps); });
+  }
   Case c = case_argument(o.scene).c;
   if (c.scene.name.empty()) c.scene.name = std::filesystem::path(o.scene).stem().string();
-  return fuzz::course_of(c.scene);
+  return of([&] { return fuzz::course_of(c.scene); });
 }
 
 Fidelity plan_in(const std::string& file) {
-  fuzz::Json j;
-  try {
-    j = load_json(file);
-  } catch (const fuzz::Json::exception& e) {
-    throw InputError(file, std::string("is not JSON: ") + e.what());
-  }
-  if (!j.is_object() || j.value("touchstone_plan", 0) != 1 || !j.contains("run"))
+  const fuzz::Json json = load_json(file);
+  const JsonReader j(json, file);
+  if (!j.has("touchstone_plan") || j["touchstone_plan"].json() != 1 || !j.has("run"))
     throw InputError(file, "is not a plan (of version 1)");
-  return fuzz::fidelity_from_json(j["run"], file + ": run");
+  return fuzz::fidelity_from_json(j["run"].json(), file + ": run");
 }
 
 int run(PlanArguments o, bool error_given) {

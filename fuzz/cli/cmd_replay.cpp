@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/base/input_error.h"
+#include "core/base/printable.h"
 #include "core/scene/real_scene.h"
 #include "fuzz/campaign/campaign.h"
 #include "fuzz/cli/asked_engines.h"
@@ -174,7 +175,8 @@ void replay_stored(const ReplayOptions& o, const Asked& asked, const std::string
 // One argument. What is wrong with it is said, and the others go on.
 void replay(const ReplayOptions& o, const Asked& asked, const std::string& path, Count& count,
             fuzz::Json& json) {
-  const auto refuse = [&](const std::string& why) {
+  const auto refuse = [&](const std::string& words) {
+    const std::string why = printable(words, "\n");
     fmt::print(stderr, "touchstone: {}\n", why);
     count.bad.push_back(path);
     if (o.json) json.push_back({{"argument", path}, {"error", why}});

@@ -1,12 +1,11 @@
 #include <fmt/format.h>
 
 #include "core/base/input_error.h"
-#include "core/scene/codec.h"
 #include "core/scene/json_file.h"
 #include "fuzz/cli/command.h"
 #include "fuzz/cli/output_file.h"
 #include "fuzz/cli/pages.h"
-#include "fuzz/record/result.h"
+#include "fuzz/record/stored.h"
 #include "reports/findings_columns.h"
 #include "reports/text.h"
 
@@ -17,14 +16,9 @@ struct ReportOptions {
   std::string directory, out;
 };
 
-// By way of the sorted kind: the ordered one looks for a key among all before it, and 1e5 findings take half
-// a minute.
-fuzz::Json read_json(const std::filesystem::path& file) {
-  try {
-    return load_json(file, campaign_limits);
-  } catch (const fuzz::Json::exception& e) {
-    throw InputError(file.string(), std::string("is no JSON: ") + e.what());
-  }
+fuzz::Json settings_in(const std::filesystem::path& file) {
+  const fuzz::Json j = load_json(file, campaign_limits);
+  return JsonReader(j, file.string())["settings"].json();
 }
 
 // What reports/web/src/report draws: the summary without histograms, and findings as columns.
@@ -34,8 +28,7 @@ fuzz::Json report_page(const std::filesystem::path& directory, fuzz::Json summar
   for (auto& [engine, questions] : summary.at("engines").items())
     for (auto& [question, tally] : questions.items()) tally.erase("ns_histogram");
   fuzz::Json settings;
-  if (std::filesystem::exists(directory / "state.json"))
-    settings = read_json(directory / "state.json").value("settings", fuzz::Json());
+  if (std::filesystem::exists(directory / "state.json")) settings = settings_in(directory / "state.json");
   return {{"page", "report"},
           {"version", 2},
           {"title", "campaign " + directory.string()},
@@ -53,16 +46,12 @@ int run(const ReportOptions& o) {
     throw InputError(o.directory,
                      "holds no summary.json: not the directory of a campaign, or it is not finished");
   require_writable(o.out);
-  const fuzz::Json summary = read_json(file);
-  try {
-    const fuzz::CampaignResult result = fuzz::result_from_json(summary);
-    fmt::print("{}\n{}{}", reports::campaign_table(result), reports::findings_summary(result, 3),
-               reports::campaign_footer(result));
-    if (o.out.empty()) return exit_clean;
-    if (!write_page("report", report_page(directory, summary).dump(), o.out)) return exit_failed;
-  } catch (const fuzz::Json::exception& e) {
-    throw InputError(file.string(), std::string("is not a campaign's summary: ") + e.what());
-  }
+  const fuzz::Json summary = load_json(file, campaign_limits);
+  const fuzz::CampaignResult result = fuzz::result_from_json(JsonReader(summary, file.string()));
+  fmt::print("{}\n{}{}", reports::campaign_table(result), reports::findings_summary(result, 3),
+             reports::campaign_footer(result));
+  if (o.out.empty()) return exit_clean;
+  if (!write_page("report", json_text(report_page(directory, summary)), o.out)) return exit_failed;
   fmt::print("{}: open it in a browser\n", o.out);
   return exit_clean;
 }

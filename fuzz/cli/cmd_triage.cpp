@@ -13,6 +13,7 @@
 
 #include "core/base/did_you_mean.h"
 #include "core/base/input_error.h"
+#include "core/base/printable.h"
 #include "core/scene/input_file.h"
 #include "core/scene/json_file.h"
 #include "fuzz/campaign/directory_lock.h"
@@ -21,6 +22,7 @@
 #include "fuzz/cli/judged_by.h"
 #include "fuzz/cli/output_file.h"
 #include "fuzz/judge/relation.h"
+#include "fuzz/record/stored.h"
 #include "fuzz/reproduce/reproducer.h"
 #include "fuzz/shrink/keeps_finding.h"
 #include "fuzz/triage/triage.h"
@@ -186,7 +188,7 @@ void print(const Reproducers& r, const std::string& directory) {
   if (!r.failed.empty()) words += fmt::format(", {} failed", r.failed.size());
   if (r.written + r.there == 0) words += "; there is nothing in it";
   fmt::print(stderr, "{}\n", words);
-  for (const std::string& failed : r.failed) fmt::print(stderr, "touchstone: no reproducer: {}\n", failed);
+  for (const std::string& failed : r.failed) fmt::print(stderr, "touchstone: no reproducer: {}\n", printable(failed));
 }
 
 // Before any work is done: a directory that cannot be had is bad usage.
@@ -201,19 +203,12 @@ void make_directory(const std::string& option, const std::string& path) {
 // Engines that answered something in the campaign, by its summary.
 std::set<std::string> answered_in(const std::string& directory) {
   const auto file = std::filesystem::path(directory) / "summary.json";
+  const fuzz::Json j = load_json(file, campaign_limits);
+  const fuzz::CampaignResult r = fuzz::result_from_json(JsonReader(j, file.string()));
   std::set<std::string> names;
-  try {
-    const fuzz::CampaignResult r =
-        fuzz::result_from_json(load_json(file, campaign_limits));
-    for (const auto& [engine, questions] : r.tallies)
-      if (r.answered_by(engine) + r.failed_of(engine) > 0) names.insert(engine);
-    return names;
-  } catch (const fuzz::Json::exception& e) {
-    throw InputError(file.string(), std::string("is not a campaign's summary: ") + e.what());
-  } catch (const InputError& e) {
-    // What is wrong with the result itself names its own place, but not the file.
-    throw e.place() == "stored result" ? InputError(file.string(), e.reason()) : e;
-  }
+  for (const auto& [engine, questions] : r.tallies)
+    if (r.answered_by(engine) + r.failed_of(engine) > 0) names.insert(engine);
+  return names;
 }
 
 // The name by which findings call it, or "all".
@@ -290,7 +285,7 @@ int run(const TriageOptions& o) {
   }
   const auto triaged = fuzz::triage(found, ledger, jobs);
   for (const fuzz::Triaged& t : triaged)
-    if (!t.trouble.empty()) fmt::print(stderr, "touchstone: {}: {}\n", t.finding.key, t.trouble);
+    if (!t.trouble.empty()) fmt::print(stderr, "touchstone: {}: {}\n", t.finding.key, printable(t.trouble, "\n"));
   if (!o.reproducers.empty()) print(write_reproducers(o.reproducers, triaged, of_job.front()), o.reproducers);
   if (!o.junit.empty()) write_file(o.junit, reports::triage_junit(triaged));
   fmt::print("{}", o.json ? reports::triage_json(triaged).dump(1) + "\n" : reports::triage_text(triaged));

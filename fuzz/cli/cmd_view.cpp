@@ -4,6 +4,7 @@
 #include <filesystem>
 
 #include "core/base/input_error.h"
+#include "core/base/printable.h"
 #include "core/scene/input_file.h"
 #include "core/scene/real_scene.h"
 #include "fuzz/cli/case_argument.h"
@@ -67,7 +68,8 @@ int run(const ViewOptions& o) {
     fmt::print("{}\n", fuzz::to_json(view).dump(1));
   else
     fmt::print("{}: {} bodies, {} queries; at the last, {} pairs kept of {}\n{}: open it in a browser\n",
-               view.name, view.bodies.size(), view.frames.size(), last.kept.size(), last.all_pairs, o.out);
+               printable(view.name), view.bodies.size(), view.frames.size(), last.kept.size(), last.all_pairs,
+               o.out);
   return exit_clean;
 }
 

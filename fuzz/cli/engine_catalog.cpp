@@ -8,6 +8,7 @@
 #include "core/base/comma_list.h"
 #include "core/base/did_you_mean.h"
 #include "core/base/input_error.h"
+#include "core/scene/input_file.h"
 #include "fuzz/cli/command.h"
 #include "fuzz/cli/npm_engines.h"
 #include "fuzz/cli/sweep_catalog.h"
@@ -209,7 +210,7 @@ void check_name(const std::string& name) {
   if (is_path(name)) {
     const auto file = plugin_spec(name).plugin;
     if (!std::filesystem::exists(file)) throw InputError(file.string(), "no such plug-in file");
-    return;
+    return require_regular_file(file);  // a plug-in that is a pipe would keep its worker waiting
   }
   if (const NpmRow* npm = find_npm_row(name)) {
     if (is_installed(*npm)) return;

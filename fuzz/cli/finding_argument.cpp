@@ -33,11 +33,8 @@ std::string stored_key(const std::string& path) {
     const bool is_case = fs::exists(directory / "case.json", ec);
     return is_case && std::count(name.begin(), name.end(), '.') >= dots_of_a_key ? name : "";
   }
-  try {
-    return load_json(beside).at("key");
-  } catch (const Json::exception& e) {
-    throw InputError(beside.string(), std::string("is not a finding: ") + e.what());
-  }
+  const Json finding = load_json(beside);
+  return JsonReader(finding, beside.string())["key"].string();
 }
 
 // A key starts with its engine's name; those of plug-ins may hold dots themselves.

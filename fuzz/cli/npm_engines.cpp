@@ -9,6 +9,7 @@
 #include <set>
 
 #include "core/base/input_error.h"
+#include "core/scene/json_file.h"
 #include "fuzz/cli/command.h"
 #include "fuzz/cli/engine_catalog.h"
 
@@ -90,10 +91,12 @@ fs::path npm_folder() {
   return chosen && *chosen ? fs::absolute(chosen) : plugin_directory().parent_path() / "npm";
 }
 
-bool is_installed(const NpmRow& row) {
-  std::ifstream in(package_folder(row) / "package.json");
-  const auto j = nlohmann::json::parse(in, nullptr, false);
-  return j.is_object() && j.value("version", "") == row.version;
+bool is_installed(const NpmRow& row) try {
+  const fs::path file = package_folder(row) / "package.json";
+  const auto package = load_json(file);
+  return JsonReader(package, file.string())["version"].string() == row.version;
+} catch (const InputError&) {
+  return false;  // not there, or damaged: to install it again mends both
 }
 
 std::string pipe_of(const NpmRow& row) {

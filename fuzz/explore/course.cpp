@@ -1,6 +1,7 @@
 #include "fuzz/explore/course.h"
 
 #include <algorithm>
+#include <string>
 
 #include "core/base/input_error.h"
 
@@ -34,6 +35,19 @@ Course along_motions(const Scene& scene) {
   return c;
 }
 
+// Where a body is or goes, boxes around it and their differences are to be numbers.
+Course within_the_doubles(Course c) {
+  constexpr double most = 1e300;
+  for (const Course::Step& step : c.steps)
+    for (const Course::Move& m : step.moves) {
+      const Vec3 end = m.start.translation + m.motion.linear;
+      const double largest = std::max(m.start.translation.cwiseAbs().maxCoeff(), end.cwiseAbs().maxCoeff());
+      if (!(largest <= most && m.motion.angular.allFinite()))
+        throw InputError("bodies[" + std::to_string(m.body) + "]", "moves to coordinates beyond 1e300");
+    }
+  return c;
+}
+
 }  // namespace
 
 bool Course::moves() const {
@@ -63,13 +77,13 @@ Course course_of(const RealScene& real, int steps) {
     step.follows = i > 0 && frames[i] == frames[i - 1] + 1 && real.is_followed(frames[i - 1]);
     c.steps.push_back(std::move(step));
   }
-  return c;
+  return within_the_doubles(std::move(c));
 }
 
 Course course_of(const Scene& scene) {
   Scene s = scene;
   s.script.clear();
-  if (scene.script.empty()) return along_motions(s);
+  if (scene.script.empty()) return within_the_doubles(along_motions(s));
   Course c{scene.name, s, {}};
   std::vector<char> present(scene.bodies.size(), 0);
   bool asked = false;
@@ -94,7 +108,7 @@ Course course_of(const Scene& scene) {
   if (absent != present.end())
     throw InputError("script", "never inserts body " + std::to_string(absent - present.begin()));
   if (!asked) throw InputError("script", "has no query");
-  return c;
+  return within_the_doubles(std::move(c));
 }
 
 }  // namespace touchstone::fuzz

@@ -29,16 +29,17 @@ Json simpler_to_json(const Fidelity& f) {
   return {{"of_shape", std::move(of)}, {"error", std::move(errors)}, {"scene", touchstone::to_json(s)}};
 }
 
-void read_simpler(const Json& j, const std::string& place, Fidelity& f) {
-  const Scene s = scene_from_json(j.at("scene"), place + ".scene");
+void read_simpler(const JsonReader& j, Fidelity& f) {
+  const Scene s = scene_from_json(j["scene"].json(), j["scene"].place());
   std::vector<std::uint64_t> of;
-  for (const JsonReader& shape : JsonReader(j, place)["of_shape"].items()) of.push_back(count_of(shape));
-  const auto errors = j.at("error").get<std::vector<double>>();
+  std::vector<double> errors;
+  for (const JsonReader& shape : j["of_shape"].items()) of.push_back(count_of(shape));
+  for (const JsonReader& error : j["error"].items()) errors.push_back(error.number());
   if (of.size() != s.bodies.size() || errors.size() != of.size())
-    throw InputError(place, "of_shape, error and scene.bodies differ in length");
+    j.fail("of_shape, error and scene.bodies differ in length");
   for (std::size_t k = 0; k < of.size(); ++k) {
     constexpr std::size_t most = 1U << 18;
-    if (of[k] >= most || !(errors[k] >= 0)) throw InputError(place, "a shape or an error out of range");
+    if (of[k] >= most || !(errors[k] >= 0)) j.fail("a shape or an error out of range");
     if (f.simpler.size() <= of[k]) f.simpler.resize(of[k] + 1);
     f.simpler[of[k]] = SimplerShape{s.shape_of(static_cast<int>(k)), s.bodies[k].pose, errors[k]};
   }
@@ -80,27 +81,30 @@ Json to_json(const Fidelity& f) {
           {"simpler", simpler_to_json(f)}};
 }
 
-Fidelity fidelity_from_json(const Json& j, const std::string& place) try {
+Fidelity fidelity_from_json(const Json& json, const std::string& place) {
+  const JsonReader j(json, place);
   Fidelity f;
-  f.error = j.at("error"), f.broad_phase = j.at("broad_phase"), f.remember = j.at("remember");
-  f.solid_meshes = j.at("solid_meshes");
-  f.loose_boxes = j.at("loose_boxes"), f.sweep.share = j.at("sweep_share");
-  if (!(f.error > 0) || !(f.sweep.share > 0))
-    throw InputError(place, "error and sweep_share must be positive");
+  f.error = j["error"].number();
+  f.broad_phase = j["broad_phase"].string();
+  f.remember = j["remember"].boolean();
+  f.solid_meshes = j["solid_meshes"].boolean();
+  f.loose_boxes = j["loose_boxes"].boolean();
+  f.sweep.share = j["sweep_share"].number();
+  if (!(f.error > 0) || !(f.sweep.share > 0)) j.fail("error and sweep_share must be positive");
   if (!broad::make_broad_phase(f.broad_phase))
-    throw InputError(place + ".broad_phase", "no broad phase is called '" + f.broad_phase + "'");
-  const Json& methods = j.at("methods");
+    j["broad_phase"].fail("no broad phase is called '" + f.broad_phase + "'");
+  const JsonReader methods = j["methods"];
+  methods.require_object();
   std::size_t read = 0;
   for (std::size_t a = 0; a < f.method.size(); ++a)
     for (std::size_t b = a; b < f.method.size(); ++b)
-      if (const auto m = methods.find(pair_name(a, b)); m != methods.end())
-        f.method[a][b] = method_of(JsonReader(*m, place + ".methods." + pair_name(a, b))), ++read;
-  if (read != methods.size())
-    throw InputError(place + ".methods", "names a pair of shapes that there is not");
-  if (!j.at("simpler").is_null()) read_simpler(j.at("simpler"), place + ".simpler", f);
+      if (const std::string pair = pair_name(a, b); methods.has(pair)) {
+        f.method[a][b] = method_of(methods[pair]);
+        ++read;
+      }
+  if (read != methods.json().size()) methods.fail("names a pair of shapes that there is not");
+  if (!j["simpler"].json().is_null()) read_simpler(j["simpler"], f);
   return f;
-} catch (const Json::exception& e) {
-  throw InputError(place, "is not a plan: " + reason_of(e));
 }
 
 }  // namespace touchstone::fuzz

@@ -3,11 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <charconv>
 #include <nlohmann/json.hpp>
 #include <tuple>
 
 #include "core/base/hash.h"
 #include "core/base/input_error.h"
+#include "core/scene/json_file.h"
 #include "scenarios/case_codec.h"
 
 namespace touchstone::fuzz {
@@ -18,19 +20,20 @@ constexpr int format_version = 2;  // 2: lists of faults, kinds, questions not a
 
 std::string hex(std::uint64_t v) { return fmt::format("{:016x}", v); }
 std::uint64_t from_hex(const std::string& s) {
-  std::size_t used = 0;
-  const std::uint64_t v = s.size() == 16 ? std::stoull(s, &used, 16) : 0;
-  if (used != 16) throw InputError("digest", "is not 16 hexadecimal digits: " + s);
+  std::uint64_t v = 0;
+  const auto r = std::from_chars(s.data(), s.data() + s.size(), v, 16);
+  if (s.size() != 16 || r.ec != std::errc{} || r.ptr != s.data() + s.size())
+    throw InputError("digest", "is not 16 hexadecimal digits: " + s);
   return v;
 }
 
 template <class Names>
-std::size_t index_in(const Names& names, const std::string& s, const char* what) {
+std::size_t index_in(const Names& names, const std::string& s, const JsonReader& at) {
   const auto it = std::find(names.begin(), names.end(), s);
-  if (it == names.end()) throw InputError(what, "is none of those there are: " + s);
+  if (it == names.end()) at.fail("is none of those there are: " + s);
   return static_cast<std::size_t>(it - names.begin());
 }
-Level level_of(const std::string& s) { return static_cast<Level>(index_in(level_names, s, "level")); }
+Level level_of(const JsonReader& j) { return static_cast<Level>(index_in(level_names, j.string(), j)); }
 
 Json to_json(const EvidenceCount& e) {
   Json j = {{"name", e.name},
@@ -52,20 +55,30 @@ Json to_json(const EvidenceCount& e) {
   return j;
 }
 
-EvidenceCount evidence_from_json(const Json& j) {
+EvidenceCount evidence_from_json(const JsonReader& j) {
   EvidenceCount e;
-  e.name = j.at("name"), e.line = j.at("line"), e.refusal = j.at("refusal");
-  e.kind = static_cast<EvidenceKind>(index_in(evidence_kind_names, j.at("kind"), "kind"));
-  e.level = level_of(j.at("level"));
-  e.planned = j.at("planned"), e.population = j.at("population"), e.cases = j.at("cases");
-  e.answered = j.at("answered"), e.refused = j.at("refused"), e.steps = j.at("steps");
-  e.queries = j.at("queries"), e.pairs_true = j.at("pairs_true"), e.pairs_reported = j.at("pairs_reported");
-  e.undecided = j.at("undecided"), e.digest = from_hex(j.at("digest"));
+  e.name = j["name"].string();
+  e.line = j["line"].string();
+  e.refusal = j["refusal"].string();
+  e.kind = static_cast<EvidenceKind>(index_in(evidence_kind_names, j["kind"].string(), j["kind"]));
+  e.level = level_of(j["level"]);
+  e.planned = count_of(j["planned"]);
+  e.population = count_of(j["population"]);
+  e.cases = count_of(j["cases"]);
+  e.answered = count_of(j["answered"]);
+  e.refused = count_of(j["refused"]);
+  e.steps = count_of(j["steps"]);
+  e.queries = count_of(j["queries"]);
+  e.pairs_true = count_of(j["pairs_true"]);
+  e.pairs_reported = count_of(j["pairs_reported"]);
+  e.undecided = count_of(j["undecided"]);
+  e.digest = from_hex(j["digest"].string());
   return e;
 }
 
-FaultClass class_from_json(const Json& j) {
-  return {j.at("fault"), static_cast<FaultKind>(index_in(fault_kind_names, j.at("kind"), "kind"))};
+FaultClass class_from_json(const JsonReader& j) {
+  return {j["fault"].string(),
+          static_cast<FaultKind>(index_in(fault_kind_names, j["kind"].string(), j["kind"]))};
 }
 
 Json to_json(const FaultCount& f) {
@@ -79,10 +92,15 @@ Json to_json(const FaultCount& f) {
           {"words", f.words}};
 }
 
-FaultCount fault_from_json(const Json& j) {
+FaultCount fault_from_json(const JsonReader& j) {
   FaultCount f;
-  f.level = level_of(j.at("level")), f.evidence = j.at("evidence"), f.what = class_from_json(j);
-  f.cases = j.at("cases"), f.index = j.at("index"), f.share = j.at("share"), f.words = j.at("words");
+  f.level = level_of(j["level"]);
+  f.evidence = j["evidence"].string();
+  f.what = class_from_json(j);
+  f.cases = count_of(j["cases"]);
+  f.index = count_of(j["index"]);
+  f.share = j["share"].number();
+  f.words = j["words"].string();
   return f;
 }
 
@@ -92,11 +110,16 @@ Json to_json(const TooSlow& t) {
           {"sufficient", t.sufficient},  {"tried", t.tried}};
 }
 
-TooSlow too_slow_from_json(const Json& j) {
+TooSlow too_slow_from_json(const JsonReader& j) {
   TooSlow t;
-  t.level = level_of(j.at("level")), t.evidence = j.at("evidence"), t.index = j.at("index");
-  t.bodies = j.at("bodies"), t.steps = j.at("steps");
-  t.allowed = j.at("allowed"), t.sufficient = j.at("sufficient"), t.tried = j.at("tried");
+  t.level = level_of(j["level"]);
+  t.evidence = j["evidence"].string();
+  t.index = count_of(j["index"]);
+  t.bodies = count_of(j["bodies"]);
+  t.steps = count_of(j["steps"]);
+  t.allowed = j["allowed"].number();
+  t.sufficient = j["sufficient"].number();
+  t.tried = j["tried"].number();
   return t;
 }
 
@@ -115,13 +138,19 @@ Json to_json(const Refutation& r) {
   return j;
 }
 
-Refutation refutation_from_json(const Json& j) {
+Refutation refutation_from_json(const JsonReader& j) {
   Refutation r;
-  r.level = level_of(j.at("level"));
-  r.evidence = j.at("evidence"), r.index = j.at("index"), r.what = class_from_json(j);
-  r.words = j.at("words"), r.shrink = j.at("shrink"), r.bodies = j.at("bodies"), r.steps = j.at("steps");
-  r.is_shown_again = j.at("shown_again");
-  if (!j.at("script").is_null()) r.script = case_from_json(j.at("script"), "script");
+  r.level = level_of(j["level"]);
+  r.evidence = j["evidence"].string();
+  r.index = count_of(j["index"]);
+  r.what = class_from_json(j);
+  r.words = j["words"].string();
+  r.shrink = j["shrink"].string();
+  r.bodies = count_of(j["bodies"]);
+  r.steps = count_of(j["steps"]);
+  r.is_shown_again = j["shown_again"].boolean();
+  if (const JsonReader script = j["script"]; !script.json().is_null())
+    r.script = case_from_json(script.json(), script.place());
   return r;
 }
 
@@ -241,31 +270,36 @@ Json to_json(const BroadCertificate& c) {
   return j;
 }
 
-BroadCertificate broad_certificate_from_json(const Json& j, bool& digest_holds) try {
-  if (!j.is_object() || !j.contains("touchstone_broad_certificate"))
+BroadCertificate broad_certificate_from_json(const Json& json, bool& digest_holds) {
+  const JsonReader j(json, "");
+  if (!j.has("touchstone_broad_certificate"))
     throw InputError("touchstone_broad_certificate", "is missing: this is no certificate of a broad phase");
-  if (j.at("touchstone_broad_certificate") == 1)
+  if (j["touchstone_broad_certificate"].json() == 1)
     throw InputError("touchstone_broad_certificate",
                      "is version 1, of an earlier touchstone, which listed one fault a level; certify again");
-  if (j.at("touchstone_broad_certificate") != format_version)
+  if (j["touchstone_broad_certificate"].json() != format_version)
     throw InputError("touchstone_broad_certificate", "is a version that this program does not know");
   BroadCertificate c;
-  c.subject = j.at("subject"), c.card = card_from_json(j.at("card").dump());
-  c.plugin_hash = j.at("plugin_hash"), c.program = j.at("program"), c.scope = j.at("scope");
-  c.seed = j.at("seed"), c.limit = j.at("limit"), c.first_fault = j.at("first_fault"),
-  c.sweeps = j.at("sweeps");
-  c.without = j.at("without").get<std::vector<std::string>>();
-  for (const auto& [name, v] : j.at("verdict").items()) c.levels.push_back(level_of(name));
-  for (const Json& e : j.at("evidence")) c.evidence.push_back(evidence_from_json(e));
-  for (const Json& f : j.at("faults")) c.faults.push_back(fault_from_json(f));
-  for (const Json& t : j.at("too_slow")) c.too_slow.push_back(too_slow_from_json(t));
-  for (const Json& r : j.at("refutations")) c.refutations.push_back(refutation_from_json(r));
-  Json rest = j;
+  c.subject = j["subject"].string();
+  c.card = card_from_json(j["card"].json().dump());
+  c.plugin_hash = j["plugin_hash"].string();
+  c.program = j["program"].string();
+  c.scope = j["scope"].string();
+  c.seed = count_of(j["seed"]);
+  c.limit = count_of(j["limit"]);
+  c.first_fault = j["first_fault"].boolean();
+  c.sweeps = j["sweeps"].boolean();
+  for (const JsonReader& name : j["without"].items()) c.without.push_back(name.string());
+  for (const auto& [name, v] : members_of(j["verdict"]))
+    c.levels.push_back(static_cast<Level>(index_in(level_names, name, v)));
+  for (const JsonReader& e : j["evidence"].items()) c.evidence.push_back(evidence_from_json(e));
+  for (const JsonReader& f : j["faults"].items()) c.faults.push_back(fault_from_json(f));
+  for (const JsonReader& t : j["too_slow"].items()) c.too_slow.push_back(too_slow_from_json(t));
+  for (const JsonReader& r : j["refutations"].items()) c.refutations.push_back(refutation_from_json(r));
+  Json rest = json;
   rest.erase("digest");
-  digest_holds = from_hex(j.at("digest")) == digest_of(rest);
+  digest_holds = from_hex(j["digest"].string()) == digest_of(rest);
   return c;
-} catch (const Json::exception& e) {
-  throw InputError("", std::string("is no certificate of a broad phase: ") + e.what());
 }
 
 }  // namespace touchstone::fuzz

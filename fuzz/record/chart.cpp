@@ -2,11 +2,13 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 
 #include "core/base/exact_text.h"
 #include "core/base/input_error.h"
+#include "core/scene/json_file.h"
 
 namespace touchstone::fuzz {
 namespace {
@@ -101,28 +103,41 @@ Json to_json(const Chart& c) {
 
 namespace {
 
-double real(const Json& j) {
-  return j.is_string() ? double_from_text(j.get<std::string>()).value_or(std::nan("")) : j.get<double>();
+double real(const JsonReader& j) {
+  if (j.json().is_number()) return j.number();
+  const auto v = double_from_text(j.string());
+  if (!v) j.fail("is no number");
+  return *v;
 }
+
+using Places = std::map<std::string, std::size_t>;
 
 // Cells of one row by the names of their columns.
 class RowReader {
  public:
-  RowReader(const Json& chart, const Json& row) : strings_(chart.at("strings")) {
-    const Json& names = chart.at("columns");
-    for (std::size_t i = 0; i < names.size(); ++i) cells_[names[i].get<std::string>()] = &row.at(i);
-  }
+  RowReader(const std::vector<std::string>& strings, const Places& places, const JsonReader& row)
+      : strings_(strings), places_(places), row_(row), cells_(row.items(places.size())) {}
   void operator()(const char* name, std::string& v) const {
-    v = strings_.at(cells_.at(name)->get<std::size_t>()).get<std::string>();
+    const JsonReader& at = cell(name);
+    const std::uint64_t i = count_of(at);
+    if (i >= strings_.size()) at.fail("is no place in the strings");
+    v = strings_[i];
   }
-  void operator()(const char* name, double& v) const { v = real(*cells_.at(name)); }
-  void operator()(const char* name, std::uint64_t& v) const { v = cells_.at(name)->get<std::uint64_t>(); }
-  bool has(const char* name) const { return cells_.contains(name); }
-  void operator()(const char* name, bool& v) const { v = *cells_.at(name) != 0; }
+  void operator()(const char* name, double& v) const { v = real(cell(name)); }
+  void operator()(const char* name, std::uint64_t& v) const { v = count_of(cell(name)); }
+  void operator()(const char* name, bool& v) const { v = count_of(cell(name)) != 0; }
+  bool has(const char* name) const { return places_.contains(name); }
 
  private:
-  const Json& strings_;
-  std::map<std::string, const Json*> cells_;
+  const JsonReader& cell(const char* name) const {
+    const auto place = places_.find(name);
+    if (place == places_.end()) row_.fail("has no column " + std::string(name));
+    return cells_[place->second];
+  }
+  const std::vector<std::string>& strings_;
+  const Places& places_;
+  const JsonReader& row_;
+  std::vector<JsonReader> cells_;
 };
 
 ChartRow row_from_json(const RowReader& read) {
@@ -144,26 +159,49 @@ ChartRow row_from_json(const RowReader& read) {
 
 }  // namespace
 
-Chart chart_from_json(const Json& j, const std::string& file) {
-  try {
-    if (j.at("page") != "chart" || j.at("version") != 2)
-      throw InputError(file, "is no chart of this version");
-    Chart c;
-    const Json& m = j.at("machine");
-    m.at("processor").get_to(c.machine.processor), m.at("cores").get_to(c.machine.cores);
-    m.at("load").get_to(c.machine.load), m.at("system").get_to(c.machine.system);
-    m.at("compiler").get_to(c.machine.compiler), m.at("date").get_to(c.machine.date);
-    j.at("scope").get_to(c.scope), j.at("seed").get_to(c.seed), j.at("rounds").get_to(c.rounds);
-    j.at("measure_ns").get_to(c.measure_ns);
-    for (const Json& e : j.at("engines"))
-      c.engines.push_back({e.at("name"), e.at("library"), e.at("version"), e.at("settings")});
-    for (const Json& row : j.at("rows")) c.rows.push_back(row_from_json({j, row}));
-    return c;
-  } catch (const InputError&) {
-    throw;
-  } catch (const std::exception& e) {
-    throw InputError(file, std::string("is no chart: ") + e.what());
-  }
+namespace {
+
+Machine machine_from_json(const JsonReader& j) {
+  Machine m;
+  m.processor = j["processor"].string();
+  m.cores = static_cast<unsigned>(std::max(0, j["cores"].integer()));
+  m.load = real(j["load"]);
+  m.system = j["system"].string();
+  m.compiler = j["compiler"].string();
+  m.date = j["date"].string();
+  return m;
+}
+
+Places places_of(const JsonReader& names) {
+  Places places;
+  const auto all = names.items();
+  for (std::size_t i = 0; i < all.size(); ++i)
+    if (!places.emplace(all[i].string(), i).second) all[i].fail("is a column's name twice");
+  return places;
+}
+
+}  // namespace
+
+Chart chart_from_json(const Json& json, const std::string& file) {
+  const JsonReader j(json, file);
+  if (!j.has("page") || j["page"].json() != "chart" || j["version"].json() != 2)
+    throw InputError(file, "is no chart of this version");
+  Chart c;
+  c.machine = machine_from_json(j["machine"]);
+  c.scope = j["scope"].string();
+  c.seed = count_of(j["seed"]);
+  c.rounds = j["rounds"].integer();
+  const std::uint64_t most_ns = std::uint64_t{1} << 62, ns = count_of(j["measure_ns"]);
+  if (ns > most_ns) j["measure_ns"].fail("is longer than anything was measured");
+  c.measure_ns = static_cast<std::int64_t>(ns);
+  for (const JsonReader& e : j["engines"].items())
+    c.engines.push_back(
+        {e["name"].string(), e["library"].string(), e["version"].string(), e["settings"].string()});
+  std::vector<std::string> strings;
+  for (const JsonReader& text : j["strings"].items()) strings.push_back(text.string());
+  const Places places = places_of(j["columns"]);
+  for (const JsonReader& row : j["rows"].items()) c.rows.push_back(row_from_json({strings, places, row}));
+  return c;
 }
 
 std::string to_csv(const Chart& c) {

@@ -9,6 +9,7 @@
 #include "core/base/hash.h"
 #include "core/base/input_error.h"
 #include "core/base/printable.h"
+#include "fuzz/record/stored.h"
 #include "oracles/api/engine_name.h"
 #include "scenarios/case_codec.h"
 
@@ -43,10 +44,13 @@ Json TimeHistogram::json() const {
 
 TimeHistogram TimeHistogram::from_json(const Json& j) {
   TimeHistogram h;
-  for (const Json& e : j) {
-    const auto i = e.at(0).get<std::size_t>();
-    if (i >= h.bucket_.size()) throw InputError("time histogram", "bucket out of range");
-    h.count_ += h.bucket_[i] = e.at(1).get<std::uint64_t>();
+  const JsonReader buckets(j, "");
+  for (const JsonReader& e : buckets.items()) {
+    const auto pair = e.items(2);
+    const std::uint64_t i = count_of(pair[0]), n = count_of(pair[1]);
+    if (i >= h.bucket_.size()) pair[0].fail("is no bucket of a histogram");
+    h.bucket_[i] = n;
+    h.count_ += n;
   }
   return h;
 }
@@ -213,28 +217,55 @@ Json to_json(const Tally& t, bool with_times) {
   return j;
 }
 
-double number_from(const Json& j) {
-  if (j.is_number()) return j.get<double>();
-  const auto v = double_from_text(j.get<std::string>());
-  return v ? *v : std::numeric_limits<double>::quiet_NaN();
+double number_from(const JsonReader& j) {
+  if (j.json().is_number()) return j.number();
+  const auto v = double_from_text(j.string());
+  if (!v) j.fail("is no number");
+  return *v;
 }
 
-Tally tally_from_json(const Json& j) {
+// Of fields that results of earlier versions do not have.
+std::uint64_t count_or_zero(const JsonReader& j, std::string_view field) {
+  return j.has(field) ? count_of(j[field]) : 0;
+}
+
+// So that those of several shards can be added.
+std::int64_t ns_from(const JsonReader& j) {
+  constexpr double most = 1e18;
+  if (!j.json().is_number_integer() || !(std::abs(j.number()) <= most))
+    j.fail("must be a whole number of nanoseconds, at most 1e18");
+  return j.json().get<std::int64_t>();
+}
+
+TimeHistogram histogram_from(const JsonReader& j) try {
+  return TimeHistogram::from_json(j.json());
+} catch (const InputError& e) {
+  throw InputError(j.place() + e.place(), e.reason());
+}
+
+Tally tally_from_json(const JsonReader& j) {
   Tally t;
+  const JsonReader outcomes = j["outcomes"];
+  outcomes.require_object();
   for (std::size_t i = 0; i < t.outcomes.size(); ++i)
-    t.outcomes[i] = j.at("outcomes").value(std::string(outcome_names[i]), std::uint64_t{0});
-  t.right = j.at("right"), t.wrong = j.at("wrong"), t.missed = j.at("missed"), t.ghost = j.at("ghost");
-  t.representation = j.at("representation"), t.undecided = j.at("undecided");
-  constexpr std::uint64_t none = 0;  // absent from results of earlier versions
-  t.not_judged = j.value("not_judged", none), t.by_definition = j.value("by_definition", none);
-  t.within_wide_claim = j.value("within_wide_claim", none);
-  t.pairs_true = j.at("pairs_true"), t.pairs_reported = j.at("pairs_reported");
-  t.pairs_duplicate = j.at("pairs_duplicate");
-  t.manifolds = j.value("manifolds", std::uint64_t{0});
-  t.coverage_permille = j.value("coverage_permille", std::uint64_t{0});
-  t.worst_in_l = number_from(j.at("worst_in_l"));
-  t.slow = j.value("slow", std::uint64_t{0});
-  if (j.contains("ns_histogram")) t.time = TimeHistogram::from_json(j.at("ns_histogram"));
+    t.outcomes[i] = count_or_zero(outcomes, outcome_names[i]);
+  t.right = count_of(j["right"]);
+  t.wrong = count_of(j["wrong"]);
+  t.missed = count_of(j["missed"]);
+  t.ghost = count_of(j["ghost"]);
+  t.representation = count_of(j["representation"]);
+  t.undecided = count_of(j["undecided"]);
+  t.not_judged = count_or_zero(j, "not_judged");
+  t.by_definition = count_or_zero(j, "by_definition");
+  t.within_wide_claim = count_or_zero(j, "within_wide_claim");
+  t.pairs_true = count_of(j["pairs_true"]);
+  t.pairs_reported = count_of(j["pairs_reported"]);
+  t.pairs_duplicate = count_of(j["pairs_duplicate"]);
+  t.manifolds = count_or_zero(j, "manifolds");
+  t.coverage_permille = count_or_zero(j, "coverage_permille");
+  t.worst_in_l = number_from(j["worst_in_l"]);
+  t.slow = count_or_zero(j, "slow");
+  if (j.has("ns_histogram")) t.time = histogram_from(j["ns_histogram"]);
   return t;
 }
 
@@ -249,29 +280,45 @@ Json to_json(const Finding& f) {
 
 namespace {
 
-// Directories are named by keys: nothing but the name of an engine and words of our own, no longer than a name may be.
-void require_plain_key(const Finding& f) {
-  constexpr std::size_t longest = 240;
-  const auto is_word = [](const std::string& s) {
-    return !s.empty() && std::all_of(s.begin(), s.end(), [](char c) {
-      return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '_' || c == '-';
-    });
-  };
-  if (!is_engine_name(f.engine) || !is_word(f.question) || !is_word(f.fault) || !is_word(f.shapes) ||
-      !is_word(f.blame) || !is_word(f.degeneracy) || !is_word(f.magnitude) || f.key().size() > longest)
-    throw InputError("stored result", "a finding's key may not name a directory: " + printable(f.key()));
+bool is_key_word(const std::string& s) {
+  return !s.empty() && std::all_of(s.begin(), s.end(), [](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '_' || c == '-';
+  });
 }
+
+constexpr std::size_t longest_key = 240;  // of 255 bytes that the name of a file may have
+
+constexpr const char* parts_of_evidence[] = {"case", "observation", "certificate", "received"};
 
 }  // namespace
 
-Finding finding_from_json(const Json& j) {
+bool has_plain_key(const Finding& f) {
+  return is_engine_name(f.engine) && is_key_word(f.question) && is_key_word(f.fault) &&
+         is_key_word(f.shapes) && is_key_word(f.blame) && is_key_word(f.degeneracy) &&
+         is_key_word(f.magnitude) && f.key().size() <= longest_key;
+}
+
+Finding finding_from_json(const JsonReader& j) {
   Finding f;
-  f.engine = j.at("engine"), f.question = j.at("question"), f.fault = j.at("fault"),
-  f.shapes = j.at("shapes"), f.degeneracy = j.at("degeneracy"), f.magnitude = j.at("magnitude");
-  f.blame = j.at("blame"), f.count = j.at("count"), f.worst_in_l = number_from(j.at("worst_in_l"));
-  f.first_index = j.at("first_index"), f.words = j.at("words");
-  if (j.contains("evidence")) f.stored = j.at("evidence");
-  require_plain_key(f);
+  f.engine = j["engine"].string();
+  f.question = j["question"].string();
+  f.fault = j["fault"].string();
+  f.shapes = j["shapes"].string();
+  f.blame = j["blame"].string();
+  f.degeneracy = j["degeneracy"].string();
+  f.magnitude = j["magnitude"].string();
+  f.count = count_of(j["count"]);
+  f.worst_in_l = number_from(j["worst_in_l"]);
+  f.first_index = count_of(j["first_index"]);
+  f.words = j["words"].string();
+  if (!has_plain_key(f)) j.fail("a finding's key may not name a directory: " + printable(f.key()));
+  if (j.has("evidence")) {
+    const JsonReader evidence = j["evidence"];
+    for (const char* part : parts_of_evidence)
+      if (!evidence.has(part)) j.fail("has no evidence: " + std::string(part) + " is missing");
+    evidence["observation"].require_object();
+    f.stored = evidence.json();
+  }
   return f;
 }
 
@@ -300,16 +347,24 @@ class Documents {
 
 constexpr const char* documents_of_evidence[] = {"case", "received"};
 
+using NamedDocuments = std::map<std::string, const Json*>;
+
+NamedDocuments documents_of(const JsonReader& j) {
+  NamedDocuments documents;
+  if (j.has("documents"))
+    for (const auto& [name, document] : members_of(j["documents"])) documents[name] = &document.json();
+  return documents;
+}
+
 // Puts documents back; results of earlier versions hold them in place.
-void fill_in(Json& evidence, const std::map<std::string, const Json*>& documents) {
+void fill_in(Finding& f, const JsonReader& at, const NamedDocuments& documents) {
   for (const char* part : documents_of_evidence) {
-    if (!evidence.is_object() || !evidence.contains(part) || !evidence[part].is_string()) continue;
-    const auto name = evidence[part].get<std::string>();
-    const auto document = documents.find(name);
-    if (document == documents.end())
-      throw InputError("stored result", "documents: " + name + " is not there");
-    evidence[part] = *document->second;
+    if (!f.stored.is_object() || !f.stored[part].is_string()) continue;
+    const auto document = documents.find(f.stored[part].get<std::string>());
+    if (document == documents.end()) at["evidence"][part].fail("names a document that is not there");
+    f.stored[part] = *document->second;
   }
+  if (f.stored.is_object() && !f.stored["case"].is_object()) at["evidence"]["case"].fail("is no case");
 }
 
 }  // namespace
@@ -358,50 +413,80 @@ Json to_json(const CampaignResult& r, bool with_times) {
   return j;
 }
 
-CampaignResult result_from_json(const Json& j) try {
-  CampaignResult r;
-  r.cases = j.at("cases"), r.pair_cases = j.at("pair_cases"), r.overlapping = j.at("overlapping");
-  r.undecided = j.at("undecided");
-  if (j.contains("levels")) r.levels = j["levels"];  // absent from results of earlier versions
-  for (const auto& [f, n] : j.at("families").items()) r.families[f] = n;
-  for (const auto& [engine, questions] : j.at("engines").items())
-    for (const auto& [q, t] : questions.items()) {
-      const auto question = question_from_string(q);
-      if (!question) throw InputError("engines." + engine, "unknown question " + q);
-      r.tallies[engine][*question] = tally_from_json(t);
+namespace {
+
+// Of what is counted by engine and question.
+template <class Use>
+void for_each_question(const JsonReader& j, Use&& use) {
+  for (const auto& [engine, questions] : members_of(j)) {
+    if (!is_engine_name(engine)) questions.fail("is no name of an engine");
+    for (const auto& [name, value] : members_of(questions)) {
+      const auto question = question_from_string(name);
+      if (!question) value.fail("is no question");
+      use(engine, *question, value);
     }
-  if (j.contains("open"))  // absent from results of earlier versions
-    for (const auto& [engine, questions] : j["open"].items())
-      for (const auto& [q, pairs] : questions.items()) {
-        const auto question = question_from_string(q);
-        if (!question) throw InputError("open." + engine, "unknown question " + q);
-        for (const auto& [shapes, n] : pairs.items()) r.open[engine][*question][shapes] = {n.at(0), n.at(1)};
+  }
+}
+
+// Absent from results of earlier versions.
+void read_later_additions(const JsonReader& j, CampaignResult& r) {
+  if (j.has("levels")) {
+    const auto levels = j["levels"].items(r.levels.size());
+    for (std::size_t i = 0; i < levels.size(); ++i) r.levels[i] = count_of(levels[i]);
+  }
+  if (j.has("open"))
+    for_each_question(j["open"], [&](const std::string& engine, Question q, const JsonReader& pairs) {
+      for (const auto& [shapes, n] : members_of(pairs)) {
+        const auto counts = n.items(2);
+        r.open[engine][q][printable(shapes)] = {count_of(counts[0]), count_of(counts[1])};
       }
-  if (j.contains("relations"))  // absent from results of earlier versions
-    for (const auto& [engine, of_engine] : j["relations"].items())
-      for (const auto& [name, n] : of_engine.items())
-        r.relations[engine][name] = {n.at("asked"), n.at("broken")};
-  if (j.contains("set_aside"))  // only where there are any
-    for (const auto& [engine, s] : j["set_aside"].items())
-      r.set_aside[engine] = {s.at("first_index"), s.value("why", "")};
-  std::map<std::string, const Json*> documents;
-  if (j.contains("documents"))
-    for (const auto& [name, document] : j["documents"].items()) documents[name] = &document;
-  for (const auto& [key, f] : j.at("findings").items()) {
-    Finding& finding = r.findings[key] = finding_from_json(f);
-    if (finding.key() != key)
-      throw InputError("stored result", "a finding is filed under another key than its own: " + printable(key));
-    fill_in(finding.stored, documents);
+    });
+  if (j.has("relations"))
+    for (const auto& [engine, of_engine] : members_of(j["relations"]))
+      for (const auto& [name, n] : members_of(of_engine))
+        r.relations[printable(engine)][printable(name)] = {count_of(n["asked"]), count_of(n["broken"])};
+  if (j.has("set_aside"))
+    for (const auto& [engine, s] : members_of(j["set_aside"]))
+      r.set_aside[printable(engine)] = {count_of(s["first_index"]), s.has("why") ? s["why"].string() : ""};
+}
+
+void read_times(const JsonReader& times, CampaignResult& r) {
+  r.total_ns = ns_from(times["total_ns"]);
+  r.engine_ns = ns_from(times["engine_ns"]);
+  r.judge_ns = ns_from(times["judge_ns"]);
+  r.pair_asked = count_or_zero(times, "pair_asked");
+  if (times.has("pair_cpu_ns")) r.pair_cpu_ns = ns_from(times["pair_cpu_ns"]);
+}
+
+}  // namespace
+
+CampaignResult result_from_json(const JsonReader& j) {
+  CampaignResult r;
+  r.cases = count_of(j["cases"]);
+  r.pair_cases = count_of(j["pair_cases"]);
+  r.overlapping = count_of(j["overlapping"]);
+  r.undecided = count_of(j["undecided"]);
+  for (const auto& [family, n] : members_of(j["families"])) r.families[printable(family)] = count_of(n);
+  for_each_question(j["engines"], [&](const std::string& engine, Question q, const JsonReader& t) {
+    r.tallies[engine][q] = tally_from_json(t);
+  });
+  read_later_additions(j, r);
+  const NamedDocuments documents = documents_of(j);
+  for (const auto& [key, f] : members_of(j["findings"])) {
+    Finding finding = finding_from_json(f);
+    if (finding.key() != key) f.fail("a finding is filed under another key than its own");
+    fill_in(finding, f, documents);
+    r.findings.emplace(key, std::move(finding));
   }
-  if (j.contains("times")) {
-    r.total_ns = j["times"].at("total_ns"), r.engine_ns = j["times"].at("engine_ns");
-    r.judge_ns = j["times"].at("judge_ns");
-    r.pair_asked = j["times"].value("pair_asked", std::uint64_t{0});
-    r.pair_cpu_ns = j["times"].value("pair_cpu_ns", std::int64_t{0});
-  }
+  if (j.has("times")) read_times(j["times"], r);
   return r;
-} catch (const Json::exception& e) {
-  throw InputError("stored result", e.what());
+}
+
+CampaignResult result_with_evidence(const JsonReader& j) {
+  CampaignResult r = result_from_json(j);
+  for (const auto& [key, f] : r.findings)
+    if (f.stored.is_null()) j["findings"][key].fail("has no evidence");
+  return r;
 }
 
 std::string digest(const CampaignResult& r) { return hex64(Hasher().add(to_json(r, false).dump()).value()); }

@@ -70,8 +70,6 @@ struct Finding {
   std::string key() const;
   void merge(const Finding& o);
 };
-/// The evidence may be missing. Throws nlohmann's exceptions.
-Finding finding_from_json(const Json& j);
 Json to_json(const Finding& f);  // without evidence
 
 /// Answers to one question about one kind of pair, and how many of them the judge left open: undecided, or
@@ -134,7 +132,6 @@ struct CampaignResult {
 
 /// The whole result; `with_times` false gives the part that the same seed must reproduce byte for byte.
 Json to_json(const CampaignResult& r, bool with_times);
-CampaignResult result_from_json(const Json& j);
 /// Hash of the reproducible part.
 std::string digest(const CampaignResult& r);
 

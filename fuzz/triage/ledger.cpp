@@ -4,17 +4,25 @@
 #include <sqlite3.h>
 
 #include <array>
+#include <string_view>
+#include <system_error>
 
 #include "core/base/input_error.h"
+#include "core/base/printable.h"
+#include "core/scene/input_file.h"
+#include "fuzz/record/stored.h"
 
 namespace touchstone::fuzz {
 namespace {
 
 constexpr int application_id = 0x54534c31;  // "TSL1", in the header of the file
 constexpr int busy_ms = 60'000;
+constexpr int max_field_bytes = 64 << 20;  // the largest is a case
+constexpr std::uintmax_t max_file_bytes = std::uintmax_t{1} << 30;
 
+// SQLite keeps the words of a table's definition as they were written.
 constexpr const char* schema =
-    "CREATE TABLE IF NOT EXISTS finding("
+    "CREATE TABLE finding("
     "key TEXT PRIMARY KEY, engine TEXT, question TEXT, fault TEXT, shapes TEXT, blame TEXT, degeneracy TEXT, "
     "magnitude TEXT, first_seen TEXT, last_seen TEXT, first_build TEXT, last_build TEXT, "
     "count INTEGER, bodies INTEGER, steps INTEGER, bits INTEGER, smallest TEXT, words TEXT, expired TEXT)";
@@ -32,18 +40,45 @@ constexpr std::array texts_after{&KnownFinding::smallest, &KnownFinding::words, 
 
 }  // namespace
 
+namespace {
+
+// A journal that names a second file has SQLite remove that file. Ours name none: a ledger is changed by
+// itself. The form is that of https://www.sqlite.org/fileformat2.html#the_rollback_journal, "super-journal".
+void refuse_journal_of_another(const std::filesystem::path& ledger) {
+  constexpr std::string_view end_of_name = "\xd9\xd5\x05\xf9\x20\xa1\x63\xd7";
+  const std::filesystem::path journal = ledger.string() + "-journal";
+  std::error_code ec;
+  std::string text;
+  try {
+    if (std::filesystem::exists(journal, ec)) text = read_file(journal, 2 * max_file_bytes);
+  } catch (const InputError&) {
+    if (std::filesystem::exists(journal, ec)) throw;  // else another run has just ended
+  }
+  if (text.ends_with(end_of_name))
+    throw InputError(journal.string(), "names another file, as the journal of a ledger does not");
+}
+
+}  // namespace
+
 struct Ledger::Database {
   std::string file;
   sqlite3* handle = nullptr;
 
-  explicit Database(const std::filesystem::path& path) : file(path.string()) {
-    const int code =
-        sqlite3_open_v2(file.c_str(), &handle, SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE, nullptr);
+  Database(const std::filesystem::path& path, For purpose) : file(path.string()) {
+    std::error_code ec;
+    if (purpose == For::reading || std::filesystem::exists(path, ec)) require_regular_file(path);
+    if (std::filesystem::file_size(path, ec) > max_file_bytes && !ec)
+      throw InputError(file, "is larger than a ledger can be");
+    refuse_journal_of_another(path);
+    const int flags =
+        purpose == For::reading ? SQLITE_OPEN_READONLY : SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE;
+    const int code = sqlite3_open_v2(file.c_str(), &handle, flags, nullptr);
     if (code != SQLITE_OK) {
       const std::string why = handle ? sqlite3_errmsg(handle) : sqlite3_errstr(code);
       sqlite3_close(handle);
       throw InputError(file, "cannot be opened as a ledger: " + why);
     }
+    distrust();
   }
   // An open transaction is rolled back.
   ~Database() { sqlite3_close(handle); }
@@ -53,6 +88,17 @@ struct Ledger::Database {
   [[noreturn]] void fail() const { throw InputError(file, std::string("ledger: ") + sqlite3_errmsg(handle)); }
   void run(const char* sql) const {
     if (sqlite3_exec(handle, sql, nullptr, nullptr, nullptr) != SQLITE_OK) fail();
+  }
+
+ private:
+  // What https://www.sqlite.org/security.html asks for of a file from elsewhere.
+  void distrust() const {
+    for (const int feature :
+         {SQLITE_DBCONFIG_ENABLE_TRIGGER, SQLITE_DBCONFIG_ENABLE_VIEW, SQLITE_DBCONFIG_TRUSTED_SCHEMA})
+      sqlite3_db_config(handle, feature, 0, nullptr);
+    sqlite3_db_config(handle, SQLITE_DBCONFIG_DEFENSIVE, 1, nullptr);
+    sqlite3_limit(handle, SQLITE_LIMIT_LENGTH, max_field_bytes);
+    sqlite3_exec(handle, "PRAGMA cell_size_check = ON; PRAGMA mmap_size = 0", nullptr, nullptr, nullptr);
   }
 };
 
@@ -86,9 +132,9 @@ class Statement {
     const auto* p = reinterpret_cast<const char*>(sqlite3_column_text(s_, column));
     return p ? std::string(p, static_cast<std::size_t>(sqlite3_column_bytes(s_, column))) : std::string();
   }
-  std::uint64_t number(int column) const {
-    return static_cast<std::uint64_t>(sqlite3_column_int64(s_, column));
-  }
+  std::int64_t number(int column) const { return sqlite3_column_int64(s_, column); }
+  /// SQLITE_TEXT, SQLITE_INTEGER, ...: any column may hold any of them.
+  int type(int column) const { return sqlite3_column_type(s_, column); }
 
  private:
   sqlite3_stmt* s_ = nullptr;
@@ -96,14 +142,46 @@ class Statement {
   bool ok_ = false;
 };
 
-KnownFinding row(const Statement& s) {
+std::string text_of(const Statement& s, int column, const std::string& file) {
+  std::string text = s.text(column);
+  if (s.type(column) != SQLITE_TEXT || valid_utf8(text) != text)
+    throw InputError(file, fmt::format("ledger: column {} of a row is no text", column));
+  return printable(text, "\n\t");
+}
+
+std::uint64_t count_of(const Statement& s, int column, const std::string& file) {
+  if (s.type(column) != SQLITE_INTEGER || s.number(column) < 0)
+    throw InputError(file, fmt::format("ledger: column {} of a row is no count", column));
+  return static_cast<std::uint64_t>(s.number(column));
+}
+
+// Directories are named by keys (triage --reproducers).
+void require_own_key(const KnownFinding& f, const std::string& file) {
+  Finding parts;
+  parts.engine = f.engine, parts.question = f.question, parts.fault = f.fault, parts.shapes = f.shapes;
+  parts.blame = f.blame, parts.degeneracy = f.degeneracy, parts.magnitude = f.magnitude;
+  if (parts.key() != f.key || !has_plain_key(parts))
+    throw InputError(file, "ledger: a row's key is not that of its fields: " + printable(f.key));
+}
+
+KnownFinding row(const Statement& s, const std::string& file) {
   KnownFinding f;
   int i = 0;
-  for (const auto field : texts_before) f.*field = s.text(i++);
-  f.count = s.number(i++);
-  f.size.bodies = s.number(i++), f.size.steps = s.number(i++), f.size.bits = s.number(i++);
-  for (const auto field : texts_after) f.*field = s.text(i++);
+  for (const auto field : texts_before) f.*field = text_of(s, i++, file);
+  f.count = count_of(s, i++, file);
+  f.size.bodies = count_of(s, i++, file);
+  f.size.steps = count_of(s, i++, file);
+  f.size.bits = count_of(s, i++, file);
+  for (const auto field : texts_after) f.*field = text_of(s, i++, file);
+  require_own_key(f, file);
   return f;
+}
+
+std::size_t bytes_of(const KnownFinding& f) {
+  std::size_t n = 0;
+  for (const auto field : texts_before) n += (f.*field).size();
+  for (const auto field : texts_after) n += (f.*field).size();
+  return n;
 }
 
 int pragma(sqlite3* db, const char* name) {
@@ -111,37 +189,66 @@ int pragma(sqlite3* db, const char* name) {
   return s.step() ? static_cast<int>(s.number(0)) : -1;
 }
 
-bool has_tables(sqlite3* db) {
-  Statement s(db, "SELECT count(*) FROM sqlite_master");
-  return s.step() && s.number(0) > 0;
+// What else the file may hold, or how else the table may be defined, is not looked at, let alone run.
+enum class Holds { nothing, findings, something_else };
+Holds contents(sqlite3* db, const std::string& file) {
+  Statement s(db, "SELECT type, name, tbl_name, sql FROM sqlite_master");
+  Holds holds = Holds::nothing;
+  while (s.step()) {
+    const bool is_table = s.text(0) == "table" && s.text(1) == "finding" && s.text(3) == schema;
+    const bool is_its_index = s.text(0) == "index" && s.text(1) == "sqlite_autoindex_finding_1" &&
+                              s.text(2) == "finding" && s.text(3).empty();
+    if (!is_table && !is_its_index) return Holds::something_else;
+    if (is_table) holds = Holds::findings;
+  }
+  if (!s.ok()) throw InputError(file, std::string("ledger: ") + sqlite3_errmsg(db));
+  return holds;
 }
 
 }  // namespace
 
-Ledger::Ledger(const std::filesystem::path& file) : db_(std::make_unique<Database>(file)) {
+Ledger::Ledger(const std::filesystem::path& file, For purpose)
+    : db_(std::make_unique<Database>(file, purpose)) {
   sqlite3_busy_timeout(db_->handle, busy_ms);
-  db_->run("BEGIN IMMEDIATE");
+  db_->run(purpose == For::reading ? "BEGIN" : "BEGIN IMMEDIATE");
   const int id = pragma(db_->handle, "application_id");
-  if (id != application_id && (id != 0 || has_tables(db_->handle)))
+  const Holds holds = contents(db_->handle, db_->file);
+  if (holds == Holds::something_else || (holds == Holds::findings) != (id == application_id))
     throw InputError(file.string(), "is a database, but not a ledger of findings of this version");
+  is_empty_ = holds == Holds::nothing;
+  if (purpose == For::reading || !is_empty_) return;
   db_->run(fmt::format("PRAGMA application_id = {}", application_id).c_str());
   db_->run(schema);
+  is_empty_ = false;
 }
 
 Ledger::~Ledger() = default;
 
 std::optional<KnownFinding> Ledger::find(const std::string& key) const {
+  if (is_empty_) return std::nullopt;
   Statement s(db_->handle, fmt::format("SELECT {} FROM finding WHERE key = ?", columns));
   s.bind(key);
-  if (s.step()) return row(s);
+  if (s.step()) return row(s, db_->file);
   if (!s.ok()) db_->fail();
   return std::nullopt;
 }
 
+// A damaged file can name a page many times over: keys that do not ascend, or more text than the file has
+// bytes, would otherwise be read without end.
 std::vector<KnownFinding> Ledger::all() const {
-  Statement s(db_->handle, fmt::format("SELECT {} FROM finding ORDER BY key", columns));
   std::vector<KnownFinding> r;
-  while (s.step()) r.push_back(row(s));
+  if (is_empty_) return r;
+  Statement s(db_->handle, fmt::format("SELECT {} FROM finding ORDER BY key", columns));
+  const auto pages = pragma(db_->handle, "page_count"), size = pragma(db_->handle, "page_size");
+  const auto most = static_cast<std::uint64_t>(pages) * static_cast<std::uint64_t>(size);
+  std::uint64_t bytes = 0;
+  while (s.step()) {
+    KnownFinding f = row(s, db_->file);
+    bytes += bytes_of(f);
+    if ((!r.empty() && r.back().key >= f.key) || bytes > most)
+      throw InputError(db_->file, "ledger: is damaged, the same pages are in it more than once");
+    r.push_back(std::move(f));
+  }
   if (!s.ok()) db_->fail();
   return r;
 }
@@ -151,7 +258,7 @@ void Ledger::put(const KnownFinding& f) {
               fmt::format("INSERT OR REPLACE INTO finding({}) VALUES(?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?)",
                           columns));
   for (const auto field : texts_before) s.bind(f.*field);
-  s.bind(f.count), s.bind(f.size.bodies), s.bind(f.size.steps), s.bind(f.size.bits);
+  for (const std::uint64_t n : {f.count, f.size.bodies, f.size.steps, f.size.bits}) s.bind(n);
   for (const auto field : texts_after) s.bind(f.*field);
   s.step();
   if (!s.ok()) db_->fail();

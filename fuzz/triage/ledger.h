@@ -30,11 +30,14 @@ struct KnownFinding {
 
 /// One transaction from construction to commit(): a run that is killed half-way changes nothing. Others wait
 /// for it. All functions throw InputError naming the file: no ledger, of a later version, locked for a
-/// minute, disk full.
+/// minute, disk full. The file may be a stranger's: views, triggers and functions in it are not run, a schema
+/// other than the one above is refused, and so is a row whose key is not that of its fields or names no
+/// directory.
 class Ledger {
  public:
-  /// Makes the file when there is none.
-  explicit Ledger(const std::filesystem::path& file);
+  enum class For { reading, writing };
+  /// For writing, it makes the file when there is none.
+  explicit Ledger(const std::filesystem::path& file, For purpose = For::writing);
   ~Ledger();
   Ledger(const Ledger&) = delete;
   Ledger& operator=(const Ledger&) = delete;
@@ -50,6 +53,7 @@ class Ledger {
  private:
   struct Database;
   std::unique_ptr<Database> db_;
+  bool is_empty_ = false;  // a file without the table, which is there to be read only
 };
 
 }  // namespace touchstone::fuzz

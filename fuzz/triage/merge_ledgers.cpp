@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <tuple>
 
-#include "core/base/input_error.h"
+#include "core/scene/input_file.h"
 
 namespace touchstone::fuzz {
 namespace {
@@ -29,13 +29,12 @@ KnownFinding merged(const KnownFinding& x, const KnownFinding& y) {
 }
 
 std::size_t merge_ledgers(const std::filesystem::path& out, std::span<const std::filesystem::path> in) {
-  for (const auto& file : in)
-    if (!std::filesystem::exists(file)) throw InputError(file.string(), "no such ledger");
+  for (const auto& file : in) require_regular_file(file);
   Ledger sum(out);
   for (const auto& file : in) {
     std::error_code ec;
     if (std::filesystem::equivalent(file, out, ec)) continue;
-    for (const KnownFinding& f : Ledger(file).all()) {
+    for (const KnownFinding& f : Ledger(file, Ledger::For::reading).all()) {
       const auto known = sum.find(f.key);
       sum.put(known ? merged(*known, f) : f);
     }

@@ -10,6 +10,7 @@
 #include "core/base/input_error.h"
 #include "core/scene/codec.h"
 #include "core/scene/json_file.h"
+#include "fuzz/record/stored.h"
 #include "scenarios/case_codec.h"
 
 namespace touchstone::fuzz {
@@ -19,18 +20,11 @@ std::string text_of(const Case& c) { return case_to_json(c).dump(); }
 
 StoredFinding load_finding(const std::filesystem::path& directory) {
   const auto file = directory / "finding.json";
-  try {
-    const Json j = load_json(file);
-    StoredFinding s;
-    s.finding = finding_from_json(j);
-    s.c = load_case(directory / "case.json");
-    return s;
-  } catch (const Json::exception& e) {
-    throw InputError(file.string(), std::string("is not a finding: ") + e.what());
-  } catch (const InputError& e) {
-    // What is wrong with the result itself names its own place, but not the file.
-    throw e.place() == "stored result" ? InputError(file.string(), e.reason()) : e;
-  }
+  const Json j = load_json(file);
+  StoredFinding s;
+  s.finding = finding_from_json(JsonReader(j, file.string()));
+  s.c = load_case(directory / "case.json");
+  return s;
 }
 
 // A finding that cannot be shrunk is kept as it was found.
@@ -92,13 +86,9 @@ Triaged asked_again(KnownFinding f, const TriageConfig& config) try {
 
 }  // namespace
 
-Case case_of(const KnownFinding& f) {
-  try {
-    return case_from_json(Json::parse(f.smallest), "ledger, " + f.key);
-  } catch (const Json::exception& e) {
-    throw InputError("ledger, " + f.key, std::string("its case is not JSON: ") + e.what());
-  }
-}
+Json case_json_of(const KnownFinding& f) { return parse_json(f.smallest, "ledger, " + f.key); }
+
+Case case_of(const KnownFinding& f) { return case_from_json(case_json_of(f), "ledger, " + f.key); }
 
 std::string_view to_string(Standing s) {
   switch (s) {

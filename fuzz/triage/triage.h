@@ -42,6 +42,7 @@ std::vector<StoredFinding> load_findings(const std::filesystem::path& campaign_d
 
 /// The smallest case of a finding in the ledger. Throws InputError when it is damaged.
 Case case_of(const KnownFinding& f);
+Json case_json_of(const KnownFinding& f);
 
 /// One answer proves nothing: an engine may depend on load, or on what its memory held. A finding is gone
 /// when its case does not show it this often in a row.

@@ -1,5 +1,6 @@
 // Certificates read back from what to_json wrote; those of motions both ways.
 #include <algorithm>
+#include <limits>
 #include <nlohmann/json.hpp>
 #include <string_view>
 
@@ -24,9 +25,43 @@ Certificate::Kind kind_named(const std::string& s) {
   throw InputError("kind", "is not a kind of certificate (" + s + ")");
 }
 
-Vec3 vector_of(const nlohmann::ordered_json& j) {
-  if (!j.is_array() || j.size() != 3) throw InputError("", "a vector of a certificate has three numbers");
+using Json = nlohmann::ordered_json;
+
+// The library would take a member's value for an item, and null and words for none.
+const Json& array_of(const Json& j, const char* name) {
+  const Json& array = j.at(name);
+  if (!array.is_array()) throw InputError(name, "is no array");
+  return array;
+}
+
+double number_of(const Json& j, const char* name) {
+  if (!j.is_number()) throw InputError(name, "is no number");
+  return j.get<double>();
+}
+
+Vec3 vector_of(const Json& j) {
+  if (!j.is_array() || j.size() != 3 || !j[0].is_number() || !j[1].is_number() || !j[2].is_number())
+    throw InputError("", "a vector of a certificate has three numbers");
   return {j[0].get<double>(), j[1].get<double>(), j[2].get<double>()};
+}
+
+// The library rounds and wraps what is no index.
+template <class Index, std::size_t N>
+std::array<Index, N> indices_of(const Json& j, const char* name) {
+  std::array<Index, N> r{};
+  if (!j.is_array() || j.size() != N) throw InputError(name, "has another number of indices");
+  for (std::size_t i = 0; i < N; ++i) {
+    const bool fits = j[i].is_number_unsigned() &&
+                      j[i].get<std::uint64_t>() <= std::uint64_t{std::numeric_limits<int>::max()};
+    if (!fits) throw InputError(name, "holds what is no index");
+    r[i] = j[i].get<Index>();
+  }
+  return r;
+}
+
+std::array<std::string, 3> words_of(const Json& j, const char* name) {
+  if (!j.is_array() || j.size() != 3) throw InputError(name, "has three rational numbers");
+  return {j[0].get<std::string>(), j[1].get<std::string>(), j[2].get<std::string>()};
 }
 
 // Without the library's name and number.
@@ -76,7 +111,7 @@ Certificate certificate_from_json(const nlohmann::ordered_json& j) {
     using K = Certificate::Kind;
     const bool plane = c.kind == K::separating_plane, point = c.kind == K::common_point;
     if ((plane || point) && j.contains("rationals")) {
-      require_readable_size(j.at("rationals"));
+      require_readable_size(array_of(j, "rationals"));
       c.rationals = j.at("rationals").get<std::vector<std::string>>();
       if (c.rationals.empty()) throw InputError("rationals", "is empty");
     } else if (point) {
@@ -86,11 +121,11 @@ Certificate certificate_from_json(const nlohmann::ordered_json& j) {
       c.direction = vector_of(j.at("direction"));
     const bool has_offset =
         (plane && c.rationals.empty()) || c.kind == K::depth_direction || c.kind == K::inner_polytope;
-    if (has_offset) c.offset = j.at("offset").get<double>();
+    if (has_offset) c.offset = number_of(j.at("offset"), "offset");
     if (c.kind == K::inner_polytope) {
-      for (const auto& p : j.at("support_pairs"))
+      for (const auto& p : array_of(j, "support_pairs"))
         c.support_pairs.push_back({vector_of(p.at(0)), vector_of(p.at(1))});
-      c.facets = j.at("facets").get<std::vector<std::array<int, 3>>>();
+      for (const auto& f : array_of(j, "facets")) c.facets.push_back(indices_of<int, 3>(f, "facets"));
     }
     return c;
   } catch (const nlohmann::json::exception& e) {
@@ -123,22 +158,23 @@ ImpactCertificate impact_certificate_from_json(const nlohmann::ordered_json& j) 
     if (j.at("kind") != "impact") throw InputError("kind", "is not \"impact\"");
     ImpactCertificate c;
     if (j.contains("planes")) {
-      c.clear_until = j.at("clear_until").get<double>();
-      for (const auto& keys : j.at("planes")) {
+      c.clear_until = number_of(j.at("clear_until"), "clear_until");
+      for (const auto& keys : array_of(j, "planes")) {
+        if (!keys.is_array()) throw InputError("planes", "is no array of arrays");
         auto& track = c.tracks.emplace_back();
         for (const auto& k : keys)
-          track.push_back({k.at("t").get<double>(), k.at("direction").get<std::array<std::string, 3>>(),
+          track.push_back({number_of(k.at("t"), "t"), words_of(k.at("direction"), "direction"),
                            k.at("offset").get<std::string>()});
       }
       if (c.tracks.empty()) throw InputError("planes", "is empty");
     }
     if (j.contains("contact"))
       c.contact = {j.at("contact").at("t").get<std::string>(),
-                   j.at("contact").at("point").get<std::array<std::string, 3>>()};
+                   words_of(j.at("contact").at("point"), "point")};
     if (j.contains("overlap")) {
       const auto& o = j.at("overlap");
-      const auto parts = o.at("parts").get<std::array<std::size_t, 2>>();
-      c.overlap = {o.at("t").get<double>(), parts[0], parts[1], certificate_from_json(o.at("depth"))};
+      const auto parts = indices_of<std::size_t, 2>(o.at("parts"), "parts");
+      c.overlap = {number_of(o.at("t"), "t"), parts[0], parts[1], certificate_from_json(o.at("depth"))};
     }
     return c;
   } catch (const nlohmann::json::exception& e) {

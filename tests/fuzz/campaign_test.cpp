@@ -14,6 +14,7 @@
 #include "fuzz/generate/family.h"
 #include "fuzz/judge/judge.h"
 #include "fuzz/judge/truth.h"
+#include "fuzz/record/stored.h"
 #include "oracles/core/core_engine.h"
 #include "scenarios/case_codec.h"
 #include "tests/mutants/lying_engine.h"
@@ -206,7 +207,7 @@ TEST_CASE("an engine that gives up is set aside from one case on, whatever the n
   for (const auto& [key, f] : a.findings) CHECK(f.fault != "not_asked");
   const auto b = fuzz::run_campaign(three, engines, {}, go);
   CHECK(fuzz::to_json(a, false).dump() == fuzz::to_json(b, false).dump());
-  const auto stored = fuzz::result_from_json(fuzz::to_json(a, true));
+  const auto stored = fuzz::result_from_json({fuzz::to_json(a, true), "result"});
   CHECK(stored.set_aside.at("tires").why == "set aside: tired");
   CHECK(fuzz::digest(stored) == fuzz::digest(a));
 }
@@ -273,7 +274,7 @@ TEST_CASE("what is left open has a bound, by question and kind of pair", "[campa
   CHECK(r.too_open("core").size() == 3);  // the question as a whole, too
   CHECK(r.too_open("fcl-libccd").empty());
 
-  const auto back = fuzz::result_from_json(fuzz::to_json(r, true));
+  const auto back = fuzz::result_from_json({fuzz::to_json(r, true), "result"});
   CHECK(back.too_open("core") == r.too_open("core"));
   CHECK(fuzz::digest(back) == fuzz::digest(r));
   fuzz::CampaignResult twice = r;
@@ -450,7 +451,7 @@ TEST_CASE("a case that shows several findings is stored once, and read back whol
   const std::string text = j.dump();
   CHECK(text.find("\"radius\"") != std::string::npos);
   CHECK(text.find("\"radius\"") == text.rfind("\"radius\""));
-  const fuzz::CampaignResult back = fuzz::result_from_json(j);
+  const fuzz::CampaignResult back = fuzz::result_from_json({j, "result"});
   for (const auto& [key, f] : back.findings) CHECK(f.evidence_json() == shared->json());
   CHECK(fuzz::to_json(back, true).dump() == text);
 }

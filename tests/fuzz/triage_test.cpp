@@ -63,6 +63,20 @@ struct Fake {
   }
 };
 
+KnownFinding row_of(const std::string& engine) {
+  const Finding f = finding(engine, "depth_off").finding;
+  KnownFinding known;
+  known.key = f.key();
+  known.engine = f.engine;
+  known.question = f.question;
+  known.fault = f.fault;
+  known.shapes = f.shapes;
+  known.blame = f.blame;
+  known.degeneracy = f.degeneracy;
+  known.magnitude = f.magnitude;
+  return known;
+}
+
 std::map<std::string, Standing> by_fault(const std::vector<Triaged>& all) {
   std::map<std::string, Standing> r;
   for (const auto& t : all) r[t.finding.engine + " " + t.finding.fault] = t.standing;
@@ -172,8 +186,7 @@ TEST_CASE("a finding that cannot be shrunk or asked leaves the others as they ar
 
 TEST_CASE("what is not committed is not in the ledger", "[triage]") {
   const Place place;
-  KnownFinding f;
-  f.key = "a.b";
+  const KnownFinding f = row_of("a");
   {
     Ledger ledger(place.ledger);
     ledger.put(f);
@@ -192,9 +205,7 @@ TEST_CASE("two runs that write at once both get through", "[triage]") {
   const auto write = [&](const std::string& prefix) {
     for (int i = 0; i < 20; ++i) {
       Ledger ledger(place.ledger);
-      KnownFinding f;
-      f.key = prefix + std::to_string(i);
-      ledger.put(f);
+      ledger.put(row_of(prefix + std::to_string(i)));
       ledger.commit();
     }
   };
