@@ -32,20 +32,24 @@ WorkerLimits limits_times(WorkerLimits limits, double times) {
   return limits;
 }
 
+BroadBoxes boxes_at(fuzz::Level level) {
+  return level == fuzz::Level::boxes ? BroadBoxes::exact : BroadBoxes::bodies;
+}
+
 }  // namespace
 
 fuzz::Subject broad_subject(const std::string& name, const WorkerLimits& limits, bool sweeps) {
   const auto phases = core_broad_phases();
   if (std::find(phases.begin(), phases.end(), name) != phases.end())
-    return {name,
-            "",
-            true,
-            [name](fuzz::Level level) {
-              return make_broad_engine(name,
-                                       level == fuzz::Level::boxes ? BroadBoxes::exact : BroadBoxes::bodies);
-            },
-            limits.query_cpu_seconds,
-            {}};
+    return {
+        name,
+        "",
+        true,
+        [name, limits](fuzz::Level level) { return make_core_broad_phase(name, boxes_at(level), limits); },
+        limits.query_cpu_seconds,
+        [name, limits](fuzz::Level level, double times) {
+          return make_core_broad_phase(name, boxes_at(level), limits_times(limits, times));
+        }};
   if (!is_foreign(name) && name != "all" && name.find(',') == std::string::npos && !is_catalogued(name)) {
     std::vector<std::string> known = catalogued_names();
     known.insert(known.begin(), phases.begin(), phases.end());

@@ -125,7 +125,7 @@ void write_scripts(const CertifyOptions& o, const BroadCertificate& c) {
 }
 
 int list_subjects() {
-  for (const auto name : core_broad_phases()) fmt::print("{:<34}core, in process\n", name);
+  for (const auto name : core_broad_phases()) fmt::print("{:<34}core\n", name);
   for (const EngineRow& row : broad_catalog())
     fmt::print("{:<34}{}{}\n", row.name, row.line, is_present(row) ? "" : " (absent: not built)");
   fmt::print("and every engine of `touchstone engines`, ./libmine.so, pipe:COMMAND\n");

@@ -13,10 +13,7 @@
 #include "fuzz/cli/npm_engines.h"
 #include "fuzz/cli/sweep_catalog.h"
 #include "fuzz/explore/sub_steps.h"
-#include "oracles/core/alternative_engine.h"
-#include "oracles/core/broad_engine.h"
-#include "oracles/core/core_engine.h"
-#include "oracles/core/kept_engine.h"
+#include "oracles/core/native.h"
 
 namespace touchstone::cli {
 namespace {
@@ -26,8 +23,8 @@ constexpr std::string_view fcl = "libtouchstone_fcl.so", f32 = "libtouchstone_bu
                            ode = "libtouchstone_ode.so";
 
 constexpr EngineRow rows[] = {
-    {"core", "", "our own core, in process"},
-    {"core-f32", "", "its narrow phase in float, in process"},
+    {"core", "", "our own core"},
+    {"core-f32", "", "its narrow phase in float"},
     {"core-kept", "", "our core with all that it may build and keep: hull graphs, pair memory, StepWorld"},
     {"fcl-libccd", fcl, "FCL as shipped, GST_LIBCCD"},
     {"fcl-libccd-tuned", fcl, "FCL, GST_LIBCCD, tolerances 1e-12 and 1e-7"},
@@ -227,6 +224,15 @@ void check_name(const std::string& name) {
                                  std::string(row->library)));
 }
 
+/// Null: the core has no engine of this native name. Made here it only says what it is.
+EnginePtr core_in_worker(const std::string& native, const WorkerLimits& limits) {
+  const auto here = make_native_core(native);
+  if (!here) return nullptr;
+  const auto library = plugin_directory() / "libtouchstone_core.so";
+  if (!std::filesystem::exists(library)) throw InputError(library.string(), "the core's library is missing");
+  return std::make_unique<RemoteEngine>(RemoteSpec{host_program(), library, native, limits, here->card()});
+}
+
 }  // namespace
 
 std::span<const EngineRow> engine_catalog() { return rows; }
@@ -298,14 +304,13 @@ std::vector<std::filesystem::path> engine_files(const std::string& name) {
   return {plugin_directory() / row->library};
 }
 
+EnginePtr make_core_broad_phase(const std::string& name, BroadBoxes boxes, const WorkerLimits& limits) {
+  return core_in_worker(native_name(name, boxes), limits);
+}
+
 EnginePtr make_engine(const std::string& name, const WorkerLimits& limits) {
   check_name(name);
-  if (name == "core") return std::make_unique<CoreEngine>();
-  if (name == "core-f32") return std::make_unique<CoreEngine>(Arithmetic::float32);
-  if (name == "core-kept") return make_kept_engine();
-  if (is_core_broad_phase(name)) return make_broad_engine(name, BroadBoxes::bodies);
-  for (const std::string_view other : core_alternatives())
-    if (name == other) return make_core_alternative(other);
+  if (EnginePtr core = core_in_worker(name, limits)) return core;
   if (const auto stepped = fuzz::sub_steps_name(name); stepped && !is_pipe(name))
     return fuzz::sub_stepped(make_engine(stepped->engine, limits), stepped->steps);
   const NpmRow* npm = find_npm_row(name);

@@ -1,5 +1,5 @@
-// The one place that names concrete engines: catalog name -> plug-in file. Our own core runs in process,
-// every other engine in a worker process behind the C ABI, like a user's plug-in.
+// The one place that names concrete engines: catalog name -> plug-in file. Every engine runs in a worker
+// process, our own core too; all others behind the C ABI, like a user's plug-in.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -10,12 +10,13 @@
 #include <vector>
 
 #include "oracles/api/remote_engine.h"
+#include "oracles/core/broad_engine.h"
 
 namespace touchstone::cli {
 
 struct EngineRow {
   std::string_view name;
-  std::string_view library;  // file in the plug-in directory; empty: in process
+  std::string_view library;  // file in the plug-in directory; empty: the core's
   std::string_view line;     // for people
 };
 std::span<const EngineRow> engine_catalog();
@@ -39,9 +40,11 @@ std::vector<std::string> catalogued_names();
 
 /// Throws InputError when the plug-in is missing or does not offer the engine.
 EnginePtr make_engine(const std::string& name, const WorkerLimits& limits);
+/// A broad phase of the core, with these boxes.
+EnginePtr make_core_broad_phase(const std::string& name, BroadBoxes boxes, const WorkerLimits& limits);
 
-/// The files that an engine is made of: its plug-in, or those that the command of a pipe names. Empty: in
-/// process.
+/// The files that an engine is made of: its plug-in, or those that the command of a pipe names. Empty: it is
+/// the core, a part of this program.
 std::vector<std::filesystem::path> engine_files(const std::string& name);
 
 /// The options of every command that asks engines: --case-seconds and --no-sandbox.

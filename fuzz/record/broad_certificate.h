@@ -104,7 +104,7 @@ struct Refutation {
 struct BroadCertificate {
   std::string subject;
   EngineCard card;
-  std::string plugin_hash;  // FNV-1a of the file, empty in process
+  std::string plugin_hash;  // FNV-1a of the file; empty: the core
   std::string program;      // "touchstone 0.1.0"
   std::string scope;        // "quick", "full"
   std::uint64_t seed = 1;

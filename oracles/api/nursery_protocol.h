@@ -3,12 +3,15 @@
 // socket, one reply a request.
 #pragma once
 
+#include <array>
 #include <cstdint>
 
 namespace touchstone::nursery {
 
 enum class Op : std::int32_t {
-  fork = 1,  // comes with three descriptors: questions, answers, standard error. Reply: pid, or -1
+  /// Comes with three descriptors: questions, answers, standard error. Reply: pid, or -1. Of a library of native
+  /// engines (oracles/host/native.h) it names the engine; `pid` is 1 if the worker may keep answers back.
+  fork = 1,
   poll = 2,  // has worker `pid` ended? Reply: 1 and its wait status, or 0
   wait = 3   // the same, after waiting for its end
 };
@@ -16,6 +19,7 @@ enum class Op : std::int32_t {
 struct Request {
   Op op;
   std::int32_t pid;
+  std::array<char, 56> engine{};  // ends with a zero
 };
 
 struct Reply {

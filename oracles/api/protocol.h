@@ -59,7 +59,7 @@ struct QuestionRef {
 struct QuestionMessage {
   std::uint64_t sequence = 0;
   std::uint32_t first_query = 0;
-  Scene scene;  // script made explicit; names and ids left out
+  Scene scene;  // names and ids left out
   std::vector<Query> queries;
   std::uint8_t fill = 0;
 };

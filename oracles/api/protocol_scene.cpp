@@ -124,9 +124,8 @@ void put_scene(Writer& w, const Scene& scene) {
   for (const Body& b : scene.bodies) put_body(w, b);
   w.count(scene.ignored.size());
   for (auto [a, b] : scene.ignored) w.put(a).put(b);
-  const std::vector<Step> script = effective_script(scene);
-  w.count(script.size());
-  for (const Step& s : script) {
+  w.count(scene.script.size());
+  for (const Step& s : scene.script) {
     w.put(static_cast<std::uint8_t>(s.op)).put(s.body).put(static_cast<std::uint8_t>(s.pose.has_value()));
     if (s.pose) put_pose(w, *s.pose);
   }

@@ -6,8 +6,8 @@
 
 namespace touchstone::protocol {
 
-/// The scene with its script made explicit, without names. get_scene(put_scene(s)) has the same numbers,
-/// faces and dimensions of hulls included, and the same effective script.
+/// The scene without names. get_scene(put_scene(s)) has the same numbers,
+/// faces and dimensions of hulls included, and the same script.
 void put_scene(Writer& w, const Scene& scene);
 Scene get_scene(Reader& r);
 

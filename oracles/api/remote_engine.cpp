@@ -6,6 +6,7 @@
 #include <cerrno>
 #include <chrono>
 #include <optional>
+#include <utility>
 
 #include "core/base/input_error.h"
 #include "core/base/printable.h"
@@ -46,6 +47,10 @@ Observation failure(Outcome outcome, const std::string& detail, std::string site
 class RemoteEngine::Impl {
  public:
   explicit Impl(RemoteSpec spec) : spec_(std::move(spec)), watchdog_(spec_.limits) {
+    if (spec_.native) {
+      card_ = *spec_.native;
+      return;
+    }
     start();
     const auto chosen = static_cast<std::size_t>(nursery_->hello.chosen);
     try {
@@ -65,6 +70,7 @@ class RemoteEngine::Impl {
         charge_failed_start();
     }
     leave_unasked();
+    if (lost_) results_[lost_->at.item].answers[lost_->at.query] = std::move(lost_->what);
     return std::move(results_);
   } catch (const Stopped&) {
     session_.reset();  // it is in the middle of something
@@ -74,7 +80,7 @@ class RemoteEngine::Impl {
   EngineCard card_;
   int restarts_ = 0;
   Patience patience_;
-  const std::string& sandbox() const { return nursery_->hello.sandbox; }
+  std::string sandbox() const { return nursery_ ? nursery_->hello.sandbox : ""; }
   int pid() const { return session_ ? session_->process->pid() : -1; }
 
  private:
@@ -88,15 +94,19 @@ class RemoteEngine::Impl {
     }
     at_ = {};
     skip_done();
+    if (std::exchange(one_by_one_, false)) session_.reset();
+    lost_.reset();
     // Memory that earlier batches left behind must not be charged to a query of this one.
-    if (session_ && usage_of(session_->process->pid()).resident_bytes > spec_.limits.resident_bytes / 2)
+    // (What ends a native engine's worker is asked again of a new one.)
+    if (session_ && !spec_.native &&
+        usage_of(session_->process->pid()).resident_bytes > spec_.limits.resident_bytes / 2)
       session_.reset();
     resume();
   }
 
   /// There is a worker, started anew if need be.
   bool is_ready() {
-    if (session_ && !session_->process->has_ended()) return true;
+    if (session_ && !has_ended()) return true;
     if (session_) replace_worker();
     for (int tries = 1;; ++tries) try {
         start();
@@ -107,13 +117,24 @@ class RemoteEngine::Impl {
       }
   }
 
+  /// To ask the nursery costs more than a native engine's answers; its worker has no children that would hold
+  /// the pipe open.
+  bool has_ended() {
+    if (!spec_.native) return session_->process->has_ended();
+    pollfd fd{session_->process->answers_fd(), POLLIN, 0};
+    return poll(&fd, 1, 0) > 0 && (fd.revents & POLLHUP);
+  }
+
   /// A new worker, and a new nursery too if there is none or it has died.
   void start() {
     if (!nursery_ || nursery_->process->has_ended()) {
       nursery_.reset();
-      nursery_.emplace(start_nursery(spec_.host, spec_.plugin, spec_.engine, spec_.limits));
+      nursery_ = spec_.native ? share_native_nursery(spec_.host, spec_.plugin, spec_.limits)
+                              : std::make_shared<const WorkerSession>(
+                                    start_nursery(spec_.host, spec_.plugin, spec_.engine, spec_.limits));
     }
-    session_.emplace(start_worker(*nursery_, spec_.plugin, spec_.limits));
+    const WorkerProcess::Native native{spec_.engine, !one_by_one_};
+    session_.emplace(start_worker(*nursery_, spec_.plugin, spec_.limits, spec_.native ? &native : nullptr));
     resume();
   }
 
@@ -144,7 +165,9 @@ class RemoteEngine::Impl {
       try {
         if (r == ReadResult::some && take_frames()) watchdog_.progress(*session_->process);
       } catch (const protocol::Malformed& e) {
-        return charge(Outcome::crashed, std::string("rubbish in place of an answer: ") + e.what());
+        const std::string why = std::string("rubbish in place of an answer: ") + e.what();
+        if (!asks_again(failure(Outcome::crashed, why))) charge(Outcome::crashed, why);
+        return;
       }
       if (r == ReadResult::closed) return charge_death();
       if (at_.item == cases_.size()) return;
@@ -160,7 +183,8 @@ class RemoteEngine::Impl {
   }
 
   Watchdog::Phase phase() const {
-    return at_.loaded ? Watchdog::Phase::answering : Watchdog::Phase::loading_scene;
+    // A native engine takes a scene as it is.
+    return at_.loaded || spec_.native ? Watchdog::Phase::answering : Watchdog::Phase::loading_scene;
   }
 
   /// After the end of the process: true when its last words have been read.
@@ -236,6 +260,7 @@ class RemoteEngine::Impl {
   }
 
   void charge_late(const Watchdog::Verdict& v) {
+    if (asks_again(failure(v.outcome, v.why))) return;
     if (v.outcome == Outcome::timed_out) patience_.note_time_out(v.blocked);
     charge(v.outcome, v.why);
   }
@@ -244,6 +269,7 @@ class RemoteEngine::Impl {
     // Its standard output may be closed while the process lives on.
     const bool by_itself = session_->process->ends_within(death_wait_seconds);
     const LastWords last = session_->process->end();
+    if (asks_again(failure(Outcome::crashed, last.detail, last.site))) return;
     if (by_itself)
       charge(Outcome::crashed, last.detail, last.site);
     else
@@ -264,6 +290,19 @@ class RemoteEngine::Impl {
     replace_worker();
   }
 
+  /// A native engine's worker keeps answers back: which question ended it shows when those that got no answer
+  /// are asked one by one. If it does not, the first of them is charged; an answer that was only late is none
+  /// that is lost.
+  bool asks_again(Observation what) {
+    lost_.reset();
+    if (!spec_.native || one_by_one_) return false;
+    what.detail += "; not when it was asked again";
+    if (what.outcome == Outcome::crashed) lost_ = Lost{at_, std::move(what)};
+    one_by_one_ = true;
+    replace_worker();
+    return true;
+  }
+
   void charge_failed_start() {
     results_[at_.item].answers[at_.query++] = failure(Outcome::crashed, failed_start_);
     skip_done();
@@ -278,7 +317,8 @@ class RemoteEngine::Impl {
 
   RemoteSpec spec_;
   Watchdog watchdog_;
-  std::optional<WorkerSession> nursery_, session_;  // a session ends before its nursery
+  std::shared_ptr<const WorkerSession> nursery_;
+  std::optional<WorkerSession> session_;  // ends before its nursery
   std::span<const Case> cases_;
   std::vector<CaseObservations> results_;
   Cursor at_;
@@ -288,6 +328,12 @@ class RemoteEngine::Impl {
   std::string outgoing_;
   std::size_t outgoing_begin_ = 0;
   std::string failed_start_;
+  struct Lost {
+    Cursor at;
+    Observation what;
+  };
+  std::optional<Lost> lost_;
+  bool one_by_one_ = false;  // until the end of this run()
 };
 
 RemoteEngine::RemoteEngine(RemoteSpec spec) : impl_(std::make_unique<Impl>(std::move(spec))) {}

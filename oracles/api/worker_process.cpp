@@ -82,7 +82,7 @@ struct Streams {
 };
 
 int spawn(const std::string& program, const std::vector<std::string>& arguments, const Streams& streams,
-          pid_t* pid) {
+          bool native, pid_t* pid) {
   posix_spawn_file_actions_t actions;
   posix_spawnattr_t attributes;
   posix_spawn_file_actions_init(&actions);
@@ -105,11 +105,11 @@ int spawn(const std::string& program, const std::vector<std::string>& arguments,
   // An engine that reads memory it never wrote (FCL's mesh-sphere distance and its default continuous query
   // do) would answer by what ran before it. glibc then hands out memory filled with zeros, so that the same
   // question gets the same answer (oracles/host/memory_fill.h); its thread caches would bypass the filling.
+  // The core is tested for that otherwise, and is timed as it runs in the users' programs.
   char perturb[] = "MALLOC_PERTURB_=255", no_cache[] = "GLIBC_TUNABLES=glibc.malloc.tcache_count=0";
   std::vector<char*> environment;
   for (char** e = environ; *e != nullptr; ++e) environment.push_back(*e);
-  environment.push_back(perturb);
-  environment.push_back(no_cache);
+  if (!native) environment.push_back(perturb), environment.push_back(no_cache);
   environment.push_back(nullptr);
   const int error = posix_spawn(pid, program.c_str(), &actions, &attributes, argv.data(), environment.data());
   posix_spawn_file_actions_destroy(&actions);
@@ -201,12 +201,13 @@ ScratchDirectory::~ScratchDirectory() {
 }
 
 WorkerProcess::WorkerProcess(const std::filesystem::path& host, const std::vector<std::string>& arguments,
-                             std::unique_ptr<ScratchDirectory> scratch)
-    : scratch_(std::move(scratch)) {
+                             std::unique_ptr<ScratchDirectory> scratch, bool native)
+    : native_(native), scratch_(std::move(scratch)) {
   TwoEnds questions = make_socket(), answers = make_pipe(), errors = make_pipe();
   const std::string program = host.string();
   const Streams streams{questions.theirs.get(), answers.theirs.get(), errors.theirs.get()};
-  const int error = SpawnThread::instance().run([&] { return spawn(program, arguments, streams, &pid_); });
+  const int error =
+      SpawnThread::instance().run([&] { return spawn(program, arguments, streams, native, &pid_); });
   if (error != 0)
     throw InputError(program, std::string("the worker program cannot be started: ") + std::strerror(error));
   questions_ = std::move(questions.ours), answers_ = std::move(answers.ours),
@@ -214,11 +215,14 @@ WorkerProcess::WorkerProcess(const std::filesystem::path& host, const std::vecto
   open_clock();
 }
 
-WorkerProcess::WorkerProcess(std::shared_ptr<WorkerProcess> nursery) : nursery_(std::move(nursery)) {
+WorkerProcess::WorkerProcess(std::shared_ptr<WorkerProcess> nursery, const Native* native)
+    : nursery_(std::move(nursery)) {
   TwoEnds questions = make_socket(), answers = make_pipe(), errors = make_pipe();
   fcntl(answers.ours.get(), F_SETPIPE_SZ, 1 << 18);  // fewer wake-ups; the default works too
   const std::array streams{questions.theirs.get(), answers.theirs.get(), errors.theirs.get()};
-  const auto reply = nursery_->request({nursery::Op::fork, 0}, &streams);
+  nursery::Request wanted{nursery::Op::fork, native && native->keeps_back};
+  if (native) native->engine.copy(wanted.engine.data(), wanted.engine.size() - 1);
+  const auto reply = nursery_->request(wanted, &streams);
   if (!reply || reply->value <= 0) throw InputError("", "the process that loaded the plug-in is gone");
   number_ = reply->value;
   pid_ = sender(questions.ours.get(), nursery_reply_ms);
@@ -239,6 +243,7 @@ void WorkerProcess::open_clock() {
 
 std::optional<nursery::Reply> WorkerProcess::request(nursery::Request what,
                                                      const std::array<int, nursery::descriptor_count>* with) {
+  const std::lock_guard lock(mutex_);
   iovec body{&what, sizeof what};
   msghdr message{};
   message.msg_iov = &body, message.msg_iovlen = 1;
@@ -320,7 +325,10 @@ void WorkerProcess::drain_errors() {
   }
 }
 
-bool WorkerProcess::has_ended() { return reap(/*wait=*/false); }
+bool WorkerProcess::has_ended() {
+  const std::lock_guard lock(mutex_);
+  return reap(/*wait=*/false);
+}
 
 bool WorkerProcess::ends_within(double seconds) {
   using Clock = std::chrono::steady_clock;
@@ -333,6 +341,7 @@ bool WorkerProcess::ends_within(double seconds) {
 }
 
 LastWords WorkerProcess::end() {
+  const std::lock_guard lock(mutex_);
   if (scratch_ && !reaped_) {
     end_supervised();
   } else if (!reaped_) {

@@ -15,6 +15,7 @@
 #include <ctime>
 #include <filesystem>
 #include <memory>
+#include <mutex>
 #include <optional>
 #include <string>
 #include <utility>
@@ -58,19 +59,26 @@ class ScratchDirectory {
 
 class WorkerProcess {
  public:
-  /// A nursery, within a sandbox when `scratch` is given. Throws InputError when the host program cannot be
-  /// started.
+  /// What of a worker is not as in any other: it runs a native engine (oracles/host/native.h).
+  struct Native {
+    std::string engine;
+    bool keeps_back = false;  // answers, for a moment
+  };
+
+  /// A nursery, within a sandbox when `scratch` is given, for native engines or others. Throws InputError
+  /// when the host program cannot be started.
   WorkerProcess(const std::filesystem::path& host, const std::vector<std::string>& arguments,
-                std::unique_ptr<ScratchDirectory> scratch);
+                std::unique_ptr<ScratchDirectory> scratch, bool native = false);
   /// A worker of that nursery. Throws InputError when the nursery is gone.
-  explicit WorkerProcess(std::shared_ptr<WorkerProcess> nursery);
+  explicit WorkerProcess(std::shared_ptr<WorkerProcess> nursery, const Native* native = nullptr);
   ~WorkerProcess();
   WorkerProcess(const WorkerProcess&) = delete;
   WorkerProcess& operator=(const WorkerProcess&) = delete;
 
   pid_t pid() const { return pid_; }
-  /// Of a worker: the process that forked it, which adopts what it leaves behind.
-  pid_t parent_pid() const { return nursery_ ? nursery_->inner_pid_ : -1; }
+  /// Of a worker: the process that forked it and no other, which adopts what it leaves behind; -1: there are
+  /// others.
+  pid_t parent_pid() const { return nursery_ && !nursery_->native_ ? nursery_->inner_pid_ : -1; }
   int questions_fd() const { return questions_.get(); }  // a socket, non-blocking
   int answers_fd() const { return answers_.get(); }      // non-blocking
   int errors_fd() const { return errors_.get(); }        // non-blocking
@@ -99,6 +107,9 @@ class WorkerProcess {
   bool is_stuck() const;
   void open_clock();
 
+  // A nursery for native engines is asked from several threads.
+  std::recursive_mutex mutex_;
+  bool native_ = false;
   std::shared_ptr<WorkerProcess> nursery_;
   std::unique_ptr<ScratchDirectory> scratch_;
   pid_t pid_ = -1;

@@ -4,6 +4,9 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <map>
+#include <mutex>
+#include <tuple>
 #include <vector>
 
 #include "core/base/input_error.h"
@@ -34,8 +37,8 @@ protocol::Hello await_hello(WorkerSession& s, const std::string& place, const Wo
       throw InputError(place, std::string("the worker's first words are no hello: ") + e.what());
     }
     if (r == ReadResult::closed)
-      throw InputError(place,
-                       "the worker died while loading it: " + (s.process->ends_within(2), s.process->end().detail));
+      throw InputError(
+          place, "the worker died while loading it: " + (s.process->ends_within(2), s.process->end().detail));
     if (const auto verdict = watchdog.check(*s.process, Watchdog::Phase::starting))
       throw InputError(place, "the worker was ended: " + verdict->why);
     if (r == ReadResult::nothing_yet) wait_for_output(*s.process);
@@ -58,8 +61,10 @@ ReadResult read_available(int fd, protocol::FrameReader& frames) {
   }
 }
 
+namespace {
+
 WorkerSession start_nursery(const std::filesystem::path& host, const std::filesystem::path& plugin,
-                            const std::string& argument, const WorkerLimits& limits) {
+                            const std::string& argument, const WorkerLimits& limits, bool native) {
   const std::string place = plugin.string();
   const bool is_command = place.starts_with("pipe:");
   std::error_code error;
@@ -75,16 +80,39 @@ WorkerSession start_nursery(const std::filesystem::path& host, const std::filesy
     arguments.push_back(std::to_string(limits.resident_bytes));
   }
   WorkerSession s;
-  s.process = std::make_shared<WorkerProcess>(host, arguments, std::move(scratch));
+  s.process = std::make_shared<WorkerProcess>(host, arguments, std::move(scratch), native);
   s.hello = await_hello(s, place, limits);
   if (!s.hello.error.empty()) throw InputError(place, s.hello.error);
   return s;
 }
 
+}  // namespace
+
+WorkerSession start_nursery(const std::filesystem::path& host, const std::filesystem::path& plugin,
+                            const std::string& argument, const WorkerLimits& limits) {
+  return start_nursery(host, plugin, argument, limits, /*native=*/false);
+}
+
+std::shared_ptr<const WorkerSession> share_native_nursery(const std::filesystem::path& host,
+                                                          const std::filesystem::path& library,
+                                                          const WorkerLimits& limits) {
+  using Key =
+      std::tuple<pid_t, std::string, std::string, bool, std::uint64_t>;  // all that it is started with
+  static std::mutex guard;
+  static std::map<Key, std::weak_ptr<const WorkerSession>> nurseries;
+  const std::lock_guard lock(guard);
+  auto& kept = nurseries[{getpid(), host.string(), library.string(), limits.sandbox, limits.resident_bytes}];
+  auto nursery = kept.lock();
+  if (!nursery || nursery->process->has_ended())
+    kept = nursery =
+        std::make_shared<const WorkerSession>(start_nursery(host, library, "", limits, /*native=*/true));
+  return nursery;
+}
+
 WorkerSession start_worker(const WorkerSession& nursery, const std::filesystem::path& plugin,
-                           const WorkerLimits& limits) {
+                           const WorkerLimits& limits, const WorkerProcess::Native* native) {
   WorkerSession s;
-  s.process = std::make_shared<WorkerProcess>(nursery.process);
+  s.process = std::make_shared<WorkerProcess>(nursery.process, native);
   s.hello = await_hello(s, plugin.string(), limits);
   if (!s.hello.error.empty()) throw InputError(plugin.string(), s.hello.error);
   return s;

@@ -23,9 +23,15 @@ struct WorkerSession {
 WorkerSession start_nursery(const std::filesystem::path& host, const std::filesystem::path& plugin,
                             const std::string& argument, const WorkerLimits& limits);
 
+/// The nursery for a library of native engines (oracles/host/native.h), of which this process has one at a
+/// time: with the last that uses it, it ends. Throws InputError as above.
+std::shared_ptr<const WorkerSession> share_native_nursery(const std::filesystem::path& host,
+                                                          const std::filesystem::path& library,
+                                                          const WorkerLimits& limits);
+
 /// A worker of the nursery. Throws InputError as above.
 WorkerSession start_worker(const WorkerSession& nursery, const std::filesystem::path& plugin,
-                           const WorkerLimits& limits);
+                           const WorkerLimits& limits, const WorkerProcess::Native* native = nullptr);
 
 enum class ReadResult { some, nothing_yet, closed };
 /// Reads what is there, up to a bound, into `frames`.

@@ -3,7 +3,7 @@
 #include "core/ccd/alternatives.h"
 #include "core/narrow/narrow_phase.h"
 #include "core/tolerance.h"
-#include "oracles/core/answer_cases.h"
+#include "oracles/core/timed_answer.h"
 
 namespace touchstone {
 namespace {
@@ -46,7 +46,7 @@ void ask_extended(const Scene& s, const Query& q, Observation& o) {
   }
 }
 
-class AlternativeEngine final : public Engine {
+class AlternativeEngine final : public NativeEngine {
  public:
   explicit AlternativeEngine(const Row& row) : row_(row) {
     card_.name = row.name, card_.library = "Touchstone core", card_.version = "0.1.0";
@@ -55,10 +55,9 @@ class AlternativeEngine final : public Engine {
     card_.source = "core/tolerance.h: arithmetic alone, no margin";
   }
   const EngineCard& card() const override { return card_; }
-  std::vector<CaseObservations> run(std::span<const Case> cases) override {
-    return answer_cases(cases, [&](const Scene& s, const Query& q) {
-      return measured_answer(measure_ns(), [&](Observation& o) { ask(s, q, o); });
-    });
+  void answer(const Case& c, const Tell& tell) override {
+    for (const Query& q : c.queries)
+      tell(measured_answer(measure_ns(), [&](Observation& o) { ask(c.scene, q, o); }));
   }
 
  private:
@@ -78,7 +77,7 @@ class AlternativeEngine final : public Engine {
 
 std::span<const std::string_view> core_alternatives() { return names; }
 
-EnginePtr make_core_alternative(std::string_view name) {
+std::unique_ptr<NativeEngine> make_core_alternative(std::string_view name) {
   for (const Row& row : rows)
     if (row.name == name) return std::make_unique<AlternativeEngine>(row);
   throw std::logic_error("no alternative of the core is called " + std::string(name));

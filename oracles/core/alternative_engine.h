@@ -2,10 +2,11 @@
 // speculative contact instead of a time of impact.
 #pragma once
 
+#include <memory>
 #include <span>
 #include <string_view>
 
-#include "oracles/api/engine.h"
+#include "oracles/api/native_engine.h"
 
 namespace touchstone {
 
@@ -13,6 +14,6 @@ namespace touchstone {
 std::span<const std::string_view> core_alternatives();
 
 /// Precondition: a name of core_alternatives().
-EnginePtr make_core_alternative(std::string_view name);
+std::unique_ptr<NativeEngine> make_core_alternative(std::string_view name);
 
 }  // namespace touchstone

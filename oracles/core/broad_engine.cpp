@@ -7,7 +7,7 @@
 #include "core/broad/catalog.h"
 #include "core/tolerance.h"
 #include "core/world/world.h"
-#include "oracles/core/answer_cases.h"
+#include "oracles/core/timed_answer.h"
 
 namespace touchstone {
 namespace {
@@ -117,22 +117,20 @@ class Run {
   std::vector<broad::IdPair> found_;
 };
 
-class BroadEngine final : public Engine {
+class BroadEngine final : public NativeEngine {
  public:
   BroadEngine(const broad::CatalogRow& row, BroadBoxes boxes) : row_(row), boxes_(boxes) {
     card_.name = row.name;
     card_.library = "Touchstone core";
     card_.version = "0.1.0";
-    card_.settings = "broad phase alone, in process; refuses NaN and inverted boxes and leaves out the body";
+    card_.settings = "broad phase alone; refuses NaN and inverted boxes and leaves out the body";
     card_.unit_roundoff = 0x1p-53;
     card_.tau_factor = tolerance::core_tau_factor;
     card_.source = "core/broad/broad_phase.h: no pair of closed boxes is lost";
   }
   const EngineCard& card() const override { return card_; }
-  std::vector<CaseObservations> run(std::span<const Case> cases) override {
-    return answer_cases(cases, [&](const Scene& s, const Query& q) {
-      return timed_answer([&](Observation& o) { ask(s, q, o); });
-    });
+  void answer(const Case& c, const Tell& tell) override {
+    for (const Query& q : c.queries) tell(timed_answer([&](Observation& o) { ask(c.scene, q, o); }));
   }
 
  private:
@@ -167,7 +165,7 @@ std::span<const std::string_view> core_broad_phases() {
   return names;
 }
 
-EnginePtr make_broad_engine(std::string_view name, BroadBoxes boxes) {
+std::unique_ptr<NativeEngine> make_broad_engine(std::string_view name, BroadBoxes boxes) {
   for (const broad::CatalogRow& row : broad::catalog)
     if (row.name == name) return std::make_unique<BroadEngine>(row, boxes);
   return nullptr;

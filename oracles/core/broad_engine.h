@@ -1,10 +1,11 @@
-// One broad phase of the core as an engine that answers `candidates` and `swept_candidates`, in process.
+// One broad phase of the core as an engine that answers `candidates` and `swept_candidates`.
 #pragma once
 
+#include <memory>
 #include <span>
 #include <string_view>
 
-#include "oracles/api/engine.h"
+#include "oracles/api/native_engine.h"
 
 namespace touchstone {
 
@@ -19,6 +20,6 @@ std::span<const std::string_view> core_broad_phases();
 
 /// Null when there is no such broad phase. Boxes that the broad phase refuses (NaN, inverted) are left out;
 /// the answer's detail says so.
-EnginePtr make_broad_engine(std::string_view name, BroadBoxes boxes);
+std::unique_ptr<NativeEngine> make_broad_engine(std::string_view name, BroadBoxes boxes);
 
 }  // namespace touchstone

@@ -8,7 +8,7 @@
 #include "core/narrow/narrow_phase.h"
 #include "core/tolerance.h"
 #include "core/world/world.h"
-#include "oracles/core/answer_cases.h"
+#include "oracles/core/timed_answer.h"
 
 namespace touchstone {
 namespace {
@@ -154,11 +154,14 @@ CoreEngine::CoreEngine(Arithmetic arithmetic) : arithmetic_(arithmetic) {
   card_.complete_manifolds = !narrow_only;
 }
 
-std::vector<CaseObservations> CoreEngine::run(std::span<const Case> cases) {
-  auto all = answer_cases(cases, [&](const Scene& s, const Query& q) { return observe(s, q, arithmetic_); });
-  if (arithmetic_ == Arithmetic::float32)
-    for (std::size_t i = 0; i < cases.size(); ++i) round_to_float(cases[i].scene, all[i].received);
-  return all;
+ReceivedScene CoreEngine::received(const Scene& scene) const {
+  ReceivedScene r = NativeEngine::received(scene);
+  if (arithmetic_ == Arithmetic::float32) round_to_float(scene, r);
+  return r;
+}
+
+void CoreEngine::answer(const Case& c, const Tell& tell) {
+  for (const Query& q : c.queries) tell(observe(c.scene, q, arithmetic_));
 }
 
 EnginePtr make_core_engine() { return std::make_unique<CoreEngine>(); }

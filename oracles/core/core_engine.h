@@ -1,17 +1,18 @@
-// The project's own core behind the engine interface, in process: `core`, and `core-f32`, its narrow phase in
-// float from end to end.
+// The project's own core behind the engine interface: `core`, and `core-f32`, its narrow phase in float from
+// end to end. Made here it runs in process, for tests; the program has it run in a worker.
 #pragma once
 
 #include "core/narrow/narrow_phase.h"
-#include "oracles/api/engine.h"
+#include "oracles/api/native_engine.h"
 
 namespace touchstone {
 
-class CoreEngine final : public Engine {
+class CoreEngine final : public NativeEngine {
  public:
   explicit CoreEngine(Arithmetic arithmetic = Arithmetic::float64);
   const EngineCard& card() const override { return card_; }
-  std::vector<CaseObservations> run(std::span<const Case> cases) override;
+  ReceivedScene received(const Scene& scene) const override;
+  void answer(const Case& c, const Tell& tell) override;
 
  private:
   Arithmetic arithmetic_;

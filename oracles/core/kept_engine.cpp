@@ -8,7 +8,7 @@
 #include "core/narrow/narrow_phase.h"
 #include "core/tolerance.h"
 #include "core/world/step_world.h"
-#include "oracles/core/answer_cases.h"
+#include "oracles/core/timed_answer.h"
 
 namespace touchstone {
 namespace {
@@ -148,7 +148,7 @@ void ask(const Scene& s, Kept& kept, const Query& q, Observation& o) {
   }
 }
 
-class KeptEngine final : public Engine {
+class KeptEngine final : public NativeEngine {
  public:
   KeptEngine() {
     card_.name = "core-kept", card_.library = "Touchstone core", card_.version = "0.1.0";
@@ -161,19 +161,13 @@ class KeptEngine final : public Engine {
     card_.source = "core/tolerance.h: arithmetic alone, no margin";
   }
   const EngineCard& card() const override { return card_; }
-  std::vector<CaseObservations> run(std::span<const Case> cases) override {
-    std::vector<CaseObservations> all;
-    for (const Case& c : cases) {
-      std::optional<Kept> kept;
-      const auto answer = [&](const Scene& s, const Query& q) {
-        return timed_answer([&](Observation& o) {
-          if (!kept) kept.emplace(s);
-          ask(s, *kept, q, o);
-        });
-      };
-      all.push_back(std::move(answer_cases({&c, 1}, answer).front()));
-    }
-    return all;
+  void answer(const Case& c, const Tell& tell) override {
+    std::optional<Kept> kept;
+    for (const Query& q : c.queries)
+      tell(timed_answer([&](Observation& o) {
+        if (!kept) kept.emplace(c.scene);
+        ask(c.scene, *kept, q, o);
+      }));
   }
 
  private:
@@ -182,6 +176,6 @@ class KeptEngine final : public Engine {
 
 }  // namespace
 
-EnginePtr make_kept_engine() { return std::make_unique<KeptEngine>(); }
+std::unique_ptr<NativeEngine> make_kept_engine() { return std::make_unique<KeptEngine>(); }
 
 }  // namespace touchstone

@@ -5,10 +5,12 @@
 // case.
 #pragma once
 
-#include "oracles/api/engine.h"
+#include <memory>
+
+#include "oracles/api/native_engine.h"
 
 namespace touchstone {
 
-EnginePtr make_kept_engine();
+std::unique_ptr<NativeEngine> make_kept_engine();
 
 }  // namespace touchstone

@@ -12,10 +12,13 @@
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
+#include <memory>
 #include <string>
 
+#include "oracles/api/native_engine.h"
 #include "oracles/api/protocol.h"
 #include "oracles/host/crash_report.h"
+#include "oracles/host/native.h"
 #include "oracles/host/nursery.h"
 #include "oracles/host/pipe.h"
 #include "oracles/host/plugin.h"
@@ -54,11 +57,14 @@ Streams protect_streams() {
 struct Loaded {
   protocol::Hello hello;
   const ts_plugin* plugin = nullptr;
+  MakeNativeEngine* native = nullptr;  // in place of a plug-in
 };
 
 Loaded load(const std::string& file, const std::string& engine) {
   Loaded l;
   try {
+    // Which engine is up to each worker.
+    if ((l.native = host::load_native(file))) return l;
     l.plugin = &host::load_plugin(file);
     l.hello.cards = host::cards_of(*l.plugin);
     if (engine != "--cards") l.hello.chosen = host::choose_engine(l.hello.cards, engine);
@@ -74,10 +80,22 @@ void say(int fd, const protocol::Hello& hello) {
   host::write_all(fd, out.data(), out.size());
 }
 
+/// The life of a worker of a library of native engines.
+void work_natively(protocol::Hello hello, MakeNativeEngine& make, const host::WorkerStreams& streams) {
+  const std::unique_ptr<NativeEngine> engine(make(streams.engine.c_str()));
+  if (engine)
+    hello.cards = {to_json_text(engine->card())}, hello.chosen = 0;
+  else
+    hello.error = "offers no engine '" + streams.engine + "'";
+  say(streams.answers, hello);
+  if (engine) host::serve_native(*engine, streams);
+}
+
 /// The life of a forked worker.
 void work(const Loaded& l, host::WorkerStreams streams) {
   host::report_crashes();
   protocol::Hello hello = l.hello;
+  if (l.native) return work_natively(hello, *l.native, streams);
   ts_engine* engine = nullptr;
   try {
     engine = l.plugin->create(static_cast<std::uint32_t>(hello.chosen));
@@ -122,8 +140,9 @@ int main(int argc, char** argv) {
   l.hello.sandbox = sandbox.words;
   say(streams.answers, l.hello);
   close(streams.answers);
-  if (l.hello.chosen < 0) _exit(l.hello.error.empty() ? 0 : 2);
+  if (l.hello.chosen < 0 && !l.native) _exit(l.hello.error.empty() ? 0 : 2);
   host::prepare_crash_reports();
-  const host::Nursery nursery{streams.requests, sandbox.apart, a.wish.scratch, a.wish.is_command};
+  const host::Nursery nursery{streams.requests, sandbox.apart, a.wish.scratch, a.wish.is_command,
+                              l.native != nullptr};
   host::run_nursery(nursery, [&](host::WorkerStreams worker) { work(l, worker); });
 }

@@ -43,7 +43,7 @@ bool receive(int fd, nursery::Request& request, Descriptors& descriptors) {
 std::string directory_of_worker(const Nursery& n) { return n.scratch + "/worker"; }
 
 void go_to_own_directory(const Nursery& n) {
-  if (n.scratch.empty()) return;
+  if (n.scratch.empty() || n.is_shared) return;
   const std::string own = directory_of_worker(n);
   if (mkdir(own.c_str(), 0700) != 0 || (!n.stays_where_it_is && chdir(own.c_str()) != 0))
     std::perror(("touchstone-host: " + own).c_str());
@@ -51,13 +51,14 @@ void go_to_own_directory(const Nursery& n) {
 }
 
 void clean_up_after_worker(const Nursery& n) {
-  if (n.scratch.empty()) return;
+  if (n.scratch.empty() || n.is_shared) return;
   end_others(n.apart);
   std::error_code ignored;  // the next worker's mkdir tells
   std::filesystem::remove_all(directory_of_worker(n), ignored);
 }
 
 [[noreturn]] void become_worker(const Nursery& n, const Descriptors& d, pid_t parent,
+                                const nursery::Request& request,
                                 const std::function<void(WorkerStreams)>& work) {
   prctl(PR_SET_PDEATHSIG, SIGKILL);
   if (getppid() != parent) _exit(0);  // it died before the line above
@@ -65,7 +66,8 @@ void clean_up_after_worker(const Nursery& n) {
   say_who(d[0]);
   if (dup2(d[2], 2) < 0 || dup2(2, 1) < 0) _exit(3);
   close(d[2]);
-  const WorkerStreams streams{out_of_the_way(d[0]), out_of_the_way(d[1])};
+  const WorkerStreams streams{out_of_the_way(d[0]), out_of_the_way(d[1]), request.pid != 0,
+                              request.engine.data()};
   if (streams.questions < 0 || streams.answers < 0) _exit(3);
   close(d[0]);
   close(d[1]);
@@ -82,7 +84,7 @@ nursery::Reply answer(const Nursery& n, const nursery::Request& request, const D
     const pid_t pid = d[0] < 0 ? -1 : fork();
     if (pid == 0) {
       close(n.control_fd);
-      become_worker(n, d, parent, work);
+      become_worker(n, d, parent, request, work);
     }
     if (pid > 0) setpgid(pid, pid);  // whoever of the two is first
     for (int fd : d)

@@ -10,6 +10,8 @@ namespace touchstone::host {
 
 struct WorkerStreams {
   int questions, answers;
+  bool keeps_back = false;  // it may write several answers at once (native.h)
+  std::string engine{};     // of a library of native engines
 };
 
 struct Nursery {
@@ -17,6 +19,7 @@ struct Nursery {
   Apart apart;
   std::string scratch;             // each worker gets a directory in it, gone with the worker; empty: none
   bool stays_where_it_is = false;  // the workers' working directory is the user's own
+  bool is_shared = false;          // several workers at a time; what they run writes and starts nothing
 };
 
 /// The same open file as a descriptor that no loop over small numbers and no printf reaches.

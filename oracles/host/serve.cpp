@@ -27,6 +27,12 @@ Observation failure(Outcome outcome, const std::string& detail) {
   return o;
 }
 
+int query_steps(const Scene& scene, const Query& q) {
+  if (q.question == Question::swept_candidates || scene.script.empty()) return 1;
+  return static_cast<int>(std::count_if(scene.script.begin(), scene.script.end(),
+                                        [](const Step& s) { return s.op == Step::Op::query; }));
+}
+
 struct LoadResult {
   ReceivedScene received;
   std::optional<Observation> refusal;  // the answer to every query of a scene that the engine did not take
@@ -88,11 +94,7 @@ class Server {
     const int bodies = static_cast<int>(scene.bodies.size());
     if (is_pair_question(q.question) && (q.a < 0 || q.b < 0 || q.a >= bodies || q.b >= bodies || q.a == q.b))
       return failure(Outcome::invalid_input, "the query names no pair of bodies of the scene");
-    const auto steps = q.question == Question::swept_candidates
-                           ? 1
-                           : std::count_if(scene.script.begin(), scene.script.end(),
-                                           [](const Step& s) { return s.op == Step::Op::query; });
-    AnswerCollector answer(bodies, static_cast<int>(steps));
+    AnswerCollector answer(bodies, query_steps(scene, q));
     const ts_sink sink = answer.callbacks();
     Observation o;
     fill_free_stack(fill_);

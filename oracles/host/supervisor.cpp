@@ -5,6 +5,7 @@
 #include <signal.h>
 #include <sys/prctl.h>
 #include <sys/resource.h>
+#include <sys/syscall.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -42,9 +43,16 @@ Apart leave_namespaces() {
   return {true, true, map_ids(user, group)};
 }
 
+/// Older kernels lack the call.
+void close_all(unsigned first, unsigned last) {
+  if (syscall(SYS_close_range, first, last, 0U) == 0) return;
+  for (unsigned fd = first; fd <= last && fd < 1024; ++fd) close(static_cast<int>(fd));
+}
+
+/// All when `kept` is negative.
 void close_all_but(int kept) {
-  for (int fd = 0; fd < 1024; ++fd)
-    if (fd != kept) close(fd);
+  if (kept > 0) close_all(0, static_cast<unsigned>(kept) - 1);
+  close_all(static_cast<unsigned>(kept + 1), ~0U);
 }
 
 /// The first process of a PID namespace; with its end the kernel ends all others. It lives as long as someone

@@ -1,13 +1,11 @@
-// What the engines in this process share: queries are asked one by one, and what one throws is its answer.
+// What the core's engines share: an answer is timed, and what it throws is the answer.
 #pragma once
 
 #include <chrono>
-#include <span>
-#include <vector>
 
 #include "core/base/input_error.h"
-#include "oracles/api/engine.h"
 #include "oracles/api/measure.h"
+#include "oracles/api/native_engine.h"
 
 namespace touchstone {
 
@@ -38,20 +36,6 @@ Observation measured_answer(std::int64_t measure, Ask&& ask) {
     ask(again);
   });
   return o;
-}
-
-/// `answer(scene, query)` for every query; all is received as it was sent.
-template <class Answer>
-std::vector<CaseObservations> answer_cases(std::span<const Case> cases, Answer&& answer) {
-  std::vector<CaseObservations> all;
-  all.reserve(cases.size());
-  for (const Case& c : cases) {
-    CaseObservations& r = all.emplace_back();
-    r.received.bodies.resize(c.scene.bodies.size());
-    r.received.shapes.resize(c.scene.shapes.size());
-    for (const Query& q : c.queries) r.answers.push_back(answer(c.scene, q));
-  }
-  return all;
 }
 
 }  // namespace touchstone

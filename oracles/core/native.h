@@ -1,0 +1,19 @@
+// All engines of the core by name, for the library that a worker loads.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <string_view>
+
+#include "oracles/api/native_engine.h"
+#include "oracles/core/broad_engine.h"
+
+namespace touchstone {
+
+/// core, core-f32, core-kept, an alternative, or a broad phase. Null: there is none of that name.
+std::unique_ptr<NativeEngine> make_native_core(std::string_view name);
+
+/// The name by which a worker is asked for a broad phase with these boxes.
+std::string native_name(std::string_view broad_phase, BroadBoxes boxes);
+
+}  // namespace touchstone
