@@ -25,18 +25,18 @@ std::string hash_of(const std::vector<std::filesystem::path>& files) {
   return fmt::format("{:016x}", h.value());
 }
 
+BroadBoxes boxes_at(fuzz::Level level) {
+  return level == fuzz::Level::boxes ? BroadBoxes::exact : BroadBoxes::bodies;
+}
+
+}  // namespace
+
 WorkerLimits limits_times(WorkerLimits limits, double times) {
   limits.query_cpu_seconds *= times;
   limits.load_cpu_seconds *= times;
   limits.wall_seconds *= times;
   return limits;
 }
-
-BroadBoxes boxes_at(fuzz::Level level) {
-  return level == fuzz::Level::boxes ? BroadBoxes::exact : BroadBoxes::bodies;
-}
-
-}  // namespace
 
 fuzz::Subject broad_subject(const std::string& name, const WorkerLimits& limits, bool sweeps) {
   const auto phases = core_broad_phases();

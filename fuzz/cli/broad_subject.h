@@ -7,8 +7,11 @@
 
 namespace touchstone::cli {
 
-/// Throws InputError, place and reason, when there is no such subject. `sweeps`: the user says that its
-/// candidates are those of the whole step; the core's are.
+/// With that many times the time for each question.
+WorkerLimits limits_times(WorkerLimits limits, double times);
+
+/// Throws InputError, place and reason, when there is no such subject. `sweeps`: the user says that it
+/// answers swept_candidates too; the core does.
 fuzz::Subject broad_subject(const std::string& name, const WorkerLimits& limits, bool sweeps);
 
 }  // namespace touchstone::cli

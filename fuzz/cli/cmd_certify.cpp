@@ -4,8 +4,11 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cstdlib>
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <sstream>
+#include <stdexcept>
 #include <thread>
 
 #include "core/base/input_error.h"
@@ -35,7 +38,7 @@ struct CertifyOptions {
   std::vector<std::string> without;
   std::uint64_t seed = 1, limit = 0;
   int jobs = 1;
-  bool sweeps = false, first_fault = false, json = false, list = false;
+  bool sweeps = false, first_fault = false, json = false, list = false, memcheck = false;
   WorkerLimits limits{.patience = 1};
 };
 
@@ -147,9 +150,35 @@ bool write_certificate_page(const CertifyOptions& o, const BroadCertificate& c) 
   return write_page("certificate", page.dump(), o.page, o.out);
 }
 
-int certify_subject(const CertifyOptions& o) {
+// Where the shell would find it; empty: nowhere.
+std::string program_on_path(const std::string& name) {
+  const char* path = std::getenv("PATH");
+  std::stringstream directories(path ? path : "");
+  for (std::string directory; std::getline(directories, directory, ':');)
+    if (const std::string file = directory + "/" + name;
+        !directory.empty() && access(file.c_str(), X_OK) == 0)
+      return file;
+  return "";
+}
+
+// Under Valgrind everything takes longer, so that fewer cases are asked and each has more time.
+void use_memcheck(CertifyOptions& o) {
+  constexpr std::uint64_t cases_of_an_evidence = 60;
+  constexpr double slower = 60;
+  o.limits.memcheck = program_on_path("valgrind");
+  if (o.limits.memcheck.empty())
+    throw std::runtime_error("--memcheck needs Valgrind (Debian: apt-get install valgrind)");
+  if (o.limit == 0) o.limit = cases_of_an_evidence;
+  o.limits = limits_times(o.limits, slower);
+  o.limits.start_cpu_seconds *= slower;
+  o.limits.start_wall_seconds *= slower;
+  fmt::print(stderr, "under Valgrind, without a sandbox: {} cases of each evidence at most\n", o.limit);
+}
+
+int certify_subject(CertifyOptions o) {
   if (o.subject.empty()) throw InputError("certify", "say what to certify: --subject NAME, or --check CERT");
   for (const std::string& file : {o.out, o.page, o.script}) require_writable(file);
+  if (o.memcheck) use_memcheck(o);
   const auto c = make(broad_subject(o.subject, o.limits, o.sweeps), config_of(o));
   if (!c) {
     fmt::print(stderr, "interrupted: no certificate\n");
@@ -261,6 +290,9 @@ Run declare_certify(CLI::App& app) {
                "ask the subject for swept_candidates too: pairs that meet while the bodies move");
   app.add_flag("--first-fault", o->first_fault,
                "end a level with its first fault instead of listing every one; the certificate says so");
+  app.add_flag(
+      "--memcheck", o->memcheck,
+      "run the subject under Valgrind: reading or writing freed memory, or beyond a block, is a crash");
   app.add_flag("--list", o->list, "the subjects there are by name");
   add_case_seconds(app, o->limits);
   app.add_flag("--json", o->json, "the certificate as one JSON document on stdout");

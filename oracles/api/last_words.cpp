@@ -82,6 +82,30 @@ Said said(const std::vector<std::string_view>& lines) {
   return {assertion_first(line, place), place.label()};
 }
 
+/// The first error of Valgrind's memcheck, with the innermost function and what the address is: lines that
+/// begin with "==PID==". Addresses are left out: they change from run to run.
+Said memory_error(const std::vector<std::string_view>& lines) {
+  constexpr std::string_view at = "   at 0x", address = " Address 0x";
+  Said s;
+  bool has_function = false;
+  for (std::string_view l : lines) {
+    const auto end = l.starts_with("==") ? l.find_first_not_of("0123456789", 2) : std::string_view::npos;
+    if (end == std::string_view::npos || !l.substr(end).starts_with("== ")) continue;
+    l.remove_prefix(end + 3);
+    if (s.text.empty()) {
+      if (l.starts_with("Invalid ") || l.starts_with("Mismatched ")) s.text = l;
+    } else if (const auto colon = l.find(": "); !has_function && l.starts_with(at) && colon != l.npos) {
+      s.text += " in " + std::string(l.substr(colon + 2));
+      s.site = place_in(l.substr(colon + 2)).label();
+      has_function = true;
+    } else if (const auto is = l.find(" is "); l.starts_with(address) && is != l.npos) {
+      s.text += ";" + std::string(l.substr(is + 3));
+      break;
+    }
+  }
+  return s;
+}
+
 // ---- where it was
 
 struct Frame {
@@ -170,7 +194,8 @@ LastWords last_words(std::string_view how, std::string_view standard_error, bool
   std::erase_if(lines, [](std::string_view l) { return l.starts_with(frames_prefix); });
   LastWords out{std::string(how), ""};
   if (speaks) {
-    Said s = said(lines);
+    Said s = memory_error(lines);
+    if (s.text.empty()) s = said(lines);
     cut(s.text, longest_line);
     if (!s.text.empty()) out.detail += ": " + s.text;
     out.site = s.site;

@@ -4,6 +4,7 @@
 #include <atomic>
 #include <cstdint>
 #include <exception>
+#include <string>
 
 namespace touchstone {
 
@@ -22,6 +23,9 @@ struct WorkerLimits {
   double start_wall_seconds = 60;
   std::uint64_t resident_bytes = std::uint64_t{2} << 30;  // of the worker and all that it started
   bool sandbox = true;
+  /// This program (Valgrind) runs the worker, which ends at its first access to memory that is not its own.
+  /// It is some thirty times slower, and has no sandbox.
+  std::string memcheck = {};
   /// Set by whoever wants all engines to stop: they then throw Stopped, whatever they wait for.
   const std::atomic<bool>* stop = nullptr;
 };

@@ -15,6 +15,7 @@
 #include <cstring>
 #include <functional>
 #include <mutex>
+#include <sstream>
 #include <system_error>
 #include <thread>
 #include <vector>
@@ -340,6 +341,19 @@ bool WorkerProcess::ends_within(double seconds) {
   return true;
 }
 
+// Valgrind keeps to the standard error that it was started with: its words about a worker come out of the
+// nursery's.
+std::string WorkerProcess::said_by_memcheck_of(pid_t worker) {
+  const std::lock_guard lock(mutex_);
+  if (errors_.get() >= 0) drain_errors();
+  const std::string mark = "==" + std::to_string(worker) + "==";
+  std::istringstream all(error_tail_);
+  std::string of_worker;
+  for (std::string line; std::getline(all, line);)
+    if (line.starts_with(mark)) of_worker += line + '\n';
+  return of_worker;
+}
+
 LastWords WorkerProcess::end() {
   const std::lock_guard lock(mutex_);
   if (scratch_ && !reaped_) {
@@ -353,6 +367,7 @@ LastWords WorkerProcess::end() {
     kill(-pid_, SIGKILL);  // children that it left behind; in a sandbox the nursery has ended them
   }
   if (errors_.get() >= 0) drain_errors();
+  if (nursery_) error_tail_ += nursery_->said_by_memcheck_of(pid_);
   const bool by_signal = WIFSIGNALED(status_);
   const std::string how =
       by_signal ? signal_name(WTERMSIG(status_)) : "exit code " + std::to_string(WEXITSTATUS(status_));

@@ -105,6 +105,7 @@ class WorkerProcess {
   bool reap_child(bool wait);
   void end_supervised();
   bool is_stuck() const;
+  std::string said_by_memcheck_of(pid_t worker);
   void open_clock();
 
   // A nursery for native engines is asked from several threads.

@@ -63,6 +63,8 @@ ReadResult read_available(int fd, protocol::FrameReader& frames) {
 
 namespace {
 
+constexpr int memcheck_exit = 99;
+
 WorkerSession start_nursery(const std::filesystem::path& host, const std::filesystem::path& plugin,
                             const std::string& argument, const WorkerLimits& limits, bool native) {
   const std::string place = plugin.string();
@@ -72,15 +74,25 @@ WorkerSession start_nursery(const std::filesystem::path& host, const std::filesy
     throw InputError(place, "there is no such plug-in file");
   // An absolute path, or the dynamic linker would search for a name without a slash elsewhere.
   std::vector<std::string> arguments{is_command ? place : std::filesystem::absolute(plugin).string()};
-  if (!argument.empty() || limits.sandbox) arguments.push_back(argument);
+  const bool sandbox = limits.sandbox && limits.memcheck.empty();
+  if (!argument.empty() || sandbox) arguments.push_back(argument);
   std::unique_ptr<ScratchDirectory> scratch;
-  if (limits.sandbox) {
+  if (sandbox) {
     scratch = std::make_unique<ScratchDirectory>();
     arguments.push_back(scratch->path());
     arguments.push_back(std::to_string(limits.resident_bytes));
   }
+  if (!limits.memcheck.empty()) {
+    // Values that nobody wrote are found otherwise (Engine::run_again), and loaders are full of them.
+    const auto before = {std::string("--quiet"), std::string("--undef-value-errors=no"),
+                         std::string("--exit-on-first-error=yes"),
+                         "--error-exitcode=" + std::to_string(memcheck_exit), host.string()};
+    arguments.insert(arguments.begin(), before.begin(), before.end());
+  }
   WorkerSession s;
-  s.process = std::make_shared<WorkerProcess>(host, arguments, std::move(scratch), native);
+  s.process =
+      std::make_shared<WorkerProcess>(limits.memcheck.empty() ? host : std::filesystem::path(limits.memcheck),
+                                      arguments, std::move(scratch), native);
   s.hello = await_hello(s, place, limits);
   if (!s.hello.error.empty()) throw InputError(place, s.hello.error);
   return s;
@@ -96,12 +108,13 @@ WorkerSession start_nursery(const std::filesystem::path& host, const std::filesy
 std::shared_ptr<const WorkerSession> share_native_nursery(const std::filesystem::path& host,
                                                           const std::filesystem::path& library,
                                                           const WorkerLimits& limits) {
-  using Key =
-      std::tuple<pid_t, std::string, std::string, bool, std::uint64_t>;  // all that it is started with
+  using Key = std::tuple<pid_t, std::string, std::string, bool, std::uint64_t,
+                         std::string>;  // all that it is started with
   static std::mutex guard;
   static std::map<Key, std::weak_ptr<const WorkerSession>> nurseries;
   const std::lock_guard lock(guard);
-  auto& kept = nurseries[{getpid(), host.string(), library.string(), limits.sandbox, limits.resident_bytes}];
+  auto& kept = nurseries[{getpid(), host.string(), library.string(), limits.sandbox, limits.resident_bytes,
+                          limits.memcheck}];
   auto nursery = kept.lock();
   if (!nursery || nursery->process->has_ended())
     kept = nursery =

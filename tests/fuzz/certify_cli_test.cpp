@@ -48,6 +48,24 @@ std::vector<std::string> blocks(const std::string& text, const std::string& lang
 
 }  // namespace
 
+TEST_CASE("a broad phase that loses no pair is refuted by --memcheck for what it reads when it is freed",
+          "[certify][cli]") {
+  const Workspace w("memcheck");
+  const std::string command =
+      "certify --subject " TS_BINARY_DIR "/lib/libts_reads_freed.so --level boxes --jobs 1 --limit 8";
+  CHECK(w.touchstone(command).code == 0);
+  const Run r = w.touchstone(command + " --memcheck");
+  if (r.err.find("apt-get install valgrind") != std::string::npos) {
+    CHECK(r.code == 3);
+    WARN("skipped: Valgrind is not installed");
+    return;
+  }
+  INFO(r.out << r.err);
+  CHECK(r.code == 1);
+  CHECK(r.out.find("Invalid read of size 1 in ") != std::string::npos);
+  CHECK(r.out.find("inside a block of size") != std::string::npos);
+}
+
 TEST_CASE("certify refuses bad input with 2, the place and the reason, and writes nothing",
           "[certify][cli]") {
   const Workspace w("certify");

@@ -227,7 +227,7 @@ TEST_CASE("report says what is not a campaign", "[pages][cli]") {
   w.write("summary.json", "{}");
   const auto r = w.touchstone("report .");
   CHECK(r.code == 2);
-  CHECK(r.err.find("stored result") != std::string::npos);
+  CHECK(r.err.find("summary.json") != std::string::npos);
   w.write("summary.json", "no JSON");
   CHECK(w.touchstone("report .").code == 2);
 }

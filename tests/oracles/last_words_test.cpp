@@ -66,6 +66,22 @@ TEST_CASE("other forms of last words", "[oracles][last-words]") {
   CHECK(last_words("SIGABRT", "touchstone-frames: | + |\n", true).detail.size() < 100);
 }
 
+TEST_CASE("what Valgrind says of memory is said without addresses", "[oracles][last-words]") {
+  const LastWords w = last_words("exit code 99",
+                                 "noise\n==12== Invalid read of size 8\n"
+                                 "==12==    at 0x48C: fcl::update(int) (tree.hpp:77)\n"
+                                 "==12==    by 0x10A: main (a.cpp:3)\n"
+                                 "==12==  Address 0x4dd0040 is 16 bytes inside a block of size 40 free'd\n"
+                                 "==12==    at 0x484: free (vg_replace_malloc.c:872)\n==12== \n"
+                                 "==12== Exit program on first error (--exit-on-first-error=yes)\n",
+                                 true);
+  CHECK(w.detail ==
+        "exit code 99: Invalid read of size 8 in fcl::update(int) (tree.hpp:77); 16 bytes inside a block of "
+        "size 40 free'd");
+  CHECK(w.site == "tree.hpp:77");
+  CHECK(last_words("exit code 3", "==x== Invalid read\nover\n", true).detail == "exit code 3: over");
+}
+
 TEST_CASE("a site's word fits into a key and stays apart from others", "[oracles][last-words]") {
   const std::string longer(100, 'a');
   CHECK(site_word("Foo.H:3") == "foo-h-3");
