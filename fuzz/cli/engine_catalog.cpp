@@ -228,8 +228,11 @@ void check_name(const std::string& name) {
 EnginePtr core_in_worker(const std::string& native, const WorkerLimits& limits) {
   const auto here = make_native_core(native);
   if (!here) return nullptr;
-  const auto library = plugin_directory() / "libtouchstone_core.so";
-  if (!std::filesystem::exists(library)) throw InputError(library.string(), "the core's library is missing");
+  const std::filesystem::path library = plugin_directory() / "libtouchstone_core.so";
+  // Started with the first question, when what is missing would be taken for the core's failure.
+  for (const std::filesystem::path& file : {host_program(), library})
+    if (std::error_code none; !std::filesystem::is_regular_file(file, none))
+      throw InputError(file.string(), "is missing: the engines of the core run in it");
   return std::make_unique<RemoteEngine>(RemoteSpec{host_program(), library, native, limits, here->card()});
 }
 

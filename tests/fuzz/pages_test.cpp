@@ -166,6 +166,10 @@ TEST_CASE("without built pages the data remains and one line says what is missin
   fs::create_directories(w.dir / "bin");
   fs::create_symlink(TS_BINARY_DIR "/lib", w.dir / "lib");
   fs::copy_file(TS_BINARY_DIR "/bin/touchstone", w.dir / "bin/touchstone");
+  const auto alone = w.run("bin/touchstone view spheres_kiss --engines core -o page.html");
+  CHECK(alone.code == 2);
+  CHECK(alone.err.find("touchstone-host: is missing") != std::string::npos);
+  fs::create_symlink(TS_BINARY_DIR "/bin/touchstone-host", w.dir / "bin/touchstone-host");
   const auto r = w.run("bin/touchstone view spheres_kiss --engines core -o page.html");
   CHECK(r.code == 3);
   CHECK(r.err.find("./touchstone pages --install") != std::string::npos);

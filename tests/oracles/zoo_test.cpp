@@ -184,7 +184,7 @@ const std::vector<Row> of_the_start{{"create_aborts", crashed, "died while loadi
                                     {"create_eats_memory", crashed, "memory limit"},
                                     {"creates_nothing", crashed, "created no engine"}};
 const std::vector<Row> of_the_loading{{"aborts", crashed, "died while loading it: SIGABRT"},
-                                      {"throws", crashed, "died while loading it"},
+                                      {"throws", crashed, "not today"},
                                       {"exits", crashed, "exit code 9"},
                                       {"loops", crashed, "CPU time while starting"},
                                       {"sleeps", crashed, "uses no CPU: wall time while starting"},
