@@ -9,6 +9,7 @@
 #include "core/base/exact_text.h"
 #include "core/base/input_error.h"
 #include "core/scene/json_file.h"
+#include "fuzz/record/stored.h"
 
 namespace touchstone::fuzz {
 namespace {
@@ -103,13 +104,6 @@ Json to_json(const Chart& c) {
 
 namespace {
 
-double real(const JsonReader& j) {
-  if (j.json().is_number()) return j.number();
-  const auto v = double_from_text(j.string());
-  if (!v) j.fail("is no number");
-  return *v;
-}
-
 using Places = std::map<std::string, std::size_t>;
 
 // Cells of one row by the names of their columns.
@@ -123,7 +117,7 @@ class RowReader {
     if (i >= strings_.size()) at.fail("is no place in the strings");
     v = strings_[i];
   }
-  void operator()(const char* name, double& v) const { v = real(cell(name)); }
+  void operator()(const char* name, double& v) const { v = number_from(cell(name)); }
   void operator()(const char* name, std::uint64_t& v) const { v = count_of(cell(name)); }
   void operator()(const char* name, bool& v) const { v = count_of(cell(name)) != 0; }
   bool has(const char* name) const { return places_.contains(name); }
@@ -165,7 +159,7 @@ Machine machine_from_json(const JsonReader& j) {
   Machine m;
   m.processor = j["processor"].string();
   m.cores = static_cast<unsigned>(std::max(0, j["cores"].integer()));
-  m.load = real(j["load"]);
+  m.load = number_from(j["load"]);
   m.system = j["system"].string();
   m.compiler = j["compiler"].string();
   m.date = j["date"].string();

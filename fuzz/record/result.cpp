@@ -192,6 +192,13 @@ std::uint64_t CampaignResult::not_asked_of(const std::string& engine) const {
   return n;
 }
 
+double number_from(const JsonReader& j) {
+  if (j.json().is_number()) return j.number();
+  const auto v = double_from_text(j.string());
+  if (!v) j.fail("is no number");
+  return *v;
+}
+
 namespace {
 
 Json to_json(const Tally& t, bool with_times) {
@@ -215,13 +222,6 @@ Json to_json(const Tally& t, bool with_times) {
     j["slow"] = t.slow;
   }
   return j;
-}
-
-double number_from(const JsonReader& j) {
-  if (j.json().is_number()) return j.number();
-  const auto v = double_from_text(j.string());
-  if (!v) j.fail("is no number");
-  return *v;
 }
 
 // Of fields that results of earlier versions do not have.

@@ -7,6 +7,9 @@
 
 namespace touchstone::fuzz {
 
+/// A number, or one that JSON has no word for as text ("inf", "nan"). Throws InputError.
+double number_from(const JsonReader& j);
+
 /// Whether a directory may be named by its key: no longer than a name may be, and of nothing but the name of
 /// an engine and words of small letters, digits, _ and -.
 bool has_plain_key(const Finding& f);

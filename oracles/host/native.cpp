@@ -57,7 +57,8 @@ class NativeServer {
   }
   static Observation thrown(const char* what) {
     Observation o;
-    o.outcome = Outcome::threw, o.detail = what;
+    o.outcome = Outcome::threw;
+    o.detail = what;
     return o;
   }
   template <class Message>
