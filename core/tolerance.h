@@ -1,4 +1,4 @@
-// Every number that the project chooses: unit, scale law, reason, and the test that bites when it is wrong. A
+// The core's own constants: unit, scale law, reason, and the test that bites when it is wrong. A
 // comparison divides by a stated scale; nothing here is an absolute length.
 #pragma once
 
@@ -6,24 +6,16 @@ namespace touchstone::tolerance {
 
 /// Relative forward error bound of a 3×3 determinant of differences in double, below which its sign is worked
 /// out exactly: about ten times the bound of Shewchuk 1997 (7.8e-16), so that the rounded differences are
-/// covered too. Bites: tests/values "orientation is exact where rounding would lie".
+/// covered too. Bites: tests/core "orientation is exact where rounding would lie".
 inline constexpr double orientation_filter = 0x1p-46;
-
-/// Cosine above which a direction counts as a half-space's own normal when a random pair is placed; a coarse
-/// choice of where to put a body, judged by nobody. Bites: tests/fuzz hit rate.
-inline constexpr double generate_parallel_cosine = 1 - 0x1p-30;
-
-/// Relative widening that covers the roundings of a speed bound (about ten). Bites: tests/fuzz judge, late
-/// impacts.
-inline constexpr double judge_speed_rounding = 0x1p-40;
 
 /// τ of our own core, in units of (unit roundoff 2⁻⁵³ · L): wrong beyond 128·2⁻⁵³·L = 64·ε·L (issue: 64·ε·L
 /// in double). About 30 roundings lie between a pose and a depth; the factor leaves a margin of 4. Bites:
 /// fuzz with the core as subject.
 inline constexpr double core_tau_factor = 128;
 
-// ---- core/narrow, core/ccd, core/broad. `size` is the reach of both bodies plus their separation, at most
-// about 6·L.
+// ---- core/narrow, core/impact, core/broad. `size` is the reach of both bodies plus their separation, at
+// most about 6·L.
 
 /// GJK and EPA stop when upper and lower bound of the distance or depth are this close, in units of size:
 /// 2⁻⁵² · size is 1/20 of τ. Bites: tests/core duality gap; tests/core/stress.
@@ -55,35 +47,6 @@ inline constexpr double impact_gap_factor = 0x1p-50;
 /// bound that it covers is derived in core/broad/body_box.cpp. Bites: tests/core "boxes contain the exact
 /// body".
 inline constexpr double box_error_factor = 0x1p-58;
-
-/// The referee refines a bracket of a curved pair until it is this narrow, in units of the pair's extent (>=
-/// L/4 or so); issue: 1e-14·L. Below 1e-17 extended precision has nothing left to give. Bites: tests/referee,
-/// width of brackets.
-inline constexpr double referee_width_factor = 4e-16;
-
-/// Facets that the referee's inner polytope of a polytope pair / of a curved pair may use up before it
-/// returns the wider bracket that it has (counts, no scale). Two 256-vertex hulls in general position need
-/// under 3000; a curved pair with one nearest point about 400. Bites: tests/referee, width of brackets.
-inline constexpr int referee_facet_cap = 40000;
-inline constexpr int referee_curved_facet_cap = 3000;
-/// The same when symmetry has already closed the bracket and only witness points are wanted (1e-4 of the
-/// size).
-inline constexpr int referee_witness_facet_cap = 160;
-
-/// Gap evaluations that one judge_motion may spend (a count). A thin wall with |ω| = 500 needs
-/// about 5000. Bites: tests/referee, motion.
-inline constexpr int referee_motion_evaluations = 20000;
-
-/// Support points in a certificate are doubles; the checker lets each be this · (its largest coordinate)
-/// outside the core and takes the same off the proven depth, so that the factor is never a matter of truth: 8
-/// roundings of a coordinate, where a rounded point is off by at most √3/2. Bites: tests/referee, checker.
-inline constexpr double checker_point_factor = 0x1p-50;
-
-/// How far from a rounded witness, in units of the pair's size, the referee looks for a common point with
-/// simple coordinates: from the rounding of a double to the square root of its bracket's width (a smooth
-/// contact's point is known no better). A guess is proven or dropped, so the factors cost time, never truth.
-/// Bites: tests/referee, touching on a lattice.
-inline constexpr double referee_guess_factors[] = {0x1p-50, 0x1p-44, 0x1p-36, 0x1p-28, 0x1p-22, 0x1p-16};
 
 // ---- core/broad: choices of speed alone; any value reports the same pairs
 // (tests/core/broad_catalog_test.cpp). Bites: tests/bench.

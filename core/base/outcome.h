@@ -21,9 +21,10 @@ enum class Outcome : std::uint8_t {
   not_asked        // the engine had been set aside: it timed out too often before
 };
 
-inline constexpr std::array<std::string_view, 9> outcome_names{
-    "answered", "unsupported", "not_converged",  "invalid_input", "threw",
-    "crashed",  "timed_out",   "invalid_answer", "not_asked"};
+inline constexpr auto outcome_names =
+    std::to_array<std::string_view>({"answered", "unsupported", "not_converged", "invalid_input", "threw",
+                                     "crashed", "timed_out", "invalid_answer", "not_asked"});
+static_assert(outcome_names.size() == static_cast<std::size_t>(Outcome::not_asked) + 1);
 
 constexpr std::string_view to_string(Outcome o) { return outcome_names[static_cast<std::size_t>(o)]; }
 
@@ -32,5 +33,10 @@ constexpr std::optional<Outcome> outcome_from_string(std::string_view s) {
     if (outcome_names[i] == s) return static_cast<Outcome>(i);
   return std::nullopt;
 }
+
+/// Nothing was said: not a failure, and nothing to judge.
+constexpr bool is_no_attempt(Outcome o) { return o == Outcome::unsupported || o == Outcome::not_asked; }
+/// It says more about the machine than about the engine.
+constexpr bool depends_on_time(Outcome o) { return o == Outcome::timed_out || o == Outcome::not_asked; }
 
 }  // namespace touchstone

@@ -21,7 +21,7 @@ struct CatalogRow {
   BroadPhasePtr make(const Options& options = {}) const { return make_with(options); }
 };
 
-inline constexpr std::array<CatalogRow, 8> catalog{{
+inline constexpr auto catalog = std::to_array<CatalogRow>({
     {"automatic", &make_automatic},
     {"brute_force", &make_brute_force},
     {"sort_and_sweep", &make_sort_and_sweep},
@@ -30,7 +30,7 @@ inline constexpr std::array<CatalogRow, 8> catalog{{
     {"hierarchical_grid", &make_hierarchical_grid},
     {"neighbour_list", &make_neighbour_list},
     {"bounding_volume_hierarchy", &make_bounding_volume_hierarchy},
-}};
+});
 
 /// Null when there is no such name.
 inline BroadPhasePtr make_broad_phase(std::string_view name, const Options& options = {}) {

@@ -5,8 +5,8 @@
 #include <tuple>
 
 #include "core/math/expansion.h"
-#include "core/narrow/fast/vertex_climb.h"
-#include "core/narrow/fast/vertex_scan.h"
+#include "core/narrow/filtered/vertex_climb.h"
+#include "core/narrow/filtered/vertex_scan.h"
 
 namespace touchstone {
 namespace {

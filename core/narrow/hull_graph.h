@@ -3,7 +3,7 @@
 // for collision detection of convex objects"; with the start from a table of directions instead of the last
 // support point, so that nothing is remembered and queries may run side by side). Built once a hull and given
 // to queries by PlacedShape::graph; a query without one looks at every vertex. Same answers: climbing finds
-// the very vertex that looking at all finds (core/narrow/fast/vertex_climb.h).
+// the very vertex that looking at all finds (core/narrow/filtered/vertex_climb.h).
 //
 // That rests on the surface being that of a convex polytope, exactly and not to qhull's rounding. It is
 // proven here (Mehlhorn, Näher, Seidel, Seel, Schirra, Uhrig 1999, "Checking geometric programs or

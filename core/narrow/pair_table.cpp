@@ -2,7 +2,7 @@
 
 #include <array>
 
-#include "core/narrow/fast/closed_forms.h"
+#include "core/narrow/filtered/closed_forms.h"
 #include "core/narrow/mesh.h"
 #include "core/narrow/pair/capsule_capsule.h"
 #include "core/narrow/pair/half_space.h"

@@ -3,7 +3,7 @@
 // other side.
 #pragma once
 
-#include "core/narrow/fast/separate.h"
+#include "core/narrow/filtered/separate.h"
 #include "core/narrow/result.h"
 #include "core/shape/shape.h"
 

@@ -19,7 +19,7 @@ namespace touchstone {
 
 using Shape = std::variant<Sphere, Box, Capsule, Cylinder, Cone, Ellipsoid, Hull, HalfSpace, TriangleMesh>;
 
-/// Index of a shape type in the variant; the numbers are part of the C ABI (oracles/api/touchstone_engine.h).
+/// Index of a shape type in the variant; the numbers are part of the C ABI (oracles/abi/touchstone_engine.h).
 enum class ShapeKind : int { sphere, box, capsule, cylinder, cone, ellipsoid, hull, half_space, mesh };
 inline constexpr int shape_kind_count = static_cast<int>(std::variant_size_v<Shape>);
 

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "core/broad/broad_phase.h"
-#include "core/ccd/impact.h"
+#include "core/impact/impact.h"
 #include "core/scene/scene.h"
 #include "core/world/fidelity.h"
 #include "core/world/seen.h"

@@ -11,7 +11,7 @@
 #include "core/base/input_error.h"
 #include "fuzz/judge/truth.h"
 #include "fuzz/shrink/reductions.h"
-#include "scenarios/case_codec.h"
+#include "scenarios/codec/case_codec.h"
 
 namespace touchstone::fuzz {
 namespace {

@@ -7,11 +7,12 @@
 #include <thread>
 
 #include "core/base/input_error.h"
-#include "core/base/rng.h"
+#include "core/math/rng.h"
 #include "fuzz/campaign/directory_lock.h"
 #include "fuzz/campaign/store.h"
-#include "fuzz/generate/family.h"
-#include "oracles/api/worker_limits.h"
+#include "oracles/abi/thread_time.h"
+#include "oracles/client/worker_limits.h"
+#include "scenarios/random/family.h"
 
 namespace touchstone::fuzz {
 namespace {

@@ -6,10 +6,10 @@
 #include <functional>
 
 #include "core/base/input_error.h"
-#include "core/scene/json_file.h"
 #include "fuzz/campaign/directory_lock.h"
 #include "fuzz/campaign/store.h"
-#include "fuzz/record/stored.h"
+#include "reports/record/stored.h"
+#include "scenarios/codec/json_file.h"
 
 namespace touchstone::fuzz {
 namespace {

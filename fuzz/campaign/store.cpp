@@ -3,10 +3,10 @@
 #include <system_error>
 
 #include "core/base/input_error.h"
-#include "core/scene/input_file.h"
-#include "core/scene/json_file.h"
-#include "fuzz/record/stored.h"
-#include "scenarios/case_codec.h"
+#include "reports/record/stored.h"
+#include "scenarios/codec/case_codec.h"
+#include "scenarios/codec/input_file.h"
+#include "scenarios/codec/json_file.h"
 
 namespace touchstone::fuzz {
 namespace {

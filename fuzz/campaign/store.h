@@ -8,8 +8,8 @@
 #include <filesystem>
 #include <optional>
 
+#include "fuzz/ask/novelty.h"
 #include "fuzz/campaign/campaign.h"
-#include "fuzz/campaign/novelty.h"
 
 namespace touchstone::fuzz {
 

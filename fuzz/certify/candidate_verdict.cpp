@@ -74,7 +74,7 @@ struct State {
 
 class Replay {
  public:
-  Replay(const Scene& s, Level level, bool invalid) : s_(s), level_(level), invalid_(invalid) {
+  Replay(const Scene& s, BroadLevel level, bool invalid) : s_(s), level_(level), invalid_(invalid) {
     const std::size_t n = s.bodies.size();
     now_.present.resize(n), now_.pose.resize(n), now_.box.resize(n), now_.asked.resize(n);
   }
@@ -83,7 +83,7 @@ class Replay {
     now_.present[b] = step.op != Step::Op::remove;
     if (step.op == Step::Op::remove) return;
     now_.pose[b] = step.pose.value_or(s_.bodies[b].pose);
-    if (level_ == Level::boxes) place(step.body);
+    if (level_ == BroadLevel::boxes) place(step.body);
   }
   const State& now() const { return now_; }
 
@@ -116,7 +116,7 @@ class Replay {
     if (closed) now_.box[b] = *box;
   }
   const Scene& s_;
-  Level level_;
+  BroadLevel level_;
   bool invalid_;
   State now_;
   std::vector<int> order_;
@@ -142,9 +142,9 @@ std::vector<Dues> true_pairs_of_bodies(const Scene& s, bool swept, std::uint64_t
 
 class Judge {
  public:
-  Judge(const Case& c, const Observation& answer, Level level, bool invalid)
+  Judge(const Case& c, const Observation& answer, BroadLevel level, bool invalid)
       : s_(c.scene),
-        swept_(!c.queries.empty() && c.queries[0].question == Question::swept_candidates),
+        swept_(asks_swept_candidates(c)),
         answer_(answer),
         level_(level),
         invalid_(invalid),
@@ -171,13 +171,13 @@ class Judge {
     const Outcome o = answer_.outcome;
     v_.refused =
         o == Outcome::unsupported || o == Outcome::invalid_input || (invalid_ && o == Outcome::threw);
-    v_.timed_out = o == Outcome::timed_out || o == Outcome::not_asked;
+    v_.timed_out = depends_on_time(o);
     v_.words = answer_.detail.empty() ? std::string(to_string(o)) : answer_.detail;
     if (!v_.refused && !v_.timed_out) wrong(to_string(o), FaultKind::numbers, v_.words, Place{});
   }
   void judge() {
     std::vector<Dues> truth;
-    if (level_ == Level::bodies) truth = true_pairs_of_bodies(s_, swept_, v_.undecided);
+    if (level_ == BroadLevel::bodies) truth = true_pairs_of_bodies(s_, swept_, v_.undecided);
     if (swept_) return judge_query(0, truth.at(0));
     std::size_t k = 0;
     for (const Step& step : s_.script) {
@@ -185,7 +185,7 @@ class Judge {
         replay_.apply(step);
         continue;
       }
-      judge_query(static_cast<int>(k), level_ == Level::bodies ? truth[k] : replay_.overlapping_boxes());
+      judge_query(static_cast<int>(k), level_ == BroadLevel::bodies ? truth[k] : replay_.overlapping_boxes());
       ++k;
     }
     if (answer_.candidate_pairs.size() > k)
@@ -250,7 +250,7 @@ class Judge {
   const Scene& s_;
   bool swept_;  // of all bodies, without a script
   const Observation& answer_;
-  Level level_;
+  BroadLevel level_;
   bool invalid_;
   Replay replay_;
   Hasher hash_;
@@ -263,7 +263,7 @@ bool CandidateVerdict::shows(const FaultClass& c) const {
   return std::any_of(faults.begin(), faults.end(), [&](const CandidateFault& f) { return f.what == c; });
 }
 
-CandidateVerdict judge_candidates(const Case& c, const Observation& answer, Level level, bool invalid) {
+CandidateVerdict judge_candidates(const Case& c, const Observation& answer, BroadLevel level, bool invalid) {
   return Judge(c, answer, level, invalid).run();
 }
 

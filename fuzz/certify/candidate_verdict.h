@@ -3,8 +3,8 @@
 
 #include <string>
 
-#include "fuzz/certify/evidence.h"
-#include "fuzz/judge/judgement.h"
+#include "scenarios/exhaustive/evidence.h"
+#include "scenarios/value/judgement.h"
 
 namespace touchstone::fuzz {
 
@@ -30,7 +30,7 @@ struct CandidateVerdict {
 /// Kinds are those of the pair: a fault of finite bodies is not blamed on an infinite or invalid box beside
 /// them (fault_cause.h does that). At the level of boxes every body must have an exact_box (InputError else);
 /// `invalid` admits those that have none or an empty one, of which nothing is asked.
-CandidateVerdict judge_candidates(const Case& c, const Observation& answer, Level level,
+CandidateVerdict judge_candidates(const Case& c, const Observation& answer, BroadLevel level,
                                   bool invalid = false);
 
 }  // namespace touchstone::fuzz

@@ -105,7 +105,7 @@ class PartRun {
 // The engines of one job live as long as the certificate is made.
 struct Job {
   std::array<EnginePtr, 2> engines;
-  Engine& engine(const Subject& s, Level level) {
+  Engine& engine(const Subject& s, BroadLevel level) {
     EnginePtr& e = engines[static_cast<std::size_t>(level)];
     if (!e) e = s.make(level);
     return *e;
@@ -124,7 +124,7 @@ class Certifier {
   std::optional<BroadCertificate> run() {
     check_names();
     out_.subject = subject_.name, out_.plugin_hash = subject_.plugin_hash, out_.program = config_.program;
-    out_.card = jobs_[0].engine(subject_, Level::boxes).card();
+    out_.card = jobs_[0].engine(subject_, BroadLevel::boxes).card();
     out_.scope = config_.scope == Scope::quick ? "quick" : "full";
     out_.seed = config_.seed, out_.limit = config_.limit, out_.levels = config_.levels;
     out_.sweeps = subject_.sweeps, out_.without = config_.without;
@@ -137,7 +137,7 @@ class Certifier {
       if (is_asked(e)) gather(e, index);
       ++index;
     }
-    for (const Level l : config_.levels) refute_level(l);
+    for (const BroadLevel l : config_.levels) refute_level(l);
     if (stop_) return std::nullopt;
     return std::move(out_);
   }
@@ -157,7 +157,7 @@ class Certifier {
            (!e.sweeps || subject_.sweeps) && !(config_.first_fault && has_fault(e.level));
   }
 
-  bool has_fault(Level level) const {
+  bool has_fault(BroadLevel level) const {
     return std::any_of(out_.faults.begin(), out_.faults.end(),
                        [&](const FaultCount& f) { return f.level == level; });
   }
@@ -198,7 +198,7 @@ class Certifier {
   }
 
   // Each class of fault once, from the first evidence whose case shows it again.
-  void refute_level(Level level) {
+  void refute_level(BroadLevel level) {
     std::vector<FaultClass> classes;
     for (const FaultCount& f : out_.faults)
       if (f.level == level && std::find(classes.begin(), classes.end(), f.what) == classes.end())
@@ -207,7 +207,7 @@ class Certifier {
     for (const FaultClass& c : classes)
       if (!stop_) out_.refutations.push_back(refute_class(level, c));
   }
-  Refutation refute_class(Level level, const FaultClass& what) {
+  Refutation refute_class(BroadLevel level, const FaultClass& what) {
     std::optional<Refutation> first;
     for (const FaultCount& f : out_.faults) {
       if (f.level != level || !(f.what == what)) continue;

@@ -8,7 +8,7 @@
 #include <atomic>
 #include <functional>
 
-#include "fuzz/certify/evidence.h"
+#include "scenarios/exhaustive/evidence.h"
 
 namespace touchstone::fuzz {
 
@@ -17,17 +17,17 @@ struct Subject {
   std::string plugin_hash;
   bool sweeps = false;  // answers `swept_candidates` too
   /// An engine that answers `candidates`; the same for both levels unless the subject takes boxes as such.
-  std::function<EnginePtr(Level)> make;
+  std::function<EnginePtr(BroadLevel)> make;
   double case_seconds = 1;  // CPU seconds that it may spend on one question
   /// The same with `times` of these seconds, to learn what a question needs. Null: it is not asked again.
-  std::function<EnginePtr(Level, double times)> make_patient = {};
+  std::function<EnginePtr(BroadLevel, double times)> make_patient = {};
 };
 
 struct CertifyConfig {
   Scope scope = Scope::quick;
   std::uint64_t seed = 1;
   std::uint64_t limit = 0;  // cases of an evidence at most; 0: as the scope says
-  std::vector<Level> levels{Level::boxes, Level::bodies};
+  std::vector<BroadLevel> levels{BroadLevel::boxes, BroadLevel::bodies};
   std::vector<std::string> without;  // names of evidence to leave out; throws InputError on an unknown one
   bool first_fault = false;          // a level ends with the first evidence that shows a fault
   int jobs = 1;

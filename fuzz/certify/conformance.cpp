@@ -6,7 +6,7 @@
 #include <cmath>
 #include <functional>
 
-#include "fuzz/certify/box_scene.h"
+#include "scenarios/exhaustive/box_scene.h"
 
 namespace touchstone::fuzz {
 namespace {

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "oracles/api/engine.h"
+#include "oracles/abi/engine.h"
 
 namespace touchstone::fuzz {
 

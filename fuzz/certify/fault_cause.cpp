@@ -43,7 +43,7 @@ std::optional<Case> without(Case c, Odd&& is_odd) {
 
 class Causes {
  public:
-  Causes(Engine& engine, Level level, bool invalid) : engine_(engine), level_(level), invalid_(invalid) {}
+  Causes(Engine& engine, BroadLevel level, bool invalid) : engine_(engine), level_(level), invalid_(invalid) {}
 
   // Faults that the subject does not show in `rest` get that kind.
   void blame(CandidateVerdict& v, const Case& rest, FaultKind kind) const {
@@ -58,7 +58,7 @@ class Causes {
 
  private:
   Engine& engine_;
-  Level level_;
+  BroadLevel level_;
   bool invalid_;
 };
 
@@ -74,7 +74,7 @@ void sort_and_unite(std::vector<CandidateFault>& faults) {
 
 }  // namespace
 
-CandidateVerdict judge_with_cause(Engine& engine, const Case& c, const Observation& o, Level level,
+CandidateVerdict judge_with_cause(Engine& engine, const Case& c, const Observation& o, BroadLevel level,
                                   bool invalid) {
   CandidateVerdict v = judge_candidates(c, o, level, invalid);
   if (std::none_of(v.faults.begin(), v.faults.end(), Causes::is_open)) return v;

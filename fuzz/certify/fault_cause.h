@@ -3,13 +3,13 @@
 #pragma once
 
 #include "fuzz/certify/candidate_verdict.h"
-#include "oracles/api/engine.h"
+#include "oracles/abi/engine.h"
 
 namespace touchstone::fuzz {
 
 /// judge_candidates of the answer `o` of `engine`, with the kinds `unbounded` and `invalid` where the fault
 /// is gone without such boxes.
-CandidateVerdict judge_with_cause(Engine& engine, const Case& c, const Observation& o, Level level,
+CandidateVerdict judge_with_cause(Engine& engine, const Case& c, const Observation& o, BroadLevel level,
                                   bool invalid);
 
 }  // namespace touchstone::fuzz

@@ -55,9 +55,9 @@ class Asker {
   bool is_fit(const Case& c) {
     if (c.queries.size() != 1 || !is_broad_question(c.queries[0].question)) return false;
     if (c.scene.bodies.empty()) return false;
-    if (c.queries[0].question == Question::swept_candidates) return level_ == Level::bodies;
+    if (asks_swept_candidates(c)) return level_ == BroadLevel::bodies;
     if (c.scene.script.empty()) return false;  // that would mean: insert all
-    if (level_ == Level::bodies) return true;
+    if (level_ == BroadLevel::bodies) return true;
     const Scalar scalar = engine().card().unit_roundoff > 0x1p-50 ? Scalar::float32 : Scalar::float64;
     for (const Step& step : c.scene.script) {
       if (step.op != Step::Op::insert && step.op != Step::Op::move) continue;
@@ -76,7 +76,7 @@ class Asker {
     return *engine_;
   }
   const Subject& s_;
-  Level level_;
+  BroadLevel level_;
   bool invalid_;
   FaultClass what_;
   bool anew_ = false;
@@ -140,7 +140,7 @@ std::string what_is_no_box(const Scene& s) {
 }  // namespace
 
 std::size_t bodies_used(const Case& c) {
-  if (c.queries[0].question == Question::swept_candidates) return c.scene.bodies.size();
+  if (asks_swept_candidates(c)) return c.scene.bodies.size();
   std::set<int> used;
   for (const Step& step : c.scene.script)
     if (step.op == Step::Op::insert) used.insert(step.body);

@@ -5,10 +5,11 @@
 #include <limits>
 #include <optional>
 
-#include "fuzz/judge/judgement.h"
 #include "fuzz/judge/tau.h"
 #include "fuzz/judge/truth.h"
-#include "oracles/api/engine.h"
+#include "scenarios/value/engine_card.h"
+#include "scenarios/value/judgement.h"
+#include "scenarios/value/observation.h"
 
 namespace touchstone::fuzz {
 
@@ -44,7 +45,7 @@ struct CheckOutput {
   }
   /// A fault whose error was measured with error().
   void fault(Fault f, double absolute, double l, const Query& q, std::string words,
-             referee::Certificate c = {}) {
+             Certificate c = {}) {
     faults.push_back(
         {f, absolute, l > 0 ? absolute / l : absolute, q.a, q.b, -1, std::move(words), std::move(c)});
   }

@@ -46,7 +46,8 @@ class Plausible {
   double limit_;
 };
 
-// Candidates may be asked about bodies that are none (core/scene/odd_numbers.h): to hold those is no fault.
+// Candidates may be asked about bodies that are none (scenarios/value/odd_numbers.h): to hold those is no
+// fault.
 bool is_body_held(const Plausible& plausible, const Scene& asked, const ReceivedScene& r, std::size_t body) {
   if (!asked.bodies[body].pose.translation.allFinite() || !is_a_set(asked.shape_of(static_cast<int>(body))))
     return true;

@@ -3,7 +3,7 @@
 // and what is wrong about it is blamed on the representation.
 #pragma once
 
-#include "oracles/api/observation.h"
+#include "scenarios/value/observation.h"
 
 namespace touchstone::fuzz {
 

@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <optional>
 
-#include "core/scene/odd_numbers.h"
 #include "fuzz/judge/check.h"
 #include "fuzz/judge/held.h"
+#include "scenarios/value/odd_numbers.h"
 
 namespace touchstone::fuzz {
 namespace {
@@ -83,7 +83,7 @@ bool is_refusal(const CheckInput& asked) {
 Judgement judge_one(const CheckInput& asked, std::optional<int> received_frame) {
   Judgement j;
   j.outcome = asked.answer.outcome;
-  if (j.outcome == Outcome::unsupported || j.outcome == Outcome::not_asked || is_refusal(asked)) return j;
+  if (is_no_attempt(j.outcome) || is_refusal(asked)) return j;
   if (j.outcome != Outcome::answered) {
     FaultReport f;
     f.a = asked.query.a, f.b = asked.query.b;
@@ -125,18 +125,6 @@ void CheckOutput::note_claim(const CheckInput& in, double l) {
   if (!(claim > fuzz::wide_claim * l) || claim / l <= wide_claim_in_l) return;
   wide_claim = claim, wide_claim_in_l = claim / l;
   if (claim >= l) not_judged("anything: the engine claims a tolerance as large as the bodies", false);
-}
-
-Ruling Judgement::ruling() const {
-  if (outcome == Outcome::unsupported) return Ruling::unsupported;
-  if (outcome != Outcome::answered) return faults.empty() ? Ruling::refused : Ruling::failed;
-  if (!faults.empty()) return Ruling::wrong;
-  if (undecided) return Ruling::undecided;
-  return unjudged.empty() ? Ruling::right : Ruling::not_judged;
-}
-
-bool Judgement::unjudged_by_definition() const {
-  return std::all_of(unjudged.begin(), unjudged.end(), [](const Unjudged& u) { return u.by_definition; });
 }
 
 std::vector<Judgement> judge(const Case& c, const EngineCard& card, const CaseObservations& observations,

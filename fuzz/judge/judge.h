@@ -5,9 +5,10 @@
 #include <span>
 #include <vector>
 
-#include "fuzz/judge/judgement.h"
 #include "fuzz/judge/truth.h"
-#include "oracles/api/engine.h"
+#include "scenarios/value/engine_card.h"
+#include "scenarios/value/judgement.h"
+#include "scenarios/value/observation.h"
 
 namespace touchstone::fuzz {
 

@@ -93,9 +93,7 @@ std::optional<RelationBreak> find_missing_answer(const Relation& r, const Relati
     const Query& q = in.c.queries[i];
     if (d.body_of.empty() && !is_pair_question(q.question)) continue;
     const Outcome before = in.base.answers[i].outcome, after = observed.answers[k++].outcome;
-    if (before == after || before == Outcome::timed_out || after == Outcome::timed_out ||
-        after == Outcome::not_asked)
-      continue;
+    if (before == after || depends_on_time(before) || depends_on_time(after)) continue;
     if (before != Outcome::answered && after != Outcome::answered) continue;
     return RelationBreak{r.name,
                          static_cast<int>(i),

@@ -18,9 +18,10 @@
 #include <string_view>
 #include <vector>
 
-#include "fuzz/judge/judgement.h"
 #include "fuzz/judge/tau.h"
-#include "oracles/api/engine.h"
+#include "scenarios/value/engine_card.h"
+#include "scenarios/value/judgement.h"
+#include "scenarios/value/observation.h"
 
 namespace touchstone::fuzz {
 

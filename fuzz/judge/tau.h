@@ -4,9 +4,14 @@
 #include <cmath>
 #include <string_view>
 
-#include "oracles/api/engine.h"
+#include "scenarios/value/engine_card.h"
+#include "scenarios/value/observation.h"
 
 namespace touchstone::fuzz {
+
+/// Relative widening that covers the roundings of a speed bound (about ten). Bites: tests/fuzz judge, late
+/// impacts.
+inline constexpr double speed_rounding = 0x1p-40;
 
 /// A claimed tolerance above this share of L is shown beside every verdict, and its engine is not compared in
 /// accuracy with others.

@@ -1,11 +1,12 @@
 #include "fuzz/judge/truth.h"
 
+#include "fuzz/judge/tau.h"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numeric>
 
-#include "core/tolerance.h"
 #include "fuzz/judge/held.h"
 
 namespace touchstone::fuzz {
@@ -165,10 +166,10 @@ int Truth::frame_of(const ReceivedScene& whole) {
   return static_cast<int>(frames_.size()) - 1;
 }
 
-referee::Placed Truth::placed(int frame, int body) const {
+Placed Truth::placed(int frame, int body) const {
   const auto b = static_cast<std::size_t>(body);
   const Body& asked = asked_.bodies[b];
-  referee::Placed p{&asked_.shape_of(body), asked.pose};
+  Placed p{&asked_.shape_of(body), asked.pose};
   if (frame == 0) return p;
   const ReceivedScene& r = frames_[static_cast<std::size_t>(frame)].received;
   const auto s = static_cast<std::size_t>(asked.shape);
@@ -226,7 +227,7 @@ referee::Bracket Truth::gap_at(int frame, int a, int b, double t) const {
 }
 
 double Truth::depth_in_mesh(int frame, int a, int b) const {
-  referee::Placed mesh = placed(frame, a), body = placed(frame, b);
+  Placed mesh = placed(frame, a), body = placed(frame, b);
   if (!std::holds_alternative<TriangleMesh>(*mesh.shape)) std::swap(mesh, body);
   const auto* m = std::get_if<TriangleMesh>(mesh.shape);
   if (!m || std::holds_alternative<TriangleMesh>(*body.shape)) return 0;
@@ -262,8 +263,7 @@ double Truth::speed(int a, int b) const {
   const auto turning = [&](int body, const Motion& m) {
     return m.angular.isZero(0) ? 0.0 : m.angular.stableNorm() * bounding_radius(asked_.shape_of(body));
   };
-  return ((ma.linear - mb.linear).stableNorm() + turning(a, ma) + turning(b, mb)) *
-         (1 + tolerance::judge_speed_rounding);
+  return ((ma.linear - mb.linear).stableNorm() + turning(a, ma) + turning(b, mb)) * (1 + speed_rounding);
 }
 
 const std::vector<Truth::StepState>& Truth::steps() {
@@ -297,7 +297,7 @@ bool Truth::counts(int a, int b) const {
 }
 
 // Sweep over the exact outer boxes along x, then the exact verdict of each pair left.
-std::vector<Truth::TruePair> Truth::overlapping(const std::vector<std::optional<referee::Placed>>& bodies) {
+std::vector<Truth::TruePair> Truth::overlapping(const std::vector<std::optional<Placed>>& bodies) {
   std::vector<BoxedBody> entries;
   for (std::size_t i = 0; i < bodies.size(); ++i)
     if (bodies[i]) entries.push_back({referee::outer_box(*bodies[i]), static_cast<int>(i)});
@@ -330,8 +330,8 @@ const std::vector<BodyPair>& Truth::meeting_pairs() {
 
 namespace {
 
-// Candidates alone may be asked about bodies that are none (core/scene/odd_numbers.h): they are in no true
-// pair.
+// Candidates alone may be asked about bodies that are none (scenarios/value/odd_numbers.h): they are in no
+// true pair.
 bool is_a_set(const Shape& shape, const Pose& pose) {
   const auto* box = std::get_if<Box>(&shape);
   return pose.translation.allFinite() &&
@@ -344,11 +344,11 @@ const std::vector<std::vector<Truth::TruePair>>& Truth::true_pairs() {
   if (true_pairs_) return *true_pairs_;
   true_pairs_.emplace();
   for (const StepState& state : steps()) {
-    std::vector<std::optional<referee::Placed>> bodies(asked_.bodies.size());
+    std::vector<std::optional<Placed>> bodies(asked_.bodies.size());
     for (std::size_t i = 0; i < bodies.size(); ++i)
       if (const Shape& shape = asked_.shape_of(static_cast<int>(i));
           state.pose[i] && is_a_set(shape, *state.pose[i]))
-        bodies[i] = referee::Placed{&shape, *state.pose[i]};
+        bodies[i] = Placed{&shape, *state.pose[i]};
     true_pairs_->push_back(overlapping(bodies));
   }
   return *true_pairs_;
@@ -357,7 +357,7 @@ const std::vector<std::vector<Truth::TruePair>>& Truth::true_pairs() {
 const std::vector<Truth::TruePair>& Truth::scene_pairs(int frame) {
   auto& cached = frames_[static_cast<std::size_t>(frame)].scene_pairs;
   if (!cached) {
-    std::vector<std::optional<referee::Placed>> bodies(asked_.bodies.size());
+    std::vector<std::optional<Placed>> bodies(asked_.bodies.size());
     for (std::size_t i = 0; i < bodies.size(); ++i) bodies[i] = placed(frame, static_cast<int>(i));
     auto pairs = overlapping(bodies);
     frames_[static_cast<std::size_t>(frame)].scene_pairs = std::move(pairs);

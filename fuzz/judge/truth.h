@@ -6,9 +6,9 @@
 #include <tuple>
 #include <vector>
 
-#include "oracles/api/observation.h"
-#include "oracles/referee/contact_region.h"
 #include "oracles/referee/referee.h"
+#include "oracles/referee/region/contact_region.h"
+#include "scenarios/value/observation.h"
 
 namespace touchstone::fuzz {
 
@@ -23,7 +23,7 @@ class Truth {
   /// The frame of a received scene; 0 when it equals the scene asked.
   int frame_of(const ReceivedScene& received);
 
-  referee::Placed placed(int frame, int body) const;
+  Placed placed(int frame, int body) const;
   const referee::PairTruth& pair(int frame, int a, int b);
   const referee::TimeTruth& motion(int frame, int a, int b);
   /// Of an overlapping pair, along the referee's normal; kept.
@@ -80,7 +80,7 @@ class Truth {
     std::optional<std::vector<TruePair>> scene_pairs;
   };
   bool counts(int a, int b) const;
-  std::vector<TruePair> overlapping(const std::vector<std::optional<referee::Placed>>& bodies);
+  std::vector<TruePair> overlapping(const std::vector<std::optional<Placed>>& bodies);
 
   const Scene& asked_;
   std::vector<Frame> frames_;

@@ -5,8 +5,8 @@
 #include <nlohmann/json.hpp>
 
 #include "fuzz/campaign/campaign.h"
-#include "fuzz/generate/family.h"
-#include "scenarios/case_codec.h"
+#include "scenarios/codec/case_codec.h"
+#include "scenarios/random/family.h"
 
 namespace touchstone::fuzz {
 namespace {

@@ -12,8 +12,8 @@
 #include <string>
 #include <vector>
 
-#include "fuzz/generate/mutate.h"
-#include "oracles/api/engine.h"
+#include "oracles/abi/engine.h"
+#include "scenarios/random/mutate.h"
 
 namespace touchstone::fuzz {
 

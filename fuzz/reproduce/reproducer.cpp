@@ -7,8 +7,8 @@
 #include "core/base/input_error.h"
 #include "fuzz/judge/relation.h"
 #include "fuzz/judge/truth.h"
-#include "fuzz/reproduce/engine_source.h"
-#include "fuzz/reproduce/source_text.h"
+#include "oracles/reproducer/engine_source.h"
+#include "oracles/reproducer/source_text.h"
 
 namespace touchstone::fuzz {
 namespace {

@@ -6,7 +6,7 @@
 #include <string>
 #include <string_view>
 
-#include "fuzz/record/result.h"
+#include "reports/record/result.h"
 
 namespace touchstone::fuzz {
 

@@ -1,6 +1,6 @@
 #include "fuzz/shrink/keeps_finding.h"
 
-#include "fuzz/campaign/campaign.h"
+#include "fuzz/ask/ask.h"
 
 namespace touchstone::fuzz {
 

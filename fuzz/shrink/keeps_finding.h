@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "fuzz/record/result.h"
 #include "fuzz/shrink/shrink.h"
-#include "oracles/api/engine.h"
+#include "oracles/abi/engine.h"
+#include "reports/record/result.h"
 
 namespace touchstone::fuzz {
 

@@ -41,9 +41,9 @@ double rounded_to(double v, int significant) {
   return std::isfinite(r) ? r : v;
 }
 
-Measure measure(const Case& c) {
+CaseSize measure(const Case& c) {
   const Scene& s = c.scene;
-  Measure m{s.bodies.size(), s.script.size(), 0};
+  CaseSize m{s.bodies.size(), s.script.size(), 0};
   m.bits += s.shapes.size() + c.queries.size() + 2 * s.ignored.size();
   for (Shape shape : s.shapes) {
     for (const double* x : numbers(shape)) m.bits += static_cast<std::uint64_t>(bits_of(*x));

@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "core/base/input_error.h"
-#include "core/scene/odd_numbers.h"
 #include "fuzz/shrink/measure.h"
+#include "scenarios/value/odd_numbers.h"
 
 namespace touchstone::fuzz {
 namespace {
@@ -315,7 +315,7 @@ std::vector<Case> round_one(const Case& c, std::size_t i) {
 }
 
 std::vector<Case> smaller_and_valid(const Case& c, std::vector<Case> proposals) {
-  const Measure m = measure(c);
+  const CaseSize m = measure(c);
   const bool odd = !odd_numbers(c.scene).empty();
   std::erase_if(proposals, [&](const Case& p) {
     if (!(measure(p) < m)) return true;

@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "oracles/api/observation.h"
+#include "scenarios/value/case.h"
 
 namespace touchstone::fuzz {
 

@@ -21,7 +21,7 @@ class Shrinker {
 
   Shrunk run() {
     if (!take_first({result_.smallest})) return result_;
-    for (Measure start = measure(result_.smallest);;) {
+    for (CaseSize start = measure(result_.smallest);;) {
       for (const ListPart& p : list_parts()) drop_from(p);
       for (const Simplification& s : simplifications()) simplify(s);
       round_numbers();

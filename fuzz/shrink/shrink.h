@@ -4,7 +4,7 @@
 // numbers.
 //
 // Guarantee: the result shows what `still` asks for, is a valid scene, and is no larger than the case by
-// Measure. At exit `smallest` no single reduction of reductions.h makes it smaller; it is a local minimum,
+// CaseSize. At exit `smallest` no single reduction of reductions.h makes it smaller; it is a local minimum,
 // not the least case.
 #pragma once
 
@@ -25,7 +25,7 @@ std::string_view to_string(ShrinkExit e);
 
 struct Shrunk {
   Case smallest;
-  Measure before, after;
+  CaseSize before, after;
   std::size_t tried = 0;  // cases asked about
   ShrinkExit exit = ShrinkExit::not_shown;
 };

@@ -8,9 +8,9 @@
 #include <system_error>
 
 #include "core/base/input_error.h"
-#include "core/base/printable.h"
-#include "core/scene/input_file.h"
-#include "fuzz/record/stored.h"
+#include "reports/record/stored.h"
+#include "scenarios/codec/input_file.h"
+#include "scenarios/text/printable.h"
 
 namespace touchstone::fuzz {
 namespace {

@@ -15,18 +15,9 @@
 #include <string>
 #include <vector>
 
-#include "fuzz/shrink/measure.h"
+#include "reports/record/triage.h"
 
 namespace touchstone::fuzz {
-
-struct KnownFinding {
-  std::string key, engine, question, fault, shapes, blame, degeneracy, magnitude;
-  std::string first_seen, last_seen, first_build, last_build;
-  std::uint64_t count = 0;
-  Measure size;
-  std::string smallest, words, expired;
-  bool operator==(const KnownFinding&) const = default;
-};
 
 /// One transaction from construction to commit(): a run that is killed half-way changes nothing. Others wait
 /// for it. All functions throw InputError naming the file: no ledger, of a later version, locked for a

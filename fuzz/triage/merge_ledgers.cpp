@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <tuple>
 
-#include "core/scene/input_file.h"
+#include "scenarios/codec/input_file.h"
 
 namespace touchstone::fuzz {
 namespace {

@@ -8,10 +8,10 @@
 #include <thread>
 
 #include "core/base/input_error.h"
-#include "core/scene/codec.h"
-#include "core/scene/json_file.h"
-#include "fuzz/record/stored.h"
-#include "scenarios/case_codec.h"
+#include "reports/record/stored.h"
+#include "scenarios/codec/case_codec.h"
+#include "scenarios/codec/json_file.h"
+#include "scenarios/codec/scene_codec.h"
 
 namespace touchstone::fuzz {
 namespace {
@@ -86,29 +86,7 @@ Triaged asked_again(KnownFinding f, const TriageConfig& config) try {
 
 }  // namespace
 
-Json case_json_of(const KnownFinding& f) { return parse_json(f.smallest, "ledger, " + f.key); }
-
 Case case_of(const KnownFinding& f) { return case_from_json(case_json_of(f), "ledger, " + f.key); }
-
-std::string_view to_string(Standing s) {
-  switch (s) {
-    case Standing::fresh:
-      return "new";
-    case Standing::known:
-      return "known";
-    case Standing::back:
-      return "back";
-    case Standing::still:
-      return "still";
-    case Standing::flaky:
-      return "flaky";
-    case Standing::gone:
-      return "gone";
-    case Standing::not_asked:
-      break;
-  }
-  return "not asked";
-}
 
 std::vector<StoredFinding> load_findings(const std::filesystem::path& directory) {
   if (!std::filesystem::exists(directory / "state.json"))

@@ -8,28 +8,11 @@
 #include <string_view>
 #include <vector>
 
-#include "fuzz/record/result.h"
 #include "fuzz/triage/ledger.h"
+#include "reports/record/result.h"
+#include "reports/record/triage.h"
 
 namespace touchstone::fuzz {
-
-enum class Standing {
-  fresh,     // not in the ledger until now
-  known,     // in the ledger, seen in this run
-  back,      // in the ledger as gone, seen again
-  still,     // in the ledger, not seen in this run; its case, asked again, still shows it
-  flaky,     // as still, but some of the times it was asked its case did not show it
-  gone,      // in the ledger, and its case, asked several times, never showed it: expired now
-  not_asked  // in the ledger, but its engine is not here, or could not be asked
-};
-std::string_view to_string(Standing s);  // "new" for fresh
-
-struct Triaged {
-  Standing standing = Standing::fresh;
-  KnownFinding finding;      // as it is in the ledger now
-  int asked = 0, shown = 0;  // of a finding not seen in this run: how often its case was asked, and showed it
-  std::string trouble;       // why it could not be shrunk or asked; the others go on
-};
 
 /// A finding of a campaign as it lies in its directory.
 struct StoredFinding {
@@ -42,7 +25,6 @@ std::vector<StoredFinding> load_findings(const std::filesystem::path& campaign_d
 
 /// The smallest case of a finding in the ledger. Throws InputError when it is damaged.
 Case case_of(const KnownFinding& f);
-Json case_json_of(const KnownFinding& f);
 
 /// One answer proves nothing: an engine may depend on load, or on what its memory held. A finding is gone
 /// when its case does not show it this often in a row.

@@ -6,7 +6,7 @@
 
 #include <memory>
 
-#include "oracles/api/plugin_kit.h"
+#include "oracles/abi/plugin_kit.h"
 #include "oracles/bullet/shapes.h"
 
 namespace touchstone::bullet_adapter {

@@ -5,7 +5,7 @@
 #include <optional>
 #include <string>
 
-#include "oracles/api/plugin_kit.h"
+#include "oracles/abi/plugin_kit.h"
 #include "oracles/bullet/pair.h"
 #include "oracles/bullet/settings.h"
 

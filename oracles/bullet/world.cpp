@@ -1,6 +1,6 @@
 #include "oracles/bullet/world.h"
 
-#include "oracles/api/plugin_kit.h"
+#include "oracles/abi/plugin_kit.h"
 
 namespace touchstone::bullet_adapter {
 

@@ -1,6 +1,6 @@
 #include "oracles/core/alternative_engine.h"
 
-#include "core/ccd/alternatives.h"
+#include "core/impact/alternatives.h"
 #include "core/narrow/narrow_phase.h"
 #include "core/tolerance.h"
 #include "oracles/core/timed_answer.h"

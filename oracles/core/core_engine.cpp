@@ -2,9 +2,9 @@
 
 #include "core/base/input_error.h"
 #include "core/broad/catalog.h"
-#include "core/ccd/impact.h"
+#include "core/impact/impact.h"
 #include "core/math/through_float.h"
-#include "core/narrow/fast/query.h"
+#include "core/narrow/filtered/query.h"
 #include "core/narrow/narrow_phase.h"
 #include "core/tolerance.h"
 #include "core/world/world.h"

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "core/narrow/narrow_phase.h"
-#include "oracles/api/native_engine.h"
+#include "oracles/abi/native_engine.h"
 
 namespace touchstone {
 

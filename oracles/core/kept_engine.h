@@ -7,7 +7,7 @@
 
 #include <memory>
 
-#include "oracles/api/native_engine.h"
+#include "oracles/abi/native_engine.h"
 
 namespace touchstone {
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-#include "oracles/api/native_engine.h"
+#include "oracles/abi/native_engine.h"
 #include "oracles/core/broad_engine.h"
 
 namespace touchstone {

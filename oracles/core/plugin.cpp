@@ -1,8 +1,8 @@
 // libtouchstone_core.so: the core's engines for a worker process.
-#include "oracles/api/touchstone_engine.h"
+#include "oracles/abi/touchstone_engine.h"
 #include "oracles/core/native.h"
 
-/// oracles/api/native_engine.h
+/// oracles/abi/native_engine.h
 extern "C" TS_EXPORT touchstone::NativeEngine* touchstone_native_engine(const char* name) {
   return touchstone::make_native_core(name).release();
 }

@@ -4,8 +4,8 @@
 #include <chrono>
 
 #include "core/base/input_error.h"
-#include "oracles/api/measure.h"
-#include "oracles/api/native_engine.h"
+#include "oracles/abi/measure.h"
+#include "oracles/abi/native_engine.h"
 
 namespace touchstone {
 

@@ -2,7 +2,7 @@
  *   cc -shared -fPIC -I PREFIX/include broad_phase.c -o libmine.so -lm */
 #include <math.h>
 #include <stdlib.h>
-#include "oracles/api/touchstone_engine.h"
+#include "oracles/abi/touchstone_engine.h"
 
 struct ts_engine {
   const ts_scene* scene; /* valid until unload */

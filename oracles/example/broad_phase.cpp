@@ -2,7 +2,7 @@
 //   c++ -std=c++17 -shared -fPIC -I PREFIX/include broad_phase.cpp -o libmine.so
 #include <cmath>
 #include <map>
-#include "oracles/api/touchstone_engine.h"
+#include "oracles/abi/touchstone_engine.h"
 
 struct ts_engine {
   const ts_scene* scene = nullptr;  // valid until unload

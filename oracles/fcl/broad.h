@@ -4,7 +4,7 @@
 #include <functional>
 #include <vector>
 
-#include "oracles/api/plugin_kit.h"
+#include "oracles/abi/plugin_kit.h"
 #include "oracles/fcl/shapes.h"
 
 namespace touchstone::fcl_adapter {

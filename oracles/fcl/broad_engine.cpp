@@ -15,7 +15,7 @@
 #include <functional>
 #include <memory>
 
-#include "oracles/api/plugin_kit.h"
+#include "oracles/abi/plugin_kit.h"
 #include "oracles/fcl/shapes.h"
 
 namespace touchstone::fcl_adapter {

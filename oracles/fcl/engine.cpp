@@ -4,7 +4,7 @@
 // method as a curve. The limits of iterations are no part of FCL's requests.
 #include <fcl/config.h>
 
-#include "oracles/api/plugin_kit.h"
+#include "oracles/abi/plugin_kit.h"
 #include "oracles/fcl/broad.h"
 #include "oracles/fcl/queries.h"
 

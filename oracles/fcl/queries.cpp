@@ -18,7 +18,7 @@
 #include <numbers>
 #include <utility>
 
-#include "oracles/api/plugin_kit.h"
+#include "oracles/abi/plugin_kit.h"
 
 namespace touchstone::fcl_adapter {
 namespace {

@@ -6,7 +6,7 @@
 #include <memory>
 
 #include "core/math/pose.h"
-#include "oracles/api/touchstone_engine.h"
+#include "oracles/abi/touchstone_engine.h"
 
 namespace touchstone::fcl_adapter {
 

@@ -12,7 +12,7 @@
 #include <cstdio>
 #include <cstring>
 
-#include "oracles/api/last_words.h"
+#include "oracles/abi/last_words.h"
 
 namespace touchstone::host {
 namespace {

@@ -1,5 +1,5 @@
 // Where a worker was when a signal ended it: printed by the dying process, read by the harness
-// (oracles/api/last_words.h).
+// (oracles/abi/last_words.h).
 #pragma once
 
 namespace touchstone::host {

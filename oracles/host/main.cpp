@@ -1,7 +1,7 @@
 // touchstone-host PLUGIN.so [ENGINE | --cards] [SCRATCH BYTES]: started by the harness, not by people.
 // Confines itself to the directory SCRATCH and that much memory (sandbox.h) where they are given, loads a
-// plug-in, says on standard output which engines it has (oracles/api/protocol.h), and then, unless asked for
-// the cards alone, forks workers on request (oracles/api/nursery_protocol.h). Each worker creates the engine
+// plug-in, says on standard output which engines it has (oracles/abi/protocol.h), and then, unless asked for
+// the cards alone, forks workers on request (oracles/abi/nursery_protocol.h). Each worker creates the engine
 // and answers questions.
 #include <fcntl.h>
 #include <signal.h>
@@ -15,8 +15,8 @@
 #include <memory>
 #include <string>
 
-#include "oracles/api/native_engine.h"
-#include "oracles/api/protocol.h"
+#include "oracles/abi/native_engine.h"
+#include "oracles/abi/protocol.h"
 #include "oracles/host/crash_report.h"
 #include "oracles/host/native.h"
 #include "oracles/host/nursery.h"

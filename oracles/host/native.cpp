@@ -7,7 +7,7 @@
 #include <chrono>
 #include <exception>
 
-#include "oracles/api/protocol.h"
+#include "oracles/abi/protocol.h"
 #include "oracles/host/memory_fill.h"
 #include "oracles/host/pipe.h"
 #include "oracles/host/serve.h"
@@ -39,7 +39,7 @@ class NativeServer {
     try {
       engine_.answer(c, tell);
     } catch (const std::exception& e) {
-      while (next < m.queries.size()) tell(thrown(e.what()));
+      while (next < m.queries.size()) tell(no_answer(Outcome::threw, e.what()));
     }
   }
 
@@ -54,12 +54,6 @@ class NativeServer {
   void fill_heap(std::uint8_t byte) {
     filled_ |= byte != 0;
     if (filled_) fill_new_memory(byte);
-  }
-  static Observation thrown(const char* what) {
-    Observation o;
-    o.outcome = Outcome::threw;
-    o.detail = what;
-    return o;
   }
   template <class Message>
   void send(const Message& m) {

@@ -1,9 +1,9 @@
-// Engines of this build (oracles/api/native_engine.h): no C ABI, and answers in batches.
+// Engines of this build (oracles/abi/native_engine.h): no C ABI, and answers in batches.
 #pragma once
 
 #include <string>
 
-#include "oracles/api/native_engine.h"
+#include "oracles/abi/native_engine.h"
 #include "oracles/host/nursery.h"
 
 namespace touchstone::host {

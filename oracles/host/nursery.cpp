@@ -15,7 +15,7 @@
 #include <cstring>
 #include <filesystem>
 
-#include "oracles/api/nursery_protocol.h"
+#include "oracles/abi/nursery_protocol.h"
 
 namespace touchstone::host {
 namespace {

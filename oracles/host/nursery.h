@@ -28,7 +28,7 @@ int out_of_the_way(int fd);
 /// Says one byte on `fd`, a socket: the kernel adds this process's number as the harness sees it.
 void say_who(int fd);
 
-/// Serves requests (oracles/api/nursery_protocol.h) until the harness closes its end; never returns. `work`
+/// Serves requests (oracles/abi/nursery_protocol.h) until the harness closes its end; never returns. `work`
 /// runs in each forked worker, whose standard streams have been protected. What a worker leaves behind, its
 /// processes and its directory, ends with it.
 [[noreturn]] void run_nursery(const Nursery& nursery, const std::function<void(WorkerStreams)>& work);

@@ -19,8 +19,8 @@
 #include <string_view>
 #include <vector>
 
-#include "oracles/api/observation.h"
 #include "oracles/host/pipe_scene.h"
+#include "scenarios/value/observation.h"
 
 namespace touchstone::host {
 namespace {
@@ -204,8 +204,8 @@ void read_lists(const Json& j, const ts_sink& sink) {
 }
 
 std::int32_t outcome_of(const std::string& name) {
-  constexpr std::array<std::string_view, 5> names{"answered", "unsupported", "not_converged", "invalid_input",
-                                                  "threw"};
+  constexpr auto names =
+      std::to_array<std::string_view>({"answered", "unsupported", "not_converged", "invalid_input", "threw"});
   for (std::size_t i = 0; i < names.size(); ++i)
     if (names[i] == name) return static_cast<std::int32_t>(i);
   throw std::runtime_error("the command names an outcome that there is not: " + name);

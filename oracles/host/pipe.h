@@ -1,10 +1,10 @@
-// An engine in any language behind a pipe (oracles/api/pipe_protocol.md), seen as a plug-in: the worker
+// An engine in any language behind a pipe (oracles/abi/pipe_protocol.md), seen as a plug-in: the worker
 // starts the command and translates the C ABI into its lines.
 #pragma once
 
 #include <string>
 
-#include "oracles/api/touchstone_engine.h"
+#include "oracles/abi/touchstone_engine.h"
 
 namespace touchstone::host {
 

@@ -1,9 +1,9 @@
-// Scenes on their way through a pipe (oracles/api/pipe_protocol.md): out as JSON, back as they were received.
+// Scenes on their way through a pipe (oracles/abi/pipe_protocol.md): out as JSON, back as they were received.
 #pragma once
 
 #include <nlohmann/json.hpp>
 
-#include "oracles/api/touchstone_engine.h"
+#include "oracles/abi/touchstone_engine.h"
 
 namespace touchstone::host {
 

@@ -4,7 +4,7 @@
 
 #include <stdexcept>
 
-#include "oracles/api/engine.h"
+#include "oracles/abi/engine.h"
 #include "oracles/host/pipe.h"
 
 namespace touchstone::host {

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "oracles/api/touchstone_engine.h"
+#include "oracles/abi/touchstone_engine.h"
 
 namespace touchstone::host {
 

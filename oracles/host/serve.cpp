@@ -10,22 +10,15 @@
 #include <optional>
 #include <string>
 
-#include "oracles/api/measure.h"
-#include "oracles/api/plugin_scene.h"
-#include "oracles/api/protocol.h"
+#include "oracles/abi/measure.h"
+#include "oracles/abi/plugin_scene.h"
+#include "oracles/abi/protocol.h"
 #include "oracles/host/memory_fill.h"
 
 namespace touchstone::host {
 namespace {
 
 using Clock = std::chrono::steady_clock;
-
-Observation failure(Outcome outcome, const std::string& detail) {
-  Observation o;
-  o.outcome = outcome;
-  o.detail = detail;
-  return o;
-}
 
 int query_steps(const Scene& scene, const Query& q) {
   if (q.question == Question::swept_candidates || scene.script.empty()) return 1;
@@ -66,18 +59,18 @@ class Server {
       const std::int32_t outcome = plugin_.load(engine_, &view, &callbacks, detail);
       const std::string why(detail, strnlen(detail, sizeof detail));
       if (outcome < TS_ANSWERED || outcome > TS_THREW)
-        result.refusal = failure(Outcome::invalid_answer, "load() returned an outcome that does not exist");
+        result.refusal = no_answer(Outcome::invalid_answer, "load() returned an outcome that does not exist");
       else if (outcome != TS_ANSWERED)
         result.refusal = failure(static_cast<Outcome>(outcome), why);
     } catch (const std::exception& e) {
-      result.refusal = failure(Outcome::threw, std::string(e.what()) + " while loading the scene");
+      result.refusal = no_answer(Outcome::threw, std::string(e.what()) + " while loading the scene");
     } catch (...) {
       result.refusal =
-          failure(Outcome::threw, "something that is no std::exception, while loading the scene");
+          no_answer(Outcome::threw, "something that is no std::exception, while loading the scene");
     }
     if (received.rejected() > 0 && !result.refusal)
-      result.refusal =
-          failure(Outcome::invalid_answer, "reported shapes or bodies as received that the scene does not have");
+      result.refusal = no_answer(Outcome::invalid_answer,
+                                 "reported shapes or bodies as received that the scene does not have");
     result.received = received.take();
     return result;
   }
@@ -93,7 +86,7 @@ class Server {
   Observation ask(const Scene& scene, const Query& q) {
     const int bodies = static_cast<int>(scene.bodies.size());
     if (is_pair_question(q.question) && (q.a < 0 || q.b < 0 || q.a >= bodies || q.b >= bodies || q.a == q.b))
-      return failure(Outcome::invalid_input, "the query names no pair of bodies of the scene");
+      return no_answer(Outcome::invalid_input, "the query names no pair of bodies of the scene");
     AnswerCollector answer(bodies, query_steps(scene, q));
     const ts_sink sink = answer.callbacks();
     Observation o;
@@ -108,9 +101,9 @@ class Server {
         o.elapsed_ns = ask_again(q, o.elapsed_ns);
       return o;
     } catch (const std::exception& e) {
-      o = failure(Outcome::threw, e.what());
+      o = no_answer(Outcome::threw, e.what());
     } catch (...) {
-      o = failure(Outcome::threw, "something that is no std::exception");
+      o = no_answer(Outcome::threw, "something that is no std::exception");
     }
     o.elapsed_ns = std::chrono::duration_cast<std::chrono::nanoseconds>(Clock::now() - start).count();
     return o;

@@ -3,7 +3,7 @@
 
 #include <cstddef>
 
-#include "oracles/api/touchstone_engine.h"
+#include "oracles/abi/touchstone_engine.h"
 
 namespace touchstone::host {
 

@@ -7,7 +7,7 @@
 // curve.
 #include <limits>
 
-#include "oracles/api/plugin_kit.h"
+#include "oracles/abi/plugin_kit.h"
 #include "oracles/libccd/object.h"
 
 namespace touchstone::libccd {

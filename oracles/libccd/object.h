@@ -8,7 +8,7 @@
 #include <cmath>
 
 #include "core/math/pose.h"
-#include "oracles/api/touchstone_engine.h"
+#include "oracles/abi/touchstone_engine.h"
 
 namespace touchstone::libccd {
 

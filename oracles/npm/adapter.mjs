@@ -4,7 +4,7 @@ import { createInterface } from "node:readline";
 import { pathToFileURL } from "node:url";
 
 export const float_roundoff = 2 ** -24;
-export const oracle_tau_factor = 256; // as of every other oracle: oracles/api/plugin_kit.h
+export const oracle_tau_factor = 256; // as of every other oracle: oracles/abi/plugin_kit.h
 const half_turn = Math.SQRT1_2; // a quarter turn about x takes y to z
 
 /** "Cannot" as a value: the engine has no such query for these shapes. */

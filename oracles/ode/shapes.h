@@ -7,7 +7,7 @@
 #include <memory>
 #include <vector>
 
-#include "oracles/api/plugin_kit.h"
+#include "oracles/abi/plugin_kit.h"
 
 namespace touchstone::ode_adapter {
 

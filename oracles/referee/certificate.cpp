@@ -1,36 +1,13 @@
 #include "oracles/referee/certificate.h"
 
-#include <nlohmann/json.hpp>
-
-#include "core/tolerance.h"
-#include "oracles/referee/checker.h"
-#include "oracles/referee/half_space.h"
-#include "oracles/referee/wide_search.h"
+#include "oracles/checker/checker.h"
+#include "oracles/referee/exact/world.h"
+#include "oracles/referee/filter/half_space.h"
+#include "oracles/referee/filter/wide_search.h"
 #include "oracles/referee/work.h"
-#include "oracles/referee/world.h"
 
 namespace touchstone::referee {
 namespace {
-
-std::string_view name_of(Certificate::Kind k) {
-  switch (k) {
-    case Certificate::Kind::none:
-      return "none";
-    case Certificate::Kind::separating_plane:
-      return "separating_plane";
-    case Certificate::Kind::common_point:
-      return "common_point";
-    case Certificate::Kind::depth_direction:
-      return "depth_direction";
-    case Certificate::Kind::inner_polytope:
-      return "inner_polytope";
-    case Certificate::Kind::closed_form:
-      return "closed_form";
-  }
-  return "none";
-}
-
-nlohmann::ordered_json list(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
 
 std::vector<std::string> texts(const Rational3& v) { return {text_of(v.x), text_of(v.y), text_of(v.z)}; }
 
@@ -105,8 +82,7 @@ double proven_depth(const Certificate& c, Real depth) {
   double largest = 0;
   for (const auto& [p, q] : c.support_pairs)
     largest = std::max({largest, p.cwiseAbs().maxCoeff(), q.cwiseAbs().maxCoeff()});
-  return round_down(depth -
-                    4 * static_cast<Real>(tolerance::checker_point_factor) * static_cast<Real>(largest));
+  return round_down(depth - 4 * static_cast<Real>(point_factor) * static_cast<Real>(largest));
 }
 
 }  // namespace
@@ -177,7 +153,7 @@ Certificate half_space_plane(const Placed& h, const Placed& a, const Placed& b, 
   for (unsigned k = 0;; ++k, inside /= Rational(shifted(Integer(1), 1 << std::min(k, 12U)))) {
     c.rationals = texts(Rational(-1) * p.normal);
     c.rationals.push_back(text_of(-p.offset - inside * size));
-    if (check(c, a, b)) return c;
+    if (checker::check(c, a, b)) return c;
     if (k > 24) return {};
   }
 }
@@ -212,7 +188,7 @@ Certificate inner_point(const PairTruth& truth, const Placed& a, const Placed& b
         Certificate c;
         c.kind = Certificate::Kind::common_point;
         c.point = from + step * (to - from);
-        if (check(c, a, b)) return c;
+        if (checker::check(c, a, b)) return c;
       }
   return {};
 }
@@ -272,7 +248,7 @@ Certificate exact_form(const PairTruth& truth, const Placed& a, const Placed& b)
 namespace {
 
 Certificate certificate_that_holds(const PairTruth& truth, const Placed& a, const Placed& b) {
-  if (check(truth.verdict_certificate, a, b)) return truth.verdict_certificate;
+  if (checker::check(truth.verdict_certificate, a, b)) return truth.verdict_certificate;
   Certificate c = exact_form(truth, a, b);
   if (c.kind != Certificate::Kind::none) return c;
   c = search_wide(a, b);
@@ -288,28 +264,6 @@ Certificate checkable_certificate(const PairTruth& truth, const Placed& a, const
   Certificate none;
   none.note = too_expensive;
   return within_limit(std::move(none), [&] { return certificate_that_holds(truth, a, b); });
-}
-
-nlohmann::ordered_json to_json(const Certificate& c) {
-  nlohmann::ordered_json j;
-  j["kind"] = name_of(c.kind);
-  const bool plane = c.kind == Certificate::Kind::separating_plane;
-  const bool direction = c.kind == Certificate::Kind::depth_direction;
-  // Each number once: where there are rationals, the doubles are only their roundings.
-  if (!c.rationals.empty()) {
-    j["rationals"] = c.rationals;
-  } else {
-    if (plane || direction) j["direction"] = list(c.direction);
-    if (plane || direction || c.kind == Certificate::Kind::inner_polytope) j["offset"] = c.offset;
-    if (c.kind == Certificate::Kind::common_point) j["point"] = list(c.point);
-  }
-  if (!c.support_pairs.empty()) {
-    j["support_pairs"] = nlohmann::ordered_json::array();
-    for (const auto& [p, q] : c.support_pairs) j["support_pairs"].push_back({list(p), list(q)});
-    j["facets"] = c.facets;
-  }
-  if (!c.note.empty()) j["note"] = c.note;
-  return j;
 }
 
 }  // namespace touchstone::referee

@@ -1,7 +1,7 @@
 // Certificates (referee.h) from what the levels found.
 #pragma once
 
-#include "oracles/referee/convex.h"
+#include "oracles/referee/filter/convex.h"
 
 namespace touchstone::referee {
 

@@ -1,12 +1,12 @@
 // width, distance_to, outer_box: support values with their error bounds.
 #include <algorithm>
 
-#include "oracles/referee/box_of.h"
-#include "oracles/referee/half_space.h"
-#include "oracles/referee/mesh.h"
-#include "oracles/referee/point_distance.h"
+#include "oracles/referee/exact/world.h"
+#include "oracles/referee/filter/box_of.h"
+#include "oracles/referee/filter/half_space.h"
+#include "oracles/referee/filter/mesh.h"
+#include "oracles/referee/filter/point_distance.h"
 #include "oracles/referee/work.h"
-#include "oracles/referee/world.h"
 
 namespace touchstone::referee {
 namespace {

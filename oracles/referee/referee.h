@@ -2,24 +2,17 @@
 // (truth.md §4). Shares the scene's value types with the rest of the project and nothing else.
 #pragma once
 
-#include <nlohmann/json_fwd.hpp>
-#include <optional>
+#include <array>
 #include <span>
 #include <string>
-#include <variant>
+#include <string_view>
 #include <vector>
 
 #include "core/math/pose.h"
 #include "core/scene/scene.h"
+#include "scenarios/value/certificate.h"
 
 namespace touchstone::referee {
-
-/// A shape where it stands, exactly: a Pose (any non-zero quaternion: rational rotation) or an affine
-/// Placement.
-struct Placed {
-  const Shape* shape = nullptr;
-  std::variant<Pose, Placement> pose;
-};
 
 /// lo <= truth <= hi, proven. What is too expensive to find (work.h) is undecided, from -infinity to
 /// infinity.
@@ -29,24 +22,6 @@ struct Bracket {
 
 enum class Verdict { disjoint, overlap, undecided };
 std::string_view to_string(Verdict v);
-
-/// Evidence that a reader can check by hand from the scene alone. All numbers are exact doubles, world frame.
-struct Certificate {
-  enum class Kind { none, separating_plane, common_point, depth_direction, inner_polytope, closed_form };
-  Kind kind = Kind::none;
-  Vec3 direction =
-      Vec3::Zero();   // separating_plane: A on the side direction·x <= offset, B on direction·x > offset
-  double offset = 0;  // depth_direction: depth <= offset; inner_polytope: depth >= offset
-  Vec3 point = Vec3::Zero();  // common_point, when one with double coordinates exists
-  /// "n/d", when doubles do not suffice. common_point: x, y, z; separating_plane: direction x, y, z, offset,
-  /// and so on when a mesh needs several planes.
-  std::vector<std::string> rationals;
-  /// inner_polytope: vertices of the Minkowski difference A-B as pairs of support points, and its facets.
-  std::vector<std::array<Vec3, 2>> support_pairs;
-  std::vector<std::array<int, 3>> facets;
-  std::string note;
-};
-nlohmann::ordered_json to_json(const Certificate& c);
 
 struct PairTruth {
   Verdict verdict = Verdict::undecided;

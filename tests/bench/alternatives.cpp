@@ -1,5 +1,5 @@
 // What a time of impact costs, and what is lost without one: the end pose alone, N sub-steps, speculative
-// contact, and core/ccd, on the same motions, judged by the referee.
+// contact, and core/impact, on the same motions, judged by the referee.
 //
 //   bench_alternatives [--cases 200] [--rounds 3] [--most 1024] [--csv FILE]
 //
@@ -15,8 +15,8 @@
 #include <fstream>
 #include <functional>
 
-#include "core/base/rng.h"
-#include "core/ccd/alternatives.h"
+#include "core/impact/alternatives.h"
+#include "core/math/rng.h"
 #include "core/narrow/narrow_phase.h"
 #include "core/scene/scene.h"
 #include "oracles/referee/referee.h"

@@ -7,8 +7,8 @@
 #include <string_view>
 #include <vector>
 
-#include "core/base/rng.h"
 #include "core/broad/broad_phase.h"
+#include "core/math/rng.h"
 
 namespace touchstone::bench {
 

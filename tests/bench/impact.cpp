@@ -14,7 +14,7 @@
 #include <cmath>
 #include <cstring>
 
-#include "core/ccd/impact.h"
+#include "core/impact/impact.h"
 #include "core/scene/scene.h"
 #include "oracles/referee/referee.h"
 #include "tests/bench/impact_cases.h"
@@ -99,7 +99,7 @@ struct Judged {
 
 void judge_one(const MovingCase& c, const referee::TimeTruth& truth, const FoundImpact& f, Judged& j) {
   using Verdict = referee::TimeTruth::Verdict;
-  const referee::Placed a{&c.a, c.pose_a}, b{&c.b, c.pose_b};
+  const Placed a{&c.a, c.pose_a}, b{&c.b, c.pose_b};
   const double l = scale_of(c), tau = 0x1p-46 * l;
   j.failed += f.failed;
   if (f.failed) return;

@@ -1,4 +1,4 @@
-// Vertex-face and edge-edge queries with linear paths: every recorded query (core/scene/ccd_queries.h),
+// Vertex-face and edge-edge queries with linear paths: every recorded query (scenarios/import/ccd_queries.h),
 // exactly (tolerance 0) and by tolerance 1e-6 alone, against the exact truth column.
 //
 //   bench_primitive [--data DIR] [--rounds 15]
@@ -15,8 +15,8 @@
 #include <cstring>
 #include <map>
 
-#include "core/ccd/primitive_impact.h"
-#include "core/scene/ccd_queries.h"
+#include "core/impact/primitive_impact.h"
+#include "scenarios/import/ccd_queries.h"
 #include "tests/bench/ticks.h"
 
 namespace {

@@ -16,8 +16,8 @@
 #include <string>
 #include <vector>
 
-#include "fuzz/generate/family.h"
 #include "oracles/referee/referee.h"
+#include "scenarios/random/family.h"
 
 namespace {
 

@@ -15,8 +15,8 @@
 #include <map>
 #include <set>
 
-#include "core/scene/real_scene.h"
 #include "core/world/step_world.h"
+#include "scenarios/import/real_scene.h"
 #include "tests/bench/ticks.h"
 
 namespace {

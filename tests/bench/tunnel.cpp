@@ -3,9 +3,10 @@
 //
 //   bench_tunnel [--bodies 1000] [--steps 40] [--rounds 3] [--most 64]     (most: sub-steps)
 //
-// A pass: a pair of a bullet that meets at some time of the step (core/ccd, asked for every pair whose swept
-// boxes meet). Missed: neither an impact nor a contact at any pose that was looked at. Time: least CPU time
-// of all rounds for each step, summed. The dynamics are none: bodies go on as they go; bullets are shot anew.
+// A pass: a pair of a bullet that meets at some time of the step (core/impact, asked for every pair whose
+// swept boxes meet). Missed: neither an impact nor a contact at any pose that was looked at. Time: least CPU
+// time of all rounds for each step, summed. The dynamics are none: bodies go on as they go; bullets are shot
+// anew.
 #include <fmt/format.h>
 
 #include <cmath>

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "core/base/rng.h"
+#include "core/math/rng.h"
 #include "core/scene/scene.h"
 
 namespace touchstone::bench {

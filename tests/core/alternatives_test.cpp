@@ -1,5 +1,5 @@
 // The alternatives to a time of impact: they find what they say and miss what they say.
-#include "core/ccd/alternatives.h"
+#include "core/impact/alternatives.h"
 #include "tests/core/random_pair.h"
 #include "tests/support/catch.h"
 

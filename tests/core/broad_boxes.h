@@ -8,8 +8,8 @@
 #include <map>
 #include <vector>
 
-#include "core/base/rng.h"
 #include "core/broad/broad_phase.h"
+#include "core/math/rng.h"
 
 namespace touchstone::test {
 

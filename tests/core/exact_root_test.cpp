@@ -1,6 +1,6 @@
 // Integers of any size and signs at roots of polynomials.
-#include "core/ccd/exact_root.h"
-#include "core/base/rng.h"
+#include "core/impact/exact_root.h"
+#include "core/math/rng.h"
 #include "tests/support/catch.h"
 
 using namespace touchstone;

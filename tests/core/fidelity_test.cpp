@@ -1,6 +1,6 @@
 // Simpler shapes are within the error that they state, and a world run by a plan is within the plan's error
 // of the truth as the referee has it.
-#include "core/base/rng.h"
+#include "core/math/rng.h"
 #include "core/world/seen.h"
 #include "core/world/step_world.h"
 #include "oracles/referee/referee.h"
@@ -201,7 +201,7 @@ TEST_CASE("a world run by a plan is within the plan's error of the truth", "[fid
     REQUIRE(truth.contacts.size() > 20);
     std::size_t found = 0;
     for (const PairContact& c : r.contacts) {
-      const auto placed = [&](int i) { return referee::Placed{&s.shape_of(i), planned.end_pose(i)}; };
+      const auto placed = [&](int i) { return Placed{&s.shape_of(i), planned.end_pose(i)}; };
       const auto w = referee::width(placed(c.a), placed(c.b), c.contact.normal);
       CHECK(c.contact.depth >= w.lo - error);
       CHECK(c.contact.depth <= w.hi + error);

@@ -4,10 +4,10 @@
 #include <cstdlib>
 #include <filesystem>
 
-#include "core/ccd/impact.h"
-#include "core/scene/hull_zoo.h"
+#include "core/impact/impact.h"
 #include "core/tolerance.h"
 #include "oracles/referee/referee.h"
+#include "scenarios/import/hull_zoo.h"
 #include "tests/core/random_course.h"
 #include "tests/support/catch.h"
 
@@ -24,7 +24,7 @@ struct Tally {
 void check_course(const CoursePair& c, Tally& n) {
   using Verdict = referee::TimeTruth::Verdict;
   const ImpactAnswer x = time_of_impact({&c.p.a, c.p.pose_a, c.ma}, {&c.p.b, c.p.pose_b, c.mb});
-  const referee::Placed a{&c.p.a, c.p.pose_a}, b{&c.p.b, c.p.pose_b};
+  const Placed a{&c.p.a, c.p.pose_a}, b{&c.p.b, c.p.pose_b};
   const referee::TimeTruth truth = referee::judge_motion(a, c.ma, b, c.mb);
   const double tau = tolerance::core_tau_factor * 0x1p-53 * scale_of(c);
   REQUIRE(x.outcome == Outcome::answered);

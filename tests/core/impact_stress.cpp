@@ -7,7 +7,7 @@
 #include <cstdio>
 #include <cstdlib>
 
-#include "core/ccd/impact.h"
+#include "core/impact/impact.h"
 #include "core/narrow/pair_table.h"
 #include "core/tolerance.h"
 #include "tests/core/random_course.h"

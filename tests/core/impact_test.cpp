@@ -1,7 +1,7 @@
 // Time of impact: closed forms, and never late against dense sampling.
 #include <numbers>
 
-#include "core/ccd/impact.h"
+#include "core/impact/impact.h"
 #include "core/narrow/mesh_tree.h"
 #include "core/narrow/narrow_phase.h"
 #include "core/narrow/pair_table.h"

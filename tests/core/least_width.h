@@ -6,7 +6,7 @@
 #include <cmath>
 #include <vector>
 
-#include "core/base/rng.h"
+#include "core/math/rng.h"
 #include "core/math/wide.h"
 #include "core/shape/shape.h"
 

@@ -2,9 +2,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/base/rng.h"
-#include "core/narrow/fast/vertex_climb.h"
-#include "core/narrow/fast/vertex_scan.h"
+#include "core/math/rng.h"
+#include "core/narrow/filtered/vertex_climb.h"
+#include "core/narrow/filtered/vertex_scan.h"
 #include "core/narrow/hull_graph.h"
 #include "core/narrow/narrow_phase.h"
 #include "tests/core/least_width.h"

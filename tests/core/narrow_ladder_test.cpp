@@ -41,7 +41,7 @@ double outside(double x, double lo, double hi) { return std::max({lo - x, x - hi
 
 // Truth.md §3, each answer by what it claims.
 void judge(const Pair& p, Tally& t) {
-  const referee::Placed a{&p.a, p.pose_a}, b{&p.b, p.pose_b};
+  const Placed a{&p.a, p.pose_a}, b{&p.b, p.pose_b};
   const referee::PairTruth truth = referee::judge_pair(a, b);
   const double tau = tolerance::core_tau_factor * 0x1p-53 * scale_of(p);
   const bool decided = truth.verdict != referee::Verdict::undecided;

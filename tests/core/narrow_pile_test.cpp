@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "core/narrow/narrow_phase.h"
-#include "core/scene/real_scene.h"
+#include "scenarios/import/real_scene.h"
 #include "tests/support/catch.h"
 
 using namespace touchstone;

@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <vector>
 
-#include "core/base/rng.h"
+#include "core/math/rng.h"
 #include "core/narrow/narrow_phase.h"
 #include "core/narrow/rim.h"
 #include "tests/support/catch.h"

@@ -5,8 +5,8 @@
 #include <array>
 #include <cmath>
 
-#include "core/base/rng.h"
 #include "core/math/pose.h"
+#include "core/math/rng.h"
 
 namespace touchstone::test {
 

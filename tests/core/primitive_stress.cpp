@@ -4,8 +4,8 @@
 #include <cstdio>
 #include <cstdlib>
 
-#include "core/ccd/primitive_exact.h"
-#include "core/ccd/primitive_impact.h"
+#include "core/impact/primitive_exact.h"
+#include "core/impact/primitive_impact.h"
 #include "tests/core/primitive_motions.h"
 
 int main(int argc, char** argv) {

@@ -4,10 +4,10 @@
 #include <cstdlib>
 #include <filesystem>
 
-#include "core/ccd/primitive_impact.h"
+#include "core/impact/primitive_impact.h"
 #include "core/narrow/narrow_phase.h"
-#include "core/scene/ccd_queries.h"
-#include "oracles/referee/primitive_motion.h"
+#include "oracles/referee/motion/primitive_motion.h"
+#include "scenarios/import/ccd_queries.h"
 #include "tests/core/primitive_motions.h"
 #include "tests/support/catch.h"
 

@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "core/base/rng.h"
+#include "core/math/rng.h"
 #include "core/narrow/narrow_phase.h"
 #include "core/scene/scene.h"
 

@@ -120,7 +120,7 @@ TEST_CASE("step: of a thousand bodies the bullets are flagged and nothing tunnel
         if (j == i) continue;
         const Body &a = now.bodies[static_cast<std::size_t>(i)], &b = now.bodies[static_cast<std::size_t>(j)];
         const Motion ma = a.motion.value_or(Motion{}), mb = b.motion.value_or(Motion{});
-        const referee::Placed pa{&now.shape_of(i), a.pose}, pb{&now.shape_of(j), b.pose};
+        const Placed pa{&now.shape_of(i), a.pose}, pb{&now.shape_of(j), b.pose};
         if (!overlaps(referee::outer_box(pa, ma), referee::outer_box(pb, mb))) continue;
         const auto truth = referee::judge_motion(pa, ma, pb, mb);
         REQUIRE(truth.verdict != referee::TimeTruth::Verdict::undecided);
@@ -159,7 +159,7 @@ TEST_CASE("step: what only a full sweep finds is as shallow as the criterion say
     if (touches_at_end(y, i.a, i.b) || *i.impact.toi == 0) continue;
     ++left;
     const InnerExtent ea = inner_extent(t.scene.shape_of(i.a)), eb = inner_extent(t.scene.shape_of(i.b));
-    const referee::Placed pa{&t.scene.shape_of(i.a), at(i.a).pose}, pb{&t.scene.shape_of(i.b), at(i.b).pose};
+    const Placed pa{&t.scene.shape_of(i.a), at(i.a).pose}, pb{&t.scene.shape_of(i.b), at(i.b).pose};
     const double depth = referee::certified_depth_before(pa, at(i.a).motion.value_or(Motion{}), pb,
                                                          at(i.b).motion.value_or(Motion{}), 1);
     CHECK(depth <= 0.5 * (ea.inner + eb.inner));

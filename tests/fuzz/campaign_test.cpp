@@ -11,12 +11,12 @@
 #include "core/base/input_error.h"
 #include "fuzz/campaign/campaign.h"
 #include "fuzz/campaign/store.h"
-#include "fuzz/generate/family.h"
 #include "fuzz/judge/judge.h"
 #include "fuzz/judge/truth.h"
-#include "fuzz/record/stored.h"
 #include "oracles/core/core_engine.h"
-#include "scenarios/case_codec.h"
+#include "reports/record/stored.h"
+#include "scenarios/codec/case_codec.h"
+#include "scenarios/random/family.h"
 #include "tests/mutants/lying_engine.h"
 #include "tests/support/catch.h"
 
@@ -326,7 +326,7 @@ TEST_CASE("our core is right on fast spins, at the end of the step and in scenes
       CoreEngine core;
       const auto answers = core.run({&c, 1});
       fuzz::Truth truth(c.scene);
-      for (const fuzz::Judgement& j : fuzz::judge(c, core.card(), answers[0], truth)) {
+      for (const Judgement& j : fuzz::judge(c, core.card(), answers[0], truth)) {
         INFO(c.id << (j.faults.empty() ? "" : ": " + j.faults[0].words));
         REQUIRE((j.undecided || j.right()));
       }

@@ -7,14 +7,14 @@
 #include <nlohmann/json.hpp>
 
 #include "core/base/input_error.h"
-#include "fuzz/certify/box_scene.h"
 #include "fuzz/certify/candidate_verdict.h"
-#include "fuzz/certify/histories.h"
-#include "fuzz/certify/orders.h"
 #include "fuzz/certify/refute.h"
 #include "fuzz/shrink/keeps_finding.h"
 #include "oracles/core/broad_engine.h"
-#include "scenarios/case_codec.h"
+#include "scenarios/codec/case_codec.h"
+#include "scenarios/exhaustive/box_scene.h"
+#include "scenarios/exhaustive/histories.h"
+#include "scenarios/exhaustive/orders.h"
 #include "tests/mutants/lying_engine.h"
 #include "tests/mutants/topics.h"
 #include "tests/support/catch.h"
@@ -27,20 +27,20 @@ namespace {
 const std::atomic<bool> never{false};
 
 Subject core_subject(std::string_view name) {
-  return {std::string(name), "", true, [name](Level level) {
-            return make_broad_engine(name, level == Level::boxes ? BroadBoxes::exact : BroadBoxes::bodies);
+  return {std::string(name), "", true, [name](BroadLevel level) {
+            return make_broad_engine(name, level == BroadLevel::boxes ? BroadBoxes::exact : BroadBoxes::bodies);
           }};
 }
 
 BroadCertificate certificate(const Subject& s, std::uint64_t limit, int jobs = 1,
-                             std::vector<Level> levels = {Level::boxes, Level::bodies}) {
+                             std::vector<BroadLevel> levels = {BroadLevel::boxes, BroadLevel::bodies}) {
   CertifyConfig c;
   c.levels = std::move(levels);
   c.limit = limit, c.jobs = jobs, c.program = "test";
   return *certify(s, c, {}, never);
 }
 
-BroadCertificate first_fault(const Subject& s, Level level) {
+BroadCertificate first_fault(const Subject& s, BroadLevel level) {
   CertifyConfig c;
   c.levels = {level}, c.limit = 12000, c.first_fault = true, c.program = "test";
   return *certify(s, c, {}, never);
@@ -83,11 +83,11 @@ class OtherMotion final : public Engine {
 };
 
 BroadCertificate certificate_of_sweeps(OtherMotion::Change change) {
-  const Subject s{"other motion", "", true, [=](Level) { return std::make_unique<OtherMotion>(change); }};
+  const Subject s{"other motion", "", true, [=](BroadLevel) { return std::make_unique<OtherMotion>(change); }};
   CertifyConfig c;
-  c.levels = {Level::bodies}, c.first_fault = true, c.program = "test";
+  c.levels = {BroadLevel::bodies}, c.first_fault = true, c.program = "test";
   for (const EvidenceRow& e : all_evidence())
-    if (!e.sweeps && e.level == Level::bodies) c.without.emplace_back(e.name);
+    if (!e.sweeps && e.level == BroadLevel::bodies) c.without.emplace_back(e.name);
   return *certify(s, c, {}, never);
 }
 
@@ -125,8 +125,8 @@ TEST_CASE("every broad phase of the core gets its certificate", "[certify]") {
   for (const auto name : core_broad_phases()) {
     const BroadCertificate c = certificate(core_subject(name), 150);
     INFO(to_json(c).dump(1));
-    CHECK(verdict(c, Level::boxes) == LevelVerdict::certified);
-    CHECK(verdict(c, Level::bodies) == LevelVerdict::certified);
+    CHECK(verdict(c, BroadLevel::boxes) == LevelVerdict::certified);
+    CHECK(verdict(c, BroadLevel::bodies) == LevelVerdict::certified);
     CHECK(exit_code(c) == 0);
     CHECK(c.evidence.size() == all_evidence().size());
     for (const EvidenceCount& e : c.evidence) {
@@ -157,9 +157,9 @@ TEST_CASE("a certificate is the same bytes whatever the number of jobs, and come
 TEST_CASE("every lying broad phase is refuted by a script of few bodies and steps", "[certify]") {
   std::size_t refuted = 0, small = 0;
   for (const mutants::Mutant& m : broad_mutants()) {
-    const Subject s{std::string(m.name), "", true, [&m](Level) { return mutants::make_lying_engine(m); }};
-    BroadCertificate c = first_fault(s, Level::boxes);
-    if (exit_code(c) == 0) c = first_fault(s, Level::bodies);
+    const Subject s{std::string(m.name), "", true, [&m](BroadLevel) { return mutants::make_lying_engine(m); }};
+    BroadCertificate c = first_fault(s, BroadLevel::boxes);
+    if (exit_code(c) == 0) c = first_fault(s, BroadLevel::bodies);
     INFO(m.name);
     CHECK(exit_code(c) == 1);
     refuted += !c.refutations.empty();
@@ -233,7 +233,7 @@ class Faulty final : public Engine {
 };
 
 Subject faulty(Faulty::Fault fault) {
-  return {"faulty", "", false, [fault](Level) { return std::make_unique<Faulty>(fault); }, 1, {}};
+  return {"faulty", "", false, [fault](BroadLevel) { return std::make_unique<Faulty>(fault); }, 1, {}};
 }
 
 void fail(Observation& o, Outcome outcome) { o = {}, o.outcome = outcome; }
@@ -278,15 +278,15 @@ TEST_CASE("what is not answered in time is neither refuted nor certified, and th
   });
   static std::vector<double> asked;  // how much longer
   asked.clear();
-  s.make_patient = [&](Level, double times) -> EnginePtr {
+  s.make_patient = [&](BroadLevel, double times) -> EnginePtr {
     asked.push_back(times);
     if (times >= 4) return make_broad_engine("brute_force", BroadBoxes::exact);
-    return s.make(Level::boxes);
+    return s.make(BroadLevel::boxes);
   };
-  const BroadCertificate c = certificate(s, 40, 1, {Level::boxes});
+  const BroadCertificate c = certificate(s, 40, 1, {BroadLevel::boxes});
   INFO(to_json(c).dump(1));
   CHECK(exit_code(c) == 3);
-  CHECK(verdict(c, Level::boxes) == LevelVerdict::not_certified);
+  CHECK(verdict(c, BroadLevel::boxes) == LevelVerdict::not_certified);
   CHECK(c.refutations.empty());
   CHECK(c.faults.empty());
   REQUIRE(c.too_slow.size() == 1);
@@ -299,13 +299,13 @@ TEST_CASE("what is not answered in time is neither refuted nor certified, and th
   s.make = faulty([](const Scene& scene, Observation& o) {
              if (scene.bodies.size() > 60) fail(o, Outcome::not_asked);
            }).make;
-  CHECK(exit_code(certificate(s, 40, 1, {Level::boxes})) == 3);
+  CHECK(exit_code(certificate(s, 40, 1, {BroadLevel::boxes})) == 3);
   // What is seen beside it still refutes.
   s.make = faulty([](const Scene& scene, Observation& o) {
              if (scene.bodies.size() > 60) fail(o, Outcome::timed_out);
              if (inserts(scene) == 3 && !o.candidate_pairs.empty()) o.candidate_pairs.back().clear();
            }).make;
-  CHECK(exit_code(certificate(s, 40, 1, {Level::boxes})) == 1);
+  CHECK(exit_code(certificate(s, 40, 1, {BroadLevel::boxes})) == 1);
 }
 
 TEST_CASE("every class of fault is listed, a solid pair first; what a bad box causes is a class of its own",
@@ -320,10 +320,10 @@ TEST_CASE("every class of fault is listed, a solid pair first; what a bad box ca
     if (has_nan(scene) || has_half_space(scene))
       for (auto& list : o.candidate_pairs) list.clear();
   });
-  const BroadCertificate c = certificate(s, 400, 1, {Level::boxes});
+  const BroadCertificate c = certificate(s, 400, 1, {BroadLevel::boxes});
   INFO(to_json(c).dump(1));
   CHECK(exit_code(c) == 1);
-  CHECK(c.evidence.size() == certificate(core_subject("brute_force"), 1, 1, {Level::boxes}).evidence.size());
+  CHECK(c.evidence.size() == certificate(core_subject("brute_force"), 1, 1, {BroadLevel::boxes}).evidence.size());
   for (const auto kind : {FaultKind::solid, FaultKind::touching, FaultKind::invalid, FaultKind::unbounded})
     CHECK(count_of(c, "missed", kind) == 1);
   CHECK(count_of(c, "crashed", FaultKind::numbers) == 1);
@@ -334,7 +334,7 @@ TEST_CASE("every class of fault is listed, a solid pair first; what a bad box ca
   // Shrunk, it is solid still.
   const Case& script = *c.refutations[0].script;
   const auto v =
-      judge_candidates(script, s.make(Level::boxes)->run({&script, 1})[0].answers[0], Level::boxes);
+      judge_candidates(script, s.make(BroadLevel::boxes)->run({&script, 1})[0].answers[0], BroadLevel::boxes);
   CHECK(v.shows({"missed", FaultKind::solid}));
   for (const FaultCount& f : c.faults)
     if (f.what.kind == FaultKind::solid) CHECK(f.share > 0.01);
@@ -342,7 +342,7 @@ TEST_CASE("every class of fault is listed, a solid pair first; what a bad box ca
   CHECK(std::any_of(c.faults.begin(), c.faults.end(), [](const FaultCount& f) {
     return f.evidence == "no_boxes" && f.what == FaultClass{"missed", FaultKind::touching};
   }));
-  CHECK(to_json(c) == to_json(certificate(s, 400, 3, {Level::boxes})));
+  CHECK(to_json(c) == to_json(certificate(s, 400, 3, {BroadLevel::boxes})));
   bool holds = false;
   CHECK(to_json(broad_certificate_from_json(to_json(c), holds)) == to_json(c));
   CHECK(holds);

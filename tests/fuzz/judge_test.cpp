@@ -1,16 +1,16 @@
 // Answers made by hand against truths that can be done in the head.
 #include <cmath>
 
-#include "core/base/rng.h"
+#include "core/math/rng.h"
 #include "fuzz/judge/judge.h"
 #include "fuzz/judge/truth.h"
 #include "oracles/core/core_engine.h"
 #include "oracles/referee/work.h"
-#include "scenarios/case_codec.h"
+#include "scenarios/codec/case_codec.h"
 #include "tests/support/catch.h"
 
 using namespace touchstone;
-using fuzz::Fault;
+using Fault;
 
 namespace {
 
@@ -32,13 +32,13 @@ Observation answered() {
   return o;
 }
 
-fuzz::Judgement judge_one(const Case& c, const Observation& o, const EngineCard& card = double_card(),
+Judgement judge_one(const Case& c, const Observation& o, const EngineCard& card = double_card(),
                           const ReceivedScene& received = {}) {
   fuzz::Truth truth(c.scene);
   return fuzz::judge(c, card, {received, {o}}, truth).at(0);
 }
 
-bool has(const fuzz::Judgement& j, Fault f) {
+bool has(const Judgement& j, Fault f) {
   for (const auto& r : j.faults)
     if (r.fault == f) return true;
   return false;
@@ -102,8 +102,8 @@ TEST_CASE("an error that is right for the scene received is blamed on representa
   ReceivedScene received;
   received.bodies.resize(2);
   received.bodies[1] = Placement{Mat3::Identity(), Vec3(1.99, 0, 0)};
-  CHECK(judge_one(c, o, double_card(), received).blame == fuzz::Blame::representation);
-  CHECK(judge_one(c, o).blame == fuzz::Blame::algorithm);
+  CHECK(judge_one(c, o, double_card(), received).blame == Blame::representation);
+  CHECK(judge_one(c, o).blame == Blame::algorithm);
 }
 
 TEST_CASE("an engine that holds another hull is judged for that one too", "[judge]") {
@@ -123,14 +123,14 @@ TEST_CASE("an engine that holds another hull is judged for that one too", "[judg
   received.shapes[1] = make_hull(cooked);
   const auto told = judge_one(c, o, double_card(), received);
   CHECK(has(told, Fault::ghost));
-  CHECK(told.blame == fuzz::Blame::representation);
+  CHECK(told.blame == Blame::representation);
   CHECK(told.holds_other_shape);
   // Of another kind: the same; and what is wrong for what is held is the algorithm's.
   received.shapes[1] = Box{Vec3(1, 1, 0.01)};
   CHECK(judge_one(c, o, double_card(), received).holds_other_shape);
   received.shapes[1] = Box{Vec3(1, 1, 0.001)};
   const auto wrong = judge_one(c, o, double_card(), received);
-  CHECK(wrong.blame == fuzz::Blame::algorithm);
+  CHECK(wrong.blame == Blame::algorithm);
   CHECK_FALSE(wrong.holds_other_shape);
 }
 
@@ -178,7 +178,7 @@ TEST_CASE("witness points of bodies whose depth is open are held to no more than
   REQUIRE(truth.pair(0, 0, 1).gap.hi > -1);
   CoreEngine core;
   const auto answers = core.run({&c, 1});
-  for (const fuzz::Judgement& j : fuzz::judge(c, core.card(), answers[0], truth)) CHECK(j.faults.empty());
+  for (const Judgement& j : fuzz::judge(c, core.card(), answers[0], truth)) CHECK(j.faults.empty());
 }
 
 TEST_CASE("time of impact is judged by gaps", "[judge][toi]") {
@@ -231,13 +231,13 @@ TEST_CASE("late and missed impacts with a mesh are wrong by the depth in one tri
     if (swap) std::swap(c.scene.bodies[0], c.scene.bodies[1]);
     CHECK(judge_one(c, impact_at(t)).right());
     CHECK(judge_one(c, impact_at(t + 1e-15)).right());
-    const fuzz::Judgement late = judge_one(c, impact_at(t + 1.0 / 30));
+    const Judgement late = judge_one(c, impact_at(t + 1.0 / 30));
     REQUIRE(has(late, Fault::late));
     CHECK(std::abs(late.faults.front().error - speed / 30) < 1e-12);
     CHECK(has(judge_one(c, impact_at(t + 1e-12)), Fault::late));
     // Long through, and clear again.
     CHECK_FALSE(judge_one(c, impact_at(0.99)).right());
-    const fuzz::Judgement none = judge_one(c, impact_at(std::nullopt));
+    const Judgement none = judge_one(c, impact_at(std::nullopt));
     REQUIRE(has(none, Fault::missed));
     CHECK(std::abs(none.faults.front().error - 0.25) < 1e-9);
     CHECK(has(judge_one(c, impact_at(0.2)), Fault::early));
@@ -293,11 +293,11 @@ TEST_CASE("candidates of a step: every pair that meets on the way, those of the 
     return o;
   };
   CHECK(judge_one(c, answer({{1, 0}})).right());
-  const fuzz::Judgement more = judge_one(c, answer({{0, 1}, {0, 2}, {2, 1}}));
+  const Judgement more = judge_one(c, answer({{0, 1}, {0, 2}, {2, 1}}));
   CHECK(more.right());
   CHECK(more.pairs_true == 1);
   CHECK(more.pairs_reported == 3);
-  const fuzz::Judgement none = judge_one(c, answer({{0, 2}}));
+  const Judgement none = judge_one(c, answer({{0, 2}}));
   REQUIRE(has(none, Fault::missed));
   CHECK(std::abs(none.faults.front().error - 0.25) < 1e-9);
   Observation nothing = answered();
@@ -365,7 +365,7 @@ TEST_CASE("a normal that is none is wrong, also where the bodies are apart by le
 TEST_CASE("of a contact with a surface is judged what can be, and the rest is not judged", "[judge][mesh]") {
   const Case c = ball_on_triangle(0.75, Question::contact);
   const auto stated = judge_one(c, contact({0, 0, -1}, 0.25));
-  CHECK(stated.ruling() == fuzz::Ruling::not_judged);
+  CHECK(stated.ruling() == Ruling::not_judged);
   CHECK(stated.unjudged_by_definition());
   CHECK_FALSE(stated.right());
   CHECK(has(judge_one(c, contact({0, 0, 0}, 0.25)), Fault::normal_not_unit));
@@ -383,7 +383,7 @@ TEST_CASE("of a contact with a surface is judged what can be, and the rest is no
   d.distance = 0;
   CHECK(judge_one(ball_on_triangle(0.75, Question::distance), d).right());
   d.distance = -7;
-  CHECK(judge_one(ball_on_triangle(0.75, Question::distance), d).ruling() == fuzz::Ruling::not_judged);
+  CHECK(judge_one(ball_on_triangle(0.75, Question::distance), d).ruling() == Ruling::not_judged);
   CHECK(has(judge_one(ball_on_triangle(2, Question::distance), d), Fault::ghost));
 }
 
@@ -393,7 +393,7 @@ TEST_CASE("in a scene each contact is judged by its numbers, and one with a surf
   Observation o = answered();
   CHECK(has(judge_one(c, o), Fault::missed));
   o.contacts = {{0, 1, {0, 0, -1}, 0.25}};
-  CHECK(judge_one(c, o).ruling() == fuzz::Ruling::not_judged);
+  CHECK(judge_one(c, o).ruling() == Ruling::not_judged);
   o.contacts.push_back({0, 1, {0, 0, 0}, 0.1});  // not the deepest
   CHECK(has(judge_one(c, o), Fault::normal_not_unit));
   o.contacts.back() = {0, 1, {0, 0, -1}, NAN};
@@ -411,7 +411,7 @@ TEST_CASE("what is too expensive to referee is undecided: neither held against a
     c.scene.bodies[1].motion = Motion{Vec3(-1, 0, 0), Vec3::Zero()};
     const auto j = judge_one(c, o);
     CAPTURE(to_string(q));
-    CHECK(j.ruling() == fuzz::Ruling::undecided);
+    CHECK(j.ruling() == Ruling::undecided);
   }
 }
 
@@ -446,7 +446,7 @@ TEST_CASE("a claimed tolerance is believed as far as it can be, and shown where 
   CHECK(with(0.05).wide_claim == 0.05);
   CHECK(with(0.05).wide_claim_in_l == 0.02);
   for (const double claim : {2.5, 1e300}) {
-    CHECK(with(claim).ruling() == fuzz::Ruling::not_judged);
+    CHECK(with(claim).ruling() == Ruling::not_judged);
     CHECK_FALSE(with(claim).unjudged_by_definition());
   }
   for (const double claim : {-1.0, double(NAN), double(INFINITY)}) CHECK(has(with(claim), Fault::no_number));
@@ -518,7 +518,7 @@ TEST_CASE("a scene received that is none is representation, never a crash", "[ju
                                std::pair{Question::contact, contact({0, 1, 0}, 0.1)}}) {
       const auto j = judge_one(spheres(1.5, q), o, double_card(), received);
       CHECK_FALSE(j.faults.empty());
-      CHECK(j.blame == fuzz::Blame::representation);
+      CHECK(j.blame == Blame::representation);
       CHECK(j.received_faults.empty());
     }
     CHECK(
@@ -528,7 +528,7 @@ TEST_CASE("a scene received that is none is representation, never a crash", "[ju
   Case three = spheres(1.5, Question::overlap);
   three.scene.bodies.resize(3);
   const ReceivedScene third{{std::nullopt, std::nullopt, placed({nan, 0, 0})}, {}};
-  CHECK(judge_one(three, missed, double_card(), third).blame == fuzz::Blame::algorithm);
+  CHECK(judge_one(three, missed, double_card(), third).blame == Blame::algorithm);
 }
 
 TEST_CASE("a mesh or half-space received that is none does not reach the referee", "[judge]") {
@@ -540,8 +540,8 @@ TEST_CASE("a mesh or half-space received that is none does not reach the referee
   TriangleMesh broken = std::get<TriangleMesh>(c.scene.shapes[1]);
   broken.vertices[1].y() = std::nan("");
   CHECK(judge_one(c, missed, double_card(), {{}, {std::nullopt, broken}}).blame ==
-        fuzz::Blame::representation);
+        Blame::representation);
   c.scene.shapes[1] = HalfSpace{};
   CHECK(judge_one(c, missed, double_card(), {{}, {std::nullopt, HalfSpace{Vec3::Zero(), 1}}}).blame ==
-        fuzz::Blame::representation);
+        Blame::representation);
 }

@@ -10,8 +10,8 @@
 #include <iterator>
 #include <set>
 
-#include "fuzz/generate/family.h"
 #include "fuzz/libfuzzer/decode.h"
+#include "scenarios/random/family.h"
 #include "tests/mutants/lying_engine.h"
 #include "tests/support/catch.h"
 

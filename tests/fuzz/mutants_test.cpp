@@ -2,8 +2,8 @@
 #include <set>
 
 #include "fuzz/campaign/campaign.h"
-#include "fuzz/generate/family.h"
 #include "fuzz/judge/relation.h"
+#include "scenarios/random/family.h"
 #include "tests/mutants/lying_engine.h"
 #include "tests/support/catch.h"
 
@@ -42,7 +42,7 @@ TEST_CASE("no two mutants share a name, and their faults cover all that the judg
   std::set<std::string_view> names, faults;
   for (const mutants::Mutant& m : mutants::mutants()) names.insert(m.name), faults.insert(m.fault);
   CHECK(names.size() == mutants::mutants().size());
-  for (const std::string_view fault : fuzz::fault_names)
+  for (const std::string_view fault : fault_names)
     if (fault != "failed") CHECK(faults.contains(fault));
   for (const fuzz::Relation& r : fuzz::relations()) CHECK(faults.contains(r.name));
   // `failed` goes by the outcome's name.

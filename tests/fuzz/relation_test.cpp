@@ -2,13 +2,13 @@
 #include <filesystem>
 
 #include "fuzz/campaign/campaign.h"
-#include "fuzz/generate/family.h"
 #include "fuzz/judge/exact_map.h"
 #include "fuzz/judge/judge.h"
 #include "fuzz/judge/relation.h"
 #include "fuzz/shrink/keeps_finding.h"
-#include "oracles/api/remote_engine.h"
+#include "oracles/client/remote_engine.h"
 #include "oracles/core/core_engine.h"
+#include "scenarios/random/family.h"
 #include "tests/mutants/lying_engine.h"
 #include "tests/support/catch.h"
 

@@ -8,11 +8,11 @@
 
 #include "core/scene/scene.h"
 #include "fuzz/campaign/campaign.h"
-#include "fuzz/generate/family.h"
-#include "fuzz/generate/numbers.h"
 #include "fuzz/shrink/keeps_finding.h"
 #include "fuzz/shrink/reductions.h"
-#include "scenarios/case_codec.h"
+#include "scenarios/codec/case_codec.h"
+#include "scenarios/random/family.h"
+#include "scenarios/random/numbers.h"
 #include "tests/mutants/lying_engine.h"
 #include "tests/support/catch.h"
 

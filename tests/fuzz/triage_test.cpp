@@ -10,8 +10,8 @@
 #include <thread>
 
 #include "core/base/input_error.h"
-#include "reports/triage_text.h"
-#include "scenarios/case_codec.h"
+#include "reports/text/triage_text.h"
+#include "scenarios/codec/case_codec.h"
 #include "tests/support/catch.h"
 
 using namespace touchstone;

@@ -4,7 +4,7 @@
 #include <limits>
 
 #include "core/math/through_float.h"
-#include "fuzz/generate/random_shape.h"
+#include "scenarios/random/random_shape.h"
 #include "tests/mutants/replay.h"
 #include "tests/mutants/topics.h"
 

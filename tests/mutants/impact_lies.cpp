@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/ccd/impact.h"
+#include "core/impact/impact.h"
 #include "core/math/through_float.h"
 #include "tests/mutants/pair.h"
 #include "tests/mutants/topics.h"

@@ -5,7 +5,7 @@
 
 #include <vector>
 
-#include "oracles/api/engine.h"
+#include "oracles/abi/engine.h"
 #include "tests/mutants/mutant.h"
 
 namespace touchstone::mutants {

@@ -4,7 +4,7 @@
 #include <functional>
 #include <string_view>
 
-#include "oracles/api/observation.h"
+#include "scenarios/value/observation.h"
 
 namespace touchstone::mutants {
 

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "fuzz/generate/random_shape.h"
+#include "scenarios/random/random_shape.h"
 #include "tests/mutants/replay.h"
 
 namespace touchstone::mutants {

@@ -1,7 +1,7 @@
 // Every lying engine as an engine of a plug-in, so that any command takes one as it takes a user's engine:
 //
 //   touchstone fuzz --subject build/lib/libtouchstone_mutants.so:depth_halved
-#include "oracles/api/plugin_kit.h"
+#include "oracles/abi/plugin_kit.h"
 
 #include "tests/mutants/lying_engine.h"
 

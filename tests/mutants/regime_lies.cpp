@@ -6,7 +6,7 @@
 #include <limits>
 #include <map>
 
-#include "fuzz/generate/numbers.h"
+#include "scenarios/random/numbers.h"
 #include "tests/mutants/pair.h"
 #include "tests/mutants/replay.h"
 #include "tests/mutants/topics.h"

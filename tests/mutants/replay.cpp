@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "fuzz/generate/random_shape.h"
+#include "scenarios/random/random_shape.h"
 
 namespace touchstone::mutants {
 namespace {

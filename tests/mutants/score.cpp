@@ -24,9 +24,9 @@
 #include <thread>
 
 #include "fuzz/campaign/campaign.h"
-#include "fuzz/generate/family.h"
-#include "oracles/api/remote_engine.h"
+#include "oracles/client/remote_engine.h"
 #include "oracles/core/core_engine.h"
+#include "scenarios/random/family.h"
 #include "tests/mutants/lying_engine.h"
 
 using namespace touchstone;

@@ -1,5 +1,5 @@
 #include "core/base/input_error.h"
-#include "oracles/api/engine.h"
+#include "oracles/abi/engine.h"
 #include "tests/support/catch.h"
 
 using namespace touchstone;

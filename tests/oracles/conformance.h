@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "oracles/api/remote_engine.h"
+#include "oracles/client/remote_engine.h"
 #include "tests/support/catch.h"
 
 namespace touchstone::testing {

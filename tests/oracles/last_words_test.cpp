@@ -1,5 +1,5 @@
 // What a dying process printed: what matters of it, and what tells one crash from another.
-#include "oracles/api/last_words.h"
+#include "oracles/abi/last_words.h"
 
 #include <string>
 

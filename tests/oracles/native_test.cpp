@@ -5,9 +5,9 @@
 #include <filesystem>
 
 #include "core/base/input_error.h"
-#include "fuzz/generate/family.h"
-#include "oracles/api/protocol.h"
+#include "oracles/abi/protocol.h"
 #include "oracles/core/native.h"
+#include "scenarios/random/family.h"
 #include "tests/oracles/remote_fixture.h"
 #include "tests/support/catch.h"
 

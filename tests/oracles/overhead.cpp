@@ -2,7 +2,7 @@
 #include <chrono>
 #include <cstdio>
 
-#include "oracles/api/remote_engine.h"
+#include "oracles/client/remote_engine.h"
 
 using namespace touchstone;
 

@@ -1,11 +1,11 @@
-#include "oracles/api/protocol.h"
+#include "oracles/abi/protocol.h"
 
 #include <cmath>
 #include <limits>
 #include <optional>
 
 #include "core/base/hash.h"
-#include "core/base/rng.h"
+#include "core/math/rng.h"
 #include "core/scene/scene.h"
 #include "tests/support/catch.h"
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "oracles/api/remote_engine.h"
+#include "oracles/client/remote_engine.h"
 
 namespace touchstone::testing {
 

@@ -1,4 +1,4 @@
-// Every animal of the zoo (tests/oracles/zoo): what has to be said of it, that the answers beside it are the
+// Every animal of the zoo (tests/zoo): what has to be said of it, that the answers beside it are the
 // same, and that nothing is left behind: no process, no file, no change, no connection.
 #include <arpa/inet.h>
 #include <dirent.h>

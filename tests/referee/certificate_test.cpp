@@ -4,7 +4,8 @@
 #include <nlohmann/json.hpp>
 
 #include "core/base/input_error.h"
-#include "oracles/referee/checker.h"
+#include "oracles/checker/checker.h"
+#include "scenarios/codec/certificate_codec.h"
 #include "tests/referee/support.h"
 #include "tests/support/catch.h"
 
@@ -36,19 +37,19 @@ TEST_CASE("every certificate of a pair in general position is accepted after a t
     if (t.verdict == Verdict::undecided) continue;
     const Certificate c = stored(checkable_certificate(t, a, b));
     if (t.verdict == Verdict::disjoint) {
-      REQUIRE(check(c, a, b));
-      REQUIRE_FALSE(check(c, b, a));
+      REQUIRE(checker::check(c, a, b));
+      REQUIRE_FALSE(checker::check(c, b, a));
       ++planes;
       continue;
     }
     ++points;
-    refused_points += !check(c, a, b);
+    refused_points += !checker::check(c, a, b);
     const Certificate lower = stored(depth_certificate(t, a, b));
-    refused_depths += !check(lower, a, b);
+    refused_depths += !checker::check(lower, a, b);
     Certificate upper;
     upper.kind = Certificate::Kind::depth_direction;
     upper.direction = t.normal, upper.offset = -t.gap.lo;
-    REQUIRE(check(stored(upper), a, b));
+    REQUIRE(checker::check(stored(upper), a, b));
     REQUIRE(lower.offset <= upper.offset);
     // The two meet: depth is proven from both sides to rounding (or to what the bracket leaves). Where
     // symmetry has closed the bracket the polytope is a coarse one.
@@ -57,10 +58,10 @@ TEST_CASE("every certificate of a pair in general position is accepted after a t
     // Claims a little beyond the truth are refused.
     const double beyond = 1e-12 + (t.gap.hi - t.gap.lo);
     upper.offset = -t.gap.hi - beyond;
-    REQUIRE_FALSE(check(upper, a, b));
+    REQUIRE_FALSE(checker::check(upper, a, b));
     Certificate more = lower;
     more.offset = -t.gap.lo + beyond;
-    REQUIRE_FALSE(check(more, a, b));
+    REQUIRE_FALSE(checker::check(more, a, b));
   }
   CAPTURE(planes, points, depths, loose);
   CHECK(refused_points == 0);
@@ -76,7 +77,7 @@ TEST_CASE("a plane through a touching pair is refused with any number changed", 
   const Placed a{&box, Pose{{0, 0, 0}, {}}}, b{&box, Pose{{2 + 0x1p-51, 0, 0}, {}}};
   const Certificate c = stored(checkable_certificate(judge_pair(a, b), a, b));
   REQUIRE(c.kind == Certificate::Kind::separating_plane);
-  REQUIRE(check(c, a, b));
+  REQUIRE(checker::check(c, a, b));
   std::vector<double> n{1, 0, 0, 1};
   const auto plane = [&](const std::vector<double>& v) {
     Certificate d;
@@ -84,12 +85,12 @@ TEST_CASE("a plane through a touching pair is refused with any number changed", 
     d.direction = {v[0], v[1], v[2]}, d.offset = v[3];
     return d;
   };
-  REQUIRE(check(stored(plane(n)), a, b));
+  REQUIRE(checker::check(stored(plane(n)), a, b));
   for (std::size_t i = 0; i < n.size(); ++i)
     for (double by : {-1e-15, 1e-15, 1.0, -3.0}) {
       auto m = n;
       m[i] += by;
-      REQUIRE_FALSE(check(stored(plane(m)), a, b));
+      REQUIRE_FALSE(checker::check(stored(plane(m)), a, b));
     }
 }
 
@@ -108,7 +109,7 @@ TEST_CASE("planes of cylinder, cone and ellipsoid are decided through their squa
       c.kind = Certificate::Kind::separating_plane;
       c.direction = n, c.offset = top + slack;
       const Placed a{&x, p}, b{&dot_shape, Pose{s + n, {}}};
-      REQUIRE(check(stored(c), a, b) == (slack > 0));
+      REQUIRE(checker::check(stored(c), a, b) == (slack > 0));
       ++(slack > 0 ? held : refused);
     }
   }
@@ -135,12 +136,12 @@ TEST_CASE("the one common point of two touching bodies is refused with any coord
     Certificate c;
     c.kind = Certificate::Kind::common_point;
     c.point = t.point;
-    REQUIRE(check(stored(c), a, b));
+    REQUIRE(checker::check(stored(c), a, b));
     for (int k = 0; k < 3; ++k)
       for (double by : {0x1p-51, -0x1p-51, 0.5, -7.0}) {
         Certificate d = c;
         d.point[k] += by;
-        REQUIRE_FALSE(check(stored(d), a, b));
+        REQUIRE_FALSE(checker::check(stored(d), a, b));
         ++changed;
       }
   }
@@ -154,12 +155,12 @@ TEST_CASE("an inner polytope is refused when a point, a facet or the depth is ch
   const Certificate c = stored(depth_certificate(judge_pair(a, b), a, b));
   REQUIRE(c.kind == Certificate::Kind::inner_polytope);
   REQUIRE(c.facets.size() >= 4);
-  REQUIRE(check(c, a, b));
+  REQUIRE(checker::check(c, a, b));
   const auto refused = [&](const std::function<void(Certificate&)>& change) {
     Certificate d = c;
     change(d);
     try {
-      return !check(stored(d), a, b);
+      return !checker::check(stored(d), a, b);
     } catch (const InputError&) {
       return true;  // not even read
     }
@@ -190,7 +191,7 @@ TEST_CASE("an inner polytope is refused when a point, a facet or the depth is ch
   REQUIRE(refused([](Certificate& d) { d.facets.clear(); }));
   Certificate none = c;
   none.support_pairs.clear();
-  REQUIRE_FALSE(check(none, a, b));
+  REQUIRE_FALSE(checker::check(none, a, b));
   REQUIRE(refused([](Certificate& d) { d.offset += 1e-13; }));
   REQUIRE(refused([](Certificate& d) { d.offset = std::numeric_limits<double>::max(); }));
   REQUIRE(changed > 60);
@@ -206,18 +207,18 @@ TEST_CASE("a mesh is apart when each triangle has a plane, and not when one lack
   REQUIRE(t.verdict == Verdict::disjoint);
   const Certificate c = stored(checkable_certificate(t, a, b));
   REQUIRE(c.rationals.size() >= 8);
-  REQUIRE(check(c, a, b));
+  REQUIRE(checker::check(c, a, b));
   for (std::size_t i = 0; i < c.rationals.size(); ++i) {
     Certificate d = c;
     d.rationals.erase(d.rationals.begin() + static_cast<std::ptrdiff_t>(i));
-    REQUIRE_FALSE(check(d, a, b));
+    REQUIRE_FALSE(checker::check(d, a, b));
   }
   Certificate half = c;
   half.rationals.resize(4);
-  REQUIRE_FALSE(check(half, a, b));
+  REQUIRE_FALSE(checker::check(half, a, b));
   Certificate no = c;
   no.rationals[0] = "1/0";
-  REQUIRE_THROWS_AS(check(no, a, b), InputError);
+  REQUIRE_THROWS_AS(checker::check(no, a, b), InputError);
 }
 
 TEST_CASE("depth in a half-space is certified from both sides", "[referee][checker]") {
@@ -232,18 +233,18 @@ TEST_CASE("depth in a half-space is certified from both sides", "[referee][check
     const Placed &a = first ? plane : body, &b = first ? body : plane;
     const PairTruth t = judge_pair(a, b);
     if (t.verdict == Verdict::undecided) continue;
-    REQUIRE(check(stored(checkable_certificate(t, a, b)), a, b));
+    REQUIRE(checker::check(stored(checkable_certificate(t, a, b)), a, b));
     if (t.verdict != Verdict::overlap) continue;
     Certificate upper;
     upper.kind = Certificate::Kind::depth_direction;
     upper.direction = t.normal, upper.offset = width(a, b, t.normal).hi;
     REQUIRE(upper.offset <= -t.gap.lo * (1 + 1e-15));
-    REQUIRE(check(stored(depth_certificate(t, a, b)), a, b));
-    REQUIRE(check(stored(upper), a, b));
+    REQUIRE(checker::check(stored(depth_certificate(t, a, b)), a, b));
+    REQUIRE(checker::check(stored(upper), a, b));
     Certificate more = stored(depth_certificate(t, a, b));
     more.offset += 1e-13, upper.offset -= 1e-13;
-    REQUIRE_FALSE(check(more, a, b));
-    REQUIRE_FALSE(check(upper, a, b));
+    REQUIRE_FALSE(checker::check(more, a, b));
+    REQUIRE_FALSE(checker::check(upper, a, b));
     ++checked;
   }
   REQUIRE(checked > 100);
@@ -268,8 +269,8 @@ TEST_CASE("a rational has a denominator of 1 or more, lowest terms or not, and a
     return c;
   };
   for (const char* good : {"1", "0", "-1", "-0", "2/4", "-3/6", "8/8", "0/5"})
-    CHECK(check(point(good), a, b));
-  CHECK_FALSE(check(point("9/8"), a, b));
+    CHECK(checker::check(point(good), a, b));
+  CHECK_FALSE(checker::check(point("9/8"), a, b));
   const std::string digits(50'001, '1');
   for (const std::string& bad :
        {std::string("-1/-2"), std::string("1/-0"),  std::string("1/-1"), std::string("1/0"),
@@ -279,7 +280,7 @@ TEST_CASE("a rational has a denominator of 1 or more, lowest terms or not, and a
         std::string(" 1"),    std::string("1.5"),   std::string("0x1"),  digits,
         "1/" + digits}) {
     INFO(bad.substr(0, 10));
-    CHECK_THROWS_AS(check(point(bad), a, b), InputError);
+    CHECK_THROWS_AS(checker::check(point(bad), a, b), InputError);
   }
   nlohmann::ordered_json many = {{"kind", "separating_plane"}};
   for (int i = 0; i < 44; ++i) many["rationals"].push_back(std::string(49'000, '7'));

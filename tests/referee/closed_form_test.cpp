@@ -1,5 +1,5 @@
 // Spheres, capsules, half-spaces and exact touching, against closed forms.
-#include "oracles/referee/checker.h"
+#include "oracles/checker/checker.h"
 #include "tests/referee/support.h"
 #include "tests/support/catch.h"
 
@@ -52,7 +52,7 @@ TEST_CASE("exact touching is overlap, one ulp apart is disjoint, at every scale"
     const auto judged = [&](const Shape& a, const Vec3& p, const Shape& b, const Vec3& q) {
       const Placed x = at(a, p), y = at(b, q);
       const PairTruth t = judge_pair(x, y);
-      REQUIRE(check(checkable_certificate(t, x, y), x, y));
+      REQUIRE(checker::check(checkable_certificate(t, x, y), x, y));
       ++decided;
       return t.verdict;
     };
@@ -114,8 +114,8 @@ TEST_CASE("half-space: the gap is one support value along its normal, verdict ex
     REQUIRE(w.hi >= -t.gap.hi);
     REQUIRE(width(a, b, -t.normal).lo == inf);
     if (kind_of(body) <= ShapeKind::capsule || kind_of(body) == ShapeKind::hull) {
-      REQUIRE(check(checkable_certificate(t, a, b), a, b));
-      REQUIRE(check(checkable_certificate(u, b, a), b, a));
+      REQUIRE(checker::check(checkable_certificate(t, a, b), a, b));
+      REQUIRE(checker::check(checkable_certificate(u, b, a), b, a));
     }
     overlaps += t.verdict == Verdict::overlap;
     ++total;

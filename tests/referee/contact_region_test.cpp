@@ -1,5 +1,5 @@
 // The true contact region: closed forms, and its definition asked point by point of touching bodies.
-#include "oracles/referee/contact_region.h"
+#include "oracles/referee/region/contact_region.h"
 
 #include <numbers>
 

@@ -4,8 +4,10 @@
 #include <nlohmann/json.hpp>
 
 #include "core/base/input_error.h"
-#include "oracles/referee/impact_certificate.h"
-#include "oracles/referee/rational.h"
+#include "oracles/checker/checker.h"
+#include "oracles/referee/exact/rational.h"
+#include "oracles/referee/motion/impact_certificate.h"
+#include "scenarios/codec/certificate_codec.h"
 #include "tests/referee/support.h"
 #include "tests/support/catch.h"
 
@@ -35,7 +37,7 @@ struct Pairing {
   Motion ma, mb;
   TimeTruth truth() const { return judge_motion(a, ma, b, mb); }
   ImpactCertificate certificate() const { return stored(impact_certificate(a, ma, b, mb, truth())); }
-  bool accepts(const ImpactCertificate& c) const { return check(c, a, ma, b, mb); }
+  bool accepts(const ImpactCertificate& c) const { return checker::check(c, a, ma, b, mb); }
 };
 
 Pairing random_pairing(Rng& r, const Shape& x, const Shape& y) {
@@ -333,14 +335,14 @@ TEST_CASE("a motion's certificate is refused with its times, planes or point cha
     for (std::size_t k = 0; k < 3; ++k)
       refused([&](auto& d) { d.contact->point[k] = text_of(rational_from_text(c.contact->point[k]) + 9); });
     // The bodies in the other order, or at other speeds, are other bodies.
-    REQUIRE_FALSE(check(c, p.b, p.mb, p.a, p.ma));
-    REQUIRE_FALSE(check(c, p.a, p.mb, p.b, p.ma));
+    REQUIRE_FALSE(checker::check(c, p.b, p.mb, p.a, p.ma));
+    REQUIRE_FALSE(checker::check(c, p.a, p.mb, p.b, p.ma));
   }
   REQUIRE(motions == 24);
   REQUIRE(changed > 400);
   ImpactCertificate nothing;
   const Shape ball = Sphere{1};
-  REQUIRE_FALSE(check(nothing, at(ball, {0, 0, 0}), rest, at(ball, {9, 0, 0}), rest));
+  REQUIRE_FALSE(checker::check(nothing, at(ball, {0, 0, 0}), rest, at(ball, {9, 0, 0}), rest));
 }
 
 }  // namespace touchstone::referee_test

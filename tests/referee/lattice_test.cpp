@@ -1,6 +1,6 @@
 // Small polytopes on a lattice, judged a second time by the separating-axis theorem over every candidate
 // direction in 64-bit integers: slow, obvious, exact. Exact touching is common on a lattice.
-#include "oracles/referee/checker.h"
+#include "oracles/checker/checker.h"
 #include "oracles/referee/counters.h"
 #include "tests/referee/separating_axis.h"
 #include "tests/support/catch.h"
@@ -32,7 +32,7 @@ TEST_CASE("lattice polytopes: verdict, depth and certificate agree with the exha
       REQUIRE(t.gap.hi > 0);
     }
     const Certificate c = checkable_certificate(t, a, b);
-    REQUIRE(check(c, a, b));
+    REQUIRE(checker::check(c, a, b));
     ++certified;
   }
   WARN(cases << " cases, " << overlaps << " overlap, " << touching << " of them touch exactly, " << certified
@@ -62,7 +62,7 @@ TEST_CASE("the checker refuses certificates that prove nothing", "[referee][cert
       c.rationals.clear();
       c.point += Vec3(100, 0, 0);
     }
-    REQUIRE_FALSE(check(c, a, b));
+    REQUIRE_FALSE(checker::check(c, a, b));
     ++refused;
   }
   REQUIRE(refused == 2000);

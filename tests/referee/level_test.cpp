@@ -4,9 +4,9 @@
 #include <array>
 #include <cmath>
 
-#include "oracles/referee/checker.h"
-#include "oracles/referee/convex.h"
-#include "oracles/referee/short_point.h"
+#include "oracles/checker/checker.h"
+#include "oracles/referee/exact/short_point.h"
+#include "oracles/referee/filter/convex.h"
 #include "oracles/referee/work.h"
 #include "tests/referee/support.h"
 #include "tests/support/catch.h"
@@ -243,7 +243,7 @@ TEST_CASE("a point of a curved body: integers of 512 bits and the checker's rati
     Certificate at;
     at.kind = Certificate::Kind::common_point;
     at.point = point;
-    REQUIRE(check(at, body, body) == *brief);
+    REQUIRE(checker::check(at, body, body) == *brief);
     ++decided, inside += *brief;
     // On the border exactly: inside as it is, outside a little farther from the centre.
     const Vec3 out = point + 0x1p-30 * (point - placed.pose_a.translation);

@@ -3,9 +3,9 @@
 #include <cstdio>
 #include <cstdlib>
 
-#include "fuzz/generate/family.h"
 #include "oracles/referee/counters.h"
 #include "oracles/referee/referee.h"
+#include "scenarios/random/family.h"
 #include "tests/support/catch.h"
 
 using namespace touchstone;

@@ -1,6 +1,6 @@
 #include <nlohmann/json.hpp>
 
-#include "oracles/referee/checker.h"
+#include "oracles/checker/checker.h"
 #include "tests/referee/support.h"
 #include "tests/support/catch.h"
 

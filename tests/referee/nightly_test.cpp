@@ -1,14 +1,14 @@
 // The referee of the referee: slow and obvious second implementations, on many cases. A part runs with every
 // test; all of it by night:
 //
-//   TOUCHSTONE_NIGHTLY_CASES=1000000 build/bin/referee_nightly "[.nightly]"
+//   TOUCHSTONE_NIGHTLY_CASES=1000000 build/bin/test_referee_nightly "[.nightly]"
 //
 // The number (default 1000000) is that of lattice, degenerate and closed-form cases each; smooth shapes are a
 // twentieth of it, motions a thousandth. Cases depend on the seed alone.
 #include <cstdlib>
 
-#include "oracles/referee/checker.h"
-#include "oracles/referee/impact_certificate.h"
+#include "oracles/checker/checker.h"
+#include "oracles/referee/motion/impact_certificate.h"
 #include "tests/referee/separating_axis.h"
 #include "tests/support/catch.h"
 
@@ -38,7 +38,7 @@ void require_agreement(const Placed3& x, const Placed3& y, int& overlaps, int& t
   } else if (!(t.gap.hi > 0)) {
     FAIL("apart, but the gap is not positive");
   }
-  if (!check(checkable_certificate(t, a, b), a, b)) FAIL("the checker refuses the certificate");
+  if (!checker::check(checkable_certificate(t, a, b), a, b)) FAIL("the checker refuses the certificate");
 }
 
 void lattice(int cases, std::uint64_t seed) {
@@ -260,7 +260,7 @@ void motions(int cases, std::uint64_t seed) {
         FAIL("overlap at " << s << ", before " << clear);
     }
     const ImpactCertificate c = impact_certificate(a, ma, b, mb, t);
-    if (!c.claims_nothing() && !check(c, a, ma, b, mb)) FAIL("the checker refuses the certificate");
+    if (!c.claims_nothing() && !checker::check(c, a, ma, b, mb)) FAIL("the checker refuses the certificate");
     if (clear > 0 && c.clear_until < clear - 1e-9)
       FAIL("the planes end at " << c.clear_until << " of " << clear);
     pointless += t.verdict == TimeTruth::Verdict::hit && !c.contact;

@@ -4,8 +4,8 @@
 #include <cstdlib>
 #include <filesystem>
 
-#include "core/scene/ccd_queries.h"
-#include "oracles/referee/primitive_motion.h"
+#include "oracles/referee/motion/primitive_motion.h"
+#include "scenarios/import/ccd_queries.h"
 #include "tests/referee/support.h"
 #include "tests/support/catch.h"
 

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <vector>
 
-#include "core/base/rng.h"
+#include "core/math/rng.h"
 #include "core/scene/scene.h"
 #include "oracles/referee/referee.h"
 

@@ -1,6 +1,6 @@
 // Bodies of simple sizes turned by whole turns of the lattice: many touch exactly. The verdict of a curved
 // pair that touches at a point with simple coordinates is decided, with a point that the checker accepts.
-#include "oracles/referee/checker.h"
+#include "oracles/checker/checker.h"
 #include "tests/referee/support.h"
 #include "tests/support/catch.h"
 
@@ -54,7 +54,7 @@ TEST_CASE("exact contact of curved bodies on a lattice is decided", "[referee][t
     undecided += t.verdict == Verdict::undecided;
     if (t.verdict != Verdict::overlap || t.gap.lo < -1e-9) continue;
     ++touching;
-    REQUIRE(check(checkable_certificate(t, a, b), a, b));
+    REQUIRE(checker::check(checkable_certificate(t, a, b), a, b));
     REQUIRE(t.gap.hi <= 0);
   }
   CAPTURE(touching, undecided);
@@ -108,7 +108,7 @@ TEST_CASE("curved bodies are decided on both sides of contact, one ulp apart", "
       REQUIRE(t.verdict == (s == in ? Verdict::overlap : Verdict::disjoint));
       ++by_level[t.level];
       if (t.level < 2) continue;
-      REQUIRE(check(t.verdict_certificate, {&x, p}, {&y, q}));
+      REQUIRE(checker::check(t.verdict_certificate, {&x, p}, {&y, q}));
       REQUIRE((s == in ? t.gap.hi <= 0 : t.gap.lo >= 0));
       ++certified;
     }
@@ -144,7 +144,7 @@ TEST_CASE("the overlap of a curved body and a mesh has a point that the checker 
     const Placed a{&mesh, p}, b{&y, q};
     const PairTruth t = judge_pair(a, b);
     CAPTURE(i);
-    REQUIRE(check(checkable_certificate(t, a, b), a, b));
+    REQUIRE(checker::check(checkable_certificate(t, a, b), a, b));
     ++(t.verdict == Verdict::overlap ? overlaps : apart);
   }
   CHECK(overlaps > 10);

@@ -3,21 +3,20 @@
 #include <cstdio>
 
 #include "oracles/referee/referee.h"
-#include "scenarios/case_codec.h"
-#include "scenarios/catalog.h"
+#include "scenarios/codec/case_codec.h"
+#include "scenarios/handmade/catalog.h"
 #include "tests/support/catch.h"
 
 using namespace touchstone;
 
 namespace {
 
-using scenarios::Expectation;
 
 struct Tally {
   int verdicts = 0, gaps = 0, impacts = 0, undecided = 0;
 };
 
-referee::Placed placed(const Scene& s, int i) {
+Placed placed(const Scene& s, int i) {
   return {&s.shape_of(i), s.bodies[static_cast<std::size_t>(i)].pose};
 }
 

@@ -1,14 +1,14 @@
 // A case as JSON: there and back, defaults, and what is refused.
-#include "scenarios/case_codec.h"
+#include "scenarios/codec/case_codec.h"
 
 #include <algorithm>
 
-#include "core/scene/codec.h"
-#include "core/scene/json_text.h"
-#include "scenarios/catalog.h"
-#include "scenarios/moving_pairs.h"
-#include "tests/scene/expect_error.h"
-#include "tests/scene/temp_dir.h"
+#include "scenarios/codec/json_text.h"
+#include "scenarios/codec/scene_codec.h"
+#include "scenarios/handmade/catalog.h"
+#include "scenarios/value/moving_pairs.h"
+#include "tests/scenarios/import/expect_error.h"
+#include "tests/scenarios/import/temp_dir.h"
 
 using namespace touchstone;
 using test::contains;

@@ -1,10 +1,10 @@
 // The catalog of hand-built scenarios as a whole.
-#include "scenarios/catalog.h"
+#include "scenarios/handmade/catalog.h"
 
 #include <map>
 #include <set>
 
-#include "core/scene/codec.h"
+#include "scenarios/codec/scene_codec.h"
 #include "tests/scenarios/check_case.h"
 #include "tests/support/catch.h"
 

@@ -18,7 +18,7 @@ std::size_t query_steps(const Scene& s) {
   return n;
 }
 
-void check_pair_part(const Case& c, const scenarios::Expectation& e) {
+void check_pair_part(const Case& c, const Expectation& e) {
   if (!e.overlap && !e.gap && !e.normal && !e.impact) return;
   REQUIRE(c.scene.bodies.size() >= 2);
   if (e.overlap) CHECK(asks(c, Question::overlap));
@@ -42,7 +42,7 @@ void check_pair_part(const Case& c, const scenarios::Expectation& e) {
   }
 }
 
-void check_crowd_part(const Case& c, const scenarios::Expectation& e) {
+void check_crowd_part(const Case& c, const Expectation& e) {
   const auto n = static_cast<int>(c.scene.bodies.size());
   if (e.all_pairs) CHECK(*e.all_pairs == n * (n - 1) / 2);
   if (e.box_pairs && e.all_pairs) CHECK(*e.box_pairs <= *e.all_pairs);
@@ -61,7 +61,7 @@ void check_crowd_part(const Case& c, const scenarios::Expectation& e) {
 
 }  // namespace
 
-void check_case(const Case& c, const scenarios::Expectation& e) {
+void check_case(const Case& c, const Expectation& e) {
   CHECK_NOTHROW(validate(c.scene));
   CHECK(!c.id.empty());
   CHECK(!c.queries.empty());
@@ -85,7 +85,7 @@ std::vector<Pose> own_poses(const Scene& scene) {
 std::vector<BodyPair> overlapping_pairs(const Scene& scene, const std::vector<Pose>& poses,
                                         const std::vector<bool>& present) {
   const auto placed = [&](std::size_t i) {
-    return referee::Placed{&scene.shape_of(static_cast<int>(i)), poses[i]};
+    return Placed{&scene.shape_of(static_cast<int>(i)), poses[i]};
   };
   std::vector<Aabb> boxes;
   for (std::size_t i = 0; i < poses.size(); ++i) boxes.push_back(referee::outer_box(placed(i)));

@@ -1,13 +1,13 @@
 // What every case with an expectation must satisfy, whoever wrote it.
 #pragma once
 
-#include "scenarios/scenario.h"
+#include "scenarios/handmade/scenario.h"
 
 namespace touchstone::test {
 
 /// Checks (Catch2) that the scene is valid, the questions can be asked, and the expectation contradicts
 /// neither itself nor the scene.
-void check_case(const Case& c, const scenarios::Expectation& e);
+void check_case(const Case& c, const Expectation& e);
 
 /// Pairs of bodies whose exact shapes share a point according to the referee, at the bodies' own poses,
 /// filtered ones excluded; `poses` replaces the bodies' own. Bodies for which `present` is false are left

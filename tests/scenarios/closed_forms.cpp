@@ -3,9 +3,9 @@
 // and no direction of a dense search may fall below it.
 #include <cmath>
 
-#include "core/base/rng.h"
-#include "scenarios/case_codec.h"
-#include "scenarios/catalog.h"
+#include "core/math/rng.h"
+#include "scenarios/codec/case_codec.h"
+#include "scenarios/handmade/catalog.h"
 #include "tests/support/catch.h"
 
 using namespace touchstone;
@@ -53,7 +53,7 @@ struct Checked {
   int by_normal = 0, by_search = 0;
 };
 
-void check(const Case& c, const scenarios::Expectation& e, Checked& n) {
+void check(const Case& c, const Expectation& e, Checked& n) {
   const Scene& s = c.scene;
   if (!e.gap || !is_convex_pair(s)) return;
   // w is a sum of about ten rounded products.

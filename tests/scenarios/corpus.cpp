@@ -1,8 +1,8 @@
 // Cases rebuilt from public reports.
 #include <set>
 
-#include "core/scene/codec.h"
-#include "scenarios/case_codec.h"
+#include "scenarios/codec/case_codec.h"
+#include "scenarios/codec/scene_codec.h"
 #include "tests/scenarios/check_case.h"
 #include "tests/support/catch.h"
 

@@ -1,9 +1,9 @@
 // Pair counts of crowds by brute force, and the pairs of scripts step by step.
 #include <algorithm>
 
-#include "core/base/rng.h"
+#include "core/math/rng.h"
 #include "oracles/referee/referee.h"
-#include "scenarios/catalog.h"
+#include "scenarios/handmade/catalog.h"
 #include "tests/scenarios/check_case.h"
 #include "tests/support/catch.h"
 

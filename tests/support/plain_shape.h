@@ -1,7 +1,7 @@
 // Shapes of about unit size for tests and benches.
 #pragma once
 
-#include "core/base/rng.h"
+#include "core/math/rng.h"
 #include "core/shape/shape.h"
 
 namespace touchstone::test {

@@ -15,10 +15,10 @@ namespace {
 
 // The truth's direction is rounded, and the least depth is along the exact one: what is certified is the
 // width along the direction as it stands.
-referee::Certificate direction_certificate(const CheckInput& in, const StatedContact& c,
+Certificate direction_certificate(const CheckInput& in, const StatedContact& c,
                                            const referee::PairTruth& truth) {
-  referee::Certificate r;
-  r.kind = referee::Certificate::Kind::depth_direction;
+  Certificate r;
+  r.kind = Certificate::Kind::depth_direction;
   r.direction = truth.normal;
   r.offset = in.truth.width(in.frame, c.a, c.b, truth.normal).hi;
   r.note = "moving B by `offset` along `direction` separates the bodies";

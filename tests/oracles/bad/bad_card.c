@@ -2,7 +2,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "oracles/api/touchstone_engine.h"
+#include "oracles/abi/touchstone_engine.h"
 
 struct ts_engine {
   const ts_scene* scene;

@@ -19,7 +19,7 @@
 #include <thread>
 #include <vector>
 
-#include "oracles/api/touchstone_engine.h"
+#include "oracles/abi/touchstone_engine.h"
 
 namespace {
 

@@ -9,7 +9,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "oracles/api/touchstone_engine.h"
+#include "oracles/abi/touchstone_engine.h"
 #include "oracles/core/native.h"
 
 namespace touchstone {

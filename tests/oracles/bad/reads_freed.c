@@ -1,7 +1,7 @@
 /* A broad phase that loses no pair, and looks at a block that it has freed. */
 #include <stdlib.h>
 
-#include "oracles/api/touchstone_engine.h"
+#include "oracles/abi/touchstone_engine.h"
 
 struct ts_engine {
   const ts_scene* scene;

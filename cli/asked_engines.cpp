@@ -1,0 +1,98 @@
+#include "cli/asked_engines.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+
+#include "core/base/input_error.h"
+#include "scenarios/text/did_you_mean.h"
+
+namespace touchstone::cli {
+namespace {
+
+using Names = std::vector<std::string>;
+
+bool contains(const Names& names, const std::string& name) {
+  return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+std::string joined(const Names& names) {
+  std::string text;
+  for (const std::string& name : names) text += (text.empty() ? "" : ", ") + name;
+  return text;
+}
+
+std::string subject_by_rule(const Names& asked) {
+  if (asked.size() == 1) return asked[0];
+  if (contains(asked, "core")) return "core";
+  throw InputError("--subject", "which of " + joined(asked) + " is the exit code about? (--subject NAME)");
+}
+
+// Of the plug-ins and pipes asked, the one whose card has this name; empty: none.
+std::string named_on_card(const std::string& card_name, const Names& asked, const WorkerLimits& limits) {
+  for (const std::string& name : asked)
+    if (is_foreign(name) && make_engine(name, limits)->card().name == card_name) return name;
+  return "";
+}
+
+std::string subject_given(const std::string& subject, const Names& asked, const WorkerLimits& limits) {
+  if (contains(asked, subject)) return subject;
+  if (!is_foreign(subject) && !is_catalogued(subject))
+    if (const std::string name = named_on_card(subject, asked, limits); !name.empty()) return name;
+  try {
+    const Names names = engine_names(subject);
+    if (names.size() == 1) return names[0];
+  } catch (const InputError& e) {
+    throw InputError("--subject", e.what());
+  }
+  throw InputError("--subject", subject + " is more than one engine");
+}
+
+}  // namespace
+
+void add_engine_choice(CLI::App& app, EngineChoice& to) {
+  app.add_option("--engines", to.engines, "engines to ask: names, plug-in paths, pipe:COMMAND, or all")
+      ->capture_default_str();
+  app.add_option("--subject", to.subject,
+                 "the engine whose faults decide the exit code (default: the only one asked, or core)");
+}
+
+AskedEngines asked_engines(const EngineChoice& choice, const WorkerLimits& limits) {
+  AskedEngines r;
+  r.names = engine_names(choice.engines);
+  const std::string subject =
+      choice.subject.empty() ? subject_by_rule(r.names) : subject_given(choice.subject, r.names, limits);
+  if (!contains(r.names, subject)) r.names.insert(r.names.begin(), subject);
+  r.subject = is_foreign(subject) ? make_engine(subject, limits)->card().name : subject;
+  return r;
+}
+
+std::vector<EnginePtr> make_engines(const std::vector<std::string>& names, const WorkerLimits& limits) {
+  std::vector<EnginePtr> engines;
+  std::map<std::string, std::string> by_card;
+  for (const std::string& name : names) {
+    engines.push_back(make_engine(name, limits));
+    const std::string& card_name = engines.back()->card().name;
+    const auto [it, added] = by_card.try_emplace(card_name, name);
+    if (!added)
+      throw InputError("--engines",
+                       fmt::format("{} and {} are both called {}: their results could not be told apart",
+                                   it->second, name, card_name));
+  }
+  return engines;
+}
+
+void require_subject(const std::string& subject, const std::vector<std::string>& known,
+                     const std::string& what) {
+  if (contains(known, subject)) return;
+  throw InputError("--subject", fmt::format("{} is none of {} ({}){}", subject, what, joined(known),
+                                            did_you_mean(subject, known)));
+}
+
+int say_verdict(int code, const std::string& subject, const std::string& why, bool json) {
+  fmt::print(json ? stderr : stdout, "exit code {} is about {}: {}\n", code, subject, why);
+  return code;
+}
+
+}  // namespace touchstone::cli

@@ -1,0 +1,17 @@
+// What a command takes for a case: a case or scene file, a finding's directory (its case.json), a scenario's
+// name, or that of a case of the corpus (scenarios/corpus), with or without "corpus/".
+#pragma once
+
+#include <string>
+
+#include "scenarios/codec/case_codec.h"
+
+namespace touchstone::cli {
+
+/// Throws InputError when it is none of them.
+StoredCase case_argument(const std::string& text);
+
+/// The directory of a recorded scene (scene.txt, frames.npy).
+bool is_recording(const std::string& text);
+
+}  // namespace touchstone::cli

@@ -1,0 +1,118 @@
+#include "cli/case_page.h"
+
+#include <filesystem>
+#include <set>
+
+#include "cli/asked_engines.h"
+#include "cli/command.h"
+#include "cli/replay_text.h"
+#include "core/base/input_error.h"
+#include "fuzz/bisect/bisect.h"
+#include "fuzz/judge/judge.h"
+#include "fuzz/reproduce/reproducer.h"
+#include "fuzz/shrink/keeps_finding.h"
+
+namespace touchstone::cli {
+namespace {
+
+using fuzz::Json;
+
+// Beyond these, the page has the command instead: asking again would take longer than a person waits.
+constexpr std::size_t most_bodies = 64, most_pairs = 6;
+constexpr std::size_t longest_program = 40'000;
+
+// The pairs that some question names, each once, in order.
+std::vector<std::pair<int, int>> pairs_of(const Case& c) {
+  std::vector<std::pair<int, int>> pairs;
+  for (const Query& q : c.queries)
+    if (is_pair_question(q.question) &&
+        std::find(pairs.begin(), pairs.end(), std::pair(q.a, q.b)) == pairs.end())
+      pairs.emplace_back(q.a, q.b);
+  return pairs;
+}
+
+Json stages_of(const Case& c, const EnginePtr& engine) {
+  Json list = Json::array();
+  for (const auto& [a, b] : pairs_of(c)) {
+    if (list.size() == most_pairs) break;
+    Json stages = Json::array();
+    for (const fuzz::Stage& s : fuzz::which_stage(c, a, b, -1, engine))
+      stages.push_back({{"name", s.name}, {"faults", s.faults}});
+    list.push_back({{"a", a}, {"b", b}, {"stages", std::move(stages)}});
+  }
+  return list;
+}
+
+// One program a question: the first finding by key that the engine's API can show.
+Json programs_of(const Case& c, const EnginePtr& engine) {
+  Json list = Json::array();
+  std::set<std::string> questions;
+  const auto found = fuzz::findings_of({&c, 1}, engine);
+  for (const auto& [key, finding] : found[0]) {
+    if (questions.contains(finding.question)) continue;
+    try {
+      const std::string text = fuzz::reproducer(finding, engine->card());
+      if (text.size() > longest_program) continue;
+      list.push_back({{"key", key}, {"question", finding.question}, {"program", text}});
+      questions.insert(finding.question);
+    } catch (const InputError&) {
+      // The engine's API does not have this shape or question: there is no such program.
+    }
+  }
+  return list;
+}
+
+Json engine_json(const Case& c, const EnginePtr& engine, bool wrong) {
+  const EngineCard& card = engine->card();
+  Json j = {{"library", card.library}, {"version", card.version}, {"settings", card.settings}};
+  j["has_reproducer"] = fuzz::has_reproducer(card.name);
+  if (!wrong || c.scene.bodies.size() > most_bodies) return j;
+  j["stages"] = stages_of(c, engine);
+  if (fuzz::has_reproducer(card.name)) j["programs"] = programs_of(c, engine);
+  return j;
+}
+
+// An exact certificate of a motion against a mesh takes minutes when the mesh is large.
+bool has_large_mesh(const Scene& scene) {
+  constexpr std::size_t large = 200;
+  return std::any_of(scene.shapes.begin(), scene.shapes.end(), [](const Shape& s) {
+    const auto* mesh = std::get_if<TriangleMesh>(&s);
+    return mesh && mesh->triangles.size() > large;
+  });
+}
+
+Json hull_faces(const Scene& scene) {
+  Json faces = Json::object();
+  for (std::size_t i = 0; i < scene.shapes.size(); ++i)
+    if (const auto* h = std::get_if<Hull>(&scene.shapes[i])) faces[std::to_string(i)] = h->faces;
+  return faces;
+}
+
+}  // namespace
+
+Json case_page(const std::string& named, const StoredCase& stored, const std::string& engines,
+               const WorkerLimits& limits) {
+  const Case& c = stored.c;
+  fuzz::Truth truth(c.scene);
+  reports::ReplayText text(c, truth);
+  Json cards = Json::object();
+  for (const EnginePtr& engine : make_engines(engine_names(engines), limits)) {
+    const EngineCard& card = engine->card();
+    const auto answers = engine->run({&c, 1})[0];
+    const auto judgements = fuzz::judge(c, card, answers, truth);
+    text.add(card.name, answers, judgements);
+    const bool wrong =
+        std::any_of(judgements.begin(), judgements.end(), [](const auto& j) { return !j.faults.empty(); });
+    cards[card.name] = engine_json(c, engine, wrong);
+  }
+  return {{"page", "case"},
+          {"version", 2},
+          {"title", c.id.empty() ? std::filesystem::path(named).stem().string() : c.id},
+          {"command", program_name() + " replay " + shell_word(named)},
+          {"case", stored_case_to_json(stored)},
+          {"hull_faces", hull_faces(c.scene)},
+          {"engines", std::move(cards)},
+          {"queries", std::move(text.json(!has_large_mesh(c.scene))["queries"])}};
+}
+
+}  // namespace touchstone::cli

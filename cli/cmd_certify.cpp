@@ -1,0 +1,302 @@
+// touchstone certify --subject X: is a broad phase conservative? A certificate, or the smallest script that
+// loses a pair. --check CERT makes one again from itself alone and compares.
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <sstream>
+#include <stdexcept>
+#include <thread>
+
+#include "cli/broad_subject.h"
+#include "cli/command.h"
+#include "cli/engine_catalog.h"
+#include "cli/output_file.h"
+#include "cli/pages.h"
+#include "cli/stop_signals.h"
+#include "core/base/input_error.h"
+#include "fuzz/campaign/store.h"
+#include "fuzz/reproduce/reproducer.h"
+#include "oracles/core/broad_engine.h"
+#include "reports/text/certificate_text.h"
+#include "reports/text/text.h"
+#include "scenarios/codec/case_codec.h"
+#include "scenarios/codec/input_file.h"
+#include "scenarios/codec/json_file.h"
+
+namespace touchstone::cli {
+namespace {
+
+using Json = nlohmann::ordered_json;
+using fuzz::BroadCertificate;
+
+struct CertifyOptions {
+  std::string subject, scope = "quick", level = "both", out, page, script, check;
+  std::vector<std::string> without;
+  std::uint64_t seed = 1, limit = 0;
+  int jobs = 1;
+  bool sweeps = false, first_fault = false, json = false, list = false, memcheck = false;
+  WorkerLimits limits{.patience = 1};
+};
+
+class CertifyProgress {
+ public:
+  void operator()(const fuzz::EvidenceCount& e, std::size_t index, std::size_t count) {
+    const auto now = std::chrono::steady_clock::now();
+    if (now < next_) return;
+    next_ = now + (live_ ? std::chrono::milliseconds(200) : std::chrono::milliseconds(10000));
+    fmt::print(stderr, "{}{}/{} {}: {} of {} cases{}", live_ ? "\r\033[K" : "", index + 1, count, e.name,
+               reports::grouped(e.cases), reports::grouped(e.planned), live_ ? "" : "\n");
+    std::fflush(stderr);
+  }
+  ~CertifyProgress() {
+    if (live_) fmt::print(stderr, "\r\033[K");
+  }
+
+ private:
+  bool live_ = isatty(2) == 1;
+  std::chrono::steady_clock::time_point next_ =
+      std::chrono::steady_clock::now() + std::chrono::seconds(live_ ? 0 : 10);
+};
+
+fuzz::CertifyConfig config_of(const CertifyOptions& o) {
+  fuzz::CertifyConfig c;
+  c.scope = o.scope == "full" ? fuzz::Scope::full : fuzz::Scope::quick;
+  c.seed = o.seed, c.limit = o.limit, c.jobs = o.jobs, c.without = o.without, c.first_fault = o.first_fault;
+  if (o.level == "boxes") c.levels = {BroadLevel::boxes};
+  if (o.level == "bodies") c.levels = {BroadLevel::bodies};
+  c.program = "touchstone " TOUCHSTONE_VERSION;
+  return c;
+}
+
+std::optional<BroadCertificate> make(const fuzz::Subject& s, const fuzz::CertifyConfig& c) {
+  catch_stop_signals();
+  CertifyProgress printer;
+  return fuzz::certify(s, c, std::ref(printer), interrupted);
+}
+
+// The script beside the certificate, ready for `touchstone replay`: c.case.json, with both levels
+// c.boxes.case.json; that of a further class of fault has its name too, c.boxes.crashed-numbers.case.json.
+std::string script_file(const CertifyOptions& o, const BroadCertificate& c, const fuzz::Refutation& r) {
+  const std::string base = !o.script.empty() ? o.script
+                           : o.out.empty()
+                               ? ""
+                               : std::filesystem::path(o.out).replace_extension().string() + ".case.json";
+  if (base.empty()) return base;
+  std::string tag = o.level == "both" ? "." + std::string(to_string(r.level)) : "";
+  const auto first = std::find_if(c.refutations.begin(), c.refutations.end(),
+                                  [&](const fuzz::Refutation& x) { return x.level == r.level; });
+  if (&*first != &r) tag += fmt::format(".{}-{}", r.what.fault, to_string(r.what.kind));
+  const std::filesystem::path p(base);
+  const std::string name = p.filename().string();
+  const auto dot = std::min(name.find('.'), name.size());
+  return (p.parent_path() / (name.substr(0, dot) + tag + name.substr(dot))).string();
+}
+
+// Longer scripts are not for a terminal.
+constexpr auto most_printed_lines = 80;
+
+void print_script(const fuzz::Refutation& r, const std::string& text) {
+  const std::string what = fmt::format("{}, level of {}", in_words(r.what), to_string(r.level));
+  const auto lines = std::count(text.begin(), text.end(), '\n');
+  if (lines > most_printed_lines)
+    fmt::print("the script that shows it ({}) has {} lines: -o FILE or --script FILE writes it\n", what,
+               reports::grouped(static_cast<std::uint64_t>(lines)));
+  else
+    fmt::print("the script that shows it ({}):\n{}", what, text);
+}
+
+void write_scripts(const CertifyOptions& o, const BroadCertificate& c) {
+  for (const auto& r : c.refutations) {
+    if (!r.script) continue;
+    StoredCase stored;
+    stored.c = *r.script;
+    stored.description = fmt::format("{}: {}: {}", c.subject, in_words(r.what), r.words);
+    stored.source = fmt::format("certify {}, level of {}, shrunk from {} case {}, seed {}", c.subject,
+                                to_string(r.level), r.evidence, r.index, c.seed);
+    const std::string file = script_file(o, c, r), text = to_text(stored);
+    if (file.empty()) {
+      if (!o.json) print_script(r, text);
+      continue;
+    }
+    write_file(file, text);
+    if (!o.json) fmt::print("script ({}): {}\n", in_words(r.what), file);
+  }
+}
+
+int list_subjects() {
+  for (const auto name : core_broad_phases()) fmt::print("{:<34}core\n", name);
+  for (const EngineRow& row : broad_catalog())
+    fmt::print("{:<34}{}{}\n", row.name, row.line, is_present(row) ? "" : " (absent: not built)");
+  fmt::print("and every engine of `touchstone engines`, ./libmine.so, pipe:COMMAND\n");
+  return exit_clean;
+}
+
+// What reports/web/src/certificate draws: the certificate as it is stored, and where things lie.
+bool write_certificate_page(const CertifyOptions& o, const BroadCertificate& c) {
+  Json scripts = Json::array();  // one a refutation, empty: not written
+  for (const auto& r : c.refutations) scripts.push_back(r.script ? script_file(o, c, r) : "");
+  const Json page = {{"page", "certificate"},
+                     {"version", 2},
+                     {"title", reports::certificate_line(c)},
+                     {"subject", o.subject},
+                     {"file", o.out},
+                     {"scripts", std::move(scripts)},
+                     {"has_writer", fuzz::has_reproducer(o.subject)},
+                     {"certificate", to_json(c)}};
+  return write_page("certificate", page.dump(), o.page, o.out);
+}
+
+// Where the shell would find it; empty: nowhere.
+std::string program_on_path(const std::string& name) {
+  const char* path = std::getenv("PATH");
+  std::stringstream directories(path ? path : "");
+  for (std::string directory; std::getline(directories, directory, ':');)
+    if (const std::string file = directory + "/" + name;
+        !directory.empty() && access(file.c_str(), X_OK) == 0)
+      return file;
+  return "";
+}
+
+// Under Valgrind everything takes longer, so that fewer cases are asked and each has more time.
+void use_memcheck(CertifyOptions& o) {
+  constexpr std::uint64_t cases_of_an_evidence = 60;
+  constexpr double slower = 60;
+  o.limits.memcheck = program_on_path("valgrind");
+  if (o.limits.memcheck.empty())
+    throw std::runtime_error("--memcheck needs Valgrind (Debian: apt-get install valgrind)");
+  if (o.limit == 0) o.limit = cases_of_an_evidence;
+  o.limits = limits_times(o.limits, slower);
+  o.limits.start_cpu_seconds *= slower;
+  o.limits.start_wall_seconds *= slower;
+  fmt::print(stderr, "under Valgrind, without a sandbox: {} cases of each evidence at most\n", o.limit);
+}
+
+int certify_subject(CertifyOptions o) {
+  if (o.subject.empty()) throw InputError("certify", "say what to certify: --subject NAME, or --check CERT");
+  for (const std::string& file : {o.out, o.page, o.script}) require_writable(file);
+  if (o.memcheck) use_memcheck(o);
+  const auto c = make(broad_subject(o.subject, o.limits, o.sweeps), config_of(o));
+  if (!c) {
+    fmt::print(stderr, "interrupted: no certificate\n");
+    return exit_failed;
+  }
+  if (!o.out.empty()) write_file(o.out, to_json(*c).dump(1) + "\n");
+  const bool page = !o.page.empty() && write_certificate_page(o, *c);
+  if (o.json) {
+    fmt::print("{}\n", to_json(*c).dump(1));
+    write_scripts(o, *c);
+  } else {
+    fmt::print("{}", reports::certificate_text(*c, true));
+    write_scripts(o, *c);
+    if (page) fmt::print("page: {}\n", o.page);
+    fmt::print("{}\n", reports::certificate_line(*c));
+  }
+  return exit_code(*c);
+}
+
+// The first field in which two certificates differ, for people.
+std::string first_difference(const Json& was, const Json& is, const std::string& place) {
+  if (was == is) return "";
+  if (was.is_structured() && is.is_structured() && was.is_object() == is.is_object() &&
+      was.size() == is.size()) {
+    const Json a = was.flatten(), b = is.flatten();
+    for (const auto& [key, value] : a.items())
+      if (!b.contains(key) || b.at(key) != value)
+        return fmt::format("{}{}: {} is now {}", place, key, value.dump(),
+                           b.contains(key) ? b.at(key).dump() : "absent");
+  }
+  return place + "another number of entries";
+}
+
+int differs(const std::string& file, const std::string& why) {
+  fmt::print("{}: not valid: {}\n", file, why);
+  return exit_wrong;
+}
+
+// What the file names is a label: a path or a command is run only when the command line says the same words.
+void require_same_subject(const CertifyOptions& o, const std::string& named) {
+  const auto phases = core_broad_phases();
+  const bool known = std::find(phases.begin(), phases.end(), named) != phases.end() || is_catalogued(named);
+  if (o.subject.empty() && !known)
+    throw InputError(o.check, "subject: " + json_text(named) +
+                                  " is not in the catalogue, and what a file names is not run; say --subject with "
+                                  "these words to run it");
+  if (!o.subject.empty() && o.subject != named)
+    throw InputError(o.check, "subject: it is of " + json_text(named) + ", not of --subject " + o.subject);
+}
+
+int check(const CertifyOptions& o) {
+  const Json stored = load_json(o.check);
+  bool digest_holds = false;
+  BroadCertificate was;
+  try {
+    was = fuzz::broad_certificate_from_json(stored, digest_holds);
+  } catch (const InputError& e) {
+    throw e.within(o.check);
+  }
+  if (!digest_holds) return differs(o.check, "its digest is not that of what it says");
+  fuzz::CertifyConfig c;
+  c.scope = was.scope == "full" ? fuzz::Scope::full : fuzz::Scope::quick;
+  c.seed = was.seed, c.limit = was.limit, c.levels = was.levels, c.without = was.without,
+  c.first_fault = was.first_fault, c.jobs = o.jobs;
+  c.program = config_of(o).program;
+  if (was.program != c.program)
+    return differs(o.check, "it was made by " + json_text(was.program) + ", and this is " + c.program);
+  require_same_subject(o, was.subject);
+  const fuzz::Subject s = broad_subject(was.subject, o.limits, was.sweeps);
+  if (s.plugin_hash != was.plugin_hash)
+    return differs(o.check, "the plug-in is another build than the one certified");
+  const auto again = make(s, c);
+  if (!again) {
+    fmt::print(stderr, "interrupted: nothing is said\n");
+    return exit_failed;
+  }
+  const std::string difference = first_difference(stored, to_json(*again), "");
+  if (!difference.empty()) return differs(o.check, difference);
+  fmt::print("{}: valid, made again with the same digest\n{}\n", o.check, reports::certificate_line(was));
+  return exit_code(was);
+}
+
+}  // namespace
+
+Run declare_certify(CLI::App& app) {
+  auto o = std::make_shared<CertifyOptions>();
+  o->jobs = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+  app.add_option("--subject", o->subject,
+                 "a broad phase of the core, an engine (`touchstone engines`), ./libmine.so, pipe:COMMAND");
+  app.add_option("--scope", o->scope, "quick (a minute) or full (half an hour)")
+      ->check(CLI::IsMember({"quick", "full"}))
+      ->capture_default_str();
+  app.add_option("--level", o->level, "boxes, bodies or both")
+      ->check(CLI::IsMember({"boxes", "bodies", "both"}))
+      ->capture_default_str();
+  app.add_option("-o,--out", o->out, "file for the certificate (JSON)");
+  app.add_option("--page", o->page, "file for the certificate as a page (HTML, loads nothing)");
+  app.add_option("--script", o->script,
+                 "file for the script of a refutation (default: beside the certificate)");
+  app.add_option("--check", o->check, "a certificate to make again and compare; 0: it holds as it is");
+  app.add_option("--without", o->without,
+                 "evidence to leave out, separated by commas; the certificate says so")
+      ->delimiter(',')
+      ->allow_extra_args(false);
+  app.add_option("--seed", o->seed, "same seed, same certificate")->capture_default_str();
+  app.add_option("--limit", o->limit, "cases of an evidence at most; the certificate says so");
+  app.add_option("--jobs", o->jobs, "jobs side by side")->check(CLI::Range(1, 1024))->capture_default_str();
+  app.add_flag("--sweeps", o->sweeps,
+               "ask the subject for swept_candidates too: pairs that meet while the bodies move");
+  app.add_flag("--first-fault", o->first_fault,
+               "end a level with its first fault instead of listing every one; the certificate says so");
+  app.add_flag(
+      "--memcheck", o->memcheck,
+      "run the subject under Valgrind: reading or writing freed memory, or beyond a block, is a crash");
+  app.add_flag("--list", o->list, "the subjects there are by name");
+  add_case_seconds(app, o->limits);
+  app.add_flag("--json", o->json, "the certificate as one JSON document on stdout");
+  return [o] { return o->list ? list_subjects() : o->check.empty() ? certify_subject(*o) : check(*o); };
+}
+
+}  // namespace touchstone::cli

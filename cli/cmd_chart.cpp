@@ -1,0 +1,188 @@
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "cli/asked_engines.h"
+#include "cli/broad_subject.h"
+#include "cli/command.h"
+#include "cli/engine_catalog.h"
+#include "cli/pages.h"
+#include "cli/sweep_catalog.h"
+#include "fuzz/campaign/store.h"
+#include "oracles/abi/measure.h"
+#include "oracles/core/broad_engine.h"
+#include "reports/chart/chart.h"
+#include "reports/chart/sub_steps.h"
+#include "reports/text/chart_markdown.h"
+#include "reports/text/chart_text.h"
+#include "scenarios/codec/input_file.h"
+#include "scenarios/codec/json_file.h"
+#include "scenarios/text/comma_list.h"
+
+namespace touchstone::cli {
+namespace {
+
+struct ChartOptions {
+  EngineChoice choice;
+  std::string broad = "all", out = "out/chart", from, readme;
+  std::uint64_t seed = 1;
+  std::int64_t measure = 20'000;
+  bool quick = false, json = false;
+  WorkerLimits limits{.patience = 1};
+};
+
+// A crowd of thousands is one question.
+constexpr double crowd_cpu_seconds = 10;
+
+std::vector<EnginePtr> broad_engines(const ChartOptions& o) {
+  WorkerLimits limits = o.limits;
+  limits.query_cpu_seconds = std::max(limits.query_cpu_seconds, crowd_cpu_seconds);
+  std::vector<std::string> names;
+  if (o.broad == "all") {
+    for (std::string_view name : core_broad_phases()) names.emplace_back(name);
+    for (const EngineRow& row : broad_catalog())
+      if (is_present(row)) names.emplace_back(row.name);
+  } else if (!o.broad.empty()) {
+    for_each_in_list(o.broad, [&](std::string_view name) { names.emplace_back(name); });
+  }
+  std::vector<EnginePtr> engines;
+  for (const auto& name : names)
+    engines.push_back(broad_subject(name, limits, false).make(fuzz::Level::bodies));
+  return engines;
+}
+
+// The engines named; of all of them other settings too, and sub-stepping.
+std::vector<EnginePtr> pair_engines(const ChartOptions& o, std::vector<std::string> names) {
+  const bool all = o.choice.engines == "all";
+  // core-kept builds for one question what a program builds once: its times say nothing.
+  if (all) std::erase(names, "core-kept");
+  std::vector<EnginePtr> engines = make_engines(names, o.limits);
+  if (!all) return engines;
+  for (const EngineRow& row : sweep_catalog())
+    if (is_present(row)) engines.push_back(make_engine(std::string(row.name), o.limits));
+  const auto stepped = stepped_engines();
+  for (const EngineRow& row : engine_catalog()) {
+    if (!is_present(row) || std::find(stepped.begin(), stepped.end(), row.name) == stepped.end()) continue;
+    const std::shared_ptr<Engine> inner = make_engine(std::string(row.name), o.limits);
+    for (const int steps : step_counts) engines.push_back(fuzz::sub_stepped(inner, steps));
+  }
+  return engines;
+}
+
+// Broad phases may be the subject too, by the names that the chart gives them.
+struct ChartEngines {
+  std::vector<EnginePtr> pairs, broad;
+  std::string subject;
+};
+
+ChartEngines chart_engines(const ChartOptions& o) {
+  ChartEngines r;
+  r.broad = broad_engines(o);
+  const bool is_broad = std::any_of(r.broad.begin(), r.broad.end(),
+                                    [&](const EnginePtr& e) { return e->card().name == o.choice.subject; });
+  EngineChoice choice = o.choice;
+  if (is_broad) choice.subject = engine_names(o.choice.engines)[0];  // any that adds none to those asked
+  const AskedEngines asked = asked_engines(choice, o.limits);
+  r.pairs = pair_engines(o, asked.names);
+  r.subject = is_broad ? o.choice.subject : asked.subject;
+  return r;
+}
+
+fuzz::Chart measured(const ChartOptions& o, std::string& subject) {
+  const bool live = isatty(2) == 1;
+  // Before any engine is made: its worker inherits it.
+  setenv(measure_variable, std::to_string(o.measure).c_str(), 1);
+  const ChartEngines asked = chart_engines(o);
+  subject = asked.subject;
+  fuzz::Chart chart = fuzz::measure_chart(o.quick ? fuzz::quick_chart() : fuzz::full_chart(), o.seed,
+                                          asked.pairs, asked.broad, [live](const std::string& what) {
+                                            if (live) fmt::print(stderr, "\r\033[K{}", what);
+                                          });
+  if (live) fmt::print(stderr, "\r\033[K");
+  return chart;
+}
+
+fuzz::Chart stored(const std::string& file) {
+  const auto j = load_json(file);
+  return fuzz::chart_from_json(j, file);
+}
+
+// Its numbers are kept beside it, so that a test can hold the one against the other: the block is made of
+// what is kept, which has fewer digits than what was measured.
+void write_readme(const std::filesystem::path& readme, const fuzz::Chart& chart) {
+  const std::string before = read_file(readme, std::uintmax_t{1} << 24);
+  const auto docs = readme.parent_path() / "docs";
+  fuzz::make_directory(docs.string());
+  const auto kept = docs / "chart.json";
+  write_file(kept, fuzz::to_json(reports::chart_excerpt(chart)).dump() + "\n");
+  const std::string block = reports::chart_markdown(stored(kept.string()));
+  write_file(readme, reports::with_chart_block(before, block, readme.string()));
+  fmt::print("{}, {}\n", readme.string(), kept.string());
+}
+
+// Of a stored chart: those of its rows are all there are.
+std::string subject_of(const fuzz::Chart& chart, const std::string& given) {
+  std::vector<std::string> known;
+  for (const fuzz::ChartRow& r : chart.rows)
+    if (std::find(known.begin(), known.end(), r.engine) == known.end()) known.push_back(r.engine);
+  const std::string subject = given.empty() && known.size() == 1 ? known[0] : given.empty() ? "core" : given;
+  require_subject(subject, known, "the chart's engines");
+  return subject;
+}
+
+int verdict(const fuzz::Chart& chart, const std::string& subject, bool json) {
+  std::uint64_t asked = 0, wrong = 0, failed = 0, answers = 0;
+  for (const fuzz::ChartRow& r : chart.rows) {
+    const bool whole =
+        r.regime.empty() && r.pair.empty() && r.scale.empty();  // the others are parts of these
+    if (r.engine != subject || !whole) continue;
+    asked += r.asked, wrong += r.wrong, failed += r.failed, answers += r.answers;
+  }
+  if (wrong + failed > 0)
+    return say_verdict(exit_wrong, subject,
+                       fmt::format("wrong in {} and failed in {} of {} queries", wrong, failed, asked), json);
+  if (answers == 0)
+    return say_verdict(exit_failed, subject, "it answered nothing, which proves nothing", json);
+  return say_verdict(exit_clean, subject, fmt::format("0 wrong in {} queries", asked), json);
+}
+
+int run(const ChartOptions& o) {
+  if (o.from.empty()) fuzz::make_directory(o.out);  // before half an hour of work for it
+  std::string subject;
+  const fuzz::Chart chart = o.from.empty() ? measured(o, subject) : stored(o.from);
+  if (!o.from.empty()) subject = subject_of(chart, o.choice.subject);
+  if (o.from.empty())
+    write_result("chart", o.out, fuzz::to_json(chart).dump(), fuzz::to_csv(chart), reports::chart_text(chart),
+                 o.json);
+  else
+    fmt::print("{}", o.json ? fuzz::to_json(chart).dump() + "\n" : reports::chart_text(chart));
+  if (!o.readme.empty()) write_readme(o.readme, chart);
+  return verdict(chart, subject, o.json);
+}
+
+}  // namespace
+
+Run declare_chart(CLI::App& app) {
+  auto o = std::make_shared<ChartOptions>();
+  app.add_flag("--quick", o->quick, "fewer cases: minutes instead of half an hour");
+  add_engine_choice(app, o->choice);
+  app.add_option("--broad", o->broad, "broad phases, as for certify --subject, or all")
+      ->capture_default_str();
+  app.add_option("--seed", o->seed, "same seed, same cases and errors")->capture_default_str();
+  app.add_option("--measure", o->measure, "ns that each question about a pair is asked again for, to time it")
+      ->check(CLI::Range(0, 100'000'000))
+      ->capture_default_str();
+  app.add_option("--out", o->out, "directory of chart.json, chart.csv, chart.html")->capture_default_str();
+  add_case_seconds(app, o->limits);
+  app.add_option("--from", o->from, "a chart.json to print instead of measuring one");
+  app.add_option("--readme", o->readme,
+                 "also renew the block of the chart in this file, and docs/chart.json beside it");
+  app.add_flag("--json", o->json, "the whole result as one JSON document on stdout");
+  return [o] { return run(*o); };
+}
+
+}  // namespace touchstone::cli

@@ -1,0 +1,196 @@
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <ctime>
+#include <set>
+#include <thread>
+
+#include "cli/asked_engines.h"
+#include "cli/command.h"
+#include "cli/judged_by.h"
+#include "cli/stop_signals.h"
+#include "core/base/input_error.h"
+#include "fuzz/campaign/campaign.h"
+#include "fuzz/campaign/shard.h"
+#include "reports/text/text.h"
+#include "scenarios/random/family.h"
+
+namespace touchstone::cli {
+namespace {
+
+struct FuzzOptions {
+  fuzz::CampaignConfig config;
+  EngineChoice choice;
+  std::string shard, out;
+  std::uint64_t cases = 0;
+  double minutes = 0;
+  bool json = false;
+  WorkerLimits limits;
+};
+
+void take_shard(const std::string& text, fuzz::CampaignConfig& c) {
+  const fuzz::Shard s = fuzz::which_shard(text, [](const char* name) -> std::optional<std::string> {
+    const char* v = std::getenv(name);
+    return v ? std::optional<std::string>(v) : std::nullopt;
+  });
+  c.shard = s.index, c.shards = s.count;
+  if (s.count > 1) fmt::print(stderr, "shard {} of {}, by {}\n", s.index, s.count, s.source);
+}
+
+std::string default_out() {
+  char stamp[32];
+  const std::time_t now = std::time(nullptr);
+  std::tm utc{};
+  gmtime_r(&now, &utc);
+  std::strftime(stamp, sizeof stamp, "%Y%m%d-%H%M%S", &utc);
+  return fmt::format("out/fuzz-{}-{}", stamp, getpid());
+}
+
+std::string progress_line(const fuzz::Progress& p, const fuzz::CampaignConfig& c) {
+  std::map<std::string, std::size_t> by_engine;
+  for (const auto& [key, f] : p.result.findings) ++by_engine[f.engine];
+  std::vector<std::pair<std::size_t, std::string>> top;
+  for (const auto& [e, n] : by_engine) top.emplace_back(n, e);
+  std::sort(top.rbegin(), top.rend());
+  std::string s = fmt::format("{} cases  {:.0f}/s", reports::grouped(p.result.cases), p.cases_per_s);
+  if (p.left_s) s += "  " + reports::clock_text(*p.left_s) + " left";
+  s += fmt::format("  {}: {} wrong  findings:", c.subject, p.result.wrong_of(c.subject));
+  for (std::size_t i = 0; i < top.size(); ++i) {
+    const std::string item = fmt::format(" {} {}", top[i].second, top[i].first);
+    if (s.size() + item.size() > 76) {
+      s += " ...";
+      break;
+    }
+    s += item;
+  }
+  return s;
+}
+
+// A live line on a terminal, a plain line every ten seconds otherwise.
+class ProgressPrinter {
+ public:
+  explicit ProgressPrinter(const fuzz::CampaignConfig& c) : config_(c), live_(isatty(2) == 1) {}
+  void operator()(const fuzz::Progress& p) {
+    if (live_)
+      fmt::print(stderr, "\r\033[K{}{}", progress_line(p, config_), p.last ? "\n" : "");
+    else if (p.last || p.elapsed_s >= next_)
+      fmt::print(stderr, "{}\n", progress_line(p, config_)), next_ = p.elapsed_s + 10;
+    std::fflush(stderr);
+  }
+
+ private:
+  const fuzz::CampaignConfig& config_;
+  bool live_;
+  double next_ = 10;
+};
+
+void print_text(const fuzz::CampaignConfig& c, const fuzz::CampaignResult& r) {
+  for (const std::string& line : r.too_open(c.subject)) fmt::print("{}\n", reports::wrapped(line, 79, 2));
+  fmt::print("{}\n", reports::campaign_table(r));
+  if (!r.findings.empty())
+    fmt::print("Findings by engine, the three most frequent kinds of each:\n{}\n",
+               reports::findings_summary(r, 3));
+  fmt::print("{}", reports::campaign_footer(r));
+  if (r.findings.empty())
+    return fmt::print("no findings; the counts are in {}/summary.json\n", c.out.string());
+  const std::string out = c.out.string();
+  fmt::print("{} kinds of findings in {}/findings; look at one with\n  {} replay {}\n",
+             reports::grouped(r.findings.size()), out, program_name(),
+             shell_word(out + "/findings/" + r.findings.begin()->first));
+  if (interrupted) return;
+  fmt::print("All of it as a page: {} report {} -o {}\n", program_name(), shell_word(out),
+             shell_word(out + "/report.html"));
+}
+
+int verdict(const fuzz::CampaignConfig& c, const fuzz::CampaignResult& r, bool json) {
+  const auto say = [&](int code, const std::string& why) { return say_verdict(code, c.subject, why, json); };
+  const auto wrong = r.wrong_of(c.subject), failed = r.failed_of(c.subject);
+  const std::uint64_t answers = r.answered_by(c.subject);
+  const std::string counts =
+      fmt::format("WRONG in {} and failed in {} of {} answers", reports::grouped(wrong),
+                  reports::grouped(failed), reports::grouped(answers + failed));
+  if (interrupted)
+    return say(exit_failed, fmt::format("interrupted; resume with the same command and --out {}; so far {}",
+                                        shell_word(c.out.string()), counts));
+  if (wrong + failed > 0) return say(exit_wrong, counts);
+  if (answers == 0) return say(exit_failed, "it answered nothing; this run proves nothing");
+  // A campaign whose pairs nearly all overlap, or nearly none, tests half of what it says.
+  if (c.family.empty() && r.pair_cases >= 200 && (r.hit_rate() < 0.3 || r.hit_rate() > 0.7))
+    return say(exit_failed,
+               fmt::format("{:.0f} % of the pairs overlap, outside 30-70 %: this run proves nothing",
+                           100 * r.hit_rate()));
+  if (const auto open = r.too_open(c.subject); !open.empty())
+    return say(exit_failed, fmt::format("0 wrong, and too much left open to say so: {}", open.front()));
+  const auto exempt = r.by_definition_of(c.subject);
+  return say(exit_clean,
+             fmt::format("0 wrong in {} answers{}", reports::grouped(answers),
+                         exempt > 0
+                             ? fmt::format(" ({} state a depth of a surface, which has none: not judged)",
+                                           reports::grouped(exempt))
+                             : ""));
+}
+
+int run(FuzzOptions& o) {
+  take_shard(o.shard, o.config);
+  const AskedEngines asked = asked_engines(o.choice, o.limits);
+  o.config.engines = asked.names;
+  o.config.subject = asked.subject;
+  if (!o.config.error.empty()) length_from_text(o.config.error);  // refuses what is no length at once
+  if (o.cases > 0) o.config.cases = o.cases;
+  if (o.minutes > 0) o.config.minutes = o.minutes;
+  if (!o.config.cases && !o.config.minutes) o.config.minutes = 1;
+  if (!o.config.family.empty()) fuzz::make_case(1, 0, o.config.family);  // refuses an unknown family at once
+  o.config.out = o.out.empty() ? default_out() : o.out;
+  o.limits.stop = &interrupted;
+  const auto make_all = [&] { return judged_by(make_engines(o.config.engines, o.limits), o.config.error); };
+  catch_stop_signals();
+  const auto result = fuzz::run_campaign(o.config, make_all, ProgressPrinter(o.config), interrupted);
+  if (o.json) {
+    auto j = fuzz::to_json(result, true);
+    j["digest"] = fuzz::digest(result), j["out"] = o.config.out.string();
+    j["too_open"] = result.too_open(o.config.subject);
+    fmt::print("{}\n", j.dump(1));
+  } else {
+    print_text(o.config, result);
+  }
+  return verdict(o.config, result, o.json);
+}
+
+}  // namespace
+
+Run declare_fuzz(CLI::App& app) {
+  auto o = std::make_shared<FuzzOptions>();
+  o->config.jobs = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+  add_engine_choice(app, o->choice);
+  app.add_option("--family", o->config.family,
+                 "only these families of cases: a,b,… (see `touchstone families`)");
+  app.add_option("--seed", o->config.seed, "same seed and flags, same findings")->capture_default_str();
+  app.add_option("--cases", o->cases, "stop after this many cases")->check(a_count());
+  app.add_option("--minutes", o->minutes, "stop after this time (default 1 when --cases is not given)")
+      ->check(a_positive_number());
+  app.add_option("--jobs", o->config.jobs, "jobs side by side")
+      ->check(CLI::Range(1, 1024))
+      ->capture_default_str();
+  app.add_option(
+      "--shard", o->shard,
+      "i/n: only the i-th of n parts of the campaign, i from 0 (default: SLURM_ARRAY_TASK_ID of _COUNT, or "
+      "JOB_COMPLETION_INDEX of JOB_COMPLETIONS, if they are set)");
+  app.add_flag("--guided", o->config.guided,
+               "half of the cases are changed forms of those that made an engine do something new");
+  app.add_option("--relations", o->config.relations_every,
+                 "every so many cases one is also asked swapped, scaled, moved, ...; 0: none")
+      ->check(CLI::Range(0, 1'000'000'000))
+      ->capture_default_str();
+  app.add_option("--out", o->out, "output directory; an unfinished campaign in it is resumed");
+  app.add_flag(
+      "--fresh", o->config.fresh,
+      "a campaign that is in --out already is moved aside, to the first free name of OUT.1, OUT.2, …");
+  add_error(app, o->config.error);
+  add_case_seconds(app, o->limits);
+  app.add_flag("--json", o->json, "the whole result as one JSON document on stdout");
+  return [o] { return run(*o); };
+}
+
+}  // namespace touchstone::cli

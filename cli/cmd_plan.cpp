@@ -1,0 +1,100 @@
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <cmath>
+
+#include "cli/case_argument.h"
+#include "cli/command.h"
+#include "cli/output_file.h"
+#include "core/base/input_error.h"
+#include "reports/plan/fidelity_json.h"
+#include "reports/plan/plan.h"
+#include "reports/text/plan_text.h"
+#include "scenarios/codec/input_file.h"
+#include "scenarios/codec/json_file.h"
+#include "scenarios/import/real_scene.h"
+
+namespace touchstone::cli {
+namespace {
+
+struct PlanArguments {
+  std::string scene, out, use;
+  fuzz::PlanOptions plan;
+  int steps = 24;
+  bool json = false;
+};
+
+fuzz::Course course_named(const PlanArguments& o) {
+  const auto of = [&](const auto& make) {
+    try {
+      return make();
+    } catch (const InputError& e) {
+      throw InputError(o.scene + ": " + e.place(), e.reason());
+    }
+  };
+  if (is_recording(o.scene)) {
+    const RealScene recorded = load_real_scene(o.scene);
+    return of([&] { return fuzz::course_of(recorded, o.steps); });
+  }
+  Case c = case_argument(o.scene).c;
+  if (c.scene.name.empty()) c.scene.name = std::filesystem::path(o.scene).stem().string();
+  return of([&] { return fuzz::course_of(c.scene); });
+}
+
+Fidelity plan_in(const std::string& file) {
+  const fuzz::Json json = load_json(file);
+  const JsonReader j(json, file);
+  if (!j.has("touchstone_plan") || j["touchstone_plan"].json() != 1 || !j.has("run"))
+    throw InputError(file, "is not a plan (of version 1)");
+  return fuzz::fidelity_from_json(j["run"].json(), file + ": run");
+}
+
+int run(PlanArguments o, bool error_given) {
+  if (error_given && !(o.plan.error > 0 && std::isfinite(o.plan.error)))
+    throw InputError("--error", fmt::format("{} is no positive length", o.plan.error));
+  require_writable(o.out);
+  if (!o.use.empty()) o.plan.given = plan_in(o.use);
+  const fuzz::Course course = course_named(o);
+  const bool live = isatty(2) == 1;
+  const fuzz::Plan plan = fuzz::make_plan(course, o.plan, [live](const std::string& what) {
+    if (live) fmt::print(stderr, "\r\033[K{}", what);
+  });
+  if (live) fmt::print(stderr, "\r\033[K");
+  const std::string json = fuzz::to_json(plan).dump(1) + "\n";
+  if (!o.out.empty()) write_file(o.out, json);
+  fmt::print("{}", o.json ? json : reports::plan_text(plan));
+  if (!o.out.empty())
+    fmt::print(o.json ? stderr : stdout, "{}: run it with StepWorld, or ask again with --use\n", o.out);
+  for (const fuzz::PlanRow& r : plan.rows)
+    if (r.is_plan && r.outside > 0) return exit_wrong;
+  return plan.judged > plan.undecided ? exit_clean : exit_failed;
+}
+
+}  // namespace
+
+Run declare_plan(CLI::App& app) {
+  auto o = std::make_shared<PlanArguments>();
+  app.add_option("scene", o->scene, "a scene's or case's JSON, a scenario, or the directory of a recording")
+      ->required();
+  auto* error =
+      app.add_option("--error", o->plan.error,
+                     "what a gap or depth may be off by, in the scene's unit (default: a millionth of "
+                     "the smallest body)");
+  app.add_flag("--solid-meshes", o->plan.solid_meshes, "meshes that are closed and convex stand for solids");
+  app.add_option("--use", o->use, "measure and judge this plan instead of choosing one")->excludes(error);
+  app.add_option("-o,--out", o->out, "file for the plan as JSON, which StepWorld can run");
+  app.add_option("--steps", o->steps, "steps of a recording to look at")
+      ->check(CLI::Range(1, 100000))
+      ->capture_default_str();
+  app.add_option("--rounds", o->plan.rounds, "interleaved measurements of each way; the least counts")
+      ->check(CLI::Range(1, 1000))
+      ->capture_default_str();
+  app.add_option("--judged", o->plan.judged, "pairs that the referee judges")
+      ->check(CLI::Range(1, 100000))
+      ->capture_default_str();
+  app.add_option("--seed", o->plan.seed, "of the samples")->capture_default_str();
+  app.add_flag("--json", o->json, "the whole result as one JSON document on stdout");
+  return [o, error] { return run(*o, error->count() > 0); };
+}
+
+}  // namespace touchstone::cli

@@ -1,0 +1,228 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "cli/asked_engines.h"
+#include "cli/case_argument.h"
+#include "cli/command.h"
+#include "cli/judged_by.h"
+#include "cli/replay_text.h"
+#include "core/base/input_error.h"
+#include "fuzz/campaign/campaign.h"
+#include "fuzz/judge/judge.h"
+#include "reports/text/text.h"
+#include "scenarios/import/real_scene.h"
+#include "scenarios/import/real_scene_cases.h"
+#include "scenarios/text/printable.h"
+#include "scenarios/value/moving_pairs.h"
+
+namespace touchstone::cli {
+namespace {
+
+struct ReplayOptions {
+  std::vector<std::string> paths;
+  EngineChoice choice;
+  std::string frames, error;
+  bool json = false, certificates = false;
+  WorkerLimits limits;
+};
+
+using Engines = std::vector<EnginePtr>;
+
+// A name from a file on a terminal: no control characters, no more than a line.
+std::string shown(std::string name) {
+  if (name.size() > 200) name = name.substr(0, 197) + "...";
+  for (char& c : name)
+    if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = '?';
+  return name;
+}
+
+std::vector<CaseObservations> ask(const Engines& engines, const Case& c) {
+  std::vector<CaseObservations> r;
+  for (const EnginePtr& e : engines) r.push_back(e->run({&c, 1})[0]);
+  return r;
+}
+
+// What the exit code is made of: cases in which the subject is wrong or fails; of recordings, with thousands
+// of cases each, answers.
+struct Count {
+  std::uint64_t cases = 0, wrong_cases = 0;
+  std::uint64_t recorded = 0, wrong_recorded = 0;  // answers about recordings
+  std::uint64_t answered = 0;                      // by the subject, right or wrong
+  std::vector<std::string> bad;                    // arguments that could not be judged
+  bool failed = false;                             // one of them for another reason than bad input
+};
+
+struct Asked {
+  Engines engines;
+  std::string subject;
+};
+
+// One case in full.
+void replay_case(const ReplayOptions& o, const Asked& asked, const Case& c, Count& count, fuzz::Json& json) {
+  const Engines& engines = asked.engines;
+  fuzz::Truth truth(c.scene);
+  reports::ReplayText text(c, truth);
+  bool subject_wrong = false;
+  const auto observations = ask(engines, c);
+  for (std::size_t e = 0; e < engines.size(); ++e) {
+    const EngineCard& card = engines[e]->card();
+    const auto judgements = fuzz::judge(c, card, observations[e], truth);
+    text.add(card.name, observations[e], judgements);
+    if (card.name != asked.subject) continue;
+    for (const auto& j : judgements) {
+      subject_wrong |= !j.faults.empty();
+      count.answered += j.outcome == Outcome::answered;
+    }
+  }
+  fuzz::CampaignResult related;
+  for (std::size_t e = 0; e < engines.size(); ++e)
+    fuzz::relate_into(related, c, 0, engines[e], observations[e]);
+  subject_wrong |= related.wrong_of(asked.subject) > 0;
+  ++count.cases;
+  count.wrong_cases += subject_wrong;
+  if (o.json) {
+    json.push_back(text.json(o.certificates));
+    json.back()["impacts_not_asked"] = impacts_not_asked(c);
+    json.back()["relations"] = fuzz::Json::array();
+    for (const auto& [key, f] : related.findings) json.back()["relations"].push_back(fuzz::to_json(f));
+    return;
+  }
+  fmt::print("{}", text.str());
+  if (const std::string words = words_on_impacts_not_asked(c); !words.empty())
+    fmt::print("{}\n\n", reports::wrapped(words, 78, 4));
+  if (!related.findings.empty()) fmt::print("\nAgainst their own answers:\n");
+  for (const auto& [key, f] : related.findings)
+    fmt::print("  {}\n", reports::wrapped(fmt::format("{} {}: {}", f.engine, f.fault, f.words), 76, 4));
+}
+
+// A recorded scene: thousands of pairs, so counts and findings instead of every answer.
+void replay_real_scene(const ReplayOptions& o, const Asked& asked, const std::string& directory, Count& count,
+                       fuzz::Json& json) {
+  const RealScene scene = load_real_scene(directory);
+  const auto frames = fuzz::frames_from_text(o.frames, scene.frame_count());
+  fuzz::CampaignResult result;
+  const auto start = std::chrono::steady_clock::now();
+  std::uint64_t index = 0;
+  constexpr std::size_t batch = 64;
+  for (int f : frames) {
+    const auto cases = fuzz::real_scene_cases(scene, f);
+    for (std::size_t first = 0; first < cases.size(); first += batch) {
+      const std::span<const Case> part(cases.data() + first, std::min(batch, cases.size() - first));
+      fuzz::ask_and_judge(result, part, index, asked.engines);
+      index += part.size();
+    }
+    fmt::print(stderr, "{} frame {}: {} cases\n", scene.name, f, cases.size());
+  }
+  result.total_ns = std::chrono::nanoseconds(std::chrono::steady_clock::now() - start).count();
+  if (o.json) {
+    json.push_back(fuzz::to_json(result, true));
+  } else {
+    fmt::print("{}: {} bodies, {} of {} frames\n{}\n", scene.name, scene.frame(0).bodies.size(),
+               frames.size(), scene.frame_count(), reports::campaign_table(result));
+    fmt::print("{}{}\n", reports::findings_summary(result, 3), reports::campaign_footer(result));
+  }
+  const std::uint64_t answered = result.answered_by(asked.subject), failed = result.failed_of(asked.subject);
+  count.answered += answered;
+  count.recorded += answered + failed;
+  count.wrong_recorded += result.wrong_of(asked.subject) + failed;
+}
+
+std::string in_words(const Count& count) {
+  std::string text;
+  if (count.cases > 0 || count.recorded == 0)
+    text = fmt::format("{} of {} cases", reports::grouped(count.wrong_cases), reports::grouped(count.cases));
+  if (count.recorded > 0)
+    text += fmt::format("{}{} of {} answers about recordings", text.empty() ? "" : " and ",
+                        reports::grouped(count.wrong_recorded), reports::grouped(count.recorded));
+  return text;
+}
+
+int verdict(const Count& count, const std::string& subject, bool json) {
+  if (!count.bad.empty() && count.cases + count.recorded == 0)  // which has been said
+    return count.failed ? exit_failed : exit_usage;
+  if (!count.bad.empty())
+    return say_verdict(count.failed ? exit_failed : exit_usage, count.bad[0],
+                       fmt::format("{} of the arguments could not be judged; in the others {} is wrong in {}",
+                                   count.bad.size(), subject, in_words(count)),
+                       json);
+  if (count.wrong_cases + count.wrong_recorded > 0)
+    return say_verdict(exit_wrong, subject, "wrong in " + in_words(count), json);
+  if (count.answered == 0)
+    return say_verdict(exit_failed, subject, "it answered nothing, which proves nothing", json);
+  return say_verdict(exit_clean, subject, "wrong in " + in_words(count), json);
+}
+
+// Where the file says that it comes from: words to show, never a name to run.
+void print_origin(const std::string& path, const StoredCase& stored, const Engines& engines) {
+  constexpr std::string_view made_by = "certify ";
+  if (!stored.source.starts_with(made_by)) return;
+  const std::string subject =
+      shown(stored.source.substr(made_by.size(), stored.source.find(", ") - made_by.size()));
+  const bool asked = std::any_of(engines.begin(), engines.end(),
+                                 [&](const EnginePtr& e) { return e->card().name == subject; });
+  fmt::print("{}: a script against {} ({})\n", path, subject,
+             asked ? "asked below" : "which is not asked here; --engines names it");
+}
+
+void replay_stored(const ReplayOptions& o, const Asked& asked, const std::string& path, Count& count,
+                   fuzz::Json& json) {
+  const StoredCase stored = case_argument(path);
+  if (!o.json) print_origin(path, stored, asked.engines);
+  replay_case(o, asked, stored.c, count, json);
+}
+
+// One argument. What is wrong with it is said, and the others go on.
+void replay(const ReplayOptions& o, const Asked& asked, const std::string& path, Count& count,
+            fuzz::Json& json) {
+  const auto refuse = [&](const std::string& words) {
+    const std::string why = printable(words, "\n");
+    fmt::print(stderr, "touchstone: {}\n", why);
+    count.bad.push_back(path);
+    if (o.json) json.push_back({{"argument", path}, {"error", why}});
+  };
+  try {
+    if (is_recording(path))
+      replay_real_scene(o, asked, path, count, json);
+    else
+      replay_stored(o, asked, path, count, json);
+  } catch (const InputError& e) {
+    refuse(e.what());
+  } catch (const std::exception& e) {
+    count.failed = true;
+    refuse(path + ": failed: " + e.what());
+  }
+}
+
+int run(const ReplayOptions& o) {
+  const AskedEngines chosen = asked_engines(o.choice, o.limits);
+  const Asked asked{judged_by(make_engines(chosen.names, o.limits), o.error), chosen.subject};
+  Count count;
+  fuzz::Json json = fuzz::Json::array();
+  for (const std::string& path : o.paths) replay(o, asked, path, count, json);
+  if (o.json) fmt::print("{}\n", json.dump(1));
+  return verdict(count, asked.subject, o.json);
+}
+
+}  // namespace
+
+Run declare_replay(CLI::App& app) {
+  auto o = std::make_shared<ReplayOptions>();
+  app.add_option("case", o->paths,
+                 "case or scene files, directories of findings, names of scenarios, or directories of "
+                 "recorded scenes "
+                 "(scene.txt, frames.npy)")
+      ->required();
+  add_engine_choice(app, o->choice);
+  app.add_option("--frames", o->frames, "of recorded scenes: first:end:step (default: about five frames)");
+  add_error(app, o->error);
+  add_case_seconds(app, o->limits);
+  app.add_flag("--json", o->json, "one JSON document on stdout");
+  app.add_flag(
+      "--certificates", o->certificates,
+      "in the JSON, also certificates in exact arithmetic, as `touchstone check` takes them (for moving "
+      "meshes: minutes)");
+  return [o] { return run(*o); };
+}
+
+}  // namespace touchstone::cli

@@ -1,0 +1,68 @@
+#include <fmt/format.h>
+
+#include "cli/command.h"
+#include "cli/output_file.h"
+#include "cli/pages.h"
+#include "core/base/input_error.h"
+#include "reports/record/stored.h"
+#include "reports/text/findings_columns.h"
+#include "reports/text/text.h"
+#include "scenarios/codec/json_file.h"
+
+namespace touchstone::cli {
+namespace {
+
+struct ReportOptions {
+  std::string directory, out;
+};
+
+fuzz::Json settings_in(const std::filesystem::path& file) {
+  const fuzz::Json j = load_json(file, campaign_limits);
+  return JsonReader(j, file.string())["settings"].json();
+}
+
+// What reports/web/src/report draws: the summary without histograms, and findings as columns.
+fuzz::Json report_page(const std::filesystem::path& directory, fuzz::Json summary) {
+  fuzz::Json findings = reports::findings_columns(summary.at("findings"));
+  summary.erase("findings");
+  for (auto& [engine, questions] : summary.at("engines").items())
+    for (auto& [question, tally] : questions.items()) tally.erase("ns_histogram");
+  fuzz::Json settings;
+  if (std::filesystem::exists(directory / "state.json")) settings = settings_in(directory / "state.json");
+  return {{"page", "report"},
+          {"version", 2},
+          {"title", "campaign " + directory.string()},
+          {"directory", directory.string()},
+          {"settings", std::move(settings)},
+          {"summary", std::move(summary)},
+          {"findings", std::move(findings)}};
+}
+
+int run(const ReportOptions& o) {
+  std::filesystem::path directory = o.directory;
+  if (!directory.has_filename()) directory = directory.parent_path();
+  const auto file = directory / "summary.json";
+  if (!std::filesystem::exists(file))
+    throw InputError(o.directory,
+                     "holds no summary.json: not the directory of a campaign, or it is not finished");
+  require_writable(o.out);
+  const fuzz::Json summary = load_json(file, campaign_limits);
+  const fuzz::CampaignResult result = fuzz::result_from_json(JsonReader(summary, file.string()));
+  fmt::print("{}\n{}{}", reports::campaign_table(result), reports::findings_summary(result, 3),
+             reports::campaign_footer(result));
+  if (o.out.empty()) return exit_clean;
+  if (!write_page("report", json_text(report_page(directory, summary)), o.out)) return exit_failed;
+  fmt::print("{}: open it in a browser\n", o.out);
+  return exit_clean;
+}
+
+}  // namespace
+
+Run declare_report(CLI::App& app) {
+  auto o = std::make_shared<ReportOptions>();
+  app.add_option("directory", o->directory, "what `fuzz --out` wrote")->required();
+  app.add_option("-o,--out", o->out, "the page to write (HTML, loads nothing)");
+  return [o] { return run(*o); };
+}
+
+}  // namespace touchstone::cli

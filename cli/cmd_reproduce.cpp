@@ -1,0 +1,41 @@
+// touchstone reproduce CASE: a finding as one C++ file against the engine's own API.
+#include <fmt/format.h>
+
+#include "cli/command.h"
+#include "cli/finding_argument.h"
+#include "cli/output_file.h"
+#include "fuzz/reproduce/reproducer.h"
+#include "scenarios/codec/input_file.h"
+
+namespace touchstone::cli {
+namespace {
+
+struct ReproduceOptions {
+  FindingArgument finding;
+  std::string out;
+  WorkerLimits limits;
+};
+
+int run(const ReproduceOptions& o) {
+  require_writable(o.out);
+  const AskedFinding asked = ask_for_finding(o.finding, o.limits);
+  if (asked.key.empty()) return not_found(asked, o.finding);
+  const std::string text = fuzz::reproducer(asked.findings.at(asked.key), asked.engine->card());
+  if (o.out.empty())
+    fmt::print("{}", text);
+  else
+    write_file(o.out, text);
+  return exit_clean;
+}
+
+}  // namespace
+
+Run declare_reproduce(CLI::App& app) {
+  auto o = std::make_shared<ReproduceOptions>();
+  add_finding_argument(app, o->finding);
+  app.add_option("-o,--out", o->out, "file for the program (default: stdout)");
+  add_case_seconds(app, o->limits);
+  return [o] { return run(*o); };
+}
+
+}  // namespace touchstone::cli

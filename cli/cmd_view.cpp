@@ -1,0 +1,102 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+
+#include "cli/broad_view.h"
+#include "cli/case_argument.h"
+#include "cli/case_page.h"
+#include "cli/command.h"
+#include "cli/engine_catalog.h"
+#include "cli/output_file.h"
+#include "cli/pages.h"
+#include "core/base/input_error.h"
+#include "reports/text/broad_page.h"
+#include "scenarios/codec/input_file.h"
+#include "scenarios/import/real_scene.h"
+#include "scenarios/text/printable.h"
+#include "scenarios/value/moving_pairs.h"
+
+namespace touchstone::cli {
+namespace {
+
+struct ViewOptions {
+  std::string scene, out;
+  std::vector<std::string> methods{"automatic", "sort_and_sweep", "hierarchical_grid",
+                                   "bounding_volume_hierarchy"};
+  int frames = 100;
+  std::string engines = "all";
+  bool broad = false, json = false;
+  WorkerLimits limits;
+};
+
+// A file, the name of a scenario, or the directory of a recorded scene: whatever replay takes.
+Scene scene_named(const ViewOptions& o) {
+  if (is_recording(o.scene)) {
+    const RealScene real = load_real_scene(o.scene);
+    Scene scene = real.script(0, std::min(o.frames, real.frame_count()) - 1);
+    scene.name = real.name;
+    return scene;
+  }
+  Case c = case_argument(o.scene).c;
+  if (c.scene.name.empty()) c.scene.name = std::filesystem::path(o.scene).stem().string();
+  return c.scene;
+}
+
+int view_case(const ViewOptions& o) {
+  const StoredCase stored = case_argument(o.scene);
+  if (const std::string words = words_on_impacts_not_asked(stored.c); !words.empty())
+    fmt::print(stderr, "{}\n", words);
+  const fuzz::Json page = case_page(o.scene, stored, o.engines, o.limits);
+  if (o.json) fmt::print("{}\n", page.dump(1));
+  if (o.out.empty()) return exit_clean;
+  if (!write_page("case", page.dump(), o.out)) return exit_failed;
+  if (!o.json) fmt::print("{}: open it in a browser\n", o.out);
+  return exit_clean;
+}
+
+int run(const ViewOptions& o) {
+  if (o.out.empty() && !o.json) throw InputError("view", "say where to write the page: -o FILE");
+  require_writable(o.out);
+  if (!o.broad) return view_case(o);
+  const fuzz::BroadView view =
+      fuzz::broad_view(scene_named(o), o.methods, static_cast<std::size_t>(o.frames));
+  if (view.frames.empty()) throw InputError(o.scene, "its script has no query: nothing to show");
+  if (!o.out.empty()) write_file(o.out, reports::broad_page(view));
+  const auto& last = view.frames.back();
+  if (o.json)
+    fmt::print("{}\n", fuzz::to_json(view).dump(1));
+  else
+    fmt::print("{}: {} bodies, {} queries; at the last, {} pairs kept of {}\n{}: open it in a browser\n",
+               printable(view.name), view.bodies.size(), view.frames.size(), last.kept.size(), last.all_pairs,
+               o.out);
+  return exit_clean;
+}
+
+}  // namespace
+
+Run declare_view(CLI::App& app) {
+  auto o = std::make_shared<ViewOptions>();
+  app.add_option(
+         "scene", o->scene,
+         "case or scene file, name of a scenario, or directory of a recorded scene (scene.txt, frames.npy)")
+      ->required();
+  app.add_option("--engines", o->engines, "engines to ask: names, plug-in paths, or all")
+      ->capture_default_str();
+  add_case_seconds(app, o->limits);
+  app.add_flag("--broad", o->broad,
+               "instead of the answers, the broad phase: boxes, intervals, cells or trees, candidate pairs "
+               "kept and pruned");
+  app.add_option("-o,--out", o->out, "the page to write (HTML, loads nothing)");
+  app.add_option("--method", o->methods, "broad phases to show, separated by commas")
+      ->delimiter(',')
+      ->allow_extra_args(false)
+      ->capture_default_str();
+  app.add_option("--frames", o->frames, "queries to show, the first ones")
+      ->check(CLI::Range(1, 10000))
+      ->capture_default_str();
+  app.add_flag("--json", o->json, "what the page is drawn from, as one JSON document on stdout");
+  return [o] { return run(*o); };
+}
+
+}  // namespace touchstone::cli

@@ -1,0 +1,65 @@
+#include "cli/command.h"
+
+#include <algorithm>
+#include <cctype>
+#include <charconv>
+#include <cmath>
+#include <cstdint>
+
+namespace touchstone::cli {
+namespace {
+
+std::string& stored_program_name() {
+  static std::string name = "touchstone";
+  return name;
+}
+
+bool is_plain(char c) {
+  return std::isalnum(static_cast<unsigned char>(c)) != 0 ||
+         std::string_view("_-+=./:@,%^").find(c) != std::string::npos;
+}
+
+}  // namespace
+
+void set_program_name(std::string name) { stored_program_name() = shell_word(name); }
+
+const std::string& program_name() { return stored_program_name(); }
+
+std::string shell_word(const std::string& text) {
+  if (!text.empty() && std::all_of(text.begin(), text.end(), is_plain)) return text;
+  std::string quoted = "'";
+  for (const char c : text) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return quoted + "'";
+}
+
+namespace {
+
+template <class Number>
+bool parses(const std::string& text, Number& value) {
+  const auto r = std::from_chars(text.data(), text.data() + text.size(), value);
+  return r.ec == std::errc{} && r.ptr == text.data() + text.size();
+}
+
+}  // namespace
+
+CLI::Validator a_count() {
+  return CLI::Validator(
+      [](std::string& text) {
+        std::uint64_t n = 0;
+        return parses(text, n) && n > 0 ? std::string()
+                                        : text + " is not a whole number from 1 on, in digits";
+      },
+      "COUNT");
+}
+
+CLI::Validator a_positive_number() {
+  return CLI::Validator(
+      [](std::string& text) {
+        double x = 0;
+        return parses(text, x) && x > 0 && std::isfinite(x) ? std::string()
+                                                            : text + " is not a positive number";
+      },
+      "NUMBER");
+}
+
+}  // namespace touchstone::cli

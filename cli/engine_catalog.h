@@ -1,0 +1,57 @@
+// The one place that names concrete engines: catalog name -> plug-in file. Every engine runs in a worker
+// process, our own core too; all others behind the C ABI, like a user's plug-in.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <filesystem>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "oracles/client/remote_engine.h"
+#include "oracles/core/broad_engine.h"
+
+namespace touchstone::cli {
+
+struct EngineRow {
+  std::string_view name;
+  std::string_view library;  // file in the plug-in directory; empty: the core's
+  std::string_view line;     // for people
+};
+std::span<const EngineRow> engine_catalog();
+/// Broad phases of the oracles alone: they answer `candidates` and nothing else, and are asked by name only.
+std::span<const EngineRow> broad_catalog();
+
+/// True when the engine's plug-in file is there.
+bool is_present(const EngineRow& row);
+
+/// Names of `text` ("a,b", "all", "./libmine.so", "./libmine.so:name", "core-steps@16", a broad phase of the
+/// core or of an oracle); "all" is every engine present that answers more than candidates. Throws InputError
+/// for a name that is unknown or absent.
+std::vector<std::string> engine_names(const std::string& text);
+
+/// A plug-in's path or a pipe's command, not a name of a catalogue.
+bool is_foreign(const std::string& name);
+/// A name of a catalogue, whether its library is there or not.
+bool is_catalogued(const std::string& name);
+/// Of all catalogues, in their order.
+std::vector<std::string> catalogued_names();
+
+/// Throws InputError when the plug-in is missing or does not offer the engine.
+EnginePtr make_engine(const std::string& name, const WorkerLimits& limits);
+/// A broad phase of the core, with these boxes.
+EnginePtr make_core_broad_phase(const std::string& name, BroadBoxes boxes, const WorkerLimits& limits);
+
+/// The files that an engine is made of: its plug-in, or those that the command of a pipe names. Empty: it is
+/// the core, a part of this program.
+std::vector<std::filesystem::path> engine_files(const std::string& name);
+
+/// The options of every command that asks engines: --case-seconds and --no-sandbox.
+void add_case_seconds(CLI::App& app, WorkerLimits& limits);
+void add_no_sandbox(CLI::App& app, WorkerLimits& limits);
+
+std::filesystem::path host_program();
+std::filesystem::path plugin_directory();
+
+}  // namespace touchstone::cli

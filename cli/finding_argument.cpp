@@ -1,0 +1,102 @@
+#include "cli/finding_argument.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <system_error>
+
+#include "cli/case_argument.h"
+#include "cli/command.h"
+#include "cli/npm_engines.h"
+#include "core/base/input_error.h"
+#include "fuzz/shrink/keeps_finding.h"
+#include "scenarios/codec/input_file.h"
+#include "scenarios/codec/json_file.h"
+
+namespace touchstone::cli {
+namespace {
+
+using Json = nlohmann::ordered_json;
+namespace fs = std::filesystem;
+
+// The key of a finding's directory: that in its finding.json; of those that `triage --reproducers` makes, its
+// name.
+std::string stored_key(const std::string& path) {
+  std::error_code ec;
+  const fs::path directory = fs::is_directory(path, ec) ? fs::path(path) : fs::path(path).parent_path();
+  const fs::path beside = directory / "finding.json";
+  if (!fs::exists(beside, ec)) {
+    const std::string name = fs::absolute(directory, ec).lexically_normal().filename();
+    constexpr int dots_of_a_key = 6;
+    const bool is_case = fs::exists(directory / "case.json", ec);
+    return is_case && std::count(name.begin(), name.end(), '.') >= dots_of_a_key ? name : "";
+  }
+  const Json finding = load_json(beside);
+  return JsonReader(finding, beside.string())["key"].string();
+}
+
+// A key starts with its engine's name; those of plug-ins may hold dots themselves.
+std::string engine_of(const std::string& key) {
+  std::string found;
+  const auto consider = [&](std::string_view name) {
+    if (key.starts_with(std::string(name) + ".") && name.size() > found.size()) found = name;
+  };
+  for (const EngineRow& row : engine_catalog()) consider(row.name);
+  for (const EngineRow& row : broad_catalog()) consider(row.name);
+  for (const NpmRow& row : npm_catalog()) consider(row.name);
+  if (found.empty())
+    throw InputError("--key", "names no engine of the catalog: " + key + " (give --engine for a plug-in)");
+  return found;
+}
+
+using Findings = std::map<std::string, fuzz::Finding>;
+
+// The finding asked for, or the only one; empty: the case shows none (of that key).
+std::string choose(const std::string& key, const Findings& findings) {
+  if (!key.empty()) return findings.contains(key) ? key : "";
+  if (findings.empty()) return {};
+  std::string list;
+  for (const auto& [each, f] : findings) list += "\n  " + each;
+  if (findings.size() > 1) throw InputError("--key", "which finding? The case shows" + list);
+  return findings.begin()->first;
+}
+
+}  // namespace
+
+void add_finding_argument(CLI::App& app, FindingArgument& to) {
+  app.add_option("case", to.path, "a finding's directory, a case or scene file, or the name of a scenario")
+      ->required();
+  app.add_option("--key", to.key,
+                 "the finding meant (default: that of finding.json beside the case, or the only one)");
+  app.add_option("--engine", to.engine, "the engine found wrong (default: that of the key, or core)");
+}
+
+AskedFinding ask_for_finding(FindingArgument o, const WorkerLimits& limits) {
+  AskedFinding r;
+  r.stored = case_argument(o.path);
+  const std::string stored = o.key.empty() ? stored_key(o.path) : "";
+  if (o.engine.empty()) {
+    if (o.key.empty()) o.key = stored;
+    o.engine = o.key.empty() ? "core" : engine_of(o.key);
+  }
+  r.engine_name = o.engine;
+  r.engine = make_engine(engine_names(o.engine).at(0), limits);
+  if (o.key.empty() && stored.starts_with(r.engine->card().name + ".")) o.key = stored;
+  // Without a key, a relation is asked for only where the referee has nothing to say: mostly it shows the
+  // same error again.
+  r.findings = fuzz::findings_of({&r.stored.c, 1}, r.engine, fuzz::found_by(o.key))[0];
+  if (r.findings.empty() && o.key.empty())
+    r.findings = fuzz::findings_of({&r.stored.c, 1}, r.engine, fuzz::FoundBy::relations)[0];
+  r.key = choose(o.key, r.findings);
+  return r;
+}
+
+int not_found(const AskedFinding& asked, const FindingArgument& o) {
+  fmt::print(stderr, "{} is not found wrong{}\n", asked.engine_name,
+             o.key.empty() ? "" : " in this way: " + o.key);
+  return exit_failed;
+}
+
+}  // namespace touchstone::cli

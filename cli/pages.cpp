@@ -1,0 +1,46 @@
+#include "cli/pages.h"
+
+#include <fmt/format.h>
+
+#include "cli/engine_catalog.h"
+#include "reports/text/web_page.h"
+#include "scenarios/codec/input_file.h"
+
+namespace touchstone::cli {
+
+std::filesystem::path built_page(std::string_view kind) {
+  return plugin_directory().parent_path() / "share/touchstone/web" / fmt::format("{}.html", kind);
+}
+
+bool write_page(std::string_view kind, const std::string& json, const std::filesystem::path& out,
+                const std::filesystem::path& stored) {
+  const auto built = built_page(kind);
+  if (!std::filesystem::exists(built)) {
+    auto data = stored;
+    if (data.empty()) write_file((data = out).replace_extension(".json"), json);
+    fmt::print(
+        stderr,
+        "touchstone: no page: those of reports/web are not built (./touchstone pages --install builds them "
+        "with nodejs and npm); its data is in {}\n",
+        data.string());
+    return false;
+  }
+  write_file(out, reports::web_page(read_file(built, std::uintmax_t{1} << 26), json));
+  return true;
+}
+
+void write_result(const std::string& name, const std::string& out, const std::string& json,
+                  const std::string& csv, const std::string& text, bool as_json) {
+  const std::string file = fmt::format("{}/{}", out, name);
+  write_file(file + ".json", json);
+  write_file(file + ".csv", csv);
+  if (as_json)
+    fmt::print("{}\n", json);
+  else
+    fmt::print("{}", text);
+  const bool page = write_page(name, json, file + ".html");
+  fmt::print(as_json ? stderr : stdout, "{0}.json, {0}.csv{1}\n", file,
+             page ? fmt::format(", page: {}.html", file) : "");
+}
+
+}  // namespace touchstone::cli

@@ -1,0 +1,305 @@
+// Conservative advancement (Mirtich 1996) with a bound of second order. At time t let n be the unit normal of
+// a support plane pair with gap s. For a body point at c + r, turning with ω about c, the coordinate along n
+// satisfies for Δ >= 0
+//
+//   n·x(t+Δ) <= n·x(t) + Δ n·v + Δ r·(n×ω) + K Δ²/2,   K = ρ |ω| |n×ω|,
+//
+// because n·(ω×r) = r·(n×ω), |r| <= ρ keeps its length, and the acceleration is ω×(ω×r). The maximum over the
+// body of r·n + Δ r·(n×ω) is the support value of the core at time t along n + Δ n×ω. Hence the gap along the
+// fixed n is at least
+//
+//   f(Δ) = base + Δ (v_B − v_A)·n − h_A(n + Δ n×ω_A) − h_B(−n − Δ n×ω_B) − radii − (K_A + K_B) Δ²/2,
+//
+// which is concave (support functions are convex), so a chord from a point with f >= 0 to one with f < 0
+// crosses zero before f does, and f >= 0 at both ends of an interval means f >= 0 throughout. No step can
+// pass the first contact. Near contact f is exact to second order: convergence is quadratic where the
+// approach speed is not zero, and where it is (grazing) the step is about √(2 gap / K).
+#include "core/impact/advance.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/narrow/convex_pair.h"
+#include "core/tolerance.h"
+
+namespace touchstone::ccd {
+namespace {
+
+// Half a second or so. Random motions have needed 600 at most (tests/core/impact_stress).
+constexpr int step_cap = 5000;
+constexpr int chord_cap = 40;
+// After so many steps along directions that stand still, ones that turn are tried too.
+constexpr int sure_steps = 4;
+
+Wide turned_support(const Core& c, const WideVec& d) {
+  const WideVec local = c.frame.rotation.transpose() * d;
+  return local.dot(narrow::support_local<Wide>(c, local));
+}
+
+WideVec turned(const WideVec& x, const WideVec& w, Wide t) {
+  const Wide speed = w.norm();
+  if (!(speed > 0) || t == 0) return x;
+  const WideVec u = w / speed;
+  const Wide c = std::cos(speed * t), s = std::sin(speed * t);
+  return x * c + u.cross(x) * s + u * (u.dot(x) * (1 - c));
+}
+
+WideMat turned(const WideMat& r, const WideVec& w, Wide t) {
+  const Wide speed = w.norm();
+  if (!(speed > 0) || t == 0) return r;
+  const WideVec u = w / speed;
+  const Wide c = std::cos(speed * t), s = std::sin(speed * t);
+  WideMat out;
+  for (int k = 0; k < 3; ++k) {
+    const WideVec x = r.col(k);
+    out.col(k) = x * c + u.cross(x) * s + u * (u.dot(x) * (1 - c));
+  }
+  return out;
+}
+
+// f(Δ) of the head comment. A plane contributes no support of its own.
+class GapBound {
+ public:
+  GapBound(const WideVec& n, Wide base, Wide radii) : n_(n), constant_(base - radii) {}
+  void add(const Core& c, const MovingCore& m, Wide side) {
+    Part& p = parts_[count_++];
+    p.core = &c, p.direction = side * n_, p.turn = side * n_.cross(m.angular);
+    slope_ -= side * m.linear.dot(n_);
+    const Wide turn = p.turn.norm();
+    lipschitz_ += c.reach * turn;
+    curvature_ += c.reach * m.angular.norm() * turn;
+  }
+  Wide operator()(Wide delta) const {
+    Wide f = constant_ + slope_ * delta - curvature_ * delta * delta / 2;
+    for (int i = 0; i < count_; ++i)
+      f -= turned_support(*parts_[i].core, parts_[i].direction + delta * parts_[i].turn);
+    return f;
+  }
+  /// Largest Δ <= end known to keep f >= 0 over [0, Δ]. Precondition f(0) > 0.
+  Wide safe_step(Wide end) const {
+    const Wide gap = (*this)(0), fall = lipschitz_ - slope_;
+    if (!(fall > 0) || fall * end < gap) return end;
+    Wide lo = std::min(end, gap / fall), hi = end, f_hi = (*this)(hi);
+    if (f_hi >= 0) return end;
+    Wide f_lo = (*this)(lo);
+    if (!(f_lo > 0)) return lo;  // the first-order bound is exact here
+    for (int i = 0; i < chord_cap && hi - lo > 0x1p-30L * lo && f_lo > 0x1p-10L * gap; ++i) {
+      // The chord's zero is safe; the midpoint tightens the far end.
+      const Wide chord = lo + (hi - lo) * (f_lo / (f_lo - f_hi)), middle = lo + (hi - lo) / 2;
+      if (const Wide f = (*this)(chord); f >= 0) lo = chord, f_lo = f;
+      if (middle <= lo) continue;
+      if (const Wide f = (*this)(middle); f >= 0)
+        lo = middle, f_lo = f;
+      else
+        hi = middle, f_hi = f;
+    }
+    return lo;
+  }
+
+ private:
+  struct Part {
+    const Core* core = nullptr;
+    WideVec direction, turn;
+  };
+  WideVec n_;
+  Wide constant_, slope_ = 0, lipschitz_ = 0, curvature_ = 0;
+  Part parts_[2];
+  int count_ = 0;
+};
+
+struct Snapshot {
+  Separation s;
+  Core a, b;  // b unused against a plane
+};
+
+// Of the gap: of a walk that has not converged, how far its points are apart.
+Wide upper_bound(const Separation& s) {
+  return s.outcome == Outcome::answered ? s.gap : std::max(s.gap, (s.b - s.a).norm());
+}
+
+// Largest step that is proven along a direction n that turns with Ω, as in fast/follow.h: from s1 at t to s2
+// at t + h, both 0 or more, the separation stays 0 or more when K h²/2 <= (√s1 + √s2)². An end that is moved
+// costs two support points; a look costs a hundred times that.
+class TurningStep {
+ public:
+  TurningStep(const MovingCore& a, const MovingCore& b, const WideVec& n, const WideVec& turn, Wide t,
+              Wide end)
+      : a_(a), b_(b), n_(n), turn_(turn), t_(t), end_(end), s1_(std::max<Wide>(0, separation(0))) {
+    const Wide speed = turn.norm(), far = std::max(offset(0).norm(), offset(end).norm());
+    curvature_ = speed * (speed * far + 2 * (b.linear - a.linear).norm());
+    for (const MovingCore* m : {&a, &b})
+      curvature_ += m->start.reach * (m->angular - turn).norm() * (speed + m->angular.norm());
+  }
+  /// `step`: what is proven already.
+  Wide beyond(Wide step) const {
+    Wide far = 2 * step;
+    for (; far < end_ && proven(far); far *= 2) step = far;
+    far = std::min(far, end_);
+    if (proven(far)) return far;
+    for (int i = 0; i < 12; ++i) {
+      const Wide middle = step + (far - step) / 2;
+      (proven(middle) ? step : far) = middle;
+    }
+    return step;
+  }
+
+ private:
+  WideVec offset(Wide h) const {
+    return b_.start.frame.translation - a_.start.frame.translation + (t_ + h) * (b_.linear - a_.linear);
+  }
+  Wide separation(Wide h) const {
+    const WideVec n = turned(n_, turn_, h);
+    const auto support = [&](const MovingCore& m, const WideVec& d) {
+      const WideVec local = turned(m.rotation, m.angular, t_ + h).transpose() * d;
+      return local.dot(narrow::support_local<Wide>(m.start, local));
+    };
+    return n.dot(offset(h)) - support(a_, n) - support(b_, -n) - a_.start.radius - b_.start.radius;
+  }
+  bool proven(Wide h) const {
+    const Wide s2 = separation(h);
+    if (!(s2 >= 0)) return false;
+    const Wide room = std::sqrt(s1_) + std::sqrt(s2);
+    return curvature_ * h * h / 2 <= room * room;
+  }
+
+  const MovingCore &a_, &b_;
+  WideVec n_, turn_;
+  Wide t_, end_, s1_, curvature_ = 0;
+};
+
+// One pair of bodies over time: what it looks like at t, and how far it may go from there.
+struct CorePair {
+  const MovingCore &a, &b;
+  WideVec origin(Wide t) const { return a.start.frame.translation + t * a.linear; }
+  Snapshot look(Wide t) const {
+    const WideVec origin = this->origin(t);
+    Snapshot x{{}, at_time(a, t, origin), at_time(b, t, origin)};
+    x.s = narrow::separate_convex(x.a, x.b);
+    return x;
+  }
+  Wide step(const Snapshot& x, Wide end) const {
+    const WideVec& n = x.s.normal;
+    GapBound f(n, n.dot(x.b.frame.translation - x.a.frame.translation), x.a.radius + x.b.radius);
+    f.add(x.a, a, 1), f.add(x.b, b, -1);
+    return f(0) > 0 ? f.safe_step(end) : 0;
+  }
+  // Nearest points of bodies that nearly touch: pushed apart along n, which leaves them where they are and a
+  // distance long enough to have a direction.
+  void improve_points(Separation& s, Wide t) const {
+    const WideVec d = s.b - s.a;
+    if ((d - d.dot(s.normal) * s.normal).norm() <= 0x1p-34L * s.size) return;
+    const WideVec origin = this->origin(t), away = 0x1p-20L * s.size * s.normal;
+    Core beyond = at_time(b, t, origin);
+    beyond.frame.translation += away;
+    const Separation x = narrow::separate_convex(at_time(a, t, origin), beyond);
+    if (x.outcome == Outcome::answered) s.a = x.a, s.b = x.b - away;
+  }
+  // Farther, along a direction that goes with a body or on as it has turned since the last look.
+  Wide farther(const Snapshot& x, Wide t, Wide end, Wide step, const WideVec& seen) const {
+    for (const WideVec* turn : {&a.angular, &b.angular, &seen})
+      if (step > 0 && step < end && !turn->isZero(0))
+        step = TurningStep(a, b, x.s.normal, *turn, t, end).beyond(step);
+    return step;
+  }
+};
+
+struct PlanePair {
+  const MovingCore& a;
+  const narrow::WidePlane& plane;
+  WideVec origin(Wide) const { return WideVec::Zero(); }
+  Snapshot look(Wide t) const {
+    Snapshot x{{}, at_time(a, t, WideVec::Zero()), {}};
+    x.s = narrow::convex_plane(x.a, plane);
+    return x;
+  }
+  Wide step(const Snapshot& x, Wide end) const {
+    const WideVec& n = x.s.normal;
+    GapBound f(n, -n.dot(x.a.frame.translation) - plane.offset, x.a.radius);
+    f.add(x.a, a, 1);
+    return f(0) > 0 ? f.safe_step(end) : 0;
+  }
+  void improve_points(Separation&, Wide) const {}
+  // The plane's normal is the direction.
+  Wide farther(const Snapshot&, Wide, Wide, Wide step, const WideVec&) const { return step; }
+};
+
+// t in double: downwards, so that it is not late, unless the bodies move so fast that only the next double is
+// in contact, as nearly as asked. (At |w| = 500 they turn by 6e-14 from one double to the next.)
+template <class P>
+ImpactAnswer hit(const P& pair, Wide t, Separation s, Wide target, const Goal& goal, int steps) {
+  ImpactAnswer r;
+  r.steps = steps, r.separation = static_cast<double>(s.gap), r.clear_until = static_cast<double>(t);
+  r.normal_ab = s.normal.template cast<double>();
+  const WideVec origin = pair.origin(t);
+  pair.improve_points(s, t);
+  r.witness_w = {(s.a + origin).template cast<double>(), (s.b + origin).template cast<double>()};
+  double d = static_cast<double>(t);
+  if (static_cast<Wide>(d) > t) d = std::nextafter(d, 0.0);
+  r.toi = r.clear_until = d;
+  if (static_cast<Wide>(d) == t) return r;
+  const Wide below = upper_bound(pair.look(d).s);
+  r.separation = static_cast<double>(below);
+  if (below <= target) return r;
+  const double next = std::nextafter(d, 1.0);
+  if (const Wide above = pair.look(next).s.gap; std::abs(above) < std::min(below, Wide(goal.accuracy)))
+    r.toi = next, r.separation = static_cast<double>(above);
+  return r;
+}
+
+template <class P>
+Advance run(const P& pair, Wide t_start, const Goal& goal) {
+  Advance out;
+  ImpactAnswer& r = out.answer;
+  Wide t = t_start, last_time = t_start;
+  WideVec last_normal = WideVec::Zero();
+  for (r.steps = 0; r.steps < step_cap; ++r.steps) {
+    Snapshot x = pair.look(t);
+    // Bounds that have not met are bounds: the plane proves the next step, the points what is contact.
+    const bool known = x.s.outcome == Outcome::answered;
+    x.s.gap = upper_bound(x.s);
+    r.clear_until = static_cast<double>(t), r.separation = static_cast<double>(x.s.gap);
+    const Wide target = known ? tolerance::impact_gap_factor * x.s.size : Wide(goal.accuracy);
+    if (x.s.gap <= target) return {hit(pair, t, x.s, target, goal, r.steps)};
+    if (t >= goal.end) return out;
+    if (r.clear_until > t) r.clear_until = std::nextafter(r.clear_until, 0.0);
+    if (x.s.gap > goal.leave && r.clear_until > t_start) return out.wide_open = true, out;
+    Wide step = pair.step(x, goal.end - t);
+    if (r.steps >= sure_steps) {
+      const WideVec seen =
+          t > last_time ? WideVec(last_normal.cross(x.s.normal) / (t - last_time)) : WideVec(WideVec::Zero());
+      step = pair.farther(x, t, goal.end - t, step, seen);
+    }
+    last_time = t, last_normal = x.s.normal;
+    if (step >= goal.end - t) {
+      t = goal.end;
+      continue;
+    }
+    if (!(t + step > t)) break;  // the gap is open, but time has no finer grain
+    t += step;
+  }
+  r.outcome = Outcome::not_converged;
+  return out;
+}
+
+}  // namespace
+
+MovingCore moving_core(const Core& start, const Motion& motion) {
+  return {start, start.frame.rotation, motion.linear.cast<Wide>(), motion.angular.cast<Wide>()};
+}
+
+Core at_time(const MovingCore& c, Wide t, const WideVec& origin) {
+  Core r = c.start;
+  r.frame.rotation = turned(c.rotation, c.angular, t);
+  r.frame.translation = (c.start.frame.translation - origin) + t * c.linear;
+  return r;
+}
+
+Advance advance(const MovingCore& a, const MovingCore& b, Wide t_start, const Goal& goal) {
+  return run(CorePair{a, b}, t_start, goal);
+}
+
+Advance advance(const MovingCore& a, const narrow::WidePlane& plane, Wide t_start, const Goal& goal) {
+  return run(PlanePair{a, plane}, t_start, goal);
+}
+
+}  // namespace touchstone::ccd

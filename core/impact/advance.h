@@ -1,0 +1,43 @@
+// Conservative advancement of two convex cores, or of a core against a plane.
+#pragma once
+
+#include <limits>
+
+#include "core/impact/impact.h"
+#include "core/narrow/convex_core.h"
+#include "core/narrow/pair/half_space.h"
+
+namespace touchstone::ccd {
+
+using Core = narrow::ConvexCore<Wide>;
+
+/// A core at t = 0 and how it moves.
+struct MovingCore {
+  Core start;
+  WideMat rotation;  // of the pose at t = 0
+  WideVec linear = WideVec::Zero(), angular = WideVec::Zero();
+};
+
+MovingCore moving_core(const Core& start, const Motion& motion);
+
+/// The core at time t with `origin` subtracted from its translation.
+Core at_time(const MovingCore& c, Wide t, const WideVec& origin);
+
+struct Advance {
+  ImpactAnswer answer;  // `wide_open`: of what is clear so far
+  bool wide_open = false;
+};
+
+/// What ends an advance before `end`.
+struct Goal {
+  Wide end = 1;
+  double accuracy = 0;  // a gap that is at most this is contact where it is not known any better
+  /// After a step to where the gap is more than this: `wide_open`, no extended precision is needed there.
+  Wide leave = std::numeric_limits<Wide>::infinity();
+};
+
+/// First contact from t_start on; precondition: none before.
+Advance advance(const MovingCore& a, const MovingCore& b, Wide t_start, const Goal& goal);
+Advance advance(const MovingCore& a, const narrow::WidePlane& plane, Wide t_start, const Goal& goal);
+
+}  // namespace touchstone::ccd

@@ -1,0 +1,216 @@
+// How far the pair may go along one direction, that stands still in the world or turns with a constant Ω.
+// Every pair of core points has a separation n·(o + p_B − p_A), o the offset of the origins, whose second
+// derivative is at most
+//
+//   K = Σ r |δ| (|Ω| + |ω|) + |Ω|² max|o| + 2 |Ω| |v|,   δ = ω − Ω, r: reach of a core,
+//
+// for n·p changes at the rate n·(δ×p), and that at (Ω×n)·(δ×p) + n·(δ×(ω×p)); where Ω = 0 the acceleration
+// ω×(ω×p) is perpendicular to ω and K = Σ ρ |ω| |n×ω|, ρ the distance of the core from its axis. So each of
+// them, and with them their minimum s, lies on an interval of length h above the chord of its ends less
+// K x (h − x)/2. From s1 and s2 at the ends, both beyond the error e of s, the minimum is beyond e when
+//
+//   K h²/2 <= (√(s1 − e) + √(s2 − e))².
+//
+// The ends are where s is evaluated anew, so the bound is exact at contact: near it a step is as long as the
+// root of s, found by Newton's method with the second derivative of the present points, and the gap left over
+// is that of the direction alone. That is quadratic in the step when the direction keeps to the features
+// that it comes from: with a face or an edge of one body, or perpendicular to an edge of each. (Held still in
+// the world, the far corner of a face that turns is the next support point, and steps shrink by a constant.)
+// Rounding of the turned n is that of Ω: 16 u / h is added to it.
+//
+// A turning core also stays inside what it sweeps as a body of revolution, whatever the angle: that bounds s
+// along a direction that stands still by a line.
+#pragma once
+
+#include "core/impact/filtered/look.h"
+
+namespace touchstone::ccd::fast {
+
+struct Followed {
+  Spot spot;           // no contact up to its time: s >= error there
+  bool clear = false;  // none up to the end either
+};
+
+namespace detail {
+
+inline constexpr int follow_cap = 40, chain_cap = 6;
+
+class Follower {
+ public:
+  Follower(const Sweep& w, const Spot& from, const View& view, const Vec& turn, double end)
+      : w_(w), n_(view.normal), end_(end), spot_(from), side_(view.side) {
+    approach_ = n_.dot(w.velocity());
+    for (const Mover* m : {&w.a(), &w.b()}) {
+      if (!m->turns) continue;
+      const double across = n_.cross(m->angular).norm();
+      still_ += m->off_axis * m->speed * across, jerk_ += m->off_axis * m->speed * m->speed * across;
+    }
+    still_ *= 1 + 0x1p-40;
+    if (!turn.isZero(0)) try_turn(turn);
+  }
+
+  Followed run() {
+    const double s0 = side_.s;
+    for (int i = 0; i < chain_cap; ++i) {
+      const double before = spot_.t;
+      if (revolve()) return {spot_, true};
+      if (spot_.t >= end_ || step()) return {spot_, true};
+      // Farther along the same direction while that gains much.
+      if (!(spot_.t > before) || side_.s < 0.3 * s0 || side_.s < 64 * spot_.error) break;
+    }
+    return {spot_, false};
+  }
+
+ private:
+  static double margin(const Spot& x) { return x.error * 1.25; }
+
+  // Turning pays when the whole of Newton's step is then proven.
+  void try_turn(const Vec& turn) {
+    const double still = rate();
+    turn_ = turn, turn_speed_ = turn.norm(), far_ = std::max(spot_.offset.norm(), offset_at(end_));
+    const double v = w_.velocity().norm(), turning = rate();
+    const double fastest = std::max(turning * turning, still * still);
+    if (side_.s * curvature(1) <= 2 * fastest) {
+      jerk_ = turn_speed_ * turn_speed_ * (turn_speed_ * far_ + 3 * v);
+      for (const Mover* m : {&w_.a(), &w_.b()})
+        jerk_ += m->body.reach * std::pow(turn_speed_ + m->speed, 2) * (m->angular - turn).norm();
+    } else {
+      turn_ = Vec::Zero(), turn_speed_ = 0;
+    }
+  }
+  bool turning() const { return turn_speed_ > 0; }
+  double offset_at(double t) const { return (spot_.offset + (t - spot_.t) * w_.velocity()).norm(); }
+
+  // K of the head comment for a step h.
+  double curvature(double h) const {
+    if (!turning()) return still_;
+    const double slack = 16 * u<double> / h, speed = turn_speed_ + slack;
+    double k = speed * (speed * far_ + 2 * w_.velocity().norm());
+    for (const Mover* m : {&w_.a(), &w_.b()})
+      k += m->body.reach * ((m->angular - turn_).norm() + slack) * (speed + m->speed);
+    return k * (1 + 0x1p-40);
+  }
+
+  Vec normal_at(double t) const {
+    if (!turning()) return n_;
+    const double angle = turn_speed_ * (t - spot_.t), s = std::sin(angle), half = std::sin(angle / 2);
+    const Vec axis = turn_ / turn_speed_, across = axis.cross(n_);
+    return n_ + s * across + 2 * half * half * axis.cross(across);
+  }
+
+  void go(double t) { spot_ = w_.at(t, spot_.precise), side_ = w_.along(spot_, n_); }
+
+  // By the bodies of revolution; true: clear to the end.
+  bool revolve() {
+    if (!w_.turns() || turning()) return false;
+    double s = n_.dot(spot_.offset) - w_.radii();
+    for (int k = 0; k < 2; ++k) {
+      const Mover& m = k == 0 ? w_.a() : w_.b();
+      const Vec d = k == 0 ? n_ : Vec(-n_);
+      if (!m.turns) {
+        s -= d.dot(k == 0 ? side_.pa : side_.pb);
+        continue;
+      }
+      const double c = d.dot(m.axis);
+      s -= (c > 0 ? c * m.up : -c * m.down) + d.cross(m.axis).norm() * m.off_axis;
+    }
+    s -= 2 * spot_.error;
+    if (!(s > 0)) return false;
+    const double h = end_ - spot_.t;
+    if (s + approach_ * h > 0) return true;
+    const double t = spot_.t + s / -approach_ * (1 - 0x1p-40);
+    if (t > spot_.t) go(std::min(t, end_));
+    return false;
+  }
+
+  // Of the present points: n·w + its derivatives, w = b − a.
+  Vec gap_velocity() const {
+    return w_.velocity() + w_.b().angular.cross(side_.pb) - w_.a().angular.cross(side_.pa);
+  }
+  double rate() const {
+    const double r = n_.dot(gap_velocity());
+    return turning() ? r + turn_.cross(n_).dot(spot_.offset + side_.pb - side_.pa) : r;
+  }
+  double acceleration() const {
+    const auto of = [&](const Mover& m, const Vec& p) {
+      return m.turns ? m.angular.dot(p) * m.angular.dot(n_) - m.speed * m.speed * n_.dot(p) : 0.0;
+    };
+    double r = of(w_.b(), side_.pb) - of(w_.a(), side_.pa);
+    if (turning()) {
+      const Vec first = turn_.cross(n_);
+      r += 2 * first.dot(gap_velocity()) + turn_.cross(first).dot(spot_.offset + side_.pb - side_.pa);
+    }
+    return r;
+  }
+
+  // First h > 0 at which s + d h + a h²/2 is `aim`; infinite if there is none.
+  static double root(double s, double d, double a, double aim) {
+    const double c = s - aim, disc = d * d - 2 * a * c;
+    if (!(c > 0)) return 0;
+    if (disc < 0) return std::numeric_limits<double>::infinity();
+    const double q = -d + std::sqrt(disc);
+    return q > 0 ? 2 * c / q : std::numeric_limits<double>::infinity();
+  }
+
+  double certain_step(double e2, double h) const {
+    const double k = curvature(h);
+    if (!(k > 0)) return std::numeric_limits<double>::infinity();
+    const double e1 = std::max(0.0, side_.s - margin(spot_));
+    return (std::sqrt(e1) + std::sqrt(std::max(e2, 0.0))) * std::sqrt(2 / k);
+  }
+
+  double proposal(double h_end, double d) const {
+    const double s = side_.s, a = acceleration(), goal = 1.75 * spot_.error;
+    double h = std::min(root(s, d, a, goal), h_end);
+    // What the model leaves out: vertices that take over, and the third derivative.
+    if (w_.turns()) h = std::min(root(s, d, a, goal + std::min(s / 16, jerk_ * h * h * h)), h_end);
+    const double e2 = s + d * h + a * h * h / 2;
+    return std::min(h, certain_step(e2, h));
+  }
+
+  // To a later time that is proven; true: the end was reached.
+  bool step() {
+    const double h_end = end_ - spot_.t, s1 = side_.s, e1 = s1 - margin(spot_), d = rate();
+    if (!(e1 > 0)) return false;
+    double h = proposal(h_end, d);
+    // A step converges quadratically: what is left after it may be within the error of a rounded turn.
+    const bool precise = spot_.precise || s1 * s1 < 1024 * spot_.error * (s1 + spot_.offset.norm());
+    for (int i = 0; i < follow_cap; ++i) {
+      const double t = h >= h_end ? end_ : spot_.t + h;
+      if (!(t > spot_.t)) return false;
+      const Spot y = w_.at(t, precise);
+      const Vec n = normal_at(t);
+      const Side side = w_.along(y, n);
+      const double e2 = side.s - margin(y), length = t - spot_.t;
+      const double room = e2 < 0 ? -1 : std::sqrt(e1) + std::sqrt(e2);
+      if (room >= 0 && curvature(length) * length * length / 2 <= room * room * (1 - 0x1p-40)) {
+        spot_ = y, side_ = side, n_ = n;
+        return t >= end_;
+      }
+      if (e2 < 0) {
+        const double q = (side.s - s1 - d * length) / (length * length);
+        const double r = root(s1, d, 2 * q, 2 * spot_.error + (i > 3 ? s1 / 4 : 0));
+        h = std::clamp(r, 0.05 * length, (i > 3 ? 0.5 : 0.98) * length);
+      } else {
+        h = std::min(0.95 * certain_step(e2, length), 0.9 * length);
+      }
+    }
+    return false;
+  }
+
+  const Sweep& w_;
+  Vec n_, turn_ = Vec::Zero();
+  double end_, turn_speed_ = 0, far_ = 0, approach_ = 0, still_ = 0, jerk_ = 0;
+  Spot spot_;
+  Side side_;
+};
+
+}  // namespace detail
+
+/// From a spot with view.side along view.normal, view.side.s > error. `turn`: of the features that the normal
+/// comes from.
+inline Followed follow(const Sweep& w, const Spot& from, const View& view, const Vec& turn, double end) {
+  return detail::Follower(w, from, view, turn, end).run();
+}
+
+}  // namespace touchstone::ccd::fast

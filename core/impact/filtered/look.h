@@ -1,0 +1,163 @@
+// The gap at one time, as well as asked: Gilbert, Johnson, Keerthi 1988 from the features of the last time,
+// whose points are carried along with their bodies. The bounds are those of the simplex (above) and of the
+// best support plane (below); a bad start costs an iteration, never truth.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <limits>
+
+#include "core/impact/filtered/sweep.h"
+#include "core/narrow/filtered/simplex.h"
+
+namespace touchstone::ccd::fast {
+
+/// A few core points of each body, in its own frame: what the nearest points are made of.
+struct Features {
+  std::array<Vec, 4> a, b;
+  std::array<double, 4> weight;  // of the last nearest points
+  int size = 0;
+};
+
+struct View {
+  bool meeting = false;  // the cores meet, as far as the simplex tells
+  Vec normal = Vec::UnitX();
+  Side side;                                               // along normal
+  double upper = std::numeric_limits<double>::infinity();  // of the gap
+};
+
+namespace detail {
+
+inline constexpr int look_cap = 64;
+
+class Looker {
+ public:
+  Looker(const Sweep& sweep, const Spot& x, Features& f, View& v) : w_(sweep), x_(x), f_(f), v_(v) {}
+
+  // Ends when the bounds of the gap differ by `relative` of it, or by `absolute`.
+  void run(double relative, double absolute) {
+    const double touching = 4 * u<double> * (w_.a().body.reach + w_.b().body.reach + x_.offset.norm());
+    Vec v = x_.offset;
+    if (!start(v)) return;
+    // Of the smallest upper bound: a later simplex may be worse, or hold the origin.
+    Features best_features = f_;
+    double length = v.norm(), best = -std::numeric_limits<double>::infinity();
+    if (!(length > 0)) v = Vec::UnitX(), length = 1;
+    int idle = 0;
+    for (int i = 0; i < look_cap; ++i) {
+      const Vec n = v / length;
+      const Side s = w_.along(x_, n);
+      const bool better = s.s > best;
+      if (better) best = s.s, v_.normal = n, v_.side = s;
+      if (v_.upper - best <= std::max(relative * best, absolute)) break;
+      idle = better ? 0 : idle + 1;
+      if (simplex_.size == 4 || idle > 4 || !add(s, v)) break;
+      length = v.norm();
+      if (!(length > touching)) {
+        v_.meeting = true;
+        break;
+      }
+      if (length - w_.radii() < v_.upper) v_.upper = length - w_.radii(), best_features = f_;
+    }
+    if (best_features.size > 0) f_ = best_features;
+  }
+
+ private:
+  Vec point(const Vec& a, const Vec& b) const { return x_.rb * b + x_.offset - x_.ra * a; }
+
+  // The features of the last time where they are now; false: they meet.
+  bool start(Vec& v) {
+    if (f_.size == 0) return true;
+    simplex_.size = f_.size;
+    for (int i = 0; i < f_.size; ++i) {
+      const auto k = static_cast<std::size_t>(i);
+      simplex_.p[k].w = point(f_.a[k], f_.b[k]);
+    }
+    if (!shrink(v)) {
+      // Points of both bodies, but perhaps a sliver that rounding turned inside out.
+      f_.size = 0, simplex_.size = 0, v = x_.offset;
+      return true;
+    }
+    v_.upper = v.norm() - w_.radii();
+    return true;
+  }
+
+  bool add(const Side& s, Vec& v) {
+    const auto k = static_cast<std::size_t>(simplex_.size);
+    const Vec w = x_.offset + s.pb - s.pa;
+    for (std::size_t i = 0; i < k; ++i)
+      if (simplex_.p[i].w == w) return false;
+    simplex_.p[k].w = w;
+    f_.a[k] = s.local_a, f_.b[k] = s.local_b;
+    f_.size = ++simplex_.size;
+    if (shrink(v)) return true;
+    v_.meeting = true;
+    return false;
+  }
+
+  // Down to what carries the nearest point; false: the simplex holds the origin.
+  bool shrink(Vec& v) {
+    const auto before = simplex_.p;
+    const int size = simplex_.size;
+    double dist_sq = 0, margin = 0;
+    if (narrow::fast::reduce(simplex_, v, dist_sq, margin)) return false;
+    const Features had = f_;
+    f_.size = simplex_.size;
+    for (int i = 0; i < simplex_.size; ++i) {
+      const auto k = static_cast<std::size_t>(i);
+      std::size_t from = 0;
+      while (from + 1 < static_cast<std::size_t>(size) && before[from].w != simplex_.p[k].w) ++from;
+      f_.a[k] = had.a[from], f_.b[k] = had.b[from], f_.weight[k] = simplex_.weight[k];
+    }
+    return true;
+  }
+
+  const Sweep& w_;
+  const Spot& x_;
+  Features& f_;
+  View& v_;
+  narrow::fast::Simplex<double> simplex_;
+};
+
+}  // namespace detail
+
+namespace detail {
+
+// A point against a point or a box: no search. Features as the search would leave them; false: they meet.
+inline bool point_and_box(const Sweep& w, const Spot& x, Features& f, View& v) {
+  const bool first = w.a().body.kind == narrow::CoreKind::point;
+  const Mover& other = first ? w.b() : w.a();
+  const Mat& r = first ? x.rb : x.ra;
+  const Vec o = first ? Vec(-x.offset) : x.offset;  // of the point, from the box
+  const Vec p = r.transpose() * o,
+            h = other.body.kind == narrow::CoreKind::box ? other.body.size : Vec(Vec::Zero()),
+            q = p.cwiseMax(-h).cwiseMin(h);
+  const Vec away = r * (p - q);
+  const double length = away.norm();
+  v.meeting = !(length > 0);
+  if (v.meeting) return false;
+  v.normal = away * ((first ? -1 : 1) / length), v.side = w.along(x, v.normal);
+  v.upper = length - w.radii();
+  f.size = 1, f.weight[0] = 1;
+  (first ? f.a : f.b)[0] = Vec::Zero(), (first ? f.b : f.a)[0] = q;
+  return true;
+}
+
+}  // namespace detail
+
+inline View look(const Sweep& sweep, const Spot& x, Features& f, double relative, double absolute) {
+  View v;
+  const auto kind = [](const Mover& m) { return m.body.kind; };
+  const auto simple = [](narrow::CoreKind k) {
+    return k == narrow::CoreKind::point || k == narrow::CoreKind::box;
+  };
+  const bool point = kind(sweep.a()) == narrow::CoreKind::point || kind(sweep.b()) == narrow::CoreKind::point;
+  if (point && simple(kind(sweep.a())) && simple(kind(sweep.b()))) {
+    detail::point_and_box(sweep, x, f, v);
+    return v;
+  }
+  detail::Looker(sweep, x, f, v).run(relative, absolute);
+  return v;
+}
+
+}  // namespace touchstone::ccd::fast

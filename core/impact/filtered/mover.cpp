@@ -1,0 +1,103 @@
+#include "core/impact/filtered/mover.h"
+
+#include <cmath>
+
+namespace touchstone::ccd::fast {
+namespace {
+
+using narrow::CoreKind;
+
+// Products and a root of doubles: 2⁻⁴⁶ covers them many times over.
+constexpr double up_a_little = 1 + 0x1p-46;
+
+// Distance of the farthest core point from the axis through the origin along a (unit, body frame).
+double reach_off_axis(const narrow::fast::Body<double>& c, const Vec& a) {
+  const auto off = [&](const Vec& p) { return p.cross(a).norm(); };
+  const Vec& s = c.size;
+  switch (c.kind) {
+    case CoreKind::point:
+      return 0;
+    case CoreKind::segment:
+      return off(Vec(0, 0, s[2]));
+    case CoreKind::box:
+      return std::max(std::max(off(s), off(Vec(-s[0], s[1], s[2]))),
+                      std::max(off(Vec(s[0], -s[1], s[2])), off(Vec(s[0], s[1], -s[2]))));
+    case CoreKind::cylinder:
+    case CoreKind::cone:
+      return std::min(c.reach, s[0] + off(Vec(0, 0, s[2])));
+    case CoreKind::ellipsoid:
+      return c.reach;
+    case CoreKind::vertices: {
+      double most = 0;
+      for (const Vec3& v : c.vertices) most = std::max(most, v.cross(a).squaredNorm());
+      return std::sqrt(most);
+    }
+  }
+  return c.reach;
+}
+
+template <class R>
+M3<R> turn_matrix(const V3<R>& u, R s, R c) {
+  const R k = 1 - c;
+  M3<R> q;
+  q << c + k * u[0] * u[0], k * u[0] * u[1] - s * u[2], k * u[0] * u[2] + s * u[1],  //
+      k * u[0] * u[1] + s * u[2], c + k * u[1] * u[1], k * u[1] * u[2] - s * u[0],   //
+      k * u[0] * u[2] - s * u[1], k * u[1] * u[2] + s * u[0], c + k * u[2] * u[2];
+  return q;
+}
+
+void set_turn(Mover& m, const Vec& angular) {
+  if (m.body.kind == CoreKind::point) return;
+  const WideVec w = angular.cast<Wide>();
+  m.speed_wide = w.norm(), m.speed = static_cast<double>(m.speed_wide);
+  if (!(m.speed > 0)) return;
+  m.turns = true, m.angular = angular;
+  m.axis_wide = w / m.speed_wide, m.axis = m.axis_wide.cast<double>();
+  const Vec local = m.start.transpose() * m.axis;
+  m.off_axis = reach_off_axis(m.body, local) * up_a_little + 16 * u<double> * m.body.reach;
+  m.up = local.dot(narrow::fast::support_local<double>(m.body, local));
+  m.down = -local.dot(narrow::fast::support_local<double>(m.body, -local));
+}
+
+}  // namespace
+
+WideMat rotation_of(const Quat& q) {
+  const Wide x = q.x, y = q.y, z = q.z, w = q.w;
+  const Wide k = 1 / (x * x + y * y + z * z + w * w), k2 = 2 * k;
+  const Wide xx = x * x, yy = y * y, zz = z * z, ww = w * w;
+  WideMat r;
+  r << (ww + xx - yy - zz) * k, (x * y - w * z) * k2, (x * z + w * y) * k2,  //
+      (x * y + w * z) * k2, (ww - xx + yy - zz) * k, (y * z - w * x) * k2,   //
+      (x * z - w * y) * k2, (y * z + w * x) * k2, (ww - xx - yy + zz) * k;
+  return r;
+}
+
+Mover make_mover(const Shape& shape, const WideMat& rotation, const Motion& motion) {
+  Mover m;
+  m.body = narrow::fast::make_body<double>(shape);
+  m.start_wide = rotation, m.start = rotation.cast<double>();
+  m.linear = motion.linear;
+  set_turn(m, motion.angular);
+  return m;
+}
+
+Mover make_points(std::span<const Vec3> points, const WideMat& rotation) {
+  Mover m;
+  m.body.kind = CoreKind::vertices, m.body.vertices = points;
+  m.body.reach = m.body.extent = std::sqrt(narrow::fast::largest_norm_sq(points));
+  m.start_wide = rotation, m.start = rotation.cast<double>();
+  return m;
+}
+
+Mat rotation_at(const Mover& m, double t, bool precise) {
+  if (!m.turns || t == 0) return m.start;
+  if (!precise) {
+    const double angle = m.speed * t;
+    return turn_matrix<double>(m.axis, std::sin(angle), std::cos(angle)) * m.start;
+  }
+  const Wide angle = m.speed_wide * t;
+  const WideMat q = turn_matrix<Wide>(m.axis_wide, std::sin(angle), std::cos(angle));
+  return (q * m.start_wide).cast<double>();
+}
+
+}  // namespace touchstone::ccd::fast

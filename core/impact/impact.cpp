@@ -1,0 +1,231 @@
+#include "core/impact/impact.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/impact/convex_mesh.h"
+#include "core/impact/filtered/translation.h"
+#include "core/impact/pursue.h"
+#include "core/narrow/pair_table.h"
+#include "core/tolerance.h"
+
+namespace touchstone {
+namespace {
+
+using namespace ccd;
+
+bool moves(const MovingShape& s) { return !s.motion.linear.isZero(0) || !s.motion.angular.isZero(0); }
+bool is_static_shape(const Shape& s) {
+  return kind_of(s) == ShapeKind::half_space || kind_of(s) == ShapeKind::mesh;
+}
+
+// Coordinates relative to the first body's start, so that a common offset costs nothing.
+WideFrame shifted(const Pose& p, const WideVec& origin) {
+  WideFrame f = wide_frame(p);
+  f.translation -= origin;
+  return f;
+}
+
+// No more than L of the pair: what τ is relative to.
+double scale_of(const MovingShape& s, double extent) {
+  const double from = s.pose.translation.cwiseAbs().maxCoeff();
+  return std::max({extent, from, (s.pose.translation + s.motion.linear).cwiseAbs().maxCoeff()});
+}
+
+double accuracy_of(double scale) { return (tolerance::core_tau_factor - 4) * 0x1p-53 * scale; }
+
+narrow::FastAnswer<double> in_double(const MovingShape& a, const MovingShape& b, narrow::fast::Asked asked) {
+  narrow::FastAnswer<double> f;
+  narrow::separate_fast<double>({a.shape, a.pose, a.tree}, {b.shape, b.pose, b.tree}, asked, f);
+  return f;
+}
+
+// Whether they meet at t = 0, and how, in bounded time. A depth that double does not show to be the least
+// decides all the same, and is stated: they separate by it, and no time depends on it. (In extended precision
+// two ellipsoids about one centre take up to a minute: every facet that the polytope may have.)
+std::optional<ImpactAnswer> contact_at_start(const MovingShape& a, const MovingShape& b,
+                                             ImpactDetail detail) {
+  using narrow::fast::Asked;
+  using narrow::fast::Found;
+  ImpactAnswer r;
+  r.toi = 0;
+  const Found found = in_double(a, b, Asked::overlap).answer.found;
+  if (found == Found::apart) return std::nullopt;
+  if (found == Found::meeting && detail == ImpactDetail::time) return r;
+  const auto x = in_double(a, b, Asked::distance).answer;
+  if (x.valued && x.gap < -x.bound) {
+    r.separation = x.gap, r.normal_ab = x.normal;
+    r.witness_w = {Vec3(x.a + a.pose.translation), Vec3(x.b + a.pose.translation)};
+    return r;
+  }
+  const PlacedShape pa{a.shape, a.pose, a.tree}, pb{b.shape, b.pose, b.tree};
+  if (const OverlapAnswer o = overlap(pa, pb); o.outcome != Outcome::answered || !o.overlap)
+    return std::nullopt;
+  if (detail == ImpactDetail::time) return r;
+  const DistanceAnswer d = distance(pa, pb);
+  r.separation = d.distance, r.normal_ab = d.normal, r.witness_w = d.witness;
+  if (d.outcome != Outcome::answered) r.outcome = d.outcome, r.toi.reset();
+  return r;
+}
+
+ImpactAnswer at_rest(const MovingShape& a, const MovingShape& b, ImpactDetail detail) {
+  const PlacedShape pa{a.shape, a.pose, a.tree}, pb{b.shape, b.pose, b.tree};
+  if (const auto met = contact_at_start(a, b, detail)) return *met;
+  ImpactAnswer r;
+  r.clear_until = 1;
+  const DistanceAnswer d = distance(pa, pb);
+  r.outcome = d.outcome, r.separation = d.distance;
+  return r;
+}
+
+ImpactAnswer stated(const fast::Search& s, const MovingShape& a) {
+  ImpactAnswer r = fast::answer_of(s, a.motion.linear);
+  for (Vec3& x : r.witness_w) x += a.pose.translation;
+  return r;
+}
+
+// Nearest points in extended precision, where double has found the time but no good points.
+ImpactAnswer stated_finely(const fast::Search& s, const MovingShape& a, const MovingShape& b) {
+  ImpactAnswer r = stated(s, a);
+  if (!s.rough) return r;
+  const WideVec origin = a.pose.translation.cast<Wide>();
+  WideFrame fa = wide_frame_at(a.pose, a.motion, *r.toi), fb = wide_frame_at(b.pose, b.motion, *r.toi);
+  fa.translation -= origin, fb.translation -= origin;
+  const Separation x = narrow::separate_placed(*a.shape, fa, *b.shape, fb);
+  if (x.outcome != Outcome::answered) return r;
+  r.normal_ab = x.normal.cast<double>();
+  r.witness_w = {Vec3((x.a + origin).cast<double>()), Vec3((x.b + origin).cast<double>())};
+  return r;
+}
+
+// Coordinates of advance() are about A's start.
+ImpactAnswer about(ImpactAnswer r, const Vec3& origin) {
+  for (Vec3& x : r.witness_w) x += origin;
+  return r;
+}
+
+bool turns(const MovingShape& s) { return !s.motion.angular.isZero(0); }
+
+std::optional<fast::Round> round_of(const Shape& s) {
+  if (const auto* x = std::get_if<Sphere>(&s)) return fast::Round{0, x->radius};
+  if (const auto* x = std::get_if<Capsule>(&s)) return fast::Round{x->half_height, x->radius};
+  return std::nullopt;
+}
+
+bool is_polytope(const Shape& s) { return kind_of(s) == ShapeKind::box || kind_of(s) == ShapeKind::hull; }
+
+// Closed forms of translations; `unsure` where there is none.
+fast::Search translated(const MovingShape& a, const MovingShape& b) {
+  if (turns(a) || turns(b)) return {};
+  const fast::Translation m{narrow::fast::stand<double>(a.pose), narrow::fast::stand<double>(b.pose),
+                            b.motion.linear - a.motion.linear};
+  const auto accuracy = [&](double extent_a, double extent_b) {
+    return accuracy_of(std::max(scale_of(a, extent_a), scale_of(b, extent_b)));
+  };
+  const auto *box_a = std::get_if<Box>(a.shape), *box_b = std::get_if<Box>(b.shape);
+  if (box_a && box_b)
+    return translating_boxes(m, box_a->half_extents, box_b->half_extents,
+                             accuracy(box_a->half_extents.maxCoeff(), box_b->half_extents.maxCoeff()));
+  if (const auto* ball = std::get_if<Sphere>(a.shape); ball && box_b)
+    return translating_ball_and_box(m, ball->radius, box_b->half_extents,
+                                    accuracy(ball->radius, box_b->half_extents.maxCoeff()));
+  if (const auto ra = round_of(*a.shape), rb = round_of(*b.shape); ra && rb)
+    return translating_rounds(m, *ra, *rb,
+                              accuracy(ra->half_height + ra->radius, rb->half_height + rb->radius));
+  return {};
+}
+
+ImpactAnswer convex_convex(const MovingShape& a, const MovingShape& b, ImpactDetail detail) {
+  const fast::Search at_once = translated(a, b);
+  // Two boxes alone leave their points to be worked out.
+  const bool both_boxes = kind_of(*a.shape) == ShapeKind::box && kind_of(*b.shape) == ShapeKind::box;
+  const bool points = !both_boxes || detail == ImpactDetail::time;
+  if (at_once.end == fast::SearchEnd::clear || (at_once.end == fast::SearchEnd::hit && points))
+    return stated(at_once, a);
+  const WideFrame fa{fast::rotation_of(a.pose.rotation), WideVec::Zero()};
+  const WideFrame fb{fast::rotation_of(b.pose.rotation),
+                     b.pose.translation.cast<Wide>() - a.pose.translation.cast<Wide>()};
+  const fast::Mover ma = fast::make_mover(*a.shape, fa.rotation, a.motion);
+  const fast::Mover mb = fast::make_mover(*b.shape, fb.rotation, b.motion);
+  const fast::Sweep sweep(ma, mb, fb.translation);
+  const double accuracy = accuracy_of(std::max(scale_of(a, ma.body.extent), scale_of(b, mb.body.extent)));
+  if (at_once.end == fast::SearchEnd::hit)
+    return stated_finely(fast::with_points(sweep, at_once, accuracy), a, b);
+  if (!sweep.turns() && is_polytope(*a.shape) && is_polytope(*b.shape) && !both_boxes)
+    if (const fast::Search s = translating_polytopes(sweep, accuracy); settled(s)) return stated(s, a);
+  const auto search_from = [&](double t) { return search(sweep, t, 1, accuracy, {}); };
+  const fast::Search s = search_from(0);
+  if (settled(s)) return stated_finely(s, a, b);
+  if (s.end == fast::SearchEnd::start)
+    if (const auto met = contact_at_start(a, b, detail)) return *met;
+  const MovingCore ca = moving_core(narrow::make_core(*a.shape, fa), a.motion);
+  const MovingCore cb = moving_core(narrow::make_core(*b.shape, fb), b.motion);
+  const Pursuit p = pursue(sweep, s, search_from, [&](double t, double leave) {
+    return advance(ca, cb, t, {1, accuracy, leave});
+  });
+  return settled(p.search) ? stated_finely(p.search, a, b) : about(p.fine, a.pose.translation);
+}
+
+ImpactAnswer convex_half_space(const MovingShape& a, const MovingShape& b, ImpactDetail detail) {
+  const WideFrame fa = shifted(a.pose, a.pose.translation.cast<Wide>());
+  const narrow::WidePlane plane =
+      narrow::place(*std::get_if<HalfSpace>(b.shape), shifted(b.pose, a.pose.translation.cast<Wide>()));
+  const fast::Mover ma = fast::make_mover(*a.shape, fa.rotation, a.motion);
+  const fast::Mover face;
+  const WideVec foot = plane.normal * plane.offset;
+  const fast::Sweep sweep(ma, face, foot);
+  const Vec3 normal = -plane.normal.cast<double>();
+  const double accuracy = accuracy_of(scale_of(a, ma.body.extent));
+  const auto search_from = [&](double t) { return search(sweep, t, 1, accuracy, normal); };
+  const fast::Search s = search_from(0);
+  if (settled(s)) return stated(s, a);
+  if (s.end == fast::SearchEnd::start)
+    if (const auto met = contact_at_start(a, b, detail)) return *met;
+  const MovingCore ca = moving_core(narrow::make_core(*a.shape, fa), a.motion);
+  const Pursuit p = pursue(sweep, s, search_from, [&](double t, double leave) {
+    return advance(ca, plane, t, {1, accuracy, leave});
+  });
+  return settled(p.search) ? stated(p.search, a) : about(p.fine, a.pose.translation);
+}
+
+ImpactAnswer mirrored(ImpactAnswer r) {
+  r.normal_ab = -r.normal_ab;
+  std::swap(r.witness_w[0], r.witness_w[1]);
+  return r;
+}
+
+ImpactAnswer from_convex(const MovingShape& a, const MovingShape& b, ImpactDetail detail) {
+  if (kind_of(*b.shape) == ShapeKind::half_space) return convex_half_space(a, b, detail);
+  const auto* mesh = std::get_if<TriangleMesh>(b.shape);
+  if (!mesh && kind_of(*b.shape) == ShapeKind::sphere && kind_of(*a.shape) == ShapeKind::box)
+    return mirrored(convex_convex(b, a, detail));
+  if (!mesh) return convex_convex(a, b, detail);
+  const WideFrame frame = shifted(b.pose, a.pose.translation.cast<Wide>());
+  const double accuracy = accuracy_of(std::max(scale_of(a, 0), scale_of(b, 0)));
+  return about(convex_mesh(a, *mesh, b.tree, frame, accuracy), a.pose.translation);
+}
+
+// A ball turns into itself.
+MovingShape without_idle_turn(MovingShape s) {
+  const auto* e = std::get_if<Ellipsoid>(s.shape);
+  const bool ball =
+      e ? (e->semi_axes.array() == e->semi_axes[0]).all() : kind_of(*s.shape) == ShapeKind::sphere;
+  if (ball) s.motion.angular.setZero();
+  return s;
+}
+
+}  // namespace
+
+ImpactAnswer time_of_impact(const MovingShape& first, const MovingShape& second, ImpactDetail detail) {
+  const MovingShape a = without_idle_turn(first), b = without_idle_turn(second);
+  for (const MovingShape* s : {&a, &b})
+    if (is_static_shape(*s->shape) && moves(*s)) {
+      ImpactAnswer r;
+      r.outcome = Outcome::unsupported;
+      return r;
+    }
+  if (!moves(a) && !moves(b)) return at_rest(a, b, detail);
+  return is_static_shape(*a.shape) ? mirrored(from_convex(b, a, detail)) : from_convex(a, b, detail);
+}
+
+}  // namespace touchstone

@@ -1,0 +1,22 @@
+// B − A of two placed cores, by its support points.
+#pragma once
+
+#include "core/narrow/filtered/body.h"
+#include "core/narrow/filtered/simplex.h"
+
+namespace touchstone::narrow::fast {
+
+template <class R>
+struct Difference {
+  const Body<R>&a, &b;
+  const Relative<R>& at;
+  /// A point of B − A farthest along d.
+  Vertex<R> support(const V3<R>& d) const {
+    Vertex<R> s;
+    s.a = support_local<R>(a, -d);
+    s.w = at.b_to_a * support_local<R>(b, at.b_to_a.transpose() * d) + at.offset - s.a;
+    return s;
+  }
+};
+
+}  // namespace touchstone::narrow::fast

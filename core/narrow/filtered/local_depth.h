@@ -1,0 +1,399 @@
+// A local minimum of the support function of B − A (the depth of bodies that meet; minus the distance of
+// others, and then the only one), and how far it is proven to be the least. An expanding polytope needs some
+// fifty support points to close on a curved boundary, most of them for the last digits; here the features
+// that touch (feature.h) are guessed, the direction is Newton's, and the proof is a curvature argument.
+//
+// C = B − A, h its support function, m a unit direction with h(m) = d, w a point of C along m, v = w − d m.
+// Bodies that lie in C and contain w bound h from below on the great circle m(θ) = m cos θ + t sin θ, t unit
+// and orthogonal to m:
+//
+// * a ball of radius ρ that touches C from inside at w: ρ + (d − ρ) cos θ + v·t sin θ.
+// * a disc of radius r and axis a, w on its rim: its part r |P m(θ)| has x = P m(θ) with x'' = −x, so that
+//   |x|'' + |x| = |x × x'|²/|x|³ >= (a·(m × t))²/X³, X the largest |x| in question, at most 1. By comparison
+//   the bound of the ball with ρ = r (a·(m × t))²/X³. Parts of a sum add.
+// * a segment along e, orthogonal to m, that reaches k to both sides of w:
+//   d cos θ + k |e·t| sin θ + v·t sin θ, and |e·t| >= (e·t)²; a face that reaches k to all sides: without e.
+//
+// With S(t), K(t) the sums of these quadratic forms and x = tan(θ/2), h >= d − δ follows from
+// (S − d) x² + (K − |v|) x + δ (1 + x²)/2 >= 0. For 0 <= x <= T, with μ the least of S + K/T − d over t:
+// where μ > 0, δ = |v|²/(2 μ) will do, and δ = |v| + 2 max(0, −μ) always (minima that form a ring have μ =
+// 0). So much for the cap θ <= 2 atan T. Behind it the farthest point q of C along −m, at H = −q·m and Q = |q
+// + H m|, gives h >= −H cos θ − Q sin θ, which grows from 90° on and reaches d at T = (Q + √(Q² + H² −
+// d²))/(H − d): with that T the minimum is global. With a smaller one the expanding polytope leaves the cap
+// alone.
+//
+// Exits: found or not; `global`, or with the cap of its proof. Everything about features is a guess until the
+// support points of both bodies have confirmed it.
+#pragma once
+
+#include "core/narrow/filtered/feature.h"
+
+namespace touchstone::narrow::fast {
+
+template <class R>
+struct LocalDepth {
+  bool found = false, global = false;
+  R upper = 0, lower = 0;  // of all directions in the cap, or of all
+  R tangent = 0;           // T
+  V3<R> outward, a, w;     // as in Depth
+};
+
+template <class R>
+class LocalMinimum {
+ public:
+  LocalMinimum(const Difference<R>& d, R size) : d_(d), level_(8 * u<R> * size), slight_(64 * u<R> * size) {}
+
+  /// From a facet of support points with unit outward normal n, the origin's foot in it at those weights.
+  bool find(const std::array<Vertex<R>, 3>& facet, const std::array<R, 3>& weight, const V3<R>& n) {
+    std::array<V3<R>, 3> a, b;
+    V3<R> foot_a = V3<R>::Zero(), foot_b = V3<R>::Zero();
+    for (std::size_t k = 0; k < 3; ++k) {
+      a[k] = facet[k].a, b[k] = d_.at.b_to_a.transpose() * (facet[k].w + facet[k].a - d_.at.offset);
+      foot_a += weight[k] * a[k], foot_b += weight[k] * b[k];
+    }
+    // Corners found again by their own support point: B's went through two rotations.
+    if (d_.b.kind == CoreKind::box)
+      for (V3<R>& p : b)
+        for (int k = 0; k < 3; ++k) p[k] = std::copysign(d_.b.size[k], p[k]);
+    if (is_round(d_.b))
+      for (V3<R>& p : b) p[2] = std::copysign(d_.b.size[2], p[2]);
+    m_ = n;
+    feature_[0] = suggested_feature<R>(d_.a, a, foot_a, in(0, m_), level_);
+    feature_[1] = suggested_feature<R>(d_.b, b, foot_b, in(1, m_), level_);
+    for (int round = 0; round < rounds; ++round) {
+      if (!turn_direction() || !m_.allFinite()) {
+        if (!lay_flat(n)) return false;
+        continue;
+      }
+      const Verdict v = confirm();
+      if (v == Verdict::confirmed) return true;
+      if (v == Verdict::refuted) return false;
+    }
+    return false;
+  }
+
+  /// What find() has found: h, m, w and A's share of w.
+  R height() const { return upper_; }
+  const V3<R>& outward() const { return m_; }
+  const V3<R>& point() const { return w_; }
+  const V3<R>& on_a() const { return placed_[0].p; }
+
+  /// For bodies that meet: how far it is the least.
+  LocalDepth<R> certify() const {
+    LocalDepth<R> r;
+    r.found = true, r.upper = upper_, r.outward = m_, r.a = placed_[0].p, r.w = w_;
+    const V3<R> x = m_.unitOrthogonal(), y = m_.cross(x), q = d_.support(-m_).w;
+    const R far = -q.dot(m_), off = (q + far * m_).squaredNorm(), d = upper_;
+    if (!(far > d + slight_)) return r;
+    const R tilt = unevenness();
+    const R behind = (std::sqrt(off) + std::sqrt(off + far * far - d * d)) / (far - d) * (1 + 64 * u<R>);
+    for (R part = 1; part > R(0.001); part /= 2) {
+      const R t = behind * part;
+      Form ball, reach;
+      for (int i = 0; i < 2; ++i) add_side(i, x, y, Cap(t), part / 2, ball, reach);
+      ball.xx += reach.xx / t, ball.xy += reach.xy / t, ball.yy += reach.yy / t;
+      const R mu = ball.least() - d;
+      const R rest_sq = rest_.squaredNorm();
+      const bool curved = mu > d / 64 + slight_;
+      if (!curved && !(mu > -level_)) continue;
+      r.tangent = t, r.global = part == 1;
+      r.lower = d - tilt -
+                (curved ? rest_sq / (2 * mu) : std::sqrt(rest_sq) + 2 * std::max<R>(0, -mu) + level_ / 4);
+      return r;
+    }
+    return r;
+  }
+
+ private:
+  static constexpr int rounds = 5, steps = 12;
+  enum class Verdict { confirmed, revised, refuted };
+
+  static bool is_round(const Body<R>& b) {
+    return b.kind == CoreKind::segment || b.kind == CoreKind::cylinder || b.kind == CoreKind::cone;
+  }
+
+  const Body<R>& body(int side) const { return side == 0 ? d_.a : d_.b; }
+  V3<R> in(int side, const V3<R>& m) const {
+    return side == 0 ? V3<R>(-m) : V3<R>(d_.at.b_to_a.transpose() * m);
+  }
+  V3<R> out(int side, const V3<R>& v) const { return side == 0 ? V3<R>(-v) : V3<R>(d_.at.b_to_a * v); }
+
+  // A rim that has no minimum near n: its disc may.
+  bool lay_flat(const V3<R>& n) {
+    m_ = n;
+    for (int i = 0; i < 2; ++i) {
+      Feature<R>& f = feature_[i];
+      const V3<R> d = in(i, n);
+      if (f.shown != Shown::round || body(i).kind == CoreKind::ellipsoid || !(std::abs(d[2]) > R(0.9)))
+        continue;
+      f = detail::face_feature<R>(f.p, V3<R>(0, 0, f.p[2] < 0 ? R(-1) : R(1)));
+      return true;
+    }
+    return false;
+  }
+
+  void place_both() {
+    for (int i = 0; i < 2; ++i) placed_[i] = place<R>(body(i), feature_[i], in(i, m_));
+    w_ = d_.at.b_to_a * placed_[1].p + d_.at.offset - placed_[0].p;
+  }
+
+  // ---- the direction
+
+  bool turn_direction() {
+    V3<R> c[2];
+    R s[2], k = 1;
+    int circles = 0;
+    for (int i = 0; i < 2; ++i) {
+      const Feature<R>& f = feature_[i];
+      if (f.shown == Shown::face) {
+        m_ = out(i, f.c);
+        place_both();
+        return true;
+      }
+      if (f.shown == Shown::edge) c[circles] = out(i, f.c), s[circles++] = f.s, k = f.k;
+    }
+    if (circles == 2) return meet(c, s);
+    return circles == 1 ? along_circle(c[0], s[0], k) : freely();
+  }
+
+  // The direction of two circles, the nearer of two.
+  bool meet(const V3<R>* c, const R* s) {
+    const R x = c[0].dot(c[1]);
+    const V3<R> q = c[0].cross(c[1]);
+    const R qq = q.squaredNorm();
+    if (!(qq > R(1e-6))) return false;
+    const V3<R> p = (c[0] * (s[0] - x * s[1]) + c[1] * (s[1] - x * s[0])) / qq;
+    const R rest = 1 - p.squaredNorm();
+    if (!(rest > 0)) return false;
+    const V3<R> up = q * std::sqrt(rest / qq);
+    m_ = (p + (up.dot(m_) < 0 ? V3<R>(-up) : up)).normalized();
+    place_both();
+    if (s[0] != 0 || s[1] != 0) level_edges();
+    return true;
+  }
+
+  // Circles that are small lose digits in `meet`: one step of Newton on m·e = 0, whose gradient is e, since a
+  // generator turns with m along the rim and the rim is orthogonal to m.
+  void level_edges() {
+    const V3<R> e[2] = {out(0, feature_[0].e), out(1, feature_[1].e)};
+    const R g = e[0].dot(e[1]), det = 1 - g * g, p = m_.dot(e[0]), q = m_.dot(e[1]);
+    if (!(det > R(1e-6))) return;
+    m_ = (m_ - (e[0] * (p - g * q) + e[1] * (q - g * p)) / det).normalized();
+    place_both();
+  }
+
+  // xᵀ H y of both supports, for tangents x, y.
+  R curvature(const V3<R>& x, const V3<R>& y) const {
+    R sum = 0;
+    for (int i = 0; i < 2; ++i) {
+      const Placed<R>& p = placed_[i];
+      if (p.k == 0 && p.h == 0) continue;
+      const V3<R> lx = in(i, x), ly = in(i, y);
+      if (p.h > 0) {
+        const V3<R>& size = body(i).size;
+        sum += (size.cwiseProduct(lx).dot(size.cwiseProduct(ly)) - p.p.dot(lx) * p.p.dot(ly)) / p.h;
+      } else {
+        sum += p.k * p.t.dot(lx) * p.t.dot(ly);
+      }
+    }
+    return sum;
+  }
+
+  bool along_circle(const V3<R>& c, R s, R k) {
+    for (int i = 0; i < steps; ++i) {
+      const V3<R> flat = m_ - c * c.dot(m_);
+      const R length = flat.norm();
+      if (!(length > R(0.01))) return false;
+      const V3<R> r = flat * (k / length), along = c.cross(r);
+      m_ = r + c * s;
+      place_both();
+      if (std::abs(w_.dot(along)) <= level_ / 4) return true;  // a ring of minima has no curvature either
+      const R second = curvature(along, along) - w_.dot(r);
+      if (!(second > 0)) return false;
+      const R step = std::clamp(-w_.dot(along) / second, R(-0.5), R(0.5));
+      if (std::abs(step) <= u<R>) return true;
+      m_ += along * step;
+      if (step * step < u<R>) {
+        const V3<R> last = m_ - c * c.dot(m_);
+        m_ = last * (k / last.norm()) + c * s;
+        place_both();
+        return true;
+      }
+    }
+    return false;
+  }
+
+  bool freely() {
+    for (int i = 0; i < steps; ++i) {
+      place_both();
+      const V3<R> x = m_.unitOrthogonal(), y = m_.cross(x);
+      const R h = m_.dot(w_), gx = x.dot(w_), gy = y.dot(w_);
+      if (std::abs(gx) + std::abs(gy) <= level_ / 4) return true;
+      const R xx = curvature(x, x) - h, xy = curvature(x, y), yy = curvature(y, y) - h,
+              det = xx * yy - xy * xy;
+      if (!(xx > 0 && det > 0)) return false;
+      R sx = (xy * gy - yy * gx) / det, sy = (xy * gx - xx * gy) / det;
+      const R size = std::sqrt(sx * sx + sy * sy);
+      if (size > R(0.5)) sx *= R(0.5) / size, sy *= R(0.5) / size;
+      m_ = (m_ + x * sx + y * sy).normalized();
+      if (size * size < u<R>) return place_both(), true;
+    }
+    return false;
+  }
+
+  // ---- do the bodies agree?
+
+  Verdict confirm() {
+    bool revised = false;
+    for (int i = 0; i < 2; ++i) {
+      const V3<R> d = in(i, m_), s = support_local<R>(body(i), d);
+      if (i == 0)
+        support_ = -s;
+      else
+        support_ += d_.at.b_to_a * s + d_.at.offset;
+      if (d.dot(s - placed_[i].p) <= level_) continue;
+      if (!widen(i, s)) return Verdict::refuted;
+      revised = true;
+    }
+    return revised ? Verdict::revised : balance();
+  }
+
+  // A support point beyond the feature joins it.
+  bool widen(int i, const V3<R>& s) {
+    const Body<R>& b = body(i);
+    Feature<R>& f = feature_[i];
+    const V3<R> d = in(i, m_);
+    if (f.shown == Shown::face) return false;
+    if (f.shown == Shown::edge) {
+      f = suggested_feature<R>(b, {s, s, s}, s, d, level_);
+      return true;
+    }
+    const V3<R> p = placed_[i].p;
+    f = suggested_feature<R>(b, {p, p, s}, s, d, level_);
+    return true;
+  }
+
+  // The point of the features' sum along m: where it lies on each edge or face.
+  Verdict balance() {
+    upper_ = m_.dot(support_);
+    rest_ = upper_ * m_ - w_;
+    for (int i = 0; i < 2; ++i)
+      if (feature_[i].shown == Shown::face) return on_face(i);
+    V3<R> e[2];
+    R along[2] = {0, 0};
+    int side[2], edges = 0;
+    for (int i = 0; i < 2; ++i)
+      if (feature_[i].shown == Shown::edge) e[edges] = out(i, feature_[i].e), side[edges++] = i;
+    if (edges == 1) {
+      along[0] = rest_.dot(e[0]);
+    } else if (edges == 2) {
+      const R g = e[0].dot(e[1]), det = 1 - g * g, p = rest_.dot(e[0]), q = rest_.dot(e[1]);
+      if (!(det > R(1e-6))) return Verdict::refuted;
+      along[0] = (p - g * q) / det, along[1] = (q - g * p) / det;
+    }
+    for (int k = 0; k < edges; ++k) {
+      const Feature<R>& f = feature_[side[k]];
+      if (along[k] < f.lo || along[k] > f.hi) {
+        shorten(side[k], along[k] > f.hi);
+        return Verdict::revised;
+      }
+      reach_[side[k]] = std::min(along[k] - f.lo, f.hi - along[k]);
+      along_[side[k]] = along[k];
+      placed_[side[k]].p += along[k] * f.e;
+      rest_ -= along[k] * e[k], w_ += along[k] * e[k];
+    }
+    return Verdict::confirmed;
+  }
+
+  // What an edge ends in.
+  void shorten(int i, bool high) {
+    Feature<R>& f = feature_[i];
+    const Body<R>& b = body(i);
+    const bool rim = b.kind == CoreKind::cylinder || (b.kind == CoreKind::cone && high);
+    if (rim)
+      f.p = V3<R>(0, 0, high && b.kind == CoreKind::cylinder ? b.size[2] : -b.size[2]),
+      f.shown = Shown::round;
+    else
+      f.p += (high ? f.hi : f.lo) * f.e, f.shown = Shown::corner;
+  }
+
+  Verdict on_face(int i) {
+    V3<R>& p = placed_[i].p;
+    p += i == 0 ? V3<R>(-rest_) : V3<R>(d_.at.b_to_a.transpose() * rest_);
+    w_ += rest_, rest_.setZero();
+    reach_[i] = face_margin<R>(body(i), feature_[i], p);
+    return reach_[i] > 0 ? Verdict::confirmed : Verdict::refuted;
+  }
+
+  // ---- the proof
+
+  struct Form {
+    R xx = 0, xy = 0, yy = 0;
+    void add(R k, R x, R y) { xx += k * x * x, xy += k * x * y, yy += k * y * y; }
+    void add_all(R k) { xx += k, yy += k; }
+    R least() const { return (xx + yy) / 2 - std::sqrt((xx - yy) * (xx - yy) / 4 + xy * xy); }
+  };
+
+  // Directions within θ of m, T = tan(θ/2): least cosine and largest sine.
+  struct Cap {
+    R cosine, sine;
+    explicit Cap(R t) : cosine((1 - t * t) / (1 + t * t)), sine(cosine > 0 ? 2 * t / (1 + t * t) : R(1)) {}
+    /// Largest sine of an angle to an axis, for an axis of that |cosine| to m.
+    R most_sine(R c) const {
+      const R s = std::sqrt(std::max<R>(0, 1 - c * c));
+      return cosine > 0 && c * cosine - s * sine > 0 ? s * cosine + c * sine : R(1);
+    }
+  };
+
+  // An edge that is not orthogonal to m by a little reaches as much less far.
+  R unevenness() const {
+    R sum = 0;
+    for (int i = 0; i < 2; ++i)
+      if (feature_[i].shown == Shown::edge) sum += reach_[i] * std::abs(out(i, feature_[i].e).dot(m_));
+    return sum;
+  }
+
+  // |E m(θ)|, E with the semi-axes: as for a disc, (|E m × E t|)²/X³.
+  void add_ellipsoid(int i, const V3<R>& x, const V3<R>& y, const Cap& cap, Form& ball) const {
+    const V3<R>& s = body(i).size;
+    const V3<R> e = s.cwiseProduct(in(i, m_)), px = e.cross(s.cwiseProduct(in(i, x))),
+                py = e.cross(s.cwiseProduct(in(i, y)));
+    const R most = std::min(s.maxCoeff(), e.norm() + s.maxCoeff() * cap.sine), k = 1 / (most * most * most);
+    ball.xx += k * px.squaredNorm(), ball.xy += k * px.dot(py), ball.yy += k * py.squaredNorm();
+  }
+
+  void add_side(int i, const V3<R>& x, const V3<R>& y, const Cap& cap, R share, Form& ball,
+                Form& reach) const {
+    const Feature<R>& f = feature_[i];
+    const Body<R>& b = body(i);
+    // A cone's discs and its generators are not summands, but parts of one are with the rest of the other.
+    const bool generator = b.kind == CoreKind::cone && f.shown == Shown::edge;
+    if (f.shown == Shown::face) reach.add_all(reach_[i]);
+    if (f.shown == Shown::edge) {
+      const V3<R> e = out(i, f.e);
+      reach.add(generator ? reach_[i] * share : reach_[i], e.dot(x), e.dot(y));
+    }
+    if (b.kind == CoreKind::ellipsoid && share < R(0.25)) {
+      add_ellipsoid(i, x, y, cap, ball);
+    } else if (b.kind == CoreKind::ellipsoid) {
+      const R least = b.size.minCoeff();
+      ball.add_all(least * least / b.size.maxCoeff());
+    } else if (generator || ((f.shown == Shown::round || f.shown == Shown::edge) &&
+                             (b.kind == CoreKind::cylinder || b.kind == CoreKind::cone))) {
+      const V3<R> axis = out(i, V3<R>::UnitZ());
+      const R most = cap.most_sine(std::abs(axis.dot(m_)));
+      const R radius = generator ? b.size[0] * along_[i] / f.hi * (1 - share) : b.size[0];
+      // m × x = y, m × y = −x.
+      ball.add(radius / (most * most * most), axis.dot(y), -axis.dot(x));
+    }
+  }
+
+  const Difference<R>& d_;
+  R level_, slight_;
+  V3<R> m_, w_, support_, rest_;
+  Feature<R> feature_[2];
+  Placed<R> placed_[2];
+  R reach_[2] = {0, 0}, along_[2] = {0, 0}, upper_ = 0;
+};
+
+}  // namespace touchstone::narrow::fast

@@ -1,0 +1,270 @@
+#if defined(__GNUC__) && !defined(__clang__)
+// A feature of fewer corners than three is copied whole; GCC 12 warns of that at -O1.
+#pragma GCC diagnostic ignored "-Wmaybe-uninitialized"
+#endif
+#include "core/narrow/filtered/separate.h"
+
+#include "core/narrow/filtered/box_box.h"
+#include "core/narrow/filtered/box_capsule.h"
+#include "core/narrow/filtered/epa.h"
+#include "core/narrow/filtered/revolved.h"
+
+namespace touchstone::narrow::fast {
+namespace {
+
+template <class R>
+R displacement(const PairScene<R>& s) {
+  return displacement_of<R>(s.a.reach + s.a.radius, s.b.reach + s.b.radius, s.at.offset.norm());
+}
+
+// L of truth.md, of the pair as R holds it.
+template <class R>
+R scale(const Body<R>& a, const Body<R>& b, const Stand<R>& at_a, const Stand<R>& at_b) {
+  return std::max(std::max(a.extent, b.extent),
+                  std::max(at_a.t.cwiseAbs().maxCoeff(), at_b.t.cwiseAbs().maxCoeff()));
+}
+
+// The part of it that does not depend on where the pair is, from below: what a search aims at.
+template <class R>
+R local_scale(const PairScene<R>& s) {
+  return std::max(std::max(s.a.extent, s.b.extent), s.at.offset.norm() * R(0.28));  // 1/(2√3) < 0.2887
+}
+
+// From A's frame to world axes about A's translation; unsure when the value is not as good as asked.
+template <class R>
+void to_world(Answer<R>& r, const PairScene<R>& s, R l, Asked asked) {
+  const M3<R>& m = s.at.a_to_world;
+  r.normal = m * r.normal, r.a = m * r.a, r.b = m * r.b;
+  r.found = decide(r.gap, r.bound);
+  const bool verdict_is_enough = asked == Asked::contact && r.found == Found::apart;
+  if (verdict_is_enough) return;
+  const R tau = accuracy(l);
+  if (!accepted(r.bound, l)) r.found = Found::unsure;
+  if ((asked == Asked::distance || s.has_middle) &&
+      !(std::abs((r.b - r.a).norm() - std::abs(r.gap)) <= tau / 4))
+    r.found = Found::unsure;
+}
+
+template <class R>
+void from_walk(const Walk<R>& g, R error, Answer<R>& r, PairScene<R>& s) {
+  r.a.setZero();
+  V3<R> v = V3<R>::Zero();
+  for (int i = 0; i < g.simplex.size; ++i) {
+    const auto k = static_cast<std::size_t>(i);
+    r.a += g.simplex.weight[k] * g.simplex.p[k].a, v += g.simplex.weight[k] * g.simplex.p[k].w;
+  }
+  const R radii = s.a.radius + s.b.radius;
+  r.normal = s.normal = g.normal, r.gap = g.upper - radii;
+  r.b = r.a + v;
+  // Inflated along their own difference, so that b − a stays parallel to it.
+  const R length = v.norm();
+  const V3<R> d = length > 0 ? V3<R>(v / length) : g.normal;
+  r.a += s.a.radius * d, r.b -= s.b.radius * d;
+  r.bound = error + std::max<R>(0, g.upper - g.lower);
+  s.middle = (r.a + r.b) / 2, s.has_middle = true;
+}
+
+template <class R, class D>
+void from_depth(const D& e, R error, Answer<R>& r, PairScene<R>& s) {
+  s.normal = r.normal = -e.outward;
+  r.gap = -e.upper - s.a.radius - s.b.radius;
+  r.a = e.a + s.a.radius * r.normal, r.b = e.a + e.w - s.b.radius * r.normal;
+  r.bound = error + std::max<R>(0, e.upper - e.lower);
+  s.middle = (r.a + r.b) / 2, s.has_middle = true;
+}
+
+// B − A has no interior within rounding: every direction that was tried bounds the depth, and the walk's own
+// point, as near to the origin as rounding tells, shows that it is not negative beyond that.
+template <class R>
+void from_flat(const Walk<R>& g, const Depth<R>& e, R size, R error, Answer<R>& r, PairScene<R>& s) {
+  if (g.end != WalkEnd::touching || !(e.upper < size)) {
+    r.bound = std::numeric_limits<R>::infinity();
+    return;
+  }
+  s.normal = r.normal = -e.outward, r.gap = -e.upper - s.a.radius - s.b.radius;
+  V3<R> a = V3<R>::Zero();
+  for (int i = 0; i < g.simplex.size; ++i)
+    a += g.simplex.weight[static_cast<std::size_t>(i)] * g.simplex.p[static_cast<std::size_t>(i)].a;
+  r.a = a + (e.upper / 2 + s.a.radius) * r.normal, r.b = a - (e.upper / 2 + s.b.radius) * r.normal;
+  r.bound = error + e.upper + 8 * u<R> * size;
+  s.middle = (r.a + r.b) / 2, s.has_middle = true;
+}
+
+// Searches take squares of areas: a fourth power of lengths. Bodies for which that would leave R's range are
+// enlarged, or reduced, by a power of two, which rounds nothing. Range of sizes that need it not: at L =
+// 2^-22 the fourth power of float still holds slivers of L·2^-18.
+template <class R>
+bool in_range(R size) {
+  constexpr bool single = sizeof(R) == sizeof(float);
+  return size > R(single ? 0x1p-22 : 0x1p-230) && size < R(single ? 0x1p+30 : 0x1p+250);
+}
+
+template <class R>
+void separate_scaled(const Stand<R>& a, const Stand<R>& b, Asked asked, R enough, R size, Answer<R>& r,
+                     PairScene<R>& s) {
+  const R unit = std::ldexp(R(1), -std::ilogb(size)), back = 1 / unit;
+  PairScene<R> t = s;
+  Stand<R> at_a = a, at_b = b;
+  for (Body<R>* c : {&t.a, &t.b}) {
+    c->size *= unit, c->unit *= unit;
+    c->radius *= unit, c->reach *= unit, c->extent *= unit;
+  }
+  t.at.offset *= unit, at_a.t *= unit, at_b.t *= unit;
+  // Not even so: they are so small, or large, where they stand that R holds no scale for both.
+  const R fits = at_a.t.cwiseAbs().sum() + at_b.t.cwiseAbs().sum() + unit + back;
+  if (!(fits < std::numeric_limits<R>::max())) return;
+  separate_cores(at_a, at_b, asked, enough * unit, r, t);
+  r.gap *= back, r.bound *= back, r.a *= back, r.b *= back;
+  s.normal = t.normal, s.middle = t.middle * back, s.has_middle = t.has_middle, s.guess = t.guess;
+}
+
+}  // namespace
+
+template <class R>
+void separate_cores(const Stand<R>& a, const Stand<R>& b, Asked asked, R enough, Answer<R>& r,
+                    PairScene<R>& s) {
+  const Difference<R> d{s.a, s.b, s.at};
+  const R error = displacement(s), radii = s.a.radius + s.b.radius;
+  const R size = s.a.reach + s.b.reach + s.at.offset.norm();
+  if (!in_range(size))
+    if (const R exact = s.a.reach + s.b.reach + s.at.offset.stableNorm(); exact > 0)
+      return separate_scaled(a, b, asked, enough, exact, r, s);
+  const R tolerance = accuracy(local_scale(s)) / 8;
+  const R certain = error + radii + (asked == Asked::distance ? std::max<R>(0, enough) : R(0));
+  const Walk<R> g = walk<R>(d, tolerance, certain, size, s.guess);
+  s.guess = g.normal;
+  r.bound = error;
+  if (g.lower > certain) {
+    r.found = Found::apart;
+    return;
+  }
+  // A tetrahedron without room for the origin proves nothing, whatever the radii: it may be a sliver of
+  // noise.
+  const bool inside = g.end == WalkEnd::enclosed && (g.margin > error || (g.margin > 0 && radii > error));
+  if (asked == Asked::overlap && (g.upper < radii - error || inside)) {
+    r.found = Found::meeting;
+    return;
+  }
+  r.valued = true;
+  if (g.end == WalkEnd::enclosed || g.end == WalkEnd::touching) {
+    if (const Revolved<R> e(d, size); e.found) {
+      from_depth(e, error, r, s);
+    } else {
+      Expander<R> polytope(d, size, tolerance);
+      const Depth<R> depth = polytope.run(g.simplex, g.end == WalkEnd::enclosed);
+      if (depth.end == ExpandEnd::flat)
+        from_flat(g, depth, size, error, r, s);
+      else
+        from_depth(depth, error, r, s);
+    }
+    s.guess = s.normal;
+  } else {
+    from_walk(g, error, r, s);
+  }
+  to_world(r, s, scale(s.a, s.b, a, b), asked);
+}
+
+template <class R>
+void convex_pair(const PlacedShape& pa, const PlacedShape& pb, Asked asked, Answer<R>& r, PairScene<R>& s) {
+  const Stand<R> a = stand<R>(pa.pose), b = stand<R>(pb.pose);
+  prepare(pa, a, pb, b, s), s.contact = ContactForm::cores;
+  separate_cores(a, b, asked, std::numeric_limits<R>::infinity(), r, s);
+}
+
+namespace {
+
+template <class R>
+bool in_box(const V3<R>& p, const V3<R>& h, R tolerance) {
+  return ((p.cwiseAbs() - h).array() <= tolerance).all();
+}
+
+// Deepest points of two overlapping boxes, from their manifold; false when it does not show them.
+template <class R>
+bool box_witnesses(const BoxPair<R>& p, PairScene<R>& s, Answer<R>& r) {
+  const Patch<R> patch = contact_patch<R>(s.a, &s.b, s.at, s.normal, r.gap, nullptr);
+  if (patch.size == 0) return false;
+  std::size_t best = 0;
+  for (std::size_t i = 1; i < static_cast<std::size_t>(patch.size); ++i)
+    if (patch.point[i].depth > patch.point[best].depth) best = i;
+  r.a = patch.point[best].p - s.normal * (r.gap / 2);
+  r.b = r.a + s.normal * r.gap;
+  const R tolerance = p.displacement / 4;
+  return in_box<R>(r.a, p.ha, tolerance) &&
+         in_box<R>(s.at.b_to_a.transpose() * (r.b - s.at.offset), p.hb, tolerance);
+}
+
+}  // namespace
+
+template <class R>
+void box_box(const PlacedShape& pa, const PlacedShape& pb, Asked asked, Answer<R>& r, PairScene<R>& s) {
+  const Stand<R> a = stand<R>(pa.pose), b = stand<R>(pb.pose);
+  const BoxPair<R> p = box_pair(*pa.shape, a, *pb.shape, b);
+  r.bound = p.displacement;
+  if (asked == Asked::overlap) {
+    r.found = boxes_meet(p);
+    return;
+  }
+  const BoxAxis<R> axis = least_axis(p);
+  if (axis.found == Found::apart) {
+    r.found = Found::apart;
+    // Its separation bounds the distance from below only.
+    if (asked == Asked::distance) convex_pair(pa, pb, asked, r, s);
+    return;
+  }
+  s.a = make_body<R>(*pa.shape, pa.graph), s.b = make_body<R>(*pb.shape, pb.graph), s.at = p.at,
+  s.contact = ContactForm::cores;
+  s.normal = r.normal = axis.normal, r.gap = axis.separation, r.bound = displacement(s) + p.displacement / 16;
+  r.a = r.b = V3<R>::Zero();
+  if (asked == Asked::distance && !box_witnesses(p, s, r)) return convex_pair(pa, pb, asked, r, s);
+  to_world(r, s, scale(s.a, s.b, a, b), asked);
+}
+
+template <class R>
+void box_and_capsule(const PlacedShape& pa, const PlacedShape& pb, Asked asked, Answer<R>& r,
+                     PairScene<R>& s) {
+  const Stand<R> a = stand<R>(pa.pose), b = stand<R>(pb.pose);
+  const BoxCapsule<R> q = box_capsule(*pa.shape, a, *pb.shape, b);
+  if (!solve(q, asked, r)) return convex_pair(pa, pb, asked, r, s);
+  if (asked == Asked::overlap) return;
+  const BoxSegment<R>& p = q.cores;
+  const R depth = -r.gap, tolerance = 64 * u<R> * (p.half.sum() + p.h + q.radius + p.c.template lpNorm<1>());
+  if (asked == Asked::contact && depth >= -r.bound && detail::lies_along(p, r.normal, depth, tolerance)) {
+    prepare(pa, a, pb, b, s), s.contact = ContactForm::cores;
+    s.normal = r.normal, s.middle = (r.a + r.b) / 2, s.has_middle = true;
+  }
+  r.normal = q.to_world * r.normal, r.a = q.to_world * r.a, r.b = q.to_world * r.b;
+}
+
+template <class R>
+void convex_half_space(const PlacedShape& pa, const PlacedShape& pb, Asked asked, Answer<R>& r,
+                       PairScene<R>& s) {
+  const Stand<R> a = stand<R>(pa.pose), b = stand<R>(pb.pose);
+  s.a = make_body<R>(*pa.shape, pa.graph);
+  const HalfSpace& plane = *std::get_if<HalfSpace>(pb.shape);
+  const double length = plane.normal.norm();
+  if (!(length > 1e-100 && length < 1e100)) return;
+  const V3<R> m = (matrix(b) * (plane.normal / length).template cast<R>()).normalized();
+  const R offset = static_cast<R>(plane.offset / length);
+  s.at.a_to_world = matrix(a), s.contact = ContactForm::plane;
+  const V3<R> d = b.t - a.t, n = -m;
+  r.normal = n, s.normal = s.at.a_to_world.transpose() * n;
+  r.a = s.at.a_to_world * support_local<R>(s.a, s.normal) + s.a.radius * n;
+  r.gap = m.dot(r.a) - m.dot(d) - offset;
+  r.b = r.a + r.gap * n;
+  r.bound = u<R> * (48 * (s.a.reach + s.a.radius) + 40 * d.norm() + 8 * std::abs(offset));
+  r.found = decide(r.gap, r.bound);
+  s.b.extent = std::abs(offset);
+  if (asked != Asked::overlap && !accepted(r.bound, scale(s.a, s.b, a, b))) r.found = Found::unsure;
+}
+
+#define TS_INSTANTIATE(R)                                                                                  \
+  template void convex_pair(const PlacedShape&, const PlacedShape&, Asked, Answer<R>&, PairScene<R>&);     \
+  template void separate_cores(const Stand<R>&, const Stand<R>&, Asked, R, Answer<R>&, PairScene<R>&);     \
+  template void box_box(const PlacedShape&, const PlacedShape&, Asked, Answer<R>&, PairScene<R>&);         \
+  template void box_and_capsule(const PlacedShape&, const PlacedShape&, Asked, Answer<R>&, PairScene<R>&); \
+  template void convex_half_space(const PlacedShape&, const PlacedShape&, Asked, Answer<R>&, PairScene<R>&);
+TS_INSTANTIATE(double)
+TS_INSTANTIATE(float)
+#undef TS_INSTANTIATE
+
+}  // namespace touchstone::narrow::fast

@@ -1,0 +1,73 @@
+// The fast answer of a pair of shapes in the arithmetic R, or `unsure`. Instantiated for double and float.
+#pragma once
+
+#include "core/narrow/filtered/patch.h"
+
+namespace touchstone::narrow::fast {
+
+/// Where a contact's points come from.
+enum class ContactForm {
+  point,     // half way between the witnesses
+  segments,  // two nearly parallel capsules: a stretch when they are in line with each other
+  cores,     // contact_patch of a and b
+  plane      // contact_patch of a alone
+};
+
+/// What contact_patch needs of a pair that has been asked about.
+template <class R>
+struct PairScene {
+  Body<R> a, b;
+  Relative<R> at;
+  V3<R> normal;  // A's frame; set with `contact` other than point and segments
+  V3<R> middle;  // A's frame: half way between the witnesses; set with `has_middle`
+  bool has_middle = false;
+  ContactForm contact = ContactForm::point;
+  /// A's frame: where a search begins, zero for nowhere in particular, and where it has ended.
+  V3<R> guess = V3<R>::Zero();
+};
+
+template <class R>
+using Function = void (*)(const PlacedShape&, const PlacedShape&, Asked, Answer<R>&, PairScene<R>&);
+
+/// Any two bounded convex shapes: GJK, and the expanding polytope when their cores meet.
+template <class R>
+void convex_pair(const PlacedShape& a, const PlacedShape& b, Asked asked, Answer<R>& out,
+                 PairScene<R>& scene);
+
+/// The same of bodies and frames that are set in `scene`. A distance beyond `enough` is `apart` without a
+/// value.
+template <class R>
+void separate_cores(const Stand<R>& a, const Stand<R>& b, Asked asked, R enough, Answer<R>& out,
+                    PairScene<R>& scene);
+
+/// A bounded convex A and a mesh B, in double.
+template <class R>
+void convex_mesh(const PlacedShape& a, const PlacedShape& b, Asked asked, Answer<R>& out,
+                 PairScene<R>& scene);
+
+template <class R>
+void box_box(const PlacedShape& a, const PlacedShape& b, Asked asked, Answer<R>& out, PairScene<R>& scene);
+
+template <class R>
+void box_and_capsule(const PlacedShape& a, const PlacedShape& b, Asked asked, Answer<R>& out,
+                     PairScene<R>& scene);
+
+/// A bounded convex A and a half-space B.
+template <class R>
+void convex_half_space(const PlacedShape& a, const PlacedShape& b, Asked asked, Answer<R>& out,
+                       PairScene<R>& scene);
+
+/// A closed form of closed_forms.h as a row of the table.
+template <class R, void (*form)(const Shape&, const Pose&, const Shape&, const Pose&, Asked, Answer<R>&)>
+void closed(const PlacedShape& a, const PlacedShape& b, Asked asked, Answer<R>& out, PairScene<R>&) {
+  form(*a.shape, a.pose, *b.shape, b.pose, asked, out);
+}
+
+/// Bodies and frames of two shapes, for contact_patch after a closed form.
+template <class R>
+void prepare(const PlacedShape& pa, const Stand<R>& a, const PlacedShape& pb, const Stand<R>& b,
+             PairScene<R>& s) {
+  s.a = make_body<R>(*pa.shape, pa.graph), s.b = make_body<R>(*pb.shape, pb.graph), s.at = relative(a, b);
+}
+
+}  // namespace touchstone::narrow::fast

@@ -1,0 +1,148 @@
+// The point of a simplex nearest to the origin, for a walk that has its bounds from support planes: a wrong
+// turn here costs an iteration, never truth. Feet are written as multiples of the face's normal, and freed of
+// their component along an edge, so that their direction is right even when they are far shorter than the
+// corners' rounding.
+#pragma once
+
+#include <array>
+
+#include "core/narrow/filtered/query.h"
+
+namespace touchstone::narrow::fast {
+
+/// A point of B − A, and A's share: b = w + a.
+template <class R>
+struct Vertex {
+  V3<R> w = V3<R>::Zero(), a = V3<R>::Zero();
+};
+
+template <class R>
+struct Simplex {
+  std::array<Vertex<R>, 4> p{};
+  std::array<R, 4> weight{};
+  int size = 0;
+};
+
+/// Foot of the origin and the corners that carry it.
+template <class R>
+struct Foot {
+  V3<R> point = V3<R>::Zero();
+  R dist_sq = std::numeric_limits<R>::infinity();
+  std::array<int, 3> corner{};
+  std::array<R, 3> weight{};
+  int size = 0;
+};
+
+/// Normal of a triangle by its two shorter edges, orthogonal to the longest.
+template <class R>
+V3<R> triangle_normal(const V3<R>& a, const V3<R>& b, const V3<R>& c) {
+  const V3<R> ab = b - a, bc = c - b, ca = a - c;
+  const R lab = ab.squaredNorm(), lbc = bc.squaredNorm(), lca = ca.squaredNorm();
+  if (lab >= lbc && lab >= lca) return bc.cross(ca);
+  return lbc >= lca ? ca.cross(ab) : ab.cross(bc);
+}
+
+namespace detail {
+
+template <class R>
+void take_corner(const Simplex<R>& s, int i, Foot<R>& best) {
+  const V3<R>& w = s.p[static_cast<std::size_t>(i)].w;
+  const R d = w.squaredNorm();
+  if (!(d < best.dist_sq)) return;
+  best.point = w, best.dist_sq = d, best.size = 1;
+  best.corner[0] = i, best.weight[0] = 1;
+}
+
+template <class R>
+void take_edge(const Simplex<R>& s, int i, int j, Foot<R>& best) {
+  const V3<R>&p = s.p[static_cast<std::size_t>(i)].w, &q = s.p[static_cast<std::size_t>(j)].w;
+  const V3<R> d = q - p;
+  const R len_sq = d.squaredNorm(), t = -p.dot(d);
+  if (!(t > 0)) return take_corner(s, i, best);
+  if (!(t < len_sq)) return take_corner(s, j, best);
+  const R inverse = 1 / len_sq, k = t * inverse;
+  V3<R> x = p + d * k;
+  x -= d * (x.dot(d) * inverse);
+  const R dist_sq = x.squaredNorm();
+  if (!(dist_sq < best.dist_sq)) return;
+  best.point = x, best.dist_sq = dist_sq, best.size = 2;
+  best.corner[0] = i, best.corner[1] = j, best.weight[0] = 1 - k, best.weight[1] = k;
+}
+
+template <class R>
+void take_triangle(const Simplex<R>& s, int i, int j, int k, Foot<R>& best) {
+  const V3<R>&a = s.p[static_cast<std::size_t>(i)].w, &b = s.p[static_cast<std::size_t>(j)].w,
+        &c = s.p[static_cast<std::size_t>(k)].w;
+  const V3<R> n = triangle_normal(a, b, c);
+  const R wa = n.dot(b.cross(c)), wb = n.dot(c.cross(a)), wc = n.dot(a.cross(b)), sum = wa + wb + wc;
+  if (wa > 0 && wb > 0 && wc > 0) {
+    const R aa = a.squaredNorm(), bb = b.squaredNorm(), cc = c.squaredNorm();
+    const V3<R>& nearest = aa <= bb && aa <= cc ? a : (bb <= cc ? b : c);
+    const V3<R> x = n * (nearest.dot(n) / n.squaredNorm());
+    const R dist_sq = x.squaredNorm();
+    if (!(dist_sq < best.dist_sq)) return;
+    best.point = x, best.dist_sq = dist_sq, best.size = 3;
+    const R share = 1 / sum;
+    best.corner = {i, j, k}, best.weight = {wa * share, wb * share, wc * share};
+    return;
+  }
+  if (!(wa > 0)) take_edge(s, j, k, best);
+  if (!(wb > 0)) take_edge(s, k, i, best);
+  if (!(wc > 0)) take_edge(s, i, j, best);
+}
+
+/// Faces of the tetrahedron with the origin outside; none: enclosed, `margin` is the least distance to a
+/// plane, less what rounding of the normal may feign. The face that the newest corner, the last, has left
+/// behind comes last, and only when the others have brought no progress on `last_sq` (never to look at it is
+/// no good: near triangles, walks stall).
+template <class R>
+bool take_tetrahedron(const Simplex<R>& s, R last_sq, Foot<R>& best, R& margin) {
+  static constexpr int faces[4][4] = {{1, 2, 3, 0}, {2, 0, 3, 1}, {0, 1, 3, 2}, {0, 2, 1, 3}};
+  bool enclosed = true;
+  std::array<R, 4> height, square;  // of the origin above a face, times its normal, less what is feigned
+  for (int i = 0; i < 4; ++i) {
+    if (i == 3 && best.dist_sq < last_sq) break;
+    const int* f = faces[i];
+    const auto w = [&](int k) -> const V3<R>& { return s.p[static_cast<std::size_t>(f[k])].w; };
+    const V3<R> e1 = w(1) - w(0), e2 = w(2) - w(0), e3 = w(3) - w(0), n = e1.cross(e2);
+    const R apex = n.dot(e3), origin = -n.dot(w(0));
+    bool outside = !(apex * origin > 0);
+    if (!outside) {
+      const R feigned = 8 * u<R> * e1.template lpNorm<1>() * e2.template lpNorm<1>() *
+                        std::max(w(0).template lpNorm<1>(), e3.template lpNorm<1>());
+      // A sliver's sign is noise, but then the origin lies farther from the plane than the apex does.
+      outside = std::abs(origin) > std::abs(apex) + feigned;
+      height[static_cast<std::size_t>(i)] = std::abs(origin) - feigned;
+      square[static_cast<std::size_t>(i)] = n.squaredNorm();
+    }
+    if (!outside) continue;
+    enclosed = false;
+    take_triangle(s, f[0], f[1], f[2], best);
+  }
+  if (enclosed) {
+    margin = std::numeric_limits<R>::infinity();
+    for (std::size_t i = 0; i < 4; ++i) margin = std::min(margin, height[i] / std::sqrt(square[i]));
+  }
+  // No face was taken that rounding did not take back.
+  if (!enclosed && best.size == 0) take_triangle(s, 0, 2, 1, best);
+  return enclosed;
+}
+
+}  // namespace detail
+
+/// Reduces the simplex to the corners that carry its nearest point; true: it encloses the origin (unchanged).
+template <class R>
+bool reduce(Simplex<R>& s, V3<R>& v, R& dist_sq, R& margin) {
+  Foot<R> foot{};
+  if (s.size == 4 && detail::take_tetrahedron(s, dist_sq, foot, margin)) return true;
+  if (s.size == 3) detail::take_triangle(s, 0, 1, 2, foot);
+  if (s.size == 2) detail::take_edge(s, 0, 1, foot);
+  if (s.size == 1) detail::take_corner(s, 0, foot);
+  std::array<Vertex<R>, 3> kept;
+  for (std::size_t k = 0; k < 3; ++k) kept[k] = s.p[static_cast<std::size_t>(foot.corner[k])];
+  s.size = foot.size, v = foot.point, dist_sq = foot.dist_sq;
+  for (std::size_t k = 0; k < 3; ++k) s.p[k] = kept[k], s.weight[k] = foot.weight[k];
+  return false;
+}
+
+}  // namespace touchstone::narrow::fast

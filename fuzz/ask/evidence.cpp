@@ -1,0 +1,107 @@
+#include "fuzz/ask/evidence.h"
+
+#include "fuzz/judge/truth.h"
+#include "oracles/referee/motion/impact_certificate.h"
+#include "scenarios/codec/case_codec.h"
+#include "scenarios/codec/certificate_codec.h"
+#include "scenarios/codec/scene_codec.h"
+
+namespace touchstone::fuzz {
+namespace {
+
+Motion motion_of(const Scene& s, int body) {
+  return s.bodies[static_cast<std::size_t>(body)].motion.value_or(Motion{});
+}
+
+bool is_of_motion(Question q) { return q == Question::time_of_impact || q == Question::swept_candidates; }
+
+Json named(Json certificate, int a, int b, int step) {
+  if (certificate.at("kind") == "none") return certificate;
+  certificate["bodies"] = {a, b};
+  if (step >= 0) certificate["step"] = step;
+  return certificate;
+}
+
+Json exact_certificate_of(const Evidence& e) {
+  const auto make = [&] { return exact_certificate(e.c.scene, e.question, e.a, e.b, e.step); };
+  if (!e.shared) return make();
+  const auto [it, is_new] = e.shared->try_emplace({is_of_motion(e.question), e.a, e.b, e.step}, nullptr);
+  if (is_new) it->second = make();
+  return it->second;
+}
+
+// Of an answer that is none or late: how deep the bodies are in each other at some time up to it.
+Json with_depth(Json certificate, const Evidence& e) {
+  const double t = e.observation.toi.value_or(1);
+  const auto a = placed_at(e.c.scene, e.a, e.step), b = placed_at(e.c.scene, e.b, e.step);
+  const double clear = certificate.is_null() ? 0 : certificate.value("clear_until", 0.0);
+  if (e.observation.outcome != Outcome::answered || !a || !b || e.a == e.b) return certificate;
+  if (!(t > clear && t <= 1)) return certificate;
+  const Motion ma = motion_of(e.c.scene, e.a), mb = motion_of(e.c.scene, e.b);
+  const referee::TimeTruth truth = referee::judge_motion(*a, ma, *b, mb);
+  const bool hit = truth.verdict == referee::TimeTruth::Verdict::hit;
+  ImpactCertificate depth;
+  add_overlap(depth, *a, ma, *b, mb, referee::deepest_before(*a, ma, *b, mb, t, hit ? truth.t_hi : 0));
+  if (!depth.overlap) return certificate;
+  if (certificate.is_null()) return named(referee::to_json(depth), e.a, e.b, e.step);
+  certificate["overlap"] = referee::to_json(depth).at("overlap");
+  return certificate;
+}
+
+Json certificate_of(const Evidence& e) {
+  using Kind = Certificate::Kind;
+  const Kind k = e.certificate.kind;
+  const bool verdict = k == Kind::separating_plane || k == Kind::common_point;
+  if (is_of_motion(e.question)) {
+    if (Json j = with_depth(exact_certificate_of(e), e); !j.is_null()) return j;
+  } else if (verdict) {
+    if (Json j = exact_certificate_of(e); !j.is_null()) return j;
+  }
+  const int n = static_cast<int>(e.c.scene.bodies.size());
+  const bool names = e.a >= 0 && e.b >= 0 && e.a < n && e.b < n;
+  return names ? named(referee::to_json(e.certificate), e.a, e.b, e.step) : referee::to_json(e.certificate);
+}
+
+// Shapes that differ by rounding alone are left out.
+Json received_json(const Evidence& e) {
+  Json j = to_json(e.received);
+  const std::vector<Shape>& asked = e.c.scene.shapes;
+  for (std::size_t i = 0; i < asked.size() && i < e.received.shapes.size(); ++i)
+    if (const auto& held = e.received.shapes[i]; held && is_other_shape(asked[i], *held))
+      j["shapes"].push_back({{"shape", i}, {"as", touchstone::to_json(*held)}});
+  return j;
+}
+
+}  // namespace
+
+std::optional<Placed> placed_at(const Scene& s, int body, int step) {
+  if (body < 0 || body >= static_cast<int>(s.bodies.size())) return std::nullopt;
+  const Body& b = s.bodies[static_cast<std::size_t>(body)];
+  if (step < 0) return Placed{&s.shape_of(body), b.pose};
+  Truth truth(s);
+  const auto& steps = truth.steps();
+  if (step >= static_cast<int>(steps.size())) return std::nullopt;
+  const auto& pose = steps[static_cast<std::size_t>(step)].pose[static_cast<std::size_t>(body)];
+  return pose ? std::optional(Placed{&s.shape_of(body), *pose}) : std::nullopt;
+}
+
+Json exact_certificate(const Scene& s, Question q, int a, int b, int step) {
+  const auto x = placed_at(s, a, step), y = placed_at(s, b, step);
+  if (!x || !y || a == b) return nullptr;
+  if (is_of_motion(q)) {
+    const Motion ma = motion_of(s, a), mb = motion_of(s, b);
+    const auto c = referee::impact_certificate(*x, ma, *y, mb, referee::judge_motion(*x, ma, *y, mb));
+    return c.claims_nothing() ? Json() : named(referee::to_json(c), a, b, step);
+  }
+  const auto c = referee::checkable_certificate(referee::judge_pair(*x, *y), *x, *y);
+  return c.kind == Certificate::Kind::none ? Json() : named(referee::to_json(c), a, b, step);
+}
+
+Json evidence_to_json(const Evidence& e) {
+  return {{"case", case_to_json(e.c)},
+          {"observation", to_json(e.observation)},
+          {"certificate", certificate_of(e)},
+          {"received", received_json(e)}};
+}
+
+}  // namespace touchstone::fuzz

@@ -1,0 +1,21 @@
+// Finds the certificates that show a finding.
+#pragma once
+
+#include <optional>
+
+#include "reports/record/evidence.h"
+
+namespace touchstone::fuzz {
+
+/// Evidence::write.
+Json evidence_to_json(const Evidence& e);
+
+/// The body at its own pose (step < 0), or where the script has it at that query; nothing when it is not
+/// there.
+std::optional<Placed> placed_at(const Scene& s, int body, int step);
+
+/// The referee's certificate of the verdict on two bodies (time_of_impact: of the first contact) as the
+/// checker accepts it, naming its "bodies" and "step"; null when there is no such form.
+Json exact_certificate(const Scene& s, Question q, int a, int b, int step = -1);
+
+}  // namespace touchstone::fuzz

@@ -1,0 +1,105 @@
+// The relations of one case: derived cases are asked in one batch, and what contradicts the base is a finding
+// about the base, which is all that is stored: the derivations are functions of it and of its answers.
+#include <algorithm>
+#include <optional>
+
+#include "fuzz/ask/ask.h"
+#include "fuzz/ask/degeneracy.h"
+#include "fuzz/ask/evidence.h"
+#include "fuzz/ask/magnitude.h"
+#include "fuzz/ask/shapes_of.h"
+#include "fuzz/ask/unstable.h"
+#include "fuzz/judge/relation.h"
+#include "scenarios/value/odd_numbers.h"
+
+namespace touchstone::fuzz {
+namespace {
+
+struct Asked {
+  const Relation* relation;
+  Derived derived;
+};
+
+std::vector<Asked> derive_all(const RelationInput& in) {
+  std::vector<Asked> all;
+  for (const Relation& r : relations())
+    for (Derived& d : r.derive(in))
+      if (is_within_numbers(in.c.scene, d.c.scene)) all.push_back({&r, std::move(d)});
+  return all;
+}
+
+void add_break(CampaignResult& r, const Case& c, std::uint64_t index, const RelationInput& in,
+               const RelationBreak& b) {
+  const auto q = static_cast<std::size_t>(b.query);
+  const Question question = c.queries[q].question;
+  Finding f;
+  f.engine = in.card.name, f.question = to_string(question), f.fault = b.relation;
+  f.shapes = shapes_of(c, b.a, b.b), f.blame = to_string(b.blame);
+  f.degeneracy = degeneracy_of(c, b.a, b.b), f.magnitude = to_string(magnitude_of(b.error_in_l));
+  f.count = 1, f.worst_in_l = b.error_in_l, f.first_index = index, f.words = b.words;
+  auto& kept = r.findings[f.key()];
+  if (kept.count == 0 || index < kept.first_index)
+    f.evidence = std::make_shared<const Evidence>(
+        Evidence{c, in.base.answers[q], in.base.received, {}, b.a, b.b, -1, question, {}, evidence_to_json});
+  kept.merge(f);
+}
+
+// No two forms of the case need to be compared: one of them is not answered the same way twice. The answers
+// are not kept, for they may differ from run to run.
+void add_unstable(CampaignResult& r, const Case& c, std::uint64_t index, const RelationInput& in,
+                  const RelationBreak& b) {
+  const auto q = static_cast<std::size_t>(b.query);
+  const Question question = c.queries[q].question;
+  Finding f;
+  f.engine = in.card.name, f.question = to_string(question), f.fault = to_string(Fault::unstable);
+  f.shapes = shapes_of(c, b.a, b.b), f.blame = to_string(Blame::algorithm);
+  f.degeneracy = degeneracy_of(c, b.a, b.b), f.magnitude = to_string(magnitude_of(0));
+  f.count = 1, f.first_index = index, f.words = "asked again, it answers differently";
+  auto& kept = r.findings[f.key()];
+  if (kept.count == 0 || index < kept.first_index) {
+    Observation outcome_alone;
+    outcome_alone.outcome = in.base.answers[q].outcome;
+    f.evidence = std::make_shared<const Evidence>(
+        Evidence{c, outcome_alone, in.base.received, {}, b.a, b.b, -1, question, {}, evidence_to_json});
+  }
+  kept.merge(f);
+}
+
+bool any_is(const CaseObservations& o, Outcome outcome) {
+  return std::any_of(o.answers.begin(), o.answers.end(),
+                     [&](const Observation& a) { return a.outcome == outcome; });
+}
+
+}  // namespace
+
+void relate_into(CampaignResult& r, const Case& c, std::uint64_t index, const EnginePtr& engine,
+                 const CaseObservations& base) {
+  // What an engine does not answer at all is not asked again in fifteen forms, and what hangs it is not,
+  // though another query of the case was answered: each form would wait for the time limit.
+  if (!any_is(base, Outcome::answered) || any_is(base, Outcome::timed_out)) return;
+  if (!odd_numbers(c.scene).empty()) return;
+  const RelationInput in{c, engine->card(), base};
+  const std::vector<Asked> asked = derive_all(in);
+  std::vector<Case> cases;
+  for (const Asked& a : asked) cases.push_back(a.derived.c);
+  const auto observed = engine->run(cases);
+  std::optional<bool> asked_again;  // the base case, once for all that is broken
+  const auto base_repeats = [&] {
+    if (!asked_again) asked_again = repeats(c, *engine, base);
+    return *asked_again;
+  };
+  for (std::size_t i = 0; i < asked.size(); ++i) {
+    for (const Observation& o : observed[i].answers) r.engine_ns += o.elapsed_ns;
+    auto& count = r.relations[in.card.name][std::string(asked[i].relation->name)];
+    ++count.asked;
+    const auto broken = find_break(*asked[i].relation, in, asked[i].derived, observed[i]);
+    if (!broken) continue;
+    ++count.broken;
+    if (base_repeats() && repeats(asked[i].derived.c, *engine, observed[i]))
+      add_break(r, c, index, in, *broken);
+    else
+      add_unstable(r, c, index, in, *broken);
+  }
+}
+
+}  // namespace touchstone::fuzz

@@ -1,0 +1,121 @@
+// EngineCard ↔ JSON. Strict in both directions: a card is the place where an engine's tolerance claims are
+// made, and a misspelt field would silently change a verdict.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <string_view>
+
+#include "core/base/exact_text.h"
+#include "core/base/input_error.h"
+#include "oracles/abi/engine.h"
+#include "scenarios/text/printable.h"
+#include "scenarios/value/engine_name.h"
+
+namespace touchstone {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+struct TextField {
+  const char* name;
+  std::string EngineCard::*member;
+};
+struct NumberField {
+  const char* name;
+  double EngineCard::*member;
+  double most;
+};
+constexpr const char* complete_field = "complete_manifolds";
+constexpr std::array text_fields{
+    TextField{"name", &EngineCard::name}, TextField{"library", &EngineCard::library},
+    TextField{"version", &EngineCard::version}, TextField{"settings", &EngineCard::settings},
+    TextField{"source", &EngineCard::source}};
+// What an engine may say of itself is bounded: the coarsest arithmetic is bfloat16's, 2⁻⁸; an answer takes no
+// more than some thousands of roundings; and both together explain at most a hundredth of L. What is beyond
+// would be believed in every verdict.
+constexpr std::array number_fields{NumberField{"unit_roundoff", &EngineCard::unit_roundoff, 0x1p-8},
+                                   NumberField{"tau_factor", &EngineCard::tau_factor, 0x1p14}};
+constexpr double most_of_l = 1e-2;
+
+// What people read, on a terminal too.
+constexpr std::size_t max_name_bytes = 64, max_text_bytes = 1000;
+
+bool is_known(std::string_view key) {
+  for (const auto& f : text_fields)
+    if (key == f.name) return true;
+  for (const auto& f : number_fields)
+    if (key == f.name) return true;
+  return key == complete_field;
+}
+
+std::string text_of(const Json& j, const char* field) {
+  if (!j.contains(field)) throw InputError(field, "is missing from the engine card");
+  if (!j[field].is_string()) throw InputError(field, "is not a text");
+  std::string text = j[field].get<std::string>();
+  if (text.size() > max_text_bytes)
+    throw InputError(field, "is longer than " + std::to_string(max_text_bytes) + " bytes");
+  return printable(text, "\n");
+}
+
+std::string too_large(double x, double most) {
+  return "is " + to_text(x) + "; at most " + to_text(most) + " is accepted";
+}
+
+double positive_number_of(const Json& j, const char* field, double most) {
+  if (!j.contains(field)) throw InputError(field, "is missing from the engine card");
+  if (!j[field].is_number()) throw InputError(field, "is not a number");
+  const double x = j[field].get<double>();
+  if (!(x > 0 && std::isfinite(x))) throw InputError(field, "is not a positive finite number");
+  if (x > most) throw InputError(field, too_large(x, most));
+  return x;
+}
+
+bool is_letter_or_digit(char c) {
+  return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9');
+}
+
+}  // namespace
+
+bool is_engine_name(std::string_view name) {
+  if (name.empty() || name.size() > max_name_bytes || !is_letter_or_digit(name.front())) return false;
+  return std::all_of(name.begin(), name.end(),
+                     [](char c) { return c >= ' ' && c <= '~' && c != '/' && c != '\\'; });
+}
+
+EngineCard card_from_json(const std::string& text) {
+  const Json j = Json::parse(text, nullptr, /*allow_exceptions=*/false);
+  if (j.is_discarded()) throw InputError("", "the engine card is not JSON");
+  if (!j.is_object()) throw InputError("", "the engine card is not a JSON object");
+  for (const auto& [key, value] : j.items())
+    if (!is_known(key)) throw InputError(key, "is no field of an engine card");
+  EngineCard card;
+  for (const auto& f : text_fields) card.*f.member = text_of(j, f.name);
+  for (const auto& f : number_fields) card.*f.member = positive_number_of(j, f.name, f.most);
+  if (card.tau_factor * card.unit_roundoff > most_of_l)
+    throw InputError("tau_factor", "times unit_roundoff " + too_large(card.tau_factor * card.unit_roundoff, most_of_l));
+  if (j.contains(complete_field)) {
+    if (!j[complete_field].is_boolean()) throw InputError(complete_field, "is neither true nor false");
+    card.complete_manifolds = j[complete_field].get<bool>();
+  }
+  if (card.name.empty()) throw InputError("name", "is empty");
+  if (!is_engine_name(card.name))
+    throw InputError(
+        "name", "must begin with a letter or digit and be at most 64 printable ASCII characters, no / or \\");
+  return card;
+}
+
+std::string to_json_text(const EngineCard& card) {
+  Json j;
+  j["name"] = card.name;
+  j["library"] = card.library;
+  j["version"] = card.version;
+  j["settings"] = card.settings;
+  j["unit_roundoff"] = card.unit_roundoff;
+  j["tau_factor"] = card.tau_factor;
+  j["source"] = card.source;
+  if (card.complete_manifolds) j[complete_field] = true;
+  return j.dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
+}  // namespace touchstone

@@ -1,0 +1,176 @@
+// What the project's own C++ plug-ins share: the table of the C ABI made from a class, exceptions turned into
+// outcomes, answers filled in. A plug-in writes
+//
+//   struct Mine {
+//     static std::vector<CardText> cards();          // one an engine
+//     explicit Mine(unsigned engine);
+//     void load(const ts_scene&, const ts_received&);      // may throw Unsupported or anything
+//     void unload();
+//     void ask(ts_question, int a, int b, ts_answer&, const ts_sink&);
+//   };
+//   TS_PLUGIN(Mine)
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <cstdio>
+#include <cstring>
+#include <exception>
+#include <limits>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "core/math/pose.h"
+#include "oracles/abi/touchstone_engine.h"
+
+namespace touchstone::kit {
+
+/// "Cannot" as a value: the engine has no such query for these shapes.
+struct Unsupported : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+struct CardText {
+  std::string name, library, version, settings;
+  double unit_roundoff, tau_factor;
+  std::string source;
+  bool complete_manifolds = false;
+  std::string json() const {
+    std::string out;
+    const auto field = [&out](const char* key, const std::string& value) {
+      out.append(out.empty() ? "{\"" : ",\"").append(key).append("\":\"");
+      for (char c : value) {
+        if (c == '"' || c == '\\') out.push_back('\\');
+        out.push_back(c);
+      }
+      out.push_back('"');
+    };
+    field("name", name), field("library", library), field("version", version);
+    field("settings", settings), field("source", source);
+    char numbers[120];
+    std::snprintf(numbers, sizeof numbers, ",\"unit_roundoff\":%.17g,\"tau_factor\":%.17g", unit_roundoff,
+                  tau_factor);
+    return out.append(numbers).append(complete_manifolds ? ",\"complete_manifolds\":true}" : "}");
+  }
+};
+
+/// τ of every oracle is this many unit roundoffs of its arithmetic times L, plus what its documentation
+/// claims. About 60 roundings lie between a pose and an answer of these engines; the factor of 4 on top keeps
+/// honest rounding out of the findings, and every known defect is larger by orders of magnitude.
+inline constexpr double oracle_tau_factor = 256;
+
+inline void set_detail(ts_answer& out, const std::string& text) {
+  const std::size_t n = std::min(text.size(), sizeof out.detail - 1);
+  std::memcpy(out.detail, text.data(), n);
+  out.detail[n] = 0;
+}
+
+inline Vec3 vec3(const double* p) { return {p[0], p[1], p[2]}; }
+inline void store(const Vec3& v, double* out) { std::copy_n(v.data(), 3, out); }
+inline Pose pose_of(const ts_pose& p) {
+  return {vec3(p.translation), {p.rotation[0], p.rotation[1], p.rotation[2], p.rotation[3]}};
+}
+inline Motion motion_of(const ts_body& b) {
+  return b.has_motion ? Motion{vec3(b.linear), vec3(b.angular)} : Motion{};
+}
+
+inline void set_overlap(ts_answer& out, bool overlap) { out.has |= TS_HAS_OVERLAP, out.overlap = overlap; }
+inline void set_distance(ts_answer& out, double d) { out.has |= TS_HAS_DISTANCE, out.distance = d; }
+inline void set_points(ts_answer& out, const Vec3& a, const Vec3& b) {
+  out.has |= TS_HAS_POINTS;
+  store(a, out.point_a), store(b, out.point_b);
+}
+inline void set_normal(ts_answer& out, const Vec3& n) { out.has |= TS_HAS_NORMAL, store(n, out.normal); }
+inline void set_depth(ts_answer& out, double d) { out.has |= TS_HAS_DEPTH, out.depth = d; }
+/// The depth of a manifold point whose own normal is `n`, in an answer that states `stated`: along another
+/// normal it is none of this answer's.
+inline double depth_along(const Vec3& stated, const Vec3& n, double depth) {
+  constexpr double same = 1e-6;
+  return (n - stated).norm() <= same ? depth : std::numeric_limits<double>::quiet_NaN();
+}
+inline void set_toi(ts_answer& out, double t) { out.has |= TS_HAS_TOI, out.toi = t; }
+
+/// Pairs that a user of the engine would filter: of one group, or listed.
+class PairFilter {
+ public:
+  PairFilter() = default;
+  explicit PairFilter(const ts_scene& scene) : scene_(&scene) {
+    for (std::size_t i = 0; i < scene.ignored_count; ++i)
+      ignored_.emplace_back(scene.ignored[2 * i], scene.ignored[2 * i + 1]);
+    std::sort(ignored_.begin(), ignored_.end());
+  }
+  bool drops(int a, int b) const {
+    const int ga = scene_->bodies[a].group, gb = scene_->bodies[b].group;
+    return (ga >= 0 && ga == gb) || std::binary_search(ignored_.begin(), ignored_.end(),
+                                                       std::pair<int, int>(std::min(a, b), std::max(a, b)));
+  }
+
+ private:
+  const ts_scene* scene_ = nullptr;
+  std::vector<std::pair<int, int>> ignored_;
+};
+
+/// The host's TS_ABI_MINOR; 0 when it is too old to say so.
+inline std::uint32_t host_minor = 0;
+
+/// The engine holds `held` in place of the scene's shape `index`. A host that cannot be told takes the shape
+/// as asked.
+inline void report_other_shape(const ts_received& to, int index, const ts_shape& held) {
+  if (host_minor >= 1) to.other_shape(to.ctx, index, &held);
+}
+
+template <class Engine>
+struct Table {
+  static const std::vector<std::string>& cards() {
+    static const std::vector<std::string> all = [] {
+      std::vector<std::string> texts;
+      for (const CardText& c : Engine::cards()) texts.push_back(c.json());
+      return texts;
+    }();
+    return all;
+  }
+  static const char* card(std::uint32_t i) { return i < cards().size() ? cards()[i].c_str() : nullptr; }
+  static ts_engine* create(std::uint32_t i) {
+    return i < cards().size() ? reinterpret_cast<ts_engine*>(new Engine(i)) : nullptr;
+  }
+  static Engine& self(ts_engine* e) { return *reinterpret_cast<Engine*>(e); }
+  static void destroy(ts_engine* e) { delete &self(e); }
+  static void unload(ts_engine* e) { self(e).unload(); }
+  static std::int32_t load(ts_engine* e, const ts_scene* scene, const ts_received* received, char* detail) {
+    try {
+      self(e).load(*scene, *received);
+      return TS_ANSWERED;
+    } catch (const Unsupported& why) {
+      std::snprintf(detail, 256, "%s", why.what());
+      return TS_UNSUPPORTED;
+    } catch (const std::exception& why) {
+      std::snprintf(detail, 256, "%s", why.what());
+      return TS_THREW;
+    }
+  }
+  static void ask(ts_engine* e, std::int32_t question, std::int32_t a, std::int32_t b, ts_answer* out,
+                  const ts_sink* sink) {
+    try {
+      out->outcome = TS_ANSWERED;
+      self(e).ask(static_cast<ts_question>(question), a, b, *out, *sink);
+    } catch (const Unsupported& why) {
+      out->outcome = TS_UNSUPPORTED, out->has = 0;
+      set_detail(*out, why.what());
+    } catch (const std::exception& why) {
+      out->outcome = TS_THREW, out->has = 0;
+      set_detail(*out, why.what());
+    }
+  }
+  static const ts_plugin* plugin() {
+    static const ts_plugin table{
+        TS_ABI_VERSION, static_cast<std::uint32_t>(cards().size()), card, create, destroy, load, unload, ask};
+    return &table;
+  }
+};
+
+}  // namespace touchstone::kit
+
+#define TS_PLUGIN(Engine)                                                                          \
+  extern "C" void touchstone_host_v1(std::uint32_t minor) { touchstone::kit::host_minor = minor; } \
+  extern "C" const ts_plugin* touchstone_plugin_v1(void) { return touchstone::kit::Table<Engine>::plugin(); }

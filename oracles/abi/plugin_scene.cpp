@@ -1,0 +1,284 @@
+#include "oracles/abi/plugin_scene.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <string>
+#include <utility>
+
+namespace touchstone {
+namespace {
+
+constexpr double nan_value = std::numeric_limits<double>::quiet_NaN();
+
+void copy3(const Vec3& v, double* out) { std::copy_n(v.data(), 3, out); }
+Vec3 vec3(const double* p) { return {p[0], p[1], p[2]}; }
+
+struct Sizes {
+  double* size;
+  void operator()(const Sphere& s) const { size[0] = s.radius; }
+  void operator()(const Box& s) const { copy3(s.half_extents, size); }
+  void operator()(const Capsule& s) const { size[0] = s.radius, size[1] = s.half_height; }
+  void operator()(const Cylinder& s) const { size[0] = s.radius, size[1] = s.half_height; }
+  void operator()(const Cone& s) const { size[0] = s.radius, size[1] = s.half_height; }
+  void operator()(const Ellipsoid& s) const { copy3(s.semi_axes, size); }
+  void operator()(const HalfSpace& s) const { copy3(s.normal, size), size[3] = s.offset; }
+  void operator()(const Hull&) const {}
+  void operator()(const TriangleMesh&) const {}
+};
+
+struct FromSizes {
+  const double* size;
+  void operator()(Sphere& s) const { s.radius = size[0]; }
+  void operator()(Box& s) const { s.half_extents = vec3(size); }
+  void operator()(Capsule& s) const { s.radius = size[0], s.half_height = size[1]; }
+  void operator()(Cylinder& s) const { s.radius = size[0], s.half_height = size[1]; }
+  void operator()(Cone& s) const { s.radius = size[0], s.half_height = size[1]; }
+  void operator()(Ellipsoid& s) const { s.semi_axes = vec3(size); }
+  void operator()(HalfSpace& s) const { s.normal = vec3(size), s.offset = size[3]; }
+  void operator()(Hull&) const {}
+  void operator()(TriangleMesh&) const {}
+};
+
+static_assert(sizeof(std::array<int, 3>) == 3 * sizeof(std::int32_t));
+
+void point_at(const std::vector<std::array<int, 3>>& triangles, ts_shape& out) {
+  out.triangles = triangles.empty() ? nullptr : triangles.front().data();
+  out.triangle_count = triangles.size();
+}
+
+std::vector<double> flat(const std::vector<Vec3>& points) {
+  std::vector<double> out;
+  out.reserve(3 * points.size());
+  for (const Vec3& p : points) out.insert(out.end(), {p.x(), p.y(), p.z()});
+  return out;
+}
+
+ts_pose to_abi(const Pose& p) {
+  ts_pose out;
+  copy3(p.translation, out.translation);
+  out.rotation[0] = p.rotation.x, out.rotation[1] = p.rotation.y;
+  out.rotation[2] = p.rotation.z, out.rotation[3] = p.rotation.w;
+  return out;
+}
+
+ts_body to_abi(const Body& b) {
+  ts_body out{};
+  out.shape = b.shape;
+  out.is_static = b.is_static;
+  out.has_motion = b.motion.has_value();
+  out.group = b.group;
+  out.pose = to_abi(b.pose);
+  if (b.motion) copy3(b.motion->linear, out.linear), copy3(b.motion->angular, out.angular);
+  return out;
+}
+
+const std::vector<Vec3>* vertices_of(const Shape& s) {
+  if (const auto* h = std::get_if<Hull>(&s)) return &h->vertices;
+  if (const auto* m = std::get_if<TriangleMesh>(&s)) return &m->vertices;
+  return nullptr;
+}
+
+/// Rounded vertices are another hull: its faces and dimension are its own. Coordinates that overflowed to
+/// infinity are kept as they are, without faces; no hull has them.
+Shape with_vertices(const Shape& asked, std::vector<Vec3> vertices) {
+  if (*vertices_of(asked) == vertices) return asked;
+  if (std::holds_alternative<TriangleMesh>(asked)) {
+    TriangleMesh m = std::get<TriangleMesh>(asked);
+    m.vertices = std::move(vertices);
+    return m;
+  }
+  const bool finite =
+      std::all_of(vertices.begin(), vertices.end(), [](const Vec3& v) { return v.allFinite(); });
+  if (finite) return make_hull(std::move(vertices));
+  Hull h;
+  h.vertices = std::move(vertices);
+  return h;
+}
+
+std::vector<Vec3> points_from(const double* p, std::size_t count) {
+  std::vector<Vec3> points;
+  points.reserve(count);
+  for (std::size_t k = 0; k < count; ++k) points.push_back(vec3(p + 3 * k));
+  return points;
+}
+
+template <std::size_t... I>
+Shape empty_shape(std::size_t kind, std::index_sequence<I...>) {
+  Shape s;
+  ((kind == I ? static_cast<void>(s.emplace<I>()) : static_cast<void>(0)), ...);
+  return s;
+}
+
+/// The shape that a plug-in describes; nothing when it is none.
+std::optional<Shape> shape_from(const ts_shape& t) {
+  constexpr std::size_t kinds = std::variant_size_v<Shape>;
+  if (t.kind < 0 || static_cast<std::size_t>(t.kind) >= kinds) return std::nullopt;
+  Shape s = empty_shape(static_cast<std::size_t>(t.kind), std::make_index_sequence<kinds>{});
+  std::visit(FromSizes{t.size}, s);
+  if (!vertices_of(s)) return s;
+  if (!t.vertices || t.vertex_count == 0) return std::nullopt;
+  std::vector<Vec3> points = points_from(t.vertices, t.vertex_count);
+  if (std::holds_alternative<Hull>(s)) {
+    Hull none;
+    none.vertices = {Vec3::Zero()};
+    return with_vertices(none, std::move(points));
+  }
+  TriangleMesh m{std::move(points), {}};
+  for (std::size_t k = 0; k < t.triangle_count; ++k) {
+    const std::int32_t* c = t.triangles + 3 * k;
+    for (int i = 0; i < 3; ++i)
+      if (c[i] < 0 || static_cast<std::size_t>(c[i]) >= t.vertex_count) return std::nullopt;
+    m.triangles.push_back({c[0], c[1], c[2]});
+  }
+  return m;
+}
+
+}  // namespace
+
+PluginScene::PluginScene(const Scene& scene) {
+  vertices_.reserve(scene.shapes.size());
+  for (const Shape& s : scene.shapes) {
+    ts_shape out{};
+    out.kind = static_cast<std::int32_t>(s.index());
+    std::visit(Sizes{out.size}, s);
+    if (const std::vector<Vec3>* v = vertices_of(s)) {
+      vertices_.push_back(flat(*v));
+      out.vertices = vertices_.back().data();
+      out.vertex_count = v->size();
+    }
+    if (const auto* h = std::get_if<Hull>(&s)) point_at(h->faces, out), out.dimension = h->dimension;
+    if (const auto* m = std::get_if<TriangleMesh>(&s)) point_at(m->triangles, out);
+    shapes_.push_back(out);
+  }
+  for (const Body& b : scene.bodies) bodies_.push_back(to_abi(b));
+  for (const Step& step : effective_script(scene)) {
+    ts_step out{};
+    out.op = static_cast<std::int32_t>(step.op);
+    out.body = step.body;
+    if (step.op != Step::Op::query)
+      out.pose = to_abi(step.pose ? *step.pose : scene.bodies[static_cast<std::size_t>(step.body)].pose);
+    steps_.push_back(out);
+  }
+  for (auto [a, b] : scene.ignored) ignored_.insert(ignored_.end(), {a, b});
+  view_ = {shapes_.data(), shapes_.size(), bodies_.data(),  bodies_.size(),
+           steps_.data(),  steps_.size(),  ignored_.data(), scene.ignored.size()};
+}
+
+ReceivedCollector::ReceivedCollector(const Scene& scene) : scene_(scene) {
+  received_.shapes.resize(scene.shapes.size());
+  received_.bodies.resize(scene.bodies.size());
+}
+
+// The callbacks are noexcept: an exception must not travel through a plug-in written in C.
+ts_received ReceivedCollector::callbacks() {
+  return {this,
+          [](void* ctx, std::int32_t i, const double size[4], const double* vertices,
+             std::size_t n) noexcept { static_cast<ReceivedCollector*>(ctx)->shape(i, size, vertices, n); },
+          [](void* ctx, std::int32_t i, const double matrix[9], const double translation[3]) noexcept {
+            static_cast<ReceivedCollector*>(ctx)->body(i, matrix, translation);
+          },
+          [](void* ctx, std::int32_t i, const ts_shape* held) noexcept {
+            static_cast<ReceivedCollector*>(ctx)->other_shape(i, *held);
+          }};
+}
+
+void ReceivedCollector::shape(int index, const double* size, const double* vertices,
+                              std::size_t vertex_count) {
+  if (index < 0 || static_cast<std::size_t>(index) >= scene_.shapes.size()) {
+    ++rejected_;
+    return;
+  }
+  const auto i = static_cast<std::size_t>(index);
+  const Shape& asked = scene_.shapes[i];
+  if (const std::vector<Vec3>* v = vertices_of(asked)) {
+    const bool is_hull = std::holds_alternative<Hull>(asked);
+    if (!vertices || vertex_count == 0 || (!is_hull && vertex_count != v->size())) {
+      ++rejected_;
+      return;
+    }
+    received_.shapes[i] = with_vertices(asked, points_from(vertices, vertex_count));
+    return;
+  }
+  Shape s = asked;
+  std::visit(FromSizes{size}, s);
+  received_.shapes[i] = std::move(s);
+}
+
+void ReceivedCollector::other_shape(int index, const ts_shape& held) {
+  const bool exists = index >= 0 && static_cast<std::size_t>(index) < scene_.shapes.size();
+  std::optional<Shape> s = exists ? shape_from(held) : std::nullopt;
+  if (s)
+    received_.shapes[static_cast<std::size_t>(index)] = std::move(s);
+  else
+    ++rejected_;
+}
+
+void ReceivedCollector::body(int index, const double* matrix, const double* translation) {
+  if (index < 0 || static_cast<std::size_t>(index) >= scene_.bodies.size()) {
+    ++rejected_;
+    return;
+  }
+  Placement p;
+  for (int r = 0; r < 3; ++r) p.matrix.row(r) = vec3(matrix + 3 * r);
+  p.translation = vec3(translation);
+  received_.bodies[static_cast<std::size_t>(index)] = p;
+}
+
+AnswerCollector::AnswerCollector(int body_count, int query_step_count) : bodies_(body_count), answer_{} {
+  answer_.outcome = TS_UNSUPPORTED;
+  answer_.distance = answer_.depth = answer_.toi = nan_value;
+  for (double* v : {answer_.point_a, answer_.point_b, answer_.normal}) std::fill_n(v, 3, nan_value);
+  seen_.candidate_pairs.resize(static_cast<std::size_t>(query_step_count));
+}
+
+ts_sink AnswerCollector::callbacks() {
+  return {this,
+          [](void* ctx, const double position[3], double depth) noexcept {
+            static_cast<AnswerCollector*>(ctx)->seen_.manifold.push_back({vec3(position), depth});
+          },
+          [](void* ctx, std::int32_t k, std::int32_t a, std::int32_t b) noexcept {
+            auto& c = *static_cast<AnswerCollector*>(ctx);
+            const bool good =
+                c.is_pair(a, b) && k >= 0 && static_cast<std::size_t>(k) < c.seen_.candidate_pairs.size();
+            if (!good)
+              c.fault_ = "names a candidate pair or a query step that does not exist";
+            else
+              c.seen_.candidate_pairs[static_cast<std::size_t>(k)].push_back(std::minmax(a, b));
+          },
+          [](void* ctx, std::int32_t a, std::int32_t b, const double normal[3], double depth) noexcept {
+            auto& c = *static_cast<AnswerCollector*>(ctx);
+            const Vec3 n = vec3(normal);
+            if (!c.is_pair(a, b))
+              c.fault_ = "names a contact of bodies that do not exist";
+            else
+              c.seen_.contacts.push_back({std::min(a, b), std::max(a, b), a < b ? n : Vec3(-n), depth});
+          }};
+}
+
+Observation AnswerCollector::take(Question question) {
+  Observation o = std::move(seen_);
+  const ts_answer& a = answer_;
+  o.detail.assign(a.detail, strnlen(a.detail, sizeof a.detail));
+  if (a.outcome < TS_ANSWERED || a.outcome > TS_THREW) fault_ = "has an outcome that does not exist";
+  if (fault_) {
+    Observation broken;
+    broken.outcome = Outcome::invalid_answer;
+    broken.detail = std::string("the answer ") + fault_;
+    return broken;
+  }
+  o.outcome = static_cast<Outcome>(a.outcome);
+  if (a.has & TS_HAS_OVERLAP) o.overlap = a.overlap != 0;
+  if (a.has & TS_HAS_DISTANCE) o.distance = a.distance;
+  if (a.has & TS_HAS_POINTS) o.witness = {vec3(a.point_a), vec3(a.point_b)};
+  if (a.has & TS_HAS_NORMAL) o.normal = vec3(a.normal);
+  if (a.has & TS_HAS_DEPTH) o.depth = a.depth;
+  if (a.has & TS_HAS_TOI) o.toi = a.toi;
+  if (std::isfinite(a.claimed_tolerance) && a.claimed_tolerance > 0)
+    o.claimed_tolerance = a.claimed_tolerance;
+  if (!is_broad_question(question) || o.outcome != Outcome::answered) o.candidate_pairs.clear();
+  return o;
+}
+
+}  // namespace touchstone

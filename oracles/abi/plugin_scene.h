@@ -1,0 +1,69 @@
+// A Scene in the form of the C ABI, and what a plug-in reports through the ABI's callbacks in the project's
+// own types.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "core/scene/scene.h"
+#include "oracles/abi/touchstone_engine.h"
+#include "scenarios/value/observation.h"
+
+namespace touchstone {
+
+/// Owns the arrays that `view()` points into; the scene itself must outlive it.
+class PluginScene {
+ public:
+  explicit PluginScene(const Scene& scene);
+  PluginScene(const PluginScene&) = delete;
+  PluginScene& operator=(const PluginScene&) = delete;
+  const ts_scene& view() const { return view_; }
+
+ private:
+  ts_scene view_{};
+  std::vector<ts_shape> shapes_;
+  std::vector<ts_body> bodies_;
+  std::vector<ts_step> steps_;
+  std::vector<std::int32_t> ignored_;
+  std::vector<std::vector<double>> vertices_;
+};
+
+/// Collects what a plug-in says it received. Reports about shapes or bodies that do not exist, and of shapes
+/// that are none, are dropped and counted.
+class ReceivedCollector {
+ public:
+  explicit ReceivedCollector(const Scene& scene);
+  ts_received callbacks();
+  ReceivedScene take() { return std::move(received_); }
+  int rejected() const { return rejected_; }
+
+ private:
+  void shape(int index, const double* size, const double* vertices, std::size_t vertex_count);
+  void other_shape(int index, const ts_shape& held);
+  void body(int index, const double* matrix, const double* translation);
+  const Scene& scene_;
+  ReceivedScene received_;
+  int rejected_ = 0;
+};
+
+/// Collects one answer: the ABI's record, and the lists that come through the sink.
+class AnswerCollector {
+ public:
+  AnswerCollector(int body_count, int query_step_count);
+  ts_sink callbacks();
+  ts_answer& answer() { return answer_; }
+  /// The answer as an observation; an answer that is none (unknown outcome, a body that does not exist) is
+  /// `invalid_answer`.
+  Observation take(Question question);
+
+ private:
+  bool is_pair(int a, int b) const { return a >= 0 && b >= 0 && a < bodies_ && b < bodies_ && a != b; }
+  int bodies_;
+  ts_answer answer_;
+  Observation seen_;
+  const char* fault_ = nullptr;
+};
+
+}  // namespace touchstone

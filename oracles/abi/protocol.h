@@ -1,0 +1,91 @@
+// What harness and worker say to each other over two byte streams. A frame is a header of 16 bytes (magic,
+// version, type, payload length, zero) and a payload; all numbers little-endian, doubles by their bits. Every
+// decoder throws Malformed on anything that is not exactly a message.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "oracles/abi/bytes.h"
+#include "scenarios/value/observation.h"
+
+namespace touchstone::protocol {
+
+inline constexpr std::uint16_t version = 1;
+/// A frame longer than this is rubbish by definition.
+inline constexpr std::uint32_t max_payload_bytes = std::uint32_t{1} << 30;
+
+enum class Type : std::uint16_t { hello = 1, question = 2, received = 3, answer = 4 };
+
+struct Frame {
+  Type type;
+  std::string_view payload;  // into the FrameReader; valid until its next append()
+};
+
+/// Cuts a byte stream into frames. Memory grows with the bytes that arrived, never with a length that was
+/// announced.
+class FrameReader {
+ public:
+  void append(const char* data, std::size_t n);
+  /// The next whole frame, or none yet. Throws Malformed on a bad header.
+  std::optional<Frame> next();
+
+ private:
+  std::string buffer_;
+  std::size_t begin_ = 0;
+};
+
+/// Worker → harness, once: what the plug-in offers, and which engine this worker serves; or why it cannot.
+struct Hello {
+  std::vector<std::string> cards;  // JSON
+  std::int32_t chosen = -1;        // index into cards; -1: cards only
+  std::string error;               // not empty: the plug-in cannot be used, and this is why
+  std::string sandbox{};           // what of it is in force, in words
+  bool operator==(const Hello&) const = default;
+};
+
+/// Harness → worker. `sequence` is echoed; queries before `first_query` are not asked.
+struct QuestionRef {
+  std::uint64_t sequence;
+  std::uint32_t first_query;
+  const Scene& scene;
+  std::span<const Query> queries;
+  std::uint8_t fill = 0;  // what memory that the engine has not written yet is filled with
+};
+struct QuestionMessage {
+  std::uint64_t sequence = 0;
+  std::uint32_t first_query = 0;
+  Scene scene;  // names and ids left out
+  std::vector<Query> queries;
+  std::uint8_t fill = 0;
+};
+
+/// Worker → harness after loading, before the first query.
+struct ReceivedMessage {
+  std::uint64_t sequence = 0;
+  ReceivedScene scene;
+};
+
+struct AnswerMessage {
+  std::uint64_t sequence = 0;
+  std::uint32_t query = 0;
+  Observation observation;
+};
+
+// Each appends one whole frame to `out`.
+void append(std::string& out, const Hello& m);
+void append(std::string& out, const QuestionRef& m);
+void append(std::string& out, const ReceivedMessage& m);
+void append(std::string& out, const AnswerMessage& m);
+
+Hello decode_hello(std::string_view payload);
+QuestionMessage decode_question(std::string_view payload);
+/// `scene`: the one that was sent; a message about another number of shapes or bodies is malformed.
+ReceivedMessage decode_received(std::string_view payload, const Scene& scene);
+AnswerMessage decode_answer(std::string_view payload);
+
+}  // namespace touchstone::protocol

@@ -1,0 +1,18 @@
+# find_package(touchstone): the door for an engine of one's own.
+#   touchstone::engine               the header of the C ABI (oracles/abi/touchstone_engine.h)
+#   touchstone_add_plugin(name sources...)   a plug-in, lib<name>.so
+#   TOUCHSTONE_PROGRAM               the program, for instance for add_test(COMMAND ${TOUCHSTONE_PROGRAM} certify ...)
+get_filename_component(touchstone_prefix "${CMAKE_CURRENT_LIST_DIR}/../../.." ABSOLUTE)
+set(TOUCHSTONE_PROGRAM "${touchstone_prefix}/bin/touchstone")
+if(NOT TARGET touchstone::engine)
+  add_library(touchstone::engine INTERFACE IMPORTED)
+  set_target_properties(touchstone::engine PROPERTIES INTERFACE_INCLUDE_DIRECTORIES "${touchstone_prefix}/include")
+endif()
+function(touchstone_add_plugin name)
+  add_library(${name} MODULE ${ARGN})
+  target_link_libraries(${name} PRIVATE touchstone::engine)
+  set_target_properties(${name} PROPERTIES PREFIX lib SUFFIX .so)
+  if(UNIX)
+    target_link_libraries(${name} PRIVATE m)
+  endif()
+endfunction()

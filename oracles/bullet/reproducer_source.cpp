@@ -1,0 +1,340 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "core/base/input_error.h"
+#include "oracles/reproducer/engine_source.h"
+#include "oracles/reproducer/source_text.h"
+
+namespace touchstone::fuzz {
+namespace {
+
+std::string scalar(double x) { return fmt::format("btScalar({})", literal(x)); }
+// Of a broad phase alone: its declaration; empty for any other engine.
+std::string phase_of(const Asked& q);
+
+std::string vector(const Vec3& v) {
+  return fmt::format("btVector3({}, {}, {})", scalar(v.x()), scalar(v.y()), scalar(v.z()));
+}
+std::string transform(const Pose& p) {
+  const Quat q = normalized(p.rotation);
+  return fmt::format("btTransform(btQuaternion({}, {}, {}, {}), {})", scalar(q.x), scalar(q.y), scalar(q.z),
+                     scalar(q.w), vector(p.translation));
+}
+
+// Statements that make `shape_<i>`; its margin is set last, but a hull's first, so that its box is computed
+// with it.
+struct Maker {
+  std::size_t i;
+  bool tuned;
+  std::string plain(const std::string& type, const std::string& arguments, bool margin = true) const {
+    return fmt::format("  {0} shape_{1}({2});\n{3}", type, i, arguments,
+                       tuned && margin ? fmt::format("  shape_{}.setMargin(0);\n", i) : "");
+  }
+  std::string operator()(const Sphere& s) const { return plain("btSphereShape", scalar(s.radius), false); }
+  std::string operator()(const Capsule& s) const {
+    return plain("btCapsuleShapeZ", scalar(s.radius) + ", 2 * " + scalar(s.half_height), false);
+  }
+  std::string operator()(const Box& s) const { return plain("btBoxShape", vector(s.half_extents)); }
+  std::string operator()(const Cylinder& s) const {
+    return plain("btCylinderShapeZ", vector({s.radius, s.radius, s.half_height}));
+  }
+  std::string operator()(const Cone& s) const {
+    return plain("btConeShapeZ", scalar(s.radius) + ", 2 * " + scalar(s.half_height));
+  }
+  std::string operator()(const HalfSpace& s) const {
+    const double length = s.normal.stableNorm();
+    return plain("btStaticPlaneShape", vector(s.normal / length) + ", " + scalar(s.offset / length));
+  }
+  std::string operator()(const Hull& s) const {
+    std::string out = fmt::format("  btConvexHullShape shape_{};\n", i);
+    if (tuned) out += fmt::format("  shape_{}.setMargin(0);\n", i);
+    for (const Vec3& v : s.vertices) out += fmt::format("  shape_{}.addPoint({}, false);\n", i, vector(v));
+    return out + fmt::format("  shape_{}.recalcLocalAabb();\n", i);
+  }
+  std::string operator()(const TriangleMesh& s) const {
+    std::string out = fmt::format("  btTriangleMesh triangles_{};\n", i);
+    for (const auto& t : s.triangles) {
+      const auto corner = [&](std::size_t k) { return vector(s.vertices[static_cast<std::size_t>(t[k])]); };
+      out += fmt::format(
+          "  triangles_{}.addTriangle({},\n                           {},\n                           {});\n",
+          i, corner(0), corner(1), corner(2));
+    }
+    return out + plain("btBvhTriangleMeshShape", fmt::format("&triangles_{}, true", i));
+  }
+  std::string operator()(const Ellipsoid&) const { throw InputError("reproduce", "Bullet has no ellipsoid"); }
+};
+
+constexpr std::string_view helpers =
+    R"([[maybe_unused]] Vec vec(const btVector3& v) { return {double(v.x()), double(v.y()), double(v.z())}; }
+
+struct World {
+  btDefaultCollisionConfiguration configuration;
+  btCollisionDispatcher dispatcher{&configuration};
+  btDbvtBroadphase broadphase;
+  btCollisionWorld world{&dispatcher, &broadphase, &configuration};
+};
+
+// Bullet's normal points from its body 1 to its body 0; here from A to B.
+[[maybe_unused]] void take(Answer& x, const btManifoldPoint& p, bool swapped) {
+  const double distance = p.getDistance();
+  if (distance <= 0) x.points.push_back(vec(swapped ? p.getPositionWorldOnA() : p.getPositionWorldOnB()));
+  if (distance >= x.distance) return;
+  x.distance = distance;
+  x.overlap = distance <= 0;
+  x.depth = -distance;
+  x.normal = vec(swapped ? p.m_normalWorldOnB : -p.m_normalWorldOnB);
+  x.on_a = vec(swapped ? p.getPositionWorldOnB() : p.getPositionWorldOnA());
+  x.on_b = vec(swapped ? p.getPositionWorldOnA() : p.getPositionWorldOnB());
+}
+
+)";
+
+constexpr std::string_view query_helper = R"(struct Collect : btCollisionWorld::ContactResultCallback {
+  Answer x;
+  const btCollisionObject* a = nullptr;
+  btScalar addSingleResult(btManifoldPoint& p, const btCollisionObjectWrapper* zero, int, int,
+                           const btCollisionObjectWrapper*, int, int) override {
+    take(x, p, zero->getCollisionObject() != a);
+    return 0;
+  }
+};
+
+Answer query(btCollisionWorld& world, btCollisionObject& a, btCollisionObject& b) {
+  Collect collect;
+  collect.a = &a;
+  collect.m_closestDistanceThreshold = @THRESHOLD@;
+  world.contactPairTest(&a, &b, collect);
+  return collect.x;
+}
+
+)";
+
+constexpr std::string_view simulate = R"(  w.world.performDiscreteCollisionDetection();
+  for (int i = 0; i < w.dispatcher.getNumManifolds(); ++i) {
+    const btPersistentManifold& m = *w.dispatcher.getManifoldByIndexInternal(i);
+    const bool straight = m.getBody0() == &object_@A@ && m.getBody1() == &object_@B@;
+    const bool swapped = m.getBody0() == &object_@B@ && m.getBody1() == &object_@A@;
+    for (int k = 0; (straight || swapped) && k < m.getNumContacts(); ++k) take(x, m.getContactPoint(k), swapped);
+  }
+)";
+
+constexpr std::string_view find_pair = R"(  w.world.updateAabbs();
+  w.world.computeOverlappingPairs();
+  {
+    const btBroadphasePairArray& pairs = w.world.getPairCache()->getOverlappingPairArray();
+    found = false;
+    for (int i = 0; i < pairs.size(); ++i) {
+      const void* one = pairs[i].m_pProxy0->m_clientObject;
+      const void* two = pairs[i].m_pProxy1->m_clientObject;
+      found = found || (one == &object_@A@ && two == &object_@B@) || (one == &object_@B@ && two == &object_@A@);
+    }
+  }
+)";
+
+std::string with_names(std::string_view text, const Asked& q) {
+  return filled(text, {{"A", std::to_string(q.a)}, {"B", std::to_string(q.b)}});
+}
+
+std::string object(const Asked& q, int i) {
+  return fmt::format(
+      "  btCollisionObject object_{0};\n  object_{0}.setCollisionShape(&shape_{1});\n"
+      "  object_{0}.setWorldTransform({2});\n",
+      i, q.body(i).shape, transform(q.body(i).pose));
+}
+
+std::string shapes_of(const Asked& q, const std::vector<int>& bodies) {
+  std::string out;
+  std::vector<int> made;
+  for (const int i : bodies) {
+    const int s = q.body(i).shape;
+    if (std::find(made.begin(), made.end(), s) != made.end()) continue;
+    made.push_back(s);
+    out += std::visit(Maker{static_cast<std::size_t>(s), q.tuned() || !phase_of(q).empty()},
+                      q.scene.shapes[static_cast<std::size_t>(s)]);
+  }
+  return out;
+}
+
+bool is_sim(const Asked& q) { return q.engine.find("-sim") != std::string_view::npos; }
+
+std::string pair_question(const Asked& q) {
+  std::string out = shapes_of(q, {q.a, q.b}) + object(q, q.a) + object(q, q.b);
+  if (is_sim(q))
+    return out +
+           fmt::format(
+               "  w.world.addCollisionObject(&object_{});\n  w.world.addCollisionObject(&object_{});\n", q.a,
+               q.b) +
+           with_names(simulate, q) +
+           fmt::format(
+               "  w.world.removeCollisionObject(&object_{});\n  w.world.removeCollisionObject(&object_{});\n",
+               q.a, q.b);
+  return out + fmt::format("  x = query(w.world, object_{}, object_{});\n", q.a, q.b);
+}
+
+// One body is swept against the other at rest, as the adapter does: the one that turns, or the convex one.
+std::string impact(const Asked& q) {
+  const auto motion = [&](int i) { return q.body(i).motion.value_or(Motion{}); };
+  const bool sweep_b = !motion(q.b).angular.isZero(0) || !has_support(q.scene.shape_of(q.a));
+  const int mover = sweep_b ? q.b : q.a, target = sweep_b ? q.a : q.b;
+  Motion relative = motion(mover);
+  relative.linear -= motion(target).linear;
+  const Pose start = q.body(mover).pose;
+  return shapes_of(q, {q.a, q.b}) + object(q, target) +
+         fmt::format(R"(  w.world.addCollisionObject(&object_{0});
+  const btTransform from = {1};
+  const btTransform to = {2};
+  btCollisionWorld::ClosestConvexResultCallback closest(from.getOrigin(), to.getOrigin());
+  w.world.convexSweepTest(&shape_{3}, from, to, closest);
+  w.world.removeCollisionObject(&object_{0});
+  if (closest.hasHit()) x.impact = closest.m_closestHitFraction;
+)",
+                     target, transform(start), transform(pose_at(start, relative, 1)), q.body(mover).shape);
+}
+
+std::string all_objects(const Asked& q) {
+  std::vector<int> bodies;
+  for (std::size_t i = 0; i < q.scene.bodies.size(); ++i) bodies.push_back(static_cast<int>(i));
+  std::string out = shapes_of(q, bodies);
+  for (const int i : bodies) out += object(q, i);
+  return out;
+}
+
+std::string candidates(const Asked& q) {
+  std::string out = all_objects(q) + "  bool found = false;\n";
+  std::vector<bool> present(q.scene.bodies.size());
+  int k = 0;
+  for (const Step& s : effective_script(q.scene)) {
+    if (s.op == Step::Op::insert || s.op == Step::Op::move)
+      out += fmt::format("  object_{}.setWorldTransform({});\n", s.body,
+                         transform(s.pose.value_or(q.body(s.body).pose)));
+    if (s.op == Step::Op::insert) out += fmt::format("  w.world.addCollisionObject(&object_{});\n", s.body);
+    if (s.op == Step::Op::remove)
+      out += fmt::format("  w.world.removeCollisionObject(&object_{});\n", s.body);
+    if (s.op != Step::Op::query) {
+      present[static_cast<std::size_t>(s.body)] = s.op != Step::Op::remove;
+      continue;
+    }
+    out += with_names(find_pair, q);
+    if (k++ == q.step) break;
+  }
+  for (std::size_t i = 0; i < present.size(); ++i)
+    if (present[i]) out += fmt::format("  w.world.removeCollisionObject(&object_{});\n", i);
+  return out + "  x.overlap = found;\n";
+}
+
+std::string scene_contacts(const Asked& q) {
+  std::string out = all_objects(q);
+  for (std::size_t i = 0; i < q.scene.bodies.size(); ++i)
+    out += fmt::format("  w.world.addCollisionObject(&object_{});\n", i);
+  if (is_sim(q))
+    out += with_names(simulate, q);
+  else
+    out += "  bool found = false;\n" + with_names(find_pair, q) +
+           fmt::format("  if (found) x = query(w.world, object_{}, object_{});\n", q.a, q.b);
+  for (std::size_t i = 0; i < q.scene.bodies.size(); ++i)
+    out += fmt::format("  w.world.removeCollisionObject(&object_{});\n", i);
+  return out;
+}
+
+// The broad phases alone, by the names under which they are certified.
+constexpr std::string_view phase_head = R"(  btDefaultCollisionConfiguration configuration;
+  btCollisionDispatcher dispatcher(&configuration);
+  @PHASE@;
+  btBroadphaseProxy* proxy[@COUNT@] = {};
+  int number[@COUNT@] = {};
+  [[maybe_unused]] const auto box_of = [](const btCollisionShape& shape, const btTransform& at, btVector3& lo, btVector3& hi) {
+    shape.getAabb(at, lo, hi);
+  };
+  // An upright box has no need of its shape's margin.
+  [[maybe_unused]] const auto corners = [](const btVector3& h, const btTransform& at, btVector3& lo, btVector3& hi) {
+    lo = at.getOrigin() - h, hi = at.getOrigin() + h;
+  };
+)";
+
+std::string phase_of(const Asked& q) {
+  const std::string name(q.engine.substr(std::string_view("bullet-f64-").size()));
+  const std::string world = "btVector3(-1000, -1000, -1000), btVector3(1000, 1000, 1000), 16384";
+  if (name == "dbvt") return "btDbvtBroadphase phase";
+  if (name == "axis-sweep") return "btAxisSweep3 phase(" + world + ")";
+  if (name == "axis-sweep-32") return "bt32BitAxisSweep3 phase(" + world + ")";
+  return name == "simple" ? "btSimpleBroadphase phase(16384)" : "";
+}
+
+// lo and hi of body i at a pose.
+std::string box_of(const Asked& q, int i, const Pose& pose) {
+  const auto* box = std::get_if<Box>(&q.scene.shape_of(i));
+  const Quat& r = pose.rotation;
+  const bool thirds = r.x == r.y && r.y == r.z && (r.w == r.x || r.w == -r.x);
+  if (!box || (!thirds && !(r.x == 0 && r.y == 0 && r.z == 0)))
+    return fmt::format("  box_of(object_{}.getCollisionShape()[0], {}, lo, hi);\n", i, transform(pose));
+  const Vec3& h = box->half_extents;
+  const Vec3 turned = !thirds || r.x == 0 ? h
+                      : r.w == r.x        ? Vec3(h.z(), h.x(), h.y())
+                                          : Vec3(h.y(), h.z(), h.x());
+  return fmt::format("  corners({}, {}, lo, hi);\n", vector(turned), transform({pose.translation, {}}));
+}
+
+std::string phase_candidates(const Asked& q) {
+  std::vector<int> bodies;
+  for (std::size_t i = 0; i < q.scene.bodies.size(); ++i) bodies.push_back(static_cast<int>(i));
+  std::string out =
+      filled(phase_head, {{"PHASE", phase_of(q)}, {"COUNT", std::to_string(q.scene.bodies.size())}});
+  out += all_objects(q) + "  btVector3 lo, hi;\n";
+  int k = 0;
+  for (const Step& s : effective_script(q.scene)) {
+    if (s.op == Step::Op::insert || s.op == Step::Op::move)
+      out += box_of(q, s.body, s.pose.value_or(q.body(s.body).pose));
+    const std::string p = fmt::format("proxy[{}]", s.body);
+    const bool fixed = s.body >= 0 && q.body(s.body).is_static;
+    if (s.op == Step::Op::insert)
+      out += fmt::format(
+          "  {0} = phase.createProxy(lo, hi, BOX_SHAPE_PROXYTYPE, &number[{1}], {2}, {3}, &dispatcher);\n", p,
+          s.body, fixed ? "btBroadphaseProxy::StaticFilter" : "btBroadphaseProxy::DefaultFilter",
+          fixed ? "btBroadphaseProxy::AllFilter ^ btBroadphaseProxy::StaticFilter"
+                : "btBroadphaseProxy::AllFilter");
+    if (s.op == Step::Op::move) out += fmt::format("  phase.setAabb({}, lo, hi, &dispatcher);\n", p);
+    if (s.op == Step::Op::remove) out += fmt::format("  phase.destroyProxy({}, &dispatcher);\n", p);
+    if (s.op != Step::Op::query) continue;
+    out += "  phase.calculateOverlappingPairs(&dispatcher);\n";
+    if (k++ == q.step) break;
+  }
+  return out +
+         fmt::format(
+             "  const auto& pairs = phase.getOverlappingPairCache()->getOverlappingPairArray();\n"
+             "  for (int i = 0; i < pairs.size(); ++i) {{\n"
+             "    const auto *one = pairs[i].m_pProxy0, *two = pairs[i].m_pProxy1;\n"
+             "    if ((one == proxy[{0}] && two == proxy[{1}]) || (one == proxy[{1}] && two == proxy[{0}])) "
+             "x.overlap = true;\n  }}\n",
+             q.a, q.b);
+}
+
+bool is_phase(const Asked& q) { return q.question == Question::candidates && !phase_of(q).empty(); }
+
+std::string body_of(const Asked& q) {
+  if (is_phase(q)) return phase_candidates(q);
+  if (q.question == Question::time_of_impact) return impact(q);
+  if (q.question == Question::candidates) return candidates(q);
+  if (q.question == Question::scene_contacts) return scene_contacts(q);
+  return pair_question(q);
+}
+
+}  // namespace
+
+EngineSource bullet_source(const Asked& q) {
+  const bool f64 = q.engine.starts_with("bullet-f64");
+  EngineSource out;
+  out.compile =
+      f64 ? "-DBT_USE_DOUBLE_PRECISION -I/usr/include/bullet -lBulletCollision-float64 -lLinearMath-float64"
+          : "-I/usr/include/bullet -lBulletCollision -lLinearMath";
+  out.includes = "#include <btBulletCollisionCommon.h>\n";
+  out.code = std::string(helpers);
+  if (!is_sim(q) && q.question != Question::time_of_impact && q.question != Question::candidates)
+    out.code += filled(query_helper,
+                       {{"THRESHOLD", q.question == Question::distance ? "btScalar(BT_LARGE_FLOAT)" : "0"}});
+  if (is_phase(q)) out.includes += "#include <BulletCollision/BroadphaseCollision/btSimpleBroadphase.h>\n";
+  out.code += "Answer ask() {\n  [[maybe_unused]] World w;\n  Answer x;\n" + body_of(q) + "  return x;\n}\n";
+  return out;
+}
+
+}  // namespace touchstone::fuzz

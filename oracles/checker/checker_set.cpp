@@ -1,0 +1,227 @@
+#include "oracles/checker/checker_set.h"
+
+#include <algorithm>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+
+#include "core/base/input_error.h"
+
+namespace touchstone::checker {
+namespace {
+
+// A certificate of ours has some thousands of digits at most; beyond, to check one takes longer than a person
+// waits.
+constexpr std::size_t max_digits = 50'000;
+
+// Digits without leading zeros.
+bool is_whole(std::string_view s) {
+  return !s.empty() && s.size() <= max_digits && (s.size() == 1 || s[0] != '0') &&
+         s.find_first_not_of("0123456789") == std::string_view::npos;
+}
+
+using Z = boost::multiprecision::number<boost::multiprecision::gmp_int, boost::multiprecision::et_off>;
+
+// R(q)·x for the quaternion q = (v, w), not zero and not necessarily unit.
+V rotated(const V& v, const Q& w, const V& x) {
+  return 1 / Q(dot(v, v) + w * w) * (2 * dot(v, x) * v + (w * w - dot(v, v)) * x + 2 * w * cross(v, x));
+}
+
+Set placed_axes(const Placed& p, const Carrier& by) {
+  Set s;
+  for (int i = 0; i < 3; ++i) {
+    V& c = s.column[i];
+    if (const auto* pose = std::get_if<Pose>(&p.pose)) {
+      const Quat& q = pose->rotation;
+      c = rotated({Q(q.x), Q(q.y), Q(q.z)}, Q(q.w), {Q(i == 0), Q(i == 1), Q(i == 2)});
+    } else {
+      c = exact_value(Vec3(std::get<Placement>(p.pose).matrix.col(i)));
+    }
+    if (dot(by.v, by.v) != 0) c = rotated(by.v, by.w, c);
+  }
+  s.origin = std::visit([](const auto& pose) { return exact_value(pose.translation); }, p.pose) + by.shift;
+  return s;
+}
+
+/// In local coordinates: the round piece {centre + Σ u_k·radii_k·e_k, |u| <= 1}.
+struct Piece {
+  Vec3 centre, radii = Vec3::Zero();
+};
+using Pieces = std::vector<Piece>;
+
+// The round pieces of each convex part.
+template <class S>
+std::vector<Pieces> pieces_of(const S& s) {
+  std::vector<Pieces> parts(1);
+  if constexpr (std::is_same_v<S, Sphere>) parts[0] = {{Vec3::Zero()}};
+  if constexpr (std::is_same_v<S, Ellipsoid>) parts[0] = {{Vec3::Zero(), s.semi_axes}};
+  if constexpr (std::is_same_v<S, Hull>)
+    for (const Vec3& v : s.vertices) parts[0].push_back({v});
+  if constexpr (std::is_same_v<S, Box>)
+    for (int i = 0; i < 8; ++i)
+      parts[0].push_back({s.half_extents.cwiseProduct(Vec3(i & 1 ? 1 : -1, i & 2 ? 1 : -1, i & 4 ? 1 : -1))});
+  if constexpr (std::is_same_v<S, Capsule>) parts[0] = {{{0, 0, -s.half_height}}, {{0, 0, s.half_height}}};
+  if constexpr (std::is_same_v<S, Cylinder> || std::is_same_v<S, Cone>) {
+    const Vec3 disc(s.radius, s.radius, 0);
+    parts[0] = {{{0, 0, -s.half_height}, disc},
+                {{0, 0, s.half_height}, std::is_same_v<S, Cone> ? Vec3(Vec3::Zero()) : disc}};
+  }
+  if constexpr (std::is_same_v<S, TriangleMesh>) {
+    parts.clear();
+    const auto at = [&](int k) { return s.vertices[static_cast<std::size_t>(k)]; };
+    for (const auto& t : s.triangles) parts.push_back({{at(t[0])}, {at(t[1])}, {at(t[2])}});
+  }
+  return parts;
+}
+
+Set placed(Set s, const Pieces& pieces) {
+  for (const auto& [centre, radii] : pieces) {
+    const V c = exact_value(centre), r = exact_value(radii);
+    s.core.push_back({c.x * s.column[0] + c.y * s.column[1] + c.z * s.column[2] + s.origin, {}});
+    if (!radii.isZero(0)) s.core.back().axes = {r.x * s.column[0], r.y * s.column[1], r.z * s.column[2]};
+  }
+  const auto& [centre, radii] = pieces.front();
+  if (radii.isZero(0)) return s;
+  s.kind = pieces.size() == 1 ? Set::Kind::ellipsoid : Set::Kind::discs;
+  s.size =
+      exact_value(pieces.size() == 1 ? radii : Vec3(radii.x(), pieces[1].radii.x(), pieces[1].centre.z()));
+  return s;
+}
+
+// {Mx + t : m·x <= o} = {y : C m·(y - t) <= o·det M}, C the cofactor matrix of M; both sides turn about with
+// the sign of det M.
+std::vector<Set> half_space(Set s, const HalfSpace& x) {
+  const V &a = s.column[0], &b = s.column[1], &c = s.column[2], m = exact_value(x.normal);
+  const Q det = dot(a, cross(b, c));
+  if (det == 0) return {};
+  s.kind = Set::Kind::half_space;
+  s.normal = Q(det.sign()) * (m.x * cross(b, c) + m.y * cross(c, a) + m.z * cross(a, b));
+  s.offset = abs(det) * Q(x.offset) + dot(s.normal, s.origin);
+  return {s};
+}
+
+// Local coordinates of a curved set by Cramer's rule. There, moves of g along each axis (g across the axis of
+// discs) are at most √2·g together, and at most twice as much in the world where |M|² <= 4: r in all for g =
+// r/4.
+bool is_within_curved(const Set& s, const V& x, const Q& r) {
+  const V &a = s.column[0], &b = s.column[1], &c = s.column[2], d = x - s.origin;
+  const Q det = dot(a, cross(b, c)), g = r / 4;
+  if (det == 0 || (r > 0 && dot(a, a) + dot(b, b) + dot(c, c) > 4)) return false;
+  const V u = 1 / det * V{dot(d, cross(b, c)), dot(a, cross(d, c)), dot(a, cross(b, d))};
+  if (s.kind == Set::Kind::ellipsoid) {
+    const V k{u.x / (s.size.x + g), u.y / (s.size.y + g), u.z / (s.size.z + g)};
+    return dot(k, k) <= 1;
+  }
+  const auto& [low, high, h] = s.size;  // low >= high: the room is widest at the lowest z in reach
+  const Q z = std::max(Q(-h), Q(u.z - g)),
+          room = (h > 0 ? Q(low + (high - low) * (z + h) / (2 * h)) : low) + g;
+  return abs(u.z) <= h + g && u.x * u.x + u.y * u.y <= room * room;
+}
+
+// Weights of the nearest point of the affine hull to the origin, from (Gram + 1)·w = 1 by elimination.
+std::vector<Q> affine_weights(const std::vector<V>& p) {
+  const std::size_t n = p.size();
+  std::vector<std::vector<Q>> m(n, std::vector<Q>(n + 1, Q(1)));
+  for (std::size_t i = 0; i < n; ++i)
+    for (std::size_t j = 0; j < n; ++j) m[i][j] = dot(p[i], p[j]) + 1;
+  for (std::size_t k = 0; k < n; ++k) {
+    // Positive definite for affinely independent points: every pivot is positive.
+    if (m[k][k] == 0) throw std::logic_error("checker: dependent face");
+    for (std::size_t i = 0; i < n; ++i) {
+      const Q f = m[i][k] / m[k][k];
+      for (std::size_t j = k; i != k && j <= n; ++j) m[i][j] -= f * m[k][j];
+    }
+  }
+  std::vector<Q> w(n);
+  Q sum = 0;
+  for (std::size_t i = 0; i < n; ++i) sum += w[i] = m[i][n] / m[i][i];
+  for (Q& x : w) x /= sum;
+  return w;
+}
+
+}  // namespace
+
+// Lowest terms are not asked for, but a denominator has no sign and is not zero: GMP takes both for granted.
+Q rational_of(const std::string& s) {
+  const auto slash = std::min(s.find('/'), s.size());
+  const std::string numerator = s.substr(0, slash),
+                    denominator = slash < s.size() ? s.substr(slash + 1) : "1";
+  if (is_whole(std::string_view(numerator).substr(numerator.starts_with('-') ? 1 : 0)) &&
+      is_whole(denominator) && denominator != "0")
+    return Q(Z(numerator), Z(denominator));
+  constexpr std::size_t shown = 40;
+  throw InputError("", "is not a rational number \"n/d\" of at most " + std::to_string(max_digits) +
+                           " digits (" + (s.size() > shown ? s.substr(0, shown) + "..." : s) + ")");
+}
+
+Q times_root(const Q& factor, const Q& square) {
+  const Z d = denominator(square), scaled = (numerator(square) * d) << 1024, root = sqrt(scaled);
+  const bool up = factor > 0 && root * root != scaled;  // √(n/d) = √(n·d)/d
+  return factor * Q(up ? Z(root + 1) : root, d << 512);
+}
+
+std::vector<Set> sets_of(const Placed& p, const Carrier& by) {
+  Set axes = placed_axes(p, by);
+  if (const auto* h = std::get_if<HalfSpace>(p.shape)) return half_space(axes, *h);
+  if (const auto* x = std::get_if<Sphere>(p.shape)) axes.ball = Q(x->radius);
+  if (const auto* x = std::get_if<Capsule>(p.shape)) axes.ball = Q(x->radius);
+  std::vector<Set> r;
+  for (const Pieces& part : std::visit([](const auto& s) { return pieces_of(s); }, *p.shape))
+    r.push_back(placed(axes, part));
+  return r;
+}
+
+std::optional<Q> core_support(const Set& s, const V& n) {
+  if (s.kind == Set::Kind::half_space) {
+    const V off = cross(s.normal, n);
+    const Q along = dot(s.normal, n);
+    if (dot(off, off) != 0 || along <= 0) return std::nullopt;
+    return s.offset * along / dot(s.normal, s.normal);
+  }
+  std::optional<Q> best;
+  for (const Set::Round& piece : s.core) {
+    Q square = 0;
+    for (const V& a : piece.axes) square += dot(a, n) * dot(a, n);
+    const Q h = dot(piece.centre, n) + (square > 0 ? times_root(1, square) : Q(0));
+    if (!best || h > *best) best = h;
+  }
+  return best;
+}
+
+bool is_within(const Set& s, const V& x, const Q& r) {
+  if (s.kind == Set::Kind::half_space) return dot(s.normal, x) <= s.offset;
+  if (s.kind != Set::Kind::hull) return is_within_curved(s, x, r);
+  std::vector<V> about;
+  for (const Set::Round& piece : s.core) about.push_back(piece.centre - x);
+  const V v = nearest_to_origin(about);
+  return dot(v, v) <= r * r;
+}
+
+V nearest_to_origin(const std::vector<V>& p) {
+  std::vector<V> face{p.front()};
+  std::vector<Q> weight{1};
+  for (;;) {
+    V v{0, 0, 0};
+    for (std::size_t i = 0; i < face.size(); ++i) v = v + weight[i] * face[i];
+    const V* far = &p.front();
+    for (const V& q : p)
+      if (dot(v, q) < dot(v, *far)) far = &q;
+    if (dot(v, *far) >= dot(v, v)) return v;
+    face.push_back(*far), weight.emplace_back(0);
+    for (bool clear = false; !clear;) {
+      const std::vector<Q> goal = affine_weights(face);
+      Q step = 1;
+      for (std::size_t i = 0; i < face.size(); ++i)
+        if (goal[i] < 0) step = std::min(step, Q(weight[i] / (weight[i] - goal[i])));
+      for (std::size_t i = face.size(); i-- > 0;) {
+        weight[i] += step * (goal[i] - weight[i]);
+        if (weight[i] != 0) continue;
+        face.erase(face.begin() + static_cast<std::ptrdiff_t>(i));
+        weight.erase(weight.begin() + static_cast<std::ptrdiff_t>(i));
+      }
+      clear = step == 1;
+    }
+  }
+}
+
+}  // namespace touchstone::checker

@@ -1,0 +1,134 @@
+#include "oracles/client/worker_session.h"
+
+#include <poll.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <map>
+#include <mutex>
+#include <tuple>
+#include <vector>
+
+#include "core/base/input_error.h"
+#include "oracles/client/watchdog.h"
+
+namespace touchstone {
+namespace {
+
+/// Waits up to 50 ms for the worker to say something on either stream.
+void wait_for_output(WorkerProcess& worker) {
+  pollfd fds[2] = {{worker.answers_fd(), POLLIN, 0}, {worker.errors_fd(), POLLIN, 0}};
+  poll(fds, 2, 50);
+  if (worker.errors_fd() >= 0) worker.drain_errors();
+}
+
+protocol::Hello await_hello(WorkerSession& s, const std::string& place, const WorkerLimits& limits) {
+  Watchdog watchdog(limits);
+  watchdog.progress(*s.process);
+  for (;;) {
+    throw_if_stopped(limits);
+    const ReadResult r = read_available(s.process->answers_fd(), s.frames);
+    try {
+      if (const auto frame = s.frames.next()) {
+        if (frame->type != protocol::Type::hello) throw protocol::Malformed("no hello");
+        return protocol::decode_hello(frame->payload);
+      }
+    } catch (const protocol::Malformed& e) {
+      throw InputError(place, std::string("the worker's first words are no hello: ") + e.what());
+    }
+    if (r == ReadResult::closed)
+      throw InputError(
+          place, "the worker died while loading it: " + (s.process->ends_within(2), s.process->end().detail));
+    if (const auto verdict = watchdog.check(*s.process, Watchdog::Phase::starting))
+      throw InputError(place, "the worker was ended: " + verdict->why);
+    if (r == ReadResult::nothing_yet) wait_for_output(*s.process);
+  }
+}
+
+}  // namespace
+
+ReadResult read_available(int fd, protocol::FrameReader& frames) {
+  char buffer[1 << 16];
+  for (;;) {
+    const ssize_t n = read(fd, buffer, sizeof buffer);
+    if (n > 0) {
+      frames.append(buffer, static_cast<std::size_t>(n));
+      return ReadResult::some;
+    }
+    if (n == 0) return ReadResult::closed;
+    if (errno == EINTR) continue;
+    return errno == EAGAIN ? ReadResult::nothing_yet : ReadResult::closed;
+  }
+}
+
+namespace {
+
+constexpr int memcheck_exit = 99;
+
+WorkerSession start_nursery(const std::filesystem::path& host, const std::filesystem::path& plugin,
+                            const std::string& argument, const WorkerLimits& limits, bool native) {
+  const std::string place = plugin.string();
+  const bool is_command = place.starts_with("pipe:");
+  std::error_code error;
+  if (!is_command && !std::filesystem::is_regular_file(plugin, error))
+    throw InputError(place, "there is no such plug-in file");
+  // An absolute path, or the dynamic linker would search for a name without a slash elsewhere.
+  std::vector<std::string> arguments{is_command ? place : std::filesystem::absolute(plugin).string()};
+  const bool sandbox = limits.sandbox && limits.memcheck.empty();
+  if (!argument.empty() || sandbox) arguments.push_back(argument);
+  std::unique_ptr<ScratchDirectory> scratch;
+  if (sandbox) {
+    scratch = std::make_unique<ScratchDirectory>();
+    arguments.push_back(scratch->path());
+    arguments.push_back(std::to_string(limits.resident_bytes));
+  }
+  if (!limits.memcheck.empty()) {
+    // Values that nobody wrote are found otherwise (Engine::run_again), and loaders are full of them.
+    const auto before = {std::string("--quiet"), std::string("--undef-value-errors=no"),
+                         std::string("--exit-on-first-error=yes"),
+                         "--error-exitcode=" + std::to_string(memcheck_exit), host.string()};
+    arguments.insert(arguments.begin(), before.begin(), before.end());
+  }
+  WorkerSession s;
+  s.process =
+      std::make_shared<WorkerProcess>(limits.memcheck.empty() ? host : std::filesystem::path(limits.memcheck),
+                                      arguments, std::move(scratch), native);
+  s.hello = await_hello(s, place, limits);
+  if (!s.hello.error.empty()) throw InputError(place, s.hello.error);
+  return s;
+}
+
+}  // namespace
+
+WorkerSession start_nursery(const std::filesystem::path& host, const std::filesystem::path& plugin,
+                            const std::string& argument, const WorkerLimits& limits) {
+  return start_nursery(host, plugin, argument, limits, /*native=*/false);
+}
+
+std::shared_ptr<const WorkerSession> share_native_nursery(const std::filesystem::path& host,
+                                                          const std::filesystem::path& library,
+                                                          const WorkerLimits& limits) {
+  using Key = std::tuple<pid_t, std::string, std::string, bool, std::uint64_t,
+                         std::string>;  // all that it is started with
+  static std::mutex guard;
+  static std::map<Key, std::weak_ptr<const WorkerSession>> nurseries;
+  const std::lock_guard lock(guard);
+  auto& kept = nurseries[{getpid(), host.string(), library.string(), limits.sandbox, limits.resident_bytes,
+                          limits.memcheck}];
+  auto nursery = kept.lock();
+  if (!nursery || nursery->process->has_ended())
+    kept = nursery =
+        std::make_shared<const WorkerSession>(start_nursery(host, library, "", limits, /*native=*/true));
+  return nursery;
+}
+
+WorkerSession start_worker(const WorkerSession& nursery, const std::filesystem::path& plugin,
+                           const WorkerLimits& limits, const WorkerProcess::Native* native) {
+  WorkerSession s;
+  s.process = std::make_shared<WorkerProcess>(nursery.process, native);
+  s.hello = await_hello(s, plugin.string(), limits);
+  if (!s.hello.error.empty()) throw InputError(plugin.string(), s.hello.error);
+  return s;
+}
+
+}  // namespace touchstone

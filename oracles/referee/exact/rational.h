@@ -1,0 +1,79 @@
+// Exact numbers: GMP integers and rationals behind Boost.Multiprecision, and the exact value of a double.
+#pragma once
+
+#include <boost/multiprecision/gmp.hpp>
+#include <string>
+
+#include "core/math/pose.h"
+#include "oracles/referee/filter/real3.h"
+
+namespace touchstone::referee {
+
+using Integer = boost::multiprecision::number<boost::multiprecision::gmp_int, boost::multiprecision::et_off>;
+using Rational =
+    boost::multiprecision::number<boost::multiprecision::gmp_rational, boost::multiprecision::et_off>;
+
+template <class T>
+struct Exact3 {
+  T x, y, z;
+  const T& operator[](int i) const { return i == 0 ? x : i == 1 ? y : z; }
+};
+using Integer3 = Exact3<Integer>;
+using Rational3 = Exact3<Rational>;
+
+template <class T>
+Exact3<T> operator+(const Exact3<T>& a, const Exact3<T>& b) {
+  return {a.x + b.x, a.y + b.y, a.z + b.z};
+}
+template <class T>
+Exact3<T> operator-(const Exact3<T>& a, const Exact3<T>& b) {
+  return {a.x - b.x, a.y - b.y, a.z - b.z};
+}
+template <class T>
+Exact3<T> operator*(const T& s, const Exact3<T>& a) {
+  return {s * a.x, s * a.y, s * a.z};
+}
+template <class T>
+T dot(const Exact3<T>& a, const Exact3<T>& b) {
+  return a.x * b.x + a.y * b.y + a.z * b.z;
+}
+template <class T>
+Exact3<T> cross(const Exact3<T>& a, const Exact3<T>& b) {
+  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+template <class T>
+bool is_zero(const Exact3<T>& a) {
+  return a.x == 0 && a.y == 0 && a.z == 0;
+}
+
+/// x = mantissa·2^exponent, the mantissa odd. Zero has exponent 0 and says so by its mantissa.
+struct Parts {
+  long long mantissa = 0;
+  int exponent = 0;
+};
+Parts parts_of(double x);
+
+Rational exact(double x);
+inline Rational3 exact(const Vec3& v) { return {exact(v.x()), exact(v.y()), exact(v.z())}; }
+/// A number of more bits is the sum of a few doubles, each the rounding of what the earlier ones leave.
+template <class T>
+Rational exact_of(T x) {
+  Rational sum = 0;
+  for (auto part = static_cast<double>(x); part != 0; part = static_cast<double>(x))
+    sum += exact(part), x -= T(part);
+  return sum;
+}
+template <class T>
+Rational3 exact_of(const Triple<T>& v) {
+  return {exact_of(v.x), exact_of(v.y), exact_of(v.z)};
+}
+Integer shifted(Integer x, int bits);  // x·2^bits, bits >= 0
+
+/// The fraction of least denominator in [lo, hi], by the continued fractions of both ends.
+Rational simplest_between(const Rational& lo, const Rational& hi);
+
+/// "n/d" in lowest terms, "n" when d = 1; and back. Throws InputError on anything else.
+std::string text_of(const Rational& x);
+Rational rational_from_text(const std::string& s);
+
+}  // namespace touchstone::referee

@@ -1,0 +1,58 @@
+#include "oracles/referee/exact/touching.h"
+
+#include <algorithm>
+#include <iterator>
+#include <vector>
+
+#include "oracles/checker/checker.h"
+#include "oracles/referee/exact/rational.h"
+#include "oracles/referee/exact/short_point.h"
+#include "oracles/referee/limits.h"
+
+namespace touchstone::referee {
+namespace {
+
+bool is_as_rounded(const Certificate& c) {
+  for (int k = 0; k < 3; ++k)
+    if (exact(c.point[k]) != rational_from_text(c.rationals[static_cast<std::size_t>(k)])) return false;
+  return true;
+}
+
+}  // namespace
+
+Certificate guess_common_point(const std::array<Vec3, 2>& witness, const Placed& a, const Placed& b,
+                               int& level) {
+  const Vec3 middle = witness[0] + 0.5 * (witness[1] - witness[0]);
+  double size = 0;
+  for (const Vec3& w : witness) size = std::max(size, w.cwiseAbs().maxCoeff());
+  if (!std::isfinite(size)) return {};
+  for (const Placed& p : {a, b})
+    if (const double r = bounding_radius(*p.shape); std::isfinite(r)) size = std::max(size, r);
+  Certificate c;
+  c.kind = Certificate::Kind::common_point;
+  std::vector<double> steps{0};  // the witness as it stands comes first
+  steps.insert(steps.end(), std::begin(limits::guess_factors), std::end(limits::guess_factors));
+  for (const double step : steps)
+    for (const Vec3& w : {middle, witness[0], witness[1]}) {
+      const Rational e = exact(step * size);
+      c.rationals.clear();
+      for (int k = 0; k < 3; ++k) {
+        const Rational x = exact(w[k]), guess = e > 0 ? simplest_between(x - e, x + e) : x;
+        c.rationals.push_back(text_of(guess));
+        c.point[k] = guess.convert_to<double>();
+      }
+      // Most guesses are doubles of a few bits, and most are wrong: short integers say so at once.
+      if (is_as_rounded(c)) {
+        const auto in_a = contains_short(a, c.point);
+        const auto in_b = in_a && !*in_a ? in_a : contains_short(b, c.point);
+        if (in_a && in_b) {
+          if (!*in_a || !*in_b) continue;
+          return level = 1, c;
+        }
+      }
+      if (checker::check(c, a, b)) return level = 2, c;
+    }
+  return {};
+}
+
+}  // namespace touchstone::referee

@@ -1,0 +1,83 @@
+// A placed convex shape as the filter sees it: core ⊕ ball(radius) ⊕ segment[0, sweep],
+// together with a bound on how far the numbers held here can be from the exact set. Everything that is
+// certified later is certified from `support` and `error` alone.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "oracles/referee/filter/real3.h"
+#include "oracles/referee/referee.h"
+
+namespace touchstone::referee {
+
+/// x_world = matrix·x + translation, entries within matrix_error of the exact ones, translation within
+/// translation_error (each component).
+struct Frame {
+  Matrix3 matrix;
+  Real3 translation;
+  Real matrix_error = 0, translation_error = 0;
+};
+
+/// The exact placement, its translation taken relative to `origin` (a double vector, exact).
+Frame frame_of(const Placed& p, const Vec3& origin);
+/// The same at time t of a constant motion; t is exact.
+Frame frame_at(const Placed& p, const Motion& m, double t, const Vec3& origin);
+
+/// The vertices of the core of a polytope or rounded shape, body frame, exact doubles: sphere {0}, capsule
+/// {-h, +h}, box (bit k of the index set: + half_extents[k]), hull and triangle: their own. nullopt: not of
+/// that kind. A cylinder or cone of zero radius is a segment, an ellipsoid of equal semi-axes under a Pose is
+/// a ball.
+std::optional<std::vector<Vec3>> core_points(const Placed& p);
+bool has_core_points(const Placed& p);
+/// The radius of the ball around the core; 0 for what has none.
+double core_radius(const Placed& p);
+
+/// T is the arithmetic: long double for everything that is handed out, double for the filter's first level,
+/// Wide for a search whose finds the checker has to accept.
+template <class T>
+struct BasicSolid {
+  /// orbit: the hull of the circles that the points of a polytope run through when it turns about an axis for
+  /// ever.
+  enum class Kind { points, cylinder, cone, ellipsoid, orbit };
+  Kind kind = Kind::points;
+  std::vector<Triple<T>> points;  // Kind::points; orbit: (place along the axis, radius of the circle, -)
+  Square<T> matrix;               // curved: core = matrix·(shape) + centre; orbit: row[2] is the axis
+  Triple<T> centre;
+  Triple<T> size;  // cylinder, cone: (radius, half height, -); ellipsoid: semi-axes
+  double radius = 0;
+  Triple<T> sweep;
+  bool is_swept = false;
+  /// Proven: (1) every point that `support` returns is within `error` of the exact core, (2) for every n the
+  /// exact support value is <= n·support(n) + error·|n|, rounding of that dot product included.
+  T error = 0;
+  T extent = 0;       // |x| <= extent for every point x of the core
+  T spin_radius = 0;  // largest distance of a core point from the body's own origin, rounded up
+};
+using Solid = BasicSolid<Real>;
+
+template <class T>
+struct SupportPoint {
+  Triple<T> point;
+  int index = -1;  // vertex of a `points` core
+};
+
+/// The body in doubles, with an error that covers the rounding. False, and `out` is of no use: its numbers
+/// are too large or too small for squares and products of six of them.
+bool round_to_double(const Solid& b, BasicSolid<double>& out);
+
+/// Precondition: convex and bounded. `origin` as in frame_of.
+Solid make_body(const Placed& p, const Frame& f);
+/// Of a triangle of a mesh.
+Solid make_body(const std::vector<Vec3>& core_points, double radius, const Frame& f);
+/// Makes the body core ⊕ [0, sweep]; `sweep_error` bounds the error of each component.
+void add_sweep(Solid& b, const Real3& sweep, Real sweep_error);
+
+/// Holds the body turned by any angle about the axis `angular` (not zero) through `centre`, its own origin.
+Solid make_orbit(const Solid& b, const Real3& centre, const Real3& angular);
+
+/// Instantiated for double, Real and Wide (wide.h).
+template <class T>
+SupportPoint<T> support(const BasicSolid<T>& b, const Triple<T>& n);
+
+}  // namespace touchstone::referee

@@ -1,0 +1,54 @@
+// Truth of one pair of bounded convex bodies: what judge_pair, meshes (triangle by triangle) and motions are
+// made of.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <span>
+
+#include "oracles/referee/exact/exact_pair.h"
+#include "oracles/referee/filter/inner_polytope.h"
+
+namespace touchstone::referee {
+
+/// A bounded convex body, for the filter and, if it has one, for the exact level: either `exact` itself or,
+/// so that it is only made when it is needed, where it stands (a curved body has no exact one).
+struct Operand {
+  Solid body;
+  std::optional<ExactBody> exact;
+  Placed placed{};
+  bool has_exact() const { return exact || (placed.shape != nullptr && has_core_points(placed)); }
+  ExactBody exact_body() const;
+};
+/// The shape must be convex and bounded. `origin`: the filter's numbers are relative to it.
+Operand make_operand(const Placed& p, const Vec3& origin);
+Operand make_operand(const Placed& p, const TriangleMesh& mesh, std::size_t triangle, const Vec3& origin);
+
+struct ConvexTruth {
+  Verdict verdict = Verdict::undecided;
+  Real lo = 0, hi = 0;  // of the signed gap, proven
+  Real3 normal;         // A to B, near unit
+  Real3 witness_a, witness_b;
+  Real3 common;   // overlapping: near a point of both
+  int level = 1;  // as PairTruth::level
+  std::optional<ExactVerdict> exact;
+  std::vector<ExactBody>
+      exact_operands;                  // of a mesh's deciding triangle: the two parts that `exact` is about
+  std::optional<InnerPolytope> inner;  // Effort::certificate, overlapping cores
+  Real inner_depth = 0;  // that `inner` proves, balls included; symmetry may prove more (lo, hi)
+  ExactPair exact_pair() const { return make_exact(exact_operands.at(0), exact_operands.at(1)); }
+};
+
+/// certificate: the bracket is found by an inner polytope in extended precision, which is kept.
+enum class Effort { verdict_only, gap, certificate };
+ConvexTruth judge_convex(const Operand& a, const Operand& b, std::span<const Real3> hints = {},
+                         Effort effort = Effort::gap);
+
+/// Doubles alone: proven bounds [lo, hi] of the gap, when hi is at most `enough`; nothing otherwise. Touching
+/// or inside by a rounding, where a verdict needs more than doubles, is where this saves most.
+std::optional<std::array<double, 2>> gap_at_most(const Operand& a, const Operand& b, double enough);
+
+/// The width that a bracket is refined to before the referee stops, absolute.
+Real target_width(const Difference& d);
+
+}  // namespace touchstone::referee

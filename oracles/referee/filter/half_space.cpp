@@ -1,0 +1,149 @@
+#include "oracles/referee/filter/half_space.h"
+
+#include <algorithm>
+
+#include "oracles/referee/counters.h"
+#include "oracles/referee/exact/world.h"
+#include "oracles/referee/work.h"
+
+namespace touchstone::referee {
+namespace {
+
+constexpr Real infinity = std::numeric_limits<Real>::infinity();
+
+struct Bounds {
+  Real lo, hi;
+};
+
+// (m·x - offset)/|m| for |x| <= extent known within `error`: the products carry 4 units each, |m| is taken
+// over an interval.
+Bounds signed_distance(const Plane& p, Real m_dot_x, Real extent, Real error) {
+  const Real length = norm(p.normal), length_error = 2 * p.normal_error + 4 * unit * length;
+  const Real value = m_dot_x - p.offset;
+  const Real slack = 2 * p.normal_error * extent + length * (error + 8 * unit * extent) + p.offset_error +
+                     4 * unit * (std::fabs(p.offset) + std::fabs(m_dot_x));
+  const auto divide = [&](Real x, bool down) {
+    const Real by = (x > 0) == down ? length + length_error : length - length_error;
+    const Real q = x / by;
+    return down ? q - 4 * unit * std::fabs(q) : q + 4 * unit * std::fabs(q);
+  };
+  return {divide(value - slack, true), divide(value + slack, false)};
+}
+
+Verdict exact_verdict(const Placed& h, const ExactBody& body) {
+  const RationalPlane p = world_plane(h);
+  Rational least;
+  bool first = true;
+  for (const Rational3& x : world_points(body)) {
+    const Rational d = dot(p.normal, x) - p.offset;
+    if (first || d < least) least = d;
+    first = false;
+  }
+  const Rational r = exact(body.radius);
+  const bool disjoint = least > 0 && least * least > r * r * dot(p.normal, p.normal);
+  return disjoint ? Verdict::disjoint : Verdict::overlap;
+}
+
+void settle_exactly(ConvexTruth& t, const Placed& h, const ExactBody& body) {
+  const auto& plane = std::get<HalfSpace>(*h.shape);
+  if (const auto* pose = std::get_if<Pose>(&h.pose))
+    if (const auto overlap = overlaps_half_space_short(plane.normal, plane.offset, *pose, body)) {
+      t.verdict = *overlap ? Verdict::overlap : Verdict::disjoint;
+      return;
+    }
+  t.verdict = exact_verdict(h, body);
+  t.level = 2;
+  ++counters().exact;
+}
+
+}  // namespace
+
+std::optional<Plane> plane_of(const Placed& half_space, const Vec3& origin) {
+  const auto& h = std::get<HalfSpace>(*half_space.shape);
+  const Frame f = frame_of(half_space, origin);
+  const Real3 n = to_real(h.normal);
+  Plane p;
+  const Real size = largest(n);
+  if (std::holds_alternative<Pose>(half_space.pose)) {
+    p.normal = f.matrix * n;
+    p.normal_error = (3 * f.matrix_error + 12 * unit) * size;
+    p.offset = h.offset;
+  } else {
+    // {M x + t : n·x <= d} = {y : cof(M) n·(y - t) <= d det M}, with the sign of det M.
+    const RationalPlane exact_plane = world_plane(half_space);
+    if (is_zero(exact_plane.normal)) return std::nullopt;
+    // Only directions matter: scale by a power of two so that the conversion stays in range.
+    const auto as_real = [](const Rational& x) { return x.convert_to<Real>(); };
+    p.normal = {as_real(exact_plane.normal.x), as_real(exact_plane.normal.y), as_real(exact_plane.normal.z)};
+    p.normal_error = 4 * unit * largest(p.normal);
+    const Rational at_origin = exact_plane.offset - dot(exact_plane.normal, exact(origin));
+    p.offset = as_real(at_origin);
+    p.offset_error = 4 * unit * std::fabs(p.offset);
+    return p;
+  }
+  const Real shift = dot(p.normal, f.translation);
+  p.offset += shift;
+  const Real reach = 2 * largest(f.translation);
+  p.offset_error = reach * (2 * p.normal_error + 8 * unit * largest(p.normal)) +
+                   2 * f.translation_error * largest(p.normal) +
+                   4 * unit * (std::fabs(p.offset) + std::fabs(shift));
+  return p;
+}
+
+ConvexTruth judge_half_space(const Placed& h, const Operand& body, const Vec3& origin) {
+  ++counters().convex_pairs;
+  spend(2000 + 4 * static_cast<std::int64_t>(body.body.points.size()));
+  ConvexTruth t;
+  t.lo = -infinity, t.hi = infinity;
+  const auto p = plane_of(h, origin);
+  if (!p) return t;
+  const Solid& b = body.body;
+  const SupportPoint<Real> s = support(b, -p->normal);
+  const Bounds g = signed_distance(*p, dot(p->normal, s.point), b.extent, b.error);
+  t.lo = g.lo - b.radius;
+  t.lo -= unit * std::fabs(t.lo);
+  t.hi = g.hi - b.radius;
+  t.hi += unit * std::fabs(t.hi);
+  t.normal = normalized(p->normal);
+  t.verdict = t.lo > 0 ? Verdict::disjoint : t.hi <= 0 ? Verdict::overlap : Verdict::undecided;
+  t.witness_b = s.point - static_cast<Real>(b.radius) * t.normal;
+  t.witness_a = t.witness_b - (0.5L * (t.lo + t.hi)) * t.normal;
+  t.common = t.witness_b;
+  if (t.verdict == Verdict::undecided && body.has_exact()) {
+    settle_exactly(t, h, body.exact_body());
+    if (t.verdict == Verdict::overlap)
+      t.hi = std::min(t.hi, Real{0}), t.lo = std::min(t.lo, Real{0});
+    else
+      t.lo = std::max(t.lo, Real{0});
+  }
+  if (t.verdict == Verdict::undecided) ++counters().undecided;
+  if (t.verdict != Verdict::undecided && t.level == 1) ++counters().extended;
+  return t;
+}
+
+ConvexTruth judge_half_spaces(const Placed& a, const Placed& b, const Vec3& origin) {
+  ConvexTruth t;
+  t.lo = -infinity, t.hi = infinity;
+  const auto p = plane_of(a, origin);
+  if (!p || !plane_of(b, origin)) return t;
+  const RationalPlane x = world_plane(a), y = world_plane(b);
+  t.level = 2;
+  t.normal = normalized(p->normal);
+  const Rational along = dot(x.normal, y.normal);
+  if (along >= 0 || !is_zero(cross(x.normal, y.normal))) {
+    t.verdict = Verdict::overlap;
+    t.lo = t.hi = -infinity;
+    return t;
+  }
+  // y.normal = -k·x.normal: B = {x.normal·p >= -y.offset/k}.
+  const Rational k = -along / dot(x.normal, x.normal);
+  const Rational between = -y.offset / k - x.offset;
+  t.verdict = between > 0 ? Verdict::disjoint : Verdict::overlap;
+  const Real value = between.convert_to<Real>() / norm(p->normal);
+  const Real slack =
+      16 * unit * std::fabs(value) + std::fabs(value) * 4 * (p->normal_error / norm(p->normal));
+  t.lo = value - slack, t.hi = value + slack;
+  return t;
+}
+
+}  // namespace touchstone::referee

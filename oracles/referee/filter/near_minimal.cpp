@@ -1,0 +1,150 @@
+// near_minimal_normals: in how many directions a pair separates about equally fast, and how much worse the
+// next direction is. Polytopes and what is rounded by a ball: every local minimum is a facet normal of the
+// Minkowski difference (inner_polytope.h), found in order of its value. Curved pairs: descent of w from
+// directions spread over the sphere; an estimate, and marked as one.
+#include <algorithm>
+
+#include "oracles/referee/filter/convex.h"
+#include "oracles/referee/limits.h"
+#include "oracles/referee/work.h"
+
+namespace touchstone::referee {
+namespace {
+
+constexpr std::size_t normal_cap = 256;
+constexpr int starts = 512;
+constexpr Real relative_slack = 1e-6L, absolute_slack = 1e-9L;
+
+struct Minimum {
+  Real3 normal;
+  Real value;
+};
+
+template <class S>
+bool is(const Placed& p) {
+  return std::holds_alternative<S>(*p.shape);
+}
+
+/// Spread evenly: the golden-angle spiral.
+Real3 direction(int i) {
+  const Real z = 1 - (2 * i + 1.0L) / starts, r = std::sqrt(1 - z * z), angle = i * 2.399963229728653322L;
+  return {r * std::cos(angle), r * std::sin(angle), z};
+}
+
+Real width_along(const Difference& d, const Real3& n) { return dot(n, d.support(n).w) + d.radius; }
+
+// h is convex, so n moves against the part of its support point that is at a right angle to n; a step that
+// does not lower w is halved.
+Minimum descend(const Difference& d, Real3 n) {
+  spend(20'000 + 400 * static_cast<std::int64_t>(d.a.points.size() + d.b.points.size()));
+  Real value = width_along(d, n);
+  for (Real step = 0.25L; step > 1e-10L;) {
+    const Real3 v = d.support(n).w, across = v - dot(n, v) * n;
+    if (!(norm(across) > 1e-12L * d.extent)) break;
+    const Real3 next = normalized(n - step * normalized(across));
+    const Real there = width_along(d, next);
+    if (there < value)
+      n = next, value = there;
+    else
+      step /= 2;
+  }
+  return {n, value};
+}
+
+// One of each bundle of directions that are closer than `apart`.
+std::vector<Minimum> distinct(std::vector<Minimum> all, Real apart) {
+  std::sort(all.begin(), all.end(), [](const Minimum& x, const Minimum& y) { return x.value < y.value; });
+  std::vector<Minimum> r;
+  for (const Minimum& m : all)
+    if (std::none_of(r.begin(), r.end(), [&](const Minimum& k) { return norm(k.normal - m.normal) < apart; }))
+      r.push_back(m);
+  return r;
+}
+
+// Half-way to the nearest other one w is as small: the minima run together.
+bool runs_together(const Difference& d, const std::vector<Minimum>& near, Real limit) {
+  if (near.size() < 3) return false;
+  std::size_t joined = 0;
+  for (std::size_t i = 0; i < near.size(); ++i) {
+    const Minimum* closest = nullptr;
+    for (std::size_t j = 0; j < near.size(); ++j)
+      if (j != i &&
+          (!closest || norm(near[j].normal - near[i].normal) < norm(closest->normal - near[i].normal)))
+        closest = &near[j];
+    const Real3 between = near[i].normal + closest->normal;
+    joined += largest(between) > 0 && width_along(d, normalized(between)) <= limit;
+  }
+  return 2 * joined > near.size();
+}
+
+void list(NearMinimalNormals& r, const std::vector<Minimum>& minima, Real limit) {
+  for (const Minimum& m : minima) {
+    if (m.value > limit) {
+      r.second_best = static_cast<double>(m.value);
+      break;
+    }
+    if (r.normals.size() == normal_cap) {
+      r.capped = true;
+      continue;
+    }
+    r.normals.push_back(to_double(m.normal));
+    r.widths.push_back(static_cast<double>(m.value));
+  }
+  r.conditioning = r.second_best - r.depth;
+}
+
+void estimate(NearMinimalNormals& r, const Difference& d, const Real3& best) {
+  constexpr Real same = 1e-3L;
+  std::vector<Minimum> all{{best, width_along(d, best)}};
+  for (int i = 0; i < starts; ++i) all.push_back(descend(d, direction(i)));
+  // A descent ends somewhat above its minimum: beside the slack it is granted 1e-7 of the extent.
+  const Real limit = static_cast<Real>(r.depth) + static_cast<Real>(r.slack) + 1e-7L * d.extent;
+  const std::vector<Minimum> minima = distinct(std::move(all), same);
+  std::vector<Minimum> near;
+  for (const Minimum& m : minima)
+    if (m.value <= limit) near.push_back(m);
+  r.continuum = runs_together(d, near, limit);
+  list(r, minima, limit);
+}
+
+NearMinimalNormals all_of(const Placed& a, const Placed& b) {
+  const PairTruth t = judge_pair(a, b);
+  NearMinimalNormals r;
+  r.second_best = r.conditioning = std::numeric_limits<double>::infinity();
+  const bool bounded = !is<HalfSpace>(a) && !is<HalfSpace>(b) && !is<TriangleMesh>(a) && !is<TriangleMesh>(b);
+  r.depth = std::isfinite(t.gap.lo) ? -0.5 * (t.gap.lo + t.gap.hi) : std::numeric_limits<double>::infinity();
+  if (t.verdict != Verdict::overlap || !bounded) {
+    r.normals = {t.normal}, r.widths = {r.depth};
+    r.certified = t.verdict == Verdict::disjoint;
+    return r;
+  }
+  const Vec3 origin = std::visit([](const auto& p) -> Vec3 { return p.translation; }, a.pose);
+  const Operand x = make_operand(a, origin), y = make_operand(b, origin);
+  const Difference d(x.body, y.body);
+  const Real3 best = normalized(to_real(t.normal));
+  r.slack = static_cast<double>(
+      std::max(relative_slack * static_cast<Real>(r.depth), absolute_slack * (d.extent + d.radius)));
+  if (!x.has_exact() || !y.has_exact()) return estimate(r, d, best), r;
+  const GjkResult g = gjk(d, std::span<const Real3>(&best, 1), target_width(d));
+  const Real core_depth = static_cast<Real>(r.depth) - d.radius;
+  const Minima m = local_minima(d, g.simplex, core_depth, static_cast<Real>(r.slack), 8 * target_width(d),
+                                limits::facet_cap);
+  if (m.flat) return estimate(r, d, best), r;
+  std::vector<Minimum> minima;
+  // Cores apart: their own direction need not be a facet's normal.
+  if (core_depth < 0) minima.push_back({best, static_cast<Real>(r.depth)});
+  for (const auto& f : m.found) minima.push_back({f.normal, f.value + d.radius});
+  list(r, distinct(std::move(minima), 1e-9L), static_cast<Real>(r.depth) + static_cast<Real>(r.slack));
+  r.certified = m.complete;
+  return r;
+}
+
+}  // namespace
+
+NearMinimalNormals near_minimal_normals(const Placed& a, const Placed& b) {
+  NearMinimalNormals open;  // no normal is known, and none to be the only one
+  open.continuum = true;
+  return within_limit(std::move(open), [&] { return all_of(a, b); });
+}
+
+}  // namespace touchstone::referee

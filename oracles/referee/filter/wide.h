@@ -1,0 +1,21 @@
+// Binary numbers of 237 bits, about 71 decimal digits, with a wide exponent: for a search that extended
+// precision cannot end. Nothing that is found in them is believed: the checker's rationals decide.
+#pragma once
+
+#include <boost/multiprecision/cpp_bin_float.hpp>
+
+#include "oracles/referee/filter/real3.h"
+
+namespace touchstone::referee {
+
+using Wide = boost::multiprecision::number<
+    boost::multiprecision::cpp_bin_float<237, boost::multiprecision::digit_base_2, void, std::int32_t>,
+    boost::multiprecision::et_off>;
+using Wide3 = Triple<Wide>;
+
+template <>
+inline const Wide unit_of<Wide> = ldexp(Wide(1), -237);
+template <>
+inline const Wide least_square<Wide> = ldexp(Wide(1), -100000);
+
+}  // namespace touchstone::referee

@@ -1,0 +1,262 @@
+#include "oracles/referee/filter/wide_search.h"
+
+#include <map>
+#include <optional>
+#include <vector>
+
+#include "oracles/checker/checker.h"
+#include "oracles/referee/exact/world.h"
+#include "oracles/referee/filter/gjk.h"
+#include "oracles/referee/filter/wide.h"
+#include "oracles/referee/work.h"
+
+namespace touchstone::referee {
+namespace {
+
+using WideSolid = BasicSolid<Wide>;
+
+struct WidePart {
+  WideSolid solid;
+  std::vector<Rational3> exact_points;  // of a polytope: what solid.points are roundings of
+};
+using WideDifference = BasicDifference<Wide>;
+
+Wide wide(const Rational& x) { return Wide(numerator(x)) / Wide(denominator(x)); }
+Wide3 wide(const Rational3& v) { return {wide(v.x), wide(v.y), wide(v.z)}; }
+
+WidePart of_points(const ExactBody& b) {
+  WidePart s;
+  s.solid.radius = b.radius;
+  s.exact_points = world_points(b);
+  Wide most = 0;
+  for (const Rational3& v : s.exact_points) {
+    s.solid.points.push_back(wide(v));
+    most = std::max<Wide>(most, dot(s.solid.points.back(), s.solid.points.back()));
+  }
+  using std::sqrt;
+  s.solid.extent = sqrt(most);
+  return s;
+}
+
+WidePart of_curved(const Placed& p) {
+  const Solid known = make_body(p, frame_of(p, Vec3::Zero()));
+  WideSolid s;
+  s.kind = static_cast<WideSolid::Kind>(known.kind);
+  s.size = {Wide(known.size.x), Wide(known.size.y), Wide(known.size.z)};
+  const Rational3 centre = world_point(p.pose, {0, 0, 0});
+  s.centre = wide(centre);
+  const Wide3 x = wide(world_point(p.pose, {1, 0, 0}) - centre),
+              y = wide(world_point(p.pose, {0, 1, 0}) - centre),
+              z = wide(world_point(p.pose, {0, 0, 1}) - centre);
+  for (int i = 0; i < 3; ++i) s.matrix.row[i] = {x[i], y[i], z[i]};
+  s.extent = Wide(known.extent);
+  return {std::move(s), {}};
+}
+
+std::vector<WidePart> parts_of(const Placed& p) {
+  std::vector<WidePart> all;
+  if (const auto* mesh = std::get_if<TriangleMesh>(p.shape)) {
+    for (const auto& t : mesh->triangles) {
+      std::vector<Vec3> core;
+      for (const int k : t) core.push_back(mesh->vertices[static_cast<std::size_t>(k)]);
+      all.push_back(of_points({core, 0, p.pose}));
+    }
+  } else if (const auto core = core_points(p)) {
+    all.push_back(of_points({*core, core_radius(p), p.pose}));
+  } else {
+    all.push_back(of_curved(p));
+  }
+  return all;
+}
+
+constexpr std::size_t most_pairs_of_parts = 256;  // a pair takes a hundredth of a second
+
+std::size_t count_parts(const Placed& p) {
+  const auto* mesh = std::get_if<TriangleMesh>(p.shape);
+  return mesh ? mesh->triangles.size() : 1;
+}
+
+bool stands(const Operand& x) { return x.exact ? x.exact->times.size() == 1 : x.placed.shape != nullptr; }
+
+WidePart part_of(const Operand& x) { return x.exact ? of_points(*x.exact) : parts_of(x.placed).front(); }
+
+Wide3 middle(const WideSolid& s) {
+  if (s.kind != WideSolid::Kind::points) return s.centre;
+  Wide3 sum;
+  for (const Wide3& p : s.points) sum = sum + p;
+  return (1 / Wide(s.points.size())) * sum;
+}
+
+// The plane across `direction` half-way between the two; none when they are not apart along it by more than
+// rounding.
+Certificate plane_between(const WideDifference& d, const Wide3& direction) {
+  const Wide top = dot(direction, support(d.a, direction).point) + Wide(d.a.radius) * norm(direction);
+  const Wide bottom = dot(direction, support(d.b, -direction).point) - Wide(d.b.radius) * norm(direction);
+  Certificate c;
+  if (!(bottom - top > ldexp(d.extent, -200))) return c;
+  c.kind = Certificate::Kind::separating_plane;
+  for (int i = 0; i < 3; ++i) c.rationals.push_back(text_of(exact_of(direction[i])));
+  c.rationals.push_back(text_of(exact_of((top + bottom) / 2)));
+  return c;
+}
+
+// Between the nearest points of the cores, divided as the radii are.
+Wide3 common_point(const WideDifference& d, const BasicSimplex<Wide>& s) {
+  Wide3 a, b;
+  for (int i = 0; i < s.size; ++i) {
+    const auto k = static_cast<std::size_t>(i);
+    a = a + s.weight[k] * s.vertex[k].a;
+    b = b + s.weight[k] * s.vertex[k].b;
+  }
+  const Wide share = d.radius > 0 ? Wide(d.a.radius) / d.radius : Wide(1) / 2;
+  return a + share * (b - a);
+}
+
+Certificate point_at(const Rational3& x) {
+  Certificate c;
+  c.kind = Certificate::Kind::common_point;
+  for (int i = 0; i < 3; ++i) {
+    c.rationals.push_back(text_of(x[i]));
+    c.point[i] = x[i].convert_to<double>();
+  }
+  return c;
+}
+
+Rational simplest_near(const Rational& x, const Rational& e) { return simplest_between(x - e, x + e); }
+
+Rational3 simplest_near(const Rational3& x, const Rational& e) {
+  return {simplest_near(x.x, e), simplest_near(x.y, e), simplest_near(x.z, e)};
+}
+
+/// Where the two meet or nearly do: as a point, and as weights of the vertices of a core that is a polytope.
+struct Meeting {
+  Wide3 point;
+  std::map<int, Wide> weights[2];
+};
+
+Meeting meeting(const WideDifference& d, const BasicSimplex<Wide>& s) {
+  Meeting m{common_point(d, s), {}};
+  for (int i = 0; i < s.size; ++i) {
+    const auto k = static_cast<std::size_t>(i);
+    if (const int v = s.vertex[k].ia; v >= 0) m.weights[0][v] += s.weight[k];
+    if (const int v = s.vertex[k].ib; v >= 0) m.weights[1][v] += s.weight[k];
+  }
+  return m;
+}
+
+Meeting mean(const std::vector<Meeting>& all) {
+  const Wide share = 1 / Wide(all.size());
+  Meeting m;
+  for (const Meeting& x : all) {
+    m.point = m.point + share * x.point;
+    for (int i = 0; i < 2; ++i)
+      for (const auto& [v, w] : x.weights[i]) m.weights[i][v] += share * w;
+  }
+  return m;
+}
+
+// A polytope's point with simple weights is exactly in the polytope, on the same face or edge of it.
+std::optional<Rational3> with_simple_weights(const std::map<int, Wide>& weights, const WidePart& part,
+                                             const Rational& e) {
+  if (weights.empty() || part.exact_points.empty()) return std::nullopt;
+  Rational3 sum{0, 0, 0};
+  Rational all = 0;
+  for (const auto& [v, w] : weights) {
+    const Rational simple = simplest_near(exact_of(w), e);
+    if (simple < 0) continue;
+    all += simple;
+    sum = sum + simple * part.exact_points[static_cast<std::size_t>(v)];
+  }
+  if (all == 0) return std::nullopt;
+  return Rational(1) / all * sum;
+}
+
+// The overlap may be 1e-17 thick and the point on the border of one of the two, which rounding leaves: a step
+// of 1e-36 towards that body's middle does not.
+Certificate inside_both(const WideDifference& d, const Wide3& point, const Placed& a, const Placed& b) {
+  for (const Wide3& to : {point, middle(d.a), middle(d.b)})
+    if (Certificate c = point_at(exact_of(point + ldexp(Wide(1), -120) * (to - point))); checker::check(c, a, b))
+      return c;
+  return {};
+}
+
+// Bodies that touch by construction touch at fractions, or in a segment or an area that holds some: from the
+// middle of what several searches found, far from its border, towards simpler numbers.
+Certificate simple_point(const std::vector<Meeting>& found, const WidePart& x, const WidePart& y,
+                         const Placed& a, const Placed& b) {
+  const Wide extent = x.solid.extent + y.solid.extent;
+  for (const int bits : {-200, -100, -60, -40, -20, -10, -6})
+    for (const Meeting& m : {mean(found), found.front()}) {
+      std::vector<Rational3> guesses{simplest_near(exact_of(m.point), exact_of(ldexp(extent, bits)))};
+      for (int i = 0; i < 2; ++i)
+        if (const auto p = with_simple_weights(m.weights[i], i == 0 ? x : y, exact_of(ldexp(Wide(1), bits))))
+          guesses.push_back(*p);
+      for (const Rational3& guess : guesses)
+        if (Certificate c = point_at(guess); checker::check(c, a, b)) return c;
+    }
+  return {};
+}
+
+Wide3 beginning(const WideDifference& d) {
+  const Wide3 towards = normalized(middle(d.b) - middle(d.a));
+  return largest(towards) > 0 ? towards : Wide3{1, 0, 0};
+}
+
+// Where the search ends on a segment or an area depends on the direction to begin with.
+std::vector<Wide3> beginnings(const WideDifference& d) {
+  std::vector<Wide3> all{beginning(d)};
+  for (int i = 0; i < 8; ++i)
+    all.push_back(normalized(
+        all[0] + Wide3{Wide(i & 1 ? 1 : -1) / 2, Wide(i & 2 ? 1 : -1) / 3, Wide(i & 4 ? 1 : -1) / 5}));
+  return all;
+}
+
+// Of two convex parts, one of each body: a plane between them (not yet checked), or a point of both bodies.
+Certificate search(const WidePart& x, const WidePart& y, const Placed& a, const Placed& b) {
+  spend(10'000'000);
+  const WideDifference d(x.solid, y.solid);
+  std::vector<Meeting> found;
+  for (const Wide3& n : beginnings(d)) {
+    const auto g = gjk(d, std::span<const Wide3>(&n, 1), Wide(0));
+    if (Certificate c = plane_between(d, g.gap.direction); c.kind != Certificate::Kind::none) return c;
+    found.push_back(meeting(d, g.simplex));
+    for (const Wide3& p : {found.back().point, mean(found).point})
+      if (Certificate c = inside_both(d, p, a, b); c.kind != Certificate::Kind::none) return c;
+  }
+  return simple_point(found, x, y, a, b);
+}
+
+}  // namespace
+
+Certificate search_wide(const Placed& a, const Placed& b) {
+  if (std::holds_alternative<HalfSpace>(*a.shape) || std::holds_alternative<HalfSpace>(*b.shape)) return {};
+  if (count_parts(a) * count_parts(b) > most_pairs_of_parts) return {};
+  const std::vector<WidePart> x = parts_of(a), y = parts_of(b);
+  Certificate planes;
+  planes.kind = Certificate::Kind::separating_plane;
+  bool all_apart = true;
+  for (const WidePart& p : x)
+    for (const WidePart& q : y) {
+      const Certificate c = search(p, q, a, b);
+      if (c.kind == Certificate::Kind::common_point) return c;
+      all_apart = all_apart && c.kind == Certificate::Kind::separating_plane;
+      planes.rationals.insert(planes.rationals.end(), c.rationals.begin(), c.rationals.end());
+    }
+  return all_apart && checker::check(planes, a, b) ? planes : Certificate{};
+}
+
+// Points of the cores are sums of a few products and one or two roots of numbers of 237 bits: they are within
+// 2^-220 of the extent of where they should be, and one rounding to 64 bits covers that many times over.
+std::optional<WideGap> wide_gap(const Operand& a, const Operand& b) {
+  if (!stands(a) || !stands(b)) return std::nullopt;
+  const WidePart x = part_of(a), y = part_of(b);
+  const WideDifference d(x.solid, y.solid);
+  const Wide3 n = beginning(d);
+  const auto g = gjk(d, std::span<const Wide3>(&n, 1), ldexp(d.extent, -80));
+  const Real above = static_cast<Real>(norm(g.simplex.nearest));
+  const Wide3& u = g.gap.direction;
+  return WideGap{{static_cast<Real>(u.x), static_cast<Real>(u.y), static_cast<Real>(u.z)},
+                 above + 2 * unit * (above + static_cast<Real>(d.extent) * 0x1p-130L)};
+}
+
+}  // namespace touchstone::referee

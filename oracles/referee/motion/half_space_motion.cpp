@@ -1,0 +1,90 @@
+// Two half-spaces are apart only while they face each other: normals exactly antiparallel, and room between.
+// Then the room is linear in t, with rational ends, as long as neither turns. A turn that shows (not about
+// the normal) and is not the same for both ends it at once: m(t)·and -m(t)· of the two are analytic, and
+// differ in the first or second derivative at 0 unless ω is the same, so that they differ at all small t > 0.
+// There the half-spaces overlap: the first contact is at 0, as an infimum.
+#include "oracles/referee/motion/half_space_motion.h"
+
+#include <limits>
+
+#include "oracles/referee/exact/world.h"
+
+namespace touchstone::referee {
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+/// Room between two that face each other, times the length of A's normal, at t = 0 and its rate of change.
+struct Room {
+  Rational3 normal;
+  Rational start, rate;
+};
+
+std::optional<Room> room_between(const Placed& a, const Motion& ma, const Placed& b, const Motion& mb) {
+  const RationalPlane x = world_plane(a), y = world_plane(b);
+  const Rational along = dot(x.normal, y.normal);
+  if (along >= 0 || !is_zero(cross(x.normal, y.normal))) return std::nullopt;
+  // y.normal = -k·x.normal: B = {x.normal·p >= -y.offset/k}.
+  const Rational k = -along / dot(x.normal, x.normal);
+  return Room{x.normal, -y.offset / k - x.offset, dot(x.normal, exact(mb.linear) - exact(ma.linear))};
+}
+
+Bracket scaled(const Rational& room, const Rational3& normal) {
+  const Rational sq = dot(normal, normal);
+  const Real value = room.convert_to<Real>() / std::sqrt(sq.convert_to<Real>());
+  const Real slack = 16 * unit * std::fabs(value);
+  return {round_down(value - slack), round_up(value + slack)};
+}
+
+double below(const Rational& t) {
+  const double d = t.convert_to<double>();
+  return exact(d) > t ? std::nextafter(d, -infinity) : d;
+}
+
+bool is_singular(const Placed& p) { return is_zero(world_plane(p).normal); }
+
+}  // namespace
+
+Vec3 shown_turn(const Placed& half_space, const Vec3& angular) {
+  return is_zero(cross(world_plane(half_space).normal, exact(angular))) ? Vec3(Vec3::Zero()) : angular;
+}
+
+TimeTruth judge_half_spaces_in_motion(const Placed& a, const Motion& motion_a, const Placed& b,
+                                      const Motion& motion_b) {
+  TimeTruth r;
+  r.least_gap = {-infinity, infinity};
+  if (is_singular(a) || is_singular(b)) return r.note = "a singular placement leaves no half-space", r;
+  const auto room = room_between(a, motion_a, b, motion_b);
+  const auto hit = [&](double lo, double hi, const char* note) {
+    r.verdict = TimeTruth::Verdict::hit;
+    r.t_lo = lo, r.t_hi = hi, r.least_gap.hi = 0, r.note = note;
+    return r;
+  };
+  if (!room || room->start <= 0) return hit(0, 0, "overlap at the start");
+  const Vec3 turn_a = shown_turn(a, motion_a.angular), turn_b = shown_turn(b, motion_b.angular);
+  if (turn_a != turn_b)
+    return hit(0, std::numeric_limits<double>::denorm_min(), "they face each other only at the start");
+  if (!turn_a.isZero(0)) return r.note = "two half-spaces that turn alike are not judged in motion", r;
+  const Rational end = room->start + room->rate;
+  if (end > 0) {
+    r.verdict = TimeTruth::Verdict::none;
+    r.t_lo = 1;
+    r.least_gap = scaled(std::min(room->start, end), room->normal);
+    return r;
+  }
+  const Rational t = room->start / -room->rate;
+  const double lo = below(t);
+  return hit(lo, exact(lo) == t ? lo : std::nextafter(lo, infinity), "");
+}
+
+Bracket gap_of_half_spaces(const Placed& a, const Motion& motion_a, const Placed& b, const Motion& motion_b,
+                           double t) {
+  const bool turn = shown_turn(a, motion_a.angular) != shown_turn(b, motion_b.angular) ||
+                    !shown_turn(a, motion_a.angular).isZero(0);
+  if (is_singular(a) || is_singular(b) || (turn && t > 0)) return {-infinity, infinity};
+  const auto room = room_between(a, motion_a, b, motion_b);
+  if (!room) return {-infinity, -infinity};
+  return scaled(room->start + exact(t) * room->rate, room->normal);
+}
+
+}  // namespace touchstone::referee

@@ -1,0 +1,305 @@
+// judge_motion and its kin. The frame travels with B's translation, so A moves with v = vA - vB and B turns
+// in place.
+//
+// Without (visible) rotation the predicate "A swept over [s, t] touches B" is monotone in t, and a swept
+// polytope or rounded shape is one again, so that the exact level decides it: the verdict is always decided
+// for such pairs, and the time of impact is bracketed down to neighbouring doubles.
+//
+// With rotation: steps over which a separation certainly lasts (course.h), and where they stall a search for
+// a time of certain contact.
+#include "oracles/referee/motion/motion.h"
+
+#include <algorithm>
+
+#include "oracles/referee/limits.h"
+#include "oracles/referee/motion/half_space_motion.h"
+#include "oracles/referee/work.h"
+
+namespace touchstone::referee {
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+double next_time(double t, double step) { return std::min(1.0, std::max(std::nextafter(t, 2.0), t + step)); }
+
+TimeTruth hit(double lo, double hi, const char* note = "") {
+  TimeTruth r;
+  r.verdict = TimeTruth::Verdict::hit;
+  r.t_lo = lo;
+  r.t_hi = hi;
+  r.least_gap = {-infinity, 0};
+  r.note = note;
+  return r;
+}
+
+// Newton's step from below never passes the first contact; sweeps of doubling length then bracket it, and
+// bisection closes the bracket to neighbouring doubles or to what curved pairs can decide.
+TimeTruth close_in(Course& c) {
+  double lo = 0;
+  for (int i = 0; i < 64; ++i) {
+    const ConvexTruth g = c.at(lo);
+    const double next = c.clear_without_turning(lo, g);
+    if (!(next > lo) || next > 1) break;
+    lo = next;
+  }
+  double hi = 1;
+  for (double step = 0x1p-60; lo + step < 1; step *= 2) {
+    const double t = next_time(lo, step);
+    const Verdict v = c.swept(lo, t).verdict;
+    if (v == Verdict::disjoint) lo = t;
+    if (v == Verdict::overlap) {
+      hi = t;
+      break;
+    }
+  }
+  for (double from = lo; std::nextafter(std::max(lo, from), 2.0) < hi;) {
+    const double middle = std::max(lo, from) + (hi - std::max(lo, from)) / 2;
+    if (middle <= std::max(lo, from) || middle >= hi) break;
+    const Verdict v = c.swept(lo, middle).verdict;
+    if (v == Verdict::overlap)
+      hi = middle;
+    else if (v == Verdict::disjoint)
+      lo = middle;
+    else
+      from = middle;  // curved, within its bracket: contact is certain later, absence up to lo only
+  }
+  return hit(lo, hi);
+}
+
+TimeTruth judge_translation(Course& c) {
+  const ConvexTruth start = c.at(0, Effort::gap);
+  if (start.verdict == Verdict::overlap) return hit(0, 0, "overlap at the start");
+  const ConvexTruth all = c.swept(0, 1, Effort::gap);
+  if (all.verdict == Verdict::overlap) {
+    TimeTruth r = close_in(c);
+    r.least_gap.lo = round_down(all.lo);
+    return r;
+  }
+  TimeTruth r;
+  // The swept body holds A at all times: its gap bounds theirs from below, and is their least when positive.
+  r.least_gap = {round_down(all.lo), std::max(0.0, round_up(all.hi))};
+  if (all.verdict == Verdict::disjoint) {
+    r.verdict = TimeTruth::Verdict::none;
+    r.least_gap.lo = std::max(0.0, r.least_gap.lo);
+    r.t_lo = 1;
+    return r;
+  }
+  r.note = "the swept body touches within the bracket of a curved pair";
+  return r;
+}
+
+/// State of conservative advancement.
+struct Advance {
+  double t = 0;
+  Real least_lo = std::numeric_limits<Real>::infinity(), least_hi = std::numeric_limits<Real>::infinity();
+  enum class Exit { passed, stalled, contact, evaluation_cap } exit = Exit::stalled;
+};
+
+// From `start` until contact, the end, or no progress. A step shorter than `least_step` counts as none: near
+// a graze the steps shrink for ever.
+Advance advance_from(Course& c, double start, double least_step) {
+  Advance r;
+  r.t = start;
+  while (c.evaluations < limits::motion_evaluations) {
+    const ConvexTruth g = c.at(r.t);
+    r.least_hi = std::min(r.least_hi, g.hi);
+    if (g.verdict == Verdict::overlap) return r.exit = Advance::Exit::contact, r;
+    Course::Clear clear = c.clear_from(r.t, g);
+    // A verdict's direction separates, but need not be that of the gap, along which the step is longer.
+    if (clear.until - r.t < 0x1p-6) {
+      const Course::Clear other = c.clear_from(r.t, c.at(r.t, Effort::gap));
+      if (other.until > clear.until) clear = other;
+    }
+    r.least_lo = std::min(r.least_lo, clear.kept);
+    if (clear.until > 1) return r.t = 1, r.exit = Advance::Exit::passed, r;
+    if (clear.until - r.t < least_step) return r.exit = Advance::Exit::stalled, r;
+    r.t = clear.until;
+  }
+  r.exit = Advance::Exit::evaluation_cap;
+  return r;
+}
+
+// The first certain contact after a stall, by doubling steps; infinity when there is none close by.
+double contact_after(Course& c, double t, double& clear_at) {
+  clear_at = infinity;
+  for (double step = 0x1p-58; c.evaluations < limits::motion_evaluations; step *= 2) {
+    const double s = next_time(t, step);
+    const ConvexTruth g = c.at(s);
+    if (g.verdict == Verdict::overlap) return s;
+    if (g.verdict == Verdict::disjoint && step >= 0x1p-30 && clear_at == infinity) clear_at = s;
+    if (s >= 1 || step > 0x1p-8) return infinity;
+  }
+  return infinity;
+}
+
+// Nearest approach in [from, to] by golden section on the upper bound of the gap; only times at which contact
+// is certified are believed.
+double contact_within(Course& c, double from, double to) {
+  constexpr double golden = 0.6180339887498949;
+  double x = to - golden * (to - from), y = from + golden * (to - from);
+  ConvexTruth gx = c.at(x, Effort::gap), gy = c.at(y, Effort::gap);
+  for (int i = 0; i < 90 && to > from; ++i) {
+    if (gx.verdict == Verdict::overlap) return x;
+    if (gy.verdict == Verdict::overlap) return y;
+    if (gx.hi <= gy.hi) {
+      to = y, y = x, gy = gx;
+      x = to - golden * (to - from), gx = c.at(x, Effort::gap);
+    } else {
+      from = x, x = y, gx = gy;
+      y = from + golden * (to - from), gy = c.at(y, Effort::gap);
+    }
+  }
+  return infinity;
+}
+
+// hi is a certain contact, lo < hi has none before it; halves the part of (lo, hi] whose end is still a
+// contact.
+double earliest_contact(Course& c, double lo, double hi) {
+  for (int i = 0; i < 64; ++i) {
+    const double middle = lo + (hi - lo) / 2;
+    if (middle <= lo || middle >= hi) break;
+    if (c.at(middle).verdict == Verdict::overlap)
+      hi = middle;
+    else
+      lo = middle;
+  }
+  return hi;
+}
+
+TimeTruth judge_rotation(Course& c) {
+  double t = 0, first_stall = infinity;
+  Real least_lo = std::numeric_limits<Real>::infinity(), least_hi = least_lo;
+  const char* note = "";
+  while (t < 1) {
+    const Advance a = advance_from(c, t, 0x1p-52);
+    least_lo = std::min(least_lo, a.least_lo);
+    least_hi = std::min(least_hi, a.least_hi);
+    if (a.exit == Advance::Exit::passed) break;
+    const double clear_before = std::min(first_stall, a.t);
+    if (a.exit == Advance::Exit::contact) return hit(clear_before, earliest_contact(c, clear_before, a.t));
+    first_stall = clear_before;
+    if (a.exit == Advance::Exit::evaluation_cap) {
+      note = "evaluation cap reached";
+      break;
+    }
+    double clear_at = infinity;
+    double s = contact_after(c, a.t, clear_at);
+    if (s == infinity) s = contact_within(c, a.t, std::min(1.0, clear_at));
+    if (s != infinity) return hit(first_stall, earliest_contact(c, first_stall, s));
+    note = "grazes: contact is neither certain nor excluded";
+    if (clear_at == infinity) break;
+    t = clear_at;
+  }
+  TimeTruth r;
+  r.note = note;
+  if (first_stall == infinity) {
+    r.verdict = TimeTruth::Verdict::none;
+    r.t_lo = 1;
+    r.least_gap = {std::max(0.0, round_down(least_lo)), round_up(least_hi)};
+    return r;
+  }
+  r.t_lo = first_stall;
+  // Before first_stall the gap is positive; afterwards nothing is known from below.
+  r.least_gap = {-infinity, round_up(least_hi)};
+  return r;
+}
+
+TimeTruth judge_course(Course& c) {
+  if (!c.turns()) return judge_translation(c);
+  // The start is exact for every polytope; a contact there is decided whatever follows.
+  const ConvexTruth start = c.at(0);
+  if (start.verdict == Verdict::overlap) return hit(0, 0, "overlap at the start");
+  return judge_rotation(c);
+}
+
+template <class S>
+bool is(const Placed& p) {
+  return std::holds_alternative<S>(*p.shape);
+}
+
+const Vec3& translation_of(const Placed& p) {
+  if (const auto* pose = std::get_if<Pose>(&p.pose)) return pose->translation;
+  return std::get<Placement>(p.pose).translation;
+}
+
+TimeTruth join(const TimeTruth& x, const TimeTruth& y) {
+  using V = TimeTruth::Verdict;
+  TimeTruth r = x;
+  if (x.verdict == V::none) r = y;
+  if (x.verdict != V::none && y.verdict != V::none) {
+    r.verdict = x.verdict == V::hit || y.verdict == V::hit ? V::hit : V::undecided;
+    r.t_lo = std::min(x.t_lo, y.t_lo);
+    r.t_hi = std::min(x.verdict == V::hit ? x.t_hi : 1, y.verdict == V::hit ? y.t_hi : 1);
+    r.note = x.note.empty() ? y.note : x.note;
+  }
+  r.least_gap = {std::min(x.least_gap.lo, y.least_gap.lo), std::min(x.least_gap.hi, y.least_gap.hi)};
+  return r;
+}
+
+}  // namespace
+
+std::vector<PartPair> part_pairs(const Placed& a, const Motion& ma, const Placed& b, const Motion& mb) {
+  const auto count = [](const Placed& p) {
+    const auto* m = std::get_if<TriangleMesh>(p.shape);
+    return m ? m->triangles.size() : std::size_t{1};
+  };
+  const auto part = [](const Placed& p, std::size_t i) -> std::optional<std::size_t> {
+    if (is<TriangleMesh>(p)) return i;
+    return std::nullopt;
+  };
+  std::vector<PartPair> r;
+  if (is<HalfSpace>(b)) {
+    const Vec3 turn = shown_turn(b, mb.angular);
+    const Vec3 origin = translation_of(turn.isZero(0) ? a : b);
+    for (std::size_t i = 0; i < count(a); ++i)
+      r.push_back({i, 0, Course(Mover(a, ma, mb.linear, part(a, i)), b, turn, origin)});
+    return r;
+  }
+  const Vec3 origin = translation_of(a);
+  Motion turning = mb;
+  turning.linear = Vec3::Zero();
+  std::vector<Mover> y;
+  for (std::size_t j = 0; j < count(b); ++j) y.emplace_back(b, turning, Vec3::Zero(), part(b, j));
+  std::vector<Aabb> boxes;
+  for (const Mover& m : y) boxes.push_back(box_over(m, origin));
+  const bool filter = count(a) > 1 || count(b) > 1;
+  for (std::size_t i = 0; i < count(a); ++i) {
+    const Mover x(a, ma, mb.linear, part(a, i));
+    const Aabb box = filter ? box_over(x, origin) : Aabb{};
+    for (std::size_t j = 0; j < y.size(); ++j)
+      if (!filter || overlaps(box, boxes[j])) r.push_back({i, j, Course(x, y[j], origin)});
+  }
+  return r;
+}
+
+namespace {
+
+TimeTruth judge(const Placed& a, const Motion& motion_a, const Placed& b, const Motion& motion_b) {
+  if (is<HalfSpace>(a) && is<HalfSpace>(b)) return judge_half_spaces_in_motion(a, motion_a, b, motion_b);
+  if (is<HalfSpace>(a)) return judge(b, motion_b, a, motion_a);
+  TimeTruth r;
+  r.verdict = TimeTruth::Verdict::none;
+  r.t_lo = 1;
+  r.least_gap = {0, infinity};
+  bool first = true;
+  for (PartPair& p : part_pairs(a, motion_a, b, motion_b)) {
+    const TimeTruth t = judge_course(p.course);
+    r = first ? t : join(r, t);
+    first = false;
+  }
+  if (first) r.note = "the boxes of all parts stay apart";
+  // Parts whose boxes stay apart have not been measured.
+  if (is<TriangleMesh>(a) || is<TriangleMesh>(b)) r.least_gap.lo = std::min(0.0, r.least_gap.lo);
+  return r;
+}
+
+}  // namespace
+
+TimeTruth judge_motion(const Placed& a, const Motion& motion_a, const Placed& b, const Motion& motion_b) {
+  TimeTruth open;
+  open.least_gap = {-infinity, infinity};
+  open.note = too_expensive;
+  return within_limit(std::move(open), [&] { return judge(a, motion_a, b, motion_b); });
+}
+
+}  // namespace touchstone::referee

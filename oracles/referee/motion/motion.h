@@ -1,0 +1,23 @@
+// Moving parts and their boxes; the rest of the motion's interface is in referee.h.
+#pragma once
+
+#include <vector>
+
+#include "core/math/aabb.h"
+#include "oracles/referee/motion/course.h"
+
+namespace touchstone::referee {
+
+/// Convex part a of A and part b of B (triangles of meshes; 0 of anything else) in motion.
+struct PartPair {
+  std::size_t a = 0, b = 0;
+  Course course;
+};
+/// The pairs of parts that can meet at all in the step, in order. A is no half-space.
+std::vector<PartPair> part_pairs(const Placed& a, const Motion& motion_a, const Placed& b,
+                                 const Motion& motion_b);
+
+/// Outward box of the part over the whole step, relative to `origin` (which is exact).
+Aabb box_over(const Mover& m, const Vec3& origin);
+
+}  // namespace touchstone::referee

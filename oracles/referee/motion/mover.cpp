@@ -1,0 +1,89 @@
+#include "oracles/referee/motion/mover.h"
+
+#include <algorithm>
+
+#include "oracles/referee/exact/world.h"
+#include "oracles/referee/work.h"
+
+namespace touchstone::referee {
+namespace {
+
+std::optional<Rational3> local_axis(const Shape& s) {
+  if (std::holds_alternative<Cylinder>(s) || std::holds_alternative<Cone>(s) ||
+      std::holds_alternative<Capsule>(s))
+    return Rational3{0, 0, 1};
+  if (const auto* e = std::get_if<Ellipsoid>(&s)) {
+    const Vec3& a = e->semi_axes;
+    if (a.x() == a.y()) return Rational3{0, 0, 1};
+    if (a.y() == a.z()) return Rational3{1, 0, 0};
+    if (a.x() == a.z()) return Rational3{0, 1, 0};
+  }
+  return std::nullopt;
+}
+
+// A rotation that maps the set onto itself at all times: about the centre of a ball, or about the axis of a
+// body of revolution, decided exactly.
+bool rotation_shows(const Placed& p, const Vec3& angular, const std::optional<std::vector<Vec3>>& core) {
+  if (angular.isZero(0)) return false;
+  if (core && std::all_of(core->begin(), core->end(), [](const Vec3& v) { return v.isZero(0); }))
+    return false;
+  const auto axis = local_axis(*p.shape);
+  if (!axis || !std::holds_alternative<Pose>(p.pose)) return true;
+  const Rational3 u = world_point(p.pose, *axis) - world_point(p.pose, {0, 0, 0});
+  return !is_zero(cross(u, exact(angular)));
+}
+
+}  // namespace
+
+Mover::Mover(const Placed& p, const Motion& m, const Vec3& minus_linear, std::optional<std::size_t> triangle)
+    : placed_(p), motion_(m), minus_(minus_linear) {
+  if (triangle) {
+    const auto& mesh = std::get<TriangleMesh>(*p.shape);
+    core_.emplace();
+    for (int k : mesh.triangles[*triangle]) core_->push_back(mesh.vertices[static_cast<std::size_t>(k)]);
+  } else {
+    core_ = core_points(p);
+    radius_ = core_radius(p);
+  }
+  spins_ = rotation_shows(p, m.angular, core_);
+  if (!spins_) motion_.angular = Vec3::Zero();
+}
+
+Frame Mover::frame(double t, const Vec3& origin, bool turned) const {
+  Motion turning = motion_;
+  turning.linear = Vec3::Zero();
+  if (!turned) turning.angular = Vec3::Zero();
+  Frame f = frame_at(placed_, turning, t, origin);
+  const Real3 shift = static_cast<Real>(t) * velocity();
+  f.translation = f.translation + shift;
+  f.translation_error += 3 * unit * (largest(shift) + largest(f.translation));
+  return f;
+}
+
+Solid Mover::body(const Frame& f) const {
+  spend(300 + 10 * static_cast<std::int64_t>(core_ ? core_->size() : 1));
+  return core_ ? make_body(*core_, radius_, f) : make_body(placed_, f);
+}
+
+Operand Mover::at(double t, const Vec3& origin) const {
+  Operand r{body(frame(t, origin, true)), std::nullopt};
+  if (core_ && (!spins_ || t == 0))
+    r.exact = ExactBody{*core_, radius_, placed_.pose, motion_.linear, minus_, {t}};
+  return r;
+}
+
+Operand Mover::swept(double from, double to, const Vec3& origin) const {
+  Operand r{body(frame(from, origin, false)), std::nullopt};
+  const Real3 sweep = (static_cast<Real>(to) - static_cast<Real>(from)) * velocity();
+  add_sweep(r.body, sweep, 4 * unit * largest(sweep));
+  if (core_) r.exact = ExactBody{*core_, radius_, placed_.pose, motion_.linear, minus_, {from, to}};
+  return r;
+}
+
+Operand Mover::orbit(double t, const Vec3& origin) const {
+  if (!spins_) return at(t, origin);
+  const Frame f = frame(t, origin, false);
+  return {make_orbit(body(f), f.translation, angular()), std::nullopt};
+}
+
+}  // namespace touchstone::referee

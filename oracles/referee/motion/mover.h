@@ -1,0 +1,37 @@
+// A convex part in motion, seen from the frame that travels with the other body: x(t) = x0 + (linear -
+// minus)·t.
+#pragma once
+
+#include "oracles/referee/filter/convex.h"
+
+namespace touchstone::referee {
+
+class Mover {
+ public:
+  /// The part is the whole shape, or a triangle of a mesh.
+  Mover(const Placed& p, const Motion& m, const Vec3& minus_linear, std::optional<std::size_t> triangle);
+
+  bool spins() const { return spins_; }
+  Real3 velocity() const { return to_real(motion_.linear) - to_real(minus_); }
+  Real3 angular() const { return spins_ ? to_real(motion_.angular) : Real3{}; }
+  const Placed& placed() const { return placed_; }
+
+  Operand at(double t, const Vec3& origin) const;
+  /// All of it over [from, to]; exact set. Precondition: !spins().
+  Operand swept(double from, double to, const Vec3& origin) const;
+  /// Holds the part at time t whatever its rotation; itself when it does not spin.
+  Operand orbit(double t, const Vec3& origin) const;
+
+ private:
+  Frame frame(double t, const Vec3& origin, bool turned) const;
+  Solid body(const Frame& f) const;
+
+  Placed placed_;
+  Motion motion_;
+  Vec3 minus_;
+  std::optional<std::vector<Vec3>> core_;
+  double radius_ = 0;
+  bool spins_ = false;
+};
+
+}  // namespace touchstone::referee

@@ -1,0 +1,109 @@
+#include "reports/chart/chart_cases.h"
+
+#include <cmath>
+
+#include "core/math/rng.h"
+#include "scenarios/random/at_gap.h"
+#include "scenarios/random/family.h"
+#include "scenarios/random/random_shape.h"
+
+namespace touchstone::fuzz {
+namespace {
+
+struct Regime {
+  const char* name;
+  double (*gap)(Rng&);  // in sizes of the pair
+};
+constexpr Regime regimes[] = {
+    {"apart", [](Rng& r) { return r.uniform(0.1, 1); }},
+    {"near", [](Rng& r) { return r.chance(0.5) ? r.binary_scale(-30, -10) : -r.binary_scale(-30, -10); }},
+    {"shallow", [](Rng& r) { return -r.uniform(0.001, 0.1); }},
+    {"deep", [](Rng& r) { return -r.uniform(0.1, 1); }},
+};
+
+struct Scale {
+  const char* name;
+  double size, offset;
+};
+constexpr Scale scales[] = {{"1", 1, 0}, {"2^-10", 0x1p-10, 0}, {"1 at 2^13", 1, 0x1p13}};
+
+std::vector<std::pair<ShapeKind, ShapeKind>> kind_pairs(bool meshes) {
+  std::vector<std::pair<ShapeKind, ShapeKind>> pairs;
+  for (int a = 0; a <= static_cast<int>(ShapeKind::hull); ++a)
+    for (int b = a; b <= static_cast<int>(ShapeKind::hull); ++b)
+      pairs.emplace_back(static_cast<ShapeKind>(a), static_cast<ShapeKind>(b));
+  for (int b = 0; b <= static_cast<int>(ShapeKind::hull); ++b) {
+    pairs.emplace_back(ShapeKind::half_space, static_cast<ShapeKind>(b));
+    if (meshes) pairs.emplace_back(ShapeKind::mesh, static_cast<ShapeKind>(b));
+  }
+  return pairs;
+}
+
+std::string pair_name(ShapeKind a, ShapeKind b) {
+  return std::string(type_name(a)) + "-" + std::string(type_name(b));
+}
+
+}  // namespace
+
+std::vector<ChartCase> narrow_chart_cases(std::uint64_t seed, int per_cell, bool meshes) {
+  std::vector<ChartCase> cases;
+  for (const auto& [a, b] : kind_pairs(meshes))
+    for (const Regime& regime : regimes)
+      for (const Scale& scale : scales)
+        for (int i = 0; i < per_cell; ++i) {
+          Rng rng = Rng::stream(seed, cases.size());
+          const Vec3 origin = rng.unit_vector() * scale.offset;
+          Scene s = random_pair(rng, a, b, scale.size, origin);
+          const double gap = regime.gap(rng);
+          s = at_gap(rng, std::move(s), gap);
+          ChartCase c{{}, regime.name, pair_name(a, b), scale.name, 2};
+          c.c.id = "chart/" + std::to_string(seed) + "/" + std::to_string(cases.size());
+          c.c.family = "chart";
+          c.c.scene = std::move(s);
+          c.c.queries = {{Question::overlap, 0, 1}, {Question::distance, 0, 1}, {Question::contact, 0, 1}};
+          cases.push_back(std::move(c));
+        }
+  return cases;
+}
+
+std::vector<ChartCase> impact_chart_cases(std::uint64_t seed, int per_regime) {
+  std::vector<ChartCase> cases;
+  for (const char* family : {"translate", "spin", "graze", "bullet"})
+    for (int i = 0; i < per_regime; ++i) {
+      ChartCase c{make_case(seed, static_cast<std::uint64_t>(i), family), family, "", "1", 2};
+      const Scene& s = c.c.scene;
+      c.pair = pair_name(kind_of(s.shape_of(0)), kind_of(s.shape_of(1)));
+      c.c.queries = {{Question::time_of_impact, 0, 1}};
+      cases.push_back(std::move(c));
+    }
+  return cases;
+}
+
+ChartCase broad_chart_case(std::uint64_t seed, std::uint64_t bodies) {
+  Rng rng = Rng::stream(seed, bodies);
+  ChartCase c{{}, "crowd", "mixed", "1", bodies};
+  c.c.id = "chart/crowd/" + std::to_string(bodies), c.c.family = "chart";
+  Scene& s = c.c.scene;
+  // Kinds that every engine has.
+  constexpr ShapeKind kinds[] = {ShapeKind::sphere, ShapeKind::box, ShapeKind::capsule, ShapeKind::hull};
+  for (std::size_t i = 0; i < 32; ++i) {
+    Shape shape = random_shape(rng, kinds[i % 4], 1);
+    // ODE has no flat hulls.
+    while (kind_of(shape) == ShapeKind::hull && std::get<Hull>(shape).dimension < 3)
+      shape = random_shape(rng, ShapeKind::hull, 1);
+    s.shapes.push_back(std::move(shape));
+  }
+  // 40 units of volume a body, whose own is 2 to 4.
+  const double side = std::cbrt(static_cast<double>(bodies) * 40);
+  for (std::uint64_t i = 0; i < bodies; ++i) {
+    Body b;
+    b.shape = static_cast<int>(rng.below(s.shapes.size()));
+    b.pose.rotation = rng.rotation();
+    for (double& x : b.pose.translation) x = rng.uniform(0, side);
+    s.bodies.push_back(std::move(b));
+  }
+  c.c.queries = {{Question::candidates, -1, -1}};
+  return c;
+}
+
+}  // namespace touchstone::fuzz

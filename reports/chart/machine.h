@@ -1,0 +1,10 @@
+// What is measured on: times mean nothing without it.
+#pragma once
+
+#include "reports/record/chart.h"
+
+namespace touchstone::fuzz {
+
+Machine this_machine();
+
+}  // namespace touchstone::fuzz

@@ -1,0 +1,290 @@
+#include "reports/plan/plan.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/base/input_error.h"
+#include "reports/chart/machine.h"
+#include "reports/plan/fidelity_json.h"
+#include "reports/plan/plan_evidence.h"
+#include "reports/plan/plan_measure.h"
+
+namespace touchstone::fuzz {
+namespace {
+
+void simplify(const Course& c, Fidelity& f) {
+  for (const Shape& s : c.scene.shapes)
+    f.simpler.push_back(simpler_shape(s, Fidelity::shape_share * f.error, f.solid_meshes));
+}
+
+void make_solid(Scene& scene) {
+  for (Shape& s : scene.shapes)
+    if (const auto* mesh = std::get_if<TriangleMesh>(&s))
+      if (auto hull = convex_solid(*mesh)) s = std::move(*hull);
+}
+
+std::uint64_t vertices_of(const Shape& s) {
+  const auto* h = std::get_if<Hull>(&s);
+  return h ? h->vertices.size() : 0;
+}
+
+std::vector<PlanShape> shape_rows(const Course& c, const Fidelity& f) {
+  std::vector<PlanShape> rows;
+  for (std::size_t i = 0; i < f.simpler.size(); ++i) {
+    if (!f.simpler[i]) continue;
+    PlanShape r;
+    r.shape = static_cast<int>(i), r.error = f.simpler[i]->error;
+    r.was = type_name(c.scene.shapes[i]), r.becomes = type_name(f.simpler[i]->shape);
+    r.vertices = vertices_of(c.scene.shapes[i]), r.left = vertices_of(f.simpler[i]->shape);
+    for (const Body& b : c.scene.bodies) r.bodies += b.shape == r.shape;
+    rows.push_back(r);
+  }
+  return rows;
+}
+
+// The ways that a user would fix without a plan.
+std::vector<Way> fixed_ways(const Course& c, const std::vector<PlanPhase>& phases) {
+  // The slowest are known to be slow from their measurement alone.
+  constexpr double hopeless = 8;
+  std::vector<Way> ways;
+  for (const PlanPhase& p : phases) {
+    if (p.ns_step > hopeless * phases.front().ns_step && p.name != "automatic") continue;
+    Way w{p.name + ", double", {}, false, {}};
+    w.fidelity.broad_phase = p.name;
+    ways.push_back(w);
+  }
+  Way single{"automatic, float unproven", {}, false, {}};
+  single.fidelity.error = std::numeric_limits<double>::infinity();
+  for (auto& row : single.fidelity.method) row.fill({false, Arithmetic::float32});
+  ways.push_back(single);
+  if (!c.moves()) return ways;
+  Way all{"automatic, double, all swept", {}, false, {}},
+      none{"automatic, double, none swept", {}, false, {}};
+  all.fidelity.sweep.which = SweepOptions::Which::all, none.fidelity.sweep.which = SweepOptions::Which::none;
+  ways.push_back(all), ways.push_back(none);
+  return ways;
+}
+
+std::vector<PlanPair> with_double(std::vector<PlanPair> pairs) {
+  for (PlanPair& p : pairs)
+    p.balls_first = false, p.arithmetic = "double", p.ns = p.ns_double, p.balls_share = p.cheap_share = 0;
+  return pairs;
+}
+
+struct Scenery {
+  const Course& course;
+  EndPoses poses;
+  std::vector<std::vector<BodyPair>> candidates;
+  std::vector<PlanPhase> phases;
+};
+
+// Plans with the shapes of `base`: with and without remembered searches, and with double alone. What was
+// quickest pair by pair, or on boxes alone, need not be so in a whole step.
+void add_plans(const Scenery& s, const PlanOptions& o, const Fidelity& base, std::vector<Way>& ways) {
+  Fidelity f = base;
+  const auto measured = choose_methods(s.course, s.poses, s.candidates, o.seed, o.rounds, f);
+  std::vector<std::string> broad_phases{s.phases.front().name};
+  if (broad_phases.front() != "automatic") broad_phases.emplace_back("automatic");
+  for (const std::string& phase : broad_phases) {
+    for (const bool remember : {false, true}) {
+      f.broad_phase = phase, f.remember = remember;
+      ways.push_back({"plan", f, true, measured});
+    }
+    Fidelity all_double = base;
+    all_double.broad_phase = phase;
+    ways.push_back({"plan", all_double, true, with_double(measured)});
+  }
+}
+
+std::vector<Way> planned_ways(const Scenery& s, const PlanOptions& o, double error) {
+  Fidelity f;
+  f.error = error;
+  f.loose_boxes = true;  // as certain, and cheaper
+  f.solid_meshes = o.solid_meshes;
+  std::vector<Way> ways;
+  if (!f.solid_meshes) add_plans(s, o, f, ways);
+  simplify(s.course, f);
+  if (std::any_of(f.simpler.begin(), f.simpler.end(), [](const auto& x) { return x.has_value(); }) ||
+      ways.empty())
+    add_plans(s, o, f, ways);
+  return ways;
+}
+
+double least(const std::vector<double>& v) { return *std::min_element(v.begin(), v.end()); }
+
+// Rounds in which every way runs the course once, or after the first those that may still be the quickest:
+// `rounds`, or more while they are short. ns of each way and round.
+std::vector<std::vector<double>> run_ways(const Course& c, const std::vector<Way>& ways, int rounds,
+                                          const PlanProgress& progress) {
+  constexpr double after_one = 1.6, after_more = 1.25, enough_ns = 1e9;
+  constexpr int most = 64;
+  std::vector<std::vector<double>> times(ways.size());
+  double best = std::numeric_limits<double>::infinity(), spent = 0;
+  for (int round = 0; round < rounds || (rounds > 1 && round < most && spent < enough_ns); ++round)
+    for (std::size_t w = 0; w < ways.size(); ++w) {
+      if (round > 0 && least(times[w]) > (round == 1 ? after_one : after_more) * best) continue;
+      if (progress) progress(fmt::format("round {}: {}", round + 1, ways[w].name));
+      times[w].push_back(run_course(c, ways[w].fidelity));
+      // Who leaves passes unseen is no measure for the others.
+      if (ways[w].fidelity.sweep.which != SweepOptions::Which::none) best = std::min(best, times[w].back());
+      spent += times[w].back() * static_cast<double>(c.steps.size());
+    }
+  return times;
+}
+
+double median(std::vector<double> v) {
+  std::nth_element(v.begin(), v.begin() + static_cast<std::ptrdiff_t>(v.size() / 2), v.end());
+  return v[v.size() / 2];
+}
+
+void note_swept(const Course& c, const StepReport& r, std::vector<PlanSwept>& swept) {
+  for (const SweptBody& s : r.swept) {
+    auto known =
+        std::find_if(swept.begin(), swept.end(), [&](const PlanSwept& x) { return x.body == s.body; });
+    const bool is_new = known == swept.end();
+    if (is_new) known = swept.emplace(swept.end());
+    PlanSwept& p = *known;
+    const bool farther = is_new || s.pass_bound * p.inner > p.pass_bound * s.inner;
+    ++p.steps;
+    if (!farther) continue;
+    p.body = s.body, p.name = c.scene.bodies[at(s.body)].name;
+    p.reason = s.reason == SweepReason::turning ? "turning" : "travel";
+    p.pass_bound = s.pass_bound, p.inner = s.inner;
+  }
+}
+
+void mark_front(std::vector<PlanRow>& rows) {
+  for (PlanRow& r : rows)
+    r.front = r.sound() && std::none_of(rows.begin(), rows.end(), [&](const PlanRow& o) {
+                return o.sound() && o.ns_min < r.ns_min && o.error <= r.error;
+              });
+}
+
+// Runs ways under the referee's eyes; the plan first, which says who must be swept.
+struct Judging {
+  const Course& course;
+  const PlanSample& sample;
+  Plan& plan;
+  std::vector<std::uint64_t> needed;  // bodies swept by the plan, of each step
+
+  void judge(const Way& way, const std::vector<double>& times, bool is_plan) {
+    PlanRow row;
+    row.name = way.name, row.is_plan = is_plan;
+    row.ns_min = least(times), row.ns_median = median(times);
+    run_course(course, way.fidelity, [&](int step, const StepReport& r) {
+      sample.judge(step, r, plan.error, row);
+      row.unanswered += r.outcome != Outcome::answered;
+      if (is_plan) {
+        needed[at(step)] = r.swept.size(), plan.unsupported += static_cast<std::uint64_t>(r.unsupported);
+        note_swept(course, r, plan.swept);
+      } else if (r.swept.size() < needed[at(step)]) {
+        row.unswept += needed[at(step)] - r.swept.size();
+      }
+    });
+    plan.rows.push_back(row);
+  }
+};
+
+void sort_rows(Plan& p) {
+  std::stable_sort(p.rows.begin(), p.rows.end(),
+                   [](const PlanRow& x, const PlanRow& y) { return x.ns_min < y.ns_min; });
+  mark_front(p.rows);
+  std::stable_sort(p.swept.begin(), p.swept.end(), [](const PlanSwept& x, const PlanSwept& y) {
+    return x.pass_bound * y.inner > y.pass_bound * x.inner;
+  });
+}
+
+void require_fits(const Course& c, const Fidelity& f) {
+  if (f.simpler.size() > c.scene.shapes.size())
+    throw InputError("run.simpler", fmt::format("names shape {}; the scene has {}", f.simpler.size() - 1,
+                                                c.scene.shapes.size()));
+  // What the plan says of a shape is found again, or it is of another scene.
+  for (std::size_t i = 0; i < f.simpler.size(); ++i) {
+    if (!f.simpler[i]) continue;
+    const auto again = simpler_shape(c.scene.shapes[i], Fidelity::shape_share * f.error, f.solid_meshes);
+    if (again != f.simpler[i])
+      throw InputError("run.simpler", fmt::format("shape {} is another one in this scene", i));
+  }
+}
+
+}  // namespace
+
+double least_error(const Course& c) {
+  double size = 0;
+  for (std::size_t i = 0; i < c.scene.bodies.size(); ++i) {
+    const double r = bounding_radius(c.scene.shape_of(static_cast<int>(i)));
+    if (std::isfinite(r))
+      size = std::max(size, r + c.scene.bodies[i].pose.translation.lpNorm<Eigen::Infinity>());
+  }
+  for (const Course::Step& s : c.steps)
+    for (const Course::Move& m : s.moves)
+      size = std::max(size, m.start.translation.lpNorm<Eigen::Infinity>() + m.motion.linear.norm());
+  return 0x1p-44 * size;
+}
+
+double default_error(const Course& c) {
+  constexpr double of_a_body = 1e-6;
+  double smallest = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < c.scene.bodies.size(); ++i)
+    if (const double e = extent(c.scene.shape_of(static_cast<int>(i))); e > 0)
+      smallest = std::min(smallest, e);
+  return std::max(least_error(c), std::isfinite(smallest) ? of_a_body * smallest : 0);
+}
+
+Plan make_plan(const Course& c, const PlanOptions& o, const PlanProgress& progress) {
+  const auto say = [&](const std::string& what) {
+    if (progress) progress(what);
+  };
+  Plan p;
+  p.machine = this_machine(), p.scene = c.name, p.seed = o.seed;
+  p.bodies = c.scene.bodies.size(), p.steps = c.steps.size();
+  p.least_error = least_error(c);
+  p.error = o.given ? o.given->error : o.error > 0 ? o.error : default_error(c);
+  if (!(p.error >= p.least_error))
+    throw InputError("error", fmt::format("{:g} is less than double proves on this scene: {:.2g}", p.error,
+                                          p.least_error));
+  if (o.given) require_fits(c, *o.given);
+
+  // What the referee judges: solids where the caller says so.
+  Course solid = c;
+  if (o.given ? o.given->solid_meshes : o.solid_meshes) make_solid(solid.scene);
+  for (const Shape& s : c.scene.shapes)
+    if (const auto* mesh = std::get_if<TriangleMesh>(&s)) p.convex_meshes += convex_solid(*mesh).has_value();
+
+  say("broad phases");
+  Scenery scenery{c, end_poses(c), {}, {}};
+  const EndPoses& poses = scenery.poses;
+  scenery.candidates = course_candidates(c, poses);
+  scenery.phases = p.phases = measure_phases(c, poses, o.rounds);
+  say("pairs of shapes");
+  std::vector<Way> ways;
+  if (o.given)
+    ways.push_back({"plan", *o.given, true, {}});
+  else
+    ways = planned_ways(scenery, o, p.error);
+  const std::size_t planned = ways.size();
+  for (Way& w : fixed_ways(c, p.phases)) ways.push_back(std::move(w));
+  const auto times = run_ways(c, ways, o.rounds, progress);
+  for (const auto& of_way : times) p.rounds = std::max<std::uint64_t>(p.rounds, of_way.size());
+  std::size_t best = 0;
+  for (std::size_t w = 1; w < planned; ++w)
+    if (least(times[w]) < least(times[best])) best = w;
+
+  say("the referee");
+  const PlanSample sample(solid, poses, scenery.candidates, o.seed, o.judged);
+  p.judged = sample.judged(), p.undecided = sample.undecided();
+  Judging judging{c, sample, p, std::vector<std::uint64_t>(c.steps.size(), 0)};
+  judging.judge(ways[best], times[best], true);
+  for (std::size_t w = planned; w < ways.size(); ++w) judging.judge(ways[w], times[w], false);
+  sort_rows(p);
+  const Fidelity& chosen = ways[best].fidelity;
+  p.pairs = ways[best].pairs, p.shapes = shape_rows(c, chosen);
+  p.broad_phase = chosen.broad_phase, p.solid_meshes = chosen.solid_meshes, p.remember = chosen.remember,
+  p.sweep_share = chosen.sweep.share;
+  p.run = to_json(chosen);
+  return p;
+}
+
+}  // namespace touchstone::fuzz

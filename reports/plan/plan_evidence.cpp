@@ -1,0 +1,91 @@
+#include "reports/plan/plan_evidence.h"
+
+#include <algorithm>
+
+#include "core/math/rng.h"
+
+namespace touchstone::fuzz {
+namespace {
+
+using Kinds = std::pair<ShapeKind, ShapeKind>;
+
+// Candidates in an order in which kinds of shapes take turns, at random within each.
+std::vector<Occurrence> in_turns(const Course& c, const std::vector<std::vector<BodyPair>>& candidates,
+                                 Rng& rng, std::size_t most) {
+  std::map<Kinds, std::vector<Occurrence>> by_kind;
+  for (std::size_t s = 0; s < candidates.size(); ++s)
+    for (const auto& [a, b] : candidates[s])
+      by_kind[std::minmax(kind_of(c.scene.shape_of(a)), kind_of(c.scene.shape_of(b)))].push_back(
+          {static_cast<int>(s), a, b});
+  std::vector<Occurrence> order;
+  for (bool any = true; any && order.size() < most;) {
+    any = false;
+    for (auto& [kinds, left] : by_kind) {
+      if (left.empty()) continue;
+      any = true;
+      std::swap(left[rng.below(left.size())], left.back());
+      order.push_back(left.back());
+      left.pop_back();
+    }
+  }
+  return order;
+}
+
+}  // namespace
+
+Placed PlanSample::placed(int step, int body) const {
+  return {&course_.scene.shape_of(body), poses_[at(step)][at(body)]};
+}
+
+PlanSample::PlanSample(const Course& course, const EndPoses& poses,
+                       const std::vector<std::vector<BodyPair>>& candidates, std::uint64_t seed, int pairs)
+    : course_(course), poses_(poses) {
+  Rng rng(seed);
+  const auto order = in_turns(course, candidates, rng, at(8 * pairs));
+  // The core's own look at them only picks; what is apart fills the other half.
+  const Fidelity plain;
+  const auto shapes = seen_shapes(course.scene, plain);
+  std::vector<Occurrence> picked, apart;
+  for (const Occurrence& o : order) {
+    const SeenShape &a = shapes[at(course.scene.bodies[at(o.a)].shape)],
+                    &b = shapes[at(course.scene.bodies[at(o.b)].shape)];
+    const ContactAnswer c = contact_seen(plain, a, seen_body(a, poses[at(o.step)][at(o.a)]), b,
+                                         seen_body(b, poses[at(o.step)][at(o.b)]));
+    if (c.outcome == Outcome::unsupported) continue;
+    (c.overlap && picked.size() < at(pairs) / 2 ? picked : apart).push_back(o);
+  }
+  for (std::size_t i = 0; i < apart.size() && picked.size() < at(pairs); ++i) picked.push_back(apart[i]);
+  for (const Occurrence& o : picked) {
+    Judged j{{o.a, o.b}, referee::judge_pair(placed(o.step, o.a), placed(o.step, o.b)), true};
+    ++judged_;
+    if (j.truth.verdict == referee::Verdict::undecided) ++undecided_;
+    const auto is_mesh = [&](int i) { return kind_of(course.scene.shape_of(i)) == ShapeKind::mesh; };
+    j.has_depth = !is_mesh(o.a) && !is_mesh(o.b);
+    of_step_[o.step].push_back(std::move(j));
+  }
+}
+
+void PlanSample::judge(int step, const StepReport& report, double error, PlanRow& row) const {
+  const auto of_this = of_step_.find(step);
+  if (of_this == of_step_.end()) return;
+  for (const Judged& j : of_this->second) {
+    const auto contact = std::find_if(report.contacts.begin(), report.contacts.end(),
+                                      [&](const PairContact& c) { return BodyPair(c.a, c.b) == j.pair; });
+    // Certain errors only: by the side of each bracket that speaks for the answer.
+    double off = 0;
+    if (contact == report.contacts.end()) {
+      off = j.has_depth ? std::max(0.0, -j.truth.gap.hi) : 0;
+    } else if (j.truth.gap.lo > 0) {
+      off = j.truth.gap.lo;
+    } else if (j.has_depth) {
+      const auto w =
+          referee::width(placed(step, j.pair.first), placed(step, j.pair.second), contact->contact.normal);
+      const double depth = contact->contact.depth;
+      off = std::max({0.0, w.lo - depth, depth - w.hi, depth + j.truth.gap.lo});
+    }
+    row.error = std::max(row.error, off);
+    row.outside += !(off <= error);
+  }
+}
+
+}  // namespace touchstone::fuzz

@@ -1,0 +1,49 @@
+// What a broad phase made of a script, as a record: what reports/text/broad_page draws.
+#pragma once
+
+#include <array>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/math/aabb.h"
+#include "core/scene/scene.h"
+
+namespace touchstone::fuzz {
+
+struct BroadView {
+  struct Grid {
+    int along = 0;  // axis of the columns
+    std::array<double, 3> origin{}, cell{};
+    std::array<long, 3> count{};  // cells; those at the border extend to infinity
+  };
+  /// One method at one query.
+  struct Look {
+    std::string explanation;
+    int sweep_axis = -1;  // axis 0–2, or none
+    std::vector<Grid> grids;
+    std::vector<std::vector<Aabb>> nodes;  // of trees, by level, lowest first
+    /// Pairs that the structure brings together; those of them whose boxes do not overlap, the first few.
+    long considered = 0;
+    std::vector<BodyPair> pruned;
+  };
+  /// One query of the script.
+  struct Frame {
+    std::vector<std::optional<Aabb>> boxes;  // by body; none when absent
+    std::vector<BodyPair> kept;              // reported by every method, sorted
+    long all_pairs = 0;                      // that exact tests without a broad phase would take
+    std::array<long, 3> overlap_on_axis{};   // pairs whose intervals overlap on x, y, z
+    std::vector<Look> looks;                 // by method
+  };
+  std::string name;
+  std::vector<std::string> bodies;
+  std::vector<bool> fixed;
+  std::vector<std::string> methods;
+  std::vector<Frame> frames;
+};
+
+/// An infinite end is null.
+nlohmann::json to_json(const BroadView& view);
+
+}  // namespace touchstone::fuzz

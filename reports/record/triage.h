@@ -1,0 +1,47 @@
+// What became of the findings of a run: new, known, gone.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+#include "reports/record/observation_json.h"
+#include "scenarios/value/case_size.h"
+
+namespace touchstone::fuzz {
+
+/// A row of the ledger.
+struct KnownFinding {
+  std::string key, engine, question, fault, shapes, blame, degeneracy, magnitude;
+  std::string first_seen, last_seen, first_build, last_build;
+  std::uint64_t count = 0;
+  CaseSize size;
+  std::string smallest, words, expired;
+  bool operator==(const KnownFinding&) const = default;
+};
+
+enum class Standing : std::uint8_t {
+  fresh,     // not in the ledger until now
+  known,     // in the ledger, seen in this run
+  back,      // in the ledger as gone, seen again
+  still,     // in the ledger, not seen in this run; its case, asked again, still shows it
+  flaky,     // as still, but some of the times it was asked its case did not show it
+  gone,      // in the ledger, and its case, asked several times, never showed it: expired now
+  not_asked  // in the ledger, but its engine is not here, or could not be asked
+};
+inline constexpr auto standing_names =
+    std::to_array<std::string_view>({"new", "known", "back", "still", "flaky", "gone", "not asked"});
+constexpr std::string_view to_string(Standing s) { return standing_names[static_cast<std::size_t>(s)]; }
+
+struct Triaged {
+  Standing standing = Standing::fresh;
+  KnownFinding finding;      // as it is in the ledger now
+  int asked = 0, shown = 0;  // of a finding not seen in this run: how often its case was asked, and showed it
+  std::string trouble;       // why it could not be shrunk or asked; the others go on
+};
+
+/// The smallest case of a finding in the ledger. Throws InputError when it is damaged.
+Json case_json_of(const KnownFinding& f);
+
+}  // namespace touchstone::fuzz

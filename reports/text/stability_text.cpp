@@ -1,0 +1,120 @@
+#include "reports/text/stability_text.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+
+#include "reports/text/text.h"
+
+namespace touchstone::reports {
+namespace {
+
+using fuzz::LadderResult;
+
+// Rungs are powers of two.
+std::string rung(double value) {
+  int e = 0;
+  if (std::frexp(value, &e) == 0.5 && (value > 4096 || value < 1)) return fmt::format("2^{}", e - 1);
+  return fmt::format("{:g}", value);
+}
+
+// One a cell of a table: blank, "-" or a rung.
+using Cell = std::function<std::string(const std::string& engine, const std::string& ladder)>;
+
+void note(std::vector<std::string>& list, const std::string& x) {
+  if (std::find(list.begin(), list.end(), x) == list.end()) list.push_back(x);
+}
+
+std::string table(const std::string& title, const std::vector<std::string>& engines,
+                  const std::vector<std::string>& ladders, const Cell& cell) {
+  if (engines.empty()) return "";
+  std::string text = fmt::format("{:<23}", title);
+  const auto wide = [](const std::string& name) { return std::max<std::size_t>(8, name.size() + 1); };
+  for (const auto& l : ladders) text += fmt::format("{:>{}}", l, wide(l));
+  text += "\n";
+  for (const auto& e : engines) {
+    text += fmt::format("{:<23}", " " + e);
+    for (const auto& l : ladders) text += fmt::format("{:>{}}", cell(e, l), wide(l));
+    text += "\n";
+  }
+  return text + "\n";
+}
+
+std::string question_table(const fuzz::Stability& s, const std::string& question) {
+  std::vector<std::string> engines, ladders;
+  for (const LadderResult& r : s.results)
+    if (r.question == question) note(engines, r.engine), note(ladders, r.ladder);
+  return table(question, engines, ladders, [&](const std::string& e, const std::string& l) -> std::string {
+    for (const LadderResult& r : s.results)
+      if (r.ladder == l && r.engine == e && r.question == question)
+        return r.fails_at() ? rung(*r.fails_at()) : "-";
+    return "";
+  });
+}
+
+// The first rung at which an answer to any question about a pair breaks with that to another form of it.
+std::string form_table(const fuzz::Stability& s, std::size_t form, bool motions) {
+  std::vector<std::string> engines, ladders;
+  const auto of_kind = [&](const LadderResult& r) {
+    return r.question != "candidates" && (r.question == "time_of_impact") == motions;
+  };
+  for (const LadderResult& r : s.results)
+    if (of_kind(r)) note(engines, r.engine), note(ladders, r.ladder);
+  const std::string title = fmt::format("{}{}", fuzz::form_columns[form], motions ? ", impact" : "");
+  const bool any = std::any_of(s.results.begin(), s.results.end(), [&](const LadderResult& r) {
+    return of_kind(r) && r.breaks_at(form).has_value();
+  });
+  if (!any) return engines.empty() ? "" : title + ": no engine contradicts itself\n\n";
+  return table(title, engines, ladders, [&](const std::string& e, const std::string& l) -> std::string {
+    const LadderResult* earliest = nullptr;
+    bool asked = false;
+    const auto index = [&](const LadderResult& r) {
+      const auto at = [&](const fuzz::Rung& x) { return x.broken[form] > 0; };
+      return std::find_if(r.rungs.begin(), r.rungs.end(), at) - r.rungs.begin();
+    };
+    for (const LadderResult& r : s.results) {
+      if (!of_kind(r) || r.ladder != l || r.engine != e) continue;
+      asked = true;
+      if (r.breaks_at(form) && (!earliest || index(r) < index(*earliest))) earliest = &r;
+    }
+    return earliest ? rung(*earliest->breaks_at(form)) : asked ? "-" : "";
+  });
+}
+
+}  // namespace
+
+std::string stability_text(const fuzz::Stability& s) {
+  std::string text = wrapped(
+      fmt::format(
+          "The first rung at which an engine gives a wrong answer or none, over {} cases a rung; - never, "
+          "blank: it does not answer such.",
+          s.per_rung),
+      79, 0);
+  text += "\n\n";
+  for (const char* q : {"overlap", "distance", "contact", "time_of_impact", "candidates"})
+    text += question_table(s, q);
+  text += wrapped(
+      "The first rung at which two answers to the same pair contradict each other by more than the engine's "
+      "own tolerances: A and B exchanged (order); the scene turned or moved without a rounding (frame); "
+      "lengths times 2^20 and 2^-12 (unit).",
+      79, 0);
+  text += "\n\n";
+  for (std::size_t form = 1; form < fuzz::form_count; ++form)
+    text += form_table(s, form, false) + form_table(s, form, true);
+  for (const auto& l : s.ladders) {
+    for (const LadderResult& r : s.results)
+      if (r.ladder == l.name) {
+        text += "  " +
+                wrapped(fmt::format("{}: {}, {} to {}{}", l.name, l.line, rung(r.rungs.front().value),
+                                    rung(r.rungs.back().value), l.unit.empty() ? "" : " " + l.unit),
+                        76, 4) +
+                "\n";
+        break;
+      }
+  }
+  return text;
+}
+
+}  // namespace touchstone::reports

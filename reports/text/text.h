@@ -1,0 +1,33 @@
+// Results as text that fits 80 columns.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "reports/record/result.h"
+
+namespace touchstone::reports {
+
+/// The table of a campaign: engine × question -> answered, right, wrong, missed, ghost, failed, worst error
+/// in L, ns a query (median, p99); with a legend.
+std::string campaign_table(const fuzz::CampaignResult& r);
+
+/// Findings grouped by engine, question and fault, the most frequent `per_engine` groups of each engine.
+std::string findings_summary(const fuzz::CampaignResult& r, std::size_t per_engine);
+
+/// Where the time went and whether the cases proved anything.
+std::string campaign_footer(const fuzz::CampaignResult& r);
+
+/// "1,234,567".
+std::string grouped(std::uint64_t n);
+/// Seconds as "1:02:03" or "2:03".
+std::string clock_text(double seconds);
+/// "0", or two digits and exponent: "3.1e-16".
+std::string small(double x);
+/// Nanoseconds in at most 6 characters: "830", "12.3k", "1.20M".
+std::string nanoseconds(double ns);
+/// Breaks `text` at spaces to `width` columns; further lines are indented.
+std::string wrapped(const std::string& text, std::size_t width, std::size_t indent);
+
+}  // namespace touchstone::reports

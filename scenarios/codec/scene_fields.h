@@ -1,0 +1,32 @@
+// The fields of each object of the JSON form beside the shapes, which have tables of their own
+// (core/shape/*.h). The codec refuses what is not listed here; the tests hold
+// scenarios/codec/scene.schema.json against the same lists.
+#pragma once
+
+#include <array>
+#include <span>
+#include <string_view>
+
+#include "core/scene/scene.h"
+
+namespace touchstone::scene_fields {
+
+inline constexpr std::string_view version_field = "touchstone_scene";
+inline constexpr int version = 1;
+
+inline constexpr auto scene =
+    std::to_array<std::string_view>({version_field, "name", "shapes", "bodies", "ignored", "script"});
+inline constexpr auto body =
+    std::to_array<std::string_view>({"name", "shape", "pose", "motion", "static", "group"});
+inline constexpr auto pose = std::to_array<std::string_view>({"translation", "rotation"});
+inline constexpr auto motion = std::to_array<std::string_view>({"linear", "angular"});
+inline constexpr auto insert = std::to_array<std::string_view>({"op", "body", "pose"});
+inline constexpr auto move = std::to_array<std::string_view>({"op", "body", "pose"});
+inline constexpr auto remove = std::to_array<std::string_view>({"op", "body"});
+inline constexpr auto query = std::to_array<std::string_view>({"op"});
+
+inline constexpr auto op_names =
+    std::to_array<std::string_view>({"insert", "move", "remove", "query"});  // order of Step::Op
+inline constexpr std::array<std::span<const std::string_view>, 4> of_op{insert, move, remove, query};
+
+}  // namespace touchstone::scene_fields

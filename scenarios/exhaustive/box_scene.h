@@ -1,0 +1,51 @@
+// Scenes of boxes whose corners t ± h are exact in the subject's arithmetic, so that there is nothing to
+// round: what such a box is does not depend on who computes it.
+#pragma once
+
+#include <optional>
+
+#include "core/math/aabb.h"
+#include "core/math/rng.h"
+#include "scenarios/value/observation.h"
+
+namespace touchstone::fuzz {
+
+/// Scalar of the subject.
+enum class Scalar : std::uint8_t { float32, float64 };
+
+/// The next number of the scalar's format in the direction of the sign.
+double next_number(double x, int direction, Scalar scalar);
+/// Distance from 1 to the next number.
+double unit_in_last_place(Scalar scalar);
+double nearest(double x, Scalar scalar);
+
+/// Exactly t - h, t + h along every axis; nothing when a corner is no number of the format, or not finite.
+std::optional<Aabb> exact_corners(const Vec3& t, const Vec3& h, Scalar scalar);
+
+/// The box of a body that is one, exactly: a box upright or turned by a third about the diagonal (which
+/// permutes its extents), or a half-space perpendicular to an axis, which is infinite. Nothing for any other
+/// body. Numbers that are not finite give what IEEE arithmetic gives.
+std::optional<Aabb> exact_box(const Shape& shape, const Pose& pose);
+
+/// The turns of exact_box.
+Quat turn_by_thirds(unsigned thirds);
+
+/// Centre and half extents of the box, or of the nearest larger one for which they exist.
+struct Placing {
+  Vec3 t, h;
+};
+std::optional<Placing> placing_of(Aabb box, Scalar scalar);
+
+/// Appends a body of its own shape; returns its number.
+int add_box(Scene& s, const Placing& p, bool fixed = false);
+
+void insert_all(Scene& s);
+inline void step_insert(Scene& s, int body) { s.script.push_back({Step::Op::insert, body, std::nullopt}); }
+inline void step_insert(Scene& s, int body, const Pose& p) {
+  s.script.push_back({Step::Op::insert, body, p});
+}
+inline void step_move(Scene& s, int body, const Pose& p) { s.script.push_back({Step::Op::move, body, p}); }
+inline void step_remove(Scene& s, int body) { s.script.push_back({Step::Op::remove, body, std::nullopt}); }
+inline void step_query(Scene& s) { s.script.push_back({Step::Op::query, -1, std::nullopt}); }
+
+}  // namespace touchstone::fuzz

@@ -1,0 +1,107 @@
+#include "scenarios/import/mesh_import.h"
+
+#include <assimp/postprocess.h>
+#include <assimp/scene.h>
+
+#include <assimp/Importer.hpp>
+#include <cmath>
+#include <map>
+#include <string>
+
+#include "core/base/input_error.h"
+#include "scenarios/codec/scene_codec.h"
+
+namespace touchstone {
+namespace {
+
+struct Collector {
+  const std::string& file;
+  MeshImport options;
+  TriangleMesh mesh;
+  std::map<std::array<double, 3>, int> seen;
+
+  int index_of(const Vec3& p) {
+    const int next = static_cast<int>(mesh.vertices.size());
+    if (options.join_vertices) {
+      // + 0.0 folds -0 into 0, so that equal coordinates have equal keys.
+      const auto [it, is_new] = seen.try_emplace({p.x() + 0.0, p.y() + 0.0, p.z() + 0.0}, next);
+      if (!is_new) return it->second;
+    }
+    mesh.vertices.push_back(p);
+    return next;
+  }
+
+  void add(const aiMesh& part, const aiMatrix4x4& to_root) {
+    std::vector<int> index(part.mNumVertices);
+    for (unsigned i = 0; i < part.mNumVertices; ++i) {
+      const aiVector3D v = to_root.IsIdentity() ? part.mVertices[i] : to_root * part.mVertices[i];
+      if (!std::isfinite(v.x) || !std::isfinite(v.y) || !std::isfinite(v.z))
+        throw InputError(file,
+                         "vertex " + std::to_string(i) + " has a coordinate that is not finite in float32");
+      index[i] = index_of(Vec3(v.x, v.y, v.z));
+    }
+    for (unsigned f = 0; f < part.mNumFaces; ++f) {
+      const aiFace& face = part.mFaces[f];
+      if (face.mNumIndices != 3) continue;  // points and lines
+      std::array<int, 3> t{};
+      for (unsigned k = 0; k < 3; ++k) {
+        if (face.mIndices[k] >= part.mNumVertices)
+          throw InputError(file, "face " + std::to_string(f) + " names vertex " +
+                                     std::to_string(face.mIndices[k]) + " of " +
+                                     std::to_string(part.mNumVertices));
+        t[k] = index[face.mIndices[k]];
+      }
+      mesh.triangles.push_back(t);
+    }
+  }
+
+  void add(const aiScene& scene, const aiNode& node, const aiMatrix4x4& to_parent) {
+    const aiMatrix4x4 to_root = to_parent * node.mTransformation;
+    for (unsigned i = 0; i < node.mNumMeshes; ++i) add(*scene.mMeshes[node.mMeshes[i]], to_root);
+    for (unsigned i = 0; i < node.mNumChildren; ++i) add(scene, *node.mChildren[i], to_root);
+  }
+};
+
+// An STL in binary form says how many facets follow; a file that holds fewer was cut off. assimp reports this
+// only for some lengths.
+void check_binary_stl(const std::string& file, const std::string& bytes) {
+  if (bytes.size() < 84 || bytes.compare(0, 5, "solid") == 0) return;
+  std::uint32_t count = 0;
+  for (unsigned i = 0; i < 4; ++i)
+    count |= static_cast<std::uint32_t>(static_cast<unsigned char>(bytes[80 + i])) << (8 * i);
+  const std::uint64_t need = 84 + std::uint64_t{50} * count;
+  if (bytes.size() < need)
+    throw InputError(file, "is cut off: " + std::to_string(count) + " facets need " + std::to_string(need) +
+                               " bytes, the file has " + std::to_string(bytes.size()));
+}
+
+std::string lower_extension(const std::filesystem::path& file) {
+  std::string s = file.extension().string();
+  for (char& c : s) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return s;
+}
+
+}  // namespace
+
+TriangleMesh load_mesh(const std::filesystem::path& path, const MeshImport& options) {
+  const std::string file = path.string();
+  // Reading it ourselves first gives the errors that a path can have (missing, directory, too large, empty)
+  // one form.
+  const std::string bytes = read_file(path);
+  if (bytes.empty()) throw InputError(file, "is empty");
+  if (lower_extension(path) == ".stl") check_binary_stl(file, bytes);
+  Assimp::Importer importer;
+  const aiScene* scene = importer.ReadFile(file, aiProcess_Triangulate);
+  if (!scene || !scene->mRootNode) {
+    std::string reason = importer.GetErrorString();
+    for (char& c : reason)
+      if (c == '\n' || c == '\r') c = ' ';
+    throw InputError(file, "cannot be read as a mesh: " + (reason.empty() ? "no reason given" : reason));
+  }
+  Collector collector{file, options, {}, {}};
+  collector.add(*scene, *scene->mRootNode, aiMatrix4x4());
+  if (collector.mesh.triangles.empty()) throw InputError(file, "has no triangles");
+  return std::move(collector.mesh);
+}
+
+}  // namespace touchstone

@@ -1,0 +1,85 @@
+#include "scenarios/import/real_scene_cases.h"
+
+#include <algorithm>
+#include <charconv>
+
+#include "core/base/input_error.h"
+#include "oracles/referee/referee.h"
+
+namespace touchstone::fuzz {
+namespace {
+
+Aabb box_of(const Scene& s, int i) {
+  const Body& b = s.bodies[static_cast<std::size_t>(i)];
+  const Placed p{&s.shape_of(i), b.pose};
+  return b.motion ? referee::outer_box(p, *b.motion) : referee::outer_box(p);
+}
+
+// Pairs in the order of the bodies, by a sweep along x.
+std::vector<BodyPair> near_pairs(const Scene& s) {
+  std::vector<std::pair<Aabb, int>> boxes;
+  for (int i = 0; i < static_cast<int>(s.bodies.size()); ++i) boxes.emplace_back(box_of(s, i), i);
+  std::sort(boxes.begin(), boxes.end(), [](const auto& x, const auto& y) {
+    return std::pair{x.first.lo.x(), x.second} < std::pair{y.first.lo.x(), y.second};
+  });
+  std::vector<BodyPair> pairs;
+  for (std::size_t i = 0; i < boxes.size(); ++i)
+    for (std::size_t j = i + 1; j < boxes.size() && boxes[j].first.lo.x() <= boxes[i].first.hi.x(); ++j) {
+      if (!overlaps(boxes[i].first, boxes[j].first)) continue;
+      const auto [a, b] = std::minmax(boxes[i].second, boxes[j].second);
+      const bool both_static =
+          s.bodies[static_cast<std::size_t>(a)].is_static && s.bodies[static_cast<std::size_t>(b)].is_static;
+      if (!both_static && !is_filtered(s, a, b)) pairs.emplace_back(a, b);
+    }
+  std::sort(pairs.begin(), pairs.end());
+  return pairs;
+}
+
+int integer(const std::string& text, const std::string& whole) {
+  int v = 0;
+  const auto r = std::from_chars(text.data(), text.data() + text.size(), v);
+  if (r.ec != std::errc{} || r.ptr != text.data() + text.size())
+    throw InputError("--frames " + whole, "'" + text + "' is no integer; expected first:end:step");
+  return v;
+}
+
+}  // namespace
+
+std::vector<int> frames_from_text(const std::string& text, int count) {
+  std::vector<int> parts;
+  for (std::size_t start = 0; start <= text.size() && !text.empty();) {
+    const std::size_t end = std::min(text.find(':', start), text.size());
+    parts.push_back(integer(text.substr(start, end - start), text));
+    start = end + 1;
+  }
+  if (parts.size() == 1) parts.push_back(parts[0] + 1);
+  const int first = parts.empty() ? 0 : parts[0], end = parts.empty() ? count : parts[1];
+  const int step = parts.size() > 2 ? parts[2] : (parts.empty() ? std::max(1, count / 5) : 1);
+  if (parts.size() > 3 || step <= 0 || first < 0 || end > count || first >= end)
+    throw InputError("--frames " + text,
+                     "not a range within the scene's " + std::to_string(count) + " frames");
+  std::vector<int> frames;
+  for (int f = first; f < end; f += step) frames.push_back(f);
+  return frames;
+}
+
+std::vector<Case> real_scene_cases(const RealScene& scene, int frame) {
+  const Scene moving = scene.frame_with_motion(frame);
+  const std::string id = scene.name + "/" + std::to_string(frame);
+  std::vector<Case> cases{{id,
+                           scene.name,
+                           scene.frame(frame),
+                           {{Question::candidates, -1, -1}, {Question::scene_contacts, -1, -1}}}};
+  for (const auto& [a, b] : near_pairs(moving)) {
+    Case c{id + "/" + std::to_string(a) + "-" + std::to_string(b),
+           scene.name,
+           extract_pair(moving, a, b),
+           {{Question::overlap, 0, 1}, {Question::distance, 0, 1}, {Question::contact, 0, 1}}};
+    if (c.scene.bodies[0].motion || c.scene.bodies[1].motion)
+      c.queries.push_back({Question::time_of_impact, 0, 1});
+    cases.push_back(std::move(c));
+  }
+  return cases;
+}
+
+}  // namespace touchstone::fuzz

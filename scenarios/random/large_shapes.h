@@ -1,0 +1,14 @@
+// Meshes of every size, from one triangle to hundreds, open, closed, folded and flat; hulls of many vertices.
+#pragma once
+
+#include "core/math/rng.h"
+#include "scenarios/value/case.h"
+
+namespace touchstone::fuzz {
+
+void meshes(Rng& rng, Case& c);
+void many_vertices(Rng& rng, Case& c);
+
+Shape any_mesh(Rng& rng, double scale);
+
+}  // namespace touchstone::fuzz

@@ -1,0 +1,196 @@
+#include "scenarios/random/regimes.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "scenarios/random/numbers.h"
+
+namespace touchstone::fuzz {
+namespace {
+
+template <class Shown>
+bool any_question(const Case& c, Shown shown) {
+  return std::any_of(c.queries.begin(), c.queries.end(),
+                     [&](const Query& q) { return is_pair_question(q.question) && shown(q); });
+}
+
+template <class S, class Shown>
+bool any_shape(const Case& c, Shown shown) {
+  return std::any_of(c.scene.shapes.begin(), c.scene.shapes.end(), [&](const Shape& shape) {
+    const auto* s = std::get_if<S>(&shape);
+    return s && shown(*s);
+  });
+}
+
+bool reversed(const Case& c, const Case&) {
+  return any_question(c, [](const Query& q) { return q.a > q.b; });
+}
+
+bool distance_after_contact(const Case& c, const Case&) {
+  for (std::size_t i = 1; i < c.queries.size(); ++i)
+    if (c.queries[i - 1].question == Question::contact && c.queries[i].question == Question::distance)
+      return true;
+  return false;
+}
+
+bool asked_twice(const Case& c, const Case&) {
+  return any_question(c,
+                      [&](const Query& q) { return std::count(c.queries.begin(), c.queries.end(), q) > 1; });
+}
+
+bool another_pair_between(const Case& c, const Case&) {
+  for (std::size_t i = 2; i < c.queries.size(); ++i)
+    for (std::size_t k = 0; k + 1 < i; ++k)
+      if (c.queries[k] == c.queries[i] && c.queries[i - 1].a != c.queries[i].a &&
+          c.queries[i - 1].b != c.queries[i].b)
+        return true;
+  return false;
+}
+
+bool same_shapes_as_before(const Case& c, const Case& before) {
+  return c.scene.shapes == before.scene.shapes;
+}
+
+bool shape_in_common(const Case& c, const Case&) { return c.scene.shapes.size() < c.scene.bodies.size(); }
+
+bool filtered(const Case& c, const Case&) {
+  const int n = static_cast<int>(c.scene.bodies.size());
+  for (int a = 0; a < n; ++a)
+    for (int b = a + 1; b < n; ++b)
+      if (is_filtered(c.scene, a, b)) return true;
+  return false;
+}
+
+template <class Shown>
+bool any_quaternion(const Case& c, Shown shown) {
+  return std::any_of(c.scene.bodies.begin(), c.scene.bodies.end(), [&](const Body& b) {
+    const Quat& q = b.pose.rotation;
+    return shown(std::max({std::abs(q.x), std::abs(q.y), std::abs(q.z), std::abs(q.w)}));
+  });
+}
+bool quaternion_not_unit(const Case& c, const Case&) {
+  return any_quaternion(c, [](double q) { return q < 0.1 || q > 10; });
+}
+bool quaternion_extreme(const Case& c, const Case&) {
+  return any_quaternion(c, [](double q) { return q < 1e-6 || q > 1e6; });
+}
+
+// How many sizes of zero the flattest primitive has, of how many.
+bool has_zero_sizes(const Case& c, std::size_t least, bool all) {
+  return std::any_of(c.scene.shapes.begin(), c.scene.shapes.end(), [&](Shape s) {
+    if (kind_of(s) >= ShapeKind::ellipsoid) return false;
+    const auto sizes = numbers(s);
+    const auto zero = static_cast<std::size_t>(
+        std::count_if(sizes.begin(), sizes.end(), [](const double* x) { return *x == 0; }));
+    return zero >= least && (!all || zero == sizes.size());
+  });
+}
+bool size_zero(const Case& c, const Case&) { return has_zero_sizes(c, 1, false); }
+bool point(const Case& c, const Case&) { return has_zero_sizes(c, 1, true); }
+bool flat_box(const Case& c, const Case&) {
+  return any_shape<Box>(c, [](const Box& b) { return b.half_extents.minCoeff() == 0; });
+}
+bool flat_hull(const Case& c, const Case&) {
+  return any_shape<Hull>(c, [](const Hull& h) { return h.dimension < 3; });
+}
+
+double ratio_of_sizes(const Case& c) {
+  double ratio = 1;
+  any_question(c, [&](const Query& q) {
+    const double a = extent(c.scene.shape_of(q.a)), b = extent(c.scene.shape_of(q.b));
+    if (std::min(a, b) > 0) ratio = std::max(ratio, std::max(a, b) / std::min(a, b));
+    return false;
+  });
+  return ratio;
+}
+bool unequal(const Case& c, const Case&) { return ratio_of_sizes(c) > 120; }
+bool very_unequal(const Case& c, const Case&) { return ratio_of_sizes(c) > 1e5; }
+
+bool one_triangle(const Case& c, const Case&) {
+  return any_shape<TriangleMesh>(c, [](const TriangleMesh& m) { return m.triangles.size() == 1; });
+}
+bool two_triangles(const Case& c, const Case&) {
+  return any_shape<TriangleMesh>(c, [](const TriangleMesh& m) { return m.triangles.size() == 2; });
+}
+bool hundreds_of_triangles(const Case& c, const Case&) {
+  return any_shape<TriangleMesh>(c, [](const TriangleMesh& m) { return m.triangles.size() >= 100; });
+}
+// Every edge belongs to two triangles, which have it in opposite directions.
+bool is_closed(const TriangleMesh& m) {
+  std::vector<std::pair<int, int>> edges;
+  for (const auto& [a, b, c] : m.triangles) edges.insert(edges.end(), {{a, b}, {b, c}, {c, a}});
+  std::sort(edges.begin(), edges.end());
+  return std::all_of(edges.begin(), edges.end(), [&](const auto& e) {
+    return std::binary_search(edges.begin(), edges.end(), std::pair{e.second, e.first});
+  });
+}
+bool closed_mesh(const Case& c, const Case&) { return any_shape<TriangleMesh>(c, is_closed); }
+bool coplanar(const Case& c, const Case&) {
+  return any_shape<TriangleMesh>(c, [](const TriangleMesh& m) {
+    return m.triangles.size() > 1 &&
+           std::all_of(m.vertices.begin(), m.vertices.end(), [](const Vec3& v) { return v.z() == 0; });
+  });
+}
+bool mesh_in_company(const Case& c, const Case&) {
+  return c.scene.bodies.size() > 2 && any_shape<TriangleMesh>(c, [](const TriangleMesh&) { return true; });
+}
+bool mesh_second(const Case& c, const Case&) {
+  return any_question(c, [&](const Query& q) { return kind_of(c.scene.shape_of(q.b)) == ShapeKind::mesh; });
+}
+
+template <std::size_t least>
+bool hull_of(const Case& c, const Case&) {
+  return any_shape<Hull>(c, [](const Hull& h) { return h.vertices.size() >= least; });
+}
+
+// Some edge of one is turned against some edge of the other by less than a milliradian, and by more than
+// rounding.
+bool nearly_parallel_boxes(const Case& c, const Case&) {
+  return any_question(c, [&](const Query& q) {
+    for (const int i : {q.a, q.b})
+      if (kind_of(c.scene.shape_of(i)) != ShapeKind::box) return false;
+    const Mat3 a = rotation_matrix(c.scene.bodies[static_cast<std::size_t>(q.a)].pose.rotation),
+               b = rotation_matrix(c.scene.bodies[static_cast<std::size_t>(q.b)].pose.rotation);
+    for (int i = 0; i < 3; ++i)
+      for (int k = 0; k < 3; ++k) {
+        const double sine = a.col(i).cross(b.col(k)).norm();
+        if (sine > 1e-15 && sine < 1e-3) return true;
+      }
+    return false;
+  });
+}
+
+constexpr Regime rows[] = {
+    {"reversed", "a question about bodies a > b", 12, reversed},
+    {"distance-last", "a distance asked right after a contact", 32, distance_after_contact},
+    {"twice", "the same question about the same pair again", 32, asked_twice},
+    {"between", "the same, with another pair asked between", 100, another_pair_between},
+    {"sequel", "the shapes of the case before, a body moved or none", 32, same_shapes_as_before},
+    {"shared", "several bodies of one shape", 32, shape_in_common},
+    {"filtered", "bodies of one group, or pairs to be ignored", 128, filtered},
+    {"quaternion", "a quaternion shorter than 0.1 or longer than 10", 16, quaternion_not_unit},
+    {"quaternion-far", "a quaternion shorter than 1e-6 or longer than 1e6", 64, quaternion_extreme},
+    {"zero", "a sphere, box, capsule, cylinder or cone with a size of zero", 32, size_zero},
+    {"point", "one of these of which all sizes are zero", 64, point},
+    {"plate", "a box that is a rectangle, a segment or a point", 128, flat_box},
+    {"flat-hull", "a hull that is a polygon, a segment or a point", 64, flat_hull},
+    {"unequal", "a pair of sizes that differ by more than 120", 60, unequal},
+    {"unequal-far", "a pair of sizes that differ by more than 1e5", 200, very_unequal},
+    {"triangle", "a mesh of one triangle", 100, one_triangle},
+    {"two-triangles", "a mesh of two triangles", 100, two_triangles},
+    {"closed-mesh", "a mesh that is the surface of a solid", 100, closed_mesh},
+    {"large-mesh", "a mesh of 100 triangles and more", 100, hundreds_of_triangles},
+    {"coplanar", "a mesh whose triangles lie in one plane", 128, coplanar},
+    {"mesh-second", "a question whose second body is a mesh", 64, mesh_second},
+    {"mesh-company", "a mesh among three and more bodies", 64, mesh_in_company},
+    {"hull-64", "a hull of 64 vertices and more", 64, hull_of<64>},
+    {"hull-256", "a hull of 256 vertices and more", 128, hull_of<256>},
+    {"parallel", "two boxes with edges that are parallel but for less than a milliradian", 80,
+     nearly_parallel_boxes},
+};
+
+}  // namespace
+
+std::span<const Regime> regimes() { return rows; }
+
+}  // namespace touchstone::fuzz

@@ -1,0 +1,59 @@
+// A case: a scene and what is asked of it, as plain values.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/scene/scene.h"
+
+namespace touchstone {
+
+/// Numbers are those of ts_question.
+enum class Question : std::uint8_t {
+  overlap,
+  distance,
+  contact,
+  time_of_impact,
+  candidates,       // of the bodies as they stand: motions are ignored
+  scene_contacts,   // likewise
+  swept_candidates  // pairs that overlap at some time of the step, from the bodies' own poses; no script
+};
+inline constexpr auto question_names = std::to_array<std::string_view>(
+    {"overlap", "distance", "contact", "time_of_impact", "candidates", "scene_contacts", "swept_candidates"});
+static_assert(question_names.size() == static_cast<std::size_t>(Question::swept_candidates) + 1);
+constexpr std::string_view to_string(Question q) { return question_names[static_cast<std::size_t>(q)]; }
+constexpr std::optional<Question> question_from_string(std::string_view s) {
+  for (std::size_t i = 0; i < question_names.size(); ++i)
+    if (question_names[i] == s) return static_cast<Question>(i);
+  return std::nullopt;
+}
+constexpr bool is_pair_question(Question q) { return q <= Question::time_of_impact; }
+constexpr bool is_broad_question(Question q) {
+  return q == Question::candidates || q == Question::swept_candidates;
+}
+
+struct Query {
+  Question question = Question::overlap;
+  int a = 0, b = 1;  // bodies; meaningless for candidates and scene_contacts
+  bool operator==(const Query&) const = default;
+};
+
+/// A scene and what is asked of it.
+struct Case {
+  std::string id;      // "family/index" or a file's name; for people
+  std::string family;  // generator or scenario it came from
+  Scene scene;
+  std::vector<Query> queries;
+  bool operator==(const Case&) const = default;
+};
+
+/// Cases that ask for swept candidates ask for nothing else.
+inline bool asks_swept_candidates(const Case& c) {
+  return !c.queries.empty() && c.queries[0].question == Question::swept_candidates;
+}
+
+}  // namespace touchstone

@@ -1,0 +1,19 @@
+// How big a case is.
+#pragma once
+
+#include <compare>
+#include <cstddef>
+#include <cstdint>
+
+namespace touchstone {
+
+/// Compared in this order.
+struct CaseSize {
+  std::size_t bodies = 0;
+  std::size_t steps = 0;   // of the script; 0: insert all, query
+  std::uint64_t bits = 0;  // to write the rest down: significant bits and exponents of all numbers, a bit for
+                           // each vertex, triangle, shape, query, motion, flag and name
+  auto operator<=>(const CaseSize&) const = default;
+};
+
+}  // namespace touchstone

@@ -1,0 +1,23 @@
+// The kinds of evidence that a certificate of a broad phase rests on.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string_view>
+
+namespace touchstone {
+
+/// What candidates must contain. boxes: every pair of the boxes given, which the subject's arithmetic holds
+/// exactly, that overlap; bodies: every pair of bodies that truly overlap, whatever box the subject makes.
+enum class BroadLevel : std::uint8_t { boxes, bodies };
+inline constexpr auto level_names = std::to_array<std::string_view>({"boxes", "bodies"});
+constexpr std::string_view to_string(BroadLevel l) { return level_names[static_cast<std::size_t>(l)]; }
+
+enum class EvidenceKind : std::uint8_t { exhaustive, adversarial, temporal, random };
+inline constexpr auto evidence_kind_names =
+    std::to_array<std::string_view>({"exhaustive", "adversarial", "temporal", "random"});
+constexpr std::string_view to_string(EvidenceKind k) {
+  return evidence_kind_names[static_cast<std::size_t>(k)];
+}
+
+}  // namespace touchstone

@@ -1,0 +1,106 @@
+#include "scenarios/value/moving_pairs.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <set>
+
+#include "core/shape/shape.h"
+
+namespace touchstone {
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+bool moves(const Body& b) { return b.motion && !(b.motion->linear.isZero(0) && b.motion->angular.isZero(0)); }
+
+// Height of the shape's highest point over its origin along d (body frame); infinite where there is none.
+double height(const Shape& shape, const Vec3& d) {
+  return std::visit(
+      [&](const auto& s) {
+        using S = std::decay_t<decltype(s)>;
+        double most = infinity;
+        if constexpr (requires { support(s, d); }) {
+          most = d.dot(support(s, d));
+        } else if constexpr (std::is_same_v<S, TriangleMesh>) {
+          most = -infinity;
+          for (const Vec3& v : s.vertices) most = std::max(most, d.dot(v));
+        }
+        return most;
+      },
+      shape);
+}
+
+// The box of the start pose, or of the ball that holds the body however it turns, along the way; wider by far
+// more than what is rounded here.
+Aabb box_along(const Scene& s, int i) {
+  const Body& b = s.bodies[static_cast<std::size_t>(i)];
+  const Shape& shape = s.shape_of(i);
+  const Motion m = b.motion.value_or(Motion{});
+  const double radius = bounding_radius(shape);
+  const Mat3 back = rotation_matrix(b.pose.rotation).transpose();
+  constexpr double slack = 1e-12;
+  Aabb box;
+  for (int k = 0; k < 3; ++k) {
+    const Vec3 axis = Vec3::Unit(k);
+    const bool turns = !m.angular.isZero(0);
+    const double up = turns ? radius : height(shape, back * axis),
+                 down = turns ? radius : height(shape, -(back * axis));
+    const double x = b.pose.translation[k], y = x + m.linear[k];
+    const double margin = slack * (std::abs(x) + std::abs(y) + (std::isfinite(radius) ? radius : 0.0));
+    box.lo[k] = std::min(x, y) - down - margin;
+    box.hi[k] = std::max(x, y) + up + margin;
+  }
+  return box;
+}
+
+}  // namespace
+
+bool moves(const Scene& scene) {
+  return std::any_of(scene.bodies.begin(), scene.bodies.end(), [](const Body& b) { return moves(b); });
+}
+
+std::vector<BodyPair> moving_pairs(const Scene& scene) {
+  const int n = static_cast<int>(scene.bodies.size());
+  std::vector<BodyPair> pairs;
+  if (!moves(scene)) return pairs;
+  std::vector<Aabb> boxes;
+  std::vector<int> order;
+  for (int i = 0; i < n; ++i) {
+    boxes.push_back(box_along(scene, i));
+    if (boxes.back().lo.x() <= boxes.back().hi.x()) order.push_back(i);  // not what is no set (odd_numbers.h)
+  }
+  const auto box = [&](int i) -> const Aabb& { return boxes[static_cast<std::size_t>(i)]; };
+  const auto body = [&](int i) -> const Body& { return scene.bodies[static_cast<std::size_t>(i)]; };
+  std::sort(order.begin(), order.end(), [&](int i, int j) {
+    return std::pair{box(i).lo.x(), i} < std::pair{box(j).lo.x(), j};
+  });
+  for (std::size_t k = 0; k < order.size(); ++k)
+    for (std::size_t l = k + 1; l < order.size() && box(order[l]).lo.x() <= box(order[k]).hi.x(); ++l) {
+      const auto [a, b] = std::minmax(order[k], order[l]);
+      if (!moves(body(a)) && !moves(body(b))) continue;
+      if (is_filtered(scene, a, b) || (body(a).is_static && body(b).is_static)) continue;
+      if (overlaps(box(a), box(b))) pairs.emplace_back(a, b);
+    }
+  std::sort(pairs.begin(), pairs.end());
+  return pairs;
+}
+
+std::size_t impacts_not_asked(const Case& c) {
+  std::set<BodyPair> asked;
+  for (const Query& q : c.queries)
+    if (q.question == Question::time_of_impact) asked.insert(std::minmax(q.a, q.b));
+  std::size_t n = 0;
+  for (const BodyPair& p : moving_pairs(c.scene)) n += !asked.contains(p);
+  return n;
+}
+
+std::string words_on_impacts_not_asked(const Case& c) {
+  const std::size_t n = impacts_not_asked(c);
+  if (n == 0) return "";
+  return "not asked: the time of impact of " + std::to_string(n) + (n == 1 ? " pair" : " pairs") +
+         " that may meet during the step (of a scene without questions the first " +
+         std::to_string(most_impacts_asked) + " are asked)";
+}
+
+}  // namespace touchstone

@@ -1,0 +1,79 @@
+// What an engine answered, as plain values.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/base/outcome.h"
+#include "scenarios/value/case.h"
+
+namespace touchstone {
+
+struct ManifoldPoint {
+  Vec3 position = Vec3::Zero();  // world
+  double depth = 0;
+  bool operator==(const ManifoldPoint& o) const { return position == o.position && depth == o.depth; }
+};
+
+struct SceneContact {
+  int a = 0, b = 0;  // a < b; normal from a to b
+  Vec3 normal = Vec3::Zero();
+  double depth = 0;
+  bool operator==(const SceneContact& o) const {
+    return a == o.a && b == o.b && normal == o.normal && depth == o.depth;
+  }
+};
+
+/// One engine's answer to one query. An empty optional means "not stated", which is not judged.
+struct Observation {
+  Outcome outcome = Outcome::unsupported;
+  std::string detail;
+  std::optional<bool> overlap;
+  std::optional<double> distance;  // signed
+  std::optional<std::array<Vec3, 2>> witness;
+  std::optional<Vec3> normal;  // A to B
+  std::optional<double> depth;
+  std::vector<ManifoldPoint> manifold;
+  std::optional<double> toi;  // time_of_impact answered, empty: "no hit"
+  std::vector<std::vector<BodyPair>>
+      candidate_pairs;  // per query step; as reported (unsorted, duplicates kept)
+  std::vector<SceneContact> contacts;
+  double claimed_tolerance = 0;
+  std::int64_t elapsed_ns = 0;  // the engine's own time; never hashed or compared
+  bool slow = false;            // it took more than the time limit; never hashed or compared
+  std::string site;  // of a crash: "distance-inl.h:177", "libfcl:detail::collide"; empty when it is not known
+  bool operator==(const Observation& o) const {
+    return outcome == o.outcome && detail == o.detail && overlap == o.overlap && distance == o.distance &&
+           witness == o.witness && normal == o.normal && depth == o.depth && manifold == o.manifold &&
+           toi == o.toi && candidate_pairs == o.candidate_pairs && contacts == o.contacts &&
+           claimed_tolerance == o.claimed_tolerance && site == o.site;
+  }
+};
+
+/// An observation that holds no answer.
+inline Observation no_answer(Outcome outcome, std::string detail, std::string site = "") {
+  Observation o;
+  o.outcome = outcome;
+  o.detail = std::move(detail);
+  o.site = std::move(site);
+  return o;
+}
+
+/// The scene as an engine received it: exact affine placements and shapes.
+/// A body or shape that the engine did not report is empty: taken as asked.
+struct ReceivedScene {
+  std::vector<std::optional<Placement>> bodies;
+  std::vector<std::optional<Shape>> shapes;
+  bool operator==(const ReceivedScene&) const = default;
+};
+
+struct CaseObservations {
+  ReceivedScene received;
+  std::vector<Observation> answers;  // one a query, in order
+};
+
+}  // namespace touchstone

@@ -1,0 +1,66 @@
+#include "scenarios/value/odd_numbers.h"
+
+#include <cmath>
+#include <unordered_map>
+
+#include "core/base/input_error.h"
+
+namespace touchstone {
+namespace {
+
+// Calls visit(place, number, may be negative) for every number that may be odd.
+template <class SceneRef, class Visit>
+void for_each_place(SceneRef& s, Visit&& visit) {
+  const auto three = [&](const std::string& place, auto& v, bool signed_number) {
+    for (int k = 0; k < 3; ++k) visit(place + std::to_string(k), v[k], signed_number);
+  };
+  for (std::size_t i = 0; i < s.shapes.size(); ++i)
+    if (auto* box = std::get_if<Box>(&s.shapes[i]))
+      three("/shapes/" + std::to_string(i) + "/half_extents/", box->half_extents, false);
+  for (std::size_t i = 0; i < s.bodies.size(); ++i)
+    three("/bodies/" + std::to_string(i) + "/pose/translation/", s.bodies[i].pose.translation, true);
+  for (std::size_t i = 0; i < s.script.size(); ++i)
+    if (s.script[i].pose)
+      three("/script/" + std::to_string(i) + "/pose/translation/", s.script[i].pose->translation, true);
+}
+
+bool is_odd(double x, bool signed_number) { return !std::isfinite(x) || (!signed_number && x < 0); }
+
+}  // namespace
+
+std::vector<OddNumber> odd_numbers(const Scene& s) {
+  std::vector<OddNumber> out;
+  for_each_place(s, [&](const std::string& place, double x, bool signed_number) {
+    if (is_odd(x, signed_number)) out.push_back({place, x});
+  });
+  return out;
+}
+
+Scene without_odd_numbers(Scene s) {
+  for_each_place(s, [](const std::string&, double& x, bool signed_number) {
+    if (is_odd(x, signed_number)) x = 0;
+  });
+  return s;
+}
+
+// By a table of the places: a file may name as many as it has numbers.
+void put_in(Scene& s, const std::vector<OddNumber>& all) {
+  struct Place {
+    double* number = nullptr;
+    bool may_be_negative = false;
+  };
+  std::unordered_map<std::string, Place> places;
+  for_each_place(s, [&](const std::string& place, double& x, bool signed_number) {
+    places[place] = {&x, signed_number};
+  });
+  for (const OddNumber& n : all) {
+    const auto found = places.find(n.place);
+    if (found == places.end())
+      throw InputError(n.place, "is no place of a coordinate or a half extent in this scene");
+    if (!is_odd(n.value, found->second.may_be_negative))
+      throw InputError(n.place, "is an ordinary number: it belongs into the scene itself");
+    *found->second.number = n.value;
+  }
+}
+
+}  // namespace touchstone

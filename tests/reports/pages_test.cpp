@@ -1,0 +1,237 @@
+// The pages: their data in a browser when node, playwright-core and chromium are there (else said and
+// skipped), and what happens where the pages are not built.
+#include <zlib.h>
+#include <algorithm>
+#include <cstdlib>
+#include <iostream>
+#include <nlohmann/json.hpp>
+#include <random>
+#include <regex>
+#include <sstream>
+
+#include "reports/text/findings_columns.h"
+#include "reports/text/web_page.h"
+#include "tests/support/catch.h"
+#include "tests/support/workspace.h"
+
+namespace fs = std::filesystem;
+using touchstone::test::read_all;
+using touchstone::test::Workspace;
+using Json = nlohmann::json;
+
+namespace {
+
+const fs::path built = TS_BINARY_DIR "/share/touchstone/web";
+
+// Empty when all is there that a browser test needs.
+std::string missing_for_browser() {
+  for (const char* kind : {"case", "report", "chart", "stability", "certificate"})
+    if (!fs::exists(built / (std::string(kind) + ".html"))) return "the built pages";
+  if (!fs::exists(TS_BINARY_DIR "/web/node_modules/playwright-core")) return "playwright-core";
+  if (std::system("command -v node >/dev/null 2>&1") != 0) return "node";
+  if (!fs::exists("/usr/bin/chromium")) return "/usr/bin/chromium";
+  return "";
+}
+
+std::string inflated(const std::string& base64) {
+  const std::string digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::string bytes;
+  unsigned bits = 0;
+  int held = 0;
+  for (const char c : base64) {
+    if (c == '=') break;
+    bits = bits << 6 | static_cast<unsigned>(digits.find(c)), held += 6;
+    if (held >= 8) bytes += static_cast<char>(bits >> (held -= 8) & 255);
+  }
+  std::string text(1 << 20, '\0');
+  uLongf size = text.size();
+  REQUIRE(uncompress(reinterpret_cast<Bytef*>(text.data()), &size,
+                     reinterpret_cast<const Bytef*>(bytes.data()), bytes.size()) == Z_OK);
+  return text.substr(0, size);
+}
+
+// The lines of the browser's test that measure: sizes and times, which no check asks about.
+std::string figures_of(const std::string& out) {
+  std::istringstream lines(out);
+  std::string figures;
+  for (std::string line; std::getline(lines, line);)
+    if (line.starts_with("     ")) figures += line.substr(5) + "\n";
+  return figures;
+}
+
+// The findings of a campaign, over and over with other shapes and numbers, until there are `count`.
+void many_findings(const fs::path& from, const fs::path& to, std::size_t count) {
+  using Sorted = nlohmann::json;
+  Sorted summary = Sorted::parse(read_all(from));
+  const std::vector<Sorted> base(summary["findings"].begin(), summary["findings"].end());
+  REQUIRE(base.size() > 10);
+  std::mt19937_64 random(5);
+  Sorted findings = Sorted::object();
+  for (std::size_t i = 0; i < count; ++i) {
+    Sorted f = base[i % base.size()];
+    f.erase("evidence");
+    f["shapes"] = f["shapes"].get<std::string>() + "-" + std::to_string(i / base.size());
+    f["count"] = 1 + random() % 1000;
+    f["worst_in_l"] = static_cast<double>(random() >> 11) * 0x1p-60;
+    std::string words = f["words"];
+    for (std::size_t k = 1; k < words.size(); ++k)  // other digits: as hard to pack as true ones
+      if (std::isdigit(words[k]) && std::isdigit(words[k - 1]))
+        words[k] = static_cast<char>('0' + random() % 10);
+    f["words"] = words;
+    std::string key;
+    for (const char* part : {"engine", "question", "fault", "shapes", "blame", "degeneracy", "magnitude"})
+      key += (key.empty() ? "" : ".") + f[part].get<std::string>();
+    findings[key] = std::move(f);
+  }
+  REQUIRE(findings.size() == count);
+  summary["findings"] = std::move(findings);
+  fs::create_directories(to.parent_path());
+  std::ofstream(to) << summary.dump();
+}
+
+}  // namespace
+
+TEST_CASE("pages load, show the numbers of their JSON, draw, move and link in a browser", "[pages]") {
+  if (const std::string missing = missing_for_browser(); !missing.empty()) {
+    WARN("skipped: " << missing << " is missing");
+    return;
+  }
+  const Workspace w("pages");
+  const std::string engines = " --engines core,fcl-libccd,libccd-mpr";
+  const std::string few = fs::exists(TS_BINARY_DIR "/lib/libtouchstone_fcl.so") &&
+                                  fs::exists(TS_BINARY_DIR "/lib/libtouchstone_libccd.so")
+                              ? engines
+                              : " --engines core,core-f32";
+  for (const std::string& line :
+       {"view " TS_SOURCE_DIR "/scenarios/corpus/drake-1668-cubes-corner-overlap.json -o case.html" + few,
+        "view bullet_through_thin_wall -o motion.html" + few,
+        "view rods_crossed_apart -o separate.html" + few, "view spheres_kiss -o touching.html" + few,
+        "view cylinder_in_box -o curved.html" + few, "view mesh_cut_by_box -o mesh.html" + few,
+        "view swap_places -o script.html" + few,
+        std::string("view thousand_balls -o crowd.html --engines core"),
+        std::string("view swap_places --broad -o broad.html --json > broad.json"),
+        "stability --quick --ladder gap --out ." + few,
+        "chart --quick --measure 0 --broad grid,brute_force --out ." + few}) {
+    const auto r = w.touchstone(line);
+    INFO(line << "\n" << r.err);
+    REQUIRE(r.code <= 1);  // 1: some engine is wrong
+  }
+  CHECK(w.touchstone("fuzz --cases 200 --seed 7 --relations 0 --out run --subject core" + few).code == 0);
+  REQUIRE(w.touchstone("report run -o report.html").code == 0);
+  many_findings(w.dir / "run/summary.json", w.dir / "many/summary.json", 100000);
+  REQUIRE(w.touchstone("report many -o many.html").code == 0);
+  CHECK(w.touchstone("certify --subject grid --limit 60 --page certified.html").code == 0);
+  CHECK(w.touchstone(
+             "certify --subject " TS_BINARY_DIR
+             "/lib/libtouchstone_mutants.so:stale_after_move --level boxes --without no_boxes --limit 2000 "
+             "-o refuted.json --page refuted.html")
+            .code == 1);
+  // Kept for whoever wants to see them (continuous integration: as artefacts).
+  const char* wanted = std::getenv("TOUCHSTONE_SCREENSHOTS");
+  const std::string pictures =
+      fs::absolute(wanted && *wanted ? wanted : TS_BINARY_DIR "/screenshots").string();
+  const auto node =
+      w.run("node " TS_BINARY_DIR "/web/test/pages.mjs /usr/bin/chromium " + w.dir.string() + " " + pictures);
+  std::cout << figures_of(node.out) << "screenshots: " << pictures << "\n";
+  INFO(node.out << node.err);
+  CHECK(node.code == 0);
+  CHECK(node.out.find("all checks hold") != std::string::npos);
+  for (const char* name : {"case-1280", "motion-390-dark", "report-print", "curved-contact"})
+    CHECK(fs::file_size(fs::path(pictures) / (std::string(name) + ".png")) > 5000);
+}
+
+TEST_CASE("what builds and tests the pages runs on Debian 12's Node 18 and npm 9", "[pages]") {
+  const fs::path web = TS_SOURCE_DIR "/reports/web";
+  // npm 9 cannot read an alias ("npm:…") among overrides: npm ci ends with "Invalid comparator".
+  CHECK_FALSE(Json::parse(read_all(web / "package.json")).contains("overrides"));
+  int asked = 0;
+  const Json lock = Json::parse(read_all(web / "package-lock.json"));
+  for (const auto& [name, package] : lock["packages"].items()) {
+    if (package.value("optional", false) || !package.contains("engines")) continue;
+    const std::string node = package["engines"].value("node", ">=18");
+    // The first number after an operator: versions from this one on.
+    static const std::regex lower_bound(R"((>=|\^)\s*(\d+))");
+    bool runs = false;
+    for (std::sregex_iterator m(node.begin(), node.end(), lower_bound), end; m != end; ++m)
+      runs |= (*m)[1] == "^" ? (*m)[2] == "18" : std::stoi((*m)[2]) <= 18;
+    INFO(name << " wants node " << node);
+    CHECK(runs);
+    ++asked;
+  }
+  CHECK(asked >= 5);
+}
+
+TEST_CASE("without built pages the data remains and one line says what is missing", "[pages][cli]") {
+  const Workspace w("nopages");
+  fs::create_directories(w.dir / "bin");
+  fs::create_symlink(TS_BINARY_DIR "/lib", w.dir / "lib");
+  fs::copy_file(TS_BINARY_DIR "/bin/touchstone", w.dir / "bin/touchstone");
+  const auto alone = w.run("bin/touchstone view spheres_kiss --engines core -o page.html");
+  CHECK(alone.code == 2);
+  CHECK(alone.err.find("touchstone-host: is missing") != std::string::npos);
+  fs::create_symlink(TS_BINARY_DIR "/bin/touchstone-host", w.dir / "bin/touchstone-host");
+  const auto r = w.run("bin/touchstone view spheres_kiss --engines core -o page.html");
+  CHECK(r.code == 3);
+  CHECK(r.err.find("./touchstone pages --install") != std::string::npos);
+  CHECK(std::count(r.err.begin(), r.err.end(), '\n') == 1);
+  CHECK_FALSE(fs::exists(w.dir / "page.html"));
+  const Json j = Json::parse(read_all(w.dir / "page.json"));
+  CHECK(j["queries"].size() == 3);
+  CHECK(j["queries"][2]["engines"]["core"]["right"] == true);
+  const auto s = w.run("bin/touchstone stability --quick --ladder angle --engines core --out s");
+  CHECK(s.code == 0);
+  CHECK(fs::exists(w.dir / "s/stability.json"));
+  CHECK_FALSE(fs::exists(w.dir / "s/stability.html"));
+}
+
+TEST_CASE("findings are packed without loss: words come back, numbers of the key too", "[pages]") {
+  using touchstone::fuzz::Json;
+  using namespace touchstone::reports;
+  std::string numbers;
+  const std::string text = template_of("says -2.5e-05 in [-inf, 3.]; 2^20, e17 x_9 1e 12", numbers);
+  CHECK(numbers == "-2.5e-05 3 2 20 1 12");
+  CHECK(std::count(text.begin(), text.end(), number_mark) == 6);
+  const auto finding = [](const char* engine, const char* words, const Json& worst) {
+    return Json{{"engine", engine},    {"question", "contact"}, {"fault", "missed"},    {"shapes", "box-box"},
+                {"blame", "none"},     {"degeneracy", "solid"}, {"magnitude", "small"}, {"count", 3},
+                {"worst_in_l", worst}, {"words", words}};
+  };
+  const Json j = findings_columns(
+      {{"b", finding("fcl", "off by 0.25", 0.123456)}, {"a", finding("core", "off by 7", "inf")}});
+  CHECK(j["count"] == 2);
+  CHECK(j["coded"]["engine"]["values"] == Json({"core", "fcl"}));
+  CHECK(j["coded"]["engine"]["codes"] == Json({1, 0}));
+  CHECK(j["worst_in_l"] == Json({0.123, "inf"}));
+  CHECK(j["words"]["templates"].size() == 1);
+  CHECK(j["words"]["numbers"] == "0.25 7");
+}
+
+TEST_CASE("long data goes into a page compressed, and comes out as it was", "[pages]") {
+  using namespace touchstone::reports;
+  const std::string shell = "<script>__TOUCHSTONE_DATA__</script>";
+  CHECK(web_page(shell, R"(["<b>"])") == "<script>[\"\\u003cb>\"]</script>");
+  std::string json = "[0";
+  for (int i = 1; json.size() < compressed_from; ++i) json += "," + std::to_string(i * 7919 % 10007);
+  json += "]";
+  for (int cut = 0; cut < 3; ++cut) {  // every remainder of base64's three bytes, most likely
+    const std::string page = web_page(shell, json);
+    CHECK(page.size() < json.size());
+    CHECK(page.rfind("<script>{\"deflate\":\"", 0) == 0);
+    const std::string packed = Json::parse(deflated(json))["deflate"];
+    CHECK(packed.size() % 4 == 0);
+    CHECK(inflated(packed) == json);
+    json.insert(1, "1,");
+  }
+  CHECK_THROWS(web_page("no place", "{}"));
+}
+
+TEST_CASE("report says what is not a campaign", "[pages][cli]") {
+  const Workspace w("noreport");
+  CHECK(w.touchstone("report .").code == 2);
+  w.write("summary.json", "{}");
+  const auto r = w.touchstone("report .");
+  CHECK(r.code == 2);
+  CHECK(r.err.find("summary.json") != std::string::npos);
+  w.write("summary.json", "no JSON");
+  CHECK(w.touchstone("report .").code == 2);
+}

@@ -1,0 +1,65 @@
+#include <map>
+#include <set>
+
+#include "core/base/input_error.h"
+#include "scenarios/random/family.h"
+#include "scenarios/random/regimes.h"
+#include "tests/support/catch.h"
+
+using namespace touchstone;
+
+TEST_CASE("every case of every family is valid and made again from its seed and index alone", "[generate]") {
+  std::size_t n = 0;
+  for (const fuzz::Family& f : fuzz::families())
+    for (std::uint64_t i = 0; i < 200; ++i, ++n) {
+      const Case a = fuzz::make_case(11, i, f.name);
+      REQUIRE_NOTHROW(validate(a.scene));
+      REQUIRE(a == fuzz::make_case(11, i, f.name));
+      REQUIRE_FALSE(a.queries.empty());
+    }
+  CHECK(n == 200 * fuzz::families().size());
+}
+
+TEST_CASE("the mix reaches every family and every pair of convex shapes", "[generate]") {
+  std::set<std::string> families, pairs;
+  for (std::uint64_t i = 0; i < 4000; ++i) {
+    const Case c = fuzz::make_case(3, i);
+    families.insert(c.family);
+    if (c.scene.bodies.size() == 2)
+      pairs.insert(std::string(type_name(c.scene.shape_of(0))) + "-" +
+                   std::string(type_name(c.scene.shape_of(1))));
+  }
+  CHECK(families.size() == fuzz::families().size());
+  CHECK(pairs.size() >= 49 + 7 + 7);
+}
+
+TEST_CASE("other seeds give other cases; unknown families are refused", "[generate]") {
+  CHECK(hash(fuzz::make_case(1, 0).scene) != hash(fuzz::make_case(2, 0).scene));
+  for (const char* names : {"nonsense", "deep,", ",", "deep,nonsense"})
+    CHECK_THROWS_AS(fuzz::make_case(1, 0, names), InputError);
+}
+
+TEST_CASE("several families mix by their weights", "[generate]") {
+  std::map<std::string, int> count;
+  for (std::uint64_t i = 0; i < 2000; ++i) ++count[fuzz::make_case(3, i, "throng,deep,contained").family];
+  CHECK(count.size() == 3);
+  // Weights 1, 14 and 8.
+  CHECK(count["deep"] > count["contained"]);
+  CHECK(count["contained"] > 4 * count["throng"]);
+  CHECK(count["throng"] > 40);
+}
+
+TEST_CASE("the default mix shows every regime as often as is stated", "[generate]") {
+  constexpr std::uint64_t cases = 6000;
+  std::map<std::string_view, std::uint64_t> count;
+  Case before = fuzz::make_case(7, 0);
+  for (std::uint64_t i = 1; i <= cases; ++i) {
+    Case c = fuzz::make_case(7, i);
+    for (const fuzz::Regime& r : fuzz::regimes()) count[r.name] += r.shown(c, before);
+    before = std::move(c);
+  }
+  for (const fuzz::Regime& r : fuzz::regimes()) {
+    INFO(r.name << ": one case in " << r.one_in << " is stated, of " << cases << " there are " << count[r.name]);
+    CHECK(count[r.name] * static_cast<std::uint64_t>(r.one_in) >= cases);
+  }
+}

@@ -1,0 +1,36 @@
+// What the animals of the zoo share.
+#pragma once
+
+#include <cstddef>
+
+#include "oracles/abi/touchstone_engine.h"
+
+namespace touchstone::zoo {
+
+using Act = void (*)(ts_answer*, const ts_sink*);
+struct Animal {
+  const char* name;
+  Act act;
+};
+
+/// Those that end, hang, or talk out of turn.
+extern const Animal deaths[];
+extern const std::size_t death_count;
+/// Those that answer something that is none, or odd.
+extern const Animal answers[];
+extern const std::size_t answer_count;
+/// Those that reach for what is outside: files, network, processes, memory.
+extern const Animal reaches[];
+extern const std::size_t reach_count;
+
+void loop_for_ever();
+void sleep_for_ever();
+void eat_memory();
+/// Starts a process that leaves its session and its parent, and sleeps.
+void leave_daemon();
+/// The name that every process carries which may be left behind: $TOUCHSTONE_ZOO_MARK.
+void take_mark();
+/// A path in the directory that must stay as it is: $TOUCHSTONE_ZOO_VICTIM.
+const char* victim(const char* name);
+
+}  // namespace touchstone::zoo
