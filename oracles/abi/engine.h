@@ -11,10 +11,6 @@
 
 namespace touchstone {
 
-/// Throws InputError when a field is missing or of the wrong type.
-EngineCard card_from_json(const std::string& text);
-std::string to_json_text(const EngineCard& card);
-
 class Engine {
  public:
   virtual ~Engine() = default;

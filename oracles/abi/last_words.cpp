@@ -95,11 +95,13 @@ Said memory_error(const std::vector<std::string_view>& lines) {
     if (s.text.empty()) {
       if (l.starts_with("Invalid ") || l.starts_with("Mismatched ")) s.text = l;
     } else if (const auto colon = l.find(": "); !has_function && l.starts_with(at) && colon != l.npos) {
-      s.text += " in " + std::string(l.substr(colon + 2));
+      s.text += " in ";
+      s.text += l.substr(colon + 2);
       s.site = place_in(l.substr(colon + 2)).label();
       has_function = true;
     } else if (const auto is = l.find(" is "); l.starts_with(address) && is != l.npos) {
-      s.text += ";" + std::string(l.substr(is + 3));
+      s.text += ";";
+      s.text += l.substr(is + 3);
       break;
     }
   }

@@ -14,6 +14,7 @@
 #include "oracles/client/watchdog.h"
 #include "oracles/client/worker_session.h"
 #include "scenarios/text/printable.h"
+#include "scenarios/codec/card_codec.h"
 
 namespace touchstone {
 namespace {

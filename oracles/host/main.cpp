@@ -24,6 +24,7 @@
 #include "oracles/host/plugin.h"
 #include "oracles/host/sandbox.h"
 #include "oracles/host/serve.h"
+#include "scenarios/codec/card_codec.h"
 
 #if defined(__SANITIZE_ADDRESS__)
 // A sanitized worker still dies of the signal that killed it, as an ordinary one does, and is not asked about

@@ -6,6 +6,7 @@
 
 #include "oracles/abi/engine.h"
 #include "oracles/host/pipe.h"
+#include "scenarios/codec/card_codec.h"
 
 namespace touchstone::host {
 namespace {

@@ -61,7 +61,7 @@ class Server {
       if (outcome < TS_ANSWERED || outcome > TS_THREW)
         result.refusal = no_answer(Outcome::invalid_answer, "load() returned an outcome that does not exist");
       else if (outcome != TS_ANSWERED)
-        result.refusal = failure(static_cast<Outcome>(outcome), why);
+        result.refusal = no_answer(static_cast<Outcome>(outcome), why);
     } catch (const std::exception& e) {
       result.refusal = no_answer(Outcome::threw, std::string(e.what()) + " while loading the scene");
     } catch (...) {

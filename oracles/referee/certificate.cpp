@@ -82,7 +82,7 @@ double proven_depth(const Certificate& c, Real depth) {
   double largest = 0;
   for (const auto& [p, q] : c.support_pairs)
     largest = std::max({largest, p.cwiseAbs().maxCoeff(), q.cwiseAbs().maxCoeff()});
-  return round_down(depth - 4 * static_cast<Real>(point_factor) * static_cast<Real>(largest));
+  return round_down(depth - 4 * static_cast<Real>(checker::point_factor) * static_cast<Real>(largest));
 }
 
 }  // namespace

@@ -8,7 +8,7 @@
 namespace touchstone::fuzz {
 namespace {
 
-constexpr double unbounded = std::numeric_limits<double>::infinity();
+constexpr double infinity = std::numeric_limits<double>::infinity();
 
 // Knuth's TwoSum: the rounding error of a + b is a double, also where it underflows.
 bool sum_is_exact(double a, double b) {
@@ -33,7 +33,7 @@ Vec3 turned(const Vec3& h, unsigned thirds) {
 
 std::optional<Aabb> half_space_box(const HalfSpace& s, const Pose& pose) {
   if (thirds_of(pose.rotation) != 0) return std::nullopt;
-  Aabb box{Vec3::Constant(-unbounded), Vec3::Constant(unbounded)};
+  Aabb box{Vec3::Constant(-infinity), Vec3::Constant(infinity)};
   for (int k = 0; k < 3; ++k) {
     if (s.normal[k] == 0) continue;
     if (std::abs(s.normal[k]) != 1 || std::abs(s.normal.sum()) != 1) return std::nullopt;
@@ -48,7 +48,7 @@ std::optional<Aabb> half_space_box(const HalfSpace& s, const Pose& pose) {
 double nearest(double x, Scalar scalar) { return scalar == Scalar::float64 ? x : through_float(x); }
 
 double next_number(double x, int direction, Scalar scalar) {
-  const double to = direction < 0 ? -unbounded : unbounded;
+  const double to = direction < 0 ? -infinity : infinity;
   if (scalar == Scalar::float64) return std::nextafter(x, to);
   return static_cast<double>(std::nextafter(static_cast<float>(x), static_cast<float>(to)));
 }

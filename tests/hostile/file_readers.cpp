@@ -30,6 +30,7 @@
 #include "scenarios/codec/scene_codec.h"
 #include "scenarios/import/mesh_import.h"
 #include "scenarios/import/real_scene.h"
+#include "scenarios/codec/card_codec.h"
 
 namespace touchstone::test {
 namespace {

@@ -1,5 +1,7 @@
 // EngineCard ↔ JSON. Strict in both directions: a card is the place where an engine's tolerance claims are
 // made, and a misspelt field would silently change a verdict.
+#include "scenarios/codec/card_codec.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -8,7 +10,6 @@
 
 #include "core/base/exact_text.h"
 #include "core/base/input_error.h"
-#include "oracles/abi/engine.h"
 #include "scenarios/text/printable.h"
 #include "scenarios/value/engine_name.h"
 
@@ -39,7 +40,7 @@ constexpr std::array number_fields{NumberField{"unit_roundoff", &EngineCard::uni
 constexpr double most_of_l = 1e-2;
 
 // What people read, on a terminal too.
-constexpr std::size_t max_name_bytes = 64, max_text_bytes = 1000;
+constexpr std::size_t max_text_bytes = 1000;
 
 bool is_known(std::string_view key) {
   for (const auto& f : text_fields)
@@ -71,17 +72,7 @@ double positive_number_of(const Json& j, const char* field, double most) {
   return x;
 }
 
-bool is_letter_or_digit(char c) {
-  return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9');
-}
-
 }  // namespace
-
-bool is_engine_name(std::string_view name) {
-  if (name.empty() || name.size() > max_name_bytes || !is_letter_or_digit(name.front())) return false;
-  return std::all_of(name.begin(), name.end(),
-                     [](char c) { return c >= ' ' && c <= '~' && c != '/' && c != '\\'; });
-}
 
 EngineCard card_from_json(const std::string& text) {
   const Json j = Json::parse(text, nullptr, /*allow_exceptions=*/false);
