@@ -15,8 +15,6 @@
 namespace touchstone::reports {
 namespace {
 
-using Blame;
-using Judgement;
 
 std::string vec(const Vec3& v) { return fmt::format("({:.6g} {:.6g} {:.6g})", v.x(), v.y(), v.z()); }
 
@@ -272,8 +270,8 @@ fuzz::Json ReplayText::referee_json(const Query& q, bool certificates) const {
           {"gap", {fuzz::number(t.gap.lo), fuzz::number(t.gap.hi)}},
           {"normal", fuzz::vector(t.normal)},
           {"witness", {fuzz::vector(t.witness[0]), fuzz::vector(t.witness[1])}},
-          {"verdict_certificate", exact.is_null() ? referee::to_json(t.verdict_certificate) : exact},
-          {"depth_certificate", referee::to_json(depth_certificate(q))},
+          {"verdict_certificate", exact.is_null() ? touchstone::to_json(t.verdict_certificate) : exact},
+          {"depth_certificate", touchstone::to_json(depth_certificate(q))},
           {"filter_level", t.level}};
 }
 

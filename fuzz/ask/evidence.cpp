@@ -43,8 +43,8 @@ Json with_depth(Json certificate, const Evidence& e) {
   ImpactCertificate depth;
   add_overlap(depth, *a, ma, *b, mb, referee::deepest_before(*a, ma, *b, mb, t, hit ? truth.t_hi : 0));
   if (!depth.overlap) return certificate;
-  if (certificate.is_null()) return named(referee::to_json(depth), e.a, e.b, e.step);
-  certificate["overlap"] = referee::to_json(depth).at("overlap");
+  if (certificate.is_null()) return named(touchstone::to_json(depth), e.a, e.b, e.step);
+  certificate["overlap"] = touchstone::to_json(depth).at("overlap");
   return certificate;
 }
 
@@ -59,7 +59,7 @@ Json certificate_of(const Evidence& e) {
   }
   const int n = static_cast<int>(e.c.scene.bodies.size());
   const bool names = e.a >= 0 && e.b >= 0 && e.a < n && e.b < n;
-  return names ? named(referee::to_json(e.certificate), e.a, e.b, e.step) : referee::to_json(e.certificate);
+  return names ? named(touchstone::to_json(e.certificate), e.a, e.b, e.step) : touchstone::to_json(e.certificate);
 }
 
 // Shapes that differ by rounding alone are left out.
@@ -91,10 +91,10 @@ Json exact_certificate(const Scene& s, Question q, int a, int b, int step) {
   if (is_of_motion(q)) {
     const Motion ma = motion_of(s, a), mb = motion_of(s, b);
     const auto c = referee::impact_certificate(*x, ma, *y, mb, referee::judge_motion(*x, ma, *y, mb));
-    return c.claims_nothing() ? Json() : named(referee::to_json(c), a, b, step);
+    return c.claims_nothing() ? Json() : named(touchstone::to_json(c), a, b, step);
   }
   const auto c = referee::checkable_certificate(referee::judge_pair(*x, *y), *x, *y);
-  return c.kind == Certificate::Kind::none ? Json() : named(referee::to_json(c), a, b, step);
+  return c.kind == Certificate::Kind::none ? Json() : named(touchstone::to_json(c), a, b, step);
 }
 
 Json evidence_to_json(const Evidence& e) {

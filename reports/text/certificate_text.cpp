@@ -11,7 +11,6 @@ namespace {
 
 using fuzz::BroadCertificate;
 using fuzz::EvidenceCount;
-using BroadLevel;
 using fuzz::LevelVerdict;
 
 // Superfluous pairs per true pair, in 7 columns; nothing where no pair is true.

@@ -61,7 +61,8 @@ std::string template_of(const std::string& words, std::string& numbers) {
     const std::size_t end = may_begin ? after_number(words, i) : i;
     if (end > i) {
       text += number_mark;
-      numbers += (numbers.empty() ? "" : " ") + words.substr(i, end - i);
+      if (!numbers.empty()) numbers += ' ';
+      numbers.append(words, i, end - i);
       i = end;
     } else {
       text += words[i] == number_mark ? '?' : words[i];

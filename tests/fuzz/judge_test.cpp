@@ -10,7 +10,6 @@
 #include "tests/support/catch.h"
 
 using namespace touchstone;
-using Fault;
 
 namespace {
 

@@ -302,7 +302,7 @@ void write_certificates(const fs::path& d) {
     write_json(d / ("pair" + name), case_to_json(pairs[i]));
     write_json(
         d / ("certificate" + name),
-        referee::to_json(i == 0 ? truth.verdict_certificate : referee::depth_certificate(truth, a, b)));
+        touchstone::to_json(i == 0 ? truth.verdict_certificate : referee::depth_certificate(truth, a, b)));
   }
   Case hits = pair_of(box, box, {3, 0.25, 0.1});
   hits.scene.bodies[0].motion = Motion{Vec3(4, 0, 0), Vec3(0, 0.1, 0)};
