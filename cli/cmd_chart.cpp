@@ -51,7 +51,7 @@ std::vector<EnginePtr> broad_engines(const ChartOptions& o) {
   }
   std::vector<EnginePtr> engines;
   for (const auto& name : names)
-    engines.push_back(broad_subject(name, limits, false).make(fuzz::Level::bodies));
+    engines.push_back(broad_subject(name, limits, false).make(BroadLevel::bodies));
   return engines;
 }
 

@@ -40,6 +40,7 @@ Run declare_families(CLI::App& app);
 Run declare_scenarios(CLI::App& app);
 Run declare_fuzz(CLI::App& app);
 Run declare_plan(CLI::App& app);
+Run declare_primitives(CLI::App& app);
 Run declare_replay(CLI::App& app);
 Run declare_report(CLI::App& app);
 Run declare_shrink(CLI::App& app);

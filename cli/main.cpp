@@ -38,6 +38,8 @@ constexpr Command table[] = {
     {"check", "is a stored certificate a proof? in exact arithmetic, from the scene alone", declare_check},
     {"chart", "speed against accuracy: every engine and method, by family", declare_chart},
     {"stability", "ladders: the rung of a degeneracy at which each engine begins to fail", declare_stability},
+    {"primitives", "the core's times of impact of deforming primitives, against the exact ones",
+     declare_primitives},
     {"engines", "the engines present, their versions, settings and tolerances", declare_engines},
     {"families", "the families of random cases, a line each", declare_families},
     {"scenarios", "the hand-built scenarios: list them, or write one as a case file", declare_scenarios},

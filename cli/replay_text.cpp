@@ -298,7 +298,7 @@ fuzz::Json ReplayText::json(bool certificates) const {
       const Judgement& g = r.judgements[i];
       fuzz::Json faults = fuzz::Json::array();
       for (const auto& f : g.faults)
-        faults.push_back({{"fault", fuzz::to_string(f.fault)},
+        faults.push_back({{"fault", to_string(f.fault)},
                           {"words", f.words},
                           {"error", fuzz::number(f.error)},
                           {"error_in_l", fuzz::number(f.error_in_l)}});
@@ -306,12 +306,12 @@ fuzz::Json ReplayText::json(bool certificates) const {
           {"answer", fuzz::to_json(r.observations.answers[i])},
           {"elapsed_ns", r.observations.answers[i].elapsed_ns},
           {"manifold_coverage", g.manifold_coverage ? fuzz::number(*g.manifold_coverage) : fuzz::Json()},
-          {"ruling", fuzz::to_string(g.ruling())},
+          {"ruling", to_string(g.ruling())},
           {"right", g.right()},
           {"undecided", g.undecided},
           {"not_judged", unjudged_json(g)},
           {"claimed_in_l", fuzz::number(g.wide_claim_in_l)},
-          {"blame", fuzz::to_string(g.blame)},
+          {"blame", to_string(g.blame)},
           {"faults", std::move(faults)}};
     }
     j["queries"].push_back(std::move(item));

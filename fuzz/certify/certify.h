@@ -9,6 +9,7 @@
 #include <functional>
 
 #include "scenarios/exhaustive/evidence.h"
+#include "reports/record/broad_certificate.h"
 
 namespace touchstone::fuzz {
 

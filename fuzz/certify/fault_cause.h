@@ -4,6 +4,7 @@
 
 #include "fuzz/certify/candidate_verdict.h"
 #include "oracles/abi/engine.h"
+#include "reports/record/broad_certificate.h"
 
 namespace touchstone::fuzz {
 

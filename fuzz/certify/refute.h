@@ -3,6 +3,7 @@
 
 #include "fuzz/certify/certify.h"
 #include "fuzz/certify/fault_cause.h"
+#include "reports/record/broad_certificate.h"
 
 namespace touchstone::fuzz {
 

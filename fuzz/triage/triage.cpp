@@ -12,6 +12,7 @@
 #include "scenarios/codec/case_codec.h"
 #include "scenarios/codec/json_file.h"
 #include "scenarios/codec/scene_codec.h"
+#include "fuzz/shrink/measure.h"
 
 namespace touchstone::fuzz {
 namespace {

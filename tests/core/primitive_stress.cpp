@@ -6,7 +6,7 @@
 
 #include "core/impact/primitive_exact.h"
 #include "core/impact/primitive_impact.h"
-#include "tests/core/primitive_motions.h"
+#include "scenarios/random/primitive_motions.h"
 
 int main(int argc, char** argv) {
   using namespace touchstone;

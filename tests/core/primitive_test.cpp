@@ -8,11 +8,11 @@
 #include "core/narrow/narrow_phase.h"
 #include "oracles/referee/motion/primitive_motion.h"
 #include "scenarios/import/ccd_queries.h"
-#include "tests/core/primitive_motions.h"
+#include "scenarios/random/primitive_motions.h"
 #include "tests/support/catch.h"
 
 using namespace touchstone;
-using namespace touchstone::test;
+using namespace touchstone::primitives;
 
 namespace {
 

@@ -1,5 +1,5 @@
-// Random motions of two primitives for the core's own tests: by turns easy, degenerate, nearly touching, far
-// away and extreme.
+// Random motions of deforming primitives (a vertex and a triangle, or two edges, whose vertices move on straight
+// paths): in turn easy, degenerate, nearly touching, far away and extreme.
 #pragma once
 
 #include <array>
@@ -8,7 +8,7 @@
 #include "core/math/pose.h"
 #include "core/math/rng.h"
 
-namespace touchstone::test {
+namespace touchstone::primitives {
 
 using Quad = std::array<Vec3, 4>;
 
@@ -39,6 +39,7 @@ struct PrimitiveMotion {
 // By turns: anywhere; small integers; a rigid passage of the second primitive; one aimed at a feature to
 // within 2^-50; the same far from the origin; at the ends of the exponents; one whose last coordinate hardly
 // moves.
+/// Motion number i: a pure function of i and of the state of r.
 inline PrimitiveMotion random_motion(Rng& r, std::uint64_t i) {
   PrimitiveMotion m{loose_quad(r), loose_quad(r)};
   switch (i % 7) {
@@ -80,4 +81,4 @@ inline PrimitiveMotion random_motion(Rng& r, std::uint64_t i) {
   return m;
 }
 
-}  // namespace touchstone::test
+}  // namespace touchstone::primitives

@@ -1,0 +1,22 @@
+#include "reports/record/primitives.h"
+
+namespace touchstone::fuzz {
+
+Json to_json(const PrimitiveTallies& tallies) {
+  Json rows = Json::array();
+  for (const auto& [key, t] : tallies)
+    rows.push_back({{"source", key.first},
+                    {"kind", key.second},
+                    {"queries", t.queries},
+                    {"hits", t.hits},
+                    {"missed", t.missed},
+                    {"ghost", t.ghost},
+                    {"late", t.late},
+                    {"failed", t.failed},
+                    {"source_wrong", t.source_wrong},
+                    {"median_ns", t.time.quantile(0.5)},
+                    {"p99_ns", t.time.quantile(0.99)}});
+  return {{"primitives", std::move(rows)}};
+}
+
+}  // namespace touchstone::fuzz
