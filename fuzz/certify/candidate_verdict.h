@@ -5,6 +5,7 @@
 
 #include "scenarios/exhaustive/evidence.h"
 #include "scenarios/value/judgement.h"
+#include "reports/record/broad_certificate.h"
 
 namespace touchstone::fuzz {
 

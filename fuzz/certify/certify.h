@@ -10,6 +10,7 @@
 
 #include "scenarios/exhaustive/evidence.h"
 #include "reports/record/broad_certificate.h"
+#include "oracles/abi/engine.h"
 
 namespace touchstone::fuzz {
 
