@@ -31,6 +31,7 @@
 #include "scenarios/import/mesh_import.h"
 #include "scenarios/import/real_scene.h"
 #include "scenarios/codec/card_codec.h"
+#include "fuzz/shrink/measure.h"
 
 namespace touchstone::test {
 namespace {
