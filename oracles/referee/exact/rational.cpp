@@ -98,7 +98,7 @@ int determinant_sign(const Real3& a, const Real3& b, const Real3& c) {
 int orientation_sign(const Real3& a, const Real3& b, const Real3& c, const Real3& p) {
   const Real3 u = b - a, v = c - a, w = p - a;
   const Real det = dot(cross(u, v), w);
-  // As above; the differences add one unit of relative error to each factor.
+  // As above; each difference adds one unit of relative error to its factor.
   if (std::fabs(det) > 96 * unit * largest(u) * largest(v) * largest(w)) return det > 0 ? 1 : -1;
   const int e = std::min(std::min(least_exponent(a), least_exponent(b)),
                          std::min(least_exponent(c), least_exponent(p)));
