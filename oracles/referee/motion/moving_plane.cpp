@@ -139,8 +139,7 @@ MovingPart::MovingPart(const Placed& p, const Motion& m, const Vec3& minus, cons
   if (!turns_) return;
   // Even if the turning does not change the set: the checker bounds the motion of points.
   const Real radius = mover_.at(0, origin).body.spin_radius, rate = norm(to_real(m.angular));
-  constexpr Real allowance =
-      1.7321L;  // the checker's bound for a disc or ellipsoid is up to √3 of the radius
+  constexpr Real allowance = 1.7321L;  // the checker's bound for discs and ellipsoids: up to √3·radius
   const Real reach = mover_.at(0, origin).exact ? radius : allowance * radius;
   speed_ += rate * reach * (1 + 16 * unit);
   bend_ = rate * rate * reach * (1 + 16 * unit);
