@@ -1,5 +1,5 @@
-// Whole-scene contacts: broad and narrow phase together. Each stated contact is judged as a contact, each
-// pair that overlaps by more than τ must be stated.
+// Whole-scene contacts: broad and narrow phase together. Each reported contact is judged as a contact, and
+// each pair that overlaps by more than τ must be reported.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -46,7 +46,7 @@ void check_stated(const CheckInput& in, CheckOutput& out, const SceneContact& c,
 }  // namespace
 
 void check_scene_contacts(const CheckInput& in, CheckOutput& out) {
-  // An engine may state several points of one pair; the deepest is the contact.
+  // An engine may report several points of one pair; the deepest is judged as the contact.
   std::map<BodyPair, SceneContact> deepest;
   for (const SceneContact& c : in.answer.contacts) {
     const BodyPair key = std::minmax(c.a, c.b);
