@@ -19,8 +19,7 @@ inline constexpr double point_factor = 0x1p-50;
 ///                     planes, four numbers each; each pair of triangles of meshes needs one of them.
 ///   common_point      the point is in both bodies.
 ///   depth_direction   B moved by `offset` along direction/|direction| shares no interior point with A.
-///   inner_polytope    depth >= offset: the facets' surface encloses the origin of A-B at the needed
-///   distance.
+///   inner_polytope    depth >= offset: the facets' surface encloses the origin of A-B at that distance.
 ///                     Without facets: one pair of core points near enough for the balls around them, or one
 ///                     point that is deep enough in a half-space.
 /// False when it does not hold for these two bodies or is of a kind that proves nothing by itself. Throws

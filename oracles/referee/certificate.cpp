@@ -170,6 +170,9 @@ bool is_half_space(const Placed& p) { return std::holds_alternative<HalfSpace>(*
 
 namespace {
 
+// Parts of the way from a candidate point towards the middle of a body.
+constexpr double inward_steps[] = {0.0, 0x1p-50, 0x1p-40, 0x1p-25, 0x1p-10, 0.25};
+
 /// A point inside the body: for a hull the mean of its vertices, which may all be on one side of its origin.
 Vec3 centre(const Placed& p) {
   const Solid b = make_body(p, frame_of(p, Vec3::Zero()));
@@ -190,7 +193,7 @@ Certificate inner_point(const PairTruth& truth, const Placed& a, const Placed& b
   for (const Vec3& to : {centre(a), centre(b), Vec3(0.5 * centre(a) + 0.5 * centre(b))})
     for (const Vec3& from : {middle, truth.witness[0], truth.witness[1], common, towards_common(0.5),
                              towards_common(0.9), towards_common(0.99)})
-      for (double step : {0.0, 0x1p-50, 0x1p-40, 0x1p-25, 0x1p-10, 0.25}) {
+      for (double step : inward_steps) {
         Certificate c;
         c.kind = Certificate::Kind::common_point;
         c.point = from + step * (to - from);

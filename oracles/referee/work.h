@@ -8,9 +8,9 @@
 
 namespace touchstone::referee {
 
-/// A unit is about a nanosecond. The most expensive pair of the scenarios and the campaigns takes a hundredth
-/// of this.
-inline constexpr std::int64_t most_work = 20'000'000'000;
+/// A unit is about a nanosecond. The most expensive pair in the scenarios and campaigns takes a hundredth of
+/// this.
+inline constexpr std::int64_t default_work_limit = 20'000'000'000;
 
 /// The note with which a public function answers when it gives up.
 inline constexpr const char* too_expensive = "too expensive: beyond the limit of work";
@@ -20,7 +20,7 @@ struct TooExpensive {};
 
 namespace detail {
 struct Work {
-  std::int64_t limit = most_work;
+  std::int64_t limit = default_work_limit;
   std::int64_t left = std::numeric_limits<std::int64_t>::max();
   bool is_metered = false;
 };

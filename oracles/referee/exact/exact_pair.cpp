@@ -387,9 +387,9 @@ std::optional<ExactVerdict> decide_short(const ExactBody& a, const ExactBody& b,
 }
 
 // The half-space is {y : N·(y - t) <= offset}, N = R·normal = (R·normal + t) - t, so placing the points
-// `normal` and 0 like a body gives N and t in the pair's unit 2^e/D. In that unit N·(y - t) comes out in
-// units of its square, where offset is offset·D²/2^2e. With k bits for a coordinate: 2k + 6 bits, squared 4k
-// + 12; |offset|·D² is bounded separately.
+// `normal` and 0 like a body gives N and t in the pair's unit 2^e/D. N·(y - t) is then in units of its
+// square, in which offset is offset·D²/2^2e. With k bits for a coordinate: 2k + 6 bits, squared 4k + 12;
+// |offset|·D² is bounded separately.
 std::optional<bool> overlaps_half_space_short(const Vec3& normal, double offset, const Pose& half_space,
                                               const ExactBody& body) {
   const ExactBody frame{{normal, Vec3::Zero()}, 0, half_space};

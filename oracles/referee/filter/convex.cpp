@@ -164,11 +164,11 @@ class Judge {
       : a_(a), b_(b), effort_(effort), d_(a.body, b.body), target_(target_width(d_)) {}
 
   ConvexTruth run(std::span<const Real3> hints) {
-    approach(hints);
+    run_gjk(hints);
     const bool verdict_suffices = effort_ == Effort::verdict_only && t_.verdict != Verdict::undecided;
     if (gap_.hi - gap_.lo > target_ && gap_.lo > 0 && !verdict_suffices) project();
     if (gap_.hi - gap_.lo > target_ && gap_.lo > 0 && !verdict_suffices) search_wider();
-    if (gap_.hi - gap_.lo > target_ && !verdict_suffices) go_inside();
+    if (gap_.hi - gap_.lo > target_ && !verdict_suffices) run_epa();
     // Slivers: extended precision may stall among them, 1e-15 of the extent away at most.
     if (gap_.hi - gap_.lo > 64 * target_ && gap_.hi > 0 && !verdict_suffices) measure_exactly();
     t_.normal = normalized(gap_.direction);
@@ -183,7 +183,7 @@ class Judge {
   }
 
  private:
-  void approach(std::span<const Real3> hints) {
+  void run_gjk(std::span<const Real3> hints) {
     std::vector<Real3> directions(hints.begin(), hints.end());
     directions.push_back(between_centres(d_));
     level0_.run(d_, directions);
@@ -204,7 +204,7 @@ class Judge {
     t_.verdict = t_.lo > 0 ? Verdict::disjoint : t_.hi <= 0 ? Verdict::overlap : Verdict::undecided;
   }
 
-  void go_inside() {
+  void run_epa() {
     ++counters().expansions;
     const bool curved = is_curved(a_.body) || is_curved(b_.body);
     int cap = curved ? limits::curved_facet_cap : limits::facet_cap;

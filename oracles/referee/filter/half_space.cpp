@@ -72,7 +72,7 @@ std::optional<Plane> plane_of(const Placed& half_space, const Vec3& origin) {
     // {M x + t : n·x <= d} = {y : cof(M) n·(y - t) <= d det M}, with the sign of det M.
     const RationalPlane exact_plane = world_plane(half_space);
     if (is_zero(exact_plane.normal)) return std::nullopt;
-    // Only directions matter: scale by a power of two so that the conversion stays in range.
+    // Products of a few doubles stay within the range of Real.
     const auto as_real = [](const Rational& x) { return x.convert_to<Real>(); };
     p.normal = {as_real(exact_plane.normal.x), as_real(exact_plane.normal.y), as_real(exact_plane.normal.z)};
     p.normal_error = 4 * unit * largest(p.normal);

@@ -264,7 +264,7 @@ class Epa {
 
   Exit grow() {
     for (;;) {
-      drop_dead();
+      drop_dead_facets();
       const int f = queue_.front().second;
       if (facets_[at(f)].settled) return Exit::stalled;
       if (static_cast<int>(facets_.size()) > cap_) return Exit::facet_cap;
@@ -293,7 +293,7 @@ class Epa {
     ++stamp_;
     mark_.resize(facets_.size(), 0);
     mark_[at(*first)] = stamp_;
-    for (std::size_t k = 0; k < visible_.size(); ++k) look_around(visible_[k], p.w);
+    for (std::size_t k = 0; k < visible_.size(); ++k) visit_neighbours(visible_[k], p.w);
     first_.resize(r_.polytope.vertices.size() + 1, -1);
     // With rounded normals p may see every facet, and then there is no horizon to build on.
     bool simple = horizon_.size() >= 3;
@@ -303,7 +303,7 @@ class Epa {
       slot = static_cast<int>(k);
     }
     for (const HorizonEdge& e : horizon_) simple = simple && first_[at(e.to)] >= 0;
-    if (simple) cone(p);
+    if (simple) add_fan(p);
     for (const HorizonEdge& e : horizon_) first_[at(e.from)] = -1;
     return simple;
   }
@@ -323,7 +323,7 @@ class Epa {
     return std::nullopt;
   }
 
-  void look_around(int f, const Triple<T>& p) {
+  void visit_neighbours(int f, const Triple<T>& p) {
     for (int i = 0; i < 3; ++i) {
       const int g = facets_[at(f)].neighbour[at(i)];
       if (mark_[at(g)] == stamp_) continue;
@@ -340,7 +340,7 @@ class Epa {
     }
   }
 
-  void cone(const BasicVertex<T>& p) {
+  void add_fan(const BasicVertex<T>& p) {
     for (int f : visible_) facets_[at(f)].live = false;
     r_.polytope.vertices.push_back(p);
     const int apex = static_cast<int>(r_.polytope.vertices.size()) - 1;
@@ -354,7 +354,7 @@ class Epa {
   }
 
   void finish() {
-    drop_dead();
+    drop_dead_facets();
     const int nearest = queue_.front().second;
     r_.nearest.size = 3;
     for (int i = 0; i < 3; ++i)
@@ -394,7 +394,7 @@ class Epa {
     return std::max(largest(w(f.v[0])), std::max(largest(w(f.v[1])), largest(w(f.v[2]))));
   }
 
-  void drop_dead() {
+  void drop_dead_facets() {
     while (!facets_[at(queue_.front().second)].live) pop();
   }
 

@@ -76,6 +76,8 @@ constexpr std::size_t max_pairs_of_parts = 256;  // a pair takes a hundredth of 
 constexpr int rounding_bits = -200, inward_bits = -120, gap_bits = -80;
 // Bounds the error of core points, in units of the extent, with room to spare.
 constexpr Real core_rounding = 0x1p-130L;
+// Distances, as powers of two of the extent, within which a simpler number is looked for.
+constexpr int guess_bits[] = {-200, -100, -60, -40, -20, -10, -6};
 
 std::size_t count_parts(const Placed& p) {
   const auto* mesh = std::get_if<TriangleMesh>(p.shape);
@@ -192,7 +194,7 @@ Certificate inside_both(const WideDifference& d, const Wide3& point, const Place
 Certificate simple_point(const std::vector<Meeting>& found, const WidePart& x, const WidePart& y,
                          const Placed& a, const Placed& b) {
   const Wide extent = x.solid.extent + y.solid.extent;
-  for (const int bits : {-200, -100, -60, -40, -20, -10, -6})
+  for (const int bits : guess_bits)
     for (const Meeting& m : {mean(found), found.front()}) {
       std::vector<Rational3> guesses{simplest_near(exact_of(m.point), exact_of(ldexp(extent, bits)))};
       for (int i = 0; i < 2; ++i)

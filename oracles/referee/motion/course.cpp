@@ -28,7 +28,7 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 // Covers the rounding of the bounds that are multiplied by it.
-constexpr Real spare = 1 + 0x1p-40L;
+constexpr Real rounding_factor = 1 + 0x1p-40L;
 // Covers the rounding of a quotient and a sum in a step in time.
 constexpr Real shortened = 1 - 0x1p-50L;
 // A step by speed of this length or more needs no second attempt with the orbits.
@@ -58,8 +58,9 @@ Course::Course(const Mover& a, const Mover& b, const Vec3& origin) : a_(a), b_(b
     const Real w = norm(m.angular());
     return w * w * radius;
   };
-  acceleration_ = (turning(a_, spin_a_) + turning(*b_, spin_b_)) * spare;
-  approach_ = (norm(a_.velocity()) + norm(a_.angular()) * spin_a_ + norm(b_->angular()) * spin_b_) * spare;
+  acceleration_ = (turning(a_, spin_a_) + turning(*b_, spin_b_)) * rounding_factor;
+  approach_ =
+      (norm(a_.velocity()) + norm(a_.angular()) * spin_a_ + norm(b_->angular()) * spin_b_) * rounding_factor;
 }
 
 Course::Course(const Mover& a, const Placed& half_space, const Vec3& angular, const Vec3& origin)
@@ -68,13 +69,13 @@ Course::Course(const Mover& a, const Placed& half_space, const Vec3& angular, co
   const Solid start = a_.at(0, origin_).body;
   spin_a_ = a_.spins() ? round_up(start.spin_radius) : 0;
   const Real w = norm(a_.angular()), turn = norm(to_real(angular)), v = norm(a_.velocity());
-  acceleration_ = w * w * spin_a_ * spare;
+  acceleration_ = w * w * spin_a_ * rounding_factor;
   // |z|: the body's origin starts at most extent + radius away and moves by at most |v|; a point is at most
   // the radius from it.
   if (half_space_turns_)
     acceleration_ = (square(turn) * (start.extent + v + 2 * start.spin_radius) +
                      2 * turn * (v + w * spin_a_) + w * w * spin_a_) *
-                    spare;
+                    rounding_factor;
 }
 
 ConvexTruth Course::judge(const Operand& x, const Operand& y, Effort effort) {
@@ -190,7 +191,7 @@ Course::Clear Course::by_acceleration(double t, const ConvexTruth& g, const Clea
     const std::vector<Real> then = least_along(directions, end);
     for (std::size_t i = 0; i < then.size(); ++i) {
       const Real swing = norm(directions[i] - n) + 16 * unit * static_cast<Real>(i > 0);
-      const Real bend = (acceleration_ * length * length / 2 + length * swing * approach_) * spare;
+      const Real bend = (acceleration_ * length * length / 2 + length * swing * approach_) * rounding_factor;
       const Real least = std::min(now, then[i]);
       if (!(least > 0) || !(bend < now + then[i] + 2 * least)) continue;
       stride_ = std::min(1.0, 4 * step);

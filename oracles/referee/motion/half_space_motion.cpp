@@ -1,7 +1,7 @@
 // Two half-spaces are apart only while they face each other: normals exactly antiparallel, with room between.
 // As long as neither turns, the room is linear in t with rational end values. A visible turn (not about the
-// normal) that is not the same for both ends the separation at once: the normals m(t) and -m(t) of the two
-// are analytic and differ in the first or second derivative at 0 unless ω is the same, so they differ at all
+// normal) that is not the same for both ends the separation at once: the normals m_A(t) and -m_B(t) are
+// analytic and differ in the first or second derivative at 0 unless ω is the same, so they differ at all
 // small t > 0. Then the half-spaces overlap: the first contact is at 0, as an infimum.
 #include "oracles/referee/motion/half_space_motion.h"
 
@@ -46,7 +46,7 @@ bool is_singular(const Placed& p) { return is_zero(world_plane(p).normal); }
 
 }  // namespace
 
-Vec3 shown_turn(const Placed& half_space, const Vec3& angular) {
+Vec3 visible_turn(const Placed& half_space, const Vec3& angular) {
   return is_zero(cross(world_plane(half_space).normal, exact(angular))) ? Vec3(Vec3::Zero()) : angular;
 }
 
@@ -68,7 +68,7 @@ TimeTruth judge_half_spaces_in_motion(const Placed& a, const Motion& motion_a, c
     return r;
   };
   if (!room || room->start <= 0) return hit(0, 0, "overlap at the start");
-  const Vec3 turn_a = shown_turn(a, motion_a.angular), turn_b = shown_turn(b, motion_b.angular);
+  const Vec3 turn_a = visible_turn(a, motion_a.angular), turn_b = visible_turn(b, motion_b.angular);
   if (turn_a != turn_b)
     return hit(0, std::numeric_limits<double>::denorm_min(), "they face each other only at the start");
   if (!turn_a.isZero(0)) {
@@ -89,8 +89,8 @@ TimeTruth judge_half_spaces_in_motion(const Placed& a, const Motion& motion_a, c
 
 Bracket gap_of_half_spaces(const Placed& a, const Motion& motion_a, const Placed& b, const Motion& motion_b,
                            double t) {
-  const bool turn = shown_turn(a, motion_a.angular) != shown_turn(b, motion_b.angular) ||
-                    !shown_turn(a, motion_a.angular).isZero(0);
+  const bool turn = visible_turn(a, motion_a.angular) != visible_turn(b, motion_b.angular) ||
+                    !visible_turn(a, motion_a.angular).isZero(0);
   if (is_singular(a) || is_singular(b) || (turn && t > 0)) return {-infinity, infinity};
   const auto room = room_between(a, motion_a, b, motion_b);
   if (!room) return {-infinity, -infinity};

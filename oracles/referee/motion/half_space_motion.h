@@ -6,7 +6,7 @@
 namespace touchstone::referee {
 
 /// The angular velocity, or zero when it is exactly along the half-space's normal and so does not move it.
-Vec3 shown_turn(const Placed& half_space, const Vec3& angular);
+Vec3 visible_turn(const Placed& half_space, const Vec3& angular);
 
 /// Both bodies are half-spaces. Always decided, except for two that face each other and turn alike.
 TimeTruth judge_half_spaces_in_motion(const Placed& a, const Motion& motion_a, const Placed& b,

@@ -16,6 +16,11 @@ namespace {
 
 using MovingParts = std::vector<MovingPart>;
 
+// Parts of the way from a candidate point towards the middle of a body.
+constexpr Real inward_steps[] = {0.0L, 0x1p-60L, 0x1p-50L, 0x1p-40L, 0x1p-25L, 0x1p-8L, 0.25L};
+// How much later than t_hi a contact is looked for, in units of the step.
+constexpr double delays[] = {0x1p-53, 0x1p-51, 0x1p-48, 0x1p-44, 0x1p-40, 0x1p-34, 0x1p-27};
+
 struct Scene2 {
   const Placed &a, &b;
   const Motion &motion_a, &motion_b;
@@ -120,7 +125,7 @@ std::vector<Rational3> candidates(const MovingPart& a, const MovingPart& b, doub
     from = {0.5L * (g.witness_a + g.witness_b), g.witness_a, g.witness_b, g.common};
   }
   std::vector<Rational3> r;
-  for (const Real s : {0.0L, 0x1p-60L, 0x1p-50L, 0x1p-40L, 0x1p-25L, 0x1p-8L, 0.25L})
+  for (const Real s : inward_steps)
     for (const Real3& p : from)
       for (const Real3& to : {0.5L * (centre_a + centre_b), centre_a, centre_b})
         r.push_back(exact_of(p + s * (to - p)));
@@ -180,7 +185,7 @@ void add_contact(ImpactCertificate& c, const Scene2& s, const MovingParts& a, co
   const bool room = has_room(s.a, s.motion_a) && has_room(s.b, s.motion_b);
   if (!room && t_hi > 0) return;
   if (add_contact_at(c, s, a, b, t_hi) || !room) return;
-  for (const double later : {0x1p-53, 0x1p-51, 0x1p-48, 0x1p-44, 0x1p-40, 0x1p-34, 0x1p-27}) {
+  for (const double later : delays) {
     const double t = std::min(1.0, std::max(std::nextafter(t_hi, 2.0), t_hi + later));
     if (add_contact_at(c, s, a, b, t)) return;
   }

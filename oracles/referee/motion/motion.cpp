@@ -20,14 +20,14 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double golden = 0.6180339887498949;  // 1/φ
-// Lengths are fractions of the step. The first sweep that brackets a translation's contact:
+// Lengths are fractions of the step. First length of the sweeps that bracket a translation's contact.
 constexpr double first_sweep = 0x1p-60;
 // Below this advance the gap's own direction is worth the cost of computing it.
 constexpr double short_advance = 0x1p-6;
 // Conservative advancement that progresses by less has stalled.
 constexpr double least_advance = 0x1p-52;
-// The search for contact after a stall doubles its steps within [first, last]; from clear_step on a clear
-// time is believed to lie behind the graze.
+// The search for contact after a stall doubles its steps from first to last; a separation found at clear_step
+// or later is taken to lie beyond the graze.
 constexpr double first_step = 0x1p-58, clear_step = 0x1p-30, last_step = 0x1p-8;
 
 double next_time(double t, double step) { return std::min(1.0, std::max(std::nextafter(t, 2.0), t + step)); }
@@ -44,7 +44,7 @@ TimeTruth hit(double lo, double hi, const char* note = "") {
 
 // Newton's steps from below never pass the first contact; sweeps of doubling length then bracket it, and
 // bisection narrows the bracket to neighbouring doubles, or to what can be decided for curved pairs.
-TimeTruth close_in(Course& c) {
+TimeTruth bracket_contact(Course& c) {
   double lo = 0;
   for (int i = 0; i < 64; ++i) {
     const ConvexTruth g = c.at(lo);
@@ -81,7 +81,7 @@ TimeTruth judge_translation(Course& c) {
   if (start.verdict == Verdict::overlap) return hit(0, 0, "overlap at the start");
   const ConvexTruth all = c.swept(0, 1, Effort::gap);
   if (all.verdict == Verdict::overlap) {
-    TimeTruth r = close_in(c);
+    TimeTruth r = bracket_contact(c);
     r.least_gap.lo = round_down(all.lo);
     return r;
   }
@@ -275,7 +275,7 @@ std::vector<PartPair> part_pairs(const Placed& a, const Motion& ma, const Placed
   };
   std::vector<PartPair> r;
   if (is<HalfSpace>(b)) {
-    const Vec3 turn = shown_turn(b, mb.angular);
+    const Vec3 turn = visible_turn(b, mb.angular);
     const Vec3 origin = translation_of(turn.isZero(0) ? a : b);
     for (std::size_t i = 0; i < count(a); ++i)
       r.push_back({i, 0, Course(Mover(a, ma, mb.linear, part(a, i)), b, turn, origin)});

@@ -85,13 +85,14 @@ double rate_of_gap(const Placed& a, const Motion& ma, const Placed& b, const Mot
 
 namespace {
 
-Bracket gap_then(const Placed& a, const Motion& motion_a, const Placed& b, const Motion& motion_b, double t) {
+Bracket gap_at_time(const Placed& a, const Motion& motion_a, const Placed& b, const Motion& motion_b,
+                    double t) {
   if (is<HalfSpace>(a) && is<HalfSpace>(b)) return gap_of_half_spaces(a, motion_a, b, motion_b, t);
-  if (is<HalfSpace>(a)) return gap_then(b, motion_b, a, motion_a, t);
+  if (is<HalfSpace>(a)) return gap_at_time(b, motion_b, a, motion_a, t);
   const bool surface = is<TriangleMesh>(a) || is<TriangleMesh>(b);
   const std::vector<Mover> movers_a = movers(a, motion_a, motion_b.linear);
   if (is<HalfSpace>(b)) {
-    const Vec3 turn = shown_turn(b, motion_b.angular);
+    const Vec3 turn = visible_turn(b, motion_b.angular);
     return gap_to_half_space(movers_a, b, turn, translation_of(turn.isZero(0) ? a : b), t);
   }
   const Vec3 origin = translation_of(a);
@@ -108,7 +109,7 @@ Bracket gap_then(const Placed& a, const Motion& motion_a, const Placed& b, const
 }  // namespace
 
 Bracket gap_at(const Placed& a, const Motion& motion_a, const Placed& b, const Motion& motion_b, double t) {
-  return within_limit(Bracket{-infinity, infinity}, [&] { return gap_then(a, motion_a, b, motion_b, t); });
+  return within_limit(Bracket{-infinity, infinity}, [&] { return gap_at_time(a, motion_a, b, motion_b, t); });
 }
 
 namespace {
@@ -122,9 +123,9 @@ struct Stretch {
 // Every sample is a certified bound at its own time, so the largest of them bounds the largest depth from
 // below, whatever the search misses. Without turning the gap is convex in t (the signed distance of a point
 // on a line from a convex set), and one golden-section search finds the minimum. With turning: even samples
-// first; then the interval in which the gap could be least, given how fast it can change, is halved, at
-// max_parts `halvings` times or until no interval can hold less than what is known; then a golden-section
-// search around the minimum.
+// first; then the interval in which the gap could be least, given how fast it can change, is halved, at most
+// `halvings` times or until no interval can hold less than what is known; then a golden-section search around
+// the minimum.
 Sample least(const auto& gap, const Stretch& on) {
   const double t = on.t;
   if (on.turning == 0) {

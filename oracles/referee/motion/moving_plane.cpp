@@ -20,7 +20,7 @@ namespace {
 
 constexpr Real infinity = std::numeric_limits<Real>::infinity();
 // Slack over the checker's own test, so that what holds here also holds there.
-constexpr Real spare = 1 + 0x1p-30L;
+constexpr Real rounding_factor = 1 + 0x1p-30L;
 // The shortest step in time that is tried.
 constexpr double least_step = 0x1p-54;
 constexpr int attempt_cap = 600;
@@ -39,7 +39,7 @@ Margins margins(const PlaneKey& k, const MovingPart& a, const MovingPart& b) {
 Real bend(const PlaneKey& from, const PlaneKey& to, const MovingPart& p) {
   const Real dt = static_cast<Real>(to.t) - static_cast<Real>(from.t);
   const Real longest = std::fmax(norm(from.n), norm(to.n));
-  return (dt * norm(to.n - from.n) * p.speed() + dt * dt / 2 * longest * p.bend()) * spare;
+  return (dt * norm(to.n - from.n) * p.speed() + dt * dt / 2 * longest * p.bend()) * rounding_factor;
 }
 
 bool holds(Real margin0, Real margin1, Real bend) {
