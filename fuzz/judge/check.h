@@ -80,7 +80,7 @@ struct StatedContact {
   std::optional<double> depth;
 };
 /// Reports an invalid normal or depth, which is wrong whatever the truth is. True when both can be measured.
-bool judge_as_numbers(const CheckInput& in, CheckOutput& out, const StatedContact& c);
+bool judge_validity(const CheckInput& in, CheckOutput& out, const StatedContact& c);
 /// Checks feasibility, regret and excess.
 void judge_normal_and_depth(const CheckInput& in, CheckOutput& out, const StatedContact& c,
                             const referee::PairTruth& truth);

@@ -85,7 +85,7 @@ double shape_difference(const Shape& x, const Shape& y) {
         using S = std::decay_t<decltype(sx)>;
         const S& sy = std::get<S>(y);
         if constexpr (std::is_same_v<S, HalfSpace>) {
-          // Unbounded: a normal that differs displaces without limit.
+          // A half-space is unbounded: a different normal displaces its points without limit.
           sum = sx == sy ? 0 : unbounded;
         } else {
           for_each_field(sx, [&](auto name, const auto& v, Domain) {

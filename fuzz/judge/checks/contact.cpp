@@ -79,7 +79,7 @@ double certain_depth(const CheckInput& in, int a, int b, const referee::PairTrut
   return std::max(0.0, depth);
 }
 
-bool judge_as_numbers(const CheckInput& in, CheckOutput& out, const StatedContact& c) {
+bool judge_validity(const CheckInput& in, CheckOutput& out, const StatedContact& c) {
   const Query q{in.query.question, c.a, c.b};
   const double length = c.normal ? c.normal->stableNorm() : 1;
   const bool unit = std::abs(length - 1) <= in.card.tau_factor * in.card.unit_roundoff;
@@ -127,7 +127,7 @@ void check_contact(const CheckInput& in, CheckOutput& out) {
   check_overlap(in, out);
   if (!in.answer.overlap || !*in.answer.overlap) return;
   const StatedContact stated{in.query.a, in.query.b, in.answer.normal, in.answer.depth};
-  if (!judge_as_numbers(in, out, stated)) return;
+  if (!judge_validity(in, out, stated)) return;
   const referee::PairTruth& truth = in.truth.pair(in.frame, stated.a, stated.b);
   // The bodies may be apart: the received bodies must be judged for themselves.
   if (truth.verdict != referee::Verdict::overlap) out.frame_matters();

@@ -21,7 +21,7 @@ void check_stated(const CheckInput& in, CheckOutput& out, const SceneContact& c,
   const auto [a, b] = std::minmax(c.a, c.b);
   stated.insert({a, b});
   const StatedContact contact{a, b, c.a > c.b ? Vec3(-c.normal) : c.normal, c.depth};
-  if (!judge_as_numbers(in, out, contact)) return;
+  if (!judge_validity(in, out, contact)) return;
   const referee::PairTruth& truth = in.truth.pair(in.frame, a, b);
   const double l = in.truth.scale(a, b);
   out.note_claim(in, l);
@@ -52,7 +52,7 @@ void check_scene_contacts(const CheckInput& in, CheckOutput& out) {
     const BodyPair key = std::minmax(c.a, c.b);
     const auto [it, first] = deepest.try_emplace(key, c);
     if (first) continue;
-    judge_as_numbers(in, out, {key.first, key.second, c.normal, c.depth});
+    judge_validity(in, out, {key.first, key.second, c.normal, c.depth});
     if (!(c.depth <= it->second.depth)) it->second = c;
   }
   std::set<BodyPair> stated;
