@@ -1,4 +1,4 @@
-// Case to engines to judgements to findings: the one place where a finding gets its identity.
+// From case to engines to judgements to findings: the only place where a finding gets its identity.
 #pragma once
 
 #include <cstdint>
@@ -10,22 +10,24 @@
 
 namespace touchstone::fuzz {
 
-/// A case in all its derived forms costs an engine about fifteen times the case, and the referee nothing.
+/// A case in all its derived forms costs an engine about fifteen times the case itself, and the referee
+/// nothing.
 inline constexpr std::uint64_t default_relations_every = 16;
 
-/// Judges the answers of one case and adds them to the result. Used by campaigns and by replay.
-/// What was new about it is added to `features` when that is given.
+/// Judges the answers to one case and adds them to the result. Used by campaigns and by replay. If `features`
+/// is given, the features of the case are added to it.
 void judge_into(CampaignResult& result, const Case& c, std::uint64_t index,
                 std::span<const EnginePtr> engines, std::span<const CaseObservations> observations,
                 std::vector<std::uint64_t>* features = nullptr);
 
-/// Asks the engine about the cases derived from c by every relation, and adds what contradicts `base`.
+/// Runs the engine on the cases derived from c by every relation, and adds what contradicts `base` to the
+/// result.
 void relate_into(CampaignResult& result, const Case& c, std::uint64_t index, const EnginePtr& engine,
                  const CaseObservations& base);
 
-/// Asks every engine about all cases, then judges each case; case i is counted as index first_index + i.
-/// Those whose index is a multiple of relations_every are asked under the relations too. `features`, when
-/// given, gets one list a case.
+/// Runs every engine on all cases, then judges each case; case i counts as index first_index + i. Cases whose
+/// index is a multiple of relations_every are also run under the relations. `features`, if given, receives
+/// one list per case.
 void ask_and_judge(CampaignResult& result, std::span<const Case> cases, std::uint64_t first_index,
                    std::span<const EnginePtr> engines,
                    std::uint64_t relations_every = default_relations_every,

@@ -1,5 +1,5 @@
-// Whether a case has a shape without volume: engines fail on those in ways of their own, so that a finding
-// about solid bodies and one about flat ones are two findings.
+// Whether a case has a shape without volume: engines fail on those in their own ways, so a finding about
+// solid bodies and one about flat bodies are two findings.
 #pragma once
 
 #include <algorithm>
@@ -31,7 +31,7 @@ inline bool is_flat(const Shape& shape) {
       shape);
 }
 
-/// Of the two bodies when there are such, else of any: "flat" or "solid".
+/// For the two bodies if a and b name bodies, else for all shapes: "flat" or "solid".
 inline std::string_view degeneracy_of(const Case& c, int a, int b) {
   const int n = static_cast<int>(c.scene.bodies.size());
   const bool flat = a >= 0 && b >= 0 && a < n && b < n

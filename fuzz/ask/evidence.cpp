@@ -30,7 +30,7 @@ Json exact_certificate_of(const Evidence& e) {
   return it->second;
 }
 
-// Of an answer that is none or late: how deep the bodies are in each other at some time up to it.
+// For a missing or late impact: how deep the bodies are in each other at some time before it.
 Json with_depth(Json certificate, const Evidence& e) {
   const double t = e.observation.toi.value_or(1);
   const auto a = placed_at(e.c.scene, e.a, e.step), b = placed_at(e.c.scene, e.b, e.step);
@@ -62,7 +62,7 @@ Json certificate_of(const Evidence& e) {
   return names ? named(touchstone::to_json(e.certificate), e.a, e.b, e.step) : touchstone::to_json(e.certificate);
 }
 
-// Shapes that differ by rounding alone are left out.
+// Shapes that differ only by rounding are left out.
 Json received_json(const Evidence& e) {
   Json j = to_json(e.received);
   const std::vector<Shape>& asked = e.c.scene.shapes;

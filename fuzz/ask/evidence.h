@@ -1,4 +1,4 @@
-// Finds the certificates that show a finding.
+// Finds the certificates that prove a finding.
 #pragma once
 
 #include <optional>
@@ -7,15 +7,15 @@
 
 namespace touchstone::fuzz {
 
-/// Evidence::write.
+/// Implements Evidence::write.
 Json evidence_to_json(const Evidence& e);
 
-/// The body at its own pose (step < 0), or where the script has it at that query; nothing when it is not
+/// The body at its own pose (step < 0), or at its pose in that query of the script; nullopt when it is not
 /// there.
 std::optional<Placed> placed_at(const Scene& s, int body, int step);
 
-/// The referee's certificate of the verdict on two bodies (time_of_impact: of the first contact) as the
-/// checker accepts it, naming its "bodies" and "step"; null when there is no such form.
+/// The referee's certificate of the verdict on two bodies (for time_of_impact: of the first contact) in a
+/// form that the checker accepts, with its "bodies" and "step"; null when there is no such form.
 Json exact_certificate(const Scene& s, Question q, int a, int b, int step = -1);
 
 }  // namespace touchstone::fuzz

@@ -17,10 +17,11 @@
 namespace touchstone::fuzz {
 namespace {
 
-// One place in an engine's code is one fault, whatever it was asked about: the first case shows with what.
+// One site in an engine's code is one fault, whatever the case; the first case serves as the example.
 void name_by_site(Finding& f, const std::string& site) {
   f.fault += "_" + site_word(site);
-  f.shapes = "any", f.degeneracy = "any";
+  f.shapes = "any";
+  f.degeneracy = "any";
 }
 
 void add_findings(CampaignResult& r, const Case& c, std::uint64_t index, const std::string& engine,
@@ -28,15 +29,18 @@ void add_findings(CampaignResult& r, const Case& c, std::uint64_t index, const s
                   const std::shared_ptr<CaseCertificates>& shared) {
   for (const FaultReport& fault : j.faults) {
     Finding f;
-    f.engine = engine, f.question = to_string(q.question);
+    f.engine = engine;
+    f.question = to_string(q.question);
     // How an answer failed is part of its name: a crash is not a time-out.
     f.fault = fault.fault == Fault::failed ? to_string(j.outcome) : to_string(fault.fault);
     f.shapes = shapes_of(c, fault.a, fault.b);
     f.blame = to_string(j.blame);
-    f.degeneracy = degeneracy_of(c, fault.a, fault.b),
+    f.degeneracy = degeneracy_of(c, fault.a, fault.b);
     f.magnitude = to_string(magnitude_of(fault.error_in_l));
     if (!o.site.empty()) name_by_site(f, o.site);
-    f.count = 1, f.worst_in_l = fault.error_in_l, f.first_index = index;
+    f.count = 1;
+    f.worst_in_l = fault.error_in_l;
+    f.first_index = index;
     auto& kept = r.findings[f.key()];
     if (kept.count == 0 || index < kept.first_index) {
       // The last words of a dying process stay out of the finding: they may differ from run to run.
@@ -55,7 +59,7 @@ bool any_fault(const std::vector<Judgement>& judgements) {
                      [](const Judgement& j) { return !j.faults.empty(); });
 }
 
-// The direction that the subject found is the first certificate that the referee tries.
+// The direction that the subject found is the first that the referee tries as a certificate.
 void give_hints(Truth& truth, const Case& c, const CaseObservations& o) {
   for (std::size_t i = 0; i < c.queries.size() && i < o.answers.size(); ++i) {
     const Query& q = c.queries[i];
@@ -79,34 +83,40 @@ void count_hit(CampaignResult& r, const Case& c, Truth& truth) {
   const Query& q = c.queries[0];
   if (q.question == Question::time_of_impact) {
     const auto v = truth.motion(0, q.a, q.b).verdict;
-    if (v == referee::TimeTruth::Verdict::undecided)
+    if (v == referee::TimeTruth::Verdict::undecided) {
       ++r.undecided;
-    else
-      ++r.pair_cases, r.overlapping += v == referee::TimeTruth::Verdict::hit;
+    } else {
+      ++r.pair_cases;
+      r.overlapping += v == referee::TimeTruth::Verdict::hit;
+    }
     return;
   }
   const auto& t = truth.pair(0, q.a, q.b);
-  if (t.verdict == referee::Verdict::undecided)
+  if (t.verdict == referee::Verdict::undecided) {
     ++r.undecided;
-  else
-    ++r.pair_cases, r.overlapping += t.verdict == referee::Verdict::overlap,
-        ++r.levels[static_cast<std::size_t>(t.level)];
+  } else {
+    ++r.pair_cases;
+    r.overlapping += t.verdict == referee::Verdict::overlap;
+    ++r.levels[static_cast<std::size_t>(t.level)];
+  }
 }
 
 bool asks_pair(const Case& c) {
   return !c.queries.empty() && c.queries[0].question < Question::time_of_impact;
 }
 
-// What asking one engine for a batch cost: this thread's CPU time and, where that is less than what the
-// engine says it took, the engine worked elsewhere and its time comes on top (an engine of this process that
-// was held up by others counts twice, so the rate is at most too low). It is shared by the engine's own
-// times.
+// The cost of running one engine on a batch: this thread's CPU time; where that is less than the time the
+// engine reports, the engine worked elsewhere and its time is added (an engine in this process that was held
+// up by others counts twice, so the rate is at most too low). The cost is shared in proportion to the
+// engine's own times.
 void share_asking(CampaignResult& r, std::span<const Case> cases,
                   const std::vector<CaseObservations>& answers, std::int64_t cpu_ns) {
   std::int64_t own = 0, of_pairs = 0;
   for (std::size_t i = 0; i < cases.size(); ++i)
-    for (const Observation& o : answers[i].answers)
-      own += o.elapsed_ns, of_pairs += asks_pair(cases[i]) ? o.elapsed_ns : 0;
+    for (const Observation& o : answers[i].answers) {
+      own += o.elapsed_ns;
+      of_pairs += asks_pair(cases[i]) ? o.elapsed_ns : 0;
+    }
   const double share = own > 0 ? static_cast<double>(of_pairs) / static_cast<double>(own) : 0;
   r.pair_cpu_ns +=
       static_cast<std::int64_t>(share * static_cast<double>(cpu_ns < own ? cpu_ns + own : cpu_ns));
@@ -126,7 +136,7 @@ void judge_into(CampaignResult& r, const Case& c, std::uint64_t index, std::span
     std::optional<CaseObservations> without_unstable;
     if (any_fault(judgements)) {
       without_unstable = observations[e];
-      set_unstable_aside(c, *engines[e], *without_unstable, judgements);
+      remove_unstable(c, *engines[e], *without_unstable, judgements);
     }
     const CaseObservations& all = without_unstable ? *without_unstable : observations[e];
     for (std::size_t i = 0; i < c.queries.size(); ++i) {
@@ -141,7 +151,8 @@ void judge_into(CampaignResult& r, const Case& c, std::uint64_t index, std::span
   if (features)
     for (std::size_t i = 0; i < c.queries.size(); ++i) add_pattern(c, i, observations, *features);
   count_hit(r, c, truth);
-  ++r.cases, ++r.families[c.family];
+  ++r.cases;
+  ++r.families[c.family];
   r.judge_ns += std::chrono::nanoseconds(std::chrono::steady_clock::now() - start).count();
 }
 
@@ -161,7 +172,10 @@ void ask_and_judge(CampaignResult& r, std::span<const Case> cases, std::uint64_t
     for (auto& of_engine : by_engine) observations.push_back(std::move(of_engine[i]));
     const std::int64_t start = thread_cpu_ns();
     judge_into(r, cases[i], index, engines, observations, features ? &(*features)[i] : nullptr);
-    if (asks_pair(cases[i])) ++r.pair_asked, r.pair_cpu_ns += thread_cpu_ns() - start;
+    if (asks_pair(cases[i])) {
+      ++r.pair_asked;
+      r.pair_cpu_ns += thread_cpu_ns() - start;
+    }
     if (relations_every == 0 || index % relations_every != 0) continue;
     for (std::size_t e = 0; e < engines.size(); ++e)
       relate_into(r, cases[i], index, engines[e], observations[e]);

@@ -12,16 +12,17 @@
 namespace touchstone::fuzz {
 namespace {
 
-// Factors of 64: a few classes between a rounding and the size.
+// Powers of 64: a few classes between a rounding error and the size of the scene.
 int order(double x) {
   return x > 0 && std::isfinite(x) ? static_cast<int>(std::floor(std::log2(x) / 6)) : 99;
 }
 
-// Along which axes of the body, 0 to 3, the direction is within 1e-6.
+// How many of the three components along the body's axes are zero within 1e-6.
 int axis_class(const Body& b, const Vec3& n) {
   const Vec3 local = rotation_matrix(b.pose.rotation).transpose() * n;
+  constexpr double zero = 1e-6;  // looser than the rounding of a float
   int zeros = 0;
-  for (const double e : local) zeros += std::abs(e) < 1e-6;
+  for (const double e : local) zeros += std::abs(e) < zero;
   return zeros;
 }
 
@@ -74,12 +75,12 @@ void add_pattern(const Case& c, std::size_t query, std::span<const CaseObservati
 void Pool::note(const Case& c, std::span<const std::uint64_t> shown) {
   bool is_new = false;
   for (const std::uint64_t f : shown) is_new |= features.insert(f).second;
-  if (is_new && cases.size() < most_cases) cases.push_back(c);
+  if (is_new && cases.size() < max_cases) cases.push_back(c);
 }
 
 Case Pool::draw(Rng& rng) const {
   for (int tries = 0; tries < 4; ++tries) {
-    // The later of two draws: what is behind the frontier has been tried more often.
+    // The later of two draws: older cases have been tried more often.
     Case c = cases[std::max(rng.below(published), rng.below(published))];
     bool valid = true;
     for (std::uint64_t n = 1 + rng.below(4); n > 0 && valid; --n) valid = apply(random_change(rng), c);

@@ -1,5 +1,6 @@
 // What a case made the engines do, in classes: a guided campaign keeps the cases that show a class for the
-// first time, and makes new cases from them. No engine's code is looked at, so that foreign ones count too.
+// first time and derives new cases from them. It never inspects an engine's code, so it works with unknown
+// engines too.
 #pragma once
 
 #include <cstdint>
@@ -14,31 +15,32 @@
 
 namespace touchstone::fuzz {
 
-/// Classes as hashes, of one engine's answer to one query: shape pair, outcome, faults and their magnitude,
-/// order of the error and of the gap, which features touch (points of the manifold; whether the normal is
-/// along an axis of A or B), degeneracy.
+/// Class hashes of one engine's answer to one query: shape pair, outcome, faults and their magnitude, order
+/// of the error and of the gap, which features touch (points of the manifold; whether the normal is along an
+/// axis of A or B), degeneracy.
 void add_features(const Case& c, const Query& q, const EngineCard& card, const Observation& o,
                   const Judgement& j, std::vector<std::uint64_t>& out);
-/// Of all engines' answers to one query: who says overlap, who apart, who failed.
+/// Class hash of all engines' answers to one query: which report overlap, which apart, which failed.
 void add_pattern(const Case& c, std::size_t query, std::span<const CaseObservations> observations,
                  std::vector<std::uint64_t>& out);
 
-/// The cases kept. Grows in the order of the campaign alone: the same seed keeps the same cases.
+/// The cases kept. Depends only on the order of the campaign: the same seed keeps the same cases.
 struct Pool {
   std::vector<Case> cases;
   std::set<std::uint64_t> features;  // seen, by any case
-  std::size_t published = 0;         // the first so many cases may be drawn
+  std::size_t published = 0;         // number of cases, from the first, that may be drawn
 
   /// Keeps c when a feature is new.
   void note(const Case& c, std::span<const std::uint64_t> shown);
-  /// What is kept so far may be drawn from now on.
+  /// All cases kept so far may be drawn from now on.
   void publish() { published = cases.size(); }
   bool empty() const { return published == 0; }
-  /// A published case with one to four changes, of a few tries that are valid; an empty id when none is.
+  /// A published case with one to four changes, the first valid one of a few tries; an empty id when none is
+  /// valid.
   Case draw(Rng& rng) const;
   std::size_t size() const { return cases.size(); }
 
-  static constexpr std::size_t most_cases = 8192;  // of a few kilobytes each
+  static constexpr std::size_t max_cases = 8192;  // of a few kilobytes each
 };
 
 }  // namespace touchstone::fuzz

@@ -1,5 +1,6 @@
-// The relations of one case: derived cases are asked in one batch, and what contradicts the base is a finding
-// about the base, which is all that is stored: the derivations are functions of it and of its answers.
+// The relations of one case: the derived cases run in one batch, and an answer that contradicts the base is a
+// finding about the base, which is all that is stored: the derivations are functions of the base and its
+// answers.
 #include <algorithm>
 #include <optional>
 
@@ -33,10 +34,17 @@ void add_break(CampaignResult& r, const Case& c, std::uint64_t index, const Rela
   const auto q = static_cast<std::size_t>(b.query);
   const Question question = c.queries[q].question;
   Finding f;
-  f.engine = in.card.name, f.question = to_string(question), f.fault = b.relation;
-  f.shapes = shapes_of(c, b.a, b.b), f.blame = to_string(b.blame);
-  f.degeneracy = degeneracy_of(c, b.a, b.b), f.magnitude = to_string(magnitude_of(b.error_in_l));
-  f.count = 1, f.worst_in_l = b.error_in_l, f.first_index = index, f.words = b.words;
+  f.engine = in.card.name;
+  f.question = to_string(question);
+  f.fault = b.relation;
+  f.shapes = shapes_of(c, b.a, b.b);
+  f.blame = to_string(b.blame);
+  f.degeneracy = degeneracy_of(c, b.a, b.b);
+  f.magnitude = to_string(magnitude_of(b.error_in_l));
+  f.count = 1;
+  f.worst_in_l = b.error_in_l;
+  f.first_index = index;
+  f.words = b.words;
   auto& kept = r.findings[f.key()];
   if (kept.count == 0 || index < kept.first_index)
     f.evidence = std::make_shared<const Evidence>(
@@ -44,17 +52,23 @@ void add_break(CampaignResult& r, const Case& c, std::uint64_t index, const Rela
   kept.merge(f);
 }
 
-// No two forms of the case need to be compared: one of them is not answered the same way twice. The answers
-// are not kept, for they may differ from run to run.
+// The forms of the case cannot be compared: one of them is not answered the same way twice. The answers are
+// not kept, since they may vary from run to run.
 void add_unstable(CampaignResult& r, const Case& c, std::uint64_t index, const RelationInput& in,
                   const RelationBreak& b) {
   const auto q = static_cast<std::size_t>(b.query);
   const Question question = c.queries[q].question;
   Finding f;
-  f.engine = in.card.name, f.question = to_string(question), f.fault = to_string(Fault::unstable);
-  f.shapes = shapes_of(c, b.a, b.b), f.blame = to_string(Blame::algorithm);
-  f.degeneracy = degeneracy_of(c, b.a, b.b), f.magnitude = to_string(magnitude_of(0));
-  f.count = 1, f.first_index = index, f.words = "asked again, it answers differently";
+  f.engine = in.card.name;
+  f.question = to_string(question);
+  f.fault = to_string(Fault::unstable);
+  f.shapes = shapes_of(c, b.a, b.b);
+  f.blame = to_string(Blame::algorithm);
+  f.degeneracy = degeneracy_of(c, b.a, b.b);
+  f.magnitude = to_string(magnitude_of(0));
+  f.count = 1;
+  f.first_index = index;
+  f.words = "asked again, it answers differently";
   auto& kept = r.findings[f.key()];
   if (kept.count == 0 || index < kept.first_index) {
     Observation outcome_alone;
@@ -74,8 +88,8 @@ bool any_is(const CaseObservations& o, Outcome outcome) {
 
 void relate_into(CampaignResult& r, const Case& c, std::uint64_t index, const EnginePtr& engine,
                  const CaseObservations& base) {
-  // What an engine does not answer at all is not asked again in fifteen forms, and what hangs it is not,
-  // though another query of the case was answered: each form would wait for the time limit.
+  // A case that an engine does not answer at all is not asked in fifteen more forms, and neither is one that
+  // hangs it, even if another query of the case was answered: each form would wait for the time limit.
   if (!any_is(base, Outcome::answered) || any_is(base, Outcome::timed_out)) return;
   if (!odd_numbers(c.scene).empty()) return;
   const RelationInput in{c, engine->card(), base};
@@ -83,7 +97,7 @@ void relate_into(CampaignResult& r, const Case& c, std::uint64_t index, const En
   std::vector<Case> cases;
   for (const Asked& a : asked) cases.push_back(a.derived.c);
   const auto observed = engine->run(cases);
-  std::optional<bool> asked_again;  // the base case, once for all that is broken
+  std::optional<bool> asked_again;  // the base case, repeated once for all breaks
   const auto base_repeats = [&] {
     if (!asked_again) asked_again = repeats(c, *engine, base);
     return *asked_again;

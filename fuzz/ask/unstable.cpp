@@ -7,7 +7,7 @@
 namespace touchstone::fuzz {
 namespace {
 
-/// Names of the parts in which two observations differ. What an engine says of a failure is for people.
+/// Names of the fields in which two observations differ. `detail` is ignored: it is only for people.
 std::vector<std::string> differences(const Observation& one, const Observation& two) {
   Json x = to_json(one), y = to_json(two);
   for (Json* j : {&x, &y}) j->erase("detail");
@@ -38,7 +38,9 @@ Judgement unstable(const Query& q, const Judgement& was, const std::vector<std::
   j.outcome = was.outcome;
   j.blame = Blame::algorithm;
   FaultReport f;
-  f.fault = Fault::unstable, f.a = q.a, f.b = q.b;
+  f.fault = Fault::unstable;
+  f.a = q.a;
+  f.b = q.b;
   f.words = "asked again, it answers differently:";
   for (const std::string& name : names) f.words += " " + name;
   j.faults = j.received_faults = {f};
@@ -48,11 +50,11 @@ Judgement unstable(const Query& q, const Judgement& was, const std::vector<std::
 bool took_too_long(const Observation& o) { return depends_on_time(o.outcome); }
 
 struct Again {
-  std::vector<std::size_t> of;  // index in the case's queries
+  std::vector<std::size_t> of;  // indices into the case's queries
   std::vector<Observation> answers;
 };
 
-/// The case without the questions that took too long.
+/// Repeats the case without the questions that took too long.
 Again ask_again(const Case& c, Engine& engine, const CaseObservations& observed) {
   Again again;
   Case shorter = c;
@@ -71,8 +73,8 @@ Again ask_again(const Case& c, Engine& engine, const CaseObservations& observed)
 
 }  // namespace
 
-void set_unstable_aside(const Case& c, Engine& engine, CaseObservations& observed,
-                        std::vector<Judgement>& judgements) {
+void remove_unstable(const Case& c, Engine& engine, CaseObservations& observed,
+                     std::vector<Judgement>& judgements) {
   bool any = false;
   for (std::size_t i = 0; i < judgements.size() && i < observed.answers.size(); ++i)
     any |= !judgements[i].faults.empty() && !took_too_long(observed.answers[i]);

@@ -1,5 +1,5 @@
-// Answers that are not the same when they are asked for again: made of memory that the engine never wrote, or
-// of what it was asked before.
+// Answers that change when the same question is repeated: they depend on memory that the engine never wrote,
+// or on earlier questions.
 #pragma once
 
 #include <vector>
@@ -9,13 +9,13 @@
 
 namespace touchstone::fuzz {
 
-/// Asks again what is about to be held against the engine, in memory that held something else before. What
-/// differs is taken out of `observed`, for it may differ from run to run, and the fault is then `unstable`
-/// alone. Answers that were right, and those that took too long, are not asked again.
-void set_unstable_aside(const Case& c, Engine& engine, CaseObservations& observed,
-                        std::vector<Judgement>& judgements);
+/// Repeats the questions whose answers are about to be reported as faults, in memory with other contents.
+/// What differs is removed from `observed`, since it may vary from run to run, and the fault becomes
+/// `unstable` alone. Right answers and answers that took too long are not repeated.
+void remove_unstable(const Case& c, Engine& engine, CaseObservations& observed,
+                     std::vector<Judgement>& judgements);
 
-/// Whether the engine says of the case what it said before, but for time-outs.
+/// Whether the engine repeats its earlier answers to the case, time-outs aside.
 bool repeats(const Case& c, Engine& engine, const CaseObservations& observed);
 
 }  // namespace touchstone::fuzz

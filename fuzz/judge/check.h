@@ -1,4 +1,4 @@
-// One check: looks at one answer in one frame and adds what is wrong with it. Pure.
+// One check: examines one answer in one frame and adds its faults. Pure.
 #pragma once
 
 #include <cmath>
@@ -34,9 +34,9 @@ struct CheckOutput {
   std::uint64_t pairs_true = 0, pairs_reported = 0, pairs_duplicate = 0;
   std::optional<double> manifold_coverage;
   /// Largest error − τ over everything measured: > 0 wrong by that much, < 0 right with that much to spare.
-  /// Errors change by at most 2D between frames whose bodies are D apart, so that a large |excess| settles
-  /// both frames at once. NaN: something was measured in this frame alone, and another frame must be judged
-  /// for itself.
+  /// Errors change by at most 2D between frames whose bodies are D apart, so a large |excess| settles both
+  /// frames at once. NaN: something was measured only in this frame, and any other frame must be judged for
+  /// itself.
   double excess = -std::numeric_limits<double>::infinity();
 
   void error(double absolute, double l, double tau) {
@@ -44,25 +44,24 @@ struct CheckOutput {
     if (!std::isnan(excess)) excess = std::max(excess, absolute - tau);
   }
   /// A fault whose error was measured with error().
-  void fault(Fault f, double absolute, double l, const Query& q, std::string words,
-             Certificate c = {}) {
+  void fault(Fault f, double absolute, double l, const Query& q, std::string words, Certificate c = {}) {
     faults.push_back(
         {f, absolute, l > 0 ? absolute / l : absolute, q.a, q.b, -1, std::move(words), std::move(c)});
   }
-  /// A fault in every frame: the answer itself is no answer.
+  /// A fault in every frame: the answer itself is malformed.
   void fault_always(Fault f, double absolute, const Query& q, std::string words) {
     excess = std::numeric_limits<double>::infinity();
     fault(f, absolute, 1, q, std::move(words));
   }
-  /// Each claim once.
+  /// Lists each claim once.
   void not_judged(std::string claim, bool by_definition);
-  /// The engine's own tolerance for a pair of scale l, where it is wide; as wide as the pair, it leaves
+  /// Records the engine's own tolerance for a pair of scale l when it is wide; one as wide as the pair leaves
   /// nothing to judge.
   void note_claim(const CheckInput& in, double l);
   void frame_matters() { excess = std::numeric_limits<double>::quiet_NaN(); }
 };
 
-// One row a check in judge.cpp; each lives in fuzz/judge/checks/<name>.cpp.
+// One row per check in judge.cpp; each lives in fuzz/judge/checks/<name>.cpp.
 void check_overlap(const CheckInput& in, CheckOutput& out);
 void check_distance(const CheckInput& in, CheckOutput& out);
 void check_witness(const CheckInput& in, CheckOutput& out);
@@ -74,20 +73,19 @@ void check_scene_contacts(const CheckInput& in, CheckOutput& out);
 void check_swept_candidates(const CheckInput& in, CheckOutput& out);
 
 /// The part of `contact` that scene contacts share: one stated contact of a pair that is not certainly apart
-/// by more than τ. What is not stated is empty.
+/// by more than τ. Unstated values are empty.
 struct StatedContact {
   int a = 0, b = 1;
   std::optional<Vec3> normal;
   std::optional<double> depth;
 };
-/// A normal that is none, a depth that is no number: wrong whatever the truth is. True when both can be
-/// measured.
-bool judge_as_numbers(const CheckInput& in, CheckOutput& out, const StatedContact& c);
-/// Feasibility, regret, excess.
+/// Reports an invalid normal or depth, which is wrong whatever the truth is. True when both can be measured.
+bool judge_validity(const CheckInput& in, CheckOutput& out, const StatedContact& c);
+/// Checks feasibility, regret and excess.
 void judge_normal_and_depth(const CheckInput& in, CheckOutput& out, const StatedContact& c,
                             const referee::PairTruth& truth);
-/// Of a pair that overlaps: the depth that is certain. A surface has none as a whole; that of its deepest
-/// triangle is a motion that the body must make to be apart.
+/// For a pair that overlaps: the depth that is certain. A surface has none as a whole; in its deepest
+/// triangle the depth is how far the body must move at least to be apart.
 double certain_depth(const CheckInput& in, int a, int b, const referee::PairTruth& truth);
 
 }  // namespace touchstone::fuzz

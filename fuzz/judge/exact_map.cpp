@@ -20,7 +20,9 @@ void turn_axes(Scene& s, const Mat3& m) {
     b.pose.translation = m * b.pose.translation;
     const Vec3 q = m * Vec3(b.pose.rotation.x, b.pose.rotation.y, b.pose.rotation.z);
     b.pose.rotation = {q.x(), q.y(), q.z(), b.pose.rotation.w};
-    if (b.motion) b.motion->linear = m * b.motion->linear, b.motion->angular = m * b.motion->angular;
+    if (!b.motion) continue;
+    b.motion->linear = m * b.motion->linear;
+    b.motion->angular = m * b.motion->angular;
   }
 }
 
@@ -32,8 +34,9 @@ bool has_own_axis(const Shape& s) {
 namespace {
 
 bool scales(double v, double factor) {
+  constexpr double least_scaled = 0x1p-500;  // squares of smaller numbers may underflow
   const double scaled = v * factor;
-  return std::isfinite(scaled) && scaled / factor == v && (v == 0 || std::abs(scaled) > 0x1p-500);
+  return std::isfinite(scaled) && scaled / factor == v && (v == 0 || std::abs(scaled) > least_scaled);
 }
 
 bool scales(const Vec3& v, double factor) {
@@ -61,7 +64,7 @@ bool scales(const Shape& shape, double factor) {
 }  // namespace
 
 bool scale_by(Scene& s, double factor) {
-  // Before anything is changed: a hull of numbers that are none cannot be made.
+  // Check before changing anything: a hull cannot be built from invalid numbers.
   for (const Shape& shape : s.shapes)
     if (!scales(shape, factor)) return false;
   for (const Body& b : s.bodies)

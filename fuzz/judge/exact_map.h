@@ -1,5 +1,5 @@
-// The same scene in another frame or unit of length, without a rounding: what is true of the one is true of
-// the other, to the last bit. Scripts stay as they are.
+// The same scene in another frame or unit of length, without rounding: what is true of one is true of the
+// other, to the last bit. Scripts are unchanged.
 #pragma once
 
 #include <type_traits>
@@ -8,7 +8,7 @@
 
 namespace touchstone::fuzz {
 
-/// f(number, domain) for doubles and vectors of the shape; what is derived from them is renewed.
+/// Calls f(number, domain) for the doubles and vectors of the shape and recomputes derived data.
 template <class F>
 void change_numbers(Shape& shape, F&& f) {
   std::visit(
@@ -24,21 +24,21 @@ void change_numbers(Shape& shape, F&& f) {
   if (auto* h = std::get_if<Hull>(&shape)) *h = make_hull(std::move(h->vertices));
 }
 
-/// World and body axes together by a signed permutation m of determinant 1: every number keeps its bits.
-/// Precondition: no shape whose axis m moves.
+/// Maps world and body axes together by a signed permutation m of determinant 1: every number keeps its bits.
+/// Precondition: no shape has an axis that m moves.
 void turn_axes(Scene& s, const Mat3& m);
-/// Capsule, cylinder, cone: their z axis is no field.
+/// Capsule, cylinder, cone: their z axis is fixed by the shape.
 bool has_own_axis(const Shape& s);
 
-/// The world by half a turn about one of its axes (0, 1, 2): signs change, and components of quaternions
+/// Turns the world by half a turn about one of its axes (0, 1, 2): signs change, and quaternion components
 /// change places. Any shape.
 void half_turn(Scene& s, int axis);
 
-/// False when a sum is not exact: the scene is then another one.
+/// False when a sum is not exact: the result is then a different scene.
 bool translate_by(Scene& s, const Vec3& by);
 
-/// By a power of two; false, and nothing done, when a number is so small or large that the product is not
-/// exact.
+/// Scales by a power of two. False, with nothing changed, when a number is so small or large that the product
+/// is not exact.
 bool scale_by(Scene& s, double factor);
 
 }  // namespace touchstone::fuzz

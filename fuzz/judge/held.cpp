@@ -19,25 +19,25 @@ bool is_fit(const std::vector<Vec3>& v, Domain) {
 }
 bool is_fit(const std::vector<std::array<int, 3>>&, Domain) { return true; }
 
-// A plane may be scaled as the engine likes.
+// An engine may scale the numbers of a plane at will.
 double largest_size(const Shape& shape) {
   return std::holds_alternative<HalfSpace>(shape) ? 0 : largest_number(shape);
 }
 
-// Rounding moves a number by a part of the largest one. What is a million times as large has nothing to do
-// with the scene asked, and numbers of 1e300 beside those of 1 cost the referee minutes.
+// Rounding moves a number by a fraction of the largest one. A number a million times as large has nothing to
+// do with the given scene, and numbers of 1e300 beside those of 1 cost the referee minutes.
 class Plausible {
  public:
   explicit Plausible(const Scene& asked) {
     constexpr double times = 1e6;
-    double m = 1;  // and what a unit is worth
+    double m = 1;  // at least one unit of length
     for (const Shape& s : asked.shapes) m = std::max(m, largest_size(s));
     for (const Body& b : asked.bodies) m = std::max(m, largest_number(b.pose.translation));
     limit_ = times * m;
   }
   bool operator()(const Shape& s) const { return is_a_set(s) && largest_size(s) <= limit_; }
   bool operator()(const Placement& p) const {
-    constexpr double largest_turn = 1e6;  // of a matrix that should turn and no more
+    constexpr double largest_turn = 1e6;  // for a matrix that should only rotate
     return p.matrix.allFinite() && p.matrix.lpNorm<Eigen::Infinity>() <= largest_turn &&
            p.translation.allFinite() && largest_number(p.translation) <= limit_;
   }
@@ -46,8 +46,7 @@ class Plausible {
   double limit_;
 };
 
-// Candidates may be asked about bodies that are none (scenarios/value/odd_numbers.h): to hold those is no
-// fault.
+// Candidate queries may contain invalid bodies (scenarios/value/odd_numbers.h): holding those is not a fault.
 bool is_body_held(const Plausible& plausible, const Scene& asked, const ReceivedScene& r, std::size_t body) {
   if (!asked.bodies[body].pose.translation.allFinite() || !is_a_set(asked.shape_of(static_cast<int>(body))))
     return true;

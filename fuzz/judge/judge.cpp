@@ -30,7 +30,7 @@ constexpr CheckRow checks[] = {
     {Question::swept_candidates, check_swept_candidates},
 };
 
-// A tolerance that is no length is no tolerance.
+// A tolerance that is not a length is a fault.
 void check_claim(const CheckInput& in, CheckOutput& out) {
   const double c = in.answer.claimed_tolerance;
   if (!std::isfinite(c) || c < 0)
@@ -48,22 +48,23 @@ CheckOutput run_checks(const CheckInput& in) {
   return out;
 }
 
-// A missed candidate is judged with no tolerance, and the received poses of a script are not known; an
-// overlap thinner than the engine's own rounding of the scene is then blamed on that rounding.
+// A missed candidate is judged without tolerance, and the received poses of a script are unknown; an overlap
+// thinner than the engine's own rounding of the scene is then blamed on that rounding.
 Blame blame_of(const Judgement& j, const CheckInput& in) {
   if (j.faults.empty()) return Blame::none;
   if (is_broad_question(in.query.question)) {
     const FaultReport& worst = j.faults.front();
     if (worst.fault != Fault::missed) return Blame::algorithm;
-    return worst.error > in.tau(in.truth.scale(worst.a, worst.b)) || in.card.unit_roundoff <= 0x1p-53
+    constexpr double double_roundoff = 0x1p-53;
+    return worst.error > in.tau(in.truth.scale(worst.a, worst.b)) || in.card.unit_roundoff <= double_roundoff
                ? Blame::algorithm
                : Blame::representation;
   }
   return j.received_faults.empty() ? Blame::representation : Blame::algorithm;
 }
 
-// The second judgement, against the scene received. Bodies that are D apart change every error by at most 2D;
-// only an answer within that of the border is judged again.
+// The second judgement, against the scene received. Bodies that are D apart change every error by at most 2D,
+// so only an answer within that distance of the limit is judged again.
 std::vector<FaultReport> faults_received(const CheckInput& asked, int frame, double excess,
                                          const std::vector<FaultReport>& faults) {
   const double change = 2 * asked.truth.displacement(frame);
@@ -72,21 +73,22 @@ std::vector<FaultReport> faults_received(const CheckInput& asked, int frame, dou
   return run_checks({asked.truth, frame, asked.query, asked.answer, asked.card}).faults;
 }
 
-// Of bodies that are none: to throw at them is to refuse them.
+// Throwing on invalid bodies is a legitimate refusal.
 bool is_refusal(const CheckInput& asked) {
   return (asked.answer.outcome == Outcome::threw || asked.answer.outcome == Outcome::invalid_input) &&
          asked.query.question == Question::candidates && !odd_numbers(asked.truth.scene()).empty();
 }
 
-// received_frame: empty when the engine did not hold the bodies asked about. No answer can then be right for
-// what it received, and what is wrong with it is lost in the representation.
+// received_frame: empty when the engine did not hold the bodies in question. No answer can then be right for
+// what it received, and any fault is due to the representation.
 Judgement judge_one(const CheckInput& asked, std::optional<int> received_frame) {
   Judgement j;
   j.outcome = asked.answer.outcome;
   if (is_no_attempt(j.outcome) || is_refusal(asked)) return j;
   if (j.outcome != Outcome::answered) {
     FaultReport f;
-    f.a = asked.query.a, f.b = asked.query.b;
+    f.a = asked.query.a;
+    f.b = asked.query.b;
     f.words =
         std::string(to_string(j.outcome)) + (asked.answer.detail.empty() ? "" : ": " + asked.answer.detail);
     j.faults.push_back(f);
@@ -97,10 +99,12 @@ Judgement judge_one(const CheckInput& asked, std::optional<int> received_frame) 
   CheckOutput out = run_checks(asked);
   j.undecided = out.undecided;
   j.unjudged = std::move(out.unjudged);
-  j.wide_claim = out.wide_claim, j.wide_claim_in_l = out.wide_claim_in_l;
+  j.wide_claim = out.wide_claim;
+  j.wide_claim_in_l = out.wide_claim_in_l;
   j.faults = std::move(out.faults);
   j.worst_in_l = out.worst_in_l;
-  j.pairs_true = out.pairs_true, j.pairs_reported = out.pairs_reported,
+  j.pairs_true = out.pairs_true;
+  j.pairs_reported = out.pairs_reported;
   j.pairs_duplicate = out.pairs_duplicate;
   j.manifold_coverage = out.manifold_coverage;
   if (!received_frame) {
@@ -123,7 +127,8 @@ void CheckOutput::not_judged(std::string claim, bool by_definition) {
 void CheckOutput::note_claim(const CheckInput& in, double l) {
   const double claim = in.card.source == claimed_by_user ? 0 : believed_claim(in.card, in.answer);
   if (!(claim > fuzz::wide_claim * l) || claim / l <= wide_claim_in_l) return;
-  wide_claim = claim, wide_claim_in_l = claim / l;
+  wide_claim = claim;
+  wide_claim_in_l = claim / l;
   if (claim >= l) not_judged("anything: the engine claims a tolerance as large as the bodies", false);
 }
 

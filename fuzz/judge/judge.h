@@ -1,5 +1,5 @@
 // The judge: a pure function of a case, the engines' observations and cards, and the referee. It runs no
-// engine, reads no clock and draws no random number, so that a stored run can be judged again.
+// engine, reads no clock and draws no random number, so a stored run can be judged again.
 #pragma once
 
 #include <span>
@@ -12,8 +12,8 @@
 
 namespace touchstone::fuzz {
 
-/// One judgement a query of the case. `truth` belongs to the same case and keeps what it learns for the next
-/// engine.
+/// One judgement per query of the case. `truth` belongs to the same case and keeps what it learns for the
+/// next engine.
 std::vector<Judgement> judge(const Case& c, const EngineCard& card, const CaseObservations& observations,
                              Truth& truth);
 

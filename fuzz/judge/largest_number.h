@@ -1,5 +1,5 @@
-// The largest number of a shape or a vector, by size, each number by itself: no squares that may be beyond
-// the doubles. Indices of triangles are no numbers in this sense.
+// The largest absolute value of any single number in a shape or a vector; no squares, which may exceed the
+// range of doubles. Indices of triangles do not count.
 #pragma once
 
 #include <algorithm>

@@ -15,7 +15,7 @@ namespace touchstone::fuzz {
 namespace {
 
 constexpr std::array rows{
-    Relation{"relation_questions", "overlap, distance and contact of a pair agree, and the same twice",
+    Relation{"relation_questions", "overlap, distance and contact of a pair agree, also when asked again",
              derive_questions},
     Relation{"relation_swap", "A and B exchanged", derive_swap},
     Relation{"relation_axes", "axes permuted or their signs flipped: exact", derive_axes},
@@ -34,13 +34,13 @@ GapInterval of_verdict(bool overlap, double tau) {
   return overlap ? GapInterval{-infinity, tau} : GapInterval{-tau, infinity};
 }
 
-// A mesh has no depth: an overlap says of its gap only that there is none.
+// A mesh has no depth: an overlap only implies that there is no gap.
 GapInterval of_distance(double d, double tau, bool mesh) {
   if (mesh && d <= 0) return {-infinity, tau};
   return {d - tau, d + tau};
 }
 
-// 0 in exact numbers where they meet.
+// Distance between the intervals; at most 0 when they intersect.
 double miss(const GapInterval& x, const GapInterval& y) {
   return std::max(x.lo, y.lo) - std::min(x.hi, y.hi);
 }
@@ -51,8 +51,8 @@ double displacement(const Scene& s, const ReceivedScene& received) {
   return truth.displacement(truth.frame_of(received));
 }
 
-// A contradiction that the rounding of the scenes received can explain is blamed on that rounding: bodies
-// that are D apart from those asked change a gap by at most 2D.
+// A contradiction that the rounding of the received scenes can explain is blamed on that rounding: bodies
+// displaced by D from the given ones change a gap by at most 2D.
 Blame blame_of_contradiction(double miss_by, const RelationInput& in, const Derived& d,
                              const CaseObservations& observed) {
   const double explained = 2 * (d.base_scale * displacement(in.c.scene, in.base.received) +
@@ -76,16 +76,16 @@ std::optional<RelationBreak> find_gap_break(const Relation& r, const RelationInp
       worst_miss = by;
       const Query& base = in.c.queries[static_cast<std::size_t>(e.query)];
       worst = RelationBreak{r.name, e.query, base.a, base.b, by / scale_of_pair(d.c.scene, q.a, q.b), {}, {}};
-      worst->words =
-          fmt::format("{}: by `{}` the gap is in {}, by `{}` before in {}", d.words, to_string(q.question),
-                      interval_text(here), to_string(base.question), interval_text(due));
+      worst->words = fmt::format("{}: `{}` puts the gap in {}, but `{}` put it in {} before", d.words,
+                                 to_string(q.question), interval_text(here), to_string(base.question),
+                                 interval_text(due));
     }
   if (worst) worst->blame = blame_of_contradiction(worst_miss, in, d, observed);
   return worst;
 }
 
-// An engine that answers in one form and has no answer in the other. A time-out depends on the machine, and
-// is left to the case itself.
+// Reports an engine that answers in one form but not in the other. A time-out depends on the machine and is
+// left to the case itself.
 std::optional<RelationBreak> find_missing_answer(const Relation& r, const RelationInput& in, const Derived& d,
                                                  const CaseObservations& observed) {
   std::size_t k = 0;
@@ -101,7 +101,7 @@ std::optional<RelationBreak> find_missing_answer(const Relation& r, const Relati
                          q.b,
                          0,
                          Blame::algorithm,
-                         fmt::format("{}: `{}` was {}, and is {}", d.words, to_string(q.question),
+                         fmt::format("{}: `{}` was {}, now {}", d.words, to_string(q.question),
                                      to_string(before), to_string(after))};
   }
   return std::nullopt;
@@ -117,7 +117,8 @@ bool is_relation(std::string_view fault) {
 
 namespace {
 
-// Of all bodies' sizes, places and motions, each number by itself: their squares may be beyond the doubles.
+// The largest single number among all sizes, positions and velocities: squares may exceed the range of
+// doubles.
 double largest_length(const Scene& s) {
   double most = 0;
   for (const Shape& shape : s.shapes) most = std::max(most, largest_number(shape));
@@ -136,7 +137,7 @@ bool is_within_numbers(const Scene& base, const Scene& derived) {
   } catch (const InputError&) {
     return false;
   }
-  // The sum of a few coordinates is still a double.
+  // Below this limit the sum of a few coordinates is still a double.
   constexpr double far = 0x1p1020;
   const double l = largest_length(derived);
   return l <= far || l <= largest_length(base);
@@ -194,10 +195,10 @@ double pose_rounding(const Scene& pair) {
     else
       size += bounding_radius(shape);
   }
-  // A quaternion's product and a rotated vector: about 16 roundings, twice for the two bodies, twice in
+  // A quaternion product and a rotated vector: about 16 roundings, times two for the two bodies, times two in
   // reserve.
-  constexpr double roundings = 64;
-  return roundings * 0x1p-53 * size;
+  constexpr double roundings = 64, unit_roundoff = 0x1p-53;
+  return roundings * unit_roundoff * size;
 }
 
 std::optional<RelationBreak> find_break(const Relation& r, const RelationInput& in, const Derived& d,

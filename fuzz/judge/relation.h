@@ -1,13 +1,13 @@
-// Relations that need no truth (truth.md's relations): what an engine says of a case binds what it may say of
-// a case derived from it, whatever the truth is.
+// Metamorphic relations, which need no truth (truth.md): an engine's answer to a case constrains its answer
+// to a case derived from it, whatever the truth is.
 //
-// Every answer that is right says that the signed gap g of the pair lies in an interval:
+// Every right answer implies that the signed gap g of the pair lies in an interval:
 //   overlap            g in (-inf, τ]                apart            g in [-τ, inf)
 //   distance d         g in [d - τ, d + τ]           contact, depth p g in [-p - τ, -p + 2τ]
 // (a right depth lies between d* - τ, else infeasible, and d* + 2τ, else excess or regret). A derivation maps
 // g exactly, or up to a stated rounding: the intervals of the base's and of the derived answers, mapped, must
-// meet. Where two of them do not, one of the two answers is wrong, and both are the same engine's. Nothing is
-// accused that the definition of a right answer allows.
+// intersect. Where they do not, one of the two answers is wrong, and both are from the same engine. Nothing
+// that the definition of a right answer allows is reported.
 #pragma once
 
 #include <cstdint>
@@ -34,21 +34,21 @@ struct GapInterval {
   bool says_nothing() const { return lo == -infinity && hi == infinity; }
 };
 
-/// What the answer to one query of the base says of the gap of the derived pair.
+/// What the answer to one query of the base implies about the gap of the derived pair.
 struct Expected {
   int query = 0;  // of the base
   GapInterval gap;
 };
 
-/// A case made from another, and what the answers to that one say of it.
+/// A case derived from a base case, and what the answers to the base imply about it.
 struct Derived {
   Case c;
   std::vector<Expected> expected;  // pair questions
-  double rounding = 0;             // of the derivation: g is known up to this
+  double rounding = 0;             // of the derivation: g is known up to this error
   double base_scale = 1;           // gap here / gap in the base
-  /// Queries are the base's, one for one: an engine that answers one must answer the other.
+  /// The queries correspond one to one to the base's: an engine that answers one must answer the other.
   bool same_questions = false;
-  std::vector<int> body_of;  // scene questions: body i here is body_of[i] of the base
+  std::vector<int> body_of;  // scene questions: body i here is body_of[i] in the base
   std::string words;         // what was done: "scaled by 2^10"
 };
 
@@ -63,7 +63,7 @@ struct RelationBreak {
   std::string_view relation;
   int query = 0;  // of the base
   int a = -1, b = -1;
-  double error_in_l = 0;  // by how much the intervals miss each other; 0: an answer is missing
+  double error_in_l = 0;  // distance between the intervals; 0: an answer is missing
   Blame blame = Blame::algorithm;
   std::string words;
 };
@@ -77,26 +77,27 @@ std::span<const Relation> relations();
 /// True for a fault that is the name of a relation.
 bool is_relation(std::string_view fault);
 
-/// Whether a derived case is still within the numbers: what is derived may not leave the doubles, nor come
-/// near their end where its base was not, for there nobody can be expected to answer.
+/// Whether a derived case stays within range: it may not leave the doubles, nor come near their limits where
+/// its base did not, for no engine can be expected to answer there.
 bool is_within_numbers(const Scene& base, const Scene& derived);
 
 /// The worst break between the base's answers and those to one derived case, if there is one.
 std::optional<RelationBreak> find_break(const Relation& r, const RelationInput& in, const Derived& d,
                                         const CaseObservations& observed);
 
-// ---- shared by the relations, one file a topic in relations/
+// ---- shared by the relations; one file per topic in relations/
 
-/// The pair that all pair questions of the case, but time of impact, are about; nothing when there are none.
+/// The pair that all pair questions of the case (except time of impact) are about; nullopt when there is no
+/// such pair.
 std::optional<BodyPair> pair_asked(const Case& c);
 /// The interval that a right answer implies; says_nothing() when it implies none.
 GapInterval implied_gap(const Scene& s, const Query& q, const Observation& o, const EngineCard& card);
-/// One a pair question of the base that implies something, in the base's units.
+/// One entry per pair question of the base that implies something, in the base's units.
 std::vector<Expected> implied_gaps(const RelationInput& in);
-/// Queries of the base about the pair, as queries about bodies 0 and 1.
+/// The pair queries of the base, as queries about bodies 0 and 1.
 std::vector<Query> same_queries(const Case& c);
-/// Upper bound of what rounding to nearest does to g where poses are computed anew: each body is moved by at
-/// most 16 roundings of its coordinates and extent.
+/// Upper bound of the effect on g of rounding when poses are recomputed: each body moves by at most 16
+/// roundings of its coordinates and extent.
 double pose_rounding(const Scene& pair);
 
 std::vector<Derived> derive_swap(const RelationInput& in);

@@ -9,19 +9,19 @@
 
 namespace touchstone::fuzz {
 
-/// Relative widening that covers the roundings of a speed bound (about ten). Bites: tests/fuzz judge, late
-/// impacts.
+/// Relative widening that covers the roundings of a speed bound (about ten). Tested by: tests/fuzz judge,
+/// late impacts.
 inline constexpr double speed_rounding = 0x1p-40;
 
-/// A claimed tolerance above this share of L is shown beside every verdict, and its engine is not compared in
-/// accuracy with others.
+/// A claimed tolerance above this share of L is shown beside every verdict, and the engine's accuracy is not
+/// compared with that of others.
 inline constexpr double wide_claim = 1e-2;
 
-/// Source of the claims of an engine that is judged by the user's own tolerance. They are never wide.
+/// `source` of an engine that is judged by the user's own tolerance. Its claims are never wide.
 inline constexpr std::string_view claimed_by_user = "--error";
 
-/// The tolerance that the engine claims for the answer; a claim without a source, or that is no length, is
-/// not believed.
+/// The tolerance that the engine claims for the answer; ignored if it has no source or is not a positive
+/// length.
 inline double believed_claim(const EngineCard& card, const Observation& o) {
   const double c = o.claimed_tolerance;
   return !card.source.empty() && std::isfinite(c) && c > 0 ? c : 0;

@@ -35,8 +35,8 @@ std::vector<BodyPair> overlapping_boxes(std::vector<BoxedBody> entries) {
   return result;
 }
 
-// True when every number that the engine reports equals the one asked, so that frame 0 serves. A Placement
-// never equals a Pose exactly unless the rotation is one whose matrix the double holds exactly.
+// True when every number that the engine reports equals the given one, so that frame 0 serves. A Placement
+// never equals a Pose exactly unless the matrix of the rotation is exact in doubles.
 bool same_as_asked(const Scene& s, const ReceivedScene& r) {
   for (std::size_t i = 0; i < r.shapes.size() && i < s.shapes.size(); ++i)
     if (r.shapes[i] && *r.shapes[i] != s.shapes[i]) return false;
@@ -52,9 +52,9 @@ bool same_as_asked(const Scene& s, const ReceivedScene& r) {
 
 constexpr double unbounded = std::numeric_limits<double>::infinity();
 
-// Each point of the one set is within this of the other set, and so is each point of their hulls: a convex
-// combination of points is as near to the same combination of their neighbours. Too many to compare: no
-// bound.
+// Each point of one set is within this distance of the other set, and so is each point of their hulls: a
+// convex combination of points is as near to the same combination of their neighbours. Unbounded when there
+// are too many points to compare.
 double hausdorff_distance(const std::vector<Vec3>& v, const std::vector<Vec3>& w) {
   constexpr std::size_t most_pairs = 1 << 20;
   if (v.empty() || w.empty() || v.size() > most_pairs / w.size()) return unbounded;
@@ -70,8 +70,8 @@ double hausdorff_distance(const std::vector<Vec3>& v, const std::vector<Vec3>& w
   return std::max(one_way(v, w), one_way(w, v));
 }
 
-// How far the numbers of two shapes are apart: every point of one is within this of the other. Infinity for
-// shapes of two kinds: what an engine then says is always judged for what it holds.
+// How far apart the numbers of two shapes are: every point of one is within this of the other. Infinity for
+// shapes of different kinds: the engine's answers are then always judged for the shape it holds.
 double shape_difference(const Shape& x, const Shape& y) {
   if (x.index() != y.index()) return unbounded;
   if (const auto* m = std::get_if<TriangleMesh>(&x))
@@ -85,7 +85,7 @@ double shape_difference(const Shape& x, const Shape& y) {
         using S = std::decay_t<decltype(sx)>;
         const S& sy = std::get<S>(y);
         if constexpr (std::is_same_v<S, HalfSpace>) {
-          // Unbounded: a normal that differs displaces without limit.
+          // A half-space is unbounded: a different normal displaces its points without limit.
           sum = sx == sy ? 0 : unbounded;
         } else {
           for_each_field(sx, [&](auto name, const auto& v, Domain) {
@@ -110,10 +110,10 @@ double shape_difference(const Shape& x, const Shape& y) {
   return sum;
 }
 
-// A half-space turns about its body's origin; what matters of it is bounded by nothing, so that its frame
-// must be judged for itself unless it is the same.
+// A half-space turns about its body's origin and has no bounded reach, so its frame must be judged for itself
+// unless the pose is the same.
 double displacement_of(const Scene& s, const ReceivedScene& r) {
-  constexpr double rounding = 16 * std::numeric_limits<double>::epsilon();  // of the differences formed here
+  constexpr double rounding = 16 * std::numeric_limits<double>::epsilon();  // of the differences below
   double worst = 0;
   for (std::size_t i = 0; i < s.bodies.size(); ++i) {
     const Body& b = s.bodies[i];
@@ -143,7 +143,7 @@ bool is_other_shape(const Shape& asked, const Shape& held) {
   if (const auto* m = std::get_if<TriangleMesh>(&asked))
     return m->triangles != std::get<TriangleMesh>(held).triangles;
   if (std::holds_alternative<HalfSpace>(asked)) return false;
-  constexpr double most_of_rounding = 1e-3;  // float's and a cooker's welding are far less
+  constexpr double most_of_rounding = 1e-3;  // rounding to float and welding in a cooker are far less
   return !(shape_difference(asked, held) <= most_of_rounding * bounding_radius(asked));
 }
 
@@ -290,13 +290,13 @@ const std::vector<Truth::StepState>& Truth::steps() {
   return *steps_;
 }
 
-// A broad phase must report a < b: neither filtered nor both static.
+// Whether a broad phase must report a < b: neither filtered nor both static.
 bool Truth::counts(int a, int b) const {
   const auto fixed = [&](int i) { return asked_.bodies[static_cast<std::size_t>(i)].is_static; };
   return !is_filtered(asked_, a, b) && !(fixed(a) && fixed(b));
 }
 
-// Sweep over the exact outer boxes along x, then the exact verdict of each pair left.
+// Sweep and prune along x over the exact outer boxes, then the exact verdict on each remaining pair.
 std::vector<Truth::TruePair> Truth::overlapping(const std::vector<std::optional<Placed>>& bodies) {
   std::vector<BoxedBody> entries;
   for (std::size_t i = 0; i < bodies.size(); ++i)
@@ -330,8 +330,8 @@ const std::vector<BodyPair>& Truth::meeting_pairs() {
 
 namespace {
 
-// Candidates alone may be asked about bodies that are none (scenarios/value/odd_numbers.h): they are in no
-// true pair.
+// Only candidate queries may contain invalid bodies (scenarios/value/odd_numbers.h): those are in no true
+// pair.
 bool is_a_set(const Shape& shape, const Pose& pose) {
   const auto* box = std::get_if<Box>(&shape);
   return pose.translation.allFinite() &&

@@ -1,5 +1,5 @@
-// The referee's answers about one case, computed when asked for and kept. A case is seen in frames: frame 0
-// is the scene asked, further frames are the scenes as engines received them (equal ones share a frame).
+// The referee's answers about one case, computed on demand and cached. A case is seen in frames: frame 0 is
+// the scene as given, further frames are the scenes as engines received them (equal ones share a frame).
 #pragma once
 
 #include <map>
@@ -12,7 +12,7 @@
 
 namespace touchstone::fuzz {
 
-/// A shape of another kind, a hull of more or fewer vertices, other triangles: more than rounding.
+/// A shape of another kind, a hull of more or fewer vertices, other triangles: a difference beyond rounding.
 bool is_other_shape(const Shape& asked, const Shape& held);
 bool holds_other_shape(const Scene& asked, const ReceivedScene& received);
 
@@ -20,38 +20,39 @@ class Truth {
  public:
   explicit Truth(const Scene& asked);
 
-  /// The frame of a received scene; 0 when it equals the scene asked.
+  /// The frame of a received scene; 0 when it equals the given scene.
   int frame_of(const ReceivedScene& received);
 
   Placed placed(int frame, int body) const;
   const referee::PairTruth& pair(int frame, int a, int b);
   const referee::TimeTruth& motion(int frame, int a, int b);
-  /// Of an overlapping pair, along the referee's normal; kept.
+  /// The region of an overlapping pair, along the referee's normal; cached.
   const referee::ContactRegion& contact_region(int frame, int a, int b);
   referee::Bracket width(int frame, int a, int b, const Vec3& n) const;
   referee::Bracket distance_to(int frame, int body, const Vec3& p, double enough = 0) const;
   referee::Bracket gap_at(int frame, int a, int b, double t) const;
-  /// Of a convex body and a mesh that overlap: the depth that is certain in the deepest triangle, that is,
-  /// how far the body must move at least to leave that triangle. 0 when neither is a mesh.
+  /// For a convex body and a mesh that overlap: the certain depth in the deepest triangle, i.e. how far the
+  /// body must move at least to leave that triangle. 0 when neither is a mesh.
   double depth_in_mesh(int frame, int a, int b) const;
-  /// The largest depth that is certain at a time up to t (of a mesh: in the deepest triangle); -infinity: it
-  /// is too expensive to find.
+  /// The largest depth that is certain at any time up to t (for a mesh: in the deepest triangle); -infinity:
+  /// too expensive to find.
   double depth_before(int frame, int a, int b, double t);
-  /// The same over the whole step; kept.
+  /// The same over the whole step; cached.
   double depth_in_step(int frame, int a, int b);
-  /// Upper bound of how far any point of the bodies in the frame is from where it is in the scene asked.
+  /// Upper bound of the distance between any point of the bodies in the frame and its position in the given
+  /// scene.
   double displacement(int frame) const;
-  /// Upper bound of the speed at which a point of a and one of b approach each other, lengths a step.
+  /// Upper bound of the approach speed of a point of a and a point of b, in lengths per step.
   double speed(int a, int b) const;
   double scale(int a, int b) const { return scale_of_pair(asked_, a, b); }
 
-  /// Per query step of the script: the bodies present with their poses (frame 0 only).
+  /// Per query step of the script: the bodies present, with their poses (frame 0 only).
   struct StepState {
     std::vector<std::optional<Pose>> pose;  // empty: not present
   };
   const std::vector<StepState>& steps();
   /// Per query step: pairs that truly overlap and that a broad phase must report (not filtered, not both
-  /// static), sorted; with the referee's verdict of each.
+  /// static), sorted; with the referee's verdict on each.
   struct TruePair {
     BodyPair bodies;
     referee::PairTruth truth;
@@ -60,13 +61,13 @@ class Truth {
   /// Pairs that overlap at the bodies' own poses in the given frame, as above.
   const std::vector<TruePair>& scene_pairs(int frame);
   std::uint64_t undecided_pairs() const { return undecided_pairs_; }
-  /// Pairs that overlap at some time of the step, from the bodies' own poses and by their motions (frame 0
-  /// only), as above. Pairs for which that is neither certain nor excluded are left out and counted.
+  /// Pairs that overlap at some time of the step, given the bodies' own poses and motions (frame 0 only), as
+  /// above. Pairs for which this is neither certain nor excluded are left out and counted.
   const std::vector<BodyPair>& meeting_pairs();
   std::uint64_t undecided_meetings() const { return undecided_meetings_; }
 
   const Scene& scene() const { return asked_; }
-  /// Directions worth trying first as certificates; from engines' answers.
+  /// A direction worth trying first as a certificate, from an engine's answer.
   void hint(int a, int b, const Vec3& direction);
 
  private:

@@ -41,8 +41,8 @@ bool check_point(const Certificate& c, const Sets& a, const Sets& b) {
   return std::any_of(a.begin(), a.end(), in) && std::any_of(b.begin(), b.end(), in);
 }
 
-// B moved by d·n/|n| has a plane along k in common with A when h_A(k) + h_B(-k) <= d·(k·n)/|n|. k is n
-// itself, except that a half-space has a support value along its own normal alone.
+// B moved by d·n/|n| can be separated from A by a plane across k when h_A(k) + h_B(-k) <= d·(k·n)/|n|. k is n
+// itself, except that a half-space has a support value only along its own normal.
 bool check_direction(const V& n, const Q& d, const Set& a, const Set& b) {
   const Q nn = dot(n, n), balls = a.ball + b.ball;
   const bool own = is_half_space(a) || is_half_space(b);
@@ -54,8 +54,8 @@ bool check_direction(const V& n, const Q& d, const Set& a, const Set& b) {
   return *top_a + *top_b + rest <= 0;
 }
 
-// +1 or -1 where the ray from the origin leaves or enters through the triangle, 0 where it misses it, nothing
-// where it meets an edge.
+// +1 or -1 where the ray from the origin leaves or enters through the triangle, 0 where it misses the
+// triangle, nullopt where it meets an edge.
 std::optional<int> crossing(const V& a, const V& b, const V& c, const V& ray) {
   const int side = dot(a, cross(b, c)).sign();
   const int part[] = {dot(ray, cross(b, c)).sign() * side, dot(ray, cross(c, a)).sign() * side,
@@ -65,9 +65,9 @@ std::optional<int> crossing(const V& a, const V& b, const V& c, const V& ray) {
   return least > 0 ? std::optional<int>(side) : std::nullopt;
 }
 
-// The hull of the points holds the ball of radius r about the origin, because a closed surface of triangles
-// between them (every directed edge as often as its reverse) stays out of the ball and winds about it: it
-// crosses a ray more often outward than inward. Any ray will do that meets no edge.
+// The hull of the points contains the ball of radius r about the origin, because a closed surface of
+// triangles between them (every directed edge as often as its reverse) stays out of the ball and winds around
+// it: it crosses a ray more often outward than inward. Any ray that meets no edge will do.
 bool holds_ball(const std::vector<V>& point, const std::vector<std::array<int, 3>>& facets, const Q& r) {
   std::vector<std::pair<int, int>> forward, backward;
   int crossings = 0;
@@ -90,10 +90,10 @@ bool holds_ball(const std::vector<V>& point, const std::vector<std::array<int, 3
 
 }  // namespace
 
-// The points of a pair are near the cores: each may be e off, which costs e of depth; the hull of their
+// The points of a pair are near the cores: each may be off by e, which costs e of depth; the hull of their
 // differences is then within 2e of the difference of the cores. In a half-space m·x <= o a single point of
-// the other body shows its depth: m·x - o <= -(depth - ball + e)·|m|. A point within near of a core is within
-// near + loose·(its distance from the origin + near) of the core as it truly is.
+// the other body shows the depth: m·x - o <= -(depth - ball + e)·|m|. A point within `near` of a core is
+// within near + loose·(its distance from the origin + near) of the true core.
 bool shows_depth(const Certificate& c, const Set& a, const Set& b, const Q& loose) {
   double largest = 0;
   for (const auto& [p, q] : c.support_pairs)
@@ -133,7 +133,7 @@ bool check(const Certificate& c, const Placed& a, const Placed& b) {
   using K = Certificate::Kind;
   if (c.kind == K::separating_plane) return check_planes(c, x, y);
   if (c.kind == K::common_point) return check_point(c, x, y);
-  // A mesh is a surface without inside: it has no depth.
+  // A mesh is a surface without an interior: it has no depth.
   const auto is_mesh = [](const Placed& p) { return std::holds_alternative<TriangleMesh>(*p.shape); };
   if (is_mesh(a) || is_mesh(b)) return false;
   if (c.kind == K::depth_direction) return check_direction(exact_value(c.direction), Q(c.offset), x[0], y[0]);

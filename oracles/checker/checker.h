@@ -1,6 +1,6 @@
 // Checks a stored certificate from the scene alone, in rationals and rational bounds of square roots. Shares
-// the scene's value types with the rest and no code with what finds certificates. Its parts are this,
-// checker_set.h (exact sets) and checker_motion.cpp (sets in motion).
+// the scene's value types with the rest of the project, but no code with what finds certificates. The other
+// parts are checker_set.h (exact sets) and checker_motion.cpp (sets in motion).
 #pragma once
 
 #include "core/math/pose.h"
@@ -8,26 +8,26 @@
 
 namespace touchstone::checker {
 
-/// Support points in a certificate are doubles; the checker lets each be this · (its largest coordinate)
-/// outside the core and takes the same off the proven depth, so that the factor is never a matter of truth: 8
-/// roundings of a coordinate, where a rounded point is off by at most √3/2. Bites: tests/referee, checker.
+/// Support points in a certificate are doubles. The checker allows each to be this · (its largest coordinate)
+/// outside the core and subtracts the same amount from the proven depth, so the factor never affects truth: 8
+/// roundings of a coordinate, where a rounded point is off by at most √3/2. Tested by: tests/referee,
+/// checker.
 inline constexpr double point_factor = 0x1p-50;
 
 /// What a certificate of each kind proves when it holds:
 ///   separating_plane  A on direction·x <= offset, B on direction·x > offset. With rationals: any number of
 ///                     planes, four numbers each; each pair of triangles of meshes needs one of them.
-///   common_point      the point is in both.
+///   common_point      the point is in both bodies.
 ///   depth_direction   B moved by `offset` along direction/|direction| shares no interior point with A.
-///   inner_polytope    depth >= offset: the facets' surface encloses the origin of A-B at the needed
-///   distance.
+///   inner_polytope    depth >= offset: the facets' surface encloses the origin of A-B at that distance.
 ///                     Without facets: one pair of core points near enough for the balls around them, or one
 ///                     point that is deep enough in a half-space.
 /// False when it does not hold for these two bodies or is of a kind that proves nothing by itself. Throws
-/// InputError for a rational that is none.
+/// InputError for a malformed rational.
 bool check(const Certificate& c, const Placed& a, const Placed& b);
 
-/// Whether all that the certificate claims holds for these bodies, in exact arithmetic (checker_motion.cpp).
-/// False when it claims nothing. Throws InputError for a rational that is none.
+/// Whether everything that the certificate claims holds for these bodies, in exact arithmetic
+/// (checker_motion.cpp). False when it claims nothing. Throws InputError for a malformed rational.
 bool check(const ImpactCertificate& c, const Placed& a, const Motion& motion_a, const Placed& b,
            const Motion& motion_b);
 

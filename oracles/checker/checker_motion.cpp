@@ -1,14 +1,15 @@
-// Checks the certificate of a motion: do its planes keep the bodies apart from t = 0 to clear_until, and is
-// its point in both at its time? Are two parts as deep in each other as it says, at its time?
+// Checks the certificate of a motion: its planes must keep the bodies apart from t = 0 to clear_until, its
+// common point must be in both at its time, and two parts must be as deep in each other as it claims, at its
+// time.
 //
-// At a key the plane is checked as any plane, against the bodies turned by exp(tω) up to a proven error. In
+// At a key the plane is checked like any plane, against the bodies turned by exp(tω) up to a proven error. In
 // between, a point of a body at r from the body's origin is at z(t) with z' = v + ω×r, |z''| = |ω×(ω×r)|, and
-// its height over the moving plane is f(t) = n(t)·z(t) - o(t), n and o linear. So f differs from its chord
-// over the Δt between two keys by at most λ(1-λ)·bend at the part λ of the way,
+// its height over the moving plane is f(t) = n(t)·z(t) - o(t), n and o linear. So at the fraction λ of the Δt
+// between two keys f differs from its chord by at most λ(1-λ)·bend,
 //   bend = Δt²/2 · max|f''| <= Δt·|Δn|·(|v| + |ω×r|) + Δt²/2 · max|n|·|ω|·|ω×r|.
 // With margins a, b >= 0 at the keys the chord keeps a(1-λ) + bλ >= λ(1-λ)(√a + √b)², by Cauchy and Schwarz;
-// bend <= a + b + 2·min(a, b) is less than that, and enough. |ω×r| does not change with time. Bodies that do
-// not turn have bend 0 under a constant n: their ends decide, exactly.
+// bend <= a + b + 2·min(a, b) is a stronger condition, hence sufficient. |ω×r| does not change with time.
+// Bodies that do not turn have bend 0 for a constant n: the margins at the keys decide, exactly.
 #include <algorithm>
 
 #include "oracles/checker/checker.h"
@@ -31,13 +32,13 @@ struct Mover {
 
 struct Moment {
   std::vector<Set> parts;
-  Q loose = 0;  // a point at distance d from the body's origin is within loose·d of where it is here
+  Q loose = 0;  // a point at distance d from the body's origin is within loose·d of its position here
 };
 
-// exp(tω) as a quaternion: the series of cosine and sine at a 2^m-th part of the half turn, which is at most
-// 1, to 40 terms (the rest is below 1/80! < 2^-390), all rounded to multiples of 2^-256; then squared m
-// times, which doubles the error each time: ε < 2^(m-240). Unit quaternions ε apart turn r to points at most
-// 2ε|r| apart, and one that is unit within ε stands for a unit one within 2ε of the true one: 4ε|r|.
+// exp(tω) as a quaternion: the series of cosine and sine at 2^-m times the half turn, which is at most 1, to
+// 40 terms (the rest is below 1/80! < 2^-390), all rounded to multiples of 2^-256; then squared m times,
+// which doubles the error each time: ε < 2^(m-240). Unit quaternions ε apart turn r to points at most 2ε|r|
+// apart, and one that is unit within ε represents a unit one within 2ε of the true one: 4ε|r|.
 Moment at(const Mover& mover, const Q& t) {
   Carrier by;
   by.shift = mover.start + t * mover.velocity;
@@ -48,18 +49,22 @@ Moment at(const Mover& mover, const Q& t) {
   v = on_grid(v);
   const Q square = on_grid(dot(v, v));
   Q w = 0, sine_over_angle = 0, term = 1;
-  for (int k = 0; k < 40; ++k, term = on_grid(-term * square / (2 * k * (2 * k - 1))))
-    w += term, sine_over_angle += on_grid(term / (2 * k + 1));
+  for (int k = 0; k < 40; ++k, term = on_grid(-term * square / (2 * k * (2 * k - 1)))) {
+    w += term;
+    sine_over_angle += on_grid(term / (2 * k + 1));
+  }
   v = on_grid(sine_over_angle * v);
   for (unsigned k = 0; k < m; ++k) {
     const Q next = on_grid(w * w - dot(v, v));
-    v = on_grid(2 * w * v), w = next;
+    v = on_grid(2 * w * v);
+    w = next;
   }
-  by.v = v, by.w = w;
+  by.v = v;
+  by.w = w;
   return {sets_of(mover.placed, by), Q(Z(1) << m, Z(1) << 238)};
 }
 
-// Upper bound of |r| over the core, r from the body's origin, or of |ω×r|.
+// Upper bound over the core of |r|, r from the body's origin, or of |ω×r|.
 Q reach(const Set& s, const std::optional<V>& angular = std::nullopt) {
   const auto seen = [&](const V& r) { return angular ? cross(*angular, r) : r; };
   Q most = 0;
@@ -71,8 +76,7 @@ Q reach(const Set& s, const std::optional<V>& angular = std::nullopt) {
   return most;
 }
 
-// For each part, whether it is on its side of the moving plane all the time: n·x <= o (side 1) or > (side
-// -1).
+// For each part, whether it stays on its side of the moving plane: n·x <= o (side 1) or > (side -1).
 std::vector<bool> stays(const ImpactCertificate::Track& track, const Mover& mover, int side) {
   std::vector<bool> good;
   std::vector<Q> spin, margin;
@@ -82,9 +86,14 @@ std::vector<bool> stays(const ImpactCertificate::Track& track, const Mover& move
     const auto& [time, direction, offset] = track[k];
     const V n_before = n;
     const Q t_before = t;
-    n = {rational_of(direction[0]), rational_of(direction[1]), rational_of(direction[2])}, t = Q(time);
+    n = {rational_of(direction[0]), rational_of(direction[1]), rational_of(direction[2])};
+    t = Q(time);
     const Moment now = at(mover, t);
-    if (k == 0) good.assign(now.parts.size(), true), margin.resize(good.size()), spin.resize(good.size());
+    if (k == 0) {
+      good.assign(now.parts.size(), true);
+      margin.resize(good.size());
+      spin.resize(good.size());
+    }
     for (std::size_t i = 0; i < now.parts.size(); ++i) {
       const Set& s = now.parts[i];
       const auto top = core_support(s, Q(side) * n);
@@ -124,8 +133,8 @@ bool check_apart(const ImpactCertificate& c, const Mover& a, const Mover& b) {
   return n * m > 0 && std::find(apart.begin(), apart.end(), false) == apart.end();
 }
 
-// A set that may be turned a little from where it is seen holds x if it holds the corners of an octahedron
-// about x that has the ball of that radius inside.
+// A set that may be turned slightly from its position here contains x if it contains the corners of an
+// octahedron about x whose inscribed ball has that radius.
 bool holds(const Moment& now, const V& x) {
   return std::any_of(now.parts.begin(), now.parts.end(), [&](const Set& s) {
     const Q w = 2 * now.loose * length(x - s.origin);

@@ -10,11 +10,11 @@
 namespace touchstone::checker {
 namespace {
 
-// A certificate of ours has some thousands of digits at most; beyond, to check one takes longer than a person
-// waits.
+// Our certificates have a few thousand digits at most; beyond this, checking one takes longer than anyone
+// will wait.
 constexpr std::size_t max_digits = 50'000;
 
-// Digits without leading zeros.
+// Whether s is digits only, without leading zeros.
 bool is_whole(std::string_view s) {
   return !s.empty() && s.size() <= max_digits && (s.size() == 1 || s[0] != '0') &&
          s.find_first_not_of("0123456789") == std::string_view::npos;
@@ -88,8 +88,8 @@ Set placed(Set s, const Pieces& pieces) {
   return s;
 }
 
-// {Mx + t : m·x <= o} = {y : C m·(y - t) <= o·det M}, C the cofactor matrix of M; both sides turn about with
-// the sign of det M.
+// {Mx + t : m·x <= o} = {y : C m·(y - t) <= o·det M}, C the cofactor matrix of M; both sides change sign with
+// det M.
 std::vector<Set> half_space(Set s, const HalfSpace& x) {
   const V &a = s.column[0], &b = s.column[1], &c = s.column[2], m = exact_value(x.normal);
   const Q det = dot(a, cross(b, c));
@@ -100,9 +100,9 @@ std::vector<Set> half_space(Set s, const HalfSpace& x) {
   return {s};
 }
 
-// Local coordinates of a curved set by Cramer's rule. There, moves of g along each axis (g across the axis of
-// discs) are at most √2·g together, and at most twice as much in the world where |M|² <= 4: r in all for g =
-// r/4.
+// Local coordinates of a curved set by Cramer's rule. In local coordinates, moves of g along each axis (g
+// across the axis of discs) are at most √2·g together, and at most twice as much in the world when |M|² <= 4:
+// r in total for g = r/4.
 bool is_within_curved(const Set& s, const V& x, const Q& r) {
   const V &a = s.column[0], &b = s.column[1], &c = s.column[2], d = x - s.origin;
   const Q det = dot(a, cross(b, c)), g = r / 4;
@@ -141,7 +141,7 @@ std::vector<Q> affine_weights(const std::vector<V>& p) {
 
 }  // namespace
 
-// Lowest terms are not asked for, but a denominator has no sign and is not zero: GMP takes both for granted.
+// Lowest terms are not required, but the denominator must have no sign and not be zero: GMP relies on both.
 Q rational_of(const std::string& s) {
   const auto slash = std::min(s.find('/'), s.size());
   const std::string numerator = s.substr(0, slash),
@@ -207,7 +207,8 @@ V nearest_to_origin(const std::vector<V>& p) {
     for (const V& q : p)
       if (dot(v, q) < dot(v, *far)) far = &q;
     if (dot(v, *far) >= dot(v, v)) return v;
-    face.push_back(*far), weight.emplace_back(0);
+    face.push_back(*far);
+    weight.emplace_back(0);
     for (bool clear = false; !clear;) {
       const std::vector<Q> goal = affine_weights(face);
       Q step = 1;

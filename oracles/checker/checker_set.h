@@ -1,5 +1,5 @@
-// The checker's own picture of a scene: exact sets in rationals. Nothing here is used by what finds
-// certificates, and nothing of that is used here.
+// The checker's own model of a scene: exact sets in rationals. It shares no code, in either direction, with
+// what finds certificates.
 //
 // Every bounded convex piece is the hull of a few round pieces, core = conv ∪ {centre + Σ u_k·axis_k, |u| <=
 // 1}, plus a ball: a box is eight points, a capsule two points and a ball, a cylinder two discs, a cone a
@@ -28,10 +28,10 @@ inline V cross(const V& a, const V& b) {
 }
 inline V exact_value(const Vec3& v) { return {Q(v.x()), Q(v.y()), Q(v.z())}; }
 
-/// factor·√square, or a little more: exact when the root is rational, else within 2^-512 of it (relative).
+/// factor·√square, rounded up: exact when the root is rational, else within 2^-512 of it (relative).
 Q times_root(const Q& factor, const Q& square);
 
-/// Throws InputError for what is not "n" or "n/d".
+/// Throws InputError for anything other than "n" or "n/d".
 Q rational_of(const std::string& s);
 
 struct Set {
@@ -48,27 +48,27 @@ struct Set {
   V normal;             // half_space: normal·x <= offset, in the world
   Q offset = 0;
 };
-/// A rigid motion x -> R(q)x + shift, q = (v, w) any quaternion but zero, about each body's own origin.
+/// A rigid motion x -> R(q)x + shift about each body's own origin; q = (v, w) is any non-zero quaternion.
 struct Carrier {
   V v{0, 0, 0};
   Q w = 1;
   V shift{0, 0, 0};
 };
-/// The placed body, moved on. A mesh is its triangles, anything else one set. Empty when the placement leaves
-/// no such set (singular).
+/// The placed body, moved by `by`. A mesh yields its triangles, any other shape one set. Empty when the
+/// placement is singular and leaves no such set.
 std::vector<Set> sets_of(const Placed& p, const Carrier& by = {});
 
-/// h(n) of the core, or a little more (times_root). Nothing where it is infinite (half-space).
+/// h(n) of the core, rounded up (times_root). nullopt where it is infinite (half-space).
 std::optional<Q> core_support(const Set& s, const V& n);
-/// True only if x is within r of the core; exact for hulls, and for the others when r = 0.
+/// True only if x is within r of the core; exact for hulls, and for the other sets when r = 0.
 bool is_within(const Set& s, const V& x, const Q& r);
-/// Whether all its doubles are numbers.
+/// Whether all its doubles are finite.
 bool is_finite(const Certificate& c);
-/// Whether an inner polytope (checker.h) shows that a and b are at least c.offset deep in each other. The true
-/// sets may be turned a little from a and b: a point at d from the body's origin is within loose·d of where it
-/// is here.
+/// Whether an inner polytope (checker.h) shows that a and b are at least c.offset deep in each other. The
+/// true sets may be turned slightly relative to a and b: a point at distance d from the body's origin is
+/// within loose·d of its position here.
 bool shows_depth(const Certificate& c, const Set& a, const Set& b, const Q& loose = 0);
-/// The nearest point of a hull to the origin (Wolfe 1976).
+/// Nearest point of a hull to the origin (Wolfe 1976).
 V nearest_to_origin(const std::vector<V>& hull);
 
 }  // namespace touchstone::checker

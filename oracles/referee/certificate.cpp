@@ -11,7 +11,7 @@ namespace {
 
 std::vector<std::string> texts(const Rational3& v) { return {text_of(v.x), text_of(v.y), text_of(v.z)}; }
 
-// Bounds of n·x over the bodies in the filter's frame; false when they leave no gap.
+// Bounds of n·x over the bodies, in the filter's frame; false when they leave no gap.
 bool gap_along(const Difference& d, const Real3& n, Real& top_a, Real& bottom_b) {
   const Real length = norm(n) * (1 + 4 * unit);
   const Real slack = 8 * unit * (d.extent + d.radius);
@@ -35,9 +35,12 @@ Certificate plane_certificate(const Difference& d, const Real3& direction, const
     c.offset = static_cast<double>(middle);
     if (from + slack <= static_cast<Real>(c.offset) && static_cast<Real>(c.offset) < to - slack) return c;
   }
-  // The gap is too narrow for doubles here: the direction in 64 bits, and the offset exact about `origin`.
+  // The gap is too narrow for doubles: take the direction in 64 bits, and the offset exact about `origin`.
   const Real3 fine = normalized(direction);
-  if (!gap_along(d, fine, top, bottom)) return c.kind = Certificate::Kind::none, c;
+  if (!gap_along(d, fine, top, bottom)) {
+    c.kind = Certificate::Kind::none;
+    return c;
+  }
   const Rational3 exact_fine = exact_of(fine);
   c.rationals = texts(exact_fine);
   c.rationals.push_back(text_of(exact_of(0.5L * top + 0.5L * bottom) + dot(exact_fine, exact(origin))));
@@ -62,7 +65,7 @@ Certificate exact_certificate(const ExactPair& p, const ExactVerdict& v) {
   }
   const ExactPlane plane = separating_plane(p, v);
   c.kind = Certificate::Kind::separating_plane;
-  // Any positive multiple is the same plane; one of size near 1 has readable doubles.
+  // Any positive multiple is the same plane; scaled to a size near 1 it has readable doubles.
   Rational size = 0;
   for (int i = 0; i < 3; ++i) size = std::max(size, Rational(abs(plane.direction[i])));
   const Rational by = Rational(1) / size;
@@ -76,8 +79,8 @@ Certificate exact_certificate(const ExactPair& p, const ExactVerdict& v) {
 
 namespace {
 
-// What the rounding of the points to doubles costs: twice the checker's allowance for the points, and as much
-// again for facets that moved with them.
+// Subtracts the cost of rounding the points to doubles: twice the checker's allowance for the points, and as
+// much again for the facets that moved with them.
 double proven_depth(const Certificate& c, Real depth) {
   double largest = 0;
   for (const auto& [p, q] : c.support_pairs)
@@ -119,15 +122,17 @@ Certificate lower_depth_certificate(const ConvexTruth& t, const Difference& d, c
 
 namespace {
 
-// The deepest (or nearest) core point of the body against the half-space: itself, or, when it is outside by
-// over/|m|
-// <= r, its foot on the plane, which is rational.
+// The deepest (or nearest) core point of the body against the half-space: the point itself, or, when it is
+// outside by over/|m| <= r, its foot on the plane, which is rational.
 Certificate half_space_point(const Placed& h, const ExactBody& body) {
   const RationalPlane p = world_plane(h);
   Rational3 best;
   bool first = true;
   for (const Rational3& x : world_points(body))
-    if (first || dot(p.normal, x) < dot(p.normal, best)) best = x, first = false;
+    if (first || dot(p.normal, x) < dot(p.normal, best)) {
+      best = x;
+      first = false;
+    }
   Certificate c;
   c.kind = Certificate::Kind::common_point;
   const Rational over = dot(p.normal, best) - p.offset;
@@ -137,8 +142,9 @@ Certificate half_space_point(const Placed& h, const ExactBody& body) {
   return c;
 }
 
-// The half-space's own plane when it is A; when it is B the plane must lie strictly inside the gap: `inside`
-// of the normal's length away from the half-space, 0 < inside < gap, halved until the other body is clear.
+// The half-space's own plane when it is A. When it is B the plane must lie strictly inside the gap: it is
+// moved away from the half-space by `inside` times the normal's length, 0 < inside < gap, halved until the
+// other body is clear.
 Certificate half_space_plane(const Placed& h, const Placed& a, const Placed& b, Rational inside) {
   const RationalPlane p = world_plane(h);
   Certificate c;
@@ -164,7 +170,10 @@ bool is_half_space(const Placed& p) { return std::holds_alternative<HalfSpace>(*
 
 namespace {
 
-/// Inside the body: the mean of a hull's vertices, which may all be on one side of its origin.
+// Parts of the way from a candidate point towards the middle of a body.
+constexpr double inward_steps[] = {0.0, 0x1p-50, 0x1p-40, 0x1p-25, 0x1p-10, 0.25};
+
+/// A point inside the body: for a hull the mean of its vertices, which may all be on one side of its origin.
 Vec3 centre(const Placed& p) {
   const Solid b = make_body(p, frame_of(p, Vec3::Zero()));
   if (b.kind != Solid::Kind::points) return to_double(b.centre);
@@ -174,17 +183,17 @@ Vec3 centre(const Placed& p) {
 }
 
 // Curved bodies have no exact nearest points; any point a little inside both will do. Candidates: the middle
-// of the witness points, the common point, and these drawn towards each other or towards either body's
+// of the witness points, the common point, and these moved towards each other or towards either body's
 // centre.
 Certificate inner_point(const PairTruth& truth, const Placed& a, const Placed& b) {
   const Vec3 middle = truth.witness[0] + 0.5 * (truth.witness[1] - truth.witness[0]);
   const Vec3& common = truth.verdict_certificate.point;
-  // The common point may lie on a border and the middle outside; what is between them is often inside.
+  // The common point may lie on the boundary and the middle outside; a point between them is often inside.
   const auto towards_common = [&](double step) { return Vec3(middle + step * (common - middle)); };
   for (const Vec3& to : {centre(a), centre(b), Vec3(0.5 * centre(a) + 0.5 * centre(b))})
     for (const Vec3& from : {middle, truth.witness[0], truth.witness[1], common, towards_common(0.5),
                              towards_common(0.9), towards_common(0.99)})
-      for (double step : {0.0, 0x1p-50, 0x1p-40, 0x1p-25, 0x1p-10, 0.25}) {
+      for (double step : inward_steps) {
         Certificate c;
         c.kind = Certificate::Kind::common_point;
         c.point = from + step * (to - from);
@@ -193,7 +202,7 @@ Certificate inner_point(const PairTruth& truth, const Placed& a, const Placed& b
   return {};
 }
 
-// One plane for each triangle, or fewer when the last one found serves again.
+// One plane for each triangle, or fewer when an earlier one can be reused.
 Certificate mesh_planes(const Placed& a, const Placed& b) {
   const bool first = std::holds_alternative<TriangleMesh>(*a.shape);
   const auto& mesh = std::get<TriangleMesh>(*(first ? a : b).shape);
@@ -247,7 +256,7 @@ Certificate exact_form(const PairTruth& truth, const Placed& a, const Placed& b)
 
 namespace {
 
-Certificate certificate_that_holds(const PairTruth& truth, const Placed& a, const Placed& b) {
+Certificate first_valid_certificate(const PairTruth& truth, const Placed& a, const Placed& b) {
   if (checker::check(truth.verdict_certificate, a, b)) return truth.verdict_certificate;
   Certificate c = exact_form(truth, a, b);
   if (c.kind != Certificate::Kind::none) return c;
@@ -263,7 +272,7 @@ Certificate checkable_certificate(const PairTruth& truth, const Placed& a, const
   if (truth.verdict == Verdict::undecided) return {};
   Certificate none;
   none.note = too_expensive;
-  return within_limit(std::move(none), [&] { return certificate_that_holds(truth, a, b); });
+  return within_limit(std::move(none), [&] { return first_valid_certificate(truth, a, b); });
 }
 
 }  // namespace touchstone::referee

@@ -1,4 +1,4 @@
-// width, distance_to, outer_box: support values with their error bounds.
+// width, distance_to and outer_box: support values with their error bounds.
 #include <algorithm>
 
 #include "oracles/referee/exact/world.h"
@@ -22,7 +22,7 @@ Vec3 translation_of(const Placed& p) {
   return std::visit([](const auto& x) -> Vec3 { return x.translation; }, p.pose);
 }
 
-/// A mesh stands for the hull of its vertices, which has the same support function.
+/// A mesh is replaced by the hull of its vertices, which has the same support function.
 Solid hull_body(const Placed& p, const Vec3& origin) {
   if (const auto* m = get<TriangleMesh>(p)) return make_body(m->vertices, 0, frame_of(p, origin));
   return make_body(p, frame_of(p, origin));
@@ -30,8 +30,8 @@ Solid hull_body(const Placed& p, const Vec3& origin) {
 
 Bracket outward(Real lo, Real hi) { return {round_down(lo), round_up(hi)}; }
 
-// depth/cos: B leaves the half-space A by moving depth/cos(n, m) along n. m carries its error into the
-// cosine.
+// depth/cos: B leaves the half-space A by moving depth/cos(n, m) along n. The error of m carries over into
+// the cosine.
 Bracket half_space_width(const Placed& a, const Placed& b, const Vec3& n, bool a_is_half_space) {
   const Vec3 origin = translation_of(a_is_half_space ? b : a);
   const Placed &h = a_is_half_space ? a : b, &other = a_is_half_space ? b : a;
@@ -128,8 +128,7 @@ Bracket distance_to(const Placed& a, const Vec3& point_w, double enough) {
 
 Aabb outer_box(const Placed& a) {
   if (get<HalfSpace>(a)) {
-    // A half-space is unbounded along every axis but its own, and that only when its normal is exactly an
-    // axis.
+    // A half-space is unbounded along every axis except one that is exactly along its normal.
     Aabb box{Vec3::Constant(-infinity), Vec3::Constant(infinity)};
     const RationalPlane p = world_plane(a);
     for (int k = 0; k < 3; ++k) {

@@ -1,5 +1,5 @@
 // The referee: what is true of a pair, with a certificate, in arithmetic that cannot be wrong about it
-// (truth.md §4). Shares the scene's value types with the rest of the project and nothing else.
+// (truth.md §4). Shares only the scene's value types with the rest of the project.
 #pragma once
 
 #include <array>
@@ -14,7 +14,7 @@
 
 namespace touchstone::referee {
 
-/// lo <= truth <= hi, proven. What is too expensive to find (work.h) is undecided, from -infinity to
+/// lo <= truth <= hi, proven. What is too expensive to find (work.h) is undecided: from -infinity to
 /// infinity.
 struct Bracket {
   double lo = 0, hi = 0;
@@ -25,33 +25,33 @@ std::string_view to_string(Verdict v);
 
 struct PairTruth {
   Verdict verdict = Verdict::undecided;
-  Bracket gap;  // signed: > 0 distance, < 0 minus the depth. For a mesh that overlaps: [-inf, 0], depth is
-                // not defined
-  Vec3 normal =
-      Vec3::Zero();  // unit within rounding, A to B: separating direction, or a direction of (nearly) least w
+  /// Signed: > 0 distance, < 0 minus the depth. For an overlapping mesh [-inf, 0]: its depth is not defined.
+  Bracket gap;
+  /// Unit within rounding, A to B: a separating direction, or a direction of (nearly) least w.
+  Vec3 normal = Vec3::Zero();
   std::array<Vec3, 2> witness;      // rounded points of A and B that realise the gap
   Certificate verdict_certificate;  // separating_plane or common_point
   /// Which arithmetic settled the verdict: 0 doubles with their error bounds, 1 extended precision, 2 exact.
-  /// The bracket is proven in extended precision whichever it was.
+  /// The bracket is proven in extended precision in every case.
   int level = 0;
 };
 
-/// `hints`: directions (A to B) and points that engines proposed; tried first as certificates, trusted never.
+/// `hints`: directions (A to B) and points that engines proposed; tried first as certificates, never trusted.
 PairTruth judge_pair(const Placed& a, const Placed& b, std::span<const Vec3> hint_directions = {},
                      std::span<const Vec3> hint_points = {});
 
-/// The certificate of a verdict of sphere, box, capsule, hull and half-space pairs in a form that checker.h
-/// accepts: as it is if that holds, else with rationals found by the exact level. Kind none: the verdict is
-/// not of that kind.
+/// The certificate of the verdict on a pair of spheres, boxes, capsules, hulls and half-spaces in a form that
+/// checker.h accepts: unchanged if that holds, else with rationals found by the exact level. Kind none: the
+/// verdict has no such form.
 Certificate checkable_certificate(const PairTruth& truth, const Placed& a, const Placed& b);
 
-/// Evidence that the depth is at least -gap.hi (less what rounding its points to doubles costs):
-/// inner_polytope. Computed when asked, and slower than judging. Kind none: not an overlap with a depth.
+/// Evidence that the depth is at least -gap.hi (less the cost of rounding its points to doubles):
+/// inner_polytope. Computed on demand, and slower than judging. Kind none: not an overlap with a depth.
 Certificate depth_certificate(const PairTruth& truth, const Placed& a, const Placed& b);
 
 /// The directions in which B leaves A about equally fast: all local minima of w over unit n whose w is within
-/// `slack` of the depth, slack = max(1e-6·depth, 1e-9·extent of the pair). Judging does not need it; it is
-/// slower than judging.
+/// `slack` of the depth, slack = max(1e-6·depth, 1e-9·extent of the pair). Not needed for judging, and slower
+/// than judging.
 struct NearMinimalNormals {
   std::vector<Vec3> normals;  // A to B, unit within rounding, least w first; no two within 1e-9 of each other
   std::vector<double> widths;  // w of each, rounded
@@ -59,62 +59,61 @@ struct NearMinimalNormals {
   /// Conditioning: the least w among the other local minima, and by how much it exceeds the depth; infinite
   /// when there is no other.
   double second_best = 0, conditioning = 0;
-  /// The minima are not isolated (a sphere's centre in a sphere's, a circle of directions): `normals` is a
-  /// sample.
+  /// The minima are not isolated (concentric spheres, a circle of directions): `normals` is a sample.
   bool continuum = false;
-  bool capped = false;  // more than the cap of 256 normals; the rest is not listed
+  bool capped = false;  // more than 256 normals; the rest is not listed
   /// The list is complete and second_best is a lower bound, both up to rounding (1e-15 of the extent).
-  /// Otherwise (cylinder, cone, ellipsoid, flat bodies) they are what a descent from 512 directions found: an
-  /// estimate.
+  /// Otherwise (cylinder, cone, ellipsoid, flat bodies) both are estimates, from a descent from 512
+  /// directions.
   bool certified = false;
 };
-/// Bodies that are apart have one normal and infinite conditioning (the gap's direction is unique). Undecided
-/// pairs, meshes and half-spaces that overlap: the normal that judge_pair gives, not certified.
+/// Bodies that are apart have one normal and infinite conditioning (the direction of the gap is unique). For
+/// undecided pairs, and for meshes and half-spaces that overlap: the normal of judge_pair, not certified.
 NearMinimalNormals near_minimal_normals(const Placed& a, const Placed& b);
 
-/// w(n)/|n| where w(n) = h_A(n) + h_B(-n): how far B must move along n to be separate from A. n finite,
-/// non-zero. A half-space has no support value but along its own normal m; for it the same question is
-/// answered: depth/cos(n, m), infinite when n does not lead out of it.
+/// w(n)/|n| where w(n) = h_A(n) + h_B(-n): how far B must move along n to be separated from A. n finite,
+/// non-zero. A half-space has a support value only along its own normal m; for it the answer to the same
+/// question is depth/cos(n, m), infinite when n does not lead out of it.
 Bracket width(const Placed& a, const Placed& b, const Vec3& n);
 
-/// Distance of a point from the closed body; 0 inside. The bracket is as narrow as it can be made, or wider
-/// where it is certain that the distance is at most `enough`.
+/// Distance of a point from the closed body; 0 inside. The bracket is as narrow as possible, or wider once it
+/// is certain that the distance is at most `enough`.
 Bracket distance_to(const Placed& a, const Vec3& point_w, double enough = 0);
 
 /// First contact over t in [0,1] under constant velocities. hit: contact is certain at some t <= t_hi, and
-/// there is none (gap > 0) for t < t_lo. none: certain that there is none in [0,1]. undecided: grazing within
-/// `resolution`: then `least_gap` brackets min over t of the gap as far as known.
+/// there is none (gap > 0) for t < t_lo. none: certainly no contact in [0,1]. undecided: a graze that cannot
+/// be resolved; `least_gap` then brackets the minimum of the gap over t as far as known.
 struct TimeTruth {
   enum class Verdict { hit, none, undecided };
   Verdict verdict = Verdict::undecided;
   double t_lo = 0, t_hi = 1;
-  Bracket least_gap;  // of the gap over [0,1], as far as certified
+  Bracket least_gap;  // minimum of the gap over [0,1], as far as certified
   std::string note;
 };
 TimeTruth judge_motion(const Placed& a, const Motion& motion_a, const Placed& b, const Motion& motion_b);
 
-/// Signed gap at time t of the motion, t exact. A mesh has no inside, but each of its triangles is a convex set:
-/// bodies that overlap have the gap of the two parts that overlap most, that is, one body must move by -gap at
-/// least for those parts to separate.
+/// Signed gap at time t of the motion, t exact. A mesh has no interior, but each of its triangles is a convex
+/// set: overlapping bodies have the gap of the two parts that overlap most, i.e. one body must move by at
+/// least -gap for those parts to separate.
 Bracket gap_at(const Placed& a, const Motion& motion_a, const Placed& b, const Motion& motion_b, double t);
 
 /// A depth that is certain at time t, in the sense of gap_at, and the parts that are this deep in each other.
 struct DepthInTime {
   double depth = 0, t = 0;
-  std::size_t part_a = 0, part_b = 0;  // triangles of meshes; 0 of anything else
+  std::size_t part_a = 0, part_b = 0;  // triangle indices for meshes; 0 for any other shape
 };
-/// The deepest that a search finds at any time up to t: never more than the truth, 0 if none is found,
-/// -infinity if the search is too expensive. `contact`: a time at which the bodies are known to touch, for
-/// the search to begin with.
+/// The largest depth that a search finds at any time up to t: never more than the truth, 0 if none is found,
+/// -infinity if the search is too expensive. `contact`: a time at which the bodies are known to touch, where
+/// the search begins.
 DepthInTime deepest_before(const Placed& a, const Motion& motion_a, const Placed& b, const Motion& motion_b,
                            double t, double contact = 0);
 double certified_depth_before(const Placed& a, const Motion& motion_a, const Placed& b,
                               const Motion& motion_b, double t, double contact = 0);
 
-/// Exact bounding box of the placed body, rounded outward; used to judge broad phases without asking every
-/// pair.
+/// Bounding box of the placed body, computed exactly and rounded outward; used to judge broad phases without
+/// querying every pair.
 Aabb outer_box(const Placed& a);
-/// Of the whole motion.
+/// The same for the whole motion.
 Aabb outer_box(const Placed& a, const Motion& motion);
 
 }  // namespace touchstone::referee

@@ -1,5 +1,5 @@
-// How much work the referee does on one question before it leaves it open. Work is counted where it is done
-// and never timed, so that the same question has the same answer on every machine.
+// How much work the referee spends on one question before it gives up. Work is counted where it is done and
+// never timed, so the same question has the same answer on every machine.
 #pragma once
 
 #include <cstdint>
@@ -8,20 +8,19 @@
 
 namespace touchstone::referee {
 
-/// A unit is about a nanosecond. The dearest pair of the scenarios and of the campaigns takes a hundredth of
+/// A unit is about a nanosecond. The most expensive pair in the scenarios and campaigns takes a hundredth of
 /// this.
-inline constexpr std::int64_t most_work = 20'000'000'000;
+inline constexpr std::int64_t default_work_limit = 20'000'000'000;
 
-/// What a public function says in a note instead of an answer.
-inline constexpr const char* too_expensive =
-    "too expensive: beyond the limit of work";
+/// The note with which a public function answers when it gives up.
+inline constexpr const char* too_expensive = "too expensive: beyond the limit of work";
 
 /// Thrown by `spend`; it never leaves a public function of the referee.
 struct TooExpensive {};
 
 namespace detail {
 struct Work {
-  std::int64_t limit = most_work;
+  std::int64_t limit = default_work_limit;
   std::int64_t left = std::numeric_limits<std::int64_t>::max();
   bool is_metered = false;
 };
@@ -31,7 +30,7 @@ inline Work& work() {
 }
 }  // namespace detail
 
-/// Before work of about this many units. Work outside of a question is not limited.
+/// Call before work of about this many units. Work outside a question is not limited.
 inline void spend(std::int64_t units) {
   detail::Work& w = detail::work();
   if (!w.is_metered) return;
@@ -39,7 +38,7 @@ inline void spend(std::int64_t units) {
   if (w.left < 0) throw TooExpensive{};
 }
 
-/// Another limit for this thread, while it lives.
+/// Sets another limit for this thread during its lifetime.
 class WorkLimit {
  public:
   explicit WorkLimit(std::int64_t units) : before_(std::exchange(detail::work().limit, units)) {}
@@ -51,8 +50,8 @@ class WorkLimit {
   std::int64_t before_;
 };
 
-/// One question: what `answer` returns, or `otherwise` once the limit is passed. A question within another is
-/// part of that.
+/// One question: returns the result of `answer`, or `otherwise` once the limit is exceeded. A nested question
+/// counts towards the outer one.
 template <class R, class F>
 R within_limit(R otherwise, F&& answer) {
   detail::Work& w = detail::work();

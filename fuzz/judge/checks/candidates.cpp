@@ -1,5 +1,6 @@
-// Candidate pairs: every pair whose closed exact bodies overlap must be there, with no tolerance at all
-// (docs/truth.md §3). Superfluous pairs are counted as precision; a pair that names an absent body is stale.
+// Candidate pairs: every pair whose closed exact bodies overlap must be reported, with no tolerance at all
+// (docs/truth.md §3). Superfluous pairs only count against precision; a pair that names an absent body is
+// stale.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -53,7 +54,7 @@ void check_stale(const CheckInput& in, CheckOutput& out, int k, const Truth::Ste
 }  // namespace
 
 void check_candidates(const CheckInput& in, CheckOutput& out) {
-  if (in.frame != 0) return;  // engines report the bodies' first poses only; scripts are judged as asked
+  if (in.frame != 0) return;  // engines report only the bodies' first poses; scripts are judged as given
   const auto& truth = in.truth.true_pairs();
   const auto& states = in.truth.steps();
   out.undecided = in.truth.undecided_pairs() > 0;
@@ -72,7 +73,7 @@ void check_candidates(const CheckInput& in, CheckOutput& out) {
   }
 }
 
-// Every pair that overlaps at some time of the step. How deep is only measured of what is missed.
+// Every pair that overlaps at some time of the step. The depth is measured only for missed pairs.
 void check_swept_candidates(const CheckInput& in, CheckOutput& out) {
   if (in.frame != 0) return;
   const auto& truth = in.truth.meeting_pairs();
@@ -84,7 +85,8 @@ void check_swept_candidates(const CheckInput& in, CheckOutput& out) {
   static const std::vector<BodyPair> none;
   const auto reported = sorted_unique(in.answer.candidate_pairs.empty() ? none : in.answer.candidate_pairs[0],
                                       out.pairs_duplicate);
-  out.pairs_true += truth.size(), out.pairs_reported += reported.size();
+  out.pairs_true += truth.size();
+  out.pairs_reported += reported.size();
   for (const auto& [a, b] : truth) {
     if (std::binary_search(reported.begin(), reported.end(), BodyPair{a, b})) continue;
     const double l = in.truth.scale(a, b), depth = in.truth.depth_in_step(0, a, b);

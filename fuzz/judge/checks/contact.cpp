@@ -1,9 +1,9 @@
 // Contact: the verdict, then normal and depth by feasibility and regret (docs/truth.md §3).
 //
 // With w(n) = h_A(n) + h_B(-n), moving B by w(n) along n separates the bodies and moving by less does not. So
-// a depth d with normal n is infeasible by w(n) - d, in excess by d - w(n) (pushing by d leaves a gap, §5),
-// and the direction is poor by w(n) - d*. Any of several best normals passes; nothing else does. Of bodies
-// that are apart by no more than τ, d* is 0.
+// a depth d with normal n is infeasible by w(n) - d, excessive by d - w(n) (pushing by d leaves a gap, §5),
+// and the direction is worse than the best by w(n) - d*. Any of several best normals passes; nothing else
+// does. For bodies that are apart by no more than τ, d* is 0.
 #include <fmt/format.h>
 
 #include <cmath>
@@ -13,10 +13,10 @@
 namespace touchstone::fuzz {
 namespace {
 
-// The truth's direction is rounded, and the least depth is along the exact one: what is certified is the
-// width along the direction as it stands.
+// The truth's direction is rounded, while the least depth is along the exact one: the certificate states the
+// width along the rounded direction.
 Certificate direction_certificate(const CheckInput& in, const StatedContact& c,
-                                           const referee::PairTruth& truth) {
+                                  const referee::PairTruth& truth) {
   Certificate r;
   r.kind = Certificate::Kind::depth_direction;
   r.direction = truth.normal;
@@ -25,8 +25,8 @@ Certificate direction_certificate(const CheckInput& in, const StatedContact& c,
   return r;
 }
 
-// A surface has no depth (docs/truth.md §2), so that what is stated is not compared with one. It must still
-// be a depth: not negative, and no more than leaving the surface's hull takes.
+// A surface has no depth (docs/truth.md §2), so the stated depth is not compared with one. It must still be a
+// plausible depth: not negative, and no more than leaving the hull of the surface takes.
 void judge_surface_contact(const CheckInput& in, CheckOutput& out, const StatedContact& c,
                            const referee::PairTruth& truth) {
   const double l = in.truth.scale(c.a, c.b), tau = in.tau(l);
@@ -51,7 +51,7 @@ void judge_surface_contact(const CheckInput& in, CheckOutput& out, const StatedC
   out.not_judged(c.depth && c.normal ? "normal and depth" : c.normal ? "normal" : "depth", true);
 }
 
-// Of the least depth d* a bracket.
+// Bracket of the least depth d*.
 referee::Bracket least_depth(const referee::PairTruth& truth) {
   return {std::max(0.0, -truth.gap.hi), std::max(0.0, -truth.gap.lo)};
 }
@@ -79,7 +79,7 @@ double certain_depth(const CheckInput& in, int a, int b, const referee::PairTrut
   return std::max(0.0, depth);
 }
 
-bool judge_as_numbers(const CheckInput& in, CheckOutput& out, const StatedContact& c) {
+bool judge_validity(const CheckInput& in, CheckOutput& out, const StatedContact& c) {
   const Query q{in.query.question, c.a, c.b};
   const double length = c.normal ? c.normal->stableNorm() : 1;
   const bool unit = std::abs(length - 1) <= in.card.tau_factor * in.card.unit_roundoff;
@@ -94,7 +94,7 @@ bool judge_as_numbers(const CheckInput& in, CheckOutput& out, const StatedContac
 void judge_normal_and_depth(const CheckInput& in, CheckOutput& out, const StatedContact& c,
                             const referee::PairTruth& truth) {
   if (!c.normal && !c.depth) return;
-  // Nor have two half-spaces a depth that face each other: no motion separates them.
+  // Half-spaces that are not antiparallel have no depth either: no motion separates them.
   if (in.is_surface(c.a) || in.is_surface(c.b) || !std::isfinite(truth.gap.lo))
     return judge_surface_contact(in, out, c, truth);
   if (!c.normal) return judge_depth_alone(in, out, c, truth);
@@ -127,11 +127,11 @@ void check_contact(const CheckInput& in, CheckOutput& out) {
   check_overlap(in, out);
   if (!in.answer.overlap || !*in.answer.overlap) return;
   const StatedContact stated{in.query.a, in.query.b, in.answer.normal, in.answer.depth};
-  if (!judge_as_numbers(in, out, stated)) return;
+  if (!judge_validity(in, out, stated)) return;
   const referee::PairTruth& truth = in.truth.pair(in.frame, stated.a, stated.b);
-  // Of bodies that may be apart, what the received ones are is asked of those.
+  // The bodies may be apart: the received bodies must be judged for themselves.
   if (truth.verdict != referee::Verdict::overlap) out.frame_matters();
-  // Bodies that are farther apart than τ have no contact to measure: the verdict is a ghost.
+  // Bodies farther apart than τ have no contact to measure: the verdict is a ghost.
   if (truth.verdict == referee::Verdict::undecided ||
       truth.gap.lo > in.tau(in.truth.scale(stated.a, stated.b)))
     return;

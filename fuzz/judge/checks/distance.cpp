@@ -35,12 +35,12 @@ void check_distance(const CheckInput& in, CheckOutput& out) {
     return;
   }
   if (truth.verdict == referee::Verdict::undecided && !std::isfinite(truth.gap.lo)) {
-    out.undecided = true;  // nothing is known of it
+    out.undecided = true;  // nothing is known about the gap
     return;
   }
   const double error = outside(d, truth.gap);
   out.error(error, l, tau);
-  // The two of a surface that overlap are at no distance; a depth they do not have.
+  // An overlapping mesh has distance 0 but no depth.
   if (truth.verdict == referee::Verdict::overlap && !std::isfinite(truth.gap.lo) && d < -tau)
     out.not_judged("depth", true);
   if (error <= tau) return;
@@ -57,7 +57,7 @@ void check_distance(const CheckInput& in, CheckOutput& out) {
 
 namespace {
 
-// Of a gap whose sign is open, anything from 0 to its farther end.
+// Bracket of |gap|; when the sign is open, anything from 0 to the larger end.
 referee::Bracket magnitude(const referee::Bracket& gap) {
   if (gap.hi < 0) return {-gap.hi, -gap.lo};
   if (gap.lo > 0) return gap;

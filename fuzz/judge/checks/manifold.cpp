@@ -9,8 +9,8 @@
 namespace touchstone::fuzz {
 namespace {
 
-// Charted, never a fault: a manifold for another of several best normals spans another region, and is left
-// out.
+// Only charted, never a fault: a manifold for another of several best normals spans another region and is
+// skipped.
 std::optional<double> coverage(const CheckInput& in, const referee::PairTruth& truth) {
   constexpr double same_normal = 1 - 1e-6;
   const auto [a, b] = std::pair{in.query.a, in.query.b};
@@ -24,17 +24,18 @@ std::optional<double> coverage(const CheckInput& in, const referee::PairTruth& t
 double positive_or_zero(double x) { return std::isfinite(x) ? std::max(0.0, x) : 0; }
 
 // Where the line p + s·n is within `reach` of the body, and how far along n: proven bounds of the last such
-// s. The distance of a convex body is convex along a line.
+// s. The distance to a convex body is convex along a line.
 class LineThroughBody {
  public:
   LineThroughBody(const CheckInput& in, int body, const Vec3& p, const Vec3& n, double reach)
       : in_(in), body_(body), p_(p), n_(n), reach_(reach) {}
 
   bool is_near(double s) const { return at(s).lo <= reach_; }
-  /// An upper bound of the last s; nothing when the line certainly misses the body. s is in [-range, range].
+  /// An upper bound of the last s in [-range, range]; nullopt when the line certainly misses the body.
   std::optional<double> last(double range) const {
     double lo = -range, hi = range;
-    // The nearest place, by thirds, until one is near; then the end of the near ones, by halves.
+    // Ternary search for the nearest point until one is within reach; then bisection for the end of those
+    // within reach.
     while (!is_near((lo + hi) / 2)) {
       if (hi - lo <= reach_ / 4) return std::nullopt;
       const double third = (hi - lo) / 3;
@@ -43,7 +44,8 @@ class LineThroughBody {
       else
         lo += third;
     }
-    lo = (lo + hi) / 2, hi = range;
+    lo = (lo + hi) / 2;
+    hi = range;
     if (is_near(hi)) return hi;
     while (hi - lo > reach_ / 4) (is_near((lo + hi) / 2) ? lo : hi) = (lo + hi) / 2;
     return hi;
@@ -57,13 +59,13 @@ class LineThroughBody {
   double reach_;
 };
 
-// How much deeper than possible the point says to be: on the line through it along the normal, A must reach
-// as far ahead of B. Each body is taken within τ. Where the line misses a body nothing is possible. 0:
+// How much deeper than possible the point claims to be: on the line through it along the normal, A must reach
+// that far ahead of B. Each body is taken within τ. Where the line misses a body no depth is possible. 0:
 // possible.
 double too_deep(const CheckInput& in, const ManifoldPoint& p, const Vec3& n, double tau) {
   const auto [a, b] = std::pair{in.query.a, in.query.b};
   const LineThroughBody ahead(in, a, p.position, n, tau), behind(in, b, p.position, -n, tau);
-  // Points are stated on B, on A or half-way.
+  // Engines place points on B, on A or half-way.
   for (const double s : {p.depth / 2, 0.0, p.depth})
     if (ahead.is_near(s) && behind.is_near(p.depth - s)) return 0;
   const double range = 4 * (p.depth + in.truth.scale(a, b));
@@ -71,8 +73,9 @@ double too_deep(const CheckInput& in, const ManifoldPoint& p, const Vec3& n, dou
   return !last || !first ? p.depth : std::max(0.0, p.depth - (*last + *first));
 }
 
-// The depth of each point: never more than its normal needs as a whole; of manifolds claimed to be complete
-// no more than the bodies can have there (others state depths along normals of their own).
+// The depth of each point must never exceed what its normal needs as a whole; for manifolds claimed to be
+// complete, it must not exceed what the bodies can have there (other engines state depths along normals of
+// their own).
 void check_point_depths(const CheckInput& in, CheckOutput& out, double l, double tau,
                         const referee::PairTruth& truth) {
   const Vec3& n = *in.answer.normal;
@@ -98,10 +101,10 @@ void check_point_depths(const CheckInput& in, CheckOutput& out, double l, double
   }
 }
 
-// Of an engine whose card says that its manifolds are complete. The region is of what lies within a few
-// roundings of the planes of support across the stated normal, so that a face that is nearly parallel and is
-// left out for good reason is none of it; what is nearly a segment or a point is not asked for. A region
-// bounded by a rim is spanned by as many points as an engine cares to give: polytopes alone are asked.
+// For an engine whose card declares complete manifolds. The region covers what lies within a few roundings of
+// the support planes across the stated normal, so a nearly parallel face that is left out for good reason is
+// not part of it; a region that is nearly a segment or a point is not required. A region bounded by a rim is
+// spanned by as many points as an engine cares to give, so only polytopes are checked.
 void check_completeness(const CheckInput& in, CheckOutput& out, double l, const referee::PairTruth& truth) {
   constexpr double parallel = 0x1p-52, least_width = 1e-6, least_covered = 0.9;
   const auto [a, b] = std::pair{in.query.a, in.query.b};
@@ -136,8 +139,8 @@ void check_manifold(const CheckInput& in, CheckOutput& out) {
   const referee::PairTruth& truth = in.truth.pair(in.frame, a, b);
   const double l = in.truth.scale(a, b), tau = in.tau(l);
   if (truth.verdict == referee::Verdict::undecided || truth.gap.lo > tau) return;
-  // Bodies are inflated by the depth that the engine states: a point of a contact plane lies within it of
-  // both.
+  // Bodies are inflated by the depth that the engine states: a point of a contact plane lies within that
+  // depth of both.
   const double of_contact = positive_or_zero(in.answer.depth.value_or(0));
   double worst = 0;
   for (const ManifoldPoint& p : in.answer.manifold) {

@@ -21,7 +21,8 @@ void check_overlap(const CheckInput& in, CheckOutput& out) {
   }
   const bool says = *in.answer.overlap, is = truth.verdict == referee::Verdict::overlap;
   if (says == is) {
-    // Right by |g|: in a frame where the bodies are farther apart than that, it may be wrong.
+    // Right by a margin of |g|: in a frame that displaces the bodies by more than that, the answer may be
+    // wrong.
     const double margin = is ? std::max(0.0, -truth.gap.hi) : std::max(0.0, truth.gap.lo);
     return out.error(-margin, l, tau);
   }

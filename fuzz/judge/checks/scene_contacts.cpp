@@ -1,5 +1,5 @@
-// Whole-scene contacts: broad and narrow phase together. Each stated contact is judged as a contact, each
-// pair that overlaps by more than τ must be stated.
+// Whole-scene contacts: broad and narrow phase together. Each reported contact is judged as a contact, and
+// each pair that overlaps by more than τ must be reported.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -21,7 +21,7 @@ void check_stated(const CheckInput& in, CheckOutput& out, const SceneContact& c,
   const auto [a, b] = std::minmax(c.a, c.b);
   stated.insert({a, b});
   const StatedContact contact{a, b, c.a > c.b ? Vec3(-c.normal) : c.normal, c.depth};
-  if (!judge_as_numbers(in, out, contact)) return;
+  if (!judge_validity(in, out, contact)) return;
   const referee::PairTruth& truth = in.truth.pair(in.frame, a, b);
   const double l = in.truth.scale(a, b);
   out.note_claim(in, l);
@@ -46,13 +46,13 @@ void check_stated(const CheckInput& in, CheckOutput& out, const SceneContact& c,
 }  // namespace
 
 void check_scene_contacts(const CheckInput& in, CheckOutput& out) {
-  // An engine may state several points of one pair; the deepest is the contact.
+  // An engine may report several points of one pair; the deepest is judged as the contact.
   std::map<BodyPair, SceneContact> deepest;
   for (const SceneContact& c : in.answer.contacts) {
     const BodyPair key = std::minmax(c.a, c.b);
     const auto [it, first] = deepest.try_emplace(key, c);
     if (first) continue;
-    judge_as_numbers(in, out, {key.first, key.second, c.normal, c.depth});
+    judge_validity(in, out, {key.first, key.second, c.normal, c.depth});
     if (!(c.depth <= it->second.depth)) it->second = c;
   }
   std::set<BodyPair> stated;

@@ -1,8 +1,8 @@
-// Time of impact, judged by gaps, never by times: grazing makes the time ill-conditioned, the gap stays
-// well-conditioned (truth.md §3). Every accusation rests on a gap bracket at one certain time. A mesh has no
-// inside; the depth in it is that in its deepest triangle, a convex set of its own: how far the body must move
-// at least to leave that triangle. Before the first contact every triangle is clear, so that a body within τ
-// of touching at the reported time is within τ of every triangle, however it passes on.
+// Time of impact, judged by gaps, never by times: grazing makes the time ill-conditioned, but the gap stays
+// well-conditioned (truth.md §3). Every fault rests on a gap bracket at one definite time. A mesh has no
+// interior; its depth is that in its deepest triangle, a convex set: how far the body must move at least to
+// leave that triangle. Before the first contact every triangle is clear, so a body within τ of touching at
+// the reported time is within τ of every triangle, however it passes on.
 #include <fmt/format.h>
 
 #include <cmath>
@@ -15,7 +15,7 @@ namespace {
 
 using Verdict = referee::TimeTruth::Verdict;
 
-// Whose depth it is that the words name.
+// Qualifies the depth in a message.
 std::string_view of_what(const CheckInput& in) {
   const auto is_mesh = [&](int body) {
     return std::holds_alternative<TriangleMesh>(in.truth.scene().shape_of(body));
@@ -42,8 +42,8 @@ void check_denied(const CheckInput& in, CheckOutput& out, double l, double tau) 
   }
 }
 
-// The largest certain depth before t. The bodies are apart before t_lo and close at no more than `speed`
-// after it, so that most answers need no search.
+// The largest certain depth before t. The bodies are apart before t_lo and approach no faster than `speed`
+// after it, so most answers need no search.
 double late_by(const CheckInput& in, CheckOutput& out, double t, double at_t, double tau) {
   const auto [a, b] = std::pair{in.query.a, in.query.b};
   if (at_t > tau) return at_t;
@@ -67,7 +67,7 @@ void check_time_of_impact(const CheckInput& in, CheckOutput& out) {
                             fmt::format("the time of impact is {}, outside [0,1]", t));
   const referee::Bracket gap = in.truth.gap_at(in.frame, a, b, t);
   if (std::isinf(gap.lo) && std::isinf(gap.hi) && gap.lo < gap.hi) {
-    out.undecided = true;  // nothing is known of it
+    out.undecided = true;  // nothing is known about the gap
     return;
   }
   const double early = gap.lo;
@@ -80,10 +80,9 @@ void check_time_of_impact(const CheckInput& in, CheckOutput& out) {
               fmt::format("says impact at t = {:.9g}, where the gap is {:.6g}{}", t, early,
                           none ? "; there is no impact in the step" : ""));
   } else if (late > tau) {
-    out.fault(
-        Fault::late, late, l, in.query,
-        fmt::format("says impact at t = {:.9g}; by then the bodies have overlapped by {:.6g}{}", t, late,
-                    of_what(in)));
+    out.fault(Fault::late, late, l, in.query,
+              fmt::format("says impact at t = {:.9g}; by then the bodies have overlapped by {:.6g}{}", t,
+                          late, of_what(in)));
   }
 }
 

@@ -1,5 +1,5 @@
-// The same pair in another form: A and B exchanged, axes permuted, scaled, moved. The gap is the same
-// exactly, or up to the rounding of the new poses.
+// The same pair in another form: A and B exchanged, axes permuted, scaled, moved. The gap is the same, either
+// exactly or up to the rounding of the new poses.
 #include <algorithm>
 #include <cmath>
 
@@ -21,13 +21,15 @@ Derived same_pair(const RelationInput& in, std::string words) {
   return d;
 }
 
-// By a rotation of rational matrix about `centre`, which comes to `to`.
+// Rotates by a rational matrix about `centre`, and moves `centre` to `to`.
 void move_rigidly(Scene& s, const Quat& turn, const Vec3& centre, const Vec3& to) {
   const Mat3 r = rotation_matrix(turn);
   for (Body& b : s.bodies) {
     b.pose.translation = r * (b.pose.translation - centre) + to;
     b.pose.rotation = turn * b.pose.rotation;
-    if (b.motion) b.motion->linear = r * b.motion->linear, b.motion->angular = r * b.motion->angular;
+    if (!b.motion) continue;
+    b.motion->linear = r * b.motion->linear;
+    b.motion->angular = r * b.motion->angular;
   }
 }
 
@@ -56,7 +58,7 @@ std::vector<Derived> derive_swap(const RelationInput& in) {
 
 std::vector<Derived> derive_axes(const RelationInput& in) {
   if (!pair_asked(in.c)) return {};
-  std::vector<Derived> r{same_pair(in, "x and y with other signs")};
+  std::vector<Derived> r{same_pair(in, "x and y negated")};
   const Vec3 signs(-1, -1, 1);
   turn_axes(r[0].c.scene, signs.asDiagonal());
   Derived turned = same_pair(in, "x, y, z turned into y, z, x");
@@ -99,7 +101,7 @@ std::vector<Derived> derive_push(const RelationInput& in) {
     if (in.c.queries[i].question != Question::contact || o.outcome != Outcome::answered) continue;
     if (!o.overlap || !*o.overlap || !o.normal || !o.depth || !std::isfinite(*o.depth)) continue;
     Derived d = same_pair(in, "B pushed by the depth along the normal");
-    // Neither a surface nor a direction that is none (which is another fault) can be pushed apart.
+    // Neither a surface nor an invalid direction (which is another fault) can be pushed apart.
     const double length = o.normal->stableNorm();
     if (kind_of(d.c.scene.shape_of(0)) == ShapeKind::mesh ||
         kind_of(d.c.scene.shape_of(1)) == ShapeKind::mesh || !(length > 0.5 && length < 2))
@@ -108,8 +110,8 @@ std::vector<Derived> derive_push(const RelationInput& in) {
     d.rounding = pose_rounding(d.c.scene);
     d.c.scene.bodies[1].pose.translation += *o.normal / length * *o.depth;
     d.rounding += pose_rounding(d.c.scene);
-    // The Minkowski difference holds a ball of radius d* about the origin and lies behind the plane w(n): a
-    // point at p along n is outside of it by at most p - d* <= 2τ and inside by at most w(n) - p <= τ.
+    // The Minkowski difference contains a ball of radius d* about the origin and lies behind the plane w(n):
+    // a point at p along n is outside it by at most p - d* <= 2τ and inside by at most w(n) - p <= τ.
     const double tau = tau_of(in.card, o, scale_of_pair(in.c.scene, pair->first, pair->second));
     d.expected = {{static_cast<int>(i), {-tau, 2 * tau}}};
     r.push_back(std::move(d));
@@ -123,9 +125,10 @@ std::vector<Derived> derive_grow(const RelationInput& in) {
   for (const int i : {1, 0}) {
     Shape& shape =
         d.c.scene.shapes[static_cast<std::size_t>(d.c.scene.bodies[static_cast<std::size_t>(i)].shape)];
-    if (kind_of(shape) > ShapeKind::ellipsoid) continue;  // the origin need not be inside of the others
+    if (kind_of(shape) > ShapeKind::ellipsoid) continue;  // the others need not contain the origin
     d.words = i == 0 ? "A grown by an eighth" : "B grown by an eighth";
-    d.rounding = 8 * 0x1p-53 * 2 * bounding_radius(shape);
+    constexpr double unit_roundoff = 0x1p-53;  // of a double
+    d.rounding = 8 * unit_roundoff * 2 * bounding_radius(shape);
     change_numbers(shape, [](auto& v, Domain) { v *= 1.125; });
     for (Expected& e : d.expected) e.gap.lo = -infinity;
     return {d};

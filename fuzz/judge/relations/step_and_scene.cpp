@@ -1,4 +1,4 @@
-// Relations about more than one pose: a step in time against the poses within it, a scene against the same
+// Relations about more than one pose: a time step against the poses within it, and a scene against the same
 // scene built in another way.
 #include <fmt/format.h>
 
@@ -12,7 +12,7 @@
 namespace touchstone::fuzz {
 namespace {
 
-// A body where it is at time t, at rest.
+// A body at its pose at time t, at rest.
 Body at_time(const Body& b, double t) {
   Body r = b;
   if (b.motion) r.pose = pose_at(b.pose, *b.motion, t);
@@ -26,7 +26,7 @@ Derived snapshot(const RelationInput& in, const Query& q, double t) {
   d.c.scene = extract_pair(in.c.scene, q.a, q.b);
   for (Body& b : d.c.scene.bodies) b = at_time(b, t);
   d.c.queries = {{Question::overlap, 0, 1}, {Question::distance, 0, 1}};
-  // The rotation by an angle of |ω|t is off by that many roundings of the angle.
+  // A rotation by the angle |ω|t is off by that many roundings.
   double spin = 0;
   for (const int i : {q.a, q.b})
     if (const auto& m = in.c.scene.bodies[static_cast<std::size_t>(i)].motion)
@@ -36,8 +36,9 @@ Derived snapshot(const RelationInput& in, const Query& q, double t) {
   return d;
 }
 
-// What a right answer to a cast says of the gap at time t. None: no depth above τ at any time. A hit at t0:
-// no depth above τ before it; at it neither gap nor depth, but any depth when it is there from the start.
+// What a right answer to a cast implies about the gap at time t. No impact: no depth above τ at any time. A
+// hit at t0: no depth above τ before t0; at t0 neither gap nor depth beyond τ, but any depth if the overlap
+// is there from the start.
 GapInterval claimed_at(const Observation& o, double t, double tau) {
   if (!o.toi || t < *o.toi) return {-tau, infinity};
   if (t > *o.toi) return {};
@@ -52,7 +53,7 @@ const std::vector<double>& probe_times() {
 }  // namespace
 
 // Two times of impact of one motion, or of its halves, cannot be compared: where the bodies graze, both are
-// right. Gaps can.
+// right. Gaps can be compared.
 std::vector<Derived> derive_step(const RelationInput& in) {
   std::vector<Derived> r;
   for (std::size_t i = 0; i < in.c.queries.size(); ++i) {
@@ -136,8 +137,8 @@ Pairs in_base(const Pairs& pairs, const std::vector<int>& body_of) {
   return r;
 }
 
-// Superfluous pairs may depend on what was before: a broad phase may keep boxes wider than they are. A pair
-// whose boxes overlap by more than τ on every axis may not.
+// Superfluous pairs may depend on history: a broad phase may keep boxes wider than needed. A pair whose boxes
+// overlap by more than τ on every axis may not.
 bool boxes_overlap(const RelationInput& in, const Observation& o, const Truth::StepState& at, BodyPair p) {
   const auto box = [&](int i) -> std::optional<Aabb> {
     const auto& pose = at.pose[static_cast<std::size_t>(i)];
@@ -177,8 +178,8 @@ std::optional<RelationBreak> find_other_pairs(const Relation& r, const RelationI
         b,
         0,
         Blame::algorithm,
-        fmt::format("{}: at query {} {} pairs differ, the first is ({}, {}), a candidate only {}", d.words, k,
-                    only.size(), a, b,
+        fmt::format("{}: at query {}, {} pairs differ; the first is ({}, {}), a candidate only {}", d.words,
+                    k, only.size(), a, b,
                     std::binary_search(x.begin(), x.end(), only.front()) ? "before" : "after")};
   }
   return std::nullopt;
@@ -197,7 +198,7 @@ Depths deepest(const Observation& o, const std::vector<int>& body_of) {
   return r;
 }
 
-// A right contact of depth p has p <= d* + 2τ; a pair that is left out has d* <= τ.
+// A right contact of depth p has p <= d* + 2τ; an omitted pair has d* <= τ.
 std::optional<RelationBreak> find_other_contacts(const Relation& r, const RelationInput& in, const Derived& d,
                                                  std::size_t query, const Observation& after) {
   const Observation& before = in.base.answers[query];
@@ -215,14 +216,14 @@ std::optional<RelationBreak> find_other_contacts(const Relation& r, const Relati
       const double l = scale_of_pair(s, a, b);
       const double tau = std::max(tau_of(in.card, before, l), tau_of(in.card, after, l));
       if (p > 3 * tau)
-        return RelationBreak{
-            r.name,
-            static_cast<int>(query),
-            a,
-            b,
-            p / l,
-            Blame::algorithm,
-            fmt::format("{}: a contact of ({}, {}), {:.6g} deep, only {}", d.words, a, b, p, when)};
+        return RelationBreak{r.name,
+                             static_cast<int>(query),
+                             a,
+                             b,
+                             p / l,
+                             Blame::algorithm,
+                             fmt::format("{}: a contact of ({}, {}), {:.6g} deep, is reported only {}",
+                                         d.words, a, b, p, when)};
     }
     return std::nullopt;
   };

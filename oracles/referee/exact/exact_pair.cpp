@@ -1,9 +1,9 @@
-// The question: does the hull of D = {a_i - b_j} come nearer to the origin than rA + rB? The state is an
-// affinely independent set of at most four points of D and the nearest point v of its hull. A step adds the
-// point of D that is extreme against v. |v| decreases strictly and there are finitely many sets, so it ends
-// (Wolfe 1976, "Finding the nearest point in a polytope"). v is kept only up to a positive factor: v·p is the
-// same for all points p of its face, so "v is the nearest point of D" reads v·w >= v·p, and |v|² =
-// (v·p)²/(v·v) compares with (rA + rB)² in integers.
+// Does the hull of D = {a_i - b_j} come nearer to the origin than rA + rB? The state is an affinely
+// independent set of at most four points of D and the nearest point v of its hull. Each step adds the point
+// of D that is extreme in the direction -v. |v| decreases strictly and there are finitely many sets, so it
+// terminates (Wolfe 1976, "Finding the nearest point in a polytope"). v is kept only up to a positive factor:
+// v·p is the same for all points p of its face, so "v is the nearest point of D" reads v·w >= v·p, and |v|² =
+// (v·p)²/(v·v) is compared with (rA + rB)² in integers.
 #include "oracles/referee/exact/exact_pair.h"
 
 #include <algorithm>
@@ -37,7 +37,9 @@ class Grid {
     top_ = any_ ? std::max(top_, top_of(p)) : top_of(p);
     any_ = true;
   }
-  void fit(const Vec3& v) { fit(v.x()), fit(v.y()), fit(v.z()); }
+  void fit(const Vec3& v) {
+    for (int k = 0; k < 3; ++k) fit(v[k]);
+  }
   I operator()(double x) const {
     const Parts p = parts_of(x);
     return p.mantissa == 0 ? I(0) : scaled<I>(I(p.mantissa), p.exponent - exponent_);
@@ -71,7 +73,8 @@ Linear<I> linear_part(const Placement& p) {
   Linear<I> l;
   for (int i = 0; i < 3; ++i) l.row[i] = g(Vec3(p.matrix.row(i)));
   l.exponent = g.exponent();
-  l.bits = g.bits(), l.denominator_bits = 1;
+  l.bits = g.bits();
+  l.denominator_bits = 1;
   return l;
 }
 
@@ -79,7 +82,7 @@ template <class I>
 Linear<I> linear_part(const Pose& p) {
   Grid<I> g;
   const Quat& q = p.rotation;
-  g.fit(q.x), g.fit(q.y), g.fit(q.z), g.fit(q.w);
+  for (double c : {q.x, q.y, q.z, q.w}) g.fit(c);
   const I x = g(q.x), y = g(q.y), z = g(q.z), w = g(q.w);
   const I xx = x * x, yy = y * y, zz = z * z, ww = w * w;
   Linear<I> l;
@@ -91,7 +94,7 @@ Linear<I> linear_part(const Pose& p) {
   return l;
 }
 
-/// A body's parts, each in integers with an exponent of its own.
+/// The parts of a body's placement, each in integers with its own exponent.
 template <class I>
 struct Scaled {
   Linear<I> linear;
@@ -120,13 +123,15 @@ Scaled<I> scale(const ExactBody& b) {
   place.fit(t);
   s.translation = place(t);
   s.translation_exponent = place.exponent();
-  speed.fit(b.velocity_to), speed.fit(b.velocity_from);
+  speed.fit(b.velocity_to);
+  speed.fit(b.velocity_from);
   for (double x : b.times) time.fit(x);
   for (double x : b.times) s.shifts.push_back(time(x) * (speed(b.velocity_to) - speed(b.velocity_from)));
   s.shift_exponent = speed.exponent() + time.exponent();
   s.radius = parts_of(b.radius);
   s.turned_bits = points.bits() + s.linear.bits + 2;
-  s.translation_bits = place.bits(), s.shift_bits = time.bits() + speed.bits() + 1;
+  s.translation_bits = place.bits();
+  s.shift_bits = time.bits() + speed.bits() + 1;
   s.radius_bits = static_cast<int>(std::bit_width(static_cast<unsigned long long>(s.radius.mantissa)));
   return s;
 }
@@ -159,7 +164,7 @@ struct Nearest {
   I reach;              // direction·p for every p of the face
 };
 
-// Nearest point of the affine hull of the face, if it lies in the face's relative interior or on its border.
+// Nearest point of the face's affine hull, if it lies in the face (its border included).
 template <class I>
 std::optional<Exact3<I>> foot_in_face(std::span<const Exact3<I>> p) {
   if (p.size() == 1) return p[0];
@@ -193,7 +198,10 @@ Nearest<I> nearest_face(std::span<const Exact3<I>> points) {
       Nearest<I> r;
       std::vector<Exact3<I>> face;
       for (int i = 0; i < n; ++i)
-        if (bits >> i & 1) face.push_back(points[at(i)]), r.face[at(static_cast<int>(face.size()) - 1)] = i;
+        if (bits >> i & 1) {
+          r.face[face.size()] = i;
+          face.push_back(points[at(i)]);
+        }
       if (static_cast<int>(face.size()) != size) continue;
       const auto foot = foot_in_face<I>(face);
       if (!foot) continue;
@@ -213,7 +221,7 @@ I square(const I& x) {
 }
 
 template <class I>
-BasicExactPair<I> put_together(const Scaled<I>& x, const Scaled<I>& y, int exponent) {
+BasicExactPair<I> assemble(const Scaled<I>& x, const Scaled<I>& y, int exponent) {
   BasicExactPair<I> r;
   r.exponent = exponent;
   r.denominator = x.linear.denominator * y.linear.denominator;
@@ -227,7 +235,7 @@ BasicExactPair<I> put_together(const Scaled<I>& x, const Scaled<I>& y, int expon
   return r;
 }
 
-// Bits of the coordinates and radii of `place` and `put_together`, sums included.
+// Bits of the coordinates and radii in `place` and `assemble`, sums included.
 template <class I>
 int bits_of(const Scaled<I>& s, int exponent, int denominators) {
   const int turned = s.turned_bits + s.turned_exponent - exponent;
@@ -237,21 +245,23 @@ int bits_of(const Scaled<I>& s, int exponent, int denominators) {
   return std::max(turned, rest) + denominators + 2;
 }
 
-// With coordinates and radii below 2^k: differences 2^(k+1), the direction of an edge 2^(3k+8), of a triangle
+// With coordinates and radii below 2^k: differences 2^(k+1); the direction of an edge 2^(3k+8), of a triangle
 // 2^(2k+5), reach 2^(4k+11), and the two squares that are compared, reach² and radius²·direction², 2^(8k+22).
 constexpr int short_bits = 60;
-// Products inside `scale` and `place` on the way there: a part's bits and exponents alone are already below.
+// Bound for the intermediate products in `scale` and `place`: the bits and exponents of the parts stay below
+// it.
 constexpr int short_parts = 200;
 
-// reach/√length_sq in units of the scene, within 16 units: each conversion is within one, square root,
-// quotient, scaling. NaN or infinite where long double cannot hold the integers.
+// reach/√length_sq in units of the scene, within 16 units: the conversions, the square root, the quotient and
+// the scaling are each within one. NaN or infinite where long double cannot hold the integers.
 template <class I>
 Real length_of(const BasicExactPair<I>& p, const I& reach, const I& length_sq) {
   const Real x = reach.template convert_to<Real>(), y = std::sqrt(length_sq.template convert_to<Real>());
   return std::ldexp(x / y / p.denominator.template convert_to<Real>(), p.exponent);
 }
 
-// Of one product of a coordinate and a direction made of three of them, and of the sums.
+// Work units of one product of a coordinate and a direction (itself made of three coordinates), sums
+// included.
 template <class I>
 std::int64_t work_of_products(const BasicExactPair<I>& p) {
   I most = 1;
@@ -264,7 +274,8 @@ std::int64_t work_of_products(const BasicExactPair<I>& p) {
 }
 
 template <class I>
-ExactVerdict decide_in(const BasicExactPair<I>& p, std::span<const IndexPair> seed, bool to_the_end = false) {
+ExactVerdict decide_in(const BasicExactPair<I>& p, std::span<const IndexPair> seed,
+                       bool find_nearest = false) {
   const I radius = p.radius_a + p.radius_b, radius_sq = square(radius);
   std::vector<IndexPair> simplex(seed.begin(), seed.end());
   if (simplex.empty()) simplex.emplace_back(0, 0);
@@ -281,27 +292,40 @@ ExactVerdict decide_in(const BasicExactPair<I>& p, std::span<const IndexPair> se
     const I length_sq = dot(v.direction, v.direction);
     if (length_sq == 0 || v.reach == 0) return r;
     const auto compare = square(v.reach).compare(radius_sq * length_sq);
-    if (compare < 0 && !to_the_end) return r;
+    if (compare < 0 && !find_nearest) return r;
     int i = 0, j = 0;
     I least = dot(v.direction, p.a[0]), most = dot(v.direction, p.b[0]);
     for (std::size_t k = 1; k < p.a.size(); ++k)
-      if (const I d = dot(v.direction, p.a[k]); d < least) least = d, i = static_cast<int>(k);
+      if (const I d = dot(v.direction, p.a[k]); d < least) {
+        least = d;
+        i = static_cast<int>(k);
+      }
     for (std::size_t k = 1; k < p.b.size(); ++k)
-      if (const I d = dot(v.direction, p.b[k]); d > most) most = d, j = static_cast<int>(k);
+      if (const I d = dot(v.direction, p.b[k]); d > most) {
+        most = d;
+        j = static_cast<int>(k);
+      }
     const I reach = least - most;
-    if (to_the_end && reach >= v.reach) {
-      r.overlap = compare <= 0, r.touching = compare == 0;
+    if (find_nearest && reach >= v.reach) {
+      r.overlap = compare <= 0;
+      r.touching = compare == 0;
       r.core_distance = length_of(p, v.reach, length_sq);
       return r;
     }
-    if (to_the_end) {
+    if (find_nearest) {
       simplex = r.simplex;
       simplex.emplace_back(i, j);
       continue;
     }
-    if (reach > 0 && square(reach) > radius_sq * length_sq) return r.overlap = false, r;
-    if (compare == 0) return r.touching = reach == v.reach, r;
-    if (reach >= v.reach) return r;  // not reached with compare > 0: the two tests above are exhaustive then
+    if (reach > 0 && square(reach) > radius_sq * length_sq) {
+      r.overlap = false;
+      return r;
+    }
+    if (compare == 0) {
+      r.touching = reach == v.reach;
+      return r;
+    }
+    if (reach >= v.reach) return r;  // not reached when compare > 0: the two tests above are then exhaustive
     simplex = r.simplex;
     simplex.emplace_back(i, j);
   }
@@ -311,7 +335,7 @@ ExactVerdict decide_in(const BasicExactPair<I>& p, std::span<const IndexPair> se
 
 ExactPair make_exact(const ExactBody& a, const ExactBody& b) {
   const auto x = scale<Integer>(a), y = scale<Integer>(b);
-  return put_together(x, y, std::min(least_exponent(x), least_exponent(y)));
+  return assemble(x, y, std::min(least_exponent(x), least_exponent(y)));
 }
 
 ExactVerdict decide(const ExactPair& p, std::span<const IndexPair> seed) { return decide_in(p, seed); }
@@ -320,8 +344,8 @@ ExactVerdict nearest(const ExactPair& p, std::span<const IndexPair> seed) { retu
 
 namespace {
 
-// Whether 512 bits hold every product on the way to the integers of `put_together`: a part has at most 53
-// bits more than its grid's span, and a rotation squares it.
+// Whether 512 bits hold every intermediate product on the way to the integers of `assemble`: a part has at
+// most 53 bits more than its grid's span, and a rotation squares it.
 bool parts_are_short(const ExactBody& b) {
   Grid<Short> points, linear, place;
   for (const Vec3& v : b.core) points.fit(v);
@@ -344,7 +368,7 @@ std::optional<BasicExactPair<Short>> make_short(const ExactBody& a, const ExactB
   const int denominators = x.linear.denominator_bits + y.linear.denominator_bits;
   if (std::max(bits_of(x, exponent, denominators), bits_of(y, exponent, denominators)) > short_bits)
     return std::nullopt;
-  return put_together(x, y, exponent);
+  return assemble(x, y, exponent);
 }
 
 }  // namespace
@@ -362,10 +386,10 @@ std::optional<ExactVerdict> decide_short(const ExactBody& a, const ExactBody& b,
   return decide_in(*p, seed);
 }
 
-// The half-space is {y : N·(y - t) <= offset}, N = R·normal = (R·normal + t) - t, so that placing the points
-// `normal` and 0 like a body's gives N and t in the pair's unit 2^e/D. There N·(y - t) comes in units of its
-// square, and offset in these is offset·D²/2^2e. With k bits to a coordinate: 2k + 6 bits, squared 4k + 12;
-// |offset|·D² has its own and is bounded apart.
+// The half-space is {y : N·(y - t) <= offset}, N = R·normal = (R·normal + t) - t, so placing the points
+// `normal` and 0 like a body gives N and t in the pair's unit 2^e/D. N·(y - t) is then in units of its
+// square, in which offset is offset·D²/2^2e. With k bits for a coordinate: 2k + 6 bits, squared 4k + 12;
+// |offset|·D² is bounded separately.
 std::optional<bool> overlaps_half_space_short(const Vec3& normal, double offset, const Pose& half_space,
                                               const ExactBody& body) {
   const ExactBody frame{{normal, Vec3::Zero()}, 0, half_space};
@@ -428,8 +452,8 @@ Rational3 common_point(const ExactPair& p, const ExactVerdict& v) {
     b = b + weight[k] * rational(p.b[at(v.simplex[k].second)]);
   }
   const Integer radius = p.radius_a + p.radius_b;
-  // |b - a| <= rA + rB, so the point that divides the segment as the radii do is within rA of a and within rB
-  // of b.
+  // |b - a| <= rA + rB, so the point that divides the segment in the ratio of the radii is within rA of a and
+  // within rB of b.
   if (radius > 0) a = a + Rational(p.radius_a, radius) * (b - a);
   return to_world(p, a);
 }
@@ -439,14 +463,15 @@ ExactPlane separating_plane(const ExactPair& p, const ExactVerdict& v) {
   Integer most = dot(n, p.a[0]), least = dot(n, p.b[0]);
   for (const Integer3& x : p.a) most = std::max(most, dot(n, x));
   for (const Integer3& x : p.b) least = std::min(least, dot(n, x));
-  // |n| in units of 2^-bits, rounded up, until the planes that the balls push apart still leave room.
+  // |n| in units of 2^-bits, rounded up; more bits until the planes, shifted outward by the balls, still
+  // leave room.
   for (unsigned bits = 0;; bits += 64) {
     const Integer length = sqrt(Integer(dot(n, n) << (2 * bits))) + 1;
     const Integer from = (most << bits) + p.radius_a * length, to = (least << bits) - p.radius_b * length;
     if (from >= to && p.radius_a + p.radius_b > 0) continue;
     const Rational scale(Integer(1), Integer(1) << (bits + 1));
     const Rational middle = scale * Rational(from + to);
-    // World units: x = k·2^exponent/denominator, with n taken as it is.
+    // In world units x = k·2^exponent/denominator; n is used unscaled.
     return {rational(n), to_world(p, {middle, 0, 0}).x};
   }
 }

@@ -13,18 +13,18 @@
 
 namespace touchstone::referee {
 
-/// A polytope or rounded shape where it stands, perhaps moved along `velocity` (exact doubles): the core is
-/// the hull of its points at all `times`. Point k of time i has index i·(number of points) + k.
+/// A placed polytope or rounded shape, perhaps moved along `velocity` (exact doubles): the core is the hull
+/// of its points at all `times`. Point k of time i has index i·(number of points) + k.
 struct ExactBody {
   std::vector<Vec3> core;  // body frame
   double radius = 0;
   std::variant<Pose, Placement> pose;
-  /// velocity = velocity_to - velocity_from, kept apart because their difference may not be a double.
+  /// velocity = velocity_to - velocity_from, stored separately because the difference may not be a double.
   Vec3 velocity_to = Vec3::Zero(), velocity_from = Vec3::Zero();
   std::vector<double> times{0};
 };
 
-/// The value of an integer k here is k·2^exponent/denominator.
+/// An integer k stands for k·2^exponent/denominator.
 template <class I>
 struct BasicExactPair {
   std::vector<Exact3<I>> a, b;
@@ -39,30 +39,28 @@ using IndexPair = std::pair<int, int>;
 
 struct ExactVerdict {
   bool overlap = false;
-  bool touching =
-      false;  // known to be exactly at gap 0 (found only for rounded shapes at positive core distance)
-  std::vector<IndexPair> simplex;  // nearest face of the difference: vertices a[i] - b[j]
+  /// Known to be exactly at gap 0; found only for rounded shapes at positive core distance.
+  bool touching = false;
+  std::vector<IndexPair> simplex;  // nearest face of the Minkowski difference: vertices a[i] - b[j]
   Integer3 direction;              // disjoint: B to A, d·(a - b) >= d·(simplex) > 0 for all a, b
-  Real core_distance = 0;          // found by `nearest` only: of the cores, within 16 units of itself
+  Real core_distance = 0;          // set by `nearest` only: distance of the cores, within 16 units
 };
 /// `seed`: a first guess of the simplex, at most four index pairs.
 ExactVerdict decide(const ExactPair& p, std::span<const IndexPair> seed);
-/// The same, going on to the nearest points of the cores, unless these meet.
+/// Like `decide`, but continues to the nearest points of the cores unless the cores meet.
 ExactVerdict nearest(const ExactPair& p, std::span<const IndexPair> seed);
-/// `decide` in integers of 512 bits, which allocate nothing; nullopt when the bodies' numbers need longer
-/// ones.
+/// `decide` in 512-bit integers, without allocation; nullopt when the bodies' numbers need longer ones.
 std::optional<ExactVerdict> decide_short(const ExactBody& a, const ExactBody& b,
                                          std::span<const IndexPair> seed);
 
-/// A polytope or rounded shape against a half-space (placed by a Pose) in integers of 512 bits; nullopt: as
-/// above.
+/// A polytope or rounded shape against a half-space (placed by a Pose) in 512-bit integers; nullopt as above.
 std::optional<bool> overlaps_half_space_short(const Vec3& normal, double offset, const Pose& half_space,
                                               const ExactBody& body);
 
-/// v.direction, not zero, as a unit vector within 8 units.
+/// v.direction (not zero) as a unit vector, within 8 units.
 Real3 direction_of(const ExactVerdict& v);
 
-/// A point of both bodies, world coordinates. Precondition: v.overlap.
+/// A point in both bodies, world coordinates. Precondition: v.overlap.
 Rational3 common_point(const ExactPair& p, const ExactVerdict& v);
 
 struct ExactPlane {

@@ -8,7 +8,7 @@ namespace {
 
 using Chain = std::vector<Polynomial>;
 
-// Sturm's chain of a polynomial without multiple roots.
+// Sturm chain of a polynomial without multiple roots.
 Chain sturm_chain(const Polynomial& p) {
   Chain chain{p, p.derivative()};
   while (!chain.back().is_zero()) {
@@ -40,7 +40,8 @@ Polynomial gcd(Polynomial a, Polynomial b) {
   while (!b.is_zero()) {
     Polynomial q, r;
     Polynomial::divide(a, b, q, r);
-    a = std::move(b), b = std::move(r);
+    a = std::move(b);
+    b = std::move(r);
   }
   return a;
 }
@@ -142,18 +143,19 @@ int sign_at(const Polynomial& q, Root r) {
 }
 
 int compare(Root a, Root b) {
-  // t - root of b has the sign asked for, once b is known exactly; else separate the intervals unless they
-  // share a root.
+  // With b exact, the sign of t - b at a is the answer. Otherwise separate the intervals, unless the roots
+  // are the same.
   if (b.is_exact) return sign_at(Polynomial({-b.hi, Rational(1)}), std::move(a));
   if (a.is_exact) return -compare(std::move(b), std::move(a));
   if (sign_at(b.p, a) == 0) {
-    // a is a root of b.p: of the same one exactly when it lies in b's interval.
+    // a is a root of b.p; it is the same root as b exactly when it lies in b's interval.
     const bool above = sign_at(Polynomial({-b.lo, Rational(1)}), a) > 0;
     const bool below = sign_at(Polynomial({-b.hi, Rational(1)}), a) <= 0;
     return above && below ? 0 : above ? 1 : -1;
   }
   while (a.lo < b.hi && b.lo < a.hi) {
-    refine(a), refine(b);
+    refine(a);
+    refine(b);
     if (a.is_exact || b.is_exact) return compare(std::move(a), std::move(b));
   }
   return a.hi <= b.lo ? -1 : 1;
@@ -168,10 +170,12 @@ void enclose(Root r, double& lo, double& hi) {
     lo = r.is_exact ? r.hi.convert_to<double>() : std::max(0.0, r.lo.convert_to<double>());
     if (exact(lo) > (r.is_exact ? r.hi : r.lo)) lo = std::nextafter(lo, -infinity);
     if (r.is_exact || std::nextafter(lo, infinity) >= hi) return;
-    // A root that is a double itself is never left alone by halving: try it.
+    // Bisection never isolates a root that is itself a double: try it.
     const double inner = std::nextafter(lo, infinity);
-    if (std::nextafter(inner, infinity) >= hi && r.p(exact(inner)) == 0)
-      r.hi = exact(inner), r.is_exact = true;
+    if (std::nextafter(inner, infinity) >= hi && r.p(exact(inner)) == 0) {
+      r.hi = exact(inner);
+      r.is_exact = true;
+    }
     refine(r);
   }
 }

@@ -1,5 +1,5 @@
-// Polynomials with rational coefficients in one variable, their real roots in [0,1], and signs at those
-// roots: Sturm's theorem and bisection, nothing rounded.
+// Univariate polynomials with rational coefficients, their real roots in [0,1], and signs at those roots, by
+// Sturm's theorem and bisection; nothing is rounded.
 #pragma once
 
 #include <vector>
@@ -8,7 +8,7 @@
 
 namespace touchstone::referee {
 
-/// Coefficients by rising power; no zero at the end; the zero polynomial has none.
+/// Coefficients in order of rising power, without trailing zeros; the zero polynomial has none.
 class Polynomial {
  public:
   Polynomial() = default;
@@ -32,20 +32,20 @@ class Polynomial {
 };
 using Polynomial3 = Exact3<Polynomial>;
 
-/// The one root of `p` (without multiple roots) in (lo, hi]; exactly hi when is_exact.
+/// The only root of `p` (which has no multiple roots) in (lo, hi]; exactly hi when is_exact.
 struct Root {
   Polynomial p;
   Rational lo, hi;
   bool is_exact = false;
 };
-/// The distinct roots in [0,1], rising. p not zero.
+/// The distinct roots in [0,1], in rising order. p must not be zero.
 std::vector<Root> roots_in_unit_interval(const Polynomial& p);
-/// Halves the interval, or finds the root to be rational.
+/// Halves the interval, or finds that the root is rational.
 void refine(Root& r);
 int sign_at(const Polynomial& q, Root r);
-/// Which root is smaller: < 0, 0, > 0.
+/// Compares two roots: < 0, 0, > 0.
 int compare(Root a, Root b);
-/// Neighbouring doubles (or one) that hold the root.
+/// Neighbouring doubles (or a single one) that enclose the root.
 void enclose(Root r, double& lo, double& hi);
 
 }  // namespace touchstone::referee

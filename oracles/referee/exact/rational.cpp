@@ -88,7 +88,8 @@ Rational rational_from_text(const std::string& s) {
 
 int determinant_sign(const Real3& a, const Real3& b, const Real3& c) {
   const Real det = dot(cross(a, b), c);
-  // Nine products of three factors, each within 5 units of a term of size <= |a|∞|b|∞|c|∞, six such terms.
+  // Nine multiplications form six terms of three factors, each of size <= |a|∞|b|∞|c|∞ and within 5 units of
+  // it.
   if (std::fabs(det) > 64 * unit * largest(a) * largest(b) * largest(c)) return det > 0 ? 1 : -1;
   const Integer3 x = on_grid(a, least_exponent(a)), y = on_grid(b, least_exponent(b)),
                  z = on_grid(c, least_exponent(c));
@@ -98,7 +99,7 @@ int determinant_sign(const Real3& a, const Real3& b, const Real3& c) {
 int orientation_sign(const Real3& a, const Real3& b, const Real3& c, const Real3& p) {
   const Real3 u = b - a, v = c - a, w = p - a;
   const Real det = dot(cross(u, v), w);
-  // As above; the differences add one unit of relative error to each factor.
+  // As above; each difference adds one unit of relative error to its factor.
   if (std::fabs(det) > 96 * unit * largest(u) * largest(v) * largest(w)) return det > 0 ? 1 : -1;
   const int e = std::min(std::min(least_exponent(a), least_exponent(b)),
                          std::min(least_exponent(c), least_exponent(p)));

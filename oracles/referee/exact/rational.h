@@ -46,7 +46,7 @@ bool is_zero(const Exact3<T>& a) {
   return a.x == 0 && a.y == 0 && a.z == 0;
 }
 
-/// x = mantissa·2^exponent, the mantissa odd. Zero has exponent 0 and says so by its mantissa.
+/// x = mantissa·2^exponent, the mantissa odd. Zero has mantissa 0 and exponent 0.
 struct Parts {
   long long mantissa = 0;
   int exponent = 0;
@@ -55,12 +55,14 @@ Parts parts_of(double x);
 
 Rational exact(double x);
 inline Rational3 exact(const Vec3& v) { return {exact(v.x()), exact(v.y()), exact(v.z())}; }
-/// A number of more bits is the sum of a few doubles, each the rounding of what the earlier ones leave.
+/// A number of more bits than a double is the sum of a few doubles, each the rounding of the remainder.
 template <class T>
 Rational exact_of(T x) {
   Rational sum = 0;
-  for (auto part = static_cast<double>(x); part != 0; part = static_cast<double>(x))
-    sum += exact(part), x -= T(part);
+  for (auto part = static_cast<double>(x); part != 0; part = static_cast<double>(x)) {
+    sum += exact(part);
+    x -= T(part);
+  }
   return sum;
 }
 template <class T>
@@ -69,7 +71,7 @@ Rational3 exact_of(const Triple<T>& v) {
 }
 Integer shifted(Integer x, int bits);  // x·2^bits, bits >= 0
 
-/// The fraction of least denominator in [lo, hi], by the continued fractions of both ends.
+/// The fraction with the least denominator in [lo, hi], by the continued fractions of both ends.
 Rational simplest_between(const Rational& lo, const Rational& hi);
 
 /// "n/d" in lowest terms, "n" when d = 1; and back. Throws InputError on anything else.

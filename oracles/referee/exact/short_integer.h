@@ -1,5 +1,5 @@
-// Integers of 512 bits that live on the stack, for numbers that are known beforehand to fit: what is decided
-// in them counts as the filter's level 1.
+// 512-bit integers on the stack, for numbers known beforehand to fit. What is decided in them counts as the
+// filter's level 1.
 #pragma once
 
 #include <boost/multiprecision/cpp_int.hpp>

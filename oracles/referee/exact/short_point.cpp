@@ -1,6 +1,6 @@
-// The body's own coordinates of the point, times |q|², are integers on the grid of all its numbers; each
-// shape is then a comparison of polynomials in them. Bits: k for a coordinate on the grid, b for a
-// quaternion's. Local coordinates have k + 2b + 5. Cone: 4(k + 2b) + 25; ellipsoid: 6k + 4b + 12; below 512
+// The body-frame coordinates of the point, times |q|², are integers on the grid of all the numbers involved;
+// each shape is then a comparison of polynomials in them. Bits, with k for a coordinate on the grid and b for
+// a quaternion's: local coordinates have k + 2b + 5; cone: 4(k + 2b) + 25; ellipsoid: 6k + 4b + 12; below 512
 // for k <= 60, b <= 30.
 #include "oracles/referee/exact/short_point.h"
 
@@ -29,7 +29,9 @@ class Grid {
     top_ = any_ ? std::max(top_, top) : top;
     any_ = true;
   }
-  void fit(const Vec3& v) { fit(v.x()), fit(v.y()), fit(v.z()); }
+  void fit(const Vec3& v) {
+    for (int k = 0; k < 3; ++k) fit(v[k]);
+  }
   int bits() const { return any_ ? top_ - least_ : 0; }
   Short operator()(double x) const {
     const Parts p = parts_of(x);
@@ -88,7 +90,8 @@ std::optional<bool> contains_short(const Placed& body, const Vec3& point_w) {
   const auto* pose = std::get_if<Pose>(&body.pose);
   if (pose == nullptr) return std::nullopt;
   Grid g, turn;
-  g.fit(point_w), g.fit(pose->translation);
+  g.fit(point_w);
+  g.fit(pose->translation);
   for (double q : {pose->rotation.x, pose->rotation.y, pose->rotation.z, pose->rotation.w}) turn.fit(q);
   Vec3 size = Vec3::Zero();
   if (const auto* s = std::get_if<Cylinder>(body.shape)) {

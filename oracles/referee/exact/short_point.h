@@ -1,4 +1,4 @@
-// Whether a point is in a body, exactly, in integers of 512 bits.
+// Decides exactly, in 512-bit integers, whether a point is in a body.
 #pragma once
 
 #include <optional>
@@ -8,7 +8,7 @@
 namespace touchstone::referee {
 
 /// nullopt: the numbers are too long, or the body is a mesh, a half-space, placed by an affine map, or a cone
-/// or ellipsoid without an inside.
+/// or ellipsoid without interior.
 std::optional<bool> contains_short(const Placed& body, const Vec3& point_w);
 
 }  // namespace touchstone::referee

@@ -12,7 +12,8 @@
 namespace touchstone::referee {
 namespace {
 
-bool is_as_rounded(const Certificate& c) {
+// Whether the exact point is the one in doubles.
+bool is_representable(const Certificate& c) {
   for (int k = 0; k < 3; ++k)
     if (exact(c.point[k]) != rational_from_text(c.rationals[static_cast<std::size_t>(k)])) return false;
   return true;
@@ -30,7 +31,7 @@ Certificate guess_common_point(const std::array<Vec3, 2>& witness, const Placed&
     if (const double r = bounding_radius(*p.shape); std::isfinite(r)) size = std::max(size, r);
   Certificate c;
   c.kind = Certificate::Kind::common_point;
-  std::vector<double> steps{0};  // the witness as it stands comes first
+  std::vector<double> steps{0};  // the unchanged witness comes first
   steps.insert(steps.end(), std::begin(limits::guess_factors), std::end(limits::guess_factors));
   for (const double step : steps)
     for (const Vec3& w : {middle, witness[0], witness[1]}) {
@@ -41,16 +42,20 @@ Certificate guess_common_point(const std::array<Vec3, 2>& witness, const Placed&
         c.rationals.push_back(text_of(guess));
         c.point[k] = guess.convert_to<double>();
       }
-      // Most guesses are doubles of a few bits, and most are wrong: short integers say so at once.
-      if (is_as_rounded(c)) {
+      // Most guesses are doubles of a few bits, and most are wrong: short integers tell at once.
+      if (is_representable(c)) {
         const auto in_a = contains_short(a, c.point);
         const auto in_b = in_a && !*in_a ? in_a : contains_short(b, c.point);
         if (in_a && in_b) {
           if (!*in_a || !*in_b) continue;
-          return level = 1, c;
+          level = 1;
+          return c;
         }
       }
-      if (checker::check(c, a, b)) return level = 2, c;
+      if (checker::check(c, a, b)) {
+        level = 2;
+        return c;
+      }
     }
   return {};
 }

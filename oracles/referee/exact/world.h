@@ -1,4 +1,4 @@
-// The exact world in rationals, plain and slow: for the checker, half-spaces and whatever is asked rarely.
+// Exact world coordinates in rationals, plain and slow: for half-spaces, certificates and other rare uses.
 #pragma once
 
 #include <vector>
@@ -8,7 +8,7 @@
 namespace touchstone::referee {
 
 Rational3 world_point(const std::variant<Pose, Placement>& pose, const Rational3& local);
-/// At its first time only.
+/// The core points at the first time only.
 std::vector<Rational3> world_points(const ExactBody& b);
 
 struct RationalPlane {

@@ -33,11 +33,14 @@ const Vec3& translation_of(const Placed& p) {
 
 // Rodrigues' formula. The angle carries 3 units of relative error (norm, product), hence θ·3 units in the
 // angle; sinl and cosl of glibc are within 1 ulp after exact argument reduction; the axis carries 3 units a
-// component, which enters twice. 16 units + 4θ units cover an entry.
+// component, and enters twice. 16 units + 4θ units cover an entry.
 Matrix3 turn(const Vec3& angular, double t, Real& error) {
   const Real3 w = referee::to_real(angular);
   const Real speed = norm(w), angle = speed * static_cast<Real>(t);
-  if (!(speed > 0) || angle == 0) return error = 0, Matrix3{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
+  if (!(speed > 0) || angle == 0) {
+    error = 0;
+    return Matrix3{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
+  }
   const Real3 k = (1 / speed) * w;
   const Real s = std::sin(angle), half = std::sin(angle / 2), v = 2 * half * half, c = std::cos(angle);
   error = (16 + 4 * std::fabs(angle)) * unit;
@@ -88,8 +91,8 @@ Real stretch(const Frame& f) {
 }
 
 // A curved core's local support point maximises m̃·x for the computed m̃ = Mᵀn, |m̃ - Mᵀn| <= 3(3 units·m +
-// matrix_error)|n|, so it misses the exact maximum by at most 2·rho times that; then it is placed and dotted
-// like any point. The local point itself is computed within 4 units of its size.
+// matrix_error)|n|, so it misses the exact maximum by at most 2·rho times that; then it is placed and
+// multiplied like any other point. The local point itself is computed within 4 units of its size.
 void finish_curved(Solid& b, const Frame& f, Real rho, Real reach) {
   const Real m = largest(f.matrix);
   b.matrix = f.matrix;
@@ -280,8 +283,8 @@ Triple<T> orbit_support(const BasicSolid<T>& b, const Triple<T>& n) {
   return b.centre + best->x * axis + best->y * out;
 }
 
-// Squares to sixth powers of numbers in this range, and their quotients, are far from overflow; what
-// underflows is below 2^-1000 of the quantity that it is added to.
+// Second to sixth powers of numbers in this range, and their quotients, are far from overflow; what
+// underflows is below 2^-1000 of the quantity it is added to.
 constexpr Real double_range = 0x1p80L;
 
 bool fits(Real x) { return x < double_range; }
@@ -290,17 +293,18 @@ bool fits(Real x) { return x < double_range; }
 
 // With v = 2^-53: a point's coordinates move by v of their size, so the point by v·extent; a computed dot
 // product of it is within 4v·|n|·extent (Cauchy-Schwarz on the absolute values), and it is used both to
-// choose and to bound: 16v·extent. An orbit's point is put together from an axis that is unit within 4v, two
-// coordinates and a direction at a right angle within 4v: as in extended precision, 64v·extent. A curved
-// core's point: rounding the matrix adds v·m to each entry, so, as in finish_curved with matrix_error = v·m
-// and translation_error = v·extent, 2(5v·m·rho + 3v·extent) + (32 + 6)v·m·rho + 4v·extent.
+// choose and to bound: 16v·extent. An orbit's point is composed of an axis that is unit within 4v, two
+// coordinates, and a direction perpendicular within 4v: as in extended precision, 64v·extent. A curved core's
+// point: rounding the matrix adds v·m to each entry, so, as in finish_curved with matrix_error = v·m and
+// translation_error = v·extent, 2(5v·m·rho + 3v·extent) + (32 + 6)v·m·rho + 4v·extent.
 bool round_to_double(const Solid& b, BasicSolid<double>& out) {
   constexpr Real v = unit_of<double>;
   using Kind = Solid::Kind;
   out.kind = static_cast<BasicSolid<double>::Kind>(b.kind);
-  out.radius = b.radius, out.is_swept = b.is_swept;
+  out.radius = b.radius;
+  out.is_swept = b.is_swept;
   if (!fits(b.extent) || !fits(b.radius) || !fits(b.spin_radius)) return false;
-  // A single point at the origin is exact; what is merely tiny underflows.
+  // A single point at the origin is exact; any other tiny body underflows.
   const Real size = b.extent + static_cast<Real>(b.radius);
   if (size > 0 && size < 1 / double_range) return false;
   out.points.resize(b.points.size());
@@ -309,7 +313,8 @@ bool round_to_double(const Solid& b, BasicSolid<double>& out) {
   Real error = b.error + 16 * v * b.extent;
   if (b.kind != Kind::points) {
     for (int i = 0; i < 3; ++i) out.matrix.row[i] = to_double3(b.matrix.row[i]);
-    out.centre = to_double3(b.centre), out.size = to_double3(b.size);
+    out.centre = to_double3(b.centre);
+    out.size = to_double3(b.size);
     error += 64 * v * b.extent;
     if (b.kind != Kind::orbit) {
       const Real rho = b.kind == Kind::ellipsoid ? 1.75L * largest(b.size) : 1.5L * b.size.x + b.size.y;
@@ -336,7 +341,10 @@ SupportPoint<T> support(const BasicSolid<T>& b, const Triple<T>& n) {
     std::size_t index = 0;
     for (std::size_t i = 1; i < b.points.size(); ++i) {
       const T d = dot(b.points[i], n);
-      if (d > best) best = d, index = i;
+      if (d > best) {
+        best = d;
+        index = i;
+      }
     }
     s.index = static_cast<int>(index);
     s.point = b.points[index];

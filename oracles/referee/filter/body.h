@@ -1,6 +1,6 @@
-// A placed convex shape as the filter sees it: core ⊕ ball(radius) ⊕ segment[0, sweep],
-// together with a bound on how far the numbers held here can be from the exact set. Everything that is
-// certified later is certified from `support` and `error` alone.
+// A placed convex shape as the filter sees it: core ⊕ ball(radius) ⊕ segment[0, sweep], with a bound on how
+// far the numbers held here can be from the exact set. Everything that is certified later is certified from
+// `support` and `error` alone.
 #pragma once
 
 #include <optional>
@@ -11,37 +11,37 @@
 
 namespace touchstone::referee {
 
-/// x_world = matrix·x + translation, entries within matrix_error of the exact ones, translation within
-/// translation_error (each component).
+/// x_world = matrix·x + translation; entries of the matrix within matrix_error of the exact ones, each
+/// component of the translation within translation_error.
 struct Frame {
   Matrix3 matrix;
   Real3 translation;
   Real matrix_error = 0, translation_error = 0;
 };
 
-/// The exact placement, its translation taken relative to `origin` (a double vector, exact).
+/// The exact placement, its translation relative to `origin` (a double vector, exact).
 Frame frame_of(const Placed& p, const Vec3& origin);
 /// The same at time t of a constant motion; t is exact.
 Frame frame_at(const Placed& p, const Motion& m, double t, const Vec3& origin);
 
 /// The vertices of the core of a polytope or rounded shape, body frame, exact doubles: sphere {0}, capsule
-/// {-h, +h}, box (bit k of the index set: + half_extents[k]), hull and triangle: their own. nullopt: not of
-/// that kind. A cylinder or cone of zero radius is a segment, an ellipsoid of equal semi-axes under a Pose is
-/// a ball.
+/// {-h, +h}, box (bit k of the index set: + half_extents[k]), hull and triangle: their own vertices. nullopt:
+/// any other shape. A cylinder or cone of zero radius counts as a segment, an ellipsoid with equal semi-axes
+/// under a Pose as a ball.
 std::optional<std::vector<Vec3>> core_points(const Placed& p);
 bool has_core_points(const Placed& p);
-/// The radius of the ball around the core; 0 for what has none.
+/// The radius of the ball around the core; 0 for shapes without one.
 double core_radius(const Placed& p);
 
-/// T is the arithmetic: long double for everything that is handed out, double for the filter's first level,
-/// Wide for a search whose finds the checker has to accept.
+/// T is the arithmetic: long double for every result, double for the filter's first level, Wide for a search
+/// whose results the checker must accept.
 template <class T>
 struct BasicSolid {
-  /// orbit: the hull of the circles that the points of a polytope run through when it turns about an axis for
-  /// ever.
+  /// orbit: the hull of the circles traced by the points of a polytope when it turns about an axis
+  /// indefinitely.
   enum class Kind { points, cylinder, cone, ellipsoid, orbit };
   Kind kind = Kind::points;
-  std::vector<Triple<T>> points;  // Kind::points; orbit: (place along the axis, radius of the circle, -)
+  std::vector<Triple<T>> points;  // Kind::points; orbit: (position along the axis, radius of the circle, -)
   Square<T> matrix;               // curved: core = matrix·(shape) + centre; orbit: row[2] is the axis
   Triple<T> centre;
   Triple<T> size;  // cylinder, cone: (radius, half height, -); ellipsoid: semi-axes
@@ -62,18 +62,19 @@ struct SupportPoint {
   int index = -1;  // vertex of a `points` core
 };
 
-/// The body in doubles, with an error that covers the rounding. False, and `out` is of no use: its numbers
+/// The body in doubles, with an error that covers the rounding. False, with `out` unusable, when the numbers
 /// are too large or too small for squares and products of six of them.
 bool round_to_double(const Solid& b, BasicSolid<double>& out);
 
 /// Precondition: convex and bounded. `origin` as in frame_of.
 Solid make_body(const Placed& p, const Frame& f);
-/// Of a triangle of a mesh.
+/// For a triangle of a mesh.
 Solid make_body(const std::vector<Vec3>& core_points, double radius, const Frame& f);
-/// Makes the body core ⊕ [0, sweep]; `sweep_error` bounds the error of each component.
+/// Turns the body into core ⊕ [0, sweep]; `sweep_error` bounds the error of each component.
 void add_sweep(Solid& b, const Real3& sweep, Real sweep_error);
 
-/// Holds the body turned by any angle about the axis `angular` (not zero) through `centre`, its own origin.
+/// A set that contains the body turned by any angle about the axis `angular` (not zero) through `centre`, its
+/// own origin.
 Solid make_orbit(const Solid& b, const Real3& centre, const Real3& angular);
 
 /// Instantiated for double, Real and Wide (wide.h).

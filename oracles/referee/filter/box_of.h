@@ -1,4 +1,4 @@
-// Axis-aligned box of a body, rounded outward: six support values with their proven error.
+// AABB of a body, rounded outward: six support values with their proven error.
 #pragma once
 
 #include "core/math/aabb.h"

@@ -35,7 +35,7 @@ void take_witness(ConvexTruth& t, const Difference& d, const Simplex& s) {
   t.witness_b = t.witness_b - static_cast<Real>(d.b.radius) * t.normal;
 }
 
-// A stall or a cap of rounded signs is met once more with exact ones, and four times as many facets.
+// If rounded signs stall or hit the cap, retries with exact ones and four times as many facets.
 EpaResult grow(const Difference& d, const GjkResult& g, Real target, int cap) {
   EpaResult e = expand(d, g.simplex, target, cap, Orientation::rounded);
   const Real lo = std::max(e.gap.lo, g.gap.lo), hi = std::min(e.gap.hi, g.gap.hi);
@@ -43,7 +43,11 @@ EpaResult grow(const Difference& d, const GjkResult& g, Real target, int cap) {
   ++counters().exact_expansions;
   EpaResult f = expand(d, g.simplex, target, 4 * cap, Orientation::exact);
   f.gap.raise(e.gap.lo, e.gap.direction);
-  if (e.gap.hi < f.gap.hi) f.gap.hi = e.gap.hi, f.nearest = e.nearest, f.polytope = std::move(e.polytope);
+  if (e.gap.hi < f.gap.hi) {
+    f.gap.hi = e.gap.hi;
+    f.nearest = e.nearest;
+    f.polytope = std::move(e.polytope);
+  }
   return f;
 }
 
@@ -98,11 +102,11 @@ Real target_width(const Difference& d) {
 
 namespace {
 
-// Whether the origin is inside of the tetrahedron and farther than `error` from its faces, so that D, which
-// its vertices are within `error` of, holds it. With v = 2^-53 and vertices no longer than s: a determinant
-// is within 64v·s³ (rational.cpp); all four of one sign, seen from outside, put the origin inside. The
-// distance of a face is det/|area vector|, whose computed length is within 32v·s² (edges up to 2s, a cross
-// product, a norm).
+// Whether the origin is inside the tetrahedron and farther than `error` from its faces, so that D contains
+// it, given that the vertices are within `error` of D. With v = 2^-53 and vertices no longer than s: a
+// determinant is within 64v·s³ (rational.cpp); all four of one sign, seen from outside, put the origin
+// inside. The distance of a face is det/|area vector|, whose computed length is within 32v·s² (edges up to
+// 2s, a cross product, a norm).
 bool holds_origin(const BasicSimplex<double>& x, double s, double error) {
   constexpr double v = unit_of<double>;
   constexpr int face[4][3] = {{0, 1, 2}, {0, 3, 1}, {1, 3, 2}, {2, 3, 0}};
@@ -119,8 +123,8 @@ bool holds_origin(const BasicSimplex<double>& x, double s, double error) {
   return true;
 }
 
-/// Level 0: the same search in doubles. Its brackets decide most verdicts; what it found is where extended
-/// precision begins, which then needs one step to prove the bracket that is handed out.
+/// Level 0: the same search in doubles. Its brackets decide most verdicts; its result is the starting point
+/// for extended precision, which then needs one step to prove the returned bracket.
 struct Level0 {
   BasicSolid<double> a, b;
   std::optional<BasicDifference<double>> d;  // empty: the numbers are out of range for doubles
@@ -160,12 +164,12 @@ class Judge {
       : a_(a), b_(b), effort_(effort), d_(a.body, b.body), target_(target_width(d_)) {}
 
   ConvexTruth run(std::span<const Real3> hints) {
-    approach(hints);
+    run_gjk(hints);
     const bool verdict_suffices = effort_ == Effort::verdict_only && t_.verdict != Verdict::undecided;
     if (gap_.hi - gap_.lo > target_ && gap_.lo > 0 && !verdict_suffices) project();
     if (gap_.hi - gap_.lo > target_ && gap_.lo > 0 && !verdict_suffices) search_wider();
-    if (gap_.hi - gap_.lo > target_ && !verdict_suffices) go_inside();
-    // Slivers: extended precision may lose the way among them. 1e-15 of the extent at most.
+    if (gap_.hi - gap_.lo > target_ && !verdict_suffices) run_epa();
+    // Slivers: extended precision may stall among them, 1e-15 of the extent away at most.
     if (gap_.hi - gap_.lo > 64 * target_ && gap_.hi > 0 && !verdict_suffices) measure_exactly();
     t_.normal = normalized(gap_.direction);
     take_witness(t_, d_, gjk_.simplex);
@@ -179,7 +183,7 @@ class Judge {
   }
 
  private:
-  void approach(std::span<const Real3> hints) {
+  void run_gjk(std::span<const Real3> hints) {
     std::vector<Real3> directions(hints.begin(), hints.end());
     directions.push_back(between_centres(d_));
     level0_.run(d_, directions);
@@ -200,7 +204,7 @@ class Judge {
     t_.verdict = t_.lo > 0 ? Verdict::disjoint : t_.hi <= 0 ? Verdict::overlap : Verdict::undecided;
   }
 
-  void go_inside() {
+  void run_epa() {
     ++counters().expansions;
     const bool curved = is_curved(a_.body) || is_curved(b_.body);
     int cap = curved ? limits::curved_facet_cap : limits::facet_cap;
@@ -209,21 +213,24 @@ class Judge {
       const MeridianBound m = meridian_bound(d_, target_);
       gap_.raise(m.gap.lo, m.gap.direction);
       gap_.lower(m.gap.hi);
-      // Symmetry has closed the bracket: what is left to find is a pair of points.
+      // Symmetry has closed the bracket: only a pair of points is still missing.
       if (gap_.hi - gap_.lo <= target_) cap = limits::witness_facet_cap;
     } else if (effort_ != Effort::certificate && confirm_level0(cap)) {
       return settle();
     }
     EpaResult e = grow(d_, gjk_, target_, cap);
     take(e.gap, e.nearest);
-    if (e.gap.hi < 0 && effort_ == Effort::certificate)
-      t_.inner = std::move(e.polytope), t_.inner_depth = d_.radius - d_.radius_error - e.gap.hi;
+    if (e.gap.hi < 0 && effort_ == Effort::certificate) {
+      t_.inner = std::move(e.polytope);
+      t_.inner_depth = d_.radius - d_.radius_error - e.gap.hi;
+    }
     settle();
   }
 
-  // Apart, a smooth body's simplex is a sliver of close points whose chord stays inside of it. From a point
-  // of one core to the nearest of the other and back (Cheney and Goldstein 1959, "Proximity maps for convex
-  // sets"): every pair of points is an upper bound, and its direction proposes a lower one.
+  // When the bodies are apart, the simplex of a smooth body is a sliver of close points whose chord stays
+  // inside the body. Alternating projection, from a point of one core to the nearest of the other and back
+  // (Cheney and Goldstein 1959, "Proximity maps for convex sets"): every pair of points is an upper bound,
+  // and its direction proposes a lower bound.
   void project() {
     constexpr int rounds = 16;
     Real3 b = support(d_.b, -normalized(gap_.direction)).point, a;
@@ -238,8 +245,8 @@ class Judge {
     settle();
   }
 
-  // What stops above is the rounding of slivers: 237 bits have none to speak of. A thousandth of the cases of
-  // two smooth bodies come here.
+  // What stalls above is the rounding of slivers, which is negligible in 237 bits. A thousandth of the pairs
+  // of two smooth bodies get here.
   void search_wider() {
     spend(5'000'000);
     const auto g = wide_gap(a_, b_);
@@ -258,7 +265,7 @@ class Judge {
     return s;
   }
 
-  // The nearest points of the two, one of which is a single point of a core.
+  // Nearest points of the two, one of which is a single core point.
   Vertex nearest_to(const Difference& d, const Real3& a, const Real3& b) {
     const Real3 n = normalized(b - a), best = normalized(gap_.direction);
     const std::array<Real3, 2> hints{best, n};
@@ -275,13 +282,15 @@ class Judge {
     if (g.gap.hi < gap_.hi) {
       gap_.lower(g.gap.hi);
       nearest_ = {};
-      nearest_.vertex[0] = v, nearest_.weight[0] = 1, nearest_.size = 1;
+      nearest_.vertex[0] = v;
+      nearest_.weight[0] = 1;
+      nearest_.size = 1;
       nearest_.nearest = nearest_.outward = v.w;
     }
     return v;
   }
 
-  // Apart, the cores' nearest points are found by finitely many exact steps.
+  // When the cores are apart, their nearest points are found in finitely many exact steps.
   void measure_exactly() {
     if (!a_.has_exact() || !b_.has_exact()) return;
     ++counters().exact_distances;

@@ -1,5 +1,5 @@
-// Truth of one pair of bounded convex bodies: what judge_pair, meshes (triangle by triangle) and motions are
-// made of.
+// Truth of one pair of bounded convex bodies: the building block of judge_pair, meshes (triangle by triangle)
+// and motions.
 #pragma once
 
 #include <array>
@@ -11,8 +11,8 @@
 
 namespace touchstone::referee {
 
-/// A bounded convex body, for the filter and, if it has one, for the exact level: either `exact` itself or,
-/// so that it is only made when it is needed, where it stands (a curved body has no exact one).
+/// A bounded convex body for the filter and, if it has an exact form (a curved body has none), for the exact
+/// level: either `exact`, or `placed`, from which the exact form is built only when needed.
 struct Operand {
   Solid body;
   std::optional<ExactBody> exact;
@@ -29,26 +29,26 @@ struct ConvexTruth {
   Real lo = 0, hi = 0;  // of the signed gap, proven
   Real3 normal;         // A to B, near unit
   Real3 witness_a, witness_b;
-  Real3 common;   // overlapping: near a point of both
+  Real3 common;   // when overlapping: near a point in both
   int level = 1;  // as PairTruth::level
   std::optional<ExactVerdict> exact;
-  std::vector<ExactBody>
-      exact_operands;                  // of a mesh's deciding triangle: the two parts that `exact` is about
+  /// The two parts that `exact` is about, when a mesh's triangle decided.
+  std::vector<ExactBody> exact_operands;
   std::optional<InnerPolytope> inner;  // Effort::certificate, overlapping cores
-  Real inner_depth = 0;  // that `inner` proves, balls included; symmetry may prove more (lo, hi)
+  Real inner_depth = 0;  // depth that `inner` proves, balls included; symmetry may prove more (lo, hi)
   ExactPair exact_pair() const { return make_exact(exact_operands.at(0), exact_operands.at(1)); }
 };
 
-/// certificate: the bracket is found by an inner polytope in extended precision, which is kept.
+/// certificate: the bracket is found with an inner polytope in extended precision, which is kept.
 enum class Effort { verdict_only, gap, certificate };
 ConvexTruth judge_convex(const Operand& a, const Operand& b, std::span<const Real3> hints = {},
                          Effort effort = Effort::gap);
 
-/// Doubles alone: proven bounds [lo, hi] of the gap, when hi is at most `enough`; nothing otherwise. Touching
-/// or inside by a rounding, where a verdict needs more than doubles, is where this saves most.
+/// Doubles alone: proven bounds [lo, hi] of the gap when hi is at most `enough`; nullopt otherwise. Saves
+/// most when bodies touch or overlap by a rounding, where a verdict needs more than doubles.
 std::optional<std::array<double, 2>> gap_at_most(const Operand& a, const Operand& b, double enough);
 
-/// The width that a bracket is refined to before the referee stops, absolute.
+/// The width, absolute, to which a bracket is refined before the referee stops.
 Real target_width(const Difference& d);
 
 }  // namespace touchstone::referee

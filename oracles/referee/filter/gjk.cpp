@@ -1,7 +1,7 @@
 // Gilbert, Johnson, Keerthi 1988. Departures: the nearest point of a simplex is found by trying all of its
-// faces and keeping the nearest candidate of those whose weights are not negative, which stays a point of the
-// simplex whatever the rounding does to slivers; the search direction of a triangle is its normal, which
-// keeps its accuracy when the nearest point shrinks to rounding size. Guarantee: every `raise` is a support
+// faces and keeping the nearest candidate among those with non-negative weights, which stays a point of the
+// simplex whatever rounding does to slivers; the search direction of a triangle is its normal, which stays
+// accurate when the nearest point shrinks to the size of rounding. Guarantee: every `raise` is a support
 // plane and every `lower` a pair of points, so the bracket is true on every exit.
 #include "oracles/referee/filter/gjk.h"
 
@@ -13,8 +13,8 @@ namespace touchstone::referee {
 namespace {
 
 constexpr int iteration_cap = 256;
-constexpr int patience =
-    12;  // steps that neither raise the lower bound nor lower the upper one before giving up
+// Steps that neither raise the lower bound nor lower the upper one before giving up.
+constexpr int patience = 12;
 
 template <class T>
 struct Candidate {
@@ -43,7 +43,8 @@ void try_edge(Candidate<T>& best, const BasicSimplex<T>& s, int i, int j) {
   const T dist_sq = dot(nearest, nearest);
   if (!(dist_sq < best.dist_sq)) return;
   best = {{}, nearest, nearest, dist_sq};
-  best.weight[static_cast<std::size_t>(i)] = x, best.weight[static_cast<std::size_t>(j)] = y;
+  best.weight[static_cast<std::size_t>(i)] = x;
+  best.weight[static_cast<std::size_t>(j)] = y;
 }
 
 template <class T>
@@ -59,7 +60,8 @@ void try_triangle(Candidate<T>& best, const BasicSimplex<T>& s, int i, int j, in
   const T dist_sq = dot(nearest, nearest);
   if (!(dist_sq < best.dist_sq)) return;
   best = {{}, nearest, n, dist_sq};
-  best.weight[static_cast<std::size_t>(i)] = x, best.weight[static_cast<std::size_t>(j)] = y;
+  best.weight[static_cast<std::size_t>(i)] = x;
+  best.weight[static_cast<std::size_t>(j)] = y;
   best.weight[static_cast<std::size_t>(k)] = z;
 }
 
@@ -121,12 +123,12 @@ BasicGjkResult<T> gjk(const BasicDifference<T>& d, std::span<const Triple<T>> hi
   using Exit = typename BasicGjkResult<T>::Exit;
   BasicGjkResult<T> r;
   BasicSimplex<T>& s = r.simplex;
-  const auto ask = [&](const Triple<T>& n) {
+  const auto support_along = [&](const Triple<T>& n) {
     const BasicVertex<T> v = d.support(n);
     r.gap.raise(-d.width_above(v, n), n);
     return v;
   };
-  const auto put = [&](const BasicVertex<T>& v) {
+  const auto add_vertex = [&](const BasicVertex<T>& v) {
     s.vertex[static_cast<std::size_t>(s.size++)] = v;
     reduce(s);
   };
@@ -135,22 +137,37 @@ BasicGjkResult<T> gjk(const BasicDifference<T>& d, std::span<const Triple<T>> hi
     reduce(s);
   } else {
     for (const Triple<T>& n : hints)
-      if (const BasicVertex<T> v = ask(n); s.size < 4 && !holds(s, v)) put(v);
+      if (const BasicVertex<T> v = support_along(n); s.size < 4 && !holds(s, v)) add_vertex(v);
   }
-  if (s.size == 0) put(ask({1, 0, 0}));
+  if (s.size == 0) add_vertex(support_along({1, 0, 0}));
   int idle = 0;
   for (int i = 0; i < iteration_cap; ++i) {
     const T lo = r.gap.lo, hi = r.gap.hi;
     // Weights sum to 1 within 8 units and the sum is rounded: 16 units of the extent.
     r.gap.lower(norm(s.nearest) + 16 * unit_of<T> * d.extent + d.error);
-    if (s.size == 4) return r.exit = Exit::encloses_origin, r;
-    if (largest(s.outward) == 0) return r.exit = Exit::touches, r;
-    const BasicVertex<T> v = ask(-normalized(s.outward));
-    if (r.gap.hi - r.gap.lo <= target) return r.exit = Exit::converged, r;
-    if (holds(s, v)) return r.exit = Exit::no_progress, r;
+    if (s.size == 4) {
+      r.exit = Exit::encloses_origin;
+      return r;
+    }
+    if (largest(s.outward) == 0) {
+      r.exit = Exit::touches;
+      return r;
+    }
+    const BasicVertex<T> v = support_along(-normalized(s.outward));
+    if (r.gap.hi - r.gap.lo <= target) {
+      r.exit = Exit::converged;
+      return r;
+    }
+    if (holds(s, v)) {
+      r.exit = Exit::no_progress;
+      return r;
+    }
     idle = r.gap.lo > lo || r.gap.hi < hi ? 0 : idle + 1;
-    if (idle > patience) return r.exit = Exit::no_progress, r;
-    put(v);
+    if (idle > patience) {
+      r.exit = Exit::no_progress;
+      return r;
+    }
+    add_vertex(v);
   }
   return r;
 }

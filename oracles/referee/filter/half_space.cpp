@@ -15,8 +15,8 @@ struct Bounds {
   Real lo, hi;
 };
 
-// (m·x - offset)/|m| for |x| <= extent known within `error`: the products carry 4 units each, |m| is taken
-// over an interval.
+// (m·x - offset)/|m| for |x| <= extent, x known within `error`: the products carry 4 units each, and |m| is
+// an interval.
 Bounds signed_distance(const Plane& p, Real m_dot_x, Real extent, Real error) {
   const Real length = norm(p.normal), length_error = 2 * p.normal_error + 4 * unit * length;
   const Real value = m_dot_x - p.offset;
@@ -72,7 +72,7 @@ std::optional<Plane> plane_of(const Placed& half_space, const Vec3& origin) {
     // {M x + t : n·x <= d} = {y : cof(M) n·(y - t) <= d det M}, with the sign of det M.
     const RationalPlane exact_plane = world_plane(half_space);
     if (is_zero(exact_plane.normal)) return std::nullopt;
-    // Only directions matter: scale by a power of two so that the conversion stays in range.
+    // Products of a few doubles stay within the range of Real.
     const auto as_real = [](const Rational& x) { return x.convert_to<Real>(); };
     p.normal = {as_real(exact_plane.normal.x), as_real(exact_plane.normal.y), as_real(exact_plane.normal.z)};
     p.normal_error = 4 * unit * largest(p.normal);
@@ -94,7 +94,8 @@ ConvexTruth judge_half_space(const Placed& h, const Operand& body, const Vec3& o
   ++counters().convex_pairs;
   spend(2000 + 4 * static_cast<std::int64_t>(body.body.points.size()));
   ConvexTruth t;
-  t.lo = -infinity, t.hi = infinity;
+  t.lo = -infinity;
+  t.hi = infinity;
   const auto p = plane_of(h, origin);
   if (!p) return t;
   const Solid& b = body.body;
@@ -111,10 +112,12 @@ ConvexTruth judge_half_space(const Placed& h, const Operand& body, const Vec3& o
   t.common = t.witness_b;
   if (t.verdict == Verdict::undecided && body.has_exact()) {
     settle_exactly(t, h, body.exact_body());
-    if (t.verdict == Verdict::overlap)
-      t.hi = std::min(t.hi, Real{0}), t.lo = std::min(t.lo, Real{0});
-    else
+    if (t.verdict == Verdict::overlap) {
+      t.hi = std::min(t.hi, Real{0});
+      t.lo = std::min(t.lo, Real{0});
+    } else {
       t.lo = std::max(t.lo, Real{0});
+    }
   }
   if (t.verdict == Verdict::undecided) ++counters().undecided;
   if (t.verdict != Verdict::undecided && t.level == 1) ++counters().extended;
@@ -123,7 +126,8 @@ ConvexTruth judge_half_space(const Placed& h, const Operand& body, const Vec3& o
 
 ConvexTruth judge_half_spaces(const Placed& a, const Placed& b, const Vec3& origin) {
   ConvexTruth t;
-  t.lo = -infinity, t.hi = infinity;
+  t.lo = -infinity;
+  t.hi = infinity;
   const auto p = plane_of(a, origin);
   if (!p || !plane_of(b, origin)) return t;
   const RationalPlane x = world_plane(a), y = world_plane(b);
@@ -142,7 +146,8 @@ ConvexTruth judge_half_spaces(const Placed& a, const Placed& b, const Vec3& orig
   const Real value = between.convert_to<Real>() / norm(p->normal);
   const Real slack =
       16 * unit * std::fabs(value) + std::fabs(value) * 4 * (p->normal_error / norm(p->normal));
-  t.lo = value - slack, t.hi = value + slack;
+  t.lo = value - slack;
+  t.hi = value + slack;
   return t;
 }
 

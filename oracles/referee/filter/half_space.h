@@ -6,17 +6,17 @@
 
 namespace touchstone::referee {
 
-/// The exact set as {x : normal·(x - origin) <= offset}, near enough: each component of normal is within
+/// Approximates the exact set as {x : normal·(x - origin) <= offset}: each component of normal is within
 /// normal_error, offset within offset_error.
 struct Plane {
   Real3 normal;
   Real offset = 0;
   Real normal_error = 0, offset_error = 0;
 };
-/// nullopt: the placement's matrix is singular, which leaves no half-space.
+/// nullopt: the placement's matrix is singular, so there is no half-space.
 std::optional<Plane> plane_of(const Placed& half_space, const Vec3& origin);
 
-/// h is the half-space. normal of the result points out of it, towards the body.
+/// h is the half-space. The normal of the result points out of it, towards the body.
 ConvexTruth judge_half_space(const Placed& h, const Operand& body, const Vec3& origin);
 
 /// Two half-spaces. They are disjoint only if antiparallel; otherwise they overlap with infinite depth.

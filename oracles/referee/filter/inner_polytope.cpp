@@ -27,7 +27,7 @@ Triple<T> nearest_on_border(const Triple<T>& p, const Triple<T>& q, const Triple
   return cc < aa && cc < bb ? c : bb < aa ? b : a;
 }
 
-/// A lower bound of the triangle's extent along n, up to rounding.
+/// Lower bound of n·x/|n| over the triangle, up to rounding.
 template <class T>
 T least_along(const Triple<T>& n, const Triple<T>& p, const Triple<T>& q, const Triple<T>& r) {
   const T length_sq = dot(n, n);
@@ -42,11 +42,14 @@ struct Reach {
   T det = 0;  // det(p, q, r), rounded
 };
 
-// How far the triangle stays from the origin: along its plane's normal, or, where the origin's foot is
-// outside of the triangle or the normal is a sliver's and not to be trusted, along the nearest point of its
-// border. A triangle that has the origin clearly behind it is measured along its normal only, negative, so
-// that it is the first to grow.
-constexpr double behind = -0x1p-40;  // of det/(|p||q||r|); far above its rounding, 2^-58
+// Lower bound of the triangle's distance from the origin: along its plane's normal or, where the foot of the
+// origin is outside the triangle or the normal belongs to a sliver and cannot be trusted, along the nearest
+// point of its border. A triangle that clearly has the origin behind it is measured only along its normal,
+// with a negative result, so that it is the first to grow.
+constexpr double behind = -0x1p-40;  // threshold for det/(|p||q||r|); far above its rounding, 2^-58
+// How far inside the triangle the foot must be, and how wide its angle, for the normal to be the best
+// direction.
+constexpr double foot_margin = 0x1p-20, sliver = 0x1p-40;
 
 template <class T>
 Reach<T> reach_of(const Triple<T>& p, const Triple<T>& q, const Triple<T>& r) {
@@ -57,11 +60,11 @@ Reach<T> reach_of(const Triple<T>& p, const Triple<T>& q, const Triple<T>& r) {
     const Triple<T> pq = cross(p, q);
     const T det = best.det = dot(pq, r);
     if (det < 0 && det < behind * norm(p) * norm(q) * norm(r)) return best;
-    // The origin's foot well inside of a triangle that is no sliver: no direction does better than the
-    // normal.
-    const T nn = dot(n, n), inside = T(0x1p-20) * nn;
+    // The foot of the origin is well inside a triangle that is not a sliver: no direction does better than
+    // the normal.
+    const T nn = dot(n, n), inside = T(foot_margin) * nn;
     if (det > 0 && dot(pq, n) > inside && dot(cross(q, r), n) > inside && dot(cross(r, p), n) > inside &&
-        nn > T(0x1p-40) * dot(q - p, q - p) * dot(r - p, r - p))
+        nn > T(sliver) * dot(q - p, q - p) * dot(r - p, r - p))
       return best;
   }
   const Triple<T> c = nearest_on_border(p, q, r);
@@ -113,32 +116,40 @@ class Epa {
     return std::move(r_);
   }
 
-  // As run(), but a facet that D's support shows to lie in D's boundary is noted and left, and the search
-  // goes on to the next one. A local minimum of D at p = h·n has p on the ray through some facet of the inner
-  // polytope that is not farther than h; so once the nearest facet left is farther than h, that facet has
-  // been noted.
+  // Like run(), but a facet that D's support shows to lie in D's boundary is recorded and set aside, and the
+  // search continues with the next one. A local minimum of D at p = h·n has p on the ray through some facet
+  // of the inner polytope that is not farther than h; so once the nearest remaining facet is farther than h,
+  // that facet has been recorded.
   Minima minima(const BasicSimplex<T>& seed, T least_known, T slack) {
     Minima m;
     const auto t = tetrahedron(seed);
-    if (!t) return m.flat = true, m;
+    if (!t) {
+      m.flat = true;
+      return m;
+    }
     start(*t);
     T limit = least_known + slack;
     bool sure = true;
     for (;;) {
       while (!queue_.empty() && !facets_[at(queue_.front().second)].live) pop();
-      if (queue_.empty()) return m.complete = sure, m;
+      if (queue_.empty()) {
+        m.complete = sure;
+        return m;
+      }
       const auto [reach, f] = queue_.front();
-      if (!m.found.empty() && m.found.back().value > limit && reach > m.found.back().value)
-        return m.complete = sure, m;
+      if (!m.found.empty() && m.found.back().value > limit && reach > m.found.back().value) {
+        m.complete = sure;
+        return m;
+      }
       if (static_cast<int>(facets_.size()) > cap_) return m;
       const Facet<T> facet = facets_[at(f)];
-      const BasicVertex<T> p = ask(facet.normal);
+      const BasicVertex<T> p = support_along(facet.normal);
       if (largest(facet.normal) > 0 && dot(facet.normal, p.w) - facet.offset > target_) {
         if (insert(f, p)) continue;
         sure = false;
       }
       pop();
-      // The foot lies in the facet when no point of it is nearer along another direction.
+      // The foot lies in the facet when no other direction shows the facet to be farther away.
       if (!(largest(facet.normal) > 0) || reach - facet.offset > 1024 * target_) continue;
       note(m, facet.normal, facet.offset, limit);
       limit = std::max(limit, std::min(least_known, m.found.front().value) + slack);
@@ -163,14 +174,14 @@ class Epa {
     queue_.pop_back();
   }
 
-  BasicVertex<T> ask(const Triple<T>& n) {
+  BasicVertex<T> support_along(const Triple<T>& n) {
     const BasicVertex<T> v = d_.support(n);
     r_.gap.raise(-d_.width_above(v, n), n);
     return v;
   }
 
-  /// Four support points that span a volume; nullopt when D is flat up to rounding, and then `gap` has been
-  /// raised along the flat's normals, which proves that.
+  /// Four support points that span a volume; nullopt when D is flat up to rounding; `gap` has then been
+  /// raised along the normals of the flat, which proves it.
   std::optional<std::array<BasicVertex<T>, 4>> tetrahedron(const BasicSimplex<T>& seed) {
     const T tiny = 64 * unit_of<T> * d_.extent;
     if (seed.size == 4) {
@@ -181,7 +192,8 @@ class Epa {
     std::vector<BasicVertex<T>> found(seed.vertex.begin(), seed.vertex.begin() + seed.size);
     for (int k = 0; k < 3; ++k) {
       const Triple<T> axis{k == 0 ? T(1) : T(0), k == 1 ? T(1) : T(0), k == 2 ? T(1) : T(0)};
-      found.push_back(ask(axis)), found.push_back(ask(-axis));
+      found.push_back(support_along(axis));
+      found.push_back(support_along(-axis));
     }
     std::array<BasicVertex<T>, 4> t;
     t[0] = found[0];
@@ -194,23 +206,28 @@ class Epa {
     const Triple<T> axis = t[1].w - t[0].w;
     if (norm(axis) <= tiny) return std::nullopt;
     const Triple<T> u = normalized(axis), e = normalized(perpendicular(u)), f = cross(u, e);
-    for (const Triple<T>& n : {e, -e, f, -f}) found.push_back(ask(n));
+    for (const Triple<T>& n : {e, -e, f, -f}) found.push_back(support_along(n));
     t[2] = farthest([&](const BasicVertex<T>& x) { return norm(cross(u, x.w - t[0].w)); });
     const Triple<T> n = cross(u, t[2].w - t[0].w);
-    if (norm(n) <= tiny) return raise_around(u, e, f), std::nullopt;
+    if (norm(n) <= tiny) {
+      raise_around(u, e, f);
+      return std::nullopt;
+    }
     const Triple<T> m = normalized(n);
-    found.push_back(ask(m)), found.push_back(ask(-m));
+    found.push_back(support_along(m));
+    found.push_back(support_along(-m));
     t[3] = farthest([&](const BasicVertex<T>& x) { return std::abs(dot(m, x.w - t[0].w)); });
     if (std::abs(dot(m, t[3].w - t[0].w)) <= tiny) return std::nullopt;
     return t;
   }
 
-  // D is a segment along u, or a point: the direction at a right angle to it in which the origin lies off it.
+  // D is a segment along u, or a point: raises the gap along the perpendicular direction in which the origin
+  // lies off it.
   void raise_around(const Triple<T>& u, const Triple<T>& e, const Triple<T>& f) {
-    const BasicVertex<T> v = ask(u);
+    const BasicVertex<T> v = support_along(u);
     const Triple<T> off = v.w - dot(u, v.w) * u;
     for (const Triple<T>& n : {-off, e, f})
-      if (largest(n) > 0) ask(n);
+      if (largest(n) > 0) support_along(n);
   }
 
   int add(std::array<int, 3> v) {
@@ -230,10 +247,14 @@ class Epa {
   void start(std::array<BasicVertex<T>, 4> t) {
     if (dot(cross(t[1].w - t[0].w, t[2].w - t[0].w), t[3].w - t[0].w) > 0) std::swap(t[1], t[2]);
     r_.polytope.vertices.assign(t.begin(), t.end());
-    // With det(t1-t0, t2-t0, t3-t0) < 0 these four are counter-clockwise from outside.
+    // With det(t1-t0, t2-t0, t3-t0) < 0 the four faces are counter-clockwise seen from outside.
     const int ids[4] = {add({0, 1, 2}), add({0, 3, 1}), add({1, 3, 2}), add({2, 3, 0})};
-    link(ids[0], 0, ids[1], 2), link(ids[0], 1, ids[2], 2), link(ids[0], 2, ids[3], 2);
-    link(ids[1], 0, ids[3], 1), link(ids[1], 1, ids[2], 0), link(ids[2], 1, ids[3], 0);
+    link(ids[0], 0, ids[1], 2);
+    link(ids[0], 1, ids[2], 2);
+    link(ids[0], 2, ids[3], 2);
+    link(ids[1], 0, ids[3], 1);
+    link(ids[1], 1, ids[2], 0);
+    link(ids[2], 1, ids[3], 0);
   }
 
   void link(int f, int i, int g, int j) {
@@ -243,22 +264,22 @@ class Epa {
 
   Exit grow() {
     for (;;) {
-      drop_dead();
+      drop_dead_facets();
       const int f = queue_.front().second;
       if (facets_[at(f)].settled) return Exit::stalled;
       if (static_cast<int>(facets_.size()) > cap_) return Exit::facet_cap;
       const Reach<T> reach = facets_[at(f)].reach;
       const Triple<T> n = normalized(reach.direction);
-      const BasicVertex<T> p = ask(n);
+      const BasicVertex<T> p = support_along(n);
       if (dot(n, p.w) - reach.value <= target_) return Exit::converged;
       if (-r_.gap.lo - reach.value <= target_) return Exit::converged;
-      // Where the nearest point lies on the border, the plane's own normal may still lead on.
-      if (!insert(f, p) && !insert(f, ask(facets_[at(f)].normal))) facets_[at(f)].settled = true;
+      // Where the nearest point lies on the border, the plane's own normal may still make progress.
+      if (!insert(f, p) && !insert(f, support_along(facets_[at(f)].normal))) facets_[at(f)].settled = true;
     }
   }
 
-  /// Replaces the facets that see p by a fan from p. False, and nothing changed, when p is not new, or the
-  /// horizon touches itself or is none.
+  /// Replaces the facets that see p by a fan from p. Returns false and changes nothing when p is not new, or
+  /// when the horizon touches itself or is empty.
   bool insert(int f, const BasicVertex<T>& p) {
     spend(work_of_point * static_cast<std::int64_t>(16 + d_.a.points.size() + d_.b.points.size() +
                                                     r_.polytope.vertices.size()));
@@ -272,9 +293,9 @@ class Epa {
     ++stamp_;
     mark_.resize(facets_.size(), 0);
     mark_[at(*first)] = stamp_;
-    for (std::size_t k = 0; k < visible_.size(); ++k) look_around(visible_[k], p.w);
+    for (std::size_t k = 0; k < visible_.size(); ++k) visit_neighbours(visible_[k], p.w);
     first_.resize(r_.polytope.vertices.size() + 1, -1);
-    // Rounded normals may let p see every facet, and then there is no horizon to build on.
+    // With rounded normals p may see every facet, and then there is no horizon to build on.
     bool simple = horizon_.size() >= 3;
     for (std::size_t k = 0; k < horizon_.size(); ++k) {
       int& slot = first_[at(horizon_[k].from)];
@@ -282,7 +303,7 @@ class Epa {
       slot = static_cast<int>(k);
     }
     for (const HorizonEdge& e : horizon_) simple = simple && first_[at(e.to)] >= 0;
-    if (simple) cone(p);
+    if (simple) add_fan(p);
     for (const HorizonEdge& e : horizon_) first_[at(e.from)] = -1;
     return simple;
   }
@@ -293,8 +314,8 @@ class Epa {
     return dot(f.normal, p) - f.offset > 8 * unit_of<T> * d_.extent;
   }
 
-  // The facet that asked; with exact signs the plane of a sliver may turn out to have the new point behind
-  // it.
+  // The given facet; with exact signs the new point may turn out to be behind the plane of a sliver, and then
+  // any facet that sees it.
   std::optional<int> first_visible(int f, const Triple<T>& p) const {
     if (sees(facets_[at(f)], p)) return f;
     for (std::size_t g = 0; g < facets_.size(); ++g)
@@ -302,7 +323,7 @@ class Epa {
     return std::nullopt;
   }
 
-  void look_around(int f, const Triple<T>& p) {
+  void visit_neighbours(int f, const Triple<T>& p) {
     for (int i = 0; i < 3; ++i) {
       const int g = facets_[at(f)].neighbour[at(i)];
       if (mark_[at(g)] == stamp_) continue;
@@ -319,7 +340,7 @@ class Epa {
     }
   }
 
-  void cone(const BasicVertex<T>& p) {
+  void add_fan(const BasicVertex<T>& p) {
     for (int f : visible_) facets_[at(f)].live = false;
     r_.polytope.vertices.push_back(p);
     const int apex = static_cast<int>(r_.polytope.vertices.size()) - 1;
@@ -333,13 +354,13 @@ class Epa {
   }
 
   void finish() {
-    drop_dead();
+    drop_dead_facets();
     const int nearest = queue_.front().second;
     r_.nearest.size = 3;
     for (int i = 0; i < 3; ++i)
       r_.nearest.vertex[at(i)] = r_.polytope.vertices[at(facets_[at(nearest)].v[at(i)])];
     reduce(r_.nearest);
-    // A point of D, whichever side of the origin it is on; the bound's roundings as in gjk.cpp.
+    // A point of D, whichever side of the origin it is on; roundings of the bound as in gjk.cpp.
     r_.gap.lower(norm(r_.nearest.nearest) + 16 * unit_of<T> * d_.extent + d_.error);
     keep_live(nearest);
     if constexpr (std::is_same_v<T, Real>) {
@@ -357,7 +378,8 @@ class Epa {
       if (facets_[g].live) mark_[g] = live++;
     r_.nearest_facet = mark_[at(nearest)];
     for (const auto reserve : {&r_.polytope.facets, &r_.polytope.neighbours}) reserve->reserve(at(live));
-    r_.reach.reserve(at(live)), r_.det.reserve(at(live));
+    r_.reach.reserve(at(live));
+    r_.det.reserve(at(live));
     for (const Facet<T>& g : facets_) {
       if (!g.live) continue;
       r_.polytope.facets.push_back(g.v);
@@ -372,13 +394,13 @@ class Epa {
     return std::max(largest(w(f.v[0])), std::max(largest(w(f.v[1])), largest(w(f.v[2]))));
   }
 
-  void drop_dead() {
+  void drop_dead_facets() {
     while (!facets_[at(queue_.front().second)].live) pop();
   }
 
   const Triple<T>& w(int i) const { return r_.polytope.vertices[at(i)].w; }
 
-  // A support point, the facets that see it and the new ones, a vertex.
+  // Work units of a support point, the facets that see it and the new ones, per vertex.
   static constexpr std::int64_t work_of_point = std::is_same_v<T, double> ? 4
                                                 : std::is_same_v<T, Real> ? 10
                                                                           : 400;
@@ -387,10 +409,15 @@ class Epa {
   int cap_;
   Orientation orientation_;
   BasicEpaResult<T> r_;
-  // Kept from run to run, so that a small polytope allocates nothing.
+  // Reused from run to run, so that a small polytope allocates nothing.
   static Storage<T>& storage() {
     thread_local Storage<T> s;
-    s.facets.clear(), s.queue.clear(), s.visible.clear(), s.mark.clear(), s.first.clear(), s.horizon.clear();
+    s.facets.clear();
+    s.queue.clear();
+    s.visible.clear();
+    s.mark.clear();
+    s.first.clear();
+    s.horizon.clear();
     return s;
   }
   using Entry = typename Storage<T>::Entry;
@@ -402,7 +429,7 @@ class Epa {
   int stamp_ = 0;
 };
 
-// Every directed edge is the reverse of one of its neighbour's, which has it as the reverse of that one: a
+// Every directed edge is the reverse of an edge of its neighbour, which in turn has it as its reverse: a
 // pairing of all directed edges with their reverses.
 template <class T>
 bool is_closed(const BasicInnerPolytope<T>& p) {
@@ -430,12 +457,12 @@ struct Turning {
   Real forward = 0, backward = 0, least = 0;
 };
 
-// One facet of the proof in extended precision. False: it proves no distance.
+// One facet of the proof in extended precision. False when it proves no distance.
 bool add_facet(Turning& t, const Real3& a, const Real3& b, const Real3& c) {
   const Real size = std::max(largest(a), std::max(largest(b), largest(c)));
   const bool forward = determinant_sign(a, b, c) >= 0;
-  // Any direction proves a distance; where the plane's own already proves l, no better one is looked for. A
-  // dot product, a norm and a division: within 8 units of the largest |v_i| <= 2·size.
+  // Any direction proves a distance; if the plane's own already proves l, no better one is sought. A dot
+  // product, a norm and a division: within 8 units of the largest |v_i| <= 2·size.
   const Real3 n = triangle_normal(a, b, c);
   Real reach = forward ? least_along(n, a, b, c) - 16 * unit * size : Real{0};
   if (!(reach >= t.least)) reach = reach_of(a, b, c).value - 16 * unit * size;
@@ -468,17 +495,18 @@ Vertex vertex_at(const Difference& d, int ia, int ib) {
   return {a - b, a, b, ia, ib};
 }
 
-// A double vertex is within `off` of the extended one: two roundings of a point, one of the difference, each
-// 2^-53 of at most the extent, and as much again for the sweep: off = 8·2^-53·extent. So a facet that is
-// `reach` away in doubles is reach - off away. Its determinant, of vertices no longer than the extent, is
-// within 64 roundings of extent³ as computed (rational.cpp) and moves by at most 3·off·extent² = 24 roundings
-// of extent³ with the vertices; what is above 256 of them is positive.
+// A double vertex is within `off` of the extended one: two roundings of a point and one of the difference,
+// each 2^-53 of at most the extent, and as much again for the sweep: off = 8·2^-53·extent. So a facet at
+// distance `reach` in doubles is at least reach - off away. Its determinant, of vertices no longer than the
+// extent, is within 64 roundings of extent³ as computed (rational.cpp) and moves by at most 3·off·extent² =
+// 24 roundings of extent³ with the vertices; above 256 of them it is certainly positive.
 Confirmed confirm(const Difference& d, const BasicDifference<double>& d0, const BasicEpaResult<double>& found,
                   Real target) {
   Confirmed r;
   const auto& p = found.polytope;
   if (found.nearest_facet < 0 || !is_closed(p)) return r;
   constexpr double v = unit_of<double>;
+  constexpr Real rounding = 0x1p-40L;  // more than the rounding of the quotient below
   const double off = 8 * v * d0.extent, det_slack = 256 * v * d0.extent * d0.extent * d0.extent;
   const auto vertex = [&](int i) { return vertex_at(d, p.vertices[at(i)].ia, p.vertices[at(i)].ib); };
   const auto facet = [&](std::size_t f) {
@@ -499,13 +527,19 @@ Confirmed confirm(const Difference& d, const BasicDifference<double>& d0, const 
     r.doubles_prove = r.doubles_prove && forward && found.reach[f] > d0.error;
     if (forward && static_cast<Real>(found.reach[f] - off) >= t.least) {
       t.forward +=
-          static_cast<Real>(found.det[f] - det_slack) / (4 * d.extent * d.extent * d.extent) * (1 - 0x1p-40L);
+          static_cast<Real>(found.det[f] - det_slack) / (4 * d.extent * d.extent * d.extent) * (1 - rounding);
     } else {
       const auto q = facet(f);
-      if (!add_facet(t, q[0].w, q[1].w, q[2].w)) return r.doubles_prove = false, r;
+      if (!add_facet(t, q[0].w, q[1].w, q[2].w)) {
+        r.doubles_prove = false;
+        return r;
+      }
     }
   }
-  if (!(t.forward > 2 * t.backward)) return r.doubles_prove = false, r;
+  if (!(t.forward > 2 * t.backward)) {
+    r.doubles_prove = false;
+    return r;
+  }
   if (const Real l = t.least - d.error; l > 0) r.gap.lower(-l);
   r.closed = r.gap.hi - r.gap.lo <= target;
   return r;

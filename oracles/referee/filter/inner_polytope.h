@@ -8,12 +8,12 @@
 // oriented surface (a 2-cycle; it need not be convex nor free of self-intersection) and has a winding number,
 // an integer, about each point off it: about the origin it is the sum in (2) over 4π, so it is >= 1; by (3)
 // it is the same about every point of the open ball of radius l. A point outside D has winding number 0,
-// because F can be contracted inside the convex D. So the ball is in D. For (2): tan(Ω/2) = det/(abc + ...)
+// because F can be contracted within the convex D. So the ball is in D. For (2): tan(Ω/2) = det/(abc + ...)
 // (van Oosterom and Strackee 1983) with a denominator of at most 4abc, so a triangle with det(v0,v1,v2) >= 0
 // has Ω >= det/(4abc), and one with det < 0 (a sliver that rounding has turned over) has |Ω| <=
-// area/distance². The sums are compared with a factor of 4 to spare for their rounding. The distance in (3)
-// is proven by any direction n with n·v_i >= l|n| for the triangle's three vertices. Vertices that are within
-// e of D instead of in it cost e: h_D >= h_F - e, and h_F >= l for the convex hull of F.
+// area/distance². The comparison of the sums leaves a factor of 4 for their rounding. The distance in (3) is
+// proven by any direction n with n·v_i >= l|n| for the triangle's three vertices. Vertices that are only
+// within e of D, not in it, cost e: h_D >= h_F - e, and h_F >= l for the convex hull of F.
 #pragma once
 
 #include <array>
@@ -32,8 +32,8 @@ struct BasicInnerPolytope {
 using InnerPolytope = BasicInnerPolytope<Real>;
 
 /// The radius of a ball about the origin that the polytope proves to lie in the convex hull of its vertices
-/// (taken as exact numbers); 0 when it proves none. Believes nothing but vertices and facets: `neighbours`
-/// are checked. Nothing above `expected`, the distance of the nearest facet, is looked for.
+/// (taken as exact numbers); 0 when it proves none. Relies only on vertices and facets: `neighbours` are
+/// checked. Does not look for anything above `expected`, the distance of the nearest facet.
 Real proven_inner_radius(const InnerPolytope& p, Real expected);
 
 template <class T>
@@ -43,54 +43,56 @@ struct BasicEpaResult {
   BasicCoreGap<T> gap;
   BasicSimplex<T> nearest;  // the facet nearest to the origin, with weights
   BasicInnerPolytope<T> polytope;
-  /// Of each facet: a proven lower bound of its distance from the origin, and det(v0, v1, v2), rounded.
+  /// For each facet: a proven lower bound of its distance from the origin, and det(v0, v1, v2), rounded.
   std::vector<T> reach, det;
   int nearest_facet = -1;
 };
 using EpaResult = BasicEpaResult<Real>;
 
-/// How it is decided which side of a facet a point is on. Rounded signs are fast and fail on runs of slivers
+/// How to decide on which side of a facet a point is. Rounded signs are fast but fail on runs of slivers
 /// (many points of a flat face with a curved border), where the surface can fold and growth stalls; exact
-/// signs keep it convex. Either way only proven_inner_radius is believed.
+/// signs keep it convex. Either way only proven_inner_radius is relied on.
 enum class Orientation { rounded, exact };
 
-/// `seed`: what GJK ended with. Also works when the origin is outside D, where it sharpens gap.lo for face
-/// contacts.
+/// `seed`: the final simplex of GJK. Also works when the origin is outside D, where it sharpens gap.lo for
+/// face contacts.
 EpaResult expand(const Difference& d, const Simplex& seed, Real target, int facet_cap,
                  Orientation orientation);
 
-/// The same search in doubles, without the proof: gap.hi holds nothing that a facet would have to prove.
+/// The same search in doubles, without the proof: gap.hi contains nothing that a facet would have to prove.
 /// Precondition: `seed` has four vertices.
 BasicEpaResult<double> search(const BasicDifference<double>& d, const BasicSimplex<double>& seed,
                               double target, int facet_cap);
 
-/// The local minima of h_D(n) over unit n are the normals of those facets of D that hold the origin's foot.
+/// The local minima of h_D(n) over unit n are the normals of those facets of D that contain the foot of the
+/// origin.
 struct Minima {
   struct Minimum {
     Real3 normal;
     Real value;  // h_D(normal), within the target of the search
   };
-  std::vector<Minimum> found;  // least first; the last one is the first beyond the limit, if there is one
+  std::vector<Minimum> found;  // least first; ends with the first one beyond the limit, if any
   bool complete = false;       // no local minimum below the last one is missing
-  bool flat = false;           // D has no inside
+  bool flat = false;           // D has no interior
 };
-/// Of a polytope D, up to the first whose value is above the least + `slack` (or above `least_known` +
-/// slack).
+/// The local minima of a polytope D, up to the first whose value is above the least + `slack` (or above
+/// `least_known` + slack).
 Minima local_minima(const Difference& d, const Simplex& seed, Real least_known, Real slack, Real target,
                     int facet_cap);
 
 struct Confirmed {
-  bool closed = false;         // the bracket is true either way; closed: it is within `target`
-  bool doubles_prove = false;  // that the origin is inside needs no more than double arithmetic
+  bool closed = false;         // the bracket is within `target` (it is proven either way)
+  bool doubles_prove = false;  // double arithmetic suffices to prove that the origin is inside
   CoreGap gap;
   Simplex nearest;
 };
-/// What the polytope that `search` found in the doubles d0 of d proves of d itself. Facets that doubles show
-/// to be farther away than the nearest one are not looked at again. Precondition: both cores are `points`.
+/// What the polytope that `search` found in the doubles d0 of d proves about d itself. Facets that doubles
+/// show to be farther away than the nearest one are not examined again. Precondition: both cores are
+/// `points`.
 Confirmed confirm(const Difference& d, const BasicDifference<double>& d0, const BasicEpaResult<double>& found,
                   Real target);
 
-/// The vertex of D that belongs to the core vertices ia and ib, both cores being `points`.
+/// The vertex of D for the core vertices ia and ib; both cores must be `points`.
 Vertex vertex_at(const Difference& d, int ia, int ib);
 
 }  // namespace touchstone::referee

@@ -10,19 +10,22 @@ namespace {
 
 constexpr int edge_cap = 4096;
 
-/// A body of revolution: its section in the plane of (radial, axial) coordinates, about its own centre.
+/// A body of revolution: its section in (radial, axial) coordinates, about its own centre.
 struct Revolved {
   enum class Kind { point, segment, cylinder, cone, spheroid };
   Kind kind = Kind::point;
   Real3 axis;  // unit; unset for a point
   Real3 centre;
   Real radial = 0, axial = 0;
-  Real slack = 0;  // Hausdorff distance from the body it stands for
+  Real slack = 0;  // Hausdorff distance from the body it represents
 };
 
 std::optional<Revolved> of_points(const Solid& b) {
   Revolved r;
-  if (b.points.size() == 1) return r.centre = b.points[0], r;
+  if (b.points.size() == 1) {
+    r.centre = b.points[0];
+    return r;
+  }
   if (b.points.size() != 2) return std::nullopt;
   const Real3 half = 0.5L * (b.points[1] - b.points[0]);
   r.centre = 0.5L * (b.points[1] + b.points[0]);
@@ -33,8 +36,8 @@ std::optional<Revolved> of_points(const Solid& b) {
   return r;
 }
 
-// The exactly round body nearest at hand: axis along the matrix's column k, the other two columns replaced by
-// unit vectors at right angles to it and to each other.
+// A nearby body that is exactly round: axis along the matrix's column k, the other two columns replaced by
+// unit vectors perpendicular to it and to each other.
 std::optional<Revolved> of_curved(const Solid& b) {
   int k = 2;
   Revolved r;
@@ -105,7 +108,7 @@ class Section {
   Section(const Revolved& a, const Revolved& b, bool flipped, const Point2& offset)
       : a_(a), b_(b), flipped_(flipped), offset_(offset) {}
   Point2 support(const Point2& n) const {
-    // B's axis may run against A's: then its axial coordinate changes sign.
+    // B's axis may point against A's; its axial coordinate then changes sign.
     const Point2 m{-n.r, flipped_ ? n.z : -n.z};
     Point2 q = section_support(b_, m);
     if (flipped_) q.z = -q.z;
@@ -125,8 +128,8 @@ struct Edge {
   bool operator<(const Edge& o) const { return reach > o.reach; }
 };
 
-// Distance of the edge from the origin, as in the proof in inner_polytope.h one dimension lower: the
-// polygon's edges turn around the origin (cross > 0 for every one), so a circle that none of them enters lies
+// Distance of the edge from the origin, by the proof in inner_polytope.h one dimension lower: the polygon's
+// edges turn around the origin (cross > 0 for each of them), so a circle that none of them enters lies
 // inside.
 Edge edge_of(const Point2& p, const Point2& q) {
   const Point2 d{q.r - p.r, q.z - p.z};
@@ -143,13 +146,17 @@ struct PolygonBound {
 PolygonBound grow(const Section& s, Real extent, Real target) {
   const Real noise = 32 * unit * extent;
   PolygonBound r;
-  const auto ask = [&](const Point2& n) {
+  const auto support_along = [&](const Point2& n) {
     const Point2 p = s.support(n);
     const Real h = dot(n, p) / length(n) + noise;
-    if (h < r.outer) r.outer = h, r.direction = n;
+    if (h < r.outer) {
+      r.outer = h;
+      r.direction = n;
+    }
     return p;
   };
-  const Point2 first[4] = {ask({1, 0}), ask({0, 1}), ask({-1, 0}), ask({0, -1})};
+  const Point2 first[4] = {support_along({1, 0}), support_along({0, 1}), support_along({-1, 0}),
+                           support_along({0, -1})};
   std::priority_queue<Edge> queue;
   for (int i = 0; i < 4; ++i) {
     const Point2 &p = first[i], &q = first[(i + 1) % 4];
@@ -161,7 +168,7 @@ PolygonBound grow(const Section& s, Real extent, Real target) {
     const Edge e = queue.top();
     if (r.outer - e.reach <= target) break;
     const Point2 d{e.q.r - e.p.r, e.q.z - e.p.z}, n{d.z, -d.r};
-    const Point2 p = ask(n);
+    const Point2 p = support_along(n);
     if (dot(n, p) / length(n) - e.reach <= noise) break;
     if ((p.r == e.p.r && p.z == e.p.z) || (p.r == e.q.r && p.z == e.q.z)) break;
     queue.pop();
@@ -170,7 +177,10 @@ PolygonBound grow(const Section& s, Real extent, Real target) {
   }
   r.inner = queue.top().reach - noise;
   for (; !queue.empty(); queue.pop())
-    if (!(cross(queue.top().p, queue.top().q) > noise * extent)) return r.inner = 0, r;
+    if (!(cross(queue.top().p, queue.top().q) > noise * extent)) {
+      r.inner = 0;
+      return r;
+    }
   return r;
 }
 
@@ -184,10 +194,10 @@ MeridianBound meridian_bound(const Difference& d, Real target) {
   if (b->kind == Revolved::Kind::point) b->axis = a->axis;
   const Real3 &u = a->axis, skew = cross(u, b->axis);
   if (largest(u) == 0) return m;
-  // Turning B by the angle between the axes moves no point of it farther than 2|sin|·(its size).
+  // Turning B by the angle between the axes moves none of its points farther than 2|sin|·(its size).
   const Real slack = a->slack + b->slack + 2 * (norm(skew) + 8 * unit) * (b->radial + b->axial);
   const Real3 e = a->centre - b->centre, across = e - dot(u, e) * u;
-  // The length of `across` is right to a few units of |e| even where its direction is noise.
+  // The length of `across` is accurate to a few units of |e| even where its direction is noise.
   const Section section(*a, *b, dot(u, b->axis) < 0, {norm(across), dot(u, e)});
   const PolygonBound p = grow(section, d.extent, target);
   const Real rounding = 64 * unit * d.extent;

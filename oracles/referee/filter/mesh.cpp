@@ -11,16 +11,17 @@ namespace touchstone::referee {
 namespace {
 
 constexpr Real infinity = std::numeric_limits<Real>::infinity();
+constexpr Real box_rounding = 0x1p-48L;  // more than a dozen roundings of 2^-64
 
-// Lower and upper bound of the distance of two closed sets that lie in these boxes and touch all their faces
-// or not. Squares of doubles fit a Real, whatever their size.
+// Lower and upper bound of the distance of two closed sets inside these boxes, whether or not the sets touch
+// the faces. Squares of doubles fit a Real, whatever their size.
 Real least_distance(const Aabb& a, const Aabb& b) {
   Real sq = 0;
   for (int k = 0; k < 3; ++k) {
     const Real d = std::max({Real{0}, Real{a.lo[k]} - b.hi[k], Real{b.lo[k]} - a.hi[k]});
     sq += d * d;
   }
-  return std::sqrt(sq) * (1 - 0x1p-48L);  // a dozen roundings of 2^-64
+  return std::sqrt(sq) * (1 - box_rounding);
 }
 Real greatest_distance(const Aabb& a, const Aabb& b) {
   Real sq = 0;
@@ -28,7 +29,7 @@ Real greatest_distance(const Aabb& a, const Aabb& b) {
     const Real d = std::max(Real{a.hi[k]} - b.lo[k], Real{b.hi[k]} - a.lo[k]);
     sq += d * d;
   }
-  return std::sqrt(sq) * (1 + 0x1p-48L);
+  return std::sqrt(sq) * (1 + box_rounding);
 }
 
 struct Candidate {
@@ -59,7 +60,7 @@ std::vector<Candidate> by_box_distance(std::span<const Operand> a, std::span<con
   return r;
 }
 
-// The union's truth so far and one more part's.
+// Joins the truth of one more part to that of the union so far.
 void join(ConvexTruth& t, ConvexTruth&& part) {
   const Real lo = std::min(t.lo, part.lo);
   const int level = std::max(t.level, part.level);
@@ -74,7 +75,7 @@ void join(ConvexTruth& t, ConvexTruth&& part) {
   t.level = level;
 }
 
-ConvexTruth no_part_yet() {
+ConvexTruth empty_union() {
   ConvexTruth t;
   t.verdict = Verdict::disjoint;
   t.lo = t.hi = infinity;
@@ -83,7 +84,10 @@ ConvexTruth no_part_yet() {
 
 void finish_mesh(ConvexTruth& t) {
   t.inner.reset();
-  if (t.verdict == Verdict::overlap) t.lo = -infinity, t.hi = 0;
+  if (t.verdict == Verdict::overlap) {
+    t.lo = -infinity;
+    t.hi = 0;
+  }
 }
 
 }  // namespace
@@ -101,9 +105,9 @@ std::vector<Operand> parts_of(const Placed& p, const Vec3& origin) {
 
 ConvexTruth judge_parts(std::span<const Operand> a, std::span<const Operand> b, bool surface) {
   if (!surface) return judge_convex(a[0], b[0]);
-  ConvexTruth t = no_part_yet();
+  ConvexTruth t = empty_union();
   for (const Candidate& c : by_box_distance(a, b)) {
-    // Everything from here on is farther than what is known to be reached.
+    // All further candidates are farther than the distance already reached.
     if (c.distance > std::max(t.hi, Real{0})) break;
     ConvexTruth part = judge_convex(a[c.i], b[c.j]);
     if (part.exact) part.exact_operands = {a[c.i].exact_body(), b[c.j].exact_body()};
@@ -115,11 +119,12 @@ ConvexTruth judge_parts(std::span<const Operand> a, std::span<const Operand> b, 
 }
 
 Bracket gap_of_deepest(std::span<const Operand> a, std::span<const Operand> b) {
-  ConvexTruth t = no_part_yet();
+  ConvexTruth t = empty_union();
   for (const Candidate& c : by_box_distance(a, b)) {
     if (c.distance > 0) break;
     const ConvexTruth part = judge_convex(a[c.i], b[c.j]);
-    t.lo = std::min(t.lo, part.lo), t.hi = std::min(t.hi, part.hi);
+    t.lo = std::min(t.lo, part.lo);
+    t.hi = std::min(t.hi, part.hi);
   }
   return {round_down(t.lo), round_up(t.hi)};
 }
@@ -127,7 +132,7 @@ Bracket gap_of_deepest(std::span<const Operand> a, std::span<const Operand> b) {
 ConvexTruth judge_parts_half_space(std::span<const Operand> a, const Placed& half_space, const Vec3& origin,
                                    bool surface) {
   if (!surface) return judge_half_space(half_space, a[0], origin);
-  ConvexTruth t = no_part_yet();
+  ConvexTruth t = empty_union();
   for (const Operand& part : a) {
     join(t, judge_half_space(half_space, part, origin));
     if (t.verdict == Verdict::overlap) break;

@@ -1,4 +1,4 @@
-// The Minkowski difference D = core(A) - core(B) as a set of support points, and the one fact on which every
+// The Minkowski difference D = core(A) - core(B) as a set of support points, and the fact on which every
 // bracket of the gap rests: for every direction n, gap(A,B) >= -(h_D(n) + (rA + rB)|n|)/|n|, whether the
 // bodies overlap or not, because gap = -min over unit n of w(n) (truth.md §2; separated: the supporting-plane
 // form of distance).
@@ -47,15 +47,17 @@ struct BasicDifference {
 };
 using Difference = BasicDifference<Real>;
 
-/// What is known of the gap of the cores: lo from a direction, hi from a point pair or an inner polytope.
-/// Proven.
+/// Proven bounds of the gap of the cores: lo from a direction, hi from a point pair or an inner polytope.
 template <class T>
 struct BasicCoreGap {
   T lo = -std::numeric_limits<T>::infinity();
   T hi = std::numeric_limits<T>::infinity();
   Triple<T> direction{0, 0, 1};  // A to B, belongs to lo
   void raise(T value, const Triple<T>& n) {
-    if (value > lo) lo = value, direction = n;
+    if (value > lo) {
+      lo = value;
+      direction = n;
+    }
   }
   void lower(T value) {
     if (value < hi) hi = value;

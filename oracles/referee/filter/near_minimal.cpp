@@ -1,6 +1,6 @@
 // near_minimal_normals: in how many directions a pair separates about equally fast, and how much worse the
-// next direction is. Polytopes and what is rounded by a ball: every local minimum is a facet normal of the
-// Minkowski difference (inner_polytope.h), found in order of its value. Curved pairs: descent of w from
+// next direction is. Polytopes and their roundings by a ball: every local minimum is a facet normal of the
+// Minkowski difference (inner_polytope.h), found in order of value. Curved pairs: descent of w from
 // directions spread over the sphere; an estimate, and marked as one.
 #include <algorithm>
 
@@ -14,6 +14,13 @@ namespace {
 constexpr std::size_t normal_cap = 256;
 constexpr int starts = 512;
 constexpr Real relative_slack = 1e-6L, absolute_slack = 1e-9L;
+constexpr Real golden_angle = 2.399963229728653322L;
+// A descent stops at a step this short, or when the slope is this small a part of the extent.
+constexpr Real least_step = 1e-10L, least_slope = 1e-12L;
+// A descent ends somewhat above its minimum: this part of the extent is allowed on top of the slack.
+constexpr Real descent_slack = 1e-7L;
+// Directions of descents / of facets that are closer than this are the same.
+constexpr Real same_descent = 1e-3L, same_facet = 1e-9L;
 
 struct Minimum {
   Real3 normal;
@@ -25,33 +32,35 @@ bool is(const Placed& p) {
   return std::holds_alternative<S>(*p.shape);
 }
 
-/// Spread evenly: the golden-angle spiral.
+/// Evenly spread: the golden-angle spiral.
 Real3 direction(int i) {
-  const Real z = 1 - (2 * i + 1.0L) / starts, r = std::sqrt(1 - z * z), angle = i * 2.399963229728653322L;
+  const Real z = 1 - (2 * i + 1.0L) / starts, r = std::sqrt(1 - z * z), angle = i * golden_angle;
   return {r * std::cos(angle), r * std::sin(angle), z};
 }
 
 Real width_along(const Difference& d, const Real3& n) { return dot(n, d.support(n).w) + d.radius; }
 
-// h is convex, so n moves against the part of its support point that is at a right angle to n; a step that
-// does not lower w is halved.
+// h is convex, so n moves against the perpendicular part of its support point; a step that does not lower w
+// is halved.
 Minimum descend(const Difference& d, Real3 n) {
   spend(20'000 + 400 * static_cast<std::int64_t>(d.a.points.size() + d.b.points.size()));
   Real value = width_along(d, n);
-  for (Real step = 0.25L; step > 1e-10L;) {
+  for (Real step = 0.25L; step > least_step;) {
     const Real3 v = d.support(n).w, across = v - dot(n, v) * n;
-    if (!(norm(across) > 1e-12L * d.extent)) break;
+    if (!(norm(across) > least_slope * d.extent)) break;
     const Real3 next = normalized(n - step * normalized(across));
     const Real there = width_along(d, next);
-    if (there < value)
-      n = next, value = there;
-    else
+    if (there < value) {
+      n = next;
+      value = there;
+    } else {
       step /= 2;
+    }
   }
   return {n, value};
 }
 
-// One of each bundle of directions that are closer than `apart`.
+// Keeps one of each cluster of directions closer than `apart`.
 std::vector<Minimum> distinct(std::vector<Minimum> all, Real apart) {
   std::sort(all.begin(), all.end(), [](const Minimum& x, const Minimum& y) { return x.value < y.value; });
   std::vector<Minimum> r;
@@ -61,7 +70,7 @@ std::vector<Minimum> distinct(std::vector<Minimum> all, Real apart) {
   return r;
 }
 
-// Half-way to the nearest other one w is as small: the minima run together.
+// If w is as small half-way to the nearest other minimum, the minima form a continuum.
 bool runs_together(const Difference& d, const std::vector<Minimum>& near, Real limit) {
   if (near.size() < 3) return false;
   std::size_t joined = 0;
@@ -94,12 +103,10 @@ void list(NearMinimalNormals& r, const std::vector<Minimum>& minima, Real limit)
 }
 
 void estimate(NearMinimalNormals& r, const Difference& d, const Real3& best) {
-  constexpr Real same = 1e-3L;
   std::vector<Minimum> all{{best, width_along(d, best)}};
   for (int i = 0; i < starts; ++i) all.push_back(descend(d, direction(i)));
-  // A descent ends somewhat above its minimum: beside the slack it is granted 1e-7 of the extent.
-  const Real limit = static_cast<Real>(r.depth) + static_cast<Real>(r.slack) + 1e-7L * d.extent;
-  const std::vector<Minimum> minima = distinct(std::move(all), same);
+  const Real limit = static_cast<Real>(r.depth) + static_cast<Real>(r.slack) + descent_slack * d.extent;
+  const std::vector<Minimum> minima = distinct(std::move(all), same_descent);
   std::vector<Minimum> near;
   for (const Minimum& m : minima)
     if (m.value <= limit) near.push_back(m);
@@ -114,7 +121,8 @@ NearMinimalNormals all_of(const Placed& a, const Placed& b) {
   const bool bounded = !is<HalfSpace>(a) && !is<HalfSpace>(b) && !is<TriangleMesh>(a) && !is<TriangleMesh>(b);
   r.depth = std::isfinite(t.gap.lo) ? -0.5 * (t.gap.lo + t.gap.hi) : std::numeric_limits<double>::infinity();
   if (t.verdict != Verdict::overlap || !bounded) {
-    r.normals = {t.normal}, r.widths = {r.depth};
+    r.normals = {t.normal};
+    r.widths = {r.depth};
     r.certified = t.verdict == Verdict::disjoint;
     return r;
   }
@@ -124,17 +132,23 @@ NearMinimalNormals all_of(const Placed& a, const Placed& b) {
   const Real3 best = normalized(to_real(t.normal));
   r.slack = static_cast<double>(
       std::max(relative_slack * static_cast<Real>(r.depth), absolute_slack * (d.extent + d.radius)));
-  if (!x.has_exact() || !y.has_exact()) return estimate(r, d, best), r;
+  if (!x.has_exact() || !y.has_exact()) {
+    estimate(r, d, best);
+    return r;
+  }
   const GjkResult g = gjk(d, std::span<const Real3>(&best, 1), target_width(d));
   const Real core_depth = static_cast<Real>(r.depth) - d.radius;
   const Minima m = local_minima(d, g.simplex, core_depth, static_cast<Real>(r.slack), 8 * target_width(d),
                                 limits::facet_cap);
-  if (m.flat) return estimate(r, d, best), r;
+  if (m.flat) {
+    estimate(r, d, best);
+    return r;
+  }
   std::vector<Minimum> minima;
-  // Cores apart: their own direction need not be a facet's normal.
+  // When the cores are apart, their own direction need not be a facet normal.
   if (core_depth < 0) minima.push_back({best, static_cast<Real>(r.depth)});
   for (const auto& f : m.found) minima.push_back({f.normal, f.value + d.radius});
-  list(r, distinct(std::move(minima), 1e-9L), static_cast<Real>(r.depth) + static_cast<Real>(r.slack));
+  list(r, distinct(std::move(minima), same_facet), static_cast<Real>(r.depth) + static_cast<Real>(r.slack));
   r.certified = m.complete;
   return r;
 }
@@ -142,7 +156,7 @@ NearMinimalNormals all_of(const Placed& a, const Placed& b) {
 }  // namespace
 
 NearMinimalNormals near_minimal_normals(const Placed& a, const Placed& b) {
-  NearMinimalNormals open;  // no normal is known, and none to be the only one
+  NearMinimalNormals open;  // no normal is known, so none is known to be unique
   open.continuum = true;
   return within_limit(std::move(open), [&] { return all_of(a, b); });
 }

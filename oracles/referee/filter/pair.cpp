@@ -1,4 +1,4 @@
-// judge_pair: one pair of any two shapes, put together from convex parts.
+// judge_pair: a pair of any two shapes, assembled from convex parts.
 #include <algorithm>
 
 #include "oracles/referee/certificate.h"
@@ -71,8 +71,8 @@ Certificate half_space_depth(const Placed& a, const Placed& b) {
   return core_pair_certificate(core, core, origin, -t.hi);
 }
 
-// The normal is handed out as doubles, a little off the direction that proved the depth's upper bound: the
-// bound is widened to what the doubles prove, so that (normal, -gap.lo) is a certificate as it stands.
+// The normal is returned in doubles, a little off the direction that proved the depth's upper bound. The
+// bound is widened to what the doubles prove, so that (normal, -gap.lo) is itself a certificate.
 void prove_by_rounded_normal(PairTruth& r, const Difference& d) {
   if (!(r.gap.lo < 0)) return;
   const Real3 n = to_real(r.normal);
@@ -115,8 +115,8 @@ PairTruth convex_pair(const Placed& a, const Placed& b, std::span<const Vec3> hi
 
 bool is_finite_point(const Vec3& p) { return p.allFinite(); }
 
-// An engine's contact point that lies in both bodies is better evidence than our own rounded one; only
-// offered, never needed: it is taken when the checker's arithmetic accepts it.
+// An engine's contact point that lies in both bodies is better evidence than our own rounded one. It is
+// optional: taken only when the point is proven to be in both.
 void offer_points(PairTruth& r, const Placed& a, const Placed& b, std::span<const Vec3> points) {
   if (r.verdict != Verdict::overlap || r.verdict_certificate.kind != Certificate::Kind::common_point) return;
   for (const Vec3& p : points) {
@@ -145,7 +145,7 @@ std::string_view to_string(Verdict v) {
 
 namespace {
 
-// By brackets; exact only where both cores are polytopes.
+// Judges by brackets; exact only where both cores are polytopes.
 PairTruth judge_by_bracket(const Placed& a, const Placed& b, std::span<const Vec3> hint_directions,
                            std::span<const Vec3> hint_points) {
   if (is<HalfSpace>(a) || is<HalfSpace>(b)) return with_half_space(a, b);
@@ -174,11 +174,11 @@ Certificate deepest_inside(const PairTruth& truth, const Placed& a, const Placed
   if (is<TriangleMesh>(a) || is<TriangleMesh>(b)) return {};
   const Vec3 origin = translation_of(a);
   const Operand x = make_operand(a, origin), y = make_operand(b, origin);
-  // The direction that is known to be nearly the best is where the search begins.
+  // The search starts from the direction that is known to be nearly the best.
   const Real3 known = normalized(to_real(truth.normal));
   const ConvexTruth t =
       judge_convex(x, y, std::span<const Real3>(&known, largest(known) > 0 ? 1 : 0), Effort::certificate);
-  if (t.verdict != Verdict::overlap) return {};  // touching: exact, and of depth 0
+  if (t.verdict != Verdict::overlap) return {};  // touching: exact, with depth 0
   return lower_depth_certificate(t, Difference(x.body, y.body), origin);
 }
 
@@ -198,7 +198,8 @@ PairTruth judge(const Placed& a, const Placed& b, std::span<const Vec3> hint_dir
     r.gap.lo = std::max(r.gap.lo, 0.0);
   } else {
     r.verdict = Verdict::overlap;
-    r.gap.hi = std::min(r.gap.hi, 0.0), r.gap.lo = std::min(r.gap.lo, 0.0);
+    r.gap.hi = std::min(r.gap.hi, 0.0);
+    r.gap.lo = std::min(r.gap.lo, 0.0);
     if (is<TriangleMesh>(a) || is<TriangleMesh>(b)) r.gap = {-std::numeric_limits<double>::infinity(), 0};
   }
   r.verdict_certificate = std::move(c);

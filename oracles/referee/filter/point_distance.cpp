@@ -1,12 +1,12 @@
-// Upper bound: a point y of the body as it is held here is within `error` of the exact one (body.h), so the
-// origin is at most |y| + error away, whatever made y. Lower bound: the support plane of the direction from
-// the origin's opposite, -y, which is the nearest plane when y is the nearest point. So the projections below
-// need not be right, only good; the rounding that may push y out of its shape is the only thing to be paid.
+// Upper bound: a point y of the body as represented here is within `error` of the exact body (body.h), so the
+// origin is at most |y| + error away, however y was found. Lower bound: the support plane in direction -y,
+// which is the nearest plane when y is the nearest point. So the projections below need not be right, only
+// good; the only cost is the rounding that may push y out of its shape.
 //
-// Cylinder and cone: a rectangle and a triangle in the meridian half-plane. Ellipsoid: Lagrange's multiplier
-// t with q_i = s_i² p_i / (s_i² + t), Newton from t = 0, which for a point outside rises to the root (convex,
-// falling); the result is scaled back onto the surface. Triangle: the nearest of its plane's foot and its
-// edges'.
+// Cylinder and cone: a rectangle and a triangle in the meridian half-plane. Ellipsoid: Lagrange multiplier t
+// with q_i = s_i² p_i / (s_i² + t), by Newton's method from t = 0, which for a point outside rises to the
+// root (convex, falling); the result is scaled back onto the surface. Triangle: the nearest of the foot on
+// its plane and those on its edges.
 #include "oracles/referee/filter/point_distance.h"
 #include "oracles/referee/work.h"
 
@@ -42,7 +42,7 @@ Real3 onto_cone(const Real3& p, Real radius, Real half) {
 }
 
 Real3 onto_ellipsoid(const Real3& p, const Real3& s) {
-  constexpr int newton_steps = 24;  // far off along the short axes the first ones are slow
+  constexpr int newton_steps = 24;  // far away along the short axes the first ones are slow
   const auto height = [&](const Real3& q) {
     const Real3 u{q.x / s.x, q.y / s.y, q.z / s.z};
     return norm(u);
@@ -54,7 +54,8 @@ Real3 onto_ellipsoid(const Real3& p, const Real3& s) {
     Real value = -1, slope = 0;
     for (int i = 0; i < 3; ++i) {
       const Real u = at(i) / s[i];
-      value += u * u, slope -= 2 * u * u / (s[i] * s[i] + t);
+      value += u * u;
+      slope -= 2 * u * u / (s[i] * s[i] + t);
     }
     if (!(value > 0) || !(slope < 0)) break;
     t -= value / slope;
@@ -64,7 +65,7 @@ Real3 onto_ellipsoid(const Real3& p, const Real3& s) {
   return h > 1 ? (1 / h) * q : q;
 }
 
-// The bracket that a point y of the set gives, with the set's support value against -y.
+// The bracket given by a point y of the set and the set's support value in direction -y.
 std::array<Real, 2> bracket(const Real3& y, Real reach, Real error, Real extent) {
   const Real slack = error + rounding * extent;
   return {-reach - slack, norm(y) + slack};

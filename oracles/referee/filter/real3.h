@@ -1,7 +1,7 @@
 // Vectors of 80-bit long doubles, the referee's working arithmetic: unit roundoff 2^-64, exponents wide
-// enough that no product of a few doubles overflows or underflows. The same vectors of doubles are what its
-// first level searches with. All error bounds of this room are stated in `unit`, or, where the arithmetic is
-// a parameter, in `unit_of<T>`.
+// enough that no product of a few doubles overflows or underflows. The first level searches with the same
+// vectors in doubles. All error bounds in this room are stated in `unit` or, where the arithmetic is a
+// parameter, in `unit_of<T>`.
 #pragma once
 
 #include <algorithm>
@@ -18,13 +18,13 @@ static_assert(std::numeric_limits<Real>::digits == 64,
               "the referee's error bounds assume x87 extended precision");
 inline constexpr Real unit = 0x1p-64L;
 
-/// Half an ulp of 1: every bound of this room is a multiple of the unit of the arithmetic that it is about.
+/// Half an ulp of 1. Every bound in this room is a multiple of the unit of the arithmetic it is about.
 template <class T>
 inline constexpr T unit_of = static_cast<T>(1) /
                              static_cast<T>(T(1ULL << 32) * T(1ULL << (std::numeric_limits<T>::digits - 32)));
 static_assert(unit_of<Real> == unit && unit_of<double> == 0x1p-53);
 
-/// A square of a length that is smaller may have lost digits to underflow; nothing is divided by its root.
+/// The square of a length below this may have lost digits to underflow; nothing is divided by its root.
 template <class T>
 inline constexpr T least_square = std::numeric_limits<T>::min() * static_cast<T>(0x1p120);
 
@@ -84,7 +84,7 @@ Triple<T> normalized(const Triple<T>& a) {
   const T n = norm(a);
   return n > 0 ? (1 / n) * a : a;
 }
-/// A vector at a right angle to `a` (not zero), of length between |a|/2 and |a|.
+/// A vector perpendicular to `a` (not zero), of length between |a|/2 and |a|.
 template <class T>
 Triple<T> perpendicular(const Triple<T>& a) {
   using std::abs;
@@ -94,9 +94,8 @@ Triple<T> perpendicular(const Triple<T>& a) {
   return {-a.y, a.x, 0};
 }
 
-/// A near-unit vector at a right angle to the unit vector `u` within 4 units, along the part of `a` that is
-/// at a right angle to u; when that part is rounding noise (which may well point along u), still one at a
-/// right angle.
+/// A near-unit vector perpendicular to the unit vector `u` within 4 units, along the perpendicular part of
+/// `a`; when that part is rounding noise (which may well point along u), some perpendicular vector.
 template <class T>
 Triple<T> unit_across(const Triple<T>& a, const Triple<T>& u) {
   Triple<T> e = normalized(a - dot(a, u) * u);
@@ -105,9 +104,9 @@ Triple<T> unit_across(const Triple<T>& a, const Triple<T>& u) {
   return abs(dot(e, u)) <= 4 * unit_of<T> && largest(e) > 0 ? e : normalized(perpendicular(u));
 }
 
-/// Normal of a triangle, counter-clockwise, from the two edges that meet at its widest angle: of two long and
-/// nearly parallel edges the product's rounding is large beside its length and tilts it along them; a short
-/// edge is exact up to its own rounding (Sterbenz).
+/// Normal of a triangle, counter-clockwise, from the two edges that meet at its widest angle: for two long
+/// and nearly parallel edges the rounding of the product is large compared with its length and tilts it along
+/// them; a short edge is exact up to its own rounding (Sterbenz).
 template <class T>
 Triple<T> triangle_normal(const Triple<T>& p, const Triple<T>& q, const Triple<T>& r) {
   const Triple<T> a = q - p, b = r - q, c = p - r;

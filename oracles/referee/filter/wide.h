@@ -1,5 +1,5 @@
-// Binary numbers of 237 bits, about 71 decimal digits, with a wide exponent: for a search that extended
-// precision cannot end. Nothing that is found in them is believed: the checker's rationals decide.
+// 237-bit binary floating point, about 71 decimal digits, with a wide exponent: for a search that extended
+// precision cannot finish. No result found in it is relied on: the checker's rationals decide.
 #pragma once
 
 #include <boost/multiprecision/cpp_bin_float.hpp>

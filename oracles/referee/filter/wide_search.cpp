@@ -17,7 +17,7 @@ using WideSolid = BasicSolid<Wide>;
 
 struct WidePart {
   WideSolid solid;
-  std::vector<Rational3> exact_points;  // of a polytope: what solid.points are roundings of
+  std::vector<Rational3> exact_points;  // for a polytope: the points of which solid.points are roundings
 };
 using WideDifference = BasicDifference<Wide>;
 
@@ -69,14 +69,22 @@ std::vector<WidePart> parts_of(const Placed& p) {
   return all;
 }
 
-constexpr std::size_t most_pairs_of_parts = 256;  // a pair takes a hundredth of a second
+constexpr std::size_t max_pairs_of_parts = 256;  // a pair takes a hundredth of a second
+
+// Powers of two: the gap along a plane, in units of the extent, that is above rounding; the part of the
+// distance by which a point is moved inward; the refinement of a gap, below what 64 bits can show.
+constexpr int rounding_bits = -200, inward_bits = -120, gap_bits = -80;
+// Bounds the error of core points, in units of the extent, with room to spare.
+constexpr Real core_rounding = 0x1p-130L;
+// Distances, as powers of two of the extent, within which a simpler number is looked for.
+constexpr int guess_bits[] = {-200, -100, -60, -40, -20, -10, -6};
 
 std::size_t count_parts(const Placed& p) {
   const auto* mesh = std::get_if<TriangleMesh>(p.shape);
   return mesh ? mesh->triangles.size() : 1;
 }
 
-bool stands(const Operand& x) { return x.exact ? x.exact->times.size() == 1 : x.placed.shape != nullptr; }
+bool is_at_rest(const Operand& x) { return x.exact ? x.exact->times.size() == 1 : x.placed.shape != nullptr; }
 
 WidePart part_of(const Operand& x) { return x.exact ? of_points(*x.exact) : parts_of(x.placed).front(); }
 
@@ -87,20 +95,20 @@ Wide3 middle(const WideSolid& s) {
   return (1 / Wide(s.points.size())) * sum;
 }
 
-// The plane across `direction` half-way between the two; none when they are not apart along it by more than
-// rounding.
+// The plane across `direction` half-way between the two; kind none when they are not apart along it by more
+// than rounding.
 Certificate plane_between(const WideDifference& d, const Wide3& direction) {
   const Wide top = dot(direction, support(d.a, direction).point) + Wide(d.a.radius) * norm(direction);
   const Wide bottom = dot(direction, support(d.b, -direction).point) - Wide(d.b.radius) * norm(direction);
   Certificate c;
-  if (!(bottom - top > ldexp(d.extent, -200))) return c;
+  if (!(bottom - top > ldexp(d.extent, rounding_bits))) return c;
   c.kind = Certificate::Kind::separating_plane;
   for (int i = 0; i < 3; ++i) c.rationals.push_back(text_of(exact_of(direction[i])));
   c.rationals.push_back(text_of(exact_of((top + bottom) / 2)));
   return c;
 }
 
-// Between the nearest points of the cores, divided as the radii are.
+// The point between the nearest points of the cores that divides them in the ratio of the radii.
 Wide3 common_point(const WideDifference& d, const BasicSimplex<Wide>& s) {
   Wide3 a, b;
   for (int i = 0; i < s.size; ++i) {
@@ -128,7 +136,7 @@ Rational3 simplest_near(const Rational3& x, const Rational& e) {
   return {simplest_near(x.x, e), simplest_near(x.y, e), simplest_near(x.z, e)};
 }
 
-/// Where the two meet or nearly do: as a point, and as weights of the vertices of a core that is a polytope.
+/// Where the two meet or nearly meet: as a point, and as weights of the vertices of polytope cores.
 struct Meeting {
   Wide3 point;
   std::map<int, Wide> weights[2];
@@ -155,7 +163,7 @@ Meeting mean(const std::vector<Meeting>& all) {
   return m;
 }
 
-// A polytope's point with simple weights is exactly in the polytope, on the same face or edge of it.
+// A point of a polytope with simple weights is exactly in the polytope, on the same face or edge.
 std::optional<Rational3> with_simple_weights(const std::map<int, Wide>& weights, const WidePart& part,
                                              const Rational& e) {
   if (weights.empty() || part.exact_points.empty()) return std::nullopt;
@@ -171,21 +179,22 @@ std::optional<Rational3> with_simple_weights(const std::map<int, Wide>& weights,
   return Rational(1) / all * sum;
 }
 
-// The overlap may be 1e-17 thick and the point on the border of one of the two, which rounding leaves: a step
-// of 1e-36 towards that body's middle does not.
+// The overlap may be only 1e-17 thick and the point on the boundary of one body, so that rounding moves it
+// outside; a step of 1e-36 towards that body's middle keeps it inside.
 Certificate inside_both(const WideDifference& d, const Wide3& point, const Placed& a, const Placed& b) {
   for (const Wide3& to : {point, middle(d.a), middle(d.b)})
-    if (Certificate c = point_at(exact_of(point + ldexp(Wide(1), -120) * (to - point))); checker::check(c, a, b))
+    if (Certificate c = point_at(exact_of(point + ldexp(Wide(1), inward_bits) * (to - point)));
+        checker::check(c, a, b))
       return c;
   return {};
 }
 
-// Bodies that touch by construction touch at fractions, or in a segment or an area that holds some: from the
-// middle of what several searches found, far from its border, towards simpler numbers.
+// Bodies that touch by construction touch at fractions, or in a segment or an area that contains some: start
+// from the middle of what several searches found, far from its border, and move to simpler numbers.
 Certificate simple_point(const std::vector<Meeting>& found, const WidePart& x, const WidePart& y,
                          const Placed& a, const Placed& b) {
   const Wide extent = x.solid.extent + y.solid.extent;
-  for (const int bits : {-200, -100, -60, -40, -20, -10, -6})
+  for (const int bits : guess_bits)
     for (const Meeting& m : {mean(found), found.front()}) {
       std::vector<Rational3> guesses{simplest_near(exact_of(m.point), exact_of(ldexp(extent, bits)))};
       for (int i = 0; i < 2; ++i)
@@ -197,26 +206,26 @@ Certificate simple_point(const std::vector<Meeting>& found, const WidePart& x, c
   return {};
 }
 
-Wide3 beginning(const WideDifference& d) {
+Wide3 start_direction(const WideDifference& d) {
   const Wide3 towards = normalized(middle(d.b) - middle(d.a));
   return largest(towards) > 0 ? towards : Wide3{1, 0, 0};
 }
 
-// Where the search ends on a segment or an area depends on the direction to begin with.
-std::vector<Wide3> beginnings(const WideDifference& d) {
-  std::vector<Wide3> all{beginning(d)};
+// On a segment or an area, the end of the search depends on the start direction.
+std::vector<Wide3> start_directions(const WideDifference& d) {
+  std::vector<Wide3> all{start_direction(d)};
   for (int i = 0; i < 8; ++i)
     all.push_back(normalized(
         all[0] + Wide3{Wide(i & 1 ? 1 : -1) / 2, Wide(i & 2 ? 1 : -1) / 3, Wide(i & 4 ? 1 : -1) / 5}));
   return all;
 }
 
-// Of two convex parts, one of each body: a plane between them (not yet checked), or a point of both bodies.
+// For two convex parts, one of each body: a plane between them (not yet checked), or a point in both bodies.
 Certificate search(const WidePart& x, const WidePart& y, const Placed& a, const Placed& b) {
   spend(10'000'000);
   const WideDifference d(x.solid, y.solid);
   std::vector<Meeting> found;
-  for (const Wide3& n : beginnings(d)) {
+  for (const Wide3& n : start_directions(d)) {
     const auto g = gjk(d, std::span<const Wide3>(&n, 1), Wide(0));
     if (Certificate c = plane_between(d, g.gap.direction); c.kind != Certificate::Kind::none) return c;
     found.push_back(meeting(d, g.simplex));
@@ -230,7 +239,7 @@ Certificate search(const WidePart& x, const WidePart& y, const Placed& a, const 
 
 Certificate search_wide(const Placed& a, const Placed& b) {
   if (std::holds_alternative<HalfSpace>(*a.shape) || std::holds_alternative<HalfSpace>(*b.shape)) return {};
-  if (count_parts(a) * count_parts(b) > most_pairs_of_parts) return {};
+  if (count_parts(a) * count_parts(b) > max_pairs_of_parts) return {};
   const std::vector<WidePart> x = parts_of(a), y = parts_of(b);
   Certificate planes;
   planes.kind = Certificate::Kind::separating_plane;
@@ -245,18 +254,18 @@ Certificate search_wide(const Placed& a, const Placed& b) {
   return all_apart && checker::check(planes, a, b) ? planes : Certificate{};
 }
 
-// Points of the cores are sums of a few products and one or two roots of numbers of 237 bits: they are within
-// 2^-220 of the extent of where they should be, and one rounding to 64 bits covers that many times over.
+// Core points are sums of a few products and one or two roots in 237-bit arithmetic: they are within 2^-220
+// of the extent of the exact ones, which a single rounding to 64 bits covers many times over.
 std::optional<WideGap> wide_gap(const Operand& a, const Operand& b) {
-  if (!stands(a) || !stands(b)) return std::nullopt;
+  if (!is_at_rest(a) || !is_at_rest(b)) return std::nullopt;
   const WidePart x = part_of(a), y = part_of(b);
   const WideDifference d(x.solid, y.solid);
-  const Wide3 n = beginning(d);
-  const auto g = gjk(d, std::span<const Wide3>(&n, 1), ldexp(d.extent, -80));
+  const Wide3 n = start_direction(d);
+  const auto g = gjk(d, std::span<const Wide3>(&n, 1), ldexp(d.extent, gap_bits));
   const Real above = static_cast<Real>(norm(g.simplex.nearest));
   const Wide3& u = g.gap.direction;
   return WideGap{{static_cast<Real>(u.x), static_cast<Real>(u.y), static_cast<Real>(u.z)},
-                 above + 2 * unit * (above + static_cast<Real>(d.extent) * 0x1p-130L)};
+                 above + 2 * unit * (above + static_cast<Real>(d.extent) * core_rounding)};
 }
 
 }  // namespace touchstone::referee

@@ -1,22 +1,21 @@
 // How long a separation lasts. Let n be a unit direction from A to B along which the bodies are g > 0 apart
 // at time t.
 //
-// By speed (conservative advancement, Mirtich 1996): a point of A at p from its origin moves along n at
-// v·n + (ω×p)·n = v·n + p·(n×ω), which is at most v·n + ρ|n×ω|, ρ the core's radius about its origin (a ball
-// around the core adds nothing: it does not turn). Likewise for B. So there is no contact before t + g/μ,
-// μ = v·n + ρA|n×ωA| + ρB|n×ωB|. Where spinning makes μ large and the step small, the same is tried for the
-// hulls of the circles that the vertices run through, for which μ = v·n.
+// By speed (conservative advancement, Mirtich 1996): a point of A at p from its origin moves along n at v·n +
+// (ω×p)·n = v·n + p·(n×ω), which is at most v·n + ρ|n×ω|, where ρ is the core's radius about its origin (a
+// ball around the core adds nothing: it does not turn). Likewise for B. So there is no contact before t +
+// g/μ, μ = v·n + ρA|n×ωA| + ρB|n×ωB|. Where spinning makes μ large and the step small, the same is tried for
+// the hulls of the circles that the vertices trace, for which μ = v·n.
 //
 // By acceleration: for points p of A and q of B the height f(t) = n·(q(t) - p(t)) has |f''| <= |ωA|²ρA +
-// |ωB|²ρB
-// =: M, because only turning accelerates. If every such height is at least g0 at one time and g1 at τ later,
-// each is at least (1-λ)g0 + λg1 - λ(1-λ)Mτ²/2 in between, which is positive when Mτ²/2 < g0 + g1 + 2·min(g0,
-// g1)
-// <= (√g0 + √g1)². Two support values prove it, and close to a contact the step is all but the whole way.
+// |ωB|²ρB =: M, because only turning accelerates. If every such height is at least g0 at one time and g1 at τ
+// later, each is at least (1-λ)g0 + λg1 - λ(1-λ)Mτ²/2 in between, which is positive when Mτ²/2 < g0 + g1 +
+// 2·min(g0, g1) <= (√g0 + √g1)². Two support values prove it, and close to a contact the step covers almost
+// the whole way.
 //
-// A half-space that turns: the height of a point of A over its plane is m(t)·z(t) less a constant, z from the
-// half-space's origin, m a unit vector that turns at ω: |(m·z)''| <= |ω|²|z| + 2|ω||z'| + |z''|, |z'| <= |v|
-// + |ωA|ρA, |z''| <= |ωA|²ρA. That is the M of this case; there is no step by speed.
+// A turning half-space: the height of a point of A over its plane is m(t)·z(t) minus a constant, where z is
+// relative to the half-space's origin and m is a unit vector that turns at ω: |(m·z)''| <= |ω|²|z| + 2|ω||z'|
+// + |z''|, |z'| <= |v| + |ωA|ρA, |z''| <= |ωA|²ρA. That is the M of this case; there is no step by speed.
 #include "oracles/referee/motion/course.h"
 
 #include <algorithm>
@@ -28,13 +27,23 @@ namespace touchstone::referee {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr Real spare = 1 + 0x1p-40L;
+// Covers the rounding of the bounds that are multiplied by it.
+constexpr Real rounding_factor = 1 + 0x1p-40L;
+// Covers the rounding of a quotient and a sum in a step in time.
+constexpr Real shortened = 1 - 0x1p-50L;
+// A step by speed of this length or more needs no second attempt with the orbits.
+constexpr double long_step = 0.01;
+// A step by speed below this makes no real progress when the gap is down in the rounding.
+constexpr double creeping_step = 0x1p-30;
+// The shortest step by acceleration that is tried.
+constexpr double least_step = 0x1p-52;
 
-// The last time before which there is no contact, from t and a separation; above 1 when there is none left.
+// The latest time before which there is certainly no contact, given a separation at t; above 1 when there is
+// none in the rest of the step.
 double after(double t, Real gap, Real speed) {
   if (!(gap > 0)) return t;
   if (!(speed > 0)) return infinity;
-  const Real step = gap / speed * (1 - 0x1p-50L);
+  const Real step = gap / speed * shortened;
   return static_cast<Real>(t) + step > 1 ? infinity : std::max(t, round_down(static_cast<Real>(t) + step));
 }
 
@@ -49,8 +58,9 @@ Course::Course(const Mover& a, const Mover& b, const Vec3& origin) : a_(a), b_(b
     const Real w = norm(m.angular());
     return w * w * radius;
   };
-  acceleration_ = (turning(a_, spin_a_) + turning(*b_, spin_b_)) * spare;
-  approach_ = (norm(a_.velocity()) + norm(a_.angular()) * spin_a_ + norm(b_->angular()) * spin_b_) * spare;
+  acceleration_ = (turning(a_, spin_a_) + turning(*b_, spin_b_)) * rounding_factor;
+  approach_ =
+      (norm(a_.velocity()) + norm(a_.angular()) * spin_a_ + norm(b_->angular()) * spin_b_) * rounding_factor;
 }
 
 Course::Course(const Mover& a, const Placed& half_space, const Vec3& angular, const Vec3& origin)
@@ -59,13 +69,13 @@ Course::Course(const Mover& a, const Placed& half_space, const Vec3& angular, co
   const Solid start = a_.at(0, origin_).body;
   spin_a_ = a_.spins() ? round_up(start.spin_radius) : 0;
   const Real w = norm(a_.angular()), turn = norm(to_real(angular)), v = norm(a_.velocity());
-  acceleration_ = w * w * spin_a_ * spare;
-  // |z|: the body's origin starts at most extent + radius away and moves on by |v|; a point is at most the
-  // radius from it.
+  acceleration_ = w * w * spin_a_ * rounding_factor;
+  // |z|: the body's origin starts at most extent + radius away and moves by at most |v|; a point is at most
+  // the radius from it.
   if (half_space_turns_)
     acceleration_ = (square(turn) * (start.extent + v + 2 * start.spin_radius) +
                      2 * turn * (v + w * spin_a_) + w * w * spin_a_) *
-                    spare;
+                    rounding_factor;
 }
 
 ConvexTruth Course::judge(const Operand& x, const Operand& y, Effort effort) {
@@ -74,7 +84,10 @@ ConvexTruth Course::judge(const Operand& x, const Operand& y, Effort effort) {
 }
 
 ConvexTruth Course::at(double t, Effort effort) {
-  if (half_space_turns_ && t > 0) return ++evaluations, against_turned_plane(t);
+  if (half_space_turns_ && t > 0) {
+    ++evaluations;
+    return against_turned_plane(t);
+  }
   return judge(a_.at(t, origin_), b_at(t), effort);
 }
 
@@ -82,11 +95,13 @@ ConvexTruth Course::swept(double from, double to, Effort effort) {
   return judge(a_.swept(from, to, origin_), b_at(0), effort);
 }
 
-// m(t) = exp(tω)·m, the plane m(t)·(x - origin) = o. The turning matrix carries its error E in each entry:
-// 3E|m| in the length of m(t), which keeps the length of m. The body's numbers are as in half_space.cpp.
+// m(t) = exp(tω)·m, the plane m(t)·(x - origin) = o. Each entry of the turning matrix has an error of at most
+// E, so m(t) is off by at most 3E|m|; the exact m(t) has the length of m. The body's error terms are as in
+// half_space.cpp.
 ConvexTruth Course::against_turned_plane(double t) const {
   ConvexTruth r;
-  r.lo = -infinity, r.hi = infinity;
+  r.lo = -infinity;
+  r.hi = infinity;
   const RationalPlane plane = world_plane(*half_space_);
   if (is_zero(plane.normal)) return r;
   const auto real = [](const Rational& x) { return x.convert_to<Real>(); };
@@ -102,7 +117,8 @@ ConvexTruth Course::against_turned_plane(double t) const {
   const Real value = dot(n, s.point) - height - body.radius;
   const Real slack = 2 * n_error * (body.extent + std::fabs(height)) + 2 * body.error +
                      16 * unit * (body.extent + body.radius + std::fabs(height));
-  r.lo = value - slack, r.hi = value + slack;
+  r.lo = value - slack;
+  r.hi = value + slack;
   r.normal = n;
   r.verdict = r.lo > 0 ? Verdict::disjoint : r.hi <= 0 ? Verdict::overlap : Verdict::undecided;
   r.common = r.witness_b = s.point - static_cast<Real>(body.radius) * n;
@@ -110,7 +126,7 @@ ConvexTruth Course::against_turned_plane(double t) const {
   return r;
 }
 
-/// Bound of the closing speed along n over any stretch of time, rounded up.
+/// Upper bound of the closing speed along n at any time.
 Real Course::closing_speed(const Real3& n, bool turning) const {
   const Real3 v = a_.velocity();
   Real mu = dot(v, n) + 16 * unit * norm(v);
@@ -129,7 +145,7 @@ Course::Clear Course::by_speed(double t, const ConvexTruth& g) {
   const Real speed = closing_speed(a_to_b(g), true);
   Clear c{after(t, g.lo, speed), 0};
   if (c.until > 1) return {c.until, g.lo - speed * rest};
-  if (c.until - t >= 0.01) return c;
+  if (c.until - t >= long_step) return c;
   const ConvexTruth o =
       judge(a_.orbit(t, origin_), b_ ? b_->orbit(t, origin_) : Operand{}, Effort::verdict_only);
   const Real slow = closing_speed(a_to_b(o), false);
@@ -137,7 +153,7 @@ Course::Clear Course::by_speed(double t, const ConvexTruth& g) {
   return far > c.until ? Clear{far, far > 1 ? o.lo - slow * rest : 0} : c;
 }
 
-// Rodrigues' formula, rounded: any direction may be tried.
+// Rodrigues' formula, rounded. Any direction may be tried, so the error does not matter.
 Real3 turned(const Real3& n, const Real3& angular, Real t) {
   const Real speed = norm(angular), angle = speed * t;
   if (!(angle > 0)) return n;
@@ -146,7 +162,7 @@ Real3 turned(const Real3& n, const Real3& angular, Real t) {
                     ((1 - std::cos(angle)) * dot(k, n)) * k);
 }
 
-/// Lower bounds of the gap at time t: that along each n, or, of a half-space, along its own normal.
+/// Lower bounds of the gap at time t, one along each n; for a half-space, a single one along its own normal.
 std::vector<Real> Course::least_along(const std::vector<Real3>& directions, double t) {
   if (half_space_) return {half_space_turns_ ? against_turned_plane(t).lo : at(t).lo};
   const Operand x = a_.at(t, origin_), y = b_at(t);
@@ -162,11 +178,11 @@ Course::Clear Course::by_acceleration(double t, const ConvexTruth& g, const Clea
   const double beyond = first.until;
   const Real3 n = normalized(a_to_b(g));
   const Real now = least_along({n}, t)[0];
-  // The gap is down in the rounding: steps by speed would creep through it, one after another.
-  if (!(now > 0)) return beyond - t < 0x1p-30 ? Clear{t, 0} : first;
+  // The gap is lost in rounding: steps by speed would creep through it one after another.
+  if (!(now > 0)) return beyond - t < creeping_step ? Clear{t, 0} : first;
   const double rest = 1 - t;
   for (double step = std::min(rest, std::max(stride_, 16 * (beyond - t)));
-       t + step > beyond && step >= 0x1p-52; step /= 2) {
+       t + step > beyond && step >= least_step; step /= 2) {
     const double end = step >= rest ? 1 : t + step;
     const Real length = static_cast<Real>(end) - static_cast<Real>(t);
     std::vector<Real3> directions{n};
@@ -175,7 +191,7 @@ Course::Clear Course::by_acceleration(double t, const ConvexTruth& g, const Clea
     const std::vector<Real> then = least_along(directions, end);
     for (std::size_t i = 0; i < then.size(); ++i) {
       const Real swing = norm(directions[i] - n) + 16 * unit * static_cast<Real>(i > 0);
-      const Real bend = (acceleration_ * length * length / 2 + length * swing * approach_) * spare;
+      const Real bend = (acceleration_ * length * length / 2 + length * swing * approach_) * rounding_factor;
       const Real least = std::min(now, then[i]);
       if (!(least > 0) || !(bend < now + then[i] + 2 * least)) continue;
       stride_ = std::min(1.0, 4 * step);

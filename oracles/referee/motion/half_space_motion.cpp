@@ -1,8 +1,8 @@
-// Two half-spaces are apart only while they face each other: normals exactly antiparallel, and room between.
-// Then the room is linear in t, with rational ends, as long as neither turns. A turn that shows (not about
-// the normal) and is not the same for both ends it at once: m(t)·and -m(t)· of the two are analytic, and
-// differ in the first or second derivative at 0 unless ω is the same, so that they differ at all small t > 0.
-// There the half-spaces overlap: the first contact is at 0, as an infimum.
+// Two half-spaces are apart only while they face each other: normals exactly antiparallel, with room between.
+// As long as neither turns, the room is linear in t with rational end values. A visible turn (not about the
+// normal) that is not the same for both ends the separation at once: the normals m_A(t) and -m_B(t) are
+// analytic and differ in the first or second derivative at 0 unless ω is the same, so they differ at all
+// small t > 0. Then the half-spaces overlap: the first contact is at 0, as an infimum.
 #include "oracles/referee/motion/half_space_motion.h"
 
 #include <limits>
@@ -14,7 +14,8 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-/// Room between two that face each other, times the length of A's normal, at t = 0 and its rate of change.
+/// Room between two that face each other at t = 0 and its rate of change, both times the length of A's
+/// normal.
 struct Room {
   Rational3 normal;
   Rational start, rate;
@@ -45,7 +46,7 @@ bool is_singular(const Placed& p) { return is_zero(world_plane(p).normal); }
 
 }  // namespace
 
-Vec3 shown_turn(const Placed& half_space, const Vec3& angular) {
+Vec3 visible_turn(const Placed& half_space, const Vec3& angular) {
   return is_zero(cross(world_plane(half_space).normal, exact(angular))) ? Vec3(Vec3::Zero()) : angular;
 }
 
@@ -53,18 +54,27 @@ TimeTruth judge_half_spaces_in_motion(const Placed& a, const Motion& motion_a, c
                                       const Motion& motion_b) {
   TimeTruth r;
   r.least_gap = {-infinity, infinity};
-  if (is_singular(a) || is_singular(b)) return r.note = "a singular placement leaves no half-space", r;
+  if (is_singular(a) || is_singular(b)) {
+    r.note = "a singular placement leaves no half-space";
+    return r;
+  }
   const auto room = room_between(a, motion_a, b, motion_b);
   const auto hit = [&](double lo, double hi, const char* note) {
     r.verdict = TimeTruth::Verdict::hit;
-    r.t_lo = lo, r.t_hi = hi, r.least_gap.hi = 0, r.note = note;
+    r.t_lo = lo;
+    r.t_hi = hi;
+    r.least_gap.hi = 0;
+    r.note = note;
     return r;
   };
   if (!room || room->start <= 0) return hit(0, 0, "overlap at the start");
-  const Vec3 turn_a = shown_turn(a, motion_a.angular), turn_b = shown_turn(b, motion_b.angular);
+  const Vec3 turn_a = visible_turn(a, motion_a.angular), turn_b = visible_turn(b, motion_b.angular);
   if (turn_a != turn_b)
     return hit(0, std::numeric_limits<double>::denorm_min(), "they face each other only at the start");
-  if (!turn_a.isZero(0)) return r.note = "two half-spaces that turn alike are not judged in motion", r;
+  if (!turn_a.isZero(0)) {
+    r.note = "two half-spaces that turn alike are not judged in motion";
+    return r;
+  }
   const Rational end = room->start + room->rate;
   if (end > 0) {
     r.verdict = TimeTruth::Verdict::none;
@@ -79,8 +89,8 @@ TimeTruth judge_half_spaces_in_motion(const Placed& a, const Motion& motion_a, c
 
 Bracket gap_of_half_spaces(const Placed& a, const Motion& motion_a, const Placed& b, const Motion& motion_b,
                            double t) {
-  const bool turn = shown_turn(a, motion_a.angular) != shown_turn(b, motion_b.angular) ||
-                    !shown_turn(a, motion_a.angular).isZero(0);
+  const bool turn = visible_turn(a, motion_a.angular) != visible_turn(b, motion_b.angular) ||
+                    !visible_turn(a, motion_a.angular).isZero(0);
   if (is_singular(a) || is_singular(b) || (turn && t > 0)) return {-infinity, infinity};
   const auto room = room_between(a, motion_a, b, motion_b);
   if (!room) return {-infinity, -infinity};

@@ -5,13 +5,13 @@
 
 namespace touchstone::referee {
 
-/// The angular velocity as far as it moves the half-space: zero when it is exactly along its normal.
-Vec3 shown_turn(const Placed& half_space, const Vec3& angular);
+/// The angular velocity, or zero when it is exactly along the half-space's normal and so does not move it.
+Vec3 visible_turn(const Placed& half_space, const Vec3& angular);
 
-/// Both half-spaces. Decided but for two that face each other and turn alike.
+/// Both bodies are half-spaces. Always decided, except for two that face each other and turn alike.
 TimeTruth judge_half_spaces_in_motion(const Placed& a, const Motion& motion_a, const Placed& b,
                                       const Motion& motion_b);
-/// Signed gap at t; unknown where they turn.
+/// Signed gap at t; unknown when they turn.
 Bracket gap_of_half_spaces(const Placed& a, const Motion& motion_a, const Placed& b, const Motion& motion_b,
                            double t);
 

@@ -1,5 +1,5 @@
-// What judge_motion found, in a form that the checker accepts: planes up to t_lo (moving_plane.h), a common
-// point at t_hi. Nothing is handed out that `check` has not accepted.
+// Puts the result of judge_motion in a form that the checker accepts: planes up to t_lo (moving_plane.h) and
+// a common point at t_hi. Everything returned has been accepted by `check`.
 #include "oracles/referee/motion/impact_certificate.h"
 
 #include <algorithm>
@@ -15,6 +15,11 @@ namespace touchstone::referee {
 namespace {
 
 using MovingParts = std::vector<MovingPart>;
+
+// Parts of the way from a candidate point towards the middle of a body.
+constexpr Real inward_steps[] = {0.0L, 0x1p-60L, 0x1p-50L, 0x1p-40L, 0x1p-25L, 0x1p-8L, 0.25L};
+// How much later than t_hi a contact is looked for, in units of the step.
+constexpr double delays[] = {0x1p-53, 0x1p-51, 0x1p-48, 0x1p-44, 0x1p-40, 0x1p-34, 0x1p-27};
 
 struct Scene2 {
   const Placed &a, &b;
@@ -42,8 +47,8 @@ ImpactCertificate::Track printed(const PlaneTrack& track) {
   return r;
 }
 
-// Every pair of parts needs a track; one found earlier may do. When one of them ends early, all must end
-// there.
+// Every pair of parts needs a track; an earlier one may serve. When one track ends early, all of them must
+// end there.
 std::vector<PlaneTrack> tracks(const MovingParts& a, const MovingParts& b, double& until) {
   std::vector<PlaneTrack> r;
   for (const MovingPart& x : a)
@@ -53,8 +58,10 @@ std::vector<PlaneTrack> tracks(const MovingParts& a, const MovingParts& b, doubl
         continue;
       r.push_back(track_between(x, y, until));
       if (r.back().empty()) return {};
-      if (const double reached = r.back().back().t; reached < until)
-        return until = reached, tracks(a, b, until);
+      if (const double reached = r.back().back().t; reached < until) {
+        until = reached;
+        return tracks(a, b, until);
+      }
     }
   return r;
 }
@@ -67,7 +74,8 @@ void add_planes(ImpactCertificate& c, const Scene2& s, const MovingParts& a, con
   if (s.accepts(planes)) c = planes;
 }
 
-// The deepest core point of the body against normal·x <= offset, or, when that is outside, its foot.
+// The core point of the body that is deepest in normal·x <= offset, or, if that point is outside, its foot on
+// the plane.
 Rational3 deepest(const std::vector<Rational3>& points, const Rational3& normal, const Rational& offset) {
   Rational3 best = points.front();
   for (const Rational3& x : points)
@@ -76,7 +84,7 @@ Rational3 deepest(const std::vector<Rational3>& points, const Rational3& normal,
   return over > 0 ? best - over / dot(normal, normal) * normal : best;
 }
 
-// Inside, if there is an inside.
+// A point in the interior, if there is an interior.
 Real3 middle_of(const Solid& s) {
   if (s.kind != Solid::Kind::points) return s.centre;
   Real3 sum{0, 0, 0};
@@ -84,7 +92,7 @@ Real3 middle_of(const Solid& s) {
   return (1 / static_cast<Real>(s.points.size())) * sum;
 }
 
-/// Points that are likely to be in both parts at time t, seen from the origin of B; the exact one alone if
+/// Points that are likely to be in both parts at time t, relative to the origin of B; only the exact one if
 /// there is one.
 std::vector<Rational3> candidates(const MovingPart& a, const MovingPart& b, double t) {
   const Rational3 origin = exact(a.origin());
@@ -117,7 +125,7 @@ std::vector<Rational3> candidates(const MovingPart& a, const MovingPart& b, doub
     from = {0.5L * (g.witness_a + g.witness_b), g.witness_a, g.witness_b, g.common};
   }
   std::vector<Rational3> r;
-  for (const Real s : {0.0L, 0x1p-60L, 0x1p-50L, 0x1p-40L, 0x1p-25L, 0x1p-8L, 0.25L})
+  for (const Real s : inward_steps)
     for (const Real3& p : from)
       for (const Real3& to : {0.5L * (centre_a + centre_b), centre_a, centre_b})
         r.push_back(exact_of(p + s * (to - p)));
@@ -129,7 +137,7 @@ bool may_touch(const MovingPart& a, const MovingPart& b, double t) {
   return judge_convex(a.at(t), b.at(t), {}, Effort::verdict_only).verdict != Verdict::disjoint;
 }
 
-// Four vertices that are not in one plane, exactly.
+// Whether four vertices are not coplanar, decided exactly.
 bool is_solid(const Hull& hull) {
   const Rational3 origin = exact(hull.vertices.front()), zero{0, 0, 0};
   Rational3 edge = zero, normal = zero;
@@ -145,8 +153,8 @@ bool is_solid(const Hull& hull) {
   return false;
 }
 
-// Where a body that turns is at t > 0 is known up to a rounding, and the checker wants a ball of that size
-// inside of it about the common point: a surface has none.
+// The pose of a turning body at t > 0 is known only up to rounding, and the checker requires that a ball of
+// that size about the common point lies inside the body. A surface has no room for one.
 bool has_room(const Placed& p, const Motion& m) {
   if (m.angular.isZero(0)) return true;
   const auto* hull = std::get_if<Hull>(p.shape);
@@ -170,14 +178,14 @@ bool add_contact_at(ImpactCertificate& c, const Scene2& s, const MovingParts& a,
   return false;
 }
 
-// At t_hi contact is certain up to rounding only, or (an exact graze) certain a little earlier: then a little
-// later will do if the bodies are deeper there.
+// At t_hi contact is certain only up to rounding, or (an exact graze) certain only a little earlier. A
+// slightly later time will do if the bodies are deeper then.
 void add_contact(ImpactCertificate& c, const Scene2& s, const MovingParts& a, const MovingParts& b,
                  double t_hi) {
   const bool room = has_room(s.a, s.motion_a) && has_room(s.b, s.motion_b);
   if (!room && t_hi > 0) return;
   if (add_contact_at(c, s, a, b, t_hi) || !room) return;
-  for (const double later : {0x1p-53, 0x1p-51, 0x1p-48, 0x1p-44, 0x1p-40, 0x1p-34, 0x1p-27}) {
+  for (const double later : delays) {
     const double t = std::min(1.0, std::max(std::nextafter(t_hi, 2.0), t_hi + later));
     if (add_contact_at(c, s, a, b, t)) return;
   }

@@ -1,11 +1,11 @@
-// judge_motion and its kin. The frame travels with B's translation, so A moves with v = vA - vB and B turns
-// in place.
+// judge_motion and its helpers. The frame travels with B's translation, so A moves with v = vA - vB and B
+// turns in place.
 //
 // Without (visible) rotation the predicate "A swept over [s, t] touches B" is monotone in t, and a swept
-// polytope or rounded shape is one again, so that the exact level decides it: the verdict is always decided
-// for such pairs, and the time of impact is bracketed down to neighbouring doubles.
+// polytope or rounded shape is again one, so the exact level decides it: for such pairs the verdict is always
+// decided, and the time of impact is bracketed down to neighbouring doubles.
 //
-// With rotation: steps over which a separation certainly lasts (course.h), and where they stall a search for
+// With rotation: steps over which a separation certainly lasts (course.h), and where they stall, a search for
 // a time of certain contact.
 #include "oracles/referee/motion/motion.h"
 
@@ -19,6 +19,16 @@ namespace touchstone::referee {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr double golden = 0.6180339887498949;  // 1/φ
+// Lengths are fractions of the step. First length of the sweeps that bracket a translation's contact.
+constexpr double first_sweep = 0x1p-60;
+// Below this advance the gap's own direction is worth the cost of computing it.
+constexpr double short_advance = 0x1p-6;
+// Conservative advancement that progresses by less has stalled.
+constexpr double least_advance = 0x1p-52;
+// The search for contact after a stall doubles its steps from first to last; a separation found at clear_step
+// or later is taken to lie beyond the graze.
+constexpr double first_step = 0x1p-58, clear_step = 0x1p-30, last_step = 0x1p-8;
 
 double next_time(double t, double step) { return std::min(1.0, std::max(std::nextafter(t, 2.0), t + step)); }
 
@@ -32,9 +42,9 @@ TimeTruth hit(double lo, double hi, const char* note = "") {
   return r;
 }
 
-// Newton's step from below never passes the first contact; sweeps of doubling length then bracket it, and
-// bisection closes the bracket to neighbouring doubles or to what curved pairs can decide.
-TimeTruth close_in(Course& c) {
+// Newton's steps from below never pass the first contact; sweeps of doubling length then bracket it, and
+// bisection narrows the bracket to neighbouring doubles, or to what can be decided for curved pairs.
+TimeTruth bracket_contact(Course& c) {
   double lo = 0;
   for (int i = 0; i < 64; ++i) {
     const ConvexTruth g = c.at(lo);
@@ -43,7 +53,7 @@ TimeTruth close_in(Course& c) {
     lo = next;
   }
   double hi = 1;
-  for (double step = 0x1p-60; lo + step < 1; step *= 2) {
+  for (double step = first_sweep; lo + step < 1; step *= 2) {
     const double t = next_time(lo, step);
     const Verdict v = c.swept(lo, t).verdict;
     if (v == Verdict::disjoint) lo = t;
@@ -61,7 +71,7 @@ TimeTruth close_in(Course& c) {
     else if (v == Verdict::disjoint)
       lo = middle;
     else
-      from = middle;  // curved, within its bracket: contact is certain later, absence up to lo only
+      from = middle;  // curved, undecided: contact is certain only later, absence only up to lo
   }
   return hit(lo, hi);
 }
@@ -71,12 +81,13 @@ TimeTruth judge_translation(Course& c) {
   if (start.verdict == Verdict::overlap) return hit(0, 0, "overlap at the start");
   const ConvexTruth all = c.swept(0, 1, Effort::gap);
   if (all.verdict == Verdict::overlap) {
-    TimeTruth r = close_in(c);
+    TimeTruth r = bracket_contact(c);
     r.least_gap.lo = round_down(all.lo);
     return r;
   }
   TimeTruth r;
-  // The swept body holds A at all times: its gap bounds theirs from below, and is their least when positive.
+  // The swept body contains A at all times: its gap is a lower bound of theirs, and equals the least of them
+  // when it is positive.
   r.least_gap = {round_down(all.lo), std::max(0.0, round_up(all.hi))};
   if (all.verdict == Verdict::disjoint) {
     r.verdict = TimeTruth::Verdict::none;
@@ -95,65 +106,80 @@ struct Advance {
   enum class Exit { passed, stalled, contact, evaluation_cap } exit = Exit::stalled;
 };
 
-// From `start` until contact, the end, or no progress. A step shorter than `least_step` counts as none: near
-// a graze the steps shrink for ever.
+// Advances from `start` until contact, the end, or no progress. A step shorter than `least_step` counts as
+// none: near a graze the steps shrink forever.
 Advance advance_from(Course& c, double start, double least_step) {
   Advance r;
   r.t = start;
   while (c.evaluations < limits::motion_evaluations) {
     const ConvexTruth g = c.at(r.t);
     r.least_hi = std::min(r.least_hi, g.hi);
-    if (g.verdict == Verdict::overlap) return r.exit = Advance::Exit::contact, r;
+    if (g.verdict == Verdict::overlap) {
+      r.exit = Advance::Exit::contact;
+      return r;
+    }
     Course::Clear clear = c.clear_from(r.t, g);
-    // A verdict's direction separates, but need not be that of the gap, along which the step is longer.
-    if (clear.until - r.t < 0x1p-6) {
+    // The direction of a verdict separates but need not be that of the gap, along which the step is longer.
+    if (clear.until - r.t < short_advance) {
       const Course::Clear other = c.clear_from(r.t, c.at(r.t, Effort::gap));
       if (other.until > clear.until) clear = other;
     }
     r.least_lo = std::min(r.least_lo, clear.kept);
-    if (clear.until > 1) return r.t = 1, r.exit = Advance::Exit::passed, r;
-    if (clear.until - r.t < least_step) return r.exit = Advance::Exit::stalled, r;
+    if (clear.until > 1) {
+      r.t = 1;
+      r.exit = Advance::Exit::passed;
+      return r;
+    }
+    if (clear.until - r.t < least_step) {
+      r.exit = Advance::Exit::stalled;
+      return r;
+    }
     r.t = clear.until;
   }
   r.exit = Advance::Exit::evaluation_cap;
   return r;
 }
 
-// The first certain contact after a stall, by doubling steps; infinity when there is none close by.
+// The first certain contact after a stall, found by doubling steps; infinity when there is none close by.
 double contact_after(Course& c, double t, double& clear_at) {
   clear_at = infinity;
-  for (double step = 0x1p-58; c.evaluations < limits::motion_evaluations; step *= 2) {
+  for (double step = first_step; c.evaluations < limits::motion_evaluations; step *= 2) {
     const double s = next_time(t, step);
     const ConvexTruth g = c.at(s);
     if (g.verdict == Verdict::overlap) return s;
-    if (g.verdict == Verdict::disjoint && step >= 0x1p-30 && clear_at == infinity) clear_at = s;
-    if (s >= 1 || step > 0x1p-8) return infinity;
+    if (g.verdict == Verdict::disjoint && step >= clear_step && clear_at == infinity) clear_at = s;
+    if (s >= 1 || step > last_step) return infinity;
   }
   return infinity;
 }
 
-// Nearest approach in [from, to] by golden section on the upper bound of the gap; only times at which contact
-// is certified are believed.
+// Nearest approach in [from, to] by golden-section search on the upper bound of the gap. Returns only times
+// at which contact is certified.
 double contact_within(Course& c, double from, double to) {
-  constexpr double golden = 0.6180339887498949;
   double x = to - golden * (to - from), y = from + golden * (to - from);
   ConvexTruth gx = c.at(x, Effort::gap), gy = c.at(y, Effort::gap);
   for (int i = 0; i < 90 && to > from; ++i) {
     if (gx.verdict == Verdict::overlap) return x;
     if (gy.verdict == Verdict::overlap) return y;
     if (gx.hi <= gy.hi) {
-      to = y, y = x, gy = gx;
-      x = to - golden * (to - from), gx = c.at(x, Effort::gap);
+      to = y;
+      y = x;
+      gy = gx;
+      x = to - golden * (to - from);
+      gx = c.at(x, Effort::gap);
     } else {
-      from = x, x = y, gx = gy;
-      y = from + golden * (to - from), gy = c.at(y, Effort::gap);
+      from = x;
+      x = y;
+      gx = gy;
+      y = from + golden * (to - from);
+      gy = c.at(y, Effort::gap);
     }
   }
   return infinity;
 }
 
-// hi is a certain contact, lo < hi has none before it; halves the part of (lo, hi] whose end is still a
-// contact.
+// hi is a certain contact; lo < hi has none before it. Bisects (lo, hi], keeping the half whose end is still
+// a contact.
 double earliest_contact(Course& c, double lo, double hi) {
   for (int i = 0; i < 64; ++i) {
     const double middle = lo + (hi - lo) / 2;
@@ -171,7 +197,7 @@ TimeTruth judge_rotation(Course& c) {
   Real least_lo = std::numeric_limits<Real>::infinity(), least_hi = least_lo;
   const char* note = "";
   while (t < 1) {
-    const Advance a = advance_from(c, t, 0x1p-52);
+    const Advance a = advance_from(c, t, least_advance);
     least_lo = std::min(least_lo, a.least_lo);
     least_hi = std::min(least_hi, a.least_hi);
     if (a.exit == Advance::Exit::passed) break;
@@ -249,7 +275,7 @@ std::vector<PartPair> part_pairs(const Placed& a, const Motion& ma, const Placed
   };
   std::vector<PartPair> r;
   if (is<HalfSpace>(b)) {
-    const Vec3 turn = shown_turn(b, mb.angular);
+    const Vec3 turn = visible_turn(b, mb.angular);
     const Vec3 origin = translation_of(turn.isZero(0) ? a : b);
     for (std::size_t i = 0; i < count(a); ++i)
       r.push_back({i, 0, Course(Mover(a, ma, mb.linear, part(a, i)), b, turn, origin)});

@@ -8,12 +8,12 @@
 
 namespace touchstone::referee {
 
-/// Convex part a of A and part b of B (triangles of meshes; 0 of anything else) in motion.
+/// Convex part a of A and part b of B in motion (triangle indices for meshes; 0 for any other shape).
 struct PartPair {
   std::size_t a = 0, b = 0;
   Course course;
 };
-/// The pairs of parts that can meet at all in the step, in order. A is no half-space.
+/// The pairs of parts that can meet during the step, in order. A must not be a half-space.
 std::vector<PartPair> part_pairs(const Placed& a, const Motion& motion_a, const Placed& b,
                                  const Motion& motion_b);
 

@@ -14,8 +14,7 @@ Aabb box_over(const Mover& m, const Vec3& origin) {
   const Real3 v = m.velocity();
   add_sweep(whole, v, 4 * unit * largest(v));
   const Aabb coarse = box_of(whole);
-  // Slices of time: at its middle every core point is within ρ|ω|·(half a slice) of where it is anywhere in
-  // the slice.
+  // Slices of time: each core point is within ρ|ω|·(half a slice) of its position in the middle of the slice.
   constexpr int slices = 64;
   const Real turn = m.at(0, origin).body.spin_radius * norm(m.angular()) / (2 * slices) * (1 + 16 * unit);
   Aabb fine;

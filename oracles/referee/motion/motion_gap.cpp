@@ -33,7 +33,8 @@ Bracket gap_to_half_space(const std::vector<Mover>& parts, const Placed& b, cons
   Bracket r{infinity, infinity};
   for (const Mover& x : parts) {
     const ConvexTruth g = Course(x, b, turn, origin).at(t, Effort::gap);
-    r.lo = std::min(r.lo, round_down(g.lo)), r.hi = std::min(r.hi, round_up(g.hi));
+    r.lo = std::min(r.lo, round_down(g.lo));
+    r.hi = std::min(r.hi, round_up(g.hi));
   }
   return r;
 }
@@ -42,29 +43,36 @@ struct Sample {
   double t, gap;
 };
 
-// Golden section on (from, to); keeps the least it meets.
+constexpr double golden = 0.6180339887498949;  // 1/φ
+
+// Golden-section search on (from, to); keeps the least sample it meets.
 Sample refined(const auto& gap, double from, double to, Sample best) {
-  constexpr double golden = 0.6180339887498949;
-  const auto ask = [&](double t) {
+  const auto evaluate = [&](double t) {
     const double g = gap(t);
     if (g < best.gap) best = {t, g};
     return g;
   };
   double x = to - golden * (to - from), y = from + golden * (to - from);
-  double gx = ask(x), gy = ask(y);
+  double gx = evaluate(x), gy = evaluate(y);
   for (int i = 0; i < 46; ++i) {
     if (gx <= gy) {
-      to = y, y = x, gy = gx;
-      x = to - golden * (to - from), gx = ask(x);
+      to = y;
+      y = x;
+      gy = gx;
+      x = to - golden * (to - from);
+      gx = evaluate(x);
     } else {
-      from = x, x = y, gx = gy;
-      y = from + golden * (to - from), gy = ask(y);
+      from = x;
+      x = y;
+      gx = gy;
+      y = from + golden * (to - from);
+      gy = evaluate(y);
     }
   }
   return best;
 }
 
-// How fast the gap can change: no point of A approaches one of B faster. Guides the search only.
+// Bound of the rate of change of the gap: no two points of A and B approach faster. Only guides the search.
 double rate_of_gap(const Placed& a, const Motion& ma, const Placed& b, const Motion& mb) {
   const auto turning = [](const Placed& p, const Motion& m) {
     const double radius = bounding_radius(*p.shape);
@@ -77,13 +85,14 @@ double rate_of_gap(const Placed& a, const Motion& ma, const Placed& b, const Mot
 
 namespace {
 
-Bracket gap_then(const Placed& a, const Motion& motion_a, const Placed& b, const Motion& motion_b, double t) {
+Bracket gap_at_time(const Placed& a, const Motion& motion_a, const Placed& b, const Motion& motion_b,
+                    double t) {
   if (is<HalfSpace>(a) && is<HalfSpace>(b)) return gap_of_half_spaces(a, motion_a, b, motion_b, t);
-  if (is<HalfSpace>(a)) return gap_then(b, motion_b, a, motion_a, t);
+  if (is<HalfSpace>(a)) return gap_at_time(b, motion_b, a, motion_a, t);
   const bool surface = is<TriangleMesh>(a) || is<TriangleMesh>(b);
   const std::vector<Mover> movers_a = movers(a, motion_a, motion_b.linear);
   if (is<HalfSpace>(b)) {
-    const Vec3 turn = shown_turn(b, motion_b.angular);
+    const Vec3 turn = visible_turn(b, motion_b.angular);
     return gap_to_half_space(movers_a, b, turn, translation_of(turn.isZero(0) ? a : b), t);
   }
   const Vec3 origin = translation_of(a);
@@ -100,22 +109,23 @@ Bracket gap_then(const Placed& a, const Motion& motion_a, const Placed& b, const
 }  // namespace
 
 Bracket gap_at(const Placed& a, const Motion& motion_a, const Placed& b, const Motion& motion_b, double t) {
-  return within_limit(Bracket{-infinity, infinity}, [&] { return gap_then(a, motion_a, b, motion_b, t); });
+  return within_limit(Bracket{-infinity, infinity}, [&] { return gap_at_time(a, motion_a, b, motion_b, t); });
 }
 
 namespace {
 
-/// What the search is about: the least of gap(s), s in [0, t]. `turning`: by how much at most; 0: the gap is
+/// Minimise gap(s) over s in [0, t]. `turning`: upper bound of the angle turned; 0 means that the gap is
 /// convex in s.
 struct Stretch {
   double t = 0, turning = 0, rate = 0;
 };
 
-// Every sample is a certified bound at its own time, so that the largest of them is one of the largest depth:
-// never too large, whatever the search misses. Without turning the gap is convex in t (the signed distance of
-// a point on a line from a convex set), and one search by golden section finds the least. With it: even
-// samples, then the intervals in which the gap could be least, by how fast it can change, are halved, at most
-// `halvings` times or until none can hold less than what is known; then golden section about the least.
+// Every sample is a certified bound at its own time, so the largest of them bounds the largest depth from
+// below, whatever the search misses. Without turning the gap is convex in t (the signed distance of a point
+// on a line from a convex set), and one golden-section search finds the minimum. With turning: even samples
+// first; then the interval in which the gap could be least, given how fast it can change, is halved, at most
+// `halvings` times or until no interval can hold less than what is known; then a golden-section search around
+// the minimum.
 Sample least(const auto& gap, const Stretch& on) {
   const double t = on.t;
   if (on.turning == 0) {
@@ -123,7 +133,8 @@ Sample least(const auto& gap, const Stretch& on) {
     if (const double g = gap(0); g < best.gap) best = {0, g};
     return refined(gap, 0, t, best);
   }
-  const int samples = std::min(512, 24 + static_cast<int>(8 * on.turning / 6.28));
+  constexpr double about_two_pi = 6.28;  // eight samples a turn
+  const int samples = std::min(512, 24 + static_cast<int>(8 * on.turning / about_two_pi));
   std::vector<Sample> known;
   for (int i = 0; i <= samples; ++i) {
     const double s = i == samples ? t : t * i / samples;
@@ -149,15 +160,16 @@ Sample least(const auto& gap, const Stretch& on) {
   return best->gap > on.rate * (to - from) ? *best : refined(gap, from, to, *best);
 }
 
-// Of a surface: the pairs of parts among which the deepest is looked for. Those that translate apart are out;
-// of the rest `most` that are near or deep at `contact`, at t or midway.
+// For a surface: the pairs of parts among which to search for the deepest. Pairs that translate without
+// meeting are dropped; of the rest, keeps the `max_parts` that are nearest or deepest at `contact`, at t or
+// midway.
 std::vector<PartPair> worth_searching(std::vector<PartPair> parts, double t, double contact) {
-  constexpr std::size_t most = 64;
+  constexpr std::size_t max_parts = 64;
   if (parts.size() == 1) return parts;
   std::erase_if(parts, [&](PartPair& p) {
     return !p.course.turns() && p.course.swept(0, t).verdict == Verdict::disjoint;
   });
-  if (parts.size() <= most) return parts;
+  if (parts.size() <= max_parts) return parts;
   const double first = std::min(contact, t);
   std::vector<std::pair<double, std::size_t>> order;
   for (std::size_t i = 0; i < parts.size(); ++i) {
@@ -168,7 +180,7 @@ std::vector<PartPair> worth_searching(std::vector<PartPair> parts, double t, dou
   }
   std::sort(order.begin(), order.end());
   std::vector<PartPair> r;
-  for (std::size_t i = 0; i < most; ++i) r.push_back(std::move(parts[order[i].second]));
+  for (std::size_t i = 0; i < max_parts; ++i) r.push_back(std::move(parts[order[i].second]));
   return r;
 }
 

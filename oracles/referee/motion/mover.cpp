@@ -21,8 +21,8 @@ std::optional<Rational3> local_axis(const Shape& s) {
   return std::nullopt;
 }
 
-// A rotation that maps the set onto itself at all times: about the centre of a ball, or about the axis of a
-// body of revolution, decided exactly.
+// False for a rotation that maps the set onto itself at all times: about the centre of a ball, or about the
+// axis of a body of revolution, decided exactly.
 bool rotation_shows(const Placed& p, const Vec3& angular, const std::optional<std::vector<Vec3>>& core) {
   if (angular.isZero(0)) return false;
   if (core && std::all_of(core->begin(), core->end(), [](const Vec3& v) { return v.isZero(0); }))

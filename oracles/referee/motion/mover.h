@@ -8,7 +8,7 @@ namespace touchstone::referee {
 
 class Mover {
  public:
-  /// The part is the whole shape, or a triangle of a mesh.
+  /// The part is the whole shape, or one triangle of a mesh.
   Mover(const Placed& p, const Motion& m, const Vec3& minus_linear, std::optional<std::size_t> triangle);
 
   bool spins() const { return spins_; }
@@ -17,9 +17,9 @@ class Mover {
   const Placed& placed() const { return placed_; }
 
   Operand at(double t, const Vec3& origin) const;
-  /// All of it over [from, to]; exact set. Precondition: !spins().
+  /// The set swept over [from, to]; exact. Precondition: !spins().
   Operand swept(double from, double to, const Vec3& origin) const;
-  /// Holds the part at time t whatever its rotation; itself when it does not spin.
+  /// A set that contains the part at time t whatever its rotation; the part itself when it does not spin.
   Operand orbit(double t, const Vec3& origin) const;
 
  private:

@@ -1,15 +1,14 @@
-// The question: planes at times 0 = t0 <= t1 <= ... <= until, linear in between, that keep A and B apart.
-// Each piece must pass the test of checker_motion.cpp, whose derivation is there: bend <= a + b + 2·min(a, b)
-// for the margins a, b of a body at its two ends. Here it is asked with the filter's numbers and a little to
-// spare.
+// Finds planes at times 0 = t0 <= t1 <= ... <= until, linear in between, that keep A and B apart. Each piece
+// must pass the test of checker_motion.cpp, whose derivation is there: bend <= a + b + 2·min(a, b) for the
+// margins a, b of a body at the two ends. Here the test uses the filter's numbers, with some slack.
 //
 // A piece may keep its direction (that of the nearest points at either end) or turn from one to the other,
-// which follows a face or an edge that turns. Towards a contact at distance δ in time the gap is about μδ and
-// the bend at most of the order of C·δ², so that once δ < μ/C one piece reaches all the way: few keys
-// suffice.
+// which follows a face or an edge that turns. At distance δ in time before a contact the gap is about μδ and
+// the bend at most of the order of C·δ², so once δ < μ/C one piece reaches all the way: few keys suffice.
 //
-// Exits: `until` reached; or no step of 2^-54 holds any more (rounding of the planes exceeds the gap); or the
-// cap on attempts (a long graze). The track then ends early and says so by its last key.
+// Exits: `until` is reached; or no step of 2^-54 holds any more (the rounding of the planes exceeds the gap);
+// or the cap on attempts is reached (a long graze). In the last two cases the track ends early, at its last
+// key.
 #include "oracles/referee/motion/moving_plane.h"
 
 #include <algorithm>
@@ -20,7 +19,10 @@ namespace touchstone::referee {
 namespace {
 
 constexpr Real infinity = std::numeric_limits<Real>::infinity();
-constexpr Real spare = 1 + 0x1p-30L;
+// Slack over the checker's own test, so that what holds here also holds there.
+constexpr Real rounding_factor = 1 + 0x1p-30L;
+// The shortest step in time that is tried.
+constexpr double least_step = 0x1p-54;
 constexpr int attempt_cap = 600;
 
 Real rounded(const Rational& x) { return x.convert_to<Real>(); }
@@ -37,7 +39,7 @@ Margins margins(const PlaneKey& k, const MovingPart& a, const MovingPart& b) {
 Real bend(const PlaneKey& from, const PlaneKey& to, const MovingPart& p) {
   const Real dt = static_cast<Real>(to.t) - static_cast<Real>(from.t);
   const Real longest = std::fmax(norm(from.n), norm(to.n));
-  return (dt * norm(to.n - from.n) * p.speed() + dt * dt / 2 * longest * p.bend()) * spare;
+  return (dt * norm(to.n - from.n) * p.speed() + dt * dt / 2 * longest * p.bend()) * rounding_factor;
 }
 
 bool holds(Real margin0, Real margin1, Real bend) {
@@ -49,7 +51,7 @@ bool piece_holds(const PlaneKey& from, const PlaneKey& to, const MovingPart& a, 
   return holds(x.a, y.a, bend(from, to, a)) && holds(x.b, y.b, bend(from, to, b));
 }
 
-// The part of the gap that A gets: what it needs when it moves and B does not is nearly all.
+// The part of the gap given to A: nearly all of it when A moves and B does not.
 Real share(const MovingPart& a, const MovingPart& b) {
   const Real x = a.speed() + a.bend(), y = b.speed() + b.bend();
   return x + y > 0 ? std::fmin(0.9L, std::fmax(0.1L, x / (x + y))) : 0.5L;
@@ -64,7 +66,7 @@ std::optional<PlaneKey> key_along(const Rational3& direction, const Real3& n, do
   return k;
 }
 
-/// Proposes directions: the half-space's own, or that of the nearest points.
+/// Proposes directions: the half-space's own normal, or that of the nearest points.
 class Directions {
  public:
   Directions(const MovingPart& a, const MovingPart& b) : a_(a), b_(b) {
@@ -135,9 +137,9 @@ MovingPart::MovingPart(const Placed& p, const Motion& m, const Vec3& minus, cons
   }
   turns_ = !m.angular.isZero(0);
   if (!turns_) return;
-  // Whether or not the turning shows: the checker bounds the motion of points.
+  // Even if the turning does not change the set: the checker bounds the motion of points.
   const Real radius = mover_.at(0, origin).body.spin_radius, rate = norm(to_real(m.angular));
-  constexpr Real allowance = 1.7321L;  // its bound of a disc or ellipsoid is up to √3 of the radius
+  constexpr Real allowance = 1.7321L;  // the checker's bound for discs and ellipsoids: up to √3·radius
   const Real reach = mover_.at(0, origin).exact ? radius : allowance * radius;
   speed_ += rate * reach * (1 + 16 * unit);
   bend_ = rate * rate * reach * (1 + 16 * unit);
@@ -147,7 +149,7 @@ Rational MovingPart::offset(const Rational& t) const { return half_space_->offse
 
 Real MovingPart::top(const Real3& n, double t) const {
   if (half_space_) {
-    // n is a multiple of the normal but for its rounding.
+    // n is a multiple of the normal up to rounding.
     const Rational3& m = half_space_->normal;
     const Real3 r{rounded(m.x), rounded(m.y), rounded(m.z)};
     if (!(dot(r, n) > 0)) return infinity;
@@ -177,7 +179,7 @@ PlaneTrack track_between(const MovingPart& a, const MovingPart& b, double until)
   double length = until;
   for (int attempt = 0; track.back().t < until && attempt < attempt_cap; ++attempt) {
     const double t = track.back().t, next = length >= until - t ? until : t + length;
-    if (!(next > t) || length < 0x1p-54) break;
+    if (!(next > t) || length < least_step) break;
     const PlaneTrack more = step(directions, track.back(), next, a, b);
     track.insert(track.end(), more.begin(), more.end());
     length = more.empty() ? length / 2 : std::min(until, 2 * length);

@@ -1,4 +1,4 @@
-// Planes that keep two convex parts in motion apart, as keys of an ImpactCertificate::Track.
+// Planes that keep two moving convex parts apart, as keys of an ImpactCertificate::Track.
 #pragma once
 
 #include "oracles/referee/exact/rational.h"
@@ -20,7 +20,7 @@ class MovingPart {
   Operand at(double t) const { return mover_.at(t, origin_); }
   const Mover& mover() const { return mover_; }
   const Vec3& origin() const { return origin_; }
-  /// Least bound known of n·x over the part at time t; infinite where there is none.
+  /// Best known upper bound of n·x over the part at time t; infinite when there is none.
   Real top(const Real3& n, double t) const;
   /// Exact normal·x <= offset of the half-space at time t.
   const Rational3& normal() const { return half_space_->normal; }
@@ -47,11 +47,11 @@ struct PlaneKey {
   Real o = 0;  // offset, rounded
 };
 
-/// How far a track of keys from t = 0 comes; apart and checked up to its last key.
+/// Keys from t = 0 on; the parts are apart, and checked to be, up to the last key.
 using PlaneTrack = std::vector<PlaneKey>;
-/// Goes as far towards `until` as it can. Empty when not even the start can be shown.
+/// Gets as close to `until` as it can. Empty when not even the start can be shown.
 PlaneTrack track_between(const MovingPart& a, const MovingPart& b, double until);
-/// Whether the track keeps these two apart over all of its keys, by the filter.
+/// Whether the filter shows that the track keeps the two apart over all of its keys.
 bool keeps_apart(const PlaneTrack& track, const MovingPart& a, const MovingPart& b);
 
 }  // namespace touchstone::referee

@@ -1,9 +1,9 @@
-// The question: the first t in [0,1] at which two closed primitives meet. Contact needs the four points in
-// one plane: their determinant D, a cubic in t, is zero. Unless D is zero throughout, only its roots in [0,1]
-// are candidates. If it is, the first contact is at t = 0 or where one of the signs that decide contact
-// changes, hence at a root of one of the quadratics below. At a candidate every sign is decided exactly
-// (polynomial.h), so the answer is exact: the first candidate at which they meet. Degenerate triangles and
-// edges are decided by their edges and end points.
+// Finds the first t in [0,1] at which two closed primitives meet. Contact requires that the four points are
+// coplanar: their determinant D, a cubic in t, is zero. Unless D is identically zero, only its roots in [0,1]
+// are candidates. If D is identically zero, the first contact is at t = 0 or where one of the signs that
+// decide contact changes, hence at a root of one of the quadratics below. At a candidate every sign is
+// decided exactly (polynomial.h), so the answer is exact: the first candidate at which they meet. Degenerate
+// triangles and edges are decided by their edges and end points.
 #include "oracles/referee/motion/primitive_motion.h"
 
 #include <algorithm>
@@ -31,7 +31,7 @@ bool vanishes(const Polynomial3& v, const Root& t) {
   return sign_at(v.x, t) == 0 && sign_at(v.y, t) == 0 && sign_at(v.z, t) == 0;
 }
 
-/// A coordinate of the vector that is not zero at t; -1 when it is the zero vector.
+/// Index of a coordinate of the vector that is not zero at t; -1 for the zero vector.
 int nonzero_coordinate(const Polynomial3& v, const Root& t) {
   for (int k = 0; k < 3; ++k)
     if (sign_at(v[k], t) != 0) return k;
@@ -42,7 +42,7 @@ bool is_on_segment(const Polynomial3& p, const Polynomial3& q, const Polynomial3
   return vanishes(normal_of(p, q, r), t) && sign_at(between(p, q, r), t) <= 0;
 }
 
-// Precondition of both: the four points are in one plane at t.
+// Precondition of both functions: the four points are coplanar at t.
 bool vertex_meets_face(const Points& x, const Root& t) {
   const auto& [v, f, g, h] = x;
   const Polynomial3 n = normal_of(f, g, h);
@@ -71,7 +71,9 @@ std::vector<Root> times_of_flat_motion(const Points& x) {
     if (p.is_zero()) return;
     for (Root& r : roots_in_unit_interval(p)) times.push_back(std::move(r));
   };
-  const auto add3 = [&](const Polynomial3& v) { add(v.x), add(v.y), add(v.z); };
+  const auto add3 = [&](const Polynomial3& v) {
+    for (int k = 0; k < 3; ++k) add(v[k]);
+  };
   for (std::size_t i = 0; i < 4; ++i)
     for (std::size_t j = 0; j < 4; ++j)
       for (std::size_t k = j + 1; k < 4; ++k)
@@ -89,13 +91,14 @@ std::vector<Root> candidate_times(const Points& x) {
   return d.is_zero() ? times_of_flat_motion(x) : roots_in_unit_interval(d);
 }
 
-// Straight paths: a box of both ends holds a vertex throughout, and comparing doubles is exact.
+// Paths are straight, so the box of both ends contains a vertex throughout; comparing doubles is exact.
 bool boxes_are_apart(PrimitivePair kind, const std::array<Vec3, 4>& start, const std::array<Vec3, 4>& end) {
   const std::size_t split = kind == PrimitivePair::vertex_face ? 1 : 2;
   Aabb first, second;
   for (std::size_t i = 0; i < 4; ++i) {
     Aabb& box = i < split ? first : second;
-    box.extend(start[i]), box.extend(end[i]);
+    box.extend(start[i]);
+    box.extend(end[i]);
   }
   return !overlaps(first, second);
 }

@@ -1,13 +1,13 @@
-// The question, for given normal n and slack: which parts of A and B face each other across the contact
-// plane? For polytopes the feature along n is the hull of the vertices within slack of the support plane;
-// projected on the plane and intersected these are a convex polygon (or segment, or point). Whether a vertex
-// belongs is decided with the filter's error bounds and in rationals where those do not decide; the polygon
+// Given a normal n and a slack, which parts of A and B face each other across the contact plane? For
+// polytopes the feature along n is the hull of the vertices within slack of the support plane; projected onto
+// the plane and intersected, the two features form a convex polygon (or segment, or point). Whether a vertex
+// belongs is decided with the filter's error bounds, and in rationals where those do not suffice; the polygon
 // is then clipped in doubles relative to A's origin (Sutherland and Hodgman 1974).
 //
-// The error: a projected vertex is off by the rounding of its two coordinates, at most 8 units (of doubles)
-// of the features' size; a corner of the clipped polygon by that over the sine of the angle between the two
-// edges that make it. Edges closer to parallel than the error over their length make corners that are nearly
-// on both edges all the same: the area is off by at most error·perimeter.
+// Error: a projected vertex is off by the rounding of its two coordinates, at most 8 units (of doubles) of
+// the features' size; a corner of the clipped polygon by that over the sine of the angle between its two
+// edges. Edges closer to parallel than the error over their length make corners that are still nearly on both
+// edges: the area is off by at most error·perimeter.
 #include "oracles/referee/region/contact_region.h"
 
 #include <array>
@@ -39,8 +39,8 @@ const std::array<std::array<Real, 2>, rim_corners>& corners() {
   return table;
 }
 
-// The first corner is the highest along n; of a rim that leans, the others are below it by more than the
-// slack and would be dropped again.
+// The first corner is the highest along n; when the rim leans enough, the others are below it by more than
+// the slack and would be dropped again.
 void add_rim(Extremes& e, const Solid& s, Real height, const Real3& n, Real slack) {
   const Real3 u = column(s.matrix, 0), v = column(s.matrix, 1), w = column(s.matrix, 2);
   const Real x = dot(u, n), y = dot(v, n), lean = std::sqrt(x * x + y * y);
@@ -145,12 +145,15 @@ std::pair<Point2, Point2> farthest(const Convex2& p) {
   for (std::size_t i = 0; i < p.size(); ++i)
     for (std::size_t j = i + 1; j < p.size(); ++j) {
       const Point2 d = p[j] - p[i];
-      if (const double square = dot(d, d); square > most) most = square, best = {p[i], p[j]};
+      if (const double square = dot(d, d); square > most) {
+        most = square;
+        best = {p[i], p[j]};
+      }
     }
   return best;
 }
 
-// What is thinner than the margin all round is a point, on both sides a segment.
+// A set thinner than the margin all round becomes a point; thinner on two sides, a segment.
 Convex2 simplified(const Convex2& p, double margin) {
   if (p.empty()) return p;
   const auto [a, b] = farthest(p);
@@ -160,7 +163,8 @@ Convex2 simplified(const Convex2& p, double margin) {
   return p;
 }
 
-// As they are; when they miss each other and one of the two is thin, let out by the margin.
+// Intersects the sets as given; when they miss each other and one of them is thin, extends them by the
+// margin.
 Convex2 intersection(const Convex2& a, const Convex2& b, double margin) {
   const bool thin = a.size() < 3 || b.size() < 3;
   const Convex2 &whole = a.size() >= b.size() ? b : a, &frame = a.size() >= b.size() ? a : b;
@@ -189,7 +193,7 @@ Vec3 translation_of(const Placed& p) {
   return std::visit([](const auto& x) -> Vec3 { return x.translation; }, p.pose);
 }
 
-// Against a half-space the plane is the contact plane, and the feature of the other the region.
+// Against a half-space the contact plane is its boundary, and the region is the feature of the other body.
 ContactRegion region_on_half_space(const Placed& other, const Vec3& out_of_other, bool other_is_a,
                                    const Vec3& normal, const Placed& half_space, double slack) {
   const Vec3 origin = translation_of(other);
@@ -235,7 +239,8 @@ ContactRegion contact_region(const Placed& a, const Placed& b, const Vec3& norma
   }
   double far = 0;
   for (const Vec3& v : r.vertices) far = std::max(far, v.cwiseAbs().maxCoeff());
-  r.error = 0x1p-53 * (8 * size + 2 * far);
+  constexpr double rounding = 0x1p-53;  // unit roundoff of a double
+  r.error = rounding * (8 * size + 2 * far);
   return r;
 }
 
@@ -254,12 +259,13 @@ std::optional<double> covered_share(const ContactRegion& region, const std::vect
   Convex2 part = about(points);
   const Convex2 whole = about(region.vertices);
   if (region.kind == K::segment) {
-    // Of the points only how far along the segment they are.
+    // Only the position along the segment counts.
     const Point2 way = whole.back() - whole.front();
     double lo = 1, hi = 0;
     for (const Point2& p : part) {
       const double t = std::clamp(dot(p - whole.front(), way) / dot(way, way), 0.0, 1.0);
-      lo = std::min(lo, t), hi = std::max(hi, t);
+      lo = std::min(lo, t);
+      hi = std::max(hi, t);
     }
     return std::max(0.0, hi - lo);
   }

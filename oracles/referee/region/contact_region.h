@@ -8,10 +8,9 @@
 
 namespace touchstone::referee {
 
-/// The features of A and B that face each other across a contact plane, projected on it along the normal, and
-/// of these the common part. Vertices: world frame, half-way between the two bodies' support planes,
-/// counter-clockwise seen against the normal (from B), each within `error` of the region that the definition
-/// of contact_region gives.
+/// The features of A and B that face each other across a contact plane, projected onto it along the normal
+/// and intersected. Vertices: world frame, half-way between the two bodies' support planes, counter-clockwise
+/// seen against the normal (from B), each within `error` of the region defined at contact_region.
 struct ContactRegion {
   enum class Kind {
     none,     // a mesh (it has no depth), or features that do not face each other
@@ -27,22 +26,22 @@ struct ContactRegion {
 };
 
 /// How far below its support plane a vertex may lie and still belong to the feature, in units of L: faces
-/// that were meant to be parallel are so up to the rounding of a pose, often to that of a float.
+/// that were meant to be parallel are parallel only up to the rounding of a pose, often that of a float.
 inline constexpr double contact_slack_factor = 1e-6;
 
-/// Corners of the polygon that stands for the rim of a cylinder or cone; its area is 1e-4 less than the
+/// Corners of the polygon that approximates the rim of a cylinder or cone; its area is 1e-4 less than the
 /// disc's.
 inline constexpr int rim_corners = 256;
 
 /// A's feature: the hull of its extreme points x with n·x >= h_A(n) - slack·|n|, n = normal_ab; B's likewise
-/// with -n. Of polytopes and cores of rounded shapes these are vertices, decided exactly; of rims the corners
-/// of a polygon, one of them the support point; of an ellipsoid its support point; of a half-space the whole
-/// plane. Features that miss each other by less than slack in the plane are taken to meet. slack: a length >
-/// 0. normal_ab: finite, not zero.
+/// with -n. For polytopes and cores of rounded shapes these are vertices, decided exactly; for rims, the
+/// corners of a polygon, one of them the support point; for an ellipsoid, its support point; for a
+/// half-space, the whole plane. Features that miss each other by less than slack in the plane count as
+/// meeting. slack: a length > 0. normal_ab: finite, not zero.
 ContactRegion contact_region(const Placed& a, const Placed& b, const Vec3& normal_ab, double slack);
 
-/// The part of a polygon's area, or of a segment's length, that the hull of the points projected along the
-/// normal covers: at most 1. Nothing when the region is neither.
+/// The share of a polygon's area, or of a segment's length, covered by the hull of the points projected along
+/// the normal; at most 1. nullopt when the region is neither a polygon nor a segment.
 std::optional<double> covered_share(const ContactRegion& region, const std::vector<Vec3>& points,
                                     const Vec3& normal);
 

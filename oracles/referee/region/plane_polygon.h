@@ -55,8 +55,8 @@ struct HalfPlane {
   double offset;
 };
 
-/// The set as half-planes: the edges of a polygon, let out by `along`; of a point or a segment a frame that
-/// is `across` wide to both sides and lets out the ends by `along`.
+/// The set as half-planes: the edges of a polygon, moved outward by `along`; for a point or a segment a frame
+/// that is `across` wide on both sides and extends the ends by `along`.
 inline std::vector<HalfPlane> half_planes(const Convex2& p, double along, double across) {
   std::vector<HalfPlane> r;
   if (p.size() < 3) {
@@ -78,7 +78,7 @@ inline std::vector<HalfPlane> half_planes(const Convex2& p, double along, double
   return r;
 }
 
-/// Sutherland and Hodgman 1974, one half-plane.
+/// Clips by one half-plane (Sutherland and Hodgman 1974).
 inline Convex2 clipped(const Convex2& p, const HalfPlane& h) {
   Convex2 r;
   for (std::size_t i = 0; i < p.size(); ++i) {
