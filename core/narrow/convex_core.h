@@ -61,7 +61,10 @@ V3<R> support_local(const ConvexCore<R>& c, const V3<R>& d) {
       R best_dot = d.dot(best->template cast<R>());
       for (const Vec3& v : c.vertices.subspan(1)) {
         const R dot = d.x() * R(v.x()) + d.y() * R(v.y()) + d.z() * R(v.z());
-        if (dot > best_dot) best_dot = dot, best = &v;
+        if (dot > best_dot) {
+          best_dot = dot;
+          best = &v;
+        }
       }
       return best->template cast<R>();
     }
@@ -92,19 +95,27 @@ inline ConvexCore<Wide> make_core(const Shape& shape, const WideFrame& frame) {
   ConvexCore<Wide> c;
   c.frame = frame;
   const auto round = [&](CoreKind kind, Wide r, Wide h) {
-    c.kind = kind, c.size = WideVec(r, r, h), c.reach = std::sqrt(r * r + h * h);
+    c.kind = kind;
+    c.size = WideVec(r, r, h);
+    c.reach = std::sqrt(r * r + h * h);
   };
   if (const auto* s = std::get_if<Sphere>(&shape)) c.radius = s->radius;
-  if (const auto* s = std::get_if<Capsule>(&shape))
-    round(CoreKind::segment, 0, s->half_height), c.radius = s->radius;
+  if (const auto* s = std::get_if<Capsule>(&shape)) {
+    round(CoreKind::segment, 0, s->half_height);
+    c.radius = s->radius;
+  }
   if (const auto* s = std::get_if<Cylinder>(&shape)) round(CoreKind::cylinder, s->radius, s->half_height);
   if (const auto* s = std::get_if<Cone>(&shape)) round(CoreKind::cone, s->radius, s->half_height);
   if (const auto* s = std::get_if<Hull>(&shape)) return vertices_core(s->vertices, frame);
   if (const auto* s = std::get_if<Box>(&shape)) {
-    c.kind = CoreKind::box, c.size = s->half_extents.cast<Wide>(), c.reach = c.size.norm();
+    c.kind = CoreKind::box;
+    c.size = s->half_extents.cast<Wide>();
+    c.reach = c.size.norm();
   }
   if (const auto* s = std::get_if<Ellipsoid>(&shape)) {
-    c.kind = CoreKind::ellipsoid, c.size = s->semi_axes.cast<Wide>(), c.reach = c.size.maxCoeff();
+    c.kind = CoreKind::ellipsoid;
+    c.size = s->semi_axes.cast<Wide>();
+    c.reach = c.size.maxCoeff();
   }
   return c;
 }
@@ -119,7 +130,9 @@ struct DifferenceVertex {
 template <class R>
 DifferenceVertex<R> difference_support(const ConvexCore<R>& a, const ConvexCore<R>& b, const V3<R>& d) {
   DifferenceVertex<R> v;
-  v.a = support<R>(a, -d), v.b = support<R>(b, d), v.w = v.b - v.a;
+  v.a = support<R>(a, -d);
+  v.b = support<R>(b, d);
+  v.w = v.b - v.a;
   return v;
 }
 

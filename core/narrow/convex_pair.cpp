@@ -25,12 +25,16 @@ void inflate(Separation& s, const Core& a, const Core& b) {
   WideVec d = s.normal;
   if (length > tolerance::narrow_touching_factor * s.size) d = v * ((s.gap > 0 ? 1 : -1) / length);
   s.gap -= a.radius + b.radius;
-  s.a += a.radius * d, s.b -= b.radius * d;
+  s.a += a.radius * d;
+  s.b -= b.radius * d;
 }
 
 Separation from_gjk(const GjkResult<Wide>& g, Wide size) {
   Separation s;
-  s.size = size, s.gap = g.upper, s.a = g.a, s.b = g.b;
+  s.size = size;
+  s.gap = g.upper;
+  s.a = g.a;
+  s.b = g.b;
   s.normal = g.normal;
   s.slack = s.local_slack = std::max<Wide>(0, g.upper - g.lower);
   return s;
@@ -54,7 +58,11 @@ Separation from_epa(EpaResult<Wide> e, const Core& a, const Core& b, Wide size) 
     local = e.status == EpaStatus::closed;
   }
   Separation s;
-  s.size = size, s.gap = -e.upper, s.normal = e.normal, s.a = e.a, s.b = e.b;
+  s.size = size;
+  s.gap = -e.upper;
+  s.normal = e.normal;
+  s.a = e.a;
+  s.b = e.b;
   s.slack = std::max<Wide>(0, e.upper - proven);
   s.local_slack = local ? tolerance : s.slack;
   return s;
@@ -69,8 +77,15 @@ Separation second_opinion(const GjkResult<Wide>& g, const Core& a, const Core& b
     return from_epa(e, a, b, size);
   Separation s = from_gjk(g, size);
   Wide lower = g.lower;
-  if (-e.upper > lower) lower = -e.upper, s.normal = e.normal;
-  if (const Wide d = (e.b - e.a).norm(); d < s.gap) s.gap = d, s.a = e.a, s.b = e.b;
+  if (-e.upper > lower) {
+    lower = -e.upper;
+    s.normal = e.normal;
+  }
+  if (const Wide d = (e.b - e.a).norm(); d < s.gap) {
+    s.gap = d;
+    s.a = e.a;
+    s.b = e.b;
+  }
   s.slack = s.local_slack = std::max<Wide>(0, s.gap - lower);
   return s;
 }
@@ -99,7 +114,10 @@ Separation separate_convex(const Core& a, const Core& b) {
 Separation certified_or_general(const Core& a, const Core& b, const WideVec& point_a, const WideVec& point_b,
                                 const WideVec& normal) {
   Separation s;
-  s.size = pair_size(a, b), s.a = point_a, s.b = point_b, s.normal = normal;
+  s.size = pair_size(a, b);
+  s.a = point_a;
+  s.b = point_b;
+  s.normal = normal;
   s.gap = (point_b - point_a).norm();
   const Wide lower = normal.dot(support<Wide>(b, -normal)) - normal.dot(support<Wide>(a, normal));
   s.slack = s.local_slack = std::max<Wide>(0, s.gap - lower);

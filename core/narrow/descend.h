@@ -45,20 +45,34 @@ std::pair<R, R> least_between(R lo, R hi, R noise, F&& f) {
     if (den > 0) num = -num;
     den = std::abs(den);
     if (std::abs(num) < std::abs(den * before / 2) && num > den * (lo - x) && num < den * (hi - x)) {
-      before = step, step = num / den;
+      before = step;
+      step = num / den;
     } else {
-      before = x < middle ? hi - x : lo - x, step = section * before;
+      before = x < middle ? hi - x : lo - x;
+      step = section * before;
     }
     const R u = std::abs(step) >= finest ? x + step : x + (step > 0 ? finest : -finest), fu = f(u);
     if (fu <= fx) {
-      (u < x ? hi : lo) = x, (u < x ? f_hi : f_lo) = fx;
-      third = second, f_third = f_second, second = x, f_second = fx, x = u, fx = fu;
+      (u < x ? hi : lo) = x;
+      (u < x ? f_hi : f_lo) = fx;
+      third = second;
+      f_third = f_second;
+      second = x;
+      f_second = fx;
+      x = u;
+      fx = fu;
     } else {
-      (u < x ? lo : hi) = u, (u < x ? f_lo : f_hi) = fu;
-      if (fu <= f_second || second == x)
-        third = second, f_third = f_second, second = u, f_second = fu;
-      else if (fu <= f_third || third == x || third == second)
-        third = u, f_third = fu;
+      (u < x ? lo : hi) = u;
+      (u < x ? f_lo : f_hi) = fu;
+      if (fu <= f_second || second == x) {
+        third = second;
+        f_third = f_second;
+        second = u;
+        f_second = fu;
+      } else if (fu <= f_third || third == x || third == second) {
+        third = u;
+        f_third = fu;
+      }
     }
   }
   return {x, fx};
@@ -158,7 +172,8 @@ EpaResult<R> proximal(const V3<R>& n, R share, const ConvexCore<R>& a, const Con
   const GjkResult<R> g = gjk<R>(a, moved, tolerance, tolerance / 4, budget);
   if (g.status != GjkStatus::enclosed && g.status != GjkStatus::touching) return step;
   step = Epa<R>(a, moved, size, tolerance).run(g, budget);
-  step.b += shift, step.upper = height(step.normal);
+  step.b += shift;
+  step.upper = height(step.normal);
   return step;
 }
 
@@ -172,7 +187,10 @@ void descend(EpaResult<R>& e, const ConvexCore<R>& a, const ConvexCore<R>& b, R 
     const int axis = detail::round_axis(*c);
     if (axis < 0) continue;
     const auto [n, h] = detail::MeridianSearch<R>(a, b, c->frame.rotation.col(axis), size).least();
-    if (h < e.upper) e.upper = h, e.normal = n;
+    if (h < e.upper) {
+      e.upper = h;
+      e.normal = n;
+    }
   }
   for (const R share : {R(0.25), R(0.5), R(0.75), R(0.9375)}) {
     const EpaResult<R> step = detail::proximal<R>(e.normal, share, a, b, size, tolerance);
@@ -180,8 +198,13 @@ void descend(EpaResult<R>& e, const ConvexCore<R>& a, const ConvexCore<R>& b, R 
     // EPA's own tolerance, seen through the shift, is paid once in height and once in length.
     if (step.status == EpaStatus::broken || std::abs((step.b - step.a).norm() - depth) > 4 * tolerance)
       continue;
-    e.a = step.a, e.b = step.b, e.status = EpaStatus::closed;
-    if (step.upper <= e.upper) e.upper = step.upper, e.normal = step.normal;
+    e.a = step.a;
+    e.b = step.b;
+    e.status = EpaStatus::closed;
+    if (step.upper <= e.upper) {
+      e.upper = step.upper;
+      e.normal = step.normal;
+    }
     return;
   }
 }

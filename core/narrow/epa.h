@@ -50,11 +50,15 @@ class Epa {
       : a_(a), b_(b), tolerance_(tolerance), thin_(128 * eps * size), level_(8 * eps * size) {}
 
   EpaResult<R> run(const GjkResult<R>& g, int budget) {
-    result_.a = g.a, result_.b = g.b;
+    result_.a = g.a;
+    result_.b = g.b;
     outside_ = g.status == GjkStatus::enclosed ? 0 : 2 * g.upper;
     std::vector<DifferenceVertex<R>> start(g.simplex.begin(), g.simplex.begin() + g.size);
     drop_degenerate(start);
-    if (!grow(start)) return result_.status = EpaStatus::flat, result_;
+    if (!grow(start)) {
+      result_.status = EpaStatus::flat;
+      return result_;
+    }
     build_tetrahedron(start);
     for (int i = 0; i < budget; ++i) {
       const int f = least_key();
@@ -88,7 +92,10 @@ class Epa {
   DifferenceVertex<R> probe(const V3<R>& m, R& value) {
     const DifferenceVertex<R> s = difference_support<R>(a_, b_, m);
     value = m.dot(s.w);
-    if (value < result_.upper) result_.upper = value, result_.normal = -m;
+    if (value < result_.upper) {
+      result_.upper = value;
+      result_.normal = -m;
+    }
     return s;
   }
   DifferenceVertex<R> probe(const V3<R>& m) {
@@ -106,7 +113,10 @@ class Epa {
       for (std::size_t k = 0; k < 4; ++k) {
         const auto [i, j, l] = others(k);
         const R area = (w(j) - w(i)).cross(w(l) - w(i)).norm();
-        if (area > best) best = area, apex = k;
+        if (area > best) {
+          best = area;
+          apex = k;
+        }
       }
       const auto [i, j, l] = others(apex);
       const V3<R> n = (w(j) - w(i)).cross(w(l) - w(i));
@@ -134,7 +144,10 @@ class Epa {
     DifferenceVertex<R> chosen;
     for (const V3<R>& m : directions) {
       const DifferenceVertex<R> p = probe(m);
-      if (const R d = distance(p.w); d > best) best = d, chosen = p;
+      if (const R d = distance(p.w); d > best) {
+        best = d;
+        chosen = p;
+      }
     }
     if (!(best > thin_)) return false;
     s.push_back(chosen);
@@ -169,14 +182,17 @@ class Epa {
     const V3<R> n = (point(1) - point(0)).cross(point(2) - point(0));
     if (n.dot(point(3) - point(0)) > 0) std::swap(vertices_[1], vertices_[2]);
     // Counter-clockwise from outside, once vertex 3 is below triangle 0 1 2.
-    add_facet({0, 1, 2}, {3, 1, 2}), add_facet({1, 3, 2}, {3, 2, 0});
-    add_facet({0, 2, 3}, {0, 1, 3}), add_facet({0, 3, 1}, {2, 1, 0});
+    add_facet({0, 1, 2}, {3, 1, 2});
+    add_facet({1, 3, 2}, {3, 2, 0});
+    add_facet({0, 2, 3}, {0, 1, 3});
+    add_facet({0, 3, 1}, {2, 1, 0});
     for (int i = 0; i < 4; ++i) push(i);
   }
 
   int add_facet(std::array<int, 3> v, std::array<int, 3> adjacent) {
     Facet f;
-    f.v = v, f.adjacent = adjacent;
+    f.v = v;
+    f.adjacent = adjacent;
     measure(f);
     facets_.push_back(f);
     return static_cast<int>(facets_.size()) - 1;
@@ -219,10 +235,12 @@ class Epa {
 
   void set_witness(const Facet& x) {
     const auto near = nearest(x);
-    result_.a.setZero(), result_.b.setZero();
+    result_.a.setZero();
+    result_.b.setZero();
     for (std::size_t i = 0; i < 3; ++i) {
       const auto& v = vertices_[static_cast<std::size_t>(x.v[i])];
-      result_.a += near.weight[i] * v.a, result_.b += near.weight[i] * v.b;
+      result_.a += near.weight[i] * v.a;
+      result_.b += near.weight[i] * v.b;
     }
   }
 
@@ -232,7 +250,10 @@ class Epa {
     R least = infinite;
     for (int i = 0; i < static_cast<int>(facets_.size()); ++i) {
       if (!facets_[static_cast<std::size_t>(i)].alive) continue;
-      if (const R d = nearest(facets_[static_cast<std::size_t>(i)]).dist_sq; d < least) least = d, best = i;
+      if (const R d = nearest(facets_[static_cast<std::size_t>(i)]).dist_sq; d < least) {
+        least = d;
+        best = i;
+      }
     }
     return best;
   }
@@ -241,7 +262,10 @@ class Epa {
     if (const int k = least_key(); k >= 0) result_.lower = facet(k).key;
     if (f >= 0) {
       const Facet& x = facet(f);
-      if (x.upper - result_.upper <= tolerance_) result_.upper = x.upper, result_.normal = -x.normal;
+      if (x.upper - result_.upper <= tolerance_) {
+        result_.upper = x.upper;
+        result_.normal = -x.normal;
+      }
       set_witness(nearest(x).dist_sq <= square(std::abs(x.plane) + tolerance_) ? x : facet(nearest_facet()));
     }
     result_.status = status;
@@ -254,7 +278,10 @@ class Epa {
   }
 
   bool in_region(int f) const { return mark_[static_cast<std::size_t>(f)] == stamp_; }
-  void take(int f) { mark_[static_cast<std::size_t>(f)] = stamp_, region_.push_back(f); }
+  void take(int f) {
+    mark_[static_cast<std::size_t>(f)] = stamp_;
+    region_.push_back(f);
+  }
 
   void flood(std::size_t from, const V3<R>& p) {
     for (std::size_t i = from; i < region_.size(); ++i)
@@ -295,8 +322,10 @@ class Epa {
       if (seen[i]) continue;
       loops.emplace_back();
       for (std::size_t k = i; !seen[k];
-           k = static_cast<std::size_t>(next_[static_cast<std::size_t>(horizon_[k].to)]))
-        seen[k] = true, loops.back().push_back(horizon_[k]);
+           k = static_cast<std::size_t>(next_[static_cast<std::size_t>(horizon_[k].to)])) {
+        seen[k] = true;
+        loops.back().push_back(horizon_[k]);
+      }
     }
     std::size_t longest = 0;
     for (std::size_t i = 1; i < loops.size(); ++i)

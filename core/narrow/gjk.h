@@ -41,11 +41,15 @@ void keep_weighted(GjkResult<R>& g, const ClosestPoint<R>& c) {
   for (int i = 0; i < g.size; ++i) {
     const auto k = static_cast<std::size_t>(i);
     if (!(c.weight[k] > 0)) continue;
-    a += c.weight[k] * g.simplex[k].a, b += c.weight[k] * g.simplex[k].b;
+    a += c.weight[k] * g.simplex[k].a;
+    b += c.weight[k] * g.simplex[k].b;
     g.simplex[static_cast<std::size_t>(kept)] = g.simplex[k];
     g.weight[static_cast<std::size_t>(kept++)] = c.weight[k];
   }
-  g.size = kept, g.a = a, g.b = b, g.upper = std::sqrt(c.dist_sq);
+  g.size = kept;
+  g.a = a;
+  g.b = b;
+  g.upper = std::sqrt(c.dist_sq);
 }
 
 template <class R>
@@ -68,7 +72,10 @@ void polish(GjkResult<R>& g, const ConvexCore<R>& a, const ConvexCore<R>& b,
         n.normalize();
         if (n.dot(seen[i].w) < 0) n = -n;
         const R lower = n.dot(difference_support<R>(a, b, -n).w);
-        if (lower > g.lower) g.lower = lower, g.normal = n;
+        if (lower > g.lower) {
+          g.lower = lower;
+          g.normal = n;
+        }
       }
 }
 
@@ -81,7 +88,8 @@ GjkResult<R> gjk(const ConvexCore<R>& a, const ConvexCore<R>& b, R tolerance, R 
   V3<R> v = b.frame.translation - a.frame.translation;
   if (v.isZero(0)) v = V3<R>::UnitX();
   g.simplex[0] = difference_support<R>(a, b, -v);
-  g.size = 1, g.lower = -std::numeric_limits<R>::infinity();
+  g.size = 1;
+  g.lower = -std::numeric_limits<R>::infinity();
   constexpr int max_idle = 8;
   int idle = 0, seen = 0;
   std::array<DifferenceVertex<R>, 10> recent;
@@ -90,22 +98,39 @@ GjkResult<R> gjk(const ConvexCore<R>& a, const ConvexCore<R>& b, R tolerance, R 
     const ClosestPoint<R> c = detail::closest_of(g);
     // A support plane with the origin outside is proof; a flat tetrahedron's signs are not.
     if (c.encloses && g.lower > 0) break;
-    if (c.encloses) return g.status = GjkStatus::enclosed, g;
+    if (c.encloses) {
+      g.status = GjkStatus::enclosed;
+      return g;
+    }
     // Near the end the distance stands still to an ulp while the direction still improves.
     idle = c.dist_sq < last_sq ? 0 : idle + 1;
     if (idle > max_idle) break;
-    last_sq = std::min(last_sq, c.dist_sq), v = c.point;
+    last_sq = std::min(last_sq, c.dist_sq);
+    v = c.point;
     detail::keep_weighted(g, c);
-    if (g.upper <= touching) return g.status = GjkStatus::touching, g;
+    if (g.upper <= touching) {
+      g.status = GjkStatus::touching;
+      return g;
+    }
     const V3<R> n = v / g.upper;
     const DifferenceVertex<R> s = difference_support<R>(a, b, -n);
-    if (const R lower = n.dot(s.w); lower > g.lower) g.lower = lower, g.normal = n, idle = 0;
-    if (g.upper - g.lower <= tolerance) return g.status = GjkStatus::separated, g;
+    if (const R lower = n.dot(s.w); lower > g.lower) {
+      g.lower = lower;
+      g.normal = n;
+      idle = 0;
+    }
+    if (g.upper - g.lower <= tolerance) {
+      g.status = GjkStatus::separated;
+      return g;
+    }
     if (g.size == 4) break;
     g.simplex[static_cast<std::size_t>(g.size++)] = s;
     recent[static_cast<std::size_t>(seen++) % recent.size()] = s;
   }
-  if (g.iterations > max_iterations) return g.status = GjkStatus::capped, g;
+  if (g.iterations > max_iterations) {
+    g.status = GjkStatus::capped;
+    return g;
+  }
   detail::polish<R>(
       g, a, b,
       std::span(recent.data(), std::min<std::size_t>(static_cast<std::size_t>(seen), recent.size())));

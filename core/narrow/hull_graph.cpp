@@ -34,9 +34,12 @@ class Builder {
 
   HullGraph graph() const {
     HullGraph g;
-    g.first.assign(v_.size() + 1, 0), g.reach = reach_;
-    for (const HalfEdge& e : edges_)
-      ++g.first[at(e.from) + 1], g.neighbour.push_back(static_cast<std::uint16_t>(e.to));
+    g.first.assign(v_.size() + 1, 0);
+    g.reach = reach_;
+    for (const HalfEdge& e : edges_) {
+      ++g.first[at(e.from) + 1];
+      g.neighbour.push_back(static_cast<std::uint16_t>(e.to));
+    }
     for (std::size_t i = 0; i < v_.size(); ++i) g.first[i + 1] += g.first[i];
     // About four cells a vertex: most starts are summits already (a cell a vertex: a quarter slower; sixteen:
     // no faster, and the table leaves the cache).
@@ -116,7 +119,8 @@ class Builder {
         for (int column = 0; column < c; ++column) {
           Vec3 d;
           d[face / 2] = face % 2 ? -1 : 1;
-          d[(face / 2 + 1) % 3] = (2 * row + 1.0) / c - 1, d[(face / 2 + 2) % 3] = (2 * column + 1.0) / c - 1;
+          d[(face / 2 + 1) % 3] = (2 * row + 1.0) / c - 1;
+          d[(face / 2 + 2) % 3] = (2 * column + 1.0) / c - 1;
           last = narrow::fast::climb_from(g, v_, d, last);
           g.start.push_back(static_cast<std::uint16_t>(last));
         }

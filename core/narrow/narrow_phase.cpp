@@ -63,19 +63,22 @@ void prepare_segments(FastAnswer<R>& f, const PlacedShape& a, const PlacedShape&
   const V3<R> middle = (f.answer.a + f.answer.b) / 2 +
                        (f.mirrored ? V3<R>(a.pose.translation.cast<R>() - b.pose.translation.cast<R>())
                                    : V3<R>(V3<R>::Zero()));
-  f.scene.middle = f.scene.at.a_to_world.transpose() * middle, f.scene.has_middle = true;
+  f.scene.middle = f.scene.at.a_to_world.transpose() * middle;
+  f.scene.has_middle = true;
 }
 
 template <class R>
 void fill(const FastAnswer<R>& f, const PlacedShape& a, DistanceAnswer& r) {
-  r.distance = static_cast<double>(f.answer.gap), r.error_bound = static_cast<double>(f.answer.bound);
+  r.distance = static_cast<double>(f.answer.gap);
+  r.error_bound = static_cast<double>(f.answer.bound);
   r.normal = f.answer.normal.template cast<double>();
   r.witness = {world<R>(f.answer.a, a), world<R>(f.answer.b, a)};
 }
 
 template <class R>
 bool fill(FastAnswer<R>& f, const PlacedShape& a, const PlacedShape& b, ContactAnswer& r) {
-  r.overlap = overlaps(f), r.error_bound = r.regret_bound = static_cast<double>(f.answer.bound);
+  r.overlap = overlaps(f);
+  r.error_bound = r.regret_bound = static_cast<double>(f.answer.bound);
   if (!r.overlap) return true;
   r.normal = f.answer.normal.template cast<double>();
   r.depth = std::max<double>(0, -f.answer.gap);
@@ -107,7 +110,8 @@ OverlapAnswer overlap_alone(const PlacedShape& a, const PlacedShape& b, PairMemo
   separate<R>(a, b, Asked::overlap, memory, f);
   if (!known(f, true)) separate<R>(a, b, Asked::distance, memory, f);
   r.outcome = known(f, true) ? Outcome::answered : Outcome::not_converged;
-  r.overlap = overlaps(f), r.error_bound = static_cast<double>(f.answer.bound);
+  r.overlap = overlaps(f);
+  r.error_bound = static_cast<double>(f.answer.bound);
   return r;
 }
 

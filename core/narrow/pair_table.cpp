@@ -115,7 +115,8 @@ void separate_fast(const PlacedShape& a, const PlacedShape& b, fast::Asked asked
   f(b, a, asked, r, out.scene);
   const V3<R> shift = b.pose.translation.cast<R>() - a.pose.translation.cast<R>();
   r.normal = -r.normal;
-  r.a += shift, r.b += shift;
+  r.a += shift;
+  r.b += shift;
   r.a.swap(r.b);
 }
 
@@ -139,7 +140,8 @@ Separation separate(const Shape& a, const WideFrame& fa, const Shape& b, const W
   Separation other =
       mirrored(separate_placed(b, {fb.rotation, WideVec::Zero()}, a, {fa.rotation, WideVec(-b_from_a)}));
   if (other.outcome != Outcome::answered) return s;
-  other.a += b_from_a, other.b += b_from_a;
+  other.a += b_from_a;
+  other.b += b_from_a;
   return other;
 }
 

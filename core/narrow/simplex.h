@@ -32,7 +32,9 @@ template <class R>
 void try_vertex(const V3<R>* const* p, int i, ClosestPoint<R>& best) {
   const R d = p[i]->squaredNorm();
   if (!(d < best.dist_sq)) return;
-  best.point = *p[i], best.dist_sq = d, best.weight = {};
+  best.point = *p[i];
+  best.dist_sq = d;
+  best.weight = {};
   best.weight[static_cast<std::size_t>(i)] = 1;
 }
 
@@ -48,8 +50,11 @@ void try_edge(const V3<R>* const* p, int i, int j, ClosestPoint<R>& best) {
   x -= d * (x.dot(d) / len_sq);
   const R dist_sq = x.squaredNorm();
   if (!(dist_sq <= best.dist_sq * tie<R>)) return;
-  best.point = x, best.dist_sq = dist_sq, best.weight = {};
-  best.weight[static_cast<std::size_t>(i)] = 1 - s, best.weight[static_cast<std::size_t>(j)] = s;
+  best.point = x;
+  best.dist_sq = dist_sq;
+  best.weight = {};
+  best.weight[static_cast<std::size_t>(i)] = 1 - s;
+  best.weight[static_cast<std::size_t>(j)] = s;
 }
 
 /// Normal of a triangle, counter-clockwise, not normalised: the cross product of the two shorter edges, made
@@ -83,18 +88,25 @@ void try_triangle(const V3<R>* const* p, int i, int j, int k, ClosestPoint<R>& b
   const V3<R> x = n * (nearest.dot(n) / nn);
   const R dist_sq = x.squaredNorm();
   if (!(dist_sq <= best.dist_sq * tie<R>)) return;
-  best.point = x, best.dist_sq = dist_sq, best.weight = {};
+  best.point = x;
+  best.dist_sq = dist_sq;
+  best.weight = {};
   // One step of refinement: the weights of a needle are known only to its aspect ratio; the residual in its
   // plane mends them until their sum of corners is the foot to rounding.
   R la = wa / (wa + wb + wc), lb = wb / (wa + wb + wc), lc = wc / (wa + wb + wc);
   for (int step = 0; step < 2; ++step) {
     const V3<R> rest = x - (la * a + lb * b + lc * c);
     const R da = n.dot(rest.cross(b - c)) / nn, db = n.dot(rest.cross(c - a)) / nn;
-    la += da, lb += db, lc -= da + db;
+    la += da;
+    lb += db;
+    lc -= da + db;
   }
-  la = std::max<R>(la, 0), lb = std::max<R>(lb, 0), lc = std::max<R>(lc, 0);
+  la = std::max<R>(la, 0);
+  lb = std::max<R>(lb, 0);
+  lc = std::max<R>(lc, 0);
   const R sum = la + lb + lc;
-  best.weight[static_cast<std::size_t>(i)] = la / sum, best.weight[static_cast<std::size_t>(j)] = lb / sum;
+  best.weight[static_cast<std::size_t>(i)] = la / sum;
+  best.weight[static_cast<std::size_t>(j)] = lb / sum;
   best.weight[static_cast<std::size_t>(k)] = lc / sum;
 }
 
@@ -118,7 +130,8 @@ ClosestPoint<R> closest_to_origin(std::span<const V3<R>* const> points) {
   const int n = static_cast<int>(points.size());
   const auto* p = points.data();
   if (n == 4 && detail::tetrahedron_encloses<R>(p)) {
-    best.encloses = true, best.dist_sq = 0;
+    best.encloses = true;
+    best.dist_sq = 0;
     return best;
   }
   for (int i = 0; i < n; ++i) detail::try_vertex<R>(p, i, best);

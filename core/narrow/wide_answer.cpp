@@ -51,9 +51,11 @@ OverlapAnswer wide_overlap(const PlacedShape& a, const PlacedShape& b) {
 DistanceAnswer wide_distance(const PlacedShape& a, const PlacedShape& b) {
   const Separation s = separation(a, b);
   DistanceAnswer r;
-  r.outcome = s.outcome, r.error_bound = arithmetic_error(s);
+  r.outcome = s.outcome;
+  r.error_bound = arithmetic_error(s);
   if (s.outcome != Outcome::answered) return r;
-  r.distance = static_cast<double>(s.gap), r.normal = s.normal.cast<double>();
+  r.distance = static_cast<double>(s.gap);
+  r.normal = s.normal.cast<double>();
   r.witness = {world(s.a, a), world(s.b, a)};
   return r;
 }
@@ -61,7 +63,8 @@ DistanceAnswer wide_distance(const PlacedShape& a, const PlacedShape& b) {
 ContactAnswer wide_contact(const PlacedShape& a, const PlacedShape& b) {
   const Separation s = separation(a, b);
   ContactAnswer r;
-  r.outcome = s.outcome, r.error_bound = arithmetic_error(s);
+  r.outcome = s.outcome;
+  r.error_bound = arithmetic_error(s);
   r.overlap = s.outcome == Outcome::answered && touches(s);
   if (!r.overlap) return r;
   r.normal = s.normal.cast<double>();

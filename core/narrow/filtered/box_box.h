@@ -119,8 +119,10 @@ BoxAxis<R> least_axis(const BoxPair<R>& p) {
   BoxAxis<R> best;
   for (int i = 0; i < 6; ++i)
     if (const R s = faces[static_cast<std::size_t>(i)];
-        s > best.separation + (best.index < 3 && i >= 3 ? tie : 0))
-      best.separation = s, best.index = i;
+        s > best.separation + (best.index < 3 && i >= 3 ? tie : 0)) {
+      best.separation = s;
+      best.index = i;
+    }
   if (best.separation > p.displacement) {
     best.found = Found::apart;
     return best;
@@ -132,8 +134,10 @@ BoxAxis<R> least_axis(const BoxPair<R>& p) {
       // s/|n| > goal without a root, all cases of sign.
       const bool better = goal < 0 ? (e.s > 0 || e.s * e.s < goal * goal * e.length_sq)
                                    : (e.s > 0 && e.s * e.s > goal * goal * e.length_sq);
-      if (better && e.length_sq > 0)
-        best.separation = e.s / std::sqrt(e.length_sq), best.index = 6 + 3 * i + j;
+      if (better && e.length_sq > 0) {
+        best.separation = e.s / std::sqrt(e.length_sq);
+        best.index = 6 + 3 * i + j;
+      }
     }
   best.found = decide(best.separation, p.displacement);
   if (best.index < 3)

@@ -54,7 +54,8 @@ R nearest_parameter(const BoxSegment<R>& p) {
       if (!(t > lo && t < hi)) continue;
       const R s = p.slope(t);
       if (s == 0) return t;
-      (s < 0 ? lo : hi) = t, (s < 0 ? at_lo : at_hi) = s;
+      (s < 0 ? lo : hi) = t;
+      (s < 0 ? at_lo : at_hi) = s;
     }
   }
   return std::clamp(lo - at_lo * ((hi - lo) / (at_hi - at_lo)), lo, hi);
@@ -69,7 +70,8 @@ void free_of_segment(const BoxSegment<R>& p, V3<R>& v) {
   const R square = along.squaredNorm();
   // Along a face, or nearly parallel to an edge: nothing there but rounding.
   if (!(square > R(1e-6))) return;
-  v -= along * (along.dot(v) / square), v -= along * (along.dot(v) / square);
+  v -= along * (along.dot(v) / square);
+  v -= along * (along.dot(v) / square);
 }
 
 template <class R>
@@ -93,7 +95,10 @@ int least_depth(const BoxSegment<R>& p, R& most) {
   int best = 0;
   most = -std::numeric_limits<R>::infinity();
   for (int k = 0; k < 3; ++k)
-    if (const R s = std::abs(p.c[k]) - p.half[k] - std::abs(p.d[k]) * p.h; s > most) most = s, best = k;
+    if (const R s = std::abs(p.c[k]) - p.half[k] - std::abs(p.d[k]) * p.h; s > most) {
+      most = s;
+      best = k;
+    }
   const R tie = p.error / 16;
   for (int k = 0; k < 3; ++k) {
     const int i = (k + 1) % 3, j = (k + 2) % 3;
@@ -101,7 +106,10 @@ int least_depth(const BoxSegment<R>& p, R& most) {
     if (!(length_sq > 0)) continue;
     const R s = (std::abs(p.c[j] * x - p.c[i] * y) - (p.half[i] * std::abs(y) + p.half[j] * std::abs(x))) /
                 std::sqrt(length_sq);
-    if (s > most + (best < 3 ? tie : 0)) most = s, best = 3 + k;
+    if (s > most + (best < 3 ? tie : 0)) {
+      most = s;
+      best = 3 + k;
+    }
   }
   return best;
 }
@@ -115,13 +123,15 @@ void meet_face(const BoxSegment<R>& p, int k, BoxSegmentGap<R>& g) {
   for (const int j : {(k + 1) % 3, (k + 2) % 3}) {
     if (std::abs(p.d[j]) * p.h <= tolerance) continue;
     const R a = (-p.half[j] - p.c[j]) / p.d[j], b = (p.half[j] - p.c[j]) / p.d[j];
-    lo = std::max(lo, std::min(a, b)), hi = std::min(hi, std::max(a, b));
+    lo = std::max(lo, std::min(a, b));
+    hi = std::min(hi, std::max(a, b));
   }
   const R deepest = side * p.d[k] > 0 ? -p.h : p.h;
   // Parallel to the face: the middle, so that it stands still.
   const bool level = std::abs(p.d[k]) * p.h <= tolerance;
   g.segment = p.at(level ? (lo + hi) / 2 : (std::abs(lo - deepest) < std::abs(hi - deepest) ? lo : hi));
-  g.box = g.segment.cwiseMax(-p.half).cwiseMin(p.half), g.box[k] = side * p.half[k];
+  g.box = g.segment.cwiseMax(-p.half).cwiseMin(p.half);
+  g.box[k] = side * p.half[k];
 }
 
 template <class R>
@@ -129,7 +139,8 @@ void meet_edge(const BoxSegment<R>& p, int k, BoxSegmentGap<R>& g) {
   g.n = V3<R>::Unit(k).cross(p.d).normalized();
   if (g.n.dot(p.c) < 0) g.n = -g.n;
   const int i = (k + 1) % 3, j = (k + 2) % 3;
-  g.box[i] = std::copysign(p.half[i], g.n[i]), g.box[j] = std::copysign(p.half[j], g.n[j]);
+  g.box[i] = std::copysign(p.half[i], g.n[i]);
+  g.box[j] = std::copysign(p.half[j], g.n[j]);
   const R square = p.d[i] * p.d[i] + p.d[j] * p.d[j];
   const R t = ((g.box[i] - p.c[i]) * p.d[i] + (g.box[j] - p.c[j]) * p.d[j]) / square;
   g.segment = p.at(std::clamp(t, -p.h, p.h));
@@ -156,7 +167,10 @@ bool lies_along(const BoxSegment<R>& p, const V3<R>& n, R depth, R tolerance) {
   if (std::abs(n.dot(p.d)) * 2 * p.h > depth + tolerance) return false;
   int free = 0, last = 0;
   for (int k = 0; k < 3; ++k)
-    if (2 * std::abs(n[k]) * p.half[k] <= tolerance) ++free, last = k;
+    if (2 * std::abs(n[k]) * p.half[k] <= tolerance) {
+      ++free;
+      last = k;
+    }
   return free >= 2 || (free == 1 && 1 - p.d[last] * p.d[last] < R(1e-6));
 }
 
@@ -175,8 +189,10 @@ BoxCapsule<R> box_capsule(const Shape& sa, const Stand<R>& a, const Shape& sb, c
   BoxCapsule<R> r{matrix(a), {}, static_cast<R>(capsule.radius), 0};
   BoxSegment<R>& p = r.cores;
   const V3<R> offset = b.t - a.t;
-  p.half = std::get_if<Box>(&sa)->half_extents.template cast<R>(), p.h = static_cast<R>(capsule.half_height);
-  p.c = r.to_world.transpose() * offset, p.d = r.to_world.transpose() * axis_z(b);
+  p.half = std::get_if<Box>(&sa)->half_extents.template cast<R>();
+  p.h = static_cast<R>(capsule.half_height);
+  p.c = r.to_world.transpose() * offset;
+  p.d = r.to_world.transpose() * axis_z(b);
   p.error = displacement_of<R>(p.half.norm(), p.h, p.c.norm()) + 4 * u<R> * r.radius;
   r.scale = std::max(std::max(detail::largest(p.half), r.radius + p.h), detail::largest(offset) / 2);
   return r;
@@ -188,10 +204,14 @@ bool solve(const BoxCapsule<R>& q, Asked asked, Answer<R>& out) {
   BoxSegmentGap<R> g = detail::apart(q.cores);
   const R far = g.gap;
   if (!(g.bound <= 2 * q.cores.error)) g = detail::meeting(q.cores, far);
-  out.gap = g.gap - q.radius, out.bound = g.bound, out.found = decide(out.gap, out.bound);
+  out.gap = g.gap - q.radius;
+  out.bound = g.bound;
+  out.found = decide(out.gap, out.bound);
   if (asked == Asked::overlap && out.found != Found::touching) return true;
   if (!accepted(g.bound, q.scale)) return false;
-  out.normal = g.n, out.a = g.box, out.b = g.segment - q.radius * g.n;
+  out.normal = g.n;
+  out.a = g.box;
+  out.b = g.segment - q.radius * g.n;
   return std::abs((out.b - out.a).norm() - std::abs(out.gap)) <= accuracy(q.scale) / 4;
 }
 

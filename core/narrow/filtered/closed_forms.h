@@ -37,8 +37,11 @@ bool verdict(Answer<R>& s, R gap, R error) {
 template <class R>
 void inflate(Answer<R>& s, R dist, const V3<R>& n, const V3<R>& pa, const V3<R>& pb, R ra, R rb, R error,
              R scale) {
-  s.gap = dist - (ra + rb), s.normal = n, s.bound = error;
-  s.a = pa + ra * n, s.b = pb - rb * n;
+  s.gap = dist - (ra + rb);
+  s.normal = n;
+  s.bound = error;
+  s.a = pa + ra * n;
+  s.b = pb - rb * n;
   s.found = accepted(error, scale) ? decide(s.gap, error) : Found::unsure;
 }
 
@@ -76,8 +79,12 @@ void sphere_box(const Shape& sa, const Pose& pa, const Shape& sb, const Pose& pb
   int axis = 0;
   const R depth = (h - p.cwiseAbs()).minCoeff(&axis);
   const V3<R> n = m.col(axis) * (p[axis] < 0 ? R(1) : R(-1));
-  out.gap = -depth - r, out.normal = n, out.a = r * n, out.b = -depth * n;
-  out.bound = error, out.found = decide(out.gap, error);
+  out.gap = -depth - r;
+  out.normal = n;
+  out.a = r * n;
+  out.b = -depth * n;
+  out.bound = error;
+  out.found = decide(out.gap, error);
 }
 
 template <class R>
@@ -136,7 +143,9 @@ void try_feet(const SegmentPair<R>& p, R s, R t, SegmentFeet<R>& best) {
   if (std::abs(t) < p.hb) v -= p.axis_b * p.axis_b.dot(v);
   const R dist = v.norm();
   if (!(dist < best.dist)) return;
-  best.s = s, best.t = t, best.dist = dist;
+  best.s = s;
+  best.t = t;
+  best.dist = dist;
   if (dist > 0) best.normal = direction<R>(v, dist);
 }
 
@@ -145,7 +154,10 @@ void try_feet(const SegmentPair<R>& p, R s, R t, SegmentFeet<R>& best) {
 template <class R>
 void try_level(const SegmentPair<R>& p, const V3<R>& n, SegmentFeet<R>& best) {
   const V3<R> m = n.dot(p.d) < 0 ? V3<R>(-n) : n;
-  if (p.separation(m) > p.separation(best.normal)) best.normal = m, best.level = true;
+  if (p.separation(m) > p.separation(best.normal)) {
+    best.normal = m;
+    best.level = true;
+  }
 }
 
 // Parameters from cross products: their error grows as 1/sin of the angle, that of the normal equations as
@@ -161,7 +173,9 @@ SegmentFeet<R> segment_feet(const SegmentPair<R>& p) {
     s = p.d.cross(p.axis_b).dot(n) * inverse;
     if (std::abs(s) <= p.ha && std::abs(t) <= p.hb) {
       const R along = p.d.dot(n), scale = std::sqrt(inverse);
-      best.s = s, best.t = t, best.dist = std::abs(along) * scale;
+      best.s = s;
+      best.t = t;
+      best.dist = std::abs(along) * scale;
       best.normal = n * std::copysign(scale, along);
       return best;
     }
@@ -186,7 +200,8 @@ void look_again(const SegmentPair<R>& p, SegmentFeet<R>& best) {
   const R nn = n.squaredNorm();
   if (nn > 64 * u<R> * u<R>) try_level(p, V3<R>(n * (1 / std::sqrt(nn))), best);
   const V3<R> x = p.axis_a.unitOrthogonal(), y = p.axis_a.cross(x);
-  try_level(p, x, best), try_level(p, y, best);
+  try_level(p, x, best);
+  try_level(p, y, best);
 }
 
 }  // namespace detail
@@ -204,13 +219,17 @@ bool capsule_capsule(const Shape& sa, const Pose& pa, const Shape& sb, const Pos
   detail::SegmentFeet<R> f = detail::segment_feet(p);
   const auto shortfall = [&] { return std::max<R>(0, f.dist - p.separation(f.normal)); };
   R error = rounding + shortfall();
-  if (error > 2 * rounding) detail::look_again(p, f), error = rounding + shortfall();
+  if (error > 2 * rounding) {
+    detail::look_again(p, f);
+    error = rounding + shortfall();
+  }
   const V3<R>& n = f.normal;
   if (asked == Asked::overlap && detail::verdict(out, f.dist - (ra + rb), error)) return false;
   V3<R> foot_a = f.s * p.axis_a, foot_b = p.d + f.t * p.axis_b;
   if (f.level) {
     const V3<R> middle = (foot_a + foot_b) / 2;
-    foot_a = middle - f.dist / 2 * n, foot_b = middle + f.dist / 2 * n;
+    foot_a = middle - f.dist / 2 * n;
+    foot_b = middle + f.dist / 2 * n;
   }
   detail::inflate<R>(out, f.dist, n, foot_a, foot_b, ra, rb, error,
                      std::max(std::max(ra + p.ha, rb + p.hb), detail::largest(p.d) / 2));

@@ -21,12 +21,16 @@ class MeshQuery {
         b_(stand<R>(b.pose)),
         best_(best),
         s_(s) {
-    s.a = make_body<R>(*a.shape, a.graph), s.at = relative(a_, b_), s.contact = ContactForm::point;
+    s.a = make_body<R>(*a.shape, a.graph);
+    s.at = relative(a_, b_);
+    s.contact = ContactForm::point;
     const Vec3 d = a.pose.translation - b.pose.translation;
     centre_ = matrix(stand<double>(b.pose)).transpose() * d;
     const double ball = static_cast<double>(s.a.reach) + static_cast<double>(s.a.radius);
     ball_ = ball + 256 * static_cast<double>(u<R>) * (ball + d.norm() + a.pose.translation.norm());
-    best_.found = Found::apart, best_.gap = std::numeric_limits<R>::infinity(), best_.bound = 0;
+    best_.found = Found::apart;
+    best_.gap = std::numeric_limits<R>::infinity();
+    best_.bound = 0;
   }
 
   void run(const MeshTree* tree) {
@@ -62,7 +66,8 @@ class MeshQuery {
       return box_distance_sq(centre_, c.lo, c.hi);
     };
     const bool second = far(n.first + 1) < far(n.first);
-    descend(tree, n.first + second), descend(tree, n.first + !second);
+    descend(tree, n.first + second);
+    descend(tree, n.first + !second);
   }
 
   void look(std::size_t triangle) {
@@ -70,7 +75,8 @@ class MeshQuery {
     if (out_of_reach(corner_[0].cwiseMin(corner_[1]).cwiseMin(corner_[2]),
                      corner_[0].cwiseMax(corner_[1]).cwiseMax(corner_[2])))
       return;
-    s_.b.kind = CoreKind::vertices, s_.b.vertices = corner_;
+    s_.b.kind = CoreKind::vertices;
+    s_.b.vertices = corner_;
     s_.b.reach = s_.b.extent = static_cast<R>(std::sqrt(largest_norm_sq(corner_)));
     Answer<R> r;
     s_.guess.setZero();
@@ -83,7 +89,9 @@ class MeshQuery {
       doubt_ |= r.found == Found::unsure || r.found == Found::touching;
       bound_ = std::max(bound_, r.bound);
       if (r.found != Found::meeting) return;
-      best_ = r, doubt_ = false, over_ = true;
+      best_ = r;
+      doubt_ = false;
+      over_ = true;
       return;
     }
     if (r.found == Found::unsure) {

@@ -44,12 +44,16 @@ class Expander {
   Depth<R> run(const Simplex<R>& start, bool encloses) {
     for (int i = 0; i < start.size; ++i) set_vertex(i, start.p[static_cast<std::size_t>(i)]);
     vertices_ = start.size;
-    if (!complete(encloses)) return result_.end = ExpandEnd::flat, result_;
+    if (!complete(encloses)) {
+      result_.end = ExpandEnd::flat;
+      return result_;
+    }
     if (!build()) return result_;
     for (;;) {
       int f = nearest();
       if (f >= 0 && vertices_ >= next_try_) {
-        next_try_ += try_step_, try_step_ *= settled_.found ? 2 : 1;
+        next_try_ += try_step_;
+        try_step_ *= settled_.found ? 2 : 1;
         if (settle(f)) f = nearest();
       }
       if (settled_.found && (f < 0 || rank_[f] >= settled_.lower)) return finish_settled();
@@ -82,12 +86,18 @@ class Expander {
 
   Vertex<R> probe(const V3<R>& n) {
     const Vertex<R> s = d_.support(n);
-    if (const R h = n.dot(s.w); h < result_.upper) result_.upper = h, result_.outward = n;
+    if (const R h = n.dot(s.w); h < result_.upper) {
+      result_.upper = h;
+      result_.outward = n;
+    }
     return s;
   }
 
   const V3<R>& w(int i) const { return w_[i]; }
-  void set_vertex(int i, const Vertex<R>& v) { w_[i] = v.w, a_[i] = v.a; }
+  void set_vertex(int i, const Vertex<R>& v) {
+    w_[i] = v.w;
+    a_[i] = v.a;
+  }
 
   // ---- a local minimum, and the cap of directions in which it is proven to be the least.
   //
@@ -126,9 +136,13 @@ class Expander {
   }
 
   Depth<R> finish_settled() {
-    result_.end = ExpandEnd::closed, result_.vertices = vertices_;
-    result_.upper = settled_.upper, result_.lower = settled_.lower, result_.outward = settled_.outward;
-    result_.a = settled_.a, result_.w = settled_.w;
+    result_.end = ExpandEnd::closed;
+    result_.vertices = vertices_;
+    result_.upper = settled_.upper;
+    result_.lower = settled_.lower;
+    result_.outward = settled_.outward;
+    result_.a = settled_.a;
+    result_.w = settled_.w;
     return result_;
   }
 
@@ -169,7 +183,10 @@ class Expander {
     for (int i = 0; i < vertices_; ++i) {
       bool repeat = false;
       for (int k = 0; k < kept; ++k) repeat |= (w(i) - w(k)).norm() <= thin_;
-      if (!repeat) w_[kept] = w_[i], a_[kept++] = a_[i];
+      if (!repeat) {
+        w_[kept] = w_[i];
+        a_[kept++] = a_[i];
+      }
     }
     vertices_ = kept;
   }
@@ -181,7 +198,10 @@ class Expander {
     for (const V3<R>& m : directions)
       for (const R sign : {R(1), R(-1)}) {
         const Vertex<R> p = probe(sign * m);
-        if (const R far = distance(p.w); far > best) best = far, chosen = p;
+        if (const R far = distance(p.w); far > best) {
+          best = far;
+          chosen = p;
+        }
       }
     if (!(best > thin_)) return false;
     set_vertex(vertices_++, chosen);
@@ -190,7 +210,10 @@ class Expander {
 
   bool build() {
     const V3<R> n = (w(1) - w(0)).cross(w(2) - w(0));
-    if (n.dot(w(3) - w(0)) > 0) std::swap(w_[1], w_[2]), std::swap(a_[1], a_[2]);
+    if (n.dot(w(3) - w(0)) > 0) {
+      std::swap(w_[1], w_[2]);
+      std::swap(a_[1], a_[2]);
+    }
     return add({0, 1, 2}, {3, 1, 2}) && add({1, 3, 2}, {3, 2, 0}) && add({0, 2, 3}, {0, 1, 3}) &&
            add({0, 3, 1}, {2, 1, 0});
   }
@@ -206,17 +229,21 @@ class Expander {
     const R nn = n.squaredNorm();
     if (!(nn > thin_ * thin_ * longest)) return false;
     const R inverse = 1 / std::sqrt(nn);
-    n *= inverse, stretch = longest * inverse;  // longest edge over height
+    n *= inverse;
+    stretch = longest * inverse;  // longest edge over height
     key = std::min(std::min(n.dot(a), n.dot(b)), n.dot(c));
     return true;
   }
 
   bool add(std::array<short, 3> v, std::array<short, 3> adjacent) {
     Facet& f = facet_[facets_];
-    f.v = v, f.adjacent = adjacent, f.stamp = 0;
+    f.v = v;
+    f.adjacent = adjacent;
+    f.stamp = 0;
     R stretch;
     const bool good = measure(w(v[0]), w(v[1]), w(v[2]), f.n, key_[facets_], stretch);
-    rank_[facets_] = key_[facets_], ++facets_;
+    rank_[facets_] = key_[facets_];
+    ++facets_;
     return good;
   }
 
@@ -226,7 +253,10 @@ class Expander {
     floor_ = infinite;
     for (int i = 0; i < facets_; ++i) {
       floor_ = std::min(floor_, key_[i]);
-      if (rank_[i] < least) least = rank_[i], best = i;
+      if (rank_[i] < least) {
+        least = rank_[i];
+        best = i;
+      }
     }
     return best;
   }
@@ -235,7 +265,10 @@ class Expander {
 
   // ---- expansion
 
-  void take(int f) { facet_[f].stamp = stamp_, region_[regions_++] = static_cast<short>(f); }
+  void take(int f) {
+    facet_[f].stamp = stamp_;
+    region_[regions_++] = static_cast<short>(f);
+  }
 
   void flood(int from, const V3<R>& p) {
     for (int i = from; i < regions_; ++i)
@@ -245,7 +278,9 @@ class Expander {
 
   void add_edge(short from, short to, short behind) {
     Edge& e = edge_[edges_++];
-    e.from = from, e.to = to, e.behind = behind;
+    e.from = from;
+    e.to = to;
+    e.behind = behind;
   }
 
   void collect() {
@@ -281,7 +316,8 @@ class Expander {
   }
 
   ExpandEnd insert(int f, const Vertex<R>& s) {
-    ++stamp_, regions_ = 0;
+    ++stamp_;
+    regions_ = 0;
     take(f);
     flood(0, s.w);
     for (;;) {
@@ -299,8 +335,10 @@ class Expander {
 
   ExpandEnd fan(const Vertex<R>& s) {
     // Rows of dead facets are used again.
-    for (int i = 0; i < regions_; ++i)
-      key_[region_[i]] = rank_[region_[i]] = infinite, free_[frees_++] = region_[i];
+    for (int i = 0; i < regions_; ++i) {
+      key_[region_[i]] = rank_[region_[i]] = infinite;
+      free_[frees_++] = region_[i];
+    }
     const short apex = static_cast<short>(vertices_);
     set_vertex(vertices_++, s);
     for (int i = 0; i < edges_; ++i) slot_[i] = frees_ > 0 ? free_[--frees_] : fresh();
@@ -308,8 +346,11 @@ class Expander {
       if (slot_[i] < 0) return ExpandEnd::full;
       const Edge& e = edge_[i];
       Facet& f = facet_[slot_[i]];
-      f.v = {e.from, e.to, apex}, f.stamp = 0, f.n = e.n;
-      key_[slot_[i]] = e.key, rank_[slot_[i]] = rank(e.n, e.key);
+      f.v = {e.from, e.to, apex};
+      f.stamp = 0;
+      f.n = e.n;
+      key_[slot_[i]] = e.key;
+      rank_[slot_[i]] = rank(e.n, e.key);
       f.adjacent = {e.behind, slot_[(i + 1) % edges_], slot_[(i + edges_ - 1) % edges_]};
       Facet& behind = facet_[e.behind];
       for (std::size_t k = 0; k < 3; ++k)
@@ -332,7 +373,8 @@ class Expander {
   }
 
   Depth<R> finish(ExpandEnd end, int f) {
-    result_.end = end, result_.vertices = vertices_;
+    result_.end = end;
+    result_.vertices = vertices_;
     if (f < 0) return result_;
     // Where several facets share the plane, the origin may project outside of the one at hand.
     Foot<R> best = foot_of(f);
@@ -340,12 +382,17 @@ class Expander {
     const R enough = result_.upper + tolerance_;
     for (int i = 0; i < facets_ && !(best.dist_sq <= enough * enough); ++i)
       if (key_[i] <= enough)
-        if (const Foot<R> foot = foot_of(i); foot.dist_sq < best.dist_sq) best = foot, where = i;
-    result_.w.setZero(), result_.a.setZero();
+        if (const Foot<R> foot = foot_of(i); foot.dist_sq < best.dist_sq) {
+          best = foot;
+          where = i;
+        }
+    result_.w.setZero();
+    result_.a.setZero();
     for (int k = 0; k < best.size; ++k) {
       const auto c = static_cast<std::size_t>(k);
       const short v = facet_[where].v[static_cast<std::size_t>(best.corner[c])];
-      result_.w += best.weight[c] * w_[v], result_.a += best.weight[c] * a_[v];
+      result_.w += best.weight[c] * w_[v];
+      result_.a += best.weight[c] * a_[v];
     }
     return result_;
   }

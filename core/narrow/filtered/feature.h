@@ -42,14 +42,20 @@ R flat_length(const V3<R>& d) {
 template <class R>
 Feature<R> edge_feature(const V3<R>& p, const V3<R>& e, R lo, R hi) {
   Feature<R> f;
-  f.shown = Shown::edge, f.p = p, f.e = f.c = e, f.lo = lo, f.hi = hi;
+  f.shown = Shown::edge;
+  f.p = p;
+  f.e = f.c = e;
+  f.lo = lo;
+  f.hi = hi;
   return f;
 }
 
 template <class R>
 Feature<R> face_feature(const V3<R>& p, const V3<R>& n) {
   Feature<R> f;
-  f.shown = Shown::face, f.p = p, f.c = n;
+  f.shown = Shown::face;
+  f.p = p;
+  f.c = n;
   return f;
 }
 
@@ -86,10 +92,12 @@ Feature<R> polytope_feature(const Body<R>& b, const std::array<V3<R>, 3>& q, con
   int axes = 0, axis = 0, same = 0;
   for (int i = 0; i < 3; ++i) {
     const bool differ = k[0][i] != k[1][i] || (n == 3 && k[0][i] != k[2][i]);
-    if (differ)
-      ++axes, axis = i;
-    else
+    if (differ) {
+      ++axes;
+      axis = i;
+    } else {
       same = i;
+    }
   }
   if (axes == 1) {
     V3<R> p = k[0];
@@ -118,7 +126,8 @@ Feature<R> suggested_feature(const Body<R>& b, const std::array<V3<R>, 3>& q, co
     if (flat_length<R>(foot) < R(0.9) * s[0])
       return face_feature<R>(q[0], V3<R>(0, 0, q[0][2] < 0 ? R(-1) : R(1)));
     Feature<R> f;
-    f.shown = Shown::round, f.p = V3<R>(0, 0, q[0][2]);
+    f.shown = Shown::round;
+    f.p = V3<R>(0, 0, q[0][2]);
     return f;
   };
   switch (b.kind) {
@@ -132,7 +141,8 @@ Feature<R> suggested_feature(const Body<R>& b, const std::array<V3<R>, 3>& q, co
       if (most > least) {
         const R length = std::sqrt(s[0] * s[0] + 4 * s[2] * s[2]);
         Feature<R> f = edge_feature<R>(V3<R>(0, 0, s[2]), V3<R>::UnitZ(), 0, length);
-        f.s = s[0] / length, f.k = 2 * s[2] / length;
+        f.s = s[0] / length;
+        f.k = 2 * s[2] / length;
         return f;
       }
       return least > 0 ? corner_feature<R>(q[0]) : rim_or_disc();
@@ -157,7 +167,8 @@ Placed<R> place(const Body<R>& b, Feature<R>& f, const V3<R>& d) {
   r.p = f.p;
   if (b.kind == CoreKind::ellipsoid) {
     const V3<R> e = s.cwiseProduct(d);
-    r.h = e.norm(), r.p = s.cwiseProduct(e) / r.h;
+    r.h = e.norm();
+    r.p = s.cwiseProduct(e) / r.h;
     return r;
   }
   const bool side = f.shown == Shown::edge, round = f.shown == Shown::round;
@@ -169,7 +180,8 @@ Placed<R> place(const Body<R>& b, Feature<R>& f, const V3<R>& d) {
     f.e = V3<R>(s[0] * out[0], s[0] * out[1], -2 * s[2]) / f.hi;
     return r;
   }
-  r.p += s[0] * out, r.t = V3<R>(-out[1], out[0], 0);
+  r.p += s[0] * out;
+  r.t = V3<R>(-out[1], out[0], 0);
   r.k = rho > 0 ? s[0] / rho : 0;
   return r;
 }

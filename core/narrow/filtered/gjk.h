@@ -52,7 +52,10 @@ void prefer_own_direction(const Difference<R>& d, Walk<R>& g, const V3<R>& v, R 
   g.end = WalkEnd::bounded;
   const V3<R> n = v / length;
   const R lower = n.dot(d.support(-n).w);
-  if (g.upper - lower <= tolerance) g.lower = lower, g.normal = n;
+  if (g.upper - lower <= tolerance) {
+    g.lower = lower;
+    g.normal = n;
+  }
 }
 
 /// Features guessed from the simplex and their own nearest points: a curved pair is done when they are right.
@@ -62,14 +65,20 @@ bool settle(const Difference<R>& d, Walk<R>& g, R size, R tolerance) {
   std::array<R, 3> weight{};
   for (std::size_t k = 0; k < 3; ++k) {
     const bool own = static_cast<int>(k) < g.simplex.size;
-    facet[k] = g.simplex.p[own ? k : 0], weight[k] = own ? g.simplex.weight[k] : R(0);
+    facet[k] = g.simplex.p[own ? k : 0];
+    weight[k] = own ? g.simplex.weight[k] : R(0);
   }
   LocalMinimum<R> at(d, size);
   if (!at.find(facet, weight, -g.normal)) return false;
   const R length = at.point().norm();
   if (!(length + at.height() <= tolerance)) return false;
-  g.simplex.size = 1, g.simplex.weight[0] = 1, g.simplex.p[0] = {at.point(), at.on_a()};
-  g.upper = length, g.lower = -at.height(), g.normal = -at.outward(), g.end = WalkEnd::bounded;
+  g.simplex.size = 1;
+  g.simplex.weight[0] = 1;
+  g.simplex.p[0] = {at.point(), at.on_a()};
+  g.upper = length;
+  g.lower = -at.height();
+  g.normal = -at.outward();
+  g.end = WalkEnd::bounded;
   return true;
 }
 
@@ -82,7 +91,10 @@ Walk<R> walk(const Difference<R>& d, R tolerance, R certain, R size, const V3<R>
   const R guessed = guess.squaredNorm();
   V3<R> v = guessed > R(0.5) && guessed < 2 ? guess : d.at.offset;
   R dist_sq = v.squaredNorm(), length = std::sqrt(dist_sq);
-  if (!(length > 0)) v = V3<R>::UnitX(), length = 1;
+  if (!(length > 0)) {
+    v = V3<R>::UnitX();
+    length = 1;
+  }
   dist_sq = std::numeric_limits<R>::infinity();
   const bool curved = is_curved(d.a) || is_curved(d.b);
   int idle = 0;
@@ -100,16 +112,33 @@ Walk<R> walk(const Difference<R>& d, R tolerance, R certain, R size, const V3<R>
     const Vertex<R> s = d.support(-n);
     const R lower = n.dot(s.w);
     const bool better = lower > g.lower;
-    if (better) g.lower = lower, g.normal = n, best_w = s.w;
-    if (g.lower > certain) return g.end = WalkEnd::bounded, g;
-    if (g.upper - g.lower <= tolerance) return prefer_own_direction(d, g, v, length, tolerance), g;
+    if (better) {
+      g.lower = lower;
+      g.normal = n;
+      best_w = s.w;
+    }
+    if (g.lower > certain) {
+      g.end = WalkEnd::bounded;
+      return g;
+    }
+    if (g.upper - g.lower <= tolerance) {
+      prefer_own_direction(d, g, v, length, tolerance);
+      return g;
+    }
     if (g.simplex.size == 4 || (idle > 3 && !better)) return g;
     g.simplex.p[static_cast<std::size_t>(g.simplex.size++)] = s;
     const R last = dist_sq;
-    if (reduce(g.simplex, v, dist_sq, g.margin)) return g.end = WalkEnd::enclosed, g;
+    if (reduce(g.simplex, v, dist_sq, g.margin)) {
+      g.end = WalkEnd::enclosed;
+      return g;
+    }
     idle = dist_sq < last ? 0 : idle + 1;
-    length = std::sqrt(dist_sq), g.upper = length;
-    if (!(length > touching)) return g.end = WalkEnd::touching, g;
+    length = std::sqrt(dist_sq);
+    g.upper = length;
+    if (!(length > touching)) {
+      g.end = WalkEnd::touching;
+      return g;
+    }
   }
   return g;
 }

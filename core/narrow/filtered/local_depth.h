@@ -48,8 +48,10 @@ class LocalMinimum {
     std::array<V3<R>, 3> a, b;
     V3<R> foot_a = V3<R>::Zero(), foot_b = V3<R>::Zero();
     for (std::size_t k = 0; k < 3; ++k) {
-      a[k] = facet[k].a, b[k] = d_.at.b_to_a.transpose() * (facet[k].w + facet[k].a - d_.at.offset);
-      foot_a += weight[k] * a[k], foot_b += weight[k] * b[k];
+      a[k] = facet[k].a;
+      b[k] = d_.at.b_to_a.transpose() * (facet[k].w + facet[k].a - d_.at.offset);
+      foot_a += weight[k] * a[k];
+      foot_b += weight[k] * b[k];
     }
     // Corners found again by their own support point: B's went through two rotations.
     if (d_.b.kind == CoreKind::box)
@@ -81,7 +83,11 @@ class LocalMinimum {
   /// For bodies that meet: how far it is the least.
   LocalDepth<R> certify() const {
     LocalDepth<R> r;
-    r.found = true, r.upper = upper_, r.outward = m_, r.a = placed_[0].p, r.w = w_;
+    r.found = true;
+    r.upper = upper_;
+    r.outward = m_;
+    r.a = placed_[0].p;
+    r.w = w_;
     const V3<R> x = m_.unitOrthogonal(), y = m_.cross(x), q = d_.support(-m_).w;
     const R far = -q.dot(m_), off = (q + far * m_).squaredNorm(), d = upper_;
     if (!(far > d + slight_)) return r;
@@ -91,12 +97,15 @@ class LocalMinimum {
       const R t = behind * part;
       Form ball, reach;
       for (int i = 0; i < 2; ++i) add_side(i, x, y, Cap(t), part / 2, ball, reach);
-      ball.xx += reach.xx / t, ball.xy += reach.xy / t, ball.yy += reach.yy / t;
+      ball.xx += reach.xx / t;
+      ball.xy += reach.xy / t;
+      ball.yy += reach.yy / t;
       const R mu = ball.least() - d;
       const R rest_sq = rest_.squaredNorm();
       const bool curved = mu > d / 64 + slight_;
       if (!curved && !(mu > -level_)) continue;
-      r.tangent = t, r.global = part == 1;
+      r.tangent = t;
+      r.global = part == 1;
       r.lower = d - tilt -
                 (curved ? rest_sq / (2 * mu) : std::sqrt(rest_sq) + 2 * std::max<R>(0, -mu) + level_ / 4);
       return r;
@@ -150,7 +159,11 @@ class LocalMinimum {
         place_both();
         return true;
       }
-      if (f.shown == Shown::edge) c[circles] = out(i, f.c), s[circles++] = f.s, k = f.k;
+      if (f.shown == Shown::edge) {
+        c[circles] = out(i, f.c);
+        s[circles++] = f.s;
+        k = f.k;
+      }
     }
     if (circles == 2) return meet(c, s);
     return circles == 1 ? along_circle(c[0], s[0], k) : freely();
@@ -234,9 +247,15 @@ class LocalMinimum {
       if (!(xx > 0 && det > 0)) return false;
       R sx = (xy * gy - yy * gx) / det, sy = (xy * gx - xx * gy) / det;
       const R size = std::sqrt(sx * sx + sy * sy);
-      if (size > R(0.5)) sx *= R(0.5) / size, sy *= R(0.5) / size;
+      if (size > R(0.5)) {
+        sx *= R(0.5) / size;
+        sy *= R(0.5) / size;
+      }
       m_ = (m_ + x * sx + y * sy).normalized();
-      if (size * size < u<R>) return place_both(), true;
+      if (size * size < u<R>) {
+        place_both();
+        return true;
+      }
     }
     return false;
   }
@@ -283,13 +302,17 @@ class LocalMinimum {
     R along[2] = {0, 0};
     int side[2], edges = 0;
     for (int i = 0; i < 2; ++i)
-      if (feature_[i].shown == Shown::edge) e[edges] = out(i, feature_[i].e), side[edges++] = i;
+      if (feature_[i].shown == Shown::edge) {
+        e[edges] = out(i, feature_[i].e);
+        side[edges++] = i;
+      }
     if (edges == 1) {
       along[0] = rest_.dot(e[0]);
     } else if (edges == 2) {
       const R g = e[0].dot(e[1]), det = 1 - g * g, p = rest_.dot(e[0]), q = rest_.dot(e[1]);
       if (!(det > R(1e-6))) return Verdict::refuted;
-      along[0] = (p - g * q) / det, along[1] = (q - g * p) / det;
+      along[0] = (p - g * q) / det;
+      along[1] = (q - g * p) / det;
     }
     for (int k = 0; k < edges; ++k) {
       const Feature<R>& f = feature_[side[k]];
@@ -300,7 +323,8 @@ class LocalMinimum {
       reach_[side[k]] = std::min(along[k] - f.lo, f.hi - along[k]);
       along_[side[k]] = along[k];
       placed_[side[k]].p += along[k] * f.e;
-      rest_ -= along[k] * e[k], w_ += along[k] * e[k];
+      rest_ -= along[k] * e[k];
+      w_ += along[k] * e[k];
     }
     return Verdict::confirmed;
   }
@@ -310,17 +334,20 @@ class LocalMinimum {
     Feature<R>& f = feature_[i];
     const Body<R>& b = body(i);
     const bool rim = b.kind == CoreKind::cylinder || (b.kind == CoreKind::cone && high);
-    if (rim)
-      f.p = V3<R>(0, 0, high && b.kind == CoreKind::cylinder ? b.size[2] : -b.size[2]),
+    if (rim) {
+      f.p = V3<R>(0, 0, high && b.kind == CoreKind::cylinder ? b.size[2] : -b.size[2]);
       f.shown = Shown::round;
-    else
-      f.p += (high ? f.hi : f.lo) * f.e, f.shown = Shown::corner;
+    } else {
+      f.p += (high ? f.hi : f.lo) * f.e;
+      f.shown = Shown::corner;
+    }
   }
 
   Verdict on_face(int i) {
     V3<R>& p = placed_[i].p;
     p += i == 0 ? V3<R>(-rest_) : V3<R>(d_.at.b_to_a.transpose() * rest_);
-    w_ += rest_, rest_.setZero();
+    w_ += rest_;
+    rest_.setZero();
     reach_[i] = face_margin<R>(body(i), feature_[i], p);
     return reach_[i] > 0 ? Verdict::confirmed : Verdict::refuted;
   }
@@ -329,8 +356,15 @@ class LocalMinimum {
 
   struct Form {
     R xx = 0, xy = 0, yy = 0;
-    void add(R k, R x, R y) { xx += k * x * x, xy += k * x * y, yy += k * y * y; }
-    void add_all(R k) { xx += k, yy += k; }
+    void add(R k, R x, R y) {
+      xx += k * x * x;
+      xy += k * x * y;
+      yy += k * y * y;
+    }
+    void add_all(R k) {
+      xx += k;
+      yy += k;
+    }
     R least() const { return (xx + yy) / 2 - std::sqrt((xx - yy) * (xx - yy) / 4 + xy * xy); }
   };
 
@@ -359,7 +393,9 @@ class LocalMinimum {
     const V3<R> e = s.cwiseProduct(in(i, m_)), px = e.cross(s.cwiseProduct(in(i, x))),
                 py = e.cross(s.cwiseProduct(in(i, y)));
     const R most = std::min(s.maxCoeff(), e.norm() + s.maxCoeff() * cap.sine), k = 1 / (most * most * most);
-    ball.xx += k * px.squaredNorm(), ball.xy += k * px.dot(py), ball.yy += k * py.squaredNorm();
+    ball.xx += k * px.squaredNorm();
+    ball.xy += k * px.dot(py);
+    ball.yy += k * py.squaredNorm();
   }
 
   void add_side(int i, const V3<R>& x, const V3<R>& y, const Cap& cap, R share, Form& ball,

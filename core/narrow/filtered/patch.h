@@ -53,7 +53,8 @@ class Corners {
   Corners() {}
   Corners(const Corners& o) { *this = o; }
   Corners& operator=(const Corners& o) {
-    size = o.size, overflow = o.overflow;
+    size = o.size;
+    overflow = o.overflow;
     std::copy(o.begin(), o.end(), c_.begin());
     return *this;
   }
@@ -111,7 +112,8 @@ void convex_order(Corners<R>& p, R tolerance) {
   if (n > 1) --n;
   for (int i = 0; i < n; ++i) h.add(p[chain[static_cast<std::size_t>(i)]]);
   if (h.size == 2 && std::abs(h[0].x - h[1].x) + std::abs(h[0].y - h[1].y) <= tolerance) h.size = 1;
-  h.overflow = p.overflow, p = h;
+  h.overflow = p.overflow;
+  p = h;
 }
 
 /// Corners of `c` no more than `limit` below its support plane along d (its own frame, unit).
@@ -133,14 +135,16 @@ class FeatureCorners {
         box();
         return out_;
       case CoreKind::segment:
-        add({0, 0, s[2]}, 0), add({0, 0, -s[2]}, 1);
+        add({0, 0, s[2]}, 0);
+        add({0, 0, -s[2]}, 1);
         break;
       case CoreKind::cylinder:
         if (2 * flat * s[0] <= limit_) {
           rim_of(std::copysign(s[2], d_[2]));
         } else {
           const R k = flat > 0 ? s[0] / flat : 0;
-          add({d_[0] * k, d_[1] * k, s[2]}, 0), add({d_[0] * k, d_[1] * k, -s[2]}, 1);
+          add({d_[0] * k, d_[1] * k, s[2]}, 0);
+          add({d_[0] * k, d_[1] * k, -s[2]}, 1);
         }
         break;
       case CoreKind::cone:
@@ -218,7 +222,10 @@ class FeatureCorners {
       if (frees == 1) corner(top ^ (1u << free[0]));
     } else if (frees == 2) {
       const unsigned p = 1u << free[0], q = 1u << free[1];
-      corner(top), corner(top ^ p), corner(top ^ p ^ q), corner(top ^ q);
+      corner(top);
+      corner(top ^ p);
+      corner(top ^ p ^ q);
+      corner(top ^ q);
     } else {
       for (unsigned bits = 0; bits < 8; ++bits) corner(bits);
     }
@@ -341,14 +348,16 @@ Patch<R> contact_patch(const Body<R>& a, const Body<R>* b, const Relative<R>& at
   Corners<R> fa = show_a(tolerance), fb, region;
   bool by_a = true;
   if (!b) {
-    region = show_a(depth + tolerance), by_a = false;
+    region = show_a(depth + tolerance);
+    by_a = false;
   } else if (fa.size >= 3) {
     region = show_b(depth + tolerance);
     clip(region, fa, tolerance, true);
   } else {
     fb = show_b(tolerance);
     if (fb.size >= 3) {
-      region = show_a(depth + tolerance), by_a = false;
+      region = show_a(depth + tolerance);
+      by_a = false;
       clip(region, fb, tolerance, false);
     } else if (fa.size == 2 && fb.size == 2) {
       region = cross_edges(fa, fb, 4 * tolerance);
@@ -356,7 +365,8 @@ Patch<R> contact_patch(const Body<R>& a, const Body<R>* b, const Relative<R>& at
   }
   if (region.overflow || fa.overflow || fb.overflow) return patch;
   if (region.size == 0 && middle) {
-    patch.point[0] = {*middle, depth, 0}, patch.size = 1;
+    patch.point[0] = {*middle, depth, 0};
+    patch.size = 1;
     return patch;
   }
   // Height of A's support plane above plane.origin is the ball's radius.

@@ -46,9 +46,15 @@ M3<R> matrix(const Stand<R>& s) {
   const R k = 1 / (xx + yy + zz + ww);
   const R xy = s.x * s.y, xz = s.x * s.z, yz = s.y * s.z, wx = s.w * s.x, wy = s.w * s.y, wz = s.w * s.z;
   M3<R> r;
-  r(0, 0) = (ww + xx - yy - zz) * k, r(0, 1) = 2 * (xy - wz) * k, r(0, 2) = 2 * (xz + wy) * k;
-  r(1, 0) = 2 * (xy + wz) * k, r(1, 1) = (ww - xx + yy - zz) * k, r(1, 2) = 2 * (yz - wx) * k;
-  r(2, 0) = 2 * (xz - wy) * k, r(2, 1) = 2 * (yz + wx) * k, r(2, 2) = (ww - xx - yy + zz) * k;
+  r(0, 0) = (ww + xx - yy - zz) * k;
+  r(0, 1) = 2 * (xy - wz) * k;
+  r(0, 2) = 2 * (xz + wy) * k;
+  r(1, 0) = 2 * (xy + wz) * k;
+  r(1, 1) = (ww - xx + yy - zz) * k;
+  r(1, 2) = 2 * (yz - wx) * k;
+  r(2, 0) = 2 * (xz - wy) * k;
+  r(2, 1) = 2 * (yz + wx) * k;
+  r(2, 2) = (ww - xx - yy + zz) * k;
   return r;
 }
 

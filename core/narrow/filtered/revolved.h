@@ -45,12 +45,18 @@ class Revolved {
   void look(R radial, R axial) {
     const V3<R> m = out_ * radial + axis_ * axial;
     const R h = m.dot(d_.support(m).w);
-    if (h < upper) upper = h, outward = m, across_ = out_ * -axial + axis_ * radial;
+    if (h < upper) {
+      upper = h;
+      outward = m;
+      across_ = out_ * -axial + axis_ * radial;
+    }
   }
 
   void least() {
     upper = std::numeric_limits<R>::infinity();
-    look(1, 0), look(0, 1), look(0, -1);
+    look(1, 0);
+    look(0, 1);
+    look(0, -1);
     for (const Body<R>* b : {&d_.a, &d_.b})
       if (b->kind == CoreKind::cone) {
         const R r = b->size[0], h = 2 * b->size[2], length = std::sqrt(r * r + h * h);
@@ -85,7 +91,8 @@ class Revolved {
       const R share = q_at != p_at ? std::clamp((middle - p_at) / (q_at - p_at), R(0), R(1)) : R(0);
       return V3<R>(p + (q - p) * share);
     };
-    a = at(ea.from, ea.to, a0, a1), w = at(from, to, b0, b1) - a;
+    a = at(ea.from, ea.to, a0, a1);
+    w = at(from, to, b0, b1) - a;
     found = (w - upper * outward).norm() <= 4 * level_;
   }
 

@@ -34,7 +34,9 @@ R local_scale(const PairScene<R>& s) {
 template <class R>
 void to_world(Answer<R>& r, const PairScene<R>& s, R l, Asked asked) {
   const M3<R>& m = s.at.a_to_world;
-  r.normal = m * r.normal, r.a = m * r.a, r.b = m * r.b;
+  r.normal = m * r.normal;
+  r.a = m * r.a;
+  r.b = m * r.b;
   r.found = decide(r.gap, r.bound);
   const bool verdict_is_enough = asked == Asked::contact && r.found == Found::apart;
   if (verdict_is_enough) return;
@@ -51,26 +53,32 @@ void from_walk(const Walk<R>& g, R error, Answer<R>& r, PairScene<R>& s) {
   V3<R> v = V3<R>::Zero();
   for (int i = 0; i < g.simplex.size; ++i) {
     const auto k = static_cast<std::size_t>(i);
-    r.a += g.simplex.weight[k] * g.simplex.p[k].a, v += g.simplex.weight[k] * g.simplex.p[k].w;
+    r.a += g.simplex.weight[k] * g.simplex.p[k].a;
+    v += g.simplex.weight[k] * g.simplex.p[k].w;
   }
   const R radii = s.a.radius + s.b.radius;
-  r.normal = s.normal = g.normal, r.gap = g.upper - radii;
+  r.normal = s.normal = g.normal;
+  r.gap = g.upper - radii;
   r.b = r.a + v;
   // Inflated along their own difference, so that b − a stays parallel to it.
   const R length = v.norm();
   const V3<R> d = length > 0 ? V3<R>(v / length) : g.normal;
-  r.a += s.a.radius * d, r.b -= s.b.radius * d;
+  r.a += s.a.radius * d;
+  r.b -= s.b.radius * d;
   r.bound = error + std::max<R>(0, g.upper - g.lower);
-  s.middle = (r.a + r.b) / 2, s.has_middle = true;
+  s.middle = (r.a + r.b) / 2;
+  s.has_middle = true;
 }
 
 template <class R, class D>
 void from_depth(const D& e, R error, Answer<R>& r, PairScene<R>& s) {
   s.normal = r.normal = -e.outward;
   r.gap = -e.upper - s.a.radius - s.b.radius;
-  r.a = e.a + s.a.radius * r.normal, r.b = e.a + e.w - s.b.radius * r.normal;
+  r.a = e.a + s.a.radius * r.normal;
+  r.b = e.a + e.w - s.b.radius * r.normal;
   r.bound = error + std::max<R>(0, e.upper - e.lower);
-  s.middle = (r.a + r.b) / 2, s.has_middle = true;
+  s.middle = (r.a + r.b) / 2;
+  s.has_middle = true;
 }
 
 // B − A has no interior within rounding: every direction that was tried bounds the depth, and the walk's own
@@ -81,13 +89,16 @@ void from_flat(const Walk<R>& g, const Depth<R>& e, R size, R error, Answer<R>& 
     r.bound = std::numeric_limits<R>::infinity();
     return;
   }
-  s.normal = r.normal = -e.outward, r.gap = -e.upper - s.a.radius - s.b.radius;
+  s.normal = r.normal = -e.outward;
+  r.gap = -e.upper - s.a.radius - s.b.radius;
   V3<R> a = V3<R>::Zero();
   for (int i = 0; i < g.simplex.size; ++i)
     a += g.simplex.weight[static_cast<std::size_t>(i)] * g.simplex.p[static_cast<std::size_t>(i)].a;
-  r.a = a + (e.upper / 2 + s.a.radius) * r.normal, r.b = a - (e.upper / 2 + s.b.radius) * r.normal;
+  r.a = a + (e.upper / 2 + s.a.radius) * r.normal;
+  r.b = a - (e.upper / 2 + s.b.radius) * r.normal;
   r.bound = error + e.upper + 8 * u<R> * size;
-  s.middle = (r.a + r.b) / 2, s.has_middle = true;
+  s.middle = (r.a + r.b) / 2;
+  s.has_middle = true;
 }
 
 // Searches take squares of areas: a fourth power of lengths. Bodies for which that would leave R's range are
@@ -106,16 +117,27 @@ void separate_scaled(const Stand<R>& a, const Stand<R>& b, Asked asked, R enough
   PairScene<R> t = s;
   Stand<R> at_a = a, at_b = b;
   for (Body<R>* c : {&t.a, &t.b}) {
-    c->size *= unit, c->unit *= unit;
-    c->radius *= unit, c->reach *= unit, c->extent *= unit;
+    c->size *= unit;
+    c->unit *= unit;
+    c->radius *= unit;
+    c->reach *= unit;
+    c->extent *= unit;
   }
-  t.at.offset *= unit, at_a.t *= unit, at_b.t *= unit;
+  t.at.offset *= unit;
+  at_a.t *= unit;
+  at_b.t *= unit;
   // Not even so: they are so small, or large, where they stand that R holds no scale for both.
   const R fits = at_a.t.cwiseAbs().sum() + at_b.t.cwiseAbs().sum() + unit + back;
   if (!(fits < std::numeric_limits<R>::max())) return;
   separate_cores(at_a, at_b, asked, enough * unit, r, t);
-  r.gap *= back, r.bound *= back, r.a *= back, r.b *= back;
-  s.normal = t.normal, s.middle = t.middle * back, s.has_middle = t.has_middle, s.guess = t.guess;
+  r.gap *= back;
+  r.bound *= back;
+  r.a *= back;
+  r.b *= back;
+  s.normal = t.normal;
+  s.middle = t.middle * back;
+  s.has_middle = t.has_middle;
+  s.guess = t.guess;
 }
 
 }  // namespace
@@ -167,7 +189,8 @@ void separate_cores(const Stand<R>& a, const Stand<R>& b, Asked asked, R enough,
 template <class R>
 void convex_pair(const PlacedShape& pa, const PlacedShape& pb, Asked asked, Answer<R>& r, PairScene<R>& s) {
   const Stand<R> a = stand<R>(pa.pose), b = stand<R>(pb.pose);
-  prepare(pa, a, pb, b, s), s.contact = ContactForm::cores;
+  prepare(pa, a, pb, b, s);
+  s.contact = ContactForm::cores;
   separate_cores(a, b, asked, std::numeric_limits<R>::infinity(), r, s);
 }
 
@@ -211,9 +234,13 @@ void box_box(const PlacedShape& pa, const PlacedShape& pb, Asked asked, Answer<R
     if (asked == Asked::distance) convex_pair(pa, pb, asked, r, s);
     return;
   }
-  s.a = make_body<R>(*pa.shape, pa.graph), s.b = make_body<R>(*pb.shape, pb.graph), s.at = p.at,
+  s.a = make_body<R>(*pa.shape, pa.graph);
+  s.b = make_body<R>(*pb.shape, pb.graph);
+  s.at = p.at;
   s.contact = ContactForm::cores;
-  s.normal = r.normal = axis.normal, r.gap = axis.separation, r.bound = displacement(s) + p.displacement / 16;
+  s.normal = r.normal = axis.normal;
+  r.gap = axis.separation;
+  r.bound = displacement(s) + p.displacement / 16;
   r.a = r.b = V3<R>::Zero();
   if (asked == Asked::distance && !box_witnesses(p, s, r)) return convex_pair(pa, pb, asked, r, s);
   to_world(r, s, scale(s.a, s.b, a, b), asked);
@@ -229,10 +256,15 @@ void box_and_capsule(const PlacedShape& pa, const PlacedShape& pb, Asked asked, 
   const BoxSegment<R>& p = q.cores;
   const R depth = -r.gap, tolerance = 64 * u<R> * (p.half.sum() + p.h + q.radius + p.c.template lpNorm<1>());
   if (asked == Asked::contact && depth >= -r.bound && detail::lies_along(p, r.normal, depth, tolerance)) {
-    prepare(pa, a, pb, b, s), s.contact = ContactForm::cores;
-    s.normal = r.normal, s.middle = (r.a + r.b) / 2, s.has_middle = true;
+    prepare(pa, a, pb, b, s);
+    s.contact = ContactForm::cores;
+    s.normal = r.normal;
+    s.middle = (r.a + r.b) / 2;
+    s.has_middle = true;
   }
-  r.normal = q.to_world * r.normal, r.a = q.to_world * r.a, r.b = q.to_world * r.b;
+  r.normal = q.to_world * r.normal;
+  r.a = q.to_world * r.a;
+  r.b = q.to_world * r.b;
 }
 
 template <class R>
@@ -245,9 +277,11 @@ void convex_half_space(const PlacedShape& pa, const PlacedShape& pb, Asked asked
   if (!(length > 1e-100 && length < 1e100)) return;
   const V3<R> m = (matrix(b) * (plane.normal / length).template cast<R>()).normalized();
   const R offset = static_cast<R>(plane.offset / length);
-  s.at.a_to_world = matrix(a), s.contact = ContactForm::plane;
+  s.at.a_to_world = matrix(a);
+  s.contact = ContactForm::plane;
   const V3<R> d = b.t - a.t, n = -m;
-  r.normal = n, s.normal = s.at.a_to_world.transpose() * n;
+  r.normal = n;
+  s.normal = s.at.a_to_world.transpose() * n;
   r.a = s.at.a_to_world * support_local<R>(s.a, s.normal) + s.a.radius * n;
   r.gap = m.dot(r.a) - m.dot(d) - offset;
   r.b = r.a + r.gap * n;

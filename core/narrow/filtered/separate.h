@@ -67,7 +67,9 @@ void closed(const PlacedShape& a, const PlacedShape& b, Asked asked, Answer<R>& 
 template <class R>
 void prepare(const PlacedShape& pa, const Stand<R>& a, const PlacedShape& pb, const Stand<R>& b,
              PairScene<R>& s) {
-  s.a = make_body<R>(*pa.shape, pa.graph), s.b = make_body<R>(*pb.shape, pb.graph), s.at = relative(a, b);
+  s.a = make_body<R>(*pa.shape, pa.graph);
+  s.b = make_body<R>(*pb.shape, pb.graph);
+  s.at = relative(a, b);
 }
 
 }  // namespace touchstone::narrow::fast

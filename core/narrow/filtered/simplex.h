@@ -49,8 +49,11 @@ void take_corner(const Simplex<R>& s, int i, Foot<R>& best) {
   const V3<R>& w = s.p[static_cast<std::size_t>(i)].w;
   const R d = w.squaredNorm();
   if (!(d < best.dist_sq)) return;
-  best.point = w, best.dist_sq = d, best.size = 1;
-  best.corner[0] = i, best.weight[0] = 1;
+  best.point = w;
+  best.dist_sq = d;
+  best.size = 1;
+  best.corner[0] = i;
+  best.weight[0] = 1;
 }
 
 template <class R>
@@ -65,8 +68,13 @@ void take_edge(const Simplex<R>& s, int i, int j, Foot<R>& best) {
   x -= d * (x.dot(d) * inverse);
   const R dist_sq = x.squaredNorm();
   if (!(dist_sq < best.dist_sq)) return;
-  best.point = x, best.dist_sq = dist_sq, best.size = 2;
-  best.corner[0] = i, best.corner[1] = j, best.weight[0] = 1 - k, best.weight[1] = k;
+  best.point = x;
+  best.dist_sq = dist_sq;
+  best.size = 2;
+  best.corner[0] = i;
+  best.corner[1] = j;
+  best.weight[0] = 1 - k;
+  best.weight[1] = k;
 }
 
 template <class R>
@@ -81,9 +89,12 @@ void take_triangle(const Simplex<R>& s, int i, int j, int k, Foot<R>& best) {
     const V3<R> x = n * (nearest.dot(n) / n.squaredNorm());
     const R dist_sq = x.squaredNorm();
     if (!(dist_sq < best.dist_sq)) return;
-    best.point = x, best.dist_sq = dist_sq, best.size = 3;
+    best.point = x;
+    best.dist_sq = dist_sq;
+    best.size = 3;
     const R share = 1 / sum;
-    best.corner = {i, j, k}, best.weight = {wa * share, wb * share, wc * share};
+    best.corner = {i, j, k};
+    best.weight = {wa * share, wb * share, wc * share};
     return;
   }
   if (!(wa > 0)) take_edge(s, j, k, best);
@@ -140,8 +151,13 @@ bool reduce(Simplex<R>& s, V3<R>& v, R& dist_sq, R& margin) {
   if (s.size == 1) detail::take_corner(s, 0, foot);
   std::array<Vertex<R>, 3> kept;
   for (std::size_t k = 0; k < 3; ++k) kept[k] = s.p[static_cast<std::size_t>(foot.corner[k])];
-  s.size = foot.size, v = foot.point, dist_sq = foot.dist_sq;
-  for (std::size_t k = 0; k < 3; ++k) s.p[k] = kept[k], s.weight[k] = foot.weight[k];
+  s.size = foot.size;
+  v = foot.point;
+  dist_sq = foot.dist_sq;
+  for (std::size_t k = 0; k < 3; ++k) {
+    s.p[k] = kept[k];
+    s.weight[k] = foot.weight[k];
+  }
   return false;
 }
 

@@ -23,9 +23,16 @@ class Climb {
       std::int32_t next = i;
       R most = -std::numeric_limits<R>::infinity();
       for (std::int32_t k = first_[i]; k < first_[i + 1]; ++k)
-        if (const R f = value(neighbour_[k]); f > most) most = f, next = neighbour_[k];
-      if (!(most > top_)) return beaten = most < top_ - band, i;
-      i = next, top_ = most;
+        if (const R f = value(neighbour_[k]); f > most) {
+          most = f;
+          next = neighbour_[k];
+        }
+      if (!(most > top_)) {
+        beaten = most < top_ - band;
+        return i;
+      }
+      i = next;
+      top_ = most;
     }
   }
 
@@ -55,7 +62,10 @@ class Climb {
     std::int32_t best = summit;
     R most = top_;
     for (std::size_t i = 1; i < n; ++i)
-      if (const R f = value(all[i]); f > most || (f == most && all[i] < best)) most = f, best = all[i];
+      if (const R f = value(all[i]); f > most || (f == most && all[i] < best)) {
+        most = f;
+        best = all[i];
+      }
     return best;
   }
 

@@ -56,7 +56,10 @@ std::size_t few(const double* p, std::size_t n, const R* d) {
   R most = -std::numeric_limits<R>::infinity();
   for (std::size_t i = 0; i < n; ++i, p += 3) {
     const R dot = (static_cast<R>(p[0]) * d[0] + static_cast<R>(p[1]) * d[1]) + static_cast<R>(p[2]) * d[2];
-    if (dot > most) most = dot, best = i;
+    if (dot > most) {
+      most = dot;
+      best = i;
+    }
   }
   return best;
 }

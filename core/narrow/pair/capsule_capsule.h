@@ -23,7 +23,9 @@ inline Separation capsule_capsule(const ConvexCore<Wide>& a, const ConvexCore<Wi
     if (inner_t) d -= v * v.dot(d);
     const Wide n = d.norm();
     if (!(n < best)) return;
-    best = n, pa = x, pb = y;
+    best = n;
+    pa = x;
+    pb = y;
     if (n > 0) normal = d / n;
   };
   for (const Wide s : {-ha, ha}) {
@@ -41,7 +43,8 @@ inline Separation capsule_capsule(const ConvexCore<Wide>& a, const ConvexCore<Wi
     const Wide s = r.cross(v).dot(n) / nn, t = r.cross(u).dot(n) / nn;
     if (std::abs(s) <= ha && std::abs(t) <= hb) {
       const Wide d = r.dot(n);
-      pa = ca + s * u, pb = cb + t * v;
+      pa = ca + s * u;
+      pb = cb + t * v;
       normal = (d < 0 ? WideVec(-n) : n) / std::sqrt(nn);
     }
   }

@@ -15,7 +15,8 @@ inline Separation sphere_box(const ConvexCore<Wide>& a, const ConvexCore<Wide>& 
   const Wide depth = (h - p.cwiseAbs()).minCoeff(&axis);
   const Wide side = p[axis] < 0 ? -1 : 1;
   Separation s;
-  s.size = pair_size(a, b), s.gap = -depth - a.radius;
+  s.size = pair_size(a, b);
+  s.gap = -depth - a.radius;
   s.normal = -side * b.frame.rotation.col(axis);
   s.a = a.frame.translation + a.radius * s.normal;
   s.b = a.frame.translation - depth * s.normal;
