@@ -63,7 +63,9 @@ class GapBound {
   GapBound(const WideVec& n, Wide base, Wide radii) : n_(n), constant_(base - radii) {}
   void add(const Core& c, const MovingCore& m, Wide side) {
     Part& p = parts_[count_++];
-    p.core = &c, p.direction = side * n_, p.turn = side * n_.cross(m.angular);
+    p.core = &c;
+    p.direction = side * n_;
+    p.turn = side * n_.cross(m.angular);
     slope_ -= side * m.linear.dot(n_);
     const Wide turn = p.turn.norm();
     lipschitz_ += c.reach * turn;
@@ -86,12 +88,18 @@ class GapBound {
     for (int i = 0; i < chord_cap && hi - lo > 0x1p-30L * lo && f_lo > 0x1p-10L * gap; ++i) {
       // The chord's zero is safe; the midpoint tightens the far end.
       const Wide chord = lo + (hi - lo) * (f_lo / (f_lo - f_hi)), middle = lo + (hi - lo) / 2;
-      if (const Wide f = (*this)(chord); f >= 0) lo = chord, f_lo = f;
+      if (const Wide f = (*this)(chord); f >= 0) {
+        lo = chord;
+        f_lo = f;
+      }
       if (middle <= lo) continue;
-      if (const Wide f = (*this)(middle); f >= 0)
-        lo = middle, f_lo = f;
-      else
-        hi = middle, f_hi = f;
+      if (const Wide f = (*this)(middle); f >= 0) {
+        lo = middle;
+        f_lo = f;
+      } else {
+        hi = middle;
+        f_hi = f;
+      }
     }
     return lo;
   }
@@ -180,7 +188,8 @@ struct CorePair {
   Wide step(const Snapshot& x, Wide end) const {
     const WideVec& n = x.s.normal;
     GapBound f(n, n.dot(x.b.frame.translation - x.a.frame.translation), x.a.radius + x.b.radius);
-    f.add(x.a, a, 1), f.add(x.b, b, -1);
+    f.add(x.a, a, 1);
+    f.add(x.b, b, -1);
     return f(0) > 0 ? f.safe_step(end) : 0;
   }
   // Nearest points of bodies that nearly touch: pushed apart along n, which leaves them where they are and a
@@ -192,7 +201,10 @@ struct CorePair {
     Core beyond = at_time(b, t, origin);
     beyond.frame.translation += away;
     const Separation x = narrow::separate_convex(at_time(a, t, origin), beyond);
-    if (x.outcome == Outcome::answered) s.a = x.a, s.b = x.b - away;
+    if (x.outcome == Outcome::answered) {
+      s.a = x.a;
+      s.b = x.b - away;
+    }
   }
   // Farther, along a direction that goes with a body or on as it has turned since the last look.
   Wide farther(const Snapshot& x, Wide t, Wide end, Wide step, const WideVec& seen) const {
@@ -228,7 +240,9 @@ struct PlanePair {
 template <class P>
 ImpactAnswer hit(const P& pair, Wide t, Separation s, Wide target, const Goal& goal, int steps) {
   ImpactAnswer r;
-  r.steps = steps, r.separation = static_cast<double>(s.gap), r.clear_until = static_cast<double>(t);
+  r.steps = steps;
+  r.separation = static_cast<double>(s.gap);
+  r.clear_until = static_cast<double>(t);
   r.normal_ab = s.normal.template cast<double>();
   const WideVec origin = pair.origin(t);
   pair.improve_points(s, t);
@@ -241,8 +255,10 @@ ImpactAnswer hit(const P& pair, Wide t, Separation s, Wide target, const Goal& g
   r.separation = static_cast<double>(below);
   if (below <= target) return r;
   const double next = std::nextafter(d, 1.0);
-  if (const Wide above = pair.look(next).s.gap; std::abs(above) < std::min(below, Wide(goal.accuracy)))
-    r.toi = next, r.separation = static_cast<double>(above);
+  if (const Wide above = pair.look(next).s.gap; std::abs(above) < std::min(below, Wide(goal.accuracy))) {
+    r.toi = next;
+    r.separation = static_cast<double>(above);
+  }
   return r;
 }
 
@@ -257,19 +273,24 @@ Advance run(const P& pair, Wide t_start, const Goal& goal) {
     // Bounds that have not met are bounds: the plane proves the next step, the points what is contact.
     const bool known = x.s.outcome == Outcome::answered;
     x.s.gap = upper_bound(x.s);
-    r.clear_until = static_cast<double>(t), r.separation = static_cast<double>(x.s.gap);
+    r.clear_until = static_cast<double>(t);
+    r.separation = static_cast<double>(x.s.gap);
     const Wide target = known ? tolerance::impact_gap_factor * x.s.size : Wide(goal.accuracy);
     if (x.s.gap <= target) return {hit(pair, t, x.s, target, goal, r.steps)};
     if (t >= goal.end) return out;
     if (r.clear_until > t) r.clear_until = std::nextafter(r.clear_until, 0.0);
-    if (x.s.gap > goal.leave && r.clear_until > t_start) return out.wide_open = true, out;
+    if (x.s.gap > goal.leave && r.clear_until > t_start) {
+      out.wide_open = true;
+      return out;
+    }
     Wide step = pair.step(x, goal.end - t);
     if (r.steps >= sure_steps) {
       const WideVec seen =
           t > last_time ? WideVec(last_normal.cross(x.s.normal) / (t - last_time)) : WideVec(WideVec::Zero());
       step = pair.farther(x, t, goal.end - t, step, seen);
     }
-    last_time = t, last_normal = x.s.normal;
+    last_time = t;
+    last_normal = x.s.normal;
     if (step >= goal.end - t) {
       t = goal.end;
       continue;

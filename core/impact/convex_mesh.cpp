@@ -47,7 +47,8 @@ class Query {
         continue;
       }
       const double first = below / v, last = above / v;
-      in = std::max(in, std::min(first, last)), out = std::min(out, std::max(first, last));
+      in = std::max(in, std::min(first, last));
+      out = std::min(out, std::max(first, last));
     }
     return in > out + 0x1p-40 ? never : std::max(0.0, in - 0x1p-40);
   }
@@ -102,11 +103,13 @@ class Query {
   void take(ImpactAnswer r) {
     r.steps += best_.steps;
     if (r.outcome != Outcome::answered) {
-      best_ = r, over_ = true;
+      best_ = r;
+      over_ = true;
       return;
     }
     if (!r.toi || (best_.toi && *best_.toi <= *r.toi)) return count(r.steps - best_.steps);
-    best_ = r, over_ = *r.toi == 0;
+    best_ = r;
+    over_ = *r.toi == 0;
   }
 
   const MovingShape& shape_;

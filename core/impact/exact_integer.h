@@ -42,7 +42,8 @@ class Integer {
       std::uint64_t carry = 0;
       for (std::size_t j = 0; j < o.limbs_.size(); ++j) {
         const U128 t = static_cast<U128>(limbs_[i]) * o.limbs_[j] + r[i + j] + carry;
-        r[i + j] = static_cast<std::uint64_t>(t), carry = static_cast<std::uint64_t>(t >> 64);
+        r[i + j] = static_cast<std::uint64_t>(t);
+        carry = static_cast<std::uint64_t>(t >> 64);
       }
       r[i + o.limbs_.size()] = carry;
     }
@@ -68,7 +69,8 @@ class Integer {
   static Integer make(bool negative, Limbs limbs) {
     while (!limbs.empty() && limbs.back() == 0) limbs.pop_back();
     Integer r;
-    r.negative_ = negative && !limbs.empty(), r.limbs_ = std::move(limbs);
+    r.negative_ = negative && !limbs.empty();
+    r.limbs_ = std::move(limbs);
     return r;
   }
   static int compare_sizes(const Limbs& a, const Limbs& b) {
@@ -82,7 +84,8 @@ class Integer {
     std::uint64_t carry = 0;
     for (std::size_t i = 0; i < r.size(); ++i) {
       const U128 t = static_cast<U128>(i < a.size() ? a[i] : 0) + (i < b.size() ? b[i] : 0) + carry;
-      r[i] = static_cast<std::uint64_t>(t), carry = static_cast<std::uint64_t>(t >> 64);
+      r[i] = static_cast<std::uint64_t>(t);
+      carry = static_cast<std::uint64_t>(t >> 64);
     }
     return r;
   }
@@ -92,7 +95,8 @@ class Integer {
     std::uint64_t borrow = 0;
     for (std::size_t i = 0; i < a.size(); ++i) {
       const U128 t = static_cast<U128>(a[i]) - (i < b.size() ? b[i] : 0) - borrow;
-      r[i] = static_cast<std::uint64_t>(t), borrow = static_cast<std::uint64_t>(t >> 64) & 1;
+      r[i] = static_cast<std::uint64_t>(t);
+      borrow = static_cast<std::uint64_t>(t >> 64) & 1;
     }
     return r;
   }

@@ -54,7 +54,8 @@ std::optional<ImpactAnswer> contact_at_start(const MovingShape& a, const MovingS
   if (found == Found::meeting && detail == ImpactDetail::time) return r;
   const auto x = in_double(a, b, Asked::distance).answer;
   if (x.valued && x.gap < -x.bound) {
-    r.separation = x.gap, r.normal_ab = x.normal;
+    r.separation = x.gap;
+    r.normal_ab = x.normal;
     r.witness_w = {Vec3(x.a + a.pose.translation), Vec3(x.b + a.pose.translation)};
     return r;
   }
@@ -63,8 +64,13 @@ std::optional<ImpactAnswer> contact_at_start(const MovingShape& a, const MovingS
     return std::nullopt;
   if (detail == ImpactDetail::time) return r;
   const DistanceAnswer d = distance(pa, pb);
-  r.separation = d.distance, r.normal_ab = d.normal, r.witness_w = d.witness;
-  if (d.outcome != Outcome::answered) r.outcome = d.outcome, r.toi.reset();
+  r.separation = d.distance;
+  r.normal_ab = d.normal;
+  r.witness_w = d.witness;
+  if (d.outcome != Outcome::answered) {
+    r.outcome = d.outcome;
+    r.toi.reset();
+  }
   return r;
 }
 
@@ -74,7 +80,8 @@ ImpactAnswer at_rest(const MovingShape& a, const MovingShape& b, ImpactDetail de
   ImpactAnswer r;
   r.clear_until = 1;
   const DistanceAnswer d = distance(pa, pb);
-  r.outcome = d.outcome, r.separation = d.distance;
+  r.outcome = d.outcome;
+  r.separation = d.distance;
   return r;
 }
 
@@ -90,7 +97,8 @@ ImpactAnswer stated_finely(const fast::Search& s, const MovingShape& a, const Mo
   if (!s.rough) return r;
   const WideVec origin = a.pose.translation.cast<Wide>();
   WideFrame fa = wide_frame_at(a.pose, a.motion, *r.toi), fb = wide_frame_at(b.pose, b.motion, *r.toi);
-  fa.translation -= origin, fb.translation -= origin;
+  fa.translation -= origin;
+  fb.translation -= origin;
   const Separation x = narrow::separate_placed(*a.shape, fa, *b.shape, fb);
   if (x.outcome != Outcome::answered) return r;
   r.normal_ab = x.normal.cast<double>();

@@ -121,7 +121,8 @@ ExactImpact first_contact(const Question& q, const Poly& of, const DyadicInterva
   for (const DyadicInterval& root : isolated_roots(of, window)) {
     if (sign_at_root(of, root, from_start()) < 0 || sign_at_root(of, root, to_end()) < 0) continue;
     if (!holds_origin(q.polygon, of, root)) continue;
-    r.collides = true, r.t_below = q.clear_until;
+    r.collides = true;
+    r.t_below = q.clear_until;
     if (q.narrow) r.t_below = std::max(r.t_below, below(narrowed(of, root)));
     return r;
   }

@@ -38,7 +38,8 @@ MovingPolygon difference_polygon(PrimitiveKind kind, const std::array<Vec3, 4>& 
       w = {x[2] - x[0], x[2] - x[1], x[3] - x[1], x[3] - x[0]};
   };
   p.corners = kind == PrimitiveKind::vertex_face ? 3 : 4;
-  fill(start, p.start), fill(end, p.end);
+  fill(start, p.start);
+  fill(end, p.end);
   for (std::size_t k = 0; k < p.corners; ++k)
     p.size = p.size.cwiseMax(p.start[k].cwiseAbs()).cwiseMax(p.end[k].cwiseAbs());
   return p;
@@ -78,7 +79,8 @@ Advance advance(const MovingPolygon& p, const PrimitiveOptions& o, int most_step
       const Clearance c = clear_along(p, tries.n[i], a.t, o.min_separation);
       if (i == 0) a.separation = c.separation;
       if (!(c.until > until)) continue;
-      until = c.until, a.separation = c.separation;
+      until = c.until;
+      a.separation = c.separation;
       break;
     }
     a.reached_end = until >= 1;
@@ -115,13 +117,23 @@ PrimitiveImpact primitive_impact(PrimitiveKind kind, const std::array<Vec3, 4>& 
     r.outcome = Outcome::invalid_input;
     return r;
   }
-  const auto miss = [&](PrimitiveExit exit) { return r.clear_until = 1, r.exit = exit, r; };
-  const auto hit = [&](PrimitiveExit exit) { return r.toi = r.clear_until, r.exit = exit, r; };
+  const auto miss = [&](PrimitiveExit exit) {
+    r.clear_until = 1;
+    r.exit = exit;
+    return r;
+  };
+  const auto hit = [&](PrimitiveExit exit) {
+    r.toi = r.clear_until;
+    r.exit = exit;
+    return r;
+  };
   const MovingPolygon p = difference_polygon(kind, start, end);
   if (apart_along_an_axis(p, options.min_separation)) return miss(PrimitiveExit::box);
   const bool can_be_exact = options.min_separation == 0 && options.tolerance == 0;
   const Advance a = advance(p, options, can_be_exact ? most_steps_before_integers : most_steps);
-  r.steps = a.steps, r.separation = std::max(0.0, a.separation), r.clear_until = a.t;
+  r.steps = a.steps;
+  r.separation = std::max(0.0, a.separation);
+  r.clear_until = a.t;
   if (a.reached_end) return miss(PrimitiveExit::direction);
   if (a.within_tolerance) return hit(PrimitiveExit::tolerance);
   // Nothing separates: as near as doubles tell, unless the nearest point itself was lost.
@@ -129,7 +141,8 @@ PrimitiveImpact primitive_impact(PrimitiveKind kind, const std::array<Vec3, 4>& 
   if (!can_be_exact) {
     if (a.separation <= options.min_separation * (1 + 64 * unit_roundoff) + resolved)
       return hit(PrimitiveExit::tolerance);
-    r.outcome = Outcome::not_converged, r.exit = PrimitiveExit::stuck;
+    r.outcome = Outcome::not_converged;
+    r.exit = PrimitiveExit::stuck;
     return r;
   }
   if (a.ended && crosses_near(p, a.t)) return hit(PrimitiveExit::crossing);

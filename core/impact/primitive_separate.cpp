@@ -47,14 +47,17 @@ Directions separating_directions(const MovingPolygon& p, double t) {
   for (std::size_t k = 0; k < m; ++k) {
     const Vec3& next = w[k + 1 == m ? 0 : k + 1];
     const double side = normal.dot(w[k].cross(next));
-    least = std::min(least, side), most = std::max(most, side);
+    least = std::min(least, side);
+    most = std::max(most, side);
     look_at_edge(w[k], next, boundary);
   }
   Directions out;
   if (least >= 0 || most <= 0) {
-    add(out, normal), add(out, boundary.direction);
+    add(out, normal);
+    add(out, boundary.direction);
   } else {
-    add(out, boundary.direction), add(out, normal);
+    add(out, boundary.direction);
+    add(out, normal);
   }
   return out;
 }
@@ -68,7 +71,8 @@ Clearance clear_along(const MovingPolygon& p, const Vec3& n, double t, double mi
   if (!(need < std::numeric_limits<double>::infinity())) return r;
   double until = 1;
   for (std::size_t k = 0; k < p.corners; ++k) {
-    s0[k] = n.dot(p.start[k]), s1[k] = n.dot(p.end[k]);
+    s0[k] = n.dot(p.start[k]);
+    s1[k] = n.dot(p.end[k]);
     const double now = value(k, t);
     r.separation = std::min(r.separation, now);
     // Aimed at one error more than is needed, so that the rounding of the quotient is covered.

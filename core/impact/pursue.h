@@ -28,7 +28,8 @@ Pursuit pursue(const fast::Sweep& sweep, fast::Search s, const Search& search_fr
   double leave = 64 * sweep.at(s.clear_until, true).error;
   while (!settled(s)) {
     Advance x = advance_from(s.clear_until, leave);
-    steps += x.answer.steps, x.answer.steps = steps;
+    steps += x.answer.steps;
+    x.answer.steps = steps;
     if (!x.wide_open) return {s, x.answer};
     if (steps > step_cap) {
       x.answer.outcome = Outcome::not_converged;

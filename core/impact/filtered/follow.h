@@ -43,7 +43,8 @@ class Follower {
     for (const Mover* m : {&w.a(), &w.b()}) {
       if (!m->turns) continue;
       const double across = n_.cross(m->angular).norm();
-      still_ += m->off_axis * m->speed * across, jerk_ += m->off_axis * m->speed * m->speed * across;
+      still_ += m->off_axis * m->speed * across;
+      jerk_ += m->off_axis * m->speed * m->speed * across;
     }
     still_ *= 1 + 0x1p-40;
     if (!turn.isZero(0)) try_turn(turn);
@@ -67,7 +68,9 @@ class Follower {
   // Turning pays when the whole of Newton's step is then proven.
   void try_turn(const Vec& turn) {
     const double still = rate();
-    turn_ = turn, turn_speed_ = turn.norm(), far_ = std::max(spot_.offset.norm(), offset_at(end_));
+    turn_ = turn;
+    turn_speed_ = turn.norm();
+    far_ = std::max(spot_.offset.norm(), offset_at(end_));
     const double v = w_.velocity().norm(), turning = rate();
     const double fastest = std::max(turning * turning, still * still);
     if (side_.s * curvature(1) <= 2 * fastest) {
@@ -75,7 +78,8 @@ class Follower {
       for (const Mover* m : {&w_.a(), &w_.b()})
         jerk_ += m->body.reach * std::pow(turn_speed_ + m->speed, 2) * (m->angular - turn).norm();
     } else {
-      turn_ = Vec::Zero(), turn_speed_ = 0;
+      turn_ = Vec::Zero();
+      turn_speed_ = 0;
     }
   }
   bool turning() const { return turn_speed_ > 0; }
@@ -98,7 +102,10 @@ class Follower {
     return n_ + s * across + 2 * half * half * axis.cross(across);
   }
 
-  void go(double t) { spot_ = w_.at(t, spot_.precise), side_ = w_.along(spot_, n_); }
+  void go(double t) {
+    spot_ = w_.at(t, spot_.precise);
+    side_ = w_.along(spot_, n_);
+  }
 
   // By the bodies of revolution; true: clear to the end.
   bool revolve() {
@@ -184,7 +191,9 @@ class Follower {
       const double e2 = side.s - margin(y), length = t - spot_.t;
       const double room = e2 < 0 ? -1 : std::sqrt(e1) + std::sqrt(e2);
       if (room >= 0 && curvature(length) * length * length / 2 <= room * room * (1 - 0x1p-40)) {
-        spot_ = y, side_ = side, n_ = n;
+        spot_ = y;
+        side_ = side;
+        n_ = n;
         return t >= end_;
       }
       if (e2 < 0) {

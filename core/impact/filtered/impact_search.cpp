@@ -15,25 +15,33 @@ constexpr double near_errors = 512;
 
 View look_at_plane(const Sweep& w, const Spot& x, const Vec& n) {
   View v;
-  v.normal = n, v.side = w.along(x, n), v.upper = v.side.s;
+  v.normal = n;
+  v.side = w.along(x, n);
+  v.upper = v.side.s;
   return v;
 }
 
 // Nearest points about A's origin; the ball of each core is added along their own difference.
 void set_points(Search& r, const Sweep& w, const Spot& x, const View& v, const Features& f) {
-  r.normal = v.normal, r.a = Vec::Zero(), r.b = Vec::Zero();
+  r.normal = v.normal;
+  r.a = Vec::Zero();
+  r.b = Vec::Zero();
   for (int i = 0; i < std::min(f.size, 3); ++i) {
     const auto k = static_cast<std::size_t>(i);
-    r.a += f.weight[k] * (x.ra * f.a[k]), r.b += f.weight[k] * (x.rb * f.b[k]);
+    r.a += f.weight[k] * (x.ra * f.a[k]);
+    r.b += f.weight[k] * (x.rb * f.b[k]);
   }
-  if (f.size == 0)  // a plane
-    r.a = v.side.pa, r.b = r.a + v.normal * (v.side.s + w.radii());
-  else
+  if (f.size == 0) {  // a plane
+    r.a = v.side.pa;
+    r.b = r.a + v.normal * (v.side.s + w.radii());
+  } else {
     r.b += x.offset;
+  }
   const Vec d = r.b - r.a;
   const double length = d.norm();
   const Vec n = length > 0 && w.radii() > 0 ? Vec(d / length) : v.normal;
-  r.a += w.a().body.radius * n, r.b -= w.b().body.radius * n;
+  r.a += w.a().body.radius * n;
+  r.b -= w.b().body.radius * n;
 }
 
 // Two features that are nearly parallel, or roll on each other, hide which of them the direction goes with: a
@@ -99,7 +107,10 @@ void improve_points(Search& r, const Sweep& w, const Spot& hit, const Features& 
       Search tried = r;
       set_points(tried, w, x, v, f);
       tried.b -= away;
-      if (const double e = off(tried, hit.error); e < best) best = e, r = tried;
+      if (const double e = off(tried, hit.error); e < best) {
+        best = e;
+        r = tried;
+      }
     }
 }
 
@@ -130,37 +141,56 @@ Search search(const Sweep& w, double start, double end, double accuracy, const s
   };
   for (r.steps = 0; r.steps < step_cap; ++r.steps) {
     View v = see();
-    r.clear_until = x.t, r.gap = v.upper;
-    if (!x.precise && v.side.s < near_errors * x.error) x = w.at(x.t, true), v = see();
+    r.clear_until = x.t;
+    r.gap = v.upper;
+    if (!x.precise && v.side.s < near_errors * x.error) {
+      x = w.at(x.t, true);
+      v = see();
+    }
     if (v.meeting || !(v.side.s > x.error)) {
       r.end = x.t > start ? SearchEnd::unsure : SearchEnd::start;
       return r;
     }
     if (v.upper + x.error <= std::min(accuracy, near_enough * x.error)) {
       set_points(r, w, x, v, features);
-      if (!plane) improve_points(r, w, x, features), r.rough = is_rough(r, w, accuracy);
+      if (!plane) {
+        improve_points(r, w, x, features);
+        r.rough = is_rough(r, w, accuracy);
+      }
       r.gap = v.upper;
-      return r.end = SearchEnd::hit, r;
+      r.end = SearchEnd::hit;
+      return r;
     }
-    if (x.t >= end) return r.end = SearchEnd::clear, r;
+    if (x.t >= end) {
+      r.end = SearchEnd::clear;
+      return r;
+    }
     const double before = x.t;
     const Followed f =
         plane ? follow(w, x, v, Vec::Zero(), end) : go_on(w, x, v, features, last, r.steps, end);
     if (f.clear) {
       r.clear_until = end;
-      return r.end = SearchEnd::clear, r;
+      r.end = SearchEnd::clear;
+      return r;
     }
-    if (!(f.spot.t > before)) return r.end = SearchEnd::unsure, r;
+    if (!(f.spot.t > before)) {
+      r.end = SearchEnd::unsure;
+      return r;
+    }
     x = f.spot;
   }
-  return r.end = SearchEnd::unsure, r;
+  r.end = SearchEnd::unsure;
+  return r;
 }
 
 ImpactAnswer answer_of(const Search& s, const Vec& linear_a) {
   ImpactAnswer r;
-  r.steps = s.steps, r.clear_until = s.clear_until, r.separation = s.gap;
+  r.steps = s.steps;
+  r.clear_until = s.clear_until;
+  r.separation = s.gap;
   if (s.end != SearchEnd::hit) return r;
-  r.toi = s.clear_until, r.normal_ab = s.normal;
+  r.toi = s.clear_until;
+  r.normal_ab = s.normal;
   const Vec origin = s.clear_until * linear_a;
   r.witness_w = {Vec3(s.a + origin), Vec3(s.b + origin)};
   return r;

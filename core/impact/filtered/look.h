@@ -42,13 +42,20 @@ class Looker {
     // Of the smallest upper bound: a later simplex may be worse, or hold the origin.
     Features best_features = f_;
     double length = v.norm(), best = -std::numeric_limits<double>::infinity();
-    if (!(length > 0)) v = Vec::UnitX(), length = 1;
+    if (!(length > 0)) {
+      v = Vec::UnitX();
+      length = 1;
+    }
     int idle = 0;
     for (int i = 0; i < look_cap; ++i) {
       const Vec n = v / length;
       const Side s = w_.along(x_, n);
       const bool better = s.s > best;
-      if (better) best = s.s, v_.normal = n, v_.side = s;
+      if (better) {
+        best = s.s;
+        v_.normal = n;
+        v_.side = s;
+      }
       if (v_.upper - best <= std::max(relative * best, absolute)) break;
       idle = better ? 0 : idle + 1;
       if (simplex_.size == 4 || idle > 4 || !add(s, v)) break;
@@ -57,7 +64,10 @@ class Looker {
         v_.meeting = true;
         break;
       }
-      if (length - w_.radii() < v_.upper) v_.upper = length - w_.radii(), best_features = f_;
+      if (length - w_.radii() < v_.upper) {
+        v_.upper = length - w_.radii();
+        best_features = f_;
+      }
     }
     if (best_features.size > 0) f_ = best_features;
   }
@@ -75,7 +85,9 @@ class Looker {
     }
     if (!shrink(v)) {
       // Points of both bodies, but perhaps a sliver that rounding turned inside out.
-      f_.size = 0, simplex_.size = 0, v = x_.offset;
+      f_.size = 0;
+      simplex_.size = 0;
+      v = x_.offset;
       return true;
     }
     v_.upper = v.norm() - w_.radii();
@@ -88,7 +100,8 @@ class Looker {
     for (std::size_t i = 0; i < k; ++i)
       if (simplex_.p[i].w == w) return false;
     simplex_.p[k].w = w;
-    f_.a[k] = s.local_a, f_.b[k] = s.local_b;
+    f_.a[k] = s.local_a;
+    f_.b[k] = s.local_b;
     f_.size = ++simplex_.size;
     if (shrink(v)) return true;
     v_.meeting = true;
@@ -107,7 +120,9 @@ class Looker {
       const auto k = static_cast<std::size_t>(i);
       std::size_t from = 0;
       while (from + 1 < static_cast<std::size_t>(size) && before[from].w != simplex_.p[k].w) ++from;
-      f_.a[k] = had.a[from], f_.b[k] = had.b[from], f_.weight[k] = simplex_.weight[k];
+      f_.a[k] = had.a[from];
+      f_.b[k] = had.b[from];
+      f_.weight[k] = simplex_.weight[k];
     }
     return true;
   }
@@ -136,10 +151,13 @@ inline bool point_and_box(const Sweep& w, const Spot& x, Features& f, View& v) {
   const double length = away.norm();
   v.meeting = !(length > 0);
   if (v.meeting) return false;
-  v.normal = away * ((first ? -1 : 1) / length), v.side = w.along(x, v.normal);
+  v.normal = away * ((first ? -1 : 1) / length);
+  v.side = w.along(x, v.normal);
   v.upper = length - w.radii();
-  f.size = 1, f.weight[0] = 1;
-  (first ? f.a : f.b)[0] = Vec::Zero(), (first ? f.b : f.a)[0] = q;
+  f.size = 1;
+  f.weight[0] = 1;
+  (first ? f.a : f.b)[0] = Vec::Zero();
+  (first ? f.b : f.a)[0] = q;
   return true;
 }
 

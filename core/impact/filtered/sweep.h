@@ -56,8 +56,10 @@ class Sweep {
 
   Spot at(double t, bool precise) const {
     Spot x;
-    x.t = t, x.precise = precise;
-    x.ra = rotation_at(a_, t, precise), x.rb = rotation_at(b_, t, precise);
+    x.t = t;
+    x.precise = precise;
+    x.ra = rotation_at(a_, t, precise);
+    x.rb = rotation_at(b_, t, precise);
     x.offset = (offset_ + static_cast<Wide>(t) * velocity_wide_).cast<double>();
     const auto body = [&](const Mover& m) {
       const double scan =
@@ -70,8 +72,10 @@ class Sweep {
 
   Side along(const Spot& x, const Vec& n) const {
     Side r;
-    r.local_a = farthest(a_, x.ra, n), r.local_b = farthest(b_, x.rb, -n);
-    r.pa = x.ra * r.local_a, r.pb = x.rb * r.local_b;
+    r.local_a = farthest(a_, x.ra, n);
+    r.local_b = farthest(b_, x.rb, -n);
+    r.pa = x.ra * r.local_a;
+    r.pb = x.rb * r.local_b;
     r.s = n.dot(x.offset + r.pb - r.pa) - radii_;
     return r;
   }

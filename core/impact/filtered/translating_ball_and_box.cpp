@@ -23,12 +23,17 @@ Piece piece(const Vec& p, const Vec& w, const Vec& h, const std::array<int, 3>& 
     double until = std::numeric_limits<double>::infinity();
     if (s != 0) {
       const double e = s * p[k] - h[k], d = s * w[k];
-      q.a += d * d, q.b += e * d, q.c += e * e;
+      q.a += d * d;
+      q.b += e * d;
+      q.c += e * e;
       if (d < 0) until = std::max(0.0, e / -d);
     } else if (w[k] != 0) {
       until = std::max(0.0, (h[k] - std::copysign(p[k], p[k] * w[k])) / std::abs(w[k]));
     }
-    if (until < q.next) q.next = until, q.which = k;
+    if (until < q.next) {
+      q.next = until;
+      q.which = k;
+    }
   }
   return q;
 }
@@ -107,7 +112,8 @@ Search translating_ball_and_box(const Translation& m, double radius, const Vec& 
   if (!(s > 1.25 * e && gap + e <= accuracy)) return {.end = SearchEnd::unsure};
   Search out{.end = SearchEnd::hit, .clear_until = found.t, .gap = gap, .steps = 1};
   out.normal = r * -n;
-  out.a = out.normal * radius, out.b = out.normal * dist;
+  out.a = out.normal * radius;
+  out.b = out.normal * dist;
   return out;
 }
 

@@ -16,7 +16,8 @@ class Boxes {
  public:
   Boxes(const Translation& m, const Vec& ha, const Vec& hb) : ha_(ha), hb_(hb), at_(relative(m.a, m.b)) {
     v_ = at_.a_to_world.transpose() * m.velocity;
-    constant_ = 8 * ha.norm() + 36 * hb.norm() + 5 * at_.offset.norm(), speed_ = v_.norm();
+    constant_ = 8 * ha.norm() + 36 * hb.norm() + 5 * at_.offset.norm();
+    speed_ = v_.norm();
   }
   double error(double t) const {
     return u<double> * (1 + 0x1p-20) * (constant_ + 16 * (at_.offset + t * v_).norm() + 6 * t * speed_);
@@ -55,13 +56,20 @@ class Boxes {
 
   // Whether an axis separates all the time; the last to be entered is `first_`.
   bool take(int index, double p, double q, double r, double length, double e0, double e1) {
-    if (p < 0) p = -p, q = -q;
+    if (p < 0) {
+      p = -p;
+      q = -q;
+    }
     const Axis a{p, q, r, length};
     const int k = count_++;
-    axis_[static_cast<std::size_t>(k)] = a, index_[static_cast<std::size_t>(k)] = index;
+    axis_[static_cast<std::size_t>(k)] = a;
+    index_[static_cast<std::size_t>(k)] = index;
     if (!(p - r > 1.25 * e0 * length)) return false;
     if (p + q - r > 1.25 * e1 * length) return true;
-    if (const double t = (p - r) / -q; q < 0 && t > enter_) enter_ = t, first_ = k;
+    if (const double t = (p - r) / -q; q < 0 && t > enter_) {
+      enter_ = t;
+      first_ = k;
+    }
     return false;
   }
 

@@ -40,7 +40,9 @@ class Cast {
   Pass look(const Vec& n, Vertex<double>& p, double& s) {
     ++steps_;
     const Side x = sweep_.along(start_, n);
-    p.a = x.pa, p.w = start_.offset + x.pb - x.pa, s = x.s;
+    p.a = x.pa;
+    p.w = start_.offset + x.pb - x.pa;
+    s = x.s;
     return s > start_.error && s + n.dot(v_) > end_error_ ? Pass::clear : Pass::on;
   }
 
@@ -126,7 +128,10 @@ class Cast {
     if (!(s_ > start_.error && s > spot.error)) return {};
     narrow::fast::Simplex<double> x;
     x.size = 3;
-    for (std::size_t k = 0; k < 3; ++k) x.p[k] = p_[k], x.p[k].w += spot.offset - start_.offset;
+    for (std::size_t k = 0; k < 3; ++k) {
+      x.p[k] = p_[k];
+      x.p[k].w += spot.offset - start_.offset;
+    }
     Vec w = Vec::Zero();
     double dist_sq = 0, margin = 0;
     if (narrow::fast::reduce(x, w, dist_sq, margin)) return {};
@@ -135,7 +140,8 @@ class Cast {
     Search r{.end = SearchEnd::hit, .clear_until = t, .gap = s, .steps = steps_};
     for (int k = 0; k < x.size; ++k)
       r.a += x.weight[static_cast<std::size_t>(k)] * x.p[static_cast<std::size_t>(k)].a;
-    r.b = r.a + w, r.normal = n_;
+    r.b = r.a + w;
+    r.normal = n_;
     return r;
   }
 

@@ -84,7 +84,8 @@ Search translating_rounds(const Translation& m, const Round& a, const Round& b, 
     } else if (x < 2.5 * e) {
       if (!from_start || dist - s.radii + e > accuracy) return unsure;
       Search r{.end = SearchEnd::hit, .clear_until = t, .gap = dist - s.radii, .normal = n, .steps = i};
-      r.a = p.alpha * s.a + a.radius * n, r.b = s.at(t) + p.beta * s.b - b.radius * n;
+      r.a = p.alpha * s.a + a.radius * n;
+      r.b = s.at(t) + p.beta * s.b - b.radius * n;
       return r;
     }
     if (!(rate < 0)) return unsure;
