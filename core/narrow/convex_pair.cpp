@@ -8,17 +8,17 @@
 namespace touchstone::narrow {
 namespace {
 
-// GJK on smooth bodies gains a constant factor an iteration; 60 digits of safety over the worst seen
+// On smooth bodies GJK converges linearly; this leaves 60 digits of margin over the worst case seen
 // (tests/core/stress).
 constexpr int gjk_cap = 2000;
-// Expansions before a ring of minima is suspected: isolated minima close in 50 to 250. Polytopes have none,
-// and those of thousands of vertices about one centre need thousands.
+// Expansions before a ring of minima is suspected: isolated minima close within 50 to 250. Polytopes have no
+// rings, but concentric ones with thousands of vertices need thousands of expansions.
 constexpr int epa_budget = 400, epa_budget_of_polytopes = 16384;
 
 using Core = ConvexCore<Wide>;
 
-// Witnesses move along their own difference, so that b − a stays parallel to it: the normal of the best
-// support plane may differ from it by the root of the tolerance.
+// Witness points move along their own difference, so that b − a stays parallel to it: the normal of the best
+// support plane may deviate from it by the square root of the tolerance.
 void inflate(Separation& s, const Core& a, const Core& b) {
   const WideVec v = s.b - s.a;
   const Wide length = v.norm();
@@ -68,9 +68,9 @@ Separation from_epa(EpaResult<Wide> e, const Core& a, const Core& b, Wide size) 
   return s;
 }
 
-// A walk that stalled close to contact: the expanding polytope looks at the same boundary from the other
-// side. Its signed planes decide whether the origin is inside; if not, its direction and point sharpen both
-// bounds of the distance.
+// For a GJK run that stalled close to contact: EPA examines the same boundary from the other side. The signed
+// planes of its polytope decide whether the origin is inside; if it is not, their direction and point tighten
+// both bounds of the distance.
 Separation second_opinion(const GjkResult<Wide>& g, const Core& a, const Core& b, Wide size) {
   const EpaResult<Wide> e = expand(g, a, b, size);
   if (e.status != EpaStatus::broken && e.upper >= 0 && e.lower >= -tolerance::narrow_gap_factor * size)

@@ -1,19 +1,17 @@
-// Penetration depth of two convex cores that touch or overlap: the point of the boundary of D = B − A nearest
-// to the origin. Expanding polytope (van den Bergen 2001), with these departures:
+// Penetration depth of two convex cores that touch or overlap: the boundary point of D = B − A nearest to the
+// origin. Expanding polytope (van den Bergen 2001), with these departures:
 //
-// * Exit by bounds. Every direction m that is ever tried gives an upper bound h_D(m). Lower bound: the
-// surface is closed
-//   and consists of triangles of points of D, so every ray from the origin leaves through one of them, and
-//   the ball whose radius is the least distance of a triangle lies in D. This needs no convexity of the
-//   surface, so a facet that rounding has bent does no harm. The run is closed when the bounds meet to
-//   `tolerance`.
-// * The horizon is repaired: where the new point is nearly on the line of a horizon edge, or would fold the
-// surface over
-//   the origin, the facet behind that edge is taken out as well; pinched or many-looped horizons are filled
-//   up.
-// * When minima form a curve (coaxial cylinders) or a surface (concentric spheroids), no number of facets
-// closes the lower
-//   bound. The run then ends `explored`, with the best direction seen; descend.h takes it to a local minimum.
+// * Termination by bounds. Every direction m ever tried gives an upper bound h_D(m). Lower bound: the surface
+//   is closed and consists of triangles of points of D, so every ray from the origin leaves through one of
+//   them, and the ball whose radius is the least distance of a triangle lies in D. This does not require the
+//   surface to be convex, so a facet distorted by rounding does no harm. The run is `closed` when the bounds
+//   meet to `tolerance`.
+// * The horizon is repaired: where the new point is nearly collinear with a horizon edge, or would fold the
+//   surface over the origin, the facet behind that edge is removed as well; horizons that are pinched or have
+//   several loops are filled.
+// * When the minima form a curve (coaxial cylinders) or a surface (concentric spheroids), no number of facets
+//   closes the lower bound. The run then ends `explored`, with the best direction seen; descend.h takes it to
+//   a local minimum.
 #pragma once
 
 #include <array>
@@ -28,14 +26,14 @@ namespace touchstone::narrow {
 enum class EpaStatus {
   closed,    // upper − lower <= tolerance
   flat,      // D has no interior within rounding: the depth is upper, 0 up to rounding
-  explored,  // budget spent: upper and lower are valid but apart
+  explored,  // budget spent: upper and lower are valid but have not met
   broken     // the surface could not be repaired in this arithmetic
 };
 
 template <class R>
 struct EpaResult {
   EpaStatus status = EpaStatus::broken;
-  R upper = std::numeric_limits<R>::infinity();  // h_D(-normal): valid whatever the status
+  R upper = std::numeric_limits<R>::infinity();  // h_D(-normal); valid for every status
   R lower = 0;
   V3<R> normal = V3<R>::UnitX();  // unit, A to B: minus the outward normal of D
   V3<R> a = V3<R>::Zero(), b = V3<R>::Zero();
@@ -104,7 +102,7 @@ class Epa {
   }
 
   // A simplex that encloses the origin may be flat within rounding; its largest face then contains the origin
-  // as well as the whole does.
+  // just as well.
   void drop_degenerate(std::vector<DifferenceVertex<R>>& s) const {
     const auto w = [&](std::size_t i) -> const V3<R>& { return s[i].w; };
     if (s.size() == 4) {
@@ -133,7 +131,7 @@ class Epa {
     return {k == 0 ? 1u : 0u, k <= 1 ? 2u : 1u, k <= 2 ? 3u : 2u};
   }
 
-  // Height over the longest edge.
+  // Height above the longest edge.
   static R height(const V3<R>& a, const V3<R>& b, const V3<R>& c) {
     const R longest = std::max({(b - a).squaredNorm(), (c - b).squaredNorm(), (a - c).squaredNorm()});
     return longest > 0 ? detail::triangle_normal<R>(a, b, c).norm() / std::sqrt(longest) : R(0);
@@ -154,7 +152,8 @@ class Epa {
     return true;
   }
 
-  // To a tetrahedron by support points away from the point, line, plane at hand; false when D is flat.
+  // Extends the simplex to a tetrahedron with support points away from the current point, line or plane;
+  // false when D is flat.
   bool grow(std::vector<DifferenceVertex<R>>& s) {
     if (s.size() == 1) {
       const V3<R> x = V3<R>::UnitX(), y = V3<R>::UnitY(), z = V3<R>::UnitZ();
@@ -201,8 +200,8 @@ class Epa {
   void measure(Facet& f) {
     const V3<R>&a = point(f.v[0]), &b = point(f.v[1]), &c = point(f.v[2]);
     f.normal = detail::triangle_normal<R>(a, b, c);
-    // A sliver's distance is that of its longest edge up to thin_, which the facet across that edge accounts
-    // for.
+    // A sliver's distance is that of its longest edge up to thin_; the facet across that edge accounts for
+    // it.
     f.sliver = height(a, b, c) <= thin_;
     if (f.sliver) return;
     f.normal.normalize();
@@ -211,7 +210,7 @@ class Epa {
     const auto near = nearest(f);
     f.inside = near.weight[0] > 0 && near.weight[1] > 0 && near.weight[2] > 0;
     const R dist = std::sqrt(near.dist_sq);
-    // Signed when the origin is beyond the plane: then the surface does not (yet) enclose it.
+    // Negative when the origin is beyond the plane: the surface does not (yet) enclose it.
     f.key = f.inside || f.plane < 0 ? f.plane : std::max(f.plane, dist);
 
     f.support = probe(f.normal, f.upper);
@@ -244,7 +243,7 @@ class Epa {
     }
   }
 
-  // Where several facets share the least plane, the origin may project outside of the one at hand.
+  // Where several facets share the nearest plane, the origin may project outside the current one.
   int nearest_facet() const {
     int best = 0;
     R least = infinite;
@@ -302,13 +301,13 @@ class Epa {
     const R h = height(a, b, p);
     if (h <= thin_) return true;
     const V3<R> n = detail::triangle_normal<R>(a, b, p).normalized();
-    // The normal of a triangle of height h is known to about level_/h.
+    // The normal of a triangle of height h is accurate to about level_/h.
     const R longest =
         std::sqrt(std::max({(b - a).squaredNorm(), (p - b).squaredNorm(), (a - p).squaredNorm()}));
     return n.dot(a) < -level_ * (4 + longest / h) - tolerance_ - outside_;
   }
 
-  // Orders the horizon as one loop. Returns facets to absorb where it is pinched or has several loops.
+  // Orders the horizon into one loop. Returns the facets to absorb if it is pinched or has several loops.
   std::vector<int> order_horizon() {
     next_.assign(vertices_.size(), -1);
     for (int i = 0; i < static_cast<int>(horizon_.size()); ++i) {
@@ -380,7 +379,7 @@ class Epa {
   using HeapItem = std::pair<R, int>;
   const ConvexCore<R>&a_, &b_;
   R tolerance_, thin_, level_;
-  R outside_ = 0;  // the origin may lie this far outside of D
+  R outside_ = 0;  // the origin may lie this far outside D
   EpaResult<R> result_;
   std::vector<DifferenceVertex<R>> vertices_;
   std::vector<Facet> facets_;

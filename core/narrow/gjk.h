@@ -1,7 +1,7 @@
-// Distance of two convex cores. Gilbert, Johnson, Keerthi 1988, in the form of van den Bergen 1999: the exit
-// is the gap between an upper bound |v| (v is a point of B − A) and the lower bound −w(n) of the best support
-// plane seen, so that both are true whatever the simplices were. No absolute epsilon: `tolerance` and
-// `touching` are lengths that the caller derives from the size of the pair.
+// Distance of two convex cores. Gilbert, Johnson, Keerthi 1988, in the form of van den Bergen 1999: the
+// iteration ends on the gap between an upper bound |v| (v is a point of B − A) and the lower bound −w(n) of
+// the best support plane seen, so that both bounds hold whatever the simplices were. There is no absolute
+// epsilon: `tolerance` and `touching` are lengths that the caller derives from the size of the pair.
 #pragma once
 
 #include <array>
@@ -15,7 +15,7 @@ enum class GjkStatus {
   separated,  // upper − lower <= tolerance
   enclosed,   // the origin is inside the tetrahedron `simplex`
   touching,   // |v| <= touching: indistinguishable from contact here; EPA decides
-  stalled,    // no progress in this arithmetic; bounds are valid but apart
+  stalled,    // no progress in this arithmetic; bounds are valid but have not met
   capped      // iteration cap
 };
 
@@ -26,7 +26,7 @@ struct GjkResult {
   std::array<R, 4> weight{};
   int size = 0;
   R upper = 0;                                 // |v|
-  R lower = 0;                                 // −w(normal), may be negative
+  R lower = 0;                                 // −w(normal); may be negative
   V3<R> normal = V3<R>::Zero();                // unit, A to B, of the best lower bound
   V3<R> a = V3<R>::Zero(), b = V3<R>::Zero();  // core points with b − a = v
   int iterations = 0;
@@ -59,8 +59,9 @@ ClosestPoint<R> closest_of(const GjkResult<R>& g) {
   return closest_to_origin<R>(std::span(p.data(), static_cast<std::size_t>(g.size)));
 }
 
-// When rounding stops the walk: the normals of all triangles of the last support points are tried as support
-// planes. One of them is the plane (or the plane through the edge) that the walk was circling.
+// When rounding stalls the iteration: tries the normals of all triangles of the last support points as
+// support planes. One of them is the plane (or the plane through the edge) around which the iteration was
+// cycling.
 template <class R>
 void polish(GjkResult<R>& g, const ConvexCore<R>& a, const ConvexCore<R>& b,
             std::span<const DifferenceVertex<R>> seen) {
@@ -96,13 +97,13 @@ GjkResult<R> gjk(const ConvexCore<R>& a, const ConvexCore<R>& b, R tolerance, R 
   R last_sq = std::numeric_limits<R>::infinity();
   for (g.iterations = 1; g.iterations <= max_iterations; ++g.iterations) {
     const ClosestPoint<R> c = detail::closest_of(g);
-    // A support plane with the origin outside is proof; a flat tetrahedron's signs are not.
+    // A support plane that separates the origin is proof; the signs of a flat tetrahedron are not.
     if (c.encloses && g.lower > 0) break;
     if (c.encloses) {
       g.status = GjkStatus::enclosed;
       return g;
     }
-    // Near the end the distance stands still to an ulp while the direction still improves.
+    // Near the end the distance stagnates to an ulp while the direction still improves.
     idle = c.dist_sq < last_sq ? 0 : idle + 1;
     if (idle > max_idle) break;
     last_sq = std::min(last_sq, c.dist_sq);

@@ -23,7 +23,7 @@ struct Builder {
     }
   }
 
-  // Half of each first: no sum overflows.
+  // Halves each term first, so that no sum overflows.
   Vec3 centre(std::int32_t t) const {
     const auto i = static_cast<std::size_t>(t);
     return lo[i] / 2 + hi[i] / 2;

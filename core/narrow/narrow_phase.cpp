@@ -19,7 +19,7 @@ Vec3 world(const V3<R>& p, const PlacedShape& origin) {
     return (p + origin.pose.translation.cast<R>()).template cast<double>();
 }
 
-// A sign that is not certain is left to extended precision, where there is someone to ask.
+// An uncertain sign is left to extended precision unless R is to be used `alone`.
 template <class R>
 bool known(const FastAnswer<R>& f, bool alone) {
   return f.answer.found == Found::touching ? alone : f.answer.found != Found::unsure;
@@ -30,7 +30,7 @@ bool overlaps(const FastAnswer<R>& f) {
   return f.answer.found == Found::touching ? f.answer.gap <= 0 : f.answer.found == Found::meeting;
 }
 
-// Points in the frame of the row's A, to the world.
+// Transforms the points from the frame of the table row's A to the world.
 template <class R>
 bool fill_manifold(const FastAnswer<R>& f, const PlacedShape& a, const PlacedShape& b, Manifold& out) {
   const fast::Answer<R>& s = f.answer;
@@ -49,7 +49,7 @@ bool fill_manifold(const FastAnswer<R>& f, const PlacedShape& a, const PlacedSha
   return patch.size > 0;
 }
 
-// A closed form has left bodies and frames to us.
+// A closed form does not set bodies and frames; this function does.
 template <class R>
 void prepare_segments(FastAnswer<R>& f, const PlacedShape& a, const PlacedShape& b) {
   if (f.scene.contact != fast::ContactForm::segments) return;
@@ -59,7 +59,7 @@ void prepare_segments(FastAnswer<R>& f, const PlacedShape& a, const PlacedShape&
   fast::prepare<R>(x, from, y, to, f.scene);
   const V3<R> n = f.mirrored ? V3<R>(-f.answer.normal) : f.answer.normal;
   f.scene.normal = f.scene.at.a_to_world.transpose() * n;
-  // (a + b)/2 about the row's A; the answer's own is about the query's.
+  // (a + b)/2 relative to the row's A; the answer's points are relative to the query's A.
   const V3<R> middle = (f.answer.a + f.answer.b) / 2 +
                        (f.mirrored ? V3<R>(a.pose.translation.cast<R>() - b.pose.translation.cast<R>())
                                    : V3<R>(V3<R>::Zero()));
@@ -86,7 +86,7 @@ bool fill(FastAnswer<R>& f, const PlacedShape& a, const PlacedShape& b, ContactA
   return fill_manifold(f, a, b, r.manifold);
 }
 
-// The fast answer, begun and remembered by `memory` if there is one.
+// Computes the fast answer. `memory`, if any, supplies the initial guess and receives the final direction.
 template <class R>
 void separate(const PlacedShape& a, const PlacedShape& b, Asked asked, PairMemory* memory, FastAnswer<R>& f) {
   f.scene.guess = memory ? V3<R>(memory->direction.cast<R>()) : V3<R>(V3<R>::Zero());
@@ -101,7 +101,7 @@ bool refused(const PlacedShape& a, const PlacedShape& b, A& r) {
   return true;
 }
 
-// In the arithmetic R and no other.
+// Uses the arithmetic R only.
 template <class R>
 OverlapAnswer overlap_alone(const PlacedShape& a, const PlacedShape& b, PairMemory* memory) {
   OverlapAnswer r;
@@ -128,8 +128,8 @@ DistanceAnswer distance_alone(const PlacedShape& a, const PlacedShape& b, PairMe
   return r;
 }
 
-// A contact whose patch is empty (no face, no crossing of edges that R can see): the witnesses of the
-// distance, for rows that have patches leave them out of a contact.
+// For a contact whose patch is empty (no face and no edge crossing that R can resolve): uses the witness
+// points of the distance, which rows with patches omit from a contact.
 template <class R>
 void fill_point_alone(const PlacedShape& a, const PlacedShape& b, ContactAnswer& r) {
   FastAnswer<R> f;

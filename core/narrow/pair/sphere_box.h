@@ -1,4 +1,4 @@
-// A point and a box, in the box's frame. Inside, the nearest face is the least depth, exactly.
+// A point and a box, in the box's frame. For a point inside, the nearest face gives the exact least depth.
 #pragma once
 
 #include "core/narrow/convex_pair.h"
