@@ -15,14 +15,14 @@ struct Body {
   CoreKind kind = CoreKind::point;
   V3<R> size;                        // as in ConvexCore
   std::span<const Vec3> vertices;    // kind vertices
-  const HullGraph* graph = nullptr;  // of them, or none
+  const HullGraph* graph = nullptr;  // of `vertices`, or null
   R radius = 0;                      // of the ball
   R reach = 0;                       // of the core about the body's origin, rounded
-  R extent = 0;                      // no more than the body's share of L
-  R unit = 1;                        // power of two: the core's vertices are this times `vertices`
+  R extent = 0;                      // at most the body's share of L
+  R unit = 1;                        // power of two; scales `vertices` to the core's vertices
 };
 
-/// A core point farthest along d; d not zero.
+/// A core point farthest along d; d is not zero.
 template <class R>
 V3<R> support_local(const Body<R>& c, const V3<R>& d) {
   const V3<R>& s = c.size;
@@ -60,7 +60,8 @@ bool is_curved(const Body<R>& c) {
   return c.kind == CoreKind::cylinder || c.kind == CoreKind::cone || c.kind == CoreKind::ellipsoid;
 }
 
-/// Derivative of the support point along a unit d, where it has one: zero for corners and edges.
+/// Derivative of the support point with respect to a unit direction d, where it exists: zero for corners and
+/// edges.
 template <class R>
 M3<R> support_derivative(const Body<R>& c, const V3<R>& d) {
   M3<R> m = M3<R>::Zero();
@@ -85,7 +86,8 @@ M3<R> support_derivative(const Body<R>& c, const V3<R>& d) {
   return m;
 }
 
-/// Precondition: bounded and convex. The span views the shape; a graph is of that shape.
+/// Precondition: bounded and convex. The body refers to the shape's vertices; `graph`, if any, belongs to
+/// that shape.
 template <class R>
 Body<R> make_body(const Shape& shape, const HullGraph* graph = nullptr) {
   Body<R> c;

@@ -2,16 +2,16 @@
 // H_k.
 //
 // * Apart: the squared distance of c + t·d to the box is Σ max(|x_k| − H_k, 0)², convex and quadratic between
-//   the six values of t at which the segment passes a face's plane. Its derivative is tested there, and is
-//   linear in between, so that the foot is found without iterating. The difference of the feet is then freed
-//   of its component along the segment, among the coordinates in which the foot is outside.
-// * Meeting: facets of the sum of a box and a segment are the box's faces and parallelograms of an edge and
-//   the segment, so the largest of six separations is minus the depth (as in box_box.h, cross axes from the
-//   vector itself).
+//   the six values of t at which the segment crosses a face's plane. Its derivative is evaluated there and is
+//   linear in between, so the foot is found without iteration. The difference of the feet is then made
+//   orthogonal to the segment, among the coordinates in which the foot is outside.
+// * Meeting: the facets of the sum of a box and a segment are the box's faces and parallelograms of an edge
+//   and the segment, so the largest of six separations is minus the depth (as in box_box.h, cross axes from
+//   the vector itself).
 //
-// A direction is believed for what its support planes show; what they fall short of the distance goes into
-// the bound. Exits: a value within its bound, the verdict alone, or false when neither form knows enough
-// (nearly parallel features within rounding of touching): the search answers then.
+// A direction is trusted only as far as its support planes prove it; their shortfall from the distance is
+// added to the bound. Outcomes: a value within its bound, the verdict only, or false when neither form is
+// accurate enough (nearly parallel features within rounding of touching), in which case the search answers.
 #pragma once
 
 #include <algorithm>
@@ -22,17 +22,17 @@ namespace touchstone::narrow::fast {
 
 template <class R>
 struct BoxSegment {
-  V3<R> half, c, d;  // d unit
-  R h, error;        // error: how far rounding displaces the two
+  V3<R> half, c, d;  // d is a unit vector
+  R h, error;        // error: displacement of both by rounding
 
   V3<R> at(R t) const { return c + t * d; }
   V3<R> outside(const V3<R>& x) const { return x - x.cwiseMax(-half).cwiseMin(half); }
   R slope(R t) const { return d.dot(outside(at(t))); }
-  /// Of the support planes along a unit n, box to segment.
+  /// Separation of the support planes along a unit n, box to segment.
   R separation(const V3<R>& n) const { return n.dot(c) - n.cwiseAbs().dot(half) - std::abs(n.dot(d)) * h; }
 };
 
-/// n from the box to the segment; box + gap·n = segment, of the cores.
+/// n points from the box to the segment; box + gap·n = segment, for the cores.
 template <class R>
 struct BoxSegmentGap {
   R gap = 0, bound = std::numeric_limits<R>::infinity();
@@ -61,15 +61,15 @@ R nearest_parameter(const BoxSegment<R>& p) {
   return std::clamp(lo - at_lo * ((hi - lo) / (at_hi - at_lo)), lo, hi);
 }
 
-// v, outside the box in some coordinates, without its part along the segment.
+// Removes the component along the segment from v, among the coordinates in which v is outside the box.
 template <class R>
-void free_of_segment(const BoxSegment<R>& p, V3<R>& v) {
+void remove_along_segment(const BoxSegment<R>& p, V3<R>& v) {
   V3<R> along = p.d;
   for (int k = 0; k < 3; ++k)
     if (v[k] == 0) along[k] = 0;
   const R square = along.squaredNorm();
-  // Along a face, or nearly parallel to an edge: nothing there but rounding.
-  if (!(square > R(1e-6))) return;
+  // Along a face, or nearly parallel to an edge: only rounding is left.
+  if (!(square > parallel_sine_sq<R>)) return;
   v -= along * (along.dot(v) / square);
   v -= along * (along.dot(v) / square);
 }
@@ -81,7 +81,7 @@ BoxSegmentGap<R> apart(const BoxSegment<R>& p) {
   g.segment = p.at(t);
   V3<R> v = p.outside(g.segment);
   g.box = g.segment - v;
-  if (std::abs(t) < p.h) free_of_segment(p, v);
+  if (std::abs(t) < p.h) remove_along_segment(p, v);
   g.gap = std::sqrt(v.squaredNorm());
   if (!(g.gap > 0)) return g;
   g.n = detail::direction<R>(v, g.gap);
@@ -89,7 +89,7 @@ BoxSegmentGap<R> apart(const BoxSegment<R>& p) {
   return g;
 }
 
-// Which axis: 0-2 the box's faces, 3-5 its edges with the segment.
+// Index of the axis: 0-2 the box's faces, 3-5 its edges crossed with the segment.
 template <class R>
 int least_depth(const BoxSegment<R>& p, R& most) {
   int best = 0;
@@ -114,7 +114,7 @@ int least_depth(const BoxSegment<R>& p, R& most) {
   return best;
 }
 
-// The end that is deepest, or, where that is not above the face, the nearest point that is.
+// The deepest end or, if that is not above the face, the nearest point that is.
 template <class R>
 void meet_face(const BoxSegment<R>& p, int k, BoxSegmentGap<R>& g) {
   const R side = p.c[k] < 0 ? R(-1) : R(1), tolerance = p.error / 4;
@@ -127,7 +127,7 @@ void meet_face(const BoxSegment<R>& p, int k, BoxSegmentGap<R>& g) {
     hi = std::min(hi, std::max(a, b));
   }
   const R deepest = side * p.d[k] > 0 ? -p.h : p.h;
-  // Parallel to the face: the middle, so that it stands still.
+  // Parallel to the face: takes the middle, which is stable.
   const bool level = std::abs(p.d[k]) * p.h <= tolerance;
   g.segment = p.at(level ? (lo + hi) / 2 : (std::abs(lo - deepest) < std::abs(hi - deepest) ? lo : hi));
   g.box = g.segment.cwiseMax(-p.half).cwiseMin(p.half);
@@ -147,7 +147,7 @@ void meet_edge(const BoxSegment<R>& p, int k, BoxSegmentGap<R>& g) {
   g.box[k] = std::clamp(g.segment[k], -p.half[k], p.half[k]);
 }
 
-// `far`: the distance of two of their points, where they may be apart by less than rounding.
+// `far`: the distance of two of their points, for bodies that may be apart by less than rounding.
 template <class R>
 BoxSegmentGap<R> meeting(const BoxSegment<R>& p, R far) {
   BoxSegmentGap<R> g;
@@ -161,7 +161,7 @@ BoxSegmentGap<R> meeting(const BoxSegment<R>& p, R far) {
   return g;
 }
 
-// Whether contact_patch may have more to say than the point half way: the capsule along a face or an edge.
+// Whether contact_patch may give more than the point halfway: the capsule lies along a face or an edge.
 template <class R>
 bool lies_along(const BoxSegment<R>& p, const V3<R>& n, R depth, R tolerance) {
   if (std::abs(n.dot(p.d)) * 2 * p.h > depth + tolerance) return false;
@@ -171,7 +171,7 @@ bool lies_along(const BoxSegment<R>& p, const V3<R>& n, R depth, R tolerance) {
       ++free;
       last = k;
     }
-  return free >= 2 || (free == 1 && 1 - p.d[last] * p.d[last] < R(1e-6));
+  return free >= 2 || (free == 1 && 1 - p.d[last] * p.d[last] < parallel_sine_sq<R>);
 }
 
 }  // namespace detail
@@ -198,7 +198,7 @@ BoxCapsule<R> box_capsule(const Shape& sa, const Stand<R>& a, const Shape& sb, c
   return r;
 }
 
-/// True: `out` is in the box's frame, known as well as asked; false: unknown.
+/// True: `out` is set in the box's frame, to the required accuracy; false: undecided.
 template <class R>
 bool solve(const BoxCapsule<R>& q, Asked asked, Answer<R>& out) {
   BoxSegmentGap<R> g = detail::apart(q.cores);

@@ -1,8 +1,9 @@
 // Penetration depth of two convex cores in the arithmetic R: the expanding polytope of core/narrow/epa.h in
-// fixed storage, facets by index, support points asked for only when a facet is the nearest. Same bounds:
-// every direction tried is an upper bound; the surface is closed, made of points of B − A, and each facet
-// lies beyond the least of its corners along its own normal, whatever rounding did to that normal, so the
-// least of those is a lower bound. When the storage is full or the horizon cannot be repaired it says so.
+// fixed storage, with facets by index, and support points computed only when a facet is the nearest. Same
+// bounds: every direction tried is an upper bound. The surface is closed and consists of points of B − A, and
+// each facet lies beyond the least height of its corners along its own normal, whatever the rounding of that
+// normal, so the least of these heights is a lower bound. Full storage and a horizon that cannot be repaired
+// are reported.
 #pragma once
 
 #include "core/narrow/filtered/gjk.h"
@@ -12,7 +13,7 @@ namespace touchstone::narrow::fast {
 enum class ExpandEnd {
   closed,  // upper − lower <= tolerance
   flat,    // B − A has no interior within rounding
-  full,    // storage used up: bounds valid but apart
+  full,    // storage exhausted: bounds valid but have not met
   broken   // the surface could not be repaired
 };
 
@@ -21,7 +22,7 @@ struct Depth {
   ExpandEnd end = ExpandEnd::broken;
   R upper = std::numeric_limits<R>::infinity(), lower = 0;
   V3<R> outward = V3<R>::UnitX();              // unit; A to B is its opposite
-  V3<R> a = V3<R>::Zero(), w = V3<R>::Zero();  // foot of the origin, A's share of it
+  V3<R> a = V3<R>::Zero(), w = V3<R>::Zero();  // foot w of the origin, and its point of A
   int vertices = 0;
 };
 
@@ -29,8 +30,8 @@ template <class R>
 class Expander {
  public:
   static constexpr int vertex_capacity = 160, facet_capacity = 4 * vertex_capacity;
-  /// From this many vertices on, three tolerances will do: curved pairs close in about 50, or hang on
-  /// rounding.
+  /// From this many vertices on, three tolerances are enough: curved pairs close within about 50 vertices, or
+  /// stagnate in rounding.
   static constexpr int patience = 64;
 
   Expander(const Difference<R>& d, R size, R tolerance)
@@ -101,12 +102,12 @@ class Expander {
 
   // ---- a local minimum, and the cap of directions in which it is proven to be the least.
   //
-  // The polytope need not say anything about the cap. Dual: the polar of the polytope, with vertices n/key,
-  // must not leave the ball of radius 1/L outside of the cap. A point of it that does lies between the ball
-  // and the hull of the vertices that do; if those are within half the cap's angle θ of its axis and no
-  // farther out than 1/(L cos(θ/2)), it is within θ of the axis.
+  // The polytope need not prove anything inside the cap. By duality: the polar of the polytope, with vertices
+  // n/key, must not leave the ball of radius 1/L outside the cap. A point of the polar that does leave it
+  // lies between the ball and the hull of the vertices that do; if these are within half the cap's angle θ of
+  // its axis and no farther out than 1/(L cos(θ/2)), the point is within θ of the axis.
 
-  // True: ranks have changed.
+  // Returns true if the ranks have changed.
   bool settle(int f) {
     const Foot<R> foot = foot_of(f);
     std::array<Vertex<R>, 3> facet;
@@ -146,7 +147,7 @@ class Expander {
     return result_;
   }
 
-  // ---- start: a tetrahedron with height.
+  // ---- start: a non-degenerate tetrahedron
 
   bool complete(bool encloses) {
     if (encloses && vertices_ == 4) {
@@ -166,7 +167,7 @@ class Expander {
     }
     if (vertices_ == 2) {
       const V3<R> e = w(1) - w(0), k = e / e.norm(), x = k.unitOrthogonal(), y = k.cross(x);
-      const R c = R(0.5), h = R(0.86602540378443864676);
+      const R c = R(0.5), h = R(0.86602540378443864676);  // cosine and sine of 60°
       if (!add_farthest({x, V3<R>(c * x + h * y), V3<R>(h * y - c * x)},
                         [&](const V3<R>& p) { return k.cross(p - w(0)).norm(); }))
         return false;
@@ -220,7 +221,7 @@ class Expander {
 
   // ---- facets
 
-  // Unit normal of a triangle and the least height of its corners along it; false: a sliver.
+  // Unit normal of a triangle and the least height of its corners along it; false for a sliver.
   bool measure(const V3<R>& a, const V3<R>& b, const V3<R>& c, V3<R>& n, R& key, R& stretch) const {
     const R lab = (b - a).squaredNorm(), lbc = (c - b).squaredNorm(), lca = (a - c).squaredNorm();
     const R longest = std::max(lab, std::max(lbc, lca));
@@ -292,15 +293,16 @@ class Expander {
     }
   }
 
-  // A sliver, or one that folds the surface towards the origin: the polytope grows, so no facet may come
-  // nearer than the nearest was. A normal is known to level_/height only, which costs level_·longest/height.
-  bool bad(Edge& e, const V3<R>& p) const {
+  // A sliver, or a triangle that folds the surface towards the origin: the polytope grows, so no facet may be
+  // nearer than the nearest facet was. A normal is accurate only to level_/height, which costs
+  // level_·longest/height.
+  bool is_bad(Edge& e, const V3<R>& p) const {
     R stretch;
     return !measure(w(e.from), w(e.to), p, e.n, e.key, stretch) ||
            e.key < floor_ - level_ * (4 + 4 * stretch);
   }
 
-  // One loop, in order; false: pinched or several loops.
+  // Orders the edges into one loop; false if the horizon is pinched or has several loops.
   bool order() {
     for (int i = 0; i < edges_; ++i) {
       for (int k = i + 1; k < edges_; ++k)
@@ -325,7 +327,7 @@ class Expander {
       if (edges_ < 3) return ExpandEnd::broken;
       const int before = regions_;
       for (int i = 0; i < edges_; ++i)
-        if (bad(edge_[i], s.w) && facet_[edge_[i].behind].stamp != stamp_) take(edge_[i].behind);
+        if (is_bad(edge_[i], s.w) && facet_[edge_[i].behind].stamp != stamp_) take(edge_[i].behind);
       if (regions_ == before) break;
       flood(before, s.w);
     }
@@ -334,7 +336,7 @@ class Expander {
   }
 
   ExpandEnd fan(const Vertex<R>& s) {
-    // Rows of dead facets are used again.
+    // Storage of dead facets is reused.
     for (int i = 0; i < regions_; ++i) {
       key_[region_[i]] = rank_[region_[i]] = infinite;
       free_[frees_++] = region_[i];
@@ -376,7 +378,7 @@ class Expander {
     result_.end = end;
     result_.vertices = vertices_;
     if (f < 0) return result_;
-    // Where several facets share the plane, the origin may project outside of the one at hand.
+    // Where several facets share the plane, the origin may project outside the current one.
     Foot<R> best = foot_of(f);
     int where = f;
     const R enough = result_.upper + tolerance_;
@@ -406,7 +408,7 @@ class Expander {
   int vertices_ = 0, facets_ = 0, regions_ = 0, edges_ = 0, frees_ = 0, stamp_ = 0;
   V3<R> w_[vertex_capacity + 1], a_[vertex_capacity + 1];
   Facet facet_[facet_capacity];
-  R key_[facet_capacity], rank_[facet_capacity];  // rank: key, or infinite where nothing is left to prove
+  R key_[facet_capacity], rank_[facet_capacity];  // rank: key, or infinite inside the proven cap
   short region_[facet_capacity], free_[facet_capacity], slot_[3 * facet_capacity];
   Edge edge_[3 * facet_capacity];
 };

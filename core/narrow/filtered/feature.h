@@ -1,6 +1,6 @@
-// What a body shows along a direction: a corner, an edge (or the straight line of a round side), a flat face,
-// or something round. A direction held by an edge stays on a circle of directions, one held by a face stands
-// still; along round parts the support point moves smoothly.
+// The feature of a body along a direction: a corner, an edge (or the straight line of a round side), a flat
+// face, or a round part. A direction held by an edge stays on a circle of directions, one held by a face is
+// fixed; along round parts the support point moves smoothly.
 #pragma once
 
 #include "core/narrow/filtered/difference.h"
@@ -9,20 +9,20 @@ namespace touchstone::narrow::fast {
 
 enum class Shown { corner, edge, face, round };
 
-/// One body's feature, its own frame. What is not said of a kind is not set.
+/// A feature of one body, in its own frame. Members not listed for a kind are unset.
 template <class R>
 struct Feature {
   Shown shown = Shown::corner;
-  /// Corner; edge: its point at parameter 0 (of a round side: of its axis; of a cone: the apex).
+  /// Corner; edge: its point at parameter 0 (for a round side, of its axis; for a cone, the apex).
   V3<R> p = V3<R>::Zero();
   V3<R> e = V3<R>::Zero();      // edge: unit; cones: set by place()
   R lo = 0, hi = 0;             // edge: parameters of its ends
-  V3<R> c = V3<R>::Zero();      // edge: directions d that show it have d·c = s; face: its outward normal
-  R s = 0, k = 1;               // k = √(1 − s²), which s close to 1 would not tell
+  V3<R> c = V3<R>::Zero();      // edge: its directions d satisfy d·c = s; face: outward normal
+  R s = 0, k = 1;               // k = √(1 − s²), stored because s close to 1 loses it
   std::array<V3<R>, 3> corner;  // face of vertices
 };
 
-/// Support point and the derivative of it, H = k t tᵀ + (diagonal of squares − p pᵀ)/h: what Newton's step
+/// Support point and its derivative, H = k t tᵀ + (diagonal of squares − p pᵀ)/h, which the Newton step
 /// needs.
 template <class R>
 struct Placed {
@@ -33,6 +33,10 @@ struct Placed {
 };
 
 namespace detail {
+
+/// Of a rim's radius: nearer to the axis than this, the disc is touched and not the rim. Only a guess.
+template <class R>
+inline constexpr R disc_share = R(0.9);
 
 template <class R>
 R flat_length(const V3<R>& d) {
@@ -66,7 +70,7 @@ Feature<R> corner_feature(const V3<R>& p) {
   return f;
 }
 
-/// Box and vertices, by the different corners among three support points.
+/// Box and vertices: decided by the number of distinct corners among three support points.
 template <class R>
 Feature<R> polytope_feature(const Body<R>& b, const std::array<V3<R>, 3>& q, const V3<R>& d, R near) {
   std::array<V3<R>, 3> k;
@@ -88,7 +92,7 @@ Feature<R> polytope_feature(const Body<R>& b, const std::array<V3<R>, 3>& q, con
     f.corner = k;
     return f;
   }
-  // A box: coordinates in which the corners differ.
+  // For a box: the coordinates in which the corners differ.
   int axes = 0, axis = 0, same = 0;
   for (int i = 0; i < 3; ++i) {
     const bool differ = k[0][i] != k[1][i] || (n == 3 && k[0][i] != k[2][i]);
@@ -111,8 +115,8 @@ Feature<R> polytope_feature(const Body<R>& b, const std::array<V3<R>, 3>& q, con
 
 }  // namespace detail
 
-/// The feature that three support points of a facet, with normal d, suggest; `foot` is where the origin's
-/// foot lies in the body, points within `near` are one. A guess: it is checked afterwards.
+/// The feature suggested by three support points of a facet with normal d. `foot`: the body's point of the
+/// origin's foot. Points within `near` are the same. This is a guess that is verified afterwards.
 template <class R>
 Feature<R> suggested_feature(const Body<R>& b, const std::array<V3<R>, 3>& q, const V3<R>& foot,
                              const V3<R>& d, R near) {
@@ -120,10 +124,10 @@ Feature<R> suggested_feature(const Body<R>& b, const std::array<V3<R>, 3>& q, co
   const V3<R>& s = b.size;
   const R most = std::max(q[0][2], std::max(q[1][2], q[2][2])),
           least = std::min(q[0][2], std::min(q[1][2], q[2][2]));
-  // Support points on one rim with their mean well inside it: the disc. On a rim that is touched they are
-  // near each other, and so is their mean to the rim.
+  // Support points on one rim with their mean well inside it: the disc. Where the rim itself is touched they
+  // are close to each other, and their mean is close to the rim.
   const auto rim_or_disc = [&] {
-    if (flat_length<R>(foot) < R(0.9) * s[0])
+    if (flat_length<R>(foot) < disc_share<R> * s[0])
       return face_feature<R>(q[0], V3<R>(0, 0, q[0][2] < 0 ? R(-1) : R(1)));
     Feature<R> f;
     f.shown = Shown::round;
@@ -159,7 +163,7 @@ Feature<R> suggested_feature(const Body<R>& b, const std::array<V3<R>, 3>& q, co
   return polytope_feature(b, q, d, near);
 }
 
-/// The feature's support point along a unit d, which its circle holds if it has one.
+/// The feature's support point along a unit d; d lies on the feature's circle if it has one.
 template <class R>
 Placed<R> place(const Body<R>& b, Feature<R>& f, const V3<R>& d) {
   Placed<R> r;
@@ -186,7 +190,7 @@ Placed<R> place(const Body<R>& b, Feature<R>& f, const V3<R>& d) {
   return r;
 }
 
-/// How far a face reaches around its point q, in its plane: none or negative when q is not on it.
+/// How far a face extends around its point q, in its plane: zero or negative when q is not on it.
 template <class R>
 R face_margin(const Body<R>& b, const Feature<R>& f, const V3<R>& q) {
   if (b.kind == CoreKind::cylinder || b.kind == CoreKind::cone) return b.size[0] - detail::flat_length(q);

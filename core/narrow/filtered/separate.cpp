@@ -1,5 +1,5 @@
 #if defined(__GNUC__) && !defined(__clang__)
-// A feature of fewer corners than three is copied whole; GCC 12 warns of that at -O1.
+// A feature with fewer than three corners is copied as a whole; GCC 12 warns about that at -O1.
 #pragma GCC diagnostic ignored "-Wmaybe-uninitialized"
 #endif
 #include "core/narrow/filtered/separate.h"
@@ -17,20 +17,21 @@ R displacement(const PairScene<R>& s) {
   return displacement_of<R>(s.a.reach + s.a.radius, s.b.reach + s.b.radius, s.at.offset.norm());
 }
 
-// L of truth.md, of the pair as R holds it.
+// L of truth.md for the pair as represented in R.
 template <class R>
 R scale(const Body<R>& a, const Body<R>& b, const Stand<R>& at_a, const Stand<R>& at_b) {
   return std::max(std::max(a.extent, b.extent),
                   std::max(at_a.t.cwiseAbs().maxCoeff(), at_b.t.cwiseAbs().maxCoeff()));
 }
 
-// The part of it that does not depend on where the pair is, from below: what a search aims at.
+// A lower bound of its part that does not depend on where the pair is: the target accuracy of a search is
+// relative to it.
 template <class R>
 R local_scale(const PairScene<R>& s) {
-  return std::max(std::max(s.a.extent, s.b.extent), s.at.offset.norm() * R(0.28));  // 1/(2√3) < 0.2887
+  return std::max(std::max(s.a.extent, s.b.extent), s.at.offset.norm() * R(0.28));  // 0.28 < 1/(2√3)
 }
 
-// From A's frame to world axes about A's translation; unsure when the value is not as good as asked.
+// From A's frame to world axes about A's translation; `unsure` if the value is not accurate enough.
 template <class R>
 void to_world(Answer<R>& r, const PairScene<R>& s, R l, Asked asked) {
   const M3<R>& m = s.at.a_to_world;
@@ -60,7 +61,7 @@ void from_walk(const Walk<R>& g, R error, Answer<R>& r, PairScene<R>& s) {
   r.normal = s.normal = g.normal;
   r.gap = g.upper - radii;
   r.b = r.a + v;
-  // Inflated along their own difference, so that b − a stays parallel to it.
+  // Inflates along their own difference, so that b − a stays parallel to it.
   const R length = v.norm();
   const V3<R> d = length > 0 ? V3<R>(v / length) : g.normal;
   r.a += s.a.radius * d;
@@ -81,8 +82,9 @@ void from_depth(const D& e, R error, Answer<R>& r, PairScene<R>& s) {
   s.has_middle = true;
 }
 
-// B − A has no interior within rounding: every direction that was tried bounds the depth, and the walk's own
-// point, as near to the origin as rounding tells, shows that it is not negative beyond that.
+// B − A has no interior within rounding. Every direction tried bounds the depth, and the iteration's own
+// point, which is as near to the origin as rounding can resolve, shows that the depth is not negative beyond
+// that.
 template <class R>
 void from_flat(const Walk<R>& g, const Depth<R>& e, R size, R error, Answer<R>& r, PairScene<R>& s) {
   if (g.end != WalkEnd::touching || !(e.upper < size)) {
@@ -101,9 +103,9 @@ void from_flat(const Walk<R>& g, const Depth<R>& e, R size, R error, Answer<R>& 
   s.has_middle = true;
 }
 
-// Searches take squares of areas: a fourth power of lengths. Bodies for which that would leave R's range are
-// enlarged, or reduced, by a power of two, which rounds nothing. Range of sizes that need it not: at L =
-// 2^-22 the fourth power of float still holds slivers of L·2^-18.
+// Searches square areas: fourth powers of lengths. Bodies for which these would leave the range of R are
+// scaled by a power of two, which is exact. Returns whether a size needs no scaling: at L = 2^-22 the fourth
+// power in float still represents slivers of L·2^-18.
 template <class R>
 bool in_range(R size) {
   constexpr bool single = sizeof(R) == sizeof(float);
@@ -126,7 +128,8 @@ void separate_scaled(const Stand<R>& a, const Stand<R>& b, Asked asked, R enough
   t.at.offset *= unit;
   at_a.t *= unit;
   at_b.t *= unit;
-  // Not even so: they are so small, or large, where they stand that R holds no scale for both.
+  // Scaling does not help: relative to where they stand, they are so small or large that no scale in R fits
+  // both.
   const R fits = at_a.t.cwiseAbs().sum() + at_b.t.cwiseAbs().sum() + unit + back;
   if (!(fits < std::numeric_limits<R>::max())) return;
   separate_cores(at_a, at_b, asked, enough * unit, r, t);
@@ -161,7 +164,7 @@ void separate_cores(const Stand<R>& a, const Stand<R>& b, Asked asked, R enough,
     return;
   }
   // A tetrahedron without room for the origin proves nothing, whatever the radii: it may be a sliver of
-  // noise.
+  // rounding noise.
   const bool inside = g.end == WalkEnd::enclosed && (g.margin > error || (g.margin > 0 && radii > error));
   if (asked == Asked::overlap && (g.upper < radii - error || inside)) {
     r.found = Found::meeting;
@@ -201,7 +204,7 @@ bool in_box(const V3<R>& p, const V3<R>& h, R tolerance) {
   return ((p.cwiseAbs() - h).array() <= tolerance).all();
 }
 
-// Deepest points of two overlapping boxes, from their manifold; false when it does not show them.
+// Deepest points of two overlapping boxes, from their manifold; false if it does not contain them.
 template <class R>
 bool box_witnesses(const BoxPair<R>& p, PairScene<R>& s, Answer<R>& r) {
   const Patch<R> patch = contact_patch<R>(s.a, &s.b, s.at, s.normal, r.gap, nullptr);
@@ -230,7 +233,7 @@ void box_box(const PlacedShape& pa, const PlacedShape& pb, Asked asked, Answer<R
   const BoxAxis<R> axis = least_axis(p);
   if (axis.found == Found::apart) {
     r.found = Found::apart;
-    // Its separation bounds the distance from below only.
+    // The separation along the axis is only a lower bound of the distance.
     if (asked == Asked::distance) convex_pair(pa, pb, asked, r, s);
     return;
   }
@@ -267,6 +270,10 @@ void box_and_capsule(const PlacedShape& pa, const PlacedShape& pb, Asked asked, 
   r.b = q.to_world * r.b;
 }
 
+// A half-space's normal with a length outside this range is left to extended precision: its square comes
+// close to the limits of double.
+constexpr double least_normal = 1e-100, largest_normal = 1e100;
+
 template <class R>
 void convex_half_space(const PlacedShape& pa, const PlacedShape& pb, Asked asked, Answer<R>& r,
                        PairScene<R>& s) {
@@ -274,7 +281,7 @@ void convex_half_space(const PlacedShape& pa, const PlacedShape& pb, Asked asked
   s.a = make_body<R>(*pa.shape, pa.graph);
   const HalfSpace& plane = *std::get_if<HalfSpace>(pb.shape);
   const double length = plane.normal.norm();
-  if (!(length > 1e-100 && length < 1e100)) return;
+  if (!(length > least_normal && length < largest_normal)) return;
   const V3<R> m = (matrix(b) * (plane.normal / length).template cast<R>()).normalized();
   const R offset = static_cast<R>(plane.offset / length);
   s.at.a_to_world = matrix(a);
