@@ -1,19 +1,19 @@
-// Conservative advancement (Mirtich 1996) with a bound of second order. At time t let n be the unit normal of
-// a support plane pair with gap s. For a body point at c + r, turning with ω about c, the coordinate along n
-// satisfies for Δ >= 0
+// Conservative advancement (Mirtich 1996) with a second-order bound. At time t let n be the unit normal of a
+// pair of support planes with gap s. For a body point at c + r, rotating with ω about c, the coordinate along
+// n satisfies for Δ >= 0
 //
 //   n·x(t+Δ) <= n·x(t) + Δ n·v + Δ r·(n×ω) + K Δ²/2,   K = ρ |ω| |n×ω|,
 //
-// because n·(ω×r) = r·(n×ω), |r| <= ρ keeps its length, and the acceleration is ω×(ω×r). The maximum over the
-// body of r·n + Δ r·(n×ω) is the support value of the core at time t along n + Δ n×ω. Hence the gap along the
+// because n·(ω×r) = r·(n×ω), |r| <= ρ is constant, and the acceleration is ω×(ω×r). The maximum over the body
+// of r·n + Δ r·(n×ω) is the support value of the core at time t along n + Δ n×ω. Hence the gap along the
 // fixed n is at least
 //
 //   f(Δ) = base + Δ (v_B − v_A)·n − h_A(n + Δ n×ω_A) − h_B(−n − Δ n×ω_B) − radii − (K_A + K_B) Δ²/2,
 //
 // which is concave (support functions are convex), so a chord from a point with f >= 0 to one with f < 0
-// crosses zero before f does, and f >= 0 at both ends of an interval means f >= 0 throughout. No step can
+// crosses zero before f does, and f >= 0 at both ends of an interval implies f >= 0 throughout. No step can
 // pass the first contact. Near contact f is exact to second order: convergence is quadratic where the
-// approach speed is not zero, and where it is (grazing) the step is about √(2 gap / K).
+// approach speed is non-zero; where it is zero (grazing), the step is about √(2 gap / K).
 #include "core/impact/advance.h"
 
 #include <algorithm>
@@ -25,10 +25,16 @@
 namespace touchstone::ccd {
 namespace {
 
-// Half a second or so. Random motions have needed 600 at most (tests/core/impact_stress).
+// About half a second. Random motions have needed at most 600 steps (tests/core/impact_stress).
 constexpr int step_cap = 5000;
 constexpr int chord_cap = 40;
-// After so many steps along directions that stand still, ones that turn are tried too.
+// The chord search ends when its interval is this small relative to the step, or the gap left at the step is
+// this small relative to the gap: more gains nothing.
+constexpr Wide step_tolerance = 0x1p-30L, gap_share = 0x1p-10L;
+// Witness points across the normal by more than this · size are improved with the bodies pushed apart by
+// push · size.
+constexpr Wide across_tolerance = 0x1p-34L, push = 0x1p-20L;
+// After this many steps along fixed directions, rotating ones are tried too.
 constexpr int sure_steps = 4;
 
 Wide turned_support(const Core& c, const WideVec& d) {
@@ -57,7 +63,7 @@ WideMat turned(const WideMat& r, const WideVec& w, Wide t) {
   return out;
 }
 
-// f(Δ) of the head comment. A plane contributes no support of its own.
+// f(Δ) of the header comment. A plane has no support term of its own.
 class GapBound {
  public:
   GapBound(const WideVec& n, Wide base, Wide radii) : n_(n), constant_(base - radii) {}
@@ -77,7 +83,7 @@ class GapBound {
       f -= turned_support(*parts_[i].core, parts_[i].direction + delta * parts_[i].turn);
     return f;
   }
-  /// Largest Δ <= end known to keep f >= 0 over [0, Δ]. Precondition f(0) > 0.
+  /// Largest Δ <= end for which f >= 0 over [0, Δ] is proven. Precondition: f(0) > 0.
   Wide safe_step(Wide end) const {
     const Wide gap = (*this)(0), fall = lipschitz_ - slope_;
     if (!(fall > 0) || fall * end < gap) return end;
@@ -85,7 +91,7 @@ class GapBound {
     if (f_hi >= 0) return end;
     Wide f_lo = (*this)(lo);
     if (!(f_lo > 0)) return lo;  // the first-order bound is exact here
-    for (int i = 0; i < chord_cap && hi - lo > 0x1p-30L * lo && f_lo > 0x1p-10L * gap; ++i) {
+    for (int i = 0; i < chord_cap && hi - lo > step_tolerance * lo && f_lo > gap_share * gap; ++i) {
       // The chord's zero is safe; the midpoint tightens the far end.
       const Wide chord = lo + (hi - lo) * (f_lo / (f_lo - f_hi)), middle = lo + (hi - lo) / 2;
       if (const Wide f = (*this)(chord); f >= 0) {
@@ -120,14 +126,14 @@ struct Snapshot {
   Core a, b;  // b unused against a plane
 };
 
-// Of the gap: of a walk that has not converged, how far its points are apart.
+// Upper bound of the gap: if GJK has not converged, the distance of its points.
 Wide upper_bound(const Separation& s) {
   return s.outcome == Outcome::answered ? s.gap : std::max(s.gap, (s.b - s.a).norm());
 }
 
-// Largest step that is proven along a direction n that turns with Ω, as in fast/follow.h: from s1 at t to s2
-// at t + h, both 0 or more, the separation stays 0 or more when K h²/2 <= (√s1 + √s2)². An end that is moved
-// costs two support points; a look costs a hundred times that.
+// Largest step that is proven along a direction n that rotates with Ω, as in filtered/follow.h: from s1 at t
+// to s2 at t + h, both >= 0, the separation stays >= 0 if K h²/2 <= (√s1 + √s2)². Moving an end costs two
+// support points; separating the bodies anew costs a hundred times that.
 class TurningStep {
  public:
   TurningStep(const MovingCore& a, const MovingCore& b, const WideVec& n, const WideVec& turn, Wide t,
@@ -138,7 +144,7 @@ class TurningStep {
     for (const MovingCore* m : {&a, &b})
       curvature_ += m->start.reach * (m->angular - turn).norm() * (speed + m->angular.norm());
   }
-  /// `step`: what is proven already.
+  /// `step`: proven already.
   Wide beyond(Wide step) const {
     Wide far = 2 * step;
     for (; far < end_ && proven(far); far *= 2) step = far;
@@ -175,7 +181,7 @@ class TurningStep {
   Wide t_, end_, s1_, curvature_ = 0;
 };
 
-// One pair of bodies over time: what it looks like at t, and how far it may go from there.
+// A pair of bodies over time: its separation at t, and how far it may advance from there.
 struct CorePair {
   const MovingCore &a, &b;
   WideVec origin(Wide t) const { return a.start.frame.translation + t * a.linear; }
@@ -192,12 +198,12 @@ struct CorePair {
     f.add(x.b, b, -1);
     return f(0) > 0 ? f.safe_step(end) : 0;
   }
-  // Nearest points of bodies that nearly touch: pushed apart along n, which leaves them where they are and a
-  // distance long enough to have a direction.
+  // Nearest points of bodies that nearly touch: the bodies are pushed apart along n, which does not change
+  // the points but makes the distance long enough to have a direction.
   void improve_points(Separation& s, Wide t) const {
     const WideVec d = s.b - s.a;
-    if ((d - d.dot(s.normal) * s.normal).norm() <= 0x1p-34L * s.size) return;
-    const WideVec origin = this->origin(t), away = 0x1p-20L * s.size * s.normal;
+    if ((d - d.dot(s.normal) * s.normal).norm() <= across_tolerance * s.size) return;
+    const WideVec origin = this->origin(t), away = push * s.size * s.normal;
     Core beyond = at_time(b, t, origin);
     beyond.frame.translation += away;
     const Separation x = narrow::separate_convex(at_time(a, t, origin), beyond);
@@ -206,7 +212,8 @@ struct CorePair {
       s.b = x.b - away;
     }
   }
-  // Farther, along a direction that goes with a body or on as it has turned since the last look.
+  // Extends the step along a direction that rotates with a body, or continues as it has rotated since the
+  // last look.
   Wide farther(const Snapshot& x, Wide t, Wide end, Wide step, const WideVec& seen) const {
     for (const WideVec* turn : {&a.angular, &b.angular, &seen})
       if (step > 0 && step < end && !turn->isZero(0))
@@ -231,12 +238,13 @@ struct PlanePair {
     return f(0) > 0 ? f.safe_step(end) : 0;
   }
   void improve_points(Separation&, Wide) const {}
-  // The plane's normal is the direction.
+  // The direction is the plane's normal, which is fixed.
   Wide farther(const Snapshot&, Wide, Wide, Wide step, const WideVec&) const { return step; }
 };
 
-// t in double: downwards, so that it is not late, unless the bodies move so fast that only the next double is
-// in contact, as nearly as asked. (At |w| = 500 they turn by 6e-14 from one double to the next.)
+// Rounds t to double: downwards, so that it is not late, unless the bodies move so fast that only the next
+// double is in contact to the required accuracy. (At |w| = 500 they rotate by 6e-14 between consecutive
+// doubles.)
 template <class P>
 ImpactAnswer hit(const P& pair, Wide t, Separation s, Wide target, const Goal& goal, int steps) {
   ImpactAnswer r;
@@ -270,7 +278,8 @@ Advance run(const P& pair, Wide t_start, const Goal& goal) {
   WideVec last_normal = WideVec::Zero();
   for (r.steps = 0; r.steps < step_cap; ++r.steps) {
     Snapshot x = pair.look(t);
-    // Bounds that have not met are bounds: the plane proves the next step, the points what is contact.
+    // Bounds that have not met are still bounds: the plane proves the next step, and the points decide what
+    // is contact.
     const bool known = x.s.outcome == Outcome::answered;
     x.s.gap = upper_bound(x.s);
     r.clear_until = static_cast<double>(t);
@@ -295,7 +304,7 @@ Advance run(const P& pair, Wide t_start, const Goal& goal) {
       t = goal.end;
       continue;
     }
-    if (!(t + step > t)) break;  // the gap is open, but time has no finer grain
+    if (!(t + step > t)) break;  // the gap is positive, but t has no finer resolution
     t += step;
   }
   r.outcome = Outcome::not_converged;

@@ -1,4 +1,5 @@
-// Integers of any size: what the exact decision of deforming primitives needs, and no more.
+// Arbitrary-precision integers, with only the operations that the exact decision of deforming primitives
+// needs.
 #pragma once
 
 #include <algorithm>
@@ -63,7 +64,7 @@ class Integer {
   }
 
  private:
-  using Limbs = std::vector<std::uint64_t>;  // least first, the last one not zero
+  using Limbs = std::vector<std::uint64_t>;  // least significant first; the last one is not zero
   __extension__ using U128 = unsigned __int128;
 
   static Integer make(bool negative, Limbs limbs) {
@@ -89,7 +90,7 @@ class Integer {
     }
     return r;
   }
-  // a >= b.
+  // Precondition: a >= b.
   static Limbs difference(const Limbs& a, const Limbs& b) {
     Limbs r(a.size(), 0);
     std::uint64_t borrow = 0;

@@ -1,21 +1,17 @@
-// The question: the first t in [0,1] at which two primitives with straight vertex paths are within a
-// distance.
+// Finds the first t in [0,1] at which two primitives with straight vertex paths are within a distance.
 //
 // Method: inclusion-based root finding (Wang, Ferguson, Schneider, Jiang, Attene, Panozzo 2021, "A Large
 // Scale Benchmark and an Inclusion-Based Algorithm for Continuous Collision Detection"): a part of the domain
-// is discarded only when it provably holds no contact, and what cannot be discarded is contact. Departures:
-//  * The paper bisects (t, u, v). Here only time is cut, and u and v are eliminated by a separating
-//  direction:
-//    a projection on a fixed direction is linear in time, so that the direction towards the nearest point at
-//    t proves everything up to the very time at which it ceases to separate. Near a contact that is Newton's
-//    method from one side, hence a handful of steps instead of thousands of boxes.
-//  * Distances are Euclidean.
-//  * With min_separation = 0 the rest that doubles cannot discard is decided: by a proof of crossing in
-//  double
-//    (primitive_volume.h), else in integers (primitive_exact.h).
+// is discarded only if it provably contains no contact, and what cannot be discarded is contact. Departures:
+// * The paper bisects (t, u, v). Here only time is subdivided, and u and v are eliminated by a separating
+//   direction: a projection on a fixed direction is linear in time, so the direction towards the nearest
+//   point at t proves everything up to the time at which it ceases to separate. Near a contact this is
+//   Newton's method from one side, hence a handful of steps instead of thousands of boxes.
+// * Distances are Euclidean.
+// * With min_separation = 0, the remainder that doubles cannot discard is decided by a proof of crossing in
+//   double (primitive_volume.h), otherwise in integers (primitive_exact.h).
 // Guarantee: `toi` is never later than the first contact; with min_separation = 0 and tolerance = 0 there are
-// no false verdicts at all.
-// Exits: PrimitiveExit.
+// no false verdicts. Outcomes: PrimitiveExit.
 #include "core/impact/primitive_impact.h"
 
 #include <cmath>
@@ -51,7 +47,7 @@ namespace {
 
 using namespace ccd;
 
-// Along a coordinate axis: the sign of a difference is exact, its size off by u.
+// Along a coordinate axis, the sign of a difference is exact and its magnitude off by u.
 bool apart_along_an_axis(const MovingPolygon& p, double min_separation) {
   const double need = min_separation * (1 + 4 * unit_roundoff);
   Vec3 lo = p.start[0].cwiseMin(p.end[0]), hi = p.start[0].cwiseMax(p.end[0]);
@@ -66,7 +62,7 @@ struct Advance {
   double t = 0;
   double separation = 0;
   int steps = 0;
-  bool reached_end = false, within_tolerance = false, ended = false;  // ended: nothing separates any further
+  bool reached_end = false, within_tolerance = false, ended = false;  // ended: no direction makes progress
 };
 
 Advance advance(const MovingPolygon& p, const PrimitiveOptions& o, int most_steps) {
@@ -86,12 +82,13 @@ Advance advance(const MovingPolygon& p, const PrimitiveOptions& o, int most_step
     a.reached_end = until >= 1;
     a.within_tolerance = o.tolerance > 0 && a.separation <= o.min_separation + o.tolerance;
     if (a.reached_end || a.within_tolerance) return a;
-    // A step of one unit in the last place is the rounding of t and no progress.
+    // A step of one ulp is the rounding of t, not progress.
     a.ended = until <= a.t * (1 + 2 * unit_roundoff);
     if (a.ended) return a;
     a.t = until;
-    // Where the polygon turns, a fixed direction lasts only for distance / (turning speed · reach). The plane
-    // of the polygon turns along: as long as the origin is proven off it, there is no contact.
+    // Where the polygon rotates, a fixed direction lasts only for distance / (angular speed · reach). The
+    // plane of the polygon rotates with it: as long as the origin is proven off that plane, there is no
+    // contact.
     if (o.min_separation > 0) continue;
     a.t = volume_clear_until(p, a.t);
     a.reached_end = a.t >= 1;
@@ -100,8 +97,8 @@ Advance advance(const MovingPolygon& p, const PrimitiveOptions& o, int most_step
   return a;
 }
 
-// Counts of directions: a contact takes about five, a graze at the rounding of doubles thirty. Where the
-// integers can decide it is cheaper to ask them than to creep on.
+// Numbers of directions: a contact takes about five, a graze at the rounding of doubles thirty. Where the
+// integers can decide, calling them is cheaper than making tiny steps.
 constexpr int most_steps_before_integers = 64, most_steps = 1 << 16;
 
 bool finite(const std::array<Vec3, 4>& x) {
@@ -136,7 +133,8 @@ PrimitiveImpact primitive_impact(PrimitiveKind kind, const std::array<Vec3, 4>& 
   r.clear_until = a.t;
   if (a.reached_end) return miss(PrimitiveExit::direction);
   if (a.within_tolerance) return hit(PrimitiveExit::tolerance);
-  // Nothing separates: as near as doubles tell, unless the nearest point itself was lost.
+  // No direction separates: contact to within the resolution of doubles, unless the nearest point itself was
+  // lost.
   const double resolved = 64 * unit_roundoff * p.size.sum();
   if (!can_be_exact) {
     if (a.separation <= options.min_separation * (1 + 64 * unit_roundoff) + resolved)

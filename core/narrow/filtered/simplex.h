@@ -134,7 +134,7 @@ bool take_tetrahedron(const Simplex<R>& s, R last_sq, Foot<R>& best, R& margin) 
     margin = std::numeric_limits<R>::infinity();
     for (std::size_t i = 0; i < 4; ++i) margin = std::min(margin, height[i] / std::sqrt(square[i]));
   }
-  // Rounding rejected every face: take the one skipped.
+  // Rounding rejected every face: fall back to the last one.
   if (!enclosed && best.size == 0) take_triangle(s, 0, 2, 1, best);
   return enclosed;
 }
