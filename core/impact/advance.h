@@ -31,7 +31,7 @@ struct Advance {
 /// When an advance ends.
 struct Goal {
   Wide end = 1;
-  double accuracy = 0;  // a gap of at most this is contact where the gap is not converged
+  double accuracy = 0;  // a gap of at most this is contact if its bounds have not converged
   /// A step to where the gap exceeds this ends the advance with `wide_open`: extended precision is not needed
   /// there.
   Wide leave = std::numeric_limits<Wide>::infinity();

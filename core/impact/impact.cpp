@@ -44,7 +44,7 @@ narrow::FastAnswer<double> in_double(const MovingShape& a, const MovingShape& b,
 
 // Whether they meet at t = 0, and how, in bounded time. A depth that double cannot prove to be the least
 // still decides the verdict and is reported: it does separate them, and no time depends on it. (In extended
-// precision, two ellipsoids shift_witnesses one centre take up to a minute: every facet that the polytope may
+// precision, two ellipsoids about one centre take up to a minute: every facet that the polytope may
 // have.)
 std::optional<ImpactAnswer> contact_at_start(const MovingShape& a, const MovingShape& b,
                                              ImpactDetail detail) {

@@ -6,12 +6,15 @@ namespace touchstone::ccd::fast {
 namespace {
 
 constexpr int step_cap = 20000;
-// Far from contact a direction that is good to a tenth of the gap carries as far as the best.
+// Far from contact, a direction accurate to a tenth of the gap carries as far as the best.
 constexpr double far_look = 0.1;
-// A step ends two errors before contact; a few more are the direction's.
+// A step ends two errors before contact; the direction accounts for a few more.
 constexpr double near_enough = 8;
-// Below so many errors of the gap, rotations are worked out in extended precision.
+// Below this many errors of the gap, rotations are computed in extended precision.
 constexpr double near_errors = 512;
+
+// In units of size: witness points that are farther apart across n than this are visibly wrong.
+constexpr double visible = 0x1p-30;
 
 View look_at_plane(const Sweep& w, const Spot& x, const Vec& n) {
   View v;
@@ -21,7 +24,7 @@ View look_at_plane(const Sweep& w, const Spot& x, const Vec& n) {
   return v;
 }
 
-// Nearest points about A's origin; the ball of each core is added along their own difference.
+// Nearest points relative to A's origin; the ball of each core is added along their own difference.
 void set_points(Search& r, const Sweep& w, const Spot& x, const View& v, const Features& f) {
   r.normal = v.normal;
   r.a = Vec::Zero();
@@ -44,11 +47,12 @@ void set_points(Search& r, const Sweep& w, const Spot& x, const View& v, const F
   r.b -= w.b().body.radius * n;
 }
 
-// Two features that are nearly parallel, or roll on each other, hide which of them the direction goes with: a
-// wrong guess proves steps that shrink by a constant. After this many steps every guess is followed.
+// Features that are nearly parallel, or roll on each other, do not reveal which of them the direction
+// follows, and a wrong guess proves steps that shrink by a constant factor. After this many steps every guess
+// is tried.
 constexpr int sure_steps = 8;
 
-// The farthest of all: with either body, still, and as it has turned since the last look.
+// The farthest of all: rotating with either body, fixed, and as it has rotated since the last look.
 Followed follow_any(const Sweep& w, const Spot& x, const View& v, const Vec& seen, double end,
                     Followed best) {
   const Vec still = Vec::Zero();
@@ -65,9 +69,9 @@ struct Direction {
   Vec normal = Vec::Zero();
 };
 
-// From one look towards the next.
-Followed go_on(const Sweep& w, const Spot& x, const View& v, const Features& features, Direction& last,
-               int steps, double end) {
+// Advances from one look to the next.
+Followed follow_guess(const Sweep& w, const Spot& x, const View& v, const Features& features, Direction& last,
+                      int steps, double end) {
   const bool near = w.turns() && v.side.s < w.a().body.reach + w.b().body.reach;
   Followed f = follow(w, x, v, near ? feature_turn(w, x, features, v.normal) : Vec(Vec::Zero()), end);
   if (steps >= sure_steps && w.turns()) {
@@ -79,8 +83,8 @@ Followed go_on(const Sweep& w, const Spot& x, const View& v, const Features& fea
   return f;
 }
 
-// How far the points are from being where the bodies meet, but for a few errors: along n, and across it.
-double off(const Search& r, double error) {
+// Distance of the witness points from a true contact, less a few errors: along n and across it.
+double witness_error(const Search& r, double error) {
   const Vec d = r.b - r.a;
   const double along = d.dot(r.normal);
   const double e =
@@ -88,12 +92,13 @@ double off(const Search& r, double error) {
   return std::isfinite(e) ? e : std::numeric_limits<double>::infinity();
 }
 
-// Where a hit's features are too near each other to tell (a simplex of length 0 has no direction): B is
-// pushed along n by h, which leaves n and the nearest points as they are and the gap h longer. Bounds that
-// are e apart leave the points √(2he) across n, and e along it. The best of what is found; a short h first.
+// For a hit whose features are too close to each other (a simplex of length 0 has no direction): B is pushed
+// along n by h, which preserves n and the nearest points and makes the gap longer by h. Bounds that differ by
+// e leave the points √(2he) off across n, and e off along it. Keeps the best result; a short h is tried
+// first.
 void improve_points(Search& r, const Sweep& w, const Spot& hit, const Features& near) {
   const double size = w.a().body.reach + w.b().body.reach + w.radii();
-  double best = off(r, hit.error);
+  double best = witness_error(r, hit.error);
   for (const double share : {0x1p-20, 0x1p-13, 0x1p-7})
     for (const bool warm : {true, false}) {
       if (!(best > 0)) return;
@@ -107,18 +112,18 @@ void improve_points(Search& r, const Sweep& w, const Spot& hit, const Features& 
       Search tried = r;
       set_points(tried, w, x, v, f);
       tried.b -= away;
-      if (const double e = off(tried, hit.error); e < best) {
+      if (const double e = witness_error(tried, hit.error); e < best) {
         best = e;
         r = tried;
       }
     }
 }
 
-// Worse than the gap may be along n, or visibly across it.
+// Whether the points are farther apart along n than the gap may be, or visibly apart across it.
 bool is_rough(const Search& r, const Sweep& w, double accuracy) {
   const Vec d = r.b - r.a;
   const double along = d.dot(r.normal), size = w.a().body.reach + w.b().body.reach + w.radii();
-  return !(std::abs(along) <= accuracy && (d - along * r.normal).norm() <= 0x1p-30 * size);
+  return !(std::abs(along) <= accuracy && (d - along * r.normal).norm() <= visible * size);
 }
 
 }  // namespace
@@ -167,7 +172,7 @@ Search search(const Sweep& w, double start, double end, double accuracy, const s
     }
     const double before = x.t;
     const Followed f =
-        plane ? follow(w, x, v, Vec::Zero(), end) : go_on(w, x, v, features, last, r.steps, end);
+        plane ? follow(w, x, v, Vec::Zero(), end) : follow_guess(w, x, v, features, last, r.steps, end);
     if (f.clear) {
       r.clear_until = end;
       r.end = SearchEnd::clear;

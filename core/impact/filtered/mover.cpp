@@ -7,8 +7,8 @@ namespace {
 
 using narrow::CoreKind;
 
-// Products and a root of doubles: 2⁻⁴⁶ covers them many times over.
-constexpr double up_a_little = 1 + 0x1p-46;
+// Covers the rounding of products and a root of doubles many times over.
+constexpr double inflation = 1 + 0x1p-46;
 
 // Distance of the farthest core point from the axis through the origin along a (unit, body frame).
 double reach_off_axis(const narrow::fast::Body<double>& c, const Vec& a) {
@@ -57,7 +57,7 @@ void set_turn(Mover& m, const Vec& angular) {
   m.axis_wide = w / m.speed_wide;
   m.axis = m.axis_wide.cast<double>();
   const Vec local = m.start.transpose() * m.axis;
-  m.off_axis = reach_off_axis(m.body, local) * up_a_little + 16 * u<double> * m.body.reach;
+  m.off_axis = reach_off_axis(m.body, local) * inflation + 16 * u<double> * m.body.reach;
   m.up = local.dot(narrow::fast::support_local<double>(m.body, local));
   m.down = -local.dot(narrow::fast::support_local<double>(m.body, -local));
 }
