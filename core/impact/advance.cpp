@@ -35,7 +35,7 @@ constexpr Wide step_tolerance = 0x1p-30L, gap_share = 0x1p-10L;
 // push · size.
 constexpr Wide across_tolerance = 0x1p-34L, push = 0x1p-20L;
 // After this many steps along fixed directions, rotating ones are tried too.
-constexpr int sure_steps = 4;
+constexpr int steps_before_turning = 4;
 
 Wide turned_support(const Core& c, const WideVec& d) {
   const WideVec local = c.frame.rotation.transpose() * d;
@@ -133,7 +133,7 @@ Wide upper_bound(const Separation& s) {
 
 // Largest step that is proven along a direction n that rotates with Ω, as in filtered/follow.h: from s1 at t
 // to s2 at t + h, both >= 0, the separation stays >= 0 if K h²/2 <= (√s1 + √s2)². Moving an end costs two
-// support points; separating the bodies anew costs a hundred times that.
+// support points; computing the nearest points costs a hundred times that.
 class TurningStep {
  public:
   TurningStep(const MovingCore& a, const MovingCore& b, const WideVec& n, const WideVec& turn, Wide t,
@@ -145,7 +145,7 @@ class TurningStep {
       curvature_ += m->start.reach * (m->angular - turn).norm() * (speed + m->angular.norm());
   }
   /// `step`: proven already.
-  Wide beyond(Wide step) const {
+  Wide extend(Wide step) const {
     Wide far = 2 * step;
     for (; far < end_ && proven(far); far *= 2) step = far;
     far = std::min(far, end_);
@@ -204,9 +204,9 @@ struct CorePair {
     const WideVec d = s.b - s.a;
     if ((d - d.dot(s.normal) * s.normal).norm() <= across_tolerance * s.size) return;
     const WideVec origin = this->origin(t), away = push * s.size * s.normal;
-    Core beyond = at_time(b, t, origin);
-    beyond.frame.translation += away;
-    const Separation x = narrow::separate_convex(at_time(a, t, origin), beyond);
+    Core pushed = at_time(b, t, origin);
+    pushed.frame.translation += away;
+    const Separation x = narrow::separate_convex(at_time(a, t, origin), pushed);
     if (x.outcome == Outcome::answered) {
       s.a = x.a;
       s.b = x.b - away;
@@ -214,10 +214,10 @@ struct CorePair {
   }
   // Extends the step along a direction that rotates with a body, or continues as it has rotated since the
   // last look.
-  Wide farther(const Snapshot& x, Wide t, Wide end, Wide step, const WideVec& seen) const {
+  Wide extend_step(const Snapshot& x, Wide t, Wide end, Wide step, const WideVec& seen) const {
     for (const WideVec* turn : {&a.angular, &b.angular, &seen})
       if (step > 0 && step < end && !turn->isZero(0))
-        step = TurningStep(a, b, x.s.normal, *turn, t, end).beyond(step);
+        step = TurningStep(a, b, x.s.normal, *turn, t, end).extend(step);
     return step;
   }
 };
@@ -239,7 +239,7 @@ struct PlanePair {
   }
   void improve_points(Separation&, Wide) const {}
   // The direction is the plane's normal, which is fixed.
-  Wide farther(const Snapshot&, Wide, Wide, Wide step, const WideVec&) const { return step; }
+  Wide extend_step(const Snapshot&, Wide, Wide, Wide step, const WideVec&) const { return step; }
 };
 
 // Rounds t to double: downwards, so that it is not late, unless the bodies move so fast that only the next
@@ -289,14 +289,14 @@ Advance run(const P& pair, Wide t_start, const Goal& goal) {
     if (t >= goal.end) return out;
     if (r.clear_until > t) r.clear_until = std::nextafter(r.clear_until, 0.0);
     if (x.s.gap > goal.leave && r.clear_until > t_start) {
-      out.wide_open = true;
+      out.gap_opened = true;
       return out;
     }
     Wide step = pair.step(x, goal.end - t);
-    if (r.steps >= sure_steps) {
+    if (r.steps >= steps_before_turning) {
       const WideVec seen =
           t > last_time ? WideVec(last_normal.cross(x.s.normal) / (t - last_time)) : WideVec(WideVec::Zero());
-      step = pair.farther(x, t, goal.end - t, step, seen);
+      step = pair.extend_step(x, t, goal.end - t, step, seen);
     }
     last_time = t;
     last_normal = x.s.normal;

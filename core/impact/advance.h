@@ -24,16 +24,16 @@ MovingCore moving_core(const Core& start, const Motion& motion);
 Core at_time(const MovingCore& c, Wide t, const WideVec& origin);
 
 struct Advance {
-  ImpactAnswer answer;  // with `wide_open`: what is clear so far
-  bool wide_open = false;
+  ImpactAnswer answer;  // with `gap_opened`: what is clear so far
+  bool gap_opened = false;
 };
 
 /// When an advance ends.
 struct Goal {
   Wide end = 1;
   double accuracy = 0;  // a gap of at most this is contact if its bounds have not converged
-  /// A step to where the gap exceeds this ends the advance with `wide_open`: extended precision is not needed
-  /// there.
+  /// A step to where the gap exceeds this ends the advance with `gap_opened`: extended precision is not
+  /// needed there.
   Wide leave = std::numeric_limits<Wide>::infinity();
 };
 

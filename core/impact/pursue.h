@@ -31,7 +31,7 @@ Pursuit pursue(const fast::Sweep& sweep, fast::Search s, const Search& search_fr
     Advance x = advance_from(s.clear_until, leave);
     steps += x.answer.steps;
     x.answer.steps = steps;
-    if (!x.wide_open) return {s, x.answer};
+    if (!x.gap_opened) return {s, x.answer};
     if (steps > step_cap) {
       x.answer.outcome = Outcome::not_converged;
       return {s, x.answer};

@@ -21,7 +21,7 @@ Vec3 world(const V3<R>& p, const PlacedShape& origin) {
 
 // An uncertain sign is left to extended precision unless R is to be used `alone`.
 template <class R>
-bool known(const FastAnswer<R>& f, bool alone) {
+bool is_decided(const FastAnswer<R>& f, bool alone) {
   return f.answer.found == Found::touching ? alone : f.answer.found != Found::unsure;
 }
 
@@ -95,7 +95,7 @@ void separate(const PlacedShape& a, const PlacedShape& b, Asked asked, PairMemor
 }
 
 template <class R, class A>
-bool refused(const PlacedShape& a, const PlacedShape& b, A& r) {
+bool is_unsupported(const PlacedShape& a, const PlacedShape& b, A& r) {
   if (narrow::has_fast<R>(kind_of(*a.shape), kind_of(*b.shape))) return false;
   r.outcome = Outcome::unsupported;
   return true;
@@ -105,11 +105,11 @@ bool refused(const PlacedShape& a, const PlacedShape& b, A& r) {
 template <class R>
 OverlapAnswer overlap_alone(const PlacedShape& a, const PlacedShape& b, PairMemory* memory) {
   OverlapAnswer r;
-  if (refused<R>(a, b, r)) return r;
+  if (is_unsupported<R>(a, b, r)) return r;
   FastAnswer<R> f;
   separate<R>(a, b, Asked::overlap, memory, f);
-  if (!known(f, true)) separate<R>(a, b, Asked::distance, memory, f);
-  r.outcome = known(f, true) ? Outcome::answered : Outcome::not_converged;
+  if (!is_decided(f, true)) separate<R>(a, b, Asked::distance, memory, f);
+  r.outcome = is_decided(f, true) ? Outcome::answered : Outcome::not_converged;
   r.overlap = overlaps(f);
   r.error_bound = static_cast<double>(f.answer.bound);
   return r;
@@ -118,10 +118,10 @@ OverlapAnswer overlap_alone(const PlacedShape& a, const PlacedShape& b, PairMemo
 template <class R>
 DistanceAnswer distance_alone(const PlacedShape& a, const PlacedShape& b, PairMemory* memory) {
   DistanceAnswer r;
-  if (refused<R>(a, b, r)) return r;
+  if (is_unsupported<R>(a, b, r)) return r;
   FastAnswer<R> f;
   separate<R>(a, b, Asked::distance, memory, f);
-  if (known(f, true))
+  if (is_decided(f, true))
     fill<R>(f, a, r);
   else
     r.outcome = Outcome::not_converged;
@@ -134,7 +134,7 @@ template <class R>
 void fill_point_alone(const PlacedShape& a, const PlacedShape& b, ContactAnswer& r) {
   FastAnswer<R> f;
   separate<R>(a, b, Asked::distance, nullptr, f);
-  if (known(f, true))
+  if (is_decided(f, true))
     r.manifold.push_back({world<R>((f.answer.a + f.answer.b) / 2, a), r.depth, 0});
   else
     r.outcome = Outcome::not_converged;
@@ -143,10 +143,10 @@ void fill_point_alone(const PlacedShape& a, const PlacedShape& b, ContactAnswer&
 template <class R>
 ContactAnswer contact_alone(const PlacedShape& a, const PlacedShape& b, PairMemory* memory) {
   ContactAnswer r;
-  if (refused<R>(a, b, r)) return r;
+  if (is_unsupported<R>(a, b, r)) return r;
   FastAnswer<R> f;
   separate<R>(a, b, Asked::contact, memory, f);
-  if (!known(f, true))
+  if (!is_decided(f, true))
     r.outcome = Outcome::not_converged;
   else if (!fill<R>(f, a, b, r))
     fill_point_alone<R>(a, b, r);
@@ -160,7 +160,7 @@ OverlapAnswer overlap(const PlacedShape& a, const PlacedShape& b, Arithmetic ari
   if (arithmetic == Arithmetic::float64_alone) return overlap_alone<double>(a, b, memory);
   FastAnswer<double> f;
   separate<double>(a, b, Asked::overlap, memory, f);
-  if (!known(f, false)) return narrow::wide_overlap(a, b);
+  if (!is_decided(f, false)) return narrow::wide_overlap(a, b);
   return {Outcome::answered, f.answer.found == Found::meeting, f.answer.bound};
 }
 
@@ -171,7 +171,7 @@ DistanceAnswer distance(const PlacedShape& a, const PlacedShape& b, Arithmetic a
   DistanceAnswer r;
   FastAnswer<double> f;
   separate<double>(a, b, Asked::distance, memory, f);
-  if (!known(f, false)) return narrow::wide_distance(a, b);
+  if (!is_decided(f, false)) return narrow::wide_distance(a, b);
   fill<double>(f, a, r);
   return r;
 }
@@ -182,7 +182,7 @@ ContactAnswer contact(const PlacedShape& a, const PlacedShape& b, Arithmetic ari
   ContactAnswer r;
   FastAnswer<double> f;
   separate<double>(a, b, Asked::contact, memory, f);
-  if (known(f, false) && fill<double>(f, a, b, r)) return r;
+  if (is_decided(f, false) && fill<double>(f, a, b, r)) return r;
   return narrow::wide_contact(a, b);
 }
 

@@ -7,11 +7,11 @@ namespace {
 
 constexpr int step_cap = 20000;
 // Far from contact, a direction accurate to a tenth of the gap carries as far as the best.
-constexpr double far_look = 0.1;
+constexpr double far_accuracy = 0.1;
 // A step ends two errors before contact; the direction accounts for a few more.
 constexpr double near_enough = 8;
 // Below this many errors of the gap, rotations are computed in extended precision.
-constexpr double near_errors = 512;
+constexpr double precise_errors = 512;
 
 // In units of size: witness points that are farther apart across n than this are visibly wrong.
 constexpr double visible = 0x1p-30;
@@ -50,7 +50,7 @@ void set_points(Search& r, const Sweep& w, const Spot& x, const View& v, const F
 // Features that are nearly parallel, or roll on each other, do not reveal which of them the direction
 // follows, and a wrong guess proves steps that shrink by a constant factor. After this many steps every guess
 // is tried.
-constexpr int sure_steps = 8;
+constexpr int steps_before_trying_all = 8;
 
 // The farthest of all: rotating with either body, fixed, and as it has rotated since the last look.
 Followed follow_any(const Sweep& w, const Spot& x, const View& v, const Vec& seen, double end,
@@ -74,7 +74,7 @@ Followed follow_guess(const Sweep& w, const Spot& x, const View& v, const Featur
                       int steps, double end) {
   const bool near = w.turns() && v.side.s < w.a().body.reach + w.b().body.reach;
   Followed f = follow(w, x, v, near ? feature_turn(w, x, features, v.normal) : Vec(Vec::Zero()), end);
-  if (steps >= sure_steps && w.turns()) {
+  if (steps >= steps_before_trying_all && w.turns()) {
     const double since = x.t - last.t;
     const Vec seen = since > 0 ? Vec(last.normal.cross(v.normal) / since) : Vec(Vec::Zero());
     f = follow_any(w, x, v, seen, end, f);
@@ -142,13 +142,13 @@ Search search(const Sweep& w, double start, double end, double accuracy, const s
   Spot x = w.at(start, !w.turns());
   Direction last{start};
   const auto see = [&] {
-    return plane ? look_at_plane(w, x, *plane) : look(w, x, features, far_look, x.error);
+    return plane ? look_at_plane(w, x, *plane) : look(w, x, features, far_accuracy, x.error);
   };
   for (r.steps = 0; r.steps < step_cap; ++r.steps) {
     View v = see();
     r.clear_until = x.t;
     r.gap = v.upper;
-    if (!x.precise && v.side.s < near_errors * x.error) {
+    if (!x.precise && v.side.s < precise_errors * x.error) {
       x = w.at(x.t, true);
       v = see();
     }

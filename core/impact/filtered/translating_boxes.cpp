@@ -8,7 +8,7 @@ namespace {
 
 // √3, rounded up.
 constexpr double corner_factor = 1.7321;
-// Below this, an edge axis is no direction.
+// Below this, an edge axis has no usable direction.
 constexpr double least_length_sq = 1e-200;
 
 // The boxes meet along the axis while |p + q t| <= r, all three multiplied by its length; p >= 0.

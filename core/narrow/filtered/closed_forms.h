@@ -65,7 +65,7 @@ void sphere_sphere(const Shape& sa, const Pose& a, const Shape& sb, const Pose& 
   const R dist = std::sqrt(d.squaredNorm()), error = u<R> * (8 * dist + 4 * (ra + rb));
   if (asked == Asked::overlap && detail::verdict(out, dist - (ra + rb), error)) return;
   detail::inflate<R>(out, dist, dist > 0 ? detail::direction<R>(d, dist) : V3<R>::UnitX(), V3<R>::Zero(), d,
-                     ra, rb, error, std::max(std::max(ra, rb), dist * R(0.28)));  // 0.28 < 1/(2√3)
+                     ra, rb, error, std::max(std::max(ra, rb), dist * offset_share<R>));
 }
 
 template <class R>

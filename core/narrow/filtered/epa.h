@@ -339,11 +339,11 @@ class Expander {
     // Storage of dead facets is reused.
     for (int i = 0; i < regions_; ++i) {
       key_[region_[i]] = rank_[region_[i]] = infinite;
-      free_[frees_++] = region_[i];
+      free_[free_count_++] = region_[i];
     }
     const short apex = static_cast<short>(vertices_);
     set_vertex(vertices_++, s);
-    for (int i = 0; i < edges_; ++i) slot_[i] = frees_ > 0 ? free_[--frees_] : fresh();
+    for (int i = 0; i < edges_; ++i) slot_[i] = free_count_ > 0 ? free_[--free_count_] : fresh();
     for (int i = 0; i < edges_; ++i) {
       if (slot_[i] < 0) return ExpandEnd::full;
       const Edge& e = edge_[i];
@@ -405,7 +405,7 @@ class Expander {
   LocalDepth<R> settled_;
   R cap_cosine_ = 1;
   Depth<R> result_;
-  int vertices_ = 0, facets_ = 0, regions_ = 0, edges_ = 0, frees_ = 0, stamp_ = 0;
+  int vertices_ = 0, facets_ = 0, regions_ = 0, edges_ = 0, free_count_ = 0, stamp_ = 0;
   V3<R> w_[vertex_capacity + 1], a_[vertex_capacity + 1];
   Facet facet_[facet_capacity];
   R key_[facet_capacity], rank_[facet_capacity];  // rank: key, or infinite inside the proven cap

@@ -117,6 +117,10 @@ R displacement_of(R reach_a, R reach_b, R offset) {
   return u<R> * (8 * reach_a + 36 * reach_b + 20 * offset);
 }
 
+/// Less than 1/(2√3): two bodies at a distance d have a coordinate of at least this · d.
+template <class R>
+inline constexpr R offset_share = R(0.28);
+
 /// τ for a scale of at most L: the limit on an answer's bound.
 template <class R>
 R accuracy(R scale) {

@@ -28,7 +28,7 @@ R scale(const Body<R>& a, const Body<R>& b, const Stand<R>& at_a, const Stand<R>
 // relative to it.
 template <class R>
 R local_scale(const PairScene<R>& s) {
-  return std::max(std::max(s.a.extent, s.b.extent), s.at.offset.norm() * R(0.28));  // 0.28 < 1/(2√3)
+  return std::max(std::max(s.a.extent, s.b.extent), s.at.offset.norm() * offset_share<R>);
 }
 
 // From A's frame to world axes about A's translation; `unsure` if the value is not accurate enough.
