@@ -1,19 +1,19 @@
-// Conservative advancement (Mirtich 1996) with a bound of second order. At time t let n be the unit normal of
-// a support plane pair with gap s. For a body point at c + r, turning with ω about c, the coordinate along n
-// satisfies for Δ >= 0
+// Conservative advancement (Mirtich 1996) with a second-order bound. At time t let n be the unit normal of a
+// pair of support planes with gap s. For a body point at c + r, rotating with ω about c, the coordinate along
+// n satisfies for Δ >= 0
 //
 //   n·x(t+Δ) <= n·x(t) + Δ n·v + Δ r·(n×ω) + K Δ²/2,   K = ρ |ω| |n×ω|,
 //
-// because n·(ω×r) = r·(n×ω), |r| <= ρ keeps its length, and the acceleration is ω×(ω×r). The maximum over the
-// body of r·n + Δ r·(n×ω) is the support value of the core at time t along n + Δ n×ω. Hence the gap along the
+// because n·(ω×r) = r·(n×ω), |r| <= ρ is constant, and the acceleration is ω×(ω×r). The maximum over the body
+// of r·n + Δ r·(n×ω) is the support value of the core at time t along n + Δ n×ω. Hence the gap along the
 // fixed n is at least
 //
 //   f(Δ) = base + Δ (v_B − v_A)·n − h_A(n + Δ n×ω_A) − h_B(−n − Δ n×ω_B) − radii − (K_A + K_B) Δ²/2,
 //
 // which is concave (support functions are convex), so a chord from a point with f >= 0 to one with f < 0
-// crosses zero before f does, and f >= 0 at both ends of an interval means f >= 0 throughout. No step can
+// crosses zero before f does, and f >= 0 at both ends of an interval implies f >= 0 throughout. No step can
 // pass the first contact. Near contact f is exact to second order: convergence is quadratic where the
-// approach speed is not zero, and where it is (grazing) the step is about √(2 gap / K).
+// approach speed is non-zero; where it is zero (grazing), the step is about √(2 gap / K).
 #include "core/impact/advance.h"
 
 #include <algorithm>
@@ -25,11 +25,17 @@
 namespace touchstone::ccd {
 namespace {
 
-// Half a second or so. Random motions have needed 600 at most (tests/core/impact_stress).
+// About half a second. Random motions have needed at most 600 steps (tests/core/impact_stress).
 constexpr int step_cap = 5000;
 constexpr int chord_cap = 40;
-// After so many steps along directions that stand still, ones that turn are tried too.
-constexpr int sure_steps = 4;
+// The chord search ends when its interval is this small relative to the step, or the gap left at the step is
+// this small relative to the gap: more gains nothing.
+constexpr Wide step_tolerance = 0x1p-30L, gap_share = 0x1p-10L;
+// Witness points across the normal by more than this · size are improved with the bodies pushed apart by
+// push · size.
+constexpr Wide across_tolerance = 0x1p-34L, push = 0x1p-20L;
+// After this many steps along fixed directions, rotating ones are tried too.
+constexpr int steps_before_turning = 4;
 
 Wide turned_support(const Core& c, const WideVec& d) {
   const WideVec local = c.frame.rotation.transpose() * d;
@@ -57,13 +63,15 @@ WideMat turned(const WideMat& r, const WideVec& w, Wide t) {
   return out;
 }
 
-// f(Δ) of the head comment. A plane contributes no support of its own.
+// f(Δ) of the header comment. A plane has no support term of its own.
 class GapBound {
  public:
   GapBound(const WideVec& n, Wide base, Wide radii) : n_(n), constant_(base - radii) {}
   void add(const Core& c, const MovingCore& m, Wide side) {
     Part& p = parts_[count_++];
-    p.core = &c, p.direction = side * n_, p.turn = side * n_.cross(m.angular);
+    p.core = &c;
+    p.direction = side * n_;
+    p.turn = side * n_.cross(m.angular);
     slope_ -= side * m.linear.dot(n_);
     const Wide turn = p.turn.norm();
     lipschitz_ += c.reach * turn;
@@ -75,7 +83,7 @@ class GapBound {
       f -= turned_support(*parts_[i].core, parts_[i].direction + delta * parts_[i].turn);
     return f;
   }
-  /// Largest Δ <= end known to keep f >= 0 over [0, Δ]. Precondition f(0) > 0.
+  /// Largest Δ <= end for which f >= 0 over [0, Δ] is proven. Precondition: f(0) > 0.
   Wide safe_step(Wide end) const {
     const Wide gap = (*this)(0), fall = lipschitz_ - slope_;
     if (!(fall > 0) || fall * end < gap) return end;
@@ -83,15 +91,21 @@ class GapBound {
     if (f_hi >= 0) return end;
     Wide f_lo = (*this)(lo);
     if (!(f_lo > 0)) return lo;  // the first-order bound is exact here
-    for (int i = 0; i < chord_cap && hi - lo > 0x1p-30L * lo && f_lo > 0x1p-10L * gap; ++i) {
+    for (int i = 0; i < chord_cap && hi - lo > step_tolerance * lo && f_lo > gap_share * gap; ++i) {
       // The chord's zero is safe; the midpoint tightens the far end.
       const Wide chord = lo + (hi - lo) * (f_lo / (f_lo - f_hi)), middle = lo + (hi - lo) / 2;
-      if (const Wide f = (*this)(chord); f >= 0) lo = chord, f_lo = f;
+      if (const Wide f = (*this)(chord); f >= 0) {
+        lo = chord;
+        f_lo = f;
+      }
       if (middle <= lo) continue;
-      if (const Wide f = (*this)(middle); f >= 0)
-        lo = middle, f_lo = f;
-      else
-        hi = middle, f_hi = f;
+      if (const Wide f = (*this)(middle); f >= 0) {
+        lo = middle;
+        f_lo = f;
+      } else {
+        hi = middle;
+        f_hi = f;
+      }
     }
     return lo;
   }
@@ -112,14 +126,14 @@ struct Snapshot {
   Core a, b;  // b unused against a plane
 };
 
-// Of the gap: of a walk that has not converged, how far its points are apart.
+// Upper bound of the gap: if GJK has not converged, the distance of its points.
 Wide upper_bound(const Separation& s) {
   return s.outcome == Outcome::answered ? s.gap : std::max(s.gap, (s.b - s.a).norm());
 }
 
-// Largest step that is proven along a direction n that turns with Ω, as in fast/follow.h: from s1 at t to s2
-// at t + h, both 0 or more, the separation stays 0 or more when K h²/2 <= (√s1 + √s2)². An end that is moved
-// costs two support points; a look costs a hundred times that.
+// Largest step that is proven along a direction n that rotates with Ω, as in filtered/follow.h: from s1 at t
+// to s2 at t + h, both >= 0, the separation stays >= 0 if K h²/2 <= (√s1 + √s2)². Moving an end costs two
+// support points; computing the nearest points costs a hundred times that.
 class TurningStep {
  public:
   TurningStep(const MovingCore& a, const MovingCore& b, const WideVec& n, const WideVec& turn, Wide t,
@@ -130,8 +144,8 @@ class TurningStep {
     for (const MovingCore* m : {&a, &b})
       curvature_ += m->start.reach * (m->angular - turn).norm() * (speed + m->angular.norm());
   }
-  /// `step`: what is proven already.
-  Wide beyond(Wide step) const {
+  /// `step`: proven already.
+  Wide extend(Wide step) const {
     Wide far = 2 * step;
     for (; far < end_ && proven(far); far *= 2) step = far;
     far = std::min(far, end_);
@@ -167,7 +181,7 @@ class TurningStep {
   Wide t_, end_, s1_, curvature_ = 0;
 };
 
-// One pair of bodies over time: what it looks like at t, and how far it may go from there.
+// A pair of bodies over time: its separation at t, and how far it may advance from there.
 struct CorePair {
   const MovingCore &a, &b;
   WideVec origin(Wide t) const { return a.start.frame.translation + t * a.linear; }
@@ -180,25 +194,30 @@ struct CorePair {
   Wide step(const Snapshot& x, Wide end) const {
     const WideVec& n = x.s.normal;
     GapBound f(n, n.dot(x.b.frame.translation - x.a.frame.translation), x.a.radius + x.b.radius);
-    f.add(x.a, a, 1), f.add(x.b, b, -1);
+    f.add(x.a, a, 1);
+    f.add(x.b, b, -1);
     return f(0) > 0 ? f.safe_step(end) : 0;
   }
-  // Nearest points of bodies that nearly touch: pushed apart along n, which leaves them where they are and a
-  // distance long enough to have a direction.
+  // Nearest points of bodies that nearly touch: the bodies are pushed apart along n, which does not change
+  // the points but makes the distance long enough to have a direction.
   void improve_points(Separation& s, Wide t) const {
     const WideVec d = s.b - s.a;
-    if ((d - d.dot(s.normal) * s.normal).norm() <= 0x1p-34L * s.size) return;
-    const WideVec origin = this->origin(t), away = 0x1p-20L * s.size * s.normal;
-    Core beyond = at_time(b, t, origin);
-    beyond.frame.translation += away;
-    const Separation x = narrow::separate_convex(at_time(a, t, origin), beyond);
-    if (x.outcome == Outcome::answered) s.a = x.a, s.b = x.b - away;
+    if ((d - d.dot(s.normal) * s.normal).norm() <= across_tolerance * s.size) return;
+    const WideVec origin = this->origin(t), away = push * s.size * s.normal;
+    Core pushed = at_time(b, t, origin);
+    pushed.frame.translation += away;
+    const Separation x = narrow::separate_convex(at_time(a, t, origin), pushed);
+    if (x.outcome == Outcome::answered) {
+      s.a = x.a;
+      s.b = x.b - away;
+    }
   }
-  // Farther, along a direction that goes with a body or on as it has turned since the last look.
-  Wide farther(const Snapshot& x, Wide t, Wide end, Wide step, const WideVec& seen) const {
+  // Extends the step along a direction that rotates with a body, or continues as it has rotated since the
+  // last look.
+  Wide extend_step(const Snapshot& x, Wide t, Wide end, Wide step, const WideVec& seen) const {
     for (const WideVec* turn : {&a.angular, &b.angular, &seen})
       if (step > 0 && step < end && !turn->isZero(0))
-        step = TurningStep(a, b, x.s.normal, *turn, t, end).beyond(step);
+        step = TurningStep(a, b, x.s.normal, *turn, t, end).extend(step);
     return step;
   }
 };
@@ -219,16 +238,19 @@ struct PlanePair {
     return f(0) > 0 ? f.safe_step(end) : 0;
   }
   void improve_points(Separation&, Wide) const {}
-  // The plane's normal is the direction.
-  Wide farther(const Snapshot&, Wide, Wide, Wide step, const WideVec&) const { return step; }
+  // The direction is the plane's normal, which is fixed.
+  Wide extend_step(const Snapshot&, Wide, Wide, Wide step, const WideVec&) const { return step; }
 };
 
-// t in double: downwards, so that it is not late, unless the bodies move so fast that only the next double is
-// in contact, as nearly as asked. (At |w| = 500 they turn by 6e-14 from one double to the next.)
+// Rounds t to double: downwards, so that it is not late, unless the bodies move so fast that only the next
+// double is in contact to the required accuracy. (At |w| = 500 they rotate by 6e-14 between consecutive
+// doubles.)
 template <class P>
 ImpactAnswer hit(const P& pair, Wide t, Separation s, Wide target, const Goal& goal, int steps) {
   ImpactAnswer r;
-  r.steps = steps, r.separation = static_cast<double>(s.gap), r.clear_until = static_cast<double>(t);
+  r.steps = steps;
+  r.separation = static_cast<double>(s.gap);
+  r.clear_until = static_cast<double>(t);
   r.normal_ab = s.normal.template cast<double>();
   const WideVec origin = pair.origin(t);
   pair.improve_points(s, t);
@@ -241,8 +263,10 @@ ImpactAnswer hit(const P& pair, Wide t, Separation s, Wide target, const Goal& g
   r.separation = static_cast<double>(below);
   if (below <= target) return r;
   const double next = std::nextafter(d, 1.0);
-  if (const Wide above = pair.look(next).s.gap; std::abs(above) < std::min(below, Wide(goal.accuracy)))
-    r.toi = next, r.separation = static_cast<double>(above);
+  if (const Wide above = pair.look(next).s.gap; std::abs(above) < std::min(below, Wide(goal.accuracy))) {
+    r.toi = next;
+    r.separation = static_cast<double>(above);
+  }
   return r;
 }
 
@@ -254,27 +278,33 @@ Advance run(const P& pair, Wide t_start, const Goal& goal) {
   WideVec last_normal = WideVec::Zero();
   for (r.steps = 0; r.steps < step_cap; ++r.steps) {
     Snapshot x = pair.look(t);
-    // Bounds that have not met are bounds: the plane proves the next step, the points what is contact.
+    // Bounds that have not met are still bounds: the plane proves the next step, and the points decide what
+    // is contact.
     const bool known = x.s.outcome == Outcome::answered;
     x.s.gap = upper_bound(x.s);
-    r.clear_until = static_cast<double>(t), r.separation = static_cast<double>(x.s.gap);
+    r.clear_until = static_cast<double>(t);
+    r.separation = static_cast<double>(x.s.gap);
     const Wide target = known ? tolerance::impact_gap_factor * x.s.size : Wide(goal.accuracy);
     if (x.s.gap <= target) return {hit(pair, t, x.s, target, goal, r.steps)};
     if (t >= goal.end) return out;
     if (r.clear_until > t) r.clear_until = std::nextafter(r.clear_until, 0.0);
-    if (x.s.gap > goal.leave && r.clear_until > t_start) return out.wide_open = true, out;
+    if (x.s.gap > goal.leave && r.clear_until > t_start) {
+      out.gap_opened = true;
+      return out;
+    }
     Wide step = pair.step(x, goal.end - t);
-    if (r.steps >= sure_steps) {
+    if (r.steps >= steps_before_turning) {
       const WideVec seen =
           t > last_time ? WideVec(last_normal.cross(x.s.normal) / (t - last_time)) : WideVec(WideVec::Zero());
-      step = pair.farther(x, t, goal.end - t, step, seen);
+      step = pair.extend_step(x, t, goal.end - t, step, seen);
     }
-    last_time = t, last_normal = x.s.normal;
+    last_time = t;
+    last_normal = x.s.normal;
     if (step >= goal.end - t) {
       t = goal.end;
       continue;
     }
-    if (!(t + step > t)) break;  // the gap is open, but time has no finer grain
+    if (!(t + step > t)) break;  // the gap is positive, but t has no finer resolution
     t += step;
   }
   r.outcome = Outcome::not_converged;

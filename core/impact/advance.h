@@ -24,19 +24,20 @@ MovingCore moving_core(const Core& start, const Motion& motion);
 Core at_time(const MovingCore& c, Wide t, const WideVec& origin);
 
 struct Advance {
-  ImpactAnswer answer;  // `wide_open`: of what is clear so far
-  bool wide_open = false;
+  ImpactAnswer answer;  // with `gap_opened`: what is clear so far
+  bool gap_opened = false;
 };
 
-/// What ends an advance before `end`.
+/// When an advance ends.
 struct Goal {
   Wide end = 1;
-  double accuracy = 0;  // a gap that is at most this is contact where it is not known any better
-  /// After a step to where the gap is more than this: `wide_open`, no extended precision is needed there.
+  double accuracy = 0;  // a gap of at most this is contact if its bounds have not converged
+  /// A step to where the gap exceeds this ends the advance with `gap_opened`: extended precision is not
+  /// needed there.
   Wide leave = std::numeric_limits<Wide>::infinity();
 };
 
-/// First contact from t_start on; precondition: none before.
+/// First contact from t_start on; precondition: no contact before t_start.
 Advance advance(const MovingCore& a, const MovingCore& b, Wide t_start, const Goal& goal);
 Advance advance(const MovingCore& a, const narrow::WidePlane& plane, Wide t_start, const Goal& goal);
 

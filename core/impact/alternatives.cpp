@@ -20,7 +20,8 @@ ImpactAnswer first_overlap(const MovingShape& a, const MovingShape& b, int first
   for (int k = first; k <= substeps; ++k) {
     const double t = static_cast<double>(k) / substeps;
     const OverlapAnswer o = overlap(placed_at(a, t), placed_at(b, t));
-    r.outcome = o.outcome, ++r.steps;
+    r.outcome = o.outcome;
+    ++r.steps;
     if (o.outcome != Outcome::answered) return r;
     if (!o.overlap) continue;
     r.toi = t;
@@ -45,7 +46,9 @@ ImpactAnswer substep_impact(const MovingShape& a, const MovingShape& b, int subs
 ImpactAnswer speculative_impact(const MovingShape& a, const MovingShape& b, double margin) {
   ImpactAnswer r;
   const DistanceAnswer d = distance(placed_at(a, 0), placed_at(b, 0));
-  r.outcome = d.outcome, r.separation = d.distance, r.steps = 1;
+  r.outcome = d.outcome;
+  r.separation = d.distance;
+  r.steps = 1;
   if (d.outcome != Outcome::answered) return r;
   if (d.distance <= 0) {
     r.toi = 0;

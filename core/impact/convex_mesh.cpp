@@ -10,6 +10,8 @@ namespace touchstone::ccd {
 namespace {
 
 constexpr double never = 2;
+// In units of the coordinates; covers the rounding of the ball's path and of a box's slabs.
+constexpr double slab_rounding = 0x1p-40;
 
 class Query {
  public:
@@ -19,10 +21,9 @@ class Query {
     mover_ = fast::make_mover(*a.shape, rotation, a.motion);
     const Mat3 to_mesh = frame.rotation.cast<double>().transpose();
     from_ = -(to_mesh * frame.translation.cast<double>());
-    way_ = to_mesh * a.motion.linear;
+    path_ = to_mesh * a.motion.linear;
     const double ball = mover_.body.reach + mover_.body.radius;
-    // 2⁻⁴⁰ of the coordinates covers the roundings of these and of a box's slabs.
-    ball_ = ball + 0x1p-40 * (ball + from_.norm() + way_.norm());
+    ball_ = ball + slab_rounding * (ball + from_.norm() + path_.norm());
     best_.clear_until = 1;
   }
 
@@ -30,26 +31,27 @@ class Query {
     if (tree) {
       if (!tree->nodes.empty()) descend(*tree, 0);
     } else {
-      for (std::size_t i = 0; i < mesh_.triangles.size() && !over_; ++i) look(i);
+      for (std::size_t i = 0; i < mesh_.triangles.size() && !done_; ++i) test_triangle(i);
     }
     return best_;
   }
 
  private:
-  // When the ball may first touch the box; `never` if not during the step.
+  // Earliest time at which the ball may touch the box; `never` if it does not during the step.
   double entry(const Vec3& lo, const Vec3& hi) const {
     double in = 0, out = 1;
-    const double wide = ball_ + 0x1p-40 * std::max(lo.cwiseAbs().maxCoeff(), hi.cwiseAbs().maxCoeff());
+    const double wide = ball_ + slab_rounding * std::max(lo.cwiseAbs().maxCoeff(), hi.cwiseAbs().maxCoeff());
     for (int k = 0; k < 3; ++k) {
-      const double below = lo[k] - wide - from_[k], above = hi[k] + wide - from_[k], v = way_[k];
+      const double below = lo[k] - wide - from_[k], above = hi[k] + wide - from_[k], v = path_[k];
       if (v == 0) {
         if (below > 0 || above < 0) return never;
         continue;
       }
       const double first = below / v, last = above / v;
-      in = std::max(in, std::min(first, last)), out = std::min(out, std::max(first, last));
+      in = std::max(in, std::min(first, last));
+      out = std::min(out, std::max(first, last));
     }
-    return in > out + 0x1p-40 ? never : std::max(0.0, in - 0x1p-40);
+    return in > out + slab_rounding ? never : std::max(0.0, in - slab_rounding);
   }
 
   double end() const { return best_.toi.value_or(1); }
@@ -57,8 +59,8 @@ class Query {
   void descend(const MeshTree& tree, std::int32_t node) {
     const MeshTree::Node& n = tree.nodes[static_cast<std::size_t>(node)];
     if (n.count > 0) {
-      for (std::int32_t i = n.first; i < n.first + n.count && !over_; ++i)
-        look(static_cast<std::size_t>(tree.order[static_cast<std::size_t>(i)]));
+      for (std::int32_t i = n.first; i < n.first + n.count && !done_; ++i)
+        test_triangle(static_cast<std::size_t>(tree.order[static_cast<std::size_t>(i)]));
       return;
     }
     const auto time = [&](std::int32_t child) {
@@ -68,10 +70,10 @@ class Query {
     const double t[2] = {time(n.first), time(n.first + 1)};
     const int second = t[1] < t[0];
     for (const int k : {second, 1 - second})
-      if (!over_ && t[k] <= end()) descend(tree, n.first + k);
+      if (!done_ && t[k] <= end()) descend(tree, n.first + k);
   }
 
-  void look(std::size_t triangle) {
+  void test_triangle(std::size_t triangle) {
     const auto corners = narrow::corners(mesh_, triangle);
     const Vec3 lo = corners[0].cwiseMin(corners[1]).cwiseMin(corners[2]);
     const Vec3 hi = corners[0].cwiseMax(corners[1]).cwiseMax(corners[2]);
@@ -102,11 +104,13 @@ class Query {
   void take(ImpactAnswer r) {
     r.steps += best_.steps;
     if (r.outcome != Outcome::answered) {
-      best_ = r, over_ = true;
+      best_ = r;
+      done_ = true;
       return;
     }
     if (!r.toi || (best_.toi && *best_.toi <= *r.toi)) return count(r.steps - best_.steps);
-    best_ = r, over_ = *r.toi == 0;
+    best_ = r;
+    done_ = *r.toi == 0;
   }
 
   const MovingShape& shape_;
@@ -115,9 +119,9 @@ class Query {
   double accuracy_, ball_ = 0;
   fast::Mover mover_;
   std::optional<MovingCore> core_;
-  Vec3 from_, way_;  // of A's origin, mesh frame
+  Vec3 from_, path_;  // start and displacement of A's origin, mesh frame
   ImpactAnswer best_;
-  bool over_ = false;
+  bool done_ = false;
 };
 
 }  // namespace

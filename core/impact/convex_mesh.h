@@ -1,6 +1,6 @@
-// First contact of a moving convex body and a mesh at rest: the earliest of its triangles' own. The tree's
-// boxes are entered by the ball about the body's origin that holds it at any rotation; what it enters after
-// the earliest contact so far, or never, is left out.
+// First contact of a moving convex body and a mesh at rest: the earliest over its triangles. The tree's boxes
+// are tested against the ball about the body's origin that contains it at any rotation; boxes that the ball
+// enters never, or later than the earliest contact so far, are skipped.
 #pragma once
 
 #include "core/impact/filtered/mover.h"
@@ -8,8 +8,8 @@
 
 namespace touchstone::ccd {
 
-/// `frame` of the mesh about A's start; witness points come out there too. `accuracy`: of the gap
-/// at a contact that is stated.
+/// `frame`: the mesh's pose relative to A's start; witness points are returned in the same coordinates.
+/// `accuracy`: accuracy of the gap at a reported contact.
 ImpactAnswer convex_mesh(const MovingShape& a, const TriangleMesh& mesh, const MeshTree* tree,
                          const WideFrame& frame, double accuracy);
 

@@ -1,4 +1,5 @@
-// Integers of any size: what the exact decision of deforming primitives needs, and no more.
+// Arbitrary-precision integers, with only the operations that the exact decision of deforming primitives
+// needs.
 #pragma once
 
 #include <algorithm>
@@ -42,7 +43,8 @@ class Integer {
       std::uint64_t carry = 0;
       for (std::size_t j = 0; j < o.limbs_.size(); ++j) {
         const U128 t = static_cast<U128>(limbs_[i]) * o.limbs_[j] + r[i + j] + carry;
-        r[i + j] = static_cast<std::uint64_t>(t), carry = static_cast<std::uint64_t>(t >> 64);
+        r[i + j] = static_cast<std::uint64_t>(t);
+        carry = static_cast<std::uint64_t>(t >> 64);
       }
       r[i + o.limbs_.size()] = carry;
     }
@@ -62,13 +64,14 @@ class Integer {
   }
 
  private:
-  using Limbs = std::vector<std::uint64_t>;  // least first, the last one not zero
+  using Limbs = std::vector<std::uint64_t>;  // least significant first; the last one is not zero
   __extension__ using U128 = unsigned __int128;
 
   static Integer make(bool negative, Limbs limbs) {
     while (!limbs.empty() && limbs.back() == 0) limbs.pop_back();
     Integer r;
-    r.negative_ = negative && !limbs.empty(), r.limbs_ = std::move(limbs);
+    r.negative_ = negative && !limbs.empty();
+    r.limbs_ = std::move(limbs);
     return r;
   }
   static int compare_sizes(const Limbs& a, const Limbs& b) {
@@ -82,17 +85,19 @@ class Integer {
     std::uint64_t carry = 0;
     for (std::size_t i = 0; i < r.size(); ++i) {
       const U128 t = static_cast<U128>(i < a.size() ? a[i] : 0) + (i < b.size() ? b[i] : 0) + carry;
-      r[i] = static_cast<std::uint64_t>(t), carry = static_cast<std::uint64_t>(t >> 64);
+      r[i] = static_cast<std::uint64_t>(t);
+      carry = static_cast<std::uint64_t>(t >> 64);
     }
     return r;
   }
-  // a >= b.
+  // Precondition: a >= b.
   static Limbs difference(const Limbs& a, const Limbs& b) {
     Limbs r(a.size(), 0);
     std::uint64_t borrow = 0;
     for (std::size_t i = 0; i < a.size(); ++i) {
       const U128 t = static_cast<U128>(a[i]) - (i < b.size() ? b[i] : 0) - borrow;
-      r[i] = static_cast<std::uint64_t>(t), borrow = static_cast<std::uint64_t>(t >> 64) & 1;
+      r[i] = static_cast<std::uint64_t>(t);
+      borrow = static_cast<std::uint64_t>(t >> 64) & 1;
     }
     return r;
   }

@@ -38,11 +38,11 @@ int changes_at(const SignSequence& s, const Integer& numerator, unsigned bits) {
   return changes;
 }
 
-// A point inside that is no root of p; p has at most four, and five are tried.
+// Splits at an interior point that is not a root of p; p has at most four roots, and five points are tried.
 struct Cut {
   DyadicInterval left, right;
 };
-Cut cut(const Poly& p, const DyadicInterval& i) {
+Cut split(const Poly& p, const DyadicInterval& i) {
   const Integer lo = i.lo.shifted(3), width = i.hi - i.lo;
   Integer at;
   for (const int eighths : {4, 3, 5, 2, 6}) {
@@ -63,14 +63,14 @@ void isolate(const Poly& p, const SignSequence& sturm, const DyadicInterval& i, 
     out.push_back(i);
     return;
   }
-  const Cut halves = cut(p, i);
+  const Cut halves = split(p, i);
   const int left = tarski_sum(sturm, halves.left);
   isolate(p, sturm, halves.left, left, out);
   isolate(p, sturm, halves.right, count - left, out);
 }
 
-// Sign of a polynomial of degree <= 2 on all of an interval, when its three Bernstein coefficients have one;
-// else 0. The middle one is the polar form c0 + c1·(lo + hi)/2 + c2·lo·hi.
+// Sign of a polynomial of degree <= 2 over a whole interval if its three Bernstein coefficients have the same
+// sign; otherwise 0. The middle one is the polar form c0 + c1·(lo + hi)/2 + c2·lo·hi.
 int sign_throughout(const Poly& q, const DyadicInterval& i) {
   const int first = q.sign_at(i.lo, i.bits);
   if (first == 0 || q.sign_at(i.hi, i.bits) != first) return 0;
@@ -153,12 +153,13 @@ int sign_at_root(const Poly& p, const DyadicInterval& root, const Poly& q) {
 }
 
 DyadicInterval narrowed(const Poly& p, DyadicInterval root) {
-  // A root at which p changes sign is found by signs of p alone; one of even multiplicity is counted.
+  // A root at which p changes sign is located by the signs of p alone; a root of even multiplicity is located
+  // by counting.
   const int at_lo = p.sign_at(root.lo, root.bits);
   const bool changes = at_lo != p.sign_at(root.hi, root.bits);
   const SignSequence sturm = changes ? SignSequence{} : sign_sequence(p, one());
   while (!narrow_enough(root)) {
-    const Cut halves = cut(p, root);
+    const Cut halves = split(p, root);
     const bool is_left =
         changes ? p.sign_at(halves.left.hi, halves.left.bits) != at_lo : tarski_sum(sturm, halves.left) == 1;
     root = is_left ? halves.left : halves.right;
@@ -168,7 +169,7 @@ DyadicInterval narrowed(const Poly& p, DyadicInterval root) {
 
 double below(const DyadicInterval& i) {
   if (i.lo.sign() <= 0) return 0;
-  // By its bits: the largest m / 2^53 that is not above.
+  // Bit by bit: the largest m / 2^53 that is not above.
   double t = 0;
   for (int k = 1; k <= 53; ++k) {
     const double next = t + std::ldexp(1.0, -k);

@@ -19,20 +19,22 @@ bool is_static_shape(const Shape& s) {
   return kind_of(s) == ShapeKind::half_space || kind_of(s) == ShapeKind::mesh;
 }
 
-// Coordinates relative to the first body's start, so that a common offset costs nothing.
+// Coordinates relative to the first body's start, so that a large common offset costs no accuracy.
 WideFrame shifted(const Pose& p, const WideVec& origin) {
   WideFrame f = wide_frame(p);
   f.translation -= origin;
   return f;
 }
 
-// No more than L of the pair: what τ is relative to.
+// A lower bound of the pair's L, which τ is relative to.
 double scale_of(const MovingShape& s, double extent) {
   const double from = s.pose.translation.cwiseAbs().maxCoeff();
   return std::max({extent, from, (s.pose.translation + s.motion.linear).cwiseAbs().maxCoeff()});
 }
 
-double accuracy_of(double scale) { return (tolerance::core_tau_factor - 4) * 0x1p-53 * scale; }
+constexpr double unit_roundoff = 0x1p-53;
+
+double accuracy_of(double scale) { return (tolerance::core_tau_factor - 4) * unit_roundoff * scale; }
 
 narrow::FastAnswer<double> in_double(const MovingShape& a, const MovingShape& b, narrow::fast::Asked asked) {
   narrow::FastAnswer<double> f;
@@ -40,9 +42,10 @@ narrow::FastAnswer<double> in_double(const MovingShape& a, const MovingShape& b,
   return f;
 }
 
-// Whether they meet at t = 0, and how, in bounded time. A depth that double does not show to be the least
-// decides all the same, and is stated: they separate by it, and no time depends on it. (In extended precision
-// two ellipsoids about one centre take up to a minute: every facet that the polytope may have.)
+// Whether they meet at t = 0, and how, in bounded time. A depth that double cannot prove to be the least
+// still decides the verdict and is reported: it does separate them, and no time depends on it. (In extended
+// precision, two ellipsoids about one centre take up to a minute: every facet that the polytope may
+// have.)
 std::optional<ImpactAnswer> contact_at_start(const MovingShape& a, const MovingShape& b,
                                              ImpactDetail detail) {
   using narrow::fast::Asked;
@@ -54,7 +57,8 @@ std::optional<ImpactAnswer> contact_at_start(const MovingShape& a, const MovingS
   if (found == Found::meeting && detail == ImpactDetail::time) return r;
   const auto x = in_double(a, b, Asked::distance).answer;
   if (x.valued && x.gap < -x.bound) {
-    r.separation = x.gap, r.normal_ab = x.normal;
+    r.separation = x.gap;
+    r.normal_ab = x.normal;
     r.witness_w = {Vec3(x.a + a.pose.translation), Vec3(x.b + a.pose.translation)};
     return r;
   }
@@ -63,8 +67,13 @@ std::optional<ImpactAnswer> contact_at_start(const MovingShape& a, const MovingS
     return std::nullopt;
   if (detail == ImpactDetail::time) return r;
   const DistanceAnswer d = distance(pa, pb);
-  r.separation = d.distance, r.normal_ab = d.normal, r.witness_w = d.witness;
-  if (d.outcome != Outcome::answered) r.outcome = d.outcome, r.toi.reset();
+  r.separation = d.distance;
+  r.normal_ab = d.normal;
+  r.witness_w = d.witness;
+  if (d.outcome != Outcome::answered) {
+    r.outcome = d.outcome;
+    r.toi.reset();
+  }
   return r;
 }
 
@@ -74,23 +83,25 @@ ImpactAnswer at_rest(const MovingShape& a, const MovingShape& b, ImpactDetail de
   ImpactAnswer r;
   r.clear_until = 1;
   const DistanceAnswer d = distance(pa, pb);
-  r.outcome = d.outcome, r.separation = d.distance;
+  r.outcome = d.outcome;
+  r.separation = d.distance;
   return r;
 }
 
-ImpactAnswer stated(const fast::Search& s, const MovingShape& a) {
+ImpactAnswer to_answer(const fast::Search& s, const MovingShape& a) {
   ImpactAnswer r = fast::answer_of(s, a.motion.linear);
   for (Vec3& x : r.witness_w) x += a.pose.translation;
   return r;
 }
 
-// Nearest points in extended precision, where double has found the time but no good points.
-ImpactAnswer stated_finely(const fast::Search& s, const MovingShape& a, const MovingShape& b) {
-  ImpactAnswer r = stated(s, a);
+// Computes the nearest points in extended precision where double has found the time but no accurate points.
+ImpactAnswer to_refined_answer(const fast::Search& s, const MovingShape& a, const MovingShape& b) {
+  ImpactAnswer r = to_answer(s, a);
   if (!s.rough) return r;
   const WideVec origin = a.pose.translation.cast<Wide>();
   WideFrame fa = wide_frame_at(a.pose, a.motion, *r.toi), fb = wide_frame_at(b.pose, b.motion, *r.toi);
-  fa.translation -= origin, fb.translation -= origin;
+  fa.translation -= origin;
+  fb.translation -= origin;
   const Separation x = narrow::separate_placed(*a.shape, fa, *b.shape, fb);
   if (x.outcome != Outcome::answered) return r;
   r.normal_ab = x.normal.cast<double>();
@@ -98,8 +109,8 @@ ImpactAnswer stated_finely(const fast::Search& s, const MovingShape& a, const Mo
   return r;
 }
 
-// Coordinates of advance() are about A's start.
-ImpactAnswer about(ImpactAnswer r, const Vec3& origin) {
+// Shifts the witness points of advance(), which are relative to A's start, to the world.
+ImpactAnswer shift_witnesses(ImpactAnswer r, const Vec3& origin) {
   for (Vec3& x : r.witness_w) x += origin;
   return r;
 }
@@ -114,7 +125,7 @@ std::optional<fast::Round> round_of(const Shape& s) {
 
 bool is_polytope(const Shape& s) { return kind_of(s) == ShapeKind::box || kind_of(s) == ShapeKind::hull; }
 
-// Closed forms of translations; `unsure` where there is none.
+// Closed forms for translations; `unsure` if there is none for the pair.
 fast::Search translated(const MovingShape& a, const MovingShape& b) {
   if (turns(a) || turns(b)) return {};
   const fast::Translation m{narrow::fast::stand<double>(a.pose), narrow::fast::stand<double>(b.pose),
@@ -136,12 +147,12 @@ fast::Search translated(const MovingShape& a, const MovingShape& b) {
 }
 
 ImpactAnswer convex_convex(const MovingShape& a, const MovingShape& b, ImpactDetail detail) {
-  const fast::Search at_once = translated(a, b);
-  // Two boxes alone leave their points to be worked out.
+  const fast::Search closed_form = translated(a, b);
+  // Two boxes are the only closed form without witness points.
   const bool both_boxes = kind_of(*a.shape) == ShapeKind::box && kind_of(*b.shape) == ShapeKind::box;
   const bool points = !both_boxes || detail == ImpactDetail::time;
-  if (at_once.end == fast::SearchEnd::clear || (at_once.end == fast::SearchEnd::hit && points))
-    return stated(at_once, a);
+  if (closed_form.end == fast::SearchEnd::clear || (closed_form.end == fast::SearchEnd::hit && points))
+    return to_answer(closed_form, a);
   const WideFrame fa{fast::rotation_of(a.pose.rotation), WideVec::Zero()};
   const WideFrame fb{fast::rotation_of(b.pose.rotation),
                      b.pose.translation.cast<Wide>() - a.pose.translation.cast<Wide>()};
@@ -149,13 +160,13 @@ ImpactAnswer convex_convex(const MovingShape& a, const MovingShape& b, ImpactDet
   const fast::Mover mb = fast::make_mover(*b.shape, fb.rotation, b.motion);
   const fast::Sweep sweep(ma, mb, fb.translation);
   const double accuracy = accuracy_of(std::max(scale_of(a, ma.body.extent), scale_of(b, mb.body.extent)));
-  if (at_once.end == fast::SearchEnd::hit)
-    return stated_finely(fast::with_points(sweep, at_once, accuracy), a, b);
+  if (closed_form.end == fast::SearchEnd::hit)
+    return to_refined_answer(fast::with_points(sweep, closed_form, accuracy), a, b);
   if (!sweep.turns() && is_polytope(*a.shape) && is_polytope(*b.shape) && !both_boxes)
-    if (const fast::Search s = translating_polytopes(sweep, accuracy); settled(s)) return stated(s, a);
+    if (const fast::Search s = translating_polytopes(sweep, accuracy); settled(s)) return to_answer(s, a);
   const auto search_from = [&](double t) { return search(sweep, t, 1, accuracy, {}); };
   const fast::Search s = search_from(0);
-  if (settled(s)) return stated_finely(s, a, b);
+  if (settled(s)) return to_refined_answer(s, a, b);
   if (s.end == fast::SearchEnd::start)
     if (const auto met = contact_at_start(a, b, detail)) return *met;
   const MovingCore ca = moving_core(narrow::make_core(*a.shape, fa), a.motion);
@@ -163,7 +174,7 @@ ImpactAnswer convex_convex(const MovingShape& a, const MovingShape& b, ImpactDet
   const Pursuit p = pursue(sweep, s, search_from, [&](double t, double leave) {
     return advance(ca, cb, t, {1, accuracy, leave});
   });
-  return settled(p.search) ? stated_finely(p.search, a, b) : about(p.fine, a.pose.translation);
+  return settled(p.search) ? to_refined_answer(p.search, a, b) : shift_witnesses(p.fine, a.pose.translation);
 }
 
 ImpactAnswer convex_half_space(const MovingShape& a, const MovingShape& b, ImpactDetail detail) {
@@ -178,14 +189,14 @@ ImpactAnswer convex_half_space(const MovingShape& a, const MovingShape& b, Impac
   const double accuracy = accuracy_of(scale_of(a, ma.body.extent));
   const auto search_from = [&](double t) { return search(sweep, t, 1, accuracy, normal); };
   const fast::Search s = search_from(0);
-  if (settled(s)) return stated(s, a);
+  if (settled(s)) return to_answer(s, a);
   if (s.end == fast::SearchEnd::start)
     if (const auto met = contact_at_start(a, b, detail)) return *met;
   const MovingCore ca = moving_core(narrow::make_core(*a.shape, fa), a.motion);
   const Pursuit p = pursue(sweep, s, search_from, [&](double t, double leave) {
     return advance(ca, plane, t, {1, accuracy, leave});
   });
-  return settled(p.search) ? stated(p.search, a) : about(p.fine, a.pose.translation);
+  return settled(p.search) ? to_answer(p.search, a) : shift_witnesses(p.fine, a.pose.translation);
 }
 
 ImpactAnswer mirrored(ImpactAnswer r) {
@@ -202,11 +213,11 @@ ImpactAnswer from_convex(const MovingShape& a, const MovingShape& b, ImpactDetai
   if (!mesh) return convex_convex(a, b, detail);
   const WideFrame frame = shifted(b.pose, a.pose.translation.cast<Wide>());
   const double accuracy = accuracy_of(std::max(scale_of(a, 0), scale_of(b, 0)));
-  return about(convex_mesh(a, *mesh, b.tree, frame, accuracy), a.pose.translation);
+  return shift_witnesses(convex_mesh(a, *mesh, b.tree, frame, accuracy), a.pose.translation);
 }
 
-// A ball turns into itself.
-MovingShape without_idle_turn(MovingShape s) {
+// A ball is invariant under rotation.
+MovingShape without_ineffective_rotation(MovingShape s) {
   const auto* e = std::get_if<Ellipsoid>(s.shape);
   const bool ball =
       e ? (e->semi_axes.array() == e->semi_axes[0]).all() : kind_of(*s.shape) == ShapeKind::sphere;
@@ -217,7 +228,7 @@ MovingShape without_idle_turn(MovingShape s) {
 }  // namespace
 
 ImpactAnswer time_of_impact(const MovingShape& first, const MovingShape& second, ImpactDetail detail) {
-  const MovingShape a = without_idle_turn(first), b = without_idle_turn(second);
+  const MovingShape a = without_ineffective_rotation(first), b = without_ineffective_rotation(second);
   for (const MovingShape* s : {&a, &b})
     if (is_static_shape(*s->shape) && moves(*s)) {
       ImpactAnswer r;

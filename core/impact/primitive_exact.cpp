@@ -1,12 +1,13 @@
-// The question: does the moving difference polygon (primitive_polygon.h) hold the origin at some t in [0,1],
-// and when first? Contact needs the origin in the plane of the polygon: the determinant of three corners, a
-// cubic in t, is zero. Unless it is zero throughout, its roots are the only candidates. If it is, the origin
-// always lies in that plane, and contact begins at t = 0 or where one of the quadratics below changes sign.
-// At a candidate the origin is in the polygon when it is on no edge's outer side; seen along a coordinate
-// axis that the plane does not hold. A polygon that has collapsed into a line is the union of its edges. All
-// coordinates become integers by one power of two; every sign is exact (exact_root.h). Bits: a corner 54 more
-// than the spread of exponents, the cubic three times that, a remainder sequence twenty times the cubic.
-// Exits: the candidates are finitely many, each is decided.
+// Decides whether the moving difference polygon (primitive_polygon.h) contains the origin at some t in [0,1],
+// and when first. Contact requires the origin to lie in the plane of the polygon: the determinant of three
+// corners, a cubic in t, is zero. Unless the cubic vanishes identically, its roots are the only candidates.
+// If it does, the origin always lies in that plane, and contact begins at t = 0 or where one of the
+// quadratics below changes sign. At a candidate, the origin is in the polygon if it is on no edge's outer
+// side, as seen along a coordinate axis that is not in the plane. A polygon that has collapsed into a line is
+// the union of its edges. All coordinates are scaled to integers by one power of two, and every sign is exact
+// (exact_root.h). Bits: a corner 54 more than the spread of exponents, the cubic three times that, a
+// remainder sequence twenty times the cubic. Termination: the candidates are finitely many, and each is
+// decided.
 #include "core/impact/primitive_exact.h"
 
 #include <cmath>
@@ -26,7 +27,7 @@ PolyVec cross(const PolyVec& a, const PolyVec& b) {
 }
 PolyVec operator-(const PolyVec& a, const PolyVec& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
 
-// Exponent of the lowest bit that a double can have set.
+// Exponent of the lowest bit that may be set in a double.
 int lowest_exponent(double x) { return x == 0 ? std::numeric_limits<int>::max() : std::ilogb(x) - 52; }
 
 Integer scaled(double x, int unit_exponent) {
@@ -121,14 +122,16 @@ ExactImpact first_contact(const Question& q, const Poly& of, const DyadicInterva
   for (const DyadicInterval& root : isolated_roots(of, window)) {
     if (sign_at_root(of, root, from_start()) < 0 || sign_at_root(of, root, to_end()) < 0) continue;
     if (!holds_origin(q.polygon, of, root)) continue;
-    r.collides = true, r.t_below = q.clear_until;
+    r.collides = true;
+    r.t_below = q.clear_until;
     if (q.narrow) r.t_below = std::max(r.t_below, below(narrowed(of, root)));
     return r;
   }
   return r;
 }
 
-// Where contact is most likely, in units of 2^-60: from 2^-40 before to 2^-20 after the time that is reached.
+// The window where contact is most likely, in units of 2^-60: from 2^-40 before to 2^-20 after the time
+// reached.
 DyadicInterval near_window(double t) {
   const Integer at(static_cast<std::int64_t>(std::ldexp(t, 60)));
   return {at - Integer(std::int64_t{1} << 20), at + Integer(std::int64_t{1} << 40), 60};

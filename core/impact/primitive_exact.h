@@ -1,4 +1,4 @@
-// Deforming primitives decided in integers: no false verdict, whatever the coordinates.
+// Deforming primitives decided in integers: no false verdicts, whatever the coordinates.
 #pragma once
 
 #include "core/impact/primitive_impact.h"
@@ -10,8 +10,8 @@ struct ExactImpact {
   double t_below = 0;  // never later than the first contact
 };
 
-/// No contact in [0, clear_until) is known beforehand; `narrow`: t_below is to be within 2^-49 of the first
-/// contact, otherwise `clear_until` will do where contact follows within 2^-20. All coordinates finite.
+/// Precondition: no contact in [0, clear_until), all coordinates finite. `narrow`: t_below must be within
+/// 2^-49 of the first contact; otherwise `clear_until` suffices if contact follows within 2^-20.
 ExactImpact decide_exactly(PrimitiveKind kind, const std::array<Vec3, 4>& start,
                            const std::array<Vec3, 4>& end, double clear_until, bool narrow);
 

@@ -1,21 +1,17 @@
-// The question: the first t in [0,1] at which two primitives with straight vertex paths are within a
-// distance.
+// Finds the first t in [0,1] at which two primitives with straight vertex paths are within a distance.
 //
 // Method: inclusion-based root finding (Wang, Ferguson, Schneider, Jiang, Attene, Panozzo 2021, "A Large
 // Scale Benchmark and an Inclusion-Based Algorithm for Continuous Collision Detection"): a part of the domain
-// is discarded only when it provably holds no contact, and what cannot be discarded is contact. Departures:
-//  * The paper bisects (t, u, v). Here only time is cut, and u and v are eliminated by a separating
-//  direction:
-//    a projection on a fixed direction is linear in time, so that the direction towards the nearest point at
-//    t proves everything up to the very time at which it ceases to separate. Near a contact that is Newton's
-//    method from one side, hence a handful of steps instead of thousands of boxes.
-//  * Distances are Euclidean.
-//  * With min_separation = 0 the rest that doubles cannot discard is decided: by a proof of crossing in
-//  double
-//    (primitive_volume.h), else in integers (primitive_exact.h).
+// is discarded only if it provably contains no contact, and what cannot be discarded is contact. Departures:
+// * The paper bisects (t, u, v). Here only time is subdivided, and u and v are eliminated by a separating
+//   direction: a projection on a fixed direction is linear in time, so the direction towards the nearest
+//   point at t proves everything up to the time at which it ceases to separate. Near a contact this is
+//   Newton's method from one side, hence a handful of steps instead of thousands of boxes.
+// * Distances are Euclidean.
+// * With min_separation = 0, the remainder that doubles cannot discard is decided by a proof of crossing in
+//   double (primitive_volume.h), otherwise in integers (primitive_exact.h).
 // Guarantee: `toi` is never later than the first contact; with min_separation = 0 and tolerance = 0 there are
-// no false verdicts at all.
-// Exits: PrimitiveExit.
+// no false verdicts. Outcomes: PrimitiveExit.
 #include "core/impact/primitive_impact.h"
 
 #include <cmath>
@@ -38,7 +34,8 @@ MovingPolygon difference_polygon(PrimitiveKind kind, const std::array<Vec3, 4>& 
       w = {x[2] - x[0], x[2] - x[1], x[3] - x[1], x[3] - x[0]};
   };
   p.corners = kind == PrimitiveKind::vertex_face ? 3 : 4;
-  fill(start, p.start), fill(end, p.end);
+  fill(start, p.start);
+  fill(end, p.end);
   for (std::size_t k = 0; k < p.corners; ++k)
     p.size = p.size.cwiseMax(p.start[k].cwiseAbs()).cwiseMax(p.end[k].cwiseAbs());
   return p;
@@ -50,7 +47,7 @@ namespace {
 
 using namespace ccd;
 
-// Along a coordinate axis: the sign of a difference is exact, its size off by u.
+// Along a coordinate axis, the sign of a difference is exact and its magnitude off by u.
 bool apart_along_an_axis(const MovingPolygon& p, double min_separation) {
   const double need = min_separation * (1 + 4 * unit_roundoff);
   Vec3 lo = p.start[0].cwiseMin(p.end[0]), hi = p.start[0].cwiseMax(p.end[0]);
@@ -65,7 +62,7 @@ struct Advance {
   double t = 0;
   double separation = 0;
   int steps = 0;
-  bool reached_end = false, within_tolerance = false, ended = false;  // ended: nothing separates any further
+  bool reached_end = false, within_tolerance = false, ended = false;  // ended: no direction makes progress
 };
 
 Advance advance(const MovingPolygon& p, const PrimitiveOptions& o, int most_steps) {
@@ -78,18 +75,20 @@ Advance advance(const MovingPolygon& p, const PrimitiveOptions& o, int most_step
       const Clearance c = clear_along(p, tries.n[i], a.t, o.min_separation);
       if (i == 0) a.separation = c.separation;
       if (!(c.until > until)) continue;
-      until = c.until, a.separation = c.separation;
+      until = c.until;
+      a.separation = c.separation;
       break;
     }
     a.reached_end = until >= 1;
     a.within_tolerance = o.tolerance > 0 && a.separation <= o.min_separation + o.tolerance;
     if (a.reached_end || a.within_tolerance) return a;
-    // A step of one unit in the last place is the rounding of t and no progress.
+    // A step of one ulp is the rounding of t, not progress.
     a.ended = until <= a.t * (1 + 2 * unit_roundoff);
     if (a.ended) return a;
     a.t = until;
-    // Where the polygon turns, a fixed direction lasts only for distance / (turning speed · reach). The plane
-    // of the polygon turns along: as long as the origin is proven off it, there is no contact.
+    // Where the polygon rotates, a fixed direction lasts only for distance / (angular speed · reach). The
+    // plane of the polygon rotates with it: as long as the origin is proven off that plane, there is no
+    // contact.
     if (o.min_separation > 0) continue;
     a.t = volume_clear_until(p, a.t);
     a.reached_end = a.t >= 1;
@@ -98,8 +97,8 @@ Advance advance(const MovingPolygon& p, const PrimitiveOptions& o, int most_step
   return a;
 }
 
-// Counts of directions: a contact takes about five, a graze at the rounding of doubles thirty. Where the
-// integers can decide it is cheaper to ask them than to creep on.
+// Numbers of directions: a contact takes about five, a graze at the rounding of doubles thirty. Where the
+// integers can decide, calling them is cheaper than making tiny steps.
 constexpr int most_steps_before_integers = 64, most_steps = 1 << 16;
 
 bool finite(const std::array<Vec3, 4>& x) {
@@ -115,21 +114,33 @@ PrimitiveImpact primitive_impact(PrimitiveKind kind, const std::array<Vec3, 4>& 
     r.outcome = Outcome::invalid_input;
     return r;
   }
-  const auto miss = [&](PrimitiveExit exit) { return r.clear_until = 1, r.exit = exit, r; };
-  const auto hit = [&](PrimitiveExit exit) { return r.toi = r.clear_until, r.exit = exit, r; };
+  const auto miss = [&](PrimitiveExit exit) {
+    r.clear_until = 1;
+    r.exit = exit;
+    return r;
+  };
+  const auto hit = [&](PrimitiveExit exit) {
+    r.toi = r.clear_until;
+    r.exit = exit;
+    return r;
+  };
   const MovingPolygon p = difference_polygon(kind, start, end);
   if (apart_along_an_axis(p, options.min_separation)) return miss(PrimitiveExit::box);
   const bool can_be_exact = options.min_separation == 0 && options.tolerance == 0;
   const Advance a = advance(p, options, can_be_exact ? most_steps_before_integers : most_steps);
-  r.steps = a.steps, r.separation = std::max(0.0, a.separation), r.clear_until = a.t;
+  r.steps = a.steps;
+  r.separation = std::max(0.0, a.separation);
+  r.clear_until = a.t;
   if (a.reached_end) return miss(PrimitiveExit::direction);
   if (a.within_tolerance) return hit(PrimitiveExit::tolerance);
-  // Nothing separates: as near as doubles tell, unless the nearest point itself was lost.
+  // No direction separates: contact to within the resolution of doubles, unless the nearest point itself was
+  // lost.
   const double resolved = 64 * unit_roundoff * p.size.sum();
   if (!can_be_exact) {
     if (a.separation <= options.min_separation * (1 + 64 * unit_roundoff) + resolved)
       return hit(PrimitiveExit::tolerance);
-    r.outcome = Outcome::not_converged, r.exit = PrimitiveExit::stuck;
+    r.outcome = Outcome::not_converged;
+    r.exit = PrimitiveExit::stuck;
     return r;
   }
   if (a.ended && crosses_near(p, a.t)) return hit(PrimitiveExit::crossing);

@@ -1,8 +1,8 @@
 // The difference set of two primitives whose vertices move on straight paths: v − f for a vertex and a face,
-// b − a for two edges. It is a triangle or a parallelogram, its corners move on straight paths too, and the
-// primitives meet at t exactly when it holds the origin then.
+// b − a for two edges. It is a triangle or a parallelogram whose corners also move on straight paths, and the
+// primitives meet at t exactly when it contains the origin at t.
 //
-// Error model, u = 2⁻⁵³. A corner component is one difference of two doubles: relative error u, right sign.
+// Error model, u = 2⁻⁵³. A corner component is one difference of two doubles: relative error u, correct sign.
 // With M_c >= |component c| of every corner at both ends, a corner at a time t that is a double,
 // (1 − t)·start + t·end, has errors u·M_c of the corner, u·M_c of 1 − t, u·M_c of the products, u·M_c of the
 // sum: at most 4.1u·M_c.
@@ -34,7 +34,7 @@ inline Corners corners_at(const MovingPolygon& p, double t) {
   return w;
 }
 
-/// Largest |component| of the true corners at two times, from the computed ones.
+/// Bound of the true corners' |components| at two times, from the computed corners.
 inline Vec3 local_size(const MovingPolygon& p, const Corners& from, const Corners& to) {
   Vec3 l = Vec3::Zero();
   for (std::size_t k = 0; k < p.corners; ++k) l = l.cwiseMax(from[k].cwiseAbs()).cwiseMax(to[k].cwiseAbs());

@@ -1,16 +1,15 @@
-// The signed volume that the polygon's plane spans with the origin, a cubic in time, and what its sign
-// proves.
+// The signed volume spanned by the polygon's plane and the origin, a cubic in time, and what its sign proves.
 #pragma once
 
 #include "core/impact/primitive_polygon.h"
 
 namespace touchstone::ccd {
 
-/// A time up to which, from t on, the volume is proven not to be zero, so that the origin is in no plane of
-/// the polygon; t when nothing is proven.
+/// A time up to which, from t on, the volume is proven to be non-zero, so that the origin is not in the
+/// polygon's plane; t if nothing is proven.
 double volume_clear_until(const MovingPolygon& p, double t);
 
-/// True when it is proven that the polygon holds the origin at some time near t; false says nothing.
+/// True: the polygon is proven to contain the origin at some time near t. False: undecided.
 bool crosses_near(const MovingPolygon& p, double t);
 
 }  // namespace touchstone::ccd

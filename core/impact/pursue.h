@@ -1,6 +1,7 @@
-// Double first; where it does not tell, steps in extended precision until the gap has opened, then double
-// again. A pair that starts in a touch or comes within rounding of one, and goes on, costs a few wide steps
-// and not a wide path. Each round moves on: the gap at which a round ends grows until double does.
+// Tries double first. Where it is undecided, continues in extended precision until the gap has opened, then
+// returns to double. A pair that starts touching, or comes within rounding of contact and separates again,
+// costs a few wide steps instead of a wide path. Every round makes progress: the gap at which a round ends
+// grows until double can continue.
 #pragma once
 
 #include "core/impact/advance.h"
@@ -12,14 +13,14 @@ inline bool settled(const fast::Search& s) {
   return s.end == fast::SearchEnd::hit || s.end == fast::SearchEnd::clear;
 }
 
-/// `fine` unless the search in double has `settled`; its steps are those of all.
+/// `fine` is the result unless the search in double has `settled`; its steps are the total.
 struct Pursuit {
   fast::Search search;
   ImpactAnswer fine;
 };
 
-/// search_from(t): fast::search from t on. advance_from(t, leave): advance() likewise. No contact before
-/// s.clear_until.
+/// search_from(t): fast::search from t on. advance_from(t, leave): advance() from t on. Precondition: no
+/// contact before s.clear_until.
 template <class Search, class Wider>
 Pursuit pursue(const fast::Sweep& sweep, fast::Search s, const Search& search_from,
                const Wider& advance_from) {
@@ -28,8 +29,9 @@ Pursuit pursue(const fast::Sweep& sweep, fast::Search s, const Search& search_fr
   double leave = 64 * sweep.at(s.clear_until, true).error;
   while (!settled(s)) {
     Advance x = advance_from(s.clear_until, leave);
-    steps += x.answer.steps, x.answer.steps = steps;
-    if (!x.wide_open) return {s, x.answer};
+    steps += x.answer.steps;
+    x.answer.steps = steps;
+    if (!x.gap_opened) return {s, x.answer};
     if (steps > step_cap) {
       x.answer.outcome = Outcome::not_converged;
       return {s, x.answer};

@@ -1,6 +1,6 @@
-// A placed convex shape as core ⊕ ball: sphere = point ⊕ ball, capsule = segment ⊕ ball, every other shape
-// its own core with radius 0. GJK and EPA see the cores only, so a shallow contact of rounded shapes is a
-// distance of cores, which is well conditioned, and not a depth.
+// A placed convex shape as core ⊕ ball: sphere = point ⊕ ball, capsule = segment ⊕ ball; every other shape is
+// its own core with radius 0. GJK and EPA see only the cores, so a shallow contact of rounded shapes is a
+// distance between cores, which is well conditioned, instead of a depth.
 #pragma once
 
 #include <algorithm>
@@ -20,7 +20,7 @@ struct ConvexCore {
   V3<R> size = V3<R>::Zero();      // half extents, semi-axes, or (radius, -, half height); segment: z only
   std::span<const Vec3> vertices;  // kind vertices; the shape (or triangle) outlives the core
   R radius = 0;                    // of the ball
-  R reach = 0;                     // no point of the core is farther from the frame's origin
+  R reach = 0;                     // bound on the core's distance from the frame's origin
   Frame<R> frame;
 };
 
@@ -30,7 +30,7 @@ bool is_polytope(const ConvexCore<R>& c) {
          c.kind == CoreKind::vertices;
 }
 
-/// A core point farthest along d, body frame; d of any length, zero allowed.
+/// A core point farthest along d, in the body frame; d of any length, including zero.
 template <class R>
 V3<R> support_local(const ConvexCore<R>& c, const V3<R>& d) {
   const V3<R>& s = c.size;
@@ -61,7 +61,10 @@ V3<R> support_local(const ConvexCore<R>& c, const V3<R>& d) {
       R best_dot = d.dot(best->template cast<R>());
       for (const Vec3& v : c.vertices.subspan(1)) {
         const R dot = d.x() * R(v.x()) + d.y() * R(v.y()) + d.z() * R(v.z());
-        if (dot > best_dot) best_dot = dot, best = &v;
+        if (dot > best_dot) {
+          best_dot = dot;
+          best = &v;
+        }
       }
       return best->template cast<R>();
     }
@@ -69,13 +72,13 @@ V3<R> support_local(const ConvexCore<R>& c, const V3<R>& d) {
   return V3<R>::Zero();
 }
 
-/// The same in the frame's outer coordinates.
+/// The same in the outer coordinates of the frame.
 template <class R>
 V3<R> support(const ConvexCore<R>& c, const V3<R>& d) {
   return c.frame.rotation * support_local<R>(c, c.frame.rotation.transpose() * d) + c.frame.translation;
 }
 
-/// h(n) of core ⊕ ball for a unit n.
+/// h(n) of core ⊕ ball for a unit vector n.
 template <class R>
 R support_value(const ConvexCore<R>& c, const V3<R>& n) {
   return n.dot(support(c, n)) + c.radius;
@@ -87,29 +90,37 @@ inline ConvexCore<Wide> vertices_core(std::span<const Vec3> vertices, const Wide
   return c;
 }
 
-/// Precondition: a convex bounded shape (neither half-space nor mesh).
+/// Precondition: a bounded convex shape (neither half-space nor mesh).
 inline ConvexCore<Wide> make_core(const Shape& shape, const WideFrame& frame) {
   ConvexCore<Wide> c;
   c.frame = frame;
   const auto round = [&](CoreKind kind, Wide r, Wide h) {
-    c.kind = kind, c.size = WideVec(r, r, h), c.reach = std::sqrt(r * r + h * h);
+    c.kind = kind;
+    c.size = WideVec(r, r, h);
+    c.reach = std::sqrt(r * r + h * h);
   };
   if (const auto* s = std::get_if<Sphere>(&shape)) c.radius = s->radius;
-  if (const auto* s = std::get_if<Capsule>(&shape))
-    round(CoreKind::segment, 0, s->half_height), c.radius = s->radius;
+  if (const auto* s = std::get_if<Capsule>(&shape)) {
+    round(CoreKind::segment, 0, s->half_height);
+    c.radius = s->radius;
+  }
   if (const auto* s = std::get_if<Cylinder>(&shape)) round(CoreKind::cylinder, s->radius, s->half_height);
   if (const auto* s = std::get_if<Cone>(&shape)) round(CoreKind::cone, s->radius, s->half_height);
   if (const auto* s = std::get_if<Hull>(&shape)) return vertices_core(s->vertices, frame);
   if (const auto* s = std::get_if<Box>(&shape)) {
-    c.kind = CoreKind::box, c.size = s->half_extents.cast<Wide>(), c.reach = c.size.norm();
+    c.kind = CoreKind::box;
+    c.size = s->half_extents.cast<Wide>();
+    c.reach = c.size.norm();
   }
   if (const auto* s = std::get_if<Ellipsoid>(&shape)) {
-    c.kind = CoreKind::ellipsoid, c.size = s->semi_axes.cast<Wide>(), c.reach = c.size.maxCoeff();
+    c.kind = CoreKind::ellipsoid;
+    c.size = s->semi_axes.cast<Wide>();
+    c.reach = c.size.maxCoeff();
   }
   return c;
 }
 
-/// A point of the Minkowski difference B − A with the points that made it.
+/// A point of the Minkowski difference B − A and the points that generate it.
 template <class R>
 struct DifferenceVertex {
   V3<R> a, b, w;  // w = b − a
@@ -119,7 +130,9 @@ struct DifferenceVertex {
 template <class R>
 DifferenceVertex<R> difference_support(const ConvexCore<R>& a, const ConvexCore<R>& b, const V3<R>& d) {
   DifferenceVertex<R> v;
-  v.a = support<R>(a, -d), v.b = support<R>(b, d), v.w = v.b - v.a;
+  v.a = support<R>(a, -d);
+  v.b = support<R>(b, d);
+  v.w = v.b - v.a;
   return v;
 }
 

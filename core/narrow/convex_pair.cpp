@@ -8,29 +8,33 @@
 namespace touchstone::narrow {
 namespace {
 
-// GJK on smooth bodies gains a constant factor an iteration; 60 digits of safety over the worst seen
+// On smooth bodies GJK converges linearly; this leaves 60 digits of margin over the worst case seen
 // (tests/core/stress).
 constexpr int gjk_cap = 2000;
-// Expansions before a ring of minima is suspected: isolated minima close in 50 to 250. Polytopes have none,
-// and those of thousands of vertices about one centre need thousands.
+// Expansions before a ring of minima is suspected: isolated minima close within 50 to 250. Polytopes have no
+// rings, but concentric ones with thousands of vertices need thousands of expansions.
 constexpr int epa_budget = 400, epa_budget_of_polytopes = 16384;
 
 using Core = ConvexCore<Wide>;
 
-// Witnesses move along their own difference, so that b − a stays parallel to it: the normal of the best
-// support plane may differ from it by the root of the tolerance.
+// Witness points move along their own difference, so that b − a stays parallel to it: the normal of the best
+// support plane may deviate from it by the square root of the tolerance.
 void inflate(Separation& s, const Core& a, const Core& b) {
   const WideVec v = s.b - s.a;
   const Wide length = v.norm();
   WideVec d = s.normal;
   if (length > tolerance::narrow_touching_factor * s.size) d = v * ((s.gap > 0 ? 1 : -1) / length);
   s.gap -= a.radius + b.radius;
-  s.a += a.radius * d, s.b -= b.radius * d;
+  s.a += a.radius * d;
+  s.b -= b.radius * d;
 }
 
 Separation from_gjk(const GjkResult<Wide>& g, Wide size) {
   Separation s;
-  s.size = size, s.gap = g.upper, s.a = g.a, s.b = g.b;
+  s.size = size;
+  s.gap = g.upper;
+  s.a = g.a;
+  s.b = g.b;
   s.normal = g.normal;
   s.slack = s.local_slack = std::max<Wide>(0, g.upper - g.lower);
   return s;
@@ -54,23 +58,34 @@ Separation from_epa(EpaResult<Wide> e, const Core& a, const Core& b, Wide size) 
     local = e.status == EpaStatus::closed;
   }
   Separation s;
-  s.size = size, s.gap = -e.upper, s.normal = e.normal, s.a = e.a, s.b = e.b;
+  s.size = size;
+  s.gap = -e.upper;
+  s.normal = e.normal;
+  s.a = e.a;
+  s.b = e.b;
   s.slack = std::max<Wide>(0, e.upper - proven);
   s.local_slack = local ? tolerance : s.slack;
   return s;
 }
 
-// A walk that stalled close to contact: the expanding polytope looks at the same boundary from the other
-// side. Its signed planes decide whether the origin is inside; if not, its direction and point sharpen both
-// bounds of the distance.
+// For a GJK run that stalled close to contact: EPA examines the same boundary from the other side. The signed
+// planes of its polytope decide whether the origin is inside; if it is not, their direction and point tighten
+// both bounds of the distance.
 Separation second_opinion(const GjkResult<Wide>& g, const Core& a, const Core& b, Wide size) {
   const EpaResult<Wide> e = expand(g, a, b, size);
   if (e.status != EpaStatus::broken && e.upper >= 0 && e.lower >= -tolerance::narrow_gap_factor * size)
     return from_epa(e, a, b, size);
   Separation s = from_gjk(g, size);
   Wide lower = g.lower;
-  if (-e.upper > lower) lower = -e.upper, s.normal = e.normal;
-  if (const Wide d = (e.b - e.a).norm(); d < s.gap) s.gap = d, s.a = e.a, s.b = e.b;
+  if (-e.upper > lower) {
+    lower = -e.upper;
+    s.normal = e.normal;
+  }
+  if (const Wide d = (e.b - e.a).norm(); d < s.gap) {
+    s.gap = d;
+    s.a = e.a;
+    s.b = e.b;
+  }
   s.slack = s.local_slack = std::max<Wide>(0, s.gap - lower);
   return s;
 }
@@ -99,7 +114,10 @@ Separation separate_convex(const Core& a, const Core& b) {
 Separation certified_or_general(const Core& a, const Core& b, const WideVec& point_a, const WideVec& point_b,
                                 const WideVec& normal) {
   Separation s;
-  s.size = pair_size(a, b), s.a = point_a, s.b = point_b, s.normal = normal;
+  s.size = pair_size(a, b);
+  s.a = point_a;
+  s.b = point_b;
+  s.normal = normal;
   s.gap = (point_b - point_a).norm();
   const Wide lower = normal.dot(support<Wide>(b, -normal)) - normal.dot(support<Wide>(a, normal));
   s.slack = s.local_slack = std::max<Wide>(0, s.gap - lower);

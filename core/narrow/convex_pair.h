@@ -6,19 +6,19 @@
 
 namespace touchstone::narrow {
 
-/// The length that tolerances of the pair are relative to.
+/// The length that the tolerances of the pair are relative to.
 Wide pair_size(const ConvexCore<Wide>& a, const ConvexCore<Wide>& b);
 
-/// Both cores in coordinates near the pair. Never throws; not_converged when slack exceeds
+/// Both cores are in coordinates near the pair. Never throws; `not_converged` when the slack exceeds
 /// narrow_accept_factor·size.
 Separation separate_convex(const ConvexCore<Wide>& a, const ConvexCore<Wide>& b);
 
-/// Core points a, b and a unit direction, proposed by a closed form: accepted as the answer when the
-/// direction's support planes prove |b − a| to be the distance, else the general algorithm answers.
+/// Takes core points a, b and a unit direction proposed by a closed form. They are the answer if the
+/// direction's support planes prove that |b − a| is the distance; otherwise the general algorithm is used.
 Separation certified_or_general(const ConvexCore<Wide>& a, const ConvexCore<Wide>& b, const WideVec& point_a,
                                 const WideVec& point_b, const WideVec& normal);
 
-/// The same pair seen from the other side, in the same coordinates.
+/// Swaps the roles of A and B, in the same coordinates.
 Separation mirrored(Separation s);
 
 }  // namespace touchstone::narrow

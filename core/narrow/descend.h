@@ -1,16 +1,17 @@
 // The least depth where EPA cannot separate the candidates: minima along a curve (nearly coaxial round
-// bodies) or a surface (nearly concentric spheroids), in which the depth differs by less than any affordable
+// bodies) or a surface (nearly concentric spheroids), on which the depth varies by less than any affordable
 // polytope resolves.
 //
-// Search: directions are written as (azimuth θ, polar angle α) about the axis of a round body. φ(θ) = min
-// over α of the height h(n(θ, α)) is a function of one variable with few minima. Both minimisations are
-// samples whose valleys are followed down (kinks do no harm), and the search resolves differences of φ down
-// to rounding. What is proven globally stays what EPA proved (`lower`); samples of φ every 7.5° are what
-// speaks for the rest.
+// Search: directions are parametrised by azimuth θ and polar angle α about the axis of a round body. φ(θ) =
+// min over α of the height h(n(θ, α)) is a function of one variable with few minima. Both minimisations
+// sample the function and descend from the local minima of the samples (kinks do no harm), and resolve
+// differences of φ down to rounding. Only EPA's bound (`lower`) is proven globally; beyond it, the evidence
+// is samples of φ every 7.5°.
 //
-// Witness: one proximal step. EPA is asked for the boundary point nearest to s·x, x the foot of the found
-// plane, 0 < s < 1. Near x that point is isolated even when the origin's nearest points form a ring, so EPA
-// closes; its normal m1 satisfies h(m1) <= h(m) (1 − s (1 − m·m1)), and a fixed point is a local minimum.
+// Witness: one proximal step. EPA computes the boundary point nearest to s·x, where x is the foot of the
+// plane found and 0 < s < 1. Near x that point is isolated even when the points nearest to the origin form a
+// ring, so EPA closes; its normal m1 satisfies h(m1) <= h(m) (1 − s (1 − m·m1)), and a fixed point is a local
+// minimum.
 #pragma once
 
 #include <algorithm>
@@ -26,10 +27,10 @@ namespace touchstone::narrow {
 
 namespace detail {
 
-/// Least point of f in [lo, hi]; returns (argument, value). Brent 1973, ch. 5: a parabola through the three
-/// best points where that shrinks the steps, golden sections elsewhere, so kinks do no harm. Departure: it
-/// also ends when the values at both ends of what is left exceed the least by rounding only, which for a
-/// smooth minimum comes long before the arguments are as close as they get.
+/// Minimum of f in [lo, hi]; returns (argument, value). Brent 1973, ch. 5: a parabola through the three best
+/// points where that shrinks the steps, golden sections elsewhere, so kinks do no harm. Departure: it also
+/// ends when the values at both ends of the remaining interval exceed the minimum by no more than rounding;
+/// for a smooth minimum this happens long before the arguments have converged.
 template <class R, class F>
 std::pair<R, R> least_between(R lo, R hi, R noise, F&& f) {
   constexpr int steps = 100;  // 0.618^100 = 1e-21
@@ -45,26 +46,40 @@ std::pair<R, R> least_between(R lo, R hi, R noise, F&& f) {
     if (den > 0) num = -num;
     den = std::abs(den);
     if (std::abs(num) < std::abs(den * before / 2) && num > den * (lo - x) && num < den * (hi - x)) {
-      before = step, step = num / den;
+      before = step;
+      step = num / den;
     } else {
-      before = x < middle ? hi - x : lo - x, step = section * before;
+      before = x < middle ? hi - x : lo - x;
+      step = section * before;
     }
     const R u = std::abs(step) >= finest ? x + step : x + (step > 0 ? finest : -finest), fu = f(u);
     if (fu <= fx) {
-      (u < x ? hi : lo) = x, (u < x ? f_hi : f_lo) = fx;
-      third = second, f_third = f_second, second = x, f_second = fx, x = u, fx = fu;
+      (u < x ? hi : lo) = x;
+      (u < x ? f_hi : f_lo) = fx;
+      third = second;
+      f_third = f_second;
+      second = x;
+      f_second = fx;
+      x = u;
+      fx = fu;
     } else {
-      (u < x ? lo : hi) = u, (u < x ? f_lo : f_hi) = fu;
-      if (fu <= f_second || second == x)
-        third = second, f_third = f_second, second = u, f_second = fu;
-      else if (fu <= f_third || third == x || third == second)
-        third = u, f_third = fu;
+      (u < x ? lo : hi) = u;
+      (u < x ? f_lo : f_hi) = fu;
+      if (fu <= f_second || second == x) {
+        third = second;
+        f_third = f_second;
+        second = u;
+        f_second = fu;
+      } else if (fu <= f_third || third == x || third == second) {
+        third = u;
+        f_third = fu;
+      }
     }
   }
   return {x, fx};
 }
 
-/// Column of the frame about which a core is (most nearly) round; -1 when it has no such axis.
+/// Column of the frame that is the axis of (approximate) revolution of a core; -1 if there is none.
 template <class R>
 int round_axis(const ConvexCore<R>& c) {
   if (c.kind == CoreKind::segment || c.kind == CoreKind::cylinder || c.kind == CoreKind::cone) return 2;
@@ -89,11 +104,11 @@ class MeridianSearch {
   V3<R> direction(R theta, R alpha) const { return std::sin(alpha) * across(theta) + std::cos(alpha) * w_; }
   R height(const V3<R>& n) const { return -n.dot(difference_support<R>(a_, b_, -n).w); }
 
-  /// Least direction and height.
+  /// Direction of least height, and that height.
   std::pair<V3<R>, R> least() const {
     std::array<std::pair<R, R>, azimuths> at;  // α and φ at θ_i
     for (int i = 0; i < azimuths; ++i) at[static_cast<std::size_t>(i)] = whole_meridian(i * step_theta);
-    // On an exact ring every sample is a minimum up to rounding; four of them are then as good as all.
+    // On an exact ring every sample is a minimum up to rounding, and following four of them is enough.
     constexpr std::size_t followed = 4;
     std::vector<std::pair<R, int>> valleys;
     for (int i = 0; i < azimuths; ++i) {
@@ -120,8 +135,8 @@ class MeridianSearch {
   static constexpr R step_theta = 2 * std::numbers::pi_v<R> / azimuths,
                      step_alpha = std::numbers::pi_v<R> / polars;
 
-  // Two round bodies have two families of minima on a meridian, which may lie close and change places: every
-  // valley of the samples is followed down.
+  // Two round bodies have two families of minima on a meridian, which may lie close together and swap order:
+  // every local minimum of the samples is followed.
   std::pair<R, R> whole_meridian(R theta) const {
     const V3<R> out = across(theta);
     const auto h = [&](R x) { return height(std::sin(x) * out + std::cos(x) * w_); };
@@ -158,30 +173,39 @@ EpaResult<R> proximal(const V3<R>& n, R share, const ConvexCore<R>& a, const Con
   const GjkResult<R> g = gjk<R>(a, moved, tolerance, tolerance / 4, budget);
   if (g.status != GjkStatus::enclosed && g.status != GjkStatus::touching) return step;
   step = Epa<R>(a, moved, size, tolerance).run(g, budget);
-  step.b += shift, step.upper = height(step.normal);
+  step.b += shift;
+  step.upper = height(step.normal);
   return step;
 }
 
 }  // namespace detail
 
-/// Improves e in place; e.status becomes closed at a local minimum. `lower` is kept: it is what EPA proved of
-/// all directions.
+/// Improves e in place; e.status becomes `closed` at a local minimum. `lower` is kept: it is what EPA proved
+/// for all directions.
 template <class R>
 void descend(EpaResult<R>& e, const ConvexCore<R>& a, const ConvexCore<R>& b, R size, R tolerance) {
   for (const ConvexCore<R>* c : {&a, &b}) {
     const int axis = detail::round_axis(*c);
     if (axis < 0) continue;
     const auto [n, h] = detail::MeridianSearch<R>(a, b, c->frame.rotation.col(axis), size).least();
-    if (h < e.upper) e.upper = h, e.normal = n;
+    if (h < e.upper) {
+      e.upper = h;
+      e.normal = n;
+    }
   }
   for (const R share : {R(0.25), R(0.5), R(0.75), R(0.9375)}) {
     const EpaResult<R> step = detail::proximal<R>(e.normal, share, a, b, size, tolerance);
     const R depth = std::min(step.upper, e.upper);
-    // EPA's own tolerance, seen through the shift, is paid once in height and once in length.
+    // EPA's tolerance enters twice through the shift: once in height and once in length.
     if (step.status == EpaStatus::broken || std::abs((step.b - step.a).norm() - depth) > 4 * tolerance)
       continue;
-    e.a = step.a, e.b = step.b, e.status = EpaStatus::closed;
-    if (step.upper <= e.upper) e.upper = step.upper, e.normal = step.normal;
+    e.a = step.a;
+    e.b = step.b;
+    e.status = EpaStatus::closed;
+    if (step.upper <= e.upper) {
+      e.upper = step.upper;
+      e.normal = step.normal;
+    }
     return;
   }
 }

@@ -1,19 +1,17 @@
-// Penetration depth of two convex cores that touch or overlap: the point of the boundary of D = B − A nearest
-// to the origin. Expanding polytope (van den Bergen 2001), with these departures:
+// Penetration depth of two convex cores that touch or overlap: the boundary point of D = B − A nearest to the
+// origin. Expanding polytope (van den Bergen 2001), with these departures:
 //
-// * Exit by bounds. Every direction m that is ever tried gives an upper bound h_D(m). Lower bound: the
-// surface is closed
-//   and consists of triangles of points of D, so every ray from the origin leaves through one of them, and
-//   the ball whose radius is the least distance of a triangle lies in D. This needs no convexity of the
-//   surface, so a facet that rounding has bent does no harm. The run is closed when the bounds meet to
-//   `tolerance`.
-// * The horizon is repaired: where the new point is nearly on the line of a horizon edge, or would fold the
-// surface over
-//   the origin, the facet behind that edge is taken out as well; pinched or many-looped horizons are filled
-//   up.
-// * When minima form a curve (coaxial cylinders) or a surface (concentric spheroids), no number of facets
-// closes the lower
-//   bound. The run then ends `explored`, with the best direction seen; descend.h takes it to a local minimum.
+// * Termination by bounds. Every direction m ever tried gives an upper bound h_D(m). Lower bound: the surface
+//   is closed and consists of triangles of points of D, so every ray from the origin leaves through one of
+//   them, and the ball whose radius is the least distance of a triangle lies in D. This does not require the
+//   surface to be convex, so a facet distorted by rounding does no harm. The run is `closed` when the bounds
+//   meet to `tolerance`.
+// * The horizon is repaired: where the new point is nearly collinear with a horizon edge, or would fold the
+//   surface over the origin, the facet behind that edge is removed as well; horizons that are pinched or have
+//   several loops are filled.
+// * When the minima form a curve (coaxial cylinders) or a surface (concentric spheroids), no number of facets
+//   closes the lower bound. The run then ends `explored`, with the best direction seen; descend.h takes it to
+//   a local minimum.
 #pragma once
 
 #include <array>
@@ -28,14 +26,14 @@ namespace touchstone::narrow {
 enum class EpaStatus {
   closed,    // upper − lower <= tolerance
   flat,      // D has no interior within rounding: the depth is upper, 0 up to rounding
-  explored,  // budget spent: upper and lower are valid but apart
+  explored,  // budget spent: upper and lower are valid but have not met
   broken     // the surface could not be repaired in this arithmetic
 };
 
 template <class R>
 struct EpaResult {
   EpaStatus status = EpaStatus::broken;
-  R upper = std::numeric_limits<R>::infinity();  // h_D(-normal): valid whatever the status
+  R upper = std::numeric_limits<R>::infinity();  // h_D(-normal); valid for every status
   R lower = 0;
   V3<R> normal = V3<R>::UnitX();  // unit, A to B: minus the outward normal of D
   V3<R> a = V3<R>::Zero(), b = V3<R>::Zero();
@@ -50,11 +48,15 @@ class Epa {
       : a_(a), b_(b), tolerance_(tolerance), thin_(128 * eps * size), level_(8 * eps * size) {}
 
   EpaResult<R> run(const GjkResult<R>& g, int budget) {
-    result_.a = g.a, result_.b = g.b;
+    result_.a = g.a;
+    result_.b = g.b;
     outside_ = g.status == GjkStatus::enclosed ? 0 : 2 * g.upper;
     std::vector<DifferenceVertex<R>> start(g.simplex.begin(), g.simplex.begin() + g.size);
     drop_degenerate(start);
-    if (!grow(start)) return result_.status = EpaStatus::flat, result_;
+    if (!grow(start)) {
+      result_.status = EpaStatus::flat;
+      return result_;
+    }
     build_tetrahedron(start);
     for (int i = 0; i < budget; ++i) {
       const int f = least_key();
@@ -88,7 +90,10 @@ class Epa {
   DifferenceVertex<R> probe(const V3<R>& m, R& value) {
     const DifferenceVertex<R> s = difference_support<R>(a_, b_, m);
     value = m.dot(s.w);
-    if (value < result_.upper) result_.upper = value, result_.normal = -m;
+    if (value < result_.upper) {
+      result_.upper = value;
+      result_.normal = -m;
+    }
     return s;
   }
   DifferenceVertex<R> probe(const V3<R>& m) {
@@ -97,7 +102,7 @@ class Epa {
   }
 
   // A simplex that encloses the origin may be flat within rounding; its largest face then contains the origin
-  // as well as the whole does.
+  // just as well.
   void drop_degenerate(std::vector<DifferenceVertex<R>>& s) const {
     const auto w = [&](std::size_t i) -> const V3<R>& { return s[i].w; };
     if (s.size() == 4) {
@@ -106,7 +111,10 @@ class Epa {
       for (std::size_t k = 0; k < 4; ++k) {
         const auto [i, j, l] = others(k);
         const R area = (w(j) - w(i)).cross(w(l) - w(i)).norm();
-        if (area > best) best = area, apex = k;
+        if (area > best) {
+          best = area;
+          apex = k;
+        }
       }
       const auto [i, j, l] = others(apex);
       const V3<R> n = (w(j) - w(i)).cross(w(l) - w(i));
@@ -123,7 +131,7 @@ class Epa {
     return {k == 0 ? 1u : 0u, k <= 1 ? 2u : 1u, k <= 2 ? 3u : 2u};
   }
 
-  // Height over the longest edge.
+  // Height above the longest edge.
   static R height(const V3<R>& a, const V3<R>& b, const V3<R>& c) {
     const R longest = std::max({(b - a).squaredNorm(), (c - b).squaredNorm(), (a - c).squaredNorm()});
     return longest > 0 ? detail::triangle_normal<R>(a, b, c).norm() / std::sqrt(longest) : R(0);
@@ -134,14 +142,18 @@ class Epa {
     DifferenceVertex<R> chosen;
     for (const V3<R>& m : directions) {
       const DifferenceVertex<R> p = probe(m);
-      if (const R d = distance(p.w); d > best) best = d, chosen = p;
+      if (const R d = distance(p.w); d > best) {
+        best = d;
+        chosen = p;
+      }
     }
     if (!(best > thin_)) return false;
     s.push_back(chosen);
     return true;
   }
 
-  // To a tetrahedron by support points away from the point, line, plane at hand; false when D is flat.
+  // Extends the simplex to a tetrahedron with support points away from the current point, line or plane;
+  // false when D is flat.
   bool grow(std::vector<DifferenceVertex<R>>& s) {
     if (s.size() == 1) {
       const V3<R> x = V3<R>::UnitX(), y = V3<R>::UnitY(), z = V3<R>::UnitZ();
@@ -169,14 +181,17 @@ class Epa {
     const V3<R> n = (point(1) - point(0)).cross(point(2) - point(0));
     if (n.dot(point(3) - point(0)) > 0) std::swap(vertices_[1], vertices_[2]);
     // Counter-clockwise from outside, once vertex 3 is below triangle 0 1 2.
-    add_facet({0, 1, 2}, {3, 1, 2}), add_facet({1, 3, 2}, {3, 2, 0});
-    add_facet({0, 2, 3}, {0, 1, 3}), add_facet({0, 3, 1}, {2, 1, 0});
+    add_facet({0, 1, 2}, {3, 1, 2});
+    add_facet({1, 3, 2}, {3, 2, 0});
+    add_facet({0, 2, 3}, {0, 1, 3});
+    add_facet({0, 3, 1}, {2, 1, 0});
     for (int i = 0; i < 4; ++i) push(i);
   }
 
   int add_facet(std::array<int, 3> v, std::array<int, 3> adjacent) {
     Facet f;
-    f.v = v, f.adjacent = adjacent;
+    f.v = v;
+    f.adjacent = adjacent;
     measure(f);
     facets_.push_back(f);
     return static_cast<int>(facets_.size()) - 1;
@@ -185,8 +200,8 @@ class Epa {
   void measure(Facet& f) {
     const V3<R>&a = point(f.v[0]), &b = point(f.v[1]), &c = point(f.v[2]);
     f.normal = detail::triangle_normal<R>(a, b, c);
-    // A sliver's distance is that of its longest edge up to thin_, which the facet across that edge accounts
-    // for.
+    // A sliver's distance is that of its longest edge up to thin_; the facet across that edge accounts for
+    // it.
     f.sliver = height(a, b, c) <= thin_;
     if (f.sliver) return;
     f.normal.normalize();
@@ -195,7 +210,7 @@ class Epa {
     const auto near = nearest(f);
     f.inside = near.weight[0] > 0 && near.weight[1] > 0 && near.weight[2] > 0;
     const R dist = std::sqrt(near.dist_sq);
-    // Signed when the origin is beyond the plane: then the surface does not (yet) enclose it.
+    // Negative when the origin is beyond the plane: the surface does not (yet) enclose it.
     f.key = f.inside || f.plane < 0 ? f.plane : std::max(f.plane, dist);
 
     f.support = probe(f.normal, f.upper);
@@ -219,20 +234,25 @@ class Epa {
 
   void set_witness(const Facet& x) {
     const auto near = nearest(x);
-    result_.a.setZero(), result_.b.setZero();
+    result_.a.setZero();
+    result_.b.setZero();
     for (std::size_t i = 0; i < 3; ++i) {
       const auto& v = vertices_[static_cast<std::size_t>(x.v[i])];
-      result_.a += near.weight[i] * v.a, result_.b += near.weight[i] * v.b;
+      result_.a += near.weight[i] * v.a;
+      result_.b += near.weight[i] * v.b;
     }
   }
 
-  // Where several facets share the least plane, the origin may project outside of the one at hand.
+  // Where several facets share the nearest plane, the origin may project outside the current one.
   int nearest_facet() const {
     int best = 0;
     R least = infinite;
     for (int i = 0; i < static_cast<int>(facets_.size()); ++i) {
       if (!facets_[static_cast<std::size_t>(i)].alive) continue;
-      if (const R d = nearest(facets_[static_cast<std::size_t>(i)]).dist_sq; d < least) least = d, best = i;
+      if (const R d = nearest(facets_[static_cast<std::size_t>(i)]).dist_sq; d < least) {
+        least = d;
+        best = i;
+      }
     }
     return best;
   }
@@ -241,7 +261,10 @@ class Epa {
     if (const int k = least_key(); k >= 0) result_.lower = facet(k).key;
     if (f >= 0) {
       const Facet& x = facet(f);
-      if (x.upper - result_.upper <= tolerance_) result_.upper = x.upper, result_.normal = -x.normal;
+      if (x.upper - result_.upper <= tolerance_) {
+        result_.upper = x.upper;
+        result_.normal = -x.normal;
+      }
       set_witness(nearest(x).dist_sq <= square(std::abs(x.plane) + tolerance_) ? x : facet(nearest_facet()));
     }
     result_.status = status;
@@ -254,7 +277,10 @@ class Epa {
   }
 
   bool in_region(int f) const { return mark_[static_cast<std::size_t>(f)] == stamp_; }
-  void take(int f) { mark_[static_cast<std::size_t>(f)] = stamp_, region_.push_back(f); }
+  void take(int f) {
+    mark_[static_cast<std::size_t>(f)] = stamp_;
+    region_.push_back(f);
+  }
 
   void flood(std::size_t from, const V3<R>& p) {
     for (std::size_t i = from; i < region_.size(); ++i)
@@ -275,13 +301,13 @@ class Epa {
     const R h = height(a, b, p);
     if (h <= thin_) return true;
     const V3<R> n = detail::triangle_normal<R>(a, b, p).normalized();
-    // The normal of a triangle of height h is known to about level_/h.
+    // The normal of a triangle of height h is accurate to about level_/h.
     const R longest =
         std::sqrt(std::max({(b - a).squaredNorm(), (p - b).squaredNorm(), (a - p).squaredNorm()}));
     return n.dot(a) < -level_ * (4 + longest / h) - tolerance_ - outside_;
   }
 
-  // Orders the horizon as one loop. Returns facets to absorb where it is pinched or has several loops.
+  // Orders the horizon into one loop. Returns the facets to absorb if it is pinched or has several loops.
   std::vector<int> order_horizon() {
     next_.assign(vertices_.size(), -1);
     for (int i = 0; i < static_cast<int>(horizon_.size()); ++i) {
@@ -295,8 +321,10 @@ class Epa {
       if (seen[i]) continue;
       loops.emplace_back();
       for (std::size_t k = i; !seen[k];
-           k = static_cast<std::size_t>(next_[static_cast<std::size_t>(horizon_[k].to)]))
-        seen[k] = true, loops.back().push_back(horizon_[k]);
+           k = static_cast<std::size_t>(next_[static_cast<std::size_t>(horizon_[k].to)])) {
+        seen[k] = true;
+        loops.back().push_back(horizon_[k]);
+      }
     }
     std::size_t longest = 0;
     for (std::size_t i = 1; i < loops.size(); ++i)
@@ -351,7 +379,7 @@ class Epa {
   using HeapItem = std::pair<R, int>;
   const ConvexCore<R>&a_, &b_;
   R tolerance_, thin_, level_;
-  R outside_ = 0;  // the origin may lie this far outside of D
+  R outside_ = 0;  // the origin may lie this far outside D
   EpaResult<R> result_;
   std::vector<DifferenceVertex<R>> vertices_;
   std::vector<Facet> facets_;

@@ -1,7 +1,7 @@
-// Distance of two convex cores. Gilbert, Johnson, Keerthi 1988, in the form of van den Bergen 1999: the exit
-// is the gap between an upper bound |v| (v is a point of B − A) and the lower bound −w(n) of the best support
-// plane seen, so that both are true whatever the simplices were. No absolute epsilon: `tolerance` and
-// `touching` are lengths that the caller derives from the size of the pair.
+// Distance of two convex cores. Gilbert, Johnson, Keerthi 1988, in the form of van den Bergen 1999: the
+// iteration ends on the gap between an upper bound |v| (v is a point of B − A) and the lower bound −w(n) of
+// the best support plane seen, so that both bounds hold whatever the simplices were. There is no absolute
+// epsilon: `tolerance` and `touching` are lengths that the caller derives from the size of the pair.
 #pragma once
 
 #include <array>
@@ -15,7 +15,7 @@ enum class GjkStatus {
   separated,  // upper − lower <= tolerance
   enclosed,   // the origin is inside the tetrahedron `simplex`
   touching,   // |v| <= touching: indistinguishable from contact here; EPA decides
-  stalled,    // no progress in this arithmetic; bounds are valid but apart
+  stalled,    // no progress in this arithmetic; bounds are valid but have not met
   capped      // iteration cap
 };
 
@@ -26,7 +26,7 @@ struct GjkResult {
   std::array<R, 4> weight{};
   int size = 0;
   R upper = 0;                                 // |v|
-  R lower = 0;                                 // −w(normal), may be negative
+  R lower = 0;                                 // −w(normal); may be negative
   V3<R> normal = V3<R>::Zero();                // unit, A to B, of the best lower bound
   V3<R> a = V3<R>::Zero(), b = V3<R>::Zero();  // core points with b − a = v
   int iterations = 0;
@@ -41,11 +41,15 @@ void keep_weighted(GjkResult<R>& g, const ClosestPoint<R>& c) {
   for (int i = 0; i < g.size; ++i) {
     const auto k = static_cast<std::size_t>(i);
     if (!(c.weight[k] > 0)) continue;
-    a += c.weight[k] * g.simplex[k].a, b += c.weight[k] * g.simplex[k].b;
+    a += c.weight[k] * g.simplex[k].a;
+    b += c.weight[k] * g.simplex[k].b;
     g.simplex[static_cast<std::size_t>(kept)] = g.simplex[k];
     g.weight[static_cast<std::size_t>(kept++)] = c.weight[k];
   }
-  g.size = kept, g.a = a, g.b = b, g.upper = std::sqrt(c.dist_sq);
+  g.size = kept;
+  g.a = a;
+  g.b = b;
+  g.upper = std::sqrt(c.dist_sq);
 }
 
 template <class R>
@@ -55,8 +59,9 @@ ClosestPoint<R> closest_of(const GjkResult<R>& g) {
   return closest_to_origin<R>(std::span(p.data(), static_cast<std::size_t>(g.size)));
 }
 
-// When rounding stops the walk: the normals of all triangles of the last support points are tried as support
-// planes. One of them is the plane (or the plane through the edge) that the walk was circling.
+// When rounding stalls the iteration: tries the normals of all triangles of the last support points as
+// support planes. One of them is the plane (or the plane through the edge) around which the iteration was
+// cycling.
 template <class R>
 void polish(GjkResult<R>& g, const ConvexCore<R>& a, const ConvexCore<R>& b,
             std::span<const DifferenceVertex<R>> seen) {
@@ -68,7 +73,10 @@ void polish(GjkResult<R>& g, const ConvexCore<R>& a, const ConvexCore<R>& b,
         n.normalize();
         if (n.dot(seen[i].w) < 0) n = -n;
         const R lower = n.dot(difference_support<R>(a, b, -n).w);
-        if (lower > g.lower) g.lower = lower, g.normal = n;
+        if (lower > g.lower) {
+          g.lower = lower;
+          g.normal = n;
+        }
       }
 }
 
@@ -81,31 +89,49 @@ GjkResult<R> gjk(const ConvexCore<R>& a, const ConvexCore<R>& b, R tolerance, R 
   V3<R> v = b.frame.translation - a.frame.translation;
   if (v.isZero(0)) v = V3<R>::UnitX();
   g.simplex[0] = difference_support<R>(a, b, -v);
-  g.size = 1, g.lower = -std::numeric_limits<R>::infinity();
+  g.size = 1;
+  g.lower = -std::numeric_limits<R>::infinity();
   constexpr int max_idle = 8;
   int idle = 0, seen = 0;
   std::array<DifferenceVertex<R>, 10> recent;
   R last_sq = std::numeric_limits<R>::infinity();
   for (g.iterations = 1; g.iterations <= max_iterations; ++g.iterations) {
     const ClosestPoint<R> c = detail::closest_of(g);
-    // A support plane with the origin outside is proof; a flat tetrahedron's signs are not.
+    // A support plane that separates the origin is proof; the signs of a flat tetrahedron are not.
     if (c.encloses && g.lower > 0) break;
-    if (c.encloses) return g.status = GjkStatus::enclosed, g;
-    // Near the end the distance stands still to an ulp while the direction still improves.
+    if (c.encloses) {
+      g.status = GjkStatus::enclosed;
+      return g;
+    }
+    // Near the end the distance stagnates to an ulp while the direction still improves.
     idle = c.dist_sq < last_sq ? 0 : idle + 1;
     if (idle > max_idle) break;
-    last_sq = std::min(last_sq, c.dist_sq), v = c.point;
+    last_sq = std::min(last_sq, c.dist_sq);
+    v = c.point;
     detail::keep_weighted(g, c);
-    if (g.upper <= touching) return g.status = GjkStatus::touching, g;
+    if (g.upper <= touching) {
+      g.status = GjkStatus::touching;
+      return g;
+    }
     const V3<R> n = v / g.upper;
     const DifferenceVertex<R> s = difference_support<R>(a, b, -n);
-    if (const R lower = n.dot(s.w); lower > g.lower) g.lower = lower, g.normal = n, idle = 0;
-    if (g.upper - g.lower <= tolerance) return g.status = GjkStatus::separated, g;
+    if (const R lower = n.dot(s.w); lower > g.lower) {
+      g.lower = lower;
+      g.normal = n;
+      idle = 0;
+    }
+    if (g.upper - g.lower <= tolerance) {
+      g.status = GjkStatus::separated;
+      return g;
+    }
     if (g.size == 4) break;
     g.simplex[static_cast<std::size_t>(g.size++)] = s;
     recent[static_cast<std::size_t>(seen++) % recent.size()] = s;
   }
-  if (g.iterations > max_iterations) return g.status = GjkStatus::capped, g;
+  if (g.iterations > max_iterations) {
+    g.status = GjkStatus::capped;
+    return g;
+  }
   detail::polish<R>(
       g, a, b,
       std::span(recent.data(), std::min<std::size_t>(static_cast<std::size_t>(seen), recent.size())));

@@ -13,6 +13,14 @@ namespace {
 
 std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
+// Coordinates other than 0 lie between these: orient3d_sign is exact from 1e-95 to 1e95, and means of
+// coordinates may be smaller than the coordinates.
+constexpr double least_coordinate = 1e-60, largest_coordinate = 1e60;
+// 16 roundings of float, in units of the reach; a support value in float is off by 5.
+constexpr double inside_margin = 0x1p-20;
+// Sine of the corner angle below which a face is a sliver. The normal of any other face is accurate to 2⁻²⁷.
+constexpr double sliver_sine = 0x1p-24;
+
 struct HalfEdge {
   int from, to, opposite;
   auto key() const { return std::tie(from, to); }
@@ -24,22 +32,26 @@ class Builder {
 
   bool is_proven() {
     reach_ = std::sqrt(narrow::fast::largest_norm_sq(v_));
-    // Signs are exact between 1e-95 and 1e95; means of coordinates may come out smaller than these.
-    const auto is_fit = [](double x) { return x == 0 || (std::abs(x) > 1e-60 && std::abs(x) < 1e60); };
+    const auto is_fit = [](double x) {
+      return x == 0 || (std::abs(x) > least_coordinate && std::abs(x) < largest_coordinate);
+    };
     for (const Vec3& p : v_)
       if (!is_fit(p.x()) || !is_fit(p.y()) || !is_fit(p.z())) return false;
     if (faces_.empty()) return false;
-    return collect_edges() && is_locally_convex() && is_seen_once() && rest_is_inside();
+    return collect_edges() && is_locally_convex() && covers_sphere_once() && unused_vertices_are_inside();
   }
 
   HullGraph graph() const {
     HullGraph g;
-    g.first.assign(v_.size() + 1, 0), g.reach = reach_;
-    for (const HalfEdge& e : edges_)
-      ++g.first[at(e.from) + 1], g.neighbour.push_back(static_cast<std::uint16_t>(e.to));
+    g.first.assign(v_.size() + 1, 0);
+    g.reach = reach_;
+    for (const HalfEdge& e : edges_) {
+      ++g.first[at(e.from) + 1];
+      g.neighbour.push_back(static_cast<std::uint16_t>(e.to));
+    }
     for (std::size_t i = 0; i < v_.size(); ++i) g.first[i + 1] += g.first[i];
-    // About four cells a vertex: most starts are summits already (a cell a vertex: a quarter slower; sixteen:
-    // no faster, and the table leaves the cache).
+    // About four cells per vertex: most starts are maxima already (one cell per vertex: a quarter slower;
+    // sixteen: no faster, and the table no longer fits in the cache).
     g.cells = std::max(1, static_cast<int>(std::sqrt(static_cast<double>(v_.size()) / 1.5)));
     fill_starts(g);
     return g;
@@ -73,7 +85,7 @@ class Builder {
     return true;
   }
 
-  bool is_seen_once() const {
+  bool covers_sphere_once() const {
     Vec3 o = Vec3::Zero();
     for (const HalfEdge& e : edges_) o += v(e.from);
     o /= static_cast<double>(edges_.size());
@@ -90,9 +102,7 @@ class Builder {
     return true;
   }
 
-  // 2⁻²⁰ of the reach is 16 roundings of float, in which a support value is off by 5. A normal is good to
-  // 2⁻²⁷ where the face is no sliver.
-  bool rest_is_inside() const {
+  bool unused_vertices_are_inside() const {
     std::vector<char> used(v_.size(), 0);
     for (const HalfEdge& e : edges_) used[at(e.from)] = 1;
     const std::size_t rest = static_cast<std::size_t>(std::count(used.begin(), used.end(), 0));
@@ -101,13 +111,13 @@ class Builder {
       for (std::size_t k = 0; !used[i] && k < faces_.size(); ++k) {
         const auto& f = faces_[k];
         const Vec3 e1 = v(f[1]) - v(f[0]), e2 = v(f[2]) - v(f[0]), n = e1.cross(e2);
-        const bool sliver = !(n.norm() > 0x1p-24 * e1.norm() * e2.norm());
-        if (sliver || !(n.dot(v_[i] - v(f[0])) < -0x1p-20 * reach_ * n.norm())) return false;
+        const bool sliver = !(n.norm() > sliver_sine * e1.norm() * e2.norm());
+        if (sliver || !(n.dot(v_[i] - v(f[0])) < -inside_margin * reach_ * n.norm())) return false;
       }
     return true;
   }
 
-  // A cell's start is climbed to from that of the cell before.
+  // Each cell's climb starts from the previous cell's result.
   void fill_starts(HullGraph& g) const {
     const int c = g.cells;
     std::int32_t last = edges_.front().from;
@@ -116,13 +126,14 @@ class Builder {
         for (int column = 0; column < c; ++column) {
           Vec3 d;
           d[face / 2] = face % 2 ? -1 : 1;
-          d[(face / 2 + 1) % 3] = (2 * row + 1.0) / c - 1, d[(face / 2 + 2) % 3] = (2 * column + 1.0) / c - 1;
+          d[(face / 2 + 1) % 3] = (2 * row + 1.0) / c - 1;
+          d[(face / 2 + 2) % 3] = (2 * column + 1.0) / c - 1;
           last = narrow::fast::climb_from(g, v_, d, last);
           g.start.push_back(static_cast<std::uint16_t>(last));
         }
   }
 
-  // What proving points inside may cost: a tenth of a second.
+  // Cap on point–face tests: a tenth of a second.
   static constexpr std::size_t most_tests = std::size_t{1} << 24;
   const std::vector<Vec3>& v_;
   const std::vector<std::array<int, 3>>& faces_;

@@ -100,7 +100,7 @@ Polygon clip(const Polygon& subject, const Polygon& window, Wide tolerance) {
   return in;
 }
 
-// Overlap of two segments: a stretch when they are parallel and in line, else nothing (their crossing is the
+// Overlap of two segments: an interval when they are collinear, otherwise nothing (their crossing is the
 // deepest point, which the caller has).
 Polygon overlap_of_segments(const Polygon& a, const Polygon& b, Wide tolerance) {
   const Plane2 d = a[1] - a[0];
@@ -153,7 +153,7 @@ std::vector<WideVec> contact_points(const ConvexCore<Wide>& a, const ConvexCore<
   if (b) {
     Polygon fb;
     for (const WideVec& p : support_face(*b, -n, tolerance)) fb.push_back(basis.flatten(p - middle));
-    std::reverse(fb.begin(), fb.end());  // counter-clockwise about n, too
+    std::reverse(fb.begin(), fb.end());  // counter-clockwise about n as well
     if (fa.size() < 2 || fb.size() < 2) return {middle};
     if (fa.size() == 2 && fb.size() == 2)
       region = overlap_of_segments(fa, fb, tolerance);
@@ -162,7 +162,7 @@ std::vector<WideVec> contact_points(const ConvexCore<Wide>& a, const ConvexCore<
   }
   drop_repeats(region, tolerance);
   if (region.empty()) return {middle};
-  // Evenly of what is more than there is room for.
+  // Picks points evenly when there are more than the manifold holds.
   Points r;
   const std::size_t kept = std::min(region.size(), Manifold::capacity);
   for (std::size_t i = 0; i < kept; ++i) {

@@ -1,8 +1,8 @@
-// Contact manifold of a touching or overlapping pair: the overlap of the two faces that support the bodies
-// along the normal, as a polygon, a segment or a point, half way between the two support planes. Only points
-// of the exact support faces take part (within manifold_face_factor), so each lies within depth/2 of both
-// bodies and has the full depth; a face tilted by more than that against the normal contributes its deepest
-// edge or vertex. Round faces (caps of cylinders, bases of cones) are taken as inscribed
+// Contact manifold of a touching or overlapping pair: the intersection of the two faces that support the
+// bodies along the normal, as a polygon, a segment or a point, halfway between the two support planes. Only
+// points of the exact support faces are used (within manifold_face_factor), so each lies within depth/2 of
+// both bodies and has the full depth. A face tilted by more than that against the normal contributes its
+// deepest edge or vertex. Round faces (caps of cylinders, bases of cones) are represented by inscribed
 // polygons (rim.h).
 #pragma once
 
@@ -13,10 +13,11 @@
 
 namespace touchstone::narrow {
 
-/// Vertices of the support face of core ⊕ ball along unit n, counter-clockwise about n; 1, 2 or more points.
+/// Vertices of the support face of core ⊕ ball along the unit vector n, counter-clockwise about n; one, two
+/// or more points.
 std::vector<WideVec> support_face(const ConvexCore<Wide>& c, const WideVec& n, Wide tolerance);
 
-/// Support face of the plane's half-space is unbounded: the other face is the manifold.
+/// `b` null: a half-space. Its support face is unbounded, so the face of `a` is the manifold.
 std::vector<WideVec> contact_points(const ConvexCore<Wide>& a, const ConvexCore<Wide>* b,
                                     const Separation& s);
 

@@ -6,6 +6,12 @@
 #include "core/narrow/convex_pair.h"
 
 namespace touchstone::narrow {
+namespace {
+
+// Covers the roundings of a box's distance, of the centre and of the radius, each a few 2⁻⁶³ of the terms.
+constexpr Wide box_rounding = 0x1p-56L;
+
+}  // namespace
 
 std::vector<Vec3> used_vertices(const TriangleMesh& m) {
   std::vector<bool> used(m.vertices.size(), false);
@@ -31,8 +37,7 @@ std::vector<TriangleBound> triangles_near(const TriangleMesh& m, const WideVec& 
     const WideVec lo = c[0].cwiseMin(c[1]).cwiseMin(c[2]).cast<Wide>();
     const WideVec hi = c[0].cwiseMax(c[1]).cwiseMax(c[2]).cast<Wide>();
     const Wide d = (centre.cwiseMax(lo).cwiseMin(hi) - centre).norm();
-    // 2⁻⁵⁶ covers the roundings of d, of centre and of radius, each a few 2⁻⁶³ of the terms.
-    const Wide safe = d - radius - 0x1p-56L * (d + radius + centre.norm());
+    const Wide safe = d - radius - box_rounding * (d + radius + centre.norm());
     if (safe <= bound) r.push_back({safe, i});
   }
   std::sort(r.begin(), r.end(), [](const TriangleBound& x, const TriangleBound& y) {
@@ -47,7 +52,7 @@ Separation core_mesh(const ConvexCore<Wide>& a, const TriangleMesh& mesh, const 
   best.gap = std::numeric_limits<Wide>::infinity();
   Outcome worst = Outcome::answered;
   for (const TriangleBound& t : triangles_near(mesh, centre, a.reach + a.radius, best.gap)) {
-    // Every triangle that may be hit is looked at, so that the deepest is found.
+    // Every triangle that may be hit is tested, so that the deepest is found.
     if (t.distance > std::max<Wide>(best.gap, 0)) break;
     const auto c = corners(mesh, t.triangle);
     const Separation s = separate_convex(a, vertices_core(c, frame));

@@ -1,5 +1,5 @@
-// A convex body against a triangle mesh, triangle by triangle. The mesh is a surface: distance is that to the
-// nearest triangle; when triangles are hit, gap, normal and depth are those of the deepest one (the least
+// A convex body against a triangle mesh, triangle by triangle. The mesh is a surface: the distance is that to
+// the nearest triangle. When triangles are hit, gap, normal and depth are those of the deepest one (the least
 // motion that frees the body from that triangle, not from the whole mesh).
 #pragma once
 
@@ -10,11 +10,11 @@
 
 namespace touchstone::narrow {
 
-/// Vertices that a triangle uses; others are no part of the set.
+/// Vertices that belong to a triangle; unused ones are omitted.
 std::vector<Vec3> used_vertices(const TriangleMesh& m);
 
-/// Triangles whose boxes are within `bound` of the ball about `centre` (mesh frame), with that lower bound of
-/// their distance to the ball, nearest first. Rounded to be safe.
+/// Triangles whose boxes are within `bound` of the ball about `centre` (mesh frame), nearest first, each with
+/// that lower bound of its distance to the ball. Rounded conservatively.
 struct TriangleBound {
   Wide distance;
   std::size_t triangle;

@@ -23,7 +23,7 @@ struct Builder {
     }
   }
 
-  // Half of each first: no sum overflows.
+  // Halves each term first, so that no sum overflows.
   Vec3 centre(std::int32_t t) const {
     const auto i = static_cast<std::size_t>(t);
     return lo[i] / 2 + hi[i] / 2;
@@ -35,8 +35,10 @@ struct Builder {
     Vec3 low = lo[front], high = hi[front], c_low = centre(*begin), c_high = c_low;
     for (auto i = begin; i != end; ++i) {
       const auto t = static_cast<std::size_t>(*i);
-      low = low.cwiseMin(lo[t]), high = high.cwiseMax(hi[t]);
-      c_low = c_low.cwiseMin(centre(*i)), c_high = c_high.cwiseMax(centre(*i));
+      low = low.cwiseMin(lo[t]);
+      high = high.cwiseMax(hi[t]);
+      c_low = c_low.cwiseMin(centre(*i));
+      c_high = c_high.cwiseMax(centre(*i));
     }
     tree.nodes[node] = {low, high, first, count};
     if (count <= leaf_size) return;
@@ -49,7 +51,8 @@ struct Builder {
     });
     const auto children = static_cast<std::int32_t>(tree.nodes.size());
     tree.nodes.resize(tree.nodes.size() + 2);
-    tree.nodes[node].first = children, tree.nodes[node].count = 0;
+    tree.nodes[node].first = children;
+    tree.nodes[node].count = 0;
     fill(static_cast<std::size_t>(children), first, half);
     fill(static_cast<std::size_t>(children) + 1, first + half, count - half);
   }

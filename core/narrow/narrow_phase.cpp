@@ -19,9 +19,9 @@ Vec3 world(const V3<R>& p, const PlacedShape& origin) {
     return (p + origin.pose.translation.cast<R>()).template cast<double>();
 }
 
-// A sign that is not certain is left to extended precision, where there is someone to ask.
+// An uncertain sign is left to extended precision unless R is to be used `alone`.
 template <class R>
-bool known(const FastAnswer<R>& f, bool alone) {
+bool is_decided(const FastAnswer<R>& f, bool alone) {
   return f.answer.found == Found::touching ? alone : f.answer.found != Found::unsure;
 }
 
@@ -30,7 +30,7 @@ bool overlaps(const FastAnswer<R>& f) {
   return f.answer.found == Found::touching ? f.answer.gap <= 0 : f.answer.found == Found::meeting;
 }
 
-// Points in the frame of the row's A, to the world.
+// Transforms the points from the frame of the table row's A to the world.
 template <class R>
 bool fill_manifold(const FastAnswer<R>& f, const PlacedShape& a, const PlacedShape& b, Manifold& out) {
   const fast::Answer<R>& s = f.answer;
@@ -49,7 +49,7 @@ bool fill_manifold(const FastAnswer<R>& f, const PlacedShape& a, const PlacedSha
   return patch.size > 0;
 }
 
-// A closed form has left bodies and frames to us.
+// A closed form does not set bodies and frames; this function does.
 template <class R>
 void prepare_segments(FastAnswer<R>& f, const PlacedShape& a, const PlacedShape& b) {
   if (f.scene.contact != fast::ContactForm::segments) return;
@@ -59,23 +59,26 @@ void prepare_segments(FastAnswer<R>& f, const PlacedShape& a, const PlacedShape&
   fast::prepare<R>(x, from, y, to, f.scene);
   const V3<R> n = f.mirrored ? V3<R>(-f.answer.normal) : f.answer.normal;
   f.scene.normal = f.scene.at.a_to_world.transpose() * n;
-  // (a + b)/2 about the row's A; the answer's own is about the query's.
+  // (a + b)/2 relative to the row's A; the answer's points are relative to the query's A.
   const V3<R> middle = (f.answer.a + f.answer.b) / 2 +
                        (f.mirrored ? V3<R>(a.pose.translation.cast<R>() - b.pose.translation.cast<R>())
                                    : V3<R>(V3<R>::Zero()));
-  f.scene.middle = f.scene.at.a_to_world.transpose() * middle, f.scene.has_middle = true;
+  f.scene.middle = f.scene.at.a_to_world.transpose() * middle;
+  f.scene.has_middle = true;
 }
 
 template <class R>
 void fill(const FastAnswer<R>& f, const PlacedShape& a, DistanceAnswer& r) {
-  r.distance = static_cast<double>(f.answer.gap), r.error_bound = static_cast<double>(f.answer.bound);
+  r.distance = static_cast<double>(f.answer.gap);
+  r.error_bound = static_cast<double>(f.answer.bound);
   r.normal = f.answer.normal.template cast<double>();
   r.witness = {world<R>(f.answer.a, a), world<R>(f.answer.b, a)};
 }
 
 template <class R>
 bool fill(FastAnswer<R>& f, const PlacedShape& a, const PlacedShape& b, ContactAnswer& r) {
-  r.overlap = overlaps(f), r.error_bound = r.regret_bound = static_cast<double>(f.answer.bound);
+  r.overlap = overlaps(f);
+  r.error_bound = r.regret_bound = static_cast<double>(f.answer.bound);
   if (!r.overlap) return true;
   r.normal = f.answer.normal.template cast<double>();
   r.depth = std::max<double>(0, -f.answer.gap);
@@ -83,7 +86,7 @@ bool fill(FastAnswer<R>& f, const PlacedShape& a, const PlacedShape& b, ContactA
   return fill_manifold(f, a, b, r.manifold);
 }
 
-// The fast answer, begun and remembered by `memory` if there is one.
+// Computes the fast answer. `memory`, if any, supplies the initial guess and receives the final direction.
 template <class R>
 void separate(const PlacedShape& a, const PlacedShape& b, Asked asked, PairMemory* memory, FastAnswer<R>& f) {
   f.scene.guess = memory ? V3<R>(memory->direction.cast<R>()) : V3<R>(V3<R>::Zero());
@@ -92,45 +95,46 @@ void separate(const PlacedShape& a, const PlacedShape& b, Asked asked, PairMemor
 }
 
 template <class R, class A>
-bool refused(const PlacedShape& a, const PlacedShape& b, A& r) {
+bool is_unsupported(const PlacedShape& a, const PlacedShape& b, A& r) {
   if (narrow::has_fast<R>(kind_of(*a.shape), kind_of(*b.shape))) return false;
   r.outcome = Outcome::unsupported;
   return true;
 }
 
-// In the arithmetic R and no other.
+// Uses the arithmetic R only.
 template <class R>
 OverlapAnswer overlap_alone(const PlacedShape& a, const PlacedShape& b, PairMemory* memory) {
   OverlapAnswer r;
-  if (refused<R>(a, b, r)) return r;
+  if (is_unsupported<R>(a, b, r)) return r;
   FastAnswer<R> f;
   separate<R>(a, b, Asked::overlap, memory, f);
-  if (!known(f, true)) separate<R>(a, b, Asked::distance, memory, f);
-  r.outcome = known(f, true) ? Outcome::answered : Outcome::not_converged;
-  r.overlap = overlaps(f), r.error_bound = static_cast<double>(f.answer.bound);
+  if (!is_decided(f, true)) separate<R>(a, b, Asked::distance, memory, f);
+  r.outcome = is_decided(f, true) ? Outcome::answered : Outcome::not_converged;
+  r.overlap = overlaps(f);
+  r.error_bound = static_cast<double>(f.answer.bound);
   return r;
 }
 
 template <class R>
 DistanceAnswer distance_alone(const PlacedShape& a, const PlacedShape& b, PairMemory* memory) {
   DistanceAnswer r;
-  if (refused<R>(a, b, r)) return r;
+  if (is_unsupported<R>(a, b, r)) return r;
   FastAnswer<R> f;
   separate<R>(a, b, Asked::distance, memory, f);
-  if (known(f, true))
+  if (is_decided(f, true))
     fill<R>(f, a, r);
   else
     r.outcome = Outcome::not_converged;
   return r;
 }
 
-// A contact whose patch is empty (no face, no crossing of edges that R can see): the witnesses of the
-// distance, for rows that have patches leave them out of a contact.
+// For a contact whose patch is empty (no face and no edge crossing that R can resolve): uses the witness
+// points of the distance, which rows with patches omit from a contact.
 template <class R>
 void fill_point_alone(const PlacedShape& a, const PlacedShape& b, ContactAnswer& r) {
   FastAnswer<R> f;
   separate<R>(a, b, Asked::distance, nullptr, f);
-  if (known(f, true))
+  if (is_decided(f, true))
     r.manifold.push_back({world<R>((f.answer.a + f.answer.b) / 2, a), r.depth, 0});
   else
     r.outcome = Outcome::not_converged;
@@ -139,10 +143,10 @@ void fill_point_alone(const PlacedShape& a, const PlacedShape& b, ContactAnswer&
 template <class R>
 ContactAnswer contact_alone(const PlacedShape& a, const PlacedShape& b, PairMemory* memory) {
   ContactAnswer r;
-  if (refused<R>(a, b, r)) return r;
+  if (is_unsupported<R>(a, b, r)) return r;
   FastAnswer<R> f;
   separate<R>(a, b, Asked::contact, memory, f);
-  if (!known(f, true))
+  if (!is_decided(f, true))
     r.outcome = Outcome::not_converged;
   else if (!fill<R>(f, a, b, r))
     fill_point_alone<R>(a, b, r);
@@ -156,7 +160,7 @@ OverlapAnswer overlap(const PlacedShape& a, const PlacedShape& b, Arithmetic ari
   if (arithmetic == Arithmetic::float64_alone) return overlap_alone<double>(a, b, memory);
   FastAnswer<double> f;
   separate<double>(a, b, Asked::overlap, memory, f);
-  if (!known(f, false)) return narrow::wide_overlap(a, b);
+  if (!is_decided(f, false)) return narrow::wide_overlap(a, b);
   return {Outcome::answered, f.answer.found == Found::meeting, f.answer.bound};
 }
 
@@ -167,7 +171,7 @@ DistanceAnswer distance(const PlacedShape& a, const PlacedShape& b, Arithmetic a
   DistanceAnswer r;
   FastAnswer<double> f;
   separate<double>(a, b, Asked::distance, memory, f);
-  if (!known(f, false)) return narrow::wide_distance(a, b);
+  if (!is_decided(f, false)) return narrow::wide_distance(a, b);
   fill<double>(f, a, r);
   return r;
 }
@@ -178,7 +182,7 @@ ContactAnswer contact(const PlacedShape& a, const PlacedShape& b, Arithmetic ari
   ContactAnswer r;
   FastAnswer<double> f;
   separate<double>(a, b, Asked::contact, memory, f);
-  if (known(f, false) && fill<double>(f, a, b, r)) return r;
+  if (is_decided(f, false) && fill<double>(f, a, b, r)) return r;
   return narrow::wide_contact(a, b);
 }
 

@@ -115,7 +115,8 @@ void separate_fast(const PlacedShape& a, const PlacedShape& b, fast::Asked asked
   f(b, a, asked, r, out.scene);
   const V3<R> shift = b.pose.translation.cast<R>() - a.pose.translation.cast<R>();
   r.normal = -r.normal;
-  r.a += shift, r.b += shift;
+  r.a += shift;
+  r.b += shift;
   r.a.swap(r.b);
 }
 
@@ -129,9 +130,9 @@ Separation separate_placed(const Shape& a, const WideFrame& fa, const Shape& b, 
   return i <= j ? table[i][j].wide(a, fa, b, fb) : mirrored(table[j][i].wide(b, fb, a, fa));
 }
 
-// 2026-11-22, a cylinder's rim 1.1e-14 deep in a box of size 1, one of 900 pairs of a ladder: about A's
-// origin the search stalls between both verdicts, about B's it has the depth to 4e-20. So B's is asked when
-// A's fails.
+// 2026-11-22, a cylinder's rim 1.1e-14 deep in a box of size 1, one of 900 pairs with graduated depths:
+// relative to A's origin the search stalls between both verdicts; relative to B's it finds the depth to
+// 4e-20. So the search is repeated relative to B when it fails relative to A.
 Separation separate(const Shape& a, const WideFrame& fa, const Shape& b, const WideFrame& fb) {
   const WideVec b_from_a = fb.translation - fa.translation;
   const Separation s = separate_placed(a, {fa.rotation, WideVec::Zero()}, b, {fb.rotation, b_from_a});
@@ -139,7 +140,8 @@ Separation separate(const Shape& a, const WideFrame& fa, const Shape& b, const W
   Separation other =
       mirrored(separate_placed(b, {fb.rotation, WideVec::Zero()}, a, {fa.rotation, WideVec(-b_from_a)}));
   if (other.outcome != Outcome::answered) return s;
-  other.a += b_from_a, other.b += b_from_a;
+  other.a += b_from_a;
+  other.b += b_from_a;
   return other;
 }
 

@@ -1,6 +1,5 @@
-// Which algorithms answer which pair of shapes: one in extended precision, and one in double and float that
-// knows its own error. Rows and columns are ShapeKind; the lower triangle is the upper one seen from the
-// other side.
+// Selects the algorithms for each pair of shapes: one in extended precision, and one in double and float that
+// bounds its own error. Rows and columns are ShapeKind; the lower triangle mirrors the upper one.
 #pragma once
 
 #include "core/narrow/filtered/separate.h"
@@ -9,15 +8,16 @@
 
 namespace touchstone::narrow {
 
-/// Frames in coordinates whose origin is A's translation. `unsupported` for mesh–mesh, half-space–half-space.
+/// Frames are relative to A's translation. `unsupported` for mesh–mesh and half-space–half-space.
 Separation separate_placed(const Shape& a, const WideFrame& frame_a, const Shape& b,
                            const WideFrame& frame_b);
 
-/// World frames; shifts to A's translation once, so that the pair's offset costs nothing.
+/// Takes world frames and subtracts A's translation once, so that a large common offset costs no accuracy.
 Separation separate(const Shape& a, const WideFrame& frame_a, const Shape& b, const WideFrame& frame_b);
 
-/// The fast answer, as asked of (A, B): normal from A to B, points about A's translation. `mirrored`: the row
-/// is (B, A), and so is `scene`. Null function of a pair: `has_fast` is false, the answer `unsure`.
+/// The fast answer to the query (A, B): normal from A to B, points relative to A's translation. `mirrored`:
+/// the table row is (B, A), and `scene` follows the row. If the pair has no function, `has_fast` is false and
+/// the answer is `unsure`.
 template <class R>
 struct FastAnswer {
   fast::Answer<R> answer;
@@ -27,7 +27,7 @@ struct FastAnswer {
 template <class R>
 void separate_fast(const PlacedShape& a, const PlacedShape& b, fast::Asked asked, FastAnswer<R>& out);
 
-/// Whether the table has an algorithm of the arithmetic R for the pair.
+/// Whether the table has an algorithm in the arithmetic R for the pair.
 template <class R>
 bool has_fast(ShapeKind a, ShapeKind b);
 

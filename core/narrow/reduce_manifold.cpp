@@ -1,6 +1,6 @@
-// Four points of a manifold that keep its deepest point and most of its area: the deepest, the one farthest
-// from it, and on either side of the line through both the one that spans the largest triangle with them.
-// Ties go to the earlier point, so that equal depths pick the same points in the next frame.
+// Reduces a manifold to four points that keep its deepest point and most of its area: the deepest, the one
+// farthest from it, and on either side of the line through both the one that spans the largest triangle with
+// them. Ties go to the earlier point, so that equal depths select the same points in the next frame.
 #include "core/narrow/narrow_phase.h"
 
 namespace touchstone {

@@ -1,5 +1,5 @@
-// Answers of the narrow phase. `error_bound` is proven by the run itself (duality gap of GJK and EPA plus
-// rounding), in the scene's unit, except where said.
+// Answers of the narrow phase. Unless stated otherwise, `error_bound` is proven by the query itself (duality
+// gap of GJK and EPA plus rounding) and is in the scene's unit.
 #pragma once
 
 #include <array>
@@ -10,23 +10,24 @@
 
 namespace touchstone {
 
-/// The signed separation of a pair in extended precision, in coordinates whose origin is A's translation.
+/// The signed separation of a pair in extended precision. The origin of the coordinates is A's translation.
 struct Separation {
   Outcome outcome = Outcome::answered;
-  Wide gap = 0;                                      // > 0 distance, <= 0 minus the depth
+  Wide gap = 0;                                      // > 0: distance; <= 0: minus the depth
   WideVec normal = WideVec::UnitX();                 // unit, A to B
   WideVec a = WideVec::Zero(), b = WideVec::Zero();  // b − a = gap·normal
-  /// Distance: |gap − truth|. Depth: normal is feasible for −gap within rounding, and −gap exceeds the least
-  /// depth by at most `slack`, proven. Where minima form a curve or surface (coaxial or concentric round
-  /// bodies) −gap is a local minimum to `local_slack`, and `slack` says how far that is proven to be global.
+  /// Distance: |gap − truth|. Depth: `normal` is feasible for −gap within rounding, and −gap exceeds the
+  /// least depth by at most `slack`, proven. Where the minima form a curve or surface (coaxial or concentric
+  /// round bodies), −gap is a local minimum to within `local_slack`, and `slack` states how far it is proven
+  /// to be global.
   Wide slack = 0, local_slack = 0;
-  Wide size = 0;  // the length that tolerances are relative to
+  Wide size = 0;  // tolerances are relative to this length
 };
 
 struct OverlapAnswer {
   Outcome outcome = Outcome::answered;
   bool overlap = false;
-  double error_bound = 0;  // of the gap that decided
+  double error_bound = 0;  // of the gap that decided the verdict
 };
 
 struct DistanceAnswer {
@@ -38,12 +39,12 @@ struct DistanceAnswer {
 };
 
 struct ContactPoint {
-  Vec3 position;  // world, half way between the two surfaces
+  Vec3 position;  // world; halfway between the two surfaces
   double depth;
-  std::uint32_t feature;  // same features of both bodies, same id; 0 where there is one point only
+  std::uint32_t feature;  // identifies the pair of features; 0 for a single point
 };
 
-/// Contact points in place, no allocation; what is not used is not touched.
+/// Contact points stored in place, without allocation. Unused points are neither initialised nor copied.
 class Manifold {
  public:
   static constexpr std::size_t capacity = 32;
@@ -56,7 +57,7 @@ class Manifold {
   }
   std::size_t size() const { return size_; }
   bool empty() const { return size_ == 0; }
-  /// Beyond capacity nothing is added.
+  /// Ignored once the manifold is full.
   void push_back(const ContactPoint& p) {
     if (size_ < capacity) points_[size_++] = p;
   }
@@ -75,7 +76,7 @@ struct ContactAnswer {
   Vec3 normal = Vec3::Zero();  // unit, A to B; zero when there is no overlap
   double depth = 0;
   Manifold manifold;        // up to the full clipped polygon; see reduced()
-  double error_bound = 0;   // of the depth along `normal`, and of normal's being a local minimum
+  double error_bound = 0;   // of the depth along `normal` and of its local minimality
   double regret_bound = 0;  // proven: depth − least depth over all directions
 };
 

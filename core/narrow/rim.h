@@ -1,5 +1,5 @@
-// Corners of the polygon that stands for a round face in manifolds: 32 inscribed in the circle, 99.4 % of the
-// disc's area.
+// Corners of the polygon that represents a round face in manifolds: 32, inscribed in the circle, covering
+// 99.4 % of the disc's area.
 #pragma once
 
 #include <array>
@@ -10,7 +10,7 @@ namespace touchstone::narrow {
 
 inline constexpr int rim_corners = 32;
 
-/// On the unit circle, counter-clockwise from (1, 0); those on the axes are exact.
+/// On the unit circle, counter-clockwise from (1, 0); corners on the axes are exact.
 inline const std::array<std::array<double, 2>, rim_corners>& rim() {
   static const auto corners = [] {
     std::array<std::array<double, 2>, rim_corners> c;

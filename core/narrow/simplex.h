@@ -1,6 +1,6 @@
 // Closest point to the origin of a simplex of one to four points: every face is tried and the nearest
-// admissible one is taken. Slower than walking Voronoi regions, but a nearly flat face can only be skipped,
-// never mistaken for another region, and the chosen distance never exceeds that of any of its edges (the
+// admissible one is taken. This is slower than walking Voronoi regions, but a nearly flat face can only be
+// skipped, never mistaken for another region, and the chosen distance never exceeds that of any edge (the
 // failure of Johnson's recursion that Montanari, Petrinic, Barbieri 2017 describe cannot occur).
 #pragma once
 
@@ -16,15 +16,15 @@ namespace touchstone::narrow {
 template <class R>
 struct ClosestPoint {
   V3<R> point = V3<R>::Zero();
-  std::array<R, 4> weight{};  // barycentric; zero for points that do not take part
+  std::array<R, 4> weight{};  // barycentric; zero for points not involved
   R dist_sq = std::numeric_limits<R>::infinity();
   bool encloses = false;  // a tetrahedron with the origin inside or on its boundary
 };
 
 namespace detail {
 
-// A face of higher dimension wins a tie within rounding: the foot on an edge may improve the distance by less
-// than an ulp and yet turn the direction by 1e-12, which the support plane needs.
+// A face of higher dimension wins a tie within rounding: the foot on an edge may reduce the distance by less
+// than an ulp and yet rotate the direction by 1e-12, and the support plane needs that accuracy.
 template <class R>
 inline constexpr R tie = 1 + 8 * std::numeric_limits<R>::epsilon();
 
@@ -32,7 +32,9 @@ template <class R>
 void try_vertex(const V3<R>* const* p, int i, ClosestPoint<R>& best) {
   const R d = p[i]->squaredNorm();
   if (!(d < best.dist_sq)) return;
-  best.point = *p[i], best.dist_sq = d, best.weight = {};
+  best.point = *p[i];
+  best.dist_sq = d;
+  best.weight = {};
   best.weight[static_cast<std::size_t>(i)] = 1;
 }
 
@@ -42,20 +44,23 @@ void try_edge(const V3<R>* const* p, int i, int j, ClosestPoint<R>& best) {
   const R len_sq = d.squaredNorm(), t = -p[i]->dot(d);
   if (!(t > 0 && t < len_sq)) return;
   const R s = t / len_sq;
-  // Orthogonal to the edge up to its own rounding, not that of the ends: an edge may be 1e10 times longer
-  // than the distance, and a normal off by an angle costs half the edge times that angle.
+  // Makes x orthogonal to the edge up to its own rounding instead of that of the ends: an edge may be 1e10
+  // times longer than the distance, and an angular error of the normal costs half the edge times that angle.
   V3<R> x = *p[i] + d * s;
   x -= d * (x.dot(d) / len_sq);
   const R dist_sq = x.squaredNorm();
   if (!(dist_sq <= best.dist_sq * tie<R>)) return;
-  best.point = x, best.dist_sq = dist_sq, best.weight = {};
-  best.weight[static_cast<std::size_t>(i)] = 1 - s, best.weight[static_cast<std::size_t>(j)] = s;
+  best.point = x;
+  best.dist_sq = dist_sq;
+  best.weight = {};
+  best.weight[static_cast<std::size_t>(i)] = 1 - s;
+  best.weight[static_cast<std::size_t>(j)] = s;
 }
 
 /// Normal of a triangle, counter-clockwise, not normalised: the cross product of the two shorter edges, made
-/// orthogonal to the longest one. Of a needle, a cross product has a component along the needle as large as
-/// the rounding of the edges' product, which would tilt a plane 1e7 times longer than wide by 1e7 ulp. What
-/// is left is a turn about the needle, which moves its points by no more than rounding.
+/// orthogonal to the longest one. For a needle, the component of the cross product along the needle is as
+/// large as the rounding of the edges' product, which would tilt a plane 1e7 times longer than wide by 1e7
+/// ulp. What remains is a rotation about the needle, which moves its points only within rounding.
 template <class R>
 V3<R> triangle_normal(const V3<R>& a, const V3<R>& b, const V3<R>& c) {
   const V3<R> ab = b - a, bc = c - b, ca = a - c;
@@ -67,8 +72,8 @@ V3<R> triangle_normal(const V3<R>& a, const V3<R>& b, const V3<R>& c) {
   return lbc >= lca ? against(ca.cross(ab), bc, lbc) : against(ab.cross(bc), ca, lca);
 }
 
-// The point is written as normal·(a·normal)/|normal|²: its direction is that of the plane even when its
-// length is far below the rounding of a weighted sum of the corners.
+// Writes the point as normal·(a·normal)/|normal|²: its direction is that of the plane even when its length is
+// far below the rounding of a weighted sum of the corners.
 template <class R>
 void try_triangle(const V3<R>* const* p, int i, int j, int k, ClosestPoint<R>& best) {
   const V3<R>&a = *p[i], &b = *p[j], &c = *p[k];
@@ -83,22 +88,29 @@ void try_triangle(const V3<R>* const* p, int i, int j, int k, ClosestPoint<R>& b
   const V3<R> x = n * (nearest.dot(n) / nn);
   const R dist_sq = x.squaredNorm();
   if (!(dist_sq <= best.dist_sq * tie<R>)) return;
-  best.point = x, best.dist_sq = dist_sq, best.weight = {};
-  // One step of refinement: the weights of a needle are known only to its aspect ratio; the residual in its
-  // plane mends them until their sum of corners is the foot to rounding.
+  best.point = x;
+  best.dist_sq = dist_sq;
+  best.weight = {};
+  // Iterative refinement: the weights of a needle are accurate only to its aspect ratio. The residual in its
+  // plane corrects them until the weighted sum of the corners is the foot to within rounding.
   R la = wa / (wa + wb + wc), lb = wb / (wa + wb + wc), lc = wc / (wa + wb + wc);
   for (int step = 0; step < 2; ++step) {
     const V3<R> rest = x - (la * a + lb * b + lc * c);
     const R da = n.dot(rest.cross(b - c)) / nn, db = n.dot(rest.cross(c - a)) / nn;
-    la += da, lb += db, lc -= da + db;
+    la += da;
+    lb += db;
+    lc -= da + db;
   }
-  la = std::max<R>(la, 0), lb = std::max<R>(lb, 0), lc = std::max<R>(lc, 0);
+  la = std::max<R>(la, 0);
+  lb = std::max<R>(lb, 0);
+  lc = std::max<R>(lc, 0);
   const R sum = la + lb + lc;
-  best.weight[static_cast<std::size_t>(i)] = la / sum, best.weight[static_cast<std::size_t>(j)] = lb / sum;
+  best.weight[static_cast<std::size_t>(i)] = la / sum;
+  best.weight[static_cast<std::size_t>(j)] = lb / sum;
   best.weight[static_cast<std::size_t>(k)] = lc / sum;
 }
 
-// Origin strictly inside: on the inner side of each face by the sign of a determinant.
+// Whether the origin is strictly inside: on the inner side of each face by the sign of a determinant.
 template <class R>
 bool tetrahedron_encloses(const V3<R>* const* p) {
   static constexpr int faces[4][4] = {{0, 1, 2, 3}, {0, 1, 3, 2}, {0, 2, 3, 1}, {1, 2, 3, 0}};
@@ -118,7 +130,8 @@ ClosestPoint<R> closest_to_origin(std::span<const V3<R>* const> points) {
   const int n = static_cast<int>(points.size());
   const auto* p = points.data();
   if (n == 4 && detail::tetrahedron_encloses<R>(p)) {
-    best.encloses = true, best.dist_sq = 0;
+    best.encloses = true;
+    best.dist_sq = 0;
     return best;
   }
   for (int i = 0; i < n; ++i) detail::try_vertex<R>(p, i, best);

@@ -9,16 +9,19 @@
 namespace touchstone::narrow {
 namespace {
 
+// Of double: the results are rounded to double once.
+constexpr double unit_roundoff = 0x1p-53;
+
 bool is_bounded_convex(const Shape& s) {
   return kind_of(s) != ShapeKind::half_space && kind_of(s) != ShapeKind::mesh;
 }
 
-// A gap this small is contact within the arithmetic that computed it.
+// A gap this small counts as contact: it is within the error of the arithmetic that computed it.
 bool touches(const Separation& s) { return s.gap <= tolerance::narrow_contact_factor * s.size; }
 
 double arithmetic_error(const Separation& s) {
   return static_cast<double>(s.local_slack + tolerance::narrow_contact_factor * s.size) +
-         0x1p-53 * static_cast<double>(std::abs(s.gap) + s.size);
+         unit_roundoff * static_cast<double>(std::abs(s.gap) + s.size);
 }
 
 Vec3 world(const WideVec& p, const PlacedShape& a) {
@@ -51,9 +54,11 @@ OverlapAnswer wide_overlap(const PlacedShape& a, const PlacedShape& b) {
 DistanceAnswer wide_distance(const PlacedShape& a, const PlacedShape& b) {
   const Separation s = separation(a, b);
   DistanceAnswer r;
-  r.outcome = s.outcome, r.error_bound = arithmetic_error(s);
+  r.outcome = s.outcome;
+  r.error_bound = arithmetic_error(s);
   if (s.outcome != Outcome::answered) return r;
-  r.distance = static_cast<double>(s.gap), r.normal = s.normal.cast<double>();
+  r.distance = static_cast<double>(s.gap);
+  r.normal = s.normal.cast<double>();
   r.witness = {world(s.a, a), world(s.b, a)};
   return r;
 }
@@ -61,7 +66,8 @@ DistanceAnswer wide_distance(const PlacedShape& a, const PlacedShape& b) {
 ContactAnswer wide_contact(const PlacedShape& a, const PlacedShape& b) {
   const Separation s = separation(a, b);
   ContactAnswer r;
-  r.outcome = s.outcome, r.error_bound = arithmetic_error(s);
+  r.outcome = s.outcome;
+  r.error_bound = arithmetic_error(s);
   r.overlap = s.outcome == Outcome::answered && touches(s);
   if (!r.overlap) return r;
   r.normal = s.normal.cast<double>();

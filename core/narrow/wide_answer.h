@@ -1,5 +1,5 @@
-// The three answers worked out in extended precision on the exact pose and rounded once: right wherever the
-// fast ones cannot tell, and a hundred times slower.
+// The three answers computed in extended precision on the exact pose and rounded once: correct wherever the
+// fast answers are undecided, but a hundred times slower.
 #pragma once
 
 #include "core/narrow/narrow_phase.h"

@@ -1,4 +1,4 @@
-// How the direction between the nearest features turns.
+// The angular velocity of the direction between the nearest features.
 #pragma once
 
 #include "core/impact/filtered/look.h"
@@ -6,6 +6,9 @@
 namespace touchstone::ccd::fast {
 
 namespace detail {
+
+/// Squared sine of the angle below which two edges count as parallel.
+inline constexpr double parallel_sine_sq = 1e-6;
 
 inline int distinct(const std::array<Vec, 4>& p, int size) {
   int n = 0;
@@ -17,14 +20,15 @@ inline int distinct(const std::array<Vec, 4>& p, int size) {
   return n;
 }
 
-/// The box of a point and a box: its faces and edges count, its corners are no worse for it.
+/// The box, if the pair is a point and a box: its faces and edges carry the direction along, and for its
+/// corners that is no worse.
 inline const Mover* box_of_point(const Sweep& w) {
   const auto a = w.a().body.kind, b = w.b().body.kind;
   if (a == narrow::CoreKind::point && b == narrow::CoreKind::box) return &w.b();
   return b == narrow::CoreKind::point && a == narrow::CoreKind::box ? &w.a() : nullptr;
 }
 
-/// From the first to the one that differs from it.
+/// From the first point to the first one that differs from it.
 inline Vec edge(const std::array<Vec, 4>& p, int size) {
   for (int i = 1; i < size; ++i)
     if (p[static_cast<std::size_t>(i)] != p[0]) return p[static_cast<std::size_t>(i)] - p[0];
@@ -33,8 +37,8 @@ inline Vec edge(const std::array<Vec, 4>& p, int size) {
 
 }  // namespace detail
 
-/// Ω of follow.h: a face or the only edge takes the direction with it; two edges e, f turn it as they turn
-/// e×f; corners leave it as it is.
+/// Ω of follow.h: a face or a single edge carries the direction along; two edges e, f rotate it as they
+/// rotate e×f; corners leave it fixed.
 inline Vec feature_turn(const Sweep& w, const Spot& x, const Features& f, const Vec& n) {
   if (const Mover* box = detail::box_of_point(w)) return box->angular;
   const int a = detail::distinct(f.a, f.size), b = detail::distinct(f.b, f.size);
@@ -43,7 +47,7 @@ inline Vec feature_turn(const Sweep& w, const Spot& x, const Features& f, const 
   if (a < 2) return Vec::Zero();
   const Vec e = x.ra * detail::edge(f.a, f.size), g = x.rb * detail::edge(f.b, f.size), c = e.cross(g);
   const double length_sq = c.squaredNorm();
-  if (!(length_sq > 1e-6 * e.squaredNorm() * g.squaredNorm())) return w.a().angular;
+  if (!(length_sq > detail::parallel_sine_sq * e.squaredNorm() * g.squaredNorm())) return w.a().angular;
   const Vec change = w.a().angular.cross(e).cross(g) + e.cross(w.b().angular.cross(g));
   const double side = n.dot(c) < 0 ? -1 : 1;
   return n.cross(change) * (side / std::sqrt(length_sq));

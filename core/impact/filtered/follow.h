@@ -1,25 +1,25 @@
-// How far the pair may go along one direction, that stands still in the world or turns with a constant Ω.
+// How far the pair may advance along one direction that is fixed in the world or rotates with a constant Ω.
 // Every pair of core points has a separation n·(o + p_B − p_A), o the offset of the origins, whose second
 // derivative is at most
 //
 //   K = Σ r |δ| (|Ω| + |ω|) + |Ω|² max|o| + 2 |Ω| |v|,   δ = ω − Ω, r: reach of a core,
 //
-// for n·p changes at the rate n·(δ×p), and that at (Ω×n)·(δ×p) + n·(δ×(ω×p)); where Ω = 0 the acceleration
-// ω×(ω×p) is perpendicular to ω and K = Σ ρ |ω| |n×ω|, ρ the distance of the core from its axis. So each of
-// them, and with them their minimum s, lies on an interval of length h above the chord of its ends less
-// K x (h − x)/2. From s1 and s2 at the ends, both beyond the error e of s, the minimum is beyond e when
+// because n·p changes at the rate n·(δ×p), and that rate at (Ω×n)·(δ×p) + n·(δ×(ω×p)). Where Ω = 0, the
+// acceleration ω×(ω×p) is perpendicular to ω and K = Σ ρ |ω| |n×ω|, ρ the distance of the core from its axis.
+// So each separation, and hence their minimum s, lies on an interval of length h above the chord of its ends
+// less K x (h − x)/2. From s1 and s2 at the ends, both beyond the error e of s, the minimum is beyond e if
 //
 //   K h²/2 <= (√(s1 − e) + √(s2 − e))².
 //
-// The ends are where s is evaluated anew, so the bound is exact at contact: near it a step is as long as the
-// root of s, found by Newton's method with the second derivative of the present points, and the gap left over
-// is that of the direction alone. That is quadratic in the step when the direction keeps to the features
-// that it comes from: with a face or an edge of one body, or perpendicular to an edge of each. (Held still in
-// the world, the far corner of a face that turns is the next support point, and steps shrink by a constant.)
-// Rounding of the turned n is that of Ω: 16 u / h is added to it.
+// s is evaluated afresh at the ends, so the bound is exact at contact: near it a step is as long as the root
+// of s, found by Newton's method with the second derivative of the present points, and the remaining gap is
+// due to the direction only. It is quadratic in the step if the direction follows the features that define
+// it: rotating with a face or an edge of one body, or perpendicular to an edge of each. (If the direction is
+// fixed in the world, the far corner of a rotating face becomes the next support point, and steps shrink by a
+// constant factor.) The rounding of the rotated n counts as one of Ω: 16 u / h is added to it.
 //
-// A turning core also stays inside what it sweeps as a body of revolution, whatever the angle: that bounds s
-// along a direction that stands still by a line.
+// A rotating core also stays inside the body of revolution that it sweeps, at any angle: this bounds s along
+// a fixed direction by a line.
 #pragma once
 
 #include "core/impact/filtered/look.h"
@@ -27,13 +27,15 @@
 namespace touchstone::ccd::fast {
 
 struct Followed {
-  Spot spot;           // no contact up to its time: s >= error there
-  bool clear = false;  // none up to the end either
+  Spot spot;           // no contact up to its time; s >= error there
+  bool clear = false;  // no contact up to the end
 };
 
 namespace detail {
 
 inline constexpr int follow_cap = 40, chain_cap = 6;
+/// Cover the rounding of a bound by far.
+inline constexpr double round_up = 1 + 0x1p-40, round_down = 1 - 0x1p-40;
 
 class Follower {
  public:
@@ -43,9 +45,10 @@ class Follower {
     for (const Mover* m : {&w.a(), &w.b()}) {
       if (!m->turns) continue;
       const double across = n_.cross(m->angular).norm();
-      still_ += m->off_axis * m->speed * across, jerk_ += m->off_axis * m->speed * m->speed * across;
+      still_ += m->off_axis * m->speed * across;
+      jerk_ += m->off_axis * m->speed * m->speed * across;
     }
-    still_ *= 1 + 0x1p-40;
+    still_ *= round_up;
     if (!turn.isZero(0)) try_turn(turn);
   }
 
@@ -55,7 +58,7 @@ class Follower {
       const double before = spot_.t;
       if (revolve()) return {spot_, true};
       if (spot_.t >= end_ || step()) return {spot_, true};
-      // Farther along the same direction while that gains much.
+      // Continues along the same direction while that gains much.
       if (!(spot_.t > before) || side_.s < 0.3 * s0 || side_.s < 64 * spot_.error) break;
     }
     return {spot_, false};
@@ -64,10 +67,12 @@ class Follower {
  private:
   static double margin(const Spot& x) { return x.error * 1.25; }
 
-  // Turning pays when the whole of Newton's step is then proven.
+  // A rotating direction is used if the whole Newton step is then proven.
   void try_turn(const Vec& turn) {
     const double still = rate();
-    turn_ = turn, turn_speed_ = turn.norm(), far_ = std::max(spot_.offset.norm(), offset_at(end_));
+    turn_ = turn;
+    turn_speed_ = turn.norm();
+    far_ = std::max(spot_.offset.norm(), offset_at(end_));
     const double v = w_.velocity().norm(), turning = rate();
     const double fastest = std::max(turning * turning, still * still);
     if (side_.s * curvature(1) <= 2 * fastest) {
@@ -75,20 +80,21 @@ class Follower {
       for (const Mover* m : {&w_.a(), &w_.b()})
         jerk_ += m->body.reach * std::pow(turn_speed_ + m->speed, 2) * (m->angular - turn).norm();
     } else {
-      turn_ = Vec::Zero(), turn_speed_ = 0;
+      turn_ = Vec::Zero();
+      turn_speed_ = 0;
     }
   }
   bool turning() const { return turn_speed_ > 0; }
   double offset_at(double t) const { return (spot_.offset + (t - spot_.t) * w_.velocity()).norm(); }
 
-  // K of the head comment for a step h.
+  // K of the header comment for a step h.
   double curvature(double h) const {
     if (!turning()) return still_;
     const double slack = 16 * u<double> / h, speed = turn_speed_ + slack;
     double k = speed * (speed * far_ + 2 * w_.velocity().norm());
     for (const Mover* m : {&w_.a(), &w_.b()})
       k += m->body.reach * ((m->angular - turn_).norm() + slack) * (speed + m->speed);
-    return k * (1 + 0x1p-40);
+    return k * round_up;
   }
 
   Vec normal_at(double t) const {
@@ -98,9 +104,12 @@ class Follower {
     return n_ + s * across + 2 * half * half * axis.cross(across);
   }
 
-  void go(double t) { spot_ = w_.at(t, spot_.precise), side_ = w_.along(spot_, n_); }
+  void move_to(double t) {
+    spot_ = w_.at(t, spot_.precise);
+    side_ = w_.along(spot_, n_);
+  }
 
-  // By the bodies of revolution; true: clear to the end.
+  // Steps by the bodies of revolution; true: clear to the end.
   bool revolve() {
     if (!w_.turns() || turning()) return false;
     double s = n_.dot(spot_.offset) - w_.radii();
@@ -118,12 +127,12 @@ class Follower {
     if (!(s > 0)) return false;
     const double h = end_ - spot_.t;
     if (s + approach_ * h > 0) return true;
-    const double t = spot_.t + s / -approach_ * (1 - 0x1p-40);
-    if (t > spot_.t) go(std::min(t, end_));
+    const double t = spot_.t + s / -approach_ * round_down;
+    if (t > spot_.t) move_to(std::min(t, end_));
     return false;
   }
 
-  // Of the present points: n·w + its derivatives, w = b − a.
+  // For the present points: n·w and its derivatives, w = b − a.
   Vec gap_velocity() const {
     return w_.velocity() + w_.b().angular.cross(side_.pb) - w_.a().angular.cross(side_.pa);
   }
@@ -143,7 +152,7 @@ class Follower {
     return r;
   }
 
-  // First h > 0 at which s + d h + a h²/2 is `aim`; infinite if there is none.
+  // First h > 0 at which s + d h + a h²/2 equals `aim`; infinite if there is none.
   static double root(double s, double d, double a, double aim) {
     const double c = s - aim, disc = d * d - 2 * a * c;
     if (!(c > 0)) return 0;
@@ -162,18 +171,18 @@ class Follower {
   double proposal(double h_end, double d) const {
     const double s = side_.s, a = acceleration(), goal = 1.75 * spot_.error;
     double h = std::min(root(s, d, a, goal), h_end);
-    // What the model leaves out: vertices that take over, and the third derivative.
+    // Not in the model: vertices that take over, and the third derivative.
     if (w_.turns()) h = std::min(root(s, d, a, goal + std::min(s / 16, jerk_ * h * h * h)), h_end);
     const double e2 = s + d * h + a * h * h / 2;
     return std::min(h, certain_step(e2, h));
   }
 
-  // To a later time that is proven; true: the end was reached.
+  // Advances to a later time that is proven; true: the end was reached.
   bool step() {
     const double h_end = end_ - spot_.t, s1 = side_.s, e1 = s1 - margin(spot_), d = rate();
     if (!(e1 > 0)) return false;
     double h = proposal(h_end, d);
-    // A step converges quadratically: what is left after it may be within the error of a rounded turn.
+    // A step converges quadratically, so what it leaves may be within the error of a rounded rotation.
     const bool precise = spot_.precise || s1 * s1 < 1024 * spot_.error * (s1 + spot_.offset.norm());
     for (int i = 0; i < follow_cap; ++i) {
       const double t = h >= h_end ? end_ : spot_.t + h;
@@ -183,8 +192,10 @@ class Follower {
       const Side side = w_.along(y, n);
       const double e2 = side.s - margin(y), length = t - spot_.t;
       const double room = e2 < 0 ? -1 : std::sqrt(e1) + std::sqrt(e2);
-      if (room >= 0 && curvature(length) * length * length / 2 <= room * room * (1 - 0x1p-40)) {
-        spot_ = y, side_ = side, n_ = n;
+      if (room >= 0 && curvature(length) * length * length / 2 <= room * room * round_down) {
+        spot_ = y;
+        side_ = side;
+        n_ = n;
         return t >= end_;
       }
       if (e2 < 0) {
@@ -207,8 +218,8 @@ class Follower {
 
 }  // namespace detail
 
-/// From a spot with view.side along view.normal, view.side.s > error. `turn`: of the features that the normal
-/// comes from.
+/// Starts from a spot with view.side along view.normal and view.side.s > error. `turn`: Ω of the features
+/// that define the normal.
 inline Followed follow(const Sweep& w, const Spot& from, const View& view, const Vec& turn, double end) {
   return detail::Follower(w, from, view, turn, end).run();
 }

@@ -6,41 +6,53 @@ namespace touchstone::ccd::fast {
 namespace {
 
 constexpr int step_cap = 20000;
-// Far from contact a direction that is good to a tenth of the gap carries as far as the best.
-constexpr double far_look = 0.1;
-// A step ends two errors before contact; a few more are the direction's.
+// Far from contact, a direction accurate to a tenth of the gap carries as far as the best.
+constexpr double far_accuracy = 0.1;
+// A step ends two errors before contact; the direction accounts for a few more.
 constexpr double near_enough = 8;
-// Below so many errors of the gap, rotations are worked out in extended precision.
-constexpr double near_errors = 512;
+// Below this many errors of the gap, rotations are computed in extended precision.
+constexpr double precise_errors = 512;
+
+// In units of size: witness points that are farther apart across n than this are visibly wrong.
+constexpr double visible = 0x1p-30;
 
 View look_at_plane(const Sweep& w, const Spot& x, const Vec& n) {
   View v;
-  v.normal = n, v.side = w.along(x, n), v.upper = v.side.s;
+  v.normal = n;
+  v.side = w.along(x, n);
+  v.upper = v.side.s;
   return v;
 }
 
-// Nearest points about A's origin; the ball of each core is added along their own difference.
+// Nearest points relative to A's origin; the ball of each core is added along their own difference.
 void set_points(Search& r, const Sweep& w, const Spot& x, const View& v, const Features& f) {
-  r.normal = v.normal, r.a = Vec::Zero(), r.b = Vec::Zero();
+  r.normal = v.normal;
+  r.a = Vec::Zero();
+  r.b = Vec::Zero();
   for (int i = 0; i < std::min(f.size, 3); ++i) {
     const auto k = static_cast<std::size_t>(i);
-    r.a += f.weight[k] * (x.ra * f.a[k]), r.b += f.weight[k] * (x.rb * f.b[k]);
+    r.a += f.weight[k] * (x.ra * f.a[k]);
+    r.b += f.weight[k] * (x.rb * f.b[k]);
   }
-  if (f.size == 0)  // a plane
-    r.a = v.side.pa, r.b = r.a + v.normal * (v.side.s + w.radii());
-  else
+  if (f.size == 0) {  // a plane
+    r.a = v.side.pa;
+    r.b = r.a + v.normal * (v.side.s + w.radii());
+  } else {
     r.b += x.offset;
+  }
   const Vec d = r.b - r.a;
   const double length = d.norm();
   const Vec n = length > 0 && w.radii() > 0 ? Vec(d / length) : v.normal;
-  r.a += w.a().body.radius * n, r.b -= w.b().body.radius * n;
+  r.a += w.a().body.radius * n;
+  r.b -= w.b().body.radius * n;
 }
 
-// Two features that are nearly parallel, or roll on each other, hide which of them the direction goes with: a
-// wrong guess proves steps that shrink by a constant. After this many steps every guess is followed.
-constexpr int sure_steps = 8;
+// Features that are nearly parallel, or roll on each other, do not reveal which of them the direction
+// follows, and a wrong guess proves steps that shrink by a constant factor. After this many steps every guess
+// is tried.
+constexpr int steps_before_trying_all = 8;
 
-// The farthest of all: with either body, still, and as it has turned since the last look.
+// The farthest of all: rotating with either body, fixed, and as it has rotated since the last look.
 Followed follow_any(const Sweep& w, const Spot& x, const View& v, const Vec& seen, double end,
                     Followed best) {
   const Vec still = Vec::Zero();
@@ -57,12 +69,12 @@ struct Direction {
   Vec normal = Vec::Zero();
 };
 
-// From one look towards the next.
-Followed go_on(const Sweep& w, const Spot& x, const View& v, const Features& features, Direction& last,
-               int steps, double end) {
+// Advances from one look to the next.
+Followed follow_guess(const Sweep& w, const Spot& x, const View& v, const Features& features, Direction& last,
+                      int steps, double end) {
   const bool near = w.turns() && v.side.s < w.a().body.reach + w.b().body.reach;
   Followed f = follow(w, x, v, near ? feature_turn(w, x, features, v.normal) : Vec(Vec::Zero()), end);
-  if (steps >= sure_steps && w.turns()) {
+  if (steps >= steps_before_trying_all && w.turns()) {
     const double since = x.t - last.t;
     const Vec seen = since > 0 ? Vec(last.normal.cross(v.normal) / since) : Vec(Vec::Zero());
     f = follow_any(w, x, v, seen, end, f);
@@ -71,8 +83,8 @@ Followed go_on(const Sweep& w, const Spot& x, const View& v, const Features& fea
   return f;
 }
 
-// How far the points are from being where the bodies meet, but for a few errors: along n, and across it.
-double off(const Search& r, double error) {
+// Distance of the witness points from a true contact, less a few errors: along n and across it.
+double witness_error(const Search& r, double error) {
   const Vec d = r.b - r.a;
   const double along = d.dot(r.normal);
   const double e =
@@ -80,12 +92,13 @@ double off(const Search& r, double error) {
   return std::isfinite(e) ? e : std::numeric_limits<double>::infinity();
 }
 
-// Where a hit's features are too near each other to tell (a simplex of length 0 has no direction): B is
-// pushed along n by h, which leaves n and the nearest points as they are and the gap h longer. Bounds that
-// are e apart leave the points √(2he) across n, and e along it. The best of what is found; a short h first.
+// For a hit whose features are too close to each other (a simplex of length 0 has no direction): B is pushed
+// along n by h, which preserves n and the nearest points and makes the gap longer by h. Bounds that differ by
+// e leave the points √(2he) off across n, and e off along it. Keeps the best result; a short h is tried
+// first.
 void improve_points(Search& r, const Sweep& w, const Spot& hit, const Features& near) {
   const double size = w.a().body.reach + w.b().body.reach + w.radii();
-  double best = off(r, hit.error);
+  double best = witness_error(r, hit.error);
   for (const double share : {0x1p-20, 0x1p-13, 0x1p-7})
     for (const bool warm : {true, false}) {
       if (!(best > 0)) return;
@@ -99,15 +112,18 @@ void improve_points(Search& r, const Sweep& w, const Spot& hit, const Features& 
       Search tried = r;
       set_points(tried, w, x, v, f);
       tried.b -= away;
-      if (const double e = off(tried, hit.error); e < best) best = e, r = tried;
+      if (const double e = witness_error(tried, hit.error); e < best) {
+        best = e;
+        r = tried;
+      }
     }
 }
 
-// Worse than the gap may be along n, or visibly across it.
+// Whether the points are farther apart along n than the gap may be, or visibly apart across it.
 bool is_rough(const Search& r, const Sweep& w, double accuracy) {
   const Vec d = r.b - r.a;
   const double along = d.dot(r.normal), size = w.a().body.reach + w.b().body.reach + w.radii();
-  return !(std::abs(along) <= accuracy && (d - along * r.normal).norm() <= 0x1p-30 * size);
+  return !(std::abs(along) <= accuracy && (d - along * r.normal).norm() <= visible * size);
 }
 
 }  // namespace
@@ -126,41 +142,60 @@ Search search(const Sweep& w, double start, double end, double accuracy, const s
   Spot x = w.at(start, !w.turns());
   Direction last{start};
   const auto see = [&] {
-    return plane ? look_at_plane(w, x, *plane) : look(w, x, features, far_look, x.error);
+    return plane ? look_at_plane(w, x, *plane) : look(w, x, features, far_accuracy, x.error);
   };
   for (r.steps = 0; r.steps < step_cap; ++r.steps) {
     View v = see();
-    r.clear_until = x.t, r.gap = v.upper;
-    if (!x.precise && v.side.s < near_errors * x.error) x = w.at(x.t, true), v = see();
+    r.clear_until = x.t;
+    r.gap = v.upper;
+    if (!x.precise && v.side.s < precise_errors * x.error) {
+      x = w.at(x.t, true);
+      v = see();
+    }
     if (v.meeting || !(v.side.s > x.error)) {
       r.end = x.t > start ? SearchEnd::unsure : SearchEnd::start;
       return r;
     }
     if (v.upper + x.error <= std::min(accuracy, near_enough * x.error)) {
       set_points(r, w, x, v, features);
-      if (!plane) improve_points(r, w, x, features), r.rough = is_rough(r, w, accuracy);
+      if (!plane) {
+        improve_points(r, w, x, features);
+        r.rough = is_rough(r, w, accuracy);
+      }
       r.gap = v.upper;
-      return r.end = SearchEnd::hit, r;
+      r.end = SearchEnd::hit;
+      return r;
     }
-    if (x.t >= end) return r.end = SearchEnd::clear, r;
+    if (x.t >= end) {
+      r.end = SearchEnd::clear;
+      return r;
+    }
     const double before = x.t;
     const Followed f =
-        plane ? follow(w, x, v, Vec::Zero(), end) : go_on(w, x, v, features, last, r.steps, end);
+        plane ? follow(w, x, v, Vec::Zero(), end) : follow_guess(w, x, v, features, last, r.steps, end);
     if (f.clear) {
       r.clear_until = end;
-      return r.end = SearchEnd::clear, r;
+      r.end = SearchEnd::clear;
+      return r;
     }
-    if (!(f.spot.t > before)) return r.end = SearchEnd::unsure, r;
+    if (!(f.spot.t > before)) {
+      r.end = SearchEnd::unsure;
+      return r;
+    }
     x = f.spot;
   }
-  return r.end = SearchEnd::unsure, r;
+  r.end = SearchEnd::unsure;
+  return r;
 }
 
 ImpactAnswer answer_of(const Search& s, const Vec& linear_a) {
   ImpactAnswer r;
-  r.steps = s.steps, r.clear_until = s.clear_until, r.separation = s.gap;
+  r.steps = s.steps;
+  r.clear_until = s.clear_until;
+  r.separation = s.gap;
   if (s.end != SearchEnd::hit) return r;
-  r.toi = s.clear_until, r.normal_ab = s.normal;
+  r.toi = s.clear_until;
+  r.normal_ab = s.normal;
   const Vec origin = s.clear_until * linear_a;
   r.witness_w = {Vec3(s.a + origin), Vec3(s.b + origin)};
   return r;

@@ -1,6 +1,6 @@
-// The gap at one time, as well as asked: Gilbert, Johnson, Keerthi 1988 from the features of the last time,
-// whose points are carried along with their bodies. The bounds are those of the simplex (above) and of the
-// best support plane (below); a bad start costs an iteration, never truth.
+// The gap at one time, to the requested accuracy: Gilbert, Johnson, Keerthi 1988, warm-started with the
+// features of the previous time, whose points move with their bodies. The bounds are those of the simplex
+// (above) and of the best support plane (below); a bad start costs an iteration, never correctness.
 #pragma once
 
 #include <algorithm>
@@ -12,15 +12,15 @@
 
 namespace touchstone::ccd::fast {
 
-/// A few core points of each body, in its own frame: what the nearest points are made of.
+/// A few core points of each body, in its own frame, that define the nearest points.
 struct Features {
   std::array<Vec, 4> a, b;
-  std::array<double, 4> weight;  // of the last nearest points
+  std::array<double, 4> weight;  // of the previous nearest points
   int size = 0;
 };
 
 struct View {
-  bool meeting = false;  // the cores meet, as far as the simplex tells
+  bool meeting = false;  // the cores meet according to the simplex
   Vec normal = Vec::UnitX();
   Side side;                                               // along normal
   double upper = std::numeric_limits<double>::infinity();  // of the gap
@@ -34,21 +34,28 @@ class Looker {
  public:
   Looker(const Sweep& sweep, const Spot& x, Features& f, View& v) : w_(sweep), x_(x), f_(f), v_(v) {}
 
-  // Ends when the bounds of the gap differ by `relative` of it, or by `absolute`.
+  // Ends when the bounds of the gap differ by at most `relative` of it or by `absolute`.
   void run(double relative, double absolute) {
     const double touching = 4 * u<double> * (w_.a().body.reach + w_.b().body.reach + x_.offset.norm());
     Vec v = x_.offset;
     if (!start(v)) return;
-    // Of the smallest upper bound: a later simplex may be worse, or hold the origin.
+    // The features of the smallest upper bound: a later simplex may be worse, or contain the origin.
     Features best_features = f_;
     double length = v.norm(), best = -std::numeric_limits<double>::infinity();
-    if (!(length > 0)) v = Vec::UnitX(), length = 1;
+    if (!(length > 0)) {
+      v = Vec::UnitX();
+      length = 1;
+    }
     int idle = 0;
     for (int i = 0; i < look_cap; ++i) {
       const Vec n = v / length;
       const Side s = w_.along(x_, n);
       const bool better = s.s > best;
-      if (better) best = s.s, v_.normal = n, v_.side = s;
+      if (better) {
+        best = s.s;
+        v_.normal = n;
+        v_.side = s;
+      }
       if (v_.upper - best <= std::max(relative * best, absolute)) break;
       idle = better ? 0 : idle + 1;
       if (simplex_.size == 4 || idle > 4 || !add(s, v)) break;
@@ -57,7 +64,10 @@ class Looker {
         v_.meeting = true;
         break;
       }
-      if (length - w_.radii() < v_.upper) v_.upper = length - w_.radii(), best_features = f_;
+      if (length - w_.radii() < v_.upper) {
+        v_.upper = length - w_.radii();
+        best_features = f_;
+      }
     }
     if (best_features.size > 0) f_ = best_features;
   }
@@ -65,7 +75,7 @@ class Looker {
  private:
   Vec point(const Vec& a, const Vec& b) const { return x_.rb * b + x_.offset - x_.ra * a; }
 
-  // The features of the last time where they are now; false: they meet.
+  // Starts from the previous features at their present position; false: they meet.
   bool start(Vec& v) {
     if (f_.size == 0) return true;
     simplex_.size = f_.size;
@@ -74,8 +84,10 @@ class Looker {
       simplex_.p[k].w = point(f_.a[k], f_.b[k]);
     }
     if (!shrink(v)) {
-      // Points of both bodies, but perhaps a sliver that rounding turned inside out.
-      f_.size = 0, simplex_.size = 0, v = x_.offset;
+      // These are points of both bodies, but perhaps a sliver that rounding has inverted.
+      f_.size = 0;
+      simplex_.size = 0;
+      v = x_.offset;
       return true;
     }
     v_.upper = v.norm() - w_.radii();
@@ -88,26 +100,29 @@ class Looker {
     for (std::size_t i = 0; i < k; ++i)
       if (simplex_.p[i].w == w) return false;
     simplex_.p[k].w = w;
-    f_.a[k] = s.local_a, f_.b[k] = s.local_b;
+    f_.a[k] = s.local_a;
+    f_.b[k] = s.local_b;
     f_.size = ++simplex_.size;
     if (shrink(v)) return true;
     v_.meeting = true;
     return false;
   }
 
-  // Down to what carries the nearest point; false: the simplex holds the origin.
+  // Reduces the simplex to the points that support the nearest point; false: it contains the origin.
   bool shrink(Vec& v) {
     const auto before = simplex_.p;
     const int size = simplex_.size;
     double dist_sq = 0, margin = 0;
     if (narrow::fast::reduce(simplex_, v, dist_sq, margin)) return false;
-    const Features had = f_;
+    const Features previous = f_;
     f_.size = simplex_.size;
     for (int i = 0; i < simplex_.size; ++i) {
       const auto k = static_cast<std::size_t>(i);
       std::size_t from = 0;
       while (from + 1 < static_cast<std::size_t>(size) && before[from].w != simplex_.p[k].w) ++from;
-      f_.a[k] = had.a[from], f_.b[k] = had.b[from], f_.weight[k] = simplex_.weight[k];
+      f_.a[k] = previous.a[from];
+      f_.b[k] = previous.b[from];
+      f_.weight[k] = simplex_.weight[k];
     }
     return true;
   }
@@ -123,7 +138,7 @@ class Looker {
 
 namespace detail {
 
-// A point against a point or a box: no search. Features as the search would leave them; false: they meet.
+// A point against a point or a box: no search. Sets the features as the search would; false: they meet.
 inline bool point_and_box(const Sweep& w, const Spot& x, Features& f, View& v) {
   const bool first = w.a().body.kind == narrow::CoreKind::point;
   const Mover& other = first ? w.b() : w.a();
@@ -136,10 +151,13 @@ inline bool point_and_box(const Sweep& w, const Spot& x, Features& f, View& v) {
   const double length = away.norm();
   v.meeting = !(length > 0);
   if (v.meeting) return false;
-  v.normal = away * ((first ? -1 : 1) / length), v.side = w.along(x, v.normal);
+  v.normal = away * ((first ? -1 : 1) / length);
+  v.side = w.along(x, v.normal);
   v.upper = length - w.radii();
-  f.size = 1, f.weight[0] = 1;
-  (first ? f.a : f.b)[0] = Vec::Zero(), (first ? f.b : f.a)[0] = q;
+  f.size = 1;
+  f.weight[0] = 1;
+  (first ? f.a : f.b)[0] = Vec::Zero();
+  (first ? f.b : f.a)[0] = q;
   return true;
 }
 

@@ -7,8 +7,8 @@ namespace {
 
 using narrow::CoreKind;
 
-// Products and a root of doubles: 2⁻⁴⁶ covers them many times over.
-constexpr double up_a_little = 1 + 0x1p-46;
+// Covers the rounding of products and a root of doubles many times over.
+constexpr double inflation = 1 + 0x1p-46;
 
 // Distance of the farthest core point from the axis through the origin along a (unit, body frame).
 double reach_off_axis(const narrow::fast::Body<double>& c, const Vec& a) {
@@ -49,12 +49,15 @@ M3<R> turn_matrix(const V3<R>& u, R s, R c) {
 void set_turn(Mover& m, const Vec& angular) {
   if (m.body.kind == CoreKind::point) return;
   const WideVec w = angular.cast<Wide>();
-  m.speed_wide = w.norm(), m.speed = static_cast<double>(m.speed_wide);
+  m.speed_wide = w.norm();
+  m.speed = static_cast<double>(m.speed_wide);
   if (!(m.speed > 0)) return;
-  m.turns = true, m.angular = angular;
-  m.axis_wide = w / m.speed_wide, m.axis = m.axis_wide.cast<double>();
+  m.turns = true;
+  m.angular = angular;
+  m.axis_wide = w / m.speed_wide;
+  m.axis = m.axis_wide.cast<double>();
   const Vec local = m.start.transpose() * m.axis;
-  m.off_axis = reach_off_axis(m.body, local) * up_a_little + 16 * u<double> * m.body.reach;
+  m.off_axis = reach_off_axis(m.body, local) * inflation + 16 * u<double> * m.body.reach;
   m.up = local.dot(narrow::fast::support_local<double>(m.body, local));
   m.down = -local.dot(narrow::fast::support_local<double>(m.body, -local));
 }
@@ -75,7 +78,8 @@ WideMat rotation_of(const Quat& q) {
 Mover make_mover(const Shape& shape, const WideMat& rotation, const Motion& motion) {
   Mover m;
   m.body = narrow::fast::make_body<double>(shape);
-  m.start_wide = rotation, m.start = rotation.cast<double>();
+  m.start_wide = rotation;
+  m.start = rotation.cast<double>();
   m.linear = motion.linear;
   set_turn(m, motion.angular);
   return m;
@@ -83,9 +87,11 @@ Mover make_mover(const Shape& shape, const WideMat& rotation, const Motion& moti
 
 Mover make_points(std::span<const Vec3> points, const WideMat& rotation) {
   Mover m;
-  m.body.kind = CoreKind::vertices, m.body.vertices = points;
+  m.body.kind = CoreKind::vertices;
+  m.body.vertices = points;
   m.body.reach = m.body.extent = std::sqrt(narrow::fast::largest_norm_sq(points));
-  m.start_wide = rotation, m.start = rotation.cast<double>();
+  m.start_wide = rotation;
+  m.start = rotation.cast<double>();
   return m;
 }
 

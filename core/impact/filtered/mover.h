@@ -1,4 +1,4 @@
-// A body in motion as the double path holds it: its core at t = 0 and what bounds how it turns.
+// A moving body as represented in double: its core at t = 0 and bounds on its rotation.
 #pragma once
 
 #include "core/impact/advance.h"
@@ -12,31 +12,32 @@ using Mat = M3<double>;
 
 struct Mover {
   narrow::fast::Body<double> body;
-  WideMat start_wide;  // rotation at t = 0, and rounded
+  WideMat start_wide;  // rotation at t = 0; `start` is rounded
   Mat start;
   Vec linear = Vec::Zero(), angular = Vec::Zero();
   bool turns = false;
-  Vec axis = Vec::UnitZ();  // of the turn, unit
+  Vec axis = Vec::UnitZ();  // of rotation, unit
   WideVec axis_wide = WideVec::UnitZ();
   double speed = 0;  // |angular|
   Wide speed_wide = 0;
-  double off_axis = 0;      // no core point is farther from the axis
-  double up = 0, down = 0;  // support values of the core along ±axis: the same at all times
+  double off_axis = 0;      // bound on the core's distance from the axis
+  double up = 0, down = 0;  // support values of the core along ±axis; constant
 };
 
-/// Of any finite non-zero quaternion; as wide_rotation() but for the last bits, in less time.
+/// Rotation of any finite non-zero quaternion; equals wide_rotation() except for the last bits, and is
+/// faster.
 WideMat rotation_of(const Quat& q);
 
-/// Precondition: a bounded convex shape. A body whose core is a point does not turn.
+/// Precondition: a bounded convex shape. A body whose core is a point does not rotate.
 Mover make_mover(const Shape& shape, const WideMat& rotation, const Motion& motion);
 
-/// A triangle, or any few points, at rest. The points outlive the mover.
+/// A triangle, or any few points, at rest. The points must outlive the mover.
 Mover make_points(std::span<const Vec3> points, const WideMat& rotation);
 
-/// Rotation at time t. `precise`: worked out in extended precision and rounded once.
+/// Rotation at time t. `precise`: computed in extended precision and rounded once.
 Mat rotation_at(const Mover& m, double t, bool precise);
 
-/// Farthest core point along n at a rotation r, in the body's frame.
+/// Core point farthest along n at a rotation r, in the body's frame.
 inline Vec farthest(const Mover& m, const Mat& r, const Vec& n) {
   if (m.body.kind == narrow::CoreKind::point) return Vec::Zero();
   return narrow::fast::support_local<double>(m.body, r.transpose() * n);

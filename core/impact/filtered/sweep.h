@@ -1,22 +1,22 @@
-// Two movers over time, in double with a bound of the error. World axes, origin at A's.
+// Two movers over time, in double with an error bound. World axes, origin at A's.
 //
 // The separation along a unit n at time t,
 //
-//   s = n·(b(t) − a(t)) − h_A(n) − h_B(−n) − radii   (h: support values of the turned cores),
+//   s = n·(b(t) − a(t)) − h_A(n) − h_B(−n) − radii   (h: support values of the rotated cores),
 //
-// is a lower bound of the gap for every n, and the gap itself for the best. What is computed differs from it
-// by at most `error`, in units u of roundoff, a body's terms times the reach of its core:
+// is a lower bound of the gap for every n, and equals the gap for the best. The computed value differs from
+// it by at most `error`. In units of u, where a body's terms are multiplied by the reach of its core:
 //
-//   rotation    2 rounded once from extended precision. Otherwise R(t) = Q·R0: R0 2, the turn Q 20 (axis,
-//               sine and cosine 11; entries 9), its angle 3 |ω| t, the product 9
-//   direction   Rᵀn is off by 5.2, so the point taken may be short of the farthest by twice that
-//   scan        dot products of vertices 3 each, of two compared 6; rims and quadrics no more
+//   rotation    2 if rounded once from extended precision. Otherwise R(t) = Q·R0: R0 2, the rotation Q 20
+//               (axis, sine and cosine 11; entries 9), its angle 3 |ω| t, the product 9
+//   direction   Rᵀn is off by 5.2, so the point found may fall short of the farthest by twice that
+//   scan        dot products of vertices 3 each, 6 for two that are compared; rims and quadrics no more
 //   point       R·p 5.2
-//   w = b − a   of offset and points, 1; n·w 3, of the offset too, which is itself rounded once and added
-//   once
+//   w = b − a   of offset and points, 1; n·w 3, also of the offset, which is itself rounded once and added
+//               once
 //
-// in all 22, with a scan 28 (rotation rounded once or at rest), 31 + 3 |ω| t more otherwise, and 5 times the
-// offset; radii 2. n need not be unit to rounding: s scales with it.
+// The total is 22, with a scan 28 (rotation rounded once or at rest), otherwise 31 + 3 |ω| t more, and 5
+// times the offset; radii 2. n need not be unit up to rounding: s scales with it.
 #pragma once
 
 #include <algorithm>
@@ -25,7 +25,10 @@
 
 namespace touchstone::ccd::fast {
 
-/// Where the two are at a time.
+/// Covers the rounding of an error bound itself.
+inline constexpr double bound_margin = 1 + 0x1p-20;
+
+/// The poses of both bodies at one time.
 struct Spot {
   double t = 0;
   bool precise = false;
@@ -34,7 +37,7 @@ struct Spot {
   double error = 0;
 };
 
-/// Separation along n, and the core points that it comes from.
+/// Separation along n, and the core points that define it.
 struct Side {
   double s = 0;
   Vec local_a, local_b;  // in each body's frame
@@ -56,22 +59,26 @@ class Sweep {
 
   Spot at(double t, bool precise) const {
     Spot x;
-    x.t = t, x.precise = precise;
-    x.ra = rotation_at(a_, t, precise), x.rb = rotation_at(b_, t, precise);
+    x.t = t;
+    x.precise = precise;
+    x.ra = rotation_at(a_, t, precise);
+    x.rb = rotation_at(b_, t, precise);
     x.offset = (offset_ + static_cast<Wide>(t) * velocity_wide_).cast<double>();
     const auto body = [&](const Mover& m) {
       const double scan =
           m.body.kind == narrow::CoreKind::box || m.body.kind == narrow::CoreKind::segment ? 22 : 28;
       return (scan + (m.turns && !precise ? 31 + 4 * m.speed * t : 0)) * m.body.reach;
     };
-    x.error = u<double> * (1 + 0x1p-20) * (body(a_) + body(b_) + 5 * x.offset.norm() + 3 * radii_);
+    x.error = u<double> * bound_margin * (body(a_) + body(b_) + 5 * x.offset.norm() + 3 * radii_);
     return x;
   }
 
   Side along(const Spot& x, const Vec& n) const {
     Side r;
-    r.local_a = farthest(a_, x.ra, n), r.local_b = farthest(b_, x.rb, -n);
-    r.pa = x.ra * r.local_a, r.pb = x.rb * r.local_b;
+    r.local_a = farthest(a_, x.ra, n);
+    r.local_b = farthest(b_, x.rb, -n);
+    r.pa = x.ra * r.local_a;
+    r.pb = x.rb * r.local_b;
     r.s = n.dot(x.offset + r.pb - r.pa) - radii_;
     return r;
   }

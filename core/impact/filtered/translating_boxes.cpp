@@ -6,7 +6,12 @@
 namespace touchstone::ccd::fast {
 namespace {
 
-// |p + q t| <= r is where the boxes meet along the axis, all three times its length; p >= 0.
+// √3, rounded up.
+constexpr double corner_factor = 1.7321;
+// Below this, an edge axis has no usable direction.
+constexpr double least_length_sq = 1e-200;
+
+// The boxes meet along the axis while |p + q t| <= r, all three multiplied by its length; p >= 0.
 struct Axis {
   double p, q, r, length;
   double separation(double t) const { return std::abs(p + q * t) - r; }
@@ -16,10 +21,11 @@ class Boxes {
  public:
   Boxes(const Translation& m, const Vec& ha, const Vec& hb) : ha_(ha), hb_(hb), at_(relative(m.a, m.b)) {
     v_ = at_.a_to_world.transpose() * m.velocity;
-    constant_ = 8 * ha.norm() + 36 * hb.norm() + 5 * at_.offset.norm(), speed_ = v_.norm();
+    constant_ = 8 * ha.norm() + 36 * hb.norm() + 5 * at_.offset.norm();
+    speed_ = v_.norm();
   }
   double error(double t) const {
-    return u<double> * (1 + 0x1p-20) * (constant_ + 16 * (at_.offset + t * v_).norm() + 6 * t * speed_);
+    return u<double> * bound_margin * (constant_ + 16 * (at_.offset + t * v_).norm() + 6 * t * speed_);
   }
 
   Search run(double accuracy) {
@@ -28,21 +34,21 @@ class Boxes {
     if (first_ < 0) return {.end = SearchEnd::unsure};
     const Axis& a = axis_[static_cast<std::size_t>(first_)];
     double e = error(enter_);
-    const double t = std::max(0.0, (a.p - a.r - 1.75 * e * a.length) / -a.q);
+    const double t = std::max(0.0, (a.p - a.r - aimed_errors * e * a.length) / -a.q);
     e = error(t);
     const double s = a.separation(t) / a.length;
-    if (!(t <= 1 && s > 1.25 * e)) return {.end = SearchEnd::unsure};
+    if (!(t <= 1 && s > certain_errors * e)) return {.end = SearchEnd::unsure};
     double gap = s + e;
     for (int k = 0; k < count_; ++k) {
       const Axis& x = axis_[static_cast<std::size_t>(k)];
       const double other = x.separation(t);
       if (k == first_ || other < -2 * e * x.length) continue;
-      // Passed: separated from here on, by the other side of the slab.
-      if (other > 1.25 * e * x.length && x.separation(1) > 1.25 * e1 * x.length &&
+      // Passed: separated from here on, on the other side of the slab.
+      if (other > certain_errors * e * x.length && x.separation(1) > certain_errors * e1 * x.length &&
           (x.p + x.q * t) * (x.p + x.q) > 0)
         return missed();
-      // A corner of the octants that the normals at the nearest points lie in.
-      gap = std::max(gap, 1.7321 * (std::max(s, other / x.length) + e));
+      // Bounds the gap by the corner of the octants that contain the normals at the nearest points.
+      gap = std::max(gap, corner_factor * (std::max(s, other / x.length) + e));
     }
     if (!(gap <= accuracy)) return {.end = SearchEnd::unsure};
     Search r{.end = SearchEnd::hit, .clear_until = t, .gap = s, .steps = 1};
@@ -53,15 +59,22 @@ class Boxes {
  private:
   static Search missed() { return {.end = SearchEnd::clear, .clear_until = 1, .steps = 1}; }
 
-  // Whether an axis separates all the time; the last to be entered is `first_`.
+  // Returns whether the axis separates all the time. The last axis to be entered becomes `first_`.
   bool take(int index, double p, double q, double r, double length, double e0, double e1) {
-    if (p < 0) p = -p, q = -q;
+    if (p < 0) {
+      p = -p;
+      q = -q;
+    }
     const Axis a{p, q, r, length};
     const int k = count_++;
-    axis_[static_cast<std::size_t>(k)] = a, index_[static_cast<std::size_t>(k)] = index;
-    if (!(p - r > 1.25 * e0 * length)) return false;
-    if (p + q - r > 1.25 * e1 * length) return true;
-    if (const double t = (p - r) / -q; q < 0 && t > enter_) enter_ = t, first_ = k;
+    axis_[static_cast<std::size_t>(k)] = a;
+    index_[static_cast<std::size_t>(k)] = index;
+    if (!(p - r > certain_errors * e0 * length)) return false;
+    if (p + q - r > certain_errors * e1 * length) return true;
+    if (const double t = (p - r) / -q; q < 0 && t > enter_) {
+      enter_ = t;
+      first_ = k;
+    }
     return false;
   }
 
@@ -89,7 +102,7 @@ class Boxes {
     const int k = (i + 1) % 3, l = (i + 2) % 3, j1 = (j + 1) % 3, j2 = (j + 2) % 3;
     const M3<double>& m = at_.b_to_a;
     const double x = m(k, j), y = m(l, j), length_sq = x * x + y * y;
-    if (!(length_sq > 1e-200)) return false;
+    if (!(length_sq > least_length_sq)) return false;
     const double r = ha_[k] * std::abs(y) + ha_[l] * std::abs(x) +
                      hb_[j1] * std::abs(m(l, j1) * x - m(k, j1) * y) +
                      hb_[j2] * std::abs(m(l, j2) * x - m(k, j2) * y);

@@ -1,9 +1,10 @@
-// Where the ray of the origin, −t v, enters the Minkowski difference B − A of two polytopes at rest
-// (van den Bergen 2004 casts it by GJK; here as in Snethen's portal refinement, XenoCollide 2008). Three of
-// its points whose triangle the ray passes are a portal. The support plane along the portal's normal n bounds
-// the time from below, s(n)/(−n·v), whatever the portal; its own plane from above. A support point beyond the
-// portal makes a smaller one, until there is none: then both are the same. Departures: no point inside is
-// needed, for the line of the ray stands for it; what proves the time is the last support plane alone.
+// Finds where the ray of the origin, −t v, enters the Minkowski difference B − A of two polytopes at rest
+// (van den Bergen 2004 casts the ray with GJK; here as in Snethen's portal refinement, XenoCollide 2008). A
+// portal is three of its points whose triangle the ray crosses. The support plane along the portal's normal n
+// bounds the time from below, s(n)/(−n·v), whatever the portal; the portal's own plane bounds it from above.
+// A support point beyond the portal yields a smaller one; when there is none, both bounds are equal.
+// Departures: no interior point is needed, because the line of the ray replaces it; the time is proven by the
+// last support plane alone.
 #include <array>
 #include <cmath>
 
@@ -25,8 +26,8 @@ class Cast {
 
   Search run(double accuracy) {
     if (!(speed_ > 0)) return {};
-    way_ = v_ / speed_;
-    // The end is reckoned from the start: both errors, and that of n·v.
+    ray_ = v_ / speed_;
+    // The end is extrapolated from the start: both errors, and that of n·v.
     end_error_ = start_.error + sweep_.at(1, true).error + 8 * u<double> * speed_;
     Pass p = find_portal();
     if (p == Pass::on) p = refine();
@@ -35,39 +36,42 @@ class Cast {
   }
 
  private:
-  // The support plane along n: separation at t = 0, and its point. Proof of a miss: both ends beyond the
+  // The support plane along n: separation at t = 0, and its point. Proves a miss if both ends are beyond the
   // error.
   Pass look(const Vec& n, Vertex<double>& p, double& s) {
     ++steps_;
     const Side x = sweep_.along(start_, n);
-    p.a = x.pa, p.w = start_.offset + x.pb - x.pa, s = x.s;
+    p.a = x.pa;
+    p.w = start_.offset + x.pb - x.pa;
+    s = x.s;
     return s > start_.error && s + n.dot(v_) > end_error_ ? Pass::clear : Pass::on;
   }
 
-  // Seen along the ray: positive if the origin is to the left from p to q.
-  double side(const Vertex<double>& p, const Vertex<double>& q) const { return way_.dot(p.w.cross(q.w)); }
-  Vec across(const Vec& x) const { return x - way_.dot(x) * way_; }
+  // As seen along the ray: positive if the origin is to the left of the edge from p to q.
+  double side(const Vertex<double>& p, const Vertex<double>& q) const { return ray_.dot(p.w.cross(q.w)); }
+  Vec across(const Vec& x) const { return x - ray_.dot(x) * ray_; }
 
-  // Three points about the ray; directions lean towards its beginning, so that they are near where it enters.
+  // Finds three points around the ray. Directions lean towards its beginning, so that the points are near
+  // where it enters.
   Pass find_portal() {
     double s = 0;
-    if (look(-way_, p_[0], s) == Pass::clear) return Pass::clear;
+    if (look(-ray_, p_[0], s) == Pass::clear) return Pass::clear;
     Vec g = across(-p_[0].w);
     const double aside = g.norm();
     if (!(aside > 0))
-      g = way_.unitOrthogonal();
+      g = ray_.unitOrthogonal();
     else
       g /= aside;
-    if (const Pass r = reach(g, -way_, p_[1]); r != Pass::on) return r;
+    if (const Pass r = reach(g, -ray_, p_[1]); r != Pass::on) return r;
     for (int i = 0; i < portal_cap; ++i) {
       const Vec edge = p_[1].w - p_[0].w;
-      g = across(edge).cross(way_);
+      g = across(edge).cross(ray_);
       const double length = g.norm();
       if (!(length > 0)) return Pass::lost;
       g *= (g.dot(p_[0].w) > 0 ? -1 : 1) / length;
-      const Vec along = edge.normalized(), front = (way_.dot(along) * along - way_).normalized();
+      const Vec along = edge.normalized(), front = (ray_.dot(along) * along - ray_).normalized();
       if (const Pass r = reach(g, front, p_[2]); r != Pass::on) return r;
-      // Beyond one of the edges of the new point the origin is outside yet.
+      // The origin is still outside one of the two edges of the new point.
       const double turn = side(p_[0], p_[1]) + side(p_[1], p_[2]) + side(p_[2], p_[0]);
       const double sign = turn < 0 ? -1 : 1;
       if (sign * side(p_[1], p_[2]) < 0)
@@ -80,7 +84,7 @@ class Cast {
     return Pass::lost;
   }
 
-  // A point that is beyond the ray along g, which is across it; `front`: unit, across g.
+  // Finds a point beyond the ray along g, which is orthogonal to it; `front`: unit, orthogonal to g.
   Pass reach(const Vec& g, const Vec& front, Vertex<double>& p) {
     double s = 0;
     const Vec lean = (front - g).normalized();
@@ -100,7 +104,7 @@ class Cast {
       if (look(n, q, s_) == Pass::clear) return Pass::clear;
       n_ = n;
       if (n.dot(p_[0].w) - s_ <= 0.1 * start_.error) return Pass::on;
-      // The ray passes one of the three triangles with q.
+      // The ray crosses one of the three triangles with q.
       const double sign = side(p_[0], p_[1]) + side(p_[1], p_[2]) + side(p_[2], p_[0]) < 0 ? -1 : 1;
       const double a = sign * side(p_[0], q), b = sign * side(p_[1], q), c = sign * side(p_[2], q);
       if (b >= 0 && a <= 0)
@@ -126,7 +130,10 @@ class Cast {
     if (!(s_ > start_.error && s > spot.error)) return {};
     narrow::fast::Simplex<double> x;
     x.size = 3;
-    for (std::size_t k = 0; k < 3; ++k) x.p[k] = p_[k], x.p[k].w += spot.offset - start_.offset;
+    for (std::size_t k = 0; k < 3; ++k) {
+      x.p[k] = p_[k];
+      x.p[k].w += spot.offset - start_.offset;
+    }
     Vec w = Vec::Zero();
     double dist_sq = 0, margin = 0;
     if (narrow::fast::reduce(x, w, dist_sq, margin)) return {};
@@ -135,13 +142,14 @@ class Cast {
     Search r{.end = SearchEnd::hit, .clear_until = t, .gap = s, .steps = steps_};
     for (int k = 0; k < x.size; ++k)
       r.a += x.weight[static_cast<std::size_t>(k)] * x.p[static_cast<std::size_t>(k)].a;
-    r.b = r.a + w, r.normal = n_;
+    r.b = r.a + w;
+    r.normal = n_;
     return r;
   }
 
   const Sweep& sweep_;
   Spot start_;
-  Vec v_, way_, n_;
+  Vec v_, ray_, n_;
   double speed_ = 0, end_error_ = 0, s_ = 0;
   std::array<Vertex<double>, 3> p_;
   int steps_ = 0;

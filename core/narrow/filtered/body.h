@@ -15,14 +15,14 @@ struct Body {
   CoreKind kind = CoreKind::point;
   V3<R> size;                        // as in ConvexCore
   std::span<const Vec3> vertices;    // kind vertices
-  const HullGraph* graph = nullptr;  // of them, or none
+  const HullGraph* graph = nullptr;  // of `vertices`, or null
   R radius = 0;                      // of the ball
   R reach = 0;                       // of the core about the body's origin, rounded
-  R extent = 0;                      // no more than the body's share of L
-  R unit = 1;                        // power of two: the core's vertices are this times `vertices`
+  R extent = 0;                      // at most the body's share of L
+  R unit = 1;                        // power of two; scales `vertices` to the core's vertices
 };
 
-/// A core point farthest along d; d not zero.
+/// A core point farthest along d; d is not zero.
 template <class R>
 V3<R> support_local(const Body<R>& c, const V3<R>& d) {
   const V3<R>& s = c.size;
@@ -60,7 +60,8 @@ bool is_curved(const Body<R>& c) {
   return c.kind == CoreKind::cylinder || c.kind == CoreKind::cone || c.kind == CoreKind::ellipsoid;
 }
 
-/// Derivative of the support point along a unit d, where it has one: zero for corners and edges.
+/// Derivative of the support point with respect to a unit direction d, where it exists: zero for corners and
+/// edges.
 template <class R>
 M3<R> support_derivative(const Body<R>& c, const V3<R>& d) {
   M3<R> m = M3<R>::Zero();
@@ -78,26 +79,33 @@ M3<R> support_derivative(const Body<R>& c, const V3<R>& d) {
     const R rho = std::sqrt(d[0] * d[0] + d[1] * d[1]);
     if (!(rho > 0)) return m;
     const R x = -d[1] / rho, y = d[0] / rho, k = c.size[0] / rho;
-    m(0, 0) = k * x * x, m(0, 1) = m(1, 0) = k * x * y, m(1, 1) = k * y * y;
+    m(0, 0) = k * x * x;
+    m(0, 1) = m(1, 0) = k * x * y;
+    m(1, 1) = k * y * y;
   }
   return m;
 }
 
-/// Precondition: bounded and convex. The span views the shape; a graph is of that shape.
+/// Precondition: bounded and convex. The body refers to the shape's vertices; `graph`, if any, belongs to
+/// that shape.
 template <class R>
 Body<R> make_body(const Shape& shape, const HullGraph* graph = nullptr) {
   Body<R> c;
   const auto round = [&](CoreKind kind, double r, double h) {
-    c.kind = kind, c.size = V3<R>(static_cast<R>(r), static_cast<R>(r), static_cast<R>(h));
-    c.reach = c.size[0] + c.size[2], c.extent = std::max(c.size[0], c.size[2]);
+    c.kind = kind;
+    c.size = V3<R>(static_cast<R>(r), static_cast<R>(r), static_cast<R>(h));
+    c.reach = c.size[0] + c.size[2];
+    c.extent = std::max(c.size[0], c.size[2]);
   };
   switch (kind_of(shape)) {
     case ShapeKind::sphere:
-      c.radius = static_cast<R>(std::get_if<Sphere>(&shape)->radius), c.extent = c.radius;
+      c.radius = static_cast<R>(std::get_if<Sphere>(&shape)->radius);
+      c.extent = c.radius;
       break;
     case ShapeKind::capsule: {
       const auto& s = *std::get_if<Capsule>(&shape);
-      round(CoreKind::segment, 0, s.half_height), c.radius = static_cast<R>(s.radius);
+      round(CoreKind::segment, 0, s.half_height);
+      c.radius = static_cast<R>(s.radius);
       c.extent = c.size[2] + c.radius;
       break;
     }
@@ -109,15 +117,19 @@ Body<R> make_body(const Shape& shape, const HullGraph* graph = nullptr) {
       round(CoreKind::cone, std::get_if<Cone>(&shape)->radius, std::get_if<Cone>(&shape)->half_height);
       break;
     case ShapeKind::box:
-      c.kind = CoreKind::box, c.size = std::get_if<Box>(&shape)->half_extents.cast<R>();
-      c.reach = c.size.norm(), c.extent = c.size.maxCoeff();
+      c.kind = CoreKind::box;
+      c.size = std::get_if<Box>(&shape)->half_extents.cast<R>();
+      c.reach = c.size.norm();
+      c.extent = c.size.maxCoeff();
       break;
     case ShapeKind::ellipsoid:
-      c.kind = CoreKind::ellipsoid, c.size = std::get_if<Ellipsoid>(&shape)->semi_axes.cast<R>();
+      c.kind = CoreKind::ellipsoid;
+      c.size = std::get_if<Ellipsoid>(&shape)->semi_axes.cast<R>();
       c.reach = c.extent = c.size.maxCoeff();
       break;
     default: {
-      c.kind = CoreKind::vertices, c.vertices = std::get_if<Hull>(&shape)->vertices;
+      c.kind = CoreKind::vertices;
+      c.vertices = std::get_if<Hull>(&shape)->vertices;
       if (graph && *graph) c.graph = graph;
       c.reach = c.extent = static_cast<R>(c.graph ? c.graph->reach : std::sqrt(largest_norm_sq(c.vertices)));
     }

@@ -1,12 +1,12 @@
 // Two boxes by the separating axis test (Gottschalk, Lin, Manocha 1996), in A's frame. Departures:
 //
-// * Projections on a cross axis e_i × b_j are worked out from that vector itself and not from the identity
-//   b_j × b_m = b_l: every term then scales with the length of the axis, so nearly parallel edges cost no
-//   accuracy and no epsilon is added to the matrix. An axis of length 0 says nothing and takes no part.
+// * Projections on a cross axis e_i × b_j are computed from that vector itself instead of the identity b_j ×
+//   b_m = b_l: every term then scales with the length of the axis, so nearly parallel edges lose no accuracy
+//   and no epsilon is added to the matrix. An axis of length 0 is ignored.
 // * The axis is orthogonal to e_i and b_j up to relative rounding (products of the same two numbers), so its
-//   width is that of the true edge pair for boxes displaced by rounding alone: the least of the 15 widths
-//   is the depth to within the displacement, and every verdict beyond it is certain.
-// * A face axis wins a tie within rounding, A's first: the normal of a stack stands still.
+//   width is that of the true edge pair for boxes displaced by rounding only: the least of the 15 widths is
+//   the depth to within the displacement, and every verdict beyond it is certain.
+// * A face axis wins a tie within rounding, A's first: the normal of a stack is stable.
 #pragma once
 
 #include <array>
@@ -22,8 +22,8 @@ struct BoxPair {
   R displacement;
 };
 
-/// Which axis has the largest separation (least depth): 0-2 A's faces, 3-5 B's, 6 + 3i + j edges i of A, j of
-/// B.
+/// The axis with the largest separation (least depth): 0-2 A's faces, 3-5 B's, 6 + 3i + j edges i of A and j
+/// of B.
 template <class R>
 struct BoxAxis {
   Found found = Found::unsure;
@@ -87,12 +87,12 @@ template <class R>
 BoxPair<R> box_pair(const Shape& sa, const Stand<R>& a, const Shape& sb, const Stand<R>& b) {
   BoxPair<R> p{std::get_if<Box>(&sa)->half_extents.template cast<R>(),
                std::get_if<Box>(&sb)->half_extents.template cast<R>(), relative(a, b), 0};
-  // 1-norms stand above the lengths that query.h's account is written in, and cost no root.
+  // 1-norms bound the lengths in query.h's analysis and need no square root.
   p.displacement = displacement_of<R>(p.ha.sum(), p.hb.sum(), p.at.offset.cwiseAbs().sum());
   return p;
 }
 
-/// The verdict alone; leaves at the first axis that separates.
+/// The verdict only; early exit at the first axis that separates.
 template <class R>
 Found boxes_meet(const BoxPair<R>& p) {
   const auto faces = detail::face_separations(p);
@@ -119,8 +119,10 @@ BoxAxis<R> least_axis(const BoxPair<R>& p) {
   BoxAxis<R> best;
   for (int i = 0; i < 6; ++i)
     if (const R s = faces[static_cast<std::size_t>(i)];
-        s > best.separation + (best.index < 3 && i >= 3 ? tie : 0))
-      best.separation = s, best.index = i;
+        s > best.separation + (best.index < 3 && i >= 3 ? tie : 0)) {
+      best.separation = s;
+      best.index = i;
+    }
   if (best.separation > p.displacement) {
     best.found = Found::apart;
     return best;
@@ -129,11 +131,13 @@ BoxAxis<R> least_axis(const BoxPair<R>& p) {
     for (int j = 0; j < 3; ++j) {
       const auto e = detail::edge_axis(p, i, j);
       const R goal = best.separation + tie;
-      // s/|n| > goal without a root, all cases of sign.
+      // Tests s/|n| > goal without a square root, for all cases of sign.
       const bool better = goal < 0 ? (e.s > 0 || e.s * e.s < goal * goal * e.length_sq)
                                    : (e.s > 0 && e.s * e.s > goal * goal * e.length_sq);
-      if (better && e.length_sq > 0)
-        best.separation = e.s / std::sqrt(e.length_sq), best.index = 6 + 3 * i + j;
+      if (better && e.length_sq > 0) {
+        best.separation = e.s / std::sqrt(e.length_sq);
+        best.index = 6 + 3 * i + j;
+      }
     }
   best.found = decide(best.separation, p.displacement);
   if (best.index < 3)

@@ -1,7 +1,7 @@
 // A convex body against the triangles of a mesh, each a hull of three vertices, in the arithmetic R.
 // Definition as in core/narrow/mesh.h: the nearest triangle, or the deepest of those that are hit. Boxes that
-// the body's ball cannot reach are left out, safely: the ball grows by more than the roundings of its centre.
-// One triangle of which R does not know enough makes the answer unsure.
+// the body's ball cannot reach are skipped safely: the ball is enlarged by more than the rounding of its
+// centre. A single triangle that R cannot resolve makes the answer unsure.
 #include <array>
 
 #include "core/narrow/filtered/separate.h"
@@ -10,6 +10,9 @@
 
 namespace touchstone::narrow::fast {
 namespace {
+
+// In units of the coordinates; covers the rounding of a box's distance, which is computed from exact boxes.
+constexpr double box_rounding = 0x1p-40;
 
 template <class R>
 class MeshQuery {
@@ -21,40 +24,43 @@ class MeshQuery {
         b_(stand<R>(b.pose)),
         best_(best),
         s_(s) {
-    s.a = make_body<R>(*a.shape, a.graph), s.at = relative(a_, b_), s.contact = ContactForm::point;
+    s.a = make_body<R>(*a.shape, a.graph);
+    s.at = relative(a_, b_);
+    s.contact = ContactForm::point;
     const Vec3 d = a.pose.translation - b.pose.translation;
     centre_ = matrix(stand<double>(b.pose)).transpose() * d;
     const double ball = static_cast<double>(s.a.reach) + static_cast<double>(s.a.radius);
     ball_ = ball + 256 * static_cast<double>(u<R>) * (ball + d.norm() + a.pose.translation.norm());
-    best_.found = Found::apart, best_.gap = std::numeric_limits<R>::infinity(), best_.bound = 0;
+    best_.found = Found::apart;
+    best_.gap = std::numeric_limits<R>::infinity();
+    best_.bound = 0;
   }
 
   void run(const MeshTree* tree) {
     if (tree) {
       if (!tree->nodes.empty()) descend(*tree, 0);
     } else {
-      for (std::size_t i = 0; i < mesh_.triangles.size() && !over_; ++i) look(i);
+      for (std::size_t i = 0; i < mesh_.triangles.size() && !done_; ++i) test_triangle(i);
     }
     best_.bound = std::max(best_.bound, bound_);
     const bool nothing = asked_ == Asked::distance && !(best_.gap < std::numeric_limits<R>::infinity());
-    if (doubt_ || nothing) best_.found = Found::unsure;
+    if (uncertain_ || nothing) best_.found = Found::unsure;
   }
 
  private:
-  // 2⁻⁴⁰ of the coordinates covers the roundings of a box's distance, which is taken on exact boxes.
   bool out_of_reach(const Vec3& lo, const Vec3& hi) const {
     const double gap = asked_ == Asked::distance ? std::max(0.0, static_cast<double>(best_.gap)) : 0;
-    const double far = (ball_ + gap) * (1 + 0x1p-40) + 0x1p-40 * centre_.norm();
+    const double far = (ball_ + gap) * (1 + box_rounding) + box_rounding * centre_.norm();
     return box_distance_sq(centre_, lo, hi) > far * far;
   }
 
-  // The nearer child first.
+  // Visits the nearer child first.
   void descend(const MeshTree& tree, std::int32_t node) {
     const MeshTree::Node& n = tree.nodes[static_cast<std::size_t>(node)];
-    if (over_ || out_of_reach(n.lo, n.hi)) return;
+    if (done_ || out_of_reach(n.lo, n.hi)) return;
     if (n.count > 0) {
-      for (std::int32_t i = n.first; i < n.first + n.count && !over_; ++i)
-        look(static_cast<std::size_t>(tree.order[static_cast<std::size_t>(i)]));
+      for (std::int32_t i = n.first; i < n.first + n.count && !done_; ++i)
+        test_triangle(static_cast<std::size_t>(tree.order[static_cast<std::size_t>(i)]));
       return;
     }
     const auto far = [&](std::int32_t child) {
@@ -62,15 +68,17 @@ class MeshQuery {
       return box_distance_sq(centre_, c.lo, c.hi);
     };
     const bool second = far(n.first + 1) < far(n.first);
-    descend(tree, n.first + second), descend(tree, n.first + !second);
+    descend(tree, n.first + second);
+    descend(tree, n.first + !second);
   }
 
-  void look(std::size_t triangle) {
+  void test_triangle(std::size_t triangle) {
     corner_ = corners(mesh_, triangle);
     if (out_of_reach(corner_[0].cwiseMin(corner_[1]).cwiseMin(corner_[2]),
                      corner_[0].cwiseMax(corner_[1]).cwiseMax(corner_[2])))
       return;
-    s_.b.kind = CoreKind::vertices, s_.b.vertices = corner_;
+    s_.b.kind = CoreKind::vertices;
+    s_.b.vertices = corner_;
     s_.b.reach = s_.b.extent = static_cast<R>(std::sqrt(largest_norm_sq(corner_)));
     Answer<R> r;
     s_.guess.setZero();
@@ -80,17 +88,19 @@ class MeshQuery {
 
   void take(const Answer<R>& r) {
     if (asked_ == Asked::overlap) {
-      doubt_ |= r.found == Found::unsure || r.found == Found::touching;
+      uncertain_ |= r.found == Found::unsure || r.found == Found::touching;
       bound_ = std::max(bound_, r.bound);
       if (r.found != Found::meeting) return;
-      best_ = r, doubt_ = false, over_ = true;
+      best_ = r;
+      uncertain_ = false;
+      done_ = true;
       return;
     }
     if (r.found == Found::unsure) {
-      doubt_ = over_ = true;
+      uncertain_ = done_ = true;
       return;
     }
-    // Apart without a value: farther than the best, or of no interest to contacts.
+    // Apart without a value: farther than the best, or irrelevant to contacts.
     const bool valued = r.found != Found::apart || (asked_ == Asked::distance && r.valued);
     if (!valued) return;
     bound_ = std::max(bound_, r.bound);
@@ -106,7 +116,7 @@ class MeshQuery {
   double ball_;
   R bound_ = 0;
   std::array<Vec3, 3> corner_;
-  bool doubt_ = false, over_ = false;
+  bool uncertain_ = false, done_ = false;
 };
 
 }  // namespace
@@ -114,7 +124,7 @@ class MeshQuery {
 template <class R>
 void convex_mesh(const PlacedShape& a, const PlacedShape& b, Asked asked, Answer<R>& r, PairScene<R>& s) {
   MeshQuery<R>(a, b, asked, r, s).run(b.tree);
-  // The triangle's corners are gone.
+  // The triangle's corners no longer exist.
   s.b.vertices = {};
 }
 

@@ -1,4 +1,4 @@
-// B − A of two placed cores, by its support points.
+// The Minkowski difference B − A of two placed cores, represented by its support points.
 #pragma once
 
 #include "core/narrow/filtered/body.h"

@@ -1,8 +1,9 @@
 // Penetration depth of two convex cores in the arithmetic R: the expanding polytope of core/narrow/epa.h in
-// fixed storage, facets by index, support points asked for only when a facet is the nearest. Same bounds:
-// every direction tried is an upper bound; the surface is closed, made of points of B − A, and each facet
-// lies beyond the least of its corners along its own normal, whatever rounding did to that normal, so the
-// least of those is a lower bound. When the storage is full or the horizon cannot be repaired it says so.
+// fixed storage, with facets by index, and support points computed only when a facet is the nearest. Same
+// bounds: every direction tried is an upper bound. The surface is closed and consists of points of B − A, and
+// each facet lies beyond the least height of its corners along its own normal, whatever the rounding of that
+// normal, so the least of these heights is a lower bound. Full storage and a horizon that cannot be repaired
+// are reported.
 #pragma once
 
 #include "core/narrow/filtered/gjk.h"
@@ -12,7 +13,7 @@ namespace touchstone::narrow::fast {
 enum class ExpandEnd {
   closed,  // upper − lower <= tolerance
   flat,    // B − A has no interior within rounding
-  full,    // storage used up: bounds valid but apart
+  full,    // storage exhausted: bounds valid but have not met
   broken   // the surface could not be repaired
 };
 
@@ -21,7 +22,7 @@ struct Depth {
   ExpandEnd end = ExpandEnd::broken;
   R upper = std::numeric_limits<R>::infinity(), lower = 0;
   V3<R> outward = V3<R>::UnitX();              // unit; A to B is its opposite
-  V3<R> a = V3<R>::Zero(), w = V3<R>::Zero();  // foot of the origin, A's share of it
+  V3<R> a = V3<R>::Zero(), w = V3<R>::Zero();  // foot w of the origin, and its point of A
   int vertices = 0;
 };
 
@@ -29,8 +30,8 @@ template <class R>
 class Expander {
  public:
   static constexpr int vertex_capacity = 160, facet_capacity = 4 * vertex_capacity;
-  /// From this many vertices on, three tolerances will do: curved pairs close in about 50, or hang on
-  /// rounding.
+  /// From this many vertices on, three tolerances are enough: curved pairs close within about 50 vertices, or
+  /// stagnate in rounding.
   static constexpr int patience = 64;
 
   Expander(const Difference<R>& d, R size, R tolerance)
@@ -44,12 +45,16 @@ class Expander {
   Depth<R> run(const Simplex<R>& start, bool encloses) {
     for (int i = 0; i < start.size; ++i) set_vertex(i, start.p[static_cast<std::size_t>(i)]);
     vertices_ = start.size;
-    if (!complete(encloses)) return result_.end = ExpandEnd::flat, result_;
+    if (!complete(encloses)) {
+      result_.end = ExpandEnd::flat;
+      return result_;
+    }
     if (!build()) return result_;
     for (;;) {
       int f = nearest();
       if (f >= 0 && vertices_ >= next_try_) {
-        next_try_ += try_step_, try_step_ *= settled_.found ? 2 : 1;
+        next_try_ += try_step_;
+        try_step_ *= settled_.found ? 2 : 1;
         if (settle(f)) f = nearest();
       }
       if (settled_.found && (f < 0 || rank_[f] >= settled_.lower)) return finish_settled();
@@ -82,21 +87,27 @@ class Expander {
 
   Vertex<R> probe(const V3<R>& n) {
     const Vertex<R> s = d_.support(n);
-    if (const R h = n.dot(s.w); h < result_.upper) result_.upper = h, result_.outward = n;
+    if (const R h = n.dot(s.w); h < result_.upper) {
+      result_.upper = h;
+      result_.outward = n;
+    }
     return s;
   }
 
   const V3<R>& w(int i) const { return w_[i]; }
-  void set_vertex(int i, const Vertex<R>& v) { w_[i] = v.w, a_[i] = v.a; }
+  void set_vertex(int i, const Vertex<R>& v) {
+    w_[i] = v.w;
+    a_[i] = v.a;
+  }
 
   // ---- a local minimum, and the cap of directions in which it is proven to be the least.
   //
-  // The polytope need not say anything about the cap. Dual: the polar of the polytope, with vertices n/key,
-  // must not leave the ball of radius 1/L outside of the cap. A point of it that does lies between the ball
-  // and the hull of the vertices that do; if those are within half the cap's angle θ of its axis and no
-  // farther out than 1/(L cos(θ/2)), it is within θ of the axis.
+  // The polytope need not prove anything inside the cap. By duality: the polar of the polytope, with vertices
+  // n/key, must not leave the ball of radius 1/L outside the cap. A point of the polar that does leave it
+  // lies between the ball and the hull of the vertices that do; if these are within half the cap's angle θ of
+  // its axis and no farther out than 1/(L cos(θ/2)), the point is within θ of the axis.
 
-  // True: ranks have changed.
+  // Returns true if the ranks have changed.
   bool settle(int f) {
     const Foot<R> foot = foot_of(f);
     std::array<Vertex<R>, 3> facet;
@@ -126,13 +137,17 @@ class Expander {
   }
 
   Depth<R> finish_settled() {
-    result_.end = ExpandEnd::closed, result_.vertices = vertices_;
-    result_.upper = settled_.upper, result_.lower = settled_.lower, result_.outward = settled_.outward;
-    result_.a = settled_.a, result_.w = settled_.w;
+    result_.end = ExpandEnd::closed;
+    result_.vertices = vertices_;
+    result_.upper = settled_.upper;
+    result_.lower = settled_.lower;
+    result_.outward = settled_.outward;
+    result_.a = settled_.a;
+    result_.w = settled_.w;
     return result_;
   }
 
-  // ---- start: a tetrahedron with height.
+  // ---- start: a non-degenerate tetrahedron
 
   bool complete(bool encloses) {
     if (encloses && vertices_ == 4) {
@@ -152,7 +167,7 @@ class Expander {
     }
     if (vertices_ == 2) {
       const V3<R> e = w(1) - w(0), k = e / e.norm(), x = k.unitOrthogonal(), y = k.cross(x);
-      const R c = R(0.5), h = R(0.86602540378443864676);
+      const R c = R(0.5), h = R(0.86602540378443864676);  // cosine and sine of 60°
       if (!add_farthest({x, V3<R>(c * x + h * y), V3<R>(h * y - c * x)},
                         [&](const V3<R>& p) { return k.cross(p - w(0)).norm(); }))
         return false;
@@ -169,7 +184,10 @@ class Expander {
     for (int i = 0; i < vertices_; ++i) {
       bool repeat = false;
       for (int k = 0; k < kept; ++k) repeat |= (w(i) - w(k)).norm() <= thin_;
-      if (!repeat) w_[kept] = w_[i], a_[kept++] = a_[i];
+      if (!repeat) {
+        w_[kept] = w_[i];
+        a_[kept++] = a_[i];
+      }
     }
     vertices_ = kept;
   }
@@ -181,7 +199,10 @@ class Expander {
     for (const V3<R>& m : directions)
       for (const R sign : {R(1), R(-1)}) {
         const Vertex<R> p = probe(sign * m);
-        if (const R far = distance(p.w); far > best) best = far, chosen = p;
+        if (const R far = distance(p.w); far > best) {
+          best = far;
+          chosen = p;
+        }
       }
     if (!(best > thin_)) return false;
     set_vertex(vertices_++, chosen);
@@ -190,14 +211,17 @@ class Expander {
 
   bool build() {
     const V3<R> n = (w(1) - w(0)).cross(w(2) - w(0));
-    if (n.dot(w(3) - w(0)) > 0) std::swap(w_[1], w_[2]), std::swap(a_[1], a_[2]);
+    if (n.dot(w(3) - w(0)) > 0) {
+      std::swap(w_[1], w_[2]);
+      std::swap(a_[1], a_[2]);
+    }
     return add({0, 1, 2}, {3, 1, 2}) && add({1, 3, 2}, {3, 2, 0}) && add({0, 2, 3}, {0, 1, 3}) &&
            add({0, 3, 1}, {2, 1, 0});
   }
 
   // ---- facets
 
-  // Unit normal of a triangle and the least height of its corners along it; false: a sliver.
+  // Unit normal of a triangle and the least height of its corners along it; false for a sliver.
   bool measure(const V3<R>& a, const V3<R>& b, const V3<R>& c, V3<R>& n, R& key, R& stretch) const {
     const R lab = (b - a).squaredNorm(), lbc = (c - b).squaredNorm(), lca = (a - c).squaredNorm();
     const R longest = std::max(lab, std::max(lbc, lca));
@@ -206,17 +230,21 @@ class Expander {
     const R nn = n.squaredNorm();
     if (!(nn > thin_ * thin_ * longest)) return false;
     const R inverse = 1 / std::sqrt(nn);
-    n *= inverse, stretch = longest * inverse;  // longest edge over height
+    n *= inverse;
+    stretch = longest * inverse;  // longest edge over height
     key = std::min(std::min(n.dot(a), n.dot(b)), n.dot(c));
     return true;
   }
 
   bool add(std::array<short, 3> v, std::array<short, 3> adjacent) {
     Facet& f = facet_[facets_];
-    f.v = v, f.adjacent = adjacent, f.stamp = 0;
+    f.v = v;
+    f.adjacent = adjacent;
+    f.stamp = 0;
     R stretch;
     const bool good = measure(w(v[0]), w(v[1]), w(v[2]), f.n, key_[facets_], stretch);
-    rank_[facets_] = key_[facets_], ++facets_;
+    rank_[facets_] = key_[facets_];
+    ++facets_;
     return good;
   }
 
@@ -226,7 +254,10 @@ class Expander {
     floor_ = infinite;
     for (int i = 0; i < facets_; ++i) {
       floor_ = std::min(floor_, key_[i]);
-      if (rank_[i] < least) least = rank_[i], best = i;
+      if (rank_[i] < least) {
+        least = rank_[i];
+        best = i;
+      }
     }
     return best;
   }
@@ -235,7 +266,10 @@ class Expander {
 
   // ---- expansion
 
-  void take(int f) { facet_[f].stamp = stamp_, region_[regions_++] = static_cast<short>(f); }
+  void take(int f) {
+    facet_[f].stamp = stamp_;
+    region_[regions_++] = static_cast<short>(f);
+  }
 
   void flood(int from, const V3<R>& p) {
     for (int i = from; i < regions_; ++i)
@@ -245,7 +279,9 @@ class Expander {
 
   void add_edge(short from, short to, short behind) {
     Edge& e = edge_[edges_++];
-    e.from = from, e.to = to, e.behind = behind;
+    e.from = from;
+    e.to = to;
+    e.behind = behind;
   }
 
   void collect() {
@@ -257,15 +293,16 @@ class Expander {
     }
   }
 
-  // A sliver, or one that folds the surface towards the origin: the polytope grows, so no facet may come
-  // nearer than the nearest was. A normal is known to level_/height only, which costs level_·longest/height.
-  bool bad(Edge& e, const V3<R>& p) const {
+  // A sliver, or a triangle that folds the surface towards the origin: the polytope grows, so no facet may be
+  // nearer than the nearest facet was. A normal is accurate only to level_/height, which costs
+  // level_·longest/height.
+  bool is_bad(Edge& e, const V3<R>& p) const {
     R stretch;
     return !measure(w(e.from), w(e.to), p, e.n, e.key, stretch) ||
            e.key < floor_ - level_ * (4 + 4 * stretch);
   }
 
-  // One loop, in order; false: pinched or several loops.
+  // Orders the edges into one loop; false if the horizon is pinched or has several loops.
   bool order() {
     for (int i = 0; i < edges_; ++i) {
       for (int k = i + 1; k < edges_; ++k)
@@ -281,7 +318,8 @@ class Expander {
   }
 
   ExpandEnd insert(int f, const Vertex<R>& s) {
-    ++stamp_, regions_ = 0;
+    ++stamp_;
+    regions_ = 0;
     take(f);
     flood(0, s.w);
     for (;;) {
@@ -289,7 +327,7 @@ class Expander {
       if (edges_ < 3) return ExpandEnd::broken;
       const int before = regions_;
       for (int i = 0; i < edges_; ++i)
-        if (bad(edge_[i], s.w) && facet_[edge_[i].behind].stamp != stamp_) take(edge_[i].behind);
+        if (is_bad(edge_[i], s.w) && facet_[edge_[i].behind].stamp != stamp_) take(edge_[i].behind);
       if (regions_ == before) break;
       flood(before, s.w);
     }
@@ -298,18 +336,23 @@ class Expander {
   }
 
   ExpandEnd fan(const Vertex<R>& s) {
-    // Rows of dead facets are used again.
-    for (int i = 0; i < regions_; ++i)
-      key_[region_[i]] = rank_[region_[i]] = infinite, free_[frees_++] = region_[i];
+    // Storage of dead facets is reused.
+    for (int i = 0; i < regions_; ++i) {
+      key_[region_[i]] = rank_[region_[i]] = infinite;
+      free_[free_count_++] = region_[i];
+    }
     const short apex = static_cast<short>(vertices_);
     set_vertex(vertices_++, s);
-    for (int i = 0; i < edges_; ++i) slot_[i] = frees_ > 0 ? free_[--frees_] : fresh();
+    for (int i = 0; i < edges_; ++i) slot_[i] = free_count_ > 0 ? free_[--free_count_] : fresh();
     for (int i = 0; i < edges_; ++i) {
       if (slot_[i] < 0) return ExpandEnd::full;
       const Edge& e = edge_[i];
       Facet& f = facet_[slot_[i]];
-      f.v = {e.from, e.to, apex}, f.stamp = 0, f.n = e.n;
-      key_[slot_[i]] = e.key, rank_[slot_[i]] = rank(e.n, e.key);
+      f.v = {e.from, e.to, apex};
+      f.stamp = 0;
+      f.n = e.n;
+      key_[slot_[i]] = e.key;
+      rank_[slot_[i]] = rank(e.n, e.key);
       f.adjacent = {e.behind, slot_[(i + 1) % edges_], slot_[(i + edges_ - 1) % edges_]};
       Facet& behind = facet_[e.behind];
       for (std::size_t k = 0; k < 3; ++k)
@@ -332,20 +375,26 @@ class Expander {
   }
 
   Depth<R> finish(ExpandEnd end, int f) {
-    result_.end = end, result_.vertices = vertices_;
+    result_.end = end;
+    result_.vertices = vertices_;
     if (f < 0) return result_;
-    // Where several facets share the plane, the origin may project outside of the one at hand.
+    // Where several facets share the plane, the origin may project outside the current one.
     Foot<R> best = foot_of(f);
     int where = f;
     const R enough = result_.upper + tolerance_;
     for (int i = 0; i < facets_ && !(best.dist_sq <= enough * enough); ++i)
       if (key_[i] <= enough)
-        if (const Foot<R> foot = foot_of(i); foot.dist_sq < best.dist_sq) best = foot, where = i;
-    result_.w.setZero(), result_.a.setZero();
+        if (const Foot<R> foot = foot_of(i); foot.dist_sq < best.dist_sq) {
+          best = foot;
+          where = i;
+        }
+    result_.w.setZero();
+    result_.a.setZero();
     for (int k = 0; k < best.size; ++k) {
       const auto c = static_cast<std::size_t>(k);
       const short v = facet_[where].v[static_cast<std::size_t>(best.corner[c])];
-      result_.w += best.weight[c] * w_[v], result_.a += best.weight[c] * a_[v];
+      result_.w += best.weight[c] * w_[v];
+      result_.a += best.weight[c] * a_[v];
     }
     return result_;
   }
@@ -356,10 +405,10 @@ class Expander {
   LocalDepth<R> settled_;
   R cap_cosine_ = 1;
   Depth<R> result_;
-  int vertices_ = 0, facets_ = 0, regions_ = 0, edges_ = 0, frees_ = 0, stamp_ = 0;
+  int vertices_ = 0, facets_ = 0, regions_ = 0, edges_ = 0, free_count_ = 0, stamp_ = 0;
   V3<R> w_[vertex_capacity + 1], a_[vertex_capacity + 1];
   Facet facet_[facet_capacity];
-  R key_[facet_capacity], rank_[facet_capacity];  // rank: key, or infinite where nothing is left to prove
+  R key_[facet_capacity], rank_[facet_capacity];  // rank: key, or infinite inside the proven cap
   short region_[facet_capacity], free_[facet_capacity], slot_[3 * facet_capacity];
   Edge edge_[3 * facet_capacity];
 };

@@ -1,6 +1,6 @@
-// What a body shows along a direction: a corner, an edge (or the straight line of a round side), a flat face,
-// or something round. A direction held by an edge stays on a circle of directions, one held by a face stands
-// still; along round parts the support point moves smoothly.
+// The feature of a body along a direction: a corner, an edge (or the straight line of a round side), a flat
+// face, or a round part. A direction held by an edge stays on a circle of directions, one held by a face is
+// fixed; along round parts the support point moves smoothly.
 #pragma once
 
 #include "core/narrow/filtered/difference.h"
@@ -9,20 +9,20 @@ namespace touchstone::narrow::fast {
 
 enum class Shown { corner, edge, face, round };
 
-/// One body's feature, its own frame. What is not said of a kind is not set.
+/// A feature of one body, in its own frame. Members not listed for a kind are unset.
 template <class R>
 struct Feature {
   Shown shown = Shown::corner;
-  /// Corner; edge: its point at parameter 0 (of a round side: of its axis; of a cone: the apex).
+  /// Corner; edge: its point at parameter 0 (for a round side, of its axis; for a cone, the apex).
   V3<R> p = V3<R>::Zero();
   V3<R> e = V3<R>::Zero();      // edge: unit; cones: set by place()
   R lo = 0, hi = 0;             // edge: parameters of its ends
-  V3<R> c = V3<R>::Zero();      // edge: directions d that show it have d·c = s; face: its outward normal
-  R s = 0, k = 1;               // k = √(1 − s²), which s close to 1 would not tell
+  V3<R> c = V3<R>::Zero();      // edge: its directions d satisfy d·c = s; face: outward normal
+  R s = 0, k = 1;               // k = √(1 − s²), stored because s close to 1 loses it
   std::array<V3<R>, 3> corner;  // face of vertices
 };
 
-/// Support point and the derivative of it, H = k t tᵀ + (diagonal of squares − p pᵀ)/h: what Newton's step
+/// Support point and its derivative, H = k t tᵀ + (diagonal of squares − p pᵀ)/h, which the Newton step
 /// needs.
 template <class R>
 struct Placed {
@@ -34,6 +34,10 @@ struct Placed {
 
 namespace detail {
 
+/// Of a rim's radius: nearer to the axis than this, the disc is touched and not the rim. Only a guess.
+template <class R>
+inline constexpr R disc_share = R(0.9);
+
 template <class R>
 R flat_length(const V3<R>& d) {
   return std::sqrt(d[0] * d[0] + d[1] * d[1]);
@@ -42,14 +46,20 @@ R flat_length(const V3<R>& d) {
 template <class R>
 Feature<R> edge_feature(const V3<R>& p, const V3<R>& e, R lo, R hi) {
   Feature<R> f;
-  f.shown = Shown::edge, f.p = p, f.e = f.c = e, f.lo = lo, f.hi = hi;
+  f.shown = Shown::edge;
+  f.p = p;
+  f.e = f.c = e;
+  f.lo = lo;
+  f.hi = hi;
   return f;
 }
 
 template <class R>
 Feature<R> face_feature(const V3<R>& p, const V3<R>& n) {
   Feature<R> f;
-  f.shown = Shown::face, f.p = p, f.c = n;
+  f.shown = Shown::face;
+  f.p = p;
+  f.c = n;
   return f;
 }
 
@@ -60,7 +70,7 @@ Feature<R> corner_feature(const V3<R>& p) {
   return f;
 }
 
-/// Box and vertices, by the different corners among three support points.
+/// Box and vertices: decided by the number of distinct corners among three support points.
 template <class R>
 Feature<R> polytope_feature(const Body<R>& b, const std::array<V3<R>, 3>& q, const V3<R>& d, R near) {
   std::array<V3<R>, 3> k;
@@ -82,14 +92,16 @@ Feature<R> polytope_feature(const Body<R>& b, const std::array<V3<R>, 3>& q, con
     f.corner = k;
     return f;
   }
-  // A box: coordinates in which the corners differ.
+  // For a box: the coordinates in which the corners differ.
   int axes = 0, axis = 0, same = 0;
   for (int i = 0; i < 3; ++i) {
     const bool differ = k[0][i] != k[1][i] || (n == 3 && k[0][i] != k[2][i]);
-    if (differ)
-      ++axes, axis = i;
-    else
+    if (differ) {
+      ++axes;
+      axis = i;
+    } else {
       same = i;
+    }
   }
   if (axes == 1) {
     V3<R> p = k[0];
@@ -103,8 +115,8 @@ Feature<R> polytope_feature(const Body<R>& b, const std::array<V3<R>, 3>& q, con
 
 }  // namespace detail
 
-/// The feature that three support points of a facet, with normal d, suggest; `foot` is where the origin's
-/// foot lies in the body, points within `near` are one. A guess: it is checked afterwards.
+/// The feature suggested by three support points of a facet with normal d. `foot`: the body's point of the
+/// origin's foot. Points within `near` are the same. This is a guess that is verified afterwards.
 template <class R>
 Feature<R> suggested_feature(const Body<R>& b, const std::array<V3<R>, 3>& q, const V3<R>& foot,
                              const V3<R>& d, R near) {
@@ -112,13 +124,14 @@ Feature<R> suggested_feature(const Body<R>& b, const std::array<V3<R>, 3>& q, co
   const V3<R>& s = b.size;
   const R most = std::max(q[0][2], std::max(q[1][2], q[2][2])),
           least = std::min(q[0][2], std::min(q[1][2], q[2][2]));
-  // Support points on one rim with their mean well inside it: the disc. On a rim that is touched they are
-  // near each other, and so is their mean to the rim.
+  // Support points on one rim with their mean well inside it: the disc. Where the rim itself is touched they
+  // are close to each other, and their mean is close to the rim.
   const auto rim_or_disc = [&] {
-    if (flat_length<R>(foot) < R(0.9) * s[0])
+    if (flat_length<R>(foot) < disc_share<R> * s[0])
       return face_feature<R>(q[0], V3<R>(0, 0, q[0][2] < 0 ? R(-1) : R(1)));
     Feature<R> f;
-    f.shown = Shown::round, f.p = V3<R>(0, 0, q[0][2]);
+    f.shown = Shown::round;
+    f.p = V3<R>(0, 0, q[0][2]);
     return f;
   };
   switch (b.kind) {
@@ -132,7 +145,8 @@ Feature<R> suggested_feature(const Body<R>& b, const std::array<V3<R>, 3>& q, co
       if (most > least) {
         const R length = std::sqrt(s[0] * s[0] + 4 * s[2] * s[2]);
         Feature<R> f = edge_feature<R>(V3<R>(0, 0, s[2]), V3<R>::UnitZ(), 0, length);
-        f.s = s[0] / length, f.k = 2 * s[2] / length;
+        f.s = s[0] / length;
+        f.k = 2 * s[2] / length;
         return f;
       }
       return least > 0 ? corner_feature<R>(q[0]) : rim_or_disc();
@@ -149,7 +163,7 @@ Feature<R> suggested_feature(const Body<R>& b, const std::array<V3<R>, 3>& q, co
   return polytope_feature(b, q, d, near);
 }
 
-/// The feature's support point along a unit d, which its circle holds if it has one.
+/// The feature's support point along a unit d; d lies on the feature's circle if it has one.
 template <class R>
 Placed<R> place(const Body<R>& b, Feature<R>& f, const V3<R>& d) {
   Placed<R> r;
@@ -157,7 +171,8 @@ Placed<R> place(const Body<R>& b, Feature<R>& f, const V3<R>& d) {
   r.p = f.p;
   if (b.kind == CoreKind::ellipsoid) {
     const V3<R> e = s.cwiseProduct(d);
-    r.h = e.norm(), r.p = s.cwiseProduct(e) / r.h;
+    r.h = e.norm();
+    r.p = s.cwiseProduct(e) / r.h;
     return r;
   }
   const bool side = f.shown == Shown::edge, round = f.shown == Shown::round;
@@ -169,12 +184,13 @@ Placed<R> place(const Body<R>& b, Feature<R>& f, const V3<R>& d) {
     f.e = V3<R>(s[0] * out[0], s[0] * out[1], -2 * s[2]) / f.hi;
     return r;
   }
-  r.p += s[0] * out, r.t = V3<R>(-out[1], out[0], 0);
+  r.p += s[0] * out;
+  r.t = V3<R>(-out[1], out[0], 0);
   r.k = rho > 0 ? s[0] / rho : 0;
   return r;
 }
 
-/// How far a face reaches around its point q, in its plane: none or negative when q is not on it.
+/// How far a face extends around its point q, in its plane: zero or negative when q is not on it.
 template <class R>
 R face_margin(const Body<R>& b, const Feature<R>& f, const V3<R>& q) {
   if (b.kind == CoreKind::cylinder || b.kind == CoreKind::cone) return b.size[0] - detail::flat_length(q);

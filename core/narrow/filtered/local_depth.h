@@ -1,7 +1,8 @@
-// A local minimum of the support function of B − A (the depth of bodies that meet; minus the distance of
-// others, and then the only one), and how far it is proven to be the least. An expanding polytope needs some
-// fifty support points to close on a curved boundary, most of them for the last digits; here the features
-// that touch (feature.h) are guessed, the direction is Newton's, and the proof is a curvature argument.
+// A local minimum of the support function of B − A (for bodies that meet, the depth; for others, minus the
+// distance, and then the only minimum), and how far it is proven to be the least. An expanding polytope needs
+// about fifty support points to close on a curved boundary, most of them for the last digits. Here the
+// touching features (feature.h) are guessed, the direction is found by Newton's method, and the proof is a
+// curvature argument.
 //
 // C = B − A, h its support function, m a unit direction with h(m) = d, w a point of C along m, v = w − d m.
 // Bodies that lie in C and contain w bound h from below on the great circle m(θ) = m cos θ + t sin θ, t unit
@@ -11,19 +12,20 @@
 // * a disc of radius r and axis a, w on its rim: its part r |P m(θ)| has x = P m(θ) with x'' = −x, so that
 //   |x|'' + |x| = |x × x'|²/|x|³ >= (a·(m × t))²/X³, X the largest |x| in question, at most 1. By comparison
 //   the bound of the ball with ρ = r (a·(m × t))²/X³. Parts of a sum add.
-// * a segment along e, orthogonal to m, that reaches k to both sides of w:
-//   d cos θ + k |e·t| sin θ + v·t sin θ, and |e·t| >= (e·t)²; a face that reaches k to all sides: without e.
+// * a segment along e, orthogonal to m, that extends k to both sides of w:
+//   d cos θ + k |e·t| sin θ + v·t sin θ, and |e·t| >= (e·t)²; a face that extends k to all sides: the same
+//   without e.
 //
 // With S(t), K(t) the sums of these quadratic forms and x = tan(θ/2), h >= d − δ follows from
 // (S − d) x² + (K − |v|) x + δ (1 + x²)/2 >= 0. For 0 <= x <= T, with μ the least of S + K/T − d over t:
-// where μ > 0, δ = |v|²/(2 μ) will do, and δ = |v| + 2 max(0, −μ) always (minima that form a ring have μ =
-// 0). So much for the cap θ <= 2 atan T. Behind it the farthest point q of C along −m, at H = −q·m and Q = |q
-// + H m|, gives h >= −H cos θ − Q sin θ, which grows from 90° on and reaches d at T = (Q + √(Q² + H² −
-// d²))/(H − d): with that T the minimum is global. With a smaller one the expanding polytope leaves the cap
-// alone.
+// where μ > 0, δ = |v|²/(2 μ) suffices, and δ = |v| + 2 max(0, −μ) always does (minima that form a ring have
+// μ = 0). This covers the cap θ <= 2 atan T. Beyond it, the farthest point q of C along −m, with H = −q·m and
+// Q = |q + H m|, gives h >= −H cos θ − Q sin θ, which increases from 90° on and reaches d at
+// T = (Q + √(Q² + H² − d²))/(H − d): with that T the minimum is global. With a smaller T, the expanding
+// polytope skips the cap.
 //
-// Exits: found or not; `global`, or with the cap of its proof. Everything about features is a guess until the
-// support points of both bodies have confirmed it.
+// Outcomes: found or not; `global`, or with the cap of its proof. Everything about features is a guess until
+// the support points of both bodies have confirmed it.
 #pragma once
 
 #include "core/narrow/filtered/feature.h"
@@ -33,7 +35,7 @@ namespace touchstone::narrow::fast {
 template <class R>
 struct LocalDepth {
   bool found = false, global = false;
-  R upper = 0, lower = 0;  // of all directions in the cap, or of all
+  R upper = 0, lower = 0;  // over all directions in the cap, or over all
   R tangent = 0;           // T
   V3<R> outward, a, w;     // as in Depth
 };
@@ -43,15 +45,18 @@ class LocalMinimum {
  public:
   LocalMinimum(const Difference<R>& d, R size) : d_(d), level_(8 * u<R> * size), slight_(64 * u<R> * size) {}
 
-  /// From a facet of support points with unit outward normal n, the origin's foot in it at those weights.
+  /// Starts from a facet of support points with unit outward normal n and the weights of the origin's foot in
+  /// it.
   bool find(const std::array<Vertex<R>, 3>& facet, const std::array<R, 3>& weight, const V3<R>& n) {
     std::array<V3<R>, 3> a, b;
     V3<R> foot_a = V3<R>::Zero(), foot_b = V3<R>::Zero();
     for (std::size_t k = 0; k < 3; ++k) {
-      a[k] = facet[k].a, b[k] = d_.at.b_to_a.transpose() * (facet[k].w + facet[k].a - d_.at.offset);
-      foot_a += weight[k] * a[k], foot_b += weight[k] * b[k];
+      a[k] = facet[k].a;
+      b[k] = d_.at.b_to_a.transpose() * (facet[k].w + facet[k].a - d_.at.offset);
+      foot_a += weight[k] * a[k];
+      foot_b += weight[k] * b[k];
     }
-    // Corners found again by their own support point: B's went through two rotations.
+    // Snaps to the exact corners: B's points went through two rotations.
     if (d_.b.kind == CoreKind::box)
       for (V3<R>& p : b)
         for (int k = 0; k < 3; ++k) p[k] = std::copysign(d_.b.size[k], p[k]);
@@ -62,7 +67,7 @@ class LocalMinimum {
     feature_[1] = suggested_feature<R>(d_.b, b, foot_b, in(1, m_), level_);
     for (int round = 0; round < rounds; ++round) {
       if (!turn_direction() || !m_.allFinite()) {
-        if (!lay_flat(n)) return false;
+        if (!try_disc(n)) return false;
         continue;
       }
       const Verdict v = confirm();
@@ -72,31 +77,38 @@ class LocalMinimum {
     return false;
   }
 
-  /// What find() has found: h, m, w and A's share of w.
+  /// Results of find(): h, m, w and w's point of A.
   R height() const { return upper_; }
   const V3<R>& outward() const { return m_; }
   const V3<R>& point() const { return w_; }
   const V3<R>& on_a() const { return placed_[0].p; }
 
-  /// For bodies that meet: how far it is the least.
+  /// For bodies that meet: proves how far it is the least.
   LocalDepth<R> certify() const {
     LocalDepth<R> r;
-    r.found = true, r.upper = upper_, r.outward = m_, r.a = placed_[0].p, r.w = w_;
+    r.found = true;
+    r.upper = upper_;
+    r.outward = m_;
+    r.a = placed_[0].p;
+    r.w = w_;
     const V3<R> x = m_.unitOrthogonal(), y = m_.cross(x), q = d_.support(-m_).w;
     const R far = -q.dot(m_), off = (q + far * m_).squaredNorm(), d = upper_;
     if (!(far > d + slight_)) return r;
     const R tilt = unevenness();
     const R behind = (std::sqrt(off) + std::sqrt(off + far * far - d * d)) / (far - d) * (1 + 64 * u<R>);
-    for (R part = 1; part > R(0.001); part /= 2) {
+    for (R part = 1; part > least_part; part /= 2) {
       const R t = behind * part;
       Form ball, reach;
       for (int i = 0; i < 2; ++i) add_side(i, x, y, Cap(t), part / 2, ball, reach);
-      ball.xx += reach.xx / t, ball.xy += reach.xy / t, ball.yy += reach.yy / t;
+      ball.xx += reach.xx / t;
+      ball.xy += reach.xy / t;
+      ball.yy += reach.yy / t;
       const R mu = ball.least() - d;
       const R rest_sq = rest_.squaredNorm();
       const bool curved = mu > d / 64 + slight_;
       if (!curved && !(mu > -level_)) continue;
-      r.tangent = t, r.global = part == 1;
+      r.tangent = t;
+      r.global = part == 1;
       r.lower = d - tilt -
                 (curved ? rest_sq / (2 * mu) : std::sqrt(rest_sq) + 2 * std::max<R>(0, -mu) + level_ / 4);
       return r;
@@ -106,6 +118,14 @@ class LocalMinimum {
 
  private:
   static constexpr int rounds = 5, steps = 12;
+  // Squared sine below which two axes or edges count as parallel.
+  static constexpr R parallel_sine_sq = R(1e-6);
+  // Cosine to the axis above which a disc is worth trying instead of its rim.
+  static constexpr R disc_cosine = R(0.9);
+  // Sine to a circle's axis below which the direction has no azimuth to start from.
+  static constexpr R pole_sine = R(0.01);
+  // Smallest cap worth proving, as a share of the one that makes the minimum global.
+  static constexpr R least_part = R(0.001);
   enum class Verdict { confirmed, revised, refuted };
 
   static bool is_round(const Body<R>& b) {
@@ -118,13 +138,13 @@ class LocalMinimum {
   }
   V3<R> out(int side, const V3<R>& v) const { return side == 0 ? V3<R>(-v) : V3<R>(d_.at.b_to_a * v); }
 
-  // A rim that has no minimum near n: its disc may.
-  bool lay_flat(const V3<R>& n) {
+  // If a rim has no minimum near n, its disc may have one.
+  bool try_disc(const V3<R>& n) {
     m_ = n;
     for (int i = 0; i < 2; ++i) {
       Feature<R>& f = feature_[i];
       const V3<R> d = in(i, n);
-      if (f.shown != Shown::round || body(i).kind == CoreKind::ellipsoid || !(std::abs(d[2]) > R(0.9)))
+      if (f.shown != Shown::round || body(i).kind == CoreKind::ellipsoid || !(std::abs(d[2]) > disc_cosine))
         continue;
       f = detail::face_feature<R>(f.p, V3<R>(0, 0, f.p[2] < 0 ? R(-1) : R(1)));
       return true;
@@ -150,18 +170,22 @@ class LocalMinimum {
         place_both();
         return true;
       }
-      if (f.shown == Shown::edge) c[circles] = out(i, f.c), s[circles++] = f.s, k = f.k;
+      if (f.shown == Shown::edge) {
+        c[circles] = out(i, f.c);
+        s[circles++] = f.s;
+        k = f.k;
+      }
     }
-    if (circles == 2) return meet(c, s);
-    return circles == 1 ? along_circle(c[0], s[0], k) : freely();
+    if (circles == 2) return intersect_circles(c, s);
+    return circles == 1 ? minimise_on_circle(c[0], s[0], k) : minimise_freely();
   }
 
-  // The direction of two circles, the nearer of two.
-  bool meet(const V3<R>* c, const R* s) {
+  // The intersection of two circles of directions; the nearer of the two.
+  bool intersect_circles(const V3<R>* c, const R* s) {
     const R x = c[0].dot(c[1]);
     const V3<R> q = c[0].cross(c[1]);
     const R qq = q.squaredNorm();
-    if (!(qq > R(1e-6))) return false;
+    if (!(qq > parallel_sine_sq)) return false;
     const V3<R> p = (c[0] * (s[0] - x * s[1]) + c[1] * (s[1] - x * s[0])) / qq;
     const R rest = 1 - p.squaredNorm();
     if (!(rest > 0)) return false;
@@ -172,17 +196,17 @@ class LocalMinimum {
     return true;
   }
 
-  // Circles that are small lose digits in `meet`: one step of Newton on m·e = 0, whose gradient is e, since a
-  // generator turns with m along the rim and the rim is orthogonal to m.
+  // Small circles lose digits in `intersect_circles`: one Newton step on m·e = 0, whose gradient is e, since
+  // a generator rotates with m along the rim and the rim is orthogonal to m.
   void level_edges() {
     const V3<R> e[2] = {out(0, feature_[0].e), out(1, feature_[1].e)};
     const R g = e[0].dot(e[1]), det = 1 - g * g, p = m_.dot(e[0]), q = m_.dot(e[1]);
-    if (!(det > R(1e-6))) return;
+    if (!(det > parallel_sine_sq)) return;
     m_ = (m_ - (e[0] * (p - g * q) + e[1] * (q - g * p)) / det).normalized();
     place_both();
   }
 
-  // xᵀ H y of both supports, for tangents x, y.
+  // xᵀ H y summed over both supports, for tangents x, y.
   R curvature(const V3<R>& x, const V3<R>& y) const {
     R sum = 0;
     for (int i = 0; i < 2; ++i) {
@@ -199,15 +223,15 @@ class LocalMinimum {
     return sum;
   }
 
-  bool along_circle(const V3<R>& c, R s, R k) {
+  bool minimise_on_circle(const V3<R>& c, R s, R k) {
     for (int i = 0; i < steps; ++i) {
       const V3<R> flat = m_ - c * c.dot(m_);
       const R length = flat.norm();
-      if (!(length > R(0.01))) return false;
+      if (!(length > pole_sine)) return false;
       const V3<R> r = flat * (k / length), along = c.cross(r);
       m_ = r + c * s;
       place_both();
-      if (std::abs(w_.dot(along)) <= level_ / 4) return true;  // a ring of minima has no curvature either
+      if (std::abs(w_.dot(along)) <= level_ / 4) return true;  // a ring of minima has no curvature
       const R second = curvature(along, along) - w_.dot(r);
       if (!(second > 0)) return false;
       const R step = std::clamp(-w_.dot(along) / second, R(-0.5), R(0.5));
@@ -223,7 +247,7 @@ class LocalMinimum {
     return false;
   }
 
-  bool freely() {
+  bool minimise_freely() {
     for (int i = 0; i < steps; ++i) {
       place_both();
       const V3<R> x = m_.unitOrthogonal(), y = m_.cross(x);
@@ -234,14 +258,20 @@ class LocalMinimum {
       if (!(xx > 0 && det > 0)) return false;
       R sx = (xy * gy - yy * gx) / det, sy = (xy * gx - xx * gy) / det;
       const R size = std::sqrt(sx * sx + sy * sy);
-      if (size > R(0.5)) sx *= R(0.5) / size, sy *= R(0.5) / size;
+      if (size > R(0.5)) {
+        sx *= R(0.5) / size;
+        sy *= R(0.5) / size;
+      }
       m_ = (m_ + x * sx + y * sy).normalized();
-      if (size * size < u<R>) return place_both(), true;
+      if (size * size < u<R>) {
+        place_both();
+        return true;
+      }
     }
     return false;
   }
 
-  // ---- do the bodies agree?
+  // ---- verification against both bodies
 
   Verdict confirm() {
     bool revised = false;
@@ -258,7 +288,7 @@ class LocalMinimum {
     return revised ? Verdict::revised : balance();
   }
 
-  // A support point beyond the feature joins it.
+  // Extends the feature by a support point beyond it.
   bool widen(int i, const V3<R>& s) {
     const Body<R>& b = body(i);
     Feature<R>& f = feature_[i];
@@ -273,7 +303,7 @@ class LocalMinimum {
     return true;
   }
 
-  // The point of the features' sum along m: where it lies on each edge or face.
+  // The point of the features' sum along m: locates it on each edge or face.
   Verdict balance() {
     upper_ = m_.dot(support_);
     rest_ = upper_ * m_ - w_;
@@ -283,13 +313,17 @@ class LocalMinimum {
     R along[2] = {0, 0};
     int side[2], edges = 0;
     for (int i = 0; i < 2; ++i)
-      if (feature_[i].shown == Shown::edge) e[edges] = out(i, feature_[i].e), side[edges++] = i;
+      if (feature_[i].shown == Shown::edge) {
+        e[edges] = out(i, feature_[i].e);
+        side[edges++] = i;
+      }
     if (edges == 1) {
       along[0] = rest_.dot(e[0]);
     } else if (edges == 2) {
       const R g = e[0].dot(e[1]), det = 1 - g * g, p = rest_.dot(e[0]), q = rest_.dot(e[1]);
-      if (!(det > R(1e-6))) return Verdict::refuted;
-      along[0] = (p - g * q) / det, along[1] = (q - g * p) / det;
+      if (!(det > parallel_sine_sq)) return Verdict::refuted;
+      along[0] = (p - g * q) / det;
+      along[1] = (q - g * p) / det;
     }
     for (int k = 0; k < edges; ++k) {
       const Feature<R>& f = feature_[side[k]];
@@ -300,27 +334,31 @@ class LocalMinimum {
       reach_[side[k]] = std::min(along[k] - f.lo, f.hi - along[k]);
       along_[side[k]] = along[k];
       placed_[side[k]].p += along[k] * f.e;
-      rest_ -= along[k] * e[k], w_ += along[k] * e[k];
+      rest_ -= along[k] * e[k];
+      w_ += along[k] * e[k];
     }
     return Verdict::confirmed;
   }
 
-  // What an edge ends in.
+  // Replaces an edge by the feature at its end.
   void shorten(int i, bool high) {
     Feature<R>& f = feature_[i];
     const Body<R>& b = body(i);
     const bool rim = b.kind == CoreKind::cylinder || (b.kind == CoreKind::cone && high);
-    if (rim)
-      f.p = V3<R>(0, 0, high && b.kind == CoreKind::cylinder ? b.size[2] : -b.size[2]),
+    if (rim) {
+      f.p = V3<R>(0, 0, high && b.kind == CoreKind::cylinder ? b.size[2] : -b.size[2]);
       f.shown = Shown::round;
-    else
-      f.p += (high ? f.hi : f.lo) * f.e, f.shown = Shown::corner;
+    } else {
+      f.p += (high ? f.hi : f.lo) * f.e;
+      f.shown = Shown::corner;
+    }
   }
 
   Verdict on_face(int i) {
     V3<R>& p = placed_[i].p;
     p += i == 0 ? V3<R>(-rest_) : V3<R>(d_.at.b_to_a.transpose() * rest_);
-    w_ += rest_, rest_.setZero();
+    w_ += rest_;
+    rest_.setZero();
     reach_[i] = face_margin<R>(body(i), feature_[i], p);
     return reach_[i] > 0 ? Verdict::confirmed : Verdict::refuted;
   }
@@ -329,8 +367,15 @@ class LocalMinimum {
 
   struct Form {
     R xx = 0, xy = 0, yy = 0;
-    void add(R k, R x, R y) { xx += k * x * x, xy += k * x * y, yy += k * y * y; }
-    void add_all(R k) { xx += k, yy += k; }
+    void add(R k, R x, R y) {
+      xx += k * x * x;
+      xy += k * x * y;
+      yy += k * y * y;
+    }
+    void add_all(R k) {
+      xx += k;
+      yy += k;
+    }
     R least() const { return (xx + yy) / 2 - std::sqrt((xx - yy) * (xx - yy) / 4 + xy * xy); }
   };
 
@@ -338,14 +383,14 @@ class LocalMinimum {
   struct Cap {
     R cosine, sine;
     explicit Cap(R t) : cosine((1 - t * t) / (1 + t * t)), sine(cosine > 0 ? 2 * t / (1 + t * t) : R(1)) {}
-    /// Largest sine of an angle to an axis, for an axis of that |cosine| to m.
+    /// Largest sine of the angle to an axis whose |cosine| to m is c.
     R most_sine(R c) const {
       const R s = std::sqrt(std::max<R>(0, 1 - c * c));
       return cosine > 0 && c * cosine - s * sine > 0 ? s * cosine + c * sine : R(1);
     }
   };
 
-  // An edge that is not orthogonal to m by a little reaches as much less far.
+  // An edge that is not quite orthogonal to m extends that much less far.
   R unevenness() const {
     R sum = 0;
     for (int i = 0; i < 2; ++i)
@@ -353,20 +398,23 @@ class LocalMinimum {
     return sum;
   }
 
-  // |E m(θ)|, E with the semi-axes: as for a disc, (|E m × E t|)²/X³.
+  // |E m(θ)|, E the diagonal of the semi-axes: as for a disc, (|E m × E t|)²/X³.
   void add_ellipsoid(int i, const V3<R>& x, const V3<R>& y, const Cap& cap, Form& ball) const {
     const V3<R>& s = body(i).size;
     const V3<R> e = s.cwiseProduct(in(i, m_)), px = e.cross(s.cwiseProduct(in(i, x))),
                 py = e.cross(s.cwiseProduct(in(i, y)));
     const R most = std::min(s.maxCoeff(), e.norm() + s.maxCoeff() * cap.sine), k = 1 / (most * most * most);
-    ball.xx += k * px.squaredNorm(), ball.xy += k * px.dot(py), ball.yy += k * py.squaredNorm();
+    ball.xx += k * px.squaredNorm();
+    ball.xy += k * px.dot(py);
+    ball.yy += k * py.squaredNorm();
   }
 
   void add_side(int i, const V3<R>& x, const V3<R>& y, const Cap& cap, R share, Form& ball,
                 Form& reach) const {
     const Feature<R>& f = feature_[i];
     const Body<R>& b = body(i);
-    // A cone's discs and its generators are not summands, but parts of one are with the rest of the other.
+    // A cone's discs and its generators are not summands, but part of one is together with the rest of the
+    // other.
     const bool generator = b.kind == CoreKind::cone && f.shown == Shown::edge;
     if (f.shown == Shown::face) reach.add_all(reach_[i]);
     if (f.shown == Shown::edge) {

@@ -1,13 +1,13 @@
 // Contact manifold in fixed storage. Reference: the face (three points or more) of one body that supports it
-// along the normal. Incident: the corners of the other body that lie beyond the reference's plane, in convex
-// order, clipped against the reference (Sutherland, Hodgman 1974); each point keeps its own depth, chords of
-// the incident body lie inside it, so every point lies within its depth of both bodies, half way between the
-// incident body and the plane. A face tilted by a few ulp is thus whole, and does not flicker. Without a
-// face: overlap or crossing of two edges, or the deepest vertex.
+// along the normal. Incident: the corners of the other body beyond the reference's plane, in convex order,
+// clipped against the reference (Sutherland, Hodgman 1974). Each point keeps its own depth. Chords of the
+// incident body lie inside it, so every point lies within its depth of both bodies, halfway between the
+// incident body and the plane. A face tilted by a few ulp therefore stays complete and does not flicker.
+// Without a face: overlap or crossing of two edges, or the deepest vertex.
 //
-// Ids name features: a corner of A, a corner of B, or an edge of A that crosses an edge of B. They depend
-// neither on which body is the reference nor on where its outline starts, both of which change with an ulp
-// when faces lie on each other.
+// Ids name features: a corner of A, a corner of B, or an edge of A that crosses an edge of B. They do not
+// depend on which body is the reference or where its outline starts; both change with an ulp when faces lie
+// on each other.
 #pragma once
 
 #include <algorithm>
@@ -35,15 +35,15 @@ struct Patch {
 
 namespace detail {
 
-/// A corner of a supporting feature: in the plane's coordinates, `below` the body's own support plane.
+/// A corner of a supporting feature in the plane's coordinates, `below` the body's own support plane.
 template <class R>
 struct Corner {
   R x, y, below;
   std::uint32_t id;
-  std::uint32_t edge;  // while clipped: what runs from here to the next corner
+  std::uint32_t edge;  // during clipping: the edge from here to the next corner
 };
 
-/// Room for what two rims leave of each other. Copies only what is there.
+/// Capacity for the intersection of two rims. Copies only the corners in use.
 template <class R>
 class Corners {
  public:
@@ -53,7 +53,8 @@ class Corners {
   Corners() {}
   Corners(const Corners& o) { *this = o; }
   Corners& operator=(const Corners& o) {
-    size = o.size, overflow = o.overflow;
+    size = o.size;
+    overflow = o.overflow;
     std::copy(o.begin(), o.end(), c_.begin());
     return *this;
   }
@@ -111,10 +112,11 @@ void convex_order(Corners<R>& p, R tolerance) {
   if (n > 1) --n;
   for (int i = 0; i < n; ++i) h.add(p[chain[static_cast<std::size_t>(i)]]);
   if (h.size == 2 && std::abs(h[0].x - h[1].x) + std::abs(h[0].y - h[1].y) <= tolerance) h.size = 1;
-  h.overflow = p.overflow, p = h;
+  h.overflow = p.overflow;
+  p = h;
 }
 
-/// Corners of `c` no more than `limit` below its support plane along d (its own frame, unit).
+/// Corners of `c` at most `limit` below its support plane along d (in its own frame, unit).
 template <class R>
 class FeatureCorners {
  public:
@@ -133,14 +135,16 @@ class FeatureCorners {
         box();
         return out_;
       case CoreKind::segment:
-        add({0, 0, s[2]}, 0), add({0, 0, -s[2]}, 1);
+        add({0, 0, s[2]}, 0);
+        add({0, 0, -s[2]}, 1);
         break;
       case CoreKind::cylinder:
         if (2 * flat * s[0] <= limit_) {
           rim_of(std::copysign(s[2], d_[2]));
         } else {
           const R k = flat > 0 ? s[0] / flat : 0;
-          add({d_[0] * k, d_[1] * k, s[2]}, 0), add({d_[0] * k, d_[1] * k, -s[2]}, 1);
+          add({d_[0] * k, d_[1] * k, s[2]}, 0);
+          add({d_[0] * k, d_[1] * k, -s[2]}, 1);
         }
         break;
       case CoreKind::cone:
@@ -183,8 +187,8 @@ class FeatureCorners {
       add_always(c_.vertices[static_cast<std::size_t>(high[i])].template cast<R>(),
                  static_cast<std::uint32_t>(high[i]));
   }
-  // Their outline. Where that has more corners than there is room for, every other one: 36 corners of a
-  // circle still have 99.5 % of its area.
+  // Their outline. If it has more corners than fit, every other one is kept: 36 corners of a circle still
+  // cover 99.5 % of its area.
   void many_vertices() {
     for (std::size_t i = 0; i < c_.vertices.size(); ++i) {
       add(c_.vertices[i].template cast<R>(), static_cast<std::uint32_t>(i));
@@ -195,7 +199,7 @@ class FeatureCorners {
       out_.size = (out_.size + 1) / 2;
     }
   }
-  // Ids of rim points turn with the body.
+  // Ids of rim points rotate with the body.
   void rim_of(R z) {
     const R r = c_.size[0];
     std::uint32_t id = 0;
@@ -207,7 +211,7 @@ class FeatureCorners {
     unsigned top = 0;
     for (int k = 0; k < 3; ++k) {
       if (d_[k] >= 0) top |= 1u << k;
-      // Across a flat box the corners are one: four of them are no face.
+      // Across a flat box the corners coincide: four of them do not form a face.
       if (s[k] > tolerance_ && 2 * std::abs(d_[k]) * s[k] <= limit_) free[frees++] = k;
     }
     const auto corner = [&](unsigned bits) {
@@ -218,7 +222,10 @@ class FeatureCorners {
       if (frees == 1) corner(top ^ (1u << free[0]));
     } else if (frees == 2) {
       const unsigned p = 1u << free[0], q = 1u << free[1];
-      corner(top), corner(top ^ p), corner(top ^ p ^ q), corner(top ^ q);
+      corner(top);
+      corner(top ^ p);
+      corner(top ^ p ^ q);
+      corner(top ^ q);
     } else {
       for (unsigned bits = 0; bits < 8; ++bits) corner(bits);
     }
@@ -237,32 +244,32 @@ class FeatureCorners {
   Corners<R> out_;
 };
 
-// 0 is the point that is no feature's own.
+// 0 is reserved for a point that belongs to no feature.
 inline constexpr std::uint32_t of_a = 0x20000000u, of_b = 0x80000000u, crossing = 0x40000000u,
                                on_window = 0x10000u;
 
-/// The same from both ends; 15 bits, without collisions among the corners of a box or a rim.
-inline std::uint32_t edge_name(std::uint32_t a, std::uint32_t b) {
+/// Independent of the order of the ends; 15 bits, without collisions among the corners of a box or a rim.
+inline std::uint32_t edge_id(std::uint32_t a, std::uint32_t b) {
   return (std::min(a, b) * 181 + std::max(a, b)) & 0x7fffu;
 }
 
-/// What the incident outline's edge and the window's edge i have in common.
+/// Id of the point that the edge of the incident outline and edge i of the window share.
 template <class R>
 std::uint32_t crossing_id(std::uint32_t edge, const Corners<R>& window, int i, bool window_is_a) {
   const int next = (i + 1) % window.size;
   if (edge & on_window) {
-    // The outline runs along another edge of the window: their corner.
+    // The outline runs along another edge of the window: the point is their common corner.
     const bool before = static_cast<int>(edge & 0xffffu) == (i + window.size - 1) % window.size;
     return window[before ? i : next].id | (window_is_a ? of_a : of_b);
   }
-  const std::uint32_t own = edge_name(window[i].id, window[next].id);
+  const std::uint32_t own = edge_id(window[i].id, window[next].id);
   return crossing | (window_is_a ? (own << 15 | edge) : (edge << 15 | own));
 }
 
 template <class R>
 void clip(Corners<R>& subject, const Corners<R>& window, R tolerance, bool window_is_a) {
   for (int k = 0; k < subject.size; ++k)
-    subject[k].edge = edge_name(subject[k].id, subject[(k + 1) % subject.size].id);
+    subject[k].edge = edge_id(subject[k].id, subject[(k + 1) % subject.size].id);
   for (Corner<R>& c : subject) c.id |= window_is_a ? of_b : of_a;
   for (int i = 0; i < window.size && subject.size > 0; ++i) {
     const Corner<R>&w0 = window[i], &w1 = window[(i + 1) % window.size];
@@ -292,12 +299,12 @@ void clip(Corners<R>& subject, const Corners<R>& window, R tolerance, bool windo
   }
 }
 
-/// Two edges: the stretch that they share when they are in line, else their crossing.
+/// Two edges: their common interval when they are collinear, otherwise their crossing.
 template <class R>
 Corners<R> cross_edges(Corners<R> a, const Corners<R>& b, R tolerance) {
   Corners<R> r;
   if (a[1].id < a[0].id) std::swap(a[0], a[1]);  // the first end keeps its id
-  const std::uint32_t id = crossing | edge_name(a[0].id, a[1].id) << 15 | edge_name(b[0].id, b[1].id);
+  const std::uint32_t id = crossing | edge_id(a[0].id, a[1].id) << 15 | edge_id(b[0].id, b[1].id);
   const R dx = a[1].x - a[0].x, dy = a[1].y - a[0].y, length = std::sqrt(dx * dx + dy * dy);
   const R s0 = (dx * (b[0].y - a[0].y) - dy * (b[0].x - a[0].x)) / length,
           s1 = (dx * (b[1].y - a[0].y) - dy * (b[1].x - a[0].x)) / length;
@@ -318,8 +325,8 @@ Corners<R> cross_edges(Corners<R> a, const Corners<R>& b, R tolerance) {
 
 }  // namespace detail
 
-/// Manifold of cores a, b (b at `at`; null: a half-space) along n (A's frame, unit, A to B) with that gap <=
-/// 0 of the rounded bodies, up to rounding. size 0: too many corners for the storage.
+/// Manifold of cores a, b (b at `at`; null: a half-space) along n (A's frame, unit, A to B), where `gap` <= 0
+/// up to rounding is the gap of the rounded bodies along n. size 0: too many corners for the storage.
 template <class R>
 Patch<R> contact_patch(const Body<R>& a, const Body<R>* b, const Relative<R>& at, const V3<R>& n, R gap,
                        const V3<R>* middle) {
@@ -341,14 +348,16 @@ Patch<R> contact_patch(const Body<R>& a, const Body<R>* b, const Relative<R>& at
   Corners<R> fa = show_a(tolerance), fb, region;
   bool by_a = true;
   if (!b) {
-    region = show_a(depth + tolerance), by_a = false;
+    region = show_a(depth + tolerance);
+    by_a = false;
   } else if (fa.size >= 3) {
     region = show_b(depth + tolerance);
     clip(region, fa, tolerance, true);
   } else {
     fb = show_b(tolerance);
     if (fb.size >= 3) {
-      region = show_a(depth + tolerance), by_a = false;
+      region = show_a(depth + tolerance);
+      by_a = false;
       clip(region, fb, tolerance, false);
     } else if (fa.size == 2 && fb.size == 2) {
       region = cross_edges(fa, fb, 4 * tolerance);
@@ -356,7 +365,8 @@ Patch<R> contact_patch(const Body<R>& a, const Body<R>* b, const Relative<R>& at
   }
   if (region.overflow || fa.overflow || fb.overflow) return patch;
   if (region.size == 0 && middle) {
-    patch.point[0] = {*middle, depth, 0}, patch.size = 1;
+    patch.point[0] = {*middle, depth, 0};
+    patch.size = 1;
     return patch;
   }
   // Height of A's support plane above plane.origin is the ball's radius.

@@ -1,9 +1,9 @@
 // Penetration depth of two round cores (point, segment, cylinder, cone) whose axes are parallel, or one of
 // which is a point. Their minima may form a ring, on which no polytope closes. B − A is then a solid of
-// revolution; its depth is that of its section through the axis and the origin, a convex polygon, and a
-// polygon's least support value is that of one of its edges: radial, along the axis, or a cone's side. Axes
-// that are parallel to rounding only are taken as parallel, at the cost of B's reach times the angle. Exits:
-// found or not.
+// revolution. Its depth is that of its section through the axis and the origin, a convex polygon, and the
+// least support value of a polygon is attained at one of its edges: radial, axial, or the side of a cone.
+// Axes that are parallel only to within rounding are treated as parallel, at the cost of B's reach times the
+// angle. Outcome: `found` or not.
 #pragma once
 
 #include "core/narrow/filtered/gjk.h"
@@ -18,12 +18,12 @@ class Revolved {
   V3<R> outward, a, w;  // as in Depth
 
   Revolved(const Difference<R>& d, R size) : d_(d), level_(8 * u<R> * size) {
-    if (!fits(d.a) || !fits(d.b)) return;
+    if (!is_revolved(d.a) || !is_revolved(d.b)) return;
     const M3<R>& m = d.at.b_to_a;
     const bool point = d.a.kind == CoreKind::point || d.b.kind == CoreKind::point;
     const R tilt = point ? R(0) : std::sqrt(m(0, 2) * m(0, 2) + m(1, 2) * m(1, 2));
     if (!(tilt <= 16 * u<R>)) return;
-    // A's frame has the axis along z, unless A is a point.
+    // The axis is z in A's frame, unless A is a point.
     axis_ = d.a.kind == CoreKind::point ? V3<R>(m.col(2)) : V3<R>(V3<R>::UnitZ());
     const V3<R> off = d.at.offset - axis_ * axis_.dot(d.at.offset);
     const R length = std::sqrt(off.squaredNorm());
@@ -35,38 +35,46 @@ class Revolved {
   }
 
  private:
-  static bool fits(const Body<R>& b) {
+  static bool is_revolved(const Body<R>& b) {
     return b.kind == CoreKind::point || b.kind == CoreKind::segment || b.kind == CoreKind::cylinder ||
            b.kind == CoreKind::cone;
   }
 
   V3<R> in_b(const V3<R>& v) const { return d_.at.b_to_a.transpose() * v; }
 
-  void look(R radial, R axial) {
+  void try_direction(R radial, R axial) {
     const V3<R> m = out_ * radial + axis_ * axial;
     const R h = m.dot(d_.support(m).w);
-    if (h < upper) upper = h, outward = m, across_ = out_ * -axial + axis_ * radial;
+    if (h < upper) {
+      upper = h;
+      outward = m;
+      across_ = out_ * -axial + axis_ * radial;
+    }
   }
 
   void least() {
     upper = std::numeric_limits<R>::infinity();
-    look(1, 0), look(0, 1), look(0, -1);
+    try_direction(1, 0);
+    try_direction(0, 1);
+    try_direction(0, -1);
     for (const Body<R>* b : {&d_.a, &d_.b})
       if (b->kind == CoreKind::cone) {
         const R r = b->size[0], h = 2 * b->size[2], length = std::sqrt(r * r + h * h);
         const bool up = b == &d_.b && d_.at.b_to_a.col(2).dot(axis_) > 0;
-        look(h / length, up ? r / length : -r / length);
+        try_direction(h / length, up ? r / length : -r / length);
       }
   }
 
-  // The ends of a body's edge along d, by its support points a little to both sides, or its corner twice.
+  // The ends of a body's edge along d, from its support points for directions tilted by edge_tilt to either
+  // side; a corner gives the same point twice.
+  static constexpr R edge_tilt = R(0.001);
   struct Edge {
     V3<R> from, to;
   };
   Edge edge(const Body<R>& b, const V3<R>& d, const V3<R>& across) const {
     const V3<R> at = support_local<R>(b, d);
-    Edge e{support_local<R>(b, V3<R>(d - across * R(0.001))),
-           support_local<R>(b, V3<R>(d + across * R(0.001)))};
+    Edge e{support_local<R>(b, V3<R>(d - across * edge_tilt)),
+           support_local<R>(b, V3<R>(d + across * edge_tilt))};
     if (!(d.dot(at - e.from) <= level_)) e.from = at;
     if (!(d.dot(at - e.to) <= level_)) e.to = at;
     return e;
@@ -75,7 +83,7 @@ class Revolved {
   void witnesses() {
     const Edge ea = edge(d_.a, -outward, across_), eb = edge(d_.b, in_b(outward), in_b(across_));
     const V3<R> from = d_.at.b_to_a * eb.from + d_.at.offset, to = d_.at.b_to_a * eb.to + d_.at.offset;
-    // b − a has no part along `across`: the middle of what both edges span.
+    // b − a has no component along `across_`: take the middle of the common interval of both edges.
     const R a0 = across_.dot(ea.from), a1 = across_.dot(ea.to), b0 = across_.dot(from), b1 = across_.dot(to);
     const R lo = std::max(std::min(a0, a1), std::min(b0, b1)),
             hi = std::min(std::max(a0, a1), std::max(b0, b1));
@@ -85,7 +93,8 @@ class Revolved {
       const R share = q_at != p_at ? std::clamp((middle - p_at) / (q_at - p_at), R(0), R(1)) : R(0);
       return V3<R>(p + (q - p) * share);
     };
-    a = at(ea.from, ea.to, a0, a1), w = at(from, to, b0, b1) - a;
+    a = at(ea.from, ea.to, a0, a1);
+    w = at(from, to, b0, b1) - a;
     found = (w - upper * outward).norm() <= 4 * level_;
   }
 

@@ -1,5 +1,5 @@
 #if defined(__GNUC__) && !defined(__clang__)
-// A feature of fewer corners than three is copied whole; GCC 12 warns of that at -O1.
+// A feature with fewer than three corners is copied as a whole; GCC 12 warns about that at -O1.
 #pragma GCC diagnostic ignored "-Wmaybe-uninitialized"
 #endif
 #include "core/narrow/filtered/separate.h"
@@ -17,24 +17,27 @@ R displacement(const PairScene<R>& s) {
   return displacement_of<R>(s.a.reach + s.a.radius, s.b.reach + s.b.radius, s.at.offset.norm());
 }
 
-// L of truth.md, of the pair as R holds it.
+// L of truth.md for the pair as represented in R.
 template <class R>
 R scale(const Body<R>& a, const Body<R>& b, const Stand<R>& at_a, const Stand<R>& at_b) {
   return std::max(std::max(a.extent, b.extent),
                   std::max(at_a.t.cwiseAbs().maxCoeff(), at_b.t.cwiseAbs().maxCoeff()));
 }
 
-// The part of it that does not depend on where the pair is, from below: what a search aims at.
+// A lower bound of its part that does not depend on where the pair is: the target accuracy of a search is
+// relative to it.
 template <class R>
 R local_scale(const PairScene<R>& s) {
-  return std::max(std::max(s.a.extent, s.b.extent), s.at.offset.norm() * R(0.28));  // 1/(2√3) < 0.2887
+  return std::max(std::max(s.a.extent, s.b.extent), s.at.offset.norm() * offset_share<R>);
 }
 
-// From A's frame to world axes about A's translation; unsure when the value is not as good as asked.
+// From A's frame to world axes about A's translation; `unsure` if the value is not accurate enough.
 template <class R>
 void to_world(Answer<R>& r, const PairScene<R>& s, R l, Asked asked) {
   const M3<R>& m = s.at.a_to_world;
-  r.normal = m * r.normal, r.a = m * r.a, r.b = m * r.b;
+  r.normal = m * r.normal;
+  r.a = m * r.a;
+  r.b = m * r.b;
   r.found = decide(r.gap, r.bound);
   const bool verdict_is_enough = asked == Asked::contact && r.found == Found::apart;
   if (verdict_is_enough) return;
@@ -51,48 +54,58 @@ void from_walk(const Walk<R>& g, R error, Answer<R>& r, PairScene<R>& s) {
   V3<R> v = V3<R>::Zero();
   for (int i = 0; i < g.simplex.size; ++i) {
     const auto k = static_cast<std::size_t>(i);
-    r.a += g.simplex.weight[k] * g.simplex.p[k].a, v += g.simplex.weight[k] * g.simplex.p[k].w;
+    r.a += g.simplex.weight[k] * g.simplex.p[k].a;
+    v += g.simplex.weight[k] * g.simplex.p[k].w;
   }
   const R radii = s.a.radius + s.b.radius;
-  r.normal = s.normal = g.normal, r.gap = g.upper - radii;
+  r.normal = s.normal = g.normal;
+  r.gap = g.upper - radii;
   r.b = r.a + v;
-  // Inflated along their own difference, so that b − a stays parallel to it.
+  // Inflates along their own difference, so that b − a stays parallel to it.
   const R length = v.norm();
   const V3<R> d = length > 0 ? V3<R>(v / length) : g.normal;
-  r.a += s.a.radius * d, r.b -= s.b.radius * d;
+  r.a += s.a.radius * d;
+  r.b -= s.b.radius * d;
   r.bound = error + std::max<R>(0, g.upper - g.lower);
-  s.middle = (r.a + r.b) / 2, s.has_middle = true;
+  s.middle = (r.a + r.b) / 2;
+  s.has_middle = true;
 }
 
 template <class R, class D>
 void from_depth(const D& e, R error, Answer<R>& r, PairScene<R>& s) {
   s.normal = r.normal = -e.outward;
   r.gap = -e.upper - s.a.radius - s.b.radius;
-  r.a = e.a + s.a.radius * r.normal, r.b = e.a + e.w - s.b.radius * r.normal;
+  r.a = e.a + s.a.radius * r.normal;
+  r.b = e.a + e.w - s.b.radius * r.normal;
   r.bound = error + std::max<R>(0, e.upper - e.lower);
-  s.middle = (r.a + r.b) / 2, s.has_middle = true;
+  s.middle = (r.a + r.b) / 2;
+  s.has_middle = true;
 }
 
-// B − A has no interior within rounding: every direction that was tried bounds the depth, and the walk's own
-// point, as near to the origin as rounding tells, shows that it is not negative beyond that.
+// B − A has no interior within rounding. Every direction tried bounds the depth, and the iteration's own
+// point, which is as near to the origin as rounding can resolve, shows that the depth is not negative beyond
+// that.
 template <class R>
 void from_flat(const Walk<R>& g, const Depth<R>& e, R size, R error, Answer<R>& r, PairScene<R>& s) {
   if (g.end != WalkEnd::touching || !(e.upper < size)) {
     r.bound = std::numeric_limits<R>::infinity();
     return;
   }
-  s.normal = r.normal = -e.outward, r.gap = -e.upper - s.a.radius - s.b.radius;
+  s.normal = r.normal = -e.outward;
+  r.gap = -e.upper - s.a.radius - s.b.radius;
   V3<R> a = V3<R>::Zero();
   for (int i = 0; i < g.simplex.size; ++i)
     a += g.simplex.weight[static_cast<std::size_t>(i)] * g.simplex.p[static_cast<std::size_t>(i)].a;
-  r.a = a + (e.upper / 2 + s.a.radius) * r.normal, r.b = a - (e.upper / 2 + s.b.radius) * r.normal;
+  r.a = a + (e.upper / 2 + s.a.radius) * r.normal;
+  r.b = a - (e.upper / 2 + s.b.radius) * r.normal;
   r.bound = error + e.upper + 8 * u<R> * size;
-  s.middle = (r.a + r.b) / 2, s.has_middle = true;
+  s.middle = (r.a + r.b) / 2;
+  s.has_middle = true;
 }
 
-// Searches take squares of areas: a fourth power of lengths. Bodies for which that would leave R's range are
-// enlarged, or reduced, by a power of two, which rounds nothing. Range of sizes that need it not: at L =
-// 2^-22 the fourth power of float still holds slivers of L·2^-18.
+// Searches square areas: fourth powers of lengths. Bodies for which these would leave the range of R are
+// scaled by a power of two, which is exact. Returns whether a size needs no scaling: at L = 2^-22 the fourth
+// power in float still represents slivers of L·2^-18.
 template <class R>
 bool in_range(R size) {
   constexpr bool single = sizeof(R) == sizeof(float);
@@ -106,16 +119,28 @@ void separate_scaled(const Stand<R>& a, const Stand<R>& b, Asked asked, R enough
   PairScene<R> t = s;
   Stand<R> at_a = a, at_b = b;
   for (Body<R>* c : {&t.a, &t.b}) {
-    c->size *= unit, c->unit *= unit;
-    c->radius *= unit, c->reach *= unit, c->extent *= unit;
+    c->size *= unit;
+    c->unit *= unit;
+    c->radius *= unit;
+    c->reach *= unit;
+    c->extent *= unit;
   }
-  t.at.offset *= unit, at_a.t *= unit, at_b.t *= unit;
-  // Not even so: they are so small, or large, where they stand that R holds no scale for both.
+  t.at.offset *= unit;
+  at_a.t *= unit;
+  at_b.t *= unit;
+  // Scaling does not help: relative to where they stand, they are so small or large that no scale in R fits
+  // both.
   const R fits = at_a.t.cwiseAbs().sum() + at_b.t.cwiseAbs().sum() + unit + back;
   if (!(fits < std::numeric_limits<R>::max())) return;
   separate_cores(at_a, at_b, asked, enough * unit, r, t);
-  r.gap *= back, r.bound *= back, r.a *= back, r.b *= back;
-  s.normal = t.normal, s.middle = t.middle * back, s.has_middle = t.has_middle, s.guess = t.guess;
+  r.gap *= back;
+  r.bound *= back;
+  r.a *= back;
+  r.b *= back;
+  s.normal = t.normal;
+  s.middle = t.middle * back;
+  s.has_middle = t.has_middle;
+  s.guess = t.guess;
 }
 
 }  // namespace
@@ -139,7 +164,7 @@ void separate_cores(const Stand<R>& a, const Stand<R>& b, Asked asked, R enough,
     return;
   }
   // A tetrahedron without room for the origin proves nothing, whatever the radii: it may be a sliver of
-  // noise.
+  // rounding noise.
   const bool inside = g.end == WalkEnd::enclosed && (g.margin > error || (g.margin > 0 && radii > error));
   if (asked == Asked::overlap && (g.upper < radii - error || inside)) {
     r.found = Found::meeting;
@@ -167,7 +192,8 @@ void separate_cores(const Stand<R>& a, const Stand<R>& b, Asked asked, R enough,
 template <class R>
 void convex_pair(const PlacedShape& pa, const PlacedShape& pb, Asked asked, Answer<R>& r, PairScene<R>& s) {
   const Stand<R> a = stand<R>(pa.pose), b = stand<R>(pb.pose);
-  prepare(pa, a, pb, b, s), s.contact = ContactForm::cores;
+  prepare(pa, a, pb, b, s);
+  s.contact = ContactForm::cores;
   separate_cores(a, b, asked, std::numeric_limits<R>::infinity(), r, s);
 }
 
@@ -178,7 +204,7 @@ bool in_box(const V3<R>& p, const V3<R>& h, R tolerance) {
   return ((p.cwiseAbs() - h).array() <= tolerance).all();
 }
 
-// Deepest points of two overlapping boxes, from their manifold; false when it does not show them.
+// Deepest points of two overlapping boxes, from their manifold; false if it does not contain them.
 template <class R>
 bool box_witnesses(const BoxPair<R>& p, PairScene<R>& s, Answer<R>& r) {
   const Patch<R> patch = contact_patch<R>(s.a, &s.b, s.at, s.normal, r.gap, nullptr);
@@ -207,13 +233,17 @@ void box_box(const PlacedShape& pa, const PlacedShape& pb, Asked asked, Answer<R
   const BoxAxis<R> axis = least_axis(p);
   if (axis.found == Found::apart) {
     r.found = Found::apart;
-    // Its separation bounds the distance from below only.
+    // The separation along the axis is only a lower bound of the distance.
     if (asked == Asked::distance) convex_pair(pa, pb, asked, r, s);
     return;
   }
-  s.a = make_body<R>(*pa.shape, pa.graph), s.b = make_body<R>(*pb.shape, pb.graph), s.at = p.at,
+  s.a = make_body<R>(*pa.shape, pa.graph);
+  s.b = make_body<R>(*pb.shape, pb.graph);
+  s.at = p.at;
   s.contact = ContactForm::cores;
-  s.normal = r.normal = axis.normal, r.gap = axis.separation, r.bound = displacement(s) + p.displacement / 16;
+  s.normal = r.normal = axis.normal;
+  r.gap = axis.separation;
+  r.bound = displacement(s) + p.displacement / 16;
   r.a = r.b = V3<R>::Zero();
   if (asked == Asked::distance && !box_witnesses(p, s, r)) return convex_pair(pa, pb, asked, r, s);
   to_world(r, s, scale(s.a, s.b, a, b), asked);
@@ -229,11 +259,20 @@ void box_and_capsule(const PlacedShape& pa, const PlacedShape& pb, Asked asked, 
   const BoxSegment<R>& p = q.cores;
   const R depth = -r.gap, tolerance = 64 * u<R> * (p.half.sum() + p.h + q.radius + p.c.template lpNorm<1>());
   if (asked == Asked::contact && depth >= -r.bound && detail::lies_along(p, r.normal, depth, tolerance)) {
-    prepare(pa, a, pb, b, s), s.contact = ContactForm::cores;
-    s.normal = r.normal, s.middle = (r.a + r.b) / 2, s.has_middle = true;
+    prepare(pa, a, pb, b, s);
+    s.contact = ContactForm::cores;
+    s.normal = r.normal;
+    s.middle = (r.a + r.b) / 2;
+    s.has_middle = true;
   }
-  r.normal = q.to_world * r.normal, r.a = q.to_world * r.a, r.b = q.to_world * r.b;
+  r.normal = q.to_world * r.normal;
+  r.a = q.to_world * r.a;
+  r.b = q.to_world * r.b;
 }
+
+// A half-space's normal with a length outside this range is left to extended precision: its square comes
+// close to the limits of double.
+constexpr double least_normal = 1e-100, largest_normal = 1e100;
 
 template <class R>
 void convex_half_space(const PlacedShape& pa, const PlacedShape& pb, Asked asked, Answer<R>& r,
@@ -242,12 +281,14 @@ void convex_half_space(const PlacedShape& pa, const PlacedShape& pb, Asked asked
   s.a = make_body<R>(*pa.shape, pa.graph);
   const HalfSpace& plane = *std::get_if<HalfSpace>(pb.shape);
   const double length = plane.normal.norm();
-  if (!(length > 1e-100 && length < 1e100)) return;
+  if (!(length > least_normal && length < largest_normal)) return;
   const V3<R> m = (matrix(b) * (plane.normal / length).template cast<R>()).normalized();
   const R offset = static_cast<R>(plane.offset / length);
-  s.at.a_to_world = matrix(a), s.contact = ContactForm::plane;
+  s.at.a_to_world = matrix(a);
+  s.contact = ContactForm::plane;
   const V3<R> d = b.t - a.t, n = -m;
-  r.normal = n, s.normal = s.at.a_to_world.transpose() * n;
+  r.normal = n;
+  s.normal = s.at.a_to_world.transpose() * n;
   r.a = s.at.a_to_world * support_local<R>(s.a, s.normal) + s.a.radius * n;
   r.gap = m.dot(r.a) - m.dot(d) - offset;
   r.b = r.a + r.gap * n;

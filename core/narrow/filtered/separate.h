@@ -7,22 +7,22 @@ namespace touchstone::narrow::fast {
 
 /// Where a contact's points come from.
 enum class ContactForm {
-  point,     // half way between the witnesses
-  segments,  // two nearly parallel capsules: a stretch when they are in line with each other
+  point,     // halfway between the witness points
+  segments,  // two nearly parallel capsules: an interval when they are collinear
   cores,     // contact_patch of a and b
   plane      // contact_patch of a alone
 };
 
-/// What contact_patch needs of a pair that has been asked about.
+/// Input of contact_patch from a pair that has been queried.
 template <class R>
 struct PairScene {
   Body<R> a, b;
   Relative<R> at;
   V3<R> normal;  // A's frame; set with `contact` other than point and segments
-  V3<R> middle;  // A's frame: half way between the witnesses; set with `has_middle`
+  V3<R> middle;  // A's frame: halfway between the witness points; set with `has_middle`
   bool has_middle = false;
   ContactForm contact = ContactForm::point;
-  /// A's frame: where a search begins, zero for nowhere in particular, and where it has ended.
+  /// A's frame: in, the initial direction of a search, or zero; out, its final direction.
   V3<R> guess = V3<R>::Zero();
 };
 
@@ -34,7 +34,7 @@ template <class R>
 void convex_pair(const PlacedShape& a, const PlacedShape& b, Asked asked, Answer<R>& out,
                  PairScene<R>& scene);
 
-/// The same of bodies and frames that are set in `scene`. A distance beyond `enough` is `apart` without a
+/// The same for the bodies and frames in `scene`. A distance beyond `enough` is reported as `apart` without a
 /// value.
 template <class R>
 void separate_cores(const Stand<R>& a, const Stand<R>& b, Asked asked, R enough, Answer<R>& out,
@@ -67,7 +67,9 @@ void closed(const PlacedShape& a, const PlacedShape& b, Asked asked, Answer<R>& 
 template <class R>
 void prepare(const PlacedShape& pa, const Stand<R>& a, const PlacedShape& pb, const Stand<R>& b,
              PairScene<R>& s) {
-  s.a = make_body<R>(*pa.shape, pa.graph), s.b = make_body<R>(*pb.shape, pb.graph), s.at = relative(a, b);
+  s.a = make_body<R>(*pa.shape, pa.graph);
+  s.b = make_body<R>(*pb.shape, pb.graph);
+  s.at = relative(a, b);
 }
 
 }  // namespace touchstone::narrow::fast

@@ -1,7 +1,7 @@
-// The point of a simplex nearest to the origin, for a walk that has its bounds from support planes: a wrong
-// turn here costs an iteration, never truth. Feet are written as multiples of the face's normal, and freed of
-// their component along an edge, so that their direction is right even when they are far shorter than the
-// corners' rounding.
+// The point of a simplex nearest to the origin, for an iteration whose bounds come from support planes: a
+// wrong choice here costs an iteration, never correctness. Feet are written as multiples of the face's
+// normal, and made orthogonal to the edge, so that their direction is right even when they are far shorter
+// than the rounding of the corners.
 #pragma once
 
 #include <array>
@@ -10,7 +10,7 @@
 
 namespace touchstone::narrow::fast {
 
-/// A point of B − A, and A's share: b = w + a.
+/// A point w of B − A and the point a of A that generates it: b = w + a.
 template <class R>
 struct Vertex {
   V3<R> w = V3<R>::Zero(), a = V3<R>::Zero();
@@ -23,7 +23,7 @@ struct Simplex {
   int size = 0;
 };
 
-/// Foot of the origin and the corners that carry it.
+/// Foot of the origin and the corners that support it.
 template <class R>
 struct Foot {
   V3<R> point = V3<R>::Zero();
@@ -33,7 +33,7 @@ struct Foot {
   int size = 0;
 };
 
-/// Normal of a triangle by its two shorter edges, orthogonal to the longest.
+/// Normal of a triangle: the cross product of its two shorter edges.
 template <class R>
 V3<R> triangle_normal(const V3<R>& a, const V3<R>& b, const V3<R>& c) {
   const V3<R> ab = b - a, bc = c - b, ca = a - c;
@@ -49,8 +49,11 @@ void take_corner(const Simplex<R>& s, int i, Foot<R>& best) {
   const V3<R>& w = s.p[static_cast<std::size_t>(i)].w;
   const R d = w.squaredNorm();
   if (!(d < best.dist_sq)) return;
-  best.point = w, best.dist_sq = d, best.size = 1;
-  best.corner[0] = i, best.weight[0] = 1;
+  best.point = w;
+  best.dist_sq = d;
+  best.size = 1;
+  best.corner[0] = i;
+  best.weight[0] = 1;
 }
 
 template <class R>
@@ -65,8 +68,13 @@ void take_edge(const Simplex<R>& s, int i, int j, Foot<R>& best) {
   x -= d * (x.dot(d) * inverse);
   const R dist_sq = x.squaredNorm();
   if (!(dist_sq < best.dist_sq)) return;
-  best.point = x, best.dist_sq = dist_sq, best.size = 2;
-  best.corner[0] = i, best.corner[1] = j, best.weight[0] = 1 - k, best.weight[1] = k;
+  best.point = x;
+  best.dist_sq = dist_sq;
+  best.size = 2;
+  best.corner[0] = i;
+  best.corner[1] = j;
+  best.weight[0] = 1 - k;
+  best.weight[1] = k;
 }
 
 template <class R>
@@ -81,9 +89,12 @@ void take_triangle(const Simplex<R>& s, int i, int j, int k, Foot<R>& best) {
     const V3<R> x = n * (nearest.dot(n) / n.squaredNorm());
     const R dist_sq = x.squaredNorm();
     if (!(dist_sq < best.dist_sq)) return;
-    best.point = x, best.dist_sq = dist_sq, best.size = 3;
+    best.point = x;
+    best.dist_sq = dist_sq;
+    best.size = 3;
     const R share = 1 / sum;
-    best.corner = {i, j, k}, best.weight = {wa * share, wb * share, wc * share};
+    best.corner = {i, j, k};
+    best.weight = {wa * share, wb * share, wc * share};
     return;
   }
   if (!(wa > 0)) take_edge(s, j, k, best);
@@ -91,15 +102,15 @@ void take_triangle(const Simplex<R>& s, int i, int j, int k, Foot<R>& best) {
   if (!(wc > 0)) take_edge(s, i, j, best);
 }
 
-/// Faces of the tetrahedron with the origin outside; none: enclosed, `margin` is the least distance to a
-/// plane, less what rounding of the normal may feign. The face that the newest corner, the last, has left
-/// behind comes last, and only when the others have brought no progress on `last_sq` (never to look at it is
-/// no good: near triangles, walks stall).
+/// Takes the faces that have the origin on their outer side; if there are none, the tetrahedron encloses the
+/// origin, and `margin` is its least distance to a plane, less the possible rounding of the normal. The face
+/// opposite the newest (last) corner is tested last, and only if the others have not improved on `last_sq`
+/// (skipping it entirely does not work: near triangles, the iteration stalls).
 template <class R>
 bool take_tetrahedron(const Simplex<R>& s, R last_sq, Foot<R>& best, R& margin) {
   static constexpr int faces[4][4] = {{1, 2, 3, 0}, {2, 0, 3, 1}, {0, 1, 3, 2}, {0, 2, 1, 3}};
   bool enclosed = true;
-  std::array<R, 4> height, square;  // of the origin above a face, times its normal, less what is feigned
+  std::array<R, 4> height, square;  // height of the origin times |normal|, less rounding
   for (int i = 0; i < 4; ++i) {
     if (i == 3 && best.dist_sq < last_sq) break;
     const int* f = faces[i];
@@ -108,11 +119,11 @@ bool take_tetrahedron(const Simplex<R>& s, R last_sq, Foot<R>& best, R& margin) 
     const R apex = n.dot(e3), origin = -n.dot(w(0));
     bool outside = !(apex * origin > 0);
     if (!outside) {
-      const R feigned = 8 * u<R> * e1.template lpNorm<1>() * e2.template lpNorm<1>() *
-                        std::max(w(0).template lpNorm<1>(), e3.template lpNorm<1>());
-      // A sliver's sign is noise, but then the origin lies farther from the plane than the apex does.
-      outside = std::abs(origin) > std::abs(apex) + feigned;
-      height[static_cast<std::size_t>(i)] = std::abs(origin) - feigned;
+      const R rounding = 8 * u<R> * e1.template lpNorm<1>() * e2.template lpNorm<1>() *
+                         std::max(w(0).template lpNorm<1>(), e3.template lpNorm<1>());
+      // The sign of a sliver is noise, but then the origin is farther from the plane than the apex is.
+      outside = std::abs(origin) > std::abs(apex) + rounding;
+      height[static_cast<std::size_t>(i)] = std::abs(origin) - rounding;
       square[static_cast<std::size_t>(i)] = n.squaredNorm();
     }
     if (!outside) continue;
@@ -123,14 +134,15 @@ bool take_tetrahedron(const Simplex<R>& s, R last_sq, Foot<R>& best, R& margin) 
     margin = std::numeric_limits<R>::infinity();
     for (std::size_t i = 0; i < 4; ++i) margin = std::min(margin, height[i] / std::sqrt(square[i]));
   }
-  // No face was taken that rounding did not take back.
+  // Rounding rejected every face: fall back to the last one.
   if (!enclosed && best.size == 0) take_triangle(s, 0, 2, 1, best);
   return enclosed;
 }
 
 }  // namespace detail
 
-/// Reduces the simplex to the corners that carry its nearest point; true: it encloses the origin (unchanged).
+/// Reduces the simplex to the corners that support its nearest point; true: it encloses the origin
+/// (unchanged).
 template <class R>
 bool reduce(Simplex<R>& s, V3<R>& v, R& dist_sq, R& margin) {
   Foot<R> foot{};
@@ -140,8 +152,13 @@ bool reduce(Simplex<R>& s, V3<R>& v, R& dist_sq, R& margin) {
   if (s.size == 1) detail::take_corner(s, 0, foot);
   std::array<Vertex<R>, 3> kept;
   for (std::size_t k = 0; k < 3; ++k) kept[k] = s.p[static_cast<std::size_t>(foot.corner[k])];
-  s.size = foot.size, v = foot.point, dist_sq = foot.dist_sq;
-  for (std::size_t k = 0; k < 3; ++k) s.p[k] = kept[k], s.weight[k] = foot.weight[k];
+  s.size = foot.size;
+  v = foot.point;
+  dist_sq = foot.dist_sq;
+  for (std::size_t k = 0; k < 3; ++k) {
+    s.p[k] = kept[k];
+    s.weight[k] = foot.weight[k];
+  }
   return false;
 }
 

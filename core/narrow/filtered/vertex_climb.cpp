@@ -16,22 +16,30 @@ class Climb {
   Climb(const HullGraph& g, std::span<const Vec3> v, const V3<R>& d)
       : first_(g.first.data()), neighbour_(g.neighbour.data()), v_(v.data()), d_(d) {}
 
-  /// `beaten`: no neighbour of the summit comes within `band` of it.
-  std::int32_t up(std::int32_t i, R band, bool& beaten) {
+  /// `unique`: no neighbour of the maximum comes within `band` of it.
+  std::int32_t climb(std::int32_t i, R band, bool& unique) {
     top_ = value(i);
     for (;;) {
       std::int32_t next = i;
       R most = -std::numeric_limits<R>::infinity();
       for (std::int32_t k = first_[i]; k < first_[i + 1]; ++k)
-        if (const R f = value(neighbour_[k]); f > most) most = f, next = neighbour_[k];
-      if (!(most > top_)) return beaten = most < top_ - band, i;
-      i = next, top_ = most;
+        if (const R f = value(neighbour_[k]); f > most) {
+          most = f;
+          next = neighbour_[k];
+        }
+      if (!(most > top_)) {
+        unique = most < top_ - band;
+        return i;
+      }
+      i = next;
+      top_ = most;
     }
   }
 
   R top() const { return top_; }
 
-  /// The vertices from `least` on that are joined to `from` by such; one more than `out` holds: too many.
+  /// The vertices with values from `least` on that are connected to `from` through such vertices; out.size()
+  /// + 1: too many.
   std::size_t gather(std::int32_t from, R least, std::span<std::int32_t> out) const {
     std::size_t n = 1;
     out[0] = from;
@@ -55,7 +63,10 @@ class Climb {
     std::int32_t best = summit;
     R most = top_;
     for (std::size_t i = 1; i < n; ++i)
-      if (const R f = value(all[i]); f > most || (f == most && all[i] < best)) most = f, best = all[i];
+      if (const R f = value(all[i]); f > most || (f == most && all[i] < best)) {
+        most = f;
+        best = all[i];
+      }
     return best;
   }
 
@@ -73,7 +84,7 @@ class Climb {
   R top_ = 0;
 };
 
-// A direction that is not finite starts anywhere.
+// Start vertex from the table. A direction that is not finite gets an arbitrary one.
 template <class R>
 std::int32_t start(const HullGraph& g, const V3<R>& d) {
   const V3<R> size = d.cwiseAbs();
@@ -90,24 +101,23 @@ std::int32_t start(const HullGraph& g, const V3<R>& d) {
 template <class R>
 std::size_t farthest(const HullGraph& g, std::span<const Vec3> v, const V3<R>& d) {
   constexpr R u = std::numeric_limits<R>::epsilon() / 2;
-  // 2e with room for its own roundings; the sum of sizes bounds the length. What underflows is far below
-  // min().
+  // 2e with room for its own rounding; the 1-norm bounds the length. Underflow is far below min().
   const R band = 12 * u * static_cast<R>(g.reach) * d.template lpNorm<1>() + std::numeric_limits<R>::min();
-  Climb<R> climb(g, v, d);
-  bool beaten = false;
-  const std::int32_t summit = climb.up(start(g, d), band, beaten);
-  if (beaten) return static_cast<std::size_t>(summit);
-  const std::int32_t best = climb.among_equals(summit, band);
+  Climb<R> path(g, v, d);
+  bool unique = false;
+  const std::int32_t summit = path.climb(start(g, d), band, unique);
+  if (unique) return static_cast<std::size_t>(summit);
+  const std::int32_t best = path.among_equals(summit, band);
   return best < 0 ? farthest_vertex(v, d) : static_cast<std::size_t>(best);
 }
 
 template <class R>
 std::size_t above(const HullGraph& g, std::span<const Vec3> v, const V3<R>& d, R least,
                   std::span<std::int32_t> out) {
-  Climb<R> climb(g, v, d);
-  bool beaten = false;
-  const std::int32_t summit = climb.up(start(g, d), 0, beaten);
-  return climb.top() >= least ? climb.gather(summit, least, out) : 0;
+  Climb<R> path(g, v, d);
+  bool unique = false;
+  const std::int32_t summit = path.climb(start(g, d), 0, unique);
+  return path.top() >= least ? path.gather(summit, least, out) : 0;
 }
 
 }  // namespace
@@ -131,8 +141,8 @@ std::size_t farthest_vertex(const HullGraph& g, std::span<const Vec3> v, const V
 }
 
 std::int32_t climb_from(const HullGraph& g, std::span<const Vec3> v, const V3<double>& d, std::int32_t from) {
-  bool beaten = false;
-  return Climb<double>(g, v, d).up(from, 0, beaten);
+  bool unique = false;
+  return Climb<double>(g, v, d).climb(from, 0, unique);
 }
 
 }  // namespace touchstone::narrow::fast

@@ -6,7 +6,7 @@
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "core/narrow/filtered/vertex_scan.cpp"
-#include <hwy/foreach_target.h>  // includes this file once for each kind of processor
+#include <hwy/foreach_target.h>  // includes this file once per target
 #include <hwy/highway.h>
 
 HWY_BEFORE_NAMESPACE();
@@ -18,7 +18,7 @@ using D = hn::ScalableTag<double>;
 using F = hn::Rebind<float, D>;
 using VD = hn::Vec<D>;
 
-// Dot products of as many vertices as lanes.
+// Dot products of one vertex per lane.
 template <class R>
 struct Dots;
 
@@ -51,12 +51,15 @@ struct Dots<float> {
 };
 
 template <class R>
-std::size_t few(const double* p, std::size_t n, const R* d) {
+std::size_t farthest_scalar(const double* p, std::size_t n, const R* d) {
   std::size_t best = 0;
   R most = -std::numeric_limits<R>::infinity();
   for (std::size_t i = 0; i < n; ++i, p += 3) {
     const R dot = (static_cast<R>(p[0]) * d[0] + static_cast<R>(p[1]) * d[1]) + static_cast<R>(p[2]) * d[2];
-    if (dot > most) most = dot, best = i;
+    if (dot > most) {
+      most = dot;
+      best = i;
+    }
   }
   return best;
 }
@@ -66,7 +69,7 @@ std::size_t farthest(const double* p, std::size_t n, const R* d) {
   const Dots<R> dots(d);
   const auto tag = dots.tag;
   const std::size_t lanes = hn::Lanes(tag);
-  if (n < lanes) return few(p, n, d);
+  if (n < lanes) return farthest_scalar(p, n, d);
   auto most = dots(p), where = hn::Iota(tag, R(0)), at = where;
   const auto step = hn::Set(tag, static_cast<R>(lanes));
   std::size_t i = lanes;
@@ -79,7 +82,7 @@ std::size_t farthest(const double* p, std::size_t n, const R* d) {
     at = hn::Add(at, step);
     look(i, at);
   }
-  // The last vertices once more, where they do not fill the lanes.
+  // If they do not fill the lanes, the last vertices are processed in an overlapping batch.
   if (i < n) look(n - lanes, hn::Iota(tag, static_cast<R>(n - lanes)));
   const auto top = hn::MaxOfLanes(tag, most);
   const auto none = hn::Set(tag, std::numeric_limits<R>::infinity());

@@ -1,5 +1,5 @@
-// Support mapping of many vertices by looking at all of them, as many at once as the processor compares.
-// The same vertex on every processor: products and sums in one order, the first of equal ones.
+// Support mapping of many vertices by scanning all of them with SIMD comparisons. The result is the same
+// vertex on every processor: products and sums in one fixed order, and the first of equal vertices.
 #pragma once
 
 #include <cstddef>
@@ -10,14 +10,14 @@
 
 namespace touchstone::narrow::fast {
 
-/// Index of the first vertex farthest along d. v not empty.
+/// Index of the first vertex farthest along d. v is not empty.
 std::size_t farthest_vertex(std::span<const Vec3> v, const V3<double>& d);
 
 /// The same in float, for vertices rounded to float.
 std::size_t farthest_vertex(std::span<const Vec3> v, const V3<float>& d);
 
-/// Indices of the vertices with d·p >= least, in order, no more of them than `out` holds; returns their
-/// number even so.
+/// Indices of the vertices with d·p >= least, in order. Writes at most out.size() of them and returns their
+/// total number.
 std::size_t vertices_above(std::span<const Vec3> v, const V3<double>& d, double least,
                            std::span<std::int32_t> out);
 std::size_t vertices_above(std::span<const Vec3> v, const V3<float>& d, float least,

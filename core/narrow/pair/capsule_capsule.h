@@ -1,7 +1,7 @@
-// Two segments. The nearest pair is either an end of one and a point of the other, or inner points of both;
-// then the normal is u×v. Parameters come from cross products, so that their error grows as 1/sin of the
-// angle and not as 1/sin² (the usual normal equations): for nearly parallel segments that touch, the square
-// would cost the normal.
+// Two segments. The nearest pair is either an end of one and a point of the other, or interior points of
+// both; in the latter case the normal is u×v. Parameters come from cross products, so that their error grows
+// as 1/sin of the angle instead of 1/sin² (the usual normal equations); for nearly parallel segments that
+// touch, the latter would ruin the normal.
 #pragma once
 
 #include <algorithm>
@@ -23,7 +23,9 @@ inline Separation capsule_capsule(const ConvexCore<Wide>& a, const ConvexCore<Wi
     if (inner_t) d -= v * v.dot(d);
     const Wide n = d.norm();
     if (!(n < best)) return;
-    best = n, pa = x, pb = y;
+    best = n;
+    pa = x;
+    pb = y;
     if (n > 0) normal = d / n;
   };
   for (const Wide s : {-ha, ha}) {
@@ -36,12 +38,13 @@ inline Separation capsule_capsule(const ConvexCore<Wide>& a, const ConvexCore<Wi
   }
   const WideVec n = u.cross(v);
   const Wide nn = n.squaredNorm();
-  // sin² of the angle; below it the ends already give the distance to rounding.
+  // Below this sin² of the angle, the ends give the distance to within rounding.
   if (nn > std::numeric_limits<Wide>::epsilon() * std::numeric_limits<Wide>::epsilon()) {
     const Wide s = r.cross(v).dot(n) / nn, t = r.cross(u).dot(n) / nn;
     if (std::abs(s) <= ha && std::abs(t) <= hb) {
       const Wide d = r.dot(n);
-      pa = ca + s * u, pb = cb + t * v;
+      pa = ca + s * u;
+      pb = cb + t * v;
       normal = (d < 0 ? WideVec(-n) : n) / std::sqrt(nn);
     }
   }

@@ -1,5 +1,5 @@
-// A bounded convex body A against a half-space B: only one direction separates them, so distance and depth
-// are both one support evaluation.
+// A bounded convex body A against a half-space B. Only one direction separates them, so distance and depth
+// are both a single support evaluation.
 #pragma once
 
 #include "core/narrow/convex_pair.h"
@@ -7,7 +7,7 @@
 namespace touchstone::narrow {
 
 struct WidePlane {
-  WideVec normal;  // unit, out of the solid
+  WideVec normal;  // unit, pointing out of the solid
   Wide offset;     // solid: normal·x <= offset
 };
 

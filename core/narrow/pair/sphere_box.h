@@ -1,4 +1,4 @@
-// A point and a box, in the box's frame. Inside, the nearest face is the least depth, exactly.
+// A point and a box, in the box's frame. For a point inside, the nearest face gives the exact least depth.
 #pragma once
 
 #include "core/narrow/convex_pair.h"
@@ -15,7 +15,8 @@ inline Separation sphere_box(const ConvexCore<Wide>& a, const ConvexCore<Wide>& 
   const Wide depth = (h - p.cwiseAbs()).minCoeff(&axis);
   const Wide side = p[axis] < 0 ? -1 : 1;
   Separation s;
-  s.size = pair_size(a, b), s.gap = -depth - a.radius;
+  s.size = pair_size(a, b);
+  s.gap = -depth - a.radius;
   s.normal = -side * b.frame.rotation.col(axis);
   s.a = a.frame.translation + a.radius * s.normal;
   s.b = a.frame.translation - depth * s.normal;

@@ -1,6 +1,6 @@
-// A point and a segment. Where the foot is inside the segment the difference is made orthogonal to it before
-// it is normalised: a component along the segment, however small, costs half the segment's length times
-// itself in depth.
+// A point and a segment. If the foot is inside the segment, the difference is made orthogonal to the segment
+// before it is normalised: any component along the segment, however small, changes the depth by half the
+// segment's length times that component.
 #pragma once
 
 #include <algorithm>

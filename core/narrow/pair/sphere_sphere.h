@@ -1,4 +1,4 @@
-// Two balls: the distance of two points. Concentric balls have every direction as a minimum; x is taken.
+// Two balls: the distance of two points. For concentric balls every direction is a minimum; x is returned.
 #pragma once
 
 #include "core/narrow/convex_pair.h"
