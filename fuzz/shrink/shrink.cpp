@@ -7,8 +7,8 @@
 namespace touchstone::fuzz {
 namespace {
 
-// Proposals asked about at once, at most: the first that shows the finding is taken and those behind it are
-// wasted, which costs where an answer takes a second (a time-out). So batches begin with one and double.
+// Most proposals per batch. The first that shows the finding is taken and those after it are wasted, which is
+// expensive where an answer takes a second (a time-out), so batches start at one and double.
 constexpr std::size_t largest_batch = 16;
 
 class Shrinker {
@@ -36,7 +36,7 @@ class Shrinker {
  private:
   bool tired() const { return result_.tried >= max_tries_; }
 
-  // Takes the first proposal that shows it.
+  // Takes the first proposal that shows the finding.
   bool take_first(const std::vector<Case>& proposals) {
     std::size_t batch = 1;
     for (std::size_t first = 0; first < proposals.size() && !tired();
