@@ -27,7 +27,7 @@ bool counts(const Scene& s, int a, int b) {
   return !(fixed(a) && fixed(b)) && !is_filtered(s, a, b);
 }
 
-// A pair that must be reported, and what losing it would be.
+// A pair that must be reported, and the kind of fault if it is lost.
 struct Due {
   BodyPair pair;
   FaultKind kind = FaultKind::touching;
@@ -35,19 +35,19 @@ struct Due {
 };
 using Dues = std::vector<Due>;
 
-constexpr double least_solid_share = 0.01;
+constexpr double least_solid_share = 0.01;  // smaller overlaps count as touching
 
 Due due_of_share(BodyPair pair, double share) {
   return {pair, share > least_solid_share ? FaultKind::solid : FaultKind::touching, share > 0 ? share : 0};
 }
 
-// Of boxes: the least over the axes of the overlap over the smaller side.
+// The share of two boxes: the minimum over the axes of the overlap divided by the smaller side.
 Due due_of_boxes(BodyPair pair, const Aabb& a, const Aabb& b) {
   if (!(a.lo.allFinite() && a.hi.allFinite() && b.lo.allFinite() && b.hi.allFinite()))
     return {pair, FaultKind::unbounded, 0};
   double share = 1;
   for (int k = 0; k < 3; ++k) {
-    // Halved before they are subtracted, for boxes near the largest number.
+    // Halved before subtracting, so that boxes near the largest double do not overflow.
     const double side = std::min(a.hi[k] / 2 - a.lo[k] / 2, b.hi[k] / 2 - b.lo[k] / 2);
     const double shared = std::min(a.hi[k], b.hi[k]) / 2 - std::max(a.lo[k], b.lo[k]) / 2;
     share = side > 0 ? std::min(share, shared / side) : 0;
@@ -55,7 +55,7 @@ Due due_of_boxes(BodyPair pair, const Aabb& a, const Aabb& b) {
   return due_of_share(pair, share);
 }
 
-// Of bodies: the certain depth over the diameter of the smaller.
+// The share of two bodies: the certain depth divided by the diameter of the smaller.
 Due due_of_bodies(const Scene& s, const Truth::TruePair& p) {
   const auto [a, b] = p.bodies;
   const double ra = bounding_radius(s.shape_of(a)), rb = bounding_radius(s.shape_of(b));
@@ -64,19 +64,22 @@ Due due_of_bodies(const Scene& s, const Truth::TruePair& p) {
   return due_of_share(p.bodies, size > 0 ? std::clamp(-p.truth.gap.hi / size, 0.0, 1.0) : 0);
 }
 
-// Who is there, and where; at the level of boxes also in which box.
+// The bodies present and their poses; at the level of boxes also their boxes.
 struct State {
   std::vector<char> present;
   std::vector<Pose> pose;
   std::vector<Aabb> box;
-  std::vector<char> asked;  // has a box that is one
+  std::vector<char> has_box;  // the box is closed, so its pairs must be reported
 };
 
 class Replay {
  public:
   Replay(const Scene& s, BroadLevel level, bool invalid) : s_(s), level_(level), invalid_(invalid) {
     const std::size_t n = s.bodies.size();
-    now_.present.resize(n), now_.pose.resize(n), now_.box.resize(n), now_.asked.resize(n);
+    now_.present.resize(n);
+    now_.pose.resize(n);
+    now_.box.resize(n);
+    now_.has_box.resize(n);
   }
   void apply(const Step& step) {
     const auto b = static_cast<std::size_t>(step.body);
@@ -90,7 +93,7 @@ class Replay {
   Dues overlapping_boxes() {
     order_.clear();
     for (int i = 0; i < static_cast<int>(now_.present.size()); ++i)
-      if (now_.present[static_cast<std::size_t>(i)] && now_.asked[static_cast<std::size_t>(i)])
+      if (now_.present[static_cast<std::size_t>(i)] && now_.has_box[static_cast<std::size_t>(i)])
         order_.push_back(i);
     const auto box = [&](int i) -> const Aabb& { return now_.box[static_cast<std::size_t>(i)]; };
     std::sort(order_.begin(), order_.end(), [&](int i, int j) {
@@ -112,7 +115,7 @@ class Replay {
     if (!box && !invalid_) throw InputError("body " + std::to_string(body), "has no exact box");
     const bool closed = box && (box->lo.array() <= box->hi.array()).all() &&
                         (!invalid_ || (box->lo.allFinite() && box->hi.allFinite()));
-    now_.asked[b] = closed;
+    now_.has_box[b] = closed;
     if (closed) now_.box[b] = *box;
   }
   const Scene& s_;
@@ -122,7 +125,7 @@ class Replay {
   std::vector<int> order_;
 };
 
-// swept_candidates: pairs that meet at some time of the step, from the bodies' own poses.
+// If `swept`, the pairs that meet at some time in the step, starting from the bodies' own poses.
 std::vector<Dues> true_pairs_of_bodies(const Scene& s, bool swept, std::uint64_t& undecided) {
   Truth truth(s);
   if (swept) {
@@ -166,7 +169,7 @@ class Judge {
   }
 
  private:
-  // To throw at what is no box is to refuse it.
+  // Throwing on an invalid box counts as refusing it.
   void failed() {
     const Outcome o = answer_.outcome;
     v_.refused =
@@ -189,7 +192,7 @@ class Judge {
       ++k;
     }
     if (answer_.candidate_pairs.size() > k)
-      wrong("no_number", FaultKind::numbers, "more queries are answered than the script asks",
+      wrong("no_number", FaultKind::numbers, "answers more queries than the script has",
             {static_cast<int>(k)});
   }
   void judge_query(int k, const Dues& truth) {
@@ -197,7 +200,9 @@ class Judge {
     const auto at = static_cast<std::size_t>(k);
     const Pairs reported =
         sorted_unique(at < answer_.candidate_pairs.size() ? answer_.candidate_pairs[at] : none);
-    ++v_.queries, v_.pairs_true += truth.size(), v_.pairs_reported += reported.size();
+    ++v_.queries;
+    v_.pairs_true += truth.size();
+    v_.pairs_reported += reported.size();
     hash_.add(reported.size());
     for (const auto& [a, b] : reported) hash_.add(a).add(b);
     for (const Due& d : truth)
@@ -211,25 +216,25 @@ class Judge {
   }
   void missed(int k, const Due& d) {
     const auto [a, b] = d.pair;
-    const std::string how = d.kind == FaultKind::solid
-                                ? fmt::format("overlap by {:.2g} of the smaller's size", d.share)
-                            : d.kind == FaultKind::moving ? std::string("meet within the step")
-                            : d.kind == FaultKind::unbounded
-                                ? std::string("overlap, one of them unbounded,")
-                                : std::string("touch, or overlap by 1 % at most, or have no volume,");
-    wrong("missed", d.kind, fmt::format("query {}: bodies {} and {} {} and are no candidates", k, a, b, how),
+    const std::string how =
+        d.kind == FaultKind::solid    ? fmt::format("overlap by {:.2g} of the smaller body's size", d.share)
+        : d.kind == FaultKind::moving ? std::string("meet within the step")
+        : d.kind == FaultKind::unbounded ? std::string("overlap, one of them unbounded,")
+                                         : std::string("touch, overlap by at most 1 %, or have no volume,");
+    wrong("missed", d.kind,
+          fmt::format("query {}: bodies {} and {} {} but are not reported as candidates", k, a, b, how),
           {k, a, b, d.share});
   }
   void stale(int k, const BodyPair& p) {
     wrong("stale", FaultKind::numbers,
-          fmt::format("query {}: the pair ({}, {}) names a body that is not there", k, p.first, p.second),
+          fmt::format("query {}: the pair ({}, {}) names a body that is not present", k, p.first, p.second),
           {k, p.first, p.second});
   }
   struct Place {
     int query = -1, a = -1, b = -1;
     double share = 0;
   };
-  // Filled member by member: g++ 12 sees uninitialised texts in a braced one.
+  // Filled member by member: g++ 12 warns of uninitialised strings with braced initialisation.
   void wrong(std::string_view fault, FaultKind kind, std::string words, const Place& at) {
     CandidateFault f;
     f.what.fault = fault;
@@ -248,7 +253,7 @@ class Judge {
   }
 
   const Scene& s_;
-  bool swept_;  // of all bodies, without a script
+  bool swept_;  // one question about all bodies, without a script
   const Observation& answer_;
   BroadLevel level_;
   bool invalid_;
