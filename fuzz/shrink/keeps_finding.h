@@ -11,10 +11,10 @@
 
 namespace touchstone::fuzz {
 
-/// What detects a fault: the referee, the relations (judge/relation.h), or both.
+/// What detects a fault: the referee, the relations (fuzz/judge/relation.h), or both.
 enum class FoundBy { referee, relations, both };
 
-/// For each case, the engine's findings by key (record/result.h).
+/// For each case, the engine's findings by key (reports/record/result.h).
 std::vector<std::map<std::string, Finding>> findings_of(std::span<const Case> cases, const EnginePtr& engine,
                                                         FoundBy by = FoundBy::referee);
 
