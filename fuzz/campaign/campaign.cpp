@@ -45,7 +45,7 @@ class Runner {
   CampaignResult run() {
     prepare();
     std::vector<std::thread> threads;
-    for (int i = 0; i < std::max(1, config_.jobs); ++i) threads.emplace_back([this] { job(); });
+    for (int i = 0; i < std::max(1, config_.jobs); ++i) threads.emplace_back([this] { run_job(); });
     for (auto& t : threads) t.join();
     if (error_) std::rethrow_exception(error_);
     state_.finished = ended();
@@ -83,17 +83,17 @@ class Runner {
   }
   bool ended() const { return !stop_ && (exhausted(merged_) || out_of_time()); }
 
-  void job() try {
+  void run_job() try {
     const auto engines = factory_();
     for (;;) {
       const std::uint64_t k = next_.fetch_add(1);
       if (exhausted(k)) return;
       // The first chunk always runs, however slow the machine: a campaign without an answer proves nothing.
-      if (!wait_for_generation(k) || stop_ || failed_ || (k > 0 && out_of_time())) return leave();
+      if (!wait_for_generation(k) || stop_ || failed_ || (k > 0 && out_of_time())) return abandon_chunk();
       finish(k, ask(k, engines), engines);
     }
   } catch (const Stopped&) {
-    leave();
+    abandon_chunk();
   } catch (...) {
     std::lock_guard lock(mutex_);
     if (!error_) error_ = std::current_exception();
@@ -102,7 +102,7 @@ class Runner {
   }
 
   // A chunk was taken but will not be finished: releases the jobs that wait for it.
-  void leave() {
+  void abandon_chunk() {
     std::lock_guard lock(mutex_);
     gap_ = true;
     merge_advanced_.notify_all();

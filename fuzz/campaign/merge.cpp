@@ -43,7 +43,7 @@ std::vector<std::uint64_t> shards_of(const JsonReader& settings) {
 Part load_part(const std::filesystem::path& directory) {
   const auto file = directory / "state.json";
   if (!std::filesystem::exists(file))
-    throw InputError(directory.string(), "holds no campaign (touchstone fuzz --out DIR makes one)");
+    throw InputError(directory.string(), "does not hold a campaign; touchstone fuzz --out DIR creates one");
   const Json json = load_json(file, campaign_limits);
   const JsonReader j(json, file.string());
   if (!j["finished"].boolean())

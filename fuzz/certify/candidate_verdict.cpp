@@ -22,27 +22,27 @@ Pairs sorted_unique(Pairs r) {
   return r;
 }
 
-bool counts(const Scene& s, int a, int b) {
+bool is_reportable(const Scene& s, int a, int b) {
   const auto fixed = [&](int i) { return s.bodies[static_cast<std::size_t>(i)].is_static; };
   return !(fixed(a) && fixed(b)) && !is_filtered(s, a, b);
 }
 
 // A pair that must be reported, and the kind of fault if it is lost.
-struct Due {
+struct RequiredPair {
   BodyPair pair;
   FaultKind kind = FaultKind::touching;
   double share = 0;
 };
-using Dues = std::vector<Due>;
+using RequiredPairs = std::vector<RequiredPair>;
 
 constexpr double least_solid_share = 0.01;  // smaller overlaps count as touching
 
-Due due_of_share(BodyPair pair, double share) {
+RequiredPair required_with_share(BodyPair pair, double share) {
   return {pair, share > least_solid_share ? FaultKind::solid : FaultKind::touching, share > 0 ? share : 0};
 }
 
 // The share of two boxes: the minimum over the axes of the overlap divided by the smaller side.
-Due due_of_boxes(BodyPair pair, const Aabb& a, const Aabb& b) {
+RequiredPair required_by_boxes(BodyPair pair, const Aabb& a, const Aabb& b) {
   if (!(a.lo.allFinite() && a.hi.allFinite() && b.lo.allFinite() && b.hi.allFinite()))
     return {pair, FaultKind::unbounded, 0};
   double share = 1;
@@ -52,16 +52,16 @@ Due due_of_boxes(BodyPair pair, const Aabb& a, const Aabb& b) {
     const double shared = std::min(a.hi[k], b.hi[k]) / 2 - std::max(a.lo[k], b.lo[k]) / 2;
     share = side > 0 ? std::min(share, shared / side) : 0;
   }
-  return due_of_share(pair, share);
+  return required_with_share(pair, share);
 }
 
 // The share of two bodies: the certain depth divided by the diameter of the smaller.
-Due due_of_bodies(const Scene& s, const Truth::TruePair& p) {
+RequiredPair required_by_bodies(const Scene& s, const Truth::TruePair& p) {
   const auto [a, b] = p.bodies;
   const double ra = bounding_radius(s.shape_of(a)), rb = bounding_radius(s.shape_of(b));
   if (!(std::isfinite(ra) && std::isfinite(rb))) return {p.bodies, FaultKind::unbounded, 0};
   const double size = 2 * std::min(ra, rb);
-  return due_of_share(p.bodies, size > 0 ? std::clamp(-p.truth.gap.hi / size, 0.0, 1.0) : 0);
+  return required_with_share(p.bodies, size > 0 ? std::clamp(-p.truth.gap.hi / size, 0.0, 1.0) : 0);
 }
 
 // The bodies present and their poses; at the level of boxes also their boxes.
@@ -90,7 +90,7 @@ class Replay {
   }
   const State& now() const { return now_; }
 
-  Dues overlapping_boxes() {
+  RequiredPairs overlapping_boxes() {
     order_.clear();
     for (int i = 0; i < static_cast<int>(now_.present.size()); ++i)
       if (now_.present[static_cast<std::size_t>(i)] && now_.has_box[static_cast<std::size_t>(i)])
@@ -99,12 +99,13 @@ class Replay {
     std::sort(order_.begin(), order_.end(), [&](int i, int j) {
       return box(i).lo.x() < box(j).lo.x() || (box(i).lo.x() == box(j).lo.x() && i < j);
     });
-    Dues out;
+    RequiredPairs out;
     for (std::size_t i = 0; i < order_.size(); ++i)
       for (std::size_t j = i + 1; j < order_.size() && box(order_[j]).lo.x() <= box(order_[i]).hi.x(); ++j)
-        if (overlaps(box(order_[i]), box(order_[j])) && counts(s_, order_[i], order_[j]))
-          out.push_back(due_of_boxes(std::minmax(order_[i], order_[j]), box(order_[i]), box(order_[j])));
-    std::sort(out.begin(), out.end(), [](const Due& x, const Due& y) { return x.pair < y.pair; });
+        if (overlaps(box(order_[i]), box(order_[j])) && is_reportable(s_, order_[i], order_[j]))
+          out.push_back(required_by_boxes(std::minmax(order_[i], order_[j]), box(order_[i]), box(order_[j])));
+    std::sort(out.begin(), out.end(),
+              [](const RequiredPair& x, const RequiredPair& y) { return x.pair < y.pair; });
     return out;
   }
 
@@ -126,18 +127,18 @@ class Replay {
 };
 
 // If `swept`, the pairs that meet at some time in the step, starting from the bodies' own poses.
-std::vector<Dues> true_pairs_of_bodies(const Scene& s, bool swept, std::uint64_t& undecided) {
+std::vector<RequiredPairs> true_pairs_of_bodies(const Scene& s, bool swept, std::uint64_t& undecided) {
   Truth truth(s);
   if (swept) {
-    Dues meeting;
+    RequiredPairs meeting;
     for (const BodyPair& p : truth.meeting_pairs()) meeting.push_back({p, FaultKind::moving, 0});
     undecided += truth.undecided_meetings();
     return {meeting};
   }
-  std::vector<Dues> out;
+  std::vector<RequiredPairs> out;
   for (const auto& step : truth.true_pairs()) {
-    Dues& pairs = out.emplace_back();
-    for (const auto& p : step) pairs.push_back(due_of_bodies(s, p));
+    RequiredPairs& pairs = out.emplace_back();
+    for (const auto& p : step) pairs.push_back(required_by_bodies(s, p));
   }
   undecided += truth.undecided_pairs();
   return out;
@@ -179,7 +180,7 @@ class Judge {
     if (!v_.refused && !v_.timed_out) wrong(to_string(o), FaultKind::numbers, v_.words, Place{});
   }
   void judge() {
-    std::vector<Dues> truth;
+    std::vector<RequiredPairs> truth;
     if (level_ == BroadLevel::bodies) truth = true_pairs_of_bodies(s_, swept_, v_.undecided);
     if (swept_) return judge_query(0, truth.at(0));
     std::size_t k = 0;
@@ -195,7 +196,7 @@ class Judge {
       wrong("no_number", FaultKind::numbers, "answers more queries than the script has",
             {static_cast<int>(k)});
   }
-  void judge_query(int k, const Dues& truth) {
+  void judge_query(int k, const RequiredPairs& truth) {
     static const Pairs none;
     const auto at = static_cast<std::size_t>(k);
     const Pairs reported =
@@ -205,7 +206,7 @@ class Judge {
     v_.pairs_reported += reported.size();
     hash_.add(reported.size());
     for (const auto& [a, b] : reported) hash_.add(a).add(b);
-    for (const Due& d : truth)
+    for (const RequiredPair& d : truth)
       if (!std::binary_search(reported.begin(), reported.end(), d.pair)) missed(k, d);
     for (const BodyPair& p : reported)
       if (p.first == p.second || absent(p.first) || absent(p.second)) stale(k, p);
@@ -214,7 +215,7 @@ class Judge {
     if (i < 0 || i >= static_cast<int>(s_.bodies.size())) return true;
     return !swept_ && !replay_.now().present[static_cast<std::size_t>(i)];
   }
-  void missed(int k, const Due& d) {
+  void missed(int k, const RequiredPair& d) {
     const auto [a, b] = d.pair;
     const std::string how =
         d.kind == FaultKind::solid    ? fmt::format("overlap by {:.2g} of the smaller body's size", d.share)

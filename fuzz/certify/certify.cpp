@@ -148,7 +148,7 @@ class Certifier {
     std::size_t index = 0;
     for (const EvidenceRow& e : all_evidence()) {
       if (stop_) return std::nullopt;
-      if (is_asked(e)) gather(e, index);
+      if (is_selected(e)) gather(e, index);
       ++index;
     }
     for (const BroadLevel l : config_.levels) refute_level(l);
@@ -163,7 +163,7 @@ class Certifier {
                        [&](const EvidenceRow& e) { return e.name == w; }))
         throw InputError("--without " + w, "is not the name of an evidence");
   }
-  bool is_asked(const EvidenceRow& e) const {
+  bool is_selected(const EvidenceRow& e) const {
     const auto has = [](const auto& list, const auto& x) {
       return std::find(list.begin(), list.end(), x) != list.end();
     };

@@ -52,12 +52,12 @@ class Causes {
     const auto observed = engine_.run({&rest, 1});
     const CandidateVerdict alone = judge_candidates(rest, observed[0].answers.at(0), level_, invalid_);
     for (CandidateFault& f : v.faults)
-      if (is_open(f) && !alone.shows(f.what)) {
+      if (is_unattributed(f) && !alone.shows(f.what)) {
         f.what.kind = kind;
         f.share = 0;
       }
   }
-  static bool is_open(const CandidateFault& f) {
+  static bool is_unattributed(const CandidateFault& f) {
     return f.what.kind != FaultKind::unbounded && f.what.kind != FaultKind::invalid;
   }
 
@@ -82,7 +82,7 @@ void sort_and_unite(std::vector<CandidateFault>& faults) {
 CandidateVerdict judge_with_cause(Engine& engine, const Case& c, const Observation& o, BroadLevel level,
                                   bool invalid) {
   CandidateVerdict v = judge_candidates(c, o, level, invalid);
-  if (std::none_of(v.faults.begin(), v.faults.end(), Causes::is_open)) return v;
+  if (std::none_of(v.faults.begin(), v.faults.end(), Causes::is_unattributed)) return v;
   const Causes causes(engine, level, invalid);
   const auto finite = without(c, is_invalid);
   if (finite) causes.blame(v, *finite, FaultKind::invalid);

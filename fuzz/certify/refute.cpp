@@ -14,9 +14,9 @@ namespace {
 // A crash costs a worker on every try.
 std::size_t most_tries(const std::string& fault) { return fault == "crashed" ? 1500 : 12000; }
 
-class Asker {
+class SubjectRunner {
  public:
-  Asker(const Subject& s, const EvidenceRow& e, FaultClass what)
+  SubjectRunner(const Subject& s, const EvidenceRow& e, FaultClass what)
       : s_(s), level_(e.level), invalid_(e.invalid), what_(std::move(what)) {}
 
   /// From now on every case gets a new engine.
@@ -118,11 +118,11 @@ std::vector<Case> guesses(const Case& c, const CandidateFault& v) {
   return out;
 }
 
-Case start_of(Asker& asker, const Case& c, const CandidateFault& v) {
+Case start_of(SubjectRunner& runner, const Case& c, const CandidateFault& v) {
   const Case cut = v.query < 0 ? c : cut_after(c, v.query);
-  if (!asker.shows({&cut, 1})[0]) return c;
+  if (!runner.shows({&cut, 1})[0]) return c;
   for (const Case& g : guesses(cut, v))
-    if (asker.shows({&g, 1})[0]) return g;
+    if (runner.shows({&g, 1})[0]) return g;
   return cut;
 }
 
@@ -156,26 +156,26 @@ Refutation refute(const Subject& subject, const EvidenceRow& e, const FaultCount
   Refutation r{e.level, found.evidence, found.index, found.what, found.words, "not shrunk", 0, 0, false, {}};
   r.bodies = bodies_used(c);
   r.steps = c.scene.script.size();
-  Asker asker(subject, e, found.what);
-  auto fault = asker.fault(c);
+  SubjectRunner runner(subject, e, found.what);
+  auto fault = runner.fault(c);
   if (!fault) {
-    asker.use_new_engines();
-    fault = asker.fault(c);
+    runner.use_new_engines();
+    fault = runner.fault(c);
   }
   if (!fault) {
     r.shrink = "not reproduced: the subject's answers vary";
     r.script = c;
     return r;
   }
-  const StillShows still = [&](std::span<const Case> cases) { return asker.shows(cases); };
-  const Shrunk shrunk = shrink(start_of(asker, c, *fault), still, most_tries(found.what.fault));
+  const StillShows still = [&](std::span<const Case> cases) { return runner.shows(cases); };
+  const Shrunk shrunk = shrink(start_of(runner, c, *fault), still, most_tries(found.what.fault));
   r.is_shown_again = shrunk.exit != ShrinkExit::not_shown;
   r.shrink = r.is_shown_again ? std::string(to_string(shrunk.exit))
                               : "not reproduced every time: the subject's answers vary";
   r.script = shrunk.smallest;
   r.bodies = bodies_used(shrunk.smallest);
   r.steps = shrunk.smallest.scene.script.size();
-  if (const auto smallest = asker.fault(shrunk.smallest))
+  if (const auto smallest = runner.fault(shrunk.smallest))
     r.words = smallest->words + invalid_boxes(shrunk.smallest.scene);
   return r;
 }

@@ -168,7 +168,7 @@ constexpr double difference_step = 1e-3;
 // Error assumed for an impact that was not reported; half of it is the slack of the check.
 constexpr double error_of_missing_impact = 0.02;
 
-struct Wanted {
+struct ExpectedAnswer {
   Truth& truth;
   const Asked& q;
   const Finding& finding;
@@ -197,7 +197,7 @@ void add_direction(std::string& list, Truth& truth, int body, const Vec3& p) {
     list += fmt::format("{}Vec{{{}}}", list.empty() ? "" : ", ", literals(Vec3(u.normalized())));
 }
 
-std::string contact_check(const Wanted& e) {
+std::string contact_check(const ExpectedAnswer& e) {
   const auto& t = e.truth.pair(0, e.q.a, e.q.b);
   const std::string lo = literal(-t.gap.hi), hi = literal(-t.gap.lo), tau = literal(e.tau);
   if (!has_support(e.q.scene.shape_of(e.q.a)) || !has_support(e.q.scene.shape_of(e.q.b)))
@@ -213,7 +213,7 @@ std::string contact_check(const Wanted& e) {
   return filled(check_contact, {{"POINTS", points}, {"LO", lo}, {"HI", hi}, {"TAU", tau}});
 }
 
-std::string witness_check(const Wanted& e) {
+std::string witness_check(const ExpectedAnswer& e) {
   const auto& t = e.truth.pair(0, e.q.a, e.q.b);
   const auto& w = *e.finding.evidence->observation.witness;
   std::string directions;
@@ -230,7 +230,7 @@ std::string witness_check(const Wanted& e) {
                                 {"DIRECTIONS", directions}});
 }
 
-std::string impact_check(const Wanted& e) {
+std::string impact_check(const ExpectedAnswer& e) {
   using V = referee::TimeTruth::Verdict;
   const auto& t = e.truth.motion(0, e.q.a, e.q.b);
   if (t.verdict == V::none) return std::string(check_no_impact);
@@ -241,7 +241,7 @@ std::string impact_check(const Wanted& e) {
       {{"LO", literal(t.t_lo)}, {"HI", literal(t.t_hi)}, {"SLACK", literal(std::max(off, 0.0) / 2)}});
 }
 
-std::string pair_check(const Wanted& e) {
+std::string pair_check(const ExpectedAnswer& e) {
   const auto& t = e.truth.pair(0, e.q.a, e.q.b);
   const bool overlaps = t.verdict == referee::Verdict::overlap;
   const bool has_depth = overlaps && std::isfinite(t.gap.lo);
@@ -262,7 +262,7 @@ std::string pair_check(const Wanted& e) {
   return verdict("overlap", "apart", overlaps);
 }
 
-std::string check_of(const Wanted& e) {
+std::string check_of(const ExpectedAnswer& e) {
   if (e.q.question == Question::candidates)
     return verdict("the pair is reported", "the pair is not reported",
                    e.finding.fault == to_string(Fault::missed));
@@ -300,12 +300,12 @@ std::string reproducer(const Finding& finding, const EngineCard& card) {
         "does not support candidates of moving bodies; use `touchstone replay` instead: " + finding.key());
   const int n = static_cast<int>(v.c.scene.bodies.size());
   if (v.a < 0 || v.b < 0 || v.a >= n || v.b >= n)
-    throw InputError("reproduce", "the finding names no pair of bodies: " + finding.key());
+    throw InputError("reproduce", "the finding is not about a pair of bodies: " + finding.key());
   const Asked q{v.c.scene, v.question, v.a, v.b, v.step, finding.engine};
   Truth truth(v.c.scene);
   const double tau = tau_of(card, v.observation, truth.scale(v.a, v.b));
   const EngineSource source = source_of(q);
-  const Wanted expected{truth, q, finding, tau};
+  const ExpectedAnswer expected{truth, q, finding, tau};
   const std::string check = check_of(expected);
   const auto support_of = [&](std::string_view who, int body) {
     const std::string call = fmt::format("support_{}(", who);

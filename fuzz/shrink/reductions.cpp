@@ -136,7 +136,7 @@ void drop_unused_shapes(const Case& c, std::vector<Case>& out) {
   out.push_back(std::move(r));
 }
 
-void still(const Case& c, std::vector<Case>& out) {
+void remove_motion(const Case& c, std::vector<Case>& out) {
   for_each_body(c, out, [](Case&, Body& b) {
     if (!b.motion) return false;
     b.motion.reset();
@@ -168,7 +168,7 @@ void move_only_one(const Case& c, std::vector<Case>& out) {
   });
 }
 
-void plain(const Case& c, std::vector<Case>& out) {
+void plain_bodies(const Case& c, std::vector<Case>& out) {
   Case r = c;
   r.scene.name.clear();
   for (Body& b : r.scene.bodies) {
@@ -193,7 +193,7 @@ void plain(const Case& c, std::vector<Case>& out) {
   });
 }
 
-void upright(const Case& c, std::vector<Case>& out) {
+void remove_rotation(const Case& c, std::vector<Case>& out) {
   Case r = c;
   for (Body& b : r.scene.bodies) b.pose.rotation = {};
   for (Step& s : r.scene.script)
@@ -229,13 +229,13 @@ Case seen_from(const Case& c, const Pose& origin, bool turned) {
   return r;
 }
 
-void near_origin(const Case& c, std::vector<Case>& out) {
+void move_to_origin(const Case& c, std::vector<Case>& out) {
   for (bool turned : {true, false})
     for (const Body& b : c.scene.bodies)
       if (std::isfinite(b.pose.translation.sum())) out.push_back(seen_from(c, b.pose, turned));
 }
 
-void pose_of_body(const Case& c, std::vector<Case>& out) {
+void drop_insert_poses(const Case& c, std::vector<Case>& out) {
   for (std::size_t i = 0; i < c.scene.script.size(); ++i) {
     if (!c.scene.script[i].pose || c.scene.script[i].op != Step::Op::insert) continue;
     Case r = c;
@@ -278,7 +278,7 @@ void propose_renewed(std::vector<Case>& out, Case r) {
 }
 
 // Scales lengths by the power of two that brings the largest to about 1; exact.
-void about_one(const Case& c, std::vector<Case>& out) {
+void scale_to_one(const Case& c, std::vector<Case>& out) {
   Case r = c;
   double largest = 0;
   for (const double* x : numbers(r)) largest = std::max(largest, std::abs(*x));
@@ -304,16 +304,11 @@ void about_one(const Case& c, std::vector<Case>& out) {
 }
 
 constexpr Simplification simplifications_table[] = {
-    {"unused shapes", drop_unused_shapes},
-    {"plain bodies", plain},
-    {"no motion", still},
-    {"one moves", move_only_one},
-    {"poses of bodies", pose_of_body},
-    {"shared shape", shared_shape},
-    {"plain shapes", plain_shapes},
-    {"upright", upright},
-    {"near the origin", near_origin},
-    {"about one", about_one},
+    {"unused shapes", drop_unused_shapes},  {"plain bodies", plain_bodies},
+    {"no motion", remove_motion},           {"one moves", move_only_one},
+    {"poses of bodies", drop_insert_poses}, {"shared shape", shared_shape},
+    {"plain shapes", plain_shapes},         {"upright", remove_rotation},
+    {"near the origin", move_to_origin},    {"about one", scale_to_one},
 };
 
 constexpr int coarse_bits[] = {1, 2, 3, 4, 6, 8, 12, 16, 24, 32, 40, 46, 50};

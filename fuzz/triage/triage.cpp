@@ -57,7 +57,7 @@ Triaged seen(const StoredFinding& s, std::optional<KnownFinding> known, const Tr
   return t;
 }
 
-Triaged asked_again(KnownFinding f, const TriageConfig& config) try {
+Triaged retry_known(KnownFinding f, const TriageConfig& config) try {
   Triaged t;
   t.standing = Standing::not_asked;
   t.finding = f;
@@ -90,7 +90,7 @@ Case case_of(const KnownFinding& f) { return case_from_json(case_json_of(f), "le
 
 std::vector<StoredFinding> load_findings(const std::filesystem::path& directory) {
   if (!std::filesystem::exists(directory / "state.json"))
-    throw InputError(directory.string(), "holds no campaign (touchstone fuzz --out DIR makes one)");
+    throw InputError(directory.string(), "does not hold a campaign; touchstone fuzz --out DIR creates one");
   std::vector<StoredFinding> r;
   if (std::filesystem::exists(directory / "findings"))
     for (const auto& entry : std::filesystem::directory_iterator(directory / "findings"))
@@ -109,7 +109,7 @@ struct Task {
 };
 
 Triaged run_task(const Task& t, const TriageConfig& config) {
-  return t.found ? seen(*t.found, t.known, config) : asked_again(*t.known, config);
+  return t.found ? seen(*t.found, t.known, config) : retry_known(*t.known, config);
 }
 
 // Each idle thread takes the next task and writes to that task's own place in the result.

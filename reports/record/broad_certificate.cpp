@@ -283,7 +283,7 @@ BroadCertificate broad_certificate_from_json(const Json& json, bool& digest_hold
         "touchstone_broad_certificate",
         "is version 1, of an earlier touchstone, which listed one fault per level; certify again");
   if (j["touchstone_broad_certificate"].json() != format_version)
-    throw InputError("touchstone_broad_certificate", "is a version that this program does not know");
+    throw InputError("touchstone_broad_certificate", "is of a version that this program does not support");
   BroadCertificate c;
   c.subject = j["subject"].string();
   c.card = card_from_json(j["card"].json().dump());

@@ -16,14 +16,14 @@ namespace {
 // Pairs held in memory at a time, each in ten forms, which take a megabyte for hulls of a thousand vertices.
 constexpr int at_once = 16;
 
-struct Asked {
+struct PairForms {
   Case c;
   std::vector<Form> forms;
 };
 
-Asked make_asked(const LadderRow& l, std::uint64_t seed, std::size_t rung, int i) {
+PairForms make_pair_forms(const LadderRow& l, std::uint64_t seed, std::size_t rung, int i) {
   Rng rng = Rng::stream(seed, (rung << 32) + static_cast<std::uint64_t>(i));
-  Asked a;
+  PairForms a;
   a.c.id = fmt::format("{}/{}/{}", l.name, rung, i);
   a.c.family = l.name;
   a.c.scene = l.make(rng, l.values[rung]);
@@ -69,7 +69,7 @@ void count(Rung& r, const Judgement& j) {
 }
 
 // Adds one engine's answers to one pair and its forms; observed[0] holds those to the pair itself.
-void add_forms(std::span<LadderResult> results, const Asked& asked,
+void add_forms(std::span<LadderResult> results, const PairForms& asked,
                std::span<const CaseObservations> observed, std::span<const Judgement> judgements,
                const EngineCard& card, Truth& truth) {
   const FormAnswer base{asked.c, observed[0]};
@@ -96,10 +96,10 @@ void add_forms(std::span<LadderResult> results, const Asked& asked,
 }
 
 // Adds one engine's answers to the pairs of the last rung; results[q] is for the ladder's q-th question.
-void add_pairs(std::span<LadderResult> results, const std::vector<Asked>& all, Engine& engine,
+void add_pairs(std::span<LadderResult> results, const std::vector<PairForms>& all, Engine& engine,
                std::vector<Truth>& truths) {
   std::vector<Case> cases;
-  for (const Asked& a : all) {
+  for (const PairForms& a : all) {
     cases.push_back(a.c);
     for (const Form& f : a.forms) cases.push_back(f.c);
   }
@@ -126,11 +126,11 @@ void climb_one(Stability& s, const LadderRow& l, std::span<const EnginePtr> engi
     for (auto& of_engine : results)
       for (LadderResult& r : of_engine) r.rungs.emplace_back().value = l.values[rung];
     for (int first = 0; first < s.per_rung; first += at_once) {
-      std::vector<Asked> all;
+      std::vector<PairForms> all;
       for (int i = first; i < std::min(first + at_once, s.per_rung); ++i)
-        all.push_back(make_asked(l, s.seed, rung, i));
+        all.push_back(make_pair_forms(l, s.seed, rung, i));
       std::vector<Truth> truths;
-      for (const Asked& a : all) truths.emplace_back(a.c.scene);
+      for (const PairForms& a : all) truths.emplace_back(a.c.scene);
       for (std::size_t e = 0; e < engines.size(); ++e) add_pairs(results[e], all, *engines[e], truths);
     }
   }
