@@ -21,10 +21,10 @@ bool shows_one(const StillShows& shows, const Case& c) { return shows({&c, 1}).f
 const ListPart& bodies_part() {
   for (const ListPart& p : list_parts())
     if (p.name == "bodies") return p;
-  throw std::logic_error("no list of bodies among the reductions");
+  throw std::logic_error("the reductions have no list of bodies");
 }
 
-// The script up to its k-th query.
+// The case with its script cut after the k-th query.
 Case up_to_query(const Case& c, int k) {
   Case r = c;
   r.scene.script.clear();
@@ -66,7 +66,7 @@ bool is_answer(const Finding& f) {
   return faults.contains(f.fault);
 }
 
-// In the order in which an engine passes through them; the first that is wrong is where to look.
+// In the order in which an engine passes through them: the first faulty stage is the place to look.
 constexpr StageRow stages[] = {
     {"representation", [](const Finding& f) { return f.blame == "representation"; }},
     {"failure", [](const Finding& f) { return !is_answer(f); }},
@@ -106,7 +106,7 @@ Case alone(const Case& c, int a, int b, int step) {
     Body body = c.scene.bodies[k];
     r.scene.shapes.push_back(c.scene.shape_of(i));
     body.shape = static_cast<int>(r.scene.shapes.size()) - 1;
-    body.is_static = false;  // two fixed bodies are no pair for a broad phase
+    body.is_static = false;  // a broad phase ignores pairs of two static bodies
     if (k < at.size() && at[k]) body.pose = *at[k];
     r.scene.bodies.push_back(std::move(body));
   }
@@ -157,7 +157,7 @@ StepNeeded which_step(const Case& c, const StillShows& shows) {
   StepNeeded r;
   r.queries = queries_of(c.scene);
   if (r.queries == 0) throw InputError("bisect step", "the case has no script");
-  int lo = 0, hi = r.queries - 1;  // the prefix up to hi shows it
+  int lo = 0, hi = r.queries - 1;  // the prefix up to hi shows the finding
   while (lo < hi) {
     const int middle = (lo + hi) / 2;
     if (shows_one(shows, up_to_query(c, middle)))
@@ -193,7 +193,7 @@ Threshold which_value(const Case& c, const std::string& pointer, double to, cons
     } catch (const nlohmann::json::exception&) {
     }
     throw InputError(pointer,
-                     "is no number of the case (a JSON pointer such as "
+                     "is not a number in the case (a JSON pointer such as "
                      "/scene/bodies/1/pose/translation/0; rotations and motions must be written out)");
   }();
   Threshold t;
@@ -202,8 +202,9 @@ Threshold which_value(const Case& c, const std::string& pointer, double to, cons
     j[at] = x;
     return shows_one(shows, case_from_json(j, pointer));
   };
-  t.shows = j.at(at).get<double>(), t.shows_not = to;
-  if (shows_at(to)) throw InputError(fmt::format("--to {}", to), "shows the finding as well");
+  t.shows = j.at(at).get<double>();
+  t.shows_not = to;
+  if (shows_at(to)) throw InputError(fmt::format("--to {}", to), "also shows the finding");
   for (;;) {
     const double middle = t.shows + (t.shows_not - t.shows) / 2;
     if (middle == t.shows || middle == t.shows_not) break;

@@ -19,20 +19,23 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-// A chunk is what a job takes at once and what a batch on a worker's pipe holds.
+// A job takes one chunk at a time; a chunk is also one batch on a worker's pipe.
 constexpr std::uint64_t chunk_cases = 32;
 
-// A guided campaign draws from what was kept before its generation, so that it does not matter which job was
-// faster; jobs wait for each other so often.
+// A guided campaign draws from the pool as it was before the current generation, so the result does not
+// depend on which job was faster. Jobs synchronise once per generation.
 constexpr std::uint64_t generation_chunks = 16;
 
-// What a killed campaign loses, at most: saving takes a twentieth of the time, and the first states are
-// small.
-constexpr double least_seconds_unsaved = 0.25, saves_per_cost = 20;
+// Bounds the work lost when a campaign is killed. Saving takes at most a twentieth of the time; early states
+// are small.
+constexpr double min_save_interval_s = 0.25, save_interval_per_cost = 20;
+
+constexpr double report_interval_s = 0.5;
 
 double seconds(Clock::duration d) { return std::chrono::duration<double>(d).count(); }
 
-// Takes chunks in any order, merges them in order, so that what is stored is always a prefix of the campaign.
+// Processes chunks in any order but merges them in order, so the stored state is always a prefix of the
+// campaign.
 class Runner {
  public:
   Runner(const CampaignConfig& config, const EngineFactory& factory, const ProgressCallback& progress,
@@ -42,7 +45,7 @@ class Runner {
   CampaignResult run() {
     prepare();
     std::vector<std::thread> threads;
-    for (int i = 0; i < std::max(1, config_.jobs); ++i) threads.emplace_back([this] { job(); });
+    for (int i = 0; i < std::max(1, config_.jobs); ++i) threads.emplace_back([this] { run_job(); });
     for (auto& t : threads) t.join();
     if (error_) std::rethrow_exception(error_);
     state_.finished = ended();
@@ -80,43 +83,43 @@ class Runner {
   }
   bool ended() const { return !stop_ && (exhausted(merged_) || out_of_time()); }
 
-  void job() try {
+  void run_job() try {
     const auto engines = factory_();
     for (;;) {
       const std::uint64_t k = next_.fetch_add(1);
       if (exhausted(k)) return;
-      // The first chunk is asked however slow the machine is: no answer at all proves nothing.
-      if (!wait_for_generation(k) || stop_ || failed_ || (k > 0 && out_of_time())) return leave();
+      // The first chunk always runs, however slow the machine: a campaign without an answer proves nothing.
+      if (!wait_for_generation(k) || stop_ || failed_ || (k > 0 && out_of_time())) return abandon_chunk();
       finish(k, ask(k, engines), engines);
     }
   } catch (const Stopped&) {
-    leave();
+    abandon_chunk();
   } catch (...) {
     std::lock_guard lock(mutex_);
     if (!error_) error_ = std::current_exception();
     failed_ = gap_ = true;
-    merged_more_.notify_all();
+    merge_advanced_.notify_all();
   }
 
-  // A chunk that was taken and is not done: whoever waits for it is let go.
-  void leave() {
+  // A chunk was taken but will not be finished: releases the jobs that wait for it.
+  void abandon_chunk() {
     std::lock_guard lock(mutex_);
     gap_ = true;
-    merged_more_.notify_all();
+    merge_advanced_.notify_all();
   }
 
   using SetAside = std::map<std::string, CampaignResult::SetAside>;
   struct Chunk {
     CampaignResult result;
-    SetAside known;           // what had been set aside when it was asked
-    std::vector<Case> cases;  // guided only, with what was new about each
+    SetAside known;           // engines already set aside when the chunk ran
+    std::vector<Case> cases;  // guided campaigns only, with the features of each
     std::vector<std::vector<std::uint64_t>> features;
   };
 
-  // Half of a guided campaign's cases are made from earlier ones.
+  // Half of a guided campaign's cases are mutations of earlier ones.
   Case next_case(std::uint64_t index) {
-    constexpr std::uint64_t apart = 0x677569646564ULL;  // another stream than the case's own
-    Rng rng = Rng::stream(config_.seed ^ apart, index);
+    constexpr std::uint64_t guided_stream = 0x677569646564ULL;  // keeps it apart from the case's own stream
+    Rng rng = Rng::stream(config_.seed ^ guided_stream, index);
     if (config_.guided && rng.chance(0.5)) {
       std::lock_guard lock(mutex_);
       Case c = state_.pool.empty() ? Case{} : state_.pool.draw(rng);
@@ -126,12 +129,12 @@ class Runner {
     return make_case(config_.seed, index, config_.family);
   }
 
-  // Until all chunks of earlier generations are in the pool; false when they will not be.
+  // Waits until all chunks of earlier generations are in the pool; false if that will never happen.
   bool wait_for_generation(std::uint64_t k) {
     if (!config_.guided) return true;
     std::unique_lock lock(mutex_);
     const std::uint64_t first = k / generation_chunks * generation_chunks;
-    merged_more_.wait(lock, [&] { return merged_ >= first || gap_; });
+    merge_advanced_.wait(lock, [&] { return merged_ >= first || gap_; });
     return merged_ >= first;
   }
 
@@ -151,7 +154,7 @@ class Runner {
       if (const auto& name = e->card().name; !e->set_aside().empty() && !known.contains(name))
         chunk.result.set_aside[name] = {first_case(k), e->set_aside()};
     chunk.known = std::move(known);
-    show_what_is_new(chunk.result);
+    build_new_evidence(chunk.result);
     return chunk;
   }
 
@@ -176,10 +179,11 @@ class Runner {
     return chunk;
   }
 
-  // A certificate may take seconds of exact arithmetic. It is made by the job that has found the new kind,
-  // while the others go on, and within the time limit: not all of them under the lock when the state is
-  // saved. What another job adds meanwhile is made twice, to the same bytes.
-  void show_what_is_new(const CampaignResult& found) {
+  // A certificate may take seconds of exact arithmetic. The job that found a new kind builds it here, outside
+  // the lock and within the time limit, while the others continue, instead of all being built under the lock
+  // when the state is saved. If another job adds the same kind meanwhile, it is built twice, with the same
+  // bytes.
+  void build_new_evidence(const CampaignResult& found) {
     if (config_.out.empty()) return;
     std::vector<const Evidence*> fresh;
     {
@@ -212,21 +216,24 @@ class Runner {
         merge(next);
         continue;
       }
-      // Asked while an earlier chunk, slower, found that an engine has to be set aside: whichever was first,
-      // the result is that of one job.
+      // This chunk ran before a slower, earlier chunk found that an engine must be set aside. It runs again,
+      // so that the result is that of a single job.
       const std::uint64_t again = merged_;
       lock.unlock();
       next = ask(again, engines);
       lock.lock();
       pending_.emplace(again, std::move(next));
     }
-    merged_more_.notify_all();
+    merge_advanced_.notify_all();
     state_.next_chunk = merged_;
     const auto now = Clock::now();
     if (!config_.out.empty() &&
-        seconds(now - saved_) > std::max(least_seconds_unsaved, saves_per_cost * save_cost_))
+        seconds(now - saved_) > std::max(min_save_interval_s, save_interval_per_cost * save_cost_))
       save();
-    if (seconds(now - shown_) > 0.5) report(false), shown_ = now;
+    if (seconds(now - reported_) > report_interval_s) {
+      report(false);
+      reported_ = now;
+    }
   }
 
   void save() {
@@ -255,7 +262,7 @@ class Runner {
   const ProgressCallback& progress_;
   const std::atomic<bool>& stop_;
   const Clock::time_point start_ = Clock::now();
-  Clock::time_point saved_ = start_, shown_ = start_;
+  Clock::time_point saved_ = start_, reported_ = start_;
   double save_cost_ = 0;
   std::atomic<std::uint64_t> next_{0};
   std::atomic<bool> failed_{false};
@@ -264,10 +271,10 @@ class Runner {
   std::uint64_t merged_ = 0;
   std::uint64_t resumed_cases_ = 0;
   std::map<std::uint64_t, Chunk> pending_;
-  std::condition_variable merged_more_;
+  std::condition_variable merge_advanced_;
   bool gap_ = false;
   StoredState state_;
-  std::optional<DirectoryLock> lock_;  // of config_.out
+  std::optional<DirectoryLock> lock_;  // on config_.out
 };
 
 }  // namespace

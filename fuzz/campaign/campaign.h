@@ -1,5 +1,6 @@
-// A differential campaign: makes cases, asks every engine, judges every answer, keeps what is wrong. Same
-// seed and flags, same findings and counts, whatever the number of jobs; times are kept apart.
+// A differential campaign: generates cases, queries every engine, judges every answer and keeps the findings.
+// The same seed and flags give the same findings and counts for any number of jobs; times are stored
+// separately.
 #pragma once
 
 #include <atomic>
@@ -17,24 +18,24 @@
 namespace touchstone::fuzz {
 
 struct CampaignConfig {
-  std::vector<std::string> engines;  // catalog names, for the record
+  std::vector<std::string> engines;  // catalog names, as recorded
   std::string subject = "core";
-  std::string family;  // one, several (`a,b`), or empty: the default mix
+  std::string family;  // one name, several (`a,b`), or empty for the default mix
   std::uint64_t seed = 1;
   std::optional<std::uint64_t> cases;
   std::optional<double> minutes;
   int jobs = 1;
   std::uint64_t shard = 0, shards = 1;
-  std::filesystem::path out;  // empty: nothing is written
-  bool fresh = false;         // a campaign that is in `out` is moved aside, not resumed
-  /// Every so many cases one is also asked in the forms that the relations derive from it; 0: none.
+  std::filesystem::path out;  // if empty, nothing is written
+  bool fresh = false;         // move a campaign found in `out` aside instead of resuming it
+  /// One case in `relations_every` is also run in the forms derived by the relations; 0: none.
   std::uint64_t relations_every = default_relations_every;
-  /// Half of the cases are changed forms of earlier ones that made an engine do something new (novelty.h).
+  /// Half of the cases are mutations of earlier ones that made an engine do something new (novelty.h).
   bool guided = false;
-  std::string error;  // the user's own tolerance (--error); empty: what the engines claim
+  std::string error;  // the user's tolerance (--error); empty: the engines' own claims
 };
 
-/// Makes the engines of one job, in the order of CampaignConfig::engines.
+/// Creates the engines of one job, in the order of CampaignConfig::engines.
 using EngineFactory = std::function<std::vector<EnginePtr>()>;
 
 struct Progress {
@@ -46,8 +47,9 @@ struct Progress {
 };
 using ProgressCallback = std::function<void(const Progress&)>;
 
-/// Runs to the end, to the time limit, or until `stop` is set (what is done is kept and can be resumed from
-/// `out`). Throws InputError when `out` holds a finished campaign or one with other settings.
+/// Runs to the end, to the time limit, or until `stop` is set (the work done so far is kept and can be
+/// resumed from `out`). Throws InputError when `out` holds a finished campaign or one with different
+/// settings.
 CampaignResult run_campaign(const CampaignConfig& config, const EngineFactory& engines,
                             const ProgressCallback& progress, const std::atomic<bool>& stop);
 

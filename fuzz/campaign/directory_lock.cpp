@@ -23,7 +23,7 @@ std::string holder(int file) {
 
 void write_holder(int file) {
   const std::string text = std::to_string(getpid()) + "\n";
-  // For people only: a lock without a name in it holds as well.
+  // For people only: the lock also holds without a process id in the file.
   if (ftruncate(file, 0) == 0 && pwrite(file, text.data(), text.size(), 0) < 0) return;
 }
 
@@ -32,18 +32,18 @@ void write_holder(int file) {
 DirectoryLock::DirectoryLock(const std::filesystem::path& directory, For purpose) {
   const bool writes = purpose == For::writing;
   const auto path = directory / "lock";
-  // Not inherited by programs that this one starts: the lock ends with this process.
+  // O_CLOEXEC: child processes do not inherit the lock, so it ends with this process.
   file_ =
       open(path.c_str(), (writes ? O_RDWR | O_CREAT : O_RDONLY) | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK, 0666);
-  if (file_ < 0) return;  // who cannot write says so at its first file, in better words
+  if (file_ < 0) return;  // writing the first file will fail with a better message
   if (flock(file_, (writes ? LOCK_EX : LOCK_SH) | LOCK_NB) == 0) {
     if (writes) write_holder(file_);
     return;
   }
   if (errno != EWOULDBLOCK) return;
-  // The file names the last writer, which readers are not.
+  // The file names the last writer, never a reader.
   const bool is_read = writes && flock(file_, LOCK_SH | LOCK_NB) == 0;
-  const std::string who = is_read ? "another process reads it" : holder(file_) + " writes it";
+  const std::string who = is_read ? "another process is reading it" : holder(file_) + " is writing it";
   close(std::exchange(file_, -1));
   throw InputError(directory.string(), "is in use: " + who);
 }

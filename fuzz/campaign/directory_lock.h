@@ -1,4 +1,4 @@
-// One campaign a directory: whoever writes it holds DIR/lock until the process ends, however it ends.
+// One campaign per directory: the process that writes it holds DIR/lock until it ends, however it ends.
 #pragma once
 
 #include <filesystem>
@@ -9,8 +9,8 @@ class DirectoryLock {
  public:
   enum class For { writing, reading };
 
-  /// The directory is there. Readers share it. Throws InputError, naming the process that holds it. A file
-  /// system that knows no locks, and a directory that only can be read, is used without.
+  /// Precondition: the directory exists. Readers share the lock. Throws InputError naming the process that
+  /// holds it. A read-only directory, or a file system without locks, is used unlocked.
   DirectoryLock(const std::filesystem::path& directory, For purpose);
   ~DirectoryLock();
   DirectoryLock(DirectoryLock&& from) noexcept;

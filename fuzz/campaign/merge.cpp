@@ -16,18 +16,18 @@ namespace {
 
 struct Part {
   std::filesystem::path from;
-  Json settings;                      // as of an unsharded run
-  std::uint64_t of = 1;               // shards of the whole
-  std::vector<std::uint64_t> shards;  // those in it, sorted
+  Json settings;                      // as in an unsharded run
+  std::uint64_t of = 1;               // shards in the whole campaign
+  std::vector<std::uint64_t> shards;  // those in this part, sorted
   std::uint64_t chunks = 0;
   CampaignResult result;
 };
 
-// Sorted, and of those there are: a whole campaign of a number beyond belief would be listed as missing.
+// Sorted and in range. Their total is limited, because every missing shard is listed.
 std::vector<std::uint64_t> shards_of(const JsonReader& settings) {
-  constexpr std::uint64_t most = 1'000'000;
+  constexpr std::uint64_t max_shards = 1'000'000;
   const std::uint64_t of = count_of(settings["shards"]);
-  if (of == 0 || of > most) settings["shards"].fail("is no number of shards");
+  if (of == 0 || of > max_shards) settings["shards"].fail("is not a valid number of shards");
   std::vector<std::uint64_t> shards;
   if (settings.has("merged"))
     for (const JsonReader& shard : settings["merged"].items()) shards.push_back(count_of(shard));
@@ -36,18 +36,18 @@ std::vector<std::uint64_t> shards_of(const JsonReader& settings) {
   const bool ascends =
       std::adjacent_find(shards.begin(), shards.end(), std::greater_equal<>()) == shards.end();
   if (shards.empty() || !ascends || shards.back() >= of)
-    settings.fail("names shards that there are not, or not in ascending order");
+    settings.fail("names shards that do not exist, or not in ascending order");
   return shards;
 }
 
 Part load_part(const std::filesystem::path& directory) {
   const auto file = directory / "state.json";
   if (!std::filesystem::exists(file))
-    throw InputError(directory.string(), "holds no campaign (touchstone fuzz --out DIR makes one)");
+    throw InputError(directory.string(), "does not hold a campaign; touchstone fuzz --out DIR creates one");
   const Json json = load_json(file, campaign_limits);
   const JsonReader j(json, file.string());
   if (!j["finished"].boolean())
-    throw InputError(directory.string(), "is unfinished; go on with it first (same command, same --out)");
+    throw InputError(directory.string(), "is unfinished; resume it first (same command, same --out)");
   Part p;
   p.from = directory;
   const JsonReader settings = j["settings"];
@@ -55,7 +55,8 @@ Part load_part(const std::filesystem::path& directory) {
   p.settings = settings.json();
   p.of = count_of(settings["shards"]);
   p.shards = shards_of(settings);
-  p.settings["shard"] = 0, p.settings["shards"] = 1;
+  p.settings["shard"] = 0;
+  p.settings["shards"] = 1;
   p.settings.erase("merged");
   p.chunks = count_of(j["next_chunk"]);
   p.result = result_with_evidence(j["result"]);
@@ -65,7 +66,7 @@ Part load_part(const std::filesystem::path& directory) {
 void require_same_campaign(const Part& x, const Part& y) {
   if (x.settings != y.settings || x.of != y.of)
     throw InputError(y.from.string(),
-                     fmt::format("is of another campaign than {}: {} of {} shards, not {} of {}",
+                     fmt::format("belongs to a different campaign than {}: {} of {} shards, not {} of {}",
                                  x.from.string(), y.settings.dump(), y.of, x.settings.dump(), x.of));
 }
 
@@ -73,7 +74,7 @@ bool includes(const Part& x, const Part& y) {
   return std::includes(x.shards.begin(), x.shards.end(), y.shards.begin(), y.shards.end());
 }
 
-// Of parts that hold the same shards one is kept: they must say the same.
+// Keeps one of the parts that hold the same shards; their results must agree.
 std::vector<Part> without_repeated(std::vector<Part> parts) {
   std::stable_sort(parts.begin(), parts.end(),
                    [](const Part& x, const Part& y) { return x.shards.size() > y.shards.size(); });
@@ -83,14 +84,15 @@ std::vector<Part> without_repeated(std::vector<Part> parts) {
     if (holder != kept.end()) {
       if (holder->shards == p.shards && digest(holder->result) != digest(p.result))
         throw InputError(p.from.string(),
-                         "is the same shard as " + holder->from.string() + ", with other results");
+                         "is the same shard as " + holder->from.string() + ", with different results");
       continue;
     }
     for (const Part& k : kept)
       for (const std::uint64_t s : p.shards)
         if (std::binary_search(k.shards.begin(), k.shards.end(), s))
-          throw InputError(p.from.string(), fmt::format("shares shard {} with {}, which has not all of it", s,
-                                                        k.from.string()));
+          throw InputError(p.from.string(),
+                           fmt::format("shares shard {} with {}, which does not hold all of its shards", s,
+                                       k.from.string()));
     kept.push_back(std::move(p));
   }
   std::sort(kept.begin(), kept.end(), [](const Part& x, const Part& y) { return x.shards < y.shards; });
@@ -100,7 +102,7 @@ std::vector<Part> without_repeated(std::vector<Part> parts) {
 }  // namespace
 
 Merged merge_campaigns(const std::filesystem::path& out, std::span<const std::filesystem::path> in) {
-  if (in.empty()) throw InputError("merge", "names no campaign");
+  if (in.empty()) throw InputError("merge", "no campaigns given");
   if (std::filesystem::exists(out / "state.json"))
     throw InputError(out.string(), "holds a campaign already; give another directory");
   std::vector<Part> parts;
@@ -113,14 +115,18 @@ Merged merge_campaigns(const std::filesystem::path& out, std::span<const std::fi
   StoredState state;
   state.finished = true;
   for (const Part& p : parts) {
-    state.result.merge(p.result), state.next_chunk += p.chunks;
+    state.result.merge(p.result);
+    state.next_chunk += p.chunks;
     m.shards.insert(m.shards.end(), p.shards.begin(), p.shards.end());
   }
   std::sort(m.shards.begin(), m.shards.end());
   for (std::uint64_t s = 0; s < parts[0].of; ++s)
     if (!std::binary_search(m.shards.begin(), m.shards.end(), s)) m.missing.push_back(s);
   Json settings = parts[0].settings;
-  if (!m.missing.empty()) settings["shards"] = parts[0].of, settings["merged"] = m.shards;
+  if (!m.missing.empty()) {
+    settings["shards"] = parts[0].of;
+    settings["merged"] = m.shards;
+  }
   make_directory(out);
   const DirectoryLock lock(out, DirectoryLock::For::writing);
   save_findings(out, state.result);

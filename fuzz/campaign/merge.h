@@ -1,5 +1,5 @@
-// Shards of one campaign into one: what an unsharded run would have left, whatever the order of the shards
-// and however often one is given.
+// Merges the shards of one campaign into what an unsharded run would have written. The order of the shards
+// does not matter, nor does a shard that is given more than once.
 #pragma once
 
 #include <filesystem>
@@ -16,9 +16,9 @@ struct Merged {
 };
 
 /// Reads the campaigns in `in` and writes their union to `out`: state.json, summary.json, findings/.
-/// Complete, it equals an unsharded run but for times. Throws InputError: no finished campaign, other
-/// settings, two different results of one shard, two parts that share some shards and not others, or `out`
-/// exists.
+/// If no shard is missing, the result equals an unsharded run except for times. Throws InputError when an
+/// input is not a finished campaign, settings differ, one shard has two different results, two parts share
+/// some shards but not all, or `out` already holds a campaign.
 Merged merge_campaigns(const std::filesystem::path& out, std::span<const std::filesystem::path> in);
 
 }  // namespace touchstone::fuzz

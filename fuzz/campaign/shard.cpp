@@ -30,7 +30,7 @@ std::uint64_t number_or(const Variable& variable, const char* name, std::uint64_
 std::uint64_t required(const Variable& variable, const char* name, const char* beside) {
   const auto text = variable(name);
   if (!text)
-    throw InputError(name, std::string("is not set, and ") + beside + " is: of how many is it the shard?");
+    throw InputError(name, std::string("is not set, although ") + beside + " is: how many shards are there?");
   return number(name, *text);
 }
 
@@ -49,7 +49,7 @@ Shard which_shard(const std::string& text, const Variable& variable) {
                         step = number_or(variable, "SLURM_ARRAY_TASK_STEP", 1),
                         task = number("SLURM_ARRAY_TASK_ID", *id);
     if (step == 0 || task < first || (task - first) % step != 0)
-      throw InputError("SLURM_ARRAY_TASK_ID", "is no task of the array that _MIN and _STEP describe");
+      throw InputError("SLURM_ARRAY_TASK_ID", "is not a task of the array that _MIN and _STEP describe");
     return checked("SLURM_ARRAY_TASK_ID", (task - first) / step, count);
   }
   if (const auto index = variable("JOB_COMPLETION_INDEX"))

@@ -11,8 +11,8 @@
 namespace touchstone::fuzz {
 namespace {
 
-// The settings that decide which cases are made and what is asked; jobs and time limits may change between
-// sessions.
+// The settings that determine which cases are generated and which questions are put. The number of jobs and
+// the time limit may change between sessions.
 Json settings(const CampaignConfig& c) {
   Json j = {{"touchstone_campaign", 1}, {"subject", c.subject},
             {"engines", c.engines},     {"family", c.family},
@@ -36,7 +36,7 @@ Pool pool_from_json(const JsonReader& j) {
   for (const JsonReader& feature : j["features"].items()) p.features.insert(count_of(feature));
   for (const JsonReader& c : j["cases"].items()) {
     p.cases.push_back(case_from_json(c.json(), c.place()));
-    // Bodies of a question about the whole scene mean nothing and are not stored; families make them -1.
+    // The body indices of a question about the whole scene are meaningless and not stored; families use -1.
     for (Query& q : p.cases.back().queries)
       if (!is_pair_question(q.question)) q.a = q.b = -1;
   }
@@ -52,7 +52,7 @@ std::optional<StoredState> load_state(const CampaignConfig& config) {
   const JsonReader j(json, file.string());
   if (j["settings"].json() != settings(config))
     throw InputError(config.out.string(),
-                     "holds a campaign with other settings (" + json_text(j["settings"].json()) +
+                     "holds a campaign with different settings (" + json_text(j["settings"].json()) +
                          "); give another --out or the same settings, or --fresh, which moves it aside");
   StoredState s;
   s.finished = j["finished"].boolean();
@@ -74,7 +74,7 @@ void save_state(const std::filesystem::path& out, const Json& settings, const St
             {"finished", s.finished},
             {"next_chunk", s.next_chunk},
             {"result", to_json(s.result, true)}};
-  // Needed to go on, and by nobody else.
+  // Only needed to resume.
   if (!s.finished && s.pool.size() > 0) j["pool"] = pool_json(s.pool);
   write_file(out / "state.json", j.dump());
 }
@@ -97,7 +97,7 @@ bool move_aside(const std::filesystem::path& out) {
 void make_directory(const std::filesystem::path& directory) {
   std::error_code ec;
   std::filesystem::create_directories(directory, ec);
-  if (ec) throw InputError(directory.string(), "cannot be made: " + ec.message());
+  if (ec) throw InputError(directory.string(), "cannot be created: " + ec.message());
 }
 
 void save_findings(const std::filesystem::path& out, const CampaignResult& result) {

@@ -1,8 +1,8 @@
-// What a campaign keeps on disk, so that a killed run loses nothing already recorded:
+// The files of a campaign. A run that is killed loses nothing that was already recorded:
 //   DIR/state.json                 settings, the next chunk, and the result so far; replaced atomically
 //   DIR/summary.json               the whole result, at the end
 //   DIR/findings/<key>/case.json   the first case of a finding, ready for `touchstone replay`
-//   DIR/findings/<key>/finding.json  words, answer, certificate, counts
+//   DIR/findings/<key>/finding.json  message, answer, certificate, counts
 #pragma once
 
 #include <filesystem>
@@ -17,21 +17,21 @@ struct StoredState {
   std::uint64_t next_chunk = 0;
   bool finished = false;
   CampaignResult result;
-  Pool pool;  // of a guided campaign
+  Pool pool;  // guided campaigns only
 };
 
-/// Throws InputError with the reason; one that is there is fine.
+/// Succeeds if the directory already exists. Throws InputError with the reason.
 void make_directory(const std::filesystem::path& directory);
 
-/// Renames a directory that holds a campaign to DIR.1, or the first such name that is free; false: it holds
-/// none.
+/// Renames a directory that holds a campaign to DIR.1, or to the first such name that is free. Returns false
+/// if it does not hold one.
 bool move_aside(const std::filesystem::path& out);
 
-/// The state in config.out, or nothing when the directory is new. Throws InputError when it is finished,
-/// damaged or made with other settings.
+/// Returns the state in config.out, or nothing when the directory is new. Throws InputError when the campaign
+/// is finished, damaged or has different settings.
 std::optional<StoredState> load_state(const CampaignConfig& config);
 void save_state(const CampaignConfig& config, const StoredState& state);
-/// With settings as they are in another state.
+/// The same with settings taken from another state.
 void save_state(const std::filesystem::path& out, const Json& settings, const StoredState& state);
 void save_findings(const std::filesystem::path& out, const CampaignResult& result);
 

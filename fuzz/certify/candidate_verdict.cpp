@@ -22,61 +22,64 @@ Pairs sorted_unique(Pairs r) {
   return r;
 }
 
-bool counts(const Scene& s, int a, int b) {
+bool is_reportable(const Scene& s, int a, int b) {
   const auto fixed = [&](int i) { return s.bodies[static_cast<std::size_t>(i)].is_static; };
   return !(fixed(a) && fixed(b)) && !is_filtered(s, a, b);
 }
 
-// A pair that must be reported, and what losing it would be.
-struct Due {
+// A pair that must be reported, and the kind of fault if it is lost.
+struct RequiredPair {
   BodyPair pair;
   FaultKind kind = FaultKind::touching;
   double share = 0;
 };
-using Dues = std::vector<Due>;
+using RequiredPairs = std::vector<RequiredPair>;
 
-constexpr double least_solid_share = 0.01;
+constexpr double least_solid_share = 0.01;  // smaller overlaps count as touching
 
-Due due_of_share(BodyPair pair, double share) {
+RequiredPair required_with_share(BodyPair pair, double share) {
   return {pair, share > least_solid_share ? FaultKind::solid : FaultKind::touching, share > 0 ? share : 0};
 }
 
-// Of boxes: the least over the axes of the overlap over the smaller side.
-Due due_of_boxes(BodyPair pair, const Aabb& a, const Aabb& b) {
+// The share of two boxes: the minimum over the axes of the overlap divided by the smaller side.
+RequiredPair required_by_boxes(BodyPair pair, const Aabb& a, const Aabb& b) {
   if (!(a.lo.allFinite() && a.hi.allFinite() && b.lo.allFinite() && b.hi.allFinite()))
     return {pair, FaultKind::unbounded, 0};
   double share = 1;
   for (int k = 0; k < 3; ++k) {
-    // Halved before they are subtracted, for boxes near the largest number.
+    // Halved before subtracting, so that boxes near the largest double do not overflow.
     const double side = std::min(a.hi[k] / 2 - a.lo[k] / 2, b.hi[k] / 2 - b.lo[k] / 2);
     const double shared = std::min(a.hi[k], b.hi[k]) / 2 - std::max(a.lo[k], b.lo[k]) / 2;
     share = side > 0 ? std::min(share, shared / side) : 0;
   }
-  return due_of_share(pair, share);
+  return required_with_share(pair, share);
 }
 
-// Of bodies: the certain depth over the diameter of the smaller.
-Due due_of_bodies(const Scene& s, const Truth::TruePair& p) {
+// The share of two bodies: the certain depth divided by the diameter of the smaller.
+RequiredPair required_by_bodies(const Scene& s, const Truth::TruePair& p) {
   const auto [a, b] = p.bodies;
   const double ra = bounding_radius(s.shape_of(a)), rb = bounding_radius(s.shape_of(b));
   if (!(std::isfinite(ra) && std::isfinite(rb))) return {p.bodies, FaultKind::unbounded, 0};
   const double size = 2 * std::min(ra, rb);
-  return due_of_share(p.bodies, size > 0 ? std::clamp(-p.truth.gap.hi / size, 0.0, 1.0) : 0);
+  return required_with_share(p.bodies, size > 0 ? std::clamp(-p.truth.gap.hi / size, 0.0, 1.0) : 0);
 }
 
-// Who is there, and where; at the level of boxes also in which box.
+// The bodies present and their poses; at the level of boxes also their boxes.
 struct State {
   std::vector<char> present;
   std::vector<Pose> pose;
   std::vector<Aabb> box;
-  std::vector<char> asked;  // has a box that is one
+  std::vector<char> has_box;  // the box is closed, so its pairs must be reported
 };
 
 class Replay {
  public:
   Replay(const Scene& s, BroadLevel level, bool invalid) : s_(s), level_(level), invalid_(invalid) {
     const std::size_t n = s.bodies.size();
-    now_.present.resize(n), now_.pose.resize(n), now_.box.resize(n), now_.asked.resize(n);
+    now_.present.resize(n);
+    now_.pose.resize(n);
+    now_.box.resize(n);
+    now_.has_box.resize(n);
   }
   void apply(const Step& step) {
     const auto b = static_cast<std::size_t>(step.body);
@@ -87,21 +90,22 @@ class Replay {
   }
   const State& now() const { return now_; }
 
-  Dues overlapping_boxes() {
+  RequiredPairs overlapping_boxes() {
     order_.clear();
     for (int i = 0; i < static_cast<int>(now_.present.size()); ++i)
-      if (now_.present[static_cast<std::size_t>(i)] && now_.asked[static_cast<std::size_t>(i)])
+      if (now_.present[static_cast<std::size_t>(i)] && now_.has_box[static_cast<std::size_t>(i)])
         order_.push_back(i);
     const auto box = [&](int i) -> const Aabb& { return now_.box[static_cast<std::size_t>(i)]; };
     std::sort(order_.begin(), order_.end(), [&](int i, int j) {
       return box(i).lo.x() < box(j).lo.x() || (box(i).lo.x() == box(j).lo.x() && i < j);
     });
-    Dues out;
+    RequiredPairs out;
     for (std::size_t i = 0; i < order_.size(); ++i)
       for (std::size_t j = i + 1; j < order_.size() && box(order_[j]).lo.x() <= box(order_[i]).hi.x(); ++j)
-        if (overlaps(box(order_[i]), box(order_[j])) && counts(s_, order_[i], order_[j]))
-          out.push_back(due_of_boxes(std::minmax(order_[i], order_[j]), box(order_[i]), box(order_[j])));
-    std::sort(out.begin(), out.end(), [](const Due& x, const Due& y) { return x.pair < y.pair; });
+        if (overlaps(box(order_[i]), box(order_[j])) && is_reportable(s_, order_[i], order_[j]))
+          out.push_back(required_by_boxes(std::minmax(order_[i], order_[j]), box(order_[i]), box(order_[j])));
+    std::sort(out.begin(), out.end(),
+              [](const RequiredPair& x, const RequiredPair& y) { return x.pair < y.pair; });
     return out;
   }
 
@@ -112,7 +116,7 @@ class Replay {
     if (!box && !invalid_) throw InputError("body " + std::to_string(body), "has no exact box");
     const bool closed = box && (box->lo.array() <= box->hi.array()).all() &&
                         (!invalid_ || (box->lo.allFinite() && box->hi.allFinite()));
-    now_.asked[b] = closed;
+    now_.has_box[b] = closed;
     if (closed) now_.box[b] = *box;
   }
   const Scene& s_;
@@ -122,19 +126,19 @@ class Replay {
   std::vector<int> order_;
 };
 
-// swept_candidates: pairs that meet at some time of the step, from the bodies' own poses.
-std::vector<Dues> true_pairs_of_bodies(const Scene& s, bool swept, std::uint64_t& undecided) {
+// If `swept`, the pairs that meet at some time in the step, starting from the bodies' own poses.
+std::vector<RequiredPairs> true_pairs_of_bodies(const Scene& s, bool swept, std::uint64_t& undecided) {
   Truth truth(s);
   if (swept) {
-    Dues meeting;
+    RequiredPairs meeting;
     for (const BodyPair& p : truth.meeting_pairs()) meeting.push_back({p, FaultKind::moving, 0});
     undecided += truth.undecided_meetings();
     return {meeting};
   }
-  std::vector<Dues> out;
+  std::vector<RequiredPairs> out;
   for (const auto& step : truth.true_pairs()) {
-    Dues& pairs = out.emplace_back();
-    for (const auto& p : step) pairs.push_back(due_of_bodies(s, p));
+    RequiredPairs& pairs = out.emplace_back();
+    for (const auto& p : step) pairs.push_back(required_by_bodies(s, p));
   }
   undecided += truth.undecided_pairs();
   return out;
@@ -166,7 +170,7 @@ class Judge {
   }
 
  private:
-  // To throw at what is no box is to refuse it.
+  // Throwing on an invalid box counts as refusing it.
   void failed() {
     const Outcome o = answer_.outcome;
     v_.refused =
@@ -176,7 +180,7 @@ class Judge {
     if (!v_.refused && !v_.timed_out) wrong(to_string(o), FaultKind::numbers, v_.words, Place{});
   }
   void judge() {
-    std::vector<Dues> truth;
+    std::vector<RequiredPairs> truth;
     if (level_ == BroadLevel::bodies) truth = true_pairs_of_bodies(s_, swept_, v_.undecided);
     if (swept_) return judge_query(0, truth.at(0));
     std::size_t k = 0;
@@ -189,18 +193,20 @@ class Judge {
       ++k;
     }
     if (answer_.candidate_pairs.size() > k)
-      wrong("no_number", FaultKind::numbers, "more queries are answered than the script asks",
+      wrong("no_number", FaultKind::numbers, "answers more queries than the script has",
             {static_cast<int>(k)});
   }
-  void judge_query(int k, const Dues& truth) {
+  void judge_query(int k, const RequiredPairs& truth) {
     static const Pairs none;
     const auto at = static_cast<std::size_t>(k);
     const Pairs reported =
         sorted_unique(at < answer_.candidate_pairs.size() ? answer_.candidate_pairs[at] : none);
-    ++v_.queries, v_.pairs_true += truth.size(), v_.pairs_reported += reported.size();
+    ++v_.queries;
+    v_.pairs_true += truth.size();
+    v_.pairs_reported += reported.size();
     hash_.add(reported.size());
     for (const auto& [a, b] : reported) hash_.add(a).add(b);
-    for (const Due& d : truth)
+    for (const RequiredPair& d : truth)
       if (!std::binary_search(reported.begin(), reported.end(), d.pair)) missed(k, d);
     for (const BodyPair& p : reported)
       if (p.first == p.second || absent(p.first) || absent(p.second)) stale(k, p);
@@ -209,27 +215,27 @@ class Judge {
     if (i < 0 || i >= static_cast<int>(s_.bodies.size())) return true;
     return !swept_ && !replay_.now().present[static_cast<std::size_t>(i)];
   }
-  void missed(int k, const Due& d) {
+  void missed(int k, const RequiredPair& d) {
     const auto [a, b] = d.pair;
-    const std::string how = d.kind == FaultKind::solid
-                                ? fmt::format("overlap by {:.2g} of the smaller's size", d.share)
-                            : d.kind == FaultKind::moving ? std::string("meet within the step")
-                            : d.kind == FaultKind::unbounded
-                                ? std::string("overlap, one of them unbounded,")
-                                : std::string("touch, or overlap by 1 % at most, or have no volume,");
-    wrong("missed", d.kind, fmt::format("query {}: bodies {} and {} {} and are no candidates", k, a, b, how),
+    const std::string how =
+        d.kind == FaultKind::solid    ? fmt::format("overlap by {:.2g} of the smaller body's size", d.share)
+        : d.kind == FaultKind::moving ? std::string("meet within the step")
+        : d.kind == FaultKind::unbounded ? std::string("overlap, one of them unbounded,")
+                                         : std::string("touch, overlap by at most 1 %, or have no volume,");
+    wrong("missed", d.kind,
+          fmt::format("query {}: bodies {} and {} {} but are not reported as candidates", k, a, b, how),
           {k, a, b, d.share});
   }
   void stale(int k, const BodyPair& p) {
     wrong("stale", FaultKind::numbers,
-          fmt::format("query {}: the pair ({}, {}) names a body that is not there", k, p.first, p.second),
+          fmt::format("query {}: the pair ({}, {}) names a body that is not present", k, p.first, p.second),
           {k, p.first, p.second});
   }
   struct Place {
     int query = -1, a = -1, b = -1;
     double share = 0;
   };
-  // Filled member by member: g++ 12 sees uninitialised texts in a braced one.
+  // Filled member by member: g++ 12 warns of uninitialised strings with braced initialisation.
   void wrong(std::string_view fault, FaultKind kind, std::string words, const Place& at) {
     CandidateFault f;
     f.what.fault = fault;
@@ -248,7 +254,7 @@ class Judge {
   }
 
   const Scene& s_;
-  bool swept_;  // of all bodies, without a script
+  bool swept_;  // one question about all bodies, without a script
   const Observation& answer_;
   BroadLevel level_;
   bool invalid_;

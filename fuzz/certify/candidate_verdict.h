@@ -1,4 +1,4 @@
-// Is one answer about candidate pairs conservative? Pure.
+// Judges whether one answer about candidate pairs is conservative. A pure function.
 #pragma once
 
 #include <string>
@@ -17,20 +17,20 @@ struct CandidateFault {
 };
 
 struct CandidateVerdict {
-  /// One of each class at most, the gravest class first; of several of a class the one of the largest share.
+  /// At most one per class, the gravest class first; of several in a class, the one with the largest share.
   std::vector<CandidateFault> faults;
-  bool refused = false;    // unsupported or invalid input: no answer, no fault
-  bool timed_out = false;  // no answer, no fault
+  bool refused = false;    // unsupported or invalid input: not an answer, not a fault
+  bool timed_out = false;  // not an answer, not a fault
   std::string words;       // why there is no answer
   std::uint64_t steps = 0, queries = 0, pairs_true = 0, pairs_reported = 0, undecided = 0;
-  std::uint64_t digest = 0;  // of the case and the answer
+  std::uint64_t digest = 0;  // over the case and the answer
 
   bool shows(const FaultClass& c) const;
 };
 
-/// Kinds are those of the pair: a fault of finite bodies is not blamed on an infinite or invalid box beside
-/// them (fault_cause.h does that). At the level of boxes every body must have an exact_box (InputError else);
-/// `invalid` admits those that have none or an empty one, of which nothing is asked.
+/// The kind of a fault describes the pair only; blaming an infinite or invalid box elsewhere in the scene is
+/// left to fault_cause.h. At the level of boxes every body must have an exact_box, or InputError is thrown;
+/// `invalid` admits bodies without one, or with an empty one, and does not require them to be paired.
 CandidateVerdict judge_candidates(const Case& c, const Observation& answer, BroadLevel level,
                                   bool invalid = false);
 

@@ -14,41 +14,50 @@
 namespace touchstone::fuzz {
 namespace {
 
-// Asked at once, at most: pipes cost little then. One at first and after a failure, so that an engine that
-// hangs at every case is found out soon.
+// Most cases per batch, which makes the cost of the pipe small. Batches start at one case, also after a
+// failure, so that an engine that hangs on every case is detected early.
 constexpr std::uint64_t largest_batch = 32;
-// A part in which a quarter of the answers cost a worker is the last of its evidence; before that, what else
-// the subject does wrong is worth its crashes.
+// An evidence ends at a part in which a quarter of the answers cost a worker. Up to there, finding other
+// faults is worth the crashes.
 std::uint64_t most_failures(const EvidenceRow& e) { return std::max<std::uint64_t>(4, e.chunk / 4); }
-// How often the time for a question is doubled to learn what it needs.
+// How often the time for a question is doubled to find out what it needs.
 constexpr int most_doublings = 3;
 
 struct Part {
   EvidenceCount count;
   std::vector<FaultCount> faults;
   std::uint64_t failures = 0;             // crashed, threw, …
-  std::optional<std::uint64_t> too_slow;  // the case that was not answered in time
+  std::optional<std::uint64_t> too_slow;  // a case that was not answered in time
   bool is_last = false;
 };
 
 void add(EvidenceCount& to, const CandidateVerdict& v) {
   ++to.cases;
-  to.answered += v.refused || v.timed_out || !v.faults.empty() ? 0 : 1, to.refused += v.refused;
+  to.answered += v.refused || v.timed_out || !v.faults.empty() ? 0 : 1;
+  to.refused += v.refused;
   if (v.refused && to.refusal.empty()) to.refusal = v.words;
-  to.steps += v.steps, to.queries += v.queries, to.undecided += v.undecided;
-  to.pairs_true += v.pairs_true, to.pairs_reported += v.pairs_reported;
+  to.steps += v.steps;
+  to.queries += v.queries;
+  to.undecided += v.undecided;
+  to.pairs_true += v.pairs_true;
+  to.pairs_reported += v.pairs_reported;
   to.digest = Hasher().add(to.digest).add(v.digest).value();
 }
 
 void add(EvidenceCount& to, const EvidenceCount& part) {
-  to.cases += part.cases, to.answered += part.answered, to.refused += part.refused;
+  to.cases += part.cases;
+  to.answered += part.answered;
+  to.refused += part.refused;
   if (to.refusal.empty()) to.refusal = part.refusal;
-  to.steps += part.steps, to.queries += part.queries, to.undecided += part.undecided;
-  to.pairs_true += part.pairs_true, to.pairs_reported += part.pairs_reported;
+  to.steps += part.steps;
+  to.queries += part.queries;
+  to.undecided += part.undecided;
+  to.pairs_true += part.pairs_true;
+  to.pairs_reported += part.pairs_reported;
   to.digest = Hasher().add(to.digest).add(part.digest).value();
 }
 
-// The better of two of the same class: of the larger share, the earlier case.
+// Of two faults of one class, keeps the one with the larger share; on a tie, the earlier case.
 void add(std::vector<FaultCount>& to, const FaultCount& f) {
   const auto same = std::find_if(to.begin(), to.end(), [&](const FaultCount& x) { return x.what == f.what; });
   if (same == to.end()) {
@@ -102,7 +111,7 @@ class PartRun {
   Part part_;
 };
 
-// The engines of one job live as long as the certificate is made.
+// The engines of one job live until the certificate is complete.
 struct Job {
   std::array<EnginePtr, 2> engines;
   Engine& engine(const Subject& s, BroadLevel level) {
@@ -123,18 +132,23 @@ class Certifier {
 
   std::optional<BroadCertificate> run() {
     check_names();
-    out_.subject = subject_.name, out_.plugin_hash = subject_.plugin_hash, out_.program = config_.program;
+    out_.subject = subject_.name;
+    out_.plugin_hash = subject_.plugin_hash;
+    out_.program = config_.program;
     out_.card = jobs_[0].engine(subject_, BroadLevel::boxes).card();
     out_.scope = config_.scope == Scope::quick ? "quick" : "full";
-    out_.seed = config_.seed, out_.limit = config_.limit, out_.levels = config_.levels;
-    out_.sweeps = subject_.sweeps, out_.without = config_.without;
+    out_.seed = config_.seed;
+    out_.limit = config_.limit;
+    out_.levels = config_.levels;
+    out_.sweeps = subject_.sweeps;
+    out_.without = config_.without;
     out_.first_fault = config_.first_fault;
-    draw_ = {config_.seed, out_.card.unit_roundoff > 0x1p-50 ? Scalar::float32 : Scalar::float64,
+    draw_ = {config_.seed, out_.card.unit_roundoff > max_float64_roundoff ? Scalar::float32 : Scalar::float64,
              config_.scope};
     std::size_t index = 0;
     for (const EvidenceRow& e : all_evidence()) {
       if (stop_) return std::nullopt;
-      if (is_asked(e)) gather(e, index);
+      if (is_selected(e)) gather(e, index);
       ++index;
     }
     for (const BroadLevel l : config_.levels) refute_level(l);
@@ -147,9 +161,9 @@ class Certifier {
     for (const std::string& w : config_.without)
       if (std::none_of(all_evidence().begin(), all_evidence().end(),
                        [&](const EvidenceRow& e) { return e.name == w; }))
-        throw InputError("--without " + w, "there is no such evidence");
+        throw InputError("--without " + w, "is not the name of an evidence");
   }
-  bool is_asked(const EvidenceRow& e) const {
+  bool is_selected(const EvidenceRow& e) const {
     const auto has = [](const auto& list, const auto& x) {
       return std::find(list.begin(), list.end(), x) != list.end();
     };
@@ -165,7 +179,10 @@ class Certifier {
   void gather(const EvidenceRow& e, std::size_t index) {
     const auto start = std::chrono::steady_clock::now();
     EvidenceCount total;
-    total.name = e.name, total.line = e.line, total.kind = e.kind, total.level = e.level;
+    total.name = e.name;
+    total.line = e.line;
+    total.kind = e.kind;
+    total.level = e.level;
     total.planned = planned(e);
     total.population = e.population ? e.population(draw_) : 0;
     Part sum = run_parts(e, total, index);
@@ -179,13 +196,13 @@ class Certifier {
     if (progress_) progress_(total, index, all_evidence().size());
   }
 
-  // What the question needs, by doubling; not once it has been seen to help nothing.
+  // Finds the time that a question needs by doubling, unless more time has already proved useless.
   TooSlow too_slow(const EvidenceRow& e, std::uint64_t index, std::uint64_t planned) {
     const Case c = evidence_case(e, draw_, index, planned);
     TooSlow t{
         e.level, std::string(e.name),  index, bodies_used(c), c.scene.script.size(), subject_.case_seconds,
         0,       subject_.case_seconds};
-    if (!subject_.make_patient || hopeless_) return t;
+    if (!subject_.make_patient || more_time_is_useless_) return t;
     double times = 1;
     for (int k = 0; k < most_doublings && t.sufficient == 0 && !stop_; ++k) {
       times *= 2;
@@ -193,11 +210,11 @@ class Certifier {
       const auto o = subject_.make_patient(e.level, times)->run({&c, 1});
       if (o[0].answers.at(0).outcome != Outcome::timed_out) t.sufficient = t.tried;
     }
-    hopeless_ = t.sufficient == 0;
+    more_time_is_useless_ = t.sufficient == 0;
     return t;
   }
 
-  // Each class of fault once, from the first evidence whose case shows it again.
+  // Refutes each class of fault once, with the first evidence whose case shows it again.
   void refute_level(BroadLevel level) {
     std::vector<FaultClass> classes;
     for (const FaultCount& f : out_.faults)
@@ -227,7 +244,7 @@ class Certifier {
     return config_.limit > 0 ? std::min(n, config_.limit) : n;
   }
 
-  // Parts are counted up to the first that is the last, whoever finished first.
+  // Counts parts up to the first that ends the evidence, whichever job finished first.
   Part run_parts(const EvidenceRow& e, EvidenceCount& total, std::size_t index) {
     const std::uint64_t parts = (total.planned + e.chunk - 1) / e.chunk;
     std::vector<Part> done(parts);
@@ -238,7 +255,7 @@ class Certifier {
     const auto do_parts = [&](Job& job) {
       for (std::uint64_t p = next++; p < last.load() && !stop_; p = next++) {
         Engine& engine = job.engine(subject_, e.level);
-        engine.take_back();  // which part a job takes next depends on how fast the others are
+        engine.take_back();  // the result must not depend on which parts this job ran before
         done[p] = PartRun(e, draw_, total.planned, engine).run(p * e.chunk, stop_);
         const std::lock_guard lock(guard);
         if (done[p].is_last || (config_.first_fault && !done[p].faults.empty()))
@@ -252,7 +269,8 @@ class Certifier {
         do_parts(job);
       } catch (...) {
         const std::lock_guard lock(guard);
-        failure = std::current_exception(), last = 0;
+        failure = std::current_exception();
+        last = 0;
       }
     };
     run_jobs(work);
@@ -279,7 +297,7 @@ class Certifier {
   const std::atomic<bool>& stop_;
   std::vector<Job> jobs_;
   Draw draw_;
-  bool hopeless_ = false;  // more time did not help
+  bool more_time_is_useless_ = false;
   BroadCertificate out_;
 };
 

@@ -11,13 +11,14 @@
 namespace touchstone::fuzz {
 namespace {
 
-// Far above what float costs on numbers of this size, and above usual margins.
+// Far above float rounding errors at this scale, and above usual collision margins.
 constexpr double slack = 0.1;
+constexpr double least_normal_x = 0.9;  // accepts a normal within 26° of x
 
 struct Probe {
   std::string name;
   Case c;
-  /// Empty: right; else what came instead.
+  /// Describes the wrong answer; empty if it is right.
   std::function<std::string(const Observation&)> complaint;
   std::string hint;
 };
@@ -46,10 +47,10 @@ std::string yes_or_no(bool b) { return b ? "overlapping" : "apart"; }
 Probe overlap_probe(std::string name, const Placed& a, const Placed& b, bool truth, std::string hint) {
   return {std::move(name), pair_case(Question::overlap, a, b),
           [truth](const Observation& o) -> std::string {
-            if (!o.overlap) return "answered without saying whether they overlap";
+            if (!o.overlap) return "answers without stating whether the bodies overlap";
             return *o.overlap == truth ? ""
-                                       : fmt::format("says {} of bodies that are {}", yes_or_no(*o.overlap),
-                                                     yes_or_no(truth));
+                                       : fmt::format("reports {}, but the bodies are {}",
+                                                     yes_or_no(*o.overlap), yes_or_no(truth));
           },
           std::move(hint)};
 }
@@ -57,13 +58,16 @@ Probe overlap_probe(std::string name, const Placed& a, const Placed& b, bool tru
 std::string expect(const char* what, const std::optional<double>& x, double truth) {
   if (!x) return fmt::format("does not state the {}", what);
   if (std::abs(*x - truth) <= slack) return "";
-  return fmt::format("says a {} of {:.6g} where it is {:.6g}", what, *x, truth);
+  return fmt::format("reports a {} of {:.6g} instead of {:.6g}", what, *x, truth);
 }
 
 void overlap_probes(std::vector<Probe>& all) {
   const Placed ball{Sphere{1}, Vec3::Zero()}, box{Box{Vec3(1, 2, 3)}, Vec3::Zero()};
   const Placed rod{Capsule{0.5, 2}, Vec3::Zero()}, small{Sphere{0.25}, Vec3::Zero()};
-  const auto at = [](Placed p, double x, double y, double z) { return p.t = {x, y, z}, p; };
+  const auto at = [](Placed p, double x, double y, double z) {
+    p.t = {x, y, z};
+    return p;
+  };
   all.push_back(
       overlap_probe("two spheres apart", ball, at(ball, 2.5, 0, 0), false, "size[0] is the radius"));
   all.push_back(
@@ -85,16 +89,17 @@ void overlap_probes(std::vector<Probe>& all) {
                               "the axis is z, the apex at +size[1], the base at -size[1]"));
   const Placed corner{make_hull({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}), Vec3(1, 0, 0)};
   all.push_back(overlap_probe("hulls are where their vertices are", corner, at(small, 1.9, 0, 0), true,
-                              "vertices are about the body's origin, which may be anywhere"));
-  all.push_back(overlap_probe("hulls do not stand on their centre", corner, at(small, 0.5, 0.1, 0.1), false,
-                              "vertices are about the body's origin, which may be anywhere"));
+                              "vertices are relative to the body's origin, which may be anywhere"));
+  all.push_back(overlap_probe("hulls are not recentred", corner, at(small, 0.5, 0.1, 0.1), false,
+                              "vertices are relative to the body's origin, which may be anywhere"));
   const Placed ground{HalfSpace{Vec3(0, 0, 2), 1}, Vec3::Zero()};
   all.push_back(overlap_probe("half-spaces are solid below", ground, at(small, 3, 4, 0.65), true,
                               "solid where n.x <= d: size[0..2] is n of any length, size[3] is d"));
   all.push_back(overlap_probe("half-spaces end where n.x = d", ground, at(small, 3, 4, 0.9), false,
                               "solid where n.x <= d: here n is (0, 0, 2) and d is 1"));
   Placed turned = box;
-  turned.shape = Box{Vec3(3, 0.1, 0.1)}, turned.q = {0, 0, 1, 1};
+  turned.shape = Box{Vec3(3, 0.1, 0.1)};
+  turned.q = {0, 0, 1, 1};
   all.push_back(
       overlap_probe("quaternions are x, y, z, w, of any length", turned, at(small, 0, 2.8, 0), true,
                     "rotation[3] is w; normalise it: here it is (0, 0, 1, 1), a quarter turn about z"));
@@ -109,16 +114,16 @@ void number_probes(std::vector<Probe>& all) {
                  [](const Observation& o) {
                    return o.distance && *o.distance <= slack ? "" : expect("distance", o.distance, -0.5);
                  },
-                 "minus the depth, or unsupported"});
+                 "negative: minus the depth; or unsupported"});
   all.push_back({"normal from A to B", pair_case(Question::contact, a, deep),
                  [](const Observation& o) -> std::string {
                    if (!o.normal) return "does not state the normal of an overlap";
-                   if (std::abs(o.normal->norm() - 1) > slack)
-                     return "states a normal that is not of length 1";
-                   return o.normal->x() > 0.9
+                   if (std::abs(o.normal->norm() - 1) > slack) return "states a normal whose length is not 1";
+                   return o.normal->x() > least_normal_x
                               ? ""
-                              : fmt::format("says a normal of ({:.3g}, {:.3g}, {:.3g}) where it is (1, 0, 0)",
-                                            o.normal->x(), o.normal->y(), o.normal->z());
+                              : fmt::format(
+                                    "reports a normal of ({:.3g}, {:.3g}, {:.3g}) instead of (1, 0, 0)",
+                                    o.normal->x(), o.normal->y(), o.normal->z());
                  },
                  "B moves along +normal to separate; engines often give the opposite"});
   all.push_back({"depth of an overlap", pair_case(Question::contact, a, deep),
@@ -127,7 +132,7 @@ void number_probes(std::vector<Probe>& all) {
   moving.scene.bodies[1].motion = Motion{Vec3(-4, 0, 0), Vec3::Zero()};
   all.push_back({"time of impact", moving,
                  [](const Observation& o) { return expect("time of impact", o.toi, 0.5); },
-                 "linear is the way over the whole step, t from 0 to 1"});
+                 "linear is the displacement over the whole step; t runs from 0 to 1"});
 }
 
 std::string list_text(const std::vector<BodyPair>& pairs) {
@@ -136,7 +141,7 @@ std::string list_text(const std::vector<BodyPair>& pairs) {
   return s + "}";
 }
 
-// Each query's true pairs must be there, no absent body may be.
+// Each query must report its true pairs; the last must not name a body in `absent_at_last`.
 std::function<std::string(const Observation&)> lists(std::vector<std::vector<BodyPair>> truth,
                                                      std::vector<int> absent_at_last) {
   return [truth, absent_at_last](const Observation& o) -> std::string {
@@ -148,8 +153,8 @@ std::function<std::string(const Observation&)> lists(std::vector<std::vector<Bod
         if (p.first > p.second) std::swap(p.first, p.second);
       for (const BodyPair& p : truth[k])
         if (std::find(got.begin(), got.end(), p) == got.end())
-          return fmt::format("query {}: reports {} and loses the pair ({}, {})", k, list_text(got), p.first,
-                             p.second);
+          return fmt::format("query {}: reports {}, which lacks the pair ({}, {})", k, list_text(got),
+                             p.first, p.second);
       if (k + 1 < truth.size()) continue;
       for (const BodyPair& p : got)
         for (int gone : absent_at_last)
@@ -165,18 +170,26 @@ void candidate_probes(std::vector<Probe>& all) {
   for (const double x : {0.0, 1.5, 10.0}) add_box(c.scene, {Vec3(x, 0, 0), Vec3::Ones()});
   c.queries = {{Question::candidates, -1, -1}};
   Case script = c;
-  insert_all(c.scene), step_query(c.scene);
-  all.push_back({"candidate pairs of three boxes", c, lists({{{0, 1}}}, {}),
-                 "run the scene's steps, and give each TS_QUERY its pairs by sink->pair(ctx, k, a, b)"});
+  insert_all(c.scene);
+  step_query(c.scene);
+  all.push_back(
+      {"candidate pairs of three boxes", c, lists({{{0, 1}}}, {}),
+       "run the scene's steps and report the pairs of each TS_QUERY with sink->pair(ctx, k, a, b)"});
   Scene& s = script.scene;
-  insert_all(s), step_query(s);
-  step_move(s, 2, {Vec3(3, 0, 0), {}}), step_query(s);
-  step_remove(s, 1), step_query(s);
-  step_insert(s, 1, {Vec3(4, 0, 0), {}}), step_query(s);
-  step_remove(s, 0), step_query(s);
-  all.push_back({"a script of insert, move, remove", script,
-                 lists({{{0, 1}}, {{0, 1}, {1, 2}}, {}, {{1, 2}}, {{1, 2}}}, {0}),
-                 "the k-th query sees the bodies as the steps before it left them; touching is overlap"});
+  insert_all(s);
+  step_query(s);
+  step_move(s, 2, {Vec3(3, 0, 0), {}});
+  step_query(s);
+  step_remove(s, 1);
+  step_query(s);
+  step_insert(s, 1, {Vec3(4, 0, 0), {}});
+  step_query(s);
+  step_remove(s, 0);
+  step_query(s);
+  all.push_back(
+      {"a script of insert, move, remove", script,
+       lists({{{0, 1}}, {{0, 1}, {1, 2}}, {}, {{1, 2}}, {{1, 2}}}, {0}),
+       "the k-th query sees the bodies as the steps before it left them; touching counts as overlap"});
 }
 
 Remark remark(Engine& engine, const Probe& p) {
@@ -187,7 +200,7 @@ Remark remark(Engine& engine, const Probe& p) {
             fmt::format("{}{}{}", to_string(one.outcome), one.detail.empty() ? "" : ": ", one.detail)};
   const std::string what = p.complaint(one);
   if (!what.empty()) return {p.name, "wrong", what + ". " + p.hint};
-  if (!(one == two)) return {p.name, "wrong", "asked the same twice, it answers differently"};
+  if (!(one == two)) return {p.name, "wrong", "answers differently when asked the same question twice"};
   return {p.name, "right", ""};
 }
 
@@ -195,7 +208,9 @@ Remark remark(Engine& engine, const Probe& p) {
 
 std::vector<Remark> conformance(Engine& engine) {
   std::vector<Probe> all;
-  overlap_probes(all), number_probes(all), candidate_probes(all);
+  overlap_probes(all);
+  number_probes(all);
+  candidate_probes(all);
   std::vector<Remark> out;
   for (const Probe& p : all) out.push_back(remark(engine, p));
   return out;

@@ -1,6 +1,6 @@
-// Does an engine speak the interface as it is meant? Easy questions, each of which catches one mistake that
-// is usual when a detector is put behind the interface; what is wrong is said in words. Not a test of
-// accuracy: a fault of an ulp is none here.
+// Checks that an engine implements the interface as intended. Each easy question catches one common mistake
+// in an adapter, and the remark explains it. This is not a test of accuracy: an error of an ulp is not a
+// fault here.
 #pragma once
 
 #include <string>
@@ -11,12 +11,12 @@
 namespace touchstone::fuzz {
 
 struct Remark {
-  std::string probe;    // what was asked
+  std::string probe;    // name of the question
   std::string verdict;  // "right", "unsupported", "wrong"
-  std::string words;    // of a wrong one: what came, what was right, what it usually means
+  std::string words;    // if wrong: the answer, the right answer, the usual cause
 };
 
-/// One a probe, in a fixed order.
+/// One remark per probe, in a fixed order.
 std::vector<Remark> conformance(Engine& engine);
 
 }  // namespace touchstone::fuzz

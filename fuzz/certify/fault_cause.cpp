@@ -9,7 +9,7 @@ bool is_half_space(const Scene& s, int body) { return kind_of(s.shape_of(body)) 
 
 bool is_finite(const Pose& p) { return p.translation.allFinite(); }
 
-// Its own numbers, or a pose of one of its steps, make no closed finite set.
+// The body's own numbers, or a pose in one of its steps, do not describe a closed finite set.
 bool is_invalid(const Scene& s, int body) {
   const auto* box = std::get_if<Box>(&s.shape_of(body));
   if (box && !(box->half_extents.allFinite() && (box->half_extents.array() >= 0).all())) return true;
@@ -19,8 +19,8 @@ bool is_invalid(const Scene& s, int body) {
          });
 }
 
-// The bodies keep their numbers; those left out become unit boxes that are never inserted, as an engine may
-// look at shapes before the script begins.
+// Body indices stay the same. Bodies that are left out become unit boxes that are never inserted, because an
+// engine may read shapes before the script begins.
 template <class Odd>
 std::optional<Case> without(Case c, Odd&& is_odd) {
   Scene& s = c.scene;
@@ -36,23 +36,28 @@ std::optional<Case> without(Case c, Odd&& is_odd) {
   for (const int i : odd) {
     Body& b = s.bodies[static_cast<std::size_t>(i)];
     s.shapes[static_cast<std::size_t>(b.shape)] = Box{Vec3::Ones()};
-    b.shape = unit, b.pose = {};
+    b.shape = unit;
+    b.pose = {};
   }
   return c;
 }
 
 class Causes {
  public:
-  Causes(Engine& engine, BroadLevel level, bool invalid) : engine_(engine), level_(level), invalid_(invalid) {}
+  Causes(Engine& engine, BroadLevel level, bool invalid)
+      : engine_(engine), level_(level), invalid_(invalid) {}
 
-  // Faults that the subject does not show in `rest` get that kind.
+  // Gives `kind` to the faults that the subject does not show in `rest`.
   void blame(CandidateVerdict& v, const Case& rest, FaultKind kind) const {
     const auto observed = engine_.run({&rest, 1});
     const CandidateVerdict alone = judge_candidates(rest, observed[0].answers.at(0), level_, invalid_);
     for (CandidateFault& f : v.faults)
-      if (is_open(f) && !alone.shows(f.what)) f.what.kind = kind, f.share = 0;
+      if (is_unattributed(f) && !alone.shows(f.what)) {
+        f.what.kind = kind;
+        f.share = 0;
+      }
   }
-  static bool is_open(const CandidateFault& f) {
+  static bool is_unattributed(const CandidateFault& f) {
     return f.what.kind != FaultKind::unbounded && f.what.kind != FaultKind::invalid;
   }
 
@@ -62,7 +67,7 @@ class Causes {
   bool invalid_;
 };
 
-// Two faults may have become one class.
+// Two faults may have ended up in the same class.
 void sort_and_unite(std::vector<CandidateFault>& faults) {
   std::stable_sort(faults.begin(), faults.end(), [](const CandidateFault& x, const CandidateFault& y) {
     return is_graver(x.what, y.what);
@@ -77,7 +82,7 @@ void sort_and_unite(std::vector<CandidateFault>& faults) {
 CandidateVerdict judge_with_cause(Engine& engine, const Case& c, const Observation& o, BroadLevel level,
                                   bool invalid) {
   CandidateVerdict v = judge_candidates(c, o, level, invalid);
-  if (std::none_of(v.faults.begin(), v.faults.end(), Causes::is_open)) return v;
+  if (std::none_of(v.faults.begin(), v.faults.end(), Causes::is_unattributed)) return v;
   const Causes causes(engine, level, invalid);
   const auto finite = without(c, is_invalid);
   if (finite) causes.blame(v, *finite, FaultKind::invalid);

@@ -1,5 +1,5 @@
-// What a fault is to be blamed on: the finite bodies, or an infinite or invalid box beside them. The subject
-// is asked again without such boxes; what it does then is a fault of finite bodies.
+// Decides what a fault is blamed on: the finite bodies, or an infinite or invalid box elsewhere in the scene.
+// The subject is queried again without such boxes; a fault that remains is one of finite bodies.
 #pragma once
 
 #include "fuzz/certify/candidate_verdict.h"
@@ -8,8 +8,8 @@
 
 namespace touchstone::fuzz {
 
-/// judge_candidates of the answer `o` of `engine`, with the kinds `unbounded` and `invalid` where the fault
-/// is gone without such boxes.
+/// Judges the answer `o` of `engine` like judge_candidates, and sets the kind to `unbounded` or `invalid`
+/// where the fault disappears without such boxes.
 CandidateVerdict judge_with_cause(Engine& engine, const Case& c, const Observation& o, BroadLevel level,
                                   bool invalid);
 

@@ -11,18 +11,18 @@
 namespace touchstone::fuzz {
 namespace {
 
-// A case that crashes costs a worker at every try.
+// A crash costs a worker on every try.
 std::size_t most_tries(const std::string& fault) { return fault == "crashed" ? 1500 : 12000; }
 
-class Asker {
+class SubjectRunner {
  public:
-  Asker(const Subject& s, const EvidenceRow& e, FaultClass what)
+  SubjectRunner(const Subject& s, const EvidenceRow& e, FaultClass what)
       : s_(s), level_(e.level), invalid_(e.invalid), what_(std::move(what)) {}
 
-  /// From now on every case is asked of an engine that was asked nothing before.
-  void ask_anew() { anew_ = true; }
+  /// From now on every case gets a new engine.
+  void use_new_engines() { new_engines_ = true; }
 
-  /// The fault of that class, if the subject shows it.
+  /// Returns the fault of the wanted class if the subject shows it.
   std::optional<CandidateFault> fault(const Case& c) {
     Engine& e = engine();
     const auto o = e.run({&c, 1});
@@ -33,8 +33,11 @@ class Asker {
     std::vector<Case> fit;
     std::vector<std::size_t> place;
     for (std::size_t i = 0; i < cases.size(); ++i)
-      if (is_fit(cases[i])) fit.push_back(cases[i]), place.push_back(i);
-    if (anew_) {
+      if (is_fit(cases[i])) {
+        fit.push_back(cases[i]);
+        place.push_back(i);
+      }
+    if (new_engines_) {
       for (std::size_t i = 0; i < fit.size(); ++i) out[place[i]] = fault(fit[i]).has_value();
       return out;
     }
@@ -51,14 +54,15 @@ class Asker {
       if (f.what == what_) return std::move(f);
     return std::nullopt;
   }
-  // At the level of boxes a body stays a box whose corners are exact in the format of the subject.
+  // At the level of boxes, every body must stay a box whose corners are exact in the subject's scalar type.
   bool is_fit(const Case& c) {
     if (c.queries.size() != 1 || !is_broad_question(c.queries[0].question)) return false;
     if (c.scene.bodies.empty()) return false;
     if (asks_swept_candidates(c)) return level_ == BroadLevel::bodies;
-    if (c.scene.script.empty()) return false;  // that would mean: insert all
+    if (c.scene.script.empty()) return false;  // would mean: insert all bodies
     if (level_ == BroadLevel::bodies) return true;
-    const Scalar scalar = engine().card().unit_roundoff > 0x1p-50 ? Scalar::float32 : Scalar::float64;
+    const Scalar scalar =
+        engine().card().unit_roundoff > max_float64_roundoff ? Scalar::float32 : Scalar::float64;
     for (const Step& step : c.scene.script) {
       if (step.op != Step::Op::insert && step.op != Step::Op::move) continue;
       const Pose p = step.pose.value_or(c.scene.bodies[static_cast<std::size_t>(step.body)].pose);
@@ -72,18 +76,18 @@ class Asker {
     return true;
   }
   Engine& engine() {
-    if (!engine_ || anew_) engine_ = s_.make(level_);
+    if (!engine_ || new_engines_) engine_ = s_.make(level_);
     return *engine_;
   }
   const Subject& s_;
   BroadLevel level_;
   bool invalid_;
   FaultClass what_;
-  bool anew_ = false;
+  bool new_engines_ = false;
   EnginePtr engine_;
 };
 
-// The script up to the query at which it went wrong.
+// Cuts the script after the given query.
 Case cut_after(Case c, int query) {
   int k = 0;
   auto& script = c.scene.script;
@@ -100,7 +104,7 @@ void keep_steps_of(Case& c, const std::set<int>& bodies) {
                 [&](const Step& s) { return s.op != Step::Op::query && !bodies.contains(s.body); });
 }
 
-// What often suffices of a long script: the two bodies, alone; then with one query only.
+// Often enough of a long script: the steps of the two bodies with one query; then with all queries.
 std::vector<Case> guesses(const Case& c, const CandidateFault& v) {
   std::vector<Case> out;
   if (v.a < 0 || v.b < 0) return out;
@@ -109,29 +113,30 @@ std::vector<Case> guesses(const Case& c, const CandidateFault& v) {
   Case last = both;
   std::size_t left = last.scene.script.size();
   std::erase_if(last.scene.script, [&](const Step& s) { return --left > 0 && s.op == Step::Op::query; });
-  out.push_back(std::move(last)), out.push_back(std::move(both));
+  out.push_back(std::move(last));
+  out.push_back(std::move(both));
   return out;
 }
 
-Case start_of(Asker& asker, const Case& c, const CandidateFault& v) {
+Case start_of(SubjectRunner& runner, const Case& c, const CandidateFault& v) {
   const Case cut = v.query < 0 ? c : cut_after(c, v.query);
-  if (!asker.shows({&cut, 1})[0]) return c;
+  if (!runner.shows({&cut, 1})[0]) return c;
   for (const Case& g : guesses(cut, v))
-    if (asker.shows({&g, 1})[0]) return g;
+    if (runner.shows({&g, 1})[0]) return g;
   return cut;
 }
 
 std::string in_words(const Vec3& v) { return fmt::format("({:g}, {:g}, {:g})", v.x(), v.y(), v.z()); }
 
-// The bodies whose numbers are not finite, or make no box.
-std::string what_is_no_box(const Scene& s) {
+// Lists the bodies whose numbers are not finite or do not make a box.
+std::string invalid_boxes(const Scene& s) {
   std::string out;
   for (std::size_t i = 0; i < s.bodies.size(); ++i) {
     const auto* box = std::get_if<Box>(&s.shape_of(static_cast<int>(i)));
     const Vec3& t = s.bodies[i].pose.translation;
     if (!box || (t.allFinite() && box->half_extents.allFinite() && (box->half_extents.array() >= 0).all()))
       continue;
-    out += fmt::format("; body {} is no box: at {}, half extents {}", i, in_words(t),
+    out += fmt::format("; body {} is not a valid box: at {}, half extents {}", i, in_words(t),
                        in_words(box->half_extents));
   }
   return out;
@@ -149,27 +154,29 @@ std::size_t bodies_used(const Case& c) {
 
 Refutation refute(const Subject& subject, const EvidenceRow& e, const FaultCount& found, const Case& c) {
   Refutation r{e.level, found.evidence, found.index, found.what, found.words, "not shrunk", 0, 0, false, {}};
-  r.bodies = bodies_used(c), r.steps = c.scene.script.size();
-  Asker asker(subject, e, found.what);
-  auto fault = asker.fault(c);
+  r.bodies = bodies_used(c);
+  r.steps = c.scene.script.size();
+  SubjectRunner runner(subject, e, found.what);
+  auto fault = runner.fault(c);
   if (!fault) {
-    asker.ask_anew();
-    fault = asker.fault(c);
+    runner.use_new_engines();
+    fault = runner.fault(c);
   }
   if (!fault) {
-    r.shrink = "not shown again: the subject does not answer the same twice";
+    r.shrink = "not reproduced: the subject's answers vary";
     r.script = c;
     return r;
   }
-  const StillShows still = [&](std::span<const Case> cases) { return asker.shows(cases); };
-  const Shrunk shrunk = shrink(start_of(asker, c, *fault), still, most_tries(found.what.fault));
+  const StillShows still = [&](std::span<const Case> cases) { return runner.shows(cases); };
+  const Shrunk shrunk = shrink(start_of(runner, c, *fault), still, most_tries(found.what.fault));
   r.is_shown_again = shrunk.exit != ShrinkExit::not_shown;
   r.shrink = r.is_shown_again ? std::string(to_string(shrunk.exit))
-                              : "not shown every time: the subject does not answer the same twice";
+                              : "not reproduced every time: the subject's answers vary";
   r.script = shrunk.smallest;
-  r.bodies = bodies_used(shrunk.smallest), r.steps = shrunk.smallest.scene.script.size();
-  if (const auto smallest = asker.fault(shrunk.smallest))
-    r.words = smallest->words + what_is_no_box(shrunk.smallest.scene);
+  r.bodies = bodies_used(shrunk.smallest);
+  r.steps = shrunk.smallest.scene.script.size();
+  if (const auto smallest = runner.fault(shrunk.smallest))
+    r.words = smallest->words + invalid_boxes(shrunk.smallest.scene);
   return r;
 }
 

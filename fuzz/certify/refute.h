@@ -1,4 +1,4 @@
-// A wrong answer as the smallest script that shows it.
+// Reduces a wrong answer to the smallest script that shows it.
 #pragma once
 
 #include "fuzz/certify/certify.h"
@@ -7,11 +7,11 @@
 
 namespace touchstone::fuzz {
 
-/// `c` is the case of `found`. A subject whose answers depend on what it was asked before is asked anew each
-/// time. What is kept while shrinking is the class of the fault: a solid pair stays solid.
+/// `c` is the case of `found`. If the subject's answers depend on earlier questions, every case gets a new
+/// engine. Shrinking keeps the class of the fault: a solid pair stays solid.
 Refutation refute(const Subject& subject, const EvidenceRow& e, const FaultCount& found, const Case& c);
 
-/// Bodies that the script inserts; without one all.
+/// Number of bodies that the script inserts; all bodies if there is no script.
 std::size_t bodies_used(const Case& c);
 
 }  // namespace touchstone::fuzz

@@ -1,9 +1,10 @@
-// Bytes to scenes, for a fuzzer that is guided by the coverage of our own code.
-//   byte 0        the family, modulo their number
+// Decodes bytes into cases, for a fuzzer guided by the coverage of the core.
+//   byte 0        index of the family, modulo the number of families
 //   bytes 1 to 8  the seed of its case, little-endian; the case is number 0 of that seed
-//   then, 4 bytes each, at most 16 changes of it (generate/mutate.h): number (little-endian), kind, argument
-// Every input of 9 bytes or more is a case of the same domains as a campaign's, near one that a campaign
-// makes.
+//   then at most 16 changes of 4 bytes each (scenarios/random/mutate.h): number (little-endian), kind,
+//   argument
+// Every input of 9 bytes or more is a case from the same domains as a campaign's, and close to one that a
+// campaign generates.
 #pragma once
 
 #include <cstdint>
@@ -17,12 +18,12 @@
 
 namespace touchstone::fuzz {
 
-/// Nothing for too few bytes, or where a change leaves a scene that is not valid.
+/// Returns nothing if there are too few bytes or a change makes the scene invalid.
 std::optional<Case> decode(std::span<const std::uint8_t> bytes);
 std::vector<std::uint8_t> encode(std::uint8_t family, std::uint64_t seed, std::span<const Change> changes);
 
-/// Asks the engine about the case that the bytes mean, by the referee and by the relations; aborts, with the
-/// case as JSON on stderr for `touchstone replay`, when it is found wrong.
+/// Runs the engine on the decoded case and judges it by the referee and the relations. If it is wrong, prints
+/// the case as JSON to stderr (for `touchstone replay`) and aborts.
 void judge_bytes(std::span<const std::uint8_t> bytes, const EnginePtr& engine);
 
 }  // namespace touchstone::fuzz

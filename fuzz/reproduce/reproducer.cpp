@@ -18,8 +18,8 @@ constexpr std::string_view program = R"(// @TITLE@
 //
 //   g++ -std=c++17 reproduce.cpp -o reproduce @COMPILE@ && ./reproduce
 //
-// Exit code 0: the answer is right; 1: it is wrong (a finding may also be that the engine crashes or never ends). What
-// is expected is certain: it was decided in exact arithmetic.
+// Exit code 0: the answer is right; 1: it is wrong (other findings are that the engine crashes or never returns). The
+// expected result is certain: it was computed in exact arithmetic.
 // A: @SHAPE_A@
 // B: @SHAPE_B@
 @INCLUDES@
@@ -53,10 +53,10 @@ struct Placement {
           r[2] * d[0] + r[5] * d[1] + r[8] * d[2]};
 }
 
-@SUPPORT@// What the engine says. Normals point from A to B.
+@SUPPORT@// The engine's answer. Normals point from A to B.
 struct Answer {
   bool overlap = false;
-  double distance = INFINITY, depth = -INFINITY, impact = NAN;  // impact NAN: none in the step
+  double distance = INFINITY, depth = -INFINITY, impact = NAN;  // impact NAN: no impact in the step
   Vec normal{}, on_a{}, on_b{};
   std::vector<Vec> points;
 };
@@ -84,7 +84,7 @@ constexpr std::string_view check_verdict = R"(bool check(const Answer& x) {
 )";
 
 constexpr std::string_view check_distance =
-    R"(// The signed distance is certainly within [@LO@, @HI@]; what the engine may be off by is added.
+    R"(// The signed distance is certainly within [@LO@, @HI@]; the check adds the engine's tolerance.
 bool check(const Answer& x) {
   std::printf("says: distance %.17g\nexpected: within [%.17g, %.17g], tolerance %g\n", x.distance, @LO@, @HI@,
               @TAU@);
@@ -93,8 +93,8 @@ bool check(const Answer& x) {
 )";
 
 constexpr std::string_view check_contact =
-    R"(// Moving B by width(n) along n separates the bodies, and by less does not. So a depth d with normal n
-// must be width(n), and width(n) must be the least there is, which is certainly within [@LO@, @HI@].
+    R"(// Moving B by width(n) along n separates the bodies; moving it by less does not. So a depth with normal n must
+// equal width(n), and width(n) must be the minimum over n, which is certainly within [@LO@, @HI@].
 double width(const Vec& n) { return dot(n, support_a(n)) - dot(n, support_b(scaled(-1, n))); }
 
 bool check(const Answer& x) {
@@ -103,9 +103,12 @@ bool check(const Answer& x) {
   std::printf("expected: overlap, depth within [%.17g, %.17g], tolerance %g\n", @LO@, @HI@, @TAU@);
   if (!x.overlap) return false;
   const double length = std::sqrt(dot(x.normal, x.normal));
-  if (!(std::fabs(length - 1) <= 1e-6)) return std::printf("the normal has length %.17g\n", length), false;
+  if (!(std::fabs(length - 1) <= 1e-6)) {
+    std::printf("the normal has length %.17g\n", length);
+    return false;
+  }
   const double w = width(x.normal);
-  std::printf("the stated normal needs a depth of %.17g\n", w);
+  std::printf("the reported normal needs a depth of %.17g\n", w);
 @POINTS@  return std::fabs(x.depth - w) <= @TAU@ && w <= @HI@ + @TAU@;
 }
 )";
@@ -118,17 +121,20 @@ constexpr std::string_view check_depth_alone = R"(bool check(const Answer& x) {
 )";
 
 constexpr std::string_view check_points =
-    R"(  // No point of the manifold may be farther than the depth from either body: along these directions one was.
+    R"(  // No point of the manifold may be farther than the depth from either body. One was, along these directions.
   for (const Vec& p : x.points)
     for (const Vec& u : {@DIRECTIONS@}) {
       const double off_a = dot(u, p) - dot(u, support_a(u)), off_b = dot(u, p) - dot(u, support_b(u));
       const double off = std::fmax(off_a, off_b) - std::fmax(0, x.depth);
-      if (off > @TAU@) return std::printf("a point is %.17g farther out than the depth\n", off), false;
+      if (off > @TAU@) {
+        std::printf("a point is %.17g farther out than the depth\n", off);
+        return false;
+      }
     }
 )";
 
 constexpr std::string_view check_witness =
-    R"(// The points must be on the bodies and as far apart as the bodies are: within [@LO@, @HI@].
+    R"(// The points must lie on the bodies, and their distance must be that of the bodies: within [@LO@, @HI@].
 bool check(const Answer& x) {
   const Vec p = @P@, q = @Q@;
   const double apart = std::hypot(q[0] - p[0], q[1] - p[1], q[2] - p[2]);
@@ -136,26 +142,33 @@ bool check(const Answer& x) {
               q[2], apart);
   std::printf("expected: %.17g to %.17g apart, tolerance %g\n", @LO@, @HI@, @TAU@);
   for (const Vec& u : {@DIRECTIONS@})
-    if (dot(u, p) - dot(u, support_a(u)) > @TAU@ || dot(u, q) - dot(u, support_b(u)) > @TAU@)
-      return std::puts("a point is off its body"), false;
+    if (dot(u, p) - dot(u, support_a(u)) > @TAU@ || dot(u, q) - dot(u, support_b(u)) > @TAU@) {
+      std::puts("a point is off its body");
+      return false;
+    }
   return apart >= @LO@ - @TAU@ && apart <= @HI@ + @TAU@;
 }
 )";
 
 constexpr std::string_view check_impact =
-    R"(// The first contact is certainly within [@LO@, @HI@] of the step; the slack is half of what this answer was off by.
+    R"(// The first contact is certainly within [@LO@, @HI@] of the step; the slack is half of the recorded error.
 bool check(const Answer& x) {
   std::printf("says: impact at %.17g\nexpected: within [%.17g, %.17g], slack %g\n", x.impact, @LO@, @HI@, @SLACK@);
   return x.impact >= @LO@ - @SLACK@ && x.impact <= @HI@ + @SLACK@;
 }
 )";
 constexpr std::string_view check_no_impact = R"(bool check(const Answer& x) {
-  std::printf("says: impact at %.17g (nan: none)\nexpected: none in the step\n", x.impact);
+  std::printf("says: impact at %.17g (nan: none)\nexpected: no impact in the step\n", x.impact);
   return std::isnan(x.impact);
 }
 )";
 
-struct Wanted {
+// Step of the difference quotient, relative to the distance: small, but far above rounding.
+constexpr double difference_step = 1e-3;
+// Error assumed for an impact that was not reported; half of it is the slack of the check.
+constexpr double error_of_missing_impact = 0.02;
+
+struct ExpectedAnswer {
   Truth& truth;
   const Asked& q;
   const Finding& finding;
@@ -169,9 +182,10 @@ std::string verdict(std::string_view yes, std::string_view no, bool expected) {
                                 {"VALUE", expected ? "true" : "false"}});
 }
 
-// Directions from the body to a point that is off it: the gradient of the distance, by differences.
+// Appends the direction from the body to a point outside it: the gradient of the distance, by central
+// differences.
 void add_direction(std::string& list, Truth& truth, int body, const Vec3& p) {
-  const double d = truth.distance_to(0, body, p).lo, h = d * 1e-3;
+  const double d = truth.distance_to(0, body, p).lo, h = d * difference_step;
   if (!(d > 0) || !std::isfinite(d)) return;
   Vec3 u = Vec3::Zero();
   for (int k = 0; k < 3; ++k) {
@@ -183,7 +197,7 @@ void add_direction(std::string& list, Truth& truth, int body, const Vec3& p) {
     list += fmt::format("{}Vec{{{}}}", list.empty() ? "" : ", ", literals(Vec3(u.normalized())));
 }
 
-std::string contact_check(const Wanted& e) {
+std::string contact_check(const ExpectedAnswer& e) {
   const auto& t = e.truth.pair(0, e.q.a, e.q.b);
   const std::string lo = literal(-t.gap.hi), hi = literal(-t.gap.lo), tau = literal(e.tau);
   if (!has_support(e.q.scene.shape_of(e.q.a)) || !has_support(e.q.scene.shape_of(e.q.b)))
@@ -199,7 +213,7 @@ std::string contact_check(const Wanted& e) {
   return filled(check_contact, {{"POINTS", points}, {"LO", lo}, {"HI", hi}, {"TAU", tau}});
 }
 
-std::string witness_check(const Wanted& e) {
+std::string witness_check(const ExpectedAnswer& e) {
   const auto& t = e.truth.pair(0, e.q.a, e.q.b);
   const auto& w = *e.finding.evidence->observation.witness;
   std::string directions;
@@ -216,18 +230,18 @@ std::string witness_check(const Wanted& e) {
                                 {"DIRECTIONS", directions}});
 }
 
-std::string impact_check(const Wanted& e) {
+std::string impact_check(const ExpectedAnswer& e) {
   using V = referee::TimeTruth::Verdict;
   const auto& t = e.truth.motion(0, e.q.a, e.q.b);
   if (t.verdict == V::none) return std::string(check_no_impact);
-  const auto& said = e.finding.evidence->observation.toi;
-  const double off = !said ? 0.02 : *said < t.t_lo ? t.t_lo - *said : *said - t.t_hi;
+  const auto& toi = e.finding.evidence->observation.toi;
+  const double off = !toi ? error_of_missing_impact : *toi < t.t_lo ? t.t_lo - *toi : *toi - t.t_hi;
   return filled(
       check_impact,
       {{"LO", literal(t.t_lo)}, {"HI", literal(t.t_hi)}, {"SLACK", literal(std::max(off, 0.0) / 2)}});
 }
 
-std::string pair_check(const Wanted& e) {
+std::string pair_check(const ExpectedAnswer& e) {
   const auto& t = e.truth.pair(0, e.q.a, e.q.b);
   const bool overlaps = t.verdict == referee::Verdict::overlap;
   const bool has_depth = overlaps && std::isfinite(t.gap.lo);
@@ -236,7 +250,7 @@ std::string pair_check(const Wanted& e) {
   const bool verdict_alone = fault == to_string(Fault::missed) || fault == to_string(Fault::ghost);
   if (contact && (fault == to_string(Fault::point_depth) || (!has_depth && !verdict_alone)))
     throw InputError("reproduce",
-                     "there is no program that checks this fault of this pair: " + e.finding.key());
+                     "there is no program that checks this fault for this pair: " + e.finding.key());
   if (contact && has_depth) return contact_check(e);
   if (e.q.question == Question::distance && e.finding.fault == to_string(Fault::witness_off) &&
       e.finding.evidence->observation.witness && has_support(e.q.scene.shape_of(e.q.a)) &&
@@ -248,7 +262,7 @@ std::string pair_check(const Wanted& e) {
   return verdict("overlap", "apart", overlaps);
 }
 
-std::string check_of(const Wanted& e) {
+std::string check_of(const ExpectedAnswer& e) {
   if (e.q.question == Question::candidates)
     return verdict("the pair is reported", "the pair is not reported",
                    e.finding.fault == to_string(Fault::missed));
@@ -263,8 +277,9 @@ EngineSource source_of(const Asked& q) {
   if (q.engine.starts_with("bullet-")) return bullet_source(q);
   if (q.engine.starts_with("libccd-")) return libccd_source(q);
   if (is_ode(q.engine)) return ode_source(q);
-  throw InputError("reproduce", fmt::format("there is no writer for {}: FCL, Bullet, libccd and ODE have one",
-                                            std::string(q.engine)));
+  throw InputError("reproduce",
+                   fmt::format("is not available for {}, only for engines of FCL, Bullet, libccd and ODE",
+                               std::string(q.engine)));
 }
 
 }  // namespace
@@ -278,20 +293,19 @@ std::string reproducer(const Finding& finding, const EngineCard& card) {
   const Evidence& v = *finding.evidence;
   if (is_relation(finding.fault))
     throw InputError("reproduce",
-                     "a relation is about two scenes, which `touchstone replay` shows: " + finding.key());
+                     "a relation compares two scenes; use `touchstone replay` instead: " + finding.key());
   if (v.question == Question::swept_candidates)
-    throw InputError("reproduce",
-                     "no writer asks for the candidates of bodies that move, which `touchstone replay` "
-                     "shows: " +
-                         finding.key());
+    throw InputError(
+        "reproduce",
+        "does not support candidates of moving bodies; use `touchstone replay` instead: " + finding.key());
   const int n = static_cast<int>(v.c.scene.bodies.size());
   if (v.a < 0 || v.b < 0 || v.a >= n || v.b >= n)
-    throw InputError("reproduce", "the finding names no pair of bodies: " + finding.key());
+    throw InputError("reproduce", "the finding is not about a pair of bodies: " + finding.key());
   const Asked q{v.c.scene, v.question, v.a, v.b, v.step, finding.engine};
   Truth truth(v.c.scene);
   const double tau = tau_of(card, v.observation, truth.scale(v.a, v.b));
   const EngineSource source = source_of(q);
-  const Wanted expected{truth, q, finding, tau};
+  const ExpectedAnswer expected{truth, q, finding, tau};
   const std::string check = check_of(expected);
   const auto support_of = [&](std::string_view who, int body) {
     const std::string call = fmt::format("support_{}(", who);

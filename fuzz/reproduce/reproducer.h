@@ -1,6 +1,6 @@
-// A finding as one C++ file against the engine's own API, which needs nothing of this project: for the
-// engine's developers, and for whoever doubts that the adapter asked correctly. The program prints what the
-// engine says and what is certain, and exits with 1 while the answer is wrong.
+// Turns a finding into one C++ file that uses only the engine's own API and nothing of this project: for the
+// engine's developers, and for anyone who doubts the adapter. The program prints the engine's answer and the
+// certain result, and exits with 1 while the answer is wrong.
 #pragma once
 
 #include <string>
@@ -10,11 +10,11 @@
 
 namespace touchstone::fuzz {
 
-/// FCL, Bullet and libccd have writers; any other engine has none.
+/// True for engines of FCL, Bullet, libccd and ODE.
 bool has_reproducer(std::string_view engine);
 
-/// The program. `finding` must carry its evidence (as findings_of returns it); `card` is the engine's.
-/// Throws InputError naming the reason: an engine without a writer, or a shape that its API does not have.
+/// Returns the program. `finding` must carry its evidence, as returned by findings_of; `card` is the
+/// engine's. Throws InputError with the reason when the engine is not supported or its API lacks a shape.
 std::string reproducer(const Finding& finding, const EngineCard& card);
 
 }  // namespace touchstone::fuzz

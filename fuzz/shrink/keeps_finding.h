@@ -1,4 +1,4 @@
-// What the shrinker keeps: an engine is found wrong under the same key.
+// The shrinker's criterion: the engine is still found wrong under the same key.
 #pragma once
 
 #include <map>
@@ -11,14 +11,14 @@
 
 namespace touchstone::fuzz {
 
-/// Who says what is wrong: the referee, the relations (judge/relation.h), or both.
+/// What detects a fault: the referee, the relations (fuzz/judge/relation.h), or both.
 enum class FoundBy { referee, relations, both };
 
-/// For each case, what the engine is found wrong about, by key (record/result.h).
+/// For each case, the engine's findings by key (reports/record/result.h).
 std::vector<std::map<std::string, Finding>> findings_of(std::span<const Case> cases, const EnginePtr& engine,
                                                         FoundBy by = FoundBy::referee);
 
-/// Who says what is found under this key.
+/// What detects the findings with this key.
 FoundBy found_by(const std::string& key);
 
 /// `engine` must outlive the result.

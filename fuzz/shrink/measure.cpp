@@ -12,7 +12,7 @@ std::size_t parts(const Shape& shape) {
   return 0;
 }
 
-// The identity costs nothing: w counts by its distance from 1.
+// The identity costs nothing: w costs nothing when it is 1.
 std::uint64_t bits_of(const Pose& p) {
   std::uint64_t n = 0;
   for (double x : p.translation) n += static_cast<std::uint64_t>(fuzz::bits_of(x));

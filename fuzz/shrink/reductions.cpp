@@ -16,7 +16,7 @@ void erase_range(std::vector<T>& v, std::size_t first, std::size_t n) {
   v.erase(at, at + static_cast<std::ptrdiff_t>(std::min(n, v.size() - first)));
 }
 
-// --- bodies, with everything that names them
+// --- bodies, with everything that refers to them
 
 std::optional<Case> drop_bodies(const Case& c, std::size_t, std::size_t first, std::size_t n) {
   const std::size_t end = std::min(first + n, c.scene.bodies.size());
@@ -29,7 +29,8 @@ std::optional<Case> drop_bodies(const Case& c, std::size_t, std::size_t first, s
   for (Query& q : r.queries) {
     if (!is_pair_question(q.question)) continue;
     if (gone(q.a) || gone(q.b)) return std::nullopt;
-    q.a = renumbered(q.a), q.b = renumbered(q.b);
+    q.a = renumbered(q.a);
+    q.b = renumbered(q.b);
   }
   std::erase_if(r.scene.script, [&](const Step& s) { return s.op != Step::Op::query && gone(s.body); });
   for (Step& s : r.scene.script)
@@ -39,7 +40,7 @@ std::optional<Case> drop_bodies(const Case& c, std::size_t, std::size_t first, s
   return r;
 }
 
-// --- vertices of hulls and triangles of meshes; a "list" is a shape
+// --- vertices of hulls and triangles of meshes: one list per shape
 
 std::size_t shapes(const Case& c) { return c.scene.shapes.size(); }
 
@@ -62,7 +63,7 @@ std::size_t mesh_triangles(const Case& c, std::size_t i) {
   return m == nullptr ? 0 : m->triangles.size();
 }
 
-// Vertices that no triangle uses go with it.
+// Also drops the vertices that are no longer used.
 std::optional<Case> drop_triangles(const Case& c, std::size_t i, std::size_t first, std::size_t n) {
   if (n >= mesh_triangles(c, i)) return std::nullopt;
   Case r = c;
@@ -73,7 +74,10 @@ std::optional<Case> drop_triangles(const Case& c, std::size_t i, std::size_t fir
   for (auto& t : m.triangles)
     for (int& v : t) {
       int& to = renumbered[static_cast<std::size_t>(v)];
-      if (to < 0) to = static_cast<int>(used.size()), used.push_back(m.vertices[static_cast<std::size_t>(v)]);
+      if (to < 0) {
+        to = static_cast<int>(used.size());
+        used.push_back(m.vertices[static_cast<std::size_t>(v)]);
+      }
       v = to;
     }
   m.vertices = std::move(used);
@@ -107,7 +111,7 @@ constexpr ListPart parts_table[] = {
     {"triangles", shapes, mesh_triangles, drop_triangles},
 };
 
-// --- single things
+// --- single elements
 
 template <class F>
 void for_each_body(const Case& c, std::vector<Case>& out, F&& change) {
@@ -123,21 +127,34 @@ void drop_unused_shapes(const Case& c, std::vector<Case>& out) {
   r.scene.shapes.clear();
   for (Body& b : r.scene.bodies) {
     int& to = renumbered[static_cast<std::size_t>(b.shape)];
-    if (to < 0)
-      to = static_cast<int>(r.scene.shapes.size()),
+    if (to < 0) {
+      to = static_cast<int>(r.scene.shapes.size());
       r.scene.shapes.push_back(c.scene.shape_of(&b - r.scene.bodies.data()));
+    }
     b.shape = to;
   }
   out.push_back(std::move(r));
 }
 
-void still(const Case& c, std::vector<Case>& out) {
-  for_each_body(c, out, [](Case&, Body& b) { return b.motion && (b.motion.reset(), true); });
-  for_each_body(c, out, [](Case&, Body& b) { return b.motion && (b.motion->angular.setZero(), true); });
-  for_each_body(c, out, [](Case&, Body& b) { return b.motion && (b.motion->linear.setZero(), true); });
+void remove_motion(const Case& c, std::vector<Case>& out) {
+  for_each_body(c, out, [](Case&, Body& b) {
+    if (!b.motion) return false;
+    b.motion.reset();
+    return true;
+  });
+  for_each_body(c, out, [](Case&, Body& b) {
+    if (!b.motion) return false;
+    b.motion->angular.setZero();
+    return true;
+  });
+  for_each_body(c, out, [](Case&, Body& b) {
+    if (!b.motion) return false;
+    b.motion->linear.setZero();
+    return true;
+  });
 }
 
-// What one body moves by is taken from both: the difference is what counts.
+// Subtracts one body's linear velocity from all: only relative motion matters.
 void move_only_one(const Case& c, std::vector<Case>& out) {
   for_each_body(c, out, [](Case& r, Body& b) {
     if (!b.motion) return false;
@@ -151,27 +168,45 @@ void move_only_one(const Case& c, std::vector<Case>& out) {
   });
 }
 
-void plain(const Case& c, std::vector<Case>& out) {
+void plain_bodies(const Case& c, std::vector<Case>& out) {
   Case r = c;
   r.scene.name.clear();
-  for (Body& b : r.scene.bodies) b.name.clear(), b.group = -1;
+  for (Body& b : r.scene.bodies) {
+    b.name.clear();
+    b.group = -1;
+  }
   out.push_back(r);
-  for_each_body(c, out, [](Case&, Body& b) { return !b.name.empty() && (b.name.clear(), true); });
-  for_each_body(c, out, [](Case&, Body& b) { return b.group != -1 && (b.group = -1, true); });
-  for_each_body(c, out, [](Case&, Body& b) { return b.is_static && (b.is_static = false, true); });
+  for_each_body(c, out, [](Case&, Body& b) {
+    if (b.name.empty()) return false;
+    b.name.clear();
+    return true;
+  });
+  for_each_body(c, out, [](Case&, Body& b) {
+    if (b.group == -1) return false;
+    b.group = -1;
+    return true;
+  });
+  for_each_body(c, out, [](Case&, Body& b) {
+    if (!b.is_static) return false;
+    b.is_static = false;
+    return true;
+  });
 }
 
-void upright(const Case& c, std::vector<Case>& out) {
+void remove_rotation(const Case& c, std::vector<Case>& out) {
   Case r = c;
   for (Body& b : r.scene.bodies) b.pose.rotation = {};
   for (Step& s : r.scene.script)
     if (s.pose) s.pose->rotation = {};
   out.push_back(r);
-  for_each_body(c, out,
-                [](Case&, Body& b) { return !(b.pose.rotation == Quat{}) && (b.pose.rotation = {}, true); });
+  for_each_body(c, out, [](Case&, Body& b) {
+    if (b.pose.rotation == Quat{}) return false;
+    b.pose.rotation = {};
+    return true;
+  });
 }
 
-// Everything seen from a body: it stands at the origin, and upright if `turned`.
+// Transforms the case into a body's frame: the body is at the origin, and upright if `turned`.
 Case seen_from(const Case& c, const Pose& origin, bool turned) {
   Case r = c;
   const Transform t = to_transform(origin);
@@ -194,13 +229,13 @@ Case seen_from(const Case& c, const Pose& origin, bool turned) {
   return r;
 }
 
-void near_origin(const Case& c, std::vector<Case>& out) {
+void move_to_origin(const Case& c, std::vector<Case>& out) {
   for (bool turned : {true, false})
     for (const Body& b : c.scene.bodies)
       if (std::isfinite(b.pose.translation.sum())) out.push_back(seen_from(c, b.pose, turned));
 }
 
-void pose_of_body(const Case& c, std::vector<Case>& out) {
+void drop_insert_poses(const Case& c, std::vector<Case>& out) {
   for (std::size_t i = 0; i < c.scene.script.size(); ++i) {
     if (!c.scene.script[i].pose || c.scene.script[i].op != Step::Op::insert) continue;
     Case r = c;
@@ -219,10 +254,12 @@ void plain_shapes(const Case& c, std::vector<Case>& out) {
     }
 }
 
-// All bodies with one shape.
+constexpr std::size_t max_shared_shapes = 8;  // shapes that are tried as the shape of all bodies
+
+// Gives all bodies the same shape.
 void shared_shape(const Case& c, std::vector<Case>& out) {
   if (c.scene.shapes.size() < 2) return;
-  for (std::size_t i = 0; i < c.scene.shapes.size() && i < 8; ++i) {
+  for (std::size_t i = 0; i < c.scene.shapes.size() && i < max_shared_shapes; ++i) {
     Case r = c;
     for (Body& b : r.scene.bodies) b.shape = 0;
     r.scene.shapes = {c.scene.shapes[i]};
@@ -230,7 +267,7 @@ void shared_shape(const Case& c, std::vector<Case>& out) {
   }
 }
 
-// Rounding may lead out of the doubles, and of such numbers no hull can be made.
+// Rounding may overflow, and no hull can be built from non-finite numbers.
 void propose_renewed(std::vector<Case>& out, Case r) {
   try {
     renew(r);
@@ -240,8 +277,8 @@ void propose_renewed(std::vector<Case>& out, Case r) {
   out.push_back(std::move(r));
 }
 
-// Lengths times a power of two that brings the largest to about 1; exact.
-void about_one(const Case& c, std::vector<Case>& out) {
+// Scales lengths by the power of two that brings the largest to about 1; exact.
+void scale_to_one(const Case& c, std::vector<Case>& out) {
   Case r = c;
   double largest = 0;
   for (const double* x : numbers(r)) largest = std::max(largest, std::abs(*x));
@@ -267,16 +304,11 @@ void about_one(const Case& c, std::vector<Case>& out) {
 }
 
 constexpr Simplification simplifications_table[] = {
-    {"unused shapes", drop_unused_shapes},
-    {"plain bodies", plain},
-    {"no motion", still},
-    {"one moves", move_only_one},
-    {"poses of bodies", pose_of_body},
-    {"shared shape", shared_shape},
-    {"plain shapes", plain_shapes},
-    {"upright", upright},
-    {"near the origin", near_origin},
-    {"about one", about_one},
+    {"unused shapes", drop_unused_shapes},  {"plain bodies", plain_bodies},
+    {"no motion", remove_motion},           {"one moves", move_only_one},
+    {"poses of bodies", drop_insert_poses}, {"shared shape", shared_shape},
+    {"plain shapes", plain_shapes},         {"upright", remove_rotation},
+    {"near the origin", move_to_origin},    {"about one", scale_to_one},
 };
 
 constexpr int coarse_bits[] = {1, 2, 3, 4, 6, 8, 12, 16, 24, 32, 40, 46, 50};

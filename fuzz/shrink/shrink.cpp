@@ -7,8 +7,8 @@
 namespace touchstone::fuzz {
 namespace {
 
-// Proposals asked about at once, at most: the first that shows the finding is taken and those behind it are
-// wasted, which costs where an answer takes a second (a time-out). So batches begin with one and double.
+// Most proposals per batch. The first that shows the finding is taken and those after it are wasted, which is
+// expensive where an answer takes a second (a time-out), so batches start at one and double.
 constexpr std::size_t largest_batch = 16;
 
 class Shrinker {
@@ -26,20 +26,20 @@ class Shrinker {
       for (const Simplification& s : simplifications()) simplify(s);
       round_numbers();
       result_.after = measure(result_.smallest);
-      if (result_.after == start || tired()) break;
+      if (result_.after == start || is_exhausted()) break;
       start = result_.after;
     }
-    result_.exit = tired() ? ShrinkExit::out_of_tries : ShrinkExit::smallest;
+    result_.exit = is_exhausted() ? ShrinkExit::out_of_tries : ShrinkExit::smallest;
     return result_;
   }
 
  private:
-  bool tired() const { return result_.tried >= max_tries_; }
+  bool is_exhausted() const { return result_.tried >= max_tries_; }
 
-  // Takes the first proposal that shows it.
+  // Takes the first proposal that shows the finding.
   bool take_first(const std::vector<Case>& proposals) {
     std::size_t batch = 1;
-    for (std::size_t first = 0; first < proposals.size() && !tired();
+    for (std::size_t first = 0; first < proposals.size() && !is_exhausted();
          first += batch, batch = std::min(2 * batch, largest_batch)) {
       const std::span<const Case> part(proposals.data() + first, std::min(batch, proposals.size() - first));
       const auto shows = still_(part);
@@ -58,7 +58,7 @@ class Shrinker {
   void drop_from(const ListPart& p) {
     for (std::size_t list = 0; list < p.lists(result_.smallest); ++list)
       for (std::size_t chunk = p.count(result_.smallest, list); chunk > 0; chunk /= 2)
-        while (!tired() && take_smaller(without_chunk(p, list, chunk))) {
+        while (!is_exhausted() && take_smaller(without_chunk(p, list, chunk))) {
         }
   }
 
@@ -75,13 +75,13 @@ class Shrinker {
     for (;;) {
       std::vector<Case> proposals;
       s.propose(result_.smallest, proposals);
-      if (tired() || !take_smaller(std::move(proposals))) return;
+      if (is_exhausted() || !take_smaller(std::move(proposals))) return;
     }
   }
 
   void round_numbers() {
     take_smaller(round_all(result_.smallest));
-    for (std::size_t i = 0; i < numbers(result_.smallest).size() && !tired(); ++i)
+    for (std::size_t i = 0; i < numbers(result_.smallest).size() && !is_exhausted(); ++i)
       take_smaller(round_one(result_.smallest, i));
   }
 

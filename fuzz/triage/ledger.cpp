@@ -19,8 +19,9 @@ constexpr int application_id = 0x54534c31;  // "TSL1", in the header of the file
 constexpr int busy_ms = 60'000;
 constexpr int max_field_bytes = 64 << 20;  // the largest is a case
 constexpr std::uintmax_t max_file_bytes = std::uintmax_t{1} << 30;
+constexpr std::uintmax_t max_journal_bytes = 2 * max_file_bytes;
 
-// SQLite keeps the words of a table's definition as they were written.
+// SQLite stores the text of a table definition exactly as written.
 constexpr const char* schema =
     "CREATE TABLE finding("
     "key TEXT PRIMARY KEY, engine TEXT, question TEXT, fault TEXT, shapes TEXT, blame TEXT, degeneracy TEXT, "
@@ -42,20 +43,21 @@ constexpr std::array texts_after{&KnownFinding::smallest, &KnownFinding::words, 
 
 namespace {
 
-// A journal that names a second file has SQLite remove that file. Ours name none: a ledger is changed by
-// itself. The form is that of https://www.sqlite.org/fileformat2.html#the_rollback_journal, "super-journal".
+// SQLite deletes the file that a journal names as its super-journal. A ledger's own journal never names one,
+// because a ledger is never changed together with another database. Format:
+// https://www.sqlite.org/fileformat2.html#the_rollback_journal.
 void refuse_journal_of_another(const std::filesystem::path& ledger) {
-  constexpr std::string_view end_of_name = "\xd9\xd5\x05\xf9\x20\xa1\x63\xd7";
+  constexpr std::string_view super_journal_magic = "\xd9\xd5\x05\xf9\x20\xa1\x63\xd7";
   const std::filesystem::path journal = ledger.string() + "-journal";
   std::error_code ec;
   std::string text;
   try {
-    if (std::filesystem::exists(journal, ec)) text = read_file(journal, 2 * max_file_bytes);
+    if (std::filesystem::exists(journal, ec)) text = read_file(journal, max_journal_bytes);
   } catch (const InputError&) {
-    if (std::filesystem::exists(journal, ec)) throw;  // else another run has just ended
+    if (std::filesystem::exists(journal, ec)) throw;  // otherwise another run has just ended
   }
-  if (text.ends_with(end_of_name))
-    throw InputError(journal.string(), "names another file, as the journal of a ledger does not");
+  if (text.ends_with(super_journal_magic))
+    throw InputError(journal.string(), "names another file, which the journal of a ledger never does");
 }
 
 }  // namespace
@@ -68,7 +70,7 @@ struct Ledger::Database {
     std::error_code ec;
     if (purpose == For::reading || std::filesystem::exists(path, ec)) require_regular_file(path);
     if (std::filesystem::file_size(path, ec) > max_file_bytes && !ec)
-      throw InputError(file, "is larger than a ledger can be");
+      throw InputError(file, "is too large for a ledger");
     refuse_journal_of_another(path);
     const int flags =
         purpose == For::reading ? SQLITE_OPEN_READONLY : SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE;
@@ -78,9 +80,9 @@ struct Ledger::Database {
       sqlite3_close(handle);
       throw InputError(file, "cannot be opened as a ledger: " + why);
     }
-    distrust();
+    harden();
   }
-  // An open transaction is rolled back.
+  // Rolls back an open transaction.
   ~Database() { sqlite3_close(handle); }
   Database(const Database&) = delete;
   Database& operator=(const Database&) = delete;
@@ -91,8 +93,8 @@ struct Ledger::Database {
   }
 
  private:
-  // What https://www.sqlite.org/security.html asks for of a file from elsewhere.
-  void distrust() const {
+  // As https://www.sqlite.org/security.html recommends for untrusted files.
+  void harden() const {
     for (const int feature :
          {SQLITE_DBCONFIG_ENABLE_TRIGGER, SQLITE_DBCONFIG_ENABLE_VIEW, SQLITE_DBCONFIG_TRUSTED_SCHEMA})
       sqlite3_db_config(handle, feature, 0, nullptr);
@@ -121,7 +123,7 @@ class Statement {
   void bind(std::uint64_t v) {
     ok_ = ok_ && sqlite3_bind_int64(s_, ++bound_, static_cast<sqlite3_int64>(v)) == SQLITE_OK;
   }
-  /// True: a row. False: the end, or ok() is false.
+  /// Returns true if there is a row, false at the end or after an error (see ok()).
   bool step() {
     if (!ok_) return false;
     const int code = sqlite3_step(s_);
@@ -145,23 +147,28 @@ class Statement {
 std::string text_of(const Statement& s, int column, const std::string& file) {
   std::string text = s.text(column);
   if (s.type(column) != SQLITE_TEXT || valid_utf8(text) != text)
-    throw InputError(file, fmt::format("ledger: column {} of a row is no text", column));
+    throw InputError(file, fmt::format("ledger: column {} of a row is not text", column));
   return printable(text, "\n\t");
 }
 
 std::uint64_t count_of(const Statement& s, int column, const std::string& file) {
   if (s.type(column) != SQLITE_INTEGER || s.number(column) < 0)
-    throw InputError(file, fmt::format("ledger: column {} of a row is no count", column));
+    throw InputError(file, fmt::format("ledger: column {} of a row is not a count", column));
   return static_cast<std::uint64_t>(s.number(column));
 }
 
-// Directories are named by keys (triage --reproducers).
+// Keys name directories (triage --reproducers).
 void require_own_key(const KnownFinding& f, const std::string& file) {
   Finding parts;
-  parts.engine = f.engine, parts.question = f.question, parts.fault = f.fault, parts.shapes = f.shapes;
-  parts.blame = f.blame, parts.degeneracy = f.degeneracy, parts.magnitude = f.magnitude;
+  parts.engine = f.engine;
+  parts.question = f.question;
+  parts.fault = f.fault;
+  parts.shapes = f.shapes;
+  parts.blame = f.blame;
+  parts.degeneracy = f.degeneracy;
+  parts.magnitude = f.magnitude;
   if (parts.key() != f.key || !has_plain_key(parts))
-    throw InputError(file, "ledger: a row's key is not that of its fields: " + printable(f.key));
+    throw InputError(file, "ledger: the key of a row does not match its fields: " + printable(f.key));
 }
 
 KnownFinding row(const Statement& s, const std::string& file) {
@@ -189,7 +196,7 @@ int pragma(sqlite3* db, const char* name) {
   return s.step() ? static_cast<int>(s.number(0)) : -1;
 }
 
-// What else the file may hold, or how else the table may be defined, is not looked at, let alone run.
+// Stops at the first object that does not belong to a ledger, without reading or running it.
 enum class Holds { nothing, findings, something_else };
 Holds contents(sqlite3* db, const std::string& file) {
   Statement s(db, "SELECT type, name, tbl_name, sql FROM sqlite_master");
@@ -233,8 +240,8 @@ std::optional<KnownFinding> Ledger::find(const std::string& key) const {
   return std::nullopt;
 }
 
-// A damaged file can name a page many times over: keys that do not ascend, or more text than the file has
-// bytes, would otherwise be read without end.
+// A damaged file can refer to a page many times. Rejecting keys that do not ascend, and more text than the
+// file has bytes, keeps the loop finite.
 std::vector<KnownFinding> Ledger::all() const {
   std::vector<KnownFinding> r;
   if (is_empty_) return r;
@@ -246,7 +253,7 @@ std::vector<KnownFinding> Ledger::all() const {
     KnownFinding f = row(s, db_->file);
     bytes += bytes_of(f);
     if ((!r.empty() && r.back().key >= f.key) || bytes > most)
-      throw InputError(db_->file, "ledger: is damaged, the same pages are in it more than once");
+      throw InputError(db_->file, "ledger: is damaged: it contains the same pages more than once");
     r.push_back(std::move(f));
   }
   if (!s.ok()) db_->fail();

@@ -1,11 +1,12 @@
-// The ledger of known findings: one SQLite file, one row a key. It outlives campaigns, so that a nightly run
-// says only what is new. Rows expire when their case stops reproducing, and come back when it does again.
+// The ledger of known findings: one SQLite file, one row per key. It outlives campaigns, so that a nightly
+// run reports only what is new. A row expires when its case stops reproducing, and comes back when it does
+// again.
 //
 //   finding(key TEXT PRIMARY KEY, engine, question, fault, shapes, blame, degeneracy, magnitude TEXT,
 //           first_seen, last_seen TEXT, first_build, last_build TEXT, count INTEGER, bodies, steps, bits
 //           INTEGER, smallest TEXT, words TEXT, expired TEXT)
-// Dates are ISO 8601, UTC; builds name the engine's library and version; smallest is the case as JSON;
-// expired is empty while the finding reproduces, else the date when it was first found not to.
+// Dates are ISO 8601, UTC. Builds name the engine's library and version. `smallest` is the case as JSON.
+// `expired` is empty while the finding reproduces, else the date on which it first did not.
 #pragma once
 
 #include <cstdint>
@@ -19,15 +20,15 @@
 
 namespace touchstone::fuzz {
 
-/// One transaction from construction to commit(): a run that is killed half-way changes nothing. Others wait
-/// for it. All functions throw InputError naming the file: no ledger, of a later version, locked for a
-/// minute, disk full. The file may be a stranger's: views, triggers and functions in it are not run, a schema
-/// other than the one above is refused, and so is a row whose key is not that of its fields or names no
-/// directory.
+/// One transaction from construction to commit(): a run that is killed half-way changes nothing, and other
+/// processes wait for it. All functions throw InputError naming the file when it is not a ledger, has a later
+/// version, stays locked for a minute, or the disk is full. The file is untrusted: views, triggers and
+/// functions in it are not run. Any schema other than the one above is rejected, and so is a row whose key
+/// does not match its fields or cannot name a directory.
 class Ledger {
  public:
   enum class For { reading, writing };
-  /// For writing, it makes the file when there is none.
+  /// With For::writing, creates the file if it does not exist.
   explicit Ledger(const std::filesystem::path& file, For purpose = For::writing);
   ~Ledger();
   Ledger(const Ledger&) = delete;
@@ -38,13 +39,13 @@ class Ledger {
   std::vector<KnownFinding> all() const;
   /// Inserts, or replaces the row of the same key.
   void put(const KnownFinding& f);
-  /// Ends the transaction: afterwards it is only read.
+  /// Ends the transaction; afterwards the ledger may only be read.
   void commit();
 
  private:
   struct Database;
   std::unique_ptr<Database> db_;
-  bool is_empty_ = false;  // a file without the table, which is there to be read only
+  bool is_empty_ = false;  // the file has no table, and is only read
 };
 
 }  // namespace touchstone::fuzz

@@ -8,7 +8,7 @@
 namespace touchstone::fuzz {
 namespace {
 
-std::string last_heard(const KnownFinding& f) { return std::max(f.last_seen, f.expired); }
+std::string last_updated(const KnownFinding& f) { return std::max(f.last_seen, f.expired); }
 
 }  // namespace
 
@@ -17,13 +17,13 @@ KnownFinding merged(const KnownFinding& x, const KnownFinding& y) {
   const auto last = [](const KnownFinding& f) { return std::tie(f.last_seen, f.last_build); };
   const auto size = [](const KnownFinding& f) { return std::tie(f.size, f.smallest, f.words); };
   // Ties go to the row that still reproduces.
-  const auto heard = [](const KnownFinding& f) {
-    return std::tuple(last_heard(f), f.expired.empty(), f.expired);
+  const auto updated = [](const KnownFinding& f) {
+    return std::tuple(last_updated(f), f.expired.empty(), f.expired);
   };
   KnownFinding r = size(y) < size(x) ? y : x;
   std::tie(r.first_seen, r.first_build) = std::min(first(x), first(y));
   std::tie(r.last_seen, r.last_build) = std::max(last(x), last(y));
-  r.expired = (heard(x) < heard(y) ? y : x).expired;
+  r.expired = (updated(x) < updated(y) ? y : x).expired;
   r.count = std::max(x.count, y.count);
   return r;
 }

@@ -28,7 +28,7 @@ StoredFinding load_finding(const std::filesystem::path& directory) {
   return s;
 }
 
-// A finding that cannot be shrunk is kept as it was found.
+// A finding that cannot be shrunk is stored as found.
 Triaged fresh(const StoredFinding& s, const TriageConfig& config, const std::string& build) {
   const Finding& f = s.finding;
   const std::string key = f.key();
@@ -58,7 +58,7 @@ Triaged seen(const StoredFinding& s, std::optional<KnownFinding> known, const Tr
   return t;
 }
 
-Triaged asked_again(KnownFinding f, const TriageConfig& config) try {
+Triaged retry_known(KnownFinding f, const TriageConfig& config) try {
   Triaged t;
   t.standing = Standing::not_asked;
   t.finding = f;
@@ -91,7 +91,7 @@ Case case_of(const KnownFinding& f) { return case_from_json(case_json_of(f), "le
 
 std::vector<StoredFinding> load_findings(const std::filesystem::path& directory) {
   if (!std::filesystem::exists(directory / "state.json"))
-    throw InputError(directory.string(), "holds no campaign (touchstone fuzz --out DIR makes one)");
+    throw InputError(directory.string(), "does not hold a campaign; touchstone fuzz --out DIR creates one");
   std::vector<StoredFinding> r;
   if (std::filesystem::exists(directory / "findings"))
     for (const auto& entry : std::filesystem::directory_iterator(directory / "findings"))
@@ -103,24 +103,24 @@ std::vector<StoredFinding> load_findings(const std::filesystem::path& directory)
 
 namespace {
 
-// One row of the result: found in this run, or known and not found.
+// One row of the result: found in this run, or known but not found.
 struct Task {
   const StoredFinding* found = nullptr;
   std::optional<KnownFinding> known;
 };
 
-Triaged done(const Task& t, const TriageConfig& config) {
-  return t.found ? seen(*t.found, t.known, config) : asked_again(*t.known, config);
+Triaged run_task(const Task& t, const TriageConfig& config) {
+  return t.found ? seen(*t.found, t.known, config) : retry_known(*t.known, config);
 }
 
-// Tasks are taken in order by whoever is free; each has a place of its own in the result.
+// Each idle thread takes the next task and writes to that task's own place in the result.
 std::vector<Triaged> run_tasks(const std::vector<Task>& tasks, std::span<const TriageConfig> jobs) {
   std::vector<Triaged> r(tasks.size());
   std::vector<std::exception_ptr> errors(tasks.size());
   std::atomic<std::size_t> next{0};
   const auto work = [&](const TriageConfig& config) {
     for (std::size_t i = next++; i < tasks.size(); i = next++) try {
-        r[i] = done(tasks[i], config);
+        r[i] = run_task(tasks[i], config);
       } catch (...) {
         errors[i] = std::current_exception();
       }

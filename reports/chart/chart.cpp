@@ -12,33 +12,33 @@
 namespace touchstone::fuzz {
 namespace {
 
-// Engines take turns case batch by case batch, so that a machine that slows down slows all of them.
+// Engines take turns after each batch of cases, so that a machine that slows down affects all of them.
 constexpr std::size_t batch = 32;
 
-struct Asked {
+struct EngineAnswers {
   CaseObservations first;               // judged
   std::vector<std::vector<double>> ns;  // by query, by round
 };
 
-bool answered_any(std::span<const Asked> asked) {
-  return std::any_of(asked.begin(), asked.end(), [](const Asked& a) {
+bool answered_any(std::span<const EngineAnswers> asked) {
+  return std::any_of(asked.begin(), asked.end(), [](const EngineAnswers& a) {
     const auto& answers = a.first.answers;
     return std::any_of(answers.begin(), answers.end(),
                        [](const Observation& o) { return o.outcome == Outcome::answered; });
   });
 }
 
-std::vector<std::vector<Asked>> ask(std::span<const ChartCase> cases, std::span<const EnginePtr> engines,
-                                    int rounds) {
+std::vector<std::vector<EngineAnswers>> run_rounds(std::span<const ChartCase> cases,
+                                                   std::span<const EnginePtr> engines, int rounds) {
   std::vector<Case> plain;
   for (const ChartCase& c : cases) plain.push_back(c.c);
-  std::vector<std::vector<Asked>> all(engines.size(), std::vector<Asked>(cases.size()));
+  std::vector<std::vector<EngineAnswers>> all(engines.size(), std::vector<EngineAnswers>(cases.size()));
   for (int round = 0; round < rounds; ++round)
     for (std::size_t k = 0; k < engines.size(); ++k) {
-      if (round > 0 && !answered_any(all[k])) continue;  // a time-out costs seconds, each time
+      if (round > 0 && !answered_any(all[k])) continue;  // each time-out costs seconds
       auto answers = engines[k]->run(plain);
       for (std::size_t i = 0; i < answers.size(); ++i) {
-        Asked& a = all[k][i];
+        EngineAnswers& a = all[k][i];
         a.ns.resize(answers[i].answers.size());
         for (std::size_t q = 0; q < a.ns.size(); ++q)
           a.ns[q].push_back(static_cast<double>(answers[i].answers[q].elapsed_ns));
@@ -49,7 +49,7 @@ std::vector<std::vector<Asked>> ask(std::span<const ChartCase> cases, std::span<
 }
 
 void add(ChartRows& rows, std::span<const ChartCase> cases, std::span<const EnginePtr> engines, int rounds) {
-  const auto asked = ask(cases, engines, rounds);
+  const auto asked = run_rounds(cases, engines, rounds);
   for (std::size_t i = 0; i < cases.size(); ++i) {
     const ChartCase& c = cases[i];
     Truth truth(c.c.scene);
@@ -79,7 +79,10 @@ ChartScope full_chart() { return {"full", 6, 300, 5, true, {64, 256, 1024, 4096}
 Chart measure_chart(const ChartScope& scope, std::uint64_t seed, std::span<const EnginePtr> engines,
                     std::span<const EnginePtr> broad, const ChartProgress& progress) {
   Chart chart;
-  chart.machine = this_machine(), chart.seed = seed, chart.rounds = scope.rounds, chart.scope = scope.name;
+  chart.machine = this_machine();
+  chart.seed = seed;
+  chart.rounds = scope.rounds;
+  chart.scope = scope.name;
   chart.measure_ns = measure_ns();
   for (const auto& list : {engines, broad})
     for (const EnginePtr& e : list)
@@ -90,7 +93,7 @@ Chart measure_chart(const ChartScope& scope, std::uint64_t seed, std::span<const
   add_all(rows, impact_chart_cases(seed, scope.per_motion), engines, scope.rounds, "motions", progress);
   for (std::uint64_t n : scope.crowds) {
     const ChartCase c = broad_chart_case(seed, n);
-    // One query, not hundreds: its least time wants more rounds.
+    // A single query instead of hundreds: its minimum time needs more rounds.
     add_all(rows, {&c, 1}, broad, 2 * scope.rounds, fmt::format("{} bodies", n), progress);
   }
   chart.rows = rows.rows();

@@ -10,9 +10,12 @@
 namespace touchstone::fuzz {
 namespace {
 
+constexpr std::size_t crowd_shapes = 32;
+constexpr double volume_per_body = 40;  // of the cube; a body itself has a volume of 2 to 4
+
 struct Regime {
   const char* name;
-  double (*gap)(Rng&);  // in sizes of the pair
+  double (*gap)(Rng&);  // relative to the size of the pair
 };
 constexpr Regime regimes[] = {
     {"apart", [](Rng& r) { return r.uniform(0.1, 1); }},
@@ -82,19 +85,19 @@ std::vector<ChartCase> impact_chart_cases(std::uint64_t seed, int per_regime) {
 ChartCase broad_chart_case(std::uint64_t seed, std::uint64_t bodies) {
   Rng rng = Rng::stream(seed, bodies);
   ChartCase c{{}, "crowd", "mixed", "1", bodies};
-  c.c.id = "chart/crowd/" + std::to_string(bodies), c.c.family = "chart";
+  c.c.id = "chart/crowd/" + std::to_string(bodies);
+  c.c.family = "chart";
   Scene& s = c.c.scene;
-  // Kinds that every engine has.
+  // Kinds that every engine supports.
   constexpr ShapeKind kinds[] = {ShapeKind::sphere, ShapeKind::box, ShapeKind::capsule, ShapeKind::hull};
-  for (std::size_t i = 0; i < 32; ++i) {
-    Shape shape = random_shape(rng, kinds[i % 4], 1);
-    // ODE has no flat hulls.
+  for (std::size_t i = 0; i < crowd_shapes; ++i) {
+    Shape shape = random_shape(rng, kinds[i % std::size(kinds)], 1);
+    // ODE does not support flat hulls.
     while (kind_of(shape) == ShapeKind::hull && std::get<Hull>(shape).dimension < 3)
       shape = random_shape(rng, ShapeKind::hull, 1);
     s.shapes.push_back(std::move(shape));
   }
-  // 40 units of volume a body, whose own is 2 to 4.
-  const double side = std::cbrt(static_cast<double>(bodies) * 40);
+  const double side = std::cbrt(static_cast<double>(bodies) * volume_per_body);
   for (std::uint64_t i = 0; i < bodies; ++i) {
     Body b;
     b.shape = static_cast<int>(rng.below(s.shapes.size()));

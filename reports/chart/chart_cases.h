@@ -1,5 +1,5 @@
 // The cases of the chart: every pair of kinds × regime × scale for the narrow phase, families of motions for
-// impacts, growing crowds for broad phases. Same seed, same cases.
+// impacts, crowds of growing size for broad phases. The same seed gives the same cases.
 #pragma once
 
 #include <cstdint>
@@ -16,11 +16,11 @@ struct ChartCase {
   std::uint64_t bodies = 0;
 };
 
-/// overlap, distance and contact; `per_cell` cases each.
+/// Cases for overlap, distance and contact, `per_cell` in each combination.
 std::vector<ChartCase> narrow_chart_cases(std::uint64_t seed, int per_cell, bool meshes);
-/// time_of_impact, `per_regime` cases of each family of motions.
+/// Cases for time_of_impact, `per_regime` from each family of motions.
 std::vector<ChartCase> impact_chart_cases(std::uint64_t seed, int per_regime);
-/// candidates of `bodies` bodies in a cube that grows with them.
+/// A case for candidates: `bodies` bodies in a cube whose volume is proportional to their number.
 ChartCase broad_chart_case(std::uint64_t seed, std::uint64_t bodies);
 
 }  // namespace touchstone::fuzz

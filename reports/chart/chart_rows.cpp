@@ -22,16 +22,19 @@ void count(ChartRow& r, const Judgement& j) {
     return;
   }
   ++r.answers;
-  r.missed += has(j, {Fault::missed}), r.ghost += has(j, {Fault::ghost, Fault::stale});
+  r.missed += has(j, {Fault::missed});
+  r.ghost += has(j, {Fault::ghost, Fault::stale});
   r.no_number += has(j, {Fault::no_number, Fault::normal_not_unit});
-  r.wrong += !j.faults.empty(), r.rounding += j.blame == Blame::representation;
+  r.wrong += !j.faults.empty();
+  r.rounding += j.blame == Blame::representation;
   r.undecided += j.undecided;
   r.not_judged += j.ruling() == Ruling::not_judged && !j.unjudged_by_definition();
   r.wide_claim += j.wide_claim > 0;
-  r.pairs_true += j.pairs_true, r.pairs_reported += j.pairs_reported;
+  r.pairs_true += j.pairs_true;
+  r.pairs_reported += j.pairs_reported;
 }
 
-// Of candidates a ghost is what every broad phase reports; a lost pair is what none may.
+// Candidates have no ghosts: every broad phase may report superfluous pairs, but none may lose a pair.
 std::string why_unsound(const ChartRow& r) {
   const std::pair<std::uint64_t, const char*> kinds[] = {
       {r.missed, "missed"}, {r.ghost, "ghosts"}, {r.no_number, "no number"}, {r.failed, "failed"}};
@@ -45,10 +48,10 @@ std::string why_unsound(const ChartRow& r) {
   if (!why.empty()) return fmt::format("{} of {}", why, r.answers + r.failed);
   if (r.answers == 0) return "answers nothing";
   if (r.not_judged > 0) return fmt::format("{} of {} not judged", r.not_judged, r.answers);
-  // Right within a tolerance that anybody could claim is no accuracy.
+  // Being right within a very wide tolerance does not prove accuracy.
   if (r.wide_claim > 0)
     return fmt::format("claims a tolerance above 1e-2 L for {} of {}", r.wide_claim, r.answers);
-  // Who leaves out the hard ones is not comparable.
+  // An engine that skips the hard cases is not comparable.
   if (r.answers < r.asked) return fmt::format("answers {} of {}", r.answers, r.asked);
   return "";
 }
@@ -61,14 +64,18 @@ bool as_accurate(const ChartRow& a, const ChartRow& b) {
 
 enum class Standing { behind, tie, front };
 
-// What a says of b's place. Errors are of the seed, times are of the day: they differ when they do so by more
-// than the rounds did, and by half. So a second run moves places by one step, and a conclusion, front or
-// behind, only where noise exceeds 2.25. 2026-11-22, two quick charts on a machine with three times as many
-// jobs as cores: of 16,789 sound rows none changed between front and behind, 1,057 to or from a tie; with a
-// quarter instead of a half 4 changed between front and behind, and with two places instead of three 634.
+// Times count as different only if they differ by more than the rounds did, and by more than half.
+constexpr double least_noise = 0.5;
+
+// The standing of b as judged against a alone. Errors depend only on the seed, but times vary between runs.
+// With `least_noise`, a second run moves a row by at most one standing, and from front to behind only if
+// noise exceeds a factor of 2.25. 2026-11-22, two quick charts on a machine with three times as many jobs as
+// cores: of 16,789 sound rows none changed between front and behind and 1,057 changed to or from a tie; with
+// a quarter instead of a half, 4 changed between front and behind, and with two standings instead of three,
+// 634.
 Standing standing(const ChartRow& a, const ChartRow& b) {
   if (!as_accurate(a, b)) return Standing::front;
-  const double same = 1 + std::max({a.ns_spread, b.ns_spread, 0.5});
+  const double same = 1 + std::max({a.ns_spread, b.ns_spread, least_noise});
   if (b.ns_median * same < a.ns_median) return Standing::front;
   return b.ns_median > a.ns_median * same ? Standing::behind : Standing::tie;
 }
@@ -89,14 +96,18 @@ void ChartRows::add(const ChartSample& s) {
     groups.insert(
         groups.end(),
         {{none, none, none}, {none, none, s.scale}, {none, s.pair, none}, {s.regime, s.pair, none}});
-  // A motion has one scale: what would be the same row twice is one.
+  // A motion has only one scale, so rows by scale would be duplicates.
   std::sort(groups.begin(), groups.end());
   if (s.question == "time_of_impact" || s.bodies != 2)
     std::erase_if(groups, [](const auto& g) { return !g[2].empty(); });
   for (const auto& [regime, pair, scale] : groups) {
     Cell& c = cells_[{s.question, regime, scale, pair, crowd, s.engine}];
     ChartRow& r = c.counts;
-    r.engine = s.engine, r.question = s.question, r.regime = regime, r.pair = pair, r.scale = scale;
+    r.engine = s.engine;
+    r.question = s.question;
+    r.regime = regime;
+    r.pair = pair;
+    r.scale = scale;
     r.bodies = s.bodies;
     count(r, s.judgement);
     if (s.judgement.outcome != Outcome::answered) continue;
@@ -114,10 +125,13 @@ ChartRow ChartRows::finished(const Cell& c) const {
     for (const auto& ns : c.ns) round.push_back(ns[k]);
     medians.push_back(quantile(round, 0.5));
   }
-  r.ns_min = quantile(least, 0), r.ns_median = quantile(least, 0.5), r.ns_p99 = quantile(least, 0.99);
+  r.ns_min = quantile(least, 0);
+  r.ns_median = quantile(least, 0.5);
+  r.ns_p99 = quantile(least, 0.99);
   if (const double fastest = quantile(medians, 0); fastest > 0)
     r.ns_spread = (quantile(medians, 0.5) - fastest) / fastest;
-  r.error_p50 = quantile(errors, 0.5), r.error_p99 = quantile(errors, 0.99),
+  r.error_p50 = quantile(errors, 0.5);
+  r.error_p99 = quantile(errors, 0.99);
   r.error_max = quantile(errors, 1);
   r.unsound = why_unsound(r);
   return r;
@@ -136,7 +150,7 @@ void mark_fronts(std::vector<ChartRow>& rows) {
     return a.question == b.question && a.regime == b.regime && a.pair == b.pair && a.scale == b.scale &&
            a.bodies == b.bodies;
   };
-  // Groups lie together.
+  // The rows of a group are adjacent.
   for (std::size_t first = 0, end = 0; first < rows.size(); first = end) {
     while (end < rows.size() && same(rows[first], rows[end])) ++end;
     for (std::size_t i = first; i < end; ++i) {
@@ -144,7 +158,8 @@ void mark_fronts(std::vector<ChartRow>& rows) {
       Standing place = Standing::front;
       for (std::size_t k = first; k < end; ++k)
         if (k != i && rows[k].unsound.empty()) place = std::min(place, standing(rows[k], rows[i]));
-      rows[i].front = place != Standing::behind, rows[i].tie = place == Standing::tie;
+      rows[i].front = place != Standing::behind;
+      rows[i].tie = place == Standing::tie;
     }
   }
 }

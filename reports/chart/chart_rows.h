@@ -1,4 +1,4 @@
-// From single answers to rows of the chart: counts, quantiles, soundness, the Pareto front.
+// Turns single answers into rows of the chart: counts, quantiles, soundness, the Pareto front.
 #pragma once
 
 #include <map>
@@ -18,7 +18,8 @@ struct ChartSample {
 
 class ChartRows {
  public:
-  /// Counts in the row of all, and in those of its regime, scale, pair, regime × scale and pair × regime.
+  /// Counts the sample in the overall row and in those of its regime, scale, pair, regime × scale and pair ×
+  /// regime.
   void add(const ChartSample& s);
   std::vector<ChartRow> rows() const;
 
@@ -32,12 +33,12 @@ class ChartRows {
   std::map<std::vector<std::string>, Cell> cells_;
 };
 
-/// Nearest rank; 0 of nothing. Sorts.
+/// Nearest rank; 0 if empty. Reorders `values`.
 double quantile(std::vector<double>& values, double q);
 
-/// Marks the sound rows of each group (question, regime, pair, scale, bodies) that nobody sound dominates in
-/// median time, error p99 and largest error (candidates: precision), and as ties those of them that somebody
-/// as accurate is as fast as, within noise.
+/// In each group (question, regime, pair, scale, bodies), marks as front the sound rows that no sound row
+/// dominates in median time, error p99 and largest error (candidates: precision). Of these, marks as ties the
+/// rows for which another row is as accurate and, within noise, as fast.
 void mark_fronts(std::vector<ChartRow>& rows);
 
 }  // namespace touchstone::fuzz

@@ -31,11 +31,13 @@ std::string today() {
 
 Machine this_machine() {
   Machine m;
-  m.processor = processor(), m.cores = std::thread::hardware_concurrency(), m.date = today();
+  m.processor = processor();
+  m.cores = std::thread::hardware_concurrency();
+  m.date = today();
   utsname u{};
   if (uname(&u) == 0) m.system = std::string(u.sysname) + " " + u.release + " " + u.machine;
 #ifdef __clang__
-  m.compiler = __VERSION__;  // names itself
+  m.compiler = __VERSION__;  // includes the compiler's name
 #elif defined(__GNUC__)
   m.compiler = "GCC " __VERSION__;
 #endif

@@ -1,4 +1,4 @@
-// What is measured on: times mean nothing without it.
+// Describes the machine of a measurement: times mean nothing without it.
 #pragma once
 
 #include "reports/record/chart.h"

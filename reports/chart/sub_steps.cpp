@@ -9,9 +9,10 @@ namespace touchstone::fuzz {
 namespace {
 
 constexpr std::string_view infix = "-steps@";
-// Samples of one motion that are asked in one go: enough to fill a batch, few enough that little is asked in
-// vain after the first overlap.
+// Samples of one motion per batch: enough to fill it, few enough that little work is wasted after the first
+// overlap.
 constexpr int stride = 16;
+constexpr int max_steps = 1'000'000;
 
 Case sample(const Case& c, const Query& q, double t) {
   Case s{c.id, c.family, c.scene, {{Question::overlap, q.a, q.b}}};
@@ -37,18 +38,19 @@ class SubStepped final : public Engine {
   void put_aside(const std::string& why) override { inner_->put_aside(why); }
 
  private:
-  struct Open {
+  struct Open {  // a motion without an answer so far
     std::size_t of_case, query;
-    int next = 0;  // sample
+    int next = 0;  // next sample
   };
-  void ask_on(std::vector<Open>& open, std::span<const Case> cases, std::vector<CaseObservations>& all);
+  void ask_next_samples(std::vector<Open>& open, std::span<const Case> cases,
+                        std::vector<CaseObservations>& all);
 
   std::shared_ptr<Engine> inner_;
   int steps_;
   EngineCard card_;
 };
 
-// Adds one sample's answer; true when the motion is decided.
+// Adds the answer for sample `i`; returns true when the motion is decided.
 bool take(Observation& o, const Observation& at, int i, int steps) {
   o.elapsed_ns += at.elapsed_ns;
   o.claimed_tolerance = std::max(o.claimed_tolerance, at.claimed_tolerance);
@@ -62,8 +64,8 @@ bool take(Observation& o, const Observation& at, int i, int steps) {
   return *at.overlap;
 }
 
-void SubStepped::ask_on(std::vector<Open>& open, std::span<const Case> cases,
-                        std::vector<CaseObservations>& all) {
+void SubStepped::ask_next_samples(std::vector<Open>& open, std::span<const Case> cases,
+                                  std::vector<CaseObservations>& all) {
   std::vector<Case> samples;
   for (const Open& m : open)
     for (int i = m.next; i <= std::min(m.next + stride - 1, steps_); ++i)
@@ -76,7 +78,7 @@ void SubStepped::ask_on(std::vector<Open>& open, std::span<const Case> cases,
     bool decided = false;
     const int end = std::min(m.next + stride - 1, steps_);
     for (; m.next <= end; ++m.next, ++at) {
-      if (m.next == 0) whole.received = answers[at].received;  // shapes, and bodies where they start
+      if (m.next == 0) whole.received = answers[at].received;  // the shapes, and the bodies at their start
       if (!decided) decided = take(whole.answers[m.query], answers[at].answers[0], m.next, steps_);
     }
     return decided || m.next > steps_;
@@ -94,9 +96,9 @@ std::vector<CaseObservations> SubStepped::run(std::span<const Case> cases) {
       if (cases[c].queries[q].question == Question::time_of_impact)
         open.push_back({c, q});
       else
-        all[c].answers[q].detail = "sub-steps answer time of impact only";
+        all[c].answers[q].detail = "sub-steps only answer time of impact";
   }
-  while (!open.empty()) ask_on(open, cases, all);
+  while (!open.empty()) ask_next_samples(open, cases, all);
   return all;
 }
 
@@ -112,7 +114,7 @@ std::optional<SubStepsName> sub_steps_name(const std::string& name) {
   const char *first = name.data() + at + infix.size(), *last = name.data() + name.size();
   int steps = 0;
   const auto [end, error] = std::from_chars(first, last, steps);
-  if (error != std::errc{} || end != last || steps < 1 || steps > 1'000'000) return std::nullopt;
+  if (error != std::errc{} || end != last || steps < 1 || steps > max_steps) return std::nullopt;
   return SubStepsName{name.substr(0, at), steps};
 }
 

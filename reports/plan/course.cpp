@@ -35,14 +35,14 @@ Course along_motions(const Scene& scene) {
   return c;
 }
 
-// Where a body is or goes, boxes around it and their differences are to be numbers.
-Course within_the_doubles(Course c) {
-  constexpr double most = 1e300;
+// Limits coordinates, so that boxes around moving bodies and their differences stay finite.
+Course check_coordinates(Course c) {
+  constexpr double max_coordinate = 1e300;
   for (const Course::Step& step : c.steps)
     for (const Course::Move& m : step.moves) {
       const Vec3 end = m.start.translation + m.motion.linear;
       const double largest = std::max(m.start.translation.cwiseAbs().maxCoeff(), end.cwiseAbs().maxCoeff());
-      if (!(largest <= most && m.motion.angular.allFinite()))
+      if (!(largest <= max_coordinate && m.motion.angular.allFinite()))
         throw InputError("bodies[" + std::to_string(m.body) + "]", "moves to coordinates beyond 1e300");
     }
   return c;
@@ -77,13 +77,13 @@ Course course_of(const RealScene& real, int steps) {
     step.follows = i > 0 && frames[i] == frames[i - 1] + 1 && real.is_followed(frames[i - 1]);
     c.steps.push_back(std::move(step));
   }
-  return within_the_doubles(std::move(c));
+  return check_coordinates(std::move(c));
 }
 
 Course course_of(const Scene& scene) {
   Scene s = scene;
   s.script.clear();
-  if (scene.script.empty()) return within_the_doubles(along_motions(s));
+  if (scene.script.empty()) return check_coordinates(along_motions(s));
   Course c{scene.name, s, {}};
   std::vector<char> present(scene.bodies.size(), 0);
   bool asked = false;
@@ -91,9 +91,9 @@ Course course_of(const Scene& scene) {
     const touchstone::Step& step = scene.script[i];
     const std::string place = "script[" + std::to_string(i) + "]";
     if (step.op == touchstone::Step::Op::remove)
-      throw InputError(place, "removes a body: a plan is for bodies that stay");
+      throw InputError(place, "removes a body; a plan requires that all bodies stay");
     if (step.op == touchstone::Step::Op::insert && asked)
-      throw InputError(place, "inserts a body after the first query: a plan is for bodies that stay");
+      throw InputError(place, "inserts a body after the first query; a plan requires that all bodies stay");
     if (step.op == touchstone::Step::Op::query) {
       c.steps.push_back(step_of(s));
       c.steps.back().follows = asked;
@@ -108,7 +108,7 @@ Course course_of(const Scene& scene) {
   if (absent != present.end())
     throw InputError("script", "never inserts body " + std::to_string(absent - present.begin()));
   if (!asked) throw InputError("script", "has no query");
-  return within_the_doubles(std::move(c));
+  return check_coordinates(std::move(c));
 }
 
 }  // namespace touchstone::fuzz

@@ -1,4 +1,4 @@
-// What happens in a scene, step by step, as a simulation or a robot's planner would tell it to a world.
+// The course of a scene, step by step, as a simulation or a robot's planner would report it to a world.
 #pragma once
 
 #include <string>
@@ -15,8 +15,8 @@ struct Course {
     Motion motion;  // over the step; a body rests when it is zero
   };
   struct Step {
-    std::vector<Move> moves;  // of every body that is not static
-    bool follows = false;     // begins where the one before has ended, so that what was kept of it is of use
+    std::vector<Move> moves;  // one for every body that is not static
+    bool follows = false;     // starts where the previous step ended, so state kept from it is useful
   };
   std::string name;
   Scene scene;  // at the first step; its script is empty
@@ -27,11 +27,11 @@ struct Course {
 /// An index of bodies, shapes or steps.
 inline std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
-/// Windows of 8 steps that follow each other, spread evenly over the recording, `steps` in all.
+/// Windows of 8 consecutive steps, spread evenly over the recording, `steps` in total.
 Course course_of(const RealScene& scene, int steps = 24);
 
-/// The scene's script, a step a query; without one 8 steps in which every body goes on as its motion says, or
-/// rests. Throws InputError when the script removes a body, or inserts one after its first query.
+/// The scene's script, one step per query; without a script, 8 steps in which every body continues its motion
+/// or rests. Throws InputError when the script removes a body, or inserts one after its first query.
 Course course_of(const Scene& scene);
 
 }  // namespace touchstone::fuzz

@@ -14,16 +14,19 @@ std::string pair_name(std::size_t a, std::size_t b) {
       .append(type_name(static_cast<ShapeKind>(b)));
 }
 
-// The simpler shapes as a scene: body k is shape k, placed in the body that it stands for.
+// The simpler shapes as a scene: body k has shape k and its pose in the body that it replaces.
 Json simpler_to_json(const Fidelity& f) {
   Scene s;
   Json of = Json::array(), errors = Json::array();
   for (std::size_t i = 0; i < f.simpler.size(); ++i) {
     if (!f.simpler[i]) continue;
     Body b;
-    b.shape = static_cast<int>(s.shapes.size()), b.pose = f.simpler[i]->in_body;
-    s.shapes.push_back(f.simpler[i]->shape), s.bodies.push_back(b);
-    of.push_back(i), errors.push_back(f.simpler[i]->error);
+    b.shape = static_cast<int>(s.shapes.size());
+    b.pose = f.simpler[i]->in_body;
+    s.shapes.push_back(f.simpler[i]->shape);
+    s.bodies.push_back(b);
+    of.push_back(i);
+    errors.push_back(f.simpler[i]->error);
   }
   if (s.shapes.empty()) return nullptr;
   return {{"of_shape", std::move(of)}, {"error", std::move(errors)}, {"scene", touchstone::to_json(s)}};
@@ -38,8 +41,8 @@ void read_simpler(const JsonReader& j, Fidelity& f) {
   if (of.size() != s.bodies.size() || errors.size() != of.size())
     j.fail("of_shape, error and scene.bodies differ in length");
   for (std::size_t k = 0; k < of.size(); ++k) {
-    constexpr std::size_t most = 1U << 18;
-    if (of[k] >= most || !(errors[k] >= 0)) j.fail("a shape or an error out of range");
+    constexpr std::size_t max_shapes = 1U << 18;
+    if (of[k] >= max_shapes || !(errors[k] >= 0)) j.fail("a shape or an error is out of range");
     if (f.simpler.size() <= of[k]) f.simpler.resize(of[k] + 1);
     f.simpler[of[k]] = SimplerShape{s.shape_of(static_cast<int>(k)), s.bodies[k].pose, errors[k]};
   }
@@ -51,7 +54,7 @@ Arithmetic arithmetic_of(const JsonReader& j) {
   const std::string name = j.string();
   for (std::size_t i = 0; i < std::size(arithmetic_names); ++i)
     if (arithmetic_names[i] == name) return static_cast<Arithmetic>(i);
-  j.fail("is none of double, double alone, float");
+  j.fail("is not one of: double, double alone, float");
 }
 
 PairMethod method_of(const JsonReader& j) {
@@ -102,7 +105,7 @@ Fidelity fidelity_from_json(const Json& json, const std::string& place) {
         f.method[a][b] = method_of(methods[pair]);
         ++read;
       }
-  if (read != methods.json().size()) methods.fail("names a pair of shapes that there is not");
+  if (read != methods.json().size()) methods.fail("names a pair of shapes that does not exist");
   if (!j["simpler"].json().is_null()) read_simpler(j["simpler"], f);
   return f;
 }

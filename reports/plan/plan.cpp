@@ -35,22 +35,25 @@ std::vector<PlanShape> shape_rows(const Course& c, const Fidelity& f) {
   for (std::size_t i = 0; i < f.simpler.size(); ++i) {
     if (!f.simpler[i]) continue;
     PlanShape r;
-    r.shape = static_cast<int>(i), r.error = f.simpler[i]->error;
-    r.was = type_name(c.scene.shapes[i]), r.becomes = type_name(f.simpler[i]->shape);
-    r.vertices = vertices_of(c.scene.shapes[i]), r.left = vertices_of(f.simpler[i]->shape);
+    r.shape = static_cast<int>(i);
+    r.error = f.simpler[i]->error;
+    r.was = type_name(c.scene.shapes[i]);
+    r.becomes = type_name(f.simpler[i]->shape);
+    r.vertices = vertices_of(c.scene.shapes[i]);
+    r.left = vertices_of(f.simpler[i]->shape);
     for (const Body& b : c.scene.bodies) r.bodies += b.shape == r.shape;
     rows.push_back(r);
   }
   return rows;
 }
 
-// The ways that a user would fix without a plan.
+// The fixed choices that a user could make without a plan.
 std::vector<Way> fixed_ways(const Course& c, const std::vector<PlanPhase>& phases) {
-  // The slowest are known to be slow from their measurement alone.
-  constexpr double hopeless = 8;
+  // Broad phases slower than this, relative to the fastest, are left out.
+  constexpr double too_slow = 8;
   std::vector<Way> ways;
   for (const PlanPhase& p : phases) {
-    if (p.ns_step > hopeless * phases.front().ns_step && p.name != "automatic") continue;
+    if (p.ns_step > too_slow * phases.front().ns_step && p.name != "automatic") continue;
     Way w{p.name + ", double", {}, false, {}};
     w.fidelity.broad_phase = p.name;
     ways.push_back(w);
@@ -62,16 +65,25 @@ std::vector<Way> fixed_ways(const Course& c, const std::vector<PlanPhase>& phase
   if (!c.moves()) return ways;
   Way all{"automatic, double, all swept", {}, false, {}},
       none{"automatic, double, none swept", {}, false, {}};
-  all.fidelity.sweep.which = SweepOptions::Which::all, none.fidelity.sweep.which = SweepOptions::Which::none;
-  ways.push_back(all), ways.push_back(none);
+  all.fidelity.sweep.which = SweepOptions::Which::all;
+  none.fidelity.sweep.which = SweepOptions::Which::none;
+  ways.push_back(all);
+  ways.push_back(none);
   return ways;
 }
 
 std::vector<PlanPair> with_double(std::vector<PlanPair> pairs) {
-  for (PlanPair& p : pairs)
-    p.balls_first = false, p.arithmetic = "double", p.ns = p.ns_double, p.balls_share = p.cheap_share = 0;
+  for (PlanPair& p : pairs) {
+    p.balls_first = false;
+    p.arithmetic = "double";
+    p.ns = p.ns_double;
+    p.balls_share = p.cheap_share = 0;
+  }
   return pairs;
 }
+
+// The least error, relative to the largest coordinate, that double arithmetic can prove (plan.h).
+constexpr double least_relative_error = 0x1p-44;
 
 struct Scenery {
   const Course& course;
@@ -80,8 +92,8 @@ struct Scenery {
   std::vector<PlanPhase> phases;
 };
 
-// Plans with the shapes of `base`: with and without remembered searches, and with double alone. What was
-// quickest pair by pair, or on boxes alone, need not be so in a whole step.
+// Adds plans with the shapes of `base`: with and without remembered searches, and with double alone. The
+// fastest choice pair by pair, or for boxes alone, need not be the fastest in a whole step.
 void add_plans(const Scenery& s, const PlanOptions& o, const Fidelity& base, std::vector<Way>& ways) {
   Fidelity f = base;
   const auto measured = choose_methods(s.course, s.poses, s.candidates, o.seed, o.rounds, f);
@@ -89,7 +101,8 @@ void add_plans(const Scenery& s, const PlanOptions& o, const Fidelity& base, std
   if (broad_phases.front() != "automatic") broad_phases.emplace_back("automatic");
   for (const std::string& phase : broad_phases) {
     for (const bool remember : {false, true}) {
-      f.broad_phase = phase, f.remember = remember;
+      f.broad_phase = phase;
+      f.remember = remember;
       ways.push_back({"plan", f, true, measured});
     }
     Fidelity all_double = base;
@@ -101,7 +114,7 @@ void add_plans(const Scenery& s, const PlanOptions& o, const Fidelity& base, std
 std::vector<Way> planned_ways(const Scenery& s, const PlanOptions& o, double error) {
   Fidelity f;
   f.error = error;
-  f.loose_boxes = true;  // as certain, and cheaper
+  f.loose_boxes = true;  // equally safe, and cheaper
   f.solid_meshes = o.solid_meshes;
   std::vector<Way> ways;
   if (!f.solid_meshes) add_plans(s, o, f, ways);
@@ -114,20 +127,21 @@ std::vector<Way> planned_ways(const Scenery& s, const PlanOptions& o, double err
 
 double least(const std::vector<double>& v) { return *std::min_element(v.begin(), v.end()); }
 
-// Rounds in which every way runs the course once, or after the first those that may still be the quickest:
-// `rounds`, or more while they are short. ns of each way and round.
+// Runs rounds in which every way runs the course once; after the first round, only ways that may still be the
+// fastest. Runs `rounds` of them, or more while they are short. Returns the ns of each way and round.
 std::vector<std::vector<double>> run_ways(const Course& c, const std::vector<Way>& ways, int rounds,
                                           const PlanProgress& progress) {
+  // A way is dropped when it is slower than the best by `after_one` (first round) or `after_more`.
   constexpr double after_one = 1.6, after_more = 1.25, enough_ns = 1e9;
-  constexpr int most = 64;
+  constexpr int max_rounds = 64;
   std::vector<std::vector<double>> times(ways.size());
   double best = std::numeric_limits<double>::infinity(), spent = 0;
-  for (int round = 0; round < rounds || (rounds > 1 && round < most && spent < enough_ns); ++round)
+  for (int round = 0; round < rounds || (rounds > 1 && round < max_rounds && spent < enough_ns); ++round)
     for (std::size_t w = 0; w < ways.size(); ++w) {
       if (round > 0 && least(times[w]) > (round == 1 ? after_one : after_more) * best) continue;
       if (progress) progress(fmt::format("round {}: {}", round + 1, ways[w].name));
       times[w].push_back(run_course(c, ways[w].fidelity));
-      // Who leaves passes unseen is no measure for the others.
+      // A way that misses passes must not set the standard for the others.
       if (ways[w].fidelity.sweep.which != SweepOptions::Which::none) best = std::min(best, times[w].back());
       spent += times[w].back() * static_cast<double>(c.steps.size());
     }
@@ -149,9 +163,11 @@ void note_swept(const Course& c, const StepReport& r, std::vector<PlanSwept>& sw
     const bool farther = is_new || s.pass_bound * p.inner > p.pass_bound * s.inner;
     ++p.steps;
     if (!farther) continue;
-    p.body = s.body, p.name = c.scene.bodies[at(s.body)].name;
+    p.body = s.body;
+    p.name = c.scene.bodies[at(s.body)].name;
     p.reason = s.reason == SweepReason::turning ? "turning" : "travel";
-    p.pass_bound = s.pass_bound, p.inner = s.inner;
+    p.pass_bound = s.pass_bound;
+    p.inner = s.inner;
   }
 }
 
@@ -162,22 +178,25 @@ void mark_front(std::vector<PlanRow>& rows) {
               });
 }
 
-// Runs ways under the referee's eyes; the plan first, which says who must be swept.
+// Runs ways and judges their answers. The plan comes first: it determines which bodies must be swept.
 struct Judging {
   const Course& course;
   const PlanSample& sample;
   Plan& plan;
-  std::vector<std::uint64_t> needed;  // bodies swept by the plan, of each step
+  std::vector<std::uint64_t> needed;  // number of bodies swept by the plan, by step
 
   void judge(const Way& way, const std::vector<double>& times, bool is_plan) {
     PlanRow row;
-    row.name = way.name, row.is_plan = is_plan;
-    row.ns_min = least(times), row.ns_median = median(times);
+    row.name = way.name;
+    row.is_plan = is_plan;
+    row.ns_min = least(times);
+    row.ns_median = median(times);
     run_course(course, way.fidelity, [&](int step, const StepReport& r) {
       sample.judge(step, r, plan.error, row);
       row.unanswered += r.outcome != Outcome::answered;
       if (is_plan) {
-        needed[at(step)] = r.swept.size(), plan.unsupported += static_cast<std::uint64_t>(r.unsupported);
+        needed[at(step)] = r.swept.size();
+        plan.unsupported += static_cast<std::uint64_t>(r.unsupported);
         note_swept(course, r, plan.swept);
       } else if (r.swept.size() < needed[at(step)]) {
         row.unswept += needed[at(step)] - r.swept.size();
@@ -200,12 +219,12 @@ void require_fits(const Course& c, const Fidelity& f) {
   if (f.simpler.size() > c.scene.shapes.size())
     throw InputError("run.simpler", fmt::format("names shape {}; the scene has {}", f.simpler.size() - 1,
                                                 c.scene.shapes.size()));
-  // What the plan says of a shape is found again, or it is of another scene.
+  // Each simpler shape must be what this scene's shape yields; otherwise the plan belongs to another scene.
   for (std::size_t i = 0; i < f.simpler.size(); ++i) {
     if (!f.simpler[i]) continue;
     const auto again = simpler_shape(c.scene.shapes[i], Fidelity::shape_share * f.error, f.solid_meshes);
     if (again != f.simpler[i])
-      throw InputError("run.simpler", fmt::format("shape {} is another one in this scene", i));
+      throw InputError("run.simpler", fmt::format("shape {} is different in this scene", i));
   }
 }
 
@@ -221,16 +240,16 @@ double least_error(const Course& c) {
   for (const Course::Step& s : c.steps)
     for (const Course::Move& m : s.moves)
       size = std::max(size, m.start.translation.lpNorm<Eigen::Infinity>() + m.motion.linear.norm());
-  return 0x1p-44 * size;
+  return least_relative_error * size;
 }
 
 double default_error(const Course& c) {
-  constexpr double of_a_body = 1e-6;
+  constexpr double share_of_smallest = 1e-6;
   double smallest = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < c.scene.bodies.size(); ++i)
     if (const double e = extent(c.scene.shape_of(static_cast<int>(i))); e > 0)
       smallest = std::min(smallest, e);
-  return std::max(least_error(c), std::isfinite(smallest) ? of_a_body * smallest : 0);
+  return std::max(least_error(c), std::isfinite(smallest) ? share_of_smallest * smallest : 0);
 }
 
 Plan make_plan(const Course& c, const PlanOptions& o, const PlanProgress& progress) {
@@ -238,16 +257,19 @@ Plan make_plan(const Course& c, const PlanOptions& o, const PlanProgress& progre
     if (progress) progress(what);
   };
   Plan p;
-  p.machine = this_machine(), p.scene = c.name, p.seed = o.seed;
-  p.bodies = c.scene.bodies.size(), p.steps = c.steps.size();
+  p.machine = this_machine();
+  p.scene = c.name;
+  p.seed = o.seed;
+  p.bodies = c.scene.bodies.size();
+  p.steps = c.steps.size();
   p.least_error = least_error(c);
   p.error = o.given ? o.given->error : o.error > 0 ? o.error : default_error(c);
   if (!(p.error >= p.least_error))
-    throw InputError("error", fmt::format("{:g} is less than double proves on this scene: {:.2g}", p.error,
+    throw InputError("error", fmt::format("{:g} is less than double can prove on this scene: {:.2g}", p.error,
                                           p.least_error));
   if (o.given) require_fits(c, *o.given);
 
-  // What the referee judges: solids where the caller says so.
+  // The scene for the referee; convex meshes become solids if requested.
   Course solid = c;
   if (o.given ? o.given->solid_meshes : o.solid_meshes) make_solid(solid.scene);
   for (const Shape& s : c.scene.shapes)
@@ -274,14 +296,18 @@ Plan make_plan(const Course& c, const PlanOptions& o, const PlanProgress& progre
 
   say("the referee");
   const PlanSample sample(solid, poses, scenery.candidates, o.seed, o.judged);
-  p.judged = sample.judged(), p.undecided = sample.undecided();
+  p.judged = sample.judged();
+  p.undecided = sample.undecided();
   Judging judging{c, sample, p, std::vector<std::uint64_t>(c.steps.size(), 0)};
   judging.judge(ways[best], times[best], true);
   for (std::size_t w = planned; w < ways.size(); ++w) judging.judge(ways[w], times[w], false);
   sort_rows(p);
   const Fidelity& chosen = ways[best].fidelity;
-  p.pairs = ways[best].pairs, p.shapes = shape_rows(c, chosen);
-  p.broad_phase = chosen.broad_phase, p.solid_meshes = chosen.solid_meshes, p.remember = chosen.remember,
+  p.pairs = ways[best].pairs;
+  p.shapes = shape_rows(c, chosen);
+  p.broad_phase = chosen.broad_phase;
+  p.solid_meshes = chosen.solid_meshes;
+  p.remember = chosen.remember;
   p.sweep_share = chosen.sweep.share;
   p.run = to_json(chosen);
   return p;

@@ -1,5 +1,5 @@
-// The least model that a scene needs (core/world/fidelity.h), chosen by measuring on the scene's own course
-// and shown right by the referee on a sample of its pairs.
+// Finds the cheapest model that suffices for a scene (core/world/fidelity.h): chosen by measuring on the
+// scene's own course, and validated by the referee on a sample of its pairs.
 #pragma once
 
 #include <functional>
@@ -16,19 +16,19 @@ using PlanProgress = std::function<void(const std::string&)>;
 struct PlanOptions {
   double error = 0;  // in the scene's unit; 0: default_error
   std::uint64_t seed = 1;
-  int rounds = 5;             // measurements of each way, interleaved; the least counts
+  int rounds = 5;             // interleaved measurements of each way; the minimum counts
   int judged = 48;            // pairs that the referee judges
-  bool solid_meshes = false;  // a mesh that is closed and convex stands for a solid
-  /// A plan that is measured and judged as it is, instead of choosing one.
+  bool solid_meshes = false;  // treat closed, convex meshes as solids
+  /// If set, this plan is measured and judged instead of choosing one.
   std::optional<Fidelity> given;
 };
 
-/// The least error that double proves on this scene: 2^-44 of its largest coordinate.
+/// The least error that double can prove on this scene: 2^-44 of its largest coordinate.
 double least_error(const Course& course);
-/// A millionth of the smallest body, or the least error where that is more.
+/// A millionth of the smallest body, but not less than the least error.
 double default_error(const Course& course);
 
-/// Throws InputError when the error is below the least, or a given plan is not of this scene.
+/// Throws InputError when the error is below the least, or a given plan does not fit this scene.
 Plan make_plan(const Course& course, const PlanOptions& options, const PlanProgress& progress = {});
 
 }  // namespace touchstone::fuzz

@@ -9,7 +9,10 @@ namespace {
 
 using Kinds = std::pair<ShapeKind, ShapeKind>;
 
-// Candidates in an order in which kinds of shapes take turns, at random within each.
+constexpr int candidates_per_pair = 8;  // candidates examined per sampled pair
+
+// Orders candidates so that kinds of shapes take turns, at random within each kind. Stops once there are
+// `most`.
 std::vector<Occurrence> in_turns(const Course& c, const std::vector<std::vector<BodyPair>>& candidates,
                                  Rng& rng, std::size_t most) {
   std::map<Kinds, std::vector<Occurrence>> by_kind;
@@ -41,8 +44,8 @@ PlanSample::PlanSample(const Course& course, const EndPoses& poses,
                        const std::vector<std::vector<BodyPair>>& candidates, std::uint64_t seed, int pairs)
     : course_(course), poses_(poses) {
   Rng rng(seed);
-  const auto order = in_turns(course, candidates, rng, at(8 * pairs));
-  // The core's own look at them only picks; what is apart fills the other half.
+  const auto order = in_turns(course, candidates, rng, at(candidates_per_pair * pairs));
+  // The core's answer only selects the pairs: half overlap if there are enough, the rest are apart.
   const Fidelity plain;
   const auto shapes = seen_shapes(course.scene, plain);
   std::vector<Occurrence> picked, apart;
@@ -71,7 +74,7 @@ void PlanSample::judge(int step, const StepReport& report, double error, PlanRow
   for (const Judged& j : of_this->second) {
     const auto contact = std::find_if(report.contacts.begin(), report.contacts.end(),
                                       [&](const PairContact& c) { return BodyPair(c.a, c.b) == j.pair; });
-    // Certain errors only: by the side of each bracket that speaks for the answer.
+    // Only certain errors count: measured from the side of each bracket that favours the answer.
     double off = 0;
     if (contact == report.contacts.end()) {
       off = j.has_depth ? std::max(0.0, -j.truth.gap.hi) : 0;

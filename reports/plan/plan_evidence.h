@@ -1,4 +1,4 @@
-// How far the answers of a way to run a course are from the truth, on a sample of its pairs.
+// Measures the errors of a way to run a course, on a sample of its pairs.
 #pragma once
 
 #include <map>
@@ -9,14 +9,14 @@
 
 namespace touchstone::fuzz {
 
-/// Pairs of a course with what the referee says of them, the same for every way to run it. Half of the pairs
-/// are in contact by the referee where there are so many, and kinds of shapes take turns.
+/// A sample of the course's pairs with the referee's verdicts, the same for every way to run it. Up to half
+/// of the pairs are in contact, and kinds of shapes take turns.
 class PlanSample {
  public:
   PlanSample(const Course& course, const EndPoses& poses,
              const std::vector<std::vector<BodyPair>>& candidates, std::uint64_t seed, int pairs);
 
-  /// Adds to the row what the referee finds of this step's report.
+  /// Adds the errors in this step's report to the row.
   void judge(int step, const StepReport& report, double error, PlanRow& row) const;
 
   std::uint64_t judged() const { return judged_; }
@@ -26,7 +26,7 @@ class PlanSample {
   struct Judged {
     BodyPair pair;
     referee::PairTruth truth;
-    bool has_depth = true;  // of a mesh that overlaps there is none
+    bool has_depth = true;  // false for a mesh, whose depth is undefined
   };
   Placed placed(int step, int body) const;
 

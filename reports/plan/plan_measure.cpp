@@ -13,10 +13,10 @@
 namespace touchstone::fuzz {
 namespace {
 
-// CPU time of this thread, which is all that works here: others on the machine count less.
+// CPU time of this thread, which does all the work, so other processes disturb the result less.
 double ns_since(std::int64_t start) { return static_cast<double>(thread_cpu_ns() - start); }
 
-// Boxes of one step, and which of them are news to a broad phase.
+// The boxes of the moving bodies in every step, as updates for a broad phase.
 std::vector<std::vector<broad::BoxUpdate>> box_updates(const Course& c, const EndPoses& poses) {
   std::vector<std::vector<broad::BoxUpdate>> all;
   for (std::size_t s = 0; s < c.steps.size(); ++s) {
@@ -42,7 +42,10 @@ double time_phase(const Course& c, const std::vector<std::vector<broad::BoxUpdat
     const auto start = thread_cpu_ns();
     phase->update(updates[s]);
     phase->pairs(pairs);
-    if (c.steps[s].follows || updates.size() == 1) total += ns_since(start), ++counted;
+    if (c.steps[s].follows || updates.size() == 1) {
+      total += ns_since(start);
+      ++counted;
+    }
   }
   return counted ? total / counted : 0;
 }
@@ -52,28 +55,28 @@ struct Sample {
   std::vector<Occurrence> pairs;
 };
 
-using Kinds = std::pair<ShapeKind, ShapeKind>;  // lesser first
+using Kinds = std::pair<ShapeKind, ShapeKind>;  // smaller kind first
 
-// By reservoir: every candidate has the same chance.
+// Reservoir sampling: every candidate is equally likely.
 std::map<Kinds, Sample> sample_pairs(const Course& c, const std::vector<SeenShape>& shapes,
                                      const std::vector<std::vector<BodyPair>>& candidates, Rng& rng) {
-  constexpr std::size_t most = 192;
+  constexpr std::size_t sample_size = 192;
   std::map<Kinds, Sample> samples;
   const auto kind = [&](int i) { return kind_of(*shapes[at(c.scene.bodies[at(i)].shape)].shape); };
   for (std::size_t s = 0; s < candidates.size(); ++s)
     for (const auto& [a, b] : candidates[s]) {
       Sample& of = samples[std::minmax(kind(a), kind(b))];
       const Occurrence o{static_cast<int>(s), a, b};
-      if (of.pairs.size() < most)
+      if (of.pairs.size() < sample_size)
         of.pairs.push_back(o);
-      else if (const auto place = rng.below(of.candidates + 1); place < most)
+      else if (const auto place = rng.below(of.candidates + 1); place < sample_size)
         of.pairs[place] = o;
       ++of.candidates;
     }
   return samples;
 }
 
-// A sample's bodies where they are, for one set of shapes.
+// The bodies of a sample at their poses, for one set of shapes.
 class Bench {
  public:
   Bench(const Course& c, const EndPoses& poses, const std::vector<SeenShape>& shapes, const Sample& sample) {
@@ -84,7 +87,7 @@ class Bench {
     }
   }
 
-  // ns a pair. The answers are used, so that nobody leaves them out.
+  // Returns ns per pair. Uses the answers, so that the compiler cannot remove the calls.
   double time(const Fidelity& f) {
     const auto start = thread_cpu_ns();
     for (const Pair& p : pairs_) contacts_ += contact_seen(f, *p.a, p.at_a, *p.b, p.at_b).overlap;
@@ -97,7 +100,8 @@ class Bench {
       DecidedBy by{};
       double bound = 0;
       const ContactAnswer c = contact_seen(f, *p.a, p.at_a, *p.b, p.at_b, nullptr, &by, &bound);
-      balls += by == DecidedBy::balls, cheap += by == DecidedBy::cheap;
+      balls += by == DecidedBy::balls;
+      cheap += by == DecidedBy::cheap;
       if (c.outcome == Outcome::answered) r.certified_error = std::max(r.certified_error, bound);
     }
     const auto n = static_cast<double>(pairs_.size()), rest = n - static_cast<double>(balls);
@@ -118,7 +122,7 @@ PlanPair choose_method(const Kinds& kinds, const Sample& sample, Bench bench, in
   constexpr PairMethod methods[] = {{false, Arithmetic::float64},       {true, Arithmetic::float64},
                                     {false, Arithmetic::float64_alone}, {true, Arithmetic::float64_alone},
                                     {false, Arithmetic::float32},       {true, Arithmetic::float32}};
-  // What is more than double alone must pay: beyond what a measurement wavers by.
+  // Any other method must beat plain double by more than the noise of a measurement.
   constexpr double worth_it = 0.95;
   double least[std::size(methods)];
   std::fill(std::begin(least), std::end(least), std::numeric_limits<double>::infinity());
@@ -134,9 +138,12 @@ PlanPair choose_method(const Kinds& kinds, const Sample& sample, Bench bench, in
   method = methods[best];
   PlanPair r;
   r.pair = std::string(type_name(kinds.first)).append(1, '-').append(type_name(kinds.second));
-  r.balls_first = method.balls_first, r.arithmetic = to_string(method.arithmetic);
-  r.candidates = sample.candidates, r.sampled = sample.pairs.size();
-  r.ns_double = least[0], r.ns = least[best];
+  r.balls_first = method.balls_first;
+  r.arithmetic = to_string(method.arithmetic);
+  r.candidates = sample.candidates;
+  r.sampled = sample.pairs.size();
+  r.ns_double = least[0];
+  r.ns = least[best];
   bench.count(f, r);
   return r;
 }
@@ -172,8 +179,8 @@ std::vector<std::vector<BodyPair>> course_candidates(const Course& c, const EndP
 }
 
 std::vector<PlanPhase> measure_phases(const Course& c, const EndPoses& poses, int rounds) {
-  // One that is this much behind after a round is not asked again.
-  constexpr double hopeless = 8;
+  // A broad phase slower than the fastest by this factor is not measured again.
+  constexpr double too_slow = 8;
   const auto updates = box_updates(c, poses);
   std::vector<PlanPhase> phases;
   for (const auto& row : broad::catalog)
@@ -183,7 +190,7 @@ std::vector<PlanPhase> measure_phases(const Course& c, const EndPoses& poses, in
                           return x.ns_step < y.ns_step;
                         })->ns_step;
     for (PlanPhase& p : phases)
-      if (p.ns_step < hopeless * best) p.ns_step = std::min(p.ns_step, time_phase(c, updates, p.name));
+      if (p.ns_step < too_slow * best) p.ns_step = std::min(p.ns_step, time_phase(c, updates, p.name));
   }
   std::stable_sort(phases.begin(), phases.end(),
                    [](const auto& x, const auto& y) { return x.ns_step < y.ns_step; });
@@ -215,7 +222,10 @@ double run_course(const Course& c, const Fidelity& f,
     const auto start = thread_cpu_ns();
     for (const Course::Move& m : c.steps[s].moves) world.set(m.body, m.start, m.motion);
     const StepReport r = world.step();
-    if (c.steps[s].follows || !any_follows) total += ns_since(start), ++counted;
+    if (c.steps[s].follows || !any_follows) {
+      total += ns_since(start);
+      ++counted;
+    }
     if (each) each(static_cast<int>(s), r);
   }
   return total / counted;

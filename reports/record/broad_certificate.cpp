@@ -18,7 +18,7 @@ namespace touchstone::fuzz {
 namespace {
 
 using Json = nlohmann::ordered_json;
-constexpr int format_version = 2;  // 2: lists of faults, kinds, questions not answered in time
+constexpr int format_version = 2;  // 2: lists of faults, kinds, and questions not answered in time
 
 std::string hex(std::uint64_t v) { return fmt::format("{:016x}", v); }
 std::uint64_t from_hex(const std::string& s) {
@@ -32,10 +32,12 @@ std::uint64_t from_hex(const std::string& s) {
 template <class Names>
 std::size_t index_in(const Names& names, const std::string& s, const JsonReader& at) {
   const auto it = std::find(names.begin(), names.end(), s);
-  if (it == names.end()) at.fail("is none of those there are: " + s);
+  if (it == names.end()) at.fail("is not a known value: " + s);
   return static_cast<std::size_t>(it - names.begin());
 }
-BroadLevel level_of(const JsonReader& j) { return static_cast<BroadLevel>(index_in(level_names, j.string(), j)); }
+BroadLevel level_of(const JsonReader& j) {
+  return static_cast<BroadLevel>(index_in(level_names, j.string(), j));
+}
 
 Json to_json(const EvidenceCount& e) {
   Json j = {{"name", e.name},
@@ -156,7 +158,7 @@ Refutation refutation_from_json(const JsonReader& j) {
   return r;
 }
 
-// All but the digest itself.
+// Everything except the digest itself.
 Json body_of(const BroadCertificate& c) {
   Json j = {{"touchstone_broad_certificate", format_version},
             {"subject", c.subject},
@@ -193,17 +195,17 @@ bool answered_something(const BroadCertificate& c, BroadLevel level) {
 void note_counts(const BroadCertificate& c, std::vector<std::string>& out) {
   std::uint64_t undecided = 0, refused = 0;
   for (const EvidenceCount& e : c.evidence) {
-    undecided += e.undecided, refused += e.refused;
+    undecided += e.undecided;
+    refused += e.refused;
     if (e.cases < e.planned)
-      out.push_back(
-          fmt::format("{}: {} of {} cases were asked, then it was stopped.", e.name, e.cases, e.planned));
+      out.push_back(fmt::format("{}: stopped after {} of {} cases.", e.name, e.cases, e.planned));
     if (e.population > e.planned)
-      out.push_back(fmt::format("{}: {} of {} were tried, a sample.", e.name, e.planned, e.population));
+      out.push_back(fmt::format("{}: a sample of {} of {} cases.", e.name, e.planned, e.population));
   }
   if (refused > 0)
     out.push_back(
-        fmt::format("{} cases were refused by the subject; they say nothing of it but that.", refused));
-  if (undecided > 0) out.push_back(fmt::format("{} pairs were left open by the referee.", undecided));
+        fmt::format("{} cases were refused by the subject and prove nothing else about it.", refused));
+  if (undecided > 0) out.push_back(fmt::format("{} pairs could not be decided by the referee.", undecided));
 }
 
 }  // namespace
@@ -249,16 +251,16 @@ int exit_code(const BroadCertificate& c) {
 
 std::vector<std::string> not_proved(const BroadCertificate& c) {
   std::vector<std::string> out{
-      "That no pair is lost in scenes larger, in scripts longer or of numbers other than those tried.",
-      "That the subject is fast, or right when several threads call it at once.",
-      "That another build, compiler or machine behaves as this one."};
+      "That no pair is lost in larger scenes, in longer scripts or with numbers other than those tried.",
+      "That the subject is fast, or correct when several threads call it at once.",
+      "That another build, compiler or machine behaves like this one."};
   for (const BroadLevel l : {BroadLevel::boxes, BroadLevel::bodies})
     if (verdict(c, l) == LevelVerdict::not_asked)
-      out.push_back(fmt::format("Anything at the level of {}: it was not asked.", to_string(l)));
+      out.push_back(fmt::format("Anything at the level of {}: it was not tested.", to_string(l)));
   if (!c.sweeps)
-    out.push_back("Candidates of bodies that move within a step: the subject is not said to sweep.");
+    out.push_back("Candidates of bodies that move within a step: the subject does not claim to sweep.");
   if (c.first_fault && !c.refutations.empty())
-    out.push_back("That there is no other fault: by request a level ended with its first.");
+    out.push_back("That there is no other fault: as requested, a level ended at its first.");
   for (const std::string& w : c.without) out.push_back(fmt::format("{}: left out by request.", w));
   note_counts(c, out);
   return out;
@@ -275,12 +277,14 @@ Json to_json(const BroadCertificate& c) {
 BroadCertificate broad_certificate_from_json(const Json& json, bool& digest_holds) {
   const JsonReader j(json, "");
   if (!j.has("touchstone_broad_certificate"))
-    throw InputError("touchstone_broad_certificate", "is missing: this is no certificate of a broad phase");
-  if (j["touchstone_broad_certificate"].json() == 1)
     throw InputError("touchstone_broad_certificate",
-                     "is version 1, of an earlier touchstone, which listed one fault a level; certify again");
+                     "is missing: this is not a certificate of a broad phase");
+  if (j["touchstone_broad_certificate"].json() == 1)
+    throw InputError(
+        "touchstone_broad_certificate",
+        "is version 1, of an earlier touchstone, which listed one fault per level; certify again");
   if (j["touchstone_broad_certificate"].json() != format_version)
-    throw InputError("touchstone_broad_certificate", "is a version that this program does not know");
+    throw InputError("touchstone_broad_certificate", "is of a version that this program does not support");
   BroadCertificate c;
   c.subject = j["subject"].string();
   c.card = card_from_json(j["card"].json().dump());

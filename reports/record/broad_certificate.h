@@ -1,5 +1,5 @@
-// What `touchstone certify` found out about a broad phase, as a plain value with a JSON form: enough to make
-// all of it again (truth.md §6). Times are kept beside and are part of no comparison.
+// The result of `touchstone certify` for a broad phase, as a plain value with a JSON form that suffices to
+// reproduce it (truth.md §6). Times are stored separately and never compared.
 #pragma once
 
 #include <array>
@@ -21,23 +21,23 @@ struct EvidenceCount {
   EvidenceKind kind = EvidenceKind::random;
   BroadLevel level = BroadLevel::boxes;
   std::uint64_t planned = 0;     // cases
-  std::uint64_t population = 0;  // exhaustive: how many there are; planned < population is a sample
-  std::uint64_t cases = 0;       // done; fewer than planned where crashes or a time-out ended it
+  std::uint64_t population = 0;  // exhaustive: number of all cases; planned < population is a sample
+  std::uint64_t cases = 0;       // run; fewer than planned if crashes or a time-out ended the evidence
   std::uint64_t answered = 0, refused = 0;  // cases; refused: unsupported or invalid input, with a reason
   std::uint64_t steps = 0, queries = 0;
   std::uint64_t pairs_true = 0, pairs_reported = 0;  // the price is reported / true - 1
-  std::uint64_t undecided = 0;                       // pairs that the referee left open
-  std::uint64_t digest = 0;                          // of cases and answers
-  std::string refusal;                               // the first reason for one
+  std::uint64_t undecided = 0;                       // pairs that the referee could not decide
+  std::uint64_t digest = 0;                          // over cases and answers
+  std::string refusal;                               // the first reason for a refusal
   double seconds = 0;                                // not compared
 };
 
-/// What a fault is about; the most defensible first.
+/// What a fault is about; the most certain to be a defect first.
 enum class FaultKind : std::uint8_t {
   solid,      // a lost pair: both have volume, and they overlap by more than 1 % of their size
   touching,   // a lost pair that touches, overlaps by less, or has no volume
-  moving,     // a lost pair that meets within the step only
-  numbers,    // no lost pair: the scene has finite bodies alone
+  moving,     // a lost pair that meets only within the step
+  numbers,    // another fault than a lost pair, in a scene of finite bodies only
   unbounded,  // shown only with an infinite box in the scene
   invalid     // shown only with a NaN, infinite or inverted box in the scene
 };
@@ -50,7 +50,7 @@ struct FaultClass {
   FaultKind kind = FaultKind::numbers;
   bool operator==(const FaultClass&) const = default;
 };
-/// For people: "missed, solid pair".
+/// For messages: "missed, solid pair".
 std::string in_words(const FaultClass& c);
 /// Lost pairs first, by kind; then the other faults.
 bool is_graver(const FaultClass& x, const FaultClass& y);
@@ -61,33 +61,33 @@ struct FaultCount {
   std::string evidence;
   FaultClass what;
   std::uint64_t cases = 0;
-  std::uint64_t index = 0;  // the case that shows it best: the first of the largest share
-  double share = 0;         // of a lost solid pair: the overlap over the size of the smaller, 0 to 1
-  std::string words;        // of that case
+  std::uint64_t index = 0;  // the first case with the largest share
+  double share = 0;         // of a lost solid pair: overlap / size of the smaller body, 0 to 1
+  std::string words;        // description for that case
 };
 
-/// A question that was not answered in time. It says nothing about what the subject would have answered.
+/// A question that was not answered in time, which says nothing about what the answer would have been.
 struct TooSlow {
   BroadLevel level = BroadLevel::boxes;
   std::string evidence;
   std::uint64_t index = 0;
   std::size_t bodies = 0, steps = 0;
-  double allowed = 0;     // CPU seconds a question
-  double sufficient = 0;  // CPU seconds within which it was answered when asked again; 0: it was not
-  double tried = 0;       // the most that it was given when asked again
+  double allowed = 0;     // CPU seconds per question
+  double sufficient = 0;  // CPU seconds within which a retry was answered; 0: none was
+  double tried = 0;       // most CPU seconds allowed in a retry
 };
 
-/// A class of fault as the smallest script that shows it.
+/// A class of fault with the smallest script that shows it.
 struct Refutation {
   BroadLevel level = BroadLevel::boxes;
   std::string evidence;
   std::uint64_t index = 0;  // case of that evidence
   FaultClass what;
-  std::string words;                  // of the smallest script
-  std::string shrink;                 // how the shrinking ended
-  std::size_t bodies = 0, steps = 0;  // that the script uses
-  bool is_shown_again = true;         // when asked again, alone
-  std::optional<Case> script;         // empty: its numbers have no JSON form (NaN, infinite)
+  std::string words;                  // description for the smallest script
+  std::string shrink;                 // how shrinking ended
+  std::size_t bodies = 0, steps = 0;  // used by the script
+  bool is_shown_again = true;         // reproduced when the case was run again, alone
+  std::optional<Case> script;         // empty: it has NaN or infinite numbers, which JSON lacks
 };
 
 struct BroadCertificate {
@@ -97,30 +97,30 @@ struct BroadCertificate {
   std::string program;      // "touchstone 0.1.0"
   std::string scope;        // "quick", "full"
   std::uint64_t seed = 1;
-  std::uint64_t limit = 0;  // cases of an evidence at most; 0: as the scope says
+  std::uint64_t limit = 0;  // most cases per evidence; 0: the scope's number
   std::vector<BroadLevel> levels;
-  bool first_fault = false;          // by request a level ended with the first evidence that showed a fault
-  bool sweeps = false;               // asked about bodies that move within the step
+  bool first_fault = false;          // requested: end a level at the first evidence that shows a fault
+  bool sweeps = false;               // bodies that move within the step were tested too
   std::vector<std::string> without;  // evidence left out by request
   std::vector<EvidenceCount> evidence;
-  std::vector<FaultCount> faults;       // every class that an evidence showed, as the evidence comes
-  std::vector<Refutation> refutations;  // one a level and class, the gravest of a level first
+  std::vector<FaultCount> faults;       // every class shown, in the order of the evidence
+  std::vector<Refutation> refutations;  // one per level and class, the gravest of a level first
   std::vector<TooSlow> too_slow;
 };
 
 enum class LevelVerdict : std::uint8_t { certified, refuted, nothing_proved, not_asked, not_certified };
 std::string_view to_string(LevelVerdict v);
 LevelVerdict verdict(const BroadCertificate& c, BroadLevel level);
-/// 0 certified at every level asked, 1 refuted at one, 3 nothing proved, or too slow to be certified.
+/// 0: certified at every level tested; 1: refuted at one; 3: nothing proved, or too slow to be certified.
 int exit_code(const BroadCertificate& c);
 
-/// What the certificate does not say, a sentence each.
+/// What the certificate does not prove, one sentence each.
 std::vector<std::string> not_proved(const BroadCertificate& c);
 
-/// Over everything that is compared; also stored in the JSON as "digest".
+/// Hash of everything that is compared; also stored in the JSON as "digest".
 std::uint64_t digest(const BroadCertificate& c);
 nlohmann::ordered_json to_json(const BroadCertificate& c);
-/// Throws InputError. `digest_holds`: the stored digest is that of the rest.
+/// Throws InputError. Sets `digest_holds` to whether the stored digest matches the rest.
 BroadCertificate broad_certificate_from_json(const nlohmann::ordered_json& j, bool& digest_holds);
 
 }  // namespace touchstone::fuzz

@@ -1,4 +1,4 @@
-// What a broad phase made of a script, as a record: what reports/text/broad_page draws.
+// Records how broad phases process a script; reports/text/broad_page draws it.
 #pragma once
 
 #include <array>
@@ -16,23 +16,23 @@ struct BroadView {
   struct Grid {
     int along = 0;  // axis of the columns
     std::array<double, 3> origin{}, cell{};
-    std::array<long, 3> count{};  // cells; those at the border extend to infinity
+    std::array<long, 3> count{};  // of cells; border cells extend to infinity
   };
-  /// One method at one query.
+  /// One method's structure at one query.
   struct Look {
     std::string explanation;
-    int sweep_axis = -1;  // axis 0–2, or none
+    int sweep_axis = -1;  // axis 0–2, or -1
     std::vector<Grid> grids;
-    std::vector<std::vector<Aabb>> nodes;  // of trees, by level, lowest first
-    /// Pairs that the structure brings together; those of them whose boxes do not overlap, the first few.
+    std::vector<std::vector<Aabb>> nodes;  // trees only: by level, lowest first
+    /// Number of pairs that the structure brings together, and the first few whose boxes do not overlap.
     long considered = 0;
     std::vector<BodyPair> pruned;
   };
   /// One query of the script.
   struct Frame {
-    std::vector<std::optional<Aabb>> boxes;  // by body; none when absent
+    std::vector<std::optional<Aabb>> boxes;  // by body; empty when absent
     std::vector<BodyPair> kept;              // reported by every method, sorted
-    long all_pairs = 0;                      // that exact tests without a broad phase would take
+    long all_pairs = 0;                      // exact tests needed without a broad phase
     std::array<long, 3> overlap_on_axis{};   // pairs whose intervals overlap on x, y, z
     std::vector<Look> looks;                 // by method
   };
@@ -43,7 +43,7 @@ struct BroadView {
   std::vector<Frame> frames;
 };
 
-/// An infinite end is null.
+/// An infinite bound becomes null.
 nlohmann::json to_json(const BroadView& view);
 
 }  // namespace touchstone::fuzz

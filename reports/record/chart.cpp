@@ -21,12 +21,13 @@ constexpr const char* columns[] = {"engine",    "question",  "regime",     "pair
                                    "error_p99", "error_max", "pairs_true", "pairs_reported", "front",
                                    "tie",       "unsound",   "not_judged", "wide_claim"};
 
-// Four digits are more than a time repeats and an error is worth; the page of a full chart has 4e4 rows.
+// Four digits exceed the repeatability of times and the precision needed of errors; a full chart has 4e4
+// rows.
 Json rounded(double x) {
   return std::isfinite(x) ? number(double_from_text(fmt::format("{:.4g}", x)).value_or(x)) : number(x);
 }
 
-// The strings of a chart, each once: rows name them by their place.
+// The distinct strings of a chart; rows refer to them by index.
 class Strings {
  public:
   Json place(const std::string& text) {
@@ -67,7 +68,7 @@ Json cells(const ChartRow& r, Text&& text) {
           rounded(r.error_max),
           r.pairs_true,
           r.pairs_reported,
-          r.front ? 1 : 0,  // a page of a full chart is to stay below 5 MB
+          r.front ? 1 : 0,  // not true/false: keeps the page of a full chart below 5 MB
           r.tie ? 1 : 0,
           text(r.unsound),
           r.not_judged,
@@ -106,7 +107,7 @@ namespace {
 
 using Places = std::map<std::string, std::size_t>;
 
-// Cells of one row by the names of their columns.
+// Reads the cells of one row by column name.
 class RowReader {
  public:
   RowReader(const std::vector<std::string>& strings, const Places& places, const JsonReader& row)
@@ -114,7 +115,7 @@ class RowReader {
   void operator()(const char* name, std::string& v) const {
     const JsonReader& at = cell(name);
     const std::uint64_t i = count_of(at);
-    if (i >= strings_.size()) at.fail("is no place in the strings");
+    if (i >= strings_.size()) at.fail("is not an index into the strings");
     v = strings_[i];
   }
   void operator()(const char* name, double& v) const { v = number_from(cell(name)); }
@@ -125,7 +126,7 @@ class RowReader {
  private:
   const JsonReader& cell(const char* name) const {
     const auto place = places_.find(name);
-    if (place == places_.end()) row_.fail("has no column " + std::string(name));
+    if (place == places_.end()) row_.fail("lacks the column " + std::string(name));
     return cells_[place->second];
   }
   const std::vector<std::string>& strings_;
@@ -136,18 +137,37 @@ class RowReader {
 
 ChartRow row_from_json(const RowReader& read) {
   ChartRow r;
-  read("engine", r.engine), read("question", r.question), read("regime", r.regime), read("pair", r.pair);
-  read("scale", r.scale), read("unsound", r.unsound), read("bodies", r.bodies), read("asked", r.asked);
-  read("answers", r.answers), read("failed", r.failed), read("missed", r.missed), read("ghost", r.ghost);
-  read("no_number", r.no_number), read("wrong", r.wrong), read("rounding", r.rounding);
-  read("undecided", r.undecided), read("ns_min", r.ns_min), read("ns_median", r.ns_median);
-  read("ns_p99", r.ns_p99), read("ns_spread", r.ns_spread), read("error_p50", r.error_p50);
-  read("error_p99", r.error_p99), read("error_max", r.error_max), read("pairs_true", r.pairs_true);
+  read("engine", r.engine);
+  read("question", r.question);
+  read("regime", r.regime);
+  read("pair", r.pair);
+  read("scale", r.scale);
+  read("unsound", r.unsound);
+  read("bodies", r.bodies);
+  read("asked", r.asked);
+  read("answers", r.answers);
+  read("failed", r.failed);
+  read("missed", r.missed);
+  read("ghost", r.ghost);
+  read("no_number", r.no_number);
+  read("wrong", r.wrong);
+  read("rounding", r.rounding);
+  read("undecided", r.undecided);
+  read("ns_min", r.ns_min);
+  read("ns_median", r.ns_median);
+  read("ns_p99", r.ns_p99);
+  read("ns_spread", r.ns_spread);
+  read("error_p50", r.error_p50);
+  read("error_p99", r.error_p99);
+  read("error_max", r.error_max);
+  read("pairs_true", r.pairs_true);
   if (read.has("not_judged")) {  // absent from charts of earlier versions
     read("not_judged", r.not_judged);
     read("wide_claim", r.wide_claim);
   }
-  read("pairs_reported", r.pairs_reported), read("front", r.front), read("tie", r.tie);
+  read("pairs_reported", r.pairs_reported);
+  read("front", r.front);
+  read("tie", r.tie);
   return r;
 }
 
@@ -170,7 +190,7 @@ Places places_of(const JsonReader& names) {
   Places places;
   const auto all = names.items();
   for (std::size_t i = 0; i < all.size(); ++i)
-    if (!places.emplace(all[i].string(), i).second) all[i].fail("is a column's name twice");
+    if (!places.emplace(all[i].string(), i).second) all[i].fail("repeats the name of a column");
   return places;
 }
 
@@ -179,14 +199,14 @@ Places places_of(const JsonReader& names) {
 Chart chart_from_json(const Json& json, const std::string& file) {
   const JsonReader j(json, file);
   if (!j.has("page") || j["page"].json() != "chart" || j["version"].json() != 2)
-    throw InputError(file, "is no chart of this version");
+    throw InputError(file, "is not a chart of this version");
   Chart c;
   c.machine = machine_from_json(j["machine"]);
   c.scope = j["scope"].string();
   c.seed = count_of(j["seed"]);
   c.rounds = j["rounds"].integer();
-  const std::uint64_t most_ns = std::uint64_t{1} << 62, ns = count_of(j["measure_ns"]);
-  if (ns > most_ns) j["measure_ns"].fail("is longer than anything was measured");
+  const std::uint64_t max_ns = std::uint64_t{1} << 62, ns = count_of(j["measure_ns"]);
+  if (ns > max_ns) j["measure_ns"].fail("is too long for a measurement");
   c.measure_ns = static_cast<std::int64_t>(ns);
   for (const JsonReader& e : j["engines"].items())
     c.engines.push_back(

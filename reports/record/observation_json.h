@@ -1,5 +1,5 @@
-// Exact JSON of what engines answered: doubles shortest-round-trip, NaN and infinities as the strings "nan",
-// "inf", "-inf".
+// Exact JSON of engines' answers: doubles in the shortest form that round-trips, NaN and infinities as the
+// strings "nan", "inf", "-inf".
 #pragma once
 
 #include <nlohmann/json.hpp>
@@ -11,7 +11,8 @@ namespace touchstone::fuzz {
 using Json = nlohmann::ordered_json;
 
 Json number(double x);
-/// The elements of an array, with commas between. Strings are quoted as in JSON: ours hold no quotes.
+/// Joins the elements of an array with commas. Strings are quoted as in JSON, which is valid CSV without
+/// inner quotes.
 std::string csv_cells(const Json& cells);
 Json vector(const Vec3& v);
 Json to_json(const Observation& o);

@@ -14,11 +14,17 @@
 #include "scenarios/value/engine_name.h"
 
 namespace touchstone::fuzz {
+namespace {
+
+constexpr double max_coverage = 10;  // of one manifold, see Tally::coverage_permille
+
+}  // namespace
 
 void TimeHistogram::add(std::int64_t ns) {
   const double octaves = ns <= 1 ? 0 : std::log2(static_cast<double>(ns));
-  const auto i = std::min(bucket_.size() - 1, static_cast<std::size_t>(octaves * 8));
-  ++bucket_[i], ++count_;
+  const auto i = std::min(bucket_.size() - 1, static_cast<std::size_t>(octaves * buckets_per_octave));
+  ++bucket_[i];
+  ++count_;
 }
 
 void TimeHistogram::merge(const TimeHistogram& o) {
@@ -31,7 +37,7 @@ double TimeHistogram::quantile(double q) const {
   const auto rank = static_cast<std::uint64_t>(q * static_cast<double>(count_ - 1));
   std::uint64_t seen = 0;
   for (std::size_t i = 0; i < bucket_.size(); ++i)
-    if ((seen += bucket_[i]) > rank) return std::exp2((static_cast<double>(i) + 0.5) / 8);
+    if ((seen += bucket_[i]) > rank) return std::exp2((static_cast<double>(i) + 0.5) / buckets_per_octave);
   return 0;
 }
 
@@ -48,7 +54,7 @@ TimeHistogram TimeHistogram::from_json(const Json& j) {
   for (const JsonReader& e : buckets.items()) {
     const auto pair = e.items(2);
     const std::uint64_t i = count_of(pair[0]), n = count_of(pair[1]);
-    if (i >= h.bucket_.size()) pair[0].fail("is no bucket of a histogram");
+    if (i >= h.bucket_.size()) pair[0].fail("is not a bucket of the histogram");
     h.bucket_[i] = n;
     h.count_ += n;
   }
@@ -67,29 +73,45 @@ void Tally::add(const Judgement& j, const Observation& o) {
   time.add(o.elapsed_ns);
   slow += o.slow;
   const Ruling ruling = j.ruling();
-  right += ruling == Ruling::right, wrong += ruling == Ruling::wrong;
-  undecided += ruling == Ruling::undecided, not_judged += ruling == Ruling::not_judged;
+  right += ruling == Ruling::right;
+  wrong += ruling == Ruling::wrong;
+  undecided += ruling == Ruling::undecided;
+  not_judged += ruling == Ruling::not_judged;
   by_definition += ruling == Ruling::not_judged && j.unjudged_by_definition();
   within_wide_claim += ruling == Ruling::right && j.wide_claim > 0;
   const auto has = [&](Fault f) {
     return std::any_of(j.faults.begin(), j.faults.end(), [&](const FaultReport& r) { return r.fault == f; });
   };
-  missed += has(Fault::missed), ghost += has(Fault::ghost);
+  missed += has(Fault::missed);
+  ghost += has(Fault::ghost);
   representation += j.blame == Blame::representation;
-  pairs_true += j.pairs_true, pairs_reported += j.pairs_reported, pairs_duplicate += j.pairs_duplicate;
+  pairs_true += j.pairs_true;
+  pairs_reported += j.pairs_reported;
+  pairs_duplicate += j.pairs_duplicate;
   worst_in_l = std::max(worst_in_l, j.worst_in_l);
-  if (j.manifold_coverage)
-    ++manifolds,
-        coverage_permille += static_cast<std::uint64_t>(1000 * std::min(10.0, *j.manifold_coverage) + 0.5);
+  if (j.manifold_coverage) {
+    ++manifolds;
+    coverage_permille +=
+        static_cast<std::uint64_t>(1000 * std::min(max_coverage, *j.manifold_coverage) + 0.5);
+  }
 }
 
 void Tally::merge(const Tally& o) {
   for (std::size_t i = 0; i < outcomes.size(); ++i) outcomes[i] += o.outcomes[i];
-  right += o.right, wrong += o.wrong, undecided += o.undecided, not_judged += o.not_judged;
-  missed += o.missed, ghost += o.ghost, representation += o.representation;
-  by_definition += o.by_definition, within_wide_claim += o.within_wide_claim;
-  pairs_true += o.pairs_true, pairs_reported += o.pairs_reported, pairs_duplicate += o.pairs_duplicate;
-  manifolds += o.manifolds, coverage_permille += o.coverage_permille;
+  right += o.right;
+  wrong += o.wrong;
+  undecided += o.undecided;
+  not_judged += o.not_judged;
+  missed += o.missed;
+  ghost += o.ghost;
+  representation += o.representation;
+  by_definition += o.by_definition;
+  within_wide_claim += o.within_wide_claim;
+  pairs_true += o.pairs_true;
+  pairs_reported += o.pairs_reported;
+  pairs_duplicate += o.pairs_duplicate;
+  manifolds += o.manifolds;
+  coverage_permille += o.coverage_permille;
   worst_in_l = std::max(worst_in_l, o.worst_in_l);
   time.merge(o.time);
   slow += o.slow;
@@ -110,7 +132,8 @@ void Finding::merge(const Finding& o) {
   const std::uint64_t both = count + o.count;
   const double worst = std::max(worst_in_l, o.worst_in_l);
   if (count == 0 || o.first_index < first_index) *this = o;
-  count = both, worst_in_l = worst;
+  count = both;
+  worst_in_l = worst;
 }
 
 void CampaignResult::merge(const CampaignResult& o) {
@@ -120,23 +143,31 @@ void CampaignResult::merge(const CampaignResult& o) {
   for (const auto& [engine, of_engine] : o.relations)
     for (const auto& [name, n] : of_engine) {
       RelationCount& sum = relations[engine][name];
-      sum.asked += n.asked, sum.broken += n.broken;
+      sum.asked += n.asked;
+      sum.broken += n.broken;
     }
   for (const auto& [engine, questions] : o.open)
     for (const auto& [q, pairs] : questions)
       for (const auto& [shapes, n] : pairs) {
         OpenCount& sum = open[engine][q][shapes];
-        sum.answers += n.answers, sum.open += n.open;
+        sum.answers += n.answers;
+        sum.open += n.open;
       }
   for (const auto& [engine, s] : o.set_aside)
     if (const auto [at, is_new] = set_aside.emplace(engine, s);
         !is_new && s.first_index < at->second.first_index)
       at->second = s;
   for (const auto& [f, n] : o.families) families[f] += n;
-  cases += o.cases, pair_cases += o.pair_cases, overlapping += o.overlapping, undecided += o.undecided;
+  cases += o.cases;
+  pair_cases += o.pair_cases;
+  overlapping += o.overlapping;
+  undecided += o.undecided;
   for (std::size_t k = 0; k < levels.size(); ++k) levels[k] += o.levels[k];
-  total_ns += o.total_ns, engine_ns += o.engine_ns, judge_ns += o.judge_ns;
-  pair_asked += o.pair_asked, pair_cpu_ns += o.pair_cpu_ns;
+  total_ns += o.total_ns;
+  engine_ns += o.engine_ns;
+  judge_ns += o.judge_ns;
+  pair_asked += o.pair_asked;
+  pair_cpu_ns += o.pair_cpu_ns;
 }
 
 std::uint64_t CampaignResult::wrong_of(const std::string& engine) const {
@@ -175,15 +206,18 @@ std::vector<std::string> CampaignResult::too_open(const std::string& engine) con
     const double share = n.answers > 0 ? static_cast<double>(n.open) / static_cast<double>(n.answers) : 0;
     if (n.answers < least_answers || share <= most_open) return;
     all.push_back(fmt::format(
-        "{}: {} of {} answers to {}{} undecided or not judged, more than {:.0f} %: "
-        "this run proves nothing of them",
+        "{}: {} of {} answers to {}{} are undecided or not judged, more than {:.0f} %: "
+        "this run proves nothing about them",
         engine, n.open, n.answers, to_string(q), shapes.empty() ? "" : " of " + shapes, 100 * most_open));
   };
   const auto of_engine = open.find(engine);
   if (of_engine == open.end()) return all;
   for (const auto& [q, pairs] : of_engine->second) {
     OpenCount every;
-    for (const auto& [shapes, n] : pairs) every.answers += n.answers, every.open += n.open;
+    for (const auto& [shapes, n] : pairs) {
+      every.answers += n.answers;
+      every.open += n.open;
+    }
     note(q, "", every);
     for (const auto& [shapes, n] : pairs) note(q, shapes, n);
   }
@@ -200,7 +234,7 @@ std::uint64_t CampaignResult::not_asked_of(const std::string& engine) const {
 double number_from(const JsonReader& j) {
   if (j.json().is_number()) return j.number();
   const auto v = double_from_text(j.string());
-  if (!v) j.fail("is no number");
+  if (!v) j.fail("is not a number");
   return *v;
 }
 
@@ -210,11 +244,17 @@ Json to_json(const Tally& t, bool with_times) {
   Json j;
   for (std::size_t i = 0; i < t.outcomes.size(); ++i)
     j["outcomes"][std::string(outcome_names[i])] = t.outcomes[i];
-  j["right"] = t.right, j["wrong"] = t.wrong, j["missed"] = t.missed, j["ghost"] = t.ghost;
-  j["representation"] = t.representation, j["undecided"] = t.undecided;
-  j["not_judged"] = t.not_judged, j["by_definition"] = t.by_definition;
+  j["right"] = t.right;
+  j["wrong"] = t.wrong;
+  j["missed"] = t.missed;
+  j["ghost"] = t.ghost;
+  j["representation"] = t.representation;
+  j["undecided"] = t.undecided;
+  j["not_judged"] = t.not_judged;
+  j["by_definition"] = t.by_definition;
   j["within_wide_claim"] = t.within_wide_claim;
-  j["pairs_true"] = t.pairs_true, j["pairs_reported"] = t.pairs_reported,
+  j["pairs_true"] = t.pairs_true;
+  j["pairs_reported"] = t.pairs_reported;
   j["pairs_duplicate"] = t.pairs_duplicate;
   if (t.manifolds > 0) {
     j["manifolds"] = t.manifolds;
@@ -222,22 +262,23 @@ Json to_json(const Tally& t, bool with_times) {
   }
   j["worst_in_l"] = number(t.worst_in_l);
   if (with_times) {
-    j["ns_median"] = t.time.quantile(0.5), j["ns_p99"] = t.time.quantile(0.99);
+    j["ns_median"] = t.time.quantile(0.5);
+    j["ns_p99"] = t.time.quantile(0.99);
     j["ns_histogram"] = t.time.json();
     j["slow"] = t.slow;
   }
   return j;
 }
 
-// Of fields that results of earlier versions do not have.
+// For fields that results of earlier versions lack.
 std::uint64_t count_or_zero(const JsonReader& j, std::string_view field) {
   return j.has(field) ? count_of(j[field]) : 0;
 }
 
-// So that those of several shards can be added.
+// Limited, so that the times of several shards can be added.
 std::int64_t ns_from(const JsonReader& j) {
-  constexpr double most = 1e18;
-  if (!j.json().is_number_integer() || !(std::abs(j.number()) <= most))
+  constexpr double max_ns = 1e18;
+  if (!j.json().is_number_integer() || !(std::abs(j.number()) <= max_ns))
     j.fail("must be a whole number of nanoseconds, at most 1e18");
   return j.json().get<std::int64_t>();
 }
@@ -291,7 +332,7 @@ bool is_key_word(const std::string& s) {
   });
 }
 
-constexpr std::size_t longest_key = 240;  // of 255 bytes that the name of a file may have
+constexpr std::size_t longest_key = 240;  // a file name may have 255 bytes
 
 constexpr const char* parts_of_evidence[] = {"case", "observation", "certificate", "received"};
 
@@ -316,7 +357,7 @@ Finding finding_from_json(const JsonReader& j) {
   f.worst_in_l = number_from(j["worst_in_l"]);
   f.first_index = count_of(j["first_index"]);
   f.words = j["words"].string();
-  if (!has_plain_key(f)) j.fail("a finding's key may not name a directory: " + printable(f.key()));
+  if (!has_plain_key(f)) j.fail("the key of a finding cannot name a directory: " + printable(f.key()));
   if (j.has("evidence")) {
     const JsonReader evidence = j["evidence"];
     for (const char* part : parts_of_evidence)
@@ -329,11 +370,11 @@ Finding finding_from_json(const JsonReader& j) {
 
 namespace {
 
-// A case, and a scene as an engine received it, is stored once, by its hash, however many findings it shows:
-// that of a recording has a megabyte.
+// Stores each case, and each scene as received by an engine, once under its hash, however many findings refer
+// to it: one of a recording takes a megabyte.
 class Documents {
  public:
-  /// Moved here; its name stays in its place.
+  /// Moves the document here and leaves its name in its place.
   void take(Json& document) {
     if (!document.is_object()) return;
     std::string name = hex64(Hasher().add(document.dump()).value());
@@ -361,23 +402,26 @@ NamedDocuments documents_of(const JsonReader& j) {
   return documents;
 }
 
-// Puts documents back; results of earlier versions hold them in place.
+// Puts documents back in place; results of earlier versions already have them there.
 void fill_in(Finding& f, const JsonReader& at, const NamedDocuments& documents) {
   for (const char* part : documents_of_evidence) {
     if (!f.stored.is_object() || !f.stored[part].is_string()) continue;
     const auto document = documents.find(f.stored[part].get<std::string>());
-    if (document == documents.end()) at["evidence"][part].fail("names a document that is not there");
+    if (document == documents.end()) at["evidence"][part].fail("names a document that does not exist");
     f.stored[part] = *document->second;
   }
-  if (f.stored.is_object() && !f.stored["case"].is_object()) at["evidence"]["case"].fail("is no case");
+  if (f.stored.is_object() && !f.stored["case"].is_object()) at["evidence"]["case"].fail("is not a case");
 }
 
 }  // namespace
 
 Json to_json(const CampaignResult& r, bool with_times) {
   Json j;
-  j["cases"] = r.cases, j["pair_cases"] = r.pair_cases, j["overlapping"] = r.overlapping;
-  j["undecided"] = r.undecided, j["levels"] = r.levels;
+  j["cases"] = r.cases;
+  j["pair_cases"] = r.pair_cases;
+  j["overlapping"] = r.overlapping;
+  j["undecided"] = r.undecided;
+  j["levels"] = r.levels;
   j["families"] = r.families;
   j["engines"] = Json::object();
   for (const auto& [engine, questions] : r.tallies)
@@ -394,7 +438,7 @@ Json to_json(const CampaignResult& r, bool with_times) {
       j["relations"][engine][name] = {{"asked", n.asked}, {"broken", n.broken}};
   for (const auto& [engine, s] : r.set_aside) {
     j["set_aside"][engine]["first_index"] = s.first_index;
-    // What a dying process last said may be in it.
+    // Excluded otherwise: it may contain the last output of a crashed process.
     if (with_times) j["set_aside"][engine]["why"] = s.why;
   }
   Documents documents;
@@ -403,7 +447,7 @@ Json to_json(const CampaignResult& r, bool with_times) {
     Json item = to_json(f), evidence = f.evidence_json();
     for (const char* part : documents_of_evidence)
       if (evidence.contains(part)) documents.take(evidence[part]);
-    // What a dying process last said may name addresses: for people, not for comparison.
+    // The last output of a crashed process may contain addresses: for people, not for comparison.
     if (!with_times && evidence.contains("observation")) evidence["observation"].erase("detail");
     item["evidence"] = std::move(evidence);
     j["findings"][key] = std::move(item);
@@ -420,20 +464,20 @@ Json to_json(const CampaignResult& r, bool with_times) {
 
 namespace {
 
-// Of what is counted by engine and question.
+// Visits the values stored by engine and question.
 template <class Use>
 void for_each_question(const JsonReader& j, Use&& use) {
   for (const auto& [engine, questions] : members_of(j)) {
-    if (!is_engine_name(engine)) questions.fail("is no name of an engine");
+    if (!is_engine_name(engine)) questions.fail("is not the name of an engine");
     for (const auto& [name, value] : members_of(questions)) {
       const auto question = question_from_string(name);
-      if (!question) value.fail("is no question");
+      if (!question) value.fail("is not a question");
       use(engine, *question, value);
     }
   }
 }
 
-// Absent from results of earlier versions.
+// Fields that results of earlier versions lack.
 void read_later_additions(const JsonReader& j, CampaignResult& r) {
   if (j.has("levels")) {
     const auto levels = j["levels"].items(r.levels.size());
@@ -479,7 +523,7 @@ CampaignResult result_from_json(const JsonReader& j) {
   const NamedDocuments documents = documents_of(j);
   for (const auto& [key, f] : members_of(j["findings"])) {
     Finding finding = finding_from_json(f);
-    if (finding.key() != key) f.fail("a finding is filed under another key than its own");
+    if (finding.key() != key) f.fail("a finding is filed under a key other than its own");
     fill_in(finding, f, documents);
     r.findings.emplace(key, std::move(finding));
   }

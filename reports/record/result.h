@@ -1,5 +1,5 @@
-// What a campaign leaves: counts, times and findings. Plain values that merge in any order to the same
-// result.
+// The results of a campaign: counts, times and findings. Plain values whose merge does not depend on the
+// order.
 #pragma once
 
 #include <array>
@@ -17,56 +17,58 @@
 
 namespace touchstone::fuzz {
 
-/// Times on a logarithmic scale, 8 buckets an octave (9 % wide), so that percentiles merge exactly.
+/// Times on a logarithmic scale with 8 buckets per octave (9 % wide), so that percentiles merge exactly.
 class TimeHistogram {
  public:
   void add(std::int64_t ns);
   void merge(const TimeHistogram& o);
-  /// The q-quantile in ns, 0 when empty; right to half a bucket (5 %).
+  /// The q-quantile in ns, 0 when empty; accurate to half a bucket (5 %).
   double quantile(double q) const;
   std::uint64_t count() const { return count_; }
   Json json() const;
   static TimeHistogram from_json(const Json& j);
 
  private:
-  std::array<std::uint64_t, 320> bucket_{};
+  static constexpr int buckets_per_octave = 8;
+  std::array<std::uint64_t, 40 * buckets_per_octave> bucket_{};
   std::uint64_t count_ = 0;
 };
 
-/// One engine, one question.
+/// Counts for one engine and one question.
 struct Tally {
   std::array<std::uint64_t, outcome_names.size()> outcomes{};  // by Outcome
-  /// The answered are right, wrong, undecided or not judged (judge/judgement.h), each one of these. Of the
-  /// wrong: missed, ghost, and representation, right for the scene as received. Of the not judged: those that
-  /// are so by definition. Of the right: those with a claimed tolerance above `wide_claim` of L.
+  /// Each answered query is right, wrong, undecided or not judged (scenarios/value/judgement.h). The second
+  /// line counts subsets: of the wrong, `missed`, `ghost`, and `representation` (right for the scene as
+  /// received); of the not judged, those `by_definition`; of the right, those with a claimed tolerance above
+  /// `wide_claim` of L.
   std::uint64_t right = 0, wrong = 0, undecided = 0, not_judged = 0;
   std::uint64_t missed = 0, ghost = 0, representation = 0, by_definition = 0, within_wide_claim = 0;
   std::uint64_t pairs_true = 0, pairs_reported = 0, pairs_duplicate = 0;
-  /// Manifolds whose true region is a face or an edge, and the sum of their coverages in thousandths (each at
-  /// most 10): integers, so that they add in any order.
+  /// Manifolds whose true region is a face or an edge, and the sum of their coverages in thousandths (each
+  /// coverage limited to 10). Integers, so that the order of summation does not matter.
   std::uint64_t manifolds = 0, coverage_permille = 0;
   double worst_in_l = 0;
-  std::uint64_t slow = 0;  // of the answered, beyond the time limit; never hashed
-  TimeHistogram time;      // of the answered; never hashed
+  std::uint64_t slow = 0;  // answered, but beyond the time limit; never hashed
+  TimeHistogram time;      // of answered queries; never hashed
 
   std::uint64_t answered() const { return outcomes[static_cast<std::size_t>(Outcome::answered)]; }
   std::uint64_t unsupported() const { return outcomes[static_cast<std::size_t>(Outcome::unsupported)]; }
   std::uint64_t not_asked() const { return outcomes[static_cast<std::size_t>(Outcome::not_asked)]; }
-  std::uint64_t failed() const;  // asked, and neither answered nor unsupported
+  std::uint64_t failed() const;  // queried, but neither answered nor unsupported
   void add(const Judgement& j, const Observation& o);
   void merge(const Tally& o);
 };
 
-/// One kind of wrong answer: same engine (which names its path), question, fault, shapes, blame, degeneracy
-/// (degeneracy.h) and magnitude of the error (magnitude.h). Keeps its first case.
+/// One kind of wrong answer: the same engine (whose name includes its path), question, fault, shapes, blame,
+/// degeneracy (degeneracy.h) and magnitude of the error (magnitude.h). Keeps the evidence of its first case.
 struct Finding {
   std::string engine, question, fault, shapes, blame, degeneracy, magnitude;
   std::uint64_t count = 0;
   double worst_in_l = 0;
   std::uint64_t first_index = 0;
   std::string words;
-  std::shared_ptr<const Evidence> evidence;  // of the first case; empty when read back from disk:
-  Json stored;                               // then its JSON form
+  std::shared_ptr<const Evidence> evidence;  // of the first case; empty when read back from disk
+  Json stored;                               // the evidence as JSON, when read back from disk
   Json evidence_json() const;
   std::string key() const;
   void merge(const Finding& o);
@@ -74,27 +76,27 @@ struct Finding {
 Json to_json(const Finding& f);  // without evidence
 
 /// Answers to one question about one kind of pair, and how many of them the judge left open: undecided, or
-/// not judged but by definition.
+/// not judged for a reason other than by definition.
 struct OpenCount {
   std::uint64_t answers = 0, open = 0;
 };
-/// A campaign proves nothing of a question about a kind of pair (or of all kinds) of which the share of open
-/// answers is above `most_open`, among at least `least_answers`.
+/// A campaign proves nothing about a question for a kind of pair (or for all kinds) if, of at least
+/// `least_answers` answers, a share above `most_open` is open.
 inline constexpr double most_open = 0.25;
 inline constexpr std::uint64_t least_answers = 12;
 
 struct CampaignResult {
   std::map<std::string, std::map<Question, Tally>> tallies;  // by engine
   std::map<std::string, Finding> findings;                   // by key
-  /// Relations (judge/relation.h) by engine and name: cases derived and asked, and how many of them
-  /// contradict what the engine said before.
+  /// Relations (fuzz/judge/relation.h) by engine and name: the derived cases that were run, and how many of
+  /// them contradict the engine's answer to the original.
   struct RelationCount {
     std::uint64_t asked = 0, broken = 0;
   };
   std::map<std::string, std::map<std::string, RelationCount>> relations;
   /// By engine, question and kinds of shapes.
   std::map<std::string, std::map<Question, std::map<std::string, OpenCount>>> open;
-  /// Engines that are asked no more, with the index of the first case of the chunk in which that began.
+  /// Engines that are no longer queried, with the index of the first case of the chunk in which that began.
   struct SetAside {
     std::uint64_t first_index = 0;
     std::string why;
@@ -105,10 +107,10 @@ struct CampaignResult {
   std::uint64_t undecided = 0;
   std::array<std::uint64_t, 3> levels{};  // decided discrete pairs by referee::PairTruth::level
   std::map<std::string, std::uint64_t> families;
-  // Times, never hashed: of all jobs together, and of that the engines' own and the referee's and judge's.
+  // Times, never hashed: the total of all jobs, and the shares of the engines and of referee and judge.
   std::int64_t total_ns = 0, engine_ns = 0, judge_ns = 0;
-  /// Cases that ask overlap, distance or contact of a pair, and the CPU time that they took of the harness's
-  /// threads and of engines: what all took but the other cases and the relations.
+  /// Cases about overlap, distance or contact of a pair, and the CPU time that the harness's threads and the
+  /// engines spent on them, without other cases and relations.
   std::uint64_t pair_asked = 0;
   std::int64_t pair_cpu_ns = 0;
 
@@ -116,7 +118,7 @@ struct CampaignResult {
   double hit_rate() const {
     return pair_cases == 0 ? 0 : static_cast<double>(overlapping) / static_cast<double>(pair_cases);
   }
-  /// Pair cases a core-second, 0 when there are none.
+  /// Pair cases per core-second, 0 when there are none.
   double pair_rate() const {
     return pair_cpu_ns > 0 ? 1e9 * static_cast<double>(pair_asked) / static_cast<double>(pair_cpu_ns) : 0;
   }
@@ -124,14 +126,14 @@ struct CampaignResult {
   std::uint64_t wrong_of(const std::string& engine) const;
   std::uint64_t failed_of(const std::string& engine) const;
   std::uint64_t answered_by(const std::string& engine) const;
-  /// Answers of one engine that are not judged by definition.
+  /// Answers of one engine that by definition are not judged.
   std::uint64_t by_definition_of(const std::string& engine) const;
-  /// One sentence a question and kind of pair of which the campaign proves nothing.
+  /// One sentence for each question and kind of pair about which the campaign proves nothing.
   std::vector<std::string> too_open(const std::string& engine) const;
   std::uint64_t not_asked_of(const std::string& engine) const;
 };
 
-/// The whole result; `with_times` false gives the part that the same seed must reproduce byte for byte.
+/// The whole result, or with `with_times` false the part that the same seed must reproduce byte for byte.
 Json to_json(const CampaignResult& r, bool with_times);
 /// Hash of the reproducible part.
 std::string digest(const CampaignResult& r);

@@ -1,5 +1,5 @@
-// Results read back from files, which may be damaged or a stranger's. All that a key is made of is checked
-// here: directories are named by keys. A reader knows the file and the place in it, so that errors name both.
+// Reads results from files, which may be damaged or untrusted. Every part of a key is validated here, because
+// keys name directories. A reader knows the file and its position in it, so errors name both.
 #pragma once
 
 #include "reports/record/result.h"
@@ -7,20 +7,20 @@
 
 namespace touchstone::fuzz {
 
-/// A number, or one that JSON has no word for as text ("inf", "nan"). Throws InputError.
+/// Reads a number, or the text "inf", "-inf" or "nan", which JSON numbers cannot express. Throws InputError.
 double number_from(const JsonReader& j);
 
-/// Whether a directory may be named by its key: no longer than a name may be, and of nothing but the name of
-/// an engine and words of small letters, digits, _ and -.
+/// True if the key may name a directory: short enough, and consisting only of an engine's name and words of
+/// lower-case letters, digits, _ and -.
 bool has_plain_key(const Finding& f);
 
-/// With a plain key; the evidence may be missing. Throws InputError: a field that is missing or of another
-/// type.
+/// Reads a finding with a plain key; the evidence may be missing. Throws InputError if a field is missing or
+/// has the wrong type.
 Finding finding_from_json(const JsonReader& j);
 
-/// Throws InputError: as above, and a finding under another key than its own.
+/// Throws InputError as above, and if a finding is filed under a key other than its own.
 CampaignResult result_from_json(const JsonReader& j);
-/// As result_from_json, and every finding has its evidence.
+/// The same; also throws if a finding has no evidence.
 CampaignResult result_with_evidence(const JsonReader& j);
 
 }  // namespace touchstone::fuzz

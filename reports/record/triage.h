@@ -1,4 +1,4 @@
-// What became of the findings of a run: new, known, gone.
+// The status of a run's findings: new, known, gone.
 #pragma once
 
 #include <array>
@@ -25,10 +25,10 @@ enum class Standing : std::uint8_t {
   fresh,     // not in the ledger until now
   known,     // in the ledger, seen in this run
   back,      // in the ledger as gone, seen again
-  still,     // in the ledger, not seen in this run; its case, asked again, still shows it
-  flaky,     // as still, but some of the times it was asked its case did not show it
-  gone,      // in the ledger, and its case, asked several times, never showed it: expired now
-  not_asked  // in the ledger, but its engine is not here, or could not be asked
+  still,     // in the ledger, not seen in this run, but its case still shows it when repeated
+  flaky,     // as still, but some repetitions did not show it
+  gone,      // in the ledger, and no repetition of its case showed it: now expired
+  not_asked  // in the ledger, but its engine is missing or could not be queried
 };
 inline constexpr auto standing_names =
     std::to_array<std::string_view>({"new", "known", "back", "still", "flaky", "gone", "not asked"});
@@ -36,12 +36,12 @@ constexpr std::string_view to_string(Standing s) { return standing_names[static_
 
 struct Triaged {
   Standing standing = Standing::fresh;
-  KnownFinding finding;      // as it is in the ledger now
-  int asked = 0, shown = 0;  // of a finding not seen in this run: how often its case was asked, and showed it
-  std::string trouble;       // why it could not be shrunk or asked; the others go on
+  KnownFinding finding;      // as now in the ledger
+  int asked = 0, shown = 0;  // if not seen in this run: repetitions of its case, and those that showed it
+  std::string trouble;       // why it could not be shrunk or repeated; the others continue
 };
 
-/// The smallest case of a finding in the ledger. Throws InputError when it is damaged.
+/// Returns the smallest case of a finding in the ledger. Throws InputError when it is damaged.
 Json case_json_of(const KnownFinding& f);
 
 }  // namespace touchstone::fuzz

@@ -15,7 +15,7 @@ void nudge(Scene& s, Rng& rng) {
     x = std::nextafter(x, rng.chance(0.5) ? HUGE_VAL : -HUGE_VAL);
 }
 
-// Times are ill-conditioned where bodies graze: different ones contradict each other when one is wrong.
+// Times are ill-conditioned where bodies graze, so different times are a contradiction only if one is wrong.
 bool times_contradict(const Observation& x, bool x_is_wrong, const Form& form,
                       const CaseObservations& observed, std::size_t query, const EngineCard& card,
                       Truth& truth) {

@@ -1,4 +1,5 @@
-// A pair in other forms, of which the right answers are known to be the same: what changes is the engine's.
+// Equivalent forms of a pair, for which the right answer is known to be the same: any change is due to the
+// engine.
 #pragma once
 
 #include <array>
@@ -17,26 +18,26 @@ inline constexpr auto form_names = std::to_array<std::string_view>({"jitter", "o
 
 struct Form {
   FormKind kind;
-  Case c;            // queries one for one
-  double scale = 1;  // lengths here / lengths of the pair as asked
+  Case c;            // its queries correspond one to one
+  double scale = 1;  // lengths here / lengths of the original pair
 };
 
-/// `nudged`: each coordinate of B to the next double, up or down. `exchanged`: A and B asked as B and A.
-/// `frame`: half-turns, axes permuted (no shapes with an axis of their own), A moved to the origin (where
-/// that is exact). `unit`: scaled by 2^20 and 2^-12. All but `nudged` without a rounding. Precondition: two
-/// bodies, pair questions.
+/// `nudged`: moves each coordinate of B to an adjacent double, up or down. `exchanged`: swaps A and B.
+/// `frame`: half-turns, permuted axes (unless a shape has its own axis), A moved to the origin (where that is
+/// exact). `unit`: scales by 2^20 and 2^-12. All except `nudged` are exact. Precondition: two bodies, pair
+/// questions.
 std::vector<Form> other_forms(const Case& c, Rng& rng);
 
-/// The number that an answer is about: distance, depth, time; NaN when it states none.
+/// The number in an answer (distance, depth or time); NaN when it has none.
 double number_of(const Query& q, const Observation& o);
 
-/// True when the two answers to one query cannot both be right, by the engine's own tolerances: their gaps
-/// exclude each other (fuzz/judge/relation.h), one of them is no answer, or, of times, they differ and the
-/// referee finds one of them wrong. A time-out says nothing.
 struct FormAnswer {
   const Case& c;
   const CaseObservations& observed;
 };
+/// True when two answers to one query cannot both be right by the engine's own tolerances: their gap
+/// intervals are disjoint (fuzz/judge/relation.h), only one of them is an answer, or two times differ and the
+/// referee finds one of them wrong. A time-out proves nothing.
 bool contradicts(const FormAnswer& asked, bool asked_is_wrong, const Form& form,
                  const CaseObservations& observed, std::size_t query, const EngineCard& card, Truth& truth);
 

@@ -10,14 +10,14 @@ namespace {
 
 const std::vector<Question> of_pairs{Question::overlap, Question::distance, Question::contact};
 
-// 2^first, 2^(first+step), … , n of them.
+// The n values 2^first, 2^(first+step), …
 std::vector<double> powers(int first, int step, int n) {
   std::vector<double> v;
   for (int i = 0; i < n; ++i) v.push_back(std::ldexp(1, first + i * step));
   return v;
 }
 
-// Half of the pairs apart, half of them in each other, by a fraction `gap` of their size.
+// Half of the pairs are apart and half overlap, by a fraction `gap` of their size.
 Scene placed(Rng& rng, Scene s, double gap) {
   const double signed_gap = rng.chance(0.5) ? gap : -gap;
   return at_gap(rng, std::move(s), signed_gap);
@@ -36,7 +36,7 @@ Scene offset(Rng& rng, double v) {
   return placed(rng, convex_pair(rng, 1, origin), 0.125);
 }
 
-// A plate or a rod beside a body of ordinary form.
+// A plate or a rod next to a body of ordinary proportions.
 Scene aspect(Rng& rng, double v) {
   Scene s = convex_pair(rng, 1, Vec3::Zero());
   switch (rng.below(4)) {
@@ -55,7 +55,7 @@ Scene aspect(Rng& rng, double v) {
   return placed(rng, std::move(s), 0.0625);
 }
 
-// Face on face, turned out of parallel by v radians about a random axis in the face.
+// Face to face, tilted by v radians about a random axis in the face.
 Scene angle(Rng& rng, double v) {
   Scene s;
   s.shapes = {Box{Vec3(1, 1, 0.5)}, Box{Vec3(0.75, 0.5, 0.5)}};
@@ -82,7 +82,7 @@ Scene vertices(Rng& rng, double v) {
   return placed(rng, std::move(s), 0.0625);
 }
 
-// Triangles of a strip whose height is v of their length.
+// A strip of triangles whose height is v times their length.
 Scene sliver(Rng& rng, double v) {
   Scene s = random_pair(rng, ShapeKind::mesh, random_convex_kind(rng), 1, Vec3::Zero());
   TriangleMesh m;
@@ -107,7 +107,7 @@ Scene moving(Rng& rng, double angular) {
 }
 Scene spin(Rng& rng, double v) { return moving(rng, v); }
 
-// A ball of radius 1/8 through a plate of thickness 1, v thicknesses in one step, off the middle.
+// A ball of radius 1/8 that crosses a plate of thickness 1 off-centre at v thicknesses per step.
 Scene speed(Rng& rng, double v) {
   Scene s;
   s.shapes = {Box{Vec3(64, 64, 0.5)}, Sphere{0.125}};
@@ -120,7 +120,7 @@ Scene speed(Rng& rng, double v) {
   return s;
 }
 
-// Boxes that wander; what matters is what a broad phase remembers after v moves.
+// Bodies that move at random: tests the state that a broad phase keeps over v moves.
 Scene steps(Rng& rng, double v) {
   Scene s;
   for (int i = 0; i < 16; ++i) {
@@ -151,7 +151,7 @@ const LadderRow rows[] = {
     {"sliver", "height over length of a mesh's triangles", "", powers(0, -6, 8), of_pairs, sliver},
     {"spin", "rotation during the step", "rad", powers(-4, 2, 7), {Question::time_of_impact}, spin},
     {"speed",
-     "way in one step over the thickness of a plate",
+     "travel per step over the thickness of a plate",
      "",
      powers(1, 2, 8),
      {Question::time_of_impact},

@@ -1,4 +1,4 @@
-// The ladders of `touchstone stability` as data: a degeneracy a row, from harmless to severe.
+// The ladders of `touchstone stability` as data: one degeneracy per row, from harmless to severe.
 #pragma once
 
 #include <span>

@@ -13,18 +13,19 @@
 namespace touchstone::fuzz {
 namespace {
 
-// Pairs held at a time, each in ten forms: hulls of a thousand vertices take a megabyte in all of them.
+// Pairs held in memory at a time, each in ten forms, which take a megabyte for hulls of a thousand vertices.
 constexpr int at_once = 16;
 
-struct Asked {
+struct PairForms {
   Case c;
   std::vector<Form> forms;
 };
 
-Asked make_asked(const LadderRow& l, std::uint64_t seed, std::size_t rung, int i) {
+PairForms make_pair_forms(const LadderRow& l, std::uint64_t seed, std::size_t rung, int i) {
   Rng rng = Rng::stream(seed, (rung << 32) + static_cast<std::uint64_t>(i));
-  Asked a;
-  a.c.id = fmt::format("{}/{}/{}", l.name, rung, i), a.c.family = l.name;
+  PairForms a;
+  a.c.id = fmt::format("{}/{}/{}", l.name, rung, i);
+  a.c.family = l.name;
   a.c.scene = l.make(rng, l.values[rung]);
   for (Question q : l.questions)
     a.c.queries.push_back(is_pair_question(q) ? Query{q, 0, 1} : Query{q, -1, -1});
@@ -32,8 +33,8 @@ Asked make_asked(const LadderRow& l, std::uint64_t seed, std::size_t rung, int i
   return a;
 }
 
-void raise(double& most, double x) {
-  if (std::isfinite(x)) most = std::max(most, x);
+void raise(double& largest, double x) {
+  if (std::isfinite(x)) largest = std::max(largest, x);
 }
 
 void count(Rung& r, const Judgement& j) {
@@ -43,7 +44,8 @@ void count(Rung& r, const Judgement& j) {
     ++r.failed;
     return;
   }
-  ++r.answers, r.wrong += !j.faults.empty();
+  ++r.answers;
+  r.wrong += !j.faults.empty();
   r.open += j.ruling() == Ruling::undecided || j.ruling() == Ruling::not_judged;
   for (const FaultReport& f : j.faults) switch (f.fault) {
       case Fault::missed:
@@ -66,8 +68,8 @@ void count(Rung& r, const Judgement& j) {
     }
 }
 
-// Answers of one engine to one pair and to its forms: `observed` begins with those to the pair.
-void add_forms(std::span<LadderResult> results, const Asked& asked,
+// Adds one engine's answers to one pair and its forms; observed[0] holds those to the pair itself.
+void add_forms(std::span<LadderResult> results, const PairForms& asked,
                std::span<const CaseObservations> observed, std::span<const Judgement> judgements,
                const EngineCard& card, Truth& truth) {
   const FormAnswer base{asked.c, observed[0]};
@@ -93,11 +95,11 @@ void add_forms(std::span<LadderResult> results, const Asked& asked,
   }
 }
 
-// One engine's answers to pairs of the last rung; results[q] is the ladder's q-th question.
-void add_pairs(std::span<LadderResult> results, const std::vector<Asked>& all, Engine& engine,
+// Adds one engine's answers to the pairs of the last rung; results[q] is for the ladder's q-th question.
+void add_pairs(std::span<LadderResult> results, const std::vector<PairForms>& all, Engine& engine,
                std::vector<Truth>& truths) {
   std::vector<Case> cases;
-  for (const Asked& a : all) {
+  for (const PairForms& a : all) {
     cases.push_back(a.c);
     for (const Form& f : a.forms) cases.push_back(f.c);
   }
@@ -124,11 +126,11 @@ void climb_one(Stability& s, const LadderRow& l, std::span<const EnginePtr> engi
     for (auto& of_engine : results)
       for (LadderResult& r : of_engine) r.rungs.emplace_back().value = l.values[rung];
     for (int first = 0; first < s.per_rung; first += at_once) {
-      std::vector<Asked> all;
+      std::vector<PairForms> all;
       for (int i = first; i < std::min(first + at_once, s.per_rung); ++i)
-        all.push_back(make_asked(l, s.seed, rung, i));
+        all.push_back(make_pair_forms(l, s.seed, rung, i));
       std::vector<Truth> truths;
-      for (const Asked& a : all) truths.emplace_back(a.c.scene);
+      for (const PairForms& a : all) truths.emplace_back(a.c.scene);
       for (std::size_t e = 0; e < engines.size(); ++e) add_pairs(results[e], all, *engines[e], truths);
     }
   }
@@ -143,7 +145,8 @@ void climb_one(Stability& s, const LadderRow& l, std::span<const EnginePtr> engi
 Stability climb(const std::string& ladder, std::uint64_t seed, int per_rung,
                 std::span<const EnginePtr> engines, const std::function<void(const std::string&)>& progress) {
   Stability s;
-  s.seed = seed, s.per_rung = per_rung;
+  s.seed = seed;
+  s.per_rung = per_rung;
   for (const LadderRow& l : ladders()) {
     if (!ladder.empty() && ladder != l.name) continue;
     s.ladders.push_back({l.name, l.line, l.unit});
@@ -152,7 +155,7 @@ Stability climb(const std::string& ladder, std::uint64_t seed, int per_rung,
   if (s.ladders.empty()) {
     std::string names;
     for (const LadderRow& l : ladders()) names += (names.empty() ? "" : ", ") + std::string(l.name);
-    throw InputError("--ladder " + ladder, "no such ladder; there are " + names);
+    throw InputError("--ladder " + ladder, "there is no such ladder, only " + names);
   }
   return s;
 }

@@ -1,5 +1,5 @@
-// Climbs ladders: asks engines at every rung, judges, and asks again in other forms: with B an ulp away, with
-// A and B exchanged, in other frames, in another unit.
+// Climbs ladders: at every rung, queries the engines, judges the answers, and repeats the queries in other
+// forms: B moved by an ulp, A and B exchanged, other frames, another unit.
 #pragma once
 
 #include <functional>
@@ -11,7 +11,7 @@
 
 namespace touchstone::fuzz {
 
-/// `ladder`: its name, or empty for all. Throws InputError when there is no such ladder.
+/// `ladder` is a ladder's name, or empty for all. Throws InputError when there is no such ladder.
 Stability climb(const std::string& ladder, std::uint64_t seed, int per_rung,
                 std::span<const EnginePtr> engines, const std::function<void(const std::string&)>& progress);
 

@@ -266,10 +266,9 @@ TEST_CASE("what is left open has a bound, by question and kind of pair", "[campa
   CHECK(r.too_open("core").empty());
   of_contact["cylinder-cylinder"] = {12, 12};  // a referee that decides no cylinder
   REQUIRE(r.too_open("core").size() == 1);
-  CHECK(
-      r.too_open("core")[0] ==
-      "core: 12 of 12 answers to contact of cylinder-cylinder undecided or not judged, more than 25 %: this "
-      "run proves nothing of them");
+  CHECK(r.too_open("core")[0] ==
+        "core: 12 of 12 answers to contact of cylinder-cylinder are undecided or not judged, more than 25 %: "
+        "this run proves nothing about them");
   of_contact["capsule-cylinder"] = {400, 400};
   CHECK(r.too_open("core").size() == 3);  // the question as a whole, too
   CHECK(r.too_open("fcl-libccd").empty());
