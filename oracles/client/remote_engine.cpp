@@ -48,9 +48,9 @@ class RemoteEngine::Impl {
       return;
     }
     start();
-    const auto chosen = static_cast<std::size_t>(nursery_->hello.chosen);
+    const auto chosen = static_cast<std::size_t>(fork_server_->hello.chosen);
     try {
-      card_ = card_from_json(nursery_->hello.cards[chosen]);
+      card_ = card_from_json(fork_server_->hello.cards[chosen]);
     } catch (const InputError& e) {
       throw e.within(spec_.plugin.string() + ": card");
     }
@@ -76,7 +76,7 @@ class RemoteEngine::Impl {
   EngineCard card_;
   int restarts_ = 0;
   Patience patience_;
-  std::string sandbox() const { return nursery_ ? nursery_->hello.sandbox : ""; }
+  std::string sandbox() const { return fork_server_ ? fork_server_->hello.sandbox : ""; }
   int pid() const { return session_ ? session_->process->pid() : -1; }
 
  private:
@@ -113,24 +113,25 @@ class RemoteEngine::Impl {
       }
   }
 
-  /// To ask the nursery costs more than a native engine's answers; its worker has no children that would hold
-  /// the pipe open.
+  /// To ask the fork server costs more than a native engine's answers; its worker has no children that would
+  /// hold the pipe open.
   bool has_ended() {
     if (!spec_.native) return session_->process->has_ended();
     pollfd fd{session_->process->answers_fd(), POLLIN, 0};
     return poll(&fd, 1, 0) > 0 && (fd.revents & POLLHUP);
   }
 
-  /// A new worker, and a new nursery too if there is none or it has died.
+  /// A new worker, and a new fork server too if there is none or it has died.
   void start() {
-    if (!nursery_ || nursery_->process->has_ended()) {
-      nursery_.reset();
-      nursery_ = spec_.native ? share_native_nursery(spec_.host, spec_.plugin, spec_.limits)
-                              : std::make_shared<const WorkerSession>(
-                                    start_nursery(spec_.host, spec_.plugin, spec_.engine, spec_.limits));
+    if (!fork_server_ || fork_server_->process->has_ended()) {
+      fork_server_.reset();
+      fork_server_ = spec_.native ? share_native_fork_server(spec_.host, spec_.plugin, spec_.limits)
+                                  : std::make_shared<const WorkerSession>(start_fork_server(
+                                        spec_.host, spec_.plugin, spec_.engine, spec_.limits));
     }
     const WorkerProcess::Native native{spec_.engine, !one_by_one_};
-    session_.emplace(start_worker(*nursery_, spec_.plugin, spec_.limits, spec_.native ? &native : nullptr));
+    session_.emplace(
+        start_worker(*fork_server_, spec_.plugin, spec_.limits, spec_.native ? &native : nullptr));
     resume();
   }
 
@@ -313,8 +314,8 @@ class RemoteEngine::Impl {
 
   RemoteSpec spec_;
   Watchdog watchdog_;
-  std::shared_ptr<const WorkerSession> nursery_;
-  std::optional<WorkerSession> session_;  // ends before its nursery
+  std::shared_ptr<const WorkerSession> fork_server_;
+  std::optional<WorkerSession> session_;  // ends before its fork server
   std::span<const Case> cases_;
   std::vector<CaseObservations> results_;
   Cursor at_;
@@ -348,7 +349,7 @@ int RemoteEngine::worker_pid() const { return impl_->pid(); }
 
 std::vector<EngineCard> list_plugin_engines(const std::filesystem::path& host,
                                             const std::filesystem::path& plugin) {
-  const WorkerSession s = start_nursery(host, plugin, "--cards", WorkerLimits{});
+  const WorkerSession s = start_fork_server(host, plugin, "--cards", WorkerLimits{});
   std::vector<EngineCard> cards;
   for (std::size_t i = 0; i < s.hello.cards.size(); ++i) try {
       cards.push_back(card_from_json(s.hello.cards[i]));

@@ -26,8 +26,9 @@
 namespace touchstone {
 namespace {
 
-constexpr int nursery_reply_ms = 30000;  // it runs no engine; only a machine in trouble makes it this slow
-constexpr int slice_ms = 50;             // of waiting, between two looks at whether it can answer at all
+constexpr int fork_server_reply_ms =
+    30000;                    // it runs no engine; only a machine in trouble makes it this slow
+constexpr int slice_ms = 50;  // of waiting, between two looks at whether it can answer at all
 constexpr double orderly_end_seconds = 3;
 
 [[noreturn]] void fail(const char* what) { throw std::system_error(errno, std::generic_category(), what); }
@@ -216,17 +217,17 @@ WorkerProcess::WorkerProcess(const std::filesystem::path& host, const std::vecto
   open_clock();
 }
 
-WorkerProcess::WorkerProcess(std::shared_ptr<WorkerProcess> nursery, const Native* native)
-    : nursery_(std::move(nursery)) {
+WorkerProcess::WorkerProcess(std::shared_ptr<WorkerProcess> fork_server, const Native* native)
+    : fork_server_(std::move(fork_server)) {
   TwoEnds questions = make_socket(), answers = make_pipe(), errors = make_pipe();
   fcntl(answers.ours.get(), F_SETPIPE_SZ, 1 << 18);  // fewer wake-ups; the default works too
   const std::array streams{questions.theirs.get(), answers.theirs.get(), errors.theirs.get()};
-  nursery::Request wanted{nursery::Op::fork, native && native->keeps_back};
+  fork_server::Request wanted{fork_server::Op::fork, native && native->keeps_back};
   if (native) native->engine.copy(wanted.engine.data(), wanted.engine.size() - 1);
-  const auto reply = nursery_->request(wanted, &streams);
+  const auto reply = fork_server_->request(wanted, &streams);
   if (!reply || reply->value <= 0) throw InputError("", "the process that loaded the plug-in is gone");
   number_ = reply->value;
-  pid_ = sender(questions.ours.get(), nursery_reply_ms);
+  pid_ = sender(questions.ours.get(), fork_server_reply_ms);
   if (pid_ <= 0) throw InputError("", "the worker died at its start");
   questions_ = std::move(questions.ours), answers_ = std::move(answers.ours),
   errors_ = std::move(errors.ours);
@@ -242,8 +243,8 @@ void WorkerProcess::open_clock() {
     clock_ = CLOCK_PROCESS_CPUTIME_ID;  // gone already: has_ended() tells
 }
 
-std::optional<nursery::Reply> WorkerProcess::request(nursery::Request what,
-                                                     const std::array<int, nursery::descriptor_count>* with) {
+std::optional<fork_server::Reply> WorkerProcess::request(
+    fork_server::Request what, const std::array<int, fork_server::descriptor_count>* with) {
   const std::lock_guard lock(mutex_);
   iovec body{&what, sizeof what};
   msghdr message{};
@@ -256,8 +257,8 @@ std::optional<nursery::Reply> WorkerProcess::request(nursery::Request what,
     header->cmsg_len = CMSG_LEN(sizeof *with);
     std::memcpy(CMSG_DATA(header), with->data(), sizeof *with);
   }
-  if (inner_pid_ < 0) inner_pid_ = sender(questions_.get(), nursery_reply_ms);
-  std::optional<nursery::Reply> reply;
+  if (inner_pid_ < 0) inner_pid_ = sender(questions_.get(), fork_server_reply_ms);
+  std::optional<fork_server::Reply> reply;
   if (sendmsg(questions_.get(), &message, MSG_NOSIGNAL) == static_cast<ssize_t>(sizeof what))
     reply = await_reply();
   // One that does not answer a request never will: its plug-in stopped it, or worse.
@@ -265,17 +266,17 @@ std::optional<nursery::Reply> WorkerProcess::request(nursery::Request what,
   return reply;
 }
 
-std::optional<nursery::Reply> WorkerProcess::await_reply() {
+std::optional<fork_server::Reply> WorkerProcess::await_reply() {
   pollfd ready{questions_.get(), POLLIN, 0};
   for (int waited = 0; poll(&ready, 1, slice_ms) <= 0; waited += slice_ms)
-    if (waited > nursery_reply_ms || is_stuck()) return std::nullopt;
-  nursery::Reply reply{};
+    if (waited > fork_server_reply_ms || is_stuck()) return std::nullopt;
+  fork_server::Reply reply{};
   if (recv(questions_.get(), &reply, sizeof reply, 0) != static_cast<ssize_t>(sizeof reply))
     return std::nullopt;
   return reply;
 }
 
-/// True of a nursery that was stopped by a signal, or is gone.
+/// True of a fork server that was stopped by a signal, or is gone.
 bool WorkerProcess::is_stuck() const {
   const ProcessUsage u = usage_of(inner_pid_);
   return u.state == 'T' || u.is_gone();
@@ -284,10 +285,11 @@ bool WorkerProcess::is_stuck() const {
 /// Sets reaped_ and status_ when the process has ended; waits for that if asked to.
 bool WorkerProcess::reap(bool wait) {
   if (reaped_) return true;
-  if (!nursery_) return reap_child(wait);
-  const auto reply = nursery_->request({wait ? nursery::Op::wait : nursery::Op::poll, number_}, nullptr);
+  if (!fork_server_) return reap_child(wait);
+  const auto reply =
+      fork_server_->request({wait ? fork_server::Op::wait : fork_server::Op::poll, number_}, nullptr);
   reaped_ = !reply || reply->value != 0;
-  // Workers die with their nursery, of SIGKILL.
+  // Workers die with their fork server, of SIGKILL.
   if (reaped_) status_ = reply ? reply->status : SIGKILL;
   return reaped_;
 }
@@ -342,7 +344,7 @@ bool WorkerProcess::ends_within(double seconds) {
 }
 
 // Valgrind keeps to the standard error that it was started with: its words about a worker come out of the
-// nursery's.
+// fork server's.
 std::string WorkerProcess::said_by_memcheck_of(pid_t worker) {
   const std::lock_guard lock(mutex_);
   if (errors_.get() >= 0) drain_errors();
@@ -363,11 +365,11 @@ LastWords WorkerProcess::end() {
     kill(-pid_, SIGKILL);
     kill(pid_, SIGKILL);  // in case the group was left
     reap(/*wait=*/true);
-  } else if (!nursery_ || !nursery_->scratch_) {
-    kill(-pid_, SIGKILL);  // children that it left behind; in a sandbox the nursery has ended them
+  } else if (!fork_server_ || !fork_server_->scratch_) {
+    kill(-pid_, SIGKILL);  // children that it left behind; in a sandbox the fork server has ended them
   }
   if (errors_.get() >= 0) drain_errors();
-  if (nursery_) error_tail_ += nursery_->said_by_memcheck_of(pid_);
+  if (fork_server_) error_tail_ += fork_server_->said_by_memcheck_of(pid_);
   const bool by_signal = WIFSIGNALED(status_);
   const std::string how =
       by_signal ? signal_name(WTERMSIG(status_)) : "exit code " + std::to_string(WEXITSTATUS(status_));

@@ -65,8 +65,8 @@ namespace {
 
 constexpr int memcheck_exit = 99;
 
-WorkerSession start_nursery(const std::filesystem::path& host, const std::filesystem::path& plugin,
-                            const std::string& argument, const WorkerLimits& limits, bool native) {
+WorkerSession start_fork_server(const std::filesystem::path& host, const std::filesystem::path& plugin,
+                                const std::string& argument, const WorkerLimits& limits, bool native) {
   const std::string place = plugin.string();
   const bool is_command = place.starts_with("pipe:");
   std::error_code error;
@@ -100,32 +100,32 @@ WorkerSession start_nursery(const std::filesystem::path& host, const std::filesy
 
 }  // namespace
 
-WorkerSession start_nursery(const std::filesystem::path& host, const std::filesystem::path& plugin,
-                            const std::string& argument, const WorkerLimits& limits) {
-  return start_nursery(host, plugin, argument, limits, /*native=*/false);
+WorkerSession start_fork_server(const std::filesystem::path& host, const std::filesystem::path& plugin,
+                                const std::string& argument, const WorkerLimits& limits) {
+  return start_fork_server(host, plugin, argument, limits, /*native=*/false);
 }
 
-std::shared_ptr<const WorkerSession> share_native_nursery(const std::filesystem::path& host,
-                                                          const std::filesystem::path& library,
-                                                          const WorkerLimits& limits) {
+std::shared_ptr<const WorkerSession> share_native_fork_server(const std::filesystem::path& host,
+                                                              const std::filesystem::path& library,
+                                                              const WorkerLimits& limits) {
   using Key = std::tuple<pid_t, std::string, std::string, bool, std::uint64_t,
                          std::string>;  // all that it is started with
   static std::mutex guard;
-  static std::map<Key, std::weak_ptr<const WorkerSession>> nurseries;
+  static std::map<Key, std::weak_ptr<const WorkerSession>> fork_servers;
   const std::lock_guard lock(guard);
-  auto& kept = nurseries[{getpid(), host.string(), library.string(), limits.sandbox, limits.resident_bytes,
-                          limits.memcheck}];
-  auto nursery = kept.lock();
-  if (!nursery || nursery->process->has_ended())
-    kept = nursery =
-        std::make_shared<const WorkerSession>(start_nursery(host, library, "", limits, /*native=*/true));
-  return nursery;
+  auto& kept = fork_servers[{getpid(), host.string(), library.string(), limits.sandbox, limits.resident_bytes,
+                             limits.memcheck}];
+  auto fork_server = kept.lock();
+  if (!fork_server || fork_server->process->has_ended())
+    kept = fork_server =
+        std::make_shared<const WorkerSession>(start_fork_server(host, library, "", limits, /*native=*/true));
+  return fork_server;
 }
 
-WorkerSession start_worker(const WorkerSession& nursery, const std::filesystem::path& plugin,
+WorkerSession start_worker(const WorkerSession& fork_server, const std::filesystem::path& plugin,
                            const WorkerLimits& limits, const WorkerProcess::Native* native) {
   WorkerSession s;
-  s.process = std::make_shared<WorkerProcess>(nursery.process, native);
+  s.process = std::make_shared<WorkerProcess>(fork_server.process, native);
   s.hello = await_hello(s, plugin.string(), limits);
   if (!s.hello.error.empty()) throw InputError(plugin.string(), s.hello.error);
   return s;

@@ -17,20 +17,20 @@ struct WorkerSession {
   protocol::Hello hello;
 };
 
-/// A nursery for the plug-in, and its hello. `argument` follows the plug-in's path: an engine, "" or
+/// A fork server for the plug-in, and its hello. `argument` follows the plug-in's path: an engine, "" or
 /// "--cards". Throws InputError (place: the plug-in) when the process dies, exceeds a limit, or
 /// says that the plug-in cannot be used.
-WorkerSession start_nursery(const std::filesystem::path& host, const std::filesystem::path& plugin,
-                            const std::string& argument, const WorkerLimits& limits);
+WorkerSession start_fork_server(const std::filesystem::path& host, const std::filesystem::path& plugin,
+                                const std::string& argument, const WorkerLimits& limits);
 
-/// The nursery for a library of native engines (oracles/host/native.h), of which this process has one at a
-/// time: with the last that uses it, it ends. Throws InputError as above.
-std::shared_ptr<const WorkerSession> share_native_nursery(const std::filesystem::path& host,
-                                                          const std::filesystem::path& library,
-                                                          const WorkerLimits& limits);
+/// The fork server for a library of native engines (oracles/host/native.h), of which this process has one at
+/// a time: with the last that uses it, it ends. Throws InputError as above.
+std::shared_ptr<const WorkerSession> share_native_fork_server(const std::filesystem::path& host,
+                                                              const std::filesystem::path& library,
+                                                              const WorkerLimits& limits);
 
-/// A worker of the nursery. Throws InputError as above.
-WorkerSession start_worker(const WorkerSession& nursery, const std::filesystem::path& plugin,
+/// A worker of the fork server. Throws InputError as above.
+WorkerSession start_worker(const WorkerSession& fork_server, const std::filesystem::path& plugin,
                            const WorkerLimits& limits, const WorkerProcess::Native* native = nullptr);
 
 enum class ReadResult { some, nothing_yet, closed };

@@ -1,8 +1,8 @@
 // touchstone-host PLUGIN.so [ENGINE | --cards] [SCRATCH BYTES]: started by the harness, not by people.
 // Confines itself to the directory SCRATCH and that much memory (sandbox.h) where they are given, loads a
 // plug-in, says on standard output which engines it has (oracles/abi/protocol.h), and then, unless asked for
-// the cards alone, forks workers on request (oracles/abi/nursery_protocol.h). Each worker creates the engine
-// and answers questions.
+// the cards alone, forks workers on request (oracles/abi/fork_server_protocol.h). Each worker creates the
+// engine and answers questions.
 #include <fcntl.h>
 #include <signal.h>
 #include <sys/prctl.h>
@@ -18,8 +18,8 @@
 #include "oracles/abi/native_engine.h"
 #include "oracles/abi/protocol.h"
 #include "oracles/host/crash_report.h"
+#include "oracles/host/fork_server.h"
 #include "oracles/host/native.h"
-#include "oracles/host/nursery.h"
 #include "oracles/host/pipe.h"
 #include "oracles/host/plugin.h"
 #include "oracles/host/sandbox.h"
@@ -142,7 +142,7 @@ int main(int argc, char** argv) {
   close(streams.answers);
   if (l.hello.chosen < 0 && !l.native) _exit(l.hello.error.empty() ? 0 : 2);
   host::prepare_crash_reports();
-  const host::Nursery nursery{streams.requests, sandbox.apart, a.wish.scratch, a.wish.is_command,
-                              l.native != nullptr};
-  host::run_nursery(nursery, [&](host::WorkerStreams worker) { work(l, worker); });
+  const host::ForkServer fork_server{streams.requests, sandbox.apart, a.wish.scratch, a.wish.is_command,
+                                     l.native != nullptr};
+  host::run_fork_server(fork_server, [&](host::WorkerStreams worker) { work(l, worker); });
 }

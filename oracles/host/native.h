@@ -4,7 +4,7 @@
 #include <string>
 
 #include "oracles/abi/native_engine.h"
-#include "oracles/host/nursery.h"
+#include "oracles/host/fork_server.h"
 
 namespace touchstone::host {
 

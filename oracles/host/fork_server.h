@@ -14,7 +14,7 @@ struct WorkerStreams {
   std::string engine{};     // of a library of native engines
 };
 
-struct Nursery {
+struct ForkServer {
   int control_fd;
   Apart apart;
   std::string scratch;             // each worker gets a directory in it, gone with the worker; empty: none
@@ -28,9 +28,10 @@ int out_of_the_way(int fd);
 /// Says one byte on `fd`, a socket: the kernel adds this process's number as the harness sees it.
 void say_who(int fd);
 
-/// Serves requests (oracles/abi/nursery_protocol.h) until the harness closes its end; never returns. `work`
-/// runs in each forked worker, whose standard streams have been protected. What a worker leaves behind, its
-/// processes and its directory, ends with it.
-[[noreturn]] void run_nursery(const Nursery& nursery, const std::function<void(WorkerStreams)>& work);
+/// Serves requests (oracles/abi/fork_server_protocol.h) until the harness closes its end; never returns.
+/// `work` runs in each forked worker, whose standard streams have been protected. What a worker leaves
+/// behind, its processes and its directory, ends with it.
+[[noreturn]] void run_fork_server(const ForkServer& fork_server,
+                                  const std::function<void(WorkerStreams)>& work);
 
 }  // namespace touchstone::host

@@ -1,4 +1,4 @@
-#include "oracles/host/nursery.h"
+#include "oracles/host/fork_server.h"
 
 #include <fcntl.h>
 #include <signal.h>
@@ -15,15 +15,15 @@
 #include <cstring>
 #include <filesystem>
 
-#include "oracles/abi/nursery_protocol.h"
+#include "oracles/abi/fork_server_protocol.h"
 
 namespace touchstone::host {
 namespace {
 
-using Descriptors = std::array<int, nursery::descriptor_count>;
+using Descriptors = std::array<int, fork_server::descriptor_count>;
 
 /// False at the end of the requests.
-bool receive(int fd, nursery::Request& request, Descriptors& descriptors) {
+bool receive(int fd, fork_server::Request& request, Descriptors& descriptors) {
   descriptors.fill(-1);
   alignas(cmsghdr) char control[CMSG_SPACE(sizeof(Descriptors))] = {};
   iovec body{&request, sizeof request};
@@ -40,25 +40,25 @@ bool receive(int fd, nursery::Request& request, Descriptors& descriptors) {
   return true;
 }
 
-std::string directory_of_worker(const Nursery& n) { return n.scratch + "/worker"; }
+std::string directory_of_worker(const ForkServer& server) { return server.scratch + "/worker"; }
 
-void go_to_own_directory(const Nursery& n) {
-  if (n.scratch.empty() || n.is_shared) return;
-  const std::string own = directory_of_worker(n);
-  if (mkdir(own.c_str(), 0700) != 0 || (!n.stays_where_it_is && chdir(own.c_str()) != 0))
+void go_to_own_directory(const ForkServer& server) {
+  if (server.scratch.empty() || server.is_shared) return;
+  const std::string own = directory_of_worker(server);
+  if (mkdir(own.c_str(), 0700) != 0 || (!server.stays_where_it_is && chdir(own.c_str()) != 0))
     std::perror(("touchstone-host: " + own).c_str());
   setenv("TMPDIR", own.c_str(), 1);
 }
 
-void clean_up_after_worker(const Nursery& n) {
-  if (n.scratch.empty() || n.is_shared) return;
-  end_others(n.apart);
+void clean_up_after_worker(const ForkServer& server) {
+  if (server.scratch.empty() || server.is_shared) return;
+  end_others(server.apart);
   std::error_code ignored;  // the next worker's mkdir tells
-  std::filesystem::remove_all(directory_of_worker(n), ignored);
+  std::filesystem::remove_all(directory_of_worker(server), ignored);
 }
 
-[[noreturn]] void become_worker(const Nursery& n, const Descriptors& d, pid_t parent,
-                                const nursery::Request& request,
+[[noreturn]] void become_worker(const ForkServer& server, const Descriptors& d, pid_t parent,
+                                const fork_server::Request& request,
                                 const std::function<void(WorkerStreams)>& work) {
   prctl(PR_SET_PDEATHSIG, SIGKILL);
   if (getppid() != parent) _exit(0);  // it died before the line above
@@ -71,20 +71,20 @@ void clean_up_after_worker(const Nursery& n) {
   if (streams.questions < 0 || streams.answers < 0) _exit(3);
   close(d[0]);
   close(d[1]);
-  go_to_own_directory(n);
+  go_to_own_directory(server);
   work(streams);
   // No destructors: a plug-in's exit handlers may hang, and nobody waits for them.
   _exit(0);
 }
 
-nursery::Reply answer(const Nursery& n, const nursery::Request& request, const Descriptors& d,
-                      const std::function<void(WorkerStreams)>& work) {
-  if (request.op == nursery::Op::fork) {
+fork_server::Reply answer(const ForkServer& server, const fork_server::Request& request, const Descriptors& d,
+                          const std::function<void(WorkerStreams)>& work) {
+  if (request.op == fork_server::Op::fork) {
     const pid_t parent = getpid();
     const pid_t pid = d[0] < 0 ? -1 : fork();
     if (pid == 0) {
-      close(n.control_fd);
-      become_worker(n, d, parent, request, work);
+      close(server.control_fd);
+      become_worker(server, d, parent, request, work);
     }
     if (pid > 0) setpgid(pid, pid);  // whoever of the two is first
     for (int fd : d)
@@ -93,11 +93,11 @@ nursery::Reply answer(const Nursery& n, const nursery::Request& request, const D
   }
   int status = 0;
   pid_t ended = 0;
-  do ended = waitpid(request.pid, &status, request.op == nursery::Op::wait ? 0 : WNOHANG);
+  do ended = waitpid(request.pid, &status, request.op == fork_server::Op::wait ? 0 : WNOHANG);
   while (ended < 0 && errno == EINTR);
   // A child that a plug-in's handler for SIGCHLD reaped is gone as well.
   const bool gone = ended == request.pid || ended < 0;
-  if (gone) clean_up_after_worker(n);
+  if (gone) clean_up_after_worker(server);
   return {gone, status};
 }
 
@@ -114,13 +114,14 @@ void say_who(int fd) {
   send(fd, &byte, 1, MSG_NOSIGNAL);
 }
 
-void run_nursery(const Nursery& nursery, const std::function<void(WorkerStreams)>& work) {
+void run_fork_server(const ForkServer& fork_server, const std::function<void(WorkerStreams)>& work) {
   for (;;) {
-    nursery::Request request{};
+    fork_server::Request request{};
     Descriptors descriptors;
-    if (!receive(nursery.control_fd, request, descriptors)) _exit(0);
-    const nursery::Reply reply = answer(nursery, request, descriptors, work);
-    if (send(nursery.control_fd, &reply, sizeof reply, MSG_NOSIGNAL) != static_cast<ssize_t>(sizeof reply))
+    if (!receive(fork_server.control_fd, request, descriptors)) _exit(0);
+    const fork_server::Reply reply = answer(fork_server, request, descriptors, work);
+    if (send(fork_server.control_fd, &reply, sizeof reply, MSG_NOSIGNAL) !=
+        static_cast<ssize_t>(sizeof reply))
       _exit(0);
   }
 }
