@@ -46,8 +46,11 @@ struct CardText {
       }
       out.push_back('"');
     };
-    field("name", name), field("library", library), field("version", version);
-    field("settings", settings), field("source", source);
+    field("name", name);
+    field("library", library);
+    field("version", version);
+    field("settings", settings);
+    field("source", source);
     char numbers[120];
     std::snprintf(numbers, sizeof numbers, ",\"unit_roundoff\":%.17g,\"tau_factor\":%.17g", unit_roundoff,
                   tau_factor);
@@ -75,21 +78,37 @@ inline Motion motion_of(const ts_body& b) {
   return b.has_motion ? Motion{vec3(b.linear), vec3(b.angular)} : Motion{};
 }
 
-inline void set_overlap(ts_answer& out, bool overlap) { out.has |= TS_HAS_OVERLAP, out.overlap = overlap; }
-inline void set_distance(ts_answer& out, double d) { out.has |= TS_HAS_DISTANCE, out.distance = d; }
+inline void set_overlap(ts_answer& out, bool overlap) {
+  out.has |= TS_HAS_OVERLAP;
+  out.overlap = overlap;
+}
+inline void set_distance(ts_answer& out, double d) {
+  out.has |= TS_HAS_DISTANCE;
+  out.distance = d;
+}
 inline void set_points(ts_answer& out, const Vec3& a, const Vec3& b) {
   out.has |= TS_HAS_POINTS;
-  store(a, out.point_a), store(b, out.point_b);
+  store(a, out.point_a);
+  store(b, out.point_b);
 }
-inline void set_normal(ts_answer& out, const Vec3& n) { out.has |= TS_HAS_NORMAL, store(n, out.normal); }
-inline void set_depth(ts_answer& out, double d) { out.has |= TS_HAS_DEPTH, out.depth = d; }
+inline void set_normal(ts_answer& out, const Vec3& n) {
+  out.has |= TS_HAS_NORMAL;
+  store(n, out.normal);
+}
+inline void set_depth(ts_answer& out, double d) {
+  out.has |= TS_HAS_DEPTH;
+  out.depth = d;
+}
 /// The depth of a manifold point whose own normal is `n`, in an answer that states `stated`: along another
 /// normal it is none of this answer's.
 inline double depth_along(const Vec3& stated, const Vec3& n, double depth) {
   constexpr double same = 1e-6;
   return (n - stated).norm() <= same ? depth : std::numeric_limits<double>::quiet_NaN();
 }
-inline void set_toi(ts_answer& out, double t) { out.has |= TS_HAS_TOI, out.toi = t; }
+inline void set_toi(ts_answer& out, double t) {
+  out.has |= TS_HAS_TOI;
+  out.toi = t;
+}
 
 /// Pairs that a user of the engine would filter: of one group, or listed.
 class PairFilter {
@@ -155,10 +174,12 @@ struct Table {
       out->outcome = TS_ANSWERED;
       self(e).ask(static_cast<ts_question>(question), a, b, *out, *sink);
     } catch (const Unsupported& why) {
-      out->outcome = TS_UNSUPPORTED, out->has = 0;
+      out->outcome = TS_UNSUPPORTED;
+      out->has = 0;
       set_detail(*out, why.what());
     } catch (const std::exception& why) {
-      out->outcome = TS_THREW, out->has = 0;
+      out->outcome = TS_THREW;
+      out->has = 0;
       set_detail(*out, why.what());
     }
   }

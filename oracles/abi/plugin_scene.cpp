@@ -19,11 +19,23 @@ struct Sizes {
   double* size;
   void operator()(const Sphere& s) const { size[0] = s.radius; }
   void operator()(const Box& s) const { copy3(s.half_extents, size); }
-  void operator()(const Capsule& s) const { size[0] = s.radius, size[1] = s.half_height; }
-  void operator()(const Cylinder& s) const { size[0] = s.radius, size[1] = s.half_height; }
-  void operator()(const Cone& s) const { size[0] = s.radius, size[1] = s.half_height; }
+  void operator()(const Capsule& s) const {
+    size[0] = s.radius;
+    size[1] = s.half_height;
+  }
+  void operator()(const Cylinder& s) const {
+    size[0] = s.radius;
+    size[1] = s.half_height;
+  }
+  void operator()(const Cone& s) const {
+    size[0] = s.radius;
+    size[1] = s.half_height;
+  }
   void operator()(const Ellipsoid& s) const { copy3(s.semi_axes, size); }
-  void operator()(const HalfSpace& s) const { copy3(s.normal, size), size[3] = s.offset; }
+  void operator()(const HalfSpace& s) const {
+    copy3(s.normal, size);
+    size[3] = s.offset;
+  }
   void operator()(const Hull&) const {}
   void operator()(const TriangleMesh&) const {}
 };
@@ -32,11 +44,23 @@ struct FromSizes {
   const double* size;
   void operator()(Sphere& s) const { s.radius = size[0]; }
   void operator()(Box& s) const { s.half_extents = vec3(size); }
-  void operator()(Capsule& s) const { s.radius = size[0], s.half_height = size[1]; }
-  void operator()(Cylinder& s) const { s.radius = size[0], s.half_height = size[1]; }
-  void operator()(Cone& s) const { s.radius = size[0], s.half_height = size[1]; }
+  void operator()(Capsule& s) const {
+    s.radius = size[0];
+    s.half_height = size[1];
+  }
+  void operator()(Cylinder& s) const {
+    s.radius = size[0];
+    s.half_height = size[1];
+  }
+  void operator()(Cone& s) const {
+    s.radius = size[0];
+    s.half_height = size[1];
+  }
   void operator()(Ellipsoid& s) const { s.semi_axes = vec3(size); }
-  void operator()(HalfSpace& s) const { s.normal = vec3(size), s.offset = size[3]; }
+  void operator()(HalfSpace& s) const {
+    s.normal = vec3(size);
+    s.offset = size[3];
+  }
   void operator()(Hull&) const {}
   void operator()(TriangleMesh&) const {}
 };
@@ -58,8 +82,10 @@ std::vector<double> flat(const std::vector<Vec3>& points) {
 ts_pose to_abi(const Pose& p) {
   ts_pose out;
   copy3(p.translation, out.translation);
-  out.rotation[0] = p.rotation.x, out.rotation[1] = p.rotation.y;
-  out.rotation[2] = p.rotation.z, out.rotation[3] = p.rotation.w;
+  out.rotation[0] = p.rotation.x;
+  out.rotation[1] = p.rotation.y;
+  out.rotation[2] = p.rotation.z;
+  out.rotation[3] = p.rotation.w;
   return out;
 }
 
@@ -70,7 +96,10 @@ ts_body to_abi(const Body& b) {
   out.has_motion = b.motion.has_value();
   out.group = b.group;
   out.pose = to_abi(b.pose);
-  if (b.motion) copy3(b.motion->linear, out.linear), copy3(b.motion->angular, out.angular);
+  if (b.motion) {
+    copy3(b.motion->linear, out.linear);
+    copy3(b.motion->angular, out.angular);
+  }
   return out;
 }
 
@@ -148,7 +177,10 @@ PluginScene::PluginScene(const Scene& scene) {
       out.vertices = vertices_.back().data();
       out.vertex_count = v->size();
     }
-    if (const auto* h = std::get_if<Hull>(&s)) point_at(h->faces, out), out.dimension = h->dimension;
+    if (const auto* h = std::get_if<Hull>(&s)) {
+      point_at(h->faces, out);
+      out.dimension = h->dimension;
+    }
     if (const auto* m = std::get_if<TriangleMesh>(&s)) point_at(m->triangles, out);
     shapes_.push_back(out);
   }

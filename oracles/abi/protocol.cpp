@@ -8,6 +8,7 @@ namespace {
 
 constexpr std::uint32_t magic = 0x31505354;  // "TSP1"
 constexpr std::size_t header_bytes = 16;
+constexpr std::size_t compact_beyond_bytes = std::size_t{1} << 16;  // consumed bytes kept before compacting
 
 /// Writes the header with an open length, runs `body`, fills the length in.
 template <class F>
@@ -45,16 +46,24 @@ void put_lists(Writer& w, const Observation& o) {
 
 void get_lists(Reader& r, Observation& o) {
   o.manifold.resize(r.count(32));
-  for (ManifoldPoint& p : o.manifold) p.position = r.vec3(), p.depth = r.get<double>();
+  for (ManifoldPoint& p : o.manifold) {
+    p.position = r.vec3();
+    p.depth = r.get<double>();
+  }
   o.candidate_pairs.resize(r.count(4));
   for (auto& pairs : o.candidate_pairs) {
     pairs.resize(r.count(8));
-    for (auto& [a, b] : pairs) a = r.get<std::int32_t>(), b = r.get<std::int32_t>();
+    for (auto& [a, b] : pairs) {
+      a = r.get<std::int32_t>();
+      b = r.get<std::int32_t>();
+    }
   }
   o.contacts.resize(r.count(40));
   for (SceneContact& c : o.contacts) {
-    c.a = r.get<std::int32_t>(), c.b = r.get<std::int32_t>();
-    c.normal = r.vec3(), c.depth = r.get<double>();
+    c.a = r.get<std::int32_t>();
+    c.b = r.get<std::int32_t>();
+    c.normal = r.vec3();
+    c.depth = r.get<double>();
   }
 }
 
@@ -100,8 +109,14 @@ Observation get_observation(Reader& r) {
 }  // namespace
 
 void FrameReader::append(const char* data, std::size_t n) {
-  if (begin_ == buffer_.size()) buffer_.clear(), begin_ = 0;
-  if (begin_ > (std::size_t{1} << 16)) buffer_.erase(0, begin_), begin_ = 0;
+  if (begin_ == buffer_.size()) {
+    buffer_.clear();
+    begin_ = 0;
+  }
+  if (begin_ > compact_beyond_bytes) {
+    buffer_.erase(0, begin_);
+    begin_ = 0;
+  }
   buffer_.append(data, n);
 }
 
@@ -180,7 +195,8 @@ QuestionMessage decode_question(std::string_view payload) {
   m.queries.resize(r.count(9));
   for (Query& q : m.queries) {
     q.question = static_cast<Question>(r.tag(static_cast<std::uint8_t>(question_names.size())));
-    q.a = r.get<std::int32_t>(), q.b = r.get<std::int32_t>();
+    q.a = r.get<std::int32_t>();
+    q.b = r.get<std::int32_t>();
   }
   r.finish();
   return m;

@@ -49,7 +49,7 @@ void put_shape(Writer& w, const Shape& shape) {
 template <std::size_t... I>
 Shape shape_of_kind(std::size_t kind, std::index_sequence<I...>) {
   Shape s;
-  ((kind == I ? (s.emplace<I>(), 0) : 0), ...);
+  ((kind == I ? static_cast<void>(s.emplace<I>()) : static_cast<void>(0)), ...);
   return s;
 }
 
@@ -138,7 +138,10 @@ Scene get_scene(Reader& r) {
   scene.bodies.resize(r.count(66));
   for (Body& b : scene.bodies) b = get_body(r, scene.shapes.size());
   scene.ignored.resize(r.count(8));
-  for (auto& [a, b] : scene.ignored) a = r.get<std::int32_t>(), b = r.get<std::int32_t>();
+  for (auto& [a, b] : scene.ignored) {
+    a = r.get<std::int32_t>();
+    b = r.get<std::int32_t>();
+  }
   scene.script.resize(r.count(6));
   for (Step& s : scene.script) s = get_step(r, scene.bodies.size());
   return scene;

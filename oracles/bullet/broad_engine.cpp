@@ -94,7 +94,8 @@ class Run {
     for (int k = 0; k < 3; ++k) {
       const auto t = static_cast<btScalar>(step.pose.translation[k]),
                  h = static_cast<btScalar>(asked.size[(k + shift) % 3]);
-      lo[k] = t - h, hi[k] = t + h;
+      lo[k] = t - h;
+      hi[k] = t + h;
     }
   }
 
@@ -130,9 +131,13 @@ class Engine {
       shapes_.push_back(make_shape(scene.shapes[i], 0));
       if (!shapes_.back()->shape) throw kit::Unsupported("Bullet has no ellipsoid");
     }
-    scene_ = &scene, filter_ = kit::PairFilter(scene);
+    scene_ = &scene;
+    filter_ = kit::PairFilter(scene);
   }
-  void unload() { shapes_.clear(), scene_ = nullptr; }
+  void unload() {
+    shapes_.clear();
+    scene_ = nullptr;
+  }
 
   void ask(ts_question question, int, int, ts_answer&, const ts_sink& sink) {
     if (question != TS_CANDIDATES) throw kit::Unsupported("a broad phase alone");

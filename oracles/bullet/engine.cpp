@@ -68,7 +68,11 @@ class Engine {
     scene_ = &scene;
     filter_ = kit::PairFilter(scene);
   }
-  void unload() { objects_.clear(), shapes_.clear(), scene_ = nullptr; }
+  void unload() {
+    objects_.clear();
+    shapes_.clear();
+    scene_ = nullptr;
+  }
 
   void ask(ts_question question, int a, int b, ts_answer& out, const ts_sink& sink) {
     if ((question == TS_TIME_OF_IMPACT) ? setting_.minkowski || setting_.epa_tolerance

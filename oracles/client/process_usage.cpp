@@ -48,7 +48,8 @@ char joint_state(char a, char b) {
 }
 
 void add(ProcessUsage& sum, const ProcessUsage& u) {
-  sum.cpu_seconds += u.cpu_seconds, sum.resident_bytes += u.resident_bytes;
+  sum.cpu_seconds += u.cpu_seconds;
+  sum.resident_bytes += u.resident_bytes;
   sum.processes += u.processes;
   sum.state = joint_state(sum.state, u.state);
 }

@@ -24,7 +24,6 @@ constexpr int max_failed_starts = 3;
 // Read as a double about 2e6, as an index beyond any array, as a pointer to nowhere: what was never written
 // is found out. Zeros, the kindest content, are what is asked with otherwise.
 constexpr std::uint8_t other_fill = 0x41;
-constexpr double death_wait_seconds = 2;  // from the end of the answers to the end of the process
 
 /// The next observation that is due.
 struct Cursor {
@@ -140,7 +139,8 @@ class RemoteEngine::Impl {
     at_.loaded = false;
     next_to_send_ = at_.item;
     first_sequence_ = sequence_;
-    outgoing_.clear(), outgoing_begin_ = 0;
+    outgoing_.clear();
+    outgoing_begin_ = 0;
     if (session_) watchdog_.progress(*session_->process);
   }
 
@@ -217,7 +217,10 @@ class RemoteEngine::Impl {
       if (n <= 0) break;  // full, or the worker is gone, which the other stream will tell
       outgoing_begin_ += static_cast<std::size_t>(n);
     }
-    if (outgoing_begin_ == outgoing_.size()) outgoing_.clear(), outgoing_begin_ = 0;
+    if (outgoing_begin_ == outgoing_.size()) {
+      outgoing_.clear();
+      outgoing_begin_ = 0;
+    }
   }
 
   /// Unique over the life of this object, so that an answer to an earlier question cannot pass for a new one.

@@ -57,8 +57,10 @@ void Watchdog::look_at_all(const WorkerProcess& w, Clock::duration since_last) {
   const double precise = all.cpu_seconds + w.cpu_seconds();  // the latter twice, to see less than 10 ms
   const bool waits = precise - precise_at_look_ < least_cpu_use && (all.state == 'S' || all.state == 'T');
   blocked_ = waits ? blocked_ + std::min<Clock::duration>(since_last, 2 * look_every) : Clock::duration{};
-  precise_at_look_ = precise, cpu_of_all_ = all.cpu_seconds;
-  resident_of_all_ = all.resident_bytes, state_ = all.state;
+  precise_at_look_ = precise;
+  cpu_of_all_ = all.cpu_seconds;
+  resident_of_all_ = all.resident_bytes;
+  state_ = all.state;
   if (progressed_) cpu_of_all_at_progress_ = cpu_of_all_;
   progressed_ = false;
 }

@@ -111,7 +111,10 @@ int spawn(const std::string& program, const std::vector<std::string>& arguments,
   char perturb[] = "MALLOC_PERTURB_=255", no_cache[] = "GLIBC_TUNABLES=glibc.malloc.tcache_count=0";
   std::vector<char*> environment;
   for (char** e = environ; *e != nullptr; ++e) environment.push_back(*e);
-  if (!native) environment.push_back(perturb), environment.push_back(no_cache);
+  if (!native) {
+    environment.push_back(perturb);
+    environment.push_back(no_cache);
+  }
   environment.push_back(nullptr);
   const int error = posix_spawn(pid, program.c_str(), &actions, &attributes, argv.data(), environment.data());
   posix_spawn_file_actions_destroy(&actions);
@@ -147,8 +150,10 @@ pid_t sender(int fd, int ms) {
   iovec body{&byte, 1};
   alignas(cmsghdr) char control[CMSG_SPACE(sizeof(ucred))] = {};
   msghdr message{};
-  message.msg_iov = &body, message.msg_iovlen = 1;
-  message.msg_control = control, message.msg_controllen = sizeof control;
+  message.msg_iov = &body;
+  message.msg_iovlen = 1;
+  message.msg_control = control;
+  message.msg_controllen = sizeof control;
   if (recvmsg(fd, &message, MSG_CMSG_CLOEXEC) != 1) return -1;
   const cmsghdr* const header = CMSG_FIRSTHDR(&message);
   if (!header || header->cmsg_type != SCM_CREDENTIALS) return -1;
@@ -212,7 +217,8 @@ WorkerProcess::WorkerProcess(const std::filesystem::path& host, const std::vecto
       SpawnThread::instance().run([&] { return spawn(program, arguments, streams, native, &pid_); });
   if (error != 0)
     throw InputError(program, std::string("the worker program cannot be started: ") + std::strerror(error));
-  questions_ = std::move(questions.ours), answers_ = std::move(answers.ours),
+  questions_ = std::move(questions.ours);
+  answers_ = std::move(answers.ours);
   errors_ = std::move(errors.ours);
   open_clock();
 }
@@ -229,7 +235,8 @@ WorkerProcess::WorkerProcess(std::shared_ptr<WorkerProcess> fork_server, const N
   number_ = reply->value;
   pid_ = sender(questions.ours.get(), fork_server_reply_ms);
   if (pid_ <= 0) throw InputError("", "the worker died at its start");
-  questions_ = std::move(questions.ours), answers_ = std::move(answers.ours),
+  questions_ = std::move(questions.ours);
+  answers_ = std::move(answers.ours);
   errors_ = std::move(errors.ours);
   open_clock();
 }
@@ -248,12 +255,15 @@ std::optional<fork_server::Reply> WorkerProcess::request(
   const std::lock_guard lock(mutex_);
   iovec body{&what, sizeof what};
   msghdr message{};
-  message.msg_iov = &body, message.msg_iovlen = 1;
+  message.msg_iov = &body;
+  message.msg_iovlen = 1;
   alignas(cmsghdr) char control[CMSG_SPACE(sizeof *with)] = {};
   if (with) {
-    message.msg_control = control, message.msg_controllen = sizeof control;
+    message.msg_control = control;
+    message.msg_controllen = sizeof control;
     cmsghdr* const header = CMSG_FIRSTHDR(&message);
-    header->cmsg_level = SOL_SOCKET, header->cmsg_type = SCM_RIGHTS,
+    header->cmsg_level = SOL_SOCKET;
+    header->cmsg_type = SCM_RIGHTS;
     header->cmsg_len = CMSG_LEN(sizeof *with);
     std::memcpy(CMSG_DATA(header), with->data(), sizeof *with);
   }
@@ -298,7 +308,8 @@ bool WorkerProcess::reap_child(bool wait) {
   pid_t ended = 0;
   do ended = waitpid(pid_, &status_, wait ? 0 : WNOHANG);
   while (ended < 0 && errno == EINTR);
-  return reaped_ = ended == pid_;
+  reaped_ = ended == pid_;
+  return reaped_;
 }
 
 /// Its supervisor ends whatever is below it, and then itself.

@@ -15,10 +15,12 @@
 namespace touchstone {
 namespace {
 
-/// Waits up to 50 ms for the worker to say something on either stream.
+constexpr int output_wait_ms = 50;
+
+/// Waits for a while for output of the worker on either stream.
 void wait_for_output(WorkerProcess& worker) {
   pollfd fds[2] = {{worker.answers_fd(), POLLIN, 0}, {worker.errors_fd(), POLLIN, 0}};
-  poll(fds, 2, 50);
+  poll(fds, 2, output_wait_ms);
   if (worker.errors_fd() >= 0) worker.drain_errors();
 }
 
@@ -36,9 +38,10 @@ protocol::Hello await_hello(WorkerSession& s, const std::string& place, const Wo
     } catch (const protocol::Malformed& e) {
       throw InputError(place, std::string("the worker's first words are no hello: ") + e.what());
     }
-    if (r == ReadResult::closed)
-      throw InputError(
-          place, "the worker died while loading it: " + (s.process->ends_within(2), s.process->end().detail));
+    if (r == ReadResult::closed) {
+      s.process->ends_within(death_wait_seconds);
+      throw InputError(place, "the worker died while loading it: " + s.process->end().detail);
+    }
     if (const auto verdict = watchdog.check(*s.process, Watchdog::Phase::starting))
       throw InputError(place, "the worker was ended: " + verdict->why);
     if (r == ReadResult::nothing_yet) wait_for_output(*s.process);

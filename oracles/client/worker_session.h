@@ -11,6 +11,9 @@
 
 namespace touchstone {
 
+/// How long a worker that has closed its answers is given to end by itself.
+inline constexpr double death_wait_seconds = 2;
+
 struct WorkerSession {
   std::shared_ptr<WorkerProcess> process;
   protocol::FrameReader frames;

@@ -143,10 +143,14 @@ class BroadEngine final : public NativeEngine {
     try {
       const auto phase = row_.make();
       Run run(s, *phase, boxes_, o);
-      swept ? run.step() : run.script();
+      if (swept)
+        run.step();
+      else
+        run.script();
       o.outcome = Outcome::answered;
     } catch (const NoBox&) {
-      o = {}, o.detail = "a body that is no box";
+      o = {};
+      o.detail = "a body that is no box";
     }
   }
   const broad::CatalogRow& row_;

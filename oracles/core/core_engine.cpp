@@ -38,7 +38,9 @@ void ask_distance(const Scene& s, const Query& q, Arithmetic arithmetic, Observa
   const DistanceAnswer r = distance(placed(s, q.a), placed(s, q.b), arithmetic);
   o.outcome = r.outcome;
   if (r.outcome != Outcome::answered) return;
-  o.distance = r.distance, o.witness = r.witness, o.normal = r.normal;
+  o.distance = r.distance;
+  o.witness = r.witness;
+  o.normal = r.normal;
 }
 
 void ask_contact(const Scene& s, const Query& q, Arithmetic arithmetic, Observation& o) {
@@ -47,7 +49,8 @@ void ask_contact(const Scene& s, const Query& q, Arithmetic arithmetic, Observat
   if (r.outcome != Outcome::answered) return;
   o.overlap = r.overlap;
   if (!r.overlap) return;
-  o.normal = r.normal, o.depth = r.depth;
+  o.normal = r.normal;
+  o.depth = r.depth;
   for (const ContactPoint& p : r.manifold) o.manifold.push_back({p.position, p.depth});
 }
 
@@ -84,7 +87,8 @@ void ask(const Scene& s, const Query& q, Arithmetic arithmetic, Observation& o) 
   const bool narrow =
       q.question == Question::overlap || q.question == Question::distance || q.question == Question::contact;
   if (arithmetic == Arithmetic::float32 && !narrow) {
-    o.outcome = Outcome::unsupported, o.detail = "float is a narrow phase only";
+    o.outcome = Outcome::unsupported;
+    o.detail = "float is a narrow phase only";
     return;
   }
   switch (q.question) {

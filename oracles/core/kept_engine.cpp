@@ -66,7 +66,11 @@ void ask_overlap(Kept& kept, const Query& q, Observation& o) {
 void ask_distance(Kept& kept, const Query& q, Observation& o) {
   const DistanceAnswer r = distance(kept.placed(q.a), kept.placed(q.b), Arithmetic::float64, &kept.memory(q));
   o.outcome = r.outcome;
-  if (r.outcome == Outcome::answered) o.distance = r.distance, o.witness = r.witness, o.normal = r.normal;
+  if (r.outcome == Outcome::answered) {
+    o.distance = r.distance;
+    o.witness = r.witness;
+    o.normal = r.normal;
+  }
 }
 
 void ask_contact(Kept& kept, const Query& q, Observation& o) {
@@ -75,7 +79,8 @@ void ask_contact(Kept& kept, const Query& q, Observation& o) {
   if (r.outcome != Outcome::answered) return;
   o.overlap = r.overlap;
   if (!r.overlap) return;
-  o.normal = r.normal, o.depth = r.depth;
+  o.normal = r.normal;
+  o.depth = r.depth;
   for (const ContactPoint& p : reduced(r)) o.manifold.push_back({p.position, p.depth});
 }
 
@@ -151,7 +156,9 @@ void ask(const Scene& s, Kept& kept, const Query& q, Observation& o) {
 class KeptEngine final : public NativeEngine {
  public:
   KeptEngine() {
-    card_.name = "core-kept", card_.library = "Touchstone core", card_.version = "0.1.0";
+    card_.name = "core-kept";
+    card_.library = "Touchstone core";
+    card_.version = "0.1.0";
     card_.settings =
         "as core, with hull graphs, mesh trees, the memory of each pair and manifolds of four points; "
         "motions "

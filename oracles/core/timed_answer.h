@@ -17,9 +17,13 @@ Observation timed_answer(Ask&& ask) {
   try {
     ask(o);
   } catch (const InputError& e) {
-    o = {}, o.outcome = Outcome::invalid_input, o.detail = e.what();
+    o = {};
+    o.outcome = Outcome::invalid_input;
+    o.detail = e.what();
   } catch (const std::exception& e) {
-    o = {}, o.outcome = Outcome::threw, o.detail = e.what();
+    o = {};
+    o.outcome = Outcome::threw;
+    o.detail = e.what();
   }
   o.elapsed_ns = std::chrono::nanoseconds(std::chrono::steady_clock::now() - start).count();
   return o;

@@ -49,18 +49,28 @@ static void run(const ts_scene* scene, const ts_sink* sink) {
 }
 
 static const char* card(uint32_t i) {
-  return (void)i, "{\"name\":\"mine\",\"library\":\"mine\",\"version\":\"1\",\"settings\":\"all pairs of cubes\","
-                  "\"unit_roundoff\":1.1102230246251565e-16,\"tau_factor\":64,\"source\":\"arithmetic only\"}";
+  (void)i;
+  return "{\"name\":\"mine\",\"library\":\"mine\",\"version\":\"1\",\"settings\":\"all pairs of cubes\","
+         "\"unit_roundoff\":1.1102230246251565e-16,\"tau_factor\":64,\"source\":\"arithmetic only\"}";
 }
-static ts_engine* create(uint32_t i) { return (void)i, calloc(1, sizeof(ts_engine)); }
+static ts_engine* create(uint32_t i) {
+  (void)i;
+  return calloc(1, sizeof(ts_engine));
+}
 static void destroy(ts_engine* e) { free(e); }
 static int32_t load(ts_engine* e, const ts_scene* s, const ts_received* r, char* detail) {
-  return (void)r, (void)detail, e->scene = s, TS_ANSWERED;
+  (void)r;
+  (void)detail;
+  e->scene = s;
+  return TS_ANSWERED;
 }
 static void unload(ts_engine* e) { e->scene = NULL; }
 static void ask(ts_engine* e, int32_t question, int32_t a, int32_t b, ts_answer* out, const ts_sink* sink) {
-  (void)a, (void)b;
-  if (question == TS_CANDIDATES) run(e->scene, sink), out->outcome = TS_ANSWERED; /* else TS_UNSUPPORTED */
+  (void)a;
+  (void)b;
+  if (question != TS_CANDIDATES) return; /* stays TS_UNSUPPORTED */
+  run(e->scene, sink);
+  out->outcome = TS_ANSWERED;
 }
 
 static const ts_plugin table = {TS_ABI_VERSION, 1, card, create, destroy, load, unload, ask};

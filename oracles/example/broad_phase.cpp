@@ -53,10 +53,15 @@ const char* card(uint32_t) {
 }
 ts_engine* create(uint32_t) { return new ts_engine; }
 void destroy(ts_engine* e) { delete e; }
-int32_t load(ts_engine* e, const ts_scene* s, const ts_received*, char*) { return e->scene = s, TS_ANSWERED; }
+int32_t load(ts_engine* e, const ts_scene* s, const ts_received*, char*) {
+  e->scene = s;
+  return TS_ANSWERED;
+}
 void unload(ts_engine* e) { e->scene = nullptr; }
 void ask(ts_engine* e, int32_t question, int32_t, int32_t, ts_answer* out, const ts_sink* sink) {
-  if (question == TS_CANDIDATES) run(*e->scene, *sink), out->outcome = TS_ANSWERED;  // else TS_UNSUPPORTED
+  if (question != TS_CANDIDATES) return;  // stays TS_UNSUPPORTED
+  run(*e->scene, *sink);
+  out->outcome = TS_ANSWERED;
 }
 const ts_plugin table = {TS_ABI_VERSION, 1, card, create, destroy, load, unload, ask};
 

@@ -26,7 +26,8 @@ static ts_engine* create(uint32_t i) {
 static void destroy(ts_engine* e) { free(e); }
 
 static int32_t load(ts_engine* e, const ts_scene* scene, const ts_received* received, char* detail) {
-  (void)received, (void)detail; /* nothing is rounded on the way in, so there is nothing to report */
+  (void)received; /* nothing is rounded on the way in, so there is nothing to report */
+  (void)detail;
   e->scene = scene;
   return TS_ANSWERED;
 }

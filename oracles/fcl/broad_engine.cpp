@@ -166,9 +166,13 @@ class Engine {
       geometries_.push_back(make_geometry(scene.shapes[i]));
       geometries_.back()->computeLocalAABB();
     }
-    scene_ = &scene, filter_ = kit::PairFilter(scene);
+    scene_ = &scene;
+    filter_ = kit::PairFilter(scene);
   }
-  void unload() { geometries_.clear(), scene_ = nullptr; }
+  void unload() {
+    geometries_.clear();
+    scene_ = nullptr;
+  }
 
   void ask(ts_question question, int, int, ts_answer&, const ts_sink& sink) {
     if (question != TS_CANDIDATES) throw kit::Unsupported("a broad phase alone");

@@ -91,7 +91,11 @@ class Engine {
     scene_ = &scene;
     filter_ = kit::PairFilter(scene);
   }
-  void unload() { bodies_.clear(), geometries_.clear(), scene_ = nullptr; }
+  void unload() {
+    bodies_.clear();
+    geometries_.clear();
+    scene_ = nullptr;
+  }
 
   void ask(ts_question question, int a, int b, ts_answer& out, const ts_sink& sink) {
     const bool of_motions = settings_.samples > 0 || settings_.impact_tolerance > 0;

@@ -33,7 +33,10 @@ fcl::CollisionRequestd collision_request(const Settings& s, bool with_contacts) 
   fcl::CollisionRequestd r;
   r.gjk_solver_type = s.solver;
   r.gjk_tolerance = overlap_tolerance(s);
-  if (with_contacts) r.enable_contact = true, r.num_max_contacts = max_contacts;
+  if (with_contacts) {
+    r.enable_contact = true;
+    r.num_max_contacts = max_contacts;
+  }
   return r;
 }
 
@@ -120,7 +123,8 @@ Contact contact(const Placed& a, const Placed& b, const Settings& s) {
     const Vec3 normal = has_b_first(k, a, b) ? Vec3(-k.normal) : Vec3(k.normal);
     c.points.push_back({k.pos, k.penetration_depth, normal});
     if (!(k.penetration_depth > c.depth)) continue;
-    c.depth = k.penetration_depth, c.normal = normal;
+    c.depth = k.penetration_depth;
+    c.normal = normal;
   }
   if (s.tuned && s.libccd() && c.overlap && is_bounded_convex(a) && is_bounded_convex(b)) refine(a, b, s, c);
   return c;

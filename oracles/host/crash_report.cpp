@@ -45,7 +45,10 @@ void* interrupted_at([[maybe_unused]] const ucontext_t& u) {
 
 class Line {
  public:
-  Line() { add("\n"), add(frames_prefix); }
+  Line() {
+    add("\n");
+    add(frames_prefix);
+  }
   void add(const char* s) {
     const std::size_t n = std::min(strlen(s), text_.size() - 1 - used_);
     std::memcpy(text_.data() + used_, s, n);
@@ -89,10 +92,14 @@ void print_frames(void* const* frames, std::size_t count) {
     const char* const module = file_name(where.dli_fname);
     if (printed == 0 && is_of_the_system(module)) continue;
     if (std::strcmp(module, host_program_name) == 0) break;
-    line.add(printed++ ? " | " : " "), line.add(module), line.add("+");
+    line.add(printed++ ? " | " : " ");
+    line.add(module);
+    line.add("+");
     line.add_hex(at - reinterpret_cast<std::uintptr_t>(where.dli_fbase));
     if (!where.dli_sname) continue;
-    line.add(" "), line.add(where.dli_sname), line.add("+");
+    line.add(" ");
+    line.add(where.dli_sname);
+    line.add("+");
     line.add_hex(at - reinterpret_cast<std::uintptr_t>(where.dli_saddr));
   }
   if (printed > 0) line.print();
@@ -124,7 +131,8 @@ void prepare_crash_reports() {
 
 void report_crashes() {
   stack_t stack{};
-  stack.ss_sp = signal_stack.data(), stack.ss_size = signal_stack.size();
+  stack.ss_sp = signal_stack.data();
+  stack.ss_size = signal_stack.size();
   if (sigaltstack(&stack, nullptr) != 0) return;
   struct sigaction action {};
   action.sa_sigaction = on_fatal_signal;

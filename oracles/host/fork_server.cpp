@@ -28,8 +28,10 @@ bool receive(int fd, fork_server::Request& request, Descriptors& descriptors) {
   alignas(cmsghdr) char control[CMSG_SPACE(sizeof(Descriptors))] = {};
   iovec body{&request, sizeof request};
   msghdr message{};
-  message.msg_iov = &body, message.msg_iovlen = 1;
-  message.msg_control = control, message.msg_controllen = sizeof control;
+  message.msg_iov = &body;
+  message.msg_iovlen = 1;
+  message.msg_control = control;
+  message.msg_controllen = sizeof control;
   ssize_t n = 0;
   do n = recvmsg(fd, &message, MSG_CMSG_CLOEXEC);
   while (n < 0 && errno == EINTR);

@@ -69,7 +69,8 @@ Loaded load(const std::string& file, const std::string& engine) {
     l.hello.cards = host::cards_of(*l.plugin);
     if (engine != "--cards") l.hello.chosen = host::choose_engine(l.hello.cards, engine);
   } catch (const std::exception& e) {
-    l.hello.error = e.what(), l.hello.chosen = -1;
+    l.hello.error = e.what();
+    l.hello.chosen = -1;
   }
   return l;
 }
@@ -83,10 +84,12 @@ void say(int fd, const protocol::Hello& hello) {
 /// The life of a worker of a library of native engines.
 void work_natively(protocol::Hello hello, MakeNativeEngine& make, const host::WorkerStreams& streams) {
   const std::unique_ptr<NativeEngine> engine(make(streams.engine.c_str()));
-  if (engine)
-    hello.cards = {to_json_text(engine->card())}, hello.chosen = 0;
-  else
+  if (engine) {
+    hello.cards = {to_json_text(engine->card())};
+    hello.chosen = 0;
+  } else {
     hello.error = "offers no engine '" + streams.engine + "'";
+  }
   say(streams.answers, hello);
   if (engine) host::serve_native(*engine, streams);
 }
@@ -114,7 +117,10 @@ struct Arguments {
 
 Arguments read_arguments(int argc, char** argv) {
   Arguments a{argv[1], argc > 2 ? argv[2] : "", {}};
-  if (argc == 5) a.wish.scratch = argv[3], a.wish.memory_bytes = std::strtoull(argv[4], nullptr, 10);
+  if (argc == 5) {
+    a.wish.scratch = argv[3];
+    a.wish.memory_bytes = std::strtoull(argv[4], nullptr, 10);
+  }
   a.wish.is_command = a.plugin.starts_with(host::pipe_prefix);
   return a;
 }

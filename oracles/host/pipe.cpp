@@ -42,17 +42,25 @@ class Child {
     pid_ = fork();
     if (pid_ < 0) throw std::runtime_error("could not be started");
     if (pid_ == 0) {
-      dup2(to[0], 0), dup2(from[1], 1), dup2(errors[1], 2);
+      dup2(to[0], 0);
+      dup2(from[1], 1);
+      dup2(errors[1], 2);
       for (int fd : {to[0], to[1], from[0], from[1], errors[0], errors[1]}) close(fd);
       execl("/bin/sh", "sh", "-c", ("exec " + command).c_str(), static_cast<char*>(nullptr));
       _exit(127);
     }
-    close(to[0]), close(from[1]), close(errors[1]);
-    to_ = to[1], from_ = from[0], errors_ = errors[0];
+    close(to[0]);
+    close(from[1]);
+    close(errors[1]);
+    to_ = to[1];
+    from_ = from[0];
+    errors_ = errors[0];
     for (int fd : {to_, errors_}) fcntl(fd, F_SETFL, fcntl(fd, F_GETFL) | O_NONBLOCK);
   }
   ~Child() {
-    close(to_), close(from_), close(errors_);
+    close(to_);
+    close(from_);
+    close(errors_);
     if (pid_ < 0) return;
     kill(pid_, SIGKILL);
     waitpid(pid_, nullptr, 0);
@@ -120,7 +128,10 @@ class Child {
     for (;;) {
       const ssize_t n = errors_ < 0 ? 0 : read(errors_, bytes, sizeof bytes);
       if (n < 0 && errno == EINTR) continue;
-      if (n == 0 && errors_ >= 0) close(errors_), errors_ = -1;
+      if (n == 0 && errors_ >= 0) {
+        close(errors_);
+        errors_ = -1;
+      }
       if (n <= 0) return;
       said_.append(bytes, static_cast<std::size_t>(n));
       if (said_.size() > 4 * kept_bytes) said_.erase(0, said_.size() - kept_bytes);
@@ -196,11 +207,15 @@ void read_lists(const Json& j, const ts_sink& sink) {
       ++k;
     }
   }
-  for (const Json& p : j.value("points", Json::array()))
-    read3(p.at("position"), v), sink.point(sink.ctx, v, depth_of_point(p));
-  for (const Json& c : j.value("contacts", Json::array()))
-    read3(c.at("normal"), v), sink.contact(sink.ctx, c.at("a").get<std::int32_t>(),
-                                           c.at("b").get<std::int32_t>(), v, c.at("depth").get<double>());
+  for (const Json& p : j.value("points", Json::array())) {
+    read3(p.at("position"), v);
+    sink.point(sink.ctx, v, depth_of_point(p));
+  }
+  for (const Json& c : j.value("contacts", Json::array())) {
+    read3(c.at("normal"), v);
+    sink.contact(sink.ctx, c.at("a").get<std::int32_t>(), c.at("b").get<std::int32_t>(), v,
+                 c.at("depth").get<double>());
+  }
 }
 
 std::int32_t outcome_of(const std::string& name) {
@@ -216,14 +231,27 @@ void read_answer(const Json& j, ts_answer& out, const ts_sink& sink) {
   std::snprintf(out.detail, sizeof out.detail, "%s", j.value("detail", "").c_str());
   if (out.outcome != TS_ANSWERED) return;
   const auto number = [&](const char* name, std::uint32_t bit, double& field) {
-    if (j.contains(name) && j.at(name).is_number()) out.has |= bit, field = j.at(name).get<double>();
+    if (j.contains(name) && j.at(name).is_number()) {
+      out.has |= bit;
+      field = j.at(name).get<double>();
+    }
   };
-  number("distance", TS_HAS_DISTANCE, out.distance), number("depth", TS_HAS_DEPTH, out.depth);
+  number("distance", TS_HAS_DISTANCE, out.distance);
+  number("depth", TS_HAS_DEPTH, out.depth);
   number("toi", TS_HAS_TOI, out.toi);
-  if (j.contains("overlap")) out.has |= TS_HAS_OVERLAP, out.overlap = j.at("overlap").get<bool>();
-  if (j.contains("normal")) out.has |= TS_HAS_NORMAL, read3(j.at("normal"), out.normal);
-  if (j.contains("point_a") && j.contains("point_b"))
-    out.has |= TS_HAS_POINTS, read3(j.at("point_a"), out.point_a), read3(j.at("point_b"), out.point_b);
+  if (j.contains("overlap")) {
+    out.has |= TS_HAS_OVERLAP;
+    out.overlap = j.at("overlap").get<bool>();
+  }
+  if (j.contains("normal")) {
+    out.has |= TS_HAS_NORMAL;
+    read3(j.at("normal"), out.normal);
+  }
+  if (j.contains("point_a") && j.contains("point_b")) {
+    out.has |= TS_HAS_POINTS;
+    read3(j.at("point_a"), out.point_a);
+    read3(j.at("point_b"), out.point_b);
+  }
   out.claimed_tolerance = j.value("claimed_tolerance", 0.0);
   read_lists(j, sink);
 }
@@ -266,7 +294,10 @@ void unload(ts_engine*) {}
 void ask(ts_engine* e, std::int32_t question, std::int32_t a, std::int32_t b, ts_answer* out,
          const ts_sink* sink) {
   Json j = {{"ask", std::string(question_names.at(static_cast<std::size_t>(question)))}};
-  if (question <= TS_TIME_OF_IMPACT) j["a"] = a, j["b"] = b;
+  if (question <= TS_TIME_OF_IMPACT) {
+    j["a"] = a;
+    j["b"] = b;
+  }
   try {
     child(e).write_line(j.dump());
     read_answer(parsed(child(e).read_line()), *out, *sink);
@@ -291,7 +322,8 @@ const ts_plugin& load_pipe(const std::string& command) {
     throw std::runtime_error("speaks version " + j["touchstone_pipe"].dump() +
                              " of the pipe protocol, and not 1");
   gives_receipts = j.value("receipts", false);
-  j.erase("touchstone_pipe"), j.erase("receipts");
+  j.erase("touchstone_pipe");
+  j.erase("receipts");
   card_text = j.dump();
   static const ts_plugin table{TS_ABI_VERSION, 1, card, create, destroy, load, unload, ask};
   return table;

@@ -97,14 +97,16 @@ struct HeldShape {
     double* const size = shape.size;
     const auto round_one = [&](std::int32_t kind) {
       shape.kind = kind;
-      size[0] = j.at("radius"), size[1] = j.at("half_height");
+      size[0] = j.at("radius");
+      size[1] = j.at("half_height");
     };
     const auto three = [&](std::int32_t kind, const char* field) {
       shape.kind = kind;
       for (std::size_t k = 0; k < 3; ++k) size[k] = j.at(field).at(k);
     };
     if (type == "sphere") {
-      shape.kind = TS_SPHERE, size[0] = j.at("radius");
+      shape.kind = TS_SPHERE;
+      size[0] = j.at("radius");
     } else if (type == "box") {
       three(TS_BOX, "half_extents");
     } else if (type == "capsule") {
@@ -135,8 +137,10 @@ struct HeldShape {
       for (std::size_t k = 0; k < 3; ++k) vertices.push_back(v.at(k).get<double>());
     for (const Json& t : j.value("triangles", Json::array()))
       for (std::size_t k = 0; k < 3; ++k) triangles.push_back(t.at(k).get<std::int32_t>());
-    shape.vertices = vertices.data(), shape.vertex_count = vertices.size() / 3;
-    shape.triangles = triangles.data(), shape.triangle_count = triangles.size() / 3;
+    shape.vertices = vertices.data();
+    shape.vertex_count = vertices.size() / 3;
+    shape.triangles = triangles.data();
+    shape.triangle_count = triangles.size() / 3;
   }
 };
 
@@ -174,7 +178,8 @@ void read_receipt(const Json& j, const ts_scene& scene, const ts_received& recei
     double matrix[9] = {}, translation[3] = {};
     if (b.at("matrix").size() != 9 || b.at("translation").size() != 3)
       throw std::runtime_error("the command's receipt lacks a matrix of 9 or a translation of 3 numbers");
-    read_into(b["matrix"], matrix), read_into(b["translation"], translation);
+    read_into(b["matrix"], matrix);
+    read_into(b["translation"], translation);
     received.body(received.ctx, number_of(b, "body", scene.body_count), matrix, translation);
   }
 }

@@ -29,7 +29,8 @@ constexpr rlim_t data_factor = 2, address_factor = 16;
 void limit(decltype(RLIMIT_CORE) what, rlim_t most) {
   rlimit now{};
   if (getrlimit(what, &now) != 0) return;
-  now.rlim_max = std::min(now.rlim_max, most), now.rlim_cur = std::min(now.rlim_cur, now.rlim_max);
+  now.rlim_max = std::min(now.rlim_max, most);
+  now.rlim_cur = std::min(now.rlim_cur, now.rlim_max);
   setrlimit(what, &now);
 }
 

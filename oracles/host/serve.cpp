@@ -149,7 +149,8 @@ void write_all(int fd, const char* bytes, std::size_t n) {
     const ssize_t written = write(fd, bytes, n);
     if (written < 0 && errno == EINTR) continue;
     if (written <= 0) _exit(0);
-    bytes += written, n -= static_cast<std::size_t>(written);
+    bytes += written;
+    n -= static_cast<std::size_t>(written);
   }
 }
 

@@ -97,7 +97,8 @@ class Engine {
     else
       contact(one, two, out, sink);
     if (one.support_calls > ccd_.max_iterations) {
-      out.outcome = TS_NOT_CONVERGED, out.has = 0;
+      out.outcome = TS_NOT_CONVERGED;
+      out.has = 0;
       kit::set_detail(out, "used all " + std::to_string(ccd_.max_iterations) + " iterations");
     }
   }

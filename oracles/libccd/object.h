@@ -31,7 +31,10 @@ inline Vec3 farthest_vertex(const ts_shape& s, const Vec3& d) {
   for (std::size_t i = 0; i < s.vertex_count; ++i) {
     const double* v = s.vertices + 3 * i;
     const double along = v[0] * d.x() + v[1] * d.y() + v[2] * d.z();
-    if (along > reach) reach = along, best = v;
+    if (along > reach) {
+      reach = along;
+      best = v;
+    }
   }
   return {best[0], best[1], best[2]};
 }
