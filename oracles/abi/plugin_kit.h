@@ -1,8 +1,8 @@
-// What the project's own C++ plug-ins share: the table of the C ABI made from a class, exceptions turned into
-// outcomes, answers filled in. A plug-in writes
+// Shared by the project's own C++ plug-ins: builds the C ABI's table from a class, turns exceptions into
+// outcomes, fills in answers. A plug-in contains
 //
 //   struct Mine {
-//     static std::vector<CardText> cards();          // one an engine
+//     static std::vector<CardText> cards();          // one per engine
 //     explicit Mine(unsigned engine);
 //     void load(const ts_scene&, const ts_received&);      // may throw Unsupported or anything
 //     void unload();
@@ -26,7 +26,7 @@
 
 namespace touchstone::kit {
 
-/// "Cannot" as a value: the engine has no such query for these shapes.
+/// Thrown when the engine has no such query for these shapes.
 struct Unsupported : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
@@ -58,10 +58,14 @@ struct CardText {
   }
 };
 
-/// τ of every oracle is this many unit roundoffs of its arithmetic times L, plus what its documentation
-/// claims. About 60 roundings lie between a pose and an answer of these engines; the factor of 4 on top keeps
-/// honest rounding out of the findings, and every known defect is larger by orders of magnitude.
+/// τ of every oracle is this many unit roundoffs of its arithmetic times L, plus the tolerance that its
+/// documentation claims. About 60 roundings lie between a pose and an answer of these engines; a further
+/// factor of 4 keeps ordinary rounding out of the findings, and every known defect is larger by orders of
+/// magnitude.
 inline constexpr double oracle_tau_factor = 256;
+
+/// Unit normals closer than this count as the same normal.
+inline constexpr double same_normal = 1e-6;
 
 inline void set_detail(ts_answer& out, const std::string& text) {
   const std::size_t n = std::min(text.size(), sizeof out.detail - 1);
@@ -99,18 +103,17 @@ inline void set_depth(ts_answer& out, double d) {
   out.has |= TS_HAS_DEPTH;
   out.depth = d;
 }
-/// The depth of a manifold point whose own normal is `n`, in an answer that states `stated`: along another
-/// normal it is none of this answer's.
+/// The depth of a manifold point whose own normal is `n`, in an answer that states the normal `stated`: NaN
+/// if the two differ, because a depth along another normal says nothing about this answer.
 inline double depth_along(const Vec3& stated, const Vec3& n, double depth) {
-  constexpr double same = 1e-6;
-  return (n - stated).norm() <= same ? depth : std::numeric_limits<double>::quiet_NaN();
+  return (n - stated).norm() <= same_normal ? depth : std::numeric_limits<double>::quiet_NaN();
 }
 inline void set_toi(ts_answer& out, double t) {
   out.has |= TS_HAS_TOI;
   out.toi = t;
 }
 
-/// Pairs that a user of the engine would filter: of one group, or listed.
+/// Pairs that a user of the engine would filter: both bodies in the same group, or listed as ignored.
 class PairFilter {
  public:
   PairFilter() = default;
@@ -130,11 +133,11 @@ class PairFilter {
   std::vector<std::pair<int, int>> ignored_;
 };
 
-/// The host's TS_ABI_MINOR; 0 when it is too old to say so.
+/// The host's TS_ABI_MINOR; 0 when it is too old to report it.
 inline std::uint32_t host_minor = 0;
 
-/// The engine holds `held` in place of the scene's shape `index`. A host that cannot be told takes the shape
-/// as asked.
+/// Reports that the engine holds `held` in place of the scene's shape `index`. A host without this callback
+/// assumes that the engine holds the shape as sent.
 inline void report_other_shape(const ts_received& to, int index, const ts_shape& held) {
   if (host_minor >= 1) to.other_shape(to.ctx, index, &held);
 }

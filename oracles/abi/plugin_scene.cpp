@@ -109,8 +109,8 @@ const std::vector<Vec3>* vertices_of(const Shape& s) {
   return nullptr;
 }
 
-/// Rounded vertices are another hull: its faces and dimension are its own. Coordinates that overflowed to
-/// infinity are kept as they are, without faces; no hull has them.
+/// Rounded vertices form a different hull, with its own faces and dimension. Coordinates that overflowed to
+/// infinity are kept as they are, without faces, because no hull can be built from them.
 Shape with_vertices(const Shape& asked, std::vector<Vec3> vertices) {
   if (*vertices_of(asked) == vertices) return asked;
   if (std::holds_alternative<TriangleMesh>(asked)) {
@@ -140,7 +140,7 @@ Shape empty_shape(std::size_t kind, std::index_sequence<I...>) {
   return s;
 }
 
-/// The shape that a plug-in describes; nothing when it is none.
+/// The shape that a plug-in describes; nothing if the description is not valid.
 std::optional<Shape> shape_from(const ts_shape& t) {
   constexpr std::size_t kinds = std::variant_size_v<Shape>;
   if (t.kind < 0 || static_cast<std::size_t>(t.kind) >= kinds) return std::nullopt;

@@ -1,7 +1,7 @@
-# find_package(touchstone): the door for an engine of one's own.
+# find_package(touchstone): for building your own engine.
 #   touchstone::engine               the header of the C ABI (oracles/abi/touchstone_engine.h)
 #   touchstone_add_plugin(name sources...)   a plug-in, lib<name>.so
-#   TOUCHSTONE_PROGRAM               the program, for instance for add_test(COMMAND ${TOUCHSTONE_PROGRAM} certify ...)
+#   TOUCHSTONE_PROGRAM               the program, e.g. for add_test(COMMAND ${TOUCHSTONE_PROGRAM} certify ...)
 get_filename_component(touchstone_prefix "${CMAKE_CURRENT_LIST_DIR}/../../.." ABSOLUTE)
 set(TOUCHSTONE_PROGRAM "${touchstone_prefix}/bin/touchstone")
 if(NOT TARGET touchstone::engine)
