@@ -25,7 +25,7 @@ std::string contents(const std::string& file) {
   return text;
 }
 
-// Each thread has its own children.
+// The kernel lists children per thread.
 void append_children(pid_t pid, std::vector<pid_t>& out) {
   const std::string tasks = "/proc/" + std::to_string(pid) + "/task";
   DIR* const directory = opendir(tasks.c_str());

@@ -17,7 +17,7 @@ namespace {
 
 constexpr int output_wait_ms = 50;
 
-/// Waits for a while for output of the worker on either stream.
+/// Waits briefly for output of the worker on either stream.
 void wait_for_output(WorkerProcess& worker) {
   pollfd fds[2] = {{worker.answers_fd(), POLLIN, 0}, {worker.errors_fd(), POLLIN, 0}};
   poll(fds, 2, output_wait_ms);
@@ -32,11 +32,11 @@ protocol::Hello await_hello(WorkerSession& s, const std::string& place, const Wo
     const ReadResult r = read_available(s.process->answers_fd(), s.frames);
     try {
       if (const auto frame = s.frames.next()) {
-        if (frame->type != protocol::Type::hello) throw protocol::Malformed("no hello");
+        if (frame->type != protocol::Type::hello) throw protocol::Malformed("unexpected type of message");
         return protocol::decode_hello(frame->payload);
       }
     } catch (const protocol::Malformed& e) {
-      throw InputError(place, std::string("the worker's first words are no hello: ") + e.what());
+      throw InputError(place, std::string("the worker's first message is not a hello: ") + e.what());
     }
     if (r == ReadResult::closed) {
       s.process->ends_within(death_wait_seconds);
@@ -66,7 +66,7 @@ ReadResult read_available(int fd, protocol::FrameReader& frames) {
 
 namespace {
 
-constexpr int memcheck_exit = 99;
+constexpr int memcheck_exit = 99;  // of a process in which Valgrind found an error
 
 WorkerSession start_fork_server(const std::filesystem::path& host, const std::filesystem::path& plugin,
                                 const std::string& argument, const WorkerLimits& limits, bool native) {
@@ -75,7 +75,7 @@ WorkerSession start_fork_server(const std::filesystem::path& host, const std::fi
   std::error_code error;
   if (!is_command && !std::filesystem::is_regular_file(plugin, error))
     throw InputError(place, "there is no such plug-in file");
-  // An absolute path, or the dynamic linker would search for a name without a slash elsewhere.
+  // An absolute path, because the dynamic linker searches elsewhere for a name without a slash.
   std::vector<std::string> arguments{is_command ? place : std::filesystem::absolute(plugin).string()};
   const bool sandbox = limits.sandbox && limits.memcheck.empty();
   if (!argument.empty() || sandbox) arguments.push_back(argument);
@@ -86,7 +86,7 @@ WorkerSession start_fork_server(const std::filesystem::path& host, const std::fi
     arguments.push_back(std::to_string(limits.resident_bytes));
   }
   if (!limits.memcheck.empty()) {
-    // Values that nobody wrote are found otherwise (Engine::run_again), and loaders are full of them.
+    // Uninitialised values are detected by Engine::run_again instead; dynamic loaders are full of them.
     const auto before = {std::string("--quiet"), std::string("--undef-value-errors=no"),
                          std::string("--exit-on-first-error=yes"),
                          "--error-exitcode=" + std::to_string(memcheck_exit), host.string()};
@@ -111,8 +111,8 @@ WorkerSession start_fork_server(const std::filesystem::path& host, const std::fi
 std::shared_ptr<const WorkerSession> share_native_fork_server(const std::filesystem::path& host,
                                                               const std::filesystem::path& library,
                                                               const WorkerLimits& limits) {
-  using Key = std::tuple<pid_t, std::string, std::string, bool, std::uint64_t,
-                         std::string>;  // all that it is started with
+  // Everything that determines how the fork server is started.
+  using Key = std::tuple<pid_t, std::string, std::string, bool, std::uint64_t, std::string>;
   static std::mutex guard;
   static std::map<Key, std::weak_ptr<const WorkerSession>> fork_servers;
   const std::lock_guard lock(guard);

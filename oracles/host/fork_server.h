@@ -10,8 +10,8 @@ namespace touchstone::host {
 
 struct WorkerStreams {
   int questions, answers;
-  bool keeps_back = false;  // it may write several answers at once (native.h)
-  std::string engine{};     // of a library of native engines
+  bool buffers_answers = false;  // it may write several answers at once (native.h)
+  std::string engine{};          // of a library of native engines
 };
 
 struct ForkServer {

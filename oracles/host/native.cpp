@@ -58,7 +58,8 @@ class NativeServer {
   template <class Message>
   void send(const Message& m) {
     protocol::append(kept_, m);
-    if (!streams_.keeps_back || kept_.size() > most_bytes_kept || Clock::now() - written_ > most_time_kept)
+    if (!streams_.buffers_answers || kept_.size() > most_bytes_kept ||
+        Clock::now() - written_ > most_time_kept)
       write_kept();
   }
 
