@@ -22,7 +22,10 @@ namespace {
 
 using Descriptors = std::array<int, fork_server::descriptor_count>;
 
-/// False at the end of the requests.
+constexpr int high_descriptor = 100;
+constexpr int fallback_descriptor = 10;  // under a low limit (ulimit -n 64)
+
+/// False when there are no more requests.
 bool receive(int fd, fork_server::Request& request, Descriptors& descriptors) {
   descriptors.fill(-1);
   alignas(cmsghdr) char control[CMSG_SPACE(sizeof(Descriptors))] = {};
@@ -55,7 +58,7 @@ void go_to_own_directory(const ForkServer& server) {
 void clean_up_after_worker(const ForkServer& server) {
   if (server.scratch.empty() || server.is_shared) return;
   end_others(server.apart);
-  std::error_code ignored;  // the next worker's mkdir tells
+  std::error_code ignored;  // the next worker's mkdir reports a failure
   std::filesystem::remove_all(directory_of_worker(server), ignored);
 }
 
@@ -63,7 +66,7 @@ void clean_up_after_worker(const ForkServer& server) {
                                 const fork_server::Request& request,
                                 const std::function<void(WorkerStreams)>& work) {
   prctl(PR_SET_PDEATHSIG, SIGKILL);
-  if (getppid() != parent) _exit(0);  // it died before the line above
+  if (getppid() != parent) _exit(0);  // the parent died before the line above
   setpgid(0, 0);
   say_who(d[0]);
   if (dup2(d[2], 2) < 0 || dup2(2, 1) < 0) _exit(3);
@@ -75,7 +78,7 @@ void clean_up_after_worker(const ForkServer& server) {
   close(d[1]);
   go_to_own_directory(server);
   work(streams);
-  // No destructors: a plug-in's exit handlers may hang, and nobody waits for them.
+  // Without destructors: a plug-in's exit handlers may hang.
   _exit(0);
 }
 
@@ -88,7 +91,7 @@ fork_server::Reply answer(const ForkServer& server, const fork_server::Request& 
       close(server.control_fd);
       become_worker(server, d, parent, request, work);
     }
-    if (pid > 0) setpgid(pid, pid);  // whoever of the two is first
+    if (pid > 0) setpgid(pid, pid);  // parent and child both do this, so it is set whichever runs first
     for (int fd : d)
       if (fd >= 0) close(fd);
     return {pid, 0};
@@ -97,7 +100,7 @@ fork_server::Reply answer(const ForkServer& server, const fork_server::Request& 
   pid_t ended = 0;
   do ended = waitpid(request.pid, &status, request.op == fork_server::Op::wait ? 0 : WNOHANG);
   while (ended < 0 && errno == EINTR);
-  // A child that a plug-in's handler for SIGCHLD reaped is gone as well.
+  // The call also fails if a plug-in's SIGCHLD handler has reaped the child.
   const bool gone = ended == request.pid || ended < 0;
   if (gone) clean_up_after_worker(server);
   return {gone, status};
@@ -106,8 +109,8 @@ fork_server::Reply answer(const ForkServer& server, const fork_server::Request& 
 }  // namespace
 
 int out_of_the_way(int fd) {
-  int high = fcntl(fd, F_DUPFD_CLOEXEC, 100);
-  if (high < 0) high = fcntl(fd, F_DUPFD_CLOEXEC, 10);  // ulimit -n 64
+  int high = fcntl(fd, F_DUPFD_CLOEXEC, high_descriptor);
+  if (high < 0) high = fcntl(fd, F_DUPFD_CLOEXEC, fallback_descriptor);
   return high;
 }
 

@@ -1,4 +1,4 @@
-// The host process after loading its plug-in: forks workers on request and reaps them.
+// The fork server: the host process after loading its plug-in, which forks workers on request and reaps them.
 #pragma once
 
 #include <functional>
@@ -11,26 +11,27 @@ namespace touchstone::host {
 struct WorkerStreams {
   int questions, answers;
   bool buffers_answers = false;  // it may write several answers at once (native.h)
-  std::string engine{};          // of a library of native engines
+  std::string engine{};          // for a library of native engines
 };
 
 struct ForkServer {
   int control_fd;
   Apart apart;
-  std::string scratch;             // each worker gets a directory in it, gone with the worker; empty: none
-  bool stays_where_it_is = false;  // the workers' working directory is the user's own
-  bool is_shared = false;          // several workers at a time; what they run writes and starts nothing
+  std::string scratch;             // each worker gets a directory in it, removed with the worker; empty: none
+  bool stays_where_it_is = false;  // the workers keep the user's working directory
+  bool is_shared = false;          // several workers at a time, which write no files and start no processes
 };
 
-/// The same open file as a descriptor that no loop over small numbers and no printf reaches.
+/// Duplicates the open file to a descriptor high enough that no printf and no loop over small descriptors
+/// reaches it.
 int out_of_the_way(int fd);
 
-/// Says one byte on `fd`, a socket: the kernel adds this process's number as the harness sees it.
+/// Sends one byte on the socket `fd`: the kernel attaches this process's pid as the harness sees it.
 void say_who(int fd);
 
 /// Serves requests (oracles/abi/fork_server_protocol.h) until the harness closes its end; never returns.
-/// `work` runs in each forked worker, whose standard streams have been protected. What a worker leaves
-/// behind, its processes and its directory, ends with it.
+/// `work` runs in each forked worker, whose standard streams have been protected. When a worker ends, the
+/// processes and the directory that it leaves behind are removed.
 [[noreturn]] void run_fork_server(const ForkServer& fork_server,
                                   const std::function<void(WorkerStreams)>& work);
 

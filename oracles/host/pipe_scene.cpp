@@ -72,21 +72,21 @@ Json step(const ts_step& s) {
   return j;
 }
 
-// The number of a shape or a body, one that there is.
+// The index of an existing shape or body.
 std::int32_t number_of(const Json& j, const char* what, std::size_t count) {
   const auto n = j.at(what).get<std::int64_t>();
   if (n < 0 || n >= static_cast<std::int64_t>(count))
-    throw std::runtime_error("the command's receipt names a " + std::string(what) + " that there is not");
+    throw std::runtime_error("the command's receipt names a " + std::string(what) + " that does not exist");
   return static_cast<std::int32_t>(n);
 }
 
 template <std::size_t N>
 void read_into(const Json& j, double (&out)[N]) {
-  if (j.size() > N) throw std::runtime_error("the command's receipt has more numbers than there are");
+  if (j.size() > N) throw std::runtime_error("the command's receipt has too many numbers");
   for (std::size_t k = 0; k < j.size(); ++k) out[k] = j.at(k).get<double>();
 }
 
-/// A shape in the form of the scene's JSON, as the ABI has it; keeps what that points to.
+/// A shape parsed from the scene's JSON form into the ABI's form; owns the arrays that it points to.
 struct HeldShape {
   ts_shape shape{};
   std::vector<double> vertices;
@@ -124,8 +124,7 @@ struct HeldShape {
       shape.kind = type == "hull" ? TS_HULL : TS_MESH;
       read_lists(j);
     } else {
-      throw std::runtime_error("the command's receipt names a type of shape that there is not: " +
-                               type.substr(0, 40));
+      throw std::runtime_error("the command's receipt names an unknown type of shape: " + type.substr(0, 40));
     }
   }
   HeldShape(const HeldShape&) = delete;

@@ -45,7 +45,7 @@ TEST_CASE("one misbehaving query costs one answer and no more", "[oracles][remot
       {"segfaults", Outcome::crashed, "SIGSEGV", 1},
       {"overflows", Outcome::crashed, "", 1},
       {"throws", Outcome::threw, "no such luck", 0},
-      {"throws_int", Outcome::threw, "no std::exception", 0},
+      {"throws_int", Outcome::threw, "other than a std::exception", 0},
       {"eats_memory", Outcome::crashed, "memory limit", 1},
       {"exits", Outcome::crashed, "exit code 0", 1},
       {"exits_3", Outcome::crashed, "exit code 3", 1},
