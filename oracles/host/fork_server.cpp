@@ -50,7 +50,7 @@ std::string directory_of_worker(const ForkServer& server) { return server.scratc
 void go_to_own_directory(const ForkServer& server) {
   if (server.scratch.empty() || server.is_shared) return;
   const std::string own = directory_of_worker(server);
-  if (mkdir(own.c_str(), 0700) != 0 || (!server.stays_where_it_is && chdir(own.c_str()) != 0))
+  if (mkdir(own.c_str(), 0700) != 0 || (!server.keeps_working_directory && chdir(own.c_str()) != 0))
     std::perror(("touchstone-host: " + own).c_str());
   setenv("TMPDIR", own.c_str(), 1);
 }
@@ -68,10 +68,10 @@ void clean_up_after_worker(const ForkServer& server) {
   prctl(PR_SET_PDEATHSIG, SIGKILL);
   if (getppid() != parent) _exit(0);  // the parent died before the line above
   setpgid(0, 0);
-  say_who(d[0]);
+  announce_pid(d[0]);
   if (dup2(d[2], 2) < 0 || dup2(2, 1) < 0) _exit(3);
   close(d[2]);
-  const WorkerStreams streams{out_of_the_way(d[0]), out_of_the_way(d[1]), request.pid != 0,
+  const WorkerStreams streams{duplicate_high(d[0]), duplicate_high(d[1]), request.pid != 0,
                               request.engine.data()};
   if (streams.questions < 0 || streams.answers < 0) _exit(3);
   close(d[0]);
@@ -108,13 +108,13 @@ fork_server::Reply answer(const ForkServer& server, const fork_server::Request& 
 
 }  // namespace
 
-int out_of_the_way(int fd) {
+int duplicate_high(int fd) {
   int high = fcntl(fd, F_DUPFD_CLOEXEC, high_descriptor);
   if (high < 0) high = fcntl(fd, F_DUPFD_CLOEXEC, fallback_descriptor);
   return high;
 }
 
-void say_who(int fd) {
+void announce_pid(int fd) {
   const char byte = 0;
   send(fd, &byte, 1, MSG_NOSIGNAL);
 }

@@ -17,17 +17,17 @@ struct WorkerStreams {
 struct ForkServer {
   int control_fd;
   Apart apart;
-  std::string scratch;             // each worker gets a directory in it, removed with the worker; empty: none
-  bool stays_where_it_is = false;  // the workers keep the user's working directory
-  bool is_shared = false;          // several workers at a time, which write no files and start no processes
+  std::string scratch;  // each worker gets a directory in it, removed with the worker; empty: none
+  bool keeps_working_directory = false;  // the workers keep the user's working directory
+  bool is_shared = false;  // several workers at a time, which write no files and start no processes
 };
 
 /// Duplicates the open file to a descriptor high enough that no printf and no loop over small descriptors
 /// reaches it.
-int out_of_the_way(int fd);
+int duplicate_high(int fd);
 
 /// Sends one byte on the socket `fd`: the kernel attaches this process's pid as the harness sees it.
-void say_who(int fd);
+void announce_pid(int fd);
 
 /// Serves requests (oracles/abi/fork_server_protocol.h) until the harness closes its end; never returns.
 /// `work` runs in each forked worker, whose standard streams have been protected. When a worker ends, the

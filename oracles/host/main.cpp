@@ -44,7 +44,7 @@ struct Streams {
 // Engines may print. Standard output is redirected to standard error, standard input becomes empty, and the
 // protocol moves to descriptors that no printf reaches.
 Streams protect_streams() {
-  const int requests = host::out_of_the_way(0), answers = host::out_of_the_way(1);
+  const int requests = host::duplicate_high(0), answers = host::duplicate_high(1);
   const int null = open("/dev/null", O_RDONLY | O_CLOEXEC);
   if (requests < 0 || answers < 0 || null < 0 || dup2(null, 0) < 0 || dup2(2, 1) < 0) {
     std::perror("touchstone-host: no descriptor available (ulimit -n)");
@@ -142,9 +142,9 @@ int main(int argc, char** argv) {
   if (!a.wish.scratch.empty()) sandbox = host::enter_sandbox(a.wish);
   prctl(PR_SET_DUMPABLE, 0);  // expected crashes leave no core files
   const Streams streams = protect_streams();
-  host::say_who(streams.requests);
+  host::announce_pid(streams.requests);
   Loaded l = load(a.plugin, a.engine);
-  l.hello.sandbox = sandbox.words;
+  l.hello.sandbox = sandbox.description;
   say(streams.answers, l.hello);
   close(streams.answers);
   if (l.hello.chosen < 0 && !l.native) _exit(l.hello.error.empty() ? 0 : 2);

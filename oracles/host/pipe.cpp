@@ -137,8 +137,8 @@ class Child {
         errors_ = -1;
       }
       if (n <= 0) return;
-      said_.append(bytes, static_cast<std::size_t>(n));
-      if (said_.size() > 4 * kept_bytes) said_.erase(0, said_.size() - kept_bytes);
+      error_text_.append(bytes, static_cast<std::size_t>(n));
+      if (error_text_.size() > 4 * kept_bytes) error_text_.erase(0, error_text_.size() - kept_bytes);
     }
   }
 
@@ -146,10 +146,10 @@ class Child {
   std::string last_lines() {
     take_errors();
     std::vector<std::string> lines;
-    for (std::size_t end = said_.size(); end > 0 && lines.size() < kept_lines;) {
-      const auto before = said_.rfind('\n', end - 1);
+    for (std::size_t end = error_text_.size(); end > 0 && lines.size() < kept_lines;) {
+      const auto before = error_text_.rfind('\n', end - 1);
       const std::size_t begin = before == std::string::npos ? 0 : before + 1;
-      if (const std::string line = said_.substr(begin, end - begin);
+      if (const std::string line = error_text_.substr(begin, end - begin);
           line.find_first_not_of(" \r\n") != line.npos)
         lines.push_back(line.substr(line.find_first_not_of(' ')));
       end = begin > 0 ? begin - 1 : 0;
@@ -182,7 +182,7 @@ class Child {
 
   pid_t pid_ = -1;
   int to_ = -1, from_ = -1, errors_ = -1;
-  std::string buffer_, said_;
+  std::string buffer_, error_text_;
 };
 
 Json parsed(const std::string& line) {
@@ -263,7 +263,7 @@ void read_answer(const Json& j, ts_answer& out, const ts_sink& sink) {
 }
 
 // A command that breaks the protocol counts as a crash with a reason: its later output cannot be trusted.
-[[noreturn]] void broken(const char* why) {
+[[noreturn]] void abort_with(const char* why) {
   std::fprintf(stderr, "%s\n", why);
   std::fflush(stderr);
   std::abort();
@@ -290,9 +290,9 @@ std::int32_t load(ts_engine* e, const ts_scene* scene, const ts_received* receiv
     std::snprintf(detail, 256, "JSON cannot represent a number that is not finite");
     return TS_INVALID_INPUT;
   } catch (const Json::exception& why) {
-    broken(("the command's receipt does not have the required form: " + std::string(why.what())).c_str());
+    abort_with(("the command's receipt does not have the required form: " + std::string(why.what())).c_str());
   } catch (const std::exception& why) {
-    broken(why.what());
+    abort_with(why.what());
   }
 }
 void unload(ts_engine*) {}
@@ -309,9 +309,9 @@ void ask(ts_engine* e, std::int32_t question, std::int32_t a, std::int32_t b, ts
     read_answer(parsed(child(e).read_line()), *out, *sink);
     child(e).require_silence();
   } catch (const Json::exception& why) {
-    broken(("the command's answer does not have the required form: " + std::string(why.what())).c_str());
+    abort_with(("the command's answer does not have the required form: " + std::string(why.what())).c_str());
   } catch (const std::exception& why) {
-    broken(why.what());
+    abort_with(why.what());
   }
 }
 

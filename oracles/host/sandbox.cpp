@@ -45,19 +45,19 @@ bool counts_processes_by_namespace() {
 bool is_sanitized() { return dlsym(RTLD_DEFAULT, "__asan_init") || dlsym(RTLD_DEFAULT, "__tsan_init"); }
 
 std::string set_limits(const SandboxWish& wish, const Apart& apart) {
-  std::string words = "files of 256 MiB, " + std::to_string(most_descriptors) + " descriptors";
+  std::string text = "files of 256 MiB, " + std::to_string(most_descriptors) + " descriptors";
   limit(RLIMIT_CORE, 0);
   limit(RLIMIT_FSIZE, scratch_bytes);
   limit(RLIMIT_NOFILE, most_descriptors);
   if (apart.user_namespace && geteuid() != 0 && counts_processes_by_namespace()) {
     limit(RLIMIT_NPROC, most_processes);
-    words += ", " + std::to_string(most_processes) + " processes";
+    text += ", " + std::to_string(most_processes) + " processes";
   }
-  if (wish.memory_bytes == 0 || is_sanitized()) return words;
+  if (wish.memory_bytes == 0 || is_sanitized()) return text;
   limit(RLIMIT_DATA, data_factor * wish.memory_bytes);
   // Programs with a JIT compiler reserve more address space than any sensible limit allows.
   if (!wish.is_command) limit(RLIMIT_AS, address_factor * wish.memory_bytes);
-  return words + ", " + std::to_string(data_factor * wish.memory_bytes >> 20) + " MiB of private memory";
+  return text + ", " + std::to_string(data_factor * wish.memory_bytes >> 20) + " MiB of private memory";
 }
 
 struct MountAttributes {
@@ -98,7 +98,7 @@ void go_to(const SandboxWish& wish) {
     std::perror(("touchstone-host: " + wish.scratch).c_str());
 }
 
-std::string words_of(bool mounts, bool landlock, bool sockets, const Apart& apart) {
+std::string describe(bool mounts, bool landlock, bool sockets, const Apart& apart) {
   std::string files = mounts && landlock ? "read-only by mounts and Landlock"
                       : mounts           ? "read-only by mounts"
                       : landlock         ? "read-only by Landlock"
@@ -119,7 +119,7 @@ Sandbox enter_sandbox(const SandboxWish& wish) {
   const bool landlock = limit_writing_by_landlock(wish.scratch);
   const bool sockets = forbid_sockets();
   go_to(wish);
-  return {words_of(mounts, landlock, sockets, apart) + "; at most " + limits, apart};
+  return {describe(mounts, landlock, sockets, apart) + "; at most " + limits, apart};
 }
 
 }  // namespace touchstone::host

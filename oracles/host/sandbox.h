@@ -17,7 +17,7 @@ struct SandboxWish {
 
 /// Forks (see supervisor.h) and returns in the child, confined, with a description of what is in force.
 struct Sandbox {
-  std::string words;
+  std::string description;
   Apart apart;
 };
 Sandbox enter_sandbox(const SandboxWish& wish);

@@ -35,7 +35,7 @@ bool map_ids(uid_t user, gid_t group) {
 }
 
 /// From here on, children are in new namespaces. Root gets no user namespace, in which it could read less.
-Apart leave_namespaces() {
+Apart enter_namespaces() {
   const uid_t user = geteuid();
   const gid_t group = getegid();
   if (user == 0 && unshare(CLONE_NEWPID) == 0) return {true, false, true};
@@ -57,7 +57,7 @@ void close_all_but(int kept) {
 
 /// The first process of a PID namespace; when it ends, the kernel ends all others. It lives as long as the
 /// other end of the pipe is open.
-[[noreturn]] void be_init(int alive) {
+[[noreturn]] void run_init(int alive) {
   prctl(PR_SET_PDEATHSIG, SIGKILL);
   signal(SIGCHLD, SIG_IGN);
   close_all_but(alive);
@@ -135,7 +135,7 @@ Init start_init() {
   if (pipe2(alive, O_CLOEXEC) != 0 || (init.pid = fork()) < 0) fail("touchstone-host: init");
   if (init.pid == 0) {
     close(alive[1]);
-    be_init(alive[0]);
+    run_init(alive[0]);
   }
   close(alive[0]);
   init.alive = alive[1];
@@ -170,7 +170,7 @@ Apart supervise(const std::string& scratch) {
   const sigset_t awaited = awaited_signals();
   sigset_t before;
   sigprocmask(SIG_BLOCK, &awaited, &before);
-  const Apart apart = leave_namespaces();
+  const Apart apart = enter_namespaces();
   const Init init = apart.pid_namespace ? start_init() : Init{};
   const pid_t child = fork();
   if (child < 0) fail("touchstone-host: fork");
