@@ -10,7 +10,7 @@ namespace {
 
 struct Row {
   std::string_view name, settings;
-  double margin;  // of speculative contact; 0: the narrow phase
+  double margin;  // of speculative contact; 0: narrow phase
 };
 constexpr Row rows[] = {
     {"core-extended", "every pair by separation() in extended precision, no manifold; no motion", 0},

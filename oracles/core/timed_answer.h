@@ -1,4 +1,4 @@
-// What the core's engines share: an answer is timed, and what it throws is the answer.
+// Shared by the core's engines: answers are timed, and exceptions become outcomes.
 #pragma once
 
 #include <chrono>
@@ -9,7 +9,7 @@
 
 namespace touchstone {
 
-/// `ask(o)` fills the answer; its time is in it.
+/// `ask(o)` fills in the answer; its time is recorded.
 template <class Ask>
 Observation timed_answer(Ask&& ask) {
   Observation o;
@@ -29,7 +29,7 @@ Observation timed_answer(Ask&& ask) {
   return o;
 }
 
-/// The same, and asked again while measure.h says so.
+/// The same, with repetitions for the timing as described in measure.h.
 template <class Ask>
 Observation measured_answer(std::int64_t measure, Ask&& ask) {
   Observation o = timed_answer(ask);
