@@ -1,4 +1,4 @@
-/* A broad phase as a plug-in, in C: a cube around each body, all pairs. Put your own behind `run`.
+/* A broad phase as a plug-in, in C: a cube around each body, all pairs tested. Replace `run` with your own.
  *   cc -shared -fPIC -I PREFIX/include broad_phase.c -o libmine.so -lm */
 #include <math.h>
 #include <stdlib.h>
@@ -8,14 +8,14 @@ struct ts_engine {
   const ts_scene* scene; /* valid until unload */
 };
 
-/* No point is further from the body's origin than this: |x| + |y| + |z| is never less than the length. */
+/* An upper bound on the distance of any point from the body's origin: |x| + |y| + |z| is at least the length. */
 static double reach(const ts_shape* s) {
   double r = 0;
   if (s->kind == TS_HALF_SPACE) return INFINITY;
   for (int k = 0; k < 4; ++k) r += fabs(s->size[k]);
   for (const double* v = s->vertices; v != s->vertices + 3 * s->vertex_count; v += 3)
     r = fmax(r, fabs(v[0]) + fabs(v[1]) + fabs(v[2]));
-  return r * (1 + 0x1p-48); /* more than its roundings */
+  return r * (1 + 0x1p-48); /* more than the rounding errors above */
 }
 
 typedef struct Cube {
@@ -23,7 +23,7 @@ typedef struct Cube {
   double half;
 } Cube;
 
-/* Touching is overlap. Both sides are rounded once, which keeps their order: no pair is lost. */
+/* Touching counts as overlap. Each side is rounded once, which preserves their order: no pair is lost. */
 static int overlap(const Cube* a, const Cube* b) {
   for (int k = 0; k < 3; ++k)
     if (!(fabs(a->centre[k] - b->centre[k]) <= a->half + b->half)) return 0;

@@ -1,5 +1,5 @@
-// ODE as an oracle: dCollide for overlap and contact. It has no distance and no time-of-impact query. (Its
-// spaces are in broad_engine.cpp.) Its warnings go to standard output, which the host keeps separate from the
+// ODE as an oracle: dCollide for overlap and contact. It has no distance and no time-of-impact query; its
+// spaces are in broad_engine.cpp. ODE prints warnings to standard output, which the host separates from the
 // protocol.
 #include <optional>
 
