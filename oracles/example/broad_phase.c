@@ -8,7 +8,7 @@ struct ts_engine {
   const ts_scene* scene; /* valid until unload */
 };
 
-/* An upper bound on the distance of any point from the body's origin: |x| + |y| + |z| is at least the length. */
+/* An upper bound on the distance of a point from the body's origin: |x| + |y| + |z| is at least the length. */
 static double reach(const ts_shape* s) {
   double r = 0;
   if (s->kind == TS_HALF_SPACE) return INFINITY;

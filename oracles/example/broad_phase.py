@@ -11,7 +11,7 @@ INF = math.inf
 
 
 def reach(shape):
-    """An upper bound on the distance of any point from the body's origin: |x| + |y| + |z| is at least the length."""
+    """An upper bound on the distance of a point from the origin: |x| + |y| + |z| is at least the length."""
     if shape["type"] == "half_space":
         return INF
     r = shape.get("radius", 0) + shape.get("half_height", 0)

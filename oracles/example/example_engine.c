@@ -1,5 +1,5 @@
-/* The smallest useful engine: spheres against spheres, in plain C. Copy it, rename it, and call your own detector
- * from `ask`. Anything that it does not support is left unchanged, i.e. TS_UNSUPPORTED. Build:
+/* The smallest useful engine: spheres against spheres, in plain C. Copy it, rename it, and call your own
+ * detector from `ask`. Anything that it does not support is left unchanged, i.e. TS_UNSUPPORTED. Build:
  *   cc -shared -fPIC -I <touchstone> example_engine.c -o libmine.so -lm
  */
 #include <math.h>
