@@ -22,8 +22,7 @@ struct LastWords {
   std::string site;
 };
 
-/// `how`: "SIGABRT", "exit code 3". `speaks`: this kind of end prints a message, so the last line is about
-/// it.
+/// `how`: "SIGABRT", "exit code 3". `speaks`: this kind of end prints a message, which is the last line.
 LastWords last_words(std::string_view how, std::string_view standard_error, bool speaks);
 
 /// The site as part of a key: at most 48 lower-case letters, digits, '_' and '-'.

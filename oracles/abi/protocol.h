@@ -38,8 +38,7 @@ class FrameReader {
   std::size_t begin_ = 0;
 };
 
-/// Worker → harness, once: the engines that the plug-in offers and the one that this worker serves, or an
-/// error.
+/// Worker → harness, once: the plug-in's engines and the one that this worker serves, or an error.
 struct Hello {
   std::vector<std::string> cards;  // JSON
   std::int32_t chosen = -1;        // index into cards; -1: cards only

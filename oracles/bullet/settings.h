@@ -1,9 +1,8 @@
 // The engines that the Bullet plug-in offers, by their settings. With TOUCHSTONE_SWEEP, a separate plug-in:
 // other margins (bullet-f64-query@0.01), the other penetration depth solver (-minkowski@margin:
-// btMinkowskiPenetrationDepthSolver), other tolerances of the default solver (-epa@tolerance) and of the
-// sweep
-// (-cast@length: its allowedCcdPenetration), so that a chart shows a method as a curve. Bullet's other GJK
-// and EPA settings are macros.
+// btMinkowskiPenetrationDepthSolver), other tolerances of the default solver (-epa@tolerance) and of sweeps
+// (-cast@length: allowedCcdPenetration), so that a chart shows a method as a curve. Bullet's other GJK and
+// EPA settings are macros.
 #pragma once
 
 #include <optional>

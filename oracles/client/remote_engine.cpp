@@ -231,7 +231,7 @@ class RemoteEngine::Impl {
     bool any = false;
     while (const auto frame = session_->frames.next()) {
       any = true;
-      if (at_.item == cases_.size()) throw protocol::Malformed("an answer that nobody asked for");
+      if (at_.item == cases_.size()) throw protocol::Malformed("an unsolicited answer");
       if (frame->type == protocol::Type::received)
         take_received(frame->payload);
       else if (frame->type == protocol::Type::answer)
@@ -252,7 +252,7 @@ class RemoteEngine::Impl {
   void take_answer(std::string_view payload) {
     auto m = protocol::decode_answer(payload);
     if (m.sequence != sequence_of(at_.item) || m.query != at_.query || !at_.loaded)
-      throw protocol::Malformed("an answer out of turn");
+      throw protocol::Malformed("an answer out of order");
     m.observation.slow = watchdog_.was_slow(*session_->process, m.observation.elapsed_ns);
     results_[at_.item].answers[at_.query++] = std::move(m.observation);
     patience_.note_answer();
@@ -273,7 +273,7 @@ class RemoteEngine::Impl {
     if (by_itself)
       charge(Outcome::crashed, last.detail, last.site);
     else
-      charge(Outcome::crashed, "closed its answers");
+      charge(Outcome::crashed, "closed its answer stream");
   }
 
   /// Charges the running query; while a scene is being loaded, all remaining queries of its case.
@@ -296,7 +296,7 @@ class RemoteEngine::Impl {
   bool retries_one_by_one(Observation what) {
     lost_.reset();
     if (!spec_.native || one_by_one_) return false;
-    what.detail += "; not when it was asked again";
+    what.detail += "; it did not recur when asked again";
     if (what.outcome == Outcome::crashed) lost_ = Lost{at_, std::move(what)};
     one_by_one_ = true;
     replace_worker();

@@ -43,7 +43,7 @@ protocol::Hello await_hello(WorkerSession& s, const std::string& place, const Wo
       throw InputError(place, "the worker died while loading it: " + s.process->end().detail);
     }
     if (const auto verdict = watchdog.check(*s.process, Watchdog::Phase::starting))
-      throw InputError(place, "the worker was ended: " + verdict->why);
+      throw InputError(place, "the worker was terminated: " + verdict->why);
     if (r == ReadResult::nothing_yet) wait_for_output(*s.process);
   }
 }

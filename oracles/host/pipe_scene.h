@@ -1,5 +1,4 @@
-// Conversion of scenes for the pipe protocol (oracles/abi/pipe_protocol.md): scenes to JSON, receipts from
-// JSON.
+// JSON conversion for the pipe protocol (oracles/abi/pipe_protocol.md): writes scenes, reads receipts.
 #pragma once
 
 #include <nlohmann/json.hpp>

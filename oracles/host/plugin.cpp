@@ -31,7 +31,7 @@ const ts_plugin& load_plugin(const std::string& file) {
                              std::to_string(TS_ABI_VERSION));
   const bool complete =
       plugin->card && plugin->create && plugin->destroy && plugin->load && plugin->unload && plugin->ask;
-  if (!complete) throw std::runtime_error("its table has empty entries");
+  if (!complete) throw std::runtime_error("its function table has null entries");
   if (plugin->engine_count == 0 || plugin->engine_count > max_engines)
     throw std::runtime_error("lists " + std::to_string(plugin->engine_count) + " engines");
   return *plugin;

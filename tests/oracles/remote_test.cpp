@@ -50,7 +50,7 @@ TEST_CASE("one misbehaving query costs one answer and no more", "[oracles][remot
       {"exits", Outcome::crashed, "exit code 0", 1},
       {"exits_3", Outcome::crashed, "exit code 3", 1},
       {"sprays", Outcome::crashed, "rubbish", 1},
-      {"closes", Outcome::crashed, "closed its answers", 1},
+      {"closes", Outcome::crashed, "closed its answer stream", 1},
       {"bad_outcome", Outcome::invalid_answer, "outcome that does not exist", 0},
       {"bad_pair", Outcome::invalid_answer, "bodies that do not exist", 0}};
   int reached = 0;

@@ -55,7 +55,7 @@ function settings_of(s) {
       hull.mHullTolerance = hull_tolerance;
       return hull;
     }
-    default: throw new kit.Unsupported(`the adapter has no ${s.type} of Jolt's`);
+    default: throw new kit.Unsupported(`the adapter does not support Jolt's ${s.type}`);
   }
 }
 

@@ -19,7 +19,7 @@ function make_shape(s) {
     case "cone": return new rapier.Cone(s.half_height, s.radius);
     case "half_space": return new rapier.HalfSpace(xyz(unit(s.normal)));
     case "hull": return new rapier.ConvexPolyhedron(new Float32Array(s.vertices.flat()));
-    default: throw new kit.Unsupported(`the adapter has no ${s.type} of Rapier's`);
+    default: throw new kit.Unsupported(`the adapter does not support Rapier's ${s.type}`);
   }
 }
 const unit = (n) => n.map((x) => x / Math.hypot(...n));
