@@ -26,8 +26,8 @@
 namespace touchstone {
 namespace {
 
-constexpr int fork_server_reply_ms =
-    30000;                           // it runs no engine; only a machine in trouble makes it this slow
+// A fork server runs no engine: only a machine in trouble makes it this slow.
+constexpr int fork_server_reply_ms = 30000;
 constexpr int slice_ms = 50;         // between two checks whether it can answer at all
 constexpr int pipe_bytes = 1 << 18;  // fewer wake-ups; the default size works too
 constexpr double orderly_end_seconds = 3;

@@ -114,7 +114,8 @@ class Child {
  private:
   static constexpr std::size_t kept_bytes = 400, kept_lines = 4;
   // A command that has closed its output gets a second to end.
-  static constexpr int end_tries = 100, end_try_microseconds = 10000;
+  static constexpr int end_tries = 100;
+  static constexpr unsigned end_try_microseconds = 10000;
 
   /// Waits until that stream is ready. Reads the command's standard error meanwhile: otherwise the command
   /// could block on it while we wait for the command.
