@@ -1,5 +1,5 @@
-// Little-endian bytes in and out. A Reader never believes a length: it is checked against the bytes that are
-// there, before anything is allocated.
+// Little-endian serialisation. A Reader never trusts a length: it checks it against the bytes that are left
+// before anything is allocated.
 #pragma once
 
 #include <bit>
@@ -15,9 +15,9 @@
 namespace touchstone::protocol {
 
 static_assert(std::endian::native == std::endian::little,
-              "harness and worker share one machine, little-endian");
+              "harness and worker run on the same little-endian machine");
 
-/// The bytes are no message of this protocol.
+/// The bytes are not a message of this protocol.
 struct Malformed : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
@@ -82,7 +82,7 @@ class Reader {
   }
   bool flag() { return tag(2) != 0; }
   void finish() const {
-    if (!rest_.empty()) throw Malformed("bytes are left over");
+    if (!rest_.empty()) throw Malformed("trailing bytes");
   }
 
  private:

@@ -1,4 +1,4 @@
-// An engine as the harness sees it: a card, and batches of cases in, observations out.
+// An engine as the harness sees it: it has a card, takes batches of cases and returns observations.
 #pragma once
 
 #include <memory>
@@ -15,16 +15,17 @@ class Engine {
  public:
   virtual ~Engine() = default;
   virtual const EngineCard& card() const = 0;
-  /// One CaseObservations a case, one Observation a query, always: whatever the engine does, the result is
-  /// complete. Throws Stopped (worker_limits.h) when whoever made it wants all engines to stop.
+  /// Returns one CaseObservations per case and one Observation per query: whatever the engine does, the
+  /// result is complete. Throws Stopped (worker_limits.h) when all engines have been told to stop.
   virtual std::vector<CaseObservations> run(std::span<const Case> cases) = 0;
-  /// The same cases asked again, in memory that held something else before: an answer that differs was made
-  /// of memory that nobody wrote, or of what was asked before. Empty: this engine cannot be asked so.
+  /// Runs the same cases again, in memory with different previous content: an answer that differs depends on
+  /// uninitialised memory or on earlier queries. Empty: this engine does not support it.
   virtual std::vector<CaseObservations> run_again(std::span<const Case>) { return {}; }
-  /// Why it is asked nothing any more, its answers being `not_asked`; empty while it is asked.
+  /// Why the engine is no longer queried, so that its answers are `not_asked`; empty while it is queried.
   virtual std::string set_aside() const { return ""; }
-  /// From now on it is asked again, with all patience; or not, for this reason.
+  /// Resumes querying, with the patience counters reset.
   virtual void take_back() {}
+  /// Stops querying, for this reason.
   virtual void put_aside(const std::string& /*why*/) {}
 };
 

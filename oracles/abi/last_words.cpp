@@ -27,14 +27,14 @@ std::vector<std::string_view> split(std::string_view text, std::string_view by) 
 
 std::string_view file_name(std::string_view path) { return path.substr(path.rfind('/') + 1); }
 
-// ---- what it said
+// ---- what it printed
 
 struct Place {
   std::string_view text;  // "dir/distance-inl.h:177" within the line
   std::string label() const { return std::string(file_name(text)); }
 };
 
-/// The first "file.ext:line" of a line, as assertions and panics print it.
+/// The first "file.ext:line" in a line, as assertions and panics print it.
 Place place_in(std::string_view line) {
   const auto in_path = [](char c) {
     return std::isalnum(static_cast<unsigned char>(c)) ||
@@ -52,7 +52,7 @@ Place place_in(std::string_view line) {
   return {};
 }
 
-/// glibc's "program: file:line: function: Assertion `x' failed." with what matters first.
+/// Rearranges glibc's "program: file:line: function: Assertion `x' failed." so that what matters comes first.
 std::string assertion_first(std::string_view line, const Place& place) {
   constexpr std::string_view mark = ": Assertion `";
   const auto assertion = line.find(mark);
@@ -82,8 +82,8 @@ Said said(const std::vector<std::string_view>& lines) {
   return {assertion_first(line, place), place.label()};
 }
 
-/// The first error of Valgrind's memcheck, with the innermost function and what the address is: lines that
-/// begin with "==PID==". Addresses are left out: they change from run to run.
+/// The first error that Valgrind's memcheck reports (lines that begin with "==PID=="), with the innermost
+/// function and the description of the address. Addresses are left out: they change from run to run.
 Said memory_error(const std::vector<std::string_view>& lines) {
   constexpr std::string_view at = "   at 0x", address = " Address 0x";
   Said s;
@@ -121,7 +121,7 @@ std::string demangled(const std::string& name) {
   return status == 0 && text ? text.get() : name;
 }
 
-/// Without what is in brackets, and without the type that a function template's name begins with.
+/// Strips template arguments, parameters, and the return type that precedes a function template's name.
 std::string plain_name(std::string name) {
   constexpr std::string_view unnamed = "(anonymous namespace)::";
   for (std::size_t at; (at = name.find(unnamed)) != std::string::npos;) name.erase(at, unnamed.size());
@@ -136,7 +136,7 @@ std::string plain_name(std::string name) {
   return out.substr(out.rfind(' ') + 1);
 }
 
-/// The last two parts of a name: enough to find it by.
+/// The last two components of a name: enough to find the function.
 std::string short_name(const std::string& plain) {
   const auto parts = split(plain, "::");
   if (parts.size() < 2) return plain;
@@ -166,7 +166,7 @@ std::vector<Frame> frames_in(const std::vector<std::string_view>& lines) {
   return frames;
 }
 
-/// The innermost function with a name; of one without, the module alone: its offset changes with every build.
+/// The innermost function with a name. If no frame has one, only the module: offsets change with every build.
 std::string site_of(const std::vector<Frame>& frames) {
   if (frames.empty()) return "";
   const auto named =

@@ -1,4 +1,4 @@
-// What a process wrote before it died, made short: how it ended, what it said, where it was.
+// The final output of a process that died, summarised: how it ended, what it printed, where it was.
 #pragma once
 
 #include <cstddef>
@@ -9,7 +9,7 @@ namespace touchstone {
 
 /// How much of a process's standard error is kept, from the end.
 inline constexpr std::size_t last_words_bytes = 8192;
-/// A worker's call stack is a line that begins so (oracles/host/crash_report.cpp).
+/// Prefix of the line with a worker's call stack (oracles/host/crash_report.cpp).
 inline constexpr const char* frames_prefix = "touchstone-frames:";
 inline constexpr const char* host_program_name = "touchstone-host";
 
@@ -17,15 +17,15 @@ struct LastWords {
   /// For people: "SIGABRT: distance-inl.h:177: Assertion `index != -1' failed in fcl::distance(...); called
   /// by ...".
   std::string detail;
-  /// What tells one crash from another, whatever was asked and wherever modules were loaded:
-  /// "distance-inl.h:177", "libfcl:detail::collide"; empty when it is not known.
+  /// Identifies the crash, independently of the query and of where modules were loaded:
+  /// "distance-inl.h:177", "libfcl:detail::collide"; empty when unknown.
   std::string site;
 };
 
-/// `how`: "SIGABRT", "exit code 3". `speaks`: the end itself prints, so that the last line is about it.
+/// `how`: "SIGABRT", "exit code 3". `speaks`: this kind of end prints a message, which is the last line.
 LastWords last_words(std::string_view how, std::string_view standard_error, bool speaks);
 
-/// The site as a part of a key: small letters, digits, '_' and '-', at most 48 of them.
+/// The site as part of a key: at most 48 lower-case letters, digits, '_' and '-'.
 std::string site_word(std::string_view site);
 
 }  // namespace touchstone

@@ -1,8 +1,8 @@
-// Timing of answers that are too short for one reading of the clock (20 to 30 ns on today's machines):
-// whoever wants that sets TOUCHSTONE_MEASURE_NS before engines are made; workers inherit it. Each answered
-// question about a pair is then asked again for about so long, warm, and elapsed_ns is the least mean of a
-// batch of equal questions, rounded to whole nanoseconds. Protocol, plug-in interface and answers are as
-// without it.
+// Timing of answers that are too short for one reading of the clock (20 to 30 ns on today's machines).
+// Enabled by setting TOUCHSTONE_MEASURE_NS before engines are created; workers inherit it. Each answered pair
+// question is then repeated, warm, for about that long, and elapsed_ns is the smallest mean over a batch of
+// repetitions, rounded to whole nanoseconds. The protocol, the plug-in interface and the answers do not
+// change.
 #pragma once
 
 #include <algorithm>
@@ -14,13 +14,13 @@ namespace touchstone {
 
 inline constexpr const char* measure_variable = "TOUCHSTONE_MEASURE_NS";
 
-/// 0: each question is asked once.
+/// 0: each question is asked only once.
 inline std::int64_t measure_ns() {
   const char* text = std::getenv(measure_variable);
   return text ? std::clamp<std::int64_t>(std::atoll(text), 0, 1'000'000'000) : 0;
 }
 
-/// `first`: what one asking took. Batches grow until one takes an eighth of the budget.
+/// `first`: the time of the first call. Batches grow until one takes an eighth of the budget.
 template <class Ask>
 std::int64_t least_mean_ns(std::int64_t first, std::int64_t budget, Ask&& ask) {
   using Clock = std::chrono::steady_clock;

@@ -1,5 +1,5 @@
-// An engine of this build that its worker asks in C++ and not through the C ABI: it takes a scene as the
-// harness sends it, with the hulls that were made once, and its answers lose nothing on their way.
+// An engine of this build that its worker calls in C++ rather than through the C ABI: it takes the scene as
+// the harness sends it, with hulls already built, and its answers are passed on without conversion.
 #pragma once
 
 #include <functional>
@@ -14,14 +14,14 @@ namespace touchstone {
 class NativeEngine : public Engine {
  public:
   using Tell = std::function<void(Observation)>;
-  /// What it holds of the scene. All is received as it was sent unless overridden.
+  /// The scene as the engine holds it. By default everything is received as it was sent.
   virtual ReceivedScene received(const Scene& scene) const {
     ReceivedScene r;
     r.bodies.resize(scene.bodies.size());
     r.shapes.resize(scene.shapes.size());
     return r;
   }
-  /// Answers the queries of the case in their order, and tells each answer as soon as it is there.
+  /// Answers the queries of the case in order, and passes on each answer as soon as it is available.
   virtual void answer(const Case& c, const Tell& tell) = 0;
 
   std::vector<CaseObservations> run(std::span<const Case> cases) final {
@@ -36,8 +36,8 @@ class NativeEngine : public Engine {
   }
 };
 
-/// What a library of native engines exports under this name, with C linkage: makes the engine so called; null
-/// when there is none. Library and host are of one build.
+/// The factory that a library of native engines exports under the name below, with C linkage: creates the
+/// engine of that name, or returns null. Library and host come from the same build.
 using MakeNativeEngine = NativeEngine*(const char* name);
 inline constexpr const char* make_native_engine_symbol = "touchstone_native_engine";
 

@@ -1,8 +1,8 @@
-// What the project's own C++ plug-ins share: the table of the C ABI made from a class, exceptions turned into
-// outcomes, answers filled in. A plug-in writes
+// Shared by the project's own C++ plug-ins: builds the C ABI's table from a class, turns exceptions into
+// outcomes, fills in answers. A plug-in contains
 //
 //   struct Mine {
-//     static std::vector<CardText> cards();          // one an engine
+//     static std::vector<CardText> cards();          // one per engine
 //     explicit Mine(unsigned engine);
 //     void load(const ts_scene&, const ts_received&);      // may throw Unsupported or anything
 //     void unload();
@@ -26,7 +26,7 @@
 
 namespace touchstone::kit {
 
-/// "Cannot" as a value: the engine has no such query for these shapes.
+/// Thrown when the engine has no such query for these shapes.
 struct Unsupported : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
@@ -46,8 +46,11 @@ struct CardText {
       }
       out.push_back('"');
     };
-    field("name", name), field("library", library), field("version", version);
-    field("settings", settings), field("source", source);
+    field("name", name);
+    field("library", library);
+    field("version", version);
+    field("settings", settings);
+    field("source", source);
     char numbers[120];
     std::snprintf(numbers, sizeof numbers, ",\"unit_roundoff\":%.17g,\"tau_factor\":%.17g", unit_roundoff,
                   tau_factor);
@@ -55,10 +58,14 @@ struct CardText {
   }
 };
 
-/// τ of every oracle is this many unit roundoffs of its arithmetic times L, plus what its documentation
-/// claims. About 60 roundings lie between a pose and an answer of these engines; the factor of 4 on top keeps
-/// honest rounding out of the findings, and every known defect is larger by orders of magnitude.
+/// τ of every oracle is this many unit roundoffs of its arithmetic times L, plus the tolerance that its
+/// documentation claims. About 60 roundings lie between a pose and an answer of these engines; a further
+/// factor of 4 keeps ordinary rounding out of the findings, and every known defect is larger by orders of
+/// magnitude.
 inline constexpr double oracle_tau_factor = 256;
+
+/// Unit normals closer than this count as the same normal.
+inline constexpr double same_normal = 1e-6;
 
 inline void set_detail(ts_answer& out, const std::string& text) {
   const std::size_t n = std::min(text.size(), sizeof out.detail - 1);
@@ -75,23 +82,38 @@ inline Motion motion_of(const ts_body& b) {
   return b.has_motion ? Motion{vec3(b.linear), vec3(b.angular)} : Motion{};
 }
 
-inline void set_overlap(ts_answer& out, bool overlap) { out.has |= TS_HAS_OVERLAP, out.overlap = overlap; }
-inline void set_distance(ts_answer& out, double d) { out.has |= TS_HAS_DISTANCE, out.distance = d; }
+inline void set_overlap(ts_answer& out, bool overlap) {
+  out.has |= TS_HAS_OVERLAP;
+  out.overlap = overlap;
+}
+inline void set_distance(ts_answer& out, double d) {
+  out.has |= TS_HAS_DISTANCE;
+  out.distance = d;
+}
 inline void set_points(ts_answer& out, const Vec3& a, const Vec3& b) {
   out.has |= TS_HAS_POINTS;
-  store(a, out.point_a), store(b, out.point_b);
+  store(a, out.point_a);
+  store(b, out.point_b);
 }
-inline void set_normal(ts_answer& out, const Vec3& n) { out.has |= TS_HAS_NORMAL, store(n, out.normal); }
-inline void set_depth(ts_answer& out, double d) { out.has |= TS_HAS_DEPTH, out.depth = d; }
-/// The depth of a manifold point whose own normal is `n`, in an answer that states `stated`: along another
-/// normal it is none of this answer's.
+inline void set_normal(ts_answer& out, const Vec3& n) {
+  out.has |= TS_HAS_NORMAL;
+  store(n, out.normal);
+}
+inline void set_depth(ts_answer& out, double d) {
+  out.has |= TS_HAS_DEPTH;
+  out.depth = d;
+}
+/// The depth of a manifold point whose own normal is `n`, in an answer that states the normal `stated`: NaN
+/// if the two differ, because a depth along another normal says nothing about this answer.
 inline double depth_along(const Vec3& stated, const Vec3& n, double depth) {
-  constexpr double same = 1e-6;
-  return (n - stated).norm() <= same ? depth : std::numeric_limits<double>::quiet_NaN();
+  return (n - stated).norm() <= same_normal ? depth : std::numeric_limits<double>::quiet_NaN();
 }
-inline void set_toi(ts_answer& out, double t) { out.has |= TS_HAS_TOI, out.toi = t; }
+inline void set_toi(ts_answer& out, double t) {
+  out.has |= TS_HAS_TOI;
+  out.toi = t;
+}
 
-/// Pairs that a user of the engine would filter: of one group, or listed.
+/// Pairs that a user of the engine would filter: both bodies in the same group, or listed as ignored.
 class PairFilter {
  public:
   PairFilter() = default;
@@ -111,11 +133,11 @@ class PairFilter {
   std::vector<std::pair<int, int>> ignored_;
 };
 
-/// The host's TS_ABI_MINOR; 0 when it is too old to say so.
+/// The host's TS_ABI_MINOR; 0 when it is too old to report it.
 inline std::uint32_t host_minor = 0;
 
-/// The engine holds `held` in place of the scene's shape `index`. A host that cannot be told takes the shape
-/// as asked.
+/// Reports that the engine holds `held` in place of the scene's shape `index`. A host without this callback
+/// assumes that the engine holds the shape as sent.
 inline void report_other_shape(const ts_received& to, int index, const ts_shape& held) {
   if (host_minor >= 1) to.other_shape(to.ctx, index, &held);
 }
@@ -155,10 +177,12 @@ struct Table {
       out->outcome = TS_ANSWERED;
       self(e).ask(static_cast<ts_question>(question), a, b, *out, *sink);
     } catch (const Unsupported& why) {
-      out->outcome = TS_UNSUPPORTED, out->has = 0;
+      out->outcome = TS_UNSUPPORTED;
+      out->has = 0;
       set_detail(*out, why.what());
     } catch (const std::exception& why) {
-      out->outcome = TS_THREW, out->has = 0;
+      out->outcome = TS_THREW;
+      out->has = 0;
       set_detail(*out, why.what());
     }
   }

@@ -19,11 +19,23 @@ struct Sizes {
   double* size;
   void operator()(const Sphere& s) const { size[0] = s.radius; }
   void operator()(const Box& s) const { copy3(s.half_extents, size); }
-  void operator()(const Capsule& s) const { size[0] = s.radius, size[1] = s.half_height; }
-  void operator()(const Cylinder& s) const { size[0] = s.radius, size[1] = s.half_height; }
-  void operator()(const Cone& s) const { size[0] = s.radius, size[1] = s.half_height; }
+  void operator()(const Capsule& s) const {
+    size[0] = s.radius;
+    size[1] = s.half_height;
+  }
+  void operator()(const Cylinder& s) const {
+    size[0] = s.radius;
+    size[1] = s.half_height;
+  }
+  void operator()(const Cone& s) const {
+    size[0] = s.radius;
+    size[1] = s.half_height;
+  }
   void operator()(const Ellipsoid& s) const { copy3(s.semi_axes, size); }
-  void operator()(const HalfSpace& s) const { copy3(s.normal, size), size[3] = s.offset; }
+  void operator()(const HalfSpace& s) const {
+    copy3(s.normal, size);
+    size[3] = s.offset;
+  }
   void operator()(const Hull&) const {}
   void operator()(const TriangleMesh&) const {}
 };
@@ -32,11 +44,23 @@ struct FromSizes {
   const double* size;
   void operator()(Sphere& s) const { s.radius = size[0]; }
   void operator()(Box& s) const { s.half_extents = vec3(size); }
-  void operator()(Capsule& s) const { s.radius = size[0], s.half_height = size[1]; }
-  void operator()(Cylinder& s) const { s.radius = size[0], s.half_height = size[1]; }
-  void operator()(Cone& s) const { s.radius = size[0], s.half_height = size[1]; }
+  void operator()(Capsule& s) const {
+    s.radius = size[0];
+    s.half_height = size[1];
+  }
+  void operator()(Cylinder& s) const {
+    s.radius = size[0];
+    s.half_height = size[1];
+  }
+  void operator()(Cone& s) const {
+    s.radius = size[0];
+    s.half_height = size[1];
+  }
   void operator()(Ellipsoid& s) const { s.semi_axes = vec3(size); }
-  void operator()(HalfSpace& s) const { s.normal = vec3(size), s.offset = size[3]; }
+  void operator()(HalfSpace& s) const {
+    s.normal = vec3(size);
+    s.offset = size[3];
+  }
   void operator()(Hull&) const {}
   void operator()(TriangleMesh&) const {}
 };
@@ -58,8 +82,10 @@ std::vector<double> flat(const std::vector<Vec3>& points) {
 ts_pose to_abi(const Pose& p) {
   ts_pose out;
   copy3(p.translation, out.translation);
-  out.rotation[0] = p.rotation.x, out.rotation[1] = p.rotation.y;
-  out.rotation[2] = p.rotation.z, out.rotation[3] = p.rotation.w;
+  out.rotation[0] = p.rotation.x;
+  out.rotation[1] = p.rotation.y;
+  out.rotation[2] = p.rotation.z;
+  out.rotation[3] = p.rotation.w;
   return out;
 }
 
@@ -70,7 +96,10 @@ ts_body to_abi(const Body& b) {
   out.has_motion = b.motion.has_value();
   out.group = b.group;
   out.pose = to_abi(b.pose);
-  if (b.motion) copy3(b.motion->linear, out.linear), copy3(b.motion->angular, out.angular);
+  if (b.motion) {
+    copy3(b.motion->linear, out.linear);
+    copy3(b.motion->angular, out.angular);
+  }
   return out;
 }
 
@@ -80,8 +109,8 @@ const std::vector<Vec3>* vertices_of(const Shape& s) {
   return nullptr;
 }
 
-/// Rounded vertices are another hull: its faces and dimension are its own. Coordinates that overflowed to
-/// infinity are kept as they are, without faces; no hull has them.
+/// Rounded vertices form a different hull, with its own faces and dimension. Coordinates that overflowed to
+/// infinity are kept as they are, without faces, because no hull can be built from them.
 Shape with_vertices(const Shape& asked, std::vector<Vec3> vertices) {
   if (*vertices_of(asked) == vertices) return asked;
   if (std::holds_alternative<TriangleMesh>(asked)) {
@@ -111,7 +140,7 @@ Shape empty_shape(std::size_t kind, std::index_sequence<I...>) {
   return s;
 }
 
-/// The shape that a plug-in describes; nothing when it is none.
+/// The shape that a plug-in describes; nothing if the description is not valid.
 std::optional<Shape> shape_from(const ts_shape& t) {
   constexpr std::size_t kinds = std::variant_size_v<Shape>;
   if (t.kind < 0 || static_cast<std::size_t>(t.kind) >= kinds) return std::nullopt;
@@ -148,7 +177,10 @@ PluginScene::PluginScene(const Scene& scene) {
       out.vertices = vertices_.back().data();
       out.vertex_count = v->size();
     }
-    if (const auto* h = std::get_if<Hull>(&s)) point_at(h->faces, out), out.dimension = h->dimension;
+    if (const auto* h = std::get_if<Hull>(&s)) {
+      point_at(h->faces, out);
+      out.dimension = h->dimension;
+    }
     if (const auto* m = std::get_if<TriangleMesh>(&s)) point_at(m->triangles, out);
     shapes_.push_back(out);
   }

@@ -1,5 +1,5 @@
-// A Scene in the form of the C ABI, and what a plug-in reports through the ABI's callbacks in the project's
-// own types.
+// Converts a Scene to the C ABI's form, and what a plug-in reports through the ABI's callbacks to the
+// project's own types.
 #pragma once
 
 #include <array>
@@ -30,8 +30,8 @@ class PluginScene {
   std::vector<std::vector<double>> vertices_;
 };
 
-/// Collects what a plug-in says it received. Reports about shapes or bodies that do not exist, and of shapes
-/// that are none, are dropped and counted.
+/// Collects what a plug-in reports as received. Reports about shapes or bodies that do not exist, and invalid
+/// shapes, are dropped and counted.
 class ReceivedCollector {
  public:
   explicit ReceivedCollector(const Scene& scene);
@@ -54,7 +54,7 @@ class AnswerCollector {
   AnswerCollector(int body_count, int query_step_count);
   ts_sink callbacks();
   ts_answer& answer() { return answer_; }
-  /// The answer as an observation; an answer that is none (unknown outcome, a body that does not exist) is
+  /// The answer as an observation; a malformed answer (unknown outcome, nonexistent body) becomes
   /// `invalid_answer`.
   Observation take(Question question);
 

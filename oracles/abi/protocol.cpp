@@ -7,9 +7,11 @@ namespace touchstone::protocol {
 namespace {
 
 constexpr std::uint32_t magic = 0x31505354;  // "TSP1"
+constexpr const char* not_a_frame = "not the start of a frame";
 constexpr std::size_t header_bytes = 16;
+constexpr std::size_t compact_beyond_bytes = std::size_t{1} << 16;  // consumed bytes kept before compacting
 
-/// Writes the header with an open length, runs `body`, fills the length in.
+/// Writes the header with a placeholder for the length, runs `body`, then fills in the length.
 template <class F>
 void framed(std::string& out, Type type, F&& body) {
   const std::size_t start = out.size();
@@ -45,16 +47,24 @@ void put_lists(Writer& w, const Observation& o) {
 
 void get_lists(Reader& r, Observation& o) {
   o.manifold.resize(r.count(32));
-  for (ManifoldPoint& p : o.manifold) p.position = r.vec3(), p.depth = r.get<double>();
+  for (ManifoldPoint& p : o.manifold) {
+    p.position = r.vec3();
+    p.depth = r.get<double>();
+  }
   o.candidate_pairs.resize(r.count(4));
   for (auto& pairs : o.candidate_pairs) {
     pairs.resize(r.count(8));
-    for (auto& [a, b] : pairs) a = r.get<std::int32_t>(), b = r.get<std::int32_t>();
+    for (auto& [a, b] : pairs) {
+      a = r.get<std::int32_t>();
+      b = r.get<std::int32_t>();
+    }
   }
   o.contacts.resize(r.count(40));
   for (SceneContact& c : o.contacts) {
-    c.a = r.get<std::int32_t>(), c.b = r.get<std::int32_t>();
-    c.normal = r.vec3(), c.depth = r.get<double>();
+    c.a = r.get<std::int32_t>();
+    c.b = r.get<std::int32_t>();
+    c.normal = r.vec3();
+    c.depth = r.get<double>();
   }
 }
 
@@ -77,7 +87,7 @@ void put_observation(Writer& w, const Observation& o) {
 
 Observation get_observation(Reader& r) {
   Observation o;
-  // Whether it was asked is not for the worker to say.
+  // Only the harness can decide that a query was not asked.
   o.outcome = static_cast<Outcome>(r.tag(static_cast<std::uint8_t>(Outcome::not_asked)));
   const auto present = r.get<std::uint16_t>();
   if (present > all_present) throw Malformed("an unknown field");
@@ -100,26 +110,32 @@ Observation get_observation(Reader& r) {
 }  // namespace
 
 void FrameReader::append(const char* data, std::size_t n) {
-  if (begin_ == buffer_.size()) buffer_.clear(), begin_ = 0;
-  if (begin_ > (std::size_t{1} << 16)) buffer_.erase(0, begin_), begin_ = 0;
+  if (begin_ == buffer_.size()) {
+    buffer_.clear();
+    begin_ = 0;
+  }
+  if (begin_ > compact_beyond_bytes) {
+    buffer_.erase(0, begin_);
+    begin_ = 0;
+  }
   buffer_.append(data, n);
 }
 
 std::optional<Frame> FrameReader::next() {
   const std::string_view rest = std::string_view(buffer_).substr(begin_);
   if (rest.size() < header_bytes) {
-    // A short print must not wait for more bytes that never come.
+    // Stray output shorter than a header must not make us wait for bytes that never come.
     const std::size_t n = std::min(rest.size(), sizeof magic);
-    if (n > 0 && std::memcmp(rest.data(), &magic, n) != 0) throw Malformed("no frame begins here");
+    if (n > 0 && std::memcmp(rest.data(), &magic, n) != 0) throw Malformed(not_a_frame);
     return std::nullopt;
   }
   Reader header(rest.substr(0, header_bytes));
-  if (header.get<std::uint32_t>() != magic) throw Malformed("no frame begins here");
-  if (header.get<std::uint16_t>() != version) throw Malformed("another version of the protocol");
+  if (header.get<std::uint32_t>() != magic) throw Malformed(not_a_frame);
+  if (header.get<std::uint16_t>() != version) throw Malformed("a different protocol version");
   const auto type = header.get<std::uint16_t>();
   const auto length = header.get<std::uint32_t>();
   if (type < 1 || type > 4 || header.get<std::uint32_t>() != 0) throw Malformed("a bad frame header");
-  if (length > max_payload_bytes) throw Malformed("a frame longer than any message");
+  if (length > max_payload_bytes) throw Malformed("a frame longer than the limit");
   if (rest.size() - header_bytes < length) return std::nullopt;
   begin_ += header_bytes + length;
   return Frame{static_cast<Type>(type), rest.substr(header_bytes, length)};
@@ -180,7 +196,8 @@ QuestionMessage decode_question(std::string_view payload) {
   m.queries.resize(r.count(9));
   for (Query& q : m.queries) {
     q.question = static_cast<Question>(r.tag(static_cast<std::uint8_t>(question_names.size())));
-    q.a = r.get<std::int32_t>(), q.b = r.get<std::int32_t>();
+    q.a = r.get<std::int32_t>();
+    q.b = r.get<std::int32_t>();
   }
   r.finish();
   return m;

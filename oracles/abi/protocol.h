@@ -1,6 +1,6 @@
-// What harness and worker say to each other over two byte streams. A frame is a header of 16 bytes (magic,
-// version, type, payload length, zero) and a payload; all numbers little-endian, doubles by their bits. Every
-// decoder throws Malformed on anything that is not exactly a message.
+// The messages between harness and worker, over two byte streams. A frame is a header of 16 bytes (magic,
+// version, type, payload length, zero) and a payload; all numbers are little-endian, doubles as their bits.
+// Every decoder throws Malformed on anything that is not exactly one message.
 #pragma once
 
 #include <cstdint>
@@ -16,7 +16,7 @@
 namespace touchstone::protocol {
 
 inline constexpr std::uint16_t version = 1;
-/// A frame longer than this is rubbish by definition.
+/// A frame longer than this is malformed.
 inline constexpr std::uint32_t max_payload_bytes = std::uint32_t{1} << 30;
 
 enum class Type : std::uint16_t { hello = 1, question = 2, received = 3, answer = 4 };
@@ -26,12 +26,11 @@ struct Frame {
   std::string_view payload;  // into the FrameReader; valid until its next append()
 };
 
-/// Cuts a byte stream into frames. Memory grows with the bytes that arrived, never with a length that was
-/// announced.
+/// Splits a byte stream into frames. Memory grows with the bytes received, never with an announced length.
 class FrameReader {
  public:
   void append(const char* data, std::size_t n);
-  /// The next whole frame, or none yet. Throws Malformed on a bad header.
+  /// The next complete frame, if there is one yet. Throws Malformed on a bad header.
   std::optional<Frame> next();
 
  private:
@@ -39,12 +38,12 @@ class FrameReader {
   std::size_t begin_ = 0;
 };
 
-/// Worker → harness, once: what the plug-in offers, and which engine this worker serves; or why it cannot.
+/// Worker → harness, once: the plug-in's engines and the one that this worker serves, or an error.
 struct Hello {
   std::vector<std::string> cards;  // JSON
   std::int32_t chosen = -1;        // index into cards; -1: cards only
-  std::string error;               // not empty: the plug-in cannot be used, and this is why
-  std::string sandbox{};           // what of it is in force, in words
+  std::string error;               // not empty: why the plug-in cannot be used
+  std::string sandbox{};           // for people: which parts of the sandbox are in force
   bool operator==(const Hello&) const = default;
 };
 
@@ -54,7 +53,7 @@ struct QuestionRef {
   std::uint32_t first_query;
   const Scene& scene;
   std::span<const Query> queries;
-  std::uint8_t fill = 0;  // what memory that the engine has not written yet is filled with
+  std::uint8_t fill = 0;  // content of memory that the engine has not written yet
 };
 struct QuestionMessage {
   std::uint64_t sequence = 0;
@@ -84,7 +83,7 @@ void append(std::string& out, const AnswerMessage& m);
 
 Hello decode_hello(std::string_view payload);
 QuestionMessage decode_question(std::string_view payload);
-/// `scene`: the one that was sent; a message about another number of shapes or bodies is malformed.
+/// `scene`: the one that was sent; a message with a different number of shapes or bodies is malformed.
 ReceivedMessage decode_received(std::string_view payload, const Scene& scene);
 AnswerMessage decode_answer(std::string_view payload);
 

@@ -49,14 +49,15 @@ void put_shape(Writer& w, const Shape& shape) {
 template <std::size_t... I>
 Shape shape_of_kind(std::size_t kind, std::index_sequence<I...>) {
   Shape s;
-  ((kind == I ? (s.emplace<I>(), 0) : 0), ...);
+  ((kind == I ? static_cast<void>(s.emplace<I>()) : static_cast<void>(0)), ...);
   return s;
 }
 
 void check_indices(const Triangles& triangles, std::size_t vertex_count) {
   for (const auto& t : triangles)
     for (int i : t)
-      if (i < 0 || static_cast<std::size_t>(i) >= vertex_count) throw Malformed("a triangle names no vertex");
+      if (i < 0 || static_cast<std::size_t>(i) >= vertex_count)
+        throw Malformed("a vertex index out of range");
 }
 
 Shape get_shape(Reader& r) {
@@ -67,7 +68,7 @@ Shape get_shape(Reader& r) {
   if (auto* h = std::get_if<Hull>(&shape)) {
     get(h->faces);
     h->dimension = r.get<std::int32_t>();
-    if (h->vertices.empty() || h->dimension < 0 || h->dimension > 3) throw Malformed("a hull that is none");
+    if (h->vertices.empty() || h->dimension < 0 || h->dimension > 3) throw Malformed("an invalid hull");
     check_indices(h->faces, h->vertices.size());
   }
   if (const auto* m = std::get_if<TriangleMesh>(&shape)) check_indices(m->triangles, m->vertices.size());
@@ -94,7 +95,7 @@ Body get_body(Reader& r, std::size_t shape_count) {
   Body b;
   b.shape = r.get<std::int32_t>();
   if (b.shape < 0 || static_cast<std::size_t>(b.shape) >= shape_count)
-    throw Malformed("a body names no shape");
+    throw Malformed("a shape index out of range");
   b.is_static = r.flag();
   b.group = r.get<std::int32_t>();
   b.pose = get_pose(r);
@@ -110,7 +111,7 @@ Step get_step(Reader& r, std::size_t body_count) {
   s.op = static_cast<Step::Op>(r.tag(4));
   s.body = r.get<std::int32_t>();
   if (s.op != Step::Op::query && (s.body < 0 || static_cast<std::size_t>(s.body) >= body_count))
-    throw Malformed("a step names no body");
+    throw Malformed("a body index out of range");
   if (r.flag()) s.pose = get_pose(r);
   return s;
 }
@@ -138,7 +139,10 @@ Scene get_scene(Reader& r) {
   scene.bodies.resize(r.count(66));
   for (Body& b : scene.bodies) b = get_body(r, scene.shapes.size());
   scene.ignored.resize(r.count(8));
-  for (auto& [a, b] : scene.ignored) a = r.get<std::int32_t>(), b = r.get<std::int32_t>();
+  for (auto& [a, b] : scene.ignored) {
+    a = r.get<std::int32_t>();
+    b = r.get<std::int32_t>();
+  }
   scene.script.resize(r.count(6));
   for (Step& s : scene.script) s = get_step(r, scene.bodies.size());
   return scene;
@@ -161,13 +165,13 @@ void put_received(Writer& w, const ReceivedScene& received) {
 
 ReceivedScene get_received(Reader& r, const Scene& sent) {
   ReceivedScene received;
-  if (r.count(1) != sent.shapes.size()) throw Malformed("another number of shapes");
+  if (r.count(1) != sent.shapes.size()) throw Malformed("a wrong number of shapes");
   received.shapes.resize(sent.shapes.size());
   for (std::size_t i = 0; i < sent.shapes.size(); ++i) {
     if (!r.flag()) continue;
     received.shapes[i] = get_shape(r);
   }
-  if (r.count(1) != sent.bodies.size()) throw Malformed("another number of bodies");
+  if (r.count(1) != sent.bodies.size()) throw Malformed("a wrong number of bodies");
   received.bodies.resize(sent.bodies.size());
   for (auto& b : received.bodies) {
     if (!r.flag()) continue;

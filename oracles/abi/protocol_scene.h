@@ -1,4 +1,4 @@
-// Scenes and received scenes as bytes; used by protocol.cpp alone.
+// Scenes and received scenes as bytes; used only by protocol.cpp.
 #pragma once
 
 #include "oracles/abi/bytes.h"
@@ -6,8 +6,8 @@
 
 namespace touchstone::protocol {
 
-/// The scene without names. get_scene(put_scene(s)) has the same numbers,
-/// faces and dimensions of hulls included, and the same script.
+/// Writes the scene without names. get_scene(put_scene(s)) has the same numbers, including faces and
+/// dimensions of hulls, and the same script.
 void put_scene(Writer& w, const Scene& scene);
 Scene get_scene(Reader& r);
 

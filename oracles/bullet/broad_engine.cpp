@@ -1,5 +1,5 @@
-// Bullet's broad phases, each an engine that answers `candidates` alone: proxies with the shapes' own boxes
-// (margin 0), no btCollisionWorld, which would widen them.
+// Bullet's broad phases, each as an engine that answers only `candidates`: proxies with the shapes' own AABBs
+// (margin 0), without a btCollisionWorld, which would expand them.
 #include <BulletCollision/BroadphaseCollision/btAxisSweep3.h>
 #include <BulletCollision/BroadphaseCollision/btDbvtBroadphase.h>
 #include <BulletCollision/BroadphaseCollision/btSimpleBroadphase.h>
@@ -15,7 +15,7 @@ namespace {
 constexpr bool is_double = sizeof(btScalar) == 8;
 using BroadPhasePtr = std::unique_ptr<btBroadphaseInterface>;
 
-// Boxes beyond the world are clamped to it. 16-bit handles: the default number, 16384.
+// AABBs outside the world are clamped to it. 16384 is the default maximum of the version with 16-bit handles.
 const btVector3 world_lo(-1000, -1000, -1000), world_hi(1000, 1000, 1000);
 constexpr int most_proxies = 16384;
 
@@ -80,8 +80,9 @@ class Run {
   }
 
  private:
-  // An upright box as a user has it who has boxes: btBoxShape's own loses a rounding on the way through its
-  // margin. A third of a turn about the diagonal is upright too.
+  // The AABB of an axis-aligned box is computed directly, as a user with AABBs would: btBoxShape::getAabb
+  // rounds once more because of its margin. A rotation by a third of a turn about the diagonal also keeps a
+  // box axis-aligned.
   void box_of(const ts_step& step, btVector3& lo, btVector3& hi) const {
     const std::int32_t number = scene_.bodies[step.body].shape;
     const ts_shape& asked = scene_.shapes[number];
@@ -94,7 +95,8 @@ class Run {
     for (int k = 0; k < 3; ++k) {
       const auto t = static_cast<btScalar>(step.pose.translation[k]),
                  h = static_cast<btScalar>(asked.size[(k + shift) % 3]);
-      lo[k] = t - h, hi[k] = t + h;
+      lo[k] = t - h;
+      hi[k] = t + h;
     }
   }
 
@@ -130,12 +132,16 @@ class Engine {
       shapes_.push_back(make_shape(scene.shapes[i], 0));
       if (!shapes_.back()->shape) throw kit::Unsupported("Bullet has no ellipsoid");
     }
-    scene_ = &scene, filter_ = kit::PairFilter(scene);
+    scene_ = &scene;
+    filter_ = kit::PairFilter(scene);
   }
-  void unload() { shapes_.clear(), scene_ = nullptr; }
+  void unload() {
+    shapes_.clear();
+    scene_ = nullptr;
+  }
 
   void ask(ts_question question, int, int, ts_answer&, const ts_sink& sink) {
-    if (question != TS_CANDIDATES) throw kit::Unsupported("a broad phase alone");
+    if (question != TS_CANDIDATES) throw kit::Unsupported("a broad phase only");
     Run run(*scene_, shapes_, dispatcher_, row_.make());
     int k = 0;
     for (std::size_t i = 0; i < scene_->step_count; ++i) {

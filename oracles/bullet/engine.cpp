@@ -1,5 +1,5 @@
-// The Bullet plug-in, in one precision: query path and simulation path, each with Bullet's own margins and
-// with none, and, as a plug-in of its own, with other settings (settings.h).
+// The Bullet plug-in, in one precision: query path and simulation path, each with Bullet's default margins
+// and without margins, and, as a separate plug-in, with other settings (settings.h).
 #include <limits>
 #include <numbers>
 #include <optional>
@@ -9,7 +9,7 @@
 #include "oracles/bullet/pair.h"
 #include "oracles/bullet/settings.h"
 
-// btGjkPairDetector.cpp: global, without a header that declares it.
+// A global of btGjkPairDetector.cpp that no header declares.
 extern btScalar gGjkEpaPenetrationTolerance;
 
 namespace touchstone::bullet_adapter {
@@ -17,7 +17,7 @@ namespace {
 
 constexpr bool is_double = sizeof(btScalar) == 8;
 constexpr double unit_roundoff = is_double ? 0x1p-53 : 0x1p-24;
-// btContinuousConvexCollision ends at a gap of 0.001, a length fixed in its source.
+// btContinuousConvexCollision stops at a gap of 0.001, a length hard-coded in its source.
 constexpr double sweep_gap = 0.001;
 
 constexpr const char* source =
@@ -68,14 +68,18 @@ class Engine {
     scene_ = &scene;
     filter_ = kit::PairFilter(scene);
   }
-  void unload() { objects_.clear(), shapes_.clear(), scene_ = nullptr; }
+  void unload() {
+    objects_.clear();
+    shapes_.clear();
+    scene_ = nullptr;
+  }
 
   void ask(ts_question question, int a, int b, ts_answer& out, const ts_sink& sink) {
     if ((question == TS_TIME_OF_IMPACT) ? setting_.minkowski || setting_.epa_tolerance
                                         : setting_.allowed_penetration.has_value())
-      throw kit::Unsupported("its setting is of no matter to this question");
+      throw kit::Unsupported("this engine's setting does not affect this question");
     if (question == TS_SWEPT_CANDIDATES)
-      throw kit::Unsupported("Bullet's broad phases take bodies that stand still");
+      throw kit::Unsupported("Bullet's broad phases do not support moving bodies");
     if (question == TS_CANDIDATES || question == TS_SCENE_CONTACTS) {
       for (const auto& s : shapes_)
         if (!s->shape) throw kit::Unsupported("Bullet has no ellipsoid, and the scene has one");
@@ -103,8 +107,8 @@ class Engine {
   }
   btCollisionObject& object(int body) { return *objects_[static_cast<std::size_t>(body)]; }
 
-  // Planes ask for the support with margin, which is the nominal corner; btBoxBoxDetector works on the
-  // nominal boxes.
+  // Plane algorithms use the support point with margin, which is the nominal corner; btBoxBoxDetector works
+  // on the nominal boxes.
   double claimed_margin(int a, int b) const {
     const Shape &one = shape(a), &two = shape(b);
     const double outside = one.outside_margin() + two.outside_margin();
@@ -118,7 +122,7 @@ class Engine {
                 : query_points(*query_world_, object(a), object(b), 0);
   }
 
-  /// With a sink the whole contact, without one the overlap alone.
+  /// With a sink, answers the whole contact; without one, only the overlap.
   void ask_contact(int a, int b, ts_answer& out, const ts_sink* sink) {
     const std::vector<Point> all = points(a, b);
     const Point* const d = deepest(all);
@@ -148,20 +152,20 @@ class Engine {
     kit::set_points(out, d->on_a, d->on_b);
   }
 
-  // The sweep holds its target still. A target that only translates is brought to rest by moving with it; of
-  // two bodies the one that turns, or the only convex one, is swept.
+  // The sweep requires a target at rest. A target that only translates is brought to rest by using the
+  // relative motion. The swept body is the one that rotates, or the only convex one.
   void ask_time(int a, int b, ts_answer& out) {
     if (sim_) throw kit::Unsupported("the simulation path has no time of impact");
     const auto motion = [&](int i) { return kit::motion_of(scene_->bodies[i]); };
     const auto turns = [&](int i) { return motion(i).angular.norm() > 0; };
     if (turns(a) && turns(b))
-      throw kit::Unsupported("convexSweepTest holds its target still, and both bodies turn");
+      throw kit::Unsupported("convexSweepTest requires a target at rest, and both bodies rotate");
     const bool sweep_b = turns(b) || !shape(a).is_convex();
     const int mover = sweep_b ? b : a, target = sweep_b ? a : b;
     if (!shape(mover).is_convex()) throw kit::Unsupported("convexSweepTest sweeps convex shapes only");
     Motion relative = motion(mover);
     if (relative.angular.norm() >= std::numbers::pi)
-      throw kit::Unsupported("convexSweepTest takes a motion by its end poses: less than half a turn");
+      throw kit::Unsupported("convexSweepTest defines a motion by its end poses: only less than half a turn");
     relative.linear -= motion(target).linear;
     const Pose start = kit::pose_of(scene_->bodies[mover].pose);
     const auto t = sweep(configuration_, static_cast<const btConvexShape&>(*shape(mover).shape),
@@ -173,8 +177,8 @@ class Engine {
 
   void ask_candidates(const ts_sink& sink) {
     World world(configuration_);
-    // Objects that a script never removes must leave the world before it goes; their poses go back to the
-    // scene's.
+    // Objects that the script never removes must leave the world before it is destroyed; afterwards all poses
+    // are reset to those of the scene.
     run_script(*scene_, objects_, world, [&](int k, int a, int b) {
       if (!filter_.drops(a, b)) sink.pair(sink.ctx, k, a, b);
     });

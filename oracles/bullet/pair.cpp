@@ -3,7 +3,7 @@
 namespace touchstone::bullet_adapter {
 namespace {
 
-/// `swapped`: Bullet's body 0 is our B.
+/// `swapped`: Bullet's body 0 is B.
 Point point_of(const btManifoldPoint& p, bool swapped) {
   const Vec3 on_0 = vec3(p.getPositionWorldOnA()), on_1 = vec3(p.getPositionWorldOnB());
   const Vec3 normal_10 = vec3(p.m_normalWorldOnB);

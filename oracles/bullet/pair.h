@@ -8,28 +8,28 @@
 
 namespace touchstone::bullet_adapter {
 
-/// One contact or closest point. Bullet's normals point from B to A and are turned round here.
+/// One contact or closest point. Bullet's normals point from B to A and are reversed here.
 struct Point {
   Vec3 on_a, on_b, normal_ab;
   double distance;  // < 0: penetration
 };
 
-/// btCollisionWorld::contactPairTest, which goes to the closest-point algorithms (GJK and EPA for most
-/// pairs). `threshold`: m_closestDistanceThreshold, how far apart points are still reported.
+/// btCollisionWorld::contactPairTest, which uses the closest-point algorithms (GJK and EPA for most pairs).
+/// `threshold`: m_closestDistanceThreshold, the largest distance at which points are reported.
 std::vector<Point> query_points(btCollisionWorld& world, btCollisionObject& a, btCollisionObject& b,
                                 btScalar threshold);
 
 /// All contact points between two bodies in the world's manifolds.
 std::vector<Point> manifold_points(const btPersistentManifold& manifold, const btCollisionObject& a);
 
-/// performDiscreteCollisionDetection in a fresh world that holds the two bodies, manifolds read back.
+/// Runs performDiscreteCollisionDetection in a fresh world with the two bodies, and reads back the manifolds.
 std::vector<Point> simulated_points(btDefaultCollisionConfiguration& configuration, btCollisionObject& a,
                                     btCollisionObject& b);
 
-/// The point of least distance, if any.
+/// The point with the smallest distance, if any.
 const Point* deepest(const std::vector<Point>& points);
 
-/// btCollisionWorld::convexSweepTest of `mover` against a world that holds `target` alone;
+/// btCollisionWorld::convexSweepTest of `mover` against a world that contains only `target`;
 /// `allowed_penetration` is its last argument.
 std::optional<double> sweep(btDefaultCollisionConfiguration& configuration, const btConvexShape& mover,
                             const btTransform& from, const btTransform& to, btCollisionObject& target,

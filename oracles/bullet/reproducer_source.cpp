@@ -10,7 +10,7 @@ namespace touchstone::fuzz {
 namespace {
 
 std::string scalar(double x) { return fmt::format("btScalar({})", literal(x)); }
-// Of a broad phase alone: its declaration; empty for any other engine.
+// The declaration of the broad phase, for engines that are a broad phase only; otherwise empty.
 std::string phase_of(const Asked& q);
 
 std::string vector(const Vec3& v) {
@@ -22,8 +22,8 @@ std::string transform(const Pose& p) {
                      scalar(q.w), vector(p.translation));
 }
 
-// Statements that make `shape_<i>`; its margin is set last, but a hull's first, so that its box is computed
-// with it.
+// Statements that create `shape_<i>`. The margin is set last, except for a hull, whose AABB is computed with
+// the margin that is set when its points are added.
 struct Maker {
   std::size_t i;
   bool tuned;
@@ -75,7 +75,7 @@ struct World {
   btCollisionWorld world{&dispatcher, &broadphase, &configuration};
 };
 
-// Bullet's normal points from its body 1 to its body 0; here from A to B.
+// Bullet's normals point from its body 1 to its body 0; ours from A to B.
 [[maybe_unused]] void take(Answer& x, const btManifoldPoint& p, bool swapped) {
   const double distance = p.getDistance();
   if (distance <= 0) x.points.push_back(vec(swapped ? p.getPositionWorldOnA() : p.getPositionWorldOnB()));
@@ -172,7 +172,7 @@ std::string pair_question(const Asked& q) {
   return out + fmt::format("  x = query(w.world, object_{}, object_{});\n", q.a, q.b);
 }
 
-// One body is swept against the other at rest, as the adapter does: the one that turns, or the convex one.
+// Sweeps one body against the other at rest, as the adapter does: the one that rotates, or the convex one.
 std::string impact(const Asked& q) {
   const auto motion = [&](int i) { return q.body(i).motion.value_or(Motion{}); };
   const bool sweep_b = !motion(q.b).angular.isZero(0) || !has_support(q.scene.shape_of(q.a));
@@ -237,7 +237,7 @@ std::string scene_contacts(const Asked& q) {
   return out;
 }
 
-// The broad phases alone, by the names under which they are certified.
+// The broad phases as separate engines, under the names used for certification.
 constexpr std::string_view phase_head = R"(  btDefaultCollisionConfiguration configuration;
   btCollisionDispatcher dispatcher(&configuration);
   @PHASE@;
@@ -246,9 +246,10 @@ constexpr std::string_view phase_head = R"(  btDefaultCollisionConfiguration con
   [[maybe_unused]] const auto box_of = [](const btCollisionShape& shape, const btTransform& at, btVector3& lo, btVector3& hi) {
     shape.getAabb(at, lo, hi);
   };
-  // An upright box has no need of its shape's margin.
+  // The AABB of an axis-aligned box, without the additional rounding of btBoxShape's margin.
   [[maybe_unused]] const auto corners = [](const btVector3& h, const btTransform& at, btVector3& lo, btVector3& hi) {
-    lo = at.getOrigin() - h, hi = at.getOrigin() + h;
+    lo = at.getOrigin() - h;
+    hi = at.getOrigin() + h;
   };
 )";
 
@@ -261,7 +262,7 @@ std::string phase_of(const Asked& q) {
   return name == "simple" ? "btSimpleBroadphase phase(16384)" : "";
 }
 
-// lo and hi of body i at a pose.
+// A statement that sets lo and hi to the AABB of body i at a pose.
 std::string box_of(const Asked& q, int i, const Pose& pose) {
   const auto* box = std::get_if<Box>(&q.scene.shape_of(i));
   const Quat& r = pose.rotation;

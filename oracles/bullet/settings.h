@@ -1,8 +1,8 @@
-// The engines that the Bullet plug-in offers, by their settings. TOUCHSTONE_SWEEP, a plug-in of its own:
-// other margins (bullet-f64-query@0.01), the other solver of depths (-minkowski@margin:
-// btMinkowskiPenetrationDepthSolver), other tolerances of the default one (-epa@tolerance) and of the sweep
-// (-cast@length: its allowedCcdPenetration), so that a chart shows a method as a curve. Bullet has no other
-// settings of GJK and EPA outside its macros.
+// The engines that the Bullet plug-in offers, by their settings. With TOUCHSTONE_SWEEP, a separate plug-in:
+// other margins (bullet-f64-query@0.01), the other penetration depth solver (-minkowski@margin:
+// btMinkowskiPenetrationDepthSolver), other tolerances of the default solver (-epa@tolerance) and of sweeps
+// (-cast@length: allowedCcdPenetration), so that a chart shows a method as a curve. Bullet's other GJK and
+// EPA settings are macros.
 #pragma once
 
 #include <optional>
@@ -11,14 +11,14 @@
 
 namespace touchstone::bullet_adapter {
 
-// One engine: the names of what is not here are left at Bullet's defaults.
+// One engine. Anything not set here is left at Bullet's default.
 struct Setting {
   std::string_view name;  // after bullet-f32- or bullet-f64-
   bool sim = false;
   std::optional<double> margin = {};
   bool minkowski = false;
   std::optional<double> epa_tolerance = {};
-  std::optional<double> allowed_penetration = {};  // of sweeps, and then of nothing else
+  std::optional<double> allowed_penetration = {};  // if set, the engine answers sweeps only
 };
 #ifndef TOUCHSTONE_SWEEP
 inline constexpr Setting settings[] = {

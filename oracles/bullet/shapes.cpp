@@ -122,7 +122,7 @@ std::unique_ptr<Shape> make_shape(const ts_shape& asked, std::optional<double> m
     default:
       throw std::runtime_error("unknown shape");
   }
-  // The margin of a sphere or capsule is its radius, which setMargin leaves alone.
+  // The margin of a sphere or capsule is its radius, which setMargin does not change.
   if (margin) out->shape->setMargin(scalar(*margin));
   return out;
 }

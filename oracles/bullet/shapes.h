@@ -21,25 +21,25 @@ struct Shape {
   std::unique_ptr<btCollisionShape> shape;  // null: Bullet has no ellipsoid
   bool is_convex() const { return shape && shape->isConvex(); }
 
-  /// Margins as Bullet documents them (btCollisionMargin.h, btBoxShape.h, btConvexHullShape.h): of boxes and
-  /// cylinders it lies inside and rounds the edges wherever GJK sees the shape; of hulls, cones and triangles
-  /// it lies outside.
+  /// Margins as Bullet documents them (btCollisionMargin.h, btBoxShape.h, btConvexHullShape.h): for boxes and
+  /// cylinders the margin lies inside and rounds the edges wherever GJK is used; for hulls, cones and
+  /// triangles it lies outside.
   double inside_margin() const;
   double outside_margin() const;
 };
 
-/// Half extents, z axes. Another margin than Bullet's is set before hulls get their points, because the
-/// cached box of a hull keeps the margin it was made with.
+/// Shapes use half extents and z axes. A margin other than Bullet's default is set before a hull gets its
+/// points, because the hull's cached AABB keeps the margin that it was computed with.
 std::unique_ptr<Shape> make_shape(const ts_shape& asked, std::optional<double> margin);
 
-/// As a user writes it: a unit quaternion in Bullet's scalar, made into a matrix by Bullet.
+/// As a user would write it: a unit quaternion in Bullet's scalar type, which Bullet converts to a matrix.
 btTransform make_transform(const Pose& pose);
 
 inline Vec3 vec3(const btVector3& v) {
   return {static_cast<double>(v.x()), static_cast<double>(v.y()), static_cast<double>(v.z())};
 }
 
-/// Tells what Bullet holds, in the ABI's units.
+/// Report what Bullet holds, in the ABI's conventions.
 void report_shape(int index, const Shape& held, const ts_received& to);
 void report_body(int index, const btTransform& held, const ts_received& to);
 

@@ -9,7 +9,7 @@
 
 namespace touchstone::bullet_adapter {
 
-/// A fresh world. The configuration is shared between worlds: it owns memory pools of megabytes and no state.
+/// A fresh world. The configuration is shared between worlds: it owns megabytes of memory pools but no state.
 class World {
  public:
   explicit World(btDefaultCollisionConfiguration& configuration)
@@ -28,8 +28,8 @@ using Objects = std::vector<std::unique_ptr<btCollisionObject>>;
 /// Calls `pair` with the user indices of each pair in the world's overlapping pair cache.
 void for_each_cached_pair(btCollisionWorld& world, const std::function<void(int a, int b)>& pair);
 
-/// Runs the scene's steps; calls `pair(k, a, b)` for every pair in the cache at the k-th query. `objects`
-/// carry their body's number as user index.
+/// Runs the scene's steps; calls `pair(k, a, b)` for every pair in the cache at the k-th query. The user
+/// index of each object is the number of its body.
 void run_script(const ts_scene& scene, Objects& objects, World& world,
                 const std::function<void(int k, int a, int b)>& pair);
 

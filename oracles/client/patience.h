@@ -1,5 +1,5 @@
-// When an engine is asked no more. It goes by counts of answers, never by a clock, so that the same questions
-// end at the same one.
+// Decides when to stop querying an engine. The decision depends on counts of answers, never on a clock, so
+// that the same questions always stop at the same one.
 #pragma once
 
 #include <string>
@@ -8,9 +8,10 @@ namespace touchstone {
 
 class Patience {
  public:
-  /// Questions without an answer in time, one after another.
+  /// Consecutive questions that timed out.
   static constexpr int most_time_outs_in_a_row = 32;
-  /// Questions in which the engine waited and used no CPU: each costs seconds, and no machine is too slow.
+  /// Questions on which the engine waited without using the CPU: each costs seconds, and a slow machine is no
+  /// explanation.
   static constexpr int most_blocked = 4;
 
   void note_answer() { in_a_row_ = 0; }

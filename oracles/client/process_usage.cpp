@@ -25,7 +25,7 @@ std::string contents(const std::string& file) {
   return text;
 }
 
-// Each thread has its own children.
+// The kernel lists children per thread.
 void append_children(pid_t pid, std::vector<pid_t>& out) {
   const std::string tasks = "/proc/" + std::to_string(pid) + "/task";
   DIR* const directory = opendir(tasks.c_str());
@@ -48,7 +48,8 @@ char joint_state(char a, char b) {
 }
 
 void add(ProcessUsage& sum, const ProcessUsage& u) {
-  sum.cpu_seconds += u.cpu_seconds, sum.resident_bytes += u.resident_bytes;
+  sum.cpu_seconds += u.cpu_seconds;
+  sum.resident_bytes += u.resident_bytes;
   sum.processes += u.processes;
   sum.state = joint_state(sum.state, u.state);
 }

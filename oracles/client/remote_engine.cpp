@@ -19,19 +19,17 @@
 namespace touchstone {
 namespace {
 
-constexpr std::size_t send_ahead_bytes = std::size_t{1}
-                                         << 18;  // questions encoded before the worker took them
+constexpr std::size_t send_ahead_bytes = std::size_t{1} << 18;  // of questions encoded ahead of the worker
 constexpr int max_failed_starts = 3;
-// Read as a double about 2e6, as an index beyond any array, as a pointer to nowhere: what was never written
-// is found out. Zeros, the kindest content, are what is asked with otherwise.
+// Fill byte for run_again(): read as a double it gives about 2e6, as an index or a pointer it is far out of
+// range, so reads of uninitialised memory show. Ordinary runs fill with zeros, the most benign content.
 constexpr std::uint8_t other_fill = 0x41;
-constexpr double death_wait_seconds = 2;  // from the end of the answers to the end of the process
 
-/// The next observation that is due.
+/// The position of the next observation.
 struct Cursor {
   std::size_t item = 0;
   std::uint32_t query = 0;
-  bool loaded = false;  // the worker has taken the scene of `item`
+  bool loaded = false;  // the worker has loaded the scene of `item`
   bool operator==(const Cursor&) const = default;
 };
 
@@ -49,9 +47,9 @@ class RemoteEngine::Impl {
       return;
     }
     start();
-    const auto chosen = static_cast<std::size_t>(nursery_->hello.chosen);
+    const auto chosen = static_cast<std::size_t>(fork_server_->hello.chosen);
     try {
-      card_ = card_from_json(nursery_->hello.cards[chosen]);
+      card_ = card_from_json(fork_server_->hello.cards[chosen]);
     } catch (const InputError& e) {
       throw e.within(spec_.plugin.string() + ": card");
     }
@@ -70,14 +68,14 @@ class RemoteEngine::Impl {
     if (lost_) results_[lost_->at.item].answers[lost_->at.query] = std::move(lost_->what);
     return std::move(results_);
   } catch (const Stopped&) {
-    session_.reset();  // it is in the middle of something
+    session_.reset();  // the worker is in the middle of a query
     throw;
   }
 
   EngineCard card_;
   int restarts_ = 0;
   Patience patience_;
-  std::string sandbox() const { return nursery_ ? nursery_->hello.sandbox : ""; }
+  std::string sandbox() const { return fork_server_ ? fork_server_->hello.sandbox : ""; }
   int pid() const { return session_ ? session_->process->pid() : -1; }
 
  private:
@@ -94,14 +92,14 @@ class RemoteEngine::Impl {
     if (std::exchange(one_by_one_, false)) session_.reset();
     lost_.reset();
     // Memory that earlier batches left behind must not be charged to a query of this one.
-    // (What ends a native engine's worker is asked again of a new one.)
+    // (Native engines do not need this: questions that end their worker are repeated in a new one.)
     if (session_ && !spec_.native &&
         usage_of(session_->process->pid()).resident_bytes > spec_.limits.resident_bytes / 2)
       session_.reset();
     resume();
   }
 
-  /// There is a worker, started anew if need be.
+  /// Makes sure that there is a worker, restarting it if necessary.
   bool is_ready() {
     if (session_ && !has_ended()) return true;
     if (session_) replace_worker();
@@ -114,33 +112,35 @@ class RemoteEngine::Impl {
       }
   }
 
-  /// To ask the nursery costs more than a native engine's answers; its worker has no children that would hold
-  /// the pipe open.
+  /// A request to the fork server costs more than a native engine's answers. A native engine's worker has no
+  /// children that would hold the pipe open, so a closed pipe is enough.
   bool has_ended() {
     if (!spec_.native) return session_->process->has_ended();
     pollfd fd{session_->process->answers_fd(), POLLIN, 0};
     return poll(&fd, 1, 0) > 0 && (fd.revents & POLLHUP);
   }
 
-  /// A new worker, and a new nursery too if there is none or it has died.
+  /// Starts a new worker, and also a new fork server if there is none or it has died.
   void start() {
-    if (!nursery_ || nursery_->process->has_ended()) {
-      nursery_.reset();
-      nursery_ = spec_.native ? share_native_nursery(spec_.host, spec_.plugin, spec_.limits)
-                              : std::make_shared<const WorkerSession>(
-                                    start_nursery(spec_.host, spec_.plugin, spec_.engine, spec_.limits));
+    if (!fork_server_ || fork_server_->process->has_ended()) {
+      fork_server_.reset();
+      fork_server_ = spec_.native ? share_native_fork_server(spec_.host, spec_.plugin, spec_.limits)
+                                  : std::make_shared<const WorkerSession>(start_fork_server(
+                                        spec_.host, spec_.plugin, spec_.engine, spec_.limits));
     }
     const WorkerProcess::Native native{spec_.engine, !one_by_one_};
-    session_.emplace(start_worker(*nursery_, spec_.plugin, spec_.limits, spec_.native ? &native : nullptr));
+    session_.emplace(
+        start_worker(*fork_server_, spec_.plugin, spec_.limits, spec_.native ? &native : nullptr));
     resume();
   }
 
-  /// Whatever a former worker was told is void: questions begin again at the cursor.
+  /// Forgets what the previous worker was sent: questions continue from the cursor.
   void resume() {
     at_.loaded = false;
     next_to_send_ = at_.item;
     first_sequence_ = sequence_;
-    outgoing_.clear(), outgoing_begin_ = 0;
+    outgoing_.clear();
+    outgoing_begin_ = 0;
     if (session_) watchdog_.progress(*session_->process);
   }
 
@@ -154,7 +154,7 @@ class RemoteEngine::Impl {
       at_ = {at_.item + 1, 0, false};
   }
 
-  /// Asks and listens until all is answered or the worker has to be replaced.
+  /// Sends questions and reads answers until everything is answered or the worker has to be replaced.
   void converse() {
     while (at_.item < cases_.size()) {
       send_questions();
@@ -162,8 +162,8 @@ class RemoteEngine::Impl {
       try {
         if (r == ReadResult::some && take_frames()) watchdog_.progress(*session_->process);
       } catch (const protocol::Malformed& e) {
-        const std::string why = std::string("rubbish in place of an answer: ") + e.what();
-        if (!asks_again(failure(Outcome::crashed, why))) charge(Outcome::crashed, why);
+        const std::string why = std::string("rubbish instead of an answer: ") + e.what();
+        if (!retries_one_by_one(failure(Outcome::crashed, why))) charge(Outcome::crashed, why);
         return;
       }
       if (r == ReadResult::closed) return charge_death();
@@ -171,7 +171,7 @@ class RemoteEngine::Impl {
       if (watchdog_.is_due()) {
         throw_if_stopped(spec_.limits);
         if (const auto verdict = watchdog_.check(*session_->process, phase())) return charge_late(*verdict);
-        // Usually the end of its answers tells; a child of its own may hold them open.
+        // Usually the closed answer stream tells; but a child of the worker may hold it open.
         if (r == ReadResult::nothing_yet && session_->process->has_ended() && drained())
           return charge_death();
       }
@@ -180,11 +180,11 @@ class RemoteEngine::Impl {
   }
 
   Watchdog::Phase phase() const {
-    // A native engine takes a scene as it is.
+    // A native engine uses the scene as it is, without a loading phase.
     return at_.loaded || spec_.native ? Watchdog::Phase::answering : Watchdog::Phase::loading_scene;
   }
 
-  /// After the end of the process: true when its last words have been read.
+  /// True when nothing is left to read from a process that has ended.
   bool drained() {
     pollfd fd{session_->process->answers_fd(), POLLIN, 0};
     return poll(&fd, 1, 0) <= 0 || !(fd.revents & POLLIN);
@@ -214,21 +214,25 @@ class RemoteEngine::Impl {
       const ssize_t n = send(session_->process->questions_fd(), outgoing_.data() + outgoing_begin_,
                              outgoing_.size() - outgoing_begin_, MSG_NOSIGNAL);
       if (n < 0 && errno == EINTR) continue;
-      if (n <= 0) break;  // full, or the worker is gone, which the other stream will tell
+      if (n <= 0) break;  // full, or the worker is gone, which the other stream will show
       outgoing_begin_ += static_cast<std::size_t>(n);
     }
-    if (outgoing_begin_ == outgoing_.size()) outgoing_.clear(), outgoing_begin_ = 0;
+    if (outgoing_begin_ == outgoing_.size()) {
+      outgoing_.clear();
+      outgoing_begin_ = 0;
+    }
   }
 
-  /// Unique over the life of this object, so that an answer to an earlier question cannot pass for a new one.
+  /// Unique over the lifetime of this object, so that an answer to an earlier question is never taken for a
+  /// new one.
   std::uint64_t sequence_of(std::size_t item) const { return first_sequence_ + item; }
 
-  /// True when at least one message of the worker came in.
+  /// True if at least one message from the worker arrived.
   bool take_frames() {
     bool any = false;
     while (const auto frame = session_->frames.next()) {
       any = true;
-      if (at_.item == cases_.size()) throw protocol::Malformed("an answer that nobody asked for");
+      if (at_.item == cases_.size()) throw protocol::Malformed("an unsolicited answer");
       if (frame->type == protocol::Type::received)
         take_received(frame->payload);
       else if (frame->type == protocol::Type::answer)
@@ -249,7 +253,7 @@ class RemoteEngine::Impl {
   void take_answer(std::string_view payload) {
     auto m = protocol::decode_answer(payload);
     if (m.sequence != sequence_of(at_.item) || m.query != at_.query || !at_.loaded)
-      throw protocol::Malformed("an answer out of turn");
+      throw protocol::Malformed("an answer out of order");
     m.observation.slow = watchdog_.was_slow(*session_->process, m.observation.elapsed_ns);
     results_[at_.item].answers[at_.query++] = std::move(m.observation);
     patience_.note_answer();
@@ -257,23 +261,23 @@ class RemoteEngine::Impl {
   }
 
   void charge_late(const Watchdog::Verdict& v) {
-    if (asks_again(failure(v.outcome, v.why))) return;
+    if (retries_one_by_one(failure(v.outcome, v.why))) return;
     if (v.outcome == Outcome::timed_out) patience_.note_time_out(v.blocked);
     charge(v.outcome, v.why);
   }
 
   void charge_death() {
-    // Its standard output may be closed while the process lives on.
+    // A process may close its answer stream and live on.
     const bool by_itself = session_->process->ends_within(death_wait_seconds);
     const LastWords last = session_->process->end();
-    if (asks_again(failure(Outcome::crashed, last.detail, last.site))) return;
+    if (retries_one_by_one(failure(Outcome::crashed, last.detail, last.site))) return;
     if (by_itself)
       charge(Outcome::crashed, last.detail, last.site);
     else
-      charge(Outcome::crashed, "closed its answers");
+      charge(Outcome::crashed, "closed its answer stream");
   }
 
-  /// The running query is charged; while a scene is being taken, all that is left of its case.
+  /// Charges the running query; while a scene is being loaded, all remaining queries of its case.
   void charge(Outcome outcome, const std::string& why, const std::string& site = "") {
     auto& answers = results_[at_.item].answers;
     if (at_.loaded) {
@@ -287,13 +291,13 @@ class RemoteEngine::Impl {
     replace_worker();
   }
 
-  /// A native engine's worker keeps answers back: which question ended it shows when those that got no answer
-  /// are asked one by one. If it does not, the first of them is charged; an answer that was only late is none
-  /// that is lost.
-  bool asks_again(Observation what) {
+  /// A native engine's worker buffers its answers, so the question that ended it is found by repeating the
+  /// unanswered ones one by one. If the crash does not recur, the first of them is charged. A time-out that
+  /// does not recur is not charged.
+  bool retries_one_by_one(Observation what) {
     lost_.reset();
     if (!spec_.native || one_by_one_) return false;
-    what.detail += "; not when it was asked again";
+    what.detail += "; it did not recur when asked again";
     if (what.outcome == Outcome::crashed) lost_ = Lost{at_, std::move(what)};
     one_by_one_ = true;
     replace_worker();
@@ -314,8 +318,8 @@ class RemoteEngine::Impl {
 
   RemoteSpec spec_;
   Watchdog watchdog_;
-  std::shared_ptr<const WorkerSession> nursery_;
-  std::optional<WorkerSession> session_;  // ends before its nursery
+  std::shared_ptr<const WorkerSession> fork_server_;
+  std::optional<WorkerSession> session_;  // ends before its fork server
   std::span<const Case> cases_;
   std::vector<CaseObservations> results_;
   Cursor at_;
@@ -349,7 +353,7 @@ int RemoteEngine::worker_pid() const { return impl_->pid(); }
 
 std::vector<EngineCard> list_plugin_engines(const std::filesystem::path& host,
                                             const std::filesystem::path& plugin) {
-  const WorkerSession s = start_nursery(host, plugin, "--cards", WorkerLimits{});
+  const WorkerSession s = start_fork_server(host, plugin, "--cards", WorkerLimits{});
   std::vector<EngineCard> cards;
   for (std::size_t i = 0; i < s.hello.cards.size(); ++i) try {
       cards.push_back(card_from_json(s.hello.cards[i]));

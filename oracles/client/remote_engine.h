@@ -1,6 +1,6 @@
-// An engine in a worker process. Whatever the engine does — crash, hang, print, eat memory — every query gets
-// an observation: the running one is charged, the worker is restarted, and the rest is asked of the new one.
-// An engine that times out again and again (patience.h) is set aside: what is left is `not_asked`.
+// An engine in a worker process. Whatever the engine does (crash, hang, print, exhaust memory), every query
+// gets an observation: the running query is charged, the worker is restarted, and the new one answers the
+// rest. An engine that times out repeatedly (patience.h) is set aside: its remaining queries are `not_asked`.
 #pragma once
 
 #include <cstdint>
@@ -18,17 +18,17 @@ namespace touchstone {
 struct RemoteSpec {
   std::filesystem::path host;    // the program touchstone-host
   std::filesystem::path plugin;  // shared object with touchstone_plugin_v1, or pipe:COMMAND
-  std::string engine;            // name on its card; empty: the only one that the plug-in offers
+  std::string engine;            // name on its card; empty: the plug-in's only engine
   WorkerLimits limits;
-  /// Of an engine of this build (native_engine.h): its card. No worker is started before the first question,
-  /// and answers come in batches.
+  /// For an engine of this build (native_engine.h): its card. No worker is started before the first question,
+  /// and answers arrive in batches.
   std::optional<EngineCard> native = std::nullopt;
 };
 
 class RemoteEngine final : public Engine {
  public:
-  /// Starts a first worker, but of a native engine. Throws InputError when the plug-in is absent, cannot be
-  /// loaded, speaks another version of the ABI, or does not offer the engine.
+  /// Starts the first worker, except for a native engine. Throws InputError if the plug-in does not exist,
+  /// cannot be loaded, uses a different ABI version, or does not offer the engine.
   explicit RemoteEngine(RemoteSpec spec);
   ~RemoteEngine() override;
   const EngineCard& card() const override;
@@ -38,7 +38,7 @@ class RemoteEngine final : public Engine {
   void take_back() override;
   void put_aside(const std::string& why) override;
 
-  /// What the worker is kept from, in words; "none" without a sandbox, empty before a worker is started.
+  /// Describes the worker's sandbox; "none" without one, empty before a worker is started.
   std::string sandbox() const;
   /// How often a worker had to be replaced so far.
   int restarts() const;
@@ -50,7 +50,8 @@ class RemoteEngine final : public Engine {
   std::unique_ptr<Impl> impl_;
 };
 
-/// The cards of all engines of a plug-in, as its worker reports them; the harness itself never loads it.
+/// The cards of all engines of a plug-in, as its worker reports them; the harness itself never loads a
+/// plug-in.
 std::vector<EngineCard> list_plugin_engines(const std::filesystem::path& host,
                                             const std::filesystem::path& plugin);
 

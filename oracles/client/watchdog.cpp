@@ -5,12 +5,12 @@
 namespace touchstone {
 namespace {
 
-// Every process below the worker is looked at, which takes longer than the worker alone.
+// All descendants of the worker are examined, which is slower than examining the worker alone.
 constexpr auto look_every = std::chrono::milliseconds(50);
-// What a command may use for each second that a plug-in may: it reads and writes lines, often in an
+// CPU time that a command may use per second allowed to a plug-in: it parses and prints lines, often in an
 // interpreter.
 constexpr double cpu_of_children = 5;
-constexpr double least_cpu_use = 1e-3;  // seconds between two looks; less is waiting
+constexpr double least_cpu_use = 1e-3;  // CPU seconds between two examinations; less counts as waiting
 
 double seconds(Watchdog::Clock::duration d) { return std::chrono::duration<double>(d).count(); }
 
@@ -31,7 +31,7 @@ void Watchdog::progress(const WorkerProcess& w) {
   progress_at_ = Clock::now();
   progressed_ = true;
   idle_ = blocked_ = {};
-  resident_of_all_ = 0;  // it may be that of the worker before
+  resident_of_all_ = 0;  // it may be that of the previous worker
 }
 
 bool Watchdog::was_slow(const WorkerProcess& w, std::int64_t elapsed_ns) const {
@@ -41,7 +41,7 @@ bool Watchdog::was_slow(const WorkerProcess& w, std::int64_t elapsed_ns) const {
 
 std::optional<Watchdog::Verdict> Watchdog::check(const WorkerProcess& w, Phase phase) {
   const auto now = Clock::now();
-  // The harness itself may have been stopped or starved: a gap in its own ticks is not the worker's.
+  // The harness itself may have been stopped or starved: a gap in its own ticks is not charged to the worker.
   const auto gap = std::min<Clock::duration>(now - last_check_, 5 * tick);
   last_check_ = now;
   if (state_ != 't') idle_ += gap;  // a debugger holds it
@@ -54,11 +54,14 @@ std::optional<Watchdog::Verdict> Watchdog::check(const WorkerProcess& w, Phase p
 void Watchdog::look_at_all(const WorkerProcess& w, Clock::duration since_last) {
   last_look_ = Clock::now();
   const ProcessUsage all = usage_of_all(w);
-  const double precise = all.cpu_seconds + w.cpu_seconds();  // the latter twice, to see less than 10 ms
+  // The worker's precise clock is added once more, to see usage below 10 ms.
+  const double precise = all.cpu_seconds + w.cpu_seconds();
   const bool waits = precise - precise_at_look_ < least_cpu_use && (all.state == 'S' || all.state == 'T');
   blocked_ = waits ? blocked_ + std::min<Clock::duration>(since_last, 2 * look_every) : Clock::duration{};
-  precise_at_look_ = precise, cpu_of_all_ = all.cpu_seconds;
-  resident_of_all_ = all.resident_bytes, state_ = all.state;
+  precise_at_look_ = precise;
+  cpu_of_all_ = all.cpu_seconds;
+  resident_of_all_ = all.resident_bytes;
+  state_ = all.state;
   if (progressed_) cpu_of_all_at_progress_ = cpu_of_all_;
   progressed_ = false;
 }

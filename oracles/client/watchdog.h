@@ -1,4 +1,4 @@
-// CPU, wall time and memory of a worker since its last progress.
+// Limits a worker's CPU time, wall time and memory since its last progress.
 #pragma once
 
 #include <chrono>
@@ -20,16 +20,16 @@ class Watchdog {
   struct Verdict {
     Outcome outcome;
     std::string why;
-    bool blocked = false;  // it used no CPU: to ask it again would cost as much wall time again
+    bool blocked = false;  // it used no CPU: a retry would cost the same wall time again
   };
 
   explicit Watchdog(const WorkerLimits& limits) : limits_(limits) {}
   void progress(const WorkerProcess& w);
-  /// What a query that got no answer cost, its process's end included.
+  /// The cost of a query that got no answer, including the end of its process.
   std::int64_t since_progress_ns() const { return (Clock::now() - progress_at_).count(); }
-  /// Whether a query that took so long by the wall took more CPU time than it may.
+  /// Whether a query that took `elapsed_ns` of wall time exceeded its CPU time.
   bool was_slow(const WorkerProcess& w, std::int64_t elapsed_ns) const;
-  /// Once a tick.
+  /// True once per tick.
   bool is_due() const { return Clock::now() - last_check_ >= tick; }
   /// The reason to kill the worker, if there is one.
   std::optional<Verdict> check(const WorkerProcess& w, Phase phase);

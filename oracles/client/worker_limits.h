@@ -1,4 +1,4 @@
-// How much an engine may take of the machine and of the harness's patience.
+// Limits on the resources and the time that an engine may use.
 #pragma once
 
 #include <atomic>
@@ -8,25 +8,25 @@
 
 namespace touchstone {
 
-/// CPU time is what the watchdog goes by, so that a loaded machine does not turn answers into time-outs. Wall
-/// time only catches an engine that waits: for a short time if nothing of it uses the CPU, for a longer one
-/// if its own children or a disk do the work.
+/// The watchdog measures CPU time, so that a loaded machine does not turn answers into time-outs. Wall time
+/// only catches an engine that waits: the limit is short if none of its processes uses the CPU, and longer if
+/// its children or a disk do the work.
 struct WorkerLimits {
   double query_cpu_seconds = 1;
-  /// A query ends after this many times query_cpu_seconds: the speed of a machine varies, and an answer that
-  /// comes in between is judged like any other, and counted as slow.
+  /// A query is ended after this many times query_cpu_seconds, because the speed of a machine varies. An
+  /// answer that arrives in between is judged like any other, and counted as slow.
   double patience = 4;
-  double load_cpu_seconds = 10;   // taking a scene: hierarchies of large meshes are built here
-  double start_cpu_seconds = 20;  // loading the plug-in and making its engine, its children included
+  double load_cpu_seconds = 10;   // loading a scene: hierarchies of large meshes are built here
+  double start_cpu_seconds = 20;  // loading the plug-in and creating its engine, including its children
   double blocked_seconds = 5;     // without any use of the CPU
-  double wall_seconds = 80;       // without any progress; what works is stopped by its CPU time before
+  double wall_seconds = 80;       // without progress; a busy engine reaches its CPU limit first
   double start_wall_seconds = 60;
-  std::uint64_t resident_bytes = std::uint64_t{2} << 30;  // of the worker and all that it started
+  std::uint64_t resident_bytes = std::uint64_t{2} << 30;  // of the worker and its descendants
   bool sandbox = true;
-  /// This program (Valgrind) runs the worker, which ends at its first access to memory that is not its own.
-  /// It is some thirty times slower, and has no sandbox.
+  /// If not empty: the program (Valgrind) that runs the worker, which ends at its first invalid memory
+  /// access. About thirty times slower, and without a sandbox.
   std::string memcheck = {};
-  /// Set by whoever wants all engines to stop: they then throw Stopped, whatever they wait for.
+  /// Set to stop all engines: they then throw Stopped, whatever they are waiting for.
   const std::atomic<bool>* stop = nullptr;
 };
 

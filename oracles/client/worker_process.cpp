@@ -26,8 +26,10 @@
 namespace touchstone {
 namespace {
 
-constexpr int nursery_reply_ms = 30000;  // it runs no engine; only a machine in trouble makes it this slow
-constexpr int slice_ms = 50;             // of waiting, between two looks at whether it can answer at all
+// A fork server runs no engine: only a machine in trouble makes it this slow.
+constexpr int fork_server_reply_ms = 30000;
+constexpr int slice_ms = 50;         // between two checks whether it can answer at all
+constexpr int pipe_bytes = 1 << 18;  // fewer wake-ups; the default size works too
 constexpr double orderly_end_seconds = 3;
 
 [[noreturn]] void fail(const char* what) { throw std::system_error(errno, std::generic_category(), what); }
@@ -37,8 +39,8 @@ void make_non_blocking(int fd) {
   if (flags < 0 || fcntl(fd, F_SETFL, flags | O_NONBLOCK) < 0) fail("fcntl");
 }
 
-/// Runs jobs one at a time on a thread that ends with the process. Never destroyed: a static destructor would
-/// end the thread, and with it every worker, while other static objects may still use one.
+/// Runs jobs one at a time on a thread that lives as long as the process. Never destroyed: a static
+/// destructor would end the thread, and with it every worker, while other static objects may still use one.
 class SpawnThread {
  public:
   static SpawnThread& instance() {
@@ -103,14 +105,18 @@ int spawn(const std::string& program, const std::vector<std::string>& arguments,
   std::vector<char*> argv{const_cast<char*>(program.c_str())};
   for (const std::string& a : arguments) argv.push_back(const_cast<char*>(a.c_str()));
   argv.push_back(nullptr);
-  // An engine that reads memory it never wrote (FCL's mesh-sphere distance and its default continuous query
-  // do) would answer by what ran before it. glibc then hands out memory filled with zeros, so that the same
-  // question gets the same answer (oracles/host/memory_fill.h); its thread caches would bypass the filling.
-  // The core is tested for that otherwise, and is timed as it runs in the users' programs.
+  // The answers of an engine that reads uninitialised memory (FCL's mesh-sphere distance and its default
+  // continuous query do) would depend on what ran before. glibc is therefore told to hand out memory filled
+  // with zeros, so that the same question gets the same answer (oracles/host/memory_fill.h); its thread
+  // caches would bypass the filling. The core is tested for this in another way, and is timed as it runs in
+  // user programs.
   char perturb[] = "MALLOC_PERTURB_=255", no_cache[] = "GLIBC_TUNABLES=glibc.malloc.tcache_count=0";
   std::vector<char*> environment;
   for (char** e = environ; *e != nullptr; ++e) environment.push_back(*e);
-  if (!native) environment.push_back(perturb), environment.push_back(no_cache);
+  if (!native) {
+    environment.push_back(perturb);
+    environment.push_back(no_cache);
+  }
   environment.push_back(nullptr);
   const int error = posix_spawn(pid, program.c_str(), &actions, &attributes, argv.data(), environment.data());
   posix_spawn_file_actions_destroy(&actions);
@@ -118,7 +124,8 @@ int spawn(const std::string& program, const std::vector<std::string>& arguments,
   return error;
 }
 
-/// Takes `fd`; the same open file above the standard streams, closed on exec.
+/// Takes ownership of `fd` and returns the same open file on a descriptor above the standard streams, closed
+/// on exec.
 FileDescriptor lift(int fd) {
   FileDescriptor own(fd);
   if (fd > 2) return own;
@@ -131,14 +138,14 @@ struct TwoEnds {
   FileDescriptor ours, theirs;
 };
 
-// Messages then carry the number of the process that sent them, in our numbers and not in those of its
-// namespace.
+// Makes messages carry the pid of their sender, as seen in our PID namespace rather than in the sender's.
 void ask_for_senders(int fd) {
   const int yes = 1;
   if (setsockopt(fd, SOL_SOCKET, SO_PASSCRED, &yes, sizeof yes) < 0) fail("setsockopt(SO_PASSCRED)");
 }
 
-/// Who sent the one byte that every process of the host says first; -1 when it is not there within `ms`.
+/// The pid of the sender of the single byte that every host process writes first; -1 if it does not arrive
+/// within `ms`.
 pid_t sender(int fd, int ms) {
   pollfd ready{fd, POLLIN, 0};
   if (poll(&ready, 1, ms) <= 0) return -1;
@@ -146,8 +153,10 @@ pid_t sender(int fd, int ms) {
   iovec body{&byte, 1};
   alignas(cmsghdr) char control[CMSG_SPACE(sizeof(ucred))] = {};
   msghdr message{};
-  message.msg_iov = &body, message.msg_iovlen = 1;
-  message.msg_control = control, message.msg_controllen = sizeof control;
+  message.msg_iov = &body;
+  message.msg_iovlen = 1;
+  message.msg_control = control;
+  message.msg_controllen = sizeof control;
   if (recvmsg(fd, &message, MSG_CMSG_CLOEXEC) != 1) return -1;
   const cmsghdr* const header = CMSG_FIRSTHDR(&message);
   if (!header || header->cmsg_type != SCM_CREDENTIALS) return -1;
@@ -164,8 +173,8 @@ TwoEnds make_pipe() {
   return p;
 }
 
-// A socket and not a pipe: send() can be told not to raise SIGPIPE, which would be a setting of the whole
-// harness.
+// A socket rather than a pipe: send() can be told not to raise SIGPIPE, which for a pipe would be a setting
+// of the whole harness.
 TwoEnds make_socket() {
   int ends[2];
   if (socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends) < 0) fail("socketpair");
@@ -193,7 +202,7 @@ ScratchDirectory::ScratchDirectory() {
   path_ = pattern.string();
   if (error || !mkdtemp(path_.data()))
     throw InputError(pattern.parent_path().string(),
-                     std::string("no directory can be made here for an engine: ") + std::strerror(errno));
+                     std::string("cannot create a directory for an engine here: ") + std::strerror(errno));
 }
 
 ScratchDirectory::~ScratchDirectory() {
@@ -211,24 +220,26 @@ WorkerProcess::WorkerProcess(const std::filesystem::path& host, const std::vecto
       SpawnThread::instance().run([&] { return spawn(program, arguments, streams, native, &pid_); });
   if (error != 0)
     throw InputError(program, std::string("the worker program cannot be started: ") + std::strerror(error));
-  questions_ = std::move(questions.ours), answers_ = std::move(answers.ours),
+  questions_ = std::move(questions.ours);
+  answers_ = std::move(answers.ours);
   errors_ = std::move(errors.ours);
   open_clock();
 }
 
-WorkerProcess::WorkerProcess(std::shared_ptr<WorkerProcess> nursery, const Native* native)
-    : nursery_(std::move(nursery)) {
+WorkerProcess::WorkerProcess(std::shared_ptr<WorkerProcess> fork_server, const Native* native)
+    : fork_server_(std::move(fork_server)) {
   TwoEnds questions = make_socket(), answers = make_pipe(), errors = make_pipe();
-  fcntl(answers.ours.get(), F_SETPIPE_SZ, 1 << 18);  // fewer wake-ups; the default works too
+  fcntl(answers.ours.get(), F_SETPIPE_SZ, pipe_bytes);
   const std::array streams{questions.theirs.get(), answers.theirs.get(), errors.theirs.get()};
-  nursery::Request wanted{nursery::Op::fork, native && native->keeps_back};
+  fork_server::Request wanted{fork_server::Op::fork, native && native->buffers_answers};
   if (native) native->engine.copy(wanted.engine.data(), wanted.engine.size() - 1);
-  const auto reply = nursery_->request(wanted, &streams);
-  if (!reply || reply->value <= 0) throw InputError("", "the process that loaded the plug-in is gone");
+  const auto reply = fork_server_->request(wanted, &streams);
+  if (!reply || reply->value <= 0) throw InputError("", "the process that loaded the plug-in has died");
   number_ = reply->value;
-  pid_ = sender(questions.ours.get(), nursery_reply_ms);
-  if (pid_ <= 0) throw InputError("", "the worker died at its start");
-  questions_ = std::move(questions.ours), answers_ = std::move(answers.ours),
+  pid_ = sender(questions.ours.get(), fork_server_reply_ms);
+  if (pid_ <= 0) throw InputError("", "the worker died during startup");
+  questions_ = std::move(questions.ours);
+  answers_ = std::move(answers.ours);
   errors_ = std::move(errors.ours);
   open_clock();
 }
@@ -242,52 +253,56 @@ void WorkerProcess::open_clock() {
     clock_ = CLOCK_PROCESS_CPUTIME_ID;  // gone already: has_ended() tells
 }
 
-std::optional<nursery::Reply> WorkerProcess::request(nursery::Request what,
-                                                     const std::array<int, nursery::descriptor_count>* with) {
+std::optional<fork_server::Reply> WorkerProcess::request(
+    fork_server::Request what, const std::array<int, fork_server::descriptor_count>* with) {
   const std::lock_guard lock(mutex_);
   iovec body{&what, sizeof what};
   msghdr message{};
-  message.msg_iov = &body, message.msg_iovlen = 1;
+  message.msg_iov = &body;
+  message.msg_iovlen = 1;
   alignas(cmsghdr) char control[CMSG_SPACE(sizeof *with)] = {};
   if (with) {
-    message.msg_control = control, message.msg_controllen = sizeof control;
+    message.msg_control = control;
+    message.msg_controllen = sizeof control;
     cmsghdr* const header = CMSG_FIRSTHDR(&message);
-    header->cmsg_level = SOL_SOCKET, header->cmsg_type = SCM_RIGHTS,
+    header->cmsg_level = SOL_SOCKET;
+    header->cmsg_type = SCM_RIGHTS;
     header->cmsg_len = CMSG_LEN(sizeof *with);
     std::memcpy(CMSG_DATA(header), with->data(), sizeof *with);
   }
-  if (inner_pid_ < 0) inner_pid_ = sender(questions_.get(), nursery_reply_ms);
-  std::optional<nursery::Reply> reply;
+  if (inner_pid_ < 0) inner_pid_ = sender(questions_.get(), fork_server_reply_ms);
+  std::optional<fork_server::Reply> reply;
   if (sendmsg(questions_.get(), &message, MSG_NOSIGNAL) == static_cast<ssize_t>(sizeof what))
     reply = await_reply();
-  // One that does not answer a request never will: its plug-in stopped it, or worse.
+  // A fork server that does not answer a request never will: its plug-in stopped it, or worse.
   if (!reply) end();
   return reply;
 }
 
-std::optional<nursery::Reply> WorkerProcess::await_reply() {
+std::optional<fork_server::Reply> WorkerProcess::await_reply() {
   pollfd ready{questions_.get(), POLLIN, 0};
   for (int waited = 0; poll(&ready, 1, slice_ms) <= 0; waited += slice_ms)
-    if (waited > nursery_reply_ms || is_stuck()) return std::nullopt;
-  nursery::Reply reply{};
+    if (waited > fork_server_reply_ms || is_stuck()) return std::nullopt;
+  fork_server::Reply reply{};
   if (recv(questions_.get(), &reply, sizeof reply, 0) != static_cast<ssize_t>(sizeof reply))
     return std::nullopt;
   return reply;
 }
 
-/// True of a nursery that was stopped by a signal, or is gone.
+/// True if the fork server was stopped by a signal or is gone.
 bool WorkerProcess::is_stuck() const {
   const ProcessUsage u = usage_of(inner_pid_);
   return u.state == 'T' || u.is_gone();
 }
 
-/// Sets reaped_ and status_ when the process has ended; waits for that if asked to.
+/// Sets reaped_ and status_ if the process has ended; if `wait`, blocks until it has.
 bool WorkerProcess::reap(bool wait) {
   if (reaped_) return true;
-  if (!nursery_) return reap_child(wait);
-  const auto reply = nursery_->request({wait ? nursery::Op::wait : nursery::Op::poll, number_}, nullptr);
+  if (!fork_server_) return reap_child(wait);
+  const auto reply =
+      fork_server_->request({wait ? fork_server::Op::wait : fork_server::Op::poll, number_}, nullptr);
   reaped_ = !reply || reply->value != 0;
-  // Workers die with their nursery, of SIGKILL.
+  // Workers die with their fork server, by SIGKILL.
   if (reaped_) status_ = reply ? reply->status : SIGKILL;
   return reaped_;
 }
@@ -296,10 +311,11 @@ bool WorkerProcess::reap_child(bool wait) {
   pid_t ended = 0;
   do ended = waitpid(pid_, &status_, wait ? 0 : WNOHANG);
   while (ended < 0 && errno == EINTR);
-  return reaped_ = ended == pid_;
+  reaped_ = ended == pid_;
+  return reaped_;
 }
 
-/// Its supervisor ends whatever is below it, and then itself.
+/// Lets the supervisor end all its descendants, and then itself.
 void WorkerProcess::end_supervised() {
   kill(pid_, SIGTERM);
   if (!ends_within(orderly_end_seconds)) kill(pid_, SIGKILL);
@@ -318,7 +334,7 @@ void WorkerProcess::drain_errors() {
   for (;;) {
     const ssize_t n = read(errors_.get(), buffer, sizeof buffer);
     if (n < 0 && errno == EINTR) continue;
-    if (n == 0) errors_.close();  // or poll() would report the end for ever
+    if (n == 0) errors_.close();  // otherwise poll() would keep reporting the end of the stream
     if (n <= 0) return;
     error_tail_.append(buffer, static_cast<std::size_t>(n));
     if (error_tail_.size() > 2 * last_words_bytes)
@@ -341,9 +357,9 @@ bool WorkerProcess::ends_within(double seconds) {
   return true;
 }
 
-// Valgrind keeps to the standard error that it was started with: its words about a worker come out of the
-// nursery's.
-std::string WorkerProcess::said_by_memcheck_of(pid_t worker) {
+// Valgrind writes to the standard error that it was started with, so its messages about a worker appear in
+// the fork server's.
+std::string WorkerProcess::memcheck_messages_about(pid_t worker) {
   const std::lock_guard lock(mutex_);
   if (errors_.get() >= 0) drain_errors();
   const std::string mark = "==" + std::to_string(worker) + "==";
@@ -359,19 +375,19 @@ LastWords WorkerProcess::end() {
   if (scratch_ && !reaped_) {
     end_supervised();
   } else if (!reaped_) {
-    // An ended process that nobody has reaped yet keeps its number and its status: the signals miss.
+    // A process that has ended but was not reaped keeps its pid and its status: the signals have no effect.
     kill(-pid_, SIGKILL);
-    kill(pid_, SIGKILL);  // in case the group was left
+    kill(pid_, SIGKILL);  // in case it has left its group
     reap(/*wait=*/true);
-  } else if (!nursery_ || !nursery_->scratch_) {
-    kill(-pid_, SIGKILL);  // children that it left behind; in a sandbox the nursery has ended them
+  } else if (!fork_server_ || !fork_server_->scratch_) {
+    kill(-pid_, SIGKILL);  // its remaining children; in a sandbox the fork server has ended them
   }
   if (errors_.get() >= 0) drain_errors();
-  if (nursery_) error_tail_ += nursery_->said_by_memcheck_of(pid_);
+  if (fork_server_) error_tail_ += fork_server_->memcheck_messages_about(pid_);
   const bool by_signal = WIFSIGNALED(status_);
   const std::string how =
       by_signal ? signal_name(WTERMSIG(status_)) : "exit code " + std::to_string(WEXITSTATUS(status_));
-  // Only where the end itself prints: the last line before a segmentation fault belongs to some earlier
+  // Only for ends that print a message: the last line before a segmentation fault belongs to an earlier
   // query.
   const bool speaks = by_signal ? WTERMSIG(status_) == SIGABRT : WEXITSTATUS(status_) != 0;
   return last_words(how, error_tail_, speaks);

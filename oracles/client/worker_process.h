@@ -1,11 +1,11 @@
-// A process of the host program, its three streams, its clock and its end. Linux.
+// A process of the host program: its three streams, its CPU clock and its termination. Linux.
 //
-// There are two kinds. A nursery is spawned by the harness and loads a plug-in; a worker is forked by a
-// nursery, which is several times cheaper than loading the plug-in's libraries again after every crash. Both
-// die with the harness: each asks for SIGKILL on the death of its parent *thread*, so every nursery is
-// spawned by one thread that lives as long as the harness. Each leads a process group of its own, and the
-// whole group is killed with it. With a sandbox (oracles/host/sandbox.h) a nursery has a supervisor, which is
-// the process that is spawned, and ends whatever it leaves behind.
+// There are two kinds. A fork server is spawned by the harness and loads a plug-in. A worker is forked by a
+// fork server, which is several times cheaper than loading the plug-in's libraries again after every crash.
+// Both die with the harness: each requests SIGKILL on the death of its parent *thread*, so every fork server
+// is spawned by one thread that lives as long as the harness. Each leads its own process group, and the whole
+// group is killed with it. In a sandbox (oracles/host/sandbox.h) the spawned process is a supervisor, which
+// ends whatever the fork server leaves behind.
 #pragma once
 
 #include <sys/types.h>
@@ -21,8 +21,8 @@
 #include <utility>
 #include <vector>
 
+#include "oracles/abi/fork_server_protocol.h"
 #include "oracles/abi/last_words.h"
-#include "oracles/abi/nursery_protocol.h"
 
 namespace touchstone {
 
@@ -43,10 +43,10 @@ class FileDescriptor {
   int fd_ = -1;
 };
 
-/// A directory of its own, removed at the end.
+/// A private directory, removed by the destructor.
 class ScratchDirectory {
  public:
-  /// Throws InputError when it cannot be made.
+  /// Throws InputError if it cannot be created.
   ScratchDirectory();
   ~ScratchDirectory();
   ScratchDirectory(const ScratchDirectory&) = delete;
@@ -59,48 +59,48 @@ class ScratchDirectory {
 
 class WorkerProcess {
  public:
-  /// What of a worker is not as in any other: it runs a native engine (oracles/host/native.h).
+  /// The settings of a worker that runs a native engine (oracles/host/native.h).
   struct Native {
     std::string engine;
-    bool keeps_back = false;  // answers, for a moment
+    bool buffers_answers = false;  // it may buffer its answers for a moment
   };
 
-  /// A nursery, within a sandbox when `scratch` is given, for native engines or others. Throws InputError
-  /// when the host program cannot be started.
+  /// A fork server, for native engines or others, in a sandbox if `scratch` is given. Throws InputError if
+  /// the host program cannot be started.
   WorkerProcess(const std::filesystem::path& host, const std::vector<std::string>& arguments,
                 std::unique_ptr<ScratchDirectory> scratch, bool native = false);
-  /// A worker of that nursery. Throws InputError when the nursery is gone.
-  explicit WorkerProcess(std::shared_ptr<WorkerProcess> nursery, const Native* native = nullptr);
+  /// A worker of the given fork server. Throws InputError when the fork server is gone.
+  explicit WorkerProcess(std::shared_ptr<WorkerProcess> fork_server, const Native* native = nullptr);
   ~WorkerProcess();
   WorkerProcess(const WorkerProcess&) = delete;
   WorkerProcess& operator=(const WorkerProcess&) = delete;
 
   pid_t pid() const { return pid_; }
-  /// Of a worker: the process that forked it and no other, which adopts what it leaves behind; -1: there are
-  /// others.
-  pid_t parent_pid() const { return nursery_ && !nursery_->native_ ? nursery_->inner_pid_ : -1; }
+  /// For a worker: the fork server's pid, which adopts what the worker leaves behind; -1 if the fork server
+  /// has other workers too.
+  pid_t parent_pid() const { return fork_server_ && !fork_server_->native_ ? fork_server_->inner_pid_ : -1; }
   int questions_fd() const { return questions_.get(); }  // a socket, non-blocking
   int answers_fd() const { return answers_.get(); }      // non-blocking
   int errors_fd() const { return errors_.get(); }        // non-blocking
 
-  /// CPU seconds that the whole process has used; stays at its last value once the process is gone.
+  /// CPU seconds used by the whole process; keeps its last value once the process is gone.
   double cpu_seconds() const;
-  /// Reads what the worker wrote to its standard error; only the end of it is kept.
+  /// Reads what the worker wrote to its standard error, and keeps only the end.
   void drain_errors();
 
-  /// Reaps the process if it has ended by itself. Of a worker this is a question to the nursery: tens of
-  /// microseconds.
+  /// Reaps the process if it has ended by itself. For a worker this is a request to the fork server, which
+  /// takes tens of microseconds.
   bool has_ended();
-  /// The same, after waiting for it: a dying process closes its streams before it can be reaped.
+  /// The same, but waits: a dying process closes its streams before it can be reaped.
   bool ends_within(double seconds);
-  /// Kills the process if need be, reaps it, and says how it ended and where.
+  /// Kills the process if necessary, reaps it, and reports how and where it ended.
   LastWords end();
 
  private:
-  /// One request to this nursery; nothing when it is gone or silent.
-  std::optional<nursery::Reply> request(nursery::Request what,
-                                        const std::array<int, nursery::descriptor_count>* with);
-  std::optional<nursery::Reply> await_reply();
+  /// Sends one request to this fork server; nothing if it is gone or does not reply.
+  std::optional<fork_server::Reply> request(fork_server::Request what,
+                                            const std::array<int, fork_server::descriptor_count>* with);
+  std::optional<fork_server::Reply> await_reply();
   bool reap(bool wait);
   bool reap_child(bool wait);
   void end_supervised();
@@ -108,14 +108,14 @@ class WorkerProcess {
   std::string said_by_memcheck_of(pid_t worker);
   void open_clock();
 
-  // A nursery for native engines is asked from several threads.
+  // A fork server for native engines is used by several threads.
   std::recursive_mutex mutex_;
   bool native_ = false;
-  std::shared_ptr<WorkerProcess> nursery_;
+  std::shared_ptr<WorkerProcess> fork_server_;
   std::unique_ptr<ScratchDirectory> scratch_;
   pid_t pid_ = -1;
-  pid_t inner_pid_ = -1;      // of a nursery: the process that loads the plug-in, once it has said so
-  std::int32_t number_ = -1;  // of a worker, as its nursery knows it: another than pid_ in a namespace
+  pid_t inner_pid_ = -1;      // for a fork server: the process that loads the plug-in, once it has reported
+  std::int32_t number_ = -1;  // for a worker: its pid as the fork server sees it (differs in a PID namespace)
   bool reaped_ = false;
   int status_ = 0;
   clockid_t clock_{};

@@ -15,10 +15,12 @@
 namespace touchstone {
 namespace {
 
-/// Waits up to 50 ms for the worker to say something on either stream.
+constexpr int output_wait_ms = 50;
+
+/// Waits briefly for output of the worker on either stream.
 void wait_for_output(WorkerProcess& worker) {
   pollfd fds[2] = {{worker.answers_fd(), POLLIN, 0}, {worker.errors_fd(), POLLIN, 0}};
-  poll(fds, 2, 50);
+  poll(fds, 2, output_wait_ms);
   if (worker.errors_fd() >= 0) worker.drain_errors();
 }
 
@@ -30,17 +32,18 @@ protocol::Hello await_hello(WorkerSession& s, const std::string& place, const Wo
     const ReadResult r = read_available(s.process->answers_fd(), s.frames);
     try {
       if (const auto frame = s.frames.next()) {
-        if (frame->type != protocol::Type::hello) throw protocol::Malformed("no hello");
+        if (frame->type != protocol::Type::hello) throw protocol::Malformed("unexpected type of message");
         return protocol::decode_hello(frame->payload);
       }
     } catch (const protocol::Malformed& e) {
-      throw InputError(place, std::string("the worker's first words are no hello: ") + e.what());
+      throw InputError(place, std::string("the worker's first message is not a hello: ") + e.what());
     }
-    if (r == ReadResult::closed)
-      throw InputError(
-          place, "the worker died while loading it: " + (s.process->ends_within(2), s.process->end().detail));
+    if (r == ReadResult::closed) {
+      s.process->ends_within(death_wait_seconds);
+      throw InputError(place, "the worker died while loading it: " + s.process->end().detail);
+    }
     if (const auto verdict = watchdog.check(*s.process, Watchdog::Phase::starting))
-      throw InputError(place, "the worker was ended: " + verdict->why);
+      throw InputError(place, "the worker was terminated: " + verdict->why);
     if (r == ReadResult::nothing_yet) wait_for_output(*s.process);
   }
 }
@@ -63,16 +66,16 @@ ReadResult read_available(int fd, protocol::FrameReader& frames) {
 
 namespace {
 
-constexpr int memcheck_exit = 99;
+constexpr int memcheck_exit = 99;  // of a process in which Valgrind found an error
 
-WorkerSession start_nursery(const std::filesystem::path& host, const std::filesystem::path& plugin,
-                            const std::string& argument, const WorkerLimits& limits, bool native) {
+WorkerSession start_fork_server(const std::filesystem::path& host, const std::filesystem::path& plugin,
+                                const std::string& argument, const WorkerLimits& limits, bool native) {
   const std::string place = plugin.string();
   const bool is_command = place.starts_with("pipe:");
   std::error_code error;
   if (!is_command && !std::filesystem::is_regular_file(plugin, error))
     throw InputError(place, "there is no such plug-in file");
-  // An absolute path, or the dynamic linker would search for a name without a slash elsewhere.
+  // An absolute path, because the dynamic linker searches elsewhere for a name without a slash.
   std::vector<std::string> arguments{is_command ? place : std::filesystem::absolute(plugin).string()};
   const bool sandbox = limits.sandbox && limits.memcheck.empty();
   if (!argument.empty() || sandbox) arguments.push_back(argument);
@@ -83,7 +86,7 @@ WorkerSession start_nursery(const std::filesystem::path& host, const std::filesy
     arguments.push_back(std::to_string(limits.resident_bytes));
   }
   if (!limits.memcheck.empty()) {
-    // Values that nobody wrote are found otherwise (Engine::run_again), and loaders are full of them.
+    // Uninitialised values are detected by Engine::run_again instead; dynamic loaders are full of them.
     const auto before = {std::string("--quiet"), std::string("--undef-value-errors=no"),
                          std::string("--exit-on-first-error=yes"),
                          "--error-exitcode=" + std::to_string(memcheck_exit), host.string()};
@@ -100,32 +103,32 @@ WorkerSession start_nursery(const std::filesystem::path& host, const std::filesy
 
 }  // namespace
 
-WorkerSession start_nursery(const std::filesystem::path& host, const std::filesystem::path& plugin,
-                            const std::string& argument, const WorkerLimits& limits) {
-  return start_nursery(host, plugin, argument, limits, /*native=*/false);
+WorkerSession start_fork_server(const std::filesystem::path& host, const std::filesystem::path& plugin,
+                                const std::string& argument, const WorkerLimits& limits) {
+  return start_fork_server(host, plugin, argument, limits, /*native=*/false);
 }
 
-std::shared_ptr<const WorkerSession> share_native_nursery(const std::filesystem::path& host,
-                                                          const std::filesystem::path& library,
-                                                          const WorkerLimits& limits) {
-  using Key = std::tuple<pid_t, std::string, std::string, bool, std::uint64_t,
-                         std::string>;  // all that it is started with
+std::shared_ptr<const WorkerSession> share_native_fork_server(const std::filesystem::path& host,
+                                                              const std::filesystem::path& library,
+                                                              const WorkerLimits& limits) {
+  // Everything that determines how the fork server is started.
+  using Key = std::tuple<pid_t, std::string, std::string, bool, std::uint64_t, std::string>;
   static std::mutex guard;
-  static std::map<Key, std::weak_ptr<const WorkerSession>> nurseries;
+  static std::map<Key, std::weak_ptr<const WorkerSession>> fork_servers;
   const std::lock_guard lock(guard);
-  auto& kept = nurseries[{getpid(), host.string(), library.string(), limits.sandbox, limits.resident_bytes,
-                          limits.memcheck}];
-  auto nursery = kept.lock();
-  if (!nursery || nursery->process->has_ended())
-    kept = nursery =
-        std::make_shared<const WorkerSession>(start_nursery(host, library, "", limits, /*native=*/true));
-  return nursery;
+  auto& kept = fork_servers[{getpid(), host.string(), library.string(), limits.sandbox, limits.resident_bytes,
+                             limits.memcheck}];
+  auto fork_server = kept.lock();
+  if (!fork_server || fork_server->process->has_ended())
+    kept = fork_server =
+        std::make_shared<const WorkerSession>(start_fork_server(host, library, "", limits, /*native=*/true));
+  return fork_server;
 }
 
-WorkerSession start_worker(const WorkerSession& nursery, const std::filesystem::path& plugin,
+WorkerSession start_worker(const WorkerSession& fork_server, const std::filesystem::path& plugin,
                            const WorkerLimits& limits, const WorkerProcess::Native* native) {
   WorkerSession s;
-  s.process = std::make_shared<WorkerProcess>(nursery.process, native);
+  s.process = std::make_shared<WorkerProcess>(fork_server.process, native);
   s.hello = await_hello(s, plugin.string(), limits);
   if (!s.hello.error.empty()) throw InputError(plugin.string(), s.hello.error);
   return s;

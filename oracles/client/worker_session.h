@@ -1,4 +1,4 @@
-// The start of a conversation with a worker: spawn, read its hello, or say why there is none.
+// Starts a worker and reads its hello, or reports why that failed.
 #pragma once
 
 #include <filesystem>
@@ -11,30 +11,33 @@
 
 namespace touchstone {
 
+/// How long a worker that has closed its answers is given to end by itself.
+inline constexpr double death_wait_seconds = 2;
+
 struct WorkerSession {
   std::shared_ptr<WorkerProcess> process;
   protocol::FrameReader frames;
   protocol::Hello hello;
 };
 
-/// A nursery for the plug-in, and its hello. `argument` follows the plug-in's path: an engine, "" or
-/// "--cards". Throws InputError (place: the plug-in) when the process dies, exceeds a limit, or
-/// says that the plug-in cannot be used.
-WorkerSession start_nursery(const std::filesystem::path& host, const std::filesystem::path& plugin,
-                            const std::string& argument, const WorkerLimits& limits);
+/// Starts a fork server for the plug-in and reads its hello. `argument` follows the plug-in's path: an engine
+/// name, "" or "--cards". Throws InputError (place: the plug-in) if the process dies, exceeds a limit, or
+/// reports that the plug-in cannot be used.
+WorkerSession start_fork_server(const std::filesystem::path& host, const std::filesystem::path& plugin,
+                                const std::string& argument, const WorkerLimits& limits);
 
-/// The nursery for a library of native engines (oracles/host/native.h), of which this process has one at a
-/// time: with the last that uses it, it ends. Throws InputError as above.
-std::shared_ptr<const WorkerSession> share_native_nursery(const std::filesystem::path& host,
-                                                          const std::filesystem::path& library,
-                                                          const WorkerLimits& limits);
+/// The shared fork server for a library of native engines (oracles/host/native.h). This process has at most
+/// one at a time; it ends with its last user. Throws InputError as above.
+std::shared_ptr<const WorkerSession> share_native_fork_server(const std::filesystem::path& host,
+                                                              const std::filesystem::path& library,
+                                                              const WorkerLimits& limits);
 
-/// A worker of the nursery. Throws InputError as above.
-WorkerSession start_worker(const WorkerSession& nursery, const std::filesystem::path& plugin,
+/// Forks a worker of the fork server. Throws InputError as above.
+WorkerSession start_worker(const WorkerSession& fork_server, const std::filesystem::path& plugin,
                            const WorkerLimits& limits, const WorkerProcess::Native* native = nullptr);
 
 enum class ReadResult { some, nothing_yet, closed };
-/// Reads what is there, up to a bound, into `frames`.
+/// Reads what is available, up to a bound, into `frames`.
 ReadResult read_available(int fd, protocol::FrameReader& frames);
 
 }  // namespace touchstone

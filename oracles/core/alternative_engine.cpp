@@ -10,7 +10,7 @@ namespace {
 
 struct Row {
   std::string_view name, settings;
-  double margin;  // of speculative contact; 0: the narrow phase
+  double margin;  // of speculative contact; 0: narrow phase
 };
 constexpr Row rows[] = {
     {"core-extended", "every pair by separation() in extended precision, no manifold; no motion", 0},
@@ -42,14 +42,17 @@ void ask_extended(const Scene& s, const Query& q, Observation& o) {
     o.distance = static_cast<double>(r.gap);
     o.witness = {a.pose.translation + to_double(r.a), a.pose.translation + to_double(r.b)};
   } else if (q.question == Question::contact && overlap) {
-    o.normal = to_double(r.normal), o.depth = static_cast<double>(-r.gap);
+    o.normal = to_double(r.normal);
+    o.depth = static_cast<double>(-r.gap);
   }
 }
 
 class AlternativeEngine final : public NativeEngine {
  public:
   explicit AlternativeEngine(const Row& row) : row_(row) {
-    card_.name = row.name, card_.library = "Touchstone core", card_.version = "0.1.0";
+    card_.name = row.name;
+    card_.library = "Touchstone core";
+    card_.version = "0.1.0";
     card_.settings = row.settings;
     card_.tau_factor = tolerance::core_tau_factor;
     card_.source = "core/tolerance.h: arithmetic alone, no margin";
@@ -66,7 +69,8 @@ class AlternativeEngine final : public NativeEngine {
     if (row_.margin > 0 ? !motion : !pairs) return;  // unsupported
     if (pairs) return ask_extended(s, q, o);
     const ImpactAnswer r = speculative_impact(moving(s, q.a), moving(s, q.b), row_.margin);
-    o.outcome = r.outcome, o.toi = r.toi;
+    o.outcome = r.outcome;
+    o.toi = r.toi;
   }
 
   const Row& row_;

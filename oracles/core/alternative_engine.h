@@ -1,4 +1,4 @@
-// The core's other ways, for charts to set beside the way it goes: every pair in extended precision, and
+// Alternative methods of the core, for comparison in charts: extended precision for every pair, and
 // speculative contact instead of a time of impact.
 #pragma once
 

@@ -18,7 +18,8 @@ const Body& body_of(const Scene& s, int i) { return s.bodies[static_cast<std::si
 
 struct NoBox {};
 
-// Turned by a third about (1,1,1) or its reverse, y takes the extent of x and so on, or back; exactly.
+// A rotation by a third of a turn about (1,1,1), in either direction, permutes the extents cyclically and
+// exactly.
 Vec3 upright_extents(const Vec3& h, const Quat& q) {
   if (q.x == 0 && q.y == 0 && q.z == 0) return h;
   if (q.x != q.y || q.y != q.z || std::abs(q.w) != std::abs(q.x)) throw NoBox{};
@@ -41,13 +42,13 @@ Aabb exact_box(const Shape& shape, const Pose& pose) {
   return box;
 }
 
-// A script through one broad phase. Moves without anything between them are one update.
+// Runs a script through one broad phase. Consecutive moves become one update.
 class Run {
  public:
   Run(const Scene& s, broad::BroadPhase& phase, BroadBoxes boxes, Observation& out)
       : s_(s), phase_(phase), boxes_(boxes), out_(out) {}
 
-  /// One step of the bodies' motions, from their own poses.
+  /// Runs one step of the bodies' motions, from their own poses.
   void step() {
     swept_ = true;
     for (int i = 0; i < static_cast<int>(s_.bodies.size()); ++i) apply({Step::Op::insert, i, std::nullopt});
@@ -85,7 +86,8 @@ class Run {
     if (moves_.size() > 1) update();
     moves_.clear();
   }
-  // All or none; then one by one, so that only what is refused is left out.
+  // An update is all or nothing: if it is refused, the moves are made one by one, so that only the refused
+  // ones are left out.
   void update() {
     try {
       phase_.update(moves_);
@@ -137,16 +139,20 @@ class BroadEngine final : public NativeEngine {
   void ask(const Scene& s, const Query& q, Observation& o) const {
     const bool swept = q.question == Question::swept_candidates;
     if (!is_broad_question(q.question) || (swept && boxes_ == BroadBoxes::exact)) {
-      o.detail = swept ? "a box that moves is none" : "a broad phase alone";
+      o.detail = swept ? "exact boxes do not move within a step" : "a broad phase only";
       return;
     }
     try {
       const auto phase = row_.make();
       Run run(s, *phase, boxes_, o);
-      swept ? run.step() : run.script();
+      if (swept)
+        run.step();
+      else
+        run.script();
       o.outcome = Outcome::answered;
     } catch (const NoBox&) {
-      o = {}, o.detail = "a body that is no box";
+      o = {};
+      o.detail = "a body without an exact box";
     }
   }
   const broad::CatalogRow& row_;

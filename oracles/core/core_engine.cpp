@@ -25,7 +25,7 @@ void require_bodies(const Scene& s, const Query& q) {
   if (!is_pair_question(q.question)) return;
   const int n = static_cast<int>(s.bodies.size());
   for (int i : {q.a, q.b})
-    if (i < 0 || i >= n) throw InputError("query", "body " + std::to_string(i) + " is no body of the scene");
+    if (i < 0 || i >= n) throw InputError("query", "body " + std::to_string(i) + " is not in the scene");
 }
 
 void ask_overlap(const Scene& s, const Query& q, Arithmetic arithmetic, Observation& o) {
@@ -38,7 +38,9 @@ void ask_distance(const Scene& s, const Query& q, Arithmetic arithmetic, Observa
   const DistanceAnswer r = distance(placed(s, q.a), placed(s, q.b), arithmetic);
   o.outcome = r.outcome;
   if (r.outcome != Outcome::answered) return;
-  o.distance = r.distance, o.witness = r.witness, o.normal = r.normal;
+  o.distance = r.distance;
+  o.witness = r.witness;
+  o.normal = r.normal;
 }
 
 void ask_contact(const Scene& s, const Query& q, Arithmetic arithmetic, Observation& o) {
@@ -47,7 +49,8 @@ void ask_contact(const Scene& s, const Query& q, Arithmetic arithmetic, Observat
   if (r.outcome != Outcome::answered) return;
   o.overlap = r.overlap;
   if (!r.overlap) return;
-  o.normal = r.normal, o.depth = r.depth;
+  o.normal = r.normal;
+  o.depth = r.depth;
   for (const ContactPoint& p : r.manifold) o.manifold.push_back({p.position, p.depth});
 }
 
@@ -84,7 +87,8 @@ void ask(const Scene& s, const Query& q, Arithmetic arithmetic, Observation& o) 
   const bool narrow =
       q.question == Question::overlap || q.question == Question::distance || q.question == Question::contact;
   if (arithmetic == Arithmetic::float32 && !narrow) {
-    o.outcome = Outcome::unsupported, o.detail = "float is a narrow phase only";
+    o.outcome = Outcome::unsupported;
+    o.detail = "the float core has a narrow phase only";
     return;
   }
   switch (q.question) {
@@ -110,7 +114,8 @@ Observation observe(const Scene& s, const Query& q, Arithmetic arithmetic) {
   return is_pair_question(q.question) ? measured_answer(measure_ns(), answer) : timed_answer(answer);
 }
 
-// What the float path sees: every number rounded, the quaternion as rounded denotes the rotation.
+// The scene as the float path sees it: every number is rounded, and the rounded quaternion defines the
+// rotation.
 void round_to_float(const Scene& s, ReceivedScene& r) {
   for (std::size_t i = 0; i < s.bodies.size(); ++i) {
     const auto stand = narrow::fast::stand<float>(s.bodies[i].pose);
@@ -145,8 +150,8 @@ CoreEngine::CoreEngine(Arithmetic arithmetic) : arithmetic_(arithmetic) {
   card_.settings =
       narrow_only
           ? "closed forms, GJK and EPA in float from pose to answer; no broad phase, no motion"
-          : "closed forms, GJK and EPA in double, in extended precision where the bound of the error asks "
-            "for it; conservative advancement; broad phase " +
+          : "closed forms, GJK and EPA in double, in extended precision where the error bound requires it; "
+            "conservative advancement; broad phase " +
                 std::string(broad_phase_name);
   card_.unit_roundoff = narrow_only ? 0x1p-24 : 0x1p-53;
   card_.tau_factor = tolerance::core_tau_factor;

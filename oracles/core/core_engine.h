@@ -1,5 +1,5 @@
-// The project's own core behind the engine interface: `core`, and `core-f32`, its narrow phase in float from
-// end to end. Made here it runs in process, for tests; the program has it run in a worker.
+// The project's own core behind the engine interface: `core`, and `core-f32`, its narrow phase entirely in
+// float. Created here it runs in-process, for tests; the program runs it in a worker.
 #pragma once
 
 #include "core/narrow/narrow_phase.h"

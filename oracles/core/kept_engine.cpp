@@ -13,21 +13,21 @@
 namespace touchstone {
 namespace {
 
-// A graph of fewer vertices than pays, so that small hulls climb too.
+// Below the size at which a graph pays off, so that hill climbing is also tested on small hulls.
 constexpr std::size_t least_graph = 12;
 
-// How far from its place a body is taken to have been a moment ago, of its size.
-constexpr double moment = 1.0 / 64;
+// The assumed displacement of a body since the previous step, relative to its size.
+constexpr double previous_shift = 1.0 / 64;
 
 std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
-Pose a_moment_ago(const Scene& s, int body) {
+Pose previous_pose(const Scene& s, int body) {
   const Pose& now = s.bodies[at(body)].pose;
-  const double way = moment * extent(s.shape_of(body));
-  return {now.translation + Vec3(way, -way / 2, way / 4), now.rotation};
+  const double shift = previous_shift * extent(s.shape_of(body));
+  return {now.translation + Vec3(shift, -shift / 2, shift / 4), now.rotation};
 }
 
-// What is built once a scene, and what is kept of its pairs.
+// Acceleration structures built once per scene, and the cached state of its pairs.
 class Kept {
  public:
   explicit Kept(const Scene& s) : s_(s), graphs_(s.shapes.size()), trees_(s.shapes.size()) {
@@ -46,7 +46,7 @@ class Kept {
 
   PairMemory& memory(const Query& q) {
     const auto [it, is_new] = memory_.try_emplace({q.a, q.b});
-    if (is_new) contact(placed(q.a), placed(q.b, a_moment_ago(s_, q.b)), Arithmetic::float64, &it->second);
+    if (is_new) contact(placed(q.a), placed(q.b, previous_pose(s_, q.b)), Arithmetic::float64, &it->second);
     return it->second;
   }
 
@@ -66,7 +66,11 @@ void ask_overlap(Kept& kept, const Query& q, Observation& o) {
 void ask_distance(Kept& kept, const Query& q, Observation& o) {
   const DistanceAnswer r = distance(kept.placed(q.a), kept.placed(q.b), Arithmetic::float64, &kept.memory(q));
   o.outcome = r.outcome;
-  if (r.outcome == Outcome::answered) o.distance = r.distance, o.witness = r.witness, o.normal = r.normal;
+  if (r.outcome == Outcome::answered) {
+    o.distance = r.distance;
+    o.witness = r.witness;
+    o.normal = r.normal;
+  }
 }
 
 void ask_contact(Kept& kept, const Query& q, Observation& o) {
@@ -75,11 +79,12 @@ void ask_contact(Kept& kept, const Query& q, Observation& o) {
   if (r.outcome != Outcome::answered) return;
   o.overlap = r.overlap;
   if (!r.overlap) return;
-  o.normal = r.normal, o.depth = r.depth;
+  o.normal = r.normal;
+  o.depth = r.depth;
   for (const ContactPoint& p : reduced(r)) o.manifold.push_back({p.position, p.depth});
 }
 
-// Swept by hand, so that the criterion leaves nothing out.
+// Both bodies are flagged for sweeping explicitly, so that the criterion skips nothing.
 void ask_impact(const Scene& s, const Query& q, Observation& o) {
   StepWorld world(extract_pair(s, q.a, q.b));
   for (const int body : {0, 1}) world.flag(body, true);
@@ -111,13 +116,14 @@ Fidelity remembering() {
   return f;
 }
 
-// The second of two steps; the bodies come from where they were a moment ago. Nothing moves within a step.
+// Reports the second of two steps; in the first, the bodies are at their previous poses. Nothing moves within
+// a step.
 void ask_scene_contacts(const Scene& asked, Observation& o) {
   Scene s = asked;
   for (int i = 0; i < static_cast<int>(s.bodies.size()); ++i) {
     Body& b = s.bodies[at(i)];
     b.motion.reset();
-    if (!b.is_static) b.pose = a_moment_ago(asked, i);
+    if (!b.is_static) b.pose = previous_pose(asked, i);
   }
   StepWorld world(s, remembering());
   world.step();
@@ -151,10 +157,11 @@ void ask(const Scene& s, Kept& kept, const Query& q, Observation& o) {
 class KeptEngine final : public NativeEngine {
  public:
   KeptEngine() {
-    card_.name = "core-kept", card_.library = "Touchstone core", card_.version = "0.1.0";
+    card_.name = "core-kept";
+    card_.library = "Touchstone core";
+    card_.version = "0.1.0";
     card_.settings =
-        "as core, with hull graphs, mesh trees, the memory of each pair and manifolds of four points; "
-        "motions "
+        "as core, with hull graphs, mesh trees, cached pairs and manifolds of at most four points; motions "
         "and scenes by StepWorld; every broad phase in turn";
     card_.unit_roundoff = 0x1p-53;
     card_.tau_factor = tolerance::core_tau_factor;

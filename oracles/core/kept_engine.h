@@ -1,8 +1,7 @@
-// The core as a program uses it that asks more than once: with what it may build and keep. Pairs by the
-// graphs of hulls, the trees of meshes and the memory of a moment ago; motions and scenes by StepWorld;
-// candidate pairs by one broad phase of the catalog after another; manifolds of at most four points. Every
-// answer is a function of the case alone: the moment before is made up, and nothing is kept from case to
-// case.
+// The core as used by a program that queries repeatedly, with acceleration structures and caches. Pairs use
+// hull graphs, mesh trees and the cached state of a previous step; motions and scenes use StepWorld;
+// candidate pairs use the broad phases of the catalog in turn; manifolds have at most four points. Every
+// answer depends only on the case: the previous step is synthetic, and nothing is kept between cases.
 #pragma once
 
 #include <memory>

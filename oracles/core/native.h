@@ -10,10 +10,10 @@
 
 namespace touchstone {
 
-/// core, core-f32, core-kept, an alternative, or a broad phase. Null: there is none of that name.
+/// core, core-f32, core-kept, an alternative, or a broad phase. Null if there is no engine of that name.
 std::unique_ptr<NativeEngine> make_native_core(std::string_view name);
 
-/// The name by which a worker is asked for a broad phase with these boxes.
+/// The name under which a worker offers a broad phase with these boxes.
 std::string native_name(std::string_view broad_phase, BroadBoxes boxes);
 
 }  // namespace touchstone

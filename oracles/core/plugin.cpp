@@ -2,7 +2,7 @@
 #include "oracles/abi/touchstone_engine.h"
 #include "oracles/core/native.h"
 
-/// oracles/abi/native_engine.h
+/// See oracles/abi/native_engine.h.
 extern "C" TS_EXPORT touchstone::NativeEngine* touchstone_native_engine(const char* name) {
   return touchstone::make_native_core(name).release();
 }

@@ -1,4 +1,4 @@
-// What the core's engines share: an answer is timed, and what it throws is the answer.
+// Shared by the core's engines: answers are timed, and exceptions become outcomes.
 #pragma once
 
 #include <chrono>
@@ -9,7 +9,7 @@
 
 namespace touchstone {
 
-/// `ask(o)` fills the answer; its time is in it.
+/// `ask(o)` fills in the answer; its time is recorded.
 template <class Ask>
 Observation timed_answer(Ask&& ask) {
   Observation o;
@@ -17,15 +17,19 @@ Observation timed_answer(Ask&& ask) {
   try {
     ask(o);
   } catch (const InputError& e) {
-    o = {}, o.outcome = Outcome::invalid_input, o.detail = e.what();
+    o = {};
+    o.outcome = Outcome::invalid_input;
+    o.detail = e.what();
   } catch (const std::exception& e) {
-    o = {}, o.outcome = Outcome::threw, o.detail = e.what();
+    o = {};
+    o.outcome = Outcome::threw;
+    o.detail = e.what();
   }
   o.elapsed_ns = std::chrono::nanoseconds(std::chrono::steady_clock::now() - start).count();
   return o;
 }
 
-/// The same, and asked again while measure.h says so.
+/// The same, with repetitions for the timing as described in measure.h.
 template <class Ask>
 Observation measured_answer(std::int64_t measure, Ask&& ask) {
   Observation o = timed_answer(ask);

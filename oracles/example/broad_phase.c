@@ -1,4 +1,4 @@
-/* A broad phase as a plug-in, in C: a cube around each body, all pairs. Put your own behind `run`.
+/* A broad phase as a plug-in, in C: a cube around each body, all pairs tested. Replace `run` with your own.
  *   cc -shared -fPIC -I PREFIX/include broad_phase.c -o libmine.so -lm */
 #include <math.h>
 #include <stdlib.h>
@@ -8,14 +8,14 @@ struct ts_engine {
   const ts_scene* scene; /* valid until unload */
 };
 
-/* No point is further from the body's origin than this: |x| + |y| + |z| is never less than the length. */
+/* An upper bound on the distance of a point from the body's origin: |x| + |y| + |z| is at least the length. */
 static double reach(const ts_shape* s) {
   double r = 0;
   if (s->kind == TS_HALF_SPACE) return INFINITY;
   for (int k = 0; k < 4; ++k) r += fabs(s->size[k]);
   for (const double* v = s->vertices; v != s->vertices + 3 * s->vertex_count; v += 3)
     r = fmax(r, fabs(v[0]) + fabs(v[1]) + fabs(v[2]));
-  return r * (1 + 0x1p-48); /* more than its roundings */
+  return r * (1 + 0x1p-48); /* more than the rounding errors above */
 }
 
 typedef struct Cube {
@@ -23,7 +23,7 @@ typedef struct Cube {
   double half;
 } Cube;
 
-/* Touching is overlap. Both sides are rounded once, which keeps their order: no pair is lost. */
+/* Touching counts as overlap. Each side is rounded once, which preserves their order: no pair is lost. */
 static int overlap(const Cube* a, const Cube* b) {
   for (int k = 0; k < 3; ++k)
     if (!(fabs(a->centre[k] - b->centre[k]) <= a->half + b->half)) return 0;
@@ -49,18 +49,28 @@ static void run(const ts_scene* scene, const ts_sink* sink) {
 }
 
 static const char* card(uint32_t i) {
-  return (void)i, "{\"name\":\"mine\",\"library\":\"mine\",\"version\":\"1\",\"settings\":\"all pairs of cubes\","
-                  "\"unit_roundoff\":1.1102230246251565e-16,\"tau_factor\":64,\"source\":\"arithmetic only\"}";
+  (void)i;
+  return "{\"name\":\"mine\",\"library\":\"mine\",\"version\":\"1\",\"settings\":\"all pairs of cubes\","
+         "\"unit_roundoff\":1.1102230246251565e-16,\"tau_factor\":64,\"source\":\"arithmetic only\"}";
 }
-static ts_engine* create(uint32_t i) { return (void)i, calloc(1, sizeof(ts_engine)); }
+static ts_engine* create(uint32_t i) {
+  (void)i;
+  return calloc(1, sizeof(ts_engine));
+}
 static void destroy(ts_engine* e) { free(e); }
 static int32_t load(ts_engine* e, const ts_scene* s, const ts_received* r, char* detail) {
-  return (void)r, (void)detail, e->scene = s, TS_ANSWERED;
+  (void)r;
+  (void)detail;
+  e->scene = s;
+  return TS_ANSWERED;
 }
 static void unload(ts_engine* e) { e->scene = NULL; }
 static void ask(ts_engine* e, int32_t question, int32_t a, int32_t b, ts_answer* out, const ts_sink* sink) {
-  (void)a, (void)b;
-  if (question == TS_CANDIDATES) run(e->scene, sink), out->outcome = TS_ANSWERED; /* else TS_UNSUPPORTED */
+  (void)a;
+  (void)b;
+  if (question != TS_CANDIDATES) return; /* stays TS_UNSUPPORTED */
+  run(e->scene, sink);
+  out->outcome = TS_ANSWERED;
 }
 
 static const ts_plugin table = {TS_ABI_VERSION, 1, card, create, destroy, load, unload, ask};

@@ -1,4 +1,4 @@
-// A broad phase as a plug-in, in C++: a cube around each body, all pairs. Put your own behind `run`.
+// A broad phase as a plug-in, in C++: a cube around each body, all pairs tested. Replace `run` with your own.
 //   c++ -std=c++17 -shared -fPIC -I PREFIX/include broad_phase.cpp -o libmine.so
 #include <cmath>
 #include <map>
@@ -10,14 +10,14 @@ struct ts_engine {
 
 namespace {
 
-// No point is further from the body's origin than this: |x| + |y| + |z| is never less than the length.
+// An upper bound on the distance of any point from the body's origin: |x| + |y| + |z| is at least the length.
 double reach(const ts_shape& s) {
   double r = 0;
   if (s.kind == TS_HALF_SPACE) return INFINITY;
   for (double x : s.size) r += std::fabs(x);
   for (const double* v = s.vertices; v != s.vertices + 3 * s.vertex_count; v += 3)
     r = std::fmax(r, std::fabs(v[0]) + std::fabs(v[1]) + std::fabs(v[2]));
-  return r * (1 + 0x1p-48);  // more than its roundings
+  return r * (1 + 0x1p-48);  // more than the rounding errors above
 }
 
 struct Cube {
@@ -25,7 +25,7 @@ struct Cube {
   double half;
 };
 
-// Touching is overlap. Both sides are rounded once, which keeps their order: no pair is lost.
+// Touching counts as overlap. Each side is rounded once, which preserves their order: no pair is lost.
 bool overlap(const Cube& a, const Cube& b) {
   for (int k = 0; k < 3; ++k)
     if (!(std::fabs(a.centre[k] - b.centre[k]) <= a.half + b.half)) return false;
@@ -53,10 +53,15 @@ const char* card(uint32_t) {
 }
 ts_engine* create(uint32_t) { return new ts_engine; }
 void destroy(ts_engine* e) { delete e; }
-int32_t load(ts_engine* e, const ts_scene* s, const ts_received*, char*) { return e->scene = s, TS_ANSWERED; }
+int32_t load(ts_engine* e, const ts_scene* s, const ts_received*, char*) {
+  e->scene = s;
+  return TS_ANSWERED;
+}
 void unload(ts_engine* e) { e->scene = nullptr; }
 void ask(ts_engine* e, int32_t question, int32_t, int32_t, ts_answer* out, const ts_sink* sink) {
-  if (question == TS_CANDIDATES) run(*e->scene, *sink), out->outcome = TS_ANSWERED;  // else TS_UNSUPPORTED
+  if (question != TS_CANDIDATES) return;  // stays TS_UNSUPPORTED
+  run(*e->scene, *sink);
+  out->outcome = TS_ANSWERED;
 }
 const ts_plugin table = {TS_ABI_VERSION, 1, card, create, destroy, load, unload, ask};
 

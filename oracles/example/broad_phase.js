@@ -1,10 +1,10 @@
-// A broad phase behind a pipe: a box around each body, all pairs. See pipe_protocol.md.
+// A broad phase behind a pipe: a box around each body, all pairs tested. See pipe_protocol.md.
 //   touchstone certify --subject 'pipe:node broad_phase.js'
 "use strict";
 const say = (answer) => process.stdout.write(JSON.stringify(answer) + "\n");
 const sum = (list = []) => list.reduce((s, x) => s + Math.abs(x), 0);
 
-// No point is further from the body's origin: |x| + |y| + |z| is never less than the length.
+// An upper bound on the distance of any point from the body's origin: |x| + |y| + |z| is at least the length.
 function reach(shape) {
   if (shape.type === "half_space") return Infinity;
   let r = (shape.radius || 0) + (shape.half_height || 0) + sum(shape.half_extents) + sum(shape.semi_axes);
@@ -12,7 +12,7 @@ function reach(shape) {
   return r * (1 + 2 ** -48);
 }
 
-// Rounded outward: one place too small, and a pair is lost.
+// Rounded outward: if a bound were too small by a single bit, a pair could be lost.
 const down = (x) => x - Math.abs(x) * 2 ** -52 - Number.MIN_VALUE;
 function boxOf(scene, step) {
   const r = reach(scene.shapes[scene.bodies[step.body].shape]), t = step.pose.translation;

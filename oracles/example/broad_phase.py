@@ -11,7 +11,7 @@ INF = math.inf
 
 
 def reach(shape):
-    """No point is further from the body's origin: |x| + |y| + |z| is never less than the length."""
+    """An upper bound on the distance of a point from the origin: |x| + |y| + |z| is at least the length."""
     if shape["type"] == "half_space":
         return INF
     r = shape.get("radius", 0) + shape.get("half_height", 0)
@@ -22,7 +22,7 @@ def reach(shape):
 
 
 def box_of(scene, step):
-    """Rounded outward: one place too small, and a pair is lost."""
+    """Rounded outward: if a bound were too small by a single bit, a pair could be lost."""
     r, t = reach(scene["shapes"][scene["bodies"][step["body"]]["shape"]]), step["pose"]["translation"]
     return [math.nextafter(x - r, -INF) for x in t], [math.nextafter(x + r, INF) for x in t]
 
@@ -32,7 +32,7 @@ def overlap(a, b):
 
 
 def pairs(present):
-    """Sweep and prune: whoever begins before the end of a box along x is compared with it; a tie counts."""
+    """Sweep and prune: a box is compared with every box that begins before its end along x; ties count."""
     order = sorted(present.items(), key=lambda item: item[1][0][0])
     found = []
     for n, (i, a) in enumerate(order):

@@ -1,6 +1,6 @@
-/* The smallest useful engine: spheres against spheres, in plain C. Copy it, rename it, and put your own
- * detector behind `ask`. Whatever it does not know it leaves as it comes: TS_UNSUPPORTED. Build: cc -shared
- * -fPIC -I <touchstone> example_engine.c -o libmine.so -lm
+/* The smallest useful engine: spheres against spheres, in plain C. Copy it, rename it, and call your own
+ * detector from `ask`. Anything that it does not support is left unchanged, i.e. TS_UNSUPPORTED. Build:
+ *   cc -shared -fPIC -I <touchstone> example_engine.c -o libmine.so -lm
  */
 #include <math.h>
 #include <stdlib.h>
@@ -26,7 +26,8 @@ static ts_engine* create(uint32_t i) {
 static void destroy(ts_engine* e) { free(e); }
 
 static int32_t load(ts_engine* e, const ts_scene* scene, const ts_received* received, char* detail) {
-  (void)received, (void)detail; /* nothing is rounded on the way in, so there is nothing to report */
+  (void)received; /* the scene is used without conversion, so there is nothing to report */
+  (void)detail;
   e->scene = scene;
   return TS_ANSWERED;
 }
@@ -42,11 +43,11 @@ static void ask(ts_engine* e, int32_t question, int32_t a, int32_t b, ts_answer*
   for (int i = 0; i < 3; ++i) n[i] = pb->pose.translation[i] - pa->pose.translation[i];
   length = sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
   for (int i = 0; i < 3; ++i)
-    n[i] = length > 0 ? n[i] / length : (i == 2); /* concentric: any direction is best */
+    n[i] = length > 0 ? n[i] / length : (i == 2); /* concentric: all directions are equally good */
   const double gap = length - sa->size[0] - sb->size[0];
   out->outcome = TS_ANSWERED;
   out->has = TS_HAS_OVERLAP;
-  out->overlap = gap <= 0; /* touching is overlap */
+  out->overlap = gap <= 0; /* touching counts as overlap */
   if (question == TS_DISTANCE) {
     out->has |= TS_HAS_DISTANCE | TS_HAS_POINTS;
     out->distance = gap;

@@ -49,7 +49,7 @@ class Tree {
  private:
   const ts_scene& scene_;
   const std::vector<Geometry>& geometries_;
-  // Until the end, removed ones too: the manager may still name them.
+  // Removed objects are kept as well, because the manager may still refer to them.
   std::vector<std::unique_ptr<fcl::CollisionObjectd>> owned_;
   std::vector<fcl::CollisionObjectd*> objects_;
   fcl::DynamicAABBTreeCollisionManagerd manager_;

@@ -1,4 +1,4 @@
-// FCL's dynamic AABB tree, driven through a script as a user drives it.
+// Runs a script on FCL's dynamic AABB tree in the way a user would.
 #pragma once
 
 #include <functional>
@@ -14,7 +14,7 @@ namespace touchstone::fcl_adapter {
 void run_script(const ts_scene& scene, const std::vector<Geometry>& geometries,
                 const std::function<void(int k, int a, int b)>& pair);
 
-/// Every pair that the manager's callback receives with all bodies at their own poses.
+/// Calls `pair` for every pair that the manager's callback receives, with all bodies at their own poses.
 void all_pairs(const ts_scene& scene, const std::vector<Geometry>& geometries,
                const std::function<void(int a, int b)>& pair);
 

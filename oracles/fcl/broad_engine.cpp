@@ -1,7 +1,7 @@
-// FCL's broad-phase managers, each an engine that answers `candidates` alone. Driven as FCL's documentation
-// has it: objects are registered, those that come first at once; computeAABB after every move; then update()
-// once after the moves and before anything else, or, as an engine of its own, update(object) after each of
-// them; setup() before every query.
+// FCL's broad-phase managers, each as an engine that answers only `candidates`. They are used as FCL
+// documents: objects are registered, the initial ones in one call; computeAABB() after every move; then
+// update() once after a series of moves or, as a separate engine, update(object) after each move; setup()
+// before every query.
 #include <fcl/broadphase/broadphase_SSaP.h>
 #include <fcl/broadphase/broadphase_SaP.h>
 #include <fcl/broadphase/broadphase_bruteforce.h>
@@ -35,7 +35,7 @@ template <class M>
 ManagerPtr plain() {
   return std::make_unique<M>();
 }
-// FCL asks for a cell size and a world; what is outside goes to a list of its own.
+// FCL requires a cell size and world bounds; objects outside go to a separate list.
 ManagerPtr spatial_hash() {
   return std::make_unique<fcl::SpatialHashingCollisionManagerd<>>(1.0, fcl::Vector3d::Constant(-1000),
                                                                   fcl::Vector3d::Constant(1000));
@@ -50,7 +50,7 @@ constexpr Row rows[] = {
     {"fcl-dynamic-tree", "DynamicAABBTreeCollisionManager", &plain<fcl::DynamicAABBTreeCollisionManagerd>},
     {"fcl-dynamic-tree-array", "DynamicAABBTreeCollisionManager_Array",
      &plain<fcl::DynamicAABBTreeCollisionManager_Arrayd>},
-    // Managers with an update(object) of their own; that of the others calls update().
+    // Managers with their own update(object); in the others it calls update().
     {"fcl-sap-update-one", "SaPCollisionManager", &plain<fcl::SaPCollisionManagerd>, Update::one},
     {"fcl-interval-tree-update-one", "IntervalTreeCollisionManager",
      &plain<fcl::IntervalTreeCollisionManagerd>, Update::one},
@@ -74,7 +74,7 @@ class Run {
         update_(row.update) {}
 
   void apply(const ts_step& step) {
-    // A manager finds objects by the boxes that it last saw.
+    // A manager finds objects by the boxes that it last saw, so pending moves must be applied first.
     if (step.op != TS_MOVE) flush();
     fcl::CollisionObjectd*& o = objects_[static_cast<std::size_t>(step.body)];
     if (step.op == TS_REMOVE) {
@@ -122,7 +122,7 @@ class Run {
     else
       moved_ = true;
   }
-  // All that come before anything else, at once: what FCL's managers are best at.
+  // Registers all initial objects in one call, which FCL's managers handle best.
   void register_first() {
     if (started_) return;
     started_ = true;
@@ -136,8 +136,8 @@ class Run {
 
   const ts_scene& scene_;
   const std::vector<Geometry>& geometries_;
-  // Until the end, so that a manager which still names a removed object is found stale, and reads no freed
-  // memory of ours.
+  // Objects live until the end, so that a manager that still refers to a removed one reports a stale pair
+  // instead of reading memory freed by this adapter.
   std::vector<std::unique_ptr<fcl::CollisionObjectd>> owned_;
   std::vector<fcl::CollisionObjectd*> objects_, first_;
   ManagerPtr manager_;
@@ -166,12 +166,16 @@ class Engine {
       geometries_.push_back(make_geometry(scene.shapes[i]));
       geometries_.back()->computeLocalAABB();
     }
-    scene_ = &scene, filter_ = kit::PairFilter(scene);
+    scene_ = &scene;
+    filter_ = kit::PairFilter(scene);
   }
-  void unload() { geometries_.clear(), scene_ = nullptr; }
+  void unload() {
+    geometries_.clear();
+    scene_ = nullptr;
+  }
 
   void ask(ts_question question, int, int, ts_answer&, const ts_sink& sink) {
-    if (question != TS_CANDIDATES) throw kit::Unsupported("a broad phase alone");
+    if (question != TS_CANDIDATES) throw kit::Unsupported("a broad phase only");
     Run run(*scene_, geometries_, row_);
     int k = 0;
     for (std::size_t i = 0; i < scene_->step_count; ++i) {
@@ -186,7 +190,7 @@ class Engine {
 
  private:
   void report(const ts_sink& sink, int k, int a, int b) const {
-    // A manager that reads freed memory names bodies that there are not; the harness says so.
+    // A manager that reads freed memory may report nonexistent bodies; the harness detects that.
     const auto is_body = [&](int i) { return i >= 0 && i < static_cast<int>(scene_->body_count); };
     if (is_body(a) && is_body(b) &&
         (filter_.drops(a, b) || (scene_->bodies[a].is_static && scene_->bodies[b].is_static)))

@@ -1,7 +1,7 @@
-// The FCL plug-in: two solvers as shipped and tuned. TOUCHSTONE_SWEEP, a plug-in of its own: as shipped with
-// one other setting, for narrow questions (fcl-libccd@1e-3) or for motions (fcl-naive@64: CCDC_NAIVE with
-// that many samples; fcl-advance@1e-2: conservative advancement with that toc_err), so that a chart shows a
-// method as a curve. The limits of iterations are no part of FCL's requests.
+// The FCL plug-in: two solvers, each as shipped and tuned. With TOUCHSTONE_SWEEP, a separate plug-in: as
+// shipped with one setting changed, for narrow-phase questions (fcl-libccd@1e-3) or for motions
+// (fcl-naive@64: CCDC_NAIVE with that many samples; fcl-advance@1e-2: conservative advancement with that
+// toc_err), so that a chart shows a method as a curve. FCL's requests have no iteration limits.
 #include <fcl/config.h>
 
 #include "oracles/abi/plugin_kit.h"
@@ -18,13 +18,13 @@ constexpr const char* shipped_settings =
     "DynamicAABBTreeCollisionManager";
 constexpr const char* tuned_libccd_settings =
     "collide 1e-12; distance unsigned 1e-12, signed 1e-7 if overlapping; contact normal and depth by signed "
-    "distance "
-    "1e-7; time of impact CCDC_CONSERVATIVE_ADVANCEMENT over InterpMotion, pivot 0";
+    "distance 1e-7; time of impact CCDC_CONSERVATIVE_ADVANCEMENT over InterpMotion, pivot 0";
 constexpr const char* tuned_indep_settings =
     "collide 1e-12; distance unsigned 1e-12, no depth; contact by collide; time of impact "
     "CCDC_CONSERVATIVE_ADVANCEMENT over InterpMotion, pivot 0";
 #endif
-// continuousCollide documents toc_err as an error of time; as a length it is that times the closing speed.
+// continuousCollide documents toc_err as an error in time; the corresponding length is toc_err times the
+// closing speed.
 constexpr const char* source =
     "fcl/narrowphase/collision_request.h: gjk_tolerance; distance_request.h: distance_tolerance; "
     "continuous_collision_request.h: toc_err times the closing speed";
@@ -91,12 +91,16 @@ class Engine {
     scene_ = &scene;
     filter_ = kit::PairFilter(scene);
   }
-  void unload() { bodies_.clear(), geometries_.clear(), scene_ = nullptr; }
+  void unload() {
+    bodies_.clear();
+    geometries_.clear();
+    scene_ = nullptr;
+  }
 
   void ask(ts_question question, int a, int b, ts_answer& out, const ts_sink& sink) {
     const bool of_motions = settings_.samples > 0 || settings_.impact_tolerance > 0;
     if (question == TS_TIME_OF_IMPACT ? settings_.tolerance > 0 : of_motions)
-      throw kit::Unsupported("its setting is of no matter to this question");
+      throw kit::Unsupported("this engine's setting does not affect this question");
     switch (question) {
       case TS_OVERLAP:
         kit::set_overlap(out, overlap(body(a), body(b), settings_));
@@ -115,7 +119,7 @@ class Engine {
       case TS_SCENE_CONTACTS:
         return ask_scene(out, sink);
       case TS_SWEPT_CANDIDATES:
-        throw kit::Unsupported("FCL's broad phases take bodies that stand still");
+        throw kit::Unsupported("FCL's broad phases do not support moving bodies");
     }
     throw kit::Unsupported("unknown question");
   }
@@ -153,7 +157,7 @@ class Engine {
     if (t) kit::set_toi(out, *t);
   }
 
-  // A user's callback: collide each pair that the manager proposes, keep the deepest contact.
+  // As in a user's callback: collide each pair that the manager proposes, keep the deepest contact.
   void ask_scene(ts_answer& out, const ts_sink& sink) {
     all_pairs(*scene_, geometries_, [&](int a, int b) {
       if (filter_.drops(a, b)) return;

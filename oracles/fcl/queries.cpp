@@ -1,12 +1,14 @@
-// The two ways of asking FCL 0.7:
+// The two ways in which FCL 0.7 is queried:
 //
 // As shipped: default tolerances; distance with signed distance enabled; contact through collide(); time of
 // impact through the transform overload of continuousCollide() with its defaults (CCDC_NAIVE, ten samples),
-// CCDM_TRANS for translations and CCDM_LINEAR when something turns. Tuned: collide at 1e-12. Distance:
-// unsigned at 1e-12, and where that finds an overlap the signed one at 1e-7 (libccd solver; the other one
-// cannot). Contact (libccd solver, bounded convex shapes): normal and depth from the signed distance; from
-// collide() where it contradicts the overlap. Time of impact: conservative advancement over an explicit
-// InterpMotion with pivot 0, because the transform overload leaves its pivot uninitialised.
+// CCDM_TRANS for translations and CCDM_LINEAR if a body rotates.
+//
+// Tuned: collide at 1e-12. Distance: unsigned at 1e-12 and, if that finds an overlap, signed at 1e-7 (libccd
+// solver only; the other has no signed distance). Contact (libccd solver, bounded convex shapes): normal and
+// depth from the signed distance; from collide() if the signed distance contradicts the overlap. Time of
+// impact: conservative advancement over an explicit InterpMotion with pivot 0, because the transform overload
+// leaves its pivot uninitialised.
 #include "oracles/fcl/queries.h"
 
 #include <fcl/math/motion/interp_motion.h>
@@ -26,19 +28,22 @@ namespace {
 constexpr double shipped_tolerance = 1e-6;  // gjk_tolerance and distance_tolerance of FCL's requests
 constexpr double tuned_overlap_tolerance = 1e-12;
 constexpr double tuned_distance_tolerance = 1e-12;
-constexpr double tuned_depth_tolerance = 1e-7;  // below it FCL's EPA runs into its own assertions
-constexpr std::size_t max_contacts = 256;       // the default of 1 would make every manifold a point
+constexpr double tuned_depth_tolerance = 1e-7;  // below this FCL's EPA fails its own assertions
+constexpr std::size_t max_contacts = 256;       // the default of 1 would reduce every manifold to a point
 
 fcl::CollisionRequestd collision_request(const Settings& s, bool with_contacts) {
   fcl::CollisionRequestd r;
   r.gjk_solver_type = s.solver;
   r.gjk_tolerance = overlap_tolerance(s);
-  if (with_contacts) r.enable_contact = true, r.num_max_contacts = max_contacts;
+  if (with_contacts) {
+    r.enable_contact = true;
+    r.num_max_contacts = max_contacts;
+  }
   return r;
 }
 
-/// FCL takes a mesh first, whatever the order of its arguments: o1 and o2 of a contact or of a distance say
-/// whose the normal and the points are. One shape in both roles is never reordered.
+/// FCL puts a mesh first, whatever the order of the arguments: o1 and o2 of a contact or distance tell which
+/// object the normal and the points refer to. A shape paired with itself is never reordered.
 template <class Result>
 bool has_b_first(const Result& r, const Placed& a, const Placed& b) {
   return r.o1 == b.geometry && r.o2 == a.geometry && a.geometry != b.geometry;
@@ -50,11 +55,11 @@ fcl::DistanceResultd run_distance(const Placed& a, const Placed& b, const Settin
   request.distance_tolerance = tolerance;
   request.gjk_solver_type = s.solver;
   fcl::DistanceResultd result;
-  // Some pairs leave the points unset, and their constructor does too: without this they would be leftovers
-  // of the stack.
+  // Neither the constructor nor the query for some pairs sets the points: without this they would contain
+  // leftovers from the stack.
   for (Vec3& p : result.nearest_points) p.setConstant(std::numeric_limits<double>::quiet_NaN());
   fcl::distance(a.geometry, a.transform, b.geometry, b.transform, request, result);
-  // For a pair that it has no function for, FCL warns and leaves the largest double in place.
+  // If FCL has no function for a pair, it prints a warning and leaves the largest double in place.
   if (result.min_distance == std::numeric_limits<double>::max())
     throw kit::Unsupported("fcl::distance has no function for these shapes in this order");
   if (has_b_first(result, a, b)) std::swap(result.nearest_points[0], result.nearest_points[1]);
@@ -63,8 +68,8 @@ fcl::DistanceResultd run_distance(const Placed& a, const Placed& b, const Settin
 
 bool is_bounded_convex(const Placed& p) { return p.kind != TS_HALF_SPACE && p.kind != TS_MESH; }
 
-/// distance_request.h, of enable_signed_distance: GST_INDEP, and any mesh, is NP_X, nearest points "NOT
-/// guaranteed to be on the surface of objects". Of bodies that are apart they are the ordinary ones.
+/// distance_request.h on enable_signed_distance: GST_INDEP and any mesh are NP_X, nearest points "NOT
+/// guaranteed to be on the surface of objects". For separated bodies they are the usual closest points.
 bool guarantees_deepest_points(const Placed& a, const Placed& b, const Settings& s) {
   return s.libccd() && a.kind != TS_MESH && b.kind != TS_MESH;
 }
@@ -81,7 +86,7 @@ bool refine(const Placed& a, const Placed& b, const Settings& s, Contact& c) {
   return true;
 }
 
-// Upper bound of the speed of a body's points about its moving origin.
+// Upper bound on the speed of a body's points relative to its moving origin.
 double turning_speed(const Placed& p, const Motion& m) {
   return m.angular.norm() * (p.geometry->aabb_center.norm() + p.geometry->aabb_radius);
 }
@@ -116,11 +121,12 @@ Contact contact(const Placed& a, const Placed& b, const Settings& s) {
   c.depth = -std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < result.numContacts(); ++i) {
     const fcl::Contactd& k = result.getContact(i);
-    // It points from o1 to o2.
+    // The normal points from o1 to o2.
     const Vec3 normal = has_b_first(k, a, b) ? Vec3(-k.normal) : Vec3(k.normal);
     c.points.push_back({k.pos, k.penetration_depth, normal});
     if (!(k.penetration_depth > c.depth)) continue;
-    c.depth = k.penetration_depth, c.normal = normal;
+    c.depth = k.penetration_depth;
+    c.normal = normal;
   }
   if (s.tuned && s.libccd() && c.overlap && is_bounded_convex(a) && is_bounded_convex(b)) refine(a, b, s, c);
   return c;
@@ -152,7 +158,7 @@ std::optional<double> time_of_impact(const Placed& a, const Pose& a_start, const
                                      const Settings& s) {
   const double turn = std::max(a_motion.angular.norm(), b_motion.angular.norm());
   if (turn >= std::numbers::pi)
-    throw kit::Unsupported("FCL takes motions by their end poses: less than half a turn");
+    throw kit::Unsupported("FCL defines motions by their end poses: only less than half a turn");
   const fcl::Transform3d a_end = make_transform(pose_at(a_start, a_motion, 1));
   const fcl::Transform3d b_end = make_transform(pose_at(b_start, b_motion, 1));
   fcl::ContinuousCollisionRequestd request;

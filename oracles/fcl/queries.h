@@ -1,4 +1,4 @@
-// FCL's pair queries, asked as its users ask them.
+// FCL's pair queries, called as its users call them.
 #pragma once
 
 #include <fcl/narrowphase/gjk_solver_type.h>
@@ -20,8 +20,8 @@ struct Placed {
 struct Settings {
   fcl::GJKSolverType solver;
   bool tuned;
-  double tolerance = 0;  // of a search; 0: that of the setting
-  // Of continuousCollide; 0: its default.
+  double tolerance = 0;  // of the iterative solvers; 0: the default of this setting
+  // For continuousCollide; 0: its default.
   std::size_t samples = 0;
   double impact_tolerance = 0;
   bool libccd() const { return solver == fcl::GST_LIBCCD; }
@@ -45,19 +45,19 @@ bool overlap(const Placed& a, const Placed& b, const Settings& s);
 Contact contact(const Placed& a, const Placed& b, const Settings& s);
 
 struct Distance {
-  bool overlap = false;  // the answer of an unsigned query that found no distance
+  bool overlap = false;  // set by an unsigned query, which gives no distance for overlapping bodies
   std::optional<double> distance;
   std::optional<std::array<Vec3, 2>> points;  // nothing where FCL's documentation disclaims them
   double claimed_tolerance = 0;
 };
 Distance distance(const Placed& a, const Placed& b, const Settings& s);
 
-/// Time of first contact, none for "no hit".
+/// Time of first contact; nullopt for "no hit".
 std::optional<double> time_of_impact(const Placed& a, const Pose& a_start, const Motion& a_motion,
                                      const Placed& b, const Pose& b_start, const Motion& b_motion,
                                      const Settings& s);
 
-/// What toc_err ("error in first contact time", by default 1e-4 of the step) comes to as a length: times the
+/// toc_err ("error in first contact time", by default 1e-4 of the step) as a length: multiplied by the
 /// closing speed.
 double impact_tolerance(const Placed& a, const Motion& a_motion, const Placed& b, const Motion& b_motion,
                         const Settings& s);

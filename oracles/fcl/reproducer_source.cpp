@@ -80,7 +80,7 @@ fcl::Transform3d transform(const Placement& p) {
 )";
 
 constexpr std::string_view contact_helper =
-    R"(// The deepest contact; a mesh is put first by FCL, and its normal is turned round then.
+    R"(// The deepest contact. FCL puts a mesh first, whatever the order of the arguments; the normal is reversed then.
 Answer contact(const fcl::CollisionGeometryd* a, const fcl::Transform3d& ta, const fcl::CollisionGeometryd* b,
                const fcl::Transform3d& tb) {
   fcl::CollisionRequestd request;
@@ -105,14 +105,17 @@ Answer contact(const fcl::CollisionGeometryd* a, const fcl::Transform3d& ta, con
 
 )";
 
-constexpr std::string_view refine = R"(  if (x.overlap) {  // normal and depth by the signed distance
-    fcl::DistanceRequestd exact(true, true);
+constexpr std::string_view refine = R"(  if (x.overlap) {  // normal and depth from the signed distance
+    fcl::DistanceRequestd exact(/*enable_nearest_points=*/true, /*enable_signed_distance=*/true);
     exact.distance_tolerance = 1e-7;
     exact.gjk_solver_type = fcl::@SOLVER@;
     fcl::DistanceResultd d;
     fcl::distance(a, ta, b, tb, exact, d);
     const fcl::Vector3d across = d.nearest_points[0] - d.nearest_points[1];
-    if (d.min_distance < 0 && across.norm() > 0) x.normal = vec(across / across.norm()), x.depth = -d.min_distance;
+    if (d.min_distance < 0 && across.norm() > 0) {
+      x.normal = vec(across / across.norm());
+      x.depth = -d.min_distance;
+    }
   }
 )";
 
@@ -133,12 +136,12 @@ constexpr std::string_view ask_contact =
 )";
 
 constexpr std::string_view ask_distance = R"(Answer ask() {
-  fcl::DistanceRequestd request(true, @SIGNED@);
+  fcl::DistanceRequestd request(/*enable_nearest_points=*/true, /*enable_signed_distance=*/@SIGNED@);
   request.distance_tolerance = @TOLERANCE@;
   request.gjk_solver_type = fcl::@SOLVER@;
   fcl::DistanceResultd result;
   fcl::distance(shape_a.get(), transform(at_a), shape_b.get(), transform(at_b), request, result);
-@AGAIN@  // A mesh is put first by FCL, and its point then too.
+@AGAIN@  // FCL puts a mesh first, whatever the order of the arguments, and its nearest point too.
   if (result.o1 == shape_b.get()) std::swap(result.nearest_points[0], result.nearest_points[1]);
   Answer x;
   x.distance = result.min_distance;
@@ -149,8 +152,8 @@ constexpr std::string_view ask_distance = R"(Answer ask() {
 )";
 
 constexpr std::string_view distance_again =
-    R"(  if (result.min_distance < 0) {  // unsigned: an overlap is only said to be one
-    fcl::DistanceRequestd exact(true, true);
+    R"(  if (result.min_distance < 0) {  // the unsigned query reports an overlap, but not its depth
+    fcl::DistanceRequestd exact(/*enable_nearest_points=*/true, /*enable_signed_distance=*/true);
     exact.distance_tolerance = 1e-7;
     exact.gjk_solver_type = fcl::@SOLVER@;
     result = fcl::DistanceResultd();
@@ -186,7 +189,7 @@ constexpr std::string_view advancing_call = R"(  request.ccd_motion_type = fcl::
   fcl::continuousCollide(shape_a.get(), &move_a, shape_b.get(), &move_b, request, result);
 )";
 
-// Scripts: objects by body number, statements by step.
+// Scripts: one object per body, statements per step.
 constexpr std::string_view scene_head = R"(const Geometry shapes[] = {@SHAPES@
 };
 
@@ -194,7 +197,7 @@ Answer ask() {
   Answer x;
   fcl::DynamicAABBTreeCollisionManagerd manager;
   std::unique_ptr<fcl::CollisionObjectd> object[@COUNT@];
-  std::vector<std::unique_ptr<fcl::CollisionObjectd>> former;  // a manager may still name them
+  std::vector<std::unique_ptr<fcl::CollisionObjectd>> former;  // the manager may still refer to them
   const auto insert = [&](int i, int shape, const Placement& at) {
     if (object[i]) former.push_back(std::move(object[i]));
     object[i] = std::make_unique<fcl::CollisionObjectd>(shapes[shape], transform(at));
@@ -209,8 +212,8 @@ Answer ask() {
   [[maybe_unused]] const auto remove = [&](int i) { manager.unregisterObject(object[i].get()); };
 )";
 
-// The managers alone, by the names under which they are certified: the first objects are registered at once,
-// update() once after moves, setup() before a query.
+// The managers as separate engines, under the names used for certification: the initial objects are
+// registered in one call, update() is called once after moves, setup() before a query.
 constexpr std::string_view manager_head = R"(const Geometry shapes[] = {@SHAPES@
 };
 
@@ -218,7 +221,7 @@ Answer ask() {
   Answer x;
   @MANAGER@;
   std::unique_ptr<fcl::CollisionObjectd> object[@COUNT@];
-  std::vector<std::unique_ptr<fcl::CollisionObjectd>> former;  // a manager may still name them
+  std::vector<std::unique_ptr<fcl::CollisionObjectd>> former;  // the manager may still refer to them
   std::vector<fcl::CollisionObjectd*> first;
   bool started = false, moved = false;
   const auto start = [&] {
@@ -254,7 +257,7 @@ Answer ask() {
   };
 )";
 
-// Ends both heads.
+// Follows either head.
 constexpr std::string_view script_query = R"(  struct Wanted {
     const fcl::CollisionObjectd *a, *b;
     bool found;
@@ -270,13 +273,14 @@ constexpr std::string_view script_query = R"(  struct Wanted {
   };
 )";
 
-// Whether reading freed memory shows depends on what the heap made of it; this makes it show.
+// Whether a read of freed memory has a visible effect depends on what the heap did with it; this makes it
+// visible.
 constexpr std::string_view freed_is_overwritten = R"(#include <malloc.h>
 
 #include <cstdlib>
 #include <new>
 
-// What is freed is overwritten, so that whoever still reads it is found out.
+// Overwrites freed memory, so that a use after free becomes visible.
 void operator delete[](void* p) noexcept {
   volatile unsigned char* bytes = static_cast<unsigned char*>(p);
   for (std::size_t i = 0, n = malloc_usable_size(p); i < n; ++i) bytes[i] = 0xff;
@@ -303,7 +307,7 @@ constexpr ManagerRow managers[] = {
     {"fcl-dynamic-tree", "fcl::DynamicAABBTreeCollisionManagerd manager"},
     {"fcl-dynamic-tree-array", "fcl::DynamicAABBTreeCollisionManager_Arrayd manager"},
 };
-constexpr std::string_view one_by_one = "-update-one";  // ends the names of engines that update so
+constexpr std::string_view one_by_one = "-update-one";  // suffix of engines that call update(object)
 
 std::string manager_of(std::string_view engine) {
   if (engine.ends_with(one_by_one)) engine.remove_suffix(one_by_one.size());
@@ -312,7 +316,7 @@ std::string manager_of(std::string_view engine) {
   return "";
 }
 
-// What a campaign sets: as shipped, or tuned.
+// The settings used by campaigns: as shipped, or tuned.
 std::string tolerance(const Asked& q) { return q.tuned() ? "1e-12" : "1e-6"; }
 std::string solver(const Asked& q) { return q.engine.starts_with("fcl-indep") ? "GST_INDEP" : "GST_LIBCCD"; }
 bool libccd(const Asked& q) { return !q.engine.starts_with("fcl-indep"); }

@@ -12,13 +12,13 @@ namespace touchstone::fcl_adapter {
 
 using Geometry = std::shared_ptr<fcl::CollisionGeometryd>;
 
-/// FCL wants full sides and full heights; its cone has its origin at mid height, as ours. A hull gets all
-/// vertices and its triangles; a flat hull has no faces, which FCL accepts without a word.
+/// FCL takes full side lengths and full heights; its cone has its origin at mid-height, as ours does. A hull
+/// gets all vertices and its triangles; a flat hull has no faces, which FCL accepts silently.
 Geometry make_geometry(const ts_shape& shape);
 
 fcl::Transform3d make_transform(const Pose& pose);
 
-/// Tells what FCL holds, in the ABI's units.
+/// Report what FCL holds, in the ABI's conventions.
 void report_shape(int index, const ts_shape& asked, const fcl::CollisionGeometryd& held,
                   const ts_received& to);
 void report_body(int index, const fcl::Transform3d& held, const ts_received& to);

@@ -1,4 +1,5 @@
-// Landlock and seccomp, by their system calls: no library of theirs need be there, nor headers of this year.
+// Landlock and seccomp through raw system calls, so that neither their libraries nor recent headers are
+// needed.
 #include <fcntl.h>
 #include <sys/prctl.h>
 #include <sys/syscall.h>
@@ -20,7 +21,7 @@
 namespace touchstone::host {
 namespace {
 
-// Numbers of system calls are the same on every machine since 2018.
+// System calls added since 2018 have the same number on every architecture.
 constexpr long sys_landlock_create_ruleset = 444, sys_landlock_add_rule = 445,
                sys_landlock_restrict_self = 446;
 
@@ -34,14 +35,13 @@ struct __attribute__((packed)) PathRule {
 
 enum Access : std::uint64_t {
   write_file = 1U << 1,
-  // Removing and making of files and directories of every kind.
+  // Creating and removing files and directories of every kind.
   change_directories = 0x1ff0U,
   refer = 1U << 13,     // version 2
   truncate_ = 1U << 14  // version 3
 };
-constexpr std::uint64_t tcp = 3;  // bind and connect, version 4
-constexpr std::uint64_t sockets_signals =
-    3;  // abstract Unix sockets and signals beyond the sandbox, version 6
+constexpr std::uint64_t tcp = 3;              // bind and connect, version 4
+constexpr std::uint64_t sockets_signals = 3;  // abstract Unix sockets and signals to outside, version 6
 
 std::uint64_t all_writing(long version) {
   std::uint64_t a = write_file | change_directories;
@@ -58,7 +58,7 @@ void allow(int rules, const char* path, std::uint64_t access) {
   close(fd);
 }
 
-// Devices that hold nothing, and graphics processors, which engines may compute on.
+// Devices that store nothing, and GPUs, which engines may compute on.
 constexpr const char* devices[] = {"/dev/null",      "/dev/zero",       "/dev/full",       "/dev/random",
                                    "/dev/urandom",   "/dev/tty",        "/dev/dri",        "/dev/kfd",
                                    "/dev/nvidiactl", "/dev/nvidia-uvm", "/dev/nvidia0",    "/dev/nvidia1",
@@ -70,7 +70,7 @@ bool limit_writing_by_landlock(const std::string& scratch) {
   const long version = syscall(sys_landlock_create_ruleset, nullptr, 0, 1);
   if (version < 1) return false;
   Ruleset wanted{all_writing(version), version >= 4 ? tcp : 0, version >= 6 ? sockets_signals : 0};
-  // An older kernel refuses a longer structure unless what it does not know is zero.
+  // An older kernel refuses a longer structure unless the fields that it does not know are zero.
   const int rules = static_cast<int>(syscall(sys_landlock_create_ruleset, &wanted, sizeof wanted, 0));
   if (rules < 0) return false;
   allow(rules, scratch.c_str(), wanted.files);
@@ -82,9 +82,9 @@ bool limit_writing_by_landlock(const std::string& scratch) {
 
 #ifdef TOUCHSTONE_SECCOMP
 
-// Without socket() there is no connection to anything: neither TCP nor a Unix socket's name in the file
-// system. socketpair() stays, which languages use to speak to their own children. io_uring could do the same
-// past the filter; programs do without it. Nobody looks into other processes.
+// Without socket() no connection is possible, neither TCP nor to a Unix socket in the file system.
+// socketpair() stays, because language runtimes use it to talk to their own children. io_uring could bypass
+// the filter, and programs manage without it. Access to other processes' memory is denied.
 bool forbid_sockets() {
 #if defined(__x86_64__)
   constexpr std::uint32_t architecture = AUDIT_ARCH_X86_64, other_calls = 0x40000000;  // x32

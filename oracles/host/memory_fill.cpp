@@ -8,6 +8,9 @@
 
 namespace touchstone::host {
 
+// More stack than a query uses down to an engine's leaf functions; fits into a first-level cache.
+static constexpr std::size_t stack_fill_bytes = 16384;
+
 void fill_new_memory([[maybe_unused]] std::uint8_t byte) {
 #if defined(M_PERTURB)
   static int now = -1;
@@ -18,10 +21,9 @@ void fill_new_memory([[maybe_unused]] std::uint8_t byte) {
 }
 
 [[gnu::noinline]] void fill_free_stack(std::uint8_t byte) {
-  // More than the frames of a query that reach an engine's leaf functions; within a first-level cache.
-  unsigned char area[16384];
+  unsigned char area[stack_fill_bytes];
   std::memset(area, byte, sizeof area);
-  asm volatile("" : : "r"(area) : "memory");  // or nothing of it would be written
+  asm volatile("" : : "r"(area) : "memory");  // otherwise the compiler would drop the memset
 }
 
 }  // namespace touchstone::host

@@ -17,8 +17,8 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr std::size_t most_bytes_kept = std::size_t{1} << 15;
-constexpr auto most_time_kept = std::chrono::milliseconds(5);
+constexpr std::size_t most_bytes_buffered = std::size_t{1} << 15;
+constexpr auto most_time_buffered = std::chrono::milliseconds(5);
 
 class NativeServer {
  public:
@@ -43,28 +43,29 @@ class NativeServer {
     }
   }
 
-  void write_kept() {
-    if (!kept_.empty()) write_all(streams_.answers, kept_.data(), kept_.size());
-    kept_.clear();
+  void flush() {
+    if (!buffer_.empty()) write_all(streams_.answers, buffer_.data(), buffer_.size());
+    buffer_.clear();
     written_ = Clock::now();
   }
 
  private:
-  /// Memory is as malloc leaves it, the fastest way, until another content is asked for.
+  /// Leaves memory as malloc returns it, which is fastest, until a different fill byte is first requested.
   void fill_heap(std::uint8_t byte) {
     filled_ |= byte != 0;
     if (filled_) fill_new_memory(byte);
   }
   template <class Message>
   void send(const Message& m) {
-    protocol::append(kept_, m);
-    if (!streams_.keeps_back || kept_.size() > most_bytes_kept || Clock::now() - written_ > most_time_kept)
-      write_kept();
+    protocol::append(buffer_, m);
+    if (!streams_.buffers_answers || buffer_.size() > most_bytes_buffered ||
+        Clock::now() - written_ > most_time_buffered)
+      flush();
   }
 
   NativeEngine& engine_;
   WorkerStreams streams_;
-  std::string kept_;
+  std::string buffer_;
   bool filled_ = false;
   Clock::time_point written_ = Clock::now();
 };
@@ -84,7 +85,7 @@ void serve_native(NativeEngine& engine, const WorkerStreams& streams) {
   char buffer[1 << 16];
   for (;;) {
     while (const auto frame = frames.next()) server.answer(protocol::decode_question(frame->payload));
-    server.write_kept();
+    server.flush();
     const ssize_t n = read(streams.questions, buffer, sizeof buffer);
     if (n < 0 && errno == EINTR) continue;
     if (n <= 0) return;

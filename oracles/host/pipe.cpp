@@ -27,8 +27,9 @@ namespace {
 
 constexpr int protocol_version = 1;
 constexpr std::size_t longest_line = std::size_t{1} << 28;
+constexpr std::size_t quoted_bytes = 80;  // of the command's output in a message
 
-// What the command has to be, once loaded; a process serves one.
+// Set once by load_pipe(); a process serves a single command.
 std::string command_line, card_text;
 bool gives_receipts = false;
 
@@ -38,21 +39,29 @@ class Child {
   explicit Child(const std::string& command) {
     int to[2], from[2], errors[2];
     if (pipe(to) != 0 || pipe(from) != 0 || pipe(errors) != 0)
-      throw std::runtime_error("no pipe could be made");
+      throw std::runtime_error("cannot create a pipe");
     pid_ = fork();
-    if (pid_ < 0) throw std::runtime_error("could not be started");
+    if (pid_ < 0) throw std::runtime_error("cannot be started");
     if (pid_ == 0) {
-      dup2(to[0], 0), dup2(from[1], 1), dup2(errors[1], 2);
+      dup2(to[0], 0);
+      dup2(from[1], 1);
+      dup2(errors[1], 2);
       for (int fd : {to[0], to[1], from[0], from[1], errors[0], errors[1]}) close(fd);
       execl("/bin/sh", "sh", "-c", ("exec " + command).c_str(), static_cast<char*>(nullptr));
       _exit(127);
     }
-    close(to[0]), close(from[1]), close(errors[1]);
-    to_ = to[1], from_ = from[0], errors_ = errors[0];
+    close(to[0]);
+    close(from[1]);
+    close(errors[1]);
+    to_ = to[1];
+    from_ = from[0];
+    errors_ = errors[0];
     for (int fd : {to_, errors_}) fcntl(fd, F_SETFL, fcntl(fd, F_GETFL) | O_NONBLOCK);
   }
   ~Child() {
-    close(to_), close(from_), close(errors_);
+    close(to_);
+    close(from_);
+    close(errors_);
     if (pid_ < 0) return;
     kill(pid_, SIGKILL);
     waitpid(pid_, nullptr, 0);
@@ -60,13 +69,14 @@ class Child {
   Child(const Child&) = delete;
   Child& operator=(const Child&) = delete;
 
-  /// What it has said that nobody asked for would be taken for the answer to the next question.
+  /// Throws if there is unsolicited output, which would be taken for the answer to the next question.
   void require_silence() const {
     pollfd fd{from_, POLLIN, 0};
     const bool more = poll(&fd, 1, 0) > 0 && (fd.revents & POLLIN);
     if (more || !buffer_.empty())
-      throw std::runtime_error("the command wrote more than one line for a question, or without one: " +
-                               buffer_.substr(0, std::min<std::size_t>(buffer_.find('\n'), 80)));
+      throw std::runtime_error(
+          "the command wrote more than one line for a question, or a line without one: " +
+          buffer_.substr(0, std::min(buffer_.find('\n'), quoted_bytes)));
   }
   void write_line(std::string line) {
     require_silence();
@@ -97,15 +107,18 @@ class Child {
       if (n < 0 && errno == EINTR) continue;
       if (n <= 0) throw std::runtime_error(how_it_ended());
       buffer_.append(bytes, static_cast<std::size_t>(n));
-      if (buffer_.size() > longest_line) throw std::runtime_error("the command's line has no end");
+      if (buffer_.size() > longest_line) throw std::runtime_error("the command wrote a line without an end");
     }
   }
 
  private:
   static constexpr std::size_t kept_bytes = 400, kept_lines = 4;
+  // A command that has closed its output gets a second to end.
+  static constexpr int end_tries = 100;
+  static constexpr unsigned end_try_microseconds = 10000;
 
-  /// Until that stream is ready; what the command says on standard error meanwhile is taken, or it would
-  /// wait for us while we wait for it.
+  /// Waits until that stream is ready. Reads the command's standard error meanwhile: otherwise the command
+  /// could block on it while we wait for the command.
   void wait(pollfd wanted) {
     for (;;) {
       pollfd fds[2] = {wanted, {errors_, POLLIN, 0}};
@@ -120,21 +133,24 @@ class Child {
     for (;;) {
       const ssize_t n = errors_ < 0 ? 0 : read(errors_, bytes, sizeof bytes);
       if (n < 0 && errno == EINTR) continue;
-      if (n == 0 && errors_ >= 0) close(errors_), errors_ = -1;
+      if (n == 0 && errors_ >= 0) {
+        close(errors_);
+        errors_ = -1;
+      }
       if (n <= 0) return;
-      said_.append(bytes, static_cast<std::size_t>(n));
-      if (said_.size() > 4 * kept_bytes) said_.erase(0, said_.size() - kept_bytes);
+      error_text_.append(bytes, static_cast<std::size_t>(n));
+      if (error_text_.size() > 4 * kept_bytes) error_text_.erase(0, error_text_.size() - kept_bytes);
     }
   }
 
-  /// ": " and the last lines of its standard error, the last of them last; nothing when it said nothing.
+  /// ": " and the last lines of its standard error, in order; empty if it wrote nothing there.
   std::string last_lines() {
     take_errors();
     std::vector<std::string> lines;
-    for (std::size_t end = said_.size(); end > 0 && lines.size() < kept_lines;) {
-      const auto before = said_.rfind('\n', end - 1);
+    for (std::size_t end = error_text_.size(); end > 0 && lines.size() < kept_lines;) {
+      const auto before = error_text_.rfind('\n', end - 1);
       const std::size_t begin = before == std::string::npos ? 0 : before + 1;
-      if (const std::string line = said_.substr(begin, end - begin);
+      if (const std::string line = error_text_.substr(begin, end - begin);
           line.find_first_not_of(" \r\n") != line.npos)
         lines.push_back(line.substr(line.find_first_not_of(' ')));
       end = begin > 0 ? begin - 1 : 0;
@@ -146,19 +162,20 @@ class Child {
     return text;
   }
 
-  // Its output has ended: mostly it has too.
+  // Called when the output has ended: usually the command has ended too.
   std::string how_it_ended() {
     int status = 0;
-    for (int tries = 0; tries < 100 && waitpid(pid_, &status, WNOHANG) == 0; ++tries) usleep(10000);
+    for (int tries = 0; tries < end_tries && waitpid(pid_, &status, WNOHANG) == 0; ++tries)
+      usleep(end_try_microseconds);
     if (kill(pid_, 0) == 0) return "the command closed its output without an answer" + last_lines();
     pid_ = -1;
     return end_of(status) + last_lines();
   }
 
-  // 127 and 126 are the shell's own.
+  // The shell itself exits with 127 and 126.
   static std::string end_of(int status) {
     if (WIFEXITED(status) && WEXITSTATUS(status) == 127) return "there is no such command";
-    if (WIFEXITED(status) && WEXITSTATUS(status) == 126) return "the command is no program that may be run";
+    if (WIFEXITED(status) && WEXITSTATUS(status) == 126) return "the command is not executable";
     if (WIFEXITED(status))
       return "the command ended without an answer, exit code " + std::to_string(WEXITSTATUS(status));
     return "the command ended without an answer, by signal " + std::to_string(WTERMSIG(status));
@@ -166,13 +183,14 @@ class Child {
 
   pid_t pid_ = -1;
   int to_ = -1, from_ = -1, errors_ = -1;
-  std::string buffer_, said_;
+  std::string buffer_, error_text_;
 };
 
 Json parsed(const std::string& line) {
   Json j = Json::parse(line, nullptr, false);
   if (!j.is_object())
-    throw std::runtime_error("the command wrote a line that is no JSON object: " + line.substr(0, 80));
+    throw std::runtime_error("the command wrote a line that is not a JSON object: " +
+                             line.substr(0, quoted_bytes));
   return j;
 }
 
@@ -196,11 +214,15 @@ void read_lists(const Json& j, const ts_sink& sink) {
       ++k;
     }
   }
-  for (const Json& p : j.value("points", Json::array()))
-    read3(p.at("position"), v), sink.point(sink.ctx, v, depth_of_point(p));
-  for (const Json& c : j.value("contacts", Json::array()))
-    read3(c.at("normal"), v), sink.contact(sink.ctx, c.at("a").get<std::int32_t>(),
-                                           c.at("b").get<std::int32_t>(), v, c.at("depth").get<double>());
+  for (const Json& p : j.value("points", Json::array())) {
+    read3(p.at("position"), v);
+    sink.point(sink.ctx, v, depth_of_point(p));
+  }
+  for (const Json& c : j.value("contacts", Json::array())) {
+    read3(c.at("normal"), v);
+    sink.contact(sink.ctx, c.at("a").get<std::int32_t>(), c.at("b").get<std::int32_t>(), v,
+                 c.at("depth").get<double>());
+  }
 }
 
 std::int32_t outcome_of(const std::string& name) {
@@ -208,7 +230,7 @@ std::int32_t outcome_of(const std::string& name) {
       std::to_array<std::string_view>({"answered", "unsupported", "not_converged", "invalid_input", "threw"});
   for (std::size_t i = 0; i < names.size(); ++i)
     if (names[i] == name) return static_cast<std::int32_t>(i);
-  throw std::runtime_error("the command names an outcome that there is not: " + name);
+  throw std::runtime_error("the command names an unknown outcome: " + name);
 }
 
 void read_answer(const Json& j, ts_answer& out, const ts_sink& sink) {
@@ -216,20 +238,33 @@ void read_answer(const Json& j, ts_answer& out, const ts_sink& sink) {
   std::snprintf(out.detail, sizeof out.detail, "%s", j.value("detail", "").c_str());
   if (out.outcome != TS_ANSWERED) return;
   const auto number = [&](const char* name, std::uint32_t bit, double& field) {
-    if (j.contains(name) && j.at(name).is_number()) out.has |= bit, field = j.at(name).get<double>();
+    if (j.contains(name) && j.at(name).is_number()) {
+      out.has |= bit;
+      field = j.at(name).get<double>();
+    }
   };
-  number("distance", TS_HAS_DISTANCE, out.distance), number("depth", TS_HAS_DEPTH, out.depth);
+  number("distance", TS_HAS_DISTANCE, out.distance);
+  number("depth", TS_HAS_DEPTH, out.depth);
   number("toi", TS_HAS_TOI, out.toi);
-  if (j.contains("overlap")) out.has |= TS_HAS_OVERLAP, out.overlap = j.at("overlap").get<bool>();
-  if (j.contains("normal")) out.has |= TS_HAS_NORMAL, read3(j.at("normal"), out.normal);
-  if (j.contains("point_a") && j.contains("point_b"))
-    out.has |= TS_HAS_POINTS, read3(j.at("point_a"), out.point_a), read3(j.at("point_b"), out.point_b);
+  if (j.contains("overlap")) {
+    out.has |= TS_HAS_OVERLAP;
+    out.overlap = j.at("overlap").get<bool>();
+  }
+  if (j.contains("normal")) {
+    out.has |= TS_HAS_NORMAL;
+    read3(j.at("normal"), out.normal);
+  }
+  if (j.contains("point_a") && j.contains("point_b")) {
+    out.has |= TS_HAS_POINTS;
+    read3(j.at("point_a"), out.point_a);
+    read3(j.at("point_b"), out.point_b);
+  }
   out.claimed_tolerance = j.value("claimed_tolerance", 0.0);
   read_lists(j, sink);
 }
 
-// A command that breaks the protocol is a crash with a reason: nothing it says afterwards can be trusted.
-[[noreturn]] void broken(const char* why) {
+// A command that breaks the protocol counts as a crash with a reason: its later output cannot be trusted.
+[[noreturn]] void abort_with(const char* why) {
   std::fprintf(stderr, "%s\n", why);
   std::fflush(stderr);
   std::abort();
@@ -253,12 +288,12 @@ std::int32_t load(ts_engine* e, const ts_scene* scene, const ts_received* receiv
     if (receipt.contains("received")) read_receipt(receipt["received"], *scene, *received);
     return outcome_of(receipt.value("outcome", "answered"));
   } catch (const NotFinite&) {
-    std::snprintf(detail, 256, "a number that is not finite has no form in JSON");
+    std::snprintf(detail, 256, "JSON cannot represent a number that is not finite");
     return TS_INVALID_INPUT;
   } catch (const Json::exception& why) {
-    broken(("the command's receipt is not of the form agreed: " + std::string(why.what())).c_str());
+    abort_with(("the command's receipt does not have the required form: " + std::string(why.what())).c_str());
   } catch (const std::exception& why) {
-    broken(why.what());
+    abort_with(why.what());
   }
 }
 void unload(ts_engine*) {}
@@ -266,15 +301,18 @@ void unload(ts_engine*) {}
 void ask(ts_engine* e, std::int32_t question, std::int32_t a, std::int32_t b, ts_answer* out,
          const ts_sink* sink) {
   Json j = {{"ask", std::string(question_names.at(static_cast<std::size_t>(question)))}};
-  if (question <= TS_TIME_OF_IMPACT) j["a"] = a, j["b"] = b;
+  if (question <= TS_TIME_OF_IMPACT) {
+    j["a"] = a;
+    j["b"] = b;
+  }
   try {
     child(e).write_line(j.dump());
     read_answer(parsed(child(e).read_line()), *out, *sink);
     child(e).require_silence();
   } catch (const Json::exception& why) {
-    broken(("the command's answer is not of the form asked: " + std::string(why.what())).c_str());
+    abort_with(("the command's answer does not have the required form: " + std::string(why.what())).c_str());
   } catch (const std::exception& why) {
-    broken(why.what());
+    abort_with(why.what());
   }
 }
 
@@ -286,12 +324,13 @@ const ts_plugin& load_pipe(const std::string& command) {
   Child first(command);
   Json j = parsed(first.read_line());
   if (!j.contains("touchstone_pipe"))
-    throw std::runtime_error("its first line is no card: \"touchstone_pipe\" is missing");
+    throw std::runtime_error("its first line is not a card: \"touchstone_pipe\" is missing");
   if (j["touchstone_pipe"] != protocol_version)
     throw std::runtime_error("speaks version " + j["touchstone_pipe"].dump() +
-                             " of the pipe protocol, and not 1");
+                             " of the pipe protocol instead of 1");
   gives_receipts = j.value("receipts", false);
-  j.erase("touchstone_pipe"), j.erase("receipts");
+  j.erase("touchstone_pipe");
+  j.erase("receipts");
   card_text = j.dump();
   static const ts_plugin table{TS_ABI_VERSION, 1, card, create, destroy, load, unload, ask};
   return table;

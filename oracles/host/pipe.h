@@ -10,8 +10,8 @@ namespace touchstone::host {
 
 inline constexpr const char* pipe_prefix = "pipe:";
 
-/// Starts the command once to read its card. Throws std::runtime_error with the reason when it cannot be
-/// started or its first line is no card.
+/// Starts the command once to read its card. Throws std::runtime_error with the reason if it cannot be
+/// started or its first line is not a card.
 const ts_plugin& load_pipe(const std::string& command);
 
 }  // namespace touchstone::host

@@ -72,21 +72,21 @@ Json step(const ts_step& s) {
   return j;
 }
 
-// The number of a shape or a body, one that there is.
+// The index of an existing shape or body.
 std::int32_t number_of(const Json& j, const char* what, std::size_t count) {
   const auto n = j.at(what).get<std::int64_t>();
   if (n < 0 || n >= static_cast<std::int64_t>(count))
-    throw std::runtime_error("the command's receipt names a " + std::string(what) + " that there is not");
+    throw std::runtime_error("the command's receipt names a " + std::string(what) + " that does not exist");
   return static_cast<std::int32_t>(n);
 }
 
 template <std::size_t N>
 void read_into(const Json& j, double (&out)[N]) {
-  if (j.size() > N) throw std::runtime_error("the command's receipt has more numbers than there are");
+  if (j.size() > N) throw std::runtime_error("the command's receipt has too many numbers");
   for (std::size_t k = 0; k < j.size(); ++k) out[k] = j.at(k).get<double>();
 }
 
-/// A shape in the form of the scene's JSON, as the ABI has it; keeps what that points to.
+/// A shape parsed from the scene's JSON form into the ABI's form; owns the arrays that it points to.
 struct HeldShape {
   ts_shape shape{};
   std::vector<double> vertices;
@@ -97,14 +97,16 @@ struct HeldShape {
     double* const size = shape.size;
     const auto round_one = [&](std::int32_t kind) {
       shape.kind = kind;
-      size[0] = j.at("radius"), size[1] = j.at("half_height");
+      size[0] = j.at("radius");
+      size[1] = j.at("half_height");
     };
     const auto three = [&](std::int32_t kind, const char* field) {
       shape.kind = kind;
       for (std::size_t k = 0; k < 3; ++k) size[k] = j.at(field).at(k);
     };
     if (type == "sphere") {
-      shape.kind = TS_SPHERE, size[0] = j.at("radius");
+      shape.kind = TS_SPHERE;
+      size[0] = j.at("radius");
     } else if (type == "box") {
       three(TS_BOX, "half_extents");
     } else if (type == "capsule") {
@@ -122,8 +124,7 @@ struct HeldShape {
       shape.kind = type == "hull" ? TS_HULL : TS_MESH;
       read_lists(j);
     } else {
-      throw std::runtime_error("the command's receipt names a type of shape that there is not: " +
-                               type.substr(0, 40));
+      throw std::runtime_error("the command's receipt names an unknown type of shape: " + type.substr(0, 40));
     }
   }
   HeldShape(const HeldShape&) = delete;
@@ -135,8 +136,10 @@ struct HeldShape {
       for (std::size_t k = 0; k < 3; ++k) vertices.push_back(v.at(k).get<double>());
     for (const Json& t : j.value("triangles", Json::array()))
       for (std::size_t k = 0; k < 3; ++k) triangles.push_back(t.at(k).get<std::int32_t>());
-    shape.vertices = vertices.data(), shape.vertex_count = vertices.size() / 3;
-    shape.triangles = triangles.data(), shape.triangle_count = triangles.size() / 3;
+    shape.vertices = vertices.data();
+    shape.vertex_count = vertices.size() / 3;
+    shape.triangles = triangles.data();
+    shape.triangle_count = triangles.size() / 3;
   }
 };
 
@@ -174,7 +177,8 @@ void read_receipt(const Json& j, const ts_scene& scene, const ts_received& recei
     double matrix[9] = {}, translation[3] = {};
     if (b.at("matrix").size() != 9 || b.at("translation").size() != 3)
       throw std::runtime_error("the command's receipt lacks a matrix of 9 or a translation of 3 numbers");
-    read_into(b["matrix"], matrix), read_into(b["translation"], translation);
+    read_into(b["matrix"], matrix);
+    read_into(b["translation"], translation);
     received.body(received.ctx, number_of(b, "body", scene.body_count), matrix, translation);
   }
 }

@@ -1,4 +1,4 @@
-// Scenes on their way through a pipe (oracles/abi/pipe_protocol.md): out as JSON, back as they were received.
+// JSON conversion for the pipe protocol (oracles/abi/pipe_protocol.md): writes scenes, reads receipts.
 #pragma once
 
 #include <nlohmann/json.hpp>
@@ -9,14 +9,14 @@ namespace touchstone::host {
 
 using Json = nlohmann::ordered_json;
 
-/// A number that JSON cannot hold.
+/// A number that JSON cannot represent.
 struct NotFinite {};
 
 /// Throws NotFinite.
 Json scene_of(const ts_scene& s);
 
-/// Throws Json::exception when it is not of the form agreed, std::runtime_error when it names what is not
-/// there.
+/// Throws Json::exception if the receipt does not have the required form, std::runtime_error if it refers to
+/// something that does not exist.
 void read_receipt(const Json& j, const ts_scene& scene, const ts_received& received);
 
 }  // namespace touchstone::host

@@ -11,7 +11,7 @@
 namespace touchstone::host {
 namespace {
 
-/// More engines than any plug-in has: a table that is not one.
+/// A larger count means that the table is not valid.
 constexpr std::uint32_t max_engines = 4096;
 
 }  // namespace
@@ -22,17 +22,17 @@ const ts_plugin& load_plugin(const std::string& file) {
   if (!library) throw std::runtime_error(dlerror());
   using Entry = const ts_plugin* (*)();
   const auto entry = reinterpret_cast<Entry>(dlsym(library, "touchstone_plugin_v1"));
-  if (!entry) throw std::runtime_error("exports no touchstone_plugin_v1: it is no Touchstone plug-in");
+  if (!entry) throw std::runtime_error("exports no touchstone_plugin_v1: it is not a Touchstone plug-in");
   using TellMinor = void (*)(std::uint32_t);
   if (const auto tell = reinterpret_cast<TellMinor>(dlsym(library, "touchstone_host_v1"))) tell(TS_ABI_MINOR);
   const ts_plugin* const plugin = entry();
-  if (!plugin) throw std::runtime_error("touchstone_plugin_v1 returned nothing");
+  if (!plugin) throw std::runtime_error("touchstone_plugin_v1 returned a null pointer");
   if (plugin->abi_version != TS_ABI_VERSION)
-    throw std::runtime_error("speaks ABI version " + std::to_string(plugin->abi_version) + ", and not " +
+    throw std::runtime_error("uses ABI version " + std::to_string(plugin->abi_version) + " instead of " +
                              std::to_string(TS_ABI_VERSION));
   const bool complete =
       plugin->card && plugin->create && plugin->destroy && plugin->load && plugin->unload && plugin->ask;
-  if (!complete) throw std::runtime_error("its table has empty entries");
+  if (!complete) throw std::runtime_error("its function table has null entries");
   if (plugin->engine_count == 0 || plugin->engine_count > max_engines)
     throw std::runtime_error("lists " + std::to_string(plugin->engine_count) + " engines");
   return *plugin;
@@ -56,7 +56,7 @@ int choose_engine(const std::vector<std::string>& cards, const std::string& name
     offered += (i ? ", " : "") + offer;
   }
   throw std::runtime_error(
-      (name.empty() ? "offers several engines, name one of: " : "offers no engine '" + name + "', only: ") +
+      (name.empty() ? "offers several engines; name one of: " : "offers no engine '" + name + "', only: ") +
       offered);
 }
 

@@ -1,4 +1,4 @@
-// A loaded plug-in, and one engine of it.
+// Loading a plug-in and choosing one of its engines.
 #pragma once
 
 #include <memory>
@@ -9,8 +9,9 @@
 
 namespace touchstone::host {
 
-/// "pipe:COMMAND" is a command behind a pipe (pipe.h). Throws std::runtime_error with the reason when the file is no plug-in of this ABI. Stays loaded for ever:
-/// engines may have threads and exit handlers in it.
+/// `file` may be "pipe:COMMAND", a command behind a pipe (pipe.h). Throws std::runtime_error with the reason
+/// if the file is not a plug-in of this ABI. The library is never unloaded: engines may have threads and exit
+/// handlers in it.
 const ts_plugin& load_plugin(const std::string& file);
 
 std::vector<std::string> cards_of(const ts_plugin& plugin);

@@ -1,6 +1,5 @@
-// What a plug-in, and the command of a pipe, can do to the machine and to the user's files: read them,
-// compute, and write into a scratch directory. Each part is in force where the kernel grants it; sandbox()
-// says which are.
+// Confines a plug-in, or the command of a pipe: it may read the user's files, compute, and write into a
+// scratch directory. Each restriction is in force if the kernel grants it; sandbox() reports which ones are.
 #pragma once
 
 #include <cstdint>
@@ -11,19 +10,19 @@
 namespace touchstone::host {
 
 struct SandboxWish {
-  std::string scratch;             // a directory of the harness's making, the only place to write to
-  std::uint64_t memory_bytes = 0;  // resident memory that the harness lets the engine have
-  bool is_command = false;         // a pipe's command: the user's working directory is its own
+  std::string scratch;             // a directory created by the harness, the only writable place
+  std::uint64_t memory_bytes = 0;  // resident memory that the engine may use
+  bool is_command = false;         // a pipe's command: keeps the user's working directory
 };
 
-/// Forks (see supervisor.h) and returns in the child, confined, with what is in force in words.
+/// Forks (see supervisor.h) and returns in the child, confined, with a description of what is in force.
 struct Sandbox {
-  std::string words;
+  std::string description;
   Apart apart;
 };
 Sandbox enter_sandbox(const SandboxWish& wish);
 
-/// Its parts, for sandbox.cpp. Each says whether the kernel grants it.
+/// Parts of enter_sandbox(). Each returns whether the kernel grants it.
 bool limit_writing_by_landlock(const std::string& scratch);
 bool forbid_sockets();
 

@@ -28,7 +28,7 @@ int query_steps(const Scene& scene, const Query& q) {
 
 struct LoadResult {
   ReceivedScene received;
-  std::optional<Observation> refusal;  // the answer to every query of a scene that the engine did not take
+  std::optional<Observation> refusal;  // the answer to every query if the engine refused the scene
 };
 
 class Server {
@@ -66,7 +66,7 @@ class Server {
       result.refusal = no_answer(Outcome::threw, std::string(e.what()) + " while loading the scene");
     } catch (...) {
       result.refusal =
-          no_answer(Outcome::threw, "something that is no std::exception, while loading the scene");
+          no_answer(Outcome::threw, "something other than a std::exception, while loading the scene");
     }
     if (received.rejected() > 0 && !result.refusal)
       result.refusal = no_answer(Outcome::invalid_answer,
@@ -76,7 +76,7 @@ class Server {
   }
 
   void unload() {
-    // An engine that throws here has answered already; its next load will tell whether it still works.
+    // An engine that throws here has already answered; its next load will show whether it still works.
     try {
       plugin_.unload(engine_);
     } catch (...) {
@@ -86,7 +86,7 @@ class Server {
   Observation ask(const Scene& scene, const Query& q) {
     const int bodies = static_cast<int>(scene.bodies.size());
     if (is_pair_question(q.question) && (q.a < 0 || q.b < 0 || q.a >= bodies || q.b >= bodies || q.a == q.b))
-      return no_answer(Outcome::invalid_input, "the query names no pair of bodies of the scene");
+      return no_answer(Outcome::invalid_input, "the query does not name a pair of bodies of the scene");
     AnswerCollector answer(bodies, query_steps(scene, q));
     const ts_sink sink = answer.callbacks();
     Observation o;
@@ -103,14 +103,14 @@ class Server {
     } catch (const std::exception& e) {
       o = no_answer(Outcome::threw, e.what());
     } catch (...) {
-      o = no_answer(Outcome::threw, "something that is no std::exception");
+      o = no_answer(Outcome::threw, "something other than a std::exception");
     }
     o.elapsed_ns = std::chrono::duration_cast<std::chrono::nanoseconds>(Clock::now() - start).count();
     return o;
   }
 
-  // With nobody who listens, so that the engine is timed and not our collecting. What goes wrong now went
-  // right before.
+  // Repeats the query with a sink that ignores its input, so that only the engine is timed. Failures are
+  // ignored, since the first answer succeeded.
   std::int64_t ask_again(const Query& q, std::int64_t first) {
     const ts_sink sink{nullptr, [](void*, const double*, double) {},
                        [](void*, std::int32_t, std::int32_t, std::int32_t) {},
@@ -126,7 +126,7 @@ class Server {
     }
   }
 
-  // Each message is written at once: a crash then loses the running query and nothing else.
+  // Each message is written immediately, so that a crash loses only the running query.
   template <class Message>
   void send(const Message& m) {
     out_.clear();
@@ -149,7 +149,8 @@ void write_all(int fd, const char* bytes, std::size_t n) {
     const ssize_t written = write(fd, bytes, n);
     if (written < 0 && errno == EINTR) continue;
     if (written <= 0) _exit(0);
-    bytes += written, n -= static_cast<std::size_t>(written);
+    bytes += written;
+    n -= static_cast<std::size_t>(written);
   }
 }
 

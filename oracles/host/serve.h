@@ -1,4 +1,4 @@
-// Questions in, answers out, until the harness closes its end.
+// Reads questions and writes answers until the harness closes its end.
 #pragma once
 
 #include <cstddef>
@@ -7,7 +7,7 @@
 
 namespace touchstone::host {
 
-/// Writes the whole of `bytes` to `fd`; ends the process when nobody listens any more.
+/// Writes all of `bytes` to `fd`; ends the process if the other end is closed.
 void write_all(int fd, const char* bytes, std::size_t n);
 
 /// Returns at the end of the input.

@@ -17,7 +17,7 @@
 namespace touchstone::host {
 namespace {
 
-constexpr int most_rounds = 10000;  // of ending children that start others meanwhile
+constexpr int most_rounds = 10000;  // of killing children, which may start others meanwhile
 
 bool write_text(const char* file, const std::string& text) {
   const int fd = open(file, O_WRONLY | O_CLOEXEC);
@@ -27,15 +27,15 @@ bool write_text(const char* file, const std::string& text) {
   return written;
 }
 
-/// Every user and group is itself in the new user namespace.
+/// Maps the user and the group to themselves in the new user namespace.
 bool map_ids(uid_t user, gid_t group) {
   const auto line = [](unsigned id) { return std::to_string(id) + " " + std::to_string(id) + " 1"; };
   write_text("/proc/self/setgroups", "deny");
   return write_text("/proc/self/gid_map", line(group)) && write_text("/proc/self/uid_map", line(user));
 }
 
-/// Children are in new namespaces from here on. Root needs no user namespace, in which it could read less.
-Apart leave_namespaces() {
+/// From here on, children are in new namespaces. Root gets no user namespace, in which it could read less.
+Apart enter_namespaces() {
   const uid_t user = geteuid();
   const gid_t group = getegid();
   if (user == 0 && unshare(CLONE_NEWPID) == 0) return {true, false, true};
@@ -49,15 +49,15 @@ void close_all(unsigned first, unsigned last) {
   for (unsigned fd = first; fd <= last && fd < 1024; ++fd) close(static_cast<int>(fd));
 }
 
-/// All when `kept` is negative.
+/// Closes all descriptors if `kept` is negative.
 void close_all_but(int kept) {
   if (kept > 0) close_all(0, static_cast<unsigned>(kept) - 1);
   close_all(static_cast<unsigned>(kept + 1), ~0U);
 }
 
-/// The first process of a PID namespace; with its end the kernel ends all others. It lives as long as someone
-/// holds the other end of the pipe.
-[[noreturn]] void be_init(int alive) {
+/// The first process of a PID namespace; when it ends, the kernel ends all others. It lives as long as the
+/// other end of the pipe is open.
+[[noreturn]] void run_init(int alive) {
   prctl(PR_SET_PDEATHSIG, SIGKILL);
   signal(SIGCHLD, SIG_IGN);
   close_all_but(alive);
@@ -96,7 +96,7 @@ sigset_t awaited_signals() {
   return s;
 }
 
-/// Until the child has ended or somebody wants it to.
+/// Waits until the child has ended; kills it on SIGTERM.
 int wait_for(pid_t child) {
   const sigset_t awaited = awaited_signals();
   for (;;) {
@@ -112,7 +112,7 @@ int wait_for(pid_t child) {
 
 struct Init {
   pid_t pid = -1;
-  int alive = -1;  // closed: it ends
+  int alive = -1;  // closing it ends the process
 };
 
 [[noreturn]] void watch(pid_t child, const Init& init, const std::string& scratch) {
@@ -135,14 +135,14 @@ Init start_init() {
   if (pipe2(alive, O_CLOEXEC) != 0 || (init.pid = fork()) < 0) fail("touchstone-host: init");
   if (init.pid == 0) {
     close(alive[1]);
-    be_init(alive[0]);
+    run_init(alive[0]);
   }
   close(alive[0]);
   init.alive = alive[1];
   return init;
 }
 
-/// False when there are none.
+/// False if there are no children.
 bool kill_children() {
   std::ifstream list("/proc/thread-self/children");
   bool any = false;
@@ -153,14 +153,14 @@ bool kill_children() {
 }  // namespace
 
 void end_others(const Apart& apart) {
-  // From within a PID namespace whose parent is outside, "all" is all of it but the first and this one.
+  // In a PID namespace whose parent is outside, -1 means all its processes except the first and this one.
   if (apart.pid_namespace && getppid() == 0) {
     kill(-1, SIGKILL);
     while (waitpid(-1, nullptr, 0) > 0 || errno == EINTR) {
     }
     return;
   }
-  // What loses its parent becomes a child of this process, its subreaper.
+  // Orphans become children of this process, their subreaper.
   for (int round = 0; round < most_rounds && kill_children(); ++round) waitpid(-1, nullptr, 0);
 }
 
@@ -170,7 +170,7 @@ Apart supervise(const std::string& scratch) {
   const sigset_t awaited = awaited_signals();
   sigset_t before;
   sigprocmask(SIG_BLOCK, &awaited, &before);
-  const Apart apart = leave_namespaces();
+  const Apart apart = enter_namespaces();
   const Init init = apart.pid_namespace ? start_init() : Init{};
   const pid_t child = fork();
   if (child < 0) fail("touchstone-host: fork");

@@ -1,10 +1,10 @@
 // libccd 2.1: overlap and contact of convex bodies, by GJK + EPA and by MPR.
 //
-// As shipped: CCD_INIT and nothing else, so max_iterations is unlimited and a search that cycles never ends.
-// Tuned: 1e-10 in both tolerances, at most 1000 iterations; a search that used them all is reported as
-// not_converged, which the library itself cannot say. libccd-gjk@1e-2 and so on: the same with that
-// tolerance, libccd-gjk-iterations@16: default tolerances and that limit, so that a chart shows a method as a
-// curve.
+// As shipped: CCD_INIT only, so max_iterations is unlimited and a search that cycles never ends. Tuned: 1e-10
+// for both tolerances and at most 1000 iterations; a search that uses them all is reported as not_converged,
+// which the library itself cannot report. So that a chart shows a method as a curve, there are also
+// libccd-gjk@1e-2 and so on (the same with that tolerance) and libccd-gjk-iterations@16 (default tolerances
+// and that limit).
 #include <limits>
 
 #include "oracles/abi/plugin_kit.h"
@@ -14,11 +14,12 @@ namespace touchstone::libccd {
 namespace {
 
 constexpr unsigned long tuned_iterations = 1000;
+constexpr int out_of_memory = -2;  // returned by ccdGJKPenetration and ccdMPRPenetration
 struct Setting {
   const char *gjk, *mpr;
   double tolerance;  // 0: as shipped
   const char* text;
-  unsigned long iterations = 0;  // 0: tuned_iterations with a tolerance, else as shipped
+  unsigned long iterations = 0;  // 0: tuned_iterations if there is a tolerance, otherwise as shipped
 };
 #ifndef TOUCHSTONE_SWEEP
 constexpr Setting rows[] = {{"libccd-gjk", "libccd-mpr", 0, ""},
@@ -97,13 +98,14 @@ class Engine {
     else
       contact(one, two, out, sink);
     if (one.support_calls > ccd_.max_iterations) {
-      out.outcome = TS_NOT_CONVERGED, out.has = 0;
+      out.outcome = TS_NOT_CONVERGED;
+      out.has = 0;
       kit::set_detail(out, "used all " + std::to_string(ccd_.max_iterations) + " iterations");
     }
   }
 
  private:
-  // depth, dir and pos start as NaN: ccdGJKPenetration may return "hit" and write none of them.
+  // depth, dir and pos start as NaN: ccdGJKPenetration may return "hit" without writing any of them.
   void contact(const Object& one, const Object& two, ts_answer& out, const ts_sink& sink) {
     ccd_real_t depth = nan_value;
     ccd_vec3_t dir, pos;
@@ -111,7 +113,7 @@ class Engine {
     ccdVec3Set(&pos, nan_value, nan_value, nan_value);
     const int result = mpr_ ? ccdMPRPenetration(&one, &two, &ccd_, &depth, &dir, &pos)
                             : ccdGJKPenetration(&one, &two, &ccd_, &depth, &dir, &pos);
-    if (result == -2) throw std::runtime_error("libccd could not allocate memory");
+    if (result == out_of_memory) throw std::runtime_error("libccd could not allocate memory");
     kit::set_overlap(out, result == 0);
     if (result != 0) return;
     kit::set_normal(out, Vec3(dir.v[0], dir.v[1], dir.v[2]));

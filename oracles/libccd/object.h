@@ -1,5 +1,5 @@
-// A convex body as libccd wants it: a support function and a centre in the world frame. Written for this
-// adapter from the definitions of the shapes; shares nothing with the project's own support mappings.
+// A convex body in libccd's form: a support mapping and a centre in the world frame. Written for this adapter
+// from the definitions of the shapes, independently of the project's own support mappings.
 #pragma once
 
 #include <ccd/ccd.h>
@@ -16,8 +16,8 @@ struct Object {
   const ts_shape* shape = nullptr;
   Mat3 rotation;
   Vec3 translation;
-  mutable unsigned long support_calls =
-      0;  // libccd does not say when its iteration cap ended a search; this does
+  // libccd does not report that a search reached its iteration limit; this count shows it.
+  mutable unsigned long support_calls = 0;
 };
 
 inline Vec3 farthest_in_disc(double radius, const Vec3& d) {
@@ -31,7 +31,10 @@ inline Vec3 farthest_vertex(const ts_shape& s, const Vec3& d) {
   for (std::size_t i = 0; i < s.vertex_count; ++i) {
     const double* v = s.vertices + 3 * i;
     const double along = v[0] * d.x() + v[1] * d.y() + v[2] * d.z();
-    if (along > reach) reach = along, best = v;
+    if (along > reach) {
+      reach = along;
+      best = v;
+    }
   }
   return {best[0], best[1], best[2]};
 }
@@ -76,7 +79,7 @@ inline void support(const void* object, const ccd_vec3_t* direction, ccd_vec3_t*
   ccdVec3Set(out, p.x(), p.y(), p.z());
 }
 
-/// The origin is inside every primitive; of a hull it is the mean of the vertices.
+/// The centre of a primitive is its origin, which lies inside; that of a hull is the mean of its vertices.
 inline void center(const void* object, ccd_vec3_t* out) {
   const Object& o = *static_cast<const Object*>(object);
   Vec3 mean = Vec3::Zero();

@@ -7,22 +7,24 @@
 namespace touchstone::fuzz {
 namespace {
 
-constexpr std::string_view code = R"(void farthest_a(const void*, const ccd_vec3_t* d, ccd_vec3_t* out) {
+constexpr std::string_view code = R"(void support1(const void*, const ccd_vec3_t* d, ccd_vec3_t* out) {
   const Vec p = support_a({d->v[0], d->v[1], d->v[2]});
   ccdVec3Set(out, p[0], p[1], p[2]);
 }
-void farthest_b(const void*, const ccd_vec3_t* d, ccd_vec3_t* out) {
+void support2(const void*, const ccd_vec3_t* d, ccd_vec3_t* out) {
   const Vec p = support_b({d->v[0], d->v[1], d->v[2]});
   ccdVec3Set(out, p[0], p[1], p[2]);
 }
-void middle_a(const void*, ccd_vec3_t* out) { ccdVec3Set(out, @MIDDLE_A@); }
-void middle_b(const void*, ccd_vec3_t* out) { ccdVec3Set(out, @MIDDLE_B@); }
+void center_a(const void*, ccd_vec3_t* out) { ccdVec3Set(out, @CENTER_A@); }
+void center_b(const void*, ccd_vec3_t* out) { ccdVec3Set(out, @CENTER_B@); }
 
 Answer ask() {
   ccd_t ccd;
   CCD_INIT(&ccd);
-  ccd.support1 = farthest_a, ccd.support2 = farthest_b;
-  ccd.center1 = middle_a, ccd.center2 = middle_b;
+  ccd.support1 = support1;
+  ccd.support2 = support2;
+  ccd.center1 = center_a;
+  ccd.center2 = center_b;
 @TUNED@  Answer x;
 @ASK@  return x;
 }
@@ -43,8 +45,8 @@ constexpr std::string_view ask_contact = R"(  ccd_real_t depth = NAN;
   }
 )";
 
-// As the adapter: the origin of a primitive, the mean of a hull's vertices.
-std::string middle(const Shape& s, const Pose& p) {
+// As in the adapter: the origin of a primitive, the mean of a hull's vertices.
+std::string center(const Shape& s, const Pose& p) {
   Vec3 mean = Vec3::Zero();
   if (const auto* h = std::get_if<Hull>(&s)) {
     for (const Vec3& v : h->vertices) mean += v;
@@ -66,8 +68,8 @@ EngineSource libccd_source(const Asked& q) {
           ? filled(ask_contact, {{"METHOD", method}})
           : fmt::format("  x.overlap = ccd{}Intersect(nullptr, nullptr, &ccd) != 0;\n", method);
   return {"-lccd", "#include <ccd/ccd.h>\n#include <ccd/vec3.h>\n",
-          filled(code, {{"MIDDLE_A", middle(q.scene.shape_of(q.a), q.body(q.a).pose)},
-                        {"MIDDLE_B", middle(q.scene.shape_of(q.b), q.body(q.b).pose)},
+          filled(code, {{"CENTER_A", center(q.scene.shape_of(q.a), q.body(q.a).pose)},
+                        {"CENTER_B", center(q.scene.shape_of(q.b), q.body(q.b).pose)},
                         {"TUNED", q.tuned() ? std::string(tuned) : ""},
                         {"ASK", ask}})};
 }

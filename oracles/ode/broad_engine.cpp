@@ -1,5 +1,5 @@
-// ODE's spaces, each an engine that answers `candidates` alone: dSpaceCollide calls back for every pair whose
-// boxes it found to overlap.
+// ODE's spaces, each as an engine that answers only `candidates`: dSpaceCollide calls back for every pair
+// whose AABBs it finds to overlap.
 #include <optional>
 
 #include "oracles/ode/shapes.h"
@@ -7,7 +7,7 @@
 namespace touchstone::ode_adapter {
 namespace {
 
-// The quadtree's world, in its x and y axes; what is outside belongs to its root.
+// The extent of the quadtree along its x and y axes; geometries outside belong to its root.
 const dVector3 centre{0, 0, 0, 0}, extents{1000, 1000, 1000, 0};
 
 struct Row {
@@ -27,8 +27,8 @@ struct DestroySpace {
   void operator()(dSpaceID s) const { dSpaceDestroy(s); }
 };
 
-// A geometry must be out of its space before either goes. (dSpaceGetGeom of a quadtree aborts: not
-// implemented.)
+// A geometry must be removed from its space before either is destroyed. (For a quadtree, dSpaceGetGeom aborts
+// as not implemented.)
 class Space {
  public:
   Space(const Row& row, const std::vector<GeomPtr>& geoms) : geoms_(geoms), space_(row.make()) {
@@ -96,7 +96,7 @@ class Engine {
   void load(const ts_scene& scene, const ts_received& received) { world_.emplace(scene, received); }
   void unload() { world_.reset(); }
   void ask(ts_question question, int, int, ts_answer&, const ts_sink& sink) {
-    if (question != TS_CANDIDATES) throw kit::Unsupported("a broad phase alone");
+    if (question != TS_CANDIDATES) throw kit::Unsupported("a broad phase only");
     run_steps(row_, *world_, sink);
   }
 

@@ -1,5 +1,6 @@
-// ODE as an oracle: dCollide for overlap and contact, its spaces as broad phases. It has no distance and no
-// time of impact. Its warnings go to standard output, which the host keeps away from the protocol.
+// ODE as an oracle: dCollide for overlap and contact. It has no distance and no time-of-impact query; its
+// spaces are in broad_engine.cpp. ODE prints warnings to standard output, which the host separates from the
+// protocol.
 #include <optional>
 
 #include "oracles/ode/shapes.h"
@@ -7,7 +8,7 @@
 namespace touchstone::ode_adapter {
 namespace {
 
-// collision_libccd.cpp: mpr_tolerance. The pairs that have no code of their own go there.
+// mpr_tolerance in collision_libccd.cpp, which handles the pairs without their own code.
 constexpr double mpr_tolerance = 1e-6;
 constexpr int most_contacts = 64;
 
@@ -38,7 +39,7 @@ class Engine {
   }
 
  private:
-  /// With a sink the whole contact, without one the overlap alone.
+  /// With a sink, answers the whole contact; without one, only the overlap.
   void ask_contact(int a, int b, ts_answer& out, const ts_sink* sink) {
     std::vector<dContactGeom> all(most_contacts);
     const int n = dCollide(world_->geom(a), world_->geom(b), sink ? most_contacts : 1, all.data(),
@@ -57,7 +58,7 @@ class Engine {
       const double position[3] = {c.pos[0], c.pos[1], c.pos[2]};
       sink->point(sink->ctx, position, kit::depth_along(normal(*deepest), normal(c), c.depth));
     }
-    // ODE's points from the second into the first.
+    // ODE's normal points from the second geometry into the first.
     kit::set_normal(out, -normal(*deepest));
     kit::set_depth(out, deepest->depth);
   }

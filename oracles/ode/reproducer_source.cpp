@@ -43,7 +43,7 @@ std::string create(const Shape& shape) {
     return fmt::format("dCreateCapsule(nullptr, {}, {})", literal(s->radius), literal(2 * s->half_height));
   if (const auto* s = std::get_if<Cylinder>(&shape))
     return fmt::format("dCreateCylinder(nullptr, {}, {})", literal(s->radius), literal(2 * s->half_height));
-  throw InputError("reproduce", "the writer for ODE knows spheres, boxes, capsules and cylinders");
+  throw InputError("reproduce", "for ODE only spheres, boxes, capsules and cylinders can be written");
 }
 
 std::string geom(const Asked& q, int i) {
@@ -65,7 +65,10 @@ std::string pair_question(const Asked& q) {
   for (int i = 0; i < n; ++i) {{
     const dContactGeom& c = all[i];
     x.points.push_back({{c.pos[0], c.pos[1], c.pos[2]}});
-    if (c.depth > x.depth) x.depth = c.depth, x.normal = {{-c.normal[0], -c.normal[1], -c.normal[2]}};
+    if (c.depth > x.depth) {{  // ODE's normal points from the second geometry into the first
+      x.depth = c.depth;
+      x.normal = {{-c.normal[0], -c.normal[1], -c.normal[2]}};
+    }}
   }}
 )",
                            q.a, q.b);

@@ -13,7 +13,7 @@ void unit_quaternion(const double q[4], dQuaternion out) {
   dNormalize4(out);
 }
 
-// box.cpp, sphere.cpp, capsule.cpp, cylinder.cpp: updateZeroSizedFlag. A capsule may be as short as it likes.
+// As updateZeroSizedFlag in box.cpp, sphere.cpp, capsule.cpp, cylinder.cpp. A capsule may have zero length.
 bool has_no_size(const ts_shape& s) {
   const double* z = s.size;
   if (s.kind == TS_BOX) return z[0] == 0 || z[1] == 0 || z[2] == 0;
@@ -35,7 +35,7 @@ void place_plane(dxGeom& g, const ts_shape& s, const ts_pose& pose) {
 
 std::unique_ptr<Hull> make_hull_data(const ts_shape& s) {
   if (s.kind != TS_HULL) return nullptr;
-  if (s.dimension < 3) throw kit::Unsupported("ODE's convex wants its origin inside: no flat hulls");
+  if (s.dimension < 3) throw kit::Unsupported("ODE's convex needs its origin inside: no flat hulls");
   auto hull = std::make_unique<Hull>();
   const auto vertex = [&](std::size_t i) { return kit::vec3(s.vertices + 3 * i); };
   for (std::size_t i = 0; i < s.vertex_count; ++i)
@@ -55,10 +55,10 @@ std::unique_ptr<Hull> make_hull_data(const ts_shape& s) {
 
 GeomPtr make_geom(const ts_shape& s, const Hull* hull) {
   const double* z = s.size;
-  // Its assertions would end the process.
+  // ODE's assertions would abort the process.
   if (s.kind != TS_HALF_SPACE && s.kind != TS_HULL && !(z[0] >= 0 && z[1] >= 0 && z[2] >= 0))
     throw kit::Unsupported("ODE refuses sizes that are negative or NaN");
-  if (has_no_size(s)) throw kit::Unsupported("ODE leaves geometries out that have no size: GEOM_ZERO_SIZED");
+  if (has_no_size(s)) throw kit::Unsupported("ODE ignores geometries of zero size: GEOM_ZERO_SIZED");
   switch (s.kind) {
     case TS_SPHERE:
       return GeomPtr(dCreateSphere(nullptr, z[0]));
@@ -75,7 +75,7 @@ GeomPtr make_geom(const ts_shape& s, const Hull* hull) {
                                    static_cast<unsigned>(hull->planes.size() / 4), hull->points.data(),
                                    static_cast<unsigned>(hull->points.size() / 3), hull->polygons.data()));
     default:
-      throw kit::Unsupported("ODE has no cone and no ellipsoid, and the adapter no mesh");
+      throw kit::Unsupported("ODE has no cone and no ellipsoid, and the adapter supports no meshes");
   }
 }
 
@@ -92,7 +92,7 @@ void place(dxGeom& g, const ts_shape& s, const Hull* hull, const ts_pose& pose) 
   dGeomSetPosition(&g, at.x(), at.y(), at.z());
 }
 
-// A hull is received about its centre: each of its bodies stands where that is.
+// A hull is reported relative to its centre; the pose of each of its bodies is shifted accordingly.
 void report_shape(int index, const ts_shape& s, const Hull* hull, const ts_received& to) {
   if (hull) to.shape(to.ctx, index, s.size, hull->points.data(), hull->points.size() / 3);
 }
@@ -105,7 +105,7 @@ void report_body(int index, dxGeom& g, const ts_shape& s, const ts_received& to)
   to.body(to.ctx, index, matrix, translation);
 }
 
-// ODE is started once a process.
+// ODE is initialised once per process.
 void start_ode() {
   static const bool started = [] {
     dInitODE2(0);

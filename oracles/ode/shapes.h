@@ -1,5 +1,5 @@
-// Scene shapes as ODE geometries, in doubles. ODE takes whole sides and heights, axis z, and has no cone,
-// ellipsoid or distance.
+// Scene shapes as ODE geometries, in doubles. ODE takes full side lengths and heights, axis z, and has no
+// cone, ellipsoid or distance query.
 #pragma once
 
 #include <ode/ode.h>
@@ -16,14 +16,14 @@ struct DestroyGeom {
 };
 using GeomPtr = std::unique_ptr<dxGeom, DestroyGeom>;
 
-/// What a hull's geometries point to: ODE copies nothing.
+/// The arrays that a hull's geometries point to, because ODE does not copy them.
 struct Hull {
-  std::vector<dReal> planes, points;  // n.x = d, 4 a plane; about `centre`
+  std::vector<dReal> planes, points;  // planes: 4 numbers each, n.x = d; points relative to `centre`
   std::vector<unsigned> polygons;     // 3, i, j, k
-  Vec3 centre = Vec3::Zero();         // ODE wants its origin inside
+  Vec3 centre = Vec3::Zero();         // ODE needs the origin inside
 };
 
-/// The geometries of a scene's bodies, where they stand.
+/// The geometries of a scene's bodies, at their poses.
 class World {
  public:
   World(const ts_scene& scene, const ts_received& received);
@@ -35,8 +35,8 @@ class World {
 
  private:
   const ts_scene& scene_;
-  std::vector<std::unique_ptr<Hull>> hulls_;  // one a shape, null where it is none
-  std::vector<GeomPtr> geoms_;                // one a body; the body's number is its data
+  std::vector<std::unique_ptr<Hull>> hulls_;  // one per shape, null if it is not a hull
+  std::vector<GeomPtr> geoms_;                // one per body, with the body's number as data
 };
 
 }  // namespace touchstone::ode_adapter

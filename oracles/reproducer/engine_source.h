@@ -1,4 +1,4 @@
-// What each engine's writer contributes to a reproducer: the rest is the same for all.
+// The engine-specific part of a reproducer; the rest is common to all engines.
 #pragma once
 
 #include <string>
@@ -9,7 +9,7 @@
 
 namespace touchstone::fuzz {
 
-/// What is asked, of which bodies, at which query of the script.
+/// The question, its bodies, and the query step of the script.
 struct Asked {
   const Scene& scene;
   Question question;
@@ -20,12 +20,12 @@ struct Asked {
 };
 
 struct EngineSource {
-  std::string compile;   // the command after "g++ -std=c++17 reproduce.cpp -o reproduce"
-  std::string includes;  // lines
+  std::string compile;   // arguments after "g++ -std=c++17 reproduce.cpp -o reproduce"
+  std::string includes;  // #include lines
   std::string code;      // defines `Answer ask()`
 };
 
-/// Throw InputError for what the engine's API does not have.
+/// Throw InputError if the engine's API does not offer the question or a shape.
 EngineSource fcl_source(const Asked& q);
 EngineSource bullet_source(const Asked& q);
 EngineSource libccd_source(const Asked& q);

@@ -123,7 +123,7 @@ bool has_support(const Shape& shape) {
 
 std::string support_function(std::string_view name, const Shape& shape, const Pose& pose) {
   if (!has_support(shape)) return {};
-  return filled(R"(// A point of @WHO@ farthest along `direction`.
+  return filled(R"(// Support mapping of body @WHO@: a point of it farthest along `direction`.
 Vec support_@WHO@(const Vec& direction) {
   static const Placement at = @POSE@;
   const Vec d = to_local(at, direction);

@@ -1,5 +1,5 @@
-// EngineCard ↔ JSON. Strict in both directions: a card is the place where an engine's tolerance claims are
-// made, and a misspelt field would silently change a verdict.
+// EngineCard ↔ JSON. Parsing is strict: the card carries the engine's tolerance claims, and a misspelt field
+// would silently change a verdict.
 #include "scenarios/codec/card_codec.h"
 
 #include <algorithm>
@@ -32,14 +32,14 @@ constexpr std::array text_fields{
     TextField{"name", &EngineCard::name}, TextField{"library", &EngineCard::library},
     TextField{"version", &EngineCard::version}, TextField{"settings", &EngineCard::settings},
     TextField{"source", &EngineCard::source}};
-// What an engine may say of itself is bounded: the coarsest arithmetic is bfloat16's, 2⁻⁸; an answer takes no
-// more than some thousands of roundings; and both together explain at most a hundredth of L. What is beyond
-// would be believed in every verdict.
+// Bounds on what an engine may claim about itself, because every verdict would believe it: the coarsest
+// arithmetic is bfloat16's, 2⁻⁸; an answer takes no more than some thousands of roundings; and both together
+// explain at most a hundredth of L.
 constexpr std::array number_fields{NumberField{"unit_roundoff", &EngineCard::unit_roundoff, 0x1p-8},
                                    NumberField{"tau_factor", &EngineCard::tau_factor, 0x1p14}};
 constexpr double most_of_l = 1e-2;
 
-// What people read, on a terminal too.
+// These texts are shown to people, also on a terminal.
 constexpr std::size_t max_text_bytes = 1000;
 
 bool is_known(std::string_view key) {
@@ -52,7 +52,7 @@ bool is_known(std::string_view key) {
 
 std::string text_of(const Json& j, const char* field) {
   if (!j.contains(field)) throw InputError(field, "is missing from the engine card");
-  if (!j[field].is_string()) throw InputError(field, "is not a text");
+  if (!j[field].is_string()) throw InputError(field, "is not a string");
   std::string text = j[field].get<std::string>();
   if (text.size() > max_text_bytes)
     throw InputError(field, "is longer than " + std::to_string(max_text_bytes) + " bytes");
@@ -79,12 +79,13 @@ EngineCard card_from_json(const std::string& text) {
   if (j.is_discarded()) throw InputError("", "the engine card is not JSON");
   if (!j.is_object()) throw InputError("", "the engine card is not a JSON object");
   for (const auto& [key, value] : j.items())
-    if (!is_known(key)) throw InputError(key, "is no field of an engine card");
+    if (!is_known(key)) throw InputError(key, "is not a field of an engine card");
   EngineCard card;
   for (const auto& f : text_fields) card.*f.member = text_of(j, f.name);
   for (const auto& f : number_fields) card.*f.member = positive_number_of(j, f.name, f.most);
   if (card.tau_factor * card.unit_roundoff > most_of_l)
-    throw InputError("tau_factor", "times unit_roundoff " + too_large(card.tau_factor * card.unit_roundoff, most_of_l));
+    throw InputError("tau_factor",
+                     "times unit_roundoff " + too_large(card.tau_factor * card.unit_roundoff, most_of_l));
   if (j.contains(complete_field)) {
     if (!j[complete_field].is_boolean()) throw InputError(complete_field, "is neither true nor false");
     card.complete_manifolds = j[complete_field].get<bool>();

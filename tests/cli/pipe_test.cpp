@@ -93,7 +93,7 @@ TEST_CASE("an engine that holds another shape is not blamed for its algorithm", 
   w.write("whole.py", engine);
   const Run blob = w.touchstone("replay two.json --engines 'pipe:python3 whole.py' --subject whole");
   INFO(blob.out << blob.err);
-  CHECK(blob.out.find("a type of shape that there is not: blob") != std::string::npos);
+  CHECK(blob.out.find("an unknown type of shape: blob") != std::string::npos);
 }
 
 TEST_CASE("what a command writes to standard error is shown when it dies", "[pipe]") {
@@ -137,7 +137,7 @@ TEST_CASE("a command that is not there is named, with the reason", "[pipe]") {
   w.write("text", "no program");
   const std::pair<const char*, const char*> commands[] = {
       {"pipe:./missing --option", "there is no such command"},
-      {"pipe:./text", "the command is no program that may be run"},
+      {"pipe:./text", "the command is not executable"},
       {"pipe:false", "the command ended without an answer, exit code"},
   };
   for (const auto& [command, reason] : commands)

@@ -36,9 +36,9 @@ TEST_CASE("a bad card names the field and the reason", "[oracles][card][bad-inpu
     s.replace(s.find(from), from.size(), to);
     return error_of(s);
   };
-  CHECK(with("\"version\"", "\"versoin\"") == "versoin: is no field of an engine card");
+  CHECK(with("\"version\"", "\"versoin\"") == "versoin: is not a field of an engine card");
   CHECK(with("\"version\":\"1.2\",", "") == "version: is missing from the engine card");
-  CHECK(with("\"1.2\"", "12") == "version: is not a text");
+  CHECK(with("\"1.2\"", "12") == "version: is not a string");
   CHECK(with("256.0", "\"many\"") == "tau_factor: is not a number");
   CHECK(with("256.0", "-1") == "tau_factor: is not a positive finite number");
   CHECK(with("256.0", "1e300").find("tau_factor: is 1e+300; at most") == 0);

@@ -120,7 +120,7 @@ TEST_CASE("a death that does not repeat is charged to the first answer that was 
       if (o.outcome == Outcome::crashed) {
         ++crashed;
         CHECK(i <= 7);
-        CHECK(o.detail.find("not when it was asked again") != std::string::npos);
+        CHECK(o.detail.find("did not recur when asked again") != std::string::npos);
         CHECK(o.site == "libts_dying_core:touchstone::dies_in_the_core");
       } else {
         CHECK(o.outcome == Outcome::answered);

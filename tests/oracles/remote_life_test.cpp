@@ -90,12 +90,12 @@ TEST_CASE("a worker that died between two runs is replaced without loss", "[orac
 TEST_CASE("the death of the process that forks the workers is survived too", "[oracles][remote]") {
   RemoteEngine engine(bad_spec("slow"));
   const auto cases = make_cases(30, -1);
-  const pid_t nursery = parent_of(engine.worker_pid());
-  REQUIRE(nursery > 1);
-  REQUIRE(nursery != getpid());
-  std::thread killer([nursery] {
+  const pid_t fork_server = parent_of(engine.worker_pid());
+  REQUIRE(fork_server > 1);
+  REQUIRE(fork_server != getpid());
+  std::thread killer([fork_server] {
     std::this_thread::sleep_for(100ms);
-    kill(nursery, SIGKILL);
+    kill(fork_server, SIGKILL);
   });
   const auto results = engine.run(cases);
   killer.join();

@@ -35,12 +35,12 @@ TEST_CASE("an unusable plug-in is an input error that names file and reason",
     const char *target, *engine, *reason;
   };
   for (const Row& row : {Row{"ts_absent", "", "there is no such plug-in file"},
-                         Row{"ts_bad_abi", "", "speaks ABI version 42, and not 1"},
+                         Row{"ts_bad_abi", "", "uses ABI version 42 instead of 1"},
                          Row{"ts_bad_symbol", "", "exports no touchstone_plugin_v1"},
                          Row{"ts_bad_start", "", "died while loading it: SIGABRT: bad: cannot live here"},
                          Row{"ts_bad_card", "", "the engine card is not JSON"},
                          Row{"ts_bad_behaviours", "virtue", "offers no engine 'virtue', only: good, loops"},
-                         Row{"ts_bad_behaviours", "", "offers several engines, name one of: good, loops"}}) {
+                         Row{"ts_bad_behaviours", "", "offers several engines; name one of: good, loops"}}) {
     const std::string message = start(row.target, row.engine);
     INFO("message: " << message);
     CHECK(contains(message, row.reason));

@@ -45,12 +45,12 @@ TEST_CASE("one misbehaving query costs one answer and no more", "[oracles][remot
       {"segfaults", Outcome::crashed, "SIGSEGV", 1},
       {"overflows", Outcome::crashed, "", 1},
       {"throws", Outcome::threw, "no such luck", 0},
-      {"throws_int", Outcome::threw, "no std::exception", 0},
+      {"throws_int", Outcome::threw, "other than a std::exception", 0},
       {"eats_memory", Outcome::crashed, "memory limit", 1},
       {"exits", Outcome::crashed, "exit code 0", 1},
       {"exits_3", Outcome::crashed, "exit code 3", 1},
       {"sprays", Outcome::crashed, "rubbish", 1},
-      {"closes", Outcome::crashed, "closed its answers", 1},
+      {"closes", Outcome::crashed, "closed its answer stream", 1},
       {"bad_outcome", Outcome::invalid_answer, "outcome that does not exist", 0},
       {"bad_pair", Outcome::invalid_answer, "bodies that do not exist", 0}};
   int reached = 0;

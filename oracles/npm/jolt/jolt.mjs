@@ -1,6 +1,6 @@
 // Jolt Physics (npm jolt-physics) behind a pipe:  node jolt.mjs FOLDER [tuned]
-// The narrow phase through TransformedShape (CollideShape, CastShape), the broad phase through
-// BroadPhaseQuery::CollideAABox with each body's own bounds. Tuned: convex radius 0, tolerances 1e-7.
+// Narrow phase through TransformedShape (CollideShape, CastShape), broad phase through BroadPhaseQuery::CollideAABox
+// with each body's own bounds. Tuned: convex radius 0, tolerances 1e-7.
 import * as kit from "../adapter.mjs";
 
 const [modules, how] = process.argv.slice(2);
@@ -9,11 +9,18 @@ const Jolt = await (await kit.from(modules, "jolt-physics")).default({ print: co
 
 // Jolt.h: cDefaultConvexRadius, cDefaultCollisionTolerance, cDefaultPenetrationTolerance; ConvexHullShape.h.
 const default_radius = 0.05, hull_tolerance = tuned ? 0 : 1e-3, tolerance = tuned ? 1e-7 : 1e-4;
+const reach_slack = 1.001; // on the search distance, so that rounding does not lose the closest points
 
-// Objects on the heap of the WASM live until freed.
+// Objects on the WASM heap live until they are destroyed.
 let garbage = [];
-const keep = (x) => (garbage.push(x), x);
-const sweep = () => { garbage.forEach((x) => Jolt.destroy(x)); garbage = []; };
+function keep(x) {
+  garbage.push(x);
+  return x;
+}
+function sweep() {
+  garbage.forEach((x) => Jolt.destroy(x));
+  garbage = [];
+}
 const vec = (v) => keep(new Jolt.Vec3(...v));
 const rvec = (v) => keep(new Jolt.RVec3(...v));
 const list = (v) => [v.GetX(), v.GetY(), v.GetZ()];
@@ -23,7 +30,8 @@ function make_world() {
   const pairs = new Jolt.ObjectLayerPairFilterTable(1), layers = new Jolt.BroadPhaseLayerInterfaceTable(1, 1);
   pairs.EnableCollision(0, 0);
   layers.MapObjectToBroadPhaseLayer(0, new Jolt.BroadPhaseLayer(0));
-  settings.mObjectLayerPairFilter = pairs, settings.mBroadPhaseLayerInterface = layers;
+  settings.mObjectLayerPairFilter = pairs;
+  settings.mBroadPhaseLayerInterface = layers;
   settings.mObjectVsBroadPhaseLayerFilter = new Jolt.ObjectVsBroadPhaseLayerFilterTable(layers, 1, pairs, 1);
   settings.mMaxWorkerThreads = 0;
   return new Jolt.JoltInterface(settings);
@@ -47,7 +55,7 @@ function settings_of(s) {
       hull.mHullTolerance = hull_tolerance;
       return hull;
     }
-    default: throw new kit.Unsupported(`the adapter has no ${s.type} of Jolt's`);
+    default: throw new kit.Unsupported(`the adapter does not support Jolt's ${s.type}`);
   }
 }
 
@@ -60,7 +68,7 @@ function make_shape(s) {
   return shape;
 }
 
-// What a rounded corner, edge or rim may lack, and a hull's points may stand out.
+// How far a rounded corner, edge or rim may fall short, and a hull's points may stick out.
 function claim_of(s) {
   if (tuned) return 0;
   if (s.type === "hull") return default_radius + hull_tolerance; // mMaxErrorConvexRadius, mHullTolerance
@@ -73,34 +81,38 @@ const shape_of = (scene, body) => scene.shapes[scene.bodies[body].shape];
 const rotation_of = (scene, body, pose) =>
   keep(new Jolt.Quat(...kit.unit_quaternion(pose.rotation, kit.stands_on_z(shape_of(scene, body)))));
 
-// What a function returns by value is overwritten by its next call.
+// A value returned by a function is overwritten by its next call, so it has to be copied.
 function copy_of(m) {
   const out = keep(new Jolt.RMat44());
   for (let k = 0; k < 3; ++k) out.SetColumn3(k, vec(list(m.GetColumn3(k))));
-  return out.SetTranslation(rvec(list(m.GetTranslation()))), out;
+  out.SetTranslation(rvec(list(m.GetTranslation())));
+  return out;
 }
 const matrix_of = (rotation, translation) => Jolt.RMat44.prototype.sRotationTranslation(rotation, rvec(translation));
 
-// Jolt places a shape by its centre of mass.
+// Jolt positions a shape by its centre of mass.
 function placed(scene, body) {
   const { shape: number, pose } = scene.bodies[body], shape = shapes[number], rotation = rotation_of(scene, body, pose);
   return { shape, rotation, mass_centre: copy_of(matrix_of(rotation, pose.translation).PreTranslated(shape.GetCenterOfMass())) };
 }
 function transformed(p) {
   const t = keep(new Jolt.TransformedShape());
-  t.mShape = p.shape, t.mShapeRotation = p.rotation;
-  return t.mShapePositionCOM = rvec(list(p.mass_centre.GetTranslation())), t;
+  t.mShape = p.shape;
+  t.mShapeRotation = p.rotation;
+  t.mShapePositionCOM = rvec(list(p.mass_centre.GetTranslation()));
+  return t;
 }
 
-// `apart`: closest points too. Jolt inflates the one shape by how far it is to look, so no further than from centre
-// of mass to centre of mass, which both shapes hold: a reach of 1e15 leaves no digit of the distance.
+// `apart`: also find the closest points of separated shapes. Jolt inflates one shape by the search distance, and a
+// distance of 1e15 would leave no digits. The distance between the centres of mass suffices, since both shapes contain
+// theirs.
 function collide(scene, a, b, apart) {
   const settings = keep(new Jolt.CollideShapeSettings());
   settings.mCollisionTolerance = settings.mPenetrationTolerance = tolerance;
   const found = keep(new Jolt.CollideShapeClosestHitCollisionCollector());
   const [p, q] = [placed(scene, a), placed(scene, b)], [x, y] = [p, q].map((s) => list(s.mass_centre.GetTranslation()));
-  if (apart) settings.mMaxSeparationDistance = 1.001 * Math.hypot(...x.map((c, k) => c - y[k]));
-  // The shape that is passed is the first of the result, the transformed one the second.
+  if (apart) settings.mMaxSeparationDistance = reach_slack * Math.hypot(...x.map((c, k) => c - y[k]));
+  // In the result, shape 1 is the argument and shape 2 the transformed shape.
   transformed(q).CollideShape(p.shape, one, p.mass_centre, settings, origin, found, every_shape);
   return found.HadHit() ? found.mHit : null;
 }
@@ -110,7 +122,10 @@ const claim = (scene, a, b, depth = 0) =>
 const unit = (axis) => axis.map((x) => x / Math.hypot(...axis));
 
 class World {
-  constructor(scene) { this.scene = scene, this.ids = new Map(); }
+  constructor(scene) {
+    this.scene = scene;
+    this.ids = new Map();
+  }
   insert(body, pose) {
     const s = this.scene.bodies[body], at = keep(new Jolt.BodyCreationSettings(shapes[s.shape], rvec(pose.translation),
       rotation_of(this.scene, body, pose), s.static ? Jolt.EMotionType_Static : Jolt.EMotionType_Kinematic, 0));
@@ -125,7 +140,9 @@ class World {
   }
   remove(body) {
     const id = this.ids.get(body).GetID();
-    bodies.RemoveBody(id), bodies.DestroyBody(id), this.ids.delete(body);
+    bodies.RemoveBody(id);
+    bodies.DestroyBody(id);
+    this.ids.delete(body);
   }
   pairs(report) {
     const numbers = new Map([...this.ids].map(([body, made]) => [made.GetID().GetIndexAndSequenceNumber(), body]));
@@ -136,7 +153,7 @@ class World {
       physics.GetBroadPhaseQuery().CollideAABox(made.GetWorldSpaceBounds(), found, every_layer, every_object);
     }
   }
-  clear() { // the tree's unused nodes come back by Optimize
+  clear() { // OptimizeBroadPhase releases the tree's unused nodes
     for (const body of [...this.ids.keys()]) this.remove(body);
     physics.OptimizeBroadPhase();
   }
@@ -146,7 +163,7 @@ const engine = {
   card: {
     name: tuned ? "jolt-tuned" : "jolt", library: "Jolt Physics, WASM", version: kit.version(modules, "jolt-physics"),
     settings: tuned ? "CollideShape and CastShape, convex radius 0, tolerances 1e-7, back faces hit; CollideAABox"
-      : "CollideShape and CastShape as shipped: convex radius 0.05 or the least half extent; CollideAABox",
+      : "CollideShape and CastShape as shipped: convex radius 0.05 or the smallest half extent; CollideAABox",
     source: "PhysicsSettings.h: cDefaultCollisionTolerance, cDefaultPenetrationTolerance, cDefaultConvexRadius; "
       + "ConvexHullShape.h: mMaxErrorConvexRadius, mHullTolerance. Times include the pipe",
   },
@@ -159,7 +176,8 @@ const engine = {
       const columns = [list(m.GetAxisX()), list(m.GetAxisY()), list(m.GetAxisZ())];
       return kit.received_body(body, b, columns, kit.stands_on_z(shape_of(scene, body)));
     });
-    return sweep(), { shapes: scene.shapes.map(kit.received_shape), bodies: held };
+    sweep();
+    return { shapes: scene.shapes.map(kit.received_shape), bodies: held };
   },
   overlap({ a, b }, scene) {
     return { overlap: collide(scene, a, b, false) !== null, claimed_tolerance: claim(scene, a, b) };
@@ -167,33 +185,37 @@ const engine = {
   contact({ a, b }, scene) {
     const hit = collide(scene, a, b, false), depth = hit ? hit.mPenetrationDepth : 0;
     const answer = hit ? { overlap: true, normal: unit(list(hit.mPenetrationAxis)), depth } : { overlap: false };
-    return sweep(), { ...answer, claimed_tolerance: claim(scene, a, b, depth) };
+    sweep();
+    return { ...answer, claimed_tolerance: claim(scene, a, b, depth) };
   },
-  // Asked first without reach: a reach spoils shallow depths.
+  // First without a search distance, which would spoil shallow depths.
   distance({ a, b }, scene) {
     const hit = collide(scene, a, b, false) || collide(scene, a, b, true);
-    if (!hit) throw new kit.Unsupported("Jolt names no closest points");
+    if (!hit) throw new kit.Unsupported("Jolt found no closest points");
     const d = -hit.mPenetrationDepth;
     const points = { point_a: list(hit.mContactPointOn1), point_b: list(hit.mContactPointOn2) };
-    return sweep(), { distance: d, ...points, claimed_tolerance: claim(scene, a, b, d) };
+    sweep();
+    return { distance: d, ...points, claimed_tolerance: claim(scene, a, b, d) };
   },
   time_of_impact({ a, b }, scene) {
-    const way = kit.relative_way(scene.bodies[a], scene.bodies[b]);
+    const translation = kit.relative_translation(scene.bodies[a], scene.bodies[b]);
     const [p, q] = [placed(scene, a), placed(scene, b)], settings = keep(new Jolt.ShapeCastSettings());
     settings.mCollisionTolerance = settings.mPenetrationTolerance = tolerance;
     if (tuned) settings.mBackFaceModeConvex = settings.mBackFaceModeTriangles = Jolt.EBackFaceMode_CollideWithBackFaces;
     const found = keep(new Jolt.CastShapeClosestHitCollisionCollector());
-    const cast = keep(new Jolt.RShapeCast(p.shape, one, p.mass_centre, vec(way)));
+    const cast = keep(new Jolt.RShapeCast(p.shape, one, p.mass_centre, vec(translation)));
     transformed(q).CastShape(cast, settings, origin, found, every_shape);
     const toi = found.HadHit() ? Math.max(0, found.mHit.mFraction) : null;
-    return sweep(), { toi, claimed_tolerance: claim(scene, a, b) };
+    sweep();
+    return { toi, claimed_tolerance: claim(scene, a, b) };
   },
   candidates(_, scene) {
     const world = new World(scene);
     try {
       return kit.candidates(scene, world);
     } finally {
-      world.clear(), sweep();
+      world.clear();
+      sweep();
     }
   },
 };

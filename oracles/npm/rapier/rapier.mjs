@@ -1,6 +1,6 @@
 // Rapier (npm @dimforge/rapier3d-compat) behind a pipe:  node rapier.mjs FOLDER
-// The narrow phase through Shape (contactShape, intersectsShape, castShape), the broad phase as World::step runs it:
-// contactPairsWith lists the pairs whose boxes it found to overlap.
+// Narrow phase through Shape (contactShape, intersectsShape, castShape), broad phase as run by World::step:
+// contactPairsWith lists the pairs whose AABBs it found to overlap.
 import * as kit from "../adapter.mjs";
 
 const [modules] = process.argv.slice(2);
@@ -19,47 +19,56 @@ function make_shape(s) {
     case "cone": return new rapier.Cone(s.half_height, s.radius);
     case "half_space": return new rapier.HalfSpace(xyz(unit(s.normal)));
     case "hull": return new rapier.ConvexPolyhedron(new Float32Array(s.vertices.flat()));
-    default: throw new kit.Unsupported(`the adapter has no ${s.type} of Rapier's`);
+    default: throw new kit.Unsupported(`the adapter does not support Rapier's ${s.type}`);
   }
 }
 const unit = (n) => n.map((x) => x / Math.hypot(...n));
+const unlimited_reach = 1e15; // search distance for closest points
 
 let shapes = [];
 const shape_of = (scene, body) => scene.shapes[scene.bodies[body].shape];
 function place(scene, body, pose) {
   const s = shape_of(scene, body), q = kit.unit_quaternion(pose.rotation, kit.stands_on_z(s));
-  if (s.type === "half_space" && s.offset !== 0) throw new kit.Unsupported("Rapier's half-space goes through its origin");
+  if (s.type === "half_space" && s.offset !== 0)
+    throw new kit.Unsupported("Rapier's half-space passes through its origin");
   return { t: xyz(pose.translation), q: { x: q[0], y: q[1], z: q[2], w: q[3] } };
 }
 function pair(scene, a, b) {
   return [a, b].map((body) => ({ shape: shapes[scene.bodies[body].shape], ...place(scene, body, scene.bodies[body].pose) }));
 }
 
-// contactShape finds nothing further away than `reach`.
+// contactShape finds nothing farther away than `reach`.
 function contact_of(scene, a, b, reach) {
   const [p, q] = pair(scene, a, b);
   return p.shape.contactShape(p.t, p.q, q.shape, q.t, q.q, reach);
 }
 
-// Kinematic bodies: pairs of colliders that stand on nothing, or are fixed, are no pairs to Rapier.
+// Bodies are kinematic, because Rapier reports no pairs of fixed colliders or colliders without a body.
 class World {
   constructor(scene) {
-    this.scene = scene, this.world = new rapier.World({ x: 0, y: 0, z: 0 });
-    this.world.timestep = 0, this.bodies = new Map(), this.colliders = new Map();
+    this.scene = scene;
+    this.world = new rapier.World({ x: 0, y: 0, z: 0 });
+    this.world.timestep = 0;
+    this.bodies = new Map();
+    this.colliders = new Map();
   }
   insert(body, pose) {
     const { t, q } = place(this.scene, body, pose), wanted = rapier.RigidBodyDesc.kinematicPositionBased();
     const made = this.world.createRigidBody(wanted.setTranslation(t.x, t.y, t.z).setRotation(q));
     const shape = new rapier.ColliderDesc(shapes[this.scene.bodies[body].shape]);
     shape.setActiveCollisionTypes(rapier.ActiveCollisionTypes.ALL);
-    this.bodies.set(body, made), this.colliders.set(body, this.world.createCollider(shape, made));
+    this.bodies.set(body, made);
+    this.colliders.set(body, this.world.createCollider(shape, made));
   }
   move(body, pose) {
     const { t, q } = place(this.scene, body, pose), moved = this.bodies.get(body);
-    moved.setTranslation(t, true), moved.setRotation(q, true);
+    moved.setTranslation(t, true);
+    moved.setRotation(q, true);
   }
   remove(body) {
-    this.world.removeRigidBody(this.bodies.get(body)), this.bodies.delete(body), this.colliders.delete(body);
+    this.world.removeRigidBody(this.bodies.get(body));
+    this.bodies.delete(body);
+    this.colliders.delete(body);
   }
   pairs(report) {
     this.world.step();
@@ -94,13 +103,13 @@ const engine = {
     return { overlap: true, normal: list(c.normal1), depth: -c.distance };
   },
   distance({ a, b }, scene) {
-    const c = contact_of(scene, a, b, 1e15);
-    if (!c) throw new kit.Unsupported("Rapier names no closest points");
+    const c = contact_of(scene, a, b, unlimited_reach);
+    if (!c) throw new kit.Unsupported("Rapier found no closest points");
     return { distance: c.distance, point_a: list(c.point1), point_b: list(c.point2) };
   },
   time_of_impact({ a, b }, scene) {
-    const way = kit.relative_way(scene.bodies[a], scene.bodies[b]), [p, q] = pair(scene, a, b);
-    const hit = p.shape.castShape(p.t, p.q, xyz(way), q.shape, q.t, q.q, xyz([0, 0, 0]), 0, 1, true);
+    const translation = kit.relative_translation(scene.bodies[a], scene.bodies[b]), [p, q] = pair(scene, a, b);
+    const hit = p.shape.castShape(p.t, p.q, xyz(translation), q.shape, q.t, q.q, xyz([0, 0, 0]), 0, 1, true);
     return { toi: hit ? hit.time_of_impact : null };
   },
   candidates(_, scene) {
