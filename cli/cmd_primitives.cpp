@@ -105,7 +105,7 @@ void print_text(const fuzz::PrimitiveTallies& all, const fuzz::PrimitiveTally& s
       "\nFN: a contact that the core denies. FP: a contact that it invents. late: a time after the first\n"
       "contact. ns: median time of one query. Truth is decided in exact arithmetic.\n");
   if (sum.source_wrong > 0)
-    fmt::print("{} verdicts in the files themselves are not the exact ones.\n", sum.source_wrong);
+    fmt::print("{} verdicts stated in the files are not the exact ones.\n", sum.source_wrong);
   fmt::print("core: {} of {} queries wrong\n", sum.wrong(), sum.queries);
 }
 
