@@ -23,7 +23,7 @@ struct Hull {
   bool operator==(const Hull& o) const { return vertices == o.vertices; }
 };
 
-/// Builds faces and dimension. Throws InputError on no vertices or a non-finite coordinate.
+/// Computes faces and dimension. Throws InputError when there are no vertices or a coordinate is not finite.
 Hull make_hull(std::vector<Vec3> vertices);
 
 inline Vec3 support(const Hull& h, const Vec3& d) {
@@ -31,7 +31,10 @@ inline Vec3 support(const Hull& h, const Vec3& d) {
   double best_dot = best->dot(d);
   for (const Vec3& v : h.vertices) {
     const double dot = v.dot(d);
-    if (dot > best_dot) best_dot = dot, best = &v;
+    if (dot > best_dot) {
+      best_dot = dot;
+      best = &v;
+    }
   }
   return *best;
 }

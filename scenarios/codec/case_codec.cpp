@@ -38,7 +38,7 @@ Json to_json(const Query& q) {
 int read_body(const JsonReader& r, const Scene& scene) {
   const int i = r.integer();
   if (i < 0 || i >= static_cast<int>(scene.bodies.size()))
-    r.fail("index " + std::to_string(i) + " is no body");
+    r.fail("index " + std::to_string(i) + " is not a body");
   return i;
 }
 
