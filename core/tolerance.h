@@ -4,9 +4,9 @@
 
 namespace touchstone::tolerance {
 
-/// Relative forward error bound of a 3×3 determinant of differences in double, below which its sign is computed
-/// exactly: about ten times the bound of Shewchuk 1997 (7.8e-16), so that the rounded differences are
-/// covered too. Tested by: tests/core "orientation is exact where rounding would lie".
+/// Relative forward error bound of a 3×3 determinant of differences in double, below which its sign is
+/// computed exactly: about ten times the bound of Shewchuk 1997 (7.8e-16), so that the rounded differences
+/// are covered too. Tested by: tests/core "orientation is exact where rounding would lie".
 inline constexpr double orientation_filter = 0x1p-46;
 
 /// τ of our own core, in units of (unit roundoff 2⁻⁵³ · L): an answer is wrong beyond 128·2⁻⁵³·L = 64·ε·L
@@ -59,13 +59,13 @@ inline constexpr double grid_window = 8;
 inline constexpr double grid_cut = 0.3;
 /// A level of fewer boxes than this is swept without cells (a count).
 inline constexpr unsigned grid_least_boxes = 64;
-/// A box in a neighbour list is widened by `neighbour_margin_steps` times its last step, or not at all when that exceeds
-/// `neighbour_margin_most` times its largest side. The list is rebuilt when more than one box in
+/// A box in a neighbour list is widened by `neighbour_margin_steps` times its last step, or not at all when
+/// that exceeds `neighbour_margin_most` times its largest side. The list is rebuilt when more than one box in
 /// `neighbour_loose_share` has left its widened box (a count).
 inline constexpr double neighbour_margin_steps = 5, neighbour_margin_most = 0.3;
 inline constexpr unsigned neighbour_loose_share = 16;
-/// Insertion sort may spend this many moves per box before the order is sorted from scratch: about the cost of
-/// a radix sort.
+/// Insertion sort may spend this many moves per box before the order is sorted from scratch: about the cost
+/// of a radix sort.
 inline constexpr unsigned sweep_moves_a_box = 8;
 /// Changed boxes are searched one by one when fewer than one in this many has changed.
 inline constexpr unsigned sweep_local_share = 8;
@@ -73,11 +73,11 @@ inline constexpr unsigned sweep_local_share = 8;
 /// `sweep_reach_most` boxes in the reach of a sweep (counts).
 inline constexpr unsigned brute_force_most = 160;
 inline constexpr double sweep_reach_most = 40;
-/// A refitted tree is rebuilt when its lowest nodes have grown by this factor: a build costs about twice as much
-/// as a refit, and overlap of nodes grows with the cube of their reach.
+/// A refitted tree is rebuilt when its lowest nodes have grown by this factor: a build costs about twice as
+/// much as a refit, and overlap of nodes grows with the cube of their reach.
 inline constexpr double tree_decay = 1.15;
-/// The same limit for changes made box by box. A rebuild would undo many of them at once: split nodes are three
-/// quarters full, and a search costs about that much more.
+/// The same limit for changes made box by box. A rebuild would undo many of them at once: split nodes are
+/// three quarters full, and a search costs about that much more.
 inline constexpr double tree_rot = 1.6;
 /// A tree is rebuilt when more than one in this many of its boxes is inserted or removed at once (a count).
 inline constexpr unsigned tree_change_share = 8;

@@ -1,5 +1,5 @@
-// The one exception for bad input: where it is (file, JSON path, field) and why. The command line turns it into one
-// line on stderr and exit code 2.
+// The one exception for bad input: where it is (file, JSON path, field) and why. The command line turns it
+// into one line on stderr and exit code 2.
 #pragma once
 
 #include <stdexcept>

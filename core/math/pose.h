@@ -1,6 +1,6 @@
-// Poses and motions as data. A quaternion (x, y, z, w) need not have unit length: any non-zero q denotes the rotation
-// R(q) = (quadratic form in q) / |q|², whose entries are rational in q (truth.md §1). Right-handed, column vectors,
-// x_world = R x_local + t, lengths in the scene's unit.
+// Poses and motions as data. A quaternion (x, y, z, w) need not have unit length: any non-zero q denotes the
+// rotation R(q) = (quadratic form in q) / |q|², whose entries are rational in q (truth.md §1). Right-handed,
+// column vectors, x_world = R x_local + t, lengths in the scene's unit.
 #pragma once
 
 #include <Eigen/Core>
@@ -40,16 +40,16 @@ struct Transform {
   bool operator==(const Transform& o) const { return rotation == o.rotation && translation == o.translation; }
 };
 
-/// An exact affine placement: world = matrix·local + translation; each entry is a double that denotes itself. This is
-/// what an engine holds after conversion. The matrix is a rotation only up to that engine's rounding.
+/// An exact affine placement: world = matrix·local + translation; each entry is a double that denotes itself.
+/// This is what an engine holds after conversion. The matrix is a rotation only up to that engine's rounding.
 struct Placement {
   Mat3 matrix = Mat3::Identity();
   Vec3 translation = Vec3::Zero();
   bool operator==(const Placement& o) const { return matrix == o.matrix && translation == o.translation; }
 };
 
-/// The unit quaternion nearest to q, in double arithmetic. Scales by a power of two first, so that no component
-/// overflows or underflows. Precondition: q is finite and not zero.
+/// The unit quaternion nearest to q, in double arithmetic. Scales by a power of two first, so that no
+/// component overflows or underflows. Precondition: q is finite and not zero.
 inline Quat normalized(const Quat& q) {
   const double m = std::max(std::max(std::abs(q.x), std::abs(q.y)), std::max(std::abs(q.z), std::abs(q.w)));
   const int e = -std::ilogb(m);
@@ -58,7 +58,8 @@ inline Quat normalized(const Quat& q) {
   return {x / n, y / n, z / n, w / n};
 }
 
-/// R(q) for any finite non-zero q. Exact for the identity and for axis permutations; entries within 4 ulp otherwise.
+/// R(q) for any finite non-zero q. Exact for the identity and for axis permutations; entries within 4 ulp
+/// otherwise.
 inline Mat3 rotation_matrix(const Quat& q0) {
   const double m = std::max(std::max(std::abs(q0.x), std::abs(q0.y)), std::max(std::abs(q0.z), std::abs(q0.w)));
   const int e = -std::ilogb(m);

@@ -1,5 +1,6 @@
-// Reproducible random numbers: xoshiro256++ (Blackman, Vigna 2019) seeded by splitmix64. The distributions are our
-// own and use only +, *, comparison, sqrt and ldexp, so that a seed gives the same bytes with every libm and compiler.
+// Reproducible random numbers: xoshiro256++ (Blackman, Vigna 2019) seeded by splitmix64. The distributions
+// are our own and use only +, *, comparison, sqrt and ldexp, so that a seed gives the same bytes with every
+// libm and compiler.
 #pragma once
 
 #include <bit>
@@ -43,7 +44,8 @@ class Rng {
     return static_cast<std::uint64_t>((static_cast<u128>(next()) * n) >> 64);
   }
   bool chance(double p) { return uniform() < p; }
-  /// 2^e times uniform [1,2), with e a uniform integer in [lo,hi]: log-uniform up to a factor of 1.5 in density.
+  /// 2^e times uniform [1,2), with e a uniform integer in [lo,hi]: log-uniform up to a factor of 1.5 in
+  /// density.
   double binary_scale(int lo, int hi) {
     const int e = lo + static_cast<int>(below(static_cast<std::uint64_t>(hi - lo + 1)));
     return std::ldexp(1.0 + uniform(), e);

@@ -1,5 +1,5 @@
-// A scene is data: shapes, bodies that place them, and a script of steps. Every number is an IEEE double and denotes
-// itself exactly (truth.md §1).
+// A scene is data: shapes, bodies that place them, and a script of steps. Every number is an IEEE double and
+// denotes itself exactly (truth.md §1).
 #pragma once
 
 #include <cstdint>
@@ -46,8 +46,9 @@ struct Scene {
   bool operator==(const Scene&) const = default;
 };
 
-/// Throws InputError; the place is given as in the JSON form ("bodies[3].pose.rotation"). A quaternion must be finite
-/// and not zero; a mesh or half-space body is static or has no motion; a script removes or moves only inserted bodies.
+/// Throws InputError; the place is given as in the JSON form ("bodies[3].pose.rotation"). A quaternion must
+/// be finite and not zero; a mesh or half-space body is static or has no motion; a script removes or moves
+/// only inserted bodies.
 void validate(const Scene& scene);
 
 /// Order-dependent hash of every number in the scene; names are excluded.
@@ -59,9 +60,9 @@ bool is_filtered(const Scene& scene, int a, int b);
 /// The script, or "insert all, query" when it is empty.
 std::vector<Step> effective_script(const Scene& scene);
 
-/// L of docs/truth.md §2: the largest of both shapes' lengths, the coordinates of positions and vertices, and the
-/// distance between the positions. For a half-space, the distance of its plane counts. With motion, L covers the whole
-/// step.
+/// L of docs/truth.md §2: the largest of both shapes' lengths, the coordinates of positions and vertices, and
+/// the distance between the positions. For a half-space, the distance of its plane counts. With motion, L
+/// covers the whole step.
 double scale_of_pair(const Scene& scene, int a, int b);
 
 /// A scene of two bodies, a and b of `scene`, renumbered 0 and 1, without a script.

@@ -1,4 +1,5 @@
-// A shape lists its numeric fields in a table. Codec, hash, validation, generator and shrinker all read that table.
+// A shape lists its numeric fields in a table. Codec, hash, validation, generator and shrinker all read that
+// table.
 #pragma once
 
 #include <string_view>

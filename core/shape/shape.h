@@ -35,13 +35,15 @@ void for_each_field(S& shape, F&& f) {
              std::remove_const_t<S>::fields());
 }
 
-/// Largest distance of a point of the shape from the body's origin, rounded up a little; infinity for a half-space.
+/// Largest distance of a point of the shape from the body's origin, rounded up a little; infinity for a
+/// half-space.
 double bounding_radius(const Shape& s);
 
 /// Half the largest extent along the body axes; the size of the shape in the scale L. Zero for a half-space.
 double extent(const Shape& s);
 
-/// Throws InputError naming the field when a number is not finite or outside its domain, or an index is out of range.
+/// Throws InputError naming the field when a number is not finite or outside its domain, or an index is out
+/// of range.
 void validate(const Shape& s);
 
 }  // namespace touchstone

@@ -1,5 +1,5 @@
-// Triangle mesh: the union of its closed triangles, a closed set and a surface without an inside. Bodies with a mesh
-// are static.
+// Triangle mesh: the union of its closed triangles, a closed set and a surface without an inside. Bodies with
+// a mesh are static.
 #pragma once
 
 #include <array>
