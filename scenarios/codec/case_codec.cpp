@@ -31,7 +31,10 @@ constexpr auto scene_query_fields = std::to_array<std::string_view>({"question"}
 
 Json to_json(const Query& q) {
   Json j{{"question", to_string(q.question)}};
-  if (is_pair_question(q.question)) j["a"] = q.a, j["b"] = q.b;
+  if (is_pair_question(q.question)) {
+    j["a"] = q.a;
+    j["b"] = q.b;
+  }
   return j;
 }
 
@@ -53,7 +56,10 @@ Query read_query(const JsonReader& r, const Scene& scene) {
   }
   Query q;
   q.question = *question;
-  if (!is_pair_question(q.question)) return r.require_object(scene_query_fields), q;
+  if (!is_pair_question(q.question)) {
+    r.require_object(scene_query_fields);
+    return q;
+  }
   r.require_object(pair_query_fields);
   q.a = read_body(r["a"], scene);
   q.b = read_body(r["b"], scene);

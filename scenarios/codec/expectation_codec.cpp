@@ -61,7 +61,10 @@ nlohmann::ordered_json to_json(const Expectation& e) {
   if (e.normal) j["normal"] = Json::array({e.normal->x(), e.normal->y(), e.normal->z()});
   if (e.impact) {
     j["impact"] = {{"hit", e.impact->hit}};
-    if (e.impact->hit) j["impact"]["time"] = e.impact->time, j["impact"]["tolerance"] = e.impact->tolerance;
+    if (e.impact->hit) {
+      j["impact"]["time"] = e.impact->time;
+      j["impact"]["tolerance"] = e.impact->tolerance;
+    }
   }
   if (e.all_pairs) j["all_pairs"] = *e.all_pairs;
   if (e.box_pairs) j["box_pairs"] = *e.box_pairs;

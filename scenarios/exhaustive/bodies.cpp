@@ -20,7 +20,10 @@ void of_family(const Draw& d, std::uint64_t index, std::string_view family, bool
   out.scene = make_case(d.seed, index, family).scene;
   Scene& s = out.scene;
   for (Body& b : s.bodies) b.motion.reset();
-  if (s.script.empty()) insert_all(s), step_query(s);
+  if (s.script.empty()) {
+    insert_all(s);
+    step_query(s);
+  }
   if (!grounded)
     std::erase_if(s.script,
                   [&](const Step& step) { return step.op != Step::Op::query && is_unbounded(s, step.body); });
@@ -69,7 +72,8 @@ namespace {
 void swept_case(const Draw& d, Body first, const Shape& other, const Vec3& at, Case& out) {
   Scene& s = out.scene;
   Body second;
-  first.shape = 0, second.shape = 1;
+  first.shape = 0;
+  second.shape = 1;
   second.pose.translation = at;
   s.shapes.push_back(other);
   s.bodies = {std::move(first), std::move(second)};

@@ -68,7 +68,8 @@ std::optional<Placing> draw_box(Rng& rng, const Draw& d, Coordinate coordinate,
       x = rng.chance(0.5) ? o.lo[k] : o.hi[k];
     }
     if (rng.chance(0.05)) y = x;
-    box.lo[k] = std::min(x, y), box.hi[k] = std::max(x, y);
+    box.lo[k] = std::min(x, y);
+    box.hi[k] = std::max(x, y);
   }
   return placing_of(box, d.scalar);
 }
@@ -87,15 +88,18 @@ void draw_boxes(Rng& rng, const Draw& d, Coordinate coordinate, std::uint64_t le
 
 // Insert all, query; take some out, put some in the place of another, query after each.
 void short_script(Rng& rng, Scene& s) {
-  insert_all(s), step_query(s);
+  insert_all(s);
+  step_query(s);
   std::vector<bool> present(s.bodies.size(), true);
   for (std::uint64_t k = rng.below(5); k > 0; --k) {
     const auto b = rng.below(s.bodies.size());
     const int body = static_cast<int>(b);
     if (!present[b]) {
-      step_insert(s, body), present[b] = true;
+      step_insert(s, body);
+      present[b] = true;
     } else if (rng.chance(0.5)) {
-      step_remove(s, body), present[b] = false;
+      step_remove(s, body);
+      present[b] = false;
     } else {
       step_move(s, body, s.bodies[b].pose);
     }
@@ -160,7 +164,10 @@ void no_boxes(const Draw& d, std::uint64_t index, Case& out) {
   const auto moved = rng.below(n);
   step_move(s, static_cast<int>(moved), s.bodies[rng.below(n)].pose);
   step_query(s);
-  if (rng.chance(0.5)) step_remove(s, none), step_query(s);
+  if (rng.chance(0.5)) {
+    step_remove(s, none);
+    step_query(s);
+  }
   out.queries = {{Question::candidates, -1, -1}};
 }
 

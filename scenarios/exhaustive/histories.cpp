@@ -27,9 +27,12 @@ struct Walk {
   void step(int b, int what, unsigned now) {
     const unsigned before = present, seen_before = seen;
     done.push_back(static_cast<char>(b * (places + 1) + what));
-    present = now, seen |= now;
+    present = now;
+    seen |= now;
     go();
-    done.pop_back(), present = before, seen = seen_before;
+    done.pop_back();
+    present = before;
+    seen = seen_before;
   }
 };
 
@@ -63,7 +66,8 @@ void play(const Course& course, std::uint64_t index, Case& out) {
     }
     const auto b = static_cast<std::size_t>(body);
     if (what == course.places) {
-      step_remove(s, body), present[b] = false;
+      step_remove(s, body);
+      present[b] = false;
       continue;
     }
     Pose p;

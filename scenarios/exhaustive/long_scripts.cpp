@@ -50,9 +50,11 @@ struct Script {
   void one() {
     const auto b = rng.below(at.size());
     if (!at[b]) {
-      at[b] = somewhere(), step_insert(s, static_cast<int>(b), *at[b]);
+      at[b] = somewhere();
+      step_insert(s, static_cast<int>(b), *at[b]);
     } else if (rng.chance(0.12)) {
-      at[b].reset(), step_remove(s, static_cast<int>(b));
+      at[b].reset();
+      step_remove(s, static_cast<int>(b));
     } else if (rng.chance(0.03)) {  // refit: all move
       for (std::size_t i = 0; i < at.size(); ++i)
         if (at[i]) move(i);
@@ -92,8 +94,10 @@ void moving_crowds(const Draw& d, std::uint64_t index, Case& out) {
   const std::uint64_t n = 100 + script.rng.below(script.rng.chance(0.2) ? 1400 : 400);
   script.world = std::ceil(std::cbrt(static_cast<double>(n)) * (script.rng.chance(0.3) ? 3 : 1));
   script.bodies(n);
-  for (std::size_t b = 0; b < n; ++b)
-    script.at[b] = out.scene.bodies[b].pose, step_insert(out.scene, static_cast<int>(b));
+  for (std::size_t b = 0; b < n; ++b) {
+    script.at[b] = out.scene.bodies[b].pose;
+    step_insert(out.scene, static_cast<int>(b));
+  }
   step_query(out.scene);
   for (int frame = 0; frame < 4; ++frame) {
     const double share = script.rng.chance(0.5) ? 1 : 0.1;
@@ -115,7 +119,8 @@ void uniform_boxes(const Draw& d, std::uint64_t index, Case& out) {
     for (double& x : p.h) x = grid(rng.uniform(0.125, 0.875));
     add_box(out.scene, p, rng.chance(0.2));
   }
-  insert_all(out.scene), step_query(out.scene);
+  insert_all(out.scene);
+  step_query(out.scene);
   out.queries = {{Question::candidates, -1, -1}};
 }
 

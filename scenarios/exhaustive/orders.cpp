@@ -46,27 +46,35 @@ void boxes_of(const std::array<const AxisOrder*, 3>& axes, std::uint64_t scale, 
     Placing p;
     for (int k = 0; k < 3; ++k) {
       const Span span = span_of(*axes[static_cast<std::size_t>(k)], i, scale, scalar);
-      p.t[k] = span.t, p.h[k] = span.h;
+      p.t[k] = span.t;
+      p.h[k] = span.h;
     }
     add_box(s, p);
   }
 }
 
 void ask(Case& c) {
-  insert_all(c.scene), step_query(c.scene);
+  insert_all(c.scene);
+  step_query(c.scene);
   c.queries = {{Question::candidates, -1, -1}};
 }
 
 AxisOrder mirrored(const AxisOrder& r) {
   const int top = *std::max_element(r.begin(), r.end());
   AxisOrder m(r.size());
-  for (std::size_t i = 0; i < r.size(); i += 2) m[i] = top - r[i + 1], m[i + 1] = top - r[i];
+  for (std::size_t i = 0; i < r.size(); i += 2) {
+    m[i] = top - r[i + 1];
+    m[i + 1] = top - r[i];
+  }
   return m;
 }
 
 AxisOrder renamed(const AxisOrder& r, const std::array<std::size_t, 3>& names) {
   AxisOrder m(r.size());
-  for (std::size_t i = 0; i < 3; ++i) m[2 * names[i]] = r[2 * i], m[2 * names[i] + 1] = r[2 * i + 1];
+  for (std::size_t i = 0; i < 3; ++i) {
+    m[2 * names[i]] = r[2 * i];
+    m[2 * names[i] + 1] = r[2 * i + 1];
+  }
   return m;
 }
 

@@ -61,7 +61,9 @@ Expectation no_hit(std::string reason) {
 
 Expectation counts(int all, std::optional<int> boxes, int overlapping, std::string reason) {
   Expectation e;
-  e.all_pairs = all, e.box_pairs = boxes, e.overlapping_pairs = overlapping;
+  e.all_pairs = all;
+  e.box_pairs = boxes;
+  e.overlapping_pairs = overlapping;
   e.reason = std::move(reason);
   return e;
 }

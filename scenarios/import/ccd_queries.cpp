@@ -42,7 +42,10 @@ CcdTruth read_truth(const TextLines& in) {
   t.collides = zero_or_one(in, 4);
   if (t.collides != !in.token(5).empty() || t.collides != !in.token(6).empty())
     in.fail("a time of impact must be given exactly when there is contact");
-  if (t.collides) t.toi_lo = in.number(5), t.toi_hi = in.number(6);
+  if (t.collides) {
+    t.toi_lo = in.number(5);
+    t.toi_hi = in.number(6);
+  }
   if (t.toi_lo > t.toi_hi) in.fail("toi_lo is larger than toi_hi");
   if (!zero_or_one(in, 8)) t.coplanar_times = in.integer(7);
   return t;

@@ -77,7 +77,10 @@ void contained(Rng& rng, Case& c) {
   const Mat3 r = rotation_matrix(s.bodies[0].pose.rotation);
   Vec3 local = rng.vector(0, 0.3) * extent(s.shapes[0]);
   if (style == 0) local = Vec3::Zero();
-  if (style == 1) local = Vec3(0, 0, local.z()), s.bodies[1].pose.rotation = s.bodies[0].pose.rotation;
+  if (style == 1) {
+    local = Vec3(0, 0, local.z());
+    s.bodies[1].pose.rotation = s.bodies[0].pose.rotation;
+  }
   s.bodies[1].pose.translation = r * local;
   c.scene = std::move(s);
   ask_pair(c);

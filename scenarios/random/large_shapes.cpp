@@ -89,7 +89,10 @@ Spot spot_on(Rng& rng, const Scene& s, int body) {
   const auto& t = m.triangles[rng.below(m.triangles.size())];
   const auto corner = [&](std::size_t k) { return m.vertices[static_cast<std::size_t>(t[k])]; };
   double u = rng.uniform(), v = rng.uniform();
-  if (u + v > 1) u = 1 - u, v = 1 - v;
+  if (u + v > 1) {
+    u = 1 - u;
+    v = 1 - v;
+  }
   const auto place = rng.below(8);
   if (place < 2) v = 0;
   if (place == 0) u = 0;

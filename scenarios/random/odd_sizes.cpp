@@ -77,7 +77,8 @@ double any_gap(Rng& rng, double size) {
 void exchange_bodies(Scene& s) {
   std::swap(s.bodies[0], s.bodies[1]);
   std::swap(s.shapes[0], s.shapes[1]);
-  s.bodies[0].shape = 0, s.bodies[1].shape = 1;
+  s.bodies[0].shape = 0;
+  s.bodies[1].shape = 1;
 }
 
 void flatten(Rng& rng, Shape& shape) {

@@ -120,11 +120,22 @@ Pose next_pose(Rng& rng, const Scene& s, const std::vector<std::optional<Pose>>&
   Pose pose = present[b].value_or(s.bodies[b].pose);
   const auto axis = static_cast<Eigen::Index>(rng.below(3));
   const auto way = rng.below(8);
-  if (way == 0)
-    return pose.translation[axis] = moved_by_ulps(pose.translation[axis], rng.chance(0.5) ? 1 : -1), pose;
-  if (way == 1) return pose.translation[axis] += rng.chance(0.5) ? 0.125 : -0.125, pose;
-  if (way == 2) return pose.translation += rng.unit_vector() * rng.binary_scale(-12, -2), pose;
-  if (way == 3) return pose.translation[axis] += rng.chance(0.5) ? 64.0 : -64.0, pose;
+  if (way == 0) {
+    pose.translation[axis] = moved_by_ulps(pose.translation[axis], rng.chance(0.5) ? 1 : -1);
+    return pose;
+  }
+  if (way == 1) {
+    pose.translation[axis] += rng.chance(0.5) ? 0.125 : -0.125;
+    return pose;
+  }
+  if (way == 2) {
+    pose.translation += rng.unit_vector() * rng.binary_scale(-12, -2);
+    return pose;
+  }
+  if (way == 3) {
+    pose.translation[axis] += rng.chance(0.5) ? 64.0 : -64.0;
+    return pose;
+  }
   const auto j = rng.below(present.size());
   // Beside a half-space is at infinity.
   if (j == b || !present[j] || kind_of(s.shape_of(static_cast<int>(j))) == ShapeKind::half_space)
