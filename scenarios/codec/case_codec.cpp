@@ -97,10 +97,10 @@ double read_odd(const JsonReader& r) {
   return text[0] == '-' ? -HUGE_VAL : HUGE_VAL;
 }
 
-// They have no exact set: only what they do to other bodies' pairs can be judged.
+// Such bodies are not exact sets: only their effect on other bodies' pairs can be judged.
 void read_odd_numbers(const JsonReader& r, Case& c) {
   for (const Query& q : c.queries)
-    if (q.question != Question::candidates) r.fail("only candidates can be asked of such a scene");
+    if (q.question != Question::candidates) r.fail("such a scene allows only candidates queries");
   std::vector<OddNumber> all;
   for (const auto& [place, value] : members_of(r)) all.push_back({place, read_odd(value)});
   try {
@@ -203,7 +203,7 @@ std::string to_text(const StoredCase& s) {
   for (const char* field : {"id", "description", "source", "family"})
     if (j.contains(field)) out += ",\n \"" + std::string(field) + "\": " + to_line(j[field]);
   std::string scene = touchstone::to_text(without_odd_numbers(s.c.scene));
-  scene.pop_back();  // its line end
+  scene.pop_back();  // the newline
   out += ",\n\"scene\": " + scene;
   if (j.contains("odd_numbers")) out += ",\n \"odd_numbers\": " + to_line(j["odd_numbers"]);
   write_list(out, "queries", j["queries"]);

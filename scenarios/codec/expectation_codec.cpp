@@ -32,7 +32,7 @@ Expectation::Impact read_impact(const JsonReader& r) {
   Expectation::Impact i;
   i.hit = r["hit"].boolean();
   if (!i.hit) {
-    if (r.has("time")) r["time"].fail("means nothing without a hit");
+    if (r.has("time")) r["time"].fail("has no meaning without a hit");
     return i;
   }
   i.time = r["time"].number();

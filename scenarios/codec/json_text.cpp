@@ -22,7 +22,7 @@ std::string line_and_column(std::string_view text, std::size_t offset) {
 }
 
 // The library's message is "[json.exception.parse_error.101] parse error at line 1, column 2: what; last
-// read: 'text'": the place is said already, and what was last read may be any bytes.
+// read: 'text'". Our error already has the place, and the text last read may be any bytes.
 std::string reason_of(const nlohmann::detail::exception& e, std::string_view at_error) {
   for (std::string_view word : {"NaN", "Infinity", "nan", "inf"})
     if (at_error.starts_with(word)) return std::string(word) + " is not a JSON number";
@@ -104,7 +104,7 @@ class Builder final : public nlohmann::json_sax<Json> {
 
  private:
   Json* put(Json v) {
-    if (left_-- == 0) throw InputError(place_, "holds more values than are read");
+    if (left_-- == 0) throw InputError(place_, "has more values than the limit");
     if (stack_.empty()) {
       root_ = std::move(v);
       return &root_;
@@ -114,7 +114,7 @@ class Builder final : public nlohmann::json_sax<Json> {
       top.push_back(std::move(v));
       return &top.back();
     }
-    // A vector underneath: push_back, since duplicates are already refused and a lookup would cost O(n).
+    // The object is a vector: append, since duplicates are already refused and a lookup would cost O(n).
     auto& object = top.get_ref<Json::object_t&>();
     object.emplace_back(std::move(key_), std::move(v));
     return &object.back().second;
@@ -136,7 +136,7 @@ class Builder final : public nlohmann::json_sax<Json> {
 };
 
 std::string number_text(double v) {
-  if (!std::isfinite(v)) throw InputError("", "JSON cannot say the number " + to_text(v));
+  if (!std::isfinite(v)) throw InputError("", "JSON cannot represent the number " + to_text(v));
   if (v == 0) return std::signbit(v) ? "-0.0" : "0";
   return to_text(v);
 }
