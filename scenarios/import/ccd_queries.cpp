@@ -12,8 +12,8 @@
 namespace touchstone {
 namespace {
 
-// A decimal integer that is a double exactly: its decimal expansion, which printf gives in full, is the same
-// text.
+// A decimal integer that is exactly a double: printf prints the double in full, and the text must be the
+// same.
 double exact_integer(const TextLines& in, std::size_t i) {
   const std::string text(in.token(i));
   const bool digits =

@@ -1,4 +1,4 @@
-// The grammar of scene.txt, one statement a line.
+// The grammar of scene.txt, one statement per line.
 #include "core/base/input_error.h"
 #include "scenarios/import/real_scene.h"
 #include "scenarios/import/text_lines.h"
