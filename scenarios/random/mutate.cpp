@@ -41,7 +41,8 @@ void change_number(std::vector<double*>& all, const Change& c, Change::Kind kind
   if (kind == Change::Kind::simple) v = simple(v, c.argument);
 }
 
-// Directions along which faces are parallel: the first body's axes, the world's, the line of origins.
+// Directions along which faces are parallel: the first body's axes, the world axes, the line between the
+// origins.
 Vec3 steering_direction(const Scene& s, std::uint16_t choice) {
   const Vec3 between = s.bodies[1].pose.translation - s.bodies[0].pose.translation;
   if (choice % 7 == 6 && between.norm() > 1e-6) return between.normalized();
