@@ -38,17 +38,17 @@ struct Walk {
 
 struct Course {
   int bodies, places, length;
-  std::array<double, 3> at;  // the places along the axis, of boxes of side 1
-  double far;                // along z they are so many times as far apart: a move is a teleport
+  std::array<double, 3> at;  // places of the boxes of side 1 along the axis
+  double far;                // along z the places are this many times as far apart: a move is a teleport
 };
 
-// Two places apart from each other; or three, each touching the next.
+// Two separate places, or three places each touching the next.
 Course course_of_two(const Draw&) { return {2, 2, 6, {-0.5, 1.5, 0}, 16}; }
 Course course_of_three(const Draw& d) { return {3, 3, d.scope == Scope::quick ? 5 : 6, {-1, 0, 1}, 1}; }
 
 const std::vector<std::string>& all_of(const Course& c) { return histories(c.bodies, c.places, c.length); }
 
-// The index also says whether body 0 is fixed, and the axis.
+// The index also encodes the axis and whether body 0 is fixed.
 constexpr std::uint64_t variants = 2;
 
 void play(const Course& course, std::uint64_t index, Case& out) {

@@ -1,4 +1,4 @@
-// Long scripts and crowds of boxes on a lattice fine enough for chance meetings and coarse enough for ties.
+// Long scripts and crowds of boxes on a lattice, fine enough for random contacts and coarse enough for ties.
 #include <cmath>
 
 #include "scenarios/exhaustive/hard_boxes.h"
@@ -40,7 +40,7 @@ struct Script {
     const auto kind = rng.below(8);
     if (kind == 0) p = somewhere();                                                   // teleport
     if (kind == 1) p.rotation = turn_by_thirds(static_cast<unsigned>(rng.below(3)));  // resize
-    if (kind == 2) p.translation += lattice_point(rng, 256, 128);                     // and out of the world
+    if (kind == 2) p.translation += lattice_point(rng, 256, 128);                     // possibly out of the world
     if (kind > 2) p.translation += lattice_point(rng, 0.125, 0.125);                  // drift
     for (double& x : p.translation)
       if (std::abs(x) > 1024) x = 0;
@@ -88,7 +88,8 @@ void longest_script(const Draw& d, std::uint64_t index, Case& out) {
   scripted(d, index + (std::uint64_t{1} << 40), 40, d.scope == Scope::quick ? 20000 : 100000, out);
 }
 
-// 100 to 1,500 boxes, in which subjects that choose a method by numbers choose another; five frames.
+// 100 to 1,500 boxes, for which subjects that choose a method by the number of boxes choose another; five
+// frames.
 void moving_crowds(const Draw& d, std::uint64_t index, Case& out) {
   Script script{Rng::stream(d.seed + 10, index), out.scene, 4, {}};
   const std::uint64_t n = 100 + script.rng.below(script.rng.chance(0.2) ? 1400 : 400);
