@@ -38,7 +38,7 @@ Scenario pair(std::string folder, std::string name, std::string line, Part a, Pa
 Expectation gap_is(double value, double tolerance, const Vec3& normal, std::string reason) {
   Expectation e;
   if (value > tolerance) e.overlap = false;
-  if (value <= -tolerance) e.overlap = true;  // with tolerance 0, touching too
+  if (value <= -tolerance) e.overlap = true;  // with tolerance 0, touching counts as well
   e.gap = {value, tolerance};
   e.normal = normal;
   e.reason = std::move(reason);

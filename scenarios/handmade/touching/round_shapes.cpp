@@ -12,7 +12,7 @@ List touching_round_shapes() {
   return {
       pair("touching", "spheres_kiss", "unit spheres, centres 2 apart", {Sphere{1}, {}, {}},
            {Sphere{1}, at(2, 0, 0), {}}, gap_is(0, 0, x, "2 - 1 - 1")),
-      pair("touching", "spheres_kiss_off_axis", "the touching direction is no axis", {Sphere{1.5}, {}, {}},
+      pair("touching", "spheres_kiss_off_axis", "the touching direction is not an axis", {Sphere{1.5}, {}, {}},
            {Sphere{5.5}, at(2, 3, 6), {}}, gap_is(0, 0, Vec3(2, 3, 6) / 7, "|(2,3,6)| = 7 = 1.5 + 5.5")),
       pair("touching", "spheres_one_ulp_apart", "the smallest gap that a double offset can make",
            {Sphere{1}, {}, {}}, {Sphere{1}, at(2 + 0x1p-51, 0, 0), {}}, gap_is(0x1p-51, 0, x, "exact")),
@@ -28,7 +28,7 @@ List touching_round_shapes() {
            gap_is(0, 0, Vec3(2, 3, 6) / 7, "|(2,3,6)| = 7 from the corner (1,1,1)")),
       pair("touching", "capsules_side_by_side", "parallel capsules touch along a segment", {capsule, {}, {}},
            {capsule, at(1, 0, 0.25), {}}, gap_is(0, 0, x, "axes 1 apart, radii 0.5")),
-      pair("touching", "capsules_crossed", "capsules at a right angle touch in a point", {capsule, {}, {}},
+      pair("touching", "capsules_crossed", "capsules at a right angle touch at a point", {capsule, {}, {}},
            {capsule, at(1, 0, 0, quarter_turn_x), {}}, gap_is(0, 0, x, "axes 1 apart, radii 0.5")),
       pair("touching", "capsule_end_on_box", "a capsule stands on a box", {unit, {}, {}},
            {capsule, at(0, 0, 2.5), {}}, gap_is(0, 0, z, "2.5 - 1.5 - 1")),
