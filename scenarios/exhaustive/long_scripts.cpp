@@ -40,7 +40,7 @@ struct Script {
     const auto kind = rng.below(8);
     if (kind == 0) p = somewhere();                                                   // teleport
     if (kind == 1) p.rotation = turn_by_thirds(static_cast<unsigned>(rng.below(3)));  // resize
-    if (kind == 2) p.translation += lattice_point(rng, 256, 128);                     // possibly out of the world
+    if (kind == 2) p.translation += lattice_point(rng, 256, 128);                     // may leave the world
     if (kind > 2) p.translation += lattice_point(rng, 0.125, 0.125);                  // drift
     for (double& x : p.translation)
       if (std::abs(x) > 1024) x = 0;

@@ -230,8 +230,8 @@ constexpr Family catalog[] = {
     {"last", "time of impact in the last 0.05 % of the step, or just after it", 1, last_moment},
     {"whirl", "time of impact, turning by 9 to 60 radians", 1, whirl},
     {"swarm", "3 to 20 moving bodies: swept candidate pairs, times of impact", 3, swarm},
-    {"tiles", "2 to 26 bodies of mixed sizes that touch exactly or within ulps, near the origin and far away", 3, tiles},
-    {"errands", "tiles inserted, moved by ulps or more, removed and reinserted, with queries between", 3, errands},
+    {"tiles", "2 to 26 bodies of mixed sizes that touch exactly or within ulps, near and far", 3, tiles},
+    {"errands", "tiles inserted, moved by ulps or more, removed, reinserted, with queries", 3, errands},
     {"throng", "40 to 400 tiles: candidate pairs", 1, throng},
     {"zero", "sizes of zero: points, segments, discs, plates, flat hulls", 7, zero_sizes},
     {"unequal", "a body 250 to 4e6 times smaller than the other", 5, unequal_sizes},
@@ -239,7 +239,7 @@ constexpr Family catalog[] = {
     {"mesh", "meshes of 1 to 450 triangles: single, folded, closed, flat, scattered", 8, meshes},
     {"vertices", "hulls of 64 to 300 vertices", 4, many_vertices},
     {"company", "3 to 14 bodies with meshes, groups, ignored pairs: candidates and contacts", 4, company},
-    {"dialogue", "3 to 6 bodies with few shapes; pairs queried in turn, in both orders, and again", 5, dialogue},
+    {"dialogue", "3 to 6 bodies, few shapes; pairs queried in turn, in both orders, and again", 5, dialogue},
 };
 
 const Family& named(std::string_view name) {
@@ -272,7 +272,7 @@ const Family& pick(Rng& rng, std::string_view names) {
   return catalog[one];
 }
 
-constexpr std::uint64_t forms_apart = 0x666f726d73ULL;  // a stream separate from the case's own
+constexpr std::uint64_t forms_stream = 0x666f726d73ULL;  // a stream separate from the case's own
 
 Case make_new(std::uint64_t seed, std::uint64_t index, std::string_view names) {
   Rng rng = Rng::stream(seed, index);
@@ -288,7 +288,7 @@ Case make_new(std::uint64_t seed, std::uint64_t index, std::string_view names) {
 std::span<const Family> families() { return catalog; }
 
 Case make_case(std::uint64_t seed, std::uint64_t index, std::string_view names) {
-  Rng rng = Rng::stream(seed ^ forms_apart, index);
+  Rng rng = Rng::stream(seed ^ forms_stream, index);
   const bool sequel = is_sequel(rng) && index > 0;
   Case c = sequel ? make_case(seed, index - 1, names) : make_new(seed, index, names);
   if (sequel) move_a_body(rng, c);

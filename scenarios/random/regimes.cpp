@@ -143,8 +143,11 @@ bool hull_of(const Case& c, const Case&) {
   return any_shape<Hull>(c, [](const Hull& h) { return h.vertices.size() >= least; });
 }
 
-// The angle between some edge of one and some edge of the other is less than a milliradian and more than
-// rounding.
+// Sines of the angle between edges that count as nearly parallel: more than rounding, less than a
+// milliradian.
+constexpr double least_edge_sine = 1e-15, most_edge_sine = 1e-3;
+
+// Some edge of one is nearly parallel to some edge of the other.
 bool nearly_parallel_boxes(const Case& c, const Case&) {
   return any_question(c, [&](const Query& q) {
     for (const int i : {q.a, q.b})
@@ -154,7 +157,7 @@ bool nearly_parallel_boxes(const Case& c, const Case&) {
     for (int i = 0; i < 3; ++i)
       for (int k = 0; k < 3; ++k) {
         const double sine = a.col(i).cross(b.col(k)).norm();
-        if (sine > 1e-15 && sine < 1e-3) return true;
+        if (sine > least_edge_sine && sine < most_edge_sine) return true;
       }
     return false;
   });

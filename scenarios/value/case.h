@@ -20,7 +20,7 @@ enum class Question : std::uint8_t {
   time_of_impact,
   candidates,       // at the bodies' poses: motions are ignored
   scene_contacts,   // likewise
-  swept_candidates  // pairs that overlap at some time of the step that starts at the bodies' own poses; no script
+  swept_candidates  // pairs that overlap at some time of the step, from the bodies' own poses; no script
 };
 inline constexpr auto question_names = std::to_array<std::string_view>(
     {"overlap", "distance", "contact", "time_of_impact", "candidates", "scene_contacts", "swept_candidates"});

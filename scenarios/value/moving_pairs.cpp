@@ -69,7 +69,8 @@ std::vector<BodyPair> moving_pairs(const Scene& scene) {
   std::vector<int> order;
   for (int i = 0; i < n; ++i) {
     boxes.push_back(box_along(scene, i));
-    if (boxes.back().lo.x() <= boxes.back().hi.x()) order.push_back(i);  // skips bodies that are not sets (odd_numbers.h)
+    // Skip bodies that are not sets (odd_numbers.h).
+    if (boxes.back().lo.x() <= boxes.back().hi.x()) order.push_back(i);
   }
   const auto box = [&](int i) -> const Aabb& { return boxes[static_cast<std::size_t>(i)]; };
   const auto body = [&](int i) -> const Body& { return scene.bodies[static_cast<std::size_t>(i)]; };

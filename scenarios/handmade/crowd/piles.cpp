@@ -64,7 +64,7 @@ List crowd_piles() {
       scenario(
           "crowd", "balls_above_a_half_space", "the same, lifted by 2^-20",
           on_ground(HalfSpace{Vec3(0, 0, 1), 0}, Sphere{0.5}, 7, 1.5, 0.5 + 0x1p-20),
-          counts(1225, 0, 0, "the half-space ends at z = 0, and its box must end there too or report pairs in vain")),
+          counts(1225, 0, 0, "the half-space ends at z = 0; its box must too, or it adds false candidates")),
       scenario("crowd", "boxes_on_a_mesh", "boxes stand on the vertices of a mesh",
                on_ground(grid_mesh(4), Box{Vec3(0.25, 0.25, 0.25)}, 3, 1, 0.25),
                counts(45, 9, 9, "nine boxes touch the surface, 0.5 apart from each other")),

@@ -24,9 +24,10 @@ List deep_off_centre() {
   const Box beam{Vec3(10, 1, 1)}, unit{Vec3(1, 1, 1)}, half{Vec3(0.5, 0.5, 0.5)};
   const double l = 29.0 / 128;
   return {
-      pair("deep", "beams_overlap_sideways", "the line of centres runs along the beams, the way out is sideways",
+      pair("deep", "beams_overlap_sideways",
+           "the line of centres runs along the beams, the way out is sideways",
            {beam, {}, {}}, {beam, at(15, 2 - 0x1p-4, 0), {}}, gap_is(-0x1p-4, 0, y, "x 5, y 2^-4, z 2")),
-      pair("deep", "cube_inside_box", "a fully immersed cube, nearest to one face", {Box{Vec3(4, 4, 4)}, {}, {}},
+      pair("deep", "cube_inside_box", "an immersed cube, nearest to one face", {Box{Vec3(4, 4, 4)}, {}, {}},
            {unit, at(2, 0.5, -1), {}}, gap_is(-3, 0, x, "x 5-2, y 5-0.5, z 5-1")),
       pair("deep", "nested_boxes_with_coplanar_faces", "the inner box shares two face planes with the outer",
            {unit, {}, {}}, {half, at(0.5, 0.5, 0), {}},

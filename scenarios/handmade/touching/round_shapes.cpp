@@ -12,8 +12,8 @@ List touching_round_shapes() {
   return {
       pair("touching", "spheres_kiss", "unit spheres, centres 2 apart", {Sphere{1}, {}, {}},
            {Sphere{1}, at(2, 0, 0), {}}, gap_is(0, 0, x, "2 - 1 - 1")),
-      pair("touching", "spheres_kiss_off_axis", "the touching direction is not an axis", {Sphere{1.5}, {}, {}},
-           {Sphere{5.5}, at(2, 3, 6), {}}, gap_is(0, 0, Vec3(2, 3, 6) / 7, "|(2,3,6)| = 7 = 1.5 + 5.5")),
+      pair("touching", "spheres_kiss_off_axis", "the touching direction is not an axis",
+           {Sphere{1.5}, {}, {}}, {Sphere{5.5}, at(2, 3, 6), {}}, gap_is(0, 0, Vec3(2, 3, 6) / 7, "|(2,3,6)| = 7 = 1.5 + 5.5")),
       pair("touching", "spheres_one_ulp_apart", "the smallest gap that a double offset can make",
            {Sphere{1}, {}, {}}, {Sphere{1}, at(2 + 0x1p-51, 0, 0), {}}, gap_is(0x1p-51, 0, x, "exact")),
       pair("touching", "spheres_one_ulp_inside", "the smallest overlap that a double offset can make",
