@@ -38,8 +38,8 @@ List thin_plates_and_rods() {
       pair("thin", "rods_crossed_apart", "rods of aspect ratio 1000 at a right angle, 2^-9 apart",
            {rod, {}, {}}, {rod, at(0x1p-8, 0, 0, quarter_turn_x), {}},
            gap_is(0x1p-9, 0, x, "2^-8 - 2·2^-10")),
-      pair("thin", "long_rod_over_cube", "a capsule of aspect ratio 10^6 crosses above a cube", {unit, {}, {}},
-           {Capsule{1, 0x1p20}, at(1000, 0, 2.5, quarter_turn_y), {}}, gap_is(0.5, 0, z, "2.5 - 1 - 1")),
+      pair("thin", "long_rod_over_cube", "a capsule of aspect ratio 10^6 crosses above a cube",
+           {unit, {}, {}}, {Capsule{1, 0x1p20}, at(1000, 0, 2.5, quarter_turn_y), {}}, gap_is(0.5, 0, z, "2.5 - 1 - 1")),
       pair("thin", "needle_in_box", "a needle of width 2^-30 pierces a face", {unit, at(0, 0, -1), {}},
            {needle(0x1p-30), at(0, 0, -0x1p-10), {}},
            // Up: 2^-10. Sideways at least 1.
