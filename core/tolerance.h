@@ -58,27 +58,27 @@ inline constexpr double grid_window = 8;
 /// Length of the cells along a column, in units of the median box.
 inline constexpr double grid_cut = 0.3;
 /// A level of fewer boxes than this is swept without cells (a count).
-inline constexpr unsigned grid_least_boxes = 64;
+inline constexpr unsigned grid_min_boxes = 64;
 /// A box in a neighbour list is widened by `neighbour_margin_steps` times its last step, or not at all when
-/// that exceeds `neighbour_margin_most` times its largest side. The list is rebuilt when more than one box in
+/// that exceeds `neighbour_max_margin` times its largest side. The list is rebuilt when more than one box in
 /// `neighbour_loose_share` has left its widened box (a count).
-inline constexpr double neighbour_margin_steps = 5, neighbour_margin_most = 0.3;
+inline constexpr double neighbour_margin_steps = 5, neighbour_max_margin = 0.3;
 inline constexpr unsigned neighbour_loose_share = 16;
 /// Insertion sort may spend this many moves per box before the order is sorted from scratch: about the cost
 /// of a radix sort.
-inline constexpr unsigned sweep_moves_a_box = 8;
+inline constexpr unsigned sweep_moves_per_box = 8;
 /// Changed boxes are searched one by one when fewer than one in this many has changed.
 inline constexpr unsigned sweep_local_share = 8;
-/// The automatic choice: all pairs are tested up to `brute_force_most` boxes; no cells are built up to
-/// `sweep_reach_most` boxes in the reach of a sweep (counts).
-inline constexpr unsigned brute_force_most = 160;
-inline constexpr double sweep_reach_most = 40;
+/// The automatic choice: all pairs are tested up to `brute_force_max` boxes; no cells are built up to
+/// `sweep_max_reach` boxes in the reach of a sweep (counts).
+inline constexpr unsigned brute_force_max = 160;
+inline constexpr double sweep_max_reach = 40;
 /// A refitted tree is rebuilt when its lowest nodes have grown by this factor: a build costs about twice as
 /// much as a refit, and overlap of nodes grows with the cube of their reach.
 inline constexpr double tree_decay = 1.15;
 /// The same limit for changes made box by box. A rebuild would undo many of them at once: split nodes are
 /// three quarters full, and a search costs about that much more.
-inline constexpr double tree_rot = 1.6;
+inline constexpr double tree_local_decay = 1.6;
 /// A tree is rebuilt when more than one in this many of its boxes is inserted or removed at once (a count).
 inline constexpr unsigned tree_change_share = 8;
 

@@ -25,7 +25,7 @@ bool AutomaticFinder::find_sorted(const BoxStore& store, PairSink& sink, std::ve
   boxes_ = n;
   changed_ = store.touched().size();
   reach_ = -1;
-  if (n <= tolerance::brute_force_most) {
+  if (n <= tolerance::brute_force_max) {
     method_ = Method::brute_force;
     list_.forget();
     brute_force_.find(store, sink);
@@ -36,7 +36,7 @@ bool AutomaticFinder::find_sorted(const BoxStore& store, PairSink& sink, std::ve
     return true;
   }
   reach_ = boxes_in_reach(stats_.of(store), n);
-  const Method method = reach_ <= tolerance::sweep_reach_most ? Method::sweep : Method::grid;
+  const Method method = reach_ <= tolerance::sweep_max_reach ? Method::sweep : Method::grid;
   if (std::exchange(method_, method) == Method::sweep && method != Method::sweep) sweep_ = {};
   if (method_ == Method::sweep) {
     list_.forget();

@@ -2,7 +2,7 @@
 //   few boxes                               brute force: nothing to build
 //   most boxes stay near where they were    neighbour list: nothing to search or sort
 //   few boxes in the reach of a sweep       sort and sweep: cheapest to build
-//   otherwise                               hierarchical grid (with one level when sizes are even)
+//   otherwise                               hierarchical grid (with one level when sizes are similar)
 // Compared with the best fixed method in one run (bench_broad, 2026-11-22, Zen 3, a busy machine), it takes
 // 0.80 to 1.07 of the time in the 15 cells of 1e3 to 1e5 boxes. Compared with a plain sweep or grid that
 // neither sorts pairs nor validates boxes, it is 0.8 to 2.5 times as fast when all boxes move and 3 to 9

@@ -61,9 +61,9 @@ void HierarchyFinder::update_all(const BoxStore& store) {
     moving_.refit(store);
     ++refits_;
   }
-  if (!build_moving && moving_.decay() > (refit ? tolerance::tree_decay : tolerance::tree_rot))
+  if (!build_moving && moving_.decay() > (refit ? tolerance::tree_decay : tolerance::tree_local_decay))
     build(store, moving_);
-  if (!build_fixed && fixed_.decay() > tolerance::tree_rot) build(store, fixed_);
+  if (!build_fixed && fixed_.decay() > tolerance::tree_local_decay) build(store, fixed_);
 }
 
 // Changed boxes start unmarked. Each is marked after it has been searched against the marked boxes, so a pair
@@ -87,7 +87,7 @@ void HierarchyFinder::update_few(const BoxStore& store, PairSink& sink) {
     home(store, s)->mark(s, true);
   }
   for (WideTree* tree : {&moving_, &fixed_})
-    if (tree->decay() > tolerance::tree_rot) build(store, *tree);
+    if (tree->decay() > tolerance::tree_local_decay) build(store, *tree);
 }
 
 void HierarchyFinder::find(const BoxStore& store, PairSink& sink) {

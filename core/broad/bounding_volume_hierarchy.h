@@ -7,8 +7,8 @@
 // partners. When many have changed, boxes are inserted and removed, the whole moving tree is refitted, and
 // all pairs are searched. A tree is rebuilt in three cases only: when so many of its boxes are inserted or
 // removed at once that single insertions would cost more (tree_change_share); when a full refit has made its
-// leaves tree_decay times as large as after the last build; when single changes have made them tree_rot times
-// as large.
+// leaves tree_decay times as large as after the last build; when single changes have made them
+// tree_local_decay times as large.
 #pragma once
 
 #include "core/broad/wide_tree.h"

@@ -82,8 +82,8 @@ using BroadPhasePtr = std::unique_ptr<BroadPhase>;
 /// the building of orders, cells and trees, and, in incremental_sweep and bounding_volume_hierarchy, queries
 /// in which few boxes have changed. The structures are not thread-safe: no two calls at the same time.
 struct Options {
-  int threads = 1;                   // maximum, including the caller's; 1: no thread is ever started
-  std::size_t least_a_part = 16384;  // boxes or pairs that make it worth starting a thread
+  int threads = 1;                        // maximum, including the caller's; 1: no thread is ever started
+  std::size_t min_work_per_part = 16384;  // boxes or pairs that make it worth starting a thread
 };
 
 /// Throws Refused when the box has a NaN or is inverted.

@@ -11,7 +11,7 @@ void GridLevels::build(const KeyBox* boxes, std::vector<std::uint32_t>& codes, c
   used_ = 0;
   levels_.reserve(max_levels);  // the rest of one level is read while the next is added
   const std::vector<std::uint32_t>* left = &codes;
-  while (used_ < max_levels && left->size() > tolerance::grid_least_boxes) {
+  while (used_ < max_levels && left->size() > tolerance::grid_min_boxes) {
     if (levels_.size() == used_) levels_.emplace_back();
     Level& level = levels_[used_];
     level.grid.build(boxes, *left, used_ > 0 ? sample_boxes(boxes, *left) : stats, level.too_large);

@@ -88,7 +88,7 @@ std::size_t file(const GridShape& s, const KeyBox* boxes, const std::uint32_t* c
     const std::uint32_t more_u = static_cast<std::uint32_t>(c.hi[s.axis_u]) - u,
                         more_v = static_cast<std::uint32_t>(c.hi[s.axis_v]) - v,
                         more_w = static_cast<std::uint32_t>(c.hi[s.axis_w]) - w;
-    if (HWY_UNLIKELY(((more_u | more_v) > 1) | (more_w > s.most_cells))) {
+    if (HWY_UNLIKELY(((more_u | more_v) > 1) | (more_w > s.max_cells))) {
       too_large.push_back(codes[i]);
       continue;
     }

@@ -29,7 +29,7 @@ struct GridShape {
   // infinite.
   alignas(16) float origin[4] = {0, 0, 0, 0}, scale[4] = {1, 1, 1, 1}, last[4] = {0, 0, 0, 0};
   std::uint32_t stride_u = 0, stride_v = 0, mask = 0xffffffff;
-  std::uint32_t most_cells = 0;  // maximum that a filed box may span along w
+  std::uint32_t max_cells = 0;  // maximum that a filed box may span along w
   std::uint32_t place(std::uint32_t u, std::uint32_t v, std::uint32_t w) const {
     return (u * stride_u + v * stride_v + w) & mask;
   }
@@ -49,7 +49,7 @@ struct CellRange {
 CellRange cell_range(const GridShape& shape, const KeyBox& box);
 
 /// Computes the cells of the boxes of `codes` (indices with moving_flag). Appends boxes that span at most 2 ×
-/// 2 columns and most_cells to `filed`, the others to `too_large`, and counts the entries of each place c in
+/// 2 columns and max_cells to `filed`, the others to `too_large`, and counts the entries of each place c in
 /// count[c].
 void file_boxes(const GridShape& shape, const KeyBox* boxes, const std::vector<std::uint32_t>& codes,
                 std::vector<Filed>& filed, std::vector<std::uint32_t>& too_large, std::uint32_t* count);

@@ -20,7 +20,7 @@ void IncrementalSweepFinder::start_order(const BoxStore& store) {
 
 // False when the budget is spent; the order is still a permutation then.
 bool IncrementalSweepFinder::insertion_sort() {
-  auto budget = static_cast<std::int64_t>(order_.size() * tolerance::sweep_moves_a_box);
+  auto budget = static_cast<std::int64_t>(order_.size() * tolerance::sweep_moves_per_box);
   for (std::size_t i = 1; i < order_.size(); ++i) {
     const KeyedSlot moved = order_[i];
     std::size_t j = i;

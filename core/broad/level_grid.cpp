@@ -12,8 +12,8 @@ namespace touchstone::broad {
 namespace {
 
 constexpr std::size_t padding = 64;  // entries that must be readable beyond the end
-constexpr std::uint32_t most_cells_a_box = 64;
-constexpr double most_columns_an_axis = 1 << column_bits, most_cells_an_axis = 1 << 24;
+constexpr std::uint32_t max_cells_per_box = 64;
+constexpr double max_columns_per_axis = 1 << column_bits, max_cells_per_axis = 1 << 24;
 
 // Bounds on coordinates and scales in float: differences and products of bounded values are never NaN.
 constexpr double bound = 1e30, least_scale = 1e-30;
@@ -37,7 +37,7 @@ void LevelGrid::choose_cells(const SceneStats& stats, std::size_t n) {
   shape_.axis_w = w;
   shape_.axis_u = u;
   shape_.axis_v = v;
-  shape_.most_cells = most_cells_a_box;
+  shape_.max_cells = max_cells_per_box;
   const double along = positive(stats.median_size[w], 0);
   const double area =
       tolerance::grid_window / (stats.density * static_cast<double>(n) * along * reach_of_box);
@@ -47,7 +47,7 @@ void LevelGrid::choose_cells(const SceneStats& stats, std::size_t n) {
     const double extent = std::max(0.0, stats.high[k] - stats.low[k]);
     const double cell = k == w ? along * tolerance::grid_cut
                                : std::max(tolerance::grid_cell_factor * stats.median_size[k], side);
-    const double most = k == w ? most_cells_an_axis : most_columns_an_axis;
+    const double most = k == w ? max_cells_per_axis : max_columns_per_axis;
     const double ratio = cell > 0 ? std::ceil(extent / cell) : 1;
     count[k] = ratio > 1 ? std::min(ratio, most) : 1;  // 1 when the ratio is NaN (infinity over infinity)
     // A world without extent has a single cell of any width.
@@ -67,7 +67,7 @@ void LevelGrid::choose_cells(const SceneStats& stats, std::size_t n) {
   // Extra columns cost nothing here: add as many again on either side of the sample, which may not include
   // the outermost boxes.
   for (int k = 0; k < 3; ++k) {
-    const double most = k == w ? most_cells_an_axis : most_columns_an_axis;
+    const double most = k == w ? max_cells_per_axis : max_columns_per_axis;
     if (3 * count[k] > most) continue;
     shape_.origin[k] = bounded(stats.low[k] - std::max(0.0, stats.high[k] - stats.low[k]));
     shape_.last[k] = static_cast<float>(3 * count[k] - 1);
@@ -75,7 +75,7 @@ void LevelGrid::choose_cells(const SceneStats& stats, std::size_t n) {
   // Strides from the plastic number (the two-dimensional analogue of the golden ratio): neighbouring columns
   // start far from each other, and starts fill the table evenly. Odd strides visit the whole table.
   places_ = std::bit_ceil(n + 512);
-  ghosts_ = most_cells_a_box + 1;
+  ghosts_ = max_cells_per_box + 1;
   shape_.mask = static_cast<std::uint32_t>(places_ - 1);
   shape_.stride_u = static_cast<std::uint32_t>(plastic_1 * static_cast<double>(places_)) | 1;
   shape_.stride_v = static_cast<std::uint32_t>(plastic_2 * static_cast<double>(places_)) | 1;
@@ -150,7 +150,7 @@ void LevelGrid::query(const KeyBox& box, std::uint32_t code, Doubt doubt, PairSi
   CellRange r = cell_range(shape_, box);
   if (thin_)
     for (int k = 0; k < 2; ++k) r.lo[k] -= std::min(r.lo[k], 1U);
-  const std::uint32_t from_w = r.lo[2] - std::min(r.lo[2], shape_.most_cells);
+  const std::uint32_t from_w = r.lo[2] - std::min(r.lo[2], shape_.max_cells);
   const std::uint32_t cells =
       static_cast<std::uint32_t>(std::min<std::size_t>(r.hi[2] - from_w + 1, places_));
   const double columns = (r.hi[0] - r.lo[0] + 1.0) * (r.hi[1] - r.lo[1] + 1.0);

@@ -22,7 +22,7 @@ class LevelGrid {
   /// The others go to `too_large`, in order.
   void build(const KeyBox* boxes, const std::vector<std::uint32_t>& codes, const SceneStats& stats,
              std::vector<std::uint32_t>& too_large);
-  /// Part `part` of `parts` of the pairs among the boxes filed.
+  /// Part `part` of `parts` of the pairs among the filed boxes.
   void self_pairs(Doubt doubt, std::size_t parts, std::size_t part, PairSink& sink) const;
   /// Pairs of a box that is not filed here with the filed boxes. `code` has no owner flags.
   void query(const KeyBox& box, std::uint32_t code, Doubt doubt, PairSink& sink) const;
@@ -49,7 +49,7 @@ class LevelGrid {
   std::size_t places_ = 0, ghosts_ = 0, count_ = 0, boxes_ = 0;
   bool thin_ = false;
   std::vector<std::uint32_t> begin_;  // first entry of each place; places, ghosts, end
-  std::vector<GridEntry> entries_;    // count_, then copies of those of the first ghosts_ places, then padding
+  std::vector<GridEntry> entries_;  // count_, then copies of those of the first ghosts_ places, then padding
   std::vector<Filed> filed_;
 };
 

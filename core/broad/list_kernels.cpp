@@ -15,8 +15,8 @@ namespace hn = hwy::HWY_NAMESPACE;
 
 // Sorts the partners of one box: a handful in most scenes.
 HWY_INLINE void sort_few(const std::uint32_t* from, std::size_t n, std::uint32_t* to) {
-  constexpr std::size_t insertion_sort_up_to = 24;
-  if (n > insertion_sort_up_to) {
+  constexpr std::size_t max_insertion_sort = 24;
+  if (n > max_insertion_sort) {
     std::copy_n(from, n, to);
     std::sort(to, to + n);
     return;

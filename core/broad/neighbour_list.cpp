@@ -29,7 +29,7 @@ float largest_side(const KeyBox& b) {
 // and would still leave it soon, so it gets no margin.
 float margin(float step, float side) {
   const float m = static_cast<float>(tolerance::neighbour_margin_steps) * step;
-  return m <= static_cast<float>(tolerance::neighbour_margin_most) * side ? m : 0;
+  return m <= static_cast<float>(tolerance::neighbour_max_margin) * side ? m : 0;
 }
 
 std::uint32_t code_of(BoxStore::Slot s, const KeyBox& fat) { return s | (fat.hi[3] != 0 ? 0 : moving_flag); }
@@ -325,7 +325,8 @@ std::string NeighbourListFinder::explain() const {
   if (!answered_) return levels_.explain() + " (no neighbour list: too many boxes move far or are new)";
   return "neighbour list number " + std::to_string(lists_) + ", " + std::to_string(age_) +
          " queries old: " + std::to_string(candidates_) + " candidates, " + std::to_string(loose_.size()) +
-         " loose boxes with " + std::to_string(loose_candidates_.size()) + "; built from " + levels_.explain();
+         " loose boxes with " + std::to_string(loose_candidates_.size()) + "; built from " +
+         levels_.explain();
 }
 
 BroadPhasePtr make_neighbour_list(const Options& options) {

@@ -11,7 +11,7 @@ namespace touchstone::broad {
 PairSink::PairSink(const Options& options) : options_(options) {
   if (options.threads < 1) throw std::invalid_argument("broad phase: threads must be 1 or more");
   threads_ = static_cast<std::size_t>(options.threads);
-  options_.least_a_part = std::max<std::size_t>(1, options.least_a_part);
+  options_.min_work_per_part = std::max<std::size_t>(1, options.min_work_per_part);
 }
 
 std::size_t PairSink::memory_bytes() const {

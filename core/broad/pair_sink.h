@@ -19,7 +19,7 @@ class PairSink {
   explicit PairSink(const Options& options = {});
   /// The number of parts in which to do this much work (boxes or pairs).
   std::size_t parts(std::size_t work) const {
-    return std::clamp<std::size_t>(work / options_.least_a_part, 1, threads_);
+    return std::clamp<std::size_t>(work / options_.min_work_per_part, 1, threads_);
   }
   /// Calls find(part, sink) for each part, in parallel, and appends the results.
   template <class Find>

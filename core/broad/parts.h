@@ -1,6 +1,6 @@
 // Divides work among threads, in parts that depend only on the amount of work and the number of threads,
 // never on timing. Threads live for one call. Starting and joining one costs about 20 µs, so small work stays
-// on the caller's thread (Options::least_a_part). Nothing runs between queries.
+// on the caller's thread (Options::min_work_per_part). Nothing runs between queries.
 #pragma once
 
 #include <algorithm>

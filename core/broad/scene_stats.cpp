@@ -12,10 +12,10 @@ namespace {
 
 // A sample of 256 costs about as much as 1000 boxes, and the character of a scene rarely changes. One box in
 // 64 of a large scene detects clusters of a thousand boxes.
-constexpr int queries_a_sample = 16;
+constexpr int queries_per_sample = 16;
 // Centres beyond these quantiles, and the sides beyond the 99th percentile, are treated as outliers.
 constexpr double low_quantile = 1.0 / 64, high_quantile = 63.0 / 64, largest_quantile = 0.99;
-constexpr std::size_t sample_least = 256, sample_most = 4096, sampled_share = 64;
+constexpr std::size_t min_sample = 256, max_sample = 4096, sampled_share = 64;
 
 double quantile(std::vector<double>& v, double q) {
   const auto k = static_cast<std::ptrdiff_t>(q * static_cast<double>(v.size() - 1));
@@ -91,7 +91,7 @@ SceneStats summary(Sample& sample) {
 }
 
 std::size_t step_through(std::size_t n) {
-  return std::max<std::size_t>(1, n / std::clamp(n / sampled_share, sample_least, sample_most));
+  return std::max<std::size_t>(1, n / std::clamp(n / sampled_share, min_sample, max_sample));
 }
 
 }  // namespace
@@ -116,7 +116,7 @@ SceneStats sample_boxes(const KeyBox* boxes, std::span<const std::uint32_t> code
 const SceneStats& RememberedStats::of(const BoxStore& store) {
   if (age_ == 0 || store.present() > 2 * present_ || present_ > 2 * store.present()) {
     stats_ = sample_scene(store);
-    age_ = queries_a_sample;
+    age_ = queries_per_sample;
     present_ = store.present();
   }
   --age_;

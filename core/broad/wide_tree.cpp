@@ -10,7 +10,7 @@
 namespace touchstone::broad {
 namespace {
 
-constexpr int bits_an_axis = 10;
+constexpr int bits_per_axis = 10;
 // A group with this few boxes left is dissolved: a search pays as much for its entry as for that of a full
 // one.
 constexpr std::size_t few_left = 4;
@@ -23,8 +23,8 @@ std::uint32_t morton(const KeyBox& b, const SceneStats& s) {
   for (int k = 0; k < 3; ++k) {
     const double centre = (static_cast<double>(value_of(b.lo[k])) + value_of(b.hi[k])) / 2;
     const double extent = s.high[k] - s.low[k];
-    const double t = extent > 0 ? (centre - s.low[k]) / extent * (1 << bits_an_axis) : 0;
-    const double in = t > 0 ? std::min(t, (1 << bits_an_axis) - 1.0) : 0;
+    const double t = extent > 0 ? (centre - s.low[k]) / extent * (1 << bits_per_axis) : 0;
+    const double in = t > 0 ? std::min(t, (1 << bits_per_axis) - 1.0) : 0;
     code |= spread_bits(static_cast<std::uint32_t>(in)) << k;
   }
   return code;

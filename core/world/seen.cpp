@@ -35,7 +35,8 @@ ContactAnswer contact_by_float(const PlacedShape& a, double reach_a, const Place
   y.pose.translation -= origin;
   ContactAnswer r = contact(x, y, Arithmetic::float32, memory);
   const double rounding =
-      float_rounding(x.pose, reach_a) + float_rounding(y.pose, reach_b) + origin_rounding * origin.lpNorm<1>();
+      float_rounding(x.pose, reach_a) + float_rounding(y.pose, reach_b) +
+      origin_rounding * origin.lpNorm<1>();
   r.error_bound = r.regret_bound = proven(r) + rounding;
   Manifold at_home;
   for (const ContactPoint& p : r.manifold) at_home.push_back({p.position + origin, p.depth, p.feature});
@@ -83,7 +84,7 @@ std::vector<SeenShape> seen_shapes(const Scene& scene, const Fidelity& fidelity)
 SeenBody seen_body(const SeenShape& shape, const Pose& body) {
   SeenBody r;
   r.pose = shape.simpler && shape.simpler->moved() ? placed_in(body, shape.simpler->in_body) : body;
-  r.middle_w = shape.ball.middle.isZero(0) ? r.pose.translation : to_transform(r.pose) * shape.ball.middle;
+  r.centre_w = shape.ball.middle.isZero(0) ? r.pose.translation : to_transform(r.pose) * shape.ball.middle;
   return r;
 }
 
@@ -99,7 +100,7 @@ ContactAnswer contact_seen(const Fidelity& fidelity, const SeenShape& a, const S
     if (bound) *bound = error;
   };
   const PairMethod& method = fidelity.of(kind_of(*a.shape), kind_of(*b.shape));
-  if (method.balls_first && balls_apart(at_a.middle_w, a.ball.radius, at_b.middle_w, b.ball.radius)) {
+  if (method.balls_first && balls_apart(at_a.centre_w, a.ball.radius, at_b.centre_w, b.ball.radius)) {
     decide(DecidedBy::balls, 0);
     return {};
   }

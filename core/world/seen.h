@@ -39,7 +39,7 @@ std::vector<SeenShape> seen_shapes(const Scene& scene, const Fidelity& fidelity)
 
 struct SeenBody {
   Pose pose;                     // of the shape used
-  Vec3 middle_w = Vec3::Zero();  // centre of its ball, world frame
+  Vec3 centre_w = Vec3::Zero();  // centre of its ball, world frame
 };
 SeenBody seen_body(const SeenShape& shape, const Pose& body);
 

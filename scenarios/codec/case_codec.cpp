@@ -104,7 +104,7 @@ void read_odd_numbers(const JsonReader& r, Case& c) {
   std::vector<OddNumber> all;
   for (const auto& [place, value] : members_of(r)) all.push_back({place, read_odd(value)});
   try {
-    put_in(c.scene, all);
+    insert_odd_numbers(c.scene, all);
   } catch (const InputError& e) {
     r.fail(e.place() + " " + e.reason());
   }

@@ -82,12 +82,12 @@ std::string message_of(const nlohmann::json::exception& e) {
 
 // Our certificates have some thousands of digits at most. Checking one beyond this limit takes longer than a
 // person would wait.
-constexpr std::size_t max_digits_in_all = 2'000'000;
+constexpr std::size_t max_total_digits = 2'000'000;
 
 void require_readable_size(const nlohmann::ordered_json& rationals) {
   std::size_t digits = 0;
   for (const auto& r : rationals) digits += r.is_string() ? r.get_ref<const std::string&>().size() : 0;
-  if (digits > max_digits_in_all) throw InputError("rationals", "have too many digits in total");
+  if (digits > max_total_digits) throw InputError("rationals", "have too many digits in total");
 }
 
 }  // namespace

@@ -44,7 +44,7 @@ Scene without_odd_numbers(Scene s) {
 }
 
 // Uses a table of the places, because a file may list as many numbers as the scene has.
-void put_in(Scene& s, const std::vector<OddNumber>& all) {
+void insert_odd_numbers(Scene& s, const std::vector<OddNumber>& all) {
   struct Place {
     double* number = nullptr;
     bool may_be_negative = false;

@@ -21,6 +21,6 @@ std::vector<OddNumber> odd_numbers(const Scene& s);
 /// The same scene with 0 in place of each of them.
 Scene without_odd_numbers(Scene s);
 /// Throws InputError with the number's place when the place does not exist or the number is an ordinary one.
-void put_in(Scene& s, const std::vector<OddNumber>& all);
+void insert_odd_numbers(Scene& s, const std::vector<OddNumber>& all);
 
 }  // namespace touchstone
