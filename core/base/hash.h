@@ -1,4 +1,4 @@
-// FNV-1a, 64 bit, over bytes in a fixed order. For names of cases and equality of runs, not for security.
+// FNV-1a, 64 bit, over bytes in a fixed order. Used for case names and to compare runs, not for security.
 // Doubles are hashed by bit pattern, so -0 and +0 differ, as they do for the engines.
 #pragma once
 

@@ -1,5 +1,5 @@
-// The one exception for bad input: where it is (file, JSON path, field) and why. The command line turns it into one
-// line on stderr and exit code 2.
+// The one exception for bad input: where it is (file, JSON path, field) and why. The command line turns it
+// into one line on stderr and exit code 2.
 #pragma once
 
 #include <stdexcept>
@@ -16,7 +16,7 @@ class InputError : public std::runtime_error {
         reason_(std::move(reason)) {}
   const std::string& place() const { return place_; }
   const std::string& reason() const { return reason_; }
-  /// The same error seen from one level further out: `prefix` is put in front of the place.
+  /// The same error with `prefix` put in front of the place; for callers one level further out.
   InputError within(const std::string& prefix) const {
     return InputError(place_.empty() ? prefix : prefix + (place_.front() == '[' ? "" : ".") + place_, reason_);
   }

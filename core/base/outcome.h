@@ -1,5 +1,5 @@
-// How a question ended. Every exit of every algorithm and every engine is one of these; "iteration cap
-// reached" is not_converged and is never reported as a number or as "no hit" (truth.md §3).
+// How a query ended. Every exit of every algorithm and engine is one of these. Reaching an iteration cap is
+// not_converged; it is never reported as a number or as "no hit" (truth.md §3).
 #pragma once
 
 #include <array>
@@ -12,13 +12,13 @@ namespace touchstone {
 enum class Outcome : std::uint8_t {
   answered,
   unsupported,     // the engine has no such query for these shapes
-  not_converged,   // an iteration cap or a stall, said as such
+  not_converged,   // an iteration cap or a stall, reported as such
   invalid_input,   // refused with a reason
   threw,           // a C++ exception left the engine
-  crashed,         // signal, abort, exit, memory limit, or bytes on the pipe that are no answer
+  crashed,         // signal, abort, exit, memory limit, or bytes on the pipe that are not an answer
   timed_out,       // watchdog
-  invalid_answer,  // names a body, a shape, a pair or an outcome that there is not
-  not_asked        // the engine had been set aside: it timed out too often before
+  invalid_answer,  // names a body, shape, pair or outcome that does not exist
+  not_asked        // the engine was set aside after too many timeouts
 };
 
 inline constexpr auto outcome_names =
@@ -34,9 +34,9 @@ constexpr std::optional<Outcome> outcome_from_string(std::string_view s) {
   return std::nullopt;
 }
 
-/// Nothing was said: not a failure, and nothing to judge.
+/// The engine gave no answer: not a failure, and nothing to judge.
 constexpr bool is_no_attempt(Outcome o) { return o == Outcome::unsupported || o == Outcome::not_asked; }
-/// It says more about the machine than about the engine.
+/// The outcome says more about the machine than about the engine.
 constexpr bool depends_on_time(Outcome o) { return o == Outcome::timed_out || o == Outcome::not_asked; }
 
 }  // namespace touchstone

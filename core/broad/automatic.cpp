@@ -8,11 +8,13 @@
 namespace touchstone::broad {
 namespace {
 
-// Boxes that a sweep compares each box with: those that begin within one box's length of it. √12 standard
-// deviations are the width of a uniform spread.
+// √12: the width of a uniform distribution in standard deviations.
+constexpr double uniform_width = 3.4641016151377544;
+
+// The number of boxes that a sweep compares each box with: those that begin within one box length of it.
 double boxes_in_reach(const SceneStats& s, std::size_t n) {
   const int axis = best_axis(s);
-  const double width = s.spread[axis] * 3.4641016151377544;
+  const double width = s.spread[axis] * uniform_width;
   return width > 0 ? static_cast<double>(n) * s.median_size[axis] / width : static_cast<double>(n);
 }
 
@@ -20,8 +22,10 @@ double boxes_in_reach(const SceneStats& s, std::size_t n) {
 
 bool AutomaticFinder::find_sorted(const BoxStore& store, PairSink& sink, std::vector<IdPair>& out) {
   const std::size_t n = store.present();
-  boxes_ = n, changed_ = store.touched().size(), reach_ = -1;
-  if (n <= tolerance::brute_force_most) {
+  boxes_ = n;
+  changed_ = store.touched().size();
+  reach_ = -1;
+  if (n <= tolerance::brute_force_max) {
     method_ = Method::brute_force;
     list_.forget();
     brute_force_.find(store, sink);
@@ -32,12 +36,14 @@ bool AutomaticFinder::find_sorted(const BoxStore& store, PairSink& sink, std::ve
     return true;
   }
   reach_ = boxes_in_reach(stats_.of(store), n);
-  const Method method = reach_ <= tolerance::sweep_reach_most ? Method::sweep : Method::grid;
+  const Method method = reach_ <= tolerance::sweep_max_reach ? Method::sweep : Method::grid;
   if (std::exchange(method_, method) == Method::sweep && method != Method::sweep) sweep_ = {};
-  if (method_ == Method::sweep)
-    list_.forget(), sweep_.find(store, sink);
-  else
+  if (method_ == Method::sweep) {
+    list_.forget();
+    sweep_.find(store, sink);
+  } else {
     list_.search(store, sink);
+  }
   return false;
 }
 

@@ -1,19 +1,17 @@
 // Bound. Let u = 2⁻⁶⁴ be the unit roundoff of Wide (x87: 64 bits; wider elsewhere) and R̃ the computed
 // rotation.
-//  * Each entry of R is a quotient of at most four products of doubles by |q|². Products of doubles round
-//  once, sums of
-//    four such terms at most three more times, all terms are <= |q|² in size: numerator within 4u|q|²,
-//    denominator within relative 4u, quotient one more: |R̃ − R| <= 10u entrywise. Squares of doubles cannot
-//    overflow or lose the largest term in Wide's exponent range.
-//  * A box bound along an axis is t + Σ R_k s_k, or a square root of Σ (R_k s_k)², or a maximum of dot
-//  products: at most
-//    eight more roundings, each relative to a partial result of size at most S + |t|, where S = Σ|s_k| (or
-//    the largest |vertex|₁): error <= (3·10 + 8)·u·S + 2u|t| < 2⁻⁵⁸·(S + |t|) = 64u(S + |t|).
-//  * The bound so widened is converted to double by rounding to nearest and stepped outward when that went
-//  inward.
-// The same with u = 2⁻⁵³ for double: 2⁻⁴⁷·(S + |t|) = 64u(S + |t|), which covers the last sum's rounding too,
-// so that nothing is stepped; what underflows is less than 2⁻¹⁰⁰⁰. Denormal results: the step outward is at
-// least one denormal, and Wide itself does not underflow there.
+//  * Each entry of R is a sum of at most four products of doubles, divided by |q|². A product of doubles rounds
+//    once and a sum of four such terms at most three more times; all terms are <= |q|² in magnitude. The
+//    numerator is within 4u|q|², the denominator within relative 4u, and the quotient rounds once more:
+//    |R̃ − R| <= 10u entrywise. Squares of doubles cannot overflow or lose the largest term in Wide's exponent
+//    range.
+//  * A box bound along an axis is t + Σ R_k s_k, or a square root of Σ (R_k s_k)², or a maximum of dot products:
+//    at most eight more roundings, each relative to a partial result of magnitude at most S + |t|, where
+//    S = Σ|s_k| (or the largest |vertex|₁): error <= (3·10 + 8)·u·S + 2u|t| < 2⁻⁵⁸·(S + |t|) = 64u(S + |t|).
+//  * The widened bound is rounded to the nearest double and stepped outward if that moved it inward.
+// The same holds for double with u = 2⁻⁵³: 2⁻⁴⁷·(S + |t|) = 64u(S + |t|) also covers the rounding of the last
+// sum, so no step outward is needed; underflow loses less than 2⁻¹⁰⁰⁰. For denormal results, the step outward
+// is at least one denormal, and Wide itself does not underflow there.
 #include "core/broad/body_box.h"
 
 #include <cmath>
@@ -38,9 +36,14 @@ struct Interval {
   T lo = 0, hi = 0;
 };
 
-// The sum, with its rounding added on the side of `b`.
+// Slack for the rounding of a sum of two Wides: two units of its last place.
+constexpr Wide sum_slack = 0x1p-62L;
+// Slack for the rounding of |ω| and of its product with a radius.
+constexpr Wide turn_slack = 0x1p-60L;
+
+// The sum, rounded away from zero in the direction of `b`.
 Wide outward(Wide a, Wide b) {
-  const Wide sum = a + b, slack = 0x1p-62L * std::abs(sum);
+  const Wide sum = a + b, slack = sum_slack * std::abs(sum);
   return b < 0 ? sum - slack : sum + slack;
 }
 
@@ -57,7 +60,8 @@ Interval<T> span(const std::vector<Vec3>& vertices, const Row<T>& row) {
   Interval<T> r{std::numeric_limits<T>::infinity(), -std::numeric_limits<T>::infinity()};
   for (const Vec3& v : vertices) {
     const T d = row.dot(v.cast<T>());
-    r.lo = std::min(r.lo, d), r.hi = std::max(r.hi, d);
+    r.lo = std::min(r.lo, d);
+    r.hi = std::max(r.hi, d);
   }
   return r;
 }
@@ -89,7 +93,7 @@ struct Extent {
   Interval<T> operator()(const HalfSpace&) const { return both_sides(std::numeric_limits<T>::infinity()); }
 };
 
-// S of the bound at the top.
+// S in the bound at the top of this file.
 struct Size {
   Wide operator()(const Sphere& s) const { return s.radius; }
   Wide operator()(const Box& s) const { return s.half_extents.cast<Wide>().sum(); }
@@ -107,8 +111,8 @@ struct Size {
   }
 };
 
-// A plane exactly perpendicular to a world axis: the rotation is a half turn about a body axis or none,
-// exactly, and the normal has one component.
+// Handles a plane that is exactly perpendicular to a world axis: the rotation is exactly the identity or a
+// half turn about a body axis, and the normal has one component.
 void tighten_half_space(const HalfSpace& h, const Pose& pose, Aabb& box) {
   const Quat& q = pose.rotation;
   const int turning = (q.x != 0) + (q.y != 0) + (q.z != 0) + (q.w != 0);
@@ -127,13 +131,12 @@ void tighten_half_space(const HalfSpace& h, const Pose& pose, Aabb& box) {
     box.lo[axis] = round_down(at - slack);
 }
 
-// Contains the body in each of its rotations, about its origin, through at most the angle θ = |ω|. Both boxes
-// do: that of the ball of radius r about the origin; and the box at the start widened by r·θ, for no point is
-// further than r from the axis, and a chord is no longer than its arc. θ and the product round by less than
-// 2⁻⁶⁰.
+// Contains the body rotated about its origin by any angle up to θ = |ω|. Two boxes do: that of the ball of
+// radius r about the origin, and the box at the start widened by r·θ, because no point is farther than r from
+// the axis and a chord is no longer than its arc. θ and the product round by less than 2⁻⁶⁰.
 Aabb turning_box(const Aabb& at_start, double r, const Pose& pose, const Vec3& angular) {
   const Aabb ball = body_box(Sphere{r}, pose);
-  const Wide way = angular.cast<Wide>().norm() * static_cast<Wide>(r) * (1 + 0x1p-60L);
+  const Wide way = angular.cast<Wide>().norm() * static_cast<Wide>(r) * (1 + turn_slack);
   Aabb box;
   for (int axis = 0; axis < 3; ++axis) {
     box.lo[axis] = std::max(ball.lo[axis], round_down(outward(at_start.lo[axis], -way)));
@@ -142,7 +145,12 @@ Aabb turning_box(const Aabb& at_start, double r, const Pose& pose, const Vec3& a
   return box;
 }
 
+// 64u(S + |t|) for double; see the bound at the top of this file.
 constexpr double loose_factor = 0x1p-47;
+// Covers what underflow may lose.
+constexpr double underflow_slack = 0x1p-1000;
+// box_size is converted to double; one rounding.
+constexpr double size_rounding = 1 + 0x1p-52;
 
 }  // namespace
 
@@ -153,7 +161,8 @@ Aabb body_box(const Shape& shape, const Pose& pose) {
   for (int axis = 0; axis < 3; ++axis) {
     const auto e = std::visit(Extent<Wide>{WideVec(f.rotation.row(axis).transpose())}, shape);
     const Wide t = f.translation[axis], slack = tolerance::box_error_factor * (size + std::abs(t));
-    box.lo[axis] = round_down(t + e.lo - slack), box.hi[axis] = round_up(t + e.hi + slack);
+    box.lo[axis] = round_down(t + e.lo - slack);
+    box.hi[axis] = round_up(t + e.hi + slack);
   }
   if (const auto* h = std::get_if<HalfSpace>(&shape)) tighten_half_space(*h, pose, box);
   return box;
@@ -165,12 +174,12 @@ Aabb swept_box(const Shape& shape, const Pose& pose, const Motion& motion) {
   if (!motion.angular.isZero(0)) start = turning_box(start, bounding_radius(shape), pose, motion.angular);
   Aabb box = start;
   for (int axis = 0; axis < 3; ++axis) {
-    // The end box is the start box moved by v; the sum is rounded outward.
+    // The end box is the start box translated by v; the sum is rounded outward.
     const Wide v = motion.linear[axis];
     box.lo[axis] =
-        std::min(box.lo[axis], round_down((start.lo[axis] + v) - 0x1p-62L * std::abs(start.lo[axis] + v)));
+        std::min(box.lo[axis], round_down((start.lo[axis] + v) - sum_slack * std::abs(start.lo[axis] + v)));
     box.hi[axis] =
-        std::max(box.hi[axis], round_up((start.hi[axis] + v) + 0x1p-62L * std::abs(start.hi[axis] + v)));
+        std::max(box.hi[axis], round_up((start.hi[axis] + v) + sum_slack * std::abs(start.hi[axis] + v)));
   }
   return box;
 }
@@ -181,8 +190,10 @@ Aabb loose_box(const Shape& shape, const Pose& pose, double size) {
   Aabb box;
   for (int axis = 0; axis < 3; ++axis) {
     const auto e = std::visit(Extent<double>{Vec3(r.row(axis).transpose())}, shape);
-    const double t = pose.translation[axis], slack = loose_factor * (size + std::abs(t)) + 0x1p-1000;
-    box.lo[axis] = t + e.lo - slack, box.hi[axis] = t + e.hi + slack;
+    const double t = pose.translation[axis];
+    const double slack = loose_factor * (size + std::abs(t)) + underflow_slack;
+    box.lo[axis] = t + e.lo - slack;
+    box.hi[axis] = t + e.hi + slack;
   }
   return box;
 }
@@ -191,20 +202,23 @@ Aabb loose_swept_box(const Aabb& start, const Pose& pose, const Motion& motion, 
   Aabb box = start;
   if (!motion.angular.isZero(0)) {
     const double way = motion.angular.norm() * reach * (1 + loose_factor);
-    box.lo.array() -= way, box.hi.array() += way;
+    box.lo.array() -= way;
+    box.hi.array() += way;
     const Vec3 slack = loose_factor * (pose.translation.cwiseAbs() + Vec3::Constant(reach));
     box.lo = box.lo.cwiseMax(pose.translation - Vec3::Constant(reach) - slack);
     box.hi = box.hi.cwiseMin(pose.translation + Vec3::Constant(reach) + slack);
   }
   const Aabb first = box;
-  box.lo = box.lo.cwiseMin(first.lo + motion.linear), box.hi = box.hi.cwiseMax(first.hi + motion.linear);
+  box.lo = box.lo.cwiseMin(first.lo + motion.linear);
+  box.hi = box.hi.cwiseMax(first.hi + motion.linear);
   const Vec3 slack =
       loose_factor * (box.lo.cwiseAbs().cwiseMax(box.hi.cwiseAbs()) + motion.linear.cwiseAbs()) +
-      Vec3::Constant(0x1p-1000);
-  box.lo -= slack, box.hi += slack;
+      Vec3::Constant(underflow_slack);
+  box.lo -= slack;
+  box.hi += slack;
   return box;
 }
 
-double box_size(const Shape& shape) { return static_cast<double>(std::visit(Size{}, shape)) * (1 + 0x1p-52); }
+double box_size(const Shape& shape) { return static_cast<double>(std::visit(Size{}, shape)) * size_rounding; }
 
 }  // namespace touchstone::broad

@@ -6,7 +6,7 @@
 
 namespace touchstone::broad {
 
-// Where a slot belongs, where it is; null for nowhere.
+// home: the tree that a slot belongs in; holder: the tree that it is in. Null when there is none.
 WideTree* HierarchyFinder::home(const BoxStore& store, BoxStore::Slot s) {
   return !store.is_present(s) ? nullptr : store.is_fixed(s) ? &fixed_ : &moving_;
 }
@@ -16,15 +16,19 @@ WideTree* HierarchyFinder::holder(BoxStore::Slot s) {
 
 void HierarchyFinder::leave(const BoxStore& store, BoxStore::Slot s) {
   WideTree* const from = holder(s);
-  if (from != nullptr && from != home(store, s)) from->remove(s), ++went_;
+  if (from != nullptr && from != home(store, s)) {
+    from->remove(s);
+    ++went_;
+  }
 }
 
-// After leave(). True when the slot has been where it belongs: its box may have moved.
+// Called after leave(). True when the slot was already in its tree; its box may have moved.
 bool HierarchyFinder::enter(const BoxStore& store, BoxStore::Slot s) {
   WideTree* const to = home(store, s);
   if (to == nullptr) return false;
   if (to->holds(s)) return true;
-  to->insert(store, s), ++came_;
+  to->insert(store, s);
+  ++came_;
   return false;
 }
 
@@ -34,7 +38,7 @@ void HierarchyFinder::build(const BoxStore& store, WideTree& tree) {
 }
 
 void HierarchyFinder::update_all(const BoxStore& store) {
-  std::size_t changes[2] = {}, moved = 0;  // of each tree: came or went
+  std::size_t changes[2] = {}, moved = 0;  // insertions and removals of each tree
   for (const BoxStore::Slot s : store.touched()) {
     const WideTree *const from = holder(s), *const to = home(store, s);
     changes[0] += (from == &moving_) != (to == &moving_) ? 1 : 0;
@@ -53,14 +57,17 @@ void HierarchyFinder::update_all(const BoxStore& store) {
     if (!enter(store, s)) continue;
     if (store.is_fixed(s) ? !build_fixed : !build_moving && !refit) home(store, s)->refit_one(store, s);
   }
-  if (refit) moving_.refit(store), ++refits_;
-  if (!build_moving && moving_.decay() > (refit ? tolerance::tree_decay : tolerance::tree_rot))
+  if (refit) {
+    moving_.refit(store);
+    ++refits_;
+  }
+  if (!build_moving && moving_.decay() > (refit ? tolerance::tree_decay : tolerance::tree_local_decay))
     build(store, moving_);
-  if (!build_fixed && fixed_.decay() > tolerance::tree_rot) build(store, fixed_);
+  if (!build_fixed && fixed_.decay() > tolerance::tree_local_decay) build(store, fixed_);
 }
 
-// Changed boxes begin unmarked and are marked once they have looked for partners among the marked ones: a
-// pair of two changed boxes is found by the later of them.
+// Changed boxes start unmarked. Each is marked after it has been searched against the marked boxes, so a pair
+// of two changed boxes is found by the later one.
 void HierarchyFinder::update_few(const BoxStore& store, PairSink& sink) {
   touched_.resize(store.slots());
   for (const BoxStore::Slot s : store.touched()) {
@@ -80,7 +87,7 @@ void HierarchyFinder::update_few(const BoxStore& store, PairSink& sink) {
     home(store, s)->mark(s, true);
   }
   for (WideTree* tree : {&moving_, &fixed_})
-    if (tree->decay() > tolerance::tree_rot) build(store, *tree);
+    if (tree->decay() > tolerance::tree_local_decay) build(store, *tree);
 }
 
 void HierarchyFinder::find(const BoxStore& store, PairSink& sink) {
@@ -104,10 +111,11 @@ void HierarchyFinder::find(const BoxStore& store, PairSink& sink) {
 }
 
 void HierarchyFinder::validate(const BoxStore& store) const {
-  moving_.validate(), fixed_.validate();
+  moving_.validate();
+  fixed_.validate();
   if (!store.touched().empty()) return;
   if (moving_.size() + fixed_.size() != store.present())
-    throw std::logic_error("hierarchy: a box is in no tree or in two");
+    throw std::logic_error("hierarchy: a box is in no tree or in both");
   for (BoxStore::Slot s = 0; s < store.slots(); ++s)
     if (store.is_present(s) && !(store.is_fixed(s) ? fixed_ : moving_).holds(s))
       throw std::logic_error("hierarchy: a box is in the wrong tree");
@@ -116,7 +124,7 @@ void HierarchyFinder::validate(const BoxStore& store) const {
 std::string HierarchyFinder::explain() const {
   return "trees of " + std::to_string(moving_.size()) + " moving and " + std::to_string(fixed_.size()) +
          " fixed boxes; " + std::to_string(builds_) + " builds, " + std::to_string(refits_) + " refits, " +
-         std::to_string(came_) + " boxes put in and " + std::to_string(went_) + " taken out since, reach " +
+         std::to_string(came_) + " boxes inserted and " + std::to_string(went_) + " removed, growth " +
          std::to_string(moving_.decay()) + "; " + (local_ ? "changed boxes searched" : "all boxes searched");
 }
 

@@ -1,13 +1,14 @@
-// Bounding-volume hierarchies: one tree of the fixed boxes, one of the moving ones (wide_tree.h). Pairs: the
-// moving tree against itself and against the fixed tree; fixed boxes are never compared with each other.
+// Bounding-volume hierarchies: one tree of the fixed boxes, one of the moving boxes (wide_tree.h). Pairs come
+// from the moving tree against itself and against the fixed tree; fixed boxes are never compared with each
+// other.
 //
-// When few boxes have changed since the last query, the pairs kept from it that touch none of them stand;
-// only these boxes are put in, taken out, refitted or put in elsewhere, and only they look for partners. When
-// many have, those that came or went are put in and taken out, the moving tree is refitted as a whole, and
-// all pairs are searched. A tree is built anew in three cases only: when so many of its boxes came or went at
-// once that putting them in would cost more (tree_change_share); when a refit of the whole has made its
-// leaves reach tree_decay times as far as after the last build; when single changes have made them reach
-// tree_rot times as far.
+// When few boxes have changed since the last query, the pairs kept from it that involve none of them remain
+// valid; only the changed boxes are inserted, removed, refitted or reinserted, and only they are searched for
+// partners. When many have changed, boxes are inserted and removed, the whole moving tree is refitted, and
+// all pairs are searched. A tree is rebuilt in three cases only: when so many of its boxes are inserted or
+// removed at once that single insertions would cost more (tree_change_share); when a full refit has made its
+// leaves tree_decay times as large as after the last build; when single changes have made them
+// tree_local_decay times as large.
 #pragma once
 
 #include "core/broad/wide_tree.h"
@@ -25,7 +26,8 @@ class HierarchyFinder {
   std::string explain() const;
   Structure structure() const {
     Structure s;
-    moving_.picture(s.nodes), fixed_.picture(s.nodes);
+    moving_.picture(s.nodes);
+    fixed_.picture(s.nodes);
     return s;
   }
 
@@ -38,8 +40,8 @@ class HierarchyFinder {
   void update_all(const BoxStore& store);
   void update_few(const BoxStore& store, PairSink& sink);
   WideTree moving_, fixed_;
-  std::vector<SlotPair> kept_;         // of the last query, when few boxes had changed
-  std::vector<std::uint8_t> touched_;  // of a slot; all 0 between queries
+  std::vector<SlotPair> kept_;         // pairs of the last query, when few boxes had changed
+  std::vector<std::uint8_t> touched_;  // by slot; all 0 between queries
   bool has_kept_ = false, local_ = false;
   long builds_ = 0, refits_ = 0, came_ = 0, went_ = 0;
 };

@@ -16,7 +16,10 @@ namespace hn = hwy::HWY_NAMESPACE;
 
 static_assert(sizeof(Aabb) == 6 * sizeof(double));
 
-// Four doubles or eight keys at once: AVX2 and its betters, which Highway numbers below it.
+// Cap on the change of a coordinate, so that it is finite in float.
+constexpr double largest_step = 1e30;
+
+// Four doubles or eight keys at once: AVX2 and better targets, which have lower numbers in Highway.
 #if !(HWY_ARCH_X86 && HWY_TARGET <= HWY_AVX2)
 HWY_INLINE void put(const Aabb& box, Aabb& old, KeyBox& key, float& step) {
   double most = 0;
@@ -25,8 +28,9 @@ HWY_INLINE void put(const Aabb& box, Aabb& old, KeyBox& key, float& step) {
     most = lo > most ? lo : most;
     most = hi > most ? hi : most;
   }
-  step = static_cast<float>(std::min(most, 1e30));
-  key = key_box(box), old = box;
+  step = static_cast<float>(std::min(most, largest_step));
+  key = key_box(box);
+  old = box;
 }
 #else
 using D = hn::FixedTag<double, 4>;
@@ -34,7 +38,7 @@ using I = hn::FixedTag<std::int32_t, 4>;
 using Doubles = hn::Vec<D>;
 using Keys = hn::Vec<I>;
 
-// float_key.h, key_below for sign −1, key_above for sign 1.
+// key_below of float_key.h for sign −1, key_above for sign 1.
 template <int sign>
 HWY_INLINE Keys outward(Doubles x) {
   const D d;
@@ -54,7 +58,7 @@ HWY_INLINE Doubles change(Doubles a, Doubles b) {
   return hn::IfThenElseZero(hn::Eq(c, c), c);
 }
 
-// Two loads that overlap: lo x y z, hi x; lo z, hi x y z.
+// Two overlapping loads: lo x y z, hi x; lo z, hi x y z.
 HWY_INLINE void put(const Aabb& box, Aabb& old, KeyBox& key, float& step) {
   const D d;
   const I i;
@@ -62,8 +66,9 @@ HWY_INLINE void put(const Aabb& box, Aabb& old, KeyBox& key, float& step) {
   double* const to = old.lo.data();
   const Doubles lo = hn::LoadU(d, from), hi = hn::LoadU(d, from + 2);
   const Doubles most = hn::Max(change(lo, hn::LoadU(d, to)), change(hi, hn::LoadU(d, to + 2)));
-  step = static_cast<float>(std::min(hn::GetLane(hn::MaxOfLanes(d, most)), 1e30));
-  hn::StoreU(lo, d, to), hn::StoreU(hi, d, to + 2);
+  step = static_cast<float>(std::min(hn::GetLane(hn::MaxOfLanes(d, most)), largest_step));
+  hn::StoreU(lo, d, to);
+  hn::StoreU(hi, d, to + 2);
   const auto three = hn::FirstN(i, 3);
   hn::Store(hn::IfThenElseZero(three, outward<-1>(lo)), i, key.lo);
   hn::Store(hn::IfThenElseZero(three, hn::Shuffle0321(outward<1>(hi))), i, key.hi);

@@ -1,4 +1,4 @@
-// Boxes taken in, in SIMD, chosen at run time for the processor (Highway).
+// Stores box updates, in SIMD, chosen at run time for the processor (Highway).
 #pragma once
 
 #include <span>
@@ -8,8 +8,8 @@
 
 namespace touchstone::broad {
 
-/// Puts box m of `moves` in place at[m]: the box, its keys, and the largest change of its coordinates (no
-/// more than 1e30; the difference of two infinities counts as none).
+/// Stores box m of `moves` at index at[m]: the box, its keys, and the largest change of its coordinates
+/// (capped at largest_step; the difference of two infinities counts as 0).
 void put_boxes(std::span<const BoxUpdate> moves, const std::uint32_t* at, Aabb* boxes, KeyBox* keys,
                float* steps);
 

@@ -18,16 +18,16 @@ std::string describe(Refusal why, int id) {
     case Refusal::inverted_box:
       return name + " is inverted (lo > hi)";
     case Refusal::id_present:
-      return name + " is present already";
+      return name + " is already present";
     case Refusal::id_absent:
       return name + " is not present";
     case Refusal::too_many:
-      return name + " is one too many";
+      return name + " exceeds the maximum number of boxes";
   }
   return name;
 }
 
-// False for a NaN too.
+// Also false for a NaN.
 bool is_box(const Aabb& b) {
   const int x = b.lo.x() <= b.hi.x(), y = b.lo.y() <= b.hi.y(), z = b.lo.z() <= b.hi.z();
   return (x & y & z) != 0;
@@ -50,12 +50,16 @@ void BoxStore::touch(Slot s) {
 }
 
 void BoxStore::make_room_for_one() {
-  make_room(boxes_), make_room(keys_), make_room(ids_), make_room(state_), make_room(steps_);
+  make_room(boxes_);
+  make_room(keys_);
+  make_room(ids_);
+  make_room(state_);
+  make_room(steps_);
   make_room(touched_);
 }
 
-// The first id that is not its slot. The slot being filled is not present yet.
-void BoxStore::name_slots_otherwise() {
+// Called for the first id that is not its slot. The slot being filled is not present yet.
+void BoxStore::use_id_index() {
   if (!identical_) return;
   identical_ = false;
   for (Slot s = 0; s < slots(); ++s)
@@ -64,7 +68,11 @@ void BoxStore::name_slots_otherwise() {
 
 void BoxStore::settle() {
   if (settled_at_ == membership_) {
-    trim(boxes_), trim(keys_), trim(ids_), trim(state_), trim(steps_);
+    trim(boxes_);
+    trim(keys_);
+    trim(ids_);
+    trim(state_);
+    trim(steps_);
     if (touched_.size() == slots()) trim(touched_);
   }
   settled_at_ = membership_;
@@ -84,19 +92,29 @@ void BoxStore::insert(int id, const Aabb& box, Mobility mobility) {
     s = static_cast<Slot>(slots());
     if (s > 0 && ids_.back() > id) ascending_ = false;
     make_room_for_one();
-    boxes_.emplace_back(), keys_.emplace_back(), ids_.push_back(id), state_.push_back(0), steps_.push_back(0);
+    boxes_.emplace_back();
+    keys_.emplace_back();
+    ids_.push_back(id);
+    state_.push_back(0);
+    steps_.push_back(0);
   } else {
-    s = free_.back(), free_.pop_back();
-    // A box that returns to its old slot keeps the order; any other may break it.
+    s = free_.back();
+    free_.pop_back();
+    // A box that returns to its old slot preserves the order; any other may break it.
     if (ids_[s] != id) ascending_ = false;
     ids_[s] = id;
   }
-  if (id != static_cast<int>(s)) name_slots_otherwise();
+  if (id != static_cast<int>(s)) use_id_index();
   if (!identical_) index_.insert(id, s, present());
   state_[s] = static_cast<std::uint8_t>((state_[s] & touched_bit) | present_bit);
-  if (mobility == Mobility::fixed) state_[s] |= fixed_bit, ++fixed_;
+  if (mobility == Mobility::fixed) {
+    state_[s] |= fixed_bit;
+    ++fixed_;
+  }
   ++membership_;
-  boxes_[s] = box, keys_[s] = key_box(box), steps_[s] = 0;
+  boxes_[s] = box;
+  keys_[s] = key_box(box);
+  steps_[s] = 0;
   changed(s);
 }
 
@@ -110,14 +128,17 @@ void BoxStore::remove(int id) {
   if (s == IdIndex::none) throw Refused(Refusal::id_absent, id);
   if (!identical_) index_.remove(id);
   free_.push_back(s);
-  if ((state_[s] & fixed_bit) != 0) --fixed_, ++fixed_changes_;
+  if ((state_[s] & fixed_bit) != 0) {
+    --fixed_;
+    ++fixed_changes_;
+  }
   state_[s] &= touched_bit;
   keys_[s] = KeyBox{};
   ++membership_;
   touch(s);
 }
 
-// In blocks, whose slots are kept between the two passes over them.
+// Works in blocks, so that the slots are looked up once for both passes.
 void BoxStore::update(std::span<const BoxUpdate> moves) {
   for (const BoxUpdate& m : moves) {
     require_box(m.id, m.box);
@@ -161,11 +182,12 @@ void BoxStore::validate() const {
     require(std::ranges::equal(keys_[s].lo, expected.lo) && std::ranges::equal(keys_[s].hi, expected.hi),
             "box store: a key box is not its box rounded outward");
     if (!is_present(s)) continue;
-    ++present, fixed += is_fixed(s) ? 1 : 0;
+    ++present;
+    fixed += is_fixed(s) ? 1 : 0;
     require_box(ids_[s], boxes_[s]);
     require(find(ids_[s]) == s, "box store: an id does not lead to its slot");
   }
-  require(present == this->present() && fixed == fixed_, "box store: a count is off");
+  require(present == this->present() && fixed == fixed_, "box store: a count is wrong");
 }
 
 std::size_t BoxStore::memory_bytes() const {

@@ -1,5 +1,5 @@
-// The boxes that are present, in slots that do not move while a box lives, with what changed since the last
-// query: the part that all algorithms have in common.
+// The boxes that are present, in slots that stay the same as long as a box is present, and the changes since
+// the last query. Shared by all algorithms.
 #pragma once
 
 #include <cstdint>
@@ -31,26 +31,26 @@ class BoxStore {
   bool is_present(Slot s) const { return (state_[s] & present_bit) != 0; }
   bool is_fixed(Slot s) const { return (state_[s] & fixed_bit) != 0; }
   int id(Slot s) const { return ids_[s]; }
-  /// How far the box went in its last move, the largest of its coordinates' changes; 0 for one just inserted.
+  /// The largest change of a coordinate in the box's last move; 0 for a box that was just inserted.
   float last_step(Slot s) const { return steps_[s]; }
   std::size_t fixed() const { return fixed_; }
 
-  /// The slots present in order, with moving_flag (pair_kernels.h) where they move.
+  /// The present slots in order, with moving_flag (pair_kernels.h) set for moving boxes.
   void codes(std::vector<std::uint32_t>& out) const;
 
   /// Slots inserted, moved or removed since forget_changes(), each once.
   std::span<const Slot> touched() const { return touched_; }
-  /// Counts insertions and removals since ever.
+  /// The number of insertions and removals so far.
   std::uint64_t membership() const { return membership_; }
-  /// Counts every change of a fixed box, its coming and going included.
+  /// The number of changes of fixed boxes so far, insertions and removals included.
   std::uint64_t fixed_changes() const { return fixed_changes_; }
   void forget_changes();
-  /// To be called at each query: gives memory back once boxes have ceased to come and go.
+  /// Call at each query. Releases memory once boxes are no longer inserted and removed.
   void settle();
 
   /// True when ids ascend with slots, so that pairs sorted by slot are sorted by id.
   bool slots_ascend() const { return ascending_; }
-  /// True when each id is its slot.
+  /// True when each id equals its slot.
   bool ids_are_slots() const { return identical_; }
 
   void validate() const;
@@ -60,7 +60,7 @@ class BoxStore {
   static constexpr std::uint8_t touched_bit = 1, present_bit = 2, fixed_bit = 4;
   void touch(Slot s);
   void make_room_for_one();
-  void name_slots_otherwise();
+  void use_id_index();
   void changed(Slot s);
   Slot find(int id) const {
     if (!identical_) return index_.find(id);
@@ -73,7 +73,7 @@ class BoxStore {
   std::vector<float> steps_;
   std::vector<std::uint8_t> state_;
   std::vector<Slot> free_, touched_;
-  IdIndex index_;  // of ids that are not their slots
+  IdIndex index_;  // used when some id is not its slot
   std::size_t fixed_ = 0;
   std::uint64_t membership_ = 0, fixed_changes_ = 0, settled_at_ = 0;
   bool ascending_ = true, identical_ = true;

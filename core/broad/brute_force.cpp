@@ -9,7 +9,7 @@ void BruteForceFinder::find(const BoxStore& store, PairSink& sink) {
   std::size_t n = 0;
   for (BoxStore::Slot s = 0; s < store.slots(); ++s)
     if (store.is_present(s)) columns_.put(n++, store.keys()[s], plain_code(store, s), 0);
-  // A box costs n/2 tests, not a handful.
+  // A box costs n/2 tests here; the other methods need only a handful.
   const std::size_t parts = sink.parts(n * n / 64);
   sink.in_parts(parts, [&](std::size_t p, PairSink& out) {
     deal_chunks(n, 16, parts, p, [&](std::size_t begin, std::size_t end) {

@@ -1,5 +1,5 @@
-// Every pair of boxes is tested, many at a time: n(n−1)/2 tests. The reference for every other algorithm, and
-// the fastest for a few boxes.
+// Tests every pair of boxes, many at a time: n(n−1)/2 tests. The reference for every other algorithm, and the
+// fastest one for few boxes.
 #pragma once
 
 #include "core/broad/pair_kernels.h"

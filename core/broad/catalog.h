@@ -1,4 +1,4 @@
-// Every broad phase of the core by name. A new algorithm is one file and one row.
+// Every broad phase of the core by name. To add an algorithm, add a file and a row.
 #pragma once
 
 #include <array>
@@ -32,7 +32,7 @@ inline constexpr auto catalog = std::to_array<CatalogRow>({
     {"bounding_volume_hierarchy", &make_bounding_volume_hierarchy},
 });
 
-/// Null when there is no such name.
+/// Null when the name is unknown.
 inline BroadPhasePtr make_broad_phase(std::string_view name, const Options& options = {}) {
   for (const CatalogRow& row : catalog)
     if (row.name == name) return row.make(options);

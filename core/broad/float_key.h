@@ -1,17 +1,15 @@
-// Boxes as integers. The structures compare 32-bit keys; doubles decide only where keys cannot.
+// Boxes as integers. The structures compare 32-bit keys; doubles are compared only when keys cannot decide.
 //
-// The finite floats and the two infinities, in order, are numbered by key(f): the bits of |f| with the sign
-// of f, so that −0 and +0 share key 0 and neighbours differ by 1. A lower end d gets the key of the largest
-// float
-// <= d, an upper end the key of the smallest float >= d. With value(k) the float of key k:
+// key(f) numbers the finite floats and the two infinities in order: the bits of |f| with the sign of f, so
+// that −0 and +0 share key 0 and neighbours differ by 1. A lower end d gets the key of the largest float <=
+// d, an upper end the key of the smallest float >= d. With value(k) the float of key k:
 //   value(k_lo) <= d_lo < value(k_lo + 1),   value(k_hi − 1) < d_hi <= value(k_hi).
-//  * d_lo <= d_hi implies k_lo <= k_hi, because both maps are monotone and value(k_lo) <= value(k_hi): no
-//  pair
+//  * d_lo <= d_hi implies k_lo <= k_hi, because both maps are monotone and value(k_lo) <= value(k_hi): no pair
 //    of overlapping double boxes is lost.
-//  * k_lo + 2 <= k_hi implies d_lo < value(k_lo + 1) <= value(k_hi − 1) < d_hi: the doubles overlap for sure.
-// Between the two (touching, or a gap or overlap below one float's spacing) the double boxes are compared, so
-// that the pairs reported are exactly those of the double boxes. Integers also mean that no mode of the
-// floating-point unit (flush to zero) can lose a pair inside a structure.
+//  * k_lo + 2 <= k_hi implies d_lo < value(k_lo + 1) <= value(k_hi − 1) < d_hi: the doubles certainly overlap.
+// In between (touching, or a gap or overlap below one float's spacing) the double boxes are compared, so that
+// the reported pairs are exactly those of the double boxes. With integers, no mode of the floating-point unit
+// (flush to zero) can lose a pair inside a structure.
 #pragma once
 
 #include <bit>
@@ -44,18 +42,24 @@ inline std::int32_t key_above(double d) {
   return key_of(f) + (static_cast<double>(f) < d ? 1 : 0);
 }
 
-/// No box of key length value(hi) − value(lo) <= longest (computed in float or double) that reaches `lo`
-/// begins below this key. The computed length may be short of the exact one by 2⁻²⁴ of it: 2⁻²⁰ covers that
-/// and, for |lo| up to 2³⁰ lengths, the rounding of the difference here; beyond, one key less does.
+/// Lengths from here on are treated as unbounded: their difference from any key would lose meaning.
+inline constexpr double longest_finite = 0x1p120;
+/// Covers the rounding of a computed length; see earliest_start.
+inline constexpr double length_slack = 0x1p-20;
+
+/// A lower bound on keys: no box that reaches `lo` and whose length value(hi) − value(lo) is <= longest
+/// (computed in float or double) begins below it. The computed length may be less than the exact one by 2⁻²⁴
+/// of it: 2⁻²⁰ covers that and, for |lo| up to 2³⁰ lengths, the rounding of the difference here; beyond that,
+/// subtracting one key is enough.
 inline std::int32_t earliest_start(std::int32_t lo, double longest) {
-  if (!(longest < 0x1p120)) return -0x7ffffff0;
-  return key_below(value_of(lo) - longest * (1 + 0x1p-20)) - 1;
+  if (!(longest < longest_finite)) return -0x7ffffff0;
+  return key_below(value_of(lo) - longest * (1 + length_slack)) - 1;
 }
 
-/// Beyond every key of a float by more than the margin of 2.
+/// Greater than every key of a float by more than the margin of 2.
 inline constexpr std::int32_t no_key = 0x7ffffff0;
 
-/// One box; the default overlaps nothing, itself included. 32 bytes, so that it is one load.
+/// One box. The default overlaps nothing, not even itself. 32 bytes, so that it takes one load.
 struct alignas(32) KeyBox {
   std::int32_t lo[4] = {no_key, no_key, no_key, 0};
   std::int32_t hi[4] = {-no_key, -no_key, -no_key, 0};

@@ -9,15 +9,16 @@ namespace touchstone::broad {
 void GridLevels::build(const KeyBox* boxes, std::vector<std::uint32_t>& codes, const SceneStats& stats,
                        std::size_t max_levels) {
   used_ = 0;
-  levels_.reserve(max_levels);  // what is left of one level is read while the next is added
+  levels_.reserve(max_levels);  // the rest of one level is read while the next is added
   const std::vector<std::uint32_t>* left = &codes;
-  while (used_ < max_levels && left->size() > tolerance::grid_least_boxes) {
+  while (used_ < max_levels && left->size() > tolerance::grid_min_boxes) {
     if (levels_.size() == used_) levels_.emplace_back();
     Level& level = levels_[used_];
     level.grid.build(boxes, *left, used_ > 0 ? sample_boxes(boxes, *left) : stats, level.too_large);
-    // A level that takes less than half is not worth its queries.
+    // A level that takes fewer than half of the boxes is not worth its queries.
     if (level.grid.filed() * 2 < left->size()) break;
-    left = &level.too_large, ++used_;
+    left = &level.too_large;
+    ++used_;
   }
   sort_rest(boxes, *left);
 }
@@ -52,7 +53,8 @@ void GridLevels::pairs(const KeyBox* boxes, Doubt doubt, PairSink& sink) {
 
 void GridLevels::thin_out() {
   for (std::size_t l = 0; l < used_; ++l) levels_[l].grid.thin_out();
-  release(order_), release(scratch_);
+  release(order_);
+  release(scratch_);
 }
 
 void GridLevels::query(const KeyBox& box, std::uint32_t code, PairSink& sink) {

@@ -1,9 +1,9 @@
-// Uniform grid, and hierarchical grid for uneven sizes.
+// Uniform grid, and hierarchical grid for boxes of different sizes.
 //
-// The grid's cells fit the usual box (level_grid.h). Boxes that are large for them make up the next level,
-// whose grid has cells to their measure, and so on; each large box looks into the grids of all finer levels.
-// The uniform grid has one level; its large boxes are swept. Ericson, Real-Time Collision Detection (2005),
-// §7.2, with columns in place of cubic cells.
+// The cells of a grid fit the typical box (level_grid.h). Boxes that are too large for them form the next
+// level, whose cells fit those boxes, and so on; each large box is queried against the grids of all finer
+// levels. The uniform grid has one level, and its large boxes are swept. Ericson, Real-Time Collision
+// Detection (2005), §7.2, with columns in place of cubic cells.
 #pragma once
 
 #include "core/broad/key_sort.h"
@@ -11,19 +11,19 @@
 
 namespace touchstone::broad {
 
-/// The levels of a grid over boxes that the caller holds.
+/// The levels of a grid over boxes that the caller owns.
 class GridLevels {
  public:
-  /// Over the boxes of `codes` (indices with moving_flag).
+  /// Builds over the boxes of `codes` (indices with moving_flag).
   void build(const KeyBox* boxes, std::vector<std::uint32_t>& codes, const SceneStats& stats,
              std::size_t max_levels);
-  /// All pairs. `boxes` as they were built over.
+  /// All pairs. `boxes` must be those of build().
   void pairs(const KeyBox* boxes, Doubt doubt, PairSink& sink);
-  /// Pairs of another box with those built over.
+  /// Pairs of another box with the boxes of build().
   void query(const KeyBox& box, std::uint32_t code, PairSink& sink);
-  /// Keeps what query() needs.
+  /// Keeps only what query() needs.
   void thin_out();
-  /// Gives everything back.
+  /// Releases all memory.
   void forget() { *this = {}; }
   std::size_t swept() const { return rest_.size; }
   void validate() const;
@@ -40,7 +40,7 @@ class GridLevels {
   std::vector<Level> levels_;
   std::size_t used_ = 0;
   std::vector<KeyedSlot> order_, scratch_;
-  BoxColumns rest_, probe_;  // what no level holds, in order along x
+  BoxColumns rest_, probe_;  // boxes that no level holds, sorted along x
 };
 
 template <int max_levels>

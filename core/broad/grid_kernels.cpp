@@ -15,7 +15,7 @@ using I = hn::ScalableTag<std::int32_t>;
 using V = hn::Vec<I>;
 using M = hn::Mask<I>;
 
-// float_key.h, value_of.
+// value_of of float_key.h.
 template <class D, class Keys>
 HWY_INLINE hn::Vec<hn::RebindToFloat<D>> values(D d, Keys key) {
   const auto negative = hn::ShiftRight<31>(key);
@@ -68,13 +68,15 @@ CellRange range_of(const GridShape& s, const KeyBox& b) {
   cells_of(s, b, c);
   const int axes[3] = {s.axis_u, s.axis_v, s.axis_w};
   CellRange r{};
-  for (int k = 0; k < 3; ++k)
-    r.lo[k] = static_cast<std::uint32_t>(c.lo[axes[k]]), r.hi[k] = static_cast<std::uint32_t>(c.hi[axes[k]]);
+  for (int k = 0; k < 3; ++k) {
+    r.lo[k] = static_cast<std::uint32_t>(c.lo[axes[k]]);
+    r.hi[k] = static_cast<std::uint32_t>(c.hi[axes[k]]);
+  }
   return r;
 }
 
-// A box meets one column, two or (seldom) four. How many cannot be predicted, so the second visit is made
-// always, with weight 0 or 1.
+// A box meets one column, two or (rarely) four. The number cannot be predicted, so the second column is
+// always visited, with weight 0 or 1.
 std::size_t file(const GridShape& s, const KeyBox* boxes, const std::uint32_t* codes, std::size_t n,
                  Filed* filed, std::vector<std::uint32_t>& too_large, std::uint32_t* count) {
   std::size_t kept = 0;
@@ -86,7 +88,7 @@ std::size_t file(const GridShape& s, const KeyBox* boxes, const std::uint32_t* c
     const std::uint32_t more_u = static_cast<std::uint32_t>(c.hi[s.axis_u]) - u,
                         more_v = static_cast<std::uint32_t>(c.hi[s.axis_v]) - v,
                         more_w = static_cast<std::uint32_t>(c.hi[s.axis_w]) - w;
-    if (HWY_UNLIKELY(((more_u | more_v) > 1) | (more_w > s.most_cells))) {
+    if (HWY_UNLIKELY(((more_u | more_v) > 1) | (more_w > s.max_cells))) {
       too_large.push_back(codes[i]);
       continue;
     }
@@ -94,14 +96,19 @@ std::size_t file(const GridShape& s, const KeyBox* boxes, const std::uint32_t* c
     filed[kept++] = {at, column_name(u, v) | more_u << 30 | more_v << 31, codes[i]};
     ++count[at];
     count[s.place(u + more_u, v + more_v, w)] += more_u | more_v;
-    if ((more_u & more_v) != 0) ++count[s.place(u + 1, v, w)], ++count[s.place(u, v + 1, w)];
+    if ((more_u & more_v) != 0) {
+      ++count[s.place(u + 1, v, w)];
+      ++count[s.place(u, v + 1, w)];
+    }
   }
   return kept;
 }
 
 HWY_INLINE void put(GridEntry& e, Four lo, Four hi, std::uint32_t code, std::uint32_t column) {
-  store_four(lo, e.lo), store_four(hi, e.hi);
-  e.code = code, e.column = column;
+  store_four(lo, e.lo);
+  store_four(hi, e.hi);
+  e.code = code;
+  e.column = column;
 }
 
 void write(const GridShape& s, const KeyBox* boxes, const Filed* filed, std::size_t n, std::uint32_t* next,
@@ -127,27 +134,35 @@ void write(const GridShape& s, const KeyBox* boxes, const Filed* filed, std::siz
   }
 }
 
-// As many entries as there are lanes, in columns.
+// One entry per lane, in columns.
 struct Block {
   V lo[3], hi[3], code, column;
   explicit HWY_INLINE Block(const GridEntry* e) {
     const I d;
     const auto* p = reinterpret_cast<const std::int32_t*>(e);
 #if HWY_TARGET == HWY_SCALAR
-    for (int k = 0; k < 3; ++k) lo[k] = hn::Load(d, p + k), hi[k] = hn::Load(d, p + 4 + k);
-    code = hn::Load(d, p + 3), column = hn::Load(d, p + 7);
+    for (int k = 0; k < 3; ++k) {
+      lo[k] = hn::Load(d, p + k);
+      hi[k] = hn::Load(d, p + 4 + k);
+    }
+    code = hn::Load(d, p + 3);
+    column = hn::Load(d, p + 7);
 #else
     // Halves of entries: even ones are lower ends with codes, odd ones upper ends with columns.
     V a[4], b[4];
     hn::LoadInterleaved4(d, p, a[0], a[1], a[2], a[3]);
     hn::LoadInterleaved4(d, p + 4 * hn::Lanes(d), b[0], b[1], b[2], b[3]);
-    for (int k = 0; k < 3; ++k) lo[k] = hn::ConcatEven(d, b[k], a[k]), hi[k] = hn::ConcatOdd(d, b[k], a[k]);
-    code = hn::ConcatEven(d, b[3], a[3]), column = hn::ConcatOdd(d, b[3], a[3]);
+    for (int k = 0; k < 3; ++k) {
+      lo[k] = hn::ConcatEven(d, b[k], a[k]);
+      hi[k] = hn::ConcatOdd(d, b[k], a[k]);
+    }
+    code = hn::ConcatEven(d, b[3], a[3]);
+    column = hn::ConcatOdd(d, b[3], a[3]);
 #endif
   }
 };
 
-// One box in all lanes.
+// One box, broadcast to all lanes.
 struct Probe {
   V lo[3], hi[3], code, column;
   HWY_INLINE M overlaps(const V* b_lo, const V* b_hi) const {
@@ -155,7 +170,7 @@ struct Probe {
     for (int k = 1; k < 3; ++k) apart = hn::Or(apart, hn::Or(hn::Gt(b_lo[k], hi[k]), hn::Gt(lo[k], b_hi[k])));
     return hn::Not(apart);
   }
-  // A margin of two keys on each side of each axis: the doubles overlap for sure (float_key.h).
+  // With a margin of two keys on each side of each axis the doubles certainly overlap (float_key.h).
   HWY_INLINE M doubtful(const V* b_lo, const V* b_hi) const {
     const I d;
     const V two = hn::Set(d, 2);
@@ -171,7 +186,7 @@ struct Probe {
   }
 };
 
-// The sink's columns, in registers while pairs are written.
+// Keeps the sink's columns in registers while pairs are written.
 class Writer {
  public:
   explicit HWY_INLINE Writer(PairSink& sink) : sink_(sink) { open(); }
@@ -198,7 +213,8 @@ class Writer {
   HWY_INLINE void open() {
     first_ = reinterpret_cast<std::int32_t*>(sink_.first.data());
     second_ = reinterpret_cast<std::int32_t*>(sink_.second.data());
-    n_ = sink_.n, room_ = sink_.first.size();
+    n_ = sink_.n;
+    room_ = sink_.first.size();
   }
   PairSink& sink_;
   std::int32_t *first_ = nullptr, *second_ = nullptr;
@@ -216,31 +232,39 @@ HWY_NOINLINE void emit_doubtful(PairSink& sink, V theirs, V mine, M m) {
     sink.doubtful.push_back({std::min(self[0], other[k]), std::max(self[0], other[k])});
 }
 
-// Part of the entries in columns.
+// A range of the entries, in columns.
 struct SweepScratch {
   std::vector<std::int32_t> lo[3], hi[3];
   std::vector<std::uint32_t> code, column, end;
   void fit(std::size_t n) {
     if (end.size() >= n) return;
-    for (int k = 0; k < 3; ++k) lo[k].resize(n + n / 2), hi[k].resize(n + n / 2);
-    code.resize(n + n / 2), column.resize(n + n / 2), end.resize(n + n / 2);
+    for (int k = 0; k < 3; ++k) {
+      lo[k].resize(n + n / 2);
+      hi[k].resize(n + n / 2);
+    }
+    code.resize(n + n / 2);
+    column.resize(n + n / 2);
+    end.resize(n + n / 2);
   }
 };
 
-// Transposes [from, to) of the entries behind what the scratch holds of [base, from).
+// Transposes entries [from, to) and appends them to the scratch, which holds [base, from).
 HWY_INLINE void transpose(const GridEntry* entries, std::size_t base, std::size_t from, std::size_t to,
                           SweepScratch& s) {
   const I d;
   for (std::size_t i = from; i < to; i += hn::Lanes(d)) {
     const Block b(entries + i);
     const std::size_t at = i - base;
-    for (int k = 0; k < 3; ++k) hn::StoreU(b.lo[k], d, &s.lo[k][at]), hn::StoreU(b.hi[k], d, &s.hi[k][at]);
+    for (int k = 0; k < 3; ++k) {
+      hn::StoreU(b.lo[k], d, &s.lo[k][at]);
+      hn::StoreU(b.hi[k], d, &s.hi[k][at]);
+    }
     hn::StoreU(b.code, d, reinterpret_cast<std::int32_t*>(&s.code[at]));
     hn::StoreU(b.column, d, reinterpret_cast<std::int32_t*>(&s.column[at]));
   }
 }
 
-// Where the cells end that each box of [base, base + n) reaches; the largest.
+// Computes where the cells end that each box of [base, base + n) reaches. Returns the largest.
 HWY_INLINE std::size_t find_ends(const GridShape& g, const std::uint32_t* begin, std::size_t n,
                                  SweepScratch& s) {
   const I d;
@@ -273,7 +297,7 @@ HWY_INLINE std::size_t find_ends(const GridShape& g, const std::uint32_t* begin,
 
 enum class Care { none, notice, decide };
 
-// False, for Care::notice, when a pair was in doubt.
+// For Care::notice, false when a pair was in doubt.
 template <Care care>
 HWY_INLINE bool sweep_chunk(const SweepScratch& s, std::size_t base, std::size_t n, PairSink& sink) {
   const I d;
@@ -314,8 +338,8 @@ HWY_INLINE bool sweep_chunk(const SweepScratch& s, std::size_t base, std::size_t
   return hn::AllFalse(d, in_doubt);
 }
 
-// In chunks, so that the boxes in columns stay in the first cache. Doubt is rare where coordinates are
-// arbitrary: it is noticed, and its chunk swept again with care.
+// Works in chunks, so that the columns stay in the L1 cache. Doubt is rare when coordinates are arbitrary: a
+// chunk in which it occurs is swept again with Care::decide.
 void sweep(const GridShape& g, const GridEntry* entries, const std::uint32_t* begin, std::size_t first,
            std::size_t last, Doubt doubt, PairSink& sink) {
   constexpr std::size_t chunk = 256, padding = 64;
@@ -344,8 +368,11 @@ void scan(const KeyBox& box, std::uint32_t code, std::uint32_t column, const Gri
   const I d;
   const std::size_t lanes = hn::Lanes(d);
   Probe p;
-  for (int k = 0; k < 3; ++k) p.lo[k] = hn::Set(d, box.lo[k]), p.hi[k] = hn::Set(d, box.hi[k]);
-  p.code = hn::Set(d, static_cast<std::int32_t>(code)),
+  for (int k = 0; k < 3; ++k) {
+    p.lo[k] = hn::Set(d, box.lo[k]);
+    p.hi[k] = hn::Set(d, box.hi[k]);
+  }
+  p.code = hn::Set(d, static_cast<std::int32_t>(code));
   p.column = hn::Set(d, static_cast<std::int32_t>(column));
   const V owner = hn::Set(d, static_cast<std::int32_t>(owner_flags));
   Writer out(sink);

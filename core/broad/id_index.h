@@ -1,4 +1,4 @@
-// Slot of an id. Small non-negative ids, the usual case, cost one load; any other int a hash map.
+// The slot of an id. Small non-negative ids, the usual case, cost one load; other ids use a hash map.
 #pragma once
 
 #include <algorithm>
@@ -18,7 +18,7 @@ class IdIndex {
     const auto at = far_.find(id);
     return at == far_.end() ? none : at->second;
   }
-  /// `present` boxes bound the table: at most 8 entries a box, so that sparse ids do not cost memory.
+  /// `present` bounds the table: at most 8 entries per box, so that sparse ids do not cost memory.
   void insert(int id, std::uint32_t slot, std::size_t present) {
     if (id >= 0 && static_cast<std::size_t>(id) < std::max(low_.size(), 1024 + 8 * present)) {
       if (static_cast<std::size_t>(id) >= low_.size()) grow(static_cast<std::size_t>(id) + 1);

@@ -18,9 +18,9 @@ void IncrementalSweepFinder::start_order(const BoxStore& store) {
   full_sort_ = true;
 }
 
-// False when the budget is spent; the order is then a permutation still.
+// False when the budget is spent; the order is still a permutation then.
 bool IncrementalSweepFinder::insertion_sort() {
-  auto budget = static_cast<std::int64_t>(order_.size() * tolerance::sweep_moves_a_box);
+  auto budget = static_cast<std::int64_t>(order_.size() * tolerance::sweep_moves_per_box);
   for (std::size_t i = 1; i < order_.size(); ++i) {
     const KeyedSlot moved = order_[i];
     std::size_t j = i;
@@ -58,8 +58,8 @@ void IncrementalSweepFinder::keep_untouched(PairSink& sink) const {
     if ((touched_[p.first] | touched_[p.second]) == 0) sink.add(p.first, p.second);
 }
 
-// The highest flag of a code here: box not touched. A pair of two touched boxes is left to the later search
-// of the earlier box: it looks ahead at all, and back at untouched ones only.
+// The highest flag of a code means "not touched" here. Each box is compared with all boxes after it, but only
+// with untouched boxes before it, so a pair of two touched boxes is found once, by the one that comes first.
 void IncrementalSweepFinder::find_touched(const BoxStore& store, PairSink& sink) {
   constexpr std::uint32_t untouched = 0x80000000;
   for (const BoxStore::Slot s : store.touched()) columns_.code[position_[s]] &= ~untouched;
@@ -127,7 +127,7 @@ std::size_t IncrementalSweepFinder::memory_bytes() const {
 
 std::string IncrementalSweepFinder::explain() const {
   return std::string("incremental sweep along ") + "xyz"[axis_] + ": order " +
-         (full_sort_ ? "sorted anew" : "repaired") +
+         (full_sort_ ? "sorted from scratch" : "repaired") +
          (local_ ? ", changed boxes searched" : ", all boxes swept");
 }
 

@@ -1,9 +1,9 @@
-// Incremental sweep and prune: last frame's order and pairs are kept (Baraff 1992; Cohen et al. 1995,
-// I-COLLIDE, without their linked lists). The order is repaired by insertion sort, O(n + inversions); a
-// budget of moves a box bounds it, beyond which the boxes are radix-sorted: a teleport costs one full sort.
-// When few boxes have changed, the kept pairs that touch none of them stand, and each changed box is compared
-// with those in its reach only; otherwise the order is swept. One axis is kept, that of most spread when
-// boxes last came or went.
+// Incremental sweep and prune: keeps the order and pairs of the last query (Baraff 1992; Cohen et al. 1995,
+// I-COLLIDE, without their linked lists). The order is repaired by insertion sort, O(n + inversions), within
+// a budget of moves per box; when that is exceeded, the boxes are radix-sorted, so a teleport costs one full
+// sort. When few boxes have changed, the kept pairs that involve none of them remain valid, and each changed
+// box is compared only with the boxes in its reach; otherwise the whole order is swept. One axis is sorted:
+// the one with the largest spread when a box was last inserted or removed.
 #pragma once
 
 #include "core/broad/key_sort.h"
@@ -31,10 +31,10 @@ class IncrementalSweepFinder {
   double longest_ = 0;  // no box is longer along the axis
   std::uint64_t membership_ = never;
   std::vector<KeyedSlot> order_, scratch_;
-  std::vector<std::uint32_t> position_;  // of a slot in the order
-  std::vector<std::uint8_t> touched_;    // of a slot
+  std::vector<std::uint32_t> position_;  // in the order, by slot
+  std::vector<std::uint8_t> touched_;    // by slot
   BoxColumns columns_;
-  std::vector<SlotPair> kept_;  // of the last query, when few boxes had changed
+  std::vector<SlotPair> kept_;  // pairs of the last query, when few boxes had changed
   bool has_kept_ = false, local_ = false, full_sort_ = false;
 };
 

@@ -13,8 +13,8 @@ using Histogram = std::array<std::uint32_t, buckets>;
 
 std::size_t digit(std::uint32_t key, int d) { return (key >> (d * digit_bits)) & (buckets - 1); }
 
-// Below this many a comparison sort is cheaper than clearing and summing three histograms (measured: 3·2048
-// counters cost about 3 µs).
+// For fewer items than this, a comparison sort is cheaper than clearing and summing three histograms
+// (measured: 3·2048 counters cost about 3 µs).
 constexpr std::size_t few = 256;
 
 }  // namespace

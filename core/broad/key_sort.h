@@ -1,5 +1,5 @@
-// Least-significant-digit radix sort of (key, value), stable, O(n) for each of three digits of 11 bits; a
-// digit that is the same for all is skipped.
+// Least-significant-digit radix sort of (key, value): stable, O(n) for each of three digits of 11 bits. A
+// digit that is the same for all items is skipped.
 #pragma once
 
 #include <cstdint>
@@ -11,7 +11,7 @@ struct KeyedSlot {
   std::uint32_t key = 0, slot = 0;
 };
 
-/// A signed key as an unsigned one of the same order.
+/// Maps a signed key to an unsigned key of the same order.
 inline std::uint32_t unsigned_key(std::int32_t key) { return static_cast<std::uint32_t>(key) ^ 0x80000000U; }
 
 /// Sorts `items` by key; `scratch` is overwritten.

@@ -11,62 +11,74 @@
 namespace touchstone::broad {
 namespace {
 
-constexpr std::size_t filling = 64;
-constexpr std::uint32_t most_cells_a_box = 64;
-constexpr double most_columns_an_axis = 1 << column_bits, most_cells_an_axis = 1 << 24;
+constexpr std::size_t padding = 64;  // entries that must be readable beyond the end
+constexpr std::uint32_t max_cells_per_box = 64;
+constexpr double max_columns_per_axis = 1 << column_bits, max_cells_per_axis = 1 << 24;
 
-// Finite, so that no difference of two of them and no product is a NaN.
-float bounded(double x) { return static_cast<float>(std::clamp(x, -1e30, 1e30)); }
+// Bounds on coordinates and scales in float: differences and products of bounded values are never NaN.
+constexpr double bound = 1e30, least_scale = 1e-30;
+// Strides of the hash: the powers -1 and -2 of the plastic number; see choose_cells().
+constexpr double plastic_1 = 0.7548776662466927, plastic_2 = 0.5698402909980532;
+// The length of column in the cells that a box reaches, in units of the typical box.
+constexpr double reach_of_box = 1.25;
+
+float bounded(double x) { return static_cast<float>(std::clamp(x, -bound, bound)); }
 
 double positive(double x, double otherwise) { return x > 0 && std::isfinite(x) ? x : otherwise; }
 
 }  // namespace
 
-// Columns at least grid_cell_factor times the usual box, so that a box meets few of them, and so wide that a
-// box finds about grid_window others in the cells that it reaches, which is what one wide comparison takes.
-// Cells along w a fraction of the usual box, so that little of that is in vain.
+// Columns are at least grid_cell_factor times as wide as the typical box, so that a box meets few of them,
+// and wide enough for a box to meet about grid_window others in the cells that it reaches, as many as one
+// wide comparison takes. Cells along w are a fraction of the typical box, so that few comparisons are wasted.
 void LevelGrid::choose_cells(const SceneStats& stats, std::size_t n) {
   const int w = best_axis(stats), u = (w + 1) % 3, v = (w + 2) % 3;
   shape_ = {};
-  shape_.axis_w = w, shape_.axis_u = u, shape_.axis_v = v, shape_.most_cells = most_cells_a_box;
+  shape_.axis_w = w;
+  shape_.axis_u = u;
+  shape_.axis_v = v;
+  shape_.max_cells = max_cells_per_box;
   const double along = positive(stats.median_size[w], 0);
-  const double area = tolerance::grid_window / (stats.density * static_cast<double>(n) * along * 1.25);
+  const double area =
+      tolerance::grid_window / (stats.density * static_cast<double>(n) * along * reach_of_box);
   const double side = std::isfinite(area) && area > 0 ? std::sqrt(area) : 0;
   double count[3] = {1, 1, 1};
   for (const int k : {w, u, v}) {
     const double extent = std::max(0.0, stats.high[k] - stats.low[k]);
     const double cell = k == w ? along * tolerance::grid_cut
                                : std::max(tolerance::grid_cell_factor * stats.median_size[k], side);
-    const double most = k == w ? most_cells_an_axis : most_columns_an_axis;
+    const double most = k == w ? max_cells_per_axis : max_columns_per_axis;
     const double ratio = cell > 0 ? std::ceil(extent / cell) : 1;
-    count[k] = ratio > 1 ? std::min(ratio, most) : 1;  // 1 for a NaN, infinity over infinity
-    // A world without extent has one cell, whatever its width.
+    count[k] = ratio > 1 ? std::min(ratio, most) : 1;  // 1 when the ratio is NaN (infinity over infinity)
+    // A world without extent has a single cell of any width.
     const double width = extent > 0 ? extent / count[k] : positive(cell, 1);
     shape_.origin[k] = bounded(stats.low[k]);
-    shape_.scale[k] = static_cast<float>(std::clamp(1 / width, 1e-30, 1e30));
+    shape_.scale[k] = static_cast<float>(std::clamp(1 / width, least_scale, bound));
     shape_.last[k] = static_cast<float>(count[k] - 1);
   }
   const double all = count[0] * count[1] * count[2], table = static_cast<double>(2 * n + 512);
   if (all <= 2 * table) {
     shape_.stride_v = static_cast<std::uint32_t>(count[w]);
     shape_.stride_u = static_cast<std::uint32_t>(count[w] * count[v]);
-    places_ = static_cast<std::size_t>(all), ghosts_ = 0;
+    places_ = static_cast<std::size_t>(all);
+    ghosts_ = 0;
     return;
   }
-  // Columns cost nothing here: as many again on either side of the sample, which has not seen the outermost
-  // boxes.
+  // Extra columns cost nothing here: add as many again on either side of the sample, which may not include
+  // the outermost boxes.
   for (int k = 0; k < 3; ++k) {
-    const double most = k == w ? most_cells_an_axis : most_columns_an_axis;
+    const double most = k == w ? max_cells_per_axis : max_columns_per_axis;
     if (3 * count[k] > most) continue;
     shape_.origin[k] = bounded(stats.low[k] - std::max(0.0, stats.high[k] - stats.low[k]));
     shape_.last[k] = static_cast<float>(3 * count[k] - 1);
   }
-  // Strides by the plastic number (the golden section's analogue for two dimensions): neighbouring columns
-  // start far from each other, and starts fill the table evenly. Odd, so that they run through it.
-  places_ = std::bit_ceil(n + 512), ghosts_ = most_cells_a_box + 1;
+  // Strides from the plastic number (the two-dimensional analogue of the golden ratio): neighbouring columns
+  // start far from each other, and starts fill the table evenly. Odd strides visit the whole table.
+  places_ = std::bit_ceil(n + 512);
+  ghosts_ = max_cells_per_box + 1;
   shape_.mask = static_cast<std::uint32_t>(places_ - 1);
-  shape_.stride_u = static_cast<std::uint32_t>(0.7548776662466927 * static_cast<double>(places_)) | 1;
-  shape_.stride_v = static_cast<std::uint32_t>(0.5698402909980532 * static_cast<double>(places_)) | 1;
+  shape_.stride_u = static_cast<std::uint32_t>(plastic_1 * static_cast<double>(places_)) | 1;
+  shape_.stride_v = static_cast<std::uint32_t>(plastic_2 * static_cast<double>(places_)) | 1;
 }
 
 void LevelGrid::build(const KeyBox* boxes, const std::vector<std::uint32_t>& codes, const SceneStats& stats,
@@ -74,20 +86,23 @@ void LevelGrid::build(const KeyBox* boxes, const std::vector<std::uint32_t>& cod
   choose_cells(stats, codes.size());
   thin_ = false;
   too_large.clear();
-  // Counts are kept two places ahead: when sums have been taken, next[c] = begin[c + 1] is where place c
-  // begins; when all entries have been written it is where place c ends, and begin[c] is where it begins.
+  // Counts are stored two places ahead. After the prefix sums, next[c] = begin[c + 1] is where place c
+  // begins; after all entries have been written it is where place c ends, and begin[c] is where it begins.
   begin_.assign(places_ + ghosts_ + 2, 0);
   file_boxes(shape_, boxes, codes, filed_, too_large, begin_.data() + 2);
   boxes_ = filed_.size();
   std::uint32_t sum = 0;
-  for (std::size_t c = 2; c < places_ + 2; ++c) sum += begin_[c], begin_[c] = sum;
+  for (std::size_t c = 2; c < places_ + 2; ++c) {
+    sum += begin_[c];
+    begin_[c] = sum;
+  }
   count_ = sum;
-  // Room for the copies: at most as many as there are entries.
-  if (entries_.size() < count_ + filling) resize_exactly(entries_, count_ + count_ / 32 + filling);
+  // There are at most as many copies as entries.
+  if (entries_.size() < count_ + padding) resize_exactly(entries_, count_ + count_ / 32 + padding);
   write_entries(shape_, boxes, filed_, begin_.data() + 1, entries_.data(), count_);
   if (ghosts_ == 0) return;
   const std::size_t copies = begin_[ghosts_];
-  if (entries_.size() < count_ + copies + filling) resize_exactly(entries_, count_ + copies + filling);
+  if (entries_.size() < count_ + copies + padding) resize_exactly(entries_, count_ + copies + padding);
   std::copy_n(entries_.begin(), copies, entries_.begin() + static_cast<std::ptrdiff_t>(count_));
   for (std::size_t c = 0; c <= ghosts_; ++c) begin_[places_ + c] = sum + begin_[c];
 }
@@ -98,8 +113,8 @@ void LevelGrid::self_pairs(Doubt doubt, std::size_t parts, std::size_t part, Pai
   });
 }
 
-// An entry is the box's own when it owns both axes. Owners are kept in order, so that places keep theirs;
-// copies for the table's end are made anew.
+// Keeps the entries that own both axes: one per box. Their order is preserved, so that each place keeps its
+// entries; the copies beyond the end of the table are rebuilt.
 void LevelGrid::thin_out() {
   std::size_t kept = 0;
   for (std::size_t c = 0, i = 0; c < places_; ++c) {
@@ -109,17 +124,18 @@ void LevelGrid::thin_out() {
       if ((entries_[i].code & owner_flags) == owner_flags) entries_[kept++] = entries_[i];
   }
   begin_[places_] = static_cast<std::uint32_t>(kept);
-  count_ = kept, thin_ = true;
+  count_ = kept;
+  thin_ = true;
   const std::size_t copies = ghosts_ > 0 ? begin_[ghosts_] : 0;
   for (std::size_t c = 0; c <= ghosts_; ++c)
     begin_[places_ + c] = static_cast<std::uint32_t>(kept) + begin_[c];
-  entries_.resize(kept + copies + filling);
+  entries_.resize(kept + copies + padding);
   std::copy_n(entries_.begin(), copies, entries_.begin() + static_cast<std::ptrdiff_t>(kept));
   entries_.shrink_to_fit();
   release(filed_);
 }
 
-// `cells` places from `from` on, around the table's end.
+// Scans `cells` places from `from` on, wrapping around at the end of the table.
 void LevelGrid::scan_places(const KeyBox& box, std::uint32_t code, std::uint32_t column, std::uint32_t from,
                             std::uint32_t cells, Doubt doubt, PairSink& sink) const {
   const std::size_t end = std::min<std::size_t>(std::size_t{from} + cells, places_);
@@ -134,11 +150,11 @@ void LevelGrid::query(const KeyBox& box, std::uint32_t code, Doubt doubt, PairSi
   CellRange r = cell_range(shape_, box);
   if (thin_)
     for (int k = 0; k < 2; ++k) r.lo[k] -= std::min(r.lo[k], 1U);
-  const std::uint32_t from_w = r.lo[2] - std::min(r.lo[2], shape_.most_cells);
+  const std::uint32_t from_w = r.lo[2] - std::min(r.lo[2], shape_.max_cells);
   const std::uint32_t cells =
       static_cast<std::uint32_t>(std::min<std::size_t>(r.hi[2] - from_w + 1, places_));
   const double columns = (r.hi[0] - r.lo[0] + 1.0) * (r.hi[1] - r.lo[1] + 1.0);
-  // A column costs about as much as 16 entries.
+  // Visiting a column costs about as much as 16 entries.
   if (columns * 16 > static_cast<double>(count_)) {
     scan_entries(box, code | owner_flags, any_column, entries_.data(), 0, count_, doubt, sink);
     return;
@@ -155,7 +171,8 @@ Structure::Grid LevelGrid::picture() const {
   Structure::Grid g;
   g.along = shape_.axis_w;
   for (int k = 0; k < 3; ++k) {
-    g.origin[k] = static_cast<double>(shape_.origin[k]), g.cell[k] = cell_size(k);
+    g.origin[k] = static_cast<double>(shape_.origin[k]);
+    g.cell[k] = cell_size(k);
     g.count[k] = static_cast<long>(shape_.last[k]) + 1;
   }
   return g;
@@ -183,7 +200,7 @@ void LevelGrid::validate() const {
       owners += (e.code & owner_flags) == owner_flags ? 1 : 0;
     }
   }
-  require(owners == boxes_, "grid: a box has no entry of its own");
+  require(owners == boxes_, "grid: a box has no entry that owns both axes");
 }
 
 std::size_t LevelGrid::memory_bytes() const {

@@ -13,10 +13,10 @@ namespace {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-// Partners of one box: a handful in most scenes.
+// Sorts the partners of one box: a handful in most scenes.
 HWY_INLINE void sort_few(const std::uint32_t* from, std::size_t n, std::uint32_t* to) {
-  constexpr std::size_t insertion_sort_up_to = 24;
-  if (n > insertion_sort_up_to) {
+  constexpr std::size_t max_insertion_sort = 24;
+  if (n > max_insertion_sort) {
     std::copy_n(from, n, to);
     std::sort(to, to + n);
     return;
@@ -29,7 +29,7 @@ HWY_INLINE void sort_few(const std::uint32_t* from, std::size_t n, std::uint32_t
   }
 }
 
-// Eight lanes: AVX2 and its betters, which Highway numbers below it.
+// Eight lanes: AVX2 and better targets, which have lower numbers in Highway.
 #if !(HWY_ARCH_X86 && HWY_TARGET <= HWY_AVX2)
 constexpr bool wide = false;
 
@@ -40,8 +40,8 @@ constexpr bool wide = true;
 using U = hn::CappedTag<std::uint32_t, 8>;
 using V = hn::Vec<U>;
 
-// Bitonic sort (Batcher 1968) of eight lanes: how many partners a box has cannot be predicted, and a wrong
-// guess costs as much as these six steps.
+// Bitonic sort (Batcher 1968) of eight lanes. The number of partners of a box cannot be predicted, and a
+// misprediction costs as much as these six steps.
 template <int distance>
 HWY_INLINE V partner(V v) {
   if constexpr (distance == 1) return hn::Shuffle2301(v);
@@ -79,8 +79,8 @@ HWY_INLINE void write_eight(const std::uint32_t* from, std::size_t n, std::uint3
 }
 #endif
 
-// Eight elements are written where fewer are meant: those that follow are overwritten in turn, and near the
-// end it is done with care.
+// Always writes eight elements: those beyond the bucket are overwritten by the following buckets. Near the
+// end, sort_few writes exactly the bucket.
 void sort(const std::uint32_t* end, std::size_t from, std::size_t to, const std::uint32_t* second,
           std::uint32_t* sorted) {
   const std::size_t all = to > from ? end[to - 1] : 0;
@@ -144,7 +144,7 @@ HWY_INLINE Apart compare(const KeyBox& a, const KeyBox& b) {
 }
 HWY_INLINE bool inside(const KeyBox& a, const KeyBox& fat) {
   const I4 d;
-  // The fourth lane of a fat box holds other things.
+  // The fourth lane of a fat box holds other data.
   const auto out = hn::And(
       hn::Or(hn::Gt(hn::Load(d, fat.lo), hn::Load(d, a.lo)), hn::Gt(hn::Load(d, a.hi), hn::Load(d, fat.hi))),
       hn::FirstN(d, 3));
@@ -152,12 +152,12 @@ HWY_INLINE bool inside(const KeyBox& a, const KeyBox& fat) {
 }
 #endif
 
-// The first of each candidate, for as many boxes as fit. How many candidates a box has cannot be predicted;
-// up to a vector's worth takes one store.
+// The first slot of each candidate, for as many boxes as fit. The number of candidates of a box cannot be
+// predicted; up to one vector of them takes one store.
 struct Firsts {
   static constexpr std::size_t most = 512;
   std::uint32_t of[most + 64];
-  // Boxes [from, result).
+  // Fills in boxes [from, result).
   HWY_INLINE std::size_t spread(const std::uint32_t* end, std::size_t from, std::size_t to,
                                 std::size_t begin) {
     const hn::ScalableTag<std::uint32_t> d;
@@ -170,7 +170,8 @@ struct Firsts {
         hn::StoreU(hn::Set(d, static_cast<std::uint32_t>(s)), d, of + n + k);
         k += hn::Lanes(d);
       } while (HWY_UNLIKELY(k < mine));
-      n += mine, begin = end[s];
+      n += mine;
+      begin = end[s];
     }
     return s;
   }
@@ -180,9 +181,9 @@ HWY_INLINE std::size_t filter_one(const KeyBox* keys, const Aabb* boxes, std::ui
                                   IdPair* out) {
   const Apart r = compare(keys[s], keys[t]);
   *out = {static_cast<int>(s), static_cast<int>(t)};
-  // One branch, which is seldom taken: a third of the candidates are apart, unpredictably, and those are in
-  // "doubt" too. The empty statement keeps the compiler from making two of it (measured: 40 % of this loop,
-  // 2026-11-21, Zen 3).
+  // A single branch, which is rarely taken: a third of the candidates are apart, unpredictably, and those are
+  // also "doubtful". The empty asm statement keeps the compiler from splitting the branch in two (measured:
+  // 40 % of this loop, 2026-11-21, Zen 3).
   unsigned state = (r.apart ? 2U : 0U) | (r.doubtful ? 1U : 0U);
   asm volatile("" : "+r"(state));
   if (HWY_UNLIKELY(state == 1)) return overlaps(boxes[s], boxes[t]) ? 1 : 0;

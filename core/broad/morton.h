@@ -5,7 +5,7 @@
 
 namespace touchstone::broad {
 
-/// The lowest 10 bits of x, two zeros between each and the next.
+/// The lowest 10 bits of x, with two zeros between neighbouring bits.
 inline std::uint32_t spread_bits(std::uint32_t x) {
   x = (x | x << 16) & 0x030000ff;
   x = (x | x << 8) & 0x0300f00f;

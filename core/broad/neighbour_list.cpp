@@ -25,11 +25,11 @@ float largest_side(const KeyBox& b) {
   return most;
 }
 
-// What a box is widened by. One that goes far for its size would have a fat box full of others and leave it
-// soon all the same: it gets none.
+// The amount by which a box is widened. A box that moves far for its size would have a fat box full of others
+// and would still leave it soon, so it gets no margin.
 float margin(float step, float side) {
   const float m = static_cast<float>(tolerance::neighbour_margin_steps) * step;
-  return m <= static_cast<float>(tolerance::neighbour_margin_most) * side ? m : 0;
+  return m <= static_cast<float>(tolerance::neighbour_max_margin) * side ? m : 0;
 }
 
 std::uint32_t code_of(BoxStore::Slot s, const KeyBox& fat) { return s | (fat.hi[3] != 0 ? 0 : moving_flag); }
@@ -44,17 +44,17 @@ void NeighbourListFinder::make_fat(const BoxStore& store, BoxStore::Slot s, KeyB
   const KeyBox& key = store.keys()[s];
   const float m = margin(store.last_step(s), largest_side(key));
   for (int k = 0; k < 3; ++k) {
-    // One key more than the sum, which is rounded; never less than the box, never beyond infinity.
+    // One key more, because the sum is rounded; never smaller than the box, never beyond infinity.
     const std::int32_t lo = std::max(key_of(value_of(key.lo[k]) - m) - 1, -infinite),
                        hi = std::min(key_of(value_of(key.hi[k]) + m) + 1, infinite);
-    fat.lo[k] = m > 0 ? std::min(key.lo[k], lo) : key.lo[k],
+    fat.lo[k] = m > 0 ? std::min(key.lo[k], lo) : key.lo[k];
     fat.hi[k] = m > 0 ? std::max(key.hi[k], hi) : key.hi[k];
   }
   fat.hi[3] = store.is_fixed(s) ? 1 : 0;
 }
 
-// By a sample. A box that has just come has made no step yet: a scene of such boxes is not known to be
-// coherent.
+// Decided by a sample. A box that was just inserted has made no step yet: a scene of such boxes is not known
+// to be coherent.
 bool NeighbourListFinder::is_coherent(const BoxStore& store) {
   const std::uint64_t changes = store.membership() - membership_;
   membership_ = store.membership();
@@ -72,7 +72,10 @@ bool NeighbourListFinder::is_coherent(const BoxStore& store) {
 }
 
 void NeighbourListFinder::build(const BoxStore& store, PairSink& sink) {
-  loose_.clear(), filed_as_.clear(), with_filed_.clear(), loose_candidates_.clear();
+  loose_.clear();
+  filed_as_.clear();
+  with_filed_.clear();
+  loose_candidates_.clear();
   store.codes(codes_);
   fat_.resize(store.slots());
   for (std::size_t s = 0; s < fat_.size(); ++s) fat_[s].lo[3] = 0;
@@ -80,7 +83,7 @@ void NeighbourListFinder::build(const BoxStore& store, PairSink& sink) {
   for (const std::uint32_t c : codes_) make_fat(store, c & slot_mask, fat_[c & slot_mask]);
   sink.clear();
   levels_.build(fat_.data(), codes_, stats_.of(store), levels);
-  // The sink was given back when the last list was made: as much again, not grown by and by.
+  // The sink's memory was released when the last list was built: reserve it at once, not step by step.
   sink.reserve(std::max(candidates_ + candidates_ / 32, codes_.size()));
   levels_.pairs(fat_.data(), Doubt::report, sink);
   sink.group(store.slots(), end_, codes_);
@@ -98,7 +101,10 @@ void NeighbourListFinder::build(const BoxStore& store, PairSink& sink) {
   sink.release_memory();
   release(codes_);
   levels_.thin_out();
-  alive_ = true, age_ = 0, work_ = 0, ++lists_;
+  alive_ = true;
+  age_ = 0;
+  work_ = 0;
+  ++lists_;
 }
 
 const KeyBox& NeighbourListFinder::built_box(BoxStore::Slot s) const {
@@ -111,15 +117,17 @@ bool NeighbourListFinder::is_listed(BoxStore::Slot a, BoxStore::Slot b) const {
   return (p.hi[3] & q.hi[3]) == 0 && key_overlap(p, q);
 }
 
-// New fat boxes for what has escaped, and its candidates among what is still filed under its fat box.
+// Gives escaped boxes new fat boxes and finds their candidates among the boxes that are still filed under
+// theirs.
 void NeighbourListFinder::loosen(const BoxStore& store, PairSink& sink) {
   for (const BoxStore::Slot s : escaped_) {
     if (fat_[s].lo[3] == 0) {
-      filed_as_.push_back(fat_[s]), loose_.push_back(s);
+      filed_as_.push_back(fat_[s]);
+      loose_.push_back(s);
       fat_[s].lo[3] = static_cast<std::int32_t>(loose_.size());
     }
     make_fat(store, s, fat_[s]);
-    fat_[s].lo[3] = -fat_[s].lo[3];  // until the end of this function: escaped just now
+    fat_[s].lo[3] = -fat_[s].lo[3];  // until the end of this function: has just escaped
   }
   std::erase_if(with_filed_, [this](const SlotPair& p) {
     return fat_[p.first].lo[3] < 0 || fat_[p.second].lo[3] < 0 ||
@@ -140,7 +148,7 @@ void NeighbourListFinder::loosen(const BoxStore& store, PairSink& sink) {
   find_loose_pairs(sink);
 }
 
-// Candidates of two loose boxes, unless listed; then all candidates with a loose box, in order.
+// Finds the candidates of two loose boxes that are not listed, then sorts all candidates with a loose box.
 void NeighbourListFinder::find_loose_pairs(PairSink& sink) {
   codes_.clear();
   for (const BoxStore::Slot s : loose_) codes_.push_back(code_of(s, fat_[s]));
@@ -156,18 +164,18 @@ void NeighbourListFinder::find_loose_pairs(PairSink& sink) {
   sink.release_memory();
 }
 
-// False when the list is no longer worth keeping.
+// Returns false when the list is no longer worth keeping.
 bool NeighbourListFinder::keep(const BoxStore& store, PairSink& sink) {
   const std::size_t built = fat_.size();
   if (built < store.slots()) fat_.resize(store.slots());
   escaped_.clear();
   find_escapes(store.keys().data(), fat_.data(), store.touched(), escaped_);
-  // A loose box costs about as much in a query as a box in the making of a list; one that escapes, several
-  // times that.
+  // A loose box costs about as much per query as a box costs when the list is built; a box that escapes costs
+  // several times that.
   work_ += loose_.size() + 4 * escaped_.size();
   if (work_ > store.present() || escaped_.size() * tolerance::neighbour_loose_share > store.present())
     return false;
-  // The list leaves out pairs of boxes that were fixed when it was made.
+  // The list omits pairs of boxes that were fixed when it was built.
   for (const BoxStore::Slot s : store.touched())
     if (store.is_present(s) && s < built && (fat_[s].hi[3] != 0) != store.is_fixed(s)) return false;
   if (!escaped_.empty()) loosen(store, sink);
@@ -175,14 +183,15 @@ bool NeighbourListFinder::keep(const BoxStore& store, PairSink& sink) {
   return true;
 }
 
-// Of the loose candidates, the number of the first whose first slot is not below `slot`.
+// The index of the first loose candidate whose first slot is not below `slot`.
 std::size_t NeighbourListFinder::loose_before(std::size_t slot) const {
   const auto at = std::partition_point(loose_candidates_.begin(), loose_candidates_.end(),
                                        [&](const SlotPair& p) { return p.first < slot; });
   return static_cast<std::size_t>(at - loose_candidates_.begin());
 }
 
-// The pairs whose first slot is in [begin, end); how many. There is room for all their candidates.
+// Writes the pairs whose first slot is in [begin, end) and returns their number. `out` has room for all their
+// candidates.
 std::size_t NeighbourListFinder::report_range(const BoxStore& store, std::size_t begin, std::size_t end,
                                               IdPair* out) const {
   const auto decided = [&](const SlotPair& p) {
@@ -212,7 +221,7 @@ std::size_t NeighbourListFinder::report_range(const BoxStore& store, std::size_t
   return n;
 }
 
-// Each part writes where its candidates would be if all were pairs.
+// Each part writes to where its candidates would be if all of them were pairs.
 void NeighbourListFinder::report(const BoxStore& store, const PairSink& sink,
                                  std::vector<IdPair>& out) const {
   out.resize(candidates_ + loose_candidates_.size());
@@ -234,10 +243,11 @@ void NeighbourListFinder::report(const BoxStore& store, const PairSink& sink,
 bool NeighbourListFinder::keep_up(const BoxStore& store, PairSink& sink, std::vector<IdPair>& out) {
   answered_ = false;
   if (alive_ && !keep(store, sink)) {
-    // A list that did not last three queries has cost more than it saved: the next is put off, longer each
-    // time.
+    // A list that did not last three queries has cost more than it saved: wait before the next one, longer
+    // each time.
     patience_ = age_ < 3 ? std::min(2 * patience_ + 2, 64) : 0;
-    wait_ = patience_, alive_ = false;
+    wait_ = patience_;
+    alive_ = false;
   }
   if (!alive_) {
     const bool coherent = is_coherent(store);
@@ -247,7 +257,8 @@ bool NeighbourListFinder::keep_up(const BoxStore& store, PairSink& sink, std::ve
     }
     build(store, sink);
   }
-  answered_ = true, membership_ = store.membership();
+  answered_ = true;
+  membership_ = store.membership();
   report(store, sink, out);
   return true;
 }
@@ -269,7 +280,7 @@ void NeighbourListFinder::validate(const BoxStore& store) const {
   require(fat_.size() == store.slots() && filed_as_.size() == loose_.size(), "neighbour list: a box is lost");
   for (std::size_t i = 0; i < loose_.size(); ++i)
     require(fat_[loose_[i]].lo[3] == static_cast<std::int32_t>(i + 1),
-            "neighbour list: a loose box has no number");
+            "neighbour list: a loose box has no index");
   std::vector<std::uint32_t> all(fat_.size()), out;
   for (std::size_t s = 0; s < all.size(); ++s) all[s] = static_cast<std::uint32_t>(s);
   find_escapes(store.keys().data(), fat_.data(), all, out);
@@ -284,14 +295,21 @@ void NeighbourListFinder::validate(const BoxStore& store) const {
 
 void NeighbourListFinder::drop_list() {
   alive_ = false;
-  release(fat_), release(second_), release(end_);
-  release(loose_), release(escaped_), release(filed_as_), release(with_filed_), release(loose_candidates_);
+  release(fat_);
+  release(second_);
+  release(end_);
+  release(loose_);
+  release(escaped_);
+  release(filed_as_);
+  release(with_filed_);
+  release(loose_candidates_);
 }
 
 void NeighbourListFinder::forget() {
   drop_list();
   release(codes_);
-  levels_.forget(), loose_levels_.forget();
+  levels_.forget();
+  loose_levels_.forget();
 }
 
 std::size_t NeighbourListFinder::memory_bytes() const {
@@ -304,10 +322,11 @@ std::size_t NeighbourListFinder::memory_bytes() const {
 }
 
 std::string NeighbourListFinder::explain() const {
-  if (!answered_) return levels_.explain() + " (no neighbour list: few boxes would stay in it)";
+  if (!answered_) return levels_.explain() + " (no neighbour list: too many boxes move far or are new)";
   return "neighbour list number " + std::to_string(lists_) + ", " + std::to_string(age_) +
          " queries old: " + std::to_string(candidates_) + " candidates, " + std::to_string(loose_.size()) +
-         " loose boxes with " + std::to_string(loose_candidates_.size()) + "; made by " + levels_.explain();
+         " loose boxes with " + std::to_string(loose_candidates_.size()) + "; built from " +
+         levels_.explain();
 }
 
 BroadPhasePtr make_neighbour_list(const Options& options) {

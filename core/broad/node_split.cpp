@@ -9,15 +9,21 @@ namespace {
 
 KeyBox together(const KeyBox& a, const KeyBox& b) {
   KeyBox u;
-  for (int k = 0; k < 3; ++k) u.lo[k] = std::min(a.lo[k], b.lo[k]), u.hi[k] = std::max(a.hi[k], b.hi[k]);
+  for (int k = 0; k < 3; ++k) {
+    u.lo[k] = std::min(a.lo[k], b.lo[k]);
+    u.hi[k] = std::max(a.hi[k], b.hi[k]);
+  }
   return u;
 }
 
-// Half of it, bounded so that no difference of two is a NaN.
+// Cap on a side, so that no difference of two surfaces is a NaN.
+constexpr double longest_side = 1e60;
+
+// Half of the surface area.
 double surface(const KeyBox& b) {
   double side[3];
   for (int k = 0; k < 3; ++k)
-    side[k] = std::min(static_cast<double>(value_of(b.hi[k])) - value_of(b.lo[k]), 1e60);
+    side[k] = std::min(static_cast<double>(value_of(b.hi[k])) - value_of(b.lo[k]), longest_side);
   return side[0] * side[1] + side[1] * side[2] + side[2] * side[0];
 }
 
@@ -67,7 +73,10 @@ std::size_t split_node(std::span<NodeEntry> all) {
   for (int axis = 0; axis < 3; ++axis) {
     sort_along(all, axis);
     const Split s = best_along(all);
-    if (best.at == 0 || s.cost < best.cost) best = s, best_axis = axis;
+    if (best.at == 0 || s.cost < best.cost) {
+      best = s;
+      best_axis = axis;
+    }
   }
   sort_along(all, best_axis);
   return best.at;

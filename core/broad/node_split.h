@@ -1,5 +1,5 @@
-// Where a box goes in a tree, and how a full node is divided: by surface, which the number of random boxes
-// that meet a node is about proportional to (Goldsmith and Salmon 1987).
+// Where a box is inserted in a tree, and how a full node is split: by surface area, because the number of
+// random boxes that meet a node is about proportional to it (Goldsmith and Salmon 1987).
 #pragma once
 
 #include <cstdint>
@@ -14,8 +14,8 @@ struct NodeEntry {
   std::uint32_t code = 0;
 };
 
-/// How much a node's surface grows by taking a box; the smaller node first where that is equal. Infinite
-/// boxes compare as equal: any choice is right.
+/// How much a node's surface grows when a box is added; ties go to the smaller node. Infinite boxes compare
+/// as equal: any choice is right.
 struct Growth {
   double more = 0, surface = 0;
   bool operator<(const Growth& other) const {
@@ -24,8 +24,8 @@ struct Growth {
 };
 Growth growth(const KeyBox& node, const KeyBox& box);
 
-/// Puts the entries in an order in which the first k, the result, are one node, the others the other; neither
-/// has fewer than a quarter.
+/// Reorders the entries so that the first k become one node and the others the other, and returns k. Neither
+/// node gets fewer than a quarter.
 std::size_t split_node(std::span<NodeEntry> all);
 
 inline bool inside(const KeyBox& box, const KeyBox& node) {

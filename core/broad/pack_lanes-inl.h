@@ -1,7 +1,7 @@
-// Lanes of a mask, packed to the front. Included once for each kind of processor (Highway's foreach_target).
+// Packs the lanes of a mask to the front. Included once for each target (Highway's foreach_target).
 //
-// In place of hn::Compress, which in Highway 1.0.3 with g++ 12 copies its table of 1 KB to the stack at each
-// call on AVX2: 70 % of a sweep's time (2026-11-21, Zen 3).
+// Replaces hn::Compress, which in Highway 1.0.3 with g++ 12 copies its table of 1 KB to the stack at each
+// call on AVX2: 70 % of the time of a sweep (2026-11-21, Zen 3).
 #if defined(TOUCHSTONE_CORE_BROAD_PACK_LANES_INL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef TOUCHSTONE_CORE_BROAD_PACK_LANES_INL_H
 #undef TOUCHSTONE_CORE_BROAD_PACK_LANES_INL_H
@@ -18,7 +18,7 @@ HWY_BEFORE_NAMESPACE();
 namespace touchstone::broad::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-/// Lanes 0 … CountTrue(m) − 1 are those of v where m is set, in order; the others are anything.
+/// Lanes 0 … CountTrue(m) − 1 are those of v where m is set, in order; the others are unspecified.
 #if HWY_TARGET == HWY_AVX2
 struct PackTable {
   alignas(32) std::int32_t lane[256][8];

@@ -17,15 +17,18 @@ using I = hn::ScalableTag<std::int32_t>;
 using V = hn::Vec<I>;
 using M = hn::Mask<I>;
 
-// Highway 1.0 has no <= of integers.
+// Highway 1.0 has no <= for integers.
 HWY_INLINE M at_most(V a, V b) { return hn::Not(hn::Gt(a, b)); }
 
-// One box in all lanes.
+// One box, broadcast to all lanes.
 struct Probe {
   V lo[3], hi[3], code;
   HWY_INLINE Probe(const BoxColumns& b, std::size_t i) {
     const I d;
-    for (int k = 0; k < 3; ++k) lo[k] = hn::Set(d, b.lo[k][i]), hi[k] = hn::Set(d, b.hi[k][i]);
+    for (int k = 0; k < 3; ++k) {
+      lo[k] = hn::Set(d, b.lo[k][i]);
+      hi[k] = hn::Set(d, b.hi[k][i]);
+    }
     code = hn::Set(d, static_cast<std::int32_t>(b.code[i]));
   }
   HWY_INLINE M apart(const BoxColumns& b, std::size_t j, int axis) const {
@@ -33,7 +36,7 @@ struct Probe {
     return hn::Or(hn::Gt(hn::LoadU(d, b.lo[axis].data() + j), hi[axis]),
                   hn::Gt(lo[axis], hn::LoadU(d, b.hi[axis].data() + j)));
   }
-  // A margin of two keys on each side of each axis: the doubles overlap for sure (float_key.h).
+  // A margin of two keys on each side of each axis: the doubles certainly overlap (float_key.h).
   HWY_INLINE M certain(const BoxColumns& b, std::size_t j) const {
     const I d;
     const V two = hn::Set(d, 2);
@@ -84,9 +87,8 @@ void sweep(const BoxColumns& b, std::size_t first, std::size_t last, PairSink& s
     if (b.lo[0][i + 1] > b.hi[0][i]) continue;
     const Probe p(b, i);
     for (std::size_t j = i + 1; j < end; j += lanes) {
-      // lo[0] ascends: a later box that begins before box i ends overlaps it on this axis, since it ends no
-      // earlier than it begins.
-      // What follows the last box is beyond every box's end.
+      // lo[0] ascends, so a later box that begins before box i ends overlaps it on this axis. The padding
+      // after the last box is beyond every box's end.
       const M later = hn::Gt(hn::LoadU(d, b.lo[0].data() + j), p.hi[0]);
       const M hit = hn::AndNot(hn::Or(later, hn::Or(p.apart(b, j, 1), p.apart(b, j, 2))), p.counts(b, j));
       if (!hn::AllFalse(d, hit)) emit(b, j, b.code[i], p, hit, sink);
@@ -136,8 +138,14 @@ HWY_EXPORT(mask_16);
 void BoxColumns::resize(std::size_t n) {
   size = n;
   for (int k = 0; k < 3; ++k) {
-    if (lo[k].size() < n + padding) resize_exactly(lo[k], n + n / 16 + padding), resize_exactly(hi[k], n + n / 16 + padding);
-    for (std::size_t j = n; j < n + padding; ++j) lo[k][j] = no_key, hi[k][j] = -no_key;
+    if (lo[k].size() < n + padding) {
+      resize_exactly(lo[k], n + n / 16 + padding);
+      resize_exactly(hi[k], n + n / 16 + padding);
+    }
+    for (std::size_t j = n; j < n + padding; ++j) {
+      lo[k][j] = no_key;
+      hi[k][j] = -no_key;
+    }
   }
   if (code.size() < n + padding) resize_exactly(code, n + n / 16 + padding);
 }
@@ -147,9 +155,12 @@ void BoxColumns::gather(const BoxStore& store, int first_axis) {
   const int a = first_axis, b = (a + 1) % 3, c = (a + 2) % 3;
   for (std::size_t i = 0; i < size; ++i) {
     const KeyBox& k = keys[code[i] & slot_mask];
-    lo[0][i] = k.lo[a], hi[0][i] = k.hi[a];
-    lo[1][i] = k.lo[b], hi[1][i] = k.hi[b];
-    lo[2][i] = k.lo[c], hi[2][i] = k.hi[c];
+    lo[0][i] = k.lo[a];
+    hi[0][i] = k.hi[a];
+    lo[1][i] = k.lo[b];
+    hi[1][i] = k.hi[b];
+    lo[2][i] = k.lo[c];
+    hi[2][i] = k.hi[c];
   }
 }
 

@@ -1,4 +1,4 @@
-// The two inner loops that all algorithms share, in SIMD, chosen at run time for the processor (Highway).
+// The two inner loops shared by all algorithms, in SIMD, chosen at run time for the processor (Highway).
 #pragma once
 
 #include <cstdint>
@@ -8,12 +8,12 @@
 
 namespace touchstone::broad {
 
-/// A code is a slot with three flags above it. A pair counts when each flag is set in one of the two:
-/// `moving` keeps fixed–fixed pairs out; the two `owner` flags let a grid report a pair in one of its cells
-/// only.
+/// A code is a slot with three flags above it. A pair counts when each flag is set in at least one of the two
+/// codes: `moving` excludes fixed–fixed pairs; the two `owner` flags let a grid report a pair in only one of
+/// its cells.
 inline constexpr std::uint32_t slot_mask = 0x1fffffff, moving_flag = 0x20000000, owner_flags = 0xc0000000;
 
-/// Key boxes in columns, axes in an order of the owner's choice, so that one load gives many boxes. Readable
+/// Key boxes in columns, so that one load reads many boxes. The owner chooses the order of the axes. Readable
 /// for `padding` entries beyond the end.
 struct BoxColumns {
   static constexpr std::size_t padding = 64;
@@ -26,32 +26,33 @@ struct BoxColumns {
   void put(std::size_t at, const KeyBox& b, std::uint32_t with_code, int first_axis) {
     for (int k = 0; k < 3; ++k) {
       const int axis = first_axis + k < 3 ? first_axis + k : first_axis + k - 3;
-      lo[k][at] = b.lo[axis], hi[k][at] = b.hi[axis];
+      lo[k][at] = b.lo[axis];
+      hi[k][at] = b.hi[axis];
     }
     code[at] = with_code;
   }
-  /// Fills the boxes in by the slots in their codes.
+  /// Fills in the boxes from the slots in their codes.
   void gather(const BoxStore& store, int first_axis);
   std::size_t memory_bytes() const { return lo[0].capacity() * 7 * sizeof(std::int32_t); }
 };
 
-/// Code of a slot without owner: both owner flags set.
+/// Code of a slot outside a grid: both owner flags set.
 inline std::uint32_t plain_code(const BoxStore& store, BoxStore::Slot s) {
   return s | owner_flags | (store.is_fixed(s) ? 0 : moving_flag);
 }
 
-/// Pairs of each of [begin, end) with those after it; lo[0] must ascend.
+/// Pairs of each box of [begin, end) with the boxes after it; lo[0] must ascend.
 void sweep_range(const BoxColumns& boxes, std::size_t begin, std::size_t end, PairSink& sink);
 
-/// All pairs, in parallel as the sink's options say; lo[0] must ascend.
+/// All pairs, in parallel according to the sink's options; lo[0] must ascend.
 void sweep_all(const BoxColumns& boxes, PairSink& sink);
 
-/// Pairs of entry `i` of `from` with the entries [begin, end) of `boxes`; both in the same order of axes.
+/// Pairs of entry `i` of `from` with the entries [begin, end) of `boxes`; both with the same order of axes.
 void scan_range(const BoxColumns& from, std::size_t i, const BoxColumns& boxes, std::size_t begin,
                 std::size_t end, PairSink& sink);
 
-/// Bit j set: entry begin + j (j < 16) may overlap entry i of `from` (by keys alone; codes are not looked
-/// at).
+/// Bit j is set when entry begin + j (j < 16) may overlap entry i of `from`. Compares keys only; codes are
+/// ignored.
 std::uint32_t overlap_mask_16(const BoxColumns& from, std::size_t i, const BoxColumns& boxes,
                               std::size_t begin);
 

@@ -11,7 +11,7 @@ namespace touchstone::broad {
 PairSink::PairSink(const Options& options) : options_(options) {
   if (options.threads < 1) throw std::invalid_argument("broad phase: threads must be 1 or more");
   threads_ = static_cast<std::size_t>(options.threads);
-  options_.least_a_part = std::max<std::size_t>(1, options.least_a_part);
+  options_.min_work_per_part = std::max<std::size_t>(1, options.min_work_per_part);
 }
 
 std::size_t PairSink::memory_bytes() const {
@@ -26,8 +26,11 @@ std::size_t PairSink::memory_bytes() const {
 
 void PairSink::release_memory() {
   clear();
-  release(first), release(second), release(doubtful);
-  release(grouped_), release(count_);
+  release(first);
+  release(second);
+  release(doubtful);
+  release(grouped_);
+  release(count_);
   for (PairSink& other : others_) other.release_memory();
 }
 
@@ -41,7 +44,8 @@ void PairSink::append(const PairSink& other) {
 
 void PairSink::grow(std::size_t more) {
   const std::size_t size = std::max(n + more, first.size() + first.size() / 8) + 64;
-  resize_exactly(first, size), resize_exactly(second, size);
+  resize_exactly(first, size);
+  resize_exactly(second, size);
 }
 
 void PairSink::decide_doubtful(const BoxStore& store) {
@@ -55,7 +59,7 @@ void PairSink::accept_doubtful() {
   doubtful.clear();
 }
 
-// Slots were reused or filled out of order: each slot is renamed by the rank of its id.
+// Used when slots were reused or filled out of order: replaces each slot by the rank of its id.
 void PairSink::rename_by_rank(const BoxStore& store) {
   if (ranked_at_ != store.membership()) {
     by_rank_.clear();
@@ -64,18 +68,21 @@ void PairSink::rename_by_rank(const BoxStore& store) {
       if (store.is_present(s)) order.emplace_back(store.id(s), s);
     std::sort(order.begin(), order.end());
     rank_.assign(store.slots(), 0);
-    for (const auto& [id, s] : order)
-      rank_[s] = static_cast<std::uint32_t>(by_rank_.size()), by_rank_.push_back(id);
+    for (const auto& [id, s] : order) {
+      rank_[s] = static_cast<std::uint32_t>(by_rank_.size());
+      by_rank_.push_back(id);
+    }
     ranked_at_ = store.membership();
   }
   for (std::size_t i = 0; i < n; ++i) {
     const std::uint32_t a = rank_[first[i]], b = rank_[second[i]];
-    first[i] = std::min(a, b), second[i] = std::max(a, b);
+    first[i] = std::min(a, b);
+    second[i] = std::max(a, b);
   }
 }
 
-// Counting sort. Each part counts its share of the pairs in a table of its own; that of the last part comes
-// first in `end`, for it ends where the bucket ends.
+// Counting sort. Each part counts its share of the pairs in its own table. The table of the last part comes
+// first in `end`, because that part's share of a bucket ends where the bucket ends.
 void PairSink::group(std::size_t slots, std::vector<std::uint32_t>& end,
                      std::vector<std::uint32_t>& second_by_first) const {
   if (second_by_first.size() < n + list_padding) resize_exactly(second_by_first, n + n / 32 + list_padding);
@@ -97,10 +104,10 @@ void PairSink::group(std::size_t slots, std::vector<std::uint32_t>& end,
   end.resize(slots);
 }
 
-// Grouped by the first of the pair, each group sorted by the second: O(pairs + slots) and a sort of each
-// group, all but linear when no box has very many partners. Pairs grouped in `out` and sorted there would
-// save four bytes a pair; each group's load then waits for the store of the group before it, which it
-// overlaps: 15 % of a query of 1000 boxes (2026-11-21, Zen 3).
+// Groups the pairs by their first slot and sorts each group by the second: O(pairs + slots) plus a sort of
+// each group, close to linear when no box has very many partners. Grouping and sorting in `out` would save
+// four bytes per pair, but the load of each group would then wait for the overlapping store of the group
+// before it: 15 % of a query of 1000 boxes (2026-11-21, Zen 3).
 void PairSink::finish(const BoxStore& store, std::vector<IdPair>& out) {
   decide_doubtful(store);
   const bool ranked = !store.slots_ascend();
@@ -128,8 +135,10 @@ void PairSink::name(const BoxStore& store, std::vector<IdPair>& out) {
   }
   clear();
   reserve(out.size());
-  for (const IdPair& p : out)
-    first[n] = static_cast<std::uint32_t>(p.first), second[n++] = static_cast<std::uint32_t>(p.second);
+  for (const IdPair& p : out) {
+    first[n] = static_cast<std::uint32_t>(p.first);
+    second[n++] = static_cast<std::uint32_t>(p.second);
+  }
   finish(store, out);
 }
 

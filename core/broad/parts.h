@@ -1,6 +1,6 @@
-// Work shared out among threads, in parts that depend on the amount of work and the number of threads alone,
-// never on timing. Threads live for one call: starting and joining one costs about 20 µs, which is why small
-// work stays on the caller's thread (Options::least_a_part), and nothing runs between queries.
+// Divides work among threads, in parts that depend only on the amount of work and the number of threads,
+// never on timing. Threads live for one call. Starting and joining one costs about 20 µs, so small work stays
+// on the caller's thread (Options::min_work_per_part). Nothing runs between queries.
 #pragma once
 
 #include <algorithm>
@@ -12,9 +12,9 @@
 
 namespace touchstone::broad {
 
-/// Calls run(part) for each part of [0, parts), the first on the caller's thread, the others on threads of
-/// their own, or on the caller's when the system has none to give. Rethrows what the first part that failed
-/// has thrown, after all have ended.
+/// Calls run(part) for each part of [0, parts): the first on the caller's thread, the others on their own
+/// threads, or on the caller's when the system cannot start more. After all parts have ended, rethrows the
+/// exception of the first part that failed.
 template <class Run>
 void run_parts(std::size_t parts, const Run& run) {
   if (parts <= 1) {
@@ -43,13 +43,13 @@ void run_parts(std::size_t parts, const Run& run) {
     if (e) std::rethrow_exception(e);
 }
 
-/// Where part p of equal shares of [0, n) begins; p = parts: n.
+/// Where part p of [0, n), divided equally, begins; n for p = parts.
 inline std::size_t part_begin(std::size_t n, std::size_t parts, std::size_t p) {
   return n / parts * p + std::min(p, n % parts);
 }
 
-/// Calls run(begin, end) for the chunks of [0, n) that fall to part p when they are dealt out in turn: work
-/// that is dense in places is shared evenly.
+/// Calls run(begin, end) for the chunks of [0, n) that part p gets when chunks are dealt in turn, so that
+/// unevenly distributed work is shared evenly.
 template <class Run>
 void deal_chunks(std::size_t n, std::size_t chunk, std::size_t parts, std::size_t p, const Run& run) {
   if (parts <= 1)

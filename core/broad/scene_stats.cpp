@@ -10,10 +10,12 @@
 namespace touchstone::broad {
 namespace {
 
-// A sample of 256 costs about as much as 1000 boxes; a scene changes its kind seldom. One box in 64 of a
-// large scene sees clusters of a thousand boxes.
-constexpr int queries_a_sample = 16;
-constexpr std::size_t sample_least = 256, sample_most = 4096, sampled_share = 64;
+// A sample of 256 costs about as much as 1000 boxes, and the character of a scene rarely changes. One box in
+// 64 of a large scene detects clusters of a thousand boxes.
+constexpr int queries_per_sample = 16;
+// Centres beyond these quantiles, and the sides beyond the 99th percentile, are treated as outliers.
+constexpr double low_quantile = 1.0 / 64, high_quantile = 63.0 / 64, largest_quantile = 0.99;
+constexpr std::size_t min_sample = 256, max_sample = 4096, sampled_share = 64;
 
 double quantile(std::vector<double>& v, double q) {
   const auto k = static_cast<std::ptrdiff_t>(q * static_cast<double>(v.size() - 1));
@@ -33,15 +35,18 @@ struct Sample {
   void add(const Aabb& b) {
     const Vec3 c = b.lo / 2 + b.hi / 2, extent = b.hi - b.lo;
     if (!c.allFinite() || !extent.allFinite()) return;
-    for (int k = 0; k < 3; ++k) centre[k].push_back(c[k]), size[k].push_back(extent[k]);
+    for (int k = 0; k < 3; ++k) {
+      centre[k].push_back(c[k]);
+      size[k].push_back(extent[k]);
+    }
     largest.push_back(extent.maxCoeff());
   }
 };
 
-// Share of the boxes in a unit of volume around the average box: the chance that two of the sample lie in one
-// cell, over the cell's volume. Clusters make it larger than one over the scene's volume, if cells are as
-// small as they: the finest of 2, 4, … 1024 cells an axis in which enough pairs of the sample meet. One sort:
-// cells of all sizes are prefixes of a Morton code.
+// Share of the boxes per unit of volume around the average box: the probability that two sampled boxes lie in
+// one cell, divided by the cell's volume. Clusters make it larger than one over the scene's volume, provided
+// that the cells are as small as the clusters: uses the finest of 2, 4, … 1024 cells per axis in which enough
+// pairs of the sample meet. One sort suffices, because cells of all sizes are prefixes of a Morton code.
 double seen_density(const Sample& sample, const SceneStats& s) {
   constexpr int bits = 10;
   constexpr double enough = 128;
@@ -76,16 +81,17 @@ SceneStats summary(Sample& sample) {
     std::vector<double> centre = sample.centre[k];
     stats.median_size[k] = quantile(sample.size[k], 0.5);
     stats.spread[k] = deviation(centre);
-    stats.low[k] = quantile(centre, 1.0 / 64), stats.high[k] = quantile(centre, 63.0 / 64);
+    stats.low[k] = quantile(centre, low_quantile);
+    stats.high[k] = quantile(centre, high_quantile);
   }
   stats.density = seen_density(sample, stats);
-  const double median = quantile(sample.largest, 0.5), high = quantile(sample.largest, 0.99);
+  const double median = quantile(sample.largest, 0.5), high = quantile(sample.largest, largest_quantile);
   stats.largest_ratio = median > 0 ? high / median : 1;
   return stats;
 }
 
 std::size_t step_through(std::size_t n) {
-  return std::max<std::size_t>(1, n / std::clamp(n / sampled_share, sample_least, sample_most));
+  return std::max<std::size_t>(1, n / std::clamp(n / sampled_share, min_sample, max_sample));
 }
 
 }  // namespace
@@ -110,7 +116,8 @@ SceneStats sample_boxes(const KeyBox* boxes, std::span<const std::uint32_t> code
 const SceneStats& RememberedStats::of(const BoxStore& store) {
   if (age_ == 0 || store.present() > 2 * present_ || present_ > 2 * store.present()) {
     stats_ = sample_scene(store);
-    age_ = queries_a_sample, present_ = store.present();
+    age_ = queries_per_sample;
+    present_ = store.present();
   }
   --age_;
   return stats_;
@@ -121,7 +128,10 @@ int best_axis(const SceneStats& s) {
   double most = -1;
   for (int k = 0; k < 3; ++k) {
     const double room = s.median_size[k] > 0 ? s.spread[k] / s.median_size[k] : s.spread[k];
-    if (room > most) most = room, best = k;
+    if (room > most) {
+      most = room;
+      best = k;
+    }
   }
   return best;
 }

@@ -1,7 +1,8 @@
 // Sort and sweep (Baraff 1992, §"bounding boxes"), rebuilt for each query. The boxes are radix-sorted by
-// their lower end on the axis on which their centres are spread most, relative to their size (least pruning
-// left to do by the other two); each box is compared with those that begin before it ends, ties included; all
-// three axes are tested. O(n log n + n + k) with k the pairs that overlap on the axis swept.
+// their lower end on the axis on which their centres have the largest spread relative to their size (which
+// leaves the least pruning to the other two axes). Each box is compared with those that begin before it ends,
+// ties included; all three axes are tested. O(n log n + n + k), where k is the number of pairs that overlap
+// on the sweep axis.
 #pragma once
 
 #include "core/broad/key_sort.h"

@@ -1,14 +1,13 @@
-// BroadPhase of a finder: the boxes, the changes and the output are kept here, a finder only finds. It has
-//   void find(const BoxStore&, PairSink&)   each overlapping pair of slots but fixed–fixed put in once;
-//   changes
+// Makes a BroadPhase from a finder. This class stores the boxes, the changes and the output; a finder only
+// finds pairs. It has
+//   void find(const BoxStore&, PairSink&)   adds each overlapping pair of slots except fixed–fixed once; changes
 //                                           since the last call are in store.touched()
 //   void validate(const BoxStore&) const    throws std::logic_error
 //   std::size_t memory_bytes() const
 //   std::string explain() const
 // In place of find() it may have
 //   bool find_sorted(const BoxStore&, PairSink&, std::vector<IdPair>& out)
-//                                           either the pairs of slots in `out`, in order, and true; or in the
-//                                           sink and false
+//                                           true: sorted pairs of slots in `out`; false: pairs in the sink
 // and
 //   Structure structure() const
 #pragma once
@@ -40,7 +39,10 @@ class StoredPhase final : public BroadPhase {
     store_.settle();
     store_.forget_changes();
   }
-  void validate() const override { store_.validate(), finder_.validate(store_); }
+  void validate() const override {
+    store_.validate();
+    finder_.validate(store_);
+  }
   std::size_t memory_bytes() const override {
     return sizeof *this + store_.memory_bytes() + sink_.memory_bytes() + finder_.memory_bytes();
   }

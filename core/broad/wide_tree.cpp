@@ -10,18 +10,21 @@
 namespace touchstone::broad {
 namespace {
 
-constexpr int bits_an_axis = 10;
-// A group with so few boxes left is dissolved: its entry costs a search as much as that of a full one.
+constexpr int bits_per_axis = 10;
+// A group with this few boxes left is dissolved: a search pays as much for its entry as for that of a full
+// one.
 constexpr std::size_t few_left = 4;
+// Cap on a side in the cost, so that the sum is finite.
+constexpr double longest_side = 1e30;
 
-// Only an order: a centre that is no number, or out of the sample's range, costs speed alone.
+// Only an order: a centre that is NaN or outside the range of the sample costs only speed.
 std::uint32_t morton(const KeyBox& b, const SceneStats& s) {
   std::uint32_t code = 0;
   for (int k = 0; k < 3; ++k) {
     const double centre = (static_cast<double>(value_of(b.lo[k])) + value_of(b.hi[k])) / 2;
     const double extent = s.high[k] - s.low[k];
-    const double t = extent > 0 ? (centre - s.low[k]) / extent * (1 << bits_an_axis) : 0;
-    const double in = t > 0 ? std::min(t, (1 << bits_an_axis) - 1.0) : 0;
+    const double t = extent > 0 ? (centre - s.low[k]) / extent * (1 << bits_per_axis) : 0;
+    const double in = t > 0 ? std::min(t, (1 << bits_per_axis) - 1.0) : 0;
     code |= spread_bits(static_cast<std::uint32_t>(in)) << k;
   }
   return code;
@@ -43,13 +46,14 @@ std::uint32_t WideTree::add_group(std::size_t level) {
     l.free.pop_back();
     return g;
   }
-  l.parent.push_back(0), l.used.push_back(0);
+  l.parent.push_back(0);
+  l.used.push_back(0);
   l.entries.resize(l.parent.size() * width);
   for (std::size_t i = l.entries.size - width; i < l.entries.size; ++i) l.entries.put(i, KeyBox{}, 0, 0);
   return static_cast<std::uint32_t>(l.parent.size() - 1);
 }
 
-// A level above the root, with the old root as its one entry.
+// Adds a level above the root, with the old root as its only entry.
 void WideTree::add_root() {
   levels_.emplace_back();
   add_group(top());
@@ -57,7 +61,7 @@ void WideTree::add_root() {
   put(top(), 0, union_of(top() - 1, 0), 0);
 }
 
-// What is at `entry` learns where it is.
+// Updates the back-pointer of what is stored at `entry`.
 void WideTree::link(std::size_t level, std::size_t entry) {
   const std::uint32_t code = levels_[level].entries.code[entry];
   (level == 0 ? position_[code & slot_mask] : levels_[level - 1].parent[code]) =
@@ -72,19 +76,25 @@ void WideTree::put(std::size_t level, std::size_t entry, const KeyBox& box, std:
 KeyBox WideTree::box_of(std::size_t level, std::size_t entry) const {
   KeyBox b;
   const BoxColumns& e = levels_[level].entries;
-  for (int k = 0; k < 3; ++k) b.lo[k] = e.lo[k][entry], b.hi[k] = e.hi[k][entry];
+  for (int k = 0; k < 3; ++k) {
+    b.lo[k] = e.lo[k][entry];
+    b.hi[k] = e.hi[k][entry];
+  }
   return b;
 }
 
-// Entries not used are empty boxes, which change no union.
+// Unused entries are empty boxes, which do not change the union.
 KeyBox WideTree::union_of(std::size_t level, std::size_t group) const {
   KeyBox b;
   const BoxColumns& e = levels_[level].entries;
   for (int k = 0; k < 3; ++k) {
     std::int32_t lo = no_key, hi = -no_key;
-    for (std::size_t i = group * width; i < (group + 1) * width; ++i)
-      lo = std::min(lo, e.lo[k][i]), hi = std::max(hi, e.hi[k][i]);
-    b.lo[k] = lo, b.hi[k] = hi;
+    for (std::size_t i = group * width; i < (group + 1) * width; ++i) {
+      lo = std::min(lo, e.lo[k][i]);
+      hi = std::max(hi, e.hi[k][i]);
+    }
+    b.lo[k] = lo;
+    b.hi[k] = hi;
   }
   return b;
 }
@@ -97,7 +107,7 @@ void WideTree::unite_above(std::size_t level, std::size_t group) {
   }
 }
 
-// ---- coming and going
+// ---- insertion and removal
 
 void WideTree::add(std::size_t level, std::size_t group, const KeyBox& box, std::uint32_t code) {
   if (levels_[level].used[group] == width) {
@@ -133,7 +143,10 @@ void WideTree::add_box(const KeyBox& box, std::uint32_t code) {
     Growth least = growth(box_of(level, best), box);
     for (std::size_t i = best + 1; i < end_of(level, group); ++i) {
       const Growth g = growth(box_of(level, i), box);
-      if (g < least) least = g, best = i;
+      if (g < least) {
+        least = g;
+        best = i;
+      }
     }
     group = levels_[level].entries.code[best];
   }
@@ -142,7 +155,10 @@ void WideTree::add_box(const KeyBox& box, std::uint32_t code) {
 
 void WideTree::insert(const BoxStore& store, BoxStore::Slot s) {
   if (position_.size() < store.slots()) position_.resize(store.slots(), nowhere);
-  if (levels_.empty()) levels_.emplace_back(), add_group(0);
+  if (levels_.empty()) {
+    levels_.emplace_back();
+    add_group(0);
+  }
   add_box(store.keys()[s], plain_code(store, s));
   ++boxes_;
 }
@@ -189,7 +205,8 @@ void WideTree::build(const BoxStore& store, bool fixed, const SceneStats& stats)
       order.push_back({morton(store.keys()[s], stats), s});
   sort_by_key(order, scratch);
   levels_.clear();
-  boxes_ = order.size(), built_cost_ = 0;
+  boxes_ = order.size();
+  built_cost_ = 0;
   position_.assign(order.empty() ? 0 : store.slots(), nowhere);
   if (order.empty()) return;
   std::size_t n = order.size();
@@ -197,10 +214,12 @@ void WideTree::build(const BoxStore& store, bool fixed, const SceneStats& stats)
     Level& l = levels_.emplace_back();
     const std::size_t groups = (n + width - 1) / width;
     l.entries.resize(groups * width);
-    for (int k = 0; k < 3; ++k)
-      std::fill_n(l.entries.lo[k].begin(), groups * width, no_key),
-          std::fill_n(l.entries.hi[k].begin(), groups * width, -no_key);
-    l.parent.resize(groups), l.used.assign(groups, width);
+    for (int k = 0; k < 3; ++k) {
+      std::fill_n(l.entries.lo[k].begin(), groups * width, no_key);
+      std::fill_n(l.entries.hi[k].begin(), groups * width, -no_key);
+    }
+    l.parent.resize(groups);
+    l.used.assign(groups, width);
     l.used.back() = static_cast<std::uint8_t>(n - (groups - 1) * width);
     for (std::size_t i = 0; i < n; ++i) {
       l.entries.code[i] = top() == 0 ? plain_code(store, order[i].slot) : static_cast<std::uint32_t>(i);
@@ -230,7 +249,10 @@ void WideTree::refit_one(const BoxStore& store, BoxStore::Slot s) {
   const std::uint32_t code = levels_[0].entries.code[entry];
   if (top() > 0 && !inside(box, box_of(1, levels_[0].parent[group]))) {
     remove(s);
-    if (levels_.empty()) levels_.emplace_back(), add_group(0);
+    if (levels_.empty()) {
+      levels_.emplace_back();
+      add_group(0);
+    }
     add_box(box, code);
     ++boxes_;
     return;
@@ -239,7 +261,7 @@ void WideTree::refit_one(const BoxStore& store, BoxStore::Slot s) {
   unite_above(0, group);
 }
 
-// The mark is the highest flag of a code: all set otherwise (pair_kernels.h).
+// The mark is the highest flag of a code; the other flags are always set (pair_kernels.h).
 void WideTree::mark(BoxStore::Slot s, bool on) {
   std::uint32_t& code = levels_[0].entries.code[position_[s]];
   code = on ? code | 0x80000000U : code & ~0x80000000U;
@@ -252,7 +274,7 @@ double WideTree::cost() const {
     for (std::size_t i = g * width; i < end_of(1, g); ++i)
       for (int k = 0; k < 3; ++k) {
         const BoxColumns& e = levels_[1].entries;
-        sum += std::min(static_cast<double>(value_of(e.hi[k][i])) - value_of(e.lo[k][i]), 1e30);
+        sum += std::min(static_cast<double>(value_of(e.hi[k][i])) - value_of(e.lo[k][i]), longest_side);
       }
   return sum / static_cast<double>(boxes_);
 }
@@ -270,7 +292,7 @@ void WideTree::marked_partners(const BoxStore& store, BoxStore::Slot s, PairSink
              [&](std::size_t j) { query(probe_, 0, top(), j, sink); });
 }
 
-// Pairs within a group and below it.
+// Pairs within a group and in its subtrees.
 void WideTree::self(std::size_t level, std::size_t group, Turn& turn, PairSink& sink) const {
   if (turn.parts > 1 && level <= turn.task_level) {
     if (!turn.mine()) return;
@@ -293,7 +315,7 @@ void WideTree::self(std::size_t level, std::size_t group, Turn& turn, PairSink& 
   }
 }
 
-// Entry a of this tree overlaps entry b of the other; the higher of the two is opened.
+// Entry a of this tree overlaps entry b of the other; descends into the higher of the two.
 void WideTree::cross(std::size_t level, std::size_t a, const WideTree& other, std::size_t other_level,
                      std::size_t b, PairSink& sink) const {
   if (level == 0) {
@@ -347,7 +369,7 @@ void WideTree::pairs_with(const WideTree& other, PairSink& sink) const {
   });
 }
 
-// ---- looking
+// ---- inspection
 
 void WideTree::validate() const {
   const auto require = [](bool holds, const char* what) {
@@ -368,7 +390,7 @@ void WideTree::validate() const {
         }
         const std::uint32_t code = level.entries.code[i];
         require((l == 0 ? position_[code & slot_mask] : levels_[l - 1].parent[code]) == i,
-                "tree: an entry is not where its place says");
+                "tree: a back-pointer is wrong");
         boxes += l == 0 ? 1 : 0;
         if (l < top())
           require(inside(b, box_of(l + 1, level.parent[g])), "tree: a node does not hold its child");

@@ -1,7 +1,7 @@
 // Exact signs of small determinants of doubles, by floating-point expansions (Shewchuk 1997, "Adaptive
-// precision floating-point arithmetic and fast robust geometric predicates", §2). A sign that a forward error
-// bound already decides costs one determinant. Exact as long as no partial product underflows or overflows:
-// coordinates between 1e-95 and 1e+95 in size, or zero.
+// precision floating-point arithmetic and fast robust geometric predicates", §2). When a forward error bound
+// already decides the sign, the cost is one determinant. Exact as long as no partial product underflows or
+// overflows: coordinates are zero or between 1e-95 and 1e+95 in magnitude.
 #pragma once
 
 #include <cmath>

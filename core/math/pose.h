@@ -1,6 +1,6 @@
-// Poses and motions as data. A quaternion (x, y, z, w) need not be unit: any non-zero q denotes the rotation
-// R(q) = (quadratic form in q) / |q|², whose entries are rational in q (truth.md §1). Right-handed, column vectors,
-// x_world = R x_local + t, lengths in the scene's unit.
+// Poses and motions as data. A quaternion (x, y, z, w) need not have unit length: any non-zero q denotes the
+// rotation R(q) = (quadratic form in q) / |q|², whose entries are rational in q (truth.md §1). Right-handed,
+// column vectors, x_world = R x_local + t, lengths in the scene's unit.
 #pragma once
 
 #include <Eigen/Core>
@@ -25,14 +25,14 @@ struct Pose {
 };
 
 /// Constant velocities over one step t in [0,1], world frame, rotation about the body's origin:
-/// x(t) = x0 + linear·t, q(t) = exp(t·angular) ∘ q0. `angular` in radians a step.
+/// x(t) = x0 + linear·t, q(t) = exp(t·angular) ∘ q0. `angular` is in radians per step.
 struct Motion {
   Vec3 linear = Vec3::Zero();
   Vec3 angular = Vec3::Zero();
   bool operator==(const Motion& o) const { return linear == o.linear && angular == o.angular; }
 };
 
-/// A pose as a rotation matrix in rounded arithmetic; what most engines hold.
+/// A pose as a rotation matrix in rounded arithmetic, the form that most engines hold.
 struct Transform {
   Mat3 rotation = Mat3::Identity();
   Vec3 translation = Vec3::Zero();
@@ -40,16 +40,16 @@ struct Transform {
   bool operator==(const Transform& o) const { return rotation == o.rotation && translation == o.translation; }
 };
 
-/// An exact affine placement: world = matrix·local + translation, each entry a double that denotes itself. What an
-/// engine holds after conversion; the matrix is a rotation only up to that engine's rounding.
+/// An exact affine placement: world = matrix·local + translation; each entry is a double that denotes itself.
+/// This is what an engine holds after conversion. The matrix is a rotation only up to that engine's rounding.
 struct Placement {
   Mat3 matrix = Mat3::Identity();
   Vec3 translation = Vec3::Zero();
   bool operator==(const Placement& o) const { return matrix == o.matrix && translation == o.translation; }
 };
 
-/// Unit quaternion nearest to q, in double arithmetic; scales by a power of two first, so that no component
-/// overflows or underflows. Precondition: q finite and not zero.
+/// The unit quaternion nearest to q, in double arithmetic. Scales by a power of two first, so that no
+/// component overflows or underflows. Precondition: q is finite and not zero.
 inline Quat normalized(const Quat& q) {
   const double m = std::max(std::max(std::abs(q.x), std::abs(q.y)), std::max(std::abs(q.z), std::abs(q.w)));
   const int e = -std::ilogb(m);
@@ -58,7 +58,8 @@ inline Quat normalized(const Quat& q) {
   return {x / n, y / n, z / n, w / n};
 }
 
-/// R(q) for any finite non-zero q. Exact for the identity and for axis permutations; entries within 4 ulp otherwise.
+/// R(q) for any finite non-zero q. Exact for the identity and for axis permutations; entries within 4 ulp
+/// otherwise.
 inline Mat3 rotation_matrix(const Quat& q0) {
   const double m = std::max(std::max(std::abs(q0.x), std::abs(q0.y)), std::max(std::abs(q0.z), std::abs(q0.w)));
   const int e = -std::ilogb(m);

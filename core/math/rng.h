@@ -1,5 +1,6 @@
-// Random numbers that reproduce: xoshiro256++ (Blackman, Vigna 2019) seeded by splitmix64, with distributions of our
-// own that use only +, *, comparison, sqrt and ldexp, so that a seed gives the same bytes with every libm and compiler.
+// Reproducible random numbers: xoshiro256++ (Blackman, Vigna 2019) seeded by splitmix64. The distributions
+// are our own and use only +, *, comparison, sqrt and ldexp, so that a seed gives the same bytes with every
+// libm and compiler.
 #pragma once
 
 #include <bit>
@@ -10,12 +11,15 @@
 
 namespace touchstone {
 
+/// Rejection sampling of a direction discards squared lengths below this: normalising them loses accuracy.
+inline constexpr double least_squared_length = 0.01;
+
 class Rng {
  public:
   explicit Rng(std::uint64_t seed) {
     for (auto& s : s_) s = splitmix(seed);
   }
-  /// An independent stream: same (seed, stream), same numbers, whatever was drawn before.
+  /// An independent stream: the same (seed, stream) gives the same numbers, whatever was drawn before.
   static Rng stream(std::uint64_t seed, std::uint64_t stream) {
     std::uint64_t a = seed, b = stream ^ 0x6a09e667f3bcc909ULL;
     return Rng(splitmix(a) ^ std::rotl(splitmix(b), 23));
@@ -23,8 +27,12 @@ class Rng {
   std::uint64_t next() {
     const std::uint64_t result = std::rotl(s_[0] + s_[3], 23) + s_[0];
     const std::uint64_t t = s_[1] << 17;
-    s_[2] ^= s_[0], s_[3] ^= s_[1], s_[1] ^= s_[2], s_[0] ^= s_[3];
-    s_[2] ^= t, s_[3] = std::rotl(s_[3], 45);
+    s_[2] ^= s_[0];
+    s_[3] ^= s_[1];
+    s_[1] ^= s_[2];
+    s_[0] ^= s_[3];
+    s_[2] ^= t;
+    s_[3] = std::rotl(s_[3], 45);
     return result;
   }
   /// Uniform in [0,1), 53 bits.
@@ -36,7 +44,8 @@ class Rng {
     return static_cast<std::uint64_t>((static_cast<u128>(next()) * n) >> 64);
   }
   bool chance(double p) { return uniform() < p; }
-  /// 2^e with e an integer uniform in [lo,hi], times uniform [1,2): log-uniform up to a factor of 1.5 in density.
+  /// 2^e times uniform [1,2), with e a uniform integer in [lo,hi]: log-uniform up to a factor of 1.5 in
+  /// density.
   double binary_scale(int lo, int hi) {
     const int e = lo + static_cast<int>(below(static_cast<std::uint64_t>(hi - lo + 1)));
     return std::ldexp(1.0 + uniform(), e);
@@ -44,9 +53,9 @@ class Rng {
   /// Uniform on the unit sphere, by rejection.
   Vec3 unit_vector() {
     for (;;) {
-      const Vec3 v{uniform(-1, 1), uniform(-1, 1), uniform(-1, 1)};  // braces: drawn left to right
+      const Vec3 v{uniform(-1, 1), uniform(-1, 1), uniform(-1, 1)};  // braces: evaluated left to right
       const double n = v.squaredNorm();
-      if (n > 0.01 && n <= 1) return v / std::sqrt(n);
+      if (n > least_squared_length && n <= 1) return v / std::sqrt(n);
     }
   }
   /// A unit vector times a length: the direction is drawn first, whatever the compiler's order of evaluation.
@@ -59,7 +68,7 @@ class Rng {
     for (;;) {
       const Quat q{uniform(-1, 1), uniform(-1, 1), uniform(-1, 1), uniform(-1, 1)};
       const double n = q.x * q.x + q.y * q.y + q.z * q.z + q.w * q.w;
-      if (n < 0.01 || n > 1) continue;
+      if (n < least_squared_length || n > 1) continue;
       const double s = 1 / std::sqrt(n);
       return {q.x * s, q.y * s, q.z * s, q.w * s};
     }

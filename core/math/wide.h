@@ -1,4 +1,4 @@
-// The extended scalar in which the core works out what it reports in double, and rigid frames in any scalar.
+// The extended scalar in which the core computes what it reports in double, and rigid frames in any scalar.
 // With 64 bits of significand (x87) the roundings between a pose and a depth add up to about 1e-18·L, 1/10000
 // of the core's τ.
 #pragma once
@@ -30,7 +30,7 @@ struct Frame {
 using WideFrame = Frame<Wide>;
 
 /// R(q) of any finite non-zero quaternion. The exponent range of Wide holds the square of every double, so
-/// nothing is scaled first. Each entry is a quotient of sums of four products: error at most 12 units of
+/// no scaling is needed. Each entry is a quotient of sums of four products; its error is at most 12 units of
 /// 2⁻⁶⁴.
 inline WideMat wide_rotation(const Quat& q) {
   const Wide x = q.x, y = q.y, z = q.z, w = q.w, n = x * x + y * y + z * z + w * w;
@@ -43,7 +43,7 @@ inline WideMat wide_rotation(const Quat& q) {
 
 inline WideFrame wide_frame(const Pose& p) { return {wide_rotation(p.rotation), p.translation.cast<Wide>()}; }
 
-/// The frame at time t of truth.md's motion: rotation about the body's origin, world axes.
+/// The frame at time t under truth.md's motion: rotation about the body's origin, world axes.
 inline WideFrame wide_frame_at(const Pose& p, const Motion& m, Wide t) {
   WideFrame f = wide_frame(p);
   f.translation += t * m.linear.cast<Wide>();

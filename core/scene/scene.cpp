@@ -50,7 +50,7 @@ void check_script(const Scene& s) {
     if (step.pose) check_pose(*step.pose, place + ".pose");
     if (step.op == Step::Op::query) continue;
     if (step.body < 0 || step.body >= static_cast<int>(s.bodies.size()))
-      throw InputError(place + ".body", "index " + std::to_string(step.body) + " is no body");
+      throw InputError(place + ".body", "index " + std::to_string(step.body) + " is not a body");
     const auto b = static_cast<std::size_t>(step.body);
     if (step.op == Step::Op::insert) {
       if (present[b]) throw InputError(place, "inserts body " + std::to_string(b) + ", which is present already");
@@ -111,7 +111,10 @@ std::uint64_t hash(const Scene& s) {
     h.add(b.shape);
     field(b.pose);
     h.add(b.motion.has_value());
-    if (b.motion) field(b.motion->linear), field(b.motion->angular);
+    if (b.motion) {
+      field(b.motion->linear);
+      field(b.motion->angular);
+    }
     h.add(b.is_static).add(b.group);
   }
   for (auto [a, b] : s.ignored) h.add(a).add(b);
@@ -145,17 +148,18 @@ double scale_of_pair(const Scene& s, int a, int b) {
     const Shape& shape = s.shape_of(i);
     const Vec3& start = body.pose.translation;
     const Vec3 end = body.motion ? Vec3(start + body.motion->linear) : start;
-    apart_at_start = start - apart_at_start, apart_at_end = end - apart_at_end;
-    // A shape's whole length: `extent` is half of it.
+    apart_at_start = start - apart_at_start;
+    apart_at_end = end - apart_at_end;
+    // `extent` is half of a shape's length.
     l = std::max({l, 2 * extent(shape), start.cwiseAbs().maxCoeff(), end.cwiseAbs().maxCoeff()});
     if (const auto* h = std::get_if<HalfSpace>(&shape))
       l = std::max(l, std::abs(h->offset) / h->normal.stableNorm());
-    // Vertices far from their body's origin are coordinates too.
+    // Vertices far from the body's origin count as coordinates.
     if (kind_of(shape) == ShapeKind::hull || kind_of(shape) == ShapeKind::mesh)
       l = std::max(l, bounding_radius(shape));
   }
   l = std::max(std::max(l, apart_at_start.stableNorm()), apart_at_end.stableNorm());
-  return std::min(l, std::numeric_limits<double>::max());  // lengths beyond the doubles
+  return std::min(l, std::numeric_limits<double>::max());  // the length may overflow
 }
 
 Scene extract_pair(const Scene& s, int a, int b) {

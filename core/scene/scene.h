@@ -1,5 +1,5 @@
-// A scene is data: shapes, bodies that place them, and a script of steps. Every number is an IEEE double and denotes
-// itself exactly (truth.md §1).
+// A scene is data: shapes, bodies that place them, and a script of steps. Every number is an IEEE double and
+// denotes itself exactly (truth.md §1).
 #pragma once
 
 #include <cstdint>
@@ -14,12 +14,12 @@
 namespace touchstone {
 
 struct Body {
-  std::string name;  // for people; may be empty
+  std::string name;  // for display; may be empty
   int shape = 0;     // index into Scene::shapes
   Pose pose;
   std::optional<Motion> motion;  // over one step, t in [0,1]
   bool is_static = false;
-  int group = -1;  // bodies of one group >= 0 (geoms of one link) are never paired
+  int group = -1;  // bodies of the same group >= 0 (geoms of one link) are never paired
   bool operator==(const Body&) const = default;
 };
 
@@ -28,7 +28,7 @@ struct Step {
   enum class Op : std::uint8_t { insert, move, remove, query };
   Op op = Op::query;
   int body = -1;             // for insert, move, remove
-  std::optional<Pose> pose;  // for insert (absent: the body's own pose) and move
+  std::optional<Pose> pose;  // for insert (if absent, the body's own pose) and move
   bool operator==(const Step&) const = default;
 };
 
@@ -38,7 +38,7 @@ struct Scene {
   std::string name;
   std::vector<Shape> shapes;
   std::vector<Body> bodies;
-  std::vector<BodyPair> ignored;  // pairs that a user filters; first < second, sorted
+  std::vector<BodyPair> ignored;  // pairs that the user filters out; first < second, sorted
   std::vector<Step> script;       // empty: insert every body, then query once
   const Shape& shape_of(int body) const {
     return shapes[static_cast<std::size_t>(bodies[static_cast<std::size_t>(body)].shape)];
@@ -46,24 +46,26 @@ struct Scene {
   bool operator==(const Scene&) const = default;
 };
 
-/// Throws InputError, place as in the JSON form ("bodies[3].pose.rotation"). A quaternion must be finite and not zero;
-/// a mesh or half-space body is static or has no motion; a script removes or moves only what is inserted.
+/// Throws InputError; the place is given as in the JSON form ("bodies[3].pose.rotation"). A quaternion must
+/// be finite and not zero; a mesh or half-space body is static or has no motion; a script removes or moves
+/// only inserted bodies.
 void validate(const Scene& scene);
 
-/// Order-dependent hash over every number of the scene (names excluded).
+/// Order-dependent hash of every number in the scene; names are excluded.
 std::uint64_t hash(const Scene& scene);
 
-/// True when the pair is of one group or listed in `ignored`.
+/// True when both bodies are of the same group or the pair is listed in `ignored`.
 bool is_filtered(const Scene& scene, int a, int b);
 
-/// The script itself, or, when it is empty, "insert all, query".
+/// The script, or "insert all, query" when it is empty.
 std::vector<Step> effective_script(const Scene& scene);
 
-/// L of docs/truth.md §2: the largest of both shapes' whole lengths, of the coordinates of positions and vertices, and of
-/// the distance between the positions. A half-space's plane counts by its distance. With motion: of the whole step.
+/// L of docs/truth.md §2: the largest of both shapes' lengths, the coordinates of positions and vertices, and
+/// the distance between the positions. For a half-space, the distance of its plane counts. With motion, L
+/// covers the whole step.
 double scale_of_pair(const Scene& scene, int a, int b);
 
-/// A two-body scene with bodies 0 and 1 = bodies a and b of `scene`, no script.
+/// A scene of two bodies, a and b of `scene`, renumbered 0 and 1, without a script.
 Scene extract_pair(const Scene& scene, int a, int b);
 
 }  // namespace touchstone

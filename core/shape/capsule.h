@@ -1,5 +1,5 @@
-// Closed set of the points within `radius` of the segment from (0,0,-half_height) to (0,0,half_height); total length
-// 2·(half_height + radius).
+// Closed set of the points within `radius` of the segment from (0,0,-half_height) to (0,0,half_height); total
+// length 2·(half_height + radius).
 #pragma once
 
 #include <tuple>

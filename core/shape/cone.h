@@ -1,5 +1,5 @@
-// Closed cone about the z axis: apex (0,0,half_height), base disc of `radius` at z = -half_height. The origin is at mid
-// height, not at the centroid.
+// Closed cone about the z axis: apex (0,0,half_height), base disc of `radius` at z = -half_height. The origin
+// is at mid height, not at the centroid.
 #pragma once
 
 #include <tuple>

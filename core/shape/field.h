@@ -1,4 +1,5 @@
-// A shape describes its numbers in a table, from which codec, hash, validation, generator and shrinker are made.
+// A shape lists its numeric fields in a table. Codec, hash, validation, generator and shrinker all read that
+// table.
 #pragma once
 
 #include <string_view>

@@ -1,5 +1,5 @@
-// Closed half-space { x : normal·x <= offset }, solid below its plane. `normal` is any non-zero vector: the set is exact
-// as written, the plane lies at distance offset/|normal| from the body's origin.
+// Closed half-space { x : normal·x <= offset }, solid below its plane. `normal` is any non-zero vector: the
+// set is exact as written, and the plane lies at distance offset/|normal| from the body's origin.
 #pragma once
 
 #include <tuple>

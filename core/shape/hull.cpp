@@ -1,4 +1,4 @@
-// Faces of a hull by qhull, dimension by exact arithmetic on the doubles.
+// Computes the faces of a hull by qhull and its dimension by exact arithmetic on the doubles.
 #include "core/shape/hull.h"
 
 #include <cmath>

@@ -13,8 +13,10 @@ namespace {
 
 constexpr double inf = std::numeric_limits<double>::infinity();
 
-// A few roundings happen in each bound below; this factor covers them.
-double up(double x) { return x * (1 + 8 * std::numeric_limits<double>::epsilon()); }
+// Each bound below takes a few roundings; this factor covers them.
+constexpr double rounding_factor = 1 + 8 * std::numeric_limits<double>::epsilon();
+
+double up(double x) { return x * rounding_factor; }
 
 template <class... F>
 struct overloaded : F... {

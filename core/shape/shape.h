@@ -1,4 +1,4 @@
-// The one variant of all shapes.
+// The variant of all shapes.
 #pragma once
 
 #include <string_view>
@@ -19,7 +19,7 @@ namespace touchstone {
 
 using Shape = std::variant<Sphere, Box, Capsule, Cylinder, Cone, Ellipsoid, Hull, HalfSpace, TriangleMesh>;
 
-/// Index of a shape type in the variant; the numbers are part of the C ABI (oracles/abi/touchstone_engine.h).
+/// Index of a shape type in the variant. The numbers are part of the C ABI (oracles/abi/touchstone_engine.h).
 enum class ShapeKind : int { sphere, box, capsule, cylinder, cone, ellipsoid, hull, half_space, mesh };
 inline constexpr int shape_kind_count = static_cast<int>(std::variant_size_v<Shape>);
 
@@ -35,13 +35,15 @@ void for_each_field(S& shape, F&& f) {
              std::remove_const_t<S>::fields());
 }
 
-/// Largest distance of a point of the shape from the body's origin, rounded up a little; infinity for a half-space.
+/// Largest distance of a point of the shape from the body's origin, rounded up a little; infinity for a
+/// half-space.
 double bounding_radius(const Shape& s);
 
-/// Half the largest extent along the body axes, used as the size of the shape in the scale L; zero for a half-space.
+/// Half the largest extent along the body axes; the size of the shape in the scale L. Zero for a half-space.
 double extent(const Shape& s);
 
-/// Throws InputError naming the field when a number is not finite, out of its domain, or an index is out of range.
+/// Throws InputError naming the field when a number is not finite or outside its domain, or an index is out
+/// of range.
 void validate(const Shape& s);
 
 }  // namespace touchstone

@@ -1,5 +1,5 @@
-// Triangle mesh: the closed set is the union of its closed triangles, a surface with no inside. Meshes are static
-// bodies.
+// Triangle mesh: the union of its closed triangles, a closed set and a surface without an inside. Bodies with
+// a mesh are static.
 #pragma once
 
 #include <array>

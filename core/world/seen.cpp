@@ -7,30 +7,36 @@
 namespace touchstone {
 namespace {
 
-// What float's rounding of a pose and of sizes moves the body by at most: u of each coordinate, 2u·|q| of the
-// quaternion, which turns by twice that, and u of the sizes; u = 2^-24.
+// Rounding of p - origin and of the sum that restores it, relative to the origin's coordinates.
+constexpr double origin_rounding = 0x1p-52;
+// Rounding of a ball's centre and radius, relative to both.
+constexpr double ball_rounding = 0x1p-48;
+
+// An upper bound on how far rounding the pose and sizes to float moves the body: u of each coordinate, 2u·|q|
+// of the quaternion, which turns by twice that, and u of the sizes; u = 2^-24.
 double float_rounding(const Pose& pose, double reach) {
   constexpr double u = 0x1p-24;
   return u * (pose.translation.lpNorm<1>() + 8 * reach);
 }
 
-// A verdict `apart` is certain, and may come without a value.
+// The verdict `apart` is certain and may come without a value.
 double proven(const ContactAnswer& r) {
   const bool no_value = !r.overlap && !std::isfinite(r.error_bound);
   return no_value ? 0 : std::max(r.error_bound, r.regret_bound);
 }
 
-// Float's answer with what rounding the bodies costs in its bounds, or `unsupported`, `not_converged`.
+// The float answer, its bounds including the cost of rounding the bodies; or `unsupported`, `not_converged`.
 ContactAnswer contact_by_float(const PlacedShape& a, double reach_a, const PlacedShape& b, double reach_b,
                                PairMemory* memory) {
-  // About A's translation, so that what float loses does not grow with the distance from the world's origin.
+  // Relative to A's translation, so that float's error does not grow with the distance from the world origin.
   const Vec3 origin = a.pose.translation;
   PlacedShape x = a, y = b;
   x.pose.translation.setZero();
   y.pose.translation -= origin;
   ContactAnswer r = contact(x, y, Arithmetic::float32, memory);
   const double rounding =
-      float_rounding(x.pose, reach_a) + float_rounding(y.pose, reach_b) + 0x1p-52 * origin.lpNorm<1>();
+      float_rounding(x.pose, reach_a) + float_rounding(y.pose, reach_b) +
+      origin_rounding * origin.lpNorm<1>();
   r.error_bound = r.regret_bound = proven(r) + rounding;
   Manifold at_home;
   for (const ContactPoint& p : r.manifold) at_home.push_back({p.position + origin, p.depth, p.feature});
@@ -53,7 +59,7 @@ BoundingBall bounding_ball(const Shape& shape) {
   for (const Vec3& p : points) box.extend(p);
   BoundingBall ball{(box.lo + box.hi) / 2, 0};
   for (const Vec3& p : points) ball.radius = std::max(ball.radius, (p - ball.middle).norm());
-  ball.radius += 0x1p-48 * (ball.radius + ball.middle.lpNorm<1>());
+  ball.radius += ball_rounding * (ball.radius + ball.middle.lpNorm<1>());
   return ball;
 }
 
@@ -62,12 +68,15 @@ std::vector<SeenShape> seen_shapes(const Scene& scene, const Fidelity& fidelity)
   for (std::size_t i = 0; i < seen.size(); ++i) {
     SeenShape& s = seen[i];
     s.shape = &scene.shapes[i];
-    if (i < fidelity.simpler.size() && fidelity.simpler[i])
-      s.simpler = &*fidelity.simpler[i], s.shape = &s.simpler->shape;
+    if (i < fidelity.simpler.size() && fidelity.simpler[i]) {
+      s.simpler = &*fidelity.simpler[i];
+      s.shape = &s.simpler->shape;
+    }
     if (const auto* mesh = std::get_if<TriangleMesh>(s.shape)) s.tree = build_mesh_tree(*mesh);
     if (const auto* hull = std::get_if<Hull>(s.shape)) s.graph = build_hull_graph(*hull);
     s.ball = bounding_ball(*s.shape);
-    s.reach = bounding_radius(*s.shape), s.size = broad::box_size(*s.shape);
+    s.reach = bounding_radius(*s.shape);
+    s.size = broad::box_size(*s.shape);
   }
   return seen;
 }
@@ -75,7 +84,7 @@ std::vector<SeenShape> seen_shapes(const Scene& scene, const Fidelity& fidelity)
 SeenBody seen_body(const SeenShape& shape, const Pose& body) {
   SeenBody r;
   r.pose = shape.simpler && shape.simpler->moved() ? placed_in(body, shape.simpler->in_body) : body;
-  r.middle_w = shape.ball.middle.isZero(0) ? r.pose.translation : to_transform(r.pose) * shape.ball.middle;
+  r.centre_w = shape.ball.middle.isZero(0) ? r.pose.translation : to_transform(r.pose) * shape.ball.middle;
   return r;
 }
 
@@ -91,7 +100,7 @@ ContactAnswer contact_seen(const Fidelity& fidelity, const SeenShape& a, const S
     if (bound) *bound = error;
   };
   const PairMethod& method = fidelity.of(kind_of(*a.shape), kind_of(*b.shape));
-  if (method.balls_first && balls_apart(at_a.middle_w, a.ball.radius, at_b.middle_w, b.ball.radius)) {
+  if (method.balls_first && balls_apart(at_a.centre_w, a.ball.radius, at_b.centre_w, b.ball.radius)) {
     decide(DecidedBy::balls, 0);
     return {};
   }
@@ -101,7 +110,7 @@ ContactAnswer contact_seen(const Fidelity& fidelity, const SeenShape& a, const S
     const ContactAnswer r = method.arithmetic == Arithmetic::float32
                                 ? contact_by_float(x, a.reach, y, b.reach, memory)
                                 : contact(x, y, Arithmetic::float64_alone, memory);
-    // A NaN is no proof.
+    // A NaN proves nothing.
     if (r.outcome == Outcome::answered && proven(r) + shapes <= Fidelity::answer_share * fidelity.error) {
       decide(DecidedBy::cheap, proven(r) + shapes);
       return r;

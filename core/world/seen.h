@@ -1,4 +1,4 @@
-// Bodies as contacts see them under a plan, and the contact of two of them within the plan's error.
+// Bodies as a plan presents them to contact queries, and the contact of two of them within the plan's error.
 #pragma once
 
 #include "core/narrow/hull_graph.h"
@@ -8,26 +8,29 @@
 
 namespace touchstone {
 
-/// A ball that holds the shape, body frame; infinite for a half-space. Not the least one.
+/// A ball that contains the shape, in the body frame; infinite for a half-space. Not the smallest one.
 struct BoundingBall {
   Vec3 middle = Vec3::Zero();
   double radius = 0;  // rounded up
 };
 BoundingBall bounding_ball(const Shape& shape);
 
-/// True only when the balls are apart; middles may be rounded by 2^-48 of their coordinates.
+/// Slack for centres that are rounded by 2^-48 of their coordinates, and for the products in balls_apart.
+inline constexpr double ball_centre_slack = 0x1p-47, ball_product_slack = 0x1p-48;
+
+/// True only when the balls are apart. Centres may be rounded by 2^-48 of their coordinates.
 inline bool balls_apart(const Vec3& a, double radius_a, const Vec3& b, double radius_b) {
-  const double reach = radius_a + radius_b + 0x1p-47 * (a.lpNorm<1>() + b.lpNorm<1>());
-  return (b - a).squaredNorm() > reach * reach * (1 + 0x1p-48);
+  const double reach = radius_a + radius_b + ball_centre_slack * (a.lpNorm<1>() + b.lpNorm<1>());
+  return (b - a).squaredNorm() > reach * reach * (1 + ball_product_slack);
 }
 
-/// A shape of a scene, or the simpler one in its place, with what its queries want. Points into the scene and
-/// the plan.
+/// A shape of a scene, or the simpler shape that replaces it, with the data that its queries need. Points
+/// into the scene and the plan.
 struct SeenShape {
   const Shape* shape = nullptr;
   const SimplerShape* simpler = nullptr;
-  MeshTree tree;    // empty but of a mesh
-  HullGraph graph;  // empty but of a hull
+  MeshTree tree;    // empty unless the shape is a mesh
+  HullGraph graph;  // empty unless the shape is a hull
   BoundingBall ball;
   double reach = 0, size = 0;  // bounding_radius, box_size
   double error() const { return simpler ? simpler->error : 0; }
@@ -35,19 +38,19 @@ struct SeenShape {
 std::vector<SeenShape> seen_shapes(const Scene& scene, const Fidelity& fidelity);
 
 struct SeenBody {
-  Pose pose;                     // of the seen shape
-  Vec3 middle_w = Vec3::Zero();  // of its ball
+  Pose pose;                     // of the shape used
+  Vec3 centre_w = Vec3::Zero();  // centre of its ball, world frame
 };
 SeenBody seen_body(const SeenShape& shape, const Pose& body);
 
-/// Contains what is seen; of which kind is the plan's choice.
+/// Contains the shape used. The plan chooses the kind of box.
 Aabb seen_box(const Fidelity& fidelity, const SeenShape& shape, const SeenBody& body);
 
 /// How a contact was decided. cheap: by the method's arithmetic alone; rest: by float64.
 enum class DecidedBy { balls, cheap, rest };
 
-/// Within fidelity.error of the truth about the bodies' own shapes, as Fidelity says. `bound`, when given, is
-/// the proven error, shapes' included (0 for balls).
+/// Within fidelity.error of the truth about the original shapes; see Fidelity. `bound`, when given, receives
+/// the proven error, including that of the shapes (0 for balls).
 ContactAnswer contact_seen(const Fidelity& fidelity, const SeenShape& a, const SeenBody& at_a,
                            const SeenShape& b, const SeenBody& at_b, PairMemory* memory = nullptr,
                            DecidedBy* decided = nullptr, double* bound = nullptr);

@@ -14,8 +14,14 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-// A computed length of a shape of this size, rounded up: about ten roundings lie in each.
-double rounded_up(double x, double size) { return x + 0x1p-48 * size; }
+// About ten roundings lie between a shape's numbers and a computed length.
+constexpr double length_rounding = 0x1p-48;
+// A triangle whose normal is shorter than this, relative to the squared size, is a sliver: its plane is
+// unreliable.
+constexpr double sliver = 0x1p-40;
+
+// A computed length of a shape of this size, rounded up.
+double rounded_up(double x, double size) { return x + length_rounding * size; }
 
 double size_of(const Hull& h) {
   double m = 0;
@@ -31,7 +37,8 @@ Extremes extremes(const Hull& h, const Mat3& axes) {
   Extremes e{Vec3::Constant(infinity), Vec3::Constant(-infinity)};
   for (const Vec3& v : h.vertices) {
     const Vec3 x = axes.transpose() * v;
-    e.lo = e.lo.cwiseMin(x), e.hi = e.hi.cwiseMax(x);
+    e.lo = e.lo.cwiseMin(x);
+    e.hi = e.hi.cwiseMax(x);
   }
   return e;
 }
@@ -62,8 +69,8 @@ std::optional<SimplerShape> ball_of(const Hull& h, double allowed) {
     const Vec3 a = h.vertices[static_cast<std::size_t>(f[0])];
     const Vec3 n = (h.vertices[static_cast<std::size_t>(f[1])] - a)
                        .cross(h.vertices[static_cast<std::size_t>(f[2])] - a);
-    // A sliver's plane is not known; its corners are those of its neighbours.
-    if (n.norm() <= 0x1p-40 * outer * outer) continue;
+    // The neighbours of a sliver share its corners.
+    if (n.norm() <= sliver * outer * outer) continue;
     inner = std::min(inner, (a - centre).dot(n) / n.norm());
   }
   const double error = rounded_up((outer - inner) / 2, size_of(h));
@@ -71,7 +78,7 @@ std::optional<SimplerShape> ball_of(const Hull& h, double allowed) {
   return SimplerShape{Sphere{(outer + inner) / 2}, {centre, {}}, error};
 }
 
-// Axes from the two largest faces that are about perpendicular; the body's own where there are none.
+// Axes from the two largest approximately perpendicular faces; the body axes when there are none.
 Mat3 box_axes(const Hull& h) {
   constexpr double about_perpendicular = 0.05;
   const std::vector<Face> faces = faces_of(h);
@@ -108,7 +115,7 @@ std::optional<SimplerShape> box_of(const Hull& h, const Mat3& axes, double allow
   return SimplerShape{Box{half}, {axes * middle, {q.x(), q.y(), q.z(), q.w()}}, error};
 }
 
-// How far a point is at most from the hull.
+// An upper bound on the distance from a point to the hull.
 double upper_distance(const Vec3& p, const Shape& hull) {
   const Shape point = Hull{{p}, {}, 0};
   const DistanceAnswer d = distance({&point, {}}, {&hull, {}});
@@ -116,8 +123,8 @@ double upper_distance(const Vec3& p, const Shape& hull) {
   return std::max(0.0, d.distance) + d.error_bound;
 }
 
-// Vertices are taken in until all others are near enough. How far one is only shrinks as others come in, so
-// that an old distance is a bound, and only the farthest needs a new one.
+// Adds vertices until all others are near enough. Distances only shrink as vertices are added, so an old
+// distance is an upper bound, and only the farthest vertex needs a new one.
 std::optional<SimplerShape> fewer_vertices(const Hull& h, double allowed) {
   constexpr std::size_t worth_it = 8;
   if (h.vertices.size() <= worth_it || h.dimension < 3) return std::nullopt;
@@ -143,15 +150,17 @@ std::optional<SimplerShape> fewer_vertices(const Hull& h, double allowed) {
     const std::size_t i = farthest.top().second;
     farthest.pop();
     const double d = rounded_up(upper_distance(h.vertices[i], shape), size);
-    if (d > allowed && (farthest.empty() || d >= farthest.top().first))
-      take(i), shape = kept;
-    else
+    if (d > allowed && (farthest.empty() || d >= farthest.top().first)) {
+      take(i);
+      shape = kept;
+    } else {
       farthest.emplace(d, i);
+    }
   }
   const double error = farthest.empty() ? 0 : farthest.top().first;
   if (kept.vertices.size() == h.vertices.size()) return std::nullopt;
   Hull result = make_hull(std::move(kept.vertices));
-  // A flat remainder of a body that is not flat is a change of kind that nobody asked for.
+  // A solid body must not become flat.
   if (result.dimension < 3) return std::nullopt;
   return SimplerShape{std::move(result), {}, error};
 }
@@ -199,7 +208,7 @@ std::optional<Hull> convex_solid(const TriangleMesh& mesh) {
   for (std::size_t i = 0; i < used.size(); ++i)
     if (used[i]) corners.push_back(mesh.vertices[i]);
   if (corners.size() < 4) return std::nullopt;
-  // All on one side of every triangle, the same side: triangles may be given from outside or from inside.
+  // All corners must lie on the same side of every triangle; either orientation is allowed.
   int side = 0;
   for (const auto& t : mesh.triangles)
     for (const Vec3& v : corners) {

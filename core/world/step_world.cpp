@@ -1,7 +1,6 @@
-// Swept pairs. Where boxes of swept bodies are looked up: a body that is not swept has the box of its end
-// pose, widened by what its points move in the step, |v| + R·|ω|, which is cheaper than its swept box and
-// contains it. Few swept bodies are held against all boxes one by one; more go through a broad phase in which
-// all others are fixed.
+// Swept pairs. A body that is not swept is represented by the box of its end pose, widened by the distance
+// that its points move in the step, |v| + R·|ω|; this contains its swept box and is cheaper. Few swept bodies
+// are tested against all boxes one by one; more go through a broad phase in which all other bodies are fixed.
 #include "core/world/step_world.h"
 
 #include <algorithm>
@@ -16,21 +15,24 @@ namespace {
 
 std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
-// Below this many, one comparison of each box is cheaper than setting up a broad phase (a count; same pairs).
+// Up to this many, comparing every box is cheaper than setting up a broad phase (a count; same pairs).
 constexpr std::size_t few_swept = 24;
+
+// Covers about ten roundings of 2^-53 of a pose, its box and the sizes.
+constexpr double pose_slack = 0x1p-40;
 
 bool moves(const Motion& m) { return !m.linear.isZero(0) || !m.angular.isZero(0); }
 
-// The exact body at any t in [0,1] lies within the widened box. The end pose is rounded, by at most about ten
-// units of 2^-53 of its coordinates and of the body: 2^-40 covers that.
+// The exact body at any t in [0,1] lies within the widened box. The end pose is rounded by at most about ten
+// units of 2^-53 of its coordinates and of the body; pose_slack covers that.
 Aabb widened(const Aabb& end, const InnerExtent& e, const Motion& m) {
   const double size = std::isinf(e.reach) ? 0 : e.reach;
   const double turn = m.angular.isZero(0) ? 0 : size * m.angular.norm();
   const Vec3 travel = m.linear.cwiseAbs() + Vec3::Constant(turn);
   Aabb box = end;
   for (int k = 0; k < 3; ++k) {
-    const double slack = 0x1p-40 * (travel[k] + size + std::max(std::abs(end.lo[k]), std::abs(end.hi[k])));
-    // The body was where its velocity came from; turning may show any side.
+    const double slack = pose_slack * (travel[k] + size + std::max(std::abs(end.lo[k]), std::abs(end.hi[k])));
+    // The body comes from where its velocity points away from; turning may extend it on any side.
     box.lo[k] -= std::max(m.linear[k], 0.0) + turn + (std::isfinite(slack) ? slack : 0);
     box.hi[k] += std::max(-m.linear[k], 0.0) + turn + (std::isfinite(slack) ? slack : 0);
   }
@@ -56,10 +58,11 @@ StepWorld::StepWorld(Scene scene, Fidelity fidelity)
     : scene_(std::move(scene)),
       fidelity_(std::move(fidelity)),
       phase_(broad::make_broad_phase(fidelity_.broad_phase)) {
-  if (!phase_) throw std::invalid_argument("no broad phase is called " + fidelity_.broad_phase);
+  if (!phase_) throw std::invalid_argument("unknown broad phase: " + fidelity_.broad_phase);
   shapes_ = seen_shapes(scene_, fidelity_);
   const std::size_t n = scene_.bodies.size();
-  by_hand_.assign(n, 0), moved_.assign(n, 1);
+  by_hand_.assign(n, 0);
+  moved_.assign(n, 1);
   std::vector<InnerExtent> of_shape;
   for (const Shape& s : scene_.shapes) of_shape.push_back(inner_extent(s));
   for (std::size_t i = 0; i < n; ++i) {
@@ -167,11 +170,12 @@ std::vector<BodyPair> StepWorld::swept_pairs(const StepReport& r) {
     return broad::swept_box(scene_.shape_of(i), scene_.bodies[at(i)].pose, motion_of(i));
   };
   const auto box_of_other = [&](int i) {
-    // Impacts are of the shape itself, which may reach a little out of the simpler one.
+    // Impacts use the original shape, which may extend slightly beyond the simpler one.
     Aabb end = end_box_[at(i)];
     if (seen(i).simpler) {
-      const double out = seen(i).error() + 0x1p-40 * (seen(i).reach + end_[at(i)].translation.lpNorm<1>());
-      end.lo.array() -= out, end.hi.array() += out;
+      const double out = seen(i).error() + pose_slack * (seen(i).reach + end_[at(i)].translation.lpNorm<1>());
+      end.lo.array() -= out;
+      end.hi.array() += out;
     }
     return scene_.bodies[at(i)].motion ? widened(end, extent_[at(i)], motion_of(i)) : end;
   };
@@ -200,7 +204,7 @@ std::vector<BodyPair> StepWorld::swept_pairs(const StepReport& r) {
   return found;
 }
 
-void StepWorld::ask(const BodyPair& pair, const SweepOptions& o, StepReport& r) const {
+void StepWorld::find_impact(const BodyPair& pair, const SweepOptions& o, StepReport& r) const {
   const auto [a, b] = pair;
   const bool unconditional = by_hand_[at(a)] || by_hand_[at(b)] || o.which == SweepOptions::Which::all;
   if (!unconditional && !needs_sweep(extent_[at(a)], motion_of(a), extent_[at(b)], motion_of(b), o.share)) {
@@ -226,7 +230,7 @@ void StepWorld::find_impacts(const SweepOptions& o, StepReport& r) {
   for (const BodyPair& p : swept_pairs(r)) {
     if (!is_reported(scene_, p.first, p.second)) continue;
     ++r.swept_candidates;
-    ask(p, o, r);
+    find_impact(p, o, r);
   }
   const auto time = [](const PairImpact& x) { return x.impact.toi.value_or(x.impact.clear_until); };
   std::stable_sort(r.impacts.begin(), r.impacts.end(),

@@ -1,8 +1,9 @@
-// One step of a whole scene: discrete contacts at the end pose, and times of impact only where a body could
-// pass something unseen (sweep_criterion.h: the criterion, its proof, and how deep an unswept pass can be).
+// One step of a whole scene: discrete contacts at the end pose, and times of impact only for bodies that
+// could pass through something undetected (sweep_criterion.h has the criterion, its proof, and how deep an
+// unswept pass can be).
 //
-// For a simulation: bodies stay inserted in a broad phase from step to step. The end pose of a step, or
-// wherever the caller puts the body after an impact, is the start pose of the next.
+// For simulations: bodies stay in a broad phase from step to step. The start pose of a step is the end pose
+// of the step before, or wherever the caller puts the body after an impact.
 #pragma once
 
 #include <memory>
@@ -19,13 +20,13 @@
 
 namespace touchstone {
 
-/// Why a body is swept. travel and turning: the larger part of its pass_bound.
+/// Why a body is swept. travel or turning: whichever is the larger part of its pass_bound.
 enum class SweepReason { by_hand, travel, turning, all };
 
 struct SweptBody {
   int body = 0;
   SweepReason reason = SweepReason::by_hand;
-  double pass_bound = 0, inner = 0;  // the bound was more than share · inner, unless by hand
+  double pass_bound = 0, inner = 0;  // the bound exceeds share · inner, unless flagged by hand
 };
 
 struct PairImpact {
@@ -34,29 +35,29 @@ struct PairImpact {
 };
 
 struct StepReport {
-  /// not_converged when a contact or an impact is; the others are still reported.
+  /// not_converged when some contact or impact did not converge; the others are still reported.
   Outcome outcome = Outcome::answered;
   std::vector<PairContact> contacts;  // at the end poses, sorted
-  std::vector<PairImpact> impacts;    // pairs of which one is swept, that meet within the step; by time, a, b
+  std::vector<PairImpact> impacts;    // pairs with a swept body that meet within the step; by time, a, b
   std::vector<SweptBody> swept;       // by body
   long candidates = 0;                // pairs whose end boxes meet
-  long swept_candidates = 0;          // pairs of a swept body whose swept boxes meet,
-  long asked = 0;                     // of which so many were asked for their time of impact;
-  long spared = 0;                    // the pair's own pass bound is small enough
-  long unsupported = 0;               // left out: contacts or impacts that the narrow phase does not know
+  long swept_candidates = 0;          // pairs with a swept body whose swept boxes meet
+  long asked = 0;                     // those whose time of impact was computed
+  long spared = 0;                    // those whose own pass bound is small enough
+  long unsupported = 0;               // omitted: contacts or impacts that the narrow phase does not support
 };
 
 class StepWorld {
  public:
-  /// Poses at the start and motions are the scene's. Throws std::invalid_argument on an unknown broad phase.
+  /// Start poses and motions are those of the scene. Throws std::invalid_argument on an unknown broad phase.
   explicit StepWorld(Scene scene, std::string_view broad_phase = "automatic");
-  /// Runs a plan: contacts within fidelity.error of the truth (fidelity.h). Throws std::invalid_argument on
-  /// an unknown broad phase.
+  /// Runs a plan: contacts are within fidelity.error of the truth (fidelity.h). Throws std::invalid_argument
+  /// on an unknown broad phase.
   StepWorld(Scene scene, Fidelity fidelity);
 
-  /// Before the next step. A body without motion rests.
+  /// Call before the next step. A body without motion is at rest.
   void set(int body, const Pose& start, const Motion& motion);
-  /// By hand: this body is swept against everything, whatever the criterion says.
+  /// Flags a body by hand: it is swept against everything, regardless of the criterion.
   void flag(int body, bool flagged);
 
   /// Throws broad::Refused when an end pose is not finite.
@@ -76,9 +77,9 @@ class StepWorld {
   void choose(const SweepOptions& o, StepReport& r) const;
   void find_impacts(const SweepOptions& o, StepReport& r);
   std::vector<BodyPair> swept_pairs(const StepReport& r);
-  void ask(const BodyPair& pair, const SweepOptions& o, StepReport& r) const;
+  void find_impact(const BodyPair& pair, const SweepOptions& o, StepReport& r) const;
   Motion motion_of(int body) const;
-  const MeshTree* tree_of(int body) const;  // null: no mesh
+  const MeshTree* tree_of(int body) const;  // null: not a mesh
 
   Scene scene_;
   Fidelity fidelity_;
@@ -87,9 +88,9 @@ class StepWorld {
   std::vector<double> box_size_;     // of each body's own shape
   std::vector<SeenShape> shapes_;
   std::vector<Pose> end_;
-  std::vector<Aabb> end_box_;  // of what is seen
+  std::vector<Aabb> end_box_;  // of the shapes used
   std::vector<SeenBody> seen_;
-  std::vector<std::pair<broad::IdPair, PairMemory>> memory_;  // of the last step's pairs, sorted
+  std::vector<std::pair<broad::IdPair, PairMemory>> memory_;  // by pair of the last step, sorted
   std::vector<char> by_hand_, moved_;
   std::vector<broad::BoxUpdate> updates_;
   std::vector<broad::IdPair> pairs_;

@@ -7,8 +7,12 @@
 namespace touchstone {
 namespace {
 
-// About ten roundings stand between a shape's numbers and a radius or a bound.
+// About ten roundings lie between a shape's numbers and a radius or a bound.
 constexpr double down = 1 - 0x1p-40, up = 1 + 0x1p-40;
+// A triangle whose normal is shorter than this, relative to its sides, is a sliver: its plane is unreliable.
+constexpr double thinnest_triangle = 0x1p-30;
+// Rounding of a face's plane, relative to the size of the hull.
+constexpr double plane_rounding = 0x1p-20;
 
 struct Radii {
   double inner = 0, about_origin = 0;
@@ -16,7 +20,8 @@ struct Radii {
 
 Radii both(double r) { return {r, r}; }
 
-// Least distance from `p` to the planes of the faces, less what rounding of the faces may hide; < 0 outside.
+// The least distance from `p` to the planes of the faces, minus a margin for the rounding of the faces; < 0
+// outside.
 double clearance(const Hull& h, const Vec3& p) {
   double least = std::numeric_limits<double>::infinity(), size = 0;
   for (const Vec3& v : h.vertices) size = std::max(size, (v - p).norm());
@@ -26,11 +31,11 @@ double clearance(const Hull& h, const Vec3& p) {
                &c = h.vertices[static_cast<std::size_t>(f[2])];
     const Vec3 u = b - a, v = c - a, n = u.cross(v);
     const double area = n.norm();
-    // A sliver's plane is not known; the faces beside it bound the same corner. Its own vertices lie in them.
-    if (!(area > 0x1p-30 * u.norm() * v.norm())) return 0;
+    // The plane of a sliver is unreliable: claim no clearance.
+    if (!(area > thinnest_triangle * u.norm() * v.norm())) return 0;
     least = std::min(least, n.dot(a - p) / area);
   }
-  return h.faces.empty() ? 0 : least - 0x1p-20 * size;
+  return h.faces.empty() ? 0 : least - plane_rounding * size;
 }
 
 struct InscribedBall {
@@ -39,8 +44,8 @@ struct InscribedBall {
   Radii operator()(const Capsule& s) const { return both(s.radius); }
   Radii operator()(const Cylinder& s) const { return both(std::min(s.radius, s.half_height)); }
   Radii operator()(const Ellipsoid& s) const { return both(s.semi_axes.minCoeff()); }
-  // In the triangle of half base R and height H: its incircle; about the origin, at half height, base and
-  // side.
+  // In the triangle with half base R and height H: its incircle; about the origin, at half height, the
+  // distances to base and side.
   Radii operator()(const Cone& s) const {
     const double height = 2 * s.half_height, side = std::hypot(s.radius, height);
     if (!(side > 0)) return {};

@@ -17,7 +17,7 @@ std::vector<BodyPair> reported(const Scene& scene, broad::BroadPhase& phase) {
   return kept;
 }
 
-// One tree a shape, empty but of meshes.
+// One tree per shape; empty unless the shape is a mesh.
 std::vector<MeshTree> mesh_trees(const Scene& scene) {
   std::vector<MeshTree> trees(scene.shapes.size());
   for (std::size_t i = 0; i < trees.size(); ++i)

@@ -31,14 +31,17 @@ constexpr auto scene_query_fields = std::to_array<std::string_view>({"question"}
 
 Json to_json(const Query& q) {
   Json j{{"question", to_string(q.question)}};
-  if (is_pair_question(q.question)) j["a"] = q.a, j["b"] = q.b;
+  if (is_pair_question(q.question)) {
+    j["a"] = q.a;
+    j["b"] = q.b;
+  }
   return j;
 }
 
 int read_body(const JsonReader& r, const Scene& scene) {
   const int i = r.integer();
   if (i < 0 || i >= static_cast<int>(scene.bodies.size()))
-    r.fail("index " + std::to_string(i) + " is no body");
+    r.fail("index " + std::to_string(i) + " is not a body");
   return i;
 }
 
@@ -53,7 +56,10 @@ Query read_query(const JsonReader& r, const Scene& scene) {
   }
   Query q;
   q.question = *question;
-  if (!is_pair_question(q.question)) return r.require_object(scene_query_fields), q;
+  if (!is_pair_question(q.question)) {
+    r.require_object(scene_query_fields);
+    return q;
+  }
   r.require_object(pair_query_fields);
   q.a = read_body(r["a"], scene);
   q.b = read_body(r["b"], scene);
@@ -91,14 +97,14 @@ double read_odd(const JsonReader& r) {
   return text[0] == '-' ? -HUGE_VAL : HUGE_VAL;
 }
 
-// They have no exact set: only what they do to other bodies' pairs can be judged.
+// Such bodies are not exact sets: only their effect on other bodies' pairs can be judged.
 void read_odd_numbers(const JsonReader& r, Case& c) {
   for (const Query& q : c.queries)
-    if (q.question != Question::candidates) r.fail("only candidates can be asked of such a scene");
+    if (q.question != Question::candidates) r.fail("such a scene allows only candidates queries");
   std::vector<OddNumber> all;
   for (const auto& [place, value] : members_of(r)) all.push_back({place, read_odd(value)});
   try {
-    put_in(c.scene, all);
+    insert_odd_numbers(c.scene, all);
   } catch (const InputError& e) {
     r.fail(e.place() + " " + e.reason());
   }
@@ -197,7 +203,7 @@ std::string to_text(const StoredCase& s) {
   for (const char* field : {"id", "description", "source", "family"})
     if (j.contains(field)) out += ",\n \"" + std::string(field) + "\": " + to_line(j[field]);
   std::string scene = touchstone::to_text(without_odd_numbers(s.c.scene));
-  scene.pop_back();  // its line end
+  scene.pop_back();  // the newline
   out += ",\n\"scene\": " + scene;
   if (j.contains("odd_numbers")) out += ",\n \"odd_numbers\": " + to_line(j["odd_numbers"]);
   write_list(out, "queries", j["queries"]);

@@ -1,8 +1,8 @@
 // JSON form of a case: {"touchstone_case": 1, "id", "description", "source", "family", "scene": {…},
 // "queries": […], "expect": {…}, "odd_numbers": {…}}. Only the version and the scene are required. A scene is
 // valid JSON and denotes closed sets; "odd_numbers" ({"/bodies/2/pose/translation/0": "NaN"}, also
-// "Infinity", "-Infinity" and negative half extents) puts into it afterwards what does neither, for
-// candidates alone.
+// "Infinity", "-Infinity" and negative half extents) then inserts numbers that do neither, for candidates
+// queries only.
 #pragma once
 
 #include <filesystem>
@@ -14,7 +14,7 @@
 
 namespace touchstone {
 
-/// A case with what people and tests want to know beside it.
+/// A case with additional data for people and tests.
 struct StoredCase {
   Case c;
   std::string description, source;
@@ -22,16 +22,16 @@ struct StoredCase {
   bool operator==(const StoredCase&) const = default;
 };
 
-/// What is asked of a scene that comes without questions. Two bodies: overlap, distance, contact of (0, 1),
-/// and time of impact when one moves; otherwise, or when there is a script, candidates; scene contacts when
-/// there are more bodies; when one of these moves, the time of impact of the first `most_impacts_asked` pairs
-/// that may meet (moving_pairs.h).
+/// The queries for a scene that has none. Two bodies: overlap, distance and contact of (0, 1), time of impact
+/// when one moves, and candidates when there is a script. Otherwise: candidates and scene contacts and, when
+/// a body moves, swept candidates and the time of impact of the first `most_impacts_asked` pairs that may
+/// meet (moving_pairs.h).
 std::vector<Query> default_queries(const Scene& scene);
 
 nlohmann::ordered_json case_to_json(const Case& c);
 nlohmann::ordered_json stored_case_to_json(const StoredCase& s);
-/// Throws InputError "place: JSON path: reason". Validates the scene and that each query names two different
-/// bodies.
+/// Throws InputError "place: JSON path: reason". Validates the scene and checks that each pair query names
+/// two different bodies.
 Case case_from_json(const nlohmann::ordered_json& j, const std::string& place = "");
 StoredCase stored_case_from_json(const nlohmann::ordered_json& j, const std::string& place = "");
 
@@ -39,12 +39,12 @@ StoredCase stored_case_from_json(const nlohmann::ordered_json& j, const std::str
 Case load_case(const std::filesystem::path& file);
 StoredCase load_stored_case(const std::filesystem::path& file);
 
-/// Bodies, steps and queries one a line.
+/// Text with one body, step or query per line.
 std::string to_text(const StoredCase& s);
 void save_case(const StoredCase& s, const std::filesystem::path& file);
 
 namespace scenarios {
-/// All *.json of a directory, by name.
+/// All *.json files of a directory, sorted by name.
 std::vector<StoredCase> load_corpus(const std::filesystem::path& directory);
 }  // namespace scenarios
 

@@ -34,15 +34,15 @@ std::string_view name_of(Kind k) {
 
 using Json = nlohmann::ordered_json;
 
-// The library would take a member's value for an item, and null and words for none.
+// The library would iterate over an object's values, and treat null and strings as empty or as one item.
 const Json& array_of(const Json& j, const char* name) {
   const Json& array = j.at(name);
-  if (!array.is_array()) throw InputError(name, "is no array");
+  if (!array.is_array()) throw InputError(name, "is not an array");
   return array;
 }
 
 double number_of(const Json& j, const char* name) {
-  if (!j.is_number()) throw InputError(name, "is no number");
+  if (!j.is_number()) throw InputError(name, "is not a number");
   return j.get<double>();
 }
 
@@ -52,15 +52,15 @@ Vec3 vector_of(const Json& j) {
   return {j[0].get<double>(), j[1].get<double>(), j[2].get<double>()};
 }
 
-// The library rounds and wraps what is no index.
+// The library rounds or wraps numbers that are not valid indices.
 template <class Index, std::size_t N>
 std::array<Index, N> indices_of(const Json& j, const char* name) {
   std::array<Index, N> r{};
-  if (!j.is_array() || j.size() != N) throw InputError(name, "has another number of indices");
+  if (!j.is_array() || j.size() != N) throw InputError(name, "has the wrong number of indices");
   for (std::size_t i = 0; i < N; ++i) {
     const bool fits = j[i].is_number_unsigned() &&
                       j[i].get<std::uint64_t>() <= std::uint64_t{std::numeric_limits<int>::max()};
-    if (!fits) throw InputError(name, "holds what is no index");
+    if (!fits) throw InputError(name, "holds an invalid index");
     r[i] = j[i].get<Index>();
   }
   return r;
@@ -68,26 +68,26 @@ std::array<Index, N> indices_of(const Json& j, const char* name) {
 
 Json list(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
 
-std::array<std::string, 3> words_of(const Json& j, const char* name) {
-  if (!j.is_array() || j.size() != 3) throw InputError(name, "has three rational numbers");
+std::array<std::string, 3> rationals_of(const Json& j, const char* name) {
+  if (!j.is_array() || j.size() != 3) throw InputError(name, "must have three rational numbers");
   return {j[0].get<std::string>(), j[1].get<std::string>(), j[2].get<std::string>()};
 }
 
-// Without the library's name and number.
-std::string said(const nlohmann::json::exception& e) {
+// The library's message without its prefix.
+std::string message_of(const nlohmann::json::exception& e) {
   const std::string s = e.what();
   const auto bracket = s.find("] ");
   return bracket == std::string::npos ? s : s.substr(bracket + 2);
 }
 
-// A certificate of ours has some thousands of digits at most; beyond, to check one takes longer than a person
-// waits.
-constexpr std::size_t max_digits_in_all = 2'000'000;
+// Our certificates have some thousands of digits at most. Checking one beyond this limit takes longer than a
+// person would wait.
+constexpr std::size_t max_total_digits = 2'000'000;
 
 void require_readable_size(const nlohmann::ordered_json& rationals) {
   std::size_t digits = 0;
   for (const auto& r : rationals) digits += r.is_string() ? r.get_ref<const std::string&>().size() : 0;
-  if (digits > max_digits_in_all) throw InputError("rationals", "have more digits in all than are read");
+  if (digits > max_total_digits) throw InputError("rationals", "have too many digits in total");
 }
 
 }  // namespace
@@ -97,7 +97,7 @@ nlohmann::ordered_json to_json(const Certificate& c) {
   j["kind"] = name_of(c.kind);
   const bool plane = c.kind == Kind::separating_plane;
   const bool direction = c.kind == Kind::depth_direction;
-  // Each number once: where there are rationals, the doubles are only their roundings.
+  // Write each number once: when there are rationals, the doubles are only their roundings.
   if (!c.rationals.empty()) {
     j["rationals"] = c.rationals;
   } else {
@@ -138,7 +138,7 @@ Certificate certificate_from_json(const nlohmann::ordered_json& j) {
     }
     return c;
   } catch (const nlohmann::json::exception& e) {
-    throw InputError("certificate", "cannot be read: " + said(e));
+    throw InputError("certificate", "cannot be read: " + message_of(e));
   }
 }
 
@@ -169,17 +169,17 @@ ImpactCertificate impact_certificate_from_json(const nlohmann::ordered_json& j) 
     if (j.contains("planes")) {
       c.clear_until = number_of(j.at("clear_until"), "clear_until");
       for (const auto& keys : array_of(j, "planes")) {
-        if (!keys.is_array()) throw InputError("planes", "is no array of arrays");
+        if (!keys.is_array()) throw InputError("planes", "is not an array of arrays");
         auto& track = c.tracks.emplace_back();
         for (const auto& k : keys)
-          track.push_back({number_of(k.at("t"), "t"), words_of(k.at("direction"), "direction"),
+          track.push_back({number_of(k.at("t"), "t"), rationals_of(k.at("direction"), "direction"),
                            k.at("offset").get<std::string>()});
       }
       if (c.tracks.empty()) throw InputError("planes", "is empty");
     }
     if (j.contains("contact"))
       c.contact = {j.at("contact").at("t").get<std::string>(),
-                   words_of(j.at("contact").at("point"), "point")};
+                   rationals_of(j.at("contact").at("point"), "point")};
     if (j.contains("overlap")) {
       const auto& o = j.at("overlap");
       const auto parts = indices_of<std::size_t, 2>(o.at("parts"), "parts");
@@ -187,7 +187,7 @@ ImpactCertificate impact_certificate_from_json(const nlohmann::ordered_json& j) 
     }
     return c;
   } catch (const nlohmann::json::exception& e) {
-    throw InputError("certificate", "cannot be read: " + said(e));
+    throw InputError("certificate", "cannot be read: " + message_of(e));
   }
 }
 

@@ -12,7 +12,7 @@ nlohmann::ordered_json to_json(const Certificate& c);
 Certificate certificate_from_json(const nlohmann::ordered_json& j);
 
 nlohmann::ordered_json to_json(const ImpactCertificate& c);
-/// Reads what to_json wrote. Throws InputError when it is not such a certificate.
+/// Reads what to_json wrote. Throws InputError when it is not an impact certificate.
 ImpactCertificate impact_certificate_from_json(const nlohmann::ordered_json& j);
 
 }  // namespace touchstone

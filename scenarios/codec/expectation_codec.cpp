@@ -32,7 +32,7 @@ Expectation::Impact read_impact(const JsonReader& r) {
   Expectation::Impact i;
   i.hit = r["hit"].boolean();
   if (!i.hit) {
-    if (r.has("time")) r["time"].fail("means nothing without a hit");
+    if (r.has("time")) r["time"].fail("has no meaning without a hit");
     return i;
   }
   i.time = r["time"].number();
@@ -61,7 +61,10 @@ nlohmann::ordered_json to_json(const Expectation& e) {
   if (e.normal) j["normal"] = Json::array({e.normal->x(), e.normal->y(), e.normal->z()});
   if (e.impact) {
     j["impact"] = {{"hit", e.impact->hit}};
-    if (e.impact->hit) j["impact"]["time"] = e.impact->time, j["impact"]["tolerance"] = e.impact->tolerance;
+    if (e.impact->hit) {
+      j["impact"]["time"] = e.impact->time;
+      j["impact"]["tolerance"] = e.impact->tolerance;
+    }
   }
   if (e.all_pairs) j["all_pairs"] = *e.all_pairs;
   if (e.box_pairs) j["box_pairs"] = *e.box_pairs;

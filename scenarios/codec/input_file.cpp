@@ -37,7 +37,7 @@ class Descriptor {
   Descriptor& operator=(const Descriptor&) = delete;
   int get() const { return fd_; }
   bool ok() const { return fd_ >= 0; }
-  /// 0, or the system's reason why not: some file systems say only here that the disk is full.
+  /// Closes the file. Returns 0 or errno: some file systems report a full disk only here.
   int done() {
     const int fd = fd_;
     fd_ = -1;
@@ -55,7 +55,7 @@ std::string kind_of(mode_t mode) {
   return "a device";
 }
 
-// 0, or the system's reason why not. The flags say what becomes of a file that is there.
+// Returns 0 or errno. The flags determine what happens to an existing file.
 int write_whole(const std::filesystem::path& file, int flags, std::string_view text) {
   Descriptor out(file, O_WRONLY | O_CREAT | flags);
   if (!out.ok()) return errno;
@@ -80,18 +80,18 @@ void require_regular_file(const std::filesystem::path& file) {
     throw InputError(file.string(), "is " + kind_of(status.st_mode) + ", not a file");
 }
 
-// Before it is opened and again after: to open a device may do something, and to open a pipe waits for a
-// writer, but for O_NONBLOCK.
+// Checks the kind of file before opening it and again afterwards: opening a device may have side effects, and
+// opening a pipe waits for a writer unless O_NONBLOCK is set.
 std::string read_file(const std::filesystem::path& file, std::uintmax_t max_bytes) {
   require_regular_file(file);
   const Descriptor in(file, O_RDONLY | O_NONBLOCK | O_NOCTTY);
   if (!in.ok()) throw InputError(file.string(), std::string("cannot be opened: ") + std::strerror(errno));
   struct stat status {};
   if (fstat(in.get(), &status) != 0 || !S_ISREG(status.st_mode))
-    throw InputError(file.string(), "is not a file any more");
+    throw InputError(file.string(), "is no longer a regular file");
   const auto size = static_cast<std::uintmax_t>(status.st_size);
   if (size > max_bytes) refuse_size(file, mebibytes(size), max_bytes);
-  // With the limit again: a file may grow.
+  // Check the limit again: the file may grow.
   constexpr std::size_t piece = std::size_t{1} << 16;
   std::string text(static_cast<std::size_t>(size) + 1, '\0');
   for (std::size_t filled = 0;;) {
@@ -115,8 +115,8 @@ void write_file(const std::filesystem::path& file, std::string_view text) {
     return require_written(file, write_whole(file, O_TRUNC, text));
   const fs::path target = fs::is_symlink(file, ec) ? fs::canonical(file, ec) : file;
   const fs::path temporary = target.string() + ".part";
-  // What lies there is of a run that was killed, or a stranger's link to a place of his choice: it is not
-  // written to.
+  // An existing file is left over from a killed run, or is a link that someone else planted: never write to
+  // it.
   if (!fs::is_directory(fs::symlink_status(temporary, ec))) fs::remove(temporary, ec);
   if (const int why = write_whole(temporary, O_EXCL | O_NOFOLLOW, text); why != 0) {
     if (why != EEXIST) fs::remove(temporary, ec);

@@ -1,5 +1,5 @@
-// Files whole: read with a limit on size, written completely or not at all. Every file that a command reads
-// is opened by read_file (declared in codec.h), which takes regular files alone.
+// Whole files: read with a size limit, written completely or not at all. Every file that a command reads is
+// opened by read_file (declared in scene_codec.h), which accepts only regular files.
 #pragma once
 
 #include <filesystem>
@@ -9,13 +9,13 @@
 
 namespace touchstone {
 
-/// Throws InputError, naming the file, for what is not there and for what is no regular file: a pipe, a
-/// socket or a device may keep who reads it waiting for ever. For libraries that open files themselves;
-/// read_file does it.
+/// Throws InputError with the file's name when it does not exist or is not a regular file: reading a pipe, a
+/// socket or a device may block forever. Use it before libraries that open files themselves; read_file calls
+/// it.
 void require_regular_file(const std::filesystem::path& file);
 
-/// Beside the file, as FILE.part, and then put in its place: what was there stays until all is written. Devices
-/// and pipes are written to. Throws InputError, with the system's reason.
+/// Writes to FILE.part, then renames it, so that the old contents stay until everything is written. Devices
+/// and pipes are written directly. Throws InputError with the system's reason.
 void write_file(const std::filesystem::path& file, std::string_view text);
 
 }  // namespace touchstone

@@ -1,5 +1,5 @@
-// JSON from outside and to outside. Every file of JSON that a command reads comes in through parse_json, so
-// that all have one set of limits: depth (json_text.h), bytes, values.
+// JSON input and output. Every JSON file that a command reads goes through parse_json, so that the same
+// limits apply to all: depth (json_text.h), bytes, values.
 #pragma once
 
 #include <cstdint>
@@ -15,28 +15,28 @@
 
 namespace touchstone {
 
-/// How much a document may hold. A value takes up to 100 bytes of memory, however few the text has for it.
+/// Limits on a document. A value takes up to 100 bytes of memory, however short its text is.
 struct JsonLimits {
   std::uintmax_t bytes = std::uintmax_t{256} << 20;
   std::size_t values = 12'000'000;
 };
-/// The state of a campaign holds a case and a certificate for every kind of finding.
+/// The state of a campaign has a case and a certificate for every kind of finding.
 inline constexpr JsonLimits campaign_limits{std::uintmax_t{4} << 30, 40'000'000};
 
-/// A file whole. Throws InputError, place and reason.
+/// Reads a whole file. Throws InputError with place and reason.
 nlohmann::ordered_json load_json(const std::filesystem::path& file, const JsonLimits& limits = {});
 nlohmann::ordered_json parse_json(std::string_view text, const std::string& place, const JsonLimits& limits);
 
-/// Writes anything: what is not UTF-8 in a string becomes U+FFFD, so that one engine's last words cannot keep
-/// the others' results from being written. indent -1: one line.
+/// Never fails: invalid UTF-8 in a string becomes U+FFFD, so that one engine's last output cannot prevent the
+/// others' results from being written. indent -1: one line.
 std::string json_text(const nlohmann::ordered_json& j, int indent = -1);
 
-/// What the library's exception says, without its number.
+/// The message of the library's exception without its number.
 std::string reason_of(const nlohmann::ordered_json::exception& e);
 
 /// A whole number, 0 or more.
 std::uint64_t count_of(const JsonReader& r);
-/// The members of an object, in their order.
+/// The members of an object, in order.
 std::vector<std::pair<std::string, JsonReader>> members_of(const JsonReader& r);
 
 }  // namespace touchstone

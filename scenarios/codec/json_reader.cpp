@@ -80,8 +80,7 @@ std::string JsonReader::string() const {
 
 namespace {
 
-// Large meshes are read through these; whatever they do not take is read again by the slow path, which knows
-// its place.
+// Fast path for large meshes. Whatever it rejects is read again by the slow path, which reports the place.
 std::optional<Vec3> plain_vec3(const Json& j) {
   if (!j.is_array() || j.size() != 3 || !j[0].is_number() || !j[1].is_number() || !j[2].is_number())
     return std::nullopt;

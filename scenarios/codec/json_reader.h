@@ -1,5 +1,4 @@
-// Reads typed values out of JSON and names the place of whatever is wrong: "scene.json:
-// bodies[3].pose.rotation".
+// Reads typed values from JSON and reports the place of errors: "scene.json: bodies[3].pose.rotation".
 #pragma once
 
 #include <array>
@@ -28,7 +27,7 @@ class JsonReader {
   /// An object, whatever its fields.
   void require_object() const;
   bool has(std::string_view field) const;
-  /// The member of that name; refuses when it is missing.
+  /// The member of that name; fails when it is missing.
   JsonReader operator[](std::string_view field) const;
   std::vector<JsonReader> items() const;  // of an array
   std::vector<JsonReader> items(std::size_t exactly) const;

@@ -22,7 +22,7 @@ std::string line_and_column(std::string_view text, std::size_t offset) {
 }
 
 // The library's message is "[json.exception.parse_error.101] parse error at line 1, column 2: what; last
-// read: 'text'": the place is said already, and what was last read may be any bytes.
+// read: 'text'". Our error already has the place, and the text last read may be any bytes.
 std::string reason_of(const nlohmann::detail::exception& e, std::string_view at_error) {
   for (std::string_view word : {"NaN", "Infinity", "nan", "inf"})
     if (at_error.starts_with(word)) return std::string(word) + " is not a JSON number";
@@ -42,18 +42,54 @@ class Builder final : public nlohmann::json_sax<Json> {
       : text_(text), place_(place), left_(max_values) {}
   Json take() { return std::move(root_); }
 
-  bool null() override { return put(nullptr), true; }
-  bool boolean(bool v) override { return put(v), true; }
+  bool null() override {
+    put(nullptr);
+    return true;
+  }
+  bool boolean(bool v) override {
+    put(v);
+    return true;
+  }
   // A negative integer token of value 0 is "-0": keep the sign.
-  bool number_integer(number_integer_t v) override { return v == 0 ? put(-0.0) : put(v), true; }
-  bool number_unsigned(number_unsigned_t v) override { return put(v), true; }
-  bool number_float(number_float_t v, const string_t&) override { return put(v), true; }
-  bool string(string_t& v) override { return put(std::move(v)), true; }
+  bool number_integer(number_integer_t v) override {
+    if (v == 0) {
+      put(-0.0);
+    } else {
+      put(v);
+    }
+    return true;
+  }
+  bool number_unsigned(number_unsigned_t v) override {
+    put(v);
+    return true;
+  }
+  bool number_float(number_float_t v, const string_t&) override {
+    put(v);
+    return true;
+  }
+  bool string(string_t& v) override {
+    put(std::move(v));
+    return true;
+  }
   bool binary(binary_t&) override { return false; }  // not a JSON text event
-  bool start_object(std::size_t) override { return open(Json::object()), true; }
-  bool start_array(std::size_t) override { return open(Json::array()), true; }
-  bool end_object() override { return stack_.pop_back(), keys_.pop_back(), true; }
-  bool end_array() override { return stack_.pop_back(), keys_.pop_back(), true; }
+  bool start_object(std::size_t) override {
+    open(Json::object());
+    return true;
+  }
+  bool start_array(std::size_t) override {
+    open(Json::array());
+    return true;
+  }
+  bool end_object() override {
+    stack_.pop_back();
+    keys_.pop_back();
+    return true;
+  }
+  bool end_array() override {
+    stack_.pop_back();
+    keys_.pop_back();
+    return true;
+  }
   bool key(string_t& v) override {
     if (!keys_.back().insert(v).second)
       throw InputError(place_, "field \"" + v + "\" is given twice in one object");
@@ -68,11 +104,17 @@ class Builder final : public nlohmann::json_sax<Json> {
 
  private:
   Json* put(Json v) {
-    if (left_-- == 0) throw InputError(place_, "holds more values than are read");
-    if (stack_.empty()) return root_ = std::move(v), &root_;
+    if (left_-- == 0) throw InputError(place_, "has more values than the limit");
+    if (stack_.empty()) {
+      root_ = std::move(v);
+      return &root_;
+    }
     Json& top = *stack_.back();
-    if (top.is_array()) return top.push_back(std::move(v)), &top.back();
-    // A vector underneath: push_back, since duplicates are already refused and a lookup would cost O(n).
+    if (top.is_array()) {
+      top.push_back(std::move(v));
+      return &top.back();
+    }
+    // The object is a vector: append, since duplicates are already refused and a lookup would cost O(n).
     auto& object = top.get_ref<Json::object_t&>();
     object.emplace_back(std::move(key_), std::move(v));
     return &object.back().second;
@@ -94,7 +136,7 @@ class Builder final : public nlohmann::json_sax<Json> {
 };
 
 std::string number_text(double v) {
-  if (!std::isfinite(v)) throw InputError("", "JSON cannot say the number " + to_text(v));
+  if (!std::isfinite(v)) throw InputError("", "JSON cannot represent the number " + to_text(v));
   if (v == 0) return std::signbit(v) ? "-0.0" : "0";
   return to_text(v);
 }

@@ -29,7 +29,7 @@ Json to_json(const std::vector<std::array<int, 3>>& v) {
   return j;
 }
 
-// Bitwise: a translation of -0 is not the default and must survive.
+// Bitwise: a translation of -0 is not the default and must be kept.
 bool same_bits(double a, double b) {
   return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b);
 }
@@ -169,7 +169,7 @@ void read_version(const JsonReader& r) {
            std::to_string(fields::version));
 }
 
-// Opens a list in the text form: one item a line.
+// Writes a list in the text form: one item per line.
 void write_list(std::string& out, const char* name, const Json& items) {
   out += std::string(",\n \"") + name + "\": [";
   for (std::size_t i = 0; i < items.size(); ++i) out += (i ? ",\n  " : "\n  ") + to_line(items[i]);

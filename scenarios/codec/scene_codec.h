@@ -1,7 +1,7 @@
-// JSON form of a scene (schema: scenarios/codec/scene.schema.json). Doubles are written shortest-round-trip
-// and read back to the same bits. Unknown fields, unknown shapes, wrong types, non-finite numbers, truncated
-// text, and files larger than max_scene_file_bytes are refused with an InputError "file:line or JSON path:
-// reason".
+// JSON form of a scene (schema: scenarios/codec/scene.schema.json). Doubles are written in the shortest form
+// that reads back to the same bits. Unknown fields, unknown shapes, wrong types, non-finite numbers,
+// truncated text, and files larger than max_scene_file_bytes are refused with an InputError "file:line or
+// JSON path: reason".
 #pragma once
 
 #include <cstdint>
@@ -18,11 +18,11 @@ inline constexpr std::uintmax_t max_scene_file_bytes = std::uintmax_t{256} << 20
 nlohmann::ordered_json to_json(const Shape& shape);
 nlohmann::ordered_json to_json(const Scene& scene);
 
-/// Validates as well. `place` prefixes the place of errors.
+/// Also validates the scene. `place` prefixes the place of errors.
 Scene scene_from_json(const nlohmann::ordered_json& j, const std::string& place = "");
 Scene scene_from_text(const std::string& text, const std::string& place = "");
 
-/// One body or step a line, so that a diff of two scenes can be read.
+/// One body or step per line, so that diffs are readable.
 std::string to_text(const Scene& scene);
 
 /// Reads a whole file that may not be larger than max_bytes. Throws InputError naming the file.

@@ -1,6 +1,6 @@
-// The fields of each object of the JSON form beside the shapes, which have tables of their own
-// (core/shape/*.h). The codec refuses what is not listed here; the tests hold
-// scenarios/codec/scene.schema.json against the same lists.
+// The fields of each object of the JSON form except shapes, which have their own tables (core/shape/*.h). The
+// codec refuses fields that are not listed here; the tests compare scenarios/codec/scene.schema.json with the
+// same lists.
 #pragma once
 
 #include <array>

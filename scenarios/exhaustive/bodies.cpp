@@ -8,19 +8,22 @@ namespace {
 
 bool is_unbounded(const Scene& s, int body) { return kind_of(s.shape_of(body)) == ShapeKind::half_space; }
 
-// A subject of floats is asked in floats: what it cannot hold says nothing of its broad phase.
+// A float subject gets float coordinates: what it cannot represent says nothing about its broad phase.
 void round_to(Scalar scalar, Case& c) {
   if (scalar == Scalar::float64) return;
   for (double* x : numbers(c)) *x = nearest(*x, scalar);
   renew(c);
 }
 
-// The ground is put in only where it is what is asked about.
+// The ground is included only in the cases that test it.
 void of_family(const Draw& d, std::uint64_t index, std::string_view family, bool grounded, Case& out) {
   out.scene = make_case(d.seed, index, family).scene;
   Scene& s = out.scene;
   for (Body& b : s.bodies) b.motion.reset();
-  if (s.script.empty()) insert_all(s), step_query(s);
+  if (s.script.empty()) {
+    insert_all(s);
+    step_query(s);
+  }
   if (!grounded)
     std::erase_if(s.script,
                   [&](const Step& step) { return step.op != Step::Op::query && is_unbounded(s, step.body); });
@@ -65,11 +68,12 @@ void grounded(const Draw& d, std::uint64_t index, Case& out) {
 
 namespace {
 
-// Two bodies of which the first moves; the other stands where the first comes by, or a little off its way.
+// Two bodies of which the first moves; the other is on its path or slightly off it.
 void swept_case(const Draw& d, Body first, const Shape& other, const Vec3& at, Case& out) {
   Scene& s = out.scene;
   Body second;
-  first.shape = 0, second.shape = 1;
+  first.shape = 0;
+  second.shape = 1;
   second.pose.translation = at;
   s.shapes.push_back(other);
   s.bodies = {std::move(first), std::move(second)};
@@ -77,7 +81,8 @@ void swept_case(const Draw& d, Body first, const Shape& other, const Vec3& at, C
   round_to(d.scalar, out);
 }
 
-// A ball for the first to meet: beside the point `way` of its path by up to 1.6 times what still touches.
+// A ball for the first body to meet: its distance from the point `way` of the path is up to 1.6 times the
+// touching distance.
 void drift_case(const Draw& d, Rng& rng, const Vec3& start, const Vec3& travel, Case& out) {
   out.scene.shapes.push_back(slender(rng));
   Body first;
@@ -104,7 +109,7 @@ void drifting(const Draw& d, std::uint64_t index, Case& out) {
   drift_case(d, rng, start, travel, out);
 }
 
-// Thousands of lengths a step, from near or far; the ball stands near the way of the body's middle.
+// Thousands of lengths per step, from near or far; the ball is near the path of the body's centre.
 void fast_and_far(const Draw& d, std::uint64_t index, Case& out) {
   Rng rng = Rng::stream(d.seed + 15, index);
   const Vec3 from = rng.unit_vector(), along = rng.unit_vector();
@@ -126,7 +131,8 @@ void turning_in_place(const Draw& d, std::uint64_t index, Case& out) {
   swept_case(d, std::move(first), Sphere{radius}, rng.vector(0.6 * reach, 1.1 * reach), out);
 }
 
-// The small body stands somewhere in the shell that the slender one's ends pass, so that about half meet.
+// The small body is somewhere in the shell through which the slender one's ends pass, so that about half
+// meet.
 void turning_pairs(const Draw& d, std::uint64_t index, Case& out) {
   Rng rng = Rng::stream(d.seed + 12, index);
   Scene& s = out.scene;

@@ -1,5 +1,4 @@
-// Cases about bodies: the campaign's families that end in candidate pairs, and bodies that move within a
-// step.
+// Cases about bodies: the campaign's families that query candidate pairs, and bodies that move within a step.
 #pragma once
 
 #include "scenarios/exhaustive/evidence.h"
@@ -15,9 +14,9 @@ void family_crowd(const Draw&, std::uint64_t index, Case& out);
 /// Bodies on and in a half-space.
 void grounded(const Draw&, std::uint64_t index, Case& out);
 
-/// Two bodies, of which about half meet, mostly not where they stand at the start.
-/// Translation alone, along one axis of the world and any way; turning alone; both; and so fast or far away
-/// that a box without any part of the motion is far off.
+/// Two bodies. About half of the pairs meet, mostly not at the start poses.
+/// Translation only, along one world axis or in any direction; turning only; both; and motion so fast or from
+/// so far away that a box that ignores any part of it is far off.
 void drifting_on_an_axis(const Draw&, std::uint64_t index, Case& out);
 void drifting(const Draw&, std::uint64_t index, Case& out);
 void turning_in_place(const Draw&, std::uint64_t index, Case& out);

@@ -10,7 +10,7 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-// Knuth's TwoSum: the rounding error of a + b is a double, also where it underflows.
+// Knuth's TwoSum: the rounding error of a + b is a double, even when it underflows.
 bool sum_is_exact(double a, double b) {
   const double s = a + b, bb = s - a;
   return (a - (s - bb)) + (b - bb) == 0;
@@ -18,7 +18,7 @@ bool sum_is_exact(double a, double b) {
 
 bool holds(double x, Scalar scalar) { return std::isfinite(x) && nearest(x, scalar) == x; }
 
-// 0: none, 1 and 2: about (1,1,1) by one and two thirds; 3: no turn of these.
+// 0: identity; 1 and 2: about (1,1,1) by one and two thirds; 3: none of these.
 unsigned thirds_of(const Quat& q) {
   if (q.x == 0 && q.y == 0 && q.z == 0) return 0;
   if (q.x != q.y || q.y != q.z || std::abs(q.w) != std::abs(q.x)) return 3;
@@ -80,7 +80,8 @@ Quat turn_by_thirds(unsigned thirds) {
 }
 
 std::optional<Placing> placing_of(Aabb box, Scalar scalar) {
-  // The middle of two neighbouring numbers is none: the upper end may have to go on by one or two.
+  // The middle of two neighbouring numbers is not representable: the upper end may have to move on by one or
+  // two.
   for (int attempt = 0; attempt < 3; ++attempt) {
     const Placing p{box.lo / 2 + box.hi / 2, box.hi / 2 - box.lo / 2};
     if (exact_corners(p.t, p.h, scalar)) return p;

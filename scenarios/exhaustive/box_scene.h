@@ -1,5 +1,5 @@
-// Scenes of boxes whose corners t ± h are exact in the subject's arithmetic, so that there is nothing to
-// round: what such a box is does not depend on who computes it.
+// Scenes of boxes whose corners t ± h are exact in the subject's arithmetic: nothing is rounded, so such a
+// box does not depend on who computes it.
 #pragma once
 
 #include <optional>
@@ -10,7 +10,7 @@
 
 namespace touchstone::fuzz {
 
-/// Scalar of the subject.
+/// The subject's scalar.
 enum class Scalar : std::uint8_t { float32, float64 };
 
 /// The next number of the scalar's format in the direction of the sign.
@@ -19,24 +19,24 @@ double next_number(double x, int direction, Scalar scalar);
 double unit_in_last_place(Scalar scalar);
 double nearest(double x, Scalar scalar);
 
-/// Exactly t - h, t + h along every axis; nothing when a corner is no number of the format, or not finite.
+/// Exactly t - h, t + h along every axis; empty when a corner is not representable or not finite.
 std::optional<Aabb> exact_corners(const Vec3& t, const Vec3& h, Scalar scalar);
 
-/// The box of a body that is one, exactly: a box upright or turned by a third about the diagonal (which
-/// permutes its extents), or a half-space perpendicular to an axis, which is infinite. Nothing for any other
-/// body. Numbers that are not finite give what IEEE arithmetic gives.
+/// The box of a body that is exactly a box: a box that is upright or turned by a third about the diagonal
+/// (which permutes its extents), or a half-space perpendicular to an axis, which is infinite. Empty for any
+/// other body. Non-finite numbers follow IEEE arithmetic.
 std::optional<Aabb> exact_box(const Shape& shape, const Pose& pose);
 
-/// The turns of exact_box.
+/// The rotations that exact_box recognises.
 Quat turn_by_thirds(unsigned thirds);
 
-/// Centre and half extents of the box, or of the nearest larger one for which they exist.
+/// Centre and half extents of the box, or of the nearest larger box for which they are representable.
 struct Placing {
   Vec3 t, h;
 };
 std::optional<Placing> placing_of(Aabb box, Scalar scalar);
 
-/// Appends a body of its own shape; returns its number.
+/// Appends a body with its own shape and returns the body's index.
 int add_box(Scene& s, const Placing& p, bool fixed = false);
 
 void insert_all(Scene& s);

@@ -1,5 +1,5 @@
-// What a certificate rests on: a table of evidence, each a finite or endless list of cases. A case is a pure
-// function of (evidence, seed, index, scalar), so that any one can be made again alone.
+// The evidence behind a certificate: a table whose rows are finite or endless lists of cases. A case is a
+// pure function of (evidence, seed, index, scalar), so any case can be regenerated on its own.
 #pragma once
 
 #include <span>
@@ -21,24 +21,24 @@ struct EvidenceRow {
   std::string_view name;
   EvidenceKind kind;
   BroadLevel level;
-  std::string_view line;  // what it is, for people
+  std::string_view line;  // summary for display
   std::uint64_t quick, full;
-  /// Exhaustive: how many there are; null: endless.
+  /// The number of cases of an exhaustive list; null: endless.
   std::uint64_t (*population)(const Draw&);
   void (*make)(const Draw&, std::uint64_t index, Case& out);
-  /// Numbers that are no closed box: they need not be paired, and may not cost another pair.
+  /// Some boxes are not closed boxes: they need not be paired, but must not make other boxes lose pairs.
   bool invalid = false;
-  /// Bodies move within the step: for subjects that sweep.
+  /// Bodies move within the step: only for subjects that sweep.
   bool sweeps = false;
-  std::uint64_t chunk = 256;  // cases that one job takes at once
+  std::uint64_t chunk = 256;  // cases per job
 };
 
 std::span<const EvidenceRow> all_evidence();
 
-/// Cases asked in this scope: all there are when that is fewer.
+/// The number of cases in this scope, at most the size of the list.
 std::uint64_t planned_cases(const EvidenceRow& e, const Draw& d);
 
-/// Case `i` of `planned`: exhaustive lists that are sampled are sampled evenly.
+/// Case `i` of `planned`. Exhaustive lists that are sampled are sampled evenly.
 Case evidence_case(const EvidenceRow& e, const Draw& d, std::uint64_t i, std::uint64_t planned);
 
 }  // namespace touchstone::fuzz

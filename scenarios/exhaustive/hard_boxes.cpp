@@ -19,7 +19,7 @@ double stepped(double x, int steps, Scalar scalar) {
   return x;
 }
 
-// Multiples of powers of two, where cells of any usual size begin, and their neighbours.
+// Multiples of powers of two, at which cells of any typical size begin, and their neighbours.
 double on_a_border(Rng& rng, const Draw& d) {
   const double cell = std::ldexp(1.0, static_cast<int>(rng.below(9)) - 4);
   const double x = whole(rng, 4) * cell;
@@ -57,7 +57,7 @@ double huge(Rng& rng, const Draw& d) {
   return whole(rng, 7) * std::ldexp(1.0, e + static_cast<int>(rng.below(3)));
 }
 
-// Ends are drawn with repetition from few values, so that ties are frequent.
+// Ends are drawn with repetition from a few values, so that ties are frequent.
 std::optional<Placing> draw_box(Rng& rng, const Draw& d, Coordinate coordinate,
                                 const std::vector<Aabb>& others) {
   Aabb box;
@@ -68,7 +68,8 @@ std::optional<Placing> draw_box(Rng& rng, const Draw& d, Coordinate coordinate,
       x = rng.chance(0.5) ? o.lo[k] : o.hi[k];
     }
     if (rng.chance(0.05)) y = x;
-    box.lo[k] = std::min(x, y), box.hi[k] = std::max(x, y);
+    box.lo[k] = std::min(x, y);
+    box.hi[k] = std::max(x, y);
   }
   return placing_of(box, d.scalar);
 }
@@ -85,17 +86,20 @@ void draw_boxes(Rng& rng, const Draw& d, Coordinate coordinate, std::uint64_t le
   }
 }
 
-// Insert all, query; take some out, put some in the place of another, query after each.
+// Inserts all and queries; then removes some, moves some to the place of another, and queries after each.
 void short_script(Rng& rng, Scene& s) {
-  insert_all(s), step_query(s);
+  insert_all(s);
+  step_query(s);
   std::vector<bool> present(s.bodies.size(), true);
   for (std::uint64_t k = rng.below(5); k > 0; --k) {
     const auto b = rng.below(s.bodies.size());
     const int body = static_cast<int>(b);
     if (!present[b]) {
-      step_insert(s, body), present[b] = true;
+      step_insert(s, body);
+      present[b] = true;
     } else if (rng.chance(0.5)) {
-      step_remove(s, body), present[b] = false;
+      step_remove(s, body);
+      present[b] = false;
     } else {
       step_move(s, body, s.bodies[b].pose);
     }
@@ -137,8 +141,8 @@ void unbounded(const Draw& d, std::uint64_t index, Case& out) {
   out.queries = {{Question::candidates, -1, -1}};
 }
 
-// Boxes that meet, and one body whose numbers make no closed box, put in before, between or after them, moved
-// and taken out again.
+// Boxes that meet, and one body whose box is invalid, inserted before, between or after them, moved, and
+// possibly removed again.
 void no_boxes(const Draw& d, std::uint64_t index, Case& out) {
   Rng rng = Rng::stream(d.seed + 8, index);
   Scene& s = out.scene;
@@ -160,7 +164,10 @@ void no_boxes(const Draw& d, std::uint64_t index, Case& out) {
   const auto moved = rng.below(n);
   step_move(s, static_cast<int>(moved), s.bodies[rng.below(n)].pose);
   step_query(s);
-  if (rng.chance(0.5)) step_remove(s, none), step_query(s);
+  if (rng.chance(0.5)) {
+    step_remove(s, none);
+    step_query(s);
+  }
   out.queries = {{Question::candidates, -1, -1}};
 }
 

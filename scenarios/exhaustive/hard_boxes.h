@@ -1,5 +1,5 @@
-// Boxes at which broad phases break: borders of cells, limits of the world, ends that differ by the last
-// place, sizes far apart, zeros of both signs, denormals, huge numbers, infinite boxes, boxes that are none.
+// Boxes on which broad phases fail: cell borders, limits of the world, ends that differ in the last place,
+// very different sizes, zeros of both signs, denormals, huge numbers, infinite boxes, invalid boxes.
 #pragma once
 
 #include "scenarios/exhaustive/evidence.h"
@@ -20,7 +20,7 @@ void long_scripts(const Draw&, std::uint64_t index, Case& out);
 void longest_script(const Draw&, std::uint64_t index, Case& out);
 void moving_crowds(const Draw&, std::uint64_t index, Case& out);
 
-/// 2 to 33 boxes with centres uniform in a cube of two units of volume a box and sides uniform in
+/// 2 to 33 boxes with centres uniform in a cube with two units of volume per box and sides uniform in
 /// [1/4, 7/4], all multiples of 2⁻¹⁰; one in five is fixed.
 void uniform_boxes(const Draw&, std::uint64_t index, Case& out);
 

@@ -27,25 +27,28 @@ struct Walk {
   void step(int b, int what, unsigned now) {
     const unsigned before = present, seen_before = seen;
     done.push_back(static_cast<char>(b * (places + 1) + what));
-    present = now, seen |= now;
+    present = now;
+    seen |= now;
     go();
-    done.pop_back(), present = before, seen = seen_before;
+    done.pop_back();
+    present = before;
+    seen = seen_before;
   }
 };
 
 struct Course {
   int bodies, places, length;
-  std::array<double, 3> at;  // the places along the axis, of boxes of side 1
-  double far;                // along z they are so many times as far apart: a move is a teleport
+  std::array<double, 3> at;  // places of the boxes of side 1 along the axis
+  double far;                // along z the places are this many times as far apart: a move is a teleport
 };
 
-// Two places apart from each other; or three, each touching the next.
+// Two separate places, or three places each touching the next.
 Course course_of_two(const Draw&) { return {2, 2, 6, {-0.5, 1.5, 0}, 16}; }
 Course course_of_three(const Draw& d) { return {3, 3, d.scope == Scope::quick ? 5 : 6, {-1, 0, 1}, 1}; }
 
 const std::vector<std::string>& all_of(const Course& c) { return histories(c.bodies, c.places, c.length); }
 
-// The index also says whether body 0 is fixed, and the axis.
+// The index also encodes the axis and whether body 0 is fixed.
 constexpr std::uint64_t variants = 2;
 
 void play(const Course& course, std::uint64_t index, Case& out) {
@@ -63,7 +66,8 @@ void play(const Course& course, std::uint64_t index, Case& out) {
     }
     const auto b = static_cast<std::size_t>(body);
     if (what == course.places) {
-      step_remove(s, body), present[b] = false;
+      step_remove(s, body);
+      present[b] = false;
       continue;
     }
     Pose p;

@@ -1,5 +1,5 @@
-// Every sequence of insert, move, remove and query of a given length over a few places on a line: what a
-// broad phase remembers wrongly of one operation shows after another.
+// Every sequence of insert, move, remove and query of a given length over a few places on a line: state that
+// a broad phase keeps wrongly after one operation shows after another.
 #pragma once
 
 #include <cstdint>
@@ -10,8 +10,8 @@
 
 namespace touchstone::fuzz {
 
-/// Sequences of exactly `length` operations; those that end in queries are the shorter ones. Bodies are first
-/// inserted in the order of their numbers. An operation is body·(places + 1) + (place, or `places` for
+/// Sequences of exactly `length` operations; those that end in queries include the shorter ones. Bodies are
+/// first inserted in the order of their indices. An operation is body·(places + 1) + (place, or `places` for
 /// remove); a query is bodies·(places + 1).
 const std::vector<std::string>& histories(int bodies, int places, int length);
 

@@ -1,4 +1,4 @@
-// Long scripts and crowds of boxes on a lattice fine enough for chance meetings and coarse enough for ties.
+// Long scripts and crowds of boxes on a lattice, fine enough for random contacts and coarse enough for ties.
 #include <cmath>
 
 #include "scenarios/exhaustive/hard_boxes.h"
@@ -40,7 +40,7 @@ struct Script {
     const auto kind = rng.below(8);
     if (kind == 0) p = somewhere();                                                   // teleport
     if (kind == 1) p.rotation = turn_by_thirds(static_cast<unsigned>(rng.below(3)));  // resize
-    if (kind == 2) p.translation += lattice_point(rng, 256, 128);                     // and out of the world
+    if (kind == 2) p.translation += lattice_point(rng, 256, 128);                     // may leave the world
     if (kind > 2) p.translation += lattice_point(rng, 0.125, 0.125);                  // drift
     for (double& x : p.translation)
       if (std::abs(x) > 1024) x = 0;
@@ -50,9 +50,11 @@ struct Script {
   void one() {
     const auto b = rng.below(at.size());
     if (!at[b]) {
-      at[b] = somewhere(), step_insert(s, static_cast<int>(b), *at[b]);
+      at[b] = somewhere();
+      step_insert(s, static_cast<int>(b), *at[b]);
     } else if (rng.chance(0.12)) {
-      at[b].reset(), step_remove(s, static_cast<int>(b));
+      at[b].reset();
+      step_remove(s, static_cast<int>(b));
     } else if (rng.chance(0.03)) {  // refit: all move
       for (std::size_t i = 0; i < at.size(); ++i)
         if (at[i]) move(i);
@@ -86,14 +88,17 @@ void longest_script(const Draw& d, std::uint64_t index, Case& out) {
   scripted(d, index + (std::uint64_t{1} << 40), 40, d.scope == Scope::quick ? 20000 : 100000, out);
 }
 
-// 100 to 1,500 boxes, in which subjects that choose a method by numbers choose another; five frames.
+// 100 to 1,500 boxes, for which subjects that choose a method by the number of boxes choose another; five
+// frames.
 void moving_crowds(const Draw& d, std::uint64_t index, Case& out) {
   Script script{Rng::stream(d.seed + 10, index), out.scene, 4, {}};
   const std::uint64_t n = 100 + script.rng.below(script.rng.chance(0.2) ? 1400 : 400);
   script.world = std::ceil(std::cbrt(static_cast<double>(n)) * (script.rng.chance(0.3) ? 3 : 1));
   script.bodies(n);
-  for (std::size_t b = 0; b < n; ++b)
-    script.at[b] = out.scene.bodies[b].pose, step_insert(out.scene, static_cast<int>(b));
+  for (std::size_t b = 0; b < n; ++b) {
+    script.at[b] = out.scene.bodies[b].pose;
+    step_insert(out.scene, static_cast<int>(b));
+  }
   step_query(out.scene);
   for (int frame = 0; frame < 4; ++frame) {
     const double share = script.rng.chance(0.5) ? 1 : 0.1;
@@ -115,7 +120,8 @@ void uniform_boxes(const Draw& d, std::uint64_t index, Case& out) {
     for (double& x : p.h) x = grid(rng.uniform(0.125, 0.875));
     add_box(out.scene, p, rng.chance(0.2));
   }
-  insert_all(out.scene), step_query(out.scene);
+  insert_all(out.scene);
+  step_query(out.scene);
   out.queries = {{Question::candidates, -1, -1}};
 }
 

@@ -6,7 +6,7 @@
 namespace touchstone::fuzz {
 namespace {
 
-// Two scales at which ranks become coordinates: the whole numbers about 0, and neighbouring numbers above 1.
+// Two scales that map ranks to coordinates: the whole numbers around 0, and neighbouring numbers above 1.
 constexpr std::uint64_t scales = 2;
 
 bool is_dense(const AxisOrder& r) {
@@ -30,7 +30,7 @@ std::vector<AxisOrder> make_orders(int intervals) {
   }
 }
 
-// Ends of an axis at even multiples of half a step, so that centres and half extents are numbers too.
+// Ends at even multiples of half a step, so that centres and half extents are representable too.
 struct Span {
   double t, h;
 };
@@ -46,34 +46,42 @@ void boxes_of(const std::array<const AxisOrder*, 3>& axes, std::uint64_t scale, 
     Placing p;
     for (int k = 0; k < 3; ++k) {
       const Span span = span_of(*axes[static_cast<std::size_t>(k)], i, scale, scalar);
-      p.t[k] = span.t, p.h[k] = span.h;
+      p.t[k] = span.t;
+      p.h[k] = span.h;
     }
     add_box(s, p);
   }
 }
 
 void ask(Case& c) {
-  insert_all(c.scene), step_query(c.scene);
+  insert_all(c.scene);
+  step_query(c.scene);
   c.queries = {{Question::candidates, -1, -1}};
 }
 
 AxisOrder mirrored(const AxisOrder& r) {
   const int top = *std::max_element(r.begin(), r.end());
   AxisOrder m(r.size());
-  for (std::size_t i = 0; i < r.size(); i += 2) m[i] = top - r[i + 1], m[i + 1] = top - r[i];
+  for (std::size_t i = 0; i < r.size(); i += 2) {
+    m[i] = top - r[i + 1];
+    m[i + 1] = top - r[i];
+  }
   return m;
 }
 
 AxisOrder renamed(const AxisOrder& r, const std::array<std::size_t, 3>& names) {
   AxisOrder m(r.size());
-  for (std::size_t i = 0; i < 3; ++i) m[2 * names[i]] = r[2 * i], m[2 * names[i] + 1] = r[2 * i + 1];
+  for (std::size_t i = 0; i < 3; ++i) {
+    m[2 * names[i]] = r[2 * i];
+    m[2 * names[i] + 1] = r[2 * i + 1];
+  }
   return m;
 }
 
 constexpr std::array<std::array<std::size_t, 3>, 6> renamings{
     {{0, 1, 2}, {0, 2, 1}, {1, 0, 2}, {1, 2, 0}, {2, 0, 1}, {2, 1, 0}}};
 
-// What each renaming makes of each order, the lesser of the two reflections.
+// For each renaming, the image of each order: the smaller of the two reflections.
 using Image = std::vector<std::array<std::uint32_t, 6>>;
 Image images() {
   const auto& orders = axis_orders(3);
@@ -98,7 +106,7 @@ std::uint32_t packed(std::uint32_t a, std::uint32_t b, std::uint32_t c) {
 std::vector<std::uint32_t> make_triple_classes() {
   const Image image = images();
   const auto n = static_cast<std::uint32_t>(image.size());
-  std::vector<std::uint32_t> least;  // of its reflections
+  std::vector<std::uint32_t> least;  // smallest of its reflections
   for (std::uint32_t i = 0; i < n; ++i)
     if (image[i][0] == i) least.push_back(i);
   std::vector<std::uint32_t> classes;
@@ -142,7 +150,7 @@ void orders_of_two(const Draw& d, std::uint64_t index, Case& out) {
 
 std::uint64_t count_orders_on_an_axis(const Draw&) { return axis_orders(3).size() * 3 * scales; }
 
-// On the other two axes all three overlap.
+// On the other two axes all three boxes overlap.
 void orders_on_an_axis(const Draw& d, std::uint64_t index, Case& out) {
   static const AxisOrder same{0, 1, 0, 1, 0, 1};
   const auto& orders = axis_orders(3);
@@ -154,7 +162,7 @@ void orders_on_an_axis(const Draw& d, std::uint64_t index, Case& out) {
 
 std::uint64_t count_orders_of_three(const Draw&) { return triple_classes().size(); }
 
-// Each class by one of its members, drawn: a subject need not have the symmetries.
+// Draws one member of each class: a subject need not have the symmetries.
 void orders_of_three(const Draw& d, std::uint64_t index, Case& out) {
   Rng rng = Rng::stream(d.seed, index);
   const std::uint32_t code = triple_classes()[index];

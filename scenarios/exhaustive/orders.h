@@ -1,6 +1,5 @@
-// Endpoint orders. On an axis, n intervals are told apart, as far as a comparison can tell, by the order of
-// their 2n ends with ties: 26 orders for two intervals, points included, and 818 for three. Boxes have one
-// order an axis.
+// Endpoint orders. On one axis, comparisons can distinguish n intervals only by the order of their 2n ends,
+// ties included: 26 orders for two intervals (points included), 818 for three. Boxes have one order per axis.
 #pragma once
 
 #include <array>
@@ -15,8 +14,8 @@ namespace touchstone::fuzz {
 using AxisOrder = std::vector<int>;
 const std::vector<AxisOrder>& axis_orders(int intervals);
 
-/// Triples of orders of three intervals (indices into axis_orders(3)), one of each class under renaming of
-/// boxes, exchange of axes and reflection of each axis; ten bits an index.
+/// Triples of orders of three intervals (indices into axis_orders(3)), one for each class under renaming of
+/// boxes, exchange of axes and reflection of each axis; ten bits per index.
 const std::vector<std::uint32_t>& triple_classes();
 
 std::uint64_t count_orders_of_two(const Draw&);

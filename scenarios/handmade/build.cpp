@@ -38,7 +38,7 @@ Scenario pair(std::string folder, std::string name, std::string line, Part a, Pa
 Expectation gap_is(double value, double tolerance, const Vec3& normal, std::string reason) {
   Expectation e;
   if (value > tolerance) e.overlap = false;
-  if (value <= -tolerance) e.overlap = true;  // with tolerance 0, touching too
+  if (value <= -tolerance) e.overlap = true;  // with tolerance 0, touching counts as well
   e.gap = {value, tolerance};
   e.normal = normal;
   e.reason = std::move(reason);
@@ -61,7 +61,9 @@ Expectation no_hit(std::string reason) {
 
 Expectation counts(int all, std::optional<int> boxes, int overlapping, std::string reason) {
   Expectation e;
-  e.all_pairs = all, e.box_pairs = boxes, e.overlapping_pairs = overlapping;
+  e.all_pairs = all;
+  e.box_pairs = boxes;
+  e.overlapping_pairs = overlapping;
   e.reason = std::move(reason);
   return e;
 }

@@ -1,4 +1,4 @@
-// One list a file; catalog.cpp joins them.
+// One list per file; catalog.cpp joins them.
 #pragma once
 
 #include <vector>

@@ -1,5 +1,5 @@
-// A scenario: a case built by hand, aimed at one way in which collision engines fail, with what is true of it
-// derived on paper wherever there is a closed form.
+// A scenario: a handmade case that targets one way in which collision engines fail. Where a closed form
+// exists, the truth is derived on paper.
 #pragma once
 
 #include <functional>
@@ -13,7 +13,7 @@ namespace touchstone::scenarios {
 struct Scenario {
   std::string name;    // unique over all folders
   std::string folder;  // touching, thin, far, deep, degenerate, motion, crowd, lifecycle
-  std::string line;    // what it is, and whom it hurts
+  std::string line;    // summary for display
   std::function<Case()> make;
   Expectation expect;
 };

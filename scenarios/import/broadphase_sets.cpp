@@ -13,7 +13,8 @@ std::vector<Aabb> load_aabbs(const std::filesystem::path& file) {
   while (in.next()) {
     in.need_tokens(6);
     Aabb b;
-    b.lo = in.vec3(0), b.hi = in.vec3(3);
+    b.lo = in.vec3(0);
+    b.hi = in.vec3(3);
     if ((b.lo.array() > b.hi.array()).any()) in.fail("a minimum is larger than its maximum");
     boxes.push_back(b);
   }

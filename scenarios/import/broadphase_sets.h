@@ -16,14 +16,15 @@ struct Atom {
   std::string element;
 };
 
-/// minx,miny,minz,maxx,maxy,maxz. Throws InputError "file:line: reason", also on lo > hi.
+/// Columns minx,miny,minz,maxx,maxy,maxz. Throws InputError "file:line: reason", also when lo > hi.
 std::vector<Aabb> load_aabbs(const std::filesystem::path& file);
-/// x,y,z,radius,element.
+/// Columns x,y,z,radius,element.
 std::vector<Atom> load_atoms(const std::filesystem::path& file);
 
-/// A sphere an atom, exactly; equal radii share a shape.
+/// One sphere per atom, exactly; equal radii share a shape.
 Scene scene_of_atoms(const std::vector<Atom>& atoms);
-/// A box a row; centre and half extents are rounded, so each box is the given one to within a few ulps only.
+/// One box per row. Centre and half extents are rounded, so each box matches the given one only to a few
+/// ulps.
 Scene scene_of_boxes(const std::vector<Aabb>& boxes);
 
 }  // namespace touchstone

@@ -12,8 +12,8 @@
 namespace touchstone {
 namespace {
 
-// A decimal integer that is a double exactly: its decimal expansion, which printf gives in full, is the same
-// text.
+// A decimal integer that is exactly a double: printf prints the double in full, and the text must be the
+// same.
 double exact_integer(const TextLines& in, std::size_t i) {
   const std::string text(in.token(i));
   const bool digits =
@@ -42,7 +42,10 @@ CcdTruth read_truth(const TextLines& in) {
   t.collides = zero_or_one(in, 4);
   if (t.collides != !in.token(5).empty() || t.collides != !in.token(6).empty())
     in.fail("a time of impact must be given exactly when there is contact");
-  if (t.collides) t.toi_lo = in.number(5), t.toi_hi = in.number(6);
+  if (t.collides) {
+    t.toi_lo = in.number(5);
+    t.toi_hi = in.number(6);
+  }
   if (t.toi_lo > t.toi_hi) in.fail("toi_lo is larger than toi_hi");
   if (!zero_or_one(in, 8)) t.coplanar_times = in.integer(7);
   return t;

@@ -1,5 +1,5 @@
 // Vertex-face and edge-edge queries of linear motions with their exact answers, in the format of the
-// published Sample-Queries (Wang et al. 2021): every coordinate a rational that is a double exactly.
+// published Sample-Queries (Wang et al. 2021): every coordinate is a rational that is exactly a double.
 #pragma once
 
 #include <array>
@@ -13,9 +13,9 @@
 namespace touchstone {
 
 struct CcdTruth {
-  std::optional<bool> source_truth;   // of the publisher
+  std::optional<bool> source_truth;   // as published
   bool collides = false;              // decided in rational arithmetic
-  double toi_lo = 0, toi_hi = 0;      // of the earliest contact; meaningful when it collides
+  double toi_lo = 0, toi_hi = 0;      // of the earliest contact; valid when it collides
   std::optional<int> coplanar_times;  // times in [0,1] at which the four points are coplanar; empty: always
 };
 
@@ -29,11 +29,11 @@ struct CcdQuery {
   std::optional<CcdTruth> truth;
 };
 
-/// One file of queries, truth as in the file. Throws InputError "file:line: reason", also when a rational is
-/// no double.
+/// One file of queries, with the truth given in the file. Throws InputError "file:line: reason", also when a
+/// rational is not exactly a double.
 std::vector<CcdQuery> load_ccd_file(const std::filesystem::path& file, bool is_vertex_face);
 
-/// All queries that `directory`/truth.csv lists, in its order, truth attached.
+/// All queries listed in `directory`/truth.csv, in its order, with the truth attached.
 std::vector<CcdQuery> load_ccd_set(const std::filesystem::path& directory);
 
 }  // namespace touchstone

@@ -9,8 +9,8 @@
 namespace touchstone {
 namespace {
 
-// The set's worst printed rotation is off by 1e-6 in R^T R - 1; a hundred times that is no rounding of a
-// rotation.
+// The worst printed rotation of the set is off by 1e-6 in R^T R - 1; a hundred times that is not explained by
+// rounding.
 constexpr double max_rotation_defect = 1e-4;
 
 Placement read_placement(const TextLines& in, std::size_t first) {

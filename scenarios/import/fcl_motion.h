@@ -10,7 +10,7 @@ namespace touchstone {
 
 struct FclFrame {
   double time = 0;
-  Placement a, b;  // the printed matrix, which is a rotation only to its six decimals
+  Placement a, b;  // the printed matrix, a rotation only to its six decimals
 };
 
 struct FclMotion {
@@ -25,7 +25,7 @@ struct FclMotion {
 /// Throws InputError "file:line: reason".
 FclMotion load_fcl_motion(const std::filesystem::path& directory);
 
-/// Unit quaternion of a matrix that is a rotation up to rounding (Shepperd 1978: the largest component
+/// The unit quaternion of a matrix that is a rotation up to rounding (Shepperd 1978: largest component
 /// first).
 Quat quaternion_of(const Mat3& rotation);
 

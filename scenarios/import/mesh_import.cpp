@@ -62,8 +62,8 @@ struct Collector {
   }
 };
 
-// An STL in binary form says how many facets follow; a file that holds fewer was cut off. assimp reports this
-// only for some lengths.
+// A binary STL file has a facet count; a file with fewer facets is truncated. assimp reports this only for
+// some lengths.
 void check_binary_stl(const std::string& file, const std::string& bytes) {
   if (bytes.size() < 84 || bytes.compare(0, 5, "solid") == 0) return;
   std::uint32_t count = 0;
@@ -85,8 +85,7 @@ std::string lower_extension(const std::filesystem::path& file) {
 
 TriangleMesh load_mesh(const std::filesystem::path& path, const MeshImport& options) {
   const std::string file = path.string();
-  // Reading it ourselves first gives the errors that a path can have (missing, directory, too large, empty)
-  // one form.
+  // Reading the file ourselves first gives path errors (missing, directory, too large, empty) a uniform form.
   const std::string bytes = read_file(path);
   if (bytes.empty()) throw InputError(file, "is empty");
   if (lower_extension(path) == ".stl") check_binary_stl(file, bytes);

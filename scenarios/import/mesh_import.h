@@ -1,5 +1,5 @@
-// Triangle meshes from files (OBJ, STL, PLY, … whatever assimp reads). assimp holds coordinates in float32:
-// what it read is the mesh, exactly; digits of the file beyond float32 are lost before we see them.
+// Triangle meshes from files (OBJ, STL, PLY, … whatever assimp reads). assimp stores coordinates in float32:
+// the mesh is exactly what assimp read, and digits of the file beyond float32 are lost before that.
 #pragma once
 
 #include <filesystem>
@@ -9,12 +9,12 @@
 namespace touchstone {
 
 struct MeshImport {
-  bool join_vertices = true;  // vertices of equal coordinates become one; order of first appearance
+  bool join_vertices = true;  // merge vertices with equal coordinates, in order of first appearance
 };
 
-/// All triangles of the file, polygons triangulated, in file order. Points and lines are left out. Throws
-/// InputError "file: reason": not there, not readable as a mesh, cut off, no triangles, a coordinate that is
-/// not finite.
+/// All triangles of the file in file order; polygons are triangulated, points and lines skipped. Throws
+/// InputError "file: reason" when the file is missing, not readable as a mesh, truncated, has no triangles,
+/// or has a coordinate that is not finite.
 TriangleMesh load_mesh(const std::filesystem::path& file, const MeshImport& options = {});
 
 }  // namespace touchstone

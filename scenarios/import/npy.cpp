@@ -55,7 +55,7 @@ Npy3 load_npy3(const std::filesystem::path& path) {
   if (bytes.size() < data) throw InputError(file, "is cut off within its header");
   const std::string_view header = std::string_view(bytes).substr(10, data - 10);
   if (!value_of(header, "'descr'", file).starts_with("'<f8'"))
-    throw InputError(file, "holds another type than '<f8' (little-endian double)");
+    throw InputError(file, "must hold type '<f8' (little-endian double)");
   if (!value_of(header, "'fortran_order'", file).starts_with("False"))
     throw InputError(file, "is not in C order");
   Npy3 a;

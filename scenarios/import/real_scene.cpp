@@ -15,7 +15,7 @@ using Row = std::span<const double>;
 Vec3 vec3_of(Row row, std::size_t first) { return {row[first], row[first + 1], row[first + 2]}; }
 Pose pose_of(Row row) { return {vec3_of(row, 0), {row[3], row[4], row[5], row[6]}}; }
 
-// Exact where the geom sits at the body's origin.
+// Exact when the geom is at the body's origin.
 Pose compose(const Pose& body, const Pose& geom) {
   Pose r;
   r.translation = body.translation;
@@ -59,7 +59,7 @@ Pose pose_at_frame(const RealScene& s, std::size_t body, int f) {
   return s.bodies[body].is_static ? s.bodies[body].pose : pose_of(row(s, f, body));
 }
 
-// The scene's body numbers start at first[i] for recorded body i.
+// The geoms of recorded body i are the scene's bodies from first[i] on.
 std::vector<int> first_geom(const RealScene& s) {
   std::vector<int> first{0};
   for (const RealBody& b : s.bodies) first.push_back(first.back() + static_cast<int>(b.geoms.size()));
@@ -105,7 +105,7 @@ void check_rotations(const RealScene& s, const std::string& file) {
     }
 }
 
-// "frame,window,label,sim_frame,time" or "frame,segment,kind": the first three columns mean the same.
+// "frame,window,label,sim_frame,time" or "frame,segment,kind": the first three columns have the same meaning.
 std::vector<RealFrame> read_frames(const std::filesystem::path& file, int count) {
   TextLines in(file, ',');
   in.need("a header");

@@ -1,5 +1,6 @@
-// Recorded scenes (format cdh-scene 1: scene.txt + frames.npy + frames.csv): simulations and robots, one pose
-// a body and frame. A body may carry several shapes ("geoms"); here every geom is a body of its own.
+// Recorded scenes (format cdh-scene 1: scene.txt + frames.npy + frames.csv) of simulations and robots, with
+// one pose per body and frame. A recorded body may have several shapes ("geoms"); here every geom becomes its
+// own body.
 #pragma once
 
 #include <filesystem>
@@ -28,29 +29,28 @@ struct RealFrame {
   std::string label;  // "settling", "path", "random", …
 };
 
-/// Scenes made from a frame have one Body a geom: pose = body ∘ geom in double arithmetic, group = the
-/// recorded body's index when it has more than one geom, `ignored` carried over to all geoms of the two
-/// bodies.
+/// Scenes made from a frame have one Body per geom: pose = body ∘ geom in double arithmetic; group = the
+/// recorded body's index when it has more than one geom; `ignored` applies to all geoms of the two bodies.
 struct RealScene {
   std::string name;
   std::vector<Shape> shapes;
-  std::vector<RealBody> bodies;   // moving ones first, as many as poses.shape[1]
-  std::vector<BodyPair> ignored;  // of bodies
+  std::vector<RealBody> bodies;   // the poses.shape[1] moving ones first
+  std::vector<BodyPair> ignored;  // pairs of bodies
   Npy3 poses;                     // frames × moving bodies × (7: position, quaternion; 13: and velocities)
   std::vector<RealFrame> frames;
 
   int frame_count() const { return static_cast<int>(frames.size()); }
   bool has_velocities() const { return poses.shape[2] == 13; }
-  /// Frames f and f+1 belong to one segment.
+  /// True when frames f and f+1 belong to the same segment.
   bool is_followed(int f) const;
 
   Scene frame(int f) const;
-  /// With velocities in the data: motion = recorded velocity · 1/60 s, for every frame. Without: the
+  /// If the data has velocities: motion = recorded velocity · 1/60 s, for every frame. Otherwise: the
   /// displacement and the shortest rotation to the next frame, and no motion at the last frame of a segment.
-  /// A geom away from its body's origin moves on the chord of its arc.
+  /// A geom away from its body's origin moves along the chord of its arc.
   Scene frame_with_motion(int f) const;
-  /// Insert all bodies at frame `first`, query; then for each frame to `last` move every moving body and
-  /// query. Between segments the bodies jump.
+  /// Inserts all bodies at frame `first` and queries; then, for each frame up to `last`, moves every moving
+  /// body and queries. Between segments the bodies jump.
   Scene script(int first, int last) const;
 };
 

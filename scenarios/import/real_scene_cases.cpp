@@ -15,7 +15,7 @@ Aabb box_of(const Scene& s, int i) {
   return b.motion ? referee::outer_box(p, *b.motion) : referee::outer_box(p);
 }
 
-// Pairs in the order of the bodies, by a sweep along x.
+// Pairs sorted by body, found by a sweep along x.
 std::vector<BodyPair> near_pairs(const Scene& s) {
   std::vector<std::pair<Aabb, int>> boxes;
   for (int i = 0; i < static_cast<int>(s.bodies.size()); ++i) boxes.emplace_back(box_of(s, i), i);
@@ -39,7 +39,7 @@ int integer(const std::string& text, const std::string& whole) {
   int v = 0;
   const auto r = std::from_chars(text.data(), text.data() + text.size(), v);
   if (r.ec != std::errc{} || r.ptr != text.data() + text.size())
-    throw InputError("--frames " + whole, "'" + text + "' is no integer; expected first:end:step");
+    throw InputError("--frames " + whole, "'" + text + "' is not an integer; expected first:end:step");
   return v;
 }
 

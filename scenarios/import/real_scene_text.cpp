@@ -1,4 +1,4 @@
-// The grammar of scene.txt, one statement a line.
+// The grammar of scene.txt, one statement per line.
 #include "core/base/input_error.h"
 #include "scenarios/import/real_scene.h"
 #include "scenarios/import/text_lines.h"
@@ -48,12 +48,19 @@ Shape read_shape(TextLines& in, int id) {
   const std::string type(in.token(2));
   const auto radius_and_height = [&](auto shape) {
     in.need_tokens(5);
-    shape.radius = in.number(3), shape.half_height = in.number(4);
+    shape.radius = in.number(3);
+    shape.half_height = in.number(4);
     return Shape(shape);
   };
   if (type == "hull") return read_hull(in);
-  if (type == "box") return in.need_tokens(6), Shape(Box{in.vec3(3)});
-  if (type == "sphere") return in.need_tokens(4), Shape(Sphere{in.number(3)});
+  if (type == "box") {
+    in.need_tokens(6);
+    return Shape(Box{in.vec3(3)});
+  }
+  if (type == "sphere") {
+    in.need_tokens(4);
+    return Shape(Sphere{in.number(3)});
+  }
   if (type == "capsule") return radius_and_height(Capsule{});
   if (type == "cylinder") return radius_and_height(Cylinder{});
   if (type == "cone") return radius_and_height(Cone{});
@@ -102,7 +109,9 @@ RealSceneText read_real_scene_text(const std::filesystem::path& file) {
   RealScene& s = r.scene;
   s.name = printable(in.token(1));
   const Counts c = read_counts(in);
-  r.moving = c.moving, r.frames = c.frames, r.columns = c.columns;
+  r.moving = c.moving;
+  r.frames = c.frames;
+  r.columns = c.columns;
   for (int i = 0; i < c.shapes; ++i) {
     Shape shape = read_shape(in, i);
     try {

@@ -1,4 +1,4 @@
-// Line-oriented text: blank-separated tokens or CSV, with "file:line: reason" for whatever does not parse.
+// Line-oriented text: blank-separated tokens or CSV, with errors of the form "file:line: reason".
 #pragma once
 
 #include <filesystem>
@@ -10,27 +10,28 @@
 
 namespace touchstone {
 
-/// Walks over the lines of a file, and over the tokens of a line.
+/// Iterates over the lines of a file and the tokens of a line.
 class TextLines {
  public:
   TextLines(const std::filesystem::path& file, char separator);
 
-  /// Next line that is neither empty nor, for blank-separated text, a `#` comment. False at the end.
+  /// Advances to the next line that is not empty and, in blank-separated text, not a `#` comment. False at
+  /// the end.
   bool next();
-  /// Same, but the end of the file is an error: `expected` says what is missing.
+  /// The same, but the end of the file is an error; `expected` describes what is missing.
   void need(std::string_view expected);
   [[noreturn]] void fail(const std::string& reason) const;
   std::string place() const;
 
   std::size_t token_count() const { return tokens_.size(); }
   void need_tokens(std::size_t n) const;
-  std::string_view token(std::size_t i) const;  // refuses when the line has fewer
+  std::string_view token(std::size_t i) const;  // fails when the line has fewer tokens
   double number(std::size_t i) const;           // finite
   int integer(std::size_t i) const;
   int integer(std::size_t i, int lo, int hi) const;
   Vec3 vec3(std::size_t first) const;
   Quat quat(std::size_t first) const;  // x y z w
-  /// First line must be exactly these column names.
+  /// The first line must consist of exactly these column names.
   void need_header(std::string_view columns);
 
  private:

@@ -1,4 +1,4 @@
-// A pair whose gap is known by construction.
+// A pair with a gap that is known by construction.
 #pragma once
 
 #include "scenarios/random/place.h"
@@ -6,9 +6,9 @@
 namespace touchstone::fuzz {
 
 /// Places body 1 so that the point of A farthest along a random direction n (the normal of a half-space) and
-/// that of B farthest along −n are `gap` sizes of the pair apart along n: the distance when gap > 0, for a
-/// plane between them shows that it is no less; an upper bound of the depth when gap < 0. Of a mesh only the
-/// planes are that far apart.
+/// the point of B farthest along −n are `gap` · (size of the pair) apart along n. When gap > 0 this is the
+/// distance, because a plane between the bodies proves that it is no less; when gap < 0 it bounds the depth
+/// from above. For a mesh only the support planes are that far apart.
 Scene at_gap(Rng& rng, Scene pair, double gap);
 
 }  // namespace touchstone::fuzz

@@ -20,7 +20,7 @@ int add_body(Rng& rng, Scene& s, int shape, double side) {
   return static_cast<int>(s.bodies.size()) - 1;
 }
 
-// Fewer shapes than bodies; one in eight has a size of zero.
+// Fewer shapes than bodies; one shape in eight has a size of zero.
 Scene few_shapes(Rng& rng, std::size_t bodies, std::size_t shapes) {
   Scene s;
   for (std::size_t i = 0; i < shapes; ++i) {
@@ -35,7 +35,7 @@ Scene few_shapes(Rng& rng, std::size_t bodies, std::size_t shapes) {
 void add_fixed(Rng& rng, Scene& s, Shape shape) {
   s.shapes.push_back(std::move(shape));
   const int body = add_body(rng, s, static_cast<int>(s.shapes.size()) - 1, 0.3);
-  // Anywhere in the order of bodies.
+  // At any place in the order of bodies.
   const auto other = rng.below(s.bodies.size());
   std::swap(s.bodies[static_cast<std::size_t>(body)], s.bodies[other]);
 }
@@ -65,7 +65,7 @@ void company(Rng& rng, Case& c) {
   c.queries = {{Question::candidates, -1, -1}, {Question::scene_contacts, -1, -1}};
 }
 
-// About two or three pairs in turn, in either order of their bodies, some questions twice.
+// Queries about two or three pairs in turn, in either order of their bodies; some are repeated.
 void dialogue(Rng& rng, Case& c) {
   const auto bodies = 3 + rng.below(3);
   c.scene = few_shapes(rng, bodies, 2);

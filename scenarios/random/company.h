@@ -1,6 +1,6 @@
-// Scenes of several bodies of which more is asked than of a crowd: with meshes, half-spaces, groups and
-// ignored pairs; with shapes in common; with many questions one after the other, so that an engine that
-// remembers what it must not remember shows it.
+// Scenes of several bodies with more demanding queries than a crowd: with meshes, half-spaces, groups and
+// ignored pairs; with shared shapes; with many queries in a row, which reveals an engine that keeps state it
+// must not keep.
 #pragma once
 
 #include "core/math/rng.h"

@@ -28,8 +28,8 @@ void start_in_contact(Rng& rng, Case& c) {
 }
 
 // At time tc in (0,1) the two farthest points along n coincide up to the gap, and the velocity is
-// perpendicular to n: the bodies pass with that gap (of either sign, 1e-2 to 1e-8 of their size) and touch
-// nowhere else.
+// perpendicular to n: the bodies pass each other with that gap (of either sign, 1e-2 to 1e-8 of their size)
+// and touch nowhere else.
 void graze(Rng& rng, Case& c) {
   const ShapeKind a = random_convex_kind(rng);
   const ShapeKind b = random_convex_kind(rng);
@@ -46,8 +46,8 @@ void graze(Rng& rng, Case& c) {
   ask_impact(c, std::move(s));
 }
 
-// A plate 100 to 1000 times thinner than wide, and a small body that flies through it, or past its rim, at 4
-// to 60 times its width a step.
+// A plate 100 to 1000 times thinner than wide, and a small body that flies through it or past its rim at 4 to
+// 60 times its width per step.
 void bullet(Rng& rng, Case& c) {
   Scene s = random_pair(rng, ShapeKind::box, random_convex_kind(rng), 1, Vec3::Zero());
   const double wide = rng.uniform(0.5, 2), thin = wide * rng.binary_scale(-10, -7);
@@ -64,14 +64,14 @@ void bullet(Rng& rng, Case& c) {
   ask_impact(c, std::move(s));
 }
 
-// The bodies meet, if at all, within 0.05 % of the step's end, a fifth of them just after it: A stands still,
-// B's farthest point reaches A's farthest along n at that time. Half of them turn.
+// If the bodies meet, they do so within 0.05 % of the end of the step, a fifth of them just after it: A is at
+// rest, and B's farthest point reaches A's farthest point along n at that time. Half of the bodies turn.
 void last_moment(Rng& rng, Case& c) {
   const auto [a, b] = random_kinds(rng);
   Scene s = random_pair(rng, a, b, 1, Vec3::Zero());
   const Vec3 n = placement_direction(rng, s);
   place_along(rng, s, n, 0, 0.2);
-  // Of two convex bodies the farthest points meet, not only the planes through them.
+  // For convex bodies the farthest points meet, not just the planes through them.
   if (a != ShapeKind::half_space && a != ShapeKind::mesh)
     s.bodies[1].pose.translation =
         s.bodies[0].pose.translation + farthest_point(s, 0, n) - farthest_point(s, 1, -n);
@@ -84,7 +84,7 @@ void last_moment(Rng& rng, Case& c) {
   body.pose.translation -= t * m.linear;
   if (rng.chance(0.5)) {
     m.angular = rng.vector(0.1, 6);
-    // Turned back, so that it touches near t as it was placed.
+    // Turn it back, so that near t it touches in the orientation in which it was placed.
     body.pose = pose_at(body.pose, Motion{Vec3::Zero(), -m.angular}, std::min(t, 1.0));
   }
   body.motion = m;
@@ -109,7 +109,7 @@ namespace {
 
 enum class Going { along_an_axis, straight, turning, both, fast };
 
-// Long and thin: turning matters.
+// Long and thin, so that turning matters.
 Shape rod(Rng& rng) {
   const double length = rng.uniform(0.5, 2), width = rng.uniform(0.03, 0.3);
   if (rng.chance(0.5)) return Box{{width, width * rng.uniform(0.5, 1), length}};
@@ -136,8 +136,8 @@ Motion motion_of(Rng& rng, Going g, double way) {
 
 }  // namespace
 
-// 3 to 20 bodies, most of which move in one of five ways: along one axis of the world, straight, turning in
-// place, both, or fast, and then from so far that they arrive about midway.
+// 3 to 20 bodies, most of which move in one of five ways: along one world axis, in any direction, turning in
+// place, both, or fast and from so far away that they arrive about midway.
 void swarm(Rng& rng, Case& c) {
   const auto n = 3 + rng.below(18);
   const auto going = static_cast<Going>(rng.below(5));

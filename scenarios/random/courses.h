@@ -1,5 +1,5 @@
-// Motions that start or pass where a time of impact is decided by little: overlapping or touching at once,
-// past each other with a tangent plane in common, through a thin plate within a fraction of the step.
+// Motions whose time of impact is decided by small differences: overlapping or touching at the start, passing
+// each other with a common tangent plane, going through a thin plate within a fraction of the step.
 #pragma once
 
 #include "core/math/rng.h"

@@ -27,7 +27,7 @@ Scene pair_of(Rng& rng, double scale = 1, const Vec3& origin = Vec3::Zero()) {
   return random_pair(rng, a, b, scale, origin);
 }
 
-// Draws in a fixed order: direction, then the sideways shift in [0, most_sideways] sizes.
+// Draws in a fixed order: the direction, then the sideways shift, in [0, most_sideways] sizes.
 Scene place(Rng& rng, Scene s, double gap_in_sizes, double most_sideways) {
   const Vec3 n = placement_direction(rng, s);
   const double sideways = rng.uniform(0, most_sideways);
@@ -65,8 +65,8 @@ void deep(Rng& rng, Case& c) {
   ask_pair(c);
 }
 
-// The second body is 2 to 20 times smaller and its origin lies inside the first one; one in eight is
-// concentric or coaxial.
+// The second body is 2 to 20 times smaller and its origin lies inside the first; one in eight is concentric
+// or coaxial.
 void contained(Rng& rng, Case& c) {
   const ShapeKind a = random_convex_kind(rng);
   const ShapeKind b = random_convex_kind(rng);
@@ -77,7 +77,10 @@ void contained(Rng& rng, Case& c) {
   const Mat3 r = rotation_matrix(s.bodies[0].pose.rotation);
   Vec3 local = rng.vector(0, 0.3) * extent(s.shapes[0]);
   if (style == 0) local = Vec3::Zero();
-  if (style == 1) local = Vec3(0, 0, local.z()), s.bodies[1].pose.rotation = s.bodies[0].pose.rotation;
+  if (style == 1) {
+    local = Vec3(0, 0, local.z());
+    s.bodies[1].pose.rotation = s.bodies[0].pose.rotation;
+  }
   s.bodies[1].pose.translation = r * local;
   c.scene = std::move(s);
   ask_pair(c);
@@ -116,7 +119,7 @@ void lattice(Rng& rng, Case& c) {
   ask_pair(c);
 }
 
-// Millimetre bodies in a world whose unit is the metre.
+// Millimetre-sized bodies in a world whose unit is the metre.
 void tiny(Rng& rng, Case& c) {
   const double gap = rng.chance(0.5) ? rng.uniform(0.01, 0.5) : -rng.uniform(0.01, 0.5);
   c.scene = place(rng, pair_of(rng, 0x1p-10), gap, 0.3);
@@ -132,7 +135,7 @@ void far_away(Rng& rng, Case& c) {
   ask_pair(c);
 }
 
-// Aims at the other body's origin with a random offset, travelling up to four times the way.
+// Aims at the other body's origin with a random offset and travels up to four times the distance.
 void motion_case(Rng& rng, Case& c, bool spin) {
   Scene s = pair_of(rng);
   const double gap = rng.uniform(0.05, 1.5);
@@ -179,7 +182,7 @@ void crowd(Rng& rng, Case& c) {
   c.queries = {{Question::candidates, -1, -1}, {Question::scene_contacts, -1, -1}};
 }
 
-// Insert, move, teleport, remove, re-insert, with queries between.
+// Insert, move, teleport, remove, reinsert, with queries between.
 void script(Rng& rng, Case& c) {
   const std::size_t n = 3 + rng.below(10);
   c.scene = random_crowd(rng, n);
@@ -215,28 +218,28 @@ constexpr Family catalog[] = {
     {"deep", "overlaps of 10 % to 150 % of the size", 14, deep},
     {"contained", "a small body inside a large one, some concentric or coaxial", 8, contained},
     {"lattice", "axis-aligned bodies on a lattice of 1/8: exact touching, ties, parallel faces", 8, lattice},
-    {"tiny", "millimetre bodies in a metre world", 6, tiny},
+    {"tiny", "millimetre-sized bodies in a world measured in metres", 6, tiny},
     {"far", "unit bodies 100 to 1e6 from the origin", 6, far_away},
-    {"translate", "time of impact, translation", 5, translate},
+    {"translate", "time of impact, translation only", 5, translate},
     {"spin", "time of impact, translation with slow and fast rotation", 5, spin},
-    {"crowd", "4 to 31 bodies: candidate pairs and whole-scene contacts", 3, crowd},
-    {"script", "insert, move, teleport, remove, re-insert with queries between", 3, script},
-    {"start", "time of impact, overlapping or all but touching from the start", 2, start_in_contact},
+    {"crowd", "4 to 31 bodies: candidate pairs and scene contacts", 3, crowd},
+    {"script", "insert, move, teleport, remove, reinsert, with queries between", 3, script},
+    {"start", "time of impact, overlapping or almost touching at the start", 2, start_in_contact},
     {"graze", "time of impact, passing with a gap of either sign, 1e-2 to 1e-8 of the size", 2, graze},
     {"bullet", "time of impact, small and fast bodies through thin plates", 2, bullet},
     {"last", "time of impact in the last 0.05 % of the step, or just after it", 1, last_moment},
     {"whirl", "time of impact, turning by 9 to 60 radians", 1, whirl},
-    {"swarm", "3 to 20 bodies that move: candidate pairs of the step, times of impact", 3, swarm},
-    {"tiles", "2 to 26 bodies that touch exactly or within ulps, far and near, of mixed sizes", 3, tiles},
-    {"errands", "tiles inserted, moved by ulps and more, removed, re-inserted, with queries", 3, errands},
+    {"swarm", "3 to 20 moving bodies: swept candidate pairs, times of impact", 3, swarm},
+    {"tiles", "2 to 26 bodies of mixed sizes that touch exactly or within ulps, near and far", 3, tiles},
+    {"errands", "tiles inserted, moved by ulps or more, removed, reinserted, with queries", 3, errands},
     {"throng", "40 to 400 tiles: candidate pairs", 1, throng},
     {"zero", "sizes of zero: points, segments, discs, plates, flat hulls", 7, zero_sizes},
     {"unequal", "a body 250 to 4e6 times smaller than the other", 5, unequal_sizes},
-    {"parallel", "boxes and prisms turned against each other by 1e-14 to 0.1", 6, nearly_parallel},
+    {"parallel", "boxes and prisms rotated relative to each other by 1e-14 to 0.1", 6, nearly_parallel},
     {"mesh", "meshes of 1 to 450 triangles: single, folded, closed, flat, scattered", 8, meshes},
     {"vertices", "hulls of 64 to 300 vertices", 4, many_vertices},
     {"company", "3 to 14 bodies with meshes, groups, ignored pairs: candidates and contacts", 4, company},
-    {"dialogue", "3 to 6 bodies of few shapes; pairs asked in turn, in both orders, and again", 5, dialogue},
+    {"dialogue", "3 to 6 bodies, few shapes; pairs queried in turn, in both orders, and again", 5, dialogue},
 };
 
 const Family& named(std::string_view name) {
@@ -244,12 +247,12 @@ const Family& named(std::string_view name) {
       std::find_if(std::begin(catalog), std::end(catalog), [&](const Family& f) { return f.name == name; });
   if (it == std::end(catalog)) {
     std::string place = "--family ";
-    throw InputError(place.append(name), "no such family; see `touchstone families`");
+    throw InputError(place.append(name), "unknown family; see `touchstone families`");
   }
   return *it;
 }
 
-// Of `a`, `b,c` or, empty, all: by their weights.
+// Draws one of `a`, of `b,c` or, when empty, of all families, by weight.
 const Family& pick(Rng& rng, std::string_view names) {
   std::array<bool, std::size(catalog)> among{};
   int total = 0;
@@ -269,7 +272,7 @@ const Family& pick(Rng& rng, std::string_view names) {
   return catalog[one];
 }
 
-constexpr std::uint64_t forms_apart = 0x666f726d73ULL;  // another stream than the case's own
+constexpr std::uint64_t forms_stream = 0x666f726d73ULL;  // a stream separate from the case's own
 
 Case make_new(std::uint64_t seed, std::uint64_t index, std::string_view names) {
   Rng rng = Rng::stream(seed, index);
@@ -285,7 +288,7 @@ Case make_new(std::uint64_t seed, std::uint64_t index, std::string_view names) {
 std::span<const Family> families() { return catalog; }
 
 Case make_case(std::uint64_t seed, std::uint64_t index, std::string_view names) {
-  Rng rng = Rng::stream(seed ^ forms_apart, index);
+  Rng rng = Rng::stream(seed ^ forms_stream, index);
   const bool sequel = is_sequel(rng) && index > 0;
   Case c = sequel ? make_case(seed, index - 1, names) : make_new(seed, index, names);
   if (sequel) move_a_body(rng, c);

@@ -1,5 +1,5 @@
-// Families of random cases. A case is a pure function of (family mix, seed, index): any case can be made
-// again alone.
+// Families of random cases. A case is a pure function of (family mix, seed, index), so any case can be
+// regenerated on its own.
 #pragma once
 
 #include <cstdint>
@@ -15,7 +15,7 @@ namespace touchstone::fuzz {
 
 struct Family {
   std::string_view name;
-  std::string_view line;  // what it aims at, for people
+  std::string_view line;  // summary for display
   int weight;             // share in the default mix
   void (*make)(Rng& rng, Case& out);
 };
@@ -23,7 +23,7 @@ struct Family {
 /// The catalog.
 std::span<const Family> families();
 
-/// The index-th case of a campaign of one family, of several by their weights (`deep,far`), or, empty, of
+/// The index-th case of a campaign with one family, several by weight (`deep,far`) or, when `names` is empty,
 /// all. Throws InputError on an unknown family.
 Case make_case(std::uint64_t seed, std::uint64_t index, std::string_view names = {});
 

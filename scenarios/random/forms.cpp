@@ -6,7 +6,7 @@
 namespace touchstone::fuzz {
 namespace {
 
-// All questions about pairs, or each with a chance.
+// All pair queries, or each with some probability.
 void reverse_pairs(Rng& rng, Case& c) {
   const bool all = rng.chance(0.7);
   for (Query& q : c.queries)

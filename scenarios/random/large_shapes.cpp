@@ -22,7 +22,7 @@ TriangleMesh soup(Rng& rng, std::size_t triangles, double scale) {
   return m;
 }
 
-// Two triangles with an edge in common: a square, or folded along its diagonal.
+// Two triangles with a common edge: a square, possibly folded along its diagonal.
 TriangleMesh folded(Rng& rng, double scale) {
   const double lift = rng.chance(0.3) ? 0 : rng.uniform(-1, 1) * scale;
   return {{{-scale, -scale, 0}, {scale, -scale, 0}, {scale, scale, 0}, {-scale, scale, lift}},
@@ -47,8 +47,8 @@ TriangleMesh field(Rng& rng, double scale, double height) {
   return m;
 }
 
-// Each triangle becomes four; the new vertices stay where they are, so that the four are coplanar, or are put
-// on the sphere.
+// Splits each triangle into four. The new vertices stay in place, so that the four are coplanar, or are
+// projected to the sphere.
 TriangleMesh divided(const TriangleMesh& m, bool round) {
   TriangleMesh r{m.vertices, {}};
   std::map<std::pair<int, int>, int> middles;
@@ -67,7 +67,7 @@ TriangleMesh divided(const TriangleMesh& m, bool round) {
   return r;
 }
 
-// An octahedron of 8, 32 or 128 triangles, as it is or rounded, stretched along its axes.
+// An octahedron with 8, 32 or 128 triangles, flat or rounded, stretched along its axes.
 TriangleMesh closed(Rng& rng, double scale) {
   TriangleMesh m{{{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}},
                  {{0, 2, 4}, {2, 1, 4}, {1, 3, 4}, {3, 0, 4}, {2, 0, 5}, {1, 2, 5}, {3, 1, 5}, {0, 3, 5}}};
@@ -83,13 +83,16 @@ struct Spot {
   Vec3 point, normal;  // world
 };
 
-// A point of one triangle, inside it, on its border or a corner, and its normal to either side.
+// A point of one triangle (in its interior, on its border or at a corner) and its normal, to either side.
 Spot spot_on(Rng& rng, const Scene& s, int body) {
   const auto& m = std::get<TriangleMesh>(s.shape_of(body));
   const auto& t = m.triangles[rng.below(m.triangles.size())];
   const auto corner = [&](std::size_t k) { return m.vertices[static_cast<std::size_t>(t[k])]; };
   double u = rng.uniform(), v = rng.uniform();
-  if (u + v > 1) u = 1 - u, v = 1 - v;
+  if (u + v > 1) {
+    u = 1 - u;
+    v = 1 - v;
+  }
   const auto place = rng.below(8);
   if (place < 2) v = 0;
   if (place == 0) u = 0;
@@ -133,8 +136,8 @@ Shape any_mesh(Rng& rng, double scale) {
   return soup(rng, 2 + rng.below(40), scale);
 }
 
-// The convex body stands at a point of the surface, on either side of it, with a gap or a depth there; or in
-// the middle.
+// The convex body is placed at a point of the surface, on either side, with a gap or a depth there; or in the
+// middle.
 void meshes(Rng& rng, Case& c) {
   constexpr double sizes[] = {1, 1, 0.25, 3};
   Scene s = random_pair(rng, ShapeKind::mesh, random_convex_kind(rng), 1, Vec3::Zero());
@@ -143,7 +146,7 @@ void meshes(Rng& rng, Case& c) {
   const Spot at = spot_on(rng, s, 0);
   const double gap = any_gap(rng, extent(s.shapes[1]));
   s.bodies[1].pose.translation = at.point + at.normal * gap - farthest_point(s, 1, -at.normal);
-  // Within a closed one, whose surface it may well not reach.
+  // Inside a closed mesh, possibly without reaching its surface.
   if (rng.below(6) == 0) s.bodies[1].pose.translation = rng.vector(0, 0.1);
   const bool moves = rng.below(6) == 0;
   c.scene = std::move(s);

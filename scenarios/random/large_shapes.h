@@ -1,4 +1,4 @@
-// Meshes of every size, from one triangle to hundreds, open, closed, folded and flat; hulls of many vertices.
+// Meshes from one triangle to hundreds, open, closed, folded and flat; hulls with many vertices.
 #pragma once
 
 #include "core/math/rng.h"

@@ -41,10 +41,14 @@ void change_number(std::vector<double*>& all, const Change& c, Change::Kind kind
   if (kind == Change::Kind::simple) v = simple(v, c.argument);
 }
 
-// Directions along which faces are parallel: the first body's axes, the world's, the line of origins.
+// Origins nearer than this give no direction worth steering along.
+constexpr double least_origin_distance = 1e-6;
+
+// Directions along which faces are parallel: the first body's axes, the world axes, the line between the
+// origins.
 Vec3 steering_direction(const Scene& s, std::uint16_t choice) {
   const Vec3 between = s.bodies[1].pose.translation - s.bodies[0].pose.translation;
-  if (choice % 7 == 6 && between.norm() > 1e-6) return between.normalized();
+  if (choice % 7 == 6 && between.norm() > least_origin_distance) return between.normalized();
   const Vec3 axis = Vec3::Unit(choice % 3) * (choice % 2 == 0 ? 1 : -1);
   return choice % 7 < 3 ? axis : Vec3((rotation_matrix(s.bodies[0].pose.rotation) * axis).normalized());
 }

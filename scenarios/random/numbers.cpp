@@ -35,7 +35,10 @@ std::vector<double*> numbers(Case& c) {
   for (Shape& s : c.scene.shapes) collect(s, out);
   for (Body& b : c.scene.bodies) {
     collect(b.pose, out);
-    if (b.motion) collect(b.motion->linear, out), collect(b.motion->angular, out);
+    if (b.motion) {
+      collect(b.motion->linear, out);
+      collect(b.motion->angular, out);
+    }
   }
   for (Step& s : c.scene.script)
     if (s.pose) collect(*s.pose, out);

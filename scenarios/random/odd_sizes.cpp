@@ -14,7 +14,7 @@ void ask_pair(Case& c, Scene s) {
   c.queries = {{Question::overlap, 0, 1}, {Question::distance, 0, 1}, {Question::contact, 0, 1}};
 }
 
-// Body 1 flies at body 0 from where it stands.
+// Body 1 flies towards body 0 from its position.
 void ask_impact(Rng& rng, Case& c, Scene s) {
   const Vec3 to = s.bodies[0].pose.translation - s.bodies[1].pose.translation;
   Motion m{(to + rng.vector(0, 0.3)) * rng.uniform(0.5, 2), Vec3::Zero()};
@@ -38,8 +38,8 @@ void flatten_hull(Rng& rng, Hull& h) {
   h = make_hull(std::move(h.vertices));
 }
 
-// On axes of the world, at coordinates that are multiples of 1/8: flat bodies then touch exactly, or share a
-// plane.
+// Aligned with the world axes, at coordinates that are multiples of 1/8: flat bodies then touch exactly or
+// share a plane.
 void put_on_lattice(Rng& rng, Scene& s) {
   static const Quat turns[] = {{0, 0, 0, 1}, {1, 0, 0, 1}, {0, 1, 0, 1}, {0, 0, 1, 1}};
   for (Body& b : s.bodies) b.pose.rotation = turns[rng.below(std::size(turns))];
@@ -50,11 +50,11 @@ void put_on_lattice(Rng& rng, Scene& s) {
   for (double& x : s.bodies[1].pose.translation) x = std::round(rng.uniform(-1, 1) * 8) / 8;
 }
 
-// The regular prism of 3 to 8 sides: edges along z, faces about it.
+// A regular prism with 3 to 8 sides: edges along z, faces around it.
 Shape prism(Rng& rng) {
   const auto sides = 3 + rng.below(6);
   const double radius = rng.uniform(0.4, 1.2), half = rng.uniform(0.3, 1.2);
-  // Rational points of the circle: no sine, whose last bit depends on the library.
+  // Rational points on the circle, to avoid a sine, whose last bit depends on the library.
   std::vector<Vec3> v;
   for (std::uint64_t i = 0; i < sides; ++i) {
     const double u = 4 * (static_cast<double>(i) + 0.5) / static_cast<double>(sides) - 2;
@@ -77,7 +77,8 @@ double any_gap(Rng& rng, double size) {
 void exchange_bodies(Scene& s) {
   std::swap(s.bodies[0], s.bodies[1]);
   std::swap(s.shapes[0], s.shapes[1]);
-  s.bodies[0].shape = 0, s.bodies[1].shape = 1;
+  s.bodies[0].shape = 0;
+  s.bodies[1].shape = 1;
 }
 
 void flatten(Rng& rng, Shape& shape) {
@@ -110,7 +111,7 @@ void zero_sizes(Rng& rng, Case& c) {
   ask_pair(c, std::move(s));
 }
 
-// Against the face of a box, or the point of another body that lies farthest in some direction.
+// Placed against the face of a box, or against the farthest point of another body in some direction.
 void unequal_sizes(Rng& rng, Case& c) {
   const ShapeKind large = random_convex_kind(rng), small = random_convex_kind(rng);
   Scene s = random_pair(rng, large, small, 1, Vec3::Zero());
@@ -124,8 +125,8 @@ void unequal_sizes(Rng& rng, Case& c) {
   ask_pair(c, std::move(s));
 }
 
-// The second body stands as the first one does but for a turn by 2^-45 to 1/8, and perhaps by whole quarters;
-// mostly edge to edge.
+// The second body has the first one's rotation except for a turn by 2^-45 to 1/8 and possibly by quarter
+// turns; mostly edge to edge.
 void nearly_parallel(Rng& rng, Case& c) {
   static const Quat quarters[] = {{0, 0, 0, 1}, {1, 0, 0, 1}, {0, 1, 0, 1}, {0, 0, 1, 1}, {1, 1, 1, 1}};
   Scene s = random_pair(rng, ShapeKind::box, ShapeKind::box, 1, Vec3::Zero());

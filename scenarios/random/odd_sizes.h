@@ -1,5 +1,5 @@
 // Pairs whose sizes are unusual: zero (points, segments, discs, plates), or very different; and boxes and
-// prisms whose edges are all but parallel.
+// prisms whose edges are almost parallel.
 #pragma once
 
 #include "core/math/rng.h"
@@ -11,14 +11,14 @@ void zero_sizes(Rng& rng, Case& c);
 void unequal_sizes(Rng& rng, Case& c);
 void nearly_parallel(Rng& rng, Case& c);
 
-/// Sets one size of the shape to zero, or several, or all. Ellipsoids, half-spaces and meshes stay as they
-/// are.
+/// Sets one, several or all sizes of the shape to zero. Ellipsoids, half-spaces and meshes are unchanged.
 void flatten(Rng& rng, Shape& shape);
 
-/// The gap of a pair of the given size: zero, of 2^-40 to 2^-7 of it with either sign, or of its order.
+/// A gap for a pair of the given size: zero, 2^-40 to 2^-7 of the size with either sign, or comparable to the
+/// size.
 double any_gap(Rng& rng, double size);
 
-/// Body 1 becomes body 0 and the other way round.
+/// Swaps bodies 0 and 1.
 void exchange_bodies(Scene& pair);
 
 }  // namespace touchstone::fuzz

@@ -6,25 +6,25 @@
 
 namespace touchstone::fuzz {
 
-/// A scene of two bodies (0 and 1) of the given kinds at random rotations, the first one at `origin`.
+/// A scene of two bodies (0 and 1) of the given kinds with random rotations, the first one at `origin`.
 Scene random_pair(Rng& rng, ShapeKind a, ShapeKind b, double scale, const Vec3& origin);
 
-/// Moves body 1 so that along the unit direction n (world, from 0 to 1) the supports leave `gap` between the
-/// bodies (negative: they overlap by that much along n). `sideways` shifts it perpendicular to n by that
+/// Moves body 1 so that along the unit direction n (world, from 0 to 1) the support planes are `gap` apart
+/// (negative: the bodies overlap by that much along n). `sideways` shifts it perpendicular to n by that
 /// fraction of its size.
 void place_along(Rng& rng, Scene& pair, const Vec3& n, double gap, double sideways);
 
-/// The direction to place along: random, or the outward normal when body 0 is a half-space.
+/// The direction for placing: random, or the outward normal when body 0 is a half-space.
 Vec3 placement_direction(Rng& rng, const Scene& pair);
 
-/// Of a convex body: its point farthest along n (world), relative to its origin; zero for a half-space or
-/// mesh.
+/// The point of a convex body farthest along n (world), relative to the body's origin; zero for a half-space
+/// or mesh.
 Vec3 farthest_point(const Scene& s, int body, const Vec3& n);
 
 double mean_extent(const Scene& pair);
 
-/// Two kinds that some engine can pair: never mesh with mesh, half-space with half-space, or mesh with
-/// half-space; the unbounded or static one comes first.
+/// Two kinds that some engine supports as a pair: never mesh with mesh, half-space with half-space, or mesh
+/// with half-space. The unbounded or static kind comes first.
 std::pair<ShapeKind, ShapeKind> random_kinds(Rng& rng);
 
 }  // namespace touchstone::fuzz

@@ -5,8 +5,8 @@
 namespace touchstone::fuzz {
 namespace {
 
-// Cosine above which a direction counts as a half-space's own normal when a random pair is placed; a coarse
-// choice of where to put a body, judged by nobody. Bites: tests/fuzz hit rate.
+// Cosine above which a direction counts as a half-space's own normal when a random pair is placed: a coarse
+// choice of where to put a body that no judgement depends on. Tested by: tests/fuzz hit rate.
 constexpr double parallel_cosine = 1 - 0x1p-30;
 
 double size(Rng& rng, double scale) { return rng.uniform(0.3, 1.2) * scale; }
@@ -30,7 +30,7 @@ Shape random_hull(Rng& rng, double scale) {
   return make_hull(std::move(v));
 }
 
-// A height field of 3×3 vertices, 8 triangles: bumpy, with inner edges both convex and reflex.
+// A bumpy height field with 3×3 vertices and 8 triangles, with convex and reflex inner edges.
 Shape random_mesh(Rng& rng, double scale) {
   TriangleMesh m;
   const double cell = size(rng, scale);

@@ -8,11 +8,10 @@ namespace touchstone::fuzz {
 
 Shape random_shape(Rng& rng, ShapeKind kind, double scale);
 
-/// Convex kinds only, each equally often.
+/// Convex kinds only, with equal probability.
 ShapeKind random_convex_kind(Rng& rng);
 
-/// Support value max n·x over the shape in its body frame; +inf for a half-space unless n is along its
-/// normal.
+/// Support value max n·x over the shape in its body frame; +inf for a half-space unless n is its normal.
 double support_value(const Shape& shape, const Vec3& n_local);
 
 }  // namespace touchstone::fuzz

@@ -75,7 +75,7 @@ bool quaternion_extreme(const Case& c, const Case&) {
   return any_quaternion(c, [](double q) { return q < 1e-6 || q > 1e6; });
 }
 
-// How many sizes of zero the flattest primitive has, of how many.
+// The number of zero sizes of the flattest primitive, and its number of sizes.
 bool has_zero_sizes(const Case& c, std::size_t least, bool all) {
   return std::any_of(c.scene.shapes.begin(), c.scene.shapes.end(), [&](Shape s) {
     if (kind_of(s) >= ShapeKind::ellipsoid) return false;
@@ -115,7 +115,7 @@ bool two_triangles(const Case& c, const Case&) {
 bool hundreds_of_triangles(const Case& c, const Case&) {
   return any_shape<TriangleMesh>(c, [](const TriangleMesh& m) { return m.triangles.size() >= 100; });
 }
-// Every edge belongs to two triangles, which have it in opposite directions.
+// Every edge belongs to two triangles that use it in opposite directions.
 bool is_closed(const TriangleMesh& m) {
   std::vector<std::pair<int, int>> edges;
   for (const auto& [a, b, c] : m.triangles) edges.insert(edges.end(), {{a, b}, {b, c}, {c, a}});
@@ -143,8 +143,11 @@ bool hull_of(const Case& c, const Case&) {
   return any_shape<Hull>(c, [](const Hull& h) { return h.vertices.size() >= least; });
 }
 
-// Some edge of one is turned against some edge of the other by less than a milliradian, and by more than
-// rounding.
+// Sines of the angle between edges that count as nearly parallel: more than rounding, less than a
+// milliradian.
+constexpr double least_edge_sine = 1e-15, most_edge_sine = 1e-3;
+
+// Some edge of one is nearly parallel to some edge of the other.
 bool nearly_parallel_boxes(const Case& c, const Case&) {
   return any_question(c, [&](const Query& q) {
     for (const int i : {q.a, q.b})
@@ -154,38 +157,38 @@ bool nearly_parallel_boxes(const Case& c, const Case&) {
     for (int i = 0; i < 3; ++i)
       for (int k = 0; k < 3; ++k) {
         const double sine = a.col(i).cross(b.col(k)).norm();
-        if (sine > 1e-15 && sine < 1e-3) return true;
+        if (sine > least_edge_sine && sine < most_edge_sine) return true;
       }
     return false;
   });
 }
 
 constexpr Regime rows[] = {
-    {"reversed", "a question about bodies a > b", 12, reversed},
-    {"distance-last", "a distance asked right after a contact", 32, distance_after_contact},
-    {"twice", "the same question about the same pair again", 32, asked_twice},
-    {"between", "the same, with another pair asked between", 100, another_pair_between},
-    {"sequel", "the shapes of the case before, a body moved or none", 32, same_shapes_as_before},
-    {"shared", "several bodies of one shape", 32, shape_in_common},
-    {"filtered", "bodies of one group, or pairs to be ignored", 128, filtered},
+    {"reversed", "a query about bodies a > b", 12, reversed},
+    {"distance-last", "a distance query right after a contact query", 32, distance_after_contact},
+    {"twice", "the same query about the same pair again", 32, asked_twice},
+    {"between", "the same, with a query about another pair between", 100, another_pair_between},
+    {"sequel", "the shapes of the previous case, with at most one body moved", 32, same_shapes_as_before},
+    {"shared", "several bodies sharing one shape", 32, shape_in_common},
+    {"filtered", "bodies in one group, or ignored pairs", 128, filtered},
     {"quaternion", "a quaternion shorter than 0.1 or longer than 10", 16, quaternion_not_unit},
     {"quaternion-far", "a quaternion shorter than 1e-6 or longer than 1e6", 64, quaternion_extreme},
     {"zero", "a sphere, box, capsule, cylinder or cone with a size of zero", 32, size_zero},
-    {"point", "one of these of which all sizes are zero", 64, point},
+    {"point", "one of these with all sizes zero", 64, point},
     {"plate", "a box that is a rectangle, a segment or a point", 128, flat_box},
     {"flat-hull", "a hull that is a polygon, a segment or a point", 64, flat_hull},
-    {"unequal", "a pair of sizes that differ by more than 120", 60, unequal},
-    {"unequal-far", "a pair of sizes that differ by more than 1e5", 200, very_unequal},
+    {"unequal", "a pair with sizes that differ by a factor of more than 120", 60, unequal},
+    {"unequal-far", "a pair with sizes that differ by a factor of more than 1e5", 200, very_unequal},
     {"triangle", "a mesh of one triangle", 100, one_triangle},
     {"two-triangles", "a mesh of two triangles", 100, two_triangles},
     {"closed-mesh", "a mesh that is the surface of a solid", 100, closed_mesh},
-    {"large-mesh", "a mesh of 100 triangles and more", 100, hundreds_of_triangles},
+    {"large-mesh", "a mesh of 100 or more triangles", 100, hundreds_of_triangles},
     {"coplanar", "a mesh whose triangles lie in one plane", 128, coplanar},
-    {"mesh-second", "a question whose second body is a mesh", 64, mesh_second},
-    {"mesh-company", "a mesh among three and more bodies", 64, mesh_in_company},
-    {"hull-64", "a hull of 64 vertices and more", 64, hull_of<64>},
-    {"hull-256", "a hull of 256 vertices and more", 128, hull_of<256>},
-    {"parallel", "two boxes with edges that are parallel but for less than a milliradian", 80,
+    {"mesh-second", "a query whose second body is a mesh", 64, mesh_second},
+    {"mesh-company", "a mesh among three or more bodies", 64, mesh_in_company},
+    {"hull-64", "a hull of 64 or more vertices", 64, hull_of<64>},
+    {"hull-256", "a hull of 256 or more vertices", 128, hull_of<256>},
+    {"parallel", "two boxes with edges less than a milliradian from parallel", 80,
      nearly_parallel_boxes},
 };
 

@@ -1,5 +1,5 @@
-// Regimes: what the default mix must contain whatever its families are, because some engine errs only there.
-// A row says how to see it in a case, and the least share of the default mix that shows it.
+// Regimes: situations that the default mix must contain whatever its families are, because some engine fails
+// only there. A row has a test for the situation and its minimum share of the default mix.
 #pragma once
 
 #include <span>
@@ -11,9 +11,9 @@ namespace touchstone::fuzz {
 
 struct Regime {
   std::string_view name;
-  std::string_view line;  // for people
-  int one_in;             // at least one case in so many of the default mix shows it
-  bool (*shown)(const Case& c, const Case& before);  // `before`: the case with the index before
+  std::string_view line;  // summary for display
+  int one_in;             // at least one case in this many of the default mix shows it
+  bool (*shown)(const Case& c, const Case& before);  // `before`: the case with the previous index
 };
 
 /// The catalog.

@@ -17,7 +17,7 @@ double one_size(Rng& rng, Sizes sizes) {
   return rng.binary_scale(-7, 1);
 }
 
-// Shapes whose boxes and contacts are decided exactly; mostly boxes, whose faces meet in whole rectangles.
+// Shapes whose boxes and contacts can be decided exactly; mostly boxes, whose faces meet in rectangles.
 Shape tile(Rng& rng, Sizes sizes) {
   const double x = one_size(rng, sizes), y = one_size(rng, sizes), z = one_size(rng, sizes);
   const auto kind = rng.below(10);
@@ -38,9 +38,10 @@ double moved_by_ulps(double x, std::int64_t ulps) {
   return x;
 }
 
-// Where body i's box touches that of body j (which stands at `at`): exactly where the lattice makes the sums
-// exact, up to a few ulps to either side otherwise. Across, the boxes share a part of their faces, or the two
-// points that carry them lie near each other, so that the bodies touch where their boxes do.
+// A position at which body i's box touches that of body j (which is at `at`): exactly where the lattice makes
+// the sums exact, otherwise up to a few ulps to either side. In the other directions the boxes share a part
+// of their faces, or the two points that determine them lie near each other, so that the bodies touch where
+// their boxes do.
 Vec3 beside(Rng& rng, const Scene& s, std::size_t i, std::size_t j, const Vec3& at, bool lattice) {
   const auto axis = static_cast<Eigen::Index>(rng.below(3));
   const double sign = rng.chance(0.5) ? 1 : -1;
@@ -65,7 +66,7 @@ Quat tile_rotation(Rng& rng, Sizes sizes) {
   return turns[rng.below(std::size(turns))];
 }
 
-// The world's origin, or anywhere up to 2^20 from it, on a lattice point in each octant.
+// The world origin, or a lattice point up to 2^20 from it in any octant.
 Vec3 tile_origin(Rng& rng) {
   if (rng.chance(0.5)) return Vec3::Zero();
   const double far = std::round(rng.binary_scale(1, 19));
@@ -115,18 +116,29 @@ Scene tiled(Rng& rng, std::size_t n) {
 
 void query(Scene& s) { s.script.push_back({Step::Op::query, -1, std::nullopt}); }
 
-// Where a body goes next: by a few ulps, by a step of the lattice, far away, or beside another body.
+// Where a body goes next: a few ulps away, a lattice step away, far away, or beside another body.
 Pose next_pose(Rng& rng, const Scene& s, const std::vector<std::optional<Pose>>& present, std::size_t b) {
   Pose pose = present[b].value_or(s.bodies[b].pose);
   const auto axis = static_cast<Eigen::Index>(rng.below(3));
   const auto way = rng.below(8);
-  if (way == 0)
-    return pose.translation[axis] = moved_by_ulps(pose.translation[axis], rng.chance(0.5) ? 1 : -1), pose;
-  if (way == 1) return pose.translation[axis] += rng.chance(0.5) ? 0.125 : -0.125, pose;
-  if (way == 2) return pose.translation += rng.unit_vector() * rng.binary_scale(-12, -2), pose;
-  if (way == 3) return pose.translation[axis] += rng.chance(0.5) ? 64.0 : -64.0, pose;
+  if (way == 0) {
+    pose.translation[axis] = moved_by_ulps(pose.translation[axis], rng.chance(0.5) ? 1 : -1);
+    return pose;
+  }
+  if (way == 1) {
+    pose.translation[axis] += rng.chance(0.5) ? 0.125 : -0.125;
+    return pose;
+  }
+  if (way == 2) {
+    pose.translation += rng.unit_vector() * rng.binary_scale(-12, -2);
+    return pose;
+  }
+  if (way == 3) {
+    pose.translation[axis] += rng.chance(0.5) ? 64.0 : -64.0;
+    return pose;
+  }
   const auto j = rng.below(present.size());
-  // Beside a half-space is at infinity.
+  // The place beside a half-space is at infinity.
   if (j == b || !present[j] || kind_of(s.shape_of(static_cast<int>(j))) == ShapeKind::half_space)
     return s.bodies[b].pose;
   pose.translation = beside(rng, s, b, j, present[j]->translation, rng.chance(0.5));

@@ -1,5 +1,5 @@
-// Crowds that a broad phase gets wrong by an ulp: boxes that touch exactly or overlap by a rounding, on both
-// sides of the origin and far from it, of very different sizes, in numbers, and scripts over them.
+// Crowds in which an error of one ulp makes a broad phase fail: many boxes of very different sizes that touch
+// exactly or overlap by a rounding error, on both sides of the origin and far from it, and scripts over them.
 #pragma once
 
 #include "core/math/rng.h"

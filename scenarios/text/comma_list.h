@@ -6,8 +6,8 @@
 
 namespace touchstone {
 
-/// Calls visit(std::string_view) for each part between commas, empty ones too; an empty list is one empty
-/// part.
+/// Calls visit(std::string_view) for each part between commas, including empty ones; an empty list is one
+/// empty part.
 template <class Visit>
 void for_each_in_list(std::string_view list, Visit&& visit) {
   for (std::size_t from = 0; from <= list.size();) {

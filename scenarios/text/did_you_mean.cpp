@@ -8,7 +8,8 @@ namespace {
 
 constexpr std::size_t most_suggestions = 3, longest_name = 200;
 
-// Damerau's distance, of neighbouring letters only: insertions, deletions, substitutions, transpositions.
+// Restricted Damerau distance: insertions, deletions, substitutions and transpositions of neighbouring
+// letters.
 std::size_t typing_errors(std::string_view x, std::string_view y) {
   std::vector<std::size_t> before(y.size() + 1), last(y.size() + 1), now(y.size() + 1);
   for (std::size_t j = 0; j <= y.size(); ++j) last[j] = j;

@@ -1,6 +1,6 @@
-// Text from outside, made fit to be shown or stored. Names in files, the cards of engines and the last words
-// of a dying process are any bytes: some would end a JSON document, others move a terminal's cursor or turn
-// its text around.
+// Makes text from outside safe to show or store. Names in files, engine cards and the last output of a
+// crashing process can be any bytes: some would end a JSON document, others move the cursor of a terminal or
+// reverse its text.
 #pragma once
 
 #include <cstddef>
@@ -9,7 +9,7 @@
 
 namespace touchstone {
 
-/// The length of the well-formed UTF-8 sequence at the start of s, 0 when there is none.
+/// The length of the well-formed UTF-8 sequence at the start of s; 0 when there is none.
 inline std::size_t utf8_length(std::string_view s) {
   const auto byte = [&](std::size_t i) { return i < s.size() ? static_cast<unsigned char>(s[i]) : 0U; };
   const unsigned a = byte(0), b = byte(1);
@@ -17,7 +17,7 @@ inline std::size_t utf8_length(std::string_view s) {
   if (s.empty()) return 0;
   if (a < 0x80) return 1;
   if (a >= 0xC2 && a <= 0xDF) return follows(1) ? 2 : 0;
-  // Neither longer than need be, nor a surrogate, nor beyond U+10FFFF.
+  // Not overlong, not a surrogate, not beyond U+10FFFF.
   if (a >= 0xE0 && a <= 0xEF) {
     const bool second = a == 0xE0 ? b >= 0xA0 && b <= 0xBF : a == 0xED ? b >= 0x80 && b <= 0x9F : follows(1);
     return second && follows(2) ? 3 : 0;
@@ -52,7 +52,7 @@ inline std::string cut_utf8(std::string s, std::size_t bytes) {
 }
 
 namespace printable_detail {
-// Controls of Unicode that move the cursor (C0, C1, DEL) or turn the direction of text.
+// Unicode controls that move the cursor (C0, C1, DEL) or change the direction of text.
 inline bool is_control(std::string_view c) {
   const auto at = [&](std::size_t i) { return static_cast<unsigned char>(c[i]); };
   if (c.size() == 1) return at(0) < 0x20 || at(0) == 0x7F;
@@ -63,8 +63,7 @@ inline bool is_control(std::string_view c) {
 }
 }  // namespace printable_detail
 
-/// Valid UTF-8 without control characters: each of them becomes U+FFFD. `keep`: those that stay, such as
-/// "\n".
+/// Valid UTF-8 in which each control character becomes U+FFFD, except those in `keep`, such as "\n".
 inline std::string printable(std::string_view s, std::string_view keep = "") {
   std::string r;
   r.reserve(s.size());

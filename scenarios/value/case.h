@@ -1,4 +1,4 @@
-// A case: a scene and what is asked of it, as plain values.
+// A case: a scene and its queries, as plain values.
 #pragma once
 
 #include <array>
@@ -12,13 +12,13 @@
 
 namespace touchstone {
 
-/// Numbers are those of ts_question.
+/// The numbers are those of ts_question.
 enum class Question : std::uint8_t {
   overlap,
   distance,
   contact,
   time_of_impact,
-  candidates,       // of the bodies as they stand: motions are ignored
+  candidates,       // at the bodies' poses: motions are ignored
   scene_contacts,   // likewise
   swept_candidates  // pairs that overlap at some time of the step, from the bodies' own poses; no script
 };
@@ -38,20 +38,20 @@ constexpr bool is_broad_question(Question q) {
 
 struct Query {
   Question question = Question::overlap;
-  int a = 0, b = 1;  // bodies; meaningless for candidates and scene_contacts
+  int a = 0, b = 1;  // bodies; not used by candidates, scene_contacts and swept_candidates
   bool operator==(const Query&) const = default;
 };
 
-/// A scene and what is asked of it.
+/// A scene and its queries.
 struct Case {
-  std::string id;      // "family/index" or a file's name; for people
+  std::string id;      // "family/index" or a file's name; for display
   std::string family;  // generator or scenario it came from
   Scene scene;
   std::vector<Query> queries;
   bool operator==(const Case&) const = default;
 };
 
-/// Cases that ask for swept candidates ask for nothing else.
+/// Cases that ask for swept candidates have no other queries.
 inline bool asks_swept_candidates(const Case& c) {
   return !c.queries.empty() && c.queries[0].question == Question::swept_candidates;
 }

@@ -1,5 +1,5 @@
-// Certificates: evidence that what is said of two bodies is true, as plain values. oracles/referee finds
-// them, oracles/checker checks them, scenarios/codec writes and reads them.
+// Certificates: evidence that a claim about two bodies is true, as plain values. oracles/referee finds them,
+// oracles/checker verifies them, scenarios/codec writes and reads them.
 #pragma once
 
 #include <array>
@@ -13,45 +13,46 @@
 
 namespace touchstone {
 
-/// A shape where it stands, exactly: a Pose (any non-zero quaternion: rational rotation) or an affine
+/// A shape at an exact place: a Pose (any non-zero quaternion gives a rational rotation) or an affine
 /// Placement.
 struct Placed {
   const Shape* shape = nullptr;
   std::variant<Pose, Placement> pose;
 };
 
-/// Evidence that a reader can check by hand from the scene alone. All numbers are exact doubles, world frame.
+/// Evidence that a reader can check by hand from the scene alone. All numbers are exact doubles in the world
+/// frame.
 struct Certificate {
   enum class Kind { none, separating_plane, common_point, depth_direction, inner_polytope, closed_form };
   Kind kind = Kind::none;
   Vec3 direction =
       Vec3::Zero();   // separating_plane: A on the side direction·x <= offset, B on direction·x > offset
   double offset = 0;  // depth_direction: depth <= offset; inner_polytope: depth >= offset
-  Vec3 point = Vec3::Zero();  // common_point, when one with double coordinates exists
+  Vec3 point = Vec3::Zero();  // common_point, if one with double coordinates exists
   /// "n/d", when doubles do not suffice. common_point: x, y, z; separating_plane: direction x, y, z, offset,
-  /// and so on when a mesh needs several planes.
+  /// repeated when a mesh needs several planes.
   std::vector<std::string> rationals;
-  /// inner_polytope: vertices of the Minkowski difference A-B as pairs of support points, and its facets.
+  /// inner_polytope: vertices of the Minkowski difference A-B, as pairs of support points, and the facets.
   std::vector<std::array<Vec3, 2>> support_pairs;
   std::vector<std::array<int, 3>> facets;
   std::string note;
 };
 
-/// Evidence about the first contact of two bodies in motion (truth.md §4): planes that keep them apart from
-/// the start on, and a point that is in both at a later time. All numbers are exact rationals "n/d" or "n",
-/// in the frame whose origin travels with that of B (its axes are the world's): x = x_world - (B's
-/// translation + t·B's linear velocity).
+/// Evidence about the first contact of two moving bodies (truth.md §4): planes that separate them from the
+/// start on, and a point that is in both at a later time. All numbers are exact rationals "n/d" or "n", in
+/// the frame whose origin moves with that of B and whose axes are the world's: x = x_world - (B's translation
+/// + t·B's linear velocity).
 struct ImpactCertificate {
-  /// A plane at time t: A on direction·x <= offset, B on direction·x > offset. Between one key and the next
-  /// direction and offset change linearly in t. Two keys of equal t: another plane takes over.
+  /// A plane at time t: A on direction·x <= offset, B on direction·x > offset. Between keys,
+  /// direction and offset change linearly in t. Two keys with the same t switch to another plane.
   struct Key {
     double t = 0;
     std::array<std::string, 3> direction;
     std::string offset;
   };
   using Track = std::vector<Key>;
-  /// Every convex part of A (a triangle of a mesh) has a track that keeps it from every convex part of B.
-  /// Each track goes from t = 0 to clear_until: no contact at any t in [0, clear_until]. None: nothing is
+  /// Every pair of a convex part of A and one of B (triangles of meshes) has a track that separates it. Each
+  /// track covers t = 0 to clear_until: no contact at any t in [0, clear_until]. Without tracks, nothing is
   /// claimed.
   std::vector<Track> tracks;
   double clear_until = 0;
@@ -61,8 +62,8 @@ struct ImpactCertificate {
     std::array<std::string, 3> point;
   };
   std::optional<Contact> contact;
-  /// At time t convex part a of A and part b of B (triangles of meshes; 0 of anything else) are at least
-  /// inner.offset deep in each other: an inner polytope as in checker.h, in the frame above.
+  /// At time t, convex part a of A and part b of B (triangles of meshes; 0 for other shapes) overlap by a
+  /// depth of at least inner.offset: an inner polytope as in checker.h, in the frame above.
   struct Overlap {
     double t = 0;
     std::size_t part_a = 0, part_b = 0;

@@ -1,4 +1,4 @@
-// The kinds of evidence that a certificate of a broad phase rests on.
+// The kinds of evidence behind a broad-phase certificate.
 #pragma once
 
 #include <array>
@@ -7,8 +7,9 @@
 
 namespace touchstone {
 
-/// What candidates must contain. boxes: every pair of the boxes given, which the subject's arithmetic holds
-/// exactly, that overlap; bodies: every pair of bodies that truly overlap, whatever box the subject makes.
+/// What candidates must contain. boxes: every overlapping pair of the given boxes, which the subject's
+/// arithmetic represents exactly; bodies: every pair of bodies that truly overlap, whatever boxes the subject
+/// computes.
 enum class BroadLevel : std::uint8_t { boxes, bodies };
 inline constexpr auto level_names = std::to_array<std::string_view>({"boxes", "bodies"});
 constexpr std::string_view to_string(BroadLevel l) { return level_names[static_cast<std::size_t>(l)]; }

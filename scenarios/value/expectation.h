@@ -1,4 +1,4 @@
-// What is true of a case, as it was derived on paper.
+// The true answers of a case, derived on paper.
 #pragma once
 
 #include <optional>
@@ -9,7 +9,7 @@
 
 namespace touchstone {
 
-/// What is true, independent of any engine and of the referee. Pair fields speak of bodies 0 (A) and 1 (B).
+/// The truth, independent of any engine and of the referee. Pair fields refer to bodies 0 (A) and 1 (B).
 struct Expectation {
   /// |truth - value| <= tolerance, in the scene's unit. 0: the closed form is exact for the scene's doubles.
   struct Value {
@@ -22,7 +22,7 @@ struct Expectation {
     bool operator==(const Impact&) const = default;
   };
   std::optional<bool> overlap;  // of the closed bodies: touching counts
-  std::optional<Value> gap;     // signed: minus the depth when they overlap
+  std::optional<Value> gap;     // signed: minus the depth when the bodies overlap
   std::optional<Vec3>
       normal;  // a direction A to B of least depth (or of the gap); one of several when they tie
   std::optional<Impact> impact;

@@ -1,4 +1,4 @@
-// What the judge says of one answer. Plain values.
+// The judge's verdict on one answer, as plain values.
 #pragma once
 
 #include <array>
@@ -17,22 +17,22 @@ namespace touchstone {
 /// How an answer fails. `missed` and `ghost` are wrong verdicts; the others are wrong numbers or no answer at
 /// all.
 enum class Fault : std::uint8_t {
-  missed,           // overlap, hit or pair that exists is denied
-  ghost,            // overlap, hit or contact that does not exist is claimed
+  missed,           // an existing overlap, hit or pair is denied (false negative)
+  ghost,            // an overlap, hit or contact that does not exist is claimed (false positive)
   distance_off,     // signed distance
   witness_off,      // a witness point is off its body, or the two are not |g| apart
   normal_not_unit,  // NaN, zero or wrong length
   infeasible,       // moving by the depth along the normal does not separate
-  not_minimal,      // a valid direction, but not the least: regret
-  depth_excess,     // the depth is larger than its own normal needs
+  not_minimal,      // the direction separates, but does not have the least depth: regret
+  depth_excess,     // the depth is larger than the normal requires
   point_off,        // a manifold point is farther than the depth from a body
-  point_depth,      // a manifold point is deeper than the bodies can be there
-  incomplete,       // a manifold claimed to be complete leaves out part of the contact region
+  point_depth,      // a manifold point is deeper than possible there
+  incomplete,       // a manifold claimed to be complete omits part of the contact region
   late,             // time of impact after the bodies have penetrated
   early,            // time of impact while they are still apart
-  stale,            // a pair that names a body which is not there
-  unstable,         // asked twice, it answers differently: memory that it never wrote, or state that it keeps
-  no_number,        // an answered question without the number it asks for, or a non-finite one
+  stale,            // a pair names a body that is not present
+  unstable,         // the same query gets different answers: uninitialised memory or retained state
+  no_number,        // an answer lacks the requested number, or the number is not finite
   failed            // threw, crashed, timed out, did not converge
 };
 inline constexpr auto fault_names = std::to_array<std::string_view>(
@@ -52,8 +52,9 @@ struct FaultReport {
   Certificate certificate;
 };
 
-/// Where an error comes from: `algorithm` when the answer is wrong also for the scene that the engine
-/// received, `representation` when it is right for that one (the engine could not hold the scene asked).
+/// Where an error comes from: `algorithm` when the answer is also wrong for the scene that the engine
+/// received, `representation` when it is right for that one (the engine could not represent the original
+/// scene).
 enum class Blame : std::uint8_t { none, algorithm, representation };
 inline constexpr auto blame_names = std::to_array<std::string_view>({"none", "algorithm", "representation"});
 static_assert(blame_names.size() == static_cast<std::size_t>(Blame::representation) + 1);
@@ -62,14 +63,14 @@ constexpr std::string_view to_string(Blame b) { return blame_names[static_cast<s
 /// A claim of an answer that was not checked.
 struct Unjudged {
   std::string claim;
-  /// The definition of a right answer says nothing about it (the depth of a surface). Otherwise it could have
-  /// been checked, and was not.
+  /// The definition of a right answer does not cover it (the depth of a surface). Otherwise it could have
+  /// been checked but was not.
   bool by_definition = false;
 };
 
-/// The one word for an answer, by the first that applies: a claim is wrong; the referee could not decide one;
-/// one was not checked; all were checked, and none is wrong. `failed`: no answer. `refused`: no answer, which
-/// is right for bodies that are none.
+/// The overall verdict on an answer, the first that applies: a claim is wrong; the referee could not decide
+/// one; one was not checked; all were checked and none is wrong. `failed`: no answer. `refused`: no answer,
+/// which is right for things that are not valid bodies.
 enum class Ruling : std::uint8_t { wrong, undecided, not_judged, right, failed, refused, unsupported };
 inline constexpr auto ruling_names = std::to_array<std::string_view>(
     {"wrong", "undecided", "not judged", "right", "failed", "refused", "unsupported"});
@@ -79,22 +80,22 @@ constexpr std::string_view to_string(Ruling r) { return ruling_names[static_cast
 struct Judgement {
   Outcome outcome = Outcome::unsupported;
   bool undecided = false;                    // the referee could not decide: counted, never dropped
-  std::vector<Unjudged> unjudged;            // claims that nobody checked: neither right nor wrong
-  std::vector<FaultReport> faults;           // against the scene asked, worst first
-  std::vector<FaultReport> received_faults;  // against the scene received
+  std::vector<Unjudged> unjudged;            // claims that were not checked: neither right nor wrong
+  std::vector<FaultReport> faults;           // for the original scene, worst first
+  std::vector<FaultReport> received_faults;  // for the scene received
   Blame blame = Blame::none;
-  bool holds_other_shape = false;  // blamed on a representation that is more than rounding
-  double worst_in_l = 0;           // largest error over all checks, also when right
+  bool holds_other_shape = false;  // the representation differs by more than rounding
+  double worst_in_l = 0;           // largest error over all checks, even when right
   std::uint64_t pairs_true = 0, pairs_reported = 0, pairs_duplicate = 0;  // candidates: for precision
-  /// Area (or length) that the manifold's points span over that of the true contact region; empty where the
-  /// region is a point, or no manifold was stated for the true normal.
+  /// Area (or length) spanned by the manifold's points, divided by that of the true contact region; empty
+  /// when the region is a point or no manifold was given for the true normal.
   std::optional<double> manifold_coverage;
-  /// The tolerance that the engine claims for this answer, where it is more than `wide_claim` of L: what is
-  /// right within it says little. Else 0.
+  /// The tolerance that the engine claims for this answer when it exceeds `wide_claim` of L, so that being
+  /// right within it means little; otherwise 0.
   double wide_claim = 0, wide_claim_in_l = 0;
   Ruling ruling() const;
   bool right() const { return ruling() == Ruling::right; }
-  /// Everything that was not checked is so by definition.
+  /// True when every unchecked claim is unchecked by definition.
   bool unjudged_by_definition() const;
 };
 

@@ -14,7 +14,7 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 
 bool moves(const Body& b) { return b.motion && !(b.motion->linear.isZero(0) && b.motion->angular.isZero(0)); }
 
-// Height of the shape's highest point over its origin along d (body frame); infinite where there is none.
+// Height of the shape's highest point above its origin along d (body frame); infinite when there is none.
 double height(const Shape& shape, const Vec3& d) {
   return std::visit(
       [&](const auto& s) {
@@ -31,15 +31,16 @@ double height(const Shape& shape, const Vec3& d) {
       shape);
 }
 
-// The box of the start pose, or of the ball that holds the body however it turns, along the way; wider by far
-// more than what is rounded here.
+// Margin of the boxes, relative to coordinates and size: far more than the rounding here.
+constexpr double slack = 1e-12;
+
+// The box of the start pose, or of the ball that contains the body in any orientation, swept along the path.
 Aabb box_along(const Scene& s, int i) {
   const Body& b = s.bodies[static_cast<std::size_t>(i)];
   const Shape& shape = s.shape_of(i);
   const Motion m = b.motion.value_or(Motion{});
   const double radius = bounding_radius(shape);
   const Mat3 back = rotation_matrix(b.pose.rotation).transpose();
-  constexpr double slack = 1e-12;
   Aabb box;
   for (int k = 0; k < 3; ++k) {
     const Vec3 axis = Vec3::Unit(k);
@@ -68,7 +69,8 @@ std::vector<BodyPair> moving_pairs(const Scene& scene) {
   std::vector<int> order;
   for (int i = 0; i < n; ++i) {
     boxes.push_back(box_along(scene, i));
-    if (boxes.back().lo.x() <= boxes.back().hi.x()) order.push_back(i);  // not what is no set (odd_numbers.h)
+    // Skip bodies that are not sets (odd_numbers.h).
+    if (boxes.back().lo.x() <= boxes.back().hi.x()) order.push_back(i);
   }
   const auto box = [&](int i) -> const Aabb& { return boxes[static_cast<std::size_t>(i)]; };
   const auto body = [&](int i) -> const Body& { return scene.bodies[static_cast<std::size_t>(i)]; };
@@ -98,9 +100,9 @@ std::size_t impacts_not_asked(const Case& c) {
 std::string words_on_impacts_not_asked(const Case& c) {
   const std::size_t n = impacts_not_asked(c);
   if (n == 0) return "";
-  return "not asked: the time of impact of " + std::to_string(n) + (n == 1 ? " pair" : " pairs") +
-         " that may meet during the step (of a scene without questions the first " +
-         std::to_string(most_impacts_asked) + " are asked)";
+  return "no time-of-impact query for " + std::to_string(n) + (n == 1 ? " pair" : " pairs") +
+         " that may meet during the step (a scene without queries gets them for the first " +
+         std::to_string(most_impacts_asked) + " pairs)";
 }
 
 }  // namespace touchstone

@@ -1,5 +1,5 @@
-// Which pairs of a scene may meet during the step, by boxes around the bodies' ways: who is to be asked for a
-// time of impact.
+// Pairs of a scene that may meet during the step, found by boxes around the bodies' paths: the candidates for
+// time-of-impact queries.
 #pragma once
 
 #include <vector>
@@ -10,16 +10,16 @@ namespace touchstone {
 
 bool moves(const Scene& scene);
 
-/// Every pair of which a body moves and whose closed bodies share a point at some time of the step, and more;
-/// not the filtered, nor those of two static bodies. Sorted.
+/// A superset of the pairs in which a body moves and the closed bodies share a point at some time of the
+/// step. Excludes filtered pairs and pairs of two static bodies. Sorted.
 std::vector<BodyPair> moving_pairs(const Scene& scene);
 
-/// Of a scene without questions of its own, so many of moving_pairs at most are asked for a time of impact.
+/// A scene without its own queries gets time-of-impact queries for at most this many of moving_pairs.
 inline constexpr std::size_t most_impacts_asked = 64;
 
-/// How many of moving_pairs the case does not ask for a time of impact.
+/// The number of moving_pairs for which the case has no time-of-impact query.
 std::size_t impacts_not_asked(const Case& c);
-/// In one line for people; empty when there are none.
+/// The same as a message; empty when there are none.
 std::string words_on_impacts_not_asked(const Case& c);
 
 }  // namespace touchstone

@@ -28,7 +28,7 @@ struct SceneContact {
   }
 };
 
-/// One engine's answer to one query. An empty optional means "not stated", which is not judged.
+/// One engine's answer to one query. An empty optional means "not given" and is not judged.
 struct Observation {
   Outcome outcome = Outcome::unsupported;
   std::string detail;
@@ -38,14 +38,14 @@ struct Observation {
   std::optional<Vec3> normal;  // A to B
   std::optional<double> depth;
   std::vector<ManifoldPoint> manifold;
-  std::optional<double> toi;  // time_of_impact answered, empty: "no hit"
+  std::optional<double> toi;  // empty when time_of_impact is answered: "no hit"
   std::vector<std::vector<BodyPair>>
       candidate_pairs;  // per query step; as reported (unsorted, duplicates kept)
   std::vector<SceneContact> contacts;
   double claimed_tolerance = 0;
   std::int64_t elapsed_ns = 0;  // the engine's own time; never hashed or compared
-  bool slow = false;            // it took more than the time limit; never hashed or compared
-  std::string site;  // of a crash: "distance-inl.h:177", "libfcl:detail::collide"; empty when it is not known
+  bool slow = false;            // took longer than the time limit; never hashed or compared
+  std::string site;  // of a crash: "distance-inl.h:177", "libfcl:detail::collide"; empty when unknown
   bool operator==(const Observation& o) const {
     return outcome == o.outcome && detail == o.detail && overlap == o.overlap && distance == o.distance &&
            witness == o.witness && normal == o.normal && depth == o.depth && manifold == o.manifold &&
@@ -54,7 +54,7 @@ struct Observation {
   }
 };
 
-/// An observation that holds no answer.
+/// An observation without an answer.
 inline Observation no_answer(Outcome outcome, std::string detail, std::string site = "") {
   Observation o;
   o.outcome = outcome;
@@ -64,7 +64,7 @@ inline Observation no_answer(Outcome outcome, std::string detail, std::string si
 }
 
 /// The scene as an engine received it: exact affine placements and shapes.
-/// A body or shape that the engine did not report is empty: taken as asked.
+/// A body or shape that the engine did not report is empty and assumed to be as in the original scene.
 struct ReceivedScene {
   std::vector<std::optional<Placement>> bodies;
   std::vector<std::optional<Shape>> shapes;
@@ -73,7 +73,7 @@ struct ReceivedScene {
 
 struct CaseObservations {
   ReceivedScene received;
-  std::vector<Observation> answers;  // one a query, in order
+  std::vector<Observation> answers;  // one per query, in order
 };
 
 }  // namespace touchstone

@@ -8,7 +8,7 @@
 namespace touchstone {
 namespace {
 
-// Calls visit(place, number, may be negative) for every number that may be odd.
+// Calls visit(place, number, may be negative) for every number that can be odd.
 template <class SceneRef, class Visit>
 void for_each_place(SceneRef& s, Visit&& visit) {
   const auto three = [&](const std::string& place, auto& v, bool signed_number) {
@@ -43,8 +43,8 @@ Scene without_odd_numbers(Scene s) {
   return s;
 }
 
-// By a table of the places: a file may name as many as it has numbers.
-void put_in(Scene& s, const std::vector<OddNumber>& all) {
+// Uses a table of the places, because a file may list as many numbers as the scene has.
+void insert_odd_numbers(Scene& s, const std::vector<OddNumber>& all) {
   struct Place {
     double* number = nullptr;
     bool may_be_negative = false;
@@ -56,9 +56,9 @@ void put_in(Scene& s, const std::vector<OddNumber>& all) {
   for (const OddNumber& n : all) {
     const auto found = places.find(n.place);
     if (found == places.end())
-      throw InputError(n.place, "is no place of a coordinate or a half extent in this scene");
+      throw InputError(n.place, "is not the place of a coordinate or a half extent in this scene");
     if (!is_odd(n.value, found->second.may_be_negative))
-      throw InputError(n.place, "is an ordinary number: it belongs into the scene itself");
+      throw InputError(n.place, "is an ordinary number: it belongs in the scene itself");
     *found->second.number = n.value;
   }
 }

@@ -1,6 +1,6 @@
-// Numbers that make a body no closed set: coordinates that are not finite, sides that are negative. A valid
-// scene has none, and JSON could not say them. A case about a broad phase may still have them, to see whether
-// a bad box costs other boxes their pairs; its file names them beside the scene, by place.
+// Numbers for which a body is not a closed set: non-finite coordinates, negative sides. A valid scene has
+// none, and JSON cannot represent all of them. A broad-phase case may still have them, to test whether a bad
+// box makes other boxes lose their pairs; its file lists them next to the scene, by place.
 #pragma once
 
 #include <string>
@@ -16,11 +16,11 @@ struct OddNumber {
   double value = 0;
 };
 
-/// In the order of shapes, bodies, steps. Of shapes only boxes are looked at.
+/// In the order of shapes, bodies, steps. Among shapes, only boxes are examined.
 std::vector<OddNumber> odd_numbers(const Scene& s);
-/// The same scene with 0 in their places.
+/// The same scene with 0 in place of each of them.
 Scene without_odd_numbers(Scene s);
-/// Throws InputError, whose place is the number's, when there is no such place, or the number is an ordinary one.
-void put_in(Scene& s, const std::vector<OddNumber>& all);
+/// Throws InputError with the number's place when the place does not exist or the number is an ordinary one.
+void insert_odd_numbers(Scene& s, const std::vector<OddNumber>& all);
 
 }  // namespace touchstone

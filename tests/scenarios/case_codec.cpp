@@ -143,7 +143,7 @@ TEST_CASE("what is wrong with a case is said with its place", "[scenarios][codec
       {with(R"(,"id":42)"), "f.json: id", "must be a string"},
       {with(R"(,"queries":[{"question":"colour"}])"), "f.json: queries[0].question", "unknown question"},
       {with(R"(,"queries":[{"question":"overlap","a":0}])"), "f.json: queries[0]", "\"b\" is missing"},
-      {with(R"(,"queries":[{"question":"overlap","a":0,"b":2}])"), "f.json: queries[0].b", "is no body"},
+      {with(R"(,"queries":[{"question":"overlap","a":0,"b":2}])"), "f.json: queries[0].b", "is not a body"},
       {with(R"(,"queries":[{"question":"overlap","a":1,"b":1}])"), "f.json: queries[0]", "must differ"},
       {with(R"(,"queries":[{"question":"candidates","a":0}])"), "f.json: queries[0]", "unknown field \"a\""},
       {with(R"(,"expect":{"gap":1})"), "f.json: expect.gap", "must be an object"},

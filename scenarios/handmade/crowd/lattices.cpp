@@ -74,7 +74,7 @@ List crowd_lattices() {
                counts(7750, 1036, 1036, "3·100 faces + 3·160 edges + 256 corners")),
       scenario("crowd", "row_with_filters", "groups and ignored pairs are never overlapping pairs",
                row_with_filters(),
-               counts(15, 5, 2, "five touching neighbours, (0,1) and (2,3) of one group, (4,5) ignored")),
+               counts(15, 5, 2, "five touching neighbours; (0,1) and (2,3) are groups, (4,5) is ignored")),
   };
 }
 

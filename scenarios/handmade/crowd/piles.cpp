@@ -14,7 +14,7 @@ Scene on_ground(const Shape& ground, const Shape& shape, int n, double spacing, 
   return scene_of("", std::move(parts));
 }
 
-// (n+1)² vertices one apart about the origin, two triangles a cell.
+// (n+1)² vertices one apart around the origin, two triangles per cell.
 TriangleMesh grid_mesh(int n) {
   TriangleMesh m;
   for (int i = 0; i <= n; ++i)
@@ -58,20 +58,20 @@ List crowd_piles() {
       scenario("crowd", "cubes_on_a_wide_floor", "one box under all others",
                on_ground(Box{Vec3(64, 64, 1)}, cube, 8, 2, 1.5),
                counts(2080, 64, 64, "64 cubes rest on the floor, 1 apart from each other")),
-      scenario("crowd", "balls_on_a_half_space", "an infinite box in the tree",
+      scenario("crowd", "balls_on_a_half_space", "an infinite box among finite ones",
                on_ground(HalfSpace{Vec3(0, 0, 1), 0}, Sphere{0.5}, 7, 1.5, 0.5),
                counts(1225, 49, 49, "49 balls touch the plane, 0.5 apart from each other")),
       scenario(
           "crowd", "balls_above_a_half_space", "the same, lifted by 2^-20",
           on_ground(HalfSpace{Vec3(0, 0, 1), 0}, Sphere{0.5}, 7, 1.5, 0.5 + 0x1p-20),
-          counts(1225, 0, 0, "the half-space ends at z = 0; a box of its own must say so or be superfluous")),
+          counts(1225, 0, 0, "the half-space ends at z = 0; its box must too, or it adds false candidates")),
       scenario("crowd", "boxes_on_a_mesh", "boxes stand on the vertices of a mesh",
                on_ground(grid_mesh(4), Box{Vec3(0.25, 0.25, 0.25)}, 3, 1, 0.25),
                counts(45, 9, 9, "nine boxes touch the surface, 0.5 apart from each other")),
       scenario("crowd", "brick_wall", "running bond: every contact is exact", brick_wall(4, 5),
                counts(190, 43, 43, "4 courses of 4 joints, 3 beds of 9")),
       scenario("crowd", "one_of_each", "every convex shape and a half-space in one place", one_of_each(),
-               counts(28, 28, 28, "all hold the origin")),
+               counts(28, 28, 28, "all contain the origin")),
   };
 }
 

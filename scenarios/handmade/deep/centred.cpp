@@ -13,7 +13,7 @@ List deep_centred() {
   const Cylinder disc{1, 0.25};
   const Box unit{Vec3(1, 1, 1)};
   return {
-      pair("deep", "concentric_spheres", "every direction is best", {Sphere{1}, at(1, 2, 3), {}},
+      pair("deep", "concentric_spheres", "every direction has the least depth", {Sphere{1}, at(1, 2, 3), {}},
            {Sphere{3}, at(1, 2, 3), {}}, gap_is(-4, 0, x, "1 + 3")),
       pair("deep", "nearly_concentric_spheres", "centres 2^-40 apart decide the normal", {Sphere{1}, {}, {}},
            {Sphere{3}, at(0, 0x1p-40, 0), {}}, gap_is(-(4 - 0x1p-40), 0, y, "1 + 3 - 2^-40")),
@@ -21,7 +21,7 @@ List deep_centred() {
            gap_is(-3, 0, x, "2 + 1")),
       pair("deep", "same_cube_twice", "a body and its copy", {unit, at(0.5, 0, 0), {}},
            {unit, at(0.5, 0, 0), {}}, gap_is(-2, 0, x, "1 + 1")),
-      pair("deep", "coaxial_discs", "two flat cylinders in one place", {disc, {}, {}}, {disc, {}, {}},
+      pair("deep", "coaxial_discs", "two flat cylinders at the same place", {disc, {}, {}}, {disc, {}, {}},
            gap_is(-0.5, 0, z, "0.25 + 0.25 along the axis, 2 across")),
       pair("deep", "coaxial_capsules", "core segments coincide", {capsule, {}, {}}, {capsule, {}, {}},
            gap_is(-0.5, 0, x, "radii, across the axis")),
@@ -30,10 +30,10 @@ List deep_centred() {
            gap_is(-0.5, 0, x, "radii, along the common normal")),
       pair("deep", "ellipsoid_in_sphere", "the short axis is the way out", {Ellipsoid{Vec3(1, 2, 3)}, {}, {}},
            {Sphere{0.5}, {}, {}}, gap_is(-1.5, 0, x, "w(n) = |diag(1,2,3) n| + 0.5, least along x")),
-      pair("deep", "cylinder_in_box", "coaxial, equal heights: the axis direction ties with none",
+      pair("deep", "cylinder_in_box", "coaxial, equal heights: the axis is not the shortest way out",
            {unit, {}, {}}, {Cylinder{0.5, 1}, {}, {}}, gap_is(-1.5, 0, x, "1 + 0.5 across, 2 along")),
       pair("deep", "cone_in_cylinder",
-           "coaxial; the way out is across and a little down, square to the cone's side",
+           "coaxial; the way out is sideways and slightly down, perpendicular to the cone's side",
            {Cylinder{1, 4}, {}, {}}, {Cone{0.5, 4}, {}, {}},
            // n = (cos a, 0, -sin a): the cylinder gives cos a + 4 sin a, the cone 0.5 cos a - 4 sin a while
            // its rim leads, together 1.5 cos a; from tan a = 1/16 on its tip leads and w grows again.

@@ -1,5 +1,5 @@
-// Equal boxes exactly or almost exactly aligned: the origin lies on features of every simplex, cross products
-// of nearly parallel edges are noise.
+// Equal boxes, aligned exactly or almost: the origin lies on features of every simplex, and cross products of
+// nearly parallel edges are noise.
 #include <cmath>
 
 #include "scenarios/handmade/build.h"
@@ -10,7 +10,7 @@ namespace {
 
 const Box cube{Vec3(0.5, 0.5, 0.5)};
 
-// q = (0, 0, t, 1) turns about z by 2·atan t and leaves z exactly alone.
+// q = (0, 0, t, 1) turns about z by 2·atan t and leaves z exactly unchanged.
 Pose yawed(double t, double z) { return at(0, 0, z, Quat{0, 0, t, 1}); }
 
 Scenario stacked(const std::string& name, const std::string& line, const Pose& upper) {
@@ -28,7 +28,7 @@ struct Tilt {
 // Lowest edge of the tilted box: h (sin a + cos a) below its centre.
 Scenario stacked_tilted(const std::string& name, double t) {
   const Tilt tilt{t};
-  return pair("degenerate", name, "stacked cubes, the upper tilted by a little", {cube, {}, {}},
+  return pair("degenerate", name, "stacked cubes, the upper one slightly tilted", {cube, {}, {}},
               {cube, tilt.at_height(0.875), {}},
               gap_is(-(0.5 + 0.5 * (tilt.sine() + tilt.cosine()) - 0.875), roundings(4, 1), Vec3::UnitZ(),
                      "0.5 + 0.5 (sin a + cos a) - 0.875"));
@@ -36,7 +36,7 @@ Scenario stacked_tilted(const std::string& name, double t) {
 
 Scenario plates_tilted(const std::string& name, double t) {
   const Tilt tilt{t};
-  return pair("degenerate", name, "a plate over a wider one, almost parallel",
+  return pair("degenerate", name, "a plate above a wider one, almost parallel",
               {Box{Vec3(4, 4, 0.125)}, {}, {}}, {Box{Vec3(1, 1, 0.125)}, tilt.at_height(0.5), {}},
               gap_is(0.5 - 0.125 - (tilt.sine() + 0.125 * tilt.cosine()), roundings(4, 1), Vec3::UnitZ(),
                      "0.5 - 0.125 - (sin a + 0.125 cos a)"));
@@ -54,7 +54,7 @@ List degenerate_aligned() {
   const Vec3 x = Vec3::UnitX(), z = Vec3::UnitZ();
   return {
       stacked("stacked_cubes", "equal cubes stacked exactly, an eighth deep", at(0, 0, 0.875)),
-      stacked("stacked_cubes_offset_1e-16", "lateral offset at the rounding of GJK's dot products",
+      stacked("stacked_cubes_offset_1e-16", "lateral offset at the rounding level of GJK's dot products",
               at(1e-16, 0, 0.875)),
       stacked("stacked_cubes_offset_1e-9", "lateral offset of a nanometre", at(1e-9, 1e-9, 0.875)),
       stacked("stacked_cubes_yaw_1e-17", "yaw far below an ulp", yawed(0.5e-17, 0.875)),
@@ -70,7 +70,7 @@ List degenerate_aligned() {
            {cube, at(0.5, 0.5, 0.5), {}}, gap_is(-0.5, 0, x, "1 - 0.5 along each axis")),
       pair("degenerate", "ridges_nearly_parallel", "two edges cross at a microradian, 2^-4 apart",
            {ridge(), {}, {}}, {ridge(), at(0, 0, 2 + 0x1p-4, Quat{0, 0, 0x1p-21, 1}), {}},
-           gap_is(0x1p-4, 0, z, "a turn about z leaves the heights of the ridges alone")),
+           gap_is(0x1p-4, 0, z, "a turn about z does not change the heights of the ridges")),
       pair("degenerate", "capsules_nearly_parallel", "axes cross at a microradian, 1 apart",
            {Capsule{0.25, 4}, {}, {}}, {Capsule{0.25, 4}, at(1, 0, 0, Quat{0x1p-21, 0, 0, 1}), {}},
            gap_is(0.5, 0, x, "a turn about x keeps the axis in the plane x = 1")),

@@ -1,5 +1,5 @@
-// The same sets written in unusual numbers: long, short and negative quaternions, -0, duplicate and interior
-// vertices, normals that are not unit.
+// The same sets written with unusual numbers: long, short and negated quaternions, -0, duplicate and interior
+// vertices, normals of any length.
 #include "scenarios/handmade/build.h"
 #include "scenarios/handmade/lists.h"
 
@@ -44,7 +44,7 @@ List degenerate_written_oddly() {
   const Vec3 x = Vec3::UnitX(), z = Vec3::UnitZ();
   const Box unit{Vec3(1, 1, 1)};
   return {
-      turned_box("quaternion_of_length_4", "a quaternion that is not unit", {0, 0, 3, 3}),
+      turned_box("quaternion_of_length_4", "a quaternion that does not have unit length", {0, 0, 3, 3}),
       turned_box("quaternion_of_length_1e-160", "squares of its components underflow",
                  {0, 0, 1e-160, 1e-160}),
       turned_box("quaternion_of_length_1e160", "squares of its components overflow", {0, 0, 1e160, 1e160}),
@@ -73,7 +73,7 @@ List degenerate_written_oddly() {
       pair("degenerate", "half_space_turned_and_shifted", "the plane moves with its body",
            // A quarter turn about x takes z to -y: the solid y >= -1 shifted by 4: y >= 3.
            {HalfSpace{Vec3(0, 0, 5), 5}, at(0, 4, 0, quarter_turn_x), {}}, {unit, at(0, 1.5, 0), {}},
-           gap_is(0.5, 0, -Vec3::UnitY(), "cube reaches y = 2.5, the solid begins at 3")),
+           gap_is(0.5, 0, -Vec3::UnitY(), "the cube reaches y = 2.5, the solid begins at 3")),
       pair("degenerate", "box_sunk_in_half_space", "depth is measured along the plane's normal only",
            {HalfSpace{Vec3(0, 0, 5), 5}, {}, {}}, {Box{Vec3(0.5, 0.5, 0.5)}, at(7, 0, 1.25), {}},
            gap_is(-0.25, 0, z, "plane z = 1, lowest face at 0.75")),

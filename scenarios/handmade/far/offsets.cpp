@@ -1,5 +1,5 @@
-// The same small relations far from the origin. Each offset is exact in double; float32 has lost it before
-// its algorithm starts, which the judgement "as received" must say.
+// The same small distances far from the origin. Each offset is exact in double; float32 loses it before its
+// algorithm starts, which the judgement "as received" must report.
 #include "scenarios/handmade/build.h"
 #include "scenarios/handmade/lists.h"
 
@@ -27,7 +27,8 @@ List far_offsets() {
            {unit, at(p40 + 2 + 0x1p-10, p40, p40), {}}, gap_is(0x1p-10, 0, x, "51 bits: exact")),
       pair("far", "spheres_overlap_at_2_30", "overlap 2^-20 at 2^30", {Sphere{1}, at(p30, -p30, p30), {}},
            {Sphere{1}, at(p30 + 2 - 0x1p-20, -p30, p30), {}}, gap_is(-0x1p-20, 0, x, "52 bits: exact")),
-      pair("far", "hull_far_from_its_own_origin", "vertices at 2^20 in the body frame, pose brings them back",
+      pair("far", "hull_far_from_its_own_origin",
+           "vertices at 2^20 in the body frame; the pose brings them back",
            {cube_about(0x1p20), at(-0x1p20, 0, 0), {}}, {unit, at(2.5, 0, 0), {}},
            gap_is(0.5, 0, x, "2.5 - 1 - 1")),
       pair("far", "hull_turned_about_a_far_origin", "a quarter turn swings vertices at 2^20 into place",
@@ -39,7 +40,7 @@ List far_offsets() {
            gap_is(0x1p-10, 0, z, "exact")),
       pair("far", "ends_of_the_world", "unit balls 2^101 apart", {Sphere{1}, at(-p100, 0, 0), {}},
            {Sphere{1}, at(p100, 0, 0), {}},
-           gap_is(0x1p101, roundings(2, 0x1p101), x, "2^101 - 2, which is no double")),
+           gap_is(0x1p101, roundings(2, 0x1p101), x, "2^101 - 2, which is not a double")),
   };
 }
 

@@ -1,5 +1,5 @@
-// Scripts that insert, move, teleport and remove: stale pairs, lost pairs, reused ids. All bodies are
-// axis-aligned unit cubes unless said otherwise, so two meet when their centres are at most 1 apart along
+// Scripts that insert, move, teleport and remove: stale pairs, lost pairs, reused ids. Unless stated
+// otherwise, all bodies are axis-aligned unit cubes, so two meet when their centres are at most 1 apart along
 // every axis.
 #include "scenarios/handmade/build.h"
 #include "scenarios/handmade/lists.h"
@@ -60,7 +60,7 @@ Scene plank_and_cube() {
 List lifecycle_scripts() {
   const double far = 0x1p30;
   return {
-      script("remove_and_insert_again", "an id comes back, once at its own pose, once elsewhere",
+      script("remove_and_insert_again", "an id is reused, once at its own pose and once elsewhere",
              cubes_in_a_row(2, 1),
              {insert(0), insert(1), query(), remove(1), query(), insert(1), query(), remove(0),
               insert(0, at(9, 0, 0)), query(), remove(0), insert(0), query()},
@@ -74,11 +74,11 @@ List lifecycle_scripts() {
       script("ask_twice", "the second answer must not depend on the first", cubes_in_a_row(3, 1),
              {insert(0), insert(1), insert(2), query(), query(), query()},
              {{{0, 1}, {1, 2}}, {{0, 1}, {1, 2}}, {{0, 1}, {1, 2}}}),
-      script("approach_to_touching", "touching is found exactly when it is reached", cubes_in_a_row(2, 4),
+      script("approach_to_touching", "touching is reported exactly when it is reached", cubes_in_a_row(2, 4),
              {insert(0), insert(1), query(), move(1, at(1 + 0x1p-52, 0, 0)), query(), move(1, at(1, 0, 0)),
               query(), move(1, at(0.5, 0, 0)), query(), move(1, at(1 + 0x1p-52, 0, 0)), query()},
              {{}, {}, {{0, 1}}, {{0, 1}}, {}}),
-      script("cross_the_origin", "touching from the left, through, touching on the right",
+      script("cross_the_origin", "touching from the left, passing through, touching on the right",
              cubes_in_a_row(2, -2),
              {insert(0), insert(1), query(), move(1, at(-1, 0, 0)), query(), move(1, at(-0.0, 0, -0.0)),
               query(), move(1, at(1, 0, 0)), query(), move(1, at(2, 0, 0)), query()},
@@ -99,17 +99,17 @@ List lifecycle_scripts() {
              {insert(0), insert(1), insert(2), insert(3), query(), move(3, at(9, 0, 0)), query(),
               move(3, at(0, 0, 0)), query()},
              {{{0, 2}, {0, 3}, {1, 2}, {1, 3}}, {{0, 2}, {1, 2}}, {{0, 2}, {0, 3}, {1, 2}, {1, 3}}},
-             "all overlap where present; (0,1) is one group, (2,3) ignored"),
+             "all overlap when present; (0,1) is in one group, (2,3) is ignored"),
       script("turn_into_contact", "a rotation in place, exactly to touching", plank_and_cube(),
              {insert(0), insert(1), query(), move(0, at(0, 0, 0, quarter_turn_z)), query(),
               move(0, at(0, 0, 0)), query()},
              {{}, {{0, 1}}, {}}, "turned, the plank reaches y = 2, where the cube begins"),
-      script("late_arrival_early_leave", "the middle of a chain comes last and goes first",
+      script("late_arrival_early_leave", "the middle of a chain is inserted last and removed first",
              cubes_in_a_row(3, 1),
              {insert(0), insert(2), query(), insert(1), query(), remove(1), query(), remove(0), remove(2),
               query()},
              {{}, {{0, 1}, {1, 2}}, {}, {}}),
-      script("everything_in_one_cell", "moves of one body within another's box", cubes_in_a_row(2, 0.25),
+      script("everything_in_one_cell", "one body moves within another's box", cubes_in_a_row(2, 0.25),
              {insert(0), insert(1), query(), move(1, at(0.5, 0.5, 0.5)), query(), move(1, at(-0.5, -0.5, 1)),
               query(), move(1, at(-0.5, -0.5, 1 + 0x1p-50)), query()},
              {{{0, 1}}, {{0, 1}}, {{0, 1}}, {}}),

@@ -35,18 +35,18 @@ List motion_rotation() {
   return {
       rod_and_post("rod_spins_into_post", "a rod turning in place meets a post", 0.5, 2,
                    hit_at(touch / 2, roundings(4, 1), "0.5 cos a = 1/8: a = acos 1/4, t = a/2")),
-      rod_and_post("rod_spins_fast", "150 rad in a step: two dozen turns, contact in the first", 0.5, 150,
+      rod_and_post("rod_spins_fast", "150 rad per step: two dozen turns, with contact in the first", 0.5, 150,
                    hit_at(touch / 150, roundings(4, 1), "t = acos(1/4) / 150")),
       rod_and_post(
-          "rod_spins_backwards", "the post is met from the other side, by the other half", 0.5, -2,
+          "rod_spins_backwards", "the other half of the rod meets the post from the other side", 0.5, -2,
           hit_at(touch / 2, roundings(4, 1), "mirror image: the rod's other half arrives at the same angle")),
-      rod_and_post("rod_spins_clear", "the post stands 2^-10 beyond the reach of the tip", 1.125 + 0x1p-10, 6,
+      rod_and_post("rod_spins_clear", "the post is 2^-10 beyond the reach of the tip", 1.125 + 0x1p-10, 6,
                    no_hit("reach 1 + 2^-4, post from 1.125 + 2^-10 - 2^-4")),
       pair("motion", "cube_turns_into_wall", "a cube's corner swings into a wall that its faces never meet",
            {Box{Vec3(1, 4, 4)}, at(2.25, 0, 0), {}}, {Box{Vec3(1, 1, 1)}, {}, spinning(1)},
            // The corner reaches cos a + sin a = sqrt2·sin(a + pi/4).
            hit_at(std::asin(1.25 / std::sqrt(2.0)) - quarter_pi, roundings(8, 1), "cos t + sin t = 1.25")),
-      pair("motion", "bar_swings_about_a_far_origin", "the solid is nowhere near its centre of rotation",
+      pair("motion", "bar_swings_about_a_far_origin", "the solid is far from its centre of rotation",
            {Sphere{0.5}, at(0, 2.5, 0), {}}, {bar_off_centre(), {}, spinning(2)},
            // In the bar's frame the ball's centre is 2.5 (sin a, cos a): above the face y = 1/2 by 1/2 when
            // cos a = 0.4, and there sin a = 0.917 puts it over x = 2.29, inside [2,3]; before, it is farther

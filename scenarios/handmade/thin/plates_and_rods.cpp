@@ -1,5 +1,5 @@
-// Shapes with one or two extents far below the others: depth filters, margins and feature tolerances are
-// larger than the shape.
+// Shapes with one or two extents far smaller than the others: depth filters, margins and feature tolerances
+// exceed the thickness of the shape.
 #include "scenarios/handmade/build.h"
 #include "scenarios/handmade/lists.h"
 
@@ -29,17 +29,18 @@ List thin_plates_and_rods() {
            {plate, {}, {}}, {plate, at(0, 0, 0, quarter_turn_x), {}},
            // w = 2|nx| + (1 + thin)(|ny| + |nz|).
            gap_is(-(1 + thin), 0, z, "1 + thickness/2 along y or z")),
-      pair("thin", "plates_edge_to_edge", "coplanar plates share a strip of 2^-19", {plate, {}, {}},
+      pair("thin", "plates_edge_to_edge", "coplanar plates share a face 2^-19 high", {plate, {}, {}},
            {plate, at(2, 0, 0), {}}, gap_is(0, 0, x, "1 + 1 = 2")),
-      pair("thin", "rods_crossed_overlapping", "rods of aspect 1000 at a right angle, half a radius deep",
+      pair("thin", "rods_crossed_overlapping",
+           "rods of aspect ratio 1000 at a right angle, half a radius deep",
            {rod, {}, {}}, {rod, at(0x3p-11, 0, 0, quarter_turn_x), {}},
            gap_is(-0x1p-11, 0, x, "2·2^-10 - 1.5·2^-10")),
-      pair("thin", "rods_crossed_apart", "rods of aspect 1000 at a right angle, half a millimetre apart",
+      pair("thin", "rods_crossed_apart", "rods of aspect ratio 1000 at a right angle, 2^-9 apart",
            {rod, {}, {}}, {rod, at(0x1p-8, 0, 0, quarter_turn_x), {}},
            gap_is(0x1p-9, 0, x, "2^-8 - 2·2^-10")),
-      pair("thin", "long_rod_over_cube", "a capsule of aspect 10^6 crosses above a cube", {unit, {}, {}},
-           {Capsule{1, 0x1p20}, at(1000, 0, 2.5, quarter_turn_y), {}}, gap_is(0.5, 0, z, "2.5 - 1 - 1")),
-      pair("thin", "needle_in_box", "a needle of width 2^-30 pricks a face", {unit, at(0, 0, -1), {}},
+      pair("thin", "long_rod_over_cube", "a capsule of aspect ratio 10^6 crosses above a cube",
+           {unit, {}, {}}, {Capsule{1, 0x1p20}, at(1000, 0, 2.5, quarter_turn_y), {}}, gap_is(0.5, 0, z, "2.5 - 1 - 1")),
+      pair("thin", "needle_in_box", "a needle of width 2^-30 pierces a face", {unit, at(0, 0, -1), {}},
            {needle(0x1p-30), at(0, 0, -0x1p-10), {}},
            // Up: 2^-10. Sideways at least 1.
            gap_is(-0x1p-10, 0, z, "tip 2^-10 below the face")),

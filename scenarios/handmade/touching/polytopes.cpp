@@ -1,6 +1,6 @@
-// Polytopes that share exactly a face, an edge or a point. All coordinates are exact, so the gap is exactly
-// 0, or exactly the stated hair. GJK meets the origin on a feature of its simplex; a sign decided by rounding
-// shows here.
+// Polytopes that share exactly a face, an edge or a point. All coordinates are exact, so the gap is exactly 0
+// or exactly `hair`. The origin lies on a feature of GJK's simplex; these cases reveal signs decided by
+// rounding.
 #include "scenarios/handmade/build.h"
 #include "scenarios/handmade/lists.h"
 
@@ -39,14 +39,14 @@ List touching_polytopes() {
            {unit, at(2 - hair, 0, 0), {}}, gap_is(-hair, 0, x, "offset - 2, exact")),
       pair("touching", "ridges_cross_in_a_point", "two edges touch in one interior point",
            {roof_up(), {}, {}}, {roof_down(), {}, {}},
-           gap_is(0, 0, z, "A lies in z <= 0, B in z >= 0, both hold the origin")),
+           gap_is(0, 0, z, "A lies in z <= 0, B in z >= 0, both contain the origin")),
       pair("touching", "octahedron_tip_on_face", "a vertex stands on the middle of a face", {unit, {}, {}},
            {octahedron(), at(0.25, 0.125, 2), {}}, gap_is(0, 0, z, "face at z = 1, tip at 2 - 1")),
       pair("touching", "octahedron_tip_on_edge", "a vertex stands on an edge", {unit, {}, {}},
            {octahedron(), at(1, 0.125, 2), {}}, gap_is(0, 0, z, "face at z = 1, tip at 2 - 1")),
       pair("touching", "tetrahedra_share_a_face", "mirror images across a common triangle",
            {corner(-1), {}, {}}, {corner(1), {}, {}},
-           gap_is(0, 0, z, "separated by z = 0, which holds the common face")),
+           gap_is(0, 0, z, "separated by z = 0, which contains the common face")),
       pair("touching", "hull_on_tilted_face", "a tilted face touches a corner in exact coordinates",
            {octahedron(), {}, {}},
            {make_hull({{1, 1, 1}, {2, 1, 1}, {1, 2, 1}, {1, 1, 2}}), at(-0.5, -0.75, -0.75), {}},

@@ -134,7 +134,7 @@ TEST_CASE("scripts and ignored pairs of the wrong form are refused with their JS
       {more(R"("script":[{"op":"jump"}])"), "f.json: script[0].op", "insert, move, remove or query"},
       {more(R"("script":[{"body":0}])"), "f.json: script[0]", "\"op\" is missing"},
       {more(R"("script":[{"op":"insert"}])"), "f.json: script[0]", "\"body\" is missing"},
-      {more(R"("script":[{"op":"insert","body":2}])"), "f.json: script[0].body", "no body"},
+      {more(R"("script":[{"op":"insert","body":2}])"), "f.json: script[0].body", "not a body"},
       {more(R"("script":[{"op":"insert","body":0},{"op":"insert","body":0}])"), "f.json: script[1]",
        "present already"},
       {more(R"("script":[{"op":"remove","body":0}])"), "f.json: script[0]", "not present"},

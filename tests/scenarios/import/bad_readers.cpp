@@ -122,7 +122,7 @@ TEST_CASE("frames are refused by file and reason", "[scene][readers][bad-input]"
   CHECK(contains(with_npy(""), "frames.npy: is not a NumPy file"));
   CHECK(contains(with_npy("hello, world"), "frames.npy: is not a NumPy file"));
   CHECK(contains(with_npy(npy("(2, 2, 7)", identity_poses(3))), "its shape needs 224"));
-  CHECK(contains(with_npy(npy("(2, 2, 7)", identity_poses(4), "<f4")), "another type"));
+  CHECK(contains(with_npy(npy("(2, 2, 7)", identity_poses(4), "<f4")), "must hold type"));
   CHECK(contains(with_npy(npy("(4, 7)", identity_poses(4))), "shape must be"));
   CHECK(contains(with_npy(npy("(99999999, 99999999, 99999999)", {})), "shape must be"));
   CHECK(contains(with_npy(npy("(1, 4, 7)", identity_poses(4))), "scene.txt announces"));
