@@ -35,7 +35,7 @@ constexpr std::optional<Outcome> outcome_from_string(std::string_view s) {
 }
 
 /// The engine gave no answer: not a failure, and nothing to judge.
-constexpr bool is_no_attempt(Outcome o) { return o == Outcome::unsupported || o == Outcome::not_asked; }
+constexpr bool was_not_attempted(Outcome o) { return o == Outcome::unsupported || o == Outcome::not_asked; }
 /// The outcome says more about the machine than about the engine.
 constexpr bool depends_on_time(Outcome o) { return o == Outcome::timed_out || o == Outcome::not_asked; }
 

@@ -22,7 +22,7 @@
 #include "core/narrow/convex_pair.h"
 #include "core/tolerance.h"
 
-namespace touchstone::ccd {
+namespace touchstone::impact {
 namespace {
 
 // About half a second. Random motions have needed at most 600 steps (tests/core/impact_stress).
@@ -332,4 +332,4 @@ Advance advance(const MovingCore& a, const narrow::WidePlane& plane, Wide t_star
   return run(PlanePair{a, plane}, t_start, goal);
 }
 
-}  // namespace touchstone::ccd
+}  // namespace touchstone::impact

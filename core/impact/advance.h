@@ -7,7 +7,7 @@
 #include "core/narrow/convex_core.h"
 #include "core/narrow/pair/half_space.h"
 
-namespace touchstone::ccd {
+namespace touchstone::impact {
 
 using Core = narrow::ConvexCore<Wide>;
 
@@ -41,4 +41,4 @@ struct Goal {
 Advance advance(const MovingCore& a, const MovingCore& b, Wide t_start, const Goal& goal);
 Advance advance(const MovingCore& a, const narrow::WidePlane& plane, Wide t_start, const Goal& goal);
 
-}  // namespace touchstone::ccd
+}  // namespace touchstone::impact

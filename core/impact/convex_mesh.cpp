@@ -6,7 +6,7 @@
 #include "core/narrow/mesh.h"
 #include "core/narrow/mesh_tree.h"
 
-namespace touchstone::ccd {
+namespace touchstone::impact {
 namespace {
 
 constexpr double never = 2;
@@ -17,8 +17,8 @@ class Query {
  public:
   Query(const MovingShape& a, const TriangleMesh& mesh, const WideFrame& frame, double accuracy)
       : shape_(a), mesh_(mesh), frame_(frame), accuracy_(accuracy) {
-    const WideMat rotation = fast::rotation_of(a.pose.rotation);
-    mover_ = fast::make_mover(*a.shape, rotation, a.motion);
+    const WideMat rotation = filtered::rotation_of(a.pose.rotation);
+    mover_ = filtered::make_mover(*a.shape, rotation, a.motion);
     const Mat3 to_mesh = frame.rotation.cast<double>().transpose();
     from_ = -(to_mesh * frame.translation.cast<double>());
     path_ = to_mesh * a.motion.linear;
@@ -78,8 +78,8 @@ class Query {
     const Vec3 lo = corners[0].cwiseMin(corners[1]).cwiseMin(corners[2]);
     const Vec3 hi = corners[0].cwiseMax(corners[1]).cwiseMax(corners[2]);
     if (entry(lo, hi) > end()) return;
-    const fast::Mover face = fast::make_points(corners, frame_.rotation);
-    const fast::Sweep sweep(mover_, face, frame_.translation);
+    const filtered::Mover face = filtered::make_points(corners, frame_.rotation);
+    const filtered::Sweep sweep(mover_, face, frame_.translation);
     const auto search_from = [&](double t) { return search(sweep, t, end(), accuracy_, {}); };
     Pursuit p{search_from(0), {}};
     if (!settled(p.search)) {
@@ -88,8 +88,8 @@ class Query {
         return advance(core(), still, t, {end(), accuracy_, leave});
       });
     }
-    if (p.search.end == fast::SearchEnd::clear) return count(p.search.steps);
-    take(settled(p.search) ? fast::answer_of(p.search, shape_.motion.linear) : p.fine);
+    if (p.search.end == filtered::SearchEnd::clear) return count(p.search.steps);
+    take(settled(p.search) ? filtered::answer_of(p.search, shape_.motion.linear) : p.fine);
   }
 
   const MovingCore& core() {
@@ -117,7 +117,7 @@ class Query {
   const TriangleMesh& mesh_;
   const WideFrame& frame_;
   double accuracy_, ball_ = 0;
-  fast::Mover mover_;
+  filtered::Mover mover_;
   std::optional<MovingCore> core_;
   Vec3 from_, path_;  // start and displacement of A's origin, mesh frame
   ImpactAnswer best_;
@@ -131,4 +131,4 @@ ImpactAnswer convex_mesh(const MovingShape& a, const TriangleMesh& mesh, const M
   return Query(a, mesh, frame, accuracy).run(tree);
 }
 
-}  // namespace touchstone::ccd
+}  // namespace touchstone::impact

@@ -6,11 +6,11 @@
 #include "core/impact/filtered/mover.h"
 #include "core/impact/impact.h"
 
-namespace touchstone::ccd {
+namespace touchstone::impact {
 
 /// `frame`: the mesh's pose relative to A's start; witness points are returned in the same coordinates.
 /// `accuracy`: accuracy of the gap at a reported contact.
 ImpactAnswer convex_mesh(const MovingShape& a, const TriangleMesh& mesh, const MeshTree* tree,
                          const WideFrame& frame, double accuracy);
 
-}  // namespace touchstone::ccd
+}  // namespace touchstone::impact

@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace touchstone::ccd {
+namespace touchstone::impact {
 
 class Integer {
  public:
@@ -106,4 +106,4 @@ class Integer {
   Limbs limbs_;
 };
 
-}  // namespace touchstone::ccd
+}  // namespace touchstone::impact

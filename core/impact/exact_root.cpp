@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-namespace touchstone::ccd {
+namespace touchstone::impact {
 namespace {
 
 using Poly = IntegerPolynomial;
@@ -179,4 +179,4 @@ double below(const DyadicInterval& i) {
   return t;
 }
 
-}  // namespace touchstone::ccd
+}  // namespace touchstone::impact

@@ -11,7 +11,7 @@
 
 #include "core/impact/exact_integer.h"
 
-namespace touchstone::ccd {
+namespace touchstone::impact {
 
 /// Coefficients from t⁰ on; the last one is not zero. Empty: the zero polynomial.
 class IntegerPolynomial {
@@ -60,4 +60,4 @@ DyadicInterval narrowed(const IntegerPolynomial& p, DyadicInterval root);
 /// The largest multiple of 2^-53 that is at most the lower end, or 0 if that end is negative.
 double below(const DyadicInterval& i);
 
-}  // namespace touchstone::ccd
+}  // namespace touchstone::impact

@@ -36,7 +36,7 @@ constexpr double unit_roundoff = 0x1p-53;
 
 double accuracy_of(double scale) { return (tolerance::core_tau_factor - 4) * unit_roundoff * scale; }
 
-narrow::FastAnswer<double> in_double(const MovingShape& a, const MovingShape& b, narrow::fast::Asked asked) {
+narrow::FastAnswer<double> in_double(const MovingShape& a, const MovingShape& b, narrow::filtered::Asked asked) {
   narrow::FastAnswer<double> f;
   narrow::separate_fast<double>({a.shape, a.pose, a.tree}, {b.shape, b.pose, b.tree}, asked, f);
   return f;
@@ -48,8 +48,8 @@ narrow::FastAnswer<double> in_double(const MovingShape& a, const MovingShape& b,
 // have.)
 std::optional<ImpactAnswer> contact_at_start(const MovingShape& a, const MovingShape& b,
                                              ImpactDetail detail) {
-  using narrow::fast::Asked;
-  using narrow::fast::Found;
+  using narrow::filtered::Asked;
+  using narrow::filtered::Found;
   ImpactAnswer r;
   r.toi = 0;
   const Found found = in_double(a, b, Asked::overlap).answer.found;
@@ -88,14 +88,14 @@ ImpactAnswer at_rest(const MovingShape& a, const MovingShape& b, ImpactDetail de
   return r;
 }
 
-ImpactAnswer to_answer(const fast::Search& s, const MovingShape& a) {
-  ImpactAnswer r = fast::answer_of(s, a.motion.linear);
+ImpactAnswer to_answer(const filtered::Search& s, const MovingShape& a) {
+  ImpactAnswer r = filtered::answer_of(s, a.motion.linear);
   for (Vec3& x : r.witness_w) x += a.pose.translation;
   return r;
 }
 
 // Computes the nearest points in extended precision where double has found the time but no accurate points.
-ImpactAnswer to_refined_answer(const fast::Search& s, const MovingShape& a, const MovingShape& b) {
+ImpactAnswer to_refined_answer(const filtered::Search& s, const MovingShape& a, const MovingShape& b) {
   ImpactAnswer r = to_answer(s, a);
   if (!s.rough) return r;
   const WideVec origin = a.pose.translation.cast<Wide>();
@@ -117,18 +117,18 @@ ImpactAnswer shift_witnesses(ImpactAnswer r, const Vec3& origin) {
 
 bool turns(const MovingShape& s) { return !s.motion.angular.isZero(0); }
 
-std::optional<fast::Round> round_of(const Shape& s) {
-  if (const auto* x = std::get_if<Sphere>(&s)) return fast::Round{0, x->radius};
-  if (const auto* x = std::get_if<Capsule>(&s)) return fast::Round{x->half_height, x->radius};
+std::optional<filtered::Round> round_of(const Shape& s) {
+  if (const auto* x = std::get_if<Sphere>(&s)) return filtered::Round{0, x->radius};
+  if (const auto* x = std::get_if<Capsule>(&s)) return filtered::Round{x->half_height, x->radius};
   return std::nullopt;
 }
 
 bool is_polytope(const Shape& s) { return kind_of(s) == ShapeKind::box || kind_of(s) == ShapeKind::hull; }
 
 // Closed forms for translations; `unsure` if there is none for the pair.
-fast::Search translated(const MovingShape& a, const MovingShape& b) {
+filtered::Search translated(const MovingShape& a, const MovingShape& b) {
   if (turns(a) || turns(b)) return {};
-  const fast::Translation m{narrow::fast::stand<double>(a.pose), narrow::fast::stand<double>(b.pose),
+  const filtered::Translation m{narrow::filtered::stand<double>(a.pose), narrow::filtered::stand<double>(b.pose),
                             b.motion.linear - a.motion.linear};
   const auto accuracy = [&](double extent_a, double extent_b) {
     return accuracy_of(std::max(scale_of(a, extent_a), scale_of(b, extent_b)));
@@ -147,27 +147,27 @@ fast::Search translated(const MovingShape& a, const MovingShape& b) {
 }
 
 ImpactAnswer convex_convex(const MovingShape& a, const MovingShape& b, ImpactDetail detail) {
-  const fast::Search closed_form = translated(a, b);
+  const filtered::Search closed_form = translated(a, b);
   // Two boxes are the only closed form without witness points.
   const bool both_boxes = kind_of(*a.shape) == ShapeKind::box && kind_of(*b.shape) == ShapeKind::box;
   const bool points = !both_boxes || detail == ImpactDetail::time;
-  if (closed_form.end == fast::SearchEnd::clear || (closed_form.end == fast::SearchEnd::hit && points))
+  if (closed_form.end == filtered::SearchEnd::clear || (closed_form.end == filtered::SearchEnd::hit && points))
     return to_answer(closed_form, a);
-  const WideFrame fa{fast::rotation_of(a.pose.rotation), WideVec::Zero()};
-  const WideFrame fb{fast::rotation_of(b.pose.rotation),
+  const WideFrame fa{filtered::rotation_of(a.pose.rotation), WideVec::Zero()};
+  const WideFrame fb{filtered::rotation_of(b.pose.rotation),
                      b.pose.translation.cast<Wide>() - a.pose.translation.cast<Wide>()};
-  const fast::Mover ma = fast::make_mover(*a.shape, fa.rotation, a.motion);
-  const fast::Mover mb = fast::make_mover(*b.shape, fb.rotation, b.motion);
-  const fast::Sweep sweep(ma, mb, fb.translation);
+  const filtered::Mover ma = filtered::make_mover(*a.shape, fa.rotation, a.motion);
+  const filtered::Mover mb = filtered::make_mover(*b.shape, fb.rotation, b.motion);
+  const filtered::Sweep sweep(ma, mb, fb.translation);
   const double accuracy = accuracy_of(std::max(scale_of(a, ma.body.extent), scale_of(b, mb.body.extent)));
-  if (closed_form.end == fast::SearchEnd::hit)
-    return to_refined_answer(fast::with_points(sweep, closed_form, accuracy), a, b);
+  if (closed_form.end == filtered::SearchEnd::hit)
+    return to_refined_answer(filtered::with_points(sweep, closed_form, accuracy), a, b);
   if (!sweep.turns() && is_polytope(*a.shape) && is_polytope(*b.shape) && !both_boxes)
-    if (const fast::Search s = translating_polytopes(sweep, accuracy); settled(s)) return to_answer(s, a);
+    if (const filtered::Search s = translating_polytopes(sweep, accuracy); settled(s)) return to_answer(s, a);
   const auto search_from = [&](double t) { return search(sweep, t, 1, accuracy, {}); };
-  const fast::Search s = search_from(0);
+  const filtered::Search s = search_from(0);
   if (settled(s)) return to_refined_answer(s, a, b);
-  if (s.end == fast::SearchEnd::start)
+  if (s.end == filtered::SearchEnd::start)
     if (const auto met = contact_at_start(a, b, detail)) return *met;
   const MovingCore ca = moving_core(narrow::make_core(*a.shape, fa), a.motion);
   const MovingCore cb = moving_core(narrow::make_core(*b.shape, fb), b.motion);
@@ -181,16 +181,16 @@ ImpactAnswer convex_half_space(const MovingShape& a, const MovingShape& b, Impac
   const WideFrame fa = shifted(a.pose, a.pose.translation.cast<Wide>());
   const narrow::WidePlane plane =
       narrow::place(*std::get_if<HalfSpace>(b.shape), shifted(b.pose, a.pose.translation.cast<Wide>()));
-  const fast::Mover ma = fast::make_mover(*a.shape, fa.rotation, a.motion);
-  const fast::Mover face;
+  const filtered::Mover ma = filtered::make_mover(*a.shape, fa.rotation, a.motion);
+  const filtered::Mover face;
   const WideVec foot = plane.normal * plane.offset;
-  const fast::Sweep sweep(ma, face, foot);
+  const filtered::Sweep sweep(ma, face, foot);
   const Vec3 normal = -plane.normal.cast<double>();
   const double accuracy = accuracy_of(scale_of(a, ma.body.extent));
   const auto search_from = [&](double t) { return search(sweep, t, 1, accuracy, normal); };
-  const fast::Search s = search_from(0);
+  const filtered::Search s = search_from(0);
   if (settled(s)) return to_answer(s, a);
-  if (s.end == fast::SearchEnd::start)
+  if (s.end == filtered::SearchEnd::start)
     if (const auto met = contact_at_start(a, b, detail)) return *met;
   const MovingCore ca = moving_core(narrow::make_core(*a.shape, fa), a.motion);
   const Pursuit p = pursue(sweep, s, search_from, [&](double t, double leave) {

@@ -15,7 +15,7 @@
 
 #include "core/impact/exact_root.h"
 
-namespace touchstone::ccd {
+namespace touchstone::impact {
 namespace {
 
 using Poly = IntegerPolynomial;
@@ -159,4 +159,4 @@ ExactImpact decide_exactly(PrimitiveKind kind, const std::array<Vec3, 4>& start,
   return best;
 }
 
-}  // namespace touchstone::ccd
+}  // namespace touchstone::impact

@@ -3,7 +3,7 @@
 
 #include "core/impact/primitive_impact.h"
 
-namespace touchstone::ccd {
+namespace touchstone::impact {
 
 struct ExactImpact {
   bool collides = false;
@@ -15,4 +15,4 @@ struct ExactImpact {
 ExactImpact decide_exactly(PrimitiveKind kind, const std::array<Vec3, 4>& start,
                            const std::array<Vec3, 4>& end, double clear_until, bool narrow);
 
-}  // namespace touchstone::ccd
+}  // namespace touchstone::impact

@@ -13,7 +13,7 @@
 
 #include "core/impact/primitive_impact.h"
 
-namespace touchstone::ccd {
+namespace touchstone::impact {
 
 inline constexpr double unit_roundoff = 0x1p-53;
 
@@ -41,4 +41,4 @@ inline Vec3 local_size(const MovingPolygon& p, const Corners& from, const Corner
   return l + 8 * unit_roundoff * p.size;
 }
 
-}  // namespace touchstone::ccd
+}  // namespace touchstone::impact

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-namespace touchstone::ccd {
+namespace touchstone::impact {
 namespace {
 
 // The component of `w` orthogonal to the edge direction d. Computed twice: the error of the first result is
@@ -91,4 +91,4 @@ Clearance clear_along(const MovingPolygon& p, const Vec3& n, double t, double mi
   return r;
 }
 
-}  // namespace touchstone::ccd
+}  // namespace touchstone::impact

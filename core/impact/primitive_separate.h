@@ -3,7 +3,7 @@
 
 #include "core/impact/primitive_polygon.h"
 
-namespace touchstone::ccd {
+namespace touchstone::impact {
 
 /// Candidate directions at one time, unit up to rounding, best first: towards the nearest point, the
 /// polygon's normal, the nearest corner.
@@ -28,4 +28,4 @@ struct Clearance {
 /// for underflow.
 Clearance clear_along(const MovingPolygon& p, const Vec3& n, double t, double min_separation);
 
-}  // namespace touchstone::ccd
+}  // namespace touchstone::impact

@@ -18,7 +18,7 @@
 #include <cmath>
 #include <limits>
 
-namespace touchstone::ccd {
+namespace touchstone::impact {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -118,4 +118,4 @@ bool crosses_near(const MovingPolygon& p, double t) {
   return false;
 }
 
-}  // namespace touchstone::ccd
+}  // namespace touchstone::impact

@@ -3,7 +3,7 @@
 
 #include "core/impact/primitive_polygon.h"
 
-namespace touchstone::ccd {
+namespace touchstone::impact {
 
 /// A time up to which, from t on, the volume is proven to be non-zero, so that the origin is not in the
 /// polygon's plane; t if nothing is proven.
@@ -12,4 +12,4 @@ double volume_clear_until(const MovingPolygon& p, double t);
 /// True: the polygon is proven to contain the origin at some time near t. False: undecided.
 bool crosses_near(const MovingPolygon& p, double t);
 
-}  // namespace touchstone::ccd
+}  // namespace touchstone::impact

@@ -7,22 +7,22 @@
 #include "core/impact/advance.h"
 #include "core/impact/filtered/impact_search.h"
 
-namespace touchstone::ccd {
+namespace touchstone::impact {
 
-inline bool settled(const fast::Search& s) {
-  return s.end == fast::SearchEnd::hit || s.end == fast::SearchEnd::clear;
+inline bool settled(const filtered::Search& s) {
+  return s.end == filtered::SearchEnd::hit || s.end == filtered::SearchEnd::clear;
 }
 
 /// `fine` is the result unless the search in double has `settled`; its steps are the total.
 struct Pursuit {
-  fast::Search search;
+  filtered::Search search;
   ImpactAnswer fine;
 };
 
-/// search_from(t): fast::search from t on. advance_from(t, leave): advance() from t on. Precondition: no
+/// search_from(t): filtered::search from t on. advance_from(t, leave): advance() from t on. Precondition: no
 /// contact before s.clear_until.
 template <class Search, class Wider>
-Pursuit pursue(const fast::Sweep& sweep, fast::Search s, const Search& search_from,
+Pursuit pursue(const filtered::Sweep& sweep, filtered::Search s, const Search& search_from,
                const Wider& advance_from) {
   constexpr int step_cap = 40000;
   int steps = s.steps;
@@ -44,4 +44,4 @@ Pursuit pursue(const fast::Sweep& sweep, fast::Search s, const Search& search_fr
   return {s, {}};
 }
 
-}  // namespace touchstone::ccd
+}  // namespace touchstone::impact

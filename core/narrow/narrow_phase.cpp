@@ -6,9 +6,9 @@
 namespace touchstone {
 namespace {
 
-namespace fast = narrow::fast;
-using fast::Asked;
-using fast::Found;
+namespace filtered = narrow::filtered;
+using filtered::Asked;
+using filtered::Found;
 using narrow::FastAnswer;
 
 template <class R>
@@ -33,14 +33,14 @@ bool overlaps(const FastAnswer<R>& f) {
 // Transforms the points from the frame of the table row's A to the world.
 template <class R>
 bool fill_manifold(const FastAnswer<R>& f, const PlacedShape& a, const PlacedShape& b, Manifold& out) {
-  const fast::Answer<R>& s = f.answer;
-  if (f.scene.contact == fast::ContactForm::point) {
+  const filtered::Answer<R>& s = f.answer;
+  if (f.scene.contact == filtered::ContactForm::point) {
     out.push_back({world<R>((s.a + s.b) / 2, a), std::max<double>(0, -s.gap), 0});
     return true;
   }
   const PlacedShape& origin = f.mirrored ? b : a;
-  const fast::PairScene<R>& c = f.scene;
-  const auto patch = fast::contact_patch<R>(c.a, c.contact == fast::ContactForm::plane ? nullptr : &c.b, c.at,
+  const filtered::PairScene<R>& c = f.scene;
+  const auto patch = filtered::contact_patch<R>(c.a, c.contact == filtered::ContactForm::plane ? nullptr : &c.b, c.at,
                                             c.normal, s.gap, c.has_middle ? &c.middle : nullptr);
   for (int i = 0; i < patch.size; ++i) {
     const auto& p = patch.point[static_cast<std::size_t>(i)];
@@ -52,11 +52,11 @@ bool fill_manifold(const FastAnswer<R>& f, const PlacedShape& a, const PlacedSha
 // A closed form does not set bodies and frames; this function does.
 template <class R>
 void prepare_segments(FastAnswer<R>& f, const PlacedShape& a, const PlacedShape& b) {
-  if (f.scene.contact != fast::ContactForm::segments) return;
+  if (f.scene.contact != filtered::ContactForm::segments) return;
   const PlacedShape &x = f.mirrored ? b : a, &y = f.mirrored ? a : b;
-  const auto from = fast::stand<R>(x.pose), to = fast::stand<R>(y.pose);
-  f.scene.contact = fast::ContactForm::cores;
-  fast::prepare<R>(x, from, y, to, f.scene);
+  const auto from = filtered::stand<R>(x.pose), to = filtered::stand<R>(y.pose);
+  f.scene.contact = filtered::ContactForm::cores;
+  filtered::prepare<R>(x, from, y, to, f.scene);
   const V3<R> n = f.mirrored ? V3<R>(-f.answer.normal) : f.answer.normal;
   f.scene.normal = f.scene.at.a_to_world.transpose() * n;
   // (a + b)/2 relative to the row's A; the answer's points are relative to the query's A.

@@ -41,16 +41,16 @@ Separation unsupported(const Shape&, const WideFrame&, const Shape&, const WideF
 }
 
 template <class R>
-void capsules(const PlacedShape& a, const PlacedShape& b, fast::Asked asked, fast::Answer<R>& out,
-              fast::PairScene<R>& scene) {
-  if (fast::capsule_capsule<R>(*a.shape, a.pose, *b.shape, b.pose, asked, out))
-    scene.contact = fast::ContactForm::segments;
+void capsules(const PlacedShape& a, const PlacedShape& b, filtered::Asked asked, filtered::Answer<R>& out,
+              filtered::PairScene<R>& scene) {
+  if (filtered::capsule_capsule<R>(*a.shape, a.pose, *b.shape, b.pose, asked, out))
+    scene.contact = filtered::ContactForm::segments;
 }
 
 struct Row {
   PairFunction wide;
-  fast::Function<double> f64;
-  fast::Function<float> f32;
+  filtered::Function<double> f64;
+  filtered::Function<float> f32;
 };
 
 constexpr std::size_t kinds = shape_kind_count;
@@ -59,10 +59,10 @@ using Table = std::array<std::array<Row, kinds>, kinds>;
 constexpr std::size_t at(ShapeKind k) { return static_cast<std::size_t>(k); }
 
 // clang-format off
-#define TS_ROW(wide, form) Row{&on_cores<&wide>, &fast::form<double>, &fast::form<float>}
+#define TS_ROW(wide, form) Row{&on_cores<&wide>, &filtered::form<double>, &filtered::form<float>}
 #define TS_CLOSED(form) \
-  Row{&on_cores<&form>, &fast::closed<double, &fast::form<double>>, \
-      &fast::closed<float, &fast::form<float>>}
+  Row{&on_cores<&form>, &filtered::closed<double, &filtered::form<double>>, \
+      &filtered::closed<float, &filtered::form<float>>}
 // clang-format on
 
 constexpr Table make_table() {
@@ -70,9 +70,9 @@ constexpr Table make_table() {
   Table t{};
   for (auto& row : t) row.fill(TS_ROW(separate_convex, convex_pair));
   for (std::size_t i = 0; i < kinds; ++i) {
-    t[i][at(K::half_space)] = {&convex_half_space, &fast::convex_half_space<double>,
-                               &fast::convex_half_space<float>};
-    t[i][at(K::mesh)] = {&convex_mesh, &fast::convex_mesh<double>, nullptr};
+    t[i][at(K::half_space)] = {&convex_half_space, &filtered::convex_half_space<double>,
+                               &filtered::convex_half_space<float>};
+    t[i][at(K::mesh)] = {&convex_mesh, &filtered::convex_mesh<double>, nullptr};
   }
   t[at(K::half_space)][at(K::half_space)] = {&unsupported, nullptr, nullptr};
   t[at(K::half_space)][at(K::mesh)] = {&half_space_mesh, nullptr, nullptr};
@@ -89,7 +89,7 @@ constexpr Table make_table() {
 constexpr Table table = make_table();
 
 template <class R>
-fast::Function<R> function_of(const Row& row) {
+filtered::Function<R> function_of(const Row& row) {
   if constexpr (sizeof(R) == sizeof(double))
     return row.f64;
   else
@@ -104,13 +104,13 @@ bool has_fast(ShapeKind a, ShapeKind b) {
 }
 
 template <class R>
-void separate_fast(const PlacedShape& a, const PlacedShape& b, fast::Asked asked, FastAnswer<R>& out) {
+void separate_fast(const PlacedShape& a, const PlacedShape& b, filtered::Asked asked, FastAnswer<R>& out) {
   const std::size_t i = a.shape->index(), j = b.shape->index();
   out.mirrored = i > j;
-  const fast::Function<R> f = function_of<R>(out.mirrored ? table[j][i] : table[i][j]);
+  const filtered::Function<R> f = function_of<R>(out.mirrored ? table[j][i] : table[i][j]);
   if (!f) return;
   if (!out.mirrored) return f(a, b, asked, out.answer, out.scene);
-  fast::Answer<R>& r = out.answer;
+  filtered::Answer<R>& r = out.answer;
   r.normal = r.a = r.b = V3<R>::Zero();
   f(b, a, asked, r, out.scene);
   const V3<R> shift = b.pose.translation.cast<R>() - a.pose.translation.cast<R>();
@@ -122,8 +122,8 @@ void separate_fast(const PlacedShape& a, const PlacedShape& b, fast::Asked asked
 
 template bool has_fast<double>(ShapeKind, ShapeKind);
 template bool has_fast<float>(ShapeKind, ShapeKind);
-template void separate_fast(const PlacedShape&, const PlacedShape&, fast::Asked, FastAnswer<double>&);
-template void separate_fast(const PlacedShape&, const PlacedShape&, fast::Asked, FastAnswer<float>&);
+template void separate_fast(const PlacedShape&, const PlacedShape&, filtered::Asked, FastAnswer<double>&);
+template void separate_fast(const PlacedShape&, const PlacedShape&, filtered::Asked, FastAnswer<float>&);
 
 Separation separate_placed(const Shape& a, const WideFrame& fa, const Shape& b, const WideFrame& fb) {
   const std::size_t i = a.index(), j = b.index();

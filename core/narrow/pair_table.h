@@ -20,12 +20,12 @@ Separation separate(const Shape& a, const WideFrame& frame_a, const Shape& b, co
 /// the answer is `unsure`.
 template <class R>
 struct FastAnswer {
-  fast::Answer<R> answer;
-  fast::PairScene<R> scene;
+  filtered::Answer<R> answer;
+  filtered::PairScene<R> scene;
   bool mirrored = false;
 };
 template <class R>
-void separate_fast(const PlacedShape& a, const PlacedShape& b, fast::Asked asked, FastAnswer<R>& out);
+void separate_fast(const PlacedShape& a, const PlacedShape& b, filtered::Asked asked, FastAnswer<R>& out);
 
 /// Whether the table has an algorithm in the arithmetic R for the pair.
 template <class R>

@@ -148,7 +148,7 @@ class Judge {
  public:
   Judge(const Case& c, const Observation& answer, BroadLevel level, bool invalid)
       : s_(c.scene),
-        swept_(asks_swept_candidates(c)),
+        swept_(has_swept_candidates_query(c)),
         answer_(answer),
         level_(level),
         invalid_(invalid),

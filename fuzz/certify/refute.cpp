@@ -58,7 +58,7 @@ class SubjectRunner {
   bool is_fit(const Case& c) {
     if (c.queries.size() != 1 || !is_broad_question(c.queries[0].question)) return false;
     if (c.scene.bodies.empty()) return false;
-    if (asks_swept_candidates(c)) return level_ == BroadLevel::bodies;
+    if (has_swept_candidates_query(c)) return level_ == BroadLevel::bodies;
     if (c.scene.script.empty()) return false;  // would mean: insert all bodies
     if (level_ == BroadLevel::bodies) return true;
     const Scalar scalar =
@@ -145,7 +145,7 @@ std::string invalid_boxes(const Scene& s) {
 }  // namespace
 
 std::size_t bodies_used(const Case& c) {
-  if (asks_swept_candidates(c)) return c.scene.bodies.size();
+  if (has_swept_candidates_query(c)) return c.scene.bodies.size();
   std::set<int> used;
   for (const Step& step : c.scene.script)
     if (step.op == Step::Op::insert) used.insert(step.body);

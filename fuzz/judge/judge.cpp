@@ -84,7 +84,7 @@ bool is_refusal(const CheckInput& asked) {
 Judgement judge_one(const CheckInput& asked, std::optional<int> received_frame) {
   Judgement j;
   j.outcome = asked.answer.outcome;
-  if (is_no_attempt(j.outcome) || is_refusal(asked)) return j;
+  if (was_not_attempted(j.outcome) || is_refusal(asked)) return j;
   if (j.outcome != Outcome::answered) {
     FaultReport f;
     f.a = asked.query.a;

@@ -16,7 +16,7 @@ bool has(const Judgement& j, std::initializer_list<Fault> faults) {
 
 void count(ChartRow& r, const Judgement& j) {
   ++r.asked;
-  if (is_no_attempt(j.outcome)) return;
+  if (was_not_attempted(j.outcome)) return;
   if (j.outcome != Outcome::answered) {
     ++r.failed;
     return;

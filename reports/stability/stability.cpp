@@ -38,7 +38,7 @@ void raise(double& largest, double x) {
 }
 
 void count(Rung& r, const Judgement& j) {
-  if (is_no_attempt(j.outcome)) return;
+  if (was_not_attempted(j.outcome)) return;
   ++r.asked;
   if (j.outcome != Outcome::answered) {
     ++r.failed;
@@ -76,7 +76,7 @@ void add_forms(std::span<LadderResult> results, const PairForms& asked,
   for (std::size_t q = 0; q < asked.c.queries.size(); ++q) {
     const Query& query = asked.c.queries[q];
     const Outcome outcome = judgements[q].outcome;
-    if (is_no_attempt(outcome)) continue;
+    if (was_not_attempted(outcome)) continue;
     const double l = query.question == Question::time_of_impact ? 1 : truth.scale(0, 1);
     const double x = number_of(query, observed[0].answers[q]);
     Rung& r = results[q].rungs.back();

@@ -52,7 +52,7 @@ struct Case {
 };
 
 /// Cases that ask for swept candidates have no other queries.
-inline bool asks_swept_candidates(const Case& c) {
+inline bool has_swept_candidates_query(const Case& c) {
   return !c.queries.empty() && c.queries[0].question == Question::swept_candidates;
 }
 

@@ -4,7 +4,7 @@
 #include "tests/support/catch.h"
 
 using namespace touchstone;
-using namespace touchstone::ccd;
+using namespace touchstone::impact;
 
 namespace {
 

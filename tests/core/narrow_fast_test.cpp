@@ -13,7 +13,7 @@
 
 using namespace touchstone;
 using namespace touchstone::test;
-namespace fast = touchstone::narrow::fast;
+namespace filtered = touchstone::narrow::filtered;
 
 namespace {
 
@@ -60,7 +60,7 @@ template <class R>
 Pair received(Pair p) {
   round_shape<R>(p.a), round_shape<R>(p.b);
   for (Pose* q : {&p.pose_a, &p.pose_b}) {
-    const auto s = fast::stand<R>(*q);
+    const auto s = filtered::stand<R>(*q);
     q->rotation = {s.x, s.y, s.z, s.w};
     if constexpr (sizeof(R) == sizeof(float))
       q->translation = through_float(q->translation),
@@ -79,17 +79,17 @@ struct Truth {
 
 // A value, asked in either order; n points from the pair's A to its B.
 template <class R>
-void check_value(const Width& width, const Truth& t, const fast::Answer<R>& s, bool swapped) {
+void check_value(const Width& width, const Truth& t, const filtered::Answer<R>& s, bool swapped) {
   const double bound = static_cast<double>(s.bound), gap = static_cast<double>(s.gap);
   CHECK(bound <= t.tau * (sizeof(R) == sizeof(float) ? 2.02 : 1.01));
   CHECK(std::abs(gap - t.gap) <= bound + t.slack);
-  if (s.found == fast::Found::apart) CHECK(t.gap > 0);
-  if (s.found == fast::Found::meeting) CHECK(t.gap <= 0);
+  if (s.found == filtered::Found::apart) CHECK(t.gap > 0);
+  if (s.found == filtered::Found::meeting) CHECK(t.gap <= 0);
   const V3<R> n = swapped ? V3<R>(-s.normal) : s.normal;
-  CHECK(std::abs(static_cast<double>(n.norm()) - 1) <= 16 * fast::u<R>);
+  CHECK(std::abs(static_cast<double>(n.norm()) - 1) <= 16 * filtered::u<R>);
   // w(n) is that of the unit vector; the answer's own length is off by a few u.
   CHECK(std::abs(static_cast<double>(width(n.template cast<Wide>())) + gap) <=
-        bound + t.slack + 8 * fast::u<R> * t.scale);
+        bound + t.slack + 8 * filtered::u<R> * t.scale);
 }
 
 // The three questions of (A, B), or of (B, A).
@@ -97,28 +97,28 @@ template <class R>
 void check_answers(const Pair& p, const Width& width, const Truth& t, bool swapped, Count& count) {
   INFO((swapped ? "B, A" : "A, B"));
   const PlacedShape a = swapped ? p.placed_b() : p.placed_a(), b = swapped ? p.placed_a() : p.placed_b();
-  const auto ask = [&](fast::Asked asked) {
+  const auto ask = [&](filtered::Asked asked) {
     narrow::FastAnswer<R> f;
     narrow::separate_fast<R>(a, b, asked, f);
     return f.answer;
   };
-  const auto says_verdict = [](const fast::Answer<R>& s) {
-    return s.found == fast::Found::apart || s.found == fast::Found::meeting;
+  const auto says_verdict = [](const filtered::Answer<R>& s) {
+    return s.found == filtered::Found::apart || s.found == filtered::Found::meeting;
   };
-  if (const auto verdict = ask(fast::Asked::overlap); says_verdict(verdict)) {
+  if (const auto verdict = ask(filtered::Asked::overlap); says_verdict(verdict)) {
     ++count.verdicts, ++count.judged;
-    CHECK((verdict.found == fast::Found::meeting) == (t.gap <= 0));
+    CHECK((verdict.found == filtered::Found::meeting) == (t.gap <= 0));
   }
-  if (const auto contact = ask(fast::Asked::contact); contact.found != fast::Found::unsure) {
+  if (const auto contact = ask(filtered::Asked::contact); contact.found != filtered::Found::unsure) {
     ++count.judged;
     // Bodies that are apart need no value.
-    if (contact.found == fast::Found::apart)
+    if (contact.found == filtered::Found::apart)
       CHECK(t.gap > 0);
     else
       check_value<R>(width, t, contact, swapped);
   }
-  const auto value = ask(fast::Asked::distance);
-  if (value.found == fast::Found::unsure) return;
+  const auto value = ask(filtered::Asked::distance);
+  if (value.found == filtered::Found::unsure) return;
   ++count.answered, ++count.judged;
   count.depths += t.gap < 0;
   check_value<R>(width, t, value, swapped);
@@ -133,7 +133,7 @@ void check_pair(const Pair& p, Count& count) {
     return;
   const double scale = scale_of(p);
   const Truth t{static_cast<double>(truth.gap), static_cast<double>(truth.slack), scale,
-                tolerance::core_tau_factor * fast::u<R> * scale};
+                tolerance::core_tau_factor * filtered::u<R> * scale};
   const Width width(p.a, p.pose_a, p.b, p.pose_b);
   for (const bool swapped : {false, true}) ++count.asked, check_answers<R>(p, width, t, swapped, count);
 }

@@ -11,7 +11,7 @@
 #include "tests/support/catch.h"
 
 using namespace touchstone;
-namespace fast = touchstone::narrow::fast;
+namespace filtered = touchstone::narrow::filtered;
 
 namespace {
 
@@ -79,8 +79,8 @@ template <class R>
 void check_directions(Rng& r, const Hull& h, const HullGraph& g, int n) {
   for (int i = 0; i < n; ++i) {
     const V3<R> d = direction<R>(r, h);
-    const std::size_t all = fast::farthest_vertex(h.vertices, d),
-                      climbed = fast::farthest_vertex(g, h.vertices, d);
+    const std::size_t all = filtered::farthest_vertex(h.vertices, d),
+                      climbed = filtered::farthest_vertex(g, h.vertices, d);
     INFO("direction " << i << ": " << d.transpose() << " of " << h.vertices.size() << " vertices");
     REQUIRE(all == climbed);
   }

@@ -86,8 +86,8 @@ TEST_CASE("a body against a mesh: the same with a tree, and what the referee say
       scene.bodies[1].shape = 1, scene.bodies[1].pose = c.pose_mesh;
       const double tau = tolerance::core_tau_factor * 0x1p-53 * scale_of_pair(scene, 0, 1);
       narrow::FastAnswer<double> f;
-      narrow::separate_fast<double>(a, b, narrow::fast::Asked::distance, f);
-      fast += f.answer.found != narrow::fast::Found::unsure;
+      narrow::separate_fast<double>(a, b, narrow::filtered::Asked::distance, f);
+      fast += f.answer.found != narrow::filtered::Found::unsure;
 
       // Truth of the surface: the least of the triangles', each a hull of three vertices.
       double lo = std::numeric_limits<double>::infinity(), hi = lo;

@@ -18,7 +18,7 @@ int main(int argc, char** argv) {
     const test::PrimitiveMotion m = test::random_motion(r, i);
     const PrimitiveKind kind = r.chance(0.5) ? PrimitiveKind::vertex_face : PrimitiveKind::edge_edge;
     const PrimitiveImpact x = primitive_impact(kind, m.a, m.b);
-    const ccd::ExactImpact exact = ccd::decide_exactly(kind, m.a, m.b, 0, true);
+    const impact::ExactImpact exact = impact::decide_exactly(kind, m.a, m.b, 0, true);
     hits += exact.collides, open += x.outcome != Outcome::answered,
         in_double += x.exit != PrimitiveExit::exact;
     const bool differs = x.toi.has_value() != exact.collides;

@@ -3,7 +3,7 @@
 
 #include "core/impact/filtered/look.h"
 
-namespace touchstone::ccd::fast {
+namespace touchstone::impact::filtered {
 
 namespace detail {
 
@@ -53,4 +53,4 @@ inline Vec feature_turn(const Sweep& w, const Spot& x, const Features& f, const 
   return n.cross(change) * (side / std::sqrt(length_sq));
 }
 
-}  // namespace touchstone::ccd::fast
+}  // namespace touchstone::impact::filtered

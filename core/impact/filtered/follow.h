@@ -24,7 +24,7 @@
 
 #include "core/impact/filtered/look.h"
 
-namespace touchstone::ccd::fast {
+namespace touchstone::impact::filtered {
 
 struct Followed {
   Spot spot;           // no contact up to its time; s >= error there
@@ -224,4 +224,4 @@ inline Followed follow(const Sweep& w, const Spot& from, const View& view, const
   return detail::Follower(w, from, view, turn, end).run();
 }
 
-}  // namespace touchstone::ccd::fast
+}  // namespace touchstone::impact::filtered

@@ -2,7 +2,7 @@
 
 #include "core/impact/filtered/feature_turn.h"
 
-namespace touchstone::ccd::fast {
+namespace touchstone::impact::filtered {
 namespace {
 
 constexpr int step_cap = 20000;
@@ -201,4 +201,4 @@ ImpactAnswer answer_of(const Search& s, const Vec& linear_a) {
   return r;
 }
 
-}  // namespace touchstone::ccd::fast
+}  // namespace touchstone::impact::filtered

@@ -7,7 +7,7 @@
 
 #include "core/impact/filtered/follow.h"
 
-namespace touchstone::ccd::fast {
+namespace touchstone::impact::filtered {
 
 enum class SearchEnd {
   hit,     // the gap at `clear_until` is positive and at most `accuracy`
@@ -37,4 +37,4 @@ ImpactAnswer answer_of(const Search& s, const Vec& linear_a);
 /// Recomputes the nearest points of a hit.
 Search with_points(const Sweep& sweep, Search hit, double accuracy);
 
-}  // namespace touchstone::ccd::fast
+}  // namespace touchstone::impact::filtered

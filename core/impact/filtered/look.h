@@ -10,7 +10,7 @@
 #include "core/impact/filtered/sweep.h"
 #include "core/narrow/filtered/simplex.h"
 
-namespace touchstone::ccd::fast {
+namespace touchstone::impact::filtered {
 
 /// A few core points of each body, in its own frame, that define the nearest points.
 struct Features {
@@ -113,7 +113,7 @@ class Looker {
     const auto before = simplex_.p;
     const int size = simplex_.size;
     double dist_sq = 0, margin = 0;
-    if (narrow::fast::reduce(simplex_, v, dist_sq, margin)) return false;
+    if (narrow::filtered::reduce(simplex_, v, dist_sq, margin)) return false;
     const Features previous = f_;
     f_.size = simplex_.size;
     for (int i = 0; i < simplex_.size; ++i) {
@@ -131,7 +131,7 @@ class Looker {
   const Spot& x_;
   Features& f_;
   View& v_;
-  narrow::fast::Simplex<double> simplex_;
+  narrow::filtered::Simplex<double> simplex_;
 };
 
 }  // namespace detail
@@ -178,4 +178,4 @@ inline View look(const Sweep& sweep, const Spot& x, Features& f, double relative
   return v;
 }
 
-}  // namespace touchstone::ccd::fast
+}  // namespace touchstone::impact::filtered

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-namespace touchstone::ccd::fast {
+namespace touchstone::impact::filtered {
 namespace {
 
 using narrow::CoreKind;
@@ -11,7 +11,7 @@ using narrow::CoreKind;
 constexpr double inflation = 1 + 0x1p-46;
 
 // Distance of the farthest core point from the axis through the origin along a (unit, body frame).
-double reach_off_axis(const narrow::fast::Body<double>& c, const Vec& a) {
+double reach_off_axis(const narrow::filtered::Body<double>& c, const Vec& a) {
   const auto off = [&](const Vec& p) { return p.cross(a).norm(); };
   const Vec& s = c.size;
   switch (c.kind) {
@@ -58,8 +58,8 @@ void set_turn(Mover& m, const Vec& angular) {
   m.axis = m.axis_wide.cast<double>();
   const Vec local = m.start.transpose() * m.axis;
   m.off_axis = reach_off_axis(m.body, local) * inflation + 16 * u<double> * m.body.reach;
-  m.up = local.dot(narrow::fast::support_local<double>(m.body, local));
-  m.down = -local.dot(narrow::fast::support_local<double>(m.body, -local));
+  m.up = local.dot(narrow::filtered::support_local<double>(m.body, local));
+  m.down = -local.dot(narrow::filtered::support_local<double>(m.body, -local));
 }
 
 }  // namespace
@@ -77,7 +77,7 @@ WideMat rotation_of(const Quat& q) {
 
 Mover make_mover(const Shape& shape, const WideMat& rotation, const Motion& motion) {
   Mover m;
-  m.body = narrow::fast::make_body<double>(shape);
+  m.body = narrow::filtered::make_body<double>(shape);
   m.start_wide = rotation;
   m.start = rotation.cast<double>();
   m.linear = motion.linear;
@@ -89,7 +89,7 @@ Mover make_points(std::span<const Vec3> points, const WideMat& rotation) {
   Mover m;
   m.body.kind = CoreKind::vertices;
   m.body.vertices = points;
-  m.body.reach = m.body.extent = std::sqrt(narrow::fast::largest_norm_sq(points));
+  m.body.reach = m.body.extent = std::sqrt(narrow::filtered::largest_norm_sq(points));
   m.start_wide = rotation;
   m.start = rotation.cast<double>();
   return m;
@@ -106,4 +106,4 @@ Mat rotation_at(const Mover& m, double t, bool precise) {
   return (q * m.start_wide).cast<double>();
 }
 
-}  // namespace touchstone::ccd::fast
+}  // namespace touchstone::impact::filtered

@@ -4,14 +4,14 @@
 #include "core/impact/advance.h"
 #include "core/narrow/filtered/body.h"
 
-namespace touchstone::ccd::fast {
+namespace touchstone::impact::filtered {
 
-using narrow::fast::u;
+using narrow::filtered::u;
 using Vec = V3<double>;
 using Mat = M3<double>;
 
 struct Mover {
-  narrow::fast::Body<double> body;
+  narrow::filtered::Body<double> body;
   WideMat start_wide;  // rotation at t = 0; `start` is rounded
   Mat start;
   Vec linear = Vec::Zero(), angular = Vec::Zero();
@@ -40,7 +40,7 @@ Mat rotation_at(const Mover& m, double t, bool precise);
 /// Core point farthest along n at a rotation r, in the body's frame.
 inline Vec farthest(const Mover& m, const Mat& r, const Vec& n) {
   if (m.body.kind == narrow::CoreKind::point) return Vec::Zero();
-  return narrow::fast::support_local<double>(m.body, r.transpose() * n);
+  return narrow::filtered::support_local<double>(m.body, r.transpose() * n);
 }
 
-}  // namespace touchstone::ccd::fast
+}  // namespace touchstone::impact::filtered

@@ -23,7 +23,7 @@
 
 #include "core/impact/filtered/mover.h"
 
-namespace touchstone::ccd::fast {
+namespace touchstone::impact::filtered {
 
 /// Covers the rounding of an error bound itself.
 inline constexpr double bound_margin = 1 + 0x1p-20;
@@ -90,4 +90,4 @@ class Sweep {
   double radii_ = 0;
 };
 
-}  // namespace touchstone::ccd::fast
+}  // namespace touchstone::impact::filtered

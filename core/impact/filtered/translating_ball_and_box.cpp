@@ -3,7 +3,7 @@
 
 #include "core/impact/filtered/translation.h"
 
-namespace touchstone::ccd::fast {
+namespace touchstone::impact::filtered {
 namespace {
 
 // Squared distance of the centre from the box as a quadratic in the time from now, over the coordinates that
@@ -117,4 +117,4 @@ Search translating_ball_and_box(const Translation& m, double radius, const Vec& 
   return out;
 }
 
-}  // namespace touchstone::ccd::fast
+}  // namespace touchstone::impact::filtered

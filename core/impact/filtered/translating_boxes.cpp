@@ -3,7 +3,7 @@
 
 #include "core/impact/filtered/translation.h"
 
-namespace touchstone::ccd::fast {
+namespace touchstone::impact::filtered {
 namespace {
 
 // √3, rounded up.
@@ -123,7 +123,7 @@ class Boxes {
   }
 
   const Vec &ha_, &hb_;
-  narrow::fast::Relative<double> at_;
+  narrow::filtered::Relative<double> at_;
   Vec v_;
   double constant_ = 0, speed_ = 0, enter_ = -1;
   std::array<Axis, 15> axis_;
@@ -137,4 +137,4 @@ Search translating_boxes(const Translation& m, const Vec& half_a, const Vec& hal
   return Boxes(m, half_a, half_b).run(accuracy);
 }
 
-}  // namespace touchstone::ccd::fast
+}  // namespace touchstone::impact::filtered

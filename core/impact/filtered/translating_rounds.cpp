@@ -2,7 +2,7 @@
 
 #include "core/impact/filtered/translation.h"
 
-namespace touchstone::ccd::fast {
+namespace touchstone::impact::filtered {
 namespace {
 
 // The distance of two points or segments in translation is a convex function of time, and the separation
@@ -98,4 +98,4 @@ Search translating_rounds(const Translation& m, const Round& a, const Round& b, 
   return unsure;
 }
 
-}  // namespace touchstone::ccd::fast
+}  // namespace touchstone::impact::filtered

@@ -14,11 +14,11 @@
 #include "core/impact/filtered/impact_search.h"
 #include "core/narrow/filtered/body.h"
 
-namespace touchstone::ccd::fast {
+namespace touchstone::impact::filtered {
 
 /// A pair in translation; `velocity` is that of B relative to A.
 struct Translation {
-  narrow::fast::Stand<double> a, b;
+  narrow::filtered::RoundedPose<double> a, b;
   Vec velocity;
 };
 
@@ -44,4 +44,4 @@ Search translating_rounds(const Translation& m, const Round& a, const Round& b, 
 /// Hulls and boxes: a ray cast against their Minkowski difference, with the errors of sweep.h.
 Search translating_polytopes(const Sweep& sweep, double accuracy);
 
-}  // namespace touchstone::ccd::fast
+}  // namespace touchstone::impact::filtered

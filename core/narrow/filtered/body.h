@@ -8,7 +8,7 @@
 #include "core/narrow/filtered/vertex_climb.h"
 #include "core/narrow/filtered/vertex_scan.h"
 
-namespace touchstone::narrow::fast {
+namespace touchstone::narrow::filtered {
 
 template <class R>
 struct Body {
@@ -137,4 +137,4 @@ Body<R> make_body(const Shape& shape, const HullGraph* graph = nullptr) {
   return c;
 }
 
-}  // namespace touchstone::narrow::fast
+}  // namespace touchstone::narrow::filtered

@@ -13,7 +13,7 @@
 
 #include "core/narrow/filtered/query.h"
 
-namespace touchstone::narrow::fast {
+namespace touchstone::narrow::filtered {
 
 template <class R>
 struct BoxPair {
@@ -84,7 +84,7 @@ std::array<R, 6> face_separations(const BoxPair<R>& p) {
 }  // namespace detail
 
 template <class R>
-BoxPair<R> box_pair(const Shape& sa, const Stand<R>& a, const Shape& sb, const Stand<R>& b) {
+BoxPair<R> box_pair(const Shape& sa, const RoundedPose<R>& a, const Shape& sb, const RoundedPose<R>& b) {
   BoxPair<R> p{std::get_if<Box>(&sa)->half_extents.template cast<R>(),
                std::get_if<Box>(&sb)->half_extents.template cast<R>(), relative(a, b), 0};
   // 1-norms bound the lengths in query.h's analysis and need no square root.
@@ -150,4 +150,4 @@ BoxAxis<R> least_axis(const BoxPair<R>& p) {
   return best;
 }
 
-}  // namespace touchstone::narrow::fast
+}  // namespace touchstone::narrow::filtered

@@ -18,7 +18,7 @@
 
 #include "core/narrow/filtered/closed_forms.h"
 
-namespace touchstone::narrow::fast {
+namespace touchstone::narrow::filtered {
 
 template <class R>
 struct BoxSegment {
@@ -184,7 +184,7 @@ struct BoxCapsule {
 };
 
 template <class R>
-BoxCapsule<R> box_capsule(const Shape& sa, const Stand<R>& a, const Shape& sb, const Stand<R>& b) {
+BoxCapsule<R> box_capsule(const Shape& sa, const RoundedPose<R>& a, const Shape& sb, const RoundedPose<R>& b) {
   const auto& capsule = *std::get_if<Capsule>(&sb);
   BoxCapsule<R> r{matrix(a), {}, static_cast<R>(capsule.radius), 0};
   BoxSegment<R>& p = r.cores;
@@ -215,4 +215,4 @@ bool solve(const BoxCapsule<R>& q, Asked asked, Answer<R>& out) {
   return std::abs((out.b - out.a).norm() - std::abs(out.gap)) <= accuracy(q.scale) / 4;
 }
 
-}  // namespace touchstone::narrow::fast
+}  // namespace touchstone::narrow::filtered

@@ -8,7 +8,7 @@
 #include "core/narrow/mesh.h"
 #include "core/narrow/mesh_tree.h"
 
-namespace touchstone::narrow::fast {
+namespace touchstone::narrow::filtered {
 namespace {
 
 // In units of the coordinates; covers the rounding of a box's distance, which is computed from exact boxes.
@@ -109,7 +109,7 @@ class MeshQuery {
 
   const TriangleMesh& mesh_;
   Asked asked_;
-  Stand<R> a_, b_;
+  RoundedPose<R> a_, b_;
   Answer<R>& best_;
   PairScene<R>& s_;
   Vec3 centre_;  // of the body, in the mesh's frame
@@ -130,4 +130,4 @@ void convex_mesh(const PlacedShape& a, const PlacedShape& b, Asked asked, Answer
 
 template void convex_mesh(const PlacedShape&, const PlacedShape&, Asked, Answer<double>&, PairScene<double>&);
 
-}  // namespace touchstone::narrow::fast
+}  // namespace touchstone::narrow::filtered

@@ -4,7 +4,7 @@
 #include "core/narrow/filtered/body.h"
 #include "core/narrow/filtered/simplex.h"
 
-namespace touchstone::narrow::fast {
+namespace touchstone::narrow::filtered {
 
 template <class R>
 struct Difference {
@@ -19,4 +19,4 @@ struct Difference {
   }
 };
 
-}  // namespace touchstone::narrow::fast
+}  // namespace touchstone::narrow::filtered

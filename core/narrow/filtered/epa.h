@@ -8,7 +8,7 @@
 
 #include "core/narrow/filtered/gjk.h"
 
-namespace touchstone::narrow::fast {
+namespace touchstone::narrow::filtered {
 
 enum class ExpandEnd {
   closed,  // upper − lower <= tolerance
@@ -413,4 +413,4 @@ class Expander {
   Edge edge_[3 * facet_capacity];
 };
 
-}  // namespace touchstone::narrow::fast
+}  // namespace touchstone::narrow::filtered

@@ -5,7 +5,7 @@
 
 #include "core/narrow/filtered/difference.h"
 
-namespace touchstone::narrow::fast {
+namespace touchstone::narrow::filtered {
 
 enum class Shown { corner, edge, face, round };
 
@@ -209,4 +209,4 @@ R face_margin(const Body<R>& b, const Feature<R>& f, const V3<R>& q) {
   return least;
 }
 
-}  // namespace touchstone::narrow::fast
+}  // namespace touchstone::narrow::filtered

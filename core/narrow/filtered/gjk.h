@@ -6,7 +6,7 @@
 
 #include "core/narrow/filtered/local_depth.h"
 
-namespace touchstone::narrow::fast {
+namespace touchstone::narrow::filtered {
 
 /// Newton step for the direction n (unit, A to B) whose support point w is parallel to it, as at the nearest
 /// point: (H + g) dn = w − g n, where H is the derivative of the support point and g = n·w. Where a body has
@@ -146,4 +146,4 @@ Walk<R> walk(const Difference<R>& d, R tolerance, R certain, R size, const V3<R>
   return g;
 }
 
-}  // namespace touchstone::narrow::fast
+}  // namespace touchstone::narrow::filtered

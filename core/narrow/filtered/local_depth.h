@@ -30,7 +30,7 @@
 
 #include "core/narrow/filtered/feature.h"
 
-namespace touchstone::narrow::fast {
+namespace touchstone::narrow::filtered {
 
 template <class R>
 struct LocalDepth {
@@ -444,4 +444,4 @@ class LocalMinimum {
   R reach_[2] = {0, 0}, along_[2] = {0, 0}, upper_ = 0;
 };
 
-}  // namespace touchstone::narrow::fast
+}  // namespace touchstone::narrow::filtered

@@ -17,7 +17,7 @@
 #include "core/narrow/result.h"
 #include "core/narrow/rim.h"
 
-namespace touchstone::narrow::fast {
+namespace touchstone::narrow::filtered {
 
 template <class R>
 struct PatchPoint {
@@ -384,4 +384,4 @@ Patch<R> contact_patch(const Body<R>& a, const Body<R>* b, const Relative<R>& at
   return patch;
 }
 
-}  // namespace touchstone::narrow::fast
+}  // namespace touchstone::narrow::filtered

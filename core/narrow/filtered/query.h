@@ -20,14 +20,14 @@
 #include "core/narrow/narrow_phase.h"
 #include "core/tolerance.h"
 
-namespace touchstone::narrow::fast {
+namespace touchstone::narrow::filtered {
 
 template <class R>
 inline constexpr R u = std::numeric_limits<R>::epsilon() / 2;
 
 /// A pose as represented in R. The quaternion need not be unit; its square neither overflows nor underflows.
 template <class R>
-struct Stand {
+struct RoundedPose {
   V3<R> t;
   R x, y, z, w;
 };
@@ -37,7 +37,7 @@ struct Stand {
 inline constexpr double least_quat_norm_sq = 0x1p-40, largest_quat_norm_sq = 0x1p40;
 
 template <class R>
-inline Stand<R> stand(const Pose& p) {
+inline RoundedPose<R> rounded_pose(const Pose& p) {
   const Quat& q = p.rotation;
   const double n = q.x * q.x + q.y * q.y + q.z * q.z + q.w * q.w;
   const Quat s = n > least_quat_norm_sq && n < largest_quat_norm_sq ? q : normalized(q);
@@ -46,7 +46,7 @@ inline Stand<R> stand(const Pose& p) {
 }
 
 template <class R>
-M3<R> matrix(const Stand<R>& s) {
+M3<R> matrix(const RoundedPose<R>& s) {
   const R xx = s.x * s.x, yy = s.y * s.y, zz = s.z * s.z, ww = s.w * s.w;
   const R k = 1 / (xx + yy + zz + ww);
   const R xy = s.x * s.y, xz = s.x * s.z, yz = s.y * s.z, wx = s.w * s.x, wy = s.w * s.y, wz = s.w * s.z;
@@ -65,7 +65,7 @@ M3<R> matrix(const Stand<R>& s) {
 
 /// Third column of that matrix: the axis of a round body.
 template <class R>
-V3<R> axis_z(const Stand<R>& s) {
+V3<R> axis_z(const RoundedPose<R>& s) {
   const R xx = s.x * s.x, yy = s.y * s.y, zz = s.z * s.z, ww = s.w * s.w, k = 1 / (xx + yy + zz + ww);
   return {2 * (s.x * s.z + s.w * s.y) * k, 2 * (s.y * s.z - s.w * s.x) * k, (ww - xx - yy + zz) * k};
 }
@@ -78,10 +78,10 @@ struct Relative {
 };
 
 template <class R>
-Relative<R> relative(const Stand<R>& a, const Stand<R>& b) {
+Relative<R> relative(const RoundedPose<R>& a, const RoundedPose<R>& b) {
   Relative<R> r;
   r.a_to_world = matrix(a);
-  const Stand<R> q{
+  const RoundedPose<R> q{
       V3<R>(), a.w * b.x - a.x * b.w - a.y * b.z + a.z * b.y, a.w * b.y + a.x * b.z - a.y * b.w - a.z * b.x,
       a.w * b.z - a.x * b.y + a.y * b.x - a.z * b.w, a.w * b.w + a.x * b.x + a.y * b.y + a.z * b.z};
   r.b_to_a = matrix(q);
@@ -139,4 +139,4 @@ Found decide(R gap, R error) {
   return gap > error ? Found::apart : (gap < -error ? Found::meeting : Found::touching);
 }
 
-}  // namespace touchstone::narrow::fast
+}  // namespace touchstone::narrow::filtered

@@ -8,7 +8,7 @@
 
 #include "core/narrow/filtered/gjk.h"
 
-namespace touchstone::narrow::fast {
+namespace touchstone::narrow::filtered {
 
 template <class R>
 class Revolved {
@@ -103,4 +103,4 @@ class Revolved {
   V3<R> axis_, out_, across_;
 };
 
-}  // namespace touchstone::narrow::fast
+}  // namespace touchstone::narrow::filtered

@@ -9,7 +9,7 @@
 #include "core/narrow/filtered/epa.h"
 #include "core/narrow/filtered/revolved.h"
 
-namespace touchstone::narrow::fast {
+namespace touchstone::narrow::filtered {
 namespace {
 
 template <class R>
@@ -19,7 +19,7 @@ R displacement(const PairScene<R>& s) {
 
 // L of truth.md for the pair as represented in R.
 template <class R>
-R scale(const Body<R>& a, const Body<R>& b, const Stand<R>& at_a, const Stand<R>& at_b) {
+R scale(const Body<R>& a, const Body<R>& b, const RoundedPose<R>& at_a, const RoundedPose<R>& at_b) {
   return std::max(std::max(a.extent, b.extent),
                   std::max(at_a.t.cwiseAbs().maxCoeff(), at_b.t.cwiseAbs().maxCoeff()));
 }
@@ -113,11 +113,11 @@ bool in_range(R size) {
 }
 
 template <class R>
-void separate_scaled(const Stand<R>& a, const Stand<R>& b, Asked asked, R enough, R size, Answer<R>& r,
+void separate_scaled(const RoundedPose<R>& a, const RoundedPose<R>& b, Asked asked, R enough, R size, Answer<R>& r,
                      PairScene<R>& s) {
   const R unit = std::ldexp(R(1), -std::ilogb(size)), back = 1 / unit;
   PairScene<R> t = s;
-  Stand<R> at_a = a, at_b = b;
+  RoundedPose<R> at_a = a, at_b = b;
   for (Body<R>* c : {&t.a, &t.b}) {
     c->size *= unit;
     c->unit *= unit;
@@ -146,7 +146,7 @@ void separate_scaled(const Stand<R>& a, const Stand<R>& b, Asked asked, R enough
 }  // namespace
 
 template <class R>
-void separate_cores(const Stand<R>& a, const Stand<R>& b, Asked asked, R enough, Answer<R>& r,
+void separate_cores(const RoundedPose<R>& a, const RoundedPose<R>& b, Asked asked, R enough, Answer<R>& r,
                     PairScene<R>& s) {
   const Difference<R> d{s.a, s.b, s.at};
   const R error = displacement(s), radii = s.a.radius + s.b.radius;
@@ -191,7 +191,7 @@ void separate_cores(const Stand<R>& a, const Stand<R>& b, Asked asked, R enough,
 
 template <class R>
 void convex_pair(const PlacedShape& pa, const PlacedShape& pb, Asked asked, Answer<R>& r, PairScene<R>& s) {
-  const Stand<R> a = stand<R>(pa.pose), b = stand<R>(pb.pose);
+  const RoundedPose<R> a = stand<R>(pa.pose), b = stand<R>(pb.pose);
   prepare(pa, a, pb, b, s);
   s.contact = ContactForm::cores;
   separate_cores(a, b, asked, std::numeric_limits<R>::infinity(), r, s);
@@ -223,7 +223,7 @@ bool box_witnesses(const BoxPair<R>& p, PairScene<R>& s, Answer<R>& r) {
 
 template <class R>
 void box_box(const PlacedShape& pa, const PlacedShape& pb, Asked asked, Answer<R>& r, PairScene<R>& s) {
-  const Stand<R> a = stand<R>(pa.pose), b = stand<R>(pb.pose);
+  const RoundedPose<R> a = stand<R>(pa.pose), b = stand<R>(pb.pose);
   const BoxPair<R> p = box_pair(*pa.shape, a, *pb.shape, b);
   r.bound = p.displacement;
   if (asked == Asked::overlap) {
@@ -252,7 +252,7 @@ void box_box(const PlacedShape& pa, const PlacedShape& pb, Asked asked, Answer<R
 template <class R>
 void box_and_capsule(const PlacedShape& pa, const PlacedShape& pb, Asked asked, Answer<R>& r,
                      PairScene<R>& s) {
-  const Stand<R> a = stand<R>(pa.pose), b = stand<R>(pb.pose);
+  const RoundedPose<R> a = stand<R>(pa.pose), b = stand<R>(pb.pose);
   const BoxCapsule<R> q = box_capsule(*pa.shape, a, *pb.shape, b);
   if (!solve(q, asked, r)) return convex_pair(pa, pb, asked, r, s);
   if (asked == Asked::overlap) return;
@@ -277,7 +277,7 @@ constexpr double least_normal = 1e-100, largest_normal = 1e100;
 template <class R>
 void convex_half_space(const PlacedShape& pa, const PlacedShape& pb, Asked asked, Answer<R>& r,
                        PairScene<R>& s) {
-  const Stand<R> a = stand<R>(pa.pose), b = stand<R>(pb.pose);
+  const RoundedPose<R> a = stand<R>(pa.pose), b = stand<R>(pb.pose);
   s.a = make_body<R>(*pa.shape, pa.graph);
   const HalfSpace& plane = *std::get_if<HalfSpace>(pb.shape);
   const double length = plane.normal.norm();
@@ -300,7 +300,7 @@ void convex_half_space(const PlacedShape& pa, const PlacedShape& pb, Asked asked
 
 #define TS_INSTANTIATE(R)                                                                                  \
   template void convex_pair(const PlacedShape&, const PlacedShape&, Asked, Answer<R>&, PairScene<R>&);     \
-  template void separate_cores(const Stand<R>&, const Stand<R>&, Asked, R, Answer<R>&, PairScene<R>&);     \
+  template void separate_cores(const RoundedPose<R>&, const RoundedPose<R>&, Asked, R, Answer<R>&, PairScene<R>&);     \
   template void box_box(const PlacedShape&, const PlacedShape&, Asked, Answer<R>&, PairScene<R>&);         \
   template void box_and_capsule(const PlacedShape&, const PlacedShape&, Asked, Answer<R>&, PairScene<R>&); \
   template void convex_half_space(const PlacedShape&, const PlacedShape&, Asked, Answer<R>&, PairScene<R>&);
@@ -308,4 +308,4 @@ TS_INSTANTIATE(double)
 TS_INSTANTIATE(float)
 #undef TS_INSTANTIATE
 
-}  // namespace touchstone::narrow::fast
+}  // namespace touchstone::narrow::filtered

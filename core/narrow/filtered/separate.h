@@ -3,7 +3,7 @@
 
 #include "core/narrow/filtered/patch.h"
 
-namespace touchstone::narrow::fast {
+namespace touchstone::narrow::filtered {
 
 /// Where a contact's points come from.
 enum class ContactForm {
@@ -37,7 +37,7 @@ void convex_pair(const PlacedShape& a, const PlacedShape& b, Asked asked, Answer
 /// The same for the bodies and frames in `scene`. A distance beyond `enough` is reported as `apart` without a
 /// value.
 template <class R>
-void separate_cores(const Stand<R>& a, const Stand<R>& b, Asked asked, R enough, Answer<R>& out,
+void separate_cores(const RoundedPose<R>& a, const RoundedPose<R>& b, Asked asked, R enough, Answer<R>& out,
                     PairScene<R>& scene);
 
 /// A bounded convex A and a mesh B, in double.
@@ -65,11 +65,11 @@ void closed(const PlacedShape& a, const PlacedShape& b, Asked asked, Answer<R>& 
 
 /// Bodies and frames of two shapes, for contact_patch after a closed form.
 template <class R>
-void prepare(const PlacedShape& pa, const Stand<R>& a, const PlacedShape& pb, const Stand<R>& b,
+void prepare(const PlacedShape& pa, const RoundedPose<R>& a, const PlacedShape& pb, const RoundedPose<R>& b,
              PairScene<R>& s) {
   s.a = make_body<R>(*pa.shape, pa.graph);
   s.b = make_body<R>(*pb.shape, pb.graph);
   s.at = relative(a, b);
 }
 
-}  // namespace touchstone::narrow::fast
+}  // namespace touchstone::narrow::filtered

@@ -8,7 +8,7 @@
 
 #include "core/narrow/filtered/query.h"
 
-namespace touchstone::narrow::fast {
+namespace touchstone::narrow::filtered {
 
 /// A point w of B − A and the point a of A that generates it: b = w + a.
 template <class R>
@@ -162,4 +162,4 @@ bool reduce(Simplex<R>& s, V3<R>& v, R& dist_sq, R& margin) {
   return false;
 }
 
-}  // namespace touchstone::narrow::fast
+}  // namespace touchstone::narrow::filtered

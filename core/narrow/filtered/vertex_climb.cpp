@@ -7,7 +7,7 @@
 
 #include "core/narrow/filtered/vertex_scan.h"
 
-namespace touchstone::narrow::fast {
+namespace touchstone::narrow::filtered {
 namespace {
 
 template <class R>
@@ -145,4 +145,4 @@ std::int32_t climb_from(const HullGraph& g, std::span<const Vec3> v, const V3<do
   return Climb<double>(g, v, d).climb(from, 0, unique);
 }
 
-}  // namespace touchstone::narrow::fast
+}  // namespace touchstone::narrow::filtered

@@ -19,7 +19,7 @@
 #include "core/math/wide.h"
 #include "core/narrow/hull_graph.h"
 
-namespace touchstone::narrow::fast {
+namespace touchstone::narrow::filtered {
 
 /// Index of the first vertex farthest along d. The graph is not empty and belongs to v.
 std::size_t farthest_vertex(const HullGraph& g, std::span<const Vec3> v, const V3<double>& d);
@@ -35,4 +35,4 @@ std::size_t vertices_above(const HullGraph& g, std::span<const Vec3> v, const V3
 /// Climbs from `from` to a vertex without a higher neighbour.
 std::int32_t climb_from(const HullGraph& g, std::span<const Vec3> v, const V3<double>& d, std::int32_t from);
 
-}  // namespace touchstone::narrow::fast
+}  // namespace touchstone::narrow::filtered

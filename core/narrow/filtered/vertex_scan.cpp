@@ -10,7 +10,7 @@
 #include <hwy/highway.h>
 
 HWY_BEFORE_NAMESPACE();
-namespace touchstone::narrow::fast::HWY_NAMESPACE {
+namespace touchstone::narrow::filtered::HWY_NAMESPACE {
 namespace {
 
 namespace hn = hwy::HWY_NAMESPACE;
@@ -150,12 +150,12 @@ double largest(const double* p, std::size_t n) {
 }
 
 }  // namespace
-}  // namespace touchstone::narrow::fast::HWY_NAMESPACE
+}  // namespace touchstone::narrow::filtered::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
 
-namespace touchstone::narrow::fast {
+namespace touchstone::narrow::filtered {
 
 HWY_EXPORT(farthest_64);
 HWY_EXPORT(farthest_32);
@@ -185,6 +185,6 @@ double largest_norm_sq(std::span<const Vec3> v) {
   return HWY_DYNAMIC_DISPATCH(largest)(v.front().data(), v.size());
 }
 
-}  // namespace touchstone::narrow::fast
+}  // namespace touchstone::narrow::filtered
 
 #endif
