@@ -12,7 +12,7 @@
 namespace touchstone {
 namespace {
 
-using namespace ccd;
+using namespace impact;
 
 bool moves(const MovingShape& s) { return !s.motion.linear.isZero(0) || !s.motion.angular.isZero(0); }
 bool is_static_shape(const Shape& s) {
@@ -128,7 +128,7 @@ bool is_polytope(const Shape& s) { return kind_of(s) == ShapeKind::box || kind_o
 // Closed forms for translations; `unsure` if there is none for the pair.
 filtered::Search translated(const MovingShape& a, const MovingShape& b) {
   if (turns(a) || turns(b)) return {};
-  const filtered::Translation m{narrow::filtered::stand<double>(a.pose), narrow::filtered::stand<double>(b.pose),
+  const filtered::Translation m{narrow::filtered::rounded_pose<double>(a.pose), narrow::filtered::rounded_pose<double>(b.pose),
                             b.motion.linear - a.motion.linear};
   const auto accuracy = [&](double extent_a, double extent_b) {
     return accuracy_of(std::max(scale_of(a, extent_a), scale_of(b, extent_b)));

@@ -22,7 +22,7 @@
 #include "core/impact/primitive_volume.h"
 
 namespace touchstone {
-namespace ccd {
+namespace impact {
 
 MovingPolygon difference_polygon(PrimitiveKind kind, const std::array<Vec3, 4>& start,
                                  const std::array<Vec3, 4>& end) {
@@ -41,11 +41,11 @@ MovingPolygon difference_polygon(PrimitiveKind kind, const std::array<Vec3, 4>& 
   return p;
 }
 
-}  // namespace ccd
+}  // namespace impact
 
 namespace {
 
-using namespace ccd;
+using namespace impact;
 
 // Along a coordinate axis, the sign of a difference is exact and its magnitude off by u.
 bool apart_along_an_axis(const MovingPolygon& p, double min_separation) {

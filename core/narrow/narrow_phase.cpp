@@ -54,7 +54,7 @@ template <class R>
 void prepare_segments(FastAnswer<R>& f, const PlacedShape& a, const PlacedShape& b) {
   if (f.scene.contact != filtered::ContactForm::segments) return;
   const PlacedShape &x = f.mirrored ? b : a, &y = f.mirrored ? a : b;
-  const auto from = filtered::stand<R>(x.pose), to = filtered::stand<R>(y.pose);
+  const auto from = filtered::rounded_pose<R>(x.pose), to = filtered::rounded_pose<R>(y.pose);
   f.scene.contact = filtered::ContactForm::cores;
   filtered::prepare<R>(x, from, y, to, f.scene);
   const V3<R> n = f.mirrored ? V3<R>(-f.answer.normal) : f.answer.normal;

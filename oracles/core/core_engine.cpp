@@ -118,7 +118,7 @@ Observation observe(const Scene& s, const Query& q, Arithmetic arithmetic) {
 // rotation.
 void round_to_float(const Scene& s, ReceivedScene& r) {
   for (std::size_t i = 0; i < s.bodies.size(); ++i) {
-    const auto stand = narrow::filtered::stand<float>(s.bodies[i].pose);
+    const auto stand = narrow::filtered::rounded_pose<float>(s.bodies[i].pose);
     const Quat q{through_float(stand.x), through_float(stand.y), through_float(stand.z),
                  through_float(stand.w)};
     r.bodies[i] = Placement{rotation_matrix(q), through_float(s.bodies[i].pose.translation)};

@@ -60,7 +60,7 @@ template <class R>
 Pair received(Pair p) {
   round_shape<R>(p.a), round_shape<R>(p.b);
   for (Pose* q : {&p.pose_a, &p.pose_b}) {
-    const auto s = filtered::stand<R>(*q);
+    const auto s = filtered::rounded_pose<R>(*q);
     q->rotation = {s.x, s.y, s.z, s.w};
     if constexpr (sizeof(R) == sizeof(float))
       q->translation = through_float(q->translation),

@@ -72,7 +72,7 @@ template <class R>
 void sphere_box(const Shape& sa, const Pose& pa, const Shape& sb, const Pose& pb, Asked asked,
                 Answer<R>& out) {
   const R r = static_cast<R>(std::get_if<Sphere>(&sa)->radius);
-  const RoundedPose<R> b = stand<R>(pb);
+  const RoundedPose<R> b = rounded_pose<R>(pb);
   const V3<R> h = std::get_if<Box>(&sb)->half_extents.template cast<R>(), d = b.t - pa.translation.cast<R>();
   const M3<R> m = matrix(b);
   V3<R> p;
@@ -102,7 +102,7 @@ void sphere_capsule(const Shape& sa, const Pose& pa, const Shape& sb, const Pose
   const auto& capsule = *std::get_if<Capsule>(&sb);
   const R ra = static_cast<R>(std::get_if<Sphere>(&sa)->radius), rb = static_cast<R>(capsule.radius);
   const R h = static_cast<R>(capsule.half_height);
-  const RoundedPose<R> b = stand<R>(pb);
+  const RoundedPose<R> b = rounded_pose<R>(pb);
   const V3<R> axis = axis_z(b), d = b.t - pa.translation.cast<R>();
   const R along = -d.dot(axis), s = std::clamp(along, -h, h);
   const V3<R> q = d + s * axis;
@@ -220,7 +220,7 @@ template <class R>
 bool capsule_capsule(const Shape& sa, const Pose& pa, const Shape& sb, const Pose& pb, Asked asked,
                      Answer<R>& out) {
   const auto &ca = *std::get_if<Capsule>(&sa), &cb = *std::get_if<Capsule>(&sb);
-  const RoundedPose<R> a = stand<R>(pa), b = stand<R>(pb);
+  const RoundedPose<R> a = rounded_pose<R>(pa), b = rounded_pose<R>(pb);
   const detail::SegmentPair<R> p{axis_z(a), axis_z(b), b.t - a.t, static_cast<R>(ca.half_height),
                                  static_cast<R>(cb.half_height)};
   const R ra = static_cast<R>(ca.radius), rb = static_cast<R>(cb.radius);

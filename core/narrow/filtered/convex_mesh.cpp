@@ -20,15 +20,15 @@ class MeshQuery {
   MeshQuery(const PlacedShape& a, const PlacedShape& b, Asked asked, Answer<R>& best, PairScene<R>& s)
       : mesh_(*std::get_if<TriangleMesh>(b.shape)),
         asked_(asked),
-        a_(stand<R>(a.pose)),
-        b_(stand<R>(b.pose)),
+        a_(rounded_pose<R>(a.pose)),
+        b_(rounded_pose<R>(b.pose)),
         best_(best),
         s_(s) {
     s.a = make_body<R>(*a.shape, a.graph);
     s.at = relative(a_, b_);
     s.contact = ContactForm::point;
     const Vec3 d = a.pose.translation - b.pose.translation;
-    centre_ = matrix(stand<double>(b.pose)).transpose() * d;
+    centre_ = matrix(rounded_pose<double>(b.pose)).transpose() * d;
     const double ball = static_cast<double>(s.a.reach) + static_cast<double>(s.a.radius);
     ball_ = ball + 256 * static_cast<double>(u<R>) * (ball + d.norm() + a.pose.translation.norm());
     best_.found = Found::apart;

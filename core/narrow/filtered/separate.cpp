@@ -191,7 +191,7 @@ void separate_cores(const RoundedPose<R>& a, const RoundedPose<R>& b, Asked aske
 
 template <class R>
 void convex_pair(const PlacedShape& pa, const PlacedShape& pb, Asked asked, Answer<R>& r, PairScene<R>& s) {
-  const RoundedPose<R> a = stand<R>(pa.pose), b = stand<R>(pb.pose);
+  const RoundedPose<R> a = rounded_pose<R>(pa.pose), b = rounded_pose<R>(pb.pose);
   prepare(pa, a, pb, b, s);
   s.contact = ContactForm::cores;
   separate_cores(a, b, asked, std::numeric_limits<R>::infinity(), r, s);
@@ -223,7 +223,7 @@ bool box_witnesses(const BoxPair<R>& p, PairScene<R>& s, Answer<R>& r) {
 
 template <class R>
 void box_box(const PlacedShape& pa, const PlacedShape& pb, Asked asked, Answer<R>& r, PairScene<R>& s) {
-  const RoundedPose<R> a = stand<R>(pa.pose), b = stand<R>(pb.pose);
+  const RoundedPose<R> a = rounded_pose<R>(pa.pose), b = rounded_pose<R>(pb.pose);
   const BoxPair<R> p = box_pair(*pa.shape, a, *pb.shape, b);
   r.bound = p.displacement;
   if (asked == Asked::overlap) {
@@ -252,7 +252,7 @@ void box_box(const PlacedShape& pa, const PlacedShape& pb, Asked asked, Answer<R
 template <class R>
 void box_and_capsule(const PlacedShape& pa, const PlacedShape& pb, Asked asked, Answer<R>& r,
                      PairScene<R>& s) {
-  const RoundedPose<R> a = stand<R>(pa.pose), b = stand<R>(pb.pose);
+  const RoundedPose<R> a = rounded_pose<R>(pa.pose), b = rounded_pose<R>(pb.pose);
   const BoxCapsule<R> q = box_capsule(*pa.shape, a, *pb.shape, b);
   if (!solve(q, asked, r)) return convex_pair(pa, pb, asked, r, s);
   if (asked == Asked::overlap) return;
@@ -277,7 +277,7 @@ constexpr double least_normal = 1e-100, largest_normal = 1e100;
 template <class R>
 void convex_half_space(const PlacedShape& pa, const PlacedShape& pb, Asked asked, Answer<R>& r,
                        PairScene<R>& s) {
-  const RoundedPose<R> a = stand<R>(pa.pose), b = stand<R>(pb.pose);
+  const RoundedPose<R> a = rounded_pose<R>(pa.pose), b = rounded_pose<R>(pb.pose);
   s.a = make_body<R>(*pa.shape, pa.graph);
   const HalfSpace& plane = *std::get_if<HalfSpace>(pb.shape);
   const double length = plane.normal.norm();
