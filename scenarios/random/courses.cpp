@@ -128,7 +128,7 @@ Motion motion_of(Rng& rng, Going g, double way) {
       return {Vec3::Zero(), rng.vector(0.3, 9)};
     case Going::both:
       return {any * length, rng.vector(0.3, 9)};
-    case Going::filtered:
+    case Going::fast:
       return {any * (length * rng.binary_scale(3, 7)), rng.chance(0.3) ? rng.vector(0.3, 20) : Vec3(0, 0, 0)};
   }
   return {};
@@ -156,7 +156,7 @@ void swarm(Rng& rng, Case& c) {
       b.is_static = rng.chance(0.5);
     } else {
       b.motion = motion_of(rng, going, side / 2);
-      if (going == Going::filtered) b.pose.translation -= rng.uniform(0.1, 0.9) * b.motion->linear;
+      if (going == Going::fast) b.pose.translation -= rng.uniform(0.1, 0.9) * b.motion->linear;
     }
     s.bodies.push_back(std::move(b));
   }
