@@ -55,10 +55,10 @@ fuzz::Subject broad_subject(const std::string& name, const WorkerLimits& limits,
     known.insert(known.begin(), phases.begin(), phases.end());
     const std::string near = did_you_mean(name, known);
     throw InputError("--subject " + name,
-                     "unknown" + (near.empty() ? "; `touchstone certify --list` lists them" : near));
+                     "unknown" + (near.empty() ? "; `touchstone certify --list` lists the subjects" : near));
   }
   if (engine_names(name).size() != 1 || name == "all")
-    throw InputError("--subject " + name, "is more than one engine");
+    throw InputError("--subject " + name, "names more than one engine");
   fuzz::Subject s{
       name,
       hash_of(engine_files(name)),
@@ -66,7 +66,7 @@ fuzz::Subject broad_subject(const std::string& name, const WorkerLimits& limits,
       [name, limits](BroadLevel) { return make_engine(name, limits); },
       limits.query_cpu_seconds,
       [name, limits](BroadLevel, double times) { return make_engine(name, limits_times(limits, times)); }};
-  s.make(BroadLevel::boxes);  // what is wrong with it is said before anything is asked
+  s.make(BroadLevel::boxes);  // reports a broken subject before the first question
   return s;
 }
 
