@@ -243,7 +243,7 @@ TEST_CASE("a subject that is too slow is not certified: exit code 3, the time to
   CHECK(r.code == 3);
   CHECK(r.out.find("Level of boxes: not certified") != std::string::npos);
   CHECK(r.out.find("too slow for moving_crowds") != std::string::npos);
-  CHECK(r.out.find("0.1 CPU s a question); raise --case-seconds") != std::string::npos);
+  CHECK(r.out.find("0.1 CPU s per question); raise --case-seconds") != std::string::npos);
   CHECK(r.out.find("refuted") == std::string::npos);
   CHECK(std::count(r.out.begin(), r.out.end(), '\n') < 60);
 }
