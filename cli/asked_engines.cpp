@@ -46,7 +46,7 @@ std::string subject_given(const std::string& subject, const Names& asked, const 
   } catch (const InputError& e) {
     throw InputError("--subject", e.what());
   }
-  throw InputError("--subject", subject + " is more than one engine");
+  throw InputError("--subject", subject + " names more than one engine");
 }
 
 }  // namespace

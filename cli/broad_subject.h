@@ -1,5 +1,5 @@
-// The subject of `certify`: a broad phase of the core or of an oracle, any engine in the catalog, a plug-in,
-// or a command behind a pipe.
+// The subject of `certify`: a broad phase of the core or of an oracle, any engine in the catalogue, a
+// plug-in, or a command behind a pipe.
 #pragma once
 
 #include "fuzz/certify/certify.h"

@@ -91,7 +91,7 @@ int stage(const BisectOptions& o, const AskedFinding& asked, const fuzz::Finding
   for (const fuzz::Stage& s : all)
     fmt::print("  {:<20} {}\n", s.name, s.faults.empty() ? "-" : listed(s.faults, ", "));
   if (first == all.end())
-    fmt::print("no stage is wrong for these two alone: the finding needs the other bodies or the script\n");
+    fmt::print("no stage is wrong for these two alone: other bodies or the script matter\n");
   else
     fmt::print("first wrong: {}\n", first->name);
   return exit_clean;

@@ -107,7 +107,7 @@ void print_script(const fuzz::Refutation& r, const std::string& text) {
   const std::string what = fmt::format("{}, level of {}", in_words(r.what), to_string(r.level));
   const auto lines = std::count(text.begin(), text.end(), '\n');
   if (lines > most_printed_lines)
-    fmt::print("the script that shows it ({}) has {} lines; write it with -o FILE or --script FILE\n", what,
+    fmt::print("script that shows it ({}): {} lines;\n  write it with -o FILE or --script FILE\n", what,
                reports::grouped(static_cast<std::uint64_t>(lines)));
   else
     fmt::print("script that shows it ({}):\n{}", what, text);

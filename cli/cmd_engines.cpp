@@ -51,7 +51,7 @@ int list(const std::string& which, bool json, const WorkerLimits& limits) {
       else if (json)
         j.push_back({{"name", row.name}, {"absent", true}});
       else
-        fmt::print("{:<24} absent: {} was not built (its library was not found)\n", row.name, row.library);
+        fmt::print("{:<24} absent: its library was not found\n    {} was not built\n", row.name, row.library);
     }
     for (const NpmRow& row : npm_catalog()) {
       if (is_installed(row))
@@ -59,8 +59,8 @@ int list(const std::string& which, bool json, const WorkerLimits& limits) {
       else if (json)
         j.push_back({{"name", row.name}, {"absent", true}});
       else
-        fmt::print("{:<24} absent: {}\n{:24} (from npm: engines --install {})\n", row.name, row.line, "",
-                   row.name);
+        fmt::print("{:<24} absent: engines --install {} gets it from npm\n    {}\n", row.name, row.name,
+                   row.line);
     }
   }
   if (json) fmt::print("{}\n", j.dump(1));

@@ -178,8 +178,7 @@ Run declare_fuzz(CLI::App& app) {
       ->capture_default_str();
   app.add_option("--shard", o->shard,
                  "i/n: run only shard i of n, counted from 0 (default: SLURM_ARRAY_TASK_ID of "
-                 "SLURM_ARRAY_TASK_COUNT, or "
-                 "JOB_COMPLETION_INDEX of JOB_COMPLETIONS, if set)");
+                 "SLURM_ARRAY_TASK_COUNT, or JOB_COMPLETION_INDEX of JOB_COMPLETIONS, if set)");
   app.add_flag("--guided", o->config.guided,
                "derive half of the cases from earlier ones that made an engine do something new");
   app.add_option("--relations", o->config.relations_every,

@@ -190,7 +190,8 @@ void print(const Reproducers& r, const std::string& directory) {
   if (!r.failed.empty()) words += fmt::format(", {} failed", r.failed.size());
   if (r.written + r.there == 0) words += "; the directory is empty";
   fmt::print(stderr, "{}\n", words);
-  for (const std::string& failed : r.failed) fmt::print(stderr, "touchstone: no reproducer: {}\n", printable(failed));
+  for (const std::string& failed : r.failed)
+    fmt::print(stderr, "touchstone: no reproducer: {}\n", printable(failed));
 }
 
 // Called before any work is done: a directory that cannot be created is bad usage.
@@ -258,8 +259,7 @@ int say(const Verdict& v, bool json) {
     return say_verdict(exit_failed, v.subject, fmt::format("{} findings could not be triaged", v.troubled),
                        json);
   if (!v.answered)
-    return say_verdict(exit_failed, v.subject, "it answered nothing in this campaign, so this proves nothing",
-                       json);
+    return say_verdict(exit_failed, v.subject, "it answered nothing; this campaign proves nothing", json);
   return say_verdict(exit_clean, v.subject, "no new findings", json);
 }
 
@@ -287,7 +287,8 @@ int run(const TriageOptions& o) {
   }
   const auto triaged = fuzz::triage(found, ledger, jobs);
   for (const fuzz::Triaged& t : triaged)
-    if (!t.trouble.empty()) fmt::print(stderr, "touchstone: {}: {}\n", t.finding.key, printable(t.trouble, "\n"));
+    if (!t.trouble.empty())
+      fmt::print(stderr, "touchstone: {}: {}\n", t.finding.key, printable(t.trouble, "\n"));
   if (!o.reproducers.empty()) print(write_reproducers(o.reproducers, triaged, of_job.front()), o.reproducers);
   if (!o.junit.empty()) write_file(o.junit, reports::triage_junit(triaged));
   fmt::print("{}", o.json ? reports::triage_json(triaged).dump(1) + "\n" : reports::triage_text(triaged));

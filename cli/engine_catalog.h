@@ -1,4 +1,4 @@
-// The one place that names concrete engines: catalog name -> plug-in file. Every engine, our own core
+// The one place that names concrete engines: catalogue name -> plug-in file. Every engine, our own core
 // included, runs in a worker process; all others sit behind the C ABI, like a user's plug-in.
 #pragma once
 

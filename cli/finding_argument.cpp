@@ -47,7 +47,7 @@ std::string engine_of(const std::string& key) {
   for (const EngineRow& row : broad_catalog()) consider(row.name);
   for (const NpmRow& row : npm_catalog()) consider(row.name);
   if (found.empty())
-    throw InputError("--key", "names no engine in the catalog: " + key + " (for a plug-in, add --engine)");
+    throw InputError("--key", "names no engine in the catalogue: " + key + " (for a plug-in, add --engine)");
   return found;
 }
 
@@ -84,7 +84,8 @@ AskedFinding ask_for_finding(FindingArgument o, const WorkerLimits& limits) {
   r.engine_name = o.engine;
   r.engine = make_engine(engine_names(o.engine).at(0), limits);
   if (o.key.empty() && stored.starts_with(r.engine->card().name + ".")) o.key = stored;
-  // Without a key, relations are tried only if the referee finds no fault: mostly they show the same error.
+  // Without a key, relations are tried only if the referee finds no fault, since they mostly show the same
+  // error.
   r.findings = fuzz::findings_of({&r.stored.c, 1}, r.engine, fuzz::found_by(o.key))[0];
   if (r.findings.empty() && o.key.empty())
     r.findings = fuzz::findings_of({&r.stored.c, 1}, r.engine, fuzz::FoundBy::relations)[0];

@@ -24,7 +24,7 @@ namespace touchstone::cli {
 namespace {
 
 constexpr Command table[] = {
-    {"fuzz", "run a random campaign; the referee checks every answer", declare_fuzz},
+    {"fuzz", "run a campaign of random, refereed cases", declare_fuzz},
     {"replay", "show every engine's answer to stored cases", declare_replay},
     {"shrink", "find the smallest case that shows the same finding", declare_shrink},
     {"reproduce", "write a finding as a program against the engine", declare_reproduce},

@@ -24,8 +24,7 @@ bool write_page(std::string_view kind, const std::string& json, const std::files
     }
     fmt::print(stderr,
                "touchstone: no page written: the pages of reports/web are not built (./touchstone pages "
-               "--install builds "
-               "them with nodejs and npm); its data is in {}\n",
+               "--install builds them with nodejs and npm); its data is in {}\n",
                data.string());
     return false;
   }

@@ -1,4 +1,4 @@
-// Engines of the catalog with other tolerances. They are used by name, and by `chart`, which draws a method
+// Engines of the catalogue with other tolerances. They are used by name, and by `chart`, which draws a method
 // as a curve.
 #pragma once
 

@@ -84,7 +84,7 @@ function bodyList(): HTMLElement {
   return list;
 }
 
-// Where there is no keyboard, and for who does not read about keys.
+// Buttons for devices without a keyboard and for readers who skip the list of keys.
 function lookButtons(p: Picture): HTMLElement[] {
   const whole = el("button", { type: "button", title: "key f" }, "whole scene"), contact = el("button", { type: "button", title: "key c", id: "near" }, "go to the contact");
   whole.addEventListener("click", () => lookAtAll());
@@ -107,10 +107,10 @@ try {
   });
   parts.element.append(el("span", { class: "grow" }), ...lookButtons(picture));
 } catch (e) {
-  view.append(el("p", { class: "soft", style: "padding:1rem" }, `No picture: this browser draws no WebGL (${String(e)}). The table says the same in numbers.`));
+  view.append(el("p", { class: "soft", style: "padding:1rem" }, `No picture: this browser does not support WebGL (${String(e)}). The table has the same results in numbers.`));
 }
 
-/** Where arrows begin: what the referee or the engine points at, else between the bodies. */
+/** Where arrows begin: the contact or witness points of the engine or the referee, else between the bodies. */
 function anchorOf(q: QueryJson, e?: EngineAnswer): V3 {
   const points = e?.answer.manifold?.map((m) => m.position).filter((p) => p.every(Number.isFinite)) ?? [];
   if (points.length > 0) return [0, 1, 2].map((k) => points.reduce((s, p) => s + p[k]! / points.length, 0)) as V3;
