@@ -104,9 +104,8 @@ std::string stability_text(const fuzz::Stability& s) {
     text += question_table(s, q);
   text += wrapped(
       "The first rung at which two answers about the same pair contradict each other by more than the "
-      "engine's "
-      "own tolerances: A and B exchanged (order); the scene rotated or translated without rounding (frame); "
-      "lengths multiplied by 2^20 and 2^-12 (unit).",
+      "engine's own tolerances: A and B exchanged (order); the scene rotated or translated without rounding "
+      "(frame); lengths multiplied by 2^20 and 2^-12 (unit).",
       79, 0);
   text += "\n\n";
   for (std::size_t form = 1; form < fuzz::form_count; ++form)
