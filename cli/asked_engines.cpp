@@ -90,7 +90,7 @@ void require_subject(const std::string& subject, const std::vector<std::string>&
                                             did_you_mean(subject, known)));
 }
 
-int say_verdict(int code, const std::string& subject, const std::string& why, bool json) {
+int print_verdict(int code, const std::string& subject, const std::string& why, bool json) {
   fmt::print(json ? stderr : stdout, "exit code {} is about {}: {}\n", code, subject, why);
   return code;
 }

@@ -36,6 +36,6 @@ void require_subject(const std::string& subject, const std::vector<std::string>&
 
 /// Prints the last line of every command that judges: which engine the exit code is about, and why. It goes
 /// to stderr when stdout holds JSON. Returns the code.
-int say_verdict(int code, const std::string& subject, const std::string& why, bool json = false);
+int print_verdict(int code, const std::string& subject, const std::string& why, bool json = false);
 
 }  // namespace touchstone::cli

@@ -8,7 +8,7 @@
 namespace touchstone::cli {
 
 /// Multiplies the time allowed per question.
-WorkerLimits limits_times(WorkerLimits limits, double times);
+WorkerLimits scaled_limits(WorkerLimits limits, double times);
 
 /// Throws InputError with place and reason when there is no such subject. `sweeps`: the user states that it
 /// also answers swept_candidates, as the core does.

@@ -19,7 +19,7 @@ using fuzz::Json;
 
 // Beyond these limits the page shows the command instead: computing the rest would take too long.
 constexpr std::size_t most_bodies = 64, most_pairs = 6;
-constexpr std::size_t longest_program = 40'000;
+constexpr std::size_t max_program_size = 40'000;
 
 // The pairs that some question names, each once, in order.
 std::vector<std::pair<int, int>> pairs_of(const Case& c) {
@@ -52,7 +52,7 @@ Json programs_of(const Case& c, const EnginePtr& engine) {
     if (questions.contains(finding.question)) continue;
     try {
       const std::string text = fuzz::reproducer(finding, engine->card());
-      if (text.size() > longest_program) continue;
+      if (text.size() > max_program_size) continue;
       list.push_back({{"key", key}, {"question", finding.question}, {"program", text}});
       questions.insert(finding.question);
     } catch (const InputError&) {

@@ -101,12 +101,12 @@ std::string script_file(const CertifyOptions& o, const BroadCertificate& c, cons
 }
 
 // Longer scripts are not printed on the terminal.
-constexpr auto most_printed_lines = 80;
+constexpr auto max_printed_lines = 80;
 
 void print_script(const fuzz::Refutation& r, const std::string& text) {
   const std::string what = fmt::format("{}, level of {}", in_words(r.what), to_string(r.level));
   const auto lines = std::count(text.begin(), text.end(), '\n');
-  if (lines > most_printed_lines)
+  if (lines > max_printed_lines)
     fmt::print("script that shows it ({}): {} lines;\n  write it with -o FILE or --script FILE\n", what,
                reports::grouped(static_cast<std::uint64_t>(lines)));
   else
@@ -173,7 +173,7 @@ void use_memcheck(CertifyOptions& o) {
   if (o.limits.memcheck.empty())
     throw std::runtime_error("--memcheck needs Valgrind (Debian: apt-get install valgrind)");
   if (o.limit == 0) o.limit = cases_per_suite;
-  o.limits = limits_times(o.limits, slower);
+  o.limits = scaled_limits(o.limits, slower);
   o.limits.start_cpu_seconds *= slower;
   o.limits.start_wall_seconds *= slower;
   fmt::print(stderr, "running under Valgrind, without a sandbox: at most {} cases per suite\n", o.limit);

@@ -146,11 +146,12 @@ int verdict(const fuzz::Chart& chart, const std::string& subject, bool json) {
     answers += r.answers;
   }
   if (wrong + failed > 0)
-    return say_verdict(exit_wrong, subject,
-                       fmt::format("wrong in {} and failed in {} of {} queries", wrong, failed, asked), json);
+    return print_verdict(exit_wrong, subject,
+                         fmt::format("wrong in {} and failed in {} of {} queries", wrong, failed, asked),
+                         json);
   if (answers == 0)
-    return say_verdict(exit_failed, subject, "it answered nothing; this run proves nothing", json);
-  return say_verdict(exit_clean, subject, fmt::format("0 wrong in {} queries", asked), json);
+    return print_verdict(exit_failed, subject, "it answered nothing; this run proves nothing", json);
+  return print_verdict(exit_clean, subject, fmt::format("0 wrong in {} queries", asked), json);
 }
 
 int run(const ChartOptions& o) {

@@ -108,7 +108,9 @@ void print_text(const fuzz::CampaignConfig& c, const fuzz::CampaignResult& r) {
 }
 
 int verdict(const fuzz::CampaignConfig& c, const fuzz::CampaignResult& r, bool json) {
-  const auto say = [&](int code, const std::string& why) { return say_verdict(code, c.subject, why, json); };
+  const auto say = [&](int code, const std::string& why) {
+    return print_verdict(code, c.subject, why, json);
+  };
   const auto wrong = r.wrong_of(c.subject), failed = r.failed_of(c.subject);
   const std::uint64_t answers = r.answered_by(c.subject);
   const std::string counts =

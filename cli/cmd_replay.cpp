@@ -142,15 +142,16 @@ int verdict(const Count& count, const std::string& subject, bool json) {
   if (!count.bad.empty() && count.cases + count.recorded == 0)  // already reported
     return count.failed ? exit_failed : exit_usage;
   if (!count.bad.empty())
-    return say_verdict(count.failed ? exit_failed : exit_usage, count.bad[0],
-                       fmt::format("{} of the arguments could not be judged; in the others {} is wrong in {}",
-                                   count.bad.size(), subject, in_words(count)),
-                       json);
+    return print_verdict(
+        count.failed ? exit_failed : exit_usage, count.bad[0],
+        fmt::format("{} of the arguments could not be judged; in the others {} is wrong in {}",
+                    count.bad.size(), subject, in_words(count)),
+        json);
   if (count.wrong_cases + count.wrong_recorded > 0)
-    return say_verdict(exit_wrong, subject, "wrong in " + in_words(count), json);
+    return print_verdict(exit_wrong, subject, "wrong in " + in_words(count), json);
   if (count.answered == 0)
-    return say_verdict(exit_failed, subject, "it answered nothing; this run proves nothing", json);
-  return say_verdict(exit_clean, subject, "wrong in " + in_words(count), json);
+    return print_verdict(exit_failed, subject, "it answered nothing; this run proves nothing", json);
+  return print_verdict(exit_clean, subject, "wrong in " + in_words(count), json);
 }
 
 // Prints the origin recorded in the file. It is only text to show, never a name to run.

@@ -29,11 +29,11 @@ int verdict(const fuzz::Stability& s, const std::string& subject, bool json) {
     for (const fuzz::Rung& rung : r.rungs) answers += rung.answers;
   }
   if (fallen > 0)
-    return say_verdict(exit_wrong, subject, fmt::format("it fails on {} of {} ladders", fallen, ladders),
-                       json);
+    return print_verdict(exit_wrong, subject, fmt::format("it fails on {} of {} ladders", fallen, ladders),
+                         json);
   if (answers == 0)
-    return say_verdict(exit_failed, subject, "it answered nothing; this run proves nothing", json);
-  return say_verdict(exit_clean, subject, fmt::format("it fails on none of {} ladders", ladders), json);
+    return print_verdict(exit_failed, subject, "it answered nothing; this run proves nothing", json);
+  return print_verdict(exit_clean, subject, fmt::format("it fails on none of {} ladders", ladders), json);
 }
 
 int run(const StabilityOptions& o) {

@@ -33,7 +33,7 @@ namespace touchstone::cli {
 namespace {
 
 // Limits of the cases that the shrinker may try; if the finding is a hang, each try costs a second.
-constexpr std::size_t all_tries = 4000, tries_of_slow = 8;
+constexpr std::size_t max_tries = 4000, max_tries_if_slow = 8;
 
 struct TriageOptions {
   std::string directory, ledger = "findings.db", engines, subject = "all", junit, date, reproducers, error;
@@ -112,7 +112,7 @@ fuzz::TriageConfig config_of(const TriageOptions& o, const std::string& date, En
     if (!shrink) return found;
     const bool slow = key.find(".timed_out.") != std::string::npos;
     return fuzz::shrink(found, fuzz::keeps_finding(engines.named(engine), key),
-                        slow ? tries_of_slow : all_tries)
+                        slow ? max_tries_if_slow : max_tries)
         .smallest;
   };
   return c;
@@ -254,16 +254,17 @@ Verdict verdict_on(const std::string& subject, const std::set<std::string>& answ
 
 int say(const Verdict& v, bool json) {
   if (v.fresh + v.back > 0)
-    return say_verdict(exit_wrong, v.subject, fmt::format("{} new findings, {} back", v.fresh, v.back), json);
+    return print_verdict(exit_wrong, v.subject, fmt::format("{} new findings, {} back", v.fresh, v.back),
+                         json);
   if (v.troubled > 0)
-    return say_verdict(exit_failed, v.subject, fmt::format("{} findings could not be triaged", v.troubled),
-                       json);
+    return print_verdict(exit_failed, v.subject, fmt::format("{} findings could not be triaged", v.troubled),
+                         json);
   if (!v.answered)
-    return say_verdict(exit_failed, v.subject, "it answered nothing; this campaign proves nothing", json);
-  return say_verdict(exit_clean, v.subject, "no new findings", json);
+    return print_verdict(exit_failed, v.subject, "it answered nothing; this campaign proves nothing", json);
+  return print_verdict(exit_clean, v.subject, "no new findings", json);
 }
 
-void require_no_error_of_stdout() {
+void require_stdout_written() {
   if ((std::fflush(stdout) != 0 || std::ferror(stdout)) && errno != EPIPE)
     throw std::runtime_error(std::string("the output cannot be written: ") + std::strerror(errno));
 }
@@ -294,7 +295,7 @@ int run(const TriageOptions& o) {
   fmt::print("{}", o.json ? reports::triage_json(triaged).dump(1) + "\n" : reports::triage_text(triaged));
   const int code = say(verdict_on(subject, answered, triaged), o.json);
   // The commit comes last: what is in the ledger is no longer new, so every report of it must be out by then.
-  require_no_error_of_stdout();
+  require_stdout_written();
   ledger.commit();
   return code;
 }

@@ -29,9 +29,9 @@ std::string stored_key(const std::string& path) {
   const fs::path beside = directory / "finding.json";
   if (!fs::exists(beside, ec)) {
     const std::string name = fs::absolute(directory, ec).lexically_normal().filename();
-    constexpr int dots_of_a_key = 6;
+    constexpr int dots_in_key = 6;
     const bool is_case = fs::exists(directory / "case.json", ec);
-    return is_case && std::count(name.begin(), name.end(), '.') >= dots_of_a_key ? name : "";
+    return is_case && std::count(name.begin(), name.end(), '.') >= dots_in_key ? name : "";
   }
   const Json finding = load_json(beside);
   return JsonReader(finding, beside.string())["key"].string();

@@ -153,9 +153,10 @@ std::string chart_markdown(const Chart& c) {
       "Engines with a lower median time than the core: {}. Measured {} on {}, {} cores, load {:.1f}, "
       "compiler {}, {}; {} chart, seed {}, {} interleaved rounds; candidates: {} bodies, inserted and "
       "queried once. Engines are as shipped; `fcl-libccd-tuned` is FCL's conservative advancement, "
-      "`core-steps@16` the core's overlap test at 17 times of the step. Errors are measured by the referee and "
-      "divided by the scale L of the scene; an answer is wrong if its error exceeds the tolerance claimed in "
-      "the engine's own documentation. All settings and groups: `./touchstone chart`; these numbers: "
+      "`core-steps@16` the core's overlap test at 17 times of the step. Errors are measured by the referee "
+      "and divided by the scale L of the scene; an answer is wrong if its error exceeds the tolerance "
+      "claimed "
+      "in the engine's own documentation. All settings and groups: `./touchstone chart`; these numbers: "
       "`docs/chart.json`.",
       faster(c), c.machine.date, c.machine.processor, c.machine.cores, c.machine.load, c.machine.compiler,
       versions(c), c.scope, c.seed, c.rounds, grouped(crowd));
