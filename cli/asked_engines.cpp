@@ -26,10 +26,10 @@ std::string joined(const Names& names) {
 std::string subject_by_rule(const Names& asked) {
   if (asked.size() == 1) return asked[0];
   if (contains(asked, "core")) return "core";
-  throw InputError("--subject", "which of " + joined(asked) + " is the exit code about? (--subject NAME)");
+  throw InputError("--subject", "which of " + joined(asked) + " decides the exit code? (--subject NAME)");
 }
 
-// Of the plug-ins and pipes asked, the one whose card has this name; empty: none.
+// The plug-in or pipe among `asked` whose card has this name; empty if there is none.
 std::string named_on_card(const std::string& card_name, const Names& asked, const WorkerLimits& limits) {
   for (const std::string& name : asked)
     if (is_foreign(name) && make_engine(name, limits)->card().name == card_name) return name;
@@ -46,16 +46,16 @@ std::string subject_given(const std::string& subject, const Names& asked, const 
   } catch (const InputError& e) {
     throw InputError("--subject", e.what());
   }
-  throw InputError("--subject", subject + " is more than one engine");
+  throw InputError("--subject", subject + " names more than one engine");
 }
 
 }  // namespace
 
 void add_engine_choice(CLI::App& app, EngineChoice& to) {
-  app.add_option("--engines", to.engines, "engines to ask: names, plug-in paths, pipe:COMMAND, or all")
+  app.add_option("--engines", to.engines, "engines to query: names, plug-in paths, pipe:COMMAND, or all")
       ->capture_default_str();
   app.add_option("--subject", to.subject,
-                 "the engine whose faults decide the exit code (default: the only one asked, or core)");
+                 "the engine whose faults decide the exit code (default: the only one queried, or core)");
 }
 
 AskedEngines asked_engines(const EngineChoice& choice, const WorkerLimits& limits) {
@@ -77,7 +77,7 @@ std::vector<EnginePtr> make_engines(const std::vector<std::string>& names, const
     const auto [it, added] = by_card.try_emplace(card_name, name);
     if (!added)
       throw InputError("--engines",
-                       fmt::format("{} and {} are both called {}: their results could not be told apart",
+                       fmt::format("{} and {} are both called {}, so their results could not be told apart",
                                    it->second, name, card_name));
   }
   return engines;
@@ -86,11 +86,11 @@ std::vector<EnginePtr> make_engines(const std::vector<std::string>& names, const
 void require_subject(const std::string& subject, const std::vector<std::string>& known,
                      const std::string& what) {
   if (contains(known, subject)) return;
-  throw InputError("--subject", fmt::format("{} is none of {} ({}){}", subject, what, joined(known),
+  throw InputError("--subject", fmt::format("{} is not one of {} ({}){}", subject, what, joined(known),
                                             did_you_mean(subject, known)));
 }
 
-int say_verdict(int code, const std::string& subject, const std::string& why, bool json) {
+int print_verdict(int code, const std::string& subject, const std::string& why, bool json) {
   fmt::print(json ? stderr : stdout, "exit code {} is about {}: {}\n", code, subject, why);
   return code;
 }

@@ -31,7 +31,7 @@ BroadBoxes boxes_at(BroadLevel level) {
 
 }  // namespace
 
-WorkerLimits limits_times(WorkerLimits limits, double times) {
+WorkerLimits scaled_limits(WorkerLimits limits, double times) {
   limits.query_cpu_seconds *= times;
   limits.load_cpu_seconds *= times;
   limits.wall_seconds *= times;
@@ -41,32 +41,31 @@ WorkerLimits limits_times(WorkerLimits limits, double times) {
 fuzz::Subject broad_subject(const std::string& name, const WorkerLimits& limits, bool sweeps) {
   const auto phases = core_broad_phases();
   if (std::find(phases.begin(), phases.end(), name) != phases.end())
-    return {
-        name,
-        "",
-        true,
-        [name, limits](BroadLevel level) { return make_core_broad_phase(name, boxes_at(level), limits); },
-        limits.query_cpu_seconds,
-        [name, limits](BroadLevel level, double times) {
-          return make_core_broad_phase(name, boxes_at(level), limits_times(limits, times));
-        }};
+    return {name,
+            "",
+            true,
+            [name, limits](BroadLevel level) { return make_core_broad_phase(name, boxes_at(level), limits); },
+            limits.query_cpu_seconds,
+            [name, limits](BroadLevel level, double times) {
+              return make_core_broad_phase(name, boxes_at(level), scaled_limits(limits, times));
+            }};
   if (!is_foreign(name) && name != "all" && name.find(',') == std::string::npos && !is_catalogued(name)) {
     std::vector<std::string> known = catalogued_names();
     known.insert(known.begin(), phases.begin(), phases.end());
     const std::string near = did_you_mean(name, known);
     throw InputError("--subject " + name,
-                     "unknown" + (near.empty() ? "; `touchstone certify --list` lists them" : near));
+                     "unknown" + (near.empty() ? "; `touchstone certify --list` lists the subjects" : near));
   }
   if (engine_names(name).size() != 1 || name == "all")
-    throw InputError("--subject " + name, "is more than one engine");
+    throw InputError("--subject " + name, "names more than one engine");
   fuzz::Subject s{
       name,
       hash_of(engine_files(name)),
       sweeps || name == "core",
       [name, limits](BroadLevel) { return make_engine(name, limits); },
       limits.query_cpu_seconds,
-      [name, limits](BroadLevel, double times) { return make_engine(name, limits_times(limits, times)); }};
-  s.make(BroadLevel::boxes);  // what is wrong with it is said before anything is asked
+      [name, limits](BroadLevel, double times) { return make_engine(name, scaled_limits(limits, times)); }};
+  s.make(BroadLevel::boxes);  // reports a broken subject before the first question
   return s;
 }
 

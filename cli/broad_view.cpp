@@ -23,7 +23,7 @@ long cell_of(const BroadView::Grid& g, double x, int axis) {
   return t > 0 ? static_cast<long>(std::min(t, static_cast<double>(g.count[k] - 1))) : 0;
 }
 
-// Some grid files both boxes, and in a common cell.
+// True if some grid stores both boxes in a common cell.
 bool share_cell(const std::vector<BroadView::Grid>& grids, const Aabb& a, const Aabb& b) {
   return std::any_of(grids.begin(), grids.end(), [&](const BroadView::Grid& g) {
     for (int k = 0; k < 3; ++k)
@@ -33,13 +33,13 @@ bool share_cell(const std::vector<BroadView::Grid>& grids, const Aabb& a, const 
   });
 }
 
-// Some lowest node of the tree meets both boxes.
+// True if some leaf of the tree overlaps both boxes.
 bool share_node(const std::vector<std::vector<Aabb>>& nodes, const Aabb& a, const Aabb& b) {
   return std::any_of(nodes[0].begin(), nodes[0].end(),
                      [&](const Aabb& node) { return overlaps(node, a) && overlaps(node, b); });
 }
 
-// Whether the structure brings the two boxes together. Without a structure all pairs are compared.
+// True if the acceleration structure makes the method compare the two boxes. Without one, all pairs are.
 bool considers(const BroadView::Look& l, const Aabb& a, const Aabb& b) {
   if (!l.nodes.empty()) return share_node(l.nodes, a, b);
   if (!l.grids.empty()) return share_cell(l.grids, a, b);
@@ -49,11 +49,14 @@ bool considers(const BroadView::Look& l, const Aabb& a, const Aabb& b) {
 BroadView::Look look_of(const broad::BroadPhase& phase) {
   const broad::Structure s = phase.structure();
   BroadView::Look l;
-  l.explanation = phase.explain(), l.sweep_axis = s.sweep_axis, l.nodes = s.nodes;
+  l.explanation = phase.explain();
+  l.sweep_axis = s.sweep_axis;
+  l.nodes = s.nodes;
   for (const auto& g : s.grids) {
     BroadView::Grid grid;
     grid.along = g.along;
-    std::copy_n(g.origin, 3, grid.origin.begin()), std::copy_n(g.cell, 3, grid.cell.begin());
+    std::copy_n(g.origin, 3, grid.origin.begin());
+    std::copy_n(g.cell, 3, grid.cell.begin());
     std::copy_n(g.count, 3, grid.count.begin());
     l.grids.push_back(grid);
   }
@@ -122,7 +125,8 @@ BroadView broad_view(const Scene& scene, const std::vector<std::string>& methods
                                                 " bodies; a picture takes at most " +
                                                 std::to_string(broad_view_most_bodies));
   BroadView view;
-  view.name = scene.name, view.methods = methods;
+  view.name = scene.name;
+  view.methods = methods;
   for (const Body& b : scene.bodies) {
     view.bodies.push_back(b.name.empty() ? std::to_string(view.bodies.size()) : b.name);
     view.fixed.push_back(b.is_static);

@@ -9,11 +9,11 @@
 
 namespace touchstone::fuzz {
 
-/// The picture compares all pairs: scenes of more bodies are refused.
+/// Scenes with more bodies are refused, because the picture compares all pairs.
 inline constexpr std::size_t broad_view_most_bodies = 2000;
 
-/// At most `most_frames` queries, the first ones. Throws InputError on an unknown method or too many bodies,
-/// and std::logic_error when two methods report different pairs.
+/// Records the first `most_frames` queries. Throws InputError on an unknown method or too many bodies, and
+/// std::logic_error when two methods report different pairs.
 BroadView broad_view(const Scene& scene, const std::vector<std::string>& methods, std::size_t most_frames);
 
 }  // namespace touchstone::fuzz

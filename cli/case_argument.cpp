@@ -15,14 +15,14 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Installed, or where it was built from.
+// The installed corpus, or the one in the source tree.
 fs::path corpus_directory() {
   const fs::path installed = plugin_directory().parent_path() / "share/touchstone/corpus";
   std::error_code ec;
   return fs::is_directory(installed, ec) ? installed : fs::path(TOUCHSTONE_CORPUS);
 }
 
-// Without "corpus/", which ids have, and ".json".
+// Strips "corpus/", with which ids begin, and ".json".
 std::string corpus_name(std::string text) {
   if (text.starts_with("corpus/")) text.erase(0, 7);
   if (text.ends_with(".json")) text.erase(text.size() - 5);
@@ -35,8 +35,7 @@ std::string corpus_name(std::string text) {
   std::error_code ec;
   for (const auto& entry : fs::directory_iterator(corpus_directory(), ec))
     known.push_back(entry.path().stem());
-  throw InputError(text,
-                   "no such file, scenario or case of the corpus" + did_you_mean(corpus_name(text), known));
+  throw InputError(text, "no such file, scenario or corpus case" + did_you_mean(corpus_name(text), known));
 }
 
 }  // namespace

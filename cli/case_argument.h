@@ -1,5 +1,5 @@
-// What a command takes for a case: a case or scene file, a finding's directory (its case.json), a scenario's
-// name, or that of a case of the corpus (scenarios/corpus), with or without "corpus/".
+// A case argument is a case or scene file, a finding's directory (its case.json), the name of a scenario, or
+// the name of a case in the corpus (scenarios/corpus), with or without "corpus/".
 #pragma once
 
 #include <string>

@@ -17,9 +17,9 @@ namespace {
 
 using fuzz::Json;
 
-// Beyond these, the page has the command instead: asking again would take longer than a person waits.
+// Beyond these limits the page shows the command instead: computing the rest would take too long.
 constexpr std::size_t most_bodies = 64, most_pairs = 6;
-constexpr std::size_t longest_program = 40'000;
+constexpr std::size_t max_program_size = 40'000;
 
 // The pairs that some question names, each once, in order.
 std::vector<std::pair<int, int>> pairs_of(const Case& c) {
@@ -43,7 +43,7 @@ Json stages_of(const Case& c, const EnginePtr& engine) {
   return list;
 }
 
-// One program a question: the first finding by key that the engine's API can show.
+// One program per question: for the first finding, by key, that the engine's API can show.
 Json programs_of(const Case& c, const EnginePtr& engine) {
   Json list = Json::array();
   std::set<std::string> questions;
@@ -52,11 +52,11 @@ Json programs_of(const Case& c, const EnginePtr& engine) {
     if (questions.contains(finding.question)) continue;
     try {
       const std::string text = fuzz::reproducer(finding, engine->card());
-      if (text.size() > longest_program) continue;
+      if (text.size() > max_program_size) continue;
       list.push_back({{"key", key}, {"question", finding.question}, {"program", text}});
       questions.insert(finding.question);
     } catch (const InputError&) {
-      // The engine's API does not have this shape or question: there is no such program.
+      // The engine's API lacks this shape or question, so no program can be written.
     }
   }
   return list;
@@ -72,7 +72,7 @@ Json engine_json(const Case& c, const EnginePtr& engine, bool wrong) {
   return j;
 }
 
-// An exact certificate of a motion against a mesh takes minutes when the mesh is large.
+// For a large mesh, an exact certificate of a motion takes minutes.
 bool has_large_mesh(const Scene& scene) {
   constexpr std::size_t large = 200;
   return std::any_of(scene.shapes.begin(), scene.shapes.end(), [](const Shape& s) {

@@ -1,4 +1,4 @@
-// What reports/web/src/case draws.
+// The data that reports/web/src/case draws.
 #pragma once
 
 #include <string>
@@ -9,10 +9,9 @@
 
 namespace touchstone::cli {
 
-/// The case, the answers of `engines` as `replay --json` has them, the faces of hulls, and of who is wrong
-/// about a pair: the stages it passes through (as `bisect stage` finds them) and the program against its own
-/// API (as `reproduce` writes it), if there is one that is not too long. `named`: what the user called the
-/// case.
+/// The case, the answers of `engines` as in `replay --json`, and the faces of hulls. For each engine that is
+/// wrong about a pair also its stages (as found by `bisect stage`) and the program against its own API (as
+/// written by `reproduce`), unless that is too long. `named` is the user's name for the case.
 fuzz::Json case_page(const std::string& named, const StoredCase& stored, const std::string& engines,
                      const WorkerLimits& limits);
 

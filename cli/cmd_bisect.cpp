@@ -46,7 +46,7 @@ void keep(const BisectOptions& o, const AskedFinding& asked, Case c, const std::
 
 int bodies(const BisectOptions& o, const AskedFinding& asked, const fuzz::Finding& f) {
   const auto r = fuzz::which_bodies(asked.stored.c, fuzz::commits_fault(asked.engine, f));
-  keep(o, asked, r.smallest, "the bodies that it needs");
+  keep(o, asked, r.smallest, "only the bodies it needs");
   if (o.json)
     fmt::print("{}\n", Json{{"key", asked.key}, {"bodies", r.bodies}}.dump(1));
   else
@@ -62,7 +62,7 @@ std::string in_words(const Step& s) {
 
 int step(const BisectOptions& o, const AskedFinding& asked, const fuzz::Finding& f) {
   const auto r = fuzz::which_step(asked.stored.c, fuzz::commits_fault(asked.engine, f));
-  keep(o, asked, r.shortest, "up to the query by which it shows");
+  keep(o, asked, r.shortest, "up to the first query that shows it");
   std::vector<std::string> changes;
   for (const Step& s : r.changes) changes.push_back(in_words(s));
   if (o.json)
@@ -70,8 +70,8 @@ int step(const BisectOptions& o, const AskedFinding& asked, const fuzz::Finding&
         "{}\n",
         Json{{"key", asked.key}, {"query", r.query}, {"queries", r.queries}, {"changes", changes}}.dump(1));
   else
-    fmt::print("{}\nshows first at query {} of {} (from 0), after: {}\n", asked.key, r.query, r.queries,
-               changes.empty() ? "nothing changed" : listed(changes, ", "));
+    fmt::print("{}\nfirst shows at query {} of {} (counted from 0), after: {}\n", asked.key, r.query,
+               r.queries, changes.empty() ? "nothing changed" : listed(changes, ", "));
   return exit_clean;
 }
 
@@ -87,11 +87,11 @@ int stage(const BisectOptions& o, const AskedFinding& asked, const fuzz::Finding
     fmt::print("{}\n", j.dump(1));
     return exit_clean;
   }
-  fmt::print("{}\nbodies {} and {} alone, in the order in which an engine works:\n", asked.key, e.a, e.b);
+  fmt::print("{}\nbodies {} and {} alone, in the order an engine works:\n", asked.key, e.a, e.b);
   for (const fuzz::Stage& s : all)
     fmt::print("  {:<20} {}\n", s.name, s.faults.empty() ? "-" : listed(s.faults, ", "));
   if (first == all.end())
-    fmt::print("none is wrong for the two alone: it takes the other bodies or the script\n");
+    fmt::print("no stage is wrong for these two alone: other bodies or the script matter\n");
   else
     fmt::print("first wrong: {}\n", first->name);
   return exit_clean;
@@ -108,12 +108,12 @@ int value(const BisectOptions& o, const AskedFinding& asked, const fuzz::Finding
                             {"tried", t.tried}}
                            .dump(1));
   else
-    fmt::print("{}\n{}: shows at {}, not at {}{} ({} cases tried)\n", asked.key, o.at, t.shows, t.shows_not,
-               t.neighbours ? ", the next double" : "", t.tried);
+    fmt::print("{}\n{}: shows at {} but not at {}{} ({} cases tried)\n", asked.key, o.at, t.shows,
+               t.shows_not, t.neighbours ? ", the next double" : "", t.tried);
   return exit_clean;
 }
 
-// For `git bisect run`: 0 good, 1 bad, 125 cannot be told.
+// Exit code that tells `git bisect run` to skip the commit (0 good, 1 bad).
 constexpr int exit_skip = 125;
 
 int commit(const BisectOptions& o) {
@@ -138,11 +138,11 @@ struct Row {
   Verb run;  // null: commit
 };
 constexpr Row verbs[] = {
-    {"bodies", "the fewest bodies that it takes", bodies},
-    {"step", "the first query of the script by which it shows", step},
-    {"stage", "which stage of the engine is wrong first: box, overlap, simplex, depth, normal, cast", stage},
-    {"value", "the value of one number at which it begins, by bracketing", value},
-    {"commit", "for `git bisect run`: exit code 0 right, 1 wrong, 125 not to be told", nullptr},
+    {"bodies", "the fewest bodies that show the finding", bodies},
+    {"step", "the first query of the script that shows it", step},
+    {"stage", "the first stage of the engine that is wrong", stage},
+    {"value", "the value of one number at which it begins", value},
+    {"commit", "exit code for `git bisect run`", nullptr},
 };
 
 int run(const BisectOptions& o, Verb verb) {
@@ -165,14 +165,13 @@ Run declare_bisect(CLI::App& app) {
     add_case_seconds(*sub, o->limits);
     const std::string name = row.name;
     if (name == "commit") {
-      sub->add_option("--build", o->build, "command that builds the engine first; if it fails: 125");
+      sub->add_option("--build", o->build, "command that builds the engine first; exit code 125 if it fails");
     } else {
       sub->add_flag("--json", o->json, "one JSON document on stdout");
     }
-    if (name == "bodies" || name == "step")
-      sub->add_option("-o,--out", o->out, "file for the case with these alone");
+    if (name == "bodies" || name == "step") sub->add_option("-o,--out", o->out, "file for the reduced case");
     if (name == "value") {
-      sub->add_option("--at", o->at, "JSON pointer of the number, as /scene/bodies/1/pose/translation/0")
+      sub->add_option("--at", o->at, "JSON pointer to the number, e.g. /scene/bodies/1/pose/translation/0")
           ->required();
       sub->add_option("--to", o->to, "a value that does not show the finding")->required();
     }

@@ -1,5 +1,5 @@
-// touchstone certify --subject X: is a broad phase conservative? A certificate, or the smallest script that
-// loses a pair. --check CERT makes one again from itself alone and compares.
+// touchstone certify --subject X: is a broad phase conservative? The result is a certificate, or the smallest
+// script that loses a pair. --check CERT re-runs a certificate from its own data alone and compares.
 #include <fmt/format.h>
 #include <unistd.h>
 
@@ -65,7 +65,11 @@ class CertifyProgress {
 fuzz::CertifyConfig config_of(const CertifyOptions& o) {
   fuzz::CertifyConfig c;
   c.scope = o.scope == "full" ? fuzz::Scope::full : fuzz::Scope::quick;
-  c.seed = o.seed, c.limit = o.limit, c.jobs = o.jobs, c.without = o.without, c.first_fault = o.first_fault;
+  c.seed = o.seed;
+  c.limit = o.limit;
+  c.jobs = o.jobs;
+  c.without = o.without;
+  c.first_fault = o.first_fault;
   if (o.level == "boxes") c.levels = {BroadLevel::boxes};
   if (o.level == "bodies") c.levels = {BroadLevel::bodies};
   c.program = "touchstone " TOUCHSTONE_VERSION;
@@ -78,8 +82,8 @@ std::optional<BroadCertificate> make(const fuzz::Subject& s, const fuzz::Certify
   return fuzz::certify(s, c, std::ref(printer), interrupted);
 }
 
-// The script beside the certificate, ready for `touchstone replay`: c.case.json, with both levels
-// c.boxes.case.json; that of a further class of fault has its name too, c.boxes.crashed-numbers.case.json.
+// The script's file beside the certificate, for `touchstone replay`: c.case.json, or c.boxes.case.json if
+// both levels are certified. Further classes of fault add their name: c.boxes.crashed-numbers.case.json.
 std::string script_file(const CertifyOptions& o, const BroadCertificate& c, const fuzz::Refutation& r) {
   const std::string base = !o.script.empty() ? o.script
                            : o.out.empty()
@@ -96,17 +100,17 @@ std::string script_file(const CertifyOptions& o, const BroadCertificate& c, cons
   return (p.parent_path() / (name.substr(0, dot) + tag + name.substr(dot))).string();
 }
 
-// Longer scripts are not for a terminal.
-constexpr auto most_printed_lines = 80;
+// Longer scripts are not printed on the terminal.
+constexpr auto max_printed_lines = 80;
 
 void print_script(const fuzz::Refutation& r, const std::string& text) {
   const std::string what = fmt::format("{}, level of {}", in_words(r.what), to_string(r.level));
   const auto lines = std::count(text.begin(), text.end(), '\n');
-  if (lines > most_printed_lines)
-    fmt::print("the script that shows it ({}) has {} lines: -o FILE or --script FILE writes it\n", what,
+  if (lines > max_printed_lines)
+    fmt::print("script that shows it ({}): {} lines;\n  write it with -o FILE or --script FILE\n", what,
                reports::grouped(static_cast<std::uint64_t>(lines)));
   else
-    fmt::print("the script that shows it ({}):\n{}", what, text);
+    fmt::print("script that shows it ({}):\n{}", what, text);
 }
 
 void write_scripts(const CertifyOptions& o, const BroadCertificate& c) {
@@ -131,13 +135,13 @@ int list_subjects() {
   for (const auto name : core_broad_phases()) fmt::print("{:<34}core\n", name);
   for (const EngineRow& row : broad_catalog())
     fmt::print("{:<34}{}{}\n", row.name, row.line, is_present(row) ? "" : " (absent: not built)");
-  fmt::print("and every engine of `touchstone engines`, ./libmine.so, pipe:COMMAND\n");
+  fmt::print("also every engine listed by `touchstone engines`, ./libmine.so, pipe:COMMAND\n");
   return exit_clean;
 }
 
-// What reports/web/src/certificate draws: the certificate as it is stored, and where things lie.
+// The data that reports/web/src/certificate draws: the certificate as stored, and where its files are.
 bool write_certificate_page(const CertifyOptions& o, const BroadCertificate& c) {
-  Json scripts = Json::array();  // one a refutation, empty: not written
+  Json scripts = Json::array();  // one per refutation; empty if not written
   for (const auto& r : c.refutations) scripts.push_back(r.script ? script_file(o, c, r) : "");
   const Json page = {{"page", "certificate"},
                      {"version", 2},
@@ -150,7 +154,7 @@ bool write_certificate_page(const CertifyOptions& o, const BroadCertificate& c) 
   return write_page("certificate", page.dump(), o.page, o.out);
 }
 
-// Where the shell would find it; empty: nowhere.
+// The path at which the shell would find the program; empty if it would not.
 std::string program_on_path(const std::string& name) {
   const char* path = std::getenv("PATH");
   std::stringstream directories(path ? path : "");
@@ -161,22 +165,22 @@ std::string program_on_path(const std::string& name) {
   return "";
 }
 
-// Under Valgrind everything takes longer, so that fewer cases are asked and each has more time.
+// Under Valgrind everything is slower, so fewer cases are run and each gets more time.
 void use_memcheck(CertifyOptions& o) {
-  constexpr std::uint64_t cases_of_an_evidence = 60;
+  constexpr std::uint64_t cases_per_suite = 60;
   constexpr double slower = 60;
   o.limits.memcheck = program_on_path("valgrind");
   if (o.limits.memcheck.empty())
     throw std::runtime_error("--memcheck needs Valgrind (Debian: apt-get install valgrind)");
-  if (o.limit == 0) o.limit = cases_of_an_evidence;
-  o.limits = limits_times(o.limits, slower);
+  if (o.limit == 0) o.limit = cases_per_suite;
+  o.limits = scaled_limits(o.limits, slower);
   o.limits.start_cpu_seconds *= slower;
   o.limits.start_wall_seconds *= slower;
-  fmt::print(stderr, "under Valgrind, without a sandbox: {} cases of each evidence at most\n", o.limit);
+  fmt::print(stderr, "running under Valgrind, without a sandbox: at most {} cases per suite\n", o.limit);
 }
 
 int certify_subject(CertifyOptions o) {
-  if (o.subject.empty()) throw InputError("certify", "say what to certify: --subject NAME, or --check CERT");
+  if (o.subject.empty()) throw InputError("certify", "needs --subject NAME or --check CERT");
   for (const std::string& file : {o.out, o.page, o.script}) require_writable(file);
   if (o.memcheck) use_memcheck(o);
   const auto c = make(broad_subject(o.subject, o.limits, o.sweeps), config_of(o));
@@ -198,7 +202,7 @@ int certify_subject(CertifyOptions o) {
   return exit_code(*c);
 }
 
-// The first field in which two certificates differ, for people.
+// The first field in which two certificates differ, as a message.
 std::string first_difference(const Json& was, const Json& is, const std::string& place) {
   if (was == is) return "";
   if (was.is_structured() && is.is_structured() && was.is_object() == is.is_object() &&
@@ -209,7 +213,7 @@ std::string first_difference(const Json& was, const Json& is, const std::string&
         return fmt::format("{}{}: {} is now {}", place, key, value.dump(),
                            b.contains(key) ? b.at(key).dump() : "absent");
   }
-  return place + "another number of entries";
+  return place + "the number of entries differs";
 }
 
 int differs(const std::string& file, const std::string& why) {
@@ -217,16 +221,19 @@ int differs(const std::string& file, const std::string& why) {
   return exit_wrong;
 }
 
-// What the file names is a label: a path or a command is run only when the command line says the same words.
+// The name in the file is only a label: a path or a command is run only if the command line gives the same
+// one.
 void require_same_subject(const CertifyOptions& o, const std::string& named) {
   const auto phases = core_broad_phases();
   const bool known = std::find(phases.begin(), phases.end(), named) != phases.end() || is_catalogued(named);
   if (o.subject.empty() && !known)
-    throw InputError(o.check, "subject: " + json_text(named) +
-                                  " is not in the catalogue, and what a file names is not run; say --subject with "
-                                  "these words to run it");
+    throw InputError(o.check,
+                     "subject: " + json_text(named) +
+                         " is not in the catalogue, and files cannot choose what is run; pass the same "
+                         "name with --subject to run it");
   if (!o.subject.empty() && o.subject != named)
-    throw InputError(o.check, "subject: it is of " + json_text(named) + ", not of --subject " + o.subject);
+    throw InputError(
+        o.check, "subject: the certificate is for " + json_text(named) + ", not for --subject " + o.subject);
 }
 
 int check(const CertifyOptions& o) {
@@ -238,26 +245,30 @@ int check(const CertifyOptions& o) {
   } catch (const InputError& e) {
     throw e.within(o.check);
   }
-  if (!digest_holds) return differs(o.check, "its digest is not that of what it says");
+  if (!digest_holds) return differs(o.check, "its digest does not match its contents");
   fuzz::CertifyConfig c;
   c.scope = was.scope == "full" ? fuzz::Scope::full : fuzz::Scope::quick;
-  c.seed = was.seed, c.limit = was.limit, c.levels = was.levels, c.without = was.without,
-  c.first_fault = was.first_fault, c.jobs = o.jobs;
+  c.seed = was.seed;
+  c.limit = was.limit;
+  c.levels = was.levels;
+  c.without = was.without;
+  c.first_fault = was.first_fault;
+  c.jobs = o.jobs;
   c.program = config_of(o).program;
   if (was.program != c.program)
-    return differs(o.check, "it was made by " + json_text(was.program) + ", and this is " + c.program);
+    return differs(o.check, "it was made by " + json_text(was.program) + ", but this is " + c.program);
   require_same_subject(o, was.subject);
   const fuzz::Subject s = broad_subject(was.subject, o.limits, was.sweeps);
   if (s.plugin_hash != was.plugin_hash)
-    return differs(o.check, "the plug-in is another build than the one certified");
+    return differs(o.check, "the plug-in is a different build from the one certified");
   const auto again = make(s, c);
   if (!again) {
-    fmt::print(stderr, "interrupted: nothing is said\n");
+    fmt::print(stderr, "interrupted: the certificate was not checked\n");
     return exit_failed;
   }
   const std::string difference = first_difference(stored, to_json(*again), "");
   if (!difference.empty()) return differs(o.check, difference);
-  fmt::print("{}: valid, made again with the same digest\n{}\n", o.check, reports::certificate_line(was));
+  fmt::print("{}: valid, re-run with the same digest\n{}\n", o.check, reports::certificate_line(was));
   return exit_code(was);
 }
 
@@ -267,7 +278,7 @@ Run declare_certify(CLI::App& app) {
   auto o = std::make_shared<CertifyOptions>();
   o->jobs = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
   app.add_option("--subject", o->subject,
-                 "a broad phase of the core, an engine (`touchstone engines`), ./libmine.so, pipe:COMMAND");
+                 "a core broad phase, an engine (`touchstone engines`), ./libmine.so, or pipe:COMMAND");
   app.add_option("--scope", o->scope, "quick (a minute) or full (half an hour)")
       ->check(CLI::IsMember({"quick", "full"}))
       ->capture_default_str();
@@ -275,25 +286,27 @@ Run declare_certify(CLI::App& app) {
       ->check(CLI::IsMember({"boxes", "bodies", "both"}))
       ->capture_default_str();
   app.add_option("-o,--out", o->out, "file for the certificate (JSON)");
-  app.add_option("--page", o->page, "file for the certificate as a page (HTML, loads nothing)");
+  app.add_option("--page", o->page, "file for the certificate as a page (self-contained HTML)");
   app.add_option("--script", o->script,
                  "file for the script of a refutation (default: beside the certificate)");
-  app.add_option("--check", o->check, "a certificate to make again and compare; 0: it holds as it is");
+  app.add_option("--check", o->check, "a certificate to re-run and compare; exit code 1 if it does not hold");
   app.add_option("--without", o->without,
-                 "evidence to leave out, separated by commas; the certificate says so")
+                 "suites to leave out, separated by commas; recorded in the certificate")
       ->delimiter(',')
       ->allow_extra_args(false);
   app.add_option("--seed", o->seed, "same seed, same certificate")->capture_default_str();
-  app.add_option("--limit", o->limit, "cases of an evidence at most; the certificate says so");
-  app.add_option("--jobs", o->jobs, "jobs side by side")->check(CLI::Range(1, 1024))->capture_default_str();
+  app.add_option("--limit", o->limit, "maximum number of cases per suite; recorded in the certificate");
+  app.add_option("--jobs", o->jobs, "number of parallel jobs")
+      ->check(CLI::Range(1, 1024))
+      ->capture_default_str();
   app.add_flag("--sweeps", o->sweeps,
-               "ask the subject for swept_candidates too: pairs that meet while the bodies move");
+               "also query the subject for swept_candidates: pairs that meet while the bodies move");
   app.add_flag("--first-fault", o->first_fault,
-               "end a level with its first fault instead of listing every one; the certificate says so");
+               "stop a level at its first fault instead of listing all; recorded in the certificate");
   app.add_flag(
       "--memcheck", o->memcheck,
-      "run the subject under Valgrind: reading or writing freed memory, or beyond a block, is a crash");
-  app.add_flag("--list", o->list, "the subjects there are by name");
+      "run the subject under Valgrind: reads or writes of freed or unallocated memory count as crashes");
+  app.add_flag("--list", o->list, "list the subjects available by name");
   add_case_seconds(app, o->limits);
   app.add_flag("--json", o->json, "the certificate as one JSON document on stdout");
   return [o] { return o->list ? list_subjects() : o->check.empty() ? certify_subject(*o) : check(*o); };

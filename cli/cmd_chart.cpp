@@ -35,7 +35,7 @@ struct ChartOptions {
   WorkerLimits limits{.patience = 1};
 };
 
-// A crowd of thousands is one question.
+// Thousands of bodies are one question.
 constexpr double crowd_cpu_seconds = 10;
 
 std::vector<EnginePtr> broad_engines(const ChartOptions& o) {
@@ -55,10 +55,10 @@ std::vector<EnginePtr> broad_engines(const ChartOptions& o) {
   return engines;
 }
 
-// The engines named; of all of them other settings too, and sub-stepping.
+// The engines named. For "all", other settings and sub-stepping are added.
 std::vector<EnginePtr> pair_engines(const ChartOptions& o, std::vector<std::string> names) {
   const bool all = o.choice.engines == "all";
-  // core-kept builds for one question what a program builds once: its times say nothing.
+  // core-kept builds per question what a program builds once, so its times mean nothing here.
   if (all) std::erase(names, "core-kept");
   std::vector<EnginePtr> engines = make_engines(names, o.limits);
   if (!all) return engines;
@@ -73,7 +73,7 @@ std::vector<EnginePtr> pair_engines(const ChartOptions& o, std::vector<std::stri
   return engines;
 }
 
-// Broad phases may be the subject too, by the names that the chart gives them.
+// A broad phase may also be the subject, under the chart's name for it.
 struct ChartEngines {
   std::vector<EnginePtr> pairs, broad;
   std::string subject;
@@ -85,7 +85,7 @@ ChartEngines chart_engines(const ChartOptions& o) {
   const bool is_broad = std::any_of(r.broad.begin(), r.broad.end(),
                                     [&](const EnginePtr& e) { return e->card().name == o.choice.subject; });
   EngineChoice choice = o.choice;
-  if (is_broad) choice.subject = engine_names(o.choice.engines)[0];  // any that adds none to those asked
+  if (is_broad) choice.subject = engine_names(o.choice.engines)[0];  // any engine that is queried anyway
   const AskedEngines asked = asked_engines(choice, o.limits);
   r.pairs = pair_engines(o, asked.names);
   r.subject = is_broad ? o.choice.subject : asked.subject;
@@ -94,7 +94,7 @@ ChartEngines chart_engines(const ChartOptions& o) {
 
 fuzz::Chart measured(const ChartOptions& o, std::string& subject) {
   const bool live = isatty(2) == 1;
-  // Before any engine is made: its worker inherits it.
+  // Set before any engine is made, because its worker inherits it.
   setenv(measure_variable, std::to_string(o.measure).c_str(), 1);
   const ChartEngines asked = chart_engines(o);
   subject = asked.subject;
@@ -111,8 +111,8 @@ fuzz::Chart stored(const std::string& file) {
   return fuzz::chart_from_json(j, file);
 }
 
-// Its numbers are kept beside it, so that a test can hold the one against the other: the block is made of
-// what is kept, which has fewer digits than what was measured.
+// The numbers are stored beside the README so that a test can compare the two. The block is made from the
+// stored numbers, which have fewer digits than the measured ones.
 void write_readme(const std::filesystem::path& readme, const fuzz::Chart& chart) {
   const std::string before = read_file(readme, std::uintmax_t{1} << 24);
   const auto docs = readme.parent_path() / "docs";
@@ -124,7 +124,7 @@ void write_readme(const std::filesystem::path& readme, const fuzz::Chart& chart)
   fmt::print("{}, {}\n", readme.string(), kept.string());
 }
 
-// Of a stored chart: those of its rows are all there are.
+// The subject of a stored chart: one of the engines in its rows.
 std::string subject_of(const fuzz::Chart& chart, const std::string& given) {
   std::vector<std::string> known;
   for (const fuzz::ChartRow& r : chart.rows)
@@ -140,18 +140,22 @@ int verdict(const fuzz::Chart& chart, const std::string& subject, bool json) {
     const bool whole =
         r.regime.empty() && r.pair.empty() && r.scale.empty();  // the others are parts of these
     if (r.engine != subject || !whole) continue;
-    asked += r.asked, wrong += r.wrong, failed += r.failed, answers += r.answers;
+    asked += r.asked;
+    wrong += r.wrong;
+    failed += r.failed;
+    answers += r.answers;
   }
   if (wrong + failed > 0)
-    return say_verdict(exit_wrong, subject,
-                       fmt::format("wrong in {} and failed in {} of {} queries", wrong, failed, asked), json);
+    return print_verdict(exit_wrong, subject,
+                         fmt::format("wrong in {} and failed in {} of {} queries", wrong, failed, asked),
+                         json);
   if (answers == 0)
-    return say_verdict(exit_failed, subject, "it answered nothing, which proves nothing", json);
-  return say_verdict(exit_clean, subject, fmt::format("0 wrong in {} queries", asked), json);
+    return print_verdict(exit_failed, subject, "it answered nothing; this run proves nothing", json);
+  return print_verdict(exit_clean, subject, fmt::format("0 wrong in {} queries", asked), json);
 }
 
 int run(const ChartOptions& o) {
-  if (o.from.empty()) fuzz::make_directory(o.out);  // before half an hour of work for it
+  if (o.from.empty()) fuzz::make_directory(o.out);  // fails before half an hour of work, not after it
   std::string subject;
   const fuzz::Chart chart = o.from.empty() ? measured(o, subject) : stored(o.from);
   if (!o.from.empty()) subject = subject_of(chart, o.choice.subject);
@@ -168,19 +172,19 @@ int run(const ChartOptions& o) {
 
 Run declare_chart(CLI::App& app) {
   auto o = std::make_shared<ChartOptions>();
-  app.add_flag("--quick", o->quick, "fewer cases: minutes instead of half an hour");
+  app.add_flag("--quick", o->quick, "fewer cases: takes minutes instead of half an hour");
   add_engine_choice(app, o->choice);
   app.add_option("--broad", o->broad, "broad phases, as for certify --subject, or all")
       ->capture_default_str();
   app.add_option("--seed", o->seed, "same seed, same cases and errors")->capture_default_str();
-  app.add_option("--measure", o->measure, "ns that each question about a pair is asked again for, to time it")
+  app.add_option("--measure", o->measure, "ns for which each pair query is repeated to time it")
       ->check(CLI::Range(0, 100'000'000))
       ->capture_default_str();
-  app.add_option("--out", o->out, "directory of chart.json, chart.csv, chart.html")->capture_default_str();
+  app.add_option("--out", o->out, "directory for chart.json, chart.csv, chart.html")->capture_default_str();
   add_case_seconds(app, o->limits);
   app.add_option("--from", o->from, "a chart.json to print instead of measuring one");
   app.add_option("--readme", o->readme,
-                 "also renew the block of the chart in this file, and docs/chart.json beside it");
+                 "also update the chart block in this file, and docs/chart.json beside it");
   app.add_flag("--json", o->json, "the whole result as one JSON document on stdout");
   return [o] { return run(*o); };
 }

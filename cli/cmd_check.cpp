@@ -1,4 +1,4 @@
-// touchstone check CERT: is a stored certificate a proof of what it says about its scene? The scene is the
+// touchstone check CERT: does a stored certificate prove its claim about its scene? The scene is the
 // case.json beside it, unless --case names another.
 #include <fmt/format.h>
 
@@ -27,7 +27,7 @@ struct CheckOptions {
   std::vector<int> pair;
 };
 
-// A finding holds its certificate under that name; a bare certificate is one itself.
+// A finding stores its certificate in the field "certificate"; other files are certificates themselves.
 Json certificate_in(const std::string& path) {
   const Json j = load_json(path);
   return j.is_object() && j.contains("certificate") ? j.at("certificate") : j;
@@ -63,8 +63,8 @@ struct Bodies {
   int a = 0, b = 1;
 };
 
-// The pairs that the certificate may be about, in the order A, B: as asked for or as it says, else both
-// orders of the only two.
+// The pairs (A, B) that the certificate may be about: as requested or as recorded in it, else both orders of
+// the only two bodies.
 std::vector<Bodies> pairs_of(const CheckOptions& o, const Json& certificate, const Scene& s) {
   const int n = static_cast<int>(s.bodies.size());
   std::vector<int> named = o.pair;
@@ -75,7 +75,7 @@ std::vector<Bodies> pairs_of(const CheckOptions& o, const Json& certificate, con
     return {{0, 1}, {1, 0}};
   }
   const std::string place = o.pair.empty() ? o.path + ": bodies" : "--pair";
-  if (named.size() != 2) throw InputError(place, "names the two bodies A and B");
+  if (named.size() != 2) throw InputError(place, "must name two bodies, A and B");
   for (int k : named)
     if (k < 0 || k >= n) throw InputError(place, fmt::format("there is no body {}", k));
   if (named[0] == named[1]) throw InputError(place, "names one body twice");
@@ -84,10 +84,10 @@ std::vector<Bodies> pairs_of(const CheckOptions& o, const Json& certificate, con
 
 Placed placed(const Scene& s, int body, int step) {
   if (const auto p = fuzz::placed_at(s, body, step)) return *p;
-  throw InputError("step", fmt::format("body {} is not there at query {}", body, step));
+  throw InputError("step", fmt::format("body {} is not in the scene at query {}", body, step));
 }
 
-// What the certificate claims of A and B, and whether it holds.
+// What the certificate claims about A and B, and whether it holds.
 struct Claim {
   std::string words;
   std::function<bool(const Scene&, Bodies, int step)> holds;
@@ -109,20 +109,20 @@ Claim claim_of(const Json& j) {
           }};
 }
 
-// How an answer failed, when the file is a finding about that: a crash is observed, not proved.
+// The fault, if the file is a finding without a certificate: a crash is observed, not proved.
 std::string failure_in(const std::string& path) {
   const Json j = load_json(path);
   const bool is_finding = j.is_object() && j.contains("fault") && j.contains("certificate");
   return is_finding && j["fault"].is_string() ? j["fault"].get<std::string>() : "";
 }
 
-// The query of a script at which the bodies stand; -1, their own poses, when the certificate names none.
+// The query of the script that gives the bodies' poses; -1 (their own poses) if the certificate names none.
 int step_of(const Json& j, const std::string& file) {
   if (!j.contains("step")) return -1;
   const Json& step = j["step"];
   const auto query = step.is_number_integer() ? step.get<std::int64_t>() : -1;
   if (query < 0 || query > std::numeric_limits<int>::max())
-    throw InputError(file, "step: is not the number of a query, 0 or more");
+    throw InputError(file, "step: is not the number of a query (0 or more)");
   return static_cast<int>(query);
 }
 

@@ -17,7 +17,7 @@ namespace {
 void print_card(const EngineCard& c) {
   fmt::print("{:<24} {} {}\n", c.name, c.library, c.version);
   if (!c.settings.empty()) fmt::print("    {}\n", reports::wrapped(c.settings, 76, 4));
-  fmt::print("    tolerance {:g}·{:.3g}·L plus what each answer claims", c.tau_factor, c.unit_roundoff);
+  fmt::print("    tolerance {:g}·{:.3g}·L plus each answer's claim", c.tau_factor, c.unit_roundoff);
   if (!c.source.empty()) fmt::print("\n    {}", reports::wrapped("(" + c.source + ")", 76, 4));
   fmt::print("\n");
 }
@@ -29,7 +29,7 @@ std::string sandbox_of(const Engine& e) {
 
 void print_sandboxes(const std::set<std::string>& sandboxes) {
   for (const std::string& words : sandboxes)
-    fmt::print("{}\n", reports::wrapped("sandbox of plug-ins and commands: " + words, 76, 4));
+    fmt::print("{}\n", reports::wrapped("sandbox for plug-ins and commands: " + words, 76, 4));
 }
 
 int list(const std::string& which, bool json, const WorkerLimits& limits) {
@@ -52,7 +52,7 @@ int list(const std::string& which, bool json, const WorkerLimits& limits) {
       else if (json)
         j.push_back({{"name", row.name}, {"absent", true}});
       else
-        fmt::print("{:<24} absent: {} was not built (its library was not found)\n", row.name, row.library);
+        fmt::print("{:<24} absent: its library was not found\n    {} was not built\n", row.name, row.library);
     }
     for (const NpmRow& row : npm_catalog()) {
       if (is_installed(row))
@@ -60,7 +60,8 @@ int list(const std::string& which, bool json, const WorkerLimits& limits) {
       else if (json)
         j.push_back({{"name", row.name}, {"absent", true}});
       else
-        fmt::print("{:<24} absent: {} from npm; engines --install {}\n", row.name, row.line, row.name);
+        fmt::print("{:<24} absent: engines --install {} gets it from npm\n    {}\n", row.name, row.name,
+                   row.line);
     }
   }
   if (json) fmt::print("{}\n", j.dump(1));
@@ -68,7 +69,7 @@ int list(const std::string& which, bool json, const WorkerLimits& limits) {
   return exit_clean;
 }
 
-// 0: every probe is answered rightly or said to be unsupported; 3: nothing is answered.
+// Returns 0 if every probe is answered rightly or declared unsupported, 3 if nothing is answered.
 int check(const std::string& which, const WorkerLimits& limits) {
   const auto names = engine_names(which);
   if (names.size() != 1) throw InputError("--check " + which, "names more than one engine");
@@ -78,7 +79,8 @@ int check(const std::string& which, const WorkerLimits& limits) {
   for (const fuzz::Remark& r : fuzz::conformance(*engine)) {
     fmt::print("{:<12} {}\n", r.verdict, r.probe);
     if (r.verdict == "wrong") fmt::print("             {}\n", reports::wrapped(r.words, 66, 13));
-    right += r.verdict == "right", wrong += r.verdict == "wrong";
+    right += r.verdict == "right";
+    wrong += r.verdict == "wrong";
   }
   fmt::print("{}: {} right, {} wrong\n", engine->card().name, right, wrong);
   if (wrong > 0) return exit_wrong;
@@ -94,10 +96,10 @@ Run declare_engines(CLI::App& app) {
   app.add_flag("--json", *json, "one JSON document");
   auto checked = std::make_shared<std::string>();
   app.add_option("--check", *checked,
-                 "does this engine (./libmine.so, pipe:COMMAND) speak the interface as it is meant?");
+                 "test whether an engine (./libmine.so, pipe:COMMAND) uses the interface correctly");
   auto wanted = std::make_shared<std::vector<std::string>>();
   app.add_option("--install", *wanted,
-                 "engines to bring from npm: jolt, jolt-tuned, rapier; separated by commas")
+                 "engines to install from npm, separated by commas: jolt, jolt-tuned, rapier")
       ->delimiter(',')
       ->allow_extra_args(false);
   auto limits = std::make_shared<WorkerLimits>();

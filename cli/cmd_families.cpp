@@ -11,7 +11,7 @@ namespace {
 
 void print_text() {
   for (const fuzz::Family& f : fuzz::families()) fmt::print("{:<15} {}\n", f.name, f.line);
-  fmt::print("\nWhat the default mix shows, at least one case in so many:\n");
+  fmt::print("\nFeatures of the default mix, each in at least one case out of N:\n");
   for (const fuzz::Regime& r : fuzz::regimes()) fmt::print("{:<15} {:>4} {}\n", r.name, r.one_in, r.line);
 }
 

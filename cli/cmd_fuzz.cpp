@@ -35,7 +35,8 @@ void take_shard(const std::string& text, fuzz::CampaignConfig& c) {
     const char* v = std::getenv(name);
     return v ? std::optional<std::string>(v) : std::nullopt;
   });
-  c.shard = s.index, c.shards = s.count;
+  c.shard = s.index;
+  c.shards = s.count;
   if (s.count > 1) fmt::print(stderr, "shard {} of {}, by {}\n", s.index, s.count, s.source);
 }
 
@@ -68,15 +69,17 @@ std::string progress_line(const fuzz::Progress& p, const fuzz::CampaignConfig& c
   return s;
 }
 
-// A live line on a terminal, a plain line every ten seconds otherwise.
+// Updates one line on a terminal; prints a line every ten seconds otherwise.
 class ProgressPrinter {
  public:
   explicit ProgressPrinter(const fuzz::CampaignConfig& c) : config_(c), live_(isatty(2) == 1) {}
   void operator()(const fuzz::Progress& p) {
-    if (live_)
+    if (live_) {
       fmt::print(stderr, "\r\033[K{}{}", progress_line(p, config_), p.last ? "\n" : "");
-    else if (p.last || p.elapsed_s >= next_)
-      fmt::print(stderr, "{}\n", progress_line(p, config_)), next_ = p.elapsed_s + 10;
+    } else if (p.last || p.elapsed_s >= next_) {
+      fmt::print(stderr, "{}\n", progress_line(p, config_));
+      next_ = p.elapsed_s + 10;
+    }
     std::fflush(stderr);
   }
 
@@ -90,22 +93,24 @@ void print_text(const fuzz::CampaignConfig& c, const fuzz::CampaignResult& r) {
   for (const std::string& line : r.too_open(c.subject)) fmt::print("{}\n", reports::wrapped(line, 79, 2));
   fmt::print("{}\n", reports::campaign_table(r));
   if (!r.findings.empty())
-    fmt::print("Findings by engine, the three most frequent kinds of each:\n{}\n",
+    fmt::print("Findings by engine (the three most frequent kinds of each):\n{}\n",
                reports::findings_summary(r, 3));
   fmt::print("{}", reports::campaign_footer(r));
   if (r.findings.empty())
     return fmt::print("no findings; the counts are in {}/summary.json\n", c.out.string());
   const std::string out = c.out.string();
-  fmt::print("{} kinds of findings in {}/findings; look at one with\n  {} replay {}\n",
+  fmt::print("{} kinds of findings in {}/findings; to see one:\n  {} replay {}\n",
              reports::grouped(r.findings.size()), out, program_name(),
              shell_word(out + "/findings/" + r.findings.begin()->first));
   if (interrupted) return;
-  fmt::print("All of it as a page: {} report {} -o {}\n", program_name(), shell_word(out),
+  fmt::print("To see all of them as a page:\n  {} report {} -o {}\n", program_name(), shell_word(out),
              shell_word(out + "/report.html"));
 }
 
 int verdict(const fuzz::CampaignConfig& c, const fuzz::CampaignResult& r, bool json) {
-  const auto say = [&](int code, const std::string& why) { return say_verdict(code, c.subject, why, json); };
+  const auto say = [&](int code, const std::string& why) {
+    return print_verdict(code, c.subject, why, json);
+  };
   const auto wrong = r.wrong_of(c.subject), failed = r.failed_of(c.subject);
   const std::uint64_t answers = r.answered_by(c.subject);
   const std::string counts =
@@ -116,20 +121,19 @@ int verdict(const fuzz::CampaignConfig& c, const fuzz::CampaignResult& r, bool j
                                         shell_word(c.out.string()), counts));
   if (wrong + failed > 0) return say(exit_wrong, counts);
   if (answers == 0) return say(exit_failed, "it answered nothing; this run proves nothing");
-  // A campaign whose pairs nearly all overlap, or nearly none, tests half of what it says.
+  // A campaign in which nearly all pairs overlap, or nearly none, tests only half of what it claims to.
   if (c.family.empty() && r.pair_cases >= 200 && (r.hit_rate() < 0.3 || r.hit_rate() > 0.7))
     return say(exit_failed,
                fmt::format("{:.0f} % of the pairs overlap, outside 30-70 %: this run proves nothing",
                            100 * r.hit_rate()));
   if (const auto open = r.too_open(c.subject); !open.empty())
-    return say(exit_failed, fmt::format("0 wrong, and too much left open to say so: {}", open.front()));
+    return say(exit_failed, fmt::format("0 wrong, but too many answers are open: {}", open.front()));
   const auto exempt = r.by_definition_of(c.subject);
   return say(exit_clean,
              fmt::format("0 wrong in {} answers{}", reports::grouped(answers),
-                         exempt > 0
-                             ? fmt::format(" ({} state a depth of a surface, which has none: not judged)",
-                                           reports::grouped(exempt))
-                             : ""));
+                         exempt > 0 ? fmt::format(" ({} are depths of a surface, which has none: not judged)",
+                                                  reports::grouped(exempt))
+                                    : ""));
 }
 
 int run(FuzzOptions& o) {
@@ -137,7 +141,7 @@ int run(FuzzOptions& o) {
   const AskedEngines asked = asked_engines(o.choice, o.limits);
   o.config.engines = asked.names;
   o.config.subject = asked.subject;
-  if (!o.config.error.empty()) length_from_text(o.config.error);  // refuses what is no length at once
+  if (!o.config.error.empty()) length_from_text(o.config.error);  // refuses a bad length at once
   if (o.cases > 0) o.config.cases = o.cases;
   if (o.minutes > 0) o.config.minutes = o.minutes;
   if (!o.config.cases && !o.config.minutes) o.config.minutes = 1;
@@ -149,7 +153,8 @@ int run(FuzzOptions& o) {
   const auto result = fuzz::run_campaign(o.config, make_all, ProgressPrinter(o.config), interrupted);
   if (o.json) {
     auto j = fuzz::to_json(result, true);
-    j["digest"] = fuzz::digest(result), j["out"] = o.config.out.string();
+    j["digest"] = fuzz::digest(result);
+    j["out"] = o.config.out.string();
     j["too_open"] = result.too_open(o.config.subject);
     fmt::print("{}\n", j.dump(1));
   } else {
@@ -170,23 +175,21 @@ Run declare_fuzz(CLI::App& app) {
   app.add_option("--cases", o->cases, "stop after this many cases")->check(a_count());
   app.add_option("--minutes", o->minutes, "stop after this time (default 1 when --cases is not given)")
       ->check(a_positive_number());
-  app.add_option("--jobs", o->config.jobs, "jobs side by side")
+  app.add_option("--jobs", o->config.jobs, "number of parallel jobs")
       ->check(CLI::Range(1, 1024))
       ->capture_default_str();
-  app.add_option(
-      "--shard", o->shard,
-      "i/n: only the i-th of n parts of the campaign, i from 0 (default: SLURM_ARRAY_TASK_ID of _COUNT, or "
-      "JOB_COMPLETION_INDEX of JOB_COMPLETIONS, if they are set)");
+  app.add_option("--shard", o->shard,
+                 "i/n: run only shard i of n, counted from 0 (default: SLURM_ARRAY_TASK_ID of "
+                 "SLURM_ARRAY_TASK_COUNT, or JOB_COMPLETION_INDEX of JOB_COMPLETIONS, if set)");
   app.add_flag("--guided", o->config.guided,
-               "half of the cases are changed forms of those that made an engine do something new");
+               "derive half of the cases from earlier ones that made an engine do something new");
   app.add_option("--relations", o->config.relations_every,
-                 "every so many cases one is also asked swapped, scaled, moved, ...; 0: none")
+                 "also ask every N-th case in other forms (swapped, scaled, moved, ...); 0: never")
       ->check(CLI::Range(0, 1'000'000'000))
       ->capture_default_str();
   app.add_option("--out", o->out, "output directory; an unfinished campaign in it is resumed");
-  app.add_flag(
-      "--fresh", o->config.fresh,
-      "a campaign that is in --out already is moved aside, to the first free name of OUT.1, OUT.2, …");
+  app.add_flag("--fresh", o->config.fresh,
+               "first move a campaign that is already in --out to the first free name of OUT.1, OUT.2, …");
   add_error(app, o->config.error);
   add_case_seconds(app, o->limits);
   app.add_flag("--json", o->json, "the whole result as one JSON document on stdout");

@@ -1,5 +1,4 @@
-// touchstone merge OUT IN…: shards of a campaign into one; with --ledgers, ledgers of known findings into
-// one.
+// touchstone merge OUT IN…: merges shards of a campaign, or with --ledgers, ledgers of known findings.
 #include <fmt/format.h>
 
 #include <filesystem>
@@ -42,8 +41,8 @@ int merge_shards(const MergeOptions& o) {
 int run(const MergeOptions& o) {
   if (o.in.empty())
     throw InputError("merge",
-                     "say where to and what: touchstone merge OUT SHARD..., or touchstone merge --ledgers "
-                     "OUT.db LEDGER.db...");
+                     "needs an output and inputs: touchstone merge OUT SHARD..., or touchstone merge "
+                     "--ledgers OUT.db LEDGER.db...");
   if (!o.ledgers) return merge_shards(o);
   const std::size_t n = fuzz::merge_ledgers(o.out, paths(o));
   fmt::print("{} findings in {}\n", reports::grouped(n), o.out);
@@ -54,9 +53,9 @@ int run(const MergeOptions& o) {
 
 Run declare_merge(CLI::App& app) {
   auto o = std::make_shared<MergeOptions>();
-  app.add_option("out", o->out, "directory (with --ledgers: file) of the result");
+  app.add_option("out", o->out, "directory (with --ledgers: file) for the result");
   app.add_option("in", o->in,
-                 "directories of finished shards, or of merged ones; any order, repeated or not");
+                 "directories of finished or merged shards, in any order; repetitions are ignored");
   app.add_flag("--ledgers", o->ledgers, "merge ledgers (findings.db) instead");
   app.add_flag("--json", o->json, "one JSON document on stdout");
   return [o] { return run(*o); };

@@ -45,13 +45,13 @@ Fidelity plan_in(const std::string& file) {
   const fuzz::Json json = load_json(file);
   const JsonReader j(json, file);
   if (!j.has("touchstone_plan") || j["touchstone_plan"].json() != 1 || !j.has("run"))
-    throw InputError(file, "is not a plan (of version 1)");
+    throw InputError(file, "is not a plan of version 1");
   return fuzz::fidelity_from_json(j["run"].json(), file + ": run");
 }
 
 int run(PlanArguments o, bool error_given) {
   if (error_given && !(o.plan.error > 0 && std::isfinite(o.plan.error)))
-    throw InputError("--error", fmt::format("{} is no positive length", o.plan.error));
+    throw InputError("--error", fmt::format("{} is not a positive length", o.plan.error));
   require_writable(o.out);
   if (!o.use.empty()) o.plan.given = plan_in(o.use);
   const fuzz::Course course = course_named(o);
@@ -64,7 +64,8 @@ int run(PlanArguments o, bool error_given) {
   if (!o.out.empty()) write_file(o.out, json);
   fmt::print("{}", o.json ? json : reports::plan_text(plan));
   if (!o.out.empty())
-    fmt::print(o.json ? stderr : stdout, "{}: run it with StepWorld, or ask again with --use\n", o.out);
+    fmt::print(o.json ? stderr : stdout, "{}: run it with StepWorld, or measure it again with --use\n",
+               o.out);
   for (const fuzz::PlanRow& r : plan.rows)
     if (r.is_plan && r.outside > 0) return exit_wrong;
   return plan.judged > plan.undecided ? exit_clean : exit_failed;
@@ -74,25 +75,26 @@ int run(PlanArguments o, bool error_given) {
 
 Run declare_plan(CLI::App& app) {
   auto o = std::make_shared<PlanArguments>();
-  app.add_option("scene", o->scene, "a scene's or case's JSON, a scenario, or the directory of a recording")
+  app.add_option("scene", o->scene,
+                 "scene or case file, name of a scenario, or directory of a recorded scene")
       ->required();
   auto* error =
       app.add_option("--error", o->plan.error,
-                     "what a gap or depth may be off by, in the scene's unit (default: a millionth of "
-                     "the smallest body)");
-  app.add_flag("--solid-meshes", o->plan.solid_meshes, "meshes that are closed and convex stand for solids");
+                     "largest error of a gap or depth, in the scene's unit (default: a millionth of the "
+                     "smallest body)");
+  app.add_flag("--solid-meshes", o->plan.solid_meshes, "treat closed convex meshes as solids");
   app.add_option("--use", o->use, "measure and judge this plan instead of choosing one")->excludes(error);
-  app.add_option("-o,--out", o->out, "file for the plan as JSON, which StepWorld can run");
-  app.add_option("--steps", o->steps, "steps of a recording to look at")
+  app.add_option("-o,--out", o->out, "file for the plan (JSON), which StepWorld can run");
+  app.add_option("--steps", o->steps, "number of steps of a recording to use")
       ->check(CLI::Range(1, 100000))
       ->capture_default_str();
-  app.add_option("--rounds", o->plan.rounds, "interleaved measurements of each way; the least counts")
+  app.add_option("--rounds", o->plan.rounds, "interleaved measurements of each choice; the fastest counts")
       ->check(CLI::Range(1, 1000))
       ->capture_default_str();
-  app.add_option("--judged", o->plan.judged, "pairs that the referee judges")
+  app.add_option("--judged", o->plan.judged, "number of pairs that the referee judges")
       ->check(CLI::Range(1, 100000))
       ->capture_default_str();
-  app.add_option("--seed", o->plan.seed, "of the samples")->capture_default_str();
+  app.add_option("--seed", o->plan.seed, "seed of the samples")->capture_default_str();
   app.add_flag("--json", o->json, "the whole result as one JSON document on stdout");
   return [o, error] { return run(*o, error->count() > 0); };
 }

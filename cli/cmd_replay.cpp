@@ -29,7 +29,7 @@ struct ReplayOptions {
 
 using Engines = std::vector<EnginePtr>;
 
-// A name from a file on a terminal: no control characters, no more than a line.
+// A name from a file, made safe for a terminal: no control characters, limited length.
 std::string shown(std::string name) {
   if (name.size() > 200) name = name.substr(0, 197) + "...";
   for (char& c : name)
@@ -43,14 +43,14 @@ std::vector<CaseObservations> ask(const Engines& engines, const Case& c) {
   return r;
 }
 
-// What the exit code is made of: cases in which the subject is wrong or fails; of recordings, with thousands
-// of cases each, answers.
+// The basis of the exit code: cases in which the subject is wrong or fails. For recordings, with thousands of
+// cases each, answers are counted instead.
 struct Count {
   std::uint64_t cases = 0, wrong_cases = 0;
   std::uint64_t recorded = 0, wrong_recorded = 0;  // answers about recordings
   std::uint64_t answered = 0;                      // by the subject, right or wrong
   std::vector<std::string> bad;                    // arguments that could not be judged
-  bool failed = false;                             // one of them for another reason than bad input
+  bool failed = false;                             // one of them failed for a reason other than bad input
 };
 
 struct Asked {
@@ -91,12 +91,12 @@ void replay_case(const ReplayOptions& o, const Asked& asked, const Case& c, Coun
   fmt::print("{}", text.str());
   if (const std::string words = words_on_impacts_not_asked(c); !words.empty())
     fmt::print("{}\n\n", reports::wrapped(words, 78, 4));
-  if (!related.findings.empty()) fmt::print("\nAgainst their own answers:\n");
+  if (!related.findings.empty()) fmt::print("\nEngines that contradict their own answers:\n");
   for (const auto& [key, f] : related.findings)
     fmt::print("  {}\n", reports::wrapped(fmt::format("{} {}: {}", f.engine, f.fault, f.words), 76, 4));
 }
 
-// A recorded scene: thousands of pairs, so counts and findings instead of every answer.
+// A recorded scene has thousands of pairs, so counts and findings are printed instead of every answer.
 void replay_real_scene(const ReplayOptions& o, const Asked& asked, const std::string& directory, Count& count,
                        fuzz::Json& json) {
   const RealScene scene = load_real_scene(directory);
@@ -139,21 +139,22 @@ std::string in_words(const Count& count) {
 }
 
 int verdict(const Count& count, const std::string& subject, bool json) {
-  if (!count.bad.empty() && count.cases + count.recorded == 0)  // which has been said
+  if (!count.bad.empty() && count.cases + count.recorded == 0)  // already reported
     return count.failed ? exit_failed : exit_usage;
   if (!count.bad.empty())
-    return say_verdict(count.failed ? exit_failed : exit_usage, count.bad[0],
-                       fmt::format("{} of the arguments could not be judged; in the others {} is wrong in {}",
-                                   count.bad.size(), subject, in_words(count)),
-                       json);
+    return print_verdict(
+        count.failed ? exit_failed : exit_usage, count.bad[0],
+        fmt::format("{} of the arguments could not be judged; in the others {} is wrong in {}",
+                    count.bad.size(), subject, in_words(count)),
+        json);
   if (count.wrong_cases + count.wrong_recorded > 0)
-    return say_verdict(exit_wrong, subject, "wrong in " + in_words(count), json);
+    return print_verdict(exit_wrong, subject, "wrong in " + in_words(count), json);
   if (count.answered == 0)
-    return say_verdict(exit_failed, subject, "it answered nothing, which proves nothing", json);
-  return say_verdict(exit_clean, subject, "wrong in " + in_words(count), json);
+    return print_verdict(exit_failed, subject, "it answered nothing; this run proves nothing", json);
+  return print_verdict(exit_clean, subject, "wrong in " + in_words(count), json);
 }
 
-// Where the file says that it comes from: words to show, never a name to run.
+// Prints the origin recorded in the file. It is only text to show, never a name to run.
 void print_origin(const std::string& path, const StoredCase& stored, const Engines& engines) {
   constexpr std::string_view made_by = "certify ";
   if (!stored.source.starts_with(made_by)) return;
@@ -162,7 +163,7 @@ void print_origin(const std::string& path, const StoredCase& stored, const Engin
   const bool asked = std::any_of(engines.begin(), engines.end(),
                                  [&](const EnginePtr& e) { return e->card().name == subject; });
   fmt::print("{}: a script against {} ({})\n", path, subject,
-             asked ? "asked below" : "which is not asked here; --engines names it");
+             asked ? "queried below" : "not queried here; add it with --engines");
 }
 
 void replay_stored(const ReplayOptions& o, const Asked& asked, const std::string& path, Count& count,
@@ -172,7 +173,7 @@ void replay_stored(const ReplayOptions& o, const Asked& asked, const std::string
   replay_case(o, asked, stored.c, count, json);
 }
 
-// One argument. What is wrong with it is said, and the others go on.
+// Replays one argument. An error is reported and does not stop the others.
 void replay(const ReplayOptions& o, const Asked& asked, const std::string& path, Count& count,
             fuzz::Json& json) {
   const auto refuse = [&](const std::string& words) {
@@ -210,18 +211,18 @@ Run declare_replay(CLI::App& app) {
   auto o = std::make_shared<ReplayOptions>();
   app.add_option("case", o->paths,
                  "case or scene files, directories of findings, names of scenarios, or directories of "
-                 "recorded scenes "
-                 "(scene.txt, frames.npy)")
+                 "recorded scenes (scene.txt, frames.npy)")
       ->required();
   add_engine_choice(app, o->choice);
-  app.add_option("--frames", o->frames, "of recorded scenes: first:end:step (default: about five frames)");
+  app.add_option("--frames", o->frames,
+                 "frames of recorded scenes, first:end:step (default: about five frames)");
   add_error(app, o->error);
   add_case_seconds(app, o->limits);
   app.add_flag("--json", o->json, "one JSON document on stdout");
   app.add_flag(
       "--certificates", o->certificates,
-      "in the JSON, also certificates in exact arithmetic, as `touchstone check` takes them (for moving "
-      "meshes: minutes)");
+      "add certificates in exact arithmetic to the JSON, as `touchstone check` takes them (takes minutes for "
+      "moving meshes)");
   return [o] { return run(*o); };
 }
 

@@ -21,7 +21,7 @@ fuzz::Json settings_in(const std::filesystem::path& file) {
   return JsonReader(j, file.string())["settings"].json();
 }
 
-// What reports/web/src/report draws: the summary without histograms, and findings as columns.
+// The data that reports/web/src/report draws: the summary without histograms, and findings as columns.
 fuzz::Json report_page(const std::filesystem::path& directory, fuzz::Json summary) {
   fuzz::Json findings = reports::findings_columns(summary.at("findings"));
   summary.erase("findings");
@@ -43,8 +43,9 @@ int run(const ReportOptions& o) {
   if (!directory.has_filename()) directory = directory.parent_path();
   const auto file = directory / "summary.json";
   if (!std::filesystem::exists(file))
-    throw InputError(o.directory,
-                     "holds no summary.json: not the directory of a campaign, or it is not finished");
+    throw InputError(
+        o.directory,
+        "holds no summary.json: it is not a campaign's directory, or the campaign is unfinished");
   require_writable(o.out);
   const fuzz::Json summary = load_json(file, campaign_limits);
   const fuzz::CampaignResult result = fuzz::result_from_json(JsonReader(summary, file.string()));
@@ -60,8 +61,8 @@ int run(const ReportOptions& o) {
 
 Run declare_report(CLI::App& app) {
   auto o = std::make_shared<ReportOptions>();
-  app.add_option("directory", o->directory, "what `fuzz --out` wrote")->required();
-  app.add_option("-o,--out", o->out, "the page to write (HTML, loads nothing)");
+  app.add_option("directory", o->directory, "directory of a campaign (`fuzz --out`)")->required();
+  app.add_option("-o,--out", o->out, "file for the page (self-contained HTML)");
   return [o] { return run(*o); };
 }
 

@@ -1,4 +1,4 @@
-// touchstone reproduce CASE: a finding as one C++ file against the engine's own API.
+// touchstone reproduce CASE: writes a finding as one C++ file against the engine's own API.
 #include <fmt/format.h>
 
 #include "cli/command.h"

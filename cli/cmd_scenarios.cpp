@@ -25,7 +25,8 @@ Run declare_scenarios(CLI::App& app) {
       return exit_clean;
     }
     const auto it = std::find_if(all.begin(), all.end(), [&](const auto& s) { return s.name == *name; });
-    if (it == all.end()) throw InputError("scenario " + *name, "unknown; `touchstone scenarios` lists them");
+    if (it == all.end())
+      throw InputError("scenario " + *name, "unknown; `touchstone scenarios` lists them all");
     fmt::print("{}\n", case_to_json(it->make()).dump(1));
     return exit_clean;
   };

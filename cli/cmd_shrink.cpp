@@ -1,4 +1,4 @@
-// touchstone shrink CASE: the smallest case that shows the same finding.
+// touchstone shrink CASE: finds the smallest case that shows the same finding.
 #include <fmt/format.h>
 
 #include <nlohmann/json.hpp>
@@ -59,7 +59,7 @@ int run(const ShrinkOptions& o) {
   if (!o.out.empty()) save_case(result, o.out);
   print(o, key, shrunk, result);
   if (shrunk.exit == fuzz::ShrinkExit::not_shown) {
-    fmt::print(stderr, "the finding came once and not again: the engine does not answer the same twice\n");
+    fmt::print(stderr, "the finding showed once but not again: the engine's answers are not reproducible\n");
     return exit_failed;
   }
   return exit_clean;
@@ -71,7 +71,9 @@ Run declare_shrink(CLI::App& app) {
   auto o = std::make_shared<ShrinkOptions>();
   add_finding_argument(app, o->finding);
   app.add_option("-o,--out", o->out, "file for the shrunk case (default: stdout)");
-  app.add_option("--tries", o->tries, "cases to ask about at most")->check(a_count())->capture_default_str();
+  app.add_option("--tries", o->tries, "maximum number of cases to try")
+      ->check(a_count())
+      ->capture_default_str();
   add_case_seconds(app, o->limits);
   app.add_flag("--json", o->json, "one JSON document on stdout");
   return [o] { return run(*o); };

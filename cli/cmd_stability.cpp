@@ -29,17 +29,17 @@ int verdict(const fuzz::Stability& s, const std::string& subject, bool json) {
     for (const fuzz::Rung& rung : r.rungs) answers += rung.answers;
   }
   if (fallen > 0)
-    return say_verdict(exit_wrong, subject, fmt::format("it fails on {} of {} ladders", fallen, ladders),
-                       json);
+    return print_verdict(exit_wrong, subject, fmt::format("it fails on {} of {} ladders", fallen, ladders),
+                         json);
   if (answers == 0)
-    return say_verdict(exit_failed, subject, "it answered nothing, which proves nothing", json);
-  return say_verdict(exit_clean, subject, fmt::format("it fails on none of {} ladders", ladders), json);
+    return print_verdict(exit_failed, subject, "it answered nothing; this run proves nothing", json);
+  return print_verdict(exit_clean, subject, fmt::format("it fails on none of {} ladders", ladders), json);
 }
 
 int run(const StabilityOptions& o) {
   const bool live = isatty(2) == 1;
   const AskedEngines asked = asked_engines(o.choice, o.limits);
-  fuzz::make_directory(o.out);  // before half an hour of work for it
+  fuzz::make_directory(o.out);  // fails before half an hour of work, not after it
   const std::vector<EnginePtr> engines = make_engines(asked.names, o.limits);
   fuzz::Stability s =
       fuzz::climb(o.ladder, o.seed, o.quick ? 12 : 100, engines, [live](const std::string& what) {
@@ -56,11 +56,11 @@ int run(const StabilityOptions& o) {
 
 Run declare_stability(CLI::App& app) {
   auto o = std::make_shared<StabilityOptions>();
-  app.add_flag("--quick", o->quick, "a dozen cases a rung instead of a hundred");
+  app.add_flag("--quick", o->quick, "a dozen cases per rung instead of a hundred");
   app.add_option("--ladder", o->ladder, "only this ladder (default: all)");
   add_engine_choice(app, o->choice);
   app.add_option("--seed", o->seed, "same seed, same result")->capture_default_str();
-  app.add_option("--out", o->out, "directory of stability.json, stability.csv, stability.html")
+  app.add_option("--out", o->out, "directory for stability.json, stability.csv, stability.html")
       ->capture_default_str();
   add_case_seconds(app, o->limits);
   app.add_flag("--json", o->json, "the whole result as one JSON document on stdout");

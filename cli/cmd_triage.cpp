@@ -1,4 +1,4 @@
-// touchstone triage DIR: the findings of a campaign against the ledger of known ones.
+// touchstone triage DIR: compares the findings of a campaign with the ledger of known ones.
 #include <fmt/format.h>
 
 #include <cerrno>
@@ -32,8 +32,8 @@
 namespace touchstone::cli {
 namespace {
 
-// Cases that the shrinker may ask about; each costs a second where the finding is that the engine hangs.
-constexpr std::size_t all_tries = 4000, tries_of_slow = 8;
+// Limits of the cases that the shrinker may try; if the finding is a hang, each try costs a second.
+constexpr std::size_t max_tries = 4000, max_tries_if_slow = 8;
 
 struct TriageOptions {
   std::string directory, ledger = "findings.db", engines, subject = "all", junit, date, reproducers, error;
@@ -52,8 +52,8 @@ std::string now() {
   return text;
 }
 
-// Engines that are in no catalogue, by the names on their cards. Only the command line says what is run: to a
-// finding a name is a label.
+// Engines outside the catalogue, by the names on their cards. Only the command line decides what is run: in a
+// finding, a name is just a label.
 using Foreign = std::map<std::string, std::string>;
 
 Foreign foreign_engines(const TriageOptions& o) {
@@ -70,7 +70,7 @@ Foreign foreign_engines(const TriageOptions& o) {
   return r;
 }
 
-// Engines as findings name them, made when first asked for. An engine that is not here is null.
+// Engines as findings name them, created on first use. An engine that is not available is null.
 class Engines {
  public:
   Engines(const WorkerLimits& limits, const Foreign& foreign, std::string error)
@@ -88,7 +88,7 @@ class Engines {
     if (foreign != foreign_.end()) return make_engine(foreign->second, limits_);
     return is_catalogued(name) ? make_engine(name, limits_) : nullptr;
   } catch (const InputError&) {
-    return nullptr;  // not installed: its findings are "not asked", which the report says
+    return nullptr;  // not installed: its findings are reported as "not asked"
   }
 
   WorkerLimits limits_;
@@ -112,21 +112,21 @@ fuzz::TriageConfig config_of(const TriageOptions& o, const std::string& date, En
     if (!shrink) return found;
     const bool slow = key.find(".timed_out.") != std::string::npos;
     return fuzz::shrink(found, fuzz::keeps_finding(engines.named(engine), key),
-                        slow ? tries_of_slow : all_tries)
+                        slow ? max_tries_if_slow : max_tries)
         .smallest;
   };
   return c;
 }
 
-// What became of the reproducers asked for, for people.
+// Counts of what happened to the requested reproducers.
 struct Reproducers {
   std::size_t written = 0, there = 0, without_engine = 0, not_shown = 0;
   std::vector<std::string> failed;
 };
 
-// DIR/<key>/: case.json, the smallest case; certificate.json, what `touchstone check` verifies, when there is
-// one; reproduce.cpp, where the engine has a writer. Made under another name first: a directory that is there
-// is whole, and stays as it is.
+// Writes DIR/<key>/: case.json, the smallest case; certificate.json for `touchstone check`, if there is one;
+// reproduce.cpp, if the engine has a writer. The directory is built under another name and then renamed, so
+// an existing directory is complete and is left alone.
 void write_reproducer(const std::filesystem::path& directory, const fuzz::KnownFinding& known,
                       const EnginePtr& engine, Reproducers& count) {
   if (!known.expired.empty()) return;
@@ -143,7 +143,7 @@ void write_reproducer(const std::filesystem::path& directory, const fuzz::KnownF
   const auto findings = fuzz::findings_of({&smallest, 1}, engine, fuzz::FoundBy::both)[0];
   const auto finding = findings.find(known.key);
   if (finding == findings.end()) {
-    ++count.not_shown;  // came once and not again; the ledger keeps its case
+    ++count.not_shown;  // showed once but not again; the ledger keeps its case
     return;
   }
   const auto part = directory / (".part-" + known.key);
@@ -160,14 +160,14 @@ void write_reproducer(const std::filesystem::path& directory, const fuzz::KnownF
       write_file((part / "reproduce.cpp").string(), fuzz::reproducer(finding->second, engine->card()));
     } catch (const std::exception& e) {
       write_file((part / "no_reproducer.txt").string(), std::string(e.what()) + "\n");
-      // About a relation no program is written, by design; anything else is an error of ours.
+      // By design, relations get no program; anything else is our own error.
       if (!dynamic_cast<const InputError*>(&e)) count.failed.push_back(known.key + ": " + e.what());
     }
   std::filesystem::rename(part, to);
   ++count.written;
 }
 
-// One that cannot be written leaves the others as they are.
+// A reproducer that cannot be written does not affect the others.
 Reproducers write_reproducers(const std::string& directory, const std::vector<fuzz::Triaged>& triaged,
                               Engines& engines) {
   Reproducers count;
@@ -181,26 +181,29 @@ Reproducers write_reproducers(const std::string& directory, const std::vector<fu
 
 void print(const Reproducers& r, const std::string& directory) {
   std::string words =
-      fmt::format("reproducers in {}: {} written, {} there already", directory, r.written, r.there);
+      fmt::format("reproducers in {}: {} written, {} already there", directory, r.written, r.there);
   if (r.without_engine > 0)
-    words += fmt::format(", {} of engines that are not here (--engines names plug-ins)", r.without_engine);
-  if (r.not_shown > 0) words += fmt::format(", {} that their cases did not show again", r.not_shown);
+    words += fmt::format(", {} skipped because their engines are missing (--engines adds plug-ins)",
+                         r.without_engine);
+  if (r.not_shown > 0)
+    words += fmt::format(", {} skipped because their cases no longer show them", r.not_shown);
   if (!r.failed.empty()) words += fmt::format(", {} failed", r.failed.size());
-  if (r.written + r.there == 0) words += "; there is nothing in it";
+  if (r.written + r.there == 0) words += "; the directory is empty";
   fmt::print(stderr, "{}\n", words);
-  for (const std::string& failed : r.failed) fmt::print(stderr, "touchstone: no reproducer: {}\n", printable(failed));
+  for (const std::string& failed : r.failed)
+    fmt::print(stderr, "touchstone: no reproducer: {}\n", printable(failed));
 }
 
-// Before any work is done: a directory that cannot be had is bad usage.
+// Called before any work is done: a directory that cannot be created is bad usage.
 void make_directory(const std::string& option, const std::string& path) {
   std::error_code error;
   std::filesystem::create_directories(path, error);
   if (error || !std::filesystem::is_directory(path))
-    throw InputError(option, fmt::format("{} cannot be made a directory: {}", path,
-                                         error ? error.message() : "it is something else"));
+    throw InputError(option, fmt::format("{}: cannot create this directory: {}", path,
+                                         error ? error.message() : "it exists and is not a directory"));
 }
 
-// Engines that answered something in the campaign, by its summary.
+// The engines that answered or failed in the campaign, from its summary.
 std::set<std::string> answered_in(const std::string& directory) {
   const auto file = std::filesystem::path(directory) / "summary.json";
   const fuzz::Json j = load_json(file, campaign_limits);
@@ -211,7 +214,7 @@ std::set<std::string> answered_in(const std::string& directory) {
   return names;
 }
 
-// The name by which findings call it, or "all".
+// The subject's name in findings, or "all".
 std::string resolved_subject(const TriageOptions& o, const Foreign& foreign,
                              const std::set<std::string>& answered,
                              const std::vector<fuzz::KnownFinding>& known) {
@@ -224,14 +227,14 @@ std::string resolved_subject(const TriageOptions& o, const Foreign& foreign,
   if (names.contains(o.subject)) return o.subject;
   std::vector<std::string> all = catalogued_names();
   all.insert(all.end(), names.begin(), names.end());
-  throw InputError("--subject " + o.subject,
-                   "an engine that neither the campaign nor the ledger nor a catalogue names" +
-                       did_you_mean(o.subject, all));
+  throw InputError(
+      "--subject " + o.subject,
+      "this engine is in neither the campaign nor the ledger nor a catalogue" + did_you_mean(o.subject, all));
 }
 
 struct Verdict {
   std::string subject;
-  bool answered = false;  // something was asked about it
+  bool answered = false;  // it answered something, in the campaign or now
   std::size_t fresh = 0, back = 0, troubled = 0;
 };
 
@@ -251,24 +254,24 @@ Verdict verdict_on(const std::string& subject, const std::set<std::string>& answ
 
 int say(const Verdict& v, bool json) {
   if (v.fresh + v.back > 0)
-    return say_verdict(exit_wrong, v.subject, fmt::format("{} new findings, {} back", v.fresh, v.back), json);
+    return print_verdict(exit_wrong, v.subject, fmt::format("{} new findings, {} back", v.fresh, v.back),
+                         json);
   if (v.troubled > 0)
-    return say_verdict(exit_failed, v.subject, fmt::format("{} findings could not be triaged", v.troubled),
-                       json);
+    return print_verdict(exit_failed, v.subject, fmt::format("{} findings could not be triaged", v.troubled),
+                         json);
   if (!v.answered)
-    return say_verdict(exit_failed, v.subject, "it answered nothing in this campaign, which proves nothing",
-                       json);
-  return say_verdict(exit_clean, v.subject, "no new findings", json);
+    return print_verdict(exit_failed, v.subject, "it answered nothing; this campaign proves nothing", json);
+  return print_verdict(exit_clean, v.subject, "no new findings", json);
 }
 
-void require_no_error_of_stdout() {
+void require_stdout_written() {
   if ((std::fflush(stdout) != 0 || std::ferror(stdout)) && errno != EPIPE)
     throw std::runtime_error(std::string("the output cannot be written: ") + std::strerror(errno));
 }
 
 int run(const TriageOptions& o) {
   if (!o.reproducers.empty()) make_directory("--reproducers", o.reproducers);
-  if (!o.error.empty()) length_from_text(o.error);  // refuses what is no length at once
+  if (!o.error.empty()) length_from_text(o.error);  // refuses a bad length at once
   require_writable(o.junit);
   const Foreign foreign = foreign_engines(o);
   const fuzz::DirectoryLock lock(o.directory, fuzz::DirectoryLock::For::reading);
@@ -285,13 +288,14 @@ int run(const TriageOptions& o) {
   }
   const auto triaged = fuzz::triage(found, ledger, jobs);
   for (const fuzz::Triaged& t : triaged)
-    if (!t.trouble.empty()) fmt::print(stderr, "touchstone: {}: {}\n", t.finding.key, printable(t.trouble, "\n"));
+    if (!t.trouble.empty())
+      fmt::print(stderr, "touchstone: {}: {}\n", t.finding.key, printable(t.trouble, "\n"));
   if (!o.reproducers.empty()) print(write_reproducers(o.reproducers, triaged, of_job.front()), o.reproducers);
   if (!o.junit.empty()) write_file(o.junit, reports::triage_junit(triaged));
   fmt::print("{}", o.json ? reports::triage_json(triaged).dump(1) + "\n" : reports::triage_text(triaged));
   const int code = say(verdict_on(subject, answered, triaged), o.json);
-  // Last: what is in the ledger is not new any more, so all that says it is new must be out before.
-  require_no_error_of_stdout();
+  // The commit comes last: what is in the ledger is no longer new, so every report of it must be out by then.
+  require_stdout_written();
   ledger.commit();
   return code;
 }
@@ -300,23 +304,21 @@ int run(const TriageOptions& o) {
 
 Run declare_triage(CLI::App& app) {
   auto o = std::make_shared<TriageOptions>();
-  app.add_option("directory", o->directory, "of a campaign (touchstone fuzz --out)")->required();
-  app.add_option("--ledger", o->ledger, "the file of known findings; made when it is not there")
-      ->capture_default_str();
-  app.add_option(
-      "--engines", o->engines,
-      "plug-ins and pipes that findings may be of, so that they are asked: ./libmine.so, pipe:COMMAND");
+  app.add_option("directory", o->directory, "directory of a campaign (`fuzz --out`)")->required();
+  app.add_option("--ledger", o->ledger, "file of known findings; created if missing")->capture_default_str();
+  app.add_option("--engines", o->engines,
+                 "plug-ins and pipes whose findings are to be asked again: ./libmine.so, pipe:COMMAND");
   app.add_option("--subject", o->subject, "the engine whose new findings make the exit code 1, or all")
       ->capture_default_str();
   app.add_option("--junit", o->junit, "write the result as JUnit XML to this file");
   app.add_option(
       "--reproducers", o->reproducers,
-      "directory that gets one directory a finding: case, certificate, a C++ program that shows it");
-  app.add_option("--date", o->date, "of the run, for the ledger (default: now)");
-  app.add_option("--jobs", o->jobs, "findings shrunk side by side")
+      "directory for one subdirectory per finding: case, certificate, and a C++ program that shows it");
+  app.add_option("--date", o->date, "date of the run, for the ledger (default: now)");
+  app.add_option("--jobs", o->jobs, "number of findings shrunk in parallel")
       ->check(CLI::Range(1, 1024))
       ->capture_default_str();
-  app.add_flag("--no-shrink", o->no_shrink, "store cases of new findings as they were found");
+  app.add_flag("--no-shrink", o->no_shrink, "store the cases of new findings without shrinking them");
   add_error(app, o->error);
   add_case_seconds(app, o->limits);
   app.add_flag("--json", o->json, "one JSON document on stdout");

@@ -30,7 +30,7 @@ struct ViewOptions {
   WorkerLimits limits;
 };
 
-// A file, the name of a scenario, or the directory of a recorded scene: whatever replay takes.
+// A file, the name of a scenario, or the directory of a recorded scene, as for replay.
 Scene scene_named(const ViewOptions& o) {
   if (is_recording(o.scene)) {
     const RealScene real = load_real_scene(o.scene);
@@ -56,18 +56,19 @@ int view_case(const ViewOptions& o) {
 }
 
 int run(const ViewOptions& o) {
-  if (o.out.empty() && !o.json) throw InputError("view", "say where to write the page: -o FILE");
+  if (o.out.empty() && !o.json) throw InputError("view", "needs a file for the page: -o FILE");
   require_writable(o.out);
   if (!o.broad) return view_case(o);
   const fuzz::BroadView view =
       fuzz::broad_view(scene_named(o), o.methods, static_cast<std::size_t>(o.frames));
-  if (view.frames.empty()) throw InputError(o.scene, "its script has no query: nothing to show");
+  if (view.frames.empty())
+    throw InputError(o.scene, "has no query in its script, so there is nothing to show");
   if (!o.out.empty()) write_file(o.out, reports::broad_page(view));
   const auto& last = view.frames.back();
   if (o.json)
     fmt::print("{}\n", fuzz::to_json(view).dump(1));
   else
-    fmt::print("{}: {} bodies, {} queries; at the last, {} pairs kept of {}\n{}: open it in a browser\n",
+    fmt::print("{}: {} bodies, {} queries; the last one kept {} of {} pairs\n{}: open it in a browser\n",
                printable(view.name), view.bodies.size(), view.frames.size(), last.kept.size(), last.all_pairs,
                o.out);
   return exit_clean;
@@ -81,21 +82,22 @@ Run declare_view(CLI::App& app) {
          "scene", o->scene,
          "case or scene file, name of a scenario, or directory of a recorded scene (scene.txt, frames.npy)")
       ->required();
-  app.add_option("--engines", o->engines, "engines to ask: names, plug-in paths, or all")
+  app.add_option("--engines", o->engines, "engines to query: names, plug-in paths, or all")
       ->capture_default_str();
   add_case_seconds(app, o->limits);
-  app.add_flag("--broad", o->broad,
-               "instead of the answers, the broad phase: boxes, intervals, cells or trees, candidate pairs "
-               "kept and pruned");
-  app.add_option("-o,--out", o->out, "the page to write (HTML, loads nothing)");
+  app.add_flag(
+      "--broad", o->broad,
+      "show the broad phase instead of the answers: boxes, intervals, cells or trees, candidate pairs "
+      "kept and pruned");
+  app.add_option("-o,--out", o->out, "file for the page (self-contained HTML)");
   app.add_option("--method", o->methods, "broad phases to show, separated by commas")
       ->delimiter(',')
       ->allow_extra_args(false)
       ->capture_default_str();
-  app.add_option("--frames", o->frames, "queries to show, the first ones")
+  app.add_option("--frames", o->frames, "number of queries to show, from the first")
       ->check(CLI::Range(1, 10000))
       ->capture_default_str();
-  app.add_flag("--json", o->json, "what the page is drawn from, as one JSON document on stdout");
+  app.add_flag("--json", o->json, "the page's data as one JSON document on stdout");
   return [o] { return run(*o); };
 }
 

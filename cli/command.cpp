@@ -46,8 +46,7 @@ CLI::Validator a_count() {
   return CLI::Validator(
       [](std::string& text) {
         std::uint64_t n = 0;
-        return parses(text, n) && n > 0 ? std::string()
-                                        : text + " is not a whole number from 1 on, in digits";
+        return parses(text, n) && n > 0 ? std::string() : text + " is not a positive whole number in digits";
       },
       "COUNT");
 }

@@ -1,6 +1,6 @@
-// A subcommand: one row in commands(), one file cmd_<name>.cpp, which declares its options on the app it is
-// given and returns what runs it. Exit codes: 0 clean, 1 the subject was found wrong, 2 bad usage or input, 3
-// the run failed or proved nothing.
+// A subcommand: one row in commands() and one file cmd_<name>.cpp, which declares its options on the app it
+// is given and returns the function that runs it. Exit codes: 0 clean, 1 the subject was found wrong, 2 bad
+// usage or input, 3 the run failed or proved nothing.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -20,13 +20,13 @@ struct Command {
 
 std::span<const Command> commands();
 
-/// The program as it was called, for commands that are printed; as a word of the shell. main() sets it.
+/// The program's name as it was called, quoted for the shell: for printed commands. main() sets it.
 void set_program_name(std::string name);
 const std::string& program_name();
-/// `text` as one word of the shell: quoted where it needs to be.
+/// `text` as one word for the shell, quoted if necessary.
 std::string shell_word(const std::string& text);
 
-/// Of options: what is refused is refused in words (CLI11's own name the largest double in full).
+/// Option validators with readable messages (CLI11's own print the largest double in full).
 CLI::Validator a_count();
 CLI::Validator a_positive_number();
 

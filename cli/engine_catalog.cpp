@@ -25,7 +25,7 @@ constexpr std::string_view fcl = "libtouchstone_fcl.so", f32 = "libtouchstone_bu
 constexpr EngineRow rows[] = {
     {"core", "", "our own core"},
     {"core-f32", "", "its narrow phase in float"},
-    {"core-kept", "", "our core with all that it may build and keep: hull graphs, pair memory, StepWorld"},
+    {"core-kept", "", "our core with everything it may keep: hull graphs, pair memory, StepWorld"},
     {"fcl-libccd", fcl, "FCL as shipped, GST_LIBCCD"},
     {"fcl-libccd-tuned", fcl, "FCL, GST_LIBCCD, tolerances 1e-12 and 1e-7"},
     {"fcl-indep", fcl, "FCL as shipped, GST_INDEP"},
@@ -164,14 +164,14 @@ const EngineRow* find_row(const std::string& name) {
   return nullptr;
 }
 
-// "./libmine.so:name" names one engine of a plug-in, "./libmine.so" the only one it offers.
+// "./libmine.so:name" names one engine of a plug-in, "./libmine.so" its only one.
 RemoteSpec plugin_spec(const std::string& name) {
   const auto colon = name.rfind(".so:");
   if (colon == std::string::npos) return {host_program(), name, "", {}};
   return {host_program(), name.substr(0, colon + 3), name.substr(colon + 4), {}};
 }
 
-// The words of a command that are files as they stand: the program or its script, wherever it has a path.
+// The words of a command that are paths of existing files: the program or its script.
 std::vector<std::filesystem::path> files_named_in(const std::string& command) {
   std::vector<std::filesystem::path> out;
   std::string word;
@@ -200,19 +200,19 @@ std::vector<std::filesystem::path> files_named_in(const std::string& command) {
 
 void check_name(const std::string& name) {
   if (is_pipe(name)) {
-    if (name == "pipe:") throw InputError(name, "names no command: pipe:COMMAND");
+    if (name == "pipe:") throw InputError(name, "has no command; write pipe:COMMAND");
     return;
   }
   if (const auto stepped = fuzz::sub_steps_name(name)) return check_name(stepped->engine);
   if (is_path(name)) {
     const auto file = plugin_spec(name).plugin;
     if (!std::filesystem::exists(file)) throw InputError(file.string(), "no such plug-in file");
-    return require_regular_file(file);  // a plug-in that is a pipe would keep its worker waiting
+    return require_regular_file(file);  // loading a named pipe would block the worker
   }
   if (const NpmRow* npm = find_npm_row(name)) {
     if (is_installed(*npm)) return;
     throw InputError("engine " + name,
-                     fmt::format("is not installed: ./touchstone engines --install {} brings {} {}", name,
+                     fmt::format("is not installed: ./touchstone engines --install {} installs {} {}", name,
                                  npm->package, npm->version));
   }
   if (is_core_broad_phase(name)) return;
@@ -220,19 +220,19 @@ void check_name(const std::string& name) {
   if (!row) refuse_unknown(name);
   if (!is_present(*row))
     throw InputError("engine " + name,
-                     fmt::format("is not installed: {} was not built, its library was not found",
+                     fmt::format("is not available: {} was not built because its library was not found",
                                  std::string(row->library)));
 }
 
-/// Null: the core has no engine of this native name. Made here it only says what it is.
+/// Null if the core has no engine of this native name. The instance made here only provides the card.
 EnginePtr core_in_worker(const std::string& native, const WorkerLimits& limits) {
   const auto here = make_native_core(native);
   if (!here) return nullptr;
   const std::filesystem::path library = plugin_directory() / "libtouchstone_core.so";
-  // Started with the first question, when what is missing would be taken for the core's failure.
+  // The worker starts with the first question; a missing file would then look like a failure of the core.
   for (const std::filesystem::path& file : {host_program(), library})
     if (std::error_code none; !std::filesystem::is_regular_file(file, none))
-      throw InputError(file.string(), "is missing: the engines of the core run in it");
+      throw InputError(file.string(), "is missing; the core's engines need it");
   return std::make_unique<RemoteEngine>(RemoteSpec{host_program(), library, native, limits, here->card()});
 }
 
@@ -246,8 +246,8 @@ std::span<const std::string_view> stepped_engines() { return stepped; }
 void add_case_seconds(CLI::App& app, WorkerLimits& limits) {
   app.add_option(
          "--case-seconds", limits.query_cpu_seconds,
-         "CPU seconds that an engine may spend on one question; campaigns and what replays their findings "
-         "end it after four times that, and count what answers in between as slow")
+         "CPU seconds an engine may spend on one question; campaigns and their replays stop it after four "
+         "times that, and count answers in between as slow")
       ->check(a_positive_number())
       ->capture_default_str();
   add_no_sandbox(app, limits);
@@ -256,7 +256,7 @@ void add_case_seconds(CLI::App& app, WorkerLimits& limits) {
 void add_no_sandbox(CLI::App& app, WorkerLimits& limits) {
   app.add_flag_callback(
       "--no-sandbox", [&limits] { limits.sandbox = false; },
-      "engines may write files, use the network and start processes; for debuggers");
+      "let engines write files, use the network and start processes (for debuggers)");
 }
 
 std::filesystem::path host_program() { return program_directory() / "touchstone-host"; }
@@ -276,7 +276,7 @@ std::vector<std::string> engine_names(const std::string& text) {
   }
   for_each_in_list(text, [&](std::string_view part) {
     const std::string name(part);
-    if (name.empty()) throw InputError("engines '" + text + "'", "an empty name");
+    if (name.empty()) throw InputError("engines '" + text + "'", "contains an empty name");
     check_name(name);
     if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
   });

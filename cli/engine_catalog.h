@@ -1,5 +1,5 @@
-// The one place that names concrete engines: catalog name -> plug-in file. Every engine runs in a worker
-// process, our own core too; all others behind the C ABI, like a user's plug-in.
+// The one place that names concrete engines: catalogue name -> plug-in file. Every engine, our own core
+// included, runs in a worker process; all others sit behind the C ABI, like a user's plug-in.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -16,14 +16,14 @@ namespace touchstone::cli {
 
 struct EngineRow {
   std::string_view name;
-  std::string_view library;  // file in the plug-in directory; empty: the core's
-  std::string_view line;     // for people
+  std::string_view library;  // file in the plug-in directory; empty for the core
+  std::string_view line;     // description
 };
 std::span<const EngineRow> engine_catalog();
-/// Broad phases of the oracles alone: they answer `candidates` and nothing else, and are asked by name only.
+/// Broad phases of the oracles. They answer only `candidates` and must be requested by name.
 std::span<const EngineRow> broad_catalog();
 
-/// True when the engine's plug-in file is there.
+/// True if the engine's plug-in file exists.
 bool is_present(const EngineRow& row);
 
 /// Names of `text` ("a,b", "all", "./libmine.so", "./libmine.so:name", "core-steps@16", a broad phase of the
@@ -31,11 +31,11 @@ bool is_present(const EngineRow& row);
 /// for a name that is unknown or absent.
 std::vector<std::string> engine_names(const std::string& text);
 
-/// A plug-in's path or a pipe's command, not a name of a catalogue.
+/// True for a plug-in's path or a pipe's command.
 bool is_foreign(const std::string& name);
-/// A name of a catalogue, whether its library is there or not.
+/// True for a name in a catalogue, whether or not its library exists.
 bool is_catalogued(const std::string& name);
-/// Of all catalogues, in their order.
+/// The names in all catalogues, in order.
 std::vector<std::string> catalogued_names();
 
 /// Throws InputError when the plug-in is missing or does not offer the engine.
@@ -43,11 +43,11 @@ EnginePtr make_engine(const std::string& name, const WorkerLimits& limits);
 /// A broad phase of the core, with these boxes.
 EnginePtr make_core_broad_phase(const std::string& name, BroadBoxes boxes, const WorkerLimits& limits);
 
-/// The files that an engine is made of: its plug-in, or those that the command of a pipe names. Empty: it is
-/// the core, a part of this program.
+/// The files that make up an engine: its plug-in, or the files named in a pipe's command. Empty for the core,
+/// which is part of this program.
 std::vector<std::filesystem::path> engine_files(const std::string& name);
 
-/// The options of every command that asks engines: --case-seconds and --no-sandbox.
+/// The options of every command that queries engines: --case-seconds and --no-sandbox.
 void add_case_seconds(CLI::App& app, WorkerLimits& limits);
 void add_no_sandbox(CLI::App& app, WorkerLimits& limits);
 

@@ -21,23 +21,23 @@ namespace {
 using Json = nlohmann::ordered_json;
 namespace fs = std::filesystem;
 
-// The key of a finding's directory: that in its finding.json; of those that `triage --reproducers` makes, its
-// name.
+// The key of a finding's directory: from its finding.json, or for directories written by
+// `triage --reproducers`, the directory's name.
 std::string stored_key(const std::string& path) {
   std::error_code ec;
   const fs::path directory = fs::is_directory(path, ec) ? fs::path(path) : fs::path(path).parent_path();
   const fs::path beside = directory / "finding.json";
   if (!fs::exists(beside, ec)) {
     const std::string name = fs::absolute(directory, ec).lexically_normal().filename();
-    constexpr int dots_of_a_key = 6;
+    constexpr int dots_in_key = 6;
     const bool is_case = fs::exists(directory / "case.json", ec);
-    return is_case && std::count(name.begin(), name.end(), '.') >= dots_of_a_key ? name : "";
+    return is_case && std::count(name.begin(), name.end(), '.') >= dots_in_key ? name : "";
   }
   const Json finding = load_json(beside);
   return JsonReader(finding, beside.string())["key"].string();
 }
 
-// A key starts with its engine's name; those of plug-ins may hold dots themselves.
+// A key starts with its engine's name, which may contain dots if the engine is a plug-in.
 std::string engine_of(const std::string& key) {
   std::string found;
   const auto consider = [&](std::string_view name) {
@@ -47,13 +47,13 @@ std::string engine_of(const std::string& key) {
   for (const EngineRow& row : broad_catalog()) consider(row.name);
   for (const NpmRow& row : npm_catalog()) consider(row.name);
   if (found.empty())
-    throw InputError("--key", "names no engine of the catalog: " + key + " (give --engine for a plug-in)");
+    throw InputError("--key", "names no engine in the catalogue: " + key + " (for a plug-in, add --engine)");
   return found;
 }
 
 using Findings = std::map<std::string, fuzz::Finding>;
 
-// The finding asked for, or the only one; empty: the case shows none (of that key).
+// The finding requested, or the only one; empty if the case shows none (with that key).
 std::string choose(const std::string& key, const Findings& findings) {
   if (!key.empty()) return findings.contains(key) ? key : "";
   if (findings.empty()) return {};
@@ -69,7 +69,7 @@ void add_finding_argument(CLI::App& app, FindingArgument& to) {
   app.add_option("case", to.path, "a finding's directory, a case or scene file, or the name of a scenario")
       ->required();
   app.add_option("--key", to.key,
-                 "the finding meant (default: that of finding.json beside the case, or the only one)");
+                 "key of the finding (default: the one in finding.json beside the case, or the only one)");
   app.add_option("--engine", to.engine, "the engine found wrong (default: that of the key, or core)");
 }
 
@@ -84,8 +84,8 @@ AskedFinding ask_for_finding(FindingArgument o, const WorkerLimits& limits) {
   r.engine_name = o.engine;
   r.engine = make_engine(engine_names(o.engine).at(0), limits);
   if (o.key.empty() && stored.starts_with(r.engine->card().name + ".")) o.key = stored;
-  // Without a key, a relation is asked for only where the referee has nothing to say: mostly it shows the
-  // same error again.
+  // Without a key, relations are tried only if the referee finds no fault, since they mostly show the same
+  // error.
   r.findings = fuzz::findings_of({&r.stored.c, 1}, r.engine, fuzz::found_by(o.key))[0];
   if (r.findings.empty() && o.key.empty())
     r.findings = fuzz::findings_of({&r.stored.c, 1}, r.engine, fuzz::FoundBy::relations)[0];

@@ -1,4 +1,4 @@
-// What `shrink` and `reproduce` take: a case and the finding in it that is meant.
+// The argument of `shrink`, `bisect` and `reproduce`: a case and one finding that it shows.
 #pragma once
 
 #include <map>
@@ -19,13 +19,14 @@ struct AskedFinding {
   StoredCase stored;
   std::string engine_name;
   EnginePtr engine;
-  std::string key;  // empty: the engine is right, or not wrong in the way asked for
+  std::string key;  // empty: the engine is right, or not wrong in the requested way
   std::map<std::string, fuzz::Finding> findings;  // by key, with evidence
 };
-/// Asks the engine. Throws InputError: no such case or engine, several findings and no key.
+/// Queries the engine. Throws InputError if the case or engine does not exist, or several findings show and
+/// no key is given.
 AskedFinding ask_for_finding(FindingArgument o, const WorkerLimits& limits);
 
-/// For an empty key: says so on stderr; the exit code.
+/// Reports an empty key on stderr. Returns the exit code.
 int not_found(const AskedFinding& asked, const FindingArgument& o);
 
 }  // namespace touchstone::cli

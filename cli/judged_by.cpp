@@ -14,7 +14,7 @@ struct Unit {
   std::string_view name;
   double metres;
 };
-// A name that ends in another stands before it.
+// A unit that ends in another unit's name comes before it.
 constexpr std::array units{Unit{"nm", 1e-9}, Unit{"um", 1e-6}, Unit{"mm", 1e-3},
                            Unit{"cm", 1e-2}, Unit{"km", 1e3},  Unit{"m", 1.0}};
 
@@ -62,15 +62,17 @@ double length_from_text(const std::string& text) {
     }
   while (number.ends_with(' ')) number.remove_suffix(1);
   const auto value = double_from_text(number);
-  if (!value) throw InputError("--error " + text, "is no length: a number, and nm, um, mm, cm, m or km");
+  if (!value)
+    throw InputError("--error " + text,
+                     "is not a length: a number with an optional unit (nm, um, mm, cm, m, km)");
   if (!(*value > 0 && std::isfinite(*value))) throw InputError("--error " + text, "must be more than 0");
   return *value * unit;
 }
 
 void add_error(CLI::App& app, std::string& error) {
   app.add_option("--error", error,
-                 "judge by this tolerance (0.1mm; without a unit in the scene's) in place of what each "
-                 "engine's documentation claims");
+                 "judge by this tolerance (0.1mm, or a number in the scene's unit) instead of the claims in "
+                 "each engine's documentation");
 }
 
 EnginePtr judged_by(EnginePtr engine, const std::string& error) {

@@ -1,4 +1,4 @@
-// --error VALUE: engines judged by the user's own tolerance, in place of what their documentation claims.
+// --error VALUE: judges engines by the user's own tolerance instead of the claims in their documentation.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -10,15 +10,15 @@
 
 namespace touchstone::cli {
 
-/// "0.1mm", "2e-3 m", "1e-4": a length > 0. With a unit the scene's is the metre; without one it is the
-/// scene's. Throws InputError.
+/// Parses a length > 0: "0.1mm", "2e-3 m", "1e-4". With a unit, the scene is taken to be in metres; without
+/// one, the length is in the scene's unit. Throws InputError.
 double length_from_text(const std::string& text);
 
 /// Declares the option.
 void add_error(CLI::App& app, std::string& error);
 
-/// The engine itself when `error` is empty. Else every answer but candidates, which are judged with no
-/// tolerance at all, comes with `error` as its claim.
+/// Returns the engine itself if `error` is empty. Otherwise every answer claims `error` as its tolerance,
+/// except candidates, which are judged without tolerance.
 EnginePtr judged_by(EnginePtr engine, const std::string& error);
 std::vector<EnginePtr> judged_by(std::vector<EnginePtr> engines, const std::string& error);
 

@@ -1,4 +1,4 @@
-// The entry of libFuzzer and its kin: the core against the referee and against its own relations.
+// Entry point for libFuzzer and compatible fuzzers: tests the core against the referee and its own relations.
 //   cmake --preset libfuzzer && cmake --build --preset libfuzzer
 //   build/libfuzzer/bin/touchstone_fuzzer corpus fuzz/libfuzzer/seeds
 //   -dict=fuzz/libfuzzer/touchstone_fuzzer.dict

@@ -7,6 +7,7 @@
 #include <cstdlib>
 #include <cstring>
 #include <exception>
+#include <memory>
 #include <stdexcept>
 #include <string>
 #include <system_error>
@@ -15,6 +16,7 @@
 #include "cli/command.h"
 #include "core/base/input_error.h"
 #include "oracles/client/worker_limits.h"
+#include "reports/text/text.h"
 #include "scenarios/text/did_you_mean.h"
 #include "scenarios/text/printable.h"
 
@@ -22,47 +24,54 @@ namespace touchstone::cli {
 namespace {
 
 constexpr Command table[] = {
-    {"fuzz", "random differential campaign: every engine, every answer refereed", declare_fuzz},
-    {"replay", "every engine's answer to stored cases, beside the referee's", declare_replay},
-    {"shrink", "the smallest case that shows the same finding", declare_shrink},
-    {"reproduce", "a finding as one C++ file against the engine's own API", declare_reproduce},
-    {"bisect", "what a finding depends on: bodies, step, stage, a value, a commit", declare_bisect},
-    {"triage", "the findings of a campaign against the ledger of known ones: new, known, gone",
-     declare_triage},
-    {"plan", "the least model that a scene needs, with the evidence", declare_plan},
-    {"merge", "shards of a campaign into one, or ledgers into one", declare_merge},
-    {"report", "the run and the findings of a campaign by key: text, and a page", declare_report},
-    {"view", "a page of one case: bodies, answers, certificate; or of its broad phase", declare_view},
-    {"certify", "is a broad phase conservative? a certificate, or the smallest script that loses a pair",
-     declare_certify},
-    {"check", "is a stored certificate a proof? in exact arithmetic, from the scene alone", declare_check},
-    {"chart", "speed against accuracy: every engine and method, by family", declare_chart},
-    {"stability", "ladders: the rung of a degeneracy at which each engine begins to fail", declare_stability},
-    {"primitives", "the core's times of impact of deforming primitives, against the exact ones",
-     declare_primitives},
-    {"engines", "the engines present, their versions, settings and tolerances", declare_engines},
-    {"families", "the families of random cases, a line each", declare_families},
-    {"scenarios", "the hand-built scenarios: list them, or write one as a case file", declare_scenarios},
+    {"fuzz", "run a campaign of random, refereed cases", declare_fuzz},
+    {"replay", "show every engine's answer to stored cases", declare_replay},
+    {"shrink", "find the smallest case that shows the same finding", declare_shrink},
+    {"reproduce", "write a finding as a program against the engine", declare_reproduce},
+    {"bisect", "find what a finding depends on", declare_bisect},
+    {"triage", "compare findings with the ledger of known ones", declare_triage},
+    {"plan", "choose the cheapest model a scene can be run with", declare_plan},
+    {"merge", "merge the shards of a campaign, or ledgers", declare_merge},
+    {"report", "summarise a campaign as text and as a page", declare_report},
+    {"view", "write a page that shows a case or its broad phase", declare_view},
+    {"certify", "test whether a broad phase ever loses a pair", declare_certify},
+    {"check", "verify a stored certificate in exact arithmetic", declare_check},
+    {"chart", "measure the speed and accuracy of every engine", declare_chart},
+    {"stability", "find where degeneracy makes each engine fail", declare_stability},
+    {"primitives", "check the core on deforming primitives", declare_primitives},
+    {"engines", "list engines, versions, settings and tolerances", declare_engines},
+    {"families", "list the families of random cases", declare_families},
+    {"scenarios", "list the hand-built scenarios, or write one", declare_scenarios},
 };
 
-// CLI11 only says that a subcommand is missing.
+// Wraps descriptions at 80 columns, which CLI11 does not do.
+class HelpFormatter : public CLI::Formatter {
+ public:
+  std::string make_option_desc(const CLI::Option* option) const override {
+    constexpr std::size_t columns = 80;
+    return reports::wrapped(CLI::Formatter::make_option_desc(option), columns - get_column_width(), 0);
+  }
+};
+
+// CLI11 itself would only report that a subcommand is missing.
 void refuse_unknown_command(const std::string& word) {
   if (word.empty() || word[0] == '-') return;
   std::vector<std::string> known;
   for (const Command& c : commands()) known.emplace_back(c.name);
   if (std::find(known.begin(), known.end(), word) != known.end()) return;
   const std::string near = did_you_mean(word, known);
-  throw InputError(word, "unknown command" + (near.empty() ? "; --help lists them" : near));
+  throw InputError(word, "unknown command" + (near.empty() ? "; --help lists the commands" : near));
 }
 
 int run(int argc, char** argv) {
   if (argc > 1) refuse_unknown_command(argv[1]);
-  CLI::App app{"Touchstone: says which collision engine is wrong, with a certificate"};
+  CLI::App app{"Touchstone: finds which collision engine is wrong, with a certificate"};
+  app.formatter(std::make_shared<HelpFormatter>());
   app.set_version_flag("--version", "touchstone " TOUCHSTONE_VERSION);
   app.require_subcommand(1);
   app.footer(
-      "Exit codes: 0 clean, 1 subject found wrong, 2 bad usage or input, 3 run failed or proved nothing,\n"
-      "125 cannot tell (bisect commit).");
+      "Exit codes: 0 clean, 1 subject found wrong, 2 bad usage or input,\n"
+      "3 run failed or proved nothing, 125 cannot tell (bisect commit).");
   std::vector<std::pair<CLI::App*, Run>> runs;
   for (const Command& c : commands()) {
     CLI::App* sub = app.add_subcommand(std::string(c.name), std::string(c.line));
@@ -88,12 +97,12 @@ std::span<const Command> commands() { return table; }
 int main(int argc, char** argv) {
   using namespace touchstone;
   std::signal(SIGPIPE, SIG_IGN);
-  // The launcher's own name stands for the program that it runs.
+  // Printed commands name the launcher if it started this program.
   const char* launcher = std::getenv("TOUCHSTONE_LAUNCHER");
   cli::set_program_name(launcher ? launcher : argc > 0 ? argv[0] : "touchstone");
   try {
     const int code = cli::run(argc, argv);
-    // A result that nobody got is no result. A reader that has seen enough (EPIPE) has what it wanted.
+    // Output that could not be written is a failure. EPIPE is not: the reader closed the pipe deliberately.
     if ((std::fflush(stdout) != 0 || std::ferror(stdout)) && errno != EPIPE)
       throw std::runtime_error(std::string("the output cannot be written: ") + std::strerror(errno));
     return code;
@@ -104,7 +113,7 @@ int main(int argc, char** argv) {
     fmt::print(stderr, "touchstone: {}\n", printable(e.what(), "\n"));
     return cli::exit_usage;
   } catch (const std::system_error& e) {
-    // Of `| head` nobody needs to be told.
+    // `| head` closes the pipe early; that is not worth a message.
     if (e.code() != std::errc::broken_pipe)
       fmt::print(stderr, "touchstone: failed: {}\n", printable(e.what(), "\n"));
     return cli::exit_failed;

@@ -42,8 +42,8 @@ std::string quoted(const fs::path& p) {
 void require_command(const char* name) {
   if (std::system(fmt::format("command -v {} >/dev/null 2>&1", name).c_str()) == 0) return;
   throw InputError("engines --install",
-                   fmt::format("{} is missing: Debian's packages nodejs and npm have it, "
-                               "and ./touchstone engines --install installs them",
+                   fmt::format("{} is missing; it is in Debian's packages nodejs and npm, "
+                               "which ./touchstone engines --install installs",
                                name));
 }
 
@@ -58,21 +58,21 @@ std::string last_lines(const fs::path& file, std::size_t most) {
 }
 
 int fetch(const std::set<std::string>& packages) {
-  require_command("node"), require_command("npm");
+  require_command("node");
+  require_command("npm");
   const fs::path folder = npm_folder(), log = folder / "install.log";
   std::error_code error;
   fs::create_directories(folder, error);
-  if (error) throw InputError(folder.string(), "cannot be made: " + error.message());
+  if (error) throw InputError(folder.string(), "cannot be created: " + error.message());
   std::string list;
   for (const std::string& p : packages) list += " " + p;
   fmt::print(stderr, "installing{} from npm into {}\n", list, folder.string());
   const std::string command = fmt::format(
       "npm install --prefix {} --no-audit --no-fund --ignore-scripts --save-exact --loglevel=error{} >{} "
-      "2>&1 "
-      "</dev/null",
+      "2>&1 </dev/null",
       quoted(folder), list, quoted(log));
   if (std::system(command.c_str()) == 0) return exit_clean;
-  fmt::print(stderr, "{}npm could not install them; the whole log: {}\n", last_lines(log, 8), log.string());
+  fmt::print(stderr, "{}npm could not install them; full log: {}\n", last_lines(log, 8), log.string());
   return exit_failed;
 }
 
@@ -96,7 +96,7 @@ bool is_installed(const NpmRow& row) try {
   const auto package = load_json(file);
   return JsonReader(package, file.string())["version"].string() == row.version;
 } catch (const InputError&) {
-  return false;  // not there, or damaged: to install it again mends both
+  return false;  // missing or damaged; installing it again fixes both
 }
 
 std::string pipe_of(const NpmRow& row) {
@@ -118,14 +118,14 @@ int install_npm_engines(const std::vector<std::string>& names) {
   std::set<std::string> wanted;
   for (const std::string& name : names) {
     const NpmRow* row = find_npm_row(name);
-    if (!row) throw InputError("--install " + name, "npm brings jolt, jolt-tuned and rapier");
+    if (!row) throw InputError("--install " + name, "unknown; npm has jolt, jolt-tuned and rapier");
     if (!is_installed(*row)) wanted.insert(fmt::format("{}@{}", row->package, row->version));
   }
   if (!wanted.empty())
     if (const int code = fetch(wanted); code != exit_clean) return code;
   for (const std::string& name : names) {
     const EngineCard card = make_engine(name, {})->card();
-    fmt::print("{}: {} {} is there; name it in --engines or --subject\n", card.name, card.library,
+    fmt::print("{}: {} {} is installed; use it with --engines or --subject\n", card.name, card.library,
                card.version);
   }
   return exit_clean;

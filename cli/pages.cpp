@@ -17,12 +17,15 @@ bool write_page(std::string_view kind, const std::string& json, const std::files
   const auto built = built_page(kind);
   if (!std::filesystem::exists(built)) {
     auto data = stored;
-    if (data.empty()) write_file((data = out).replace_extension(".json"), json);
-    fmt::print(
-        stderr,
-        "touchstone: no page: those of reports/web are not built (./touchstone pages --install builds them "
-        "with nodejs and npm); its data is in {}\n",
-        data.string());
+    if (data.empty()) {
+      data = out;
+      data.replace_extension(".json");
+      write_file(data, json);
+    }
+    fmt::print(stderr,
+               "touchstone: no page written: the pages of reports/web are not built (./touchstone pages "
+               "--install builds them with nodejs and npm); its data is in {}\n",
+               data.string());
     return false;
   }
   write_file(out, reports::web_page(read_file(built, std::uintmax_t{1} << 26), json));

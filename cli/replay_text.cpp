@@ -15,7 +15,6 @@
 namespace touchstone::reports {
 namespace {
 
-
 std::string vec(const Vec3& v) { return fmt::format("({:.6g} {:.6g} {:.6g})", v.x(), v.y(), v.z()); }
 
 std::string bracket(const referee::Bracket& b) {
@@ -67,8 +66,8 @@ std::string certificate_lines(const Certificate& c) {
                      78, 6) +
              "\n";
     case Kind::depth_direction:
-      return fmt::format("    certificate: B moved by {} along\n      {} is free\n", to_text(c.offset),
-                         vec(c.direction));
+      return fmt::format("    certificate: moving B by {} along\n      {} separates it from A\n",
+                         to_text(c.offset), vec(c.direction));
     case Kind::inner_polytope:
       return fmt::format("    certificate of the depth: polytope of {} support points, {} facets (--json)\n",
                          c.support_pairs.size(), c.facets.size());
@@ -110,7 +109,7 @@ std::string stated(const Query& q, const Observation& o) {
   return s;
 }
 
-// As in the table of a campaign; what is wrong is loud.
+// As in the table of a campaign, but faults in capitals.
 std::string mark(const Judgement& j) {
   switch (j.ruling()) {
     case Ruling::wrong:
@@ -122,7 +121,7 @@ std::string mark(const Judgement& j) {
   }
 }
 
-// What is to be known of a verdict that is not wrong.
+// Qualifications of a verdict: wide claims, and claims that were not judged.
 std::string small_print(const Judgement& j) {
   std::string s;
   if (j.wide_claim > 0)
@@ -155,11 +154,11 @@ std::string engine_lines(const std::string& engine, const Query& q, const Observ
   return s;
 }
 
-// What is asked of bodies as they stand although they move.
+// Marks questions about bodies at rest in a scene whose bodies move.
 std::string_view at_rest(const Scene& s, const Query& q) {
   const bool moves =
       std::any_of(s.bodies.begin(), s.bodies.end(), [](const Body& b) { return b.motion.has_value(); });
-  return moves && q.question != Question::swept_candidates ? " (at t = 0: motions are left out)" : "";
+  return moves && q.question != Question::swept_candidates ? " (at t = 0; motions are ignored)" : "";
 }
 
 std::string_view time_verdict(const referee::TimeTruth& t) {
@@ -206,7 +205,7 @@ std::string ReplayText::referee_lines(const Query& q) const {
     s += "; " + t.verdict_certificate.note;
   s += "\n";
   if (q.question == Question::contact && t.verdict == referee::Verdict::overlap && std::isfinite(t.gap.lo))
-    s += fmt::format("    least depth along n = {}\n", vec(t.normal)) +
+    s += fmt::format("    depth is least along n = {}\n", vec(t.normal)) +
          certificate_lines(depth_certificate(q));
   else
     s += certificate_lines(t.verdict_certificate);
@@ -263,7 +262,7 @@ fuzz::Json ReplayText::referee_json(const Query& q, bool certificates) const {
     return {{"overlapping_pairs", std::move(sets)}};
   }
   const referee::PairTruth& t = truth_.pair(0, q.a, q.b);
-  // As `touchstone check` accepts it, if there is such a form; else rounded.
+  // In the exact form that `touchstone check` accepts, if there is one; otherwise rounded.
   const fuzz::Json exact =
       certificates ? fuzz::exact_certificate(case_.scene, q.question, q.a, q.b) : fuzz::Json();
   return {{"verdict", referee::to_string(t.verdict)},

@@ -1,5 +1,5 @@
-// One case in full: the scene, the referee's answer with its certificate, and every engine's answer with
-// blame.
+// Shows one case in full: the scene, the referee's answer with its certificate, and every engine's answer
+// with its blame.
 #pragma once
 
 #include <string>
@@ -18,7 +18,7 @@ class ReplayText {
            const std::vector<Judgement>& judgements);
   /// At most 80 columns.
   std::string str() const;
-  /// `certificates`: also those in exact arithmetic, which may take minutes for a moving mesh.
+  /// `certificates`: include those in exact arithmetic, which may take minutes for a moving mesh.
   fuzz::Json json(bool certificates) const;
 
  private:

@@ -1,14 +1,14 @@
-// What is done is kept when somebody ends a long run: from the keyboard, by kill, by closing the terminal.
+// Lets a long run keep its results when it is stopped from the keyboard, by kill, or by closing the terminal.
 #pragma once
 
 #include <atomic>
 
 namespace touchstone::cli {
 
-/// Set by SIGINT, SIGTERM and SIGHUP once they are caught.
+/// Set by SIGINT, SIGTERM and SIGHUP.
 extern std::atomic<bool> interrupted;
 
-/// SIGHUP stays ignored where it is ignored already: by nohup.
+/// Installs the handlers. SIGHUP stays ignored if it already is (nohup).
 void catch_stop_signals();
 
 }  // namespace touchstone::cli

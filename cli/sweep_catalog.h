@@ -1,4 +1,5 @@
-// Other tolerances of engines of the catalog: asked by name, and by `chart`, which draws a method as a curve.
+// Engines of the catalogue with other tolerances. They are used by name, and by `chart`, which draws a method
+// as a curve.
 #pragma once
 
 #include "cli/engine_catalog.h"
@@ -7,7 +8,8 @@ namespace touchstone::cli {
 
 std::span<const EngineRow> sweep_catalog();
 
-/// Engines whose overlap `chart` asks at k samples of a motion, `name-steps@k`, beside those that sweep.
+/// Engines whose overlap test `chart` runs at k samples of a motion (`name-steps@k`), beside those that
+/// sweep.
 std::span<const std::string_view> stepped_engines();
 inline constexpr int step_counts[] = {1, 4, 16, 64, 256};
 

@@ -34,8 +34,8 @@ table{border-collapse:collapse;width:100%}td{padding:3px 0;border-bottom:1px sol
 select,input{font:inherit}#hover{min-height:1.5em;color:var(--ink)}
 </style></head><body>
 <h1 id="title"></h1>
-<p>A broad phase finds the pairs whose axis-aligned boxes overlap without looking at all pairs. Two boxes overlap when
-their intervals overlap on x, on y and on z.</p>
+<p>A broad phase finds the pairs whose axis-aligned bounding boxes overlap without testing all pairs. Two boxes overlap
+if their intervals overlap on x, y and z.</p>
 <div class="bar">
 <label>Method <select id="method"></select></label>
 <label>Query <input id="frame" type="range" min="0" value="0"><span id="frame_name"></span></label>
@@ -57,14 +57,14 @@ their intervals overlap on x, on y and on z.</p>
 <script type="application/json" id="data">__TOUCHSTONE_DATA__</script>
 
 <script type="module">
-// JSON, or when it is long {"deflate": its zlib stream in base64}.
+// JSON, or if it is long, {"deflate": its zlib stream in base64}.
 async function pageData(){
   const value=JSON.parse(document.getElementById("data").textContent);
   if(typeof value.deflate!=="string")return value;
   const bytes=Uint8Array.from(atob(value.deflate),c=>c.charCodeAt(0));
   return new Response(new Blob([bytes]).stream().pipeThrough(new DecompressionStream("deflate"))).json();
 }
-// Boxes as six differences in steps to the body's box before, pairs as differences to the pair before.
+// Boxes are stored as six differences, in steps, from the body's previous box; pairs as differences from the previous pair.
 function unpack(d){
   const end=k=>k===null?null:d.origin+k*d.step,box=v=>[v.slice(0,3).map(end),v.slice(3).map(end)];
   const last=d.bodies.map(()=>[0,0,0,0,0,0]);
@@ -77,7 +77,7 @@ function unpack(d){
   return d;
 }
 const data=unpack(await pageData());
-globalThis.touchstoneData=data;  // for tests and for people at the console
+globalThis.touchstoneData=data;  // for tests and the console
 const $=id=>document.getElementById(id);
 const colour=name=>getComputedStyle(document.documentElement).getPropertyValue("--"+name).trim();
 const C={};for(const k of["ink","soft","line","fixed","moving","kept","pruned","part"])C[k]=colour(k);
@@ -85,7 +85,7 @@ $("title").textContent="Broad phase: "+(data.name||"scene")+", "+data.bodies.len
 for(const m of data.methods)$("method").add(new Option(m.replaceAll("_"," "),m));
 $("frame").max=data.frames.length-1;
 let hovered=-1;
-// What the picture spans, over all queries: the finite ends of the bodies that move, or of all when none does.
+// The picture's range over all queries: the finite ends of the moving bodies, or of all bodies if none moves.
 const range=(()=>{
   for(const all of[false,true]){
     const r=[[Infinity,-Infinity],[Infinity,-Infinity],[Infinity,-Infinity]];
@@ -131,12 +131,12 @@ function plan(){
     });
   }
   const touched=new Set();for(const[a,b]of f.kept)if(a===hovered||b===hovered){touched.add(a);touched.add(b);}
-  // Many boxes over each other would be one dark area: the more there are, the fainter each.
+  // The more boxes there are, the fainter each is drawn: otherwise many of them would form one dark area.
   const here=f.boxes.reduce((n,b)=>n+(b?1:0),0),hex=x=>Math.max(3,Math.round(x)).toString(16).padStart(2,"0"),faint=Math.min(1,120/Math.max(here,1));
   const rim=here>300?hex(255*Math.max(0.25,faint*2)):"ff";
   f.boxes.forEach((b,i)=>{if(b)rect(b,i===hovered||touched.has(i)?"#c8321f33":(data.fixed[i]?"#8a949e":"#2f6fb2")+hex(28*faint),i===hovered?C.moving:(data.fixed[i]?C.fixed:C.moving)+rim,i===hovered?2.2:1);});
   if($("show_structure").checked)look.nodes.forEach((level,l)=>{for(const b of level)rect(b,null,C.part,1.2+l);});
-  // A pair with a much larger box is drawn to where that box is nearest, not to its middle.
+  // The line to a much larger box ends at its nearest point instead of its middle.
   const towards=(b,from,k)=>high(b,k)-low(b,k)>4*(high(from,k)-low(from,k))?Math.max(low(b,k),Math.min(high(b,k),mid(from,k))):mid(b,k);
   const mid=(b,k)=>{const a=low(b,k),c=high(b,k);return isFinite(a)&&isFinite(c)?(a+c)/2:isFinite(a)?a:isFinite(c)?c:(k===u?cu:cv);};
   const link=(pairs,style,width,dash)=>{
@@ -167,15 +167,15 @@ function strips(){
     });
     const title=$("strip"+k).previousElementSibling;
     title.textContent="Intervals on "+"xyz"[k]+": "+f.overlap_on_axis[k].toLocaleString("en")+" pairs overlap here"+
-      (look.sweep_axis===k&&!look.grids.length?" \u2014 swept in this order":grid&&grid.along===k?" \u2014 the columns run along this axis":"");
+      (look.sweep_axis===k&&!look.grids.length?" \u2014 swept in this order":grid&&grid.along===k?" \u2014 the grid's columns run along this axis":"");
   }
 }
 function counts(){
   const{f,look}=state(),n=x=>x.toLocaleString("en"),times=f.kept.length?" ("+n(Math.round(f.all_pairs/f.kept.length))+"\u00d7 fewer)":"";
-  const rows=[["","all pairs: exact tests without a broad phase",n(f.all_pairs)],
-    [C.part,"brought together by the method",n(look.considered)],
-    [C.pruned,"\u2026 of these pruned: boxes do not overlap",n(look.considered-Math.min(look.considered,f.kept.length))],
-    [C.kept,"kept: exact tests with it"+times,n(f.kept.length)]];
+  const rows=[["","all pairs (exact tests without a broad phase)",n(f.all_pairs)],
+    [C.part,"considered by the method",n(look.considered)],
+    [C.pruned,"\u2026 of these, pruned because the boxes do not overlap",n(look.considered-Math.min(look.considered,f.kept.length))],
+    [C.kept,"kept (exact tests with the broad phase)"+times,n(f.kept.length)]];
   $("counts").innerHTML="";
   for(const[c,what,count]of rows){
     const tr=$("counts").insertRow(),a=tr.insertCell(),b=tr.insertCell();
@@ -183,8 +183,8 @@ function counts(){
     a.append(what);b.textContent=count;
   }
   $("frame_name").textContent=(+$("frame").value+1)+" of "+data.frames.length;
-  $("explanation").textContent="What the method says it did: "+look.explanation;
-  $("hover").textContent=hovered<0?"Point at a box to see its pairs alone.":data.bodies[hovered]+(data.fixed[hovered]?" (fixed)":"")+": "+
+  $("explanation").textContent="The method's own account: "+look.explanation;
+  $("hover").textContent=hovered<0?"Point at a box to see only its pairs.":data.bodies[hovered]+(data.fixed[hovered]?" (fixed)":"")+": "+
     f.kept.filter(p=>p[0]===hovered||p[1]===hovered).length+" pairs kept";
 }
 function draw(){plan();strips();counts();}
@@ -204,7 +204,8 @@ draw();
 </script></body></html>
 )html";
 
-// Lengths in the page are whole steps from `origin`, finer than any screen shows. An infinite end is null.
+// The page stores lengths as whole steps from `origin`, finer than any screen can show. An infinite end is
+// null.
 struct Ruler {
   double origin = 0, step = 1;
   std::optional<std::int64_t> operator()(double x) const {
@@ -224,12 +225,15 @@ Ruler ruler_for(const fuzz::BroadView& view) {
   for (const auto& f : view.frames)
     for (const auto& b : f.boxes)
       for (const double x : b ? ends(*b) : std::array<double, 6>{})
-        if (b && std::isfinite(x)) lo = std::min(lo, x), hi = std::max(hi, x);
+        if (b && std::isfinite(x)) {
+          lo = std::min(lo, x);
+          hi = std::max(hi, x);
+        }
   if (!(hi > lo) || !std::isfinite(hi - lo)) return {};
   return {lo, (hi - lo) / steps};
 }
 
-// A box as differences to `last`, which is what it was in the frame before.
+// A box as differences from `last`, its ends in the previous frame.
 Json packed(const Aabb& b, const Ruler& ruler, std::array<std::int64_t, 6>& last) {
   Json j = Json::array();
   const auto all = ends(b);
@@ -241,14 +245,16 @@ Json packed(const Aabb& b, const Ruler& ruler, std::array<std::int64_t, 6>& last
   return j;
 }
 
-// Sorted pairs (a, b), a < b: a as the difference to the a before, b to the b before or to a new a.
+// Sorted pairs (a, b), a < b: a as the difference from the previous a, b from the previous b or from a new a.
 Json packed(const std::vector<BodyPair>& pairs) {
   Json j = Json::array();
   int last_a = 0, last_b = 0;
   for (const auto& [a, b] : pairs) {
     if (a != last_a) last_b = a;
-    j.push_back(a - last_a), j.push_back(b - last_b);
-    last_a = a, last_b = b;
+    j.push_back(a - last_a);
+    j.push_back(b - last_b);
+    last_a = a;
+    last_b = b;
   }
   return j;
 }
@@ -270,7 +276,8 @@ Json packed_nodes(const std::vector<std::vector<Aabb>>& levels, const Ruler& rul
 std::string broad_page(const fuzz::BroadView& view) {
   const Ruler ruler = ruler_for(view);
   Json j = fuzz::to_json(view);
-  j["origin"] = ruler.origin, j["step"] = ruler.step;
+  j["origin"] = ruler.origin;
+  j["step"] = ruler.step;
   std::vector<std::array<std::int64_t, 6>> last(view.bodies.size());
   for (std::size_t i = 0; i < view.frames.size(); ++i) {
     const auto& f = view.frames[i];

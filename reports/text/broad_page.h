@@ -1,6 +1,6 @@
-// The picture that broad phases are taught with, as one page of HTML that loads nothing: boxes in a
-// projection, their intervals on each axis, the cells, tree or order of a method, the pairs kept and pruned;
-// a slider over the queries.
+// The textbook picture of a broad phase, as one self-contained HTML page: boxes in a projection, their
+// intervals on each axis, the cells, tree or order of a method, the pairs kept and pruned, and a slider over
+// the queries.
 #pragma once
 
 #include <string>
@@ -9,7 +9,7 @@
 
 namespace touchstone::reports {
 
-/// Boxes are rounded to a 1e-5th of the picture; counts and pairs are those of the boxes as they were.
+/// Boxes are rounded to 1e-5 of the picture's size; counts and pairs are those of the unrounded boxes.
 std::string broad_page(const fuzz::BroadView& view);
 
 }  // namespace touchstone::reports

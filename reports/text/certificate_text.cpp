@@ -13,7 +13,7 @@ using fuzz::BroadCertificate;
 using fuzz::EvidenceCount;
 using fuzz::LevelVerdict;
 
-// Superfluous pairs per true pair, in 7 columns; nothing where no pair is true.
+// Superfluous pairs per true pair, in 7 columns; "-" if no pair is true.
 std::string price(std::uint64_t reported, std::uint64_t truth) {
   if (truth == 0) return "-";
   const double more = reported > truth ? static_cast<double>(reported - truth) : 0;
@@ -22,7 +22,7 @@ std::string price(std::uint64_t reported, std::uint64_t truth) {
   return ratio < 1000 ? fmt::format("{:.3g}", ratio) : fmt::format("{:.1e}", ratio);
 }
 
-// A blank between the columns, however wide an entry is.
+// Columns are separated by a space even if an entry is too wide.
 std::string columns(std::string_view kind, std::string_view name, const std::string& cases,
                     const std::string& queries, const std::string& pairs, const std::string& price,
                     const std::string& seconds) {
@@ -37,8 +37,7 @@ std::string row(const EvidenceCount& e, bool times) {
 }
 
 std::string table(const BroadCertificate& c, BroadLevel level, bool times) {
-  std::string out =
-      columns("kind", "evidence", "cases", "queries", "true pairs", "price", times ? "    s" : "");
+  std::string out = columns("kind", "suite", "cases", "queries", "true pairs", "price", times ? "    s" : "");
   for (const EvidenceCount& e : c.evidence) {
     if (e.level != level) continue;
     out += row(e, times);
@@ -49,19 +48,19 @@ std::string table(const BroadCertificate& c, BroadLevel level, bool times) {
   return out;
 }
 
-// Of a draw without a miss, the rate is below 3/N at 95 % (the rule of three).
+// If N random cases show no miss, the miss rate is below 3/N with 95 % confidence (the rule of three).
 std::string random_bound(const BroadCertificate& c, BroadLevel level) {
   std::string out;
   for (const EvidenceCount& e : c.evidence)
     if (e.level == level && e.kind == EvidenceKind::random && e.answered > 0)
-      out += fmt::format("  {}: fewer than {:.2g} of such scenes lose a pair (95 %)\n", e.name,
+      out += fmt::format("  {}: miss rate below {:.2g} per scene (95 % confidence)\n", e.name,
                          3.0 / static_cast<double>(e.answered));
   return out;
 }
 
 std::string cases_of(std::uint64_t n) { return n == 1 ? "1 case" : grouped(n) + " cases"; }
 
-// Where a class of fault was seen, after its smallest script.
+// A class of fault: its smallest script, then the suites in which it was seen.
 std::string refutation(const BroadCertificate& c, const fuzz::Refutation& r) {
   std::string out =
       "  " +
@@ -77,26 +76,26 @@ std::string refutation(const BroadCertificate& c, const fuzz::Refutation& r) {
                           f.what.kind == fuzz::FaultKind::solid
                               ? fmt::format(", by up to {:.2g} of the size", f.share)
                               : "");
-  return out + "    " + wrapped("in " + seen, 76, 4) + "\n";
+  return out + "    " + wrapped("seen in " + seen, 76, 4) + "\n";
 }
 
 std::string slow(const fuzz::TooSlow& t) {
-  const std::string enough = t.sufficient > 0 ? fmt::format("it answers within {:g}: --case-seconds {:g}",
+  const std::string enough = t.sufficient > 0 ? fmt::format("it answers within {:g}: use --case-seconds {:g}",
                                                             t.sufficient, t.sufficient)
                              : t.tried > t.allowed ? fmt::format("nor within {:g}", t.tried)
                                                    : std::string("raise --case-seconds");
   return "  " +
-         wrapped(
-             fmt::format("too slow for {}: no answer within {:g} CPU s a question in case {}, {} bodies, {} "
-                         "steps; {}",
-                         t.evidence, t.allowed, t.index, t.bodies, grouped(t.steps), enough),
-             76, 4) +
+         wrapped(fmt::format(
+                     "too slow for {}: no answer within {:g} CPU s per question in case {}, {} bodies, {} "
+                     "steps; {}",
+                     t.evidence, t.allowed, t.index, t.bodies, grouped(t.steps), enough),
+                 76, 4) +
          "\n";
 }
 
 std::string level_text(const BroadCertificate& c, BroadLevel level, bool times) {
-  const char* what = level == BroadLevel::boxes ? "every pair of the boxes given that overlap"
-                                           : "every pair of bodies that truly overlap";
+  const char* what = level == BroadLevel::boxes ? "every overlapping pair of the given boxes"
+                                                : "every truly overlapping pair of bodies";
   std::string out =
       fmt::format("\nLevel of {}: {} ({})\n", to_string(level), to_string(verdict(c, level)), what);
   out += table(c, level, times);
@@ -108,7 +107,7 @@ std::string level_text(const BroadCertificate& c, BroadLevel level, bool times) 
   return out;
 }
 
-// The slowest decides what to ask for.
+// The slowest suite decides how much time is needed.
 std::string too_slow_words(const BroadCertificate& c) {
   if (c.too_slow.empty()) return "";
   std::string names;
@@ -116,10 +115,12 @@ std::string too_slow_words(const BroadCertificate& c) {
   bool known = true;
   for (const auto& t : c.too_slow) {
     names += (names.empty() ? "" : ", ") + t.evidence;
-    allowed = t.allowed, enough = std::max(enough, t.sufficient), known = known && t.sufficient > 0;
+    allowed = t.allowed;
+    enough = std::max(enough, t.sufficient);
+    known = known && t.sufficient > 0;
   }
   const std::string more = known ? fmt::format(" to {:g}", enough) : "";
-  return fmt::format("; too slow for {} ({:g} CPU s a question); raise --case-seconds{}", names, allowed,
+  return fmt::format("; too slow for {} ({:g} CPU s per question); raise --case-seconds{}", names, allowed,
                      more);
 }
 

@@ -1,4 +1,4 @@
-// A certificate of a broad phase as text that fits 80 columns.
+// A broad-phase certificate as text in 80 columns.
 #pragma once
 
 #include <string>
@@ -7,10 +7,11 @@
 
 namespace touchstone::reports {
 
-/// `times`: with the seconds that each evidence took.
+/// `times`: with the seconds that each suite took.
 std::string certificate_text(const fuzz::BroadCertificate& c, bool times);
 
-/// "SUBJECT: boxes certified, bodies refuted"; with what was too slow, and the time to ask for.
+/// "SUBJECT: boxes certified, bodies refuted", followed by the suites that were too slow and the time they
+/// need.
 std::string certificate_line(const fuzz::BroadCertificate& c);
 
 }  // namespace touchstone::reports

@@ -17,7 +17,7 @@ namespace {
 using fuzz::Chart;
 using fuzz::ChartRow;
 
-// Engines as shipped, by question, our own first; of time of impact also the other ways of asking.
+// Engines as shipped, by question, our own first; for time of impact also the other methods.
 struct Part {
   const char *question, *words;
   std::vector<std::string_view> engines;
@@ -42,8 +42,8 @@ bool is_core(const ChartRow& r) {
   return r.question == "candidates" ? r.engine == "automatic" : r.engine == "core";
 }
 
-// A row of all regimes, pairs and scales; of candidates that of the largest crowd which all of the part
-// answered.
+// A row over all regimes, pairs and scales; for candidates, the row of the largest crowd that all engines of
+// the part answered.
 bool is_overall(const ChartRow& r, std::uint64_t crowd) {
   if (!r.pair.empty() || !r.scale.empty() || r.answers == 0) return false;
   return r.question == "candidates" ? r.bodies == crowd && !r.regime.empty() : r.regime.empty();
@@ -76,7 +76,7 @@ std::vector<ChartRow> rows_of(const Chart& c, const Part& part) {
   return rows;
 }
 
-// The core's broad phases have names without its own.
+// The core's broad phases are named without "core"; this adds it.
 std::string name_of(const ChartRow& r) {
   if (r.question == "candidates" && (r.engine == "automatic" || r.engine == "neighbour_list"))
     return "core (" + r.engine + ")";
@@ -87,7 +87,7 @@ std::string line(const ChartRow& r, const std::string& asked) {
   const bool crowd = r.question == "candidates";
   const std::string name = is_core(r) ? "**" + name_of(r) + "**" : name_of(r);
   const std::string worst = crowd ? fmt::format("{:.0f} % true", 100 * r.precision()) : small(r.error_max);
-  // Of candidates a ghost is no fault.
+  // For candidates a ghost is not a fault.
   const std::uint64_t ghosts = crowd ? 0 : r.ghost, verdicts = r.missed + ghosts;
   return fmt::format("| {} | {} | {} | {} | {} | {} | {} | {} | {} | {} |\n", asked, name,
                      nanoseconds(r.ns_median), nanoseconds(r.ns_p99), worst, grouped(r.missed),
@@ -102,7 +102,7 @@ std::string versions(const Chart& c) {
   return fmt::format("{}", fmt::join(all, ", "));
 }
 
-// Who is faster than the core by the median, question by question.
+// The engines with a lower median time than the core, by question.
 std::string faster(const Chart& c) {
   std::string text;
   for (const Part& part : parts) {
@@ -114,7 +114,7 @@ std::string faster(const Chart& c) {
       names += (names.empty() ? "" : ", ") + name_of(*r);
       if (!r->unsound.empty()) names += fmt::format(" ({})", r->unsound);
     }
-    text += fmt::format("{}{}: {}", text.empty() ? "" : "; ", part.words, names.empty() ? "nobody" : names);
+    text += fmt::format("{}{}: {}", text.empty() ? "" : "; ", part.words, names.empty() ? "none" : names);
   }
   return text;
 }
@@ -123,10 +123,14 @@ std::string faster(const Chart& c) {
 
 Chart chart_excerpt(const Chart& c) {
   Chart excerpt = c;
-  excerpt.rows.clear(), excerpt.engines.clear();
+  excerpt.rows.clear();
+  excerpt.engines.clear();
   std::set<std::string> named;
   for (const Part& part : parts)
-    for (const ChartRow& r : rows_of(c, part)) excerpt.rows.push_back(r), named.insert(r.engine);
+    for (const ChartRow& r : rows_of(c, part)) {
+      excerpt.rows.push_back(r);
+      named.insert(r.engine);
+    }
   for (const fuzz::ChartEngine& e : c.engines)
     if (named.contains(e.name)) excerpt.engines.push_back(e);
   return excerpt;
@@ -134,8 +138,8 @@ Chart chart_excerpt(const Chart& c) {
 
 std::string chart_markdown(const Chart& c) {
   std::string s =
-      "| asked | engine | median ns | 99 % ns | worst error / L | missed | ghosts | otherwise wrong | no "
-      "answer | of |\n"
+      "| question | engine | median ns | 99 % ns | worst error / L | missed | ghosts | otherwise wrong | no "
+      "answer | queries |\n"
       "|---|---|--:|--:|--:|--:|--:|--:|--:|--:|\n";
   std::uint64_t crowd = 0;
   for (const Part& part : parts) {
@@ -146,13 +150,14 @@ std::string chart_markdown(const Chart& c) {
     }
   }
   const std::string words = fmt::format(
-      "Faster than the core by the median: {}. Measured {} on {}, {} cores, load {:.1f}, compiler {}, {}; {} "
-      "chart, seed {}, {} interleaved rounds, candidates of {} bodies, inserted and asked once. Engines as "
-      "shipped; `fcl-libccd-tuned` is FCL's conservative advancement, `core-steps@16` the core's overlap at "
-      "17 "
-      "times of the step. Errors are the referee's over the size L of the scene; wrong is what exceeds the "
-      "tolerance that the engine's own documentation claims. Every setting and group: `./touchstone chart`; "
-      "these numbers: `docs/chart.json`.",
+      "Engines with a lower median time than the core: {}. Measured {} on {}, {} cores, load {:.1f}, "
+      "compiler {}, {}; {} chart, seed {}, {} interleaved rounds; candidates: {} bodies, inserted and "
+      "queried once. Engines are as shipped; `fcl-libccd-tuned` is FCL's conservative advancement, "
+      "`core-steps@16` the core's overlap test at 17 times of the step. Errors are measured by the referee "
+      "and divided by the scale L of the scene; an answer is wrong if its error exceeds the tolerance "
+      "claimed "
+      "in the engine's own documentation. All settings and groups: `./touchstone chart`; these numbers: "
+      "`docs/chart.json`.",
       faster(c), c.machine.date, c.machine.processor, c.machine.cores, c.machine.load, c.machine.compiler,
       versions(c), c.scope, c.seed, c.rounds, grouped(crowd));
   return s + "\n" + wrapped(words, 125, 0) + "\n";

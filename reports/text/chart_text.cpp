@@ -63,7 +63,10 @@ std::string crowds(const fuzz::Chart& c) {
   std::map<std::string, std::map<std::uint64_t, const ChartRow*>> engines;
   std::set<std::uint64_t> crowd_sizes;
   for (const ChartRow& r : c.rows)
-    if (r.question == "candidates") engines[r.engine][r.bodies] = &r, crowd_sizes.insert(r.bodies);
+    if (r.question == "candidates") {
+      engines[r.engine][r.bodies] = &r;
+      crowd_sizes.insert(r.bodies);
+    }
   if (engines.empty()) return "";
   std::vector<std::pair<double, std::string>> lines;
   for (auto& [name, sizes] : engines) {
@@ -87,7 +90,7 @@ std::string crowds(const fuzz::Chart& c) {
     lines.emplace_back(last.ns_median, line);
   }
   std::sort(lines.begin(), lines.end());
-  std::string head = fmt::format("candidates, inserted and asked once, ns by bodies\n  {:<26}", "");
+  std::string head = fmt::format("candidates, inserted and queried once, ns by bodies\n  {:<26}", "");
   for (const std::uint64_t n : crowd_sizes) head += fmt::format("{:>9}", n);
   head += "   growth  true\n";
   for (const auto& [t, line] : lines) head += line + "\n";
@@ -103,7 +106,7 @@ std::string reasons(const fuzz::Chart& c) {
       if (r.question == "candidates") what += fmt::format(" of {}", r.bodies);
       why[r.engine] += fmt::format("{}{}: {}", why[r.engine].empty() ? "" : "; ", what, r.unsound);
     }
-  std::string s = why.empty() ? "" : "Not on a front, and why (the page draws them hollow):\n";
+  std::string s = why.empty() ? "" : "Not on a front, with the reason (hollow on the page):\n";
   for (const auto& [engine, text] : why)
     s += "o " + wrapped(fmt::format("{}: {}", engine, text), 76, 4) + "\n";
   return s + "\n";
@@ -113,8 +116,8 @@ std::string reasons(const fuzz::Chart& c) {
 
 std::string chart_text(const fuzz::Chart& c) {
   std::string s =
-      "Errors are the referee's, divided by the scale L. * Pareto front (time p50, error p99), ~ on it "
-      "beside one as accurate and as fast within noise, o wrong somewhere.\n";
+      "Errors are measured by the referee and divided by the scale L. * on the Pareto front (time p50, error "
+      "p99), ~ on it but tied within noise, o wrong somewhere.\n";
   s = wrapped(s, 79, 0) + "\n";
   for (const char* q : {"overlap", "distance", "contact", "time_of_impact"})
     if (const std::string table = question_table(c, q); !table.empty()) s += table + fronts(c, q);
@@ -124,8 +127,7 @@ std::string chart_text(const fuzz::Chart& c) {
     if (r.regime.empty() && r.pair.empty() && r.scale.empty()) spread = std::max(spread, r.ns_spread);
   return s +
          wrapped(fmt::format("{}, {} cores, load {:.1f}, {}, {}; {} chart, seed {}, {} rounds; a typical "
-                             "round is at most "
-                             "{:.0f} % slower than the fastest.",
+                             "round is at most {:.0f} % slower than the fastest.",
                              c.machine.processor, c.machine.cores, c.machine.load, c.machine.system,
                              c.machine.date, c.scope, c.seed, c.rounds, 100 * spread),
                  79, 0) +

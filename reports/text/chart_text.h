@@ -7,7 +7,7 @@
 
 namespace touchstone::reports {
 
-/// A table a question over all regimes, then the Pareto front of each regime, crowds, and the machine.
+/// One table per question over all regimes, then the Pareto front of each regime, crowds, and the machine.
 std::string chart_text(const fuzz::Chart& c);
 
 }  // namespace touchstone::reports

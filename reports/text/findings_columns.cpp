@@ -33,7 +33,7 @@ std::size_t after_number(const std::string& s, std::size_t i) {
   return end;
 }
 
-// Values in the order of their names, so that the same findings give the same page.
+// Values are sorted by name, so that the same findings give the same page.
 Json coded(const std::vector<std::string>& column) {
   std::map<std::string, int> codes;
   for (const auto& value : column) codes[value] = 0;

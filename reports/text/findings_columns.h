@@ -1,17 +1,17 @@
-// Findings as columns: what repeats is said once, so that a page of 1e5 kinds stays small and opens at once.
+// Findings as columns: repeated values are stored once, so a page of 1e5 kinds stays small and opens quickly.
 #pragma once
 
 #include "reports/record/observation_json.h"
 
 namespace touchstone::reports {
 
-/// `findings`: those of a stored campaign (summary.json), an object by key. Gives
+/// `findings`: those of a stored campaign (summary.json), an object by key. Returns
 /// {"count": n,
 ///  "coded": {column: {"values": […], "codes": […]}},   the parts of the key, sorted values
 ///  "answers": […],                                      how many answers each finding counts
 ///  "worst_in_l": […],                                   three digits, or the text that JSON has for inf, nan
 ///  "words": {"templates": […], "codes": […], "numbers": "…"}}
-/// Words are whole: number_mark in a template stands for the next of `numbers`, which spaces separate.
+/// No text is lost: each number_mark in a template stands for the next of `numbers`, separated by spaces.
 fuzz::Json findings_columns(const fuzz::Json& findings);
 
 inline constexpr char number_mark = '\x01';

@@ -22,14 +22,14 @@ std::string phases(const Plan& p) {
       others.append(others.empty() ? "" : ", ").append(x.name).append(1, ' ').append(nanoseconds(x.ns_step));
   const auto chosen = std::find_if(p.phases.begin(), p.phases.end(),
                                    [&](const PlanPhase& x) { return x.name == p.broad_phase; });
-  return wrapped(fmt::format("Broad phase: {}, {} ns a step on boxes alone; {}", p.broad_phase,
+  return wrapped(fmt::format("Broad phase: {}, {} ns per step on boxes alone; others: {}", p.broad_phase,
                              chosen == p.phases.end() ? "?" : nanoseconds(chosen->ns_step), others),
                  79, 2) +
          "\n";
 }
 
 std::string shapes(const Plan& p) {
-  if (p.shapes.empty()) return "Shapes: as they are; none can be simpler within the error, or none pays.\n";
+  if (p.shapes.empty()) return "Shapes: unchanged; no simpler shape stays within the error and saves time.\n";
   struct Group {
     std::uint64_t shapes = 0, bodies = 0, vertices = 0, left = 0;
     double error = 0;
@@ -37,7 +37,10 @@ std::string shapes(const Plan& p) {
   std::map<std::pair<std::string, std::string>, Group> groups;
   for (const PlanShape& s : p.shapes) {
     Group& g = groups[{s.was, s.becomes}];
-    ++g.shapes, g.bodies += s.bodies, g.vertices += s.vertices, g.left += s.left;
+    ++g.shapes;
+    g.bodies += s.bodies;
+    g.vertices += s.vertices;
+    g.left += s.left;
     g.error = std::max(g.error, s.error);
   }
   std::string text = fmt::format("Shapes: {} can be simpler.\n", grouped(p.shapes.size()));
@@ -46,7 +49,7 @@ std::string shapes(const Plan& p) {
     const std::string what = was == becomes
                                  ? fmt::format("keep {} of {} vertices", grouped(g.left), grouped(g.vertices))
                                  : fmt::format("are {}", becomes);
-    text += fmt::format("  {:>5} {:<9} ({} bodies) {}; costs at most {}\n", g.shapes, was, grouped(g.bodies),
+    text += fmt::format("  {:>5} {:<9} ({} bodies) {}; error at most {}\n", g.shapes, was, grouped(g.bodies),
                         what, small(g.error));
   }
   return text;
@@ -56,13 +59,12 @@ std::string meshes(const Plan& p) {
   if (p.convex_meshes == 0) return "";
   return wrapped(
              p.solid_meshes
-                 ? fmt::format("Meshes that are closed and convex: {}. They stand for solids; the fixed "
-                               "choices below "
-                               "take them as surfaces, so that their errors are of another scene.",
-                               p.convex_meshes)
-                 : fmt::format(
-                       "Meshes that are closed and convex: {}. If they stand for solids, say --solid-meshes.",
-                       p.convex_meshes),
+                 ? fmt::format(
+                       "Closed convex meshes: {}. They are treated as solids; the fixed choices below "
+                       "treat them as surfaces, so their errors refer to a different scene.",
+                       p.convex_meshes)
+                 : fmt::format("Closed convex meshes: {}. If they are meant as solids, use --solid-meshes.",
+                               p.convex_meshes),
              79, 2) +
          "\n";
 }
@@ -74,7 +76,7 @@ std::string method(const PlanPair& x) {
 std::string pairs(const Plan& p) {
   if (p.pairs.empty()) return "";
   std::string text = fmt::format("{:<21}{:>10} {:<19}{:>7}{:>8}{:>6}{:>7}\n", "Pairs, shapes as run",
-                                 "candidates", "by", "ns", "double", "balls", "cheap");
+                                 "candidates", "method", "ns", "double", "balls", "cheap");
   constexpr std::size_t most = 12;
   for (std::size_t i = 0; i < std::min(most, p.pairs.size()); ++i) {
     const PlanPair& x = p.pairs[i];
@@ -83,26 +85,26 @@ std::string pairs(const Plan& p) {
                     nanoseconds(x.ns), nanoseconds(x.ns_double), x.balls_first ? percent(x.balls_share) : "",
                     x.arithmetic == "double" ? "" : percent(x.cheap_share));
   }
-  if (p.pairs.size() > most) text += fmt::format("  and {} more that take less\n", p.pairs.size() - most);
+  if (p.pairs.size() > most) text += fmt::format("  and {} cheaper ones\n", p.pairs.size() - most);
   return text +
-         "  ns a pair; double: backed by extended precision, nothing else tried; balls:\n  decided by them; "
-         "cheap: of the rest, within the error by float or double alone\n";
+         "  ns per pair; double: doubles backed by extended precision, nothing else tried;\n  balls: share "
+         "decided by bounding balls; cheap: share of the rest that float or\n  double alone answers within "
+         "the error\n";
 }
 
 std::string sweeps(const Plan& p) {
   if (p.swept.empty())
-    return wrapped(
-               fmt::format("Sweeping: nothing moves farther in a step than {:g} of its inner size; no body "
-                           "needs it.",
-                           p.sweep_share),
-               79, 2) +
+    return wrapped(fmt::format(
+                       "Sweeping: not needed; nothing moves farther in a step than {:g} of its inner size.",
+                       p.sweep_share),
+                   79, 2) +
            "\n";
   std::uint64_t travel = 0;
   for (const PlanSwept& s : p.swept) travel += s.reason == "travel";
   std::string text = wrapped(
       fmt::format(
-          "Sweeping: {} of {} bodies ({} for their travel, {} for their turning) could pass something "
-          "deeper than {:g} of their inner size between two steps; the others cannot.",
+          "Sweeping: {} of {} bodies ({} because of their travel, {} because of their rotation) could pass "
+          "something deeper than {:g} of their inner size between two steps; the others cannot.",
           p.swept.size(), grouped(p.bodies), travel, p.swept.size() - travel, p.sweep_share),
       79, 2);
   text += "\n";
@@ -125,7 +127,7 @@ std::string why_unsound(const PlanRow& r) {
 }
 
 std::string rows(const Plan& p) {
-  std::string text = fmt::format("{:<39}{:>8}{:>8}{:>10}  {}\n", "A step, the whole of it (ns)", "least",
+  std::string text = fmt::format("{:<39}{:>8}{:>8}{:>10}  {}\n", "Time of a whole step (ns)", "least",
                                  "median", "error", "front");
   for (const PlanRow& r : p.rows)
     text += fmt::format("{} {:<37}{:>8}{:>8}{:>10}  {}\n", r.is_plan ? ">" : " ", r.name,
@@ -143,7 +145,7 @@ std::string saving(const Plan& p) {
     else if (r.sound() && !fixed)
       fixed = &r;
   if (!plan || !fixed) return "";
-  return wrapped(fmt::format("The plan takes {:.2f} of the time of the quickest sound fixed choice, {}.",
+  return wrapped(fmt::format("The plan takes {:.2f} times as long as the fastest sound fixed choice, {}.",
                              plan->ns_min / fixed->ns_min, fixed->name),
                  79, 2) +
          "\n";
@@ -152,11 +154,14 @@ std::string saving(const Plan& p) {
 std::string proven(const Plan& p) {
   std::uint64_t sampled = 0;
   double worst = 0;
-  for (const PlanPair& x : p.pairs) sampled += x.sampled, worst = std::max(worst, x.certified_error);
+  for (const PlanPair& x : p.pairs) {
+    sampled += x.sampled;
+    worst = std::max(worst, x.certified_error);
+  }
   if (sampled == 0) return "";
   return fmt::format(
-      "The answers' own bounds on {} sampled pairs: at most {}.{}", grouped(sampled), small(worst),
-      worst > p.error ? " That is more than the error: the core cannot prove some of them to be "
+      "The core's own error bounds on {} sampled pairs are at most {}.{}", grouped(sampled), small(worst),
+      worst > p.error ? " That exceeds the error: for some of them the core cannot prove that the depth is "
                         "least (regret_bound)."
                       : "");
 }
@@ -170,16 +175,17 @@ std::string plan_text(const Plan& p) {
                              79, 2) +
                      "\n";
   text += phases(p) + shapes(p) + meshes(p);
-  text += p.remember ? "Searches begin where the last step's ended.\n" : "";
+  text += p.remember ? "Searches start from the result of the previous step.\n" : "";
   text += pairs(p) + sweeps(p) + "\n" + rows(p) + saving(p);
   const auto plan = std::find_if(p.rows.begin(), p.rows.end(), [](const PlanRow& r) { return r.is_plan; });
   text += wrapped(
-      fmt::format("Evidence: the referee judged {} pairs, {} of them undecided: {} outside the error, "
-                  "the worst off by {}. {}{}",
-                  p.judged, p.undecided, plan->outside, small(plan->error), proven(p),
-                  p.unsupported ? fmt::format(" {} pairs that the core does not answer are left out.",
-                                              grouped(p.unsupported))
-                                : ""),
+      fmt::format(
+          "Evidence: the referee judged {} pairs ({} undecided); {} exceed the error, the worst is off "
+          "by {}. {}{}",
+          p.judged, p.undecided, plan->outside, small(plan->error), proven(p),
+          p.unsupported
+              ? fmt::format(" {} pairs that the core does not support are left out.", grouped(p.unsupported))
+              : ""),
       79, 2);
   return text + "\n";
 }

@@ -6,7 +6,7 @@
 
 namespace touchstone::reports {
 
-/// What to run and what it saves, then the evidence; 80 columns.
+/// What to run and how much it saves, then the evidence; in 80 columns.
 std::string plan_text(const fuzz::Plan& p);
 
 }  // namespace touchstone::reports

@@ -20,10 +20,10 @@ std::string rung(double value) {
   return fmt::format("{:g}", value);
 }
 
-// One a cell of a table: blank, "-" or a rung.
+// The text of a table cell: blank, "-" or a rung.
 using Cell = std::function<std::string(const std::string& engine, const std::string& ladder)>;
 
-void note(std::vector<std::string>& list, const std::string& x) {
+void add_once(std::vector<std::string>& list, const std::string& x) {
   if (std::find(list.begin(), list.end(), x) == list.end()) list.push_back(x);
 }
 
@@ -45,7 +45,10 @@ std::string table(const std::string& title, const std::vector<std::string>& engi
 std::string question_table(const fuzz::Stability& s, const std::string& question) {
   std::vector<std::string> engines, ladders;
   for (const LadderResult& r : s.results)
-    if (r.question == question) note(engines, r.engine), note(ladders, r.ladder);
+    if (r.question == question) {
+      add_once(engines, r.engine);
+      add_once(ladders, r.ladder);
+    }
   return table(question, engines, ladders, [&](const std::string& e, const std::string& l) -> std::string {
     for (const LadderResult& r : s.results)
       if (r.ladder == l && r.engine == e && r.question == question)
@@ -54,14 +57,18 @@ std::string question_table(const fuzz::Stability& s, const std::string& question
   });
 }
 
-// The first rung at which an answer to any question about a pair breaks with that to another form of it.
+// The first rung at which an answer about a pair, to any question, contradicts that to another form of the
+// pair.
 std::string form_table(const fuzz::Stability& s, std::size_t form, bool motions) {
   std::vector<std::string> engines, ladders;
   const auto of_kind = [&](const LadderResult& r) {
     return r.question != "candidates" && (r.question == "time_of_impact") == motions;
   };
   for (const LadderResult& r : s.results)
-    if (of_kind(r)) note(engines, r.engine), note(ladders, r.ladder);
+    if (of_kind(r)) {
+      add_once(engines, r.engine);
+      add_once(ladders, r.ladder);
+    }
   const std::string title = fmt::format("{}{}", fuzz::form_columns[form], motions ? ", impact" : "");
   const bool any = std::any_of(s.results.begin(), s.results.end(), [&](const LadderResult& r) {
     return of_kind(r) && r.breaks_at(form).has_value();
@@ -88,17 +95,17 @@ std::string form_table(const fuzz::Stability& s, std::size_t form, bool motions)
 std::string stability_text(const fuzz::Stability& s) {
   std::string text = wrapped(
       fmt::format(
-          "The first rung at which an engine gives a wrong answer or none, over {} cases a rung; - never, "
-          "blank: it does not answer such.",
+          "The first rung at which an engine gives a wrong answer or none, over {} cases per rung; -: never, "
+          "blank: not supported.",
           s.per_rung),
       79, 0);
   text += "\n\n";
   for (const char* q : {"overlap", "distance", "contact", "time_of_impact", "candidates"})
     text += question_table(s, q);
   text += wrapped(
-      "The first rung at which two answers to the same pair contradict each other by more than the engine's "
-      "own tolerances: A and B exchanged (order); the scene turned or moved without a rounding (frame); "
-      "lengths times 2^20 and 2^-12 (unit).",
+      "The first rung at which two answers about the same pair contradict each other by more than the "
+      "engine's own tolerances: A and B exchanged (order); the scene rotated or translated without rounding "
+      "(frame); lengths multiplied by 2^20 and 2^-12 (unit).",
       79, 0);
   text += "\n\n";
   for (std::size_t form = 1; form < fuzz::form_count; ++form)

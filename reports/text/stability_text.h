@@ -7,7 +7,8 @@
 
 namespace touchstone::reports {
 
-/// A table a question: engine × ladder, the rung where each begins to fail; then what the ladders are.
+/// One table per question (engine × ladder) of the rung where each begins to fail; then a list of the
+/// ladders.
 std::string stability_text(const fuzz::Stability& s);
 
 }  // namespace touchstone::reports

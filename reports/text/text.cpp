@@ -75,7 +75,7 @@ std::string row(Question q, const Tally& t) {
                      nanoseconds(t.time.quantile(0.99)));
 }
 
-// What the row's counts leave out, when there is any of it.
+// The answers that the row's counts leave out; empty if there are none.
 std::string open_line(const Tally& t) {
   std::vector<std::string> parts;
   if (t.undecided > 0) parts.push_back(fmt::format("{} undecided", grouped(t.undecided)));
@@ -124,7 +124,9 @@ std::string findings_summary(const CampaignResult& r, std::size_t per_engine) {
   for (const auto& [key, f] : r.findings) {
     Group& g =
         engines[f.engine][f.question + " " + f.fault + (f.blame == "representation" ? " (rounding)" : "")];
-    g.count += f.count, ++g.keys, g.worst = std::max(g.worst, f.worst_in_l);
+    g.count += f.count;
+    ++g.keys;
+    g.worst = std::max(g.worst, f.worst_in_l);
     if (!g.example || f.worst_in_l > g.example->worst_in_l) g.example = &f;
   }
   std::string s;
@@ -158,19 +160,22 @@ std::string campaign_footer(const CampaignResult& r) {
                          engine, to_string(q));
   std::uint64_t asked = 0, broken = 0;
   for (const auto& [engine, of_engine] : r.relations)
-    for (const auto& [name, n] : of_engine) asked += n.asked, broken += n.broken;
+    for (const auto& [name, n] : of_engine) {
+      asked += n.asked;
+      broken += n.broken;
+    }
   if (asked > 0)
     s += fmt::format("relations: {} derived cases asked, {} contradict the engine's own answers\n",
                      grouped(asked), grouped(broken));
   if (r.pair_rate() > 0)
-    s += fmt::format("{} pair cases, {} a core-second (motions, crowds and relations apart)\n",
+    s += fmt::format("{} pair cases, {} per core-second (excl. motions, crowds, relations)\n",
                      grouped(r.pair_asked), grouped(static_cast<std::uint64_t>(r.pair_rate())));
   for (const auto& [engine, aside] : r.set_aside)
-    s += wrapped(fmt::format("{}: {}; from case {} on {} of its answers were not asked for", engine,
-                             aside.why, grouped(aside.first_index), grouped(r.not_asked_of(engine))),
+    s += wrapped(fmt::format("{}: {}; from case {} on, {} queries were not asked", engine, aside.why,
+                             grouped(aside.first_index), grouped(r.not_asked_of(engine))),
                  78, 2) +
          "\n";
-  s += fmt::format("time: engines {:.0f} %, harness {:.0f} % (of that referee and judge {:.0f} %)\n", engines,
+  s += fmt::format("time: engines {:.0f} %, harness {:.0f} % (referee and judge {:.0f} %)\n", engines,
                    100 - engines, judge);
   return s;
 }

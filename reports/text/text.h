@@ -1,4 +1,4 @@
-// Results as text that fits 80 columns.
+// Results as text in 80 columns.
 #pragma once
 
 #include <optional>
@@ -10,13 +10,13 @@
 namespace touchstone::reports {
 
 /// The table of a campaign: engine × question -> answered, right, wrong, missed, ghost, failed, worst error
-/// in L, ns a query (median, p99); with a legend.
+/// in L, ns per query (median, p99).
 std::string campaign_table(const fuzz::CampaignResult& r);
 
 /// Findings grouped by engine, question and fault, the most frequent `per_engine` groups of each engine.
 std::string findings_summary(const fuzz::CampaignResult& r, std::size_t per_engine);
 
-/// Where the time went and whether the cases proved anything.
+/// Where the time went, and whether the cases prove anything.
 std::string campaign_footer(const fuzz::CampaignResult& r);
 
 /// "1,234,567".

@@ -38,7 +38,7 @@ bool is_skipped(Standing s) {
 }
 
 std::string asked_in_words(const Triaged& t) {
-  return t.standing == Standing::flaky ? fmt::format(", shown {} of {} times asked", t.shown, t.asked) : "";
+  return t.standing == Standing::flaky ? fmt::format(", shown in {} of {} runs", t.shown, t.asked) : "";
 }
 
 std::string named(const std::vector<Triaged>& all, Standing standing, const char* title) {
@@ -48,10 +48,9 @@ std::string named(const std::vector<Triaged>& all, Standing standing, const char
     if (r.empty()) r = fmt::format("{}\n", title);
     r += fmt::format("  {}\n    {}\n", t.finding.key, wrapped(t.finding.words, 76, 4));
     if (standing == Standing::gone)
-      r += fmt::format("    first seen {}, {}; not shown in {} of {} times asked\n", t.finding.first_seen,
+      r += fmt::format("    first seen {}, {}; not shown in {} of {} runs\n", t.finding.first_seen,
                        t.finding.first_build, t.asked - t.shown, t.asked);
-    if (standing == Standing::flaky)
-      r += fmt::format("    shown in {} of {} times asked\n", t.shown, t.asked);
+    if (standing == Standing::flaky) r += fmt::format("    shown in {} of {} runs\n", t.shown, t.asked);
   }
   return r;
 }
@@ -72,13 +71,12 @@ std::string junit_case(const Triaged& t) {
 std::string triage_text(const std::vector<Triaged>& all) {
   std::map<Standing, std::size_t> count;
   for (const Triaged& t : all) ++count[t.standing];
-  std::string r = named(all, Standing::fresh, "new:") +
-                  named(all, Standing::back, "back, after they were gone:") +
-                  named(all, Standing::flaky, "flaky: their cases do not show them every time") +
-                  named(all, Standing::gone, "gone: their cases no longer show them");
+  std::string r = named(all, Standing::fresh, "new:") + named(all, Standing::back, "back after being gone:") +
+                  named(all, Standing::flaky, "flaky (their cases do not always show them):") +
+                  named(all, Standing::gone, "gone (their cases no longer show them):");
   return r + fmt::format(
-                 "{} new, {} back, {} known and seen, {} known and still there when asked,\n"
-                 "{} flaky, {} gone, {} not asked (their engines are not here)\n",
+                 "{} new, {} back, {} known and seen, {} known and shown again,\n"
+                 "{} flaky, {} gone, {} not asked (their engines are not available)\n",
                  count[Standing::fresh], count[Standing::back], count[Standing::known],
                  count[Standing::still], count[Standing::flaky], count[Standing::gone],
                  count[Standing::not_asked]);
@@ -88,7 +86,7 @@ std::string triage_text(const std::vector<Triaged>& all) {
 static fuzz::Json case_json(const fuzz::KnownFinding& f) try {
   return fuzz::case_json_of(f);
 } catch (const InputError&) {
-  return {};  // what is asked again says why; the others are shown
+  return {};  // asking it again reports the reason; the other findings are still shown
 }
 
 fuzz::Json triage_json(const std::vector<Triaged>& all) {
@@ -121,7 +119,10 @@ std::string triage_junit(const std::vector<Triaged>& all) {
   std::string r = "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites name=\"touchstone\">\n";
   for (const auto& [engine, cases] : suites) {
     std::size_t failures = 0, skipped = 0;
-    for (const Triaged* t : cases) failures += is_failure(t->standing), skipped += is_skipped(t->standing);
+    for (const Triaged* t : cases) {
+      failures += is_failure(t->standing);
+      skipped += is_skipped(t->standing);
+    }
     r += fmt::format(" <testsuite name=\"{}\" tests=\"{}\" failures=\"{}\" skipped=\"{}\" errors=\"0\">\n",
                      escaped(engine), cases.size(), failures, skipped);
     for (const Triaged* t : cases) r += junit_case(*t);

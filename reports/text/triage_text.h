@@ -1,4 +1,4 @@
-// What a triage found, for people and for continuous integration.
+// The result of a triage, for people and for continuous integration.
 #pragma once
 
 #include <string>
@@ -9,11 +9,11 @@
 
 namespace touchstone::reports {
 
-/// New, back and gone findings by name; the others as counts. 80 columns but for keys.
+/// Lists new, back, flaky and gone findings and counts the others. 80 columns, except for keys.
 std::string triage_text(const std::vector<fuzz::Triaged>& triaged);
 fuzz::Json triage_json(const std::vector<fuzz::Triaged>& triaged);
-/// JUnit: a suite an engine, a test case a finding; new and back ones fail, known ones are skipped, gone ones
-/// pass.
+/// JUnit: one suite per engine and one test case per finding. New and back findings fail, known ones are
+/// skipped, gone ones pass.
 std::string triage_junit(const std::vector<fuzz::Triaged>& triaged);
 
 }  // namespace touchstone::reports

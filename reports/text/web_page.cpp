@@ -51,7 +51,8 @@ std::string deflated(std::string_view json) {
 std::string web_page(std::string built, std::string_view json) {
   constexpr std::string_view placeholder = "__TOUCHSTONE_DATA__";
   const auto at = built.find(placeholder);
-  if (at == std::string::npos) throw InputError("page", "has no place for data: built from another version?");
+  if (at == std::string::npos)
+    throw InputError("page", "has no placeholder for data; was it built from another version?");
   return built.replace(at, placeholder.size(),
                        json.size() < compressed_from ? json_for_script(json) : deflated(json));
 }

@@ -1,4 +1,4 @@
-// A page of reports/web with its data in it: the built page holds a placeholder where the JSON belongs.
+// Inserts data into a page of reports/web: the built page has a placeholder for the JSON.
 #pragma once
 
 #include <string>
@@ -6,14 +6,14 @@
 
 namespace touchstone::reports {
 
-/// `built`: what Vite made of one page kind. JSON longer than `compressed_from` goes in as
-/// {"deflate": base64 of its zlib stream}. Throws InputError when the placeholder is missing.
+/// `built`: one page as built by Vite. JSON of `compressed_from` bytes or more is inserted as
+/// {"deflate": base64 of its zlib stream}. Throws InputError if the placeholder is missing.
 std::string web_page(std::string built, std::string_view json);
 
-/// Below, a page's data stays readable in the page itself.
+/// Shorter data stays readable in the page itself.
 inline constexpr std::size_t compressed_from = 200'000;
 
-/// JSON as it may stand inside a script element: '<' as an escape, so that nothing looks like its end.
+/// JSON that is safe inside a script element: '<' is escaped, so that nothing looks like the end tag.
 std::string json_for_script(std::string_view json);
 
 /// {"deflate": "…"}: the JSON as a zlib stream (RFC 1950) in base64.

@@ -1,5 +1,5 @@
-// One self-contained HTML file a page kind, in dist/ or the directory given: page.html with the page's script and
-// styles in it. What is left is the placeholder __TOUCHSTONE_DATA__, into which the program writes the JSON.
+// Builds one self-contained HTML file per page kind, in dist/ or the directory given: page.html with the page's script
+// and styles in it. The placeholder __TOUCHSTONE_DATA__ remains; the program replaces it with the JSON.
 import { mkdirSync, readFileSync, readdirSync, writeFileSync } from "node:fs";
 import { dirname, join, resolve } from "node:path";
 import { fileURLToPath } from "node:url";
@@ -29,7 +29,7 @@ for (const page of pages) {
   )[0];
   const script = output.find((o) => o.type === "chunk").code.replaceAll("</script", "<\\/script");
   const style = output.filter((o) => o.type === "asset" && o.fileName.endsWith(".css")).map((o) => o.source).join("\n");
-  // Functions, because "$&" in minified code means something to String.replace.
+  // Replacement functions, because String.replace interprets "$&" in a replacement string.
   const html = skeleton.replace("/*style*/", () => style).replace("/*script*/", () => script);
   if (html.split(placeholder).length !== 2) throw new Error(`${page}: the placeholder must occur exactly once`);
   writeFileSync(join(out, `${page}.html`), html);

@@ -1,5 +1,5 @@
-# npm ci and the build of the pages, in a copy in the build tree. MODE=AUTO: what does not work is said in one line and
-# does not fail the build, which needs no network.
+# Runs npm ci and builds the pages in a copy in the build tree. With MODE=AUTO a failure is reported in one line and does
+# not fail the build, which needs no network.
 file(MAKE_DIRECTORY ${WORK})
 file(COPY ${SOURCE}/ DESTINATION ${WORK} PATTERN node_modules EXCLUDE PATTERN dist EXCLUDE)
 file(REMOVE ${WORK}/failed.log)
@@ -12,7 +12,7 @@ function(step what)
     if(MODE STREQUAL "ON")
       message(FATAL_ERROR "${what} failed; see ${WORK}/failed.log")
     endif()
-    message("the pages are not built: ${what} failed (${WORK}/failed.log); text and JSON remain")
+    message("the pages are not built: ${what} failed (see ${WORK}/failed.log); text and JSON output still work")
     set(failed TRUE PARENT_SCOPE)
   endif()
 endfunction()
@@ -34,6 +34,6 @@ if(NOT failed)
   step("building" ${NPM} run --silent build -- ${OUT})
 endif()
 if(failed)
-  file(REMOVE_RECURSE ${OUT})  # pages of another version would show another version's data
+  file(REMOVE_RECURSE ${OUT})  # pages from another version would not match this version's data
 endif()
 file(WRITE ${STAMP} "")

@@ -135,7 +135,7 @@ TEST_CASE("a plug-in that loses pairs is refuted by a script that replay takes",
   const Run others = w.touchstone("replay c.case.json --engines core,grid --subject grid");
   INFO(others.out << others.err);
   CHECK(others.code == 0);
-  CHECK(others.out.find(":stale_after_move (which is not asked here") != std::string::npos);
+  CHECK(others.out.find(":stale_after_move (not queried here") != std::string::npos);
   CHECK(others.out.find("grid") != std::string::npos);
 }
 
@@ -241,9 +241,9 @@ TEST_CASE("a subject that is too slow is not certified: exit code 3, the time to
       "--subject 'pipe:python3 slow.py'");
   INFO(r.out << r.err);
   CHECK(r.code == 3);
-  CHECK(r.out.find("BroadLevel of boxes: not certified") != std::string::npos);
+  CHECK(r.out.find("Level of boxes: not certified") != std::string::npos);
   CHECK(r.out.find("too slow for moving_crowds") != std::string::npos);
-  CHECK(r.out.find("0.1 CPU s a question); raise --case-seconds") != std::string::npos);
+  CHECK(r.out.find("0.1 CPU s per question); raise --case-seconds") != std::string::npos);
   CHECK(r.out.find("refuted") == std::string::npos);
   CHECK(std::count(r.out.begin(), r.out.end(), '\n') < 60);
 }

@@ -339,8 +339,8 @@ TEST_CASE("what is misspelt gets a suggestion, and numbers are refused in words"
   says("replay drake-1668-cubes-corner-overlp", "did you mean drake-1668-cubes-corner-overlap?");
   says("replay bullet_through_thin_wal", "did you mean bullet_through_thin_wall?");
   says("fuzz --engines fcl-libcd", "did you mean fcl-libccd");
-  says("fuzz --cases -3", "-3 is not a whole number from 1 on");
-  says("fuzz --cases 1e4", "1e4 is not a whole number");
+  says("fuzz --cases -3", "-3 is not a positive whole number");
+  says("fuzz --cases 1e4", "1e4 is not a positive whole number");
   says("fuzz --minutes 0", "0 is not a positive number");
 }
 
@@ -464,5 +464,5 @@ TEST_CASE("what triage could not say is not known in the next run", "[cli][triag
   standings("", "not asked");
   standings("--engines " + liar, "still");
   const Run empty = w.touchstone("triage clean --ledger known.db --reproducers none");
-  CHECK(empty.err.find("there is nothing in it") != std::string::npos);
+  CHECK(empty.err.find("the directory is empty") != std::string::npos);
 }

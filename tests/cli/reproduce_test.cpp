@@ -148,7 +148,7 @@ TEST_CASE("triage says at once that it cannot make the directory for reproducers
   for (const std::string taken : {"file", "file/below"}) {
     const Run r = w.touchstone("triage empty --reproducers " + taken);
     CHECK(r.code == 2);
-    CHECK(r.err.find("--reproducers: " + taken + " cannot be made a directory") != std::string::npos);
+    CHECK(r.err.find("--reproducers: " + taken + ": cannot create this directory") != std::string::npos);
   }
 }
 

@@ -122,7 +122,7 @@ TEST_CASE("a certificate's subject runs only when the command line says the same
   CHECK_FALSE(w.ran());
   const Run same = w.touchstone("certify --check c.json --jobs 1 --subject " + subject);
   INFO(same.out << same.err);
-  CHECK(same.out.find("valid, made again with the same digest") != std::string::npos);
+  CHECK(same.out.find("valid, re-run with the same digest") != std::string::npos);
   w.ran();
   // Another build of the program, even with a digest that holds, made something else.
   w.run("cp e.sh f.sh; echo '# other' >> e.sh");

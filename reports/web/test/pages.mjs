@@ -159,10 +159,10 @@ for (const name of ["case.html", "crowd.html", "motion.html", "report.html", "ma
 // A case of each kind: what of the referee's evidence is drawn, and what it says that it did.
 for (const [name, question, drawn, words] of [
   ["separate.html", "distance", ["plane", "segment"], /a plane between A and B/],
-  ["touching.html", "contact", ["point"], /a point of both/],
-  ["curved.html", "contact", ["point", "polytope", "direction"], /a polytope of \d+ true points of A − B, \d+ facets/],
+  ["touching.html", "contact", ["point"], /a point in both/],
+  ["curved.html", "contact", ["point", "polytope", "direction"], /a polytope of \d+ exact points of A − B, \d+ facets/],
   ["mesh.html", "contact", ["point"], /depth: not defined/],
-  ["motion.html", "time_of_impact", ["point"], /planes that move, checked until t = /],
+  ["motion.html", "time_of_impact", ["point"], /moving planes, checked until t = /],
   ["script.html", "candidates", [], /every pair of bodies/],
 ]) {
   const first = await open(name);

@@ -1,4 +1,4 @@
-// The referee's certificates as things to draw, rounded from their exact numbers.
+// The referee's certificates in a drawable form, rounded from their exact numbers.
 import { numberOf } from "../common/page";
 import type { CertificateJson, RefereeJson, V3 } from "./types";
 
@@ -6,7 +6,7 @@ import type { CertificateJson, RefereeJson, V3 } from "./types";
 export function rational(text: string): number {
   const [n, d] = text.split("/");
   if (!d) return Number(n);
-  // Shortened to 1,000 bits each: enough for a double, and no overflow.
+  // Both are shifted to at most about 1,000 bits: enough for a double, without overflow.
   const numerator = BigInt(n!), denominator = BigInt(d);
   const drop = BigInt(Math.max(0, denominator.toString(2).length - 1000, numerator.toString(2).length - 1000));
   return Number(numerator >> drop) / Number(denominator >> drop);
@@ -30,18 +30,18 @@ function drawnVerdict(c: CertificateJson): Drawn[] {
     const direction: V3 = r ? [r[0]!, r[1]!, r[2]!] : c.direction!;
     const offset = r ? r[3]! : c.offset!;
     const [n, length] = unit(direction);
-    const more = r && r.length > 4 ? ` (the first of ${Math.floor(r.length / 4)} planes, one a triangle)` : "";
-    return [{ kind: "plane", normal: n, offset: offset / length, words: `a plane keeps A and B apart${more}` }];
+    const more = r && r.length > 4 ? ` (the first of ${Math.floor(r.length / 4)} planes, one per triangle)` : "";
+    return [{ kind: "plane", normal: n, offset: offset / length, words: `a plane that separates A and B${more}` }];
   }
   if (c.kind === "common_point") {
     const at = (c.rationals?.slice(0, 3).map(rational) ?? c.point) as V3;
-    return [{ kind: "point", at, words: "a point that lies in both bodies" }];
+    return [{ kind: "point", at, words: "a point in both bodies" }];
   }
   return [];
 }
 
-// The polytope lies in A − B, which no picture shows well. Each of its vertices is a point of A and one of B: the edges
-// of its facets, drawn among the points of A and among those of B, are polytopes inside the two bodies.
+// The polytope lies in A − B, which is hard to draw. Each vertex is a point of A minus a point of B; connecting the
+// points of A, and those of B, along the facets' edges gives polytopes inside the two bodies.
 function drawnPolytope(c: CertificateJson): Drawn[] {
   const pairs = c.support_pairs ?? [], seen = new Set<string>();
   const edges: [V3, V3][] = [];
@@ -55,10 +55,10 @@ function drawnPolytope(c: CertificateJson): Drawn[] {
         seen.add(key);
         edges.push([from, to]);
       }
-  return edges.length ? [{ kind: "polytope", edges, words: `the ${pairs.length} points of A and of B that prove the depth, as polytopes inside them` }] : [];
+  return edges.length ? [{ kind: "polytope", edges, words: `the ${pairs.length} points of A and of B that prove the depth, as polytopes inside the bodies` }] : [];
 }
 
-// Planes that move, in the frame that travels with B: x = x_world − (B's translation at t).
+// Moving planes, given in the frame that travels with B: x = x_world − (B's translation at t).
 function drawnImpact(c: CertificateJson, t: number, originOfB: V3): Drawn[] {
   const out: Drawn[] = [];
   for (const track of c.planes ?? []) {
@@ -70,13 +70,13 @@ function drawnImpact(c: CertificateJson, t: number, originOfB: V3): Drawn[] {
     const mix = (a: string, b: string): number => (1 - s) * rational(a) + s * rational(b);
     const [n, length] = unit([0, 1, 2].map((k) => mix(from.direction[k]!, to.direction[k]!)) as V3);
     const offset = mix(from.offset, to.offset) / length + n[0] * originOfB[0] + n[1] * originOfB[1] + n[2] * originOfB[2];
-    out.push({ kind: "plane", normal: n, offset, words: `planes that move keep the bodies apart until t = ${c.clear_until}` });
+    out.push({ kind: "plane", normal: n, offset, words: `moving planes that separate the bodies until t = ${c.clear_until}` });
   }
   if (c.contact && Math.abs(rational(c.contact.t) - t) < 2e-3)
     out.push({
       kind: "point",
       at: c.contact.point.map((x, k) => rational(x) + originOfB[k]!) as V3,
-      words: `a point of both bodies at t = ${rational(c.contact.t)}`,
+      words: `a point in both bodies at t = ${rational(c.contact.t)}`,
     });
   return out;
 }
@@ -90,6 +90,6 @@ export function drawn(r: RefereeJson, question: string, t: number, originOfB: V3
   if (question === "contact" && r.depth_certificate) out.push(...drawnPolytope(r.depth_certificate));
   const depth = r.gap ? -numberOf(r.gap[1]) : NaN;
   if (r.verdict === "overlap" && Number.isFinite(gap) && Number.isFinite(depth) && r.normal)
-    out.push({ kind: "direction", along: r.normal, depth, words: "the direction of least depth: B moved so far along it is free" });
+    out.push({ kind: "direction", along: r.normal, depth, words: "the direction of least depth: moving B this far along it separates the bodies" });
   return out;
 }

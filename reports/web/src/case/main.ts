@@ -1,4 +1,4 @@
-// One case, one page: the bodies with every engine's answer and the referee's, and who is wrong.
+// The page of one case: the bodies with the answers of every engine and the referee, and which engine is wrong.
 import { LinkState, app, colourOf, commandLine, el, isDark, isTyping, nanoseconds, numberOf, pageData, short, themeButton } from "../common/page";
 import "./case.css";
 import { drawn, rational, type Drawn } from "./certificate";
@@ -21,20 +21,20 @@ const frames: (Stand | null)[][] = scripted
     : [bodies.map((b) => standAt(b, 0))];
 const moves = !scripted && frames.length > 1;
 
-// State: which query, which engine stands out, what is hidden, when.
+// State: the query, the selected engine, the hidden engines, the time.
 let query = Math.min(data.queries.length - 1, Math.max(0, link.number("q") ?? firstInteresting()));
 let chosen = link.get("engine") ?? "";
 const hidden = new Set((link.get("hide") ?? "").split(",").filter(Boolean));
 let time = link.number("t") ?? momentOf(query);
 
-// Of a time of impact, the impact: before it there is nothing to see.
+// For a time of impact, the time of the impact: nothing shows before it.
 function momentOf(i: number): number {
   const q = data.queries[i];
   const t = q?.question === "time_of_impact" && q.referee.verdict === "impact" ? numberOf(q.referee.t_hi) : 0;
   return Number.isFinite(t) ? t : 0;
 }
 
-// The question that most answer wrong; else the one about contact.
+// The question with the most wrong answers, else the one about contact.
 function firstInteresting(): number {
   const wrong = data.queries.map((q) => Object.values(q.engines ?? {}).filter((e) => e.faults.length > 0).length);
   const most = Math.max(0, ...wrong);
@@ -47,7 +47,7 @@ const colour = (engine: string): string => colourOf(engineNames.indexOf(engine))
 const refereeColour = (): string => (isDark() ? "#4ade80" : "#0a7a3f");
 
 document.title = `Touchstone: ${data.title}`;
-// Flat shapes are their own polytopes: their wires would only hide the edges.
+// Polyhedral shapes are their own polytopes: the wireframe would only hide their edges.
 const curved = shapes.some((s) => s.type === "cylinder" || s.type === "cone" || s.type === "ellipsoid");
 const parts = new Parts(link, curved ? [] : ["polytope"], () => refresh());
 const view = el("div", { id: "view" });
@@ -66,8 +66,8 @@ app().append(
   el("div", { id: "layout" },
     el("section", { id: "left" }, parts.element, view, timeline,
       el("p", { class: "soft screen-only", id: "keys" },
-        "Drag to turn, wheel to zoom, right button to move. Keys: arrows turn, + and − zoom, f whole scene, c contact, n and p next and previous engine, q next question, 1 to 6 what is drawn, " +
-        (frames.length > 1 ? "[ and ] back and forth in time, space plays, " : "") + "l light or dark.")),
+        "Drag to rotate, wheel to zoom, right button to pan. Keys: arrows rotate, + and − zoom, f whole scene, c contact, n and p next and previous engine, q next question, 1 to 6 choose what is drawn, " +
+        (frames.length > 1 ? "[ and ] step back and forward in time, space plays, " : "") + "l light or dark.")),
     el("section", { id: "right" }, tabs, words, table, trace, el("h2", {}, "Ask again"), commands,
       el("h2", {}, "Bodies"), bodyList(), data.case.source ? el("p", { class: "soft" }, `Source: ${data.case.source}`) : null)),
 );
@@ -84,7 +84,7 @@ function bodyList(): HTMLElement {
   return list;
 }
 
-// Where there is no keyboard, and for who does not read about keys.
+// Buttons for devices without a keyboard and for readers who skip the list of keys.
 function lookButtons(p: Picture): HTMLElement[] {
   const whole = el("button", { type: "button", title: "key f" }, "whole scene"), contact = el("button", { type: "button", title: "key c", id: "near" }, "go to the contact");
   whole.addEventListener("click", () => lookAtAll());
@@ -107,10 +107,10 @@ try {
   });
   parts.element.append(el("span", { class: "grow" }), ...lookButtons(picture));
 } catch (e) {
-  view.append(el("p", { class: "soft", style: "padding:1rem" }, `No picture: this browser draws no WebGL (${String(e)}). The table says the same in numbers.`));
+  view.append(el("p", { class: "soft", style: "padding:1rem" }, `No picture: this browser does not support WebGL (${String(e)}). The table has the same results in numbers.`));
 }
 
-/** Where arrows begin: what the referee or the engine points at, else between the bodies. */
+/** Where arrows begin: the contact or witness points of the engine or the referee, else between the bodies. */
 function anchorOf(q: QueryJson, e?: EngineAnswer): V3 {
   const points = e?.answer.manifold?.map((m) => m.position).filter((p) => p.every(Number.isFinite)) ?? [];
   if (points.length > 0) return [0, 1, 2].map((k) => points.reduce((s, p) => s + p[k]! / points.length, 0)) as V3;
@@ -234,8 +234,8 @@ function drawTable(q: QueryJson): void {
 function faultLines(e: EngineAnswer): HTMLElement[] {
   const lines = e.faults.slice(0, 4).map((f) => el("div", {}, el("b", {}, f.fault.replaceAll("_", " ")), `: ${f.words}`));
   if (e.faults.length > 4) lines.push(el("div", {}, `and ${e.faults.length - 4} more`));
-  if (e.blame === "representation") lines.push(el("div", {}, "blame: its rounding of the scene; right for the scene as received"));
-  if (e.blame === "algorithm") lines.push(el("div", {}, "blame: its algorithm; wrong for the scene as received too"));
+  if (e.blame === "representation") lines.push(el("div", {}, "blame: rounding of the scene; right for the scene as received"));
+  if (e.blame === "algorithm") lines.push(el("div", {}, "blame: the algorithm; also wrong for the scene as received"));
   return lines;
 }
 
@@ -261,7 +261,7 @@ function choose(name: string): void {
 }
 const q = (): QueryJson => data.queries[query]!;
 
-// The slider: t of the step, or the queries of a script.
+// The slider sets the time t in the step, or the query of a script.
 let slider: HTMLInputElement | null = null;
 const clock = el("output", { id: "clock", class: "mono" });
 let playing = 0;
@@ -293,7 +293,7 @@ function drawTimeline(): void {
   if (!slider) return;
   slider.value = String(time);
   clock.value = scripted ? `query ${Math.round(time) + 1} of ${frames.length}` : `t = ${time.toFixed(4)}`;
-  // Marks at the impact that each engine states, and at the referee's.
+  // Marks at the impact reported by each engine and by the referee.
   const impacts = data.queries.filter((x) => x.question === "time_of_impact");
   tick.replaceChildren(...impacts.flatMap((x) => [x.referee.t_hi, ...Object.values(x.engines ?? {}).map((e) => e.answer.toi)])
     .map(numberOf).filter(Number.isFinite).map((t) => el("option", { value: String(t) })));
@@ -308,19 +308,19 @@ function refresh(): void {
   drawTimeline();
   const evidence = allDrawn(now).filter((d) => parts.has(d.kind === "polytope" ? "polytope" : "certificate"));
   const stages = stageTable(data, now, colour);
-  trace.replaceChildren(...(stages ? [el("h2", {}, "Stages of the engines that are wrong"), stages] : []));
+  trace.replaceChildren(...(stages ? [el("h2", {}, "Stages of the wrong engines"), stages] : []));
   words.replaceChildren(
     el("p", {}, el("span", { class: "swatch", style: `background:${refereeColour()}` }), el("b", {}, "referee: "), refereeLine(now)),
     ...[...new Set(evidence.map((d) => d.words))].map((w) => el("p", { class: "soft" }, `drawn: ${w}`)),
     how);
   how.replaceChildren(el("summary", { class: "soft" }, "how the referee knows"), el("ul", { class: "soft" }, ...refereeTrace(now).map((x) => el("li", {}, x))));
-  // Of the engine chosen, or of the only one that is wrong: the smaller case and the program against its own API.
+  // Commands for the selected engine, or the only wrong one: the smaller case and the program against its own API.
   const wrong = engineNames.filter((n) => (now.engines?.[n]?.faults.length ?? 0) > 0);
   const of = wrong.includes(chosen) ? chosen : wrong.length === 1 ? wrong[0]! : (wrong.find((n) => data.engines[n]?.programs?.some((p) => p.question === now.question)) ?? "");
   const asked = data.command.replace(/^\S+ replay /, "");
   const open = document.querySelector<HTMLDetailsElement>("#program")?.open ?? false;
   commands.replaceChildren(commandLine(data.command), ...(of
-    ? [el("p", { class: "soft" }, `What ${of} gets wrong, as the smallest case:`), commandLine(`./touchstone shrink ${asked} --engine ${of}`), ...standAlone(data, of, now.question, asked)]
+    ? [el("p", { class: "soft" }, `The smallest case that ${of} gets wrong:`), commandLine(`./touchstone shrink ${asked} --engine ${of}`), ...standAlone(data, of, now.question, asked)]
     : []));
   const program = document.querySelector<HTMLDetailsElement>("#program");
   if (program) program.open = open;

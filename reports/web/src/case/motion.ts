@@ -1,4 +1,4 @@
-// Where bodies are: x(t) = x0 + v·t, q(t) = exp(t·ω) ∘ q0 during the step; and by a script, query after query.
+// Poses of bodies: during the step, x(t) = x0 + v·t and q(t) = exp(t·ω) ∘ q0; in a script, one per query.
 import { Quaternion, Vector3 } from "three";
 import type { BodyJson, PoseJson, StepJson, V3 } from "./types";
 
@@ -9,7 +9,7 @@ export interface Stand {
 
 const stand = (p: PoseJson | undefined): Stand => {
   const q = p?.rotation ?? [0, 0, 0, 1];
-  // Hypot of the largest first, so that quaternions of any length survive.
+  // Divides by the largest entry first, so that quaternions of any length neither overflow nor underflow.
   const m = Math.max(...q.map(Math.abs));
   return {
     position: p?.translation ?? [0, 0, 0],
@@ -30,7 +30,7 @@ export function standAt(body: BodyJson, t: number): Stand {
   };
 }
 
-/** Per query of the script: each body's stand, or null where it is not present. */
+/** For each query of the script, the pose of every body, or null if it is absent. */
 export function standsOfScript(bodies: BodyJson[], script: StepJson[]): (Stand | null)[][] {
   const now: (Stand | null)[] = bodies.map(() => null);
   const frames: (Stand | null)[][] = [];

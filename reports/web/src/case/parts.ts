@@ -1,12 +1,12 @@
-// What is drawn of each answer: boxes to tick, and keys 1 to 6.
+// Check boxes, and keys 1 to 6, that choose which parts of each answer are drawn.
 import { LinkState, el, isTyping } from "../common/page";
 
 export const partNames = ["normals", "depths", "points", "lines", "certificate", "polytope"] as const;
 export type PartName = (typeof partNames)[number];
 const titles: Record<PartName, string> = {
-  normals: "arrows: the direction in which B leaves", depths: "thick bars: the depth along the normal, to scale", points: "balls: contact and witness points",
-  lines: "thin lines: closest points, candidate pairs", certificate: "the referee's plane, point or direction of depth",
-  polytope: "the points of A and B that prove the depth, as two wire polytopes",
+  normals: "arrows: the direction in which B separates from A", depths: "thick bars: the depth along the normal, to scale", points: "balls: contact and witness points",
+  lines: "thin lines: closest points, candidate pairs", certificate: "the referee's plane, point or depth direction",
+  polytope: "the points of A and B that prove the depth, as two wireframe polytopes",
 };
 
 export class Parts {

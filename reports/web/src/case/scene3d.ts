@@ -1,5 +1,5 @@
-// The picture: bodies, the referee's certificate, the engines' normals and points. The GPU has floats, so everything
-// is drawn relative to the centre of the scene and divided by its size; both are taken in doubles.
+// The 3-D picture: bodies, the referee's certificate, the engines' normals and points. The GPU uses floats, so everything
+// is drawn relative to the centre of the scene and divided by its size; both are computed in doubles.
 import {
   AmbientLight, ArrowHelper, Color, DirectionalLight, DoubleSide, EdgesGeometry, GridHelper, Group, LineBasicMaterial,
   LineSegments, Mesh, MeshBasicMaterial, MeshStandardMaterial, Object3D, PerspectiveCamera, PlaneGeometry, Quaternion,
@@ -16,16 +16,16 @@ export interface Mark {
   strong: boolean;
   at: V3;
   normal?: V3 | undefined;
-  /** What the depth is along, when the arrow itself is not drawn. */
+  /** The direction of the depth if the normal's arrow is not drawn. */
   along?: V3 | undefined;
   depth?: number | undefined;
   points: V3[];
   segment?: [V3, V3] | undefined;
-  /** Pairs of a crowd: one thing to draw, thin. */
+  /** Pairs of a crowd, drawn as one set of thin lines. */
   lines?: [V3, V3][] | undefined;
 }
 
-/** Paler than what engines are drawn in. */
+/** Paler than the engines' colours. */
 export const bodyColours = ["#7f93ad", "#c4b184"] as const;
 const up = new Vector3(0, 0, 1);
 
@@ -43,7 +43,7 @@ export class Picture {
   private size: number;
   private focus: V3 | null = null;
   private drawnSize = "";
-  private ready = false;  // nothing is drawn before there is all that is to be seen
+  private ready = false;  // nothing is drawn until the marks are set
   private smallest = 1;  // reach of the smallest body, in the picture's unit
 
   constructor(private data: CasePage, stands: (Stand | null)[][], host: HTMLElement, moved: () => void) {
@@ -82,7 +82,7 @@ export class Picture {
   private makeBodies(): void {
     const { shapes, bodies } = this.data.case.scene;
     const many = bodies.length > 2;
-    // Bodies of one shape share it; in a crowd each is small, and coarser.
+    // Bodies share the geometry of their shape. In a crowd each body is small, so its geometry is coarser.
     const made = new Map<number, BufferGeometry>(), materials = new Map<string, MeshStandardMaterial>();
     const fine = bodies.length > 60 ? 0.25 : 1;
     bodies.forEach((b, i) => {
@@ -107,7 +107,7 @@ export class Picture {
     });
   }
 
-  // Where the origins of moving bodies go.
+  // Draws the paths of the moving bodies' origins.
   private makeTrails(frames: (Stand | null)[][]): void {
     const { bodies, shapes } = this.data.case.scene;
     const reach = bodies.map((b) => reachOf(shapes[b.shape]!)).filter((r) => r > 0);
@@ -134,7 +134,7 @@ export class Picture {
       g.quaternion.copy(s.rotation);
       const shape = g.userData["plane"] as { normal: V3; offset: number } | undefined;
       if (!shape) return void g.position.copy(this.local(s.position));
-      // The patch of a half-space is the part of its plane nearest to the centre of the picture.
+      // The patch drawn for a half-space is the part of its plane nearest the centre of the picture.
       const length = Math.hypot(...shape.normal);
       const n = new Vector3(...shape.normal).normalize().applyQuaternion(s.rotation);
       const distance = this.local(s.position).dot(n) + shape.offset / length / this.size;
@@ -194,7 +194,7 @@ export class Picture {
   private arrow(at: Vector3, n: Vector3, colour: string, length: number, head: number): ArrowHelper {
     const a = new ArrowHelper(n, at, length, new Color(colour), head * 6, head * 3.5);
     for (const part of [a.line, a.cone]) {
-      // Transparent things are drawn last, over the bodies.
+      // Transparent objects are drawn last, over the bodies.
       Object.assign(part.material as MeshBasicMaterial, { depthTest: false, transparent: true });
       part.renderOrder = 2;
     }
@@ -268,13 +268,13 @@ export class Picture {
     this.scene.add(this.grid);
   }
 
-  /** The whole scene. */
+  /** Shows the whole scene. */
   fit(): void {
     this.controls?.target.set(0, 0, 0);
     this.look(new Vector3(1.35, -2.1, 1.15));
   }
 
-  /** The place of contact, near. */
+  /** Moves close to the contact. */
   approach(): void {
     if (!this.focus) return;
     const target = this.local(this.focus);
@@ -328,7 +328,7 @@ export class Picture {
     const distance = this.controls ? this.camera.position.distanceTo(this.controls.target) : 3;
     this.camera.near = Math.max(1e-7, distance * 1e-3);
     this.camera.updateProjectionMatrix();
-    // Points and arrows keep their size on the screen when one comes near; depths keep their length.
+    // Up close, points and arrows keep their size on the screen; depths keep their length in the scene.
     const size = Math.min(1, distance / 2);
     this.scene.traverse((o) => {
       if (o.userData["pixels"]) o.scale.setScalar(size);
@@ -338,13 +338,13 @@ export class Picture {
   }
 }
 
-// Centre and size of what moves, over all stands. Half-spaces have no size; a scene of them alone has size 1.
+// Centre and size of the scene over all frames. Half-spaces have no size; a scene with nothing else has size 1.
 function frameOf(data: CasePage, frames: (Stand | null)[][]): [V3, number] {
   const low: V3 = [Infinity, Infinity, Infinity], high: V3 = [-Infinity, -Infinity, -Infinity];
   const { shapes, bodies } = data.case.scene;
   const reach = bodies.map((b) => reachOf(shapes[b.shape]!));
   const sized = reach.filter((r) => r > 0).sort((a, b) => a - b);
-  // A mesh or body a thousand times the smallest is the ground: the picture is about the rest.
+  // A mesh or body a thousand times larger than the smallest is taken as the ground and does not set the size.
   const most = (sized[0] ?? 1) * 1000;
   for (const stands of frames)
     stands.forEach((s, i) => {

@@ -1,6 +1,6 @@
 import type { ShapeJson } from "./types";
 
-/** A shape in words: "box, half extents (0.5 0.5 0.5)". */
+/** Describes a shape: "box, half extents (0.5 0.5 0.5)". */
 export function shapeLine(s: ShapeJson): string {
   const parts: string[] = [s.type.replace("_", "-")];
   for (const [k, v] of Object.entries(s)) {

@@ -1,11 +1,11 @@
-// Geometry of every shape kind in the body's frame, as the scene defines it: capsules, cylinders and cones along z.
+// Geometry of every shape in the body's frame, as the scene defines it: capsules, cylinders and cones along z.
 import {
   BoxGeometry, BufferGeometry, CapsuleGeometry, ConeGeometry, CylinderGeometry, Float32BufferAttribute, Matrix4,
   PlaneGeometry, Quaternion, SphereGeometry, Vector3,
 } from "three";
 import type { ShapeJson, V3 } from "./types";
 
-/** Radius of a ball about the body's origin that holds the shape; 0 for a half-space. */
+/** Radius of a ball about the body's origin that contains the shape; 0 for a half-space. */
 export function reachOf(s: ShapeJson): number {
   switch (s.type) {
     case "sphere": return s.radius!;
@@ -29,7 +29,7 @@ function triangles(vertices: V3[], faces: V3[], scale: number): BufferGeometry {
   return g;
 }
 
-// A hull without faces is flat: the fan of every three vertices covers it, and it has few.
+// A hull without faces is flat and has few vertices: the triangles of all vertex triples cover it.
 function flat(vertices: V3[]): V3[] {
   const faces: V3[] = [];
   const n = Math.min(vertices.length, 24);
@@ -37,8 +37,8 @@ function flat(vertices: V3[]): V3[] {
   return faces;
 }
 
-/** `scale`: from the scene's unit to the picture's. `ground`: half the side of the patch that stands for a half-space.
- * `fine`: of how many parts round shapes are, 1 for a close look. */
+/** `scale`: from the scene's unit to the picture's. `ground`: half the side of the patch drawn for a half-space.
+ * `fine`: the resolution of curved shapes, 1 for close-ups. */
 export function geometryOf(s: ShapeJson, faces: V3[] | undefined, scale: number, ground: number, fine = 1): BufferGeometry {
   const alongZ = new Matrix4().makeRotationX(Math.PI / 2);
   switch (s.type) {

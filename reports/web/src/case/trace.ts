@@ -1,35 +1,35 @@
-// How the answers came about: what the referee did, stage by stage; at which stage each wrong engine is wrong first;
-// and the program that shows it against the engine's own API.
+// How the answers came about: the referee's stages, the first wrong stage of each wrong engine, and the program that
+// shows the fault against the engine's own API.
 import { commandLine, el, numberOf, short } from "../common/page";
 import type { CasePage, QueryJson } from "./types";
 
 const arithmetic = ["doubles with proven error bounds", "extended precision with error bounds", "exact integers"];
 const spaced = (s: string): string => s.replaceAll("_", " ");
 
-/** What the referee did for this question, a line a stage. */
+/** What the referee did for this question, one line per stage. */
 export function refereeTrace(q: QueryJson): string[] {
   const r = q.referee;
-  if (r.overlapping_pairs) return ["every pair of bodies decided by itself, as for one pair"];
+  if (r.overlapping_pairs) return ["every pair of bodies is decided separately"];
   if (q.question === "time_of_impact") {
     const c = r.certificate;
-    if (!c) return ["no certificate of a form that `touchstone check` takes"];
+    if (!c) return ["no certificate in a form that `touchstone check` accepts"];
     const lines = [];
-    if (c.planes?.length) lines.push(`apart from the start: ${c.planes.length} track${c.planes.length > 1 ? "s" : ""} of planes that move, checked until t = ${c.clear_until}`);
-    if (c.contact) lines.push(`together: a point of both bodies at t = ${short(numberOf(r.t_hi), 15)}, with rational coordinates`);
+    if (c.planes?.length) lines.push(`apart from the start: ${c.planes.length} track${c.planes.length > 1 ? "s" : ""} of moving planes, checked until t = ${c.clear_until}`);
+    if (c.contact) lines.push(`together: a point in both bodies at t = ${short(numberOf(r.t_hi), 15)}, with rational coordinates`);
     return lines;
   }
   const lines: string[] = [];
-  if (r.filter_level !== undefined) lines.push(`verdict: settled in ${arithmetic[r.filter_level] ?? "exact arithmetic"}`);
+  if (r.filter_level !== undefined) lines.push(`verdict: decided in ${arithmetic[r.filter_level] ?? "exact arithmetic"}`);
   const v = r.verdict_certificate;
-  if (v?.kind === "separating_plane") lines.push(`evidence: ${v.rationals && v.rationals.length > 4 ? `${Math.floor(v.rationals.length / 4)} planes` : "a plane"} between A and B${v.rationals?.length ? ", with rational coefficients" : ""}`);
-  if (v?.kind === "common_point") lines.push(`evidence: a point of both${v.rationals?.length ? ", with rational coordinates" : ""}`);
+  if (v?.kind === "separating_plane") lines.push(`certificate: ${v.rationals && v.rationals.length > 4 ? `${Math.floor(v.rationals.length / 4)} planes` : "a plane"} between A and B${v.rationals?.length ? ", with rational coefficients" : ""}`);
+  if (v?.kind === "common_point") lines.push(`certificate: a point in both${v.rationals?.length ? ", with rational coordinates" : ""}`);
   if (v?.note) lines.push(v.note);
   const lo = numberOf(r.gap?.[0]), hi = numberOf(r.gap?.[1]);
   if (Number.isFinite(lo)) lines.push(`signed distance: between ${lo} and ${hi}`);
-  else if (r.verdict === "overlap") lines.push("depth: not defined, a mesh is a surface without inside");
+  else if (r.verdict === "overlap") lines.push("depth: not defined, because a mesh is a surface without an inside");
   const d = r.depth_certificate;
   if (d?.kind === "inner_polytope")
-    lines.push(`depth at least ${short(numberOf(d.offset), 12)}: ` + (d.facets?.length ? `a polytope of ${d.support_pairs!.length} true points of A − B, ${d.facets.length} facets, around the origin` : (d.note ?? "")));
+    lines.push(`depth at least ${short(numberOf(d.offset), 12)}: ` + (d.facets?.length ? `a polytope of ${d.support_pairs!.length} exact points of A − B, ${d.facets.length} facets, around the origin` : (d.note ?? "")));
   return lines;
 }
 
@@ -38,7 +38,7 @@ const heads: Record<string, string> = {
   normal: "normal", depth: "depth", manifold: "points", cast: "impact",
 };
 
-/** The engines that are wrong about this pair, by stage; null where none was traced. */
+/** The engines that are wrong about this pair, by stage; null if none was traced. */
 export function stageTable(data: CasePage, q: QueryJson, colour: (engine: string) => string): HTMLElement | null {
   const rows = Object.entries(data.engines).flatMap(([name, e]) => {
     const pair = e.stages?.find((s) => s.a === q.a && s.b === q.b);
@@ -49,10 +49,10 @@ export function stageTable(data: CasePage, q: QueryJson, colour: (engine: string
   const body = el("tbody", {}, ...rows.map(({ name, stages }) => {
     const first = stages.findIndex((s) => s.faults.length > 0);
     return el("tr", { "data-stages": name }, el("td", {}, el("span", { class: "swatch", style: `background:${colour(name)}` }), name),
-      el("td", { class: "bad" }, first < 0 ? "right when asked alone" : stages[first]!.faults.map((f) => spaced(f.replace(/^\S+ /, ""))).join(", ")), ...stages.map((s, i) =>
-      el("td", { class: s.faults.length ? (i === first ? "bad first" : "bad") : "soft", title: s.faults.length ? s.faults.map(spaced).join(", ") : "right, or not asked" }, s.faults.length ? "✗" : "·")));
+      el("td", { class: "bad" }, first < 0 ? "right for the pair alone" : stages[first]!.faults.map((f) => spaced(f.replace(/^\S+ /, ""))).join(", ")), ...stages.map((s, i) =>
+      el("td", { class: s.faults.length ? (i === first ? "bad first" : "bad") : "soft", title: s.faults.length ? s.faults.map(spaced).join(", ") : "right, or no such answer" }, s.faults.length ? "✗" : "·")));
   }));
-  return el("div", {}, el("p", { class: "soft" }, "The two bodies alone, in the order in which an engine works. Framed: where it is wrong first, and how. ·: right, or no such answer."),
+  return el("div", {}, el("p", { class: "soft" }, "The two bodies alone, in the order an engine works. Framed: the first wrong stage. ·: right, or no such answer."),
     el("div", { class: "scroll" }, el("table", { class: "stages" }, el("thead", {}, el("tr", {}, el("th", {}, "engine"), el("th", {}, "wrong first"), ...names.map((n) => el("th", { title: n }, heads[n] ?? n)))), body)));
 }
 
@@ -62,7 +62,7 @@ export function standAlone(data: CasePage, engine: string, question: string, ask
   if (!e?.has_reproducer) return [];
   const p = e.programs?.find((x) => x.question === question);
   const command = commandLine(`./touchstone reproduce ${asked} --engine ${engine}${p ? ` --key ${p.key}` : ""} -o reproduce.cpp`);
-  if (!p) return [el("p", { class: "soft" }, `The stand-alone test against ${e.library}'s own API, if that has the question:`), command];
+  if (!p) return [el("p", { class: "soft" }, `The stand-alone test against ${e.library}'s own API, if it supports the question:`), command];
   const copy = el("button", { type: "button" }, "copy");
   copy.addEventListener("click", () => void navigator.clipboard?.writeText(p.program).then(() => (copy.textContent = "copied")));
   const save = el("a", { download: "reproduce.cpp", href: `data:text/x-c++src,${encodeURIComponent(p.program)}` }, "save");

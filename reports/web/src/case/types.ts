@@ -1,4 +1,4 @@
-// The data of the page of one case, as `touchstone view` writes it.
+// The data of a case page, as written by `touchstone view`.
 export type V3 = [number, number, number];
 
 export interface ShapeJson {
@@ -74,7 +74,7 @@ export interface EngineAnswer {
   ruling: string;
   right: boolean;
   not_judged?: { claim: string; by_definition: boolean }[];
-  /** Of L, where the engine's own tolerance is wide. */
+  /** The engine's own tolerance as a fraction of L, if it is wide. */
   claimed_in_l?: unknown;
   blame: string;
   undecided?: boolean;
@@ -99,14 +99,14 @@ export interface CasePage {
     family?: string;
     scene: { name?: string; shapes: ShapeJson[]; bodies: BodyJson[]; script?: StepJson[] };
   };
-  /** Triangles of hulls, by index of the shape. */
+  /** Triangles of hulls, by shape index. */
   hull_faces: Record<string, V3[]>;
   engines: Record<string, {
     library: string;
     version: string;
     settings: string;
     has_reproducer?: boolean;
-    /** Of an engine that is wrong: a pair's stages, and its programs, one a question. */
+    /** For an engine that is wrong: the stages of each pair, and its programs, one per question. */
     stages?: { a: number; b: number; stages: { name: string; faults: string[] }[] }[];
     programs?: { key: string; question: string; program: string }[];
   }>;

@@ -1,4 +1,4 @@
-// A certificate of a broad phase: is it conservative, what was tried, what is not proved; or what refutes it.
+// A broad-phase certificate: is the subject conservative, what was tried, what is not proved; or what refutes it.
 import { LinkState, app, commandLine, el, grouped, numberOf, pageData, themeButton } from "../common/page";
 import { drawScript } from "./script";
 import type { CertificatePage, Evidence, FaultClass, Level, Refutation, TooSlow } from "./types";
@@ -11,11 +11,11 @@ document.title = `Touchstone: ${data.title}`;
 const spaced = (s: string): string => s.replaceAll("_", " ");
 const levels = (["boxes", "bodies"] as const).filter((l) => c.verdict[l] !== undefined && c.verdict[l] !== "not_asked");
 const about: Record<Level, string> = {
-  boxes: "Candidates must contain every pair of the boxes given that overlap, touching included. The boxes are exact in the subject's arithmetic.",
-  bodies: "Candidates must contain every pair of bodies that truly overlap, decided in exact arithmetic, whatever boxes the subject makes.",
+  boxes: "The candidates must contain every overlapping pair of the given boxes, touching included. The boxes are exact in the subject's arithmetic.",
+  bodies: "The candidates must contain every truly overlapping pair of bodies, decided in exact arithmetic, whatever boxes the subject computes.",
 };
 const kinds: Record<string, string> = {
-  exhaustive: "every case there is, up to symmetry", adversarial: "aimed at where broad phases break", temporal: "long histories", random: "drawn from a stated distribution",
+  exhaustive: "every case, up to symmetry", adversarial: "aimed at known weaknesses of broad phases", temporal: "long histories", random: "drawn from a stated distribution",
 };
 const badge = (verdict: string): HTMLElement => {
   const [sign, style] = verdict === "certified" ? ["✓", "good"] : verdict === "refuted" ? ["✗", "bad"] : ["–", "warn"];
@@ -26,7 +26,7 @@ const price = (truth: number, reported: number): string => (truth === 0 ? "–" 
 const sum = (list: Evidence[], key: "cases" | "queries" | "pairs_true" | "pairs_reported" | "refused" | "steps" | "undecided"): number => list.reduce((s, e) => s + e[key], 0);
 
 const kindWords: Record<string, string> = {
-  solid: "solid pair", touching: "pair that touches", moving: "pair that meets within the step", numbers: "", unbounded: "infinite box", invalid: "NaN, infinite or inverted box",
+  solid: "solid pair", touching: "touching pair", moving: "pair that meets within the step", numbers: "", unbounded: "infinite box", invalid: "NaN, infinite or inverted box",
 };
 const inWords = (f: FaultClass): string => `${spaced(f.fault)}${kindWords[f.kind] ? `, ${kindWords[f.kind]}` : ""}`;
 
@@ -38,7 +38,7 @@ function tile(level: Level): HTMLElement {
   const cut = list.some((e) => e.cases < e.population);
   return el("a", { class: `tile ${c.verdict[level]!.replaceAll(" ", "_")}`, href: `#${level}` }, el("div", {}, `Level of ${level}: `, badge(c.verdict[level]!)),
     el("div", { class: "soft" }, r ? `${inWords(r)}, shown with ${r.bodies} bodies in ${r.steps} steps${others ? `; ${others} more ${others > 1 ? "kinds" : "kind"} of fault` : ""}` :
-      slow.length ? `too slow for ${slow.map((x) => spaced(x.evidence)).join(", ")}: no fault was seen, and nothing is certified` : `${grouped(sum(list, "cases"))} cases${cut ? " (some are samples)" : ""}, ${grouped(sum(list, "pairs_true"))} true pairs, none lost; price ${price(sum(list, "pairs_true"), sum(list, "pairs_reported"))}`));
+      slow.length ? `too slow for ${slow.map((x) => spaced(x.evidence)).join(", ")}: no fault was seen, but nothing is certified` : `${grouped(sum(list, "cases"))} cases${cut ? " (some are samples)" : ""}, ${grouped(sum(list, "pairs_true"))} true pairs, none lost; price ${price(sum(list, "pairs_true"), sum(list, "pairs_reported"))}`));
 }
 
 function facts(): HTMLElement {
@@ -53,8 +53,8 @@ function facts(): HTMLElement {
   fact("Hash of the plug-in", c.plugin_hash);
   fact("Arithmetic", `${u > 2 ** -50 ? "float" : "double"}, unit roundoff ${u.toExponential(2)}`);
   fact("Source of its tolerances", c.card.source);
-  fact("Motion", c.sweeps ? "asked too: candidates of the whole step" : "not asked: the subject is not said to sweep");
-  fact("Scope", `${c.scope}, seed ${c.seed}${c.limit ? `, at most ${grouped(c.limit)} cases an evidence` : ""}`);
+  fact("Motion", c.sweeps ? "tested: candidates over the whole step" : "not tested: --sweeps was not given");
+  fact("Scope", `${c.scope}, seed ${c.seed}${c.limit ? `, at most ${grouped(c.limit)} cases per suite` : ""}`);
   fact("Left out", c.without.map(spaced).join(", "));
   fact("Made by", c.program);
   fact("Digest", c.digest);
@@ -62,7 +62,7 @@ function facts(): HTMLElement {
 }
 
 function evidenceTable(level: Level): HTMLElement {
-  const heads: [string, string][] = [["evidence", ""], ["what was tried", ""], ["cases", "n"], ["share", "n"], ["refused", "n"], ["undecided", "n"], ["steps", "n"], ["queries", "n"], ["true pairs", "n"], ["reported", "n"], ["price", "n"]];
+  const heads: [string, string][] = [["suite", ""], ["what was tried", ""], ["cases", "n"], ["share", "n"], ["refused", "n"], ["undecided", "n"], ["steps", "n"], ["queries", "n"], ["true pairs", "n"], ["reported", "n"], ["price", "n"]];
   const body = el("tbody");
   for (const e of c.evidence.filter((x) => x.level === level)) {
     const n = (x: string, style = ""): HTMLElement => el("td", { class: `n ${style}` }, x);
@@ -75,7 +75,7 @@ function evidenceTable(level: Level): HTMLElement {
   return el("div", { class: "scroll" }, el("table", { class: "evidence" }, el("thead", {}, el("tr", {}, ...heads.map(([h, s]) => el("th", { class: s }, h)))), body));
 }
 
-// Every class of fault and every evidence that shows it.
+// Every class of fault and every suite that shows it.
 function faultTable(level: Level): HTMLElement[] {
   const list = c.faults.filter((f) => f.level === level);
   if (list.length === 0) return [];
@@ -83,13 +83,13 @@ function faultTable(level: Level): HTMLElement[] {
   for (const f of list)
     body.append(el("tr", { "data-fault": `${f.fault}/${f.kind}/${f.evidence}` }, el("td", { class: "bad" }, inWords(f)), el("td", { class: "name" }, spaced(f.evidence)), el("td", { class: "n" }, grouped(f.cases)),
       el("td", { class: "n" }, f.kind === "solid" ? `${Number((100 * f.share).toPrecision(2))} %` : "–"), el("td", { class: "tried" }, f.words)));
-  const heads: [string, string][] = [["fault", ""], ["evidence", ""], ["cases", "n"], ["overlap lost", "n"], ["for example", ""]];
+  const heads: [string, string][] = [["fault", ""], ["suite", ""], ["cases", "n"], ["overlap lost", "n"], ["example", ""]];
   return [el("h3", {}, "Faults seen"), el("div", { class: "scroll" }, el("table", { class: "faults" }, el("thead", {}, el("tr", {}, ...heads.map(([h, s]) => el("th", { class: s }, h)))), body))];
 }
 
 function slowLine(t: TooSlow): HTMLElement {
-  const enough = t.sufficient ? `it answers within ${t.sufficient}: --case-seconds ${t.sufficient}` : t.tried > t.allowed ? `nor within ${t.tried}` : "raise --case-seconds";
-  return el("p", { class: "slow" }, el("b", { class: "warn" }, "too slow"), ` for ${spaced(t.evidence)}: no answer within ${t.allowed} CPU seconds a question in case ${t.index}, ${t.bodies} bodies, ${grouped(t.steps)} steps; ${enough}.`);
+  const enough = t.sufficient ? `it answers within ${t.sufficient}: use --case-seconds ${t.sufficient}` : t.tried > t.allowed ? `nor within ${t.tried}` : "raise --case-seconds";
+  return el("p", { class: "slow" }, el("b", { class: "warn" }, "too slow"), ` for ${spaced(t.evidence)}: no answer within ${t.allowed} CPU seconds per question in case ${t.index}, ${t.bodies} bodies, ${grouped(t.steps)} steps; ${enough}.`);
 }
 
 function refutation(r: Refutation): HTMLElement {
@@ -113,11 +113,11 @@ function levelSection(level: Level): HTMLElement {
   for (const r of c.refutations) if (r.level === level) out.append(refutation(r));
   for (const t of c.too_slow) if (t.level === level) out.append(slowLine(t));
   out.append(...faultTable(level), evidenceTable(level));
-  // Of a draw without a miss, the rate is below 3/N at 95 % (the rule of three).
+  // If N random cases show no miss, the miss rate is below 3/N with 95 % confidence (the rule of three).
   if (c.verdict[level] === "certified")
     for (const e of c.evidence)
       if (e.level === level && e.kind === "random" && e.answered > 0)
-        out.append(el("p", { class: "bound" }, `${spaced(e.name)}: fewer than ${Number((3 / e.answered).toPrecision(2))} of such scenes lose a pair (95 %).`));
+        out.append(el("p", { class: "bound" }, `${spaced(e.name)}: miss rate below ${Number((3 / e.answered).toPrecision(2))} per scene (95 % confidence).`));
   return out;
 }
 
@@ -126,7 +126,7 @@ app().append(
     el("div", { class: "controls screen-only" }, themeButton(link, () => undefined))),
   el("main", {}, el("div", { id: "tiles" }, ...levels.map(tile)), facts(), ...levels.map(levelSection),
     el("h2", {}, "What this does not prove"), el("ul", { id: "not-proved" }, ...c.not_proved.map((x) => el("li", {}, x))),
-    el("h2", {}, "Make it again"), el("p", { class: "soft" }, "Price: superfluous pairs per true pair. The certificate can be made again from itself alone; exit code 1 says that it does not hold."),
+    el("h2", {}, "Re-run it"), el("p", { class: "soft" }, "Price: superfluous pairs per true pair. The certificate can be re-run from its own data alone; exit code 1 means that it does not hold."),
     commandLine(`./touchstone certify --check ${data.file || "CERTIFICATE.json"}`),
     el("p", { class: "soft screen-only" }, "Key l: light or dark.")),
 );

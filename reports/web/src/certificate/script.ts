@@ -1,4 +1,4 @@
-// The script that refutes, as people read it: its steps, and the intervals of the boxes where it asks.
+// The refuting script for a reader: its steps, and the intervals of the boxes at the query that fails.
 import { el, short } from "../common/page";
 import { shapeLine } from "../case/shape_line";
 import type { ShapeJson, StepJson, V3 } from "../case/types";
@@ -6,7 +6,7 @@ import type { Refutation } from "./types";
 
 type Box = [V3, V3];
 
-// The axis-aligned box of a shape that is not turned; nothing for one that would need more than arithmetic here.
+// The axis-aligned box of an unrotated shape; null for shapes whose box takes more than simple arithmetic.
 function boxOf(s: ShapeJson, at: V3): Box | null {
   const h: V3 | null = s.type === "box" ? s.half_extents! : s.type === "sphere" ? [s.radius!, s.radius!, s.radius!] : s.type === "ellipsoid" ? s.semi_axes!
     : s.type === "capsule" ? [s.radius!, s.radius!, s.radius! + s.half_height!] : s.type === "cylinder" || s.type === "cone" ? [s.radius!, s.radius!, s.half_height!] : null;
@@ -15,9 +15,9 @@ function boxOf(s: ShapeJson, at: V3): Box | null {
 }
 
 const stepLine = (s: StepJson, name: (i: number) => string): string =>
-  s.op === "query" ? "ask for candidate pairs" : `${s.op} ${name(s.body!)}` + (s.op === "move" ? ` to (${(s.pose?.translation ?? [0, 0, 0]).map((x) => short(x, 9)).join(" ")})` : "");
+  s.op === "query" ? "query candidate pairs" : `${s.op} ${name(s.body!)}` + (s.op === "move" ? ` to (${(s.pose?.translation ?? [0, 0, 0]).map((x) => short(x, 9)).join(" ")})` : "");
 
-// Three strips, one an axis: ends to scale, unless they differ by more than the eye sees; then by rank.
+// Three strips, one per axis. Ends are drawn to scale, or by rank if some are too close to tell apart.
 function strips(boxes: [number, Box][], lost: number[]): HTMLElement {
   const host = el("div", { class: "strips" });
   for (let k = 0; k < 3; ++k) {
@@ -56,7 +56,7 @@ export function drawScript(r: Refutation): HTMLElement[] {
   const drawable = boxes.length > 0 && boxes.length <= 24 && turned.size === 0 && boxes.every(([, b]) => b && b.flat().every(Number.isFinite));
   const list = el("ol", { class: "steps mono" }, ...steps.slice(0, 40).map((s) => el("li", {}, stepLine(s, name))));
   if (steps.length > 40) list.append(el("li", {}, `and ${steps.length - 40} more`));
-  return [...(drawable ? [el("p", { class: "soft" }, `Where it asks, the boxes on each axis${lost.length === 2 ? `; bodies ${lost.join(" and ")}, in red, overlap on all three and are not reported` : ""}.`), strips(boxes as [number, Box][], lost)] : []),
+  return [...(drawable ? [el("p", { class: "soft" }, `The boxes on each axis at the query${lost.length === 2 ? `; bodies ${lost.join(" and ")}, in red, overlap on all three axes but are not reported` : ""}.`), strips(boxes as [number, Box][], lost)] : []),
     el("div", { class: "columns" }, el("div", {}, el("h3", {}, "Bodies"), el("div", { class: "mono soft" }, ...bodies.slice(0, 24).map((b, i) => el("div", {}, `${i}: ${shapeLine(shapes[b.shape]!)}`)))),
       el("div", {}, el("h3", {}, "Steps"), list))];
 }

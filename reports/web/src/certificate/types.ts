@@ -1,4 +1,4 @@
-// A broad-phase certificate as `touchstone certify -o` stores it, and what the page has beside it.
+// A broad-phase certificate as stored by `touchstone certify -o`, and the page's further data.
 import type { BodyJson, ShapeJson, StepJson } from "../case/types";
 
 export type Level = "boxes" | "bodies";
@@ -8,7 +8,7 @@ export interface Evidence {
   pairs_true: number; pairs_reported: number; undecided: number; digest: string; refusal: string;
 }
 export interface FaultClass { fault: string; kind: string }
-/** The cases of one evidence that show a class of fault. */
+/** The cases of one suite that show a class of fault. */
 export interface FaultCount extends FaultClass { level: Level; evidence: string; cases: number; index: number; share: number; words: string }
 export interface TooSlow { level: Level; evidence: string; index: number; bodies: number; steps: number; allowed: number; sufficient: number; tried: number }
 export interface Refutation extends FaultClass {
@@ -17,7 +17,7 @@ export interface Refutation extends FaultClass {
 }
 export interface CertificatePage {
   page: "certificate"; version: number; title: string; subject: string; file: string;
-  /** One a refutation: the file of its script, "" where none was written. */
+  /** One per refutation: the file of its script, "" if none was written. */
   scripts: string[];
   /** `reproduce` can write a program against this engine. */
   has_writer: boolean;

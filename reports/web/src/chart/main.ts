@@ -1,4 +1,4 @@
-// Speed against accuracy: a point an engine, the Pareto front, unsound methods hollow with the reason.
+// Speed against accuracy: one point per engine, the Pareto front, and unsound methods (hollow) with the reason.
 import { LinkState, app, colourOf, el, grouped, nanoseconds, numberOf, pageData, themeButton } from "../common/page";
 import { axis, choice, css, plotIn } from "../common/plot";
 
@@ -24,7 +24,7 @@ const isText = data.columns.map((c) => data.text_columns.includes(c));
 const rows: Row[] = data.rows.map((r) => Object.fromEntries(data.columns.map((c, i) => [c, isText[i] ? data.strings[r[i] as number] : r[i]])) as unknown as Row);
 document.title = "Touchstone: speed against accuracy";
 const values = (key: "question" | "regime" | "pair" | "scale"): string[] => [...new Set(rows.map((r) => r[key]))].filter(Boolean).sort();
-// Settings of one method share a colour and are one curve.
+// Settings of one method share a colour and form a curve.
 const method = (name: string): string => name.replace(/-tuned$|@.*$/, "");
 const methods = [...new Set(data.engines.map((e) => method(e.name)))];
 const colour = (engine: string): string => colourOf(Math.max(0, methods.indexOf(method(engine))));
@@ -81,7 +81,7 @@ function draw(): void {
   const ink = css("--ink");
   const narrow = innerWidth < 600;  // no room for names beside the points
   const curves = [...new Set(list.map((r) => method(r.engine)))].map((m) => list.filter((r) => method(r.engine) === m).sort((a, b) => a.ns_median - b.ns_median)).filter((c) => c.length > 1);
-  // A curve is named at its first point, its last by its setting; what lies between is in the table and under the mouse.
+  // A curve's first point is labelled with its name, the last with its setting; the table and tooltips name the others.
   const between = (r: Row): boolean => !r.front && curves.some((c) => c.slice(1, -1).includes(r));
   const label = (r: Row): string => (curves.some((c) => c.slice(1).includes(r)) && r.engine.includes("@") ? r.engine.slice(r.engine.indexOf("@")) : r.engine);
   const one = (r: Row): object => {
@@ -106,14 +106,14 @@ function draw(): void {
       { type: "scatter", id: "engines", data: list.map(one), labelLayout: { hideOverlap: true, moveOverlap: "shiftY" }, z: 3 },
     ],
   }, { notMerge: true });
-  note.textContent = (crowd ? `Crowds of ${grouped(shown()[0]?.bodies ?? 0)} bodies, inserted and asked once. ` : "") +
-    "Diamonds and the line: the Pareto front; small ones are as accurate and as fast as another, within noise. Hollow: unsound or incomplete, which cannot be on it; the table says why. Dashed: settings of one method.";
+  note.textContent = (crowd ? `Crowds of ${grouped(shown()[0]?.bodies ?? 0)} bodies, inserted and queried once. ` : "") +
+    "Diamonds and line: the Pareto front; small diamonds are tied with another engine within noise. Hollow: unsound or incomplete, so not on the front; the table gives the reason. Dashed: settings of one method.";
   drawTable(list);
   drawGrowth();
 }
 
 function drawTable(list: Row[]): void {
-  const head = ["engine", "", "answers", "median", "99 %", "± rounds", "error p50", "p99", "most", "missed", "ghost", "failed", "wrong", "why it is not on the front"];
+  const head = ["engine", "", "answers", "median", "99 %", "± rounds", "error p50", "p99", "most", "missed", "ghost", "failed", "wrong", "reason it is not on the front"];
   const e = (x: unknown): string => (numberOf(x) === 0 ? "0" : numberOf(x).toExponential(1));
   const body = el("tbody", {}, ...[...list].sort((a, b) => a.ns_median - b.ns_median).map((r) => {
     const n = (text: string, bad = false): HTMLElement => el("td", { class: bad ? "n bad" : "n" }, text);
@@ -137,7 +137,7 @@ function drawGrowth(): void {
     tooltip: { trigger: "item", confine: true, formatter: (p: { data: { row: Row } }) => words(p.data.row) },
     legend: { type: "scroll", textStyle: { color: css("--ink") }, top: 0 },
     grid: { left: 76, right: 30, top: 40, bottom: 50 },
-    xAxis: axis("bodies", true), yAxis: axis("time to insert all and ask, ns", true, { nameGap: 58, axisLabel: { color: css("--ink"), formatter: (x: number) => x.toExponential(0) } }),
+    xAxis: axis("bodies", true), yAxis: axis("time to insert all and query, ns", true, { nameGap: 58, axisLabel: { color: css("--ink"), formatter: (x: number) => x.toExponential(0) } }),
     series: names.map((n) => {
       const c = colour(n);
       return { name: n, type: "line", lineStyle: { color: c }, itemStyle: { color: c }, data: crowds.filter((r) => r.engine === n).sort((a, b) => a.bodies - b.bodies).map((r) => ({ value: [r.bodies, r.ns_median], row: r })) };
@@ -153,5 +153,5 @@ link.onChange(() => {
   }
   draw();
 });
-// For tests: what is drawn.
+// For tests.
 (globalThis as unknown as { touchstonePlot: unknown }).touchstonePlot = plot;

@@ -1,8 +1,8 @@
-// What every page shares: its data, elements, the state kept in the address, light and dark.
+// Shared by all pages: data, elements, the state kept in the address, light and dark themes.
 import { unzlibSync } from "fflate";
 import "./style.css";
 
-/** What the program wrote into the page: JSON, or when it is long {"deflate": base64 of its zlib stream}. */
+/** The data the program wrote into the page: JSON, or if it is long, {"deflate": base64 of its zlib stream}. */
 export function pageData<T>(): T {
   const holder = document.getElementById("data")!;
   let value = JSON.parse(holder.textContent!) as { deflate?: string };
@@ -13,7 +13,7 @@ export function pageData<T>(): T {
     holder.textContent = "";
     value = JSON.parse(new TextDecoder().decode(unzlibSync(packed))) as object;
   }
-  // For tests and for people at the console.
+  // For tests and the console.
   (globalThis as unknown as { touchstoneData: unknown }).touchstoneData = value;
   return value as T;
 }
@@ -33,7 +33,7 @@ export function el<K extends keyof HTMLElementTagNameMap>(
 
 export const app = (): HTMLElement => document.getElementById("app")!;
 
-/** Key-value pairs in the address behind '#', so that a link shows what its sender saw. */
+/** Key-value pairs in the address after '#', so that a link shows what its sender saw. */
 export class LinkState {
   private values = new URLSearchParams(location.hash.slice(1));
   private timer = 0;
@@ -48,10 +48,10 @@ export class LinkState {
     if (value === null) this.values.delete(key);
     else this.values.set(key, value);
     clearTimeout(this.timer);
-    // Browsers refuse more than some hundred changes of the address in half a minute.
+    // Browsers limit address changes to about a hundred in half a minute.
     this.timer = window.setTimeout(() => history.replaceState(null, "", "#" + this.values.toString()), 150);
   }
-  /** Calls back when a person edits the address or follows a link into the same page. */
+  /** Calls `f` when the user edits the address or follows a link within the page. */
   onChange(f: () => void): void {
     addEventListener("hashchange", () => {
       this.values = new URLSearchParams(location.hash.slice(1));
@@ -65,7 +65,7 @@ export const isDark = (): boolean => {
   return chosen ? chosen === "dark" : matchMedia("(prefers-color-scheme: dark)").matches;
 };
 
-/** The button that changes between light and dark; `changed` redraws what CSS does not reach. */
+/** The button that switches between light and dark; `changed` redraws what CSS cannot restyle. */
 export function themeButton(link: LinkState, changed: () => void): HTMLButtonElement {
   const apply = (theme: string | null): void => {
     if (theme === "dark" || theme === "light") document.documentElement.dataset["theme"] = theme;
@@ -83,7 +83,7 @@ export function themeButton(link: LinkState, changed: () => void): HTMLButtonEle
     if (e.key === "l" && !isTyping(e)) toggle();
   });
   matchMedia("(prefers-color-scheme: dark)").addEventListener("change", changed);
-  // Paper is white, and what scripts draw takes its colours when it is drawn.
+  // Paper is white, and scripted drawings take their colours when drawn, so they are redrawn for print.
   matchMedia("print").addEventListener("change", changed);
   let chosen: string | undefined;
   addEventListener("beforeprint", () => {
@@ -103,7 +103,7 @@ export const isTyping = (e: KeyboardEvent): boolean =>
   e.ctrlKey || e.metaKey || e.altKey || (e.target instanceof HTMLElement && /^(INPUT|SELECT|TEXTAREA)$/.test(e.target.tagName) &&
     (e.target as HTMLInputElement).type !== "range" && (e.target as HTMLInputElement).type !== "checkbox");
 
-/** A line of shell with a button that copies it. */
+/** A shell command with a button that copies it. */
 export function commandLine(command: string): HTMLElement {
   const copy = el("button", { type: "button", title: "copy" }, "copy");
   copy.addEventListener("click", () => {
@@ -112,11 +112,11 @@ export function commandLine(command: string): HTMLElement {
   return el("div", { class: "command" }, el("code", {}, command), copy);
 }
 
-/** A number as JSON has it: NaN and infinities are strings there. */
+/** A number from JSON, where NaN and infinities are strings. */
 export const numberOf = (x: unknown): number =>
   typeof x === "number" ? x : x === "inf" ? Infinity : x === "-inf" ? -Infinity : NaN;
 
-/** Short, in the way of C's %.{digits}g. */
+/** Short form, like C's %.{digits}g. */
 export function short(x: number, digits = 4): string {
   if (!Number.isFinite(x)) return String(x);
   if (x === 0) return "0";
@@ -125,7 +125,7 @@ export function short(x: number, digits = 4): string {
   return String(Number(x.toPrecision(digits)));
 }
 
-const english = new Intl.NumberFormat("en-US");  // one: making it is what costs
+const english = new Intl.NumberFormat("en-US");  // shared, because creating one is expensive
 export const grouped = (n: number): string => english.format(n);
 
 export function nanoseconds(ns: number): string {
@@ -134,13 +134,13 @@ export function nanoseconds(ns: number): string {
   return `${Number((ns / 1e6).toPrecision(3))} ms`;
 }
 
-/** Colours that differ for eyes that confuse red and green too (Okabe and Ito 2008), then turned hues. */
+/** Colours distinguishable with red-green colour blindness (Okabe and Ito 2008), then rotated hues. */
 const palette = ["#0072b2", "#e69f00", "#cc79a7", "#56b4e9", "#d55e00", "#8c6bb1", "#b59f00", "#7f7f7f"];
 export function colourOf(index: number): string {
   return palette[index] ?? hex((index * 137.5) % 360, 0.6, index % 2 ? 0.42 : 0.6);
 }
 
-// "#rrggbb", which WebGL's colours know too; they do not know hsl() without commas.
+// "#rrggbb", because three.js cannot parse hsl() without commas.
 function hex(hue: number, saturation: number, lightness: number): string {
   const channel = (n: number): string => {
     const k = (n + hue / 30) % 12;

@@ -1,4 +1,4 @@
-// ECharts with what the pages draw, and colours that follow light and dark.
+// ECharts with the chart types used by the pages, and colours that follow the theme.
 import { HeatmapChart, LineChart, ScatterChart } from "echarts/charts";
 import { GridComponent, LegendComponent, TooltipComponent, VisualMapComponent } from "echarts/components";
 import { LabelLayout } from "echarts/features";
@@ -12,7 +12,7 @@ export const css = (name: string): string => getComputedStyle(document.documentE
 export function plotIn(host: HTMLElement): EChartsType {
   const plot = init(host, null, { renderer: "svg" });
   new ResizeObserver(() => plot.resize()).observe(host);
-  addEventListener("beforeprint", () => plot.getZr().flush());  // at once, not at the next frame: paper has none
+  addEventListener("beforeprint", () => plot.getZr().flush());  // at once: printing does not wait for the next frame
   return plot;
 }
 

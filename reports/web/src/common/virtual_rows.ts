@@ -1,16 +1,16 @@
-// A table of any length: only the lines in sight are in the document, the rest is two empty lines as high as they are.
+// A table of any length: only visible lines are in the document; two empty rows take the height of the others.
 import { el, grouped } from "./page";
 
 const lineHeight = 27;
-const spare = 12;  // lines kept above and below, so that a turn of the wheel shows no hole
+const spare = 12;  // lines kept above and below, so that scrolling shows no gap
 
 export interface Lines {
   length: number;
   /** The cells of line i. */
   cells(i: number): HTMLElement[];
-  /** Enter, or a click. */
+  /** Called on Enter or a click. */
   open(i: number): void;
-  /** Further keys on line i: true when one was for it. */
+  /** Handles other keys on line i; returns true if it used the key. */
   key?(i: number, key: string): boolean;
   /** Classes of line i. */
   style?(i: number): string;
@@ -33,7 +33,7 @@ export class VirtualRows {
     this.host.addEventListener("scroll", () => this.draw());
     this.host.addEventListener("keydown", (e) => this.onKey(e));
     new ResizeObserver(() => this.draw()).observe(this.host);
-    // Paper has no wheel: it gets the first lines, and says that it does.
+    // Paper cannot scroll: it gets the first lines and a note on how many more there are.
     addEventListener("beforeprint", () => this.draw(400));
     addEventListener("afterprint", () => this.draw());
   }
@@ -50,7 +50,7 @@ export class VirtualRows {
     this.draw();
   }
 
-  /** Brings line i into sight and makes it the one that keys act upon. */
+  /** Scrolls line i into view and gives it the keyboard focus. */
   goTo(i: number): void {
     this.focused = Math.max(0, Math.min(this.lines.length - 1, i));
     const top = this.focused * lineHeight, seen = this.host.clientHeight - this.head.offsetHeight;

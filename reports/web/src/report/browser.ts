@@ -1,9 +1,9 @@
-// Findings in groups that open, filtered and sorted; the one that is chosen beside them, with what to do next.
+// Findings in expandable groups, filtered and sorted, with the selected one and its commands beside them.
 import { LinkState, commandLine, el, grouped, isTyping } from "../common/page";
 import { VirtualRows } from "../common/virtual_rows";
 import { Findings, groupsOf, parts, type Group, type Part } from "./findings";
 
-type Line = { group: Group; row: number };  // row < 0: the line of the group itself
+type Line = { group: Group; row: number };  // row < 0: the group's own line
 type SortKey = "name" | "answers" | "worst";
 
 const groupings: [string, Part[]][] = [
@@ -11,8 +11,8 @@ const groupings: [string, Part[]][] = [
   ["degeneracy", ["degeneracy"]], ["nothing", []],
 ];
 const blameWords: Record<string, string> = {
-  representation: "Blame: its rounding of the scene. The answer is right for the scene as the engine received it.",
-  algorithm: "Blame: its algorithm. The answer is wrong for the scene as the engine received it too.",
+  representation: "Blame: rounding of the scene. The answer is right for the scene as the engine received it.",
+  algorithm: "Blame: the algorithm. The answer is also wrong for the scene as the engine received it.",
 };
 const spaced = (s: string): string => s.replaceAll("_", " ");
 
@@ -25,7 +25,7 @@ export class FindingsBrowser {
   private selects = new Map<Part, HTMLSelectElement>();
   private fills = new Map<Part, () => void>();
   private group = el("select", { id: "group", "aria-label": "grouped by" });
-  private search = el("input", { type: "search", placeholder: "words in it (key /)", "aria-label": "words in the finding" });
+  private search = el("input", { type: "search", placeholder: "search text (key /)", "aria-label": "text in the finding" });
   private all = el("button", { type: "button", id: "open-all" });
   private open: Set<string>;
   private sort: { key: SortKey; down: boolean };
@@ -48,7 +48,7 @@ export class FindingsBrowser {
       this.search.focus();
     });
     this.element.append(this.controls, this.found, el("div", { id: "work" }, this.rows.host, this.detail),
-      el("p", { class: "soft screen-only", id: "keys" }, "Keys in the list: arrows move, Enter opens, ← closes a group, / searches, l light or dark."));
+      el("p", { class: "soft screen-only", id: "keys" }, "Keys in the list: arrows move, Enter opens, ← closes a group, / searches, l switches between light and dark."));
     this.open = new Set();
     this.sort = { key: "answers", down: true };
     this.follow();
@@ -64,7 +64,7 @@ export class FindingsBrowser {
       const options = this.f.values(p).map((v, i) => [v, counts[i]!] as const).sort((a, b) => b[1] - a[1]);
       select.append(...options.map(([v, n]) => el("option", { value: v }, `${spaced(v)} (${grouped(n)})`)));
     };
-    // Thousands of options cost more than the rest of the page: they come when somebody wants one.
+    // Thousands of options cost more than the rest of the page, so they are added on first use.
     this.fills.set(p, fill);
     if (counts.length <= 500) fill();
     else for (const event of ["pointerdown", "focus"]) select.addEventListener(event, fill);
@@ -79,7 +79,7 @@ export class FindingsBrowser {
     this.draw();
   }
 
-  /** Takes the state over from the address. */
+  /** Restores the state from the address. */
   follow(): void {
     for (const [p, s] of this.selects) {
       const value = this.link.get(p) ?? "";
@@ -110,7 +110,7 @@ export class FindingsBrowser {
     const sign = this.sort.down ? -1 : 1;
     const { key } = this.sort;
     const measure = key === "worst" ? this.f.worst : this.f.answers;
-    // Rows come in the order of their keys, and sorting keeps it among equals.
+    // Rows arrive in the order of their keys; sorting is stable.
     if (key !== "name") rows.sort((a, b) => sign * ((measure[a]! || 0) - (measure[b]! || 0)) || a - b);
     else if (sign < 0) rows.reverse();
     const by = groupings[Number(this.group.value)]![1];
@@ -123,7 +123,7 @@ export class FindingsBrowser {
       ? this.groups.flatMap((g) => [{ group: g, row: -1 }, ...(only || this.open.has(g.id) ? g.rows.map((row) => ({ group: g, row })) : [])])
       : rows.map((row) => ({ group: none, row }));
     this.found.textContent = `${grouped(rows.length)} of ${grouped(this.f.count)} kinds` + (by.length ? ` in ${grouped(this.groups.length)} groups` : "") +
-      `, ${grouped(rows.reduce((s, i) => s + this.f.answers[i]!, 0))} answers. ` + (by.length ? "Press a group to open it, a finding for its replay." : "Press a finding for its replay.");
+      `, ${grouped(rows.reduce((s, i) => s + this.f.answers[i]!, 0))} answers. ` + (by.length ? "Click a group to open it, a finding to see how to replay it." : "Click a finding to see how to replay it.");
     this.all.style.display = by.length && !only ? "" : "none";
     this.all.textContent = this.groups.every((g) => this.open.has(g.id)) ? "close all" : "open all";
     this.drawHead(by.length > 0);
@@ -217,7 +217,7 @@ export class FindingsBrowser {
     const say = (words: string, command: string): HTMLElement[] => [el("p", { class: "soft" }, words), commandLine(command)];
     this.detail.replaceChildren(el("div", { class: "title" }, el("h2", {}, parts.slice(0, 4).map((p) => spaced(f.value(i, p))).join(" · ")), close),
       el("p", {}, f.words(i)), el("p", { class: "soft" }, `${grouped(f.answers[i]!)} ${f.answers[i] === 1 ? "answer" : "answers"} like this${f.worst[i]! > 0 ? `; the worst is off by ${f.worst[i]!.toExponential(1)} of the scene's scale L` : ""}. ${blameWords[f.value(i, "blame")] ?? ""}`),
-      ...say("Every engine's answer beside the referee's:", `./touchstone replay ${path}`), ...say("The same as a picture:", `./touchstone view ${path} -o page.html`),
+      ...say("Every engine's answer beside the referee's:", `./touchstone replay ${path}`), ...say("The case as a picture:", `./touchstone view ${path} -o page.html`),
       ...say("The smallest case that shows it:", `./touchstone shrink ${path} --engine ${engine}`),
       ...say("As one C++ file against the engine alone:", `./touchstone reproduce ${path} --engine ${engine} -o reproduce.cpp`));
   }

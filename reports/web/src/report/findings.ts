@@ -1,4 +1,4 @@
-// Findings as the program packs them: columns of codes. Nothing is made an object before it is in sight.
+// Findings as packed by the program: columns of codes. Objects are created only for visible rows.
 import { numberOf } from "../common/page";
 
 export const parts = ["engine", "question", "fault", "shapes", "blame", "degeneracy", "magnitude"] as const;
@@ -63,7 +63,7 @@ export interface Group {
   worst: number;
 }
 
-/** The rows by the parts named, in order of their first row. */
+/** Groups the rows by the given parts, in the order of each group's first row. */
 export function groupsOf(f: Findings, rows: number[], by: readonly Part[]): Group[] {
   const groups = new Map<number, Group>();
   for (const i of rows) {

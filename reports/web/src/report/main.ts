@@ -1,4 +1,4 @@
-// A campaign: the run, engine by engine, and its findings by key.
+// A campaign: results by engine, and findings by key.
 import { BarChart } from "echarts/charts";
 import { GridComponent, LegendComponent, TooltipComponent } from "echarts/components";
 import { init, use } from "echarts/core";
@@ -29,7 +29,7 @@ interface ReportPage {
 const data = pageData<ReportPage>();
 const link = new LinkState();
 const findings = new Findings(data.findings);
-// In the order in which one asks, not of the alphabet.
+// Questions in their usual order, not alphabetically.
 const order = ["overlap", "distance", "contact", "time_of_impact", "candidates", "swept_candidates", "scene_contacts"];
 for (const [engine, tallies] of Object.entries(data.summary.engines))
   data.summary.engines[engine] = Object.fromEntries(Object.entries(tallies).sort(([a], [b]) => order.indexOf(a) - order.indexOf(b)));
@@ -54,7 +54,7 @@ function summaryLine(): string {
   return `${grouped(s.cases)} cases, ${grouped(findings.count)} kinds of findings.${rate}${set} ${s.digest ? "Digest " + s.digest + "." : ""}`;
 }
 
-// What the exit code is about, first.
+// The subject, which decides the exit code, comes first.
 function subjectLine(): HTMLElement | null {
   const subject = data.settings?.subject ?? "";
   const tallies = Object.values(data.summary.engines[subject] ?? {});

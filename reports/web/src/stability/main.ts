@@ -30,16 +30,16 @@ const kind = choice(link, "kind", "how it fails", [
 const metric = choice(link, "metric", "what is drawn", [
   ["wrong", "wrong or no answer, share"], ["missed", "missed, share"], ["ghost", "ghosts, share"], ["failed", "failed, share"],
   ["depth_error", "error of distance or depth / L"], ["normal_error", "error of the normal / L"], ["impact_error", "error of the impact / L"],
-  ["jitter", "change when B moves an ulp / L"], ["order", "change when A and B are exchanged / L"], ["frame", "change in other frames / L"], ["unit", "change in other units / L"],
+  ["jitter", "change when B moves by an ulp / L"], ["order", "change when A and B are exchanged / L"], ["frame", "change in other frames / L"], ["unit", "change in other units / L"],
   ["order_broken", "contradicts itself, A and B exchanged, share"], ["frame_broken", "contradicts itself, other frames, share"], ["unit_broken", "contradicts itself, other units, share"]], () => draw());
 let ladder = link.get("ladder") ?? data.ladders[0]?.name ?? "";
 
 const heat = el("div", { class: "chart", id: "heat" }), curves = el("div", { class: "chart", id: "curves" });
 const title = el("h2", {}), table = el("div", { class: "scroll", id: "rows" });
 app().append(
-  el("header", {}, el("div", { class: "grow" }, el("h1", {}, "Where engines begin to fail"), el("p", { class: "soft" }, `${data.scope}: ${data.per_rung} cases a rung, seed ${data.seed}. A cell names the first rung with a wrong answer or none, or with two answers to one pair that contradict each other by more than the engine's tolerances; – never.`)),
+  el("header", {}, el("div", { class: "grow" }, el("h1", {}, "Where engines begin to fail"), el("p", { class: "soft" }, `${data.scope}: ${data.per_rung} cases per rung, seed ${data.seed}. Each cell shows the first rung with a wrong answer or none, or with two answers about the same pair that contradict each other by more than the engine's tolerances; –: never.`)),
     el("div", { class: "controls screen-only" }, themeButton(link, () => draw()))),
-  el("main", {}, el("div", { class: "controls screen-only", style: "margin:0.6rem 0" }, question, kind), heat, title, el("div", { class: "controls screen-only" }, metric), curves, el("h2", {}, "The rungs of failure"), table),
+  el("main", {}, el("div", { class: "controls screen-only", style: "margin:0.6rem 0" }, question, kind), heat, title, el("div", { class: "controls screen-only" }, metric), curves, el("h2", {}, "Rungs of failure"), table),
 );
 const heatPlot = plotIn(heat), curvePlot = plotIn(curves);
 
@@ -57,7 +57,7 @@ function draw(): void {
   const ink = css("--ink");
   heat.style.height = `${80 + 28 * here.length}px`;
   heatPlot.resize();
-  // 0: fails at the first rung; 1: never.
+  // 0: fails at the first rung; 1: never fails.
   const cells = here.flatMap((e, y) => names.flatMap((n, x) => {
     const r = of(e, n);
     if (!r) return [];
