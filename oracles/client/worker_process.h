@@ -105,7 +105,7 @@ class WorkerProcess {
   bool reap_child(bool wait);
   void end_supervised();
   bool is_stuck() const;
-  std::string said_by_memcheck_of(pid_t worker);
+  std::string memcheck_messages_about(pid_t worker);
   void open_clock();
 
   // A fork server for native engines is used by several threads.
