@@ -7,6 +7,7 @@
 #include <string>
 
 #include "tests/support/catch.h"
+#include "tests/support/skip.h"
 #include "tests/support/workspace.h"
 
 using namespace touchstone::test;
@@ -106,7 +107,7 @@ TEST_CASE("replay shows every engine's answer beside the referee's", "[cli]") {
   CHECK(doc.at(0).at("queries").at(2).at("engines").at("core").at("answer").at("depth") == 0.5);
 }
 
-TEST_CASE("a campaign prints its table in 80 columns and leaves replayable findings", "[cli]") {
+TEST_CASE("a campaign prints its table in 80 columns", "[cli]") {
   const Workspace w("cli");
   const Run r = w.touchstone("fuzz --cases 96 --seed 3 --jobs 2 --out results");
   INFO(r.out << r.err);
@@ -116,24 +117,19 @@ TEST_CASE("a campaign prints its table in 80 columns and leaves replayable findi
   REQUIRE(command != std::string::npos);
   CHECK(longest_line(r.out.substr(0, r.out.rfind('\n', command))) <= 80);
   CHECK(last_line(r.out).starts_with("exit code 0 is about core: 0 wrong in "));
-  REQUIRE(fs::exists(w.dir / "results" / "summary.json"));
-  if (!fs::exists(w.dir / "results" / "findings")) {
-    WARN("no oracle is installed: no findings to replay");
-    return;
-  }
-  const auto first = fs::directory_iterator(w.dir / "results" / "findings")->path() / "case.json";
-  const Run again = w.touchstone("replay " + first.string());
-  CHECK(again.code == 0);
-  CHECK((again.out.find("WRONG") != std::string::npos || again.out.find("FAILED") != std::string::npos));
+  CHECK(fs::exists(w.dir / "results" / "summary.json"));
 }
 
-TEST_CASE("a finding shrinks from its directory and still shows", "[cli]") {
+TEST_CASE("a finding is replayed, shrinks from its directory and still shows", "[cli][optional]") {
   const Workspace w("cli");
   w.touchstone("fuzz --cases 96 --seed 3 --out results");
-  if (!fs::exists(w.dir / "results" / "findings")) {
-    WARN("no oracle is installed: no findings to shrink");
-    return;
-  }
+  if (!fs::exists(w.dir / "results" / "findings")) return skip("no findings: no other engine is installed");
+  const auto first = fs::directory_iterator(w.dir / "results" / "findings")->path() / "case.json";
+  const Run replayed = w.touchstone("replay " + first.string());
+  CHECK(replayed.code == 0);
+  const bool shown_again =
+      replayed.out.find("WRONG") != std::string::npos || replayed.out.find("FAILED") != std::string::npos;
+  CHECK(shown_again);
   std::size_t shrunk = 0, shown = 0;
   for (const auto& entry : fs::directory_iterator(w.dir / "results" / "findings")) {
     const std::string key = entry.path().filename();
@@ -156,13 +152,10 @@ TEST_CASE("a finding shrinks from its directory and still shows", "[cli]") {
   CHECK(clean.code == 2);
 }
 
-TEST_CASE("a second triage of the same campaign finds nothing new", "[cli]") {
+TEST_CASE("a second triage of the same campaign finds nothing new", "[cli][optional]") {
   const Workspace w("cli");
   w.touchstone("fuzz --cases 96 --seed 3 --out results");
-  if (!fs::exists(w.dir / "results" / "findings")) {
-    WARN("no oracle is installed: no findings to triage");
-    return;
-  }
+  if (!fs::exists(w.dir / "results" / "findings")) return skip("no findings: no other engine is installed");
   const Run first = w.touchstone("triage results --no-shrink --junit junit.xml");
   INFO(first.err);
   CHECK(first.code == 1);
@@ -232,7 +225,7 @@ TEST_CASE("a lying engine behind the C ABI is found by fuzz", "[cli]") {
   }
 }
 
-TEST_CASE("--error judges by the user's own tolerance, and a wide claim is named", "[cli]") {
+TEST_CASE("--error judges by the user's own tolerance", "[cli]") {
   const Workspace w("cli");
   w.write("apart.json", spheres("2.5"));
   const std::string replay =
@@ -252,16 +245,16 @@ TEST_CASE("--error judges by the user's own tolerance, and a wide claim is named
     CHECK(r.code == 2);
     CHECK(r.err.find("--error") != std::string::npos);
   }
+}
 
+TEST_CASE("a wide claim of Bullet is named, and --error overrides it", "[cli][optional]") {
+  const Workspace w("cli");
   w.write("links.json", R"({"touchstone_scene":1,"shapes":[{"type":"hull","vertices":
 [[0,0,0],[0.1,0,0],[0,0.1,0],[0,0,0.1]]}],
 "bodies":[{"shape":0,"pose":{"translation":[0,0,0],"rotation":[0,0,0,1]}},
 {"shape":0,"pose":{"translation":[0.14,0,0],"rotation":[0,0,0,1]}}]})");
   const Run bullet = w.touchstone("replay links.json --engines bullet-f64-query");
-  if (bullet.code == 2) {
-    WARN("Bullet is not there: " << bullet.err);
-    return;
-  }
+  if (bullet.code == 2) return skip("Bullet is not installed");
   INFO(bullet.out << bullet.err);
   CHECK(bullet.out.find("right within its claimed tolerance of 0.08") != std::string::npos);
   const Run own = w.touchstone("replay links.json --engines bullet-f64-query --error 1mm");

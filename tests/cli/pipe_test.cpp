@@ -1,20 +1,14 @@
 // Engines behind a pipe as a user meets them: receipts, commands that are not there, engines from npm.
 #include <cstdio>
-#include <cstdlib>
 
 #include "tests/support/catch.h"
+#include "tests/support/skip.h"
 #include "tests/support/workspace.h"
 
 using namespace touchstone::test;
 namespace fs = std::filesystem;
 
 namespace {
-
-bool python_is_there() {
-  if (std::system("command -v python3 >/dev/null 2>&1") == 0) return true;
-  std::printf("skipped: python3 is not installed\n");
-  return false;
-}
 
 // Spheres of radius 1 on whole numbers; `receipt` is what follows a scene.
 std::string on_whole_numbers(const std::string& card, const std::string& receipt) {
@@ -51,8 +45,9 @@ Run replay(const Workspace& w, const std::string& card, const std::string& recei
 
 }  // namespace
 
-TEST_CASE("a receipt tells what was lost on the way in from what the algorithm does", "[pipe]") {
-  if (!python_is_there()) return;
+TEST_CASE("a receipt separates what was lost on the way in from what the algorithm does",
+          "[pipe][optional]") {
+  if (!has_command("python3")) return skip("python3 is not installed");
   const Workspace w("pipe");
   const Run with = replay(w, "card['receipts'] = True", give), without = replay(w, "", "");
   INFO(with.out << with.err << without.out << without.err);
@@ -63,8 +58,8 @@ TEST_CASE("a receipt tells what was lost on the way in from what the algorithm d
   CHECK(without.out.find("lost in its rounding") == std::string::npos);
 }
 
-TEST_CASE("an engine that holds another shape is not blamed for its algorithm", "[pipe]") {
-  if (!python_is_there()) return;
+TEST_CASE("an engine that holds another shape is not blamed for its algorithm", "[pipe][optional]") {
+  if (!has_command("python3")) return skip("python3 is not installed");
   const Workspace w("pipe");
   const std::string card = "card['receipts'] = True";
   // It cooks every sphere to one of radius 1.3, and is right about those.
@@ -96,8 +91,8 @@ TEST_CASE("an engine that holds another shape is not blamed for its algorithm", 
   CHECK(blob.out.find("a type of shape that there is not: blob") != std::string::npos);
 }
 
-TEST_CASE("what a command writes to standard error is shown when it dies", "[pipe]") {
-  if (!python_is_there()) return;
+TEST_CASE("what a command writes to standard error is shown when it dies", "[pipe][optional]") {
+  if (!has_command("python3")) return skip("python3 is not installed");
   const Workspace w("pipe");
   w.write("two.json", two_spheres);
   w.write("broken.py", "import sys\ndef f(:\n");
@@ -113,8 +108,8 @@ TEST_CASE("what a command writes to standard error is shown when it dies", "[pip
   CHECK(later.out.find("no licence") != std::string::npos);
 }
 
-TEST_CASE("a receipt may refuse the scene; one of another form is a crash with its reason", "[pipe]") {
-  if (!python_is_there()) return;
+TEST_CASE("a receipt may refuse the scene; a malformed one is a crash with its reason", "[pipe][optional]") {
+  if (!has_command("python3")) return skip("python3 is not installed");
   const Workspace w("pipe");
   const std::string card = "card['receipts'] = True";
   const Run refused = replay(w, card, "    say({'outcome': 'unsupported'})");
@@ -151,8 +146,9 @@ TEST_CASE("a command that is not there is named, with the reason", "[pipe]") {
     }
 }
 
-TEST_CASE("a certificate of a command holds for the scripts that it names and no others", "[pipe][certify]") {
-  if (!python_is_there()) return;
+TEST_CASE("a certificate of a command holds for the scripts that it names and no others",
+          "[pipe][certify][optional]") {
+  if (!has_command("python3")) return skip("python3 is not installed");
   const Workspace w("pipe");
   fs::copy(TS_SOURCE_DIR "/oracles/example/broad_phase.py", w.dir / "mine.py");
   const Run made = w.touchstone("certify --subject 'pipe:python3 mine.py' --limit 8 -o c.json");
@@ -187,30 +183,26 @@ TEST_CASE("engines from npm say what to do when they are not installed", "[pipe]
   CHECK_FALSE(fs::exists(w.dir / "none"));
 }
 
-TEST_CASE("engines from npm speak the interface as it is meant", "[pipe][npm]") {
+TEST_CASE("engines from npm use the interface correctly", "[pipe][npm][optional]") {
   const Workspace w("npm");
-  std::size_t asked = 0;
+  std::size_t checked = 0;
   for (const char* name : {"jolt", "jolt-tuned", "rapier"}) {
     if (w.touchstone("engines " + std::string(name)).code != 0) {
-      std::printf("skipped: %s is not installed (touchstone engines --install %s)\n", name, name);
+      std::printf("left out: %s is not installed (touchstone engines --install %s)\n", name, name);
       continue;
     }
     const Run r = w.touchstone("engines --check " + std::string(name));
     INFO(r.out << r.err);
     CHECK(r.code == 0);
     CHECK(r.out.find(std::string(name) + ": 19 right, 0 wrong") != std::string::npos);
-    ++asked;
+    ++checked;
   }
-  if (asked == 0) SUCCEED();
+  if (checked == 0) skip("no engine from npm is installed");
 }
 
-TEST_CASE("ODE is asked as it is meant, and its spaces keep every pair of boxes", "[ode][certify]") {
+TEST_CASE("ODE is queried correctly, and its spaces keep every pair of boxes", "[ode][certify][optional]") {
   const Workspace w("ode");
-  if (w.touchstone("engines ode").code != 0) {
-    std::printf("skipped: ODE was not built in\n");
-    SUCCEED();
-    return;
-  }
+  if (w.touchstone("engines ode").code != 0) return skip("ODE is not built in");
   const Run asked = w.touchstone("engines --check ode");
   INFO(asked.out << asked.err);
   CHECK(asked.code == 0);

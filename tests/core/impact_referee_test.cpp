@@ -1,7 +1,5 @@
 // Times of impact against the referee: hits and misses, the gap at the time, the depth before it. Published
-// hulls too, where they are there (TS_SHARED_DATA in the environment says where).
-#include <cstdio>
-#include <cstdlib>
+// hulls too, when they are present.
 #include <filesystem>
 
 #include "core/impact/impact.h"
@@ -10,6 +8,8 @@
 #include "scenarios/import/hull_zoo.h"
 #include "tests/core/random_course.h"
 #include "tests/support/catch.h"
+#include "tests/support/shared_data.h"
+#include "tests/support/skip.h"
 
 using namespace touchstone;
 using namespace touchstone::test;
@@ -56,13 +56,10 @@ TEST_CASE("impact: never missed, late, early or a ghost, by the referee", "[impa
   CHECK(n.decided > 0.9 * n.cases);
 }
 
-TEST_CASE("impact: published hulls, sheets and needles among them, in motion", "[impact][referee][real]") {
-  const char* asked = std::getenv("TS_SHARED_DATA");
-  const std::filesystem::path zoo = std::filesystem::path(asked ? asked : TS_SHARED_DATA) / "hulls";
-  if (!std::filesystem::exists(zoo)) {
-    std::printf("skipped: %s is absent\n", zoo.c_str());
-    return;
-  }
+TEST_CASE("impact: published hulls, sheets and needles among them, in motion",
+          "[impact][referee][real][data]") {
+  const std::filesystem::path zoo = shared_data() / "hulls";
+  if (!std::filesystem::exists(zoo)) return skip(zoo.string() + " is absent");
   const std::vector<ZooHull> hulls = load_hull_zoo(zoo);
   Tally n;
   for (std::uint64_t i = 0; i < 260; ++i) {

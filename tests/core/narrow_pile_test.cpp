@@ -2,19 +2,18 @@
 // the motion of the bodies. A pair counts when it touches in both frames and has moved by 1 mm at most (sizes
 // are about 0.5 m).
 #include <algorithm>
-#include <cstdio>
 #include <filesystem>
 #include <vector>
 
 #include "core/narrow/narrow_phase.h"
 #include "scenarios/import/real_scene.h"
 #include "tests/support/catch.h"
+#include "tests/support/shared_data.h"
+#include "tests/support/skip.h"
 
 using namespace touchstone;
 
 namespace {
-
-const std::filesystem::path data_root = TS_SHARED_DATA;
 
 struct Jitter {
   long pairs = 0, flips = 0, other_ids = 0, points = 0;
@@ -104,7 +103,7 @@ double quantile(std::vector<double> v, double q) {
 }
 
 Jitter measure(const char* name, int first, int last) {
-  const RealScene s = load_real_scene(data_root / "scenes" / name);
+  const RealScene s = load_real_scene(test::shared_data() / "scenes" / name);
   Jitter j;
   Scene from = s.frame(first);
   for (int f = first; f < last; ++f) {
@@ -119,16 +118,11 @@ Jitter measure(const char* name, int first, int last) {
   return j;
 }
 
-bool data_is_absent() {
-  if (std::filesystem::exists(data_root)) return false;
-  std::printf("skipped: %s is absent\n", data_root.c_str());
-  return true;
-}
-
 }  // namespace
 
 TEST_CASE("contacts of piles at rest stand still from frame to frame", "[narrow][manifold][data]") {
-  if (data_is_absent()) return;
+  const auto scenes = test::shared_data() / "scenes";
+  if (!std::filesystem::exists(scenes)) return test::skip(scenes.string() + " is absent");
   // What is left is geometry: deepest points of rocking cylinders, crossings of nearly parallel edges.
   for (const Jitter& j : {measure("stack_smash", 0, 9), measure("pile_mixed", 90, 99)}) {
     CHECK(j.pairs > 1000);

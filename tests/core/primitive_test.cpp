@@ -1,6 +1,5 @@
 // Deforming primitives: closed forms, degenerate and extreme input, the recorded queries, and random ones
 // against the referee's decision, with which the core shares no code.
-#include <cstdio>
 #include <cstdlib>
 #include <filesystem>
 
@@ -10,6 +9,8 @@
 #include "scenarios/import/ccd_queries.h"
 #include "tests/core/primitive_motions.h"
 #include "tests/support/catch.h"
+#include "tests/support/shared_data.h"
+#include "tests/support/skip.h"
 
 using namespace touchstone;
 using namespace touchstone::test;
@@ -108,13 +109,9 @@ TEST_CASE("primitives: a graze at the top of a curve is contact exactly when it 
   CAPTURE(hits);
 }
 
-TEST_CASE("primitives: the recorded queries have no false verdict and no late time", "[primitive]") {
-  const char* asked = std::getenv("TS_SHARED_DATA");
-  const auto root = std::filesystem::path(asked ? asked : TS_SHARED_DATA) / "ccd";
-  if (!std::filesystem::exists(root / "truth.csv")) {
-    std::printf("skipped: %s is absent\n", root.c_str());
-    return;
-  }
+TEST_CASE("primitives: the recorded queries have no false verdict and no late time", "[primitive][data]") {
+  const auto root = shared_data() / "ccd";
+  if (!std::filesystem::exists(root / "truth.csv")) return skip(root.string() + " is absent");
   long false_negatives = 0, false_positives = 0, late = 0, hits = 0, total = 0, by_tolerance = 0;
   double earliest = 0;
   for (const CcdQuery& q : load_ccd_set(root)) {

@@ -8,6 +8,7 @@
 
 #include "tests/mutants/lying_engine.h"
 #include "tests/support/catch.h"
+#include "tests/support/skip.h"
 #include "tests/support/workspace.h"
 
 using namespace touchstone;
@@ -111,12 +112,9 @@ TEST_CASE("the first query by which a lie shows is found, and what led to it", "
   FAIL("the mutant is gone");
 }
 
-TEST_CASE("git finds the commit that broke an engine, past one that does not build", "[bisect]") {
+TEST_CASE("git finds the commit that broke an engine, past one that does not build", "[bisect][optional]") {
   const Workspace w("bisect");
-  if (w.run("git --version").code != 0) {
-    WARN("git is not installed: not tried");
-    return;
-  }
+  if (!has_command("git")) return skip("git is not installed");
   w.write("case.json", spheres());
   const std::string git = "git -c user.name=t -c user.email=t@t -c init.defaultBranch=main ";
   REQUIRE(w.run(fmt::format("{}init -q repo", git)).code == 0);

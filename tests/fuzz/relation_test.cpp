@@ -1,4 +1,5 @@
 // Relations: they find what the referee cannot see, and accuse nobody whom the definition acquits.
+#include <cstdio>
 #include <filesystem>
 
 #include "fuzz/campaign/campaign.h"
@@ -11,6 +12,7 @@
 #include "scenarios/random/family.h"
 #include "tests/mutants/lying_engine.h"
 #include "tests/support/catch.h"
+#include "tests/support/skip.h"
 
 using namespace touchstone;
 
@@ -82,8 +84,8 @@ TEST_CASE("whoever breaks a relation is wrong by the referee too, where that one
   CHECK(explained > 100);
 }
 
-TEST_CASE("other engines too are accused by relations only where the referee finds them wrong",
-          "[relations]") {
+TEST_CASE("relations accuse other engines too only where the referee finds them wrong",
+          "[relations][optional]") {
   const std::filesystem::path build = TS_BINARY_DIR;
   struct Row {
     const char *library, *engine;
@@ -93,7 +95,7 @@ TEST_CASE("other engines too are accused by relations only where the referee fin
        {Row{"libtouchstone_fcl.so", "fcl-libccd"}, Row{"libtouchstone_bullet_f64.so", "bullet-f64-query"},
         Row{"libtouchstone_libccd.so", "libccd-mpr"}}) {
     if (!std::filesystem::exists(build / "lib" / row.library)) {
-      WARN(row.engine << " is not built; left out");
+      std::printf("left out: %s is not built\n", row.engine);
       continue;
     }
     const EnginePtr engine = std::make_unique<RemoteEngine>(
@@ -101,8 +103,10 @@ TEST_CASE("other engines too are accused by relations only where the referee fin
     Count n;
     for (std::uint64_t i = 0; i < 120; ++i) count_case(fuzz::make_case(8, i), engine, n);
     CHECK(n.explained + n.only_relation == n.broken);
-    explained += n.explained, ++engines;
+    explained += n.explained;
+    ++engines;
   }
+  if (engines == 0) return test::skip("no other engine is built");
   if (engines == 3) CHECK(explained > 50);
 }
 

@@ -3,7 +3,6 @@
 #include <unistd.h>
 
 #include <atomic>
-#include <cstdio>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -19,6 +18,7 @@
 #include "oracles/core/core_engine.h"
 #include "tests/mutants/lying_engine.h"
 #include "tests/support/catch.h"
+#include "tests/support/skip.h"
 
 using namespace touchstone;
 namespace fs = std::filesystem;
@@ -171,16 +171,11 @@ TEST_CASE("the sbatch script's tasks together are the campaign of one machine", 
   check_shards_are_whole(out);
 }
 
-TEST_CASE("the same under a Slurm of one node", "[shards][cluster][slurm]") {
+TEST_CASE("the same under a Slurm of one node", "[shards][cluster][slurm][optional]") {
   for (const char* daemon : {"slurmctld", "slurmd", "munged", "sbatch"})
-    if (exit_of(std::string("PATH=\"$PATH:/usr/sbin\" command -v ") + daemon) != 0) {
-      std::printf("skipped: %s is not installed\n", daemon);
-      return;
-    }
-  if (geteuid() != 0) {
-    std::printf("skipped: a Slurm by hand wants root\n");
-    return;
-  }
+    if (exit_of(std::string("PATH=\"$PATH:/usr/sbin\" command -v ") + daemon) != 0)
+      return test::skip(std::string(daemon) + " is not installed");
+  if (geteuid() != 0) return test::skip("starting a Slurm by hand needs root");
   const Workspace w;
   const std::string out = w.path.string();
   const std::string cluster = "sh tests/fuzz/single_node_slurm.sh " + out + "/slurm",

@@ -10,6 +10,7 @@
 
 #include "oracles/client/remote_engine.h"
 #include "tests/support/catch.h"
+#include "tests/support/skip.h"
 
 namespace touchstone::testing {
 

@@ -1,24 +1,19 @@
 // Vertex-face and edge-edge with straight paths: closed forms, degenerate primitives, symmetry, and every
 // recorded query whose answer is known exactly.
-#include <cstdio>
-#include <cstdlib>
 #include <filesystem>
 
 #include "oracles/referee/motion/primitive_motion.h"
 #include "scenarios/import/ccd_queries.h"
 #include "tests/referee/support.h"
 #include "tests/support/catch.h"
+#include "tests/support/shared_data.h"
+#include "tests/support/skip.h"
 
 namespace touchstone::referee_test {
 namespace {
 
 using Quad = std::array<Vec3, 4>;
 constexpr auto vf = PrimitivePair::vertex_face, ee = PrimitivePair::edge_edge;
-
-std::filesystem::path data_root() {
-  const char* asked = std::getenv("TS_SHARED_DATA");
-  return asked ? asked : TS_SHARED_DATA;
-}
 
 /// Small integers: degenerate and coplanar more often than not.
 Quad lattice_quad(Rng& r) {
@@ -30,12 +25,9 @@ Quad lattice_quad(Rng& r) {
 
 }  // namespace
 
-TEST_CASE("the recorded queries are all decided as the exact truth says", "[referee][primitive]") {
-  const auto root = data_root() / "ccd";
-  if (!std::filesystem::exists(root / "truth.csv")) {
-    std::printf("skipped: %s is absent\n", root.c_str());
-    return;
-  }
+TEST_CASE("the recorded queries are all decided as the exact truth says", "[referee][primitive][data]") {
+  const auto root = test::shared_data() / "ccd";
+  if (!std::filesystem::exists(root / "truth.csv")) return test::skip(root.string() + " is absent");
   int false_negatives = 0, false_positives = 0, hits = 0, wrong_times = 0, total = 0;
   for (const CcdQuery& q : load_ccd_set(root)) {
     const PrimitiveTruth t = judge_primitive_motion(q.is_vertex_face ? vf : ee, q.start, q.end);

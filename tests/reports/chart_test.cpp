@@ -18,6 +18,7 @@
 #include "reports/stability/ladders.h"
 #include "reports/stability/stability.h"
 #include "tests/support/catch.h"
+#include "tests/support/skip.h"
 #include "tests/support/workspace.h"
 
 using namespace touchstone;
@@ -366,44 +367,61 @@ TEST_CASE("every ladder makes scenes of its questions at every rung", "[stabilit
   CHECK(made > 70);
 }
 
-TEST_CASE("a swept setting reaches its engine", "[cli][chart]") {
+namespace {
+
+Json corpus_answer(const std::string& file, const std::string& engine, const std::string& question) {
   const Workspace w("swept");
-  const auto ask = [&](const std::string& file, const std::string& engine, const std::string& question) {
-    const auto r =
-        w.touchstone("replay " TS_SOURCE_DIR "/scenarios/corpus/" + file + " --json --engines " + engine);
-    INFO(r.err);
-    REQUIRE(r.code <= 1);
-    const Json cases = Json::parse(r.out);
-    for (const Json& q : cases[0]["queries"])
-      if (q["question"] == question) return q["engines"][engine]["answer"];
-    return Json();
+  const auto r =
+      w.touchstone("replay " TS_SOURCE_DIR "/scenarios/corpus/" + file + " --json --engines " + engine);
+  INFO(r.err);
+  REQUIRE(r.code <= 1);
+  const Json cases = Json::parse(r.out);
+  for (const Json& q : cases[0]["queries"])
+    if (q["question"] == question) return q["engines"][engine]["answer"];
+  return Json();
+}
+
+bool has_plugin(const char* name) {
+  return std::filesystem::exists(TS_BINARY_DIR "/lib/libtouchstone_" + std::string(name) + ".so");
+}
+
+// A ball of radius 0.05 goes through a plate of thickness 0.01 at t = 0.4725.
+const std::string tunnel_case = "fcl-naive-thin-plate-tunnel.json", when = "time_of_impact";
+
+}  // namespace
+
+TEST_CASE("a swept setting reaches the core", "[cli][chart]") {
+  CHECK(corpus_answer(tunnel_case, "core-speculative@1", when)["toi"].get<double>() == Approx(0.4725));
+  CHECK(corpus_answer(tunnel_case, "core-steps@64", when)["toi"] == 31.0 / 64);
+  CHECK(corpus_answer(tunnel_case, "core-extended", "distance")["distance"].get<double>() == Approx(0.945));
+}
+
+TEST_CASE("a swept setting reaches FCL", "[cli][chart][optional]") {
+  if (!has_plugin("fcl_sweep")) return test::skip("FCL is not built in");
+  CHECK_FALSE(corpus_answer(tunnel_case, "fcl-naive@16", when).contains("toi"));
+  CHECK(corpus_answer(tunnel_case, "fcl-naive@256", when)["toi"] == 121.0 / 255);
+  // Only CCDC_NAIVE reads toc_err.
+  CHECK(corpus_answer(tunnel_case, "fcl-advance@1e-2", when)["toi"] ==
+        corpus_answer(tunnel_case, "fcl-advance@1e-8", when)["toi"]);
+  CHECK(corpus_answer(tunnel_case, "fcl-naive@16", "overlap")["outcome"] == "unsupported");
+}
+
+TEST_CASE("a swept setting reaches Bullet", "[cli][chart][optional]") {
+  if (!has_plugin("bullet_sweep_f64")) return test::skip("Bullet is not built in");
+  CHECK_FALSE(corpus_answer(tunnel_case, "bullet-f64-cast@0.1", when).contains("toi"));
+  CHECK(corpus_answer(tunnel_case, "bullet-f64-cast@0.001", when)["toi"].get<double>() == Approx(0.473));
+  const auto gap = [](const std::string& engine) {
+    return corpus_answer(tunnel_case, engine, "distance")["distance"].get<double>();
   };
-  // A ball of radius 0.05 goes through a plate of thickness 0.01 at t = 0.4725.
-  const std::string tunnel = "fcl-naive-thin-plate-tunnel.json", impact = "time_of_impact";
-  CHECK(ask(tunnel, "core-speculative@1", impact)["toi"].get<double>() == Approx(0.4725));
-  CHECK(ask(tunnel, "core-steps@64", impact)["toi"] == 31.0 / 64);
-  CHECK(ask(tunnel, "core-extended", "distance")["distance"].get<double>() == Approx(0.945));
-  const auto has = [](const char* plugin) {
-    return std::filesystem::exists(TS_BINARY_DIR "/lib/libtouchstone_" + std::string(plugin) + ".so");
-  };
-  if (has("fcl_sweep")) {
-    CHECK_FALSE(ask(tunnel, "fcl-naive@16", impact).contains("toi"));
-    CHECK(ask(tunnel, "fcl-naive@256", impact)["toi"] == 121.0 / 255);
-    // toc_err is read by CCDC_NAIVE alone.
-    CHECK(ask(tunnel, "fcl-advance@1e-2", impact)["toi"] == ask(tunnel, "fcl-advance@1e-8", impact)["toi"]);
-    CHECK(ask(tunnel, "fcl-naive@16", "overlap")["outcome"] == "unsupported");
-  }
-  if (has("bullet_sweep_f64")) {
-    CHECK_FALSE(ask(tunnel, "bullet-f64-cast@0.1", impact).contains("toi"));
-    CHECK(ask(tunnel, "bullet-f64-cast@0.001", impact)["toi"].get<double>() == Approx(0.473));
-    CHECK(ask(tunnel, "bullet-f64-minkowski@0", "distance")["distance"].get<double>() == Approx(0.945));
-    CHECK(ask(tunnel, "bullet-f64-minkowski@0.04", "distance")["distance"].get<double>() < 0.93);
-  }
-  if (has("libccd_sweep")) {
-    const std::string deep = "parry-70-capsule-cuboid-sweep-y0.25.json";
-    CHECK(ask(deep, "libccd-gjk-iterations@8", "contact")["outcome"] == "not_converged");
-    CHECK(ask(deep, "libccd-gjk-iterations@128", "contact")["outcome"] == "answered");
-  }
+  CHECK(gap("bullet-f64-minkowski@0") == Approx(0.945));
+  CHECK(gap("bullet-f64-minkowski@0.04") < 0.93);
+}
+
+TEST_CASE("a swept setting reaches libccd", "[cli][chart][optional]") {
+  if (!has_plugin("libccd_sweep")) return test::skip("libccd is not built in");
+  const std::string deep = "parry-70-capsule-cuboid-sweep-y0.25.json";
+  CHECK(corpus_answer(deep, "libccd-gjk-iterations@8", "contact")["outcome"] == "not_converged");
+  CHECK(corpus_answer(deep, "libccd-gjk-iterations@128", "contact")["outcome"] == "answered");
 }
 
 TEST_CASE("chart and stability write text, CSV and JSON, page or no page", "[cli][chart]") {

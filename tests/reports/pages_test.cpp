@@ -1,5 +1,5 @@
-// The pages: their data in a browser when node, playwright-core and chromium are there (else said and
-// skipped), and what happens where the pages are not built.
+// The pages: their data in a browser when Node, playwright-core and Chromium are installed, and what happens
+// when the pages are not built.
 #include <zlib.h>
 #include <algorithm>
 #include <cstdlib>
@@ -12,6 +12,7 @@
 #include "reports/text/findings_columns.h"
 #include "reports/text/web_page.h"
 #include "tests/support/catch.h"
+#include "tests/support/skip.h"
 #include "tests/support/workspace.h"
 
 namespace fs = std::filesystem;
@@ -23,12 +24,12 @@ namespace {
 
 const fs::path built = TS_BINARY_DIR "/share/touchstone/web";
 
-// Empty when all is there that a browser test needs.
+// Empty when everything that a browser test needs is present.
 std::string missing_for_browser() {
   for (const char* kind : {"case", "report", "chart", "stability", "certificate"})
     if (!fs::exists(built / (std::string(kind) + ".html"))) return "the built pages";
   if (!fs::exists(TS_BINARY_DIR "/web/node_modules/playwright-core")) return "playwright-core";
-  if (std::system("command -v node >/dev/null 2>&1") != 0) return "node";
+  if (!touchstone::test::has_command("node")) return "node";
   if (!fs::exists("/usr/bin/chromium")) return "/usr/bin/chromium";
   return "";
 }
@@ -91,11 +92,10 @@ void many_findings(const fs::path& from, const fs::path& to, std::size_t count) 
 
 }  // namespace
 
-TEST_CASE("pages load, show the numbers of their JSON, draw, move and link in a browser", "[pages]") {
-  if (const std::string missing = missing_for_browser(); !missing.empty()) {
-    WARN("skipped: " << missing << " is missing");
-    return;
-  }
+TEST_CASE("pages load, show the numbers of their JSON, draw, move and link in a browser",
+          "[pages][optional]") {
+  if (const std::string missing = missing_for_browser(); !missing.empty())
+    return touchstone::test::skip("missing: " + missing);
   const Workspace w("pages");
   const std::string engines = " --engines core,fcl-libccd,libccd-mpr";
   const std::string few = fs::exists(TS_BINARY_DIR "/lib/libtouchstone_fcl.so") &&
