@@ -92,21 +92,29 @@ TEST_CASE("primitives: motions within one plane and degenerate primitives are de
 }
 
 TEST_CASE("primitives: a graze at the top of a curve is contact exactly when it touches", "[primitive]") {
-  // The vertex moves along x, the face's plane turns about y so that the signed volume has a double root.
-  Quad a{Vec3(-1, 0, 1), Vec3(-4, -4, 0), Vec3(4, -4, 0), Vec3(0, 8, 0)}, b = a;
+  // The vertex moves along x and the face's plane turns about y. Its height above
+  // the plane is -2 (t - 1/2)^2, which has a double root.
+  Quad a{Vec3(-1, 0, 1), Vec3(-4, -4, 3), Vec3(4, -4, -1), Vec3(0, 8, 1)}, b = a;
   b[0].x() = 1;
-  a[1].z() = 2, b[1].z() = -2, a[2].z() = -2, b[2].z() = 2;
+  b[1].z() = -1;
+  b[2].z() = 3;
   const auto truth = truth_of(vf, a, b);
-  CHECK(primitive_impact(vf, a, b).toi.has_value() == truth.collides);
+  CHECK(truth.collides);
+  CHECK(truth.t_lo <= 0.5);
+  CHECK(truth.t_hi >= 0.5);
+  CHECK(primitive_impact(vf, a, b).toi.has_value());
+  // Above the graze the vertex crosses the plane twice, below it never.
   int hits = 0;
   for (int i = -40; i <= 40; ++i) {
     Quad c = a, d = b;
     c[0].z() += std::ldexp(i, -52), d[0].z() += std::ldexp(i, -52);
     const auto t = truth_of(vf, c, d);
     hits += t.collides;
+    CAPTURE(i);
+    REQUIRE(t.collides == (i >= 0));
     REQUIRE(primitive_impact(vf, c, d).toi.has_value() == t.collides);
   }
-  CAPTURE(hits);
+  CHECK(hits == 41);
 }
 
 TEST_CASE("primitives: the recorded queries have no false verdict and no late time", "[primitive][data]") {
