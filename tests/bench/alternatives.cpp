@@ -55,7 +55,8 @@ Shape some_shape(Rng& r) {
 Case aimed(Rng& r, Shape a, Shape b, double away, double off, double spin) {
   Case c{std::move(a), std::move(b), {}, {}, {}};
   const Vec3 from = r.unit_vector().normalized() * away, target = r.vector(0, off);
-  c.pose_a = {from, r.rotation()}, c.pose_b.rotation = r.rotation();
+  c.pose_a = {from, r.rotation()};
+  c.pose_b.rotation = r.rotation();
   c.motion_a = {(target - from) * r.uniform(1.2, 2.5), r.unit_vector().normalized() * spin};
   return c;
 }

@@ -149,8 +149,11 @@ void run_round(const Entrant& e, const Script& s, int threads, BroadRow& row) {
     if (f >= warm_frames) row.frame_ms.push_back(now_ms(threads) - before);
   }
   ++row.rounds;
-  row.pairs = out.size(), row.reported = subject->reported();
-  row.bytes = subject->memory_bytes(), row.note = subject->note(), row.answers = subject->answers();
+  row.pairs = out.size();
+  row.reported = subject->reported();
+  row.bytes = subject->memory_bytes();
+  row.note = subject->note();
+  row.answers = subject->answers();
 }
 
 int frames_of(const Options& o, int n) {
@@ -167,10 +170,13 @@ std::vector<BroadRow> run_cell(const Options& o, const std::vector<Entrant>& all
   for (const Entrant& e : all) {
     if (n > e.most || is_hopeless(e, scene, n) || !chosen(o.methods, e.name)) continue;
     BroadRow r;
-    r.scene = scene, r.n = n, r.method = e.name;
+    r.scene = scene;
+    r.n = n;
+    r.method = e.name;
     const auto subject = e.make(0, o.threads);
     r.wrong = subject->answers() && !agrees(*subject, script);
-    rows.push_back(r), who.push_back(&e);
+    rows.push_back(r);
+    who.push_back(&e);
   }
   for (int round = 0; round < o.rounds; ++round)
     for (std::size_t k = 0; k < rows.size(); ++k) {
@@ -184,7 +190,8 @@ std::vector<std::string> split(const std::string& s) {
   std::vector<std::string> all;
   for (std::size_t at = 0; at <= s.size();) {
     const std::size_t end = std::min(s.find(',', at), s.size());
-    all.push_back(s.substr(at, end - at)), at = end + 1;
+    all.push_back(s.substr(at, end - at));
+    at = end + 1;
   }
   return all;
 }

@@ -33,7 +33,9 @@ class Ours final : public ImpactContestant {
   }
   void ask(std::size_t i, FoundImpact& out) override {
     const ImpactAnswer r = time_of_impact(pairs_[i].a, pairs_[i].b, ImpactDetail::time);
-    out.failed = r.outcome != Outcome::answered, out.t = r.toi, out.steps = r.steps;
+    out.failed = r.outcome != Outcome::answered;
+    out.t = r.toi;
+    out.steps = r.steps;
   }
 
  private:
@@ -87,8 +89,11 @@ double scale_of(const MovingCase& c) {
   Scene s;
   s.shapes = {c.a, c.b};
   s.bodies.resize(2);
-  s.bodies[0].pose = c.pose_a, s.bodies[0].motion = c.motion_a;
-  s.bodies[1].shape = 1, s.bodies[1].pose = c.pose_b, s.bodies[1].motion = c.motion_b;
+  s.bodies[0].pose = c.pose_a;
+  s.bodies[0].motion = c.motion_a;
+  s.bodies[1].shape = 1;
+  s.bodies[1].pose = c.pose_b;
+  s.bodies[1].motion = c.motion_b;
   return scale_of_pair(s, 0, 1);
 }
 

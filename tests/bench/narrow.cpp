@@ -40,10 +40,14 @@ class Ours final : public NarrowContestant {
       out.overlap = overlap(a, b, arithmetic_, memory).overlap;
     } else if (task_ == Task::distance) {
       const DistanceAnswer r = distance(a, b, arithmetic_, memory);
-      out.gap = r.distance, out.normal = r.normal, out.overlap = r.distance <= 0;
+      out.gap = r.distance;
+      out.normal = r.normal;
+      out.overlap = r.distance <= 0;
     } else {
       const ContactAnswer r = contact(a, b, arithmetic_, memory);
-      out.overlap = r.overlap, out.gap = -r.depth, out.normal = r.normal;
+      out.overlap = r.overlap;
+      out.gap = -r.depth;
+      out.normal = r.normal;
       out.points = static_cast<int>(r.manifold.size());
     }
   }

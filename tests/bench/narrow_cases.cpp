@@ -9,7 +9,8 @@ std::vector<PairCase> make_cases(const PairKind& kind, Task task, int count, std
   for (int i = 0; i < count; ++i) {
     Rng r = Rng::stream(seed, static_cast<std::uint64_t>(i));
     PairCase c{make_shape(r, kind.a, kind.vertices), make_shape(r, kind.b, kind.vertices), {}, {}};
-    c.pose_a.rotation = r.rotation(), c.pose_b.rotation = r.rotation();
+    c.pose_a.rotation = r.rotation();
+    c.pose_b.rotation = r.rotation();
     c.pose_a.translation = r.unit_vector();
     c.pose_b.translation = c.pose_a.translation + 3 * r.unit_vector();
     const bool deep = task == Task::contact || i % 2 == 0;

@@ -31,7 +31,8 @@ class FclTree final : public Contestant {
     std::vector<fcl::CollisionObjectd*> all;
     for (std::size_t i = 0; i < boxes.size(); ++i) {
       objects_.push_back(std::make_unique<BoxObject>(static_cast<int>(i)));
-      objects_.back()->set(boxes[i]), all.push_back(objects_.back().get());
+      objects_.back()->set(boxes[i]);
+      all.push_back(objects_.back().get());
     }
     manager_.registerObjects(all);
     manager_.setup();
@@ -40,7 +41,8 @@ class FclTree final : public Contestant {
     moved_.clear();
     for (const broad::BoxUpdate& m : moves) {
       BoxObject& o = *objects_[static_cast<std::size_t>(m.id)];
-      o.set(m.box), moved_.push_back(&o);
+      o.set(m.box);
+      moved_.push_back(&o);
     }
     manager_.update(moved_);
     out.clear();

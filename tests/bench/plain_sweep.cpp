@@ -74,7 +74,8 @@ class PlainGrid final : public Plain {
   void find(std::vector<broad::IdPair>& out, std::size_t& n) override {
     choose_cells();
     const auto ny = static_cast<std::uint32_t>(count_[1]), nz = static_cast<std::uint32_t>(count_[2]);
-    begin_.assign(std::size_t{ny} * nz + 1, 0), spans_.resize(order_.size());
+    begin_.assign(std::size_t{ny} * nz + 1, 0);
+    spans_.resize(order_.size());
     for (std::size_t i = 0; i < order_.size(); ++i) {
       const Aabb& b = boxes_[order_[i].box];
       const Span s{cell(b.lo.y(), 1), cell(b.hi.y(), 1), cell(b.lo.z(), 2), cell(b.hi.z(), 2)};
@@ -83,7 +84,10 @@ class PlainGrid final : public Plain {
         for (std::uint32_t z = s.z0; z <= s.z1; ++z) ++begin_[y * nz + z];
     }
     std::uint32_t sum = 0;
-    for (std::uint32_t& b : begin_) sum += b, b = sum;
+    for (std::uint32_t& b : begin_) {
+      sum += b;
+      b = sum;
+    }
     columns_.resize(sum);
     for (std::size_t i = order_.size(); i-- > 0;) {
       const Span& s = spans_[i];

@@ -98,7 +98,8 @@ void run(benchmark::State& state, const Row& row) {
       auto truth = judge(row.cases[i].scene);
       benchmark::DoNotOptimize(truth);
       const double ns = std::chrono::duration<double, std::nano>(Clock::now() - from).count();
-      least[i] = std::min(least[i], ns), total += ns;
+      least[i] = std::min(least[i], ns);
+      total += ns;
     }
     state.SetIterationTime(total * 1e-9);
   }

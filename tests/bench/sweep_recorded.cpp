@@ -45,10 +45,13 @@ void add_frame(const Scene& scene, int rounds, Sum& s) {
   const StepReport r = w.step();
   std::set<BodyPair> at_end;
   for (const PairContact& c : r.contacts) at_end.emplace(c.a, c.b);
-  ++s.frames, s.bodies += static_cast<long>(scene.bodies.size());
+  ++s.frames;
+  s.bodies += static_cast<long>(scene.bodies.size());
   for (const SweptBody& b : r.swept) ++(b.reason == SweepReason::turning ? s.turning : s.travel);
   s.most = std::max(s.most, static_cast<long>(r.swept.size()));
-  s.asked += r.asked, s.spared += r.spared, s.unsettled += r.outcome != Outcome::answered;
+  s.asked += r.asked;
+  s.spared += r.spared;
+  s.unsettled += r.outcome != Outcome::answered;
   for (const PairImpact& i : r.impacts) {
     if (!i.impact.toi) continue;
     ++s.impacts;

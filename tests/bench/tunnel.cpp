@@ -48,7 +48,10 @@ void place_bullets(StepWorld& w, const std::vector<Shot>& fired, int substeps) {
 
 Scene slowed(Scene s, int substeps) {
   for (Body& b : s.bodies)
-    if (b.motion) b.motion->linear /= substeps, b.motion->angular /= substeps;
+    if (b.motion) {
+      b.motion->linear /= substeps;
+      b.motion->angular /= substeps;
+    }
   return s;
 }
 
@@ -95,7 +98,9 @@ void run_round(const TunnelScene& t, const Shots& fired, const Passes& passes, R
         if (i.impact.toi) seen.emplace(i.a, i.b);
       long others = 0;
       for (const SweptBody& b : r.swept) ++(b.body < t.bullets ? run.bullets_flagged : others);
-      run.others_flagged += others, run.most_others = std::max(run.most_others, others), run.asked += r.asked;
+      run.others_flagged += others;
+      run.most_others = std::max(run.most_others, others);
+      run.asked += r.asked;
       run.sweep_contacts += static_cast<double>(r.contacts.size()) / run.method.substeps;
     }
     run.step_ns[step] = std::min(run.step_ns[step], ns);

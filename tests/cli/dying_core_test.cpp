@@ -13,7 +13,8 @@ namespace {
 /// The program as installed, but for its core; its libraries are beside it.
 Workspace with_dying_core() {
   Workspace w("dying");
-  fs::create_directories(w.dir / "bin"), fs::create_directories(w.dir / "lib");
+  fs::create_directories(w.dir / "bin");
+  fs::create_directories(w.dir / "lib");
   for (const char* program : {"touchstone", "touchstone-host"})
     fs::copy_file(fs::path(TS_BINARY_DIR "/bin") / program, w.dir / "bin" / program);
   fs::copy_file(TS_BINARY_DIR "/lib/libts_dying_core.so", w.dir / "lib/libtouchstone_core.so");

@@ -39,7 +39,8 @@ const char* const two_spheres = R"({"touchstone_case": 1, "scene": {"touchstone_
   "queries": [{"question": "overlap", "a": 0, "b": 1}]})";
 
 Run replay(const Workspace& w, const std::string& card, const std::string& receipt) {
-  w.write("whole.py", on_whole_numbers(card, receipt)), w.write("two.json", two_spheres);
+  w.write("whole.py", on_whole_numbers(card, receipt));
+  w.write("two.json", two_spheres);
   return w.touchstone("replay two.json --engines 'pipe:python3 whole.py' --subject whole");
 }
 
@@ -71,7 +72,8 @@ TEST_CASE("an engine that holds another shape is not blamed for its algorithm", 
   std::string engine = on_whole_numbers(card, receipt(R"({"type": "sphere", "radius": 1.3})"));
   engine.replace(engine.find("float(round(x))"), 15, "x");
   engine.replace(engine.find("<= 4"), 4, "<= reach");
-  w.write("whole.py", engine), w.write("two.json", two_spheres);
+  w.write("whole.py", engine);
+  w.write("two.json", two_spheres);
   const Run told = w.touchstone("replay two.json --engines 'pipe:python3 whole.py' --subject whole");
   INFO(told.out << told.err);
   CHECK(told.code == 1);

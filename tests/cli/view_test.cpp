@@ -43,7 +43,8 @@ TEST_CASE("the page's pairs are those of two loops over its boxes", "[cli][view]
           bool all = true;
           for (std::size_t k = 0; k < 3; ++k) {
             const bool here = meet(boxes[a], boxes[b], k);
-            on_axis[k] += here ? 1 : 0, all &= here;
+            on_axis[k] += here ? 1 : 0;
+            all &= here;
           }
           if (all) expected.push_back({a, b});
         }

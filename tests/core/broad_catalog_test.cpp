@@ -59,21 +59,25 @@ TEST_CASE("every broad phase finds the same pairs in large scenes, coherent or t
       auto scene = make_scene();
       for (const BoxUpdate& u : scene) {
         const Mobility m = u.id % 4 == 0 ? Mobility::fixed : Mobility::moving;
-        subject->insert(u.id, u.box, m), reference->insert(u.id, u.box, m);
+        subject->insert(u.id, u.box, m);
+        reference->insert(u.id, u.box, m);
       }
       std::vector<IdPair> a, b;
       for (int frame = 0; frame < 24; ++frame) {
-        subject->pairs(a), reference->pairs(b);
+        subject->pairs(a);
+        reference->pairs(b);
         REQUIRE(a == b);
         CHECK(a.size() > 1000);
         subject->validate();
         if (frame == 15) scene = make_scene();
         for (BoxUpdate& u : scene) {
           const Vec3 v = r.vector(0, 0.02);
-          u.box.lo += v, u.box.hi += v;
+          u.box.lo += v;
+          u.box.hi += v;
         }
         const std::span<const BoxUpdate> all(scene), some = all.first(frame % 4 != 3 ? 3000 : 150);
-        subject->update(some), reference->update(some);
+        subject->update(some);
+        reference->update(some);
       }
     }
 }
@@ -100,7 +104,8 @@ TEST_CASE("a batch with one bad move makes no move", "[broad]") {
   for (const CatalogRow& row : catalog) {
     const auto phase = row.make();
     const Aabb unit{Vec3::Zero(), Vec3::Ones()}, away{Vec3::Constant(5), Vec3::Constant(6)};
-    phase->insert(1, unit), phase->insert(2, unit);
+    phase->insert(1, unit);
+    phase->insert(2, unit);
     const std::vector<BoxUpdate> moves = {{1, away}, {9, unit}};
     CHECK_THROWS_AS(phase->update(moves), Refused);
     std::vector<IdPair> out;

@@ -20,7 +20,8 @@ void* take(std::size_t size, std::size_t alignment) {
   auto* const raw = static_cast<char*>(std::aligned_alloc(before, (size + 2 * before - 1) / before * before));
   if (raw == nullptr) throw std::bad_alloc();
   char* const block = raw + before;
-  reinterpret_cast<std::size_t*>(block)[-1] = size, reinterpret_cast<std::size_t*>(block)[-2] = before;
+  reinterpret_cast<std::size_t*>(block)[-1] = size;
+  reinterpret_cast<std::size_t*>(block)[-2] = before;
   live += static_cast<long>(size);
   return block;
 }
@@ -63,7 +64,9 @@ Held hold(const CatalogRow& row, std::vector<BoxUpdate> scene, bool elsewhere) {
     if (elsewhere) std::rotate(scene.begin(), scene.begin() + 777, scene.end());
     for (std::size_t i = 0; i < scene.size(); ++i) {
       const Vec3 v = r.vector(0, 0.015);
-      scene[i].box.lo += v, scene[i].box.hi += v, scene[i].id = static_cast<int>(i);
+      scene[i].box.lo += v;
+      scene[i].box.hi += v;
+      scene[i].id = static_cast<int>(i);
     }
     phase->update(scene);
     phase->pairs(out);

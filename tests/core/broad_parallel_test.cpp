@@ -24,7 +24,8 @@ TEST_CASE("parts run on threads of their own and their failures come back", "[br
   std::set<std::size_t> parts;
   run_parts(5, [&](std::size_t p) {
     const std::lock_guard hold(lock);
-    seen.insert(std::this_thread::get_id()), parts.insert(p);
+    seen.insert(std::this_thread::get_id());
+    parts.insert(p);
   });
   CHECK(parts == std::set<std::size_t>{0, 1, 2, 3, 4});
   CHECK(seen.contains(std::this_thread::get_id()));
@@ -100,7 +101,8 @@ TEST_CASE("any number of threads reports the same bytes on crowds", "[broad][par
         if (frame == 9) scene = make_scene();
         for (BoxUpdate& u : scene) {
           const Vec3 v = r.vector(0, 0.03);
-          u.box.lo += v, u.box.hi += v;
+          u.box.lo += v;
+          u.box.hi += v;
         }
         const auto moved = std::span<const BoxUpdate>(scene).first(frame % 4 != 3 ? 2000 : 100);
         for (const BroadPhasePtr& p : phases) p->update(moved);

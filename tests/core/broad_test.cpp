@@ -22,7 +22,8 @@ Aabb random_box(Rng& r, bool lattice) {
   for (int k = 0; k < 3; ++k) {
     const double c = lattice ? static_cast<double>(r.below(6)) : r.uniform(0, 6);
     const double s = lattice ? static_cast<double>(r.below(3)) : r.uniform(0, 2);
-    b.lo[k] = c, b.hi[k] = c + s;
+    b.lo[k] = c;
+    b.hi[k] = c + s;
   }
   if (r.chance(0.03)) b.lo[static_cast<long>(r.below(3))] = -inf;
   if (r.chance(0.03)) b.hi[static_cast<long>(r.below(3))] = inf;
@@ -55,18 +56,22 @@ TEST_CASE("every broad phase reports the pairs of brute force through insert, mo
       for (int step = 0; step < 80; ++step) {
         const Aabb box = random_box(r, seed % 2 == 0);
         if (present.empty() || r.chance(0.6)) {
-          subject->insert(step, box), reference->insert(step, box), present.push_back(step);
+          subject->insert(step, box);
+          reference->insert(step, box);
+          present.push_back(step);
         } else if (r.chance(0.6)) {
           const int id = present[r.below(present.size())];
-          subject->move(id, box), reference->move(id, box);
+          subject->move(id, box);
+          reference->move(id, box);
         } else {
           const auto k = static_cast<long>(r.below(present.size()));
-          subject->remove(present[static_cast<std::size_t>(k)]),
-              reference->remove(present[static_cast<std::size_t>(k)]);
+          subject->remove(present[static_cast<std::size_t>(k)]);
+          reference->remove(present[static_cast<std::size_t>(k)]);
           present.erase(present.begin() + k);
         }
         std::vector<IdPair> a, b;
-        subject->pairs(a), reference->pairs(b);
+        subject->pairs(a);
+        reference->pairs(b);
         REQUIRE(a == b);
         REQUIRE(std::is_sorted(a.begin(), a.end()));
         subject->validate();
@@ -85,7 +90,8 @@ TEST_CASE("a box that is none is refused and nothing else is lost", "[broad]") {
     const Aabb unit{Vec3::Zero(), Vec3::Ones()}, inverted{Vec3::Ones(), Vec3::Zero()};
     Aabb nan = unit;
     nan.hi.y() = std::numeric_limits<double>::quiet_NaN();
-    phase->insert(1, unit), phase->insert(2, unit);
+    phase->insert(1, unit);
+    phase->insert(2, unit);
     CHECK_THROWS_AS(phase->insert(3, nan), Refused);
     CHECK_THROWS_AS(phase->move(2, inverted), Refused);
     CHECK_THROWS_AS(phase->insert(1, unit), Refused);

@@ -31,7 +31,8 @@ struct Storm {
   }
   void insert(const BoxUpdate& u) {
     const Mobility m = u.id % 3 == 0 ? Mobility::fixed : Mobility::moving;
-    tree->insert(u.id, u.box, m), reference->insert(u.id, u.box, m);
+    tree->insert(u.id, u.box, m);
+    reference->insert(u.id, u.box, m);
   }
   void carry(BoxUpdate& u) {
     const auto elsewhere = uniform_scene(r, static_cast<int>(here.size() + away.size()), 0.005, 12);
@@ -39,22 +40,29 @@ struct Storm {
   }
   void go() {
     const std::size_t i = r.below(here.size());
-    tree->remove(here[i].id), reference->remove(here[i].id);
-    away.push_back(here[i]), here[i] = here.back(), here.pop_back();
+    tree->remove(here[i].id);
+    reference->remove(here[i].id);
+    away.push_back(here[i]);
+    here[i] = here.back();
+    here.pop_back();
   }
   void come() {
     if (away.empty()) return;
     carry(away.back());
-    insert(away.back()), here.push_back(away.back()), away.pop_back();
+    insert(away.back());
+    here.push_back(away.back());
+    away.pop_back();
   }
   void move() {
     BoxUpdate& u = here[r.below(here.size())];
     carry(u);
-    tree->move(u.id, u.box), reference->move(u.id, u.box);
+    tree->move(u.id, u.box);
+    reference->move(u.id, u.box);
   }
   std::size_t compare() {
     std::vector<IdPair> a, b;
-    tree->pairs(a), reference->pairs(b);
+    tree->pairs(a);
+    reference->pairs(b);
     REQUIRE(a == b);
     tree->validate();
     return a.size();
@@ -91,7 +99,10 @@ TEST_CASE("a hierarchy that shrinks to nothing and grows again stays right", "[b
     while (!storm.here.empty()) {
       for (std::size_t k = 0; k <= storm.here.size() / 9 && !storm.here.empty(); ++k) storm.go();
       storm.compare();
-      if (round == 1 && storm.here.size() == 1) storm.move(), storm.compare();
+      if (round == 1 && storm.here.size() == 1) {
+        storm.move();
+        storm.compare();
+      }
     }
     CHECK(storm.compare() == 0);
     for (std::size_t pairs = 0; !storm.away.empty(); pairs = storm.compare()) {
@@ -110,13 +121,15 @@ TEST_CASE("a tree built box by box is right for infinite, equal and touching box
     Reference reference;
     for (int id = 0; id < 400; ++id) {
       const Aabb box = make_box(r, static_cast<BoxKind>(k));
-      store.insert(id, box, Mobility::moving), reference.bodies[id] = {box, false};
+      store.insert(id, box, Mobility::moving);
+      reference.bodies[id] = {box, false};
       tree.insert(store, static_cast<BoxStore::Slot>(id));
     }
     for (int id = 0; id < 400; ++id)
       if (id % 7 < 3) {
         tree.remove(static_cast<BoxStore::Slot>(id));
-        store.remove(id), reference.bodies.erase(id);
+        store.remove(id);
+        reference.bodies.erase(id);
       }
     tree.validate();
     CHECK(tree.size() == store.present());

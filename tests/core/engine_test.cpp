@@ -10,7 +10,8 @@ TEST_CASE("the core engine answers every question of a case, in order", "[engine
   c.scene.shapes = {Sphere{1}, HalfSpace{}};
   c.scene.bodies.resize(3);
   c.scene.bodies[1].pose.translation = Vec3(1.5, 0, 0.5);
-  c.scene.bodies[2].shape = 1, c.scene.bodies[2].is_static = true;
+  c.scene.bodies[2].shape = 1;
+  c.scene.bodies[2].is_static = true;
   for (int q = 0; q < 6; ++q) c.queries.push_back({static_cast<Question>(q), 0, 1});
   c.queries.push_back({Question::overlap, 0, 9});
   c.queries.push_back({Question::distance, 2, 2});

@@ -97,7 +97,8 @@ Scene crowd(Rng& rng, int n) {
 
 Fidelity coarse(const Scene& s, double error, Arithmetic arithmetic) {
   Fidelity f;
-  f.error = error, f.remember = f.loose_boxes = true;
+  f.error = error;
+  f.remember = f.loose_boxes = true;
   for (const Shape& shape : s.shapes)
     f.simpler.push_back(simpler_shape(shape, Fidelity::shape_share * error));
   for (auto& row : f.method) row.fill({true, arithmetic});
@@ -218,7 +219,8 @@ TEST_CASE("a world run by a plan is within the plan's error of the truth", "[fid
     for (int i = 0; i < 40; ++i) {
       Pose p = planned.end_pose(i);
       p.translation += 0.02 * direction(rng);
-      plain.set(i, p, {}), planned.set(i, p, {});
+      plain.set(i, p, {});
+      planned.set(i, p, {});
     }
   }
 }

@@ -28,7 +28,9 @@ void check_course(const CoursePair& c, Tally& n) {
   const referee::TimeTruth truth = referee::judge_motion(a, c.ma, b, c.mb);
   const double tau = tolerance::core_tau_factor * 0x1p-53 * scale_of(c);
   REQUIRE(x.outcome == Outcome::answered);
-  ++n.cases, n.hits += x.toi.has_value(), n.decided += truth.verdict != Verdict::undecided;
+  ++n.cases;
+  n.hits += x.toi.has_value();
+  n.decided += truth.verdict != Verdict::undecided;
   if (!x.toi) {
     CHECK(referee::certified_depth_before(a, c.ma, b, c.mb, 1) <= tau);
     return;
@@ -69,11 +71,16 @@ TEST_CASE("impact: published hulls, sheets and needles among them, in motion",
     const auto take = [&](Shape& s, Pose& pose) {
       std::vector<Vec3> v = hulls[r.below(hulls.size())].vertices;
       Vec3 lo = v[0], hi = v[0];
-      for (const Vec3& x : v) lo = lo.cwiseMin(x), hi = hi.cwiseMax(x);
+      for (const Vec3& x : v) {
+        lo = lo.cwiseMin(x);
+        hi = hi.cwiseMax(x);
+      }
       for (Vec3& x : v) x = (x - (lo + hi) / 2) / ((hi - lo).maxCoeff() / 2);
-      s = make_hull(std::move(v)), pose.rotation = r.rotation();
+      s = make_hull(std::move(v));
+      pose.rotation = r.rotation();
     };
-    take(c.p.a, c.p.pose_a), take(c.p.b, c.p.pose_b);
+    take(c.p.a, c.p.pose_a);
+    take(c.p.b, c.p.pose_b);
     c.p.pose_b.translation = r.unit_vector() * r.uniform(3, 5);
     c.mb.linear = -c.p.pose_b.translation * r.uniform(0.4, 1.6) + r.unit_vector() * 0.8;
     if (i % 3 > 0) c.mb.angular = r.vector(0.1, i % 3 == 1 ? 1 : 15);

@@ -46,8 +46,14 @@ class Width {
     const auto add = [&](const WideVec& n) {
       if (n.norm() > 0) seeds.emplace_back((*this)(n), n.normalized());
     };
-    for (int k = 0; k < 3; ++k) add(ra_.col(k)), add(-ra_.col(k)), add(rb_.col(k)), add(-rb_.col(k));
-    add(offset_), add(-offset_);
+    for (int k = 0; k < 3; ++k) {
+      add(ra_.col(k));
+      add(-ra_.col(k));
+      add(rb_.col(k));
+      add(-rb_.col(k));
+    }
+    add(offset_);
+    add(-offset_);
     for (int k = 0; k < starts; ++k) add(r.unit_vector().cast<Wide>());
     std::partial_sort(seeds.begin(), seeds.begin() + 4, seeds.end(),
                       [](auto& x, auto& y) { return x.first < y.first; });
@@ -65,7 +71,10 @@ class Width {
       for (int k = 0; k < 12; ++k) {
         const Wide angle = k * 0.52359877559829887308L;
         const WideVec n = (at.second + step * (std::cos(angle) * u + std::sin(angle) * v)).normalized();
-        if (const Wide w = (*this)(n); w < at.first) at = {w, n}, better = true;
+        if (const Wide w = (*this)(n); w < at.first) {
+          at = {w, n};
+          better = true;
+        }
       }
       if (!better) step *= 0.5L;
     }

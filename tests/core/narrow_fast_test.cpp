@@ -58,13 +58,15 @@ void enlarge(Shape& s, double by) {
 /// The pair as the arithmetic R receives it.
 template <class R>
 Pair received(Pair p) {
-  round_shape<R>(p.a), round_shape<R>(p.b);
+  round_shape<R>(p.a);
+  round_shape<R>(p.b);
   for (Pose* q : {&p.pose_a, &p.pose_b}) {
     const auto s = fast::stand<R>(*q);
     q->rotation = {s.x, s.y, s.z, s.w};
-    if constexpr (sizeof(R) == sizeof(float))
-      q->translation = through_float(q->translation),
+    if constexpr (sizeof(R) == sizeof(float)) {
+      q->translation = through_float(q->translation);
       q->rotation = {through_float(s.x), through_float(s.y), through_float(s.z), through_float(s.w)};
+    }
   }
   return p;
 }
@@ -106,7 +108,8 @@ void check_answers(const Pair& p, const Width& width, const Truth& t, bool swapp
     return s.found == fast::Found::apart || s.found == fast::Found::meeting;
   };
   if (const auto verdict = ask(fast::Asked::overlap); says_verdict(verdict)) {
-    ++count.verdicts, ++count.judged;
+    ++count.verdicts;
+    ++count.judged;
     CHECK((verdict.found == fast::Found::meeting) == (t.gap <= 0));
   }
   if (const auto contact = ask(fast::Asked::contact); contact.found != fast::Found::unsure) {
@@ -119,7 +122,8 @@ void check_answers(const Pair& p, const Width& width, const Truth& t, bool swapp
   }
   const auto value = ask(fast::Asked::distance);
   if (value.found == fast::Found::unsure) return;
-  ++count.answered, ++count.judged;
+  ++count.answered;
+  ++count.judged;
   count.depths += t.gap < 0;
   check_value<R>(width, t, value, swapped);
   CHECK(std::abs(static_cast<double>((value.b - value.a).norm()) -
@@ -135,7 +139,10 @@ void check_pair(const Pair& p, Count& count) {
   const Truth t{static_cast<double>(truth.gap), static_cast<double>(truth.slack), scale,
                 tolerance::core_tau_factor * fast::u<R> * scale};
   const Width width(p.a, p.pose_a, p.b, p.pose_b);
-  for (const bool swapped : {false, true}) ++count.asked, check_answers<R>(p, width, t, swapped, count);
+  for (const bool swapped : {false, true}) {
+    ++count.asked;
+    check_answers<R>(p, width, t, swapped, count);
+  }
 }
 
 template <class R>
@@ -214,7 +221,8 @@ TEST_CASE("boxes and capsules are answered without help at every angle and depth
       check_pair<double>(received<double>(p), in_double);
       check_pair<float>(received<float>(p), in_float);
     }
-  report(in_double), report(in_float);
+  report(in_double);
+  report(in_float);
   CHECK(in_double.depths * 4 > in_double.asked);
   CHECK(in_double.answered * 100 > in_double.asked * 99);
   CHECK(in_float.answered * 100 > in_float.asked * 99);
@@ -301,9 +309,12 @@ TEST_CASE("pairs at the ends of float's range are answered as those in its middl
                random_shape(r, static_cast<ShapeKind>(b), false),
                {},
                {}};
-        p.pose_a.rotation = r.rotation(), p.pose_b.rotation = r.rotation();
+        p.pose_a.rotation = r.rotation();
+        p.pose_b.rotation = r.rotation();
         p.pose_b.translation = r.unit_vector() * r.uniform(0, 3);
-        enlarge(p.a, unit), enlarge(p.b, unit), p.pose_b.translation *= unit;
+        enlarge(p.a, unit);
+        enlarge(p.b, unit);
+        p.pose_b.translation *= unit;
         INFO(type_name(p.a) << " " << type_name(p.b) << " unit " << unit << " round " << i);
         check_pair<float>(received<float>(p), count);
       }
@@ -333,7 +344,8 @@ TEST_CASE("round bodies with parallel axes have their depth without help, rings 
       check_pair<double>(received<double>(p), in_double);
       check_pair<float>(received<float>(p), in_float);
     }
-  report(in_double), report(in_float);
+  report(in_double);
+  report(in_float);
   CHECK(in_double.depths * 2 > cases);
   CHECK(in_double.answered * 100 > in_double.asked * 97);
   CHECK(in_float.answered * 100 > in_float.asked * 97);

@@ -184,8 +184,10 @@ TEST_CASE("hulls of a thousand vertices about one centre have a depth", "[narrow
   Rng rng(9);
   for (const int vertices : {300, 1000, 2000}) {
     Hull x, y;
-    for (int i = 0; i < vertices; ++i)
-      x.vertices.push_back(rng.unit_vector()), y.vertices.push_back(rng.unit_vector());
+    for (int i = 0; i < vertices; ++i) {
+      x.vertices.push_back(rng.unit_vector());
+      y.vertices.push_back(rng.unit_vector());
+    }
     const Shape a = x, b = y;
     const Pose at{Vec3(0, 0, 0), rng.rotation()};
     const ContactAnswer c = contact({&a, Pose{}}, {&b, at});

@@ -28,7 +28,8 @@ Shape plain_shape(Rng& rng, ShapeKind kind) {
 
 Pair plain_pair(Rng& r, ShapeKind a, ShapeKind b) {
   Pair p{plain_shape(r, a), plain_shape(r, b), {}, {}};
-  p.pose_a.rotation = r.rotation(), p.pose_b.rotation = r.rotation();
+  p.pose_a.rotation = r.rotation();
+  p.pose_b.rotation = r.rotation();
   p.pose_b.translation = 3 * r.unit_vector();
   return p;
 }
@@ -47,7 +48,9 @@ void judge(const Pair& p, Tally& t) {
   const bool decided = truth.verdict != referee::Verdict::undecided;
   const bool overlapping = truth.verdict == referee::Verdict::overlap;
   const double least = std::min(std::abs(truth.gap.lo), std::abs(truth.gap.hi));
-  ++t.cases, t.overlaps += overlapping, t.undecided += !decided;
+  ++t.cases;
+  t.overlaps += overlapping;
+  t.undecided += !decided;
 
   const OverlapAnswer o = overlap(p.placed_a(), p.placed_b());
   REQUIRE(o.outcome == Outcome::answered);
@@ -113,7 +116,8 @@ TEST_CASE("ladder of the scale, 1e-6 to 1e6", "[narrow][ladder]") {
   climb(-6, 6, 32, [](Rng& r, Pair& p, int k) {
     aim_twice(p, signed_gap(r, 0.03));
     const double s = std::pow(10.0, k);
-    scale_shape(p.a, s), scale_shape(p.b, s);
+    scale_shape(p.a, s);
+    scale_shape(p.b, s);
     p.pose_b.translation *= s;
   });
 }
@@ -122,7 +126,8 @@ TEST_CASE("ladder of the offset, 1 to 1e8", "[narrow][ladder]") {
   climb(0, 8, 33, [](Rng& r, Pair& p, int k) {
     aim_twice(p, signed_gap(r, 0.03));
     const Vec3 offset = r.unit_vector() * std::pow(10.0, k);
-    p.pose_a.translation += offset, p.pose_b.translation += offset;
+    p.pose_a.translation += offset;
+    p.pose_b.translation += offset;
   });
 }
 

@@ -21,7 +21,8 @@ TriangleMesh field(Rng& r, int n) {
   for (int y = 0; y < n; ++y)
     for (int x = 0; x < n; ++x) {
       const int k = y * (n + 1) + x;
-      m.triangles.push_back({k, k + 1, k + n + 1}), m.triangles.push_back({k + 1, k + n + 2, k + n + 1});
+      m.triangles.push_back({k, k + 1, k + n + 1});
+      m.triangles.push_back({k + 1, k + n + 2, k + n + 1});
     }
   return m;
 }
@@ -42,7 +43,8 @@ struct MeshCase {
 MeshCase mesh_case(int i, int kind, int n) {
   Rng r = Rng::stream(91, static_cast<std::uint64_t>(i * 7 + kind));
   MeshCase c{body(r, kind), field(r, n), {}, {}};
-  c.pose_a.rotation = r.rotation(), c.pose_mesh.rotation = r.rotation();
+  c.pose_a.rotation = r.rotation();
+  c.pose_mesh.rotation = r.rotation();
   c.pose_mesh.translation = r.unit_vector() * 5;
   const Vec3 local(r.uniform(-2.5, 2.5), r.uniform(-2.5, 2.5), r.uniform(-2, 2));
   c.pose_a.translation = rotation_matrix(c.pose_mesh.rotation) * local + c.pose_mesh.translation;
@@ -82,8 +84,10 @@ TEST_CASE("a body against a mesh: the same with a tree, and what the referee say
       Scene scene;
       scene.shapes = {c.a, c.mesh};
       scene.bodies.resize(2);
-      scene.bodies[0].shape = 0, scene.bodies[0].pose = c.pose_a;
-      scene.bodies[1].shape = 1, scene.bodies[1].pose = c.pose_mesh;
+      scene.bodies[0].shape = 0;
+      scene.bodies[0].pose = c.pose_a;
+      scene.bodies[1].shape = 1;
+      scene.bodies[1].pose = c.pose_mesh;
       const double tau = tolerance::core_tau_factor * 0x1p-53 * scale_of_pair(scene, 0, 1);
       narrow::FastAnswer<double> f;
       narrow::separate_fast<double>(a, b, narrow::fast::Asked::distance, f);
@@ -96,9 +100,11 @@ TEST_CASE("a body against a mesh: the same with a tree, and what the referee say
         for (const int k : t) v.push_back(mesh.vertices[static_cast<std::size_t>(k)]);
         const Shape triangle = make_hull(std::move(v));
         const auto truth = referee::judge_pair({&c.a, c.pose_a}, {&triangle, c.pose_mesh});
-        lo = std::min(lo, truth.gap.lo), hi = std::min(hi, truth.gap.hi);
+        lo = std::min(lo, truth.gap.lo);
+        hi = std::min(hi, truth.gap.hi);
       }
-      ++cases, overlaps += hi < 0;
+      ++cases;
+      overlaps += hi < 0;
       for (const PlacedShape& m : {plain, b}) {
         const DistanceAnswer d = distance(a, m);
         REQUIRE(d.outcome == Outcome::answered);

@@ -91,7 +91,8 @@ void compare(const Scene& from, const Scene& to, Jitter& j) {
       double nearest = 1e9;
       for (const ContactPoint& q : t.before.manifold)
         if (q.feature == p.feature) nearest = std::min(nearest, (p.position - q.position).norm());
-      j.point.push_back(std::max(0.0, nearest - step)), ++j.points;
+      j.point.push_back(std::max(0.0, nearest - step));
+      ++j.points;
     }
   }
 }

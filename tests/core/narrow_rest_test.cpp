@@ -90,7 +90,8 @@ TEST_CASE("a resting body's normal, points and feature ids stand still under ulp
       Pose a = rest.pose_a, b = rest.pose_b;
       for (Pose* p : {&a, &b}) {
         p->translation += 0x1p-52 * Vec3(r.uniform(-1, 1), r.uniform(-1, 1), r.uniform(-1, 1));
-        p->rotation.x += 0x1p-52 * r.uniform(-1, 1), p->rotation.y += 0x1p-52 * r.uniform(-1, 1);
+        p->rotation.x += 0x1p-52 * r.uniform(-1, 1);
+        p->rotation.y += 0x1p-52 * r.uniform(-1, 1);
       }
       const ContactAnswer c = contact({&rest.a, a}, {&rest.b, b});
       REQUIRE(c.overlap);
@@ -130,7 +131,10 @@ TEST_CASE("face contacts cover the true polygon; four points keep most of it and
     CHECK(four.size() <= 4);
     CHECK(area(four) >= 0.5 * area(octagon.manifold));
     double deepest = 0;
-    for (const ContactPoint& p : four) deepest = std::max(deepest, p.depth), ++reduced_points;
+    for (const ContactPoint& p : four) {
+      deepest = std::max(deepest, p.depth);
+      ++reduced_points;
+    }
     CHECK(deepest == octagon.depth);
   }
   CHECK(reduced_points >= 600);

@@ -155,8 +155,10 @@ TEST_CASE("swapping A and B mirrors the answer; a power of two scales it exactly
     CHECK(std::abs(static_cast<double>(s.gap - t.gap)) <= tau_of(p));
     Pair q = p;
     const double k = 0x1p12;
-    scale_shape(q.a, k), scale_shape(q.b, k);
-    q.pose_a.translation *= k, q.pose_b.translation *= k;
+    scale_shape(q.a, k);
+    scale_shape(q.b, k);
+    q.pose_a.translation *= k;
+    q.pose_b.translation *= k;
     const Separation scaled = separation(q.placed_a(), q.placed_b());
     CHECK(scaled.gap == s.gap * static_cast<Wide>(k));
     CHECK(scaled.normal == s.normal);

@@ -16,7 +16,8 @@ struct Tally {
 // One question with and without memory.
 void compare(const Pair& p, Arithmetic arithmetic, PairMemory& memory, Tally& t) {
   const PlacedShape a = p.placed_a(), b = p.placed_b();
-  ++t.asked, t.remembered += memory.direction != Vec3(Vec3::Zero());
+  ++t.asked;
+  t.remembered += memory.direction != Vec3(Vec3::Zero());
   PairMemory m = memory;
   const OverlapAnswer o0 = overlap(a, b, arithmetic), o1 = overlap(a, b, arithmetic, &m);
   const ContactAnswer c0 = contact(a, b, arithmetic), c1 = contact(a, b, arithmetic, &memory);

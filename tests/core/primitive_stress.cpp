@@ -19,12 +19,14 @@ int main(int argc, char** argv) {
     const PrimitiveKind kind = r.chance(0.5) ? PrimitiveKind::vertex_face : PrimitiveKind::edge_edge;
     const PrimitiveImpact x = primitive_impact(kind, m.a, m.b);
     const ccd::ExactImpact exact = ccd::decide_exactly(kind, m.a, m.b, 0, true);
-    hits += exact.collides, open += x.outcome != Outcome::answered,
-        in_double += x.exit != PrimitiveExit::exact;
+    hits += exact.collides;
+    open += x.outcome != Outcome::answered;
+    in_double += x.exit != PrimitiveExit::exact;
     const bool differs = x.toi.has_value() != exact.collides;
     // The first contact lies within 2^-49 after t_below.
     const bool is_late = x.toi && exact.collides && *x.toi > exact.t_below + 0x1p-49;
-    wrong += differs, late += is_late;
+    wrong += differs;
+    late += is_late;
     if (differs || is_late)
       std::printf("query %llu: %s, toi %.17g, exactly %d at %.17g, exit %d\n",
                   static_cast<unsigned long long>(i), kind == PrimitiveKind::vertex_face ? "vf" : "ee",

@@ -64,7 +64,8 @@ TEST_CASE("primitives: a vertex that crosses a face does so at the time of its p
   CHECK(primitive_impact(vf, start, end).toi.value() == Approx(1).epsilon(1e-14));
   // Through a corner, and past it by one unit.
   Quad above = start;
-  above[0] = {0, 0, 1}, end[0] = {0, 0, -1};
+  above[0] = {0, 0, 1};
+  end[0] = {0, 0, -1};
   CHECK(primitive_impact(vf, above, end).toi.value() == Approx(0.5).epsilon(1e-14));
   above[0].x() = end[0].x() = -0x1p-1074;
   CHECK_FALSE(primitive_impact(vf, above, end).toi);
@@ -77,7 +78,8 @@ TEST_CASE("primitives: motions within one plane and degenerate primitives are de
   CHECK(primitive_impact(vf, start, end).toi.value() == Approx(0.25).epsilon(1e-13));
   const Quad line{Vec3(0, 0, 0), Vec3(1, 1, 1), Vec3(3, 3, 3), Vec3(5, 5, 5)};
   Quad closer = line;
-  closer[2] = {-1, -1, -1}, closer[3] = {1, 1, 1};
+  closer[2] = {-1, -1, -1};
+  closer[3] = {1, 1, 1};
   CHECK(primitive_impact(ee, line, closer).toi.value() == Approx(0.5).epsilon(1e-14));
   const Quad spot{Vec3(0, 0, 1), Vec3(0, 0, 0), Vec3(0, 0, 0), Vec3(0, 0, 0)};
   Quad through = spot;
@@ -107,7 +109,8 @@ TEST_CASE("primitives: a graze at the top of a curve is contact exactly when it 
   int hits = 0;
   for (int i = -40; i <= 40; ++i) {
     Quad c = a, d = b;
-    c[0].z() += std::ldexp(i, -52), d[0].z() += std::ldexp(i, -52);
+    c[0].z() += std::ldexp(i, -52);
+    d[0].z() += std::ldexp(i, -52);
     const auto t = truth_of(vf, c, d);
     hits += t.collides;
     CAPTURE(i);
@@ -126,7 +129,8 @@ TEST_CASE("primitives: the recorded queries have no false verdict and no late ti
     const PrimitiveKind kind = q.is_vertex_face ? vf : ee;
     const PrimitiveImpact r = primitive_impact(kind, q.start, q.end);
     REQUIRE(r.outcome == Outcome::answered);
-    ++total, hits += q.truth->collides;
+    ++total;
+    hits += q.truth->collides;
     false_negatives += q.truth->collides && !r.toi;
     false_positives += !q.truth->collides && r.toi;
     const PrimitiveImpact loose = primitive_impact(kind, q.start, q.end, {.tolerance = 1e-6});
@@ -160,7 +164,9 @@ TEST_CASE("primitives: random queries are decided as the referee decides them", 
       const auto truth = truth_of(kind, m.a, m.b);
       const PrimitiveImpact x = primitive_impact(kind, m.a, m.b);
       CAPTURE(i, kind == vf, static_cast<int>(x.exit));
-      ++cases, hits += truth.collides, ++exits[static_cast<std::size_t>(x.exit)];
+      ++cases;
+      hits += truth.collides;
+      ++exits[static_cast<std::size_t>(x.exit)];
       REQUIRE(x.outcome == Outcome::answered);
       REQUIRE(x.toi.has_value() == truth.collides);
       if (!x.toi) continue;
@@ -211,7 +217,8 @@ TEST_CASE("primitives: a minimum separation is kept until the time of impact", "
       const PrimitiveImpact x = primitive_impact(kind, m.a, m.b, {least, tolerance});
       CAPTURE(i, kind == vf, least, static_cast<int>(x.exit), x.separation);
       REQUIRE(x.outcome == Outcome::answered);
-      ++cases, hits += x.toi.has_value();
+      ++cases;
+      hits += x.toi.has_value();
       const double end = x.toi.value_or(1), slack = 1e-12 * size + rounding_of(m.a, m.b);
       for (int k = 0; k < 25 && end > 0; ++k)
         REQUIRE(gap(kind, at(m.a, m.b, end * (k + r.uniform()) / 25)) >= least - slack);

@@ -44,7 +44,10 @@ inline void travel(Rng& r, CoursePair& c) {
 inline void turn(Rng& r, CoursePair& c, double least, double most) {
   if (r.chance(0.7)) c.ma.angular = r.vector(least, most);
   if (r.chance(0.5) || c.ma.angular.isZero(0)) c.mb.angular = r.vector(least, most);
-  if (r.chance(0.1)) c.ma.linear.setZero(), c.mb.linear.setZero();
+  if (r.chance(0.1)) {
+    c.ma.linear.setZero();
+    c.mb.linear.setZero();
+  }
 }
 
 // A body flies through a plate, 1e-1 to 1e-6 of its travel thick, whose rim is far.
@@ -70,12 +73,14 @@ inline void graze(Rng& r, CoursePair& c) {
   c.p = random_pair(r, kind(r), kind(r), Regime::separate);
   const double size = std::max(extent(c.p.a), extent(c.p.b));
   const double gap = (r.chance(0.5) ? 1 : -1) * r.binary_scale(-44, -6) * size;
-  aim(c.p, gap), aim(c.p, gap);
+  aim(c.p, gap);
+  aim(c.p, gap);
   const Separation s = separation(c.p.placed_a(), c.p.placed_b());
   const Vec3 n = s.normal.cast<double>(), u = r.unit_vector();
   const Vec3 way = (u - u.dot(n) * n) * size * r.uniform(1, 9);
   const double t = r.uniform(0.2, 0.8);
-  c.p.pose_b.translation -= t * way, c.mb.linear = way;
+  c.p.pose_b.translation -= t * way;
+  c.mb.linear = way;
   const double rounding = 0x1p-49 * scale_of(c);
   if (gap < -rounding) c.contact_by = t;
   if (gap > 0) c.least_gap = static_cast<double>(s.gap) - rounding;
@@ -85,8 +90,14 @@ inline void graze(Rng& r, CoursePair& c) {
 
 inline CoursePair random_course(Rng& r, CourseKind kind) {
   CoursePair c;
-  if (kind == CourseKind::thin_wall) return course::thin_wall(r, c), c;
-  if (kind == CourseKind::graze) return course::graze(r, c), c;
+  if (kind == CourseKind::thin_wall) {
+    course::thin_wall(r, c);
+    return c;
+  }
+  if (kind == CourseKind::graze) {
+    course::graze(r, c);
+    return c;
+  }
   c.p = random_pair(
       r, course::kind(r), r.chance(0.1) ? ShapeKind::half_space : course::kind(r),
       kind == CourseKind::near_start ? static_cast<Regime>(r.below(regime_count)) : Regime::separate);

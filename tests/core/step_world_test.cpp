@@ -30,8 +30,10 @@ Scene two_bodies(Shape a, Vec3 from, Motion m, Shape b) {
   Scene s;
   s.shapes = {std::move(a), std::move(b)};
   s.bodies.resize(2);
-  s.bodies[0].pose.translation = from, s.bodies[0].motion = m;
-  s.bodies[1].shape = 1, s.bodies[1].is_static = true;
+  s.bodies[0].pose.translation = from;
+  s.bodies[0].motion = m;
+  s.bodies[1].shape = 1;
+  s.bodies[1].is_static = true;
   return s;
 }
 
@@ -81,7 +83,10 @@ TEST_CASE("step: by hand a slow body is swept too, and a rod's reason is its tur
 TEST_CASE("step: poses go from step to step", "[step]") {
   StepWorld w(two_bodies(Sphere{0.1}, {-1, 0, 0}, {Vec3(0.1, 0, 0), Vec3::Zero()}, Box{{0.05, 1, 1}}));
   int steps = 0;
-  while (w.step().contacts.empty() && steps < 20) w.accept(), ++steps;
+  while (w.step().contacts.empty() && steps < 20) {
+    w.accept();
+    ++steps;
+  }
   CHECK(steps == 8);  // at -1 + 0.1·9 = -0.1: overlaps; at -0.2 it does not
   w.set(0, Pose{Vec3(-0.5, 0, 0), {}}, Motion{});
   const StepReport r = w.step();
@@ -127,9 +132,11 @@ TEST_CASE("step: of a thousand bodies the bullets are flagged and nothing tunnel
         const bool hit = truth.verdict == referee::TimeTruth::Verdict::hit;
         CAPTURE(step, i, j);
         REQUIRE(reports(x, i, j) == hit);
-        passes += hit, unseen_by_discrete += hit && !touches_at_end(y, i, j);
+        passes += hit;
+        unseen_by_discrete += hit && !touches_at_end(y, i, j);
       }
-    world.accept(), end_only.accept();
+    world.accept();
+    end_only.accept();
   }
   CAPTURE(passes, unseen_by_discrete, asked);
   CHECK(passes > steps);

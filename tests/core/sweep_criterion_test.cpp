@@ -57,7 +57,10 @@ TEST_CASE("criterion: what passes unseen is no deeper than claimed", "[sweep][ra
     const auto ka = static_cast<ShapeKind>(r.below(7)),
                kb = static_cast<ShapeKind>(r.below(r.chance(0.1) ? 8 : 7));
     Pair p = random_pair(r, ka, kb, Regime::separate);
-    if (kind_of(p.a) == ShapeKind::half_space) std::swap(p.a, p.b), std::swap(p.pose_a, p.pose_b);
+    if (kind_of(p.a) == ShapeKind::half_space) {
+      std::swap(p.a, p.b);
+      std::swap(p.pose_a, p.pose_b);
+    }
     const bool plane = kind_of(p.b) == ShapeKind::half_space;
     // Aimed to meet in the middle of the step; by turns only turning, on the spot, or both.
     const Vec3 d = p.pose_b.translation - p.pose_a.translation;
@@ -79,7 +82,8 @@ TEST_CASE("criterion: what passes unseen is no deeper than claimed", "[sweep][ra
     double deepest = 0;
     for (int k = 1; k < 40; ++k) deepest = std::max(deepest, -gap(k / 40.0));
     if (deepest == 0) continue;
-    ++passes, turning_passes += ma.linear.isZero(0);
+    ++passes;
+    turning_passes += ma.linear.isZero(0);
     const InnerExtent ea = inner_extent(p.a), eb = inner_extent(p.b);
     const double bound = pass_bound(ea, ma, eb, mb), tau = tolerance::core_tau_factor * 0x1p-53 * scale_of(p);
     CAPTURE(i, deepest, bound);

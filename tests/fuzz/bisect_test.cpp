@@ -84,7 +84,8 @@ TEST_CASE("the first query by which a lie shows is found, and what led to it", "
   }
   const auto add = [&](Step::Op op, int body, double x = 0) {
     Step s;
-    s.op = op, s.body = body;
+    s.op = op;
+    s.body = body;
     if (op == Step::Op::move) s.pose = Pose{{x, 0, 0}, {0, 0, 0, 1}};
     c.scene.script.push_back(s);
   };

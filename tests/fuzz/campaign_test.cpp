@@ -128,7 +128,11 @@ class TiresAt final : public Engine {
       asked_later_ += why_.empty() && index >= index_ + 32;
       if (why_.empty() && index >= index_) why_ = "set aside: tired";
       if (why_.empty()) continue;
-      for (Observation& o : all[i].answers) o = {}, o.outcome = Outcome::not_asked, o.detail = why_;
+      for (Observation& o : all[i].answers) {
+        o = {};
+        o.outcome = Outcome::not_asked;
+        o.detail = why_;
+      }
     }
     return all;
   }
@@ -189,7 +193,8 @@ TEST_CASE("an engine that gives up is set aside from one case on, whatever the n
     return e;
   };
   auto one = config_of(320), three = config_of(320);
-  one.jobs = 1, three.jobs = 3;
+  one.jobs = 1;
+  three.jobs = 3;
   const auto a = fuzz::run_campaign(one, engines, {}, go);
   CHECK(asked_later == 0);
   REQUIRE(a.set_aside.contains("tires"));
@@ -214,7 +219,8 @@ TEST_CASE("an engine that gives up is set aside from one case on, whatever the n
 
 TEST_CASE("one job and two jobs find the same, byte for byte", "[campaign]") {
   auto one = config_of(400), two = config_of(400);
-  one.jobs = 1, two.jobs = 2;
+  one.jobs = 1;
+  two.jobs = 2;
   const auto a = fuzz::run_campaign(one, two_engines, {}, go),
              b = fuzz::run_campaign(two, two_engines, {}, go);
   CHECK(a.cases == 400);
@@ -225,7 +231,8 @@ TEST_CASE("one job and two jobs find the same, byte for byte", "[campaign]") {
 TEST_CASE("a guided campaign is the same for one job and three, and after a stop", "[campaign][guided]") {
   auto one = config_of(1600), three = one;
   one.guided = three.guided = true;
-  one.jobs = 1, three.jobs = 3;
+  one.jobs = 1;
+  three.jobs = 3;
   const auto a = fuzz::run_campaign(one, two_engines, {}, go),
              b = fuzz::run_campaign(three, two_engines, {}, go);
   CHECK(a.cases == 1600);
@@ -304,7 +311,8 @@ TEST_CASE("every answer is right, wrong, undecided or not judged, and a surface'
 
 TEST_CASE("our core is right on random cases", "[campaign][core]") {
   auto config = config_of(3000);
-  config.engines = {"core"}, config.jobs = 2;
+  config.engines = {"core"};
+  config.jobs = 2;
   const auto make = [] {
     std::vector<EnginePtr> e;
     e.push_back(std::make_unique<CoreEngine>());
@@ -344,7 +352,8 @@ TEST_CASE("shards together are the whole campaign", "[campaign]") {
   fuzz::CampaignResult merged;
   for (std::uint64_t i : {2, 0, 1}) {
     auto c = config_of(320);
-    c.shard = i, c.shards = 3;
+    c.shard = i;
+    c.shards = 3;
     merged.merge(fuzz::run_campaign(c, two_engines, {}, go));
   }
   CHECK(fuzz::digest(merged) == fuzz::digest(whole));
@@ -416,7 +425,10 @@ TEST_CASE("a finding's certificate is made by the job that found it, not when th
       c, slow_ones,
       [&](const fuzz::Progress& p) {
         if (p.last) return;
-        for (const auto& [key, f] : p.result.findings) ++seen, made += !f.evidence->made.is_null();
+        for (const auto& [key, f] : p.result.findings) {
+          ++seen;
+          made += !f.evidence->made.is_null();
+        }
       },
       go);
   REQUIRE(seen > 0);
@@ -442,8 +454,14 @@ TEST_CASE("a case that shows several findings is stored once, and read back whol
   const auto shared = std::make_shared<const fuzz::Evidence>(evidence);
   for (const std::string fault : {"missed", "ghost", "crashed"}) {
     fuzz::Finding f;
-    f.engine = "e", f.question = "overlap", f.fault = fault, f.count = 1;
-    f.shapes = "sphere-sphere", f.blame = "algorithm", f.degeneracy = "solid", f.magnitude = "gross";
+    f.engine = "e";
+    f.question = "overlap";
+    f.fault = fault;
+    f.count = 1;
+    f.shapes = "sphere-sphere";
+    f.blame = "algorithm";
+    f.degeneracy = "solid";
+    f.magnitude = "gross";
     f.evidence = shared;
     r.findings[f.key()] = f;
   }

@@ -28,7 +28,8 @@ const std::atomic<bool> never{false};
 
 Subject core_subject(std::string_view name) {
   return {std::string(name), "", true, [name](BroadLevel level) {
-            return make_broad_engine(name, level == BroadLevel::boxes ? BroadBoxes::exact : BroadBoxes::bodies);
+            return make_broad_engine(name,
+                                     level == BroadLevel::boxes ? BroadBoxes::exact : BroadBoxes::bodies);
           }};
 }
 
@@ -36,13 +37,18 @@ BroadCertificate certificate(const Subject& s, std::uint64_t limit, int jobs = 1
                              std::vector<BroadLevel> levels = {BroadLevel::boxes, BroadLevel::bodies}) {
   CertifyConfig c;
   c.levels = std::move(levels);
-  c.limit = limit, c.jobs = jobs, c.program = "test";
+  c.limit = limit;
+  c.jobs = jobs;
+  c.program = "test";
   return *certify(s, c, {}, never);
 }
 
 BroadCertificate first_fault(const Subject& s, BroadLevel level) {
   CertifyConfig c;
-  c.levels = {level}, c.limit = 12000, c.first_fault = true, c.program = "test";
+  c.levels = {level};
+  c.limit = 12000;
+  c.first_fault = true;
+  c.program = "test";
   return *certify(s, c, {}, never);
 }
 
@@ -83,9 +89,12 @@ class OtherMotion final : public Engine {
 };
 
 BroadCertificate certificate_of_sweeps(OtherMotion::Change change) {
-  const Subject s{"other motion", "", true, [=](BroadLevel) { return std::make_unique<OtherMotion>(change); }};
+  const Subject s{"other motion", "", true,
+                  [=](BroadLevel) { return std::make_unique<OtherMotion>(change); }};
   CertifyConfig c;
-  c.levels = {BroadLevel::bodies}, c.first_fault = true, c.program = "test";
+  c.levels = {BroadLevel::bodies};
+  c.first_fault = true;
+  c.program = "test";
   for (const EvidenceRow& e : all_evidence())
     if (!e.sweeps && e.level == BroadLevel::bodies) c.without.emplace_back(e.name);
   return *certify(s, c, {}, never);
@@ -102,7 +111,8 @@ TEST_CASE("ends of n intervals have the orders that are counted by hand", "[cert
     std::vector<bool> relation;
     for (int i : {0, 1})
       for (int j : {2, 3}) relation.insert(relation.end(), {r[i] < r[j], r[i] == r[j]});
-    relation.push_back(r[0] == r[1]), relation.push_back(r[2] == r[3]);
+    relation.push_back(r[0] == r[1]);
+    relation.push_back(r[2] == r[3]);
     ++seen[relation];
   }
   CHECK(seen.size() == 26);
@@ -157,7 +167,8 @@ TEST_CASE("a certificate is the same bytes whatever the number of jobs, and come
 TEST_CASE("every lying broad phase is refuted by a script of few bodies and steps", "[certify]") {
   std::size_t refuted = 0, small = 0;
   for (const mutants::Mutant& m : broad_mutants()) {
-    const Subject s{std::string(m.name), "", true, [&m](BroadLevel) { return mutants::make_lying_engine(m); }};
+    const Subject s{std::string(m.name), "", true,
+                    [&m](BroadLevel) { return mutants::make_lying_engine(m); }};
     BroadCertificate c = first_fault(s, BroadLevel::boxes);
     if (exit_code(c) == 0) c = first_fault(s, BroadLevel::bodies);
     INFO(m.name);
@@ -236,7 +247,10 @@ Subject faulty(Faulty::Fault fault) {
   return {"faulty", "", false, [fault](BroadLevel) { return std::make_unique<Faulty>(fault); }, 1, {}};
 }
 
-void fail(Observation& o, Outcome outcome) { o = {}, o.outcome = outcome; }
+void fail(Observation& o, Outcome outcome) {
+  o = {};
+  o.outcome = outcome;
+}
 
 std::size_t inserts(const Scene& s) {
   return static_cast<std::size_t>(std::count_if(
@@ -323,7 +337,8 @@ TEST_CASE("every class of fault is listed, a solid pair first; what a bad box ca
   const BroadCertificate c = certificate(s, 400, 1, {BroadLevel::boxes});
   INFO(to_json(c).dump(1));
   CHECK(exit_code(c) == 1);
-  CHECK(c.evidence.size() == certificate(core_subject("brute_force"), 1, 1, {BroadLevel::boxes}).evidence.size());
+  CHECK(c.evidence.size() ==
+        certificate(core_subject("brute_force"), 1, 1, {BroadLevel::boxes}).evidence.size());
   for (const auto kind : {FaultKind::solid, FaultKind::touching, FaultKind::invalid, FaultKind::unbounded})
     CHECK(count_of(c, "missed", kind) == 1);
   CHECK(count_of(c, "crashed", FaultKind::numbers) == 1);
@@ -361,7 +376,9 @@ TEST_CASE("a bad box goes into a case file beside the scene and comes back, for 
   for (int i = 0; i < 4; ++i) add_box(s, {Vec3::Zero(), Vec3::Ones()});
   for (int i = 0; i < 3; ++i) s.bodies[static_cast<std::size_t>(i)].pose.translation.y() = bad[i];
   std::get<Box>(s.shapes[3]).half_extents.z() = bad[3];
-  insert_all(s), step_move(s, 3, {Vec3(bad[0], 0, 0), {}}), step_query(s);
+  insert_all(s);
+  step_move(s, 3, {Vec3(bad[0], 0, 0), {}});
+  step_query(s);
   stored.c.queries = {{Question::candidates, -1, -1}};
   const std::string text = to_text(stored);
   const Json j = Json::parse(text);
@@ -377,8 +394,10 @@ TEST_CASE("a bad box goes into a case file beside the scene and comes back, for 
     broken["odd_numbers"][place] = value;
     CHECK_THROWS_AS(stored_case_from_json(broken), InputError);
   };
-  refused("/bodies/9/pose/translation/1", "NaN"), refused("/bodies/0/pose/translation/1", 2.0);
-  refused("/bodies/0/pose/translation/1", "nan"), refused("/shapes/3/half_extents/2", 1);
+  refused("/bodies/9/pose/translation/1", "NaN");
+  refused("/bodies/0/pose/translation/1", 2.0);
+  refused("/bodies/0/pose/translation/1", "nan");
+  refused("/shapes/3/half_extents/2", 1);
   Json other = j;
   other["queries"] = Json::parse(R"([{"question": "overlap", "a": 0, "b": 1}])");
   CHECK_THROWS_AS(stored_case_from_json(other), InputError);

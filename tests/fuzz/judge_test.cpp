@@ -33,7 +33,7 @@ Observation answered() {
 }
 
 Judgement judge_one(const Case& c, const Observation& o, const EngineCard& card = double_card(),
-                          const ReceivedScene& received = {}) {
+                    const ReceivedScene& received = {}) {
   fuzz::Truth truth(c.scene);
   return fuzz::judge(c, card, {received, {o}}, truth).at(0);
 }
@@ -46,7 +46,9 @@ bool has(const Judgement& j, Fault f) {
 
 Observation contact(const Vec3& n, double depth) {
   Observation o = answered();
-  o.overlap = true, o.normal = n, o.depth = depth;
+  o.overlap = true;
+  o.normal = n;
+  o.depth = depth;
   return o;
 }
 
@@ -166,7 +168,8 @@ TEST_CASE("the bound of how far a received hull is from the one asked holds", "[
   Case c = spheres(5, Question::overlap);
   fuzz::Truth truth(c.scene);
   ReceivedScene box, nan;
-  box.shapes = {Box{Vec3(1, 1, 1)}}, nan.shapes = {Sphere{std::nan("")}};
+  box.shapes = {Box{Vec3(1, 1, 1)}};
+  nan.shapes = {Sphere{std::nan("")}};
   CHECK(std::isinf(truth.displacement(truth.frame_of(box))));
   CHECK(truth.frame_of(nan) == 0);
 }
@@ -404,7 +407,11 @@ TEST_CASE("what is too expensive to referee is undecided: neither held against a
           "[judge]") {
   const referee::WorkLimit nothing(0);
   Observation o = answered();
-  o.overlap = true, o.distance = 7, o.normal = Vec3(0, 1, 0), o.depth = 3, o.toi = 0.5;
+  o.overlap = true;
+  o.distance = 7;
+  o.normal = Vec3(0, 1, 0);
+  o.depth = 3;
+  o.toi = 0.5;
   for (const Question q :
        {Question::overlap, Question::distance, Question::contact, Question::time_of_impact}) {
     Case c = spheres(2.5, q);
@@ -417,19 +424,23 @@ TEST_CASE("what is too expensive to referee is undecided: neither held against a
 
 TEST_CASE("what is stated of a contact is judged, however little it is", "[judge]") {
   Observation o = answered();
-  o.overlap = true, o.normal = Vec3(0, 1, 0);
+  o.overlap = true;
+  o.normal = Vec3(0, 1, 0);
   CHECK(has(judge_one(spheres(1.5, Question::contact), o), Fault::not_minimal));
-  o.normal.reset(), o.depth = 0.4;
+  o.normal.reset();
+  o.depth = 0.4;
   CHECK(has(judge_one(spheres(1.5, Question::contact), o), Fault::infeasible));
   o.depth = 0.6;
   CHECK(has(judge_one(spheres(1.5, Question::contact), o), Fault::depth_excess));
   o.depth = 0.5;
   CHECK(judge_one(spheres(1.5, Question::contact), o).right());
   Observation d = answered();
-  d.distance = 0.5, d.overlap = true;
+  d.distance = 0.5;
+  d.overlap = true;
   CHECK(has(judge_one(spheres(2.5, Question::distance), d), Fault::ghost));
   Observation points = answered();
-  points.overlap = false, points.witness = {Vec3(1, 0, 0), Vec3(7, 0, 0)};
+  points.overlap = false;
+  points.witness = {Vec3(1, 0, 0), Vec3(7, 0, 0)};
   CHECK(has(judge_one(spheres(2.5, Question::distance), points), Fault::witness_off));
 }
 
@@ -450,7 +461,8 @@ TEST_CASE("a claimed tolerance is believed as far as it can be, and shown where 
     CHECK_FALSE(with(claim).unjudged_by_definition());
   }
   for (const double claim : {-1.0, double(NAN), double(INFINITY)}) CHECK(has(with(claim), Fault::no_number));
-  o.distance = 0.6, o.claimed_tolerance = 0.5;
+  o.distance = 0.6;
+  o.claimed_tolerance = 0.5;
   CHECK(judge_one(c, o).right());
   EngineCard nameless = double_card();
   nameless.source.clear();
@@ -539,8 +551,7 @@ TEST_CASE("a mesh or half-space received that is none does not reach the referee
   missed.overlap = false;
   TriangleMesh broken = std::get<TriangleMesh>(c.scene.shapes[1]);
   broken.vertices[1].y() = std::nan("");
-  CHECK(judge_one(c, missed, double_card(), {{}, {std::nullopt, broken}}).blame ==
-        Blame::representation);
+  CHECK(judge_one(c, missed, double_card(), {{}, {std::nullopt, broken}}).blame == Blame::representation);
   c.scene.shapes[1] = HalfSpace{};
   CHECK(judge_one(c, missed, double_card(), {{}, {std::nullopt, HalfSpace{Vec3::Zero(), 1}}}).blame ==
         Blame::representation);

@@ -40,7 +40,10 @@ TEST_CASE("every lying engine is found, by the fault that its lie is", "[mutants
 
 TEST_CASE("no two mutants share a name, and their faults cover all that the judge knows", "[mutants]") {
   std::set<std::string_view> names, faults;
-  for (const mutants::Mutant& m : mutants::mutants()) names.insert(m.name), faults.insert(m.fault);
+  for (const mutants::Mutant& m : mutants::mutants()) {
+    names.insert(m.name);
+    faults.insert(m.fault);
+  }
   CHECK(names.size() == mutants::mutants().size());
   for (const std::string_view fault : fault_names)
     if (fault != "failed") CHECK(faults.contains(fault));

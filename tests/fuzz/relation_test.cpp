@@ -78,7 +78,8 @@ TEST_CASE("whoever breaks a relation is wrong by the referee too, where that one
       const EnginePtr engine = mutants::make_lying_engine(m);
       for (std::uint64_t i = 0; i < 60; ++i) count_case(fuzz::make_case(4, i), engine, n);
       CHECK(n.explained + n.only_relation == n.broken);
-      explained += n.explained, only += n.only_relation;
+      explained += n.explained;
+      only += n.only_relation;
     }
   }
   CHECK(explained > 100);
@@ -150,11 +151,14 @@ TEST_CASE("an answer says of the gap what a right answer may say, and no more", 
   c.scene.bodies[1].pose.translation.x() = 1.5;
   const EngineCard card{"test", "", "", "", 0, 0, "its documentation"};
   Observation o;
-  o.outcome = Outcome::answered, o.overlap = true, o.claimed_tolerance = 0.125;
+  o.outcome = Outcome::answered;
+  o.overlap = true;
+  o.claimed_tolerance = 0.125;
   const auto of = [&](Question q) { return fuzz::implied_gap(c.scene, {q, 0, 1}, o, card); };
   CHECK(of(Question::overlap).hi == 0.125);
   CHECK(of(Question::overlap).lo == -std::numeric_limits<double>::infinity());
-  o.normal = Vec3(1, 0, 0), o.depth = 0.5;
+  o.normal = Vec3(1, 0, 0);
+  o.depth = 0.5;
   CHECK(of(Question::contact).lo == -0.625);
   CHECK(of(Question::contact).hi == -0.25);
   o.distance = -0.5;

@@ -27,7 +27,10 @@ namespace {
 
 struct Workspace {
   fs::path path = fs::temp_directory_path() / ("touchstone-shards-" + std::to_string(getpid()));
-  Workspace() { fs::remove_all(path), fs::create_directories(path); }
+  Workspace() {
+    fs::remove_all(path);
+    fs::create_directories(path);
+  }
   ~Workspace() { fs::remove_all(path); }
 };
 
@@ -67,8 +70,13 @@ const std::atomic<bool> go{false};
 
 fs::path campaign(const fs::path& out, std::uint64_t shard, std::uint64_t shards) {
   fuzz::CampaignConfig c;
-  c.engines = {"depth_halved"}, c.subject = "depth_halved";
-  c.cases = 400, c.seed = 9, c.shard = shard, c.shards = shards, c.out = out;
+  c.engines = {"depth_halved"};
+  c.subject = "depth_halved";
+  c.cases = 400;
+  c.seed = 9;
+  c.shard = shard;
+  c.shards = shards;
+  c.out = out;
   fuzz::run_campaign(c, liar, {}, go);
   return out;
 }
@@ -191,11 +199,20 @@ namespace {
 
 fuzz::KnownFinding row(const char* first, const char* last, std::uint64_t count, const char* expired) {
   fuzz::KnownFinding f;
-  f.key = "e.overlap.missed.box-box.algorithm.solid.gross", f.engine = "e", f.question = "overlap";
-  f.fault = "missed", f.shapes = "box-box", f.blame = "algorithm", f.degeneracy = "solid",
+  f.key = "e.overlap.missed.box-box.algorithm.solid.gross";
+  f.engine = "e";
+  f.question = "overlap";
+  f.fault = "missed";
+  f.shapes = "box-box";
+  f.blame = "algorithm";
+  f.degeneracy = "solid";
   f.magnitude = "gross";
-  f.first_seen = first, f.last_seen = last, f.count = count, f.expired = expired;
-  f.smallest = std::string("case of ") + first, f.size.bits = count;
+  f.first_seen = first;
+  f.last_seen = last;
+  f.count = count;
+  f.expired = expired;
+  f.smallest = std::string("case of ") + first;
+  f.size.bits = count;
   return f;
 }
 

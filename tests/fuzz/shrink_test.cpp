@@ -85,7 +85,8 @@ TEST_CASE("whatever must be kept, the result keeps it, is valid and no larger", 
       };
       const auto r = fuzz::shrink(c, when(shows), 3000);
       if (!shows(c)) continue;
-      ++checked, smaller += r.after < r.before;
+      ++checked;
+      smaller += r.after < r.before;
       CHECK(shows(r.smallest));
       CHECK_FALSE(r.before < r.after);
       CHECK_NOTHROW(validate(r.smallest.scene));

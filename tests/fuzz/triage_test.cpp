@@ -23,16 +23,24 @@ namespace {
 struct Place {
   fs::path dir = fs::temp_directory_path() / ("touchstone-triage-" + std::to_string(getpid()));
   fs::path ledger = dir / "findings.db";
-  Place() { fs::remove_all(dir), fs::create_directories(dir); }
+  Place() {
+    fs::remove_all(dir);
+    fs::create_directories(dir);
+  }
   ~Place() { fs::remove_all(dir); }
 };
 
 StoredFinding finding(const std::string& engine, const std::string& fault) {
   StoredFinding s;
-  s.finding.engine = engine, s.finding.fault = fault, s.finding.question = "contact";
-  s.finding.shapes = "box-box", s.finding.blame = "algorithm";
-  s.finding.degeneracy = "solid", s.finding.magnitude = "gross";
-  s.finding.count = 3, s.finding.words = "it is <wrong> & \"off\"";
+  s.finding.engine = engine;
+  s.finding.fault = fault;
+  s.finding.question = "contact";
+  s.finding.shapes = "box-box";
+  s.finding.blame = "algorithm";
+  s.finding.degeneracy = "solid";
+  s.finding.magnitude = "gross";
+  s.finding.count = 3;
+  s.finding.words = "it is <wrong> & \"off\"";
   s.c.scene.shapes = {Sphere{1}};
   s.c.scene.bodies.resize(2);
   s.c.queries = {{Question::contact, 0, 1}};
@@ -232,10 +240,13 @@ TEST_CASE("a file that is no ledger is refused by name and left alone", "[triage
 
 TEST_CASE("the report for continuous integration is well-formed and counts", "[triage]") {
   std::vector<Triaged> all(3);
-  all[0].finding.key = "one.a", all[0].finding.engine = "one", all[0].finding.words = "x < y & \"z\"";
+  all[0].finding.key = "one.a";
+  all[0].finding.engine = "one";
+  all[0].finding.words = "x < y & \"z\"";
   all[0].finding.smallest = "{}";
   all[1] = all[2] = all[0];
-  all[1].standing = Standing::still, all[2].standing = Standing::gone;
+  all[1].standing = Standing::still;
+  all[2].standing = Standing::gone;
   const std::string xml = reports::triage_junit(all);
   CHECK(xml.find("tests=\"3\" failures=\"1\" skipped=\"1\"") != std::string::npos);
   CHECK(xml.find("x &lt; y &amp; &quot;z&quot;") != std::string::npos);

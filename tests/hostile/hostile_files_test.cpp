@@ -62,8 +62,14 @@ std::string key(const std::string& engine) {
 
 fuzz::KnownFinding ledger_row(const std::string& engine, const std::string& under) {
   fuzz::KnownFinding f;
-  f.key = under, f.engine = engine, f.question = "overlap", f.fault = "missed", f.shapes = "sphere-sphere";
-  f.blame = "algorithm", f.degeneracy = "solid", f.magnitude = "gross";
+  f.key = under;
+  f.engine = engine;
+  f.question = "overlap";
+  f.fault = "missed";
+  f.shapes = "sphere-sphere";
+  f.blame = "algorithm";
+  f.degeneracy = "solid";
+  f.magnitude = "gross";
   return f;
 }
 
@@ -174,7 +180,9 @@ TEST_CASE("a plug-in's findings are asked again when the command line names it",
 
 TEST_CASE("two engines of one name are not asked in one run", "[hostile]") {
   const Marked w("hostile-names");
-  w.engine("core.sh", "core"), w.engine("a.sh", "same"), w.engine("b.sh", "same");
+  w.engine("core.sh", "core");
+  w.engine("a.sh", "same");
+  w.engine("b.sh", "same");
   for (const char* command : {"replay two_spheres.json --engines 'core,pipe:sh core.sh'",
                               "fuzz --cases 1 --out o --engines 'core,pipe:sh core.sh'",
                               "view two_spheres.json --json --engines 'pipe:sh a.sh,pipe:sh b.sh'",

@@ -44,13 +44,15 @@ Aabb y_as_z(const Scene& s, const QueryState& q, int i) {
   const Vec3 half = (b.hi - b.lo) / 2, mid = (b.hi + b.lo) / 2;
   const Vec3 mixed(half.x(), half.z(), half.y());
   Aabb m;
-  m.lo = mid - mixed, m.hi = mid + mixed;
+  m.lo = mid - mixed;
+  m.hi = mid + mixed;
   return m.lo.allFinite() && m.hi.allFinite() ? m : b;
 }
 // Clamped into a world of ±4096: what is outside becomes empty.
 Aabb bounded_world(const Scene& s, const QueryState& q, int i) {
   Aabb b = box_of(s, q, i);
-  b.lo = b.lo.cwiseMax(-4096.0), b.hi = b.hi.cwiseMin(4096.0);
+  b.lo = b.lo.cwiseMax(-4096.0);
+  b.hi = b.hi.cwiseMin(4096.0);
   return b;
 }
 // Fixed point of 12 bits after the point, rounded the wrong way.
@@ -72,7 +74,8 @@ Aabb flat_is_empty(const Scene& s, const QueryState& q, int i) {
 }
 Aabb absolute_shrink(const Scene& s, const QueryState& q, int i) {
   Aabb b = box_of(s, q, i);
-  b.lo.array() += 1e-9, b.hi.array() -= 1e-9;
+  b.lo.array() += 1e-9;
+  b.hi.array() -= 1e-9;
   return b;
 }
 

@@ -28,7 +28,8 @@ Lie for_motion(Motion (*other)(const Case&, int)) {
   return [other](const Case& c, const Query& q, Observation& o) {
     if (!asks(q, Question::time_of_impact) || o.outcome != Outcome::answered) return;
     MovingShape a = moving(c, q.a), b = moving(c, q.b);
-    a.motion = other(c, q.a), b.motion = other(c, q.b);
+    a.motion = other(c, q.a);
+    b.motion = other(c, q.b);
     const ImpactAnswer r = time_of_impact(a, b);
     if (r.outcome == Outcome::answered) o.toi = r.toi;
   };

@@ -83,7 +83,8 @@ Lie cached_by_shape() {
         body(c, q.b).shape == body(c, last->query.b).shape)
       o.distance = last->answer.distance;
     if (!last || scene != c.scene) scene = c.scene;
-    last = Memory{{}, q, {}}, last->answer.distance = right;
+    last = Memory{{}, q, {}};
+    last->answer.distance = right;
   };
 }
 
@@ -91,7 +92,10 @@ Lie cached_by_shape() {
 Lie farther_again() {
   return
       [seen = std::vector<Query>{}, scene = Scene{}](const Case& c, const Query& q, Observation& o) mutable {
-        if (scene != c.scene) scene = c.scene, seen.clear();
+        if (scene != c.scene) {
+          scene = c.scene;
+          seen.clear();
+        }
         const bool again = std::find(seen.begin(), seen.end(), q) != seen.end();
         seen.push_back(q);
         if (again && asks(q, Question::distance) && o.distance) *o.distance += 1e-6 * size_of_pair(c, q);
@@ -102,7 +106,10 @@ Lie farther_again() {
 Lie spoilt_between() {
   return
       [seen = std::vector<Query>{}, scene = Scene{}](const Case& c, const Query& q, Observation& o) mutable {
-        if (scene != c.scene) scene = c.scene, seen.clear();
+        if (scene != c.scene) {
+          scene = c.scene;
+          seen.clear();
+        }
         const bool other = !seen.empty() && (seen.back().a != q.a || seen.back().b != q.b);
         const bool again = std::find(seen.begin(), seen.end(), q) != seen.end();
         seen.push_back(q);
@@ -159,7 +166,8 @@ Lie pairs_of_scene_before() {
     if (!asks(q, Question::candidates)) return;
     auto right = o.candidate_pairs;
     if (bodies == c.scene.bodies.size() && last.size() == right.size()) o.candidate_pairs = last;
-    bodies = c.scene.bodies.size(), last = std::move(right);
+    bodies = c.scene.bodies.size();
+    last = std::move(right);
   };
 }
 

@@ -28,7 +28,10 @@ void distance_largest_double(const Case&, const Query& q, Observation& o) {
     o.distance = std::numeric_limits<double>::max();
 }
 void distance_withheld(const Case&, const Query& q, Observation& o) {
-  if (asks(q, Question::distance)) o.distance.reset(), o.overlap.reset();
+  if (asks(q, Question::distance)) {
+    o.distance.reset();
+    o.overlap.reset();
+  }
 }
 void verdict_withheld(const Case& c, const Query& q, Observation& o) {
   if (asks(q, Question::overlap) && are(c, q, ShapeKind::cone, ShapeKind::cone)) o.overlap.reset();
@@ -78,7 +81,8 @@ Lie cached_by_kinds() {
     const auto kinds = std::pair{kind(c, q.a), kind(c, q.b)};
     const double now = *o.distance;
     if (kinds == key) o.distance = last;
-    key = kinds, last = now;
+    key = kinds;
+    last = now;
   };
 }
 // The contact's answer is left over when the next pair has none.

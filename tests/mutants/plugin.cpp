@@ -47,7 +47,10 @@ Shape shape(const ts_shape& s) {
 
 Body body(const ts_body& b) {
   Body r;
-  r.shape = b.shape, r.pose = kit::pose_of(b.pose), r.is_static = b.is_static != 0, r.group = b.group;
+  r.shape = b.shape;
+  r.pose = kit::pose_of(b.pose);
+  r.is_static = b.is_static != 0;
+  r.group = b.group;
   if (b.has_motion) r.motion = kit::motion_of(b);
   return r;
 }

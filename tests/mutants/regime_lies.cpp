@@ -27,7 +27,8 @@ Lie when(Question question, Where where, What what) {
 
 void apart(const Case&, const Query&, Observation& o) {
   o = Observation{};
-  o.outcome = Outcome::answered, o.overlap = false;
+  o.outcome = Outcome::answered;
+  o.overlap = false;
 }
 void overlapping(const Case&, const Query&, Observation& o) { o.overlap = true; }
 void no_impact(const Case&, const Query&, Observation& o) { o.toi.reset(); }
@@ -57,7 +58,8 @@ void points_exchanged(const Case&, const Query&, Observation& o) {
 void between_origins(const Case& c, const Query& q, Observation& o) {
   const Vec3 line = body(c, q.b).pose.translation - body(c, q.a).pose.translation;
   if (!o.normal || line.norm() == 0) return;
-  o.normal = line.normalized(), o.depth = width(c, q, *o.normal);
+  o.normal = line.normalized();
+  o.depth = width(c, q, *o.normal);
 }
 
 // The answers for other shapes or poses than those asked.
@@ -71,9 +73,11 @@ Lie of_other(Question question, Where where, Another another) {
       o.overlap = overlap(a, b).overlap;
     } else if (question == Question::distance) {
       const DistanceAnswer r = distance(a, b);
-      o.distance = r.distance, o.witness = r.witness;
+      o.distance = r.distance;
+      o.witness = r.witness;
     } else if (const ContactAnswer r = contact(a, b); r.overlap) {
-      o.normal = r.normal, o.depth = r.depth;
+      o.normal = r.normal;
+      o.depth = r.depth;
     }
   };
 }

@@ -19,7 +19,10 @@ void apply(const Scene& scene, const Step& step, QueryState& s) {
   switch (step.op) {
     case Step::Op::insert:
       if (!b.first) b.first = to;
-      b.pose = to, b.moves = 0, b.slot = s.present++, ++b.inserts;
+      b.pose = to;
+      b.moves = 0;
+      b.slot = s.present++;
+      ++b.inserts;
       break;
     case Step::Op::move:
       b.before = b.pose, b.pose = to, ++b.moves, ++b.moves_in_frame;

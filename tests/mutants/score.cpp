@@ -73,7 +73,8 @@ Kill hunt(EnginePtr engine, std::uint64_t seed, double seconds, std::uint64_t mo
     k.seconds = std::chrono::duration<double>(Clock::now() - start).count();
     k.cases = first + chunk;
     if (const auto f = first_finding(r)) {
-      k.fault = f->question + " " + f->fault, k.cases = f->first_index + 1;
+      k.fault = f->question + " " + f->fault;
+      k.cases = f->first_index + 1;
       return k;
     }
     if (k.seconds > seconds) return k;
@@ -117,8 +118,10 @@ struct Total {
   std::vector<double> seconds;
   std::vector<std::uint64_t> cases;
   void add(const Kill& k) {
-    ++runs, survived += k.fault.empty();
-    seconds.push_back(k.seconds), cases.push_back(k.cases);
+    ++runs;
+    survived += k.fault.empty();
+    seconds.push_back(k.seconds);
+    cases.push_back(k.cases);
   }
 };
 
@@ -156,7 +159,10 @@ int run(const Options& o) {
   std::vector<mutants::Mutant> all;
   for (const mutants::Mutant& m : mutants::mutants())
     if (o.only.empty() || m.name.starts_with(o.only)) all.push_back(m);
-  if (all.empty()) return fmt::print(stderr, "no mutant is called {}\n", o.only), 2;
+  if (all.empty()) {
+    fmt::print(stderr, "no mutant is called {}\n", o.only);
+    return 2;
+  }
   const auto results = hunt_all(o, all);
   Total total;
   print_table(all, results, total);

@@ -66,7 +66,8 @@ std::vector<Row> rows() {
       {"a sphere on a mesh", pair_scene(square_at_zero(), Sphere{0.5}, Vec3(0.3, 0.1, 0.4)), -0.1, z},
       {"a sphere above a mesh", pair_scene(square_at_zero(), Sphere{0.5}, Vec3(0.3, 0.1, 0.75)), 0.25, z},
       {"a box above a mesh", pair_scene(square_at_zero(), box, Vec3(0.3, 0.1, 0.5)), 0.25, z},
-      {"a capsule above a mesh", pair_scene(square_at_zero(), Capsule{0.25, 0.5}, Vec3(0.3, 0.1, 1)), 0.25, z},
+      {"a capsule above a mesh", pair_scene(square_at_zero(), Capsule{0.25, 0.5}, Vec3(0.3, 0.1, 1)), 0.25,
+       z},
       {"a hull beside a mesh", pair_scene(square_at_zero(), unit_cube_from_corner(), Vec3(1.5, -0.5, -0.5)),
        0.5, x},
       {"a box in a mesh", pair_scene(square_at_zero(), box, Vec3(0.3, 0.1, 0.15)), -0.1, z},
@@ -260,12 +261,16 @@ TEST_CASE("received shapes are the asked ones up to the engine's rounding",
     };
     near(got(Sphere{}, 0).radius, third);
     near3(got(Box{}, 1).half_extents, Vec3(third, 2 * third, 0.7));
-    near(got(Capsule{}, 2).radius, third), near(got(Capsule{}, 2).half_height, 0.7);
-    near(got(Cylinder{}, 3).radius, third), near(got(Cylinder{}, 3).half_height, 0.7);
-    near(got(Cone{}, 4).radius, third), near(got(Cone{}, 4).half_height, 0.7);
+    near(got(Capsule{}, 2).radius, third);
+    near(got(Capsule{}, 2).half_height, 0.7);
+    near(got(Cylinder{}, 3).radius, third);
+    near(got(Cylinder{}, 3).half_height, 0.7);
+    near(got(Cone{}, 4).radius, third);
+    near(got(Cone{}, 4).half_height, 0.7);
     if (!s.is("bullet")) near3(got(Ellipsoid{}, 5).semi_axes, Vec3(third, 0.7, 0.1));
     for (std::size_t v = 0; v < 8; ++v) near3(got(Hull{}, 6).vertices[v], hull.vertices[v]);
-    near3(got(HalfSpace{}, 7).normal, Vec3(0.6, 0.8, 0)), near(got(HalfSpace{}, 7).offset, third);
+    near3(got(HalfSpace{}, 7).normal, Vec3(0.6, 0.8, 0));
+    near(got(HalfSpace{}, 7).offset, third);
     for (std::size_t v = 0; v < 4; ++v) near3(got(TriangleMesh{}, 8).vertices[v], mesh.vertices[v]);
     CHECK(got(TriangleMesh{}, 8).triangles == mesh.triangles);
     if (s.is_float()) CHECK(got(Sphere{}, 0).radius == through_float(third));

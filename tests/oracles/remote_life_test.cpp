@@ -139,7 +139,8 @@ TEST_CASE("a worker dies with the harness, even in the middle of an endless quer
   kill(harness, SIGKILL);
   waitpid(harness, nullptr, 0);
   CHECK(dies_eventually(worker));
-  close(ends[0]), close(ends[1]);
+  close(ends[0]);
+  close(ends[1]);
 }
 
 TEST_CASE("restarts and destruction leave no process and no descriptor behind", "[oracles][remote]") {

@@ -143,7 +143,8 @@ TEST_CASE("a crash is named by where it happened, the same every time", "[oracle
       INFO(o.detail);
       CHECK(o.outcome == Outcome::crashed);
       CHECK(o.site.starts_with(site));
-      sites.push_back(o.site), details.push_back(o.detail);
+      sites.push_back(o.site);
+      details.push_back(o.detail);
     }
     CHECK(sites[0] == sites[1]);
     CHECK(details[0] == details[1]);  // no addresses

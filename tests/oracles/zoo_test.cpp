@@ -244,12 +244,14 @@ class Outside {
     directory_ = mkdtemp(pattern);
     std::ofstream(directory_ / "file") << "as it was\n";
     mark_ = "zoo" + std::to_string(getpid());
-    listen_at_a_name(), listen_at_a_port();
+    listen_at_a_name();
+    listen_at_a_port();
     setenv("TOUCHSTONE_ZOO_VICTIM", directory_.c_str(), 1);
     setenv("TOUCHSTONE_ZOO_MARK", mark_.c_str(), 1);
   }
   ~Outside() {
-    close(by_name_), close(by_port_);
+    close(by_name_);
+    close(by_port_);
     fs::remove_all(directory_);
     for (const char* v : {"VICTIM", "MARK", "PORT", "FENCED", "LOADING"})
       unsetenv((std::string("TOUCHSTONE_ZOO_") + v).c_str());
@@ -258,7 +260,7 @@ class Outside {
   void fence(const std::string& sandbox) {
     fenced_ = sandbox.find("PID namespace") != std::string::npos;
     if (fenced_) setenv("TOUCHSTONE_ZOO_FENCED", "1", 1);
-    files_ = sandbox.find("files NOT") == std::string::npos,
+    files_ = sandbox.find("files NOT") == std::string::npos;
     network_ = sandbox.find("NOT closed") == std::string::npos;
   }
   void check() {
@@ -305,7 +307,8 @@ class Outside {
   void listen_at_a_port() {
     by_port_ = socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0);
     sockaddr_in at{};
-    at.sin_family = AF_INET, at.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+    at.sin_family = AF_INET;
+    at.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
     socklen_t size = sizeof at;
     const bool listens = bind(by_port_, reinterpret_cast<const sockaddr*>(&at), sizeof at) == 0 &&
                          listen(by_port_, 8) == 0 &&

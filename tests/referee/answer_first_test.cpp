@@ -28,7 +28,8 @@ Answer apart(Rng& r, int i) {
   Answer c{
       random_convex(r, convex_kinds[i % 7]), random_convex(r, convex_kinds[i / 7 % 7]), {}, {}, {}, 0, 0};
   c.pose_a.translation = r.vector(0, r.chance(0.2) ? 100 : 1);
-  c.pose_a.rotation = r.rotation(), c.pose_b.rotation = r.rotation();
+  c.pose_a.rotation = r.rotation();
+  c.pose_b.rotation = r.rotation();
   c.normal = r.unit_vector();
   c.gap = log_uniform(r, -40, 1);
   c.pose_b.translation =
@@ -42,7 +43,8 @@ Answer ball_in_side(Rng& r, int i) {
   const double radius = log_uniform(r, -4, 1);
   Answer c{random_convex(r, convex_kinds[i % 7]), Sphere{radius}, {}, {}, {}, 0, 0};
   c.pose_a.translation = r.vector(0, 2);
-  c.pose_a.rotation = r.rotation(), c.pose_b.rotation = r.rotation();
+  c.pose_a.rotation = r.rotation();
+  c.pose_b.rotation = r.rotation();
   c.normal = r.unit_vector();
   c.gap =
       -radius * (r.chance(0.5) ? std::ldexp(1.0, -static_cast<int>(r.below(40)) - 1) : r.uniform(0.01, 0.99));

@@ -48,7 +48,8 @@ TEST_CASE("every certificate of a pair in general position is accepted after a t
     refused_depths += !checker::check(lower, a, b);
     Certificate upper;
     upper.kind = Certificate::Kind::depth_direction;
-    upper.direction = t.normal, upper.offset = -t.gap.lo;
+    upper.direction = t.normal;
+    upper.offset = -t.gap.lo;
     REQUIRE(checker::check(stored(upper), a, b));
     REQUIRE(lower.offset <= upper.offset);
     // The two meet: depth is proven from both sides to rounding (or to what the bracket leaves). Where
@@ -82,7 +83,8 @@ TEST_CASE("a plane through a touching pair is refused with any number changed", 
   const auto plane = [&](const std::vector<double>& v) {
     Certificate d;
     d.kind = Certificate::Kind::separating_plane;
-    d.direction = {v[0], v[1], v[2]}, d.offset = v[3];
+    d.direction = {v[0], v[1], v[2]};
+    d.offset = v[3];
     return d;
   };
   REQUIRE(checker::check(stored(plane(n)), a, b));
@@ -107,7 +109,8 @@ TEST_CASE("planes of cylinder, cone and ellipsoid are decided through their squa
     for (double slack : {1e-14, -1e-14}) {
       Certificate c;
       c.kind = Certificate::Kind::separating_plane;
-      c.direction = n, c.offset = top + slack;
+      c.direction = n;
+      c.offset = top + slack;
       const Placed a{&x, p}, b{&dot_shape, Pose{s + n, {}}};
       REQUIRE(checker::check(stored(c), a, b) == (slack > 0));
       ++(slack > 0 ? held : refused);
@@ -237,12 +240,14 @@ TEST_CASE("depth in a half-space is certified from both sides", "[referee][check
     if (t.verdict != Verdict::overlap) continue;
     Certificate upper;
     upper.kind = Certificate::Kind::depth_direction;
-    upper.direction = t.normal, upper.offset = width(a, b, t.normal).hi;
+    upper.direction = t.normal;
+    upper.offset = width(a, b, t.normal).hi;
     REQUIRE(upper.offset <= -t.gap.lo * (1 + 1e-15));
     REQUIRE(checker::check(stored(depth_certificate(t, a, b)), a, b));
     REQUIRE(checker::check(stored(upper), a, b));
     Certificate more = stored(depth_certificate(t, a, b));
-    more.offset += 1e-13, upper.offset -= 1e-13;
+    more.offset += 1e-13;
+    upper.offset -= 1e-13;
     REQUIRE_FALSE(checker::check(more, a, b));
     REQUIRE_FALSE(checker::check(upper, a, b));
     ++checked;

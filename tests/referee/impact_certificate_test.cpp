@@ -63,19 +63,25 @@ TEST_CASE("every random motion's certificate is accepted and nearly as sharp as 
     if (t.verdict == Hit::undecided) continue;
     const ImpactCertificate c = stored(impact_certificate(p.a, p.ma, p.b, p.mb, t));
     INFO(i << " " << type_name(x) << " " << type_name(y) << " [" << t.t_lo << ", " << t.t_hi << "]");
-    hits += t.verdict == Hit::hit, none += t.verdict == Hit::none;
+    hits += t.verdict == Hit::hit;
+    none += t.verdict == Hit::none;
     const double until = t.verdict == Hit::none ? 1 : t.t_lo;
     if (until > 0) {
       no_planes += c.tracks.empty();
       if (!c.tracks.empty()) {
         REQUIRE(p.accepts(c));
-        ++planes, keys += keys_of(c), most = std::max(most, keys_of(c));
+        ++planes;
+        keys += keys_of(c);
+        most = std::max(most, keys_of(c));
         worst_lo = std::max(worst_lo, until - c.clear_until);
       }
     }
     if (t.verdict == Hit::hit) {
       no_contact += !c.contact;
-      if (c.contact) ++contacts, worst_hi = std::max(worst_hi, time_of(*c.contact) - t.t_hi);
+      if (c.contact) {
+        ++contacts;
+        worst_hi = std::max(worst_hi, time_of(*c.contact) - t.t_hi);
+      }
     }
   }
   WARN(hits << " hits, " << none << " none; planes for " << planes << " (missing " << no_planes << ", "
@@ -172,7 +178,8 @@ TEST_CASE("how deep bodies are in each other on the way is certified, of triangl
       std::swap(p.ma, p.mb);
     }
     const DepthInTime d = deepest_before(p.a, p.ma, p.b, p.mb, 1);
-    INFO(i << " " << type_name(*p.a.shape) << " " << type_name(*p.b.shape) << " " << d.depth << " at " << d.t);
+    INFO(i << " " << type_name(*p.a.shape) << " " << type_name(*p.b.shape) << " " << d.depth << " at "
+           << d.t);
     if (!(d.depth > 1e-3)) continue;
     ++deep;
     ImpactCertificate c;

@@ -30,7 +30,8 @@ double r_of(int i) { return std::fmod(0.618033988749895 * i * (1 + i % 5), 1.0);
 
 Pair anywhere(Rng& r) {
   Pair p{exact_shape(r), exact_shape(r), {}, {}};
-  p.pose_a = {r.vector(0, 0.5), r.rotation()}, p.pose_b = {r.vector(0, 1), r.rotation()};
+  p.pose_a = {r.vector(0, 0.5), r.rotation()};
+  p.pose_b = {r.vector(0, 1), r.rotation()};
   return p;
 }
 
@@ -64,7 +65,9 @@ Pair nearly_parallel_boxes(Rng& r) {
   const double tilt = r.chance(0.2) ? 0 : r.binary_scale(-60, -2);
   const Vec3 w = r.unit_vector() * tilt;
   Quat q = p.pose_a.rotation;
-  q.x += w.x(), q.y += w.y(), q.z += w.z();
+  q.x += w.x();
+  q.y += w.y();
+  q.z += w.z();
   p.pose_b.rotation = q;
   if (r.chance(0.5))
     bring_together(r, p, 1);
@@ -77,7 +80,8 @@ Pair flat(Rng& r) {
   const auto s = [&] { return r.chance(0.4) ? r.binary_scale(-60, -10) : r.uniform(0.1, 1); };
   Pair p{Box{{s(), s(), s()}}, Box{{s(), s(), s()}}, {}, {}};
   if (r.chance(0.3)) p.b = Capsule{s(), s()};
-  p.pose_a.rotation = r.rotation(), p.pose_b.rotation = r.rotation();
+  p.pose_a.rotation = r.rotation();
+  p.pose_b.rotation = r.rotation();
   p.pose_b.translation = r.vector(0, 1);
   if (r.chance(0.5)) bring_together(r, p, 0.1);
   return p;
@@ -86,7 +90,8 @@ Pair flat(Rng& r) {
 Pair any_scale(Rng& r) {
   const double size = r.binary_scale(-120, 120);
   Pair p{exact_shape(r, size), exact_shape(r, size), {}, {}};
-  p.pose_a = {r.vector(0, size), r.rotation()}, p.pose_b = {r.vector(0, 1.5 * size), r.rotation()};
+  p.pose_a = {r.vector(0, size), r.rotation()};
+  p.pose_b = {r.vector(0, 1.5 * size), r.rotation()};
   return p;
 }
 
@@ -215,7 +220,8 @@ TEST_CASE("integers of 512 bits and rationals agree on half-spaces", "[referee][
       REQUIRE(judge_pair({&up, p.pose_b}, body).verdict == Verdict::overlap);
       REQUIRE(judge_pair({&down, p.pose_b}, body).verdict == Verdict::disjoint);
     }
-    ++decided, overlaps += *brief;
+    ++decided;
+    overlaps += *brief;
   }
   WARN(decided << " cases, " << overlaps << " overlap, " << touching << " touch");
   REQUIRE(decided == cases);
@@ -244,7 +250,8 @@ TEST_CASE("a point of a curved body: integers of 512 bits and the checker's rati
     at.kind = Certificate::Kind::common_point;
     at.point = point;
     REQUIRE(checker::check(at, body, body) == *brief);
-    ++decided, inside += *brief;
+    ++decided;
+    inside += *brief;
     // On the border exactly: inside as it is, outside a little farther from the centre.
     const Vec3 out = point + 0x1p-30 * (point - placed.pose_a.translation);
     if (const auto beyond = contains_short(body, out); *brief && beyond && !*beyond) ++on_border;

@@ -126,7 +126,9 @@ TEST_CASE("dense sampling finds no contact before t_lo and none at all when the 
     const TimeTruth t = judge_motion(a, ma, b, mb);
     INFO(i << " " << type_name(sa) << " " << type_name(sb) << " [" << t.t_lo << ", " << t.t_hi << "] "
            << t.note);
-    hits += t.verdict == Hit::hit, none += t.verdict == Hit::none, undecided += t.verdict == Hit::undecided;
+    hits += t.verdict == Hit::hit;
+    none += t.verdict == Hit::none;
+    undecided += t.verdict == Hit::undecided;
     const double clear_until = t.verdict == Hit::none ? 1 : t.t_lo;
     // Another road to the pose: core's pose_at in doubles and the discrete judge.
     for (int k = 0; k < 100; ++k) {
@@ -231,7 +233,8 @@ TEST_CASE("a half-space that turns: closed form of a ball, and a great box in it
     undecided += t.verdict == Hit::undecided || u.verdict == Hit::undecided;
     if (t.verdict == Hit::undecided || u.verdict == Hit::undecided) continue;
     REQUIRE(t.verdict == u.verdict);
-    hits += t.verdict == Hit::hit, none += t.verdict == Hit::none;
+    hits += t.verdict == Hit::hit;
+    none += t.verdict == Hit::none;
     if (t.verdict == Hit::hit) {
       REQUIRE(t.t_lo <= u.t_hi);
       REQUIRE(u.t_lo <= t.t_hi);
@@ -295,7 +298,8 @@ TEST_CASE("the certified depth of a turning motion is that of a dense search, an
       const double s = k / static_cast<double>(n);
       const PairTruth g = judge_pair({&sa, pose_at(std::get<Pose>(a.pose), ma, s)},
                                      {&sb, pose_at(std::get<Pose>(b.pose), mb, s)});
-      lo = std::max(lo, -g.gap.hi), hi = std::max(hi, -g.gap.lo);
+      lo = std::max(lo, -g.gap.hi);
+      hi = std::max(hi, -g.gap.lo);
     }
     const double rate =
         ma.linear.norm() + ma.angular.norm() * bounding_radius(sa) + mb.angular.norm() * bounding_radius(sb);

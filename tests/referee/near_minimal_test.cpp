@@ -94,7 +94,10 @@ TEST_CASE("random boxes: the listed directions and the second best are those of 
     ++judged;
     const Mat3 ma = rotation_matrix(px.rotation), mb = rotation_matrix(py.rotation);
     std::vector<Vec3> axes;
-    for (int k = 0; k < 3; ++k) axes.push_back(ma.col(k)), axes.push_back(mb.col(k));
+    for (int k = 0; k < 3; ++k) {
+      axes.push_back(ma.col(k));
+      axes.push_back(mb.col(k));
+    }
     for (int k = 0; k < 9; ++k) axes.push_back(ma.col(k / 3).cross(mb.col(k % 3)).normalized());
     double least = 1e9;
     for (const Vec3& m : axes)

@@ -251,7 +251,8 @@ void motions(int cases, std::uint64_t seed) {
         mb{Vec3::Zero(), r.chance(0.5) ? Vec3(r.uniform(0, fast) * r.unit_vector()) : Vec3(0, 0, 0)};
     const Placed a{&x, p}, b{&y, q};
     const TimeTruth t = judge_motion(a, ma, b, mb);
-    hits += t.verdict == TimeTruth::Verdict::hit, undecided += t.verdict == TimeTruth::Verdict::undecided;
+    hits += t.verdict == TimeTruth::Verdict::hit;
+    undecided += t.verdict == TimeTruth::Verdict::undecided;
     const double clear = t.verdict == TimeTruth::Verdict::none ? 1 : t.t_lo;
     // Bodies that overlap at the start are clear at no time.
     for (int k = 0; clear > 0 && k < 60; ++k) {

@@ -83,7 +83,8 @@ TEST_CASE("motions within one plane and degenerate primitives are decided", "[re
   // Two edges on one line, then a face that is a segment, then one that is a point.
   const Quad line{Vec3(0, 0, 0), Vec3(1, 1, 1), Vec3(3, 3, 3), Vec3(5, 5, 5)};
   Quad closer = line;
-  closer[2] = {-1, -1, -1}, closer[3] = {1, 1, 1};
+  closer[2] = {-1, -1, -1};
+  closer[3] = {1, 1, 1};
   REQUIRE(judge_primitive_motion(ee, line, closer).t_lo == 0.5);
   const Quad flat{Vec3(0, 0, 1), Vec3(-1, 0, 0), Vec3(1, 0, 0), Vec3(0.5, 0, 0)};
   Quad down = flat;

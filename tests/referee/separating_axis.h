@@ -114,8 +114,14 @@ inline Slow judge_slowly(std::vector<I3> a, std::vector<I3> b, int scale_a, int 
   if (normals.empty() || normals.size() == 1) r.depth = 0;
   for (const I3& n : normals) {
     std::int64_t lo_a = INT64_MAX, hi_a = INT64_MIN, lo_b = INT64_MAX, hi_b = INT64_MIN;
-    for (const I3& v : a) lo_a = std::min(lo_a, dot(n, v)), hi_a = std::max(hi_a, dot(n, v));
-    for (const I3& v : b) lo_b = std::min(lo_b, dot(n, v)), hi_b = std::max(hi_b, dot(n, v));
+    for (const I3& v : a) {
+      lo_a = std::min(lo_a, dot(n, v));
+      hi_a = std::max(hi_a, dot(n, v));
+    }
+    for (const I3& v : b) {
+      lo_b = std::min(lo_b, dot(n, v));
+      hi_b = std::max(hi_b, dot(n, v));
+    }
     if (hi_a < lo_b || hi_b < lo_a) r.disjoint = true;
     const std::int64_t w = std::min(hi_a - lo_b, hi_b - lo_a);
     r.depth = std::min(r.depth, static_cast<long double>(w) / length(n));

@@ -43,7 +43,8 @@ TEST_CASE("exact contact of curved bodies on a lattice is decided", "[referee][t
   for (int i = 0; i < n; ++i) {
     const Shape x = lattice_shape(r), y = lattice_shape(r);
     Pose px, py;
-    px.rotation = quarter_turn(r), py.rotation = quarter_turn(r);
+    px.rotation = quarter_turn(r);
+    py.rotation = quarter_turn(r);
     // Axis by axis boxes that share a face: the bodies touch there more often than not.
     const Placed at_origin{&y, py};
     const Aabb box_a = outer_box({&x, px}), box_b = outer_box(at_origin);

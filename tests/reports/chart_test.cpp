@@ -30,7 +30,8 @@ namespace {
 
 ChartSample sample(const std::string& engine, double error, std::vector<double> ns) {
   ChartSample s{engine, "contact", "near", "box-box", "1", 2, {}, std::move(ns)};
-  s.judgement.outcome = Outcome::answered, s.judgement.worst_in_l = error;
+  s.judgement.outcome = Outcome::answered;
+  s.judgement.worst_in_l = error;
   return s;
 }
 
@@ -62,10 +63,13 @@ class Denier final : public Engine {
     std::vector<CaseObservations> all;
     for (const Case& c : cases) {
       auto& r = all.emplace_back();
-      r.received.bodies.resize(c.scene.bodies.size()), r.received.shapes.resize(c.scene.shapes.size());
+      r.received.bodies.resize(c.scene.bodies.size());
+      r.received.shapes.resize(c.scene.shapes.size());
       for (std::size_t i = 0; i < c.queries.size(); ++i) {
         Observation& o = r.answers.emplace_back();
-        o.outcome = Outcome::answered, o.overlap = false, o.elapsed_ns = 1;
+        o.outcome = Outcome::answered;
+        o.overlap = false;
+        o.elapsed_ns = 1;
       }
     }
     return all;
@@ -128,9 +132,12 @@ TEST_CASE("who is wrong, fails or leaves out cannot be on the front, and the row
     rows.add(i ? sample("misses", 0, {1}) : wrong(sample("misses", 0.5, {1}), Fault::missed));
     rows.add(i ? sample("off", 0, {1}) : wrong(sample("off", 0.5, {1}), Fault::infeasible));
     ChartSample crashes = sample("crashes", 0, {1}), partial = sample("partial", 0, {1});
-    if (i == 0)
-      crashes.judgement.outcome = Outcome::crashed, partial.judgement.outcome = Outcome::unsupported;
-    rows.add(crashes), rows.add(partial);
+    if (i == 0) {
+      crashes.judgement.outcome = Outcome::crashed;
+      partial.judgement.outcome = Outcome::unsupported;
+    }
+    rows.add(crashes);
+    rows.add(partial);
   }
   const auto all = rows.rows();
   CHECK(overall(all, "exact").front);
@@ -155,15 +162,18 @@ TEST_CASE("noise of the times moves nobody from the front to behind it or back",
     std::vector<ChartRow> one(8);
     Rng rng = Rng::stream(77, seed);
     for (std::size_t i = 0; i < one.size(); ++i) {
-      one[i].engine = std::to_string(i), one[i].ns_median = std::exp(rng.uniform(4, 9));
+      one[i].engine = std::to_string(i);
+      one[i].ns_median = std::exp(rng.uniform(4, 9));
       one[i].error_p99 = one[i].error_max = std::pow(10, -static_cast<double>(rng.below(4)));
     }
     auto other = one;
     for (ChartRow& r : other) r.ns_median *= rng.uniform(0.7, 1.0 / 0.7);
-    mark_fronts(one), mark_fronts(other);
+    mark_fronts(one);
+    mark_fronts(other);
     for (std::size_t i = 0; i < one.size(); ++i) {
       CHECK(std::abs(place(one[i]) - place(other[i])) < 2);
-      clear += place(one[i]) == 2, moved += place(one[i]) != place(other[i]);
+      clear += place(one[i]) == 2;
+      moved += place(one[i]) != place(other[i]);
     }
   }
   CHECK(clear > 200);

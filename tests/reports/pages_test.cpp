@@ -41,7 +41,8 @@ std::string inflated(const std::string& base64) {
   int held = 0;
   for (const char c : base64) {
     if (c == '=') break;
-    bits = bits << 6 | static_cast<unsigned>(digits.find(c)), held += 6;
+    bits = bits << 6 | static_cast<unsigned>(digits.find(c));
+    held += 6;
     if (held >= 8) bytes += static_cast<char>(bits >> (held -= 8) & 255);
   }
   std::string text(1 << 20, '\0');

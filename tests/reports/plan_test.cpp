@@ -36,14 +36,17 @@ Scene heap(int n) {
     s.bodies.push_back(b);
   }
   Body ground;
-  ground.shape = 2, ground.is_static = true;
+  ground.shape = 2;
+  ground.is_static = true;
   s.bodies.push_back(ground);
   return s;
 }
 
 PlanOptions quick(double error) {
   PlanOptions o;
-  o.error = error, o.rounds = 1, o.judged = 12;
+  o.error = error;
+  o.rounds = 1;
+  o.judged = 12;
   return o;
 }
 
@@ -117,7 +120,8 @@ TEST_CASE("a plan that was altered by hand is refused", "[plan]") {
   CHECK_NOTHROW(make_plan(course, o));
   f.simpler[1]->error = 0;
   CHECK_THROWS_AS(make_plan(course, o), InputError);
-  f.simpler[1] = found, f.simpler[1]->in_body.translation.x() += 0.01;
+  f.simpler[1] = found;
+  f.simpler[1]->in_body.translation.x() += 0.01;
   CHECK_THROWS_AS(make_plan(course, o), InputError);
 }
 
@@ -127,7 +131,8 @@ TEST_CASE("a plan refuses what it cannot prove or run", "[plan]") {
   CHECK(default_error(course_of(s)) >= least_error(course_of(s)));
   const auto step = [](Step::Op op, int body) {
     Step x;
-    x.op = op, x.body = body;
+    x.op = op;
+    x.body = body;
     return x;
   };
   for (int i = 0; i < 5; ++i) s.script.push_back(step(Step::Op::insert, i));

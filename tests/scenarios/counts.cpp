@@ -76,7 +76,10 @@ TEST_CASE("the stated pairs at each query of a script are those of the referee",
     std::size_t query = 0;
     for (const Step& step : effective_script(scene)) {
       const auto b = static_cast<std::size_t>(std::max(step.body, 0));
-      if (step.op == Step::Op::insert) present[b] = true, poses[b] = step.pose.value_or(scene.bodies[b].pose);
+      if (step.op == Step::Op::insert) {
+        present[b] = true;
+        poses[b] = step.pose.value_or(scene.bodies[b].pose);
+      }
       if (step.op == Step::Op::move) poses[b] = *step.pose;
       if (step.op == Step::Op::remove) present[b] = false;
       if (step.op != Step::Op::query) continue;
@@ -85,7 +88,8 @@ TEST_CASE("the stated pairs at each query of a script are those of the referee",
       const auto pairs = test::overlapping_pairs(scene, poses, present);
       CHECK(pairs == s.expect.pairs_at_query[query]);
       with_pairs += !pairs.empty();
-      ++query, ++queries;
+      ++query;
+      ++queries;
     }
     ++scripts;
   }

@@ -26,7 +26,8 @@ struct Workspace {
   explicit Workspace(const std::string& name)
       : dir(std::filesystem::temp_directory_path() /
             ("touchstone-" + name + "-" + std::to_string(getpid()))) {
-    std::filesystem::remove_all(dir), std::filesystem::create_directories(dir);
+    std::filesystem::remove_all(dir);
+    std::filesystem::create_directories(dir);
   }
   ~Workspace() { std::filesystem::remove_all(dir); }
   std::filesystem::path write(const std::string& name, const std::string& text) const {

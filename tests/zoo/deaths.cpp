@@ -46,7 +46,8 @@ void spray(const std::string& bytes) {
 
 std::string frame(char type, std::uint32_t length, std::size_t payload) {
   std::string f("TSP1\x01\x00", 6);
-  f += type, f += '\0';
+  f += type;
+  f += '\0';
   f.append(reinterpret_cast<const char*>(&length), 4);
   f.append(4 + payload, '\0');
   return f;

@@ -34,7 +34,8 @@ void write_file(const char* path) {
 void connect_tcp() {
   const int fd = socket(AF_INET, SOCK_STREAM, 0);
   sockaddr_in to{};
-  to.sin_family = AF_INET, to.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+  to.sin_family = AF_INET;
+  to.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
   const char* port = std::getenv("TOUCHSTONE_ZOO_PORT");
   to.sin_port = htons(static_cast<std::uint16_t>(port ? std::atoi(port) : 1));
   if (connect(fd, reinterpret_cast<const sockaddr*>(&to), sizeof to) == 0) sleep(1);

@@ -65,7 +65,10 @@ std::string huge_frame() {
 
 void flood_streams() {
   const std::string line(1000, 'x');
-  for (int i = 0; i < 2000; ++i) std::puts(line.c_str()), std::fputs(line.c_str(), stderr);
+  for (int i = 0; i < 2000; ++i) {
+    std::puts(line.c_str());
+    std::fputs(line.c_str(), stderr);
+  }
   std::fflush(stdout);
 }
 
@@ -203,7 +206,9 @@ void unload(ts_engine* e) { self(e).scene = nullptr; }
 void hold_another(const ts_received& received) {
   const double corners[] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1};
   ts_shape held{};
-  held.kind = TS_HULL, held.vertices = corners, held.vertex_count = 4;
+  held.kind = TS_HULL;
+  held.vertices = corners;
+  held.vertex_count = 4;
   received.other_shape(received.ctx, 0, &held);
 }
 

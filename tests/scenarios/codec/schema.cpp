@@ -58,7 +58,10 @@ Scene full_scene() {
   s.name = "full";
   s.bodies.resize(3);
   for (Body& b : s.bodies) {
-    b.name = "b", b.shape = 0, b.group = 2, b.is_static = true;
+    b.name = "b";
+    b.shape = 0;
+    b.group = 2;
+    b.is_static = true;
     b.pose = {Vec3(1, 2, 3), {0, 0, 1, 1}};
     b.motion = Motion{Vec3(1, 0, 0), Vec3(0, 1, 0)};
   }

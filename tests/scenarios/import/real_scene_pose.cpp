@@ -85,7 +85,10 @@ TEST_CASE("the quaternion of a rotation matrix gives the matrix back", "[scene][
   int near_half_turn = 0;
   for (int i = 0; i < 2000; ++i) {
     Quat q = rng.rotation();
-    if (i % 2) q.w *= 1e-9, ++near_half_turn;
+    if (i % 2) {
+      q.w *= 1e-9;
+      ++near_half_turn;
+    }
     const Mat3 m = rotation_matrix(q);
     worst = std::max(worst, (rotation_matrix(quaternion_of(m)) - m).cwiseAbs().maxCoeff());
   }
