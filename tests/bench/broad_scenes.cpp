@@ -17,7 +17,7 @@ double normal(Rng& r) {
 
 }  // namespace
 
-// Uniform: n boxes of mean side 1 see n·8/V of each other, about four partners a box. Mixed: 1 % of the boxes
+// Uniform: n boxes of mean side 1 meet n·8/V others each, about four partners a box. Mixed: 1 % of the boxes
 // are 50 times larger, and the mean of (s_a + s_b)³/V over pairs is governed by them: 780 units of volume a
 // box give about three. Clusters hold 1000 boxes each with a deviation of 2.2 (about 14 partners a box), in a
 // world 20 times as wide as the uniform one.

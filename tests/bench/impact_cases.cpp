@@ -23,7 +23,7 @@ Vec3 spin_of(Rng& r, Course course) {
   }
 }
 
-// B starts `away` along n from where its gap is a small one across `way`.
+// B starts `away` along n from a pose in which its gap across `way` is small.
 void aim_past(Rng& r, MovingCase& c) {
   const Vec3 n = r.unit_vector(), u = r.unit_vector();
   const double offset = r.binary_scale(-30, -10) * (r.chance(0.5) ? 1 : -1);

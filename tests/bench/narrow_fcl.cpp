@@ -1,4 +1,4 @@
-// FCL's two solvers as shipped, on collision objects that stand ready.
+// FCL's two solvers as shipped, on prepared collision objects.
 #include <fcl/geometry/shape/box.h>
 #include <fcl/geometry/shape/capsule.h>
 #include <fcl/geometry/shape/cone.h>

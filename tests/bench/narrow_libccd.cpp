@@ -1,4 +1,4 @@
-// libccd: GJK/EPA and MPR over support functions of the adapter. Tolerances as shipped.
+// libccd: GJK/EPA and MPR with the adapter's support functions. Tolerances as shipped.
 #include <ccd/ccd.h>
 
 #include "oracles/libccd/object.h"

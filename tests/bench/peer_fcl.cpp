@@ -2,8 +2,8 @@
 //
 // The array tree loses pairs once it has rebalanced itself top down (FCL 0.7.0, after large moves: teleport,
 // mixed): balanceTopdown() renumbers the leaves in the order of the old tree, while the manager's table from
-// object to leaf keeps the old numbers, so that later updates go to other objects' leaves. Its rows then say
-// so; the tree with pointers keeps its leaves and is the FCL to compare with there.
+// object to leaf keeps the old numbers, so that later updates go to other objects' leaves. Its rows are then
+// marked; the tree with pointers keeps its leaves and is the FCL method to compare with there.
 #include <fcl/broadphase/broadphase_dynamic_AABB_tree.h>
 #include <fcl/broadphase/broadphase_dynamic_AABB_tree_array.h>
 #include <fcl/geometry/shape/box.h>
@@ -16,7 +16,7 @@
 namespace touchstone::bench {
 namespace {
 
-// A collision object whose box is set as it stands.
+// A collision object whose box is set directly.
 class BoxObject : public fcl::CollisionObjectd {
  public:
   explicit BoxObject(int i) : fcl::CollisionObjectd(std::make_shared<fcl::Boxd>(1, 1, 1)), id(i) {}

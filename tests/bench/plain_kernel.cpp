@@ -4,7 +4,7 @@
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "tests/bench/plain_kernel.cpp"
-#include <hwy/foreach_target.h>  // includes this file once for each kind of processor
+#include <hwy/foreach_target.h>  // includes this file once per instruction set
 #include <hwy/highway.h>
 
 HWY_BEFORE_NAMESPACE();
@@ -36,7 +36,7 @@ void sweep(const PlainColumns& b, std::size_t begin, std::size_t end, std::vecto
       const auto own = hn::Eq(hn::And(hn::Or(theirs, mine), owned), owned);
       const auto kept = hn::And(hn::RebindMask(u, hit), own);
       const auto a = hn::And(theirs, index), c = hn::And(mine, index);
-      // Not hn::Compress: with g++ 12 on AVX2 it copies a table of 1 KB at each call.
+      // Not hn::Compress: with g++ 12 on AVX2 it copies a 1 KB table on every call.
       std::uint8_t bits[8] = {};
       hn::StoreMaskBits(u, kept, bits);
       std::uint32_t left = bits[0] | static_cast<std::uint32_t>(bits[1]) << 8;

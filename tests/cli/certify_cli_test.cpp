@@ -16,7 +16,7 @@ namespace {
 
 const std::string mutants = TS_BINARY_DIR "/lib/libtouchstone_mutants.so:";
 
-// An engine behind a pipe: `body` answers `m`, the message, about `scene`.
+// An engine behind a pipe: `body` answers the message `m` about `scene`.
 std::string python(const std::string& body) {
   return R"(import json, sys
 print(json.dumps({"touchstone_pipe": 1, "name": "small", "library": "small", "version": "1", "settings": "",
@@ -65,7 +65,7 @@ TEST_CASE("certify --memcheck refutes a broad phase that loses no pair but reads
   CHECK(r.out.find("inside a block of size") != std::string::npos);
 }
 
-TEST_CASE("certify refuses bad input with 2, the place and the reason, and writes nothing",
+TEST_CASE("certify refuses bad input with exit code 2, the place and the reason, and writes nothing",
           "[certify][cli]") {
   const Workspace w("certify");
   w.write("no_plugin.so", "text");
@@ -94,7 +94,7 @@ TEST_CASE("certify refuses bad input with 2, the place and the reason, and write
   CHECK_FALSE(fs::exists(w.dir / "nowhere"));
 }
 
-TEST_CASE("a certificate is checked from itself alone, a tampered one is not valid", "[certify][cli]") {
+TEST_CASE("a certificate can be checked on its own; a tampered one is not valid", "[certify][cli]") {
   const Workspace w("certify");
   const Run made = w.touchstone("certify --subject sort_and_sweep --limit 60 -o c.json --page c.html");
   INFO(made.out << made.err);
@@ -105,7 +105,7 @@ TEST_CASE("a certificate is checked from itself alone, a tampered one is not val
   const Run again = w.touchstone("certify --check c.json --jobs 2");
   INFO(again.out << again.err);
   CHECK(again.code == 0);
-  // Without built pages the certificate is what there is, and nothing is written over it.
+  // Without built pages there is only the certificate, and nothing overwrites it.
   if (fs::exists(TS_BINARY_DIR "/share/touchstone/web/certificate.html"))
     CHECK(read_all(w.dir / "c.html").find("histories_of_three") != std::string::npos);
   else
@@ -116,7 +116,7 @@ TEST_CASE("a certificate is checked from itself alone, a tampered one is not val
   CHECK(w.touchstone("certify --check tampered.json").code == 1);
 }
 
-TEST_CASE("a plug-in that loses pairs is refuted by a script that replay takes", "[certify][cli]") {
+TEST_CASE("a plug-in that loses pairs is refuted by a script that replay accepts", "[certify][cli]") {
   const Workspace w("certify");
   const std::string subject = mutants + "stale_after_move";
   const Run r = w.touchstone("certify --subject " + subject +
@@ -130,7 +130,7 @@ TEST_CASE("a plug-in that loses pairs is refuted by a script that replay takes",
   CHECK(doc.at("scene").at("script").size() <= 6);
   CHECK(w.touchstone("replay c.case.json --engines " + subject + " --subject stale_after_move").code == 1);
   CHECK(w.touchstone("certify --check c.json --subject " + subject).code == 1);
-  // A broad phase of the core is asked by name; whom the script is against is said, and not asked.
+  // A broad phase of the core is selected by name. The engine that the script refutes is named but not run.
   const Run others = w.touchstone("replay c.case.json --engines core,grid --subject grid");
   INFO(others.out << others.err);
   CHECK(others.code == 0);
@@ -191,8 +191,7 @@ TEST_CASE("FCL is told of a move in both ways; a removed body that it still name
   };
   const std::string in = R"({"op": "insert", "body": 0}, )";
   w.write("moved.json",
-          script("[1, 1, 1]",
-                 in + R"({"op": "insert", "body": 1, "pose": {"translation": [-4, -4, -2.5]}},
+          script("[1, 1, 1]", in + R"({"op": "insert", "body": 1, "pose": {"translation": [-4, -4, -2.5]}},
                          {"op": "move", "body": 1, "pose": {"translation": [0, 0, -1]}})"));
   w.write("removed.json",
           script("[0, 0, 0]", in + R"({"op": "insert", "body": 1}, {"op": "remove", "body": 0})"));

@@ -133,7 +133,7 @@ TEST_CASE("a finding is replayed, shrinks from its directory and still shows", "
   std::size_t shrunk = 0, shown = 0;
   for (const auto& entry : fs::directory_iterator(w.dir / "results" / "findings")) {
     const std::string key = entry.path().filename();
-    if (key.find("timed_out") != std::string::npos) continue;  // a second a question
+    if (key.find("timed_out") != std::string::npos) continue;  // a second per question
     const Run r = w.touchstone("shrink " + entry.path().string() + " -o small.json --json");
     INFO(key << " says: " << r.err);
     REQUIRE(r.code == 0);
@@ -146,7 +146,7 @@ TEST_CASE("a finding is replayed, shrinks from its directory and still shows", "
     if (++shrunk == 6) break;
   }
   CHECK(shrunk == 6);
-  // One may depend on what the engine was asked before: sweeps of FCL against meshes do.
+  // One may depend on earlier queries, as FCL's sweeps against meshes do.
   CHECK(shown >= 5);
   const Run clean = w.touchstone("shrink touching_boxes_nothing_of_this_name");
   CHECK(clean.code == 2);
@@ -169,7 +169,7 @@ TEST_CASE("a second triage of the same campaign finds nothing new", "[cli][optio
   CHECK(w.touchstone("triage nowhere").code == 2);
 }
 
-TEST_CASE("shrink says when there is nothing to shrink, and asks which finding when there are several",
+TEST_CASE("shrink reports that there is nothing to shrink, and asks which finding when there are several",
           "[cli]") {
   const Workspace w("cli");
   w.write("spheres.json", spheres("1.5"));
@@ -179,7 +179,7 @@ TEST_CASE("shrink says when there is nothing to shrink, and asks which finding w
   CHECK(w.touchstone("shrink spheres.json --key nobody.contact.missed.box-box.algorithm").code == 2);
 }
 
-TEST_CASE("a flat hull works and is called what it is", "[cli]") {
+TEST_CASE("a flat hull works and is reported as flat", "[cli]") {
   const Workspace w("cli");
   w.write("flat.json", R"({"touchstone_scene":1,"shapes":[
 {"type":"hull","vertices":[[0,0,0],[1,0,0],[0,1,0]]},{"type":"hull","vertices":[[0,0,1]]}],
@@ -193,7 +193,7 @@ TEST_CASE("a flat hull works and is called what it is", "[cli]") {
   CHECK(r.out.find("right   1\n") != std::string::npos);
 }
 
-TEST_CASE("an interrupted campaign keeps what it has and goes on", "[cli]") {
+TEST_CASE("an interrupted campaign keeps what it has and can be resumed", "[cli]") {
   const Workspace w("cli");
   const Run r = w.touchstone("fuzz --engines core --minutes 5 --jobs 1 --out half",
                              "timeout --preserve-status -s INT 2");
@@ -212,7 +212,7 @@ TEST_CASE("an interrupted campaign keeps what it has and goes on", "[cli]") {
 TEST_CASE("a lying engine behind the C ABI is found by fuzz", "[cli]") {
   const Workspace w("cli");
   const std::string& plugin = mutant;
-  // One of each question.
+  // One for each question.
   for (const std::string name :
        {"boxes_one_ulp_small", "overlap_in_float", "distance_absolute", "normal_second_best",
         "impact_grazing_lost", "contact_depths_shifted", "refuses_flat_hulls"}) {
@@ -263,7 +263,7 @@ TEST_CASE("a wide claim of Bullet is named, and --error overrides it", "[cli][op
   CHECK(own.out.find("WRONG") != std::string::npos);
 }
 
-TEST_CASE("merge without arguments says what it wants", "[cli][merge]") {
+TEST_CASE("merge without arguments prints its usage", "[cli][merge]") {
   const Workspace w("merge");
   for (const char* arguments : {"merge", "merge out", "merge --ledgers all.db"}) {
     const Run r = w.touchstone(arguments);
@@ -273,7 +273,7 @@ TEST_CASE("merge without arguments says what it wants", "[cli][merge]") {
   }
 }
 
-TEST_CASE("the exit code is about the engine that is meant, by whatever name, and the last line says so",
+TEST_CASE("the exit code is about the chosen engine, by any of its names, and the last line tells which",
           "[cli]") {
   const Workspace w("cli");
   w.write("apart.json", spheres("3"));
@@ -296,7 +296,7 @@ TEST_CASE("the exit code is about the engine that is meant, by whatever name, an
   const Run nobody = replay("--subject cor");
   CHECK(nobody.code == 2);
   CHECK(nobody.err.find("did you mean core") != std::string::npos);
-  const Run silent = replay("--engines core-steps@4");  // answers times of impact alone
+  const Run silent = replay("--engines core-steps@4");  // answers only times of impact
   CHECK(silent.code == 3);
   CHECK(last_line(silent.out).find("answered nothing") != std::string::npos);
   const Run twice = replay("--subject " + liar + " --engines " + liar + ",./../../" + liar);
@@ -304,7 +304,7 @@ TEST_CASE("the exit code is about the engine that is meant, by whatever name, an
   CHECK(twice.err.find("are both called overlap_always") != std::string::npos);
 }
 
-TEST_CASE("a chart and a ladder want a subject that they know", "[cli]") {
+TEST_CASE("chart and stability refuse an unknown subject", "[cli]") {
   const Workspace w("cli");
   const std::string chart = "chart --from " TS_SOURCE_DIR "/docs/chart.json ";
   const Run liar = w.touchstone(chart + "--subject libccd-gjk");
@@ -318,7 +318,7 @@ TEST_CASE("a chart and a ladder want a subject that they know", "[cli]") {
   CHECK(w.touchstone("chart --engines core --broad grid --subject nothing --out c").code == 2);
 }
 
-TEST_CASE("what is misspelt gets a suggestion, and numbers are refused in words", "[cli]") {
+TEST_CASE("a misspelt name gets a suggestion, and a bad number an explanation", "[cli]") {
   const Workspace w("cli");
   const auto says = [&](const std::string& command, const std::string& words) {
     const Run r = w.touchstone(command);
@@ -337,7 +337,7 @@ TEST_CASE("what is misspelt gets a suggestion, and numbers are refused in words"
   says("fuzz --minutes 0", "0 is not a positive number");
 }
 
-TEST_CASE("cases of the corpus go by their names", "[cli]") {
+TEST_CASE("cases of the corpus can be given by name", "[cli]") {
   const Workspace w("cli");
   for (const std::string name :
        {"drake-1668-cubes-corner-overlap", "corpus/drake-1668-cubes-corner-overlap"}) {
@@ -351,7 +351,7 @@ TEST_CASE("cases of the corpus go by their names", "[cli]") {
   CHECK(w.touchstone("replay loop.json --engines core").code == 2);
 }
 
-TEST_CASE("one bad file costs the others nothing", "[cli]") {
+TEST_CASE("one bad file does not affect the others", "[cli]") {
   const Workspace w("cli");
   w.write("apart.json", spheres("3"));
   w.write("bad.json", spheres("NaN"));
@@ -380,7 +380,7 @@ TEST_CASE("a result that cannot be written is refused before the work", "[cli]")
   }
 }
 
-TEST_CASE("two campaigns cannot write one directory; the lock ends with its process", "[cli]") {
+TEST_CASE("two campaigns cannot write to one directory; the lock ends with its process", "[cli]") {
   const Workspace w("cli");
   const std::string fuzz = program + "fuzz --engines core --jobs 1 --out one ";
   const Run second =
@@ -415,7 +415,8 @@ TEST_CASE("a closed terminal interrupts a campaign like a kill", "[cli]") {
   CHECK(last_line(r.out).find("interrupted; resume") != std::string::npos);
 }
 
-TEST_CASE("spheres 1e308 apart: what is derived is not asked beyond the doubles", "[cli][relations]") {
+TEST_CASE("spheres 1e308 apart: derived cases beyond the range of doubles are not asked",
+          "[cli][relations]") {
   const Workspace w("cli");
   w.write("far.json", spheres("1e308"));
   const Run r = w.touchstone("replay far.json --engines core");
@@ -424,7 +425,7 @@ TEST_CASE("spheres 1e308 apart: what is derived is not asked beyond the doubles"
   CHECK(r.out.find("relation_") == std::string::npos);
 }
 
-TEST_CASE("what triage could not say is not known in the next run", "[cli][triage]") {
+TEST_CASE("a finding that triage could not report is not known in the next run", "[cli][triage]") {
   const Workspace w("cli");
   const std::string liar = mutant + "overlap_always";
   REQUIRE(w.touchstone("fuzz --cases 64 --relations 0 --engines " + liar + " --out lies").code == 1);
@@ -436,7 +437,8 @@ TEST_CASE("what triage could not say is not known in the next run", "[cli][triag
   CHECK(bad.code == 2);
   CHECK(w.touchstone(triage + "--subject overlap_alway").err.find("did you mean overlap_always?") !=
         std::string::npos);
-  CHECK(w.touchstone(asked + " --ledger other.db --subject core").code == 3);  // the campaign did not ask it
+  CHECK(w.touchstone(asked + " --ledger other.db --subject core").code ==
+        3);  // the campaign did not query it
   const Run first = w.touchstone(triage + "--subject overlap_always --junit junit.xml --reproducers kept");
   INFO(first.out << first.err);
   CHECK(first.code == 1);
@@ -445,8 +447,8 @@ TEST_CASE("what triage could not say is not known in the next run", "[cli][triag
   CHECK(!fs::is_empty(w.dir / "kept"));
   const auto kept = fs::directory_iterator(w.dir / "kept")->path().string();
   CHECK(w.touchstone("shrink " + kept + " --engine " + liar + " -o small.json").code ==
-        0);  // its key is its name
-  // Another night, which finds nothing: the plug-in is asked again only when it is named.
+        0);  // selected by its key
+             // A later run that finds nothing: the plug-in is queried again only when it is named.
   REQUIRE(w.touchstone("fuzz --cases 32 --engines core --out clean").code == 0);
   const auto standings = [&](const std::string& engines, const std::string& standing) {
     const Run r = w.touchstone("triage clean --ledger known.db --json " + engines);

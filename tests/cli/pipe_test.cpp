@@ -1,4 +1,4 @@
-// Engines behind a pipe as a user meets them: receipts, commands that are not there, engines from npm.
+// Engines behind a pipe as a user meets them: receipts, missing commands, engines from npm.
 #include <cstdio>
 
 #include "tests/support/catch.h"
@@ -10,7 +10,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-// Spheres of radius 1 on whole numbers; `receipt` is what follows a scene.
+// Spheres of radius 1 at integer coordinates; `receipt` is the code that handles a scene.
 std::string on_whole_numbers(const std::string& card, const std::string& receipt) {
   return R"(import json, sys
 def say(x): print(json.dumps(x), flush=True)
@@ -63,7 +63,7 @@ TEST_CASE("an engine that holds another shape is not blamed for its algorithm", 
   if (!has_command("python3")) return skip("python3 is not installed");
   const Workspace w("pipe");
   const std::string card = "card['receipts'] = True";
-  // It cooks every sphere to one of radius 1.3, and is right about those.
+  // It cooks every sphere to one of radius 1.3 and answers correctly for those.
   const std::string cooked = R"(    reach = 2.6 ** 2
     say({"received": {"shapes": [{"shape": 0, "as": %}]}}))";
   const auto receipt = [&](const std::string& shape) {
@@ -79,7 +79,7 @@ TEST_CASE("an engine that holds another shape is not blamed for its algorithm", 
   CHECK(told.code == 1);
   CHECK(told.out.find("ghost") != std::string::npos);
   CHECK(told.out.find("holds another shape") != std::string::npos);
-  // A shape of another kind, and none that there is.
+  // A shape of another kind, and a kind that does not exist.
   const std::string box = R"({"type": "box", "half_extents": [1.3, 1.3, 1.3]})";
   engine.replace(engine.find(R"({"type": "sphere", "radius": 1.3})"), 33, box);
   w.write("whole.py", engine);
@@ -102,7 +102,7 @@ TEST_CASE("what a command writes to standard error is shown when it dies", "[pip
   CHECK(at_start.code == 2);
   CHECK(at_start.err.find("exit code 1: ") != std::string::npos);
   CHECK(at_start.err.find("SyntaxError: invalid syntax") != std::string::npos);
-  // More than a pipe holds, while the harness waits for an answer.
+  // More than a pipe's buffer, while the harness waits for an answer.
   const std::string chatty =
       "    [print('x' * 1000, file=sys.stderr) for _ in range(300)]; sys.exit('no licence')";
   const Run later = replay(w, "", chatty);
@@ -129,7 +129,7 @@ TEST_CASE("a receipt may refuse the scene; a malformed one is a crash with its r
   }
 }
 
-TEST_CASE("a command that is not there is named, with the reason", "[pipe]") {
+TEST_CASE("a missing command is named, with the reason", "[pipe]") {
   const Workspace w("pipe");
   w.write("text", "no program");
   const std::pair<const char*, const char*> commands[] = {

@@ -1,5 +1,5 @@
-// Reproducers as a developer of an engine meets them: one file, compiled against that engine alone, that
-// shows the fault.
+// Reproducers as an engine's developer meets them: one file, compiled against that engine only, that shows
+// the fault.
 #include <algorithm>
 #include <set>
 #include <vector>
@@ -13,7 +13,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-// The command that the file names in its head.
+// The compile command in the file's header comment.
 std::string compile_line(const std::string& program) {
   const std::string mark = "//   g++ ";
   const std::size_t at = program.find(mark);
@@ -38,7 +38,7 @@ std::vector<std::string> findings(const Workspace& w, const std::string& engine,
   return keys;
 }
 
-// About two scenes; no program shows it.
+// A relation involves two scenes, so no program shows it.
 bool is_relation(const std::string& key) { return key.find(".relation_") != std::string::npos; }
 
 // For the first finding of each kind, up to `most`: the program compiles without a warning and shows the
@@ -52,7 +52,7 @@ int shown(const Workspace& w, const std::string& engine, const std::string& camp
     if (no_program || !kinds.insert(kind_of(key)).second) continue;
     CAPTURE(key);
     const Run made = w.touchstone("reproduce " + engine + "/findings/" + key + " -o reproduce.cpp");
-    // Of a contact between bodies that are apart within the tolerance, for one.
+    // For example, a contact between bodies that are apart within the tolerance.
     if (made.err.find("no program that checks this fault") != std::string::npos) {
       CHECK(made.code == 2);
       continue;
@@ -76,7 +76,7 @@ int shown(const Workspace& w, const std::string& engine, const std::string& camp
   return n;
 }
 
-// The script that refutes a broad phase: replay shows it, and so does its program. False: not installed.
+// Both replay and a reproducer show the script that refutes a broad phase. False if it is not installed.
 bool refutation_shown(const Workspace& w, const std::string& engine, const std::string& options) {
   if (w.touchstone("engines " + engine).code != 0) return false;
   const Run certified =
@@ -90,12 +90,12 @@ bool refutation_shown(const Workspace& w, const std::string& engine, const std::
   REQUIRE(made.code == 0);
   REQUIRE(w.run(compile_line(read_all(w.dir / "reproduce.cpp")) + " -Wall -Wextra -Werror").code == 0);
   const int shows = w.run("timeout 20 ./reproduce").code;
-  // What freed memory holds is the allocator's choice: alone, the program may find it as it was.
+  // The allocator decides what freed memory holds: in this program it may be unchanged.
   CHECK((shows == 1 || (shows == 0 && engine == "fcl-dynamic-tree-array")));
   return true;
 }
 
-// All evidence but one.
+// Options that leave out all evidence except one.
 std::string only(const std::string& evidence, const std::string& level) {
   std::string without;
   const std::vector<std::string> of_boxes{"orders_of_two",       "orders_on_an_axis", "histories_of_two",
@@ -143,7 +143,7 @@ TEST_CASE("a finding about FCL is shown by a program that needs only FCL", "[rep
   CHECK(n == 2);
 }
 
-TEST_CASE("triage says at once that it cannot make the directory for reproducers", "[reproduce]") {
+TEST_CASE("triage reports at once that it cannot create the directory for reproducers", "[reproduce]") {
   const Workspace w("reproduce");
   w.write("file", "");
   REQUIRE(w.touchstone("fuzz --cases 2 --engines core --out empty").code == 0);
