@@ -1,5 +1,4 @@
-// Boxes and a reference for tests of broad phases: kinds of boxes that are hard on rounding, cells and
-// orders.
+// Boxes and a reference for broad-phase tests: boxes that stress rounding, cells and sort orders.
 #pragma once
 
 #include <algorithm>
@@ -58,7 +57,7 @@ inline Aabb make_box(Rng& r, BoxKind kind) {
   return b;
 }
 
-/// The definition: closed double boxes, two loops.
+/// The definition: closed boxes in double, a double loop.
 class Reference {
  public:
   struct Body {

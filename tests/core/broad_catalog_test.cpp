@@ -8,7 +8,7 @@ using namespace touchstone;
 using namespace touchstone::broad;
 using namespace touchstone::test;
 
-TEST_CASE("every broad phase reports the overlapping pairs on scripts of every kind of box", "[broad]") {
+TEST_CASE("every broad phase reports the overlapping pairs of scripts with every kind of box", "[broad]") {
   for (const CatalogRow& row : catalog)
     for (int kind = 0; kind < box_kinds; ++kind) {
       Count count;
@@ -29,7 +29,7 @@ TEST_CASE("every broad phase reports the overlapping pairs on scripts of every k
     }
 }
 
-TEST_CASE("thousands of steps leave every broad phase right", "[broad]") {
+TEST_CASE("every broad phase is correct after thousands of steps", "[broad]") {
   for (const CatalogRow& row : catalog) {
     Count count;
     INFO(row.name);
@@ -100,7 +100,7 @@ TEST_CASE("a long box whose length rounds down is found by a box at its far end"
     }
 }
 
-TEST_CASE("a batch with one bad move makes no move", "[broad]") {
+TEST_CASE("a batch with one bad move moves nothing", "[broad]") {
   for (const CatalogRow& row : catalog) {
     const auto phase = row.make();
     const Aabb unit{Vec3::Zero(), Vec3::Ones()}, away{Vec3::Constant(5), Vec3::Constant(6)};
@@ -150,7 +150,7 @@ TEST_CASE("float keys are outward, monotone and tight, to the last bit", "[broad
   CHECK(key_above(std::nextafter(0.0, 1)) == 1);
 }
 
-TEST_CASE("a swept box holds both ends", "[broad][box]") {
+TEST_CASE("a swept box contains both ends", "[broad][box]") {
   const Aabb a{Vec3(0, 0, 0), Vec3(1, 1, 1)}, b{Vec3(-1, 2, 0), Vec3(0, 3, 1)};
   CHECK(swept(a, b) == Aabb{Vec3(-1, 0, 0), Vec3(1, 3, 1)});
 }

@@ -18,7 +18,7 @@ Options always(int threads) { return {threads, 1}; }
 
 }  // namespace
 
-TEST_CASE("parts run on threads of their own and their failures come back", "[broad][parallel]") {
+TEST_CASE("parts run on their own threads and their failures are propagated", "[broad][parallel]") {
   std::mutex lock;
   std::set<std::thread::id> seen;
   std::set<std::size_t> parts;
@@ -49,11 +49,11 @@ TEST_CASE("parts run on threads of their own and their failures come back", "[br
     }
 }
 
-TEST_CASE("no threads are refused", "[broad][parallel]") {
+TEST_CASE("a thread count of zero is refused", "[broad][parallel]") {
   for (const CatalogRow& row : catalog) CHECK_THROWS_AS(row.make({0}), std::invalid_argument);
 }
 
-TEST_CASE("any number of threads reports the overlapping pairs on scripts", "[broad][parallel]") {
+TEST_CASE("any number of threads reports the overlapping pairs of scripts", "[broad][parallel]") {
   for (const CatalogRow& row : catalog)
     for (const int threads : thread_counts) {
       Count count;

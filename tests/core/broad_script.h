@@ -1,4 +1,4 @@
-// Random scripts for broad phases, run beside the definition, and crowds.
+// Random scripts for broad phases, run alongside the definition, and crowds.
 #pragma once
 
 #include "core/broad/catalog.h"
@@ -10,7 +10,7 @@ struct Count {
   long pairs = 0, possible = 0, queries = 0;
 };
 
-// A phase and the definition, driven by the same random operations.
+// A broad phase and the definition, driven by the same random operations.
 class Script {
  public:
   Script(const broad::CatalogRow& row, std::uint64_t seed, BoxKind kind, int id_step,
@@ -101,7 +101,7 @@ class Script {
   std::vector<broad::IdPair> out_;
 };
 
-// Boxes of side 1/2..3/2 in a cube with two units of volume a box: about four partners each.
+// Boxes of side 1/2..3/2 in a cube with two units of volume per box: about four partners each.
 inline std::vector<broad::BoxUpdate> uniform_scene(Rng& r, int n, double large_share, double large) {
   const double side = std::cbrt(2.0 * n);
   std::vector<broad::BoxUpdate> all;

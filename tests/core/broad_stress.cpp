@@ -1,8 +1,8 @@
 // Run by hand: `ts_core_broad_stress MINUTES [SEED]` of CPU time. Every broad phase of the catalog on random
 // scripts of every kind of box and on crowds (uniform, a few large, clustered, with some fixed; coherent,
-// fast, teleported, with comings and goings), each answer compared with the definition (small scenes) or with
-// brute force (large ones), each structure validated. SIGTERM ends it early, with
-// its counts. Exit code 1 at the first difference.
+// fast, teleported, with inserts and removals). Each answer is compared with the definition (small scenes) or
+// with brute force (large ones), each structure is validated. SIGTERM ends it early and prints the counts.
+// Exit code 1 at the first difference.
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
@@ -21,7 +21,7 @@ struct Totals {
   long missed = 0, superfluous = 0;
 };
 
-// One time in five on several threads, however little there is to do.
+// One run in five uses several threads, however little there is to do.
 Options some_threads(Rng& r) {
   return r.chance(0.2) ? Options{2 + static_cast<int>(r.below(3)), 1} : Options{};
 }
@@ -107,7 +107,7 @@ bool run_crowd(const CatalogRow& row, std::uint64_t seed, Totals& t) {
       const auto i = r.below(boxes.size());
       subject->remove(boxes[i].id);
       reference->remove(boxes[i].id);
-      if (r.chance(0.5)) boxes[i].id += n;  // comes back under another name
+      if (r.chance(0.5)) boxes[i].id += n;  // comes back under another id
       const Mobility m = r.chance(fixed) ? Mobility::fixed : Mobility::moving;
       subject->insert(boxes[i].id, boxes[i].box, m);
       reference->insert(boxes[i].id, boxes[i].box, m);

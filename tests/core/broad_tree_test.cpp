@@ -1,4 +1,4 @@
-// The hierarchy's trees take boxes in and out without being built anew, and do not rot.
+// The hierarchy's trees insert and remove boxes without being rebuilt, and do not degrade.
 #include "core/broad/bounding_volume_hierarchy.h"
 #include "core/broad/stored_phase.h"
 #include "core/tolerance.h"
@@ -20,7 +20,7 @@ long number_after(const std::string& text, const std::string& before, const std:
 
 double reach(const std::string& text) { return std::stod(text.substr(text.find("reach ") + 6)); }
 
-// A scene in which boxes come, go and are carried elsewhere, a few at a time.
+// A scene in which boxes are inserted, removed and moved elsewhere, a few at a time.
 struct Storm {
   Rng r{21};
   std::vector<BoxUpdate> here, away;
@@ -71,7 +71,7 @@ struct Storm {
 
 }  // namespace
 
-TEST_CASE("storms of boxes that come, go and move leave the hierarchy's trees standing", "[broad][tree]") {
+TEST_CASE("storms of inserts, removals and moves do not rebuild the hierarchy's trees", "[broad][tree]") {
   Storm storm(1500);
   std::size_t pairs = storm.compare();
   const long builds = number_after(storm.tree->explain(), "; ", " builds");
@@ -92,7 +92,7 @@ TEST_CASE("storms of boxes that come, go and move leave the hierarchy's trees st
   CHECK(pairs > 300 * 1500 / 2);
 }
 
-TEST_CASE("a hierarchy that shrinks to nothing and grows again stays right", "[broad][tree]") {
+TEST_CASE("a hierarchy that shrinks to nothing and grows again stays correct", "[broad][tree]") {
   Storm storm(700);
   storm.compare();
   for (int round = 0; round < 3; ++round) {
@@ -112,7 +112,7 @@ TEST_CASE("a hierarchy that shrinks to nothing and grows again stays right", "[b
   }
 }
 
-TEST_CASE("a tree built box by box is right for infinite, equal and touching boxes", "[broad][tree]") {
+TEST_CASE("a tree built box by box is correct for infinite, equal and touching boxes", "[broad][tree]") {
   for (int k = 0; k < box_kinds; ++k) {
     Rng r(static_cast<std::uint64_t>(k));
     BoxStore store;

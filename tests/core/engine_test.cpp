@@ -1,4 +1,4 @@
-// The core behind the engine interface: complete, and no exception gets out.
+// The core behind the engine interface: complete, and no exception escapes.
 #include "core/math/through_float.h"
 #include "oracles/core/core_engine.h"
 #include "tests/support/catch.h"
@@ -34,7 +34,7 @@ TEST_CASE("the core engine answers every question of a case, in order", "[engine
   CHECK(engine->card().tau_factor == 128);
 }
 
-TEST_CASE("what the float core has received is float in every number", "[engine][float]") {
+TEST_CASE("every number that the float core has received is a float", "[engine][float]") {
   Case c;
   const Vec3 odd(1.0 / 3, 0.1, 0.7);
   c.scene.shapes = {Box{odd}, make_hull({odd, -odd, Vec3(0.1, -0.7, 0.3), Vec3(-0.9, 0.2, 0.1)}),

@@ -20,7 +20,7 @@ struct Tally {
   int cases = 0, hits = 0, decided = 0;
 };
 
-// By the referee: the verdict, the gap at the time, the depth before it.
+// Checks against the referee: the verdict, the gap at the time, the depth before it.
 void check_course(const CoursePair& c, Tally& n) {
   using Verdict = referee::TimeTruth::Verdict;
   const ImpactAnswer x = time_of_impact({&c.p.a, c.p.pose_a, c.ma}, {&c.p.b, c.p.pose_b, c.mb});
@@ -39,13 +39,13 @@ void check_course(const CoursePair& c, Tally& n) {
   CHECK(referee::gap_at(a, c.ma, b, c.mb, *x.toi).lo <= tau);
   if (*x.toi == 0) return;
   CHECK(referee::certified_depth_before(a, c.ma, b, c.mb, *x.toi) <= tau);
-  // What is proven clear is clear.
+  // Times that are proven clear are clear.
   if (truth.verdict == Verdict::hit) CHECK(x.clear_until <= truth.t_hi);
 }
 
 }  // namespace
 
-TEST_CASE("impact: never missed, late, early or a ghost, by the referee", "[impact][referee]") {
+TEST_CASE("impact: the referee finds no hit missed, late, early or a ghost", "[impact][referee]") {
   Tally n;
   for (std::uint64_t i = 0; i < 360; ++i) {
     Rng r = Rng::stream(4242, i);
@@ -58,7 +58,7 @@ TEST_CASE("impact: never missed, late, early or a ghost, by the referee", "[impa
   CHECK(n.decided > 0.9 * n.cases);
 }
 
-TEST_CASE("impact: published hulls, sheets and needles among them, in motion",
+TEST_CASE("impact: published hulls in motion, including sheets and needles",
           "[impact][referee][real][data]") {
   const std::filesystem::path zoo = shared_data() / "hulls";
   if (!std::filesystem::exists(zoo)) return skip(zoo.string() + " is absent");
@@ -67,7 +67,7 @@ TEST_CASE("impact: published hulls, sheets and needles among them, in motion",
   for (std::uint64_t i = 0; i < 260; ++i) {
     Rng r = Rng::stream(99, i);
     CoursePair c;
-    // As large as each other and about their middles, at the same place as before the scaling.
+    // Scaled to equal size about their middles, at the same place as before.
     const auto take = [&](Shape& s, Pose& pose) {
       std::vector<Vec3> v = hulls[r.below(hulls.size())].vertices;
       Vec3 lo = v[0], hi = v[0];

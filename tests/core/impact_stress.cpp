@@ -1,7 +1,7 @@
 // impact_stress [CASES] [SEED] [SAMPLES] [FAMILY] [FIRST]: random motions of random pairs, of all families or
-// of the one of that number, from case FIRST on. The answer is held against the gap in extended precision at
-// the time stated and at random times before it, most of them shortly before, and against what is known by
-// construction. Run by hand, not by ctest. `undecided`: extended precision does not tell the gap. `grain`:
+// of number FAMILY, starting with case FIRST. The answer is checked against the gap in extended precision at
+// the reported time and at random times before it, most of them shortly before, and against what is known by
+// construction. Run by hand, not by ctest. `undecided`: extended precision cannot determine the gap. `grain`:
 // the bodies move so fast that no double is nearer to contact.
 #include <chrono>
 #include <cstdio>
@@ -33,7 +33,7 @@ struct Check {
     return narrow::separate(c.p.a, wide_frame_at(c.p.pose_a, c.ma, t), c.p.b,
                             wide_frame_at(c.p.pose_b, c.mb, t));
   }
-  // Where its bounds have not met: what is certain of it, at most 0 from below.
+  // Where its bounds have not met: the certain part of the gap, but at least 0.
   Wide gap_at(Wide t, long& undecided) const {
     const Separation s = at(t);
     if (s.outcome == Outcome::answered) return s.gap;
@@ -48,8 +48,8 @@ struct Check {
     }
     return false;
   }
-  // Unit normal, points as far apart along it as the gap; across it they are as good as a sliver of a simplex
-  // on a curved body makes them.
+  // A unit normal, and points whose distance along it is the gap. Across it they are only as good as a sliver
+  // simplex on a curved body allows.
   bool odd_contact() const {
     if (!x.toi || *x.toi == 0) return false;
     const Vec3 d = x.witness_w[1] - x.witness_w[0];

@@ -1,5 +1,5 @@
-// Second opinion on depth: w(n) = h_A(n) + h_B(−n) from its definition, with support functions written out
-// here in long double, and its least value by search over the sphere. Shares no code with the narrow phase.
+// A second opinion on depth: w(n) = h_A(n) + h_B(−n) from its definition, with support functions written out
+// here in long double, and its minimum by search over the sphere. Shares no code with the narrow phase.
 #pragma once
 
 #include <algorithm>
@@ -40,7 +40,7 @@ class Width {
     return height_along(a_, ra_.transpose() * u) + height_along(b_, rb_.transpose() * -u) - offset_.dot(u);
   }
 
-  /// Least value found by starts over the sphere and the bodies' axes, each improved by pattern search.
+  /// The minimum found from starts over the sphere and the bodies' axes, each improved by pattern search.
   Wide least(Rng& r, int starts, const WideVec& hint) const {
     std::vector<std::pair<Wide, WideVec>> seeds{{(*this)(hint), hint}};
     const auto add = [&](const WideVec& n) {

@@ -1,5 +1,5 @@
-// Ladders: one difficulty turned up rung by rung, for every pair of convex shapes, judged by the referee.
-// Every other rung here; TOUCHSTONE_NARROW_ROUNDS=n climbs all of them n times, with other sizes each time.
+// Ladders: one difficulty raised rung by rung, for every pair of convex shapes, judged by the referee. Runs
+// every other rung; TOUCHSTONE_NARROW_ROUNDS=n climbs all of them n times, with other sizes each time.
 #include <cstdlib>
 
 #include "core/tolerance.h"
@@ -40,7 +40,7 @@ struct Tally {
 
 double outside(double x, double lo, double hi) { return std::max({lo - x, x - hi, 0.0}); }
 
-// Truth.md §3, each answer by what it claims.
+// Judges each answer by what it claims, as in truth.md §3.
 void judge(const Pair& p, Tally& t) {
   const Placed a{&p.a, p.pose_a}, b{&p.b, p.pose_b};
   const referee::PairTruth truth = referee::judge_pair(a, b);
@@ -77,7 +77,7 @@ void judge(const Pair& p, Tally& t) {
   }
 }
 
-// f(rng, pair, exponent) makes the rung; exponents from `from` to `to`.
+// f(rng, pair, exponent) builds the rung; exponents run from `from` to `to`.
 template <class F>
 Tally climb(int from, int to, std::uint64_t seed, F&& f) {
   Tally t;
@@ -133,7 +133,7 @@ TEST_CASE("ladder of the offset, 1 to 1e8", "[narrow][ladder]") {
 
 TEST_CASE("ladder of the aspect, 1 to 1e6", "[narrow][ladder]") {
   climb(-6, 0, 34, [](Rng& r, Pair& p, int k) {
-    // One size of A, and of every vertex of a hull, shrinks.
+    // One size of A shrinks; for a hull, one coordinate of every vertex.
     const double s = std::pow(10.0, k);
     if (auto* x = std::get_if<Box>(&p.a)) x->half_extents.x() *= s;
     if (auto* x = std::get_if<Capsule>(&p.a)) x->radius *= s;

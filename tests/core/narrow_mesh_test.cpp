@@ -1,4 +1,4 @@
-// A convex body against a mesh: with a tree as without, triangle by triangle as the referee judges it.
+// A convex body against a mesh: the same with and without a tree, and as the referee judges it by triangle.
 #include "core/narrow/mesh_tree.h"
 #include "core/narrow/pair_table.h"
 #include "core/tolerance.h"
@@ -53,7 +53,7 @@ MeshCase mesh_case(int i, int kind, int n) {
 
 }  // namespace
 
-TEST_CASE("a mesh tree holds every triangle once, inside its boxes", "[narrow][mesh]") {
+TEST_CASE("a mesh tree contains every triangle once, inside its boxes", "[narrow][mesh]") {
   for (const int n : {0, 1, 2, 7}) {
     Rng r = Rng::stream(90, static_cast<std::uint64_t>(n));
     const TriangleMesh m = field(r, n);
@@ -72,7 +72,8 @@ TEST_CASE("a mesh tree holds every triangle once, inside its boxes", "[narrow][m
   }
 }
 
-TEST_CASE("a body against a mesh: the same with a tree, and what the referee says", "[narrow][mesh]") {
+TEST_CASE("a body against a mesh: the same with a tree, and in agreement with the referee",
+          "[narrow][mesh]") {
   long overlaps = 0, cases = 0, fast = 0;
   for (int i = 0; i < 8; ++i)
     for (int kind = 0; kind < 7; ++kind) {
@@ -93,7 +94,7 @@ TEST_CASE("a body against a mesh: the same with a tree, and what the referee say
       narrow::separate_fast<double>(a, b, narrow::fast::Asked::distance, f);
       fast += f.answer.found != narrow::fast::Found::unsure;
 
-      // Truth of the surface: the least of the triangles', each a hull of three vertices.
+      // Truth for the surface: the minimum over its triangles, each a hull of three vertices.
       double lo = std::numeric_limits<double>::infinity(), hi = lo;
       for (const auto& t : mesh.triangles) {
         std::vector<Vec3> v;

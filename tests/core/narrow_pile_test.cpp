@@ -1,6 +1,6 @@
-// Contacts of recorded piles at rest, from frame to frame: how much of what changes in the answers is not in
-// the motion of the bodies. A pair counts when it touches in both frames and has moved by 1 mm at most (sizes
-// are about 0.5 m).
+// Contacts of recorded piles at rest, from frame to frame: how much the answers change beyond the motion of
+// the bodies. A pair counts when it touches in both frames and has moved by at most 1 mm (sizes are about 0.5
+// m).
 #include <algorithm>
 #include <filesystem>
 #include <vector>
@@ -17,7 +17,8 @@ namespace {
 
 struct Jitter {
   long pairs = 0, flips = 0, other_ids = 0, points = 0;
-  std::vector<double> normal, point;  // beyond the bodies' own turn and step; of pairs that keep theirs
+  std::vector<double> normal,
+      point;  // beyond the bodies' own rotation and step; only of pairs that keep their normal and ids
 };
 
 struct Touching {
@@ -63,7 +64,7 @@ std::vector<std::uint32_t> ids(const Manifold& m) {
   return r;
 }
 
-// How far a point of a body within its ball has moved at most.
+// Upper bound on how far a point of a body, within its ball, has moved.
 double step_of(const Scene& from, const Scene& to, std::size_t i, double& turn) {
   const Pose &p = from.bodies[i].pose, &q = to.bodies[i].pose;
   const double angle = (rotation_matrix(q.rotation) - rotation_matrix(p.rotation)).norm();
@@ -121,10 +122,10 @@ Jitter measure(const char* name, int first, int last) {
 
 }  // namespace
 
-TEST_CASE("contacts of piles at rest stand still from frame to frame", "[narrow][manifold][data]") {
+TEST_CASE("contacts of piles at rest do not change from frame to frame", "[narrow][manifold][data]") {
   const auto scenes = test::shared_data() / "scenes";
   if (!std::filesystem::exists(scenes)) return test::skip(scenes.string() + " is absent");
-  // What is left is geometry: deepest points of rocking cylinders, crossings of nearly parallel edges.
+  // The rest is geometry: deepest points of rocking cylinders, crossings of nearly parallel edges.
   for (const Jitter& j : {measure("stack_smash", 0, 9), measure("pile_mixed", 90, 99)}) {
     CHECK(j.pairs > 1000);
     CHECK(j.points > j.pairs);

@@ -1,6 +1,6 @@
 // Run by hand: `ts_core_primitive_stress [queries] [first]`. Random deforming primitives, each decided twice:
-// as asked for (double with proven bounds, integers for the rest) and in integers from the start. A
-// difference of verdicts, or a time later than the first contact, is printed and makes the exit code 1.
+// the usual way (double with proven bounds, integers for the rest) and in integers from the start. Different
+// verdicts, or a time after the first contact, are printed and set exit code 1.
 #include <cstdio>
 #include <cstdlib>
 

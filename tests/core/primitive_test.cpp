@@ -1,5 +1,5 @@
 // Deforming primitives: closed forms, degenerate and extreme input, the recorded queries, and random ones
-// against the referee's decision, with which the core shares no code.
+// against the referee's decision. The core shares no code with the referee.
 #include <cstdlib>
 #include <filesystem>
 
@@ -39,7 +39,7 @@ double size_of(const Quad& a, const Quad& b) {
   return size;
 }
 
-// What the test's own positions in double are off by at most.
+// Bound on the rounding error of the test's own positions in double.
 double rounding_of(const Quad& a, const Quad& b) {
   double most = 0;
   for (std::size_t i = 0; i < 4; ++i) most = std::max({most, a[i].norm(), b[i].norm()});
@@ -57,12 +57,12 @@ TEST_CASE("primitives: a vertex that crosses a face does so at the time of its p
   CHECK(*r.toi <= 0.25);
   CHECK(*r.toi == Approx(0.25).epsilon(1e-13));
   CHECK(r.exit == PrimitiveExit::crossing);
-  // One unit short of the plane, and exactly at it when the step ends.
+  // One ulp short of the plane, and exactly at it when the step ends.
   end[0].z() = 0x1p-1074;
   CHECK_FALSE(primitive_impact(vf, start, end).toi);
   end[0].z() = 0;
   CHECK(primitive_impact(vf, start, end).toi.value() == Approx(1).epsilon(1e-14));
-  // Through a corner, and past it by one unit.
+  // Through a corner, and past it by one ulp.
   Quad above = start;
   above[0] = {0, 0, 1};
   end[0] = {0, 0, -1};
@@ -94,8 +94,8 @@ TEST_CASE("primitives: motions within one plane and degenerate primitives are de
 }
 
 TEST_CASE("primitives: a graze at the top of a curve is contact exactly when it touches", "[primitive]") {
-  // The vertex moves along x and the face's plane turns about y. Its height above
-  // the plane is -2 (t - 1/2)^2, which has a double root.
+  // The vertex moves along x and the face's plane rotates about y. The height above the plane is -2 (t -
+  // 1/2)^2, which has a double root.
   Quad a{Vec3(-1, 0, 1), Vec3(-4, -4, 3), Vec3(4, -4, -1), Vec3(0, 8, 1)}, b = a;
   b[0].x() = 1;
   b[1].z() = -1;
@@ -230,7 +230,7 @@ TEST_CASE("primitives: a minimum separation is kept until the time of impact", "
   CHECK(hits < cases * 19 / 20);
 }
 
-TEST_CASE("primitives: what is not finite or negative is refused", "[primitive]") {
+TEST_CASE("primitives: infinite, NaN and negative input is refused", "[primitive]") {
   Quad a = Quad{Vec3(0, 0, 1), Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0, 1, 0)}, b = a;
   b[2].y() = std::nan("");
   CHECK(primitive_impact(vf, a, b).outcome == Outcome::invalid_input);

@@ -1,5 +1,4 @@
-// Random motions of random pairs for the tests of times of impact, with what is known of them by
-// construction.
+// Random motions of random pairs for time-of-impact tests, with what is known about them by construction.
 #pragma once
 
 #include <cmath>
@@ -17,9 +16,9 @@ inline constexpr std::array<std::string_view, course_count> course_names{
 struct CoursePair {
   Pair p;
   Motion ma, mb;
-  /// A time by which they are in contact, for certain; none: not known.
+  /// A time by which they are certainly in contact, if known.
   double contact_by = 2;
-  /// The gap over all times is at least this; −infinity: not known.
+  /// Lower bound on the gap over all times; −infinity if not known.
   double least_gap = -HUGE_VAL;
 };
 
@@ -50,7 +49,7 @@ inline void turn(Rng& r, CoursePair& c, double least, double most) {
   }
 }
 
-// A body flies through a plate, 1e-1 to 1e-6 of its travel thick, whose rim is far.
+// A body flies through a plate whose thickness is 1e-1 to 1e-6 of its travel and whose rim is far away.
 inline void thin_wall(Rng& r, CoursePair& c) {
   const double size = r.binary_scale(-8, 0), travel = size * r.binary_scale(3, 17);
   const double thick = travel * std::pow(10, r.uniform(-6.5, -1));
@@ -64,11 +63,12 @@ inline void thin_wall(Rng& r, CoursePair& c) {
   c.p.pose_b.translation = through - c.contact_by * way;
   c.mb.linear = way;
   if (r.chance(0.5)) c.mb.angular = r.vector(0, 12);
-  // The plate where a hull's points need not hold its origin.
+  // A hull need not contain its origin, so the time of contact is not known.
   if (kind_of(c.p.b) == ShapeKind::hull) c.contact_by = 2;
 }
 
-// At contact_by the gap along n is `gap`, and the velocity is across n: there and then it is the least.
+// At contact_by the gap along n is `gap` and the velocity is perpendicular to n, so the gap is at its
+// minimum.
 inline void graze(Rng& r, CoursePair& c) {
   c.p = random_pair(r, kind(r), kind(r), Regime::separate);
   const double size = std::max(extent(c.p.a), extent(c.p.b));

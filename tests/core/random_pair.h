@@ -1,5 +1,5 @@
-// Random placed pairs for the core's own tests: all convex shapes, sizes down to zero, and regimes in which
-// an algorithm gets into trouble. Not the harness's generator: a second opinion on what is worth trying.
+// Random placed pairs for the core's own tests: all convex shapes, sizes down to zero, and regimes that are
+// hard for an algorithm. Independent of the harness's generator: a second opinion on what is worth trying.
 #pragma once
 
 #include <array>
@@ -111,7 +111,7 @@ inline void scale_shape(Shape& s, double k) {
       s);
 }
 
-/// Moves B along the core's own normal until the gap is `gap`: only a way to aim, nothing is trusted.
+/// Moves B along the core's own normal until the gap is `gap`. Only for aiming: no test relies on the result.
 inline void aim(Pair& p, double gap) {
   const Separation s = separation(p.placed_a(), p.placed_b());
   if (s.outcome == Outcome::answered)

@@ -1,5 +1,5 @@
-// One step of a whole scene: nothing that is swept tunnels, what is left unswept is what the criterion
-// allows.
+// One step of a whole scene: nothing that is swept tunnels, and only what the criterion allows is left
+// unswept.
 #include "core/world/step_world.h"
 
 #include <algorithm>
@@ -39,7 +39,7 @@ Scene two_bodies(Shape a, Vec3 from, Motion m, Shape b) {
 
 }  // namespace
 
-TEST_CASE("step: a bullet is flagged and hits the wall that the end pose is past", "[step]") {
+TEST_CASE("step: a bullet is flagged and hits the wall that its end pose is behind", "[step]") {
   const Scene s = two_bodies(Sphere{0.01}, {-1, 0, 0}, {Vec3(3, 0, 0), Vec3::Zero()}, Box{{0.002, 1, 1}});
   StepWorld w(s);
   const StepReport r = w.step();
@@ -56,7 +56,7 @@ TEST_CASE("step: a bullet is flagged and hits the wall that the end pose is past
   CHECK(end_only.swept.empty());
 }
 
-TEST_CASE("step: by hand a slow body is swept too, and a rod's reason is its turning", "[step]") {
+TEST_CASE("step: a slow body is swept on request, and a rod because of its rotation", "[step]") {
   const Scene slow =
       two_bodies(Sphere{0.5}, {0, 0, 0.55}, {Vec3(0.2, 0, 0), Vec3::Zero()}, Box{{0.1, 0.1, 0.1}});
   StepWorld w(slow);
@@ -80,7 +80,7 @@ TEST_CASE("step: by hand a slow body is swept too, and a rod's reason is its tur
   CHECK(x.contacts.empty());
 }
 
-TEST_CASE("step: poses go from step to step", "[step]") {
+TEST_CASE("step: poses carry over from step to step", "[step]") {
   StepWorld w(two_bodies(Sphere{0.1}, {-1, 0, 0}, {Vec3(0.1, 0, 0), Vec3::Zero()}, Box{{0.05, 1, 1}}));
   int steps = 0;
   while (w.step().contacts.empty() && steps < 20) {
@@ -94,7 +94,7 @@ TEST_CASE("step: poses go from step to step", "[step]") {
   CHECK(w.end_pose(0).translation.x() == -0.5);
 }
 
-TEST_CASE("step: of a thousand bodies the bullets are flagged and nothing tunnels", "[step][tunnel]") {
+TEST_CASE("step: among a thousand bodies the bullets are flagged and nothing tunnels", "[step][tunnel]") {
   const TunnelScene t = tunnel_scene(1000, 7);
   StepWorld world(t.scene), end_only(t.scene);
   Rng r(8);
@@ -144,8 +144,8 @@ TEST_CASE("step: of a thousand bodies the bullets are flagged and nothing tunnel
   CHECK(*std::max_element(others_flagged.begin(), others_flagged.end()) <= 10);
 }
 
-TEST_CASE("step: what only a full sweep finds is as shallow as the criterion says", "[step][random]") {
-  // Faster and denser: many flagged bodies, which also takes the way through a broad phase.
+TEST_CASE("step: what only a full sweep finds is as shallow as the criterion promises", "[step][random]") {
+  // Faster and denser: many flagged bodies, so that the path through a broad phase is taken too.
   TunnelScene t = tunnel_scene(400, 11);
   Rng r(12);
   for (Body& b : t.scene.bodies)

@@ -1,6 +1,6 @@
-// stress [CASES] [SEED] [SEARCH]: random pairs over every regime, judged by bounds and, every SEARCH-th
-// overlapping one, by a search for a better direction. Prints a table and the first failures; exit 1 on any.
-// Run by hand, not by ctest.
+// stress [CASES] [SEED] [SEARCH]: random pairs over every regime, judged by bounds and, for every SEARCH-th
+// overlapping one, by a search for a better direction. Prints a table and the first failures; exit code 1 on
+// any. Run by hand, not by ctest.
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
