@@ -50,7 +50,7 @@ struct TemporaryDirectory {
 
 const std::atomic<bool> go{false};
 
-// The core, which asks for the end of the campaign when it has been asked so often.
+// The core, which requests the end of the campaign after a number of queries.
 class StopsAfter final : public Engine {
  public:
   StopsAfter(int batches, std::atomic<bool>& stop) : left_(batches), stop_(stop) {}
@@ -66,7 +66,7 @@ class StopsAfter final : public Engine {
   std::atomic<bool>& stop_;
 };
 
-// The core, counting the cases that it is asked, and taking its time.
+// The core, counting its cases and answering slowly.
 class Counts final : public Engine {
  public:
   explicit Counts(int& asked, int ms_a_batch = 0) : asked_(asked), ms_(ms_a_batch) {}
@@ -83,7 +83,7 @@ class Counts final : public Engine {
   int ms_;
 };
 
-// Says of distances what memory held, and crashes at one of two places when asked for a contact.
+// Reports unwritten memory as distances, and crashes at one of two places when queried for a contact.
 class Unwritten final : public Engine {
  public:
   const EngineCard& card() const override { return core_.card(); }
@@ -107,10 +107,10 @@ class Unwritten final : public Engine {
     return all;
   }
   CoreEngine core_;
-  int drawn_ = 0;  // what memory holds changes from run to run
+  int drawn_ = 0;  // the contents of memory change from run to run
 };
 
-// The core, which gives up at the case of this index.
+// The core, which stops answering at the case with this index.
 class TiresAt final : public Engine {
  public:
   TiresAt(std::uint64_t index, std::atomic<int>& asked_later) : index_(index), asked_later_(asked_later) {
@@ -147,7 +147,7 @@ class TiresAt final : public Engine {
 
 }  // namespace
 
-TEST_CASE("answers made of unwritten memory are findings without the answer, crashes are named by their site",
+TEST_CASE("answers from unwritten memory are findings without the answer; crashes are named by their site",
           "[campaign]") {
   fuzz::CampaignResult results[2];
   for (fuzz::CampaignResult& r : results) {
@@ -158,7 +158,7 @@ TEST_CASE("answers made of unwritten memory are findings without the answer, cra
     }();
     for (std::uint64_t i = 0; i < 120; ++i) {
       const Case c = fuzz::make_case(3, i, "shallow");
-      fuzz::ask_and_judge(r, {&c, 1}, i, engines, 0);  // a relation between two such answers is chance
+      fuzz::ask_and_judge(r, {&c, 1}, i, engines, 0);  // a relation between two such answers is random
     }
   }
   std::set<std::string> crashes;
@@ -177,14 +177,14 @@ TEST_CASE("answers made of unwritten memory are findings without the answer, cra
   CHECK(fuzz::digest(results[0]) == fuzz::digest(results[1]));
 }
 
-TEST_CASE("a campaign asks its first chunk however little time it has", "[campaign]") {
+TEST_CASE("a campaign runs its first chunk however little time it has", "[campaign]") {
   auto config = config_of(0);
   config.cases.reset();
   config.minutes = 0;
   CHECK(fuzz::run_campaign(config, two_engines, {}, go).cases == 32);
 }
 
-TEST_CASE("an engine that gives up is set aside from one case on, whatever the number of jobs",
+TEST_CASE("an engine that gives up is set aside from the same case on for any number of jobs",
           "[campaign][set-aside]") {
   std::atomic<int> asked_later{0};
   const auto engines = [&] {
@@ -254,7 +254,7 @@ TEST_CASE("a guided campaign is the same for one job and three, and after a stop
   CHECK(fuzz::digest(fuzz::run_campaign(resumed, two_engines, {}, go)) == fuzz::digest(a));
 }
 
-TEST_CASE("the default mix is not vacuous: 30 to 70 % of its pairs overlap", "[campaign]") {
+TEST_CASE("the default mix is not trivial: 30 to 70 % of its pairs overlap", "[campaign]") {
   const auto r = fuzz::run_campaign(config_of(2000), two_engines, {}, go);
   INFO(r.pair_cases << " pair cases, hit rate " << r.hit_rate());
   CHECK(r.pair_cases > 1500);
@@ -262,7 +262,7 @@ TEST_CASE("the default mix is not vacuous: 30 to 70 % of its pairs overlap", "[c
   CHECK(r.hit_rate() < 0.7);
 }
 
-TEST_CASE("what is left open has a bound, by question and kind of pair", "[campaign][open]") {
+TEST_CASE("the share of undecided answers is bounded by question and kind of pair", "[campaign][open]") {
   using touchstone::Question;
   fuzz::CampaignResult r;
   auto& of_contact = r.open["core"][Question::contact];
@@ -278,7 +278,7 @@ TEST_CASE("what is left open has a bound, by question and kind of pair", "[campa
       "core: 12 of 12 answers to contact of cylinder-cylinder undecided or not judged, more than 25 %: this "
       "run proves nothing of them");
   of_contact["capsule-cylinder"] = {400, 400};
-  CHECK(r.too_open("core").size() == 3);  // the question as a whole, too
+  CHECK(r.too_open("core").size() == 3);  // including the question as a whole
   CHECK(r.too_open("fcl-libccd").empty());
 
   const auto back = fuzz::result_from_json({fuzz::to_json(r, true), "result"});
@@ -290,7 +290,7 @@ TEST_CASE("what is left open has a bound, by question and kind of pair", "[campa
   CHECK(twice.too_open("core").size() == 4);
 }
 
-TEST_CASE("every answer is right, wrong, undecided or not judged, and a surface's depth is no open question",
+TEST_CASE("every answer is right, wrong, undecided or not judged; a surface's depth is not undecided",
           "[campaign][open]") {
   fuzz::CampaignResult r;
   std::vector<EnginePtr> engines;
@@ -359,7 +359,7 @@ TEST_CASE("shards together are the whole campaign", "[campaign]") {
   CHECK(fuzz::digest(merged) == fuzz::digest(whole));
 }
 
-TEST_CASE("a campaign stopped half way goes on to the same findings", "[campaign]") {
+TEST_CASE("a campaign stopped half way resumes to the same findings", "[campaign]") {
   TemporaryDirectory dir;
   const auto whole = fuzz::run_campaign(config_of(320), two_engines, {}, go);
   auto c = config_of(320);
@@ -380,14 +380,14 @@ TEST_CASE("a campaign stopped half way goes on to the same findings", "[campaign
   part = fuzz::run_campaign(c, two_engines, stop_early, go);
   CHECK(part.cases == 320);
   CHECK(fuzz::digest(part) == fuzz::digest(whole));
-  SECTION("and a finished one is not begun again") {
+  SECTION("a finished one is not restarted") {
     CHECK_THROWS_AS(fuzz::run_campaign(c, two_engines, {}, go), InputError);
   }
-  SECTION("nor one with other settings") {
+  SECTION("one with other settings is refused") {
     c.seed = 6;
     CHECK_THROWS_AS(fuzz::run_campaign(c, two_engines, {}, go), InputError);
   }
-  SECTION("and every finding has its case on disk") {
+  SECTION("every finding has its case on disk") {
     std::size_t n = 0;
     for (const auto& [key, f] : part.findings) n += fs::exists(dir.path / "findings" / key / "case.json");
     CHECK(n == part.findings.size());
@@ -409,7 +409,7 @@ TEST_CASE("an engine that hangs on a query of a case is not asked in the case's 
   CHECK(asked == 0);
 }
 
-TEST_CASE("a finding's certificate is made by the job that found it, not when the state is saved",
+TEST_CASE("a finding's certificate is created by the job that found it, not when the state is saved",
           "[campaign]") {
   TemporaryDirectory dir;
   auto c = config_of(320);
@@ -435,17 +435,17 @@ TEST_CASE("a finding's certificate is made by the job that found it, not when th
   CHECK(made == seen);
 }
 
-TEST_CASE("a point that sees every facet of the referee's polytope does not keep it for ever", "[campaign]") {
+TEST_CASE("a point visible from every facet of the referee's polytope does not loop forever", "[campaign]") {
   const Case c = load_case(TS_SOURCE_DIR "/tests/referee/cases/mesh_cone_no_horizon.json");
   fuzz::Truth truth(c.scene);
   const referee::TimeTruth& t = truth.motion(0, 0, 1);
   CHECK(t.verdict == referee::TimeTruth::Verdict::hit);
-  // The time that our own core, which shares no code with the referee, finds too.
+  // Our own core, which shares no code with the referee, finds the same time.
   CHECK(t.t_lo <= 0.14125937686);
   CHECK(t.t_hi >= 0.14125937684);
 }
 
-TEST_CASE("a case that shows several findings is stored once, and read back whole", "[campaign]") {
+TEST_CASE("a case that shows several findings is stored once and read back completely", "[campaign]") {
   fuzz::CampaignResult r;
   fuzz::Evidence evidence;
   evidence.c.scene.shapes = {Sphere{1}};

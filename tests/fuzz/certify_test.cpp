@@ -59,16 +59,16 @@ std::vector<mutants::Mutant> broad_mutants() {
   return all;
 }
 
-// What a lie needs at least, where that is more than 3 bodies or 6 steps; no script shows it with less. A
+// The minimum that a lie needs, where that is more than 3 bodies or 6 steps; no smaller script shows it. A
 // list of 16 is too short for 17 pairs, and 6 bodies have 15. A fourth move needs two inserts, four moves and
-// a query; a body inserted a third time three inserts, two removes, the other's insert and a query.
+// a query; a body inserted a third time needs three inserts, two removes, the other's insert and a query.
 std::pair<std::size_t, std::size_t> least_script(std::string_view mutant) {
   if (mutant == "sixteen_pairs") return {7, 8};
   if (mutant == "stale_at_fourth_move" || mutant == "lost_on_second_reinsert") return {2, 7};
   return {3, 6};
 }
 
-// The core, told of another motion than the one asked about.
+// The core, given another motion than the one in the case.
 class OtherMotion final : public Engine {
  public:
   using Change = void (*)(Motion&);
@@ -102,8 +102,8 @@ BroadCertificate certificate_of_sweeps(OtherMotion::Change change) {
 
 }  // namespace
 
-TEST_CASE("ends of n intervals have the orders that are counted by hand", "[certify]") {
-  // Allen's 13 relations of two intervals, 5 of a point and an interval twice over, 3 of two points.
+TEST_CASE("the ends of n intervals have as many orders as counted by hand", "[certify]") {
+  // Allen's 13 relations of two intervals, 5 of a point and an interval (twice), 3 of two points.
   CHECK(axis_orders(2).size() == 13 + 5 + 5 + 3);
   // Two intervals of a triple are in one of the 26 relations; each occurs.
   std::map<std::vector<bool>, int> seen;
@@ -119,9 +119,9 @@ TEST_CASE("ends of n intervals have the orders that are counted by hand", "[cert
   CHECK(axis_orders(3).size() == 818);
 }
 
-TEST_CASE("histories are all there and no two the same", "[certify]") {
-  // One body, one place: insert or query; once in, move, remove or query. Of length 2: II' no: I{M,R,Q},
-  // Q{I,Q}.
+TEST_CASE("histories are complete and distinct", "[certify]") {
+  // One body, one place: insert or query; once inserted, move, remove or query. Length 2, without II':
+  // I{M,R,Q}, Q{I,Q}.
   CHECK(histories(1, 1, 2).size() == 5);
   auto all = histories(2, 2, 6);
   const auto n = all.size();
@@ -149,8 +149,7 @@ TEST_CASE("every broad phase of the core gets its certificate", "[certify]") {
   CHECK(certified == 8);
 }
 
-TEST_CASE("a certificate is the same bytes whatever the number of jobs, and comes back from its JSON",
-          "[certify]") {
+TEST_CASE("a certificate has the same bytes for any number of jobs, and survives its JSON", "[certify]") {
   const BroadCertificate one = certificate(core_subject("grid"), 700),
                          three = certificate(core_subject("grid"), 700, 3);
   CHECK(to_json(one).dump() == to_json(three).dump());
@@ -180,7 +179,7 @@ TEST_CASE("every lying broad phase is refuted by a script of few bodies and step
       is_small = is_small || (r.bodies <= bodies && r.steps <= steps);
       UNSCOPED_INFO(to_string(r.level) << ' ' << r.evidence << ' ' << in_words(r.what) << ": " << r.bodies
                                        << " bodies, " << r.steps << " steps, " << r.shrink);
-      // What refutes is a case that replay and shrink judge the same way.
+      // The refuting script is a case that replay and shrink judge the same way.
       if (!m.repeats || !r.script) continue;
       const EnginePtr engine = mutants::make_lying_engine(m);
       bool found = false;
@@ -216,7 +215,7 @@ TEST_CASE("a subject that leaves out a part of the motion is refuted in the quic
   }
   const BroadCertificate honest = certificate_of_sweeps([](Motion&) {});
   CHECK(exit_code(honest) == 0);
-  // About half of the pairs meet, and what a lie about one part of the motion would lose is asked for itself.
+  // About half of the pairs meet, and pairs that only one part of the motion brings together are checked.
   for (const EvidenceCount& e : honest.evidence) {
     INFO(e.name);
     CHECK(e.pairs_true > e.answered / 8);
@@ -226,7 +225,7 @@ TEST_CASE("a subject that leaves out a part of the motion is refuted in the quic
 
 namespace {
 
-// The core's brute force with faults put in: `fault` alters an answer or takes it away.
+// The core's brute force with injected faults: `fault` alters or removes an answer.
 class Faulty final : public Engine {
  public:
   using Fault = void (*)(const Scene&, Observation&);
@@ -285,12 +284,12 @@ std::size_t count_of(const BroadCertificate& c, std::string_view fault, FaultKin
 
 }  // namespace
 
-TEST_CASE("what is not answered in time is neither refuted nor certified, and the time to ask for is named",
+TEST_CASE("a subject that times out is neither refuted nor certified, and the time limit to set is named",
           "[certify]") {
   Subject s = faulty([](const Scene& scene, Observation& o) {
     if (scene.bodies.size() > 60) fail(o, Outcome::timed_out);
   });
-  static std::vector<double> asked;  // how much longer
+  static std::vector<double> asked;  // factors on the time limit
   asked.clear();
   s.make_patient = [&](BroadLevel, double times) -> EnginePtr {
     asked.push_back(times);
@@ -309,12 +308,12 @@ TEST_CASE("what is not answered in time is neither refuted nor certified, and th
   CHECK(c.too_slow[0].allowed == 1);
   CHECK(c.too_slow[0].sufficient == 4);
   CHECK(asked == std::vector<double>{2, 4});
-  // Nor does an engine that is asked no more, as it timed out too often.
+  // Nor is an engine refuted that is no longer asked because it timed out too often.
   s.make = faulty([](const Scene& scene, Observation& o) {
              if (scene.bodies.size() > 60) fail(o, Outcome::not_asked);
            }).make;
   CHECK(exit_code(certificate(s, 40, 1, {BroadLevel::boxes})) == 3);
-  // What is seen beside it still refutes.
+  // A fault found elsewhere still refutes.
   s.make = faulty([](const Scene& scene, Observation& o) {
              if (scene.bodies.size() > 60) fail(o, Outcome::timed_out);
              if (inserts(scene) == 3 && !o.candidate_pairs.empty()) o.candidate_pairs.back().clear();
@@ -322,7 +321,7 @@ TEST_CASE("what is not answered in time is neither refuted nor certified, and th
   CHECK(exit_code(certificate(s, 40, 1, {BroadLevel::boxes})) == 1);
 }
 
-TEST_CASE("every class of fault is listed, a solid pair first; what a bad box causes is a class of its own",
+TEST_CASE("every class of fault is listed, a solid pair first; faults of bad boxes are a separate class",
           "[certify]") {
   const Subject s = faulty([](const Scene& scene, Observation& o) {
     const std::size_t n = inserts(scene);
@@ -346,7 +345,7 @@ TEST_CASE("every class of fault is listed, a solid pair first; what a bad box ca
   CHECK(c.refutations[0].what == FaultClass{"missed", FaultKind::solid});
   CHECK(c.refutations[0].bodies == 3);
   CHECK(c.refutations[0].steps == 4);
-  // Shrunk, it is solid still.
+  // After shrinking it is still solid.
   const Case& script = *c.refutations[0].script;
   const auto v =
       judge_candidates(script, s.make(BroadLevel::boxes)->run({&script, 1})[0].answers[0], BroadLevel::boxes);
@@ -366,7 +365,7 @@ TEST_CASE("every class of fault is listed, a solid pair first; what a bad box ca
   CHECK_THROWS_AS(broad_certificate_from_json(old, holds), InputError);
 }
 
-TEST_CASE("a bad box goes into a case file beside the scene and comes back, for candidates alone",
+TEST_CASE("a bad box is stored in a case file beside the scene and read back, for candidates only",
           "[certify]") {
   using Json = nlohmann::ordered_json;
   constexpr double inf = std::numeric_limits<double>::infinity();

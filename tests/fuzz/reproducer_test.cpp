@@ -1,4 +1,4 @@
-// The text of reproducers: one for every engine that has a writer, every question and every fault.
+// The text of reproducers: one for every engine with a writer, every question and every fault.
 #include "fuzz/reproduce/reproducer.h"
 
 #include <string>
@@ -94,7 +94,7 @@ TEST_CASE("every engine with a writer has a program for every question and every
             CHECK(text.find("int main()") != std::string::npos);
             ++written;
           } catch (const InputError&) {
-            // Refused in words: this engine does not answer this question.
+            // Refused with a message: this engine does not answer this question.
           } catch (const std::exception& e) {
             FAIL_CHECK(e.what());
           }

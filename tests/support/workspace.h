@@ -1,4 +1,4 @@
-// A directory of its own for a test that runs the program as a user does, gone afterwards.
+// A temporary directory for a test that runs the program as a user does.
 #pragma once
 
 #include <sys/wait.h>
@@ -34,11 +34,11 @@ struct Workspace {
     std::ofstream(dir / name) << text;
     return dir / name;
   }
-  /// `before`: a program that runs the program, such as timeout.
+  /// `before`: a command prefix, such as timeout.
   Run touchstone(const std::string& args, const std::string& before = "") const {
     return run(before + " " TS_BINARY_DIR "/bin/touchstone " + args);
   }
-  /// A line of shell, in the directory. Code -1: ended by a signal.
+  /// Runs a shell command line in the directory. Code -1: ended by a signal.
   Run run(const std::string& line) const {
     const std::string command = "cd " + dir.string() + " && (" + line + ") >" + (dir / "out.txt").string() +
                                 " 2>" + (dir / "err.txt").string() + " </dev/null";
