@@ -14,7 +14,7 @@ constexpr double nan_value = std::numeric_limits<double>::quiet_NaN();
 
 Mat3 rotation(const Case& c, int i) { return rotation_matrix(body(c, i).pose.rotation); }
 
-// A valid direction with its own width: right but for not being the least.
+// A valid direction with its own width: right except that it is not the least.
 void along(const Case& c, const Query& q, Observation& o, const Vec3& n) {
   const double w = width(c, q, n);
   if (std::isfinite(w)) {
@@ -128,7 +128,7 @@ void not_a_depth(const Case&, const Query&, Observation& o) {
   if (*o.depth < 1e-10) o.depth = nan_value;
 }
 
-// The depth of the contact before, kept in a buffer that is written too late.
+// The depth of the previous contact, from a buffer that is written too late.
 Lie of_pair_before() {
   return [last = 0.0](const Case&, const Query& q, Observation& o) mutable {
     if (asks(q, Question::contact) && o.depth) std::swap(last, *o.depth);

@@ -1,4 +1,4 @@
-// Every lying engine as an engine of a plug-in, so that any command takes one as it takes a user's engine:
+// All lying engines as a plug-in, so that any command can use one like a user's engine:
 //
 //   touchstone fuzz --subject build/lib/libtouchstone_mutants.so:depth_halved
 #include "oracles/abi/plugin_kit.h"

@@ -1,6 +1,5 @@
 // Lies that show only in a regime: the order of the bodies, sizes of zero, quaternions of other lengths,
-// meshes and hulls of other sizes, unequal bodies, edges that are all but parallel, filters, shapes in
-// common.
+// meshes and hulls of other sizes, unequal bodies, nearly parallel edges, filters, shared shapes.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -23,7 +22,7 @@ Lie when(Question question, Where where, What what) {
   };
 }
 
-// ---- what is said instead
+// ---- the wrong answer
 
 void apart(const Case&, const Query&, Observation& o) {
   o = Observation{};
@@ -62,7 +61,7 @@ void between_origins(const Case& c, const Query& q, Observation& o) {
   o.depth = width(c, q, *o.normal);
 }
 
-// The answers for other shapes or poses than those asked.
+// The answers for other shapes or poses than the given ones.
 using Another = PlacedShape (*)(const Case&, int body, Shape& room);
 Lie of_other(Question question, Where where, Another another) {
   return [=](const Case& c, const Query& q, Observation& o) {
@@ -99,7 +98,7 @@ PlacedShape first_triangles(const Case& c, int i, Shape& room) {
   return {&room, body(c, i).pose};
 }
 
-// ---- where
+// ---- the regime
 
 bool second_first(const Case&, const Query& q) { return q.a > q.b; }
 
@@ -175,7 +174,7 @@ bool flat_mesh(const Case& c, const Query& q) {
          std::all_of(m->vertices.begin(), m->vertices.end(), [](const Vec3& v) { return v.z() == 0; });
 }
 bool mesh_second(const Case& c, const Query& q) { return kind(c, q.b) == ShapeKind::mesh; }
-// Within a closed mesh, at less than 0.3 of the way out.
+// Inside a closed mesh, at less than 0.3 of the way out.
 bool within_closed_mesh(const Case& c, const Query& q) {
   const auto* m = mesh(c, q);
   if (!m || (m->triangles.size() != 8 && m->triangles.size() != 32 && m->triangles.size() != 128))

@@ -7,7 +7,7 @@
 namespace touchstone::mutants {
 namespace {
 
-// The array of present bodies is closed by its last element when one is removed.
+// When a body is removed, the last element of the array takes its slot.
 void close_slot(std::vector<BodyHistory>& bodies, int slot, int last) {
   for (BodyHistory& b : bodies)
     if (b.pose && b.slot == last) b.slot = slot;

@@ -59,7 +59,8 @@ TEST_CASE("candidates follow a script of insertions, moves and removals",
   CHECK(asked >= 4);
 }
 
-TEST_CASE("asking twice gives the same, and leaves the scene as it was", "[oracles][conformance][optional]") {
+TEST_CASE("asking twice gives the same answers and does not change the scene",
+          "[oracles][conformance][optional]") {
   if (built_plugins().empty()) return test::skip("no engine is built in");
   const Case c = case_of(row_of_bodies(), {{Question::candidates, 0, 0},
                                            {Question::scene_contacts, 0, 0},
@@ -98,7 +99,7 @@ TEST_CASE("scene contacts are the overlapping pairs, normals from the smaller in
           "[oracles][conformance][optional]") {
   if (built_plugins().empty()) return test::skip("no engine is built in");
   Scene scene = row_of_bodies();
-  std::swap(scene.bodies[0], scene.bodies[2]);  // now 0 lies to the right of 1, and 1 to the right of 2
+  std::swap(scene.bodies[0], scene.bodies[2]);  // now 0 is to the right of 1, and 1 to the right of 2
   int contacts = 0;
   for_each_engine([&](Subject s) {
     if (!has_broad_phase(s)) return;

@@ -1,4 +1,4 @@
-// Those that answer something that is none, or odd; and those that change the process they live in.
+// Animals that give invalid or odd answers, or change the process that they live in.
 #include <fenv.h>
 #include <locale.h>
 #include <signal.h>

@@ -1,4 +1,4 @@
-// Those that end, hang, or talk out of turn.
+// Animals that end, hang, or write unexpected output.
 #include <fcntl.h>
 #include <signal.h>
 #include <sys/stat.h>
@@ -34,7 +34,7 @@ void for_each_descriptor(void (*f)(int)) {
   for (int fd = 0; fd < 1024; ++fd) f(fd);
 }
 
-/// Writes to every pipe that this process can write, the protocol's among them.
+/// Writes to every pipe that this process can write to, including the protocol's.
 void spray(const std::string& bytes) {
   for (int fd = 3; fd < 1024; ++fd) {
     struct stat s;

@@ -1,5 +1,5 @@
-// A command behind a pipe that misbehaves as its argument says: when it is asked about the pair (0, 2) of a
-// scene whose body 0 lies at x = 666, or at its start.
+// A command behind a pipe that misbehaves in the way that its argument names: when queried about the pair (0,
+// 2) of a scene whose body 0 lies at x = 666, or at its start.
 #include <signal.h>
 #include <unistd.h>
 
@@ -126,7 +126,7 @@ const std::map<std::string, std::function<void()>> answers{
      }},
     {"spams",
      [] {
-       // At once: what comes later than the answer is only seen with the next question.
+       // All at once: output after the answer is only seen with the next question.
        std::string all;
        for (int i = 0; i < 100000; ++i) all += "{\"overlap\":false}\n";
        say(all);

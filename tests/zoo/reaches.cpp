@@ -1,4 +1,4 @@
-// Those that reach for what is outside: files, network, processes, memory.
+// Animals that reach outside: files, network, processes, memory.
 #include <arpa/inet.h>
 #include <fcntl.h>
 #include <sched.h>
@@ -51,7 +51,7 @@ void connect_by_name() {
   close(fd);
 }
 
-// As root of a namespace of its own it may mount, but not undo what it was given.
+// As root of its own namespace it may mount, but not undo the mounts that it was given.
 void remount_and_write() {
   if (unshare(CLONE_NEWUSER | CLONE_NEWNS) != 0) return;
   mount(nullptr, "/", nullptr, MS_REMOUNT | MS_BIND, nullptr);
