@@ -68,7 +68,7 @@ TEST_CASE("rotation matrices do not depend on the quaternion's length", "[values
   CHECK(rotation_matrix({0, 0, 1, 1}) * Vec3(1, 0, 0) == Vec3(0, 1, 0));
 }
 
-TEST_CASE("orientation is exact where rounding would give the wrong sign", "[values][predicates]") {
+TEST_CASE("orientation is exact where rounding would lie", "[values][predicates]") {
   // Four coplanar points, and the fourth moved by one ulp: the sign must change.
   const Vec3 a(0.1, 0.2, 0.3), b(1.1, 0.2, 0.3), c(0.1, 1.2, 0.3);
   CHECK(orient3d_sign(a, b, c, Vec3(7, -5, 0.3)) == 0);

@@ -1,4 +1,4 @@
-// Every entry of the public collection of known failures: the referee must agree with the recorded truth.
+// The referee must agree with the recorded truth of every entry of the public collection of known failures.
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -45,7 +45,7 @@ Placed placed(const Shape& s, const Json& j) {
   return {&s, p};
 }
 
-// Constant velocities that lead from one pose to the other, shortest arc.
+// Constant velocities that lead from one pose to the other by the shortest arc.
 Motion motion_between(const Json& from, const Json& to) {
   Motion m;
   m.linear = vector_of(to["translation"]) - vector_of(from["translation"]);

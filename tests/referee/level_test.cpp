@@ -1,6 +1,6 @@
 // Every level of the filter against the exact one, and the quick bracket against the slow one, on pairs that
-// are aimed at where rounding is worst: nearly parallel boxes, gaps down to nothing, coordinates far from the
-// origin, flat and tiny bodies, numbers at the ends of what doubles can be squared in.
+// target the worst rounding: nearly parallel boxes, gaps down to zero, coordinates far from the origin, flat
+// and tiny bodies, numbers at the limits of doubles whose squares are finite.
 #include <array>
 #include <cmath>
 
@@ -25,7 +25,7 @@ Shape exact_shape(Rng& r, double size = 1) {
   return random_convex(r, convex_kinds[r.below(exact_kind_count)], size);
 }
 
-// Some number of [0, 1).
+// A number in [0, 1).
 double r_of(int i) { return std::fmod(0.618033988749895 * i * (1 + i % 5), 1.0); }
 
 Pair anywhere(Rng& r) {
@@ -35,7 +35,7 @@ Pair anywhere(Rng& r) {
   return p;
 }
 
-// B's support point against A's, then off by a power of two from an ulp to a tenth, either way or not at all.
+// B's support point at A's, then offset by a power of two from an ulp to a tenth, either way, or not at all.
 void bring_together(Rng& r, Pair& p, double size) {
   const Vec3 n = r.chance(0.5) ? Vec3(rotation_matrix(p.pose_a.rotation).col(static_cast<int>(r.below(3))))
                                : r.unit_vector();
@@ -126,7 +126,7 @@ Pair on_a_lattice(Rng& r) {
 struct Family {
   const char* name;
   Draw draw;
-  double level0;  // least share that doubles settle
+  double level0;  // least share that doubles decide
 };
 
 constexpr Family families[] = {{"anywhere", anywhere, 0.99},
@@ -205,7 +205,7 @@ TEST_CASE("integers of 512 bits and rationals agree on half-spaces", "[referee][
     const Operand x = make_operand(body, Vec3::Zero());
     const auto brief = overlaps_half_space_short(h.normal, h.offset, p.pose_b, x.exact_body());
     REQUIRE(brief.has_value());
-    // The same half-space by a placement goes the way of rationals.
+    // The same half-space given as a placement takes the path of rationals.
     const Placed same{&shape, Placement{Mat3::Identity(), Vec3::Zero()}};
     const bool unturned = p.pose_b.rotation == Quat{0, 0, 0, 1} && p.pose_b.translation.isZero(0);
     const PairTruth t = judge_pair(plane, body);
@@ -214,7 +214,7 @@ TEST_CASE("integers of 512 bits and rationals agree on half-spaces", "[referee][
     const bool near = t.gap.lo <= 0 && t.gap.hi >= 0;
     touching += near;
     if (near) {
-      // Off by an ulp or so either way, and no longer in doubt.
+      // Offset by about an ulp either way it is no longer in doubt.
       const Shape up = HalfSpace{h.normal, h.offset + 0x1p-40},
                   down = HalfSpace{h.normal, h.offset - 0x1p-40};
       REQUIRE(judge_pair({&up, p.pose_b}, body).verdict == Verdict::overlap);
@@ -252,7 +252,7 @@ TEST_CASE("a point of a curved body: integers of 512 bits and the checker's rati
     REQUIRE(checker::check(at, body, body) == *brief);
     ++decided;
     inside += *brief;
-    // On the border exactly: inside as it is, outside a little farther from the centre.
+    // Exactly on the border: inside as it is, outside slightly farther from the centre.
     const Vec3 out = point + 0x1p-30 * (point - placed.pose_a.translation);
     if (const auto beyond = contains_short(body, out); *brief && beyond && !*beyond) ++on_border;
   }
@@ -263,7 +263,8 @@ TEST_CASE("a point of a curved body: integers of 512 bits and the checker's rati
   REQUIRE(on_border > 50);
 }
 
-TEST_CASE("what takes too much work is left open, says so, and is never guessed", "[referee][work]") {
+TEST_CASE("a question that takes too much work is left undecided with a note, never guessed",
+          "[referee][work]") {
   Rng r(71);
   constexpr double infinity = std::numeric_limits<double>::infinity();
   std::size_t open = 0;
@@ -297,7 +298,7 @@ TEST_CASE("what takes too much work is left open, says so, and is never guessed"
   CHECK(open < 300);
 }
 
-TEST_CASE("two meshes of which all pairs are too many are left open at once", "[referee][work]") {
+TEST_CASE("two meshes with too many pairs of triangles are left undecided at once", "[referee][work]") {
   TriangleMesh m;
   for (int i = 0; i < 60000; ++i) m.vertices.emplace_back(r_of(i), r_of(i + 7), r_of(i + 13));
   for (int i = 0; i + 2 < 60000; ++i) m.triangles.push_back({i, i + 1, i + 2});

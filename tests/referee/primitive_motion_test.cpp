@@ -15,7 +15,7 @@ namespace {
 using Quad = std::array<Vec3, 4>;
 constexpr auto vf = PrimitivePair::vertex_face, ee = PrimitivePair::edge_edge;
 
-/// Small integers: degenerate and coplanar more often than not.
+/// Small integers: usually degenerate or coplanar.
 Quad lattice_quad(Rng& r) {
   Quad q;
   for (Vec3& v : q)
@@ -25,7 +25,8 @@ Quad lattice_quad(Rng& r) {
 
 }  // namespace
 
-TEST_CASE("the recorded queries are all decided as the exact truth says", "[referee][primitive][data]") {
+TEST_CASE("all recorded queries are decided in agreement with the exact truth",
+          "[referee][primitive][data]") {
   const auto root = test::shared_data() / "ccd";
   if (!std::filesystem::exists(root / "truth.csv")) return test::skip(root.string() + " is absent");
   int false_negatives = 0, false_positives = 0, hits = 0, wrong_times = 0, total = 0;
@@ -55,17 +56,17 @@ TEST_CASE("a vertex that crosses a face does so at the time of its plane", "[ref
   REQUIRE(t.collides);
   REQUIRE(t.t_lo == 0.25);
   REQUIRE(t.t_hi == 0.25);
-  // A third of the way: no double, so its two neighbours.
+  // A third of the way is not a double, so the bracket is its two neighbours.
   end[0].z() = -2;
   const PrimitiveTruth third = judge_primitive_motion(vf, start, end);
   REQUIRE(third.t_lo == 1.0 / 3);
   REQUIRE(third.t_hi == std::nextafter(1.0 / 3, 1.0));
-  // One unit short of the plane, and exactly at it when the step ends.
+  // One ulp short of the plane, and exactly at it when the step ends.
   end[0].z() = 0x1p-1074;
   REQUIRE_FALSE(judge_primitive_motion(vf, start, end).collides);
   end[0].z() = 0;
   REQUIRE(judge_primitive_motion(vf, start, end).t_lo == 1);
-  // Through a corner, and past it by one unit.
+  // Through a corner, and past it by one ulp.
   end[0] = {0, 0, -1};
   Quad above = start;
   above[0] = {0, 0, 1};
@@ -75,7 +76,7 @@ TEST_CASE("a vertex that crosses a face does so at the time of its plane", "[ref
 }
 
 TEST_CASE("motions within one plane and degenerate primitives are decided", "[referee][primitive]") {
-  // A vertex slides in the plane of the face, enters at x = 0.
+  // A vertex slides in the plane of the face and enters it at x = 0.
   const Quad start{Vec3(-1, 0.25, 0), Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0, 1, 0)};
   Quad end = start;
   end[0].x() = 3;

@@ -1,5 +1,6 @@
-// The referee's second opinion on small polytopes of whole numbers: the separating-axis theorem over every
-// candidate direction in 64-bit integers. Slow, obvious, exact. Coordinates, times both scales, up to 1e4.
+// A second opinion on the referee for small integer polytopes: the separating-axis theorem over every
+// candidate direction in 64-bit integers. Slow, obvious, exact. Coordinates times both scales must be at most
+// 1e4.
 #pragma once
 
 #include <array>
@@ -83,8 +84,8 @@ inline void add_direction(std::vector<I3>& list, const I3& d) {
   list.push_back(d);
 }
 
-// All normals that can matter: crosses of edge directions; for a flat difference also those within its plane;
-// for a segment or a point the part of a point at a right angle to it.
+// All candidate normals: cross products of edge directions; for a flat difference also those within its
+// plane; for a segment or a point, the component of a point perpendicular to it.
 inline std::vector<I3> candidates(const std::vector<I3>& a, const std::vector<I3>& b) {
   std::vector<I3> edges, normals;
   for (const auto* s : {&a, &b})

@@ -1,4 +1,4 @@
-// A plan holds on its scene, is found again from its JSON, and refuses what it cannot prove.
+// A plan holds on its scene, can be read back from its JSON, and refuses what it cannot prove.
 #include "reports/plan/plan.h"
 
 #include <cmath>
@@ -16,7 +16,7 @@ using namespace touchstone::fuzz;
 
 namespace {
 
-// Boxes, and hulls of 60 corners on a ball, thrown together; one of them is fast.
+// A random heap of boxes and of hulls with 60 corners on a ball; one body is fast.
 Scene heap(int n) {
   Rng rng(3);
   Scene s;
@@ -56,7 +56,7 @@ const PlanRow& plan_row(const Plan& p) {
 
 }  // namespace
 
-TEST_CASE("a plan holds on its scene and is run again from its JSON", "[plan]") {
+TEST_CASE("a plan holds on its scene and can be run from its JSON", "[plan]") {
   const Course course = course_of(heap(24));
   const Plan p = make_plan(course, quick(1e-2));
   CHECK(p.bodies == 25);
@@ -66,7 +66,7 @@ TEST_CASE("a plan holds on its scene and is run again from its JSON", "[plan]") 
   CHECK(plan_row(p).error <= 1e-2);
   CHECK(p.pairs.size() >= 3);
   for (const PlanPair& x : p.pairs) CHECK(x.certified_error <= 1e-2);
-  // The fast one, and nobody else.
+  // Only the fast body.
   REQUIRE(p.swept.size() == 1);
   CHECK(p.swept[0].body == 4);
   CHECK(p.swept[0].reason == "travel");
@@ -92,7 +92,7 @@ TEST_CASE("a plan holds on its scene and is run again from its JSON", "[plan]") 
   CHECK(text.find("body4") != std::string::npos);
 }
 
-TEST_CASE("a plan that is wrong is found out by the referee", "[plan]") {
+TEST_CASE("the referee detects a wrong plan", "[plan]") {
   const Course course = course_of(heap(24));
   Fidelity lie;
   lie.error = 1e-3;
@@ -103,13 +103,13 @@ TEST_CASE("a plan that is wrong is found out by the referee", "[plan]") {
   run_course(course, lie, [&](int step, const StepReport& r) { sample.judge(step, r, 1e-3, row); });
   CHECK(row.outside > 0);
   CHECK(row.error > 1e-3);
-  // And is not taken over from elsewhere.
+  // A wrong plan is not accepted from a file either.
   PlanOptions o = quick(0);
   o.given = lie;
   CHECK_THROWS_AS(make_plan(course, o), InputError);
 }
 
-TEST_CASE("a plan that was altered by hand is refused", "[plan]") {
+TEST_CASE("a plan that was edited by hand is refused", "[plan]") {
   const Course course = course_of(heap(4));
   PlanOptions o = quick(0);
   Fidelity& f = o.given.emplace();

@@ -1,4 +1,4 @@
-// What the README says of engines is what the kept numbers and the engines themselves say.
+// What the README states about engines agrees with the stored numbers and with the engines themselves.
 #include <algorithm>
 #include <nlohmann/json.hpp>
 #include <regex>
@@ -52,7 +52,7 @@ TEST_CASE("the README's chart is that of docs/chart.json", "[readme][chart]") {
   CHECK(reports::chart_markdown(other) != reports::chart_markdown(kept));
 }
 
-TEST_CASE("a stored chart reads back as it was, and what is none is refused", "[chart]") {
+TEST_CASE("a stored chart is read back unchanged, and an invalid one is refused", "[chart]") {
   const fuzz::Chart kept = kept_chart();
   CHECK(fuzz::to_json(fuzz::chart_from_json(fuzz::to_json(kept), "x")) == fuzz::to_json(kept));
   Json broken = fuzz::to_json(kept);
@@ -86,7 +86,7 @@ TEST_CASE("every finding in the README's table is shown by its case, and has a r
     CHECK(found);
     const std::string reproduce = "reproduce " + c.file + " --case-seconds 0.3 -o r.cpp --engine " + c.engine;
     auto written = w.touchstone(reproduce);
-    if (written.code == 2) {  // several findings: it lists their keys
+    if (written.code == 2) {  // several findings: the message lists their keys
       const std::regex key(c.engine + "\\." + c.question + "\\." + c.fault + "(_[a-z0-9_-]+)?\\.\\S+");
       std::smatch m;
       REQUIRE(std::regex_search(written.err, m, key));

@@ -11,7 +11,7 @@ using namespace touchstone;
 
 namespace {
 
-// Tight for the shapes of the crowds, whose poses are translations: support points along the axes are exact.
+// Tight for the crowds, whose poses are translations: support points along the axes are exact.
 Aabb tight_box(const Shape& shape, const Pose& pose) {
   Aabb b;
   std::visit(
@@ -95,6 +95,6 @@ TEST_CASE("the stated pairs at each query of a script are those of the referee",
   }
   CHECK(scripts >= 10);
   CHECK(with_pairs * 10 >=
-        queries * 3);  // not vacuous: at least 30 % of the queries have pairs, and 30 % have none
+        queries * 3);  // not trivial: at least 30 % of the queries have pairs, and 30 % have none
   CHECK(with_pairs * 10 <= queries * 7);
 }

@@ -38,7 +38,7 @@ constexpr Expected scenes[] = {{"debris_drift", 929, 1200, 1200, 40, 13},
 
 }  // namespace
 
-TEST_CASE("every recorded scene reads, and its first and last frames are valid scenes", "[scene][data]") {
+TEST_CASE("every recorded scene can be read, and its first and last frames are valid", "[scene][data]") {
   if (!std::filesystem::exists(data_root)) return test::skip(data_root.string() + " is absent");
   int checked = 0;
   for (const Expected& e : scenes) {
@@ -71,7 +71,7 @@ TEST_CASE("every recorded scene reads, and its first and last frames are valid s
   CHECK(checked == 10);
 }
 
-TEST_CASE("the hull zoo and the point clouds read completely", "[scene][data]") {
+TEST_CASE("the hull zoo and the point clouds are read completely", "[scene][data]") {
   if (!std::filesystem::exists(data_root)) return test::skip(data_root.string() + " is absent");
   const auto zoo = load_hull_zoo(data_root / "hulls");
   CHECK(zoo.size() == 647);
@@ -87,7 +87,7 @@ TEST_CASE("the hull zoo and the point clouds read completely", "[scene][data]") 
   CHECK(load_point_clouds(data_root / "hulls" / "jolt_clouds.bin").size() == 3377);
 }
 
-TEST_CASE("the continuous-collision queries read exactly, with truth", "[scene][data]") {
+TEST_CASE("the continuous-collision queries are read exactly, with their truth", "[scene][data]") {
   if (!std::filesystem::exists(data_root)) return test::skip(data_root.string() + " is absent");
   const auto queries = load_ccd_set(data_root / "ccd");
   CHECK(queries.size() == 7418);
@@ -103,7 +103,7 @@ TEST_CASE("the continuous-collision queries read exactly, with truth", "[scene][
   CHECK(agree == 7418);
 }
 
-TEST_CASE("the broad-phase sets, meshes and two-body motions read completely", "[scene][data]") {
+TEST_CASE("the broad-phase sets, meshes and two-body motions are read completely", "[scene][data]") {
   if (!std::filesystem::exists(data_root)) return test::skip(data_root.string() + " is absent");
   const auto boxes = load_aabbs(data_root / "broadphase" / "bullet_32006GPUAABBs.csv");
   CHECK(boxes.size() == 32006);
