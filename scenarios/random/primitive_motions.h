@@ -36,9 +36,8 @@ struct PrimitiveMotion {
   Quad a, b;
 };
 
-// By turns: anywhere; small integers; a rigid passage of the second primitive; one aimed at a feature to
-// within 2^-50; the same far from the origin; at the ends of the exponents; one whose last coordinate hardly
-// moves.
+// In turn: anywhere; small integers; a rigid motion of the second primitive; one aimed at a feature to within
+// 2^-50; the same far from the origin; extreme exponents; one whose last coordinate hardly moves.
 /// Motion number i: a pure function of i and of the state of r.
 inline PrimitiveMotion random_motion(Rng& r, std::uint64_t i) {
   PrimitiveMotion m{loose_quad(r), loose_quad(r)};
@@ -53,7 +52,7 @@ inline PrimitiveMotion random_motion(Rng& r, std::uint64_t i) {
     }
     case 3:
     case 4: {
-      // Vertex 0 meets edge 2-3 in the middle of the step, nearly.
+      // Vertex 0 nearly meets edge 2-3 in the middle of the step.
       const Quad half = at(m.a, m.b, 0.5);
       const Vec3 target = half[2] + r.uniform() * (half[3] - half[2]);
       m.b[0] = 2 * target - m.a[0] + r.unit_vector() * std::ldexp(1.0, -20 - static_cast<int>(r.below(36)));
@@ -64,7 +63,7 @@ inline PrimitiveMotion random_motion(Rng& r, std::uint64_t i) {
     }
     case 5: {
       const std::uint64_t range =
-          r.below(10) == 0 ? 950 : 90;  // the referee's rationals are slow at the ends
+          r.below(10) == 0 ? 950 : 90;  // the referee's rationals are slow at extreme exponents
       const double scale = std::ldexp(1.0, static_cast<int>(r.below(2 * range)) - static_cast<int>(range));
       for (Quad* q : {&m.a, &m.b})
         for (Vec3& v : *q) v *= scale;

@@ -14,7 +14,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-// What the word *values* of the table stands for.
+// What *values* stands for in the table.
 const std::set<std::string> values = {"core/base",  "core/math",       "core/shape",
                                       "core/scene", "scenarios/value", "scenarios/text"};
 
@@ -54,7 +54,8 @@ const Table& may_include() {
   return table;
 }
 
-// The room of the table that holds a file; a file of its own (core/tolerance.h) is its own room.
+// The room of the table that holds a file. A file that the table lists by itself (core/tolerance.h) is a
+// room.
 std::string room_of(const std::string& file) {
   for (const auto& [room, may] : may_include())
     if (file.starts_with(room + "/")) return room;

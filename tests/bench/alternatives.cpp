@@ -1,11 +1,11 @@
-// What a time of impact costs, and what is lost without one: the end pose alone, N sub-steps, speculative
+// What a time of impact costs, and what is lost without one: the end pose only, N sub-steps, speculative
 // contact, and core/impact, on the same motions, judged by the referee.
 //
 //   bench_alternatives [--cases 200] [--rounds 3] [--most 1024] [--csv FILE]
 //
-// missed: the referee has a hit, the method none; ghost: the reverse, with a certified gap throughout. Gap
-// error of the hits that both have: |signed gap at the reported time| / L, by the core's own narrow phase.
-// µs: least of all rounds for each case; median and mean over the cases.
+// missed: the referee has a hit and the method does not; ghost: the reverse, with a certified gap throughout.
+// Gap error of the hits that both have: |signed gap at the reported time| / L, by the core's own narrow
+// phase. µs: minimum over the rounds for each case; median and mean over the cases.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -51,11 +51,12 @@ Shape some_shape(Rng& r) {
   }
 }
 
-// B at the origin; A comes from `away` and aims at a point within `off` of it, to arrive in mid-step.
+// B is at the origin; A starts at `away` and aims at a point within `off` of it, arriving in mid-step.
 Case aimed(Rng& r, Shape a, Shape b, double away, double off, double spin) {
   Case c{std::move(a), std::move(b), {}, {}, {}};
   const Vec3 from = r.unit_vector().normalized() * away, target = r.vector(0, off);
-  c.pose_a = {from, r.rotation()}, c.pose_b.rotation = r.rotation();
+  c.pose_a = {from, r.rotation()};
+  c.pose_b.rotation = r.rotation();
   c.motion_a = {(target - from) * r.uniform(1.2, 2.5), r.unit_vector().normalized() * spin};
   return c;
 }
@@ -77,7 +78,7 @@ const std::vector<Family>& families() {
          return aimed(r, Sphere{thin}, Box{{thin, 1, 1}}, 20, 1.5, 0);
        }},
       {"grazing", [](Rng& r) {
-         // Past each other at a distance of the sum of their radii, give or take a thousandth.
+         // They pass at a distance of the sum of their radii, give or take a thousandth.
          Case c{Sphere{0.5}, Box{{0.5, 0.5, 0.5}}, {}, {}, {}};
          c.pose_a.translation = Vec3(-4 + r.uniform(-1, 1), r.uniform(-0.4, 0.4), 1 + r.uniform(-1e-3, 1e-3));
          c.motion_a.linear = Vec3(8, 0, 0);

@@ -1,11 +1,11 @@
-// The shapes of the benchmarks of pairs.
+// Shapes for the pair benchmarks.
 #pragma once
 
 #include "tests/support/plain_shape.h"
 
 namespace touchstone::bench {
 
-/// Of about unit size; a hull's vertices are on an ellipsoid, so that every one is extreme.
+/// About unit size; a hull's vertices lie on an ellipsoid, so that all of them are extreme.
 inline Shape make_shape(Rng& rng, ShapeKind kind, int vertices) {
   return test::plain_shape(rng, kind, [vertices](Rng& r, auto&& size) {
     const Vec3 axes(size(), size(), size());

@@ -1,9 +1,8 @@
-// Broad phases on scripts, ours and others' interleaved in one run: for each scene and size, each contestant
-// in turn on the same frames, several rounds, in rotated order. Timed, as CPU time of the thread: the moves
-// handed over, the update, the whole set of pairs. The pairs of three frames a cell are compared, as sets,
-// with those of the plain grid, which shares no code with ours; a contestant that differs is marked and is
-// nobody's best.
-// With --threads N ours may use N threads, and all are timed by the clock on the wall.
+// Broad phases on scripts, ours and others interleaved in one run: for each scene and size, each contestant
+// in turn on the same frames, several rounds, in rotated order. The thread's CPU time covers passing the
+// moves, the update, and the whole set of pairs. The pairs of three frames per cell are compared, as sets,
+// with those of the plain grid, which shares no code with ours; a contestant that differs is marked and never
+// counts as the best. With --threads N ours may use N threads, and all are timed by wall clock.
 //   bench_broad --cells uniform/10000,mixed/ --methods touchstone,plain --rounds 3 --csv out.csv --json
 //   out.json
 #include <fmt/format.h>
@@ -45,7 +44,7 @@ struct Entrant {
   std::string name;
   std::unique_ptr<Contestant> (*make_other)();
   const broad::CatalogRow* row;
-  int most;           // boxes; beyond, a frame takes seconds
+  int most;           // boxes; with more, a frame takes seconds
   int frames = 1000;  // at most, at 1e6
   std::unique_ptr<Contestant> make(std::size_t pairs, int threads) const {
     if (row != nullptr) return std::make_unique<Ours>(row->make({threads}));
@@ -78,7 +77,7 @@ std::vector<Entrant> entrants() {
 bool is_hopeless(const Entrant& e, std::string_view scene, int n) {
   const bool is_peer = e.name.starts_with("fcl") || e.name.starts_with("bullet");
   if (scene == "teleport" && is_peer) return n > (e.name == "bullet:dbvt" ? 10000 : 1000);
-  // One axis is nothing to these.
+  // These do not depend on a sweep axis.
   const bool sweeps = e.name == "touchstone:sort_and_sweep" || e.name == "touchstone:incremental_sweep";
   return sweeps && n > 100000;
 }
@@ -101,7 +100,7 @@ double now_ms(int threads) {
   return static_cast<double>(t.tv_sec) * 1e3 + static_cast<double>(t.tv_nsec) * 1e-6;
 }
 
-// The frames of a cell, drawn beforehand: drawing them must not warm or cool anybody's cache.
+// The frames of a cell, generated beforehand so that generating them does not disturb any contestant's cache.
 struct Script {
   std::vector<Aabb> start;
   std::vector<std::vector<broad::BoxUpdate>> frames;
@@ -149,13 +148,16 @@ void run_round(const Entrant& e, const Script& s, int threads, BroadRow& row) {
     if (f >= warm_frames) row.frame_ms.push_back(now_ms(threads) - before);
   }
   ++row.rounds;
-  row.pairs = out.size(), row.reported = subject->reported();
-  row.bytes = subject->memory_bytes(), row.note = subject->note(), row.answers = subject->answers();
+  row.pairs = out.size();
+  row.reported = subject->reported();
+  row.bytes = subject->memory_bytes();
+  row.note = subject->note();
+  row.answers = subject->answers();
 }
 
 int frames_of(const Options& o, int n) {
   if (o.frames > 0) return o.frames;
-  // Long enough for what is rebuilt every ten frames or so to be rebuilt several times.
+  // Long enough for structures that are rebuilt every ten frames or so to be rebuilt several times.
   return n <= 1000 ? 240 : n <= 10000 ? 80 : n <= 100000 ? 40 : 24;
 }
 
@@ -167,10 +169,13 @@ std::vector<BroadRow> run_cell(const Options& o, const std::vector<Entrant>& all
   for (const Entrant& e : all) {
     if (n > e.most || is_hopeless(e, scene, n) || !chosen(o.methods, e.name)) continue;
     BroadRow r;
-    r.scene = scene, r.n = n, r.method = e.name;
+    r.scene = scene;
+    r.n = n;
+    r.method = e.name;
     const auto subject = e.make(0, o.threads);
     r.wrong = subject->answers() && !agrees(*subject, script);
-    rows.push_back(r), who.push_back(&e);
+    rows.push_back(r);
+    who.push_back(&e);
   }
   for (int round = 0; round < o.rounds; ++round)
     for (std::size_t k = 0; k < rows.size(); ++k) {
@@ -184,7 +189,8 @@ std::vector<std::string> split(const std::string& s) {
   std::vector<std::string> all;
   for (std::size_t at = 0; at <= s.size();) {
     const std::size_t end = std::min(s.find(',', at), s.size());
-    all.push_back(s.substr(at, end - at)), at = end + 1;
+    all.push_back(s.substr(at, end - at));
+    at = end + 1;
   }
   return all;
 }

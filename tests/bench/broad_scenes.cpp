@@ -17,7 +17,7 @@ double normal(Rng& r) {
 
 }  // namespace
 
-// Uniform: n boxes of mean side 1 see n·8/V of each other, about four partners a box. Mixed: 1 % of the boxes
+// Uniform: n boxes of mean side 1 meet n·8/V others each, about four partners a box. Mixed: 1 % of the boxes
 // are 50 times larger, and the mean of (s_a + s_b)³/V over pairs is governed by them: 780 units of volume a
 // box give about three. Clusters hold 1000 boxes each with a deviation of 2.2 (about 14 partners a box), in a
 // world 20 times as wide as the uniform one.
@@ -42,7 +42,8 @@ void BoxScene::place(int i) {
   for (int k = 0; k < 3; ++k) {
     const double c = blobs_.empty() ? r_.uniform(0, side_) : blobs_[blob][k] + 2.2 * normal(r_);
     const double h = r_.uniform(0.25, 0.75) * scale;
-    b.lo[k] = exact(c - h), b.hi[k] = exact(c + h);
+    b.lo[k] = exact(c - h);
+    b.hi[k] = exact(c + h);
   }
 }
 
@@ -50,7 +51,10 @@ void BoxScene::shift(int i) {
   Aabb& b = boxes_[static_cast<std::size_t>(i)];
   const double size = (b.hi - b.lo).mean();
   const Vec3 v = r_.unit_vector() * (0.02 * size);
-  for (int k = 0; k < 3; ++k) b.lo[k] = exact(b.lo[k] + v[k]), b.hi[k] = exact(b.hi[k] + v[k]);
+  for (int k = 0; k < 3; ++k) {
+    b.lo[k] = exact(b.lo[k] + v[k]);
+    b.hi[k] = exact(b.hi[k] + v[k]);
+  }
 }
 
 const std::vector<broad::BoxUpdate>& BoxScene::step() {

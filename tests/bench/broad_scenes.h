@@ -1,4 +1,4 @@
-// The scripts that broad phases are timed on. Coordinates are exact floats, so that float and double engines
+// Scripts on which broad phases are timed. Coordinates are exact floats, so that float and double engines
 // see the same boxes and must report the same pairs.
 #pragma once
 
@@ -33,16 +33,15 @@ class BoxScene {
   std::vector<broad::BoxUpdate> moves_;
 };
 
-/// What is timed: a phase of the catalog, a plain competitor, or a peer.
+/// What is timed: a broad phase of the catalog, a plain competitor, or a peer.
 class Contestant {
  public:
   virtual ~Contestant() = default;
   virtual void start(const std::vector<Aabb>& boxes) = 0;
   virtual void frame(const std::vector<broad::BoxUpdate>& moves, std::vector<broad::IdPair>& out) = 0;
-  /// False for what has no pairs to compare.
+  /// False for a contestant that reports no pairs to compare.
   virtual bool answers() const { return true; }
-  /// Candidates that the last frame looked at by exact boxes, when the contestant filters its own: 0 for
-  /// none.
+  /// Candidates that the last frame checked against exact boxes, when the contestant filters its own; else 0.
   virtual std::size_t reported() const { return 0; }
   virtual std::string note() const { return {}; }
   virtual std::size_t memory_bytes() const { return 0; }

@@ -106,9 +106,14 @@ std::string broad_summary(const std::vector<BroadRow>& rows) {
     const BroadRow* bound = best(rows, r, [](const BroadRow& o) { return !o.answers; });
     const BroadRow* simple = best(rows, r, plain);
     const std::string cell = fmt::format("{} {}", r.scene, r.n);
-    if (fixed != nullptr && ms / fixed->mean_ms() > worst) worst = ms / fixed->mean_ms(), worst_cell = cell;
-    if (simple != nullptr && simple->mean_ms() / ms < least_plain)
-      least_plain = simple->mean_ms() / ms, plain_cell = cell;
+    if (fixed != nullptr && ms / fixed->mean_ms() > worst) {
+      worst = ms / fixed->mean_ms();
+      worst_cell = cell;
+    }
+    if (simple != nullptr && simple->mean_ms() / ms < least_plain) {
+      least_plain = simple->mean_ms() / ms;
+      plain_cell = cell;
+    }
     text += fmt::format(
         "{:<18} {:>9.4f}  {:<24} {:<18} {:<25} {:<24} {}\n", cell, ms, ratio_to(best(rows, r, peer), ms),
         ratio_to(simple, ms), ratio_to(best(rows, r, sorted_plain), ms),

@@ -1,13 +1,14 @@
-// Time of impact, ours and others' in one run: for each pair of shapes and course every contestant in turn,
-// round after round, so that a change of the machine's pace meets all alike.
+// Time of impact, ours and others in one run: for each pair of shapes and course every contestant in turn,
+// round after round, so that a change in the machine's speed affects all of them alike.
 //
 //   bench_impact [--cases 200] [--rounds 9] [--filter box-box] [--course swing] [--only core] [--no-truth]
 //
-// mean: CPU time of the thread over a pass of different cases, least of all rounds. median, p99: over the
-// cases, of the least time that each took in any round, clock subtracted. Against the referee: hits of the
-// truth; missed: says no hit and overlaps by more than 64 units of rounding; ghost: a hit where there is
-// none; late, early: by depth and by gap at the time reported, the same units; |dt|: outside the referee's
-// bracket, as a fraction of the step, of hits that were found; gap: at the time reported, over L.
+// mean: the thread's CPU time over a pass of different cases, minimum over the rounds. median, p99: over the
+// cases, of the minimum time of each over the rounds, clock overhead subtracted. Against the referee: hits of
+// the truth; missed: reports no hit although the bodies overlap by more than 64 units of rounding; ghost: a
+// hit that does not exist; late, early: by the depth and the gap at the reported time, in the same units;
+// |dt|: distance from the referee's bracket as a fraction of the step, over the hits found; gap: at the
+// reported time, over L.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -33,7 +34,9 @@ class Ours final : public ImpactContestant {
   }
   void ask(std::size_t i, FoundImpact& out) override {
     const ImpactAnswer r = time_of_impact(pairs_[i].a, pairs_[i].b, ImpactDetail::time);
-    out.failed = r.outcome != Outcome::answered, out.t = r.toi, out.steps = r.steps;
+    out.failed = r.outcome != Outcome::answered;
+    out.t = r.toi;
+    out.steps = r.steps;
   }
 
  private:
@@ -87,8 +90,11 @@ double scale_of(const MovingCase& c) {
   Scene s;
   s.shapes = {c.a, c.b};
   s.bodies.resize(2);
-  s.bodies[0].pose = c.pose_a, s.bodies[0].motion = c.motion_a;
-  s.bodies[1].shape = 1, s.bodies[1].pose = c.pose_b, s.bodies[1].motion = c.motion_b;
+  s.bodies[0].pose = c.pose_a;
+  s.bodies[0].motion = c.motion_a;
+  s.bodies[1].shape = 1;
+  s.bodies[1].pose = c.pose_b;
+  s.bodies[1].motion = c.motion_b;
   return scale_of_pair(s, 0, 1);
 }
 

@@ -1,5 +1,5 @@
 // Bullet's casts in double, margin 0, called directly: the sub-simplex cast for translations and the
-// continuous one, which stops turning at 45 degrees.
+// continuous one, which stops rotating at 45 degrees.
 #include <BulletCollision/NarrowPhaseCollision/btContinuousConvexCollision.h>
 #include <BulletCollision/NarrowPhaseCollision/btGjkEpaPenetrationDepthSolver.h>
 #include <BulletCollision/NarrowPhaseCollision/btSubSimplexConvexCast.h>
@@ -87,7 +87,7 @@ ImpactContestantPtr make_impact_bullet_subsimplex(const MovingKind& kind, Course
 
 ImpactContestantPtr make_impact_bullet_continuous(const MovingKind& kind, Course course,
                                                   const std::vector<MovingCase>& cases) {
-  // Given by end poses: half a turn at most.
+  // Motions are given by end poses, so half a turn at most.
   if (!known(kind) || course == Course::spin) return nullptr;
   return std::make_unique<Bullet>(true, cases);
 }

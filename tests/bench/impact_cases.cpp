@@ -23,7 +23,7 @@ Vec3 spin_of(Rng& r, Course course) {
   }
 }
 
-// B starts `away` along n from where its gap is a small one across `way`.
+// B starts `away` along n from a pose in which its gap across `way` is small.
 void aim_past(Rng& r, MovingCase& c) {
   const Vec3 n = r.unit_vector(), u = r.unit_vector();
   const double offset = r.binary_scale(-30, -10) * (r.chance(0.5) ? 1 : -1);
@@ -32,7 +32,8 @@ void aim_past(Rng& r, MovingCase& c) {
   const Vec3 m = d.normal;
   c.pose_b.translation -= m * (d.distance - offset);
   const Vec3 way = (u - u.dot(m) * m) * r.uniform(4, 8);
-  c.pose_b.translation -= way * r.uniform(0.3, 0.7), c.motion_b.linear = way;
+  c.pose_b.translation -= way * r.uniform(0.3, 0.7);
+  c.motion_b.linear = way;
 }
 
 }  // namespace
@@ -43,7 +44,8 @@ std::vector<MovingCase> make_moving_cases(const MovingKind& kind, Course course,
   for (int i = 0; i < count; ++i) {
     Rng r = Rng::stream(seed, static_cast<std::uint64_t>(i));
     MovingCase c{make_shape(r, kind.a, kind.vertices), make_shape(r, kind.b, kind.vertices), {}, {}, {}, {}};
-    c.pose_a.rotation = r.rotation(), c.pose_b.rotation = r.rotation();
+    c.pose_a.rotation = r.rotation();
+    c.pose_b.rotation = r.rotation();
     c.pose_a.translation = r.unit_vector();
     if (course == Course::graze) {
       aim_past(r, c);

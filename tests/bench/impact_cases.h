@@ -1,4 +1,4 @@
-// Moving pairs for the time-of-impact benchmark, and what a contestant of it does.
+// Moving pairs for the time-of-impact benchmark, and the interface of its contestants.
 #pragma once
 
 #include <memory>
@@ -10,14 +10,14 @@
 
 namespace touchstone::bench {
 
-/// How the pairs of a cell move. A stands still but in `both`.
+/// How the pairs of a cell move. A is at rest except in `both`.
 enum class Course {
   translation,  // 0.9 to 1.8 gap lengths towards A
   graze,        // across: passes or touches by up to 1e-3 of the size
-  turn,         // as translation, and turns by 0.3 rad to 45 degrees
+  turn,         // like translation, with a rotation of 0.3 rad to 45 degrees
   swing,        // 45 degrees to 2.5 rad
-  spin,         // three to ten turns
-  both          // both bodies travel and turn by up to 2.5 rad
+  spin,         // three to ten full turns
+  both          // both bodies translate, and rotate by up to 2.5 rad
 };
 inline constexpr std::string_view course_names[] = {"translation", "graze", "turn", "swing", "spin", "both"};
 
@@ -49,7 +49,7 @@ inline constexpr MovingKind moving_kinds[] = {
 std::vector<MovingCase> make_moving_cases(const MovingKind& kind, Course course, int count,
                                           std::uint64_t seed);
 
-/// What a contestant found; no time: no hit. `failed`: it said neither.
+/// What a contestant found; without a time, no hit. `failed`: it reported neither.
 struct FoundImpact {
   std::optional<double> t;
   bool failed = false;
@@ -64,7 +64,7 @@ class ImpactContestant {
 };
 using ImpactContestantPtr = std::unique_ptr<ImpactContestant>;
 
-/// Null where the contestant does not take such pairs or motions.
+/// Null if the contestant does not support such pairs or motions.
 using ImpactMaker = ImpactContestantPtr (*)(const MovingKind&, Course, const std::vector<MovingCase>&);
 
 ImpactContestantPtr make_impact_fcl(const MovingKind&, Course, const std::vector<MovingCase>&);

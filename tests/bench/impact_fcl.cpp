@@ -47,7 +47,7 @@ class Fcl final : public ImpactContestant {
   }
   void ask(std::size_t i, FoundImpact& out) override {
     const Pair& p = pairs_[i];
-    // A query leaves its motions where it ended.
+    // A query leaves its motions at the time where it ended.
     const Path path_a = p.path_a, path_b = p.path_b;
     fcl::ContinuousCollisionResultd r;
     out.failed = fcl::continuousCollide(p.a.get(), &path_a, p.b.get(), &path_b, request_, r) < 0;

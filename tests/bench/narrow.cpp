@@ -1,12 +1,13 @@
-// The narrow phase on pairs near contact, ours and others' in one run: for each pair of shapes and question
-// every contestant in turn, round after round, so that a change of the machine's pace meets all alike.
+// The narrow phase on pairs near contact, ours and others in one run: for each pair of shapes and question
+// every contestant in turn, round after round, so that a change in the machine's speed affects all of them
+// alike.
 //
 //   bench_narrow [--cases 200] [--rounds 15] [--filter box-box] [--task contact] [--only core] [--no-truth]
 //
-// mean: CPU time of the thread over a whole pass of different cases, least of all rounds. median, p99: over
-// the cases, of the least time that each took in any round, clock subtracted. Error: |gap − truth| / L
-// against the referee (depth along the reported normal for contacts is charted by its excess over the least
-// depth).
+// mean: the thread's CPU time over a whole pass of different cases, minimum over the rounds. median, p99:
+// over the cases, of the minimum time of each over the rounds, clock overhead subtracted. Error: |gap −
+// truth| / L against the referee (for contacts: the excess of the depth along the reported normal over the
+// least depth).
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -40,10 +41,14 @@ class Ours final : public NarrowContestant {
       out.overlap = overlap(a, b, arithmetic_, memory).overlap;
     } else if (task_ == Task::distance) {
       const DistanceAnswer r = distance(a, b, arithmetic_, memory);
-      out.gap = r.distance, out.normal = r.normal, out.overlap = r.distance <= 0;
+      out.gap = r.distance;
+      out.normal = r.normal;
+      out.overlap = r.distance <= 0;
     } else {
       const ContactAnswer r = contact(a, b, arithmetic_, memory);
-      out.overlap = r.overlap, out.gap = -r.depth, out.normal = r.normal;
+      out.overlap = r.overlap;
+      out.gap = -r.depth;
+      out.normal = r.normal;
       out.points = static_cast<int>(r.manifold.size());
     }
   }
@@ -70,13 +75,14 @@ NarrowContestantPtr make_ours_f32(Task task, const PairKind&, const std::vector<
   return std::make_unique<Ours>(task, Arithmetic::float32, cases);
 }
 
-// Large hulls by looking at all vertices.
+// Large hulls by checking all vertices.
 NarrowContestantPtr make_ours_scan(Task task, const PairKind& kind, const std::vector<PairCase>& cases) {
   if (static_cast<std::size_t>(kind.vertices) < hull_graph_least) return nullptr;
   return std::make_unique<Ours>(task, Arithmetic::float64, cases, false);
 }
 
-// With what a query a frame ago has left: there B stood 1 % of its size away and turned by 1/100.
+// Warm start with the memory of a query one frame ago, when B was offset by 1 % of its size and rotated by
+// 0.01 rad.
 class Warm final : public NarrowContestant {
  public:
   Warm(Task task, const std::vector<PairCase>& cases) : task_(task), now_(task, Arithmetic::float64, cases) {
@@ -143,7 +149,7 @@ struct Row {
 
 void pass(Row& row) {
   const std::size_t n = row.found.size();
-  // Reading the thread's clock is a system call of half a microsecond: several passes a reading.
+  // Reading the thread's clock is a system call of half a microsecond, so each reading covers several passes.
   constexpr int passes = 4;
   const double start = clock_ns(CLOCK_THREAD_CPUTIME_ID);
   for (int k = 0; k < passes; ++k)

@@ -46,7 +46,8 @@ struct Deepest final : btDiscreteCollisionDetectorInterface::Result {
   void addContactPoint(const btVector3& normal_on_b, const btVector3&, btScalar d) override {
     ++points;
     if (!(d < distance)) return;
-    distance = d, normal = normal_on_b;
+    distance = d;
+    normal = normal_on_b;
   }
   btScalar distance = BT_LARGE_FLOAT;
   btVector3 normal;
@@ -63,7 +64,8 @@ class Bullet final : public NarrowContestant {
   void ask(std::size_t i, Found& out) override {
     const Pair& p = pairs_[i];
     btDiscreteCollisionDetectorInterface::ClosestPointInput input;
-    input.m_transformA = p.at_a, input.m_transformB = p.at_b;
+    input.m_transformA = p.at_a;
+    input.m_transformB = p.at_b;
     Deepest r;
     const bool boxes =
         p.a->getShapeType() == BOX_SHAPE_PROXYTYPE && p.b->getShapeType() == BOX_SHAPE_PROXYTYPE;

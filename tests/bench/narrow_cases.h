@@ -1,4 +1,4 @@
-// Pairs near contact for the narrow-phase benchmark, and what a contestant of it does.
+// Pairs near contact for the narrow-phase benchmark, and the interface of its contestants.
 #pragma once
 
 #include <limits>
@@ -19,7 +19,7 @@ struct PairCase {
   Pose pose_a, pose_b;
 };
 
-/// Rows of the table: two shapes, hulls by their number of vertices.
+/// Rows of the table: two shapes; hulls are named by their number of vertices.
 struct PairKind {
   std::string_view name;
   ShapeKind a, b;
@@ -45,7 +45,7 @@ inline constexpr PairKind pair_kinds[] = {
 /// Half of them overlap; gap or depth uniform up to 5 % of the size. Contacts: all overlap.
 std::vector<PairCase> make_cases(const PairKind& kind, Task task, int count, std::uint64_t seed);
 
-/// What a contestant found: NaN where it does not say.
+/// What a contestant found; NaN for what it does not report.
 struct Found {
   bool overlap = false;
   double gap = std::numeric_limits<double>::quiet_NaN();
@@ -61,7 +61,7 @@ class NarrowContestant {
 };
 using NarrowContestantPtr = std::unique_ptr<NarrowContestant>;
 
-/// Null where the contestant does not answer that question of that pair.
+/// Null if the contestant does not answer that question for that pair.
 using NarrowMaker = NarrowContestantPtr (*)(Task, const PairKind&, const std::vector<PairCase>&);
 
 NarrowContestantPtr make_narrow_fcl_libccd(Task, const PairKind&, const std::vector<PairCase>&);

@@ -1,4 +1,4 @@
-// FCL's two solvers as shipped, on collision objects that stand ready.
+// FCL's two solvers as shipped, on prepared collision objects.
 #include <fcl/geometry/shape/box.h>
 #include <fcl/geometry/shape/capsule.h>
 #include <fcl/geometry/shape/cone.h>
@@ -35,7 +35,8 @@ Geometry make_geometry(const Shape& s) {
 
 fcl::Transform3d make_transform(const Pose& pose) {
   fcl::Transform3d t = fcl::Transform3d::Identity();
-  t.linear() = rotation_matrix(pose.rotation), t.translation() = pose.translation;
+  t.linear() = rotation_matrix(pose.rotation);
+  t.translation() = pose.translation;
   return t;
 }
 
@@ -45,9 +46,11 @@ class Fcl final : public NarrowContestant {
     for (const PairCase& c : cases)
       pairs_.push_back(
           {{make_geometry(c.a), make_transform(c.pose_a)}, {make_geometry(c.b), make_transform(c.pose_b)}});
-    collide_.gjk_solver_type = solver, collide_.enable_contact = task == Task::contact;
+    collide_.gjk_solver_type = solver;
+    collide_.enable_contact = task == Task::contact;
     collide_.num_max_contacts = task == Task::contact ? 16 : 1;
-    distance_.gjk_solver_type = solver, distance_.enable_nearest_points = true;
+    distance_.gjk_solver_type = solver;
+    distance_.enable_nearest_points = true;
   }
   void ask(std::size_t i, Found& out) override {
     const Pair& p = pairs_[i];
@@ -64,8 +67,10 @@ class Fcl final : public NarrowContestant {
     if (task_ != Task::contact || r.numContacts() == 0) return;
     double depth = -HUGE_VAL;
     for (std::size_t k = 0; k < r.numContacts(); ++k)
-      if (const auto& c = r.getContact(k); c.penetration_depth > depth)
-        depth = c.penetration_depth, out.normal = c.normal;
+      if (const auto& c = r.getContact(k); c.penetration_depth > depth) {
+        depth = c.penetration_depth;
+        out.normal = c.normal;
+      }
     out.gap = -depth;
   }
 

@@ -1,4 +1,4 @@
-// libccd: GJK/EPA and MPR over support functions of the adapter. Tolerances as shipped.
+// libccd: GJK/EPA and MPR with the adapter's support functions. Tolerances as shipped.
 #include <ccd/ccd.h>
 
 #include "oracles/libccd/object.h"
@@ -21,7 +21,8 @@ ts_shape make_shape(const Shape& s, std::vector<std::vector<double>>& store) {
           if constexpr (std::is_same_v<T, std::vector<Vec3>>) {
             auto& flat = store.emplace_back();
             for (const Vec3& p : v) flat.insert(flat.end(), p.data(), p.data() + 3);
-            r.vertices = flat.data(), r.vertex_count = v.size();
+            r.vertices = flat.data();
+            r.vertex_count = v.size();
           }
         });
       },
@@ -57,7 +58,9 @@ class Libccd final : public NarrowContestant {
     out.overlap = (mpr_ ? ccdMPRPenetration(&p.a, &p.b, &ccd_, &depth, &normal, &at)
                         : ccdGJKPenetration(&p.a, &p.b, &ccd_, &depth, &normal, &at)) == 0;
     if (!out.overlap) return;
-    out.gap = -depth, out.normal = Vec3(normal.v[0], normal.v[1], normal.v[2]), out.points = 1;
+    out.gap = -depth;
+    out.normal = Vec3(normal.v[0], normal.v[1], normal.v[2]);
+    out.points = 1;
   }
 
  private:

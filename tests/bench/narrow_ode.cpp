@@ -52,14 +52,18 @@ class Ode final : public NarrowContestant {
                         make_geom(cases[i].b, cases[i].pose_b, arrays_[2 * i + 1])});
   }
   ~Ode() override {
-    for (const auto& p : pairs_) dGeomDestroy(p[0]), dGeomDestroy(p[1]);
+    for (const auto& p : pairs_) {
+      dGeomDestroy(p[0]);
+      dGeomDestroy(p[1]);
+    }
     dCloseODE();
   }
   void ask(std::size_t i, Found& out) override {
     dContactGeom c[16];
     const int flags = task_ == Task::overlap ? 1 : 16;
     const int n = dCollide(pairs_[i][0], pairs_[i][1], flags, c, sizeof(dContactGeom));
-    out.overlap = n > 0, out.points = n;
+    out.overlap = n > 0;
+    out.points = n;
     if (n == 0) return;
     int best = 0;
     for (int k = 1; k < n; ++k)

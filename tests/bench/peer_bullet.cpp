@@ -29,7 +29,8 @@ class Bullet final : public Contestant {
     } else {
       phase_ = std::make_unique<btDbvtBroadphase>();
     }
-    boxes_ = boxes, ids_.resize(boxes.size());
+    boxes_ = boxes;
+    ids_.resize(boxes.size());
     for (std::size_t i = 0; i < boxes.size(); ++i) {
       ids_[i] = static_cast<int>(i);
       proxies_.push_back(

@@ -2,8 +2,8 @@
 //
 // The array tree loses pairs once it has rebalanced itself top down (FCL 0.7.0, after large moves: teleport,
 // mixed): balanceTopdown() renumbers the leaves in the order of the old tree, while the manager's table from
-// object to leaf keeps the old numbers, so that later updates go to other objects' leaves. Its rows then say
-// so; the tree with pointers keeps its leaves and is the FCL to compare with there.
+// object to leaf keeps the old numbers, so that later updates go to other objects' leaves. Its rows are then
+// marked; the tree with pointers keeps its leaves and is the FCL method to compare with there.
 #include <fcl/broadphase/broadphase_dynamic_AABB_tree.h>
 #include <fcl/broadphase/broadphase_dynamic_AABB_tree_array.h>
 #include <fcl/geometry/shape/box.h>
@@ -16,7 +16,7 @@
 namespace touchstone::bench {
 namespace {
 
-// A collision object whose box is set as it stands.
+// A collision object whose box is set directly.
 class BoxObject : public fcl::CollisionObjectd {
  public:
   explicit BoxObject(int i) : fcl::CollisionObjectd(std::make_shared<fcl::Boxd>(1, 1, 1)), id(i) {}
@@ -31,7 +31,8 @@ class FclTree final : public Contestant {
     std::vector<fcl::CollisionObjectd*> all;
     for (std::size_t i = 0; i < boxes.size(); ++i) {
       objects_.push_back(std::make_unique<BoxObject>(static_cast<int>(i)));
-      objects_.back()->set(boxes[i]), all.push_back(objects_.back().get());
+      objects_.back()->set(boxes[i]);
+      all.push_back(objects_.back().get());
     }
     manager_.registerObjects(all);
     manager_.setup();
@@ -40,7 +41,8 @@ class FclTree final : public Contestant {
     moved_.clear();
     for (const broad::BoxUpdate& m : moves) {
       BoxObject& o = *objects_[static_cast<std::size_t>(m.id)];
-      o.set(m.box), moved_.push_back(&o);
+      o.set(m.box);
+      moved_.push_back(&o);
     }
     manager_.update(moved_);
     out.clear();

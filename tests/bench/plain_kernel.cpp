@@ -4,7 +4,7 @@
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "tests/bench/plain_kernel.cpp"
-#include <hwy/foreach_target.h>  // includes this file once for each kind of processor
+#include <hwy/foreach_target.h>  // includes this file once per instruction set
 #include <hwy/highway.h>
 
 HWY_BEFORE_NAMESPACE();
@@ -36,13 +36,14 @@ void sweep(const PlainColumns& b, std::size_t begin, std::size_t end, std::vecto
       const auto own = hn::Eq(hn::And(hn::Or(theirs, mine), owned), owned);
       const auto kept = hn::And(hn::RebindMask(u, hit), own);
       const auto a = hn::And(theirs, index), c = hn::And(mine, index);
-      // Not hn::Compress: with g++ 12 on AVX2 it copies a table of 1 KB at each call.
+      // Not hn::Compress: with g++ 12 on AVX2 it copies a 1 KB table on every call.
       std::uint8_t bits[8] = {};
       hn::StoreMaskBits(u, kept, bits);
       std::uint32_t left = bits[0] | static_cast<std::uint32_t>(bits[1]) << 8;
       if (left == 0 && hn::AllTrue(f, begun)) continue;
       HWY_ALIGN std::uint32_t first[hn::MaxLanes(u)], second[hn::MaxLanes(u)];
-      hn::Store(hn::Min(a, c), u, first), hn::Store(hn::Max(a, c), u, second);
+      hn::Store(hn::Min(a, c), u, first);
+      hn::Store(hn::Max(a, c), u, second);
       for (; left != 0; left &= left - 1, ++n) {
         const auto k = static_cast<std::size_t>(__builtin_ctz(left));
         out[n] = {static_cast<int>(first[k]), static_cast<int>(second[k])};
@@ -69,13 +70,17 @@ std::uint32_t plain_key(float f) {
 void plain_radix_sort(std::vector<PlainItem>& items, std::vector<PlainItem>& scratch) {
   scratch.resize(items.size());
   std::array<std::array<std::uint32_t, 2048>, 3> count{};
-  for (const PlainItem& i : items)
-    ++count[0][i.key & 2047], ++count[1][i.key >> 11 & 2047], ++count[2][i.key >> 22];
+  for (const PlainItem& i : items) {
+    ++count[0][i.key & 2047];
+    ++count[1][i.key >> 11 & 2047];
+    ++count[2][i.key >> 22];
+  }
   for (std::size_t d = 0; d < 3; ++d) {
     std::uint32_t sum = 0;
     for (auto& c : count[d]) {
       const std::uint32_t here = c;
-      c = sum, sum += here;
+      c = sum;
+      sum += here;
     }
     for (const PlainItem& i : items) scratch[count[d][i.key >> (11 * d) & 2047]++] = i;
     items.swap(scratch);

@@ -1,12 +1,11 @@
-// The honest competitors: what an afternoon gives. Each frame from nothing, nothing remembered, pairs in no
-// order, boxes rounded to the nearest float (so a pair that touches may be lost).
+// The honest competitors: what can be written in an afternoon. Every frame starts from scratch and keeps no
+// state; pairs are unordered, boxes are rounded to the nearest float (so a touching pair may be lost).
 //   plain_sweep   radix sort of the boxes by lower x, one wide sweep
-//   plain_grid    the same in columns of cells in y and z: each box entered in each column that it meets,
-//   each column
-//                 swept along x, a pair kept in the column of its larger lower cells. Told the size of the
-//                 usual box, which a user knows; cells 2.5 of it wide (measured: best of 1.5, 2, 2.5, 3, 4 at
-//                 uniform 1e4, 1e5).
-//   ..._sorted    the same, and its pairs put in order by two radix sorts: what our interface gives.
+//   plain_grid    the same in columns of cells in y and z: each box is entered in every column that it meets,
+//                 each column is swept along x, a pair is kept in the column of its larger lower cells. It is
+//                 given the size of the usual box, which a user knows; cells are 2.5 times as wide (measured:
+//                 best of 1.5, 2, 2.5, 3, 4 at uniform 1e4, 1e5).
+//   ..._sorted    the same, with the pairs sorted by two radix sorts, as our interface reports them.
 #include <algorithm>
 #include <cmath>
 
@@ -74,7 +73,8 @@ class PlainGrid final : public Plain {
   void find(std::vector<broad::IdPair>& out, std::size_t& n) override {
     choose_cells();
     const auto ny = static_cast<std::uint32_t>(count_[1]), nz = static_cast<std::uint32_t>(count_[2]);
-    begin_.assign(std::size_t{ny} * nz + 1, 0), spans_.resize(order_.size());
+    begin_.assign(std::size_t{ny} * nz + 1, 0);
+    spans_.resize(order_.size());
     for (std::size_t i = 0; i < order_.size(); ++i) {
       const Aabb& b = boxes_[order_[i].box];
       const Span s{cell(b.lo.y(), 1), cell(b.hi.y(), 1), cell(b.lo.z(), 2), cell(b.hi.z(), 2)};
@@ -83,7 +83,10 @@ class PlainGrid final : public Plain {
         for (std::uint32_t z = s.z0; z <= s.z1; ++z) ++begin_[y * nz + z];
     }
     std::uint32_t sum = 0;
-    for (std::uint32_t& b : begin_) sum += b, b = sum;
+    for (std::uint32_t& b : begin_) {
+      sum += b;
+      b = sum;
+    }
     columns_.resize(sum);
     for (std::size_t i = order_.size(); i-- > 0;) {
       const Span& s = spans_[i];
@@ -122,8 +125,8 @@ class Sorted final : public Contestant {
   std::vector<PlainItem> items_, scratch_;
 };
 
-// Not a broad phase but the least that one can do: stream the boxes, radix-sort n keys, gather the boxes in
-// that order, write as many pairs as there are. Reports none.
+// Not a broad phase but the lower bound on its work: stream the boxes, radix-sort n keys, gather the boxes in
+// that order, write as many pairs as there are. Reports no pairs.
 class Bound final : public Contestant {
  public:
   explicit Bound(std::size_t pairs) : pairs_(pairs) {}

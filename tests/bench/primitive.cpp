@@ -1,12 +1,13 @@
 // Vertex-face and edge-edge queries with linear paths: every recorded query (scenarios/import/ccd_queries.h),
-// exactly (tolerance 0) and by tolerance 1e-6 alone, against the exact truth column.
+// exactly (tolerance 0) and with tolerance 1e-6 only, against the exact truth column.
 //
 //   bench_primitive [--data DIR] [--rounds 15]
 //
-// µs: least of all rounds for each query, clock subtracted; mean, median, p99 and max over the queries.
-// FN: contact reported as none. FP: none reported as contact. late: reported after the interval that holds
-// the first contact. The published figures of Tight-Inclusion (Wang et al. 2021) on this class of machine are
-// 51/35 µs mean and 1148/892 µs p99 (vertex-face/edge-edge), FP 257 of 7279 at 1e-6.
+// µs: minimum over the rounds for each query, clock overhead subtracted; mean, median, p99, max over the
+// queries. FN: a contact not reported. FP: a contact reported that does not exist. late: reported after the
+// interval that contains the first contact. The published figures of Tight-Inclusion (Wang et al. 2021) on
+// this class of machine are 51/35 µs mean and 1148/892 µs p99 (vertex-face/edge-edge), FP 257 of 7279 at
+// 1e-6.
 #include <fmt/format.h>
 
 #include <algorithm>

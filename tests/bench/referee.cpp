@@ -1,8 +1,7 @@
 // The referee's time for one discrete pair, shape pair by shape pair, over the fuzz generator's default mix.
 // An iteration of a row judges each of the row's cases once; a case's time is the least of the row's
 // iterations, and the columns are quantiles over the cases. `level0` to `level2`: share of the cases whose
-// verdict that level settled; `wide`: cases whose bracket is wider than 1e-14·L. Rows are interleaved when
-// the library is told so:
+// verdict that level decided; `wide`: cases whose bracket is wider than 1e-14·L. To interleave rows:
 //   bench_referee --benchmark_repetitions=3 --benchmark_enable_random_interleaving=true
 //   bench_referee --benchmark_filter=box-box    TOUCHSTONE_BENCH_CASES=200000 for more cases,
 //   TOUCHSTONE_BENCH_SEED
@@ -98,7 +97,8 @@ void run(benchmark::State& state, const Row& row) {
       auto truth = judge(row.cases[i].scene);
       benchmark::DoNotOptimize(truth);
       const double ns = std::chrono::duration<double, std::nano>(Clock::now() - from).count();
-      least[i] = std::min(least[i], ns), total += ns;
+      least[i] = std::min(least[i], ns);
+      total += ns;
     }
     state.SetIterationTime(total * 1e-9);
   }

@@ -1,10 +1,10 @@
-// Recorded scenes: how many bodies the criterion flags in a step of 1/60 s, why, how many pairs it asks for,
-// and what a step costs beside the discrete one.
+// Recorded scenes: how many bodies the criterion flags in a step of 1/60 s, why, how many pairs it queries,
+// and what a step costs compared with the discrete one.
 //
 //   bench_sweep_recorded [--data DIR] [--every 10] [--rounds 3] [--only NAME]
 //
-// Every tenth frame with its motions, each a world of its own: the first step is not timed. unseen: impacts
-// of pairs that touch neither at the end pose nor at the start.
+// Every tenth frame with its motions, each in its own world; the first step is not timed. unseen: impacts of
+// pairs that touch neither at the end pose nor at the start.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -45,10 +45,13 @@ void add_frame(const Scene& scene, int rounds, Sum& s) {
   const StepReport r = w.step();
   std::set<BodyPair> at_end;
   for (const PairContact& c : r.contacts) at_end.emplace(c.a, c.b);
-  ++s.frames, s.bodies += static_cast<long>(scene.bodies.size());
+  ++s.frames;
+  s.bodies += static_cast<long>(scene.bodies.size());
   for (const SweptBody& b : r.swept) ++(b.reason == SweepReason::turning ? s.turning : s.travel);
   s.most = std::max(s.most, static_cast<long>(r.swept.size()));
-  s.asked += r.asked, s.spared += r.spared, s.unsettled += r.outcome != Outcome::answered;
+  s.asked += r.asked;
+  s.spared += r.spared;
+  s.unsettled += r.outcome != Outcome::answered;
   for (const PairImpact& i : r.impacts) {
     if (!i.impact.toi) continue;
     ++s.impacts;

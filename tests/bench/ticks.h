@@ -1,5 +1,5 @@
-// The processor's own counter as a clock for single queries: what an empty measurement shows is subtracted.
-// And the quantiles of what it measured.
+// The processor's cycle counter as a clock for single queries, with the cost of an empty measurement
+// subtracted, and quantiles of the measurements.
 #pragma once
 
 #include <time.h>
@@ -51,7 +51,7 @@ class Ticks {
   double ns_ = 1;
 };
 
-/// NaN of nothing.
+/// NaN without measurements.
 inline double quantile(std::vector<double> v, double q) {
   if (v.empty()) return std::nan("");
   std::sort(v.begin(), v.end());

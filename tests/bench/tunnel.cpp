@@ -1,12 +1,12 @@
-// Tunnelling: 1,000 bodies of which 3 are bullets. The discrete step, the step that sweeps what the criterion
-// flags, the step that sweeps everything, and sub-stepping: what each costs and what passes each misses.
+// Tunnelling: 1,000 bodies, 3 of them bullets. The discrete step, the step that sweeps what the criterion
+// flags, the step that sweeps everything, and sub-stepping: what each costs and which passes it misses.
 //
 //   bench_tunnel [--bodies 1000] [--steps 40] [--rounds 3] [--most 64]     (most: sub-steps)
 //
-// A pass: a pair of a bullet that meets at some time of the step (core/impact, asked for every pair whose
-// swept boxes meet). Missed: neither an impact nor a contact at any pose that was looked at. Time: least CPU
-// time of all rounds for each step, summed. The dynamics are none: bodies go on as they go; bullets are shot
-// anew.
+// A pass: a bullet and a body that meet at some time of the step (core/impact, called for every pair whose
+// swept boxes meet). Missed: neither an impact nor a contact at any pose that was tested. Time: minimum CPU
+// time over the rounds for each step, summed. There are no dynamics: bodies keep their velocities; bullets
+// are shot again.
 #include <fmt/format.h>
 
 #include <cmath>
@@ -32,12 +32,12 @@ struct Method {
 
 struct Run {
   Method method;
-  std::vector<double> step_ns;  // least of all rounds
+  std::vector<double> step_ns;  // minimum over the rounds
   long missed = 0, bullets_flagged = 0, others_flagged = 0, most_others = 0, asked = 0;
   double sweep_contacts = 0;
 };
 
-using Shots = std::vector<std::vector<Shot>>;  // of each step
+using Shots = std::vector<std::vector<Shot>>;  // one entry per step
 using Passes = std::vector<std::set<BodyPair>>;
 
 void place_bullets(StepWorld& w, const std::vector<Shot>& fired, int substeps) {
@@ -48,7 +48,10 @@ void place_bullets(StepWorld& w, const std::vector<Shot>& fired, int substeps) {
 
 Scene slowed(Scene s, int substeps) {
   for (Body& b : s.bodies)
-    if (b.motion) b.motion->linear /= substeps, b.motion->angular /= substeps;
+    if (b.motion) {
+      b.motion->linear /= substeps;
+      b.motion->angular /= substeps;
+    }
   return s;
 }
 
@@ -95,7 +98,9 @@ void run_round(const TunnelScene& t, const Shots& fired, const Passes& passes, R
         if (i.impact.toi) seen.emplace(i.a, i.b);
       long others = 0;
       for (const SweptBody& b : r.swept) ++(b.body < t.bullets ? run.bullets_flagged : others);
-      run.others_flagged += others, run.most_others = std::max(run.most_others, others), run.asked += r.asked;
+      run.others_flagged += others;
+      run.most_others = std::max(run.most_others, others);
+      run.asked += r.asked;
       run.sweep_contacts += static_cast<double>(r.contacts.size()) / run.method.substeps;
     }
     run.step_ns[step] = std::min(run.step_ns[step], ns);

@@ -45,7 +45,8 @@ TunnelScene tunnel_scene(int bodies, std::uint64_t seed) {
       b.pose.translation = Vec3(-5, i, 0);
     } else if (i < t.bullets + t.plates) {
       // A corridor of plates beside the crowd, a metre apart.
-      b.shape = 1, b.is_static = true;
+      b.shape = 1;
+      b.is_static = true;
       b.pose.translation = Vec3(i - t.bullets, -4, 5);
     } else {
       const int k = i - t.bullets - t.plates, side = 10;

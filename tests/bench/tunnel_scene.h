@@ -10,9 +10,9 @@
 namespace touchstone::bench {
 
 /// Bodies 0 … bullets − 1 are balls of radius 0.01, then come `plates` static plates 0.004 thick and 2 wide,
-/// then a crowd of boxes, balls, capsules, hulls and cylinders, 0.2 to 0.6 across, hardly apart, each on its
-/// slow way. Lengths in metres, a step is 1/60 s: the crowd's speeds are exponentially distributed about 1.2
-/// m/s (0.02 a step) and 1.2 rad/s.
+/// then a crowd of boxes, balls, capsules, hulls and cylinders, 0.2 to 0.6 across, close together, each
+/// moving slowly. Lengths are in metres, a step is 1/60 s: the crowd's speeds are exponentially distributed
+/// about 1.2 m/s (0.02 a step) and 1.2 rad/s.
 struct TunnelScene {
   Scene scene;
   int bullets = 3, plates = 57;
@@ -25,7 +25,7 @@ struct Shot {
   Motion motion;
 };
 
-/// One shot a bullet: at 180 m/s (3 a step) at a plate chosen at random, from 0.2 to 2.5 in front of it,
+/// One shot per bullet: at 180 m/s (3 a step) at a plate chosen at random, from 0.2 to 2.5 in front of it,
 /// aimed anywhere within it, up to 45° off its normal.
 std::vector<Shot> shots(const TunnelScene& s, Rng& r);
 

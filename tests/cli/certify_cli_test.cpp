@@ -1,12 +1,12 @@
 // `certify`, `engines --check` and the plug-in kit as a user meets them.
 #include <algorithm>
 #include <cstdio>
-#include <cstdlib>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <regex>
 
 #include "tests/support/catch.h"
+#include "tests/support/skip.h"
 #include "tests/support/workspace.h"
 
 using namespace touchstone::test;
@@ -16,7 +16,7 @@ namespace {
 
 const std::string mutants = TS_BINARY_DIR "/lib/libtouchstone_mutants.so:";
 
-// An engine behind a pipe: `body` answers `m`, the message, about `scene`.
+// An engine behind a pipe: `body` answers the message `m` about `scene`.
 std::string python(const std::string& body) {
   return R"(import json, sys
 print(json.dumps({"touchstone_pipe": 1, "name": "small", "library": "small", "version": "1", "settings": "",
@@ -48,8 +48,8 @@ std::vector<std::string> blocks(const std::string& text, const std::string& lang
 
 }  // namespace
 
-TEST_CASE("a broad phase that loses no pair is refuted by --memcheck for what it reads when it is freed",
-          "[certify][cli]") {
+TEST_CASE("certify --memcheck refutes a broad phase that loses no pair but reads freed memory",
+          "[certify][cli][optional]") {
   const Workspace w("memcheck");
   const std::string command =
       "certify --subject " TS_BINARY_DIR "/lib/libts_reads_freed.so --level boxes --jobs 1 --limit 8";
@@ -57,8 +57,7 @@ TEST_CASE("a broad phase that loses no pair is refuted by --memcheck for what it
   const Run r = w.touchstone(command + " --memcheck");
   if (r.err.find("apt-get install valgrind") != std::string::npos) {
     CHECK(r.code == 3);
-    WARN("skipped: Valgrind is not installed");
-    return;
+    return skip("Valgrind is not installed");
   }
   INFO(r.out << r.err);
   CHECK(r.code == 1);
@@ -66,7 +65,7 @@ TEST_CASE("a broad phase that loses no pair is refuted by --memcheck for what it
   CHECK(r.out.find("inside a block of size") != std::string::npos);
 }
 
-TEST_CASE("certify refuses bad input with 2, the place and the reason, and writes nothing",
+TEST_CASE("certify refuses bad input with exit code 2, the place and the reason, and writes nothing",
           "[certify][cli]") {
   const Workspace w("certify");
   w.write("no_plugin.so", "text");
@@ -95,7 +94,7 @@ TEST_CASE("certify refuses bad input with 2, the place and the reason, and write
   CHECK_FALSE(fs::exists(w.dir / "nowhere"));
 }
 
-TEST_CASE("a certificate is checked from itself alone, a tampered one is not valid", "[certify][cli]") {
+TEST_CASE("a certificate can be checked on its own; a tampered one is not valid", "[certify][cli]") {
   const Workspace w("certify");
   const Run made = w.touchstone("certify --subject sort_and_sweep --limit 60 -o c.json --page c.html");
   INFO(made.out << made.err);
@@ -106,7 +105,7 @@ TEST_CASE("a certificate is checked from itself alone, a tampered one is not val
   const Run again = w.touchstone("certify --check c.json --jobs 2");
   INFO(again.out << again.err);
   CHECK(again.code == 0);
-  // Without built pages the certificate is what there is, and nothing is written over it.
+  // Without built pages there is only the certificate, and nothing overwrites it.
   if (fs::exists(TS_BINARY_DIR "/share/touchstone/web/certificate.html"))
     CHECK(read_all(w.dir / "c.html").find("histories_of_three") != std::string::npos);
   else
@@ -117,7 +116,7 @@ TEST_CASE("a certificate is checked from itself alone, a tampered one is not val
   CHECK(w.touchstone("certify --check tampered.json").code == 1);
 }
 
-TEST_CASE("a plug-in that loses pairs is refuted by a script that replay takes", "[certify][cli]") {
+TEST_CASE("a plug-in that loses pairs is refuted by a script that replay accepts", "[certify][cli]") {
   const Workspace w("certify");
   const std::string subject = mutants + "stale_after_move";
   const Run r = w.touchstone("certify --subject " + subject +
@@ -131,7 +130,7 @@ TEST_CASE("a plug-in that loses pairs is refuted by a script that replay takes",
   CHECK(doc.at("scene").at("script").size() <= 6);
   CHECK(w.touchstone("replay c.case.json --engines " + subject + " --subject stale_after_move").code == 1);
   CHECK(w.touchstone("certify --check c.json --subject " + subject).code == 1);
-  // A broad phase of the core is asked by name; whom the script is against is said, and not asked.
+  // A broad phase of the core is selected by name. The engine that the script refutes is named but not run.
   const Run others = w.touchstone("replay c.case.json --engines core,grid --subject grid");
   INFO(others.out << others.err);
   CHECK(others.code == 0);
@@ -139,18 +138,9 @@ TEST_CASE("a plug-in that loses pairs is refuted by a script that replay takes",
   CHECK(others.out.find("grid") != std::string::npos);
 }
 
-namespace {
-
-bool python_is_there() {
-  if (std::system("command -v python3 >/dev/null 2>&1") == 0) return true;
-  std::printf("skipped: python3 is not installed\n");
-  return false;
-}
-
-}  // namespace
-
-TEST_CASE("engines --check says in words what is wrong with how an engine speaks", "[certify][cli]") {
-  if (!python_is_there()) return;
+TEST_CASE("engines --check explains what an engine gets wrong about the interface",
+          "[certify][cli][optional]") {
+  if (!has_command("python3")) return skip("python3 is not installed");
   const Workspace w("certify");
   w.write("whole.py", python(R"(
   if m["ask"] != "overlap": say({"outcome": "unsupported"}); continue
@@ -172,9 +162,9 @@ TEST_CASE("engines --check says in words what is wrong with how an engine speaks
   CHECK(w.touchstone("engines --check core").code == 0);
 }
 
-TEST_CASE("a command behind a pipe that dies or talks nonsense is refuted, not our failure",
-          "[certify][cli]") {
-  if (!python_is_there()) return;
+TEST_CASE("a command behind a pipe that dies or writes nonsense is refuted, and is not a failure of ours",
+          "[certify][cli][optional]") {
+  if (!has_command("python3")) return skip("python3 is not installed");
   const Workspace w("certify");
   w.write("dies.py", python("  sys.exit('it died of ' + m['ask'])\n"));
   w.write("nonsense.py", python("  print('hello', flush=True)\n"));
@@ -187,14 +177,12 @@ TEST_CASE("a command behind a pipe that dies or talks nonsense is refuted, not o
   }
 }
 
-TEST_CASE("FCL is asked both ways of telling a move, and a removed body that it still names is stale, no crash",
-          "[certify][cli]") {
+TEST_CASE("FCL is told of a move in both ways; a removed body that it still names is stale, not a crash",
+          "[certify][cli][optional]") {
   const Workspace w("certify");
   const Run there = w.touchstone("engines fcl-interval-tree-update-one");
-  if (there.code != 0 || there.out.find("0.7.0") == std::string::npos) {
-    std::printf("skipped: FCL 0.7.0 is not installed\n");
-    return;
-  }
+  if (there.code != 0 || there.out.find("0.7.0") == std::string::npos)
+    return skip("FCL 0.7.0 is not installed");
   const auto script = [](const std::string& halves, const std::string& steps) {
     return R"({"touchstone_case": 1, "scene": {"touchstone_scene": 1, "shapes": [{"type": "box", "half_extents": )" +
            halves + R"(}, {"type": "box", "half_extents": [1, 1, 1]}], "bodies": [{"shape": 0}, {"shape": 1,
@@ -203,8 +191,7 @@ TEST_CASE("FCL is asked both ways of telling a move, and a removed body that it 
   };
   const std::string in = R"({"op": "insert", "body": 0}, )";
   w.write("moved.json",
-          script("[1, 1, 1]",
-                 in + R"({"op": "insert", "body": 1, "pose": {"translation": [-4, -4, -2.5]}},
+          script("[1, 1, 1]", in + R"({"op": "insert", "body": 1, "pose": {"translation": [-4, -4, -2.5]}},
                          {"op": "move", "body": 1, "pose": {"translation": [0, 0, -1]}})"));
   w.write("removed.json",
           script("[0, 0, 0]", in + R"({"op": "insert", "body": 1}, {"op": "remove", "body": 0})"));
@@ -223,9 +210,9 @@ TEST_CASE("FCL is asked both ways of telling a move, and a removed body that it 
   }
 }
 
-TEST_CASE("a subject that is too slow is not certified: exit code 3, the time to ask for, no script",
-          "[certify][cli]") {
-  if (!python_is_there()) return;
+TEST_CASE("a subject that is too slow is not certified: exit code 3, which option to raise, no script",
+          "[certify][cli][optional]") {
+  if (!has_command("python3")) return skip("python3 is not installed");
   const Workspace w("certify");
   w.write("slow.py", python(R"(
   while len(scene["steps"]) > 100: pass
@@ -263,23 +250,25 @@ TEST_CASE(
     if (line.find(" certify ") != std::string::npos) line += " --limit 40";
     return line;
   };
-  std::size_t run = 0, certified = 0, skipped = 0;
+  std::size_t run = 0, certified = 0, left_out = 0;
   for (const std::string& block : blocks(text, "sh")) {
     std::istringstream lines(block);
     for (std::string line; std::getline(lines, line);) {
       if (line.starts_with("./touchstone")) continue;  // run by the test of the whole README
-      if (line.find("python3") != std::string::npos && !python_is_there()) {
-        ++skipped;
+      if (line.find("python3") != std::string::npos && !has_command("python3")) {
+        std::printf("left out, python3 is not installed: %s\n", line.c_str());
+        ++left_out;
         continue;
       }
       const Run r = w.run(filled(line));
       INFO(filled(line) << "\n" << r.out << r.err);
       CHECK(r.code == 0);
-      ++run, certified += r.out.find("boxes certified, bodies certified") != std::string::npos;
+      ++run;
+      certified += r.out.find("boxes certified, bodies certified") != std::string::npos;
     }
   }
-  CHECK(run + skipped == 6);
-  CHECK(certified + skipped == 2);
+  CHECK(run + left_out == 6);
+  CHECK(certified + left_out == 2);
   // Without Node there are no pages, and the command says so.
   CHECK(fs::exists(w.dir / "mine.html") ==
         fs::exists(TS_BINARY_DIR "/share/touchstone/web/certificate.html"));

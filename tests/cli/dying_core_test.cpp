@@ -1,4 +1,5 @@
-// The program with a core that dies (tests/oracles/bad/dying_core.cpp): every command goes on and says so.
+// The program with a core that dies (tests/oracles/bad/dying_core.cpp): every command continues and reports
+// it.
 #include <filesystem>
 #include <string>
 
@@ -10,10 +11,11 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// The program as installed, but for its core; its libraries are beside it.
+/// The program as installed except for its core, with its libraries beside it.
 Workspace with_dying_core() {
   Workspace w("dying");
-  fs::create_directories(w.dir / "bin"), fs::create_directories(w.dir / "lib");
+  fs::create_directories(w.dir / "bin");
+  fs::create_directories(w.dir / "lib");
   for (const char* program : {"touchstone", "touchstone-host"})
     fs::copy_file(fs::path(TS_BINARY_DIR "/bin") / program, w.dir / "bin" / program);
   fs::copy_file(TS_BINARY_DIR "/lib/libts_dying_core.so", w.dir / "lib/libtouchstone_core.so");
@@ -27,7 +29,7 @@ bool says(const Run& r, const std::string& words) { return (r.out + r.err).find(
 
 }  // namespace
 
-TEST_CASE("a campaign survives a core that dies, and triage and replay ask it again", "[cli][dying]") {
+TEST_CASE("a campaign survives a core that dies; triage and replay query it again", "[cli][dying]") {
   const Workspace w = with_dying_core();
   const std::string fuzz = dies + "fuzz --cases 32 --seed 3 --engines core,core-kept --subject core ";
   for (const std::string jobs : {"1", "2"}) {
@@ -57,10 +59,10 @@ TEST_CASE("a broad phase of the core that dies is refuted, and the other evidenc
   INFO(r.err);
   CHECK(r.code == 1);
   CHECK(says(r, "\"crashed\""));
-  CHECK(says(r, "\"grounded\""));  // the last of the evidence
+  CHECK(says(r, "\"grounded\""));  // the last piece of evidence
 }
 
-TEST_CASE("stability and chart go on when the core dies", "[cli][dying]") {
+TEST_CASE("stability and chart continue when the core dies", "[cli][dying]") {
   const Workspace w = with_dying_core();
   const std::string seldom = "TS_DYING_CORE=segv TS_DEADLY=97 bin/touchstone ";
   const Run stability = w.run(seldom + "stability --quick --ladder angle --engines core --out s");

@@ -1,5 +1,5 @@
-// kill -9 at random moments: whatever was running, run again it ends with what an uninterrupted run leaves.
-// TOUCHSTONE_KILLS: how many kills of each command (by hand: 100).
+// kill -9 at random moments: a killed command, run again, ends with the same files as an uninterrupted run.
+// TOUCHSTONE_KILLS: number of kills of each command (by hand: 100).
 #include <algorithm>
 #include <chrono>
 #include <cstdlib>
@@ -25,7 +25,7 @@ int kills() {
   return text ? std::max(1, std::atoi(text)) : 2;
 }
 
-// Every file but what times and locks are in.
+// Every file except those with times and locks.
 std::map<std::string, std::string> findings_of(const fs::path& campaign) {
   std::map<std::string, std::string> files;
   for (const auto& e : fs::recursive_directory_iterator(campaign / "findings"))
@@ -34,7 +34,8 @@ std::map<std::string, std::string> findings_of(const fs::path& campaign) {
   return files;
 }
 
-// Starts it and kills it, by its own number, after a random part of `whole_ms`; true: it was still running.
+// Starts a command and kills it by its process id after a random part of `whole_ms`. True if it was still
+// running.
 bool killed(const Workspace& w, const std::string& arguments, std::mt19937_64& rng, int whole_ms) {
   const int ms = 1 + static_cast<int>(rng() % static_cast<std::uint64_t>(whole_ms));
   const std::string seconds = std::to_string(ms / 1000) + "." + std::to_string(1000 + ms % 1000).substr(1);
@@ -74,7 +75,7 @@ TEST_CASE("a killed campaign, resumed until it ends, finds what an uninterrupted
   CHECK(caught > 0);
 }
 
-TEST_CASE("a killed merge, made again, is the merge", "[kill][merge]") {
+TEST_CASE("a killed merge, run again, gives the same result", "[kill][merge]") {
   const Workspace w("kill");
   for (const std::string shard : {"0", "1"})
     REQUIRE(w.touchstone("fuzz --cases 256 --seed 5 --engines core," + liar + " --shard " + shard +
@@ -95,7 +96,7 @@ TEST_CASE("a killed merge, made again, is the merge", "[kill][merge]") {
   }
 }
 
-TEST_CASE("what a killed triage has put into the ledger it has said before", "[kill][triage]") {
+TEST_CASE("a killed triage has reported whatever it put into the ledger", "[kill][triage]") {
   const Workspace w("kill");
   REQUIRE(w.touchstone("fuzz --cases 128 --seed 5 --engines " + liar + " --out lies").code == 1);
   const auto triage = [](const std::string& i) {

@@ -1,8 +1,8 @@
-// Engines behind a pipe as a user meets them: receipts, commands that are not there, engines from npm.
+// Engines behind a pipe as a user meets them: receipts, missing commands, engines from npm.
 #include <cstdio>
-#include <cstdlib>
 
 #include "tests/support/catch.h"
+#include "tests/support/skip.h"
 #include "tests/support/workspace.h"
 
 using namespace touchstone::test;
@@ -10,13 +10,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-bool python_is_there() {
-  if (std::system("command -v python3 >/dev/null 2>&1") == 0) return true;
-  std::printf("skipped: python3 is not installed\n");
-  return false;
-}
-
-// Spheres of radius 1 on whole numbers; `receipt` is what follows a scene.
+// Spheres of radius 1 at integer coordinates; `receipt` is the code that handles a scene.
 std::string on_whole_numbers(const std::string& card, const std::string& receipt) {
   return R"(import json, sys
 def say(x): print(json.dumps(x), flush=True)
@@ -45,14 +39,16 @@ const char* const two_spheres = R"({"touchstone_case": 1, "scene": {"touchstone_
   "queries": [{"question": "overlap", "a": 0, "b": 1}]})";
 
 Run replay(const Workspace& w, const std::string& card, const std::string& receipt) {
-  w.write("whole.py", on_whole_numbers(card, receipt)), w.write("two.json", two_spheres);
+  w.write("whole.py", on_whole_numbers(card, receipt));
+  w.write("two.json", two_spheres);
   return w.touchstone("replay two.json --engines 'pipe:python3 whole.py' --subject whole");
 }
 
 }  // namespace
 
-TEST_CASE("a receipt tells what was lost on the way in from what the algorithm does", "[pipe]") {
-  if (!python_is_there()) return;
+TEST_CASE("a receipt separates what was lost on the way in from what the algorithm does",
+          "[pipe][optional]") {
+  if (!has_command("python3")) return skip("python3 is not installed");
   const Workspace w("pipe");
   const Run with = replay(w, "card['receipts'] = True", give), without = replay(w, "", "");
   INFO(with.out << with.err << without.out << without.err);
@@ -63,11 +59,11 @@ TEST_CASE("a receipt tells what was lost on the way in from what the algorithm d
   CHECK(without.out.find("lost in its rounding") == std::string::npos);
 }
 
-TEST_CASE("an engine that holds another shape is not blamed for its algorithm", "[pipe]") {
-  if (!python_is_there()) return;
+TEST_CASE("an engine that holds another shape is not blamed for its algorithm", "[pipe][optional]") {
+  if (!has_command("python3")) return skip("python3 is not installed");
   const Workspace w("pipe");
   const std::string card = "card['receipts'] = True";
-  // It cooks every sphere to one of radius 1.3, and is right about those.
+  // It cooks every sphere to one of radius 1.3 and answers correctly for those.
   const std::string cooked = R"(    reach = 2.6 ** 2
     say({"received": {"shapes": [{"shape": 0, "as": %}]}}))";
   const auto receipt = [&](const std::string& shape) {
@@ -76,13 +72,14 @@ TEST_CASE("an engine that holds another shape is not blamed for its algorithm", 
   std::string engine = on_whole_numbers(card, receipt(R"({"type": "sphere", "radius": 1.3})"));
   engine.replace(engine.find("float(round(x))"), 15, "x");
   engine.replace(engine.find("<= 4"), 4, "<= reach");
-  w.write("whole.py", engine), w.write("two.json", two_spheres);
+  w.write("whole.py", engine);
+  w.write("two.json", two_spheres);
   const Run told = w.touchstone("replay two.json --engines 'pipe:python3 whole.py' --subject whole");
   INFO(told.out << told.err);
   CHECK(told.code == 1);
   CHECK(told.out.find("ghost") != std::string::npos);
   CHECK(told.out.find("holds another shape") != std::string::npos);
-  // A shape of another kind, and none that there is.
+  // A shape of another kind, and a kind that does not exist.
   const std::string box = R"({"type": "box", "half_extents": [1.3, 1.3, 1.3]})";
   engine.replace(engine.find(R"({"type": "sphere", "radius": 1.3})"), 33, box);
   w.write("whole.py", engine);
@@ -96,8 +93,8 @@ TEST_CASE("an engine that holds another shape is not blamed for its algorithm", 
   CHECK(blob.out.find("an unknown type of shape: blob") != std::string::npos);
 }
 
-TEST_CASE("what a command writes to standard error is shown when it dies", "[pipe]") {
-  if (!python_is_there()) return;
+TEST_CASE("what a command writes to standard error is shown when it dies", "[pipe][optional]") {
+  if (!has_command("python3")) return skip("python3 is not installed");
   const Workspace w("pipe");
   w.write("two.json", two_spheres);
   w.write("broken.py", "import sys\ndef f(:\n");
@@ -105,7 +102,7 @@ TEST_CASE("what a command writes to standard error is shown when it dies", "[pip
   CHECK(at_start.code == 2);
   CHECK(at_start.err.find("exit code 1: ") != std::string::npos);
   CHECK(at_start.err.find("SyntaxError: invalid syntax") != std::string::npos);
-  // More than a pipe holds, while the harness waits for an answer.
+  // More than a pipe's buffer, while the harness waits for an answer.
   const std::string chatty =
       "    [print('x' * 1000, file=sys.stderr) for _ in range(300)]; sys.exit('no licence')";
   const Run later = replay(w, "", chatty);
@@ -113,8 +110,8 @@ TEST_CASE("what a command writes to standard error is shown when it dies", "[pip
   CHECK(later.out.find("no licence") != std::string::npos);
 }
 
-TEST_CASE("a receipt may refuse the scene; one of another form is a crash with its reason", "[pipe]") {
-  if (!python_is_there()) return;
+TEST_CASE("a receipt may refuse the scene; a malformed one is a crash with its reason", "[pipe][optional]") {
+  if (!has_command("python3")) return skip("python3 is not installed");
   const Workspace w("pipe");
   const std::string card = "card['receipts'] = True";
   const Run refused = replay(w, card, "    say({'outcome': 'unsupported'})");
@@ -132,7 +129,7 @@ TEST_CASE("a receipt may refuse the scene; one of another form is a crash with i
   }
 }
 
-TEST_CASE("a command that is not there is named, with the reason", "[pipe]") {
+TEST_CASE("a missing command is named, with the reason", "[pipe]") {
   const Workspace w("pipe");
   w.write("text", "no program");
   const std::pair<const char*, const char*> commands[] = {
@@ -151,8 +148,9 @@ TEST_CASE("a command that is not there is named, with the reason", "[pipe]") {
     }
 }
 
-TEST_CASE("a certificate of a command holds for the scripts that it names and no others", "[pipe][certify]") {
-  if (!python_is_there()) return;
+TEST_CASE("a certificate of a command holds for the scripts that it names and no others",
+          "[pipe][certify][optional]") {
+  if (!has_command("python3")) return skip("python3 is not installed");
   const Workspace w("pipe");
   fs::copy(TS_SOURCE_DIR "/oracles/example/broad_phase.py", w.dir / "mine.py");
   const Run made = w.touchstone("certify --subject 'pipe:python3 mine.py' --limit 8 -o c.json");
@@ -187,30 +185,26 @@ TEST_CASE("engines from npm say what to do when they are not installed", "[pipe]
   CHECK_FALSE(fs::exists(w.dir / "none"));
 }
 
-TEST_CASE("engines from npm speak the interface as it is meant", "[pipe][npm]") {
+TEST_CASE("engines from npm use the interface correctly", "[pipe][npm][optional]") {
   const Workspace w("npm");
-  std::size_t asked = 0;
+  std::size_t checked = 0;
   for (const char* name : {"jolt", "jolt-tuned", "rapier"}) {
     if (w.touchstone("engines " + std::string(name)).code != 0) {
-      std::printf("skipped: %s is not installed (touchstone engines --install %s)\n", name, name);
+      std::printf("left out: %s is not installed (touchstone engines --install %s)\n", name, name);
       continue;
     }
     const Run r = w.touchstone("engines --check " + std::string(name));
     INFO(r.out << r.err);
     CHECK(r.code == 0);
     CHECK(r.out.find(std::string(name) + ": 19 right, 0 wrong") != std::string::npos);
-    ++asked;
+    ++checked;
   }
-  if (asked == 0) SUCCEED();
+  if (checked == 0) skip("no engine from npm is installed");
 }
 
-TEST_CASE("ODE is asked as it is meant, and its spaces keep every pair of boxes", "[ode][certify]") {
+TEST_CASE("ODE is queried correctly, and its spaces keep every pair of boxes", "[ode][certify][optional]") {
   const Workspace w("ode");
-  if (w.touchstone("engines ode").code != 0) {
-    std::printf("skipped: ODE was not built in\n");
-    SUCCEED();
-    return;
-  }
+  if (w.touchstone("engines ode").code != 0) return skip("ODE is not built in");
   const Run asked = w.touchstone("engines --check ode");
   INFO(asked.out << asked.err);
   CHECK(asked.code == 0);

@@ -1,6 +1,6 @@
 // Every command line of the README runs. `./touchstone` is replaced by the program itself (its launcher would
-// build it again), `test` is left out (it is what runs this), minutes are shortened, ./libmine.so is a
-// plug-in of the test's own.
+// build it again), `test` is left out (it runs this test), minutes are shortened, and ./libmine.so is
+// replaced by the example plug-in.
 #include <sys/wait.h>
 #include <cstdlib>
 #include <filesystem>
@@ -32,15 +32,15 @@ std::string for_test(std::string c) {
   c = std::regex_replace(c, std::regex(R"(^\./touchstone)"), TS_BINARY_DIR "/bin/touchstone");
   c = std::regex_replace(c, std::regex("--minutes 1"), "--minutes 0.05");
   c = std::regex_replace(c, std::regex("--cases [0-9]+"), "--cases 300");
-  c = std::regex_replace(c, std::regex(R"(\$\(date \+%Y%m%d\))"), "20261121");  // the same cases every day
+  c = std::regex_replace(c, std::regex(R"(\$\(date \+%Y%m%d\))"), "20261121");  // the same cases on every day
   c = std::regex_replace(c, std::regex(R"(\./libmine\.so)"), TS_BINARY_DIR "/lib/libtouchstone_example.so");
   c = std::regex_replace(c, std::regex("-o broad.html"), "-o " TS_BINARY_DIR "/readme-broad.html");
   c = std::regex_replace(c, std::regex("-o reproduce.cpp"), "-o " TS_BINARY_DIR "/readme-reproduce.cpp");
   if (c.find(" view ") != std::string::npos && c.find("--broad") == std::string::npos &&
       !fs::exists(TS_BINARY_DIR "/share/touchstone/web/case.html"))
-    c = std::regex_replace(c, std::regex("-o page.html"), "--json");  // pages are built where Node is
+    c = std::regex_replace(c, std::regex("-o page.html"), "--json");  // pages are built only with Node
   c = std::regex_replace(c, std::regex("-o page.html"), "-o " TS_BINARY_DIR "/readme-page.html");
-  // All engines take a minute of either; the core alone shows that the line works.
+  // With all engines each takes a minute; the core is enough to show that the line works.
   if (c.find(" chart ") != std::string::npos) c += " --engines core --broad grid --measure 0";
   if (c.find(" stability ") != std::string::npos) c += " --engines core --ladder gap";
   c = std::regex_replace(c, std::regex("out/(chart|stability)"), TS_BINARY_DIR "/readme-$1");

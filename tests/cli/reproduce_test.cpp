@@ -1,10 +1,11 @@
-// Reproducers as a developer of an engine meets them: one file, compiled against that engine alone, that
-// shows the fault.
+// Reproducers as an engine's developer meets them: one file, compiled against that engine only, that shows
+// the fault.
 #include <algorithm>
 #include <set>
 #include <vector>
 
 #include "tests/support/catch.h"
+#include "tests/support/skip.h"
 #include "tests/support/workspace.h"
 
 using namespace touchstone::test;
@@ -12,7 +13,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-// The command that the file names in its head.
+// The compile command in the file's header comment.
 std::string compile_line(const std::string& program) {
   const std::string mark = "//   g++ ";
   const std::size_t at = program.find(mark);
@@ -37,11 +38,11 @@ std::vector<std::string> findings(const Workspace& w, const std::string& engine,
   return keys;
 }
 
-// About two scenes; no program shows it.
+// A relation involves two scenes, so no program shows it.
 bool is_relation(const std::string& key) { return key.find(".relation_") != std::string::npos; }
 
-// Of each kind of finding the first, up to `most`: the program compiles without a warning and shows the
-// fault.
+// For the first finding of each kind, up to `most`: the program compiles without a warning and shows the
+// fault. 0 when the engine is not installed.
 int shown(const Workspace& w, const std::string& engine, const std::string& campaign, int most) {
   std::set<std::string> kinds;
   int n = 0;
@@ -51,7 +52,7 @@ int shown(const Workspace& w, const std::string& engine, const std::string& camp
     if (no_program || !kinds.insert(kind_of(key)).second) continue;
     CAPTURE(key);
     const Run made = w.touchstone("reproduce " + engine + "/findings/" + key + " -o reproduce.cpp");
-    // Of a contact between bodies that are apart within the tolerance, for one.
+    // For example, a contact between bodies that are apart within the tolerance.
     if (made.err.find("no program that checks this fault") != std::string::npos) {
       CHECK(made.code == 2);
       continue;
@@ -72,11 +73,10 @@ int shown(const Workspace& w, const std::string& engine, const std::string& camp
     }
     ++n;
   }
-  if (n == 0) WARN(engine << " is not installed: no findings to show");
   return n;
 }
 
-// The script that refutes a broad phase: replay shows it, and so does its program. False: not installed.
+// Both replay and a reproducer show the script that refutes a broad phase. False if it is not installed.
 bool refutation_shown(const Workspace& w, const std::string& engine, const std::string& options) {
   if (w.touchstone("engines " + engine).code != 0) return false;
   const Run certified =
@@ -90,12 +90,12 @@ bool refutation_shown(const Workspace& w, const std::string& engine, const std::
   REQUIRE(made.code == 0);
   REQUIRE(w.run(compile_line(read_all(w.dir / "reproduce.cpp")) + " -Wall -Wextra -Werror").code == 0);
   const int shows = w.run("timeout 20 ./reproduce").code;
-  // What freed memory holds is the allocator's choice: alone, the program may find it as it was.
+  // The allocator decides what freed memory holds: in this program it may be unchanged.
   CHECK((shows == 1 || (shows == 0 && engine == "fcl-dynamic-tree-array")));
   return true;
 }
 
-// All evidence but one.
+// Options that leave out all evidence except one.
 std::string only(const std::string& evidence, const std::string& level) {
   std::string without;
   const std::vector<std::string> of_boxes{"orders_of_two",       "orders_on_an_axis", "histories_of_two",
@@ -111,37 +111,39 @@ std::string only(const std::string& evidence, const std::string& level) {
 
 }  // namespace
 
-TEST_CASE(
-    "a broad phase that loses a pair, to a bad box, a turned one or freed memory, is shown by a program",
-    "[reproduce][certify]") {
+TEST_CASE("a program shows how a broad phase loses a pair: to a bad box, a rotated one or freed memory",
+          "[reproduce][certify][optional]") {
   const Workspace w("reproduce");
-  int shown_ones = refutation_shown(w, "bullet-f64-dbvt", only("no_boxes", "boxes")) +
-                   refutation_shown(w, "bullet-f64-dbvt", only("", "bodies")) +
-                   refutation_shown(w, "ode-sap", only("no_boxes", "boxes")) +
-                   refutation_shown(w, "fcl-dynamic-tree-array", only("", "bodies"));
-  if (shown_ones == 0) WARN("neither FCL nor Bullet nor ODE is installed: no refutations to show");
+  const int count = refutation_shown(w, "bullet-f64-dbvt", only("no_boxes", "boxes")) +
+                    refutation_shown(w, "bullet-f64-dbvt", only("", "bodies")) +
+                    refutation_shown(w, "ode-sap", only("no_boxes", "boxes")) +
+                    refutation_shown(w, "fcl-dynamic-tree-array", only("", "bodies"));
+  if (count == 0) skip("neither FCL nor Bullet nor ODE is installed: no refutations to show");
 }
 
-TEST_CASE("a finding about libccd is shown by a program that needs libccd alone", "[reproduce]") {
+TEST_CASE("a finding about libccd is shown by a program that needs only libccd", "[reproduce][optional]") {
   const Workspace w("reproduce");
   const int n = shown(w, "libccd-mpr", "--cases 200", 4) + shown(w, "libccd-gjk-tuned", "--cases 200", 4);
-  CHECK((n == 0 || n >= 5));
+  if (n == 0) return skip("no findings: libccd is not installed");
+  CHECK(n >= 5);
 }
 
-TEST_CASE("a finding about Bullet is shown by a program that needs Bullet alone", "[reproduce]") {
+TEST_CASE("a finding about Bullet is shown by a program that needs only Bullet", "[reproduce][optional]") {
   const Workspace w("reproduce");
   const int n =
       shown(w, "bullet-f64-query-tuned", "--cases 300", 8) + shown(w, "bullet-f32-sim", "--cases 600", 3);
-  CHECK((n == 0 || n >= 6));
+  if (n == 0) return skip("no findings: Bullet is not installed");
+  CHECK(n >= 6);
 }
 
-TEST_CASE("a finding about FCL is shown by a program that needs FCL alone", "[reproduce]") {
+TEST_CASE("a finding about FCL is shown by a program that needs only FCL", "[reproduce][optional]") {
   const Workspace w("reproduce");
   const int n = shown(w, "fcl-indep", "--cases 200", 2);
-  CHECK((n == 0 || n == 2));
+  if (n == 0) return skip("no findings: FCL is not installed");
+  CHECK(n == 2);
 }
 
-TEST_CASE("triage says at once that it cannot make the directory for reproducers", "[reproduce]") {
+TEST_CASE("triage reports at once that it cannot create the directory for reproducers", "[reproduce]") {
   const Workspace w("reproduce");
   w.write("file", "");
   REQUIRE(w.touchstone("fuzz --cases 2 --engines core --out empty").code == 0);
@@ -152,14 +154,11 @@ TEST_CASE("triage says at once that it cannot make the directory for reproducers
   }
 }
 
-TEST_CASE("triage leaves a directory a finding, whose certificate holds and whose program compiles",
-          "[reproduce]") {
+TEST_CASE("triage writes one directory per finding, with a valid certificate and a program that compiles",
+          "[reproduce][optional]") {
   const Workspace w("reproduce");
   const auto keys = findings(w, "libccd-mpr", "--cases 60");
-  if (keys.empty()) {
-    WARN("libccd is not installed: no findings to keep");
-    return;
-  }
+  if (keys.empty()) return skip("no findings: libccd is not installed");
   const Run first = w.touchstone("triage libccd-mpr --reproducers kept");
   INFO(first.err);
   REQUIRE(first.code == 1);
@@ -179,7 +178,7 @@ TEST_CASE("triage leaves a directory a finding, whose certificate holds and whos
   CHECK(certificates > 0);
 }
 
-TEST_CASE("what cannot be shown is refused in words", "[reproduce]") {
+TEST_CASE("reproduce refuses what no program can show", "[reproduce]") {
   const Workspace w("reproduce");
   CHECK(w.touchstone("reproduce nothing_of_this_name").code == 2);
   const Run clean = w.touchstone("reproduce touching_boxes --engine core");

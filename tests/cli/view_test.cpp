@@ -1,4 +1,4 @@
-// `touchstone view SCENE --broad`: the page's data against two loops over its own boxes, and refusals.
+// `touchstone view SCENE --broad`: the page's data against a double loop over its own boxes, and refusals.
 #include <array>
 #include <limits>
 #include <nlohmann/json.hpp>
@@ -23,14 +23,14 @@ bool meet(const Json& a, const Json& b, std::size_t axis) {
 
 }  // namespace
 
-TEST_CASE("the page's pairs are those of two loops over its boxes", "[cli][view]") {
+TEST_CASE("the page's pairs are those of a double loop over its boxes", "[cli][view]") {
   const Workspace w("view");
   long kept = 0, pruned = 0;
   for (const std::string scene : {"thousand_balls", "cubes_fill_space", "around_the_origin"}) {
     INFO(scene);
     const auto r = w.touchstone("view " + scene + " --broad -o page.html --json");
     REQUIRE(r.code == 0);
-    CHECK(read_all(w.dir / "page.html").find("http") == std::string::npos);  // loads nothing
+    CHECK(read_all(w.dir / "page.html").find("http") == std::string::npos);  // loads no external resources
     const Json data = Json::parse(r.out);
     REQUIRE(data["methods"].size() == 4);
     for (const Json& f : data["frames"]) {
@@ -43,7 +43,8 @@ TEST_CASE("the page's pairs are those of two loops over its boxes", "[cli][view]
           bool all = true;
           for (std::size_t k = 0; k < 3; ++k) {
             const bool here = meet(boxes[a], boxes[b], k);
-            on_axis[k] += here ? 1 : 0, all &= here;
+            on_axis[k] += here ? 1 : 0;
+            all &= here;
           }
           if (all) expected.push_back({a, b});
         }
@@ -65,7 +66,7 @@ TEST_CASE("the page's pairs are those of two loops over its boxes", "[cli][view]
   CHECK(pruned > 1000);
 }
 
-TEST_CASE("view refuses what it cannot show, with place and reason", "[cli][view]") {
+TEST_CASE("view refuses what it cannot show, and names place and reason", "[cli][view]") {
   const Workspace w("view");
   const auto refused = [&](const std::string& args, const std::string& reason) {
     INFO(args);

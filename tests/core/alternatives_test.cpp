@@ -1,4 +1,4 @@
-// The alternatives to a time of impact: they find what they say and miss what they say.
+// The alternatives to a time of impact find what they promise and miss what they are known to miss.
 #include "core/impact/alternatives.h"
 #include "tests/core/random_pair.h"
 #include "tests/support/catch.h"
@@ -14,13 +14,13 @@ MovingShape shot(double from, double travel) {
 const MovingShape still{&wall, {}, {}};
 }  // namespace
 
-TEST_CASE("alternatives: the end pose sees what ends in contact and nothing else", "[alternatives]") {
+TEST_CASE("alternatives: the end pose finds what ends in contact and nothing else", "[alternatives]") {
   CHECK(end_pose_impact(shot(-2, 2), still).toi == 1.0);
   CHECK_FALSE(end_pose_impact(shot(-2, 4), still).toi);
   CHECK_FALSE(end_pose_impact(shot(0, 4), still).toi);  // not even what it left
 }
 
-TEST_CASE("alternatives: sub-steps find a pass when one of them falls into it", "[alternatives]") {
+TEST_CASE("alternatives: sub-steps find a pass when one of them falls within it", "[alternatives]") {
   // In contact from 13/32 to 19/32 of the step.
   CHECK_FALSE(substep_impact(shot(-2, 4), still, 1).toi);
   CHECK(substep_impact(shot(-2, 4), still, 2).toi == 0.5);
@@ -32,14 +32,14 @@ TEST_CASE("alternatives: sub-steps find a pass when one of them falls into it", 
   CHECK(substep_impact(shot(-2, 4), still, 32).steps == 14);
 }
 
-TEST_CASE("alternatives: a speculative contact is right head on, a ghost beside, blind behind its margin",
+TEST_CASE("alternatives: a speculative contact is right head on, a ghost in passing, blind beyond its margin",
           "[alternatives]") {
   CHECK(speculative_impact(shot(-2, 4), still, 1).toi.value() == Approx(13.0 / 32));
   CHECK_FALSE(speculative_impact(shot(-2, 4), still, 0.25).toi);
   CHECK_FALSE(speculative_impact(shot(-2, 1), still, 1).toi);
   CHECK_FALSE(speculative_impact(shot(2, 4), still, 1).toi);
   CHECK(speculative_impact(shot(0, 4), still, 1).toi == 0.0);
-  // Past a corner: the nearest points close in on each other though the bodies never meet.
+  // Past a corner: the nearest points approach each other although the bodies never meet.
   const Shape cube = Box{{1, 1, 1}};
   const MovingShape passing{&cube, {Vec3(-4, -2.25, 0), {}}, {Vec3(8, 0, 0), Vec3::Zero()}},
       block{&cube, {}, {}};
@@ -47,7 +47,7 @@ TEST_CASE("alternatives: a speculative contact is right head on, a ghost beside,
   CHECK(speculative_impact(passing, block, 1).toi);
 }
 
-TEST_CASE("alternatives: sub-steps are never before the time of impact, and miss less the more they are",
+TEST_CASE("alternatives: sub-steps are never before the time of impact, and more of them miss less",
           "[alternatives][random]") {
   long hits = 0, found[3] = {0, 0, 0};
   constexpr int counts[3] = {1, 16, 256};

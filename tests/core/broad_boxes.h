@@ -1,5 +1,4 @@
-// Boxes and a reference for tests of broad phases: kinds of boxes that are hard on rounding, cells and
-// orders.
+// Boxes and a reference for broad-phase tests: boxes that stress rounding, cells and sort orders.
 #pragma once
 
 #include <algorithm>
@@ -48,7 +47,8 @@ inline Aabb make_box(Rng& r, BoxKind kind) {
     const double x = coordinate(r, kind), y = coordinate(r, kind);
     const double size = r.uniform(0, 1);
     const bool large = r.chance(0.03), point = r.chance(0.05);
-    b.lo[k] = std::min(x, y), b.hi[k] = std::max(x, y);
+    b.lo[k] = std::min(x, y);
+    b.hi[k] = std::max(x, y);
     if (kind == BoxKind::random || kind == BoxKind::sizes) b.hi[k] = b.lo[k] + size;
     if (kind == BoxKind::sizes && large) b.hi[k] = b.lo[k] + 50 * size;
     if (kind == BoxKind::flat_world && k < 2) b.lo[k] = b.hi[k] = 1;
@@ -57,7 +57,7 @@ inline Aabb make_box(Rng& r, BoxKind kind) {
   return b;
 }
 
-/// The definition: closed double boxes, two loops.
+/// The definition: closed boxes in double, a double loop.
 class Reference {
  public:
   struct Body {

@@ -8,7 +8,7 @@ using namespace touchstone;
 using namespace touchstone::broad;
 using namespace touchstone::test;
 
-TEST_CASE("every broad phase reports the overlapping pairs on scripts of every kind of box", "[broad]") {
+TEST_CASE("every broad phase reports the overlapping pairs of scripts with every kind of box", "[broad]") {
   for (const CatalogRow& row : catalog)
     for (int kind = 0; kind < box_kinds; ++kind) {
       Count count;
@@ -29,7 +29,7 @@ TEST_CASE("every broad phase reports the overlapping pairs on scripts of every k
     }
 }
 
-TEST_CASE("thousands of steps leave every broad phase right", "[broad]") {
+TEST_CASE("every broad phase is correct after thousands of steps", "[broad]") {
   for (const CatalogRow& row : catalog) {
     Count count;
     INFO(row.name);
@@ -59,21 +59,25 @@ TEST_CASE("every broad phase finds the same pairs in large scenes, coherent or t
       auto scene = make_scene();
       for (const BoxUpdate& u : scene) {
         const Mobility m = u.id % 4 == 0 ? Mobility::fixed : Mobility::moving;
-        subject->insert(u.id, u.box, m), reference->insert(u.id, u.box, m);
+        subject->insert(u.id, u.box, m);
+        reference->insert(u.id, u.box, m);
       }
       std::vector<IdPair> a, b;
       for (int frame = 0; frame < 24; ++frame) {
-        subject->pairs(a), reference->pairs(b);
+        subject->pairs(a);
+        reference->pairs(b);
         REQUIRE(a == b);
         CHECK(a.size() > 1000);
         subject->validate();
         if (frame == 15) scene = make_scene();
         for (BoxUpdate& u : scene) {
           const Vec3 v = r.vector(0, 0.02);
-          u.box.lo += v, u.box.hi += v;
+          u.box.lo += v;
+          u.box.hi += v;
         }
         const std::span<const BoxUpdate> all(scene), some = all.first(frame % 4 != 3 ? 3000 : 150);
-        subject->update(some), reference->update(some);
+        subject->update(some);
+        reference->update(some);
       }
     }
 }
@@ -96,11 +100,12 @@ TEST_CASE("a long box whose length rounds down is found by a box at its far end"
     }
 }
 
-TEST_CASE("a batch with one bad move makes no move", "[broad]") {
+TEST_CASE("a batch with one bad move moves nothing", "[broad]") {
   for (const CatalogRow& row : catalog) {
     const auto phase = row.make();
     const Aabb unit{Vec3::Zero(), Vec3::Ones()}, away{Vec3::Constant(5), Vec3::Constant(6)};
-    phase->insert(1, unit), phase->insert(2, unit);
+    phase->insert(1, unit);
+    phase->insert(2, unit);
     const std::vector<BoxUpdate> moves = {{1, away}, {9, unit}};
     CHECK_THROWS_AS(phase->update(moves), Refused);
     std::vector<IdPair> out;
@@ -145,7 +150,7 @@ TEST_CASE("float keys are outward, monotone and tight, to the last bit", "[broad
   CHECK(key_above(std::nextafter(0.0, 1)) == 1);
 }
 
-TEST_CASE("a swept box holds both ends", "[broad][box]") {
+TEST_CASE("a swept box contains both ends", "[broad][box]") {
   const Aabb a{Vec3(0, 0, 0), Vec3(1, 1, 1)}, b{Vec3(-1, 2, 0), Vec3(0, 3, 1)};
   CHECK(swept(a, b) == Aabb{Vec3(-1, 0, 0), Vec3(1, 3, 1)});
 }

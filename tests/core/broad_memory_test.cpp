@@ -1,5 +1,4 @@
-// What a broad phase says that it holds, held against every byte that it has asked for, and against the
-// limit.
+// The memory that a broad phase reports, against every byte that it has allocated, and against the limit.
 #include <malloc.h>
 
 #include <cstdlib>
@@ -11,7 +10,7 @@
 
 namespace {
 
-// Bytes asked for and not given back, in a header of 64 before each block.
+// Bytes allocated and not freed; a header of 64 bytes precedes each block.
 constexpr std::size_t header = 64;
 long live = 0;
 
@@ -20,7 +19,8 @@ void* take(std::size_t size, std::size_t alignment) {
   auto* const raw = static_cast<char*>(std::aligned_alloc(before, (size + 2 * before - 1) / before * before));
   if (raw == nullptr) throw std::bad_alloc();
   char* const block = raw + before;
-  reinterpret_cast<std::size_t*>(block)[-1] = size, reinterpret_cast<std::size_t*>(block)[-2] = before;
+  reinterpret_cast<std::size_t*>(block)[-1] = size;
+  reinterpret_cast<std::size_t*>(block)[-2] = before;
   live += static_cast<long>(size);
   return block;
 }
@@ -47,10 +47,10 @@ using namespace touchstone::test;
 namespace {
 
 struct Held {
-  double said = 0, counted = 0, pairs = 0;  // a box, at the query that holds most
+  double said = 0, counted = 0, pairs = 0;  // per box, at the query that uses most
 };
 
-// Of coherent frames, or of frames in which all boxes are elsewhere.
+// Measures coherent frames, or frames in which all boxes are elsewhere.
 Held hold(const CatalogRow& row, std::vector<BoxUpdate> scene, bool elsewhere) {
   const auto n = static_cast<double>(scene.size());
   std::vector<IdPair> out;
@@ -63,11 +63,13 @@ Held hold(const CatalogRow& row, std::vector<BoxUpdate> scene, bool elsewhere) {
     if (elsewhere) std::rotate(scene.begin(), scene.begin() + 777, scene.end());
     for (std::size_t i = 0; i < scene.size(); ++i) {
       const Vec3 v = r.vector(0, 0.015);
-      scene[i].box.lo += v, scene[i].box.hi += v, scene[i].id = static_cast<int>(i);
+      scene[i].box.lo += v;
+      scene[i].box.hi += v;
+      scene[i].id = static_cast<int>(i);
     }
     phase->update(scene);
     phase->pairs(out);
-    if (frame == 0) continue;  // boxes have only just ceased to come
+    if (frame == 0) continue;  // the boxes have only just been inserted
     const auto of_out = static_cast<long>(out.capacity() * sizeof(IdPair));
     const Held held{static_cast<double>(phase->memory_bytes()) / n,
                     static_cast<double>(live - before - of_out) / n, static_cast<double>(out.size()) / n};
@@ -79,22 +81,22 @@ Held hold(const CatalogRow& row, std::vector<BoxUpdate> scene, bool elsewhere) {
 
 }  // namespace
 
-TEST_CASE("a broad phase of 100,000 boxes holds at most 200 bytes a box, and says how many",
+TEST_CASE("a broad phase of 100,000 boxes uses at most 200 bytes per box, and reports how many",
           "[broad][memory]") {
   Rng r(1);
   constexpr int n = 100000;
   const auto uniform = uniform_scene(r, n, 0, 1);
   auto mixed = uniform_scene(r, n, 0.01, 50);
-  for (BoxUpdate& u : mixed) {  // large boxes want room: three pairs a box
+  for (BoxUpdate& u : mixed) {  // large boxes need room: three pairs per box
     const Vec3 centre = (u.box.lo + u.box.hi) / 2 * 7.3, half = (u.box.hi - u.box.lo) / 2;
     u.box = {centre - half, centre + half};
   }
   const auto clusters = clustered_scene(r, n, 100, 20, 2.2);
   for (const CatalogRow& row : catalog) {
-    if (row.name == "brute_force") continue;  // half a minute
+    if (row.name == "brute_force") continue;  // takes half a minute
     for (const bool elsewhere : {false, true})
       for (const auto* scene : {&uniform, &std::as_const(mixed), &clusters}) {
-        // One axis is nothing to these.
+        // These do not depend on a sweep axis.
         if (row.name.ends_with("_sweep") && scene != &uniform) continue;
         const Held held = hold(row, *scene, elsewhere);
         const std::string what = scene == &uniform ? "uniform" : scene == &mixed ? "mixed" : "clusters";
@@ -104,7 +106,7 @@ TEST_CASE("a broad phase of 100,000 boxes holds at most 200 bytes a box, and say
           std::printf("%-26s %-8s %d  %6.1f said %6.1f counted %5.2f pairs\n", std::string(row.name).c_str(),
                       what.c_str(), elsewhere, held.said, held.counted, held.pairs);
         CHECK(held.pairs > 0.5);
-        // Clusters have eight pairs a box, which have to be held: 16 bytes each beyond two, and some room.
+        // Clusters have eight pairs per box, which must be stored: 16 bytes each beyond two, and some room.
         CHECK(held.said <= 200 + 17 * std::max(0.0, held.pairs - 2));
       }
   }

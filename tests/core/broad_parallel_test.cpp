@@ -18,13 +18,14 @@ Options always(int threads) { return {threads, 1}; }
 
 }  // namespace
 
-TEST_CASE("parts run on threads of their own and their failures come back", "[broad][parallel]") {
+TEST_CASE("parts run on their own threads and their failures are propagated", "[broad][parallel]") {
   std::mutex lock;
   std::set<std::thread::id> seen;
   std::set<std::size_t> parts;
   run_parts(5, [&](std::size_t p) {
     const std::lock_guard hold(lock);
-    seen.insert(std::this_thread::get_id()), parts.insert(p);
+    seen.insert(std::this_thread::get_id());
+    parts.insert(p);
   });
   CHECK(parts == std::set<std::size_t>{0, 1, 2, 3, 4});
   CHECK(seen.contains(std::this_thread::get_id()));
@@ -48,11 +49,11 @@ TEST_CASE("parts run on threads of their own and their failures come back", "[br
     }
 }
 
-TEST_CASE("no threads are refused", "[broad][parallel]") {
+TEST_CASE("a thread count of zero is refused", "[broad][parallel]") {
   for (const CatalogRow& row : catalog) CHECK_THROWS_AS(row.make({0}), std::invalid_argument);
 }
 
-TEST_CASE("any number of threads reports the overlapping pairs on scripts", "[broad][parallel]") {
+TEST_CASE("any number of threads reports the overlapping pairs of scripts", "[broad][parallel]") {
   for (const CatalogRow& row : catalog)
     for (const int threads : thread_counts) {
       Count count;
@@ -100,7 +101,8 @@ TEST_CASE("any number of threads reports the same bytes on crowds", "[broad][par
         if (frame == 9) scene = make_scene();
         for (BoxUpdate& u : scene) {
           const Vec3 v = r.vector(0, 0.03);
-          u.box.lo += v, u.box.hi += v;
+          u.box.lo += v;
+          u.box.hi += v;
         }
         const auto moved = std::span<const BoxUpdate>(scene).first(frame % 4 != 3 ? 2000 : 100);
         for (const BroadPhasePtr& p : phases) p->update(moved);

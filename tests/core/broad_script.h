@@ -1,4 +1,4 @@
-// Random scripts for broad phases, run beside the definition, and crowds.
+// Random scripts for broad phases, run alongside the definition, and crowds.
 #pragma once
 
 #include "core/broad/catalog.h"
@@ -10,7 +10,7 @@ struct Count {
   long pairs = 0, possible = 0, queries = 0;
 };
 
-// A phase and the definition, driven by the same random operations.
+// A broad phase and the definition, driven by the same random operations.
 class Script {
  public:
   Script(const broad::CatalogRow& row, std::uint64_t seed, BoxKind kind, int id_step,
@@ -26,7 +26,9 @@ class Script {
       insert();
     } else if (what < 0.35) {
       const int id = any();
-      subject_->remove(id), reference_.bodies.erase(id), removed_.push_back(id);
+      subject_->remove(id);
+      reference_.bodies.erase(id);
+      removed_.push_back(id);
     } else if (what < 0.8) {
       move_some(1 + r_.below(3));
     } else if (what < 0.9) {  // small, coherent motion of all
@@ -43,7 +45,9 @@ class Script {
     const auto expected = reference_.pairs();
     subject_->validate();
     const auto n = static_cast<long>(reference_.bodies.size());
-    count.pairs += static_cast<long>(out_.size()), count.possible += n * (n - 1) / 2, ++count.queries;
+    count.pairs += static_cast<long>(out_.size());
+    count.possible += n * (n - 1) / 2;
+    ++count.queries;
     return out_ == expected;
   }
 
@@ -55,7 +59,10 @@ class Script {
   }
   void insert() {
     int id = (next_++ * 7919 % 10007 - 5000) * id_step_;
-    if (!removed_.empty() && r_.chance(0.5)) id = removed_.back(), removed_.pop_back();
+    if (!removed_.empty() && r_.chance(0.5)) {
+      id = removed_.back();
+      removed_.pop_back();
+    }
     if (reference_.bodies.contains(id)) return;
     const bool fixed = r_.chance(0.3);
     const Aabb box = make_box(r_, kind_);
@@ -79,7 +86,8 @@ class Script {
     for (auto& [id, body] : reference_.bodies) {
       if (body.fixed) continue;
       const Vec3 v = r_.vector(0, 0.1);
-      body.box.lo += v, body.box.hi += v;
+      body.box.lo += v;
+      body.box.hi += v;
       moves.push_back({id, body.box});
     }
     subject_->update(moves);
@@ -93,7 +101,7 @@ class Script {
   std::vector<broad::IdPair> out_;
 };
 
-// Boxes of side 1/2..3/2 in a cube with two units of volume a box: about four partners each.
+// Boxes of side 1/2..3/2 in a cube with two units of volume per box: about four partners each.
 inline std::vector<broad::BoxUpdate> uniform_scene(Rng& r, int n, double large_share, double large) {
   const double side = std::cbrt(2.0 * n);
   std::vector<broad::BoxUpdate> all;
@@ -102,7 +110,8 @@ inline std::vector<broad::BoxUpdate> uniform_scene(Rng& r, int n, double large_s
     Aabb b;
     for (int k = 0; k < 3; ++k) {
       const double c = r.uniform(-side / 2, side / 2), h = r.uniform(0.25, 0.75) * scale;
-      b.lo[k] = c - h, b.hi[k] = c + h;
+      b.lo[k] = c - h;
+      b.hi[k] = c + h;
     }
     all.push_back({i, b});
   }
@@ -126,7 +135,8 @@ inline std::vector<broad::BoxUpdate> clustered_scene(Rng& r, int n, int blobs, d
     for (int k = 0; k < 3; ++k) {
       double sum = -6;
       for (int d = 0; d < 12; ++d) sum += r.uniform();
-      u.box.lo[k] = c[k] + deviation * sum, u.box.hi[k] = u.box.lo[k] + size[k];
+      u.box.lo[k] = c[k] + deviation * sum;
+      u.box.hi[k] = u.box.lo[k] + size[k];
     }
   }
   return all;

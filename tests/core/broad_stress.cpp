@@ -1,8 +1,8 @@
 // Run by hand: `ts_core_broad_stress MINUTES [SEED]` of CPU time. Every broad phase of the catalog on random
 // scripts of every kind of box and on crowds (uniform, a few large, clustered, with some fixed; coherent,
-// fast, teleported, with comings and goings), each answer compared with the definition (small scenes) or with
-// brute force (large ones), each structure validated. SIGTERM ends it early, with
-// its counts. Exit code 1 at the first difference.
+// fast, teleported, with inserts and removals). Each answer is compared with the definition (small scenes) or
+// with brute force (large ones), each structure is validated. SIGTERM ends it early and prints the counts.
+// Exit code 1 at the first difference.
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
@@ -21,7 +21,7 @@ struct Totals {
   long missed = 0, superfluous = 0;
 };
 
-// One time in five on several threads, however little there is to do.
+// One run in five uses several threads, however little there is to do.
 Options some_threads(Rng& r) {
   return r.chance(0.2) ? Options{2 + static_cast<int>(r.below(3)), 1} : Options{};
 }
@@ -46,7 +46,8 @@ void stir(Rng& r, std::vector<BoxUpdate>& boxes, int kind, double scale, std::ve
   for (BoxUpdate& u : boxes) {
     if (!r.chance(share)) continue;
     const Vec3 v = r.vector(0, speed);
-    u.box.lo += v, u.box.hi += v;
+    u.box.lo += v;
+    u.box.hi += v;
     moves.push_back(u);
   }
 }
@@ -54,7 +55,8 @@ void stir(Rng& r, std::vector<BoxUpdate>& boxes, int kind, double scale, std::ve
 void count_difference(const std::vector<IdPair>& got, const std::vector<IdPair>& expected, Totals& t) {
   std::vector<IdPair> d;
   std::set_difference(expected.begin(), expected.end(), got.begin(), got.end(), std::back_inserter(d));
-  t.missed += static_cast<long>(d.size()), d.clear();
+  t.missed += static_cast<long>(d.size());
+  d.clear();
   std::set_difference(got.begin(), got.end(), expected.begin(), expected.end(), std::back_inserter(d));
   t.superfluous += static_cast<long>(d.size());
 }
@@ -66,7 +68,10 @@ bool run_crowd(const CatalogRow& row, std::uint64_t seed, Totals& t) {
   const auto crowd = [&] {
     auto all = r.chance(0.4) ? clustered_scene(r, n, 1 + static_cast<int>(r.below(8)), r.uniform(1, 400), 3)
                              : uniform_scene(r, n, r.chance(0.5) ? 0.02 : 0, r.uniform(1, 100));
-    for (BoxUpdate& u : all) u.box.lo *= scale, u.box.hi *= scale;
+    for (BoxUpdate& u : all) {
+      u.box.lo *= scale;
+      u.box.hi *= scale;
+    }
     return all;
   };
   const auto subject = row.make(some_threads(r)), reference = make_brute_force();
@@ -74,29 +79,38 @@ bool run_crowd(const CatalogRow& row, std::uint64_t seed, Totals& t) {
   const double fixed = r.chance(0.3) ? 0.7 : 0.05;
   for (const BoxUpdate& u : boxes) {
     const Mobility m = r.chance(fixed) ? Mobility::fixed : Mobility::moving;
-    subject->insert(u.id, u.box, m), reference->insert(u.id, u.box, m);
+    subject->insert(u.id, u.box, m);
+    reference->insert(u.id, u.box, m);
   }
   std::vector<BoxUpdate> moves;
   std::vector<IdPair> a, b;
   for (int frame = 0, kind = 0; frame < 40; ++frame) {
-    subject->pairs(a), reference->pairs(b);
+    subject->pairs(a);
+    reference->pairs(b);
     subject->validate();
-    ++t.crowds.queries, t.crowds.pairs += static_cast<long>(b.size());
+    ++t.crowds.queries;
+    t.crowds.pairs += static_cast<long>(b.size());
     t.crowds.possible += static_cast<long>(n) * (n - 1) / 2;
-    if (a != b) return count_difference(a, b, t), false;
+    if (a != b) {
+      count_difference(a, b, t);
+      return false;
+    }
     if (r.chance(0.15)) kind = static_cast<int>(r.below(5));
     if (kind == 4) {
       const auto elsewhere = crowd();
       for (std::size_t i = 0; i < boxes.size(); ++i) boxes[i].box = elsewhere[i].box;
     }
     stir(r, boxes, kind, scale, moves);
-    subject->update(moves), reference->update(moves);
+    subject->update(moves);
+    reference->update(moves);
     for (std::uint64_t k = r.chance(0.3) ? r.below(20) : 0; k-- > 0;) {
       const auto i = r.below(boxes.size());
-      subject->remove(boxes[i].id), reference->remove(boxes[i].id);
-      if (r.chance(0.5)) boxes[i].id += n;  // comes back under another name
+      subject->remove(boxes[i].id);
+      reference->remove(boxes[i].id);
+      if (r.chance(0.5)) boxes[i].id += n;  // comes back under another id
       const Mobility m = r.chance(fixed) ? Mobility::fixed : Mobility::moving;
-      subject->insert(boxes[i].id, boxes[i].box, m), reference->insert(boxes[i].id, boxes[i].box, m);
+      subject->insert(boxes[i].id, boxes[i].box, m);
+      reference->insert(boxes[i].id, boxes[i].box, m);
     }
   }
   return true;

@@ -1,5 +1,5 @@
-// The wide code is compiled once for each instruction set and chosen at run time: each that this machine has
-// must report the same pairs.
+// The SIMD code is compiled once per instruction set and chosen at run time. All those that this machine
+// supports must report the same pairs.
 #include <hwy/targets.h>
 
 #include "core/broad/box_kernels.h"
@@ -19,7 +19,7 @@ std::vector<std::int64_t> targets_here() {
   return targets;
 }
 
-// A float in memory is a float; in a register it may have been optimised away.
+// A float in memory is rounded to float; in a register the rounding may have been optimised away.
 double number(std::int32_t key) {
   volatile float f = value_of(key);
   return static_cast<double>(f);
@@ -63,7 +63,7 @@ TEST_CASE("every instruction set reports the same pairs", "[broad][simd]") {
   CHECK(pairs > 1000);
 }
 
-TEST_CASE("on every instruction set a key is the nearest float outside of its box", "[broad][simd]") {
+TEST_CASE("on every instruction set a key is the nearest float outside its box", "[broad][simd]") {
   Rng r(18);
   std::vector<BoxUpdate> moves(500);
   std::vector<std::uint32_t> at(moves.size());

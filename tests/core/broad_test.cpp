@@ -22,7 +22,8 @@ Aabb random_box(Rng& r, bool lattice) {
   for (int k = 0; k < 3; ++k) {
     const double c = lattice ? static_cast<double>(r.below(6)) : r.uniform(0, 6);
     const double s = lattice ? static_cast<double>(r.below(3)) : r.uniform(0, 2);
-    b.lo[k] = c, b.hi[k] = c + s;
+    b.lo[k] = c;
+    b.hi[k] = c + s;
   }
   if (r.chance(0.03)) b.lo[static_cast<long>(r.below(3))] = -inf;
   if (r.chance(0.03)) b.hi[static_cast<long>(r.below(3))] = inf;
@@ -45,7 +46,7 @@ Placed random_body(Rng& r) {
 
 }  // namespace
 
-TEST_CASE("every broad phase reports the pairs of brute force through insert, move and remove", "[broad]") {
+TEST_CASE("every broad phase reports the pairs of brute force after inserts, moves and removals", "[broad]") {
   long pairs = 0, tests = 0;
   for (const CatalogRow& row : catalog)
     for (std::uint64_t seed = 0; seed < 60; ++seed) {
@@ -55,18 +56,22 @@ TEST_CASE("every broad phase reports the pairs of brute force through insert, mo
       for (int step = 0; step < 80; ++step) {
         const Aabb box = random_box(r, seed % 2 == 0);
         if (present.empty() || r.chance(0.6)) {
-          subject->insert(step, box), reference->insert(step, box), present.push_back(step);
+          subject->insert(step, box);
+          reference->insert(step, box);
+          present.push_back(step);
         } else if (r.chance(0.6)) {
           const int id = present[r.below(present.size())];
-          subject->move(id, box), reference->move(id, box);
+          subject->move(id, box);
+          reference->move(id, box);
         } else {
           const auto k = static_cast<long>(r.below(present.size()));
-          subject->remove(present[static_cast<std::size_t>(k)]),
-              reference->remove(present[static_cast<std::size_t>(k)]);
+          subject->remove(present[static_cast<std::size_t>(k)]);
+          reference->remove(present[static_cast<std::size_t>(k)]);
           present.erase(present.begin() + k);
         }
         std::vector<IdPair> a, b;
-        subject->pairs(a), reference->pairs(b);
+        subject->pairs(a);
+        reference->pairs(b);
         REQUIRE(a == b);
         REQUIRE(std::is_sorted(a.begin(), a.end()));
         subject->validate();
@@ -79,13 +84,14 @@ TEST_CASE("every broad phase reports the pairs of brute force through insert, mo
   CHECK(pairs < tests);
 }
 
-TEST_CASE("a box that is none is refused and nothing else is lost", "[broad]") {
+TEST_CASE("an invalid box is refused and nothing else is lost", "[broad]") {
   for (const CatalogRow& row : catalog) {
     const auto phase = row.make();
     const Aabb unit{Vec3::Zero(), Vec3::Ones()}, inverted{Vec3::Ones(), Vec3::Zero()};
     Aabb nan = unit;
     nan.hi.y() = std::numeric_limits<double>::quiet_NaN();
-    phase->insert(1, unit), phase->insert(2, unit);
+    phase->insert(1, unit);
+    phase->insert(2, unit);
     CHECK_THROWS_AS(phase->insert(3, nan), Refused);
     CHECK_THROWS_AS(phase->move(2, inverted), Refused);
     CHECK_THROWS_AS(phase->insert(1, unit), Refused);
@@ -97,7 +103,7 @@ TEST_CASE("a box that is none is refused and nothing else is lost", "[broad]") {
   }
 }
 
-TEST_CASE("boxes contain the exact body and are a few ulp wide of it", "[broad][box]") {
+TEST_CASE("boxes contain the exact body and exceed it by a few ulps", "[broad][box]") {
   long checked = 0;
   for (std::uint64_t seed = 0; seed < 2000; ++seed) {
     Rng r(seed);
@@ -137,7 +143,7 @@ TEST_CASE("loose boxes contain the exact body too, at rest and in motion", "[bro
     const Motion motion{r.unit_vector() * r.binary_scale(-10, 10) * size, r.unit_vector() * r.uniform(0, 7)};
     const Aabb swept = loose_swept_box(box, pose, motion, bounding_radius(shape));
     for (const double t : {0.0, 0.25, 0.5, 0.75, 1.0}) {
-      // pose_at rounds; its body's box is shrunk by more than that.
+      // pose_at rounds, so its body's box is shrunk by more than that.
       const Pose then = pose_at(pose, motion, t);
       const Aabb at_t = body_box(shape, then);
       const Vec3 rounding = 0x1p-46 * (then.translation.cwiseAbs() + motion.linear.cwiseAbs() +
@@ -159,7 +165,7 @@ TEST_CASE("exact rational boxes: a 3-4-5 rotation by a non-unit quaternion", "[b
   CHECK(box.lo.y() >= -7 - 0x1p-49);
 }
 
-TEST_CASE("a half-space is infinite but towards a face across an axis", "[broad][box]") {
+TEST_CASE("a half-space is infinite except towards a face perpendicular to an axis", "[broad][box]") {
   const Aabb flat = body_box(HalfSpace{{0, 0, 2}, 3}, {Vec3(1, 2, 4), {}});
   CHECK(flat.hi.z() >= 5.5);
   CHECK(flat.hi.z() < 5.5000001);
@@ -195,7 +201,7 @@ TEST_CASE("swept boxes contain the body at all times", "[broad][box]") {
   CHECK(checked == 300 * 21 * 3);
 }
 
-TEST_CASE("a body that turns a little has a swept box little larger than its box", "[broad][box]") {
+TEST_CASE("a body that rotates slightly has a swept box slightly larger than its box", "[broad][box]") {
   const Box rod{Vec3(0.1, 0.2, 4)};
   const Aabb still = body_box(rod, {}), turned = swept_box(rod, {}, {Vec3::Zero(), Vec3(0, 0, 1e-3)}),
              far = swept_box(rod, {}, {Vec3::Zero(), Vec3(0, 0, 100)});

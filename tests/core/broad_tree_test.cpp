@@ -1,4 +1,4 @@
-// The hierarchy's trees take boxes in and out without being built anew, and do not rot.
+// The hierarchy's trees insert and remove boxes without being rebuilt, and do not degrade.
 #include "core/broad/bounding_volume_hierarchy.h"
 #include "core/broad/stored_phase.h"
 #include "core/tolerance.h"
@@ -20,7 +20,7 @@ long number_after(const std::string& text, const std::string& before, const std:
 
 double reach(const std::string& text) { return std::stod(text.substr(text.find("growth ") + 7)); }
 
-// A scene in which boxes come, go and are carried elsewhere, a few at a time.
+// A scene in which boxes are inserted, removed and moved elsewhere, a few at a time.
 struct Storm {
   Rng r{21};
   std::vector<BoxUpdate> here, away;
@@ -31,7 +31,8 @@ struct Storm {
   }
   void insert(const BoxUpdate& u) {
     const Mobility m = u.id % 3 == 0 ? Mobility::fixed : Mobility::moving;
-    tree->insert(u.id, u.box, m), reference->insert(u.id, u.box, m);
+    tree->insert(u.id, u.box, m);
+    reference->insert(u.id, u.box, m);
   }
   void carry(BoxUpdate& u) {
     const auto elsewhere = uniform_scene(r, static_cast<int>(here.size() + away.size()), 0.005, 12);
@@ -39,22 +40,29 @@ struct Storm {
   }
   void go() {
     const std::size_t i = r.below(here.size());
-    tree->remove(here[i].id), reference->remove(here[i].id);
-    away.push_back(here[i]), here[i] = here.back(), here.pop_back();
+    tree->remove(here[i].id);
+    reference->remove(here[i].id);
+    away.push_back(here[i]);
+    here[i] = here.back();
+    here.pop_back();
   }
   void come() {
     if (away.empty()) return;
     carry(away.back());
-    insert(away.back()), here.push_back(away.back()), away.pop_back();
+    insert(away.back());
+    here.push_back(away.back());
+    away.pop_back();
   }
   void move() {
     BoxUpdate& u = here[r.below(here.size())];
     carry(u);
-    tree->move(u.id, u.box), reference->move(u.id, u.box);
+    tree->move(u.id, u.box);
+    reference->move(u.id, u.box);
   }
   std::size_t compare() {
     std::vector<IdPair> a, b;
-    tree->pairs(a), reference->pairs(b);
+    tree->pairs(a);
+    reference->pairs(b);
     REQUIRE(a == b);
     tree->validate();
     return a.size();
@@ -63,7 +71,7 @@ struct Storm {
 
 }  // namespace
 
-TEST_CASE("storms of boxes that come, go and move leave the hierarchy's trees standing", "[broad][tree]") {
+TEST_CASE("storms of inserts, removals and moves do not rebuild the hierarchy's trees", "[broad][tree]") {
   Storm storm(1500);
   std::size_t pairs = storm.compare();
   const long builds = number_after(storm.tree->explain(), "; ", " builds");
@@ -84,14 +92,17 @@ TEST_CASE("storms of boxes that come, go and move leave the hierarchy's trees st
   CHECK(pairs > 300 * 1500 / 2);
 }
 
-TEST_CASE("a hierarchy that shrinks to nothing and grows again stays right", "[broad][tree]") {
+TEST_CASE("a hierarchy that shrinks to nothing and grows again stays correct", "[broad][tree]") {
   Storm storm(700);
   storm.compare();
   for (int round = 0; round < 3; ++round) {
     while (!storm.here.empty()) {
       for (std::size_t k = 0; k <= storm.here.size() / 9 && !storm.here.empty(); ++k) storm.go();
       storm.compare();
-      if (round == 1 && storm.here.size() == 1) storm.move(), storm.compare();
+      if (round == 1 && storm.here.size() == 1) {
+        storm.move();
+        storm.compare();
+      }
     }
     CHECK(storm.compare() == 0);
     for (std::size_t pairs = 0; !storm.away.empty(); pairs = storm.compare()) {
@@ -101,7 +112,7 @@ TEST_CASE("a hierarchy that shrinks to nothing and grows again stays right", "[b
   }
 }
 
-TEST_CASE("a tree built box by box is right for infinite, equal and touching boxes", "[broad][tree]") {
+TEST_CASE("a tree built box by box is correct for infinite, equal and touching boxes", "[broad][tree]") {
   for (int k = 0; k < box_kinds; ++k) {
     Rng r(static_cast<std::uint64_t>(k));
     BoxStore store;
@@ -110,13 +121,15 @@ TEST_CASE("a tree built box by box is right for infinite, equal and touching box
     Reference reference;
     for (int id = 0; id < 400; ++id) {
       const Aabb box = make_box(r, static_cast<BoxKind>(k));
-      store.insert(id, box, Mobility::moving), reference.bodies[id] = {box, false};
+      store.insert(id, box, Mobility::moving);
+      reference.bodies[id] = {box, false};
       tree.insert(store, static_cast<BoxStore::Slot>(id));
     }
     for (int id = 0; id < 400; ++id)
       if (id % 7 < 3) {
         tree.remove(static_cast<BoxStore::Slot>(id));
-        store.remove(id), reference.bodies.erase(id);
+        store.remove(id);
+        reference.bodies.erase(id);
       }
     tree.validate();
     CHECK(tree.size() == store.present());

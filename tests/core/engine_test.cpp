@@ -1,4 +1,4 @@
-// The core behind the engine interface: complete, and no exception gets out.
+// The core behind the engine interface: complete, and no exception escapes.
 #include "core/math/through_float.h"
 #include "oracles/core/core_engine.h"
 #include "tests/support/catch.h"
@@ -10,7 +10,8 @@ TEST_CASE("the core engine answers every question of a case, in order", "[engine
   c.scene.shapes = {Sphere{1}, HalfSpace{}};
   c.scene.bodies.resize(3);
   c.scene.bodies[1].pose.translation = Vec3(1.5, 0, 0.5);
-  c.scene.bodies[2].shape = 1, c.scene.bodies[2].is_static = true;
+  c.scene.bodies[2].shape = 1;
+  c.scene.bodies[2].is_static = true;
   for (int q = 0; q < 6; ++q) c.queries.push_back({static_cast<Question>(q), 0, 1});
   c.queries.push_back({Question::overlap, 0, 9});
   c.queries.push_back({Question::distance, 2, 2});
@@ -33,7 +34,7 @@ TEST_CASE("the core engine answers every question of a case, in order", "[engine
   CHECK(engine->card().tau_factor == 128);
 }
 
-TEST_CASE("what the float core has received is float in every number", "[engine][float]") {
+TEST_CASE("every number that the float core has received is a float", "[engine][float]") {
   Case c;
   const Vec3 odd(1.0 / 3, 0.1, 0.7);
   c.scene.shapes = {Box{odd}, make_hull({odd, -odd, Vec3(0.1, -0.7, 0.3), Vec3(-0.9, 0.2, 0.1)}),

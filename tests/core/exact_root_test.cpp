@@ -1,4 +1,4 @@
-// Integers of any size and signs at roots of polynomials.
+// Integers of any size, and signs at the roots of polynomials.
 #include "core/impact/exact_root.h"
 #include "core/math/rng.h"
 #include "tests/support/catch.h"
@@ -44,7 +44,7 @@ TEST_CASE("integers: sums and products agree with 128-bit arithmetic", "[exact]"
   CHECK((-Integer(0)).sign() == 0);
 }
 
-TEST_CASE("roots: each is alone in its interval, whatever its multiplicity", "[exact]") {
+TEST_CASE("roots: each has its own interval, whatever its multiplicity", "[exact]") {
   const DyadicInterval all{Integer(-8), Integer(8), 0};
   // (t − 1)²(t + 2): two distinct roots; t³ − 2: one; t² + 1: none; (t − 3)³: one.
   CHECK(isolated_roots(poly({2, -3, 0, 1}), all).size() == 2);
@@ -59,7 +59,7 @@ TEST_CASE("roots: each is alone in its interval, whatever its multiplicity", "[e
   CHECK(isolated_roots(poly({0, -1}) * poly({1, -two40}), all).size() == 2);
 }
 
-TEST_CASE("roots: signs of other polynomials there are exact, zero included", "[exact]") {
+TEST_CASE("roots: signs of other polynomials at a root are exact, zero included", "[exact]") {
   const auto p = poly({-2, 0, 1});  // ±√2
   const auto roots = isolated_roots(p, {Integer(-8), Integer(8), 0});
   REQUIRE(roots.size() == 2);
@@ -70,14 +70,14 @@ TEST_CASE("roots: signs of other polynomials there are exact, zero included", "[
   CHECK(sign(1, {0, 1}) == 1);
   CHECK(sign(1, {-4, 0, 2}) == 0);
   CHECK(sign(0, {}) == 0);
-  // √2 against convergents of its continued fraction, within 2^-39, by turns below and above.
+  // √2 against convergents of its continued fraction, within 2^-39, alternately below and above.
   CHECK(sign(1, {-941664, 665857}) == 1);
   CHECK(sign(1, {-665857, 470832}) == -1);
   CHECK(sign(1, {-1607521, 1136689}) == 1);
   const DyadicInterval near = narrowed(p, roots[1]);
   CHECK(below({near.lo - Integer(1).shifted(near.bits), Integer(0), near.bits}) ==
         Approx(0.41421356237309505));
-  // A root of even multiplicity is narrowed by counting.
+  // The interval of a root of even multiplicity is narrowed by counting roots.
   const auto square = p * p;
   const auto twice = isolated_roots(square, {Integer(0), Integer(8), 0});
   REQUIRE(twice.size() == 1);

@@ -1,5 +1,5 @@
 // Simpler shapes are within the error that they state, and a world run by a plan is within the plan's error
-// of the truth as the referee has it.
+// of the referee's truth.
 #include "core/math/rng.h"
 #include "core/world/seen.h"
 #include "core/world/step_world.h"
@@ -34,7 +34,7 @@ double support_value(const Shape& s, const Pose& p, const Vec3& n) {
                                     s);
 }
 
-// The largest difference of the support functions over many directions.
+// The largest difference between the support functions over many directions.
 double difference(Rng& rng, const Shape& s, const SimplerShape& by) {
   double worst = 0;
   for (int i = 0; i < 2000; ++i) {
@@ -97,7 +97,8 @@ Scene crowd(Rng& rng, int n) {
 
 Fidelity coarse(const Scene& s, double error, Arithmetic arithmetic) {
   Fidelity f;
-  f.error = error, f.remember = f.loose_boxes = true;
+  f.error = error;
+  f.remember = f.loose_boxes = true;
   for (const Shape& shape : s.shapes)
     f.simpler.push_back(simpler_shape(shape, Fidelity::shape_share * error));
   for (auto& row : f.method) row.fill({true, arithmetic});
@@ -126,7 +127,7 @@ TEST_CASE("a simpler shape is within the error that it states", "[fidelity]") {
     CHECK(s->error >= 0.5e-3);  // the corner that was cut, seen along the diagonal
     CHECK(simpler_shape(h, 1e-5) == std::nullopt);
   }
-  SECTION("a cloud keeps fewer vertices the more is allowed") {
+  SECTION("a cloud keeps fewer vertices the larger the allowed error") {
     const Hull h = ball_like(rng, 300);
     std::size_t before = h.vertices.size();
     for (const double allowed : {1e-3, 1e-2}) {
@@ -140,7 +141,7 @@ TEST_CASE("a simpler shape is within the error that it states", "[fidelity]") {
       before = hull->vertices.size();
     }
   }
-  SECTION("points inside a hull go at no cost, extreme ones do not") {
+  SECTION("removing points inside a hull costs nothing, removing extreme ones does") {
     Hull h = ball_like(rng, 30);
     for (int i = 0; i < 30; ++i) h.vertices.push_back(Vec3(1, 2, 3) + 0.1 * direction(rng));
     h = make_hull(h.vertices);
@@ -149,7 +150,7 @@ TEST_CASE("a simpler shape is within the error that it states", "[fidelity]") {
     CHECK(std::get<Hull>(s->shape).vertices.size() == 30);
     CHECK(simpler_shape(s->shape, 1e-12) == std::nullopt);
   }
-  SECTION("round bodies whose sizes are even are balls") {
+  SECTION("round bodies of equal sizes are balls") {
     CHECK(kind_of(simpler_shape(Ellipsoid{{1, 1, 1}}, 0)->shape) == ShapeKind::sphere);
     CHECK(simpler_shape(Ellipsoid{{1, 1, 1.01}}, 1e-3) == std::nullopt);
     const Shape capsule = Capsule{0.5, 1e-3};
@@ -209,7 +210,7 @@ TEST_CASE("a world run by a plan is within the plan's error of the truth", "[fid
         return t.a == c.a && t.b == c.b && std::abs(t.contact.depth - c.contact.depth) <= error;
       });
     }
-    // What one has and the other has not is no deeper than the error.
+    // A pair that only one of them reports is no deeper than the error.
     for (const PairContact& t : truth.contacts)
       if (t.contact.depth > error)
         CHECK(std::any_of(r.contacts.begin(), r.contacts.end(),
@@ -218,12 +219,13 @@ TEST_CASE("a world run by a plan is within the plan's error of the truth", "[fid
     for (int i = 0; i < 40; ++i) {
       Pose p = planned.end_pose(i);
       p.translation += 0.02 * direction(rng);
-      plain.set(i, p, {}), planned.set(i, p, {});
+      plain.set(i, p, {});
+      planned.set(i, p, {});
     }
   }
 }
 
-TEST_CASE("double alone takes the sign of the gap for the verdict, and proves its bound", "[fidelity]") {
+TEST_CASE("double alone uses the sign of the gap as verdict, and proves its bound", "[fidelity]") {
   Rng rng(14);
   int touching = 0;
   for (int i = 0; i < 200; ++i) {
@@ -248,7 +250,7 @@ TEST_CASE("double alone takes the sign of the gap for the verdict, and proves it
   CHECK(touching > 150);
 }
 
-TEST_CASE("balls decide no pair that touches", "[fidelity]") {
+TEST_CASE("bounding balls never decide a touching pair", "[fidelity]") {
   Rng rng(13);
   for (int i = 0; i < 200; ++i) {
     const Shape a = some_shape(rng), b = some_shape(rng);

@@ -1,7 +1,5 @@
 // Times of impact against the referee: hits and misses, the gap at the time, the depth before it. Published
-// hulls too, where they are there (TS_SHARED_DATA in the environment says where).
-#include <cstdio>
-#include <cstdlib>
+// hulls too, when they are present.
 #include <filesystem>
 
 #include "core/impact/impact.h"
@@ -10,6 +8,8 @@
 #include "scenarios/import/hull_zoo.h"
 #include "tests/core/random_course.h"
 #include "tests/support/catch.h"
+#include "tests/support/shared_data.h"
+#include "tests/support/skip.h"
 
 using namespace touchstone;
 using namespace touchstone::test;
@@ -20,7 +20,7 @@ struct Tally {
   int cases = 0, hits = 0, decided = 0;
 };
 
-// By the referee: the verdict, the gap at the time, the depth before it.
+// Checks against the referee: the verdict, the gap at the time, the depth before it.
 void check_course(const CoursePair& c, Tally& n) {
   using Verdict = referee::TimeTruth::Verdict;
   const ImpactAnswer x = time_of_impact({&c.p.a, c.p.pose_a, c.ma}, {&c.p.b, c.p.pose_b, c.mb});
@@ -28,7 +28,9 @@ void check_course(const CoursePair& c, Tally& n) {
   const referee::TimeTruth truth = referee::judge_motion(a, c.ma, b, c.mb);
   const double tau = tolerance::core_tau_factor * 0x1p-53 * scale_of(c);
   REQUIRE(x.outcome == Outcome::answered);
-  ++n.cases, n.hits += x.toi.has_value(), n.decided += truth.verdict != Verdict::undecided;
+  ++n.cases;
+  n.hits += x.toi.has_value();
+  n.decided += truth.verdict != Verdict::undecided;
   if (!x.toi) {
     CHECK(referee::certified_depth_before(a, c.ma, b, c.mb, 1) <= tau);
     return;
@@ -37,13 +39,13 @@ void check_course(const CoursePair& c, Tally& n) {
   CHECK(referee::gap_at(a, c.ma, b, c.mb, *x.toi).lo <= tau);
   if (*x.toi == 0) return;
   CHECK(referee::certified_depth_before(a, c.ma, b, c.mb, *x.toi) <= tau);
-  // What is proven clear is clear.
+  // Times that are proven clear are clear.
   if (truth.verdict == Verdict::hit) CHECK(x.clear_until <= truth.t_hi);
 }
 
 }  // namespace
 
-TEST_CASE("impact: never missed, late, early or a ghost, by the referee", "[impact][referee]") {
+TEST_CASE("impact: the referee finds no hit missed, late, early or a ghost", "[impact][referee]") {
   Tally n;
   for (std::uint64_t i = 0; i < 360; ++i) {
     Rng r = Rng::stream(4242, i);
@@ -56,27 +58,29 @@ TEST_CASE("impact: never missed, late, early or a ghost, by the referee", "[impa
   CHECK(n.decided > 0.9 * n.cases);
 }
 
-TEST_CASE("impact: published hulls, sheets and needles among them, in motion", "[impact][referee][real]") {
-  const char* asked = std::getenv("TS_SHARED_DATA");
-  const std::filesystem::path zoo = std::filesystem::path(asked ? asked : TS_SHARED_DATA) / "hulls";
-  if (!std::filesystem::exists(zoo)) {
-    std::printf("skipped: %s is absent\n", zoo.c_str());
-    return;
-  }
+TEST_CASE("impact: published hulls in motion, including sheets and needles",
+          "[impact][referee][real][data]") {
+  const std::filesystem::path zoo = shared_data() / "hulls";
+  if (!std::filesystem::exists(zoo)) return skip(zoo.string() + " is absent");
   const std::vector<ZooHull> hulls = load_hull_zoo(zoo);
   Tally n;
   for (std::uint64_t i = 0; i < 260; ++i) {
     Rng r = Rng::stream(99, i);
     CoursePair c;
-    // As large as each other and about their middles, at the same place as before the scaling.
+    // Scaled to equal size about their middles, at the same place as before.
     const auto take = [&](Shape& s, Pose& pose) {
       std::vector<Vec3> v = hulls[r.below(hulls.size())].vertices;
       Vec3 lo = v[0], hi = v[0];
-      for (const Vec3& x : v) lo = lo.cwiseMin(x), hi = hi.cwiseMax(x);
+      for (const Vec3& x : v) {
+        lo = lo.cwiseMin(x);
+        hi = hi.cwiseMax(x);
+      }
       for (Vec3& x : v) x = (x - (lo + hi) / 2) / ((hi - lo).maxCoeff() / 2);
-      s = make_hull(std::move(v)), pose.rotation = r.rotation();
+      s = make_hull(std::move(v));
+      pose.rotation = r.rotation();
     };
-    take(c.p.a, c.p.pose_a), take(c.p.b, c.p.pose_b);
+    take(c.p.a, c.p.pose_a);
+    take(c.p.b, c.p.pose_b);
     c.p.pose_b.translation = r.unit_vector() * r.uniform(3, 5);
     c.mb.linear = -c.p.pose_b.translation * r.uniform(0.4, 1.6) + r.unit_vector() * 0.8;
     if (i % 3 > 0) c.mb.angular = r.vector(0.1, i % 3 == 1 ? 1 : 15);

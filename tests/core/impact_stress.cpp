@@ -1,7 +1,7 @@
 // impact_stress [CASES] [SEED] [SAMPLES] [FAMILY] [FIRST]: random motions of random pairs, of all families or
-// of the one of that number, from case FIRST on. The answer is held against the gap in extended precision at
-// the time stated and at random times before it, most of them shortly before, and against what is known by
-// construction. Run by hand, not by ctest. `undecided`: extended precision does not tell the gap. `grain`:
+// of number FAMILY, starting with case FIRST. The answer is checked against the gap in extended precision at
+// the reported time and at random times before it, most of them shortly before, and against what is known by
+// construction. Run by hand, not by ctest. `undecided`: extended precision cannot determine the gap. `grain`:
 // the bodies move so fast that no double is nearer to contact.
 #include <chrono>
 #include <cstdio>
@@ -33,11 +33,12 @@ struct Check {
     return narrow::separate(c.p.a, wide_frame_at(c.p.pose_a, c.ma, t), c.p.b,
                             wide_frame_at(c.p.pose_b, c.mb, t));
   }
-  // Where its bounds have not met: what is certain of it, at most 0 from below.
+  // Where its bounds have not met: the certain part of the gap, but at least 0.
   Wide gap_at(Wide t, long& undecided) const {
     const Separation s = at(t);
     if (s.outcome == Outcome::answered) return s.gap;
-    return ++undecided, std::max<Wide>(0, s.gap - s.slack);
+    ++undecided;
+    return std::max<Wide>(0, s.gap - s.slack);
   }
   bool overlapped_before(Rng& r, double end, int samples, long& undecided) const {
     for (int k = 0; k < samples; ++k) {
@@ -47,8 +48,8 @@ struct Check {
     }
     return false;
   }
-  // Unit normal, points as far apart along it as the gap; across it they are as good as a sliver of a simplex
-  // on a curved body makes them.
+  // A unit normal, and points whose distance along it is the gap. Across it they are only as good as a sliver
+  // simplex on a curved body allows.
   bool odd_contact() const {
     if (!x.toi || *x.toi == 0) return false;
     const Vec3 d = x.witness_w[1] - x.witness_w[0];
@@ -57,23 +58,29 @@ struct Check {
   }
 };
 
+const char* counted(long& count, const char* what) {
+  ++count;
+  return what;
+}
+
 const char* judge(const Check& k, Count& n, Rng& r, int samples) {
   const auto& [c, x, l, tau] = k;
-  if (x.outcome != Outcome::answered) return ++n.failed, "not converged";
-  if (k.odd_contact()) return ++n.odd, "odd contact";
+  if (x.outcome != Outcome::answered) return counted(n.failed, "not converged");
+  if (k.odd_contact()) return counted(n.odd, "odd contact");
   const double end = x.toi.value_or(1);
   if (x.toi) {
-    ++n.hits, n.start += end == 0;
+    ++n.hits;
+    n.start += end == 0;
     const double g = static_cast<double>(k.gap_at(end, n.undecided));
     if (end > 0) n.worst = std::max(n.worst, std::abs(g) / l);
-    if (g > tau && k.gap_at(std::nextafter(end, 1.0), n.undecided) < -tau) return ++n.grain, nullptr;
-    if (g > tau) return ++n.early, "early";
-    if (c.least_gap > tau) return ++n.ghost, "ghost";
-    if (g < -tau && end > 0) return ++n.late, "late";
+    if (g > tau && k.gap_at(std::nextafter(end, 1.0), n.undecided) < -tau) return counted(n.grain, nullptr);
+    if (g > tau) return counted(n.early, "early");
+    if (c.least_gap > tau) return counted(n.ghost, "ghost");
+    if (g < -tau && end > 0) return counted(n.late, "late");
   }
   if (end > c.contact_by && k.gap_at(c.contact_by, n.undecided) < -tau)
-    return ++n.missed, "missed what is known";
-  if (end > 0 && k.overlapped_before(r, end, samples, n.undecided)) return ++n.missed, "missed";
+    return counted(n.missed, "missed what is known");
+  if (end > 0 && k.overlapped_before(r, end, samples, n.undecided)) return counted(n.missed, "missed");
   return nullptr;
 }
 
@@ -95,8 +102,12 @@ int main(int argc, char** argv) {
     const auto before = std::chrono::steady_clock::now();
     const ImpactAnswer x = time_of_impact({&c.p.a, c.p.pose_a, c.ma}, {&c.p.b, c.p.pose_b, c.mb});
     const double us = static_cast<double>((std::chrono::steady_clock::now() - before).count()) / 1e3;
-    n.total += us, ++n.cases;
-    if (us > n.slowest) n.slowest = us, n.slowest_case = i;
+    n.total += us;
+    ++n.cases;
+    if (us > n.slowest) {
+      n.slowest = us;
+      n.slowest_case = i;
+    }
     const double l = scale_of(c);
     const char* why = judge({c, x, l, tolerance::core_tau_factor * 0x1p-53 * l}, n, r, samples);
     if (why && shown++ < 12) {

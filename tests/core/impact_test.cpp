@@ -17,7 +17,7 @@ Pose at(double x, double y, double z) { return {Vec3(x, y, z), {}}; }
 Motion going(double x, double y, double z) { return {Vec3(x, y, z), Vec3::Zero()}; }
 }  // namespace
 
-TEST_CASE("impact: straight lines have the times of school geometry", "[impact]") {
+TEST_CASE("impact: straight lines have the times of elementary geometry", "[impact]") {
   const Shape ball = Sphere{0.5}, box = Box{{0.5, 0.5, 0.5}}, ground = HalfSpace{},
               hull = make_hull({{-1, 0, 0}, {1, 0, 0}, {0, 1, 0}});
   CHECK(*time_of_impact({&ball, {}, going(8, 0, 0)}, {&ball, at(5, 0, 0), {}}).toi ==
@@ -97,8 +97,7 @@ TEST_CASE("impact: never late, never early, never missed by more than tau, again
   CHECK(hits < 0.7 * static_cast<double>(cases));
 }
 
-TEST_CASE("impact: in translation no later and no earlier than tau, points where the bodies meet",
-          "[impact][random]") {
+TEST_CASE("impact: translations are exact to tau, with points where the bodies meet", "[impact][random]") {
   using enum ShapeKind;
   const ShapeKind kinds[] = {sphere, capsule, box, hull};
   int cases = 0, hits = 0;
@@ -141,7 +140,7 @@ TEST_CASE("impact: pairs that nearly touch at the start, or roll on each other, 
     most = std::max(most, x.steps);
   }
   CHECK(open > 200);
-  // Along directions that stand still some of these need thousands.
+  // With fixed directions some of these need thousands.
   CHECK(most < 400);
 }
 
@@ -157,7 +156,7 @@ TEST_CASE("impact: round bodies about one centre overlap, by a depth that separa
     REQUIRE(x.toi);
     CHECK(*x.toi == 0);
     CHECK(x.separation < 0);
-    // A hair farther than stated they are apart.
+    // Moved slightly farther than the stated depth, they are apart.
     const Pose moved{x.normal_ab * (-x.separation * (1 + 1e-9)), at_b.rotation};
     CHECK_FALSE(overlap({&a, at_a}, {&b, moved}).overlap);
   }
@@ -188,7 +187,7 @@ TEST_CASE("impact: no motion, overlap from the start, spin without travel, many 
   CHECK_FALSE(time_of_impact({&rod, {}, fast}, {&ball, at(2.6, 0, 0), going(0, 0.1, 0)}).toi);
 }
 
-TEST_CASE("impact: sliding along a face is no contact, nor does it end early", "[impact]") {
+TEST_CASE("impact: sliding along a face is not a contact and does not end early", "[impact]") {
   const Shape box = Box{{1, 1, 1}}, floor = Box{{50, 50, 1}}, plane = HalfSpace{};
   for (const double gap : {1e-3, 1e-9, 1e-12}) {
     CHECK_FALSE(time_of_impact({&box, at(-20, 0, 2 + gap), going(40, 3, 0)}, {&floor, {}, {}}).toi);
@@ -244,7 +243,7 @@ TEST_CASE("impact: normal and points are those of the contact, from A to B", "[i
     CHECK((std::abs(x.z() - 1) < 1e-13 && x.cwiseAbs().maxCoeff() < 1.5 + 1e-13));
 }
 
-TEST_CASE("impact: a mesh's tree leaves the answer as it is", "[impact][mesh]") {
+TEST_CASE("impact: a mesh's tree does not change the answer", "[impact][mesh]") {
   TriangleMesh terrain;
   constexpr int n = 24;
   Rng g = Rng::stream(5, 5);
@@ -270,7 +269,7 @@ TEST_CASE("impact: a mesh's tree leaves the answer as it is", "[impact][mesh]") 
     CHECK(with.toi.has_value() == without.toi.has_value());
     if (!with.toi) continue;
     CHECK(*with.toi == Approx(*without.toi).epsilon(1e-12));
-    if (*with.toi == 0) continue;  // however deep
+    if (*with.toi == 0) continue;  // any depth
     ++hits;
     const double gap = distance({&body, pose_at(pose, m, *with.toi)}, {&mesh, ground, &tree}).distance;
     CHECK(std::abs(gap) < 1e-12);

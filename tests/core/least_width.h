@@ -1,5 +1,5 @@
-// Second opinion on depth: w(n) = h_A(n) + h_B(−n) from its definition, with support functions written out
-// here in long double, and its least value by search over the sphere. Shares no code with the narrow phase.
+// A second opinion on depth: w(n) = h_A(n) + h_B(−n) from its definition, with support functions written out
+// here in long double, and its minimum by search over the sphere. Shares no code with the narrow phase.
 #pragma once
 
 #include <algorithm>
@@ -40,14 +40,20 @@ class Width {
     return height_along(a_, ra_.transpose() * u) + height_along(b_, rb_.transpose() * -u) - offset_.dot(u);
   }
 
-  /// Least value found by starts over the sphere and the bodies' axes, each improved by pattern search.
+  /// The minimum found from starts over the sphere and the bodies' axes, each improved by pattern search.
   Wide least(Rng& r, int starts, const WideVec& hint) const {
     std::vector<std::pair<Wide, WideVec>> seeds{{(*this)(hint), hint}};
     const auto add = [&](const WideVec& n) {
       if (n.norm() > 0) seeds.emplace_back((*this)(n), n.normalized());
     };
-    for (int k = 0; k < 3; ++k) add(ra_.col(k)), add(-ra_.col(k)), add(rb_.col(k)), add(-rb_.col(k));
-    add(offset_), add(-offset_);
+    for (int k = 0; k < 3; ++k) {
+      add(ra_.col(k));
+      add(-ra_.col(k));
+      add(rb_.col(k));
+      add(-rb_.col(k));
+    }
+    add(offset_);
+    add(-offset_);
     for (int k = 0; k < starts; ++k) add(r.unit_vector().cast<Wide>());
     std::partial_sort(seeds.begin(), seeds.begin() + 4, seeds.end(),
                       [](auto& x, auto& y) { return x.first < y.first; });
@@ -65,7 +71,10 @@ class Width {
       for (int k = 0; k < 12; ++k) {
         const Wide angle = k * 0.52359877559829887308L;
         const WideVec n = (at.second + step * (std::cos(angle) * u + std::sin(angle) * v)).normalized();
-        if (const Wide w = (*this)(n); w < at.first) at = {w, n}, better = true;
+        if (const Wide w = (*this)(n); w < at.first) {
+          at = {w, n};
+          better = true;
+        }
       }
       if (!better) step *= 0.5L;
     }

@@ -1,7 +1,7 @@
 // The fast paths against the extended-precision one, which proves its own slack: an answer that double or
-// float gives without help must be within the bound that it states, its verdict must be true, its witnesses
-// on the bodies. TOUCHSTONE_NARROW_ROUNDS multiplies the cases of a run by hand, TOUCHSTONE_NARROW_SEED makes
-// others.
+// float gives without falling back must be within the bound that it states, with a correct verdict and
+// witnesses on the bodies. By hand: TOUCHSTONE_NARROW_ROUNDS multiplies the number of cases,
+// TOUCHSTONE_NARROW_SEED changes them.
 #include <cstdlib>
 
 #include "core/math/through_float.h"
@@ -58,13 +58,15 @@ void enlarge(Shape& s, double by) {
 /// The pair as the arithmetic R receives it.
 template <class R>
 Pair received(Pair p) {
-  round_shape<R>(p.a), round_shape<R>(p.b);
+  round_shape<R>(p.a);
+  round_shape<R>(p.b);
   for (Pose* q : {&p.pose_a, &p.pose_b}) {
     const auto s = filtered::rounded_pose<R>(*q);
     q->rotation = {s.x, s.y, s.z, s.w};
-    if constexpr (sizeof(R) == sizeof(float))
-      q->translation = through_float(q->translation),
+    if constexpr (sizeof(R) == sizeof(float)) {
+      q->translation = through_float(q->translation);
       q->rotation = {through_float(s.x), through_float(s.y), through_float(s.z), through_float(s.w)};
+    }
   }
   return p;
 }
@@ -77,7 +79,7 @@ struct Truth {
   double gap, slack, scale, tau;
 };
 
-// A value, asked in either order; n points from the pair's A to its B.
+// Checks a value queried in either order; n points from the pair's A to its B.
 template <class R>
 void check_value(const Width& width, const Truth& t, const filtered::Answer<R>& s, bool swapped) {
   const double bound = static_cast<double>(s.bound), gap = static_cast<double>(s.gap);
@@ -87,7 +89,7 @@ void check_value(const Width& width, const Truth& t, const filtered::Answer<R>& 
   if (s.found == filtered::Found::meeting) CHECK(t.gap <= 0);
   const V3<R> n = swapped ? V3<R>(-s.normal) : s.normal;
   CHECK(std::abs(static_cast<double>(n.norm()) - 1) <= 16 * filtered::u<R>);
-  // w(n) is that of the unit vector; the answer's own length is off by a few u.
+  // w(n) is for the unit vector; the answer's own length is off by a few u.
   CHECK(std::abs(static_cast<double>(width(n.template cast<Wide>())) + gap) <=
         bound + t.slack + 8 * filtered::u<R> * t.scale);
 }
@@ -106,7 +108,8 @@ void check_answers(const Pair& p, const Width& width, const Truth& t, bool swapp
     return s.found == filtered::Found::apart || s.found == filtered::Found::meeting;
   };
   if (const auto verdict = ask(filtered::Asked::overlap); says_verdict(verdict)) {
-    ++count.verdicts, ++count.judged;
+    ++count.verdicts;
+    ++count.judged;
     CHECK((verdict.found == filtered::Found::meeting) == (t.gap <= 0));
   }
   if (const auto contact = ask(filtered::Asked::contact); contact.found != filtered::Found::unsure) {
@@ -119,7 +122,8 @@ void check_answers(const Pair& p, const Width& width, const Truth& t, bool swapp
   }
   const auto value = ask(filtered::Asked::distance);
   if (value.found == filtered::Found::unsure) return;
-  ++count.answered, ++count.judged;
+  ++count.answered;
+  ++count.judged;
   count.depths += t.gap < 0;
   check_value<R>(width, t, value, swapped);
   CHECK(std::abs(static_cast<double>((value.b - value.a).norm()) -
@@ -135,7 +139,10 @@ void check_pair(const Pair& p, Count& count) {
   const Truth t{static_cast<double>(truth.gap), static_cast<double>(truth.slack), scale,
                 tolerance::core_tau_factor * filtered::u<R> * scale};
   const Width width(p.a, p.pose_a, p.b, p.pose_b);
-  for (const bool swapped : {false, true}) ++count.asked, check_answers<R>(p, width, t, swapped, count);
+  for (const bool swapped : {false, true}) {
+    ++count.asked;
+    check_answers<R>(p, width, t, swapped, count);
+  }
 }
 
 template <class R>
@@ -156,7 +163,7 @@ Count sweep(long rounds_a_kind, std::uint64_t seed) {
   return count;
 }
 
-// How many cases reached the assertions; said whether they hold or not.
+// How many cases reached the assertions, printed whether they hold or not.
 void report(const Count& c) {
   WARN(c.asked << " asked, " << c.answered << " values, " << c.verdicts << " verdicts, " << c.depths
                << " depths, " << c.judged << " answers judged");
@@ -179,7 +186,7 @@ TEST_CASE("in float, an answer is within the bound that it states", "[narrow][fa
   CHECK(c.depths > c.answered / 4);
 }
 
-TEST_CASE("a sliver of support points that encloses nothing is no overlap", "[narrow][fast]") {
+TEST_CASE("a sliver of support points that encloses nothing is not an overlap", "[narrow][fast]") {
   // Found by a run of 90,000 cases: the signs of a tetrahedron 5e-14 thin were noise, and its planes 0.9
   // away.
   Count count;
@@ -193,7 +200,7 @@ TEST_CASE("a sliver of support points that encloses nothing is no overlap", "[na
   CHECK(count.verdicts > 10);
 }
 
-TEST_CASE("boxes and capsules are answered without help at every angle and depth", "[narrow][fast]") {
+TEST_CASE("boxes and capsules need no fallback at any angle or depth", "[narrow][fast]") {
   Count in_double, in_float;
   for (int i = 0; i < 400; ++i)
     for (const ShapeKind other : {ShapeKind::box, ShapeKind::capsule}) {
@@ -214,7 +221,8 @@ TEST_CASE("boxes and capsules are answered without help at every angle and depth
       check_pair<double>(received<double>(p), in_double);
       check_pair<float>(received<float>(p), in_float);
     }
-  report(in_double), report(in_float);
+  report(in_double);
+  report(in_float);
   CHECK(in_double.depths * 4 > in_double.asked);
   CHECK(in_double.answered * 100 > in_double.asked * 99);
   CHECK(in_float.answered * 100 > in_float.asked * 99);
@@ -232,7 +240,7 @@ TEST_CASE("capsules on each other's axis have unit normals and feet that agree w
   CHECK(count.verdicts > 0);
 }
 
-TEST_CASE("spheres whose centres all but coincide have a unit normal", "[narrow][fast][float]") {
+TEST_CASE("spheres whose centres nearly coincide have a unit normal", "[narrow][fast][float]") {
   // Found by a run of 1,000 rounds: the square of their distance underflows.
   Count count;
   Rng r = Rng::stream(22, std::uint64_t{941 * 49} * regime_count + 5);
@@ -241,7 +249,7 @@ TEST_CASE("spheres whose centres all but coincide have a unit normal", "[narrow]
   CHECK(count.verdicts > 0);
 }
 
-TEST_CASE("what a long run in float found stays right", "[narrow][fast][float]") {
+TEST_CASE("cases that a long run in float found stay correct", "[narrow][fast][float]") {
   // The generator of a cone of slope 0.012 and an edge (kinds 4, 3: a direction to six digits only); discs of
   // radius 3e-13 (kinds 3, 1: squares of areas underflow).
   Count count;
@@ -274,7 +282,8 @@ TEST_CASE("a rim that is 1e-14 deep in a box is answered from either side", "[na
   CHECK(overlap(a, b).overlap);
 }
 
-TEST_CASE("boxes that touch with an edge have their contact where they touch", "[narrow][fast][float]") {
+TEST_CASE("boxes that touch with an edge have their contact point where they touch",
+          "[narrow][fast][float]") {
   // Touching within 2e-12 of 4e-3; in float the patch is empty, and the point was at A's origin.
   const Shape a = Box{Vec3(0.0008378817558754865, 0.0010415040637389214, 0.0009899889049220735)};
   const Shape b = Box{Vec3(0.00045869123321934824, 0.00034670013758641516, 0.0010688537889161842)};
@@ -290,7 +299,8 @@ TEST_CASE("boxes that touch with an edge have their contact where they touch", "
   CHECK((r.manifold.begin()->position - where).norm() < 1e-9);
 }
 
-TEST_CASE("pairs at the ends of float's range are answered as those in its middle", "[narrow][fast][float]") {
+TEST_CASE("pairs at the ends of float's range are answered like those in its middle",
+          "[narrow][fast][float]") {
   Count count;
   for (const double unit : {0x1p-60, 0x1p-30, 0x1p-24, 0x1p-20, 0x1p+28, 0x1p+32, 0x1p+60})
     for (int i = 0; i < 12; ++i)
@@ -301,9 +311,12 @@ TEST_CASE("pairs at the ends of float's range are answered as those in its middl
                random_shape(r, static_cast<ShapeKind>(b), false),
                {},
                {}};
-        p.pose_a.rotation = r.rotation(), p.pose_b.rotation = r.rotation();
+        p.pose_a.rotation = r.rotation();
+        p.pose_b.rotation = r.rotation();
         p.pose_b.translation = r.unit_vector() * r.uniform(0, 3);
-        enlarge(p.a, unit), enlarge(p.b, unit), p.pose_b.translation *= unit;
+        enlarge(p.a, unit);
+        enlarge(p.b, unit);
+        p.pose_b.translation *= unit;
         INFO(type_name(p.a) << " " << type_name(p.b) << " unit " << unit << " round " << i);
         check_pair<float>(received<float>(p), count);
       }
@@ -312,7 +325,7 @@ TEST_CASE("pairs at the ends of float's range are answered as those in its middl
   CHECK(count.depths > count.answered / 5);
 }
 
-TEST_CASE("round bodies with parallel axes have their depth without help, rings of minima and all",
+TEST_CASE("round bodies with parallel axes need no fallback for their depth, even with rings of minima",
           "[narrow][fast]") {
   // Kinds: sphere 0, capsule 2, cylinder 3, cone 4.
   Count in_double, in_float;
@@ -333,13 +346,14 @@ TEST_CASE("round bodies with parallel axes have their depth without help, rings 
       check_pair<double>(received<double>(p), in_double);
       check_pair<float>(received<float>(p), in_float);
     }
-  report(in_double), report(in_float);
+  report(in_double);
+  report(in_float);
   CHECK(in_double.depths * 2 > cases);
   CHECK(in_double.answered * 100 > in_double.asked * 97);
   CHECK(in_float.answered * 100 > in_float.asked * 97);
 }
 
-TEST_CASE("a flat box has no face where its corners are one", "[narrow][manifold]") {
+TEST_CASE("a flat box has no face where its corners coincide", "[narrow][manifold]") {
   // A segment, 0.1 deep in the top of a cube; its end is the only contact.
   const Shape segment = Box{{0, 0, 0.5}}, cube = Box{{1, 1, 1}};
   std::vector<Vec3> corners;

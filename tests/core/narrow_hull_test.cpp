@@ -1,4 +1,4 @@
-// Climbing along a hull's edges against looking at all its vertices: the same vertex, for every direction.
+// Hill climbing along a hull's edges against checking all its vertices: the same vertex for every direction.
 #include <algorithm>
 #include <cmath>
 
@@ -29,7 +29,7 @@ Hull lattice_ball(int radius) {
       for (int z = -radius; z <= radius; ++z)
         if (x * x + y * y + z * z <= radius * radius) v.push_back(Vec3(x, y, z));
   Hull h = make_hull(v);
-  // Those of its faces alone: points on faces would leave it without a graph.
+  // Only its corners: points on faces would leave it without a graph.
   std::vector<char> used(v.size(), 0);
   for (const auto& f : h.faces)
     for (const int i : f) used[static_cast<std::size_t>(i)] = 1;
@@ -39,7 +39,7 @@ Hull lattice_ball(int radius) {
   return make_hull(std::move(kept));
 }
 
-// Two parallel polygons of integer corners, exactly coplanar each.
+// Two parallel polygons with integer corners, each exactly coplanar.
 Hull prism(int n, double height) {
   std::vector<Vec3> v;
   for (int i = 0; i < n; ++i)
@@ -49,7 +49,7 @@ Hull prism(int n, double height) {
   return make_hull(std::move(v));
 }
 
-// Directions that tie, nearly tie, or are anything.
+// Directions with ties, near ties, or none.
 template <class R>
 V3<R> direction(Rng& r, const Hull& h) {
   const auto& f = h.faces[r.below(h.faces.size())];
@@ -97,13 +97,13 @@ bool check_hull(Rng& r, const Hull& h) {
 
 }  // namespace
 
-TEST_CASE("climbing finds the vertex that looking at all finds", "[narrow][hull]") {
+TEST_CASE("hill climbing finds the same vertex as checking all of them", "[narrow][hull]") {
   Rng r(71);
   int thin = 0;
   for (const int n : {4, 8, 33, 128, 600, 2000}) {
     CHECK(check_hull(r, on_ellipsoid(r, n, Vec3(1, 1, 1))));
     CHECK(check_hull(r, on_ellipsoid(r, n, Vec3(1, 0.01, 3))));
-    // So thin that some of its vertices may be dropped within rounding, and the graph with them.
+    // So thin that rounding may drop some of its vertices, and the graph with them.
     thin += check_hull(r, on_ellipsoid(r, n, Vec3(1, 1, 1e-7)));
     thin += check_hull(r, on_ellipsoid(r, n, Vec3(1e-3, 1e3, 1)));
   }
@@ -111,7 +111,7 @@ TEST_CASE("climbing finds the vertex that looking at all finds", "[narrow][hull]
   for (const int radius : {1, 3, 7}) CHECK(check_hull(r, lattice_ball(radius)));
 }
 
-TEST_CASE("a face of more vertices than are compared is looked at whole", "[narrow][hull]") {
+TEST_CASE("a face with more vertices than are compared is checked completely", "[narrow][hull]") {
   Rng r(72);
   const Hull h = prism(100, 512);
   const HullGraph g = build_hull_graph(h, 4);
@@ -120,7 +120,7 @@ TEST_CASE("a face of more vertices than are compared is looked at whole", "[narr
   check_directions<float>(r, h, g, 4000);
 }
 
-TEST_CASE("vertices deep inside leave a hull its graph, others do not", "[narrow][hull]") {
+TEST_CASE("a hull keeps its graph only if its unused vertices are deep inside", "[narrow][hull]") {
   Rng r(73);
   Hull h = on_ellipsoid(r, 200, Vec3(1, 2, 3));
   auto v = h.vertices;
@@ -134,7 +134,7 @@ TEST_CASE("vertices deep inside leave a hull its graph, others do not", "[narrow
   CHECK(inside == ((v[100] - v[101]).norm() > 0.5));
 }
 
-TEST_CASE("no graph of a hull that is small, flat, or not convex to the last bit", "[narrow][hull]") {
+TEST_CASE("a hull that is small, flat, or not convex to the last bit has no graph", "[narrow][hull]") {
   Rng r(74);
   CHECK_FALSE(build_hull_graph(on_ellipsoid(r, 255, Vec3(1, 1, 1))));
   CHECK_FALSE(build_hull_graph(on_ellipsoid(r, 300, Vec3(1, 1, 0))));
@@ -154,7 +154,7 @@ TEST_CASE("no graph of a hull that is small, flat, or not convex to the last bit
   CHECK_FALSE(build_hull_graph(h));
 }
 
-TEST_CASE("answers with a graph are those without", "[narrow][hull]") {
+TEST_CASE("answers are the same with and without a graph", "[narrow][hull]") {
   Rng r(75);
   long overlaps = 0;
   for (int i = 0; i < 60; ++i) {
@@ -184,14 +184,16 @@ TEST_CASE("hulls of a thousand vertices about one centre have a depth", "[narrow
   Rng rng(9);
   for (const int vertices : {300, 1000, 2000}) {
     Hull x, y;
-    for (int i = 0; i < vertices; ++i)
-      x.vertices.push_back(rng.unit_vector()), y.vertices.push_back(rng.unit_vector());
+    for (int i = 0; i < vertices; ++i) {
+      x.vertices.push_back(rng.unit_vector());
+      y.vertices.push_back(rng.unit_vector());
+    }
     const Shape a = x, b = y;
     const Pose at{Vec3(0, 0, 0), rng.rotation()};
     const ContactAnswer c = contact({&a, Pose{}}, {&b, at});
     CAPTURE(vertices);
     REQUIRE(c.outcome == Outcome::answered);
-    // Two balls but for what is cut off them, which is less the more vertices they have.
+    // Nearly two balls; more vertices cut off less of them.
     CHECK(c.depth > 1.85);
     CHECK(c.depth < 2);
     CHECK(std::abs(static_cast<double>(test::Width(a, Pose{}, b, at)(c.normal.cast<Wide>())) - c.depth) <
@@ -199,8 +201,8 @@ TEST_CASE("hulls of a thousand vertices about one centre have a depth", "[narrow
   }
 }
 
-TEST_CASE("the manifold of a face of many corners covers it", "[narrow][hull]") {
-  // 64 corners lie on a box: their polygon has 0.5 % more area than that of what is kept, 32. At depth 0
+TEST_CASE("the manifold of a face with many corners covers it", "[narrow][hull]") {
+  // 64 corners lie on a box: their polygon has 0.5 % more area than that of the 32 that are kept. At depth 0
   // extended precision answers.
   const Hull h = prism(64, 512);
   const HullGraph g = build_hull_graph(h, 4);

@@ -1,5 +1,5 @@
-// Ladders: one difficulty turned up rung by rung, for every pair of convex shapes, judged by the referee.
-// Every other rung here; TOUCHSTONE_NARROW_ROUNDS=n climbs all of them n times, with other sizes each time.
+// Ladders: one difficulty raised rung by rung, for every pair of convex shapes, judged by the referee. Runs
+// every other rung; TOUCHSTONE_NARROW_ROUNDS=n climbs all of them n times, with other sizes each time.
 #include <cstdlib>
 
 #include "core/tolerance.h"
@@ -28,7 +28,8 @@ Shape plain_shape(Rng& rng, ShapeKind kind) {
 
 Pair plain_pair(Rng& r, ShapeKind a, ShapeKind b) {
   Pair p{plain_shape(r, a), plain_shape(r, b), {}, {}};
-  p.pose_a.rotation = r.rotation(), p.pose_b.rotation = r.rotation();
+  p.pose_a.rotation = r.rotation();
+  p.pose_b.rotation = r.rotation();
   p.pose_b.translation = 3 * r.unit_vector();
   return p;
 }
@@ -39,7 +40,7 @@ struct Tally {
 
 double outside(double x, double lo, double hi) { return std::max({lo - x, x - hi, 0.0}); }
 
-// Truth.md §3, each answer by what it claims.
+// Judges each answer by what it claims, as in truth.md §3.
 void judge(const Pair& p, Tally& t) {
   const Placed a{&p.a, p.pose_a}, b{&p.b, p.pose_b};
   const referee::PairTruth truth = referee::judge_pair(a, b);
@@ -47,7 +48,9 @@ void judge(const Pair& p, Tally& t) {
   const bool decided = truth.verdict != referee::Verdict::undecided;
   const bool overlapping = truth.verdict == referee::Verdict::overlap;
   const double least = std::min(std::abs(truth.gap.lo), std::abs(truth.gap.hi));
-  ++t.cases, t.overlaps += overlapping, t.undecided += !decided;
+  ++t.cases;
+  t.overlaps += overlapping;
+  t.undecided += !decided;
 
   const OverlapAnswer o = overlap(p.placed_a(), p.placed_b());
   REQUIRE(o.outcome == Outcome::answered);
@@ -74,7 +77,7 @@ void judge(const Pair& p, Tally& t) {
   }
 }
 
-// f(rng, pair, exponent) makes the rung; exponents from `from` to `to`.
+// f(rng, pair, exponent) builds the rung; exponents run from `from` to `to`.
 template <class F>
 Tally climb(int from, int to, std::uint64_t seed, F&& f) {
   Tally t;
@@ -113,7 +116,8 @@ TEST_CASE("ladder of the scale, 1e-6 to 1e6", "[narrow][ladder]") {
   climb(-6, 6, 32, [](Rng& r, Pair& p, int k) {
     aim_twice(p, signed_gap(r, 0.03));
     const double s = std::pow(10.0, k);
-    scale_shape(p.a, s), scale_shape(p.b, s);
+    scale_shape(p.a, s);
+    scale_shape(p.b, s);
     p.pose_b.translation *= s;
   });
 }
@@ -122,13 +126,14 @@ TEST_CASE("ladder of the offset, 1 to 1e8", "[narrow][ladder]") {
   climb(0, 8, 33, [](Rng& r, Pair& p, int k) {
     aim_twice(p, signed_gap(r, 0.03));
     const Vec3 offset = r.unit_vector() * std::pow(10.0, k);
-    p.pose_a.translation += offset, p.pose_b.translation += offset;
+    p.pose_a.translation += offset;
+    p.pose_b.translation += offset;
   });
 }
 
 TEST_CASE("ladder of the aspect, 1 to 1e6", "[narrow][ladder]") {
   climb(-6, 0, 34, [](Rng& r, Pair& p, int k) {
-    // One size of A, and of every vertex of a hull, shrinks.
+    // One size of A shrinks; for a hull, one coordinate of every vertex.
     const double s = std::pow(10.0, k);
     if (auto* x = std::get_if<Box>(&p.a)) x->half_extents.x() *= s;
     if (auto* x = std::get_if<Capsule>(&p.a)) x->radius *= s;

@@ -1,4 +1,4 @@
-// A convex body against a mesh: with a tree as without, triangle by triangle as the referee judges it.
+// A convex body against a mesh: the same with and without a tree, and as the referee judges it by triangle.
 #include "core/narrow/mesh_tree.h"
 #include "core/narrow/pair_table.h"
 #include "core/tolerance.h"
@@ -21,7 +21,8 @@ TriangleMesh field(Rng& r, int n) {
   for (int y = 0; y < n; ++y)
     for (int x = 0; x < n; ++x) {
       const int k = y * (n + 1) + x;
-      m.triangles.push_back({k, k + 1, k + n + 1}), m.triangles.push_back({k + 1, k + n + 2, k + n + 1});
+      m.triangles.push_back({k, k + 1, k + n + 1});
+      m.triangles.push_back({k + 1, k + n + 2, k + n + 1});
     }
   return m;
 }
@@ -42,7 +43,8 @@ struct MeshCase {
 MeshCase mesh_case(int i, int kind, int n) {
   Rng r = Rng::stream(91, static_cast<std::uint64_t>(i * 7 + kind));
   MeshCase c{body(r, kind), field(r, n), {}, {}};
-  c.pose_a.rotation = r.rotation(), c.pose_mesh.rotation = r.rotation();
+  c.pose_a.rotation = r.rotation();
+  c.pose_mesh.rotation = r.rotation();
   c.pose_mesh.translation = r.unit_vector() * 5;
   const Vec3 local(r.uniform(-2.5, 2.5), r.uniform(-2.5, 2.5), r.uniform(-2, 2));
   c.pose_a.translation = rotation_matrix(c.pose_mesh.rotation) * local + c.pose_mesh.translation;
@@ -51,7 +53,7 @@ MeshCase mesh_case(int i, int kind, int n) {
 
 }  // namespace
 
-TEST_CASE("a mesh tree holds every triangle once, inside its boxes", "[narrow][mesh]") {
+TEST_CASE("a mesh tree contains every triangle once, inside its boxes", "[narrow][mesh]") {
   for (const int n : {0, 1, 2, 7}) {
     Rng r = Rng::stream(90, static_cast<std::uint64_t>(n));
     const TriangleMesh m = field(r, n);
@@ -70,7 +72,8 @@ TEST_CASE("a mesh tree holds every triangle once, inside its boxes", "[narrow][m
   }
 }
 
-TEST_CASE("a body against a mesh: the same with a tree, and what the referee says", "[narrow][mesh]") {
+TEST_CASE("a body against a mesh: the same with a tree, and in agreement with the referee",
+          "[narrow][mesh]") {
   long overlaps = 0, cases = 0, fast = 0;
   for (int i = 0; i < 8; ++i)
     for (int kind = 0; kind < 7; ++kind) {
@@ -82,23 +85,27 @@ TEST_CASE("a body against a mesh: the same with a tree, and what the referee say
       Scene scene;
       scene.shapes = {c.a, c.mesh};
       scene.bodies.resize(2);
-      scene.bodies[0].shape = 0, scene.bodies[0].pose = c.pose_a;
-      scene.bodies[1].shape = 1, scene.bodies[1].pose = c.pose_mesh;
+      scene.bodies[0].shape = 0;
+      scene.bodies[0].pose = c.pose_a;
+      scene.bodies[1].shape = 1;
+      scene.bodies[1].pose = c.pose_mesh;
       const double tau = tolerance::core_tau_factor * 0x1p-53 * scale_of_pair(scene, 0, 1);
       narrow::FastAnswer<double> f;
       narrow::separate_fast<double>(a, b, narrow::filtered::Asked::distance, f);
       fast += f.answer.found != narrow::filtered::Found::unsure;
 
-      // Truth of the surface: the least of the triangles', each a hull of three vertices.
+      // Truth for the surface: the minimum over its triangles, each a hull of three vertices.
       double lo = std::numeric_limits<double>::infinity(), hi = lo;
       for (const auto& t : mesh.triangles) {
         std::vector<Vec3> v;
         for (const int k : t) v.push_back(mesh.vertices[static_cast<std::size_t>(k)]);
         const Shape triangle = make_hull(std::move(v));
         const auto truth = referee::judge_pair({&c.a, c.pose_a}, {&triangle, c.pose_mesh});
-        lo = std::min(lo, truth.gap.lo), hi = std::min(hi, truth.gap.hi);
+        lo = std::min(lo, truth.gap.lo);
+        hi = std::min(hi, truth.gap.hi);
       }
-      ++cases, overlaps += hi < 0;
+      ++cases;
+      overlaps += hi < 0;
       for (const PlacedShape& m : {plain, b}) {
         const DistanceAnswer d = distance(a, m);
         REQUIRE(d.outcome == Outcome::answered);

@@ -1,24 +1,24 @@
-// Contacts of recorded piles at rest, from frame to frame: how much of what changes in the answers is not in
-// the motion of the bodies. A pair counts when it touches in both frames and has moved by 1 mm at most (sizes
-// are about 0.5 m).
+// Contacts of recorded piles at rest, from frame to frame: how much the answers change beyond the motion of
+// the bodies. A pair counts when it touches in both frames and has moved by at most 1 mm (sizes are about 0.5
+// m).
 #include <algorithm>
-#include <cstdio>
 #include <filesystem>
 #include <vector>
 
 #include "core/narrow/narrow_phase.h"
 #include "scenarios/import/real_scene.h"
 #include "tests/support/catch.h"
+#include "tests/support/shared_data.h"
+#include "tests/support/skip.h"
 
 using namespace touchstone;
 
 namespace {
 
-const std::filesystem::path data_root = TS_SHARED_DATA;
-
 struct Jitter {
   long pairs = 0, flips = 0, other_ids = 0, points = 0;
-  std::vector<double> normal, point;  // beyond the bodies' own turn and step; of pairs that keep theirs
+  std::vector<double> normal,
+      point;  // beyond the bodies' own rotation and step; only of pairs that keep their normal and ids
 };
 
 struct Touching {
@@ -64,7 +64,7 @@ std::vector<std::uint32_t> ids(const Manifold& m) {
   return r;
 }
 
-// How far a point of a body within its ball has moved at most.
+// Upper bound on how far a point of a body, within its ball, has moved.
 double step_of(const Scene& from, const Scene& to, std::size_t i, double& turn) {
   const Pose &p = from.bodies[i].pose, &q = to.bodies[i].pose;
   const double angle = (rotation_matrix(q.rotation) - rotation_matrix(p.rotation)).norm();
@@ -92,7 +92,8 @@ void compare(const Scene& from, const Scene& to, Jitter& j) {
       double nearest = 1e9;
       for (const ContactPoint& q : t.before.manifold)
         if (q.feature == p.feature) nearest = std::min(nearest, (p.position - q.position).norm());
-      j.point.push_back(std::max(0.0, nearest - step)), ++j.points;
+      j.point.push_back(std::max(0.0, nearest - step));
+      ++j.points;
     }
   }
 }
@@ -104,7 +105,7 @@ double quantile(std::vector<double> v, double q) {
 }
 
 Jitter measure(const char* name, int first, int last) {
-  const RealScene s = load_real_scene(data_root / "scenes" / name);
+  const RealScene s = load_real_scene(test::shared_data() / "scenes" / name);
   Jitter j;
   Scene from = s.frame(first);
   for (int f = first; f < last; ++f) {
@@ -119,17 +120,12 @@ Jitter measure(const char* name, int first, int last) {
   return j;
 }
 
-bool data_is_absent() {
-  if (std::filesystem::exists(data_root)) return false;
-  std::printf("skipped: %s is absent\n", data_root.c_str());
-  return true;
-}
-
 }  // namespace
 
-TEST_CASE("contacts of piles at rest stand still from frame to frame", "[narrow][manifold][data]") {
-  if (data_is_absent()) return;
-  // What is left is geometry: deepest points of rocking cylinders, crossings of nearly parallel edges.
+TEST_CASE("contacts of piles at rest do not change from frame to frame", "[narrow][manifold][data]") {
+  const auto scenes = test::shared_data() / "scenes";
+  if (!std::filesystem::exists(scenes)) return test::skip(scenes.string() + " is absent");
+  // The rest is geometry: deepest points of rocking cylinders, crossings of nearly parallel edges.
   for (const Jitter& j : {measure("stack_smash", 0, 9), measure("pile_mixed", 90, 99)}) {
     CHECK(j.pairs > 1000);
     CHECK(j.points > j.pairs);

@@ -1,4 +1,4 @@
-// Bodies at rest: the manifold is whole, and stands still when poses move by an ulp.
+// Bodies at rest: the manifold is complete, and does not change when poses move by an ulp.
 #include <algorithm>
 #include <vector>
 
@@ -79,7 +79,7 @@ std::vector<Rest> rests() {
 
 }  // namespace
 
-TEST_CASE("a resting body's normal, points and feature ids stand still under ulps", "[narrow][manifold]") {
+TEST_CASE("a resting body's normal, points and feature ids are stable under ulps", "[narrow][manifold]") {
   for (const Rest& rest : rests()) {
     INFO(rest.name);
     const ContactAnswer first = contact({&rest.a, rest.pose_a}, {&rest.b, rest.pose_b});
@@ -90,7 +90,8 @@ TEST_CASE("a resting body's normal, points and feature ids stand still under ulp
       Pose a = rest.pose_a, b = rest.pose_b;
       for (Pose* p : {&a, &b}) {
         p->translation += 0x1p-52 * Vec3(r.uniform(-1, 1), r.uniform(-1, 1), r.uniform(-1, 1));
-        p->rotation.x += 0x1p-52 * r.uniform(-1, 1), p->rotation.y += 0x1p-52 * r.uniform(-1, 1);
+        p->rotation.x += 0x1p-52 * r.uniform(-1, 1);
+        p->rotation.y += 0x1p-52 * r.uniform(-1, 1);
       }
       const ContactAnswer c = contact({&rest.a, a}, {&rest.b, b});
       REQUIRE(c.overlap);
@@ -114,7 +115,7 @@ TEST_CASE("face contacts cover the true polygon; four points keep most of it and
   Rng r(3);
   long reduced_points = 0;
   for (int i = 0; i < 200; ++i) {
-    // A small box turned about z, wholly above a big one: its own face is the polygon.
+    // A small box rotated about z, entirely above a large one: its own face is the polygon.
     const double angle = r.uniform(0, 1.5);
     const Pose pose =
         at(r.uniform(-0.2, 0.2), r.uniform(-0.2, 0.2), 1.49, {0, 0, std::sin(angle), std::cos(angle)});
@@ -130,7 +131,10 @@ TEST_CASE("face contacts cover the true polygon; four points keep most of it and
     CHECK(four.size() <= 4);
     CHECK(area(four) >= 0.5 * area(octagon.manifold));
     double deepest = 0;
-    for (const ContactPoint& p : four) deepest = std::max(deepest, p.depth), ++reduced_points;
+    for (const ContactPoint& p : four) {
+      deepest = std::max(deepest, p.depth);
+      ++reduced_points;
+    }
     CHECK(deepest == octagon.depth);
   }
   CHECK(reduced_points >= 600);

@@ -1,4 +1,4 @@
-// The narrow phase against closed forms, relations that need no truth, and a search of its own.
+// The narrow phase against closed forms, relations that need no truth, and an independent search.
 #include <cmath>
 #include <span>
 
@@ -34,7 +34,7 @@ Pose at(double x, double y, double z) { return {Vec3(x, y, z), {}}; }
 
 }  // namespace
 
-TEST_CASE("closed forms: unit shapes on an axis have the distances of school geometry", "[narrow]") {
+TEST_CASE("closed forms: unit shapes on an axis have the distances of elementary geometry", "[narrow]") {
   const Shape ball = Sphere{1}, box = Box{{1, 1, 1}}, rod = Capsule{0.5, 1}, drum = Cylinder{1, 1},
               hat = Cone{1, 1}, egg = Ellipsoid{{1, 2, 3}}, ground = HalfSpace{{0, 0, 2}, 0};
   struct Row {
@@ -54,7 +54,7 @@ TEST_CASE("closed forms: unit shapes on an axis have the distances of school geo
     CHECK(d.distance == Approx(row.gap).margin(1e-15));
     INFO(type_name(*row.a) << " " << type_name(*row.b) << " off by "
                            << (d.witness[1] - d.witness[0] - d.distance * d.normal).norm() * 1e15 << "e-15");
-    // The normal may be that of a better support plane than the witnesses' own difference.
+    // The normal may belong to a better support plane than the difference of the witnesses.
     CHECK((d.witness[1] - d.witness[0] - d.distance * d.normal).norm() < 1e-12);
     const ContactAnswer c = contact({row.a, {}}, {row.b, row.pose});
     CHECK(c.overlap == (row.gap <= 0));
@@ -78,7 +78,7 @@ TEST_CASE("a pair without an algorithm is unsupported", "[narrow]") {
   CHECK(contact({&mesh, {}}, {&plane, at(0, 0, 0.5)}).overlap);
 }
 
-TEST_CASE("a mesh is asked triangle by triangle, unused vertices are no part of it", "[narrow][mesh]") {
+TEST_CASE("a mesh is queried triangle by triangle; unused vertices are not part of it", "[narrow][mesh]") {
   const Shape mesh = TriangleMesh{{{-1, -1, 0}, {1, -1, 0}, {0, 2, 0}, {0, 0, 9}}, {{0, 1, 2}}},
               ball = Sphere{0.5};
   CHECK(distance({&ball, at(0, 0, 2)}, {&mesh, {}}).distance == Approx(1.5).margin(1e-15));
@@ -155,8 +155,10 @@ TEST_CASE("swapping A and B mirrors the answer; a power of two scales it exactly
     CHECK(std::abs(static_cast<double>(s.gap - t.gap)) <= tau_of(p));
     Pair q = p;
     const double k = 0x1p12;
-    scale_shape(q.a, k), scale_shape(q.b, k);
-    q.pose_a.translation *= k, q.pose_b.translation *= k;
+    scale_shape(q.a, k);
+    scale_shape(q.b, k);
+    q.pose_a.translation *= k;
+    q.pose_b.translation *= k;
     const Separation scaled = separation(q.placed_a(), q.placed_b());
     CHECK(scaled.gap == s.gap * static_cast<Wide>(k));
     CHECK(scaled.normal == s.normal);

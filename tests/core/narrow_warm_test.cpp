@@ -1,5 +1,5 @@
-// A search that begins where the last one ended: the same verdict, the same value within both bounds, from
-// frame to frame of bodies that pass, touch and interpenetrate, and from any direction whatever.
+// A search warm-started where the last one ended gives the same verdict, and the same value within both
+// bounds, from frame to frame of bodies that pass, touch and interpenetrate, and from any initial direction.
 #include "core/tolerance.h"
 #include "tests/core/random_pair.h"
 #include "tests/support/catch.h"
@@ -16,7 +16,8 @@ struct Tally {
 // One question with and without memory.
 void compare(const Pair& p, Arithmetic arithmetic, PairMemory& memory, Tally& t) {
   const PlacedShape a = p.placed_a(), b = p.placed_b();
-  ++t.asked, t.remembered += memory.direction != Vec3(Vec3::Zero());
+  ++t.asked;
+  t.remembered += memory.direction != Vec3(Vec3::Zero());
   PairMemory m = memory;
   const OverlapAnswer o0 = overlap(a, b, arithmetic), o1 = overlap(a, b, arithmetic, &m);
   const ContactAnswer c0 = contact(a, b, arithmetic), c1 = contact(a, b, arithmetic, &memory);
@@ -29,7 +30,7 @@ void compare(const Pair& p, Arithmetic arithmetic, PairMemory& memory, Tally& t)
   if (d0.outcome != Outcome::answered) return;
   const double bounds = d0.error_bound + d1.error_bound, slight = 0x1p-52 * std::abs(d0.distance);
   CHECK(std::abs(d0.distance - d1.distance) <= bounds + slight);
-  // In float a sign within the bound is anyone's.
+  // In float, a value within its bound of zero may have either sign.
   const bool clear = !single || std::abs(d0.distance) > bounds;
   if (clear) CHECK(o0.overlap == o1.overlap);
   if (clear) CHECK(c0.overlap == c1.overlap);
@@ -41,7 +42,7 @@ void compare(const Pair& p, Arithmetic arithmetic, PairMemory& memory, Tally& t)
 
 }  // namespace
 
-TEST_CASE("an answer with the memory of the last frame is that without, within both bounds",
+TEST_CASE("an answer with the memory of the last frame equals the one without, within both bounds",
           "[narrow][warm]") {
   Tally t;
   for (int a = 0; a < 7; ++a)
@@ -68,7 +69,7 @@ TEST_CASE("an answer with the memory of the last frame is that without, within b
   CHECK(t.remembered * 2 > t.asked);
 }
 
-TEST_CASE("a memory of anything does no harm", "[narrow][warm]") {
+TEST_CASE("an arbitrary memory does no harm", "[narrow][warm]") {
   Tally t;
   const double big = std::numeric_limits<double>::infinity();
   for (int i = 0; i < 1200; ++i) {

@@ -1,6 +1,6 @@
 // Run by hand: `ts_core_primitive_stress [queries] [first]`. Random deforming primitives, each decided twice:
-// as asked for (double with proven bounds, integers for the rest) and in integers from the start. A
-// difference of verdicts, or a time later than the first contact, is printed and makes the exit code 1.
+// the usual way (double with proven bounds, integers for the rest) and in integers from the start. Different
+// verdicts, or a time after the first contact, are printed and set exit code 1.
 #include <cstdio>
 #include <cstdlib>
 
@@ -19,12 +19,14 @@ int main(int argc, char** argv) {
     const PrimitiveKind kind = r.chance(0.5) ? PrimitiveKind::vertex_face : PrimitiveKind::edge_edge;
     const PrimitiveImpact x = primitive_impact(kind, m.a, m.b);
     const impact::ExactImpact exact = impact::decide_exactly(kind, m.a, m.b, 0, true);
-    hits += exact.collides, open += x.outcome != Outcome::answered,
-        in_double += x.exit != PrimitiveExit::exact;
+    hits += exact.collides;
+    open += x.outcome != Outcome::answered;
+    in_double += x.exit != PrimitiveExit::exact;
     const bool differs = x.toi.has_value() != exact.collides;
     // The first contact lies within 2^-49 after t_below.
     const bool is_late = x.toi && exact.collides && *x.toi > exact.t_below + 0x1p-49;
-    wrong += differs, late += is_late;
+    wrong += differs;
+    late += is_late;
     if (differs || is_late)
       std::printf("query %llu: %s, toi %.17g, exactly %d at %.17g, exit %d\n",
                   static_cast<unsigned long long>(i), kind == PrimitiveKind::vertex_face ? "vf" : "ee",

@@ -1,6 +1,5 @@
 // Deforming primitives: closed forms, degenerate and extreme input, the recorded queries, and random ones
-// against the referee's decision, with which the core shares no code.
-#include <cstdio>
+// against the referee's decision. The core shares no code with the referee.
 #include <cstdlib>
 #include <filesystem>
 
@@ -10,6 +9,8 @@
 #include "scenarios/import/ccd_queries.h"
 #include "scenarios/random/primitive_motions.h"
 #include "tests/support/catch.h"
+#include "tests/support/shared_data.h"
+#include "tests/support/skip.h"
 
 using namespace touchstone;
 using namespace touchstone::primitives;
@@ -38,7 +39,7 @@ double size_of(const Quad& a, const Quad& b) {
   return size;
 }
 
-// What the test's own positions in double are off by at most.
+// Bound on the rounding error of the test's own positions in double.
 double rounding_of(const Quad& a, const Quad& b) {
   double most = 0;
   for (std::size_t i = 0; i < 4; ++i) most = std::max({most, a[i].norm(), b[i].norm()});
@@ -56,14 +57,15 @@ TEST_CASE("primitives: a vertex that crosses a face does so at the time of its p
   CHECK(*r.toi <= 0.25);
   CHECK(*r.toi == Approx(0.25).epsilon(1e-13));
   CHECK(r.exit == PrimitiveExit::crossing);
-  // One unit short of the plane, and exactly at it when the step ends.
+  // One ulp short of the plane, and exactly at it when the step ends.
   end[0].z() = 0x1p-1074;
   CHECK_FALSE(primitive_impact(vf, start, end).toi);
   end[0].z() = 0;
   CHECK(primitive_impact(vf, start, end).toi.value() == Approx(1).epsilon(1e-14));
-  // Through a corner, and past it by one unit.
+  // Through a corner, and past it by one ulp.
   Quad above = start;
-  above[0] = {0, 0, 1}, end[0] = {0, 0, -1};
+  above[0] = {0, 0, 1};
+  end[0] = {0, 0, -1};
   CHECK(primitive_impact(vf, above, end).toi.value() == Approx(0.5).epsilon(1e-14));
   above[0].x() = end[0].x() = -0x1p-1074;
   CHECK_FALSE(primitive_impact(vf, above, end).toi);
@@ -76,7 +78,8 @@ TEST_CASE("primitives: motions within one plane and degenerate primitives are de
   CHECK(primitive_impact(vf, start, end).toi.value() == Approx(0.25).epsilon(1e-13));
   const Quad line{Vec3(0, 0, 0), Vec3(1, 1, 1), Vec3(3, 3, 3), Vec3(5, 5, 5)};
   Quad closer = line;
-  closer[2] = {-1, -1, -1}, closer[3] = {1, 1, 1};
+  closer[2] = {-1, -1, -1};
+  closer[3] = {1, 1, 1};
   CHECK(primitive_impact(ee, line, closer).toi.value() == Approx(0.5).epsilon(1e-14));
   const Quad spot{Vec3(0, 0, 1), Vec3(0, 0, 0), Vec3(0, 0, 0), Vec3(0, 0, 0)};
   Quad through = spot;
@@ -91,37 +94,43 @@ TEST_CASE("primitives: motions within one plane and degenerate primitives are de
 }
 
 TEST_CASE("primitives: a graze at the top of a curve is contact exactly when it touches", "[primitive]") {
-  // The vertex moves along x, the face's plane turns about y so that the signed volume has a double root.
-  Quad a{Vec3(-1, 0, 1), Vec3(-4, -4, 0), Vec3(4, -4, 0), Vec3(0, 8, 0)}, b = a;
+  // The vertex moves along x and the face's plane rotates about y. The height above the plane is -2 (t -
+  // 1/2)^2, which has a double root.
+  Quad a{Vec3(-1, 0, 1), Vec3(-4, -4, 3), Vec3(4, -4, -1), Vec3(0, 8, 1)}, b = a;
   b[0].x() = 1;
-  a[1].z() = 2, b[1].z() = -2, a[2].z() = -2, b[2].z() = 2;
+  b[1].z() = -1;
+  b[2].z() = 3;
   const auto truth = truth_of(vf, a, b);
-  CHECK(primitive_impact(vf, a, b).toi.has_value() == truth.collides);
+  CHECK(truth.collides);
+  CHECK(truth.t_lo <= 0.5);
+  CHECK(truth.t_hi >= 0.5);
+  CHECK(primitive_impact(vf, a, b).toi.has_value());
+  // Above the graze the vertex crosses the plane twice, below it never.
   int hits = 0;
   for (int i = -40; i <= 40; ++i) {
     Quad c = a, d = b;
-    c[0].z() += std::ldexp(i, -52), d[0].z() += std::ldexp(i, -52);
+    c[0].z() += std::ldexp(i, -52);
+    d[0].z() += std::ldexp(i, -52);
     const auto t = truth_of(vf, c, d);
     hits += t.collides;
+    CAPTURE(i);
+    REQUIRE(t.collides == (i >= 0));
     REQUIRE(primitive_impact(vf, c, d).toi.has_value() == t.collides);
   }
-  CAPTURE(hits);
+  CHECK(hits == 41);
 }
 
-TEST_CASE("primitives: the recorded queries have no false verdict and no late time", "[primitive]") {
-  const char* asked = std::getenv("TS_SHARED_DATA");
-  const auto root = std::filesystem::path(asked ? asked : TS_SHARED_DATA) / "ccd";
-  if (!std::filesystem::exists(root / "truth.csv")) {
-    std::printf("skipped: %s is absent\n", root.c_str());
-    return;
-  }
+TEST_CASE("primitives: the recorded queries have no false verdict and no late time", "[primitive][data]") {
+  const auto root = shared_data() / "ccd";
+  if (!std::filesystem::exists(root / "truth.csv")) return skip(root.string() + " is absent");
   long false_negatives = 0, false_positives = 0, late = 0, hits = 0, total = 0, by_tolerance = 0;
   double earliest = 0;
   for (const CcdQuery& q : load_ccd_set(root)) {
     const PrimitiveKind kind = q.is_vertex_face ? vf : ee;
     const PrimitiveImpact r = primitive_impact(kind, q.start, q.end);
     REQUIRE(r.outcome == Outcome::answered);
-    ++total, hits += q.truth->collides;
+    ++total;
+    hits += q.truth->collides;
     false_negatives += q.truth->collides && !r.toi;
     false_positives += !q.truth->collides && r.toi;
     const PrimitiveImpact loose = primitive_impact(kind, q.start, q.end, {.tolerance = 1e-6});
@@ -155,7 +164,9 @@ TEST_CASE("primitives: random queries are decided as the referee decides them", 
       const auto truth = truth_of(kind, m.a, m.b);
       const PrimitiveImpact x = primitive_impact(kind, m.a, m.b);
       CAPTURE(i, kind == vf, static_cast<int>(x.exit));
-      ++cases, hits += truth.collides, ++exits[static_cast<std::size_t>(x.exit)];
+      ++cases;
+      hits += truth.collides;
+      ++exits[static_cast<std::size_t>(x.exit)];
       REQUIRE(x.outcome == Outcome::answered);
       REQUIRE(x.toi.has_value() == truth.collides);
       if (!x.toi) continue;
@@ -206,7 +217,8 @@ TEST_CASE("primitives: a minimum separation is kept until the time of impact", "
       const PrimitiveImpact x = primitive_impact(kind, m.a, m.b, {least, tolerance});
       CAPTURE(i, kind == vf, least, static_cast<int>(x.exit), x.separation);
       REQUIRE(x.outcome == Outcome::answered);
-      ++cases, hits += x.toi.has_value();
+      ++cases;
+      hits += x.toi.has_value();
       const double end = x.toi.value_or(1), slack = 1e-12 * size + rounding_of(m.a, m.b);
       for (int k = 0; k < 25 && end > 0; ++k)
         REQUIRE(gap(kind, at(m.a, m.b, end * (k + r.uniform()) / 25)) >= least - slack);
@@ -218,7 +230,7 @@ TEST_CASE("primitives: a minimum separation is kept until the time of impact", "
   CHECK(hits < cases * 19 / 20);
 }
 
-TEST_CASE("primitives: what is not finite or negative is refused", "[primitive]") {
+TEST_CASE("primitives: infinite, NaN and negative input is refused", "[primitive]") {
   Quad a = Quad{Vec3(0, 0, 1), Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0, 1, 0)}, b = a;
   b[2].y() = std::nan("");
   CHECK(primitive_impact(vf, a, b).outcome == Outcome::invalid_input);

@@ -1,5 +1,4 @@
-// Random motions of random pairs for the tests of times of impact, with what is known of them by
-// construction.
+// Random motions of random pairs for time-of-impact tests, with what is known about them by construction.
 #pragma once
 
 #include <cmath>
@@ -17,9 +16,9 @@ inline constexpr std::array<std::string_view, course_count> course_names{
 struct CoursePair {
   Pair p;
   Motion ma, mb;
-  /// A time by which they are in contact, for certain; none: not known.
+  /// A time by which they are certainly in contact, if known.
   double contact_by = 2;
-  /// The gap over all times is at least this; −infinity: not known.
+  /// Lower bound on the gap over all times; −infinity if not known.
   double least_gap = -HUGE_VAL;
 };
 
@@ -44,10 +43,13 @@ inline void travel(Rng& r, CoursePair& c) {
 inline void turn(Rng& r, CoursePair& c, double least, double most) {
   if (r.chance(0.7)) c.ma.angular = r.vector(least, most);
   if (r.chance(0.5) || c.ma.angular.isZero(0)) c.mb.angular = r.vector(least, most);
-  if (r.chance(0.1)) c.ma.linear.setZero(), c.mb.linear.setZero();
+  if (r.chance(0.1)) {
+    c.ma.linear.setZero();
+    c.mb.linear.setZero();
+  }
 }
 
-// A body flies through a plate, 1e-1 to 1e-6 of its travel thick, whose rim is far.
+// A body flies through a plate whose thickness is 1e-1 to 1e-6 of its travel and whose rim is far away.
 inline void thin_wall(Rng& r, CoursePair& c) {
   const double size = r.binary_scale(-8, 0), travel = size * r.binary_scale(3, 17);
   const double thick = travel * std::pow(10, r.uniform(-6.5, -1));
@@ -61,21 +63,24 @@ inline void thin_wall(Rng& r, CoursePair& c) {
   c.p.pose_b.translation = through - c.contact_by * way;
   c.mb.linear = way;
   if (r.chance(0.5)) c.mb.angular = r.vector(0, 12);
-  // The plate where a hull's points need not hold its origin.
+  // A hull need not contain its origin, so the time of contact is not known.
   if (kind_of(c.p.b) == ShapeKind::hull) c.contact_by = 2;
 }
 
-// At contact_by the gap along n is `gap`, and the velocity is across n: there and then it is the least.
+// At contact_by the gap along n is `gap` and the velocity is perpendicular to n, so the gap is at its
+// minimum.
 inline void graze(Rng& r, CoursePair& c) {
   c.p = random_pair(r, kind(r), kind(r), Regime::separate);
   const double size = std::max(extent(c.p.a), extent(c.p.b));
   const double gap = (r.chance(0.5) ? 1 : -1) * r.binary_scale(-44, -6) * size;
-  aim(c.p, gap), aim(c.p, gap);
+  aim(c.p, gap);
+  aim(c.p, gap);
   const Separation s = separation(c.p.placed_a(), c.p.placed_b());
   const Vec3 n = s.normal.cast<double>(), u = r.unit_vector();
   const Vec3 way = (u - u.dot(n) * n) * size * r.uniform(1, 9);
   const double t = r.uniform(0.2, 0.8);
-  c.p.pose_b.translation -= t * way, c.mb.linear = way;
+  c.p.pose_b.translation -= t * way;
+  c.mb.linear = way;
   const double rounding = 0x1p-49 * scale_of(c);
   if (gap < -rounding) c.contact_by = t;
   if (gap > 0) c.least_gap = static_cast<double>(s.gap) - rounding;
@@ -85,8 +90,14 @@ inline void graze(Rng& r, CoursePair& c) {
 
 inline CoursePair random_course(Rng& r, CourseKind kind) {
   CoursePair c;
-  if (kind == CourseKind::thin_wall) return course::thin_wall(r, c), c;
-  if (kind == CourseKind::graze) return course::graze(r, c), c;
+  if (kind == CourseKind::thin_wall) {
+    course::thin_wall(r, c);
+    return c;
+  }
+  if (kind == CourseKind::graze) {
+    course::graze(r, c);
+    return c;
+  }
   c.p = random_pair(
       r, course::kind(r), r.chance(0.1) ? ShapeKind::half_space : course::kind(r),
       kind == CourseKind::near_start ? static_cast<Regime>(r.below(regime_count)) : Regime::separate);

@@ -1,5 +1,5 @@
-// Random placed pairs for the core's own tests: all convex shapes, sizes down to zero, and regimes in which
-// an algorithm gets into trouble. Not the harness's generator: a second opinion on what is worth trying.
+// Random placed pairs for the core's own tests: all convex shapes, sizes down to zero, and regimes that are
+// hard for an algorithm. Independent of the harness's generator: a second opinion on what is worth trying.
 #pragma once
 
 #include <array>
@@ -30,8 +30,10 @@ inline double scale_of(const Pair& p) {
   Scene s;
   s.shapes = {p.a, p.b};
   s.bodies.resize(2);
-  s.bodies[0].shape = 0, s.bodies[0].pose = p.pose_a;
-  s.bodies[1].shape = 1, s.bodies[1].pose = p.pose_b;
+  s.bodies[0].shape = 0;
+  s.bodies[0].pose = p.pose_a;
+  s.bodies[1].shape = 1;
+  s.bodies[1].pose = p.pose_b;
   return scale_of_pair(s, 0, 1);
 }
 
@@ -109,7 +111,7 @@ inline void scale_shape(Shape& s, double k) {
       s);
 }
 
-/// Moves B along the core's own normal until the gap is `gap`: only a way to aim, nothing is trusted.
+/// Moves B along the core's own normal until the gap is `gap`. Only for aiming: no test relies on the result.
 inline void aim(Pair& p, double gap) {
   const Separation s = separation(p.placed_a(), p.placed_b());
   if (s.outcome == Outcome::answered)
@@ -120,7 +122,8 @@ inline Pair random_pair(Rng& r, ShapeKind ka, ShapeKind kb, Regime regime) {
   const bool lattice = regime == Regime::aligned || regime == Regime::lattice_touch;
   Pair p{random_shape(r, ka, lattice), random_shape(r, kb, lattice), {}, {}};
   const double fine = std::ldexp(1 + r.uniform(), -static_cast<int>(5 + r.below(46)));
-  p.pose_a.rotation = r.rotation(), p.pose_b.rotation = r.rotation();
+  p.pose_a.rotation = r.rotation();
+  p.pose_b.rotation = r.rotation();
   switch (regime) {
     case Regime::separate:
       p.pose_b.translation = r.unit_vector() * r.uniform(2, 8);
@@ -168,14 +171,20 @@ inline Pair random_pair(Rng& r, ShapeKind ka, ShapeKind kb, Regime regime) {
   }
   if (r.chance(0.3)) {
     const double k = r.binary_scale(-20, 20);
-    scale_shape(p.a, k), scale_shape(p.b, k);
-    p.pose_a.translation *= k, p.pose_b.translation *= k;
+    scale_shape(p.a, k);
+    scale_shape(p.b, k);
+    p.pose_a.translation *= k;
+    p.pose_b.translation *= k;
   }
   if (r.chance(0.3)) {
     const Vec3 offset = r.unit_vector() * std::ldexp(1.0, static_cast<int>(r.below(21)));
-    p.pose_a.translation += offset, p.pose_b.translation += offset;
+    p.pose_a.translation += offset;
+    p.pose_b.translation += offset;
   }
-  if (r.chance(0.5)) std::swap(p.a, p.b), std::swap(p.pose_a, p.pose_b);
+  if (r.chance(0.5)) {
+    std::swap(p.a, p.b);
+    std::swap(p.pose_a, p.pose_b);
+  }
   return p;
 }
 

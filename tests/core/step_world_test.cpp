@@ -1,5 +1,5 @@
-// One step of a whole scene: nothing that is swept tunnels, what is left unswept is what the criterion
-// allows.
+// One step of a whole scene: nothing that is swept tunnels, and only what the criterion allows is left
+// unswept.
 #include "core/world/step_world.h"
 
 #include <algorithm>
@@ -30,14 +30,16 @@ Scene two_bodies(Shape a, Vec3 from, Motion m, Shape b) {
   Scene s;
   s.shapes = {std::move(a), std::move(b)};
   s.bodies.resize(2);
-  s.bodies[0].pose.translation = from, s.bodies[0].motion = m;
-  s.bodies[1].shape = 1, s.bodies[1].is_static = true;
+  s.bodies[0].pose.translation = from;
+  s.bodies[0].motion = m;
+  s.bodies[1].shape = 1;
+  s.bodies[1].is_static = true;
   return s;
 }
 
 }  // namespace
 
-TEST_CASE("step: a bullet is flagged and hits the wall that the end pose is past", "[step]") {
+TEST_CASE("step: a bullet is flagged and hits the wall that its end pose is behind", "[step]") {
   const Scene s = two_bodies(Sphere{0.01}, {-1, 0, 0}, {Vec3(3, 0, 0), Vec3::Zero()}, Box{{0.002, 1, 1}});
   StepWorld w(s);
   const StepReport r = w.step();
@@ -54,7 +56,7 @@ TEST_CASE("step: a bullet is flagged and hits the wall that the end pose is past
   CHECK(end_only.swept.empty());
 }
 
-TEST_CASE("step: by hand a slow body is swept too, and a rod's reason is its turning", "[step]") {
+TEST_CASE("step: a slow body is swept on request, and a rod because of its rotation", "[step]") {
   const Scene slow =
       two_bodies(Sphere{0.5}, {0, 0, 0.55}, {Vec3(0.2, 0, 0), Vec3::Zero()}, Box{{0.1, 0.1, 0.1}});
   StepWorld w(slow);
@@ -78,10 +80,13 @@ TEST_CASE("step: by hand a slow body is swept too, and a rod's reason is its tur
   CHECK(x.contacts.empty());
 }
 
-TEST_CASE("step: poses go from step to step", "[step]") {
+TEST_CASE("step: poses carry over from step to step", "[step]") {
   StepWorld w(two_bodies(Sphere{0.1}, {-1, 0, 0}, {Vec3(0.1, 0, 0), Vec3::Zero()}, Box{{0.05, 1, 1}}));
   int steps = 0;
-  while (w.step().contacts.empty() && steps < 20) w.accept(), ++steps;
+  while (w.step().contacts.empty() && steps < 20) {
+    w.accept();
+    ++steps;
+  }
   CHECK(steps == 8);  // at -1 + 0.1·9 = -0.1: overlaps; at -0.2 it does not
   w.set(0, Pose{Vec3(-0.5, 0, 0), {}}, Motion{});
   const StepReport r = w.step();
@@ -89,7 +94,7 @@ TEST_CASE("step: poses go from step to step", "[step]") {
   CHECK(w.end_pose(0).translation.x() == -0.5);
 }
 
-TEST_CASE("step: of a thousand bodies the bullets are flagged and nothing tunnels", "[step][tunnel]") {
+TEST_CASE("step: among a thousand bodies the bullets are flagged and nothing tunnels", "[step][tunnel]") {
   const TunnelScene t = tunnel_scene(1000, 7);
   StepWorld world(t.scene), end_only(t.scene);
   Rng r(8);
@@ -127,9 +132,11 @@ TEST_CASE("step: of a thousand bodies the bullets are flagged and nothing tunnel
         const bool hit = truth.verdict == referee::TimeTruth::Verdict::hit;
         CAPTURE(step, i, j);
         REQUIRE(reports(x, i, j) == hit);
-        passes += hit, unseen_by_discrete += hit && !touches_at_end(y, i, j);
+        passes += hit;
+        unseen_by_discrete += hit && !touches_at_end(y, i, j);
       }
-    world.accept(), end_only.accept();
+    world.accept();
+    end_only.accept();
   }
   CAPTURE(passes, unseen_by_discrete, asked);
   CHECK(passes > steps);
@@ -137,8 +144,8 @@ TEST_CASE("step: of a thousand bodies the bullets are flagged and nothing tunnel
   CHECK(*std::max_element(others_flagged.begin(), others_flagged.end()) <= 10);
 }
 
-TEST_CASE("step: what only a full sweep finds is as shallow as the criterion says", "[step][random]") {
-  // Faster and denser: many flagged bodies, which also takes the way through a broad phase.
+TEST_CASE("step: what only a full sweep finds is as shallow as the criterion promises", "[step][random]") {
+  // Faster and denser: many flagged bodies, so that the path through a broad phase is taken too.
   TunnelScene t = tunnel_scene(400, 11);
   Rng r(12);
   for (Body& b : t.scene.bodies)

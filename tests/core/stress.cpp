@@ -1,6 +1,6 @@
-// stress [CASES] [SEED] [SEARCH]: random pairs over every regime, judged by bounds and, every SEARCH-th
-// overlapping one, by a search for a better direction. Prints a table and the first failures; exit 1 on any.
-// Run by hand, not by ctest.
+// stress [CASES] [SEED] [SEARCH]: random pairs over every regime, judged by bounds and, for every SEARCH-th
+// overlapping one, by a search for a better direction. Prints a table and the first failures; exit code 1 on
+// any. Run by hand, not by ctest.
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
@@ -63,19 +63,35 @@ int main(int argc, char** argv) {
     const Width width(p.a, p.pose_a, p.b, p.pose_b);
     bool bad = false;
     const char* why = "";
-    if (s.outcome != Outcome::answered) ++t.not_converged, bad = true, why = "not converged";
+    if (s.outcome != Outcome::answered) {
+      ++t.not_converged;
+      bad = true;
+      why = "not converged";
+    }
     if (s.gap <= 0) ++t.overlaps;
     if (s.slack > tau / 2) ++t.loose;
     t.worst_slack = std::max(t.worst_slack, l > 0 ? static_cast<double>(s.slack) / l : 0);
     const WideVec n = s.normal.cast<double>().cast<Wide>();
     const double feasibility = static_cast<double>(width(n) + s.gap);
     t.worst_feasibility = std::max(t.worst_feasibility, l > 0 ? feasibility / l : 0);
-    if (!(std::abs(feasibility) <= tau)) ++t.feasibility, bad = true, why = "feasibility";
-    if (!(std::abs((s.b - s.a).norm() - std::abs(s.gap)) <= tau)) ++t.witness, bad = true, why = "witness";
+    if (!(std::abs(feasibility) <= tau)) {
+      ++t.feasibility;
+      bad = true;
+      why = "feasibility";
+    }
+    if (!(std::abs((s.b - s.a).norm() - std::abs(s.gap)) <= tau)) {
+      ++t.witness;
+      bad = true;
+      why = "witness";
+    }
     if (s.gap <= 0 && i % search == 0) {
       const double regret = static_cast<double>(-s.gap - width.least(r, 60, n));
       t.worst_regret = std::max(t.worst_regret, l > 0 ? regret / l : 0);
-      if (regret > tau) ++t.regret, bad = true, why = "regret";
+      if (regret > tau) {
+        ++t.regret;
+        bad = true;
+        why = "regret";
+      }
     }
     if (bad && ++failures <= 40) {
       std::printf(

@@ -1,5 +1,5 @@
-// The criterion of "swept only where needed": inner extents against support functions, the claimed depth of
-// unseen passes against dense samples.
+// The criterion of "swept only where needed": inner extents against support functions, and the claimed depth
+// of unseen passes against dense samples.
 #include "core/world/sweep_criterion.h"
 #include "core/narrow/pair_table.h"
 #include "core/tolerance.h"
@@ -25,13 +25,13 @@ TEST_CASE("criterion: known inner extents", "[sweep]") {
   CHECK(of(make_hull({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}})).inner == 0);
   CHECK(of(TriangleMesh{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}}}).inner == 0);
   CHECK(std::isinf(of(HalfSpace{}).inner));
-  // A hull that does not hold its origin: its nearest vertex; the ball is where its middle is.
+  // A hull that does not contain its origin: its nearest vertex; the ball is at its middle.
   const Shape away = make_hull({{5, -1, -1}, {5, 1, -1}, {5, 0, 1}, {7, 0, 0}});
   CHECK(of(away).about_origin == Approx(-std::sqrt(26.0)));
   CHECK(of(away).inner > 0.3);
 }
 
-TEST_CASE("criterion: the balls lie inside, the reach outside, along every direction", "[sweep][random]") {
+TEST_CASE("criterion: in every direction the balls lie inside and the reach outside", "[sweep][random]") {
   long checked = 0, solid = 0;
   for (std::uint64_t i = 0; i < 700; ++i) {
     Rng r = Rng::stream(41, i);
@@ -57,9 +57,12 @@ TEST_CASE("criterion: what passes unseen is no deeper than claimed", "[sweep][ra
     const auto ka = static_cast<ShapeKind>(r.below(7)),
                kb = static_cast<ShapeKind>(r.below(r.chance(0.1) ? 8 : 7));
     Pair p = random_pair(r, ka, kb, Regime::separate);
-    if (kind_of(p.a) == ShapeKind::half_space) std::swap(p.a, p.b), std::swap(p.pose_a, p.pose_b);
+    if (kind_of(p.a) == ShapeKind::half_space) {
+      std::swap(p.a, p.b);
+      std::swap(p.pose_a, p.pose_b);
+    }
     const bool plane = kind_of(p.b) == ShapeKind::half_space;
-    // Aimed to meet in the middle of the step; by turns only turning, on the spot, or both.
+    // Aimed to meet in the middle of the step; in turn translating, rotating on the spot, or both.
     const Vec3 d = p.pose_b.translation - p.pose_a.translation;
     Motion ma, mb;
     if (i % 3 != 1) ma.linear = d * 2 + r.unit_vector() * r.uniform(0, 0.5);
@@ -79,7 +82,8 @@ TEST_CASE("criterion: what passes unseen is no deeper than claimed", "[sweep][ra
     double deepest = 0;
     for (int k = 1; k < 40; ++k) deepest = std::max(deepest, -gap(k / 40.0));
     if (deepest == 0) continue;
-    ++passes, turning_passes += ma.linear.isZero(0);
+    ++passes;
+    turning_passes += ma.linear.isZero(0);
     const InnerExtent ea = inner_extent(p.a), eb = inner_extent(p.b);
     const double bound = pass_bound(ea, ma, eb, mb), tau = tolerance::core_tau_factor * 0x1p-53 * scale_of(p);
     CAPTURE(i, deepest, bound);
@@ -101,7 +105,7 @@ TEST_CASE("criterion: what passes unseen is no deeper than claimed", "[sweep][ra
   CHECK(nearest > 0.3);
 }
 
-TEST_CASE("criterion: side by side, spinning balls and half-spaces are no reason", "[sweep]") {
+TEST_CASE("criterion: motion side by side, spinning balls and half-spaces need no sweep", "[sweep]") {
   const InnerExtent ball = inner_extent(Sphere{0.01}), rod = inner_extent(Capsule{0.01, 1}),
                     ground = inner_extent(HalfSpace{}), wall = inner_extent(Box{{3, 3, 3}});
   const Motion fast{Vec3(50, 0, 0), Vec3::Zero()}, spin{Vec3::Zero(), Vec3(0, 90, 0)}, rest;

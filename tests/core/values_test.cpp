@@ -35,7 +35,7 @@ TEST_CASE("random numbers reproduce from their seed, bit for bit", "[values][rng
   CHECK(hex64(h.value()) == "19067cde3dc86360");
 }
 
-TEST_CASE("unit vectors and rotations have unit length and no preferred side", "[values][rng]") {
+TEST_CASE("unit vectors and rotations have unit length and no bias", "[values][rng]") {
   Rng rng(9);
   Vec3 mean = Vec3::Zero();
   for (int i = 0; i < 20000; ++i) {
@@ -69,7 +69,7 @@ TEST_CASE("rotation matrices do not depend on the quaternion's length", "[values
 }
 
 TEST_CASE("orientation is exact where rounding would lie", "[values][predicates]") {
-  // Four points of one plane, and the fourth moved by one ulp: the sign must tell.
+  // Four coplanar points, and the fourth moved by one ulp: the sign must change.
   const Vec3 a(0.1, 0.2, 0.3), b(1.1, 0.2, 0.3), c(0.1, 1.2, 0.3);
   CHECK(orient3d_sign(a, b, c, Vec3(7, -5, 0.3)) == 0);
   CHECK(orient3d_sign(a, b, c, Vec3(7, -5, std::nextafter(0.3, 1))) != 0);
@@ -115,7 +115,7 @@ TEST_CASE("a box's eight corners have twelve triangles, coplanar ones included",
   CHECK(make_hull(v).faces.size() == 12);
 }
 
-TEST_CASE("a scene is refused with the place of what is wrong", "[values][scene]") {
+TEST_CASE("a bad scene is refused with the place of the fault", "[values][scene]") {
   Scene s;
   s.shapes = {Sphere{1}};
   s.bodies.resize(2);
@@ -139,7 +139,7 @@ TEST_CASE("a scene is refused with the place of what is wrong", "[values][scene]
   CHECK(place([](Scene& x) { x.shapes[0] = HalfSpace{Vec3::Zero(), 0}; }) == "shapes[0].normal");
 }
 
-TEST_CASE("the hash of a scene sees every number", "[values][scene]") {
+TEST_CASE("the hash of a scene depends on every number", "[values][scene]") {
   Scene s;
   s.shapes = {Box{{1, 2, 3}}};
   s.bodies.resize(1);

@@ -1,4 +1,4 @@
-// Bisecting: an engine that lies beyond a known value, from a known step, since a known commit.
+// Bisection of an engine that lies beyond a known value, from a known step, since a known commit.
 #include "fuzz/bisect/bisect.h"
 
 #include <fmt/format.h>
@@ -8,6 +8,7 @@
 
 #include "tests/mutants/lying_engine.h"
 #include "tests/support/catch.h"
+#include "tests/support/skip.h"
 #include "tests/support/workspace.h"
 
 using namespace touchstone;
@@ -15,7 +16,7 @@ using namespace touchstone::test;
 
 namespace {
 
-// The documented example plug-in, with a line changed: beyond `limit`, spheres that touch are denied.
+// The documented example plug-in with one line changed: beyond `limit` it denies that spheres touch.
 std::string lying_source(const std::string& limit) {
   std::string s = read_all(TS_SOURCE_DIR "/oracles/example/example_engine.c");
   const std::string honest = "out->overlap = gap <= 0;";
@@ -26,7 +27,7 @@ std::string lying_source(const std::string& limit) {
 
 const std::string build = "gcc -shared -fPIC -I " TS_SOURCE_DIR " engine.c -o libmine.so -lm";
 
-// Six unit spheres far from each other but for bodies 2 and 4, whose centres are 1.75 apart.
+// Six unit spheres far from each other, except bodies 2 and 4, whose centres are 1.75 apart.
 std::string spheres() {
   nlohmann::json j{{"touchstone_case", 1}};
   j["scene"]["touchstone_scene"] = 1;
@@ -48,7 +49,7 @@ nlohmann::json json_of(const Run& r) {
 
 }  // namespace
 
-TEST_CASE("bodies, stage and value of a lie are found to the last bit", "[bisect]") {
+TEST_CASE("bodies, stage and value at which a lie starts are found to the last bit", "[bisect]") {
   const Workspace w("bisect");
   w.write("engine.c", lying_source("1.5"));
   REQUIRE(w.run(build).code == 0);
@@ -71,7 +72,7 @@ TEST_CASE("bodies, stage and value of a lie are found to the last bit", "[bisect
   CHECK(w.touchstone("bisect bodies case.json --engine core").code == 3);
 }
 
-TEST_CASE("the first query by which a lie shows is found, and what led to it", "[bisect]") {
+TEST_CASE("the first query that shows a lie is found, with the changes that led to it", "[bisect]") {
   Case c;
   c.id = "steps";
   c.scene.shapes = {Sphere{1}};
@@ -83,7 +84,8 @@ TEST_CASE("the first query by which a lie shows is found, and what led to it", "
   }
   const auto add = [&](Step::Op op, int body, double x = 0) {
     Step s;
-    s.op = op, s.body = body;
+    s.op = op;
+    s.body = body;
     if (op == Step::Op::move) s.pose = Pose{{x, 0, 0}, {0, 0, 0, 1}};
     c.scene.script.push_back(s);
   };
@@ -111,12 +113,10 @@ TEST_CASE("the first query by which a lie shows is found, and what led to it", "
   FAIL("the mutant is gone");
 }
 
-TEST_CASE("git finds the commit that broke an engine, past one that does not build", "[bisect]") {
+TEST_CASE("git finds the commit that broke an engine, skipping one that does not build",
+          "[bisect][optional]") {
   const Workspace w("bisect");
-  if (w.run("git --version").code != 0) {
-    WARN("git is not installed: not tried");
-    return;
-  }
+  if (!has_command("git")) return skip("git is not installed");
   w.write("case.json", spheres());
   const std::string git = "git -c user.name=t -c user.email=t@t -c init.defaultBranch=main ";
   REQUIRE(w.run(fmt::format("{}init -q repo", git)).code == 0);

@@ -50,7 +50,7 @@ struct TemporaryDirectory {
 
 const std::atomic<bool> go{false};
 
-// The core, which asks for the end of the campaign when it has been asked so often.
+// The core, which requests the end of the campaign after a number of queries.
 class StopsAfter final : public Engine {
  public:
   StopsAfter(int batches, std::atomic<bool>& stop) : left_(batches), stop_(stop) {}
@@ -66,7 +66,7 @@ class StopsAfter final : public Engine {
   std::atomic<bool>& stop_;
 };
 
-// The core, counting the cases that it is asked, and taking its time.
+// The core, counting its cases and answering slowly.
 class Counts final : public Engine {
  public:
   explicit Counts(int& asked, int ms_a_batch = 0) : asked_(asked), ms_(ms_a_batch) {}
@@ -83,7 +83,7 @@ class Counts final : public Engine {
   int ms_;
 };
 
-// Says of distances what memory held, and crashes at one of two places when asked for a contact.
+// Reports unwritten memory as distances, and crashes at one of two places when queried for a contact.
 class Unwritten final : public Engine {
  public:
   const EngineCard& card() const override { return core_.card(); }
@@ -107,10 +107,10 @@ class Unwritten final : public Engine {
     return all;
   }
   CoreEngine core_;
-  int drawn_ = 0;  // what memory holds changes from run to run
+  int drawn_ = 0;  // the contents of memory change from run to run
 };
 
-// The core, which gives up at the case of this index.
+// The core, which stops answering at the case with this index.
 class TiresAt final : public Engine {
  public:
   TiresAt(std::uint64_t index, std::atomic<int>& asked_later) : index_(index), asked_later_(asked_later) {
@@ -128,7 +128,11 @@ class TiresAt final : public Engine {
       asked_later_ += why_.empty() && index >= index_ + 32;
       if (why_.empty() && index >= index_) why_ = "set aside: tired";
       if (why_.empty()) continue;
-      for (Observation& o : all[i].answers) o = {}, o.outcome = Outcome::not_asked, o.detail = why_;
+      for (Observation& o : all[i].answers) {
+        o = {};
+        o.outcome = Outcome::not_asked;
+        o.detail = why_;
+      }
     }
     return all;
   }
@@ -143,7 +147,7 @@ class TiresAt final : public Engine {
 
 }  // namespace
 
-TEST_CASE("answers made of unwritten memory are findings without the answer, crashes are named by their site",
+TEST_CASE("answers from unwritten memory are findings without the answer; crashes are named by their site",
           "[campaign]") {
   fuzz::CampaignResult results[2];
   for (fuzz::CampaignResult& r : results) {
@@ -154,7 +158,7 @@ TEST_CASE("answers made of unwritten memory are findings without the answer, cra
     }();
     for (std::uint64_t i = 0; i < 120; ++i) {
       const Case c = fuzz::make_case(3, i, "shallow");
-      fuzz::ask_and_judge(r, {&c, 1}, i, engines, 0);  // a relation between two such answers is chance
+      fuzz::ask_and_judge(r, {&c, 1}, i, engines, 0);  // a relation between two such answers is random
     }
   }
   std::set<std::string> crashes;
@@ -173,14 +177,14 @@ TEST_CASE("answers made of unwritten memory are findings without the answer, cra
   CHECK(fuzz::digest(results[0]) == fuzz::digest(results[1]));
 }
 
-TEST_CASE("a campaign asks its first chunk however little time it has", "[campaign]") {
+TEST_CASE("a campaign runs its first chunk however little time it has", "[campaign]") {
   auto config = config_of(0);
   config.cases.reset();
   config.minutes = 0;
   CHECK(fuzz::run_campaign(config, two_engines, {}, go).cases == 32);
 }
 
-TEST_CASE("an engine that gives up is set aside from one case on, whatever the number of jobs",
+TEST_CASE("an engine that gives up is set aside from the same case on for any number of jobs",
           "[campaign][set-aside]") {
   std::atomic<int> asked_later{0};
   const auto engines = [&] {
@@ -189,7 +193,8 @@ TEST_CASE("an engine that gives up is set aside from one case on, whatever the n
     return e;
   };
   auto one = config_of(320), three = config_of(320);
-  one.jobs = 1, three.jobs = 3;
+  one.jobs = 1;
+  three.jobs = 3;
   const auto a = fuzz::run_campaign(one, engines, {}, go);
   CHECK(asked_later == 0);
   REQUIRE(a.set_aside.contains("tires"));
@@ -214,7 +219,8 @@ TEST_CASE("an engine that gives up is set aside from one case on, whatever the n
 
 TEST_CASE("one job and two jobs find the same, byte for byte", "[campaign]") {
   auto one = config_of(400), two = config_of(400);
-  one.jobs = 1, two.jobs = 2;
+  one.jobs = 1;
+  two.jobs = 2;
   const auto a = fuzz::run_campaign(one, two_engines, {}, go),
              b = fuzz::run_campaign(two, two_engines, {}, go);
   CHECK(a.cases == 400);
@@ -225,7 +231,8 @@ TEST_CASE("one job and two jobs find the same, byte for byte", "[campaign]") {
 TEST_CASE("a guided campaign is the same for one job and three, and after a stop", "[campaign][guided]") {
   auto one = config_of(1600), three = one;
   one.guided = three.guided = true;
-  one.jobs = 1, three.jobs = 3;
+  one.jobs = 1;
+  three.jobs = 3;
   const auto a = fuzz::run_campaign(one, two_engines, {}, go),
              b = fuzz::run_campaign(three, two_engines, {}, go);
   CHECK(a.cases == 1600);
@@ -247,7 +254,7 @@ TEST_CASE("a guided campaign is the same for one job and three, and after a stop
   CHECK(fuzz::digest(fuzz::run_campaign(resumed, two_engines, {}, go)) == fuzz::digest(a));
 }
 
-TEST_CASE("the default mix is not vacuous: 30 to 70 % of its pairs overlap", "[campaign]") {
+TEST_CASE("the default mix is not trivial: 30 to 70 % of its pairs overlap", "[campaign]") {
   const auto r = fuzz::run_campaign(config_of(2000), two_engines, {}, go);
   INFO(r.pair_cases << " pair cases, hit rate " << r.hit_rate());
   CHECK(r.pair_cases > 1500);
@@ -255,7 +262,7 @@ TEST_CASE("the default mix is not vacuous: 30 to 70 % of its pairs overlap", "[c
   CHECK(r.hit_rate() < 0.7);
 }
 
-TEST_CASE("what is left open has a bound, by question and kind of pair", "[campaign][open]") {
+TEST_CASE("the share of undecided answers is bounded by question and kind of pair", "[campaign][open]") {
   using touchstone::Question;
   fuzz::CampaignResult r;
   auto& of_contact = r.open["core"][Question::contact];
@@ -270,7 +277,7 @@ TEST_CASE("what is left open has a bound, by question and kind of pair", "[campa
         "core: 12 of 12 answers to contact of cylinder-cylinder are undecided or not judged, more than 25 %: "
         "this run proves nothing about them");
   of_contact["capsule-cylinder"] = {400, 400};
-  CHECK(r.too_open("core").size() == 3);  // the question as a whole, too
+  CHECK(r.too_open("core").size() == 3);  // including the question as a whole
   CHECK(r.too_open("fcl-libccd").empty());
 
   const auto back = fuzz::result_from_json({fuzz::to_json(r, true), "result"});
@@ -282,7 +289,7 @@ TEST_CASE("what is left open has a bound, by question and kind of pair", "[campa
   CHECK(twice.too_open("core").size() == 4);
 }
 
-TEST_CASE("every answer is right, wrong, undecided or not judged, and a surface's depth is no open question",
+TEST_CASE("every answer is right, wrong, undecided or not judged; a surface's depth is not undecided",
           "[campaign][open]") {
   fuzz::CampaignResult r;
   std::vector<EnginePtr> engines;
@@ -303,7 +310,8 @@ TEST_CASE("every answer is right, wrong, undecided or not judged, and a surface'
 
 TEST_CASE("our core is right on random cases", "[campaign][core]") {
   auto config = config_of(3000);
-  config.engines = {"core"}, config.jobs = 2;
+  config.engines = {"core"};
+  config.jobs = 2;
   const auto make = [] {
     std::vector<EnginePtr> e;
     e.push_back(std::make_unique<CoreEngine>());
@@ -343,13 +351,14 @@ TEST_CASE("shards together are the whole campaign", "[campaign]") {
   fuzz::CampaignResult merged;
   for (std::uint64_t i : {2, 0, 1}) {
     auto c = config_of(320);
-    c.shard = i, c.shards = 3;
+    c.shard = i;
+    c.shards = 3;
     merged.merge(fuzz::run_campaign(c, two_engines, {}, go));
   }
   CHECK(fuzz::digest(merged) == fuzz::digest(whole));
 }
 
-TEST_CASE("a campaign stopped half way goes on to the same findings", "[campaign]") {
+TEST_CASE("a campaign stopped half way resumes to the same findings", "[campaign]") {
   TemporaryDirectory dir;
   const auto whole = fuzz::run_campaign(config_of(320), two_engines, {}, go);
   auto c = config_of(320);
@@ -370,14 +379,14 @@ TEST_CASE("a campaign stopped half way goes on to the same findings", "[campaign
   part = fuzz::run_campaign(c, two_engines, stop_early, go);
   CHECK(part.cases == 320);
   CHECK(fuzz::digest(part) == fuzz::digest(whole));
-  SECTION("and a finished one is not begun again") {
+  SECTION("a finished one is not restarted") {
     CHECK_THROWS_AS(fuzz::run_campaign(c, two_engines, {}, go), InputError);
   }
-  SECTION("nor one with other settings") {
+  SECTION("one with other settings is refused") {
     c.seed = 6;
     CHECK_THROWS_AS(fuzz::run_campaign(c, two_engines, {}, go), InputError);
   }
-  SECTION("and every finding has its case on disk") {
+  SECTION("every finding has its case on disk") {
     std::size_t n = 0;
     for (const auto& [key, f] : part.findings) n += fs::exists(dir.path / "findings" / key / "case.json");
     CHECK(n == part.findings.size());
@@ -399,7 +408,7 @@ TEST_CASE("an engine that hangs on a query of a case is not asked in the case's 
   CHECK(asked == 0);
 }
 
-TEST_CASE("a finding's certificate is made by the job that found it, not when the state is saved",
+TEST_CASE("a finding's certificate is created by the job that found it, not when the state is saved",
           "[campaign]") {
   TemporaryDirectory dir;
   auto c = config_of(320);
@@ -415,24 +424,27 @@ TEST_CASE("a finding's certificate is made by the job that found it, not when th
       c, slow_ones,
       [&](const fuzz::Progress& p) {
         if (p.last) return;
-        for (const auto& [key, f] : p.result.findings) ++seen, made += !f.evidence->made.is_null();
+        for (const auto& [key, f] : p.result.findings) {
+          ++seen;
+          made += !f.evidence->made.is_null();
+        }
       },
       go);
   REQUIRE(seen > 0);
   CHECK(made == seen);
 }
 
-TEST_CASE("a point that sees every facet of the referee's polytope does not keep it for ever", "[campaign]") {
+TEST_CASE("a point visible from every facet of the referee's polytope does not loop forever", "[campaign]") {
   const Case c = load_case(TS_SOURCE_DIR "/tests/referee/cases/mesh_cone_no_horizon.json");
   fuzz::Truth truth(c.scene);
   const referee::TimeTruth& t = truth.motion(0, 0, 1);
   CHECK(t.verdict == referee::TimeTruth::Verdict::hit);
-  // The time that our own core, which shares no code with the referee, finds too.
+  // Our own core, which shares no code with the referee, finds the same time.
   CHECK(t.t_lo <= 0.14125937686);
   CHECK(t.t_hi >= 0.14125937684);
 }
 
-TEST_CASE("a case that shows several findings is stored once, and read back whole", "[campaign]") {
+TEST_CASE("a case that shows several findings is stored once and read back completely", "[campaign]") {
   fuzz::CampaignResult r;
   fuzz::Evidence evidence;
   evidence.c.scene.shapes = {Sphere{1}};
@@ -441,8 +453,14 @@ TEST_CASE("a case that shows several findings is stored once, and read back whol
   const auto shared = std::make_shared<const fuzz::Evidence>(evidence);
   for (const std::string fault : {"missed", "ghost", "crashed"}) {
     fuzz::Finding f;
-    f.engine = "e", f.question = "overlap", f.fault = fault, f.count = 1;
-    f.shapes = "sphere-sphere", f.blame = "algorithm", f.degeneracy = "solid", f.magnitude = "gross";
+    f.engine = "e";
+    f.question = "overlap";
+    f.fault = fault;
+    f.count = 1;
+    f.shapes = "sphere-sphere";
+    f.blame = "algorithm";
+    f.degeneracy = "solid";
+    f.magnitude = "gross";
     f.evidence = shared;
     r.findings[f.key()] = f;
   }

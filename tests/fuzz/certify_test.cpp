@@ -28,7 +28,8 @@ const std::atomic<bool> never{false};
 
 Subject core_subject(std::string_view name) {
   return {std::string(name), "", true, [name](BroadLevel level) {
-            return make_broad_engine(name, level == BroadLevel::boxes ? BroadBoxes::exact : BroadBoxes::bodies);
+            return make_broad_engine(name,
+                                     level == BroadLevel::boxes ? BroadBoxes::exact : BroadBoxes::bodies);
           }};
 }
 
@@ -36,13 +37,18 @@ BroadCertificate certificate(const Subject& s, std::uint64_t limit, int jobs = 1
                              std::vector<BroadLevel> levels = {BroadLevel::boxes, BroadLevel::bodies}) {
   CertifyConfig c;
   c.levels = std::move(levels);
-  c.limit = limit, c.jobs = jobs, c.program = "test";
+  c.limit = limit;
+  c.jobs = jobs;
+  c.program = "test";
   return *certify(s, c, {}, never);
 }
 
 BroadCertificate first_fault(const Subject& s, BroadLevel level) {
   CertifyConfig c;
-  c.levels = {level}, c.limit = 12000, c.first_fault = true, c.program = "test";
+  c.levels = {level};
+  c.limit = 12000;
+  c.first_fault = true;
+  c.program = "test";
   return *certify(s, c, {}, never);
 }
 
@@ -53,16 +59,16 @@ std::vector<mutants::Mutant> broad_mutants() {
   return all;
 }
 
-// What a lie needs at least, where that is more than 3 bodies or 6 steps; no script shows it with less. A
+// The minimum that a lie needs, where that is more than 3 bodies or 6 steps; no smaller script shows it. A
 // list of 16 is too short for 17 pairs, and 6 bodies have 15. A fourth move needs two inserts, four moves and
-// a query; a body inserted a third time three inserts, two removes, the other's insert and a query.
+// a query; a body inserted a third time needs three inserts, two removes, the other's insert and a query.
 std::pair<std::size_t, std::size_t> least_script(std::string_view mutant) {
   if (mutant == "sixteen_pairs") return {7, 8};
   if (mutant == "stale_at_fourth_move" || mutant == "lost_on_second_reinsert") return {2, 7};
   return {3, 6};
 }
 
-// The core, told of another motion than the one asked about.
+// The core, given another motion than the one in the case.
 class OtherMotion final : public Engine {
  public:
   using Change = void (*)(Motion&);
@@ -83,9 +89,12 @@ class OtherMotion final : public Engine {
 };
 
 BroadCertificate certificate_of_sweeps(OtherMotion::Change change) {
-  const Subject s{"other motion", "", true, [=](BroadLevel) { return std::make_unique<OtherMotion>(change); }};
+  const Subject s{"other motion", "", true,
+                  [=](BroadLevel) { return std::make_unique<OtherMotion>(change); }};
   CertifyConfig c;
-  c.levels = {BroadLevel::bodies}, c.first_fault = true, c.program = "test";
+  c.levels = {BroadLevel::bodies};
+  c.first_fault = true;
+  c.program = "test";
   for (const EvidenceRow& e : all_evidence())
     if (!e.sweeps && e.level == BroadLevel::bodies) c.without.emplace_back(e.name);
   return *certify(s, c, {}, never);
@@ -93,8 +102,8 @@ BroadCertificate certificate_of_sweeps(OtherMotion::Change change) {
 
 }  // namespace
 
-TEST_CASE("ends of n intervals have the orders that are counted by hand", "[certify]") {
-  // Allen's 13 relations of two intervals, 5 of a point and an interval twice over, 3 of two points.
+TEST_CASE("the ends of n intervals have as many orders as counted by hand", "[certify]") {
+  // Allen's 13 relations of two intervals, 5 of a point and an interval (twice), 3 of two points.
   CHECK(axis_orders(2).size() == 13 + 5 + 5 + 3);
   // Two intervals of a triple are in one of the 26 relations; each occurs.
   std::map<std::vector<bool>, int> seen;
@@ -102,16 +111,17 @@ TEST_CASE("ends of n intervals have the orders that are counted by hand", "[cert
     std::vector<bool> relation;
     for (int i : {0, 1})
       for (int j : {2, 3}) relation.insert(relation.end(), {r[i] < r[j], r[i] == r[j]});
-    relation.push_back(r[0] == r[1]), relation.push_back(r[2] == r[3]);
+    relation.push_back(r[0] == r[1]);
+    relation.push_back(r[2] == r[3]);
     ++seen[relation];
   }
   CHECK(seen.size() == 26);
   CHECK(axis_orders(3).size() == 818);
 }
 
-TEST_CASE("histories are all there and no two the same", "[certify]") {
-  // One body, one place: insert or query; once in, move, remove or query. Of length 2: II' no: I{M,R,Q},
-  // Q{I,Q}.
+TEST_CASE("histories are complete and distinct", "[certify]") {
+  // One body, one place: insert or query; once inserted, move, remove or query. Length 2, without II':
+  // I{M,R,Q}, Q{I,Q}.
   CHECK(histories(1, 1, 2).size() == 5);
   auto all = histories(2, 2, 6);
   const auto n = all.size();
@@ -139,8 +149,7 @@ TEST_CASE("every broad phase of the core gets its certificate", "[certify]") {
   CHECK(certified == 8);
 }
 
-TEST_CASE("a certificate is the same bytes whatever the number of jobs, and comes back from its JSON",
-          "[certify]") {
+TEST_CASE("a certificate has the same bytes for any number of jobs, and survives its JSON", "[certify]") {
   const BroadCertificate one = certificate(core_subject("grid"), 700),
                          three = certificate(core_subject("grid"), 700, 3);
   CHECK(to_json(one).dump() == to_json(three).dump());
@@ -157,7 +166,8 @@ TEST_CASE("a certificate is the same bytes whatever the number of jobs, and come
 TEST_CASE("every lying broad phase is refuted by a script of few bodies and steps", "[certify]") {
   std::size_t refuted = 0, small = 0;
   for (const mutants::Mutant& m : broad_mutants()) {
-    const Subject s{std::string(m.name), "", true, [&m](BroadLevel) { return mutants::make_lying_engine(m); }};
+    const Subject s{std::string(m.name), "", true,
+                    [&m](BroadLevel) { return mutants::make_lying_engine(m); }};
     BroadCertificate c = first_fault(s, BroadLevel::boxes);
     if (exit_code(c) == 0) c = first_fault(s, BroadLevel::bodies);
     INFO(m.name);
@@ -169,7 +179,7 @@ TEST_CASE("every lying broad phase is refuted by a script of few bodies and step
       is_small = is_small || (r.bodies <= bodies && r.steps <= steps);
       UNSCOPED_INFO(to_string(r.level) << ' ' << r.evidence << ' ' << in_words(r.what) << ": " << r.bodies
                                        << " bodies, " << r.steps << " steps, " << r.shrink);
-      // What refutes is a case that replay and shrink judge the same way.
+      // The refuting script is a case that replay and shrink judge the same way.
       if (!m.repeats || !r.script) continue;
       const EnginePtr engine = mutants::make_lying_engine(m);
       bool found = false;
@@ -205,7 +215,7 @@ TEST_CASE("a subject that leaves out a part of the motion is refuted in the quic
   }
   const BroadCertificate honest = certificate_of_sweeps([](Motion&) {});
   CHECK(exit_code(honest) == 0);
-  // About half of the pairs meet, and what a lie about one part of the motion would lose is asked for itself.
+  // About half of the pairs meet, and pairs that only one part of the motion brings together are checked.
   for (const EvidenceCount& e : honest.evidence) {
     INFO(e.name);
     CHECK(e.pairs_true > e.answered / 8);
@@ -215,7 +225,7 @@ TEST_CASE("a subject that leaves out a part of the motion is refuted in the quic
 
 namespace {
 
-// The core's brute force with faults put in: `fault` alters an answer or takes it away.
+// The core's brute force with injected faults: `fault` alters or removes an answer.
 class Faulty final : public Engine {
  public:
   using Fault = void (*)(const Scene&, Observation&);
@@ -236,7 +246,10 @@ Subject faulty(Faulty::Fault fault) {
   return {"faulty", "", false, [fault](BroadLevel) { return std::make_unique<Faulty>(fault); }, 1, {}};
 }
 
-void fail(Observation& o, Outcome outcome) { o = {}, o.outcome = outcome; }
+void fail(Observation& o, Outcome outcome) {
+  o = {};
+  o.outcome = outcome;
+}
 
 std::size_t inserts(const Scene& s) {
   return static_cast<std::size_t>(std::count_if(
@@ -271,12 +284,12 @@ std::size_t count_of(const BroadCertificate& c, std::string_view fault, FaultKin
 
 }  // namespace
 
-TEST_CASE("what is not answered in time is neither refuted nor certified, and the time to ask for is named",
+TEST_CASE("a subject that times out is neither refuted nor certified, and the time limit to set is named",
           "[certify]") {
   Subject s = faulty([](const Scene& scene, Observation& o) {
     if (scene.bodies.size() > 60) fail(o, Outcome::timed_out);
   });
-  static std::vector<double> asked;  // how much longer
+  static std::vector<double> asked;  // factors on the time limit
   asked.clear();
   s.make_patient = [&](BroadLevel, double times) -> EnginePtr {
     asked.push_back(times);
@@ -295,12 +308,12 @@ TEST_CASE("what is not answered in time is neither refuted nor certified, and th
   CHECK(c.too_slow[0].allowed == 1);
   CHECK(c.too_slow[0].sufficient == 4);
   CHECK(asked == std::vector<double>{2, 4});
-  // Nor does an engine that is asked no more, as it timed out too often.
+  // Nor is an engine refuted that is no longer asked because it timed out too often.
   s.make = faulty([](const Scene& scene, Observation& o) {
              if (scene.bodies.size() > 60) fail(o, Outcome::not_asked);
            }).make;
   CHECK(exit_code(certificate(s, 40, 1, {BroadLevel::boxes})) == 3);
-  // What is seen beside it still refutes.
+  // A fault found elsewhere still refutes.
   s.make = faulty([](const Scene& scene, Observation& o) {
              if (scene.bodies.size() > 60) fail(o, Outcome::timed_out);
              if (inserts(scene) == 3 && !o.candidate_pairs.empty()) o.candidate_pairs.back().clear();
@@ -308,7 +321,7 @@ TEST_CASE("what is not answered in time is neither refuted nor certified, and th
   CHECK(exit_code(certificate(s, 40, 1, {BroadLevel::boxes})) == 1);
 }
 
-TEST_CASE("every class of fault is listed, a solid pair first; what a bad box causes is a class of its own",
+TEST_CASE("every class of fault is listed, a solid pair first; faults of bad boxes are a separate class",
           "[certify]") {
   const Subject s = faulty([](const Scene& scene, Observation& o) {
     const std::size_t n = inserts(scene);
@@ -323,7 +336,8 @@ TEST_CASE("every class of fault is listed, a solid pair first; what a bad box ca
   const BroadCertificate c = certificate(s, 400, 1, {BroadLevel::boxes});
   INFO(to_json(c).dump(1));
   CHECK(exit_code(c) == 1);
-  CHECK(c.evidence.size() == certificate(core_subject("brute_force"), 1, 1, {BroadLevel::boxes}).evidence.size());
+  CHECK(c.evidence.size() ==
+        certificate(core_subject("brute_force"), 1, 1, {BroadLevel::boxes}).evidence.size());
   for (const auto kind : {FaultKind::solid, FaultKind::touching, FaultKind::invalid, FaultKind::unbounded})
     CHECK(count_of(c, "missed", kind) == 1);
   CHECK(count_of(c, "crashed", FaultKind::numbers) == 1);
@@ -331,7 +345,7 @@ TEST_CASE("every class of fault is listed, a solid pair first; what a bad box ca
   CHECK(c.refutations[0].what == FaultClass{"missed", FaultKind::solid});
   CHECK(c.refutations[0].bodies == 3);
   CHECK(c.refutations[0].steps == 4);
-  // Shrunk, it is solid still.
+  // After shrinking it is still solid.
   const Case& script = *c.refutations[0].script;
   const auto v =
       judge_candidates(script, s.make(BroadLevel::boxes)->run({&script, 1})[0].answers[0], BroadLevel::boxes);
@@ -351,7 +365,7 @@ TEST_CASE("every class of fault is listed, a solid pair first; what a bad box ca
   CHECK_THROWS_AS(broad_certificate_from_json(old, holds), InputError);
 }
 
-TEST_CASE("a bad box goes into a case file beside the scene and comes back, for candidates alone",
+TEST_CASE("a bad box is stored in a case file beside the scene and read back, for candidates only",
           "[certify]") {
   using Json = nlohmann::ordered_json;
   constexpr double inf = std::numeric_limits<double>::infinity();
@@ -361,7 +375,9 @@ TEST_CASE("a bad box goes into a case file beside the scene and comes back, for 
   for (int i = 0; i < 4; ++i) add_box(s, {Vec3::Zero(), Vec3::Ones()});
   for (int i = 0; i < 3; ++i) s.bodies[static_cast<std::size_t>(i)].pose.translation.y() = bad[i];
   std::get<Box>(s.shapes[3]).half_extents.z() = bad[3];
-  insert_all(s), step_move(s, 3, {Vec3(bad[0], 0, 0), {}}), step_query(s);
+  insert_all(s);
+  step_move(s, 3, {Vec3(bad[0], 0, 0), {}});
+  step_query(s);
   stored.c.queries = {{Question::candidates, -1, -1}};
   const std::string text = to_text(stored);
   const Json j = Json::parse(text);
@@ -377,8 +393,10 @@ TEST_CASE("a bad box goes into a case file beside the scene and comes back, for 
     broken["odd_numbers"][place] = value;
     CHECK_THROWS_AS(stored_case_from_json(broken), InputError);
   };
-  refused("/bodies/9/pose/translation/1", "NaN"), refused("/bodies/0/pose/translation/1", 2.0);
-  refused("/bodies/0/pose/translation/1", "nan"), refused("/shapes/3/half_extents/2", 1);
+  refused("/bodies/9/pose/translation/1", "NaN");
+  refused("/bodies/0/pose/translation/1", 2.0);
+  refused("/bodies/0/pose/translation/1", "nan");
+  refused("/shapes/3/half_extents/2", 1);
   Json other = j;
   other["queries"] = Json::parse(R"([{"question": "overlap", "a": 0, "b": 1}])");
   CHECK_THROWS_AS(stored_case_from_json(other), InputError);

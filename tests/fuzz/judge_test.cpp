@@ -1,4 +1,4 @@
-// Answers made by hand against truths that can be done in the head.
+// Hand-made answers against truths that can be computed mentally.
 #include <cmath>
 
 #include "core/math/rng.h"
@@ -32,7 +32,7 @@ Observation answered() {
 }
 
 Judgement judge_one(const Case& c, const Observation& o, const EngineCard& card = double_card(),
-                          const ReceivedScene& received = {}) {
+                    const ReceivedScene& received = {}) {
   fuzz::Truth truth(c.scene);
   return fuzz::judge(c, card, {received, {o}}, truth).at(0);
 }
@@ -45,13 +45,15 @@ bool has(const Judgement& j, Fault f) {
 
 Observation contact(const Vec3& n, double depth) {
   Observation o = answered();
-  o.overlap = true, o.normal = n, o.depth = depth;
+  o.overlap = true;
+  o.normal = n;
+  o.depth = depth;
   return o;
 }
 
 }  // namespace
 
-TEST_CASE("touching is overlap, and a verdict within tolerance of touching is not accused", "[judge]") {
+TEST_CASE("touching is overlap, and either verdict within tolerance of touching is accepted", "[judge]") {
   for (bool says : {true, false}) {
     Observation o = answered();
     o.overlap = says;
@@ -65,13 +67,13 @@ TEST_CASE("touching is overlap, and a verdict within tolerance of touching is no
   CHECK(has(judge_one(spheres(2.1, Question::overlap), o), Fault::ghost));
 }
 
-TEST_CASE("a contact must separate, be minimal, and state no more than it needs", "[judge]") {
+TEST_CASE("a contact must separate, and its depth must be minimal", "[judge]") {
   const Case c = spheres(1.5, Question::contact);
   CHECK(judge_one(c, contact({1, 0, 0}, 0.5)).right());
   CHECK(has(judge_one(c, contact({1, 0, 0}, 0.4)), Fault::infeasible));
   CHECK(has(judge_one(c, contact({1, 0, 0}, 0.6)), Fault::depth_excess));
   CHECK(has(judge_one(c, contact({-1, 0, 0}, 0.5)), Fault::infeasible));
-  // Along y the spheres separate after moving by 2: valid, poor.
+  // Along y the spheres separate after moving by 2: valid but poor.
   const auto poor = judge_one(c, contact({0, 1, 0}, 2));
   CHECK(has(poor, Fault::not_minimal));
   CHECK_FALSE(has(poor, Fault::infeasible));
@@ -86,7 +88,7 @@ TEST_CASE("every best normal of concentric spheres is right", "[judge]") {
     CHECK(judge_one(c, contact(n, 2)).right());
 }
 
-TEST_CASE("a claimed tolerance widens what is accepted, and nothing else does", "[judge]") {
+TEST_CASE("only a claimed tolerance widens what is accepted", "[judge]") {
   Observation o = answered();
   o.distance = 0.5 + 1e-4;
   CHECK(has(judge_one(spheres(2.5, Question::distance), o), Fault::distance_off));
@@ -105,7 +107,7 @@ TEST_CASE("an error that is right for the scene received is blamed on representa
   CHECK(judge_one(c, o).blame == Blame::algorithm);
 }
 
-TEST_CASE("an engine that holds another hull is judged for that one too", "[judge]") {
+TEST_CASE("an engine that holds another hull is also judged for that one", "[judge]") {
   // A flat triangle, cooked to a prism of 0.01 about it, and a ball 0.005 above it.
   const std::vector<Vec3> corners{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
   std::vector<Vec3> cooked;
@@ -124,7 +126,7 @@ TEST_CASE("an engine that holds another hull is judged for that one too", "[judg
   CHECK(has(told, Fault::ghost));
   CHECK(told.blame == Blame::representation);
   CHECK(told.holds_other_shape);
-  // Of another kind: the same; and what is wrong for what is held is the algorithm's.
+  // The same for another kind. An answer that is wrong for the shape held is the algorithm's fault.
   received.shapes[1] = Box{Vec3(1, 1, 0.01)};
   CHECK(judge_one(c, o, double_card(), received).holds_other_shape);
   received.shapes[1] = Box{Vec3(1, 1, 0.001)};
@@ -133,7 +135,7 @@ TEST_CASE("an engine that holds another hull is judged for that one too", "[judg
   CHECK_FALSE(wrong.holds_other_shape);
 }
 
-TEST_CASE("the bound of how far a received hull is from the one asked holds", "[judge]") {
+TEST_CASE("the bound on the distance between the received and the given hull holds", "[judge]") {
   Rng rng(3);
   int other_counts = 0;
   const auto points = [&](std::uint64_t n) {
@@ -161,16 +163,17 @@ TEST_CASE("the bound of how far a received hull is from the one asked holds", "[
     }
   }
   CHECK(other_counts > 100);
-  // No bound between two kinds. What is not finite is not held, and counts as asked.
+  // There is no bound between two kinds. A received shape that is not finite counts as the given one.
   Case c = spheres(5, Question::overlap);
   fuzz::Truth truth(c.scene);
   ReceivedScene box, nan;
-  box.shapes = {Box{Vec3(1, 1, 1)}}, nan.shapes = {Sphere{std::nan("")}};
+  box.shapes = {Box{Vec3(1, 1, 1)}};
+  nan.shapes = {Sphere{std::nan("")}};
   CHECK(std::isinf(truth.displacement(truth.frame_of(box))));
   CHECK(truth.frame_of(nan) == 0);
 }
 
-TEST_CASE("witness points of bodies whose depth is open are held to no more than is known", "[judge]") {
+TEST_CASE("witness points of bodies with unknown depth are checked only as far as known", "[judge]") {
   const Case c = load_case(TS_SOURCE_DIR "/tests/referee/cases/wide_depth_bracket.json");
   fuzz::Truth truth(c.scene);
   REQUIRE(truth.pair(0, 0, 1).gap.lo < -1);
@@ -200,7 +203,7 @@ TEST_CASE("time of impact is judged by gaps", "[judge][toi]") {
 
 namespace {
 
-// A ball of radius 1/4 that comes down on a floor of two triangles: touches at t = 0.7 / speed.
+// A ball of radius 1/4 that falls onto a floor of two triangles: touches at t = 0.7 / speed.
 Case ball_on_floor(double speed, double x = 0.5) {
   TriangleMesh floor;
   floor.vertices = {{-5, -5, 0}, {5, -5, 0}, {5, 5, 0}, {-5, 5, 0}};
@@ -234,7 +237,7 @@ TEST_CASE("late and missed impacts with a mesh are wrong by the depth in one tri
     REQUIRE(has(late, Fault::late));
     CHECK(std::abs(late.faults.front().error - speed / 30) < 1e-12);
     CHECK(has(judge_one(c, impact_at(t + 1e-12)), Fault::late));
-    // Long through, and clear again.
+    // Long past the floor and clear of it again.
     CHECK_FALSE(judge_one(c, impact_at(0.99)).right());
     const Judgement none = judge_one(c, impact_at(std::nullopt));
     REQUIRE(has(none, Fault::missed));
@@ -265,7 +268,7 @@ TEST_CASE("a graze of a mesh may be denied, and so may a touch at the very end",
   CHECK(has(judge_one(ball_on_floor(2, 5.26), impact_at(0.5)), Fault::ghost));
 }
 
-TEST_CASE("a box that turns through a mesh while it flies is not let off", "[judge][toi]") {
+TEST_CASE("a miss is wrong for a box that rotates through a mesh while translating", "[judge][toi]") {
   Case c = ball_on_floor(2);
   c.scene.shapes[1] = Box{{0.25, 0.25, 0.25}};
   c.scene.bodies[1].motion->angular = Vec3(3, -1, 2);
@@ -277,11 +280,11 @@ TEST_CASE("a box that turns through a mesh while it flies is not let off", "[jud
   CHECK(has(judge_one(c, impact_at(std::nullopt)), Fault::missed));
 }
 
-TEST_CASE("candidates of a step: every pair that meets on the way, those of the start are not enough",
+TEST_CASE("candidates of a step: every pair that meets on the way, not only those at the start",
           "[judge][pairs]") {
   Case c = ball_on_floor(2);
   c.scene.bodies.push_back(c.scene.bodies[1]);
-  c.scene.bodies[2].pose.translation.z() = 3;  // follows, and arrives nowhere
+  c.scene.bodies[2].pose.translation.z() = 3;  // follows, but meets nothing
   c.scene.bodies.push_back(c.scene.bodies[1]);
   c.scene.bodies[3].pose.translation = {9, 9, 0};
   c.scene.bodies[3].motion = Motion{Vec3::Zero(), Vec3(0, 9, 0)};
@@ -302,7 +305,7 @@ TEST_CASE("candidates of a step: every pair that meets on the way, those of the 
   Observation nothing = answered();
   CHECK(has(judge_one(c, nothing), Fault::missed));
   CHECK(has(judge_one(c, answer({{0, 1}, {1, 4}})), Fault::stale));
-  // Where the bodies stand, none overlap.
+  // At the start, no bodies overlap.
   c.queries = {{Question::candidates, -1, -1}};
   CHECK(judge_one(c, answer({})).right());
   // A touch in passing counts too.
@@ -313,7 +316,7 @@ TEST_CASE("candidates of a step: every pair that meets on the way, those of the 
   CHECK(has(judge_one(c, answer({})), Fault::missed));
 }
 
-TEST_CASE("candidate pairs: no tolerance for a missed touching pair, stale names told apart",
+TEST_CASE("candidate pairs: no tolerance for a missed touching pair; stale pairs are distinguished",
           "[judge][pairs]") {
   const Case c = spheres(2, Question::candidates);
   Observation o = answered();
@@ -342,8 +345,7 @@ Case ball_on_triangle(double below, Question q) {
 
 }  // namespace
 
-TEST_CASE("a normal that is none is wrong, also where the bodies are apart by less than the tolerance",
-          "[judge]") {
+TEST_CASE("an invalid normal is wrong even when the bodies are apart by less than the tolerance", "[judge]") {
   const Case apart = spheres(2 + 1e-15, Question::contact);
   CHECK(judge_one(apart, contact({1, 0, 0}, 0)).right());
   CHECK(has(judge_one(apart, contact({0, 0, 0}, 0)), Fault::normal_not_unit));
@@ -361,7 +363,7 @@ TEST_CASE("a normal that is none is wrong, also where the bodies are apart by le
   CHECK(has(judge_one(spheres(2.25, Question::contact), wide), Fault::point_off));
 }
 
-TEST_CASE("of a contact with a surface is judged what can be, and the rest is not judged", "[judge][mesh]") {
+TEST_CASE("a contact with a surface is judged as far as possible; the rest is not judged", "[judge][mesh]") {
   const Case c = ball_on_triangle(0.75, Question::contact);
   const auto stated = judge_one(c, contact({0, 0, -1}, 0.25));
   CHECK(stated.ruling() == Ruling::not_judged);
@@ -375,7 +377,7 @@ TEST_CASE("of a contact with a surface is judged what can be, and the rest is no
   o.manifold = {{{0, 0, -3}, 0.25}};
   CHECK(has(judge_one(c, o), Fault::point_off));
   Observation verdict = answered();
-  verdict.overlap = true;  // states no more than that
+  verdict.overlap = true;  // reports only the verdict
   CHECK(judge_one(c, verdict).right());
 
   Observation d = answered();
@@ -386,7 +388,7 @@ TEST_CASE("of a contact with a surface is judged what can be, and the rest is no
   CHECK(has(judge_one(ball_on_triangle(2, Question::distance), d), Fault::ghost));
 }
 
-TEST_CASE("in a scene each contact is judged by its numbers, and one with a surface is missed too",
+TEST_CASE("each contact of a scene is judged by its numbers; one with a surface can be missed too",
           "[judge][mesh]") {
   const Case c = ball_on_triangle(0.75, Question::scene_contacts);
   Observation o = answered();
@@ -399,11 +401,14 @@ TEST_CASE("in a scene each contact is judged by its numbers, and one with a surf
   CHECK(has(judge_one(c, o), Fault::no_number));
 }
 
-TEST_CASE("what is too expensive to referee is undecided: neither held against an engine nor right",
-          "[judge]") {
+TEST_CASE("questions too expensive for the referee are undecided: neither wrong nor right", "[judge]") {
   const referee::WorkLimit nothing(0);
   Observation o = answered();
-  o.overlap = true, o.distance = 7, o.normal = Vec3(0, 1, 0), o.depth = 3, o.toi = 0.5;
+  o.overlap = true;
+  o.distance = 7;
+  o.normal = Vec3(0, 1, 0);
+  o.depth = 3;
+  o.toi = 0.5;
   for (const Question q :
        {Question::overlap, Question::distance, Question::contact, Question::time_of_impact}) {
     Case c = spheres(2.5, q);
@@ -414,25 +419,29 @@ TEST_CASE("what is too expensive to referee is undecided: neither held against a
   }
 }
 
-TEST_CASE("what is stated of a contact is judged, however little it is", "[judge]") {
+TEST_CASE("every part of a contact that an engine states is judged", "[judge]") {
   Observation o = answered();
-  o.overlap = true, o.normal = Vec3(0, 1, 0);
+  o.overlap = true;
+  o.normal = Vec3(0, 1, 0);
   CHECK(has(judge_one(spheres(1.5, Question::contact), o), Fault::not_minimal));
-  o.normal.reset(), o.depth = 0.4;
+  o.normal.reset();
+  o.depth = 0.4;
   CHECK(has(judge_one(spheres(1.5, Question::contact), o), Fault::infeasible));
   o.depth = 0.6;
   CHECK(has(judge_one(spheres(1.5, Question::contact), o), Fault::depth_excess));
   o.depth = 0.5;
   CHECK(judge_one(spheres(1.5, Question::contact), o).right());
   Observation d = answered();
-  d.distance = 0.5, d.overlap = true;
+  d.distance = 0.5;
+  d.overlap = true;
   CHECK(has(judge_one(spheres(2.5, Question::distance), d), Fault::ghost));
   Observation points = answered();
-  points.overlap = false, points.witness = {Vec3(1, 0, 0), Vec3(7, 0, 0)};
+  points.overlap = false;
+  points.witness = {Vec3(1, 0, 0), Vec3(7, 0, 0)};
   CHECK(has(judge_one(spheres(2.5, Question::distance), points), Fault::witness_off));
 }
 
-TEST_CASE("a claimed tolerance is believed as far as it can be, and shown where it is wide", "[judge]") {
+TEST_CASE("a claimed tolerance is accepted within limits, and shown when it is wide", "[judge]") {
   Observation o = answered();
   o.distance = 0.5;
   const Case c = spheres(2.5, Question::distance);  // L = 2.5
@@ -449,7 +458,8 @@ TEST_CASE("a claimed tolerance is believed as far as it can be, and shown where 
     CHECK_FALSE(with(claim).unjudged_by_definition());
   }
   for (const double claim : {-1.0, double(NAN), double(INFINITY)}) CHECK(has(with(claim), Fault::no_number));
-  o.distance = 0.6, o.claimed_tolerance = 0.5;
+  o.distance = 0.6;
+  o.claimed_tolerance = 0.5;
   CHECK(judge_one(c, o).right());
   EngineCard nameless = double_card();
   nameless.source.clear();
@@ -469,7 +479,7 @@ TEST_CASE("L is the largest of lengths, coordinates and separation", "[judge][sc
   CHECK(scale(c) == 40);
 }
 
-TEST_CASE("an answer without a number, and every way to fail, is a finding", "[judge]") {
+TEST_CASE("an answer without a number, and every kind of failure, is a finding", "[judge]") {
   CHECK(has(judge_one(spheres(2.5, Question::overlap), answered()), Fault::no_number));
   for (Outcome out : {Outcome::crashed, Outcome::timed_out, Outcome::threw, Outcome::not_converged}) {
     Observation o;
@@ -499,7 +509,7 @@ TEST_CASE("coverage is the part of the true contact region that a manifold spans
   CHECK(with({{0, 0, 1}}) == -1);
 }
 
-TEST_CASE("a scene received that is none is representation, never a crash", "[judge]") {
+TEST_CASE("an invalid received scene is blamed on representation and never crashes the judge", "[judge]") {
   const double nan = std::nan(""), inf = HUGE_VAL;
   const auto placed = [](const Vec3& t, double m = 1) { return Placement{m * Mat3::Identity(), t}; };
   const auto at = [&](const Placement& p) { return ReceivedScene{{std::nullopt, p}, {}}; };
@@ -523,14 +533,14 @@ TEST_CASE("a scene received that is none is representation, never a crash", "[ju
     CHECK(
         judge_one(spheres(1.5, Question::contact), contact({1, 0, 0}, 0.5), double_card(), received).right());
   }
-  // A body that the question is not about takes nothing from the blame.
+  // A body outside the question does not change the blame.
   Case three = spheres(1.5, Question::overlap);
   three.scene.bodies.resize(3);
   const ReceivedScene third{{std::nullopt, std::nullopt, placed({nan, 0, 0})}, {}};
   CHECK(judge_one(three, missed, double_card(), third).blame == Blame::algorithm);
 }
 
-TEST_CASE("a mesh or half-space received that is none does not reach the referee", "[judge]") {
+TEST_CASE("an invalid received mesh or half-space does not reach the referee", "[judge]") {
   Case c = spheres(0.5, Question::overlap);
   c.scene.shapes.push_back(TriangleMesh{{{-1, -1, 0}, {1, -1, 0}, {0, 1, 0}}, {{0, 1, 2}}});
   c.scene.bodies[1].shape = 1;
@@ -538,8 +548,7 @@ TEST_CASE("a mesh or half-space received that is none does not reach the referee
   missed.overlap = false;
   TriangleMesh broken = std::get<TriangleMesh>(c.scene.shapes[1]);
   broken.vertices[1].y() = std::nan("");
-  CHECK(judge_one(c, missed, double_card(), {{}, {std::nullopt, broken}}).blame ==
-        Blame::representation);
+  CHECK(judge_one(c, missed, double_card(), {{}, {std::nullopt, broken}}).blame == Blame::representation);
   c.scene.shapes[1] = HalfSpace{};
   CHECK(judge_one(c, missed, double_card(), {{}, {std::nullopt, HalfSpace{Vec3::Zero(), 1}}}).blame ==
         Blame::representation);

@@ -49,7 +49,7 @@ bool aborts(const Bytes& bytes, const EnginePtr& engine) {
 
 }  // namespace
 
-TEST_CASE("the entry finds nothing wrong with the core in its seeds, which name every family",
+TEST_CASE("the entry finds no fault of the core in its seeds, which cover every family",
           "[libfuzzer][core]") {
   std::set<std::string> families;
   for (const Bytes& b : seeds()) {
@@ -61,7 +61,7 @@ TEST_CASE("the entry finds nothing wrong with the core in its seeds, which name 
   CHECK(families.size() == fuzz::families().size());
 }
 
-TEST_CASE("any bytes are a case or nothing, and the same ones each time", "[libfuzzer]") {
+TEST_CASE("any bytes decode to a case or to nothing, and always to the same", "[libfuzzer]") {
   Rng rng(5);
   std::size_t cases = 0, changed = 0;
   for (int i = 0; i < 400; ++i) {
@@ -85,7 +85,7 @@ TEST_CASE("any bytes are a case or nothing, and the same ones each time", "[libf
   CHECK(LLVMFuzzerTestOneInput(nullptr, 0) == 0);
 }
 
-TEST_CASE("a change that steers to a gap of 0 makes bodies touch", "[libfuzzer][mutate]") {
+TEST_CASE("a change that steers to a gap of zero makes bodies touch", "[libfuzzer][mutate]") {
   Case c;
   c.scene.shapes = {Box{Vec3(1, 1, 1)}};
   c.scene.bodies.resize(2);
@@ -95,7 +95,7 @@ TEST_CASE("a change that steers to a gap of 0 makes bodies touch", "[libfuzzer][
   CHECK(c.scene.bodies[1].pose.translation.x() == 2);
 }
 
-TEST_CASE("a wrong engine ends the entry by abort", "[libfuzzer][mutants]") {
+TEST_CASE("the entry aborts on a wrong engine", "[libfuzzer][mutants]") {
   for (const auto& m : mutants::mutants()) {
     if (m.name != "depth_halved" && m.name != "declines_large") continue;
     std::size_t aborted = 0;

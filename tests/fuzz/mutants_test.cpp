@@ -11,7 +11,7 @@ using namespace touchstone;
 
 namespace {
 
-// The number of cases of the mutant's family that it takes to find its fault; nothing when `most` do not.
+// The number of cases of the mutant's family needed to find its fault; nothing if `most` are not enough.
 std::optional<std::uint64_t> cases_to_kill(const mutants::Mutant& m, std::uint64_t most) {
   std::vector<EnginePtr> engines;
   engines.push_back(mutants::make_lying_engine(m));
@@ -27,7 +27,7 @@ std::optional<std::uint64_t> cases_to_kill(const mutants::Mutant& m, std::uint64
 
 }  // namespace
 
-TEST_CASE("every lying engine is found, by the fault that its lie is", "[mutants]") {
+TEST_CASE("every lying engine is found by the fault of its lie", "[mutants]") {
   std::size_t found = 0;
   for (const mutants::Mutant& m : mutants::mutants()) {
     INFO(m.name << " should be found as " << m.fault << " in family " << m.family);
@@ -38,13 +38,16 @@ TEST_CASE("every lying engine is found, by the fault that its lie is", "[mutants
   CHECK(found >= 180);
 }
 
-TEST_CASE("no two mutants share a name, and their faults cover all that the judge knows", "[mutants]") {
+TEST_CASE("no two mutants share a name, and they cover every fault that the judge knows", "[mutants]") {
   std::set<std::string_view> names, faults;
-  for (const mutants::Mutant& m : mutants::mutants()) names.insert(m.name), faults.insert(m.fault);
+  for (const mutants::Mutant& m : mutants::mutants()) {
+    names.insert(m.name);
+    faults.insert(m.fault);
+  }
   CHECK(names.size() == mutants::mutants().size());
   for (const std::string_view fault : fault_names)
     if (fault != "failed") CHECK(faults.contains(fault));
   for (const fuzz::Relation& r : fuzz::relations()) CHECK(faults.contains(r.name));
-  // `failed` goes by the outcome's name.
+  // `failed` is named after the outcome.
   for (const char* outcome : {"not_converged", "invalid_input", "threw"}) CHECK(faults.contains(outcome));
 }

@@ -1,4 +1,4 @@
-// The text of reproducers: one for every engine that has a writer, every question and every fault.
+// The text of reproducers: one for every engine with a writer, every question and every fault.
 #include "fuzz/reproduce/reproducer.h"
 
 #include <string>
@@ -27,11 +27,14 @@ Case case_of(Question question, const Shape& a, const Shape& b) {
 Finding finding_of(const std::string& engine, const Case& c, std::string_view fault) {
   const Question question = c.queries[0].question;
   Finding f;
-  f.engine = engine, f.question = to_string(question), f.fault = fault;
+  f.engine = engine;
+  f.question = to_string(question);
+  f.fault = fault;
   Evidence e;
   e.c = c;
   e.observation = make_core_engine()->run({&c, 1})[0].answers[0];
-  e.a = 0, e.b = 1;
+  e.a = 0;
+  e.b = 1;
   e.step = question == Question::candidates ? 0 : -1;
   e.question = question;
   f.evidence = std::make_shared<const Evidence>(std::move(e));
@@ -91,7 +94,7 @@ TEST_CASE("every engine with a writer has a program for every question and every
             CHECK(text.find("int main()") != std::string::npos);
             ++written;
           } catch (const InputError&) {
-            // Refused in words: this engine does not answer this question.
+            // Refused with a message: this engine does not answer this question.
           } catch (const std::exception& e) {
             FAIL_CHECK(e.what());
           }

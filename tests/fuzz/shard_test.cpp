@@ -1,9 +1,8 @@
-// A campaign in shards: who runs which, and what is left when they are put together again.
+// A campaign in shards: which task runs which shard, and the result of merging them.
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <atomic>
-#include <cstdio>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -19,6 +18,7 @@
 #include "oracles/core/core_engine.h"
 #include "tests/mutants/lying_engine.h"
 #include "tests/support/catch.h"
+#include "tests/support/skip.h"
 
 using namespace touchstone;
 namespace fs = std::filesystem;
@@ -27,7 +27,10 @@ namespace {
 
 struct Workspace {
   fs::path path = fs::temp_directory_path() / ("touchstone-shards-" + std::to_string(getpid()));
-  Workspace() { fs::remove_all(path), fs::create_directories(path); }
+  Workspace() {
+    fs::remove_all(path);
+    fs::create_directories(path);
+  }
   ~Workspace() { fs::remove_all(path); }
 };
 
@@ -38,7 +41,7 @@ std::string read(const fs::path& file) {
   return s.str();
 }
 
-// Findings and state of a campaign without what is a time.
+// Findings and state of a campaign without its times.
 std::map<std::string, std::string> files_of(const fs::path& campaign) {
   std::map<std::string, std::string> r;
   if (fs::exists(campaign / "findings"))
@@ -67,8 +70,13 @@ const std::atomic<bool> go{false};
 
 fs::path campaign(const fs::path& out, std::uint64_t shard, std::uint64_t shards) {
   fuzz::CampaignConfig c;
-  c.engines = {"depth_halved"}, c.subject = "depth_halved";
-  c.cases = 400, c.seed = 9, c.shard = shard, c.shards = shards, c.out = out;
+  c.engines = {"depth_halved"};
+  c.subject = "depth_halved";
+  c.cases = 400;
+  c.seed = 9;
+  c.shard = shard;
+  c.shards = shards;
+  c.out = out;
   fuzz::run_campaign(c, liar, {}, go);
   return out;
 }
@@ -95,7 +103,7 @@ TEST_CASE("a task of a cluster knows its shard", "[shards]") {
                          {"SLURM_ARRAY_TASK_STEP", "2"}}),
            3, 4));
   CHECK(is(shard_of("", {{"JOB_COMPLETION_INDEX", "1"}, {"JOB_COMPLETIONS", "3"}}), 1, 3));
-  // What is asked for by name goes before what the cluster says.
+  // An explicit shard overrides the cluster's variables.
   CHECK(is(shard_of("0/2", {{"SLURM_ARRAY_TASK_ID", "2"}, {"SLURM_ARRAY_TASK_COUNT", "4"}}), 0, 2));
   for (const char* wrong : {"2/2", "1", "a/b", "1/0", "-1/3", "1/3x", "/"})
     CHECK_THROWS_AS(shard_of(wrong, {}), InputError);
@@ -131,7 +139,7 @@ TEST_CASE("merged shards are the unsharded campaign, byte for byte but for times
     CHECK_FALSE(fs::exists(w.path / "evil"));
     CHECK_FALSE(fs::exists(w.path / "victim"));
   }
-  SECTION("parts that do not fit are refused") {
+  SECTION("incompatible parts are refused") {
     merge("other", {s[0], s[1]});
     CHECK_THROWS_AS(merge("d", {w.path / "part", w.path / "other"}), InputError);
     CHECK_THROWS_AS(merge("a", {s[0]}), InputError);
@@ -147,7 +155,7 @@ int exit_of(const std::string& command, const char* output = " >/dev/null 2>&1")
   return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
 }
 
-// Shards in `out` merged against one campaign of all, both by the command line.
+// Merges the shards in `out` and compares them with one whole campaign, both by command line.
 void check_shards_are_whole(const std::string& out) {
   const std::string program = TS_BINARY_DIR "/bin/touchstone";
   REQUIRE(exit_of(program + " merge " + out + "/all " + out + "/shard-*") == 0);
@@ -161,7 +169,7 @@ const std::string task_settings =
 
 }  // namespace
 
-TEST_CASE("the sbatch script's tasks together are the campaign of one machine", "[shards][cluster]") {
+TEST_CASE("the sbatch script's tasks together equal the campaign of one machine", "[shards][cluster]") {
   const Workspace w;
   const std::string out = w.path.string();
   for (int task = 5; task < 8; ++task)
@@ -171,16 +179,11 @@ TEST_CASE("the sbatch script's tasks together are the campaign of one machine", 
   check_shards_are_whole(out);
 }
 
-TEST_CASE("the same under a Slurm of one node", "[shards][cluster][slurm]") {
+TEST_CASE("the same under a single-node Slurm", "[shards][cluster][slurm][optional]") {
   for (const char* daemon : {"slurmctld", "slurmd", "munged", "sbatch"})
-    if (exit_of(std::string("PATH=\"$PATH:/usr/sbin\" command -v ") + daemon) != 0) {
-      std::printf("skipped: %s is not installed\n", daemon);
-      return;
-    }
-  if (geteuid() != 0) {
-    std::printf("skipped: a Slurm by hand wants root\n");
-    return;
-  }
+    if (exit_of(std::string("PATH=\"$PATH:/usr/sbin\" command -v ") + daemon) != 0)
+      return test::skip(std::string(daemon) + " is not installed");
+  if (geteuid() != 0) return test::skip("starting a Slurm by hand needs root");
   const Workspace w;
   const std::string out = w.path.string();
   const std::string cluster = "sh tests/fuzz/single_node_slurm.sh " + out + "/slurm",
@@ -196,23 +199,32 @@ namespace {
 
 fuzz::KnownFinding row(const char* first, const char* last, std::uint64_t count, const char* expired) {
   fuzz::KnownFinding f;
-  f.key = "e.overlap.missed.box-box.algorithm.solid.gross", f.engine = "e", f.question = "overlap";
-  f.fault = "missed", f.shapes = "box-box", f.blame = "algorithm", f.degeneracy = "solid",
+  f.key = "e.overlap.missed.box-box.algorithm.solid.gross";
+  f.engine = "e";
+  f.question = "overlap";
+  f.fault = "missed";
+  f.shapes = "box-box";
+  f.blame = "algorithm";
+  f.degeneracy = "solid";
   f.magnitude = "gross";
-  f.first_seen = first, f.last_seen = last, f.count = count, f.expired = expired;
-  f.smallest = std::string("case of ") + first, f.size.bits = count;
+  f.first_seen = first;
+  f.last_seen = last;
+  f.count = count;
+  f.expired = expired;
+  f.smallest = std::string("case of ") + first;
+  f.size.bits = count;
   return f;
 }
 
 }  // namespace
 
-TEST_CASE("ledgers merge in any order, and again, to the same", "[shards][merge][ledger]") {
+TEST_CASE("ledgers merge to the same result in any order and repeatedly", "[shards][merge][ledger]") {
   const auto x = row("2026-01-02", "2026-01-05", 7, "2026-01-09"), y = row("2026-01-01", "2026-01-07", 3, ""),
              z = row("2026-01-03", "2026-01-11", 5, "");
   const auto xy = fuzz::merged(x, y);
   CHECK(xy.first_seen == "2026-01-01");
   CHECK(xy.last_seen == "2026-01-07");
-  CHECK(xy.expired == "2026-01-09");  // the latest word on it
+  CHECK(xy.expired == "2026-01-09");  // the latest status
   CHECK(xy.count == 7);
   CHECK(xy.size.bits == 3);
   CHECK(xy == fuzz::merged(y, x));
@@ -233,7 +245,7 @@ TEST_CASE("ledgers merge in any order, and again, to the same", "[shards][merge]
   CHECK_THROWS_AS(fuzz::merge_ledgers(sum, std::vector{w.path / "none.db"}), InputError);
 }
 
-TEST_CASE("triage by several jobs says what triage by one says", "[shards][triage]") {
+TEST_CASE("triage gives the same result with several jobs as with one", "[shards][triage]") {
   const Workspace w;
   const auto found = fuzz::load_findings(campaign(w.path / "c", 0, 1));
   CHECK(found.size() > 5);

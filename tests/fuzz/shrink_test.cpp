@@ -1,4 +1,4 @@
-// The shrinker keeps what it must keep, ends, and gets small.
+// The shrinker keeps what it must keep, terminates, and gives small cases.
 #include "fuzz/shrink/shrink.h"
 
 #include <algorithm>
@@ -38,7 +38,7 @@ bool has_far_vertex(const Case& c) {
 
 }  // namespace
 
-TEST_CASE("bits count what must be written down", "[shrink]") {
+TEST_CASE("the size in bits counts what must be written down", "[shrink]") {
   CHECK(fuzz::bits_of(0.0) == 0);
   CHECK(fuzz::bits_of(-0.0) == 1);
   CHECK(fuzz::bits_of(1.0) == 1);
@@ -50,7 +50,7 @@ TEST_CASE("bits count what must be written down", "[shrink]") {
   CHECK(fuzz::rounded_to(-0.3, 53) == -0.3);
 }
 
-TEST_CASE("one vertex of one hull is all that a finding about a vertex keeps", "[shrink]") {
+TEST_CASE("a finding about a vertex keeps only one vertex of one hull", "[shrink]") {
   std::size_t shrunk_cases = 0;
   for (std::uint64_t i = 0; i < 300; ++i) {
     const Case c = fuzz::make_case(5, i, "crowd");
@@ -73,7 +73,7 @@ TEST_CASE("one vertex of one hull is all that a finding about a vertex keeps", "
   CHECK(shrunk_cases == 5);
 }
 
-TEST_CASE("whatever must be kept, the result keeps it, is valid and no larger", "[shrink]") {
+TEST_CASE("the result keeps the required property, is valid and not larger", "[shrink]") {
   std::size_t checked = 0, smaller = 0;
   for (const fuzz::Family& f : fuzz::families())
     for (std::uint64_t i = 0; i < 8; ++i) {
@@ -85,7 +85,8 @@ TEST_CASE("whatever must be kept, the result keeps it, is valid and no larger", 
       };
       const auto r = fuzz::shrink(c, when(shows), 3000);
       if (!shows(c)) continue;
-      ++checked, smaller += r.after < r.before;
+      ++checked;
+      smaller += r.after < r.before;
       CHECK(shows(r.smallest));
       CHECK_FALSE(r.before < r.after);
       CHECK_NOTHROW(validate(r.smallest.scene));
@@ -96,7 +97,7 @@ TEST_CASE("whatever must be kept, the result keeps it, is valid and no larger", 
   CHECK(smaller == checked);
 }
 
-TEST_CASE("an engine that does not answer the same twice is told apart from a shrunk case", "[shrink]") {
+TEST_CASE("an engine whose answers vary is distinguished from a shrunk case", "[shrink]") {
   const Case c = fuzz::make_case(1, 0, "near");
   CHECK(fuzz::shrink(c, when([](const Case&) { return false; })).exit == fuzz::ShrinkExit::not_shown);
   const auto r = fuzz::shrink(c, when([](const Case&) { return true; }), 3);
@@ -104,7 +105,7 @@ TEST_CASE("an engine that does not answer the same twice is told apart from a sh
 }
 
 TEST_CASE("findings about lying engines shrink to two bodies and keep their key", "[shrink][mutants]") {
-  // One or two of each check; capacities and orders of lists need their many bodies.
+  // One or two per check; faults of list capacities and orders need many bodies.
   const std::set<std::string_view> chosen{"last_pair_dropped",    "boxes_one_ulp_small",
                                           "static_first_dropped", "stale_after_move",
                                           "lost_on_reinsert",     "pair_of_no_body",
@@ -142,7 +143,7 @@ TEST_CASE("findings about lying engines shrink to two bodies and keep their key"
   CHECK(shrunk_findings == chosen.size());
 }
 
-TEST_CASE("numbers at the end of the doubles are rounded or left, never lost", "[shrink]") {
+TEST_CASE("numbers at the limits of double are rounded or kept, never lost", "[shrink]") {
   Case c;
   const double far = 0x1.fffffffffffffp1023;
   c.scene.shapes = {make_hull({{far, 0, 0}, {0, far, 0}, {0, 0, far}, {-far, -1, -2}})};

@@ -1,7 +1,7 @@
 #!/bin/sh
-# single_node_slurm.sh DIR COMMAND...: a Slurm cluster of this one machine, by hand and as root, with its key,
-# state and logs in DIR; runs COMMAND with SLURM_CONF set, ends the daemons, exits as COMMAND did. Exit 77: the
-# cluster did not start (the logs say why).
+# single_node_slurm.sh DIR COMMAND...: starts a Slurm cluster on this machine, as root, with its key, state and
+# logs in DIR; runs COMMAND with SLURM_CONF set, stops the daemons, exits like COMMAND. Exit code 77: the cluster did
+# not start (the logs say why).
 set -u
 dir=$1
 shift
@@ -9,7 +9,7 @@ mkdir -p "$dir/state" "$dir/spool"
 chmod 755 "$dir"
 host=$(hostname -s)
 cpus=$(getconf _NPROCESSORS_ONLN)
-# Ports of this process alone: another cluster by hand may be running.
+# Ports of this process only, because another such cluster may be running.
 port=$((20000 + $$ % 20000 * 2))
 
 dd if=/dev/urandom of="$dir/munge.key" bs=128 count=1 2>/dev/null

@@ -1,4 +1,4 @@
-// The ledger remembers, and triage tells new from known from gone.
+// The ledger remembers findings, and triage tells new, known and gone ones apart.
 #include "fuzz/triage/triage.h"
 
 #include <unistd.h>
@@ -23,16 +23,24 @@ namespace {
 struct Place {
   fs::path dir = fs::temp_directory_path() / ("touchstone-triage-" + std::to_string(getpid()));
   fs::path ledger = dir / "findings.db";
-  Place() { fs::remove_all(dir), fs::create_directories(dir); }
+  Place() {
+    fs::remove_all(dir);
+    fs::create_directories(dir);
+  }
   ~Place() { fs::remove_all(dir); }
 };
 
 StoredFinding finding(const std::string& engine, const std::string& fault) {
   StoredFinding s;
-  s.finding.engine = engine, s.finding.fault = fault, s.finding.question = "contact";
-  s.finding.shapes = "box-box", s.finding.blame = "algorithm";
-  s.finding.degeneracy = "solid", s.finding.magnitude = "gross";
-  s.finding.count = 3, s.finding.words = "it is <wrong> & \"off\"";
+  s.finding.engine = engine;
+  s.finding.fault = fault;
+  s.finding.question = "contact";
+  s.finding.shapes = "box-box";
+  s.finding.blame = "algorithm";
+  s.finding.degeneracy = "solid";
+  s.finding.magnitude = "gross";
+  s.finding.count = 3;
+  s.finding.words = "it is <wrong> & \"off\"";
   s.c.scene.shapes = {Sphere{1}};
   s.c.scene.bodies.resize(2);
   s.c.queries = {{Question::contact, 0, 1}};
@@ -85,7 +93,7 @@ std::map<std::string, Standing> by_fault(const std::vector<Triaged>& all) {
 
 }  // namespace
 
-TEST_CASE("a finding is new once, then known, still there, gone, and back", "[triage]") {
+TEST_CASE("a finding is new once, then known, still present, gone, and back", "[triage]") {
   const Place place;
   const auto missed = finding("one", "missed"), ghost = finding("two", "ghost");
   Fake fake;
@@ -150,7 +158,7 @@ TEST_CASE("a finding that shows only sometimes is flaky, not gone", "[triage]") 
   CHECK(night({}, 0).standing == Standing::gone);
 }
 
-TEST_CASE("a finding that cannot be shrunk or asked leaves the others as they are", "[triage]") {
+TEST_CASE("a finding that cannot be shrunk or asked does not affect the others", "[triage]") {
   const Place place;
   Fake fake;
   const auto with_trouble = [&](const std::vector<StoredFinding>& found) {
@@ -184,7 +192,7 @@ TEST_CASE("a finding that cannot be shrunk or asked leaves the others as they ar
   CHECK(Ledger(place.ledger).find(second[0].finding.key)->expired.empty());
 }
 
-TEST_CASE("what is not committed is not in the ledger", "[triage]") {
+TEST_CASE("uncommitted findings are not in the ledger", "[triage]") {
   const Place place;
   const KnownFinding f = row_of("a");
   {
@@ -200,7 +208,7 @@ TEST_CASE("what is not committed is not in the ledger", "[triage]") {
   CHECK(Ledger(place.ledger).all() == std::vector<KnownFinding>{f});
 }
 
-TEST_CASE("two runs that write at once both get through", "[triage]") {
+TEST_CASE("two runs that write at the same time both succeed", "[triage]") {
   const Place place;
   const auto write = [&](const std::string& prefix) {
     for (int i = 0; i < 20; ++i) {
@@ -215,7 +223,7 @@ TEST_CASE("two runs that write at once both get through", "[triage]") {
   CHECK(Ledger(place.ledger).all().size() == 40);
 }
 
-TEST_CASE("a file that is no ledger is refused by name and left alone", "[triage]") {
+TEST_CASE("a file that is not a ledger is refused by name and left unchanged", "[triage]") {
   const Place place;
   std::ofstream(place.ledger) << "this is a text, and long enough that nobody takes it for an empty database";
   const auto size = fs::file_size(place.ledger);
@@ -230,12 +238,15 @@ TEST_CASE("a file that is no ledger is refused by name and left alone", "[triage
   CHECK_THROWS_AS(load_findings(place.dir), InputError);
 }
 
-TEST_CASE("the report for continuous integration is well-formed and counts", "[triage]") {
+TEST_CASE("the report for continuous integration is well-formed and its counts are right", "[triage]") {
   std::vector<Triaged> all(3);
-  all[0].finding.key = "one.a", all[0].finding.engine = "one", all[0].finding.words = "x < y & \"z\"";
+  all[0].finding.key = "one.a";
+  all[0].finding.engine = "one";
+  all[0].finding.words = "x < y & \"z\"";
   all[0].finding.smallest = "{}";
   all[1] = all[2] = all[0];
-  all[1].standing = Standing::still, all[2].standing = Standing::gone;
+  all[1].standing = Standing::still;
+  all[2].standing = Standing::gone;
   const std::string xml = reports::triage_junit(all);
   CHECK(xml.find("tests=\"3\" failures=\"1\" skipped=\"1\"") != std::string::npos);
   CHECK(xml.find("x &lt; y &amp; &quot;z&quot;") != std::string::npos);

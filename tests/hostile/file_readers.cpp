@@ -52,7 +52,7 @@ void read_moving(const fs::path& d) {
   try {
     fuzz::course_of(load_case(file).scene);
   } catch (const InputError& e) {
-    throw InputError(file.string(), e.what());  // as the command that asks for it
+    throw InputError(file.string(), e.what());  // as the command does
   }
 }
 void read_scene(const fs::path& d) { read_case(d / "scene.json"); }
@@ -62,7 +62,7 @@ std::string at_file(const fs::path& file, const InputError& e) {
   return file.string() + (e.place().empty() ? "" : ": " + e.place());
 }
 
-// As `touchstone check` has it.
+// Like `touchstone check`.
 template <class Check>
 void check_certificate(const fs::path& file, Check&& check) try {
   const Json j = load_json(file);
@@ -199,7 +199,7 @@ void read_card(const fs::path& d) try {
   throw InputError(at_file(d / "card.json", e), e.reason());
 }
 
-// What a worker, which an engine may have taken over, writes to its pipe.
+// Output of a worker, which an engine may have taken over.
 void read_frames(const fs::path& d) try {
   const Scene scene = load_case(d / "pair1.json").scene;
   const std::string bytes = read_file(d / "frames.bin");
@@ -221,12 +221,12 @@ void read_frames(const fs::path& d) try {
         break;
     }
   }
-} catch (const protocol::Malformed&) {  // a worker's rubbish is its crash
+} catch (const protocol::Malformed&) {  // malformed output of a worker counts as its crash
 } catch (const InputError& e) {
   throw InputError(at_file(d / "frames.bin", e), e.reason());
 }
 
-// No command reads meshes yet. Of other formats assimp itself dies (PLY and OFF: an assertion of its
+// No command reads meshes yet. assimp itself dies on other formats (PLY and OFF: an assertion in its
 // triangulation).
 template <char kind>
 void read_mesh(const fs::path& d) {
@@ -297,8 +297,7 @@ void write_certificates(const fs::path& d) {
   for (std::size_t i = 0; i < std::size(pairs); ++i) {
     const std::string name = std::to_string(i + 1) + ".json";
     const Scene& scene = pairs[i].scene;
-    const Placed a{&scene.shapes[0], scene.bodies[0].pose},
-        b{&scene.shapes[1], scene.bodies[1].pose};
+    const Placed a{&scene.shapes[0], scene.bodies[0].pose}, b{&scene.shapes[1], scene.bodies[1].pose};
     const auto truth = referee::judge_pair(a, b);
     write_json(d / ("pair" + name), case_to_json(pairs[i]));
     write_json(

@@ -1,4 +1,4 @@
-// What commands do with the files that they are given, up to where an engine would be asked, as functions.
+// What commands do with their input files, up to the first engine query, as functions.
 #pragma once
 
 #include <filesystem>
@@ -10,7 +10,7 @@ namespace touchstone::test {
 struct FileReader {
   std::string kind;
   std::vector<std::string> files;  // in `directory`; one of them is damaged
-  /// Throws InputError naming the damaged file, or takes it.
+  /// Accepts the damaged file, or throws an InputError that names it.
   void (*read)(const std::filesystem::path& directory);
 };
 const std::vector<FileReader>& file_readers();

@@ -1,5 +1,5 @@
-// Files from strangers: what they name is a label. Nothing in them is run, nothing is written where they say,
-// nobody waits for them, and the errors name them.
+// Files from untrusted sources. What they name is a label: nothing in them is run, nothing is written where
+// they say, no command waits for them, and the errors name them.
 #include <fcntl.h>
 #include <sqlite3.h>
 #include <sys/stat.h>
@@ -19,7 +19,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-// Speaks the pipe's protocol as an engine that refuses everything, and leaves a mark that it ran.
+// An engine behind a pipe that refuses everything and leaves a mark that it ran.
 const std::string engine_script = R"(touch "$MARK"
 echo '{"touchstone_pipe": 1, "name": "NAME", "library": "l", "version": "1", "settings": "",
   "unit_roundoff": 1e-16, "tau_factor": 64, "source": ""}' | tr -d '\n'; echo
@@ -31,7 +31,7 @@ done
 struct Marked : Workspace {
   using Workspace::Workspace;
   bool ran() const { return fs::remove(dir / "mark"); }
-  // A script that calls itself so; the mark is an absolute path, whatever directory the script runs in.
+  // A script with that engine name. The mark's path is absolute, so the script may run in any directory.
   void engine(const std::string& file, const std::string& name) const {
     std::string text = engine_script;
     text.replace(text.find("$MARK"), 5, (dir / "mark").string());
@@ -62,8 +62,14 @@ std::string key(const std::string& engine) {
 
 fuzz::KnownFinding ledger_row(const std::string& engine, const std::string& under) {
   fuzz::KnownFinding f;
-  f.key = under, f.engine = engine, f.question = "overlap", f.fault = "missed", f.shapes = "sphere-sphere";
-  f.blame = "algorithm", f.degeneracy = "solid", f.magnitude = "gross";
+  f.key = under;
+  f.engine = engine;
+  f.question = "overlap";
+  f.fault = "missed";
+  f.shapes = "sphere-sphere";
+  f.blame = "algorithm";
+  f.degeneracy = "solid";
+  f.magnitude = "gross";
   return f;
 }
 
@@ -106,13 +112,13 @@ void write_campaign(const Workspace& w, const std::string& engine) {
 
 }  // namespace
 
-TEST_CASE("a certificate's subject runs only when the command line says the same words",
+TEST_CASE("a certificate's subject runs only when the command line names the same one",
           "[hostile][certify]") {
   const Marked w("hostile-certify");
   w.engine("e.sh", "stranger");
   const std::string subject = "'pipe:sh e.sh'";
   REQUIRE(w.touchstone("certify --limit 2 --jobs 1 -o c.json --subject " + subject).code != 2);
-  w.ran();  // the mark is gone; in a sandbox there is none
+  w.ran();  // removes the mark; in a sandbox there is none
   const Run alone = w.touchstone("certify --check c.json --no-sandbox");
   INFO(alone.err);
   CHECK(alone.code == 2);
@@ -124,13 +130,13 @@ TEST_CASE("a certificate's subject runs only when the command line says the same
   INFO(same.out << same.err);
   CHECK(same.out.find("valid, re-run with the same digest") != std::string::npos);
   w.ran();
-  // Another build of the program, even with a digest that holds, made something else.
+  // A certificate of another build is not valid, even with a correct digest.
   w.run("cp e.sh f.sh; echo '# other' >> e.sh");
   CHECK(w.touchstone("certify --check c.json --subject " + subject).code == 1);
   CHECK_FALSE(w.ran());
 }
 
-TEST_CASE("findings and ledgers name engines, and run none", "[hostile][triage]") {
+TEST_CASE("findings and ledgers name engines but never run them", "[hostile][triage]") {
   const Marked w("hostile-triage");
   w.engine("e.sh", "stranger");
   for (const char* engine :
@@ -154,12 +160,12 @@ TEST_CASE("findings and ledgers name engines, and run none", "[hostile][triage]"
   }
   const Run r = w.touchstone("triage out --ledger l.db --no-sandbox");
   INFO(r.out << r.err);
-  CHECK(r.code == 3);  // the campaign has asked nobody
+  CHECK(r.code == 3);  // the campaign has queried no engine
   CHECK(r.out.find("1 not asked") != std::string::npos);
   CHECK_FALSE(w.ran());
 }
 
-TEST_CASE("a plug-in's findings are asked again when the command line names it", "[hostile][triage]") {
+TEST_CASE("a plug-in's findings are replayed when the command line names it", "[hostile][triage]") {
   const Marked w("hostile-given");
   w.engine("e.sh", "stranger");
   write_campaign(w, "stranger");
@@ -172,9 +178,11 @@ TEST_CASE("a plug-in's findings are asked again when the command line names it",
   CHECK(known->first_build == "l 1");
 }
 
-TEST_CASE("two engines of one name are not asked in one run", "[hostile]") {
+TEST_CASE("two engines of the same name are refused in one run", "[hostile]") {
   const Marked w("hostile-names");
-  w.engine("core.sh", "core"), w.engine("a.sh", "same"), w.engine("b.sh", "same");
+  w.engine("core.sh", "core");
+  w.engine("a.sh", "same");
+  w.engine("b.sh", "same");
   for (const char* command : {"replay two_spheres.json --engines 'core,pipe:sh core.sh'",
                               "fuzz --cases 1 --out o --engines 'core,pipe:sh core.sh'",
                               "view two_spheres.json --json --engines 'pipe:sh a.sh,pipe:sh b.sh'",
@@ -189,7 +197,7 @@ TEST_CASE("two engines of one name are not asked in one run", "[hostile]") {
   CHECK_FALSE(fs::exists(w.dir / "p/summary.json"));
 }
 
-TEST_CASE("nothing is written where a key says", "[hostile][merge]") {
+TEST_CASE("nothing is written to a path given by a key", "[hostile][merge]") {
   const Workspace w("hostile-merge");
   fs::create_directories(w.dir / "in");
   fs::create_directories(w.dir / "victim");
@@ -216,7 +224,7 @@ TEST_CASE("nothing is written where a key says", "[hostile][merge]") {
   CHECK(fs::exists(w.dir / "out/findings" / key("core") / "case.json"));
 }
 
-TEST_CASE("a state is read whole before anything is written", "[hostile][merge]") {
+TEST_CASE("a state is read completely before anything is written", "[hostile][merge]") {
   const Workspace w("hostile-state");
   fs::create_directories(w.dir / "in");
   Json bare = finding("core"), half = bare;
@@ -241,7 +249,8 @@ TEST_CASE("a certificate names a query of the case", "[hostile][check]") {
   CHECK(r.err.find("c.json: step: ") != std::string::npos);
 }
 
-TEST_CASE("one engine's bytes that are no text keep no other's results from being written", "[hostile]") {
+TEST_CASE("bytes of one engine that are not text do not prevent the other results from being written",
+          "[hostile]") {
   const Marked w("hostile-utf8");
   w.engine("e.sh", "latin");
   w.run("sed -i 's/echo .{\"outcome\".*;;/printf \"caf\\\\351 \\\\033[2J\\\\n\";;/' e.sh");
@@ -318,7 +327,7 @@ void make_ledger(const fs::path& file) {
   ledger.commit();
 }
 
-// SQL run on a ledger by somebody who may do anything to it.
+// Runs SQL on a ledger, as an attacker with full access would.
 void tamper(const fs::path& file, const char* sql) {
   sqlite3* db = nullptr;
   REQUIRE(sqlite3_open(file.c_str(), &db) == SQLITE_OK);
@@ -335,7 +344,7 @@ void tamper(const fs::path& file, const char* sql) {
 TEST_CASE("a ledger is a table of findings and nothing else", "[hostile][triage]") {
   const Workspace w("hostile-ledger");
   write_campaign(w, "core");
-  // A view that has no end in the table's place; triggers; another definition; rows of other types or keys.
+  // An endless view in place of the table; triggers; another definition; rows of other types or keys.
   for (const char* sql :
        {"DROP TABLE finding; CREATE VIEW finding AS WITH RECURSIVE n(i) AS (SELECT 1 UNION ALL SELECT i + 1 "
         "FROM "
@@ -364,7 +373,7 @@ TEST_CASE("a ledger is a table of findings and nothing else", "[hostile][triage]
   CHECK_FALSE(fs::exists(w.dir / "victim"));
 }
 
-TEST_CASE("a ledger's case is read with the limits of every reader, and costs the others nothing",
+TEST_CASE("a ledger's case is read with the limits of every reader, and does not affect the others",
           "[hostile][triage]") {
   const Workspace w("hostile-case");
   write_campaign(w, "core");
@@ -387,7 +396,7 @@ TEST_CASE("a ledger's case is read with the limits of every reader, and costs th
   }
 }
 
-TEST_CASE("a ledger that is only read may be one that cannot be written", "[hostile][merge]") {
+TEST_CASE("a ledger that is only read need not be writable", "[hostile][merge]") {
   const Workspace w("hostile-read-only");
   make_ledger(w.dir / "l.db");
   fs::permissions(w.dir / "l.db", fs::perms::owner_read);
@@ -430,7 +439,7 @@ TEST_CASE("a journal beside a ledger removes no other file", "[hostile][triage]"
   }
 }
 
-TEST_CASE("nothing is written through a link that lies where a temporary file goes", "[hostile][merge]") {
+TEST_CASE("nothing is written through a link at the path of a temporary file", "[hostile][merge]") {
   const Workspace w("hostile-part");
   fs::create_directories(w.dir / "in");
   fs::create_directories(w.dir / "out");
@@ -450,7 +459,7 @@ TEST_CASE("nothing is written through a link that lies where a temporary file go
 
 namespace {
 
-// Runs the program while somebody waits to write into the pipe: who reads from it comes back, with nothing.
+// Runs the program while a writer waits for the pipe: a program that reads from it gets nothing and returns.
 Run with_writer(const Workspace& w, const std::string& pipe, const std::string& arguments) {
   fs::remove(w.dir / pipe);
   REQUIRE(mkfifo((w.dir / pipe).c_str(), 0600) == 0);
@@ -462,7 +471,7 @@ Run with_writer(const Workspace& w, const std::string& pipe, const std::string& 
 
 }  // namespace
 
-TEST_CASE("a pipe in a file's place is refused, and nobody waits for it", "[hostile]") {
+TEST_CASE("a pipe in place of a file is refused without waiting for it", "[hostile]") {
   const Workspace w("hostile-pipe");
   w.write("case.json", two_spheres().dump());
   w.write("plane.json", R"({"kind": "separating_plane", "direction": [1, 0, 0], "offset": 0})");
@@ -506,9 +515,9 @@ TEST_CASE("a pipe in a file's place is refused, and nobody waits for it", "[host
   CHECK_FALSE(fs::exists(w.dir / "m"));
 }
 
-TEST_CASE("what the mutator found", "[hostile]") {
+TEST_CASE("faults that the mutator found", "[hostile]") {
   const Workspace w("hostile-found");
-  // A motion that leaves the doubles within a few steps; a name of a recording that clears the screen.
+  // A motion that leaves the range of doubles in a few steps; the name of a recording that clears the screen.
   Json fast = two_spheres();
   fast["scene"]["bodies"][0]["motion"] = {{"linear", {1e308, 0, 0}}, {"angular", {0, 0, 0}}};
   w.write("fast.json", fast.dump());
@@ -516,7 +525,7 @@ TEST_CASE("what the mutator found", "[hostile]") {
   INFO(plan.err);
   CHECK(plan.code == 2);
   CHECK(plan.err.find("fast.json: bodies[0]: moves to coordinates beyond") != std::string::npos);
-  // What replay says of one file among several.
+  // What replay reports about one file among several.
   fs::create_directories(w.dir / "r");
   w.write("r/scene.txt", "cdh-scene 1\nname small\ncounts shapes \x1b[2J\xff");
   for (const char* json : {"", " --json"}) {
@@ -524,7 +533,7 @@ TEST_CASE("what the mutator found", "[hostile]") {
     CHECK(replay.code == 2);
     CHECK((replay.out + replay.err).find('\x1b') == std::string::npos);
   }
-  // As many odd numbers as numbers: each was looked for among all.
+  // As many unusual numbers as numbers: each was searched for among all.
   Json many = two_spheres();
   constexpr int bodies = 10'000;
   many["queries"] = {{{"question", "candidates"}}};
@@ -538,7 +547,7 @@ TEST_CASE("what the mutator found", "[hostile]") {
   INFO(odd.err);
   CHECK(odd.code == 2);
   CHECK(odd.err.find("many.json: odd_numbers: ") != std::string::npos);
-  // Sixteen characters that the library took for a hexadecimal number, or threw its own exception at.
+  // Sixteen characters that the library accepted as hexadecimal, or for which it threw its own exception.
   REQUIRE(w.touchstone("certify --subject sort_and_sweep --limit 2 --jobs 1 -o c.json").code == 0);
   for (const char* digest : {"-00000000000000f", "zzzzzzzzzzzzzzzz", " 0x0000000000001"}) {
     Json j = Json::parse(read_all(w.dir / "c.json"));

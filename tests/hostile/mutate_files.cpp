@@ -1,10 +1,11 @@
 // Damaged files of every kind that a command reads: cases, findings, states, certificates, plans, charts,
-// ledgers, recordings. Whoever reads one ends by itself, soon, in little memory, and says why it is refused;
-// a command ends with an exit code of its contract. Most are read by the functions that commands read with,
-// in child processes that each try many; some by whole commands. Run by ctest with a few; by hand with many:
+// ledgers, recordings. A reader must terminate quickly and in little memory, and give a reason for refusing
+// the file; a command must end with an exit code of its contract. Most are read by the functions that
+// commands use, in child processes that each try many; some by whole commands. ctest runs a few; by hand,
+// many:
 //   build/release/bin/mutate_files --seed 7 --count 1000000 --commands 10000 --keep out/mutants
-// --originals DIR keeps the good files, or takes them from there: another build, with sanitizers for
-// instance, needs no program then (--commands 0). --only KIND: one kind of file.
+// --originals DIR stores the good files there, or reads them if they exist: then another build, for instance
+// with sanitizers, needs no program (--commands 0). --only KIND: one kind of file.
 #include <fcntl.h>
 #include <sys/mman.h>
 #include <sys/resource.h>
@@ -40,7 +41,7 @@ using Json = nlohmann::ordered_json;
 namespace fs = std::filesystem;
 
 #ifdef __SANITIZE_ADDRESS__
-constexpr rlim_t memory_bytes = RLIM_INFINITY;  // its shadow is terabytes of address space
+constexpr rlim_t memory_bytes = RLIM_INFINITY;  // the sanitizer's shadow memory is terabytes of address space
 #else
 constexpr rlim_t memory_bytes = rlim_t{1} << 30;
 #endif
@@ -77,7 +78,7 @@ Options options_of(int argc, char** argv) {
   return o;
 }
 
-// What went wrong, and of how many.
+// The failures, and how many mutants were tried.
 struct Report {
   std::map<std::string, std::uint64_t> tried;  // by kind
   std::uint64_t refused = 0, failed = 0;
@@ -98,7 +99,7 @@ struct Ended {
   std::string out, err;
 };
 
-// One command in `dir`, with limits.
+// Runs one command in `dir` with limits.
 Ended run(const fs::path& dir, const std::string& arguments) {
   const std::string line =
       "exec " TS_BINARY_DIR "/bin/touchstone " + arguments + " >out.txt 2>err.txt </dev/null";
@@ -121,8 +122,8 @@ Ended run(const fs::path& dir, const std::string& arguments) {
   return e;
 }
 
-// What is read by which commands: files that are damaged, one at a time, and the commands asked then. Each
-// works in a fresh copy of the originals.
+// Which commands read which files: files are damaged one at a time, then the commands run, each in a fresh
+// copy of the originals.
 struct Target {
   std::vector<std::string> files, commands;
 };
@@ -159,7 +160,7 @@ const std::vector<Target>& targets() {
   return all;
 }
 
-// What is wrong with how a command ended; empty: nothing.
+// What is wrong with how a command ended, or "".
 std::string complaint(const Ended& e) {
   const auto says = [&](const char* words) { return e.err.find(words) != std::string::npos; };
   if (e.signal == SIGXCPU || e.signal == SIGKILL) return "more than 5 CPU-seconds";
@@ -192,12 +193,12 @@ void try_command(const fs::path& originals, const fs::path& dir, const Options& 
     complain(report, o, file + ", " + command, why, "command-" + std::to_string(index), bytes);
 }
 
-// --- readers, many mutants a child
+// --- readers, many mutants per child
 
-/// Where a child is, for who finds it dead.
+/// A child's progress, for the parent that finds it dead.
 struct Shared {
   std::atomic<std::uint64_t> next{0}, refused{0};
-  char why[400] = {};  // not empty: the mutant before `next` is a failure that the child has survived
+  char why[400] = {};  // not empty: the mutant before `next` is a failure that the child survived
 };
 
 struct Job {
@@ -213,7 +214,7 @@ std::string mutant(const Job& job, std::uint64_t index, std::size_t& file) {
   return mutated(job.good[file], rng);
 }
 
-// What is wrong with how the reader took the file; empty: nothing.
+// What is wrong with how the reader handled the file, or "".
 std::string complaint_of_reader(const Job& job, const std::string& file, Shared& shared) {
   try {
     job.reader.read(job.work);
@@ -239,7 +240,7 @@ std::string complaint_of_reader(const Job& job, const std::string& file, Shared&
     const std::string bytes = mutant(job, i, which);
     const std::string& file = job.reader.files[which];
     write_all(job.work / file, bytes);
-    const itimerval limit{{0, 0}, {cpu_seconds, 0}};  // of CPU time: SIGPROF ends the child
+    const itimerval limit{{0, 0}, {cpu_seconds, 0}};  // CPU time: SIGPROF ends the child
     setitimer(ITIMER_PROF, &limit, nullptr);
     shared.next = i + 1;
     const std::string why = complaint_of_reader(job, file, shared);
@@ -284,7 +285,7 @@ void try_reader(Job job, std::uint64_t first, std::uint64_t last, Shared& shared
 
 // --- good files
 
-// Those that the program makes itself. False: one of them is not there.
+// Files that the program creates itself. False if one of them is missing.
 bool make_campaigns(const fs::path& dir) {
   const std::string liar = TS_BINARY_DIR "/lib/libtouchstone_mutants.so:depth_halved";
   const std::string lies = "--subject " + liar + " --engines " + liar + " --relations 0 --jobs 1 --seed 5 ";
@@ -325,7 +326,7 @@ bool make_originals(const fs::path& dir) {
   return true;
 }
 
-// Of all readers the first that is not there; empty: none.
+// The first missing file of all readers, or "".
 std::string missing(const fs::path& dir) {
   for (const FileReader& r : file_readers())
     for (const std::string& file : r.files)
@@ -333,7 +334,7 @@ std::string missing(const fs::path& dir) {
   return "";
 }
 
-// Good files must be read: else every mutant would be refused, and nothing tried.
+// Good files must be accepted; otherwise every mutant would be refused and nothing would be tested.
 bool all_are_good(const fs::path& originals, const fs::path& work) {
   for (const FileReader& r : file_readers()) try {
       fs::remove_all(work);
@@ -379,7 +380,7 @@ int main(int argc, char** argv) {
   const Options o = options_of(argc, argv);
   const auto start = std::chrono::steady_clock::now();
   if (!o.keep.empty()) fs::create_directories(o.keep);
-  // In memory where that is possible: a mutant is a file or two.
+  // In memory if possible: a mutant is one or two files.
   const fs::path memory = "/dev/shm",
                  base = access(memory.c_str(), W_OK) == 0 ? memory : fs::temp_directory_path();
   const fs::path top = base / ("touchstone-mutate-" + std::to_string(getpid()));

@@ -10,7 +10,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-// Text that a reader of numbers, names, paths or rationals may stumble over.
+// Text that is hard for readers of numbers, names, paths or rationals.
 const std::vector<std::string>& hostile_texts() {
   static const std::vector<std::string> all{"",
                                             "../../victim",
@@ -131,7 +131,7 @@ std::string mutated_json(Json j, Rng& rng) {
   return j.dump(-1, ' ', false, Json::error_handler_t::ignore);
 }
 
-// A hundred thousand levels, which a copy alone would not survive; not often, for it is large.
+// A hundred thousand levels, which even a copy would not survive; rare, because it is large.
 std::string nested(const std::string& text, Rng& rng) {
   const std::size_t at = text.find_first_of("[{", rng.below(text.size()));
   if (at == std::string::npos) return text;

@@ -8,7 +8,7 @@
 
 namespace touchstone::test {
 
-/// A good file, and what it holds when that is JSON (else discarded).
+/// A good file, with its content if that is JSON (else discarded).
 struct Original {
   std::string text;
   nlohmann::ordered_json json;

@@ -1,4 +1,4 @@
-// Lies about boxes: each keeps of the core's pairs those whose boxes overlap as the lie computes them.
+// Lies about boxes: each keeps those of the core's pairs whose boxes overlap as the lie computes them.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -25,7 +25,7 @@ Aabb one_ulp_less(const Scene& s, const QueryState& q, int i) {
   for (double& e : b.hi) e = std::nextafter(e, -inf);
   return b;
 }
-// Of both corners it would be no lie: rounding keeps their order.
+// Applied to both corners it would not be a lie, because rounding keeps their order.
 Aabb as_float(const Scene& s, const QueryState& q, int i) {
   Aabb b = box_of(s, q, i);
   b.lo = through_float(b.lo);
@@ -44,16 +44,18 @@ Aabb y_as_z(const Scene& s, const QueryState& q, int i) {
   const Vec3 half = (b.hi - b.lo) / 2, mid = (b.hi + b.lo) / 2;
   const Vec3 mixed(half.x(), half.z(), half.y());
   Aabb m;
-  m.lo = mid - mixed, m.hi = mid + mixed;
+  m.lo = mid - mixed;
+  m.hi = mid + mixed;
   return m.lo.allFinite() && m.hi.allFinite() ? m : b;
 }
-// Clamped into a world of ±4096: what is outside becomes empty.
+// Clamped to a world of ±4096: boxes outside become empty.
 Aabb bounded_world(const Scene& s, const QueryState& q, int i) {
   Aabb b = box_of(s, q, i);
-  b.lo = b.lo.cwiseMax(-4096.0), b.hi = b.hi.cwiseMin(4096.0);
+  b.lo = b.lo.cwiseMax(-4096.0);
+  b.hi = b.hi.cwiseMin(4096.0);
   return b;
 }
-// Fixed point of 12 bits after the point, rounded the wrong way.
+// Fixed point with 12 fractional bits, rounded the wrong way.
 Aabb quantised_inward(const Scene& s, const QueryState& q, int i) {
   Aabb b = box_of(s, q, i);
   for (double& e : b.lo) e = std::ceil(e * 4096) / 4096;
@@ -72,7 +74,8 @@ Aabb flat_is_empty(const Scene& s, const QueryState& q, int i) {
 }
 Aabb absolute_shrink(const Scene& s, const QueryState& q, int i) {
   Aabb b = box_of(s, q, i);
-  b.lo.array() += 1e-9, b.hi.array() -= 1e-9;
+  b.lo.array() += 1e-9;
+  b.hi.array() -= 1e-9;
   return b;
 }
 
@@ -95,19 +98,19 @@ bool equal_keys_missed(const Scene& s, const QueryState& q, int a, int b) {
 Vec3 common_corner(const Scene& s, const QueryState& q, int a, int b) {
   return box_of(s, q, a).lo.cwiseMax(box_of(s, q, b).lo);
 }
-// Cells of side 2 by truncation instead of floor: one in eight of the negative octant is looked for
-// elsewhere.
+// Cells of side 2 by truncation instead of floor: one in eight in the negative octant is looked up in the
+// wrong cell.
 bool negative_cells(const Scene& s, const QueryState& q, int a, int b) {
   const Vec3 cell = (common_corner(s, q, a, b) / 2).array().floor();
   if (!((cell.array() < 0).all())) return true;
   return std::fmod(-cell.sum(), 4.0) != 0;
 }
-// A pair is reported by the cell that holds the common corner; a corner on the cell's border is in neither.
+// A pair is reported by the cell that contains the common corner; a corner on a border is in neither cell.
 bool on_border(const Scene& s, const QueryState& q, int a, int b) {
   const Vec3 corner = common_corner(s, q, a, b) / 2;
   return corner.x() != std::floor(corner.x());
 }
-// Sweep along x that gives up a body at its first neighbour that is apart in y.
+// A sweep along x that stops at a body's first neighbour that is separated in y.
 void stops_at_y(const Scene& s, const QueryState& q, std::vector<BodyPair>& pairs) {
   std::vector<std::pair<Aabb, int>> sorted;
   for (int i = 0; i < static_cast<int>(q.bodies.size()); ++i)

@@ -1,4 +1,4 @@
-// Lies about the list of pairs: what a broad phase drops, overwrites or misnames after it has found it.
+// Lies about the list of pairs: pairs that a broad phase drops, overwrites or misnames after finding them.
 #include <algorithm>
 #include <cmath>
 
@@ -36,7 +36,7 @@ void pair_of_one(const Scene&, const QueryState& s, Pairs& p) {
 void body_that_never_was(const Scene& scene, const QueryState&, Pairs& p) {
   p.emplace_back(0, static_cast<int>(scene.bodies.size()));
 }
-// A set of pairs keyed by a 5-bit hash of the two ids, in which the first of a bucket wins.
+// A set of pairs keyed by a 5-bit hash of the two ids, in which the first entry of a bucket wins.
 void hash_collides(const Scene&, const QueryState&, Pairs& p) {
   std::uint32_t used = 0;
   std::erase_if(p, [&](const BodyPair& x) {
@@ -60,10 +60,10 @@ Lie drop_beyond(int capacity) {
 
 bool not_below_static(const Scene& s, const QueryState&, int a, int) { return !is_static(s, a); }
 bool not_above_static(const Scene& s, const QueryState&, int, int b) { return !is_static(s, b); }
-// A flag of two bits where one was meant: bodies 2 apart are of one group.
+// A two-bit flag instead of one bit: bodies 2 apart are in one group.
 bool group_mask(const Scene& s, const QueryState&, int a, int b) { return s.bodies.size() < 8 || b - a != 2; }
 
-// The pairs of the query before: computed too late.
+// The pairs of the previous query: computed too late.
 void lag(const Case&, const Query& q, Observation& o) {
   if (q.question != Question::candidates || o.candidate_pairs.size() < 2) return;
   std::rotate(o.candidate_pairs.begin(), o.candidate_pairs.end() - 1, o.candidate_pairs.end());

@@ -9,7 +9,7 @@ namespace {
 
 const BodyHistory& history(const QueryState& q, int i) { return q.bodies[static_cast<std::size_t>(i)]; }
 
-// A box from the pose before the last move where `stale` holds, from the present one otherwise.
+// A box from the pose before the last move where `stale` holds, otherwise from the current pose.
 Lie stale_where(std::function<bool(const BodyHistory&)> stale) {
   return keep_overlapping([stale = std::move(stale)](const Scene& s, const QueryState& q, int i) {
     const BodyHistory& h = history(q, i);

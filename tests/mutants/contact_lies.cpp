@@ -14,10 +14,13 @@ constexpr double nan_value = std::numeric_limits<double>::quiet_NaN();
 
 Mat3 rotation(const Case& c, int i) { return rotation_matrix(body(c, i).pose.rotation); }
 
-// A valid direction with its own width: right but for not being the least.
+// A valid direction with its own width: right except that it is not the least.
 void along(const Case& c, const Query& q, Observation& o, const Vec3& n) {
   const double w = width(c, q, n);
-  if (std::isfinite(w)) o.normal = n, o.depth = w;
+  if (std::isfinite(w)) {
+    o.normal = n;
+    o.depth = w;
+  }
 }
 
 void flipped(const Case&, const Query&, Observation& o) { *o.normal = -*o.normal; }
@@ -58,7 +61,10 @@ void second_best_face(const Case& c, const Query& q, Observation& o) {
     for (const double sign : {-1.0, 1.0}) {
       const Vec3 n = (axes.col(k) * sign).normalized();
       const double w = width(c, q, n);
-      if (w > *o.depth * (1 + 1e-9) && w < least) least = w, second = n;
+      if (w > *o.depth * (1 + 1e-9) && w < least) {
+        least = w;
+        second = n;
+      }
     }
   along(c, q, o, second);
 }
@@ -71,7 +77,10 @@ void edges_forgotten(const Case& c, const Query& q, Observation& o) {
       for (const double sign : {-1.0, 1.0}) {
         const Vec3 n = (rotation(c, i).col(k) * sign).normalized();
         const double w = width(c, q, n);
-        if (w < least) least = w, best = n;
+        if (w < least) {
+          least = w;
+          best = n;
+        }
       }
   along(c, q, o, best);
 }
@@ -102,7 +111,10 @@ void not_past_the_smaller(const Case& c, const Query& q, Observation& o) {
 }
 void negative(const Case&, const Query&, Observation& o) { *o.depth = -*o.depth; }
 void negative_on_surface(const Case& c, const Query& q, Observation& o) {
-  if (on_surface(c, q)) o.depth = -0.107, o.normal = o.normal->unitOrthogonal();
+  if (on_surface(c, q)) {
+    o.depth = -0.107;
+    o.normal = o.normal->unitOrthogonal();
+  }
 }
 void huge_on_surface(const Case& c, const Query& q, Observation& o) {
   if (on_surface(c, q)) *o.depth += 10 * scale_of_pair(c.scene, q.a, q.b);
@@ -116,7 +128,7 @@ void not_a_depth(const Case&, const Query&, Observation& o) {
   if (*o.depth < 1e-10) o.depth = nan_value;
 }
 
-// The depth of the contact before, kept in a buffer that is written too late.
+// The depth of the previous contact, from a buffer that is written too late.
 Lie of_pair_before() {
   return [last = 0.0](const Case&, const Query& q, Observation& o) mutable {
     if (asks(q, Question::contact) && o.depth) std::swap(last, *o.depth);

@@ -55,7 +55,7 @@ double contained_by_centre(const Case& c, const Query& q, double d) {
 }
 double depth_capped(const Case&, const Query&, double d) { return std::max(d, -0.5); }
 double zero_when_near(const Case&, const Query&, double d) { return std::abs(d) < 1e-8 ? 0 : d; }
-// What a search that may take n steps still has to go when it gives up.
+// The remaining error of a search that gives up after n steps.
 double cap_as_answer(const Case& c, const Query& q, double d) {
   return smooth(kind(c, q.a)) && smooth(kind(c, q.b)) ? d + 1e-10 * small_size(c, q) : d;
 }

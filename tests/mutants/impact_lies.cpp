@@ -23,12 +23,13 @@ Lie on_impact(Change f) {
   };
 }
 
-// The true answer for another motion of the two bodies.
+// The right answer for another motion of the two bodies.
 Lie for_motion(Motion (*other)(const Case&, int)) {
   return [other](const Case& c, const Query& q, Observation& o) {
     if (!asks(q, Question::time_of_impact) || o.outcome != Outcome::answered) return;
     MovingShape a = moving(c, q.a), b = moving(c, q.b);
-    a.motion = other(c, q.a), b.motion = other(c, q.b);
+    a.motion = other(c, q.a);
+    b.motion = other(c, q.b);
     const ImpactAnswer r = time_of_impact(a, b);
     if (r.outcome == Outcome::answered) o.toi = r.toi;
   };
@@ -102,14 +103,14 @@ void substeps(const Case& c, const Query& q, Observation& o) {
     if (gap_at(c, q, k / 16.0) <= 0) return void(o.toi = k / 16.0);
   o.toi.reset();
 }
-// Right where a sample of 32 sees an overlap; what passes between two samples is lost.
+// Right if one of 32 samples sees an overlap; passes between two samples are lost.
 void between_samples(const Case& c, const Query& q, Observation& o) {
   if (!o.toi) return;
   for (int k = 0; k <= 32; ++k)
     if (gap_at(c, q, k / 32.0) <= 0) return;
   o.toi.reset();
 }
-// A tolerance under which a touch is none, of the smaller body.
+// A tolerance, relative to the smaller body, below which a touch is not reported.
 void grazing_lost(const Case& c, const Query& q, Observation& o) {
   if (!o.toi || *o.toi >= 1) return;
   const double t = std::min(1.0, *o.toi + 0.05);
@@ -137,7 +138,7 @@ void mesh_late_a_little(const Case& c, const Query& q, Observation& o) {
 void mesh_ends_lost(const Case& c, const Query& q, Observation& o) {
   if (with_mesh(c, q) && o.toi && *o.toi > 0.75) o.toi.reset();
 }
-// Not the earliest: the first in the list that is hit at all.
+// Not the earliest hit but the first in the list.
 void first_triangle(const Case& c, const Query& q, Observation& o) {
   const auto* mesh = std::get_if<TriangleMesh>(&c.scene.shape_of(q.a));
   if (!mesh || !o.toi) return;
@@ -152,7 +153,7 @@ void first_triangle(const Case& c, const Query& q, Observation& o) {
     if (r.outcome == Outcome::answered && r.toi) return void(o.toi = r.toi);
   }
 }
-// Curved bodies that turn take most steps.
+// Curved bodies that rotate take most steps.
 void cap_as_miss(const Case& c, const Query& q, Observation& o) {
   if (smooth(kind(c, q.a)) && smooth(kind(c, q.b)) && spin(c, q) > 2) o.toi.reset();
 }

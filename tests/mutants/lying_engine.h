@@ -1,6 +1,6 @@
-// Engines that tell what our core tells, except for one lie each. Every lie must be found by a campaign, and
-// by the check that it is made for. A lie that the definition of the right answer allows (duplicate pairs, a
-// manifold of one point of a face, superfluous candidates) is no mutant: those are charted, not judged.
+// Engines that answer like our core, except for one lie each. A campaign must find every lie, by the check
+// that it is made for. A lie that the definition of the right answer allows (duplicate pairs, a manifold of
+// one point of a face, superfluous candidates) is not a mutant: those are charted, not judged.
 #pragma once
 
 #include <vector>

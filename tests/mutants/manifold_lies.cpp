@@ -1,4 +1,4 @@
-// Lies about the points of a contact manifold: where they are, how deep they are, and what they span.
+// Lies about the points of a contact manifold: their positions, depths and extent.
 #include <limits>
 
 #include "tests/mutants/pair.h"
@@ -46,7 +46,7 @@ void not_a_number(const Case&, const Query&, Observation& o) {
   if (o.manifold.size() >= 4) o.manifold[3].position.setConstant(std::numeric_limits<double>::quiet_NaN());
 }
 
-// A point kept from the contact before, of whatever pair that was.
+// A point kept from the previous contact, whatever its pair.
 Lie cached() {
   return [last = Points{}](const Case&, const Query& q, Observation& o) mutable {
     if (!asks(q, Question::contact) || o.manifold.empty()) return;
@@ -56,7 +56,7 @@ Lie cached() {
   };
 }
 
-// What is left of a face.
+// The remaining points of a face.
 void every_second(const Case&, const Query&, Observation& o) {
   Points kept;
   for (std::size_t i = 0; i < o.manifold.size(); i += 2) kept.push_back(o.manifold[i]);
@@ -99,7 +99,7 @@ void last_deeper(const Case&, const Query&, Observation& o) {
 void infinitely_deep(const Case&, const Query&, Observation& o) {
   if (o.manifold.size() > 3) o.manifold[0].depth = std::numeric_limits<double>::infinity();
 }
-// A corner in a face is that deep at the corner alone.
+// A corner in a face has its depth only at the corner.
 void as_deep_beside(const Case&, const Query&, Observation& o) {
   if (o.manifold.size() == 1)
     o.manifold.push_back({o.manifold[0].position + 0.4 * *o.depth * o.normal->unitOrthogonal(), *o.depth});

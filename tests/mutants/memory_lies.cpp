@@ -1,5 +1,5 @@
-// Lies about what an engine must forget: the question before, the pair before, the scene before, how often it
-// was asked.
+// Lies about state that an engine must not keep: the previous question, pair or scene, and the number of
+// queries.
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -15,7 +15,7 @@ double size_of_pair(const Case& c, const Query& q) {
   return std::max(extent(c.scene.shape_of(q.a)), extent(c.scene.shape_of(q.b)));
 }
 
-// f(question before, observation) for every answer to a question about a pair.
+// f(previous question, observation) for every answer to a question about a pair.
 Lie after_question(Question before, Question now, void (*f)(const Case&, const Query&, Observation&)) {
   return [=, last = std::optional<Question>{}](const Case& c, const Query& q, Observation& o) mutable {
     if (last == before && asks(q, now) && o.outcome == Outcome::answered) f(c, q, o);
@@ -33,15 +33,15 @@ void points_of_contact(const Case&, const Query&, Observation& o) {
   if (o.witness) (*o.witness)[1] = (*o.witness)[0];
 }
 
-// What was asked, and the answer.
+// A question and its answer.
 struct Memory {
   std::vector<Shape> shapes;
   Query query;
   Observation answer;
 };
 
-// When the same bodies, to judge by their shapes, are asked the same: f(answer before, answer now). The pose
-// is not looked at.
+// When the same question is asked about the same bodies, identified by their shapes: f(previous answer,
+// answer). Poses are ignored.
 Lie when_shapes_return(Question question, void (*f)(const Observation& before, Observation& now)) {
   return [=, last = std::optional<Memory>{}](const Case& c, const Query& q, Observation& o) mutable {
     if (!asks(q, question) || o.outcome != Outcome::answered) return;
@@ -62,7 +62,7 @@ void still_overlapping(const Observation& before, Observation& now) {
 }
 void same_points(const Observation& before, Observation& now) { now.witness = before.witness; }
 
-// When this very pair was asked the other way round just before.
+// When this pair was just asked in the other order.
 Lie when_exchanged(Question question, void (*f)(const Observation& before, Observation& now)) {
   return [=, last = std::optional<Memory>{}](const Case& c, const Query& q, Observation& o) mutable {
     if (!asks(q, question) || o.outcome != Outcome::answered) return;
@@ -73,7 +73,7 @@ Lie when_exchanged(Question question, void (*f)(const Observation& before, Obser
   };
 }
 
-// The answer of another pair of the same two shapes, asked since in this scene.
+// The answer of another pair with the same two shapes, asked since then in this scene.
 Lie cached_by_shape() {
   return [last = std::optional<Memory>{}, scene = Scene{}](const Case& c, const Query& q,
                                                            Observation& o) mutable {
@@ -83,26 +83,33 @@ Lie cached_by_shape() {
         body(c, q.b).shape == body(c, last->query.b).shape)
       o.distance = last->answer.distance;
     if (!last || scene != c.scene) scene = c.scene;
-    last = Memory{{}, q, {}}, last->answer.distance = right;
+    last = Memory{{}, q, {}};
+    last->answer.distance = right;
   };
 }
 
-// The second time that a case asks the very same.
+// The second time that a case asks the same question.
 Lie farther_again() {
   return
       [seen = std::vector<Query>{}, scene = Scene{}](const Case& c, const Query& q, Observation& o) mutable {
-        if (scene != c.scene) scene = c.scene, seen.clear();
+        if (scene != c.scene) {
+          scene = c.scene;
+          seen.clear();
+        }
         const bool again = std::find(seen.begin(), seen.end(), q) != seen.end();
         seen.push_back(q);
         if (again && asks(q, Question::distance) && o.distance) *o.distance += 1e-6 * size_of_pair(c, q);
       };
 }
 
-// The same, if another pair was asked since.
+// The same, if another pair was asked since then.
 Lie spoilt_between() {
   return
       [seen = std::vector<Query>{}, scene = Scene{}](const Case& c, const Query& q, Observation& o) mutable {
-        if (scene != c.scene) scene = c.scene, seen.clear();
+        if (scene != c.scene) {
+          scene = c.scene;
+          seen.clear();
+        }
         const bool other = !seen.empty() && (seen.back().a != q.a || seen.back().b != q.b);
         const bool again = std::find(seen.begin(), seen.end(), q) != seen.end();
         seen.push_back(q);
@@ -133,7 +140,7 @@ Lie dirty_after_mesh() {
   };
 }
 
-// A plane that is taken from the half-space before.
+// A plane that is taken from the previous half-space.
 Lie plane_before() {
   return [last = std::optional<double>{}](const Case& c, const Query& q, Observation& o) mutable {
     if (!asks(q, Question::distance) || !o.distance || kind(c, q.a) != ShapeKind::half_space) return;
@@ -143,7 +150,7 @@ Lie plane_before() {
   };
 }
 
-// Results kept by the number of vertices of the hull, for as long as the engine lives.
+// Results cached by the hull's number of vertices for the engine's lifetime.
 Lie kept_by_vertex_count() {
   return [kept = std::map<std::size_t, double>{}](const Case& c, const Query& q, Observation& o) mutable {
     const auto* h = std::get_if<Hull>(&c.scene.shape_of(std::max(q.b, 0)));
@@ -152,18 +159,19 @@ Lie kept_by_vertex_count() {
   };
 }
 
-// The pairs of the scene before, when that had as many bodies.
+// The pairs of the previous scene, if it had as many bodies.
 Lie pairs_of_scene_before() {
   return [bodies = std::size_t{0}, last = std::vector<std::vector<BodyPair>>{}](const Case& c, const Query& q,
                                                                                 Observation& o) mutable {
     if (!asks(q, Question::candidates)) return;
     auto right = o.candidate_pairs;
     if (bodies == c.scene.bodies.size() && last.size() == right.size()) o.candidate_pairs = last;
-    bodies = c.scene.bodies.size(), last = std::move(right);
+    bodies = c.scene.bodies.size();
+    last = std::move(right);
   };
 }
 
-// A list that is not cleared: what the scene before had beyond the end of this one's.
+// A list that is not cleared: the entries of the previous scene beyond the end of the current one.
 Lie contacts_not_cleared() {
   return [last = std::vector<SceneContact>{}](const Case&, const Query& q, Observation& o) mutable {
     if (!asks(q, Question::scene_contacts)) return;

@@ -8,17 +8,17 @@
 
 namespace touchstone::mutants {
 
-/// Changes the core's answer in place. May keep state between calls: every engine has a copy of its own.
+/// Changes the core's answer in place. May keep state between calls: every engine has its own copy.
 using Lie = std::function<void(const Case&, const Query&, Observation&)>;
 
 struct Mutant {
   std::string_view name;
   std::string_view fault;   // name of the fault that the judge must find
   std::string_view family;  // a family of cases where it shows
-  std::string_view line;    // what is wrong with it, for people
+  std::string_view line;    // what is wrong with it, for readers
   Lie lie;
-  bool repeats = true;           // false: what it says depends on what it was asked before
-  bool reads_unwritten = false;  // its lie is what memory held that it never wrote
+  bool repeats = true;           // false: its answers depend on earlier questions
+  bool reads_unwritten = false;  // its lie is the content of unwritten memory
 };
 
 }  // namespace touchstone::mutants

@@ -28,7 +28,10 @@ void distance_largest_double(const Case&, const Query& q, Observation& o) {
     o.distance = std::numeric_limits<double>::max();
 }
 void distance_withheld(const Case&, const Query& q, Observation& o) {
-  if (asks(q, Question::distance)) o.distance.reset(), o.overlap.reset();
+  if (asks(q, Question::distance)) {
+    o.distance.reset();
+    o.overlap.reset();
+  }
 }
 void verdict_withheld(const Case& c, const Query& q, Observation& o) {
   if (asks(q, Question::overlap) && are(c, q, ShapeKind::cone, ShapeKind::cone)) o.overlap.reset();
@@ -64,13 +67,13 @@ void refuses_quaternions(const Case& c, const Query& q, Observation& o) {
   if (std::abs(length - 1) > 1e-6) o = outcome(Outcome::invalid_input);
 }
 
-// Every third verdict is the opposite: nothing that is asked decides which.
+// Every third verdict is inverted, independent of the question.
 Lie every_third_flips() {
   return [n = 0](const Case&, const Query& q, Observation& o) mutable {
     if (asks(q, Question::overlap) && o.overlap && ++n % 3 == 0) o.overlap = !*o.overlap;
   };
 }
-// Kept by the kinds of the two shapes alone: the pair before of the same kinds.
+// Cached by the kinds of the two shapes only: the answer of the previous pair of the same kinds.
 Lie cached_by_kinds() {
   return [key = std::pair{ShapeKind::sphere, ShapeKind::sphere}, last = 0.0](const Case& c, const Query& q,
                                                                              Observation& o) mutable {
@@ -78,10 +81,11 @@ Lie cached_by_kinds() {
     const auto kinds = std::pair{kind(c, q.a), kind(c, q.b)};
     const double now = *o.distance;
     if (kinds == key) o.distance = last;
-    key = kinds, last = now;
+    key = kinds;
+    last = now;
   };
 }
-// The contact's answer is left over when the next pair has none.
+// The previous contact is left over when the next pair has no contact.
 Lie contact_left_over() {
   return [last = Observation{}](const Case&, const Query& q, Observation& o) mutable {
     if (!asks(q, Question::contact)) return;
@@ -94,7 +98,7 @@ Lie contact_left_over() {
 void unwritten_witness(const Case&, const Query& q, Observation& o) {
   if (asks(q, Question::distance) && o.witness) o.witness = {Vec3::Zero(), Vec3::Zero()};
 }
-// Warms up: the first hundred questions are answered rightly.
+// Answers the first hundred questions correctly.
 Lie worn_out() {
   return [n = 0](const Case&, const Query& q, Observation& o) mutable {
     if (asks(q, Question::distance) && o.distance && ++n > 100) *o.distance += 1e-9 * n;

@@ -56,7 +56,8 @@ void float_verdict(const Case& c, const Query& q, Observation& o) {
 void contact_denied_shallow(const Case&, const Query& q, Observation& o) {
   if (!asks(q, Question::contact) || !o.overlap.value_or(false) || o.depth.value_or(1) > 0.01) return;
   o = Observation{};
-  o.outcome = Outcome::answered, o.overlap = false;
+  o.outcome = Outcome::answered;
+  o.overlap = false;
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-// What lies about a pair need to know of it.
+// What the lies about a pair need to know about it.
 #pragma once
 
 #include <utility>
@@ -32,7 +32,7 @@ double gap(const Case& c, const Query& q);
 /// True when the box of one body is strictly inside that of the other.
 bool contained(const Case& c, const Query& q);
 
-/// Of an answer to `contact` that states one.
+/// Applies `lie` to answers to `contact` that report a contact.
 using ContactLie = void (*)(const Case&, const Query&, Observation&);
 Lie on_contact(ContactLie lie);
 

@@ -1,4 +1,4 @@
-// Every lying engine as an engine of a plug-in, so that any command takes one as it takes a user's engine:
+// All lying engines as a plug-in, so that any command can use one like a user's engine:
 //
 //   touchstone fuzz --subject build/lib/libtouchstone_mutants.so:depth_halved
 #include "oracles/abi/plugin_kit.h"
@@ -47,7 +47,10 @@ Shape shape(const ts_shape& s) {
 
 Body body(const ts_body& b) {
   Body r;
-  r.shape = b.shape, r.pose = kit::pose_of(b.pose), r.is_static = b.is_static != 0, r.group = b.group;
+  r.shape = b.shape;
+  r.pose = kit::pose_of(b.pose);
+  r.is_static = b.is_static != 0;
+  r.group = b.group;
   if (b.has_motion) r.motion = kit::motion_of(b);
   return r;
 }

@@ -1,6 +1,5 @@
 // Lies that show only in a regime: the order of the bodies, sizes of zero, quaternions of other lengths,
-// meshes and hulls of other sizes, unequal bodies, edges that are all but parallel, filters, shapes in
-// common.
+// meshes and hulls of other sizes, unequal bodies, nearly parallel edges, filters, shared shapes.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -23,11 +22,12 @@ Lie when(Question question, Where where, What what) {
   };
 }
 
-// ---- what is said instead
+// ---- the wrong answer
 
 void apart(const Case&, const Query&, Observation& o) {
   o = Observation{};
-  o.outcome = Outcome::answered, o.overlap = false;
+  o.outcome = Outcome::answered;
+  o.overlap = false;
 }
 void overlapping(const Case&, const Query&, Observation& o) { o.overlap = true; }
 void no_impact(const Case&, const Query&, Observation& o) { o.toi.reset(); }
@@ -57,10 +57,11 @@ void points_exchanged(const Case&, const Query&, Observation& o) {
 void between_origins(const Case& c, const Query& q, Observation& o) {
   const Vec3 line = body(c, q.b).pose.translation - body(c, q.a).pose.translation;
   if (!o.normal || line.norm() == 0) return;
-  o.normal = line.normalized(), o.depth = width(c, q, *o.normal);
+  o.normal = line.normalized();
+  o.depth = width(c, q, *o.normal);
 }
 
-// The answers for other shapes or poses than those asked.
+// The answers for other shapes or poses than the given ones.
 using Another = PlacedShape (*)(const Case&, int body, Shape& room);
 Lie of_other(Question question, Where where, Another another) {
   return [=](const Case& c, const Query& q, Observation& o) {
@@ -71,9 +72,11 @@ Lie of_other(Question question, Where where, Another another) {
       o.overlap = overlap(a, b).overlap;
     } else if (question == Question::distance) {
       const DistanceAnswer r = distance(a, b);
-      o.distance = r.distance, o.witness = r.witness;
+      o.distance = r.distance;
+      o.witness = r.witness;
     } else if (const ContactAnswer r = contact(a, b); r.overlap) {
-      o.normal = r.normal, o.depth = r.depth;
+      o.normal = r.normal;
+      o.depth = r.depth;
     }
   };
 }
@@ -95,7 +98,7 @@ PlacedShape first_triangles(const Case& c, int i, Shape& room) {
   return {&room, body(c, i).pose};
 }
 
-// ---- where
+// ---- the regime
 
 bool second_first(const Case&, const Query& q) { return q.a > q.b; }
 
@@ -171,7 +174,7 @@ bool flat_mesh(const Case& c, const Query& q) {
          std::all_of(m->vertices.begin(), m->vertices.end(), [](const Vec3& v) { return v.z() == 0; });
 }
 bool mesh_second(const Case& c, const Query& q) { return kind(c, q.b) == ShapeKind::mesh; }
-// Within a closed mesh, at less than 0.3 of the way out.
+// Inside a closed mesh, at less than 0.3 of the way out.
 bool within_closed_mesh(const Case& c, const Query& q) {
   const auto* m = mesh(c, q);
   if (!m || (m->triangles.size() != 8 && m->triangles.size() != 32 && m->triangles.size() != 128))

@@ -1,6 +1,6 @@
-// Lies that the referee cannot see, or not in the cases that are made: an engine that declines what it
-// answers in another form, or errs at sizes and in positions that no family has. Relations see them, because
-// they derive such forms from cases that have none.
+// Lies that the referee cannot see, or not in the generated cases: an engine that declines what it answers in
+// another form, or errs at sizes and positions that no family has. Relations find them, because they derive
+// such forms from other cases.
 #include <algorithm>
 #include <cstdint>
 #include <set>
@@ -48,7 +48,7 @@ void casts_nothing(const Case&, const Query& q, Observation& o) {
   if (asks(q, Question::time_of_impact)) o.toi.reset();
 }
 
-// Every pair that overlaps is there; of the others only those in one order along x.
+// Reports every pair that overlaps, but of the others only those in one order along x.
 Lie superfluous_by_order() {
   return keep_pairs([](const Scene& s, const QueryState& state, int a, int b) {
     const auto &x = state.bodies[static_cast<std::size_t>(a)].pose,
@@ -66,7 +66,7 @@ Lie superfluous_once() {
     return overlap({&s.shape_of(a), *x.pose}, {&s.shape_of(b), *y.pose}).overlap;
   });
 }
-// Answers a pair once; who asks again is told nothing.
+// Answers a pair once and declines it afterwards.
 Lie answers_once() {
   return [seen = std::set<std::uint64_t>{}](const Case& c, const Query& q, Observation& o) mutable {
     if (asks(q, Question::overlap) && !seen.insert(hash(c.scene)).second) o = declined();

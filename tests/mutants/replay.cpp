@@ -7,7 +7,7 @@
 namespace touchstone::mutants {
 namespace {
 
-// The array of present bodies is closed by its last element when one is removed.
+// When a body is removed, the last element of the array takes its slot.
 void close_slot(std::vector<BodyHistory>& bodies, int slot, int last) {
   for (BodyHistory& b : bodies)
     if (b.pose && b.slot == last) b.slot = slot;
@@ -19,7 +19,10 @@ void apply(const Scene& scene, const Step& step, QueryState& s) {
   switch (step.op) {
     case Step::Op::insert:
       if (!b.first) b.first = to;
-      b.pose = to, b.moves = 0, b.slot = s.present++, ++b.inserts;
+      b.pose = to;
+      b.moves = 0;
+      b.slot = s.present++;
+      ++b.inserts;
       break;
     case Step::Op::move:
       b.before = b.pose, b.pose = to, ++b.moves, ++b.moves_in_frame;

@@ -1,5 +1,5 @@
-// What a broad phase has gone through before each query of a script, and boxes in plain arithmetic: what a
-// lie about the inside of a broad phase is made from.
+// The state of a broad phase before each query of a script, and boxes in plain arithmetic: the material for
+// lies about the internals of a broad phase.
 #pragma once
 
 #include <functional>
@@ -14,12 +14,12 @@ namespace touchstone::mutants {
 
 struct BodyHistory {
   std::optional<Pose> pose;    // now; empty: not present
-  std::optional<Pose> before;  // before the last insert or move of it, if it was ever present
-  std::optional<Pose> first;   // of its first insert
+  std::optional<Pose> before;  // before its last insert or move, if it was ever present
+  std::optional<Pose> first;   // at its first insert
   int inserts = 0;
   int moves = 0;           // since its last insert
   int moves_in_frame = 0;  // since the last query
-  int slot = -1;           // in an array that a removal closes with its last element
+  int slot = -1;           // in an array in which a removal is filled with the last element
 };
 
 struct QueryState {
@@ -29,10 +29,10 @@ struct QueryState {
   std::vector<BodyHistory> bodies;
 };
 
-/// One a query step.
+/// One per query step.
 std::vector<QueryState> replay(const Scene& scene);
 
-/// Extents by the support mapping, rounded to nearest: nothing is widened.
+/// Extents by the support mapping, rounded to nearest, not outward.
 Aabb plain_box(const Shape& shape, const Pose& pose);
 
 /// Keeps the reported pairs for which `kept` holds, a < b.

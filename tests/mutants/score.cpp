@@ -3,15 +3,15 @@
 //   mutants_score [--seeds 3] [--seconds 60] [--jobs 2] [--only NAME] [--plugin]
 //
 // For each mutant and seed: the cases of the default mix, as `touchstone fuzz --seed S --engines MUTANT`
-// makes, asks and judges them, until the first finding. No hint of any kind: not the family, not the fault.
-// One thread a mutant, `jobs` side by side. The table says the fault by which it was found, and the cases and
-// seconds that it took; exit code 1 when a mutant survives the time.
+// generates, asks and judges them, until the first finding. It gets no hint, neither the family nor the
+// fault. One thread per mutant, `jobs` at a time. The table shows the fault by which each was found, and the
+// cases and seconds that it took; exit code 1 when a mutant survives the time limit.
 //
 // The control is the core itself, without a lie, over as many cases as the slowest mutant of each seed
-// needed: a finding about it would mean that mutants die of something else than their lies, and is exit
-// code 1.
+// needed. A finding about it would mean that mutants are found for other reasons than their lies, and gives
+// exit code 1.
 //
-// --plugin asks each mutant in a worker process through the C ABI, as a user's shared object is asked.
+// --plugin runs each mutant in a worker process through the C ABI, like a user's shared object.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -59,7 +59,7 @@ std::optional<fuzz::Finding> first_finding(const fuzz::CampaignResult& r) {
   return first;
 }
 
-// Runs until the first finding, `most` cases, or the end of the time.
+// Runs until the first finding, `most` cases, or the time limit.
 Kill hunt(EnginePtr engine, std::uint64_t seed, double seconds, std::uint64_t most) {
   std::vector<EnginePtr> engines;
   engines.push_back(std::move(engine));
@@ -73,7 +73,8 @@ Kill hunt(EnginePtr engine, std::uint64_t seed, double seconds, std::uint64_t mo
     k.seconds = std::chrono::duration<double>(Clock::now() - start).count();
     k.cases = first + chunk;
     if (const auto f = first_finding(r)) {
-      k.fault = f->question + " " + f->fault, k.cases = f->first_index + 1;
+      k.fault = f->question + " " + f->fault;
+      k.cases = f->first_index + 1;
       return k;
     }
     if (k.seconds > seconds) return k;
@@ -117,8 +118,10 @@ struct Total {
   std::vector<double> seconds;
   std::vector<std::uint64_t> cases;
   void add(const Kill& k) {
-    ++runs, survived += k.fault.empty();
-    seconds.push_back(k.seconds), cases.push_back(k.cases);
+    ++runs;
+    survived += k.fault.empty();
+    seconds.push_back(k.seconds);
+    cases.push_back(k.cases);
   }
 };
 
@@ -156,7 +159,10 @@ int run(const Options& o) {
   std::vector<mutants::Mutant> all;
   for (const mutants::Mutant& m : mutants::mutants())
     if (o.only.empty() || m.name.starts_with(o.only)) all.push_back(m);
-  if (all.empty()) return fmt::print(stderr, "no mutant is called {}\n", o.only), 2;
+  if (all.empty()) {
+    fmt::print(stderr, "no mutant is called {}\n", o.only);
+    return 2;
+  }
   const auto results = hunt_all(o, all);
   Total total;
   print_table(all, results, total);

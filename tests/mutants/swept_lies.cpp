@@ -1,4 +1,4 @@
-// Lies about the candidates of a step: the true answer for bodies that move in another way.
+// Lies about the candidates of a step: the right answer for bodies that move in another way.
 #include "core/broad/catalog.h"
 #include "core/world/world.h"
 #include "tests/mutants/pair.h"
@@ -29,7 +29,7 @@ void other_way(Scene&, int, Motion& m) { m.linear = -m.linear; }
 void travel_clamped(Scene&, int, Motion& m) {
   if (m.linear.norm() > 16) m.linear *= 16 / m.linear.norm();
 }
-// Where it ends, not the way there.
+// Uses the end pose and ignores the path to it.
 void at_the_end(Scene& s, int i, Motion& m) {
   s.bodies[static_cast<std::size_t>(i)].pose.translation += m.linear;
   m.linear.setZero();

@@ -1,4 +1,4 @@
-// The lies by topic; one file a topic.
+// The lies by topic; one file per topic.
 #pragma once
 
 #include <vector>
@@ -19,8 +19,8 @@ std::vector<Mutant> impact_lies();
 std::vector<Mutant> swept_lies();  // the broad phase of a step
 std::vector<Mutant> outcome_lies();
 std::vector<Mutant> scene_lies();
-std::vector<Mutant> relation_lies();  // what only another form of the case shows
-std::vector<Mutant> regime_lies();    // what only a regime of the generator shows
-std::vector<Mutant> memory_lies();    // what was asked before
+std::vector<Mutant> relation_lies();  // visible only in another form of the case
+std::vector<Mutant> regime_lies();    // visible only in one regime of the generator
+std::vector<Mutant> memory_lies();    // earlier questions
 
 }  // namespace touchstone::mutants

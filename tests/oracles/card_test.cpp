@@ -44,11 +44,13 @@ TEST_CASE("a bad card names the field and the reason", "[oracles][card][bad-inpu
   CHECK(with("256.0", "1e300").find("tau_factor: is 1e+300; at most") == 0);
   CHECK(with("256.0", "1e6").find("tau_factor: is 1e+06; at most 16384") == 0);
   CHECK(with("5.960464477539063e-08", "0.5").find("unit_roundoff: is 0.5; at most") == 0);
-  CHECK(with("5.960464477539063e-08", "0.001").find("tau_factor: times unit_roundoff is 0.256; at most 0.01") == 0);
+  CHECK(
+      with("5.960464477539063e-08", "0.001").find("tau_factor: times unit_roundoff is 0.256; at most 0.01") ==
+      0);
   CHECK(with("\"source\"", "\"complete_manifolds\":1,\"source\"") ==
         "complete_manifolds: is neither true nor false");
   CHECK(with("256.0", "1e999").find("not JSON") != std::string::npos);
-  // A name is part of keys, of names of files and of what terminals show.
+  // A name is part of keys, file names and terminal output.
   for (const char* name : {"../victim", "/etc/x", "..", "", " x", "a\\nb", "\\u001b[2J", "caf\u00e9"})
     CHECK(with("a \\\"b\\\"", name).starts_with("name: "));
   CHECK(with("a \\\"b\\\"", std::string(65, 'x')).starts_with("name: must begin"));

@@ -1,5 +1,5 @@
-// Built engines, one after the other, for tests of conventions: sizes, axes, frames, signs, order of
-// arguments. Poses are easy and tolerances wide, so that what fails here is the adapter and not the engine.
+// Runs tests of conventions on every built engine: sizes, axes, frames, signs, order of arguments. Poses are
+// easy and tolerances wide, so that a failure is the adapter's fault and not the engine's.
 #pragma once
 
 #include <filesystem>
@@ -10,6 +10,7 @@
 
 #include "oracles/client/remote_engine.h"
 #include "tests/support/catch.h"
+#include "tests/support/skip.h"
 
 namespace touchstone::testing {
 
@@ -17,7 +18,7 @@ inline std::filesystem::path host_path() {
   return std::filesystem::path(TS_BINARY_DIR) / "bin/touchstone-host";
 }
 
-/// Plug-ins that this build has.
+/// The plug-ins of this build.
 inline std::vector<std::filesystem::path> built_plugins() {
   std::vector<std::filesystem::path> files;
   std::stringstream names(TS_PLUGIN_NAMES);
@@ -34,7 +35,7 @@ struct Subject {
   bool is_float() const { return has("f32"); }
 };
 
-/// Runs `test` for every engine of every built plug-in; the number of engines.
+/// Runs `test` for every engine of every built plug-in. Returns the number of engines.
 inline int for_each_engine(const std::function<void(Subject)>& test) {
   int n = 0;
   for (const auto& plugin : built_plugins())

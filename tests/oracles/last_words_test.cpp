@@ -1,4 +1,4 @@
-// What a dying process printed: what matters of it, and what tells one crash from another.
+// The last output of a dying process: the relevant part, and what distinguishes crashes.
 #include "oracles/abi/last_words.h"
 
 #include <string>
@@ -42,7 +42,7 @@ TEST_CASE("a call stack names the innermost function, without arguments and addr
   CHECK(site_word(w.site) == "libfcl-detail-collide");
   CHECK(last_words("SIGABRT", fcl_assertion + stack, true).site == "distance-inl.h:177");
   CHECK(last_words("SIGABRT", "free(): invalid pointer" + stack, true).site == "libfcl:detail::collide");
-  // A function without a name: its offset is another in every build.
+  // A function without a name: its offset differs between builds.
   CHECK(last_words("SIGSEGV", "touchstone-frames: libmine.so+0x99 | libmine.so+0xaa\n", false).site ==
         "libmine");
 }
@@ -56,7 +56,7 @@ TEST_CASE("other forms of last words", "[oracles][last-words]") {
                    true)
             .site == "odemath.cpp:190");
   CHECK(last_words("exit code 101", "thread 'main' panicked at src/lib.rs:10:5\n", true).site == "lib.rs:10");
-  // A time of day is no place, and what a killed process said before belongs to something else.
+  // A time of day is not a source position, and earlier output of a killed process is unrelated.
   CHECK(last_words("SIGABRT", "at 12:30:05 it failed\n", true).site.empty());
   CHECK(last_words("SIGKILL", fcl_assertion, false).detail == "SIGKILL");
   // Control characters and length.
@@ -66,7 +66,7 @@ TEST_CASE("other forms of last words", "[oracles][last-words]") {
   CHECK(last_words("SIGABRT", "touchstone-frames: | + |\n", true).detail.size() < 100);
 }
 
-TEST_CASE("what Valgrind says of memory is said without addresses", "[oracles][last-words]") {
+TEST_CASE("Valgrind's reports are passed on without addresses", "[oracles][last-words]") {
   const LastWords w = last_words("exit code 99",
                                  "noise\n==12== Invalid read of size 8\n"
                                  "==12==    at 0x48C: fcl::update(int) (tree.hpp:77)\n"
@@ -82,7 +82,7 @@ TEST_CASE("what Valgrind says of memory is said without addresses", "[oracles][l
   CHECK(last_words("exit code 3", "==x== Invalid read\nover\n", true).detail == "exit code 3: over");
 }
 
-TEST_CASE("a site's word fits into a key and stays apart from others", "[oracles][last-words]") {
+TEST_CASE("a site's word fits into a key and stays distinct", "[oracles][last-words]") {
   const std::string longer(100, 'a');
   CHECK(site_word("Foo.H:3") == "foo-h-3");
   CHECK(site_word(longer + "1") != site_word(longer + "2"));

@@ -21,7 +21,7 @@ RemoteSpec native_spec(const std::string& library, const std::string& engine,
   return {host_path(), plugin_path(library), engine, limits, make_native_core(engine)->card()};
 }
 
-/// Every bit but the time that it took.
+/// Every bit except the time taken.
 std::string bits_of(Observation o) {
   o.elapsed_ns = 0;
   std::string bytes;
@@ -62,19 +62,19 @@ TEST_CASE("the core's answers are the same bits in a worker as in process", "[or
   for (const char* name : {"core", "core-f32", "core-kept", "core-extended", "automatic", "exact:grid"}) {
     INFO("engine " << name);
     RemoteEngine there(native_spec("touchstone_core", name));
-    CHECK(there.worker_pid() == -1);  // none is started before it is asked
+    CHECK(there.worker_pid() == -1);  // no worker is started before the first query
     check_same(there.run(cases), make_native_core(name)->run(cases));
     CHECK(there.restarts() == 0);
   }
 }
 
-TEST_CASE("the core's library is no plug-in", "[oracles][native]") {
+TEST_CASE("the core's library is not a plug-in", "[oracles][native]") {
   for (const char* name : {"", "core"})
     CHECK_THROWS_AS(RemoteEngine(RemoteSpec{host_path(), plugin_path("touchstone_core"), name, {}}),
                     InputError);
 }
 
-TEST_CASE("a death of the core costs one answer, whatever it dies of", "[oracles][native]") {
+TEST_CASE("a death of the core costs one answer, whatever its cause", "[oracles][native]") {
   const char* const site = "libts_dying_core:touchstone::dies_in_the_core";
   const Death deaths[] = {{"segv", "SIGSEGV", site},
                           {"abort", "SIGABRT", site},

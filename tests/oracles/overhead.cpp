@@ -1,4 +1,4 @@
-// Measures, asserts nothing: what the pipe costs a query, and what a restart costs. Run by hand.
+// Measures the cost of the pipe per query and of a restart, without assertions. Run by hand.
 #include <chrono>
 #include <cstdio>
 

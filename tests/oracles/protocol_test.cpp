@@ -113,8 +113,8 @@ std::string payload_of(const std::string& bytes, Type type) {
   return std::string(frame->payload);
 }
 
-/// Reads everything there is; the number of frames, or nothing when the stream is malformed. Decodes each
-/// payload.
+/// Reads the whole stream and decodes each payload. The number of frames, or nothing if the stream is
+/// malformed.
 std::optional<int> consume(const std::string& bytes, const Scene& scene) {
   try {
     FrameReader frames;
@@ -203,7 +203,7 @@ TEST_CASE("frames may arrive in pieces of any size", "[oracles][protocol]") {
   CHECK(next == 200);
 }
 
-TEST_CASE("damaged messages are malformed or other messages, never anything worse",
+TEST_CASE("damaged messages are malformed or different messages, nothing worse",
           "[oracles][protocol][fuzz]") {
   Rng rng(4);
   int malformed = 0, accepted = 0;
@@ -226,7 +226,7 @@ TEST_CASE("damaged messages are malformed or other messages, never anything wors
     }
     const std::size_t header = rng.chance(0.2) ? 0 : 16;
     for (std::uint64_t flips = 1 + rng.below(2); flips > 0; --flips) {
-      // Lengths and tags sit among many more bytes of doubles: aim at small bytes, where they are.
+      // Lengths and tags lie among many more bytes of doubles, so aim at small bytes.
       std::size_t at = header + rng.below(bytes.size() - header);
       for (int tries = 0; tries < 3 && static_cast<unsigned char>(bytes[at]) > 16; ++tries)
         at = header + rng.below(bytes.size() - header);
@@ -239,7 +239,7 @@ TEST_CASE("damaged messages are malformed or other messages, never anything wors
   CHECK(accepted > 9000);
 }
 
-TEST_CASE("a message cut short is never a message", "[oracles][protocol]") {
+TEST_CASE("a truncated message is never accepted", "[oracles][protocol]") {
   Rng rng(5);
   int cut = 0;
   for (int i = 0; i < 60; ++i) {
@@ -254,7 +254,7 @@ TEST_CASE("a message cut short is never a message", "[oracles][protocol]") {
   CHECK(cut > 2000);
 }
 
-TEST_CASE("pure noise is refused at its first bytes", "[oracles][protocol][fuzz]") {
+TEST_CASE("noise is refused at its first bytes", "[oracles][protocol][fuzz]") {
   Rng rng(6);
   for (int i = 0; i < 5000; ++i) {
     std::string noise(1 + rng.below(100), ' ');

@@ -1,4 +1,4 @@
-// Cases for the misbehaving plug-ins, and where things are.
+// Cases for the misbehaving plug-ins, and paths.
 #pragma once
 
 #include <filesystem>
@@ -16,8 +16,8 @@ inline std::filesystem::path plugin_path(const std::string& target) {
   return std::filesystem::path(TS_BINARY_DIR) / ("lib/lib" + target + ".so");
 }
 
-/// Limits that keep the tests short; what they stop has no natural end. Wall time is short only for the
-/// engines that sleep: on a loaded machine it would run out before the others have had their CPU time.
+/// Limits that keep the tests short; the queries that they stop never end. The wall time limit is short only
+/// for engines that sleep: on a loaded machine it would expire before the others have used their CPU time.
 inline WorkerLimits short_limits(bool sleeper = false) {
   WorkerLimits l;
   l.query_cpu_seconds = 0.3;
@@ -32,12 +32,13 @@ inline WorkerLimits short_limits(bool sleeper = false) {
 inline RemoteSpec bad_spec(const std::string& engine) {
   const bool sleeper = engine == "sleeps" || engine == "announces";
   WorkerLimits limits = short_limits(sleeper);
-  // The first touch of a page is slow on some virtual machines: memory, not time, must be what stops it.
+  // The first access to a page is slow on some virtual machines; the memory limit must be hit, not the time
+  // limit.
   if (engine == "eats_memory") limits.query_cpu_seconds = 60;
   return {host_path(), plugin_path("ts_bad_behaviours"), engine, limits};
 }
 
-/// Three spheres, asked for all pairs; the pair (0, 2) of a triggered case is the one that goes wrong.
+/// Three spheres, all pairs queried; in a triggered case the pair (0, 2) misbehaves.
 inline Case make_case(int index, bool triggered) {
   Case c;
   c.id = "bad/" + std::to_string(index);
@@ -57,7 +58,7 @@ inline std::vector<Case> make_cases(int n, int triggered) {
   return cases;
 }
 
-/// True when the answer is the one that a well-behaved query of case `index` gets.
+/// True if the answer is that of a well-behaved query of case `index`.
 inline bool is_good(const Observation& o, int index, const Query& q) {
   return o.outcome == Outcome::answered && o.overlap == ((q.a + q.b) % 2 != 0) &&
          o.distance == q.a + 10 * q.b + index;

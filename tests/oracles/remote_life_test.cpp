@@ -1,4 +1,4 @@
-// The life of worker processes: killed from outside, outliving threads, dying with the harness, leaving
+// The life cycle of worker processes: killed from outside, outliving threads, dying with the harness, leaving
 // nothing behind.
 #include <dirent.h>
 #include <signal.h>
@@ -28,7 +28,7 @@ int open_descriptors() {
   return n;
 }
 
-/// A zombie counts as gone: who should reap an orphan is not ours to say.
+/// A zombie counts as gone: reaping an orphan is not our job.
 bool is_alive(pid_t pid) {
   std::ifstream stat("/proc/" + std::to_string(pid) + "/stat");
   std::string text;
@@ -70,7 +70,7 @@ TEST_CASE("kill -9 of the worker in the middle of a run costs the running query"
       good += is_good(o, static_cast<int>(i), cases[i].queries[k]);
       killed += o.outcome == Outcome::crashed && o.detail.find("SIGKILL") != std::string::npos;
     }
-  // A kill that lands while a scene is being taken costs that scene's three queries.
+  // A kill while a scene is being loaded costs that scene's three queries.
   CHECK((killed == 1 || killed == 3));
   CHECK(good + killed == 90);
   CHECK(engine.restarts() == 1);
@@ -87,7 +87,7 @@ TEST_CASE("a worker that died between two runs is replaced without loss", "[orac
   CHECK(is_good(results[2].answers[2], 2, cases[2].queries[2]));
 }
 
-TEST_CASE("the death of the process that forks the workers is survived too", "[oracles][remote]") {
+TEST_CASE("the death of the fork server is survived too", "[oracles][remote]") {
   RemoteEngine engine(bad_spec("slow"));
   const auto cases = make_cases(30, -1);
   const pid_t fork_server = parent_of(engine.worker_pid());
@@ -109,7 +109,7 @@ TEST_CASE("the death of the process that forks the workers is survived too", "[o
   CHECK(good + killed == 90);
 }
 
-TEST_CASE("workers outlive the thread that made them", "[oracles][remote]") {
+TEST_CASE("workers outlive the thread that created them", "[oracles][remote]") {
   std::unique_ptr<RemoteEngine> engine;
   std::thread([&] { engine = std::make_unique<RemoteEngine>(bad_spec("good")); }).join();
   std::this_thread::sleep_for(50ms);
@@ -139,11 +139,12 @@ TEST_CASE("a worker dies with the harness, even in the middle of an endless quer
   kill(harness, SIGKILL);
   waitpid(harness, nullptr, 0);
   CHECK(dies_eventually(worker));
-  close(ends[0]), close(ends[1]);
+  close(ends[0]);
+  close(ends[1]);
 }
 
 TEST_CASE("restarts and destruction leave no process and no descriptor behind", "[oracles][remote]") {
-  RemoteEngine(bad_spec("good"));  // whatever is made once
+  RemoteEngine(bad_spec("good"));  // allocates whatever is created once
   const int before = open_descriptors();
   {
     RemoteEngine engine(bad_spec("segfaults"));
@@ -158,7 +159,7 @@ TEST_CASE("restarts and destruction leave no process and no descriptor behind", 
   CHECK(errno == ECHILD);
 }
 
-TEST_CASE("engines in several threads at once do not disturb each other", "[oracles][remote]") {
+TEST_CASE("engines in several threads at once do not interfere", "[oracles][remote]") {
   std::vector<int> good(4, 0);
   std::vector<std::thread> threads;
   for (std::size_t t = 0; t < good.size(); ++t)

@@ -1,4 +1,4 @@
-// Plug-ins that cannot be used at all: one InputError with place and reason, nothing else.
+// Plug-ins that cannot be used at all: one InputError with place and reason.
 #include "core/base/input_error.h"
 #include "tests/oracles/remote_fixture.h"
 #include "tests/support/catch.h"
@@ -8,7 +8,7 @@ using namespace touchstone::testing;
 
 namespace {
 
-/// The message of the InputError, or "" when there is none.
+/// The message of the InputError, or "" without one.
 template <class F>
 std::string input_error_of(F&& f) {
   try {
@@ -48,7 +48,7 @@ TEST_CASE("an unusable plug-in is an input error that names file and reason",
   }
 }
 
-TEST_CASE("a file that is no shared object, a directory and a missing host are input errors",
+TEST_CASE("a file that is not a shared object, a directory and a missing host are input errors",
           "[oracles][remote][bad-input]") {
   const std::filesystem::path text = std::filesystem::path(TS_SOURCE_DIR) / "CMakeLists.txt";
   CHECK(contains(input_error_of([&] { RemoteEngine e({host_path(), text, "", {}}); }), "CMakeLists.txt"));

@@ -1,5 +1,5 @@
-// Every way in which an engine can misbehave while it answers: the running query is charged, and nothing else
-// is lost.
+// Every way in which an engine can misbehave while answering: it is charged to the running query, and nothing
+// else is lost.
 #include <cmath>
 #include <string>
 #include <utility>
@@ -23,7 +23,7 @@ struct Expectation {
   int restarts;
 };
 
-/// Runs the batch and counts the answers that are as good as if nothing had happened.
+/// Counts the answers that are the same as without any misbehaviour.
 int good_answers(const std::vector<Case>& cases, const std::vector<CaseObservations>& results) {
   int good = 0;
   REQUIRE(results.size() == cases.size());
@@ -70,9 +70,8 @@ TEST_CASE("one misbehaving query costs one answer and no more", "[oracles][remot
   CHECK(reached == 14);
 }
 
-// What it sprays reaches whatever descriptors the process has, which differ with who started the test: the
-// harness may see a message that never ends, or rubbish. Either way it allocates nothing for it and loses one
-// answer.
+// Its output reaches all descriptors of the process, which depend on how the test was started. The harness
+// may see an endless message or garbage. Either way it allocates nothing for it and loses one answer.
 TEST_CASE("a frame that announces a gigabyte costs one answer and no memory", "[oracles][remote]") {
   RemoteEngine engine(bad_spec("announces"));
   const auto cases = make_cases(case_count, bad_case);
@@ -108,7 +107,7 @@ TEST_CASE("a detail without a terminating zero is cut at its field", "[oracles][
   CHECK(engine.run(cases)[1].answers[1].detail == std::string(128, 'd'));
 }
 
-TEST_CASE("trouble while loading a scene is charged to that scene alone", "[oracles][remote]") {
+TEST_CASE("a failure to load a scene is charged only to that scene", "[oracles][remote]") {
   const std::vector<Expectation> expectations{
       {"aborts_in_load", Outcome::crashed, "SIGABRT", 1},
       {"loops_in_load", Outcome::timed_out, "CPU time while loading the scene", 1},
@@ -128,7 +127,7 @@ TEST_CASE("trouble while loading a scene is charged to that scene alone", "[orac
   }
 }
 
-TEST_CASE("a crash is named by where it happened, the same every time", "[oracles][remote]") {
+TEST_CASE("a crash is named by its site, the same every time", "[oracles][remote]") {
   const std::pair<const char*, const char*> expected[] = {
       {"writes_nowhere", "libts_bad_behaviours:bad_writes_nowhere"},
       {"calls_nothing", "libts_bad_behaviours:bad_calls_nothing"},
@@ -143,15 +142,15 @@ TEST_CASE("a crash is named by where it happened, the same every time", "[oracle
       INFO(o.detail);
       CHECK(o.outcome == Outcome::crashed);
       CHECK(o.site.starts_with(site));
-      sites.push_back(o.site), details.push_back(o.detail);
+      sites.push_back(o.site);
+      details.push_back(o.detail);
     }
     CHECK(sites[0] == sites[1]);
     CHECK(details[0] == details[1]);  // no addresses
   }
 }
 
-TEST_CASE("memory that an engine never wrote is always the same, and other when asked again",
-          "[oracles][remote]") {
+TEST_CASE("unwritten memory has reproducible contents, which differ when asked again", "[oracles][remote]") {
   for (const char* name : {"reads_the_stack", "reads_the_heap"}) {
     INFO("engine " << name);
     RemoteEngine engine(bad_spec(name));
@@ -165,7 +164,7 @@ TEST_CASE("memory that an engine never wrote is always the same, and other when 
   }
 }
 
-TEST_CASE("an answer that takes longer than its time is an answer, and slow", "[oracles][remote]") {
+TEST_CASE("an answer that exceeds its time limit is kept and marked slow", "[oracles][remote]") {
   const Case c = make_case(0, true);
   RemoteSpec spec = bad_spec("ponders");
   CHECK(RemoteEngine(spec).run({&c, 1})[0].answers[1].outcome == Outcome::timed_out);
@@ -179,7 +178,7 @@ TEST_CASE("an answer that takes longer than its time is an answer, and slow", "[
   CHECK(quick == answers[1]);
 }
 
-TEST_CASE("an engine may say that it holds another shape", "[oracles][remote]") {
+TEST_CASE("an engine may report that it holds another shape", "[oracles][remote]") {
   RemoteEngine engine(bad_spec("holds_others"));
   const auto cases = make_cases(2, 1);
   const auto results = engine.run(cases);
@@ -220,7 +219,8 @@ TEST_CASE("received placements arrive exactly, and again after a restart", "[ora
   CHECK(seen == 15);
 }
 
-TEST_CASE("queries of bodies that do not exist are refused without asking the engine", "[oracles][remote]") {
+TEST_CASE("queries about bodies that do not exist are refused without asking the engine",
+          "[oracles][remote]") {
   RemoteEngine engine(bad_spec("segfaults"));
   auto cases = make_cases(2, -1);
   cases[0].queries = {{Question::overlap, 0, 3}, {Question::contact, -1, 1}, {Question::distance, 1, 1}};
@@ -248,7 +248,7 @@ TEST_CASE("a batch larger than all pipes together does not deadlock", "[oracles]
   std::vector<Vec3> points;
   for (int i = 0; i < 60000; ++i) points.emplace_back(std::cos(i), std::sin(i), i % 7);
   for (Case& c : cases) {
-    c.scene.shapes.push_back(TriangleMesh{points, {{0, 1, 2}}});  // 1.4 MB a case
+    c.scene.shapes.push_back(TriangleMesh{points, {{0, 1, 2}}});  // 1.4 MB per case
     c.queries.clear();
     for (int k = 0; k < 20000; ++k) c.queries.push_back({Question::overlap, 0, 1});  // 1.6 MB of answers
   }

@@ -1,5 +1,5 @@
-// Every animal of the zoo (tests/zoo): what has to be said of it, that the answers beside it are the
-// same, and that nothing is left behind: no process, no file, no change, no connection.
+// Every animal of the zoo (tests/zoo): its outcome is reported correctly, the other answers are unchanged,
+// and nothing is left behind: no process, no file, no change, no connection.
 #include <arpa/inet.h>
 #include <dirent.h>
 #include <sys/socket.h>
@@ -33,7 +33,7 @@ struct Row {
 constexpr Outcome fine = Outcome::answered, crashed = Outcome::crashed, late = Outcome::timed_out,
                   threw = Outcome::threw, nonsense = Outcome::invalid_answer;
 
-// One answer of a case is theirs; the others are as good as ever.
+// They cost one answer of a case; the others are unaffected.
 const std::vector<Row> of_one_question{{"aborts", crashed, "SIGABRT"},
                                        {"aborts_in_latin1", crashed, "SIGABRT"},
                                        {"aborts_with_control_characters", crashed, "SIGABRT"},
@@ -152,7 +152,7 @@ const std::vector<Row> of_one_question{{"aborts", crashed, "SIGABRT"},
                                        {"receives_a_million_times", fine, ""},
                                        {"scribbles_on_the_scene", fine, ""}};
 
-// They cost the case its answers: the scene was not taken.
+// They cost all answers of the case, because the scene was not accepted.
 const std::vector<Row> of_one_scene{{"load_aborts", crashed, "SIGABRT"},
                                     {"load_throws", threw, "not today"},
                                     {"load_exits", crashed, "exit code 9"},
@@ -174,7 +174,7 @@ const std::vector<Row> of_the_next_scene{
     {"unload_loops", late, "CPU time"},    {"unload_sleeps", late, "uses no CPU"},
     {"unload_stops", late, "stopped"},     {"unload_eats_memory", crashed, "memory limit"}};
 
-// No engine comes of them.
+// They do not become engines.
 const std::vector<Row> of_the_start{{"create_aborts", crashed, "died while loading it: SIGABRT"},
                                     {"create_throws", crashed, "not today"},
                                     {"create_exits", crashed, "exit code 9"},
@@ -236,7 +236,7 @@ const std::vector<Row> of_pipe_starts{{"no_card", crashed, "uses no CPU: wall ti
                                       {"exits_at_once", crashed, "exit code 3"},
                                       {"spams_before_its_card", crashed, "not a JSON object"}};
 
-/// What must stay as it is, with a socket in it and one of the network that wait for visitors.
+/// A directory that must not change, with a local socket in it and a network socket, both listening.
 class Outside {
  public:
   Outside() {
@@ -244,21 +244,23 @@ class Outside {
     directory_ = mkdtemp(pattern);
     std::ofstream(directory_ / "file") << "as it was\n";
     mark_ = "zoo" + std::to_string(getpid());
-    listen_at_a_name(), listen_at_a_port();
+    listen_at_a_name();
+    listen_at_a_port();
     setenv("TOUCHSTONE_ZOO_VICTIM", directory_.c_str(), 1);
     setenv("TOUCHSTONE_ZOO_MARK", mark_.c_str(), 1);
   }
   ~Outside() {
-    close(by_name_), close(by_port_);
+    close(by_name_);
+    close(by_port_);
     fs::remove_all(directory_);
     for (const char* v : {"VICTIM", "MARK", "PORT", "FENCED", "LOADING"})
       unsetenv((std::string("TOUCHSTONE_ZOO_") + v).c_str());
   }
-  /// Only then may one of them send a signal to all whom it can reach.
+  /// Only then may an animal send a signal to all processes that it can reach.
   void fence(const std::string& sandbox) {
     fenced_ = sandbox.find("PID namespace") != std::string::npos;
     if (fenced_) setenv("TOUCHSTONE_ZOO_FENCED", "1", 1);
-    files_ = sandbox.find("files NOT") == std::string::npos,
+    files_ = sandbox.find("files NOT") == std::string::npos;
     network_ = sandbox.find("NOT closed") == std::string::npos;
   }
   void check() {
@@ -305,7 +307,8 @@ class Outside {
   void listen_at_a_port() {
     by_port_ = socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0);
     sockaddr_in at{};
-    at.sin_family = AF_INET, at.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+    at.sin_family = AF_INET;
+    at.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
     socklen_t size = sizeof at;
     const bool listens = bind(by_port_, reinterpret_cast<const sockaddr*>(&at), sizeof at) == 0 &&
                          listen(by_port_, 8) == 0 &&
@@ -328,7 +331,7 @@ WorkerLimits zoo_limits(const Row& row) {
   l.resident_bytes = std::uint64_t{256} << 20;
   if (has(detail, "no CPU") || has(detail, "stopped") || has(name, "stops_its_parent"))
     l.blocked_seconds = 0.4;
-  // The first touch of a page is slow on some machines: memory, not time, must be what stops it.
+  // The first access to a page is slow on some machines; the memory limit must be hit, not the time limit.
   if (has(name, "eats_memory") || has(name, "without_end") || has(name, "million") || has(name, "prints"))
     l.query_cpu_seconds = l.load_cpu_seconds = l.start_cpu_seconds = 60;
   return l;
@@ -368,7 +371,7 @@ bool is_good_of_pipe(const Observation& o, int, int) {
   return o.outcome == Outcome::answered && o.overlap == false && o.distance == 0.0;
 }
 
-/// A well-behaved engine, asked before and after each of the others.
+/// A well-behaved engine, queried before and after each of the others.
 class Neighbour {
  public:
   Neighbour() : engine_({host_path(), plugin_path("ts_zoo"), "good", {}}), before_(answers()) {}
@@ -420,7 +423,7 @@ TEST_CASE("an animal of the zoo costs one answer at most", "[oracles][zoo]") {
         }) >= 100);
 }
 
-TEST_CASE("an animal that does not take a scene costs that scene", "[oracles][zoo]") {
+TEST_CASE("an animal that does not accept a scene costs that scene", "[oracles][zoo]") {
   visit_all(of_one_scene, [](const Row& row) {
     RemoteEngine engine(zoo_spec(row));
     const auto results = engine.run(make_cases(cases, bad));

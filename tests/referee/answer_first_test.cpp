@@ -1,5 +1,5 @@
-// Answer first: a tangent plane, a gap and a normal are drawn, and the bodies are put on both sides of the
-// plane, so that the answer is right by construction. The referee must never contradict it.
+// Answer first: draws a tangent plane, a gap and a normal, and places the bodies on both sides of the plane,
+// so that the answer is right by construction. The referee must never contradict it.
 #include <cstdio>
 
 #include "tests/referee/support.h"
@@ -28,7 +28,8 @@ Answer apart(Rng& r, int i) {
   Answer c{
       random_convex(r, convex_kinds[i % 7]), random_convex(r, convex_kinds[i / 7 % 7]), {}, {}, {}, 0, 0};
   c.pose_a.translation = r.vector(0, r.chance(0.2) ? 100 : 1);
-  c.pose_a.rotation = r.rotation(), c.pose_b.rotation = r.rotation();
+  c.pose_a.rotation = r.rotation();
+  c.pose_b.rotation = r.rotation();
   c.normal = r.unit_vector();
   c.gap = log_uniform(r, -40, 1);
   c.pose_b.translation =
@@ -37,12 +38,13 @@ Answer apart(Rng& r, int i) {
   return c;
 }
 
-// The centre of a ball outside A above a support point: the depth is the radius less the height.
+// The centre of a ball outside A, above a support point: the depth is the radius minus the height.
 Answer ball_in_side(Rng& r, int i) {
   const double radius = log_uniform(r, -4, 1);
   Answer c{random_convex(r, convex_kinds[i % 7]), Sphere{radius}, {}, {}, {}, 0, 0};
   c.pose_a.translation = r.vector(0, 2);
-  c.pose_a.rotation = r.rotation(), c.pose_b.rotation = r.rotation();
+  c.pose_a.rotation = r.rotation();
+  c.pose_b.rotation = r.rotation();
   c.normal = r.unit_vector();
   c.gap =
       -radius * (r.chance(0.5) ? std::ldexp(1.0, -static_cast<int>(r.below(40)) - 1) : r.uniform(0.01, 0.99));
@@ -51,7 +53,7 @@ Answer ball_in_side(Rng& r, int i) {
   return c;
 }
 
-// Two flat ends of boxes or cylinders pressed into each other by far less than the bodies measure.
+// Two flat ends of boxes or cylinders pressed into each other by much less than the size of the bodies.
 Answer faces(Rng& r, int i) {
   const auto prism = [&](bool box, double h) -> Shape {
     if (box) return Box{{r.uniform(0.5, 1), r.uniform(0.5, 1), h}};
@@ -77,7 +79,7 @@ struct Count {
 
 void hold_against(const Answer& c, Count& count) {
   const Placed a{&c.a, c.pose_a}, b{&c.b, c.pose_b};
-  // With the right normal as a hint, and without: the hint may speed the answer up, never change it.
+  // With the right normal as a hint and without it: a hint may speed up the answer but never change it.
   const bool hinted = count.decided % 2 == 0;
   const PairTruth t =
       judge_pair(a, b, hinted ? std::span<const Vec3>(&c.normal, 1) : std::span<const Vec3>{});
@@ -119,7 +121,7 @@ TEST_CASE("an answer that is right by construction is never contradicted", "[ref
   REQUIRE(c.overlapping < n * 7 / 10);
 }
 
-TEST_CASE("the same over a million answers", "[.million]") {
+TEST_CASE("a million answers that are right by construction are never contradicted", "[.million]") {
   constexpr int n = 1000000;
   const Count c = run(67, n);
   std::printf("%d answers, %d overlapping, %d undecided\n", c.decided, c.overlapping, c.undecided);

@@ -1,5 +1,5 @@
-// `touchstone check`: what the referee hands out is accepted by the checker, written to JSON and read back;
-// with any number changed so that the claim is false it is refused.
+// `touchstone check`: the checker accepts the referee's certificates after a round trip through JSON, and
+// refuses them with any number changed so that the claim is false.
 #include <functional>
 #include <nlohmann/json.hpp>
 
@@ -25,7 +25,7 @@ Pose random_pose(Rng& r, double spread) {
 
 }  // namespace
 
-TEST_CASE("every certificate of a pair in general position is accepted after a trip through JSON",
+TEST_CASE("every certificate of a pair in general position is accepted after a round trip through JSON",
           "[referee][checker]") {
   Rng r(41);
   int planes = 0, points = 0, depths = 0, refused_points = 0, refused_depths = 0, loose = 0;
@@ -48,14 +48,15 @@ TEST_CASE("every certificate of a pair in general position is accepted after a t
     refused_depths += !checker::check(lower, a, b);
     Certificate upper;
     upper.kind = Certificate::Kind::depth_direction;
-    upper.direction = t.normal, upper.offset = -t.gap.lo;
+    upper.direction = t.normal;
+    upper.offset = -t.gap.lo;
     REQUIRE(checker::check(stored(upper), a, b));
     REQUIRE(lower.offset <= upper.offset);
-    // The two meet: depth is proven from both sides to rounding (or to what the bracket leaves). Where
-    // symmetry has closed the bracket the polytope is a coarse one.
+    // The two bounds meet: depth is proven from both sides to rounding (or to the width of the bracket).
+    // Where symmetry has closed the bracket, the polytope is coarse.
     loose += upper.offset - lower.offset > t.gap.hi - t.gap.lo + 1e-13;
     ++depths;
-    // Claims a little beyond the truth are refused.
+    // Claims slightly beyond the truth are refused.
     const double beyond = 1e-12 + (t.gap.hi - t.gap.lo);
     upper.offset = -t.gap.hi - beyond;
     REQUIRE_FALSE(checker::check(upper, a, b));
@@ -72,7 +73,7 @@ TEST_CASE("every certificate of a pair in general position is accepted after a t
 }
 
 TEST_CASE("a plane through a touching pair is refused with any number changed", "[referee][checker]") {
-  // B is one unit in the last place away from touching: no other plane of these directions fits.
+  // B is one ulp away from touching: no other plane with these directions fits.
   const Shape box = Box{{1, 2, 3}};
   const Placed a{&box, Pose{{0, 0, 0}, {}}}, b{&box, Pose{{2 + 0x1p-51, 0, 0}, {}}};
   const Certificate c = stored(checkable_certificate(judge_pair(a, b), a, b));
@@ -82,7 +83,8 @@ TEST_CASE("a plane through a touching pair is refused with any number changed", 
   const auto plane = [&](const std::vector<double>& v) {
     Certificate d;
     d.kind = Certificate::Kind::separating_plane;
-    d.direction = {v[0], v[1], v[2]}, d.offset = v[3];
+    d.direction = {v[0], v[1], v[2]};
+    d.offset = v[3];
     return d;
   };
   REQUIRE(checker::check(stored(plane(n)), a, b));
@@ -107,7 +109,8 @@ TEST_CASE("planes of cylinder, cone and ellipsoid are decided through their squa
     for (double slack : {1e-14, -1e-14}) {
       Certificate c;
       c.kind = Certificate::Kind::separating_plane;
-      c.direction = n, c.offset = top + slack;
+      c.direction = n;
+      c.offset = top + slack;
       const Placed a{&x, p}, b{&dot_shape, Pose{s + n, {}}};
       REQUIRE(checker::check(stored(c), a, b) == (slack > 0));
       ++(slack > 0 ? held : refused);
@@ -169,7 +172,7 @@ TEST_CASE("an inner polytope is refused when a point, a facet or the depth is ch
   for (std::size_t i = 0; i < c.support_pairs.size(); ++i)
     for (std::size_t side = 0; side < 2; ++side)
       for (int k = 0; k < 3; ++k) {
-        // Away from the body that it must be in.
+        // Away from the body that must contain it.
         const Vec3 centre = side == 0 ? Vec3(0, 0, 0) : Vec3(0.5, 0.25, 0.125);
         REQUIRE(refused([&](Certificate& d) {
           double& x = d.support_pairs[i][side][k];
@@ -237,12 +240,14 @@ TEST_CASE("depth in a half-space is certified from both sides", "[referee][check
     if (t.verdict != Verdict::overlap) continue;
     Certificate upper;
     upper.kind = Certificate::Kind::depth_direction;
-    upper.direction = t.normal, upper.offset = width(a, b, t.normal).hi;
+    upper.direction = t.normal;
+    upper.offset = width(a, b, t.normal).hi;
     REQUIRE(upper.offset <= -t.gap.lo * (1 + 1e-15));
     REQUIRE(checker::check(stored(depth_certificate(t, a, b)), a, b));
     REQUIRE(checker::check(stored(upper), a, b));
     Certificate more = stored(depth_certificate(t, a, b));
-    more.offset += 1e-13, upper.offset -= 1e-13;
+    more.offset += 1e-13;
+    upper.offset -= 1e-13;
     REQUIRE_FALSE(checker::check(more, a, b));
     REQUIRE_FALSE(checker::check(upper, a, b));
     ++checked;

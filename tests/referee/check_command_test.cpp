@@ -25,7 +25,7 @@ std::filesystem::path write(const std::filesystem::path& file, const std::string
 
 }  // namespace
 
-TEST_CASE("check exits 0 for a proof, 1 for none, 2 for bad input", "[referee][checker]") {
+TEST_CASE("check exits with 0 for a proof, 1 without one, 2 for bad input", "[referee][checker]") {
   const auto dir = std::filesystem::temp_directory_path() / ("touchstone-check-" + std::to_string(getpid()));
   std::filesystem::create_directories(dir);
   write(dir / "case.json", R"({"touchstone_scene": 1, "shapes": [{"type": "sphere", "radius": 1}],
@@ -56,7 +56,7 @@ TEST_CASE(
     "[referee][checker]") {
   const auto dir = std::filesystem::temp_directory_path() / ("touchstone-crowd-" + std::to_string(getpid()));
   std::filesystem::create_directories(dir);
-  // Balls of radius 1 at x = 0, 3, 6; the last comes at 2 a step, and the script puts it at x = 4.
+  // Balls of radius 1 at x = 0, 3, 6; the last moves by 2 per step, and the script moves it to x = 4.
   write(dir / "case.json", R"({"touchstone_scene": 1, "shapes": [{"type": "sphere", "radius": 1}],
     "bodies": [{"shape": 0, "pose": {"translation": [0, 0, 0]}}, {"shape": 0, "pose": {"translation": [3, 0, 0]}},
                {"shape": 0, "pose": {"translation": [6, 0, 0]}, "motion": {"linear": [-2, 0, 0]}}],
@@ -64,7 +64,7 @@ TEST_CASE(
                {"op": "move", "body": 2, "pose": {"translation": [4, 0, 0]}}, {"op": "query"}]})");
   const auto with = [&](const std::string& certificate) { return write(dir / "c.json", certificate); };
   const std::string plane = R"({"kind": "separating_plane", "direction": [1, 0, 0], "offset": 1)";
-  CHECK(check(with(plane + "}")) == 2);  // which two?
+  CHECK(check(with(plane + "}")) == 2);  // names no pair
   CHECK(check(with(plane + R"(, "bodies": [0, 1]})")) == 0);
   CHECK(check(with(plane + R"(, "bodies": [0, 2]})")) == 0);
   CHECK(check(with(plane + R"(, "bodies": [1, 2]})")) == 1);
@@ -75,8 +75,8 @@ TEST_CASE(
   const std::string point = R"({"kind": "common_point", "point": [3.5, 0, 0], "bodies": [1, 2])";
   CHECK(check(with(point + "}")) == 1);
   CHECK(check(with(point + R"(, "step": 1})")) == 0);
-  CHECK(check(with(point + R"(, "step": 0})")) == 2);  // body 2 is not there yet
-  // Seen from ball 2, ball 1 comes at +2 a step from x = -3: they meet at t = 1/2.
+  CHECK(check(with(point + R"(, "step": 0})")) == 2);  // body 2 is not inserted yet
+  // Relative to ball 2, ball 1 moves by +2 per step from x = -3: they meet at t = 1/2.
   const auto impact = [](const std::string& until, const std::string& t) {
     return R"({"kind": "impact", "bodies": [1, 2], "clear_until": )" + until +
            R"(, "planes": [[{"t": 0, "direction": ["1", "0", "0"], "offset": "-11/10"}, {"t": )" + until +

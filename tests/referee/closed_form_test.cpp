@@ -65,7 +65,7 @@ TEST_CASE("exact touching is overlap, one ulp apart is disjoint, at every scale"
     REQUIRE(judged(box, {0, 0, 0}, three, {2 * s, 3 * s, std::nextafter(3 * s, inf)}) == Verdict::disjoint);
     REQUIRE(judged(capsule, {0, 0, 0}, capsule, {2 * s, 0, s / 3}) == Verdict::overlap);
     REQUIRE(judged(capsule, {0, 0, 0}, capsule, {std::nextafter(2 * s, inf), 0, s / 3}) == Verdict::disjoint);
-    // Far from the origin the same pair by exact translation.
+    // The same pair far from the origin, by exact translation.
     const double far = 1e6 * s;
     REQUIRE(judged(box, {far, far, far}, box, {far + 2 * s, far, far}) == Verdict::overlap);
     REQUIRE(judged(box, {far, far, far}, box, {std::nextafter(far + 2 * s, inf), far, far}) ==
@@ -75,7 +75,7 @@ TEST_CASE("exact touching is overlap, one ulp apart is disjoint, at every scale"
 }
 
 TEST_CASE("a quaternion of any length denotes the same exact rotation", "[referee][exact]") {
-  // Turned by 2·atan(1/2): cos = 3/5, sin = 4/5; the corner of the turned cube reaches 1.4 exactly.
+  // Rotated by 2·atan(1/2): cos = 3/5, sin = 4/5; the corner of the rotated cube reaches 1.4 exactly.
   const Shape cube = Box{{1, 1, 1}}, flat = Box{{0, 5, 5}};
   int cases = 0;
   for (double k : {1.0, 3.0, 1e-3, 7.25, 1e9}) {
@@ -89,7 +89,7 @@ TEST_CASE("a quaternion of any length denotes the same exact rotation", "[refere
   REQUIRE(cases == 5);
 }
 
-TEST_CASE("half-space: the gap is one support value along its normal, verdict exact", "[referee]") {
+TEST_CASE("half-space: the gap is one support value along its normal, and the verdict exact", "[referee]") {
   Rng r(77);
   int overlaps = 0, total = 0;
   for (int i = 0; i < 3000; ++i) {
@@ -169,8 +169,8 @@ TEST_CASE("distance_to is 0 inside and the distance outside", "[referee]") {
   REQUIRE(holds(distance_to(at(mesh, {0, 0, 0}), {0.25, 0.25, -2}), 2));
 }
 
-// The forms answer when they prove that the distance is at most what suffices; 0 suffices never, so that the
-// search answers.
+// The closed forms answer when they prove that the distance is at most a sufficient value. 0 is never
+// sufficient, so then the search answers.
 TEST_CASE("the closed forms of a point's distance agree with the search", "[referee]") {
   Rng r(515);
   int closed = 0;
@@ -188,7 +188,7 @@ TEST_CASE("the closed forms of a point's distance agree with the search", "[refe
     const Shape& s = shapes[i % 6];
     const Pose pose{size * std::pow(10.0, r.uniform(-1, 3)) * r.unit_vector(), r.rotation()};
     const Placed p{&s, pose};
-    // In it, on it within rounding and some way off.
+    // Inside, on the surface within rounding, and some distance away.
     const double out = std::pow(10.0, r.uniform(-17, 0.5));
     const Vec3 n = r.unit_vector();
     const Vec3 point = i % 6 == 5      ? Vec3(pose.translation + size * r.uniform(0, 2) * n)

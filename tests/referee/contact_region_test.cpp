@@ -1,4 +1,4 @@
-// The true contact region: closed forms, and its definition asked point by point of touching bodies.
+// The true contact region: closed forms, and its definition checked point by point on touching bodies.
 #include "oracles/referee/region/contact_region.h"
 
 #include <numbers>
@@ -15,7 +15,7 @@ namespace {
 constexpr double slack = 1e-7;
 const Vec3 down(0, 0, -1);
 
-/// A stands on B: A's poses relative to B's are turned and moved together, so that nothing is axis-aligned.
+/// A stands on B. Both are rotated and translated together, so that nothing is axis-aligned.
 struct Stack {
   Pose frame;
   Placed a, b;
@@ -86,7 +86,7 @@ TEST_CASE("contact regions of closed form", "[referee][region]") {
     point(stacked(r, pill, {{0.5, 0.25, 3.5}, {}}, slab), {0.5, 0.25, 1});
     point(stacked(r, top, {{0.5, 0.25, 2}, about_y(2 * right_angle)}, slab), {0.5, 0.25, 1});
     point(stacked(r, ball, {{0.5, 0.25, 2}, {}}, ground), {0.5, 0.25, 1});
-    // Crossed edges: a cube on its edge over a slab on its edge, at a right angle.
+    // Crossed edges: a cube on its edge above a slab on its edge, at right angles.
     point(
         stacked(r, cube, {{0, 0, 2 * std::sqrt(2.0)}, about_y(right_angle / 2)},
                 Shape(Hull{{{-1, 0, std::sqrt(2.0)}, {1, 0, std::sqrt(2.0)}, {0, -1, 0}, {0, 1, 0}}, {}, 0})),

@@ -1,12 +1,11 @@
-// All convex pairs: answers known before the pair is made, sampled directions, width of brackets by regime,
-// symmetry.
+// All convex pairs: answers known by construction, sampled directions, width of brackets by regime, symmetry.
 #include "tests/referee/support.h"
 #include "tests/support/catch.h"
 
 using namespace touchstone;
 using namespace touchstone::referee_test;
 
-TEST_CASE("answer first: a pair placed at a known gap is bracketed at that gap", "[referee]") {
+TEST_CASE("answer first: the bracket of a pair placed at a known gap contains that gap", "[referee]") {
   Rng r(31337);
   int reached = 0, undecided = 0;
   for (int i = 0; i < 6000; ++i) {
@@ -24,10 +23,10 @@ TEST_CASE("answer first: a pair placed at a known gap is bracketed at that gap",
     INFO("case " << i << ": " << type_name(sa) << " " << type_name(sb) << " gap " << gap << " bracket "
                  << t.gap.lo << " " << t.gap.hi << " L " << length);
     REQUIRE(t.gap.lo <= t.gap.hi);
-    REQUIRE(t.gap.lo >= gap - tau);  // the direction n alone proves it
+    REQUIRE(t.gap.lo >= gap - tau);  // the direction n proves it
     if (gap > 0) REQUIRE(t.gap.hi <= gap + tau);
     if (gap > tau) REQUIRE(t.verdict == Verdict::disjoint);
-    // Pushed so deep that B comes out on the other side: then that side's direction must show it.
+    // Pushed so deep that B leaves on the other side: then the direction of that side must show it.
     if (gap < -tau && t.verdict == Verdict::disjoint)
       REQUIRE(t.normal.dot(world_support(sb, pb, -t.normal) - world_support(sa, pa, t.normal)) > -tau);
     undecided += t.verdict == Verdict::undecided;
@@ -37,7 +36,7 @@ TEST_CASE("answer first: a pair placed at a known gap is bracketed at that gap",
   REQUIRE(reached == 6000);
 }
 
-TEST_CASE("no sampled direction beats the lower bound of the depth, none exceeds the distance", "[referee]") {
+TEST_CASE("no sampled direction beats the lower bound of the depth or exceeds the distance", "[referee]") {
   Rng r(99);
   int overlaps = 0, cases = 0;
   for (ShapeKind ka : convex_kinds)
@@ -49,7 +48,7 @@ TEST_CASE("no sampled direction beats the lower bound of the depth, none exceeds
         const auto w = [&](const Vec3& n) {
           return n.dot(world_support(sa, pa, n) - world_support(sb, pb, -n)) / n.norm();
         };
-        // -w(n) <= gap for every n, so min w >= -gap.hi; and the least sampled w comes near it.
+        // -w(n) <= gap for every n, so min w >= -gap.hi; and the minimum of the samples comes close to it.
         double least = w(t.normal);
         for (int k = 0; k < 300; ++k) {
           const Vec3 n = k < 150 ? r.unit_vector()
@@ -142,7 +141,7 @@ TEST_CASE("swapping the bodies mirrors the answer", "[referee][relation]") {
     const Placed a{&sa, Pose{Vec3::Zero(), r.rotation()}},
         b{&sb, Pose{r.uniform(0, 2) * r.unit_vector(), r.rotation()}};
     const PairTruth t = judge_pair(a, b), u = judge_pair(b, a);
-    REQUIRE(std::max(t.gap.lo, u.gap.lo) <= std::min(t.gap.hi, u.gap.hi));  // both hold the truth
+    REQUIRE(std::max(t.gap.lo, u.gap.lo) <= std::min(t.gap.hi, u.gap.hi));  // both contain the truth
     if (t.verdict != Verdict::undecided && u.verdict != Verdict::undecided) REQUIRE(t.verdict == u.verdict);
     ++cases;
   }

@@ -1,6 +1,6 @@
-// Certificates of motions: what impact_certificate hands out is accepted by the checker after a trip through
-// JSON, covers nearly all of what judge_motion says, and is refused with any number changed so that it claims
-// what is false.
+// Certificates of motions: the checker accepts those of impact_certificate after a round trip through JSON,
+// they cover nearly everything that judge_motion reports, and are refused with any number changed so that the
+// claim is false.
 #include <nlohmann/json.hpp>
 
 #include "core/base/input_error.h"
@@ -63,19 +63,25 @@ TEST_CASE("every random motion's certificate is accepted and nearly as sharp as 
     if (t.verdict == Hit::undecided) continue;
     const ImpactCertificate c = stored(impact_certificate(p.a, p.ma, p.b, p.mb, t));
     INFO(i << " " << type_name(x) << " " << type_name(y) << " [" << t.t_lo << ", " << t.t_hi << "]");
-    hits += t.verdict == Hit::hit, none += t.verdict == Hit::none;
+    hits += t.verdict == Hit::hit;
+    none += t.verdict == Hit::none;
     const double until = t.verdict == Hit::none ? 1 : t.t_lo;
     if (until > 0) {
       no_planes += c.tracks.empty();
       if (!c.tracks.empty()) {
         REQUIRE(p.accepts(c));
-        ++planes, keys += keys_of(c), most = std::max(most, keys_of(c));
+        ++planes;
+        keys += keys_of(c);
+        most = std::max(most, keys_of(c));
         worst_lo = std::max(worst_lo, until - c.clear_until);
       }
     }
     if (t.verdict == Hit::hit) {
       no_contact += !c.contact;
-      if (c.contact) ++contacts, worst_hi = std::max(worst_hi, time_of(*c.contact) - t.t_hi);
+      if (c.contact) {
+        ++contacts;
+        worst_hi = std::max(worst_hi, time_of(*c.contact) - t.t_hi);
+      }
     }
   }
   WARN(hits << " hits, " << none << " none; planes for " << planes << " (missing " << no_planes << ", "
@@ -86,7 +92,7 @@ TEST_CASE("every random motion's certificate is accepted and nearly as sharp as 
   CHECK(no_contact == 0);
   CHECK(worst_lo < 1e-9);
   CHECK(worst_hi < 1e-9);
-  REQUIRE(hits > 30);  // of a sample that depends on the order in which a compiler evaluates arguments
+  REQUIRE(hits > 30);  // the sample depends on the order in which a compiler evaluates arguments
   REQUIRE(none > 40);
 }
 
@@ -150,7 +156,7 @@ TEST_CASE("half-spaces and meshes have certificates of their motions", "[referee
   }
 }
 
-TEST_CASE("how deep bodies are in each other on the way is certified, of triangles and of bodies that turn",
+TEST_CASE("the depth of bodies during a motion is certified, for triangles and for rotating bodies",
           "[referee][motion][checker]") {
   TriangleMesh m;
   m.vertices = {{-3, -3, 0}, {3, -3, 0.5}, {3, 3, 0}, {-3, 3, -0.5}, {0.125, 0.25, 0.5}};
@@ -172,7 +178,8 @@ TEST_CASE("how deep bodies are in each other on the way is certified, of triangl
       std::swap(p.ma, p.mb);
     }
     const DepthInTime d = deepest_before(p.a, p.ma, p.b, p.mb, 1);
-    INFO(i << " " << type_name(*p.a.shape) << " " << type_name(*p.b.shape) << " " << d.depth << " at " << d.t);
+    INFO(i << " " << type_name(*p.a.shape) << " " << type_name(*p.b.shape) << " " << d.depth << " at "
+           << d.t);
     if (!(d.depth > 1e-3)) continue;
     ++deep;
     ImpactCertificate c;
@@ -197,9 +204,9 @@ TEST_CASE("how deep bodies are in each other on the way is certified, of triangl
   REQUIRE(shown >= deep - 2);  // an inner polytope of curved bodies may stall
 }
 
-// The checker knows where it is up to a rounding only, and no ball of that size is in it; exact tests of
-// points that cannot be accepted have cost 40 s for one pair.
-TEST_CASE("a flat body that turns has planes and no common point; one that does not turn has both",
+// The checker knows the body's position only up to rounding, and the body contains no ball of that size.
+// Exact tests of points that cannot be accepted once took 40 s for one pair.
+TEST_CASE("a rotating flat body has planes and no common point; one that does not rotate has both",
           "[referee][motion][checker]") {
   const Shape leaf = Hull{{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0.25, 1, 0}}, {}, 2}, die = Box{{1, 1, 1}};
   for (const bool turns : {true, false}) {
@@ -214,12 +221,12 @@ TEST_CASE("a flat body that turns has planes and no common point; one that does 
   }
 }
 
-TEST_CASE("a bar that swings through between two keys is caught by the bound of its bend",
+TEST_CASE("a bar that swings through a wall between two keys is caught by the bound on its arc",
           "[referee][motion][checker]") {
-  // A unit bar about its middle; the plane x = 0.99 keeps its ends away at both keys and not in between.
+  // A unit bar about its middle; the plane x = 0.99 is clear of its ends at both keys but not in between.
   const Shape bar = Capsule{0, 1}, wall = Box{{0.005, 9, 9}};
   for (const double turn : {1.0, 0.1, 0.01, 1e-3}) {
-    // The upper end is straight up at the middle of the step; the wall begins at height `at` of the turn.
+    // The upper end points straight up at the middle of the step; the wall begins at height `at`.
     const double top = std::cos(turn / 2) + 0.25 * (1 - std::cos(turn / 2));
     const Pairing p{at(bar, {0, 0, 0}, {0, -std::sin(turn / 4), 0, std::cos(turn / 4)}),
                     at(wall, {0, 0, top + 0.005}, {0, std::sqrt(0.5), 0, std::sqrt(0.5)}),
@@ -236,8 +243,7 @@ TEST_CASE("a bar that swings through between two keys is caught by the bound of 
     for (double part : {0.05, 0.1, 0.2, 0.24, 0.2499})
       REQUIRE_FALSE(p.accepts(claim(std::cos(turn / 2) + part * (1 - std::cos(turn / 2)))));
   }
-  // The bound is not far from sharp: a wall beyond the swing, by a quarter of its height, is clear in one
-  // piece.
+  // The bound is nearly sharp: a wall beyond the swing, by a quarter of its height, is clear in one piece.
   const double turn = 0.01, rise = 1 - std::cos(turn / 2);
   const Pairing clear{at(bar, {0, 0, 0}, {0, -std::sin(turn / 4), 0, std::cos(turn / 4)}),
                       at(wall, {0, 0, 1 + 0.5 * rise + 0.005}, {0, std::sqrt(0.5), 0, std::sqrt(0.5)}),
@@ -258,7 +264,7 @@ TEST_CASE("planes that clear smaller bodies beyond the contact of the true ones 
     const Pairing p = random_pairing(r, x, y);
     const TimeTruth t = p.truth();
     if (t.verdict != Hit::hit || t.t_lo == 0) continue;
-    // The same bodies shrunk about their origins, so little that only the true contact tells.
+    // The same bodies shrunk about their origins, so slightly that only the true contact shows it.
     for (const double by : {0.9, 0.999, 1 - 1e-6}) {
       const auto shrunk = [&](const Shape& s) {
         Shape q = s;
@@ -334,7 +340,7 @@ TEST_CASE("a motion's certificate is refused with its times, planes or point cha
     }
     for (std::size_t k = 0; k < 3; ++k)
       refused([&](auto& d) { d.contact->point[k] = text_of(rational_from_text(c.contact->point[k]) + 9); });
-    // The bodies in the other order, or at other speeds, are other bodies.
+    // In the other order or at other speeds the certificate does not apply.
     REQUIRE_FALSE(checker::check(c, p.b, p.mb, p.a, p.ma));
     REQUIRE_FALSE(checker::check(c, p.a, p.mb, p.b, p.ma));
   }

@@ -1,4 +1,4 @@
-// Every entry of the public collection of known failures: the referee must agree with the recorded truth.
+// The referee must agree with the recorded truth of every entry of the public collection of known failures.
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -6,6 +6,8 @@
 #include "oracles/checker/checker.h"
 #include "tests/referee/support.h"
 #include "tests/support/catch.h"
+#include "tests/support/shared_data.h"
+#include "tests/support/skip.h"
 
 using namespace touchstone;
 using namespace touchstone::referee_test;
@@ -43,7 +45,7 @@ Placed placed(const Shape& s, const Json& j) {
   return {&s, p};
 }
 
-// Constant velocities that lead from one pose to the other, shortest arc.
+// Constant velocities that lead from one pose to the other by the shortest arc.
 Motion motion_between(const Json& from, const Json& to) {
   Motion m;
   m.linear = vector_of(to["translation"]) - vector_of(from["translation"]);
@@ -63,12 +65,10 @@ double size_of(const Json& e, const Shape& a, const Shape& b) {
 
 }  // namespace
 
-TEST_CASE("known failures: the recorded truth lies in the referee's brackets", "[referee][known]") {
-  const std::filesystem::path file = std::filesystem::path(TS_SHARED_DATA) / "../known-failures.json";
-  if (!std::filesystem::exists(file)) {
-    WARN("skipped: no collection of known failures beside this checkout");
-    return;
-  }
+TEST_CASE("known failures: the recorded truth lies in the referee's brackets", "[referee][known][data]") {
+  const std::filesystem::path file = test::shared_data() / "../known-failures.json";
+  if (!std::filesystem::exists(file))
+    return test::skip("there is no collection of known failures beside this checkout");
   std::ifstream in(file);
   const Json all = Json::parse(in);
   int discrete = 0, moving = 0, verdicts = 0;

@@ -1,6 +1,6 @@
 // Every level of the filter against the exact one, and the quick bracket against the slow one, on pairs that
-// are aimed at where rounding is worst: nearly parallel boxes, gaps down to nothing, coordinates far from the
-// origin, flat and tiny bodies, numbers at the ends of what doubles can be squared in.
+// target the worst rounding: nearly parallel boxes, gaps down to zero, coordinates far from the origin, flat
+// and tiny bodies, numbers at the limits of doubles whose squares are finite.
 #include <array>
 #include <cmath>
 
@@ -25,16 +25,17 @@ Shape exact_shape(Rng& r, double size = 1) {
   return random_convex(r, convex_kinds[r.below(exact_kind_count)], size);
 }
 
-// Some number of [0, 1).
+// A number in [0, 1).
 double r_of(int i) { return std::fmod(0.618033988749895 * i * (1 + i % 5), 1.0); }
 
 Pair anywhere(Rng& r) {
   Pair p{exact_shape(r), exact_shape(r), {}, {}};
-  p.pose_a = {r.vector(0, 0.5), r.rotation()}, p.pose_b = {r.vector(0, 1), r.rotation()};
+  p.pose_a = {r.vector(0, 0.5), r.rotation()};
+  p.pose_b = {r.vector(0, 1), r.rotation()};
   return p;
 }
 
-// B's support point against A's, then off by a power of two from an ulp to a tenth, either way or not at all.
+// B's support point at A's, then offset by a power of two from an ulp to a tenth, either way, or not at all.
 void bring_together(Rng& r, Pair& p, double size) {
   const Vec3 n = r.chance(0.5) ? Vec3(rotation_matrix(p.pose_a.rotation).col(static_cast<int>(r.below(3))))
                                : r.unit_vector();
@@ -64,7 +65,9 @@ Pair nearly_parallel_boxes(Rng& r) {
   const double tilt = r.chance(0.2) ? 0 : r.binary_scale(-60, -2);
   const Vec3 w = r.unit_vector() * tilt;
   Quat q = p.pose_a.rotation;
-  q.x += w.x(), q.y += w.y(), q.z += w.z();
+  q.x += w.x();
+  q.y += w.y();
+  q.z += w.z();
   p.pose_b.rotation = q;
   if (r.chance(0.5))
     bring_together(r, p, 1);
@@ -77,7 +80,8 @@ Pair flat(Rng& r) {
   const auto s = [&] { return r.chance(0.4) ? r.binary_scale(-60, -10) : r.uniform(0.1, 1); };
   Pair p{Box{{s(), s(), s()}}, Box{{s(), s(), s()}}, {}, {}};
   if (r.chance(0.3)) p.b = Capsule{s(), s()};
-  p.pose_a.rotation = r.rotation(), p.pose_b.rotation = r.rotation();
+  p.pose_a.rotation = r.rotation();
+  p.pose_b.rotation = r.rotation();
   p.pose_b.translation = r.vector(0, 1);
   if (r.chance(0.5)) bring_together(r, p, 0.1);
   return p;
@@ -86,7 +90,8 @@ Pair flat(Rng& r) {
 Pair any_scale(Rng& r) {
   const double size = r.binary_scale(-120, 120);
   Pair p{exact_shape(r, size), exact_shape(r, size), {}, {}};
-  p.pose_a = {r.vector(0, size), r.rotation()}, p.pose_b = {r.vector(0, 1.5 * size), r.rotation()};
+  p.pose_a = {r.vector(0, size), r.rotation()};
+  p.pose_b = {r.vector(0, 1.5 * size), r.rotation()};
   return p;
 }
 
@@ -121,7 +126,7 @@ Pair on_a_lattice(Rng& r) {
 struct Family {
   const char* name;
   Draw draw;
-  double level0;  // least share that doubles settle
+  double level0;  // least share that doubles decide
 };
 
 constexpr Family families[] = {{"anywhere", anywhere, 0.99},
@@ -200,7 +205,7 @@ TEST_CASE("integers of 512 bits and rationals agree on half-spaces", "[referee][
     const Operand x = make_operand(body, Vec3::Zero());
     const auto brief = overlaps_half_space_short(h.normal, h.offset, p.pose_b, x.exact_body());
     REQUIRE(brief.has_value());
-    // The same half-space by a placement goes the way of rationals.
+    // The same half-space given as a placement takes the path of rationals.
     const Placed same{&shape, Placement{Mat3::Identity(), Vec3::Zero()}};
     const bool unturned = p.pose_b.rotation == Quat{0, 0, 0, 1} && p.pose_b.translation.isZero(0);
     const PairTruth t = judge_pair(plane, body);
@@ -209,13 +214,14 @@ TEST_CASE("integers of 512 bits and rationals agree on half-spaces", "[referee][
     const bool near = t.gap.lo <= 0 && t.gap.hi >= 0;
     touching += near;
     if (near) {
-      // Off by an ulp or so either way, and no longer in doubt.
+      // Offset by about an ulp either way it is no longer in doubt.
       const Shape up = HalfSpace{h.normal, h.offset + 0x1p-40},
                   down = HalfSpace{h.normal, h.offset - 0x1p-40};
       REQUIRE(judge_pair({&up, p.pose_b}, body).verdict == Verdict::overlap);
       REQUIRE(judge_pair({&down, p.pose_b}, body).verdict == Verdict::disjoint);
     }
-    ++decided, overlaps += *brief;
+    ++decided;
+    overlaps += *brief;
   }
   WARN(decided << " cases, " << overlaps << " overlap, " << touching << " touch");
   REQUIRE(decided == cases);
@@ -244,8 +250,9 @@ TEST_CASE("a point of a curved body: integers of 512 bits and the checker's rati
     at.kind = Certificate::Kind::common_point;
     at.point = point;
     REQUIRE(checker::check(at, body, body) == *brief);
-    ++decided, inside += *brief;
-    // On the border exactly: inside as it is, outside a little farther from the centre.
+    ++decided;
+    inside += *brief;
+    // Exactly on the border: inside as it is, outside slightly farther from the centre.
     const Vec3 out = point + 0x1p-30 * (point - placed.pose_a.translation);
     if (const auto beyond = contains_short(body, out); *brief && beyond && !*beyond) ++on_border;
   }
@@ -256,7 +263,8 @@ TEST_CASE("a point of a curved body: integers of 512 bits and the checker's rati
   REQUIRE(on_border > 50);
 }
 
-TEST_CASE("what takes too much work is left open, says so, and is never guessed", "[referee][work]") {
+TEST_CASE("a question that takes too much work is left undecided with a note, never guessed",
+          "[referee][work]") {
   Rng r(71);
   constexpr double infinity = std::numeric_limits<double>::infinity();
   std::size_t open = 0;
@@ -290,7 +298,7 @@ TEST_CASE("what takes too much work is left open, says so, and is never guessed"
   CHECK(open < 300);
 }
 
-TEST_CASE("two meshes of which all pairs are too many are left open at once", "[referee][work]") {
+TEST_CASE("two meshes with too many pairs of triangles are left undecided at once", "[referee][work]") {
   TriangleMesh m;
   for (int i = 0; i < 60000; ++i) m.vertices.emplace_back(r_of(i), r_of(i + 7), r_of(i + 13));
   for (int i = 0; i + 2 < 60000; ++i) m.triangles.push_back({i, i + 1, i + 2});

@@ -1,5 +1,6 @@
-// How many cases of the fuzz generator each level of the referee settles: a short run in the suite, the long
-// one by hand:  TOUCHSTONE_CASES=10000000 referee_many_cases "[.many]"   (TOUCHSTONE_SEED for other cases)
+// How many cases of the fuzz generator each level of the referee decides: a short run in the suite, a long
+// one by hand:
+//   TOUCHSTONE_CASES=10000000 test_referee_many_cases "[.many]"   (TOUCHSTONE_SEED for other cases)
 #include <cstdio>
 #include <cstdlib>
 
@@ -74,7 +75,7 @@ TEST_CASE("the default mix: polytopes and rounded shapes are decided, nearly all
   REQUIRE(all.wide <= 9);
 }
 
-TEST_CASE("ten million polytopes, spheres and capsules: none undecided", "[.many]") {
+TEST_CASE("none of ten million polytopes, spheres and capsules is undecided", "[.many]") {
   const Count c = run(number_from_environment("TOUCHSTONE_SEED", 4),
                       number_from_environment("TOUCHSTONE_CASES", 10000000), true);
   print("polytopes and rounded shapes", c);

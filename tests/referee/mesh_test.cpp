@@ -26,7 +26,7 @@ Shape sheet(int n) {
 
 }  // namespace
 
-TEST_CASE("a mesh is its surface: verdict and distance are those of the same flat hull", "[referee][mesh]") {
+TEST_CASE("a mesh is a surface: verdict and distance are those of the same flat hull", "[referee][mesh]") {
   Rng r(3);
   const Shape mesh = sheet(8);
   const Shape square = Box{{1, 1, 0}};
@@ -50,7 +50,7 @@ TEST_CASE("a mesh is its surface: verdict and distance are those of the same fla
   REQUIRE(overlaps < cases * 7 / 10);
 }
 
-TEST_CASE("the nearest triangle is found however large or small the scene", "[referee][mesh]") {
+TEST_CASE("the nearest triangle is found in scenes of any size", "[referee][mesh]") {
   for (const int exponent : {-560, -300, 0, 300, 600, 1000}) {
     const double unit = std::ldexp(1.0, exponent);
     TriangleMesh m = std::get<TriangleMesh>(sheet(8));

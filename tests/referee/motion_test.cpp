@@ -1,5 +1,4 @@
-// Times of impact with known answers, thin walls, grazes, spins; and dense sampling as the slow second
-// opinion.
+// Times of impact with known answers, thin walls, grazes, spins; and dense sampling as a slow second opinion.
 #include "oracles/referee/counters.h"
 #include "tests/referee/support.h"
 #include "tests/support/catch.h"
@@ -39,7 +38,7 @@ TEST_CASE("translation: polytopes and rounded shapes are decided down to neighbo
   REQUIRE(judge_motion(at(cube, {1.1, 0, 0}), rest, at(cube, {0, 0, 0}), rest).verdict == Hit::none);
 }
 
-TEST_CASE("translation: an exact graze is a hit, one ulp of clearance is none", "[referee][motion][exact]") {
+TEST_CASE("translation: an exact graze is a hit, one ulp of clearance is not", "[referee][motion][exact]") {
   const Shape cube = Box{{0.5, 0.5, 0.5}}, ball = Sphere{1};
   require_hit(judge_motion(at(cube, {-5, 1, 0}), moving({10, 0, 0}), at(cube, {0, 0, 0}), rest), 0.4, 1e-15);
   REQUIRE(
@@ -70,7 +69,7 @@ TEST_CASE("thin walls are never passed through", "[referee][motion]") {
   REQUIRE(hits == 60);
 }
 
-TEST_CASE("spinning in place beside a wall: none when the circle clears it, hit when it does not",
+TEST_CASE("spinning in place beside a wall: no hit when the circle clears it, a hit otherwise",
           "[referee][motion]") {
   const Shape bar = Box{{1, 0.1, 0.1}}, wall = Box{{0.1, 5, 5}};
   const double reach = std::sqrt(1 + 0.01);
@@ -81,7 +80,7 @@ TEST_CASE("spinning in place beside a wall: none when the circle clears it, hit 
     INFO("spin " << spin << " " << clear.note);
     REQUIRE(clear.verdict == Hit::none);
   }
-  // Turned by a right angle it lies along y; the corner reaches x = 0.9 at a known angle.
+  // Rotated by a right angle it lies along y; the corner reaches x = 0.9 at a known angle.
   const TimeTruth t = judge_motion(at(bar, {0, 0, 0}, {0, 0, 1, 1}), moving(Vec3::Zero(), {0, 0, -2}),
                                    at(wall, {1, 0, 0}), rest);
   const double angle = std::acos(-1.0) / 2 - std::atan(0.1) - std::acos(0.9 / reach);
@@ -110,7 +109,7 @@ TEST_CASE("half-space and mesh in motion", "[referee][motion]") {
           Approx(0.75));
 }
 
-TEST_CASE("dense sampling finds no contact before t_lo and none at all when the answer is none",
+TEST_CASE("dense sampling finds no contact before t_lo, and none at all when the answer is no hit",
           "[referee][motion]") {
   Rng r(123);
   int hits = 0, none = 0, undecided = 0;
@@ -126,9 +125,11 @@ TEST_CASE("dense sampling finds no contact before t_lo and none at all when the 
     const TimeTruth t = judge_motion(a, ma, b, mb);
     INFO(i << " " << type_name(sa) << " " << type_name(sb) << " [" << t.t_lo << ", " << t.t_hi << "] "
            << t.note);
-    hits += t.verdict == Hit::hit, none += t.verdict == Hit::none, undecided += t.verdict == Hit::undecided;
+    hits += t.verdict == Hit::hit;
+    none += t.verdict == Hit::none;
+    undecided += t.verdict == Hit::undecided;
     const double clear_until = t.verdict == Hit::none ? 1 : t.t_lo;
-    // Another road to the pose: core's pose_at in doubles and the discrete judge.
+    // Another way to compute the pose: the core's pose_at in double and the discrete judge.
     for (int k = 0; k < 100; ++k) {
       const double s = clear_until * (k + 0.5) / 100;
       const PairTruth g = judge_pair({&sa, pose_at(std::get<Pose>(a.pose), ma, s)},
@@ -166,13 +167,13 @@ TEST_CASE("certified depth is the deepest point of a passage", "[referee][motion
                                  0.3) == 0);
 }
 
-TEST_CASE("the depth of a passage through a mesh is that in one triangle", "[referee][motion]") {
+TEST_CASE("the depth of a passage through a mesh is that of one triangle", "[referee][motion]") {
   TriangleMesh m;
   m.vertices = {{-5, -5, 0}, {5, -5, 0}, {5, 5, 0}, {-5, 5, 0}};
   m.triangles = {{0, 1, 2}, {0, 2, 3}};
   const Shape floor = m, ball = Sphere{0.5}, die = Box{{1, 2, 0.5}}, ground = HalfSpace{{0, 0, 1}, 0};
   const Placed flat = at(floor, {0, 0, 0});
-  // Half way through it, whichever comes first; with some of the way to go, by how far the lowest point is.
+  // At most half its height; before that, the depth of the lowest point.
   const auto of_ball = [&](double t) {
     return deepest_before(flat, rest, at(ball, {3, 1, 2}), moving({0, 0, -4}), t);
   };
@@ -185,16 +186,16 @@ TEST_CASE("the depth of a passage through a mesh is that in one triangle", "[ref
   const Placed box = at(die, {-2, 1, 2});
   REQUIRE(gap_at(box, moving({0, 0, -4}), flat, rest, 0.45).hi == Approx(-0.3));
   REQUIRE(gap_at(box, moving({0, 0, -4}), flat, rest, 0.45).lo == Approx(-0.3));
-  REQUIRE(gap_at(box, moving({0, 0, -4}), flat, rest, 0.95).lo == Approx(1.3));  // out below
+  REQUIRE(gap_at(box, moving({0, 0, -4}), flat, rest, 0.95).lo == Approx(1.3));  // has left below
   REQUIRE(std::abs(certified_depth_before(box, moving({0, 0, -4}), flat, rest, 1) - 0.5) < 1e-9);
-  // Past the border it can leave sideways: 0.25 of it is over the floor.
+  // Past the border it can leave sideways: 0.25 of it is above the floor.
   REQUIRE(std::abs(certified_depth_before(at(die, {5.75, 1, 2}), moving({0, 0, -4}), flat, rest, 1) - 0.25) <
           1e-9);
   REQUIRE(gap_at(flat, moving({0, 0, -4}), at(ground, {0, 0, -2}), rest, 0.75).hi == Approx(-1));
   REQUIRE(certified_depth_before(at(ground, {0, 0, -2}), rest, flat, moving({0, 0, -4}), 1) == Approx(2));
 }
 
-TEST_CASE("a half-space that turns: closed form of a ball, and a great box in its place",
+TEST_CASE("a rotating half-space: closed form for a ball, and a large box in its place",
           "[referee][motion]") {
   const Shape ground = HalfSpace{{0, 0, 2}, 0}, ball = Sphere{0.5};
   // The plane through the origin tips up towards a ball at (3, 0, 1): -3 sin(wt) + cos(wt) = 1/2.
@@ -231,7 +232,8 @@ TEST_CASE("a half-space that turns: closed form of a ball, and a great box in it
     undecided += t.verdict == Hit::undecided || u.verdict == Hit::undecided;
     if (t.verdict == Hit::undecided || u.verdict == Hit::undecided) continue;
     REQUIRE(t.verdict == u.verdict);
-    hits += t.verdict == Hit::hit, none += t.verdict == Hit::none;
+    hits += t.verdict == Hit::hit;
+    none += t.verdict == Hit::none;
     if (t.verdict == Hit::hit) {
       REQUIRE(t.t_lo <= u.t_hi);
       REQUIRE(u.t_lo <= t.t_hi);
@@ -287,15 +289,16 @@ TEST_CASE("the certified depth of a turning motion is that of a dense search, an
     const Motion ma = moving(-2 * p + 0.5 * r.unit_vector(), r.uniform(0, 9) * r.unit_vector()),
                  mb = moving(Vec3::Zero(), r.uniform(0, 9) * r.unit_vector());
     const double d = certified_depth_before(a, ma, b, mb, 1);
-    // By another road, poses in doubles: samples 1/400 apart, and as much more as the depth can change
-    // between.
+    // Computed another way, with poses in double: samples 1/400 apart, plus the most that the depth can
+    // change between them.
     double lo = 0, hi = 0;
     constexpr int n = 400;
     for (int k = 0; k <= n; ++k) {
       const double s = k / static_cast<double>(n);
       const PairTruth g = judge_pair({&sa, pose_at(std::get<Pose>(a.pose), ma, s)},
                                      {&sb, pose_at(std::get<Pose>(b.pose), mb, s)});
-      lo = std::max(lo, -g.gap.hi), hi = std::max(hi, -g.gap.lo);
+      lo = std::max(lo, -g.gap.hi);
+      hi = std::max(hi, -g.gap.lo);
     }
     const double rate =
         ma.linear.norm() + ma.angular.norm() * bounding_radius(sa) + mb.angular.norm() * bounding_radius(sb);

@@ -1,4 +1,4 @@
-// The directions in which bodies separate about equally fast, against closed forms.
+// The directions in which bodies separate about equally soon, against closed forms.
 #include "tests/referee/support.h"
 #include "tests/support/catch.h"
 
@@ -13,7 +13,7 @@ bool has(const NearMinimalNormals& r, const Vec3& n) {
 
 }  // namespace
 
-TEST_CASE("a cube's centre in a cube: six directions, the next far off", "[referee][normals]") {
+TEST_CASE("a cube's centre in a cube: six directions, the next much worse", "[referee][normals]") {
   const Shape outer = Box{{1, 1, 1}}, inner = Box{{0.25, 0.25, 0.25}};
   const NearMinimalNormals r = near_minimal_normals({&outer, Pose{}}, {&inner, Pose{}});
   REQUIRE(r.certified);
@@ -26,7 +26,7 @@ TEST_CASE("a cube's centre in a cube: six directions, the next far off", "[refer
   for (double w : r.widths) REQUIRE(std::abs(w - 1.25) < 1e-15);
 }
 
-TEST_CASE("a box off the middle of a box: one direction, and the second best is the next face's",
+TEST_CASE("a box off the middle of a box: one direction, and the second best is that of the next face",
           "[referee][normals]") {
   const Shape outer = Box{{3, 2, 1}}, inner = Box{{0.5, 0.25, 0.125}};
   const NearMinimalNormals r =
@@ -52,7 +52,7 @@ TEST_CASE("within the slack faces count as equal, beyond it as second best", "[r
   }
 }
 
-TEST_CASE("a sphere's centre in a sphere's is a continuum; beside it there is one direction",
+TEST_CASE("concentric spheres have a continuum of directions, eccentric ones a single direction",
           "[referee][normals]") {
   const Shape a = Sphere{1}, b = Sphere{0.5};
   const NearMinimalNormals all = near_minimal_normals({&a, Pose{}}, {&b, Pose{}});
@@ -66,7 +66,7 @@ TEST_CASE("a sphere's centre in a sphere's is a continuum; beside it there is on
   REQUIRE(has(one, Vec3(1, 0, 0)));
 }
 
-TEST_CASE("a ball on a cylinder's axis leaves sideways in every direction or along it in two",
+TEST_CASE("a ball on a cylinder's axis leaves in every lateral direction, or in two along the axis",
           "[referee][normals]") {
   const Shape tall = Cylinder{1, 3}, flat = Cylinder{3, 1}, ball = Sphere{0.5};
   const NearMinimalNormals round = near_minimal_normals({&tall, Pose{}}, {&ball, Pose{}});
@@ -94,7 +94,10 @@ TEST_CASE("random boxes: the listed directions and the second best are those of 
     ++judged;
     const Mat3 ma = rotation_matrix(px.rotation), mb = rotation_matrix(py.rotation);
     std::vector<Vec3> axes;
-    for (int k = 0; k < 3; ++k) axes.push_back(ma.col(k)), axes.push_back(mb.col(k));
+    for (int k = 0; k < 3; ++k) {
+      axes.push_back(ma.col(k));
+      axes.push_back(mb.col(k));
+    }
     for (int k = 0; k < 9; ++k) axes.push_back(ma.col(k / 3).cross(mb.col(k % 3)).normalized());
     double least = 1e9;
     for (const Vec3& m : axes)
@@ -112,7 +115,7 @@ TEST_CASE("random boxes: the listed directions and the second best are those of 
       const Bracket w = width(a, b, n.normals[k]);
       REQUIRE(w.lo <= n.widths[k] + 1e-14);
       REQUIRE(w.hi >= n.widths[k] - 1e-14);
-      // A local minimum: w is no smaller a little to either side.
+      // A local minimum: w is not smaller slightly to either side.
       for (int j = 0; j < 8; ++j) {
         const Vec3 beside = (n.normals[k] + 1e-4 * r.unit_vector()).normalized();
         REQUIRE(width(a, b, beside).hi >= w.lo - 1e-14);
@@ -122,7 +125,7 @@ TEST_CASE("random boxes: the listed directions and the second best are those of 
   REQUIRE(judged > 200);
 }
 
-TEST_CASE("apart there is one direction, of unbounded conditioning", "[referee][normals]") {
+TEST_CASE("separate bodies have one direction, with unbounded conditioning", "[referee][normals]") {
   const Shape a = Box{{1, 1, 1}}, b = Cone{0.5, 1};
   const NearMinimalNormals r = near_minimal_normals({&a, Pose{}}, {&b, Pose{{4, 0.1, 0.2}, {}}});
   REQUIRE(r.certified);

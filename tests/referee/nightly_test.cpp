@@ -1,10 +1,10 @@
-// The referee of the referee: slow and obvious second implementations, on many cases. A part runs with every
-// test; all of it by night:
+// Checks the referee: slow and obvious second implementations, on many cases. Part of it runs with every
+// test, all of it at night:
 //
 //   TOUCHSTONE_NIGHTLY_CASES=1000000 build/bin/test_referee_nightly "[.nightly]"
 //
-// The number (default 1000000) is that of lattice, degenerate and closed-form cases each; smooth shapes are a
-// twentieth of it, motions a thousandth. Cases depend on the seed alone.
+// The number (default 1000000) applies to lattice, degenerate and closed-form cases each; smooth shapes are a
+// twentieth of it, motions a thousandth. Cases depend only on the seed.
 #include <cstdlib>
 
 #include "oracles/checker/checker.h"
@@ -55,7 +55,7 @@ void lattice(int cases, std::uint64_t seed) {
   REQUIRE(touching > cases / 100);
 }
 
-// Flat, straight or pointlike, with vertices that repeat or lie within faces and edges, or thin as a needle.
+// Flat, straight or point-like, with vertices that repeat or lie within faces and edges, or needle-thin.
 std::vector<I3> degenerate_points(Rng& r) {
   const auto c = [&](int most) { return static_cast<std::int64_t>(r.below(2 * most + 1)) - most; };
   const I3 u{c(2), c(2), c(2)}, v{c(2), c(2), c(2)}, needle{c(30), c(30), c(30)};
@@ -100,7 +100,7 @@ void degenerate(int cases, std::uint64_t seed) {
   for (int i = 0; i < cases; ++i) {
     INFO("degenerate case " << i);
     Placed3 x = degenerate_body(r), y = degenerate_body(r);
-    // A vertex on a vertex, or as it comes.
+    // A vertex on a vertex, or arbitrary.
     if (r.chance(0.3)) move_to(y, x.world[r.below(x.world.size())] - y.world[r.below(y.world.size())]);
     if (r.chance(0.5))
       move_to(y, {static_cast<std::int64_t>(r.below(3)) - 1, 0, static_cast<std::int64_t>(r.below(3))});
@@ -124,7 +124,7 @@ Ld norm(const L3& a) { return std::sqrt(dot(a, a)); }
 
 Ld clamp01(Ld x) { return std::min(Ld{1}, std::max(Ld{0}, x)); }
 
-// Two segments: the least over the four ends against the other segment, and the foot inside both.
+// Two segments: the minimum over the four ends against the other segment, and the feet inside both.
 Ld segment_distance(const L3& p, const L3& d, const L3& q, const L3& e) {
   const auto to_segment = [](const L3& x, const L3& a, const L3& u) {
     const Ld uu = dot(u, u);
@@ -184,7 +184,8 @@ void closed_forms(int cases, std::uint64_t seed) {
                        : norm({std::max(out.x, Ld{0}), std::max(out.y, Ld{0}), std::max(out.z, Ld{0})});
       g -= rb;
     }
-    // Capsules whose axes cross have the depth of their balls and of the crossing: by w(n), not by this form.
+    // The depth of capsules with crossing axes also depends on the crossing: w(n) gives it, this form does
+    // not.
     if (i % 3 == 1 && g < 0) {
       if (t.verdict != Verdict::overlap && g < -doubt) FAIL("the verdict differs");
       if (Ld(t.gap.lo) > g + doubt) FAIL("the depth is less than the balls' own");
@@ -198,8 +199,8 @@ void closed_forms(int cases, std::uint64_t seed) {
   REQUIRE(overlaps < cases * 7 / 10);
 }
 
-// Any direction bounds the gap from below, any two points of the bodies from above: from the core's own
-// support mappings, improved by conditional gradient steps (Frank and Wolfe 1956).
+// Any direction bounds the gap from below, any two points of the bodies bound it from above. Uses the core's
+// own support mappings, improved by conditional gradient steps (Frank and Wolfe 1956).
 void smooth(int cases, std::uint64_t seed) {
   Rng r(seed);
   int overlaps = 0, undecided = 0, apart = 0;
@@ -238,7 +239,7 @@ void smooth(int cases, std::uint64_t seed) {
   REQUIRE(apart > cases / 5);
 }
 
-// Motions: poses of the core in doubles and the discrete judge at many times; the certificate by the checker.
+// Motions: the core's poses in double and the discrete judge at many times; the checker for the certificate.
 void motions(int cases, std::uint64_t seed) {
   Rng r(seed);
   int hits = 0, undecided = 0, pointless = 0;
@@ -251,9 +252,10 @@ void motions(int cases, std::uint64_t seed) {
         mb{Vec3::Zero(), r.chance(0.5) ? Vec3(r.uniform(0, fast) * r.unit_vector()) : Vec3(0, 0, 0)};
     const Placed a{&x, p}, b{&y, q};
     const TimeTruth t = judge_motion(a, ma, b, mb);
-    hits += t.verdict == TimeTruth::Verdict::hit, undecided += t.verdict == TimeTruth::Verdict::undecided;
+    hits += t.verdict == TimeTruth::Verdict::hit;
+    undecided += t.verdict == TimeTruth::Verdict::undecided;
     const double clear = t.verdict == TimeTruth::Verdict::none ? 1 : t.t_lo;
-    // Bodies that overlap at the start are clear at no time.
+    // Bodies that overlap at the start are never clear.
     for (int k = 0; clear > 0 && k < 60; ++k) {
       const double s = clear * r.uniform();
       if (judge_pair({&x, pose_at(p, ma, s)}, {&y, pose_at(q, mb, s)}).gap.hi < -1e-13)
@@ -275,7 +277,7 @@ void motions(int cases, std::uint64_t seed) {
 
 }  // namespace
 
-TEST_CASE("some: degenerate polytopes, closed forms and smooth shapes agree with second implementations",
+TEST_CASE("some degenerate polytopes, closed forms and smooth shapes agree with second implementations",
           "[referee][exact]") {
   degenerate(6000, 71);
   closed_forms(6000, 72);

@@ -1,13 +1,13 @@
 // Vertex-face and edge-edge with straight paths: closed forms, degenerate primitives, symmetry, and every
 // recorded query whose answer is known exactly.
-#include <cstdio>
-#include <cstdlib>
 #include <filesystem>
 
 #include "oracles/referee/motion/primitive_motion.h"
 #include "scenarios/import/ccd_queries.h"
 #include "tests/referee/support.h"
 #include "tests/support/catch.h"
+#include "tests/support/shared_data.h"
+#include "tests/support/skip.h"
 
 namespace touchstone::referee_test {
 namespace {
@@ -15,12 +15,7 @@ namespace {
 using Quad = std::array<Vec3, 4>;
 constexpr auto vf = PrimitivePair::vertex_face, ee = PrimitivePair::edge_edge;
 
-std::filesystem::path data_root() {
-  const char* asked = std::getenv("TS_SHARED_DATA");
-  return asked ? asked : TS_SHARED_DATA;
-}
-
-/// Small integers: degenerate and coplanar more often than not.
+/// Small integers: usually degenerate or coplanar.
 Quad lattice_quad(Rng& r) {
   Quad q;
   for (Vec3& v : q)
@@ -30,12 +25,10 @@ Quad lattice_quad(Rng& r) {
 
 }  // namespace
 
-TEST_CASE("the recorded queries are all decided as the exact truth says", "[referee][primitive]") {
-  const auto root = data_root() / "ccd";
-  if (!std::filesystem::exists(root / "truth.csv")) {
-    std::printf("skipped: %s is absent\n", root.c_str());
-    return;
-  }
+TEST_CASE("all recorded queries are decided in agreement with the exact truth",
+          "[referee][primitive][data]") {
+  const auto root = test::shared_data() / "ccd";
+  if (!std::filesystem::exists(root / "truth.csv")) return test::skip(root.string() + " is absent");
   int false_negatives = 0, false_positives = 0, hits = 0, wrong_times = 0, total = 0;
   for (const CcdQuery& q : load_ccd_set(root)) {
     const PrimitiveTruth t = judge_primitive_motion(q.is_vertex_face ? vf : ee, q.start, q.end);
@@ -63,17 +56,17 @@ TEST_CASE("a vertex that crosses a face does so at the time of its plane", "[ref
   REQUIRE(t.collides);
   REQUIRE(t.t_lo == 0.25);
   REQUIRE(t.t_hi == 0.25);
-  // A third of the way: no double, so its two neighbours.
+  // A third of the way is not a double, so the bracket is its two neighbours.
   end[0].z() = -2;
   const PrimitiveTruth third = judge_primitive_motion(vf, start, end);
   REQUIRE(third.t_lo == 1.0 / 3);
   REQUIRE(third.t_hi == std::nextafter(1.0 / 3, 1.0));
-  // One unit short of the plane, and exactly at it when the step ends.
+  // One ulp short of the plane, and exactly at it when the step ends.
   end[0].z() = 0x1p-1074;
   REQUIRE_FALSE(judge_primitive_motion(vf, start, end).collides);
   end[0].z() = 0;
   REQUIRE(judge_primitive_motion(vf, start, end).t_lo == 1);
-  // Through a corner, and past it by one unit.
+  // Through a corner, and past it by one ulp.
   end[0] = {0, 0, -1};
   Quad above = start;
   above[0] = {0, 0, 1};
@@ -83,7 +76,7 @@ TEST_CASE("a vertex that crosses a face does so at the time of its plane", "[ref
 }
 
 TEST_CASE("motions within one plane and degenerate primitives are decided", "[referee][primitive]") {
-  // A vertex slides in the plane of the face, enters at x = 0.
+  // A vertex slides in the plane of the face and enters it at x = 0.
   const Quad start{Vec3(-1, 0.25, 0), Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0, 1, 0)};
   Quad end = start;
   end[0].x() = 3;
@@ -91,7 +84,8 @@ TEST_CASE("motions within one plane and degenerate primitives are decided", "[re
   // Two edges on one line, then a face that is a segment, then one that is a point.
   const Quad line{Vec3(0, 0, 0), Vec3(1, 1, 1), Vec3(3, 3, 3), Vec3(5, 5, 5)};
   Quad closer = line;
-  closer[2] = {-1, -1, -1}, closer[3] = {1, 1, 1};
+  closer[2] = {-1, -1, -1};
+  closer[3] = {1, 1, 1};
   REQUIRE(judge_primitive_motion(ee, line, closer).t_lo == 0.5);
   const Quad flat{Vec3(0, 0, 1), Vec3(-1, 0, 0), Vec3(1, 0, 0), Vec3(0.5, 0, 0)};
   Quad down = flat;

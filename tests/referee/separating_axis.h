@@ -1,5 +1,6 @@
-// The referee's second opinion on small polytopes of whole numbers: the separating-axis theorem over every
-// candidate direction in 64-bit integers. Slow, obvious, exact. Coordinates, times both scales, up to 1e4.
+// A second opinion on the referee for small integer polytopes: the separating-axis theorem over every
+// candidate direction in 64-bit integers. Slow, obvious, exact. Coordinates times both scales must be at most
+// 1e4.
 #pragma once
 
 #include <array>
@@ -83,8 +84,8 @@ inline void add_direction(std::vector<I3>& list, const I3& d) {
   list.push_back(d);
 }
 
-// All normals that can matter: crosses of edge directions; for a flat difference also those within its plane;
-// for a segment or a point the part of a point at a right angle to it.
+// All candidate normals: cross products of edge directions; for a flat difference also those within its
+// plane; for a segment or a point, the component of a point perpendicular to it.
 inline std::vector<I3> candidates(const std::vector<I3>& a, const std::vector<I3>& b) {
   std::vector<I3> edges, normals;
   for (const auto* s : {&a, &b})
@@ -114,8 +115,14 @@ inline Slow judge_slowly(std::vector<I3> a, std::vector<I3> b, int scale_a, int 
   if (normals.empty() || normals.size() == 1) r.depth = 0;
   for (const I3& n : normals) {
     std::int64_t lo_a = INT64_MAX, hi_a = INT64_MIN, lo_b = INT64_MAX, hi_b = INT64_MIN;
-    for (const I3& v : a) lo_a = std::min(lo_a, dot(n, v)), hi_a = std::max(hi_a, dot(n, v));
-    for (const I3& v : b) lo_b = std::min(lo_b, dot(n, v)), hi_b = std::max(hi_b, dot(n, v));
+    for (const I3& v : a) {
+      lo_a = std::min(lo_a, dot(n, v));
+      hi_a = std::max(hi_a, dot(n, v));
+    }
+    for (const I3& v : b) {
+      lo_b = std::min(lo_b, dot(n, v));
+      hi_b = std::max(hi_b, dot(n, v));
+    }
     if (hi_a < lo_b || hi_b < lo_a) r.disjoint = true;
     const std::int64_t w = std::min(hi_a - lo_b, hi_b - lo_a);
     r.depth = std::min(r.depth, static_cast<long double>(w) / length(n));

@@ -1,4 +1,4 @@
-// What the referee's tests share: random shapes and poses, L of a pair, and a bracket's claims as one-line
+// Shared by the referee's tests: random shapes and poses, L of a pair, and a bracket's claims as one-line
 // checks.
 #pragma once
 
@@ -44,7 +44,7 @@ inline Shape random_convex(Rng& r, ShapeKind kind, double size = 1) {
 inline constexpr ShapeKind convex_kinds[] = {ShapeKind::sphere,   ShapeKind::box,      ShapeKind::capsule,
                                              ShapeKind::hull,     ShapeKind::cylinder, ShapeKind::cone,
                                              ShapeKind::ellipsoid};
-inline constexpr int exact_kind_count = 4;  // the first of them: verdict always decided
+inline constexpr int exact_kind_count = 4;  // the first kinds, whose verdict is always decided
 
 /// World support point in doubles, from the core's own support mappings: independent of the referee's.
 inline Vec3 world_support(const Shape& s, const Pose& p, const Vec3& n) {

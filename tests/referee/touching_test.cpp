@@ -1,4 +1,4 @@
-// Bodies of simple sizes turned by whole turns of the lattice: many touch exactly. The verdict of a curved
+// Bodies of simple sizes rotated by symmetries of the lattice: many touch exactly. The verdict of a curved
 // pair that touches at a point with simple coordinates is decided, with a point that the checker accepts.
 #include "oracles/checker/checker.h"
 #include "tests/referee/support.h"
@@ -43,8 +43,9 @@ TEST_CASE("exact contact of curved bodies on a lattice is decided", "[referee][t
   for (int i = 0; i < n; ++i) {
     const Shape x = lattice_shape(r), y = lattice_shape(r);
     Pose px, py;
-    px.rotation = quarter_turn(r), py.rotation = quarter_turn(r);
-    // Axis by axis boxes that share a face: the bodies touch there more often than not.
+    px.rotation = quarter_turn(r);
+    py.rotation = quarter_turn(r);
+    // Boxes that share a face along an axis: the bodies usually touch there.
     const Placed at_origin{&y, py};
     const Aabb box_a = outer_box({&x, px}), box_b = outer_box(at_origin);
     const int k = static_cast<int>(r.below(3));
@@ -62,7 +63,7 @@ TEST_CASE("exact contact of curved bodies on a lattice is decided", "[referee][t
   CHECK(undecided <= n / 200);
 }
 
-TEST_CASE("a body half a billionth of a unit away is not talked into contact", "[referee][touching]") {
+TEST_CASE("a body half a billionth of a unit away is not in contact", "[referee][touching]") {
   Rng r(73);
   int apart = 0;
   for (int i = 0; i < 600; ++i) {
@@ -79,8 +80,8 @@ TEST_CASE("a body half a billionth of a unit away is not talked into contact", "
   REQUIRE(apart == 600);
 }
 
-// The two neighbouring doubles between which a shift of B leaves A: the gaps there are about 1e-17, less than
-// extended precision can tell from 0.
+// The two neighbouring doubles between which a shift of B separates it from A: the gaps there are about
+// 1e-17, too small for extended precision to distinguish from 0.
 TEST_CASE("curved bodies are decided on both sides of contact, one ulp apart", "[referee][touching]") {
   Rng r(74);
   const ShapeKind curved[] = {ShapeKind::cylinder, ShapeKind::cone, ShapeKind::ellipsoid};
@@ -118,7 +119,7 @@ TEST_CASE("curved bodies are decided on both sides of contact, one ulp apart", "
   REQUIRE(undecided <= n / 75);
 }
 
-TEST_CASE("contact in a point of a rim and along an edge is found among simple fractions",
+TEST_CASE("contact at a point of a rim and along an edge is found among simple fractions",
           "[referee][touching]") {
   const Shape drum = Cylinder{0.625, 0.875}, rod = Capsule{0.375, 0.75};
   const Pose lying{{0.25, 0.625, -1.25}, {1, 1, 1, 1}};

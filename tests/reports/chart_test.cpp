@@ -1,5 +1,5 @@
-// The chart's statistics by hand-made samples, the chart of our core and of engines that lie, ladders, and
-// both commands as a user meets them.
+// The chart's statistics on hand-made samples, the chart of our core and of lying engines, ladders, and both
+// commands as a user meets them.
 #include <algorithm>
 #include <array>
 #include <filesystem>
@@ -18,6 +18,7 @@
 #include "reports/stability/ladders.h"
 #include "reports/stability/stability.h"
 #include "tests/support/catch.h"
+#include "tests/support/skip.h"
 #include "tests/support/workspace.h"
 
 using namespace touchstone;
@@ -29,7 +30,8 @@ namespace {
 
 ChartSample sample(const std::string& engine, double error, std::vector<double> ns) {
   ChartSample s{engine, "contact", "near", "box-box", "1", 2, {}, std::move(ns)};
-  s.judgement.outcome = Outcome::answered, s.judgement.worst_in_l = error;
+  s.judgement.outcome = Outcome::answered;
+  s.judgement.worst_in_l = error;
   return s;
 }
 
@@ -52,7 +54,7 @@ std::vector<EnginePtr> the_core() {
   return e;
 }
 
-// Says "apart" whatever it is asked: fast, and wrong.
+// Answers "apart" to every question: fast and wrong.
 class Denier final : public Engine {
  public:
   Denier() { card_.name = "denier"; }
@@ -61,10 +63,13 @@ class Denier final : public Engine {
     std::vector<CaseObservations> all;
     for (const Case& c : cases) {
       auto& r = all.emplace_back();
-      r.received.bodies.resize(c.scene.bodies.size()), r.received.shapes.resize(c.scene.shapes.size());
+      r.received.bodies.resize(c.scene.bodies.size());
+      r.received.shapes.resize(c.scene.shapes.size());
       for (std::size_t i = 0; i < c.queries.size(); ++i) {
         Observation& o = r.answers.emplace_back();
-        o.outcome = Outcome::answered, o.overlap = false, o.elapsed_ns = 1;
+        o.outcome = Outcome::answered;
+        o.overlap = false;
+        o.elapsed_ns = 1;
       }
     }
     return all;
@@ -74,7 +79,7 @@ class Denier final : public Engine {
   EngineCard card_;
 };
 
-// The core, but where `lies` holds it says a distance that is too large by half the size.
+// The core, except that where `lies` holds its distance is too large by half the size.
 class Fickle final : public Engine {
  public:
   using Lies = bool (*)(const Case&, const Query&);
@@ -99,7 +104,7 @@ class Fickle final : public Engine {
 
 }  // namespace
 
-TEST_CASE("a row's times are quantiles of each query's least time, its spread that of the rounds",
+TEST_CASE("a row's times are quantiles of each query's least time, its spread is that of the rounds",
           "[chart]") {
   ChartRows rows;
   for (int i = 1; i <= 101; ++i) rows.add(sample("a", i * 1e-3, {i + 100.0, i * 1.0, i + 50.0}));
@@ -117,19 +122,22 @@ TEST_CASE("a row's times are quantiles of each query's least time, its spread th
   CHECK(r.unsound.empty());
 }
 
-TEST_CASE("who is wrong, fails or leaves out cannot be on the front, and the row says why", "[chart]") {
+TEST_CASE("an engine that is wrong, fails or declines is not on the front, and its row says why", "[chart]") {
   ChartRows rows;
   for (int i = 0; i < 10; ++i) {
     rows.add(sample("exact", 1e-16, {900}));
     rows.add(sample("rough", 1e-6, {100}));
     rows.add(sample("dominated", 1e-6, {500}));
-    rows.add(sample("alike", 1e-6, {102}));  // no faster and no slower than rough
+    rows.add(sample("alike", 1e-6, {102}));  // neither faster nor slower than rough
     rows.add(i ? sample("misses", 0, {1}) : wrong(sample("misses", 0.5, {1}), Fault::missed));
     rows.add(i ? sample("off", 0, {1}) : wrong(sample("off", 0.5, {1}), Fault::infeasible));
     ChartSample crashes = sample("crashes", 0, {1}), partial = sample("partial", 0, {1});
-    if (i == 0)
-      crashes.judgement.outcome = Outcome::crashed, partial.judgement.outcome = Outcome::unsupported;
-    rows.add(crashes), rows.add(partial);
+    if (i == 0) {
+      crashes.judgement.outcome = Outcome::crashed;
+      partial.judgement.outcome = Outcome::unsupported;
+    }
+    rows.add(crashes);
+    rows.add(partial);
   }
   const auto all = rows.rows();
   CHECK(overall(all, "exact").front);
@@ -147,29 +155,32 @@ TEST_CASE("who is wrong, fails or leaves out cannot be on the front, and the row
   CHECK(overall(all, "partial").unsound == "answers 9 of 10");
 }
 
-TEST_CASE("noise of the times moves nobody from the front to behind it or back", "[chart]") {
+TEST_CASE("noise in the times moves no engine onto or off the front", "[chart]") {
   std::size_t clear = 0, moved = 0;
   const auto place = [](const ChartRow& r) { return r.front ? r.tie ? 1 : 2 : 0; };
   for (std::uint64_t seed = 0; seed < 200; ++seed) {
     std::vector<ChartRow> one(8);
     Rng rng = Rng::stream(77, seed);
     for (std::size_t i = 0; i < one.size(); ++i) {
-      one[i].engine = std::to_string(i), one[i].ns_median = std::exp(rng.uniform(4, 9));
+      one[i].engine = std::to_string(i);
+      one[i].ns_median = std::exp(rng.uniform(4, 9));
       one[i].error_p99 = one[i].error_max = std::pow(10, -static_cast<double>(rng.below(4)));
     }
     auto other = one;
     for (ChartRow& r : other) r.ns_median *= rng.uniform(0.7, 1.0 / 0.7);
-    mark_fronts(one), mark_fronts(other);
+    mark_fronts(one);
+    mark_fronts(other);
     for (std::size_t i = 0; i < one.size(); ++i) {
       CHECK(std::abs(place(one[i]) - place(other[i])) < 2);
-      clear += place(one[i]) == 2, moved += place(one[i]) != place(other[i]);
+      clear += place(one[i]) == 2;
+      moved += place(one[i]) != place(other[i]);
     }
   }
   CHECK(clear > 200);
-  CHECK(moved > 20);  // the noise is felt
+  CHECK(moved > 20);  // the noise has an effect
 }
 
-TEST_CASE("repeated asking gives the least mean of a batch", "[chart]") {
+TEST_CASE("repeated queries give the least mean of a batch", "[chart]") {
   int asked = 0;
   const auto ns = least_mean_ns(1'000'000, 2'000'000, [&] { ++asked; });
   CHECK(asked > 100);
@@ -199,7 +210,7 @@ TEST_CASE("the core is sound on the chart's cases, and an engine that denies con
     }
   }
   CHECK(core > 400);
-  CHECK(denied > 200);  // of 420, of which two regimes and half of another overlap
+  CHECK(denied > 200);  // of 420, in which two regimes and half of another overlap
   const Json j = Json::parse(fuzz::to_json(chart).dump());
   const std::string csv = to_csv(chart);
   CHECK(j["rows"].size() == chart.rows.size());
@@ -207,8 +218,8 @@ TEST_CASE("the core is sound on the chart's cases, and an engine that denies con
   for (const auto& row : j["rows"]) CHECK(row.size() == j["columns"].size());
 }
 
-TEST_CASE("sub-stepping says the first sample that overlaps, and misses what passes between two", "[chart]") {
-  // A ball of radius 1 goes 16 along x past the middle of another: they overlap from t = 6/16 to 10/16.
+TEST_CASE("sub-stepping reports the first overlapping sample, and misses passes between samples", "[chart]") {
+  // A ball of radius 1 moves by 16 along x through another: they overlap from t = 6/16 to 10/16.
   Case c;
   c.scene.shapes = {Sphere{1}};
   c.scene.bodies.resize(2);
@@ -234,7 +245,7 @@ TEST_CASE("sub-stepping says the first sample that overlaps, and misses what pas
   }
 }
 
-TEST_CASE("sub-steps of many motions are those of each, and refusals stay refusals", "[chart]") {
+TEST_CASE("sub-steps of a batch of motions are those of each, and refusals stay refusals", "[chart]") {
   const auto some = impact_chart_cases(9, 6);
   std::vector<Case> cases;
   for (const ChartCase& c : some) cases.push_back(c.c);
@@ -266,7 +277,7 @@ TEST_CASE("names of sub-stepped engines", "[chart]") {
     CHECK_FALSE(sub_steps_name(bad));
 }
 
-TEST_CASE("ladders name where a liar begins to fail, and the core fails nowhere", "[stability]") {
+TEST_CASE("ladders name where a lying engine begins to fail, and the core fails nowhere", "[stability]") {
   auto engines = the_core();
   engines.push_back(std::make_unique<Denier>());
   const Stability s = climb("gap", 3, 6, engines, {});
@@ -282,12 +293,11 @@ TEST_CASE("ladders name where a liar begins to fail, and the core fails nowhere"
   CHECK_THROWS_AS(climb("no-such", 1, 1, engines, {}), InputError);
 }
 
-TEST_CASE("who depends on the frame, the order or the unit fails in that and in nothing else",
-          "[stability]") {
+TEST_CASE("an engine that depends on the frame, the order or the unit fails only in that", "[stability]") {
   std::vector<EnginePtr> engines;
   engines.push_back(std::make_unique<Fickle>("order", [](const Case&, const Query& q) { return q.a > q.b; }));
   engines.push_back(std::make_unique<Fickle>("frame", [](const Case& c, const Query&) {
-    const Body& a = c.scene.bodies[0];  // it lies at the origin, and its axes are permuted or turned
+    const Body& a = c.scene.bodies[0];  // it lies at the origin, and its axes are permuted or rotated
     return a.pose.rotation.w == 0 && a.pose.rotation.x == 1;
   }));
   engines.push_back(std::make_unique<Fickle>("unit", [](const Case& c, const Query&) {
@@ -339,7 +349,7 @@ TEST_CASE("other forms of a pair are the same to the last bit", "[stability]") {
   CHECK(moved > 2);
 }
 
-TEST_CASE("a translation that rounds is no other form of the scene", "[stability]") {
+TEST_CASE("a translation that rounds is not another form of the scene", "[stability]") {
   Scene s;
   s.shapes = {Sphere{1}};
   s.bodies.resize(2);
@@ -366,47 +376,64 @@ TEST_CASE("every ladder makes scenes of its questions at every rung", "[stabilit
   CHECK(made > 70);
 }
 
-TEST_CASE("a swept setting reaches its engine", "[cli][chart]") {
+namespace {
+
+Json corpus_answer(const std::string& file, const std::string& engine, const std::string& question) {
   const Workspace w("swept");
-  const auto ask = [&](const std::string& file, const std::string& engine, const std::string& question) {
-    const auto r =
-        w.touchstone("replay " TS_SOURCE_DIR "/scenarios/corpus/" + file + " --json --engines " + engine);
-    INFO(r.err);
-    REQUIRE(r.code <= 1);
-    const Json cases = Json::parse(r.out);
-    for (const Json& q : cases[0]["queries"])
-      if (q["question"] == question) return q["engines"][engine]["answer"];
-    return Json();
-  };
-  // A ball of radius 0.05 goes through a plate of thickness 0.01 at t = 0.4725.
-  const std::string tunnel = "fcl-naive-thin-plate-tunnel.json", impact = "time_of_impact";
-  CHECK(ask(tunnel, "core-speculative@1", impact)["toi"].get<double>() == Approx(0.4725));
-  CHECK(ask(tunnel, "core-steps@64", impact)["toi"] == 31.0 / 64);
-  CHECK(ask(tunnel, "core-extended", "distance")["distance"].get<double>() == Approx(0.945));
-  const auto has = [](const char* plugin) {
-    return std::filesystem::exists(TS_BINARY_DIR "/lib/libtouchstone_" + std::string(plugin) + ".so");
-  };
-  if (has("fcl_sweep")) {
-    CHECK_FALSE(ask(tunnel, "fcl-naive@16", impact).contains("toi"));
-    CHECK(ask(tunnel, "fcl-naive@256", impact)["toi"] == 121.0 / 255);
-    // toc_err is read by CCDC_NAIVE alone.
-    CHECK(ask(tunnel, "fcl-advance@1e-2", impact)["toi"] == ask(tunnel, "fcl-advance@1e-8", impact)["toi"]);
-    CHECK(ask(tunnel, "fcl-naive@16", "overlap")["outcome"] == "unsupported");
-  }
-  if (has("bullet_sweep_f64")) {
-    CHECK_FALSE(ask(tunnel, "bullet-f64-cast@0.1", impact).contains("toi"));
-    CHECK(ask(tunnel, "bullet-f64-cast@0.001", impact)["toi"].get<double>() == Approx(0.473));
-    CHECK(ask(tunnel, "bullet-f64-minkowski@0", "distance")["distance"].get<double>() == Approx(0.945));
-    CHECK(ask(tunnel, "bullet-f64-minkowski@0.04", "distance")["distance"].get<double>() < 0.93);
-  }
-  if (has("libccd_sweep")) {
-    const std::string deep = "parry-70-capsule-cuboid-sweep-y0.25.json";
-    CHECK(ask(deep, "libccd-gjk-iterations@8", "contact")["outcome"] == "not_converged");
-    CHECK(ask(deep, "libccd-gjk-iterations@128", "contact")["outcome"] == "answered");
-  }
+  const auto r =
+      w.touchstone("replay " TS_SOURCE_DIR "/scenarios/corpus/" + file + " --json --engines " + engine);
+  INFO(r.err);
+  REQUIRE(r.code <= 1);
+  const Json cases = Json::parse(r.out);
+  for (const Json& q : cases[0]["queries"])
+    if (q["question"] == question) return q["engines"][engine]["answer"];
+  return Json();
 }
 
-TEST_CASE("chart and stability write text, CSV and JSON, page or no page", "[cli][chart]") {
+bool has_plugin(const char* name) {
+  return std::filesystem::exists(TS_BINARY_DIR "/lib/libtouchstone_" + std::string(name) + ".so");
+}
+
+// A ball of radius 0.05 goes through a plate of thickness 0.01 at t = 0.4725.
+const std::string tunnel_case = "fcl-naive-thin-plate-tunnel.json", when = "time_of_impact";
+
+}  // namespace
+
+TEST_CASE("a swept setting reaches the core", "[cli][chart]") {
+  CHECK(corpus_answer(tunnel_case, "core-speculative@1", when)["toi"].get<double>() == Approx(0.4725));
+  CHECK(corpus_answer(tunnel_case, "core-steps@64", when)["toi"] == 31.0 / 64);
+  CHECK(corpus_answer(tunnel_case, "core-extended", "distance")["distance"].get<double>() == Approx(0.945));
+}
+
+TEST_CASE("a swept setting reaches FCL", "[cli][chart][optional]") {
+  if (!has_plugin("fcl_sweep")) return test::skip("FCL is not built in");
+  CHECK_FALSE(corpus_answer(tunnel_case, "fcl-naive@16", when).contains("toi"));
+  CHECK(corpus_answer(tunnel_case, "fcl-naive@256", when)["toi"] == 121.0 / 255);
+  // Only CCDC_NAIVE reads toc_err.
+  CHECK(corpus_answer(tunnel_case, "fcl-advance@1e-2", when)["toi"] ==
+        corpus_answer(tunnel_case, "fcl-advance@1e-8", when)["toi"]);
+  CHECK(corpus_answer(tunnel_case, "fcl-naive@16", "overlap")["outcome"] == "unsupported");
+}
+
+TEST_CASE("a swept setting reaches Bullet", "[cli][chart][optional]") {
+  if (!has_plugin("bullet_sweep_f64")) return test::skip("Bullet is not built in");
+  CHECK_FALSE(corpus_answer(tunnel_case, "bullet-f64-cast@0.1", when).contains("toi"));
+  CHECK(corpus_answer(tunnel_case, "bullet-f64-cast@0.001", when)["toi"].get<double>() == Approx(0.473));
+  const auto gap = [](const std::string& engine) {
+    return corpus_answer(tunnel_case, engine, "distance")["distance"].get<double>();
+  };
+  CHECK(gap("bullet-f64-minkowski@0") == Approx(0.945));
+  CHECK(gap("bullet-f64-minkowski@0.04") < 0.93);
+}
+
+TEST_CASE("a swept setting reaches libccd", "[cli][chart][optional]") {
+  if (!has_plugin("libccd_sweep")) return test::skip("libccd is not built in");
+  const std::string deep = "parry-70-capsule-cuboid-sweep-y0.25.json";
+  CHECK(corpus_answer(deep, "libccd-gjk-iterations@8", "contact")["outcome"] == "not_converged");
+  CHECK(corpus_answer(deep, "libccd-gjk-iterations@128", "contact")["outcome"] == "answered");
+}
+
+TEST_CASE("chart and stability write text, CSV and JSON, with or without a page", "[cli][chart]") {
   const Workspace w("chart");
   const auto s = w.touchstone("stability --quick --ladder angle --engines core --out s");
   INFO(s.err);

@@ -1,5 +1,5 @@
-// The pages: their data in a browser when node, playwright-core and chromium are there (else said and
-// skipped), and what happens where the pages are not built.
+// The pages: their data in a browser when Node, playwright-core and Chromium are installed, and what happens
+// when the pages are not built.
 #include <zlib.h>
 #include <algorithm>
 #include <cstdlib>
@@ -12,6 +12,7 @@
 #include "reports/text/findings_columns.h"
 #include "reports/text/web_page.h"
 #include "tests/support/catch.h"
+#include "tests/support/skip.h"
 #include "tests/support/workspace.h"
 
 namespace fs = std::filesystem;
@@ -23,12 +24,12 @@ namespace {
 
 const fs::path built = TS_BINARY_DIR "/share/touchstone/web";
 
-// Empty when all is there that a browser test needs.
+// Empty when everything that a browser test needs is present.
 std::string missing_for_browser() {
   for (const char* kind : {"case", "report", "chart", "stability", "certificate"})
     if (!fs::exists(built / (std::string(kind) + ".html"))) return "the built pages";
   if (!fs::exists(TS_BINARY_DIR "/web/node_modules/playwright-core")) return "playwright-core";
-  if (std::system("command -v node >/dev/null 2>&1") != 0) return "node";
+  if (!touchstone::test::has_command("node")) return "node";
   if (!fs::exists("/usr/bin/chromium")) return "/usr/bin/chromium";
   return "";
 }
@@ -40,7 +41,8 @@ std::string inflated(const std::string& base64) {
   int held = 0;
   for (const char c : base64) {
     if (c == '=') break;
-    bits = bits << 6 | static_cast<unsigned>(digits.find(c)), held += 6;
+    bits = bits << 6 | static_cast<unsigned>(digits.find(c));
+    held += 6;
     if (held >= 8) bytes += static_cast<char>(bits >> (held -= 8) & 255);
   }
   std::string text(1 << 20, '\0');
@@ -50,7 +52,7 @@ std::string inflated(const std::string& base64) {
   return text.substr(0, size);
 }
 
-// The lines of the browser's test that measure: sizes and times, which no check asks about.
+// The measurements of the browser test: sizes and times, which no check uses.
 std::string figures_of(const std::string& out) {
   std::istringstream lines(out);
   std::string figures;
@@ -59,7 +61,7 @@ std::string figures_of(const std::string& out) {
   return figures;
 }
 
-// The findings of a campaign, over and over with other shapes and numbers, until there are `count`.
+// Repeats the findings of a campaign with other shapes and numbers until there are `count`.
 void many_findings(const fs::path& from, const fs::path& to, std::size_t count) {
   using Sorted = nlohmann::json;
   Sorted summary = Sorted::parse(read_all(from));
@@ -74,7 +76,7 @@ void many_findings(const fs::path& from, const fs::path& to, std::size_t count) 
     f["count"] = 1 + random() % 1000;
     f["worst_in_l"] = static_cast<double>(random() >> 11) * 0x1p-60;
     std::string words = f["words"];
-    for (std::size_t k = 1; k < words.size(); ++k)  // other digits: as hard to pack as true ones
+    for (std::size_t k = 1; k < words.size(); ++k)  // other digits: as hard to compress as real ones
       if (std::isdigit(words[k]) && std::isdigit(words[k - 1]))
         words[k] = static_cast<char>('0' + random() % 10);
     f["words"] = words;
@@ -91,11 +93,10 @@ void many_findings(const fs::path& from, const fs::path& to, std::size_t count) 
 
 }  // namespace
 
-TEST_CASE("pages load, show the numbers of their JSON, draw, move and link in a browser", "[pages]") {
-  if (const std::string missing = missing_for_browser(); !missing.empty()) {
-    WARN("skipped: " << missing << " is missing");
-    return;
-  }
+TEST_CASE("pages load, show the numbers of their JSON, draw, move and link in a browser",
+          "[pages][optional]") {
+  if (const std::string missing = missing_for_browser(); !missing.empty())
+    return touchstone::test::skip("missing: " + missing);
   const Workspace w("pages");
   const std::string engines = " --engines core,fcl-libccd,libccd-mpr";
   const std::string few = fs::exists(TS_BINARY_DIR "/lib/libtouchstone_fcl.so") &&
@@ -126,7 +127,7 @@ TEST_CASE("pages load, show the numbers of their JSON, draw, move and link in a 
              "/lib/libtouchstone_mutants.so:stale_after_move --level boxes --without no_boxes --limit 2000 "
              "-o refuted.json --page refuted.html")
             .code == 1);
-  // Kept for whoever wants to see them (continuous integration: as artefacts).
+  // Kept for inspection (continuous integration stores them as artefacts).
   const char* wanted = std::getenv("TOUCHSTONE_SCREENSHOTS");
   const std::string pictures =
       fs::absolute(wanted && *wanted ? wanted : TS_BINARY_DIR "/screenshots").string();
@@ -140,7 +141,7 @@ TEST_CASE("pages load, show the numbers of their JSON, draw, move and link in a 
     CHECK(fs::file_size(fs::path(pictures) / (std::string(name) + ".png")) > 5000);
 }
 
-TEST_CASE("what builds and tests the pages runs on Debian 12's Node 18 and npm 9", "[pages]") {
+TEST_CASE("the pages can be built and tested with Debian 12's Node 18 and npm 9", "[pages]") {
   const fs::path web = TS_SOURCE_DIR "/reports/web";
   // npm 9 cannot read an alias ("npm:…") among overrides: npm ci ends with "Invalid comparator".
   CHECK_FALSE(Json::parse(read_all(web / "package.json")).contains("overrides"));
@@ -149,7 +150,7 @@ TEST_CASE("what builds and tests the pages runs on Debian 12's Node 18 and npm 9
   for (const auto& [name, package] : lock["packages"].items()) {
     if (package.value("optional", false) || !package.contains("engines")) continue;
     const std::string node = package["engines"].value("node", ">=18");
-    // The first number after an operator: versions from this one on.
+    // The first number after an operator is the lowest version.
     static const std::regex lower_bound(R"((>=|\^)\s*(\d+))");
     bool runs = false;
     for (std::sregex_iterator m(node.begin(), node.end(), lower_bound), end; m != end; ++m)
@@ -161,7 +162,7 @@ TEST_CASE("what builds and tests the pages runs on Debian 12's Node 18 and npm 9
   CHECK(asked >= 5);
 }
 
-TEST_CASE("without built pages the data remains and one line says what is missing", "[pages][cli]") {
+TEST_CASE("without built pages the data is kept and one line names what is missing", "[pages][cli]") {
   const Workspace w("nopages");
   fs::create_directories(w.dir / "bin");
   fs::create_symlink(TS_BINARY_DIR "/lib", w.dir / "lib");
@@ -184,7 +185,7 @@ TEST_CASE("without built pages the data remains and one line says what is missin
   CHECK_FALSE(fs::exists(w.dir / "s/stability.html"));
 }
 
-TEST_CASE("findings are packed without loss: words come back, numbers of the key too", "[pages]") {
+TEST_CASE("findings are packed without loss, including words and the numbers of the key", "[pages]") {
   using touchstone::fuzz::Json;
   using namespace touchstone::reports;
   std::string numbers;
@@ -206,14 +207,14 @@ TEST_CASE("findings are packed without loss: words come back, numbers of the key
   CHECK(j["words"]["numbers"] == "0.25 7");
 }
 
-TEST_CASE("long data goes into a page compressed, and comes out as it was", "[pages]") {
+TEST_CASE("long data is stored in a page compressed and decompresses to the same bytes", "[pages]") {
   using namespace touchstone::reports;
   const std::string shell = "<script>__TOUCHSTONE_DATA__</script>";
   CHECK(web_page(shell, R"(["<b>"])") == "<script>[\"\\u003cb>\"]</script>");
   std::string json = "[0";
   for (int i = 1; json.size() < compressed_from; ++i) json += "," + std::to_string(i * 7919 % 10007);
   json += "]";
-  for (int cut = 0; cut < 3; ++cut) {  // every remainder of base64's three bytes, most likely
+  for (int cut = 0; cut < 3; ++cut) {  // most likely every remainder of base64's three bytes
     const std::string page = web_page(shell, json);
     CHECK(page.size() < json.size());
     CHECK(page.rfind("<script>{\"deflate\":\"", 0) == 0);
@@ -225,7 +226,7 @@ TEST_CASE("long data goes into a page compressed, and comes out as it was", "[pa
   CHECK_THROWS(web_page("no place", "{}"));
 }
 
-TEST_CASE("report says what is not a campaign", "[pages][cli]") {
+TEST_CASE("report refuses a directory that is not a campaign", "[pages][cli]") {
   const Workspace w("noreport");
   CHECK(w.touchstone("report .").code == 2);
   w.write("summary.json", "{}");

@@ -1,4 +1,4 @@
-// A plan holds on its scene, is found again from its JSON, and refuses what it cannot prove.
+// A plan holds on its scene, can be read back from its JSON, and refuses what it cannot prove.
 #include "reports/plan/plan.h"
 
 #include <cmath>
@@ -16,7 +16,7 @@ using namespace touchstone::fuzz;
 
 namespace {
 
-// Boxes, and hulls of 60 corners on a ball, thrown together; one of them is fast.
+// A random heap of boxes and of hulls with 60 corners on a ball; one body is fast.
 Scene heap(int n) {
   Rng rng(3);
   Scene s;
@@ -36,14 +36,17 @@ Scene heap(int n) {
     s.bodies.push_back(b);
   }
   Body ground;
-  ground.shape = 2, ground.is_static = true;
+  ground.shape = 2;
+  ground.is_static = true;
   s.bodies.push_back(ground);
   return s;
 }
 
 PlanOptions quick(double error) {
   PlanOptions o;
-  o.error = error, o.rounds = 1, o.judged = 12;
+  o.error = error;
+  o.rounds = 1;
+  o.judged = 12;
   return o;
 }
 
@@ -53,7 +56,7 @@ const PlanRow& plan_row(const Plan& p) {
 
 }  // namespace
 
-TEST_CASE("a plan holds on its scene and is run again from its JSON", "[plan]") {
+TEST_CASE("a plan holds on its scene and can be run from its JSON", "[plan]") {
   const Course course = course_of(heap(24));
   const Plan p = make_plan(course, quick(1e-2));
   CHECK(p.bodies == 25);
@@ -63,7 +66,7 @@ TEST_CASE("a plan holds on its scene and is run again from its JSON", "[plan]") 
   CHECK(plan_row(p).error <= 1e-2);
   CHECK(p.pairs.size() >= 3);
   for (const PlanPair& x : p.pairs) CHECK(x.certified_error <= 1e-2);
-  // The fast one, and nobody else.
+  // Only the fast body.
   REQUIRE(p.swept.size() == 1);
   CHECK(p.swept[0].body == 4);
   CHECK(p.swept[0].reason == "travel");
@@ -89,7 +92,7 @@ TEST_CASE("a plan holds on its scene and is run again from its JSON", "[plan]") 
   CHECK(text.find("body4") != std::string::npos);
 }
 
-TEST_CASE("a plan that is wrong is found out by the referee", "[plan]") {
+TEST_CASE("the referee detects a wrong plan", "[plan]") {
   const Course course = course_of(heap(24));
   Fidelity lie;
   lie.error = 1e-3;
@@ -100,13 +103,13 @@ TEST_CASE("a plan that is wrong is found out by the referee", "[plan]") {
   run_course(course, lie, [&](int step, const StepReport& r) { sample.judge(step, r, 1e-3, row); });
   CHECK(row.outside > 0);
   CHECK(row.error > 1e-3);
-  // And is not taken over from elsewhere.
+  // A wrong plan is not accepted from a file either.
   PlanOptions o = quick(0);
   o.given = lie;
   CHECK_THROWS_AS(make_plan(course, o), InputError);
 }
 
-TEST_CASE("a plan that was altered by hand is refused", "[plan]") {
+TEST_CASE("a plan that was edited by hand is refused", "[plan]") {
   const Course course = course_of(heap(4));
   PlanOptions o = quick(0);
   Fidelity& f = o.given.emplace();
@@ -117,7 +120,8 @@ TEST_CASE("a plan that was altered by hand is refused", "[plan]") {
   CHECK_NOTHROW(make_plan(course, o));
   f.simpler[1]->error = 0;
   CHECK_THROWS_AS(make_plan(course, o), InputError);
-  f.simpler[1] = found, f.simpler[1]->in_body.translation.x() += 0.01;
+  f.simpler[1] = found;
+  f.simpler[1]->in_body.translation.x() += 0.01;
   CHECK_THROWS_AS(make_plan(course, o), InputError);
 }
 
@@ -127,7 +131,8 @@ TEST_CASE("a plan refuses what it cannot prove or run", "[plan]") {
   CHECK(default_error(course_of(s)) >= least_error(course_of(s)));
   const auto step = [](Step::Op op, int body) {
     Step x;
-    x.op = op, x.body = body;
+    x.op = op;
+    x.body = body;
     return x;
   };
   for (int i = 0; i < 5; ++i) s.script.push_back(step(Step::Op::insert, i));

@@ -1,4 +1,4 @@
-// Every expectation against the referee, which knows nothing of it.
+// Every expectation against the referee, which is independent of it.
 #include <cmath>
 #include <cstdio>
 
@@ -11,19 +11,16 @@ using namespace touchstone;
 
 namespace {
 
-
 struct Tally {
   int verdicts = 0, gaps = 0, impacts = 0, undecided = 0;
 };
 
-Placed placed(const Scene& s, int i) {
-  return {&s.shape_of(i), s.bodies[static_cast<std::size_t>(i)].pose};
-}
+Placed placed(const Scene& s, int i) { return {&s.shape_of(i), s.bodies[static_cast<std::size_t>(i)].pose}; }
 
-// Cylinders, cones and ellipsoids have brackets of up to 1e-14·L by the referee's own contract.
+// By the referee's contract, cylinders, cones and ellipsoids have brackets of up to 1e-14·L.
 double slack(const Scene& s) { return 1e-14 * scale_of_pair(s, 0, 1); }
 
-// The only pairs that the referee may leave open: a round shape without rational support that touches
+// The only pairs that the referee may leave undecided: a round shape without rational support that touches
 // exactly.
 bool may_be_open(const Scene& s, const Expectation& e) {
   bool round = false;

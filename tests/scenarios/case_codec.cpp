@@ -1,4 +1,4 @@
-// A case as JSON: there and back, defaults, and what is refused.
+// A case as JSON: round trip, defaults, and refusals.
 #include "scenarios/codec/case_codec.h"
 
 #include <algorithm>
@@ -64,7 +64,7 @@ TEST_CASE("a bare scene file becomes a case with the usual questions", "[scenari
 
 namespace {
 
-// A box at the origin, a ball that flies through it, a bystander out of its way.
+// A box at the origin, a ball that flies through it, and a third body that is out of the way.
 Scene ball_through_box() {
   Scene s;
   s.shapes = {Box{{1, 1, 1}}, Sphere{0.25}};
@@ -82,8 +82,7 @@ bool asks_impact(const std::vector<Query>& all, int a, int b) {
 
 }  // namespace
 
-TEST_CASE("of a scene with motion the moving pairs that may meet are asked, whoever stands by",
-          "[scenarios][codec]") {
+TEST_CASE("in a scene with motion only the moving pairs that may meet are asked", "[scenarios][codec]") {
   Scene s = ball_through_box();
   CHECK(moving_pairs(s) == std::vector<BodyPair>{{0, 1}});
   const auto asked = default_queries(s);
@@ -93,7 +92,7 @@ TEST_CASE("of a scene with motion the moving pairs that may meet are asked, whoe
   CHECK(words_on_impacts_not_asked({"", "", s, asked}).empty());
   CHECK(words_on_impacts_not_asked({"", "", s, {{Question::candidates, 0, 1}}}).find("1 pair that") !=
         std::string::npos);
-  // Which way and how it turns counts; filtered pairs and those of bodies that stand still do not.
+  // Direction and rotation matter; filtered pairs and pairs of bodies at rest are left out.
   s.bodies[1].motion->linear = {0, 10, 0};
   CHECK(moving_pairs(s).empty());
   s.bodies[1].pose.translation = {0, 0.1, 0.2};
@@ -108,7 +107,7 @@ TEST_CASE("of a scene with motion the moving pairs that may meet are asked, whoe
   CHECK(moving_pairs(s) == std::vector<BodyPair>{{1, 2}});
 }
 
-TEST_CASE("of many moving pairs a stated number is asked, and how many are not is said",
+TEST_CASE("of many moving pairs a fixed number is asked, and the number left out is reported",
           "[scenarios][codec]") {
   Scene s;
   s.shapes = {Sphere{1}};
@@ -120,14 +119,15 @@ TEST_CASE("of many moving pairs a stated number is asked, and how many are not i
   CHECK(words_on_impacts_not_asked({"", "", s, asked}).find("126 pairs") != std::string::npos);
 }
 
-TEST_CASE("a case without questions gets the usual ones, a file without id its name", "[scenarios][codec]") {
+TEST_CASE("a case without questions gets the usual ones, one without id the file's name",
+          "[scenarios][codec]") {
   const test::TempDir dir;
   CHECK(read(with("")).c.queries.size() == 3);
   CHECK(read(with(R"(,"queries":[])")).c.queries.empty());
   CHECK(load_case(dir.write("named.json", with(""))).id == "named");
 }
 
-TEST_CASE("what is wrong with a case is said with its place", "[scenarios][codec][bad-input]") {
+TEST_CASE("faults of a case are reported with their place", "[scenarios][codec][bad-input]") {
   struct Bad {
     std::string text, place, reason;
   };

@@ -1,4 +1,4 @@
-// The catalog of hand-built scenarios as a whole.
+// The catalog of handmade scenarios as a whole.
 #include "scenarios/handmade/catalog.h"
 
 #include <map>
@@ -43,7 +43,7 @@ TEST_CASE("every scenario is a valid case with an expectation that does not cont
   CHECK(checked >= 40);
 }
 
-TEST_CASE("the worked example is there: 1,000 objects, 499,500 pairs, 3,420 after the broad phase",
+TEST_CASE("the worked example is present: 1,000 objects, 499,500 pairs, 3,420 after the broad phase",
           "[scenarios]") {
   int found = 0;
   for (const auto& s : scenarios::catalog())

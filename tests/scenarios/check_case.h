@@ -1,12 +1,12 @@
-// What every case with an expectation must satisfy, whoever wrote it.
+// What every case with an expectation must satisfy.
 #pragma once
 
 #include "scenarios/handmade/scenario.h"
 
 namespace touchstone::test {
 
-/// Checks (Catch2) that the scene is valid, the questions can be asked, and the expectation contradicts
-/// neither itself nor the scene.
+/// Checks (with Catch2) that the scene is valid, that the questions can be asked, and that the expectation
+/// contradicts neither itself nor the scene.
 void check_case(const Case& c, const Expectation& e);
 
 /// Pairs of bodies whose exact shapes share a point according to the referee, at the bodies' own poses,

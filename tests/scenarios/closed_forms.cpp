@@ -1,4 +1,4 @@
-// The closed forms of pair scenarios against the definition, by support functions alone: the signed gap of
+// The closed forms of pair scenarios against the definition, using only support functions: the signed gap of
 // convex bodies is -min over unit n of w(n) = h_A(n) + h_B(-n). The stated normal must reach the stated gap,
 // and no direction of a dense search may fall below it.
 #include <cmath>
@@ -20,7 +20,7 @@ double support_value(const Shape& shape, const Pose& pose, const Vec3& n) {
       [&](const auto& s) -> double {
         using S = std::decay_t<decltype(s)>;
         if constexpr (std::is_same_v<S, HalfSpace>) {
-          // Finite along the plane's normal only.
+          // Finite only along the plane's normal.
           const bool along = s.normal.normalized().dot(d) > 1 - 1e-12;
           return along ? s.offset / s.normal.norm() : std::numeric_limits<double>::infinity();
         } else if constexpr (std::is_same_v<S, TriangleMesh>) {
@@ -63,7 +63,7 @@ void check(const Case& c, const Expectation& e, Checked& n) {
     CHECK(std::abs(width(s, *e.normal) + e.gap->value) <= allowed);
     ++n.by_normal;
   }
-  // Any direction but the plane's own separates nothing from a half-space.
+  // Only the plane's own direction can separate something from a half-space.
   for (const Shape& shape : s.shapes)
     if (kind_of(shape) == ShapeKind::half_space) return;
   Rng rng(20);

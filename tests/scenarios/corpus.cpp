@@ -30,7 +30,7 @@ TEST_CASE("the corpus has at least 20 cases, each with source, description and e
   CHECK(checked >= 20);
 }
 
-TEST_CASE("corpus files are in the form that the codec writes, so that a diff shows numbers only",
+TEST_CASE("corpus files have the form that the codec writes, so that diffs show only numbers",
           "[scenarios][corpus]") {
   int checked = 0;
   for (const auto& entry : std::filesystem::directory_iterator(directory)) {

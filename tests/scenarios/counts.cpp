@@ -11,7 +11,7 @@ using namespace touchstone;
 
 namespace {
 
-// Tight for the shapes of the crowds, whose poses are translations: support points along the axes are exact.
+// Tight for the crowds, whose poses are translations: support points along the axes are exact.
 Aabb tight_box(const Shape& shape, const Pose& pose) {
   Aabb b;
   std::visit(
@@ -76,7 +76,10 @@ TEST_CASE("the stated pairs at each query of a script are those of the referee",
     std::size_t query = 0;
     for (const Step& step : effective_script(scene)) {
       const auto b = static_cast<std::size_t>(std::max(step.body, 0));
-      if (step.op == Step::Op::insert) present[b] = true, poses[b] = step.pose.value_or(scene.bodies[b].pose);
+      if (step.op == Step::Op::insert) {
+        present[b] = true;
+        poses[b] = step.pose.value_or(scene.bodies[b].pose);
+      }
       if (step.op == Step::Op::move) poses[b] = *step.pose;
       if (step.op == Step::Op::remove) present[b] = false;
       if (step.op != Step::Op::query) continue;
@@ -85,12 +88,13 @@ TEST_CASE("the stated pairs at each query of a script are those of the referee",
       const auto pairs = test::overlapping_pairs(scene, poses, present);
       CHECK(pairs == s.expect.pairs_at_query[query]);
       with_pairs += !pairs.empty();
-      ++query, ++queries;
+      ++query;
+      ++queries;
     }
     ++scripts;
   }
   CHECK(scripts >= 10);
   CHECK(with_pairs * 10 >=
-        queries * 3);  // not vacuous: at least 30 % of the queries have pairs, and 30 % have none
+        queries * 3);  // not trivial: at least 30 % of the queries have pairs, and 30 % have none
   CHECK(with_pairs * 10 <= queries * 7);
 }

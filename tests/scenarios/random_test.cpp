@@ -8,7 +8,7 @@
 
 using namespace touchstone;
 
-TEST_CASE("every case of every family is valid and made again from its seed and index alone", "[generate]") {
+TEST_CASE("every case of every family is valid and reproducible from its seed and index", "[generate]") {
   std::size_t n = 0;
   for (const fuzz::Family& f : fuzz::families())
     for (std::uint64_t i = 0; i < 200; ++i, ++n) {
@@ -33,7 +33,7 @@ TEST_CASE("the mix reaches every family and every pair of convex shapes", "[gene
   CHECK(pairs.size() >= 49 + 7 + 7);
 }
 
-TEST_CASE("other seeds give other cases; unknown families are refused", "[generate]") {
+TEST_CASE("different seeds give different cases; unknown families are refused", "[generate]") {
   CHECK(hash(fuzz::make_case(1, 0).scene) != hash(fuzz::make_case(2, 0).scene));
   for (const char* names : {"nonsense", "deep,", ",", "deep,nonsense"})
     CHECK_THROWS_AS(fuzz::make_case(1, 0, names), InputError);
@@ -49,7 +49,7 @@ TEST_CASE("several families mix by their weights", "[generate]") {
   CHECK(count["throng"] > 40);
 }
 
-TEST_CASE("the default mix shows every regime as often as is stated", "[generate]") {
+TEST_CASE("the default mix has every regime as often as stated", "[generate]") {
   constexpr std::uint64_t cases = 6000;
   std::map<std::string_view, std::uint64_t> count;
   Case before = fuzz::make_case(7, 0);
@@ -59,7 +59,8 @@ TEST_CASE("the default mix shows every regime as often as is stated", "[generate
     before = std::move(c);
   }
   for (const fuzz::Regime& r : fuzz::regimes()) {
-    INFO(r.name << ": one case in " << r.one_in << " is stated, of " << cases << " there are " << count[r.name]);
+    INFO(r.name << ": one case in " << r.one_in << " is stated, of " << cases << " there are "
+                << count[r.name]);
     CHECK(count[r.name] * static_cast<std::uint64_t>(r.one_in) >= cases);
   }
 }

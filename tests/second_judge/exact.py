@@ -194,7 +194,7 @@ def solve(m, r):
 
 
 def nearest(points):
-    """The point of least norm of a hull of at most four points: (its square, the point, the indices that carry it)."""
+    """The point of least norm of a hull of at most four points: (its square, the point, the indices that span it)."""
     best = None
     for mask in range(1, 1 << len(points)):
         s = [i for i in range(len(points)) if mask >> i & 1]
@@ -211,7 +211,7 @@ def nearest(points):
 
 
 def gjk(a, b):
-    """Keys (of a, of b) of the supports that carry the nearest point of the core of A - B, by floats."""
+    """Keys (of a, of b) of the supports that span the nearest point of the core of A - B, in floats."""
     p, ka = a.guess((1.0, 0.0, 0.0))
     q, kb = b.guess((-1.0, 0.0, 0.0))
     simplex = [(sub(p, q), ka, kb)]
@@ -257,8 +257,8 @@ def separation(a, b, rounds=8):
 
 
 class Hull:
-    """A growing polytope of points of the core of A - B, rounded to a fine grid and shaken by a few units of it, so that no
-    four lie in a plane. In integers its facets are exact; it is within `slack` of points of the core."""
+    """A growing polytope of points of the core of A - B, rounded to a fine grid and perturbed by a few of its units, so
+    that no four points are coplanar. In integers its facets are exact; it is within `slack` of points of the core."""
 
     def __init__(self, a, b):
         self.a, self.b, self.points, self.keys, self.facets, self.shake = a, b, [], set(), {}, random.Random(1)
@@ -314,7 +314,7 @@ class Hull:
         return bool(seen)
 
     def grow(self, steps):
-        """Pushes out the facet nearest to the origin until none moves; returns the normals that were best."""
+        """Pushes out the facet nearest to the origin until no facet moves; returns the best normals."""
         best = []
         for _ in range(steps):
             n = min(self.facets.values(), key=lambda f: f[2])[0]
@@ -326,7 +326,7 @@ class Hull:
         return best
 
     def inner_ball(self):
-        """A radius of a ball around the origin that the core of A - B certainly holds."""
+        """The radius of a ball around the origin that the core of A - B certainly contains."""
         directed = [e for i, j, k in self.facets for e in ((i, j), (j, k), (k, i))]
         known = set(directed)
         if len(known) != len(directed) or any((j, i) not in known for i, j in known):
@@ -357,7 +357,7 @@ def gap(a, b, hints=(), deep=True):
 
 
 def flat_directions(a, b):
-    """Directions across the edges of small polytopes: of the least depth where faces are exactly parallel or sets flat."""
+    """Cross products of edges of small polytopes: candidates for the least depth of parallel faces and flat sets."""
     if not (isinstance(a, Poly) and isinstance(b, Poly)) or len(a.points) > 8 or len(b.points) > 8:
         return []
     edges = [sub(p, s.points[0]) for s in (a, b) for p in s.points[1:4]]

@@ -28,7 +28,7 @@ def rotation(q):
 
 
 def sine_cosine(x):
-    """Of a rational, by its series, to 40 digits."""
+    """Sine and cosine of a rational by their series, to 40 digits."""
     s, c, term, k = F(0), F(0), F(1), 0
     while abs(term) > F(1, 10 ** 45):
         c, s = (c + term * (-1) ** (k // 2), s) if k % 2 == 0 else (c, s + term * (-1) ** (k // 2))
@@ -81,7 +81,7 @@ def place(shape, m, c):
 
 
 def extent(shape):
-    """Whole length along the axes of the body; of hull and mesh also the farthest vertex; of a half-space its plane."""
+    """Full length along the body's axes; for hull and mesh also the farthest vertex; for a half-space its plane."""
     kind = shape["type"]
     if kind == "half_space":
         n = exact(shape["normal"])
@@ -111,7 +111,7 @@ def world(scene, i, t=F(0), pose=None):
 
 
 def plane_gap(h, b):
-    """Of a half-space and a bounded convex set, or the points of a mesh."""
+    """Bracket of the gap of a half-space and a bounded convex set, or the points of a mesh."""
     if isinstance(b, Mesh):
         b = Poly(b.points)
     lo, hi = b.support(mul(-1, h.n))
@@ -124,7 +124,7 @@ def pieces(s):
 
 
 def ball_around(s):
-    """Centre and radius, by floats, of a ball around a convex set."""
+    """Centre and radius, in floats, of a bounding ball of a convex set."""
     if isinstance(s, Curved):
         k = [float(x) for x in s.size]
         return floats(s.c), (max(k) if s.kind == "ellipsoid" else math.hypot(k[0], k[1]))
@@ -133,8 +133,8 @@ def ball_around(s):
 
 
 def signed_gap(a, b, hints=(), deep=True):
-    """Bracket of the gap of any two shapes. Where a mesh overlaps, the depth is that in its triangle of most depth: the
-    gap of a surface is at most that."""
+    """Bracket of the gap of any two shapes. Where a mesh overlaps, the depth is that of its deepest triangle, an upper
+    bound on the gap of a surface."""
     if isinstance(a, HalfSpace) and isinstance(b, HalfSpace):
         return -FAR, FAR
     if isinstance(a, HalfSpace):
@@ -158,7 +158,7 @@ def signed_gap(a, b, hints=(), deep=True):
 
 
 def needed(a, b, n):
-    """Bracket of how far B must move along n / |n| to leave A; None where that cannot be said (a plane along n)."""
+    """Bracket of how far B must move along n / |n| to leave A; None where that is undefined (a plane along n)."""
     plane, other, s = (a, b, 1) if isinstance(a, HalfSpace) else (b, a, -1)
     if isinstance(plane, HalfSpace):
         along = s * dot(plane.n, n)

@@ -33,7 +33,7 @@ class CannotTell(Exception):
 
 
 def numbers(x):
-    """JSON has no NaN and no infinity: they are stored as texts."""
+    """JSON has no NaN and no infinity: they are stored as text."""
     if isinstance(x, dict):
         return {k: numbers(v) for k, v in x.items()}
     if isinstance(x, list):
@@ -62,7 +62,7 @@ def length(v):
 
 
 class Pair:
-    """Two bodies at rest; the gap is computed when it is asked for."""
+    """Two bodies at rest; the gap is computed on demand."""
 
     def __init__(self, a, b, hints=()):
         self.a, self.b, self.hints, self.known = a, b, list(hints), None
@@ -118,7 +118,7 @@ def distance_errors(pair, answer):
 
 
 def normal_errors(pair, normal, depth):
-    """Of a stated normal and depth; the depth may be absent."""
+    """Judges a reported normal and depth; the depth may be absent."""
     if not finite(normal) or not any(normal):
         return {"normal_not_unit": (FAR, FAR)}
     n = exact(normal)
@@ -226,7 +226,7 @@ def live_poses(scene, k):
 
 
 def candidate_errors(scene, certificate, answer):
-    """Missed and stale pairs of a broad phase, without tolerance: 1 where there is one, 0 where there is none."""
+    """Missed and stale pairs of a broad phase, without tolerance: 1 if there is one, else 0."""
     queries = answer.get("pairs")
     if queries is None:
         raise CannotTell("the pairs are not stored")
@@ -280,7 +280,7 @@ class Judge:
         return F(card["unit_roundoff"]) * F(card["tau_factor"]) * scale(scene, a, b) + F(claim)
 
     def bounded(self, work):
-        """(result, None) or (None, why not), within the CPU seconds granted."""
+        """(result, None) or (None, reason), within the CPU seconds granted."""
         def stop(*_):
             raise CannotTell(f"not decided within {self.seconds} CPU seconds")
         signal.signal(signal.SIGPROF, stop)
@@ -335,7 +335,7 @@ def kind_of(folder):
 
 
 def draw(folders, number, seed):
-    """Evenly over engine x question x fault, at random within each."""
+    """Draws evenly over engine x question x fault, at random within each."""
     heaps = collections.defaultdict(list)
     for f in sorted(folders):
         if not kind_of(f)[-1].startswith(OUTCOMES):
@@ -374,7 +374,7 @@ def judge_accusations(judge, options):
 
 
 def judge_let_offs(judge, options):
-    """Every right answer of the cases: is some error of it certainly above tau?"""
+    """For every right answer of the cases: is one of its errors certainly above tau?"""
     counts, let_off = collections.defaultdict(collections.Counter), 0
     files = [p if os.path.isfile(p) else os.path.join(p, "findings", f, "case.json")
              for p in options.paths for f in ([""] if os.path.isfile(p) else sorted(os.listdir(os.path.join(p, "findings"))))]

@@ -1,4 +1,4 @@
-"""The second judge on accusations of which the answer is known, false ones among them."""
+"""The second judge on accusations with known answers, including false ones."""
 import json
 import os
 import tempfile

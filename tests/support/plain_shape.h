@@ -6,7 +6,7 @@
 
 namespace touchstone::test {
 
-/// Every size uniform in [0.3, 1]; what is none of the simple convex kinds is `hull(r, size)`.
+/// Every size is uniform in [0.3, 1]. Kinds that are not simple convex ones become `hull(r, size)`.
 template <class MakeHull>
 Shape plain_shape(Rng& r, ShapeKind kind, MakeHull&& hull) {
   const auto size = [&] { return r.uniform(0.3, 1); };

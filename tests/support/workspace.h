@@ -1,4 +1,4 @@
-// A directory of its own for a test that runs the program as a user does, gone afterwards.
+// A temporary directory for a test that runs the program as a user does.
 #pragma once
 
 #include <sys/wait.h>
@@ -26,18 +26,19 @@ struct Workspace {
   explicit Workspace(const std::string& name)
       : dir(std::filesystem::temp_directory_path() /
             ("touchstone-" + name + "-" + std::to_string(getpid()))) {
-    std::filesystem::remove_all(dir), std::filesystem::create_directories(dir);
+    std::filesystem::remove_all(dir);
+    std::filesystem::create_directories(dir);
   }
   ~Workspace() { std::filesystem::remove_all(dir); }
   std::filesystem::path write(const std::string& name, const std::string& text) const {
     std::ofstream(dir / name) << text;
     return dir / name;
   }
-  /// `before`: a program that runs the program, such as timeout.
+  /// `before`: a command prefix, such as timeout.
   Run touchstone(const std::string& args, const std::string& before = "") const {
     return run(before + " " TS_BINARY_DIR "/bin/touchstone " + args);
   }
-  /// A line of shell, in the directory. Code -1: ended by a signal.
+  /// Runs a shell command line in the directory. Code -1: ended by a signal.
   Run run(const std::string& line) const {
     const std::string command = "cd " + dir.string() + " && (" + line + ") >" + (dir / "out.txt").string() +
                                 " 2>" + (dir / "err.txt").string() + " </dev/null";

@@ -1,4 +1,4 @@
-// Those that answer something that is none, or odd; and those that change the process they live in.
+// Animals that give invalid or odd answers, or change the process that they live in.
 #include <fenv.h>
 #include <locale.h>
 #include <signal.h>
@@ -34,7 +34,10 @@ void detail(ts_answer* a, const char* text) { std::strcpy(a->detail, text); }
 
 void flood_streams() {
   const std::string line(1000, 'x');
-  for (int i = 0; i < 2000; ++i) std::puts(line.c_str()), std::fputs(line.c_str(), stderr);
+  for (int i = 0; i < 2000; ++i) {
+    std::puts(line.c_str());
+    std::fputs(line.c_str(), stderr);
+  }
   std::fflush(stdout);
 }
 

@@ -1,4 +1,4 @@
-// Those that end, hang, or talk out of turn.
+// Animals that end, hang, or write unexpected output.
 #include <fcntl.h>
 #include <signal.h>
 #include <sys/stat.h>
@@ -34,7 +34,7 @@ void for_each_descriptor(void (*f)(int)) {
   for (int fd = 0; fd < 1024; ++fd) f(fd);
 }
 
-/// Writes to every pipe that this process can write, the protocol's among them.
+/// Writes to every pipe that this process can write to, including the protocol's.
 void spray(const std::string& bytes) {
   for (int fd = 3; fd < 1024; ++fd) {
     struct stat s;
@@ -46,7 +46,8 @@ void spray(const std::string& bytes) {
 
 std::string frame(char type, std::uint32_t length, std::size_t payload) {
   std::string f("TSP1\x01\x00", 6);
-  f += type, f += '\0';
+  f += type;
+  f += '\0';
   f.append(reinterpret_cast<const char*>(&length), 4);
   f.append(4 + payload, '\0');
   return f;

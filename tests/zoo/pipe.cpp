@@ -1,5 +1,5 @@
-// A command behind a pipe that misbehaves as its argument says: when it is asked about the pair (0, 2) of a
-// scene whose body 0 lies at x = 666, or at its start.
+// A command behind a pipe that misbehaves in the way that its argument names: when queried about the pair (0,
+// 2) of a scene whose body 0 lies at x = 666, or at its start.
 #include <signal.h>
 #include <unistd.h>
 
@@ -38,7 +38,11 @@ const std::map<std::string, std::function<void()>> starts{
     {"empty_card", [] { say("{}\n"); }},
     {"list_card", [] { say("[1, 2]\n"); }},
     {"card_of_version_7", [] { say("{\"touchstone_pipe\": 7}\n"); }},
-    {"card_without_end", [] { say("{\"touchstone_pipe\": 1, "), for_ever(); }},
+    {"card_without_end",
+     [] {
+       say("{\"touchstone_pipe\": 1, ");
+       for_ever();
+     }},
     {"card_in_latin1", [] { say("{\"touchstone_pipe\":1,\"name\":\"Gr\xf6\xdf\"}\n"); }},
     {"deep_card", [] { say(std::string(200000, '[') + "\n"); }},
     {"exits_at_once", [] { _exit(3); }},
@@ -59,13 +63,23 @@ const std::map<std::string, std::function<void()>> answers{
        for (int i = 0; i < 6000; ++i) say(block);
        for_ever();
      }},
-    {"no_newline", [] { say("{\"overlap\": true}"), for_ever(); }},
+    {"no_newline",
+     [] {
+       say("{\"overlap\": true}");
+       for_ever();
+     }},
     {"slow_bytes",
      [] {
-       for (const char c : std::string("{\"overlap\":false,\"distance\":20}\n"))
-         say(std::string(1, c)), usleep(1000);
+       for (const char c : std::string("{\"overlap\":false,\"distance\":20}\n")) {
+         say(std::string(1, c));
+         usleep(1000);
+       }
      }},
-    {"closes_its_output", [] { close(1), for_ever(); }},
+    {"closes_its_output",
+     [] {
+       close(1);
+       for_ever();
+     }},
     {"wrong_types", [] { say("{\"overlap\": 3.5, \"normal\": \"up\"}\n"); }},
     {"short_vector", [] { say("{\"overlap\": true, \"normal\": [1]}\n"); }},
     {"number_too_large", [] { say("{\"distance\": 1e999}\n"); }},
@@ -95,16 +109,24 @@ const std::map<std::string, std::function<void()>> answers{
        std::fputs(
            "Gr\xf6\xdf"
            "e\n",
-           stderr),
-           std::abort();
+           stderr);
+       std::abort();
      }},
     {"kills_itself", [] { raise(SIGKILL); }},
     {"stops_itself", [] { raise(SIGSTOP); }},
-    {"stops_its_parent", [] { kill(getppid(), SIGSTOP), for_ever(); }},
-    {"kills_its_parent", [] { kill(getppid(), SIGKILL), for_ever(); }},
+    {"stops_its_parent",
+     [] {
+       kill(getppid(), SIGSTOP);
+       for_ever();
+     }},
+    {"kills_its_parent",
+     [] {
+       kill(getppid(), SIGKILL);
+       for_ever();
+     }},
     {"spams",
      [] {
-       // At once: what comes later than the answer is only seen with the next question.
+       // All at once: output after the answer is only seen with the next question.
        std::string all;
        for (int i = 0; i < 100000; ++i) all += "{\"overlap\":false}\n";
        say(all);

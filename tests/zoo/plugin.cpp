@@ -1,6 +1,6 @@
 // A plug-in of many engines that misbehave, each in one way: when the pair (0, 2) of a scene whose body 0
-// lies at x = 666 is asked for, or on the occasion that its name begins with. What happens while the file
-// itself is loaded is chosen by $TOUCHSTONE_ZOO_LOADING.
+// lies at x = 666 is queried, or on the occasion that its name begins with. $TOUCHSTONE_ZOO_LOADING chooses
+// what happens while the file itself is loaded.
 #include <signal.h>
 #include <unistd.h>
 
@@ -16,7 +16,7 @@
 namespace touchstone::zoo {
 namespace {
 
-// What may happen on any occasion.
+// Misbehaviour that may happen on any occasion.
 const std::vector<std::pair<std::string, void (*)()>> incidents{
     {"aborts", [] { std::abort(); }}, {"throws", [] { throw std::runtime_error("not today"); }},
     {"exits", [] { _exit(9); }},      {"loops", loop_for_ever},

@@ -1,4 +1,4 @@
-// Those that reach for what is outside: files, network, processes, memory.
+// Animals that reach outside: files, network, processes, memory.
 #include <arpa/inet.h>
 #include <fcntl.h>
 #include <sched.h>
@@ -34,7 +34,8 @@ void write_file(const char* path) {
 void connect_tcp() {
   const int fd = socket(AF_INET, SOCK_STREAM, 0);
   sockaddr_in to{};
-  to.sin_family = AF_INET, to.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+  to.sin_family = AF_INET;
+  to.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
   const char* port = std::getenv("TOUCHSTONE_ZOO_PORT");
   to.sin_port = htons(static_cast<std::uint16_t>(port ? std::atoi(port) : 1));
   if (connect(fd, reinterpret_cast<const sockaddr*>(&to), sizeof to) == 0) sleep(1);
@@ -50,7 +51,7 @@ void connect_by_name() {
   close(fd);
 }
 
-// As root of a namespace of its own it may mount, but not undo what it was given.
+// As root of its own namespace it may mount, but not undo the mounts that it was given.
 void remount_and_write() {
   if (unshare(CLONE_NEWUSER | CLONE_NEWNS) != 0) return;
   mount(nullptr, "/", nullptr, MS_REMOUNT | MS_BIND, nullptr);

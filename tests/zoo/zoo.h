@@ -1,4 +1,4 @@
-// What the animals of the zoo share.
+// Shared by the animals of the zoo.
 #pragma once
 
 #include <cstddef>
@@ -13,13 +13,13 @@ struct Animal {
   Act act;
 };
 
-/// Those that end, hang, or talk out of turn.
+/// Animals that end, hang, or write unexpected output.
 extern const Animal deaths[];
 extern const std::size_t death_count;
-/// Those that answer something that is none, or odd.
+/// Animals that give invalid or odd answers.
 extern const Animal answers[];
 extern const std::size_t answer_count;
-/// Those that reach for what is outside: files, network, processes, memory.
+/// Animals that reach outside: files, network, processes, memory.
 extern const Animal reaches[];
 extern const std::size_t reach_count;
 
@@ -28,9 +28,9 @@ void sleep_for_ever();
 void eat_memory();
 /// Starts a process that leaves its session and its parent, and sleeps.
 void leave_daemon();
-/// The name that every process carries which may be left behind: $TOUCHSTONE_ZOO_MARK.
+/// The name of every process that may be left behind: $TOUCHSTONE_ZOO_MARK.
 void take_mark();
-/// A path in the directory that must stay as it is: $TOUCHSTONE_ZOO_VICTIM.
+/// A path in the directory that must not change: $TOUCHSTONE_ZOO_VICTIM.
 const char* victim(const char* name);
 
 }  // namespace touchstone::zoo

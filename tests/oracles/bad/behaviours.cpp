@@ -1,5 +1,5 @@
-// Engines that answer well, except to the pair (0, 2) of a scene whose body 0 lies at x = 666.
-#undef NDEBUG  // one of them dies of an assertion
+// Engines that answer correctly, except for the pair (0, 2) of a scene whose body 0 lies at x = 666.
+#undef NDEBUG  // one of them dies of a failed assertion
 #include <fcntl.h>
 #include <signal.h>
 #include <sys/stat.h>
@@ -48,7 +48,7 @@ int overflow_the_stack(int depth) {
   return depth < 0 ? 0 : overflow_the_stack(depth + 1) + frame[depth % 4096];
 }
 
-/// Writes to every pipe that this process can write, the protocol's among them.
+/// Writes to every pipe that this process can write to, including the protocol's.
 void spray(const std::string& bytes) {
   for (int fd = 3; fd < 1024; ++fd) {
     struct stat s;
@@ -57,7 +57,7 @@ void spray(const std::string& bytes) {
   }
 }
 
-/// A frame header that is right in all but the length that it announces.
+/// A frame header that is valid except for the length that it announces.
 std::string huge_frame() {
   std::string h("TSP1\x01\x00\x04\x00\xff\xff\xff\x3f\x00\x00\x00\x00", 16);
   return h;
@@ -65,7 +65,10 @@ std::string huge_frame() {
 
 void flood_streams() {
   const std::string line(1000, 'x');
-  for (int i = 0; i < 2000; ++i) std::puts(line.c_str()), std::fputs(line.c_str(), stderr);
+  for (int i = 0; i < 2000; ++i) {
+    std::puts(line.c_str());
+    std::fputs(line.c_str(), stderr);
+  }
   std::fflush(stdout);
 }
 
@@ -74,7 +77,7 @@ void close_everything() {
   std::this_thread::sleep_for(3600s);
 }
 
-// A double that was never written. Nothing is known about it, so that no compiler may choose its value.
+// A double that was never written, opaque to the compiler so that it cannot choose the value.
 double unwritten_on_the_stack() {
   volatile double numbers[64];
   asm volatile("" : "=m"(numbers));
@@ -88,7 +91,7 @@ double unwritten_on_the_heap() {
   return x;
 }
 
-/// Half a second of CPU time, whatever the machine.
+/// Uses half a second of CPU time on any machine.
 void ponder() {
   for (const std::clock_t start = std::clock(); std::clock() - start < CLOCKS_PER_SEC / 2;)
     sink_value = sink_value + 1;
@@ -165,7 +168,7 @@ const std::array behaviours{
     Behaviour{"reads_the_heap",
               [](ts_answer* out, const ts_sink*) { out->distance = unwritten_on_the_heap(); }},
     Behaviour{"ponders", [](ts_answer*, const ts_sink*) { ponder(); }},
-    // These act on other occasions.
+    // These misbehave on other occasions.
     Behaviour{"holds_others", [](ts_answer*, const ts_sink*) {}},
     Behaviour{"aborts_in_load", [](ts_answer*, const ts_sink*) {}},
     Behaviour{"loops_in_load", [](ts_answer*, const ts_sink*) {}},
@@ -203,7 +206,9 @@ void unload(ts_engine* e) { self(e).scene = nullptr; }
 void hold_another(const ts_received& received) {
   const double corners[] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1};
   ts_shape held{};
-  held.kind = TS_HULL, held.vertices = corners, held.vertex_count = 4;
+  held.kind = TS_HULL;
+  held.vertices = corners;
+  held.vertex_count = 4;
   received.other_shape(received.ctx, 0, &held);
 }
 

@@ -1,4 +1,4 @@
-/* Dies while it is loaded, as a library with a failing static initialiser does. */
+/* Dies while it is loaded, like a library with a failing static initialiser. */
 #include <stdio.h>
 #include <stdlib.h>
 

@@ -1,5 +1,5 @@
-// The core's library with a fault in it: its engines answer as they do, but die, as TS_DYING_CORE says, of
-// the last question about a deadly scene.
+// The core's library with a fault: its engines answer normally, but die, in the way that TS_DYING_CORE names,
+// on the last question about a deadly scene.
 #include <fcntl.h>
 #include <unistd.h>
 
@@ -29,7 +29,7 @@ std::string word_of(const char* variable) {
   return text ? text : "";
 }
 
-/// TS_DEADLY: one scene of so many. Without it, those whose body 0 lies at x = 666.
+/// TS_DEADLY=n: one scene in n is deadly. Without it, those whose body 0 lies at x = 666.
 bool is_deadly(const Scene& s) {
   static const std::string every = word_of("TS_DEADLY");
   if (!every.empty()) return hash(s) % std::stoul(every) == 0;
@@ -47,7 +47,7 @@ bool is_deadly(const Scene& s) {
   if (how == "exit") _exit(0);
   if (how == "throw") throw std::runtime_error("thrown by an engine of the core");
   if (how != "once") return;
-  // Of a process that has not died here before: a file keeps count.
+  // Only the first process dies here: a file keeps count.
   const int file = open(word_of("TS_DIED").c_str(), O_CREAT | O_EXCL | O_WRONLY, 0600);
   if (file >= 0) *reinterpret_cast<volatile int*>(8) = 1;
 }

@@ -1,3 +1,3 @@
-/* A shared object, and no plug-in. */
+/* A shared object that is not a plug-in. */
 int ts_no_symbol_here(void);
 int ts_no_symbol_here(void) { return 0; }

@@ -1,12 +1,7 @@
 /* A plug-in in C11: spheres, overlap only. Shows that the header is C. */
 #include <math.h>
-#include <stdlib.h>
 
-#include "oracles/abi/touchstone_engine.h"
-
-struct ts_engine {
-  const ts_scene* scene;
-};
+#include "tests/oracles/bad/plain_scene.h"
 
 static const char* card(uint32_t i) {
   (void)i;
@@ -14,17 +9,7 @@ static const char* card(uint32_t i) {
          "1.2e-16,"
          "\"tau_factor\":64,\"source\":\"\"}";
 }
-static ts_engine* create(uint32_t i) {
-  (void)i;
-  return (ts_engine*)calloc(1, sizeof(ts_engine));
-}
-static void destroy(ts_engine* e) { free(e); }
-static int32_t load(ts_engine* e, const ts_scene* scene, const ts_received* received, char* detail) {
-  (void)received, (void)detail;
-  e->scene = scene;
-  return TS_ANSWERED;
-}
-static void unload(ts_engine* e) { e->scene = NULL; }
+
 static void ask(ts_engine* e, int32_t question, int32_t a, int32_t b, ts_answer* answer,
                 const ts_sink* sink) {
   const ts_body *x = &e->scene->bodies[a], *y = &e->scene->bodies[b];
@@ -37,9 +22,4 @@ static void ask(ts_engine* e, int32_t question, int32_t a, int32_t b, ts_answer*
   answer->outcome = TS_ANSWERED;
   answer->has = TS_HAS_OVERLAP;
   answer->overlap = sqrt(sq) <= s->size[0] + t->size[0];
-}
-
-const ts_plugin* touchstone_plugin_v1(void) {
-  static const ts_plugin plugin = {TS_ABI_VERSION, 1, card, create, destroy, load, unload, ask};
-  return &plugin;
 }

@@ -1,31 +1,15 @@
-/* A broad phase that loses no pair, and looks at a block that it has freed. */
-#include <stdlib.h>
-
-#include "oracles/abi/touchstone_engine.h"
-
-struct ts_engine {
-  const ts_scene* scene;
-};
+/* A broad phase that loses no pair but reads a block that it has freed. */
+#include "tests/oracles/bad/plain_scene.h"
 
 static const char* card(uint32_t i) {
   (void)i;
-  return "{\"name\":\"reads-freed\",\"library\":\"C\",\"version\":\"11\",\"settings\":\"none\",\"unit_roundoff\":"
+  return "{\"name\":\"reads-freed\",\"library\":\"C\",\"version\":\"11\",\"settings\":\"none\",\"unit_"
+         "roundoff\":"
          "1.2e-16,\"tau_factor\":64,\"source\":\"\"}";
 }
-static ts_engine* create(uint32_t i) {
-  (void)i;
-  return (ts_engine*)calloc(1, sizeof(ts_engine));
-}
-static void destroy(ts_engine* e) { free(e); }
-static int32_t load(ts_engine* e, const ts_scene* scene, const ts_received* received, char* detail) {
-  (void)received, (void)detail;
-  e->scene = scene;
-  return TS_ANSWERED;
-}
-static void unload(ts_engine* e) { e->scene = NULL; }
 
-/* volatile: the compiler sees the free as well. */
-static void look_at_what_is_freed(size_t bytes) {
+/* volatile, because the compiler sees the free too. */
+static void read_freed_block(size_t bytes) {
   volatile char* block = (volatile char*)malloc(bytes);
   char* gone = (char*)block;
   block[0] = 1;
@@ -48,7 +32,8 @@ static void ask(ts_engine* e, int32_t question, int32_t a, int32_t b, ts_answer*
   char* is_in = (char*)calloc(e->scene->body_count + 1, 1);
   int32_t k = 0;
   size_t i;
-  (void)a, (void)b;
+  (void)a;
+  (void)b;
   if (question == TS_CANDIDATES) {
     answer->outcome = TS_ANSWERED;
     for (i = 0; i < e->scene->step_count; ++i) {
@@ -58,12 +43,7 @@ static void ask(ts_engine* e, int32_t question, int32_t a, int32_t b, ts_answer*
       else if (s->op != TS_MOVE)
         is_in[s->body] = s->op == TS_INSERT;
     }
-    if (k > 1) look_at_what_is_freed((size_t)k);
+    if (k > 1) read_freed_block((size_t)k);
   }
   free(is_in);
-}
-
-const ts_plugin* touchstone_plugin_v1(void) {
-  static const ts_plugin plugin = {TS_ABI_VERSION, 1, card, create, destroy, load, unload, ask};
-  return &plugin;
 }

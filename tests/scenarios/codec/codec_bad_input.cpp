@@ -1,4 +1,4 @@
-// Whatever is wrong with a file is said in one line: where, and why.
+// Every fault of a file is reported in one line, with place and reason.
 #include <fcntl.h>
 #include <unistd.h>
 
@@ -37,7 +37,7 @@ void check_all(const std::vector<Bad>& list) {
 }  // namespace
 
 TEST_CASE("text that is not JSON is refused with line and column", "[scene][codec][bad-input]") {
-  // The column is that of the last character read: where the text stops making sense.
+  // The column is that of the last character read, where the text becomes invalid.
   const auto bad_at = [](const std::string& text, const std::string& where, std::size_t extra,
                          const std::string& reason) {
     return Bad{text, "f.json:1:" + std::to_string(text.find(where) + 1 + extra), reason};
@@ -187,11 +187,11 @@ TEST_CASE("files that cannot be scenes are refused by name", "[scene][codec][bad
   CHECK(contains(said("/dev/zero"), "/dev/zero: is a device, not a file"));
 
   const auto big = dir.write("big.json", "");
-  std::filesystem::resize_file(big, std::uintmax_t{1} << 30);  // sparse: no gigabyte is written, nor read
+  std::filesystem::resize_file(big, std::uintmax_t{1} << 30);  // sparse: no gigabyte is written or read
   CHECK(contains(said(big), "big.json: is 1024 MiB; files larger than 256 MiB are refused"));
 }
 
-TEST_CASE("a number that JSON cannot say is not written", "[scene][codec][bad-input]") {
+TEST_CASE("a number that JSON cannot represent is not written", "[scene][codec][bad-input]") {
   Scene s;
   s.shapes = {Sphere{std::numeric_limits<double>::infinity()}};
   CHECK(contains(refusal([&] { to_text(s); }), "inf"));

@@ -18,7 +18,7 @@ double through_text(double v) { return parse_json(to_line(nlohmann::ordered_json
 
 }  // namespace
 
-TEST_CASE("every double that JSON can say comes back with the same bits", "[scene][codec]") {
+TEST_CASE("every double that JSON can represent is read back with the same bits", "[scene][codec]") {
   Rng rng(1);
   int count = 0;
   const auto check = [&](double v) {
@@ -47,7 +47,7 @@ TEST_CASE("a random scene over all shapes survives text and JSON unchanged", "[s
     const Scene by_dump = scene_from_text(to_json(scene).dump());
     for (const Scene* read : {&by_text, &by_json, &by_dump}) {
       REQUIRE(*read == scene);
-      REQUIRE(hash(*read) == hash(scene));  // == takes -0 for 0, the hash does not
+      REQUIRE(hash(*read) == hash(scene));  // == treats -0 as 0, the hash does not
     }
     REQUIRE(to_text(by_text) == to_text(scene));
   }
@@ -87,7 +87,7 @@ TEST_CASE("the token -0 keeps its sign and whole numbers serve as doubles", "[sc
   CHECK(std::get<Box>(s.shapes[0]).half_extents == Vec3(1, 2, 3));
 }
 
-TEST_CASE("text has one body or step a line", "[scene][codec]") {
+TEST_CASE("text has one body or step per line", "[scene][codec]") {
   Rng rng(4);
   Scene s = test::nasty_scene(rng);
   while (s.script.empty() || s.ignored.empty()) s = test::nasty_scene(rng);
@@ -99,7 +99,7 @@ TEST_CASE("text has one body or step a line", "[scene][codec]") {
   CHECK(lines == items + 2 * lists + head + tail);
 }
 
-TEST_CASE("degenerate hulls are legitimate in a file", "[scene][codec]") {
+TEST_CASE("degenerate hulls are valid in a file", "[scene][codec]") {
   const auto dimension = [](const std::string& vertices) {
     const Scene s = scene_from_text(R"({"touchstone_scene":1,"shapes":[{"type":"hull","vertices":)" +
                                     vertices + R"(}],"bodies":[{"shape":0}]})");

@@ -1,5 +1,5 @@
 // The part of JSON Schema (draft 2020-12) that scene.schema.json uses. An unknown keyword is an error, so
-// that the schema cannot come to rely on something that is silently not checked.
+// that the schema cannot rely on something that is silently not checked.
 #pragma once
 
 #include <nlohmann/json.hpp>
@@ -9,7 +9,7 @@ namespace touchstone::test {
 
 using Json = nlohmann::ordered_json;
 
-/// Empty when `value` conforms to `schema` (references resolve in `root`), else what is wrong, with its path.
+/// Empty if `value` conforms to `schema` (references resolve in `root`), else the fault with its path.
 std::string schema_violation(const Json& root, const Json& schema, const Json& value,
                              const std::string& path = "$");
 

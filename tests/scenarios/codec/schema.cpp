@@ -58,7 +58,10 @@ Scene full_scene() {
   s.name = "full";
   s.bodies.resize(3);
   for (Body& b : s.bodies) {
-    b.name = "b", b.shape = 0, b.group = 2, b.is_static = true;
+    b.name = "b";
+    b.shape = 0;
+    b.group = 2;
+    b.is_static = true;
     b.pose = {Vec3(1, 2, 3), {0, 0, 1, 1}};
     b.motion = Motion{Vec3(1, 0, 0), Vec3(0, 1, 0)};
   }
@@ -133,7 +136,7 @@ TEST_CASE("codec and schema agree on every unknown, missing and mistyped field",
     for (const auto& [key, value] : good[at].items()) {
       Json without = good;
       without[at].erase(key);
-      if (at.empty() && key == "script") continue;  // leaves nothing to refuse, trivially fine
+      if (at.empty() && key == "script") continue;  // optional: nothing to refuse
       compare(without, false, "without " + at.to_string() + "/" + key);
       ++missing;
       Json wrong = good;

@@ -113,7 +113,7 @@ TEST_CASE("scene.txt is refused with file and line", "[scene][readers][bad-input
   }
 }
 
-TEST_CASE("frames are refused by file and reason", "[scene][readers][bad-input]") {
+TEST_CASE("frames are refused with file and reason", "[scene][readers][bad-input]") {
   const TinyScene t;
   const auto with_npy = [&](const std::string& bytes) {
     t.dir.write("frames.npy", bytes);
@@ -175,7 +175,7 @@ TEST_CASE("malformed hulls, clouds, boxes, atoms and motions are refused with th
                  "a.csv:2: the radius is negative"));
 }
 
-TEST_CASE("a rational that is no double is refused, one that is comes out exactly",
+TEST_CASE("a rational that is not a double is refused, others are read exactly",
           "[scene][readers][bad-input]") {
   const test::TempDir dir;
   const auto query = [&](const std::string& x) {
@@ -196,7 +196,7 @@ TEST_CASE("a rational that is no double is refused, one that is comes out exactl
                  "q.csv:1: the file ends here"));
 }
 
-TEST_CASE("a printed matrix that is no rotation is refused", "[scene][readers][bad-input]") {
+TEST_CASE("a printed matrix that is not a rotation is refused", "[scene][readers][bad-input]") {
   const test::TempDir dir;
   const std::string obj = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
   dir.write("obj1.obj", obj);

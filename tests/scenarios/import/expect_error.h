@@ -1,4 +1,4 @@
-// Runs f, which must refuse its input, and returns what it said: one line.
+// Runs f, which must refuse its input, and returns its message of one line.
 #pragma once
 
 #include <string>

@@ -1,4 +1,4 @@
-// Meshes from files: geometry as written, and a reason whenever there is none.
+// Meshes from files: geometry as written, or a reason for refusing the file.
 #include "scenarios/import/mesh_import.h"
 
 #include <cstring>
@@ -66,7 +66,7 @@ TEST_CASE("a binary STL keeps its facets, joined or not", "[scene][mesh]") {
   CHECK(load_mesh(twice, {.join_vertices = false}).vertices.size() == 6);
 }
 
-TEST_CASE("a file that is no mesh is refused by name and reason", "[scene][mesh][bad-input]") {
+TEST_CASE("a file that is not a mesh is refused with name and reason", "[scene][mesh][bad-input]") {
   const test::TempDir dir;
   const auto said = [](const std::filesystem::path& f) {
     const std::string s = refusal([&] { load_mesh(f); });
@@ -84,7 +84,7 @@ TEST_CASE("a file that is no mesh is refused by name and reason", "[scene][mesh]
   CHECK(contains(said(dir.write("nan.obj", "v nan 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")), "not finite"));
 }
 
-TEST_CASE("a binary STL that is cut off is refused at every length", "[scene][mesh][bad-input]") {
+TEST_CASE("a truncated binary STL is refused at every length", "[scene][mesh][bad-input]") {
   const test::TempDir dir;
   const std::string whole = binary_stl(4);
   int refused = 0, tried = 0;

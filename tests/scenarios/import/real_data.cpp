@@ -1,6 +1,5 @@
-// The recorded and published data, where present, reads completely and has the counts that its inventory
+// The recorded and published data, when present, reads completely and has the counts that its inventory
 // states.
-#include <cstdio>
 #include <set>
 
 #include "scenarios/import/broadphase_sets.h"
@@ -10,18 +9,14 @@
 #include "scenarios/import/mesh_import.h"
 #include "scenarios/import/real_scene.h"
 #include "tests/support/catch.h"
+#include "tests/support/shared_data.h"
+#include "tests/support/skip.h"
 
 using namespace touchstone;
 
 namespace {
 
-const std::filesystem::path data_root = TS_SHARED_DATA;
-
-bool data_is_absent() {
-  if (std::filesystem::exists(data_root)) return false;
-  std::printf("skipped: %s is absent\n", data_root.c_str());
-  return true;
-}
+const std::filesystem::path data_root = test::shared_data();
 
 struct Expected {
   const char* name;
@@ -43,8 +38,8 @@ constexpr Expected scenes[] = {{"debris_drift", 929, 1200, 1200, 40, 13},
 
 }  // namespace
 
-TEST_CASE("every recorded scene reads, and its first and last frames are valid scenes", "[scene][data]") {
-  if (data_is_absent()) return;
+TEST_CASE("every recorded scene can be read, and its first and last frames are valid", "[scene][data]") {
+  if (!std::filesystem::exists(data_root)) return test::skip(data_root.string() + " is absent");
   int checked = 0;
   for (const Expected& e : scenes) {
     INFO(e.name);
@@ -76,8 +71,8 @@ TEST_CASE("every recorded scene reads, and its first and last frames are valid s
   CHECK(checked == 10);
 }
 
-TEST_CASE("the hull zoo and the point clouds read completely", "[scene][data]") {
-  if (data_is_absent()) return;
+TEST_CASE("the hull zoo and the point clouds are read completely", "[scene][data]") {
+  if (!std::filesystem::exists(data_root)) return test::skip(data_root.string() + " is absent");
   const auto zoo = load_hull_zoo(data_root / "hulls");
   CHECK(zoo.size() == 647);
   std::set<std::string> categories;
@@ -92,8 +87,8 @@ TEST_CASE("the hull zoo and the point clouds read completely", "[scene][data]") 
   CHECK(load_point_clouds(data_root / "hulls" / "jolt_clouds.bin").size() == 3377);
 }
 
-TEST_CASE("the continuous-collision queries read exactly, with truth", "[scene][data]") {
-  if (data_is_absent()) return;
+TEST_CASE("the continuous-collision queries are read exactly, with their truth", "[scene][data]") {
+  if (!std::filesystem::exists(data_root)) return test::skip(data_root.string() + " is absent");
   const auto queries = load_ccd_set(data_root / "ccd");
   CHECK(queries.size() == 7418);
   int hits = 0, published = 0, agree = 0;
@@ -108,8 +103,8 @@ TEST_CASE("the continuous-collision queries read exactly, with truth", "[scene][
   CHECK(agree == 7418);
 }
 
-TEST_CASE("the broad-phase sets, meshes and two-body motions read completely", "[scene][data]") {
-  if (data_is_absent()) return;
+TEST_CASE("the broad-phase sets, meshes and two-body motions are read completely", "[scene][data]") {
+  if (!std::filesystem::exists(data_root)) return test::skip(data_root.string() + " is absent");
   const auto boxes = load_aabbs(data_root / "broadphase" / "bullet_32006GPUAABBs.csv");
   CHECK(boxes.size() == 32006);
   const Scene box_scene = scene_of_boxes(boxes);

@@ -72,20 +72,23 @@ TEST_CASE("motion from recorded velocities is one sixtieth of them, and geoms st
   CHECK(checked == 500);
 }
 
-TEST_CASE("a geom at its body's origin takes the recorded pose bit by bit", "[scene][readers]") {
+TEST_CASE("a geom at its body's origin has exactly the recorded pose", "[scene][readers]") {
   Rng rng(7);
   const RealScene s = two_frames(rng, 7);
   const auto r = s.poses.row(0, 0);
   CHECK(s.frame(0).bodies[0].pose == Pose{Vec3(r[0], r[1], r[2]), {r[3], r[4], r[5], r[6]}});
 }
 
-TEST_CASE("the quaternion of a rotation matrix gives the matrix back", "[scene][readers]") {
+TEST_CASE("the quaternion of a rotation matrix reproduces the matrix", "[scene][readers]") {
   Rng rng(8);
   double worst = 0;
   int near_half_turn = 0;
   for (int i = 0; i < 2000; ++i) {
     Quat q = rng.rotation();
-    if (i % 2) q.w *= 1e-9, ++near_half_turn;
+    if (i % 2) {
+      q.w *= 1e-9;
+      ++near_half_turn;
+    }
     const Mat3 m = rotation_matrix(q);
     worst = std::max(worst, (rotation_matrix(quaternion_of(m)) - m).cwiseAbs().maxCoeff());
   }

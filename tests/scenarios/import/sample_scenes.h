@@ -1,4 +1,4 @@
-// Random scenes over all shapes with numbers from every corner of the double format.
+// Random scenes over all shapes with numbers from the whole range of doubles.
 #pragma once
 
 #include <array>

@@ -1,4 +1,4 @@
-// A directory for the files of one test, removed with its contents at the end.
+// A directory for one test's files, removed with its contents at the end.
 #pragma once
 
 #include <unistd.h>

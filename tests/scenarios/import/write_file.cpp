@@ -1,4 +1,4 @@
-// Files are replaced whole or not at all, and read when they are files.
+// Files are replaced atomically, and only regular files are read.
 #include <sys/socket.h>
 #include <sys/stat.h>
 #include <sys/un.h>
@@ -16,7 +16,7 @@
 using namespace touchstone;
 namespace fs = std::filesystem;
 
-TEST_CASE("a file that cannot be written keeps what was in it", "[scene][file]") {
+TEST_CASE("a file that cannot be written keeps its content", "[scene][file]") {
   const test::TempDir dir;
   const fs::path file = dir.path() / "kept.json";
   write_file(file, "first");
@@ -54,7 +54,7 @@ std::string refused(const fs::path& file) {
 
 }  // namespace
 
-TEST_CASE("only regular files are read, and nobody waits for what is none", "[scene][file]") {
+TEST_CASE("only regular files are read, without waiting for others", "[scene][file]") {
   const test::TempDir dir;
   CHECK(refused(dir.path() / "none") == "no such file");
   CHECK(refused(dir.path() / "none/x") == "no such file");
