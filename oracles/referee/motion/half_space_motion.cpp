@@ -44,6 +44,16 @@ double below(const Rational& t) {
 
 bool is_singular(const Placed& p) { return is_zero(world_plane(p).normal); }
 
+TimeTruth hit_between(double lo, double hi, const char* note) {
+  TimeTruth r;
+  r.verdict = TimeTruth::Verdict::hit;
+  r.t_lo = lo;
+  r.t_hi = hi;
+  r.least_gap = {-infinity, 0};
+  r.note = note;
+  return r;
+}
+
 }  // namespace
 
 Vec3 visible_turn(const Placed& half_space, const Vec3& angular) {
@@ -59,18 +69,10 @@ TimeTruth judge_half_spaces_in_motion(const Placed& a, const Motion& motion_a, c
     return r;
   }
   const auto room = room_between(a, motion_a, b, motion_b);
-  const auto hit = [&](double lo, double hi, const char* note) {
-    r.verdict = TimeTruth::Verdict::hit;
-    r.t_lo = lo;
-    r.t_hi = hi;
-    r.least_gap.hi = 0;
-    r.note = note;
-    return r;
-  };
-  if (!room || room->start <= 0) return hit(0, 0, "overlap at the start");
+  if (!room || room->start <= 0) return hit_between(0, 0, "overlap at the start");
   const Vec3 turn_a = visible_turn(a, motion_a.angular), turn_b = visible_turn(b, motion_b.angular);
   if (turn_a != turn_b)
-    return hit(0, std::numeric_limits<double>::denorm_min(), "they face each other only at the start");
+    return hit_between(0, std::numeric_limits<double>::denorm_min(), "they face each other only at the start");
   if (!turn_a.isZero(0)) {
     r.note = "two half-spaces that turn alike are not judged in motion";
     return r;
@@ -84,7 +86,7 @@ TimeTruth judge_half_spaces_in_motion(const Placed& a, const Motion& motion_a, c
   }
   const Rational t = room->start / -room->rate;
   const double lo = below(t);
-  return hit(lo, exact(lo) == t ? lo : std::nextafter(lo, infinity), "");
+  return hit_between(lo, exact(lo) == t ? lo : std::nextafter(lo, infinity), "");
 }
 
 Bracket gap_of_half_spaces(const Placed& a, const Motion& motion_a, const Placed& b, const Motion& motion_b,
