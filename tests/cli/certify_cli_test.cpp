@@ -86,7 +86,7 @@ TEST_CASE("certify refuses bad input with exit code 2, the place and the reason,
                                                           {"", "--subject"}};
   for (const auto& [options, place] : commands) {
     const Run r = w.touchstone("certify " + std::string(options) + " --limit 10");
-    INFO(options << " says: " << r.err);
+    INFO(options << " printed: " << r.err);
     CHECK(r.code == 2);
     CHECK(r.err.find(place) != std::string::npos);
     CHECK(r.out.empty());

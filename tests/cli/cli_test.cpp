@@ -77,7 +77,7 @@ TEST_CASE("bad usage and bad input exit with 2 and one line that names the place
                             "scenarios nothing"};
   for (const std::string command : commands) {
     const Run r = w.touchstone(command);
-    INFO(command << " says: " << r.err);
+    INFO(command << " printed: " << r.err);
     CHECK(r.code == 2);
     CHECK(std::count(r.err.begin(), r.err.end(), '\n') == 1);
     CHECK(r.out.empty());
@@ -135,7 +135,7 @@ TEST_CASE("a finding is replayed, shrinks from its directory and still shows", "
     const std::string key = entry.path().filename();
     if (key.find("timed_out") != std::string::npos) continue;  // a second per question
     const Run r = w.touchstone("shrink " + entry.path().string() + " -o small.json --json");
-    INFO(key << " says: " << r.err);
+    INFO(key << " printed: " << r.err);
     REQUIRE(r.code == 0);
     const auto doc = nlohmann::json::parse(r.out);
     CHECK(doc.at("key") == key);
@@ -322,7 +322,7 @@ TEST_CASE("a misspelt name gets a suggestion, and a bad number an explanation", 
   const Workspace w("cli");
   const auto says = [&](const std::string& command, const std::string& words) {
     const Run r = w.touchstone(command);
-    INFO(command << " says: " << r.err);
+    INFO(command << " printed: " << r.err);
     CHECK(r.code == 2);
     CHECK(r.err.find(words) != std::string::npos);
     CHECK(r.err.size() < 300);

@@ -141,7 +141,7 @@ TEST_CASE("a missing command is named, with the reason", "[pipe]") {
     for (const char* how : {"certify --limit 4 --subject", "engines --check", "replay two.json --engines"}) {
       w.write("two.json", two_spheres);
       const Run r = w.touchstone(std::string(how) + " '" + command + "'");
-      INFO(how << " " << command << " says: " << r.out << r.err);
+      INFO(how << " " << command << " printed: " << r.out << r.err);
       CHECK(r.code == 2);
       CHECK(r.err.find(command) != std::string::npos);
       CHECK(r.err.find(reason) != std::string::npos);

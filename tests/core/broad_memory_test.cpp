@@ -47,7 +47,7 @@ using namespace touchstone::test;
 namespace {
 
 struct Held {
-  double said = 0, counted = 0, pairs = 0;  // per box, at the query that uses most
+  double reported = 0, counted = 0, pairs = 0;  // per box, at the query that uses most
 };
 
 // Measures coherent frames, or frames in which all boxes are elsewhere.
@@ -73,8 +73,8 @@ Held hold(const CatalogRow& row, std::vector<BoxUpdate> scene, bool elsewhere) {
     const auto of_out = static_cast<long>(out.capacity() * sizeof(IdPair));
     const Held held{static_cast<double>(phase->memory_bytes()) / n,
                     static_cast<double>(live - before - of_out) / n, static_cast<double>(out.size()) / n};
-    REQUIRE(held.said == Approx(held.counted).epsilon(0.01));
-    if (held.said > most.said) most = held;
+    REQUIRE(held.reported == Approx(held.counted).epsilon(0.01));
+    if (held.reported > most.reported) most = held;
   }
   return most;
 }
@@ -100,14 +100,15 @@ TEST_CASE("a broad phase of 100,000 boxes uses at most 200 bytes per box, and re
         if (row.name.ends_with("_sweep") && scene != &uniform) continue;
         const Held held = hold(row, *scene, elsewhere);
         const std::string what = scene == &uniform ? "uniform" : scene == &mixed ? "mixed" : "clusters";
-        INFO(row.name << ", " << what << (elsewhere ? ", elsewhere: " : ", coherent: ") << held.said
-                      << " said, " << held.counted << " counted, " << held.pairs << " pairs a box");
+        INFO(row.name << ", " << what << (elsewhere ? ", elsewhere: " : ", coherent: ") << held.reported
+                      << " reported, " << held.counted << " counted, " << held.pairs << " pairs a box");
         if (std::getenv("TOUCHSTONE_SHOW") != nullptr)
-          std::printf("%-26s %-8s %d  %6.1f said %6.1f counted %5.2f pairs\n", std::string(row.name).c_str(),
-                      what.c_str(), elsewhere, held.said, held.counted, held.pairs);
+          std::printf("%-26s %-8s %d  %6.1f reported %6.1f counted %5.2f pairs\n",
+                      std::string(row.name).c_str(), what.c_str(), elsewhere, held.reported, held.counted,
+                      held.pairs);
         CHECK(held.pairs > 0.5);
         // Clusters have eight pairs per box, which must be stored: 16 bytes each beyond two, and some room.
-        CHECK(held.said <= 200 + 17 * std::max(0.0, held.pairs - 2));
+        CHECK(held.reported <= 200 + 17 * std::max(0.0, held.pairs - 2));
       }
   }
 }

@@ -32,7 +32,7 @@ int main(int argc, char** argv) {
                   static_cast<unsigned long long>(i), kind == PrimitiveKind::vertex_face ? "vf" : "ee",
                   x.toi.value_or(-1), exact.collides, exact.t_below, static_cast<int>(x.exit));
   }
-  std::printf("%llu queries, %ld hits, %ld settled in double, %ld wrong, %ld late, %ld not answered\n",
+  std::printf("%llu queries, %ld hits, %ld decided in double, %ld wrong, %ld late, %ld not answered\n",
               static_cast<unsigned long long>(n), hits, in_double, wrong, late, open);
   return wrong + late + open == 0 ? 0 : 1;
 }

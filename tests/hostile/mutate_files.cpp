@@ -168,8 +168,8 @@ std::string complaint(const Ended& e) {
   if (e.code < 0 || e.code > 3) return "exit code " + std::to_string(e.code);
   if (says("bad_alloc")) return "more than 1 GB";
   if (says("AddressSanitizer") || says("runtime error:")) return "a sanitizer's report";
-  if (e.code == 2 && e.err.empty()) return "exit code 2 without a word";
-  if (e.code == 3 && says("failed:")) return "failed, where the file is at fault: " + e.err;
+  if (e.code == 2 && e.err.empty()) return "exit code 2 without a message";
+  if (e.code == 3 && says("failed:")) return "reported a failure, although the file is at fault: " + e.err;
   if (says("json.exception")) return "a library's message: " + e.err;
   for (const char c : e.out + e.err)
     if (static_cast<unsigned char>(c) < 0x20 && c != '\n') return "a control character on the terminal";
@@ -297,7 +297,7 @@ bool make_campaigns(const fs::path& dir) {
   for (const auto& [command, file] : made) {
     const Ended e = run(dir, command);
     if (fs::exists(dir / file)) continue;
-    std::fprintf(stderr, "%s made no %s: %s\n", command.c_str(), file, e.err.c_str());
+    std::fprintf(stderr, "%s did not create %s: %s\n", command.c_str(), file, e.err.c_str());
     return false;
   }
   return true;
@@ -392,7 +392,7 @@ int main(int argc, char** argv) {
     good = make_originals(originals);
   }
   if (const std::string file = good ? missing(originals) : ""; !file.empty()) {
-    std::fprintf(stderr, "%s was not made\n", file.c_str());
+    std::fprintf(stderr, "%s was not created\n", file.c_str());
     good = false;
   }
   good = good && all_are_good(originals, top / "m");

@@ -154,7 +154,7 @@ TEST_CASE("faults of a case are reported with their place", "[scenarios][codec][
   };
   for (const Bad& bad : list) {
     const std::string what = refusal([&] { read(bad.text); });
-    INFO(bad.text << "\n  said: " << what);
+    INFO(bad.text << "\n  message: " << what);
     CHECK(contains(what, bad.place + ": "));
     CHECK(contains(what, bad.reason));
   }

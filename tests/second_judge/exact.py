@@ -1,12 +1,12 @@
 """Brackets of distance and depth of convex sets, from certificates in exact arithmetic.
 
-A convex set is a core and a radius: the set of all points within the radius of the core. Floats find a guess (GJK for the
-distance, an expanding polytope for the depth); what is returned follows from the guess by rationals alone:
+A convex set is a core and a radius: all points within the radius of the core. Floats find a guess (GJK for the distance, an
+expanding polytope for the depth); the result follows from the guess in rational arithmetic:
   a direction n            gap >= -(h_A(n) + h_B(-n)) / |n|
   a point of A and of B    gap <= their distance
-  a closed surface of triangles between points of the core of A - B, every plane of which has the origin at a distance >= l
-  on its inner side        gap <= -l   (its winding number about the origin is not zero, so the ball is inside)
-Square roots are bracketed to 2^-200 by integers.
+  a closed surface of triangles between points of the core of A - B, each with the origin at a distance >= l on the inner
+  side of its plane        gap <= -l   (its winding number about the origin is not zero, so the ball is inside)
+Square roots are bracketed to 2^-200 with integers.
 """
 import math
 import random

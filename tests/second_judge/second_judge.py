@@ -2,12 +2,12 @@
 """Judges accusations of `touchstone fuzz --out DIR` a second time, in exact arithmetic and from docs/truth.md alone.
 
     second_judge.py --touchstone PROGRAM [--number N] [--seed S] DIR       accusations, drawn evenly over engine and fault
-    second_judge.py --touchstone PROGRAM --campaign CASES [...]            the same of a small campaign of its own
+    second_judge.py --touchstone PROGRAM --campaign CASES [...]            the same for a small campaign of its own
     second_judge.py --touchstone PROGRAM --let-off [...] CASE-OR-DIR ...   answers that `replay` counts as right
 
 Every error of an answer is bracketed, [lo, hi], by rational certificates. An accusation is *confirmed* when lo > tau for the
-fault it names, *refuted* (false) when hi <= tau, and cannot be told else. An answer is let off when it counts as right and lo > tau
-for some error. Exit code: 0 none false and none let off, 1 some are, 2 bad usage, 3 nothing was judged.
+fault it names, *refuted* (false) when hi <= tau, otherwise *cannot tell*. An answer is let off when it counts as right although
+lo > tau for some error. Exit code: 0 none false and none let off, 1 some are, 2 bad usage, 3 nothing was judged.
 This program shares no code with the referee or the judge, and was written without reading them.
 """
 import argparse
@@ -420,7 +420,7 @@ def main():
     parser.add_argument("--touchstone", required=True, help="the program, for cards and replay")
     parser.add_argument("--number", type=int, default=2000)
     parser.add_argument("--seed", type=int, default=1)
-    parser.add_argument("--seconds", type=float, default=20, help="of CPU, granted to each accusation")
+    parser.add_argument("--seconds", type=float, default=20, help="CPU seconds granted to each accusation")
     parser.add_argument("--let-off", action="store_true")
     parser.add_argument("--campaign", type=int, default=0)
     parser.add_argument("--verbose", action="store_true")

@@ -27,7 +27,7 @@ struct Bad {
 void check_all(const std::vector<Bad>& list) {
   for (const Bad& bad : list) {
     const std::string what = refusal([&] { scene_from_text(bad.text, "f.json"); });
-    INFO(bad.text << "\n  said: " << what);
+    INFO(bad.text << "\n  message: " << what);
     CHECK(what.starts_with("f.json"));
     CHECK(contains(what, bad.place + ": "));
     CHECK(contains(what, bad.reason));

@@ -107,7 +107,7 @@ TEST_CASE("scene.txt is refused with file and line", "[scene][readers][bad-input
     const TinyScene t;
     t.dir.write("scene.txt", replaced(scene_text, bad.from, bad.to));
     const std::string what = t.said();
-    INFO(bad.to << " said: " << what);
+    INFO(bad.to << " message: " << what);
     CHECK(contains(what, bad.place + ": "));
     CHECK(contains(what, bad.reason));
   }
