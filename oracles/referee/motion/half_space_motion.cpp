@@ -44,6 +44,21 @@ double below(const Rational& t) {
 
 bool is_singular(const Placed& p) { return is_zero(world_plane(p).normal); }
 
+TimeTruth undecided(const char* note) {
+  TimeTruth r;
+  r.least_gap = {-infinity, infinity};
+  r.note = note;
+  return r;
+}
+
+TimeTruth apart_throughout(const Bracket& least_gap) {
+  TimeTruth r;
+  r.verdict = TimeTruth::Verdict::none;
+  r.t_lo = 1;
+  r.least_gap = least_gap;
+  return r;
+}
+
 TimeTruth hit_between(double lo, double hi, const char* note) {
   TimeTruth r;
   r.verdict = TimeTruth::Verdict::hit;
@@ -62,28 +77,15 @@ Vec3 visible_turn(const Placed& half_space, const Vec3& angular) {
 
 TimeTruth judge_half_spaces_in_motion(const Placed& a, const Motion& motion_a, const Placed& b,
                                       const Motion& motion_b) {
-  TimeTruth r;
-  r.least_gap = {-infinity, infinity};
-  if (is_singular(a) || is_singular(b)) {
-    r.note = "a singular placement leaves no half-space";
-    return r;
-  }
+  if (is_singular(a) || is_singular(b)) return undecided("a singular placement leaves no half-space");
   const auto room = room_between(a, motion_a, b, motion_b);
   if (!room || room->start <= 0) return hit_between(0, 0, "overlap at the start");
   const Vec3 turn_a = visible_turn(a, motion_a.angular), turn_b = visible_turn(b, motion_b.angular);
   if (turn_a != turn_b)
     return hit_between(0, std::numeric_limits<double>::denorm_min(), "they face each other only at the start");
-  if (!turn_a.isZero(0)) {
-    r.note = "two half-spaces that turn alike are not judged in motion";
-    return r;
-  }
+  if (!turn_a.isZero(0)) return undecided("two half-spaces that turn alike are not judged in motion");
   const Rational end = room->start + room->rate;
-  if (end > 0) {
-    r.verdict = TimeTruth::Verdict::none;
-    r.t_lo = 1;
-    r.least_gap = scaled(std::min(room->start, end), room->normal);
-    return r;
-  }
+  if (end > 0) return apart_throughout(scaled(std::min(room->start, end), room->normal));
   const Rational t = room->start / -room->rate;
   const double lo = below(t);
   return hit_between(lo, exact(lo) == t ? lo : std::nextafter(lo, infinity), "");
