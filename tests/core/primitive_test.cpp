@@ -14,6 +14,7 @@
 
 using namespace touchstone;
 using namespace touchstone::primitives;
+using namespace touchstone::test;
 
 namespace {
 
