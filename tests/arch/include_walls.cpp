@@ -119,7 +119,11 @@ TEST_CASE("a concrete engine's headers stay in its own folder", "[arch]") {
 }
 
 TEST_CASE("every source file belongs to a room of the table", "[arch]") {
-  for (const Include& i : all_includes())
+  std::set<std::string> rooms;
+  for (const Include& i : all_includes()) {
+    rooms.insert(room_of(i.file));
     if (!may_include().contains(room_of(i.file)) && i.file != "core/tolerance.h")
       FAIL_CHECK(i.file << " is in no room");
+  }
+  CHECK(rooms.size() >= may_include().size());
 }
