@@ -9,6 +9,7 @@
 #include <thread>
 
 #include "core/base/input_error.h"
+#include "fuzz/ask/evidence.h"
 #include "fuzz/campaign/campaign.h"
 #include "fuzz/campaign/store.h"
 #include "fuzz/judge/judge.h"
@@ -450,6 +451,7 @@ TEST_CASE("a case that shows several findings is stored once and read back compl
   evidence.c.scene.shapes = {Sphere{1}};
   evidence.c.scene.bodies.resize(2);
   evidence.c.queries = {{Question::overlap, 0, 1}};
+  evidence.write = fuzz::evidence_to_json;
   const auto shared = std::make_shared<const fuzz::Evidence>(evidence);
   for (const std::string fault : {"missed", "ghost", "crashed"}) {
     fuzz::Finding f;

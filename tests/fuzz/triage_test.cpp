@@ -153,7 +153,7 @@ TEST_CASE("a finding that shows only sometimes is flaky, not gone", "[triage]") 
   CHECK(flaky.shown == 1);
   CHECK(flaky.asked == asks_before_gone);
   CHECK(flaky.finding.expired.empty());
-  CHECK(reports::triage_text({flaky}).find("shown in 1 of 5 times asked") != std::string::npos);
+  CHECK(reports::triage_text({flaky}).find("shown in 1 of 5 runs") != std::string::npos);
   CHECK(night({}, 1).standing == Standing::still);
   CHECK(night({}, 0).standing == Standing::gone);
 }
