@@ -91,19 +91,20 @@ void draw(const PrimitiveRun& run, const PrimitiveOptions& options, fuzz::Primit
 }
 
 void print_row(std::string_view source, std::string_view kind, const fuzz::PrimitiveTally& t) {
-  fmt::print("{:<29.29} {:<11} {:>7} {:>6} {:>3} {:>3} {:>3} {:>4} {:>6} {:>6}\n", source, kind, t.queries, t.hits,
+  fmt::print("{:<22.22} {:<11} {:>7} {:>5} {:>3} {:>3} {:>4} {:>4} {:>6} {:>6}\n", source, kind, t.queries, t.hits,
              t.missed, t.ghost, t.late, t.failed, reports::nanoseconds(t.time.quantile(0.5)),
              reports::nanoseconds(t.time.quantile(0.99)));
 }
 
 void print_text(const fuzz::PrimitiveTallies& all, const fuzz::PrimitiveTally& sum) {
-  fmt::print("{:<29} {:<11} {:>7} {:>6} {:>3} {:>3} {:>3} {:>4} {:>6} {:>6}\n", "source", "kind", "queries", "hits",
+  fmt::print("{:<22} {:<11} {:>7} {:>5} {:>3} {:>3} {:>4} {:>4} {:>6} {:>6}\n", "source", "kind", "queries", "hits",
              "FN", "FP", "late", "fail", "ns", "p99");
   for (const auto& [key, t] : all) print_row(key.first, key.second, t);
   print_row("all", "", sum);
   fmt::print(
-      "\nFN: a contact that the core denies. FP: a contact that it invents. late: a time after the first\n"
-      "contact. ns: median time of one query. Truth is decided in exact arithmetic.\n");
+      "\nFN: a contact that the core misses. FP: a contact that does not exist. late: a\n"
+      "time after the first contact. ns: median time of one query. The referee decides\n"
+      "every query in exact arithmetic.\n");
   if (sum.source_wrong > 0)
     fmt::print("{} verdicts stated in the files are not the exact ones.\n", sum.source_wrong);
   fmt::print("core: {} of {} queries wrong\n", sum.wrong(), sum.queries);

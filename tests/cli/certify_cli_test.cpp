@@ -239,7 +239,7 @@ TEST_CASE(
     "a plug-in written from the README, outside the tree, against what is installed, gets its certificate",
     "[certify][readme]") {
   const Workspace w("kit");
-  const std::string text = section(read_all(TS_SOURCE_DIR "/README.md"), "## Your own engine", "## Licence");
+  const std::string text = section(read_all(TS_SOURCE_DIR "/README.md"), "## Your own engine", "## The core and the referee");
   const auto cmake = blocks(text, "cmake");
   REQUIRE(cmake.size() == 1);
   std::ofstream(w.dir / "CMakeLists.txt") << cmake[0];
