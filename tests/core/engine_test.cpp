@@ -1,6 +1,10 @@
 // The core behind the engine interface: complete, and no exception escapes.
+#include <array>
+
 #include "core/math/through_float.h"
 #include "oracles/core/core_engine.h"
+#include "oracles/core/kept_engine.h"
+#include "scenarios/random/family.h"
 #include "tests/support/catch.h"
 
 using namespace touchstone;
@@ -53,4 +57,21 @@ TEST_CASE("every number that the float core has received is a float", "[engine][
   CHECK(std::get<Capsule>(*r.shapes.at(3)).radius == through_float(1.0 / 3));
   for (std::size_t i = 0; i < 4; ++i) CHECK(r.bodies.at(i)->translation == through_float(odd * 3));
   CHECK(through_float(odd) != odd);
+}
+
+TEST_CASE("with acceleration structures and caches the core answers what it answers without", "[engine]") {
+  const auto core = make_core_engine();
+  const auto kept = make_kept_engine();
+  std::array<int, question_names.size()> answered{};
+  for (std::uint64_t i = 0; i < 400; ++i) {
+    const Case c = fuzz::make_case(1, i);
+    const auto plain = core->run({&c, 1}), cached = kept->run({&c, 1});
+    for (std::size_t q = 0; q < c.queries.size(); ++q) {
+      INFO(c.id << ' ' << to_string(c.queries[q].question));
+      if (plain[0].answers[q].outcome != Outcome::answered) continue;
+      ++answered[static_cast<std::size_t>(c.queries[q].question)];
+      CHECK(cached[0].answers[q].outcome == Outcome::answered);
+    }
+  }
+  for (const int n : answered) CHECK(n > 5);
 }

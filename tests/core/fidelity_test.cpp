@@ -117,6 +117,17 @@ TEST_CASE("a simpler shape is within the error that it states", "[fidelity]") {
     CHECK(s->error < 0.05);
     CHECK(difference(rng, h, *s) <= s->error + 1e-12);
   }
+  SECTION("a ball of many corners is a ball at any scale") {
+    for (const double scale : {1e-4, 1.0, 1e4}) {
+      CAPTURE(scale);
+      std::vector<Vec3> v = ball_like(rng, 2000).vertices;
+      for (Vec3& x : v) x *= scale;
+      const auto s = simpler_shape(make_hull(v), 0.05 * scale);
+      REQUIRE(s);
+      CHECK(kind_of(s->shape) == ShapeKind::sphere);
+      CHECK(s->error < 0.05 * scale);
+    }
+  }
   SECTION("a box with cut corners is a box, in a frame of its own") {
     const Hull h = chamfered(rng, {0.5, 1, 2}, 1e-3);
     const auto s = simpler_shape(h, 2e-3);

@@ -80,6 +80,25 @@ TEST_CASE("step: a slow body is swept on request, and a rod because of its rotat
   CHECK(x.contacts.empty());
 }
 
+TEST_CASE("step: a bullet hits a slow body where that was at the start of the step", "[step]") {
+  for (int axis = 0; axis < 3; ++axis)
+    for (const double sign : {-1.0, 1.0}) {
+      CAPTURE(axis, sign);
+      const Vec3 e = sign * Vec3::Unit(axis), across = Vec3::Unit((axis + 1) % 3);
+      // The box retreats by 0.2; at its end pose the bullet's path passes 0.1 in front of it.
+      Scene s =
+          two_bodies(Sphere{0.01}, 0.61 * e - 3 * across, {6 * across, Vec3::Zero()}, Box{{0.5, 0.5, 0.5}});
+      s.bodies[1].is_static = false;
+      s.bodies[1].pose.translation = 0.2 * e;
+      s.bodies[1].motion = Motion{-0.2 * e, Vec3::Zero()};
+      StepWorld w(s);
+      const StepReport r = w.step();
+      REQUIRE(r.swept.size() == 1);
+      CHECK(r.swept[0].body == 0);
+      CHECK(reports(r, 0, 1));
+    }
+}
+
 TEST_CASE("step: poses carry over from step to step", "[step]") {
   StepWorld w(two_bodies(Sphere{0.1}, {-1, 0, 0}, {Vec3(0.1, 0, 0), Vec3::Zero()}, Box{{0.05, 1, 1}}));
   int steps = 0;

@@ -154,3 +154,22 @@ TEST_CASE("the hash of a scene depends on every number", "[values][scene]") {
   t.bodies[0].motion = Motion{};
   CHECK(hash(t) != h);
 }
+
+TEST_CASE("the bounding radius of a hull is not less than any vertex's distance, and tight",
+          "[values][shape]") {
+  static_assert(std::numeric_limits<long double>::digits >= 64,
+                "the test needs more digits than the product");
+  Rng rng(31);
+  for (int i = 0; i < 2000; ++i) {
+    std::vector<Vec3> v;
+    for (int k = 0; k < 6; ++k) v.push_back(rng.vector(0.1, 1) * rng.binary_scale(-30, 30));
+    long double farthest = 0;
+    for (const Vec3& x : v) {
+      const auto square = [](double c) { return static_cast<long double>(c) * c; };
+      farthest = std::max(farthest, std::sqrt(square(x.x()) + square(x.y()) + square(x.z())));
+    }
+    const double radius = bounding_radius(make_hull(v));
+    CHECK(static_cast<long double>(radius) >= farthest);
+    CHECK(static_cast<long double>(radius) <= farthest * (1 + 0x1p-48L));
+  }
+}

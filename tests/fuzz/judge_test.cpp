@@ -330,6 +330,24 @@ TEST_CASE("candidate pairs: no tolerance for a missed touching pair; stale pairs
   CHECK(judge_one(c, o).pairs_duplicate == 1);
 }
 
+TEST_CASE("each pair of a chain of bodies is missed when it is not a candidate", "[judge][pairs]") {
+  Case c = spheres(1.5, Question::candidates);
+  c.scene.bodies.resize(6);
+  for (std::size_t i = 0; i < 6; ++i) c.scene.bodies[i].pose.translation.x() = 1.5 * static_cast<double>(i);
+  const std::vector<BodyPair> all{{0, 1}, {1, 2}, {2, 3}, {3, 4}, {4, 5}};
+  Observation o = answered();
+  o.candidate_pairs = {all};
+  CHECK(judge_one(c, o).right());
+  for (std::size_t missing = 0; missing < all.size(); ++missing) {
+    o.candidate_pairs = {all};
+    o.candidate_pairs[0].erase(o.candidate_pairs[0].begin() + static_cast<std::ptrdiff_t>(missing));
+    const Judgement j = judge_one(c, o);
+    REQUIRE(j.faults.size() == 1);
+    CHECK(j.faults[0].fault == Fault::missed);
+    CHECK(BodyPair(j.faults[0].a, j.faults[0].b) == all[missing]);
+  }
+}
+
 namespace {
 
 // A unit ball and the one triangle below its centre; `below` 1: they touch.
