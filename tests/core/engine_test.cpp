@@ -1,9 +1,11 @@
 // The core behind the engine interface: complete, and no exception escapes.
 #include <array>
 
+#include "core/broad/catalog.h"
 #include "core/math/through_float.h"
 #include "oracles/core/core_engine.h"
 #include "oracles/core/kept_engine.h"
+#include "oracles/core/native.h"
 #include "scenarios/random/family.h"
 #include "tests/support/catch.h"
 
@@ -74,4 +76,59 @@ TEST_CASE("with acceleration structures and caches the core answers what it answ
     }
   }
   for (const int n : answered) CHECK(n > 5);
+}
+
+TEST_CASE("extended precision alone agrees with the core", "[engine]") {
+  const auto core = make_core_engine();
+  const auto extended = make_native_core("core-extended");
+  REQUIRE(extended);
+  int overlaps = 0, distances = 0;
+  for (std::uint64_t i = 0; i < 300; ++i) {
+    const Case c = fuzz::make_case(2, i);
+    const auto usual = core->run({&c, 1}), other = extended->run({&c, 1});
+    for (std::size_t q = 0; q < c.queries.size(); ++q) {
+      const Observation &x = usual[0].answers[q], &y = other[0].answers[q];
+      if (x.outcome != Outcome::answered || y.outcome != Outcome::answered) continue;
+      INFO(c.id << ' ' << to_string(c.queries[q].question));
+      if (c.queries[q].question == Question::overlap) {
+        ++overlaps;
+        CHECK(x.overlap == y.overlap);
+      }
+      if (c.queries[q].question == Question::distance) {
+        ++distances;
+        REQUIRE(y.distance);
+        CHECK(std::abs(*x.distance - *y.distance) <=
+              0x1p-40 * scale_of_pair(c.scene, c.queries[q].a, c.queries[q].b));
+      }
+    }
+  }
+  CHECK(overlaps > 50);
+  CHECK(distances > 50);
+}
+
+TEST_CASE("every broad phase of the catalog reports the core's pairs in scripts, moved alone or together",
+          "[engine]") {
+  const auto core = make_core_engine();
+  std::size_t single_moves = 0, several_moves = 0;
+  for (const broad::CatalogRow& row : broad::catalog) {
+    const auto phase = make_native_core(native_name(row.name, BroadBoxes::bodies));
+    INFO(row.name);
+    REQUIRE(phase);
+    for (std::uint64_t i = 0; i < 60; ++i) {
+      Case c = fuzz::make_case(3, i, "script");
+      c.queries = {{Question::candidates, -1, -1}};
+      std::size_t moves = 0;
+      for (const Step& s : c.scene.script) {
+        moves = s.op == Step::Op::move ? moves + 1 : 0;
+        single_moves += moves == 1;
+        several_moves += moves > 1;
+      }
+      const auto usual = core->run({&c, 1}), other = phase->run({&c, 1});
+      INFO(c.id);
+      REQUIRE(usual[0].answers[0].outcome == Outcome::answered);
+      CHECK(other[0].answers[0].candidate_pairs == usual[0].answers[0].candidate_pairs);
+    }
+  }
+  CHECK(single_moves > 100);
+  CHECK(several_moves > 100);
 }

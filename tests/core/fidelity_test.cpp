@@ -147,6 +147,8 @@ TEST_CASE("a simpler shape is within the error that it states", "[fidelity]") {
       const auto* hull = std::get_if<Hull>(&s->shape);
       REQUIRE(hull);
       CHECK(hull->vertices.size() < before);
+      // Only the farthest vertex left is taken: 221 of 300 when this was written.
+      if (allowed == 1e-2) CHECK(hull->vertices.size() <= 225);
       CHECK(s->error <= allowed);
       CHECK(difference(rng, h, *s) <= s->error + 1e-12);
       before = hull->vertices.size();
