@@ -1,6 +1,7 @@
 // Relations find what the referee cannot see, and never accuse an answer that the definition accepts.
 #include <cstdio>
 #include <filesystem>
+#include <limits>
 
 #include "fuzz/campaign/campaign.h"
 #include "fuzz/judge/exact_map.h"
@@ -184,4 +185,36 @@ TEST_CASE("derived cases stay within the range of doubles, or are not asked", "[
   CHECK(!fuzz::is_within_numbers(far, beyond));
   beyond.bodies[1].pose.translation = {fuzz::infinity, 0, 0};
   CHECK(!fuzz::is_within_numbers(beyond, beyond));
+}
+
+TEST_CASE("a pair is pushed apart only by a complete claim of an overlap", "[relations]") {
+  Case c;
+  c.scene.shapes = {Box{{1, 1, 1}}};
+  c.scene.bodies.resize(2);
+  c.scene.bodies[1].pose.translation = {1.5, 0, 0};
+  c.queries = {{Question::contact, 0, 1}};
+  Observation complete;
+  complete.outcome = Outcome::answered;
+  complete.overlap = true;
+  complete.normal = Vec3(1, 0, 0);
+  complete.depth = 0.5;
+  const auto pushed = [&](const Observation& o) {
+    const CaseObservations base{{}, {o}};
+    const EngineCard card{"test", "", "", "", 0x1p-53, 64, "a page"};
+    return fuzz::derive_push({c, card, base}).size();
+  };
+  CHECK(pushed(complete) == 1);
+  using Change = void (*)(Observation&);
+  const Change changes[] = {[](Observation& o) { o.overlap.reset(); },
+                            [](Observation& o) { o.overlap = false; },
+                            [](Observation& o) { o.normal.reset(); },
+                            [](Observation& o) { o.depth.reset(); },
+                            [](Observation& o) { o.depth = std::numeric_limits<double>::infinity(); },
+                            [](Observation& o) { o.normal = Vec3::Zero(); },
+                            [](Observation& o) { o.outcome = Outcome::not_converged; }};
+  for (const Change change : changes) {
+    Observation o = complete;
+    change(o);
+    CHECK(pushed(o) == 0);
+  }
 }
