@@ -7,10 +7,12 @@
 #include "fuzz/ask/evidence.h"
 #include "fuzz/campaign/merge.h"
 #include "fuzz/campaign/store.h"
+#include "fuzz/shrink/measure.h"
 #include "fuzz/triage/triage.h"
 #include "oracles/abi/protocol.h"
 #include "oracles/checker/checker.h"
 #include "oracles/referee/motion/impact_certificate.h"
+#include "oracles/referee/motion/primitive_motion.h"
 #include "reports/plan/course.h"
 #include "reports/plan/fidelity_json.h"
 #include "reports/record/broad_certificate.h"
@@ -23,15 +25,15 @@
 #include "reports/text/findings_columns.h"
 #include "reports/text/text.h"
 #include "reports/text/triage_text.h"
+#include "scenarios/codec/card_codec.h"
 #include "scenarios/codec/case_codec.h"
 #include "scenarios/codec/certificate_codec.h"
 #include "scenarios/codec/input_file.h"
 #include "scenarios/codec/json_file.h"
 #include "scenarios/codec/scene_codec.h"
+#include "scenarios/import/ccd_queries.h"
 #include "scenarios/import/mesh_import.h"
 #include "scenarios/import/real_scene.h"
-#include "scenarios/codec/card_codec.h"
-#include "fuzz/shrink/measure.h"
 
 namespace touchstone::test {
 namespace {
@@ -193,6 +195,11 @@ void read_recording(const fs::path& d) {
   }
 }
 
+void read_queries(const fs::path& d) {
+  for (const CcdQuery& q : load_ccd_file(d / "queries.csv", true))
+    referee::judge_primitive_motion(referee::PrimitivePair::vertex_face, q.start, q.end);
+}
+
 void read_card(const fs::path& d) try {
   to_json_text(card_from_json(read_file(d / "card.json")));
 } catch (const InputError& e) {
@@ -255,6 +262,13 @@ constexpr const char* recorded =
     "shape 0 hull 5\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n1 1 1\nshape 1 box 0.5 0.5 0.5\n"
     "body 0 dynamic a 1\ngeom 0 0 0 0 0 0 0 1\nbody 1 dynamic b 1\ngeom 1 0 0 0 0 0 0 1\n"
     "body 2 static c 1 0.5 0.5 0 0 0 0 1\ngeom 1 0 0 0 0 0 0 1\nignore 0 1\nend\n";
+
+// A vertex that crosses a triangle, and one that passes it by.
+constexpr const char* queries =
+    "1,4,1,4,1,1,1\n0,1,0,1,0,1,1\n1,1,0,1,0,1,1\n0,1,1,1,0,1,1\n"
+    "1,4,1,4,-1,1,1\n0,1,0,1,0,1,1\n1,1,0,1,0,1,1\n0,1,1,1,0,1,1\n"
+    "3,1,3,1,1,1,0\n0,1,0,1,0,1,0\n1,1,0,1,0,1,0\n0,1,1,1,0,1,0\n"
+    "3,1,3,1,-1,1,0\n0,1,0,1,0,1,0\n1,1,0,1,0,1,0\n0,1,1,1,0,1,0\n";
 
 constexpr const char* moving =
     R"({"touchstone_case": 1, "scene": {"touchstone_scene": 1, "shapes": [{"type": "sphere", "radius": 0.5},
@@ -383,6 +397,7 @@ const std::vector<FileReader>& file_readers() {
       {"ledger", {"ledger.db"}, read_ledger},
       {"ledger, written", {"ledger.db"}, write_ledger},
       {"recording", {"recording/scene.txt", "recording/frames.npy", "recording/frames.csv"}, read_recording},
+      {"queries of deforming primitives", {"queries.csv"}, read_queries},
       {"card", {"card.json"}, read_card},
       {"frames of a worker", {"frames.bin"}, read_frames},
       {"mesh, OBJ", {"mesh.obj"}, read_mesh<'o'>},
@@ -395,6 +410,7 @@ void write_plain_originals(const fs::path& d) {
   write_file(d / "recording/scene.txt", recorded);
   write_file(d / "recording/frames.npy", npy());
   write_file(d / "recording/frames.csv", "frame,segment,kind\n0,0,a\n1,0,a\n2,0,a\n3,1,b\n");
+  write_file(d / "queries.csv", queries);
   write_file(d / "moving.json", moving);
   write_file(d / "odd.json", odd);
   write_json(d / "scene.json", Json::parse(moving)["scene"]);
