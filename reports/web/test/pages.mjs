@@ -106,7 +106,7 @@ for (const name of ["case.html", "crowd.html", "motion.html", "report.html", "ma
   const expected = Object.entries(d.queries[q].engines).filter(([, e]) => e.answer.outcome !== "unsupported");
   check("the table has every engine that answers", shown.length === expected.length && shown.length > 0);
   check("the table says who is wrong", expected.every(([n, e]) => shown.find(([m]) => m === n)[1].includes("WRONG") === (e.faults.length > 0 && e.answer.outcome === "answered")));
-  check("the command replays", (await page.textContent(".command code")).startsWith("./touchstone replay "));
+  check("the command replays", /^\S*touchstone replay /.test(await page.textContent(".command code")));
   check("the certificate is drawn", /point|plane/.test(await page.evaluate(() => document.body.dataset.drawn)));
   const before = await picture(page);
   await page.focus("#view canvas");
@@ -303,7 +303,7 @@ for (const name of ["certified.html", "refuted.html"]) {
   const scripts = await page.$$eval(".refutation a[download]", (a) => a.map((x) => JSON.parse(decodeURIComponent(x.href.replace("data:application/json,", "")))));
   const faults = await page.$$eval("tr[data-fault]", (t) => t.map((x) => x.dataset.fault));
   check(`${name} lists every fault`, faults.join() === c.faults.map((f) => `${f.fault}/${f.kind}/${f.evidence}`).join() && (faults.length > 0) === name.startsWith("refuted"));
-  check(`${name} offers no program where there is no writer`, !(await page.evaluate(() => document.body.textContent)).includes("touchstone reproduce"));
+  check(`${name} offers no program where there is no writer`, !(await page.evaluate(() => document.body.innerText)).includes("touchstone reproduce"));
   check(`${name} hands out what refutes it`, JSON.stringify(scripts) === JSON.stringify(c.refutations.map((r) => r.script)) && (scripts.length > 0) === name.startsWith("refuted"));
   await page.close();
 }
