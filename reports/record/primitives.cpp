@@ -2,6 +2,18 @@
 
 namespace touchstone::fuzz {
 
+void PrimitiveTally::merge(const PrimitiveTally& o) {
+  queries += o.queries;
+  hits += o.hits;
+  missed += o.missed;
+  ghost += o.ghost;
+  late += o.late;
+  failed += o.failed;
+  source_wrong += o.source_wrong;
+  not_judged += o.not_judged;
+  time.merge(o.time);
+}
+
 Json to_json(const PrimitiveTallies& tallies) {
   Json rows = Json::array();
   for (const auto& [key, t] : tallies)
@@ -13,6 +25,7 @@ Json to_json(const PrimitiveTallies& tallies) {
                     {"ghost", t.ghost},
                     {"late", t.late},
                     {"failed", t.failed},
+                    {"not_judged", t.not_judged},
                     {"source_wrong", t.source_wrong},
                     {"median_ns", t.time.quantile(0.5)},
                     {"p99_ns", t.time.quantile(0.99)}});

@@ -18,7 +18,10 @@ struct PrimitiveTally {
   std::uint64_t failed = 0;                      // no answer
   std::uint64_t source_wrong = 0;                // the file's own verdict is not the exact one
   TimeHistogram time;                            // of one query; never hashed
+  /// Contacts that do not exist, reported by a core that was allowed a tolerance: neither right nor wrong.
+  std::uint64_t not_judged = 0;
   std::uint64_t wrong() const { return missed + ghost + late + failed; }
+  void merge(const PrimitiveTally& o);
 };
 
 /// By source (a folder of published queries, or "random") and kind ("vertex-face", "edge-edge").

@@ -73,6 +73,8 @@ TEST_CASE("what is no query is refused with its place", "[primitives]") {
   const Workspace w("primitives-refused");
   CHECK(w.touchstone("primitives").code == 2);
   CHECK(w.touchstone("primitives absent").code == 2);
+  for (const std::string tolerance : {"nan", "inf", "-1", "0", "wide"})
+    CHECK(w.touchstone("primitives --random 10 --tolerance " + tolerance).code == 2);
   w.write("loose.csv", "0,1,0,1,0,1,0\n");
   const Run loose = w.touchstone("primitives loose.csv");
   CHECK(loose.code == 2);
@@ -84,4 +86,20 @@ TEST_CASE("what is no query is refused with its place", "[primitives]") {
   CHECK(damaged.err.find("data.csv:1") != std::string::npos);
   fs::create_directories(w.dir / "empty");
   CHECK(w.touchstone("primitives empty").code == 2);
+}
+
+TEST_CASE("contacts that a tolerance allows are not judged, and are counted", "[primitives]") {
+  const Workspace w("primitives-tolerance");
+  const Run r = w.touchstone("primitives --json --random 400 --seed 5 --tolerance 0.1");
+  CHECK(r.code == 0);
+  std::uint64_t open = 0;
+  const auto document = nlohmann::json::parse(r.out);
+  for (const auto& row : document.at("primitives")) {
+    open += row.at("not_judged").get<std::uint64_t>();
+    CHECK(row.at("ghost") == 0);
+    CHECK(row.at("missed") == 0);
+  }
+  CHECK(open > 0);
+  const Run text = w.touchstone("primitives --random 400 --seed 5 --tolerance 0.1");
+  CHECK(text.out.find(std::to_string(open) + " contacts that do not exist") != std::string::npos);
 }
