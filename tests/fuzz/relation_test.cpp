@@ -218,3 +218,29 @@ TEST_CASE("a pair is pushed apart only by a complete claim of an overlap", "[rel
     CHECK(pushed(o) == 0);
   }
 }
+
+TEST_CASE("only a time within the step is compared with the poses within the step", "[relations]") {
+  Case c;
+  c.scene.shapes = {Sphere{1}};
+  c.scene.bodies.resize(2);
+  c.scene.bodies[1].pose.translation = {4, 0, 0};
+  c.scene.bodies[1].motion = Motion{{-4, 0, 0}, Vec3::Zero()};
+  c.queries = {{Question::time_of_impact, 0, 1}};
+  const EngineCard card{"test", "", "", "", 0x1p-53, 64, "a page"};
+  const auto derived_from = [&](double toi) {
+    Observation o;
+    o.outcome = Outcome::answered;
+    o.toi = toi;
+    const CaseObservations base{{}, {o}};
+    return fuzz::derive_step({c, card, base});
+  };
+  // The spheres meet at 0.5: nothing follows about the poses after that, and nine are probed.
+  const auto derived = derived_from(0.5);
+  REQUIRE(derived.size() == 6);
+  for (const fuzz::Derived& d : derived) CHECK(d.c.scene.bodies[1].pose.translation.x() >= 2);
+  for (const double outside : {-0.5, 1.5, -std::numeric_limits<double>::infinity(), fuzz::infinity,
+                               std::numeric_limits<double>::quiet_NaN()}) {
+    INFO(outside);
+    CHECK(derived_from(outside).empty());
+  }
+}
