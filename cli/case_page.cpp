@@ -3,7 +3,7 @@
 #include <filesystem>
 #include <set>
 
-#include "cli/asked_engines.h"
+#include "cli/chosen_engines.h"
 #include "cli/command.h"
 #include "cli/replay_text.h"
 #include "core/base/input_error.h"

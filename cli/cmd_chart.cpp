@@ -6,8 +6,8 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
-#include "cli/asked_engines.h"
 #include "cli/broad_subject.h"
+#include "cli/chosen_engines.h"
 #include "cli/command.h"
 #include "cli/engine_catalog.h"
 #include "cli/pages.h"
@@ -86,9 +86,9 @@ ChartEngines chart_engines(const ChartOptions& o) {
                                     [&](const EnginePtr& e) { return e->card().name == o.choice.subject; });
   EngineChoice choice = o.choice;
   if (is_broad) choice.subject = engine_names(o.choice.engines)[0];  // any engine that is queried anyway
-  const AskedEngines asked = asked_engines(choice, o.limits);
-  r.pairs = pair_engines(o, asked.names);
-  r.subject = is_broad ? o.choice.subject : asked.subject;
+  const ChosenEngines chosen = chosen_engines(choice, o.limits);
+  r.pairs = pair_engines(o, chosen.names);
+  r.subject = is_broad ? o.choice.subject : chosen.subject;
   return r;
 }
 
@@ -96,10 +96,10 @@ fuzz::Chart measured(const ChartOptions& o, std::string& subject) {
   const bool live = isatty(2) == 1;
   // Set before any engine is made, because its worker inherits it.
   setenv(measure_variable, std::to_string(o.measure).c_str(), 1);
-  const ChartEngines asked = chart_engines(o);
-  subject = asked.subject;
+  const ChartEngines chosen = chart_engines(o);
+  subject = chosen.subject;
   fuzz::Chart chart = fuzz::measure_chart(o.quick ? fuzz::quick_chart() : fuzz::full_chart(), o.seed,
-                                          asked.pairs, asked.broad, [live](const std::string& what) {
+                                          chosen.pairs, chosen.broad, [live](const std::string& what) {
                                             if (live) fmt::print(stderr, "\r\033[K{}", what);
                                           });
   if (live) fmt::print(stderr, "\r\033[K");

@@ -7,7 +7,7 @@
 #include <set>
 #include <thread>
 
-#include "cli/asked_engines.h"
+#include "cli/chosen_engines.h"
 #include "cli/command.h"
 #include "cli/judged_by.h"
 #include "cli/stop_signals.h"
@@ -138,9 +138,9 @@ int verdict(const fuzz::CampaignConfig& c, const fuzz::CampaignResult& r, bool j
 
 int run(FuzzOptions& o) {
   take_shard(o.shard, o.config);
-  const AskedEngines asked = asked_engines(o.choice, o.limits);
-  o.config.engines = asked.names;
-  o.config.subject = asked.subject;
+  const ChosenEngines chosen = chosen_engines(o.choice, o.limits);
+  o.config.engines = chosen.names;
+  o.config.subject = chosen.subject;
   if (!o.config.error.empty()) length_from_text(o.config.error);  // refuses a bad length at once
   if (o.cases > 0) o.config.cases = o.cases;
   if (o.minutes > 0) o.config.minutes = o.minutes;

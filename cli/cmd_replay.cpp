@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "cli/asked_engines.h"
 #include "cli/case_argument.h"
+#include "cli/chosen_engines.h"
 #include "cli/command.h"
 #include "cli/judged_by.h"
 #include "cli/replay_text.h"
@@ -196,7 +196,7 @@ void replay(const ReplayOptions& o, const Asked& asked, const std::string& path,
 }
 
 int run(const ReplayOptions& o) {
-  const AskedEngines chosen = asked_engines(o.choice, o.limits);
+  const ChosenEngines chosen = chosen_engines(o.choice, o.limits);
   const Asked asked{judged_by(make_engines(chosen.names, o.limits), o.error), chosen.subject};
   Count count;
   fuzz::Json json = fuzz::Json::array();

@@ -1,7 +1,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
-#include "cli/asked_engines.h"
+#include "cli/chosen_engines.h"
 #include "cli/command.h"
 #include "cli/pages.h"
 #include "fuzz/campaign/store.h"
@@ -38,9 +38,9 @@ int verdict(const fuzz::Stability& s, const std::string& subject, bool json) {
 
 int run(const StabilityOptions& o) {
   const bool live = isatty(2) == 1;
-  const AskedEngines asked = asked_engines(o.choice, o.limits);
+  const ChosenEngines chosen = chosen_engines(o.choice, o.limits);
   fuzz::make_directory(o.out);  // fails before half an hour of work, not after it
-  const std::vector<EnginePtr> engines = make_engines(asked.names, o.limits);
+  const std::vector<EnginePtr> engines = make_engines(chosen.names, o.limits);
   fuzz::Stability s =
       fuzz::climb(o.ladder, o.seed, o.quick ? 12 : 100, engines, [live](const std::string& what) {
         if (live) fmt::print(stderr, "\r\033[K{}", what);
@@ -49,7 +49,7 @@ int run(const StabilityOptions& o) {
   s.scope = o.quick ? "quick" : "full";
   write_result("stability", o.out, fuzz::to_json(s).dump(), fuzz::to_csv(s), reports::stability_text(s),
                o.json);
-  return verdict(s, asked.subject, o.json);
+  return verdict(s, chosen.subject, o.json);
 }
 
 }  // namespace

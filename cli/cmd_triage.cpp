@@ -11,7 +11,7 @@
 #include <map>
 #include <set>
 
-#include "cli/asked_engines.h"
+#include "cli/chosen_engines.h"
 #include "cli/command.h"
 #include "cli/judged_by.h"
 #include "cli/output_file.h"

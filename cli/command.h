@@ -1,11 +1,11 @@
-// A subcommand: one row in commands() and one file cmd_<name>.cpp, which declares its options on the app it
-// is given and returns the function that runs it. Exit codes: 0 clean, 1 the subject was found wrong, 2 bad
-// usage or input, 3 the run failed or proved nothing.
+// A subcommand: one file cmd_<name>.cpp, and its declaration and row here. The file declares its options on
+// the app it is given and returns the function that runs it. Exit codes: 0 clean, 1 the subject was found
+// wrong, 2 bad usage or input, 3 the run failed or proved nothing.
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <array>
 #include <functional>
-#include <span>
 #include <string>
 #include <string_view>
 
@@ -17,8 +17,6 @@ struct Command {
   std::string_view name, line;
   Run (*declare)(CLI::App& app);
 };
-
-std::span<const Command> commands();
 
 /// The program's name as it was called, quoted for the shell: for printed commands. main() sets it.
 void set_program_name(std::string name);
@@ -50,5 +48,27 @@ Run declare_bisect(CLI::App& app);
 Run declare_merge(CLI::App& app);
 Run declare_triage(CLI::App& app);
 Run declare_view(CLI::App& app);
+
+/// In the order of --help.
+inline constexpr auto commands = std::to_array<Command>({
+    {"fuzz", "run a campaign of random, refereed cases", declare_fuzz},
+    {"replay", "show every engine's answer to stored cases", declare_replay},
+    {"shrink", "find the smallest case that shows the same finding", declare_shrink},
+    {"reproduce", "write a finding as a program against the engine", declare_reproduce},
+    {"bisect", "find what a finding depends on", declare_bisect},
+    {"triage", "compare findings with the ledger of known ones", declare_triage},
+    {"plan", "choose the cheapest model a scene can be run with", declare_plan},
+    {"merge", "merge the shards of a campaign, or ledgers", declare_merge},
+    {"report", "summarise a campaign as text and as a page", declare_report},
+    {"view", "write a page that shows a case or its broad phase", declare_view},
+    {"certify", "test whether a broad phase ever loses a pair", declare_certify},
+    {"check", "verify a stored certificate in exact arithmetic", declare_check},
+    {"chart", "measure the speed and accuracy of every engine", declare_chart},
+    {"stability", "find where degeneracy makes each engine fail", declare_stability},
+    {"primitives", "check the core on deforming primitives", declare_primitives},
+    {"engines", "list engines, versions, settings and tolerances", declare_engines},
+    {"families", "list the families of random cases", declare_families},
+    {"scenarios", "list the hand-built scenarios, or write one", declare_scenarios},
+});
 
 }  // namespace touchstone::cli

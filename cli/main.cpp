@@ -23,27 +23,6 @@
 namespace touchstone::cli {
 namespace {
 
-constexpr Command table[] = {
-    {"fuzz", "run a campaign of random, refereed cases", declare_fuzz},
-    {"replay", "show every engine's answer to stored cases", declare_replay},
-    {"shrink", "find the smallest case that shows the same finding", declare_shrink},
-    {"reproduce", "write a finding as a program against the engine", declare_reproduce},
-    {"bisect", "find what a finding depends on", declare_bisect},
-    {"triage", "compare findings with the ledger of known ones", declare_triage},
-    {"plan", "choose the cheapest model a scene can be run with", declare_plan},
-    {"merge", "merge the shards of a campaign, or ledgers", declare_merge},
-    {"report", "summarise a campaign as text and as a page", declare_report},
-    {"view", "write a page that shows a case or its broad phase", declare_view},
-    {"certify", "test whether a broad phase ever loses a pair", declare_certify},
-    {"check", "verify a stored certificate in exact arithmetic", declare_check},
-    {"chart", "measure the speed and accuracy of every engine", declare_chart},
-    {"stability", "find where degeneracy makes each engine fail", declare_stability},
-    {"primitives", "check the core on deforming primitives", declare_primitives},
-    {"engines", "list engines, versions, settings and tolerances", declare_engines},
-    {"families", "list the families of random cases", declare_families},
-    {"scenarios", "list the hand-built scenarios, or write one", declare_scenarios},
-};
-
 // Wraps descriptions at 80 columns, which CLI11 does not do.
 class HelpFormatter : public CLI::Formatter {
  public:
@@ -57,7 +36,7 @@ class HelpFormatter : public CLI::Formatter {
 void refuse_unknown_command(const std::string& word) {
   if (word.empty() || word[0] == '-') return;
   std::vector<std::string> known;
-  for (const Command& c : commands()) known.emplace_back(c.name);
+  for (const Command& c : commands) known.emplace_back(c.name);
   if (std::find(known.begin(), known.end(), word) != known.end()) return;
   const std::string near = did_you_mean(word, known);
   throw InputError(word, "unknown command" + (near.empty() ? "; --help lists the commands" : near));
@@ -73,7 +52,7 @@ int run(int argc, char** argv) {
       "Exit codes: 0 clean, 1 subject found wrong, 2 bad usage or input,\n"
       "3 run failed or proved nothing, 125 cannot tell (bisect commit).");
   std::vector<std::pair<CLI::App*, Run>> runs;
-  for (const Command& c : commands()) {
+  for (const Command& c : commands) {
     CLI::App* sub = app.add_subcommand(std::string(c.name), std::string(c.line));
     runs.emplace_back(sub, c.declare(*sub));
   }
@@ -89,8 +68,6 @@ int run(int argc, char** argv) {
 }
 
 }  // namespace
-
-std::span<const Command> commands() { return table; }
 
 }  // namespace touchstone::cli
 

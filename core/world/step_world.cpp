@@ -59,7 +59,7 @@ StepWorld::StepWorld(Scene scene, Fidelity fidelity)
       fidelity_(std::move(fidelity)),
       phase_(broad::make_broad_phase(fidelity_.broad_phase)) {
   if (!phase_) throw std::invalid_argument("unknown broad phase: " + fidelity_.broad_phase);
-  shapes_ = seen_shapes(scene_, fidelity_);
+  shapes_ = planned_shapes(scene_, fidelity_);
   const std::size_t n = scene_.bodies.size();
   by_hand_.assign(n, 0);
   moved_.assign(n, 1);
@@ -70,14 +70,16 @@ StepWorld::StepWorld(Scene scene, Fidelity fidelity)
     extent_.push_back(of_shape[at(b.shape)]);
     box_size_.push_back(broad::box_size(scene_.shape_of(static_cast<int>(i))));
     end_.push_back(b.pose);
-    seen_.push_back(seen_body(seen(static_cast<int>(i)), b.pose));
-    end_box_.push_back(seen_box(fidelity_, seen(static_cast<int>(i)), seen_[i]));
+    bodies_.push_back(planned_body(planned_shape(static_cast<int>(i)), b.pose));
+    end_box_.push_back(planned_box(fidelity_, planned_shape(static_cast<int>(i)), bodies_[i]));
     phase_->insert(static_cast<int>(i), end_box_[i],
                    b.is_static ? broad::Mobility::fixed : broad::Mobility::moving);
   }
 }
 
-const SeenShape& StepWorld::seen(int body) const { return shapes_[at(scene_.bodies[at(body)].shape)]; }
+const PlannedShape& StepWorld::planned_shape(int body) const {
+  return shapes_[at(scene_.bodies[at(body)].shape)];
+}
 
 void StepWorld::set(int body, const Pose& start, const Motion& motion) {
   scene_.bodies.at(at(body)).pose = start;
@@ -94,7 +96,7 @@ void StepWorld::accept() {
 Motion StepWorld::motion_of(int body) const { return scene_.bodies[at(body)].motion.value_or(Motion{}); }
 
 const MeshTree* StepWorld::tree_of(int body) const {
-  const MeshTree& tree = seen(body).tree;
+  const MeshTree& tree = planned_shape(body).tree;
   return tree.nodes.empty() ? nullptr : &tree;
 }
 
@@ -106,16 +108,17 @@ void StepWorld::place_at_end() {
     if (!going && !moved_[i]) continue;
     moved_[i] = 0;
     end_[i] = going ? pose_at(b.pose, *b.motion, 1) : b.pose;
-    const SeenShape& shape = seen(static_cast<int>(i));
-    seen_[i] = seen_body(shape, end_[i]);
-    end_box_[i] = seen_box(fidelity_, shape, seen_[i]);
+    const PlannedShape& shape = planned_shape(static_cast<int>(i));
+    bodies_[i] = planned_body(shape, end_[i]);
+    end_box_[i] = planned_box(fidelity_, shape, bodies_[i]);
     updates_.push_back({static_cast<int>(i), end_box_[i]});
   }
   phase_->update(updates_);
 }
 
 ContactAnswer StepWorld::contact_of(int a, int b, PairMemory* memory) const {
-  return contact_seen(fidelity_, seen(a), seen_[at(a)], seen(b), seen_[at(b)], memory);
+  return planned_contact(fidelity_, planned_shape(a), bodies_[at(a)], planned_shape(b), bodies_[at(b)],
+                         memory);
 }
 
 void StepWorld::find_contacts(StepReport& r) {
@@ -172,8 +175,9 @@ std::vector<BodyPair> StepWorld::swept_pairs(const StepReport& r) {
   const auto box_of_other = [&](int i) {
     // Impacts use the original shape, which may extend slightly beyond the simpler one.
     Aabb end = end_box_[at(i)];
-    if (seen(i).simpler) {
-      const double out = seen(i).error() + pose_slack * (seen(i).reach + end_[at(i)].translation.lpNorm<1>());
+    if (planned_shape(i).simpler) {
+      const double out = planned_shape(i).error() +
+                         pose_slack * (planned_shape(i).reach + end_[at(i)].translation.lpNorm<1>());
       end.lo.array() -= out;
       end.hi.array() += out;
     }

@@ -14,7 +14,7 @@
 #include "core/impact/impact.h"
 #include "core/scene/scene.h"
 #include "core/world/fidelity.h"
-#include "core/world/seen.h"
+#include "core/world/planned.h"
 #include "core/world/sweep_criterion.h"
 #include "core/world/world.h"
 
@@ -70,7 +70,7 @@ class StepWorld {
   const Scene& scene() const { return scene_; }
 
  private:
-  const SeenShape& seen(int body) const;
+  const PlannedShape& planned_shape(int body) const;
   void place_at_end();
   ContactAnswer contact_of(int a, int b, PairMemory* memory) const;
   void find_contacts(StepReport& r);
@@ -86,10 +86,10 @@ class StepWorld {
   broad::BroadPhasePtr phase_;
   std::vector<InnerExtent> extent_;  // of each body's shape
   std::vector<double> box_size_;     // of each body's own shape
-  std::vector<SeenShape> shapes_;
+  std::vector<PlannedShape> shapes_;
   std::vector<Pose> end_;
   std::vector<Aabb> end_box_;  // of the shapes used
-  std::vector<SeenBody> seen_;
+  std::vector<PlannedBody> bodies_;
   std::vector<std::pair<broad::IdPair, PairMemory>> memory_;  // by pair of the last step, sorted
   std::vector<char> by_hand_, moved_;
   std::vector<broad::BoxUpdate> updates_;

@@ -1,6 +1,8 @@
-// One check: examines one answer in one frame and adds its faults. Pure.
+// One check: examines one answer in one frame and adds its faults. Pure. To add one: a file in checks/, its
+// declaration and its row here.
 #pragma once
 
+#include <array>
 #include <cmath>
 #include <limits>
 #include <optional>
@@ -61,7 +63,6 @@ struct CheckOutput {
   void frame_matters() { excess = std::numeric_limits<double>::quiet_NaN(); }
 };
 
-// One row per check in judge.cpp; each lives in fuzz/judge/checks/<name>.cpp.
 void check_overlap(const CheckInput& in, CheckOutput& out);
 void check_distance(const CheckInput& in, CheckOutput& out);
 void check_witness(const CheckInput& in, CheckOutput& out);
@@ -71,6 +72,22 @@ void check_time_of_impact(const CheckInput& in, CheckOutput& out);
 void check_candidates(const CheckInput& in, CheckOutput& out);
 void check_scene_contacts(const CheckInput& in, CheckOutput& out);
 void check_swept_candidates(const CheckInput& in, CheckOutput& out);
+
+struct CheckRow {
+  Question question;
+  void (*check)(const CheckInput&, CheckOutput&);
+};
+inline constexpr auto checks = std::to_array<CheckRow>({
+    {Question::overlap, check_overlap},
+    {Question::distance, check_distance},
+    {Question::distance, check_witness},
+    {Question::contact, check_contact},
+    {Question::contact, check_manifold},
+    {Question::time_of_impact, check_time_of_impact},
+    {Question::candidates, check_candidates},
+    {Question::scene_contacts, check_scene_contacts},
+    {Question::swept_candidates, check_swept_candidates},
+});
 
 /// The part of `contact` that scene contacts share: one stated contact of a pair that is not certainly apart
 /// by more than τ. Unstated values are empty.

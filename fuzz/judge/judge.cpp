@@ -12,24 +12,6 @@
 namespace touchstone::fuzz {
 namespace {
 
-struct CheckRow {
-  Question question;
-  void (*check)(const CheckInput&, CheckOutput&);
-};
-
-// A check is one row here, one function in checks/, and one lying engine in tests/fuzz.
-constexpr CheckRow checks[] = {
-    {Question::overlap, check_overlap},
-    {Question::distance, check_distance},
-    {Question::distance, check_witness},
-    {Question::contact, check_contact},
-    {Question::contact, check_manifold},
-    {Question::time_of_impact, check_time_of_impact},
-    {Question::candidates, check_candidates},
-    {Question::scene_contacts, check_scene_contacts},
-    {Question::swept_candidates, check_swept_candidates},
-};
-
 // A tolerance that is not a length is a fault.
 void check_claim(const CheckInput& in, CheckOutput& out) {
   const double c = in.answer.claimed_tolerance;

@@ -47,13 +47,13 @@ PlanSample::PlanSample(const Course& course, const EndPoses& poses,
   const auto order = in_turns(course, candidates, rng, at(candidates_per_pair * pairs));
   // The core's answer only selects the pairs: half overlap if there are enough, the rest are apart.
   const Fidelity plain;
-  const auto shapes = seen_shapes(course.scene, plain);
+  const auto shapes = planned_shapes(course.scene, plain);
   std::vector<Occurrence> picked, apart;
   for (const Occurrence& o : order) {
-    const SeenShape &a = shapes[at(course.scene.bodies[at(o.a)].shape)],
-                    &b = shapes[at(course.scene.bodies[at(o.b)].shape)];
-    const ContactAnswer c = contact_seen(plain, a, seen_body(a, poses[at(o.step)][at(o.a)]), b,
-                                         seen_body(b, poses[at(o.step)][at(o.b)]));
+    const PlannedShape &a = shapes[at(course.scene.bodies[at(o.a)].shape)],
+                       &b = shapes[at(course.scene.bodies[at(o.b)].shape)];
+    const ContactAnswer c = planned_contact(plain, a, planned_body(a, poses[at(o.step)][at(o.a)]), b,
+                                            planned_body(b, poses[at(o.step)][at(o.b)]));
     if (c.outcome == Outcome::unsupported) continue;
     (c.overlap && picked.size() < at(pairs) / 2 ? picked : apart).push_back(o);
   }

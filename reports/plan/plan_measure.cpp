@@ -58,7 +58,7 @@ struct Sample {
 using Kinds = std::pair<ShapeKind, ShapeKind>;  // smaller kind first
 
 // Reservoir sampling: every candidate is equally likely.
-std::map<Kinds, Sample> sample_pairs(const Course& c, const std::vector<SeenShape>& shapes,
+std::map<Kinds, Sample> sample_pairs(const Course& c, const std::vector<PlannedShape>& shapes,
                                      const std::vector<std::vector<BodyPair>>& candidates, Rng& rng) {
   constexpr std::size_t sample_size = 192;
   std::map<Kinds, Sample> samples;
@@ -79,18 +79,21 @@ std::map<Kinds, Sample> sample_pairs(const Course& c, const std::vector<SeenShap
 // The bodies of a sample at their poses, for one set of shapes.
 class Bench {
  public:
-  Bench(const Course& c, const EndPoses& poses, const std::vector<SeenShape>& shapes, const Sample& sample) {
+  Bench(const Course& c, const EndPoses& poses, const std::vector<PlannedShape>& shapes,
+        const Sample& sample) {
     for (const Occurrence& o : sample.pairs) {
-      const auto seen = [&](int i) -> const SeenShape& { return shapes[at(c.scene.bodies[at(i)].shape)]; };
-      pairs_.push_back({&seen(o.a), &seen(o.b), seen_body(seen(o.a), poses[at(o.step)][at(o.a)]),
-                        seen_body(seen(o.b), poses[at(o.step)][at(o.b)])});
+      const auto planned = [&](int i) -> const PlannedShape& {
+        return shapes[at(c.scene.bodies[at(i)].shape)];
+      };
+      pairs_.push_back({&planned(o.a), &planned(o.b), planned_body(planned(o.a), poses[at(o.step)][at(o.a)]),
+                        planned_body(planned(o.b), poses[at(o.step)][at(o.b)])});
     }
   }
 
   // Returns ns per pair. Uses the answers, so that the compiler cannot remove the calls.
   double time(const Fidelity& f) {
     const auto start = thread_cpu_ns();
-    for (const Pair& p : pairs_) contacts_ += contact_seen(f, *p.a, p.at_a, *p.b, p.at_b).overlap;
+    for (const Pair& p : pairs_) contacts_ += planned_contact(f, *p.a, p.at_a, *p.b, p.at_b).overlap;
     return ns_since(start) / static_cast<double>(pairs_.size());
   }
 
@@ -99,7 +102,7 @@ class Bench {
     for (const Pair& p : pairs_) {
       DecidedBy by{};
       double bound = 0;
-      const ContactAnswer c = contact_seen(f, *p.a, p.at_a, *p.b, p.at_b, nullptr, &by, &bound);
+      const ContactAnswer c = planned_contact(f, *p.a, p.at_a, *p.b, p.at_b, nullptr, &by, &bound);
       balls += by == DecidedBy::balls;
       cheap += by == DecidedBy::cheap;
       if (c.outcome == Outcome::answered) r.certified_error = std::max(r.certified_error, bound);
@@ -111,8 +114,8 @@ class Bench {
 
  private:
   struct Pair {
-    const SeenShape *a, *b;
-    SeenBody at_a, at_b;
+    const PlannedShape *a, *b;
+    PlannedBody at_a, at_b;
   };
   std::vector<Pair> pairs_;
   std::uint64_t contacts_ = 0;
@@ -201,7 +204,7 @@ std::vector<PlanPair> choose_methods(const Course& c, const EndPoses& poses,
                                      const std::vector<std::vector<BodyPair>>& candidates, std::uint64_t seed,
                                      int rounds, Fidelity& f) {
   Rng rng(seed);
-  const std::vector<SeenShape> shapes = seen_shapes(c.scene, f);
+  const std::vector<PlannedShape> shapes = planned_shapes(c.scene, f);
   std::vector<PlanPair> pairs;
   for (const auto& [kinds, sample] : sample_pairs(c, shapes, candidates, rng))
     pairs.push_back(choose_method(kinds, sample, Bench(c, poses, shapes, sample), rounds, f));

@@ -1,9 +1,7 @@
 // `certify`, `engines --check` and the plug-in kit as a user meets them.
 #include <algorithm>
-#include <cstdio>
 #include <fstream>
 #include <nlohmann/json.hpp>
-#include <regex>
 
 #include "tests/support/catch.h"
 #include "tests/support/skip.h"
@@ -27,23 +25,6 @@ for line in sys.stdin:
   m = json.loads(line)
   if "scene" in m: scene = m["scene"]; continue
 )" + body;
-}
-
-std::string section(const std::string& text, const std::string& from, const std::string& to) {
-  const auto a = text.find(from), b = text.find(to, a);
-  REQUIRE(a != std::string::npos);
-  return text.substr(a, b - a);
-}
-
-// The fenced blocks of one language, in order.
-std::vector<std::string> blocks(const std::string& text, const std::string& language) {
-  std::vector<std::string> out;
-  const std::string open = "```" + language + "\n";
-  for (auto a = text.find(open); a != std::string::npos; a = text.find(open, a + 1)) {
-    const auto begin = a + open.size();
-    out.push_back(text.substr(begin, text.find("```", begin) - begin));
-  }
-  return out;
 }
 
 }  // namespace
@@ -233,43 +214,4 @@ TEST_CASE("a subject that is too slow is not certified: exit code 3, which optio
   CHECK(r.out.find("0.1 CPU s per question); raise --case-seconds") != std::string::npos);
   CHECK(r.out.find("refuted") == std::string::npos);
   CHECK(std::count(r.out.begin(), r.out.end(), '\n') < 60);
-}
-
-TEST_CASE(
-    "a plug-in written from the README, outside the tree, against what is installed, gets its certificate",
-    "[certify][readme]") {
-  const Workspace w("kit");
-  const std::string text = section(read_all(TS_SOURCE_DIR "/README.md"), "## Your own engine", "## The core and the referee");
-  const auto cmake = blocks(text, "cmake");
-  REQUIRE(cmake.size() == 1);
-  std::ofstream(w.dir / "CMakeLists.txt") << cmake[0];
-  const auto filled = [&](std::string line) {
-    line = std::regex_replace(line, std::regex("build/release"), TS_BINARY_DIR);
-    line = std::regex_replace(line, std::regex("PREFIX(?!_)"), (w.dir / "prefix").string());
-    line = std::regex_replace(line, std::regex(" --limit [0-9]+"), "");
-    if (line.find(" certify ") != std::string::npos) line += " --limit 40";
-    return line;
-  };
-  std::size_t run = 0, certified = 0, left_out = 0;
-  for (const std::string& block : blocks(text, "sh")) {
-    std::istringstream lines(block);
-    for (std::string line; std::getline(lines, line);) {
-      if (line.starts_with("./touchstone")) continue;  // run by the test of the whole README
-      if (line.find("python3") != std::string::npos && !has_command("python3")) {
-        std::printf("left out, python3 is not installed: %s\n", line.c_str());
-        ++left_out;
-        continue;
-      }
-      const Run r = w.run(filled(line));
-      INFO(filled(line) << "\n" << r.out << r.err);
-      CHECK(r.code == 0);
-      ++run;
-      certified += r.out.find("boxes certified, bodies certified") != std::string::npos;
-    }
-  }
-  CHECK(run + left_out == 6);
-  CHECK(certified + left_out == 2);
-  // Without Node there are no pages, and the command says so.
-  CHECK(fs::exists(w.dir / "mine.html") ==
-        fs::exists(TS_BINARY_DIR "/share/touchstone/web/certificate.html"));
 }

@@ -1,16 +1,26 @@
-// Every command line of the README runs. `./touchstone` is replaced by the program itself (its launcher would
-// build it again), `test` is left out (it runs this test), minutes are shortened, and ./libmine.so is
-// replaced by the example plug-in.
+// Every command line of the README and of the guides in docs/ runs. In the README, `./touchstone` is replaced
+// by the program itself (its launcher would build it again), `test` is left out (it runs this test), minutes
+// are shortened, and
+// ./libmine.so and ./libmybroad.so are replaced by the example plug-ins.
 #include <sys/wait.h>
+
+#include <cstdio>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <regex>
+#include <sstream>
 #include <string>
 #include <vector>
 
 #include "tests/support/catch.h"
+#include "tests/support/skip.h"
+#include "tests/support/workspace.h"
 
+using touchstone::test::has_command;
+using touchstone::test::read_all;
+using touchstone::test::Run;
+using touchstone::test::Workspace;
 namespace fs = std::filesystem;
 
 namespace {
@@ -34,6 +44,8 @@ std::string for_test(std::string c) {
   c = std::regex_replace(c, std::regex("--cases [0-9]+"), "--cases 300");
   c = std::regex_replace(c, std::regex(R"(\$\(date \+%Y%m%d\))"), "20261121");  // the same cases on every day
   c = std::regex_replace(c, std::regex(R"(\./libmine\.so)"), TS_BINARY_DIR "/lib/libtouchstone_example.so");
+  c = std::regex_replace(c, std::regex(R"(\./libmybroad\.so)"),
+                         TS_BINARY_DIR "/lib/libtouchstone_example_broad.so");
   c = std::regex_replace(c, std::regex("-o broad.html"), "-o " TS_BINARY_DIR "/readme-broad.html");
   c = std::regex_replace(c, std::regex("-o reproduce.cpp"), "-o " TS_BINARY_DIR "/readme-reproduce.cpp");
   if (c.find(" view ") != std::string::npos && c.find("--broad") == std::string::npos &&
@@ -54,6 +66,75 @@ std::string for_test(std::string c) {
   return c;
 }
 
+// A guide's fenced block. `before`: the last line of text above it.
+struct Block {
+  std::string language, text, before;
+};
+
+std::vector<Block> blocks_of(const fs::path& guide) {
+  std::vector<Block> blocks;
+  std::ifstream in(guide);
+  std::string before;
+  bool inside = false;
+  for (std::string line; std::getline(in, line);) {
+    if (line.starts_with("```")) {
+      inside = !inside;
+      if (inside) blocks.push_back({line.substr(3), "", before});
+      before.clear();
+    } else if (inside) {
+      blocks.back().text += line + "\n";
+    } else if (!line.empty()) {
+      before = line;
+    }
+  }
+  return blocks;
+}
+
+std::vector<std::string> lines_of(const std::string& text) {
+  std::vector<std::string> lines;
+  std::istringstream in(text);
+  for (std::string line; std::getline(in, line);) lines.push_back(line);
+  return lines;
+}
+
+// The line with the paths of this build, and with fewer cases.
+std::string in_workspace(const Workspace& w, std::string line) {
+  line = std::regex_replace(line, std::regex("build/release"), TS_BINARY_DIR);
+  line = std::regex_replace(line, std::regex("PREFIX(?!_)"), (w.dir / "prefix").string());
+  line = std::regex_replace(line, std::regex("--cases [0-9]+"), "--cases 300");
+  line = std::regex_replace(line, std::regex(" --limit [0-9]+"), "");
+  if (line.find(" certify --subject") != std::string::npos) line += " --limit 40";
+  return line;
+}
+
+// Runs a guide's blocks in order in one directory: `sh` is run, `text` lists lines of the output of the block
+// above, and a block below a line such as "`file.c`:" is that file. Returns the number of command lines.
+std::size_t run_guide(const fs::path& guide) {
+  static const std::regex file_name("`([^`/]+)`:");
+  const Workspace w("guide-" + guide.stem().string());
+  std::size_t run = 0;
+  std::string out;
+  for (const Block& block : blocks_of(guide)) {
+    std::smatch m;
+    if (std::regex_match(block.before, m, file_name)) w.write(m[1], block.text);
+    if (block.language == "text")
+      for (const std::string& line : lines_of(block.text)) {
+        INFO(out << "\nshould contain: " << line);
+        CHECK(out.find(line) != std::string::npos);
+      }
+    if (block.language != "sh") continue;
+    out.clear();
+    for (const std::string& line : lines_of(block.text)) {
+      const Run r = w.run(in_workspace(w, line));
+      INFO(line << "\n" << r.out << r.err);
+      CHECK(r.code == 0);
+      out += r.out;
+      ++run;
+    }
+  }
+  return run;
+}
+
 }  // namespace
 
 TEST_CASE("every command line of the README runs", "[readme]") {
@@ -72,4 +153,12 @@ TEST_CASE("every command line of the README runs", "[readme]") {
   fs::remove_all(TS_BINARY_DIR "/readme-out");
   fs::remove_all(TS_BINARY_DIR "/readme-shards");
   CHECK(run >= 6);
+}
+
+TEST_CASE("every command line of the guides runs, and prints what they say", "[readme][optional]") {
+  if (!has_command("python3")) return touchstone::test::skip("python3 is not installed");
+  std::size_t run = 0;
+  for (const auto& entry : fs::directory_iterator(TS_SOURCE_DIR "/docs"))
+    if (entry.path().extension() == ".md") run += run_guide(entry.path());
+  CHECK(run >= 12);
 }

@@ -1,7 +1,7 @@
 // Simpler shapes are within the error that they state, and a world run by a plan is within the plan's error
 // of the referee's truth.
 #include "core/math/rng.h"
-#include "core/world/seen.h"
+#include "core/world/planned.h"
 #include "core/world/step_world.h"
 #include "oracles/referee/referee.h"
 #include "tests/support/catch.h"

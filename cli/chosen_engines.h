@@ -16,7 +16,7 @@ struct EngineChoice {
 /// --engines and --subject.
 void add_engine_choice(CLI::App& app, EngineChoice& to);
 
-struct AskedEngines {
+struct ChosenEngines {
   std::vector<std::string> names;  // as make_engine takes them; the subject is among them
   std::string subject;             // the name on its card, which results use
 };
@@ -24,7 +24,7 @@ struct AskedEngines {
 /// is then queried too. If none is given, it is the only engine queried, else the core if the core is
 /// queried. Throws InputError when there is no such engine, or when several engines without the core leave it
 /// open.
-AskedEngines asked_engines(const EngineChoice& choice, const WorkerLimits& limits);
+ChosenEngines chosen_engines(const EngineChoice& choice, const WorkerLimits& limits);
 
 /// Throws InputError when two of them have the same name: their results could not be told apart.
 std::vector<EnginePtr> make_engines(const std::vector<std::string>& names, const WorkerLimits& limits);

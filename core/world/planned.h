@@ -26,7 +26,7 @@ inline bool balls_apart(const Vec3& a, double radius_a, const Vec3& b, double ra
 
 /// A shape of a scene, or the simpler shape that replaces it, with the data that its queries need. Points
 /// into the scene and the plan.
-struct SeenShape {
+struct PlannedShape {
   const Shape* shape = nullptr;
   const SimplerShape* simpler = nullptr;
   MeshTree tree;    // empty unless the shape is a mesh
@@ -35,24 +35,24 @@ struct SeenShape {
   double reach = 0, size = 0;  // bounding_radius, box_size
   double error() const { return simpler ? simpler->error : 0; }
 };
-std::vector<SeenShape> seen_shapes(const Scene& scene, const Fidelity& fidelity);
+std::vector<PlannedShape> planned_shapes(const Scene& scene, const Fidelity& fidelity);
 
-struct SeenBody {
+struct PlannedBody {
   Pose pose;                     // of the shape used
   Vec3 centre_w = Vec3::Zero();  // centre of its ball, world frame
 };
-SeenBody seen_body(const SeenShape& shape, const Pose& body);
+PlannedBody planned_body(const PlannedShape& shape, const Pose& body);
 
 /// Contains the shape used. The plan chooses the kind of box.
-Aabb seen_box(const Fidelity& fidelity, const SeenShape& shape, const SeenBody& body);
+Aabb planned_box(const Fidelity& fidelity, const PlannedShape& shape, const PlannedBody& body);
 
 /// How a contact was decided. cheap: by the method's arithmetic alone; rest: by float64.
 enum class DecidedBy { balls, cheap, rest };
 
 /// Within fidelity.error of the truth about the original shapes; see Fidelity. `bound`, when given, receives
 /// the proven error, including that of the shapes (0 for balls).
-ContactAnswer contact_seen(const Fidelity& fidelity, const SeenShape& a, const SeenBody& at_a,
-                           const SeenShape& b, const SeenBody& at_b, PairMemory* memory = nullptr,
-                           DecidedBy* decided = nullptr, double* bound = nullptr);
+ContactAnswer planned_contact(const Fidelity& fidelity, const PlannedShape& a, const PlannedBody& at_a,
+                              const PlannedShape& b, const PlannedBody& at_b, PairMemory* memory = nullptr,
+                              DecidedBy* decided = nullptr, double* bound = nullptr);
 
 }  // namespace touchstone

@@ -1,4 +1,4 @@
-#include "core/world/seen.h"
+#include "core/world/planned.h"
 
 #include <cmath>
 
@@ -44,7 +44,7 @@ ContactAnswer contact_by_float(const PlacedShape& a, double reach_a, const Place
   return r;
 }
 
-PlacedShape placed(const SeenShape& s, const SeenBody& at) {
+PlacedShape placed(const PlannedShape& s, const PlannedBody& at) {
   return {s.shape, at.pose, s.tree.nodes.empty() ? nullptr : &s.tree, &s.graph};
 }
 
@@ -63,10 +63,10 @@ BoundingBall bounding_ball(const Shape& shape) {
   return ball;
 }
 
-std::vector<SeenShape> seen_shapes(const Scene& scene, const Fidelity& fidelity) {
-  std::vector<SeenShape> seen(scene.shapes.size());
-  for (std::size_t i = 0; i < seen.size(); ++i) {
-    SeenShape& s = seen[i];
+std::vector<PlannedShape> planned_shapes(const Scene& scene, const Fidelity& fidelity) {
+  std::vector<PlannedShape> planned(scene.shapes.size());
+  for (std::size_t i = 0; i < planned.size(); ++i) {
+    PlannedShape& s = planned[i];
     s.shape = &scene.shapes[i];
     if (i < fidelity.simpler.size() && fidelity.simpler[i]) {
       s.simpler = &*fidelity.simpler[i];
@@ -78,23 +78,23 @@ std::vector<SeenShape> seen_shapes(const Scene& scene, const Fidelity& fidelity)
     s.reach = bounding_radius(*s.shape);
     s.size = broad::box_size(*s.shape);
   }
-  return seen;
+  return planned;
 }
 
-SeenBody seen_body(const SeenShape& shape, const Pose& body) {
-  SeenBody r;
+PlannedBody planned_body(const PlannedShape& shape, const Pose& body) {
+  PlannedBody r;
   r.pose = shape.simpler && shape.simpler->moved() ? placed_in(body, shape.simpler->in_body) : body;
   r.centre_w = shape.ball.middle.isZero(0) ? r.pose.translation : to_transform(r.pose) * shape.ball.middle;
   return r;
 }
 
-Aabb seen_box(const Fidelity& f, const SeenShape& s, const SeenBody& body) {
+Aabb planned_box(const Fidelity& f, const PlannedShape& s, const PlannedBody& body) {
   return f.loose_boxes ? broad::loose_box(*s.shape, body.pose, s.size) : broad::body_box(*s.shape, body.pose);
 }
 
-ContactAnswer contact_seen(const Fidelity& fidelity, const SeenShape& a, const SeenBody& at_a,
-                           const SeenShape& b, const SeenBody& at_b, PairMemory* memory, DecidedBy* decided,
-                           double* bound) {
+ContactAnswer planned_contact(const Fidelity& fidelity, const PlannedShape& a, const PlannedBody& at_a,
+                              const PlannedShape& b, const PlannedBody& at_b, PairMemory* memory,
+                              DecidedBy* decided, double* bound) {
   const auto decide = [&](DecidedBy by, double error) {
     if (decided) *decided = by;
     if (bound) *bound = error;

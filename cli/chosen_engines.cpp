@@ -1,4 +1,4 @@
-#include "cli/asked_engines.h"
+#include "cli/chosen_engines.h"
 
 #include <fmt/format.h>
 
@@ -23,23 +23,23 @@ std::string joined(const Names& names) {
   return text;
 }
 
-std::string subject_by_rule(const Names& asked) {
-  if (asked.size() == 1) return asked[0];
-  if (contains(asked, "core")) return "core";
-  throw InputError("--subject", "which of " + joined(asked) + " decides the exit code? (--subject NAME)");
+std::string subject_by_rule(const Names& chosen) {
+  if (chosen.size() == 1) return chosen[0];
+  if (contains(chosen, "core")) return "core";
+  throw InputError("--subject", "which of " + joined(chosen) + " decides the exit code? (--subject NAME)");
 }
 
-// The plug-in or pipe among `asked` whose card has this name; empty if there is none.
-std::string named_on_card(const std::string& card_name, const Names& asked, const WorkerLimits& limits) {
-  for (const std::string& name : asked)
+// The plug-in or pipe among `chosen` whose card has this name; empty if there is none.
+std::string named_on_card(const std::string& card_name, const Names& chosen, const WorkerLimits& limits) {
+  for (const std::string& name : chosen)
     if (is_foreign(name) && make_engine(name, limits)->card().name == card_name) return name;
   return "";
 }
 
-std::string subject_given(const std::string& subject, const Names& asked, const WorkerLimits& limits) {
-  if (contains(asked, subject)) return subject;
+std::string subject_given(const std::string& subject, const Names& chosen, const WorkerLimits& limits) {
+  if (contains(chosen, subject)) return subject;
   if (!is_foreign(subject) && !is_catalogued(subject))
-    if (const std::string name = named_on_card(subject, asked, limits); !name.empty()) return name;
+    if (const std::string name = named_on_card(subject, chosen, limits); !name.empty()) return name;
   try {
     const Names names = engine_names(subject);
     if (names.size() == 1) return names[0];
@@ -58,8 +58,8 @@ void add_engine_choice(CLI::App& app, EngineChoice& to) {
                  "the engine whose faults decide the exit code (default: the only one queried, or core)");
 }
 
-AskedEngines asked_engines(const EngineChoice& choice, const WorkerLimits& limits) {
-  AskedEngines r;
+ChosenEngines chosen_engines(const EngineChoice& choice, const WorkerLimits& limits) {
+  ChosenEngines r;
   r.names = engine_names(choice.engines);
   const std::string subject =
       choice.subject.empty() ? subject_by_rule(r.names) : subject_given(choice.subject, r.names, limits);
