@@ -1,4 +1,6 @@
 // Integers of any size, and signs at the roots of polynomials.
+#include <cmath>
+
 #include "core/impact/exact_root.h"
 #include "core/math/rng.h"
 #include "tests/support/catch.h"
@@ -84,4 +86,85 @@ TEST_CASE("roots: signs of other polynomials at a root are exact, zero included"
   const DyadicInterval narrow = narrowed(square, twice[0]);
   CHECK(p.sign_at(narrow.lo, narrow.bits) == -1);
   CHECK(p.sign_at(narrow.hi, narrow.bits) == 1);
+}
+
+TEST_CASE("roots: at the ends of an interval, and at the points where it would be split", "[exact]") {
+  const auto root_at = [](std::int64_t x) { return poly({-x, 1}); };
+  const auto alone = [](const IntegerPolynomial& p, const std::vector<DyadicInterval>& roots) {
+    const SignSequence s = sign_sequence(p, poly({1}));
+    for (const DyadicInterval& i : roots) {
+      CHECK(p.sign_at(i.lo, i.bits) != 0);
+      CHECK(p.sign_at(i.hi, i.bits) != 0);
+      CHECK(tarski_sum(s, i) == 1);
+    }
+  };
+  // Of (−8, 8), the first four of the points that are tried.
+  const auto splits = root_at(0) * root_at(-2) * root_at(2) * root_at(-4);
+  const auto found = isolated_roots(splits, {Integer(-8), Integer(8), 0});
+  REQUIRE(found.size() == 4);
+  alone(splits, found);
+  const auto ends = root_at(0) * root_at(1) * root_at(1);
+  const auto both = isolated_roots(ends, {Integer(0), Integer(1), 0});
+  REQUIRE(both.size() == 2);
+  alone(ends, both);
+  // Moved outward by more than one unit, past a row of roots.
+  const auto row = root_at(0) * root_at(-1) * root_at(-2);
+  const auto past = isolated_roots(row, {Integer(0), Integer(1), 0});
+  REQUIRE(past.size() == 3);
+  alone(row, past);
+}
+
+TEST_CASE("roots: of any multiplicity and with a huge gap between degrees", "[exact]") {
+  const DyadicInterval all{Integer(-8), Integer(8), 0};
+  IntegerPolynomial power = poly({1});
+  for (int n = 1; n <= 6; ++n) {
+    power = power * poly({-3, 1});
+    const auto roots = isolated_roots(power, all);
+    REQUIRE(roots.size() == 1);
+    const DyadicInterval i = narrowed(power, roots[0]);
+    CHECK(poly({-3, 1}).sign_at(i.lo, i.bits) == -1);
+    CHECK(poly({-3, 1}).sign_at(i.hi, i.bits) == 1);
+    CHECK(sign_at_root(power, roots[0], poly({-3, 1})) == 0);
+    CHECK(sign_at_root(power, roots[0], poly({-10, 0, 1})) == -1);
+  }
+  for (const std::size_t n : {3u, 31u, 60u}) {
+    std::vector<std::int64_t> c(n + 1, 0);
+    c[0] = -2;
+    c[n] = 1;
+    CHECK(isolated_roots(poly(c), all).size() == (n % 2 == 0 ? 2 : 1));
+    const auto positive = isolated_roots(poly(c), {Integer(0), Integer(8), 0});
+    REQUIRE(positive.size() == 1);
+    const DyadicInterval i = narrowed(poly(c), positive[0]);
+    CHECK(1 + below({i.lo - Integer(1).shifted(i.bits), i.hi, i.bits}) ==
+          Approx(std::pow(2, 1 / static_cast<double>(n))).epsilon(1e-14));
+  }
+}
+
+TEST_CASE("roots: a sign from the interval's Bernstein coefficients, or by counting", "[exact]") {
+  const auto p = poly({-2, 0, 1});
+  const DyadicInterval wide{Integer(0), Integer(8), 0}, tight = narrowed(p, wide);
+  for (const DyadicInterval& i : {wide, tight}) {
+    CHECK(sign_at_root(p, i, poly({-7})) == -1);
+    CHECK(sign_at_root(p, i, poly({9, 1})) == 1);
+    CHECK(sign_at_root(p, i, poly({-1, 1})) == 1);
+    CHECK(sign_at_root(p, i, poly({-3, 2})) == -1);
+    CHECK(sign_at_root(p, i, poly({3, -5, 2})) == -1);  // (t − 1)(2t − 3)
+    CHECK(sign_at_root(p, i, poly({-4, 0, 2})) == 0);
+    // Positive at both ends of the wide interval, with a double root at 3.
+    CHECK(sign_at_root(p, i, poly({9, -6, 1})) == 1);
+  }
+}
+
+TEST_CASE("roots: the double below an interval", "[exact]") {
+  const auto of = [](std::int64_t lo, unsigned bits) { return below({Integer(lo), Integer(lo + 1), bits}); };
+  CHECK(of(-3, 2) == 0);
+  CHECK(of(0, 2) == 0);
+  CHECK(of(1, 1) == 0.5);
+  CHECK(of(5, 3) == 0.625);
+  CHECK(of(1, 53) == 0x1p-53);
+  CHECK(of(1, 60) == 0);  // below the grid of 2^-53
+  CHECK(of((std::int64_t{1} << 60) / 3, 60) <= 1 / 3.0);
+  CHECK(of((std::int64_t{1} << 60) / 3, 60) > 1 / 3.0 - 0x1p-53);
+  CHECK(of(1, 0) == 1 - 0x1p-53);
+  CHECK(of(9, 0) == 1 - 0x1p-53);
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/math/roundoff.h"
 #include "fuzz/judge/exact_map.h"
 #include "fuzz/judge/relation.h"
 
@@ -127,8 +128,7 @@ std::vector<Derived> derive_grow(const RelationInput& in) {
         d.c.scene.shapes[static_cast<std::size_t>(d.c.scene.bodies[static_cast<std::size_t>(i)].shape)];
     if (kind_of(shape) > ShapeKind::ellipsoid) continue;  // the others need not contain the origin
     d.words = i == 0 ? "A grown by an eighth" : "B grown by an eighth";
-    constexpr double unit_roundoff = 0x1p-53;  // of a double
-    d.rounding = 8 * unit_roundoff * 2 * bounding_radius(shape);
+    d.rounding = 8 * unit_roundoff<double> * 2 * bounding_radius(shape);
     change_numbers(shape, [](auto& v, Domain) { v *= 1.125; });
     for (Expected& e : d.expected) e.gap.lo = -infinity;
     return {d};

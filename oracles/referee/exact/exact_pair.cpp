@@ -325,7 +325,6 @@ ExactVerdict decide_in(const BasicExactPair<I>& p, std::span<const IndexPair> se
       r.touching = reach == v.reach;
       return r;
     }
-    if (reach >= v.reach) return r;  // not reached when compare > 0: the two tests above are then exhaustive
     simplex = r.simplex;
     simplex.emplace_back(i, j);
   }
