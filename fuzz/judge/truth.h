@@ -80,7 +80,6 @@ class Truth {
     double displacement = 0;
     std::optional<std::vector<TruePair>> scene_pairs;
   };
-  bool counts(int a, int b) const;
   std::vector<TruePair> overlapping(const std::vector<std::optional<Placed>>& bodies);
 
   const Scene& asked_;
