@@ -7,7 +7,7 @@
 #include "cli/engine_catalog.h"
 #include "core/base/hash.h"
 #include "core/base/input_error.h"
-#include "oracles/core/broad_engine.h"
+#include "oracles/core/core_engine.h"
 #include "scenarios/codec/input_file.h"
 #include "scenarios/text/did_you_mean.h"
 

@@ -14,7 +14,7 @@
 #include "cli/sweep_catalog.h"
 #include "fuzz/campaign/store.h"
 #include "oracles/abi/measure.h"
-#include "oracles/core/broad_engine.h"
+#include "oracles/core/core_engine.h"
 #include "reports/chart/chart.h"
 #include "reports/chart/sub_steps.h"
 #include "reports/text/chart_markdown.h"

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "oracles/client/remote_engine.h"
-#include "oracles/core/broad_engine.h"
+#include "oracles/core/core_engine.h"
 
 namespace touchstone::cli {
 

@@ -12,9 +12,9 @@ bool is_half_space(const Scene& s, int body) { return kind_of(s.shape_of(body)) 
 // The body's own numbers, or a pose in one of its steps, do not describe a closed finite set.
 bool is_invalid(const Scene& s, int body) {
   const Shape& shape = s.shape_of(body);
-  return !is_a_set(shape, s.bodies[static_cast<std::size_t>(body)].pose) ||
+  return !is_closed_set(shape, s.bodies[static_cast<std::size_t>(body)].pose) ||
          std::any_of(s.script.begin(), s.script.end(), [&](const Step& step) {
-           return step.body == body && step.pose && !is_a_set(shape, *step.pose);
+           return step.body == body && step.pose && !is_closed_set(shape, *step.pose);
          });
 }
 

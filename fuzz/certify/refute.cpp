@@ -135,7 +135,7 @@ std::string invalid_boxes(const Scene& s) {
   std::string out;
   for (std::size_t i = 0; i < s.bodies.size(); ++i) {
     const auto* box = std::get_if<Box>(&s.shape_of(static_cast<int>(i)));
-    if (!box || is_a_set(*box, s.bodies[i].pose)) continue;
+    if (!box || is_closed_set(*box, s.bodies[i].pose)) continue;
     out += fmt::format("; body {} is not a valid box: at {}, half extents {}", i,
                        in_words(s.bodies[i].pose.translation), in_words(box->half_extents));
   }

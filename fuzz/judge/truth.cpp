@@ -313,7 +313,7 @@ const std::vector<std::vector<Truth::TruePair>>& Truth::true_pairs() {
     std::vector<std::optional<Placed>> bodies(asked_.bodies.size());
     for (std::size_t i = 0; i < bodies.size(); ++i)
       if (const Shape& shape = asked_.shape_of(static_cast<int>(i));
-          state.pose[i] && is_a_set(shape, *state.pose[i]))
+          state.pose[i] && is_closed_set(shape, *state.pose[i]))
         bodies[i] = Placed{&shape, *state.pose[i]};
     true_pairs_->push_back(overlapping(bodies));
   }

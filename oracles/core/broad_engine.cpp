@@ -1,12 +1,10 @@
-#include "oracles/core/broad_engine.h"
-
 #include <array>
 
 #include "core/broad/body_box.h"
 #include "core/broad/catalog.h"
-#include "core/tolerance.h"
 #include "core/world/world.h"
-#include "oracles/core/timed_answer.h"
+#include "oracles/core/core_answers.h"
+#include "oracles/core/core_engine.h"
 #include "scenarios/value/candidate_pairs.h"
 
 namespace touchstone {
@@ -98,13 +96,11 @@ class Run {
 
 class BroadEngine final : public NativeEngine {
  public:
-  BroadEngine(const broad::CatalogRow& row, BroadBoxes boxes) : row_(row), boxes_(boxes) {
-    card_.name = row.name;
-    card_.library = "Touchstone core";
-    card_.version = "0.1.0";
-    card_.settings = "broad phase alone; refuses NaN and inverted boxes and leaves out the body";
-    card_.unit_roundoff = 0x1p-53;
-    card_.tau_factor = tolerance::core_tau_factor;
+  BroadEngine(const broad::CatalogRow& row, BroadBoxes boxes)
+      : row_(row),
+        boxes_(boxes),
+        card_(core_card(row.name,
+                        "broad phase alone; refuses NaN and inverted boxes and leaves out the body")) {
     card_.source = "core/broad/broad_phase.h: no pair of closed boxes is lost";
   }
   const EngineCard& card() const override { return card_; }
@@ -128,8 +124,7 @@ class BroadEngine final : public NativeEngine {
         run.script();
       o.outcome = Outcome::answered;
     } catch (const NoBox&) {
-      o = {};
-      o.detail = "a body without an exact box";
+      o = no_answer(Outcome::unsupported, "a body without an exact box");
     }
   }
   const broad::CatalogRow& row_;

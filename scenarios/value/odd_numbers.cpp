@@ -36,7 +36,7 @@ std::vector<OddNumber> odd_numbers(const Scene& s) {
   return out;
 }
 
-bool is_a_set(const Shape& shape, const Pose& pose) {
+bool is_closed_set(const Shape& shape, const Pose& pose) {
   const auto* box = std::get_if<Box>(&shape);
   return pose.translation.allFinite() &&
          (!box || (box->half_extents.allFinite() && (box->half_extents.array() >= 0).all()));

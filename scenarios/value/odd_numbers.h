@@ -20,7 +20,7 @@ struct OddNumber {
 std::vector<OddNumber> odd_numbers(const Scene& s);
 /// Whether the body is a closed set: its position is finite and, if it is a box, so are its sides, and none
 /// is negative.
-bool is_a_set(const Shape& shape, const Pose& pose);
+bool is_closed_set(const Shape& shape, const Pose& pose);
 /// The same scene with 0 in place of each of them.
 Scene without_odd_numbers(Scene s);
 /// Throws InputError with the number's place when the place does not exist or the number is an ordinary one.

@@ -10,7 +10,7 @@
 #include "fuzz/certify/candidate_verdict.h"
 #include "fuzz/certify/refute.h"
 #include "fuzz/shrink/keeps_finding.h"
-#include "oracles/core/broad_engine.h"
+#include "oracles/core/core_engine.h"
 #include "scenarios/codec/case_codec.h"
 #include "scenarios/exhaustive/box_scene.h"
 #include "scenarios/exhaustive/histories.h"

@@ -27,7 +27,7 @@ struct ExactBody {
 /// An integer k stands for k·2^exponent/denominator.
 template <class I>
 struct BasicExactPair {
-  std::vector<Exact3<I>> a, b;
+  std::vector<Triple<I>> a, b;
   I radius_a, radius_b;
   int exponent = 0;
   I denominator = 1;
