@@ -11,20 +11,17 @@
 #include <stdexcept>
 #include <thread>
 
-#include "cli/broad_subject.h"
+#include "cli/asked_engines.h"
 #include "cli/command.h"
 #include "cli/engine_catalog.h"
-#include "cli/output_file.h"
-#include "cli/pages.h"
-#include "cli/stop_signals.h"
+#include "cli/output.h"
 #include "core/base/input_error.h"
 #include "fuzz/campaign/store.h"
 #include "fuzz/reproduce/reproducer.h"
 #include "oracles/core/core_engine.h"
-#include "reports/text/certificate_text.h"
+#include "reports/text/record_text.h"
 #include "reports/text/text.h"
 #include "scenarios/codec/case_codec.h"
-#include "scenarios/codec/input_file.h"
 #include "scenarios/codec/json_file.h"
 
 namespace touchstone::cli {

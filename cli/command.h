@@ -4,6 +4,7 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <atomic>
 #include <functional>
 #include <span>
 #include <string>
@@ -50,5 +51,11 @@ Run declare_bisect(CLI::App& app);
 Run declare_merge(CLI::App& app);
 Run declare_triage(CLI::App& app);
 Run declare_view(CLI::App& app);
+
+/// Set by SIGINT, SIGTERM and SIGHUP.
+extern std::atomic<bool> interrupted;
+
+/// Installs the handlers. SIGHUP stays ignored if it already is (nohup).
+void catch_stop_signals();
 
 }  // namespace touchstone::cli

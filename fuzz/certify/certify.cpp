@@ -8,8 +8,7 @@
 
 #include "core/base/hash.h"
 #include "core/base/input_error.h"
-#include "fuzz/certify/fault_cause.h"
-#include "fuzz/certify/refute.h"
+#include "fuzz/certify/candidate_verdict.h"
 
 namespace touchstone::fuzz {
 namespace {

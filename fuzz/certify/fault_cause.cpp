@@ -1,4 +1,4 @@
-#include "fuzz/certify/fault_cause.h"
+#include "fuzz/certify/candidate_verdict.h"
 
 #include <algorithm>
 

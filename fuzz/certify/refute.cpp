@@ -1,4 +1,4 @@
-#include "fuzz/certify/refute.h"
+#include "fuzz/certify/certify.h"
 
 #include <fmt/format.h>
 

@@ -6,7 +6,7 @@
 #include <optional>
 
 #include "fuzz/judge/check.h"
-#include "fuzz/judge/held.h"
+#include "fuzz/judge/truth.h"
 #include "scenarios/value/odd_numbers.h"
 
 namespace touchstone::fuzz {

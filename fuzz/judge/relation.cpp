@@ -7,7 +7,6 @@
 #include <cmath>
 
 #include "core/base/input_error.h"
-#include "fuzz/judge/held.h"
 #include "fuzz/judge/largest_number.h"
 #include "fuzz/judge/truth.h"
 

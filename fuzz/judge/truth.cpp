@@ -7,7 +7,6 @@
 #include <limits>
 #include <numeric>
 
-#include "fuzz/judge/held.h"
 #include "scenarios/value/candidate_pairs.h"
 #include "scenarios/value/odd_numbers.h"
 

@@ -1,4 +1,4 @@
-#include "oracles/fcl/broad.h"
+#include "oracles/fcl/queries.h"
 
 #include <fcl/broadphase/broadphase_dynamic_AABB_tree.h>
 #include <fcl/narrowphase/collision_object.h>

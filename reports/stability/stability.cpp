@@ -8,7 +8,6 @@
 #include "core/base/input_error.h"
 #include "fuzz/judge/judge.h"
 #include "fuzz/judge/pair_forms.h"
-#include "reports/stability/ladders.h"
 
 namespace touchstone::fuzz {
 namespace {

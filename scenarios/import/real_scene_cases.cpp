@@ -1,4 +1,4 @@
-#include "scenarios/import/real_scene_cases.h"
+#include "scenarios/import/real_scene.h"
 
 #include <algorithm>
 #include <charconv>

@@ -15,7 +15,6 @@
 #include "reports/chart/chart.h"
 #include "reports/chart/chart_rows.h"
 #include "reports/chart/sub_steps.h"
-#include "reports/stability/ladders.h"
 #include "reports/stability/stability.h"
 #include "tests/support/catch.h"
 #include "tests/support/skip.h"

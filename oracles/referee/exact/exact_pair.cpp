@@ -12,7 +12,7 @@
 #include <cstdlib>
 #include <limits>
 
-#include "oracles/referee/exact/short_integer.h"
+#include "oracles/referee/exact/rational.h"
 #include "oracles/referee/work.h"
 
 namespace touchstone::referee {

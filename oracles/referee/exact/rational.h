@@ -1,6 +1,7 @@
 // Exact numbers: GMP integers and rationals behind Boost.Multiprecision, and the exact value of a double.
 #pragma once
 
+#include <boost/multiprecision/cpp_int.hpp>
 #include <boost/multiprecision/gmp.hpp>
 #include <string>
 
@@ -52,5 +53,13 @@ Rational simplest_between(const Rational& lo, const Rational& hi);
 /// "n/d" in lowest terms, "n" when d = 1; and back. Throws InputError on anything else.
 std::string text_of(const Rational& x);
 Rational rational_from_text(const std::string& s);
+
+// 512-bit integers on the stack, for numbers known beforehand to fit. What is decided in them counts as the
+// filter's level 1.
+
+using Short = boost::multiprecision::number<
+    boost::multiprecision::cpp_int_backend<512, 512, boost::multiprecision::signed_magnitude,
+                                           boost::multiprecision::unchecked, void>,
+    boost::multiprecision::et_off>;
 
 }  // namespace touchstone::referee

@@ -150,4 +150,10 @@ inline double round_down(Real x) {
 }
 inline double round_up(Real x) { return -round_down(-x); }
 
+/// Sign of det(a, b, c).
+int determinant_sign(const Real3& a, const Real3& b, const Real3& c);
+/// Sign of det(b - a, c - a, p - a): > 0 when p is in front of the triangle, seen from the side on which a,
+/// b, c are counter-clockwise.
+int orientation_sign(const Real3& a, const Real3& b, const Real3& c, const Real3& p);
+
 }  // namespace touchstone::referee

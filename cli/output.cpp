@@ -1,10 +1,13 @@
-#include "cli/pages.h"
+#include "cli/output.h"
 
 #include <fmt/format.h>
+#include <unistd.h>
+#include <filesystem>
 
 #include "cli/engine_catalog.h"
+#include "core/base/input_error.h"
 #include "reports/text/web_page.h"
-#include "scenarios/codec/input_file.h"
+#include "scenarios/codec/json_file.h"
 
 namespace touchstone::cli {
 
@@ -44,6 +47,17 @@ void write_result(const std::string& name, const std::string& out, const std::st
   const bool page = write_page(name, json, file + ".html");
   fmt::print(as_json ? stderr : stdout, "{0}.json, {0}.csv{1}\n", file,
              page ? fmt::format(", page: {}.html", file) : "");
+}
+
+void require_writable(const std::string& file) {
+  if (file.empty()) return;
+  const auto directory = std::filesystem::absolute(file).parent_path();
+  if (std::filesystem::is_directory(file)) throw InputError(file, "cannot be written: it is a directory");
+  const bool there = std::filesystem::exists(file);
+  if (!there && !std::filesystem::is_directory(directory))
+    throw InputError(file, "cannot be written: there is no directory " + directory.string());
+  if (there && !std::filesystem::is_regular_file(file)) return;  // a device or a pipe: written in place
+  if (access(directory.c_str(), W_OK) != 0) throw InputError(file, "cannot be written: no permission");
 }
 
 }  // namespace touchstone::cli

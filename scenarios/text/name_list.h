@@ -1,7 +1,9 @@
-// Lists of names as people write them: a,b,c.
+// Names from the command line: lists separated by commas, and suggestions for a misspelt name.
 #pragma once
 
 #include <algorithm>
+#include <span>
+#include <string>
 #include <string_view>
 
 namespace touchstone {
@@ -16,5 +18,9 @@ void for_each_in_list(std::string_view list, Visit&& visit) {
     from = comma + 1;
   }
 }
+
+/// "; did you mean a, b?", with at most three names, the nearest first; empty when none is near. Near means:
+/// equal up to two typing errors (one for words of up to four letters), or one is a prefix of the other.
+std::string did_you_mean(std::string_view word, std::span<const std::string> known);
 
 }  // namespace touchstone

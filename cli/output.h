@@ -1,5 +1,4 @@
-// Writes pages. The built pages of reports/web are installed beside the program (share/touchstone/web), if
-// Node was available to build them.
+// Files that commands write, and the pages among them.
 #pragma once
 
 #include <filesystem>
@@ -7,6 +6,14 @@
 #include <string_view>
 
 namespace touchstone::cli {
+
+// Checks of output files: one that cannot be written is refused before the work, not after it.
+
+/// Throws InputError if the file cannot be written. An empty name means no file.
+void require_writable(const std::string& file);
+
+// Writes pages. The built pages of reports/web are installed beside the program (share/touchstone/web), if
+// Node was available to build them.
 
 /// The path of the built page `kind`.html.
 std::filesystem::path built_page(std::string_view kind);
