@@ -1,4 +1,4 @@
-#include "cli/broad_subject.h"
+#include "cli/chosen_engines.h"
 
 #include <fmt/format.h>
 
@@ -7,9 +7,9 @@
 #include "cli/engine_catalog.h"
 #include "core/base/hash.h"
 #include "core/base/input_error.h"
-#include "oracles/core/broad_engine.h"
-#include "scenarios/codec/input_file.h"
-#include "scenarios/text/did_you_mean.h"
+#include "oracles/core/core_engine.h"
+#include "scenarios/codec/json_file.h"
+#include "scenarios/text/name_list.h"
 
 namespace touchstone::cli {
 namespace {

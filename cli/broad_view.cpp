@@ -1,4 +1,4 @@
-#include "cli/broad_view.h"
+#include "cli/page_contents.h"
 
 #include <algorithm>
 #include <cmath>

@@ -7,8 +7,8 @@
 
 #include "cli/engine_catalog.h"
 #include "core/base/input_error.h"
-#include "scenarios/handmade/catalog.h"
-#include "scenarios/text/did_you_mean.h"
+#include "scenarios/handmade/scenario.h"
+#include "scenarios/text/name_list.h"
 
 namespace touchstone::cli {
 namespace {

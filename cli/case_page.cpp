@@ -1,4 +1,4 @@
-#include "cli/case_page.h"
+#include "cli/page_contents.h"
 
 #include <filesystem>
 #include <set>

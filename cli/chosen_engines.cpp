@@ -6,7 +6,7 @@
 #include <map>
 
 #include "core/base/input_error.h"
-#include "scenarios/text/did_you_mean.h"
+#include "scenarios/text/name_list.h"
 
 namespace touchstone::cli {
 namespace {

@@ -7,6 +7,8 @@
 #include <vector>
 
 #include "cli/engine_catalog.h"
+#include "fuzz/certify/certify.h"
+#include "oracles/client/remote_engine.h"
 
 namespace touchstone::cli {
 
@@ -37,5 +39,15 @@ void require_subject(const std::string& subject, const std::vector<std::string>&
 /// Prints the last line of every command that judges: which engine the exit code is about, and why. It goes
 /// to stderr when stdout holds JSON. Returns the code.
 int print_verdict(int code, const std::string& subject, const std::string& why, bool json = false);
+
+// The subject of `certify`: a broad phase of the core or of an oracle, any engine in the catalogue, a
+// plug-in, or a command behind a pipe.
+
+/// Multiplies the time allowed per question.
+WorkerLimits scaled_limits(WorkerLimits limits, double times);
+
+/// Throws InputError with place and reason when there is no such subject. `sweeps`: the user states that it
+/// also answers swept_candidates, as the core does.
+fuzz::Subject broad_subject(const std::string& name, const WorkerLimits& limits, bool sweeps);
 
 }  // namespace touchstone::cli

@@ -4,9 +4,9 @@
 #include <cstdlib>
 #include <nlohmann/json.hpp>
 
+#include "cli/case_argument.h"
 #include "cli/command.h"
-#include "cli/finding_argument.h"
-#include "cli/output_file.h"
+#include "cli/output.h"
 #include "core/base/input_error.h"
 #include "fuzz/bisect/bisect.h"
 #include "scenarios/codec/scene_fields.h"

@@ -11,20 +11,17 @@
 #include <stdexcept>
 #include <thread>
 
-#include "cli/broad_subject.h"
+#include "cli/chosen_engines.h"
 #include "cli/command.h"
 #include "cli/engine_catalog.h"
-#include "cli/output_file.h"
-#include "cli/pages.h"
-#include "cli/stop_signals.h"
+#include "cli/output.h"
 #include "core/base/input_error.h"
 #include "fuzz/campaign/store.h"
 #include "fuzz/reproduce/reproducer.h"
-#include "oracles/core/broad_engine.h"
-#include "reports/text/certificate_text.h"
+#include "oracles/core/core_engine.h"
+#include "reports/text/record_text.h"
 #include "reports/text/text.h"
 #include "scenarios/codec/case_codec.h"
-#include "scenarios/codec/input_file.h"
 #include "scenarios/codec/json_file.h"
 
 namespace touchstone::cli {
@@ -62,9 +59,13 @@ class CertifyProgress {
       std::chrono::steady_clock::now() + std::chrono::seconds(live_ ? 0 : 10);
 };
 
+fuzz::Scope scope_named(const std::string& name) {
+  return name == "full" ? fuzz::Scope::full : fuzz::Scope::quick;
+}
+
 fuzz::CertifyConfig config_of(const CertifyOptions& o) {
   fuzz::CertifyConfig c;
-  c.scope = o.scope == "full" ? fuzz::Scope::full : fuzz::Scope::quick;
+  c.scope = scope_named(o.scope);
   c.seed = o.seed;
   c.limit = o.limit;
   c.jobs = o.jobs;
@@ -246,15 +247,13 @@ int check(const CertifyOptions& o) {
     throw e.within(o.check);
   }
   if (!digest_holds) return differs(o.check, "its digest does not match its contents");
-  fuzz::CertifyConfig c;
-  c.scope = was.scope == "full" ? fuzz::Scope::full : fuzz::Scope::quick;
+  fuzz::CertifyConfig c = config_of(o);
+  c.scope = scope_named(was.scope);
   c.seed = was.seed;
   c.limit = was.limit;
   c.levels = was.levels;
   c.without = was.without;
   c.first_fault = was.first_fault;
-  c.jobs = o.jobs;
-  c.program = config_of(o).program;
   if (was.program != c.program)
     return differs(o.check, "it was made by " + json_text(was.program) + ", but this is " + c.program);
   require_same_subject(o, was.subject);

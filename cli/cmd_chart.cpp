@@ -6,22 +6,18 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
-#include "cli/broad_subject.h"
 #include "cli/chosen_engines.h"
 #include "cli/command.h"
 #include "cli/engine_catalog.h"
-#include "cli/pages.h"
-#include "cli/sweep_catalog.h"
+#include "cli/output.h"
 #include "fuzz/campaign/store.h"
 #include "oracles/abi/measure.h"
-#include "oracles/core/broad_engine.h"
+#include "oracles/core/core_engine.h"
 #include "reports/chart/chart.h"
 #include "reports/chart/sub_steps.h"
-#include "reports/text/chart_markdown.h"
-#include "reports/text/chart_text.h"
-#include "scenarios/codec/input_file.h"
+#include "reports/text/record_text.h"
 #include "scenarios/codec/json_file.h"
-#include "scenarios/text/comma_list.h"
+#include "scenarios/text/name_list.h"
 
 namespace touchstone::cli {
 namespace {

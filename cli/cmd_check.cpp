@@ -13,9 +13,8 @@
 #include "oracles/checker/checker.h"
 #include "reports/record/evidence.h"
 #include "scenarios/codec/case_codec.h"
-#include "scenarios/codec/certificate_codec.h"
-#include "scenarios/codec/input_file.h"
 #include "scenarios/codec/json_file.h"
+#include "scenarios/codec/value_codec.h"
 
 namespace touchstone::cli {
 namespace {

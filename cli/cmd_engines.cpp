@@ -9,7 +9,7 @@
 #include "fuzz/certify/conformance.h"
 #include "reports/record/observation_json.h"
 #include "reports/text/text.h"
-#include "scenarios/codec/card_codec.h"
+#include "scenarios/codec/value_codec.h"
 
 namespace touchstone::cli {
 namespace {

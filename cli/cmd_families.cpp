@@ -3,7 +3,6 @@
 #include "cli/command.h"
 #include "reports/record/observation_json.h"
 #include "scenarios/random/family.h"
-#include "scenarios/random/regimes.h"
 
 namespace touchstone::cli {
 

@@ -10,7 +10,6 @@
 #include "cli/chosen_engines.h"
 #include "cli/command.h"
 #include "cli/judged_by.h"
-#include "cli/stop_signals.h"
 #include "core/base/input_error.h"
 #include "fuzz/campaign/campaign.h"
 #include "fuzz/campaign/shard.h"

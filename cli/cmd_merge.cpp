@@ -6,7 +6,7 @@
 #include "cli/command.h"
 #include "core/base/input_error.h"
 #include "fuzz/campaign/merge.h"
-#include "fuzz/triage/merge_ledgers.h"
+#include "fuzz/triage/ledger.h"
 #include "reports/text/text.h"
 
 namespace touchstone::cli {

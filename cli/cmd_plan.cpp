@@ -5,12 +5,10 @@
 
 #include "cli/case_argument.h"
 #include "cli/command.h"
-#include "cli/output_file.h"
+#include "cli/output.h"
 #include "core/base/input_error.h"
-#include "reports/plan/fidelity_json.h"
 #include "reports/plan/plan.h"
-#include "reports/text/plan_text.h"
-#include "scenarios/codec/input_file.h"
+#include "reports/text/record_text.h"
 #include "scenarios/codec/json_file.h"
 #include "scenarios/import/real_scene.h"
 

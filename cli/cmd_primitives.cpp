@@ -10,7 +10,7 @@
 #include "cli/command.h"
 #include "core/base/input_error.h"
 #include "core/impact/primitive_impact.h"
-#include "oracles/referee/motion/primitive_motion.h"
+#include "oracles/referee/referee.h"
 #include "reports/record/primitives.h"
 #include "reports/text/text.h"
 #include "scenarios/import/ccd_queries.h"

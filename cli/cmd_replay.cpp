@@ -12,7 +12,6 @@
 #include "fuzz/judge/judge.h"
 #include "reports/text/text.h"
 #include "scenarios/import/real_scene.h"
-#include "scenarios/import/real_scene_cases.h"
 #include "scenarios/text/printable.h"
 #include "scenarios/value/moving_pairs.h"
 

@@ -1,12 +1,11 @@
 #include <fmt/format.h>
 
 #include "cli/command.h"
-#include "cli/output_file.h"
-#include "cli/pages.h"
+#include "cli/output.h"
 #include "core/base/input_error.h"
 #include "reports/record/stored.h"
-#include "reports/text/findings_columns.h"
 #include "reports/text/text.h"
+#include "reports/text/web_page.h"
 #include "scenarios/codec/json_file.h"
 
 namespace touchstone::cli {

@@ -1,11 +1,11 @@
 // touchstone reproduce CASE: writes a finding as one C++ file against the engine's own API.
 #include <fmt/format.h>
 
+#include "cli/case_argument.h"
 #include "cli/command.h"
-#include "cli/finding_argument.h"
-#include "cli/output_file.h"
+#include "cli/output.h"
 #include "fuzz/reproduce/reproducer.h"
-#include "scenarios/codec/input_file.h"
+#include "scenarios/codec/json_file.h"
 
 namespace touchstone::cli {
 namespace {

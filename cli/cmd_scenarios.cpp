@@ -7,7 +7,7 @@
 #include "core/base/input_error.h"
 #include "reports/text/text.h"
 #include "scenarios/codec/case_codec.h"
-#include "scenarios/handmade/catalog.h"
+#include "scenarios/handmade/scenario.h"
 
 namespace touchstone::cli {
 

@@ -3,9 +3,9 @@
 
 #include <nlohmann/json.hpp>
 
+#include "cli/case_argument.h"
 #include "cli/command.h"
-#include "cli/finding_argument.h"
-#include "cli/output_file.h"
+#include "cli/output.h"
 #include "fuzz/shrink/keeps_finding.h"
 
 namespace touchstone::cli {

@@ -3,10 +3,10 @@
 
 #include "cli/chosen_engines.h"
 #include "cli/command.h"
-#include "cli/pages.h"
+#include "cli/output.h"
 #include "fuzz/campaign/store.h"
 #include "reports/stability/stability.h"
-#include "reports/text/stability_text.h"
+#include "reports/text/record_text.h"
 
 namespace touchstone::cli {
 namespace {

@@ -14,7 +14,7 @@
 #include "cli/chosen_engines.h"
 #include "cli/command.h"
 #include "cli/judged_by.h"
-#include "cli/output_file.h"
+#include "cli/output.h"
 #include "core/base/input_error.h"
 #include "fuzz/campaign/directory_lock.h"
 #include "fuzz/judge/relation.h"
@@ -22,11 +22,10 @@
 #include "fuzz/shrink/keeps_finding.h"
 #include "fuzz/triage/triage.h"
 #include "reports/record/stored.h"
-#include "reports/text/triage_text.h"
+#include "reports/text/record_text.h"
 #include "scenarios/codec/case_codec.h"
-#include "scenarios/codec/input_file.h"
 #include "scenarios/codec/json_file.h"
-#include "scenarios/text/did_you_mean.h"
+#include "scenarios/text/name_list.h"
 #include "scenarios/text/printable.h"
 
 namespace touchstone::cli {

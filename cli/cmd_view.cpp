@@ -3,16 +3,14 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "cli/broad_view.h"
 #include "cli/case_argument.h"
-#include "cli/case_page.h"
 #include "cli/command.h"
 #include "cli/engine_catalog.h"
-#include "cli/output_file.h"
-#include "cli/pages.h"
+#include "cli/output.h"
+#include "cli/page_contents.h"
 #include "core/base/input_error.h"
 #include "reports/text/broad_page.h"
-#include "scenarios/codec/input_file.h"
+#include "scenarios/codec/json_file.h"
 #include "scenarios/import/real_scene.h"
 #include "scenarios/text/printable.h"
 #include "scenarios/value/moving_pairs.h"

@@ -4,6 +4,7 @@
 #include <cctype>
 #include <charconv>
 #include <cmath>
+#include <csignal>
 #include <cstdint>
 
 namespace touchstone::cli {
@@ -59,6 +60,20 @@ CLI::Validator a_positive_number() {
                                                             : text + " is not a positive number";
       },
       "NUMBER");
+}
+
+namespace {
+
+void on_signal(int) { interrupted = true; }
+
+}  // namespace
+
+std::atomic<bool> interrupted{false};
+
+void catch_stop_signals() {
+  std::signal(SIGINT, on_signal);
+  std::signal(SIGTERM, on_signal);
+  if (std::signal(SIGHUP, on_signal) == SIG_IGN) std::signal(SIGHUP, SIG_IGN);
 }
 
 }  // namespace touchstone::cli

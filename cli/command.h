@@ -5,6 +5,7 @@
 
 #include <CLI/CLI.hpp>
 #include <array>
+#include <atomic>
 #include <functional>
 #include <string>
 #include <string_view>
@@ -70,5 +71,11 @@ inline constexpr auto commands = std::to_array<Command>({
     {"families", "list the families of random cases", declare_families},
     {"scenarios", "list the hand-built scenarios, or write one", declare_scenarios},
 });
+
+/// Set by SIGINT, SIGTERM and SIGHUP.
+extern std::atomic<bool> interrupted;
+
+/// Installs the handlers. SIGHUP stays ignored if it already is (nohup).
+void catch_stop_signals();
 
 }  // namespace touchstone::cli

@@ -7,13 +7,11 @@
 
 #include "cli/command.h"
 #include "cli/npm_engines.h"
-#include "cli/sweep_catalog.h"
 #include "core/base/input_error.h"
-#include "oracles/core/native.h"
+#include "oracles/core/core_engine.h"
 #include "reports/chart/sub_steps.h"
-#include "scenarios/codec/input_file.h"
-#include "scenarios/text/comma_list.h"
-#include "scenarios/text/did_you_mean.h"
+#include "scenarios/codec/json_file.h"
+#include "scenarios/text/name_list.h"
 
 namespace touchstone::cli {
 namespace {

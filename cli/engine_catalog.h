@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "oracles/client/remote_engine.h"
-#include "oracles/core/broad_engine.h"
+#include "oracles/core/core_engine.h"
 
 namespace touchstone::cli {
 
@@ -53,5 +53,15 @@ void add_no_sandbox(CLI::App& app, WorkerLimits& limits);
 
 std::filesystem::path host_program();
 std::filesystem::path plugin_directory();
+
+// Engines of the catalogue with other tolerances. They are used by name, and by `chart`, which draws a method
+// as a curve.
+
+std::span<const EngineRow> sweep_catalog();
+
+/// Engines whose overlap test `chart` runs at k samples of a motion (`name-steps@k`), beside those that
+/// sweep.
+std::span<const std::string_view> stepped_engines();
+inline constexpr int step_counts[] = {1, 4, 16, 64, 256};
 
 }  // namespace touchstone::cli

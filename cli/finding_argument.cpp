@@ -1,4 +1,4 @@
-#include "cli/finding_argument.h"
+#include "cli/case_argument.h"
 
 #include <fmt/format.h>
 
@@ -7,12 +7,10 @@
 #include <nlohmann/json.hpp>
 #include <system_error>
 
-#include "cli/case_argument.h"
 #include "cli/command.h"
 #include "cli/npm_engines.h"
 #include "core/base/input_error.h"
 #include "fuzz/shrink/keeps_finding.h"
-#include "scenarios/codec/input_file.h"
 #include "scenarios/codec/json_file.h"
 
 namespace touchstone::cli {

@@ -17,7 +17,7 @@
 #include "core/base/input_error.h"
 #include "oracles/client/worker_limits.h"
 #include "reports/text/text.h"
-#include "scenarios/text/did_you_mean.h"
+#include "scenarios/text/name_list.h"
 #include "scenarios/text/printable.h"
 
 namespace touchstone::cli {

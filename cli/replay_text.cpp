@@ -9,7 +9,7 @@
 #include "fuzz/ask/evidence.h"
 #include "reports/record/evidence.h"
 #include "reports/text/text.h"
-#include "scenarios/codec/certificate_codec.h"
+#include "scenarios/codec/value_codec.h"
 #include "scenarios/text/printable.h"
 
 namespace touchstone::reports {

@@ -1,10 +1,10 @@
 #include "fuzz/ask/evidence.h"
 
 #include "fuzz/judge/truth.h"
-#include "oracles/referee/motion/impact_certificate.h"
+#include "oracles/referee/referee.h"
 #include "scenarios/codec/case_codec.h"
-#include "scenarios/codec/certificate_codec.h"
 #include "scenarios/codec/scene_codec.h"
+#include "scenarios/codec/value_codec.h"
 
 namespace touchstone::fuzz {
 namespace {

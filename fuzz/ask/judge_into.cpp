@@ -11,7 +11,7 @@
 #include "fuzz/ask/unstable.h"
 #include "fuzz/judge/judge.h"
 #include "oracles/abi/last_words.h"
-#include "oracles/abi/thread_time.h"
+#include "oracles/abi/measure.h"
 #include "scenarios/codec/case_codec.h"
 
 namespace touchstone::fuzz {

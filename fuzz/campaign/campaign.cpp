@@ -10,7 +10,7 @@
 #include "core/math/rng.h"
 #include "fuzz/campaign/directory_lock.h"
 #include "fuzz/campaign/store.h"
-#include "oracles/abi/thread_time.h"
+#include "oracles/abi/measure.h"
 #include "oracles/client/worker_limits.h"
 #include "scenarios/random/family.h"
 

@@ -5,7 +5,6 @@
 #include "core/base/input_error.h"
 #include "reports/record/stored.h"
 #include "scenarios/codec/case_codec.h"
-#include "scenarios/codec/input_file.h"
 #include "scenarios/codec/json_file.h"
 
 namespace touchstone::fuzz {

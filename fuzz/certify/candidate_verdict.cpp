@@ -7,25 +7,11 @@
 
 #include "core/base/hash.h"
 #include "core/base/input_error.h"
+#include "fuzz/judge/candidate_comparison.h"
 #include "fuzz/judge/truth.h"
 
 namespace touchstone::fuzz {
 namespace {
-
-using Pairs = std::vector<BodyPair>;
-
-Pairs sorted_unique(Pairs r) {
-  for (BodyPair& p : r)
-    if (p.first > p.second) std::swap(p.first, p.second);
-  std::sort(r.begin(), r.end());
-  r.erase(std::unique(r.begin(), r.end()), r.end());
-  return r;
-}
-
-bool is_reportable(const Scene& s, int a, int b) {
-  const auto fixed = [&](int i) { return s.bodies[static_cast<std::size_t>(i)].is_static; };
-  return !(fixed(a) && fixed(b)) && !is_filtered(s, a, b);
-}
 
 // A pair that must be reported, and the kind of fault if it is lost.
 struct RequiredPair {
@@ -90,22 +76,15 @@ class Replay {
   }
   const State& now() const { return now_; }
 
-  RequiredPairs overlapping_boxes() {
-    order_.clear();
-    for (int i = 0; i < static_cast<int>(now_.present.size()); ++i)
-      if (now_.present[static_cast<std::size_t>(i)] && now_.has_box[static_cast<std::size_t>(i)])
-        order_.push_back(i);
+  RequiredPairs required_pairs() const {
+    std::vector<BoxedBody> boxed;
+    for (std::size_t i = 0; i < now_.present.size(); ++i)
+      if (now_.present[i] && now_.has_box[i]) boxed.push_back({now_.box[i], static_cast<int>(i)});
     const auto box = [&](int i) -> const Aabb& { return now_.box[static_cast<std::size_t>(i)]; };
-    std::sort(order_.begin(), order_.end(), [&](int i, int j) {
-      return box(i).lo.x() < box(j).lo.x() || (box(i).lo.x() == box(j).lo.x() && i < j);
-    });
     RequiredPairs out;
-    for (std::size_t i = 0; i < order_.size(); ++i)
-      for (std::size_t j = i + 1; j < order_.size() && box(order_[j]).lo.x() <= box(order_[i]).hi.x(); ++j)
-        if (overlaps(box(order_[i]), box(order_[j])) && is_reportable(s_, order_[i], order_[j]))
-          out.push_back(required_by_boxes(std::minmax(order_[i], order_[j]), box(order_[i]), box(order_[j])));
-    std::sort(out.begin(), out.end(),
-              [](const RequiredPair& x, const RequiredPair& y) { return x.pair < y.pair; });
+    for (const BodyPair& p : overlapping_boxes(std::move(boxed)))
+      if (is_reportable(s_, p.first, p.second))
+        out.push_back(required_by_boxes(p, box(p.first), box(p.second)));
     return out;
   }
 
@@ -123,7 +102,6 @@ class Replay {
   BroadLevel level_;
   bool invalid_;
   State now_;
-  std::vector<int> order_;
 };
 
 // If `swept`, the pairs that meet at some time in the step, starting from the bodies' own poses.
@@ -189,7 +167,7 @@ class Judge {
         replay_.apply(step);
         continue;
       }
-      judge_query(static_cast<int>(k), level_ == BroadLevel::bodies ? truth[k] : replay_.overlapping_boxes());
+      judge_query(static_cast<int>(k), level_ == BroadLevel::bodies ? truth[k] : replay_.required_pairs());
       ++k;
     }
     if (answer_.candidate_pairs.size() > k)
@@ -197,23 +175,16 @@ class Judge {
             {static_cast<int>(k)});
   }
   void judge_query(int k, const RequiredPairs& truth) {
-    static const Pairs none;
-    const auto at = static_cast<std::size_t>(k);
-    const Pairs reported =
-        sorted_unique(at < answer_.candidate_pairs.size() ? answer_.candidate_pairs[at] : none);
+    const auto found = compare_candidates(
+        answer_, static_cast<std::size_t>(k), static_cast<int>(s_.bodies.size()), truth, &RequiredPair::pair,
+        [&](int i) { return swept_ || replay_.now().present[static_cast<std::size_t>(i)]; });
     ++v_.queries;
     v_.pairs_true += truth.size();
-    v_.pairs_reported += reported.size();
-    hash_.add(reported.size());
-    for (const auto& [a, b] : reported) hash_.add(a).add(b);
-    for (const RequiredPair& d : truth)
-      if (!std::binary_search(reported.begin(), reported.end(), d.pair)) missed(k, d);
-    for (const BodyPair& p : reported)
-      if (p.first == p.second || absent(p.first) || absent(p.second)) stale(k, p);
-  }
-  bool absent(int i) const {
-    if (i < 0 || i >= static_cast<int>(s_.bodies.size())) return true;
-    return !swept_ && !replay_.now().present[static_cast<std::size_t>(i)];
+    v_.pairs_reported += found.reported.size();
+    hash_.add(found.reported.size());
+    for (const auto& [a, b] : found.reported) hash_.add(a).add(b);
+    for (const std::size_t i : found.missed) missed(k, truth[i]);
+    for (const BodyPair& p : found.stale) stale(k, p);
   }
   void missed(int k, const RequiredPair& d) {
     const auto [a, b] = d.pair;

@@ -3,9 +3,10 @@
 
 #include <string>
 
+#include "oracles/abi/engine.h"
+#include "reports/record/broad_certificate.h"
 #include "scenarios/exhaustive/evidence.h"
 #include "scenarios/value/judgement.h"
-#include "reports/record/broad_certificate.h"
 
 namespace touchstone::fuzz {
 
@@ -29,9 +30,14 @@ struct CandidateVerdict {
 };
 
 /// The kind of a fault describes the pair only; blaming an infinite or invalid box elsewhere in the scene is
-/// left to fault_cause.h. At the level of boxes every body must have an exact_box, or InputError is thrown;
-/// `invalid` admits bodies without one, or with an empty one, and does not require them to be paired.
+/// left to judge_with_cause. At the level of boxes every body must have an exact_box, or InputError is
+/// thrown; `invalid` admits bodies without one, or with an empty one, and does not require them to be paired.
 CandidateVerdict judge_candidates(const Case& c, const Observation& answer, BroadLevel level,
                                   bool invalid = false);
+
+/// Judges the answer `o` of `engine` like judge_candidates, and sets the kind to `unbounded` or `invalid`
+/// where the fault disappears without such boxes.
+CandidateVerdict judge_with_cause(Engine& engine, const Case& c, const Observation& o, BroadLevel level,
+                                  bool invalid);
 
 }  // namespace touchstone::fuzz

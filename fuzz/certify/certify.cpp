@@ -8,8 +8,7 @@
 
 #include "core/base/hash.h"
 #include "core/base/input_error.h"
-#include "fuzz/certify/fault_cause.h"
-#include "fuzz/certify/refute.h"
+#include "fuzz/certify/candidate_verdict.h"
 
 namespace touchstone::fuzz {
 namespace {
@@ -31,17 +30,19 @@ struct Part {
   bool is_last = false;
 };
 
-void add(EvidenceCount& to, const CandidateVerdict& v) {
-  ++to.cases;
-  to.answered += v.refused || v.timed_out || !v.faults.empty() ? 0 : 1;
-  to.refused += v.refused;
-  if (v.refused && to.refusal.empty()) to.refusal = v.words;
-  to.steps += v.steps;
-  to.queries += v.queries;
-  to.undecided += v.undecided;
-  to.pairs_true += v.pairs_true;
-  to.pairs_reported += v.pairs_reported;
-  to.digest = Hasher().add(to.digest).add(v.digest).value();
+EvidenceCount count_of(const CandidateVerdict& v) {
+  EvidenceCount one;
+  one.cases = 1;
+  one.answered = v.refused || v.timed_out || !v.faults.empty() ? 0 : 1;
+  one.refused = v.refused;
+  if (v.refused) one.refusal = v.words;
+  one.steps = v.steps;
+  one.queries = v.queries;
+  one.undecided = v.undecided;
+  one.pairs_true = v.pairs_true;
+  one.pairs_reported = v.pairs_reported;
+  one.digest = v.digest;
+  return one;
 }
 
 void add(EvidenceCount& to, const EvidenceCount& part) {
@@ -96,7 +97,7 @@ class PartRun {
   }
   void judge(std::uint64_t index, const Case& c, const Observation& o) {
     const CandidateVerdict v = judge_with_cause(engine_, c, o, e_.level, e_.invalid);
-    add(part_.count, v);
+    add(part_.count, count_of(v));
     if (v.timed_out) part_.too_slow = index;
     if (o.outcome != Outcome::answered && !v.refused && !v.timed_out) ++part_.failures;
     part_.is_last = part_.too_slow || part_.failures >= most_failures(e_);

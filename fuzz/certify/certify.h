@@ -8,9 +8,10 @@
 #include <atomic>
 #include <functional>
 
-#include "scenarios/exhaustive/evidence.h"
-#include "reports/record/broad_certificate.h"
+#include "fuzz/certify/candidate_verdict.h"
 #include "oracles/abi/engine.h"
+#include "reports/record/broad_certificate.h"
+#include "scenarios/exhaustive/evidence.h"
 
 namespace touchstone::fuzz {
 
@@ -47,5 +48,14 @@ using CertifyProgress = std::function<void(const EvidenceCount& now, std::size_t
 /// Returns nothing if it was stopped.
 std::optional<BroadCertificate> certify(const Subject& subject, const CertifyConfig& config,
                                         const CertifyProgress& progress, const std::atomic<bool>& stop);
+
+// Reduces a wrong answer to the smallest script that shows it.
+
+/// `c` is the case of `found`. If the subject's answers depend on earlier questions, every case gets a new
+/// engine. Shrinking keeps the class of the fault: a solid pair stays solid.
+Refutation refute(const Subject& subject, const EvidenceRow& e, const FaultCount& found, const Case& c);
+
+/// Number of bodies that the script inserts; all bodies if there is no script.
+std::size_t bodies_used(const Case& c);
 
 }  // namespace touchstone::fuzz

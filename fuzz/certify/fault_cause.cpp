@@ -1,21 +1,20 @@
-#include "fuzz/certify/fault_cause.h"
+#include "fuzz/certify/candidate_verdict.h"
 
 #include <algorithm>
+
+#include "scenarios/value/odd_numbers.h"
 
 namespace touchstone::fuzz {
 namespace {
 
 bool is_half_space(const Scene& s, int body) { return kind_of(s.shape_of(body)) == ShapeKind::half_space; }
 
-bool is_finite(const Pose& p) { return p.translation.allFinite(); }
-
 // The body's own numbers, or a pose in one of its steps, do not describe a closed finite set.
 bool is_invalid(const Scene& s, int body) {
-  const auto* box = std::get_if<Box>(&s.shape_of(body));
-  if (box && !(box->half_extents.allFinite() && (box->half_extents.array() >= 0).all())) return true;
-  return !is_finite(s.bodies[static_cast<std::size_t>(body)].pose) ||
+  const Shape& shape = s.shape_of(body);
+  return !is_closed_set(shape, s.bodies[static_cast<std::size_t>(body)].pose) ||
          std::any_of(s.script.begin(), s.script.end(), [&](const Step& step) {
-           return step.body == body && step.pose && !is_finite(*step.pose);
+           return step.body == body && step.pose && !is_closed_set(shape, *step.pose);
          });
 }
 

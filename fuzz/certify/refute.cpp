@@ -1,4 +1,4 @@
-#include "fuzz/certify/refute.h"
+#include "fuzz/certify/certify.h"
 
 #include <fmt/format.h>
 
@@ -7,6 +7,8 @@
 
 #include "core/base/input_error.h"
 #include "fuzz/shrink/shrink.h"
+#include "scenarios/value/candidate_pairs.h"
+#include "scenarios/value/odd_numbers.h"
 
 namespace touchstone::fuzz {
 namespace {
@@ -133,11 +135,9 @@ std::string invalid_boxes(const Scene& s) {
   std::string out;
   for (std::size_t i = 0; i < s.bodies.size(); ++i) {
     const auto* box = std::get_if<Box>(&s.shape_of(static_cast<int>(i)));
-    const Vec3& t = s.bodies[i].pose.translation;
-    if (!box || (t.allFinite() && box->half_extents.allFinite() && (box->half_extents.array() >= 0).all()))
-      continue;
-    out += fmt::format("; body {} is not a valid box: at {}, half extents {}", i, in_words(t),
-                       in_words(box->half_extents));
+    if (!box || is_closed_set(*box, s.bodies[i].pose)) continue;
+    out += fmt::format("; body {} is not a valid box: at {}, half extents {}", i,
+                       in_words(s.bodies[i].pose.translation), in_words(box->half_extents));
   }
   return out;
 }

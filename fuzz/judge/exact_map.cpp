@@ -31,6 +31,14 @@ bool has_own_axis(const Shape& s) {
   return k == ShapeKind::capsule || k == ShapeKind::cylinder || k == ShapeKind::cone;
 }
 
+bool cycle_axes(Scene& s) {
+  if (std::any_of(s.shapes.begin(), s.shapes.end(), has_own_axis)) return false;
+  Mat3 cycle;
+  cycle << 0, 1, 0, 0, 0, 1, 1, 0, 0;
+  turn_axes(s, cycle);
+  return true;
+}
+
 namespace {
 
 bool scales(double v, double factor) {

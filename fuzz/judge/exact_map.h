@@ -2,6 +2,7 @@
 // other, to the last bit. Scripts are unchanged.
 #pragma once
 
+#include <array>
 #include <type_traits>
 
 #include "core/scene/scene.h"
@@ -29,6 +30,8 @@ void change_numbers(Shape& shape, F&& f) {
 void turn_axes(Scene& s, const Mat3& m);
 /// Capsule, cylinder, cone: their z axis is fixed by the shape.
 bool has_own_axis(const Shape& s);
+/// Turns the axes x, y, z into y, z, x. False, with nothing changed, when a shape has its own axis.
+bool cycle_axes(Scene& s);
 
 /// Turns the world by half a turn about one of its axes (0, 1, 2): signs change, and quaternion components
 /// change places. Any shape.
@@ -40,5 +43,7 @@ bool translate_by(Scene& s, const Vec3& by);
 /// Scales by a power of two. False, with nothing changed, when a number is so small or large that the product
 /// is not exact.
 bool scale_by(Scene& s, double factor);
+/// The other units of length in which a scene is given, as factors of its numbers.
+inline constexpr std::array<double, 2> unit_factors{0x1p20, 0x1p-12};
 
 }  // namespace touchstone::fuzz

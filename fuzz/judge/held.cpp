@@ -1,4 +1,4 @@
-#include "fuzz/judge/held.h"
+#include "fuzz/judge/truth.h"
 
 #include <algorithm>
 #include <cmath>

@@ -7,7 +7,7 @@
 
 #include "core/math/roundoff.h"
 #include "fuzz/judge/check.h"
-#include "fuzz/judge/held.h"
+#include "fuzz/judge/truth.h"
 #include "scenarios/value/odd_numbers.h"
 
 namespace touchstone::fuzz {

@@ -8,7 +8,6 @@
 
 #include "core/base/input_error.h"
 #include "core/math/roundoff.h"
-#include "fuzz/judge/held.h"
 #include "fuzz/judge/largest_number.h"
 #include "fuzz/judge/truth.h"
 
@@ -41,11 +40,6 @@ GapInterval of_distance(double d, double tau, bool mesh) {
   return {d - tau, d + tau};
 }
 
-// Distance between the intervals; at most 0 when they intersect.
-double miss(const GapInterval& x, const GapInterval& y) {
-  return std::max(x.lo, y.lo) - std::min(x.hi, y.hi);
-}
-
 double displacement(const Scene& s, const ReceivedScene& received) {
   if (!is_held(s, received, {Question::scene_contacts})) return infinity;
   Truth truth(s);
@@ -56,8 +50,8 @@ double displacement(const Scene& s, const ReceivedScene& received) {
 // displaced by D from the given ones change a gap by at most 2D.
 Blame blame_of_contradiction(double miss_by, const RelationInput& in, const Derived& d,
                              const CaseObservations& observed) {
-  const double explained = 2 * (d.base_scale * displacement(in.c.scene, in.base.received) +
-                                displacement(d.c.scene, observed.received));
+  const double explained =
+      2 * (d.scale * displacement(in.c.scene, in.base.received) + displacement(d.c.scene, observed.received));
   return miss_by <= explained ? Blame::representation : Blame::algorithm;
 }
 
@@ -71,22 +65,20 @@ std::optional<RelationBreak> find_gap_break(const Relation& r, const RelationInp
     for (std::size_t k = 0; k < d.c.queries.size(); ++k) {
       const Query& q = d.c.queries[k];
       const GapInterval here = implied_gap(d.c.scene, q, observed.answers[k], in.card);
-      const GapInterval due{d.base_scale * e.gap.lo - d.rounding, d.base_scale * e.gap.hi + d.rounding};
-      const double by = miss(here, due);
+      const double by = miss(d, e.gap, here);
       if (!(by > worst_miss)) continue;
       worst_miss = by;
       const Query& base = in.c.queries[static_cast<std::size_t>(e.query)];
       worst = RelationBreak{r.name, e.query, base.a, base.b, by / scale_of_pair(d.c.scene, q.a, q.b), {}, {}};
       worst->words = fmt::format("{}: `{}` puts the gap in {}, but `{}` put it in {} before", d.words,
                                  to_string(q.question), interval_text(here), to_string(base.question),
-                                 interval_text(due));
+                                 interval_text(mapped(d, e.gap)));
     }
   if (worst) worst->blame = blame_of_contradiction(worst_miss, in, d, observed);
   return worst;
 }
 
-// Reports an engine that answers in one form but not in the other. A time-out depends on the machine and is
-// left to the case itself.
+// Reports an engine that answers in one form but not in the other.
 std::optional<RelationBreak> find_missing_answer(const Relation& r, const RelationInput& in, const Derived& d,
                                                  const CaseObservations& observed) {
   std::size_t k = 0;
@@ -94,8 +86,7 @@ std::optional<RelationBreak> find_missing_answer(const Relation& r, const Relati
     const Query& q = in.c.queries[i];
     if (d.body_of.empty() && !is_pair_question(q.question)) continue;
     const Outcome before = in.base.answers[i].outcome, after = observed.answers[k++].outcome;
-    if (before == after || depends_on_time(before) || depends_on_time(after)) continue;
-    if (before != Outcome::answered && after != Outcome::answered) continue;
+    if (!is_answered_once(before, after)) continue;
     return RelationBreak{r.name,
                          static_cast<int>(i),
                          q.a,
@@ -109,6 +100,20 @@ std::optional<RelationBreak> find_missing_answer(const Relation& r, const Relati
 }
 
 }  // namespace
+
+GapInterval mapped(const Form& form, const GapInterval& in_base) {
+  return {form.scale * in_base.lo - form.rounding, form.scale * in_base.hi + form.rounding};
+}
+
+double miss(const Form& form, const GapInterval& in_base, const GapInterval& here) {
+  const GapInterval due = mapped(form, in_base);
+  return std::max(here.lo, due.lo) - std::min(here.hi, due.hi);
+}
+
+bool is_answered_once(Outcome in_base, Outcome here) {
+  if (depends_on_time(in_base) || depends_on_time(here)) return false;
+  return (in_base == Outcome::answered) != (here == Outcome::answered);
+}
 
 std::span<const Relation> relations() { return rows; }
 

@@ -40,12 +40,24 @@ struct Expected {
   GapInterval gap;
 };
 
-/// A case derived from a base case, and what the answers to the base imply about it.
-struct Derived {
+/// The same pair in another form, and how its gap maps back.
+struct Form {
   Case c;
+  double scale = 1;     // lengths here / lengths in the base
+  double rounding = 0;  // of the derivation: g is known up to this error
+};
+/// How far apart the intervals of one gap are, given in the base and found here; at most 0 when they
+/// intersect.
+double miss(const Form& form, const GapInterval& in_base, const GapInterval& here);
+/// What `in_base` says about the gap here.
+GapInterval mapped(const Form& form, const GapInterval& in_base);
+/// True when one of the two is an answer and the other is not. A time-out depends on the machine and proves
+/// nothing.
+bool is_answered_once(Outcome in_base, Outcome here);
+
+/// A case derived from a base case, and what the answers to the base imply about it.
+struct Derived : Form {
   std::vector<Expected> expected;  // pair questions
-  double rounding = 0;             // of the derivation: g is known up to this error
-  double base_scale = 1;           // gap here / gap in the base
   /// The queries correspond one to one to the base's: an engine that answers one must answer the other.
   bool same_questions = false;
   std::vector<int> body_of;  // scene questions: body i here is body_of[i] in the base

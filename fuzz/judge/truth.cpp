@@ -7,32 +7,14 @@
 #include <limits>
 #include <numeric>
 
-#include "fuzz/judge/held.h"
+#include "scenarios/value/candidate_pairs.h"
+#include "scenarios/value/odd_numbers.h"
 
 namespace touchstone::fuzz {
 namespace {
 
 Motion motion_of(const Scene& s, int body) {
   return s.bodies[static_cast<std::size_t>(body)].motion.value_or(Motion{});
-}
-
-struct BoxedBody {
-  Aabb box;
-  int body;
-};
-
-// Sorted pairs (a < b) of bodies whose boxes overlap.
-std::vector<BodyPair> overlapping_boxes(std::vector<BoxedBody> entries) {
-  std::sort(entries.begin(), entries.end(), [](const BoxedBody& x, const BoxedBody& y) {
-    return std::pair{x.box.lo.x(), x.body} < std::pair{y.box.lo.x(), y.body};
-  });
-  std::vector<BodyPair> result;
-  for (std::size_t i = 0; i < entries.size(); ++i)
-    for (std::size_t j = i + 1; j < entries.size() && entries[j].box.lo.x() <= entries[i].box.hi.x(); ++j)
-      if (overlaps(entries[i].box, entries[j].box))
-        result.push_back(std::minmax(entries[i].body, entries[j].body));
-  std::sort(result.begin(), result.end());
-  return result;
 }
 
 // True when every number that the engine reports equals the given one, so that frame 0 serves. A Placement
@@ -290,20 +272,14 @@ const std::vector<Truth::StepState>& Truth::steps() {
   return *steps_;
 }
 
-// Whether a broad phase must report a < b: neither filtered nor both static.
-bool Truth::counts(int a, int b) const {
-  const auto fixed = [&](int i) { return asked_.bodies[static_cast<std::size_t>(i)].is_static; };
-  return !is_filtered(asked_, a, b) && !(fixed(a) && fixed(b));
-}
-
-// Sweep and prune along x over the exact outer boxes, then the exact verdict on each remaining pair.
+// The pairs whose outer boxes overlap, then the exact verdict on each remaining pair.
 std::vector<Truth::TruePair> Truth::overlapping(const std::vector<std::optional<Placed>>& bodies) {
   std::vector<BoxedBody> entries;
   for (std::size_t i = 0; i < bodies.size(); ++i)
     if (bodies[i]) entries.push_back({referee::outer_box(*bodies[i]), static_cast<int>(i)});
   std::vector<TruePair> result;
   for (const auto& [a, b] : overlapping_boxes(std::move(entries))) {
-    if (!counts(a, b)) continue;
+    if (!is_reportable(asked_, a, b)) continue;
     TruePair p{
         {a, b},
         referee::judge_pair(*bodies[static_cast<std::size_t>(a)], *bodies[static_cast<std::size_t>(b)])};
@@ -320,7 +296,7 @@ const std::vector<BodyPair>& Truth::meeting_pairs() {
   for (int i = 0; i < static_cast<int>(asked_.bodies.size()); ++i)
     entries.push_back({referee::outer_box(placed(0, i), motion_of(asked_, i)), i});
   for (const auto& [a, b] : overlapping_boxes(std::move(entries))) {
-    if (!counts(a, b)) continue;
+    if (!is_reportable(asked_, a, b)) continue;
     const auto verdict = motion(0, a, b).verdict;
     if (verdict == referee::TimeTruth::Verdict::undecided) ++undecided_meetings_;
     if (verdict == referee::TimeTruth::Verdict::hit) meeting_pairs_->push_back({a, b});
@@ -328,26 +304,15 @@ const std::vector<BodyPair>& Truth::meeting_pairs() {
   return *meeting_pairs_;
 }
 
-namespace {
-
-// Only candidate queries may contain invalid bodies (scenarios/value/odd_numbers.h): those are in no true
-// pair.
-bool is_a_set(const Shape& shape, const Pose& pose) {
-  const auto* box = std::get_if<Box>(&shape);
-  return pose.translation.allFinite() &&
-         (!box || (box->half_extents.allFinite() && (box->half_extents.array() >= 0).all()));
-}
-
-}  // namespace
-
 const std::vector<std::vector<Truth::TruePair>>& Truth::true_pairs() {
   if (true_pairs_) return *true_pairs_;
   true_pairs_.emplace();
   for (const StepState& state : steps()) {
+    // A body that is no set, which only candidate queries may contain, is in no true pair.
     std::vector<std::optional<Placed>> bodies(asked_.bodies.size());
     for (std::size_t i = 0; i < bodies.size(); ++i)
       if (const Shape& shape = asked_.shape_of(static_cast<int>(i));
-          state.pose[i] && is_a_set(shape, *state.pose[i]))
+          state.pose[i] && is_closed_set(shape, *state.pose[i]))
         bodies[i] = Placed{&shape, *state.pose[i]};
     true_pairs_->push_back(overlapping(bodies));
   }

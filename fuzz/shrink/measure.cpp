@@ -1,4 +1,4 @@
-#include "fuzz/shrink/measure.h"
+#include "fuzz/shrink/reductions.h"
 
 #include <bit>
 #include <cmath>

@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "core/base/input_error.h"
-#include "fuzz/shrink/measure.h"
 #include "scenarios/value/odd_numbers.h"
 
 namespace touchstone::fuzz {

@@ -8,9 +8,21 @@
 #include <string_view>
 #include <vector>
 
+#include "scenarios/random/numbers.h"
 #include "scenarios/value/case.h"
 
 namespace touchstone::fuzz {
+
+// The size of a case and of every number in it. The shrinker accepts only cases that are smaller by this
+// measure, so it terminates.
+
+CaseSize measure(const Case& c);
+
+/// Significant bits of the mantissa plus bits of the exponent: 0 costs 0, 1 costs 1, 0.1 costs 56.
+int bits_of(double v);
+
+/// Rounds v to the nearest number with `significant` bits.
+double rounded_to(double v, int significant);
 
 /// A kind of list in a case: queries, bodies, steps, vertices of its i-th hull, …
 struct ListPart {

@@ -12,7 +12,7 @@
 #include <span>
 #include <string_view>
 
-#include "fuzz/shrink/measure.h"
+#include "fuzz/shrink/reductions.h"
 
 namespace touchstone::fuzz {
 

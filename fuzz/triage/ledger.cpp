@@ -9,7 +9,7 @@
 
 #include "core/base/input_error.h"
 #include "reports/record/stored.h"
-#include "scenarios/codec/input_file.h"
+#include "scenarios/codec/json_file.h"
 #include "scenarios/text/printable.h"
 
 namespace touchstone::fuzz {

@@ -1,9 +1,9 @@
-#include "fuzz/triage/merge_ledgers.h"
+#include "fuzz/triage/ledger.h"
 
 #include <algorithm>
 #include <tuple>
 
-#include "scenarios/codec/input_file.h"
+#include "scenarios/codec/json_file.h"
 
 namespace touchstone::fuzz {
 namespace {

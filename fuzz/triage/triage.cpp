@@ -8,11 +8,11 @@
 #include <thread>
 
 #include "core/base/input_error.h"
+#include "fuzz/shrink/reductions.h"
 #include "reports/record/stored.h"
 #include "scenarios/codec/case_codec.h"
 #include "scenarios/codec/json_file.h"
 #include "scenarios/codec/scene_codec.h"
-#include "fuzz/shrink/measure.h"
 
 namespace touchstone::fuzz {
 namespace {

@@ -10,7 +10,7 @@ namespace touchstone::fork_server {
 
 enum class Op : std::int32_t {
   /// Carries three descriptors: questions, answers, standard error. Reply: pid, or -1. For native engines
-  /// (oracles/host/native.h) it names the engine, and `pid` is 1 if the worker may buffer its answers.
+  /// (oracles/host/serve.h) it names the engine, and `pid` is 1 if the worker may buffer its answers.
   fork = 1,
   poll = 2,  // has worker `pid` ended? Reply: 1 and its wait status, or 0
   wait = 3   // the same, but blocks until the worker has ended

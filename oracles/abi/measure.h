@@ -9,6 +9,7 @@
 #include <chrono>
 #include <cstdint>
 #include <cstdlib>
+#include <ctime>
 
 namespace touchstone {
 
@@ -35,6 +36,15 @@ std::int64_t least_mean_ns(std::int64_t first, std::int64_t budget, Ask&& ask) {
     if (took < budget / 8) n *= 2;
   }
   return least;
+}
+
+// CPU time of the calling thread. POSIX.
+
+/// In nanoseconds.
+inline std::int64_t thread_cpu_ns() {
+  timespec t{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
+  return std::int64_t{1'000'000'000} * t.tv_sec + t.tv_nsec;
 }
 
 }  // namespace touchstone

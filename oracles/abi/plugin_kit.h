@@ -127,11 +127,26 @@ class PairFilter {
     return (ga >= 0 && ga == gb) || std::binary_search(ignored_.begin(), ignored_.end(),
                                                        std::pair<int, int>(std::min(a, b), std::max(a, b)));
   }
+  /// Whether a broad phase reports the pair: neither dropped nor both static.
+  bool is_reportable(int a, int b) const {
+    return !(scene_->bodies[a].is_static && scene_->bodies[b].is_static) && !drops(a, b);
+  }
 
  private:
   const ts_scene* scene_ = nullptr;
   std::vector<std::pair<int, int>> ignored_;
 };
+
+/// Runs the scene's script: apply(step) for every change, query(k) for the k-th query.
+template <class Apply, class Query>
+void run_script(const ts_scene& scene, Apply&& apply, Query&& query) {
+  int k = 0;
+  for (std::size_t i = 0; i < scene.step_count; ++i)
+    if (scene.steps[i].op == TS_QUERY)
+      query(k++);
+    else
+      apply(scene.steps[i]);
+}
 
 /// The host's TS_ABI_MINOR; 0 when it is too old to report it.
 inline std::uint32_t host_minor = 0;

@@ -1,6 +1,5 @@
 #include "oracles/abi/protocol.h"
 
-#include "oracles/abi/protocol_scene.h"
 #include "scenarios/text/printable.h"
 
 namespace touchstone::protocol {

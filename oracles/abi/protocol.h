@@ -87,4 +87,14 @@ QuestionMessage decode_question(std::string_view payload);
 ReceivedMessage decode_received(std::string_view payload, const Scene& scene);
 AnswerMessage decode_answer(std::string_view payload);
 
+// Scenes and received scenes as bytes; used only by protocol.cpp.
+
+/// Writes the scene without names. get_scene(put_scene(s)) has the same numbers, including faces and
+/// dimensions of hulls, and the same script.
+void put_scene(Writer& w, const Scene& scene);
+Scene get_scene(Reader& r);
+
+void put_received(Writer& w, const ReceivedScene& received);
+ReceivedScene get_received(Reader& r, const Scene& sent);
+
 }  // namespace touchstone::protocol

@@ -1,4 +1,4 @@
-#include "oracles/abi/protocol_scene.h"
+#include "oracles/abi/protocol.h"
 
 #include <utility>
 

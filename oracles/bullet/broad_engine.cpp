@@ -143,17 +143,13 @@ class Engine {
   void ask(ts_question question, int, int, ts_answer&, const ts_sink& sink) {
     if (question != TS_CANDIDATES) throw kit::Unsupported("a broad phase only");
     Run run(*scene_, shapes_, dispatcher_, row_.make());
-    int k = 0;
-    for (std::size_t i = 0; i < scene_->step_count; ++i) {
-      if (scene_->steps[i].op != TS_QUERY) {
-        run.apply(scene_->steps[i]);
-        continue;
-      }
-      run.query([&](int a, int b) {
-        if (!filter_.drops(a, b)) sink.pair(sink.ctx, k, a, b);
-      });
-      ++k;
-    }
+    kit::run_script(
+        *scene_, [&](const ts_step& step) { run.apply(step); },
+        [&](int k) {
+          run.query([&](int a, int b) {
+            if (!filter_.drops(a, b)) sink.pair(sink.ctx, k, a, b);
+          });
+        });
   }
 
  private:

@@ -14,21 +14,17 @@ void for_each_cached_pair(btCollisionWorld& world, const std::function<void(int,
 
 void run_script(const ts_scene& scene, Objects& objects, World& world,
                 const std::function<void(int, int, int)>& pair) {
-  int k = 0;
-  for (std::size_t i = 0; i < scene.step_count; ++i) {
-    const ts_step& step = scene.steps[i];
-    btCollisionObject* const o =
-        step.body >= 0 ? objects[static_cast<std::size_t>(step.body)].get() : nullptr;
-    if (step.op == TS_INSERT || step.op == TS_MOVE)
-      o->setWorldTransform(make_transform(kit::pose_of(step.pose)));
+  const auto apply = [&](const ts_step& step) {
+    btCollisionObject* const o = objects[static_cast<std::size_t>(step.body)].get();
+    if (step.op != TS_REMOVE) o->setWorldTransform(make_transform(kit::pose_of(step.pose)));
     if (step.op == TS_INSERT) world->addCollisionObject(o);
     if (step.op == TS_REMOVE) world->removeCollisionObject(o);
-    if (step.op != TS_QUERY) continue;
+  };
+  kit::run_script(scene, apply, [&](int k) {
     world->updateAabbs();
     world->computeOverlappingPairs();
     for_each_cached_pair(*world, [&](int a, int b) { pair(k, a, b); });
-    ++k;
-  }
+  });
 }
 
 }  // namespace touchstone::bullet_adapter

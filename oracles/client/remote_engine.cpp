@@ -13,8 +13,8 @@
 #include "oracles/client/process_usage.h"
 #include "oracles/client/watchdog.h"
 #include "oracles/client/worker_session.h"
+#include "scenarios/codec/value_codec.h"
 #include "scenarios/text/printable.h"
-#include "scenarios/codec/card_codec.h"
 
 namespace touchstone {
 namespace {

@@ -107,7 +107,7 @@ int spawn(const std::string& program, const std::vector<std::string>& arguments,
   argv.push_back(nullptr);
   // The answers of an engine that reads uninitialised memory (FCL's mesh-sphere distance and its default
   // continuous query do) would depend on what ran before. glibc is therefore told to hand out memory filled
-  // with zeros, so that the same question gets the same answer (oracles/host/memory_fill.h); its thread
+  // with zeros, so that the same question gets the same answer (oracles/host/diagnosis.h); its thread
   // caches would bypass the filling. The core is tested for this in another way, and is timed as it runs in
   // user programs.
   char perturb[] = "MALLOC_PERTURB_=255", no_cache[] = "GLIBC_TUNABLES=glibc.malloc.tcache_count=0";

@@ -59,7 +59,7 @@ class ScratchDirectory {
 
 class WorkerProcess {
  public:
-  /// The settings of a worker that runs a native engine (oracles/host/native.h).
+  /// The settings of a worker that runs a native engine (oracles/host/serve.h).
   struct Native {
     std::string engine;
     bool buffers_answers = false;  // it may buffer its answers for a moment

@@ -26,7 +26,7 @@ struct WorkerSession {
 WorkerSession start_fork_server(const std::filesystem::path& host, const std::filesystem::path& plugin,
                                 const std::string& argument, const WorkerLimits& limits);
 
-/// The shared fork server for a library of native engines (oracles/host/native.h). This process has at most
+/// The shared fork server for a library of native engines (oracles/host/serve.h). This process has at most
 /// one at a time; it ends with its last user. Throws InputError as above.
 std::shared_ptr<const WorkerSession> share_native_fork_server(const std::filesystem::path& host,
                                                               const std::filesystem::path& library,

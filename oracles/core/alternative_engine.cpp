@@ -1,9 +1,7 @@
-#include "oracles/core/alternative_engine.h"
-
 #include "core/impact/alternatives.h"
 #include "core/narrow/narrow_phase.h"
-#include "core/tolerance.h"
-#include "oracles/core/timed_answer.h"
+#include "oracles/core/core_answers.h"
+#include "oracles/core/core_engine.h"
 
 namespace touchstone {
 namespace {
@@ -49,14 +47,8 @@ void ask_extended(const Scene& s, const Query& q, Observation& o) {
 
 class AlternativeEngine final : public NativeEngine {
  public:
-  explicit AlternativeEngine(const Row& row) : row_(row) {
-    card_.name = row.name;
-    card_.library = "Touchstone core";
-    card_.version = "0.1.0";
-    card_.settings = row.settings;
-    card_.tau_factor = tolerance::core_tau_factor;
-    card_.source = "core/tolerance.h: arithmetic alone, no margin";
-  }
+  explicit AlternativeEngine(const Row& row)
+      : row_(row), card_(core_card(row.name, std::string(row.settings))) {}
   const EngineCard& card() const override { return card_; }
   void answer(const Case& c, const Tell& tell) override {
     for (const Query& q : c.queries)

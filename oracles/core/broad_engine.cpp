@@ -1,47 +1,18 @@
-#include "oracles/core/broad_engine.h"
-
 #include <array>
-#include <limits>
 
 #include "core/broad/body_box.h"
 #include "core/broad/catalog.h"
-#include "core/math/roundoff.h"
-#include "core/tolerance.h"
 #include "core/world/world.h"
-#include "oracles/core/timed_answer.h"
+#include "oracles/core/core_answers.h"
+#include "oracles/core/core_engine.h"
+#include "scenarios/value/candidate_pairs.h"
 
 namespace touchstone {
 namespace {
 
-constexpr double inf = std::numeric_limits<double>::infinity();
-
 const Body& body_of(const Scene& s, int i) { return s.bodies[static_cast<std::size_t>(i)]; }
 
 struct NoBox {};
-
-// A rotation by a third of a turn about (1,1,1), in either direction, permutes the extents cyclically and
-// exactly.
-Vec3 upright_extents(const Vec3& h, const Quat& q) {
-  if (q.x == 0 && q.y == 0 && q.z == 0) return h;
-  if (q.x != q.y || q.y != q.z || std::abs(q.w) != std::abs(q.x)) throw NoBox{};
-  return q.w == q.x ? Vec3(h.z(), h.x(), h.y()) : Vec3(h.y(), h.z(), h.x());
-}
-
-Aabb exact_box(const Shape& shape, const Pose& pose) {
-  if (const auto* b = std::get_if<Box>(&shape)) {
-    const Vec3 h = upright_extents(b->half_extents, pose.rotation);
-    return {pose.translation - h, pose.translation + h};
-  }
-  const auto* s = std::get_if<HalfSpace>(&shape);
-  if (!s || pose.rotation != Quat{}) throw NoBox{};
-  Aabb box{Vec3::Constant(-inf), Vec3::Constant(inf)};
-  for (int k = 0; k < 3; ++k) {
-    if (s->normal[k] == 0) continue;
-    if (std::abs(s->normal[k]) != 1 || std::abs(s->normal.sum()) != 1) throw NoBox{};
-    (s->normal[k] > 0 ? box.hi : box.lo)[k] = pose.translation[k] + s->normal[k] * s->offset;
-  }
-  return box;
-}
 
 // Runs a script through one broad phase. Consecutive moves become one update.
 class Run {
@@ -68,7 +39,10 @@ class Run {
  private:
   Aabb box(const Step& step) const {
     const Pose& p = step.pose ? *step.pose : body_of(s_, step.body).pose;
-    if (boxes_ == BroadBoxes::exact) return exact_box(s_.shape_of(step.body), p);
+    if (boxes_ == BroadBoxes::exact) {
+      if (const auto exact = exact_box(s_.shape_of(step.body), p)) return *exact;
+      throw NoBox{};
+    }
     return swept_ ? box_of(s_, step.body, p) : broad::body_box(s_.shape_of(step.body), p);
   }
   void apply(const Step& step) {
@@ -122,13 +96,11 @@ class Run {
 
 class BroadEngine final : public NativeEngine {
  public:
-  BroadEngine(const broad::CatalogRow& row, BroadBoxes boxes) : row_(row), boxes_(boxes) {
-    card_.name = row.name;
-    card_.library = "Touchstone core";
-    card_.version = "0.1.0";
-    card_.settings = "broad phase alone; refuses NaN and inverted boxes and leaves out the body";
-    card_.unit_roundoff = unit_roundoff<double>;
-    card_.tau_factor = tolerance::core_tau_factor;
+  BroadEngine(const broad::CatalogRow& row, BroadBoxes boxes)
+      : row_(row),
+        boxes_(boxes),
+        card_(core_card(row.name,
+                        "broad phase alone; refuses NaN and inverted boxes and leaves out the body")) {
     card_.source = "core/broad/broad_phase.h: no pair of closed boxes is lost";
   }
   const EngineCard& card() const override { return card_; }
@@ -152,8 +124,7 @@ class BroadEngine final : public NativeEngine {
         run.script();
       o.outcome = Outcome::answered;
     } catch (const NoBox&) {
-      o = {};
-      o.detail = "a body without an exact box";
+      o = no_answer(Outcome::unsupported, "a body without an exact box");
     }
   }
   const broad::CatalogRow& row_;

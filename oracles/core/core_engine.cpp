@@ -7,9 +7,8 @@
 #include "core/math/through_float.h"
 #include "core/narrow/filtered/query.h"
 #include "core/narrow/narrow_phase.h"
-#include "core/tolerance.h"
 #include "core/world/world.h"
-#include "oracles/core/timed_answer.h"
+#include "oracles/core/core_answers.h"
 
 namespace touchstone {
 namespace {
@@ -29,85 +28,53 @@ void require_bodies(const Scene& s, const Query& q) {
     if (i < 0 || i >= n) throw InputError("query", "body " + std::to_string(i) + " is not in the scene");
 }
 
-void ask_overlap(const Scene& s, const Query& q, Arithmetic arithmetic, Observation& o) {
-  const OverlapAnswer r = overlap(placed(s, q.a), placed(s, q.b), arithmetic);
-  o.outcome = r.outcome;
-  if (r.outcome == Outcome::answered) o.overlap = r.overlap;
-}
+// One case as the core answers it, in the given arithmetic.
+struct Asked {
+  const Scene& s;
+  Arithmetic arithmetic;
 
-void ask_distance(const Scene& s, const Query& q, Arithmetic arithmetic, Observation& o) {
-  const DistanceAnswer r = distance(placed(s, q.a), placed(s, q.b), arithmetic);
-  o.outcome = r.outcome;
-  if (r.outcome != Outcome::answered) return;
-  o.distance = r.distance;
-  o.witness = r.witness;
-  o.normal = r.normal;
-}
-
-void ask_contact(const Scene& s, const Query& q, Arithmetic arithmetic, Observation& o) {
-  const ContactAnswer r = contact(placed(s, q.a), placed(s, q.b), arithmetic);
-  o.outcome = r.outcome;
-  if (r.outcome != Outcome::answered) return;
-  o.overlap = r.overlap;
-  if (!r.overlap) return;
-  o.normal = r.normal;
-  o.depth = r.depth;
-  for (const ContactPoint& p : r.manifold) o.manifold.push_back({p.position, p.depth});
-}
-
-void ask_impact(const Scene& s, const Query& q, Observation& o) {
-  const ImpactAnswer r = time_of_impact(moving(s, q.a), moving(s, q.b), ImpactDetail::time);
-  o.outcome = r.outcome;
-  if (r.outcome == Outcome::answered) o.toi = r.toi;
-  if (r.outcome == Outcome::not_converged)
-    o.detail = "no contact before t = " + std::to_string(r.clear_until);
-}
-
-void ask_candidates(const Scene& s, Observation& o) {
-  const auto phase = broad::make_broad_phase(broad_phase_name);
-  o.candidate_pairs = candidate_pairs(s, *phase);
-  o.outcome = Outcome::answered;
-}
-
-void ask_swept_candidates(const Scene& s, Observation& o) {
-  const auto phase = broad::make_broad_phase(broad_phase_name);
-  o.candidate_pairs = {swept_candidate_pairs(s, *phase)};
-  o.outcome = Outcome::answered;
-}
-
-void ask_scene_contacts(const Scene& s, Observation& o) {
-  const auto phase = broad::make_broad_phase(broad_phase_name);
-  const SceneContacts r = scene_contacts(s, *phase);
-  o.outcome = r.outcome;
-  for (const PairContact& c : r.contacts) o.contacts.push_back({c.a, c.b, c.contact.normal, c.contact.depth});
-  if (r.unsupported > 0) o.detail = std::to_string(r.unsupported) + " pairs of unsupported shapes left out";
-}
+  void overlap(const Query& q, Observation& o) const {
+    store(touchstone::overlap(placed(s, q.a), placed(s, q.b), arithmetic), o);
+  }
+  void distance(const Query& q, Observation& o) const {
+    store(touchstone::distance(placed(s, q.a), placed(s, q.b), arithmetic), o);
+  }
+  void contact(const Query& q, Observation& o) const {
+    const ContactAnswer r = touchstone::contact(placed(s, q.a), placed(s, q.b), arithmetic);
+    store(r, r.manifold, o);
+  }
+  void time_of_impact(const Query& q, Observation& o) const {
+    const ImpactAnswer r = touchstone::time_of_impact(moving(s, q.a), moving(s, q.b), ImpactDetail::time);
+    o.outcome = r.outcome;
+    if (r.outcome == Outcome::answered) o.toi = r.toi;
+    if (r.outcome == Outcome::not_converged)
+      o.detail = "no contact before t = " + std::to_string(r.clear_until);
+  }
+  void candidates(Observation& o) const {
+    o.candidate_pairs = candidate_pairs(s, *broad::make_broad_phase(broad_phase_name));
+    o.outcome = Outcome::answered;
+  }
+  void swept_candidates(Observation& o) const {
+    o.candidate_pairs = {swept_candidate_pairs(s, *broad::make_broad_phase(broad_phase_name))};
+    o.outcome = Outcome::answered;
+  }
+  void scene_contacts(Observation& o) const {
+    const SceneContacts r = touchstone::scene_contacts(s, *broad::make_broad_phase(broad_phase_name));
+    o.outcome = r.outcome;
+    store(r.contacts, r.unsupported, o);
+  }
+};
 
 void ask(const Scene& s, const Query& q, Arithmetic arithmetic, Observation& o) {
   require_bodies(s, q);
   const bool narrow =
       q.question == Question::overlap || q.question == Question::distance || q.question == Question::contact;
   if (arithmetic == Arithmetic::float32 && !narrow) {
-    o.outcome = Outcome::unsupported;
-    o.detail = "the float core has a narrow phase only";
+    o = no_answer(Outcome::unsupported, "the float core has a narrow phase only");
     return;
   }
-  switch (q.question) {
-    case Question::overlap:
-      return ask_overlap(s, q, arithmetic, o);
-    case Question::distance:
-      return ask_distance(s, q, arithmetic, o);
-    case Question::contact:
-      return ask_contact(s, q, arithmetic, o);
-    case Question::time_of_impact:
-      return ask_impact(s, q, o);
-    case Question::candidates:
-      return ask_candidates(s, o);
-    case Question::scene_contacts:
-      return ask_scene_contacts(s, o);
-    case Question::swept_candidates:
-      return ask_swept_candidates(s, o);
-  }
+  Asked asked{s, arithmetic};
+  answer_by_question(asked, q, o);
 }
 
 Observation observe(const Scene& s, const Query& q, Arithmetic arithmetic) {
@@ -145,18 +112,14 @@ void round_to_float(const Scene& s, ReceivedScene& r) {
 
 CoreEngine::CoreEngine(Arithmetic arithmetic) : arithmetic_(arithmetic) {
   const bool narrow_only = arithmetic == Arithmetic::float32;
-  card_.name = narrow_only ? "core-f32" : "core";
-  card_.library = "Touchstone core";
-  card_.version = "0.1.0";
-  card_.settings =
-      narrow_only
-          ? "closed forms, GJK and EPA in float from pose to answer; no broad phase, no motion"
-          : "closed forms, GJK and EPA in double, in extended precision where the error bound requires it; "
-            "conservative advancement; broad phase " +
-                std::string(broad_phase_name);
-  card_.unit_roundoff = narrow_only ? unit_roundoff<float> : unit_roundoff<double>;
-  card_.tau_factor = tolerance::core_tau_factor;
-  card_.source = "core/tolerance.h: arithmetic alone, no margin";
+  card_ = narrow_only
+              ? core_card("core-f32",
+                          "closed forms, GJK and EPA in float from pose to answer; no broad phase, no motion")
+              : core_card("core",
+                          "closed forms, GJK and EPA in double, in extended precision where the error bound "
+                          "requires it; conservative advancement; broad phase " +
+                              std::string(broad_phase_name));
+  if (narrow_only) card_.unit_roundoff = unit_roundoff<float>;
   card_.complete_manifolds = !narrow_only;
 }
 

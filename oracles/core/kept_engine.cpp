@@ -1,5 +1,3 @@
-#include "oracles/core/kept_engine.h"
-
 #include <map>
 
 #include "core/broad/catalog.h"
@@ -7,9 +5,9 @@
 #include "core/narrow/hull_graph.h"
 #include "core/narrow/mesh_tree.h"
 #include "core/narrow/narrow_phase.h"
-#include "core/tolerance.h"
 #include "core/world/step_world.h"
-#include "oracles/core/timed_answer.h"
+#include "oracles/core/core_answers.h"
+#include "oracles/core/core_engine.h"
 
 namespace touchstone {
 namespace {
@@ -58,57 +56,8 @@ class Kept {
   std::map<std::pair<int, int>, PairMemory> memory_;
 };
 
-void ask_overlap(Kept& kept, const Query& q, Observation& o) {
-  const OverlapAnswer r = overlap(kept.placed(q.a), kept.placed(q.b), Arithmetic::float64, &kept.memory(q));
-  o.outcome = r.outcome;
-  if (r.outcome == Outcome::answered) o.overlap = r.overlap;
-}
-
-void ask_distance(Kept& kept, const Query& q, Observation& o) {
-  const DistanceAnswer r = distance(kept.placed(q.a), kept.placed(q.b), Arithmetic::float64, &kept.memory(q));
-  o.outcome = r.outcome;
-  if (r.outcome == Outcome::answered) {
-    o.distance = r.distance;
-    o.witness = r.witness;
-    o.normal = r.normal;
-  }
-}
-
-void ask_contact(Kept& kept, const Query& q, Observation& o) {
-  const ContactAnswer r = contact(kept.placed(q.a), kept.placed(q.b), Arithmetic::float64, &kept.memory(q));
-  o.outcome = r.outcome;
-  if (r.outcome != Outcome::answered) return;
-  o.overlap = r.overlap;
-  if (!r.overlap) return;
-  o.normal = r.normal;
-  o.depth = r.depth;
-  for (const ContactPoint& p : reduced(r)) o.manifold.push_back({p.position, p.depth});
-}
-
-// Both bodies are flagged for sweeping explicitly, so that the criterion skips nothing.
-void ask_impact(const Scene& s, const Query& q, Observation& o) {
-  StepWorld world(extract_pair(s, q.a, q.b));
-  for (const int body : {0, 1}) world.flag(body, true);
-  const StepReport r = world.step();
-  o.outcome = r.unsupported > 0 ? Outcome::unsupported : r.outcome;
-  for (const PairImpact& hit : r.impacts)
-    if (hit.impact.outcome == Outcome::answered) o.toi = hit.impact.toi;
-}
-
 std::unique_ptr<broad::BroadPhase> phase_in_turn(const Scene& s) {
   return broad::catalog[hash(s) % broad::catalog.size()].make();
-}
-
-void ask_candidates(const Scene& s, Observation& o) {
-  const auto phase = phase_in_turn(s);
-  o.candidate_pairs = candidate_pairs(s, *phase);
-  o.outcome = Outcome::answered;
-}
-
-void ask_swept_candidates(const Scene& s, Observation& o) {
-  const auto phase = phase_in_turn(s);
-  o.candidate_pairs = {swept_candidate_pairs(s, *phase)};
-  o.outcome = Outcome::answered;
 }
 
 Fidelity remembering() {
@@ -117,69 +66,75 @@ Fidelity remembering() {
   return f;
 }
 
-// Reports the second of two steps; in the first, the bodies are at their previous poses. Nothing moves within
-// a step.
-void ask_scene_contacts(const Scene& asked, Observation& o) {
-  Scene s = asked;
-  for (int i = 0; i < static_cast<int>(s.bodies.size()); ++i) {
-    Body& b = s.bodies[at(i)];
-    b.motion.reset();
-    if (!b.is_static) b.pose = previous_pose(asked, i);
-  }
-  StepWorld world(s, remembering());
-  world.step();
-  for (int i = 0; i < static_cast<int>(s.bodies.size()); ++i)
-    if (!s.bodies[at(i)].is_static) world.set(i, asked.bodies[at(i)].pose, {});
-  const StepReport r = world.step();
-  o.outcome = r.outcome;
-  for (const PairContact& c : r.contacts) o.contacts.push_back({c.a, c.b, c.contact.normal, c.contact.depth});
-  if (r.unsupported > 0) o.detail = std::to_string(r.unsupported) + " pairs of unsupported shapes left out";
-}
+struct Asked {
+  const Scene& s;
+  Kept& kept;
 
-void ask(const Scene& s, Kept& kept, const Query& q, Observation& o) {
-  switch (q.question) {
-    case Question::overlap:
-      return ask_overlap(kept, q, o);
-    case Question::distance:
-      return ask_distance(kept, q, o);
-    case Question::contact:
-      return ask_contact(kept, q, o);
-    case Question::time_of_impact:
-      return ask_impact(s, q, o);
-    case Question::candidates:
-      return ask_candidates(s, o);
-    case Question::scene_contacts:
-      return ask_scene_contacts(s, o);
-    case Question::swept_candidates:
-      return ask_swept_candidates(s, o);
+  void overlap(const Query& q, Observation& o) {
+    store(touchstone::overlap(kept.placed(q.a), kept.placed(q.b), Arithmetic::float64, &kept.memory(q)), o);
   }
-}
+  void distance(const Query& q, Observation& o) {
+    store(touchstone::distance(kept.placed(q.a), kept.placed(q.b), Arithmetic::float64, &kept.memory(q)), o);
+  }
+  void contact(const Query& q, Observation& o) {
+    const ContactAnswer r =
+        touchstone::contact(kept.placed(q.a), kept.placed(q.b), Arithmetic::float64, &kept.memory(q));
+    store(r, reduced(r), o);
+  }
+  // Both bodies are flagged for sweeping explicitly, so that the criterion skips nothing.
+  void time_of_impact(const Query& q, Observation& o) const {
+    StepWorld world(extract_pair(s, q.a, q.b));
+    for (const int body : {0, 1}) world.flag(body, true);
+    const StepReport r = world.step();
+    o.outcome = r.unsupported > 0 ? Outcome::unsupported : r.outcome;
+    for (const PairImpact& hit : r.impacts)
+      if (hit.impact.outcome == Outcome::answered) o.toi = hit.impact.toi;
+  }
+  void candidates(Observation& o) const {
+    o.candidate_pairs = candidate_pairs(s, *phase_in_turn(s));
+    o.outcome = Outcome::answered;
+  }
+  void swept_candidates(Observation& o) const {
+    o.candidate_pairs = {swept_candidate_pairs(s, *phase_in_turn(s))};
+    o.outcome = Outcome::answered;
+  }
+  // Reports the second of two steps; in the first, the bodies are at their previous poses. Nothing moves
+  // within a step.
+  void scene_contacts(Observation& o) const {
+    Scene at_rest = s;
+    for (int i = 0; i < static_cast<int>(s.bodies.size()); ++i) {
+      Body& b = at_rest.bodies[at(i)];
+      b.motion.reset();
+      if (!b.is_static) b.pose = previous_pose(s, i);
+    }
+    StepWorld world(at_rest, remembering());
+    world.step();
+    for (int i = 0; i < static_cast<int>(s.bodies.size()); ++i)
+      if (!s.bodies[at(i)].is_static) world.set(i, s.bodies[at(i)].pose, {});
+    const StepReport r = world.step();
+    o.outcome = r.outcome;
+    store(r.contacts, r.unsupported, o);
+  }
+};
 
 class KeptEngine final : public NativeEngine {
  public:
-  KeptEngine() {
-    card_.name = "core-kept";
-    card_.library = "Touchstone core";
-    card_.version = "0.1.0";
-    card_.settings =
-        "as core, with hull graphs, mesh trees, cached pairs and manifolds of at most four points; motions "
-        "and scenes by StepWorld; every broad phase in turn";
-    card_.unit_roundoff = unit_roundoff<double>;
-    card_.tau_factor = tolerance::core_tau_factor;
-    card_.source = "core/tolerance.h: arithmetic alone, no margin";
-  }
   const EngineCard& card() const override { return card_; }
   void answer(const Case& c, const Tell& tell) override {
     std::optional<Kept> kept;
     for (const Query& q : c.queries)
       tell(timed_answer([&](Observation& o) {
         if (!kept) kept.emplace(c.scene);
-        ask(c.scene, *kept, q, o);
+        Asked asked{c.scene, *kept};
+        answer_by_question(asked, q, o);
       }));
   }
 
  private:
-  EngineCard card_;
+  EngineCard card_ = core_card(
+      "core-kept",
+      "as core, with hull graphs, mesh trees, cached pairs and manifolds of at most four points; motions and "
+      "scenes by StepWorld; every broad phase in turn");
 };
 
 }  // namespace

@@ -1,10 +1,6 @@
-#include "oracles/core/native.h"
-
 #include <algorithm>
 
-#include "oracles/core/alternative_engine.h"
 #include "oracles/core/core_engine.h"
-#include "oracles/core/kept_engine.h"
 
 namespace touchstone {
 namespace {

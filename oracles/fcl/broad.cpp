@@ -1,4 +1,4 @@
-#include "oracles/fcl/broad.h"
+#include "oracles/fcl/queries.h"
 
 #include <fcl/broadphase/broadphase_dynamic_AABB_tree.h>
 #include <fcl/narrowphase/collision_object.h>
@@ -61,17 +61,12 @@ class Tree {
 void run_script(const ts_scene& scene, const std::vector<Geometry>& geometries,
                 const std::function<void(int, int, int)>& pair) {
   Tree tree(scene, geometries);
-  int k = 0;
-  for (std::size_t i = 0; i < scene.step_count; ++i) {
-    const ts_step& step = scene.steps[i];
+  const auto apply = [&](const ts_step& step) {
     if (step.op == TS_INSERT) tree.insert(step.body, step.pose);
     if (step.op == TS_MOVE) tree.move(step.body, step.pose);
     if (step.op == TS_REMOVE) tree.remove(step.body);
-    if (step.op == TS_QUERY) {
-      tree.query([&](int a, int b) { pair(k, a, b); });
-      ++k;
-    }
-  }
+  };
+  kit::run_script(scene, apply, [&](int k) { tree.query([&](int a, int b) { pair(k, a, b); }); });
 }
 
 void all_pairs(const ts_scene& scene, const std::vector<Geometry>& geometries,

@@ -177,25 +177,16 @@ class Engine {
   void ask(ts_question question, int, int, ts_answer&, const ts_sink& sink) {
     if (question != TS_CANDIDATES) throw kit::Unsupported("a broad phase only");
     Run run(*scene_, geometries_, row_);
-    int k = 0;
-    for (std::size_t i = 0; i < scene_->step_count; ++i) {
-      if (scene_->steps[i].op != TS_QUERY) {
-        run.apply(scene_->steps[i]);
-        continue;
-      }
-      run.query([&](int a, int b) { report(sink, k, a, b); });
-      ++k;
-    }
+    kit::run_script(
+        *scene_, [&](const ts_step& step) { run.apply(step); },
+        [&](int k) { run.query([&](int a, int b) { report(sink, k, a, b); }); });
   }
 
  private:
   void report(const ts_sink& sink, int k, int a, int b) const {
     // A manager that reads freed memory may report nonexistent bodies; the harness detects that.
     const auto is_body = [&](int i) { return i >= 0 && i < static_cast<int>(scene_->body_count); };
-    if (is_body(a) && is_body(b) &&
-        (filter_.drops(a, b) || (scene_->bodies[a].is_static && scene_->bodies[b].is_static)))
-      return;
-    sink.pair(sink.ctx, k, a, b);
+    if (!is_body(a) || !is_body(b) || filter_.is_reportable(a, b)) sink.pair(sink.ctx, k, a, b);
   }
   const Row& row_;
   const ts_scene* scene_ = nullptr;

@@ -5,7 +5,6 @@
 #include <fcl/config.h>
 
 #include "oracles/abi/plugin_kit.h"
-#include "oracles/fcl/broad.h"
 #include "oracles/fcl/queries.h"
 
 namespace touchstone::fcl_adapter {

@@ -1,4 +1,4 @@
-#include "oracles/host/crash_report.h"
+#include "oracles/host/diagnosis.h"
 
 #include <dlfcn.h>
 #include <execinfo.h>

@@ -4,13 +4,13 @@
 #include <functional>
 #include <string>
 
-#include "oracles/host/supervisor.h"
+#include "oracles/host/sandbox.h"
 
 namespace touchstone::host {
 
 struct WorkerStreams {
   int questions, answers;
-  bool buffers_answers = false;  // it may write several answers at once (native.h)
+  bool buffers_answers = false;  // it may write several answers at once (serve_native)
   std::string engine{};          // for a library of native engines
 };
 

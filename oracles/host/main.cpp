@@ -17,14 +17,12 @@
 
 #include "oracles/abi/native_engine.h"
 #include "oracles/abi/protocol.h"
-#include "oracles/host/crash_report.h"
+#include "oracles/host/diagnosis.h"
 #include "oracles/host/fork_server.h"
-#include "oracles/host/native.h"
-#include "oracles/host/pipe.h"
 #include "oracles/host/plugin.h"
 #include "oracles/host/sandbox.h"
 #include "oracles/host/serve.h"
-#include "scenarios/codec/card_codec.h"
+#include "scenarios/codec/value_codec.h"
 
 #if defined(__SANITIZE_ADDRESS__)
 // A sanitized worker still dies of the original signal, like an ordinary one, and does not report leaks of

@@ -1,4 +1,4 @@
-#include "oracles/host/memory_fill.h"
+#include "oracles/host/diagnosis.h"
 
 #include <cstring>
 

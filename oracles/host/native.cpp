@@ -1,4 +1,4 @@
-#include "oracles/host/native.h"
+#include "oracles/host/serve.h"
 
 #include <dlfcn.h>
 #include <unistd.h>
@@ -8,9 +8,8 @@
 #include <exception>
 
 #include "oracles/abi/protocol.h"
-#include "oracles/host/memory_fill.h"
-#include "oracles/host/pipe.h"
-#include "oracles/host/serve.h"
+#include "oracles/host/diagnosis.h"
+#include "oracles/host/plugin.h"
 
 namespace touchstone::host {
 namespace {

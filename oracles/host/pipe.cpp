@@ -1,4 +1,4 @@
-#include "oracles/host/pipe.h"
+#include "oracles/host/plugin.h"
 
 #include <fcntl.h>
 #include <poll.h>

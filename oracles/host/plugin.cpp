@@ -5,8 +5,7 @@
 #include <stdexcept>
 
 #include "oracles/abi/engine.h"
-#include "oracles/host/pipe.h"
-#include "scenarios/codec/card_codec.h"
+#include "scenarios/codec/value_codec.h"
 
 namespace touchstone::host {
 namespace {

@@ -15,8 +15,6 @@
 #include <cstdio>
 #include <cstdlib>
 
-#include "oracles/host/supervisor.h"
-
 namespace touchstone::host {
 namespace {
 

@@ -13,7 +13,7 @@
 #include "oracles/abi/measure.h"
 #include "oracles/abi/plugin_scene.h"
 #include "oracles/abi/protocol.h"
-#include "oracles/host/memory_fill.h"
+#include "oracles/host/diagnosis.h"
 
 namespace touchstone::host {
 namespace {

@@ -2,8 +2,11 @@
 #pragma once
 
 #include <cstddef>
+#include <string>
 
+#include "oracles/abi/native_engine.h"
 #include "oracles/abi/touchstone_engine.h"
+#include "oracles/host/fork_server.h"
 
 namespace touchstone::host {
 
@@ -12,5 +15,13 @@ void write_all(int fd, const char* bytes, std::size_t n);
 
 /// Returns at the end of the input.
 void serve(const ts_plugin& plugin, ts_engine* engine, int questions_fd, int answers_fd);
+
+// Serves engines of this build (oracles/abi/native_engine.h): without the C ABI, and with answers in batches.
+
+/// Reads questions and writes answers until the harness closes its end. A worker that buffers answers writes
+/// those of a few milliseconds at once, at a fraction of the cost of separate writes; when it dies, the
+/// harness repeats the unanswered questions. Any other worker writes each answer immediately: a crash loses
+/// only the running question.
+void serve_native(NativeEngine& engine, const WorkerStreams& streams);
 
 }  // namespace touchstone::host

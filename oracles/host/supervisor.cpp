@@ -1,4 +1,4 @@
-#include "oracles/host/supervisor.h"
+#include "oracles/host/sandbox.h"
 
 #include <fcntl.h>
 #include <sched.h>

@@ -50,7 +50,6 @@ class Space {
 struct Report {
   const ts_sink& sink;
   const kit::PairFilter& filter;
-  const ts_scene& scene;
   std::int32_t query;
 };
 
@@ -60,27 +59,22 @@ void on_pair(void* data, dGeomID one, dGeomID two) {
     return static_cast<int>(reinterpret_cast<std::intptr_t>(dGeomGetData(g)));
   };
   const int a = number(one), b = number(two);
-  const bool fixed = r.scene.bodies[a].is_static && r.scene.bodies[b].is_static;
-  if (!fixed && !r.filter.drops(a, b)) r.sink.pair(r.sink.ctx, r.query, a, b);
+  if (r.filter.is_reportable(a, b)) r.sink.pair(r.sink.ctx, r.query, a, b);
 }
 
 void run_steps(const Row& row, const World& world, const ts_sink& sink) {
   const ts_scene& scene = world.scene();
   Space space(row, world.geoms());
   const kit::PairFilter filter(scene);
-  Report report{sink, filter, scene, 0};
-  for (std::size_t i = 0; i < scene.step_count; ++i) {
-    const ts_step& step = scene.steps[i];
-    if (step.op == TS_QUERY) {
-      dSpaceCollide(space.id(), &report, on_pair);
-      ++report.query;
-    } else if (step.op == TS_REMOVE) {
-      dSpaceRemove(space.id(), world.geom(step.body));
-    } else {
-      world.put(step.body, step.pose);
-      if (step.op == TS_INSERT) dSpaceAdd(space.id(), world.geom(step.body));
-    }
-  }
+  const auto apply = [&](const ts_step& step) {
+    if (step.op == TS_REMOVE) return dSpaceRemove(space.id(), world.geom(step.body));
+    world.put(step.body, step.pose);
+    if (step.op == TS_INSERT) dSpaceAdd(space.id(), world.geom(step.body));
+  };
+  kit::run_script(scene, apply, [&](int k) {
+    Report report{sink, filter, k};
+    dSpaceCollide(space.id(), &report, on_pair);
+  });
 }
 
 class Engine {

@@ -1,7 +1,7 @@
 #include "oracles/referee/certificate.h"
 
 #include "oracles/checker/checker.h"
-#include "oracles/referee/exact/world.h"
+#include "oracles/referee/exact/exact_pair.h"
 #include "oracles/referee/filter/half_space.h"
 #include "oracles/referee/filter/wide_search.h"
 #include "oracles/referee/work.h"

@@ -1,10 +1,9 @@
 // width, distance_to and outer_box: support values with their error bounds.
 #include <algorithm>
 
-#include "oracles/referee/exact/world.h"
-#include "oracles/referee/filter/box_of.h"
+#include "oracles/referee/exact/exact_pair.h"
+#include "oracles/referee/filter/convex.h"
 #include "oracles/referee/filter/half_space.h"
-#include "oracles/referee/filter/mesh.h"
 #include "oracles/referee/filter/point_distance.h"
 #include "oracles/referee/work.h"
 

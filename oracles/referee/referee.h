@@ -116,4 +116,32 @@ Aabb outer_box(const Placed& a);
 /// The same for the whole motion.
 Aabb outer_box(const Placed& a, const Motion& motion);
 
+// Finds certificates about the first contact of two bodies in motion.
+
+/// Certifies the result of judge_motion for the same arguments. Every part of the certificate is accepted by
+/// `checker::check`. clear_until is t_lo, or a few ulps of its motion less; the contact is at t_hi or as
+/// little after it. Parts that cannot be shown are left out: a contact of a spinning body that has no
+/// interior, a graze without depth while spinning, a spinning half-space.
+ImpactCertificate impact_certificate(const Placed& a, const Motion& motion_a, const Placed& b,
+                                     const Motion& motion_b, const TimeTruth& truth);
+
+/// Adds evidence that the bodies are (about) as deep in each other as deepest_before reported. Adds nothing
+/// if the checker rejects it, or for half-spaces, where the common point is evidence enough.
+void add_overlap(ImpactCertificate& c, const Placed& a, const Motion& motion_a, const Placed& b,
+                 const Motion& motion_b, const DepthInTime& deepest);
+
+// Deforming primitives: a vertex against a triangle or an edge against an edge, every vertex on a straight
+// path over t in [0,1]. Decided exactly; nothing is left undecided.
+
+enum class PrimitivePair { vertex_face, edge_edge };
+
+struct PrimitiveTruth {
+  bool collides = false;      // the closed primitives share a point at some t in [0,1]
+  double t_lo = 0, t_hi = 0;  // bracket the first such t: one double, or two neighbours
+};
+
+/// vertex_face: v f0 f1 f2; edge_edge: a0 a1 b0 b1. Positions at t = 0 and at t = 1, all finite.
+PrimitiveTruth judge_primitive_motion(PrimitivePair kind, const std::array<Vec3, 4>& start,
+                                      const std::array<Vec3, 4>& end);
+
 }  // namespace touchstone::referee

@@ -7,7 +7,6 @@
 #include "fuzz/judge/judge.h"
 #include "oracles/abi/measure.h"
 #include "reports/chart/chart_rows.h"
-#include "reports/chart/machine.h"
 
 namespace touchstone::fuzz {
 namespace {

@@ -26,4 +26,6 @@ using ChartProgress = std::function<void(const std::string&)>;
 Chart measure_chart(const ChartScope& scope, std::uint64_t seed, std::span<const EnginePtr> engines,
                     std::span<const EnginePtr> broad, const ChartProgress& progress);
 
+Machine this_machine();
+
 }  // namespace touchstone::fuzz

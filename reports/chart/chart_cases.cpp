@@ -3,8 +3,8 @@
 #include <cmath>
 
 #include "core/math/rng.h"
-#include "scenarios/random/at_gap.h"
 #include "scenarios/random/family.h"
+#include "scenarios/random/place.h"
 #include "scenarios/random/random_shape.h"
 
 namespace touchstone::fuzz {

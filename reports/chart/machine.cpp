@@ -1,4 +1,4 @@
-#include "reports/chart/machine.h"
+#include "reports/chart/chart.h"
 
 #include <sys/utsname.h>
 

@@ -1,4 +1,4 @@
-#include "reports/plan/fidelity_json.h"
+#include "reports/plan/plan.h"
 
 #include "core/base/input_error.h"
 #include "core/broad/catalog.h"

@@ -6,8 +6,7 @@
 #include <cmath>
 
 #include "core/base/input_error.h"
-#include "reports/chart/machine.h"
-#include "reports/plan/fidelity_json.h"
+#include "reports/chart/chart.h"
 #include "reports/plan/plan_evidence.h"
 #include "reports/plan/plan_measure.h"
 

@@ -7,6 +7,7 @@
 
 #include "core/world/fidelity.h"
 #include "reports/plan/course.h"
+#include "reports/record/observation_json.h"
 #include "reports/record/plan.h"
 
 namespace touchstone::fuzz {
@@ -30,5 +31,13 @@ double default_error(const Course& course);
 
 /// Throws InputError when the error is below the least, or a given plan does not fit this scene.
 Plan make_plan(const Course& course, const PlanOptions& options, const PlanProgress& progress = {});
+
+// A plan as JSON, so that it can be run again.
+
+/// "double", "double alone", "float".
+std::string_view to_string(Arithmetic a);
+Json to_json(const Fidelity& f);
+/// Throws InputError with the JSON path, prefixed by `place`.
+Fidelity fidelity_from_json(const Json& j, const std::string& place);
 
 }  // namespace touchstone::fuzz

@@ -7,8 +7,8 @@
 #include "core/broad/catalog.h"
 #include "core/math/rng.h"
 #include "core/world/world.h"
-#include "oracles/abi/thread_time.h"
-#include "reports/plan/fidelity_json.h"
+#include "oracles/abi/measure.h"
+#include "reports/plan/plan.h"
 
 namespace touchstone::fuzz {
 namespace {

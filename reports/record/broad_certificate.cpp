@@ -12,7 +12,7 @@
 #include "core/base/input_error.h"
 #include "scenarios/codec/case_codec.h"
 #include "scenarios/codec/json_file.h"
-#include "scenarios/codec/card_codec.h"
+#include "scenarios/codec/value_codec.h"
 
 namespace touchstone::fuzz {
 namespace {

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "scenarios/value/engine_card.h"
-#include "scenarios/value/evidence_kind.h"
+#include "scenarios/value/certificate.h"
 #include "scenarios/value/observation.h"
 
 namespace touchstone::fuzz {

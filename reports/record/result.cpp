@@ -11,7 +11,7 @@
 #include "reports/record/stored.h"
 #include "scenarios/codec/case_codec.h"
 #include "scenarios/text/printable.h"
-#include "scenarios/value/engine_name.h"
+#include "scenarios/value/engine_card.h"
 
 namespace touchstone::fuzz {
 namespace {

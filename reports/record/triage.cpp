@@ -1,6 +1,6 @@
 #include "reports/record/triage.h"
 
-#include "scenarios/codec/json_text.h"
+#include "scenarios/codec/json_file.h"
 
 namespace touchstone::fuzz {
 

@@ -7,7 +7,7 @@
 #include <string_view>
 
 #include "reports/record/observation_json.h"
-#include "scenarios/value/case_size.h"
+#include "scenarios/value/case.h"
 
 namespace touchstone::fuzz {
 

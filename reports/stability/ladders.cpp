@@ -1,8 +1,8 @@
-#include "reports/stability/ladders.h"
+#include "reports/stability/stability.h"
 
 #include <cmath>
 
-#include "scenarios/random/at_gap.h"
+#include "scenarios/random/place.h"
 #include "scenarios/random/random_shape.h"
 
 namespace touchstone::fuzz {

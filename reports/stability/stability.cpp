@@ -7,8 +7,7 @@
 
 #include "core/base/input_error.h"
 #include "fuzz/judge/judge.h"
-#include "reports/stability/forms.h"
-#include "reports/stability/ladders.h"
+#include "fuzz/judge/pair_forms.h"
 
 namespace touchstone::fuzz {
 namespace {
@@ -16,9 +15,11 @@ namespace {
 // Pairs held in memory at a time, each in ten forms, which take a megabyte for hulls of a thousand vertices.
 constexpr int at_once = 16;
 
+static_assert(static_cast<std::size_t>(FormKind::unit) + 1 == form_count);  // in the order of form_columns
+
 struct PairForms {
   Case c;
-  std::vector<Form> forms;
+  std::vector<PairForm> forms;
 };
 
 PairForms make_pair_forms(const LadderRow& l, std::uint64_t seed, std::size_t rung, int i) {
@@ -31,6 +32,22 @@ PairForms make_pair_forms(const LadderRow& l, std::uint64_t seed, std::size_t ru
     a.c.queries.push_back(is_pair_question(q) ? Query{q, 0, 1} : Query{q, -1, -1});
   if (is_pair_question(l.questions[0])) a.forms = other_forms(a.c, rng);
   return a;
+}
+
+// The number in an answer (distance, depth or time); NaN when it has none.
+double number_of(const Query& q, const Observation& o) {
+  const double nan = std::nan("");
+  if (o.outcome != Outcome::answered) return nan;
+  switch (q.question) {
+    case Question::distance:
+      return o.distance.value_or(nan);
+    case Question::contact:
+      return o.overlap && *o.overlap ? o.depth.value_or(nan) : nan;
+    case Question::time_of_impact:
+      return o.toi.value_or(nan);
+    default:
+      return nan;
+  }
 }
 
 void raise(double& largest, double x) {
@@ -80,9 +97,9 @@ void add_forms(std::span<LadderResult> results, const PairForms& asked,
     const double l = query.question == Question::time_of_impact ? 1 : truth.scale(0, 1);
     const double x = number_of(query, observed[0].answers[q]);
     Rung& r = results[q].rungs.back();
-    std::array<bool, form_names.size()> broken{};
+    std::array<bool, form_count> broken{};
     for (std::size_t f = 0; f < asked.forms.size(); ++f) {
-      const Form& form = asked.forms[f];
+      const PairForm& form = asked.forms[f];
       const auto kind = static_cast<std::size_t>(form.kind);
       const CaseObservations& there = observed[f + 1];
       const double y = number_of(query, there.answers[q]);
@@ -101,7 +118,7 @@ void add_pairs(std::span<LadderResult> results, const std::vector<PairForms>& al
   std::vector<Case> cases;
   for (const PairForms& a : all) {
     cases.push_back(a.c);
-    for (const Form& f : a.forms) cases.push_back(f.c);
+    for (const PairForm& f : a.forms) cases.push_back(f.c);
   }
   const auto answers = engine.run(cases);
   std::span<const CaseObservations> rest = answers;

@@ -1,4 +1,4 @@
-#include "reports/text/findings_columns.h"
+#include "reports/text/web_page.h"
 
 #include <fmt/format.h>
 

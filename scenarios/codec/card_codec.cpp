@@ -1,6 +1,6 @@
 // EngineCard ↔ JSON. Parsing is strict: the card carries the engine's tolerance claims, and a misspelt field
 // would silently change a verdict.
-#include "scenarios/codec/card_codec.h"
+#include "scenarios/codec/value_codec.h"
 
 #include <algorithm>
 #include <array>
@@ -11,7 +11,7 @@
 #include "core/base/exact_text.h"
 #include "core/base/input_error.h"
 #include "scenarios/text/printable.h"
-#include "scenarios/value/engine_name.h"
+#include "scenarios/value/engine_card.h"
 
 namespace touchstone {
 namespace {

@@ -7,13 +7,11 @@
 #include <nlohmann/json.hpp>
 
 #include "core/base/input_error.h"
-#include "scenarios/codec/expectation_codec.h"
-#include "scenarios/codec/input_file.h"
 #include "scenarios/codec/json_file.h"
 #include "scenarios/codec/json_reader.h"
-#include "scenarios/codec/json_text.h"
 #include "scenarios/codec/scene_codec.h"
 #include "scenarios/codec/scene_fields.h"
+#include "scenarios/codec/value_codec.h"
 #include "scenarios/value/moving_pairs.h"
 #include "scenarios/value/odd_numbers.h"
 

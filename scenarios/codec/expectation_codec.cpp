@@ -1,4 +1,4 @@
-#include "scenarios/codec/expectation_codec.h"
+#include "scenarios/codec/value_codec.h"
 
 #include <array>
 #include <nlohmann/json.hpp>

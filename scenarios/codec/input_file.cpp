@@ -1,4 +1,4 @@
-#include "scenarios/codec/input_file.h"
+#include "scenarios/codec/json_file.h"
 
 #include <fcntl.h>
 #include <sys/stat.h>

@@ -1,5 +1,5 @@
-// JSON input and output. Every JSON file that a command reads goes through parse_json, so that the same
-// limits apply to all: depth (json_text.h), bytes, values.
+// Reading and writing of files, and JSON text. Every JSON file that a command reads goes through parse_json,
+// so that the same limits apply to all: depth, bytes, values.
 #pragma once
 
 #include <cstdint>
@@ -11,9 +11,30 @@
 #include <vector>
 
 #include "scenarios/codec/json_reader.h"
-#include "scenarios/codec/json_text.h"
+#include "scenarios/codec/scene_codec.h"
 
 namespace touchstone {
+
+/// Throws InputError with the file's name when it does not exist or is not a regular file: reading a pipe, a
+/// socket or a device may block forever. Use it before libraries that open files themselves; read_file calls
+/// it.
+void require_regular_file(const std::filesystem::path& file);
+
+/// Writes to FILE.part, then renames it, so that the old contents stay until everything is written. Devices
+/// and pipes are written directly. Throws InputError with the system's reason.
+void write_file(const std::filesystem::path& file, std::string_view text);
+
+/// Our formats nest seven levels; a finding with a certificate, about ten.
+inline constexpr int max_json_depth = 64;
+
+/// Throws InputError, place = `place` + ":line:column" (column in bytes, from 1).
+nlohmann::ordered_json parse_json(std::string_view text, const std::string& place = "");
+
+/// One line without a newline. Throws InputError on a number that JSON cannot represent (NaN, infinity).
+std::string to_line(const nlohmann::ordered_json& j);
+
+/// `prefix` is the file; joins file and JSON path as "file: path".
+std::string json_place(const std::string& prefix, const std::string& path);
 
 /// Limits on a document. A value takes up to 100 bytes of memory, however short its text is.
 struct JsonLimits {

@@ -5,7 +5,7 @@
 #include <optional>
 
 #include "core/base/input_error.h"
-#include "scenarios/codec/json_text.h"
+#include "scenarios/codec/json_file.h"
 #include "scenarios/text/printable.h"
 
 namespace touchstone {

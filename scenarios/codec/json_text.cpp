@@ -1,4 +1,4 @@
-#include "scenarios/codec/json_text.h"
+#include "scenarios/codec/json_file.h"
 
 #include <algorithm>
 #include <cmath>
@@ -7,7 +7,6 @@
 
 #include "core/base/exact_text.h"
 #include "core/base/input_error.h"
-#include "scenarios/codec/json_file.h"
 
 namespace touchstone {
 namespace {

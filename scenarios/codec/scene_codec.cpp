@@ -5,9 +5,8 @@
 #include <nlohmann/json.hpp>
 
 #include "core/base/input_error.h"
-#include "scenarios/codec/input_file.h"
+#include "scenarios/codec/json_file.h"
 #include "scenarios/codec/json_reader.h"
-#include "scenarios/codec/json_text.h"
 #include "scenarios/codec/scene_fields.h"
 
 namespace touchstone {

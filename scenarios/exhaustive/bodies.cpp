@@ -1,4 +1,4 @@
-#include "scenarios/exhaustive/bodies.h"
+#include "scenarios/exhaustive/suites.h"
 
 #include "scenarios/random/family.h"
 #include "scenarios/random/numbers.h"

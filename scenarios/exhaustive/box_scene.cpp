@@ -18,31 +18,6 @@ bool sum_is_exact(double a, double b) {
 
 bool holds(double x, Scalar scalar) { return std::isfinite(x) && nearest(x, scalar) == x; }
 
-// 0: identity; 1 and 2: about (1,1,1) by one and two thirds; 3: none of these.
-unsigned thirds_of(const Quat& q) {
-  if (q.x == 0 && q.y == 0 && q.z == 0) return 0;
-  if (q.x != q.y || q.y != q.z || std::abs(q.w) != std::abs(q.x)) return 3;
-  return q.w == q.x ? 1 : 2;
-}
-
-Vec3 turned(const Vec3& h, unsigned thirds) {
-  if (thirds == 1) return {h.z(), h.x(), h.y()};
-  if (thirds == 2) return {h.y(), h.z(), h.x()};
-  return h;
-}
-
-std::optional<Aabb> half_space_box(const HalfSpace& s, const Pose& pose) {
-  if (thirds_of(pose.rotation) != 0) return std::nullopt;
-  Aabb box{Vec3::Constant(-infinity), Vec3::Constant(infinity)};
-  for (int k = 0; k < 3; ++k) {
-    if (s.normal[k] == 0) continue;
-    if (std::abs(s.normal[k]) != 1 || std::abs(s.normal.sum()) != 1) return std::nullopt;
-    const double at = pose.translation[k] + s.normal[k] * s.offset;
-    (s.normal[k] > 0 ? box.hi : box.lo)[k] = at;
-  }
-  return box;
-}
-
 }  // namespace
 
 double nearest(double x, Scalar scalar) { return scalar == Scalar::float64 ? x : through_float(x); }
@@ -62,21 +37,6 @@ std::optional<Aabb> exact_corners(const Vec3& t, const Vec3& h, Scalar scalar) {
       if (!holds(x, scalar)) return std::nullopt;
   }
   return Aabb{t - h, t + h};
-}
-
-std::optional<Aabb> exact_box(const Shape& shape, const Pose& pose) {
-  if (const auto* s = std::get_if<HalfSpace>(&shape)) return half_space_box(*s, pose);
-  const auto* b = std::get_if<Box>(&shape);
-  const unsigned thirds = thirds_of(pose.rotation);
-  if (!b || thirds == 3) return std::nullopt;
-  const Vec3 h = turned(b->half_extents, thirds);
-  return Aabb{pose.translation - h, pose.translation + h};
-}
-
-Quat turn_by_thirds(unsigned thirds) {
-  if (thirds == 1) return {1, 1, 1, 1};
-  if (thirds == 2) return {1, 1, 1, -1};
-  return {};
 }
 
 std::optional<Placing> placing_of(Aabb box, Scalar scalar) {

@@ -6,6 +6,7 @@
 
 #include "core/math/aabb.h"
 #include "core/math/rng.h"
+#include "scenarios/value/candidate_pairs.h"
 #include "scenarios/value/observation.h"
 
 namespace touchstone::fuzz {
@@ -21,14 +22,6 @@ double nearest(double x, Scalar scalar);
 
 /// Exactly t - h, t + h along every axis; empty when a corner is not representable or not finite.
 std::optional<Aabb> exact_corners(const Vec3& t, const Vec3& h, Scalar scalar);
-
-/// The box of a body that is exactly a box: a box that is upright or turned by a third about the diagonal
-/// (which permutes its extents), or a half-space perpendicular to an axis, which is infinite. Empty for any
-/// other body. Non-finite numbers follow IEEE arithmetic.
-std::optional<Aabb> exact_box(const Shape& shape, const Pose& pose);
-
-/// The rotations that exact_box recognises.
-Quat turn_by_thirds(unsigned thirds);
 
 /// Centre and half extents of the box, or of the nearest larger box for which they are representable.
 struct Placing {

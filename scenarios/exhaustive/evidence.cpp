@@ -2,10 +2,7 @@
 
 #include <algorithm>
 
-#include "scenarios/exhaustive/bodies.h"
-#include "scenarios/exhaustive/hard_boxes.h"
-#include "scenarios/exhaustive/histories.h"
-#include "scenarios/exhaustive/orders.h"
+#include "scenarios/exhaustive/suites.h"
 
 namespace touchstone::fuzz {
 namespace {

@@ -5,7 +5,7 @@
 #include <span>
 
 #include "scenarios/exhaustive/box_scene.h"
-#include "scenarios/value/evidence_kind.h"
+#include "scenarios/value/certificate.h"
 
 namespace touchstone::fuzz {
 

@@ -1,4 +1,4 @@
-#include "scenarios/exhaustive/hard_boxes.h"
+#include "scenarios/exhaustive/suites.h"
 
 #include <cmath>
 #include <limits>

@@ -1,4 +1,4 @@
-#include "scenarios/exhaustive/histories.h"
+#include "scenarios/exhaustive/suites.h"
 
 #include <map>
 #include <mutex>

@@ -1,7 +1,7 @@
 // Long scripts and crowds of boxes on a lattice, fine enough for random contacts and coarse enough for ties.
 #include <cmath>
 
-#include "scenarios/exhaustive/hard_boxes.h"
+#include "scenarios/exhaustive/suites.h"
 
 namespace touchstone::fuzz {
 namespace {

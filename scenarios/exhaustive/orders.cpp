@@ -1,4 +1,4 @@
-#include "scenarios/exhaustive/orders.h"
+#include "scenarios/exhaustive/suites.h"
 
 #include <algorithm>
 #include <map>

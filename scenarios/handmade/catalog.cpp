@@ -1,4 +1,4 @@
-#include "scenarios/handmade/catalog.h"
+#include "scenarios/handmade/scenario.h"
 
 #include "scenarios/handmade/lists.h"
 

@@ -4,6 +4,7 @@
 
 #include <functional>
 #include <string>
+#include <vector>
 
 #include "scenarios/value/case.h"
 #include "scenarios/value/expectation.h"
@@ -17,5 +18,9 @@ struct Scenario {
   std::function<Case()> make;
   Expectation expect;
 };
+
+// All scenarios, in a fixed order.
+
+std::vector<Scenario> catalog();
 
 }  // namespace touchstone::scenarios

@@ -1,4 +1,4 @@
-#include "scenarios/import/npy.h"
+#include "scenarios/import/real_scene.h"
 
 #include <bit>
 #include <charconv>

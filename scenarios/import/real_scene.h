@@ -3,14 +3,30 @@
 // own body.
 #pragma once
 
+#include <array>
 #include <filesystem>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "core/scene/scene.h"
-#include "scenarios/import/npy.h"
+#include "scenarios/value/case.h"
 
 namespace touchstone {
+
+// NumPy arrays of format 1.0, little-endian doubles, C order, three axes: recorded poses.
+
+struct Npy3 {
+  std::array<std::size_t, 3> shape{};  // frames, bodies, columns
+  std::vector<double> values;
+  std::span<const double> row(std::size_t i, std::size_t j) const {
+    return std::span(values).subspan((i * shape[1] + j) * shape[2], shape[2]);
+  }
+};
+
+/// Throws InputError "file: reason" on another format, a file of the wrong length, or a value that is not
+/// finite.
+Npy3 load_npy3(const std::filesystem::path& file);
 
 struct RealGeom {
   int shape = 0;
@@ -67,3 +83,17 @@ struct RealSceneText {
 RealSceneText read_real_scene_text(const std::filesystem::path& file);
 
 }  // namespace touchstone
+
+namespace touchstone::fuzz {
+
+// A recorded scene as cases: for each frame the whole scene (candidate pairs, contacts), and a pair case for
+// each pair of bodies whose exact boxes overlap (overlap, distance, contact; time of impact when the
+// recording moves).
+
+/// "first:end:step" as in a Python range; empty: about five evenly spread frames. Throws InputError when it
+/// is not a valid range.
+std::vector<int> frames_from_text(const std::string& text, int frame_count);
+
+std::vector<Case> real_scene_cases(const RealScene& scene, int frame);
+
+}  // namespace touchstone::fuzz

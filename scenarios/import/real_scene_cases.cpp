@@ -1,10 +1,11 @@
-#include "scenarios/import/real_scene_cases.h"
+#include "scenarios/import/real_scene.h"
 
 #include <algorithm>
 #include <charconv>
 
 #include "core/base/input_error.h"
 #include "oracles/referee/referee.h"
+#include "scenarios/value/candidate_pairs.h"
 
 namespace touchstone::fuzz {
 namespace {
@@ -15,23 +16,12 @@ Aabb box_of(const Scene& s, int i) {
   return b.motion ? referee::outer_box(p, *b.motion) : referee::outer_box(p);
 }
 
-// Pairs sorted by body, found by a sweep along x.
+// The pairs that count whose boxes overlap, sorted.
 std::vector<BodyPair> near_pairs(const Scene& s) {
-  std::vector<std::pair<Aabb, int>> boxes;
-  for (int i = 0; i < static_cast<int>(s.bodies.size()); ++i) boxes.emplace_back(box_of(s, i), i);
-  std::sort(boxes.begin(), boxes.end(), [](const auto& x, const auto& y) {
-    return std::pair{x.first.lo.x(), x.second} < std::pair{y.first.lo.x(), y.second};
-  });
-  std::vector<BodyPair> pairs;
-  for (std::size_t i = 0; i < boxes.size(); ++i)
-    for (std::size_t j = i + 1; j < boxes.size() && boxes[j].first.lo.x() <= boxes[i].first.hi.x(); ++j) {
-      if (!overlaps(boxes[i].first, boxes[j].first)) continue;
-      const auto [a, b] = std::minmax(boxes[i].second, boxes[j].second);
-      const bool both_static =
-          s.bodies[static_cast<std::size_t>(a)].is_static && s.bodies[static_cast<std::size_t>(b)].is_static;
-      if (!both_static && !is_filtered(s, a, b)) pairs.emplace_back(a, b);
-    }
-  std::sort(pairs.begin(), pairs.end());
+  std::vector<BoxedBody> boxed;
+  for (int i = 0; i < static_cast<int>(s.bodies.size()); ++i) boxed.push_back({box_of(s, i), i});
+  auto pairs = overlapping_boxes(std::move(boxed));
+  std::erase_if(pairs, [&](const BodyPair& p) { return !is_reportable(s, p.first, p.second); });
   return pairs;
 }
 

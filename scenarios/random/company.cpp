@@ -1,10 +1,8 @@
-#include "scenarios/random/company.h"
+#include "scenarios/random/families.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "scenarios/random/large_shapes.h"
-#include "scenarios/random/odd_sizes.h"
 #include "scenarios/random/random_shape.h"
 
 namespace touchstone::fuzz {

@@ -1,4 +1,4 @@
-#include "scenarios/random/courses.h"
+#include "scenarios/random/families.h"
 
 #include <cmath>
 

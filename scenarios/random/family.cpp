@@ -5,15 +5,10 @@
 #include <cmath>
 
 #include "core/base/input_error.h"
-#include "scenarios/random/company.h"
-#include "scenarios/random/courses.h"
-#include "scenarios/random/forms.h"
-#include "scenarios/random/large_shapes.h"
-#include "scenarios/random/odd_sizes.h"
+#include "scenarios/random/families.h"
 #include "scenarios/random/place.h"
 #include "scenarios/random/random_shape.h"
-#include "scenarios/random/tiles.h"
-#include "scenarios/text/comma_list.h"
+#include "scenarios/text/name_list.h"
 
 namespace touchstone::fuzz {
 namespace {

@@ -27,4 +27,17 @@ std::span<const Family> families();
 /// all. Throws InputError on an unknown family.
 Case make_case(std::uint64_t seed, std::uint64_t index, std::string_view names = {});
 
+// Regimes: situations that the default mix must contain whatever its families are, because some engine fails
+// only there. A row has a test for the situation and its minimum share of the default mix.
+
+struct Regime {
+  std::string_view name;
+  std::string_view line;  // summary for display
+  int one_in;             // at least one case in this many of the default mix shows it
+  bool (*shown)(const Case& c, const Case& before);  // `before`: the case with the previous index
+};
+
+/// The catalog.
+std::span<const Regime> regimes();
+
 }  // namespace touchstone::fuzz

@@ -1,4 +1,4 @@
-#include "scenarios/random/forms.h"
+#include "scenarios/random/families.h"
 
 #include <algorithm>
 #include <cmath>

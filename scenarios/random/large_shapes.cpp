@@ -1,8 +1,7 @@
-#include "scenarios/random/large_shapes.h"
+#include "scenarios/random/families.h"
 
 #include <map>
 
-#include "scenarios/random/odd_sizes.h"
 #include "scenarios/random/place.h"
 #include "scenarios/random/random_shape.h"
 

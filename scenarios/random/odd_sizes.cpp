@@ -1,4 +1,4 @@
-#include "scenarios/random/odd_sizes.h"
+#include "scenarios/random/families.h"
 
 #include <cmath>
 

@@ -70,4 +70,15 @@ std::pair<ShapeKind, ShapeKind> random_kinds(Rng& rng) {
   return {random_convex_kind(rng), b};  // b was drawn first
 }
 
+Scene at_gap(Rng& rng, Scene s, double gap) {
+  const Vec3 n = placement_direction(rng, s);
+  const double length = gap * mean_extent(s);
+  place_along(rng, s, n, length, 0);
+  const ShapeKind a = kind_of(s.shape_of(0));
+  if (a != ShapeKind::half_space && a != ShapeKind::mesh)
+    s.bodies[1].pose.translation =
+        s.bodies[0].pose.translation + (farthest_point(s, 0, n) - farthest_point(s, 1, -n) + n * length);
+  return s;
+}
+
 }  // namespace touchstone::fuzz

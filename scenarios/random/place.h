@@ -1,4 +1,4 @@
-// Placing a pair so that the gap along a chosen direction is known.
+// Placing a pair so that the gap is known: along a chosen direction, or by construction.
 #pragma once
 
 #include "core/math/rng.h"
@@ -26,5 +26,11 @@ double mean_extent(const Scene& pair);
 /// Two kinds that some engine supports as a pair: never mesh with mesh, half-space with half-space, or mesh
 /// with half-space. The unbounded or static kind comes first.
 std::pair<ShapeKind, ShapeKind> random_kinds(Rng& rng);
+
+/// Places body 1 so that the point of A farthest along a random direction n (the normal of a half-space) and
+/// the point of B farthest along −n are `gap` · (size of the pair) apart along n. When gap > 0 this is the
+/// distance, because a plane between the bodies proves that it is no less; when gap < 0 it bounds the depth
+/// from above. For a mesh only the support planes are that far apart.
+Scene at_gap(Rng& rng, Scene pair, double gap);
 
 }  // namespace touchstone::fuzz

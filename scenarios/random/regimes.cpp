@@ -1,4 +1,4 @@
-#include "scenarios/random/regimes.h"
+#include "scenarios/random/family.h"
 
 #include <algorithm>
 #include <cmath>

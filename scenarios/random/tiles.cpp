@@ -1,4 +1,4 @@
-#include "scenarios/random/tiles.h"
+#include "scenarios/random/families.h"
 
 #include <cmath>
 #include <limits>

@@ -1,4 +1,4 @@
-#include "scenarios/text/did_you_mean.h"
+#include "scenarios/text/name_list.h"
 
 #include <algorithm>
 #include <vector>

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <array>
+#include <compare>
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -55,5 +57,16 @@ struct Case {
 inline bool has_swept_candidates_query(const Case& c) {
   return !c.queries.empty() && c.queries[0].question == Question::swept_candidates;
 }
+
+// The size of a case.
+
+/// Compared in this order.
+struct CaseSize {
+  std::size_t bodies = 0;
+  std::size_t steps = 0;   // of the script; 0 for the default (insert all, query)
+  std::uint64_t bits = 0;  // bits to write down the rest: significant bits and exponents of all numbers, one
+                           // for each vertex, triangle, shape, query, motion, flag and name
+  auto operator<=>(const CaseSize&) const = default;
+};
 
 }  // namespace touchstone

@@ -3,8 +3,10 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <variant>
 #include <vector>
 
@@ -72,5 +74,21 @@ struct ImpactCertificate {
   std::optional<Overlap> overlap;
   bool claims_nothing() const { return tracks.empty() && !contact && !overlap; }
 };
+
+// The kinds of evidence behind a broad-phase certificate.
+
+/// What candidates must contain. boxes: every overlapping pair of the given boxes, which the subject's
+/// arithmetic represents exactly; bodies: every pair of bodies that truly overlap, whatever boxes the subject
+/// computes.
+enum class BroadLevel : std::uint8_t { boxes, bodies };
+inline constexpr auto level_names = std::to_array<std::string_view>({"boxes", "bodies"});
+constexpr std::string_view to_string(BroadLevel l) { return level_names[static_cast<std::size_t>(l)]; }
+
+enum class EvidenceKind : std::uint8_t { exhaustive, adversarial, temporal, random };
+inline constexpr auto evidence_kind_names =
+    std::to_array<std::string_view>({"exhaustive", "adversarial", "temporal", "random"});
+constexpr std::string_view to_string(EvidenceKind k) {
+  return evidence_kind_names[static_cast<std::size_t>(k)];
+}
 
 }  // namespace touchstone

@@ -6,6 +6,7 @@
 #include <set>
 
 #include "core/shape/shape.h"
+#include "scenarios/value/candidate_pairs.h"
 
 namespace touchstone {
 namespace {
@@ -65,26 +66,15 @@ std::vector<BodyPair> moving_pairs(const Scene& scene) {
   const int n = static_cast<int>(scene.bodies.size());
   std::vector<BodyPair> pairs;
   if (!moves(scene)) return pairs;
-  std::vector<Aabb> boxes;
-  std::vector<int> order;
+  std::vector<BoxedBody> boxed;
   for (int i = 0; i < n; ++i) {
-    boxes.push_back(box_along(scene, i));
+    const Aabb box = box_along(scene, i);
     // Skip bodies that are not sets (odd_numbers.h).
-    if (boxes.back().lo.x() <= boxes.back().hi.x()) order.push_back(i);
+    if (box.lo.x() <= box.hi.x()) boxed.push_back({box, i});
   }
-  const auto box = [&](int i) -> const Aabb& { return boxes[static_cast<std::size_t>(i)]; };
-  const auto body = [&](int i) -> const Body& { return scene.bodies[static_cast<std::size_t>(i)]; };
-  std::sort(order.begin(), order.end(), [&](int i, int j) {
-    return std::pair{box(i).lo.x(), i} < std::pair{box(j).lo.x(), j};
-  });
-  for (std::size_t k = 0; k < order.size(); ++k)
-    for (std::size_t l = k + 1; l < order.size() && box(order[l]).lo.x() <= box(order[k]).hi.x(); ++l) {
-      const auto [a, b] = std::minmax(order[k], order[l]);
-      if (!moves(body(a)) && !moves(body(b))) continue;
-      if (is_filtered(scene, a, b) || (body(a).is_static && body(b).is_static)) continue;
-      if (overlaps(box(a), box(b))) pairs.emplace_back(a, b);
-    }
-  std::sort(pairs.begin(), pairs.end());
+  const auto moving = [&](int i) { return moves(scene.bodies[static_cast<std::size_t>(i)]); };
+  for (const auto& [a, b] : overlapping_boxes(std::move(boxed)))
+    if ((moving(a) || moving(b)) && is_reportable(scene, a, b)) pairs.emplace_back(a, b);
   return pairs;
 }
 

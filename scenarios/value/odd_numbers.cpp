@@ -36,6 +36,12 @@ std::vector<OddNumber> odd_numbers(const Scene& s) {
   return out;
 }
 
+bool is_closed_set(const Shape& shape, const Pose& pose) {
+  const auto* box = std::get_if<Box>(&shape);
+  return pose.translation.allFinite() &&
+         (!box || (box->half_extents.allFinite() && (box->half_extents.array() >= 0).all()));
+}
+
 Scene without_odd_numbers(Scene s) {
   for_each_place(s, [](const std::string&, double& x, bool signed_number) {
     if (is_odd(x, signed_number)) x = 0;

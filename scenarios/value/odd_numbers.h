@@ -18,6 +18,9 @@ struct OddNumber {
 
 /// In the order of shapes, bodies, steps. Among shapes, only boxes are examined.
 std::vector<OddNumber> odd_numbers(const Scene& s);
+/// Whether the body is a closed set: its position is finite and, if it is a box, so are its sides, and none
+/// is negative.
+bool is_closed_set(const Shape& shape, const Pose& pose);
 /// The same scene with 0 in place of each of them.
 Scene without_odd_numbers(Scene s);
 /// Throws InputError with the number's place when the place does not exist or the number is an ordinary one.

@@ -4,8 +4,6 @@
 #include "core/broad/catalog.h"
 #include "core/math/through_float.h"
 #include "oracles/core/core_engine.h"
-#include "oracles/core/kept_engine.h"
-#include "oracles/core/native.h"
 #include "scenarios/random/family.h"
 #include "tests/support/catch.h"
 

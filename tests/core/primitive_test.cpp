@@ -5,7 +5,7 @@
 
 #include "core/impact/primitive_impact.h"
 #include "core/narrow/narrow_phase.h"
-#include "oracles/referee/motion/primitive_motion.h"
+#include "oracles/referee/referee.h"
 #include "scenarios/import/ccd_queries.h"
 #include "scenarios/random/primitive_motions.h"
 #include "tests/support/catch.h"

@@ -13,7 +13,7 @@
 #include "core/base/input_error.h"
 #include "fuzz/campaign/merge.h"
 #include "fuzz/campaign/shard.h"
-#include "fuzz/triage/merge_ledgers.h"
+#include "fuzz/triage/ledger.h"
 #include "fuzz/triage/triage.h"
 #include "oracles/core/core_engine.h"
 #include "tests/mutants/lying_engine.h"

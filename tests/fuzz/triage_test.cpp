@@ -10,7 +10,7 @@
 #include <thread>
 
 #include "core/base/input_error.h"
-#include "reports/text/triage_text.h"
+#include "reports/text/record_text.h"
 #include "scenarios/codec/case_codec.h"
 #include "tests/support/catch.h"
 

@@ -1,7 +1,7 @@
 #include "core/base/input_error.h"
 #include "oracles/abi/engine.h"
+#include "scenarios/codec/value_codec.h"
 #include "tests/support/catch.h"
-#include "scenarios/codec/card_codec.h"
 
 using namespace touchstone;
 

@@ -6,7 +6,7 @@
 
 #include "core/base/input_error.h"
 #include "oracles/abi/protocol.h"
-#include "oracles/core/native.h"
+#include "oracles/core/core_engine.h"
 #include "scenarios/random/family.h"
 #include "tests/oracles/remote_fixture.h"
 #include "tests/support/catch.h"

@@ -5,7 +5,7 @@
 
 #include "core/base/input_error.h"
 #include "oracles/checker/checker.h"
-#include "scenarios/codec/certificate_codec.h"
+#include "scenarios/codec/value_codec.h"
 #include "tests/referee/support.h"
 #include "tests/support/catch.h"
 

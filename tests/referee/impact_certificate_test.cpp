@@ -6,8 +6,8 @@
 #include "core/base/input_error.h"
 #include "oracles/checker/checker.h"
 #include "oracles/referee/exact/rational.h"
-#include "oracles/referee/motion/impact_certificate.h"
-#include "scenarios/codec/certificate_codec.h"
+#include "oracles/referee/referee.h"
+#include "scenarios/codec/value_codec.h"
 #include "tests/referee/support.h"
 #include "tests/support/catch.h"
 

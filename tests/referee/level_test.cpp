@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "oracles/checker/checker.h"
-#include "oracles/referee/exact/short_point.h"
+#include "oracles/referee/exact/exact_point.h"
 #include "oracles/referee/filter/convex.h"
 #include "oracles/referee/work.h"
 #include "tests/referee/support.h"

@@ -1,7 +1,7 @@
 #include <nlohmann/json.hpp>
 
 #include "oracles/checker/checker.h"
-#include "scenarios/codec/certificate_codec.h"
+#include "scenarios/codec/value_codec.h"
 #include "tests/referee/support.h"
 #include "tests/support/catch.h"
 

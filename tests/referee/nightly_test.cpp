@@ -8,7 +8,7 @@
 #include <cstdlib>
 
 #include "oracles/checker/checker.h"
-#include "oracles/referee/motion/impact_certificate.h"
+#include "oracles/referee/referee.h"
 #include "tests/referee/separating_axis.h"
 #include "tests/support/catch.h"
 

@@ -2,7 +2,7 @@
 // recorded query whose answer is known exactly.
 #include <filesystem>
 
-#include "oracles/referee/motion/primitive_motion.h"
+#include "oracles/referee/referee.h"
 #include "scenarios/import/ccd_queries.h"
 #include "tests/referee/support.h"
 #include "tests/support/catch.h"

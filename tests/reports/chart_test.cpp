@@ -9,13 +9,12 @@
 #include "core/base/input_error.h"
 #include "fuzz/judge/exact_map.h"
 #include "fuzz/judge/judge.h"
+#include "fuzz/judge/pair_forms.h"
 #include "oracles/abi/measure.h"
 #include "oracles/core/core_engine.h"
 #include "reports/chart/chart.h"
 #include "reports/chart/chart_rows.h"
 #include "reports/chart/sub_steps.h"
-#include "reports/stability/forms.h"
-#include "reports/stability/ladders.h"
 #include "reports/stability/stability.h"
 #include "tests/support/catch.h"
 #include "tests/support/skip.h"
@@ -329,9 +328,9 @@ TEST_CASE("other forms of a pair are the same to the last bit", "[stability]") {
       c.queries = {{Question::distance, 0, 1}};
       Truth truth(c.scene);
       const auto gap = truth.pair(0, 0, 1).gap;
-      for (const Form& f : other_forms(c, rng)) {
+      for (const PairForm& f : other_forms(c, rng)) {
         if (f.kind == FormKind::nudged) continue;
-        INFO(l.name << " " << i << " " << form_names[static_cast<std::size_t>(f.kind)]);
+        INFO(l.name << " " << i << " " << form_columns[static_cast<std::size_t>(f.kind)]);
         Truth there(f.c.scene);
         const Query& q = f.c.queries[0];
         const auto same = there.pair(0, q.a, q.b).gap;

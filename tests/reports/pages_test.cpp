@@ -9,7 +9,6 @@
 #include <regex>
 #include <sstream>
 
-#include "reports/text/findings_columns.h"
 #include "reports/text/web_page.h"
 #include "tests/support/catch.h"
 #include "tests/support/skip.h"

@@ -5,10 +5,9 @@
 
 #include "core/base/input_error.h"
 #include "core/math/rng.h"
-#include "reports/plan/fidelity_json.h"
 #include "reports/plan/plan_evidence.h"
 #include "reports/plan/plan_measure.h"
-#include "reports/text/plan_text.h"
+#include "reports/text/record_text.h"
 #include "tests/support/catch.h"
 
 using namespace touchstone;

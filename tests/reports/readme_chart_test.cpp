@@ -5,7 +5,7 @@
 #include <set>
 
 #include "core/base/input_error.h"
-#include "reports/text/chart_markdown.h"
+#include "reports/text/record_text.h"
 #include "tests/support/catch.h"
 #include "tests/support/skip.h"
 #include "tests/support/workspace.h"

@@ -4,7 +4,7 @@
 
 #include "oracles/referee/referee.h"
 #include "scenarios/codec/case_codec.h"
-#include "scenarios/handmade/catalog.h"
+#include "scenarios/handmade/scenario.h"
 #include "tests/support/catch.h"
 
 using namespace touchstone;

@@ -3,9 +3,9 @@
 
 #include <algorithm>
 
-#include "scenarios/codec/json_text.h"
+#include "scenarios/codec/json_file.h"
 #include "scenarios/codec/scene_codec.h"
-#include "scenarios/handmade/catalog.h"
+#include "scenarios/handmade/scenario.h"
 #include "scenarios/value/moving_pairs.h"
 #include "tests/scenarios/import/expect_error.h"
 #include "tests/scenarios/import/temp_dir.h"

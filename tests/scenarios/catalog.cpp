@@ -1,5 +1,5 @@
 // The catalog of handmade scenarios as a whole.
-#include "scenarios/handmade/catalog.h"
+#include "scenarios/handmade/scenario.h"
 
 #include <map>
 #include <set>

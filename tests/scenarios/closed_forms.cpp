@@ -5,7 +5,7 @@
 
 #include "core/math/rng.h"
 #include "scenarios/codec/case_codec.h"
-#include "scenarios/handmade/catalog.h"
+#include "scenarios/handmade/scenario.h"
 #include "tests/support/catch.h"
 
 using namespace touchstone;

@@ -3,7 +3,7 @@
 
 #include "core/math/rng.h"
 #include "oracles/referee/referee.h"
-#include "scenarios/handmade/catalog.h"
+#include "scenarios/handmade/scenario.h"
 #include "tests/scenarios/check_case.h"
 #include "tests/support/catch.h"
 

@@ -3,7 +3,6 @@
 
 #include "core/base/input_error.h"
 #include "scenarios/random/family.h"
-#include "scenarios/random/regimes.h"
 #include "tests/support/catch.h"
 
 using namespace touchstone;

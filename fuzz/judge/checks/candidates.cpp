@@ -5,50 +5,34 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
+#include "fuzz/judge/candidate_comparison.h"
 #include "fuzz/judge/check.h"
 
 namespace touchstone::fuzz {
 namespace {
 
-using TruePairs = std::vector<Truth::TruePair>;
-
-std::vector<BodyPair> sorted_unique(const std::vector<BodyPair>& reported, std::uint64_t& duplicates) {
-  std::vector<BodyPair> r = reported;
-  for (BodyPair& p : r)
-    if (p.first > p.second) std::swap(p.first, p.second);
-  std::sort(r.begin(), r.end());
-  const auto end = std::unique(r.begin(), r.end());
-  duplicates += static_cast<std::uint64_t>(r.end() - end);
-  r.erase(end, r.end());
-  return r;
+void count(CheckOutput& out, std::size_t required, const CandidateComparison& found) {
+  out.pairs_true += required;
+  out.pairs_reported += found.reported.size();
+  out.pairs_duplicate += found.duplicates;
 }
 
-void check_missed(const CheckInput& in, CheckOutput& out, int k, const TruePairs& truth,
-                  const std::vector<BodyPair>& reported) {
-  for (const Truth::TruePair& p : truth) {
-    if (std::binary_search(reported.begin(), reported.end(), p.bodies)) continue;
-    const auto [a, b] = p.bodies;
-    const double l = in.truth.scale(a, b), depth = std::max(0.0, -p.truth.gap.hi);
-    out.error(depth, l, 0);
-    out.fault(Fault::missed, depth, l, {in.query.question, a, b},
-              fmt::format("query {}: pair ({}, {}) overlaps{} and is not a candidate", k, a, b,
-                          depth > 0 ? fmt::format(" by {:.6g}", depth) : " (touching)"),
-              p.truth.verdict_certificate);
-    out.faults.back().step = k;
-  }
+void fault_missed(const CheckInput& in, CheckOutput& out, int k, const Truth::TruePair& p) {
+  const auto [a, b] = p.bodies;
+  const double l = in.truth.scale(a, b), depth = std::max(0.0, -p.truth.gap.hi);
+  out.error(depth, l, 0);
+  out.fault(Fault::missed, depth, l, {in.query.question, a, b},
+            fmt::format("query {}: pair ({}, {}) overlaps{} and is not a candidate", k, a, b,
+                        depth > 0 ? fmt::format(" by {:.6g}", depth) : " (touching)"),
+            p.truth.verdict_certificate);
+  out.faults.back().step = k;
 }
 
-void check_stale(const CheckInput& in, CheckOutput& out, int k, const Truth::StepState& state,
-                 const std::vector<BodyPair>& reported) {
-  const int n = static_cast<int>(state.pose.size());
-  for (const auto& [a, b] : reported) {
-    const auto absent = [&](int i) { return i < 0 || i >= n || !state.pose[static_cast<std::size_t>(i)]; };
-    if (a != b && !absent(a) && !absent(b)) continue;
-    out.fault(Fault::stale, 0, 1, {in.query.question, a, b},
-              fmt::format("query {}: pair ({}, {}) names a body that is not there", k, a, b));
-    out.faults.back().step = k;
-  }
+void fault_stale(const CheckInput& in, CheckOutput& out, BodyPair p, const std::string& place) {
+  out.fault(Fault::stale, 0, 1, {in.query.question, p.first, p.second},
+            fmt::format("{}pair ({}, {}) names a body that is not there", place, p.first, p.second));
 }
 
 }  // namespace
@@ -62,14 +46,17 @@ void check_candidates(const CheckInput& in, CheckOutput& out) {
     out.fault(Fault::no_number, 0, 1, in.query, "answers more queries than the script asks");
     return;
   }
-  static const std::vector<BodyPair> none;
   for (std::size_t k = 0; k < truth.size(); ++k) {
-    const auto& raw = k < in.answer.candidate_pairs.size() ? in.answer.candidate_pairs[k] : none;
-    const auto reported = sorted_unique(raw, out.pairs_duplicate);
-    out.pairs_true += truth[k].size();
-    out.pairs_reported += reported.size();
-    check_missed(in, out, static_cast<int>(k), truth[k], reported);
-    check_stale(in, out, static_cast<int>(k), states[k], reported);
+    const auto& poses = states[k].pose;
+    const auto found =
+        compare_candidates(in.answer, k, static_cast<int>(poses.size()), truth[k], &Truth::TruePair::bodies,
+                           [&](int i) { return poses[static_cast<std::size_t>(i)].has_value(); });
+    count(out, truth[k].size(), found);
+    for (const std::size_t i : found.missed) fault_missed(in, out, static_cast<int>(k), truth[k][i]);
+    for (const BodyPair& p : found.stale) {
+      fault_stale(in, out, p, fmt::format("query {}: ", k));
+      out.faults.back().step = static_cast<int>(k);
+    }
   }
 }
 
@@ -82,13 +69,11 @@ void check_swept_candidates(const CheckInput& in, CheckOutput& out) {
     out.fault(Fault::no_number, 0, 1, in.query, "answers more than one step");
     return;
   }
-  static const std::vector<BodyPair> none;
-  const auto reported = sorted_unique(in.answer.candidate_pairs.empty() ? none : in.answer.candidate_pairs[0],
-                                      out.pairs_duplicate);
-  out.pairs_true += truth.size();
-  out.pairs_reported += reported.size();
-  for (const auto& [a, b] : truth) {
-    if (std::binary_search(reported.begin(), reported.end(), BodyPair{a, b})) continue;
+  const auto found = compare_candidates(in.answer, 0, static_cast<int>(in.truth.scene().bodies.size()), truth,
+                                        std::identity{}, [](int) { return true; });
+  count(out, truth.size(), found);
+  for (const std::size_t i : found.missed) {
+    const auto [a, b] = truth[i];
     const double l = in.truth.scale(a, b), depth = in.truth.depth_in_step(0, a, b);
     out.error(depth, l, 0);
     out.fault(Fault::missed, depth, l, {in.query.question, a, b},
@@ -97,11 +82,7 @@ void check_swept_candidates(const CheckInput& in, CheckOutput& out) {
                           a, b, depth > 0 ? fmt::format(" by {:.6g}", depth) : " (touching)",
                           in.truth.motion(0, a, b).t_hi));
   }
-  const int n = static_cast<int>(in.truth.scene().bodies.size());
-  for (const auto& [a, b] : reported)
-    if (a < 0 || b >= n || a == b)
-      out.fault(Fault::stale, 0, 1, {in.query.question, a, b},
-                fmt::format("pair ({}, {}) names a body that is not there", a, b));
+  for (const BodyPair& p : found.stale) fault_stale(in, out, p, "");
 }
 
 }  // namespace touchstone::fuzz

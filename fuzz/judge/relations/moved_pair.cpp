@@ -1,6 +1,7 @@
 // The same pair in another form: A and B exchanged, axes permuted, scaled, moved. The gap is the same, either
 // exactly or up to the rounding of the new poses.
-#include <algorithm>
+#include <fmt/format.h>
+
 #include <cmath>
 
 #include "core/math/roundoff.h"
@@ -63,21 +64,16 @@ std::vector<Derived> derive_axes(const RelationInput& in) {
   const Vec3 signs(-1, -1, 1);
   turn_axes(r[0].c.scene, signs.asDiagonal());
   Derived turned = same_pair(in, "x, y, z turned into y, z, x");
-  const auto& shapes = turned.c.scene.shapes;
-  if (std::any_of(shapes.begin(), shapes.end(), has_own_axis)) return r;
-  Mat3 cycle;
-  cycle << 0, 1, 0, 0, 0, 1, 1, 0, 0;
-  turn_axes(turned.c.scene, cycle);
-  r.push_back(std::move(turned));
+  if (cycle_axes(turned.c.scene)) r.push_back(std::move(turned));
   return r;
 }
 
 std::vector<Derived> derive_scale(const RelationInput& in) {
   if (!pair_asked(in.c)) return {};
   std::vector<Derived> r;
-  for (const auto& [factor, words] : {std::pair{0x1p20, "scaled by 2^20"}, {0x1p-12, "scaled by 2^-12"}}) {
-    Derived d = same_pair(in, words);
-    d.base_scale = factor;
+  for (const double factor : unit_factors) {
+    Derived d = same_pair(in, fmt::format("scaled by 2^{}", std::ilogb(factor)));
+    d.scale = factor;
     if (scale_by(d.c.scene, factor)) r.push_back(std::move(d));
   }
   return r;

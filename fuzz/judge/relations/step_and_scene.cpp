@@ -8,6 +8,7 @@
 
 #include "fuzz/judge/relation.h"
 #include "fuzz/judge/truth.h"
+#include "scenarios/value/candidate_pairs.h"
 
 namespace touchstone::fuzz {
 namespace {
@@ -130,11 +131,9 @@ Pairs in_base(const Pairs& pairs, const std::vector<int>& body_of) {
   const int n = static_cast<int>(body_of.size());
   for (const auto& [x, y] : pairs) {
     if (x < 0 || y < 0 || x >= n || y >= n || x == y) continue;  // stale: another fault
-    r.push_back(std::minmax(body_of[static_cast<std::size_t>(x)], body_of[static_cast<std::size_t>(y)]));
+    r.emplace_back(body_of[static_cast<std::size_t>(x)], body_of[static_cast<std::size_t>(y)]);
   }
-  std::sort(r.begin(), r.end());
-  r.erase(std::unique(r.begin(), r.end()), r.end());
-  return r;
+  return sorted_unique(std::move(r));
 }
 
 // Superfluous pairs may depend on history: a broad phase may keep boxes wider than needed. A pair whose boxes

@@ -12,7 +12,7 @@
 #include <cstdlib>
 #include <limits>
 
-#include "oracles/referee/exact/short_integer.h"
+#include "oracles/referee/exact/rational.h"
 #include "oracles/referee/work.h"
 
 namespace touchstone::referee {
@@ -44,7 +44,7 @@ class Grid {
     const Parts p = parts_of(x);
     return p.mantissa == 0 ? I(0) : scaled<I>(I(p.mantissa), p.exponent - exponent_);
   }
-  Exact3<I> operator()(const Vec3& v) const { return {(*this)(v.x()), (*this)(v.y()), (*this)(v.z())}; }
+  Triple<I> operator()(const Vec3& v) const { return {(*this)(v.x()), (*this)(v.y()), (*this)(v.z())}; }
   int exponent() const { return exponent_; }
   /// The integers are below 2^bits.
   int bits() const { return any_ ? top_ - exponent_ : 0; }
@@ -60,7 +60,7 @@ class Grid {
 
 template <class I>
 struct Linear {
-  Exact3<I> row[3];
+  Triple<I> row[3];
   I denominator = 1;
   int exponent = 0;  // matrix = row·2^exponent/denominator
   int bits = 0, denominator_bits = 0;
@@ -98,11 +98,11 @@ Linear<I> linear_part(const Pose& p) {
 template <class I>
 struct Scaled {
   Linear<I> linear;
-  std::vector<Exact3<I>> turned;  // in 2^turned_exponent/denominator
+  std::vector<Triple<I>> turned;  // in 2^turned_exponent/denominator
   int turned_exponent = 0;
-  Exact3<I> translation;
+  Triple<I> translation;
   int translation_exponent = 0;
-  std::vector<Exact3<I>> shifts;
+  std::vector<Triple<I>> shifts;
   int shift_exponent = 0;
   Parts radius;
   int turned_bits = 0, translation_bits = 0, shift_bits = 0, radius_bits = 0;
@@ -115,7 +115,7 @@ Scaled<I> scale(const ExactBody& b) {
   Grid<I> points, place, speed, time;
   for (const Vec3& v : b.core) points.fit(v);
   for (const Vec3& v : b.core) {
-    const Exact3<I> x = points(v);
+    const Triple<I> x = points(v);
     s.turned.push_back({dot(s.linear.row[0], x), dot(s.linear.row[1], x), dot(s.linear.row[2], x)});
   }
   s.turned_exponent = points.exponent() + s.linear.exponent;
@@ -143,15 +143,15 @@ int least_exponent(const Scaled<I>& s) {
 }
 
 template <class I>
-std::vector<Exact3<I>> place(const Scaled<I>& s, int exponent, const I& other_denominator) {
-  std::vector<Exact3<I>> r;
+std::vector<Triple<I>> place(const Scaled<I>& s, int exponent, const I& other_denominator) {
+  std::vector<Triple<I>> r;
   const I unit_translation =
       scaled<I>(s.linear.denominator * other_denominator, s.translation_exponent - exponent);
   const I unit_shift = scaled<I>(s.linear.denominator * other_denominator, s.shift_exponent - exponent);
   const I unit_turned = scaled<I>(other_denominator, s.turned_exponent - exponent);
-  for (const Exact3<I>& shift : s.shifts) {
-    const Exact3<I> base = unit_translation * s.translation + unit_shift * shift;
-    for (const Exact3<I>& x : s.turned) r.push_back(unit_turned * x + base);
+  for (const Triple<I>& shift : s.shifts) {
+    const Triple<I> base = unit_translation * s.translation + unit_shift * shift;
+    for (const Triple<I>& x : s.turned) r.push_back(unit_turned * x + base);
   }
   return r;
 }
@@ -160,43 +160,43 @@ template <class I>
 struct Nearest {
   std::array<int, 4> face{};  // indices into the simplex
   int size = 0;
-  Exact3<I> direction;  // positive multiple of the nearest point; zero: the origin is in the hull
+  Triple<I> direction;  // positive multiple of the nearest point; zero: the origin is in the hull
   I reach;              // direction·p for every p of the face
 };
 
 // Nearest point of the face's affine hull, if it lies in the face (its border included).
 template <class I>
-std::optional<Exact3<I>> foot_in_face(std::span<const Exact3<I>> p) {
+std::optional<Triple<I>> foot_in_face(std::span<const Triple<I>> p) {
   if (p.size() == 1) return p[0];
   if (p.size() == 2) {
-    const Exact3<I> d = p[1] - p[0];
+    const Triple<I> d = p[1] - p[0];
     const I dd = dot(d, d), t = -dot(p[0], d);
     if (dd == 0 || t < 0 || t > dd) return std::nullopt;
     return dd * p[0] + t * d;
   }
   if (p.size() == 3) {
-    const Exact3<I> n = cross(p[1] - p[0], p[2] - p[0]);
+    const Triple<I> n = cross(p[1] - p[0], p[2] - p[0]);
     if (is_zero(n)) return std::nullopt;
     if (dot(cross(p[1], p[2]), n) < 0 || dot(cross(p[2], p[0]), n) < 0 || dot(cross(p[0], p[1]), n) < 0)
       return std::nullopt;
     return I(dot(n, p[0]).sign()) * n;
   }
-  const Exact3<I> m = cross(p[2], p[3]), k = cross(p[0], p[1]);
+  const Triple<I> m = cross(p[2], p[3]), k = cross(p[0], p[1]);
   const int s[4] = {dot(p[1], m).sign(), -dot(p[0], m).sign(), dot(p[3], k).sign(), -dot(p[2], k).sign()};
   const auto [lo, hi] = std::minmax_element(s, s + 4);
   if (*lo == 0 && *hi == 0) return std::nullopt;
   if (*lo < 0 && *hi > 0) return std::nullopt;
-  return Exact3<I>{0, 0, 0};
+  return Triple<I>{0, 0, 0};
 }
 
 // The face of the simplex whose foot is optimal for the whole simplex (the Kuhn-Tucker conditions, exact).
 template <class I>
-Nearest<I> nearest_face(std::span<const Exact3<I>> points) {
+Nearest<I> nearest_face(std::span<const Triple<I>> points) {
   const int n = static_cast<int>(points.size());
   for (int size = 1; size <= n; ++size)
     for (int bits = 1; bits < 1 << n; ++bits) {
       Nearest<I> r;
-      std::vector<Exact3<I>> face;
+      std::vector<Triple<I>> face;
       for (int i = 0; i < n; ++i)
         if (bits >> i & 1) {
           r.face[face.size()] = i;
@@ -209,7 +209,7 @@ Nearest<I> nearest_face(std::span<const Exact3<I>> points) {
       r.direction = *foot;
       r.reach = dot(*foot, face[0]);
       const bool optimal = std::all_of(points.begin(), points.end(),
-                                       [&](const Exact3<I>& p) { return dot(r.direction, p) >= r.reach; });
+                                       [&](const Triple<I>& p) { return dot(r.direction, p) >= r.reach; });
       if (optimal) return r;
     }
   throw std::logic_error("referee: a simplex has no nearest face");  // excluded by convexity
@@ -266,7 +266,7 @@ template <class I>
 std::int64_t work_of_products(const BasicExactPair<I>& p) {
   I most = 1;
   for (const auto* points : {&p.a, &p.b})
-    for (const Exact3<I>& x : *points)
+    for (const Triple<I>& x : *points)
       for (const I* c : {&x.x, &x.y, &x.z})
         if (const I size = abs(*c); size > most) most = size;
   const auto limbs = static_cast<std::int64_t>(msb(most) / 64 + 1);
@@ -282,7 +282,7 @@ ExactVerdict decide_in(const BasicExactPair<I>& p, std::span<const IndexPair> se
   const std::int64_t work = work_of_products(p) * static_cast<std::int64_t>(64 + p.a.size() + p.b.size());
   for (;;) {
     spend(work);
-    std::vector<Exact3<I>> points;
+    std::vector<Triple<I>> points;
     for (const auto& [i, j] : simplex) points.push_back(p.a[at(i)] - p.b[at(j)]);
     const Nearest<I> v = nearest_face<I>(points);
     ExactVerdict r;
@@ -396,12 +396,12 @@ std::optional<bool> overlaps_half_space_short(const Vec3& normal, double offset,
   const int half = d.exponent >= 0 ? d.exponent / 2 : -((1 - d.exponent) / 2);
   const auto p = make_short(frame, body, d.mantissa == 0 ? std::numeric_limits<int>::max() : half);
   if (!p) return std::nullopt;
-  const Exact3<Short> n = p->a[0] - p->a[1];
+  const Triple<Short> n = p->a[0] - p->a[1];
   const int shift = d.mantissa == 0 ? 0 : d.exponent - 2 * p->exponent;
   if (shift < 0 || shift > short_bits) return std::nullopt;
   const Short limit = scaled<Short>(Short(d.mantissa), shift) * square(p->denominator);
   Short least = dot(n, p->b[0] - p->a[1]);
-  for (const Exact3<Short>& y : p->b) least = std::min(least, Short(dot(n, y - p->a[1])));
+  for (const Triple<Short>& y : p->b) least = std::min(least, Short(dot(n, y - p->a[1])));
   least -= limit;
   return !(least > 0 && square(least) > square(p->radius_b) * dot(n, n));
 }

@@ -27,7 +27,7 @@ struct ExactBody {
 /// An integer k stands for k·2^exponent/denominator.
 template <class I>
 struct BasicExactPair {
-  std::vector<Exact3<I>> a, b;
+  std::vector<Triple<I>> a, b;
   I radius_a, radius_b;
   int exponent = 0;
   I denominator = 1;
@@ -69,5 +69,17 @@ struct ExactPlane {
 };
 /// Strictly separating: A on direction·x <= offset, B on direction·x > offset. Precondition: !v.overlap.
 ExactPlane separating_plane(const ExactPair& p, const ExactVerdict& v);
+
+// Exact world coordinates in rationals, plain and slow: for half-spaces, certificates and other rare uses.
+
+Rational3 world_point(const std::variant<Pose, Placement>& pose, const Rational3& local);
+/// The core points at the first time only.
+std::vector<Rational3> world_points(const ExactBody& b);
+
+struct RationalPlane {
+  Rational3 normal;  // {x : normal·x <= offset}, world; zero for a singular placement
+  Rational offset;
+};
+RationalPlane world_plane(const Placed& half_space);
 
 }  // namespace touchstone::referee

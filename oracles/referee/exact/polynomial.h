@@ -30,7 +30,7 @@ class Polynomial {
   }
   std::vector<Rational> c_;
 };
-using Polynomial3 = Exact3<Polynomial>;
+using Polynomial3 = Triple<Polynomial>;
 
 /// The only root of `p` (which has no multiple roots) in (lo, hi]; exactly hi when is_exact.
 struct Root {

@@ -6,7 +6,7 @@
 #include <string_view>
 
 #include "core/base/input_error.h"
-#include "oracles/referee/filter/exact_sign.h"
+#include "oracles/referee/filter/real3.h"
 
 namespace touchstone::referee {
 namespace {

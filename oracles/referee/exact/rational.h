@@ -1,6 +1,7 @@
 // Exact numbers: GMP integers and rationals behind Boost.Multiprecision, and the exact value of a double.
 #pragma once
 
+#include <boost/multiprecision/cpp_int.hpp>
 #include <boost/multiprecision/gmp.hpp>
 #include <string>
 
@@ -13,36 +14,11 @@ using Integer = boost::multiprecision::number<boost::multiprecision::gmp_int, bo
 using Rational =
     boost::multiprecision::number<boost::multiprecision::gmp_rational, boost::multiprecision::et_off>;
 
-template <class T>
-struct Exact3 {
-  T x, y, z;
-  const T& operator[](int i) const { return i == 0 ? x : i == 1 ? y : z; }
-};
-using Integer3 = Exact3<Integer>;
-using Rational3 = Exact3<Rational>;
+using Integer3 = Triple<Integer>;
+using Rational3 = Triple<Rational>;
 
 template <class T>
-Exact3<T> operator+(const Exact3<T>& a, const Exact3<T>& b) {
-  return {a.x + b.x, a.y + b.y, a.z + b.z};
-}
-template <class T>
-Exact3<T> operator-(const Exact3<T>& a, const Exact3<T>& b) {
-  return {a.x - b.x, a.y - b.y, a.z - b.z};
-}
-template <class T>
-Exact3<T> operator*(const T& s, const Exact3<T>& a) {
-  return {s * a.x, s * a.y, s * a.z};
-}
-template <class T>
-T dot(const Exact3<T>& a, const Exact3<T>& b) {
-  return a.x * b.x + a.y * b.y + a.z * b.z;
-}
-template <class T>
-Exact3<T> cross(const Exact3<T>& a, const Exact3<T>& b) {
-  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
-}
-template <class T>
-bool is_zero(const Exact3<T>& a) {
+bool is_zero(const Triple<T>& a) {
   return a.x == 0 && a.y == 0 && a.z == 0;
 }
 
@@ -77,5 +53,13 @@ Rational simplest_between(const Rational& lo, const Rational& hi);
 /// "n/d" in lowest terms, "n" when d = 1; and back. Throws InputError on anything else.
 std::string text_of(const Rational& x);
 Rational rational_from_text(const std::string& s);
+
+// 512-bit integers on the stack, for numbers known beforehand to fit. What is decided in them counts as the
+// filter's level 1.
+
+using Short = boost::multiprecision::number<
+    boost::multiprecision::cpp_int_backend<512, 512, boost::multiprecision::signed_magnitude,
+                                           boost::multiprecision::unchecked, void>,
+    boost::multiprecision::et_off>;
 
 }  // namespace touchstone::referee

@@ -2,14 +2,14 @@
 // each shape is then a comparison of polynomials in them. Bits, with k for a coordinate on the grid and b for
 // a quaternion's: local coordinates have k + 2b + 5; cone: 4(k + 2b) + 25; ellipsoid: 6k + 4b + 12; below 512
 // for k <= 60, b <= 30.
-#include "oracles/referee/exact/short_point.h"
+#include "oracles/referee/exact/exact_point.h"
 
 #include <algorithm>
 #include <bit>
 #include <cstdlib>
 
 #include "oracles/referee/exact/exact_pair.h"
-#include "oracles/referee/exact/short_integer.h"
+#include "oracles/referee/exact/rational.h"
 #include "oracles/referee/filter/body.h"
 
 namespace touchstone::referee {

@@ -1,4 +1,4 @@
-#include "oracles/referee/exact/touching.h"
+#include "oracles/referee/exact/exact_point.h"
 
 #include <algorithm>
 #include <iterator>
@@ -6,7 +6,6 @@
 
 #include "oracles/checker/checker.h"
 #include "oracles/referee/exact/rational.h"
-#include "oracles/referee/exact/short_point.h"
 #include "oracles/referee/limits.h"
 
 namespace touchstone::referee {

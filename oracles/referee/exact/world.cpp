@@ -1,4 +1,4 @@
-#include "oracles/referee/exact/world.h"
+#include "oracles/referee/exact/exact_pair.h"
 
 namespace touchstone::referee {
 namespace {

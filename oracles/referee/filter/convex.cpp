@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "oracles/referee/counters.h"
-#include "oracles/referee/filter/meridian.h"
+#include "oracles/referee/filter/minkowski.h"
 #include "oracles/referee/filter/wide_search.h"
 #include "oracles/referee/limits.h"
 #include "oracles/referee/work.h"

@@ -6,7 +6,9 @@
 #include <optional>
 #include <span>
 
+#include "core/math/aabb.h"
 #include "oracles/referee/exact/exact_pair.h"
+#include "oracles/referee/filter/body.h"
 #include "oracles/referee/filter/inner_polytope.h"
 
 namespace touchstone::referee {
@@ -50,5 +52,22 @@ std::optional<std::array<double, 2>> gap_at_most(const Operand& a, const Operand
 
 /// The width, absolute, to which a bracket is refined before the referee stops.
 Real target_width(const Difference& d);
+
+// AABB of a body, rounded outward: six support values with their proven error.
+
+/// The body's numbers must be relative to the world origin.
+Aabb box_of(const Solid& b);
+
+// A mesh is the union of its triangles: verdict and distance are those of the nearest triangle.
+
+/// The convex parts of a body: the triangles of a mesh, or the body itself.
+std::vector<Operand> parts_of(const Placed& p, const Vec3& origin);
+
+/// Union against union. `surface`: one of the two is a mesh; an overlap then means lo = -inf, hi = 0.
+ConvexTruth judge_parts(std::span<const Operand> a, std::span<const Operand> b, bool surface);
+/// The gap of the two parts that overlap most. Precondition: some parts overlap.
+Bracket gap_of_deepest(std::span<const Operand> a, std::span<const Operand> b);
+ConvexTruth judge_parts_half_space(std::span<const Operand> a, const Placed& half_space, const Vec3& origin,
+                                   bool surface);
 
 }  // namespace touchstone::referee

@@ -4,7 +4,7 @@
 #include <functional>
 #include <optional>
 
-#include "oracles/referee/filter/exact_sign.h"
+#include "oracles/referee/filter/real3.h"
 #include "oracles/referee/work.h"
 
 namespace touchstone::referee {

@@ -1,4 +1,4 @@
-#include "oracles/referee/filter/meridian.h"
+#include "oracles/referee/filter/minkowski.h"
 
 #include <algorithm>
 #include <optional>

@@ -1,9 +1,8 @@
-#include "oracles/referee/filter/mesh.h"
+#include "oracles/referee/filter/convex.h"
 
 #include <algorithm>
 #include <tuple>
 
-#include "oracles/referee/filter/box_of.h"
 #include "oracles/referee/filter/half_space.h"
 #include "oracles/referee/work.h"
 

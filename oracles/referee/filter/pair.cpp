@@ -3,9 +3,9 @@
 
 #include "oracles/referee/certificate.h"
 #include "oracles/referee/counters.h"
-#include "oracles/referee/exact/touching.h"
+#include "oracles/referee/exact/exact_point.h"
+#include "oracles/referee/filter/convex.h"
 #include "oracles/referee/filter/half_space.h"
-#include "oracles/referee/filter/mesh.h"
 #include "oracles/referee/filter/wide_search.h"
 #include "oracles/referee/work.h"
 

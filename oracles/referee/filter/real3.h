@@ -1,6 +1,6 @@
 // Vectors of 80-bit long doubles, the referee's working arithmetic: unit roundoff 2^-64, exponents wide
 // enough that no product of a few doubles overflows or underflows. The first level searches with the same
-// vectors in doubles. All error bounds in this room are stated in `unit` or, where the arithmetic is a
+// vectors in doubles, the last ones with exact numbers in them. All error bounds in this room are stated in `unit` or, where the arithmetic is a
 // parameter, in `unit_of<T>`.
 #pragma once
 
@@ -31,7 +31,7 @@ inline constexpr T least_square = std::numeric_limits<T>::min() * static_cast<T>
 template <class T>
 struct Triple {
   T x = 0, y = 0, z = 0;
-  T operator[](int i) const { return i == 0 ? x : i == 1 ? y : z; }
+  const T& operator[](int i) const { return i == 0 ? x : i == 1 ? y : z; }
 };
 using Real3 = Triple<Real>;
 using Double3 = Triple<double>;
@@ -149,5 +149,11 @@ inline double round_down(Real x) {
   return static_cast<Real>(d) > x ? std::nextafter(d, -std::numeric_limits<double>::infinity()) : d;
 }
 inline double round_up(Real x) { return -round_down(-x); }
+
+/// Sign of det(a, b, c).
+int determinant_sign(const Real3& a, const Real3& b, const Real3& c);
+/// Sign of det(b - a, c - a, p - a): > 0 when p is in front of the triangle, seen from the side on which a,
+/// b, c are counter-clockwise.
+int orientation_sign(const Real3& a, const Real3& b, const Real3& c, const Real3& p);
 
 }  // namespace touchstone::referee

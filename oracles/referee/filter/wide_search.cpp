@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "oracles/checker/checker.h"
-#include "oracles/referee/exact/world.h"
+#include "oracles/referee/exact/exact_pair.h"
 #include "oracles/referee/filter/gjk.h"
 #include "oracles/referee/filter/wide.h"
 #include "oracles/referee/work.h"

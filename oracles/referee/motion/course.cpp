@@ -20,7 +20,7 @@
 
 #include <algorithm>
 
-#include "oracles/referee/exact/world.h"
+#include "oracles/referee/exact/exact_pair.h"
 #include "oracles/referee/filter/half_space.h"
 
 namespace touchstone::referee {

@@ -3,11 +3,11 @@
 // normal) that is not the same for both ends the separation at once: the normals m_A(t) and -m_B(t) are
 // analytic and differ in the first or second derivative at 0 unless ω is the same, so they differ at all
 // small t > 0. Then the half-spaces overlap: the first contact is at 0, as an infimum.
-#include "oracles/referee/motion/half_space_motion.h"
+#include "oracles/referee/motion/motion.h"
 
 #include <limits>
 
-#include "oracles/referee/exact/world.h"
+#include "oracles/referee/exact/exact_pair.h"
 
 namespace touchstone::referee {
 namespace {
@@ -59,16 +59,6 @@ TimeTruth apart_throughout(const Bracket& least_gap) {
   return r;
 }
 
-TimeTruth hit_between(double lo, double hi, const char* note) {
-  TimeTruth r;
-  r.verdict = TimeTruth::Verdict::hit;
-  r.t_lo = lo;
-  r.t_hi = hi;
-  r.least_gap = {-infinity, 0};
-  r.note = note;
-  return r;
-}
-
 }  // namespace
 
 Vec3 visible_turn(const Placed& half_space, const Vec3& angular) {
@@ -88,7 +78,7 @@ TimeTruth judge_half_spaces_in_motion(const Placed& a, const Motion& motion_a, c
   if (end > 0) return apart_throughout(scaled(std::min(room->start, end), room->normal));
   const Rational t = room->start / -room->rate;
   const double lo = below(t);
-  return hit_between(lo, exact(lo) == t ? lo : std::nextafter(lo, infinity), "");
+  return hit_between(lo, exact(lo) == t ? lo : std::nextafter(lo, infinity));
 }
 
 Bracket gap_of_half_spaces(const Placed& a, const Motion& motion_a, const Placed& b, const Motion& motion_b,

@@ -1,12 +1,12 @@
 // Puts the result of judge_motion in a form that the checker accepts: planes up to t_lo (moving_plane.h) and
 // a common point at t_hi. Everything returned has been accepted by `check`.
-#include "oracles/referee/motion/impact_certificate.h"
+#include "oracles/referee/referee.h"
 
 #include <algorithm>
 
 #include "oracles/checker/checker.h"
 #include "oracles/referee/certificate.h"
-#include "oracles/referee/exact/world.h"
+#include "oracles/referee/exact/exact_pair.h"
 #include "oracles/referee/filter/half_space.h"
 #include "oracles/referee/motion/moving_plane.h"
 #include "oracles/referee/work.h"

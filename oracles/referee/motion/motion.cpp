@@ -12,10 +12,10 @@
 #include <algorithm>
 
 #include "oracles/referee/limits.h"
-#include "oracles/referee/motion/half_space_motion.h"
 #include "oracles/referee/work.h"
 
 namespace touchstone::referee {
+
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -31,16 +31,6 @@ constexpr double least_advance = 0x1p-52;
 constexpr double first_step = 0x1p-58, clear_step = 0x1p-30, last_step = 0x1p-8;
 
 double next_time(double t, double step) { return std::min(1.0, std::max(std::nextafter(t, 2.0), t + step)); }
-
-TimeTruth hit(double lo, double hi, const char* note = "") {
-  TimeTruth r;
-  r.verdict = TimeTruth::Verdict::hit;
-  r.t_lo = lo;
-  r.t_hi = hi;
-  r.least_gap = {-infinity, 0};
-  r.note = note;
-  return r;
-}
 
 // Newton's steps from below never pass the first contact; sweeps of doubling length then bracket it, and
 // bisection narrows the bracket to neighbouring doubles, or to what can be decided for curved pairs.
@@ -73,12 +63,12 @@ TimeTruth bracket_contact(Course& c) {
     else
       from = middle;  // curved, undecided: contact is certain only later, absence only up to lo
   }
-  return hit(lo, hi);
+  return hit_between(lo, hi);
 }
 
 TimeTruth judge_translation(Course& c) {
   const ConvexTruth start = c.at(0, Effort::gap);
-  if (start.verdict == Verdict::overlap) return hit(0, 0, "overlap at the start");
+  if (start.verdict == Verdict::overlap) return hit_between(0, 0, "overlap at the start");
   const ConvexTruth all = c.swept(0, 1, Effort::gap);
   if (all.verdict == Verdict::overlap) {
     TimeTruth r = bracket_contact(c);
@@ -202,7 +192,8 @@ TimeTruth judge_rotation(Course& c) {
     least_hi = std::min(least_hi, a.least_hi);
     if (a.exit == Advance::Exit::passed) break;
     const double clear_before = std::min(first_stall, a.t);
-    if (a.exit == Advance::Exit::contact) return hit(clear_before, earliest_contact(c, clear_before, a.t));
+    if (a.exit == Advance::Exit::contact)
+      return hit_between(clear_before, earliest_contact(c, clear_before, a.t));
     first_stall = clear_before;
     if (a.exit == Advance::Exit::evaluation_cap) {
       note = "evaluation cap reached";
@@ -211,7 +202,7 @@ TimeTruth judge_rotation(Course& c) {
     double clear_at = infinity;
     double s = contact_after(c, a.t, clear_at);
     if (s == infinity) s = contact_within(c, a.t, std::min(1.0, clear_at));
-    if (s != infinity) return hit(first_stall, earliest_contact(c, first_stall, s));
+    if (s != infinity) return hit_between(first_stall, earliest_contact(c, first_stall, s));
     note = "grazes: contact is neither certain nor excluded";
     if (clear_at == infinity) break;
     t = clear_at;
@@ -234,7 +225,7 @@ TimeTruth judge_course(Course& c) {
   if (!c.turns()) return judge_translation(c);
   // The start is exact for every polytope; a contact there is decided whatever follows.
   const ConvexTruth start = c.at(0);
-  if (start.verdict == Verdict::overlap) return hit(0, 0, "overlap at the start");
+  if (start.verdict == Verdict::overlap) return hit_between(0, 0, "overlap at the start");
   return judge_rotation(c);
 }
 
@@ -263,6 +254,16 @@ TimeTruth join(const TimeTruth& x, const TimeTruth& y) {
 }
 
 }  // namespace
+
+TimeTruth hit_between(double lo, double hi, const char* note) {
+  TimeTruth r;
+  r.verdict = TimeTruth::Verdict::hit;
+  r.t_lo = lo;
+  r.t_hi = hi;
+  r.least_gap = {-infinity, 0};
+  r.note = note;
+  return r;
+}
 
 std::vector<PartPair> part_pairs(const Placed& a, const Motion& ma, const Placed& b, const Motion& mb) {
   const auto count = [](const Placed& p) {

@@ -1,7 +1,7 @@
 // Boxes of bodies in motion, rounded outward.
 #include <algorithm>
 
-#include "oracles/referee/filter/box_of.h"
+#include "oracles/referee/filter/convex.h"
 #include "oracles/referee/motion/motion.h"
 
 namespace touchstone::referee {

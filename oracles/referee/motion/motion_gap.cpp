@@ -1,8 +1,7 @@
 // The gap at one time of a motion, and the deepest time of a step.
 #include <algorithm>
 
-#include "oracles/referee/filter/mesh.h"
-#include "oracles/referee/motion/half_space_motion.h"
+#include "oracles/referee/filter/convex.h"
 #include "oracles/referee/motion/motion.h"
 #include "oracles/referee/work.h"
 

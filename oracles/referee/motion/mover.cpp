@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "oracles/referee/exact/world.h"
+#include "oracles/referee/exact/exact_pair.h"
 #include "oracles/referee/work.h"
 
 namespace touchstone::referee {

@@ -13,7 +13,7 @@
 
 #include <algorithm>
 
-#include "oracles/referee/exact/world.h"
+#include "oracles/referee/exact/exact_pair.h"
 
 namespace touchstone::referee {
 namespace {

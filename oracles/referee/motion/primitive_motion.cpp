@@ -4,7 +4,7 @@
 // decide contact changes, hence at a root of one of the quadratics below. At a candidate every sign is
 // decided exactly (polynomial.h), so the answer is exact: the first candidate at which they meet. Degenerate
 // triangles and edges are decided by their edges and end points.
-#include "oracles/referee/motion/primitive_motion.h"
+#include "oracles/referee/referee.h"
 
 #include <algorithm>
 #include <vector>

@@ -13,7 +13,7 @@
 #include <array>
 #include <numbers>
 
-#include "oracles/referee/exact/world.h"
+#include "oracles/referee/exact/exact_pair.h"
 #include "oracles/referee/filter/convex.h"
 #include "oracles/referee/region/plane_polygon.h"
 

@@ -10,7 +10,7 @@
 #include <string>
 
 #include "oracles/abi/touchstone_engine.h"
-#include "oracles/core/native.h"
+#include "oracles/core/core_engine.h"
 
 namespace touchstone {
 namespace {

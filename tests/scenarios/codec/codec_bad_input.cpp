@@ -4,7 +4,7 @@
 
 #include <filesystem>
 
-#include "scenarios/codec/json_text.h"
+#include "scenarios/codec/json_file.h"
 #include "scenarios/codec/scene_codec.h"
 #include "tests/scenarios/import/expect_error.h"
 #include "tests/scenarios/import/temp_dir.h"

@@ -4,7 +4,7 @@
 
 #include "core/base/exact_text.h"
 #include "core/base/input_error.h"
-#include "scenarios/codec/json_text.h"
+#include "scenarios/codec/json_file.h"
 #include "scenarios/codec/scene_codec.h"
 #include "tests/scenarios/import/sample_scenes.h"
 #include "tests/scenarios/import/temp_dir.h"

@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <set>
 
-#include "scenarios/codec/json_text.h"
+#include "scenarios/codec/json_file.h"
 #include "scenarios/codec/scene_codec.h"
 #include "scenarios/codec/scene_fields.h"
 #include "tests/scenarios/codec/mini_schema.h"

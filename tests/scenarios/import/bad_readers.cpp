@@ -5,7 +5,6 @@
 #include "scenarios/import/ccd_queries.h"
 #include "scenarios/import/fcl_motion.h"
 #include "scenarios/import/hull_zoo.h"
-#include "scenarios/import/npy.h"
 #include "scenarios/import/real_scene.h"
 #include "tests/scenarios/import/expect_error.h"
 #include "tests/scenarios/import/temp_dir.h"

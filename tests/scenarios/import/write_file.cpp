@@ -9,7 +9,7 @@
 #include <fstream>
 
 #include "core/base/input_error.h"
-#include "scenarios/codec/input_file.h"
+#include "scenarios/codec/json_file.h"
 #include "tests/scenarios/import/temp_dir.h"
 #include "tests/support/catch.h"
 

@@ -1,0 +1,48 @@
+#include "oracles/core/core_answers.h"
+
+#include "core/math/roundoff.h"
+#include "core/tolerance.h"
+
+namespace touchstone {
+
+EngineCard core_card(std::string_view name, std::string settings) {
+  EngineCard card;
+  card.name = name;
+  card.library = "Touchstone core";
+  card.version = "0.1.0";
+  card.settings = std::move(settings);
+  card.unit_roundoff = unit_roundoff<double>;
+  card.tau_factor = tolerance::core_tau_factor;
+  card.source = "core/tolerance.h: arithmetic alone, no margin";
+  return card;
+}
+
+void store(const OverlapAnswer& answer, Observation& o) {
+  o.outcome = answer.outcome;
+  if (answer.outcome == Outcome::answered) o.overlap = answer.overlap;
+}
+
+void store(const DistanceAnswer& answer, Observation& o) {
+  o.outcome = answer.outcome;
+  if (answer.outcome != Outcome::answered) return;
+  o.distance = answer.distance;
+  o.witness = answer.witness;
+  o.normal = answer.normal;
+}
+
+void store(const ContactAnswer& answer, const Manifold& manifold, Observation& o) {
+  o.outcome = answer.outcome;
+  if (answer.outcome != Outcome::answered) return;
+  o.overlap = answer.overlap;
+  if (!answer.overlap) return;
+  o.normal = answer.normal;
+  o.depth = answer.depth;
+  for (const ContactPoint& p : manifold) o.manifold.push_back({p.position, p.depth});
+}
+
+void store(const std::vector<PairContact>& contacts, long unsupported, Observation& o) {
+  for (const PairContact& c : contacts) o.contacts.push_back({c.a, c.b, c.contact.normal, c.contact.depth});
+  if (unsupported > 0) o.detail = std::to_string(unsupported) + " pairs of unsupported shapes left out";
+}
+
+}  // namespace touchstone

@@ -1,0 +1,64 @@
+// Records as text: for a terminal, for README.md, and for tools that read JUnit.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "reports/record/broad_certificate.h"
+#include "reports/record/chart.h"
+#include "reports/record/observation_json.h"
+#include "reports/record/plan.h"
+#include "reports/record/stability.h"
+#include "reports/record/triage.h"
+
+namespace touchstone::reports {
+
+/// What to run and how much it saves, then the evidence; in 80 columns.
+std::string plan_text(const fuzz::Plan& p);
+
+// The chart as text in 80 columns.
+
+/// One table per question over all regimes, then the Pareto front of each regime, crowds, and the machine.
+std::string chart_text(const fuzz::Chart& c);
+
+// The README's comparison of the core with the engines as shipped: an excerpt of a chart, and its block of
+// Markdown.
+
+/// The rows that the block needs and the engines that they name. Idempotent.
+fuzz::Chart chart_excerpt(const fuzz::Chart& c);
+
+/// A table of the excerpt and a description of the measurement, to stand between the markers below.
+std::string chart_markdown(const fuzz::Chart& excerpt);
+
+/// `text` with everything between the markers replaced by `block`. Throws InputError, naming `file`, if the
+/// markers are missing or out of order.
+std::string with_chart_block(const std::string& text, const std::string& block, const std::string& file);
+
+inline constexpr const char* chart_begin = "<!-- chart: generated -->\n";
+inline constexpr const char* chart_end = "<!-- chart: end -->\n";
+
+// Ladders as text in 80 columns.
+
+/// One table per question (engine × ladder) of the rung where each begins to fail; then a list of the
+/// ladders.
+std::string stability_text(const fuzz::Stability& s);
+
+// A broad-phase certificate as text in 80 columns.
+
+/// `times`: with the seconds that each suite took.
+std::string certificate_text(const fuzz::BroadCertificate& c, bool times);
+
+/// "SUBJECT: boxes certified, bodies refuted", followed by the suites that were too slow and the time they
+/// need.
+std::string certificate_line(const fuzz::BroadCertificate& c);
+
+// The result of a triage, for people and for continuous integration.
+
+/// Lists new, back, flaky and gone findings and counts the others. 80 columns, except for keys.
+std::string triage_text(const std::vector<fuzz::Triaged>& triaged);
+fuzz::Json triage_json(const std::vector<fuzz::Triaged>& triaged);
+/// JUnit: one suite per engine and one test case per finding. New and back findings fail, known ones are
+/// skipped, gone ones pass.
+std::string triage_junit(const std::vector<fuzz::Triaged>& triaged);
+
+}  // namespace touchstone::reports

@@ -1,0 +1,71 @@
+// The generators of random cases that have files of their own, for the catalog in family.cpp, and the
+// variants in which a case of any family may be presented.
+#pragma once
+
+#include "core/math/rng.h"
+#include "scenarios/value/case.h"
+
+namespace touchstone::fuzz {
+
+// Meshes from one triangle to hundreds, open, closed, folded and flat; hulls with many vertices.
+
+void meshes(Rng& rng, Case& c);
+void many_vertices(Rng& rng, Case& c);
+
+Shape any_mesh(Rng& rng, double scale);
+
+// Pairs whose sizes are unusual: zero (points, segments, discs, plates), or very different; and boxes and
+// prisms whose edges are almost parallel.
+
+void zero_sizes(Rng& rng, Case& c);
+void unequal_sizes(Rng& rng, Case& c);
+void nearly_parallel(Rng& rng, Case& c);
+
+/// Sets one, several or all sizes of the shape to zero. Ellipsoids, half-spaces and meshes are unchanged.
+void flatten(Rng& rng, Shape& shape);
+
+/// A gap for a pair of the given size: zero, 2^-40 to 2^-7 of the size with either sign, or comparable to the
+/// size.
+double any_gap(Rng& rng, double size);
+
+/// Swaps bodies 0 and 1.
+void exchange_bodies(Scene& pair);
+
+// Scenes of several bodies with more demanding queries than a crowd: with meshes, half-spaces, groups and
+// ignored pairs; with shared shapes; with many queries in a row, which reveals an engine that keeps state it
+// must not keep.
+
+void company(Rng& rng, Case& c);
+void dialogue(Rng& rng, Case& c);
+
+// Crowds in which an error of one ulp makes a broad phase fail: many boxes of very different sizes that touch
+// exactly or overlap by a rounding error, on both sides of the origin and far from it, and scripts over them.
+
+void tiles(Rng& rng, Case& c);
+void throng(Rng& rng, Case& c);
+void errands(Rng& rng, Case& c);
+
+// Motions whose time of impact is decided by small differences: overlapping or touching at the start, passing
+// each other with a common tangent plane, going through a thin plate within a fraction of the step.
+
+void start_in_contact(Rng& rng, Case& c);
+void graze(Rng& rng, Case& c);
+void bullet(Rng& rng, Case& c);
+
+void last_moment(Rng& rng, Case& c);
+void whirl(Rng& rng, Case& c);
+void swarm(Rng& rng, Case& c);
+
+// Variants in which a case of any family may be presented: the pair swapped, the queries reordered,
+// quaternions of any length, the previous case again with one body moved.
+
+/// Whether a case is a modified copy of the previous one; most are not.
+bool is_sequel(Rng& rng);
+/// Turns the previous case into a new one: unchanged, or with one body moved by 2^-30 to 1 of its size, or
+/// turned.
+void move_a_body(Rng& rng, Case& c);
+
+/// Applies each variant with its own probability; most cases stay unchanged.
+void apply_forms(Rng& rng, Case& c);
+
+}  // namespace touchstone::fuzz
