@@ -7,6 +7,7 @@
 #include "cli/command.h"
 #include "cli/output.h"
 #include "fuzz/shrink/keeps_finding.h"
+#include "reports/text/text.h"
 
 namespace touchstone::cli {
 namespace {
@@ -22,7 +23,8 @@ struct ShrinkOptions {
 };
 
 std::string measure_in_words(const CaseSize& m) {
-  return fmt::format("{} bodies, {} steps, {} bits", m.bodies, m.steps, m.bits);
+  return fmt::format("{}, {}, {}", reports::counted(m.bodies, "body", "bodies"),
+                     reports::counted(m.steps, "step", "steps"), reports::counted(m.bits, "bit", "bits"));
 }
 
 Json to_json(const CaseSize& m) { return {{"bodies", m.bodies}, {"steps", m.steps}, {"bits", m.bits}}; }

@@ -58,7 +58,7 @@ std::string random_bound(const BroadCertificate& c, BroadLevel level) {
   return out;
 }
 
-std::string cases_of(std::uint64_t n) { return n == 1 ? "1 case" : grouped(n) + " cases"; }
+std::string cases_of(std::uint64_t n) { return counted(n, "case", "cases"); }
 
 // A class of fault: its smallest script, then the suites in which it was seen.
 std::string refutation(const BroadCertificate& c, const fuzz::Refutation& r) {
@@ -66,9 +66,10 @@ std::string refutation(const BroadCertificate& c, const fuzz::Refutation& r) {
       "  " +
       wrapped(fmt::format("{} ({}, case {}): {}", in_words(r.what), r.evidence, r.index, r.words), 76, 4);
   if (r.steps > 0)
-    out += fmt::format("\n    smallest script: {} bodies, {} steps ({})\n", r.bodies, r.steps, r.shrink);
+    out += fmt::format("\n    smallest script: {}, {} ({})\n", counted(r.bodies, "body", "bodies"),
+                       counted(r.steps, "step", "steps"), r.shrink);
   else
-    out += fmt::format("\n    smallest scene: {} bodies ({})\n", r.bodies, r.shrink);
+    out += fmt::format("\n    smallest scene: {} ({})\n", counted(r.bodies, "body", "bodies"), r.shrink);
   std::string seen;
   for (const fuzz::FaultCount& f : c.faults)
     if (f.level == r.level && f.what == r.what)

@@ -24,6 +24,10 @@ std::string grouped(std::uint64_t n) {
   return s;
 }
 
+std::string counted(std::uint64_t n, std::string_view one, std::string_view many) {
+  return fmt::format("{} {}", grouped(n), n == 1 ? one : many);
+}
+
 std::string clock_text(double seconds) {
   const auto s = static_cast<long long>(std::max(0.0, seconds) + 0.5);
   if (s >= 3600) return fmt::format("{}:{:02}:{:02}", s / 3600, s / 60 % 60, s % 60);
@@ -102,7 +106,8 @@ struct Group {
 std::string group_lines(const std::string& title, const Group& g) {
   const std::string pairs = g.keys == 1 ? g.example->shapes : fmt::format("{} shape pairs", g.keys);
   const std::string worst = g.worst > 0 ? fmt::format(", worst {} L", small(g.worst)) : "";
-  std::string text = fmt::format("  {:<26} {:>6} times, {}{}\n", title, grouped(g.count), pairs, worst);
+  std::string text = fmt::format("  {:<26} {:>6} {}, {}{}\n", title, grouped(g.count),
+                                 g.count == 1 ? "time" : "times", pairs, worst);
   text += wrapped(fmt::format("    e.g. {}: {}", g.example->shapes, g.example->words), 78, 6) + "\n";
   return text;
 }

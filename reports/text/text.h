@@ -3,6 +3,7 @@
 
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "reports/record/result.h"
@@ -21,6 +22,8 @@ std::string campaign_footer(const fuzz::CampaignResult& r);
 
 /// "1,234,567".
 std::string grouped(std::uint64_t n);
+/// "1 body", "1,200 bodies".
+std::string counted(std::uint64_t n, std::string_view one, std::string_view many);
 /// Seconds as "1:02:03" or "2:03".
 std::string clock_text(double seconds);
 /// "0", or two digits and exponent: "3.1e-16".
