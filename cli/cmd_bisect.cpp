@@ -55,7 +55,7 @@ int bodies(const BisectOptions& o, const AskedFinding& asked, const fuzz::Findin
   return exit_clean;
 }
 
-std::string in_words(const Step& s) {
+std::string describe(const Step& s) {
   const std::string_view name = scene_fields::op_names[static_cast<std::size_t>(s.op)];
   return s.op == Step::Op::query ? std::string(name) : fmt::format("{} body {}", name, s.body);
 }
@@ -64,7 +64,7 @@ int step(const BisectOptions& o, const AskedFinding& asked, const fuzz::Finding&
   const auto r = fuzz::which_step(asked.stored.c, fuzz::commits_fault(asked.engine, f));
   keep(o, asked, r.shortest, "up to the first query that shows it");
   std::vector<std::string> changes;
-  for (const Step& s : r.changes) changes.push_back(in_words(s));
+  for (const Step& s : r.changes) changes.push_back(describe(s));
   if (o.json)
     fmt::print(
         "{}\n",

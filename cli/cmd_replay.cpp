@@ -52,13 +52,14 @@ struct Count {
   bool failed = false;                             // one of them failed for a reason other than bad input
 };
 
-struct Asked {
+struct ReplayEngines {
   Engines engines;
   std::string subject;
 };
 
 // One case in full.
-void replay_case(const ReplayOptions& o, const Asked& asked, const Case& c, Count& count, fuzz::Json& json) {
+void replay_case(const ReplayOptions& o, const ReplayEngines& asked, const Case& c, Count& count,
+                 fuzz::Json& json) {
   const Engines& engines = asked.engines;
   fuzz::Truth truth(c.scene);
   reports::ReplayText text(c, truth);
@@ -96,8 +97,8 @@ void replay_case(const ReplayOptions& o, const Asked& asked, const Case& c, Coun
 }
 
 // A recorded scene has thousands of pairs, so counts and findings are printed instead of every answer.
-void replay_real_scene(const ReplayOptions& o, const Asked& asked, const std::string& directory, Count& count,
-                       fuzz::Json& json) {
+void replay_real_scene(const ReplayOptions& o, const ReplayEngines& asked, const std::string& directory,
+                       Count& count, fuzz::Json& json) {
   const RealScene scene = load_real_scene(directory);
   const auto frames = fuzz::frames_from_text(o.frames, scene.frame_count());
   fuzz::CampaignResult result;
@@ -127,7 +128,7 @@ void replay_real_scene(const ReplayOptions& o, const Asked& asked, const std::st
   count.wrong_recorded += result.wrong_of(asked.subject) + failed;
 }
 
-std::string in_words(const Count& count) {
+std::string describe(const Count& count) {
   std::string text;
   if (count.cases > 0 || count.recorded == 0)
     text = fmt::format("{} of {} cases", reports::grouped(count.wrong_cases), reports::grouped(count.cases));
@@ -144,13 +145,13 @@ int verdict(const Count& count, const std::string& subject, bool json) {
     return print_verdict(
         count.failed ? exit_failed : exit_usage, count.bad[0],
         fmt::format("{} of the arguments could not be judged; in the others {} is wrong in {}",
-                    count.bad.size(), subject, in_words(count)),
+                    count.bad.size(), subject, describe(count)),
         json);
   if (count.wrong_cases + count.wrong_recorded > 0)
-    return print_verdict(exit_wrong, subject, "wrong in " + in_words(count), json);
+    return print_verdict(exit_wrong, subject, "wrong in " + describe(count), json);
   if (count.answered == 0)
     return print_verdict(exit_failed, subject, "it answered nothing; this run proves nothing", json);
-  return print_verdict(exit_clean, subject, "wrong in " + in_words(count), json);
+  return print_verdict(exit_clean, subject, "wrong in " + describe(count), json);
 }
 
 // Prints the origin recorded in the file. It is only text to show, never a name to run.
@@ -165,7 +166,7 @@ void print_origin(const std::string& path, const StoredCase& stored, const Engin
              asked ? "queried below" : "not queried here; add it with --engines");
 }
 
-void replay_stored(const ReplayOptions& o, const Asked& asked, const std::string& path, Count& count,
+void replay_stored(const ReplayOptions& o, const ReplayEngines& asked, const std::string& path, Count& count,
                    fuzz::Json& json) {
   const StoredCase stored = case_argument(path);
   if (!o.json) print_origin(path, stored, asked.engines);
@@ -173,7 +174,7 @@ void replay_stored(const ReplayOptions& o, const Asked& asked, const std::string
 }
 
 // Replays one argument. An error is reported and does not stop the others.
-void replay(const ReplayOptions& o, const Asked& asked, const std::string& path, Count& count,
+void replay(const ReplayOptions& o, const ReplayEngines& asked, const std::string& path, Count& count,
             fuzz::Json& json) {
   const auto refuse = [&](const std::string& words) {
     const std::string why = printable(words, "\n");
@@ -196,7 +197,7 @@ void replay(const ReplayOptions& o, const Asked& asked, const std::string& path,
 
 int run(const ReplayOptions& o) {
   const ChosenEngines chosen = chosen_engines(o.choice, o.limits);
-  const Asked asked{judged_by(make_engines(chosen.names, o.limits), o.error), chosen.subject};
+  const ReplayEngines asked{judged_by(make_engines(chosen.names, o.limits), o.error), chosen.subject};
   Count count;
   fuzz::Json json = fuzz::Json::array();
   for (const std::string& path : o.paths) replay(o, asked, path, count, json);

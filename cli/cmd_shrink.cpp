@@ -22,7 +22,7 @@ struct ShrinkOptions {
   WorkerLimits limits;
 };
 
-std::string measure_in_words(const CaseSize& m) {
+std::string describe(const CaseSize& m) {
   return fmt::format("{}, {}, {}", reports::counted(m.bodies, "body", "bodies"),
                      reports::counted(m.steps, "step", "steps"), reports::counted(m.bits, "bit", "bits"));
 }
@@ -40,8 +40,8 @@ void print(const ShrinkOptions& o, const std::string& key, const fuzz::Shrunk& r
     fmt::print("{}\n", j.dump(1));
     return;
   }
-  fmt::print(stderr, "{}\nbefore: {}\nafter:  {} ({}, {} cases tried)\n", key, measure_in_words(r.before),
-             measure_in_words(r.after), to_string(r.exit), r.tried);
+  fmt::print(stderr, "{}\nbefore: {}\nafter:  {} ({}, {} cases tried)\n", key, describe(r.before),
+             describe(r.after), to_string(r.exit), r.tried);
   if (o.out.empty())
     fmt::print("{}", to_text(result));
   else

@@ -170,7 +170,7 @@ constexpr double error_of_missing_impact = 0.02;
 
 struct ExpectedAnswer {
   Truth& truth;
-  const Asked& q;
+  const EngineQuestion& q;
   const Finding& finding;
   double tau;
 };
@@ -272,7 +272,7 @@ std::string check_of(const ExpectedAnswer& e) {
 
 bool is_ode(std::string_view engine) { return engine == "ode" || engine.starts_with("ode-"); }
 
-EngineSource source_of(const Asked& q) {
+EngineSource source_of(const EngineQuestion& q) {
   if (q.engine.starts_with("fcl-")) return fcl_source(q);
   if (q.engine.starts_with("bullet-")) return bullet_source(q);
   if (q.engine.starts_with("libccd-")) return libccd_source(q);
@@ -301,7 +301,7 @@ std::string reproducer(const Finding& finding, const EngineCard& card) {
   const int n = static_cast<int>(v.c.scene.bodies.size());
   if (v.a < 0 || v.b < 0 || v.a >= n || v.b >= n)
     throw InputError("reproduce", "the finding is not about a pair of bodies: " + finding.key());
-  const Asked q{v.c.scene, v.question, v.a, v.b, v.step, finding.engine};
+  const EngineQuestion q{v.c.scene, v.question, v.a, v.b, v.step, finding.engine};
   Truth truth(v.c.scene);
   const double tau = tau_of(card, v.observation, truth.scale(v.a, v.b));
   const EngineSource source = source_of(q);
@@ -319,8 +319,8 @@ std::string reproducer(const Finding& finding, const EngineCard& card) {
       {{"TITLE", fmt::format("{} {} ({}): {}", card.library, card.version, finding.engine, finding.key())},
        {"WORDS", finding.words},
        {"COMPILE", source.compile},
-       {"SHAPE_A", in_words(v.c.scene.shape_of(v.a))},
-       {"SHAPE_B", in_words(v.c.scene.shape_of(v.b))},
+       {"SHAPE_A", describe(v.c.scene.shape_of(v.a))},
+       {"SHAPE_B", describe(v.c.scene.shape_of(v.b))},
        {"INCLUDES", source.includes},
        {"SUPPORT", support_of("a", v.a) + support_of("b", v.b)},
        {"CODE", source.code},

@@ -11,7 +11,7 @@ namespace {
 
 std::string scalar(double x) { return fmt::format("btScalar({})", literal(x)); }
 // The declaration of the broad phase, for engines that are a broad phase only; otherwise empty.
-std::string phase_of(const Asked& q);
+std::string phase_of(const EngineQuestion& q);
 
 std::string vector(const Vec3& v) {
   return fmt::format("btVector3({}, {}, {})", scalar(v.x()), scalar(v.y()), scalar(v.z()));
@@ -132,18 +132,18 @@ constexpr std::string_view find_pair = R"(  w.world.updateAabbs();
   }
 )";
 
-std::string with_names(std::string_view text, const Asked& q) {
+std::string with_names(std::string_view text, const EngineQuestion& q) {
   return filled(text, {{"A", std::to_string(q.a)}, {"B", std::to_string(q.b)}});
 }
 
-std::string object(const Asked& q, int i) {
+std::string object(const EngineQuestion& q, int i) {
   return fmt::format(
       "  btCollisionObject object_{0};\n  object_{0}.setCollisionShape(&shape_{1});\n"
       "  object_{0}.setWorldTransform({2});\n",
       i, q.body(i).shape, transform(q.body(i).pose));
 }
 
-std::string shapes_of(const Asked& q, const std::vector<int>& bodies) {
+std::string shapes_of(const EngineQuestion& q, const std::vector<int>& bodies) {
   std::string out;
   std::vector<int> made;
   for (const int i : bodies) {
@@ -156,9 +156,9 @@ std::string shapes_of(const Asked& q, const std::vector<int>& bodies) {
   return out;
 }
 
-bool is_sim(const Asked& q) { return q.engine.find("-sim") != std::string_view::npos; }
+bool is_sim(const EngineQuestion& q) { return q.engine.find("-sim") != std::string_view::npos; }
 
-std::string pair_question(const Asked& q) {
+std::string pair_question(const EngineQuestion& q) {
   std::string out = shapes_of(q, {q.a, q.b}) + object(q, q.a) + object(q, q.b);
   if (is_sim(q))
     return out +
@@ -173,7 +173,7 @@ std::string pair_question(const Asked& q) {
 }
 
 // Sweeps one body against the other at rest, as the adapter does: the one that rotates, or the convex one.
-std::string impact(const Asked& q) {
+std::string impact(const EngineQuestion& q) {
   const auto motion = [&](int i) { return q.body(i).motion.value_or(Motion{}); };
   const bool sweep_b = !motion(q.b).angular.isZero(0) || !has_support(q.scene.shape_of(q.a));
   const int mover = sweep_b ? q.b : q.a, target = sweep_b ? q.a : q.b;
@@ -192,7 +192,7 @@ std::string impact(const Asked& q) {
                      target, transform(start), transform(pose_at(start, relative, 1)), q.body(mover).shape);
 }
 
-std::string all_objects(const Asked& q) {
+std::string all_objects(const EngineQuestion& q) {
   std::vector<int> bodies;
   for (std::size_t i = 0; i < q.scene.bodies.size(); ++i) bodies.push_back(static_cast<int>(i));
   std::string out = shapes_of(q, bodies);
@@ -200,7 +200,7 @@ std::string all_objects(const Asked& q) {
   return out;
 }
 
-std::string candidates(const Asked& q) {
+std::string candidates(const EngineQuestion& q) {
   std::string out = all_objects(q) + "  bool found = false;\n";
   std::vector<bool> present(q.scene.bodies.size());
   int k = 0;
@@ -223,7 +223,7 @@ std::string candidates(const Asked& q) {
   return out + "  x.overlap = found;\n";
 }
 
-std::string scene_contacts(const Asked& q) {
+std::string scene_contacts(const EngineQuestion& q) {
   std::string out = all_objects(q);
   for (std::size_t i = 0; i < q.scene.bodies.size(); ++i)
     out += fmt::format("  w.world.addCollisionObject(&object_{});\n", i);
@@ -253,7 +253,7 @@ constexpr std::string_view phase_head = R"(  btDefaultCollisionConfiguration con
   };
 )";
 
-std::string phase_of(const Asked& q) {
+std::string phase_of(const EngineQuestion& q) {
   const std::string name(q.engine.substr(std::string_view("bullet-f64-").size()));
   const std::string world = "btVector3(-1000, -1000, -1000), btVector3(1000, 1000, 1000), 16384";
   if (name == "dbvt") return "btDbvtBroadphase phase";
@@ -263,7 +263,7 @@ std::string phase_of(const Asked& q) {
 }
 
 // A statement that sets lo and hi to the AABB of body i at a pose.
-std::string box_of(const Asked& q, int i, const Pose& pose) {
+std::string box_of(const EngineQuestion& q, int i, const Pose& pose) {
   const auto* box = std::get_if<Box>(&q.scene.shape_of(i));
   const Quat& r = pose.rotation;
   const bool thirds = r.x == r.y && r.y == r.z && (r.w == r.x || r.w == -r.x);
@@ -276,7 +276,7 @@ std::string box_of(const Asked& q, int i, const Pose& pose) {
   return fmt::format("  corners({}, {}, lo, hi);\n", vector(turned), transform({pose.translation, {}}));
 }
 
-std::string phase_candidates(const Asked& q) {
+std::string phase_candidates(const EngineQuestion& q) {
   std::vector<int> bodies;
   for (std::size_t i = 0; i < q.scene.bodies.size(); ++i) bodies.push_back(static_cast<int>(i));
   std::string out =
@@ -310,9 +310,9 @@ std::string phase_candidates(const Asked& q) {
              q.a, q.b);
 }
 
-bool is_phase(const Asked& q) { return q.question == Question::candidates && !phase_of(q).empty(); }
+bool is_phase(const EngineQuestion& q) { return q.question == Question::candidates && !phase_of(q).empty(); }
 
-std::string body_of(const Asked& q) {
+std::string body_of(const EngineQuestion& q) {
   if (is_phase(q)) return phase_candidates(q);
   if (q.question == Question::time_of_impact) return impact(q);
   if (q.question == Question::candidates) return candidates(q);
@@ -322,7 +322,7 @@ std::string body_of(const Asked& q) {
 
 }  // namespace
 
-EngineSource bullet_source(const Asked& q) {
+EngineSource bullet_source(const EngineQuestion& q) {
   const bool f64 = q.engine.starts_with("bullet-f64");
   EngineSource out;
   out.compile =

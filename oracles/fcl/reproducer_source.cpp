@@ -317,11 +317,13 @@ std::string manager_of(std::string_view engine) {
 }
 
 // The settings used by campaigns: as shipped, or tuned.
-std::string tolerance(const Asked& q) { return q.tuned() ? "1e-12" : "1e-6"; }
-std::string solver(const Asked& q) { return q.engine.starts_with("fcl-indep") ? "GST_INDEP" : "GST_LIBCCD"; }
-bool libccd(const Asked& q) { return !q.engine.starts_with("fcl-indep"); }
+std::string tolerance(const EngineQuestion& q) { return q.tuned() ? "1e-12" : "1e-6"; }
+std::string solver(const EngineQuestion& q) {
+  return q.engine.starts_with("fcl-indep") ? "GST_INDEP" : "GST_LIBCCD";
+}
+bool libccd(const EngineQuestion& q) { return !q.engine.starts_with("fcl-indep"); }
 
-std::string pair_head(const Asked& q) {
+std::string pair_head(const EngineQuestion& q) {
   return fmt::format(
       "const Geometry shape_a = {};\nconst Geometry shape_b = {};\nconst Placement at_a = {};\nconst "
       "Placement at_b = "
@@ -330,7 +332,7 @@ std::string pair_head(const Asked& q) {
       pose_literal(q.body(q.a).pose), pose_literal(q.body(q.b).pose));
 }
 
-std::string contact_function(const Asked& q) {
+std::string contact_function(const EngineQuestion& q) {
   const bool refined =
       q.tuned() && libccd(q) && has_support(q.scene.shape_of(q.a)) && has_support(q.scene.shape_of(q.b));
   return filled(
@@ -338,7 +340,7 @@ std::string contact_function(const Asked& q) {
       {{"REFINE", refined ? std::string(refine) : ""}, {"SOLVER", solver(q)}, {"TOLERANCE", tolerance(q)}});
 }
 
-std::string impact(const Asked& q) {
+std::string impact(const EngineQuestion& q) {
   const auto motion = [&](int i) { return q.body(i).motion.value_or(Motion{}); };
   const auto end = [&](int i) { return pose_literal(pose_at(q.body(i).pose, motion(i), 1)); };
   const bool turns = !motion(q.a).angular.isZero(0) || !motion(q.b).angular.isZero(0);
@@ -348,7 +350,7 @@ std::string impact(const Asked& q) {
                 {{"END_A", end(q.a)}, {"END_B", end(q.b)}, {"CALL", call}, {"SOLVER", solver(q)}});
 }
 
-std::string distance(const Asked& q) {
+std::string distance(const EngineQuestion& q) {
   const bool again = q.tuned() && libccd(q);
   return filled(ask_distance, {{"SIGNED", q.tuned() ? "false" : "true"},
                                {"TOLERANCE", tolerance(q)},
@@ -363,7 +365,7 @@ std::string manager_text(std::string_view engine) {
                                                                       : "moved = true"}});
 }
 
-std::string scene(const Asked& q) {
+std::string scene(const EngineQuestion& q) {
   std::string shapes, out;
   for (const Shape& s : q.scene.shapes) shapes += fmt::format("\n    {},", std::visit(Maker{}, s));
   const bool managed = !manager_of(q.engine).empty();
@@ -402,7 +404,7 @@ std::string scene(const Asked& q) {
 
 }  // namespace
 
-EngineSource fcl_source(const Asked& q) {
+EngineSource fcl_source(const EngineQuestion& q) {
   EngineSource out;
   out.compile = "-I/usr/include/eigen3 -lfcl -lccd";
   out.includes = "#include <fcl/fcl.h>\n\n#include <memory>\n";

@@ -57,7 +57,7 @@ std::string center(const Shape& s, const Pose& p) {
 
 }  // namespace
 
-EngineSource libccd_source(const Asked& q) {
+EngineSource libccd_source(const EngineQuestion& q) {
   if (q.question != Question::overlap && q.question != Question::contact)
     throw InputError("reproduce", "libccd answers overlap and contact only");
   if (!has_support(q.scene.shape_of(q.a)) || !has_support(q.scene.shape_of(q.b)))

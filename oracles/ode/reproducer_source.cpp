@@ -46,7 +46,7 @@ std::string create(const Shape& shape) {
   throw InputError("reproduce", "for ODE only spheres, boxes, capsules and cylinders can be written");
 }
 
-std::string geom(const Asked& q, int i) {
+std::string geom(const EngineQuestion& q, int i) {
   return fmt::format("  dGeomID geom_{} = {};\n", i, create(q.scene.shape_of(i)));
 }
 
@@ -56,7 +56,7 @@ std::string place(int i, const Pose& p) {
                      literal(r.z), literal(r.w), literals(p.translation));
 }
 
-std::string pair_question(const Asked& q) {
+std::string pair_question(const EngineQuestion& q) {
   std::string out;
   for (const int i : {q.a, q.b}) out += geom(q, i) + place(i, q.body(i).pose);
   return out + fmt::format(R"(  dContactGeom all[64];
@@ -81,7 +81,7 @@ std::string space_of(std::string_view engine) {
   return "dQuadTreeSpaceCreate(nullptr, centre, extents, 6)";
 }
 
-std::string candidates(const Asked& q) {
+std::string candidates(const EngineQuestion& q) {
   std::string out;
   for (std::size_t i = 0; i < q.scene.bodies.size(); ++i)
     out += geom(q, static_cast<int>(i)) + place(static_cast<int>(i), q.scene.bodies[i].pose);
@@ -104,7 +104,7 @@ std::string candidates(const Asked& q) {
 
 }  // namespace
 
-EngineSource ode_source(const Asked& q) {
+EngineSource ode_source(const EngineQuestion& q) {
   EngineSource s;
   s.compile = "-DdIDEDOUBLE -lode";
   s.includes = "#include <ode/ode.h>\n";

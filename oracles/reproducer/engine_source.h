@@ -10,7 +10,7 @@
 namespace touchstone::fuzz {
 
 /// The question, its bodies, and the query step of the script.
-struct Asked {
+struct EngineQuestion {
   const Scene& scene;
   Question question;
   int a, b, step;
@@ -26,9 +26,9 @@ struct EngineSource {
 };
 
 /// Throw InputError if the engine's API does not offer the question or a shape.
-EngineSource fcl_source(const Asked& q);
-EngineSource bullet_source(const Asked& q);
-EngineSource libccd_source(const Asked& q);
-EngineSource ode_source(const Asked& q);
+EngineSource fcl_source(const EngineQuestion& q);
+EngineSource bullet_source(const EngineQuestion& q);
+EngineSource libccd_source(const EngineQuestion& q);
+EngineSource ode_source(const EngineQuestion& q);
 
 }  // namespace touchstone::fuzz

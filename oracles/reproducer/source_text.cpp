@@ -89,7 +89,7 @@ struct LocalSupport {
   std::string operator()(const TriangleMesh&) const { return {}; }
 };
 
-struct Words {
+struct Description {
   std::string operator()(const Sphere& s) const { return fmt::format("sphere of radius {}", s.radius); }
   std::string operator()(const Box& s) const {
     return fmt::format("box of half extents {}", literals(s.half_extents));
@@ -136,6 +136,6 @@ Vec support_@WHO@(const Vec& direction) {
                  {"LOCAL", std::visit(LocalSupport{}, shape)}});
 }
 
-std::string in_words(const Shape& shape) { return std::visit(Words{}, shape); }
+std::string describe(const Shape& shape) { return std::visit(Description{}, shape); }
 
 }  // namespace touchstone::fuzz

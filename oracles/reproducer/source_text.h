@@ -26,6 +26,6 @@ std::string support_function(std::string_view name, const Shape& shape, const Po
 bool has_support(const Shape& shape);
 
 /// A description such as "box of half extents 1, 2, 3", for comments.
-std::string in_words(const Shape& shape);
+std::string describe(const Shape& shape);
 
 }  // namespace touchstone::fuzz

@@ -37,7 +37,7 @@ bool is_skipped(Standing s) {
   return s == Standing::known || s == Standing::still || s == Standing::flaky || s == Standing::not_asked;
 }
 
-std::string asked_in_words(const Triaged& t) {
+std::string flaky_share(const Triaged& t) {
   return t.standing == Standing::flaky ? fmt::format(", shown in {} of {} runs", t.shown, t.asked) : "";
 }
 
@@ -62,7 +62,7 @@ std::string junit_case(const Triaged& t) {
     r += fmt::format("<failure message=\"{}\">{}</failure>", to_string(t.standing), escaped(t.finding.words));
   if (is_skipped(t.standing))
     r += fmt::format("<skipped message=\"{} since {}{}\"/>", to_string(t.standing),
-                     escaped(t.finding.first_seen), asked_in_words(t));
+                     escaped(t.finding.first_seen), flaky_share(t));
   return r + "</testcase>\n";
 }
 

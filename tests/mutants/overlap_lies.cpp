@@ -85,11 +85,11 @@ std::vector<Mutant> overlap_lies() {
       {"overlap_mesh_denied", "missed", "deep", "a mesh overlaps nothing", denied_where(mesh)},
       {"overlap_flat_hull_denied", "missed", "zero", "a flat hull as the second body overlaps nothing",
        denied_where(flat_hull)},
-      {"overlap_one_order_denied", "missed", "shallow", "apart when the second body's kind is the lower one",
+      {"overlap_one_order_denied", "missed", "shallow", "apart when B's kind of shape is the lower one",
        denied_where(second_kind_lower)},
       {"overlap_parallel_denied", "missed", "lattice", "bodies of equal rotation are apart",
        denied_where(same_rotation)},
-      {"overlap_in_float", "missed", "near", "the verdict of single precision", float_verdict},
+      {"overlap_in_float", "missed", "near", "the verdict is computed in single precision", float_verdict},
       {"contact_shallow_denied", "missed", "shallow", "no contact for overlaps of less than 0.01",
        contact_denied_shallow},
   };

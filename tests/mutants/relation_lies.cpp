@@ -77,7 +77,7 @@ Lie answers_once() {
 
 std::vector<Mutant> relation_lies() {
   return {
-      {"declines_one_order", "relation_swap", "shallow", "no contact when the second kind is the lower one",
+      {"declines_one_order", "relation_swap", "shallow", "no contact when B's kind of shape is the lower one",
        declines_one_order},
       {"declines_one_side", "relation_axes", "separate", "no distance when B is at negative x",
        declines_one_side},
@@ -88,15 +88,15 @@ std::vector<Mutant> relation_lies() {
        declines_away_from_origin},
       {"declines_grown", "relation_grow", "separate", "no distance for two bodies larger than 1.25",
        declines_above_table},
-      {"jumps_when_touching", "relation_push", "shallow", "touching by a rounding is deep",
+      {"jumps_when_touching", "relation_push", "shallow", "bodies that touch within rounding overlap deeply",
        jumps_when_pushed_apart},
       {"casts_nothing", "relation_step", "translate", "no impact, ever", casts_nothing},
-      {"superfluous_by_order", "relation_order", "crowd", "superfluous pairs only in one order along x",
+      {"superfluous_by_order", "relation_order", "crowd", "superfluous pairs in only one order along x",
        superfluous_by_order()},
-      {"superfluous_once", "relation_reinsert", "crowd", "superfluous pairs until a body comes again",
+      {"superfluous_once", "relation_reinsert", "crowd", "superfluous pairs until a body is reinserted",
        superfluous_once()},
-      {"answers_once", "relation_questions", "separate", "the same question again gets no answer",
-       answers_once(), false},
+      {"answers_once", "relation_questions", "separate", "a repeated question gets no answer", answers_once(),
+       false},
   };
 }
 

@@ -51,12 +51,12 @@ std::vector<Mutant> swept_lies() {
       {"swept_no_travel", "missed", "swarm", "bodies turn and do not travel", for_motion(no_travel)},
       {"swept_no_turn", "missed", "swarm", "bodies travel and do not turn", for_motion(no_turn)},
       {"swept_not_along_z", "missed", "swarm", "nothing travels along z", for_motion(not_along_z)},
-      {"swept_half_the_way", "missed", "swarm", "half of the step only", for_motion(half_the_way)},
+      {"swept_half_the_way", "missed", "swarm", "only half of the step", for_motion(half_the_way)},
       {"swept_other_way", "missed", "swarm", "bodies travel the other way", for_motion(other_way)},
       {"swept_travel_clamped", "missed", "swarm", "bodies travel by at most 16", for_motion(travel_clamped)},
-      {"swept_end_only", "missed", "swarm", "the boxes are those of the end", for_motion(at_the_end)},
-      {"swept_first_rests", "missed", "swarm", "the first body stands still", for_motion(first_rests)},
-      {"swept_ghost_body", "stale", "swarm", "a pair with a body that is not there", ghost_body},
+      {"swept_end_only", "missed", "swarm", "only the boxes at the end of the step", for_motion(at_the_end)},
+      {"swept_first_rests", "missed", "swarm", "the first body does not move", for_motion(first_rests)},
+      {"swept_ghost_body", "stale", "swarm", "a pair with a body that does not exist", ghost_body},
   };
 }
 
