@@ -6,6 +6,7 @@
 #include "core/impact/convex_mesh.h"
 #include "core/impact/filtered/translation.h"
 #include "core/impact/pursue.h"
+#include "core/math/roundoff.h"
 #include "core/narrow/pair_table.h"
 #include "core/tolerance.h"
 
@@ -32,9 +33,7 @@ double scale_of(const MovingShape& s, double extent) {
   return std::max({extent, from, (s.pose.translation + s.motion.linear).cwiseAbs().maxCoeff()});
 }
 
-constexpr double unit_roundoff = 0x1p-53;
-
-double accuracy_of(double scale) { return (tolerance::core_tau_factor - 4) * unit_roundoff * scale; }
+double accuracy_of(double scale) { return (tolerance::core_tau_factor - 4) * double_roundoff * scale; }
 
 narrow::FastAnswer<double> in_double(const MovingShape& a, const MovingShape& b, narrow::filtered::Asked asked) {
   narrow::FastAnswer<double> f;

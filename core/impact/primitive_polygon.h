@@ -12,10 +12,9 @@
 #include <cstddef>
 
 #include "core/impact/primitive_impact.h"
+#include "core/math/roundoff.h"
 
 namespace touchstone::impact {
-
-inline constexpr double unit_roundoff = 0x1p-53;
 
 struct MovingPolygon {
   std::size_t corners = 3;         // in cyclic order
@@ -38,7 +37,7 @@ inline Corners corners_at(const MovingPolygon& p, double t) {
 inline Vec3 local_size(const MovingPolygon& p, const Corners& from, const Corners& to) {
   Vec3 l = Vec3::Zero();
   for (std::size_t k = 0; k < p.corners; ++k) l = l.cwiseMax(from[k].cwiseAbs()).cwiseMax(to[k].cwiseAbs());
-  return l + 8 * unit_roundoff * p.size;
+  return l + 8 * double_roundoff * p.size;
 }
 
 }  // namespace touchstone::impact

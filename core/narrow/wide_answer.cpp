@@ -1,5 +1,6 @@
 #include "core/narrow/wide_answer.h"
 
+#include "core/math/roundoff.h"
 #include "core/narrow/convex_pair.h"
 #include "core/narrow/manifold.h"
 #include "core/narrow/mesh.h"
@@ -9,9 +10,6 @@
 namespace touchstone::narrow {
 namespace {
 
-// Of double: the results are rounded to double once.
-constexpr double unit_roundoff = 0x1p-53;
-
 bool is_bounded_convex(const Shape& s) {
   return kind_of(s) != ShapeKind::half_space && kind_of(s) != ShapeKind::mesh;
 }
@@ -19,9 +17,10 @@ bool is_bounded_convex(const Shape& s) {
 // A gap this small counts as contact: it is within the error of the arithmetic that computed it.
 bool touches(const Separation& s) { return s.gap <= tolerance::narrow_contact_factor * s.size; }
 
+// The results are rounded to double once.
 double arithmetic_error(const Separation& s) {
   return static_cast<double>(s.local_slack + tolerance::narrow_contact_factor * s.size) +
-         unit_roundoff * static_cast<double>(std::abs(s.gap) + s.size);
+         double_roundoff * static_cast<double>(std::abs(s.gap) + s.size);
 }
 
 Vec3 world(const WideVec& p, const PlacedShape& a) {
