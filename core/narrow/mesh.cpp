@@ -4,15 +4,9 @@
 #include <limits>
 
 #include "core/narrow/convex_pair.h"
+#include "core/tolerance.h"
 
 namespace touchstone::narrow {
-namespace {
-
-// Covers the roundings of a box's distance, of the centre and of the radius, each a few 2⁻⁶³ of the terms.
-constexpr Wide box_rounding = 0x1p-56L;
-
-}  // namespace
-
 std::vector<Vec3> used_vertices(const TriangleMesh& m) {
   std::vector<bool> used(m.vertices.size(), false);
   for (const auto& t : m.triangles)
@@ -37,7 +31,7 @@ std::vector<TriangleBound> triangles_near(const TriangleMesh& m, const WideVec& 
     const WideVec lo = c[0].cwiseMin(c[1]).cwiseMin(c[2]).cast<Wide>();
     const WideVec hi = c[0].cwiseMax(c[1]).cwiseMax(c[2]).cast<Wide>();
     const Wide d = (centre.cwiseMax(lo).cwiseMin(hi) - centre).norm();
-    const Wide safe = d - radius - box_rounding * (d + radius + centre.norm());
+    const Wide safe = d - radius - tolerance::box_rounding * (d + radius + centre.norm());
     if (safe <= bound) r.push_back({safe, i});
   }
   std::sort(r.begin(), r.end(), [](const TriangleBound& x, const TriangleBound& y) {

@@ -2,13 +2,11 @@
 #pragma once
 
 #include "core/impact/filtered/look.h"
+#include "core/tolerance.h"
 
 namespace touchstone::impact::filtered {
 
 namespace detail {
-
-/// Squared sine of the angle below which two edges count as parallel.
-inline constexpr double parallel_sine_sq = 1e-6;
 
 inline int distinct(const std::array<Vec, 4>& p, int size) {
   int n = 0;
@@ -47,7 +45,7 @@ inline Vec feature_turn(const Sweep& w, const Spot& x, const Features& f, const 
   if (a < 2) return Vec::Zero();
   const Vec e = x.ra * detail::edge(f.a, f.size), g = x.rb * detail::edge(f.b, f.size), c = e.cross(g);
   const double length_sq = c.squaredNorm();
-  if (!(length_sq > detail::parallel_sine_sq * e.squaredNorm() * g.squaredNorm())) return w.a().angular;
+  if (!(length_sq > tolerance::parallel_sine_sq * e.squaredNorm() * g.squaredNorm())) return w.a().angular;
   const Vec change = w.a().angular.cross(e).cross(g) + e.cross(w.b().angular.cross(g));
   const double side = n.dot(c) < 0 ? -1 : 1;
   return n.cross(change) * (side / std::sqrt(length_sq));

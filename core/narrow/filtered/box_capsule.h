@@ -69,7 +69,7 @@ void remove_along_segment(const BoxSegment<R>& p, V3<R>& v) {
     if (v[k] == 0) along[k] = 0;
   const R square = along.squaredNorm();
   // Along a face, or nearly parallel to an edge: only rounding is left.
-  if (!(square > parallel_sine_sq<R>)) return;
+  if (!(square > R(tolerance::parallel_sine_sq))) return;
   v -= along * (along.dot(v) / square);
   v -= along * (along.dot(v) / square);
 }
@@ -171,7 +171,7 @@ bool lies_along(const BoxSegment<R>& p, const V3<R>& n, R depth, R tolerance) {
       ++free;
       last = k;
     }
-  return free >= 2 || (free == 1 && 1 - p.d[last] * p.d[last] < parallel_sine_sq<R>);
+  return free >= 2 || (free == 1 && 1 - p.d[last] * p.d[last] < R(tolerance::parallel_sine_sq));
 }
 
 }  // namespace detail

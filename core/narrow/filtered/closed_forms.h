@@ -18,10 +18,6 @@ R largest(const V3<R>& v) {
   return std::max(std::max(std::abs(v[0]), std::abs(v[1])), std::abs(v[2]));
 }
 
-/// Squared sine of the angle below which segments and edges count as parallel.
-template <class R>
-inline constexpr R parallel_sine_sq = R(1e-6);
-
 /// Below this, the square of a length comes close to underflow in float.
 template <class R>
 inline constexpr R least_length = R(1e-15);
@@ -242,7 +238,7 @@ bool capsule_capsule(const Shape& sa, const Pose& pa, const Shape& sb, const Pos
   }
   detail::inflate<R>(out, f.dist, n, foot_a, foot_b, ra, rb, error,
                      std::max(std::max(ra + p.ha, rb + p.hb), detail::largest(p.d) / 2));
-  return f.sine_sq < detail::parallel_sine_sq<R>;
+  return f.sine_sq < R(tolerance::parallel_sine_sq);
 }
 
 }  // namespace touchstone::narrow::filtered

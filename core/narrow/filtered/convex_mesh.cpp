@@ -11,9 +11,6 @@
 namespace touchstone::narrow::filtered {
 namespace {
 
-// In units of the coordinates; covers the rounding of a box's distance, which is computed from exact boxes.
-constexpr double box_rounding = 0x1p-40;
-
 template <class R>
 class MeshQuery {
  public:
@@ -50,7 +47,7 @@ class MeshQuery {
  private:
   bool out_of_reach(const Vec3& lo, const Vec3& hi) const {
     const double gap = asked_ == Asked::distance ? std::max(0.0, static_cast<double>(best_.gap)) : 0;
-    const double far = (ball_ + gap) * (1 + box_rounding) + box_rounding * centre_.norm();
+    const double far = (ball_ + gap) * (1 + tolerance::box_rounding) + tolerance::box_rounding * centre_.norm();
     return box_distance_sq(centre_, lo, hi) > far * far;
   }
 

@@ -118,8 +118,6 @@ class LocalMinimum {
 
  private:
   static constexpr int rounds = 5, steps = 12;
-  // Squared sine below which two axes or edges count as parallel.
-  static constexpr R parallel_sine_sq = R(1e-6);
   // Cosine to the axis above which a disc is worth trying instead of its rim.
   static constexpr R disc_cosine = R(0.9);
   // Sine to a circle's axis below which the direction has no azimuth to start from.
@@ -185,7 +183,7 @@ class LocalMinimum {
     const R x = c[0].dot(c[1]);
     const V3<R> q = c[0].cross(c[1]);
     const R qq = q.squaredNorm();
-    if (!(qq > parallel_sine_sq)) return false;
+    if (!(qq > R(tolerance::parallel_sine_sq))) return false;
     const V3<R> p = (c[0] * (s[0] - x * s[1]) + c[1] * (s[1] - x * s[0])) / qq;
     const R rest = 1 - p.squaredNorm();
     if (!(rest > 0)) return false;
@@ -201,7 +199,7 @@ class LocalMinimum {
   void level_edges() {
     const V3<R> e[2] = {out(0, feature_[0].e), out(1, feature_[1].e)};
     const R g = e[0].dot(e[1]), det = 1 - g * g, p = m_.dot(e[0]), q = m_.dot(e[1]);
-    if (!(det > parallel_sine_sq)) return;
+    if (!(det > R(tolerance::parallel_sine_sq))) return;
     m_ = (m_ - (e[0] * (p - g * q) + e[1] * (q - g * p)) / det).normalized();
     place_both();
   }
@@ -321,7 +319,7 @@ class LocalMinimum {
       along[0] = rest_.dot(e[0]);
     } else if (edges == 2) {
       const R g = e[0].dot(e[1]), det = 1 - g * g, p = rest_.dot(e[0]), q = rest_.dot(e[1]);
-      if (!(det > parallel_sine_sq)) return Verdict::refuted;
+      if (!(det > R(tolerance::parallel_sine_sq))) return Verdict::refuted;
       along[0] = (p - g * q) / det;
       along[1] = (q - g * p) / det;
     }
