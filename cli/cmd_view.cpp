@@ -9,7 +9,7 @@
 #include "cli/output.h"
 #include "cli/page_contents.h"
 #include "core/base/input_error.h"
-#include "reports/text/broad_page.h"
+#include "reports/text/web_page.h"
 #include "scenarios/codec/json_file.h"
 #include "scenarios/import/real_scene.h"
 #include "scenarios/text/printable.h"
@@ -53,23 +53,34 @@ int view_case(const ViewOptions& o) {
   return exit_clean;
 }
 
-int run(const ViewOptions& o) {
-  if (o.out.empty() && !o.json) throw InputError("view", "needs a file for the page: -o FILE");
-  require_writable(o.out);
-  if (!o.broad) return view_case(o);
+// False if the page is not built. Its data is then written in full: what a page gets is rounded.
+bool write_broad_page(const fuzz::BroadView& view, const std::string& out) {
+  const auto whole = std::filesystem::path(out).replace_extension(".json");
+  if (!std::filesystem::exists(built_page("broad"))) write_file(whole, fuzz::to_json(view).dump());
+  return write_page("broad", reports::packed_broad_view(view).dump(), out, whole);
+}
+
+int view_broad(const ViewOptions& o) {
   const fuzz::BroadView view =
       fuzz::broad_view(scene_named(o), o.methods, static_cast<std::size_t>(o.frames));
   if (view.frames.empty())
     throw InputError(o.scene, "has no query in its script, so there is nothing to show");
-  if (!o.out.empty()) write_file(o.out, reports::broad_page(view));
   const auto& last = view.frames.back();
   if (o.json)
     fmt::print("{}\n", fuzz::to_json(view).dump(1));
   else
-    fmt::print("{}: {} bodies, {} queries; the last one kept {} of {} pairs\n{}: open it in a browser\n",
-               printable(view.name), view.bodies.size(), view.frames.size(), last.kept.size(), last.all_pairs,
-               o.out);
+    fmt::print("{}: {} bodies, {} queries; the last one kept {} of {} pairs\n", printable(view.name),
+               view.bodies.size(), view.frames.size(), last.kept.size(), last.all_pairs);
+  if (o.out.empty()) return exit_clean;
+  if (!write_broad_page(view, o.out)) return exit_failed;
+  if (!o.json) fmt::print("{}: open it in a browser\n", o.out);
   return exit_clean;
+}
+
+int run(const ViewOptions& o) {
+  if (o.out.empty() && !o.json) throw InputError("view", "needs a file for the page: -o FILE");
+  require_writable(o.out);
+  return o.broad ? view_broad(o) : view_case(o);
 }
 
 }  // namespace

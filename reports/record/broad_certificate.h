@@ -10,8 +10,8 @@
 #include <string_view>
 #include <vector>
 
-#include "scenarios/value/engine_card.h"
 #include "scenarios/value/certificate.h"
+#include "scenarios/value/engine_card.h"
 #include "scenarios/value/observation.h"
 
 namespace touchstone::fuzz {

@@ -1,4 +1,4 @@
-// Records how broad phases process a script; reports/text/broad_page draws it.
+// Records how broad phases process a script; reports/web/src/broad draws it.
 #pragma once
 
 #include <array>

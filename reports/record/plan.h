@@ -63,7 +63,7 @@ struct Plan {
   bool remember = false, solid_meshes = false;
   std::uint64_t convex_meshes = 0;  // closed, convex meshes
   double sweep_share = 0;
-  Json run;                       // input of StepWorld, reports/plan/fidelity_json.h
+  Json run;                       // input of StepWorld, reports/plan/plan.h
   std::vector<PlanPhase> phases;  // fastest first
   std::vector<PlanPair> pairs;    // most expensive first
   std::vector<PlanShape> shapes;

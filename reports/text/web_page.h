@@ -4,6 +4,7 @@
 #include <string>
 #include <string_view>
 
+#include "reports/record/broad_view.h"
 #include "reports/record/observation_json.h"
 
 namespace touchstone::reports {
@@ -36,5 +37,9 @@ inline constexpr char number_mark = '\x01';
 
 /// `words` with number_mark in place of each number, and the numbers as they stand, appended to `numbers`.
 std::string template_of(const std::string& words, std::string& numbers);
+
+/// The data of the page `broad`. Boxes are rounded to 1e-5 of the picture's size; counts and pairs are those
+/// of the unrounded boxes.
+nlohmann::json packed_broad_view(const fuzz::BroadView& view);
 
 }  // namespace touchstone::reports

@@ -1,8 +1,9 @@
-// Broad phases on scripts, ours and others interleaved in one run: for each scene and size, each contestant
-// in turn on the same frames, several rounds, in rotated order. The thread's CPU time covers passing the
-// moves, the update, and the whole set of pairs. The pairs of three frames per cell are compared, as sets,
-// with those of the plain grid, which shares no code with ours; a contestant that differs is marked and never
-// counts as the best. With --threads N ours may use N threads, and all are timed by wall clock.
+// The core's broad phases on scripts, and plain competitors, interleaved in one run (other engines are
+// measured by `chart`): for each scene and size, each contestant in turn on the same frames, several rounds,
+// in rotated order. The thread's CPU time covers passing the moves, the update, and the whole set of pairs.
+// The pairs of three frames per cell are compared, as sets, with those of the plain grid, which shares no
+// code with ours; a contestant that differs is marked and never counts as the best. With --threads N ours may
+// use N threads, and all are timed by wall clock.
 //   bench_broad --cells uniform/10000,mixed/ --methods touchstone,plain --rounds 3 --csv out.csv --json
 //   out.json
 #include <fmt/format.h>
@@ -44,8 +45,7 @@ struct Entrant {
   std::string name;
   std::unique_ptr<Contestant> (*make_other)();
   const broad::CatalogRow* row;
-  int most;           // boxes; with more, a frame takes seconds
-  int frames = 1000;  // at most, at 1e6
+  int most;  // boxes; with more, a frame takes seconds
   std::unique_ptr<Contestant> make(std::size_t pairs, int threads) const {
     if (row != nullptr) return std::make_unique<Ours>(row->make({threads}));
     return make_other != nullptr ? make_other() : make_bound(pairs);
@@ -62,22 +62,11 @@ std::vector<Entrant> entrants() {
   all.push_back({"plain_sweep_sorted", &make_plain_sweep_sorted, nullptr, 100000});
   all.push_back({"plain_grid_sorted", &make_plain_grid_sorted, nullptr, 1000000});
   all.push_back({"bound", nullptr, nullptr, 1000000});
-#ifdef TS_BENCH_FCL
-  all.push_back({"fcl:dyntree", &make_fcl_tree, nullptr, 1000000, 3});
-  all.push_back({"fcl:dyntree_array", &make_fcl_tree_array, nullptr, 1000000, 3});
-#endif
-#ifdef TS_BENCH_BULLET
-  all.push_back({"bullet:dbvt", &make_bullet_dbvt, nullptr, 100000});
-  all.push_back({"bullet:sweep32", &make_bullet_sweep, nullptr, 10000});
-#endif
   return all;
 }
 
-// Trees and incremental sweeps fall to O(n²) here: a frame of FCL at 1e5 takes half a minute.
-bool is_hopeless(const Entrant& e, std::string_view scene, int n) {
-  const bool is_peer = e.name.starts_with("fcl") || e.name.starts_with("bullet");
-  if (scene == "teleport" && is_peer) return n > (e.name == "bullet:dbvt" ? 10000 : 1000);
-  // These do not depend on a sweep axis.
+// Sweeps over so many boxes take seconds a frame.
+bool is_hopeless(const Entrant& e, int n) {
   const bool sweeps = e.name == "touchstone:sort_and_sweep" || e.name == "touchstone:incremental_sweep";
   return sweeps && n > 100000;
 }
@@ -140,9 +129,7 @@ void run_round(const Entrant& e, const Script& s, int threads, BroadRow& row) {
   const auto subject = e.make(s.expected.back().size(), threads);
   subject->start(s.start);
   Pairs out;
-  const std::size_t most =
-      s.start.size() < 1000000 ? s.frames.size() : warm_frames + static_cast<std::size_t>(e.frames);
-  for (std::size_t f = 0; f < std::min(s.frames.size(), most); ++f) {
+  for (std::size_t f = 0; f < s.frames.size(); ++f) {
     const double before = now_ms(threads);
     subject->frame(s.frames[f], out);
     if (f >= warm_frames) row.frame_ms.push_back(now_ms(threads) - before);
@@ -167,7 +154,7 @@ std::vector<BroadRow> run_cell(const Options& o, const std::vector<Entrant>& all
   std::vector<BroadRow> rows;
   std::vector<const Entrant*> who;
   for (const Entrant& e : all) {
-    if (n > e.most || is_hopeless(e, scene, n) || !chosen(o.methods, e.name)) continue;
+    if (n > e.most || is_hopeless(e, n) || !chosen(o.methods, e.name)) continue;
     BroadRow r;
     r.scene = scene;
     r.n = n;

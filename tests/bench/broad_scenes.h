@@ -1,5 +1,4 @@
-// Scripts on which broad phases are timed. Coordinates are exact floats, so that float and double engines
-// see the same boxes and must report the same pairs.
+// Scripts on which broad phases are timed.
 #pragma once
 
 #include <memory>
@@ -33,7 +32,7 @@ class BoxScene {
   std::vector<broad::BoxUpdate> moves_;
 };
 
-/// What is timed: a broad phase of the catalog, a plain competitor, or a peer.
+/// What is timed: a broad phase of the catalog or a plain competitor.
 class Contestant {
  public:
   virtual ~Contestant() = default;
@@ -52,9 +51,5 @@ std::unique_ptr<Contestant> make_plain_grid();
 std::unique_ptr<Contestant> make_plain_sweep_sorted();
 std::unique_ptr<Contestant> make_plain_grid_sorted();
 std::unique_ptr<Contestant> make_bound(std::size_t pairs);
-std::unique_ptr<Contestant> make_fcl_tree();
-std::unique_ptr<Contestant> make_fcl_tree_array();
-std::unique_ptr<Contestant> make_bullet_dbvt();
-std::unique_ptr<Contestant> make_bullet_sweep();
 
 }  // namespace touchstone::bench

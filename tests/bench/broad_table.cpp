@@ -13,7 +13,6 @@ namespace {
 bool ours(const BroadRow& r) { return r.method.starts_with("touchstone:"); }
 bool plain(const BroadRow& r) { return r.method.starts_with("plain_"); }
 bool sorted_plain(const BroadRow& r) { return plain(r) && r.method.ends_with("_sorted"); }
-bool peer(const BroadRow& r) { return !ours(r) && !plain(r) && r.answers; }
 
 const BroadRow* best(const std::vector<BroadRow>& rows, const BroadRow& cell,
                      const std::function<bool(const BroadRow&)>& of) {
@@ -94,8 +93,8 @@ std::string broad_text(const std::vector<BroadRow>& rows) {
 }
 
 std::string broad_summary(const std::vector<BroadRow>& rows) {
-  std::string text = fmt::format("\n{:<18} {:>9}  {:<24} {:<18} {:<25} {:<24} {}\n", "automatic", "ms",
-                                 "best peer", "plain", "plain, sorted", "over best fixed", "time / bound");
+  std::string text = fmt::format("\n{:<18} {:>9}  {:<18} {:<25} {:<24} {}\n", "automatic", "ms", "plain",
+                                 "plain, sorted", "over best fixed", "time / bound");
   double worst = 0, least_plain = HUGE_VAL;
   std::string worst_cell, plain_cell;
   for (const BroadRow& r : rows) {
@@ -115,8 +114,8 @@ std::string broad_summary(const std::vector<BroadRow>& rows) {
       plain_cell = cell;
     }
     text += fmt::format(
-        "{:<18} {:>9.4f}  {:<24} {:<18} {:<25} {:<24} {}\n", cell, ms, ratio_to(best(rows, r, peer), ms),
-        ratio_to(simple, ms), ratio_to(best(rows, r, sorted_plain), ms),
+        "{:<18} {:>9.4f}  {:<18} {:<25} {:<24} {}\n", cell, ms, ratio_to(simple, ms),
+        ratio_to(best(rows, r, sorted_plain), ms),
         fixed == nullptr ? "-" : fmt::format("{:.2f} {}", ms / fixed->mean_ms(), fixed->method.substr(11)),
         bound == nullptr ? "-" : fmt::format("{:.2f}", ms / bound->mean_ms()));
   }

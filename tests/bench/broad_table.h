@@ -25,8 +25,8 @@ struct BroadRow {
 
 /// One line per method, cells separated; ratios to our automatic choice.
 std::string broad_text(const std::vector<BroadRow>& rows);
-/// Floors: our automatic choice against the best peer, the better plain competitor, the lower bound and our
-/// best fixed method; growth.
+/// Floors: our automatic choice against the better plain competitor, the lower bound and our best fixed
+/// method; growth.
 std::string broad_summary(const std::vector<BroadRow>& rows);
 std::string broad_csv(const std::vector<BroadRow>& rows);
 std::string broad_json(const std::vector<BroadRow>& rows);

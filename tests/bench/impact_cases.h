@@ -1,8 +1,6 @@
-// Moving pairs for the time-of-impact benchmark, and the interface of its contestants.
+// Moving pairs for the time-of-impact benchmark.
 #pragma once
 
-#include <memory>
-#include <optional>
 #include <string_view>
 #include <vector>
 
@@ -48,27 +46,5 @@ inline constexpr MovingKind moving_kinds[] = {
 
 std::vector<MovingCase> make_moving_cases(const MovingKind& kind, Course course, int count,
                                           std::uint64_t seed);
-
-/// What a contestant found; without a time, no hit. `failed`: it reported neither.
-struct FoundImpact {
-  std::optional<double> t;
-  bool failed = false;
-  int steps = 0;
-};
-
-/// Holds all cases of a cell in its own form; only ask() is timed.
-class ImpactContestant {
- public:
-  virtual ~ImpactContestant() = default;
-  virtual void ask(std::size_t i, FoundImpact& out) = 0;
-};
-using ImpactContestantPtr = std::unique_ptr<ImpactContestant>;
-
-/// Null if the contestant does not support such pairs or motions.
-using ImpactMaker = ImpactContestantPtr (*)(const MovingKind&, Course, const std::vector<MovingCase>&);
-
-ImpactContestantPtr make_impact_fcl(const MovingKind&, Course, const std::vector<MovingCase>&);
-ImpactContestantPtr make_impact_bullet_subsimplex(const MovingKind&, Course, const std::vector<MovingCase>&);
-ImpactContestantPtr make_impact_bullet_continuous(const MovingKind&, Course, const std::vector<MovingCase>&);
 
 }  // namespace touchstone::bench

@@ -1,6 +1,6 @@
-// The narrow phase on pairs near contact, ours and others in one run: for each pair of shapes and question
-// every contestant in turn, round after round, so that a change in the machine's speed affects all of them
-// alike.
+// The core's narrow phase on pairs near contact, in four variants: for each pair of shapes and question every
+// variant in turn, round after round, so that a change in the machine's speed affects all of them alike.
+// Other engines are measured by `chart`.
 //
 //   bench_narrow [--cases 200] [--rounds 15] [--filter box-box] [--task contact] [--only core] [--no-truth]
 //
@@ -12,23 +12,39 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
+#include <limits>
+#include <memory>
 
 #include "core/narrow/hull_graph.h"
 #include "core/narrow/narrow_phase.h"
 #include "core/scene/scene.h"
 #include "oracles/referee/referee.h"
 #include "tests/bench/narrow_cases.h"
-#include "tests/bench/ticks.h"
+#include "tests/bench/pair_options.h"
 
 namespace {
 
 using namespace touchstone;
 using namespace touchstone::bench;
 
-class Ours final : public NarrowContestant {
+/// What a variant found; NaN for what it does not report.
+struct Found {
+  bool overlap = false;
+  double gap = std::numeric_limits<double>::quiet_NaN();
+  Vec3 normal = Vec3::Constant(std::numeric_limits<double>::quiet_NaN());  // unit, A to B
+};
+
+/// Holds all cases of a cell in its own form; only ask() is timed.
+class Variant {
  public:
-  Ours(Task task, Arithmetic arithmetic, const std::vector<PairCase>& cases, bool graphs = true)
+  virtual ~Variant() = default;
+  virtual void ask(std::size_t i, Found& out) = 0;
+};
+using VariantPtr = std::unique_ptr<Variant>;
+
+class Plain final : public Variant {
+ public:
+  Plain(Task task, Arithmetic arithmetic, const std::vector<PairCase>& cases, bool graphs = true)
       : task_(task), arithmetic_(arithmetic), with_graphs_(graphs) {
     graphs_.reserve(2 * cases.size());
     for (const PairCase& c : cases)
@@ -49,7 +65,6 @@ class Ours final : public NarrowContestant {
       out.overlap = r.overlap;
       out.gap = -r.depth;
       out.normal = r.normal;
-      out.points = static_cast<int>(r.manifold.size());
     }
   }
 
@@ -68,22 +83,22 @@ class Ours final : public NarrowContestant {
   std::vector<Placed2> pairs_;
 };
 
-NarrowContestantPtr make_ours(Task task, const PairKind&, const std::vector<PairCase>& cases) {
-  return std::make_unique<Ours>(task, Arithmetic::float64, cases);
+VariantPtr make_plain(Task task, const PairKind&, const std::vector<PairCase>& cases) {
+  return std::make_unique<Plain>(task, Arithmetic::float64, cases);
 }
-NarrowContestantPtr make_ours_f32(Task task, const PairKind&, const std::vector<PairCase>& cases) {
-  return std::make_unique<Ours>(task, Arithmetic::float32, cases);
+VariantPtr make_f32(Task task, const PairKind&, const std::vector<PairCase>& cases) {
+  return std::make_unique<Plain>(task, Arithmetic::float32, cases);
 }
 
 // Large hulls by checking all vertices.
-NarrowContestantPtr make_ours_scan(Task task, const PairKind& kind, const std::vector<PairCase>& cases) {
+VariantPtr make_scan(Task task, const PairKind& kind, const std::vector<PairCase>& cases) {
   if (static_cast<std::size_t>(kind.vertices) < hull_graph_least) return nullptr;
-  return std::make_unique<Ours>(task, Arithmetic::float64, cases, false);
+  return std::make_unique<Plain>(task, Arithmetic::float64, cases, false);
 }
 
 // Warm start with the memory of a query one frame ago, when B was offset by 1 % of its size and rotated by
 // 0.01 rad.
-class Warm final : public NarrowContestant {
+class Warm final : public Variant {
  public:
   Warm(Task task, const std::vector<PairCase>& cases) : task_(task), now_(task, Arithmetic::float64, cases) {
     for (const PairCase& c : cases) {
@@ -105,63 +120,32 @@ class Warm final : public NarrowContestant {
     if (task_ == Task::contact) static_cast<void>(contact(a, b, Arithmetic::float64, &m));
   }
   Task task_;
-  Ours now_;
+  Plain now_;
   std::vector<PairMemory> memory_;
 };
 
-NarrowContestantPtr make_ours_warm(Task task, const PairKind&, const std::vector<PairCase>& cases) {
+VariantPtr make_warm(Task task, const PairKind&, const std::vector<PairCase>& cases) {
   return std::make_unique<Warm>(task, cases);
 }
 
-struct Entrant {
+struct NamedVariant {
   std::string_view name;
-  NarrowMaker make;
+  VariantPtr (*make)(Task, const PairKind&, const std::vector<PairCase>&);  // null: not for this pair
 };
 
-constexpr Entrant entrants[] = {
-    {"core", &make_ours},
-    {"core-f32", &make_ours_f32},
-    {"core-scan", &make_ours_scan},
-    {"core-warm", &make_ours_warm},
-#ifdef TS_BENCH_FCL
-    {"fcl-libccd", &make_narrow_fcl_libccd},
-    {"fcl-indep", &make_narrow_fcl_indep},
-#endif
-#ifdef TS_BENCH_BULLET
-    {TS_BENCH_BULLET, &make_narrow_bullet},
-#endif
-#ifdef TS_BENCH_LIBCCD
-    {"libccd-gjk", &make_narrow_libccd_gjk},
-    {"libccd-mpr", &make_narrow_libccd_mpr},
-#endif
-#ifdef TS_BENCH_ODE
-    {"ode", &make_narrow_ode},
-#endif
+constexpr NamedVariant variants[] = {
+    {"core", &make_plain},
+    {"core-f32", &make_f32},
+    {"core-scan", &make_scan},
+    {"core-warm", &make_warm},
 };
 
 struct Row {
   std::string_view name;
-  NarrowContestantPtr subject;
+  VariantPtr subject;
   std::vector<Found> found;
-  std::vector<std::uint64_t> least;
-  double mean = HUGE_VAL;
+  PairTimes times;
 };
-
-void pass(Row& row) {
-  const std::size_t n = row.found.size();
-  // Reading the thread's clock is a system call of half a microsecond, so each reading covers several passes.
-  constexpr int passes = 4;
-  const double start = clock_ns(CLOCK_THREAD_CPUTIME_ID);
-  for (int k = 0; k < passes; ++k)
-    for (std::size_t i = 0; i < n; ++i) row.subject->ask(i, row.found[i]);
-  row.mean =
-      std::min(row.mean, (clock_ns(CLOCK_THREAD_CPUTIME_ID) - start) / static_cast<double>(n * passes));
-  for (std::size_t i = 0; i < n; ++i) {
-    const std::uint64_t t = tick();
-    row.subject->ask(i, row.found[i]);
-    row.least[i] = std::min(row.least[i], tick() - t);
-  }
-}
 
 struct Truth {
   referee::PairTruth pair;
@@ -200,80 +184,50 @@ Judged judge(const Row& row, Task task, const std::vector<PairCase>& cases, cons
   return j;
 }
 
-struct Options {
-  int cases = 200, rounds = 15;
-  std::string filter, task, only;
-  bool truth = true;
-};
-
-void run_cell(const PairKind& kind, Task task, const Options& o, const Ticks& clock) {
+void run_cell(const PairKind& kind, Task task, const PairOptions& o, const Ticks& clock) {
   const auto cases = make_cases(kind, task, o.cases, 1);
   std::vector<Row> rows;
-  for (const Entrant& e : entrants)
-    if (!o.only.empty() && e.name != o.only)
+  for (const NamedVariant& v : variants)
+    if (!o.only.empty() && v.name != o.only)
       continue;
-    else if (auto subject = e.make(task, kind, cases))
-      rows.push_back({e.name, std::move(subject), std::vector<Found>(cases.size()),
-                      std::vector<std::uint64_t>(cases.size(), ~std::uint64_t{0})});
+    else if (auto subject = v.make(task, kind, cases))
+      rows.push_back({v.name, std::move(subject), std::vector<Found>(cases.size()), PairTimes(cases.size())});
   for (int r = 0; r < o.rounds; ++r)
-    for (Row& row : rows) pass(row);
+    for (Row& row : rows) row.times.round(4, [&](std::size_t i) { row.subject->ask(i, row.found[i]); });
   std::vector<Truth> truth;
   for (std::size_t i = 0; o.truth && i < cases.size(); ++i) {
     const PairCase& c = cases[i];
     truth.push_back({referee::judge_pair({&c.a, c.pose_a}, {&c.b, c.pose_b}), scale_of(c)});
   }
   for (const Row& row : rows) {
-    std::vector<double> ns;
-    for (const std::uint64_t t : row.least) ns.push_back(clock.ns(t));
+    const std::vector<double> ns = row.times.each_ns(clock);
     const Judged j = judge(row, task, cases, truth);
     fmt::print("{:<20} {:<9} {:<15} {:>9.1f} {:>9.1f} {:>9.1f} {:>6} {:>9.1e} {:>9.1e} {:>9.1e}\n", kind.name,
-               task_names[static_cast<int>(task)], row.name, row.mean, quantile(ns, 0.5), quantile(ns, 0.99),
-               j.wrong, quantile(j.error, 0.5), quantile(j.error, 0.99), quantile(j.error, 1));
+               task_names[static_cast<int>(task)], row.name, row.times.mean_ns, quantile(ns, 0.5),
+               quantile(ns, 0.99), j.wrong, quantile(j.error, 0.5), quantile(j.error, 0.99),
+               quantile(j.error, 1));
   }
   std::fflush(stdout);
-}
-
-bool parse(int argc, char** argv, Options& o) {
-  for (int i = 1; i < argc; ++i) {
-    const std::string_view key = argv[i];
-    if (key == "--no-truth") {
-      o.truth = false;
-      continue;
-    }
-    if (++i == argc) return false;
-    if (key == "--cases")
-      o.cases = std::max(1, std::atoi(argv[i]));
-    else if (key == "--rounds")
-      o.rounds = std::max(1, std::atoi(argv[i]));
-    else if (key == "--filter")
-      o.filter = argv[i];
-    else if (key == "--only")
-      o.only = argv[i];
-    else if (key == "--task")
-      o.task = argv[i];
-    else
-      return false;
-  }
-  return true;
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-  Options o;
-  if (!parse(argc, argv, o)) {
+  PairOptions o;
+  o.rounds = 15;
+  if (!parse(argc, argv, "--task", o)) {
     fmt::print(stderr,
                "bench_narrow [--cases N] [--rounds N] [--filter PAIR] [--task TASK] [--only NAME] "
                "[--no-truth]\n");
     return 2;
   }
   const Ticks clock;
-  fmt::print("{:<20} {:<9} {:<15} {:>9} {:>9} {:>9} {:>6} {:>9} {:>9} {:>9}\n", "pair", "question",
-             "contestant", "mean ns", "median ns", "p99 ns", "wrong", "err p50/L", "p99", "max");
+  fmt::print("{:<20} {:<9} {:<15} {:>9} {:>9} {:>9} {:>6} {:>9} {:>9} {:>9}\n", "pair", "question", "variant",
+             "mean ns", "median ns", "p99 ns", "wrong", "err p50/L", "p99", "max");
   for (const PairKind& kind : pair_kinds)
     for (const Task task : {Task::overlap, Task::distance, Task::contact}) {
       if (!o.filter.empty() && kind.name.find(o.filter) == std::string_view::npos) continue;
-      if (!o.task.empty() && o.task != task_names[static_cast<int>(task)]) continue;
+      if (!o.column.empty() && o.column != task_names[static_cast<int>(task)]) continue;
       run_cell(kind, task, o, clock);
     }
   return 0;

@@ -1,8 +1,6 @@
-// Pairs near contact for the narrow-phase benchmark, and the interface of its contestants.
+// Pairs near contact for the narrow-phase benchmark.
 #pragma once
 
-#include <limits>
-#include <memory>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -44,31 +42,5 @@ inline constexpr PairKind pair_kinds[] = {
 
 /// Half of them overlap; gap or depth uniform up to 5 % of the size. Contacts: all overlap.
 std::vector<PairCase> make_cases(const PairKind& kind, Task task, int count, std::uint64_t seed);
-
-/// What a contestant found; NaN for what it does not report.
-struct Found {
-  bool overlap = false;
-  double gap = std::numeric_limits<double>::quiet_NaN();
-  Vec3 normal = Vec3::Constant(std::numeric_limits<double>::quiet_NaN());  // unit, A to B
-  int points = 0;
-};
-
-/// Holds all cases of a cell in its own form; only ask() is timed.
-class NarrowContestant {
- public:
-  virtual ~NarrowContestant() = default;
-  virtual void ask(std::size_t i, Found& out) = 0;
-};
-using NarrowContestantPtr = std::unique_ptr<NarrowContestant>;
-
-/// Null if the contestant does not answer that question for that pair.
-using NarrowMaker = NarrowContestantPtr (*)(Task, const PairKind&, const std::vector<PairCase>&);
-
-NarrowContestantPtr make_narrow_fcl_libccd(Task, const PairKind&, const std::vector<PairCase>&);
-NarrowContestantPtr make_narrow_fcl_indep(Task, const PairKind&, const std::vector<PairCase>&);
-NarrowContestantPtr make_narrow_bullet(Task, const PairKind&, const std::vector<PairCase>&);
-NarrowContestantPtr make_narrow_libccd_gjk(Task, const PairKind&, const std::vector<PairCase>&);
-NarrowContestantPtr make_narrow_libccd_mpr(Task, const PairKind&, const std::vector<PairCase>&);
-NarrowContestantPtr make_narrow_ode(Task, const PairKind&, const std::vector<PairCase>&);
 
 }  // namespace touchstone::bench

@@ -46,12 +46,11 @@ std::string for_test(std::string c) {
   c = std::regex_replace(c, std::regex(R"(\./libmine\.so)"), TS_BINARY_DIR "/lib/libtouchstone_example.so");
   c = std::regex_replace(c, std::regex(R"(\./libmybroad\.so)"),
                          TS_BINARY_DIR "/lib/libtouchstone_example_broad.so");
-  c = std::regex_replace(c, std::regex("-o broad.html"), "-o " TS_BINARY_DIR "/readme-broad.html");
   c = std::regex_replace(c, std::regex("-o reproduce.cpp"), "-o " TS_BINARY_DIR "/readme-reproduce.cpp");
-  if (c.find(" view ") != std::string::npos && c.find("--broad") == std::string::npos &&
-      !fs::exists(TS_BINARY_DIR "/share/touchstone/web/case.html"))
-    c = std::regex_replace(c, std::regex("-o page.html"), "--json");  // pages are built only with Node
-  c = std::regex_replace(c, std::regex("-o page.html"), "-o " TS_BINARY_DIR "/readme-page.html");
+  if (c.find(" view ") != std::string::npos && !fs::exists(TS_BINARY_DIR "/share/touchstone/web/case.html"))
+    c = std::regex_replace(c, std::regex("-o (page|broad).html"),
+                           "--json");  // pages are built only with Node
+  c = std::regex_replace(c, std::regex("-o (page|broad).html"), "-o " TS_BINARY_DIR "/readme-$1.html");
   // With all engines each takes a minute; the core is enough to show that the line works.
   if (c.find(" chart ") != std::string::npos) c += " --engines core --broad grid --measure 0";
   if (c.find(" stability ") != std::string::npos) c += " --engines core --ladder gap";

@@ -25,7 +25,7 @@ const fs::path built = TS_BINARY_DIR "/share/touchstone/web";
 
 // Empty when everything that a browser test needs is present.
 std::string missing_for_browser() {
-  for (const char* kind : {"case", "report", "chart", "stability", "certificate"})
+  for (const char* kind : {"broad", "case", "report", "chart", "stability", "certificate"})
     if (!fs::exists(built / (std::string(kind) + ".html"))) return "the built pages";
   if (!fs::exists(TS_BINARY_DIR "/web/node_modules/playwright-core")) return "playwright-core";
   if (!touchstone::test::has_command("node")) return "node";
@@ -178,6 +178,11 @@ TEST_CASE("without built pages the data is kept and one line names what is missi
   const Json j = Json::parse(read_all(w.dir / "page.json"));
   CHECK(j["queries"].size() == 3);
   CHECK(j["queries"][2]["engines"]["core"]["right"] == true);
+  const auto b = w.run("bin/touchstone view swap_places --broad --json -o broad.html");
+  CHECK(b.code == 3);
+  CHECK(b.err.find("./touchstone pages --install") != std::string::npos);
+  CHECK_FALSE(fs::exists(w.dir / "broad.html"));
+  CHECK(Json::parse(read_all(w.dir / "broad.json")) == Json::parse(b.out));  // nothing is rounded
   const auto s = w.run("bin/touchstone stability --quick --ladder angle --engines core --out s");
   CHECK(s.code == 0);
   CHECK(fs::exists(w.dir / "s/stability.json"));
