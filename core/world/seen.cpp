@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "core/broad/body_box.h"
+#include "core/math/roundoff.h"
 
 namespace touchstone {
 namespace {
@@ -13,10 +14,9 @@ constexpr double origin_rounding = 0x1p-52;
 constexpr double ball_rounding = 0x1p-48;
 
 // An upper bound on how far rounding the pose and sizes to float moves the body: u of each coordinate, 2u·|q|
-// of the quaternion, which turns by twice that, and u of the sizes; u = 2^-24.
+// of the quaternion, which turns by twice that, and u of the sizes; u is float_roundoff.
 double float_rounding(const Pose& pose, double reach) {
-  constexpr double u = 0x1p-24;
-  return u * (pose.translation.lpNorm<1>() + 8 * reach);
+  return float_roundoff * (pose.translation.lpNorm<1>() + 8 * reach);
 }
 
 // The verdict `apart` is certain and may come without a value.

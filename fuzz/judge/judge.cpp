@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <optional>
 
+#include "core/math/roundoff.h"
 #include "fuzz/judge/check.h"
 #include "fuzz/judge/held.h"
 #include "scenarios/value/odd_numbers.h"
@@ -55,7 +56,6 @@ Blame blame_of(const Judgement& j, const CheckInput& in) {
   if (is_broad_question(in.query.question)) {
     const FaultReport& worst = j.faults.front();
     if (worst.fault != Fault::missed) return Blame::algorithm;
-    constexpr double double_roundoff = 0x1p-53;
     return worst.error > in.tau(in.truth.scale(worst.a, worst.b)) || in.card.unit_roundoff <= double_roundoff
                ? Blame::algorithm
                : Blame::representation;

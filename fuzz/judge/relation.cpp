@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "core/base/input_error.h"
+#include "core/math/roundoff.h"
 #include "fuzz/judge/held.h"
 #include "fuzz/judge/largest_number.h"
 #include "fuzz/judge/truth.h"
@@ -197,8 +198,8 @@ double pose_rounding(const Scene& pair) {
   }
   // A quaternion product and a rotated vector: about 16 roundings, times two for the two bodies, times two in
   // reserve.
-  constexpr double roundings = 64, unit_roundoff = 0x1p-53;
-  return roundings * unit_roundoff * size;
+  constexpr double roundings = 64;
+  return roundings * double_roundoff * size;
 }
 
 std::optional<RelationBreak> find_break(const Relation& r, const RelationInput& in, const Derived& d,

@@ -99,6 +99,8 @@ std::vector<Query> same_queries(const Case& c);
 /// Upper bound of the effect on g of rounding when poses are recomputed: each body moves by at most 16
 /// roundings of its coordinates and extent.
 double pose_rounding(const Scene& pair);
+/// Factors of the scale at which a pair is asked again: powers of two, so that its numbers scale exactly.
+inline constexpr double enlarged = 0x1p20, reduced = 0x1p-12;
 
 std::vector<Derived> derive_swap(const RelationInput& in);
 std::vector<Derived> derive_axes(const RelationInput& in);

@@ -5,6 +5,7 @@
 
 #include "core/broad/body_box.h"
 #include "core/broad/catalog.h"
+#include "core/math/roundoff.h"
 #include "core/tolerance.h"
 #include "core/world/world.h"
 #include "oracles/core/timed_answer.h"
@@ -126,7 +127,7 @@ class BroadEngine final : public NativeEngine {
     card_.library = "Touchstone core";
     card_.version = "0.1.0";
     card_.settings = "broad phase alone; refuses NaN and inverted boxes and leaves out the body";
-    card_.unit_roundoff = 0x1p-53;
+    card_.unit_roundoff = double_roundoff;
     card_.tau_factor = tolerance::core_tau_factor;
     card_.source = "core/broad/broad_phase.h: no pair of closed boxes is lost";
   }

@@ -3,6 +3,7 @@
 #include "core/base/input_error.h"
 #include "core/broad/catalog.h"
 #include "core/impact/impact.h"
+#include "core/math/roundoff.h"
 #include "core/math/through_float.h"
 #include "core/narrow/filtered/query.h"
 #include "core/narrow/narrow_phase.h"
@@ -153,7 +154,7 @@ CoreEngine::CoreEngine(Arithmetic arithmetic) : arithmetic_(arithmetic) {
           : "closed forms, GJK and EPA in double, in extended precision where the error bound requires it; "
             "conservative advancement; broad phase " +
                 std::string(broad_phase_name);
-  card_.unit_roundoff = narrow_only ? 0x1p-24 : 0x1p-53;
+  card_.unit_roundoff = narrow_only ? float_roundoff : double_roundoff;
   card_.tau_factor = tolerance::core_tau_factor;
   card_.source = "core/tolerance.h: arithmetic alone, no margin";
   card_.complete_manifolds = !narrow_only;

@@ -3,6 +3,7 @@
 #include <map>
 
 #include "core/broad/catalog.h"
+#include "core/math/roundoff.h"
 #include "core/narrow/hull_graph.h"
 #include "core/narrow/mesh_tree.h"
 #include "core/narrow/narrow_phase.h"
@@ -163,7 +164,7 @@ class KeptEngine final : public NativeEngine {
     card_.settings =
         "as core, with hull graphs, mesh trees, cached pairs and manifolds of at most four points; motions "
         "and scenes by StepWorld; every broad phase in turn";
-    card_.unit_roundoff = 0x1p-53;
+    card_.unit_roundoff = double_roundoff;
     card_.tau_factor = tolerance::core_tau_factor;
     card_.source = "core/tolerance.h: arithmetic alone, no margin";
   }

@@ -52,7 +52,7 @@ std::vector<Form> other_forms(const Case& c, Rng& rng) {
     turn_axes(add(FormKind::frame).c.scene, cycle);
   }
   if (!translate_by(add(FormKind::frame).c.scene, -c.scene.bodies[0].pose.translation)) forms.pop_back();
-  for (const double factor : {0x1p20, 0x1p-12})
+  for (const double factor : {enlarged, reduced})
     if (!scale_by(add(FormKind::unit, factor).c.scene, factor)) forms.pop_back();
   return forms;
 }

@@ -3,6 +3,8 @@
 
 #include <string>
 
+#include "core/math/roundoff.h"
+
 namespace touchstone {
 
 /// An engine's description of itself: the JSON card of touchstone_engine.h.
@@ -12,7 +14,7 @@ struct EngineCard {
   std::string library;   // "FCL"
   std::string version;   // "0.7.0"
   std::string settings;  // one line: differences from the default, the code path queried
-  double unit_roundoff = 0x1p-53;
+  double unit_roundoff = double_roundoff;
   double tau_factor = 64;
   std::string source;  // where the tolerance claims come from; empty: they are not accepted
   /// Manifolds span the whole contact region, not just a few points of it.
