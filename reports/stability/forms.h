@@ -15,6 +15,7 @@ namespace touchstone::fuzz {
 
 enum class FormKind : std::uint8_t { nudged, exchanged, frame, unit };
 inline constexpr auto form_names = std::to_array<std::string_view>({"jitter", "order", "frame", "unit"});
+static_assert(form_names.size() == static_cast<std::size_t>(FormKind::unit) + 1);
 
 struct Form {
   FormKind kind;
