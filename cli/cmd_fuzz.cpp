@@ -121,7 +121,11 @@ int verdict(const fuzz::CampaignConfig& c, const fuzz::CampaignResult& r, bool j
   if (wrong + failed > 0) return say(exit_wrong, counts);
   if (answers == 0) return say(exit_failed, "it answered nothing; this run proves nothing");
   // A campaign in which nearly all pairs overlap, or nearly none, tests only half of what it claims to.
-  if (c.family.empty() && r.pair_cases >= 200 && (r.hit_rate() < 0.3 || r.hit_rate() > 0.7))
+  // Shares of the pairs, and the number of pairs from which they count.
+  constexpr double least_hit_rate = 0.3, most_hit_rate = 0.7;
+  constexpr std::uint64_t enough_pairs = 200;
+  if (c.family.empty() && r.pair_cases >= enough_pairs &&
+      (r.hit_rate() < least_hit_rate || r.hit_rate() > most_hit_rate))
     return say(exit_failed,
                fmt::format("{:.0f} % of the pairs overlap, outside 30-70 %: this run proves nothing",
                            100 * r.hit_rate()));

@@ -91,9 +91,9 @@ void draw(const PrimitiveRun& run, const PrimitiveOptions& options, fuzz::Primit
 }
 
 void print_row(std::string_view source, std::string_view kind, const fuzz::PrimitiveTally& t) {
-  fmt::print("{:<22.22} {:<11} {:>7} {:>5} {:>3} {:>3} {:>4} {:>4} {:>6} {:>6}\n", source, kind, t.queries, t.hits,
-             t.missed, t.ghost, t.late, t.failed, reports::nanoseconds(t.time.quantile(0.5)),
-             reports::nanoseconds(t.time.quantile(0.99)));
+  fmt::print("{:<22.22} {:<11} {:>7} {:>5} {:>3} {:>3} {:>4} {:>4} {:>6} {:>6}\n", source, kind, t.queries,
+             t.hits, t.missed, t.ghost, t.late, t.failed, reports::nanoseconds(t.time.quantile(0.5)),
+             reports::nanoseconds(t.time.quantile(fuzz::tail_quantile)));
 }
 
 void print_text(const fuzz::PrimitiveTallies& all, const fuzz::PrimitiveTally& sum) {

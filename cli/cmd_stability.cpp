@@ -11,12 +11,15 @@
 namespace touchstone::cli {
 namespace {
 
+// CPU seconds a query, for small scenes: an engine that hangs does so on many rungs of a ladder.
+constexpr double query_cpu_seconds = 0.2;
+
 struct StabilityOptions {
   EngineChoice choice;
   std::string ladder, out = "out/stability";
   std::uint64_t seed = 1;
   bool quick = false, json = false;
-  WorkerLimits limits{.query_cpu_seconds = 0.2, .patience = 1};
+  WorkerLimits limits{.query_cpu_seconds = query_cpu_seconds, .patience = 1};
 };
 
 int verdict(const fuzz::Stability& s, const std::string& subject, bool json) {

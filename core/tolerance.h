@@ -11,19 +11,19 @@ inline constexpr double orientation_filter = 0x1p-46;
 
 /// τ of our own core, in units of (unit roundoff 2⁻⁵³ · L): an answer is wrong beyond 128·2⁻⁵³·L = 64·ε·L
 /// (issue: 64·ε·L in double). About 30 roundings lie between a pose and a depth; the factor leaves a margin
-/// of 4. Tested by: fuzz with the core as subject.
+/// of 4. Tested by: tests/fuzz "our core is right on random cases".
 inline constexpr double core_tau_factor = 128;
 
 // ---- core/narrow, core/impact, core/broad. `size` is the reach of both bodies plus their separation, at
 // most about 6·L.
 
 /// GJK and EPA stop when upper and lower bound of the distance or depth are this close, in units of size:
-/// 2⁻⁵² · size is 1/20 of τ. Tested by: tests/core duality gap; tests/core/stress.
+/// 2⁻⁵² · size is 1/20 of τ. Tested by: tests/core "distance, feasibility and
+/// witnesses hold within tau".
 inline constexpr double narrow_gap_factor = 0x1p-52;
 
 /// Cores nearer than this · size are treated as touching: their distance is below the resolution of their
-/// witness points, so the normal comes from the boundary (EPA). Tested by: tests/core "touching at every kind
-/// of feature".
+/// witness points, so the normal comes from the boundary (EPA). Tested by: tests/core "ladder of the gap".
 inline constexpr double narrow_touching_factor = 0x1p-54;
 
 /// A gap of at most this · size counts as touching, hence as overlap (truth.md §1): 64 units of the 64-bit
@@ -31,7 +31,8 @@ inline constexpr double narrow_touching_factor = 0x1p-54;
 /// overlap".
 inline constexpr double narrow_contact_factor = 0x1p-58;
 
-/// Slack larger than this · size is not_converged: 6·2⁻⁵⁰·L is 3/8 of τ. Tested by: tests/core/stress.
+/// Slack larger than this · size is not_converged: 6·2⁻⁵⁰·L is 3/8 of τ. Tested by: tests/core "distance,
+/// feasibility and witnesses hold within tau".
 inline constexpr double narrow_accept_factor = 0x1p-50;
 
 /// Vertices within this · size of a support plane belong to its face: about 64 roundings of the shape's own
@@ -51,7 +52,7 @@ inline constexpr double parallel_sine_sq = 1e-6;
 inline constexpr double box_rounding = 0x1p-40;
 
 /// Conservative advancement stops at this gap, in units of size: at most 3/8 of τ. Tested by:
-/// tests/core "impact".
+/// tests/core "impact: translations are exact to tau".
 inline constexpr double impact_gap_factor = 0x1p-50;
 
 /// World AABBs are widened by this · (size of the body + |translation|) before they are rounded outward; the

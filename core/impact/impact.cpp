@@ -33,7 +33,7 @@ double scale_of(const MovingShape& s, double extent) {
   return std::max({extent, from, (s.pose.translation + s.motion.linear).cwiseAbs().maxCoeff()});
 }
 
-double accuracy_of(double scale) { return (tolerance::core_tau_factor - 4) * unit_roundoff<double> * scale; }
+double accuracy_of(double scale) { return (tolerance::core_tau_factor - 4) * double_roundoff * scale; }
 
 narrow::FastAnswer<double> in_double(const MovingShape& a, const MovingShape& b, narrow::filtered::Asked asked) {
   narrow::FastAnswer<double> f;

@@ -37,7 +37,7 @@ inline Corners corners_at(const MovingPolygon& p, double t) {
 inline Vec3 local_size(const MovingPolygon& p, const Corners& from, const Corners& to) {
   Vec3 l = Vec3::Zero();
   for (std::size_t k = 0; k < p.corners; ++k) l = l.cwiseMax(from[k].cwiseAbs()).cwiseMax(to[k].cwiseAbs());
-  return l + 8 * unit_roundoff<double> * p.size;
+  return l + 8 * double_roundoff * p.size;
 }
 
 }  // namespace touchstone::impact

@@ -37,7 +37,7 @@ bool is_in_range(const MovingPolygon& p) {
 // With M between 2⁻²⁰⁰ and 2³⁰⁰ and L >= 8u·M, the bound is more than u·2⁻⁷⁰⁰; an underflow in a product of
 // two, 2⁻¹⁰⁷⁴, becomes at most 2⁻⁷⁷⁰ with the third factor.
 double volume_bound(const MovingPolygon& p, const Vec3& local) {
-  return 48 * unit_roundoff<double> * p.size.dot(pairs(local, local));
+  return 48 * double_roundoff * p.size.dot(pairs(local, local));
 }
 
 double volume_at(const MovingPolygon& p, const Corners& w) { return w[0].dot(w[1].cross(w[p.corners - 1])); }
@@ -69,7 +69,7 @@ int proven_side(const MovingPolygon& p, const Corners& w) {
 
 bool stays_inside(const MovingPolygon& p, const Corners& from, const Corners& to, const Vec3& n) {
   const Vec3 local = local_size(p, from, to);
-  const double bound = 20 * unit_roundoff<double> * n.cwiseAbs().dot(pairs(p.size, local) + pairs(local, p.size)) +
+  const double bound = 20 * double_roundoff * n.cwiseAbs().dot(pairs(p.size, local) + pairs(local, p.size)) +
                        std::numeric_limits<double>::min();
   for (std::size_t k = 0; k < p.corners; ++k) {
     const std::size_t l = k + 1 == p.corners ? 0 : k + 1;

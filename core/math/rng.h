@@ -14,6 +14,9 @@ namespace touchstone {
 /// Rejection sampling of a direction discards squared lengths below this: normalising them loses accuracy.
 inline constexpr double least_squared_length = 0.01;
 
+/// Distance of neighbouring values of Rng::uniform.
+inline constexpr double uniform_step = 0x1p-53;
+
 class Rng {
  public:
   explicit Rng(std::uint64_t seed) {
@@ -36,7 +39,7 @@ class Rng {
     return result;
   }
   /// Uniform in [0,1), 53 bits.
-  double uniform() { return static_cast<double>(next() >> 11) * 0x1p-53; }
+  double uniform() { return static_cast<double>(next() >> 11) * uniform_step; }
   double uniform(double lo, double hi) { return lo + (hi - lo) * uniform(); }
   /// Uniform integer in [0,n), n > 0, by multiplication (bias < n/2^64).
   std::uint64_t below(std::uint64_t n) {

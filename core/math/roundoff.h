@@ -1,11 +1,14 @@
+// Unit roundoffs of the arithmetics that answers are computed in: the largest relative error of a rounding to
+// the nearest number, half the distance from 1 to the next one.
 #pragma once
 
 #include <limits>
 
 namespace touchstone {
 
-/// Largest relative error of one rounding to nearest in the arithmetic R: 2⁻⁵³ for double, 2⁻²⁴ for float.
-template <class R>
-inline constexpr R unit_roundoff = std::numeric_limits<R>::epsilon() / 2;
+/// Relative to the number that is rounded.
+inline constexpr double double_roundoff = 0x1p-53, float_roundoff = 0x1p-24;
+static_assert(double_roundoff == std::numeric_limits<double>::epsilon() / 2);
+static_assert(float_roundoff == double{std::numeric_limits<float>::epsilon()} / 2);
 
 }  // namespace touchstone

@@ -20,7 +20,7 @@ bool touches(const Separation& s) { return s.gap <= tolerance::narrow_contact_fa
 // The results are rounded to double once.
 double arithmetic_error(const Separation& s) {
   return static_cast<double>(s.local_slack + tolerance::narrow_contact_factor * s.size) +
-         unit_roundoff<double> * static_cast<double>(std::abs(s.gap) + s.size);
+         double_roundoff * static_cast<double>(std::abs(s.gap) + s.size);
 }
 
 Vec3 world(const WideVec& p, const PlacedShape& a) {

@@ -49,7 +49,8 @@ struct Fidelity {
   bool remember = false;     // start each pair's search where that of the last step ended (PairMemory)
   SweepOptions sweep;
 
-  static constexpr double shape_share = 0.3, placing_share = 0.0625, answer_share = 0.85;
+  /// Shares of E: the error of one simpler shape; the proven error of a pair's answer with its shapes.
+  static constexpr double shape_share = 0.3, answer_share = 0.85;
   const PairMethod& of(ShapeKind a, ShapeKind b) const {
     const auto [lo, hi] = std::minmax(a, b);
     return method[static_cast<std::size_t>(lo)][static_cast<std::size_t>(hi)];

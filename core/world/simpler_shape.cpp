@@ -80,7 +80,7 @@ std::optional<SimplerShape> ball_of(const Hull& h, double allowed) {
 
 // Axes from the two largest approximately perpendicular faces; the body axes when there are none.
 Mat3 box_axes(const Hull& h) {
-  constexpr double about_perpendicular = 0.05;
+  constexpr double about_perpendicular = 0.05;  // cosine of the angle between two normals
   const std::vector<Face> faces = faces_of(h);
   const auto larger = [](const Face& x, const Face& y) { return x.area < y.area; };
   const auto first = std::max_element(faces.begin(), faces.end(), larger);

@@ -10,6 +10,7 @@ namespace touchstone::fuzz {
 enum class Magnitude : std::uint8_t { none, rounding, small, gross };
 inline constexpr auto magnitude_names =
     std::to_array<std::string_view>({"none", "rounding", "small", "gross"});
+static_assert(magnitude_names.size() == static_cast<std::size_t>(Magnitude::gross) + 1);
 constexpr std::string_view to_string(Magnitude m) { return magnitude_names[static_cast<std::size_t>(m)]; }
 
 /// Class of an error divided by L. Rounding: what single precision or a solver's tolerance explains; gross:

@@ -43,7 +43,7 @@ bool translate_by(Scene& s, const Vec3& by);
 /// Scales by a power of two. False, with nothing changed, when a number is so small or large that the product
 /// is not exact.
 bool scale_by(Scene& s, double factor);
-/// The other units of length in which a scene is given, as factors of its numbers.
-inline constexpr std::array<double, 2> unit_factors{0x1p20, 0x1p-12};
+/// Factors of the scale at which a pair is asked again: powers of two, so that its numbers scale exactly.
+inline constexpr double enlarged = 0x1p20, reduced = 0x1p-12;
 
 }  // namespace touchstone::fuzz

@@ -29,7 +29,7 @@ double largest_size(const Shape& shape) {
 class Plausible {
  public:
   explicit Plausible(const Scene& asked) {
-    constexpr double times = 1e6;
+    constexpr double times = 1e6;  // as above
     double m = 1;  // at least one unit of length
     for (const Shape& s : asked.shapes) m = std::max(m, largest_size(s));
     for (const Body& b : asked.bodies) m = std::max(m, largest_number(b.pose.translation));

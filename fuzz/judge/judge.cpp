@@ -38,7 +38,7 @@ Blame blame_of(const Judgement& j, const CheckInput& in) {
   if (is_broad_question(in.query.question)) {
     const FaultReport& worst = j.faults.front();
     if (worst.fault != Fault::missed) return Blame::algorithm;
-    return worst.error > in.tau(in.truth.scale(worst.a, worst.b)) || in.card.unit_roundoff <= unit_roundoff<double>
+    return worst.error > in.tau(in.truth.scale(worst.a, worst.b)) || in.card.unit_roundoff <= double_roundoff
                ? Blame::algorithm
                : Blame::representation;
   }

@@ -39,7 +39,7 @@ std::vector<PairForm> other_forms(const Case& c, Rng& rng) {
   for (int axis = 0; axis < 3; ++axis) half_turn(add(FormKind::frame).scene, axis);
   if (!cycle_axes(add(FormKind::frame).scene)) forms.pop_back();
   if (!translate_by(add(FormKind::frame).scene, -c.scene.bodies[0].pose.translation)) forms.pop_back();
-  for (const double factor : unit_factors)
+  for (const double factor : {enlarged, reduced})
     if (!scale_by(add(FormKind::unit, factor).scene, factor)) forms.pop_back();
   return forms;
 }

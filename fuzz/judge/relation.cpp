@@ -204,7 +204,7 @@ double pose_rounding(const Scene& pair) {
   // A quaternion product and a rotated vector: about 16 roundings, times two for the two bodies, times two in
   // reserve.
   constexpr double roundings = 64;
-  return roundings * unit_roundoff<double> * size;
+  return roundings * double_roundoff * size;
 }
 
 std::optional<RelationBreak> find_break(const Relation& r, const RelationInput& in, const Derived& d,

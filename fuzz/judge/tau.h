@@ -9,8 +9,8 @@
 
 namespace touchstone::fuzz {
 
-/// Relative widening that covers the roundings of a speed bound (about ten). Tested by: tests/fuzz judge,
-/// late impacts.
+/// Relative widening that covers the roundings of a speed bound (about ten). Tested by: tests/fuzz "time
+/// of impact is judged by gaps".
 inline constexpr double speed_rounding = 0x1p-40;
 
 /// A claimed tolerance above this share of L is shown beside every verdict, and the engine's accuracy is not

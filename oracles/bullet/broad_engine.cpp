@@ -12,7 +12,6 @@
 namespace touchstone::bullet_adapter {
 namespace {
 
-constexpr bool is_double = sizeof(btScalar) == 8;
 using BroadPhasePtr = std::unique_ptr<btBroadphaseInterface>;
 
 // AABBs outside the world are clamped to it. 16384 is the default maximum of the version with 16-bit handles.
@@ -120,8 +119,7 @@ class Engine {
       all.push_back(
           {prefix + r.name, "Bullet", version,
            std::string(r.settings) + " alone; upright boxes as t ± h, others by getAabb with margin 0",
-           is_double ? 0x1p-53 : 0x1p-24, kit::oracle_tau_factor,
-           "BulletCollision/BroadphaseCollision: no tolerance"});
+           unit_roundoff, kit::oracle_tau_factor, "BulletCollision/BroadphaseCollision: no tolerance"});
     return all;
   }
   explicit Engine(unsigned index) : row_(rows[index]), dispatcher_(&configuration_) {}

@@ -15,8 +15,6 @@ extern btScalar gGjkEpaPenetrationTolerance;
 namespace touchstone::bullet_adapter {
 namespace {
 
-constexpr bool is_double = sizeof(btScalar) == 8;
-constexpr double unit_roundoff = is_double ? 0x1p-53 : 0x1p-24;
 // btContinuousConvexCollision stops at a gap of 0.001, a length hard-coded in its source.
 constexpr double sweep_gap = 0.001;
 

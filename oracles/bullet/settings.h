@@ -24,6 +24,7 @@ struct Setting {
 inline constexpr Setting settings[] = {
     {"query"}, {"sim", true}, {"query-tuned", false, 0}, {"sim-tuned", true, 0}};
 #else
+// The values in the names, as lengths in the unit of the scene.
 inline constexpr Setting settings[] = {{"query@0.001", false, 0.001},
                                        {"query@0.01", false, 0.01},
                                        {"sim@0.01", true, 0.01},

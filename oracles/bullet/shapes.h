@@ -8,9 +8,13 @@
 #include <vector>
 
 #include "core/math/pose.h"
+#include "core/math/roundoff.h"
 #include "oracles/abi/touchstone_engine.h"
 
 namespace touchstone::bullet_adapter {
+
+inline constexpr bool is_double = sizeof(btScalar) == 8;
+inline constexpr double unit_roundoff = is_double ? double_roundoff : float_roundoff;
 
 /// A btCollisionShape and the arrays that it points into.
 struct Shape {

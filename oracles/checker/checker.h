@@ -10,8 +10,8 @@ namespace touchstone::checker {
 
 /// Support points in a certificate are doubles. The checker allows each to be this · (its largest coordinate)
 /// outside the core and subtracts the same amount from the proven depth, so the factor never affects truth: 8
-/// roundings of a coordinate, where a rounded point is off by at most √3/2. Tested by: tests/referee,
-/// checker.
+/// roundings of a coordinate, where a rounded point is off by at most √3/2. Tested by: tests/referee
+/// "an inner polytope is refused when a point, a facet or the depth is changed".
 inline constexpr double point_factor = 0x1p-50;
 
 /// What a certificate of each kind proves when it holds:

@@ -48,8 +48,9 @@ Moment at(const Mover& mover, const Q& t) {
   for (; dot(v, v) > 1; ++m) v = Q(1, 2) * v;
   v = on_grid(v);
   const Q square = on_grid(dot(v, v));
+  constexpr int terms = 40;  // of the series, as above
   Q w = 0, sine_over_angle = 0, term = 1;
-  for (int k = 0; k < 40; ++k, term = on_grid(-term * square / (2 * k * (2 * k - 1)))) {
+  for (int k = 0; k < terms; ++k, term = on_grid(-term * square / (2 * k * (2 * k - 1)))) {
     w += term;
     sine_over_angle += on_grid(term / (2 * k + 1));
   }

@@ -35,7 +35,7 @@ void Watchdog::progress(const WorkerProcess& w) {
 }
 
 bool Watchdog::was_slow(const WorkerProcess& w, std::int64_t elapsed_ns) const {
-  return 1e-9 * static_cast<double>(elapsed_ns) > limits_.query_cpu_seconds &&
+  return seconds_per_ns * static_cast<double>(elapsed_ns) > limits_.query_cpu_seconds &&
          w.cpu_seconds() - cpu_at_progress_ > limits_.query_cpu_seconds;
 }
 

@@ -8,6 +8,9 @@
 
 namespace touchstone {
 
+/// Clocks count nanoseconds, limits are in seconds.
+inline constexpr double seconds_per_ns = 1e-9;
+
 /// The watchdog measures CPU time, so that a loaded machine does not turn answers into time-outs. Wall time
 /// only catches an engine that waits: the limit is short if none of its processes uses the CPU, and longer if
 /// its children or a disk do the work.

@@ -22,6 +22,7 @@
 
 #include "core/base/input_error.h"
 #include "oracles/client/process_usage.h"
+#include "oracles/client/worker_limits.h"
 
 namespace touchstone {
 namespace {
@@ -325,7 +326,7 @@ void WorkerProcess::end_supervised() {
 double WorkerProcess::cpu_seconds() const {
   timespec t{};
   if (!reaped_ && clock_ != CLOCK_PROCESS_CPUTIME_ID && clock_gettime(clock_, &t) == 0)
-    last_cpu_ = static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
+    last_cpu_ = static_cast<double>(t.tv_sec) + seconds_per_ns * static_cast<double>(t.tv_nsec);
   return last_cpu_;
 }
 

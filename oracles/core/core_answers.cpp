@@ -11,7 +11,7 @@ EngineCard core_card(std::string_view name, std::string settings) {
   card.library = "Touchstone core";
   card.version = "0.1.0";
   card.settings = std::move(settings);
-  card.unit_roundoff = unit_roundoff<double>;
+  card.unit_roundoff = double_roundoff;
   card.tau_factor = tolerance::core_tau_factor;
   card.source = "core/tolerance.h: arithmetic alone, no margin";
   return card;

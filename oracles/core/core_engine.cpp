@@ -119,7 +119,7 @@ CoreEngine::CoreEngine(Arithmetic arithmetic) : arithmetic_(arithmetic) {
                           "closed forms, GJK and EPA in double, in extended precision where the error bound "
                           "requires it; conservative advancement; broad phase " +
                               std::string(broad_phase_name));
-  if (narrow_only) card_.unit_roundoff = unit_roundoff<float>;
+  if (narrow_only) card_.unit_roundoff = float_roundoff;
   card_.complete_manifolds = !narrow_only;
 }
 

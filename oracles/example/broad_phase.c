@@ -8,6 +8,9 @@ struct ts_engine {
   const ts_scene* scene; /* valid until unload */
 };
 
+/* Covers the roundings of the sums in reach, relative to them. */
+static const double rounding_factor = 1 + 0x1p-48;
+
 /* An upper bound on the distance of a point from the body's origin: |x| + |y| + |z| is at least the length. */
 static double reach(const ts_shape* s) {
   double r = 0;
@@ -15,7 +18,7 @@ static double reach(const ts_shape* s) {
   for (int k = 0; k < 4; ++k) r += fabs(s->size[k]);
   for (const double* v = s->vertices; v != s->vertices + 3 * s->vertex_count; v += 3)
     r = fmax(r, fabs(v[0]) + fabs(v[1]) + fabs(v[2]));
-  return r * (1 + 0x1p-48); /* more than the rounding errors above */
+  return r * rounding_factor;
 }
 
 typedef struct Cube {

@@ -10,6 +10,9 @@ struct ts_engine {
 
 namespace {
 
+// Covers the roundings of the sums in reach, relative to them.
+constexpr double rounding_factor = 1 + 0x1p-48;
+
 // An upper bound on the distance of any point from the body's origin: |x| + |y| + |z| is at least the length.
 double reach(const ts_shape& s) {
   double r = 0;
@@ -17,7 +20,7 @@ double reach(const ts_shape& s) {
   for (double x : s.size) r += std::fabs(x);
   for (const double* v = s.vertices; v != s.vertices + 3 * s.vertex_count; v += 3)
     r = std::fmax(r, std::fabs(v[0]) + std::fabs(v[1]) + std::fabs(v[2]));
-  return r * (1 + 0x1p-48);  // more than the rounding errors above
+  return r * rounding_factor;
 }
 
 struct Cube {

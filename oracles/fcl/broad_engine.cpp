@@ -15,6 +15,7 @@
 #include <functional>
 #include <memory>
 
+#include "core/math/roundoff.h"
 #include "oracles/abi/plugin_kit.h"
 #include "oracles/fcl/shapes.h"
 
@@ -155,7 +156,7 @@ class Engine {
            std::string(r.settings) + " alone; computeAABB and " +
                (r.update == Update::one ? "update(object) after each move" : "update() after moves") +
                ", setup() before queries",
-           0x1p-53, kit::oracle_tau_factor, "fcl/broadphase: no tolerance"});
+           double_roundoff, kit::oracle_tau_factor, "fcl/broadphase: no tolerance"});
     return all;
   }
   explicit Engine(unsigned index) : row_(rows[index]) {}

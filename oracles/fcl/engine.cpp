@@ -4,6 +4,7 @@
 // toc_err), so that a chart shows a method as a curve. FCL's requests have no iteration limits.
 #include <fcl/config.h>
 
+#include "core/math/roundoff.h"
 #include "oracles/abi/plugin_kit.h"
 #include "oracles/fcl/queries.h"
 
@@ -37,6 +38,7 @@ constexpr const char* naive = "as fcl-libccd; CCDC_NAIVE with num_max_iterations
 constexpr const char* advance =
     "as fcl-libccd-tuned; CCDC_CONSERVATIVE_ADVANCEMENT with toc_err as named, which FCL 0.7.0 reads in "
     "CCDC_NAIVE only";
+// The values in the names.
 constexpr Sweep sweeps[] = {
     {"fcl-libccd@1e-3", "as fcl-libccd with tolerances 1e-3", {fcl::GST_LIBCCD, false, 1e-3}},
     {"fcl-indep@1e-3", "as fcl-indep with tolerances 1e-3", {fcl::GST_INDEP, false, 1e-3}},
@@ -55,7 +57,8 @@ class Engine {
  public:
   static std::vector<kit::CardText> cards() {
     const auto card = [](const char* name, const char* settings) {
-      return kit::CardText{name, "FCL", FCL_VERSION, settings, 0x1p-53, kit::oracle_tau_factor, source};
+      return kit::CardText{name,  "FCL", FCL_VERSION, settings, double_roundoff, kit::oracle_tau_factor,
+                           source};
     };
 #ifndef TOUCHSTONE_SWEEP
     return {card("fcl-libccd", shipped_settings), card("fcl-indep", shipped_settings),

@@ -1,10 +1,11 @@
 #include "oracles/host/pipe_scene.h"
 
-#include <array>
 #include <cmath>
 #include <stdexcept>
 #include <string>
 #include <vector>
+
+#include "scenarios/codec/scene_fields.h"
 
 namespace touchstone::host {
 namespace {
@@ -65,8 +66,7 @@ Json body(const ts_body& b) {
 }
 
 Json step(const ts_step& s) {
-  constexpr std::array<const char*, 4> names{"insert", "move", "remove", "query"};
-  Json j = {{"op", names[static_cast<std::size_t>(s.op)]}};
+  Json j = {{"op", scene_fields::op_names[static_cast<std::size_t>(s.op)]}};
   if (s.op != TS_QUERY) j["body"] = s.body;
   if (s.op == TS_INSERT || s.op == TS_MOVE) j["pose"] = pose(s.pose);
   return j;

@@ -43,10 +43,13 @@ Apart enter_namespaces() {
   return {true, true, map_ids(user, group)};
 }
 
+/// Closed one by one where the call is missing: the usual limit on a process's descriptors.
+constexpr unsigned usual_descriptors = 1024;
+
 /// Older kernels lack the call.
 void close_all(unsigned first, unsigned last) {
   if (syscall(SYS_close_range, first, last, 0U) == 0) return;
-  for (unsigned fd = first; fd <= last && fd < 1024; ++fd) close(static_cast<int>(fd));
+  for (unsigned fd = first; fd <= last && fd < usual_descriptors; ++fd) close(static_cast<int>(fd));
 }
 
 /// Closes all descriptors if `kept` is negative.

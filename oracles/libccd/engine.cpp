@@ -7,6 +7,7 @@
 // and that limit).
 #include <limits>
 
+#include "core/math/roundoff.h"
 #include "oracles/abi/plugin_kit.h"
 #include "oracles/libccd/object.h"
 
@@ -22,9 +23,11 @@ struct Setting {
   unsigned long iterations = 0;  // 0: tuned_iterations if there is a tolerance, otherwise as shipped
 };
 #ifndef TOUCHSTONE_SWEEP
+// The tuned tolerance is far below the default, 1e-4, and above the rounding of doubles.
 constexpr Setting rows[] = {{"libccd-gjk", "libccd-mpr", 0, ""},
                             {"libccd-gjk-tuned", "libccd-mpr-tuned", 1e-10, "1e-10"}};
 #else
+// The values in the names.
 constexpr Setting rows[] = {{"libccd-gjk@1e-2", "libccd-mpr@1e-2", 1e-2, "1e-2"},
                             {"libccd-gjk@1e-6", "libccd-mpr@1e-6", 1e-6, "1e-6"},
                             {"libccd-gjk@1e-8", "libccd-mpr@1e-8", 1e-8, "1e-8"},
@@ -48,7 +51,8 @@ class Engine {
                               : r.iterations > 0
                                   ? "CCD_INIT defaults, max_iterations " + std::to_string(r.iterations)
                                   : "CCD_INIT defaults, unlimited iterations";
-      cards.push_back({name, "libccd", "2.1", calls + "; " + how, 0x1p-53, kit::oracle_tau_factor, source});
+      cards.push_back(
+          {name, "libccd", "2.1", calls + "; " + how, double_roundoff, kit::oracle_tau_factor, source});
     };
     for (const Setting& r : rows) {
       add(r.gjk, "ccdGJKIntersect and ccdGJKPenetration", "epa_tolerance and dist_tolerance", r);

@@ -2,6 +2,7 @@
 // whose AABBs it finds to overlap.
 #include <optional>
 
+#include "core/math/roundoff.h"
 #include "oracles/ode/shapes.h"
 
 namespace touchstone::ode_adapter {
@@ -82,7 +83,7 @@ class Engine {
   static std::vector<kit::CardText> cards() {
     std::vector<kit::CardText> all;
     for (const Row& r : rows)
-      all.push_back({r.name, "ODE", dODE_VERSION, std::string(r.settings) + " alone", 0x1p-53,
+      all.push_back({r.name, "ODE", dODE_VERSION, std::string(r.settings) + " alone", double_roundoff,
                      kit::oracle_tau_factor, "collision_space.cpp: no tolerance"});
     return all;
   }

@@ -3,6 +3,7 @@
 // protocol.
 #include <optional>
 
+#include "core/math/roundoff.h"
 #include "oracles/ode/shapes.h"
 
 namespace touchstone::ode_adapter {
@@ -23,7 +24,7 @@ class Engine {
  public:
   static std::vector<kit::CardText> cards() {
     return {
-        {"ode", "ODE", dODE_VERSION, "dCollide as shipped", 0x1p-53, kit::oracle_tau_factor,
+        {"ode", "ODE", dODE_VERSION, "dCollide as shipped", double_roundoff, kit::oracle_tau_factor,
          "collision_libccd.cpp: mpr_tolerance 1e-6, for hulls and for cylinders with cylinders and capsules; "
          "none elsewhere"}};
   }

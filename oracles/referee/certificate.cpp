@@ -13,8 +13,8 @@ std::vector<std::string> texts(const Rational3& v) { return {text_of(v.x), text_
 
 // Bounds of n·x over the bodies, in the filter's frame; false when they leave no gap.
 bool gap_along(const Difference& d, const Real3& n, Real& top_a, Real& bottom_b) {
-  const Real length = norm(n) * (1 + 4 * unit);
-  const Real slack = 8 * unit * (d.extent + d.radius);
+  const Real length = norm(n) * (1 + value_rounding);
+  const Real slack = dot_rounding * (d.extent + d.radius);
   top_a = dot(n, support(d.a, n).point) + length * (d.a.error + d.a.radius + slack);
   bottom_b = dot(n, support(d.b, -n).point) - length * (d.b.error + d.b.radius + slack);
   return top_a < bottom_b;
@@ -28,10 +28,10 @@ Certificate plane_certificate(const Difference& d, const Real3& direction, const
   c.direction = to_double(normalized(direction));
   const Real3 n = to_real(c.direction), o = to_real(origin);
   Real top = 0, bottom = 0;
-  const Real shift = dot(n, o), shift_error = 8 * unit * norm(n) * norm(o);
+  const Real shift = dot(n, o), shift_error = dot_rounding * norm(n) * norm(o);
   if (gap_along(d, n, top, bottom)) {
     const Real from = top + shift, to = bottom + shift, middle = 0.5L * (from + to);
-    const Real slack = shift_error + 4 * unit * (std::fabs(from) + std::fabs(to));
+    const Real slack = shift_error + value_rounding * (std::fabs(from) + std::fabs(to));
     c.offset = static_cast<double>(middle);
     if (from + slack <= static_cast<Real>(c.offset) && static_cast<Real>(c.offset) < to - slack) return c;
   }
@@ -156,11 +156,12 @@ Certificate half_space_plane(const Placed& h, const Placed& a, const Placed& b, 
   }
   const Rational size =
       std::max(Rational(abs(p.normal.x)), std::max(Rational(abs(p.normal.y)), Rational(abs(p.normal.z))));
+  constexpr unsigned most_halvings = 24;  // together a division by more than 2^50000
   for (unsigned k = 0;; ++k, inside /= Rational(shifted(Integer(1), 1 << std::min(k, 12U)))) {
     c.rationals = texts(Rational(-1) * p.normal);
     c.rationals.push_back(text_of(-p.offset - inside * size));
     if (checker::check(c, a, b)) return c;
-    if (k > 24) return {};
+    if (k > most_halvings) return {};
   }
 }
 
@@ -170,6 +171,8 @@ bool is_half_space(const Placed& p) { return std::holds_alternative<HalfSpace>(*
 
 namespace {
 
+// Parts of the way from the middle to the common point, besides a half.
+constexpr double near_common = 0.9, nearer_common = 0.99;
 // Parts of the way from a candidate point towards the middle of a body.
 constexpr double inward_steps[] = {0.0, 0x1p-50, 0x1p-40, 0x1p-25, 0x1p-10, 0.25};
 
@@ -192,7 +195,7 @@ Certificate inner_point(const PairTruth& truth, const Placed& a, const Placed& b
   const auto towards_common = [&](double step) { return Vec3(middle + step * (common - middle)); };
   for (const Vec3& to : {centre(a), centre(b), Vec3(0.5 * centre(a) + 0.5 * centre(b))})
     for (const Vec3& from : {middle, truth.witness[0], truth.witness[1], common, towards_common(0.5),
-                             towards_common(0.9), towards_common(0.99)})
+                             towards_common(near_common), towards_common(nearer_common)})
       for (double step : inward_steps) {
         Certificate c;
         c.kind = Certificate::Kind::common_point;

@@ -40,7 +40,7 @@ Bracket half_space_width(const Placed& a, const Placed& b, const Vec3& n, bool a
     const Real3 u = normalized(to_real(n));
     const Real c = dot(u, a_is_half_space ? t.normal : -t.normal);
     if (!(c > 0)) return {infinity, infinity};
-    const Real w = -0.5L * (t.lo + t.hi), slack = t.hi - t.lo + std::fabs(w) * 64 * unit;
+    const Real w = -0.5L * (t.lo + t.hi), slack = t.hi - t.lo + std::fabs(w) * chain_rounding;
     return outward((w - slack) / c, (w + slack) / c);
   }
   ConvexTruth t;
@@ -52,11 +52,12 @@ Bracket half_space_width(const Placed& a, const Placed& b, const Vec3& n, bool a
   }
   const Real3 m = a_is_half_space ? t.normal : -t.normal;
   const Real3 u = normalized(to_real(n));
-  const Real c = dot(u, m), c_error = 64 * unit;  // both within 16 units of the exact unit vectors for a Pose
+  // Both are within 16 units of the exact unit vectors for a Pose.
+  const Real c = dot(u, m), c_error = chain_rounding;
   if (!(c > c_error)) return {c < -c_error ? infinity : -infinity, infinity};
   const auto over = [&](Real x, bool down) {
     const Real q = x / ((x > 0) == down ? c + c_error : c - c_error);
-    return down ? q - 4 * unit * std::fabs(q) : q + 4 * unit * std::fabs(q);
+    return down ? q - value_rounding * std::fabs(q) : q + value_rounding * std::fabs(q);
   };
   return outward(over(-t.hi, true), over(-t.lo, false));
 }
@@ -75,7 +76,7 @@ Aabb box_of(const Solid& b) {
   Aabb box;
   for (int k = 0; k < 3; ++k) {
     const Real3 n{k == 0 ? 1.0L : 0.0L, k == 1 ? 1.0L : 0.0L, k == 2 ? 1.0L : 0.0L};
-    const Real slack = b.error + b.radius + 4 * unit * (b.extent + b.radius);
+    const Real slack = b.error + b.radius + value_rounding * (b.extent + b.radius);
     box.hi[k] = round_up(dot(n, support(b, n).point) + slack);
     box.lo[k] = round_down(dot(n, support(b, -n).point) - slack);
   }
@@ -89,9 +90,9 @@ Bracket width(const Placed& a, const Placed& b, const Vec3& n) {
   const Difference d(x, y);
   const Real3 u = normalized(to_real(n));
   const Real above = d.width_above(d.support(u), u),
-             slack = 2 * (d.error + 8 * unit * d.extent) + d.radius_error;
-  return outward(above + d.radius - slack - 4 * unit * std::fabs(above),
-                 above + d.radius + d.radius_error + 4 * unit * std::fabs(above));
+             slack = 2 * (d.error + dot_rounding * d.extent) + d.radius_error;
+  return outward(above + d.radius - slack - value_rounding * std::fabs(above),
+                 above + d.radius + d.radius_error + value_rounding * std::fabs(above));
 }
 
 namespace {

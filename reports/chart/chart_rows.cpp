@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "reports/record/result.h"
+
 namespace touchstone::fuzz {
 namespace {
 
@@ -127,11 +129,11 @@ ChartRow ChartRows::finished(const Cell& c) const {
   }
   r.ns_min = quantile(least, 0);
   r.ns_median = quantile(least, 0.5);
-  r.ns_p99 = quantile(least, 0.99);
+  r.ns_p99 = quantile(least, tail_quantile);
   if (const double fastest = quantile(medians, 0); fastest > 0)
     r.ns_spread = (quantile(medians, 0.5) - fastest) / fastest;
   r.error_p50 = quantile(errors, 0.5);
-  r.error_p99 = quantile(errors, 0.99);
+  r.error_p99 = quantile(errors, tail_quantile);
   r.error_max = quantile(errors, 1);
   r.unsound = why_unsound(r);
   return r;

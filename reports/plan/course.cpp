@@ -37,7 +37,7 @@ Course along_motions(const Scene& scene) {
 
 // Limits coordinates, so that boxes around moving bodies and their differences stay finite.
 Course check_coordinates(Course c) {
-  constexpr double max_coordinate = 1e300;
+  constexpr double max_coordinate = 1e300;  // in the scene's unit; the largest double is 1.8e308
   for (const Course::Step& step : c.steps)
     for (const Course::Move& m : step.moves) {
       const Vec3 end = m.start.translation + m.motion.linear;

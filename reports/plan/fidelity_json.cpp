@@ -1,5 +1,7 @@
 #include "reports/plan/plan.h"
 
+#include <array>
+
 #include "core/base/input_error.h"
 #include "core/broad/catalog.h"
 #include "scenarios/codec/json_file.h"
@@ -48,11 +50,12 @@ void read_simpler(const JsonReader& j, Fidelity& f) {
   }
 }
 
-constexpr std::string_view arithmetic_names[] = {"double", "double alone", "float"};
+constexpr auto arithmetic_names = std::to_array<std::string_view>({"double", "double alone", "float"});
+static_assert(arithmetic_names.size() == static_cast<std::size_t>(Arithmetic::float32) + 1);
 
 Arithmetic arithmetic_of(const JsonReader& j) {
   const std::string name = j.string();
-  for (std::size_t i = 0; i < std::size(arithmetic_names); ++i)
+  for (std::size_t i = 0; i < arithmetic_names.size(); ++i)
     if (arithmetic_names[i] == name) return static_cast<Arithmetic>(i);
   j.fail("is not one of: double, double alone, float");
 }

@@ -243,7 +243,7 @@ double least_error(const Course& c) {
 }
 
 double default_error(const Course& c) {
-  constexpr double share_of_smallest = 1e-6;
+  constexpr double share_of_smallest = 1e-6;  // of the extent of the smallest shape
   double smallest = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < c.scene.bodies.size(); ++i)
     if (const double e = extent(c.scene.shape_of(static_cast<int>(i))); e > 0)

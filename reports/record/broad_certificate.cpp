@@ -229,6 +229,7 @@ bool is_graver(const FaultClass& x, const FaultClass& y) {
 std::string_view to_string(LevelVerdict v) {
   constexpr auto names = std::to_array<std::string_view>(
       {"certified", "refuted", "nothing proved", "not asked", "not certified"});
+  static_assert(names.size() == static_cast<std::size_t>(LevelVerdict::not_certified) + 1);
   return names[static_cast<std::size_t>(v)];
 }
 

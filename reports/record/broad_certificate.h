@@ -43,6 +43,7 @@ enum class FaultKind : std::uint8_t {
 };
 inline constexpr auto fault_kind_names =
     std::to_array<std::string_view>({"solid", "touching", "moving", "numbers", "unbounded", "invalid"});
+static_assert(fault_kind_names.size() == static_cast<std::size_t>(FaultKind::invalid) + 1);
 constexpr std::string_view to_string(FaultKind k) { return fault_kind_names[static_cast<std::size_t>(k)]; }
 
 struct FaultClass {

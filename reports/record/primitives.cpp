@@ -28,7 +28,7 @@ Json to_json(const PrimitiveTallies& tallies) {
                     {"not_judged", t.not_judged},
                     {"source_wrong", t.source_wrong},
                     {"median_ns", t.time.quantile(0.5)},
-                    {"p99_ns", t.time.quantile(0.99)}});
+                    {"p99_ns", t.time.quantile(tail_quantile)}});
   return {{"primitives", std::move(rows)}};
 }
 

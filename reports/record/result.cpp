@@ -263,7 +263,7 @@ Json to_json(const Tally& t, bool with_times) {
   j["worst_in_l"] = number(t.worst_in_l);
   if (with_times) {
     j["ns_median"] = t.time.quantile(0.5);
-    j["ns_p99"] = t.time.quantile(0.99);
+    j["ns_p99"] = t.time.quantile(tail_quantile);
     j["ns_histogram"] = t.time.json();
     j["slow"] = t.slow;
   }
@@ -277,7 +277,7 @@ std::uint64_t count_or_zero(const JsonReader& j, std::string_view field) {
 
 // Limited, so that the times of several shards can be added.
 std::int64_t ns_from(const JsonReader& j) {
-  constexpr double max_ns = 1e18;
+  constexpr double max_ns = 1e18;  // 32 years; the sum of nine fits into 64 bits
   if (!j.json().is_number_integer() || !(std::abs(j.number()) <= max_ns))
     j.fail("must be a whole number of nanoseconds, at most 1e18");
   return j.json().get<std::int64_t>();

@@ -17,6 +17,8 @@
 
 namespace touchstone::fuzz {
 
+inline constexpr double tail_quantile = 0.99;  // printed and stored as p99
+
 /// Times on a logarithmic scale with 8 buckets per octave (9 % wide), so that percentiles merge exactly.
 class TimeHistogram {
  public:
@@ -120,7 +122,10 @@ struct CampaignResult {
   }
   /// Pair cases per core-second, 0 when there are none.
   double pair_rate() const {
-    return pair_cpu_ns > 0 ? 1e9 * static_cast<double>(pair_asked) / static_cast<double>(pair_cpu_ns) : 0;
+    constexpr double ns_per_second = 1e9;  // exact
+    return pair_cpu_ns > 0
+               ? ns_per_second * static_cast<double>(pair_asked) / static_cast<double>(pair_cpu_ns)
+               : 0;
   }
   /// Wrong or failed answers of one engine; broken relations are wrong.
   std::uint64_t wrong_of(const std::string& engine) const;

@@ -32,6 +32,7 @@ enum class Standing : std::uint8_t {
 };
 inline constexpr auto standing_names =
     std::to_array<std::string_view>({"new", "known", "back", "still", "flaky", "gone", "not asked"});
+static_assert(standing_names.size() == static_cast<std::size_t>(Standing::not_asked) + 1);
 constexpr std::string_view to_string(Standing s) { return standing_names[static_cast<std::size_t>(s)]; }
 
 struct Triaged {

@@ -123,7 +123,8 @@ Scene speed(Rng& rng, double v) {
 // Bodies that move at random: tests the state that a broad phase keeps over v moves.
 Scene steps(Rng& rng, double v) {
   Scene s;
-  for (int i = 0; i < 16; ++i) {
+  constexpr int bodies = 16;  // enough for a tree of several levels
+  for (int i = 0; i < bodies; ++i) {
     Body b;
     b.shape = i;
     s.shapes.push_back(random_shape(rng, random_convex_kind(rng), 1));
@@ -135,7 +136,7 @@ Scene steps(Rng& rng, double v) {
     Pose p;
     p.rotation = rng.rotation();
     p.translation = rng.vector(0, 4);
-    s.script.push_back({Step::Op::move, static_cast<int>(rng.below(16)), p});
+    s.script.push_back({Step::Op::move, static_cast<int>(rng.below(bodies)), p});
   }
   s.script.push_back({Step::Op::query, -1, std::nullopt});
   return s;

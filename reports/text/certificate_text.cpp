@@ -18,9 +18,13 @@ std::string price(std::uint64_t reported, std::uint64_t truth) {
   if (truth == 0) return "-";
   const double more = reported > truth ? static_cast<double>(reported - truth) : 0;
   const double ratio = more / static_cast<double>(truth);
-  if (ratio > 0 && ratio < 0.001) return "<0.001";
+  constexpr double least_shown = 0.001;  // smaller ratios need more columns
+  if (ratio > 0 && ratio < least_shown) return "<0.001";
   return ratio < 1000 ? fmt::format("{:.3g}", ratio) : fmt::format("{:.1e}", ratio);
 }
+
+// Seconds that fit into 5 columns after rounding to a tenth.
+constexpr double most_with_tenths = 99.95;
 
 // Columns are separated by a space even if an entry is too wide.
 std::string columns(std::string_view kind, std::string_view name, const std::string& cases,
@@ -33,7 +37,7 @@ std::string columns(std::string_view kind, std::string_view name, const std::str
 std::string row(const EvidenceCount& e, bool times) {
   return columns(to_string(e.kind), e.name, grouped(e.cases), grouped(e.queries), grouped(e.pairs_true),
                  price(e.pairs_reported, e.pairs_true),
-                 times ? fmt::format("{:>5.{}f}", e.seconds, e.seconds < 99.95 ? 1 : 0) : "");
+                 times ? fmt::format("{:>5.{}f}", e.seconds, e.seconds < most_with_tenths ? 1 : 0) : "");
 }
 
 std::string table(const BroadCertificate& c, BroadLevel level, bool times) {

@@ -29,7 +29,8 @@ const char* mark(const ChartRow& r) { return r.tie ? "~" : r.front ? "*" : r.uns
 std::string percent(std::uint64_t n, std::uint64_t of) {
   if (n == 0) return "0";
   const double p = 100 * static_cast<double>(n) / static_cast<double>(std::max<std::uint64_t>(of, 1));
-  return p < 0.095 ? "<0.1" : fmt::format("{:.1f}", p);
+  constexpr double least_shown = 0.095;  // percent; below it "0.1" would overstate
+  return p < least_shown ? "<0.1" : fmt::format("{:.1f}", p);
 }
 
 std::string question_table(const fuzz::Chart& c, const std::string& question) {

@@ -18,7 +18,7 @@ using Json = nlohmann::json;
 struct Ruler {
   double origin = 0, step = 1;
   std::optional<std::int64_t> operator()(double x) const {
-    constexpr double far = 1e15;
+    constexpr double far = 1e15;  // steps: whole numbers that JavaScript stores exactly
     if (!std::isfinite(x)) return std::nullopt;
     return std::llround(std::clamp((x - origin) / step, -far, far));
   }
@@ -29,7 +29,7 @@ std::array<double, 6> ends(const Aabb& b) {
 }
 
 Ruler ruler_for(const fuzz::BroadView& view) {
-  constexpr double steps = 1e5;
+  constexpr double steps = 1e5;  // over the whole scene
   double lo = std::numeric_limits<double>::infinity(), hi = -lo;
   for (const auto& f : view.frames)
     for (const auto& b : f.boxes)

@@ -38,10 +38,11 @@ std::string small(double x) { return x == 0 ? "0" : fmt::format("{:.1e}", x); }
 
 std::string nanoseconds(double ns) {
   if (ns == 0) return "-";
-  if (ns < 1e3) return fmt::format("{:.0f}", ns);
-  if (ns < 1e6) return fmt::format("{:.1f}k", ns / 1e3);
-  if (ns < 1e9) return fmt::format("{:.1f}M", ns / 1e6);
-  return fmt::format("{:.1f}G", ns / 1e9);
+  constexpr double kilo = 1e3, mega = 1e6, giga = 1e9;  // prefixes of the SI
+  if (ns < kilo) return fmt::format("{:.0f}", ns);
+  if (ns < mega) return fmt::format("{:.1f}k", ns / kilo);
+  if (ns < giga) return fmt::format("{:.1f}M", ns / mega);
+  return fmt::format("{:.1f}G", ns / giga);
 }
 
 std::string wrapped(const std::string& words, std::size_t width, std::size_t indent) {
@@ -67,8 +68,9 @@ std::string wrapped(const std::string& words, std::size_t width, std::size_t ind
 namespace {
 
 // Names short enough for the table's column.
-constexpr std::array<std::string_view, question_names.size()> short_names{
-    "overlap", "distance", "contact", "impact", "pairs", "scene", "swept"};
+constexpr auto short_names =
+    std::to_array<std::string_view>({"overlap", "distance", "contact", "impact", "pairs", "scene", "swept"});
+static_assert(short_names.size() == question_names.size());
 
 std::string row(Question q, const Tally& t) {
   if (t.answered() == 0 && t.failed() == 0 && t.not_asked() == 0)
@@ -76,7 +78,7 @@ std::string row(Question q, const Tally& t) {
   return fmt::format(" {:<8} {:>7} {:>7} {:>6} {:>6} {:>6} {:>6} {:>8} {:>7} {:>8}\n",
                      short_names[static_cast<std::size_t>(q)], t.answered(), t.right, t.wrong, t.missed,
                      t.ghost, t.failed(), small(t.worst_in_l), nanoseconds(t.time.quantile(0.5)),
-                     nanoseconds(t.time.quantile(0.99)));
+                     nanoseconds(t.time.quantile(fuzz::tail_quantile)));
 }
 
 // The answers that the row's counts leave out; empty if there are none.

@@ -37,7 +37,7 @@ constexpr std::array text_fields{
 // explain at most a hundredth of L.
 constexpr std::array number_fields{NumberField{"unit_roundoff", &EngineCard::unit_roundoff, 0x1p-8},
                                    NumberField{"tau_factor", &EngineCard::tau_factor, 0x1p14}};
-constexpr double most_of_l = 1e-2;
+constexpr double most_of_l = 1e-2;  // as above
 
 // These texts are shown to people, also on a terminal.
 constexpr std::size_t max_text_bytes = 1000;

@@ -27,6 +27,8 @@ inline constexpr auto query = std::to_array<std::string_view>({"op"});
 
 inline constexpr auto op_names =
     std::to_array<std::string_view>({"insert", "move", "remove", "query"});  // order of Step::Op
-inline constexpr std::array<std::span<const std::string_view>, 4> of_op{insert, move, remove, query};
+inline constexpr auto of_op = std::to_array<std::span<const std::string_view>>({insert, move, remove, query});
+static_assert(op_names.size() == static_cast<std::size_t>(Step::Op::query) + 1);
+static_assert(of_op.size() == op_names.size());
 
 }  // namespace touchstone::scene_fields

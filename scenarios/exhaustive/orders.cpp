@@ -78,11 +78,11 @@ AxisOrder renamed(const AxisOrder& r, const std::array<std::size_t, 3>& names) {
   return m;
 }
 
-constexpr std::array<std::array<std::size_t, 3>, 6> renamings{
-    {{0, 1, 2}, {0, 2, 1}, {1, 0, 2}, {1, 2, 0}, {2, 0, 1}, {2, 1, 0}}};
+constexpr auto renamings = std::to_array<std::array<std::size_t, 3>>(
+    {{0, 1, 2}, {0, 2, 1}, {1, 0, 2}, {1, 2, 0}, {2, 0, 1}, {2, 1, 0}});
 
 // For each renaming, the image of each order: the smaller of the two reflections.
-using Image = std::vector<std::array<std::uint32_t, 6>>;
+using Image = std::vector<std::array<std::uint32_t, renamings.size()>>;
 Image images() {
   const auto& orders = axis_orders(3);
   std::map<AxisOrder, std::uint32_t> number;

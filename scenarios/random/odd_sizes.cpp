@@ -141,7 +141,9 @@ void nearly_parallel(Rng& rng, Case& c) {
   const auto k = static_cast<Eigen::Index>(rng.below(3));
   const double u = rng.uniform(-1, 1), v = rng.uniform(-1, 1);
   const Vec3 across = axes.col(k) * u + axes.col((k + 1) % 3) * v;
-  const Vec3 n = rng.chance(0.6) && across.norm() > 0.1 ? Vec3(across.normalized()) : Vec3(axes.col(k));
+  constexpr double least_across = 0.1;  // of the unit axes; a shorter sum has a coarse direction
+  const Vec3 n =
+      rng.chance(0.6) && across.norm() > least_across ? Vec3(across.normalized()) : Vec3(axes.col(k));
   place_along(rng, s, n, any_gap(rng, mean_extent(s)), rng.uniform(0, 0.4));
   ask_pair(c, std::move(s));
 }

@@ -6,7 +6,8 @@ namespace touchstone::fuzz {
 namespace {
 
 // Cosine above which a direction counts as a half-space's own normal when a random pair is placed: a coarse
-// choice of where to put a body that no judgement depends on. Tested by: tests/fuzz hit rate.
+// choice of where to put a body that no judgement depends on. Tested by: tests/fuzz "the
+// default mix is not trivial".
 constexpr double parallel_cosine = 1 - 0x1p-30;
 
 double size(Rng& rng, double scale) { return rng.uniform(0.3, 1.2) * scale; }

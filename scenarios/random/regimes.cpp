@@ -68,11 +68,14 @@ bool any_quaternion(const Case& c, Shown shown) {
     return shown(std::max({std::abs(q.x), std::abs(q.y), std::abs(q.z), std::abs(q.w)}));
   });
 }
+// Largest component of a quaternion; a unit quaternion's is between 1/2 and 1.
+constexpr double least_usual = 0.1, most_usual = 10, least_moderate = 1e-6, most_moderate = 1e6;
+
 bool quaternion_not_unit(const Case& c, const Case&) {
-  return any_quaternion(c, [](double q) { return q < 0.1 || q > 10; });
+  return any_quaternion(c, [](double q) { return q < least_usual || q > most_usual; });
 }
 bool quaternion_extreme(const Case& c, const Case&) {
-  return any_quaternion(c, [](double q) { return q < 1e-6 || q > 1e6; });
+  return any_quaternion(c, [](double q) { return q < least_moderate || q > most_moderate; });
 }
 
 // The number of zero sizes of the flattest primitive, and its number of sizes.
@@ -103,8 +106,11 @@ double ratio_of_sizes(const Case& c) {
   });
   return ratio;
 }
+// Ratio of the extents of a pair; beyond a hundred thousand, float has few digits left.
+constexpr double huge_ratio = 1e5;
+
 bool unequal(const Case& c, const Case&) { return ratio_of_sizes(c) > 120; }
-bool very_unequal(const Case& c, const Case&) { return ratio_of_sizes(c) > 1e5; }
+bool very_unequal(const Case& c, const Case&) { return ratio_of_sizes(c) > huge_ratio; }
 
 bool one_triangle(const Case& c, const Case&) {
   return any_shape<TriangleMesh>(c, [](const TriangleMesh& m) { return m.triangles.size() == 1; });

@@ -5,6 +5,8 @@
 #include <string>
 #include <string_view>
 
+#include "core/math/roundoff.h"
+
 namespace touchstone {
 
 inline constexpr std::size_t max_engine_name_bytes = 64;
@@ -26,7 +28,7 @@ struct EngineCard {
   std::string library;   // "FCL"
   std::string version;   // "0.7.0"
   std::string settings;  // one line: differences from the default, the code path queried
-  double unit_roundoff = 0x1p-53;
+  double unit_roundoff = double_roundoff;
   double tau_factor = 64;
   std::string source;  // where the tolerance claims come from; empty: they are not accepted
   /// Manifolds span the whole contact region, not just a few points of it.

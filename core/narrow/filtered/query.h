@@ -16,7 +16,6 @@
 #include <cmath>
 #include <limits>
 
-#include "core/math/roundoff.h"
 #include "core/math/wide.h"
 #include "core/narrow/narrow_phase.h"
 #include "core/tolerance.h"
@@ -24,7 +23,7 @@
 namespace touchstone::narrow::filtered {
 
 template <class R>
-inline constexpr R u = unit_roundoff<R>;
+inline constexpr R u = std::numeric_limits<R>::epsilon() / 2;
 
 /// A pose as represented in R. The quaternion need not be unit; its square neither overflows nor underflows.
 template <class R>

@@ -12,7 +12,7 @@ namespace {
 // Only charted, never a fault: a manifold for another of several best normals spans another region and is
 // skipped.
 std::optional<double> coverage(const CheckInput& in, const referee::PairTruth& truth) {
-  constexpr double same_normal = 1 - 1e-6;
+  constexpr double same_normal = 1 - 1e-6;  // cosine of 1.4e-3 rad
   const auto [a, b] = std::pair{in.query.a, in.query.b};
   if (in.answer.normal && !(in.answer.normal->dot(truth.normal) >= same_normal)) return std::nullopt;
   const referee::ContactRegion& region = in.truth.contact_region(in.frame, a, b);
@@ -106,6 +106,7 @@ void check_point_depths(const CheckInput& in, CheckOutput& out, double l, double
 // not part of it; a region that is nearly a segment or a point is not required. A region bounded by a rim is
 // spanned by as many points as an engine cares to give, so only polytopes are checked.
 void check_completeness(const CheckInput& in, CheckOutput& out, double l, const referee::PairTruth& truth) {
+  // Slack in units of L; least width in units of L; least share of the region's area.
   constexpr double parallel = 0x1p-52, least_width = 1e-6, least_covered = 0.9;
   const auto [a, b] = std::pair{in.query.a, in.query.b};
   const auto has_rim = [&](int body) {

@@ -71,8 +71,8 @@ std::vector<Derived> derive_axes(const RelationInput& in) {
 std::vector<Derived> derive_scale(const RelationInput& in) {
   if (!pair_asked(in.c)) return {};
   std::vector<Derived> r;
-  for (const double factor : unit_factors) {
-    Derived d = same_pair(in, fmt::format("scaled by 2^{}", std::ilogb(factor)));
+  for (const auto& [factor, words] : {std::pair{enlarged, "scaled by 2^20"}, {reduced, "scaled by 2^-12"}}) {
+    Derived d = same_pair(in, words);
     d.scale = factor;
     if (scale_by(d.c.scene, factor)) r.push_back(std::move(d));
   }
@@ -124,7 +124,8 @@ std::vector<Derived> derive_grow(const RelationInput& in) {
         d.c.scene.shapes[static_cast<std::size_t>(d.c.scene.bodies[static_cast<std::size_t>(i)].shape)];
     if (kind_of(shape) > ShapeKind::ellipsoid) continue;  // the others need not contain the origin
     d.words = i == 0 ? "A grown by an eighth" : "B grown by an eighth";
-    d.rounding = 8 * unit_roundoff<double> * 2 * bounding_radius(shape);
+    constexpr double roundings = 16;  // eight of the diameter, in units of the radius
+    d.rounding = roundings * double_roundoff * bounding_radius(shape);
     change_numbers(shape, [](auto& v, Domain) { v *= 1.125; });
     for (Expected& e : d.expected) e.gap.lo = -infinity;
     return {d};

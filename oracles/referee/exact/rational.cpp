@@ -86,11 +86,13 @@ Rational rational_from_text(const std::string& s) {
   return Rational(Integer(n), Integer(d));
 }
 
+// Nine multiplications form six terms of three factors, each of size <= |a|∞|b|∞|c|∞ and within 5 units of
+// it: 30 units. Differences as factors add one unit of relative error each: 48.
+constexpr Real determinant_rounding = 64 * unit, orientation_rounding = 96 * unit;
+
 int determinant_sign(const Real3& a, const Real3& b, const Real3& c) {
   const Real det = dot(cross(a, b), c);
-  // Nine multiplications form six terms of three factors, each of size <= |a|∞|b|∞|c|∞ and within 5 units of
-  // it.
-  if (std::fabs(det) > 64 * unit * largest(a) * largest(b) * largest(c)) return det > 0 ? 1 : -1;
+  if (std::fabs(det) > determinant_rounding * largest(a) * largest(b) * largest(c)) return det > 0 ? 1 : -1;
   const Integer3 x = on_grid(a, least_exponent(a)), y = on_grid(b, least_exponent(b)),
                  z = on_grid(c, least_exponent(c));
   return dot(cross(x, y), z).sign();
@@ -99,8 +101,7 @@ int determinant_sign(const Real3& a, const Real3& b, const Real3& c) {
 int orientation_sign(const Real3& a, const Real3& b, const Real3& c, const Real3& p) {
   const Real3 u = b - a, v = c - a, w = p - a;
   const Real det = dot(cross(u, v), w);
-  // As above; each difference adds one unit of relative error to its factor.
-  if (std::fabs(det) > 96 * unit * largest(u) * largest(v) * largest(w)) return det > 0 ? 1 : -1;
+  if (std::fabs(det) > orientation_rounding * largest(u) * largest(v) * largest(w)) return det > 0 ? 1 : -1;
   const int e = std::min(std::min(least_exponent(a), least_exponent(b)),
                          std::min(least_exponent(c), least_exponent(p)));
   const Integer3 o = on_grid(a, e);

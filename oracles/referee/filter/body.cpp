@@ -12,6 +12,14 @@ namespace {
 // so it is within (4 + 3 + 1) units of the exact entry, which is at most 1.
 constexpr Real rotation_error = 10 * unit;
 
+// A translation added to what is placed, relative to the sum.
+constexpr Real sum_rounding = 2 * unit;
+// An entry of a product of two matrices, relative to the largest of the second: three products and two sums,
+// and the rows of the first have |·|₁ <= √3.
+constexpr Real matrix_product_rounding = 6 * unit;
+// The local support point of a computed direction (finish_curved), relative to rho times the matrix.
+constexpr Real local_support_rounding = 32 * unit;
+
 Matrix3 rotation_of(const Quat& q) {
   const Real x = q.x, y = q.y, z = q.z, w = q.w;
   const Real n = x * x + y * y + z * z + w * w;
@@ -55,8 +63,8 @@ Real sum_of_sizes(const Real3& p) { return std::fabs(p.x) + std::fabs(p.y) + std
 // product and translation_error + 2 units·|sum| for the translation; the vector's length is at most √3 < 2
 // times that.
 Real placement_error(const Frame& f, Real rho, Real extent) {
-  return 2 *
-         ((f.matrix_error + 4 * unit * largest(f.matrix)) * rho + f.translation_error + 2 * unit * extent);
+  return 2 * ((f.matrix_error + value_rounding * largest(f.matrix)) * rho + f.translation_error +
+              sum_rounding * extent);
 }
 
 void finish_points(Solid& b, std::span<const Vec3> local, const Frame& f) {
@@ -74,7 +82,7 @@ void finish_points(Solid& b, std::span<const Vec3> local, const Frame& f) {
   const Real placed = placement_error(f, rho, b.extent);
   b.spin_radius += placed;
   b.extent += placed;
-  b.error = placed + 4 * unit * b.extent;
+  b.error = placed + value_rounding * b.extent;
 }
 
 // Upper bound of the spectral norm: √(1 + |MᵀM - I|∞).
@@ -87,7 +95,7 @@ Real stretch(const Frame& f) {
     worst = std::max(worst, sum);
   }
   const Real m = 1 + largest(f.matrix);
-  return std::sqrt(1 + worst + 32 * m * (f.matrix_error + unit * m)) * (1 + 8 * unit);
+  return std::sqrt(1 + worst + 32 * m * (f.matrix_error + unit * m)) * (1 + dot_rounding);
 }
 
 // A curved core's local support point maximises m̃·x for the computed m̃ = Mᵀn, |m̃ - Mᵀn| <= 3(3 units·m +
@@ -99,9 +107,12 @@ void finish_curved(Solid& b, const Frame& f, Real rho, Real reach) {
   b.centre = f.translation;
   b.spin_radius = stretch(f) * reach;
   b.extent = norm(f.translation) + b.spin_radius;
-  b.error =
-      placement_error(f, rho, b.extent) + (32 * unit * m + 6 * f.matrix_error) * rho + 4 * unit * b.extent;
+  b.error = placement_error(f, rho, b.extent) + (local_support_rounding * m + 6 * f.matrix_error) * rho +
+            value_rounding * b.extent;
 }
+
+// Above √3, the largest |x|₁ of a unit vector.
+constexpr Real root_three = 1.75L;
 
 struct Sizes {
   Solid::Kind kind;
@@ -111,7 +122,7 @@ struct Sizes {
 };
 
 Real reach_of(Real radius, Real half_height) {
-  return std::sqrt(radius * radius + half_height * half_height) * (1 + 8 * unit);
+  return std::sqrt(radius * radius + half_height * half_height) * (1 + dot_rounding);
 }
 
 std::optional<Sizes> curved_sizes(const Shape& s) {
@@ -127,7 +138,7 @@ std::optional<Sizes> curved_sizes(const Shape& s) {
                  reach_of(c->radius, c->half_height)};
   if (const auto* e = std::get_if<Ellipsoid>(&s)) {
     const Real3 a = referee::to_real(e->semi_axes);
-    return Sizes{Solid::Kind::ellipsoid, a, 1.75L * largest(a), largest(a)};
+    return Sizes{Solid::Kind::ellipsoid, a, root_three * largest(a), largest(a)};
   }
   return std::nullopt;
 }
@@ -179,11 +190,12 @@ Frame frame_at(const Placed& p, const Motion& m, double t, const Vec3& origin) {
     // Rows of r have |·|₁ <= √3, columns of the matrix at most 3 entries of size `size`.
     const Real size = largest(f.matrix);
     f.matrix = r * f.matrix;
-    f.matrix_error = 3 * turn_error * (size + f.matrix_error) + 2 * f.matrix_error + 6 * unit * size;
+    f.matrix_error =
+        3 * turn_error * (size + f.matrix_error) + 2 * f.matrix_error + matrix_product_rounding * size;
   }
   const Real3 shift = static_cast<Real>(t) * referee::to_real(m.linear);
   f.translation = f.translation + shift;
-  f.translation_error += 2 * unit * (largest(shift) + largest(f.translation));
+  f.translation_error += sum_rounding * (largest(shift) + largest(f.translation));
   return f;
 }
 
@@ -244,7 +256,7 @@ Solid make_orbit(const Solid& b, const Real3& centre, const Real3& angular) {
   o.radius = b.radius;
   o.extent = norm(centre) + b.spin_radius;
   o.spin_radius = b.spin_radius;
-  o.error = b.error + 64 * unit * o.extent;
+  o.error = b.error + chain_rounding * o.extent;
   if (b.kind != Solid::Kind::points) {
     o.points = {centre};
     o.radius = round_up(static_cast<Real>(b.radius) + b.spin_radius);
@@ -265,7 +277,7 @@ void add_sweep(Solid& b, const Real3& sweep, Real sweep_error) {
   b.sweep = sweep;
   b.is_swept = true;
   b.extent += 2 * largest(sweep);
-  b.error += 2 * sweep_error + 8 * unit * b.extent;
+  b.error += 2 * sweep_error + dot_rounding * b.extent;
 }
 
 namespace {
@@ -298,7 +310,6 @@ bool fits(Real x) { return x < double_range; }
 // point: rounding the matrix adds v·m to each entry, so, as in finish_curved with matrix_error = v·m and
 // translation_error = v·extent, 2(5v·m·rho + 3v·extent) + (32 + 6)v·m·rho + 4v·extent.
 bool round_to_double(const Solid& b, BasicSolid<double>& out) {
-  constexpr Real v = unit_of<double>;
   using Kind = Solid::Kind;
   out.kind = static_cast<BasicSolid<double>::Kind>(b.kind);
   out.radius = b.radius;
@@ -310,23 +321,23 @@ bool round_to_double(const Solid& b, BasicSolid<double>& out) {
   out.points.resize(b.points.size());
   for (std::size_t i = 0; i < b.points.size(); ++i) out.points[i] = to_double3(b.points[i]);
   out.sweep = to_double3(b.sweep);
-  Real error = b.error + 16 * v * b.extent;
+  Real error = b.error + projection_rounding_of<double> * b.extent;
   if (b.kind != Kind::points) {
     for (int i = 0; i < 3; ++i) out.matrix.row[i] = to_double3(b.matrix.row[i]);
     out.centre = to_double3(b.centre);
     out.size = to_double3(b.size);
-    error += 64 * v * b.extent;
+    error += chain_rounding_of<double> * b.extent;
     if (b.kind != Kind::orbit) {
-      const Real rho = b.kind == Kind::ellipsoid ? 1.75L * largest(b.size) : 1.5L * b.size.x + b.size.y;
+      const Real rho = b.kind == Kind::ellipsoid ? root_three * largest(b.size) : 1.5L * b.size.x + b.size.y;
       const Real m = largest(b.matrix);
       if (!fits(m) || !fits(rho)) return false;
-      error += 64 * v * m * rho;
+      error += chain_rounding_of<double> * m * rho;
     }
   }
-  if (b.is_swept) error += 8 * v * b.extent;
-  out.error = static_cast<double>(error) * (1 + 4 * unit_of<double>);
-  out.extent = static_cast<double>(b.extent) * (1 + 4 * unit_of<double>);
-  out.spin_radius = static_cast<double>(b.spin_radius) * (1 + 4 * unit_of<double>);
+  if (b.is_swept) error += dot_rounding_of<double> * b.extent;
+  out.error = static_cast<double>(error) * (1 + value_rounding_of<double>);
+  out.extent = static_cast<double>(b.extent) * (1 + value_rounding_of<double>);
+  out.spin_radius = static_cast<double>(b.spin_radius) * (1 + value_rounding_of<double>);
   return true;
 }
 

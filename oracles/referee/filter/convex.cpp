@@ -95,7 +95,7 @@ Operand make_operand(const Placed& p, const TriangleMesh& mesh, std::size_t tria
 }
 
 Real target_width(const Difference& d) {
-  const Real noise = 64 * unit * d.extent + 4 * d.error;
+  const Real noise = chain_rounding * d.extent + 4 * d.error;
   if (!is_curved(d.a) && !is_curved(d.b)) return noise;
   return std::max(noise, static_cast<Real>(limits::width_factor) * d.extent);
 }
@@ -108,15 +108,14 @@ namespace {
 // inside. The distance of a face is det/|area vector|, whose computed length is within 32v·s² (edges up to
 // 2s, a cross product, a norm).
 bool holds_origin(const BasicSimplex<double>& x, double s, double error) {
-  constexpr double v = unit_of<double>;
   constexpr int face[4][3] = {{0, 1, 2}, {0, 3, 1}, {1, 3, 2}, {2, 3, 0}};
   if (x.size != 4) return false;
   int sign = 0;
   for (const auto& f : face) {
     const auto w = [&](int k) -> const Double3& { return x.vertex[static_cast<std::size_t>(f[k])].w; };
-    const double det = dot(cross(w(0), w(1)), w(2)), slack = 64 * v * s * s * s;
-    const double area = norm(triangle_normal(w(0), w(1), w(2))) + 64 * v * s * s;
-    if (!(std::abs(det) - slack > error * area * (1 + 8 * v))) return false;
+    const double det = dot(cross(w(0), w(1)), w(2)), slack = chain_rounding_of<double> * s * s * s;
+    const double area = norm(triangle_normal(w(0), w(1), w(2))) + chain_rounding_of<double> * s * s;
+    if (!(std::abs(det) - slack > error * area * (1 + dot_rounding_of<double>))) return false;
     if (sign != 0 && (det > 0) != (sign > 0)) return false;
     sign = det > 0 ? 1 : -1;
   }
@@ -144,7 +143,7 @@ struct Level0 {
     if (gjk.gap.hi - d->radius + d->radius_error <= 0 || holds_origin(gjk.simplex, d->extent, d->error))
       verdict = Verdict::overlap;
   }
-  double target() const { return 64 * unit_of<double> * d->extent + 4 * d->error; }
+  double target() const { return chain_rounding_of<double> * d->extent + 4 * d->error; }
 
   /// The simplex's vertices in extended precision; empty when they are not pairs of core vertices.
   std::optional<Simplex> simplex(const Difference& fine) const {
@@ -260,8 +259,8 @@ class Judge {
   static Solid core_point(const Real3& p, Real error) {
     Solid s;
     s.points = {p};
-    s.extent = norm(p) * (1 + 8 * unit);
-    s.error = error + 8 * unit * s.extent;
+    s.extent = norm(p) * (1 + dot_rounding);
+    s.error = error + dot_rounding * s.extent;
     return s;
   }
 
@@ -297,7 +296,7 @@ class Judge {
     const ExactPair p = make_exact(a_.exact_body(), b_.exact_body());
     const ExactVerdict v = nearest(p, index_pairs(nearest_));
     if (!(v.core_distance > 0) || !std::isfinite(v.core_distance)) return;
-    const Real slack = 16 * unit * v.core_distance;
+    const Real slack = projection_rounding * v.core_distance;
     gap_.raise(v.core_distance - slack, -direction_of(v));
     gap_.lower(v.core_distance + slack);
     nearest_ = {};
@@ -315,7 +314,8 @@ class Judge {
 
   bool confirm_level0(int cap) {
     if (!level0_.d || level0_.gjk.simplex.size != 4) return false;
-    const auto found = search(*level0_.d, level0_.gjk.simplex, 16 * unit_of<double> * level0_.d->extent, cap);
+    const auto found =
+        search(*level0_.d, level0_.gjk.simplex, projection_rounding_of<double> * level0_.d->extent, cap);
     const Confirmed c = confirm(d_, *level0_.d, found, 8 * target_);
     take(c.gap, c.nearest);
     if (c.doubles_prove) level0_.verdict = Verdict::overlap;

@@ -144,7 +144,7 @@ BasicGjkResult<T> gjk(const BasicDifference<T>& d, std::span<const Triple<T>> hi
   for (int i = 0; i < iteration_cap; ++i) {
     const T lo = r.gap.lo, hi = r.gap.hi;
     // Weights sum to 1 within 8 units and the sum is rounded: 16 units of the extent.
-    r.gap.lower(norm(s.nearest) + 16 * unit_of<T> * d.extent + d.error);
+    r.gap.lower(norm(s.nearest) + projection_rounding_of<T> * d.extent + d.error);
     if (s.size == 4) {
       r.exit = Exit::encloses_origin;
       return r;

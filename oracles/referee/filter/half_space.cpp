@@ -11,6 +11,9 @@ namespace {
 
 constexpr Real infinity = std::numeric_limits<Real>::infinity();
 
+// A normal turned by a matrix, relative to the largest entries of both: three components, each a dot product.
+constexpr Real turned_normal_rounding = 12 * unit;
+
 struct Bounds {
   Real lo, hi;
 };
@@ -18,14 +21,14 @@ struct Bounds {
 // (m·x - offset)/|m| for |x| <= extent, x known within `error`: the products carry 4 units each, and |m| is
 // an interval.
 Bounds signed_distance(const Plane& p, Real m_dot_x, Real extent, Real error) {
-  const Real length = norm(p.normal), length_error = 2 * p.normal_error + 4 * unit * length;
+  const Real length = norm(p.normal), length_error = 2 * p.normal_error + value_rounding * length;
   const Real value = m_dot_x - p.offset;
-  const Real slack = 2 * p.normal_error * extent + length * (error + 8 * unit * extent) + p.offset_error +
-                     4 * unit * (std::fabs(p.offset) + std::fabs(m_dot_x));
+  const Real slack = 2 * p.normal_error * extent + length * (error + dot_rounding * extent) + p.offset_error +
+                     value_rounding * (std::fabs(p.offset) + std::fabs(m_dot_x));
   const auto divide = [&](Real x, bool down) {
     const Real by = (x > 0) == down ? length + length_error : length - length_error;
     const Real q = x / by;
-    return down ? q - 4 * unit * std::fabs(q) : q + 4 * unit * std::fabs(q);
+    return down ? q - value_rounding * std::fabs(q) : q + value_rounding * std::fabs(q);
   };
   return {divide(value - slack, true), divide(value + slack, false)};
 }
@@ -66,7 +69,7 @@ std::optional<Plane> plane_of(const Placed& half_space, const Vec3& origin) {
   const Real size = largest(n);
   if (std::holds_alternative<Pose>(half_space.pose)) {
     p.normal = f.matrix * n;
-    p.normal_error = (3 * f.matrix_error + 12 * unit) * size;
+    p.normal_error = (3 * f.matrix_error + turned_normal_rounding) * size;
     p.offset = h.offset;
   } else {
     // {M x + t : n·x <= d} = {y : cof(M) n·(y - t) <= d det M}, with the sign of det M.
@@ -75,18 +78,18 @@ std::optional<Plane> plane_of(const Placed& half_space, const Vec3& origin) {
     // Products of a few doubles stay within the range of Real.
     const auto as_real = [](const Rational& x) { return x.convert_to<Real>(); };
     p.normal = {as_real(exact_plane.normal.x), as_real(exact_plane.normal.y), as_real(exact_plane.normal.z)};
-    p.normal_error = 4 * unit * largest(p.normal);
+    p.normal_error = value_rounding * largest(p.normal);
     const Rational at_origin = exact_plane.offset - dot(exact_plane.normal, exact(origin));
     p.offset = as_real(at_origin);
-    p.offset_error = 4 * unit * std::fabs(p.offset);
+    p.offset_error = value_rounding * std::fabs(p.offset);
     return p;
   }
   const Real shift = dot(p.normal, f.translation);
   p.offset += shift;
   const Real reach = 2 * largest(f.translation);
-  p.offset_error = reach * (2 * p.normal_error + 8 * unit * largest(p.normal)) +
+  p.offset_error = reach * (2 * p.normal_error + dot_rounding * largest(p.normal)) +
                    2 * f.translation_error * largest(p.normal) +
-                   4 * unit * (std::fabs(p.offset) + std::fabs(shift));
+                   value_rounding * (std::fabs(p.offset) + std::fabs(shift));
   return p;
 }
 
@@ -145,7 +148,7 @@ ConvexTruth judge_half_spaces(const Placed& a, const Placed& b, const Vec3& orig
   t.verdict = between > 0 ? Verdict::disjoint : Verdict::overlap;
   const Real value = between.convert_to<Real>() / norm(p->normal);
   const Real slack =
-      16 * unit * std::fabs(value) + std::fabs(value) * 4 * (p->normal_error / norm(p->normal));
+      projection_rounding * std::fabs(value) + std::fabs(value) * 4 * (p->normal_error / norm(p->normal));
   t.lo = value - slack;
   t.hi = value + slack;
   return t;

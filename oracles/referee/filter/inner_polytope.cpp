@@ -158,7 +158,7 @@ class Epa {
 
  private:
   static void note(Minima& m, const Triple<T>& normal, T value, T limit) {
-    constexpr double same_direction = 1e-9;
+    constexpr double same_direction = 1e-9;  // distance of unit normals; far above their rounding
     for (const auto& known : m.found)
       if (norm(known.normal - normal) < same_direction) return;
     // Beyond the limit only the least one is kept.
@@ -183,7 +183,7 @@ class Epa {
   /// Four support points that span a volume; nullopt when D is flat up to rounding; `gap` has then been
   /// raised along the normals of the flat, which proves it.
   std::optional<std::array<BasicVertex<T>, 4>> tetrahedron(const BasicSimplex<T>& seed) {
-    const T tiny = 64 * unit_of<T> * d_.extent;
+    const T tiny = chain_rounding_of<T> * d_.extent;
     if (seed.size == 4) {
       const std::array<BasicVertex<T>, 4> t = seed.vertex;
       const Triple<T> n = cross(t[1].w - t[0].w, t[2].w - t[0].w);
@@ -311,7 +311,7 @@ class Epa {
   bool sees(const Facet<T>& f, const Triple<T>& p) const {
     if constexpr (std::is_same_v<T, Real>)
       if (orientation_ == Orientation::exact) return orientation_sign(w(f.v[0]), w(f.v[1]), w(f.v[2]), p) > 0;
-    return dot(f.normal, p) - f.offset > 8 * unit_of<T> * d_.extent;
+    return dot(f.normal, p) - f.offset > dot_rounding_of<T> * d_.extent;
   }
 
   // The given facet; with exact signs the new point may turn out to be behind the plane of a sliver, and then
@@ -361,7 +361,7 @@ class Epa {
       r_.nearest.vertex[at(i)] = r_.polytope.vertices[at(facets_[at(nearest)].v[at(i)])];
     reduce(r_.nearest);
     // A point of D, whichever side of the origin it is on; roundings of the bound as in gjk.cpp.
-    r_.gap.lower(norm(r_.nearest.nearest) + 16 * unit_of<T> * d_.extent + d_.error);
+    r_.gap.lower(norm(r_.nearest.nearest) + projection_rounding_of<T> * d_.extent + d_.error);
     keep_live(nearest);
     if constexpr (std::is_same_v<T, Real>) {
       const Real expected = facets_[at(nearest)].reach.value;
@@ -385,7 +385,7 @@ class Epa {
       r_.polytope.facets.push_back(g.v);
       r_.polytope.neighbours.push_back(
           {mark_[at(g.neighbour[0])], mark_[at(g.neighbour[1])], mark_[at(g.neighbour[2])]});
-      r_.reach.push_back(g.reach.value - 16 * unit_of<T> * size_of(g));
+      r_.reach.push_back(g.reach.value - projection_rounding_of<T> * size_of(g));
       r_.det.push_back(g.reach.det);
     }
   }
@@ -457,6 +457,9 @@ struct Turning {
   Real forward = 0, backward = 0, least = 0;
 };
 
+// det(a, b, c)/(|a||b||c|): a determinant, three norms and a quotient.
+constexpr Real sine_rounding = 32 * unit;
+
 // One facet of the proof in extended precision. False when it proves no distance.
 bool add_facet(Turning& t, const Real3& a, const Real3& b, const Real3& c) {
   const Real size = std::max(largest(a), std::max(largest(b), largest(c)));
@@ -464,12 +467,12 @@ bool add_facet(Turning& t, const Real3& a, const Real3& b, const Real3& c) {
   // Any direction proves a distance; if the plane's own already proves l, no better one is sought. A dot
   // product, a norm and a division: within 8 units of the largest |v_i| <= 2·size.
   const Real3 n = triangle_normal(a, b, c);
-  Real reach = forward ? least_along(n, a, b, c) - 16 * unit * size : Real{0};
-  if (!(reach >= t.least)) reach = reach_of(a, b, c).value - 16 * unit * size;
+  Real reach = forward ? least_along(n, a, b, c) - projection_rounding * size : Real{0};
+  if (!(reach >= t.least)) reach = reach_of(a, b, c).value - projection_rounding * size;
   if (!(reach > 0)) return false;
   t.least = std::min(t.least, reach);
   if (forward) {
-    t.forward += std::max(dot(cross(a, b), c) / (4 * norm(a) * norm(b) * norm(c)) - 32 * unit, Real{0});
+    t.forward += std::max(dot(cross(a, b), c) / (4 * norm(a) * norm(b) * norm(c)) - sine_rounding, Real{0});
   } else {
     t.backward += norm(n) / (reach * reach);
   }
@@ -505,9 +508,10 @@ Confirmed confirm(const Difference& d, const BasicDifference<double>& d0, const 
   Confirmed r;
   const auto& p = found.polytope;
   if (found.nearest_facet < 0 || !is_closed(p)) return r;
-  constexpr double v = unit_of<double>;
   constexpr Real rounding = 0x1p-40L;  // more than the rounding of the quotient below
-  const double off = 8 * v * d0.extent, det_slack = 256 * v * d0.extent * d0.extent * d0.extent;
+  constexpr double det_rounding = 256 * unit_of<double>;  // as above
+  const double off = dot_rounding_of<double> * d0.extent,
+               det_slack = det_rounding * d0.extent * d0.extent * d0.extent;
   const auto vertex = [&](int i) { return vertex_at(d, p.vertices[at(i)].ia, p.vertices[at(i)].ib); };
   const auto facet = [&](std::size_t f) {
     return std::array{vertex(p.facets[f][0]), vertex(p.facets[f][1]), vertex(p.facets[f][2])};
@@ -519,7 +523,7 @@ Confirmed confirm(const Difference& d, const BasicDifference<double>& d0, const 
   r.gap.raise(-d.width_above(d.support(n), n), n);
   for (const Vertex& q : nearest) r.nearest.vertex[at(r.nearest.size++)] = q;
   reduce(r.nearest);
-  r.gap.lower(norm(r.nearest.nearest) + 16 * unit * d.extent + d.error);
+  r.gap.lower(norm(r.nearest.nearest) + projection_rounding * d.extent + d.error);
   r.doubles_prove = true;
   Turning t{0, 0, expected.value};
   for (std::size_t f = 0; f < p.facets.size(); ++f) {

@@ -64,7 +64,7 @@ std::optional<Revolved> of_curved(const Solid& b) {
   r.axis = (1 / length) * m;
   const Real3 e = unit_across(p, r.axis), f = cross(r.axis, e);
   const Real off = norm(p - e) + std::fmin(norm(q - f), norm(q + f));
-  r.slack = r.radial * (off + 8 * unit);
+  r.slack = r.radial * (off + dot_rounding);
   r.axial *= length;
   return r;
 }
@@ -72,7 +72,7 @@ std::optional<Revolved> of_curved(const Solid& b) {
 std::optional<Revolved> revolved(const Solid& b) {
   if (b.is_swept || b.kind == Solid::Kind::orbit) return std::nullopt;
   auto r = b.kind == Solid::Kind::points ? of_points(b) : of_curved(b);
-  if (r) r->slack += b.error + 16 * unit * b.extent;
+  if (r) r->slack += b.error + projection_rounding * b.extent;
   return r;
 }
 
@@ -143,8 +143,12 @@ struct PolygonBound {
   Point2 direction{1, 0};
 };
 
+// A support value of the section and the distance of an edge, relative to the extent: each is the quotient of
+// a product of two coordinates and a length.
+constexpr Real polygon_rounding = 32 * unit;
+
 PolygonBound grow(const Section& s, Real extent, Real target) {
-  const Real noise = 32 * unit * extent;
+  const Real noise = polygon_rounding * extent;
   PolygonBound r;
   const auto support_along = [&](const Point2& n) {
     const Point2 p = s.support(n);
@@ -195,12 +199,12 @@ MeridianBound meridian_bound(const Difference& d, Real target) {
   const Real3 &u = a->axis, skew = cross(u, b->axis);
   if (largest(u) == 0) return m;
   // Turning B by the angle between the axes moves none of its points farther than 2|sin|·(its size).
-  const Real slack = a->slack + b->slack + 2 * (norm(skew) + 8 * unit) * (b->radial + b->axial);
+  const Real slack = a->slack + b->slack + 2 * (norm(skew) + dot_rounding) * (b->radial + b->axial);
   const Real3 e = a->centre - b->centre, across = e - dot(u, e) * u;
   // The length of `across` is accurate to a few units of |e| even where its direction is noise.
   const Section section(*a, *b, dot(u, b->axis) < 0, {norm(across), dot(u, e)});
   const PolygonBound p = grow(section, d.extent, target);
-  const Real rounding = 64 * unit * d.extent;
+  const Real rounding = chain_rounding * d.extent;
   m.applies = true;
   const Real l = p.inner - slack - rounding;
   if (l > 0) m.gap.lower(-l);

@@ -28,8 +28,8 @@ struct BasicDifference {
   BasicDifference(const BasicSolid<T>& a_, const BasicSolid<T>& b_)
       : a(a_),
         b(b_),
-        extent((a_.extent + b_.extent) * (1 + 4 * unit_of<T>)),
-        error(a_.error + b_.error + 5 * unit_of<T> * (a_.extent + b_.extent)),
+        extent((a_.extent + b_.extent) * (1 + value_rounding_of<T>)),
+        error(a_.error + b_.error + difference_rounding_of<T> * (a_.extent + b_.extent)),
         radius(static_cast<T>(a_.radius) + static_cast<T>(b_.radius)),
         radius_error(unit_of<T> * radius) {}
 
@@ -42,7 +42,7 @@ struct BasicDifference {
     using std::sqrt;
     const T length_sq = dot(n, n), length = sqrt(length_sq);
     if (!(length_sq > least_square<T>)) return std::numeric_limits<T>::infinity();
-    return dot(n, v.w) / length + error + 8 * unit_of<T> * extent;
+    return dot(n, v.w) / length + error + dot_rounding_of<T> * extent;
   }
 };
 using Difference = BasicDifference<Real>;

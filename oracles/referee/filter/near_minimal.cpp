@@ -13,8 +13,10 @@ namespace {
 
 constexpr std::size_t normal_cap = 256;
 constexpr int starts = 512;
+// Directions count as nearly best within this part of the least depth, and at least this part of the extent.
+// Tested by: tests/referee "within the slack faces count as equal, beyond it as second best".
 constexpr Real relative_slack = 1e-6L, absolute_slack = 1e-9L;
-constexpr Real golden_angle = 2.399963229728653322L;
+constexpr Real golden_angle = 2.399963229728653322L;  // π(3 - √5) rad
 // A descent stops at a step this short, or when the slope is this small a part of the extent.
 constexpr Real least_step = 1e-10L, least_slope = 1e-12L;
 // A descent ends somewhat above its minimum: this part of the extent is allowed on top of the slack.

@@ -77,7 +77,7 @@ void prove_by_rounded_normal(PairTruth& r, const Difference& d) {
   if (!(r.gap.lo < 0)) return;
   const Real3 n = to_real(r.normal);
   const Real above = d.width_above(d.support(n), n) + d.radius + d.radius_error;
-  r.gap.lo = std::min(r.gap.lo, round_down(-above - 4 * unit * std::fabs(above)));
+  r.gap.lo = std::min(r.gap.lo, round_down(-above - value_rounding * std::fabs(above)));
 }
 
 Certificate rounded_plane(const ExactVerdict& v, const ConvexTruth& t, const Vec3& origin) {

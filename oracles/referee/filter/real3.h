@@ -16,13 +16,35 @@ namespace touchstone::referee {
 using Real = long double;
 static_assert(std::numeric_limits<Real>::digits == 64,
               "the referee's error bounds assume x87 extended precision");
-inline constexpr Real unit = 0x1p-64L;
+inline constexpr Real unit = 0x1p-64L;  // half an ulp of 1
 
 /// Half an ulp of 1. Every bound in this room is a multiple of the unit of the arithmetic it is about.
 template <class T>
 inline constexpr T unit_of = static_cast<T>(1) /
                              static_cast<T>(T(1ULL << 32) * T(1ULL << (std::numeric_limits<T>::digits - 32)));
 static_assert(unit_of<Real> == unit && unit_of<double> == 0x1p-53);
+
+/// Error bounds of short computations, as counts of roundings of one unit each, with some to spare.
+/// value: a quotient, a norm, or a product or sum of a few numbers, relative to it or to its largest term.
+/// difference: a vertex of a difference times a direction, relative to the sum of the extents.
+/// dot: a dot product, relative to the product of the lengths; a placed point, relative to its distance.
+/// projection: a dot product divided by a norm, or a weighted sum of points, relative to their distance.
+/// chain: what is computed from placed points in several such steps, relative to their extent.
+inline constexpr int value_roundings = 4, difference_roundings = 5, dot_roundings = 8,
+                     projection_roundings = 16, chain_roundings = 64;
+template <class T>
+inline constexpr T value_rounding_of = value_roundings* unit_of<T>;
+template <class T>
+inline constexpr T difference_rounding_of = difference_roundings* unit_of<T>;
+template <class T>
+inline constexpr T dot_rounding_of = dot_roundings* unit_of<T>;
+template <class T>
+inline constexpr T projection_rounding_of = projection_roundings* unit_of<T>;
+template <class T>
+inline constexpr T chain_rounding_of = chain_roundings* unit_of<T>;
+inline constexpr Real value_rounding = value_rounding_of<Real>, dot_rounding = dot_rounding_of<Real>,
+                      projection_rounding = projection_rounding_of<Real>,
+                      chain_rounding = chain_rounding_of<Real>;
 
 /// The square of a length below this may have lost digits to underflow; nothing is divided by its root.
 template <class T>
@@ -101,7 +123,7 @@ Triple<T> unit_across(const Triple<T>& a, const Triple<T>& u) {
   Triple<T> e = normalized(a - dot(a, u) * u);
   for (int i = 0; i < 2; ++i) e = normalized(e - dot(e, u) * u);
   using std::abs;
-  return abs(dot(e, u)) <= 4 * unit_of<T> && largest(e) > 0 ? e : normalized(perpendicular(u));
+  return abs(dot(e, u)) <= value_rounding_of<T> && largest(e) > 0 ? e : normalized(perpendicular(u));
 }
 
 /// Normal of a triangle, counter-clockwise, from the two edges that meet at its widest angle: for two long

@@ -16,6 +16,14 @@ using Wide3 = Triple<Wide>;
 template <>
 inline const Wide unit_of<Wide> = ldexp(Wide(1), -237);
 template <>
+inline const Wide value_rounding_of<Wide> = value_roundings* unit_of<Wide>;
+template <>
+inline const Wide difference_rounding_of<Wide> = difference_roundings* unit_of<Wide>;
+template <>
+inline const Wide dot_rounding_of<Wide> = dot_roundings* unit_of<Wide>;
+template <>
+inline const Wide projection_rounding_of<Wide> = projection_roundings* unit_of<Wide>;
+template <>
 inline const Wide least_square<Wide> = ldexp(Wide(1), -100000);
 
 }  // namespace touchstone::referee

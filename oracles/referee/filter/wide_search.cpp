@@ -76,6 +76,8 @@ constexpr std::size_t max_pairs_of_parts = 256;  // a pair takes a hundredth of 
 constexpr int rounding_bits = -200, inward_bits = -120, gap_bits = -80;
 // Bounds the error of core points, in units of the extent, with room to spare.
 constexpr Real core_rounding = 0x1p-130L;
+// Conversion to 64 bits, and a sum, relative to it.
+constexpr Real conversion_rounding = 2 * unit;
 // Distances, as powers of two of the extent, within which a simpler number is looked for.
 constexpr int guess_bits[] = {-200, -100, -60, -40, -20, -10, -6};
 
@@ -265,7 +267,7 @@ std::optional<WideGap> wide_gap(const Operand& a, const Operand& b) {
   const Real above = static_cast<Real>(norm(g.simplex.nearest));
   const Wide3& u = g.gap.direction;
   return WideGap{{static_cast<Real>(u.x), static_cast<Real>(u.y), static_cast<Real>(u.z)},
-                 above + 2 * unit * (above + static_cast<Real>(d.extent) * core_rounding)};
+                 above + conversion_rounding * (above + static_cast<Real>(d.extent) * core_rounding)};
 }
 
 }  // namespace touchstone::referee

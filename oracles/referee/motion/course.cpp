@@ -35,6 +35,8 @@ constexpr Real shortened = 1 - 0x1p-50L;
 constexpr double long_step = 0.01;
 // A step by speed below this makes no real progress when the gap is down in the rounding.
 constexpr double creeping_step = 0x1p-30;
+// A normal divided by its length and turned, relative to its length.
+constexpr Real unit_normal_rounding = 32 * unit;
 // The shortest step by acceleration that is tried.
 constexpr double least_step = 0x1p-52;
 
@@ -110,13 +112,13 @@ ConvexTruth Course::against_turned_plane(double t) const {
   const Real3 m{real(plane.normal.x), real(plane.normal.y), real(plane.normal.z)};
   const Real length = norm(m);
   const Real3 n = turned.matrix * ((1 / length) * m);
-  const Real n_error = 3 * turned.matrix_error + 32 * unit;
+  const Real n_error = 3 * turned.matrix_error + unit_normal_rounding;
   const Real height = real(plane.offset - dot(plane.normal, exact(origin_))) / length;
   const Solid body = a_.at(t, origin_).body;
   const SupportPoint s = support(body, -n);
   const Real value = dot(n, s.point) - height - body.radius;
   const Real slack = 2 * n_error * (body.extent + std::fabs(height)) + 2 * body.error +
-                     16 * unit * (body.extent + body.radius + std::fabs(height));
+                     projection_rounding * (body.extent + body.radius + std::fabs(height));
   r.lo = value - slack;
   r.hi = value + slack;
   r.normal = n;
@@ -129,10 +131,10 @@ ConvexTruth Course::against_turned_plane(double t) const {
 /// Upper bound of the closing speed along n at any time.
 Real Course::closing_speed(const Real3& n, bool turning) const {
   const Real3 v = a_.velocity();
-  Real mu = dot(v, n) + 16 * unit * norm(v);
-  if (turning && spin_a_ > 0) mu += spin_a_ * norm(cross(n, a_.angular())) * (1 + 16 * unit);
-  if (turning && spin_b_ > 0) mu += spin_b_ * norm(cross(n, b_->angular())) * (1 + 16 * unit);
-  return mu > 0 ? mu / norm(n) * (1 + 16 * unit) : 0;
+  Real mu = dot(v, n) + projection_rounding * norm(v);
+  if (turning && spin_a_ > 0) mu += spin_a_ * norm(cross(n, a_.angular())) * (1 + projection_rounding);
+  if (turning && spin_b_ > 0) mu += spin_b_ * norm(cross(n, b_->angular())) * (1 + projection_rounding);
+  return mu > 0 ? mu / norm(n) * (1 + projection_rounding) : 0;
 }
 
 double Course::clear_without_turning(double t, const ConvexTruth& g) const {
@@ -169,8 +171,8 @@ std::vector<Real> Course::least_along(const std::vector<Real3>& directions, doub
   const Difference d(x.body, y.body);
   std::vector<Real> r;
   for (const Real3& n : directions)
-    r.push_back(
-        -(d.width_above(d.support(n), n) + d.radius + d.radius_error + 4 * unit * (d.extent + d.radius)));
+    r.push_back(-(d.width_above(d.support(n), n) + d.radius + d.radius_error +
+                  value_rounding * (d.extent + d.radius)));
   return r;
 }
 
@@ -190,7 +192,7 @@ Course::Clear Course::by_acceleration(double t, const ConvexTruth& g, const Clea
     if (b_ && b_->spins()) directions.push_back(turned(n, b_->angular(), length));
     const std::vector<Real> then = least_along(directions, end);
     for (std::size_t i = 0; i < then.size(); ++i) {
-      const Real swing = norm(directions[i] - n) + 16 * unit * static_cast<Real>(i > 0);
+      const Real swing = norm(directions[i] - n) + projection_rounding * static_cast<Real>(i > 0);
       const Real bend = (acceleration_ * length * length / 2 + length * swing * approach_) * rounding_factor;
       const Real least = std::min(now, then[i]);
       if (!(least > 0) || !(bend < now + then[i] + 2 * least)) continue;

@@ -33,7 +33,7 @@ std::optional<Room> room_between(const Placed& a, const Motion& ma, const Placed
 Bracket scaled(const Rational& room, const Rational3& normal) {
   const Rational sq = dot(normal, normal);
   const Real value = room.convert_to<Real>() / std::sqrt(sq.convert_to<Real>());
-  const Real slack = 16 * unit * std::fabs(value);
+  const Real slack = projection_rounding * std::fabs(value);
   return {round_down(value - slack), round_up(value + slack)};
 }
 

@@ -19,7 +19,12 @@ namespace touchstone::referee {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr double golden = 0.6180339887498949;  // 1/φ
+// Newton's steps towards a first contact; the sweeps bracket what they leave.
+constexpr int newton_steps = 64;
+// Halvings of a bracket within [0, 1], which ends earlier when its ends are neighbouring doubles.
+constexpr int most_halvings = 64;
+// Golden-section steps that narrow an interval within [0, 1] to 2^-62.
+constexpr int golden_steps = 90;
 // Lengths are fractions of the step. First length of the sweeps that bracket a translation's contact.
 constexpr double first_sweep = 0x1p-60;
 // Below this advance the gap's own direction is worth the cost of computing it.
@@ -36,7 +41,7 @@ double next_time(double t, double step) { return std::min(1.0, std::max(std::nex
 // bisection narrows the bracket to neighbouring doubles, or to what can be decided for curved pairs.
 TimeTruth bracket_contact(Course& c) {
   double lo = 0;
-  for (int i = 0; i < 64; ++i) {
+  for (int i = 0; i < newton_steps; ++i) {
     const ConvexTruth g = c.at(lo);
     const double next = c.clear_without_turning(lo, g);
     if (!(next > lo) || next > 1) break;
@@ -146,22 +151,22 @@ double contact_after(Course& c, double t, double& clear_at) {
 // Nearest approach in [from, to] by golden-section search on the upper bound of the gap. Returns only times
 // at which contact is certified.
 double contact_within(Course& c, double from, double to) {
-  double x = to - golden * (to - from), y = from + golden * (to - from);
+  double x = to - limits::golden * (to - from), y = from + limits::golden * (to - from);
   ConvexTruth gx = c.at(x, Effort::gap), gy = c.at(y, Effort::gap);
-  for (int i = 0; i < 90 && to > from; ++i) {
+  for (int i = 0; i < golden_steps && to > from; ++i) {
     if (gx.verdict == Verdict::overlap) return x;
     if (gy.verdict == Verdict::overlap) return y;
     if (gx.hi <= gy.hi) {
       to = y;
       y = x;
       gy = gx;
-      x = to - golden * (to - from);
+      x = to - limits::golden * (to - from);
       gx = c.at(x, Effort::gap);
     } else {
       from = x;
       x = y;
       gx = gy;
-      y = from + golden * (to - from);
+      y = from + limits::golden * (to - from);
       gy = c.at(y, Effort::gap);
     }
   }
@@ -171,7 +176,7 @@ double contact_within(Course& c, double from, double to) {
 // hi is a certain contact; lo < hi has none before it. Bisects (lo, hi], keeping the half whose end is still
 // a contact.
 double earliest_contact(Course& c, double lo, double hi) {
-  for (int i = 0; i < 64; ++i) {
+  for (int i = 0; i < most_halvings; ++i) {
     const double middle = lo + (hi - lo) / 2;
     if (middle <= lo || middle >= hi) break;
     if (c.at(middle).verdict == Verdict::overlap)

@@ -12,11 +12,12 @@ Aabb box_over(const Mover& m, const Vec3& origin) {
   if (!m.spins()) return box_of(m.swept(0, 1, origin).body);
   Solid whole = m.orbit(0, origin).body;
   const Real3 v = m.velocity();
-  add_sweep(whole, v, 4 * unit * largest(v));
+  add_sweep(whole, v, value_rounding * largest(v));
   const Aabb coarse = box_of(whole);
   // Slices of time: each core point is within ρ|ω|·(half a slice) of its position in the middle of the slice.
   constexpr int slices = 64;
-  const Real turn = m.at(0, origin).body.spin_radius * norm(m.angular()) / (2 * slices) * (1 + 16 * unit);
+  const Real turn =
+      m.at(0, origin).body.spin_radius * norm(m.angular()) / (2 * slices) * (1 + projection_rounding);
   Aabb fine;
   for (int i = 0; i < slices; ++i) {
     Solid b = m.at((i + 0.5) / slices, origin).body;
@@ -24,7 +25,7 @@ Aabb box_over(const Mover& m, const Vec3& origin) {
     for (Real3& p : b.points) p = p - 0.5L * step;
     b.centre = b.centre - 0.5L * step;
     b.extent += largest(step) * 2;
-    add_sweep(b, step, 8 * unit * largest(v));
+    add_sweep(b, step, dot_rounding * largest(v));
     b.error += turn;
     fine.extend(box_of(b));
   }

@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "oracles/referee/filter/convex.h"
+#include "oracles/referee/limits.h"
 #include "oracles/referee/motion/motion.h"
 #include "oracles/referee/work.h"
 
@@ -42,7 +43,8 @@ struct Sample {
   double t, gap;
 };
 
-constexpr double golden = 0.6180339887498949;  // 1/φ
+// Golden-section steps, to 2^-31 of the interval: the value at a smooth minimum is then right to 62 bits.
+constexpr int golden_steps = 46;
 
 // Golden-section search on (from, to); keeps the least sample it meets.
 Sample refined(const auto& gap, double from, double to, Sample best) {
@@ -51,20 +53,20 @@ Sample refined(const auto& gap, double from, double to, Sample best) {
     if (g < best.gap) best = {t, g};
     return g;
   };
-  double x = to - golden * (to - from), y = from + golden * (to - from);
+  double x = to - limits::golden * (to - from), y = from + limits::golden * (to - from);
   double gx = evaluate(x), gy = evaluate(y);
-  for (int i = 0; i < 46; ++i) {
+  for (int i = 0; i < golden_steps; ++i) {
     if (gx <= gy) {
       to = y;
       y = x;
       gy = gx;
-      x = to - golden * (to - from);
+      x = to - limits::golden * (to - from);
       gx = evaluate(x);
     } else {
       from = x;
       x = y;
       gx = gy;
-      y = from + golden * (to - from);
+      y = from + limits::golden * (to - from);
       gy = evaluate(y);
     }
   }

@@ -49,6 +49,9 @@ Mover::Mover(const Placed& p, const Motion& m, const Vec3& minus_linear, std::op
   if (!spins_) motion_.angular = Vec3::Zero();
 }
 
+// A velocity times a time, added to a translation, relative to both: a difference, a product and a sum.
+constexpr Real shift_rounding = 3 * unit;
+
 Frame Mover::frame(double t, const Vec3& origin, bool turned) const {
   Motion turning = motion_;
   turning.linear = Vec3::Zero();
@@ -56,7 +59,7 @@ Frame Mover::frame(double t, const Vec3& origin, bool turned) const {
   Frame f = frame_at(placed_, turning, t, origin);
   const Real3 shift = static_cast<Real>(t) * velocity();
   f.translation = f.translation + shift;
-  f.translation_error += 3 * unit * (largest(shift) + largest(f.translation));
+  f.translation_error += shift_rounding * (largest(shift) + largest(f.translation));
   return f;
 }
 
@@ -75,7 +78,7 @@ Operand Mover::at(double t, const Vec3& origin) const {
 Operand Mover::swept(double from, double to, const Vec3& origin) const {
   Operand r{body(frame(from, origin, false)), std::nullopt};
   const Real3 sweep = (static_cast<Real>(to) - static_cast<Real>(from)) * velocity();
-  add_sweep(r.body, sweep, 4 * unit * largest(sweep));
+  add_sweep(r.body, sweep, value_rounding * largest(sweep));
   if (core_) r.exact = ExactBody{*core_, radius_, placed_.pose, motion_.linear, minus_, {from, to}};
   return r;
 }

@@ -32,7 +32,7 @@ struct Margins {
 };
 
 Margins margins(const PlaneKey& k, const MovingPart& a, const MovingPart& b) {
-  const Real slack = 4 * unit * std::fabs(k.o);
+  const Real slack = value_rounding * std::fabs(k.o);
   return {k.o - a.top(k.n, k.t) - slack, -k.o - b.top(-k.n, k.t) - slack};
 }
 
@@ -51,10 +51,13 @@ bool piece_holds(const PlaneKey& from, const PlaneKey& to, const MovingPart& a, 
   return holds(x.a, y.a, bend(from, to, a)) && holds(x.b, y.b, bend(from, to, b));
 }
 
+// Neither body is left without a part of the gap.
+constexpr Real least_share = 0.1L, most_share = 0.9L;
+
 // The part of the gap given to A: nearly all of it when A moves and B does not.
 Real share(const MovingPart& a, const MovingPart& b) {
   const Real x = a.speed() + a.bend(), y = b.speed() + b.bend();
-  return x + y > 0 ? std::fmin(0.9L, std::fmax(0.1L, x / (x + y))) : 0.5L;
+  return x + y > 0 ? std::fmin(most_share, std::fmax(least_share, x / (x + y))) : 0.5L;
 }
 
 std::optional<PlaneKey> key_along(const Rational3& direction, const Real3& n, double t, const MovingPart& a,
@@ -128,7 +131,7 @@ MovingPart::MovingPart(const Placed& p, const Motion& m, const Vec3& minus, cons
                        std::optional<std::size_t> triangle)
     : mover_(p, m, minus, triangle), origin_(origin) {
   const Rational3 velocity = exact(m.linear) - exact(minus);
-  speed_ = norm(mover_.velocity()) * (1 + 8 * unit);
+  speed_ = norm(mover_.velocity()) * (1 + dot_rounding);
   if (std::holds_alternative<HalfSpace>(*p.shape)) {
     const RationalPlane plane = world_plane(p);
     half_space_ =
@@ -141,8 +144,8 @@ MovingPart::MovingPart(const Placed& p, const Motion& m, const Vec3& minus, cons
   const Real radius = mover_.at(0, origin).body.spin_radius, rate = norm(to_real(m.angular));
   constexpr Real allowance = 1.7321L;  // the checker's bound for discs and ellipsoids: up to √3·radius
   const Real reach = mover_.at(0, origin).exact ? radius : allowance * radius;
-  speed_ += rate * reach * (1 + 16 * unit);
-  bend_ = rate * rate * reach * (1 + 16 * unit);
+  speed_ += rate * reach * (1 + projection_rounding);
+  bend_ = rate * rate * reach * (1 + projection_rounding);
 }
 
 Rational MovingPart::offset(const Rational& t) const { return half_space_->offset + t * half_space_->rate; }
@@ -154,11 +157,11 @@ Real MovingPart::top(const Real3& n, double t) const {
     const Real3 r{rounded(m.x), rounded(m.y), rounded(m.z)};
     if (!(dot(r, n) > 0)) return infinity;
     const Real value = rounded(offset(exact(t))) * (dot(n, r) / dot(r, r));
-    return value + 16 * unit * std::fabs(value);
+    return value + projection_rounding * std::fabs(value);
   }
   const Solid body = at(t).body;
   const Real value = dot(n, support(body, n).point);
-  return value + norm(n) * (body.error + body.radius + 16 * unit * (body.extent + body.radius));
+  return value + norm(n) * (body.error + body.radius + projection_rounding * (body.extent + body.radius));
 }
 
 bool keeps_apart(const PlaneTrack& track, const MovingPart& a, const MovingPart& b) {

@@ -49,14 +49,14 @@ void add_rim(Extremes& e, const Solid& s, Real height, const Real3& n, Real slac
   const Real next_below = s.size.x * lean / norm(n) * (1 - corners()[1][0]);
   for (const auto& [along, across] : corners()) {
     e.points.push_back(s.centre + height * w + s.size.x * (along * first + across * second));
-    if (next_below > 2 * slack + 64 * unit * s.extent) break;
+    if (next_below > 2 * slack + chain_rounding * s.extent) break;
   }
 }
 
 Extremes extremes_of(const Placed& p, const Vec3& origin, const Real3& n, Real slack) {
   Extremes e;
   const Solid s = make_body(p, frame_of(p, origin));
-  e.error = s.error + 16 * unit * s.extent;
+  e.error = s.error + projection_rounding * s.extent;
   if (s.kind == Solid::Kind::points) {
     e.points = s.points;
   } else if (s.kind == Solid::Kind::ellipsoid) {
@@ -239,8 +239,7 @@ ContactRegion contact_region(const Placed& a, const Placed& b, const Vec3& norma
   }
   double far = 0;
   for (const Vec3& v : r.vertices) far = std::max(far, v.cwiseAbs().maxCoeff());
-  constexpr double rounding = 0x1p-53;  // unit roundoff of a double
-  r.error = rounding * (8 * size + 2 * far);
+  r.error = unit_of<double> * (8 * size + 2 * far);
   return r;
 }
 
