@@ -14,15 +14,9 @@ constexpr double origin_rounding = 0x1p-52;
 constexpr double ball_rounding = 0x1p-48;
 
 // An upper bound on how far rounding the pose and sizes to float moves the body: u of each coordinate, 2u·|q|
-<<<<<<< HEAD:core/world/planned.cpp
-// of the quaternion, which turns by twice that, and u of the sizes.
-double float_rounding(const Pose& pose, double reach) {
-  return float_roundoff * (pose.translation.lpNorm<1>() + 8 * reach);
-=======
 // of the quaternion, which turns by twice that, and u of the sizes; u is float_roundoff.
 double float_rounding(const Pose& pose, double reach) {
   return float_roundoff * (pose.translation.lpNorm<1>() + 8 * reach);
->>>>>>> lits:core/world/seen.cpp
 }
 
 // The verdict `apart` is certain and may come without a value.

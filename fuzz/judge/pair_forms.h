@@ -9,11 +9,6 @@
 namespace touchstone::fuzz {
 
 enum class FormKind : std::uint8_t { nudged, exchanged, frame, unit };
-<<<<<<< HEAD:fuzz/judge/pair_forms.h
-=======
-inline constexpr auto form_names = std::to_array<std::string_view>({"jitter", "order", "frame", "unit"});
-static_assert(form_names.size() == static_cast<std::size_t>(FormKind::unit) + 1);
->>>>>>> lits:reports/stability/forms.h
 
 /// The queries correspond one to one to those of the pair as asked.
 struct PairForm : Form {
