@@ -13,11 +13,11 @@ namespace {
 constexpr std::size_t crowd_shapes = 32;
 constexpr double volume_per_body = 40;  // of the cube; a body itself has a volume of 2 to 4
 
-struct Regime {
+struct GapRange {
   const char* name;
   double (*gap)(Rng&);  // relative to the size of the pair
 };
-constexpr Regime regimes[] = {
+constexpr GapRange gap_ranges[] = {
     {"apart", [](Rng& r) { return r.uniform(0.1, 1); }},
     {"near", [](Rng& r) { return r.chance(0.5) ? r.binary_scale(-30, -10) : -r.binary_scale(-30, -10); }},
     {"shallow", [](Rng& r) { return -r.uniform(0.001, 0.1); }},
@@ -51,15 +51,15 @@ std::string pair_name(ShapeKind a, ShapeKind b) {
 std::vector<ChartCase> narrow_chart_cases(std::uint64_t seed, int per_cell, bool meshes) {
   std::vector<ChartCase> cases;
   for (const auto& [a, b] : kind_pairs(meshes))
-    for (const Regime& regime : regimes)
+    for (const GapRange& range : gap_ranges)
       for (const Scale& scale : scales)
         for (int i = 0; i < per_cell; ++i) {
           Rng rng = Rng::stream(seed, cases.size());
           const Vec3 origin = rng.unit_vector() * scale.offset;
           Scene s = random_pair(rng, a, b, scale.size, origin);
-          const double gap = regime.gap(rng);
+          const double gap = range.gap(rng);
           s = at_gap(rng, std::move(s), gap);
-          ChartCase c{{}, regime.name, pair_name(a, b), scale.name, 2};
+          ChartCase c{{}, range.name, pair_name(a, b), scale.name, 2};
           c.c.id = "chart/" + std::to_string(seed) + "/" + std::to_string(cases.size());
           c.c.family = "chart";
           c.c.scene = std::move(s);

@@ -12,6 +12,8 @@ namespace touchstone::referee {
 class Polynomial {
  public:
   Polynomial() = default;
+  /// Implicit, as for every coordinate of a Triple.
+  Polynomial(int constant) : c_(1, Rational(constant)) { trim(); }
   explicit Polynomial(std::vector<Rational> c) : c_(std::move(c)) { trim(); }
   bool is_zero() const { return c_.empty(); }
   std::size_t degree() const { return c_.empty() ? 0 : c_.size() - 1; }
