@@ -42,7 +42,7 @@ inline constexpr double manifold_face_factor = 0x1p-50;
 
 /// Squared sine of an angle below which two segments, edges or axes count as parallel: a direction computed
 /// from both loses up to half of its digits there, so it is found in another way. A pure number. Tested by:
-/// TESTNAME.
+/// tests/core "ladder of the angle from parallel".
 inline constexpr double parallel_sine_sq = 1e-6;
 
 /// A box or ball that bounds part of a mesh is skipped only if it is out of reach by this · (the lengths
