@@ -42,27 +42,6 @@ Wide turned_support(const Core& c, const WideVec& d) {
   return local.dot(narrow::support_local<Wide>(c, local));
 }
 
-WideVec turned(const WideVec& x, const WideVec& w, Wide t) {
-  const Wide speed = w.norm();
-  if (!(speed > 0) || t == 0) return x;
-  const WideVec u = w / speed;
-  const Wide c = std::cos(speed * t), s = std::sin(speed * t);
-  return x * c + u.cross(x) * s + u * (u.dot(x) * (1 - c));
-}
-
-WideMat turned(const WideMat& r, const WideVec& w, Wide t) {
-  const Wide speed = w.norm();
-  if (!(speed > 0) || t == 0) return r;
-  const WideVec u = w / speed;
-  const Wide c = std::cos(speed * t), s = std::sin(speed * t);
-  WideMat out;
-  for (int k = 0; k < 3; ++k) {
-    const WideVec x = r.col(k);
-    out.col(k) = x * c + u.cross(x) * s + u * (u.dot(x) * (1 - c));
-  }
-  return out;
-}
-
 // f(Δ) of the header comment. A plane has no support term of its own.
 class GapBound {
  public:

@@ -99,9 +99,7 @@ class Follower {
 
   Vec normal_at(double t) const {
     if (!turning()) return n_;
-    const double angle = turn_speed_ * (t - spot_.t), s = std::sin(angle), half = std::sin(angle / 2);
-    const Vec axis = turn_ / turn_speed_, across = axis.cross(n_);
-    return n_ + s * across + 2 * half * half * axis.cross(across);
+    return rotated<double>(n_, turn_ / turn_speed_, turn_speed_ * (t - spot_.t));
   }
 
   void move_to(double t) {
