@@ -1,12 +1,11 @@
 // Conservative advancement (Mirtich 1996) with a second-order bound. At time t let n be the unit normal of a
 // pair of support planes with gap s. For a body point at c + r, rotating with ω about c, the coordinate along
-// n satisfies for Δ >= 0
+// n satisfies for Δ >= 0, with the K of turning_bound.h for a fixed direction,
 //
-//   n·x(t+Δ) <= n·x(t) + Δ n·v + Δ r·(n×ω) + K Δ²/2,   K = ρ |ω| |n×ω|,
+//   n·x(t+Δ) <= n·x(t) + Δ n·v + Δ r·(n×ω) + K Δ²/2,
 //
-// because n·(ω×r) = r·(n×ω), |r| <= ρ is constant, and the acceleration is ω×(ω×r). The maximum over the body
-// of r·n + Δ r·(n×ω) is the support value of the core at time t along n + Δ n×ω. Hence the gap along the
-// fixed n is at least
+// because n·(ω×r) = r·(n×ω). The maximum over the body of r·n + Δ r·(n×ω) is the support value of the core at
+// time t along n + Δ n×ω. Hence the gap along the fixed n is at least
 //
 //   f(Δ) = base + Δ (v_B − v_A)·n − h_A(n + Δ n×ω_A) − h_B(−n − Δ n×ω_B) − radii − (K_A + K_B) Δ²/2,
 //
@@ -19,6 +18,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/impact/turning_bound.h"
 #include "core/narrow/convex_pair.h"
 #include "core/tolerance.h"
 
@@ -42,27 +42,6 @@ Wide turned_support(const Core& c, const WideVec& d) {
   return local.dot(narrow::support_local<Wide>(c, local));
 }
 
-WideVec turned(const WideVec& x, const WideVec& w, Wide t) {
-  const Wide speed = w.norm();
-  if (!(speed > 0) || t == 0) return x;
-  const WideVec u = w / speed;
-  const Wide c = std::cos(speed * t), s = std::sin(speed * t);
-  return x * c + u.cross(x) * s + u * (u.dot(x) * (1 - c));
-}
-
-WideMat turned(const WideMat& r, const WideVec& w, Wide t) {
-  const Wide speed = w.norm();
-  if (!(speed > 0) || t == 0) return r;
-  const WideVec u = w / speed;
-  const Wide c = std::cos(speed * t), s = std::sin(speed * t);
-  WideMat out;
-  for (int k = 0; k < 3; ++k) {
-    const WideVec x = r.col(k);
-    out.col(k) = x * c + u.cross(x) * s + u * (u.dot(x) * (1 - c));
-  }
-  return out;
-}
-
 // f(Δ) of the header comment. A plane has no support term of its own.
 class GapBound {
  public:
@@ -75,7 +54,7 @@ class GapBound {
     slope_ -= side * m.linear.dot(n_);
     const Wide turn = p.turn.norm();
     lipschitz_ += c.reach * turn;
-    curvature_ += c.reach * m.angular.norm() * turn;
+    curvature_ += core_curvature_along_fixed<Wide>(c.reach, m.angular.norm(), turn);
   }
   Wide operator()(Wide delta) const {
     Wide f = constant_ + slope_ * delta - curvature_ * delta * delta / 2;
@@ -131,8 +110,7 @@ Wide upper_bound(const Separation& s) {
   return s.outcome == Outcome::answered ? s.gap : std::max(s.gap, (s.b - s.a).norm());
 }
 
-// Largest step that is proven along a direction n that rotates with Ω, as in filtered/follow.h: from s1 at t
-// to s2 at t + h, both >= 0, the separation stays >= 0 if K h²/2 <= (√s1 + √s2)². Moving an end costs two
+// Largest step that turning_bound.h proves along a direction n that rotates with Ω. Moving an end costs two
 // support points; computing the nearest points costs a hundred times that.
 class TurningStep {
  public:
@@ -140,9 +118,9 @@ class TurningStep {
               Wide end)
       : a_(a), b_(b), n_(n), turn_(turn), t_(t), end_(end), s1_(std::max<Wide>(0, separation(0))) {
     const Wide speed = turn.norm(), far = std::max(offset(0).norm(), offset(end).norm());
-    curvature_ = speed * (speed * far + 2 * (b.linear - a.linear).norm());
+    curvature_ = offset_curvature<Wide>(speed, far, (b.linear - a.linear).norm());
     for (const MovingCore* m : {&a, &b})
-      curvature_ += m->start.reach * (m->angular - turn).norm() * (speed + m->angular.norm());
+      curvature_ += core_curvature<Wide>(m->start.reach, (m->angular - turn).norm(), speed, m->angular.norm());
   }
   /// `step`: proven already.
   Wide extend(Wide step) const {
@@ -171,9 +149,7 @@ class TurningStep {
   }
   bool proven(Wide h) const {
     const Wide s2 = separation(h);
-    if (!(s2 >= 0)) return false;
-    const Wide room = std::sqrt(s1_) + std::sqrt(s2);
-    return curvature_ * h * h / 2 <= room * room;
+    return s2 >= 0 && stays_apart<Wide>(curvature_, h, s1_, s2);
   }
 
   const MovingCore &a_, &b_;

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "core/math/axis_rotation.h"
 #include "core/math/pose.h"
 
 namespace touchstone {
@@ -43,21 +44,18 @@ inline WideMat wide_rotation(const Quat& q) {
 
 inline WideFrame wide_frame(const Pose& p) { return {wide_rotation(p.rotation), p.translation.cast<Wide>()}; }
 
+/// Each column rotated by t·angular.
+template <class Columns>
+Columns turned(const Columns& x, const WideVec& angular, Wide t) {
+  const Wide speed = angular.norm();
+  if (!(speed > 0) || t == 0) return x;
+  return rotation_about<Wide>(angular / speed, speed * t) * x;
+}
+
 /// The frame at time t under truth.md's motion: rotation about the body's origin, world axes.
 inline WideFrame wide_frame_at(const Pose& p, const Motion& m, Wide t) {
-  WideFrame f = wide_frame(p);
-  f.translation += t * m.linear.cast<Wide>();
-  const WideVec w = m.angular.cast<Wide>();
-  const Wide speed = w.norm();
-  if (!(speed > 0) || t == 0) return f;
-  const WideVec u = w / speed;
-  const Wide c = std::cos(speed * t), s = std::sin(speed * t);
-  // Rodrigues, column by column.
-  for (int k = 0; k < 3; ++k) {
-    const WideVec x = f.rotation.col(k);
-    f.rotation.col(k) = x * c + u.cross(x) * s + u * (u.dot(x) * (1 - c));
-  }
-  return f;
+  return {turned(wide_rotation(p.rotation), m.angular.cast<Wide>(), t),
+          p.translation.cast<Wide>() + t * m.linear.cast<Wide>()};
 }
 
 }  // namespace touchstone

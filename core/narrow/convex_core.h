@@ -120,20 +120,4 @@ inline ConvexCore<Wide> make_core(const Shape& shape, const WideFrame& frame) {
   return c;
 }
 
-/// A point of the Minkowski difference B − A and the points that generate it.
-template <class R>
-struct DifferenceVertex {
-  V3<R> a, b, w;  // w = b − a
-};
-
-/// Support point of B − A along d.
-template <class R>
-DifferenceVertex<R> difference_support(const ConvexCore<R>& a, const ConvexCore<R>& b, const V3<R>& d) {
-  DifferenceVertex<R> v;
-  v.a = support<R>(a, -d);
-  v.b = support<R>(b, d);
-  v.w = v.b - v.a;
-  return v;
-}
-
 }  // namespace touchstone::narrow

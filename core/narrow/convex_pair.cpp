@@ -1,8 +1,6 @@
 #include "core/narrow/convex_pair.h"
 
-#include "core/narrow/descend.h"
-#include "core/narrow/epa.h"
-#include "core/narrow/gjk.h"
+#include "core/narrow/extended/descend.h"
 #include "core/tolerance.h"
 
 namespace touchstone::narrow {
@@ -29,7 +27,7 @@ void inflate(Separation& s, const Core& a, const Core& b) {
   s.b -= b.radius * d;
 }
 
-Separation from_gjk(const GjkResult<Wide>& g, Wide size) {
+Separation from_gjk(const extended::Distance<Wide>& g, Wide size) {
   Separation s;
   s.size = size;
   s.gap = g.upper;
@@ -44,18 +42,18 @@ bool is_polytope(const Core& c) {
   return c.kind != CoreKind::cylinder && c.kind != CoreKind::cone && c.kind != CoreKind::ellipsoid;
 }
 
-EpaResult<Wide> expand(const GjkResult<Wide>& g, const Core& a, const Core& b, Wide size) {
+extended::EpaResult<Wide> expand(const extended::Distance<Wide>& g, const Core& a, const Core& b, Wide size) {
   const Wide tolerance = tolerance::narrow_gap_factor * size;
   const bool polytopes = is_polytope(a) && is_polytope(b);
-  return Epa<Wide>(a, b, size, tolerance).run(g, polytopes ? epa_budget_of_polytopes : epa_budget);
+  return extended::Epa<Wide>(a, b, size, tolerance).run(g, polytopes ? epa_budget_of_polytopes : epa_budget);
 }
 
-Separation from_epa(EpaResult<Wide> e, const Core& a, const Core& b, Wide size) {
+Separation from_epa(extended::EpaResult<Wide> e, const Core& a, const Core& b, Wide size) {
   const Wide tolerance = tolerance::narrow_gap_factor * size, proven = std::max<Wide>(0, e.lower);
   bool local = false;
-  if (e.status == EpaStatus::explored) {
-    descend<Wide>(e, a, b, size, tolerance);
-    local = e.status == EpaStatus::closed;
+  if (e.status == extended::EpaStatus::explored) {
+    extended::descend<Wide>(e, a, b, size, tolerance);
+    local = e.status == extended::EpaStatus::closed;
   }
   Separation s;
   s.size = size;
@@ -71,9 +69,9 @@ Separation from_epa(EpaResult<Wide> e, const Core& a, const Core& b, Wide size) 
 // For a GJK run that stalled close to contact: EPA examines the same boundary from the other side. The signed
 // planes of its polytope decide whether the origin is inside; if it is not, their direction and point tighten
 // both bounds of the distance.
-Separation second_opinion(const GjkResult<Wide>& g, const Core& a, const Core& b, Wide size) {
-  const EpaResult<Wide> e = expand(g, a, b, size);
-  if (e.status != EpaStatus::broken && e.upper >= 0 && e.lower >= -tolerance::narrow_gap_factor * size)
+Separation second_opinion(const extended::Distance<Wide>& g, const Core& a, const Core& b, Wide size) {
+  const extended::EpaResult<Wide> e = expand(g, a, b, size);
+  if (e.status != extended::EpaStatus::broken && e.upper >= 0 && e.lower >= -tolerance::narrow_gap_factor * size)
     return from_epa(e, a, b, size);
   Separation s = from_gjk(g, size);
   Wide lower = g.lower;
@@ -99,8 +97,8 @@ Wide pair_size(const Core& a, const Core& b) {
 Separation separate_convex(const Core& a, const Core& b) {
   const Wide size = pair_size(a, b);
   Separation s;
-  const GjkResult<Wide> g =
-      gjk<Wide>(a, b, tolerance::narrow_gap_factor * size, tolerance::narrow_touching_factor * size, gjk_cap);
+  const extended::Distance<Wide> g =
+      extended::gjk<Wide>(a, b, tolerance::narrow_gap_factor * size, tolerance::narrow_touching_factor * size, gjk_cap);
   if (g.status == GjkStatus::enclosed || g.status == GjkStatus::touching) {
     s = from_epa(expand(g, a, b, size), a, b, size);
   } else {

@@ -1,15 +1,4 @@
-// How far the pair may advance along one direction that is fixed in the world or rotates with a constant Ω.
-// Every pair of core points has a separation n·(o + p_B − p_A), o the offset of the origins, whose second
-// derivative is at most
-//
-//   K = Σ r |δ| (|Ω| + |ω|) + |Ω|² max|o| + 2 |Ω| |v|,   δ = ω − Ω, r: reach of a core,
-//
-// because n·p changes at the rate n·(δ×p), and that rate at (Ω×n)·(δ×p) + n·(δ×(ω×p)). Where Ω = 0, the
-// acceleration ω×(ω×p) is perpendicular to ω and K = Σ ρ |ω| |n×ω|, ρ the distance of the core from its axis.
-// So each separation, and hence their minimum s, lies on an interval of length h above the chord of its ends
-// less K x (h − x)/2. From s1 and s2 at the ends, both beyond the error e of s, the minimum is beyond e if
-//
-//   K h²/2 <= (√(s1 − e) + √(s2 − e))².
+// How far the pair may advance along one direction: turning_bound.h, e being the error of the separation s.
 //
 // s is evaluated afresh at the ends, so the bound is exact at contact: near it a step is as long as the root
 // of s, found by Newton's method with the second derivative of the present points, and the remaining gap is
@@ -23,6 +12,7 @@
 #pragma once
 
 #include "core/impact/filtered/look.h"
+#include "core/impact/turning_bound.h"
 
 namespace touchstone::impact::filtered {
 
@@ -45,7 +35,7 @@ class Follower {
     for (const Mover* m : {&w.a(), &w.b()}) {
       if (!m->turns) continue;
       const double across = n_.cross(m->angular).norm();
-      still_ += m->off_axis * m->speed * across;
+      still_ += core_curvature_along_fixed(m->off_axis, m->speed, across);
       jerk_ += m->off_axis * m->speed * m->speed * across;
     }
     still_ *= round_up;
@@ -87,21 +77,19 @@ class Follower {
   bool turning() const { return turn_speed_ > 0; }
   double offset_at(double t) const { return (spot_.offset + (t - spot_.t) * w_.velocity()).norm(); }
 
-  // K of the header comment for a step h.
+  // K for a step h.
   double curvature(double h) const {
     if (!turning()) return still_;
     const double slack = 16 * u<double> / h, speed = turn_speed_ + slack;
-    double k = speed * (speed * far_ + 2 * w_.velocity().norm());
+    double k = offset_curvature(speed, far_, w_.velocity().norm());
     for (const Mover* m : {&w_.a(), &w_.b()})
-      k += m->body.reach * ((m->angular - turn_).norm() + slack) * (speed + m->speed);
+      k += core_curvature(m->body.reach, (m->angular - turn_).norm() + slack, speed, m->speed);
     return k * round_up;
   }
 
   Vec normal_at(double t) const {
     if (!turning()) return n_;
-    const double angle = turn_speed_ * (t - spot_.t), s = std::sin(angle), half = std::sin(angle / 2);
-    const Vec axis = turn_ / turn_speed_, across = axis.cross(n_);
-    return n_ + s * across + 2 * half * half * axis.cross(across);
+    return rotated<double>(n_, turn_ / turn_speed_, turn_speed_ * (t - spot_.t));
   }
 
   void move_to(double t) {
@@ -191,8 +179,7 @@ class Follower {
       const Vec n = normal_at(t);
       const Side side = w_.along(y, n);
       const double e2 = side.s - margin(y), length = t - spot_.t;
-      const double room = e2 < 0 ? -1 : std::sqrt(e1) + std::sqrt(e2);
-      if (room >= 0 && curvature(length) * length * length / 2 <= room * room * round_down) {
+      if (e2 >= 0 && stays_apart(curvature(length), length, e1, e2, round_down)) {
         spot_ = y;
         side_ = side;
         n_ = n;

@@ -8,7 +8,7 @@
 #include <limits>
 
 #include "core/impact/filtered/sweep.h"
-#include "core/narrow/filtered/simplex.h"
+#include "core/narrow/simplex.h"
 
 namespace touchstone::impact::filtered {
 
@@ -113,7 +113,7 @@ class Looker {
     const auto before = simplex_.p;
     const int size = simplex_.size;
     double dist_sq = 0, margin = 0;
-    if (narrow::filtered::reduce(simplex_, v, dist_sq, margin)) return false;
+    if (narrow::reduce(simplex_, v, dist_sq, margin)) return false;
     const Features previous = f_;
     f_.size = simplex_.size;
     for (int i = 0; i < simplex_.size; ++i) {
@@ -131,7 +131,7 @@ class Looker {
   const Spot& x_;
   Features& f_;
   View& v_;
-  narrow::filtered::Simplex<double> simplex_;
+  narrow::Simplex<double> simplex_;
 };
 
 }  // namespace detail

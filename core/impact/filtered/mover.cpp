@@ -36,16 +36,6 @@ double reach_off_axis(const narrow::filtered::Body<double>& c, const Vec& a) {
   return c.reach;
 }
 
-template <class R>
-M3<R> turn_matrix(const V3<R>& u, R s, R c) {
-  const R k = 1 - c;
-  M3<R> q;
-  q << c + k * u[0] * u[0], k * u[0] * u[1] - s * u[2], k * u[0] * u[2] + s * u[1],  //
-      k * u[0] * u[1] + s * u[2], c + k * u[1] * u[1], k * u[1] * u[2] - s * u[0],   //
-      k * u[0] * u[2] - s * u[1], k * u[1] * u[2] + s * u[0], c + k * u[2] * u[2];
-  return q;
-}
-
 void set_turn(Mover& m, const Vec& angular) {
   if (m.body.kind == CoreKind::point) return;
   const WideVec w = angular.cast<Wide>();
@@ -99,11 +89,10 @@ Mat rotation_at(const Mover& m, double t, bool precise) {
   if (!m.turns || t == 0) return m.start;
   if (!precise) {
     const double angle = m.speed * t;
-    return turn_matrix<double>(m.axis, std::sin(angle), std::cos(angle)) * m.start;
+    return rotation_about<double>(m.axis, angle) * m.start;
   }
   const Wide angle = m.speed_wide * t;
-  const WideMat q = turn_matrix<Wide>(m.axis_wide, std::sin(angle), std::cos(angle));
-  return (q * m.start_wide).cast<double>();
+  return (rotation_about<Wide>(m.axis_wide, angle) * m.start_wide).cast<double>();
 }
 
 }  // namespace touchstone::impact::filtered

@@ -9,12 +9,12 @@
 #include <cmath>
 
 #include "core/impact/filtered/translation.h"
-#include "core/narrow/filtered/simplex.h"
+#include "core/narrow/simplex.h"
 
 namespace touchstone::impact::filtered {
 namespace {
 
-using narrow::filtered::Vertex;
+using narrow::Vertex;
 
 constexpr int portal_cap = 40;
 
@@ -96,7 +96,7 @@ class Cast {
 
   Pass refine() {
     for (int i = 0; i < portal_cap; ++i) {
-      Vec n = narrow::filtered::triangle_normal(p_[0].w, p_[1].w, p_[2].w);
+      Vec n = narrow::triangle_normal(p_[0].w, p_[1].w, p_[2].w);
       const double length = n.norm();
       if (!(length > 0)) return Pass::lost;
       n *= (n.dot(v_) > 0 ? -1 : 1) / length;
@@ -128,7 +128,7 @@ class Cast {
     const Spot spot = sweep_.at(t, true);
     const double s = sweep_.along(spot, n_).s;
     if (!(s_ > start_.error && s > spot.error)) return {};
-    narrow::filtered::Simplex<double> x;
+    narrow::Simplex<double> x;
     x.size = 3;
     for (std::size_t k = 0; k < 3; ++k) {
       x.p[k] = p_[k];
@@ -136,7 +136,7 @@ class Cast {
     }
     Vec w = Vec::Zero();
     double dist_sq = 0, margin = 0;
-    if (narrow::filtered::reduce(x, w, dist_sq, margin)) return {};
+    if (narrow::reduce(x, w, dist_sq, margin)) return {};
     const double dist = std::sqrt(dist_sq);
     if (!(dist + spot.error <= accuracy)) return {};
     Search r{.end = SearchEnd::hit, .clear_until = t, .gap = s, .steps = steps_};

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "core/narrow/filtered/body.h"
-#include "core/narrow/filtered/simplex.h"
+#include "core/narrow/simplex.h"
 
 namespace touchstone::narrow::filtered {
 

@@ -1,4 +1,4 @@
-// Penetration depth of two convex cores in the arithmetic R: the expanding polytope of core/narrow/epa.h in
+// Penetration depth of two convex cores in the arithmetic R: the expanding polytope of extended/epa.h in
 // fixed storage, with facets by index, and support points computed only when a facet is the nearest. Same
 // bounds: every direction tried is an upper bound. The surface is closed and consists of points of B − A, and
 // each facet lies beyond the least height of its corners along its own normal, whatever the rounding of that
@@ -370,7 +370,7 @@ class Expander {
     for (std::size_t k = 0; k < 3; ++k) s.p[k].w = w_[facet_[f].v[k]];
     s.size = 3;
     Foot<R> foot;
-    detail::take_triangle(s, 0, 1, 2, foot);
+    narrow::detail::take_triangle(s, 0, 1, 2, foot);
     return foot;
   }
 

@@ -1,10 +1,10 @@
-// Distance, or only the verdict, of two convex cores in the arithmetic R. Gilbert, Johnson, Keerthi 1988 as
-// in core/narrow/gjk.h, in A's frame and without the final retry: if the bounds do not meet, the caller falls
-// back to a slower method. Bounds: |v| from above (v a point of B − A), the best support plane from below. A
-// tetrahedron of support points that encloses the origin with a margin beyond rounding proves overlap.
+// The iteration of core/narrow/gjk.h in double or float, in A's frame, with help for curved pairs. If the
+// bounds do not meet, the caller falls back to extended precision. A tetrahedron of support points that
+// encloses the origin with a margin beyond rounding proves overlap.
 #pragma once
 
 #include "core/narrow/filtered/local_depth.h"
+#include "core/narrow/gjk.h"
 
 namespace touchstone::narrow::filtered {
 
@@ -24,126 +24,72 @@ V3<R> newton_direction(const Difference<R>& d, const V3<R>& n, const V3<R>& w) {
   return n + V3<R>(c0.dot(r), c1.dot(r), c2.dot(r)) / det;
 }
 
-enum class WalkEnd {
-  bounded,   // upper − lower <= tolerance, or (verdict only) lower > certain
-  enclosed,  // the simplex is a tetrahedron around the origin
-  touching,  // |v| is within rounding of 0
-  stalled    // no progress, or iteration cap
-};
-
+/// For pairs with a curved body, which converge linearly without it; the others have finished by then.
 template <class R>
-struct Walk {
-  WalkEnd end = WalkEnd::stalled;
-  Simplex<R> simplex;
-  R upper = std::numeric_limits<R>::infinity(), lower = -std::numeric_limits<R>::infinity();
-  R margin = 0;                   // enclosed: distance of the origin from the boundary
-  V3<R> normal = V3<R>::UnitX();  // of the best lower bound, A's frame, A to B
-  int iterations = 0;
-};
+class CurvedHelp {
+ public:
+  CurvedHelp(const Difference<R>& d, R size, const GjkLimits<R>& limit)
+      : d_(d),
+        size_(size),
+        tolerance_(limit.tolerance),
+        curved_(is_curved(d.a) || is_curved(d.b)),
+        wants_distance_(limit.certain > size) {}
 
-inline constexpr int walk_cap = 96;
-/// From this iteration on, every other step of a curved pair is a Newton step. Polytopes have finished by
-/// then; a curved pair converges linearly without it.
-inline constexpr int walk_help = 5;
-
-/// Uses the direction of v itself when it is accurate enough: the witness points then differ along the
-/// normal.
-template <class R>
-void prefer_own_direction(const Difference<R>& d, Walk<R>& g, const V3<R>& v, R length, R tolerance) {
-  g.end = WalkEnd::bounded;
-  const V3<R> n = v / length;
-  const R lower = n.dot(d.support(-n).w);
-  if (g.upper - lower <= tolerance) {
-    g.lower = lower;
-    g.normal = n;
+  bool settle(GjkResult<R>& g) const {
+    return curved_ && wants_distance_ && g.iterations % 3 == 2 && g.iterations > 4 && g.lower > 0 &&
+           find_features(g);
   }
-}
 
-/// Guesses the touching features from the simplex and computes their nearest points: if the guess is right, a
-/// curved pair is finished.
-template <class R>
-bool settle(const Difference<R>& d, Walk<R>& g, R size, R tolerance) {
-  std::array<Vertex<R>, 3> facet;
-  std::array<R, 3> weight{};
-  for (std::size_t k = 0; k < 3; ++k) {
-    const bool own = static_cast<int>(k) < g.simplex.size;
-    facet[k] = g.simplex.p[own ? k : 0];
-    weight[k] = own ? g.simplex.weight[k] : R(0);
+  /// From the sixth iteration on, every other step is a Newton step.
+  V3<R> direction(const GjkResult<R>& g, const V3<R>& n, const V3<R>& w) const {
+    constexpr int first = 6;
+    if (!(curved_ && g.iterations >= first && g.iterations % 2 == 0 && g.lower > 0)) return n;
+    const V3<R> step = newton_direction(d_, g.normal, w);
+    const R size = step.norm();
+    return size > R(0.5) && size < 2 ? V3<R>(step / size) : n;
   }
-  LocalMinimum<R> at(d, size);
-  if (!at.find(facet, weight, -g.normal)) return false;
-  const R length = at.point().norm();
-  if (!(length + at.height() <= tolerance)) return false;
-  g.simplex.size = 1;
-  g.simplex.weight[0] = 1;
-  g.simplex.p[0] = {at.point(), at.on_a()};
-  g.upper = length;
-  g.lower = -at.height();
-  g.normal = -at.outward();
-  g.end = WalkEnd::bounded;
-  return true;
-}
+
+  void see(const Vertex<R>&) const {}
+
+ private:
+  // Guesses the touching features from the simplex and computes their nearest points: if the guess is right,
+  // a curved pair is finished.
+  bool find_features(GjkResult<R>& g) const {
+    std::array<Vertex<R>, 3> facet;
+    std::array<R, 3> weight{};
+    for (std::size_t k = 0; k < 3; ++k) {
+      const bool own = static_cast<int>(k) < g.simplex.size;
+      facet[k] = g.simplex.p[own ? k : 0];
+      weight[k] = own ? g.simplex.weight[k] : R(0);
+    }
+    LocalMinimum<R> at(d_, size_);
+    if (!at.find(facet, weight, -g.normal)) return false;
+    const R length = at.point().norm();
+    if (!(length + at.height() <= tolerance_)) return false;
+    g.simplex.size = 1;
+    g.simplex.weight[0] = 1;
+    g.simplex.p[0] = {at.point(), at.on_a()};
+    g.upper = length;
+    g.lower = -at.height();
+    g.normal = -at.outward();
+    return true;
+  }
+
+  const Difference<R>& d_;
+  R size_, tolerance_;
+  bool curved_, wants_distance_;
+};
 
 /// `certain`: a lower bound that ends the iteration when only the verdict is requested; infinite otherwise.
 /// `size`: size of the pair, which rounding is relative to. `guess`: an initial direction from A to B, or
 /// zero.
 template <class R>
-Walk<R> walk(const Difference<R>& d, R tolerance, R certain, R size, const V3<R>& guess) {
-  const R touching = 4 * u<R> * size;
-  Walk<R> g;
+GjkResult<R> gjk(const Difference<R>& d, R tolerance, R certain, R size, const V3<R>& guess) {
+  constexpr int iterations = 96, idle = 3;
+  const GjkLimits<R> limit{tolerance, certain, 4 * u<R> * size, iterations, idle};
   const R guessed = guess.squaredNorm();
-  V3<R> v = guessed > R(0.5) && guessed < 2 ? guess : d.at.offset;
-  R dist_sq = v.squaredNorm(), length = std::sqrt(dist_sq);
-  if (!(length > 0)) {
-    v = V3<R>::UnitX();
-    length = 1;
-  }
-  dist_sq = std::numeric_limits<R>::infinity();
-  const bool curved = is_curved(d.a) || is_curved(d.b);
-  int idle = 0;
-  V3<R> best_w = V3<R>::Zero();  // support point of the best lower bound
-  for (g.iterations = 1; g.iterations <= walk_cap; ++g.iterations) {
-    V3<R> n = v / length;
-    if (curved && certain > size && g.iterations % 3 == 2 && g.iterations > 4 && g.lower > 0 &&
-        settle(d, g, size, tolerance))
-      return g;
-    if (curved && g.iterations > walk_help && g.iterations % 2 == 0 && g.lower > 0) {
-      const V3<R> step = newton_direction(d, g.normal, best_w);
-      const R size = step.norm();
-      if (size > R(0.5) && size < 2) n = step / size;
-    }
-    const Vertex<R> s = d.support(-n);
-    const R lower = n.dot(s.w);
-    const bool better = lower > g.lower;
-    if (better) {
-      g.lower = lower;
-      g.normal = n;
-      best_w = s.w;
-    }
-    if (g.lower > certain) {
-      g.end = WalkEnd::bounded;
-      return g;
-    }
-    if (g.upper - g.lower <= tolerance) {
-      prefer_own_direction(d, g, v, length, tolerance);
-      return g;
-    }
-    if (g.simplex.size == 4 || (idle > 3 && !better)) return g;
-    g.simplex.p[static_cast<std::size_t>(g.simplex.size++)] = s;
-    const R last = dist_sq;
-    if (reduce(g.simplex, v, dist_sq, g.margin)) {
-      g.end = WalkEnd::enclosed;
-      return g;
-    }
-    idle = dist_sq < last ? 0 : idle + 1;
-    length = std::sqrt(dist_sq);
-    g.upper = length;
-    if (!(length > touching)) {
-      g.end = WalkEnd::touching;
-      return g;
-    }
-  }
-  return g;
+  return narrow::gjk<R>(d, limit, guessed > R(0.5) && guessed < 2 ? guess : d.at.offset,
+                        CurvedHelp<R>(d, size, limit));
 }
 
 }  // namespace touchstone::narrow::filtered

@@ -49,7 +49,7 @@ void to_world(Answer<R>& r, const PairScene<R>& s, R l, Asked asked) {
 }
 
 template <class R>
-void from_walk(const Walk<R>& g, R error, Answer<R>& r, PairScene<R>& s) {
+void from_gjk(const GjkResult<R>& g, R error, Answer<R>& r, PairScene<R>& s) {
   r.a.setZero();
   V3<R> v = V3<R>::Zero();
   for (int i = 0; i < g.simplex.size; ++i) {
@@ -86,8 +86,8 @@ void from_depth(const D& e, R error, Answer<R>& r, PairScene<R>& s) {
 // point, which is as near to the origin as rounding can resolve, shows that the depth is not negative beyond
 // that.
 template <class R>
-void from_flat(const Walk<R>& g, const Depth<R>& e, R size, R error, Answer<R>& r, PairScene<R>& s) {
-  if (g.end != WalkEnd::touching || !(e.upper < size)) {
+void from_flat(const GjkResult<R>& g, const Depth<R>& e, R size, R error, Answer<R>& r, PairScene<R>& s) {
+  if (g.status != GjkStatus::touching || !(e.upper < size)) {
     r.bound = std::numeric_limits<R>::infinity();
     return;
   }
@@ -156,7 +156,7 @@ void separate_cores(const RoundedPose<R>& a, const RoundedPose<R>& b, Asked aske
       return separate_scaled(a, b, asked, enough, exact, r, s);
   const R tolerance = accuracy(local_scale(s)) / 8;
   const R certain = error + radii + (asked == Asked::distance ? std::max<R>(0, enough) : R(0));
-  const Walk<R> g = walk<R>(d, tolerance, certain, size, s.guess);
+  const GjkResult<R> g = gjk<R>(d, tolerance, certain, size, s.guess);
   s.guess = g.normal;
   r.bound = error;
   if (g.lower > certain) {
@@ -165,18 +165,18 @@ void separate_cores(const RoundedPose<R>& a, const RoundedPose<R>& b, Asked aske
   }
   // A tetrahedron without room for the origin proves nothing, whatever the radii: it may be a sliver of
   // rounding noise.
-  const bool inside = g.end == WalkEnd::enclosed && (g.margin > error || (g.margin > 0 && radii > error));
+  const bool inside = g.status == GjkStatus::enclosed && (g.margin > error || (g.margin > 0 && radii > error));
   if (asked == Asked::overlap && (g.upper < radii - error || inside)) {
     r.found = Found::meeting;
     return;
   }
   r.valued = true;
-  if (g.end == WalkEnd::enclosed || g.end == WalkEnd::touching) {
+  if (g.status == GjkStatus::enclosed || g.status == GjkStatus::touching) {
     if (const Revolved<R> e(d, size); e.found) {
       from_depth(e, error, r, s);
     } else {
       Expander<R> polytope(d, size, tolerance);
-      const Depth<R> depth = polytope.run(g.simplex, g.end == WalkEnd::enclosed);
+      const Depth<R> depth = polytope.run(g.simplex, g.status == GjkStatus::enclosed);
       if (depth.end == ExpandEnd::flat)
         from_flat(g, depth, size, error, r, s);
       else
@@ -184,7 +184,7 @@ void separate_cores(const RoundedPose<R>& a, const RoundedPose<R>& b, Asked aske
     }
     s.guess = s.normal;
   } else {
-    from_walk(g, error, r, s);
+    from_gjk(g, error, r, s);
   }
   to_world(r, s, scale(s.a, s.b, a, b), asked);
 }

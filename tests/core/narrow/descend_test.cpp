@@ -1,19 +1,20 @@
 // The search for a least depth that forms a curve or a surface: its parts, and both ways in which it ends.
-#include "core/narrow/descend.h"
+#include "core/narrow/extended/descend.h"
 #include "tests/core/narrow/convex_pair.h"
 #include "tests/support/catch.h"
 
 using namespace touchstone;
 using namespace touchstone::test;
-using narrow::EpaResult;
-using narrow::EpaStatus;
+namespace extended = touchstone::narrow::extended;
+using extended::EpaResult;
+using extended::EpaStatus;
 
 namespace {
 
 EpaResult<Wide> explored(const ExtendedPair& p, int budget) {
-  const auto g = narrow::gjk<Wide>(p.a, p.b, p.tolerance(), p.touching(), 2000);
+  const auto g = extended::gjk<Wide>(p.a, p.b, p.tolerance(), p.touching(), 2000);
   REQUIRE((g.status == narrow::GjkStatus::enclosed || g.status == narrow::GjkStatus::touching));
-  const auto e = narrow::Epa<Wide>(p.a, p.b, p.size, p.tolerance()).run(g, budget);
+  const auto e = extended::Epa<Wide>(p.a, p.b, p.size, p.tolerance()).run(g, budget);
   REQUIRE(e.status == EpaStatus::explored);
   return e;
 }
@@ -37,7 +38,7 @@ std::vector<Known> rings() {
 TEST_CASE("descend: minimum of a function of one variable, smooth, with a kink, at an end, constant",
           "[narrow][descend]") {
   const auto least = [](Wide lo, Wide hi, auto&& f) {
-    const auto [x, fx] = narrow::detail::least_between<Wide>(lo, hi, 0, f);
+    const auto [x, fx] = extended::detail::least_between<Wide>(lo, hi, 0, f);
     CHECK(fx == f(x));
     return std::pair{static_cast<double>(x), static_cast<double>(fx)};
   };
@@ -59,13 +60,13 @@ TEST_CASE("descend: minimum of a function of one variable, smooth, with a kink, 
   CHECK(calls <= 4);  // no interval is worth halving
   // An expectation of noise ends the search early, within the noise.
   const auto rough =
-      narrow::detail::least_between<Wide>(-1, 3, Wide(0.5), [](Wide x) { return Wide(x * x); });
+      extended::detail::least_between<Wide>(-1, 3, Wide(0.5), [](Wide x) { return Wide(x * x); });
   CHECK(static_cast<double>(rough.second) <= 0.5);
 }
 
 TEST_CASE("descend: the axis of a round core", "[narrow][descend]") {
   const auto axis = [](const Shape& s) {
-    return narrow::detail::round_axis<Wide>(narrow::make_core(s, WideFrame{}));
+    return extended::detail::round_axis<Wide>(narrow::make_core(s, WideFrame{}));
   };
   CHECK(axis(Capsule{1, 2}) == 2);
   CHECK(axis(Cylinder{1, 2}) == 2);
@@ -84,7 +85,7 @@ TEST_CASE("descend: the least height over all meridians", "[narrow][descend]") {
   for (const auto& [z, depth] : {std::pair{1.0, 1.5}, std::pair{8.0, 1.0}}) {
     const ExtendedPair p(pair_at(drum, rod, {0, 0, z}));
     const auto [n, h] =
-        narrow::detail::MeridianSearch<Wide>(p.a, p.b, WideVec(WideVec::UnitZ()), p.size).least();
+        extended::detail::MeridianSearch<Wide>(p.a, p.b, WideVec(WideVec::UnitZ()), p.size).least();
     CHECK(static_cast<double>(h) == Approx(depth).epsilon(1e-15));
     CHECK(static_cast<double>(n.norm()) == Approx(1).epsilon(1e-15));
     CHECK(std::abs(static_cast<double>(n.z())) == Approx(z > 5 ? 1 : 0).margin(1e-8));
@@ -99,7 +100,7 @@ TEST_CASE("descend: rings and spheres of minima close at the depth, with points 
     const Wide tolerance = p.tolerance();
     auto e = explored(p, 60);
     const Wide proven = e.lower;
-    narrow::descend<Wide>(e, p.a, p.b, p.size, tolerance);
+    extended::descend<Wide>(e, p.a, p.b, p.size, tolerance);
     REQUIRE(e.status == EpaStatus::closed);
     CHECK(static_cast<double>(e.upper) == Approx(k.depth).epsilon(1e-14));
     CHECK(e.lower == proven);  // what is proven for all directions is not claimed beyond
@@ -114,7 +115,7 @@ TEST_CASE("descend: without points of the required accuracy it stays explored, w
     INFO(k.name);
     const ExtendedPair p(k.pair);
     auto e = explored(p, 60);
-    narrow::descend<Wide>(e, p.a, p.b, p.size, Wide(-1));
+    extended::descend<Wide>(e, p.a, p.b, p.size, Wide(-1));
     CHECK(e.status == EpaStatus::explored);
     CHECK(static_cast<double>(e.upper) == Approx(k.depth).epsilon(1e-14));
   }
@@ -124,7 +125,7 @@ TEST_CASE("descend: a proximal step of bodies that are apart is broken", "[narro
   const ExtendedPair p(pair_at(Ellipsoid{{1, 1, 1}}, Ellipsoid{{1, 1, 1}}, {3, 0, 0}));
   // The height along x is −1: the step moves B away by a share of it, and they still do not meet.
   const auto step =
-      narrow::detail::proximal<Wide>(WideVec(WideVec::UnitX()), Wide(0.5), p.a, p.b, p.size, p.tolerance());
+      extended::detail::proximal<Wide>(WideVec(WideVec::UnitX()), Wide(0.5), p.a, p.b, p.size, p.tolerance());
   CHECK(step.status == EpaStatus::broken);
   CHECK(step.upper == std::numeric_limits<Wide>::infinity());
 }

@@ -2,17 +2,19 @@
 // ends, and the depth that it found against a closed form.
 #include <memory>
 
-#include "core/narrow/epa.h"
+#include "core/narrow/extended/epa.h"
 #include "core/narrow/filtered/epa.h"
 #include "tests/core/narrow/convex_pair.h"
 #include "tests/support/catch.h"
 
 using namespace touchstone;
 using namespace touchstone::test;
+namespace extended = touchstone::narrow::extended;
 namespace filtered = touchstone::narrow::filtered;
+using extended::EpaResult;
+using extended::EpaStatus;
 using filtered::ExpandEnd;
-using narrow::EpaResult;
-using narrow::EpaStatus;
+using narrow::GjkStatus;
 
 namespace {
 
@@ -40,17 +42,17 @@ std::vector<Known> overlapping_pairs() {
 constexpr int budget = 400;
 
 EpaResult<Wide> run(const ExtendedPair& p, Wide tolerance, int expansions = budget) {
-  const auto g = narrow::gjk<Wide>(p.a, p.b, p.tolerance(), p.touching(), 2000);
-  REQUIRE((g.status == narrow::GjkStatus::enclosed || g.status == narrow::GjkStatus::touching));
-  return narrow::Epa<Wide>(p.a, p.b, p.size, tolerance).run(g, expansions);
+  const auto g = extended::gjk<Wide>(p.a, p.b, p.tolerance(), p.touching(), 2000);
+  REQUIRE((g.status == GjkStatus::enclosed || g.status == GjkStatus::touching));
+  return extended::Epa<Wide>(p.a, p.b, p.size, tolerance).run(g, expansions);
 }
 
 filtered::Depth<double> run(const FilteredPair<double>& p, double tolerance) {
-  const auto g = filtered::walk<double>(p.difference, 16 * 0x1p-53 * p.size,
-                                        std::numeric_limits<double>::infinity(), p.size, Vec3::Zero());
-  REQUIRE((g.end == filtered::WalkEnd::enclosed || g.end == filtered::WalkEnd::touching));
+  const auto g = filtered::gjk<double>(p.difference, 16 * 0x1p-53 * p.size,
+                                       std::numeric_limits<double>::infinity(), p.size, Vec3::Zero());
+  REQUIRE((g.status == GjkStatus::enclosed || g.status == GjkStatus::touching));
   const auto polytope = std::make_unique<filtered::Expander<double>>(p.difference, p.size, tolerance);
-  return polytope->run(g.simplex, g.end == filtered::WalkEnd::enclosed);
+  return polytope->run(g.simplex, g.status == GjkStatus::enclosed);
 }
 
 double tolerance_of(const FilteredPair<double>& p) { return 16 * 0x1p-53 * p.size; }
@@ -177,7 +179,7 @@ TEST_CASE("filtered epa: broken by a tolerance below rounding, or by a start tha
   CHECK(e.lower == 0.5);
 
   // Two corners 1e-15 apart: a tetrahedron whose facets have no normals.
-  filtered::Simplex<double> start;
+  narrow::Simplex<double> start;
   start.size = 4;
   const Vec3 corners[4] = {
       {3.5, 2, 2}, {-0.5, -1.75, -1.875}, {-0.5, -1.75 + 1e-15, -1.875}, {-0.5, 2.25, 2.125}};

@@ -1,13 +1,14 @@
 // The distance of two cores, in extended precision and in doubles: each way in which the iteration ends, and
 // the distance that it found against a closed form.
+#include "core/narrow/extended/gjk.h"
 #include "core/narrow/filtered/gjk.h"
-#include "core/narrow/gjk.h"
 #include "core/narrow/pair_table.h"
 #include "tests/core/narrow/convex_pair.h"
 #include "tests/support/catch.h"
 
 using namespace touchstone;
 using namespace touchstone::test;
+namespace extended = touchstone::narrow::extended;
 namespace filtered = touchstone::narrow::filtered;
 using narrow::GjkResult;
 using narrow::GjkStatus;
@@ -40,12 +41,12 @@ std::vector<Known> separated_pairs() {
       {"equal balls along a diagonal", pair_at(Ellipsoid{{1, 1, 1}}, Ellipsoid{{1, 1, 1}}, {4, 4, 2}), 4}};
 }
 
-GjkResult<Wide> run(const ExtendedPair& p, Wide tolerance, Wide touching, int cap = 2000) {
-  return narrow::gjk<Wide>(p.a, p.b, tolerance, touching, cap);
+extended::Distance<Wide> run(const ExtendedPair& p, Wide tolerance, Wide touching, int cap = 2000) {
+  return extended::gjk<Wide>(p.a, p.b, tolerance, touching, cap);
 }
 
 // What holds however the iteration ended: the points belong to the bounds.
-void check_bounds(const GjkResult<Wide>& g, double distance, double tolerance) {
+void check_bounds(const extended::Distance<Wide>& g, double distance, double tolerance) {
   CHECK(static_cast<double>(g.lower) <= distance + tolerance);
   CHECK(static_cast<double>(g.upper) >= distance - tolerance);
   CHECK(static_cast<double>((g.b - g.a).norm() - g.upper) == Approx(0).margin(tolerance));
@@ -53,9 +54,9 @@ void check_bounds(const GjkResult<Wide>& g, double distance, double tolerance) {
 
 constexpr double infinite = std::numeric_limits<double>::infinity();
 
-filtered::Walk<double> walk(const FilteredPair<double>& p, double tolerance, double certain = infinite,
-                            const Vec3& guess = Vec3::Zero()) {
-  return filtered::walk<double>(p.difference, tolerance, certain, p.size, guess);
+GjkResult<double> run(const FilteredPair<double>& p, double tolerance, double certain = infinite,
+                      const Vec3& guess = Vec3::Zero()) {
+  return filtered::gjk<double>(p.difference, tolerance, certain, p.size, guess);
 }
 
 }  // namespace
@@ -80,14 +81,16 @@ TEST_CASE("gjk: cores that overlap are enclosed", "[narrow][gjk]") {
     const ExtendedPair p(pair);
     const auto g = run(p, p.tolerance(), p.touching());
     REQUIRE(g.status == GjkStatus::enclosed);
-    REQUIRE(g.size == 4);
-    // The tetrahedron of support points does contain the origin.
-    std::array<const WideVec*, 4> at{};
+    REQUIRE(g.simplex.size == 4);
+    // The tetrahedron of support points does contain the origin: with it, each corner is on the same side of
+    // the plane through the others.
     for (std::size_t i = 0; i < 4; ++i) {
-      at[i] = &g.simplex[i].w;
-      CHECK(static_cast<double>((g.simplex[i].b - g.simplex[i].a - g.simplex[i].w).norm()) == 0);
+      const WideVec &x = g.simplex.p[(i + 1) % 4].w, &y = g.simplex.p[(i + 2) % 4].w,
+                    &z = g.simplex.p[(i + 3) % 4].w;
+      const WideVec n = (y - x).cross(z - x);
+      CHECK(n.dot(-x) * n.dot(g.simplex.p[i].w - x) > 0);
     }
-    CHECK(narrow::closest_to_origin<Wide>(std::span<const WideVec* const>(at)).encloses);
+    CHECK(g.margin > 0);
   }
 }
 
@@ -137,24 +140,24 @@ TEST_CASE("filtered gjk: bounded by its tolerance, with the distance", "[narrow]
   for (const Known& k : separated_pairs()) {
     INFO(k.name);
     const FilteredPair<double> p(k.pair);
-    const auto g = walk(p, 16 * 0x1p-53 * p.size);
-    REQUIRE(g.end == filtered::WalkEnd::bounded);
+    const auto g = run(p, 16 * 0x1p-53 * p.size);
+    REQUIRE(g.status == GjkStatus::separated);
     CHECK(g.upper == Approx(k.distance).epsilon(1e-14));
     CHECK(g.lower <= k.distance + 8 * 0x1p-53 * p.size);
     CHECK(g.upper - g.lower <= 16 * 0x1p-53 * p.size);
     // The support plane of the lower bound is one.
     CHECK(g.normal.dot(p.difference.support(-g.normal).w) == Approx(g.lower).epsilon(1e-14));
     // The last direction, as the next query's guess, ends at once.
-    const auto again = walk(p, 16 * 0x1p-53 * p.size, infinite, g.normal);
-    CHECK(again.end == filtered::WalkEnd::bounded);
+    const auto again = run(p, 16 * 0x1p-53 * p.size, infinite, g.normal);
+    CHECK(again.status == GjkStatus::separated);
     CHECK(again.upper == Approx(k.distance).epsilon(1e-14));
   }
 }
 
 TEST_CASE("filtered gjk: a verdict alone ends with the first plane that separates", "[narrow][gjk]") {
   const FilteredPair<double> p(pair_at(Ellipsoid{{1, 2, 3}}, Box{{1, 1, 1}}, {6, 0.5, 0.3}, tilted));
-  const auto g = walk(p, 0, 1e-12);
-  CHECK(g.end == filtered::WalkEnd::bounded);
+  const auto g = run(p, 0, 1e-12);
+  CHECK(g.status == GjkStatus::separated);
   CHECK(g.iterations == 1);
   CHECK(g.lower > 1e-12);
   // The centres are 6.03 apart, the reaches 3 and √3.
@@ -164,8 +167,8 @@ TEST_CASE("filtered gjk: a verdict alone ends with the first plane that separate
 TEST_CASE("filtered gjk: enclosed with a margin that is room for the origin", "[narrow][gjk]") {
   const Shape cube = Box{{1, 1, 1}};
   const FilteredPair<double> p(pair_at(cube, cube, {0.7, 0.4, 0.3}, tilted));
-  const auto g = walk(p, 16 * 0x1p-53 * p.size);
-  REQUIRE(g.end == filtered::WalkEnd::enclosed);
+  const auto g = run(p, 16 * 0x1p-53 * p.size);
+  REQUIRE(g.status == GjkStatus::enclosed);
   REQUIRE(g.simplex.size == 4);
   CHECK(g.margin > 0);
   // A ball of that radius about the origin is in the tetrahedron, hence in B − A: the depth exceeds it.
@@ -181,8 +184,8 @@ TEST_CASE("filtered gjk: a shared point is touching", "[narrow][gjk]") {
   for (const ConvexPair& pair :
        {pair_at(ball, ball, {0, 0, 0}), pair_at(cube, ball, {1, 1, 1}), pair_at(cube, cube, {2, 2, 2})}) {
     const FilteredPair<double> p(pair);
-    const auto g = walk(p, 16 * 0x1p-53 * p.size);
-    CHECK(g.end == filtered::WalkEnd::touching);
+    const auto g = run(p, 16 * 0x1p-53 * p.size);
+    CHECK(g.status == GjkStatus::touching);
     CHECK(g.upper <= 4 * 0x1p-53 * p.size);
     CHECK(g.lower <= 0);
   }
@@ -192,8 +195,8 @@ TEST_CASE("filtered gjk: a tolerance that rounding cannot meet stalls with valid
   for (int i = 1; i <= 20; ++i) {
     const FilteredPair<double> p(
         pair_at(Cylinder{1, 2}, Ellipsoid{{0.5, 0.5, 0.5}}, {1.5 + i / 7.0, 0, 0.25}, tilted));
-    const auto g = walk(p, -1);
-    REQUIRE(g.end == filtered::WalkEnd::stalled);
+    const auto g = run(p, -1);
+    REQUIRE(g.status == GjkStatus::stalled);
     CHECK(g.upper == Approx(i / 7.0).epsilon(1e-13));
     CHECK(g.lower == Approx(i / 7.0).epsilon(1e-13));
   }

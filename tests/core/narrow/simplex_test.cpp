@@ -1,55 +1,39 @@
-// The point of a simplex nearest to the origin, in both arithmetics: every region of a point, an edge, a
+// The point of a simplex nearest to the origin, in all three arithmetics: every region of a point, an edge, a
 // triangle and a tetrahedron, in every order of the corners, and degenerate simplices.
 #include <algorithm>
 #include <vector>
 
 #include "core/math/rng.h"
-#include "core/narrow/filtered/simplex.h"
 #include "core/narrow/simplex.h"
 #include "tests/support/catch.h"
 
 using namespace touchstone;
-namespace filtered = touchstone::narrow::filtered;
 
 namespace {
 
 using Points = std::vector<Vec3>;
 
-/// The same result from both: foot of the origin, the weights of all corners, and whether it is enclosed.
+/// Foot of the origin, the weights of all corners, and whether it is enclosed.
 struct Foot {
   Vec3 point = Vec3::Zero();
   std::vector<double> weight;
   int corners = 0;  // with a positive weight
   bool encloses = false;
-  double margin = 0;  // filtered only
+  double margin = 0;
 };
 
-Foot extended_foot(const Points& points) {
-  std::vector<WideVec> p;
-  for (const Vec3& x : points) p.push_back(x.cast<Wide>());
-  std::vector<const WideVec*> at;
-  for (const WideVec& x : p) at.push_back(&x);
-  const auto c = narrow::closest_to_origin<Wide>(at);
-  Foot r{c.point.cast<double>(), {}, 0, c.encloses, 0};
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    r.weight.push_back(static_cast<double>(c.weight[i]));
-    r.corners += c.weight[i] > 0;
-  }
-  return r;
-}
-
 template <class R>
-Foot filtered_foot(const Points& points) {
-  filtered::Simplex<R> s;
+Foot foot_of(const Points& points) {
+  narrow::Simplex<R> s;
   s.size = static_cast<int>(points.size());
   for (std::size_t i = 0; i < points.size(); ++i) {
     s.p[i].w = points[i].cast<R>();
-    s.p[i].a = V3<R>::Constant(static_cast<R>(i));  // labels the corner
+    s.p[i].a = V3<R>::Constant(static_cast<R>(static_cast<double>(i)));  // labels the corner
   }
   V3<R> v = V3<R>::Zero();
   R dist_sq = 0, margin = 0;  // 0: nothing is nearer yet, so that all four faces are tried
   Foot r;
-  r.encloses = filtered::reduce(s, v, dist_sq, margin);
+  r.encloses = narrow::reduce(s, v, dist_sq, margin);
   r.weight.assign(points.size(), 0);
   if (r.encloses) {
     r.margin = static_cast<double>(margin);
@@ -58,8 +42,9 @@ Foot filtered_foot(const Points& points) {
   r.point = v.template cast<double>();
   CHECK(static_cast<double>(dist_sq) == Approx(r.point.squaredNorm()).epsilon(1e-6));
   r.corners = s.size;
+  if (s.size == 3) narrow::refine_weights<R>(s.p[0].w, s.p[1].w, s.p[2].w, v, s.weight.data());
   for (std::size_t k = 0; k < static_cast<std::size_t>(s.size); ++k)
-    r.weight[static_cast<std::size_t>(s.p[k].a[0])] = static_cast<double>(s.weight[k]);
+    r.weight[static_cast<std::size_t>(static_cast<double>(s.p[k].a[0]))] = static_cast<double>(s.weight[k]);
   return r;
 }
 
@@ -95,7 +80,7 @@ void check_region(const Region& region) {
     for (std::size_t i = 0; i < p.size(); ++i) p[i] = region.points[order[i]];
     INFO(region.name << ", first corner " << order[0]);
     int arithmetic = 0;
-    for (const Foot& f : {extended_foot(p), filtered_foot<double>(p), filtered_foot<float>(p)}) {
+    for (const Foot& f : {foot_of<Wide>(p), foot_of<double>(p), foot_of<float>(p)}) {
       INFO("arithmetic " << arithmetic);
       const double tolerance = arithmetic++ == 2 ? 1e-6 : 1e-14;
       CHECK_FALSE(f.encloses);
@@ -142,9 +127,9 @@ TEST_CASE("simplex: a tetrahedron around the origin is enclosing, with its margi
   std::vector<std::size_t> order{0, 1, 2, 3};
   do {
     for (std::size_t i = 0; i < 4; ++i) p[i] = around_origin[order[i]];
-    CHECK(extended_foot(p).encloses);
+    CHECK(foot_of<Wide>(p).encloses);
     // The planes are x, y, z = −1 and x + y + z = 1.
-    for (const Foot& f : {filtered_foot<double>(p), filtered_foot<float>(p)}) {
+    for (const Foot& f : {foot_of<double>(p), foot_of<float>(p)}) {
       CHECK(f.encloses);
       CHECK(f.margin <= 1 / std::sqrt(3.0) + 1e-7);
       CHECK(f.margin == Approx(1 / std::sqrt(3.0)).epsilon(1e-5));
@@ -153,8 +138,8 @@ TEST_CASE("simplex: a tetrahedron around the origin is enclosing, with its margi
   // Barely inside, and barely outside, of the oblique face.
   for (const double off : {1e-9, -1e-9}) {
     const Points near = moved(around_origin, Vec3::Constant((off - 1) / 3));
-    CHECK(extended_foot(near).encloses == (off > 0));
-    const Foot f = filtered_foot<double>(near);
+    CHECK(foot_of<Wide>(near).encloses == (off > 0));
+    const Foot f = foot_of<double>(near);
     CHECK(f.encloses == (off > 0));
     if (off > 0) CHECK(f.margin == Approx(off / std::sqrt(3.0)).epsilon(1e-4));
     if (off < 0) CHECK(f.point.norm() == Approx(-off / std::sqrt(3.0)).epsilon(1e-6));
@@ -184,7 +169,7 @@ TEST_CASE("simplex: repeated, collinear and coplanar corners still have a neares
            {"a plane through the origin", {{1, 1, 0}, {3, 1, 0}, {1, 3, 0}, {2, 2, 0}}, {1, 1, 0}},
            {"a sliver", {{-1, -1, 1}, {1, -1, 1}, {0, 1, 1}, {0, 0, 1 + 0x1p-52}}, {0, 0, 1}}}) {
     int arithmetic = 0;
-    for (const Foot& f : {extended_foot(c.points), filtered_foot<double>(c.points)}) {
+    for (const Foot& f : {foot_of<Wide>(c.points), foot_of<double>(c.points)}) {
       INFO(c.name << ", arithmetic " << arithmetic++);
       CHECK_FALSE(f.encloses);
       CHECK((f.point - c.nearest).norm() <= 1e-14);
@@ -198,11 +183,11 @@ TEST_CASE("simplex: the direction of a short foot between long edges is accurate
   const Points needle{{-1e7, 1, -1e-4}, {1e7, 1, -2e-4}, {3, 1, 1e-3}};
   // An edge of 2e8 at distance 1e-3.
   const Points edge{{-1e8, 1e-3, 0}, {1e8, 1e-3, 0}};
-  for (const Foot& f : {extended_foot(needle), filtered_foot<double>(needle)}) {
+  for (const Foot& f : {foot_of<Wide>(needle), foot_of<double>(needle)}) {
     CHECK((f.point - Vec3(0, 1, 0)).norm() <= 1e-12);
     CHECK(std::abs(f.point.x()) <= 1e-15);
   }
-  for (const Foot& f : {extended_foot(edge), filtered_foot<double>(edge)}) {
+  for (const Foot& f : {foot_of<Wide>(edge), foot_of<double>(edge)}) {
     CHECK((f.point - Vec3(0, 1e-3, 0)).norm() <= 1e-18);
     CHECK(f.corners == 2);
   }
@@ -217,7 +202,7 @@ TEST_CASE("simplex: random corners give the optimal point in both arithmetics", 
     const auto n = 1 + r.below(4);
     const Vec3 shift = r.unit_vector() * r.uniform(0, 1.5);
     for (std::uint64_t k = 0; k < n; ++k) p.push_back(shift + r.unit_vector());
-    const Foot wide = extended_foot(p), narrow = filtered_foot<double>(p);
+    const Foot wide = foot_of<Wide>(p), narrow = foot_of<double>(p);
     REQUIRE(wide.encloses == narrow.encloses);
     enclosing += wide.encloses;
     if (wide.encloses) {
@@ -242,11 +227,11 @@ TEST_CASE("simplex: random corners give the optimal point in both arithmetics", 
 TEST_CASE("simplex: the normal of a triangle is across all its edges, needles included",
           "[narrow][simplex]") {
   const auto check = [](const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& expected, double tolerance) {
-    const WideVec wide =
-        narrow::detail::triangle_normal<Wide>(a.cast<Wide>(), b.cast<Wide>(), c.cast<Wide>());
-    const Vec3 narrow = filtered::triangle_normal<double>(a, b, c);
-    CHECK((wide.cast<double>() - expected).norm() <= tolerance * expected.norm());
-    CHECK((narrow - expected).norm() <= tolerance * expected.norm());
+    const WideVec wide[] = {a.cast<Wide>(), b.cast<Wide>(), c.cast<Wide>()};
+    for (const Vec3& n : {Vec3(narrow::triangle_normal<Wide>(wide[0], wide[1], wide[2]).cast<double>()),
+                          Vec3(narrow::upright_normal<Wide>(wide[0], wide[1], wide[2]).cast<double>()),
+                          narrow::triangle_normal<double>(a, b, c), narrow::upright_normal<double>(a, b, c)})
+      CHECK((n - expected).norm() <= tolerance * expected.norm());
   };
   // Each edge is the longest once; the length is twice the area.
   check({0, 0, 0}, {3, 0, 0}, {1, 1, 0}, {0, 0, 3}, 1e-15);
@@ -254,6 +239,14 @@ TEST_CASE("simplex: the normal of a triangle is across all its edges, needles in
   check({3, 0, 0}, {1, 1, 0}, {0, 0, 0}, {0, 0, 3}, 1e-15);
   check({0, 0, 0}, {1e7, 0, 0}, {5e6, 1, 0}, {0, 0, 1e7}, 1e-15);
   // Collinear: no normal.
-  CHECK(filtered::triangle_normal<double>({0, 0, 0}, {1, 1, 1}, {3, 3, 3}).norm() == 0);
-  CHECK(narrow::detail::triangle_normal<Wide>({0, 0, 0}, {1, 1, 1}, {3, 3, 3}).norm() == 0);
+  CHECK(narrow::triangle_normal<double>({0, 0, 0}, {1, 1, 1}, {3, 3, 3}).norm() == 0);
+  CHECK(narrow::upright_normal<double>({0, 0, 0}, {1, 1, 1}, {3, 3, 3}).norm() == 0);
+  // Of a needle in any direction, the upright one is orthogonal to the needle.
+  Rng r(5);
+  for (int i = 0; i < 1000; ++i) {
+    const Vec3 along = r.unit_vector() * 1e7, a = r.unit_vector(), b = a + along,
+               c = a + along / 3 + r.unit_vector();
+    const Vec3 n = narrow::upright_normal<double>(a, b, c).normalized();
+    CHECK(std::abs(n.dot((b - a).normalized())) <= 4e-16);
+  }
 }

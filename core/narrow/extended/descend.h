@@ -21,9 +21,9 @@
 #include <utility>
 #include <vector>
 
-#include "core/narrow/epa.h"
+#include "core/narrow/extended/epa.h"
 
-namespace touchstone::narrow {
+namespace touchstone::narrow::extended {
 
 namespace detail {
 
@@ -102,7 +102,7 @@ class MeridianSearch {
 
   V3<R> across(R theta) const { return std::cos(theta) * u_ + std::sin(theta) * v_; }
   V3<R> direction(R theta, R alpha) const { return std::sin(alpha) * across(theta) + std::cos(alpha) * w_; }
-  R height(const V3<R>& n) const { return -n.dot(difference_support<R>(a_, b_, -n).w); }
+  R height(const V3<R>& n) const { return -n.dot(Difference<R>{a_, b_}.support(-n).w); }
 
   /// Direction of least height, and that height.
   std::pair<V3<R>, R> least() const {
@@ -165,12 +165,12 @@ template <class R>
 EpaResult<R> proximal(const V3<R>& n, R share, const ConvexCore<R>& a, const ConvexCore<R>& b, R size,
                       R tolerance) {
   constexpr int budget = 2000;
-  const auto height = [&](const V3<R>& m) { return -m.dot(difference_support<R>(a, b, -m).w); };
+  const auto height = [&](const V3<R>& m) { return -m.dot(Difference<R>{a, b}.support(-m).w); };
   EpaResult<R> step;
   const V3<R> shift = -n * (height(n) * share);  // D's outward normal is −n
   ConvexCore<R> moved = b;
   moved.frame.translation -= shift;
-  const GjkResult<R> g = gjk<R>(a, moved, tolerance, tolerance / 4, budget);
+  const Distance<R> g = gjk<R>(a, moved, tolerance, tolerance / 4, budget);
   if (g.status != GjkStatus::enclosed && g.status != GjkStatus::touching) return step;
   step = Epa<R>(a, moved, size, tolerance).run(g, budget);
   step.b += shift;
@@ -210,4 +210,4 @@ void descend(EpaResult<R>& e, const ConvexCore<R>& a, const ConvexCore<R>& b, R 
   }
 }
 
-}  // namespace touchstone::narrow
+}  // namespace touchstone::narrow::extended

@@ -19,9 +19,9 @@
 #include <utility>
 #include <vector>
 
-#include "core/narrow/gjk.h"
+#include "core/narrow/extended/gjk.h"
 
-namespace touchstone::narrow {
+namespace touchstone::narrow::extended {
 
 enum class EpaStatus {
   closed,    // upper − lower <= tolerance
@@ -45,13 +45,13 @@ class Epa {
  public:
   /// `size` bounds the coordinates of D; tolerances scale with it.
   Epa(const ConvexCore<R>& a, const ConvexCore<R>& b, R size, R tolerance)
-      : a_(a), b_(b), tolerance_(tolerance), thin_(128 * eps * size), level_(8 * eps * size) {}
+      : d_{a, b}, tolerance_(tolerance), thin_(128 * eps * size), level_(8 * eps * size) {}
 
-  EpaResult<R> run(const GjkResult<R>& g, int budget) {
+  EpaResult<R> run(const Distance<R>& g, int budget) {
     result_.a = g.a;
     result_.b = g.b;
     outside_ = g.status == GjkStatus::enclosed ? 0 : 2 * g.upper;
-    std::vector<DifferenceVertex<R>> start(g.simplex.begin(), g.simplex.begin() + g.size);
+    std::vector<Vertex<R>> start(g.simplex.p.begin(), g.simplex.p.begin() + g.simplex.size);
     drop_degenerate(start);
     if (!grow(start)) {
       result_.status = EpaStatus::flat;
@@ -76,7 +76,7 @@ class Epa {
     std::array<int, 3> v{}, adjacent{};  // adjacent[i] lies across v[i], v[i+1]
     V3<R> normal;                        // outward
     R plane = 0, key = infinite, upper = infinite;
-    DifferenceVertex<R> support;
+    Vertex<R> support;
     bool alive = true, sliver = false,
          inside = false;  // inside: the origin projects into the triangle
   };
@@ -87,8 +87,8 @@ class Epa {
   Facet& facet(int i) { return facets_[static_cast<std::size_t>(i)]; }
   const V3<R>& point(int i) const { return vertices_[static_cast<std::size_t>(i)].w; }
 
-  DifferenceVertex<R> probe(const V3<R>& m, R& value) {
-    const DifferenceVertex<R> s = difference_support<R>(a_, b_, m);
+  Vertex<R> probe(const V3<R>& m, R& value) {
+    const Vertex<R> s = d_.support(m);
     value = m.dot(s.w);
     if (value < result_.upper) {
       result_.upper = value;
@@ -96,14 +96,14 @@ class Epa {
     }
     return s;
   }
-  DifferenceVertex<R> probe(const V3<R>& m) {
+  Vertex<R> probe(const V3<R>& m) {
     R ignored;
     return probe(m, ignored);
   }
 
   // A simplex that encloses the origin may be flat within rounding; its largest face then contains the origin
   // just as well.
-  void drop_degenerate(std::vector<DifferenceVertex<R>>& s) const {
+  void drop_degenerate(std::vector<Vertex<R>>& s) const {
     const auto w = [&](std::size_t i) -> const V3<R>& { return s[i].w; };
     if (s.size() == 4) {
       R best = -1;
@@ -134,14 +134,14 @@ class Epa {
   // Height above the longest edge.
   static R height(const V3<R>& a, const V3<R>& b, const V3<R>& c) {
     const R longest = std::max({(b - a).squaredNorm(), (c - b).squaredNorm(), (a - c).squaredNorm()});
-    return longest > 0 ? detail::triangle_normal<R>(a, b, c).norm() / std::sqrt(longest) : R(0);
+    return longest > 0 ? upright_normal<R>(a, b, c).norm() / std::sqrt(longest) : R(0);
   }
 
-  bool add_farthest(std::vector<DifferenceVertex<R>>& s, std::span<const V3<R>> directions, auto&& distance) {
+  bool add_farthest(std::vector<Vertex<R>>& s, std::span<const V3<R>> directions, auto&& distance) {
     R best = thin_;
-    DifferenceVertex<R> chosen;
+    Vertex<R> chosen;
     for (const V3<R>& m : directions) {
-      const DifferenceVertex<R> p = probe(m);
+      const Vertex<R> p = probe(m);
       if (const R d = distance(p.w); d > best) {
         best = d;
         chosen = p;
@@ -154,7 +154,7 @@ class Epa {
 
   // Extends the simplex to a tetrahedron with support points away from the current point, line or plane;
   // false when D is flat.
-  bool grow(std::vector<DifferenceVertex<R>>& s) {
+  bool grow(std::vector<Vertex<R>>& s) {
     if (s.size() == 1) {
       const V3<R> x = V3<R>::UnitX(), y = V3<R>::UnitY(), z = V3<R>::UnitZ();
       const std::array<V3<R>, 6> axes{x, V3<R>(-x), y, V3<R>(-y), z, V3<R>(-z)};
@@ -176,7 +176,7 @@ class Epa {
     return true;
   }
 
-  void build_tetrahedron(const std::vector<DifferenceVertex<R>>& s) {
+  void build_tetrahedron(const std::vector<Vertex<R>>& s) {
     vertices_.assign(s.begin(), s.end());
     const V3<R> n = (point(1) - point(0)).cross(point(2) - point(0));
     if (n.dot(point(3) - point(0)) > 0) std::swap(vertices_[1], vertices_[2]);
@@ -199,7 +199,7 @@ class Epa {
 
   void measure(Facet& f) {
     const V3<R>&a = point(f.v[0]), &b = point(f.v[1]), &c = point(f.v[2]);
-    f.normal = detail::triangle_normal<R>(a, b, c);
+    f.normal = upright_normal<R>(a, b, c);
     // A sliver's distance is that of its longest edge up to thin_; the facet across that edge accounts for
     // it.
     f.sliver = height(a, b, c) <= thin_;
@@ -208,7 +208,7 @@ class Epa {
     const R aa = a.squaredNorm(), bb = b.squaredNorm(), cc = c.squaredNorm();
     f.plane = f.normal.dot(aa <= bb && aa <= cc ? a : (bb <= cc ? b : c));
     const auto near = nearest(f);
-    f.inside = near.weight[0] > 0 && near.weight[1] > 0 && near.weight[2] > 0;
+    f.inside = near.size == 3;
     const R dist = std::sqrt(near.dist_sq);
     // Negative when the origin is beyond the plane: the surface does not (yet) enclose it.
     f.key = f.inside || f.plane < 0 ? f.plane : std::max(f.plane, dist);
@@ -216,9 +216,12 @@ class Epa {
     f.support = probe(f.normal, f.upper);
   }
 
-  ClosestPoint<R> nearest(const Facet& f) const {
-    const std::array<const V3<R>*, 3> p{&point(f.v[0]), &point(f.v[1]), &point(f.v[2])};
-    return closest_to_origin<R>(std::span<const V3<R>* const>(p));
+  Foot<R> nearest(const Facet& f) const {
+    Simplex<R> s;
+    for (std::size_t k = 0; k < 3; ++k) s.p[k].w = point(f.v[k]);
+    Foot<R> foot;
+    narrow::detail::take_triangle(s, 0, 1, 2, foot);
+    return foot;
   }
 
   void push(int i) {
@@ -233,13 +236,16 @@ class Epa {
   static R square(R x) { return x * x; }
 
   void set_witness(const Facet& x) {
-    const auto near = nearest(x);
+    Foot<R> near = nearest(x);
+    if (near.size == 3)
+      refine_weights<R>(point(x.v[0]), point(x.v[1]), point(x.v[2]), near.point, near.weight.data());
     result_.a.setZero();
     result_.b.setZero();
-    for (std::size_t i = 0; i < 3; ++i) {
-      const auto& v = vertices_[static_cast<std::size_t>(x.v[i])];
+    for (std::size_t i = 0; i < static_cast<std::size_t>(near.size); ++i) {
+      const int corner = x.v[static_cast<std::size_t>(near.corner[i])];
+      const Vertex<R>& v = vertices_[static_cast<std::size_t>(corner)];
       result_.a += near.weight[i] * v.a;
-      result_.b += near.weight[i] * v.b;
+      result_.b += near.weight[i] * (v.a + v.w);
     }
   }
 
@@ -300,7 +306,7 @@ class Epa {
     const V3<R>&a = point(e.from), &b = point(e.to);
     const R h = height(a, b, p);
     if (h <= thin_) return true;
-    const V3<R> n = detail::triangle_normal<R>(a, b, p).normalized();
+    const V3<R> n = upright_normal<R>(a, b, p).normalized();
     // The normal of a triangle of height h is accurate to about level_/h.
     const R longest =
         std::sqrt(std::max({(b - a).squaredNorm(), (p - b).squaredNorm(), (a - p).squaredNorm()}));
@@ -358,7 +364,7 @@ class Epa {
   }
 
   bool expand(int f) {
-    const DifferenceVertex<R> s = facet(f).support;
+    const Vertex<R> s = facet(f).support;
     if (!(facet(f).upper - facet(f).plane > level_) || !find_region(f, s.w)) return false;
     const int w = static_cast<int>(vertices_.size());
     vertices_.push_back(s);
@@ -377,11 +383,11 @@ class Epa {
   }
 
   using HeapItem = std::pair<R, int>;
-  const ConvexCore<R>&a_, &b_;
+  Difference<R> d_;
   R tolerance_, thin_, level_;
   R outside_ = 0;  // the origin may lie this far outside D
   EpaResult<R> result_;
-  std::vector<DifferenceVertex<R>> vertices_;
+  std::vector<Vertex<R>> vertices_;
   std::vector<Facet> facets_;
   std::priority_queue<HeapItem, std::vector<HeapItem>, std::greater<>> heap_;
   std::vector<int> region_, mark_, next_;
@@ -389,4 +395,4 @@ class Epa {
   int stamp_ = 0;
 };
 
-}  // namespace touchstone::narrow
+}  // namespace touchstone::narrow::extended
