@@ -8,6 +8,7 @@
 
 #include "core/base/input_error.h"
 #include "core/math/rng.h"
+#include "fuzz/ask/evidence.h"
 #include "fuzz/campaign/directory_lock.h"
 #include "fuzz/campaign/store.h"
 #include "oracles/abi/thread_time.h"
@@ -54,7 +55,7 @@ class Runner {
       save_state(config_, state_);
     }
     report(true);
-    return state_.result;
+    return std::move(state_.result);
   }
 
  private:
@@ -154,7 +155,7 @@ class Runner {
       if (const auto& name = e->card().name; !e->set_aside().empty() && !known.contains(name))
         chunk.result.set_aside[name] = {first_case(k), e->set_aside()};
     chunk.known = std::move(known);
-    build_new_evidence(chunk.result);
+    write_new_evidence(chunk.result);
     return chunk;
   }
 
@@ -179,19 +180,19 @@ class Runner {
     return chunk;
   }
 
-  // A certificate may take seconds of exact arithmetic. The job that found a new kind builds it here, outside
-  // the lock and within the time limit, while the others continue, instead of all being built under the lock
-  // when the state is saved. If another job adds the same kind meanwhile, it is built twice, with the same
-  // bytes.
-  void build_new_evidence(const CampaignResult& found) {
-    if (config_.out.empty()) return;
-    std::vector<const Evidence*> fresh;
+  // A certificate may take seconds of exact arithmetic. The job that found a new kind writes it here, outside
+  // the lock and within the time limit, while the others continue. Further findings of that kind need none,
+  // since only the first is kept. If another job adds the same kind meanwhile, it is written twice, with the
+  // same bytes.
+  void write_new_evidence(CampaignResult& found) {
+    std::vector<Finding*> fresh;
     {
       std::lock_guard lock(mutex_);
-      for (const auto& [key, f] : found.findings)
-        if (f.evidence && !state_.result.findings.contains(key)) fresh.push_back(f.evidence.get());
+      for (auto& [key, f] : found.findings)
+        if (!state_.result.findings.contains(key)) fresh.push_back(&f);
     }
-    for (const Evidence* e : fresh) e->json();
+    CaseCertificates certificates;
+    for (Finding* f : fresh) write_evidence(*f, certificates);
   }
 
   void merge(const Chunk& c) {

@@ -104,7 +104,7 @@ void save_findings(const std::filesystem::path& out, const CampaignResult& resul
   for (const auto& [key, f] : result.findings) {
     const auto dir = out / "findings" / key;
     make_directory(dir);
-    const Json evidence = f.evidence_json();
+    const Json& evidence = f.evidence_json;
     write_file(dir / "case.json", evidence.at("case").dump(1) + "\n");
     Json j = {{"key", key}};
     j.update(to_json(f));
