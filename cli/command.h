@@ -39,6 +39,7 @@ Run declare_engines(CLI::App& app);
 Run declare_families(CLI::App& app);
 Run declare_scenarios(CLI::App& app);
 Run declare_fuzz(CLI::App& app);
+Run declare_judge(CLI::App& app);
 Run declare_plan(CLI::App& app);
 Run declare_primitives(CLI::App& app);
 Run declare_replay(CLI::App& app);

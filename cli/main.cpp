@@ -25,6 +25,7 @@ namespace {
 
 constexpr Command table[] = {
     {"fuzz", "run a campaign of random, refereed cases", declare_fuzz},
+    {"judge", "judge a stored campaign again, without engines", declare_judge},
     {"replay", "show every engine's answer to stored cases", declare_replay},
     {"shrink", "find the smallest case that shows the same finding", declare_shrink},
     {"reproduce", "write a finding as a program against the engine", declare_reproduce},

@@ -20,8 +20,10 @@
 #include "scenarios/random/family.h"
 #include "tests/mutants/lying_engine.h"
 #include "tests/support/catch.h"
+#include "tests/support/stops_after.h"
 
 using namespace touchstone;
+using touchstone::test::StopsAfter;
 namespace fs = std::filesystem;
 
 namespace {
@@ -50,22 +52,6 @@ struct TemporaryDirectory {
 };
 
 const std::atomic<bool> go{false};
-
-// The core, which requests the end of the campaign after a number of queries.
-class StopsAfter final : public Engine {
- public:
-  StopsAfter(int batches, std::atomic<bool>& stop) : left_(batches), stop_(stop) {}
-  const EngineCard& card() const override { return core_.card(); }
-  std::vector<CaseObservations> run(std::span<const Case> cases) override {
-    if (--left_ == 0) stop_ = true;
-    return core_.run(cases);
-  }
-
- private:
-  CoreEngine core_;
-  int left_;
-  std::atomic<bool>& stop_;
-};
 
 // The core, counting its cases and answering slowly.
 class Counts final : public Engine {
