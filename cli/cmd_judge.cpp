@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <chrono>
 #include <filesystem>
 #include <thread>
 #include <vector>
@@ -71,7 +72,15 @@ std::vector<fuzz::Triaged> standings(const fuzz::CampaignResult& before, const f
 int run(const JudgeOptions& o) {
   require_writable(o.junit);
   catch_stop_signals();
-  const fuzz::JudgedAgain judged = fuzz::judge_again(o.directory, o.engine, o.jobs, interrupted);
+  using Clock = std::chrono::steady_clock;
+  constexpr std::chrono::seconds between_reports(10);
+  auto reported = Clock::now();
+  const auto progress = [&](std::uint64_t judged, std::uint64_t all) {
+    if (Clock::now() - reported < between_reports) return;
+    reported = Clock::now();
+    fmt::print(stderr, "{} of {} cases judged\n", reports::grouped(judged), reports::grouped(all));
+  };
+  const fuzz::JudgedAgain judged = fuzz::judge_again(o.directory, o.engine, o.jobs, interrupted, progress);
   const JsonReader settings(judged.settings, (std::filesystem::path(o.directory) / "state.json").string(),
                             "settings");
   if (!o.out.empty()) fuzz::save_judged_again(o.out, judged);

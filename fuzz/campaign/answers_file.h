@@ -6,9 +6,10 @@
 //   block   u32 magic, u32 CRC-32 of the rest, u64 index of the first case, u32 number of cases,
 //           u32 length of the contents, u32 length of the zlib stream (RFC 1950) that holds them, stream
 //
-// One block a chunk of the campaign, in the order of the cases. Contents: see to_bytes(). Cases are kept
-// whole, as in a case file: a later version may draw other cases from the same seed, and a guided campaign
-// draws from its own findings.
+// One block a chunk of the campaign, in the order of the cases: the same bytes for any number of jobs, unless
+// an engine itself answers differently from run to run. Contents: see to_bytes(). Cases are kept whole, as in
+// a case file: a later version may draw other cases from the same seed, and a guided campaign draws from its
+// own findings.
 #pragma once
 
 #include <cstdint>

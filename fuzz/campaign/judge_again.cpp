@@ -140,7 +140,7 @@ void require_all_cases(const AnswersFile& file, const std::filesystem::path& pat
 }  // namespace
 
 JudgedAgain judge_again(const std::filesystem::path& directory, const std::string& engine, int jobs,
-                        const std::atomic<bool>& stop) {
+                        const std::atomic<bool>& stop, const JudgeProgress& progress) {
   const auto state_file = directory / "state.json";
   if (!std::filesystem::exists(state_file))
     throw InputError(directory.string(),
@@ -174,6 +174,7 @@ JudgedAgain judge_again(const std::filesystem::path& directory, const std::strin
     judged.after.merge(part.after);
     judged.not_kept_derived += part.not_kept_derived;
     judged.not_kept_again += part.not_kept_again;
+    if (progress) progress(judged.after.cases, judged.before.cases);
   });
   if (!engine.empty()) {
     keep_only(judged.before, engine);

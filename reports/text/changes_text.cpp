@@ -14,7 +14,7 @@ constexpr std::size_t most_lines = 20;  // of one list; JSON has them all
 template <class List, class Line>
 std::string listed(const char* title, const List& list, const Line& line) {
   if (list.empty()) return "";
-  std::string s = fmt::format("  {} {}:\n", grouped(list.size()), title);
+  std::string s = fmt::format("  {} ({}):\n", title, grouped(list.size()));
   for (std::size_t i = 0; i < std::min(list.size(), most_lines); ++i) s += "    " + line(list[i]) + "\n";
   if (list.size() > most_lines) s += fmt::format("    and {} more\n", grouped(list.size() - most_lines));
   return s;
@@ -37,9 +37,10 @@ std::string finding_line(const fuzz::ResultChanges::OfFinding& f) {
 std::string changes_text(const fuzz::ResultChanges& c) {
   if (c.none) return "Judged again: the same as stored.\n";
   const auto key = [](const std::string& k) { return k; };
-  return "Judged again: NOT the same as stored.\n" + listed("findings appeared", c.appeared, key) +
-         listed("findings went", c.gone, key) + listed("findings changed", c.changed, finding_line) +
-         listed("counts changed", c.counts, [](const fuzz::ResultChanges::OfCount& n) {
+  return "Judged again: NOT the same as stored.\n" + listed("findings that appeared", c.appeared, key) +
+         listed("findings that went", c.gone, key) +
+         listed("findings that changed", c.changed, finding_line) +
+         listed("counts that changed", c.counts, [](const fuzz::ResultChanges::OfCount& n) {
            return fmt::format("{} {}: {} {} -> {}", n.engine, n.subject, n.count, n.before, n.after);
          });
 }
