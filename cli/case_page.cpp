@@ -5,10 +5,9 @@
 
 #include "cli/chosen_engines.h"
 #include "cli/command.h"
-#include "cli/replay_text.h"
 #include "core/base/input_error.h"
+#include "fuzz/ask/judged_case.h"
 #include "fuzz/bisect/bisect.h"
-#include "fuzz/judge/judge.h"
 #include "fuzz/reproduce/reproducer.h"
 #include "fuzz/shrink/keeps_finding.h"
 
@@ -93,18 +92,18 @@ Json hull_faces(const Scene& scene) {
 Json case_page(const std::string& named, const StoredCase& stored, const std::string& engines,
                const WorkerLimits& limits) {
   const Case& c = stored.c;
-  fuzz::Truth truth(c.scene);
-  reports::ReplayText text(c, truth);
+  fuzz::CaseJudge judge(c);
   Json cards = Json::object();
   for (const EnginePtr& engine : make_engines(engine_names(engines), limits)) {
     const EngineCard& card = engine->card();
     const auto answers = engine->run({&c, 1})[0];
-    const auto judgements = fuzz::judge(c, card, answers, truth);
-    text.add(card.name, answers, judgements);
+    const auto& judgements = judge.add(card, answers);
     const bool wrong =
         std::any_of(judgements.begin(), judgements.end(), [](const auto& j) { return !j.faults.empty(); });
     cards[card.name] = engine_json(c, engine, wrong);
   }
+  const auto certificates = has_large_mesh(c.scene) ? fuzz::Certificates::depths : fuzz::Certificates::exact;
+  Json queries = std::move(to_json(std::move(judge).result(certificates))["queries"]);
   return {{"page", "case"},
           {"version", 2},
           {"title", c.id.empty() ? std::filesystem::path(named).stem().string() : c.id},
@@ -112,7 +111,7 @@ Json case_page(const std::string& named, const StoredCase& stored, const std::st
           {"case", stored_case_to_json(stored)},
           {"hull_faces", hull_faces(c.scene)},
           {"engines", std::move(cards)},
-          {"queries", std::move(text.json(!has_large_mesh(c.scene))["queries"])}};
+          {"queries", std::move(queries)}};
 }
 
 }  // namespace touchstone::cli

@@ -7,6 +7,7 @@
 #include <set>
 #include <thread>
 
+#include "cli/campaign_end.h"
 #include "cli/chosen_engines.h"
 #include "cli/command.h"
 #include "cli/judged_by.h"
@@ -88,57 +89,6 @@ class ProgressPrinter {
   double next_ = 10;
 };
 
-void print_text(const fuzz::CampaignConfig& c, const fuzz::CampaignResult& r) {
-  for (const std::string& line : r.too_open(c.subject)) fmt::print("{}\n", reports::wrapped(line, 79, 2));
-  fmt::print("{}\n", reports::campaign_table(r));
-  if (!r.findings.empty())
-    fmt::print("Findings by engine (the three most frequent kinds of each):\n{}\n",
-               reports::findings_summary(r, 3));
-  fmt::print("{}", reports::campaign_footer(r));
-  if (r.findings.empty())
-    return fmt::print("no findings; the counts are in {}/summary.json\n", c.out.string());
-  const std::string out = c.out.string();
-  fmt::print("{} kinds of findings in {}/findings; to see one:\n  {} replay {}\n",
-             reports::grouped(r.findings.size()), out, program_name(),
-             shell_word(out + "/findings/" + r.findings.begin()->first));
-  if (interrupted) return;
-  fmt::print("To see all of them as a page:\n  {} report {} -o {}\n", program_name(), shell_word(out),
-             shell_word(out + "/report.html"));
-}
-
-int verdict(const fuzz::CampaignConfig& c, const fuzz::CampaignResult& r, bool json) {
-  const auto say = [&](int code, const std::string& why) {
-    return print_verdict(code, c.subject, why, json);
-  };
-  const auto wrong = r.wrong_of(c.subject), failed = r.failed_of(c.subject);
-  const std::uint64_t answers = r.answered_by(c.subject);
-  const std::string counts =
-      fmt::format("WRONG in {} and failed in {} of {} answers", reports::grouped(wrong),
-                  reports::grouped(failed), reports::grouped(answers + failed));
-  if (interrupted)
-    return say(exit_failed, fmt::format("interrupted; resume with the same command and --out {}; so far {}",
-                                        shell_word(c.out.string()), counts));
-  if (wrong + failed > 0) return say(exit_wrong, counts);
-  if (answers == 0) return say(exit_failed, "it answered nothing; this run proves nothing");
-  // A campaign in which nearly all pairs overlap, or nearly none, tests only half of what it claims to.
-  // Shares of the pairs, and the number of pairs from which they count.
-  constexpr double least_hit_rate = 0.3, most_hit_rate = 0.7;
-  constexpr std::uint64_t enough_pairs = 200;
-  if (c.family.empty() && r.pair_cases >= enough_pairs &&
-      (r.hit_rate() < least_hit_rate || r.hit_rate() > most_hit_rate))
-    return say(exit_failed,
-               fmt::format("{:.0f} % of the pairs overlap, outside 30-70 %: this run proves nothing",
-                           100 * r.hit_rate()));
-  if (const auto open = r.too_open(c.subject); !open.empty())
-    return say(exit_failed, fmt::format("0 wrong, but too many answers are open: {}", open.front()));
-  const auto exempt = r.by_definition_of(c.subject);
-  return say(exit_clean,
-             fmt::format("0 wrong in {} answers{}", reports::grouped(answers),
-                         exempt > 0 ? fmt::format(" ({} are depths of a surface, which has none: not judged)",
-                                                  reports::grouped(exempt))
-                                    : ""));
-}
-
 int run(FuzzOptions& o) {
   take_shard(o.shard, o.config);
   const ChosenEngines chosen = chosen_engines(o.choice, o.limits);
@@ -154,16 +104,16 @@ int run(FuzzOptions& o) {
   const auto make_all = [&] { return judged_by(make_engines(o.config.engines, o.limits), o.config.error); };
   catch_stop_signals();
   const auto result = fuzz::run_campaign(o.config, make_all, ProgressPrinter(o.config), interrupted);
-  if (o.json) {
-    auto j = fuzz::to_json(result, true);
-    j["digest"] = fuzz::digest(result);
-    j["out"] = o.config.out.string();
-    j["too_open"] = result.too_open(o.config.subject);
-    fmt::print("{}\n", j.dump(1));
-  } else {
-    print_text(o.config, result);
-  }
-  return verdict(o.config, result, o.json);
+  const CampaignEnd end{result, o.config.subject, o.config.family, o.config.out};
+  if (o.json)
+    fmt::print("{}\n", campaign_json(end).dump(1));
+  else
+    print_campaign(end, !interrupted);
+  if (!interrupted) return campaign_verdict(end, o.json);
+  return print_verdict(exit_failed, end.subject,
+                       fmt::format("interrupted; resume with the same command and --out {}; so far {}",
+                                   shell_word(end.out.string()), counts_of_subject(end)),
+                       o.json);
 }
 
 }  // namespace
@@ -193,6 +143,9 @@ Run declare_fuzz(CLI::App& app) {
   app.add_option("--out", o->out, "output directory; an unfinished campaign in it is resumed");
   app.add_flag("--fresh", o->config.fresh,
                "first move a campaign that is already in --out to the first free name of OUT.1, OUT.2, …");
+  app.add_flag("--keep-answers", o->config.keep_answers,
+               "also keep every case and answer in OUT/answers.bin, for `touchstone judge`: 0.9 kB a "
+               "case for the core alone, 3 kB with FCL, Bullet, ODE and libccd");
   add_error(app, o->config.error);
   add_case_seconds(app, o->limits);
   app.add_flag("--json", o->json, "the whole result as one JSON document on stdout");

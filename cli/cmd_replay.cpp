@@ -6,10 +6,11 @@
 #include "cli/chosen_engines.h"
 #include "cli/command.h"
 #include "cli/judged_by.h"
-#include "cli/replay_text.h"
 #include "core/base/input_error.h"
+#include "fuzz/ask/evidence.h"
+#include "fuzz/ask/judged_case.h"
 #include "fuzz/campaign/campaign.h"
-#include "fuzz/judge/judge.h"
+#include "reports/text/replay_text.h"
 #include "reports/text/text.h"
 #include "scenarios/import/real_scene.h"
 #include "scenarios/text/printable.h"
@@ -61,14 +62,12 @@ struct ReplayEngines {
 void replay_case(const ReplayOptions& o, const ReplayEngines& asked, const Case& c, Count& count,
                  fuzz::Json& json) {
   const Engines& engines = asked.engines;
-  fuzz::Truth truth(c.scene);
-  reports::ReplayText text(c, truth);
+  fuzz::CaseJudge judge(c);
   bool subject_wrong = false;
   const auto observations = ask(engines, c);
   for (std::size_t e = 0; e < engines.size(); ++e) {
     const EngineCard& card = engines[e]->card();
-    const auto judgements = fuzz::judge(c, card, observations[e], truth);
-    text.add(card.name, observations[e], judgements);
+    const auto& judgements = judge.add(card, observations[e]);
     if (card.name != asked.subject) continue;
     for (const auto& j : judgements) {
       subject_wrong |= !j.faults.empty();
@@ -82,13 +81,14 @@ void replay_case(const ReplayOptions& o, const ReplayEngines& asked, const Case&
   ++count.cases;
   count.wrong_cases += subject_wrong;
   if (o.json) {
-    json.push_back(text.json(o.certificates));
+    using Which = fuzz::Certificates;
+    json.push_back(to_json(std::move(judge).result(o.certificates ? Which::exact : Which::depths)));
     json.back()["impacts_not_asked"] = impacts_not_asked(c);
     json.back()["relations"] = fuzz::Json::array();
     for (const auto& [key, f] : related.findings) json.back()["relations"].push_back(fuzz::to_json(f));
     return;
   }
-  fmt::print("{}", text.str());
+  fmt::print("{}", reports::replay_text(std::move(judge).result(fuzz::Certificates::shown)));
   if (const std::string words = words_on_impacts_not_asked(c); !words.empty())
     fmt::print("{}\n\n", reports::wrapped(words, 78, 4));
   if (!related.findings.empty()) fmt::print("\nEngines that contradict their own answers:\n");
@@ -116,6 +116,7 @@ void replay_real_scene(const ReplayOptions& o, const ReplayEngines& asked, const
   }
   result.total_ns = std::chrono::nanoseconds(std::chrono::steady_clock::now() - start).count();
   if (o.json) {
+    fuzz::write_evidence(result);
     json.push_back(fuzz::to_json(result, true));
   } else {
     fmt::print("{}: {} bodies, {} of {} frames\n{}\n", scene.name, scene.frame(0).bodies.size(),

@@ -16,6 +16,7 @@
 #include "cli/judged_by.h"
 #include "cli/output.h"
 #include "core/base/input_error.h"
+#include "fuzz/ask/evidence.h"
 #include "fuzz/campaign/directory_lock.h"
 #include "fuzz/judge/relation.h"
 #include "fuzz/reproduce/reproducer.h"
@@ -139,7 +140,7 @@ void write_reproducer(const std::filesystem::path& directory, const fuzz::KnownF
     return;
   }
   const Case smallest = fuzz::case_of(known);
-  const auto findings = fuzz::findings_of({&smallest, 1}, engine, fuzz::FoundBy::both)[0];
+  auto findings = fuzz::findings_of({&smallest, 1}, engine, fuzz::FoundBy::both)[0];
   const auto finding = findings.find(known.key);
   if (finding == findings.end()) {
     ++count.not_shown;  // showed once but not again; the ledger keeps its case
@@ -152,9 +153,10 @@ void write_reproducer(const std::filesystem::path& directory, const fuzz::KnownF
   stored.c = smallest;
   stored.description = "shows " + known.key;
   save_case(stored, part / "case.json");
-  const auto evidence = finding->second.evidence_json();
-  if (evidence.contains("certificate") && evidence["certificate"].value("kind", "none") != "none")
-    write_file((part / "certificate.json").string(), evidence["certificate"].dump(1) + "\n");
+  fuzz::write_evidence(finding->second);
+  const fuzz::Json& certificate = finding->second.evidence_json.at("certificate");
+  if (certificate.value("kind", "none") != "none")
+    write_file((part / "certificate.json").string(), certificate.dump(1) + "\n");
   if (fuzz::has_reproducer(known.engine)) try {
       write_file((part / "reproduce.cpp").string(), fuzz::reproducer(finding->second, engine->card()));
     } catch (const std::exception& e) {

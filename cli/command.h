@@ -38,6 +38,8 @@ Run declare_engines(CLI::App& app);
 Run declare_families(CLI::App& app);
 Run declare_scenarios(CLI::App& app);
 Run declare_fuzz(CLI::App& app);
+Run declare_judge(CLI::App& app);
+Run declare_judge(CLI::App& app);
 Run declare_plan(CLI::App& app);
 Run declare_primitives(CLI::App& app);
 Run declare_replay(CLI::App& app);
@@ -53,6 +55,7 @@ Run declare_view(CLI::App& app);
 /// In the order of --help.
 inline constexpr auto commands = std::to_array<Command>({
     {"fuzz", "run a campaign of random, refereed cases", declare_fuzz},
+    {"judge", "judge a stored campaign again, without engines", declare_judge},
     {"replay", "show every engine's answer to stored cases", declare_replay},
     {"shrink", "find the smallest case that shows the same finding", declare_shrink},
     {"reproduce", "write a finding as a program against the engine", declare_reproduce},

@@ -22,11 +22,9 @@ Json named(Json certificate, int a, int b, int step) {
   return certificate;
 }
 
-Json exact_certificate_of(const Evidence& e) {
-  const auto make = [&] { return exact_certificate(e.c.scene, e.question, e.a, e.b, e.step); };
-  if (!e.shared) return make();
-  const auto [it, is_new] = e.shared->try_emplace({is_of_motion(e.question), e.a, e.b, e.step}, nullptr);
-  if (is_new) it->second = make();
+Json exact_certificate_of(const Evidence& e, std::uint64_t index, CaseCertificates& found) {
+  const auto [it, is_new] = found.try_emplace({index, is_of_motion(e.question), e.a, e.b, e.step}, nullptr);
+  if (is_new) it->second = exact_certificate(e.c.scene, e.question, e.a, e.b, e.step);
   return it->second;
 }
 
@@ -48,14 +46,14 @@ Json with_depth(Json certificate, const Evidence& e) {
   return certificate;
 }
 
-Json certificate_of(const Evidence& e) {
+Json certificate_of(const Evidence& e, std::uint64_t index, CaseCertificates& found) {
   using Kind = Certificate::Kind;
   const Kind k = e.certificate.kind;
   const bool verdict = k == Kind::separating_plane || k == Kind::common_point;
   if (is_of_motion(e.question)) {
-    if (Json j = with_depth(exact_certificate_of(e), e); !j.is_null()) return j;
+    if (Json j = with_depth(exact_certificate_of(e, index, found), e); !j.is_null()) return j;
   } else if (verdict) {
-    if (Json j = exact_certificate_of(e); !j.is_null()) return j;
+    if (Json j = exact_certificate_of(e, index, found); !j.is_null()) return j;
   }
   const int n = static_cast<int>(e.c.scene.bodies.size());
   const bool names = e.a >= 0 && e.b >= 0 && e.a < n && e.b < n;
@@ -97,11 +95,23 @@ Json exact_certificate(const Scene& s, Question q, int a, int b, int step) {
   return c.kind == Certificate::Kind::none ? Json() : named(touchstone::to_json(c), a, b, step);
 }
 
-Json evidence_to_json(const Evidence& e) {
-  return {{"case", case_to_json(e.c)},
-          {"observation", to_json(e.observation)},
-          {"certificate", certificate_of(e)},
-          {"received", received_json(e)}};
+void write_evidence(Finding& f, CaseCertificates& found) {
+  if (!f.evidence || !f.evidence_json.is_null()) return;
+  const Evidence& e = *f.evidence;
+  f.evidence_json = {{"case", case_to_json(e.c)},
+                     {"observation", to_json(e.observation)},
+                     {"certificate", certificate_of(e, f.first_index, found)},
+                     {"received", received_json(e)}};
+}
+
+void write_evidence(Finding& f) {
+  CaseCertificates found;
+  write_evidence(f, found);
+}
+
+void write_evidence(CampaignResult& r) {
+  CaseCertificates found;
+  for (auto& [key, f] : r.findings) write_evidence(f, found);
 }
 
 }  // namespace touchstone::fuzz

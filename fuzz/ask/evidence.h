@@ -1,14 +1,25 @@
 // Finds the certificates that prove a finding.
 #pragma once
 
+#include <cstdint>
+#include <map>
 #include <optional>
+#include <tuple>
 
-#include "reports/record/evidence.h"
+#include "reports/record/result.h"
 
 namespace touchstone::fuzz {
 
-/// Implements Evidence::write.
-Json evidence_to_json(const Evidence& e);
+/// Certificates found so far, by (index of the case, motion?, A, B, step): engines that fail in the same way
+/// on a case share them, since one may take seconds of exact arithmetic.
+using CaseCertificates = std::map<std::tuple<std::uint64_t, bool, int, int, int>, Json>;
+
+/// Fills in Finding::evidence_json, unless that is done already or there is no evidence. The certificate is
+/// one that the checker accepts, if there is one, and names its "bodies" [A, B] and "step".
+void write_evidence(Finding& f, CaseCertificates& found);
+void write_evidence(Finding& f);
+/// Of all findings of the result.
+void write_evidence(CampaignResult& r);
 
 /// The body at its own pose (step < 0), or at its pose in that query of the script; nullopt when it is not
 /// there.

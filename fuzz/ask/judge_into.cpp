@@ -4,7 +4,6 @@
 
 #include "fuzz/ask/ask.h"
 #include "fuzz/ask/degeneracy.h"
-#include "fuzz/ask/evidence.h"
 #include "fuzz/ask/magnitude.h"
 #include "fuzz/ask/novelty.h"
 #include "fuzz/ask/shapes_of.h"
@@ -25,8 +24,7 @@ void name_by_site(Finding& f, const std::string& site) {
 }
 
 void add_findings(CampaignResult& r, const Case& c, std::uint64_t index, const std::string& engine,
-                  const Query& q, const Judgement& j, const CaseObservations& all, const Observation& o,
-                  const std::shared_ptr<CaseCertificates>& shared) {
+                  const Query& q, const Judgement& j, const CaseObservations& all, const Observation& o) {
   for (const FaultReport& fault : j.faults) {
     Finding f;
     f.engine = engine;
@@ -46,9 +44,8 @@ void add_findings(CampaignResult& r, const Case& c, std::uint64_t index, const s
       // The last words of a dying process stay out of the finding: they may differ from run to run.
       f.words = fault.fault == Fault::failed ? std::string(to_string(j.outcome)) : fault.words;
       if (!o.site.empty()) f.words += " at " + o.site;
-      f.evidence =
-          std::make_shared<const Evidence>(Evidence{c, o, all.received, fault.certificate, fault.a, fault.b,
-                                                    fault.step, q.question, shared, evidence_to_json});
+      f.evidence = std::make_shared<const Evidence>(
+          Evidence{c, o, all.received, fault.certificate, fault.a, fault.b, fault.step, q.question});
     }
     kept.merge(f);
   }
@@ -128,7 +125,6 @@ void judge_into(CampaignResult& r, const Case& c, std::uint64_t index, std::span
                 std::span<const CaseObservations> observations, std::vector<std::uint64_t>* features) {
   const auto start = std::chrono::steady_clock::now();
   Truth truth(c.scene);
-  const auto shared = std::make_shared<CaseCertificates>();
   if (!observations.empty()) give_hints(truth, c, observations[0]);
   for (std::size_t e = 0; e < engines.size(); ++e) {
     const EngineCard& card = engines[e]->card();
@@ -144,7 +140,7 @@ void judge_into(CampaignResult& r, const Case& c, std::uint64_t index, std::span
       r.tallies[card.name][c.queries[i].question].add(judgements[i], o);
       count_open(r, c, card.name, c.queries[i], judgements[i]);
       r.engine_ns += o.elapsed_ns;
-      add_findings(r, c, index, card.name, c.queries[i], judgements[i], all, o, shared);
+      add_findings(r, c, index, card.name, c.queries[i], judgements[i], all, o);
       if (features) add_features(c, c.queries[i], card, o, judgements[i], *features);
     }
   }

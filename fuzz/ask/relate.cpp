@@ -6,7 +6,6 @@
 
 #include "fuzz/ask/ask.h"
 #include "fuzz/ask/degeneracy.h"
-#include "fuzz/ask/evidence.h"
 #include "fuzz/ask/magnitude.h"
 #include "fuzz/ask/shapes_of.h"
 #include "fuzz/ask/unstable.h"
@@ -48,7 +47,7 @@ void add_break(CampaignResult& r, const Case& c, std::uint64_t index, const Rela
   auto& kept = r.findings[f.key()];
   if (kept.count == 0 || index < kept.first_index)
     f.evidence = std::make_shared<const Evidence>(
-        Evidence{c, in.base.answers[q], in.base.received, {}, b.a, b.b, -1, question, {}, evidence_to_json});
+        Evidence{c, in.base.answers[q], in.base.received, {}, b.a, b.b, -1, question});
   kept.merge(f);
 }
 
@@ -74,7 +73,7 @@ void add_unstable(CampaignResult& r, const Case& c, std::uint64_t index, const R
     Observation outcome_alone;
     outcome_alone.outcome = in.base.answers[q].outcome;
     f.evidence = std::make_shared<const Evidence>(
-        Evidence{c, outcome_alone, in.base.received, {}, b.a, b.b, -1, question, {}, evidence_to_json});
+        Evidence{c, outcome_alone, in.base.received, {}, b.a, b.b, -1, question});
   }
   kept.merge(f);
 }

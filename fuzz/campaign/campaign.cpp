@@ -8,6 +8,8 @@
 
 #include "core/base/input_error.h"
 #include "core/math/rng.h"
+#include "fuzz/ask/evidence.h"
+#include "fuzz/campaign/answers_file.h"
 #include "fuzz/campaign/directory_lock.h"
 #include "fuzz/campaign/store.h"
 #include "oracles/abi/measure.h"
@@ -54,11 +56,13 @@ class Runner {
       save_state(config_, state_);
     }
     report(true);
-    return state_.result;
+    return std::move(state_.result);
   }
 
  private:
   void prepare() {
+    if (config_.keep_answers && config_.out.empty())
+      throw InputError("--keep-answers", "needs a directory for the results");
     if (!config_.out.empty()) {
       make_directory(config_.out);
       lock_.emplace(config_.out, DirectoryLock::For::writing);
@@ -67,6 +71,7 @@ class Runner {
         lock_.emplace(config_.out, DirectoryLock::For::writing);
       }
       if (auto s = load_state(config_)) state_ = std::move(*s);
+      if (config_.keep_answers) answers_.emplace(config_.out, state_.answers_bytes);
       save_state(config_, state_);
     }
     next_ = merged_ = state_.next_chunk;
@@ -83,14 +88,35 @@ class Runner {
   }
   bool ended() const { return !stop_ && (exhausted(merged_) || out_of_time()); }
 
+  // The engines of one job; `keeping`: the same ones, if their answers are kept.
+  struct Job {
+    std::vector<EnginePtr> engines;
+    std::vector<KeepingEngine*> keeping;
+  };
+
+  Job new_job() {
+    Job job{factory_(), {}};
+    if (!answers_) return job;
+    std::vector<EngineCard> cards;
+    for (EnginePtr& e : job.engines) {
+      auto keeping = std::make_unique<KeepingEngine>(std::move(e));
+      cards.push_back(keeping->card());
+      job.keeping.push_back(keeping.get());
+      e = std::move(keeping);
+    }
+    const std::lock_guard lock(mutex_);
+    answers_->start(answers_header(cards));
+    return job;
+  }
+
   void run_job() try {
-    const auto engines = factory_();
+    const Job job = new_job();
     for (;;) {
       const std::uint64_t k = next_.fetch_add(1);
       if (exhausted(k)) return;
       // The first chunk always runs, however slow the machine: a campaign without an answer proves nothing.
       if (!wait_for_generation(k) || stop_ || failed_ || (k > 0 && out_of_time())) return abandon_chunk();
-      finish(k, ask(k, engines), engines);
+      finish(k, ask(k, job), job);
     }
   } catch (const Stopped&) {
     abandon_chunk();
@@ -112,8 +138,9 @@ class Runner {
   struct Chunk {
     CampaignResult result;
     SetAside known;           // engines already set aside when the chunk ran
-    std::vector<Case> cases;  // guided campaigns only, with the features of each
-    std::vector<std::vector<std::uint64_t>> features;
+    std::vector<Case> cases;
+    std::vector<std::vector<std::uint64_t>> features;  // guided campaigns only, of each case
+    std::string answers;                               // as a block of the file, if answers are kept
   };
 
   // Half of a guided campaign's cases are mutations of earlier ones.
@@ -138,7 +165,8 @@ class Runner {
     return merged_ >= first;
   }
 
-  Chunk ask(std::uint64_t k, const std::vector<EnginePtr>& engines) {
+  Chunk ask(std::uint64_t k, const Job& job) {
+    const std::vector<EnginePtr>& engines = job.engines;
     SetAside known;
     {
       const std::lock_guard lock(mutex_);
@@ -149,13 +177,22 @@ class Runner {
       e->take_back();
       if (aside != known.end()) e->put_aside(aside->second.why);
     }
+    for (KeepingEngine* e : job.keeping) e->start();
     Chunk chunk = run_chunk(k, engines);
+    if (answers_) chunk.answers = answers_of(first_case(k), chunk.cases, job);
+    if (!config_.guided) chunk.cases.clear();
     for (const EnginePtr& e : engines)
       if (const auto& name = e->card().name; !e->set_aside().empty() && !known.contains(name))
         chunk.result.set_aside[name] = {first_case(k), e->set_aside()};
     chunk.known = std::move(known);
-    build_new_evidence(chunk.result);
+    write_new_evidence(chunk.result);
     return chunk;
+  }
+
+  static std::string answers_of(std::uint64_t first_index, const std::vector<Case>& cases, const Job& job) {
+    KeptBatch batch{first_index, cases, {}};
+    for (KeepingEngine* e : job.keeping) batch.engines.push_back(e->take());
+    return answers_block(batch);
   }
 
   Chunk run_chunk(std::uint64_t k, const std::vector<EnginePtr>& engines) {
@@ -174,28 +211,31 @@ class Runner {
     }
     ask_and_judge(r, chunk.cases, first, engines, config_.relations_every,
                   config_.guided ? &chunk.features : nullptr);
-    if (!config_.guided) chunk.cases.clear();
     r.total_ns = std::chrono::nanoseconds(Clock::now() - start).count();
     return chunk;
   }
 
-  // A certificate may take seconds of exact arithmetic. The job that found a new kind builds it here, outside
-  // the lock and within the time limit, while the others continue, instead of all being built under the lock
-  // when the state is saved. If another job adds the same kind meanwhile, it is built twice, with the same
-  // bytes.
-  void build_new_evidence(const CampaignResult& found) {
-    if (config_.out.empty()) return;
-    std::vector<const Evidence*> fresh;
+  // A certificate may take seconds of exact arithmetic. The job that found a new kind writes it here, outside
+  // the lock and within the time limit, while the others continue. Further findings of that kind need none,
+  // since only the first is kept. If another job adds the same kind meanwhile, it is written twice, with the
+  // same bytes.
+  void write_new_evidence(CampaignResult& found) {
+    std::vector<Finding*> fresh;
     {
       std::lock_guard lock(mutex_);
-      for (const auto& [key, f] : found.findings)
-        if (f.evidence && !state_.result.findings.contains(key)) fresh.push_back(f.evidence.get());
+      for (auto& [key, f] : found.findings)
+        if (!state_.result.findings.contains(key)) fresh.push_back(&f);
     }
-    for (const Evidence* e : fresh) e->json();
+    CaseCertificates certificates;
+    for (Finding* f : fresh) write_evidence(*f, certificates);
   }
 
   void merge(const Chunk& c) {
     state_.result.merge(c.result);
+    if (answers_) {
+      answers_->append(c.answers);
+      state_.answers_bytes = answers_->bytes();
+    }
     for (std::size_t i = 0; i < c.features.size(); ++i) state_.pool.note(c.cases[i], c.features[i]);
     if ((merged_ + 1) % generation_chunks == 0) state_.pool.publish();
     ++merged_;
@@ -206,7 +246,7 @@ class Runner {
                       [](const auto& x, const auto& y) { return x.first == y.first; });
   }
 
-  void finish(std::uint64_t k, Chunk c, const std::vector<EnginePtr>& engines) {
+  void finish(std::uint64_t k, Chunk c, const Job& job) {
     std::unique_lock lock(mutex_);
     pending_.emplace(k, std::move(c));
     for (auto it = pending_.find(merged_); it != pending_.end(); it = pending_.find(merged_)) {
@@ -220,7 +260,7 @@ class Runner {
       // so that the result is that of a single job.
       const std::uint64_t again = merged_;
       lock.unlock();
-      next = ask(again, engines);
+      next = ask(again, job);
       lock.lock();
       pending_.emplace(again, std::move(next));
     }
@@ -274,6 +314,7 @@ class Runner {
   std::condition_variable merge_advanced_;
   bool gap_ = false;
   StoredState state_;
+  std::optional<AnswersWriter> answers_;
   std::optional<DirectoryLock> lock_;  // on config_.out
 };
 

@@ -33,6 +33,8 @@ struct CampaignConfig {
   /// Half of the cases are mutations of earlier ones that made an engine do something new (novelty.h).
   bool guided = false;
   std::string error;  // the user's tolerance (--error); empty: the engines' own claims
+  /// Keep every case and every answer in `out` (answers_file.h), so that they can be judged again.
+  bool keep_answers = false;
 };
 
 /// Creates the engines of one job, in the order of CampaignConfig::engines.

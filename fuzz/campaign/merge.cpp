@@ -6,6 +6,7 @@
 #include <functional>
 
 #include "core/base/input_error.h"
+#include "fuzz/campaign/answers_file.h"
 #include "fuzz/campaign/directory_lock.h"
 #include "fuzz/campaign/store.h"
 #include "reports/record/stored.h"
@@ -20,6 +21,7 @@ struct Part {
   std::uint64_t of = 1;               // shards in the whole campaign
   std::vector<std::uint64_t> shards;  // those in this part, sorted
   std::uint64_t chunks = 0;
+  std::uint64_t answers_bytes = 0;
   CampaignResult result;
 };
 
@@ -60,6 +62,7 @@ Part load_part(const std::filesystem::path& directory) {
   p.settings.erase("merged");
   p.chunks = count_of(j["next_chunk"]);
   p.result = result_with_evidence(j["result"]);
+  if (j.has("answers_bytes")) p.answers_bytes = count_of(j["answers_bytes"]);
   return p;
 }
 
@@ -99,6 +102,31 @@ std::vector<Part> without_repeated(std::vector<Part> parts) {
   return kept;
 }
 
+// Copies the blocks of all parts in the order of their cases. Returns the bytes written.
+std::uint64_t merge_answers(const std::filesystem::path& out, const std::vector<Part>& parts) {
+  struct Place {
+    const AnswersFile* file;
+    AnswersFile::Block block;
+  };
+  std::vector<AnswersFile> files;
+  for (const Part& p : parts)
+    if (p.answers_bytes > 0) files.emplace_back(p.from, p.answers_bytes);
+  if (files.empty()) return 0;
+  std::vector<Place> places;
+  for (const AnswersFile& f : files) {
+    if (f.header() != files[0].header())
+      throw InputError((parts[0].from / answers_file_name).string(),
+                       "the parts were answered by different versions of the engines");
+    for (const auto& b : f.blocks()) places.push_back({&f, b});
+  }
+  std::sort(places.begin(), places.end(),
+            [](const Place& x, const Place& y) { return x.block.first_index < y.block.first_index; });
+  AnswersWriter writer(out, 0);
+  writer.start(files[0].header());
+  for (const Place& p : places) writer.append(p.file->block(p.block));
+  return writer.bytes();
+}
+
 }  // namespace
 
 Merged merge_campaigns(const std::filesystem::path& out, std::span<const std::filesystem::path> in) {
@@ -129,6 +157,7 @@ Merged merge_campaigns(const std::filesystem::path& out, std::span<const std::fi
   }
   make_directory(out);
   const DirectoryLock lock(out, DirectoryLock::For::writing);
+  state.answers_bytes = merge_answers(out, parts);
   save_findings(out, state.result);
   save_state(out, settings, state);
   m.result = std::move(state.result);

@@ -20,6 +20,7 @@ Json settings(const CampaignConfig& c) {
             {"guided", c.guided}};
   j["cases"] = c.cases ? Json(*c.cases) : Json(nullptr);
   if (!c.error.empty()) j["error"] = c.error;
+  if (c.keep_answers) j["keep_answers"] = true;
   return j;
 }
 
@@ -33,16 +34,19 @@ Pool pool_from_json(const JsonReader& j) {
   Pool p;
   p.published = count_of(j["published"]);
   for (const JsonReader& feature : j["features"].items()) p.features.insert(count_of(feature));
-  for (const JsonReader& c : j["cases"].items()) {
-    p.cases.push_back(case_from_json(c.json(), c.place()));
-    // The body indices of a question about the whole scene are meaningless and not stored; families use -1.
-    for (Query& q : p.cases.back().queries)
-      if (!is_pair_question(q.question)) q.a = q.b = -1;
-  }
+  for (const JsonReader& c : j["cases"].items()) p.cases.push_back(campaign_case(c.json(), c.place()));
   return p;
 }
 
 }  // namespace
+
+Case campaign_case(const Json& j, const std::string& place) {
+  Case c = case_from_json(j, place);
+  // The body indices of a question about the whole scene are meaningless and not stored; families use -1.
+  for (Query& q : c.queries)
+    if (!is_pair_question(q.question)) q.a = q.b = -1;
+  return c;
+}
 
 std::optional<StoredState> load_state(const CampaignConfig& config) {
   const auto file = config.out / "state.json";
@@ -61,6 +65,7 @@ std::optional<StoredState> load_state(const CampaignConfig& config) {
                      "holds a finished campaign; give another --out, or --fresh, which moves it aside");
   s.result = result_with_evidence(j["result"]);
   if (j.has("pool")) s.pool = pool_from_json(j["pool"]);
+  if (j.has("answers_bytes")) s.answers_bytes = count_of(j["answers_bytes"]);
   return s;
 }
 
@@ -73,6 +78,7 @@ void save_state(const std::filesystem::path& out, const Json& settings, const St
             {"finished", s.finished},
             {"next_chunk", s.next_chunk},
             {"result", to_json(s.result, true)}};
+  if (s.answers_bytes > 0) j["answers_bytes"] = s.answers_bytes;
   // Only needed to resume.
   if (!s.finished && s.pool.size() > 0) j["pool"] = pool_json(s.pool);
   write_file(out / "state.json", j.dump());
@@ -103,7 +109,7 @@ void save_findings(const std::filesystem::path& out, const CampaignResult& resul
   for (const auto& [key, f] : result.findings) {
     const auto dir = out / "findings" / key;
     make_directory(dir);
-    const Json evidence = f.evidence_json();
+    const Json& evidence = f.evidence_json;
     write_file(dir / "case.json", evidence.at("case").dump(1) + "\n");
     Json j = {{"key", key}};
     j.update(to_json(f));

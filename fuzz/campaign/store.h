@@ -3,6 +3,9 @@
 //   DIR/summary.json               the whole result, at the end
 //   DIR/findings/<key>/case.json   the first case of a finding, ready for `touchstone replay`
 //   DIR/findings/<key>/finding.json  message, answer, certificate, counts
+//   DIR/answers.bin                every case and answer (answers_file.h), if the campaign keeps them;
+//   appended
+//                                  to, and cut to the length in state.json when the campaign is resumed
 #pragma once
 
 #include <filesystem>
@@ -17,7 +20,8 @@ struct StoredState {
   std::uint64_t next_chunk = 0;
   bool finished = false;
   CampaignResult result;
-  Pool pool;  // guided campaigns only
+  Pool pool;                        // guided campaigns only
+  std::uint64_t answers_bytes = 0;  // of answers.bin, if answers are kept
 };
 
 /// Succeeds if the directory already exists. Throws InputError with the reason.
@@ -26,6 +30,9 @@ void make_directory(const std::filesystem::path& directory);
 /// Renames a directory that holds a campaign to DIR.1, or to the first such name that is free. Returns false
 /// if it does not hold one.
 bool move_aside(const std::filesystem::path& out);
+
+/// A case of a campaign, from its JSON.
+Case campaign_case(const Json& j, const std::string& place);
 
 /// Returns the state in config.out, or nothing when the directory is new. Throws InputError when the campaign
 /// is finished, damaged or has different settings.

@@ -67,6 +67,8 @@ void get_lists(Reader& r, Observation& o) {
   }
 }
 
+}  // namespace
+
 void put_observation(Writer& w, const Observation& o) {
   const bool lists = !o.manifold.empty() || !o.candidate_pairs.empty() || !o.contacts.empty();
   const auto present =
@@ -86,8 +88,7 @@ void put_observation(Writer& w, const Observation& o) {
 
 Observation get_observation(Reader& r) {
   Observation o;
-  // Only the harness can decide that a query was not asked.
-  o.outcome = static_cast<Outcome>(r.tag(static_cast<std::uint8_t>(Outcome::not_asked)));
+  o.outcome = static_cast<Outcome>(r.tag(static_cast<std::uint8_t>(outcome_names.size())));
   const auto present = r.get<std::uint16_t>();
   if (present > all_present) throw Malformed("an unknown field");
   o.detail = printable(r.text(), "\n\t");
@@ -105,8 +106,6 @@ Observation get_observation(Reader& r) {
   if (present & has_lists) get_lists(r, o);
   return o;
 }
-
-}  // namespace
 
 void FrameReader::append(const char* data, std::size_t n) {
   if (begin_ == buffer_.size()) {
@@ -208,6 +207,8 @@ ReceivedMessage decode_received(std::string_view payload, const Scene& scene) {
   m.sequence = r.get<std::uint64_t>();
   m.scene = get_received(r, scene);
   r.finish();
+  if (m.scene.shapes.size() != scene.shapes.size() || m.scene.bodies.size() != scene.bodies.size())
+    throw Malformed("a wrong number of shapes or bodies");
   return m;
 }
 
@@ -218,6 +219,8 @@ AnswerMessage decode_answer(std::string_view payload) {
   m.query = r.get<std::uint32_t>();
   m.observation = get_observation(r);
   r.finish();
+  // Only the harness can decide that a query was not asked.
+  if (m.observation.outcome == Outcome::not_asked) throw Malformed("an unknown tag");
   return m;
 }
 

@@ -87,7 +87,8 @@ QuestionMessage decode_question(std::string_view payload);
 ReceivedMessage decode_received(std::string_view payload, const Scene& scene);
 AnswerMessage decode_answer(std::string_view payload);
 
-// Scenes and received scenes as bytes; used only by protocol.cpp.
+// Scenes, received scenes and observations as bytes: parts of messages, and of files of kept answers
+// (fuzz/campaign/answers_file.h), so a change needs a new version of both.
 
 /// Writes the scene without names. get_scene(put_scene(s)) has the same numbers, including faces and
 /// dimensions of hulls, and the same script.
@@ -95,6 +96,11 @@ void put_scene(Writer& w, const Scene& scene);
 Scene get_scene(Reader& r);
 
 void put_received(Writer& w, const ReceivedScene& received);
+/// A scene with more shapes or bodies than the given one is malformed.
 ReceivedScene get_received(Reader& r, const Scene& sent);
+
+/// All but Observation::slow and Observation::site.
+void put_observation(Writer& w, const Observation& o);
+Observation get_observation(Reader& r);
 
 }  // namespace touchstone::protocol

@@ -164,15 +164,16 @@ void put_received(Writer& w, const ReceivedScene& received) {
 }
 
 ReceivedScene get_received(Reader& r, const Scene& sent) {
+  const auto count = [&](std::size_t most) {
+    const std::size_t n = r.count(1);
+    if (n > most) throw Malformed("more shapes or bodies than were sent");
+    return n;
+  };
   ReceivedScene received;
-  if (r.count(1) != sent.shapes.size()) throw Malformed("a wrong number of shapes");
-  received.shapes.resize(sent.shapes.size());
-  for (std::size_t i = 0; i < sent.shapes.size(); ++i) {
-    if (!r.flag()) continue;
-    received.shapes[i] = get_shape(r);
-  }
-  if (r.count(1) != sent.bodies.size()) throw Malformed("a wrong number of bodies");
-  received.bodies.resize(sent.bodies.size());
+  received.shapes.resize(count(sent.shapes.size()));
+  for (auto& s : received.shapes)
+    if (r.flag()) s = get_shape(r);
+  received.bodies.resize(count(sent.bodies.size()));
   for (auto& b : received.bodies) {
     if (!r.flag()) continue;
     Placement p;

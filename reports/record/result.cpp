@@ -121,13 +121,6 @@ std::string Finding::key() const {
   return fmt::format("{}.{}.{}.{}.{}.{}.{}", engine, question, fault, shapes, blame, degeneracy, magnitude);
 }
 
-const Json& Evidence::json() const {
-  if (made.is_null()) made = write(*this);
-  return made;
-}
-
-Json Finding::evidence_json() const { return evidence ? evidence->json() : stored; }
-
 void Finding::merge(const Finding& o) {
   const std::uint64_t both = count + o.count;
   const double worst = std::max(worst_in_l, o.worst_in_l);
@@ -363,7 +356,7 @@ Finding finding_from_json(const JsonReader& j) {
     for (const char* part : parts_of_evidence)
       if (!evidence.has(part)) j.fail("has no evidence: " + std::string(part) + " is missing");
     evidence["observation"].require_object();
-    f.stored = evidence.json();
+    f.evidence_json = evidence.json();
   }
   return f;
 }
@@ -405,12 +398,13 @@ NamedDocuments documents_of(const JsonReader& j) {
 // Puts documents back in place; results of earlier versions already have them there.
 void fill_in(Finding& f, const JsonReader& at, const NamedDocuments& documents) {
   for (const char* part : documents_of_evidence) {
-    if (!f.stored.is_object() || !f.stored[part].is_string()) continue;
-    const auto document = documents.find(f.stored[part].get<std::string>());
+    if (!f.evidence_json.is_object() || !f.evidence_json[part].is_string()) continue;
+    const auto document = documents.find(f.evidence_json[part].get<std::string>());
     if (document == documents.end()) at["evidence"][part].fail("names a document that does not exist");
-    f.stored[part] = *document->second;
+    f.evidence_json[part] = *document->second;
   }
-  if (f.stored.is_object() && !f.stored["case"].is_object()) at["evidence"]["case"].fail("is not a case");
+  if (f.evidence_json.is_object() && !f.evidence_json["case"].is_object())
+    at["evidence"]["case"].fail("is not a case");
 }
 
 }  // namespace
@@ -444,7 +438,7 @@ Json to_json(const CampaignResult& r, bool with_times) {
   Documents documents;
   j["findings"] = Json::object();
   for (const auto& [key, f] : r.findings) {
-    Json item = to_json(f), evidence = f.evidence_json();
+    Json item = to_json(f), evidence = f.evidence_json;
     for (const char* part : documents_of_evidence)
       if (evidence.contains(part)) documents.take(evidence[part]);
     // The last output of a crashed process may contain addresses: for people, not for comparison.
@@ -534,7 +528,7 @@ CampaignResult result_from_json(const JsonReader& j) {
 CampaignResult result_with_evidence(const JsonReader& j) {
   CampaignResult r = result_from_json(j);
   for (const auto& [key, f] : r.findings)
-    if (f.stored.is_null()) j["findings"][key].fail("has no evidence");
+    if (f.evidence_json.is_null()) j["findings"][key].fail("has no evidence");
   return r;
 }
 

@@ -70,8 +70,9 @@ struct Finding {
   std::uint64_t first_index = 0;
   std::string words;
   std::shared_ptr<const Evidence> evidence;  // of the first case; empty when read back from disk
-  Json stored;                               // the evidence as JSON, when read back from disk
-  Json evidence_json() const;
+  /// The evidence as JSON: {"case", "observation", "certificate", "received"}; null until write_evidence
+  /// (fuzz/ask/evidence.h) has filled it in.
+  Json evidence_json;
   std::string key() const;
   void merge(const Finding& o);
 };

@@ -25,11 +25,12 @@ int kills() {
   return text ? std::max(1, std::atoi(text)) : 2;
 }
 
-// Every file except those with times and locks.
+// Every file except those with times and locks; the answers, if they are kept.
 std::map<std::string, std::string> findings_of(const fs::path& campaign) {
   std::map<std::string, std::string> files;
   for (const auto& e : fs::recursive_directory_iterator(campaign / "findings"))
     if (e.is_regular_file()) files[fs::relative(e.path(), campaign).string()] = read_all(e.path());
+  if (fs::exists(campaign / "answers.bin")) files["answers"] = read_all(campaign / "answers.bin");
   files["digest"] = nlohmann::json::parse(read_all(campaign / "summary.json")).at("digest");
   return files;
 }
@@ -55,7 +56,8 @@ int elapsed_ms(const Workspace& w, const std::string& arguments, int& code) {
 
 TEST_CASE("a killed campaign, resumed until it ends, finds what an uninterrupted one finds", "[kill]") {
   const Workspace w("kill");
-  const std::string fuzz = "fuzz --cases 600 --seed 5 --jobs 2 --engines core," + liar + " --out ";
+  const std::string fuzz =
+      "fuzz --cases 600 --seed 5 --jobs 2 --keep-answers --engines core," + liar + " --out ";
   int code = 0;
   const int whole = elapsed_ms(w, fuzz + "whole", code);
   REQUIRE(code == 0);
@@ -78,8 +80,8 @@ TEST_CASE("a killed campaign, resumed until it ends, finds what an uninterrupted
 TEST_CASE("a killed merge, run again, gives the same result", "[kill][merge]") {
   const Workspace w("kill");
   for (const std::string shard : {"0", "1"})
-    REQUIRE(w.touchstone("fuzz --cases 256 --seed 5 --engines core," + liar + " --shard " + shard +
-                         "/2 --out part" + shard)
+    REQUIRE(w.touchstone("fuzz --cases 256 --seed 5 --keep-answers --engines core," + liar + " --shard " +
+                         shard + "/2 --out part" + shard)
                 .code == 0);
   int code = 0;
   const int whole = elapsed_ms(w, "merge whole part0 part1", code);

@@ -5,6 +5,7 @@
 
 #include "core/base/input_error.h"
 #include "fuzz/ask/evidence.h"
+#include "fuzz/campaign/answers_file.h"
 #include "fuzz/campaign/merge.h"
 #include "fuzz/campaign/store.h"
 #include "fuzz/shrink/reductions.h"
@@ -227,6 +228,16 @@ void read_frames(const fs::path& d) try {
   throw InputError(at_file(d / "frames.bin", e), e.reason());
 }
 
+// A damaged file is found by its checksums; `contents` are damaged behind them.
+void read_answers(const fs::path& d) {
+  const fuzz::AnswersFile file(d / "kept", fs::file_size(d / "kept" / fuzz::answers_file_name));
+  for (const auto& block : file.blocks()) file.batch(block);
+}
+void read_contents(const fs::path& d) {
+  const fs::path file = d / "answers.contents";
+  fuzz::batch_from_bytes(read_file(file), 1, 2, file.string());
+}
+
 // No command reads meshes yet. assimp itself dies on other formats (PLY and OFF: an assertion in its
 // triangulation).
 template <char kind>
@@ -319,22 +330,7 @@ void write_certificates(const fs::path& d) {
   write_json(d / "impact.json", fuzz::exact_certificate(hits.scene, Question::time_of_impact, 0, 1));
 }
 
-void write_frames(const fs::path& d) {
-  const Case c = load_case(d / "pair1.json");
-  std::string bytes;
-  EngineCard card;
-  card.name = "e";
-  card.library = "l";
-  card.version = "1";
-  write_file(d / "card.json", to_json_text(card));
-  append(bytes, protocol::Hello{{to_json_text(card)}, 0, "", "none"});
-  append(bytes, protocol::QuestionRef{1, 0, c.scene, c.queries});
-  ReceivedScene received;
-  received.bodies.resize(2);
-  received.shapes.resize(2);
-  received.bodies[0] = Placement{};
-  received.shapes[1] = c.scene.shapes[1];
-  append(bytes, protocol::ReceivedMessage{1, received});
+Observation full_observation() {
   Observation o;
   o.outcome = Outcome::answered;
   o.overlap = true;
@@ -345,6 +341,38 @@ void write_frames(const fs::path& d) {
   o.candidate_pairs = {{{0, 1}}, {}};
   o.contacts = {{0, 1, Vec3(0, 0, 1), 0.1}};
   o.detail = "words";
+  return o;
+}
+
+ReceivedScene received_of(const Scene& sent) {
+  ReceivedScene received;
+  received.bodies.resize(2);
+  received.shapes.resize(2);
+  received.bodies[0] = Placement{};
+  received.shapes[1] = sent.shapes[1];
+  return received;
+}
+
+void write_contents(const fs::path& d) {
+  fuzz::KeptBatch b;
+  b.cases = {load_case(d / "pair1.json")};
+  const CaseObservations all{received_of(b.cases[0].scene), {full_observation()}};
+  b.engines.resize(2, {{all}, {{false, true, 1, all}, {true, true, 2, all}, {true, false, 3, {}}}});
+  write_file(d / "answers.contents", fuzz::to_bytes(b));
+}
+
+void write_frames(const fs::path& d) {
+  const Case c = load_case(d / "pair1.json");
+  std::string bytes;
+  EngineCard card;
+  card.name = "e";
+  card.library = "l";
+  card.version = "1";
+  write_file(d / "card.json", to_json_text(card));
+  append(bytes, protocol::Hello{{to_json_text(card)}, 0, "", "none"});
+  append(bytes, protocol::QuestionRef{1, 0, c.scene, c.queries});
+  append(bytes, protocol::ReceivedMessage{1, received_of(c.scene)});
+  const Observation o = full_observation();
   append(bytes, protocol::AnswerMessage{1, 0, o});
   write_file(d / "frames.bin", bytes);
 }
@@ -385,6 +413,8 @@ const std::vector<FileReader>& file_readers() {
       {"state to merge", {"campaign/state.json"}, read_merged},
       {"state to resume", {"half/state.json"}, read_resumed},
       {"summary", {"campaign/summary.json"}, read_summary},
+      {"kept answers", {"kept/answers.bin"}, read_answers},
+      {"contents of kept answers", {"answers.contents"}, read_contents},
       {"certificate of a broad phase", {"broad.json"}, read_broad},
       {"plan", {"plan.json"}, read_plan},
       {"chart", {"chart.json"}, read_chart},
@@ -410,6 +440,7 @@ void write_plain_originals(const fs::path& d) {
   write_json(d / "scene.json", Json::parse(moving)["scene"]);
   write_certificates(d);
   write_frames(d);
+  write_contents(d);
   write_meshes(d);
   write_chart(d);
 }

@@ -148,6 +148,7 @@ const std::vector<Target>& targets() {
       {{"half/state.json"},
        {"fuzz --cases 32 --seed 5 --jobs 1 --relations 0 --shard 1/2 --engines core --out half",
         "merge merged campaign half"}},
+      {{"kept/answers.bin", "kept/state.json"}, {"judge kept --jobs 1", "judge kept --jobs 1 --json"}},
       {{"campaign/summary.json"}, {"report campaign", "triage campaign --ledger ledger.db --no-shrink"}},
       {{"broad.json"}, {"certify --check broad.json --jobs 1"}},
       {{"plan.json"}, {"plan case.json --use plan.json --rounds 1 --judged 4"}},
@@ -293,6 +294,8 @@ bool make_campaigns(const fs::path& dir) {
       {"fuzz --cases 24 --out campaign " + lies, "campaign/summary.json"},
       {"fuzz --cases 32 --shard 1/2 --out half --engines core --relations 0 --jobs 1 --seed 5",
        "half/state.json"},
+      {"fuzz --cases 16 --keep-answers --out kept --engines core --relations 4 --jobs 1 --seed 5",
+       "kept/answers.bin"},
       {"certify --subject sort_and_sweep --limit 2 --jobs 1 -o broad.json", "broad.json"}};
   for (const auto& [command, file] : made) {
     const Ended e = run(dir, command);

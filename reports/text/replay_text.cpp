@@ -1,4 +1,4 @@
-#include "cli/replay_text.h"
+#include "reports/text/replay_text.h"
 
 #include <fmt/format.h>
 
@@ -6,10 +6,7 @@
 #include <cmath>
 
 #include "core/base/exact_text.h"
-#include "fuzz/ask/evidence.h"
-#include "reports/record/evidence.h"
 #include "reports/text/text.h"
-#include "scenarios/codec/value_codec.h"
 #include "scenarios/text/printable.h"
 
 namespace touchstone::reports {
@@ -17,9 +14,9 @@ namespace {
 
 std::string vec(const Vec3& v) { return fmt::format("({:.6g} {:.6g} {:.6g})", v.x(), v.y(), v.z()); }
 
-std::string bracket(const referee::Bracket& b) {
-  if (b.lo == b.hi) return fmt::format("{:.12g} exactly", b.lo);
-  return fmt::format("{:.12g}, known to {:.1e}", (b.lo + b.hi) / 2, b.hi - b.lo);
+std::string bracket(const std::array<double, 2>& b) {
+  if (b[0] == b[1]) return fmt::format("{:.12g} exactly", b[0]);
+  return fmt::format("{:.12g}, known to {:.1e}", (b[0] + b[1]) / 2, b[1] - b[0]);
 }
 
 std::string body_line(const Scene& s, int i) {
@@ -161,161 +158,62 @@ std::string_view at_rest(const Scene& s, const Query& q) {
   return moves && q.question != Question::swept_candidates ? " (at t = 0; motions are ignored)" : "";
 }
 
-std::string_view time_verdict(const referee::TimeTruth& t) {
-  using V = referee::TimeTruth::Verdict;
-  return t.verdict == V::hit ? "impact" : t.verdict == V::none ? "no impact" : "undecided";
+std::string referee_lines(const Query& q, const fuzz::RefereeAnswer& r) {
+  switch (q.question) {
+    case Question::time_of_impact: {
+      std::string s = fmt::format("  referee: {}", r.verdict);
+      if (r.verdict == "impact") s += fmt::format(", t in [{:.12g}, {:.12g}]", r.time[0], r.time[1]);
+      return s + (r.note.empty() ? "\n" : "; " + r.note + "\n");
+    }
+    case Question::candidates: {
+      std::size_t n = 0;
+      for (const auto& set : r.pairs) n += set.size();
+      return fmt::format("  referee: {} pairs overlap over {} queries\n", n, r.pairs.size());
+    }
+    case Question::scene_contacts:
+      return fmt::format("  referee: {} pairs overlap\n", r.pairs.at(0).size());
+    case Question::swept_candidates:
+      return fmt::format("  referee: {} pairs overlap at some time of the step{}\n", r.pairs.at(0).size(),
+                         r.undecided_pairs > 0 ? fmt::format(", {} undecided", r.undecided_pairs) : "");
+    case Question::overlap:
+    case Question::distance:
+    case Question::contact:
+      break;
+  }
+  const bool has_gap = std::isfinite(r.gap[0]);
+  std::string s = fmt::format("  referee: {}", r.verdict);
+  if (has_gap) s += fmt::format(", signed distance {}", bracket(r.gap));
+  if (r.verdict == "undecided" && !r.note.empty()) s += "; " + r.note;
+  s += "\n";
+  if (q.question == Question::contact && r.verdict == "overlap" && has_gap)
+    return s + fmt::format("    depth is least along n = {}\n", vec(r.normal)) +
+           certificate_lines(r.depth_certificate);
+  return s + certificate_lines(r.verdict_certificate);
 }
 
 }  // namespace
 
-void ReplayText::add(const std::string& engine, const CaseObservations& observations,
-                     const std::vector<Judgement>& judgements) {
-  rows_.push_back({engine, observations, judgements});
-}
-
-std::string ReplayText::referee_lines(const Query& q) const {
-  switch (q.question) {
-    case Question::time_of_impact: {
-      const auto& t = truth_.motion(0, q.a, q.b);
-      std::string s = fmt::format("  referee: {}", time_verdict(t));
-      if (t.verdict == referee::TimeTruth::Verdict::hit)
-        s += fmt::format(", t in [{:.12g}, {:.12g}]", t.t_lo, t.t_hi);
-      return s + (t.note.empty() ? "\n" : "; " + t.note + "\n");
-    }
-    case Question::candidates: {
-      std::size_t n = 0;
-      for (const auto& set : truth_.true_pairs()) n += set.size();
-      return fmt::format("  referee: {} pairs overlap over {} queries\n", n, truth_.true_pairs().size());
-    }
-    case Question::scene_contacts:
-      return fmt::format("  referee: {} pairs overlap\n", truth_.scene_pairs(0).size());
-    case Question::swept_candidates: {
-      const auto n = truth_.meeting_pairs().size();
-      const auto open = truth_.undecided_meetings();
-      return fmt::format("  referee: {} pairs overlap at some time of the step{}\n", n,
-                         open > 0 ? fmt::format(", {} undecided", open) : "");
-    }
-    default:
-      break;
-  }
-  const referee::PairTruth& t = truth_.pair(0, q.a, q.b);
-  std::string s = fmt::format("  referee: {}", referee::to_string(t.verdict));
-  if (std::isfinite(t.gap.lo)) s += fmt::format(", signed distance {}", bracket(t.gap));
-  if (t.verdict == referee::Verdict::undecided && !t.verdict_certificate.note.empty())
-    s += "; " + t.verdict_certificate.note;
-  s += "\n";
-  if (q.question == Question::contact && t.verdict == referee::Verdict::overlap && std::isfinite(t.gap.lo))
-    s += fmt::format("    depth is least along n = {}\n", vec(t.normal)) +
-         certificate_lines(depth_certificate(q));
-  else
-    s += certificate_lines(t.verdict_certificate);
-  return s;
-}
-
-std::string ReplayText::str() const {
-  const Scene& s = case_.scene;
-  std::string out = fmt::format("{}\n", printable(case_.id));
+std::string replay_text(const fuzz::JudgedCase& judged) {
+  const Scene& s = judged.c.scene;
+  std::string out = fmt::format("{}\n", printable(judged.c.id));
   const int n = static_cast<int>(s.bodies.size());
   for (int i = 0; i < std::min(n, 4); ++i) out += body_line(s, i);
   if (n > 4) out += fmt::format("  and {} more bodies\n", n - 4);
-  for (std::size_t i = 0; i < case_.queries.size(); ++i) {
-    const Query& q = case_.queries[i];
+  for (std::size_t i = 0; i < judged.c.queries.size(); ++i) {
+    const Query& q = judged.c.queries[i];
     out += is_pair_question(q.question) ? fmt::format("{} of {} and {}\n", to_string(q.question), q.a, q.b)
                                         : fmt::format("{}{}\n", to_string(q.question), at_rest(s, q));
-    out += referee_lines(q);
+    out += referee_lines(q, judged.referee[i]);
     std::string cannot;
-    for (const Row& r : rows_) {
-      if (r.observations.answers[i].outcome == Outcome::unsupported)
-        cannot += (cannot.empty() ? "  cannot: " : ", ") + r.engine;
+    for (const fuzz::JudgedCase::OfEngine& e : judged.engines) {
+      if (e.answers[i].outcome == Outcome::unsupported)
+        cannot += (cannot.empty() ? "  cannot: " : ", ") + e.engine;
       else
-        out += engine_lines(r.engine, q, r.observations.answers[i], r.judgements[i]);
+        out += engine_lines(e.engine, q, e.answers[i], e.judgements[i]);
     }
     if (!cannot.empty()) out += wrapped(cannot, 78, 4) + "\n";
   }
   return out + "\n";
-}
-
-Certificate ReplayText::depth_certificate(const Query& q) const {
-  return referee::depth_certificate(truth_.pair(0, q.a, q.b), truth_.placed(0, q.a), truth_.placed(0, q.b));
-}
-
-fuzz::Json ReplayText::referee_json(const Query& q, bool certificates) const {
-  if (q.question == Question::time_of_impact) {
-    const auto& t = truth_.motion(0, q.a, q.b);
-    fuzz::Json j = {{"verdict", time_verdict(t)}, {"t_lo", t.t_lo}, {"t_hi", t.t_hi}, {"note", t.note}};
-    if (certificates) j["certificate"] = fuzz::exact_certificate(case_.scene, q.question, q.a, q.b);
-    return j;
-  }
-  if (!is_pair_question(q.question)) {
-    fuzz::Json sets = fuzz::Json::array();
-    const auto add = [&](const std::vector<fuzz::Truth::TruePair>& set) {
-      fuzz::Json pairs = fuzz::Json::array();
-      for (const auto& p : set) pairs.push_back({p.bodies.first, p.bodies.second});
-      sets.push_back(std::move(pairs));
-    };
-    if (q.question == Question::swept_candidates)
-      return {{"meeting_pairs", truth_.meeting_pairs()}, {"undecided_pairs", truth_.undecided_meetings()}};
-    if (q.question == Question::scene_contacts)
-      add(truth_.scene_pairs(0));
-    else
-      for (const auto& set : truth_.true_pairs()) add(set);
-    return {{"overlapping_pairs", std::move(sets)}};
-  }
-  const referee::PairTruth& t = truth_.pair(0, q.a, q.b);
-  // In the exact form that `touchstone check` accepts, if there is one; otherwise rounded.
-  const fuzz::Json exact =
-      certificates ? fuzz::exact_certificate(case_.scene, q.question, q.a, q.b) : fuzz::Json();
-  return {{"verdict", referee::to_string(t.verdict)},
-          {"gap", {fuzz::number(t.gap.lo), fuzz::number(t.gap.hi)}},
-          {"normal", fuzz::vector(t.normal)},
-          {"witness", {fuzz::vector(t.witness[0]), fuzz::vector(t.witness[1])}},
-          {"verdict_certificate", exact.is_null() ? touchstone::to_json(t.verdict_certificate) : exact},
-          {"depth_certificate", touchstone::to_json(depth_certificate(q))},
-          {"filter_level", t.level}};
-}
-
-namespace {
-
-fuzz::Json unjudged_json(const Judgement& j) {
-  fuzz::Json all = fuzz::Json::array();
-  for (const Unjudged& u : j.unjudged)
-    all.push_back({{"claim", u.claim}, {"by_definition", u.by_definition}});
-  return all;
-}
-
-}  // namespace
-
-fuzz::Json ReplayText::json(bool certificates) const {
-  fuzz::Json j = {{"case", case_.id}, {"queries", fuzz::Json::array()}};
-  for (std::size_t i = 0; i < case_.queries.size(); ++i) {
-    const Query& q = case_.queries[i];
-    fuzz::Json item = {{"question", to_string(q.question)},
-                       {"a", q.a},
-                       {"b", q.b},
-                       {"referee", referee_json(q, certificates)}};
-    for (const Row& r : rows_) {
-      const Judgement& g = r.judgements[i];
-      fuzz::Json faults = fuzz::Json::array();
-      for (const auto& f : g.faults)
-        faults.push_back({{"fault", to_string(f.fault)},
-                          {"words", f.words},
-                          {"error", fuzz::number(f.error)},
-                          {"error_in_l", fuzz::number(f.error_in_l)}});
-      item["engines"][r.engine] = {
-          {"answer", fuzz::to_json(r.observations.answers[i])},
-          {"elapsed_ns", r.observations.answers[i].elapsed_ns},
-          {"manifold_coverage", g.manifold_coverage ? fuzz::number(*g.manifold_coverage) : fuzz::Json()},
-          {"ruling", to_string(g.ruling())},
-          {"right", g.right()},
-          {"undecided", g.undecided},
-          {"not_judged", unjudged_json(g)},
-          {"claimed_in_l", fuzz::number(g.wide_claim_in_l)},
-          {"blame", to_string(g.blame)},
-          {"faults", std::move(faults)}};
-    }
-    j["queries"].push_back(std::move(item));
-  }
-  return j;
 }
 
 }  // namespace touchstone::reports

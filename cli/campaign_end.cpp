@@ -1,0 +1,72 @@
+#include "cli/campaign_end.h"
+
+#include <fmt/format.h>
+
+#include "cli/chosen_engines.h"
+#include "cli/command.h"
+#include "reports/text/text.h"
+
+namespace touchstone::cli {
+
+fuzz::Json campaign_json(const CampaignEnd& end) {
+  auto j = fuzz::to_json(end.result, true);
+  j["digest"] = fuzz::digest(end.result);
+  j["out"] = end.out.string();
+  j["too_open"] = end.result.too_open(end.subject);
+  return j;
+}
+
+void print_campaign(const CampaignEnd& end, bool finished) {
+  const fuzz::CampaignResult& r = end.result;
+  for (const std::string& line : r.too_open(end.subject)) fmt::print("{}\n", reports::wrapped(line, 79, 2));
+  fmt::print("{}\n", reports::campaign_table(r));
+  if (!r.findings.empty())
+    fmt::print("Findings by engine (the three most frequent kinds of each):\n{}\n",
+               reports::findings_summary(r, 3));
+  fmt::print("{}", reports::campaign_footer(r));
+  const std::string out = end.out.string();
+  if (out.empty()) return;
+  if (r.findings.empty()) return fmt::print("no findings; the counts are in {}/summary.json\n", out);
+  fmt::print("{} kinds of findings in {}/findings; to see one:\n  {} replay {}\n",
+             reports::grouped(r.findings.size()), out, program_name(),
+             shell_word(out + "/findings/" + r.findings.begin()->first));
+  if (!finished) return;
+  fmt::print("To see all of them as a page:\n  {} report {} -o {}\n", program_name(), shell_word(out),
+             shell_word(out + "/report.html"));
+}
+
+std::string counts_of_subject(const CampaignEnd& end) {
+  const auto wrong = end.result.wrong_of(end.subject), failed = end.result.failed_of(end.subject);
+  return fmt::format("WRONG in {} and failed in {} of {} answers", reports::grouped(wrong),
+                     reports::grouped(failed),
+                     reports::grouped(end.result.answered_by(end.subject) + failed));
+}
+
+int campaign_verdict(const CampaignEnd& end, bool json) {
+  const fuzz::CampaignResult& r = end.result;
+  const auto say = [&](int code, const std::string& why) {
+    return print_verdict(code, end.subject, why, json);
+  };
+  const std::uint64_t answers = r.answered_by(end.subject);
+  if (r.wrong_of(end.subject) + r.failed_of(end.subject) > 0) return say(exit_wrong, counts_of_subject(end));
+  if (answers == 0) return say(exit_failed, "it answered nothing; this run proves nothing");
+  // A campaign in which nearly all pairs overlap, or nearly none, tests only half of what it claims to.
+  // Shares of the pairs, and the number of pairs from which they count.
+  constexpr double least_hit_rate = 0.3, most_hit_rate = 0.7;
+  constexpr std::uint64_t enough_pairs = 200;
+  if (end.family.empty() && r.pair_cases >= enough_pairs &&
+      (r.hit_rate() < least_hit_rate || r.hit_rate() > most_hit_rate))
+    return say(exit_failed,
+               fmt::format("{:.0f} % of the pairs overlap, outside 30-70 %: this run proves nothing",
+                           100 * r.hit_rate()));
+  if (const auto open = r.too_open(end.subject); !open.empty())
+    return say(exit_failed, fmt::format("0 wrong, but too many answers are open: {}", open.front()));
+  const auto exempt = r.by_definition_of(end.subject);
+  return say(exit_clean,
+             fmt::format("0 wrong in {} answers{}", reports::grouped(answers),
+                         exempt > 0 ? fmt::format(" ({} are depths of a surface, which has none: not judged)",
+                                                  reports::grouped(exempt))
+                                    : ""));
+}
+
+}  // namespace touchstone::cli
