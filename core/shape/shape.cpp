@@ -60,10 +60,20 @@ void check(std::string_view name, const std::vector<std::array<int, 3>>& v, Doma
 }  // namespace
 
 std::string_view type_name(ShapeKind k) {
-  static constexpr std::array<std::string_view, std::variant_size_v<Shape>> names{
-      Sphere::type,    Box::type,  Capsule::type,   Cylinder::type,    Cone::type,
-      Ellipsoid::type, Hull::type, HalfSpace::type, TriangleMesh::type};
-  return names[static_cast<std::size_t>(k)];
+  return [&]<std::size_t... I>(std::index_sequence<I...>) {
+    static constexpr std::array names{std::variant_alternative_t<I, Shape>::type...};
+    return names[static_cast<std::size_t>(k)];
+  }
+  (std::make_index_sequence<std::variant_size_v<Shape>>{});
+}
+
+Shape shape_of_kind(ShapeKind k) {
+  return [&]<std::size_t... I>(std::index_sequence<I...>) {
+    static constexpr std::array<Shape (*)(), sizeof...(I)> make{
+        [] { return Shape(std::in_place_index<I>); }...};
+    return make[static_cast<std::size_t>(k)]();
+  }
+  (std::make_index_sequence<std::variant_size_v<Shape>>{});
 }
 
 double bounding_radius(const Shape& s) {

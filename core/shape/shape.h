@@ -23,9 +23,14 @@ using Shape = std::variant<Sphere, Box, Capsule, Cylinder, Cone, Ellipsoid, Hull
 enum class ShapeKind : int { sphere, box, capsule, cylinder, cone, ellipsoid, hull, half_space, mesh };
 inline constexpr int shape_kind_count = static_cast<int>(std::variant_size_v<Shape>);
 
+/// Bounded and convex: neither a half-space nor a mesh.
+constexpr bool is_convex(ShapeKind k) { return k != ShapeKind::half_space && k != ShapeKind::mesh; }
+
 inline ShapeKind kind_of(const Shape& s) { return static_cast<ShapeKind>(s.index()); }
 std::string_view type_name(ShapeKind k);
 inline std::string_view type_name(const Shape& s) { return type_name(kind_of(s)); }
+/// A shape of that kind with every field at its default.
+Shape shape_of_kind(ShapeKind k);
 
 /// Calls f(field_name, value_reference, Domain) for each field of the shape, in the order of its table.
 template <class S, class F>
