@@ -333,9 +333,7 @@ namespace {
 // Only candidate queries may contain invalid bodies (scenarios/value/odd_numbers.h): those are in no true
 // pair.
 bool is_a_set(const Shape& shape, const Pose& pose) {
-  const auto* box = std::get_if<Box>(&shape);
-  return pose.translation.allFinite() &&
-         (!box || (box->half_extents.allFinite() && (box->half_extents.array() >= 0).all()));
+  return pose.translation.allFinite() && fuzz::is_a_set(shape);
 }
 
 }  // namespace

@@ -117,9 +117,7 @@ struct Words {
 
 }  // namespace
 
-bool has_support(const Shape& shape) {
-  return !std::holds_alternative<HalfSpace>(shape) && !std::holds_alternative<TriangleMesh>(shape);
-}
+bool has_support(const Shape& shape) { return is_convex(kind_of(shape)); }
 
 std::string support_function(std::string_view name, const Shape& shape, const Pose& pose) {
   if (!has_support(shape)) return {};

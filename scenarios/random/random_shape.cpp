@@ -73,7 +73,7 @@ Shape random_shape(Rng& rng, ShapeKind kind, double scale) {
   return Sphere{a};
 }
 
-ShapeKind random_convex_kind(Rng& rng) { return static_cast<ShapeKind>(rng.below(7)); }
+ShapeKind random_convex_kind(Rng& rng) { return common_convex_kinds[rng.below(common_convex_kinds.size())]; }
 
 double support_value(const Shape& shape, const Vec3& n) {
   return std::visit(

@@ -78,11 +78,10 @@ bool quaternion_extreme(const Case& c, const Case&) {
 // The number of zero sizes of the flattest primitive, and its number of sizes.
 bool has_zero_sizes(const Case& c, std::size_t least, bool all) {
   return std::any_of(c.scene.shapes.begin(), c.scene.shapes.end(), [&](Shape s) {
-    if (kind_of(s) >= ShapeKind::ellipsoid) return false;
-    const auto sizes = numbers(s);
+    const auto list = sizes(s);
     const auto zero = static_cast<std::size_t>(
-        std::count_if(sizes.begin(), sizes.end(), [](const double* x) { return *x == 0; }));
-    return zero >= least && (!all || zero == sizes.size());
+        std::count_if(list.begin(), list.end(), [](const double* x) { return *x == 0; }));
+    return zero >= least && (!all || zero == list.size());
   });
 }
 bool size_zero(const Case& c, const Case&) { return has_zero_sizes(c, 1, false); }
