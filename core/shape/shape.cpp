@@ -78,26 +78,30 @@ Shape shape_of_kind(ShapeKind k) {
 
 double bounding_radius(const Shape& s) {
   return up(std::visit(
-      overloaded{[](const Sphere& x) { return x.radius; }, [](const Box& x) { return x.half_extents.stableNorm(); },
+      overloaded{[](const Sphere& x) { return x.radius; },
+                 [](const Box& x) { return x.half_extents.stableNorm(); },
                  [](const Capsule& x) { return x.radius + x.half_height; },
                  [](const Cylinder& x) { return std::hypot(x.radius, x.half_height); },
                  [](const Cone& x) { return std::hypot(x.radius, x.half_height); },
                  [](const Ellipsoid& x) { return x.semi_axes.maxCoeff(); },
                  [](const Hull& x) { return farthest(x.vertices); }, [](const HalfSpace&) { return inf; },
-                 [](const TriangleMesh& x) { return farthest(x.vertices); }},
+                 [](const TriangleMesh& x) { return farthest(x.vertices); },
+                 [](const RoundedBox& x) { return x.half_extents.stableNorm() + x.radius; }},
       s));
 }
 
 double extent(const Shape& s) {
-  return std::visit(
-      overloaded{[](const Sphere& x) { return x.radius; }, [](const Box& x) { return x.half_extents.maxCoeff(); },
-                 [](const Capsule& x) { return x.radius + x.half_height; },
-                 [](const Cylinder& x) { return std::max(x.radius, x.half_height); },
-                 [](const Cone& x) { return std::max(x.radius, x.half_height); },
-                 [](const Ellipsoid& x) { return x.semi_axes.maxCoeff(); },
-                 [](const Hull& x) { return largest_half_extent(x.vertices); }, [](const HalfSpace&) { return 0.0; },
-                 [](const TriangleMesh& x) { return largest_half_extent(x.vertices); }},
-      s);
+  return std::visit(overloaded{[](const Sphere& x) { return x.radius; },
+                               [](const Box& x) { return x.half_extents.maxCoeff(); },
+                               [](const Capsule& x) { return x.radius + x.half_height; },
+                               [](const Cylinder& x) { return std::max(x.radius, x.half_height); },
+                               [](const Cone& x) { return std::max(x.radius, x.half_height); },
+                               [](const Ellipsoid& x) { return x.semi_axes.maxCoeff(); },
+                               [](const Hull& x) { return largest_half_extent(x.vertices); },
+                               [](const HalfSpace&) { return 0.0; },
+                               [](const TriangleMesh& x) { return largest_half_extent(x.vertices); },
+                               [](const RoundedBox& x) { return x.half_extents.maxCoeff() + x.radius; }},
+                    s);
 }
 
 void validate(const Shape& s) {

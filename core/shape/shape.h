@@ -12,15 +12,28 @@
 #include "core/shape/ellipsoid.h"
 #include "core/shape/half_space.h"
 #include "core/shape/hull.h"
+#include "core/shape/rounded_box.h"
 #include "core/shape/sphere.h"
 #include "core/shape/triangle_mesh.h"
 
 namespace touchstone {
 
-using Shape = std::variant<Sphere, Box, Capsule, Cylinder, Cone, Ellipsoid, Hull, HalfSpace, TriangleMesh>;
+using Shape =
+    std::variant<Sphere, Box, Capsule, Cylinder, Cone, Ellipsoid, Hull, HalfSpace, TriangleMesh, RoundedBox>;
 
 /// Index of a shape type in the variant. The numbers are part of the C ABI (oracles/abi/touchstone_engine.h).
-enum class ShapeKind : int { sphere, box, capsule, cylinder, cone, ellipsoid, hull, half_space, mesh };
+enum class ShapeKind : int {
+  sphere,
+  box,
+  capsule,
+  cylinder,
+  cone,
+  ellipsoid,
+  hull,
+  half_space,
+  mesh,
+  rounded_box
+};
 inline constexpr int shape_kind_count = static_cast<int>(std::variant_size_v<Shape>);
 
 /// Bounded and convex: neither a half-space nor a mesh.
