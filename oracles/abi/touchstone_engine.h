@@ -27,7 +27,7 @@ extern "C" {
 
 #define TS_ABI_VERSION 1
 /* 1: ts_received.other_shape, and received hulls with a different number of vertices
- * 2: "more_shapes" of a card */
+ * 2: "more_shapes" of a card, TS_ROUNDED_BOX */
 #define TS_ABI_MINOR 2
 
 #if defined(_WIN32)
@@ -45,12 +45,13 @@ enum ts_shape_kind {
   TS_ELLIPSOID = 5,  /* size[0..2] = semi-axes */
   TS_HULL = 6,       /* vertices; triangles = its faces, counter-clockwise seen from outside; no triangles if flat */
   TS_HALF_SPACE = 7, /* size[0..2] = normal n (any length), size[3] = offset d: solid where n.x <= d */
-  TS_MESH = 8        /* vertices, triangles: a surface */
+  TS_MESH = 8,       /* vertices, triangles: a surface */
+  TS_ROUNDED_BOX = 9 /* size[0..2] = half extents of a box, size[3] = radius: all points within it of the box */
 };
 /* Every engine is sent the kinds up to this one, and those after it that its card lists ("more_shapes"). */
 #define TS_LAST_COMMON_SHAPE TS_MESH
 /* The last kind of this header. */
-#define TS_LAST_SHAPE TS_MESH
+#define TS_LAST_SHAPE TS_ROUNDED_BOX
 
 typedef struct ts_shape {
   int32_t kind;

@@ -59,6 +59,7 @@ struct Form {
 struct FormOf {
   Form operator()(const Sphere& s) const { return convex({{Vec3::Zero()}}, s.radius); }
   Form operator()(const Box& s) const { return convex(corners(s.half_extents)); }
+  Form operator()(const RoundedBox& s) const { return convex(corners(s.half_extents), s.radius); }
   Form operator()(const Capsule& s) const {
     return convex({{Vec3(0, 0, -s.half_height)}, {Vec3(0, 0, s.half_height)}}, s.radius);
   }

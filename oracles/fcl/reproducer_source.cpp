@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include "core/base/input_error.h"
 #include "oracles/reproducer/engine_source.h"
 #include "oracles/reproducer/source_text.h"
 

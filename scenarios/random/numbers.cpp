@@ -30,7 +30,7 @@ std::vector<double*> numbers(Shape& s) {
   return out;
 }
 
-std::vector<double*> sizes(Shape& shape) {
+std::vector<double*> sizes_of(Shape& shape) {
   std::vector<double*> out;
   std::visit(
       [&](auto& s) {

@@ -12,7 +12,7 @@ namespace touchstone::fuzz {
 std::vector<double*> numbers(Case& c);
 std::vector<double*> numbers(Shape& s);
 /// The sizes of the shape that may be zero (Domain::non_negative).
-std::vector<double*> sizes(Shape& s);
+std::vector<double*> sizes_of(Shape& s);
 /// Throws InputError when a vertex is not finite.
 void renew(Case& c);
 

@@ -84,7 +84,7 @@ void exchange_bodies(Scene& s) {
 
 void flatten(Rng& rng, Shape& shape) {
   if (auto* h = std::get_if<Hull>(&shape)) return flatten_hull(rng, *h);
-  const auto all = sizes(shape);
+  const auto all = sizes_of(shape);
   if (all.empty()) return;
   const auto zero = 1 + rng.below((std::uint64_t{1} << all.size()) - 1);
   for (std::size_t k = 0; k < all.size(); ++k)

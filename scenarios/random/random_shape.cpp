@@ -69,6 +69,8 @@ Shape random_shape(Rng& rng, ShapeKind kind, double scale) {
       return HalfSpace{rng.vector(0.5, 2), rng.uniform(-1, 1) * scale};
     case ShapeKind::mesh:
       return random_mesh(rng, scale);
+    case ShapeKind::rounded_box:
+      return RoundedBox{sizes(rng, scale), a / 4};
   }
   return Sphere{a};
 }

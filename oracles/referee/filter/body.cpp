@@ -124,6 +124,7 @@ struct FormOf {
   CoreForm operator()(const Cone& s) const { return round(K::cone, s.radius, s.half_height); }
   CoreForm operator()(const Ellipsoid& s) const { return {K::ellipsoid, s.semi_axes, 0}; }
   CoreForm operator()(const Hull&) const { return {K::vertices, Vec3::Zero(), 0}; }
+  CoreForm operator()(const RoundedBox& s) const { return {K::box, s.half_extents, s.radius}; }
   CoreForm operator()(const HalfSpace&) const { return {}; }
   CoreForm operator()(const TriangleMesh&) const { return {}; }
 
