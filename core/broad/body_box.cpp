@@ -75,6 +75,9 @@ struct Extent {
   Interval<T> operator()(const Box& s) const {
     return both_sides(row.cwiseAbs().dot(s.half_extents.cast<T>()));
   }
+  Interval<T> operator()(const RoundedBox& s) const {
+    return both_sides(row.cwiseAbs().dot(s.half_extents.cast<T>()) + static_cast<T>(s.radius));
+  }
   Interval<T> operator()(const Capsule& s) const {
     return both_sides(std::abs(row.z()) * static_cast<T>(s.half_height) + static_cast<T>(s.radius));
   }
@@ -97,6 +100,7 @@ struct Extent {
 struct Size {
   Wide operator()(const Sphere& s) const { return s.radius; }
   Wide operator()(const Box& s) const { return s.half_extents.cast<Wide>().sum(); }
+  Wide operator()(const RoundedBox& s) const { return s.half_extents.cast<Wide>().sum() + s.radius; }
   Wide operator()(const Capsule& s) const { return static_cast<Wide>(s.radius) + s.half_height; }
   Wide operator()(const Cylinder& s) const { return 2 * static_cast<Wide>(s.radius) + s.half_height; }
   Wide operator()(const Cone& s) const { return 2 * static_cast<Wide>(s.radius) + s.half_height; }

@@ -1,6 +1,6 @@
-// A placed convex shape as core ⊕ ball: sphere = point ⊕ ball, capsule = segment ⊕ ball; every other shape is
-// its own core with radius 0. GJK and EPA see only the cores, so a shallow contact of rounded shapes is a
-// distance between cores, which is well conditioned, instead of a depth.
+// A placed convex shape as core ⊕ ball: sphere = point ⊕ ball, capsule = segment ⊕ ball, rounded box = box ⊕
+// ball; every other shape is its own core with radius 0. GJK and EPA see only the cores, so a shallow contact
+// of rounded shapes is a distance between cores, which is well conditioned, instead of a depth.
 #pragma once
 
 #include <algorithm>
@@ -107,10 +107,15 @@ inline ConvexCore<Wide> make_core(const Shape& shape, const WideFrame& frame) {
   if (const auto* s = std::get_if<Cylinder>(&shape)) round(CoreKind::cylinder, s->radius, s->half_height);
   if (const auto* s = std::get_if<Cone>(&shape)) round(CoreKind::cone, s->radius, s->half_height);
   if (const auto* s = std::get_if<Hull>(&shape)) return vertices_core(s->vertices, frame);
-  if (const auto* s = std::get_if<Box>(&shape)) {
+  const auto box = [&](const Vec3& half_extents) {
     c.kind = CoreKind::box;
-    c.size = s->half_extents.cast<Wide>();
+    c.size = half_extents.cast<Wide>();
     c.reach = c.size.norm();
+  };
+  if (const auto* s = std::get_if<Box>(&shape)) box(s->half_extents);
+  if (const auto* s = std::get_if<RoundedBox>(&shape)) {
+    box(s->half_extents);
+    c.radius = s->radius;
   }
   if (const auto* s = std::get_if<Ellipsoid>(&shape)) {
     c.kind = CoreKind::ellipsoid;

@@ -58,6 +58,12 @@ using Table = std::array<std::array<Row, kinds>, kinds>;
 
 constexpr std::size_t at(ShapeKind k) { return static_cast<std::size_t>(k); }
 
+// Whether the table has a row for (a, b) rather than for (b, a): convex shapes come first, then by number.
+constexpr bool in_order(std::size_t a, std::size_t b) {
+  const bool x = is_convex(static_cast<ShapeKind>(a)), y = is_convex(static_cast<ShapeKind>(b));
+  return x == y ? a <= b : x;
+}
+
 // clang-format off
 #define TS_ROW(wide, form) Row{&on_cores<&wide>, &filtered::form<double>, &filtered::form<float>}
 #define TS_CLOSED(form) \
@@ -100,13 +106,13 @@ filtered::Function<R> function_of(const Row& row) {
 
 template <class R>
 bool has_fast(ShapeKind a, ShapeKind b) {
-  return function_of<R>(table[std::min(at(a), at(b))][std::max(at(a), at(b))]) != nullptr;
+  return function_of<R>(in_order(at(a), at(b)) ? table[at(a)][at(b)] : table[at(b)][at(a)]) != nullptr;
 }
 
 template <class R>
 void separate_fast(const PlacedShape& a, const PlacedShape& b, filtered::Asked asked, FastAnswer<R>& out) {
   const std::size_t i = a.shape->index(), j = b.shape->index();
-  out.mirrored = i > j;
+  out.mirrored = !in_order(i, j);
   const filtered::Function<R> f = function_of<R>(out.mirrored ? table[j][i] : table[i][j]);
   if (!f) return;
   if (!out.mirrored) return f(a, b, asked, out.answer, out.scene);
@@ -127,7 +133,7 @@ template void separate_fast(const PlacedShape&, const PlacedShape&, filtered::As
 
 Separation separate_placed(const Shape& a, const WideFrame& fa, const Shape& b, const WideFrame& fb) {
   const std::size_t i = a.index(), j = b.index();
-  return i <= j ? table[i][j].wide(a, fa, b, fb) : mirrored(table[j][i].wide(b, fb, a, fa));
+  return in_order(i, j) ? table[i][j].wide(a, fa, b, fb) : mirrored(table[j][i].wide(b, fb, a, fa));
 }
 
 // 2026-11-22, a cylinder's rim 1.1e-14 deep in a box of size 1, one of 900 pairs with graduated depths:

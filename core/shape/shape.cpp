@@ -60,34 +60,48 @@ void check(std::string_view name, const std::vector<std::array<int, 3>>& v, Doma
 }  // namespace
 
 std::string_view type_name(ShapeKind k) {
-  static constexpr std::array<std::string_view, std::variant_size_v<Shape>> names{
-      Sphere::type,    Box::type,  Capsule::type,   Cylinder::type,    Cone::type,
-      Ellipsoid::type, Hull::type, HalfSpace::type, TriangleMesh::type};
-  return names[static_cast<std::size_t>(k)];
+  return [&]<std::size_t... I>(std::index_sequence<I...>) {
+    static constexpr std::array names{std::variant_alternative_t<I, Shape>::type...};
+    return names[static_cast<std::size_t>(k)];
+  }
+  (std::make_index_sequence<std::variant_size_v<Shape>>{});
+}
+
+Shape shape_of_kind(ShapeKind k) {
+  return [&]<std::size_t... I>(std::index_sequence<I...>) {
+    static constexpr std::array<Shape (*)(), sizeof...(I)> make{
+        [] { return Shape(std::in_place_index<I>); }...};
+    return make[static_cast<std::size_t>(k)]();
+  }
+  (std::make_index_sequence<std::variant_size_v<Shape>>{});
 }
 
 double bounding_radius(const Shape& s) {
   return up(std::visit(
-      overloaded{[](const Sphere& x) { return x.radius; }, [](const Box& x) { return x.half_extents.stableNorm(); },
+      overloaded{[](const Sphere& x) { return x.radius; },
+                 [](const Box& x) { return x.half_extents.stableNorm(); },
                  [](const Capsule& x) { return x.radius + x.half_height; },
                  [](const Cylinder& x) { return std::hypot(x.radius, x.half_height); },
                  [](const Cone& x) { return std::hypot(x.radius, x.half_height); },
                  [](const Ellipsoid& x) { return x.semi_axes.maxCoeff(); },
                  [](const Hull& x) { return farthest(x.vertices); }, [](const HalfSpace&) { return inf; },
-                 [](const TriangleMesh& x) { return farthest(x.vertices); }},
+                 [](const TriangleMesh& x) { return farthest(x.vertices); },
+                 [](const RoundedBox& x) { return x.half_extents.stableNorm() + x.radius; }},
       s));
 }
 
 double extent(const Shape& s) {
-  return std::visit(
-      overloaded{[](const Sphere& x) { return x.radius; }, [](const Box& x) { return x.half_extents.maxCoeff(); },
-                 [](const Capsule& x) { return x.radius + x.half_height; },
-                 [](const Cylinder& x) { return std::max(x.radius, x.half_height); },
-                 [](const Cone& x) { return std::max(x.radius, x.half_height); },
-                 [](const Ellipsoid& x) { return x.semi_axes.maxCoeff(); },
-                 [](const Hull& x) { return largest_half_extent(x.vertices); }, [](const HalfSpace&) { return 0.0; },
-                 [](const TriangleMesh& x) { return largest_half_extent(x.vertices); }},
-      s);
+  return std::visit(overloaded{[](const Sphere& x) { return x.radius; },
+                               [](const Box& x) { return x.half_extents.maxCoeff(); },
+                               [](const Capsule& x) { return x.radius + x.half_height; },
+                               [](const Cylinder& x) { return std::max(x.radius, x.half_height); },
+                               [](const Cone& x) { return std::max(x.radius, x.half_height); },
+                               [](const Ellipsoid& x) { return x.semi_axes.maxCoeff(); },
+                               [](const Hull& x) { return largest_half_extent(x.vertices); },
+                               [](const HalfSpace&) { return 0.0; },
+                               [](const TriangleMesh& x) { return largest_half_extent(x.vertices); },
+                               [](const RoundedBox& x) { return x.half_extents.maxCoeff() + x.radius; }},
+                    s);
 }
 
 void validate(const Shape& s) {

@@ -12,20 +12,38 @@
 #include "core/shape/ellipsoid.h"
 #include "core/shape/half_space.h"
 #include "core/shape/hull.h"
+#include "core/shape/rounded_box.h"
 #include "core/shape/sphere.h"
 #include "core/shape/triangle_mesh.h"
 
 namespace touchstone {
 
-using Shape = std::variant<Sphere, Box, Capsule, Cylinder, Cone, Ellipsoid, Hull, HalfSpace, TriangleMesh>;
+using Shape =
+    std::variant<Sphere, Box, Capsule, Cylinder, Cone, Ellipsoid, Hull, HalfSpace, TriangleMesh, RoundedBox>;
 
 /// Index of a shape type in the variant. The numbers are part of the C ABI (oracles/abi/touchstone_engine.h).
-enum class ShapeKind : int { sphere, box, capsule, cylinder, cone, ellipsoid, hull, half_space, mesh };
+enum class ShapeKind : int {
+  sphere,
+  box,
+  capsule,
+  cylinder,
+  cone,
+  ellipsoid,
+  hull,
+  half_space,
+  mesh,
+  rounded_box
+};
 inline constexpr int shape_kind_count = static_cast<int>(std::variant_size_v<Shape>);
+
+/// Bounded and convex: neither a half-space nor a mesh.
+constexpr bool is_convex(ShapeKind k) { return k != ShapeKind::half_space && k != ShapeKind::mesh; }
 
 inline ShapeKind kind_of(const Shape& s) { return static_cast<ShapeKind>(s.index()); }
 std::string_view type_name(ShapeKind k);
 inline std::string_view type_name(const Shape& s) { return type_name(kind_of(s)); }
+/// A shape of that kind with every field at its default.
+Shape shape_of_kind(ShapeKind k);
 
 /// Calls f(field_name, value_reference, Domain) for each field of the shape, in the order of its table.
 template <class S, class F>

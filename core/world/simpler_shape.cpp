@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <numbers>
 #include <queue>
 
 #include "core/math/expansion.h"
@@ -184,6 +185,24 @@ std::optional<SimplerShape> simpler(const Capsule& c, double allowed) {
   const double error = c.half_height > 0 ? rounded_up(c.half_height / 2, c.radius + c.half_height) : 0;
   if (error > allowed) return std::nullopt;
   return SimplerShape{Sphere{c.radius + c.half_height / 2}, {}, error};
+}
+
+// The unit quaternion that takes the z axis to that axis.
+Quat from_z(int axis) {
+  constexpr double half = std::numbers::sqrt2 / 2;
+  if (axis == 0) return {0, half, 0, half};
+  return axis == 1 ? Quat{-half, 0, 0, half} : Quat{};
+}
+
+std::optional<SimplerShape> simpler(const RoundedBox& b, double allowed) {
+  const Vec3& h = b.half_extents;
+  if (b.radius == 0) return SimplerShape{Box{h}, {}, 0};
+  int longest = 0;
+  const double most = h.maxCoeff(&longest);
+  const bool is_segment = (h.array() == 0).count() >= 2;
+  if (!is_segment) return std::nullopt;
+  if (auto ball = simpler(Capsule{b.radius, most}, allowed)) return ball;
+  return SimplerShape{Capsule{b.radius, most}, {Vec3::Zero(), from_z(longest)}, 0};
 }
 
 template <class S>

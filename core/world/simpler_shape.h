@@ -13,6 +13,8 @@
 //                           first (greedy ε-nets; Agarwal, Har-Peled, Varadarajan 2004, §3)
 //   ellipsoid  as a ball    (largest − smallest semi-axis)/2
 //   capsule    as a ball    half its half height
+//   rounded    as a box     0, for radius 0; as a capsule along an axis: 0, for two half extents of zero;
+//   that box                     capsule may again be a ball
 // A mesh is a surface without an inside and is kept, unless the caller declares that meshes stand for solids.
 // Then a mesh that is exactly closed and convex is replaced by its hull, which may be simplified further.
 #pragma once

@@ -42,6 +42,7 @@ struct InscribedBall {
   Radii operator()(const Sphere& s) const { return both(s.radius); }
   Radii operator()(const Box& s) const { return both(s.half_extents.minCoeff()); }
   Radii operator()(const Capsule& s) const { return both(s.radius); }
+  Radii operator()(const RoundedBox& s) const { return both(s.half_extents.minCoeff() + s.radius); }
   Radii operator()(const Cylinder& s) const { return both(std::min(s.radius, s.half_height)); }
   Radii operator()(const Ellipsoid& s) const { return both(s.semi_axes.minCoeff()); }
   // In the triangle with half base R and height H: its incircle; about the origin, at half height, the

@@ -27,8 +27,11 @@ void turn_axes(Scene& s, const Mat3& m) {
 }
 
 bool has_own_axis(const Shape& s) {
-  const ShapeKind k = kind_of(s);
-  return k == ShapeKind::capsule || k == ShapeKind::cylinder || k == ShapeKind::cone;
+  return std::visit(
+      [](const auto& x) {
+        return requires { x.half_height; };
+      },
+      s);
 }
 
 bool cycle_axes(Scene& s) {

@@ -28,7 +28,7 @@ void change_numbers(Shape& shape, F&& f) {
 /// Maps world and body axes together by a signed permutation m of determinant 1: every number keeps its bits.
 /// Precondition: no shape has an axis that m moves.
 void turn_axes(Scene& s, const Mat3& m);
-/// Capsule, cylinder, cone: their z axis is fixed by the shape.
+/// Capsule, cylinder, cone (a half height): their z axis is fixed by the shape.
 bool has_own_axis(const Shape& s);
 /// Turns the axes x, y, z into y, z, x. False, with nothing changed, when a shape has its own axis.
 bool cycle_axes(Scene& s);

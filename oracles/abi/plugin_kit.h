@@ -31,11 +31,20 @@ struct Unsupported : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+/// For the default of a switch on the kind of a shape.
+[[noreturn]] inline void no_such_shape(const char* library) {
+  throw Unsupported(std::string(library) + " has no such shape");
+}
+
+/// The host's TS_ABI_MINOR; 0 when it is too old to report it.
+inline std::uint32_t host_minor = 0;
+
 struct CardText {
   std::string name, library, version, settings;
   double unit_roundoff, tau_factor;
   std::string source;
   bool complete_manifolds = false;
+  std::vector<std::string> more_shapes = {};  // a host of minor 0 or 1 is not told
   std::string json() const {
     std::string out;
     const auto field = [&out](const char* key, const std::string& value) {
@@ -54,7 +63,14 @@ struct CardText {
     char numbers[120];
     std::snprintf(numbers, sizeof numbers, ",\"unit_roundoff\":%.17g,\"tau_factor\":%.17g", unit_roundoff,
                   tau_factor);
-    return out.append(numbers).append(complete_manifolds ? ",\"complete_manifolds\":true}" : "}");
+    out.append(numbers);
+    if (complete_manifolds) out.append(",\"complete_manifolds\":true");
+    if (host_minor >= 2 && !more_shapes.empty()) {
+      for (const std::string& s : more_shapes)
+        out.append(&s == &more_shapes.front() ? ",\"more_shapes\":[\"" : ",\"").append(s).append("\"");
+      out.push_back(']');
+    }
+    return out.append("}");
   }
 };
 
@@ -147,9 +163,6 @@ void run_script(const ts_scene& scene, Apply&& apply, Query&& query) {
     else
       apply(scene.steps[i]);
 }
-
-/// The host's TS_ABI_MINOR; 0 when it is too old to report it.
-inline std::uint32_t host_minor = 0;
 
 /// Reports that the engine holds `held` in place of the scene's shape `index`. A host without this callback
 /// assumes that the engine holds the shape as sent.

@@ -7,6 +7,8 @@
 #include <string>
 #include <utility>
 
+#include "scenarios/value/engine_card.h"
+
 namespace touchstone {
 namespace {
 
@@ -15,55 +17,19 @@ constexpr double nan_value = std::numeric_limits<double>::quiet_NaN();
 void copy3(const Vec3& v, double* out) { std::copy_n(v.data(), 3, out); }
 Vec3 vec3(const double* p) { return {p[0], p[1], p[2]}; }
 
-struct Sizes {
-  double* size;
-  void operator()(const Sphere& s) const { size[0] = s.radius; }
-  void operator()(const Box& s) const { copy3(s.half_extents, size); }
-  void operator()(const Capsule& s) const {
-    size[0] = s.radius;
-    size[1] = s.half_height;
-  }
-  void operator()(const Cylinder& s) const {
-    size[0] = s.radius;
-    size[1] = s.half_height;
-  }
-  void operator()(const Cone& s) const {
-    size[0] = s.radius;
-    size[1] = s.half_height;
-  }
-  void operator()(const Ellipsoid& s) const { copy3(s.semi_axes, size); }
-  void operator()(const HalfSpace& s) const {
-    copy3(s.normal, size);
-    size[3] = s.offset;
-  }
-  void operator()(const Hull&) const {}
-  void operator()(const TriangleMesh&) const {}
-};
+static_assert(shape_kind_count == TS_LAST_SHAPE + 1, "append the new kind to ts_shape_kind");
+static_assert(static_cast<int>(last_common_shape) == TS_LAST_COMMON_SHAPE);
 
-struct FromSizes {
-  const double* size;
-  void operator()(Sphere& s) const { s.radius = size[0]; }
-  void operator()(Box& s) const { s.half_extents = vec3(size); }
-  void operator()(Capsule& s) const {
-    s.radius = size[0];
-    s.half_height = size[1];
-  }
-  void operator()(Cylinder& s) const {
-    s.radius = size[0];
-    s.half_height = size[1];
-  }
-  void operator()(Cone& s) const {
-    s.radius = size[0];
-    s.half_height = size[1];
-  }
-  void operator()(Ellipsoid& s) const { s.semi_axes = vec3(size); }
-  void operator()(HalfSpace& s) const {
-    s.normal = vec3(size);
-    s.offset = size[3];
-  }
-  void operator()(Hull&) const {}
-  void operator()(TriangleMesh&) const {}
-};
+template <class S, class T>
+constexpr std::size_t places(const Field<S, T>&) {
+  return std::is_same_v<T, double> ? 1 : std::is_same_v<T, Vec3> ? 3 : 0;
+}
+template <class... S>
+constexpr bool fit_in_size(const std::variant<S...>*) {
+  const auto total = [](const auto&... field) { return (places(field) + ... + 0); };
+  return ((std::apply(total, S::fields()) <= std::extent_v<decltype(ts_shape::size)>)&&...);
+}
+static_assert(fit_in_size(static_cast<const Shape*>(nullptr)));
 
 static_assert(sizeof(std::array<int, 3>) == 3 * sizeof(std::int32_t));
 
@@ -133,19 +99,19 @@ std::vector<Vec3> points_from(const double* p, std::size_t count) {
   return points;
 }
 
-template <std::size_t... I>
-Shape empty_shape(std::size_t kind, std::index_sequence<I...>) {
-  Shape s;
-  ((kind == I ? static_cast<void>(s.emplace<I>()) : static_cast<void>(0)), ...);
-  return s;
+void get_sizes(const double* size, Shape& shape) {
+  for_each_size(shape, [&](auto, double* numbers, std::size_t n) {
+    std::copy_n(size, n, numbers);
+    size += n;
+  });
 }
 
-/// The shape that a plug-in describes; nothing if the description is not valid.
+}  // namespace
+
 std::optional<Shape> shape_from(const ts_shape& t) {
-  constexpr std::size_t kinds = std::variant_size_v<Shape>;
-  if (t.kind < 0 || static_cast<std::size_t>(t.kind) >= kinds) return std::nullopt;
-  Shape s = empty_shape(static_cast<std::size_t>(t.kind), std::make_index_sequence<kinds>{});
-  std::visit(FromSizes{t.size}, s);
+  if (t.kind < 0 || t.kind >= shape_kind_count) return std::nullopt;
+  Shape s = shape_of_kind(static_cast<ShapeKind>(t.kind));
+  get_sizes(t.size, s);
   if (!vertices_of(s)) return s;
   if (!t.vertices || t.vertex_count == 0) return std::nullopt;
   std::vector<Vec3> points = points_from(t.vertices, t.vertex_count);
@@ -164,14 +130,14 @@ std::optional<Shape> shape_from(const ts_shape& t) {
   return m;
 }
 
-}  // namespace
-
 PluginScene::PluginScene(const Scene& scene) {
   vertices_.reserve(scene.shapes.size());
   for (const Shape& s : scene.shapes) {
     ts_shape out{};
     out.kind = static_cast<std::int32_t>(s.index());
-    std::visit(Sizes{out.size}, s);
+    double* size = out.size;
+    for_each_size(s,
+                  [&](auto, const double* numbers, std::size_t n) { size = std::copy_n(numbers, n, size); });
     if (const std::vector<Vec3>* v = vertices_of(s)) {
       vertices_.push_back(flat(*v));
       out.vertices = vertices_.back().data();
@@ -234,7 +200,7 @@ void ReceivedCollector::shape(int index, const double* size, const double* verti
     return;
   }
   Shape s = asked;
-  std::visit(FromSizes{size}, s);
+  get_sizes(size, s);
   received_.shapes[i] = std::move(s);
 }
 

@@ -13,6 +13,24 @@
 
 namespace touchstone {
 
+/// Calls f(name, numbers, count) for each field of one or three numbers, in the order of the shape's table:
+/// its place in ts_shape::size. `S` is Shape or const Shape.
+template <class S, class F>
+void for_each_size(S& shape, F&& f) {
+  std::visit(
+      [&](auto& s) {
+        for_each_field(s, [&](auto name, auto& v, Domain) {
+          using V = std::decay_t<decltype(v)>;
+          if constexpr (std::is_same_v<V, double>) f(name, &v, std::size_t{1});
+          if constexpr (std::is_same_v<V, Vec3>) f(name, v.data(), std::size_t{3});
+        });
+      },
+      shape);
+}
+
+/// The shape that a plug-in describes; nothing if the description is not valid.
+std::optional<Shape> shape_from(const ts_shape& t);
+
 /// Owns the arrays that `view()` points into; the scene itself must outlive it.
 class PluginScene {
  public:

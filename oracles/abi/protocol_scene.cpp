@@ -46,13 +46,6 @@ void put_shape(Writer& w, const Shape& shape) {
   }
 }
 
-template <std::size_t... I>
-Shape shape_of_kind(std::size_t kind, std::index_sequence<I...>) {
-  Shape s;
-  ((kind == I ? static_cast<void>(s.emplace<I>()) : static_cast<void>(0)), ...);
-  return s;
-}
-
 void check_indices(const Triangles& triangles, std::size_t vertex_count) {
   for (const auto& t : triangles)
     for (int i : t)
@@ -61,8 +54,7 @@ void check_indices(const Triangles& triangles, std::size_t vertex_count) {
 }
 
 Shape get_shape(Reader& r) {
-  const std::size_t kind = r.tag(static_cast<std::uint8_t>(shape_kind_count));
-  Shape shape = shape_of_kind(kind, std::make_index_sequence<std::variant_size_v<Shape>>{});
+  Shape shape = shape_of_kind(static_cast<ShapeKind>(r.tag(static_cast<std::uint8_t>(shape_kind_count))));
   const GetField get{r};
   std::visit([&](auto& s) { for_each_field(s, [&](auto, auto& v, Domain) { get(v); }); }, shape);
   if (auto* h = std::get_if<Hull>(&shape)) {

@@ -26,7 +26,9 @@ extern "C" {
 #endif
 
 #define TS_ABI_VERSION 1
-#define TS_ABI_MINOR 1 /* 1: ts_received.other_shape, and received hulls with a different number of vertices */
+/* 1: ts_received.other_shape, and received hulls with a different number of vertices
+ * 2: "more_shapes" of a card, TS_ROUNDED_BOX */
+#define TS_ABI_MINOR 2
 
 #if defined(_WIN32)
 #define TS_EXPORT __declspec(dllexport)
@@ -43,8 +45,13 @@ enum ts_shape_kind {
   TS_ELLIPSOID = 5,  /* size[0..2] = semi-axes */
   TS_HULL = 6,       /* vertices; triangles = its faces, counter-clockwise seen from outside; no triangles if flat */
   TS_HALF_SPACE = 7, /* size[0..2] = normal n (any length), size[3] = offset d: solid where n.x <= d */
-  TS_MESH = 8        /* vertices, triangles: a surface */
+  TS_MESH = 8,       /* vertices, triangles: a surface */
+  TS_ROUNDED_BOX = 9 /* size[0..2] = half extents of a box, size[3] = radius: all points within it of the box */
 };
+/* Every engine is sent the kinds up to this one, and those after it that its card lists ("more_shapes"). */
+#define TS_LAST_COMMON_SHAPE TS_MESH
+/* The last kind of this header. */
+#define TS_LAST_SHAPE TS_ROUNDED_BOX
 
 typedef struct ts_shape {
   int32_t kind;
@@ -179,12 +186,14 @@ typedef struct ts_plugin {
   uint32_t engine_count;
   /* JSON card of the i-th engine, an object with these fields and no others:
    *   "name", "library", "version", "settings": strings; the name must not be empty
-   *   "source": string: where the documentation makes the claims in claimed_tolerance; if empty, they are not believed
-   *   "unit_roundoff": of its arithmetic, 1.1102230246251565e-16 for doubles, 5.960464477539063e-08 for floats;
-   *     at most 2^-8
-   *   "tau_factor": the error allowed for rounding, in units of unit_roundoff times the scale L of the pair; typically
-   *     64; at most 16384, and at most 0.01 after multiplication by unit_roundoff
-   *   "complete_manifolds", optional: true if manifolds cover the whole contact region, which is then checked */
+   *   "source": string: where the documentation makes the claims in claimed_tolerance; if empty, they are not
+   * believed "unit_roundoff": of its arithmetic, 1.1102230246251565e-16 for doubles, 5.960464477539063e-08
+   * for floats; at most 2^-8 "tau_factor": the error allowed for rounding, in units of unit_roundoff times
+   * the scale L of the pair; typically 64; at most 16384, and at most 0.01 after multiplication by
+   * unit_roundoff "complete_manifolds", optional: true if manifolds cover the whole contact region, which is
+   * then checked "more_shapes", optional, since minor 2: the kinds after TS_LAST_COMMON_SHAPE that the engine
+   * takes, by the names of the scene's JSON form, e.g. ["rounded_box"]. For a scene with any other kind after
+   * TS_LAST_COMMON_SHAPE the host answers "unsupported" and does not call `load` */
   const char* (*card)(uint32_t i);
   ts_engine* (*create)(uint32_t i);
   void (*destroy)(ts_engine*);

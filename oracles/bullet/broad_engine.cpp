@@ -128,7 +128,7 @@ class Engine {
     unload();
     for (std::size_t i = 0; i < scene.shape_count; ++i) {
       shapes_.push_back(make_shape(scene.shapes[i], 0));
-      if (!shapes_.back()->shape) throw kit::Unsupported("Bullet has no ellipsoid");
+      if (!shapes_.back()->shape) kit::no_such_shape("Bullet");
     }
     scene_ = &scene;
     filter_ = kit::PairFilter(scene);

@@ -80,11 +80,11 @@ class Engine {
       throw kit::Unsupported("Bullet's broad phases do not support moving bodies");
     if (question == TS_CANDIDATES || question == TS_SCENE_CONTACTS) {
       for (const auto& s : shapes_)
-        if (!s->shape) throw kit::Unsupported("Bullet has no ellipsoid, and the scene has one");
+        if (!s->shape) kit::no_such_shape("Bullet");
       return question == TS_CANDIDATES ? ask_candidates(sink) : ask_scene(out, sink);
     }
     for (int i : {a, b})
-      if (!shape(i).shape) throw kit::Unsupported("Bullet has no ellipsoid");
+      if (!shape(i).shape) kit::no_such_shape("Bullet");
     if (!shape(a).is_convex() && !shape(b).is_convex())
       throw kit::Unsupported("Bullet has no algorithm for two concave or infinite shapes");
     switch (question) {

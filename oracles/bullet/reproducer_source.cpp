@@ -62,7 +62,10 @@ struct Maker {
     }
     return out + plain("btBvhTriangleMeshShape", fmt::format("&triangles_{}, true", i));
   }
-  std::string operator()(const Ellipsoid&) const { throw InputError("reproduce", "Bullet has no ellipsoid"); }
+  template <class S>
+  std::string operator()(const S&) const {
+    throw InputError("reproduce", fmt::format("Bullet has no {}", S::type));
+  }
 };
 
 constexpr std::string_view helpers =

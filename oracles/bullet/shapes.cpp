@@ -1,7 +1,5 @@
 #include "oracles/bullet/shapes.h"
 
-#include <stdexcept>
-
 namespace touchstone::bullet_adapter {
 namespace {
 
@@ -99,8 +97,6 @@ std::unique_ptr<Shape> make_shape(const ts_shape& asked, std::optional<double> m
     case TS_CAPSULE:
       out->shape = std::make_unique<btCapsuleShapeZ>(r, 2 * h);
       return out;
-    case TS_ELLIPSOID:
-      return out;
     case TS_BOX:
       out->shape = std::make_unique<btBoxShape>(vector(asked.size));
       break;
@@ -120,7 +116,7 @@ std::unique_ptr<Shape> make_shape(const ts_shape& asked, std::optional<double> m
       out->shape = make_mesh(asked, *out);
       break;
     default:
-      throw std::runtime_error("unknown shape");
+      return out;
   }
   // The margin of a sphere or capsule is its radius, which setMargin does not change.
   if (margin) out->shape->setMargin(scalar(*margin));

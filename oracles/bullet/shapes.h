@@ -22,7 +22,7 @@ struct Shape {
   std::vector<btScalar> mesh_vertices;
   std::vector<int> mesh_indices;
   std::unique_ptr<btTriangleIndexVertexArray> mesh;
-  std::unique_ptr<btCollisionShape> shape;  // null: Bullet has no ellipsoid
+  std::unique_ptr<btCollisionShape> shape;  // null: Bullet has no such shape, e.g. no ellipsoid
   bool is_convex() const { return shape && shape->isConvex(); }
 
   /// Margins as Bullet documents them (btCollisionMargin.h, btBoxShape.h, btConvexHullShape.h): for boxes and

@@ -49,30 +49,53 @@ struct Piece {
 };
 using Pieces = std::vector<Piece>;
 
-// The round pieces of each convex part.
-template <class S>
-std::vector<Pieces> pieces_of(const S& s) {
-  std::vector<Pieces> parts(1);
-  if constexpr (std::is_same_v<S, Sphere>) parts[0] = {{Vec3::Zero()}};
-  if constexpr (std::is_same_v<S, Ellipsoid>) parts[0] = {{Vec3::Zero(), s.semi_axes}};
-  if constexpr (std::is_same_v<S, Hull>)
-    for (const Vec3& v : s.vertices) parts[0].push_back({v});
-  if constexpr (std::is_same_v<S, Box>)
-    for (int i = 0; i < 8; ++i)
-      parts[0].push_back({s.half_extents.cwiseProduct(Vec3(i & 1 ? 1 : -1, i & 2 ? 1 : -1, i & 4 ? 1 : -1))});
-  if constexpr (std::is_same_v<S, Capsule>) parts[0] = {{{0, 0, -s.half_height}}, {{0, 0, s.half_height}}};
-  if constexpr (std::is_same_v<S, Cylinder> || std::is_same_v<S, Cone>) {
-    const Vec3 disc(s.radius, s.radius, 0);
-    parts[0] = {{{0, 0, -s.half_height}, disc},
-                {{0, 0, s.half_height}, std::is_same_v<S, Cone> ? Vec3(Vec3::Zero()) : disc}};
+/// The round pieces of each convex part, and the ball around them.
+struct Form {
+  std::vector<Pieces> parts;
+  double ball = 0;
+};
+
+/// The checker's table of shapes: one row for each.
+struct FormOf {
+  Form operator()(const Sphere& s) const { return convex({{Vec3::Zero()}}, s.radius); }
+  Form operator()(const Box& s) const { return convex(corners(s.half_extents)); }
+  Form operator()(const RoundedBox& s) const { return convex(corners(s.half_extents), s.radius); }
+  Form operator()(const Capsule& s) const {
+    return convex({{Vec3(0, 0, -s.half_height)}, {Vec3(0, 0, s.half_height)}}, s.radius);
   }
-  if constexpr (std::is_same_v<S, TriangleMesh>) {
-    parts.clear();
+  Form operator()(const Cylinder& s) const { return discs(s.radius, s.radius, s.half_height); }
+  Form operator()(const Cone& s) const { return discs(s.radius, 0, s.half_height); }
+  Form operator()(const Ellipsoid& s) const { return convex({{Vec3::Zero(), s.semi_axes}}); }
+  Form operator()(const Hull& s) const {
+    Pieces points;
+    for (const Vec3& v : s.vertices) points.push_back({v});
+    return convex(std::move(points));
+  }
+  Form operator()(const TriangleMesh& s) const {
+    Form f;
     const auto at = [&](int k) { return s.vertices[static_cast<std::size_t>(k)]; };
-    for (const auto& t : s.triangles) parts.push_back({{at(t[0])}, {at(t[1])}, {at(t[2])}});
+    for (const auto& t : s.triangles) f.parts.push_back({{at(t[0])}, {at(t[1])}, {at(t[2])}});
+    return f;
   }
-  return parts;
-}
+  Form operator()(const HalfSpace&) const { return {}; }  // not bounded: see half_space()
+
+ private:
+  static Form convex(Pieces pieces, double ball = 0) {
+    Form f;
+    f.parts.push_back(std::move(pieces));
+    f.ball = ball;
+    return f;
+  }
+  static Pieces corners(const Vec3& half) {
+    Pieces points;
+    for (int i = 0; i < 8; ++i)
+      points.push_back({half.cwiseProduct(Vec3(i & 1 ? 1 : -1, i & 2 ? 1 : -1, i & 4 ? 1 : -1))});
+    return points;
+  }
+  static Form discs(double below, double above, double h) {
+    return convex({{Vec3(0, 0, -h), Vec3(below, below, 0)}, {Vec3(0, 0, h), Vec3(above, above, 0)}});
+  }
+};
 
 Set placed(Set s, const Pieces& pieces) {
   for (const auto& [centre, radii] : pieces) {
@@ -163,11 +186,10 @@ Q times_root(const Q& factor, const Q& square) {
 std::vector<Set> sets_of(const Placed& p, const Carrier& by) {
   Set axes = placed_axes(p, by);
   if (const auto* h = std::get_if<HalfSpace>(p.shape)) return half_space(axes, *h);
-  if (const auto* x = std::get_if<Sphere>(p.shape)) axes.ball = Q(x->radius);
-  if (const auto* x = std::get_if<Capsule>(p.shape)) axes.ball = Q(x->radius);
+  const Form form = std::visit(FormOf{}, *p.shape);
+  axes.ball = Q(form.ball);
   std::vector<Set> r;
-  for (const Pieces& part : std::visit([](const auto& s) { return pieces_of(s); }, *p.shape))
-    r.push_back(placed(axes, part));
+  for (const Pieces& part : form.parts) r.push_back(placed(axes, part));
   return r;
 }
 

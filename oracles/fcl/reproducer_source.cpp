@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include "core/base/input_error.h"
 #include "oracles/reproducer/engine_source.h"
 #include "oracles/reproducer/source_text.h"
 
@@ -42,6 +43,10 @@ struct Maker {
   }
   std::string operator()(const TriangleMesh& s) const {
     return fmt::format("mesh({{{}}}, {{{}}})", points(s.vertices), triples(s.triangles, "{"));
+  }
+  template <class S>
+  std::string operator()(const S&) const {
+    throw InputError("reproduce", fmt::format("FCL has no {}", S::type));
   }
   static std::string round(std::string_view name, double radius, double half) {
     return fmt::format("std::make_shared<fcl::{}d>({}, {})", name, literal(radius), literal(2 * half));

@@ -14,6 +14,8 @@
 #include <stdexcept>
 #include <vector>
 
+#include "oracles/abi/plugin_kit.h"
+
 namespace touchstone::fcl_adapter {
 namespace {
 
@@ -107,7 +109,7 @@ Geometry make_geometry(const ts_shape& s) {
     case TS_MESH:
       return make_mesh(s);
     default:
-      throw std::runtime_error("unknown shape");
+      kit::no_such_shape("FCL");
   }
 }
 

@@ -107,7 +107,9 @@ void work(const Loaded& l, host::WorkerStreams streams) {
     hello.error = std::string("could not create its engine: ") + e.what();
   }
   say(streams.answers, hello);
-  if (engine) host::serve(*l.plugin, engine, streams.questions, streams.answers);
+  if (engine)
+    host::serve(*l.plugin, engine, card_from_json(hello.cards[static_cast<std::size_t>(hello.chosen)]),
+                streams.questions, streams.answers);
 }
 
 struct Arguments {

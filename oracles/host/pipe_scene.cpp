@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "oracles/abi/plugin_scene.h"
 #include "scenarios/codec/scene_fields.h"
 
 namespace touchstone::host {
@@ -28,31 +29,27 @@ Json triangles(const ts_shape& s) {
   return j;
 }
 
+bool has_lists(std::int32_t kind) { return kind == TS_HULL || kind == TS_MESH; }
+
 // Field names as in the scene's JSON form (scene.schema.json).
 Json shape(const ts_shape& s) {
-  const auto round_one = [&](const char* type) {
-    return Json{{"type", type}, {"radius", finite(s.size[0])}, {"half_height", finite(s.size[1])}};
-  };
-  switch (s.kind) {
-    case TS_SPHERE:
-      return {{"type", "sphere"}, {"radius", finite(s.size[0])}};
-    case TS_BOX:
-      return {{"type", "box"}, {"half_extents", numbers(s.size, 3)}};
-    case TS_CAPSULE:
-      return round_one("capsule");
-    case TS_CYLINDER:
-      return round_one("cylinder");
-    case TS_CONE:
-      return round_one("cone");
-    case TS_ELLIPSOID:
-      return {{"type", "ellipsoid"}, {"semi_axes", numbers(s.size, 3)}};
-    case TS_HALF_SPACE:
-      return {{"type", "half_space"}, {"normal", numbers(s.size, 3)}, {"offset", finite(s.size[3])}};
-    default:
-      return {{"type", s.kind == TS_HULL ? "hull" : "mesh"},
-              {"vertices", points(s.vertices, s.vertex_count)},
-              {"triangles", triangles(s)}};
-  }
+  const Shape empty = shape_of_kind(static_cast<ShapeKind>(s.kind));
+  Json j = {{"type", type_name(empty)}};
+  const double* size = s.size;
+  for_each_size(empty, [&](auto name, const double*, std::size_t n) {
+    j[std::string(name)] = n == 1 ? Json(finite(*size)) : numbers(size, n);
+    size += n;
+  });
+  if (!has_lists(s.kind)) return j;
+  j["vertices"] = points(s.vertices, s.vertex_count);
+  j["triangles"] = triangles(s);
+  return j;
+}
+
+std::int32_t kind_named(const std::string& type) {
+  for (std::int32_t k = 0; k < shape_kind_count; ++k)
+    if (type == type_name(static_cast<ShapeKind>(k))) return k;
+  throw std::runtime_error("the command's receipt names an unknown type of shape: " + type.substr(0, 40));
 }
 
 Json pose(const ts_pose& p) {
@@ -93,39 +90,14 @@ struct HeldShape {
   std::vector<std::int32_t> triangles;
 
   explicit HeldShape(const Json& j) {
-    const std::string type = j.at("type");
-    double* const size = shape.size;
-    const auto round_one = [&](std::int32_t kind) {
-      shape.kind = kind;
-      size[0] = j.at("radius");
-      size[1] = j.at("half_height");
-    };
-    const auto three = [&](std::int32_t kind, const char* field) {
-      shape.kind = kind;
-      for (std::size_t k = 0; k < 3; ++k) size[k] = j.at(field).at(k);
-    };
-    if (type == "sphere") {
-      shape.kind = TS_SPHERE;
-      size[0] = j.at("radius");
-    } else if (type == "box") {
-      three(TS_BOX, "half_extents");
-    } else if (type == "capsule") {
-      round_one(TS_CAPSULE);
-    } else if (type == "cylinder") {
-      round_one(TS_CYLINDER);
-    } else if (type == "cone") {
-      round_one(TS_CONE);
-    } else if (type == "ellipsoid") {
-      three(TS_ELLIPSOID, "semi_axes");
-    } else if (type == "half_space") {
-      three(TS_HALF_SPACE, "normal");
-      size[3] = j.at("offset");
-    } else if (type == "hull" || type == "mesh") {
-      shape.kind = type == "hull" ? TS_HULL : TS_MESH;
-      read_lists(j);
-    } else {
-      throw std::runtime_error("the command's receipt names an unknown type of shape: " + type.substr(0, 40));
-    }
+    shape.kind = kind_named(j.at("type"));
+    const Shape empty = shape_of_kind(static_cast<ShapeKind>(shape.kind));
+    double* size = shape.size;
+    for_each_size(empty, [&](auto name, const double*, std::size_t n) {
+      const Json& field = j.at(std::string(name));
+      for (std::size_t k = 0; k < n; ++k) *size++ = n == 1 ? field.get<double>() : field.at(k).get<double>();
+    });
+    if (has_lists(shape.kind)) read_lists(j);
   }
   HeldShape(const HeldShape&) = delete;
   HeldShape& operator=(const HeldShape&) = delete;

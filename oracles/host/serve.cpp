@@ -27,14 +27,15 @@ int query_steps(const Scene& scene, const Query& q) {
 }
 
 struct LoadResult {
+  bool asked = false;  // the engine's load() was called
   ReceivedScene received;
   std::optional<Observation> refusal;  // the answer to every query if the engine refused the scene
 };
 
 class Server {
  public:
-  Server(const ts_plugin& plugin, ts_engine* engine, int answers_fd)
-      : plugin_(plugin), engine_(engine), answers_fd_(answers_fd) {}
+  Server(const ts_plugin& plugin, ts_engine* engine, const EngineCard& card, int answers_fd)
+      : plugin_(plugin), engine_(engine), card_(card), answers_fd_(answers_fd) {}
 
   void answer(const protocol::QuestionMessage& m) {
     fill_ = m.fill;
@@ -45,29 +46,40 @@ class Server {
     for (std::uint32_t i = m.first_query; i < m.queries.size(); ++i)
       send(protocol::AnswerMessage{m.sequence, i,
                                    loaded.refusal ? *loaded.refusal : ask(m.scene, m.queries[i])});
-    unload();
+    if (loaded.asked) unload();
   }
 
  private:
+  std::optional<Observation> refusal_of(const Scene& scene) const {
+    for (const Shape& s : scene.shapes)
+      if (!is_sent(card_, kind_of(s)))
+        return no_answer(Outcome::unsupported,
+                         "more_shapes of its card does not list " + std::string(type_name(s)));
+    return std::nullopt;
+  }
+
   LoadResult load(const Scene& scene, const ts_scene& view) {
     ReceivedCollector received(scene);
     const ts_received callbacks = received.callbacks();
     char detail[256] = {};
     LoadResult result;
-    try {
-      fill_free_stack(fill_);
-      const std::int32_t outcome = plugin_.load(engine_, &view, &callbacks, detail);
-      const std::string why(detail, strnlen(detail, sizeof detail));
-      if (outcome < TS_ANSWERED || outcome > TS_THREW)
-        result.refusal = no_answer(Outcome::invalid_answer, "load() returned an outcome that does not exist");
-      else if (outcome != TS_ANSWERED)
-        result.refusal = no_answer(static_cast<Outcome>(outcome), why);
-    } catch (const std::exception& e) {
-      result.refusal = no_answer(Outcome::threw, std::string(e.what()) + " while loading the scene");
-    } catch (...) {
-      result.refusal =
-          no_answer(Outcome::threw, "something other than a std::exception, while loading the scene");
-    }
+    result.refusal = refusal_of(scene);
+    result.asked = !result.refusal;
+    if (result.asked) try {
+        fill_free_stack(fill_);
+        const std::int32_t outcome = plugin_.load(engine_, &view, &callbacks, detail);
+        const std::string why(detail, strnlen(detail, sizeof detail));
+        if (outcome < TS_ANSWERED || outcome > TS_THREW)
+          result.refusal =
+              no_answer(Outcome::invalid_answer, "load() returned an outcome that does not exist");
+        else if (outcome != TS_ANSWERED)
+          result.refusal = no_answer(static_cast<Outcome>(outcome), why);
+      } catch (const std::exception& e) {
+        result.refusal = no_answer(Outcome::threw, std::string(e.what()) + " while loading the scene");
+      } catch (...) {
+        result.refusal =
+            no_answer(Outcome::threw, "something other than a std::exception, while loading the scene");
+      }
     if (received.rejected() > 0 && !result.refusal)
       result.refusal = no_answer(Outcome::invalid_answer,
                                  "reported shapes or bodies as received that the scene does not have");
@@ -136,6 +148,7 @@ class Server {
 
   const ts_plugin& plugin_;
   ts_engine* engine_;
+  const EngineCard& card_;
   int answers_fd_;
   std::uint8_t fill_ = 0;
   std::string out_;
@@ -154,8 +167,9 @@ void write_all(int fd, const char* bytes, std::size_t n) {
   }
 }
 
-void serve(const ts_plugin& plugin, ts_engine* engine, int questions_fd, int answers_fd) {
-  Server server(plugin, engine, answers_fd);
+void serve(const ts_plugin& plugin, ts_engine* engine, const EngineCard& card, int questions_fd,
+           int answers_fd) {
+  Server server(plugin, engine, card, answers_fd);
   protocol::FrameReader frames;
   char buffer[1 << 16];
   for (;;) {

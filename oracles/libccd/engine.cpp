@@ -92,8 +92,7 @@ class Engine {
     const Object& one = objects_[static_cast<std::size_t>(a)];
     const Object& two = objects_[static_cast<std::size_t>(b)];
     for (const Object* o : {&one, &two})
-      if (o->shape->kind == TS_HALF_SPACE || o->shape->kind == TS_MESH)
-        throw kit::Unsupported("libccd takes bounded convex bodies only");
+      if (!has_support(*o->shape)) throw kit::Unsupported("libccd takes bounded convex bodies only");
     one.support_calls = 0;
     out.claimed_tolerance = mpr_ ? ccd_.mpr_tolerance : ccd_.epa_tolerance;
     if (question == TS_OVERLAP)

@@ -39,6 +39,10 @@ inline Vec3 farthest_vertex(const ts_shape& s, const Vec3& d) {
   return {best[0], best[1], best[2]};
 }
 
+/// The kinds that farthest_local() knows.
+inline bool has_support(const ts_shape& s) { return s.kind >= TS_SPHERE && s.kind <= TS_HULL; }
+
+/// Precondition: has_support(s).
 inline Vec3 farthest_local(const ts_shape& s, const Vec3& d) {
   const double length = d.norm();
   const double up = d.z() >= 0 ? 1 : -1;

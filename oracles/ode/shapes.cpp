@@ -75,7 +75,7 @@ GeomPtr make_geom(const ts_shape& s, const Hull* hull) {
                                    static_cast<unsigned>(hull->planes.size() / 4), hull->points.data(),
                                    static_cast<unsigned>(hull->points.size() / 3), hull->polygons.data()));
     default:
-      throw kit::Unsupported("ODE has no cone and no ellipsoid, and the adapter supports no meshes");
+      kit::no_such_shape("ODE, as the adapter uses it,");
   }
 }
 

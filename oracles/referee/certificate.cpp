@@ -232,7 +232,7 @@ bool is_mesh(const Placed& p) { return std::holds_alternative<TriangleMesh>(*p.s
 std::optional<ExactBody> exact_body(const Placed& p) {
   auto core = core_points(p);
   if (!core) return std::nullopt;
-  return ExactBody{std::move(*core), core_radius(p), p.pose};
+  return ExactBody{std::move(*core), core_form(p).radius, p.pose};
 }
 
 Certificate exact_form(const PairTruth& truth, const Placed& a, const Placed& b) {

@@ -2,8 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
+
+#include "core/base/input_error.h"
 
 namespace touchstone::fuzz {
 
@@ -85,26 +88,28 @@ struct LocalSupport {
            "};\n  Vec p = vertices[0];\n"
            "  for (const Vec& v : vertices)\n    if (dot(v, d) > dot(p, d)) p = v;\n";
   }
-  std::string operator()(const HalfSpace&) const { return {}; }
-  std::string operator()(const TriangleMesh&) const { return {}; }
+  // No engine with a reproducer is sent the other shapes.
+  template <class S>
+  std::string operator()(const S&) const {
+    throw InputError("reproduce", fmt::format("no support mapping of a {} is written", S::type));
+  }
 };
 
+std::string number_text(double v) { return fmt::format("{}", v); }
+std::string number_text(const Vec3& v) { return literals(v); }
+
+// "capsule of radius 1, half height 2", by the shape's field table.
 struct Description {
-  std::string operator()(const Sphere& s) const { return fmt::format("sphere of radius {}", s.radius); }
-  std::string operator()(const Box& s) const {
-    return fmt::format("box of half extents {}", literals(s.half_extents));
-  }
-  std::string operator()(const Capsule& s) const {
-    return fmt::format("capsule of radius {}, half height {}", s.radius, s.half_height);
-  }
-  std::string operator()(const Cylinder& s) const {
-    return fmt::format("cylinder of radius {}, half height {}", s.radius, s.half_height);
-  }
-  std::string operator()(const Cone& s) const {
-    return fmt::format("cone of radius {}, half height {}", s.radius, s.half_height);
-  }
-  std::string operator()(const Ellipsoid& s) const {
-    return fmt::format("ellipsoid of semi-axes {}", literals(s.semi_axes));
+  template <class S>
+  std::string operator()(const S& s) const {
+    std::string out(S::type);
+    const char* before = " of";
+    for_each_field(s, [&](std::string_view name, const auto& v, Domain) {
+      out += fmt::format("{} {} {}", before, name, number_text(v));
+      before = ",";
+    });
+    std::replace(out.begin(), out.end(), '_', ' ');
+    return out;
   }
   std::string operator()(const Hull& s) const { return fmt::format("hull of {} points", s.vertices.size()); }
   std::string operator()(const HalfSpace& s) const {
@@ -117,9 +122,7 @@ struct Description {
 
 }  // namespace
 
-bool has_support(const Shape& shape) {
-  return !std::holds_alternative<HalfSpace>(shape) && !std::holds_alternative<TriangleMesh>(shape);
-}
+bool has_support(const Shape& shape) { return is_convex(kind_of(shape)); }
 
 std::string support_function(std::string_view name, const Shape& shape, const Pose& pose) {
   if (!has_support(shape)) return {};

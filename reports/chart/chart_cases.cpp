@@ -32,12 +32,12 @@ constexpr Scale scales[] = {{"1", 1, 0}, {"2^-10", 0x1p-10, 0}, {"1 at 2^13", 1,
 
 std::vector<std::pair<ShapeKind, ShapeKind>> kind_pairs(bool meshes) {
   std::vector<std::pair<ShapeKind, ShapeKind>> pairs;
-  for (int a = 0; a <= static_cast<int>(ShapeKind::hull); ++a)
-    for (int b = a; b <= static_cast<int>(ShapeKind::hull); ++b)
-      pairs.emplace_back(static_cast<ShapeKind>(a), static_cast<ShapeKind>(b));
-  for (int b = 0; b <= static_cast<int>(ShapeKind::hull); ++b) {
-    pairs.emplace_back(ShapeKind::half_space, static_cast<ShapeKind>(b));
-    if (meshes) pairs.emplace_back(ShapeKind::mesh, static_cast<ShapeKind>(b));
+  for (const ShapeKind a : common_convex_kinds)
+    for (const ShapeKind b : common_convex_kinds)
+      if (a <= b) pairs.emplace_back(a, b);
+  for (const ShapeKind b : common_convex_kinds) {
+    pairs.emplace_back(ShapeKind::half_space, b);
+    if (meshes) pairs.emplace_back(ShapeKind::mesh, b);
   }
   return pairs;
 }

@@ -28,6 +28,7 @@ struct NumberField {
   double most;
 };
 constexpr const char* complete_field = "complete_manifolds";
+constexpr const char* shapes_field = "more_shapes";
 constexpr std::array text_fields{
     TextField{"name", &EngineCard::name}, TextField{"library", &EngineCard::library},
     TextField{"version", &EngineCard::version}, TextField{"settings", &EngineCard::settings},
@@ -47,7 +48,7 @@ bool is_known(std::string_view key) {
     if (key == f.name) return true;
   for (const auto& f : number_fields)
     if (key == f.name) return true;
-  return key == complete_field;
+  return key == complete_field || key == shapes_field;
 }
 
 std::string text_of(const Json& j, const char* field) {
@@ -72,6 +73,13 @@ double positive_number_of(const Json& j, const char* field, double most) {
   return x;
 }
 
+ShapeKind shape_named(const Json& name) {
+  for (int k = static_cast<int>(last_common_shape) + 1; k < shape_kind_count; ++k)
+    if (name == type_name(static_cast<ShapeKind>(k))) return static_cast<ShapeKind>(k);
+  throw InputError(shapes_field, "lists something other than a kind of shape after the " +
+                                     std::string(type_name(last_common_shape)));
+}
+
 }  // namespace
 
 EngineCard card_from_json(const std::string& text) {
@@ -90,6 +98,10 @@ EngineCard card_from_json(const std::string& text) {
     if (!j[complete_field].is_boolean()) throw InputError(complete_field, "is neither true nor false");
     card.complete_manifolds = j[complete_field].get<bool>();
   }
+  if (j.contains(shapes_field)) {
+    if (!j[shapes_field].is_array()) throw InputError(shapes_field, "is not a list");
+    for (const Json& name : j[shapes_field]) card.more_shapes.push_back(shape_named(name));
+  }
   if (card.name.empty()) throw InputError("name", "is empty");
   if (!is_engine_name(card.name))
     throw InputError(
@@ -107,6 +119,7 @@ std::string to_json_text(const EngineCard& card) {
   j["tau_factor"] = card.tau_factor;
   j["source"] = card.source;
   if (card.complete_manifolds) j[complete_field] = true;
+  for (const ShapeKind k : card.more_shapes) j[shapes_field].push_back(type_name(k));
   return j.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 

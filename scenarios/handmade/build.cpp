@@ -12,7 +12,7 @@ Scene scene_of(const std::string& name, std::vector<Part> parts) {
     b.shape = static_cast<int>(s.shapes.size());
     b.pose = p.pose;
     b.motion = p.motion;
-    b.is_static = kind_of(p.shape) == ShapeKind::mesh || kind_of(p.shape) == ShapeKind::half_space;
+    b.is_static = !is_convex(kind_of(p.shape));
     s.shapes.push_back(std::move(p.shape));
     s.bodies.push_back(std::move(b));
   }

@@ -13,7 +13,7 @@ int add_body(Rng& rng, Scene& s, int shape, double side) {
   b.shape = shape;
   b.pose.rotation = rng.rotation();
   b.pose.translation = Vec3{rng.uniform(-1, 1), rng.uniform(-1, 1), rng.uniform(-1, 1)} * side;
-  b.is_static = kind_of(s.shapes[static_cast<std::size_t>(shape)]) >= ShapeKind::half_space;
+  b.is_static = !is_convex(kind_of(s.shapes[static_cast<std::size_t>(shape)]));
   s.bodies.push_back(std::move(b));
   return static_cast<int>(s.bodies.size()) - 1;
 }

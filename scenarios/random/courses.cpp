@@ -72,7 +72,7 @@ void last_moment(Rng& rng, Case& c) {
   const Vec3 n = placement_direction(rng, s);
   place_along(rng, s, n, 0, 0.2);
   // For convex bodies the farthest points meet, not just the planes through them.
-  if (a != ShapeKind::half_space && a != ShapeKind::mesh)
+  if (is_convex(a))
     s.bodies[1].pose.translation =
         s.bodies[0].pose.translation + farthest_point(s, 0, n) - farthest_point(s, 1, -n);
   const double before_end = rng.binary_scale(-36, -11);

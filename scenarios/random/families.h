@@ -56,6 +56,12 @@ void last_moment(Rng& rng, Case& c);
 void whirl(Rng& rng, Case& c);
 void swarm(Rng& rng, Case& c);
 
+// Convex shapes that came later than common_convex_kinds (random_shape.h), each against another of any kind:
+// apart, near, deep, concentric or in motion; some are parallel, and one in four has a thin size or sizes of
+// zero.
+
+void later_shapes(Rng& rng, Case& c);
+
 // Variants in which a case of any family may be presented: the pair swapped, the queries reordered,
 // quaternions of any length, the previous case again with one body moved.
 

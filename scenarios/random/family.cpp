@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numeric>
 
 #include "core/base/input_error.h"
 #include "scenarios/random/families.h"
@@ -206,6 +207,10 @@ void script(Rng& rng, Case& c) {
   c.queries = {{Question::candidates, -1, -1}};
 }
 
+// The families from first_later on came later. In the mix of all families they have a stream of their own and
+// replace a share of the cases: the others remain what they were for the same seed.
+constexpr std::size_t first_later = 28;
+
 constexpr Family catalog[] = {
     {"separate", "disjoint pairs, gap 0.1 % to 100 % of their size", 14, separate},
     {"near", "gap of either sign, 1e-2 down to 1e-12 of the size", 14, near_touching},
@@ -235,7 +240,15 @@ constexpr Family catalog[] = {
     {"vertices", "hulls of 64 to 300 vertices", 4, many_vertices},
     {"company", "3 to 14 bodies with meshes, groups, ignored pairs: candidates and contacts", 4, company},
     {"dialogue", "3 to 6 bodies, few shapes; pairs queried in turn, in both orders, and again", 5, dialogue},
+    {"later", "rounded boxes against any shape: apart, touching, deep, concentric, in motion", 6,
+     later_shapes},
 };
+static_assert(catalog[first_later - 1].name == "dialogue");
+
+int total_weight(std::span<const Family> families) {
+  return std::accumulate(families.begin(), families.end(), 0,
+                         [](int sum, const Family& f) { return sum + f.weight; });
+}
 
 const Family& named(std::string_view name) {
   const auto it =
@@ -247,31 +260,42 @@ const Family& named(std::string_view name) {
   return *it;
 }
 
-// Draws one of `a`, of `b,c` or, when empty, of all families, by weight.
-const Family& pick(Rng& rng, std::string_view names) {
-  std::array<bool, std::size(catalog)> among{};
+// Draws one of the families by weight.
+const Family& pick(Rng& rng, std::span<const Family* const> among) {
+  if (among.size() == 1) return *among.front();
   int total = 0;
+  for (const Family* f : among) total += f->weight;
+  auto k = static_cast<int>(rng.below(static_cast<std::uint64_t>(total)));
+  for (const Family* f : among)
+    if ((k -= f->weight) < 0) return *f;
+  return *among.back();
+}
+
+constexpr std::uint64_t later_stream = 0x6c61746572ULL;  // a stream separate from the case's own
+
+// Of `a`, of `b,c` or, when empty, of all families.
+const Family& pick(Rng& rng, std::uint64_t seed, std::uint64_t index, std::string_view names) {
+  std::array<bool, std::size(catalog)> named_here{};
   if (!names.empty())
     for_each_in_list(names, [&](std::string_view name) {
-      among[static_cast<std::size_t>(&named(name) - catalog)] = true;
+      named_here[static_cast<std::size_t>(&named(name) - catalog)] = true;
     });
-  for (std::size_t i = 0; i < std::size(catalog); ++i) {
-    among[i] |= names.empty();
-    if (among[i]) total += catalog[i].weight;
-  }
-  const auto one = static_cast<std::size_t>(std::find(among.begin(), among.end(), true) - among.begin());
-  if (total == catalog[one].weight) return catalog[one];
-  auto k = static_cast<int>(rng.below(static_cast<std::uint64_t>(total)));
+  std::vector<const Family*> first, later;
   for (std::size_t i = 0; i < std::size(catalog); ++i)
-    if (among[i] && (k -= catalog[i].weight) < 0) return catalog[i];
-  return catalog[one];
+    if (names.empty() || named_here[i])
+      (names.empty() && i >= first_later ? later : first).push_back(&catalog[i]);
+  Rng side = Rng::stream(seed ^ later_stream, index);
+  auto k = static_cast<int>(side.below(static_cast<std::uint64_t>(total_weight(catalog))));
+  for (const Family* f : later)
+    if ((k -= f->weight) < 0) return *f;
+  return pick(rng, first);
 }
 
 constexpr std::uint64_t forms_stream = 0x666f726d73ULL;  // a stream separate from the case's own
 
 Case make_new(std::uint64_t seed, std::uint64_t index, std::string_view names) {
   Rng rng = Rng::stream(seed, index);
-  const Family& f = pick(rng, names);
+  const Family& f = pick(rng, seed, index, names);
   Case c;
   c.family = std::string(f.name);
   f.make(rng, c);

@@ -56,7 +56,7 @@ Vec3 steering_direction(const Scene& s, std::uint16_t choice) {
 void steer(Scene& s, const Change& c) {
   if (s.bodies.size() != 2) return;
   for (const int i : {0, 1})
-    if (kind_of(s.shape_of(i)) == ShapeKind::half_space || kind_of(s.shape_of(i)) == ShapeKind::mesh) return;
+    if (!is_convex(kind_of(s.shape_of(i)))) return;
   const double size = mean_extent(s);
   const int step = c.argument % 32;
   const double magnitude = step == 0 ? 0 : step < 8 ? step * 0x1p-53 : std::ldexp(1.0, -2 * (step - 7));

@@ -30,6 +30,18 @@ std::vector<double*> numbers(Shape& s) {
   return out;
 }
 
+std::vector<double*> sizes_of(Shape& shape) {
+  std::vector<double*> out;
+  std::visit(
+      [&](auto& s) {
+        for_each_field(s, [&](auto, auto& value, Domain d) {
+          if (d == Domain::non_negative) collect(value, out);
+        });
+      },
+      shape);
+  return out;
+}
+
 std::vector<double*> numbers(Case& c) {
   std::vector<double*> out;
   for (Shape& s : c.scene.shapes) collect(s, out);

@@ -11,6 +11,8 @@ namespace touchstone::fuzz {
 /// bodies, then poses of steps. Derived data (faces of hulls) is stale after a change until renew().
 std::vector<double*> numbers(Case& c);
 std::vector<double*> numbers(Shape& s);
+/// The sizes of the shape that may be zero (Domain::non_negative).
+std::vector<double*> sizes_of(Shape& s);
 /// Throws InputError when a vertex is not finite.
 void renew(Case& c);
 

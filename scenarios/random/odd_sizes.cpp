@@ -24,6 +24,7 @@ void ask_impact(Rng& rng, Case& c, Scene s) {
   c.queries = {{Question::time_of_impact, 0, 1}};
 }
 
+// Of the common kinds, those that can be flat.
 ShapeKind kind_with_sizes(Rng& rng) {
   constexpr ShapeKind kinds[] = {ShapeKind::sphere,   ShapeKind::box,  ShapeKind::capsule,
                                  ShapeKind::cylinder, ShapeKind::cone, ShapeKind::hull};
@@ -82,13 +83,12 @@ void exchange_bodies(Scene& s) {
 }
 
 void flatten(Rng& rng, Shape& shape) {
-  const ShapeKind kind = kind_of(shape);
-  if (kind == ShapeKind::ellipsoid || kind == ShapeKind::half_space || kind == ShapeKind::mesh) return;
   if (auto* h = std::get_if<Hull>(&shape)) return flatten_hull(rng, *h);
-  const auto sizes = numbers(shape);
-  const auto zero = 1 + rng.below((std::uint64_t{1} << sizes.size()) - 1);
-  for (std::size_t k = 0; k < sizes.size(); ++k)
-    if (zero >> k & 1) *sizes[k] = 0;
+  const auto all = sizes_of(shape);
+  if (all.empty()) return;
+  const auto zero = 1 + rng.below((std::uint64_t{1} << all.size()) - 1);
+  for (std::size_t k = 0; k < all.size(); ++k)
+    if (zero >> k & 1) *all[k] = 0;
 }
 
 void zero_sizes(Rng& rng, Case& c) {
@@ -98,7 +98,8 @@ void zero_sizes(Rng& rng, Case& c) {
   Scene s = random_pair(rng, both ? kind_with_sizes(rng) : other, flat, 1, Vec3::Zero());
   flatten(rng, s.shapes[1]);
   if (both) flatten(rng, s.shapes[0]);
-  const bool bounded = kind_of(s.shapes[0]) < ShapeKind::half_space;
+  const bool bounded = is_convex(kind_of(s.shapes[0]));
+  // A semi-axis of an ellipsoid must not be rounded to zero.
   if (bounded && kind_of(s.shapes[0]) != ShapeKind::ellipsoid && rng.chance(0.4)) {
     put_on_lattice(rng, s);
   } else {

@@ -6,8 +6,6 @@ namespace touchstone::fuzz {
 
 namespace {
 
-bool is_fixed(ShapeKind k) { return k == ShapeKind::half_space || k == ShapeKind::mesh; }
-
 double support_world(const Scene& s, int body, const Vec3& n) {
   const Body& b = s.bodies[static_cast<std::size_t>(body)];
   const Mat3 r = rotation_matrix(b.pose.rotation);
@@ -24,7 +22,7 @@ Scene random_pair(Rng& rng, ShapeKind a, ShapeKind b, double scale, const Vec3& 
     s.shapes.push_back(random_shape(rng, k, scale));
     body.pose.rotation = rng.rotation();
     body.pose.translation = origin;
-    body.is_static = is_fixed(k);
+    body.is_static = !is_convex(k);
     s.bodies.push_back(std::move(body));
   }
   return s;
@@ -74,8 +72,7 @@ Scene at_gap(Rng& rng, Scene s, double gap) {
   const Vec3 n = placement_direction(rng, s);
   const double length = gap * mean_extent(s);
   place_along(rng, s, n, length, 0);
-  const ShapeKind a = kind_of(s.shape_of(0));
-  if (a != ShapeKind::half_space && a != ShapeKind::mesh)
+  if (is_convex(kind_of(s.shape_of(0))))
     s.bodies[1].pose.translation =
         s.bodies[0].pose.translation + (farthest_point(s, 0, n) - farthest_point(s, 1, -n) + n * length);
   return s;

@@ -70,11 +70,13 @@ Shape random_shape(Rng& rng, ShapeKind kind, double scale) {
       return HalfSpace{rng.vector(0.5, 2), rng.uniform(-1, 1) * scale};
     case ShapeKind::mesh:
       return random_mesh(rng, scale);
+    case ShapeKind::rounded_box:
+      return RoundedBox{sizes(rng, scale), a / 4};
   }
   return Sphere{a};
 }
 
-ShapeKind random_convex_kind(Rng& rng) { return static_cast<ShapeKind>(rng.below(7)); }
+ShapeKind random_convex_kind(Rng& rng) { return common_convex_kinds[rng.below(common_convex_kinds.size())]; }
 
 double support_value(const Shape& shape, const Vec3& n) {
   return std::visit(

@@ -1,14 +1,33 @@
 // Random shapes of size about 1 (half extents 0.3 to 1.2) times `scale`.
 #pragma once
 
+#include <array>
+
 #include "core/math/rng.h"
 #include "core/shape/shape.h"
+#include "scenarios/value/engine_card.h"
 
 namespace touchstone::fuzz {
 
 Shape random_shape(Rng& rng, ShapeKind kind, double scale);
 
-/// Convex kinds only, with equal probability.
+/// The convex kinds that every engine is sent (engine_card.h).
+inline constexpr auto common_convex_kinds = [] {
+  constexpr int all = static_cast<int>(last_common_shape) + 1;
+  constexpr auto convex = [](int k) { return is_convex(static_cast<ShapeKind>(k)); };
+  constexpr std::size_t n = [&] {
+    std::size_t count = 0;
+    for (int k = 0; k < all; ++k) count += convex(k);
+    return count;
+  }();
+  std::array<ShapeKind, n> kinds{};
+  for (std::size_t k = 0, i = 0; i < n; ++k)
+    if (convex(static_cast<int>(k))) kinds[i++] = static_cast<ShapeKind>(k);
+  return kinds;
+}();
+
+/// One of common_convex_kinds, with equal probability. Later kinds have families of their own, so that the
+/// cases of a seed remain what they were.
 ShapeKind random_convex_kind(Rng& rng);
 
 /// Support value max n·x over the shape in its body frame; +inf for a half-space unless n is its normal.

@@ -81,11 +81,10 @@ bool quaternion_extreme(const Case& c, const Case&) {
 // The number of zero sizes of the flattest primitive, and its number of sizes.
 bool has_zero_sizes(const Case& c, std::size_t least, bool all) {
   return std::any_of(c.scene.shapes.begin(), c.scene.shapes.end(), [&](Shape s) {
-    if (kind_of(s) >= ShapeKind::ellipsoid) return false;
-    const auto sizes = numbers(s);
+    const auto list = sizes_of(s);
     const auto zero = static_cast<std::size_t>(
-        std::count_if(sizes.begin(), sizes.end(), [](const double* x) { return *x == 0; }));
-    return zero >= least && (!all || zero == sizes.size());
+        std::count_if(list.begin(), list.end(), [](const double* x) { return *x == 0; }));
+    return zero >= least && (!all || zero == list.size());
   });
 }
 bool size_zero(const Case& c, const Case&) { return has_zero_sizes(c, 1, false); }
@@ -179,7 +178,7 @@ constexpr Regime rows[] = {
     {"filtered", "bodies in one group, or ignored pairs", 128, filtered},
     {"quaternion", "a quaternion shorter than 0.1 or longer than 10", 16, quaternion_not_unit},
     {"quaternion-far", "a quaternion shorter than 1e-6 or longer than 1e6", 64, quaternion_extreme},
-    {"zero", "a sphere, box, capsule, cylinder or cone with a size of zero", 32, size_zero},
+    {"zero", "a shape with a size of zero, e.g. a sphere of radius zero", 32, size_zero},
     {"point", "one of these with all sizes zero", 64, point},
     {"plate", "a box that is a rectangle, a segment or a point", 128, flat_box},
     {"flat-hull", "a hull that is a polygon, a segment or a point", 64, flat_hull},

@@ -4,8 +4,10 @@
 #include <algorithm>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "core/math/roundoff.h"
+#include "core/shape/shape.h"
 
 namespace touchstone {
 
@@ -33,7 +35,16 @@ struct EngineCard {
   std::string source;  // where the tolerance claims come from; empty: they are not accepted
   /// Manifolds span the whole contact region, not just a few points of it.
   bool complete_manifolds = false;
+  /// The kinds after last_common_shape that it takes.
+  std::vector<ShapeKind> more_shapes;
   bool operator==(const EngineCard&) const = default;
 };
+
+/// Every engine is sent the kinds up to this one (TS_LAST_COMMON_SHAPE), and those after it that its card
+/// lists.
+inline constexpr ShapeKind last_common_shape = ShapeKind::mesh;
+inline bool is_sent(const EngineCard& card, ShapeKind k) {
+  return k <= last_common_shape || std::ranges::find(card.more_shapes, k) != card.more_shapes.end();
+}
 
 }  // namespace touchstone

@@ -93,6 +93,46 @@ TEST_CASE("an engine that holds another shape is not blamed for its algorithm", 
   CHECK(blob.out.find("an unknown type of shape: blob") != std::string::npos);
 }
 
+TEST_CASE("a command is sent rounded boxes if its card lists them", "[pipe][optional]") {
+  if (!has_command("python3")) return skip("python3 is not installed");
+  const Workspace w("pipe");
+  const auto engine = [](const std::string& card) {
+    return R"(import json, sys
+def say(x): print(json.dumps(x), flush=True)
+say({"touchstone_pipe": 1, "name": "rounded", "library": "rounded", "version": "1", "settings": "",
+  "unit_roundoff": 1.1e-16, "tau_factor": 64, "source": "", "receipts": True)" +
+           card + R"(})
+for line in sys.stdin:
+  m = json.loads(line)
+  if "scene" in m:
+    scene = m["scene"]
+    say({"received": {"shapes": [{"shape": i, "size": s["half_extents"] + [s["radius"]]}
+      for i, s in enumerate(scene["shapes"])]}})
+    continue
+  a, b = scene["bodies"][m["a"]], scene["bodies"][m["b"]]
+  x, y = scene["shapes"][a["shape"]], scene["shapes"][b["shape"]]
+  apart = [max(0, abs(p - q) - h - k) for p, q, h, k in zip(a["pose"]["translation"], b["pose"]["translation"],
+    x["half_extents"], y["half_extents"])]
+  say({"distance": sum(d * d for d in apart) ** 0.5 - x["radius"] - y["radius"]})
+)";
+  };
+  w.write("two.json", R"({"touchstone_case": 1, "scene": {"touchstone_scene": 1,
+  "shapes": [{"type": "rounded_box", "half_extents": [1, 2, 3], "radius": 0.5},
+             {"type": "rounded_box", "half_extents": [1, 1, 1], "radius": 0.25}],
+  "bodies": [{"shape": 0}, {"shape": 1, "pose": {"translation": [5, 7, 0]}}]},
+  "queries": [{"question": "distance", "a": 0, "b": 1}]})");
+  w.write("rounded.py", engine(", \"more_shapes\": [\"rounded_box\"]"));
+  const Run sent = w.touchstone("replay two.json --engines 'pipe:python3 rounded.py,core' --subject rounded");
+  INFO(sent.out << sent.err);
+  CHECK(sent.code == 0);
+  CHECK(sent.out.find("4.25") != std::string::npos);  // |(3, 4)| - 0.75
+  CHECK(sent.out.find("unsupported") == std::string::npos);
+  w.write("rounded.py", engine(""));
+  const Run not_sent = w.touchstone("replay two.json --engines 'pipe:python3 rounded.py' --subject rounded");
+  INFO(not_sent.out << not_sent.err);
+  CHECK(not_sent.out.find("unsupported") != std::string::npos);
+}
+
 TEST_CASE("what a command writes to standard error is shown when it dies", "[pipe][optional]") {
   if (!has_command("python3")) return skip("python3 is not installed");
   const Workspace w("pipe");

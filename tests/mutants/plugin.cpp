@@ -2,47 +2,23 @@
 //
 //   touchstone fuzz --subject build/lib/libtouchstone_mutants.so:depth_halved
 #include "oracles/abi/plugin_kit.h"
+#include "oracles/abi/plugin_scene.h"
 
 #include "tests/mutants/lying_engine.h"
 
 namespace touchstone::mutants {
 namespace {
 
-std::vector<Vec3> vertices(const ts_shape& s) {
-  std::vector<Vec3> v;
-  for (std::size_t i = 0; i < s.vertex_count; ++i) v.push_back(kit::vec3(s.vertices + 3 * i));
-  return v;
-}
-
-TriangleMesh mesh(const ts_shape& s) {
-  TriangleMesh m{vertices(s), {}};
-  for (std::size_t i = 0; i < s.triangle_count; ++i)
-    m.triangles.push_back({s.triangles[3 * i], s.triangles[3 * i + 1], s.triangles[3 * i + 2]});
-  return m;
-}
-
 Shape shape(const ts_shape& s) {
-  switch (s.kind) {
-    case TS_SPHERE:
-      return Sphere{s.size[0]};
-    case TS_BOX:
-      return Box{kit::vec3(s.size)};
-    case TS_CAPSULE:
-      return Capsule{s.size[0], s.size[1]};
-    case TS_CYLINDER:
-      return Cylinder{s.size[0], s.size[1]};
-    case TS_CONE:
-      return Cone{s.size[0], s.size[1]};
-    case TS_ELLIPSOID:
-      return Ellipsoid{kit::vec3(s.size)};
-    case TS_HULL:
-      return make_hull(vertices(s));
-    case TS_HALF_SPACE:
-      return HalfSpace{kit::vec3(s.size), s.size[3]};
-    case TS_MESH:
-      return mesh(s);
-  }
+  if (auto known = shape_from(s)) return *std::move(known);
   throw kit::Unsupported("an unknown kind of shape");
+}
+
+std::vector<std::string> more_shapes() {
+  std::vector<std::string> names;
+  for (int k = TS_LAST_COMMON_SHAPE + 1; k <= TS_LAST_SHAPE; ++k)
+    names.emplace_back(type_name(static_cast<ShapeKind>(k)));
+  return names;
 }
 
 Body body(const ts_body& b) {
@@ -100,7 +76,7 @@ class Plugin {
     for (const Mutant& m : mutants()) {
       const EngineCard c = make_lying_engine(m)->card();
       all.push_back({c.name, c.library, c.version, "a lie: " + std::string(m.line), c.unit_roundoff,
-                     c.tau_factor, c.source, c.complete_manifolds});
+                     c.tau_factor, c.source, c.complete_manifolds, more_shapes()});
     }
     return all;
   }

@@ -16,7 +16,7 @@ std::string error_of(const std::string& text) {
   return "";
 }
 
-EngineCard example() { return {"a \"b\"", "lib\\1", "1.2", "line\nbreak", 0x1p-24, 256, "page 7"}; }
+EngineCard example() { return {"a \"b\"", "lib\\1", "1.2", "line\nbreak", 0x1p-24, 256, "page 7", false, {}}; }
 
 }  // namespace
 
@@ -24,6 +24,8 @@ TEST_CASE("a card survives its JSON text exactly", "[oracles][card]") {
   EngineCard card = example();
   CHECK(card_from_json(to_json_text(card)) == card);
   card.complete_manifolds = true;
+  CHECK(card_from_json(to_json_text(card)) == card);
+  card.more_shapes = {ShapeKind::rounded_box};
   CHECK(card_from_json(to_json_text(card)) == card);
 }
 
@@ -49,6 +51,10 @@ TEST_CASE("a bad card names the field and the reason", "[oracles][card][bad-inpu
       0);
   CHECK(with("\"source\"", "\"complete_manifolds\":1,\"source\"") ==
         "complete_manifolds: is neither true nor false");
+  CHECK(with("\"source\"", "\"more_shapes\":\"rounded_box\",\"source\"") == "more_shapes: is not a list");
+  for (const char* list : {"[\"sphere\"]", "[\"blob\"]", "[9]", "[[]]"})
+    CHECK(with("\"source\"", "\"more_shapes\":" + std::string(list) + ",\"source\"") ==
+          "more_shapes: lists something other than a kind of shape after the mesh");
   CHECK(with("256.0", "1e999").find("not JSON") != std::string::npos);
   // A name is part of keys, file names and terminal output.
   for (const char* name : {"../victim", "/etc/x", "..", "", " x", "a\\nb", "\\u001b[2J", "caf\u00e9"})

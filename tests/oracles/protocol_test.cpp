@@ -7,6 +7,7 @@
 #include "core/base/hash.h"
 #include "core/math/rng.h"
 #include "core/scene/scene.h"
+#include "oracles/abi/plugin_scene.h"
 #include "tests/support/catch.h"
 
 using namespace touchstone;
@@ -29,7 +30,7 @@ std::vector<Vec3> any_points(Rng& rng, std::size_t n) {
 
 Shape any_shape(Rng& rng) {
   const double a = rng.uniform(0.1, 2), b = rng.uniform(0.1, 2);
-  switch (rng.below(9)) {
+  switch (rng.below(10)) {
     case 0:
       return Sphere{a};
     case 1:
@@ -46,6 +47,8 @@ Shape any_shape(Rng& rng) {
       return make_hull(any_points(rng, 4 + rng.below(10)));
     case 7:
       return HalfSpace{any_vector(rng), a};
+    case 8:
+      return RoundedBox{Vec3(a, b, a), b};
     default:
       return TriangleMesh{any_points(rng, 4), {{0, 1, 2}, {1, 2, 3}}};
   }
@@ -186,6 +189,35 @@ TEST_CASE("answers, received scenes and hellos round-trip", "[oracles][protocol]
   std::string bytes;
   append(bytes, hello);
   CHECK(decode_hello(payload_of(bytes, Type::hello)) == hello);
+}
+
+TEST_CASE("shapes pass through the C ABI and back", "[oracles][abi]") {
+  Rng rng(6);
+  for (int i = 0; i < 500; ++i) {
+    const Scene scene = any_scene(rng);
+    const PluginScene sent(scene);
+    for (std::size_t k = 0; k < scene.shapes.size(); ++k) {
+      const ts_shape& s = sent.view().shapes[k];
+      REQUIRE(s.kind == static_cast<int>(kind_of(scene.shapes[k])));
+      REQUIRE(shape_from(s) == scene.shapes[k]);
+    }
+  }
+  Scene one;
+  one.shapes = {RoundedBox{{1, 2, 3}, 0.5}};
+  const PluginScene sent(one);
+  const ts_shape& s = sent.view().shapes[0];
+  CHECK(s.kind == TS_ROUNDED_BOX);
+  CHECK((s.size[0] == 1 && s.size[1] == 2 && s.size[2] == 3 && s.size[3] == 0.5));
+  ReceivedCollector held(one);
+  const ts_received callbacks = held.callbacks();
+  const double size[4] = {1, 2, 3.5, 0.25};
+  callbacks.shape(callbacks.ctx, 0, size, nullptr, 0);
+  CHECK(held.take().shapes[0] == Shape(RoundedBox{{1, 2, 3.5}, 0.25}));
+  ts_shape unknown = s;
+  for (const int kind : {-1, TS_LAST_SHAPE + 1}) {
+    unknown.kind = kind;
+    CHECK_FALSE(shape_from(unknown));
+  }
 }
 
 TEST_CASE("frames may arrive in pieces of any size", "[oracles][protocol]") {

@@ -85,3 +85,19 @@ TEST_CASE("a plug-in in plain C answers", "[oracles][remote]") {
   CHECK(results[0].answers[3].outcome == Outcome::unsupported);
   CHECK_FALSE(results[0].received.bodies[0]);
 }
+
+TEST_CASE("an engine whose card does not list a newer kind of shape is not sent it", "[oracles][remote]") {
+  RemoteEngine engine({host_path(), plugin_path("ts_plain_c"), "", {}});
+  Case c = make_case(0, false);
+  c.scene.shapes.push_back(RoundedBox{{1, 1, 1}, 0.5});
+  c.scene.bodies[2].shape = 1;
+  const auto results = engine.run(std::span(&c, 1));
+  REQUIRE(results[0].answers.size() == c.queries.size());
+  for (const Observation& o : results[0].answers) {
+    CHECK(o.outcome == Outcome::unsupported);
+    CHECK(o.detail == "more_shapes of its card does not list rounded_box");
+  }
+  // The next scene is answered as before.
+  const Case plain = make_case(0, false);
+  CHECK(engine.run(std::span(&plain, 1))[0].answers[0].overlap == true);
+}

@@ -9,6 +9,7 @@
 #include <regex>
 #include <sstream>
 
+#include "core/shape/shape.h"
 #include "reports/text/web_page.h"
 #include "tests/support/catch.h"
 #include "tests/support/skip.h"
@@ -91,6 +92,15 @@ void many_findings(const fs::path& from, const fs::path& to, std::size_t count) 
 }
 
 }  // namespace
+
+TEST_CASE("the pages have a row for every kind of shape", "[pages]") {
+  const std::string table = read_all(fs::path(TS_SOURCE_DIR) / "reports/web/src/case/shapes.ts");
+  for (int k = 0; k < touchstone::shape_kind_count; ++k) {
+    const std::string name(type_name(static_cast<touchstone::ShapeKind>(k)));
+    INFO(name);
+    CHECK(table.find("\n  " + name + ": {\n") != std::string::npos);
+  }
+}
 
 TEST_CASE("pages load, show the numbers of their JSON, draw, move and link in a browser",
           "[pages][optional]") {

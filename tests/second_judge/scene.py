@@ -64,10 +64,10 @@ def place(shape, m, c):
     if kind == "capsule":
         h = F(shape["half_height"])
         return Poly([at((F(0), F(0), h)), at((F(0), F(0), -h))], F(shape["radius"]))
-    if kind == "box":
+    if kind in ("box", "rounded_box"):
         x, y, z = exact(shape["half_extents"])
         signs = [(1, 1, 1), (-1, 1, 1), (1, -1, 1), (1, 1, -1), (-1, -1, 1), (-1, 1, -1), (1, -1, -1), (-1, -1, -1)]
-        return Poly([at((i * x, j * y, k * z)) for i, j, k in signs])
+        return Poly([at((i * x, j * y, k * z)) for i, j, k in signs], F(shape.get("radius", 0)))
     if kind == "hull":
         return Poly([at(v) for v in sorted({exact(v) for v in shape["vertices"]})])
     if kind == "half_space":
@@ -92,6 +92,8 @@ def extent(shape):
         return max(longest, sqrt_hi(max(dot(p, p) for p in v)))
     if kind == "capsule":
         return 2 * (F(shape["radius"]) + F(shape["half_height"]))
+    if kind == "rounded_box":
+        return 2 * (F(shape["radius"]) + max(F(s) for s in shape["half_extents"]))
     sizes = shape.get("half_extents") or shape.get("semi_axes") or [shape["radius"], shape.get("half_height", 0)]
     return 2 * max(F(s) for s in sizes)
 

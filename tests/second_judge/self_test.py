@@ -12,6 +12,7 @@ from second_judge import Judge
 SHAPES = {
     "box": {"type": "box", "half_extents": [1, 1, 1]},
     "ball": {"type": "sphere", "radius": 1},
+    "rounded": {"type": "rounded_box", "half_extents": [1, 1, 1], "radius": 0.5},
     "cylinder": {"type": "cylinder", "radius": 1, "half_height": 1},
     "cone": {"type": "cone", "radius": 1, "half_height": 1},
     "ellipsoid": {"type": "ellipsoid", "semi_axes": [1, 1, 1]},
@@ -41,6 +42,8 @@ class SecondJudge(unittest.TestCase):
         self.gap_is("ball", "ball", [0, 0, 0], -2)
         self.gap_is("floor", "box", [0, 0, 0.5], 0.5)
         self.gap_is("floor", "cone", [0, 0, -1], -1)
+        self.gap_is("rounded", "ball", [4, 5, 0], 3.5)
+        self.gap_is("rounded", "rounded", [2.5, 0, 0], -0.5)
         self.gap_is("cylinder", "ball", [3, 0, 0], 1)
         self.gap_is("cylinder", "box", [0, 0, 1.75], -0.25)
         self.gap_is("ellipsoid", "ball", [0, 0, 2.25], 0.25)

@@ -97,6 +97,12 @@ Body<R> make_body(const Shape& shape, const HullGraph* graph = nullptr) {
     c.reach = c.size[0] + c.size[2];
     c.extent = std::max(c.size[0], c.size[2]);
   };
+  const auto box = [&](const Vec3& half_extents) {
+    c.kind = CoreKind::box;
+    c.size = half_extents.cast<R>();
+    c.reach = c.size.norm();
+    c.extent = c.size.maxCoeff();
+  };
   switch (kind_of(shape)) {
     case ShapeKind::sphere:
       c.radius = static_cast<R>(std::get_if<Sphere>(&shape)->radius);
@@ -117,10 +123,12 @@ Body<R> make_body(const Shape& shape, const HullGraph* graph = nullptr) {
       round(CoreKind::cone, std::get_if<Cone>(&shape)->radius, std::get_if<Cone>(&shape)->half_height);
       break;
     case ShapeKind::box:
-      c.kind = CoreKind::box;
-      c.size = std::get_if<Box>(&shape)->half_extents.cast<R>();
-      c.reach = c.size.norm();
-      c.extent = c.size.maxCoeff();
+      box(std::get_if<Box>(&shape)->half_extents);
+      break;
+    case ShapeKind::rounded_box:
+      box(std::get_if<RoundedBox>(&shape)->half_extents);
+      c.radius = static_cast<R>(std::get_if<RoundedBox>(&shape)->radius);
+      c.extent += c.radius;
       break;
     case ShapeKind::ellipsoid:
       c.kind = CoreKind::ellipsoid;

@@ -116,13 +116,26 @@ std::vector<Derived> derive_push(const RelationInput& in) {
   return r;
 }
 
+// Every number is a size. The other shapes (hull, half-space, mesh) need not contain the body's origin.
+bool contains_its_origin(const Shape& shape) {
+  return std::visit(
+      [](const auto& s) {
+        bool all = true;
+        for_each_field(s, [&](auto, const auto&, Domain d) {
+          all &= d == Domain::non_negative || d == Domain::positive;
+        });
+        return all;
+      },
+      shape);
+}
+
 std::vector<Derived> derive_grow(const RelationInput& in) {
   if (!pair_asked(in.c)) return {};
   Derived d = same_pair(in, "");
   for (const int i : {1, 0}) {
     Shape& shape =
         d.c.scene.shapes[static_cast<std::size_t>(d.c.scene.bodies[static_cast<std::size_t>(i)].shape)];
-    if (kind_of(shape) > ShapeKind::ellipsoid) continue;  // the others need not contain the origin
+    if (!contains_its_origin(shape)) continue;
     d.words = i == 0 ? "A grown by an eighth" : "B grown by an eighth";
     constexpr double roundings = 16;  // eight of the diameter, in units of the radius
     d.rounding = roundings * double_roundoff * bounding_radius(shape);

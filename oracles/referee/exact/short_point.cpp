@@ -82,9 +82,10 @@ bool in_ellipsoid(const Local& p, const Short& a, const Short& b, const Short& c
 }  // namespace
 
 std::optional<bool> contains_short(const Placed& body, const Vec3& point_w) {
-  if (has_core_points(body)) {
+  const CoreForm form = core_form(body);
+  if (form.has_points()) {
     const auto v = decide_short(ExactBody{{point_w}, 0, Pose{}},
-                                ExactBody{*core_points(body), core_radius(body), body.pose}, {});
+                                ExactBody{*core_points(body), form.radius, body.pose}, {});
     return v ? std::optional<bool>(v->overlap) : std::nullopt;
   }
   const auto* pose = std::get_if<Pose>(&body.pose);
@@ -93,23 +94,17 @@ std::optional<bool> contains_short(const Placed& body, const Vec3& point_w) {
   g.fit(point_w);
   g.fit(pose->translation);
   for (double q : {pose->rotation.x, pose->rotation.y, pose->rotation.z, pose->rotation.w}) turn.fit(q);
-  Vec3 size = Vec3::Zero();
-  if (const auto* s = std::get_if<Cylinder>(body.shape)) {
-    size = {s->radius, s->half_height, 1};
-  } else if (const auto* s = std::get_if<Cone>(body.shape)) {
-    size = {s->radius, s->half_height, 1};
-  } else if (const auto* s = std::get_if<Ellipsoid>(body.shape)) {
-    size = s->semi_axes;
-  }
-  const bool known = std::holds_alternative<Cylinder>(*body.shape) ||
-                     std::holds_alternative<Cone>(*body.shape) ||
-                     std::holds_alternative<Ellipsoid>(*body.shape);
-  if (!known || !(size.minCoeff() > 0)) return std::nullopt;
+  using K = CoreForm::Kind;
+  // A ball around a curved core has no such closed form.
+  if (form.kind == K::none || form.radius > 0) return std::nullopt;
+  const bool round = form.kind != K::ellipsoid;
+  const Vec3 size = round ? Vec3(form.size.x(), form.size.y(), 1) : form.size;
+  if (!(size.minCoeff() > 0)) return std::nullopt;
   g.fit(size);
   if (g.bits() > coordinate_bits || turn.bits() > quaternion_bits) return std::nullopt;
   const Local p = local_of(*pose, point_w, g, turn);
-  if (std::holds_alternative<Cylinder>(*body.shape)) return in_cylinder(p, g(size.x()), g(size.y()));
-  if (std::holds_alternative<Cone>(*body.shape)) return in_cone(p, g(size.x()), g(size.y()));
+  if (form.kind == K::cylinder) return in_cylinder(p, g(size.x()), g(size.y()));
+  if (form.kind == K::cone) return in_cone(p, g(size.x()), g(size.y()));
   return in_ellipsoid(p, g(size.x()), g(size.y()), g(size.z()));
 }
 

@@ -111,42 +111,52 @@ void finish_curved(Solid& b, const Frame& f, Real rho, Real reach) {
             value_rounding * b.extent;
 }
 
-// Above √3, the largest |x|₁ of a unit vector.
-constexpr Real root_three = 1.75L;
+// Above √3 and √2, the largest |x|₁ of a unit vector in space and in a plane.
+constexpr Real root_three = 1.75L, root_two = 1.5L;
 
-struct Sizes {
-  Solid::Kind kind;
-  Real3 size;
-  Real rho;    // bound of |x|₁ over the shape
-  Real reach;  // bound of |x| over the shape
+// Bound of |x|₁ over a curved core.
+Real rho_of(Solid::Kind kind, const Real3& size) {
+  return kind == Solid::Kind::ellipsoid ? root_three * largest(size) : root_two * size.x + size.y;
+}
+
+// Bound of |x| over a curved core.
+Real reach_of(Solid::Kind kind, const Real3& size) {
+  if (kind == Solid::Kind::ellipsoid) return largest(size);
+  return std::sqrt(size.x * size.x + size.y * size.y) * (1 + dot_rounding);
+}
+
+/// The referee's table of shapes: one row for each.
+struct FormOf {
+  using K = CoreForm::Kind;
+  CoreForm operator()(const Sphere& s) const { return {K::origin, Vec3::Zero(), s.radius}; }
+  CoreForm operator()(const Box& s) const { return {K::box, s.half_extents, 0}; }
+  CoreForm operator()(const Capsule& s) const { return {K::segment, Vec3(0, s.half_height, 0), s.radius}; }
+  CoreForm operator()(const Cylinder& s) const { return round(K::cylinder, s.radius, s.half_height); }
+  CoreForm operator()(const Cone& s) const { return round(K::cone, s.radius, s.half_height); }
+  CoreForm operator()(const Ellipsoid& s) const { return {K::ellipsoid, s.semi_axes, 0}; }
+  CoreForm operator()(const Hull&) const { return {K::vertices, Vec3::Zero(), 0}; }
+  CoreForm operator()(const RoundedBox& s) const { return {K::box, s.half_extents, s.radius}; }
+  CoreForm operator()(const HalfSpace&) const { return {}; }
+  CoreForm operator()(const TriangleMesh&) const { return {}; }
+
+ private:
+  static CoreForm round(K kind, double radius, double half_height) {
+    return {radius == 0 ? K::segment : kind, Vec3(radius, half_height, 0), 0};
+  }
 };
 
-Real reach_of(Real radius, Real half_height) {
-  return std::sqrt(radius * radius + half_height * half_height) * (1 + dot_rounding);
+Solid::Kind solid_kind(CoreForm::Kind kind) {
+  if (kind == CoreForm::Kind::cylinder) return Solid::Kind::cylinder;
+  if (kind == CoreForm::Kind::cone) return Solid::Kind::cone;
+  return kind == CoreForm::Kind::ellipsoid ? Solid::Kind::ellipsoid : Solid::Kind::points;
 }
 
-std::optional<Sizes> curved_sizes(const Shape& s) {
-  if (const auto* c = std::get_if<Cylinder>(&s))
-    return Sizes{Solid::Kind::cylinder,
-                 {c->radius, c->half_height, 0},
-                 1.5L * c->radius + c->half_height,
-                 reach_of(c->radius, c->half_height)};
-  if (const auto* c = std::get_if<Cone>(&s))
-    return Sizes{Solid::Kind::cone,
-                 {c->radius, c->half_height, 0},
-                 1.5L * c->radius + c->half_height,
-                 reach_of(c->radius, c->half_height)};
-  if (const auto* e = std::get_if<Ellipsoid>(&s)) {
-    const Real3 a = referee::to_real(e->semi_axes);
-    return Sizes{Solid::Kind::ellipsoid, a, root_three * largest(a), largest(a)};
-  }
-  return std::nullopt;
-}
-
-bool is_ball(const Placed& p) {
-  const auto* e = std::get_if<Ellipsoid>(p.shape);
-  return e && std::holds_alternative<Pose>(p.pose) && e->semi_axes.x() == e->semi_axes.y() &&
-         e->semi_axes.y() == e->semi_axes.z();
+std::vector<Vec3> corners(const Vec3& half) {
+  std::vector<Vec3> v(8, half);
+  for (int i = 0; i < 8; ++i)
+    for (int k = 0; k < 3; ++k)
+      if (!(i >> k & 1)) v[static_cast<std::size_t>(i)][k] = -v[static_cast<std::size_t>(i)][k];
+  return v;
 }
 
 template <class T>
@@ -199,46 +209,43 @@ Frame frame_at(const Placed& p, const Motion& m, double t, const Vec3& origin) {
   return f;
 }
 
+CoreForm core_form(const Placed& p) {
+  CoreForm f = std::visit(FormOf{}, *p.shape);
+  const bool ball = f.kind == CoreForm::Kind::ellipsoid && std::holds_alternative<Pose>(p.pose) &&
+                    f.size.x() == f.size.y() && f.size.y() == f.size.z();
+  return ball ? CoreForm{CoreForm::Kind::origin, Vec3::Zero(), f.size.x()} : f;
+}
+
 std::optional<std::vector<Vec3>> core_points(const Placed& p) {
-  const Shape& s = *p.shape;
-  const auto segment = [](double h) { return std::vector<Vec3>{{0, 0, -h}, {0, 0, h}}; };
-  if (std::holds_alternative<Sphere>(s) || is_ball(p)) return std::vector<Vec3>{Vec3::Zero()};
-  if (const auto* c = std::get_if<Capsule>(&s)) return segment(c->half_height);
-  if (const auto* c = std::get_if<Cylinder>(&s); c && c->radius == 0) return segment(c->half_height);
-  if (const auto* c = std::get_if<Cone>(&s); c && c->radius == 0) return segment(c->half_height);
-  if (const auto* h = std::get_if<Hull>(&s)) return h->vertices;
-  if (const auto* b = std::get_if<Box>(&s)) {
-    std::vector<Vec3> v(8, b->half_extents);
-    for (int i = 0; i < 8; ++i)
-      for (int k = 0; k < 3; ++k)
-        if (!(i >> k & 1)) v[static_cast<std::size_t>(i)][k] = -v[static_cast<std::size_t>(i)][k];
-    return v;
+  const CoreForm f = core_form(p);
+  switch (f.kind) {
+    case CoreForm::Kind::origin:
+      return std::vector<Vec3>{Vec3::Zero()};
+    case CoreForm::Kind::segment:
+      return std::vector<Vec3>{{0, 0, -f.size.y()}, {0, 0, f.size.y()}};
+    case CoreForm::Kind::box:
+      return corners(f.size);
+    case CoreForm::Kind::vertices:
+      return std::get<Hull>(*p.shape).vertices;
+    case CoreForm::Kind::none:
+    case CoreForm::Kind::cylinder:
+    case CoreForm::Kind::cone:
+    case CoreForm::Kind::ellipsoid:
+      break;
   }
   return std::nullopt;
 }
 
-double core_radius(const Placed& p) {
-  if (const auto* s = std::get_if<Sphere>(p.shape)) return s->radius;
-  if (const auto* c = std::get_if<Capsule>(p.shape)) return c->radius;
-  return is_ball(p) ? std::get<Ellipsoid>(*p.shape).semi_axes.x() : 0;
-}
-
-bool has_core_points(const Placed& p) {
-  const Shape& s = *p.shape;
-  if (const auto* c = std::get_if<Cylinder>(&s)) return c->radius == 0;
-  if (const auto* c = std::get_if<Cone>(&s)) return c->radius == 0;
-  return std::holds_alternative<Sphere>(s) || std::holds_alternative<Capsule>(s) ||
-         std::holds_alternative<Hull>(s) || std::holds_alternative<Box>(s) || is_ball(p);
-}
-
 Solid make_body(const Placed& p, const Frame& f) {
-  if (const auto* h = std::get_if<Hull>(p.shape)) return make_body(h->vertices, 0, f);
-  if (const auto points = core_points(p)) return make_body(*points, core_radius(p), f);
-  const auto s = curved_sizes(*p.shape);
+  const CoreForm form = core_form(p);
+  if (form.kind == CoreForm::Kind::vertices)
+    return make_body(std::get<Hull>(*p.shape).vertices, form.radius, f);
+  if (form.has_points()) return make_body(*core_points(p), form.radius, f);
   Solid b;
-  b.kind = s->kind;
-  b.size = s->size;
-  finish_curved(b, f, s->rho, s->reach);
+  b.kind = solid_kind(form.kind);
+  b.size = referee::to_real(form.size);
+  b.radius = form.radius;
+  finish_curved(b, f, rho_of(b.kind, b.size), reach_of(b.kind, b.size));
   return b;
 }
 
@@ -328,7 +335,7 @@ bool round_to_double(const Solid& b, BasicSolid<double>& out) {
     out.size = to_double3(b.size);
     error += chain_rounding_of<double> * b.extent;
     if (b.kind != Kind::orbit) {
-      const Real rho = b.kind == Kind::ellipsoid ? root_three * largest(b.size) : 1.5L * b.size.x + b.size.y;
+      const Real rho = rho_of(b.kind, b.size);
       const Real m = largest(b.matrix);
       if (!fits(m) || !fits(rho)) return false;
       error += chain_rounding_of<double> * m * rho;

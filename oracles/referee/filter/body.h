@@ -24,14 +24,22 @@ Frame frame_of(const Placed& p, const Vec3& origin);
 /// The same at time t of a constant motion; t is exact.
 Frame frame_at(const Placed& p, const Motion& m, double t, const Vec3& origin);
 
-/// The vertices of the core of a polytope or rounded shape, body frame, exact doubles: sphere {0}, capsule
-/// {-h, +h}, box (bit k of the index set: + half_extents[k]), hull and triangle: their own vertices. nullopt:
-/// any other shape. A cylinder or cone of zero radius counts as a segment, an ellipsoid with equal semi-axes
-/// under a Pose as a ball.
+/// A convex shape as core ⊕ ball, in its body frame. `none`: a half-space or a mesh. A cylinder or cone of
+/// zero radius counts as a segment, an ellipsoid with equal semi-axes under a Pose as a ball.
+struct CoreForm {
+  enum class Kind { none, origin, segment, box, vertices, cylinder, cone, ellipsoid };
+  Kind kind = Kind::none;
+  Vec3 size = Vec3::Zero();  // segment, cylinder, cone: (radius, half height, -); box: half extents;
+                             // ellipsoid: semi-axes
+  double radius = 0;         // of the ball
+  /// The core is the hull of finitely many points.
+  bool has_points() const { return kind >= Kind::origin && kind <= Kind::vertices; }
+};
+CoreForm core_form(const Placed& p);
+
+/// The vertices of a core that has_points(), exact doubles: a box's (bit k of the index set: +
+/// half_extents[k]), a hull's own vertices. nullopt: any other shape.
 std::optional<std::vector<Vec3>> core_points(const Placed& p);
-bool has_core_points(const Placed& p);
-/// The radius of the ball around the core; 0 for shapes without one.
-double core_radius(const Placed& p);
 
 /// T is the arithmetic: long double for every result, double for the filter's first level, Wide for a search
 /// whose results the checker must accept.

@@ -79,7 +79,7 @@ void settle_exactly(ConvexTruth& t, const Operand& a, const Operand& b, const Si
 }  // namespace
 
 ExactBody Operand::exact_body() const {
-  return exact ? *exact : ExactBody{*core_points(placed), core_radius(placed), placed.pose};
+  return exact ? *exact : ExactBody{*core_points(placed), core_form(placed).radius, placed.pose};
 }
 
 Operand make_operand(const Placed& p, const Vec3& origin) {

@@ -19,7 +19,7 @@ struct Operand {
   Solid body;
   std::optional<ExactBody> exact;
   Placed placed{};
-  bool has_exact() const { return exact || (placed.shape != nullptr && has_core_points(placed)); }
+  bool has_exact() const { return exact || (placed.shape != nullptr && core_form(placed).has_points()); }
   ExactBody exact_body() const;
 };
 /// The shape must be convex and bounded. `origin`: the filter's numbers are relative to it.

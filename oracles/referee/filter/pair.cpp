@@ -67,7 +67,7 @@ Certificate half_space_depth(const Placed& a, const Placed& b) {
   if (is<HalfSpace>(other) || is<TriangleMesh>(other)) return {};
   const Vec3 origin = translation_of(other);
   const ConvexTruth t = judge_half_space(h, make_operand(other, origin), origin);
-  const Real3 core = t.witness_b + static_cast<Real>(core_radius(other)) * t.normal;
+  const Real3 core = t.witness_b + static_cast<Real>(core_form(other).radius) * t.normal;
   return core_pair_certificate(core, core, origin, -t.hi);
 }
 

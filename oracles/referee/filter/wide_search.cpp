@@ -62,7 +62,7 @@ std::vector<WidePart> parts_of(const Placed& p) {
       all.push_back(of_points({core, 0, p.pose}));
     }
   } else if (const auto core = core_points(p)) {
-    all.push_back(of_points({*core, core_radius(p), p.pose}));
+    all.push_back(of_points({*core, core_form(p).radius, p.pose}));
   } else {
     all.push_back(of_curved(p));
   }

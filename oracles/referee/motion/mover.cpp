@@ -8,16 +8,14 @@
 namespace touchstone::referee {
 namespace {
 
-std::optional<Rational3> local_axis(const Shape& s) {
-  if (std::holds_alternative<Cylinder>(s) || std::holds_alternative<Cone>(s) ||
-      std::holds_alternative<Capsule>(s))
-    return Rational3{0, 0, 1};
-  if (const auto* e = std::get_if<Ellipsoid>(&s)) {
-    const Vec3& a = e->semi_axes;
-    if (a.x() == a.y()) return Rational3{0, 0, 1};
-    if (a.y() == a.z()) return Rational3{1, 0, 0};
-    if (a.x() == a.z()) return Rational3{0, 1, 0};
-  }
+// The axis about which the shape is a body of revolution.
+std::optional<Rational3> local_axis(const CoreForm& f) {
+  using K = CoreForm::Kind;
+  if (f.kind == K::segment || f.kind == K::cylinder || f.kind == K::cone) return Rational3{0, 0, 1};
+  if (f.kind != K::ellipsoid) return std::nullopt;
+  if (f.size.x() == f.size.y()) return Rational3{0, 0, 1};
+  if (f.size.y() == f.size.z()) return Rational3{1, 0, 0};
+  if (f.size.x() == f.size.z()) return Rational3{0, 1, 0};
   return std::nullopt;
 }
 
@@ -27,7 +25,7 @@ bool rotation_shows(const Placed& p, const Vec3& angular, const std::optional<st
   if (angular.isZero(0)) return false;
   if (core && std::all_of(core->begin(), core->end(), [](const Vec3& v) { return v.isZero(0); }))
     return false;
-  const auto axis = local_axis(*p.shape);
+  const auto axis = local_axis(core_form(p));
   if (!axis || !std::holds_alternative<Pose>(p.pose)) return true;
   const Rational3 u = world_point(p.pose, *axis) - world_point(p.pose, {0, 0, 0});
   return !is_zero(cross(u, exact(angular)));
@@ -43,7 +41,7 @@ Mover::Mover(const Placed& p, const Motion& m, const Vec3& minus_linear, std::op
     for (int k : mesh.triangles[*triangle]) core_->push_back(mesh.vertices[static_cast<std::size_t>(k)]);
   } else {
     core_ = core_points(p);
-    radius_ = core_radius(p);
+    radius_ = core_form(p).radius;
   }
   spins_ = rotation_shows(p, m.angular, core_);
   if (!spins_) motion_.angular = Vec3::Zero();

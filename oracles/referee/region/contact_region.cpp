@@ -75,7 +75,7 @@ Extremes extremes_of(const Placed& p, const Vec3& origin, const Real3& n, Real s
 class ExactFeature {
  public:
   ExactFeature(const Placed& p, const Vec3& direction, double slack)
-      : points_(world_points({*core_points(p), core_radius(p), p.pose})),
+      : points_(world_points({*core_points(p), core_form(p).radius, p.pose})),
         n_(exact(direction)),
         limit_(exact(slack) * exact(slack) * dot(n_, n_)) {
     top_ = dot(n_, points_.front());
@@ -106,7 +106,7 @@ Feature feature_of(const Placed& p, const Vec3& origin, const Vec3& direction, d
   Feature f;
   f.height = -std::numeric_limits<Real>::infinity();
   for (const Real3& x : e.points) f.height = std::max(f.height, dot(n, x) / length);
-  const bool has_vertices = core_points(p).has_value();
+  const bool has_vertices = core_form(p).has_points();
   std::optional<ExactFeature> decide;
   for (std::size_t i = 0; i < e.points.size(); ++i) {
     const Real below = f.height - dot(n, e.points[i]) / length - slack;
@@ -117,7 +117,7 @@ Feature feature_of(const Placed& p, const Vec3& origin, const Vec3& direction, d
     }
     if (belongs) f.points.push_back(e.points[i]);
   }
-  f.height += core_radius(p);
+  f.height += core_form(p).radius;
   return f;
 }
 

@@ -50,6 +50,18 @@ List touching_round_shapes() {
       pair("touching", "ellipsoids_tip_to_tip", "two long ellipsoids touch at their sharp ends",
            {Ellipsoid{Vec3(8, 0.5, 0.5)}, {}, {}}, {Ellipsoid{Vec3(4, 1, 1)}, at(12, 0, 0), {}},
            gap_is(0, 0, x, "8 + 4 = 12 along the common axis")),
+      pair("touching", "rounded_boxes_face_to_face", "flat faces, half covering each other",
+           {RoundedBox{Vec3(1, 1, 1), 0.5}, {}, {}}, {RoundedBox{Vec3(2, 1, 1), 0.25}, at(3.75, 1, 0), {}},
+           gap_is(0, 0, x, "1 + 0.5 + 0.25 + 2")),
+      pair("touching", "rounded_boxes_edge_to_edge", "parallel round edges touch along a segment",
+           {RoundedBox{Vec3(1, 1, 1), 2}, {}, {}}, {RoundedBox{Vec3(1, 1, 2), 3}, at(5, 6, 0.5), {}},
+           gap_is(0, 0, Vec3(0.6, 0.8, 0), "|(3,4)| = 2 + 3 between the edges of the cores")),
+      pair("touching", "sphere_on_rounded_corner", "a ball touches a round corner",
+           {RoundedBox{Vec3(1, 1, 1), 2}, {}, {}}, {Sphere{5}, at(3, 4, 7), {}},
+           gap_is(0, 0, Vec3(2, 3, 6) / 7, "|(2,3,6)| = 7 = 2 + 5 from the core's corner")),
+      pair("touching", "rounded_boxes_thin_radius", "a radius of 2^-40 decides",
+           {RoundedBox{Vec3(1, 1, 1), 0x1p-40}, {}, {}},
+           {RoundedBox{Vec3(1, 1, 1), 0}, at(2 + 0x1p-40, 0.5, 0), {}}, gap_is(0, 0, x, "1 + 2^-40 + 1")),
   };
 }
 

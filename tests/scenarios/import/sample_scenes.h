@@ -59,6 +59,8 @@ inline Shape nasty_shape(Rng& rng, ShapeKind kind) {
       return HalfSpace{nasty_vec3(rng) + Vec3(0, 0, 1), nasty_double(rng)};
     case ShapeKind::mesh:
       return TriangleMesh{points(5), {{0, 1, 2}, {4, 3, 2}, {1, 1, 1}}};
+    case ShapeKind::rounded_box:
+      return RoundedBox{sizes(), size()};
   }
   return Sphere{1};
 }

@@ -7,6 +7,7 @@ import { refereeTrace, stageTable, standAlone } from "./trace";
 import { standAt, standsOfScript, type Stand } from "./motion";
 import { Picture, bodyColours, type Mark } from "./scene3d";
 import { shapeLine } from "./shape_line";
+import { isCurved } from "./shapes";
 import type { CasePage, EngineAnswer, QueryJson, V3 } from "./types";
 
 const data = pageData<CasePage>();
@@ -48,7 +49,7 @@ const refereeColour = (): string => (isDark() ? "#4ade80" : "#0a7a3f");
 
 document.title = `Touchstone: ${data.title}`;
 // Polyhedral shapes are their own polytopes: the wireframe would only hide their edges.
-const curved = shapes.some((s) => s.type === "cylinder" || s.type === "cone" || s.type === "ellipsoid");
+const curved = shapes.some(isCurved);
 const parts = new Parts(link, curved ? [] : ["polytope"], () => refresh());
 const view = el("div", { id: "view" });
 const table = el("div", { id: "answers", class: "scroll" });

@@ -1,24 +1,93 @@
-// Geometry of every shape in the body's frame, as the scene defines it: capsules, cylinders and cones along z.
+// Every shape in the body's frame, as the scene defines it: capsules, cylinders and cones along z. The one table of shapes
+// of the pages: a type of shape that is not in it is not known to the compiler.
 import {
   BoxGeometry, BufferGeometry, CapsuleGeometry, ConeGeometry, CylinderGeometry, Float32BufferAttribute, Matrix4,
   PlaneGeometry, Quaternion, SphereGeometry, Vector3,
 } from "three";
+import { RoundedBoxGeometry } from "three/examples/jsm/geometries/RoundedBoxGeometry.js";
 import type { ShapeJson, V3 } from "./types";
 
-/** Radius of a ball about the body's origin that contains the shape; 0 for a half-space. */
-export function reachOf(s: ShapeJson): number {
-  switch (s.type) {
-    case "sphere": return s.radius!;
-    case "box": return Math.hypot(...s.half_extents!);
-    case "capsule": return s.radius! + s.half_height!;
-    case "cylinder":
-    case "cone": return Math.hypot(s.radius!, s.half_height!);
-    case "ellipsoid": return Math.max(...s.semi_axes!);
-    case "hull":
-    case "mesh": return s.vertices!.reduce((most, v) => Math.max(most, Math.hypot(...v)), 0);
-    case "half_space": return 0;
-  }
+interface Picture {
+  faces: V3[] | undefined;
+  scale: number;
+  ground: number;
+  fine: number;
 }
+
+interface Row {
+  /** Radius of a ball about the body's origin that contains the shape. */
+  reach(s: ShapeJson): number;
+  /** Its core is neither a polytope nor a point: a certificate's polytope adds to the picture. */
+  curved?: true;
+  geometry(s: ShapeJson, p: Picture): BufferGeometry;
+}
+
+const length = (v: V3): number => Math.hypot(...v);
+const farthest = (s: ShapeJson): number => s.vertices!.reduce((most, v) => Math.max(most, length(v)), 0);
+const alongZ = (g: BufferGeometry): BufferGeometry => g.applyMatrix4(new Matrix4().makeRotationX(Math.PI / 2));
+
+const table = {
+  sphere: {
+    reach: (s) => s.radius!,
+    geometry: (s, { scale, fine }) => new SphereGeometry(s.radius! * scale, 64 * fine, 40 * fine),
+  },
+  box: {
+    reach: (s) => length(s.half_extents!),
+    geometry: (s, { scale }) => new BoxGeometry(...(s.half_extents!.map((x) => 2 * x * scale) as V3)),
+  },
+  rounded_box: {
+    reach: (s) => length(s.half_extents!) + s.radius!,
+    geometry: (s, { scale, fine }) =>
+      new RoundedBoxGeometry(...(s.half_extents!.map((x) => 2 * (x + s.radius!) * scale) as V3), Math.ceil(8 * fine), s.radius! * scale),
+  },
+  capsule: {
+    reach: (s) => s.radius! + s.half_height!,
+    geometry: (s, { scale, fine }) =>
+      alongZ(new CapsuleGeometry(s.radius! * scale, 2 * s.half_height! * scale, Math.ceil(16 * fine), 48 * fine)),
+  },
+  cylinder: {
+    reach: (s) => Math.hypot(s.radius!, s.half_height!),
+    curved: true,
+    geometry: (s, { scale, fine }) =>
+      alongZ(new CylinderGeometry(s.radius! * scale, s.radius! * scale, 2 * s.half_height! * scale, 64 * fine)),
+  },
+  cone: {
+    reach: (s) => Math.hypot(s.radius!, s.half_height!),
+    curved: true,
+    geometry: (s, { scale, fine }) => alongZ(new ConeGeometry(s.radius! * scale, 2 * s.half_height! * scale, 64 * fine)),
+  },
+  ellipsoid: {
+    reach: (s) => Math.max(...s.semi_axes!),
+    curved: true,
+    geometry: (s, { scale, fine }) =>
+      new SphereGeometry(1, 64 * fine, 40 * fine).applyMatrix4(new Matrix4().makeScale(...(s.semi_axes!.map((x) => x * scale) as V3))),
+  },
+  hull: {
+    reach: farthest,
+    geometry: (s, { faces, scale }) => triangles(s.vertices!, faces && faces.length > 0 ? faces : flat(s.vertices!), scale),
+  },
+  half_space: {
+    reach: () => 0,
+    geometry: (s, { ground }) => {
+      const n = new Vector3(...s.normal!);
+      const g = new PlaneGeometry(2 * ground, 2 * ground, 20, 20);
+      g.applyQuaternion(new Quaternion().setFromUnitVectors(new Vector3(0, 0, 1), n.clone().normalize()));
+      return g;
+    },
+  },
+  mesh: {
+    reach: farthest,
+    geometry: (s, { scale }) => triangles(s.vertices!, s.triangles!, scale),
+  },
+} satisfies Record<string, Row>;
+
+export type ShapeType = keyof typeof table;
+
+const rowOf = (s: ShapeJson): Row => table[s.type];
+
+/** Radius of a ball about the body's origin that contains the shape; 0 for a half-space. */
+export const reachOf = (s: ShapeJson): number => rowOf(s).reach(s);
+export const isCurved = (s: ShapeJson): boolean => rowOf(s).curved ?? false;
 
 function triangles(vertices: V3[], faces: V3[], scale: number): BufferGeometry {
   const positions = new Float32Array(faces.length * 9);
@@ -39,25 +108,5 @@ function flat(vertices: V3[]): V3[] {
 
 /** `scale`: from the scene's unit to the picture's. `ground`: half the side of the patch drawn for a half-space.
  * `fine`: the resolution of curved shapes, 1 for close-ups. */
-export function geometryOf(s: ShapeJson, faces: V3[] | undefined, scale: number, ground: number, fine = 1): BufferGeometry {
-  const alongZ = new Matrix4().makeRotationX(Math.PI / 2);
-  switch (s.type) {
-    case "sphere": return new SphereGeometry(s.radius! * scale, 64 * fine, 40 * fine);
-    case "box": return new BoxGeometry(...(s.half_extents!.map((x) => 2 * x * scale) as V3));
-    case "capsule":
-      return new CapsuleGeometry(s.radius! * scale, 2 * s.half_height! * scale, Math.ceil(16 * fine), 48 * fine).applyMatrix4(alongZ);
-    case "cylinder":
-      return new CylinderGeometry(s.radius! * scale, s.radius! * scale, 2 * s.half_height! * scale, 64 * fine).applyMatrix4(alongZ);
-    case "cone": return new ConeGeometry(s.radius! * scale, 2 * s.half_height! * scale, 64 * fine).applyMatrix4(alongZ);
-    case "ellipsoid":
-      return new SphereGeometry(1, 64 * fine, 40 * fine).applyMatrix4(new Matrix4().makeScale(...(s.semi_axes!.map((x) => x * scale) as V3)));
-    case "hull": return triangles(s.vertices!, faces && faces.length > 0 ? faces : flat(s.vertices!), scale);
-    case "mesh": return triangles(s.vertices!, s.triangles!, scale);
-    case "half_space": {
-      const n = new Vector3(...s.normal!);
-      const g = new PlaneGeometry(2 * ground, 2 * ground, 20, 20);
-      g.applyQuaternion(new Quaternion().setFromUnitVectors(new Vector3(0, 0, 1), n.clone().normalize()));
-      return g;
-    }
-  }
-}
+export const geometryOf = (s: ShapeJson, faces: V3[] | undefined, scale: number, ground: number, fine = 1): BufferGeometry =>
+  rowOf(s).geometry(s, { faces, scale, ground, fine });

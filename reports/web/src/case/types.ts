@@ -1,8 +1,10 @@
 // The data of a case page, as written by `touchstone view`.
+import type { ShapeType } from "./shapes";
+
 export type V3 = [number, number, number];
 
 export interface ShapeJson {
-  type: "sphere" | "box" | "capsule" | "cylinder" | "cone" | "ellipsoid" | "hull" | "half_space" | "mesh";
+  type: ShapeType;
   radius?: number;
   half_height?: number;
   half_extents?: V3;
