@@ -1,6 +1,6 @@
 #include "reports/record/judged_case.h"
 
-#include "scenarios/codec/certificate_codec.h"
+#include "scenarios/codec/value_codec.h"
 
 namespace touchstone::fuzz {
 namespace {

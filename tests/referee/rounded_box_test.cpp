@@ -3,7 +3,7 @@
 #include <numbers>
 
 #include "oracles/checker/checker.h"
-#include "oracles/referee/motion/impact_certificate.h"
+#include "oracles/referee/referee.h"
 #include "oracles/referee/region/contact_region.h"
 #include "tests/referee/support.h"
 #include "tests/support/catch.h"
