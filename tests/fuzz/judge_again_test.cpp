@@ -359,6 +359,14 @@ TEST_CASE("a damaged file of answers is refused with file, byte and reason", "[j
   write(w.path / "state.json", state.dump());
   CHECK_THROWS_AS(fuzz::run_campaign(config_of(w.path, 64), engines, {}, go), InputError);
   write(file, good);
+  // So are engines that describe themselves differently now.
+  const auto others = [] {
+    auto all = engines();
+    std::swap(all[0], all[1]);
+    return all;
+  };
+  CHECK_THROWS_AS(fuzz::run_campaign(config_of(w.path, 64), others, {}, go), InputError);
+  CHECK(read(file) == good);
   CHECK_NOTHROW(fuzz::run_campaign(config_of(w.path, 64), engines, {}, go));
   CHECK(reason_of(w.path).empty());
   state = nlohmann::ordered_json::parse(read(w.path / "state.json"));
