@@ -30,37 +30,16 @@ constexpr int step_cap = 5000;
 constexpr int chord_cap = 40;
 // The chord search ends when its interval is this small relative to the step, or the gap left at the step is
 // this small relative to the gap: more gains nothing.
-constexpr Wide step_tolerance = 0x1p-30L, gap_share = 0x1p-10L;
+constexpr Wide step_tolerance = 0x1p-30, gap_share = 0x1p-10;
 // Witness points across the normal by more than this · size are improved with the bodies pushed apart by
 // push · size.
-constexpr Wide across_tolerance = 0x1p-34L, push = 0x1p-20L;
+constexpr Wide across_tolerance = 0x1p-34, push = 0x1p-20;
 // After this many steps along fixed directions, rotating ones are tried too.
 constexpr int steps_before_turning = 4;
 
 Wide turned_support(const Core& c, const WideVec& d) {
   const WideVec local = c.frame.rotation.transpose() * d;
   return local.dot(narrow::support_local<Wide>(c, local));
-}
-
-WideVec turned(const WideVec& x, const WideVec& w, Wide t) {
-  const Wide speed = w.norm();
-  if (!(speed > 0) || t == 0) return x;
-  const WideVec u = w / speed;
-  const Wide c = std::cos(speed * t), s = std::sin(speed * t);
-  return x * c + u.cross(x) * s + u * (u.dot(x) * (1 - c));
-}
-
-WideMat turned(const WideMat& r, const WideVec& w, Wide t) {
-  const Wide speed = w.norm();
-  if (!(speed > 0) || t == 0) return r;
-  const WideVec u = w / speed;
-  const Wide c = std::cos(speed * t), s = std::sin(speed * t);
-  WideMat out;
-  for (int k = 0; k < 3; ++k) {
-    const WideVec x = r.col(k);
-    out.col(k) = x * c + u.cross(x) * s + u * (u.dot(x) * (1 - c));
-  }
-  return out;
 }
 
 // f(Δ) of the header comment. A plane has no support term of its own.
@@ -172,7 +151,7 @@ class TurningStep {
   bool proven(Wide h) const {
     const Wide s2 = separation(h);
     if (!(s2 >= 0)) return false;
-    const Wide room = std::sqrt(s1_) + std::sqrt(s2);
+    const Wide room = sqrt(s1_) + sqrt(s2);
     return curvature_ * h * h / 2 <= room * room;
   }
 
@@ -263,7 +242,7 @@ ImpactAnswer hit(const P& pair, Wide t, Separation s, Wide target, const Goal& g
   r.separation = static_cast<double>(below);
   if (below <= target) return r;
   const double next = std::nextafter(d, 1.0);
-  if (const Wide above = pair.look(next).s.gap; std::abs(above) < std::min(below, Wide(goal.accuracy))) {
+  if (const Wide above = pair.look(next).s.gap; abs(above) < std::min(below, Wide(goal.accuracy))) {
     r.toi = next;
     r.separation = static_cast<double>(above);
   }

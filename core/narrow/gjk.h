@@ -49,7 +49,7 @@ void keep_weighted(GjkResult<R>& g, const ClosestPoint<R>& c) {
   g.size = kept;
   g.a = a;
   g.b = b;
-  g.upper = std::sqrt(c.dist_sq);
+  g.upper = sqrt(c.dist_sq);
 }
 
 template <class R>

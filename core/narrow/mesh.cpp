@@ -9,7 +9,7 @@ namespace touchstone::narrow {
 namespace {
 
 // Covers the roundings of a box's distance, of the centre and of the radius, each a few 2⁻⁶³ of the terms.
-constexpr Wide box_rounding = 0x1p-56L;
+constexpr Wide box_rounding = 0x1p-56;
 
 }  // namespace
 

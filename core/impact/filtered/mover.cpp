@@ -49,7 +49,7 @@ M3<R> turn_matrix(const V3<R>& u, R s, R c) {
 void set_turn(Mover& m, const Vec& angular) {
   if (m.body.kind == CoreKind::point) return;
   const WideVec w = angular.cast<Wide>();
-  m.speed_wide = w.norm();
+  m.speed_wide = wide_norm(w);
   m.speed = static_cast<double>(m.speed_wide);
   if (!(m.speed > 0)) return;
   m.turns = true;
@@ -64,7 +64,8 @@ void set_turn(Mover& m, const Vec& angular) {
 
 }  // namespace
 
-WideMat rotation_of(const Quat& q) {
+WideMat rotation_of(const Quat& any) {
+  const Quat q = in_range_of_wide(any);
   const Wide x = q.x, y = q.y, z = q.z, w = q.w;
   const Wide k = 1 / (x * x + y * y + z * z + w * w), k2 = 2 * k;
   const Wide xx = x * x, yy = y * y, zz = z * z, ww = w * w;
@@ -102,7 +103,7 @@ Mat rotation_at(const Mover& m, double t, bool precise) {
     return turn_matrix<double>(m.axis, std::sin(angle), std::cos(angle)) * m.start;
   }
   const Wide angle = m.speed_wide * t;
-  const WideMat q = turn_matrix<Wide>(m.axis_wide, std::sin(angle), std::cos(angle));
+  const WideMat q = turn_matrix<Wide>(m.axis_wide, sin(angle), cos(angle));
   return (q * m.start_wide).cast<double>();
 }
 
