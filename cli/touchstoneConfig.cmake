@@ -17,6 +17,7 @@ function(touchstone_import name kind file)
     set_target_properties(touchstone::${name} PROPERTIES IMPORTED_LOCATION "${touchstone_prefix}/lib/${file}"
       INTERFACE_INCLUDE_DIRECTORIES "${touchstone_prefix}/include/touchstone"
       INTERFACE_COMPILE_FEATURES cxx_std_20 INTERFACE_COMPILE_OPTIONS -ffp-contract=off
+      INTERFACE_COMPILE_DEFINITIONS "@TOUCHSTONE_WIDE_DEFINITION@"
       INTERFACE_LINK_LIBRARIES "${ARGN}")
   endif()
 endfunction()

@@ -1,17 +1,17 @@
-// Bound. Let u = 2⁻⁶⁴ be the unit roundoff of Wide (x87: 64 bits; wider elsewhere) and R̃ the computed
+// Bound. Let u = 2⁻⁶⁴, which the relative error of an operation of Wide does not exceed, and R̃ the computed
 // rotation.
 //  * Each entry of R is a sum of at most four products of doubles, divided by |q|². A product of doubles rounds
 //    once and a sum of four such terms at most three more times; all terms are <= |q|² in magnitude. The
 //    numerator is within 4u|q|², the denominator within relative 4u, and the quotient rounds once more:
-//    |R̃ − R| <= 10u entrywise. Squares of doubles cannot overflow or lose the largest term in Wide's exponent
-//    range.
+//    |R̃ − R| <= 10u entrywise. Squares of doubles cannot overflow or lose the largest term in Wide: where its
+//    exponents are those of double, q is scaled first.
 //  * A box bound along an axis is t + Σ R_k s_k, or a square root of Σ (R_k s_k)², or a maximum of dot products:
 //    at most eight more roundings, each relative to a partial result of magnitude at most S + |t|, where
 //    S = Σ|s_k| (or the largest |vertex|₁): error <= (3·10 + 8)·u·S + 2u|t| < 2⁻⁵⁸·(S + |t|) = 64u(S + |t|).
 //  * The widened bound is rounded to the nearest double and stepped outward if that moved it inward.
 // The same holds for double with u = 2⁻⁵³: 2⁻⁴⁷·(S + |t|) = 64u(S + |t|) also covers the rounding of the last
 // sum, so no step outward is needed; underflow loses less than 2⁻¹⁰⁰⁰. For denormal results, the step outward
-// is at least one denormal, and Wide itself does not underflow there.
+// is at least one denormal; what Wide itself may lose there is added (`lost`).
 #include "core/broad/body_box.h"
 
 #include <cmath>
@@ -37,22 +37,28 @@ struct Interval {
 };
 
 // Slack for the rounding of a sum of two Wides: two units of its last place.
-constexpr Wide sum_slack = 0x1p-62L;
+constexpr Wide sum_slack = 0x1p-62;
 // Slack for the rounding of |ω| and of its product with a radius.
-constexpr Wide turn_slack = 0x1p-60L;
+constexpr Wide turn_slack = 0x1p-60;
+
+// Covers what Wide may lose to underflow, a few units of the least double.
+constexpr double lost = wide_holds_squares ? 0 : 16 * std::numeric_limits<double>::denorm_min();
 
 // The sum, rounded away from zero in the direction of `b`.
 Wide outward(Wide a, Wide b) {
-  const Wide sum = a + b, slack = sum_slack * std::abs(sum);
+  const Wide sum = a + b, slack = sum_slack * abs(sum);
   return b < 0 ? sum - slack : sum + slack;
 }
 
 template <class T>
 using Row = Eigen::Matrix<T, 3, 1>;
 
+Wide norm(const Row<Wide>& v) { return wide_norm(v); }
+double norm(const Row<double>& v) { return v.norm(); }
+
 template <class T>
 T rim(const Row<T>& row, T radius) {
-  return radius * std::sqrt(row.x() * row.x() + row.y() * row.y());
+  return radius * sqrt(row.x() * row.x() + row.y() * row.y());
 }
 
 template <class T>
@@ -79,17 +85,17 @@ struct Extent {
     return both_sides(row.cwiseAbs().dot(s.half_extents.cast<T>()) + static_cast<T>(s.radius));
   }
   Interval<T> operator()(const Capsule& s) const {
-    return both_sides(std::abs(row.z()) * static_cast<T>(s.half_height) + static_cast<T>(s.radius));
+    return both_sides(abs(row.z()) * static_cast<T>(s.half_height) + static_cast<T>(s.radius));
   }
   Interval<T> operator()(const Cylinder& s) const {
-    return both_sides(std::abs(row.z()) * static_cast<T>(s.half_height) + rim<T>(row, s.radius));
+    return both_sides(abs(row.z()) * static_cast<T>(s.half_height) + rim<T>(row, s.radius));
   }
   Interval<T> operator()(const Cone& s) const {
     const T apex = row.z() * static_cast<T>(s.half_height), r = rim<T>(row, s.radius);
     return {std::min(apex, -apex - r), std::max(apex, -apex + r)};
   }
   Interval<T> operator()(const Ellipsoid& s) const {
-    return both_sides(row.cwiseProduct(s.semi_axes.cast<T>()).norm());
+    return both_sides(norm(Row<T>(row.cwiseProduct(s.semi_axes.cast<T>()))));
   }
   Interval<T> operator()(const Hull& s) const { return span<T>(s.vertices, row); }
   Interval<T> operator()(const TriangleMesh& s) const { return span<T>(s.vertices, row); }
@@ -126,9 +132,11 @@ void tighten_half_space(const HalfSpace& h, const Pose& pose, Aabb& box) {
   h.normal.cwiseAbs().maxCoeff(&axis);
   const double kept[3] = {q.x, q.y, q.z};
   const Wide flip = q.w != 0 || kept[axis] != 0 ? 1 : -1;
-  const Wide n = flip * static_cast<Wide>(h.normal[axis]), t = pose.translation[axis];
-  const Wide at = t + h.offset / n;
-  const Wide slack = tolerance::box_error_factor * (std::abs(t) + std::abs(h.offset / n));
+  const int e = wide_holds_squares ? 0 : -std::ilogb(h.normal[axis]);
+  const Wide n = flip * ldexp(Wide(h.normal[axis]), e), t = pose.translation[axis];
+  const Wide foot = ldexp(Wide(h.offset), e) / n;
+  const Wide at = t + foot;
+  const Wide slack = tolerance::box_error_factor * (abs(t) + abs(foot)) + lost;
   if (n > 0)
     box.hi[axis] = round_up(at + slack);
   else
@@ -140,7 +148,7 @@ void tighten_half_space(const HalfSpace& h, const Pose& pose, Aabb& box) {
 // the axis and a chord is no longer than its arc. θ and the product round by less than 2⁻⁶⁰.
 Aabb turning_box(const Aabb& at_start, double r, const Pose& pose, const Vec3& angular) {
   const Aabb ball = body_box(Sphere{r}, pose);
-  const Wide way = angular.cast<Wide>().norm() * static_cast<Wide>(r) * (1 + turn_slack);
+  const Wide way = wide_norm(angular.cast<Wide>()) * static_cast<Wide>(r) * (1 + turn_slack) + lost;
   Aabb box;
   for (int axis = 0; axis < 3; ++axis) {
     box.lo[axis] = std::max(ball.lo[axis], round_down(outward(at_start.lo[axis], -way)));
@@ -164,7 +172,7 @@ Aabb body_box(const Shape& shape, const Pose& pose) {
   Aabb box;
   for (int axis = 0; axis < 3; ++axis) {
     const auto e = std::visit(Extent<Wide>{WideVec(f.rotation.row(axis).transpose())}, shape);
-    const Wide t = f.translation[axis], slack = tolerance::box_error_factor * (size + std::abs(t));
+    const Wide t = f.translation[axis], slack = tolerance::box_error_factor * (size + abs(t)) + lost;
     box.lo[axis] = round_down(t + e.lo - slack);
     box.hi[axis] = round_up(t + e.hi + slack);
   }
@@ -181,9 +189,9 @@ Aabb swept_box(const Shape& shape, const Pose& pose, const Motion& motion) {
     // The end box is the start box translated by v; the sum is rounded outward.
     const Wide v = motion.linear[axis];
     box.lo[axis] =
-        std::min(box.lo[axis], round_down((start.lo[axis] + v) - sum_slack * std::abs(start.lo[axis] + v)));
+        std::min(box.lo[axis], round_down((start.lo[axis] + v) - sum_slack * abs(start.lo[axis] + v)));
     box.hi[axis] =
-        std::max(box.hi[axis], round_up((start.hi[axis] + v) + sum_slack * std::abs(start.hi[axis] + v)));
+        std::max(box.hi[axis], round_up((start.hi[axis] + v) + sum_slack * abs(start.hi[axis] + v)));
   }
   return box;
 }
@@ -195,7 +203,7 @@ Aabb loose_box(const Shape& shape, const Pose& pose, double size) {
   for (int axis = 0; axis < 3; ++axis) {
     const auto e = std::visit(Extent<double>{Vec3(r.row(axis).transpose())}, shape);
     const double t = pose.translation[axis];
-    const double slack = loose_factor * (size + std::abs(t)) + underflow_slack;
+    const double slack = loose_factor * (size + abs(t)) + underflow_slack;
     box.lo[axis] = t + e.lo - slack;
     box.hi[axis] = t + e.hi + slack;
   }

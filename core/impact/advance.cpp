@@ -30,10 +30,10 @@ constexpr int step_cap = 5000;
 constexpr int chord_cap = 40;
 // The chord search ends when its interval is this small relative to the step, or the gap left at the step is
 // this small relative to the gap: more gains nothing.
-constexpr Wide step_tolerance = 0x1p-30L, gap_share = 0x1p-10L;
+constexpr Wide step_tolerance = 0x1p-30, gap_share = 0x1p-10;
 // Witness points across the normal by more than this · size are improved with the bodies pushed apart by
 // push · size.
-constexpr Wide across_tolerance = 0x1p-34L, push = 0x1p-20L;
+constexpr Wide across_tolerance = 0x1p-34, push = 0x1p-20;
 // After this many steps along fixed directions, rotating ones are tried too.
 constexpr int steps_before_turning = 4;
 
@@ -239,7 +239,7 @@ ImpactAnswer hit(const P& pair, Wide t, Separation s, Wide target, const Goal& g
   r.separation = static_cast<double>(below);
   if (below <= target) return r;
   const double next = std::nextafter(d, 1.0);
-  if (const Wide above = pair.look(next).s.gap; std::abs(above) < std::min(below, Wide(goal.accuracy))) {
+  if (const Wide above = pair.look(next).s.gap; abs(above) < std::min(below, Wide(goal.accuracy))) {
     r.toi = next;
     r.separation = static_cast<double>(above);
   }

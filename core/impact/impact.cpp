@@ -8,6 +8,7 @@
 #include "core/impact/pursue.h"
 #include "core/math/roundoff.h"
 #include "core/narrow/pair_table.h"
+#include "core/narrow/unit_scale.h"
 #include "core/tolerance.h"
 
 namespace touchstone {
@@ -235,6 +236,15 @@ ImpactAnswer time_of_impact(const MovingShape& first, const MovingShape& second,
       return r;
     }
   if (!moves(a) && !moves(b)) return at_rest(a, b, detail);
+  const double way = std::max(a.motion.linear.cwiseAbs().maxCoeff(), b.motion.linear.cwiseAbs().maxCoeff());
+  if (const int e = narrow::unit_scale(a, b, way); e != 0) {
+    const narrow::ScaledPair<MovingShape> pair(a, b, e);
+    ImpactAnswer r = time_of_impact(pair.a, pair.b, detail);
+    r.separation = std::ldexp(r.separation, -e);
+    if (r.toi)
+      for (Vec3& x : r.witness_w) x = narrow::scaled(x, -e) + pair.origin;
+    return r;
+  }
   return is_static_shape(*a.shape) ? mirrored(from_convex(b, a, detail)) : from_convex(a, b, detail);
 }
 

@@ -8,6 +8,7 @@
 #include <limits>
 #include <vector>
 
+#include "core/math/error_free.h"
 #include "core/math/pose.h"
 #include "core/tolerance.h"
 
@@ -21,9 +22,8 @@ class Expansion {
     if (x != 0) terms_.push_back(x);
   }
   static Expansion difference(double a, double b) {
-    const double s = a - b;
-    const double bb = a - s;
-    return Expansion(((a - (s + bb)) + (bb - b))).plus(s);
+    const Rounded d = two_sum(a, -b);
+    return Expansion(d.error).plus(d.value);
   }
   Expansion operator+(const Expansion& o) const {
     Expansion r = *this;
@@ -39,8 +39,8 @@ class Expansion {
     Expansion r;
     for (double x : terms_)
       for (double y : o.terms_) {
-        const double p = x * y;
-        r = r.plus(std::fma(x, y, -p)).plus(p);
+        const Rounded p = two_product(x, y);
+        r = r.plus(p.error).plus(p.value);
       }
     return r;
   }
@@ -52,10 +52,9 @@ class Expansion {
     Expansion r;
     double q = b;
     for (double t : terms_) {
-      const double s = q + t, bv = s - q;
-      const double err = (q - (s - bv)) + (t - bv);
-      if (err != 0) r.terms_.push_back(err);
-      q = s;
+      const Rounded s = two_sum(q, t);
+      if (s.error != 0) r.terms_.push_back(s.error);
+      q = s.value;
     }
     if (q != 0) r.terms_.push_back(q);
     return r;

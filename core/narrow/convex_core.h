@@ -36,7 +36,7 @@ V3<R> support_local(const ConvexCore<R>& c, const V3<R>& d) {
   const V3<R>& s = c.size;
   const auto toward = [](R size, R along) { return along < 0 ? -size : size; };
   const auto rim = [&] {
-    const R n = std::sqrt(d.x() * d.x() + d.y() * d.y());
+    const R n = sqrt(d.x() * d.x() + d.y() * d.y());
     return n > 0 ? V3<R>(d.x() / n * s.x(), d.y() / n * s.x(), 0) : V3<R>(s.x(), 0, 0);
   };
   switch (c.kind) {
@@ -49,7 +49,7 @@ V3<R> support_local(const ConvexCore<R>& c, const V3<R>& d) {
     case CoreKind::cylinder:
       return rim() + V3<R>(0, 0, toward(s.z(), d.z()));
     case CoreKind::cone:
-      if (d.z() * 2 * s.z() > s.x() * std::sqrt(d.x() * d.x() + d.y() * d.y())) return {0, 0, s.z()};
+      if (d.z() * 2 * s.z() > s.x() * sqrt(d.x() * d.x() + d.y() * d.y())) return {0, 0, s.z()};
       return rim() - V3<R>(0, 0, s.z());
     case CoreKind::ellipsoid: {
       const V3<R> e = s.cwiseProduct(d);
@@ -97,7 +97,7 @@ inline ConvexCore<Wide> make_core(const Shape& shape, const WideFrame& frame) {
   const auto round = [&](CoreKind kind, Wide r, Wide h) {
     c.kind = kind;
     c.size = WideVec(r, r, h);
-    c.reach = std::sqrt(r * r + h * h);
+    c.reach = sqrt(r * r + h * h);
   };
   if (const auto* s = std::get_if<Sphere>(&shape)) c.radius = s->radius;
   if (const auto* s = std::get_if<Capsule>(&shape)) {

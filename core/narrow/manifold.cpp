@@ -24,7 +24,7 @@ struct Basis {
 
 Points candidates(const ConvexCore<Wide>& c, const WideVec& d, Wide tolerance) {
   const WideVec& s = c.size;
-  const Wide flat = std::sqrt(d.x() * d.x() + d.y() * d.y());
+  const Wide flat = sqrt(d.x() * d.x() + d.y() * d.y());
   const WideVec deepest = support_local<Wide>(c, d);
   const auto rim_at = [&](Wide z) {
     Points p;
@@ -85,7 +85,7 @@ Polygon clip(const Polygon& subject, const Polygon& window, Wide tolerance) {
     const Plane2 &w0 = window[i], e = window[(i + 1) % window.size()] - w0;
     const auto side = [&](const Plane2& p) {
       const Wide d = cross2(e, p - w0) / e.norm();
-      return std::abs(d) <= tolerance ? Wide(0) : d;
+      return abs(d) <= tolerance ? Wide(0) : d;
     };
     Polygon out;
     const std::size_t n = in.size();
@@ -105,7 +105,7 @@ Polygon clip(const Polygon& subject, const Polygon& window, Wide tolerance) {
 Polygon overlap_of_segments(const Polygon& a, const Polygon& b, Wide tolerance) {
   const Plane2 d = a[1] - a[0];
   const Wide length = d.norm();
-  const auto off = [&](const Plane2& p) { return std::abs(cross2(d, p - a[0])) / length; };
+  const auto off = [&](const Plane2& p) { return abs(cross2(d, p - a[0])) / length; };
   if (off(b[0]) > tolerance || off(b[1]) > tolerance) return {};
   Wide t0 = d.dot(b[0] - a[0]) / length, t1 = d.dot(b[1] - a[0]) / length;
   if (t0 > t1) std::swap(t0, t1);

@@ -5,6 +5,7 @@
 #include "core/narrow/manifold.h"
 #include "core/narrow/mesh.h"
 #include "core/narrow/pair_table.h"
+#include "core/narrow/unit_scale.h"
 #include "core/tolerance.h"
 
 namespace touchstone::narrow {
@@ -20,14 +21,14 @@ bool touches(const Separation& s) { return s.gap <= tolerance::narrow_contact_fa
 // The results are rounded to double once.
 double arithmetic_error(const Separation& s) {
   return static_cast<double>(s.local_slack + tolerance::narrow_contact_factor * s.size) +
-         double_roundoff * static_cast<double>(std::abs(s.gap) + s.size);
+         double_roundoff * static_cast<double>(abs(s.gap) + s.size);
 }
 
 Vec3 world(const WideVec& p, const PlacedShape& a) {
   return (p + a.pose.translation.cast<Wide>()).cast<double>();
 }
 
-std::vector<WideVec> manifold_of(const PlacedShape& a, const PlacedShape& b, const Separation& s) {
+std::vector<WideVec> unit_manifold(const PlacedShape& a, const PlacedShape& b, const Separation& s) {
   const WideFrame fa = wide_frame(a.pose), fb = wide_frame(b.pose);
   const WideFrame la{fa.rotation, WideVec::Zero()}, lb{fb.rotation, fb.translation - fa.translation};
   if (is_bounded_convex(*a.shape) && is_bounded_convex(*b.shape)) {
@@ -41,6 +42,23 @@ std::vector<WideVec> manifold_of(const PlacedShape& a, const PlacedShape& b, con
     return narrow::contact_points(narrow::make_core(*b.shape, lb), nullptr, t);
   }
   return {WideVec((s.a + s.b) / 2)};
+}
+
+Separation rescaled(Separation s, int exponent) {
+  for (Wide* x : {&s.gap, &s.slack, &s.local_slack, &s.size}) *x = ldexp(*x, exponent);
+  s.a = scaled(s.a, exponent);
+  s.b = scaled(s.b, exponent);
+  return s;
+}
+
+std::vector<WideVec> manifold_of(const PlacedShape& a, const PlacedShape& b, const Separation& s) {
+  if (const int e = unit_scale(a, b); e != 0) {
+    const ScaledPair<PlacedShape> pair(a, b, e);
+    std::vector<WideVec> points = unit_manifold(pair.a, pair.b, rescaled(s, e));
+    for (WideVec& p : points) p = scaled(p, -e);
+    return points;
+  }
+  return unit_manifold(a, b, s);
 }
 
 }  // namespace
@@ -82,6 +100,10 @@ ContactAnswer wide_contact(const PlacedShape& a, const PlacedShape& b) {
 namespace touchstone {
 
 Separation separation(const PlacedShape& a, const PlacedShape& b) {
+  if (const int e = narrow::unit_scale(a, b); e != 0) {
+    const narrow::ScaledPair<PlacedShape> pair(a, b, e);
+    return narrow::rescaled(separation(pair.a, pair.b), -e);
+  }
   return narrow::separate(*a.shape, wide_frame(a.pose), *b.shape, wide_frame(b.pose));
 }
 

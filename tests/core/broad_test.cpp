@@ -116,7 +116,7 @@ TEST_CASE("boxes contain the exact body and exceed it by a few ulps", "[broad][b
                  lo = pose.translation[axis] - height_along(shape, -row);
       CHECK(static_cast<Wide>(box.hi[axis]) >= hi);
       CHECK(static_cast<Wide>(box.lo[axis]) <= lo);
-      const Wide size = std::abs(hi) + std::abs(lo) + 2;
+      const Wide size = abs(hi) + abs(lo) + 2;
       CHECK(box.hi[axis] - hi <= 0x1p-52L * size);
       CHECK(lo - box.lo[axis] <= 0x1p-52L * size);
       ++checked;
@@ -191,10 +191,8 @@ TEST_CASE("swept boxes contain the body at all times", "[broad][box]") {
       const WideFrame f = wide_frame_at(pose, m, k / Wide(20));
       for (int axis = 0; axis < 3; ++axis, ++checked) {
         const WideVec row = f.rotation.row(axis).transpose();
-        CHECK(static_cast<Wide>(box.hi[axis]) >=
-              f.translation[axis] + height_along(shape, row) - 1e-16L * 100);
-        CHECK(static_cast<Wide>(box.lo[axis]) <=
-              f.translation[axis] - height_along(shape, -row) + 1e-16L * 100);
+        CHECK(static_cast<Wide>(box.hi[axis]) >= f.translation[axis] + height_along(shape, row) - 1e-14);
+        CHECK(static_cast<Wide>(box.lo[axis]) <= f.translation[axis] - height_along(shape, -row) + 1e-14);
       }
     }
   }

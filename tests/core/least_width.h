@@ -1,9 +1,10 @@
 // A second opinion on depth: w(n) = h_A(n) + h_B(−n) from its definition, with support functions written out
-// here in long double, and its minimum by search over the sphere. Shares no code with the narrow phase.
+// here in Wide, and its minimum by search over the sphere. Shares no code with the narrow phase.
 #pragma once
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <vector>
 
 #include "core/math/rng.h"
@@ -13,11 +14,11 @@
 namespace touchstone::test {
 
 inline Wide height_along(const Shape& s, const WideVec& d) {
-  const Wide len = d.norm(), rho = std::hypot(d.x(), d.y());
+  const Wide len = d.norm(), rho = sqrt(d.x() * d.x() + d.y() * d.y());
   if (const auto* x = std::get_if<Sphere>(&s)) return x->radius * len;
   if (const auto* x = std::get_if<Box>(&s)) return d.cwiseAbs().dot(x->half_extents.cast<Wide>());
-  if (const auto* x = std::get_if<Capsule>(&s)) return x->radius * len + x->half_height * std::abs(d.z());
-  if (const auto* x = std::get_if<Cylinder>(&s)) return x->radius * rho + x->half_height * std::abs(d.z());
+  if (const auto* x = std::get_if<Capsule>(&s)) return x->radius * len + x->half_height * abs(d.z());
+  if (const auto* x = std::get_if<Cylinder>(&s)) return x->radius * rho + x->half_height * abs(d.z());
   if (const auto* x = std::get_if<Cone>(&s))
     return std::max<Wide>(x->half_height * d.z(), x->radius * rho - x->half_height * d.z());
   if (const auto* x = std::get_if<Ellipsoid>(&s)) return x->semi_axes.cast<Wide>().cwiseProduct(d).norm();
@@ -65,18 +66,18 @@ class Width {
  private:
   Wide improve(std::pair<Wide, WideVec> at) const {
     int left = 400;
-    for (Wide step = 0.2L; step > 1e-10L && left-- > 0;) {
+    for (Wide step = 0.2; step > 1e-10 && left-- > 0;) {
       const WideVec u = at.second.unitOrthogonal(), v = at.second.cross(u);
       bool better = false;
       for (int k = 0; k < 12; ++k) {
-        const Wide angle = k * 0.52359877559829887308L;
-        const WideVec n = (at.second + step * (std::cos(angle) * u + std::sin(angle) * v)).normalized();
+        const Wide angle = k * std::numbers::pi_v<Wide> / 6;
+        const WideVec n = (at.second + step * (cos(angle) * u + sin(angle) * v)).normalized();
         if (const Wide w = (*this)(n); w < at.first) {
           at = {w, n};
           better = true;
         }
       }
-      if (!better) step *= 0.5L;
+      if (!better) step *= 0.5;
     }
     return at.first;
   }

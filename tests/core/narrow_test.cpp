@@ -104,7 +104,7 @@ TEST_CASE("distance, feasibility and witnesses hold within tau for all pairs and
     if (s.gap <= 0) ++overlaps;
     const Width width(p.a, p.pose_a, p.b, p.pose_b);
     CHECK(std::abs(static_cast<double>(width(s.normal.cast<double>().cast<Wide>()) + s.gap)) <= tau_of(p));
-    CHECK(std::abs(static_cast<double>((s.b - s.a).norm() - std::abs(s.gap))) <= tau_of(p));
+    CHECK(std::abs(static_cast<double>((s.b - s.a).norm() - abs(s.gap))) <= tau_of(p));
   });
   INFO(cases << " pairs, " << overlaps << " overlap, " << unfinished << " not converged");
   CHECK(cases == 20 * 28 * 6);

@@ -79,7 +79,7 @@ int main(int argc, char** argv) {
       bad = true;
       why = "feasibility";
     }
-    if (!(std::abs((s.b - s.a).norm() - std::abs(s.gap)) <= tau)) {
+    if (!(abs((s.b - s.a).norm() - abs(s.gap)) <= tau)) {
       ++t.witness;
       bad = true;
       why = "witness";

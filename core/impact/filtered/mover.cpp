@@ -39,7 +39,7 @@ double reach_off_axis(const narrow::filtered::Body<double>& c, const Vec& a) {
 void set_turn(Mover& m, const Vec& angular) {
   if (m.body.kind == CoreKind::point) return;
   const WideVec w = angular.cast<Wide>();
-  m.speed_wide = w.norm();
+  m.speed_wide = wide_norm(w);
   m.speed = static_cast<double>(m.speed_wide);
   if (!(m.speed > 0)) return;
   m.turns = true;
@@ -54,7 +54,8 @@ void set_turn(Mover& m, const Vec& angular) {
 
 }  // namespace
 
-WideMat rotation_of(const Quat& q) {
+WideMat rotation_of(const Quat& any) {
+  const Quat q = in_range_of_wide(any);
   const Wide x = q.x, y = q.y, z = q.z, w = q.w;
   const Wide k = 1 / (x * x + y * y + z * z + w * w), k2 = 2 * k;
   const Wide xx = x * x, yy = y * y, zz = z * z, ww = w * w;

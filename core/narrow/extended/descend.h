@@ -35,7 +35,7 @@ template <class R, class F>
 std::pair<R, R> least_between(R lo, R hi, R noise, F&& f) {
   constexpr int steps = 100;  // 0.618^100 = 1e-21
   constexpr R eps = std::numeric_limits<R>::epsilon();
-  const R section = (3 - std::sqrt(R(5))) / 2, finest = eps * (hi - lo);
+  const R section = (3 - sqrt(R(5))) / 2, finest = eps * (hi - lo);
   R x = lo + section * (hi - lo), fx = f(x), f_lo = f(lo), f_hi = f(hi);
   R second = x, third = x, f_second = fx, f_third = fx, step = 0, before = 0;
   for (int i = 0; i < steps; ++i) {
@@ -44,15 +44,15 @@ std::pair<R, R> least_between(R lo, R hi, R noise, F&& f) {
     R p = (x - second) * (fx - f_third), q = (x - third) * (fx - f_second);
     R num = (x - third) * q - (x - second) * p, den = 2 * (q - p);
     if (den > 0) num = -num;
-    den = std::abs(den);
-    if (std::abs(num) < std::abs(den * before / 2) && num > den * (lo - x) && num < den * (hi - x)) {
+    den = abs(den);
+    if (abs(num) < abs(den * before / 2) && num > den * (lo - x) && num < den * (hi - x)) {
       before = step;
       step = num / den;
     } else {
       before = x < middle ? hi - x : lo - x;
       step = section * before;
     }
-    const R u = std::abs(step) >= finest ? x + step : x + (step > 0 ? finest : -finest), fu = f(u);
+    const R u = abs(step) >= finest ? x + step : x + (step > 0 ? finest : -finest), fu = f(u);
     if (fu <= fx) {
       (u < x ? hi : lo) = x;
       (u < x ? f_hi : f_lo) = fx;
@@ -85,7 +85,7 @@ int round_axis(const ConvexCore<R>& c) {
   if (c.kind == CoreKind::segment || c.kind == CoreKind::cylinder || c.kind == CoreKind::cone) return 2;
   if (c.kind != CoreKind::ellipsoid) return -1;
   const V3<R>& s = c.size;
-  const R d0 = std::abs(s[1] - s[2]), d1 = std::abs(s[2] - s[0]), d2 = std::abs(s[0] - s[1]);
+  const R d0 = abs(s[1] - s[2]), d1 = abs(s[2] - s[0]), d2 = abs(s[0] - s[1]);
   return d0 <= d1 && d0 <= d2 ? 0 : (d1 <= d2 ? 1 : 2);
 }
 
@@ -100,8 +100,8 @@ class MeridianSearch {
         u_(w_.unitOrthogonal()),
         v_(w_.cross(u_)) {}
 
-  V3<R> across(R theta) const { return std::cos(theta) * u_ + std::sin(theta) * v_; }
-  V3<R> direction(R theta, R alpha) const { return std::sin(alpha) * across(theta) + std::cos(alpha) * w_; }
+  V3<R> across(R theta) const { return cos(theta) * u_ + sin(theta) * v_; }
+  V3<R> direction(R theta, R alpha) const { return sin(alpha) * across(theta) + cos(alpha) * w_; }
   R height(const V3<R>& n) const { return -n.dot(Difference<R>{a_, b_}.support(-n).w); }
 
   /// Direction of least height, and that height.
@@ -139,7 +139,7 @@ class MeridianSearch {
   // every local minimum of the samples is followed.
   std::pair<R, R> whole_meridian(R theta) const {
     const V3<R> out = across(theta);
-    const auto h = [&](R x) { return height(std::sin(x) * out + std::cos(x) * w_); };
+    const auto h = [&](R x) { return height(sin(x) * out + cos(x) * w_); };
     std::array<R, polars + 1> sample;
     for (int k = 0; k <= polars; ++k) sample[static_cast<std::size_t>(k)] = h(k * step_alpha);
     std::pair<R, R> best{0, std::numeric_limits<R>::infinity()};
@@ -197,8 +197,7 @@ void descend(EpaResult<R>& e, const ConvexCore<R>& a, const ConvexCore<R>& b, R 
     const EpaResult<R> step = detail::proximal<R>(e.normal, share, a, b, size, tolerance);
     const R depth = std::min(step.upper, e.upper);
     // EPA's tolerance enters twice through the shift: once in height and once in length.
-    if (step.status == EpaStatus::broken || std::abs((step.b - step.a).norm() - depth) > 4 * tolerance)
-      continue;
+    if (step.status == EpaStatus::broken || abs((step.b - step.a).norm() - depth) > 4 * tolerance) continue;
     e.a = step.a;
     e.b = step.b;
     e.status = EpaStatus::closed;

@@ -118,7 +118,7 @@ class Epa {
       }
       const auto [i, j, l] = others(apex);
       const V3<R> n = (w(j) - w(i)).cross(w(l) - w(i));
-      if (!(std::abs(n.dot(w(apex) - w(i))) > thin_ * best)) s.erase(s.begin() + static_cast<long>(apex));
+      if (!(abs(n.dot(w(apex) - w(i))) > thin_ * best)) s.erase(s.begin() + static_cast<long>(apex));
     }
     if (s.size() == 3 && height(w(0), w(1), w(2)) <= thin_) {
       const R e0 = (w(1) - w(2)).squaredNorm(), e1 = (w(0) - w(2)).squaredNorm(),
@@ -134,7 +134,7 @@ class Epa {
   // Height above the longest edge.
   static R height(const V3<R>& a, const V3<R>& b, const V3<R>& c) {
     const R longest = std::max({(b - a).squaredNorm(), (c - b).squaredNorm(), (a - c).squaredNorm()});
-    return longest > 0 ? upright_normal<R>(a, b, c).norm() / std::sqrt(longest) : R(0);
+    return longest > 0 ? upright_normal<R>(a, b, c).norm() / sqrt(longest) : R(0);
   }
 
   bool add_farthest(std::vector<Vertex<R>>& s, std::span<const V3<R>> directions, auto&& distance) {
@@ -163,7 +163,7 @@ class Epa {
     if (s.size() == 2) {
       const V3<R> d = (s[1].w - s[0].w).normalized();
       const V3<R> u = d.unitOrthogonal(), v = d.cross(u);
-      const R c = R(0.5), h = std::sqrt(R(3)) / 2;
+      const R c = R(0.5), h = sqrt(R(3)) / 2;
       const std::array<V3<R>, 6> around{u,         V3<R>(u * c + v * h),  V3<R>(v * h - u * c),
                                         V3<R>(-u), V3<R>(-u * c - v * h), V3<R>(u * c - v * h)};
       if (!add_farthest(s, around, [&](const V3<R>& p) { return d.cross(p - s[0].w).norm(); })) return false;
@@ -171,7 +171,7 @@ class Epa {
     if (s.size() == 3) {
       const V3<R> n = (s[1].w - s[0].w).cross(s[2].w - s[0].w).normalized();
       const std::array<V3<R>, 2> sides{n, V3<R>(-n)};
-      if (!add_farthest(s, sides, [&](const V3<R>& p) { return std::abs(n.dot(p - s[0].w)); })) return false;
+      if (!add_farthest(s, sides, [&](const V3<R>& p) { return abs(n.dot(p - s[0].w)); })) return false;
     }
     return true;
   }
@@ -209,7 +209,7 @@ class Epa {
     f.plane = f.normal.dot(aa <= bb && aa <= cc ? a : (bb <= cc ? b : c));
     const auto near = nearest(f);
     f.inside = near.size == 3;
-    const R dist = std::sqrt(near.dist_sq);
+    const R dist = sqrt(near.dist_sq);
     // Negative when the origin is beyond the plane: the surface does not (yet) enclose it.
     f.key = f.inside || f.plane < 0 ? f.plane : std::max(f.plane, dist);
 
@@ -271,7 +271,7 @@ class Epa {
         result_.upper = x.upper;
         result_.normal = -x.normal;
       }
-      set_witness(nearest(x).dist_sq <= square(std::abs(x.plane) + tolerance_) ? x : facet(nearest_facet()));
+      set_witness(nearest(x).dist_sq <= square(abs(x.plane) + tolerance_) ? x : facet(nearest_facet()));
     }
     result_.status = status;
     result_.iterations = static_cast<int>(vertices_.size());
@@ -308,8 +308,7 @@ class Epa {
     if (h <= thin_) return true;
     const V3<R> n = upright_normal<R>(a, b, p).normalized();
     // The normal of a triangle of height h is accurate to about level_/h.
-    const R longest =
-        std::sqrt(std::max({(b - a).squaredNorm(), (p - b).squaredNorm(), (a - p).squaredNorm()}));
+    const R longest = sqrt(std::max({(b - a).squaredNorm(), (p - b).squaredNorm(), (a - p).squaredNorm()}));
     return n.dot(a) < -level_ * (4 + longest / h) - tolerance_ - outside_;
   }
 

@@ -30,22 +30,22 @@ inline Separation capsule_capsule(const ConvexCore<Wide>& a, const ConvexCore<Wi
   };
   for (const Wide s : {-ha, ha}) {
     const Wide t = (ca + s * u - cb).dot(v);
-    consider(s, std::clamp<Wide>(t, -hb, hb), false, std::abs(t) < hb);
+    consider(s, std::clamp<Wide>(t, -hb, hb), false, abs(t) < hb);
   }
   for (const Wide t : {-hb, hb}) {
     const Wide s = (cb + t * v - ca).dot(u);
-    consider(std::clamp<Wide>(s, -ha, ha), t, std::abs(s) < ha, false);
+    consider(std::clamp<Wide>(s, -ha, ha), t, abs(s) < ha, false);
   }
   const WideVec n = u.cross(v);
   const Wide nn = n.squaredNorm();
   // Below this sin² of the angle, the ends give the distance to within rounding.
   if (nn > std::numeric_limits<Wide>::epsilon() * std::numeric_limits<Wide>::epsilon()) {
     const Wide s = r.cross(v).dot(n) / nn, t = r.cross(u).dot(n) / nn;
-    if (std::abs(s) <= ha && std::abs(t) <= hb) {
+    if (abs(s) <= ha && abs(t) <= hb) {
       const Wide d = r.dot(n);
       pa = ca + s * u;
       pb = cb + t * v;
-      normal = (d < 0 ? WideVec(-n) : n) / std::sqrt(nn);
+      normal = (d < 0 ? WideVec(-n) : n) / sqrt(nn);
     }
   }
   return certified_or_general(a, b, pa, pb, normal);

@@ -24,7 +24,7 @@ inline Separation convex_plane(const ConvexCore<Wide>& a, const WidePlane& plane
   s.a = support<Wide>(a, s.normal) + a.radius * s.normal;
   s.gap = plane.normal.dot(s.a) - plane.offset;
   s.b = s.a + s.gap * s.normal;
-  s.size = a.reach + a.radius + std::abs(plane.offset) + a.frame.translation.norm();
+  s.size = a.reach + a.radius + abs(plane.offset) + a.frame.translation.norm();
   return s;
 }
 

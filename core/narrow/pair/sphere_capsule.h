@@ -14,7 +14,7 @@ inline Separation sphere_capsule(const ConvexCore<Wide>& a, const ConvexCore<Wid
   const Wide h = b.size.z(), s = std::clamp<Wide>(r.dot(u), -h, h);
   const WideVec q = b.frame.translation + s * u;
   WideVec v = q - p;
-  if (std::abs(s) < h) v -= u * u.dot(v);
+  if (abs(s) < h) v -= u * u.dot(v);
   const Wide d = v.norm();
   return certified_or_general(a, b, p, q, d > 0 ? WideVec(v / d) : WideVec(u.unitOrthogonal()));
 }

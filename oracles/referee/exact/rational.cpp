@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <limits>
 #include <string_view>
 
 #include "core/base/input_error.h"
@@ -11,15 +12,23 @@
 namespace touchstone::referee {
 namespace {
 
+// A significand is read in pieces of 32 bits: two on x87, four where long double has 113 bits.
+constexpr int piece = 32, pieces = (std::numeric_limits<Real>::digits + piece - 1) / piece;
+
 // The three coordinates as integers in units of 2^exponent.
 Integer3 on_grid(const Real3& v, int exponent) {
   const auto one = [&](Real x) -> Integer {
     if (x == 0) return 0;
     int e = 0;
-    const Real m = std::frexp(x, &e);
-    const auto top = static_cast<long long>(std::ldexp(m, 32));
-    const auto rest = static_cast<long long>(std::ldexp(std::ldexp(m, 32) - static_cast<Real>(top), 32));
-    return shifted((Integer(top) << 32) + rest, e - 64 - exponent);
+    Real rest = std::frexp(x, &e);
+    Integer all = 0;
+    for (int i = 0; i < pieces; ++i) {
+      rest = std::ldexp(rest, piece);
+      const auto top = static_cast<long long>(rest);
+      all = (all << piece) + top;
+      rest -= static_cast<Real>(top);
+    }
+    return shifted(all, e - pieces * piece - exponent);
   };
   return {one(v.x), one(v.y), one(v.z)};
 }
@@ -34,7 +43,7 @@ int least_exponent(const Real3& v) {
     least = any ? std::min(least, e) : e;
     any = true;
   }
-  return least - 64;
+  return least - pieces * piece;
 }
 
 Integer floor_of(const Rational& x) {
