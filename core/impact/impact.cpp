@@ -15,9 +15,7 @@ namespace {
 using namespace impact;
 
 bool moves(const MovingShape& s) { return !s.motion.linear.isZero(0) || !s.motion.angular.isZero(0); }
-bool is_static_shape(const Shape& s) {
-  return kind_of(s) == ShapeKind::half_space || kind_of(s) == ShapeKind::mesh;
-}
+bool is_static_shape(const Shape& s) { return !is_convex(kind_of(s)); }
 
 // Coordinates relative to the first body's start, so that a large common offset costs no accuracy.
 WideFrame shifted(const Pose& p, const WideVec& origin) {

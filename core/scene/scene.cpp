@@ -37,7 +37,7 @@ void check_body(const Scene& s, std::size_t i) {
     check_finite(b.motion->angular, place + ".motion.angular");
     const ShapeKind k = kind_of(s.shape_of(static_cast<int>(i)));
     const bool moves = !b.motion->linear.isZero(0) || !b.motion->angular.isZero(0);
-    if (moves && (k == ShapeKind::mesh || k == ShapeKind::half_space))
+    if (moves && !is_convex(k))
       throw InputError(place + ".motion", "a " + std::string(type_name(k)) + " is a static shape and cannot move");
   }
 }

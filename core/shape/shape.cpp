@@ -60,9 +60,7 @@ void check(std::string_view name, const std::vector<std::array<int, 3>>& v, Doma
 }  // namespace
 
 std::string_view type_name(ShapeKind k) {
-  static constexpr std::array<std::string_view, std::variant_size_v<Shape>> names{
-      Sphere::type,    Box::type,  Capsule::type,   Cylinder::type,    Cone::type,
-      Ellipsoid::type, Hull::type, HalfSpace::type, TriangleMesh::type};
+  static constexpr auto names = detail::per_shape([]<class S>(std::type_identity<S>) { return S::type; });
   return names[static_cast<std::size_t>(k)];
 }
 

@@ -1,7 +1,11 @@
 // The variant of all shapes.
 #pragma once
 
+#include <algorithm>
+#include <array>
 #include <string_view>
+#include <type_traits>
+#include <utility>
 #include <variant>
 
 #include "core/math/aabb.h"
@@ -22,8 +26,49 @@ using Shape = std::variant<Sphere, Box, Capsule, Cylinder, Cone, Ellipsoid, Hull
 /// Index of a shape type in the variant. The numbers are part of the C ABI (oracles/abi/touchstone_engine.h).
 enum class ShapeKind : int { sphere, box, capsule, cylinder, cone, ellipsoid, hull, half_space, mesh };
 inline constexpr int shape_kind_count = static_cast<int>(std::variant_size_v<Shape>);
+static_assert(static_cast<int>(ShapeKind::mesh) + 1 == shape_kind_count, "ShapeKind names every shape");
 
 inline ShapeKind kind_of(const Shape& s) { return static_cast<ShapeKind>(s.index()); }
+
+/// The exceptions are named here and nowhere else: a half-space is not bounded, a mesh is not convex. Every
+/// other alternative of Shape is bounded and convex.
+template <class S>
+inline constexpr bool is_bounded_shape = !std::is_same_v<S, HalfSpace>;
+template <class S>
+inline constexpr bool is_convex_shape = is_bounded_shape<S> && !std::is_same_v<S, TriangleMesh>;
+
+namespace detail {
+
+/// One value for each alternative of Shape: of(type_identity<S>).
+template <class F>
+constexpr auto per_shape(F of) {
+  return [&]<std::size_t... i>(std::index_sequence<i...>) {
+    return std::array{of(std::type_identity<std::variant_alternative_t<i, Shape>>())...};
+  }
+  (std::make_index_sequence<std::variant_size_v<Shape>>());
+}
+
+inline constexpr auto bounded_shapes =
+    per_shape([]<class S>(std::type_identity<S>) { return is_bounded_shape<S>; });
+inline constexpr auto convex_shapes =
+    per_shape([]<class S>(std::type_identity<S>) { return is_convex_shape<S>; });
+
+}  // namespace detail
+
+constexpr bool is_bounded(ShapeKind k) { return detail::bounded_shapes[static_cast<std::size_t>(k)]; }
+
+/// Bounded and convex. The other kinds, half-space and mesh, are static: their bodies do not move.
+constexpr bool is_convex(ShapeKind k) { return detail::convex_shapes[static_cast<std::size_t>(k)]; }
+
+/// The kinds for which is_convex() holds, in the order of the variant.
+inline constexpr auto convex_kinds = [] {
+  std::array<ShapeKind, static_cast<std::size_t>(std::ranges::count(detail::convex_shapes, true))> kinds{};
+  std::size_t n = 0;
+  for (int k = 0; k < shape_kind_count; ++k)
+    if (is_convex(ShapeKind{k})) kinds[n++] = ShapeKind{k};
+  return kinds;
+}();
+
 std::string_view type_name(ShapeKind k);
 inline std::string_view type_name(const Shape& s) { return type_name(kind_of(s)); }
 
