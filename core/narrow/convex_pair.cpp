@@ -40,10 +40,6 @@ Separation from_gjk(const GjkResult<Wide>& g, Wide size) {
   return s;
 }
 
-bool is_polytope(const Core& c) {
-  return c.kind != CoreKind::cylinder && c.kind != CoreKind::cone && c.kind != CoreKind::ellipsoid;
-}
-
 EpaResult<Wide> expand(const GjkResult<Wide>& g, const Core& a, const Core& b, Wide size) {
   const Wide tolerance = tolerance::narrow_gap_factor * size;
   const bool polytopes = is_polytope(a) && is_polytope(b);

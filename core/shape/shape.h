@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <concepts>
 #include <string_view>
 #include <type_traits>
 #include <utility>
@@ -37,6 +38,37 @@ inline constexpr bool is_bounded_shape = !std::is_same_v<S, HalfSpace>;
 template <class S>
 inline constexpr bool is_convex_shape = is_bounded_shape<S> && !std::is_same_v<S, TriangleMesh>;
 
+/// What every shape states about itself; core/broad and core/world ask for the bounds.
+template <class S>
+concept ShapeModule = requires(const S& s, const Vec3& d) {
+  { S::type } -> std::convertible_to<std::string_view>;
+  S::fields();
+  { s == s } -> std::convertible_to<bool>;
+  // Largest distance of a point from the body's origin; infinite if it is not bounded. A few roundings.
+  { s.bounding_radius() } -> std::same_as<double>;
+  // Half the largest extent along the body axes; 0 if it is not bounded.
+  { s.extent() } -> std::same_as<double>;
+  // Values of d·x on the shape, computed in the scalar of d with at most eight roundings, each of a partial
+  // result of at most coordinate_sum().
+  { s.extent_along(d) } -> std::same_as<Interval<double>>;
+  { s.template extent_along<Wide>(WideVec()) } -> std::same_as<Interval<Wide>>;
+  { s.coordinate_sum() } -> std::same_as<Wide>;
+  { s.inner_radii() } -> std::same_as<InnerRadii>;
+};
+
+/// What a bounded convex shape states besides: it is a convex core (core/shape/convex_body.h lists them and
+/// what they provide) and all points within a radius of it.
+template <class S>
+concept ConvexShape = ShapeModule<S> && requires(const S& s) {
+  s.template core<float>();
+  s.template core<double>();
+  s.template core<Wide>();
+  { S::has_ball } -> std::convertible_to<bool>;
+  { s.ball_radius() } -> std::same_as<double>;
+  // Whether rotations about the origin leave it as it is.
+  { s.is_ball() } -> std::same_as<bool>;
+};
+
 namespace detail {
 
 /// One value for each alternative of Shape: of(type_identity<S>).
@@ -47,6 +79,17 @@ constexpr auto per_shape(F of) {
   }
   (std::make_index_sequence<std::variant_size_v<Shape>>());
 }
+
+template <class S>
+constexpr bool is_complete_shape() {
+  static_assert(ShapeModule<S>, "a shape lacks a part of its file; see ShapeModule");
+  static_assert(
+      ConvexShape<S> == is_convex_shape<S>,
+      "a convex shape has core(), has_ball, ball_radius() and is_ball(); the others have none of them");
+  return true;
+}
+inline constexpr auto complete_shapes =
+    per_shape([]<class S>(std::type_identity<S>) { return is_complete_shape<S>(); });
 
 inline constexpr auto bounded_shapes =
     per_shape([]<class S>(std::type_identity<S>) { return is_bounded_shape<S>; });
@@ -86,6 +129,9 @@ double bounding_radius(const Shape& s);
 
 /// Half the largest extent along the body axes; the size of the shape in the scale L. Zero for a half-space.
 double extent(const Shape& s);
+
+/// The vertices of a hull or mesh; null for other shapes.
+const std::vector<Vec3>* vertices_if(const Shape& s);
 
 /// Throws InputError naming the field when a number is not finite or outside its domain, or an index is out
 /// of range.

@@ -3,9 +3,9 @@
 #include <map>
 
 #include "core/broad/catalog.h"
-#include "core/narrow/hull_graph.h"
 #include "core/narrow/mesh_tree.h"
 #include "core/narrow/narrow_phase.h"
+#include "core/shape/hull_graph.h"
 #include "core/tolerance.h"
 #include "core/world/step_world.h"
 #include "oracles/core/timed_answer.h"

@@ -14,9 +14,9 @@
 #include <cmath>
 #include <cstring>
 
-#include "core/narrow/hull_graph.h"
 #include "core/narrow/narrow_phase.h"
 #include "core/scene/scene.h"
+#include "core/shape/hull_graph.h"
 #include "oracles/referee/referee.h"
 #include "tests/bench/narrow_cases.h"
 #include "tests/bench/ticks.h"
