@@ -31,11 +31,6 @@ double round_down(Wide x) {
 }
 double round_up(Wide x) { return -round_down(-x); }
 
-template <class T>
-struct Interval {
-  T lo = 0, hi = 0;
-};
-
 // Slack for the rounding of a sum of two Wides: two units of its last place.
 constexpr Wide sum_slack = 0x1p-62;
 // Slack for the rounding of |ω| and of its product with a radius.
@@ -50,76 +45,16 @@ Wide outward(Wide a, Wide b) {
   return b < 0 ? sum - slack : sum + slack;
 }
 
-template <class T>
-using Row = Eigen::Matrix<T, 3, 1>;
-
-Wide norm(const Row<Wide>& v) { return wide_norm(v); }
-double norm(const Row<double>& v) { return v.norm(); }
-
-template <class T>
-T rim(const Row<T>& row, T radius) {
-  return radius * sqrt(row.x() * row.x() + row.y() * row.y());
-}
-
-template <class T>
-Interval<T> span(const std::vector<Vec3>& vertices, const Row<T>& row) {
-  Interval<T> r{std::numeric_limits<T>::infinity(), -std::numeric_limits<T>::infinity()};
-  for (const Vec3& v : vertices) {
-    const T d = row.dot(v.cast<T>());
-    r.lo = std::min(r.lo, d);
-    r.hi = std::max(r.hi, d);
-  }
-  return r;
-}
-
 // Extent of the shape along one world axis about the body's origin; `row` is that row of the rotation.
 template <class T>
-struct Extent {
-  Row<T> row;
-  static Interval<T> both_sides(T h) { return {-h, h}; }
-  Interval<T> operator()(const Sphere& s) const { return both_sides(s.radius); }
-  Interval<T> operator()(const Box& s) const {
-    return both_sides(row.cwiseAbs().dot(s.half_extents.cast<T>()));
-  }
-  Interval<T> operator()(const RoundedBox& s) const {
-    return both_sides(row.cwiseAbs().dot(s.half_extents.cast<T>()) + static_cast<T>(s.radius));
-  }
-  Interval<T> operator()(const Capsule& s) const {
-    return both_sides(abs(row.z()) * static_cast<T>(s.half_height) + static_cast<T>(s.radius));
-  }
-  Interval<T> operator()(const Cylinder& s) const {
-    return both_sides(abs(row.z()) * static_cast<T>(s.half_height) + rim<T>(row, s.radius));
-  }
-  Interval<T> operator()(const Cone& s) const {
-    const T apex = row.z() * static_cast<T>(s.half_height), r = rim<T>(row, s.radius);
-    return {std::min(apex, -apex - r), std::max(apex, -apex + r)};
-  }
-  Interval<T> operator()(const Ellipsoid& s) const {
-    return both_sides(norm(Row<T>(row.cwiseProduct(s.semi_axes.cast<T>()))));
-  }
-  Interval<T> operator()(const Hull& s) const { return span<T>(s.vertices, row); }
-  Interval<T> operator()(const TriangleMesh& s) const { return span<T>(s.vertices, row); }
-  Interval<T> operator()(const HalfSpace&) const { return both_sides(std::numeric_limits<T>::infinity()); }
-};
+Interval<T> extent_along(const Shape& shape, const V3<T>& row) {
+  return std::visit([&](const auto& s) { return s.extent_along(row); }, shape);
+}
 
 // S in the bound at the top of this file.
-struct Size {
-  Wide operator()(const Sphere& s) const { return s.radius; }
-  Wide operator()(const Box& s) const { return s.half_extents.cast<Wide>().sum(); }
-  Wide operator()(const RoundedBox& s) const { return s.half_extents.cast<Wide>().sum() + s.radius; }
-  Wide operator()(const Capsule& s) const { return static_cast<Wide>(s.radius) + s.half_height; }
-  Wide operator()(const Cylinder& s) const { return 2 * static_cast<Wide>(s.radius) + s.half_height; }
-  Wide operator()(const Cone& s) const { return 2 * static_cast<Wide>(s.radius) + s.half_height; }
-  Wide operator()(const Ellipsoid& s) const { return s.semi_axes.cast<Wide>().sum(); }
-  Wide operator()(const Hull& s) const { return largest(s.vertices); }
-  Wide operator()(const TriangleMesh& s) const { return largest(s.vertices); }
-  Wide operator()(const HalfSpace&) const { return 0; }
-  static Wide largest(const std::vector<Vec3>& v) {
-    Wide r = 0;
-    for (const Vec3& p : v) r = std::max(r, p.cast<Wide>().lpNorm<1>());
-    return r;
-  }
-};
+Wide coordinate_sum(const Shape& shape) {
+  return std::visit([](const auto& s) { return s.coordinate_sum(); }, shape);
+}
 
 // Handles a plane that is exactly perpendicular to a world axis: the rotation is exactly the identity or a
 // half turn about a body axis, and the normal has one component.
@@ -168,10 +103,10 @@ constexpr double size_rounding = 1 + 0x1p-52;
 
 Aabb body_box(const Shape& shape, const Pose& pose) {
   const WideFrame f = wide_frame(pose);
-  const Wide size = std::visit(Size{}, shape);
+  const Wide size = coordinate_sum(shape);
   Aabb box;
   for (int axis = 0; axis < 3; ++axis) {
-    const auto e = std::visit(Extent<Wide>{WideVec(f.rotation.row(axis).transpose())}, shape);
+    const auto e = extent_along<Wide>(shape, f.rotation.row(axis).transpose());
     const Wide t = f.translation[axis], slack = tolerance::box_error_factor * (size + abs(t)) + lost;
     box.lo[axis] = round_down(t + e.lo - slack);
     box.hi[axis] = round_up(t + e.hi + slack);
@@ -182,7 +117,7 @@ Aabb body_box(const Shape& shape, const Pose& pose) {
 
 Aabb swept_box(const Shape& shape, const Pose& pose, const Motion& motion) {
   Aabb start = body_box(shape, pose);
-  if (kind_of(shape) == ShapeKind::half_space) return start;
+  if (!is_bounded(kind_of(shape))) return start;
   if (!motion.angular.isZero(0)) start = turning_box(start, bounding_radius(shape), pose, motion.angular);
   Aabb box = start;
   for (int axis = 0; axis < 3; ++axis) {
@@ -197,11 +132,11 @@ Aabb swept_box(const Shape& shape, const Pose& pose, const Motion& motion) {
 }
 
 Aabb loose_box(const Shape& shape, const Pose& pose, double size) {
-  if (kind_of(shape) == ShapeKind::half_space) return body_box(shape, pose);
+  if (!is_bounded(kind_of(shape))) return body_box(shape, pose);
   const Mat3 r = rotation_matrix(pose.rotation);
   Aabb box;
   for (int axis = 0; axis < 3; ++axis) {
-    const auto e = std::visit(Extent<double>{Vec3(r.row(axis).transpose())}, shape);
+    const auto e = extent_along<double>(shape, r.row(axis).transpose());
     const double t = pose.translation[axis];
     const double slack = loose_factor * (size + abs(t)) + underflow_slack;
     box.lo[axis] = t + e.lo - slack;
@@ -231,6 +166,6 @@ Aabb loose_swept_box(const Aabb& start, const Pose& pose, const Motion& motion, 
   return box;
 }
 
-double box_size(const Shape& shape) { return static_cast<double>(std::visit(Size{}, shape)) * size_rounding; }
+double box_size(const Shape& shape) { return static_cast<double>(coordinate_sum(shape)) * size_rounding; }
 
 }  // namespace touchstone::broad

@@ -39,7 +39,7 @@ constexpr int steps_before_turning = 4;
 
 Wide turned_support(const Core& c, const WideVec& d) {
   const WideVec local = c.frame.rotation.transpose() * d;
-  return local.dot(narrow::support_local<Wide>(c, local));
+  return local.dot(support_local<Wide>(c, local));
 }
 
 // f(Δ) of the header comment. A plane has no support term of its own.
@@ -143,7 +143,7 @@ class TurningStep {
     const WideVec n = turned(n_, turn_, h);
     const auto support = [&](const MovingCore& m, const WideVec& d) {
       const WideVec local = turned(m.rotation, m.angular, t_ + h).transpose() * d;
-      return local.dot(narrow::support_local<Wide>(m.start, local));
+      return local.dot(support_local<Wide>(m.start, local));
     };
     return n.dot(offset(h)) - support(a_, n) - support(b_, -n) - a_.start.radius - b_.start.radius;
   }

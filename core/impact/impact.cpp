@@ -17,9 +17,7 @@ namespace {
 using namespace impact;
 
 bool moves(const MovingShape& s) { return !s.motion.linear.isZero(0) || !s.motion.angular.isZero(0); }
-bool is_static_shape(const Shape& s) {
-  return kind_of(s) == ShapeKind::half_space || kind_of(s) == ShapeKind::mesh;
-}
+bool is_static_shape(const Shape& s) { return !is_convex(kind_of(s)); }
 
 // Coordinates relative to the first body's start, so that a large common offset costs no accuracy.
 WideFrame shifted(const Pose& p, const WideVec& origin) {
@@ -123,8 +121,6 @@ std::optional<filtered::Round> round_of(const Shape& s) {
   return std::nullopt;
 }
 
-bool is_polytope(const Shape& s) { return kind_of(s) == ShapeKind::box || kind_of(s) == ShapeKind::hull; }
-
 // Closed forms for translations; `unsure` if there is none for the pair.
 filtered::Search translated(const MovingShape& a, const MovingShape& b) {
   if (turns(a) || turns(b)) return {};
@@ -218,9 +214,14 @@ ImpactAnswer from_convex(const MovingShape& a, const MovingShape& b, ImpactDetai
 
 // A ball is invariant under rotation.
 MovingShape without_ineffective_rotation(MovingShape s) {
-  const auto* e = std::get_if<Ellipsoid>(s.shape);
-  const bool ball =
-      e ? (e->semi_axes.array() == e->semi_axes[0]).all() : kind_of(*s.shape) == ShapeKind::sphere;
+  const bool ball = std::visit(
+      []<class S>(const S& shape) {
+        if constexpr (is_convex_shape<S>)
+          return shape.is_ball();
+        else
+          return false;
+      },
+      *s.shape);
   if (ball) s.motion.angular.setZero();
   return s;
 }

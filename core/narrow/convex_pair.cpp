@@ -38,10 +38,6 @@ Separation from_gjk(const extended::Distance<Wide>& g, Wide size) {
   return s;
 }
 
-bool is_polytope(const Core& c) {
-  return c.kind != CoreKind::cylinder && c.kind != CoreKind::cone && c.kind != CoreKind::ellipsoid;
-}
-
 extended::EpaResult<Wide> expand(const extended::Distance<Wide>& g, const Core& a, const Core& b, Wide size) {
   const Wide tolerance = tolerance::narrow_gap_factor * size;
   const bool polytopes = is_polytope(a) && is_polytope(b);

@@ -4,7 +4,6 @@
 #include <array>
 #include <cmath>
 
-#include "core/narrow/rim.h"
 #include "core/tolerance.h"
 
 namespace touchstone::narrow {
@@ -22,39 +21,16 @@ struct Basis {
   Plane2 flatten(const WideVec& p) const { return {u.dot(p), v.dot(p)}; }
 };
 
-Points candidates(const ConvexCore<Wide>& c, const WideVec& d, Wide tolerance) {
-  const WideVec& s = c.size;
-  const Wide flat = sqrt(d.x() * d.x() + d.y() * d.y());
-  const WideVec deepest = support_local<Wide>(c, d);
-  const auto rim_at = [&](Wide z) {
-    Points p;
-    for (const auto& [x, y] : rim()) p.emplace_back(s.x() * Wide(x), s.x() * Wide(y), z);
-    return p;
-  };
-  Points p;
-  switch (c.kind) {
-    case CoreKind::point:
-    case CoreKind::ellipsoid:
-      return {deepest};
-    case CoreKind::segment:
-      return {{0, 0, s.z()}, {0, 0, -s.z()}};
-    case CoreKind::box:
-      for (int i = 0; i < 8; ++i)
-        p.emplace_back(i & 1 ? s.x() : -s.x(), i & 2 ? s.y() : -s.y(), i & 4 ? s.z() : -s.z());
-      return p;
-    case CoreKind::cylinder:
-      if (2 * flat * s.x() <= tolerance) return rim_at(deepest.z());
-      return {{deepest.x(), deepest.y(), s.z()}, {deepest.x(), deepest.y(), -s.z()}};
-    case CoreKind::cone:
-      if (2 * flat * s.x() <= tolerance && d.z() < 0) return rim_at(-s.z());
-      if (!(flat > 0)) return {deepest};
-      return {{0, 0, s.z()}, {d.x() / flat * s.x(), d.y() / flat * s.x(), -s.z()}};
-    case CoreKind::vertices:
-      for (const Vec3& v : c.vertices) p.push_back(v.cast<Wide>());
-      return p;
+// Collects the corners that lie in the support face to within the tolerance.
+struct FacePoints {
+  const convex::FaceQuery<Wide>& at;
+  Points points;
+  void add(const WideVec& p, std::uint32_t) {
+    if (at.d.dot(p) >= at.top - at.limit) points.push_back(p);
   }
-  return p;
-}
+  void add_certain(const WideVec& p, std::uint32_t id) { add(p, id); }
+  void add_many(const WideVec& p, std::uint32_t id) { add(p, id); }
+};
 
 // Andrew's monotone chain; drops points on edges. Returns indices into p.
 std::vector<std::size_t> convex_order(const Polygon& p, Wide tolerance) {
@@ -126,15 +102,16 @@ void drop_repeats(Polygon& p, Wide tolerance) {
 
 std::vector<WideVec> support_face(const ConvexCore<Wide>& c, const WideVec& n, Wide tolerance) {
   const WideVec d = c.frame.rotation.transpose() * n;
-  const Wide top = d.dot(support_local<Wide>(c, d));
+  const convex::FaceQuery<Wide> at{d, d.dot(support_local<Wide>(c, d)), tolerance, tolerance};
+  FacePoints corners{at, {}};
+  on_core(c, [&](const auto& core) { core.face_corners(at, corners); });
   Points face;
   const Basis basis(n);
   Polygon flat;
-  for (const WideVec& p : candidates(c, d, tolerance))
-    if (d.dot(p) >= top - tolerance) {
-      face.push_back(c.frame.rotation * p + c.frame.translation + c.radius * n);
-      flat.push_back(basis.flatten(face.back()));
-    }
+  for (const WideVec& p : corners.points) {
+    face.push_back(c.frame.rotation * p + c.frame.translation + c.radius * n);
+    flat.push_back(basis.flatten(face.back()));
+  }
   if (face.size() < 2) return face;
   Points ordered;
   for (std::size_t i : convex_order(flat, tolerance)) ordered.push_back(face[i]);

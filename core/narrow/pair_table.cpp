@@ -1,5 +1,6 @@
 #include "core/narrow/pair_table.h"
 
+#include <algorithm>
 #include <array>
 
 #include "core/narrow/filtered/closed_forms.h"
@@ -34,12 +35,6 @@ Separation convex_mesh(const Shape& a, const WideFrame& fa, const Shape& b, cons
   return core_mesh(make_core(a, fa), std::get<TriangleMesh>(b), fb);
 }
 
-Separation unsupported(const Shape&, const WideFrame&, const Shape&, const WideFrame&) {
-  Separation s;
-  s.outcome = Outcome::unsupported;
-  return s;
-}
-
 template <class R>
 void capsules(const PlacedShape& a, const PlacedShape& b, filtered::Asked asked, filtered::Answer<R>& out,
               filtered::PairScene<R>& scene) {
@@ -47,22 +42,22 @@ void capsules(const PlacedShape& a, const PlacedShape& b, filtered::Asked asked,
     scene.contact = filtered::ContactForm::segments;
 }
 
+/// Empty: no algorithm. Where both (A, B) and (B, A) are empty, the pair is unsupported.
 struct Row {
-  PairFunction wide;
-  filtered::Function<double> f64;
-  filtered::Function<float> f32;
+  PairFunction wide = nullptr;
+  filtered::Function<double> f64 = nullptr;
+  filtered::Function<float> f32 = nullptr;
 };
 
 constexpr std::size_t kinds = shape_kind_count;
 using Table = std::array<std::array<Row, kinds>, kinds>;
 
-constexpr std::size_t at(ShapeKind k) { return static_cast<std::size_t>(k); }
-
-// Whether the table has a row for (a, b) rather than for (b, a): convex shapes come first, then by number.
-constexpr bool in_order(std::size_t a, std::size_t b) {
-  const bool x = is_convex(static_cast<ShapeKind>(a)), y = is_convex(static_cast<ShapeKind>(b));
-  return x == y ? a <= b : x;
-}
+template <class S>
+constexpr std::size_t index_of = [] {
+  constexpr auto is_s =
+      touchstone::detail::per_shape([]<class T>(std::type_identity<T>) { return std::is_same_v<S, T>; });
+  return static_cast<std::size_t>(std::ranges::find(is_s, true) - is_s.begin());
+}();
 
 // clang-format off
 #define TS_ROW(wide, form) Row{&on_cores<&wide>, &filtered::form<double>, &filtered::form<float>}
@@ -71,28 +66,52 @@ constexpr bool in_order(std::size_t a, std::size_t b) {
       &filtered::closed<float, &filtered::form<float>>}
 // clang-format on
 
+// What the types alone decide. Two convex shapes have a row in one order only.
+template <class A, class B>
+constexpr Row general_row() {
+  if constexpr (!is_convex_shape<A>)
+    return {};
+  else if constexpr (is_convex_shape<B>)
+    return index_of<A> <= index_of<B> ? TS_ROW(separate_convex, convex_pair) : Row{};
+  else if constexpr (std::is_same_v<B, HalfSpace>)
+    return {&convex_half_space, &filtered::convex_half_space<double>, &filtered::convex_half_space<float>};
+  else if constexpr (std::is_same_v<B, TriangleMesh>)
+    return {&convex_mesh, &filtered::convex_mesh<double>, nullptr};
+  else
+    return {};
+}
+
+template <class A, class B>
+constexpr void set(Table& t, const Row& row) {
+  static_assert(index_of<A> <= index_of<B>, "the general row of two convex shapes is in this order");
+  t[index_of<A>][index_of<B>] = row;
+}
+
 constexpr Table make_table() {
-  using K = ShapeKind;
-  Table t{};
-  for (auto& row : t) row.fill(TS_ROW(separate_convex, convex_pair));
-  for (std::size_t i = 0; i < kinds; ++i) {
-    t[i][at(K::half_space)] = {&convex_half_space, &filtered::convex_half_space<double>,
-                               &filtered::convex_half_space<float>};
-    t[i][at(K::mesh)] = {&convex_mesh, &filtered::convex_mesh<double>, nullptr};
-  }
-  t[at(K::half_space)][at(K::half_space)] = {&unsupported, nullptr, nullptr};
-  t[at(K::half_space)][at(K::mesh)] = {&half_space_mesh, nullptr, nullptr};
-  t[at(K::mesh)][at(K::mesh)] = {&unsupported, nullptr, nullptr};
-  t[at(K::sphere)][at(K::sphere)] = TS_CLOSED(sphere_sphere);
-  t[at(K::sphere)][at(K::capsule)] = TS_CLOSED(sphere_capsule);
-  t[at(K::sphere)][at(K::box)] = TS_CLOSED(sphere_box);
-  t[at(K::capsule)][at(K::capsule)] = {&on_cores<&capsule_capsule>, &capsules<double>, &capsules<float>};
-  t[at(K::box)][at(K::box)] = TS_ROW(separate_convex, box_box);
-  t[at(K::box)][at(K::capsule)] = TS_ROW(separate_convex, box_and_capsule);
+  Table t = touchstone::detail::per_shape([]<class A>(std::type_identity<A>) {
+    return touchstone::detail::per_shape([]<class B>(std::type_identity<B>) { return general_row<A, B>(); });
+  });
+  set<HalfSpace, TriangleMesh>(t, {&half_space_mesh, nullptr, nullptr});
+  set<Sphere, Sphere>(t, TS_CLOSED(sphere_sphere));
+  set<Sphere, Capsule>(t, TS_CLOSED(sphere_capsule));
+  set<Sphere, Box>(t, TS_CLOSED(sphere_box));
+  set<Capsule, Capsule>(t, {&on_cores<&capsule_capsule>, &capsules<double>, &capsules<float>});
+  set<Box, Box>(t, TS_ROW(separate_convex, box_box));
+  set<Box, Capsule>(t, TS_ROW(separate_convex, box_and_capsule));
   return t;
 }
 
 constexpr Table table = make_table();
+
+// The row of the pair, and whether it is that of (B, A).
+struct Entry {
+  const Row& row;
+  bool mirrored;
+};
+Entry find_row(std::size_t a, std::size_t b) {
+  const bool mirrored = !table[a][b].wide;
+  return {mirrored ? table[b][a] : table[a][b], mirrored};
+}
 
 template <class R>
 filtered::Function<R> function_of(const Row& row) {
@@ -106,14 +125,14 @@ filtered::Function<R> function_of(const Row& row) {
 
 template <class R>
 bool has_fast(ShapeKind a, ShapeKind b) {
-  return function_of<R>(in_order(at(a), at(b)) ? table[at(a)][at(b)] : table[at(b)][at(a)]) != nullptr;
+  return function_of<R>(find_row(static_cast<std::size_t>(a), static_cast<std::size_t>(b)).row) != nullptr;
 }
 
 template <class R>
 void separate_fast(const PlacedShape& a, const PlacedShape& b, filtered::Asked asked, FastAnswer<R>& out) {
-  const std::size_t i = a.shape->index(), j = b.shape->index();
-  out.mirrored = !in_order(i, j);
-  const filtered::Function<R> f = function_of<R>(out.mirrored ? table[j][i] : table[i][j]);
+  const Entry e = find_row(a.shape->index(), b.shape->index());
+  out.mirrored = e.mirrored;
+  const filtered::Function<R> f = function_of<R>(e.row);
   if (!f) return;
   if (!out.mirrored) return f(a, b, asked, out.answer, out.scene);
   filtered::Answer<R>& r = out.answer;
@@ -132,8 +151,9 @@ template void separate_fast(const PlacedShape&, const PlacedShape&, filtered::As
 template void separate_fast(const PlacedShape&, const PlacedShape&, filtered::Asked, FastAnswer<float>&);
 
 Separation separate_placed(const Shape& a, const WideFrame& fa, const Shape& b, const WideFrame& fb) {
-  const std::size_t i = a.index(), j = b.index();
-  return in_order(i, j) ? table[i][j].wide(a, fa, b, fb) : mirrored(table[j][i].wide(b, fb, a, fa));
+  const Entry e = find_row(a.index(), b.index());
+  if (!e.row.wide) return {.outcome = Outcome::unsupported};
+  return e.mirrored ? mirrored(e.row.wide(b, fb, a, fa)) : e.row.wide(a, fa, b, fb);
 }
 
 // 2026-11-22, a cylinder's rim 1.1e-14 deep in a box of size 1, one of 900 pairs with graduated depths:

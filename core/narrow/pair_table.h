@@ -1,5 +1,6 @@
 // Selects the algorithms for each pair of shapes: one in extended precision, and one in double and float that
-// bounds its own error. Rows and columns are ShapeKind; the lower triangle mirrors the upper one.
+// bounds its own error. Rows and columns are ShapeKind; a pair without a row of its own uses the mirrored
+// row.
 #pragma once
 
 #include "core/narrow/filtered/separate.h"

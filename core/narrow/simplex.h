@@ -10,6 +10,7 @@
 #include <limits>
 
 #include "core/math/wide.h"
+#include "core/shape/feature.h"
 
 namespace touchstone::narrow {
 
@@ -36,14 +37,7 @@ struct Foot {
   int size = 0;
 };
 
-/// Normal of a triangle: the cross product of its two shorter edges.
-template <class R>
-V3<R> triangle_normal(const V3<R>& a, const V3<R>& b, const V3<R>& c) {
-  const V3<R> ab = b - a, bc = c - b, ca = a - c;
-  const R lab = ab.squaredNorm(), lbc = bc.squaredNorm(), lca = ca.squaredNorm();
-  if (lab >= lbc && lab >= lca) return bc.cross(ca);
-  return lbc >= lca ? ca.cross(ab) : ab.cross(bc);
-}
+using convex::triangle_normal;
 
 /// The same, made orthogonal to the longest edge. For a needle, the component of the cross product along the
 /// needle is as large as the rounding of the edges' product, which would tilt a plane 1e7 times longer than

@@ -11,9 +11,7 @@
 namespace touchstone::narrow {
 namespace {
 
-bool is_bounded_convex(const Shape& s) {
-  return kind_of(s) != ShapeKind::half_space && kind_of(s) != ShapeKind::mesh;
-}
+bool is_bounded_convex(const Shape& s) { return is_convex(kind_of(s)); }
 
 // A gap this small counts as contact: it is within the error of the arithmetic that computed it.
 bool touches(const Separation& s) { return s.gap <= tolerance::narrow_contact_factor * s.size; }

@@ -37,7 +37,7 @@ void check_body(const Scene& s, std::size_t i) {
     check_finite(b.motion->angular, place + ".motion.angular");
     const ShapeKind k = kind_of(s.shape_of(static_cast<int>(i)));
     const bool moves = !b.motion->linear.isZero(0) || !b.motion->angular.isZero(0);
-    if (moves && (k == ShapeKind::mesh || k == ShapeKind::half_space))
+    if (moves && !is_convex(k))
       throw InputError(place + ".motion", "a " + std::string(type_name(k)) + " is a static shape and cannot move");
   }
 }
@@ -155,8 +155,7 @@ double scale_of_pair(const Scene& s, int a, int b) {
     if (const auto* h = std::get_if<HalfSpace>(&shape))
       l = std::max(l, std::abs(h->offset) / h->normal.stableNorm());
     // Vertices far from the body's origin count as coordinates.
-    if (kind_of(shape) == ShapeKind::hull || kind_of(shape) == ShapeKind::mesh)
-      l = std::max(l, bounding_radius(shape));
+    if (vertices_if(shape)) l = std::max(l, bounding_radius(shape));
   }
   l = std::max(std::max(l, apart_at_start.stableNorm()), apart_at_end.stableNorm());
   return std::min(l, std::numeric_limits<double>::max());  // the length may overflow

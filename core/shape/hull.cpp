@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <cstdio>
+#include <limits>
 #include <memory>
 
 extern "C" {
@@ -45,6 +46,29 @@ int affine_dimension(const std::vector<Vec3>& v) {
   for (std::size_t k = j + 1; k < v.size(); ++k)
     if (orient3d_sign(v[0], v[i], v[j], v[k]) != 0) return 3;
   return 2;
+}
+
+// A triangle whose normal is shorter than this, relative to its sides, is a sliver: its plane is unreliable.
+constexpr double thinnest_triangle = 0x1p-30;
+// Rounding of a face's plane, relative to the size of the hull.
+constexpr double plane_rounding = 0x1p-20;
+
+// The least distance from `p` to the planes of the faces, minus a margin for the rounding of the faces; < 0
+// outside.
+double clearance(const Hull& h, const Vec3& p) {
+  double least = std::numeric_limits<double>::infinity(), size = 0;
+  for (const Vec3& v : h.vertices) size = std::max(size, (v - p).norm());
+  for (const auto& f : h.faces) {
+    const Vec3 &a = h.vertices[static_cast<std::size_t>(f[0])],
+               &b = h.vertices[static_cast<std::size_t>(f[1])],
+               &c = h.vertices[static_cast<std::size_t>(f[2])];
+    const Vec3 u = b - a, v = c - a, n = u.cross(v);
+    const double area = n.norm();
+    // The plane of a sliver is unreliable: claim no clearance.
+    if (!(area > thinnest_triangle * u.norm() * v.norm())) return 0;
+    least = std::min(least, n.dot(a - p) / area);
+  }
+  return h.faces.empty() ? 0 : least - plane_rounding * size;
 }
 
 // qhull's default merges facets that are coplanar within its rounding bound; Qt then triangulates them again.
@@ -94,6 +118,17 @@ Hull make_hull(std::vector<Vec3> vertices) {
   if (h.dimension == 3) h.faces = triangulated_faces(vertices);
   h.vertices = std::move(vertices);
   return h;
+}
+
+InnerRadii Hull::inner_radii() const {
+  Vec3 mean = Vec3::Zero();
+  for (const Vec3& v : vertices) mean += v / static_cast<double>(vertices.size());
+  const double about_origin = clearance(*this, Vec3::Zero()),
+               about_mean = std::max(0.0, clearance(*this, mean));
+  if (about_origin > 0) return {std::max(about_origin, about_mean), about_origin};
+  double nearest = vertices.front().norm();
+  for (const Vec3& v : vertices) nearest = std::min(nearest, v.norm());
+  return {about_mean, -nearest};
 }
 
 }  // namespace touchstone

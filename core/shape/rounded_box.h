@@ -5,6 +5,8 @@
 #include <tuple>
 
 #include "core/math/pose.h"
+#include "core/shape/bounds.h"
+#include "core/shape/box.h"
 #include "core/shape/field.h"
 
 namespace touchstone {
@@ -16,6 +18,25 @@ struct RoundedBox {
   static constexpr auto fields() {
     return std::tuple{Field{"half_extents", &RoundedBox::half_extents, Domain::non_negative},
                       Field{"radius", &RoundedBox::radius, Domain::non_negative}};
+  }
+
+  template <class R>
+  convex::BoxCore<R> core() const {
+    return convex::BoxCore<R>(half_extents.cast<R>());
+  }
+  static constexpr bool has_ball = true;
+  double ball_radius() const { return radius; }
+  bool is_ball() const { return half_extents.isZero(0); }
+  double bounding_radius() const { return half_extents.stableNorm() + radius; }
+  double extent() const { return half_extents.maxCoeff() + radius; }
+  template <class T>
+  Interval<T> extent_along(const V3<T>& d) const {
+    return both_sides<T>(d.cwiseAbs().dot(half_extents.cast<T>()) + static_cast<T>(radius));
+  }
+  Wide coordinate_sum() const { return half_extents.cast<Wide>().sum() + radius; }
+  InnerRadii inner_radii() const {
+    const double r = half_extents.minCoeff() + radius;
+    return {r, r};
   }
   bool operator==(const RoundedBox& o) const { return half_extents == o.half_extents && radius == o.radius; }
 };

@@ -11,31 +11,8 @@
 namespace touchstone {
 namespace {
 
-constexpr double inf = std::numeric_limits<double>::infinity();
-
-// Each bound below takes a few roundings; this factor covers them.
+// Each bounding radius takes a few roundings; this factor covers them.
 constexpr double rounding_factor = 1 + 8 * std::numeric_limits<double>::epsilon();
-
-double up(double x) { return x * rounding_factor; }
-
-template <class... F>
-struct overloaded : F... {
-  using F::operator()...;
-};
-template <class... F>
-overloaded(F...) -> overloaded<F...>;
-
-double farthest(const std::vector<Vec3>& v) {
-  double r = 0;
-  for (const Vec3& p : v) r = std::max(r, p.stableNorm());
-  return r;
-}
-
-double largest_half_extent(const std::vector<Vec3>& v) {
-  Aabb b;
-  for (const Vec3& p : v) b.extend(p);
-  return v.empty() ? 0 : (b.hi - b.lo).maxCoeff() / 2;
-}
 
 void check(std::string_view name, double v, Domain d) {
   if (!std::isfinite(v)) throw InputError(std::string(name), "is not finite (" + to_text(v) + ")");
@@ -60,48 +37,33 @@ void check(std::string_view name, const std::vector<std::array<int, 3>>& v, Doma
 }  // namespace
 
 std::string_view type_name(ShapeKind k) {
-  return [&]<std::size_t... I>(std::index_sequence<I...>) {
-    static constexpr std::array names{std::variant_alternative_t<I, Shape>::type...};
-    return names[static_cast<std::size_t>(k)];
-  }
-  (std::make_index_sequence<std::variant_size_v<Shape>>{});
+  static constexpr auto names = detail::per_shape([]<class S>(std::type_identity<S>) { return S::type; });
+  return names[static_cast<std::size_t>(k)];
 }
 
 Shape shape_of_kind(ShapeKind k) {
-  return [&]<std::size_t... I>(std::index_sequence<I...>) {
-    static constexpr std::array<Shape (*)(), sizeof...(I)> make{
-        [] { return Shape(std::in_place_index<I>); }...};
-    return make[static_cast<std::size_t>(k)]();
-  }
-  (std::make_index_sequence<std::variant_size_v<Shape>>{});
+  static constexpr auto make =
+      detail::per_shape([]<class S>(std::type_identity<S>) -> Shape (*)() { return [] { return Shape(S()); }; });
+  return make[static_cast<std::size_t>(k)]();
 }
 
 double bounding_radius(const Shape& s) {
-  return up(std::visit(
-      overloaded{[](const Sphere& x) { return x.radius; },
-                 [](const Box& x) { return x.half_extents.stableNorm(); },
-                 [](const Capsule& x) { return x.radius + x.half_height; },
-                 [](const Cylinder& x) { return std::hypot(x.radius, x.half_height); },
-                 [](const Cone& x) { return std::hypot(x.radius, x.half_height); },
-                 [](const Ellipsoid& x) { return x.semi_axes.maxCoeff(); },
-                 [](const Hull& x) { return farthest(x.vertices); }, [](const HalfSpace&) { return inf; },
-                 [](const TriangleMesh& x) { return farthest(x.vertices); },
-                 [](const RoundedBox& x) { return x.half_extents.stableNorm() + x.radius; }},
-      s));
+  return std::visit([](const auto& x) { return x.bounding_radius(); }, s) * rounding_factor;
 }
 
 double extent(const Shape& s) {
-  return std::visit(overloaded{[](const Sphere& x) { return x.radius; },
-                               [](const Box& x) { return x.half_extents.maxCoeff(); },
-                               [](const Capsule& x) { return x.radius + x.half_height; },
-                               [](const Cylinder& x) { return std::max(x.radius, x.half_height); },
-                               [](const Cone& x) { return std::max(x.radius, x.half_height); },
-                               [](const Ellipsoid& x) { return x.semi_axes.maxCoeff(); },
-                               [](const Hull& x) { return largest_half_extent(x.vertices); },
-                               [](const HalfSpace&) { return 0.0; },
-                               [](const TriangleMesh& x) { return largest_half_extent(x.vertices); },
-                               [](const RoundedBox& x) { return x.half_extents.maxCoeff() + x.radius; }},
-                    s);
+  return std::visit([](const auto& x) { return x.extent(); }, s);
+}
+
+const std::vector<Vec3>* vertices_if(const Shape& s) {
+  return std::visit(
+      [](const auto& x) -> const std::vector<Vec3>* {
+        if constexpr (requires { x.vertices; })
+          return &x.vertices;
+        else
+          return nullptr;
+      },
+      s);
 }
 
 void validate(const Shape& s) {

@@ -1,7 +1,12 @@
 // The variant of all shapes.
 #pragma once
 
+#include <algorithm>
+#include <array>
+#include <concepts>
 #include <string_view>
+#include <type_traits>
+#include <utility>
 #include <variant>
 
 #include "core/math/aabb.h"
@@ -35,11 +40,91 @@ enum class ShapeKind : int {
   rounded_box
 };
 inline constexpr int shape_kind_count = static_cast<int>(std::variant_size_v<Shape>);
-
-/// Bounded and convex: neither a half-space nor a mesh.
-constexpr bool is_convex(ShapeKind k) { return k != ShapeKind::half_space && k != ShapeKind::mesh; }
+static_assert(static_cast<int>(ShapeKind::rounded_box) + 1 == shape_kind_count, "ShapeKind names every shape");
 
 inline ShapeKind kind_of(const Shape& s) { return static_cast<ShapeKind>(s.index()); }
+
+/// The exceptions are named here and nowhere else: a half-space is not bounded, a mesh is not convex. Every
+/// other alternative of Shape is bounded and convex.
+template <class S>
+inline constexpr bool is_bounded_shape = !std::is_same_v<S, HalfSpace>;
+template <class S>
+inline constexpr bool is_convex_shape = is_bounded_shape<S> && !std::is_same_v<S, TriangleMesh>;
+
+/// What every shape states about itself; core/broad and core/world ask for the bounds.
+template <class S>
+concept ShapeModule = requires(const S& s, const Vec3& d) {
+  { S::type } -> std::convertible_to<std::string_view>;
+  S::fields();
+  { s == s } -> std::convertible_to<bool>;
+  // Largest distance of a point from the body's origin; infinite if it is not bounded. A few roundings.
+  { s.bounding_radius() } -> std::same_as<double>;
+  // Half the largest extent along the body axes; 0 if it is not bounded.
+  { s.extent() } -> std::same_as<double>;
+  // Values of d·x on the shape, computed in the scalar of d with at most eight roundings, each of a partial
+  // result of at most coordinate_sum().
+  { s.extent_along(d) } -> std::same_as<Interval<double>>;
+  { s.template extent_along<Wide>(WideVec()) } -> std::same_as<Interval<Wide>>;
+  { s.coordinate_sum() } -> std::same_as<Wide>;
+  { s.inner_radii() } -> std::same_as<InnerRadii>;
+};
+
+/// What a bounded convex shape states besides: it is a convex core (core/shape/convex_body.h lists them and
+/// what they provide) and all points within a radius of it.
+template <class S>
+concept ConvexShape = ShapeModule<S> && requires(const S& s) {
+  s.template core<float>();
+  s.template core<double>();
+  s.template core<Wide>();
+  { S::has_ball } -> std::convertible_to<bool>;
+  { s.ball_radius() } -> std::same_as<double>;
+  // Whether rotations about the origin leave it as it is.
+  { s.is_ball() } -> std::same_as<bool>;
+};
+
+namespace detail {
+
+/// One value for each alternative of Shape: of(type_identity<S>).
+template <class F>
+constexpr auto per_shape(F of) {
+  return [&]<std::size_t... i>(std::index_sequence<i...>) {
+    return std::array{of(std::type_identity<std::variant_alternative_t<i, Shape>>())...};
+  }
+  (std::make_index_sequence<std::variant_size_v<Shape>>());
+}
+
+template <class S>
+constexpr bool is_complete_shape() {
+  static_assert(ShapeModule<S>, "a shape lacks a part of its file; see ShapeModule");
+  static_assert(
+      ConvexShape<S> == is_convex_shape<S>,
+      "a convex shape has core(), has_ball, ball_radius() and is_ball(); the others have none of them");
+  return true;
+}
+inline constexpr auto complete_shapes =
+    per_shape([]<class S>(std::type_identity<S>) { return is_complete_shape<S>(); });
+
+inline constexpr auto bounded_shapes =
+    per_shape([]<class S>(std::type_identity<S>) { return is_bounded_shape<S>; });
+inline constexpr auto convex_shapes =
+    per_shape([]<class S>(std::type_identity<S>) { return is_convex_shape<S>; });
+
+}  // namespace detail
+
+constexpr bool is_bounded(ShapeKind k) { return detail::bounded_shapes[static_cast<std::size_t>(k)]; }
+
+/// Bounded and convex. The other kinds, half-space and mesh, are static: their bodies do not move.
+constexpr bool is_convex(ShapeKind k) { return detail::convex_shapes[static_cast<std::size_t>(k)]; }
+
+/// The kinds for which is_convex() holds, in the order of the variant.
+inline constexpr auto convex_kinds = [] {
+  std::array<ShapeKind, static_cast<std::size_t>(std::ranges::count(detail::convex_shapes, true))> kinds{};
+  std::size_t n = 0;
+  for (int k = 0; k < shape_kind_count; ++k)
+    if (is_convex(ShapeKind{k})) kinds[n++] = ShapeKind{k};
+  return kinds;
+}();
+
 std::string_view type_name(ShapeKind k);
 inline std::string_view type_name(const Shape& s) { return type_name(kind_of(s)); }
 /// A shape of that kind with every field at its default.
@@ -59,6 +144,9 @@ double bounding_radius(const Shape& s);
 
 /// Half the largest extent along the body axes; the size of the shape in the scale L. Zero for a half-space.
 double extent(const Shape& s);
+
+/// The vertices of a hull or mesh; null for other shapes.
+const std::vector<Vec3>* vertices_if(const Shape& s);
 
 /// Throws InputError naming the field when a number is not finite or outside its domain, or an index is out
 /// of range.

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/math/pose.h"
+#include "core/shape/bounds.h"
 #include "core/shape/field.h"
 
 namespace touchstone {
@@ -18,6 +19,19 @@ struct TriangleMesh {
   static constexpr auto fields() {
     return std::tuple{Field{"vertices", &TriangleMesh::vertices, Domain::any},
                       Field{"triangles", &TriangleMesh::triangles, Domain::any}};
+  }
+
+  double bounding_radius() const { return farthest(vertices); }
+  double extent() const { return largest_half_extent(vertices); }
+  template <class T>
+  Interval<T> extent_along(const V3<T>& d) const {
+    return extent_of<T>(vertices, d);
+  }
+  Wide coordinate_sum() const { return largest_coordinate_sum(vertices); }
+  InnerRadii inner_radii() const {
+    double most = 0;
+    for (const Vec3& v : vertices) most = std::max(most, v.norm());
+    return {0, -most};
   }
   bool operator==(const TriangleMesh& o) const { return vertices == o.vertices && triangles == o.triangles; }
 };

@@ -51,14 +51,12 @@ PlacedShape placed(const PlannedShape& s, const PlannedBody& at) {
 }  // namespace
 
 BoundingBall bounding_ball(const Shape& shape) {
-  const auto* hull = std::get_if<Hull>(&shape);
-  const auto* mesh = std::get_if<TriangleMesh>(&shape);
-  if (!hull && !mesh) return {Vec3::Zero(), bounding_radius(shape)};
-  const std::vector<Vec3>& points = hull ? hull->vertices : mesh->vertices;
+  const std::vector<Vec3>* points = vertices_if(shape);
+  if (!points) return {Vec3::Zero(), bounding_radius(shape)};
   Aabb box;
-  for (const Vec3& p : points) box.extend(p);
+  for (const Vec3& p : *points) box.extend(p);
   BoundingBall ball{(box.lo + box.hi) / 2, 0};
-  for (const Vec3& p : points) ball.radius = std::max(ball.radius, (p - ball.middle).norm());
+  for (const Vec3& p : *points) ball.radius = std::max(ball.radius, (p - ball.middle).norm());
   ball.radius += ball_rounding * (ball.radius + ball.middle.lpNorm<1>());
   return ball;
 }

@@ -1,9 +1,9 @@
 // Bodies as a plan presents them to contact queries, and the contact of two of them within the plan's error.
 #pragma once
 
-#include "core/narrow/hull_graph.h"
 #include "core/narrow/mesh_tree.h"
 #include "core/scene/scene.h"
+#include "core/shape/hull_graph.h"
 #include "core/world/fidelity.h"
 
 namespace touchstone {

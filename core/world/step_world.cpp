@@ -167,7 +167,7 @@ std::vector<BodyPair> StepWorld::swept_pairs(const StepReport& r) {
   for (const SweptBody& s : r.swept) is_swept[at(s.body)] = 1;
   const auto box_of_swept = [&](int i) {
     const Pose& start = scene_.bodies[at(i)].pose;
-    if (fidelity_.loose_boxes && kind_of(scene_.shape_of(i)) != ShapeKind::half_space)
+    if (fidelity_.loose_boxes && is_bounded(kind_of(scene_.shape_of(i))))
       return broad::loose_swept_box(broad::loose_box(scene_.shape_of(i), start, box_size_[at(i)]), start,
                                     motion_of(i), extent_[at(i)].reach);
     return broad::swept_box(scene_.shape_of(i), scene_.bodies[at(i)].pose, motion_of(i));

@@ -2,9 +2,9 @@
 
 #include "core/broad/catalog.h"
 #include "core/math/roundoff.h"
-#include "core/narrow/hull_graph.h"
 #include "core/narrow/mesh_tree.h"
 #include "core/narrow/narrow_phase.h"
+#include "core/shape/hull_graph.h"
 #include "core/world/step_world.h"
 #include "oracles/core/core_answers.h"
 #include "oracles/core/core_engine.h"

@@ -36,7 +36,7 @@ struct EngineCard {
   /// Manifolds span the whole contact region, not just a few points of it.
   bool complete_manifolds = false;
   /// The kinds after last_common_shape that it takes.
-  std::vector<ShapeKind> more_shapes;
+  std::vector<ShapeKind> more_shapes = {};
   bool operator==(const EngineCard&) const = default;
 };
 

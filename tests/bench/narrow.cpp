@@ -15,9 +15,9 @@
 #include <limits>
 #include <memory>
 
-#include "core/narrow/hull_graph.h"
 #include "core/narrow/narrow_phase.h"
 #include "core/scene/scene.h"
+#include "core/shape/hull_graph.h"
 #include "oracles/referee/referee.h"
 #include "tests/bench/narrow_cases.h"
 #include "tests/bench/pair_options.h"

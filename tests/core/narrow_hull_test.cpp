@@ -3,15 +3,14 @@
 #include <cmath>
 
 #include "core/math/rng.h"
-#include "core/narrow/filtered/vertex_climb.h"
-#include "core/narrow/filtered/vertex_scan.h"
-#include "core/narrow/hull_graph.h"
 #include "core/narrow/narrow_phase.h"
+#include "core/shape/hull_graph.h"
+#include "core/shape/vertex_climb.h"
+#include "core/shape/vertex_scan.h"
 #include "tests/core/least_width.h"
 #include "tests/support/catch.h"
 
 using namespace touchstone;
-namespace filtered = touchstone::narrow::filtered;
 
 namespace {
 
@@ -79,8 +78,8 @@ template <class R>
 void check_directions(Rng& r, const Hull& h, const HullGraph& g, int n) {
   for (int i = 0; i < n; ++i) {
     const V3<R> d = direction<R>(r, h);
-    const std::size_t all = filtered::farthest_vertex(h.vertices, d),
-                      climbed = filtered::farthest_vertex(g, h.vertices, d);
+    const std::size_t all = convex::farthest_vertex(h.vertices, d),
+                      climbed = convex::farthest_vertex(g, h.vertices, d);
     INFO("direction " << i << ": " << d.transpose() << " of " << h.vertices.size() << " vertices");
     REQUIRE(all == climbed);
   }

@@ -4,7 +4,7 @@
 
 #include "core/math/rng.h"
 #include "core/narrow/narrow_phase.h"
-#include "core/narrow/rim.h"
+#include "core/shape/rim.h"
 #include "tests/support/catch.h"
 
 using namespace touchstone;
@@ -57,7 +57,7 @@ std::vector<Rest> rests() {
        Cylinder{0.5, 0.5},
        {},
        at(0.1, 0.2, 1.5 - sink, yaw),
-       narrow::rim_corners},
+       convex::rim_corners},
       {"lying cylinder on box", Box{{1, 1, 1}}, Cylinder{0.5, 0.5}, {}, at(0.1, 0.2, 1.5 - sink, lying), 2},
       {"lying capsule on box", Box{{1, 1, 1}}, Capsule{0.25, 0.5}, {}, at(0.1, 0.2, 1.25 - sink, lying), 2},
       {"standing cone on box",
@@ -65,7 +65,7 @@ std::vector<Rest> rests() {
        Cone{0.5, 0.5},
        {},
        at(0.1, 0.2, 1.5 - sink, yaw),
-       narrow::rim_corners},
+       convex::rim_corners},
       {"ball on box", Box{{1, 1, 1}}, Sphere{0.5}, {}, at(0.1, 0.2, 1.5 - sink), 1},
       {"box on the ground", HalfSpace{}, Box{{0.5, 0.5, 0.5}}, {}, at(0.1, 0.2, 0.5 - sink, yaw), 4},
       {"lying cylinder on the ground",

@@ -2,7 +2,7 @@
 #include <cmath>
 #include <span>
 
-#include "core/narrow/rim.h"
+#include "core/shape/rim.h"
 #include "core/tolerance.h"
 #include "tests/core/least_width.h"
 #include "tests/core/random_pair.h"
@@ -176,7 +176,7 @@ TEST_CASE("manifold points lie on both bodies within half the depth", "[narrow][
     CHECK(m.position.x() >= -0.5 - 1e-14);
     CHECK(m.depth == face.depth);
   }
-  CHECK(contact({&drum, {}}, {&drum, at(0, 0, 1.5)}).manifold.size() == narrow::rim_corners);
+  CHECK(contact({&drum, {}}, {&drum, at(0, 0, 1.5)}).manifold.size() == convex::rim_corners);
   CHECK(contact({&box, at(0, 0, 0.5)}, {&ground, {}}).manifold.size() == 4);
   long points = 0;
   const Regime regimes[] = {Regime::shallow, Regime::aligned};

@@ -21,9 +21,8 @@ inline int distinct(const std::array<Vec, 4>& p, int size) {
 /// The box, if the pair is a point and a box: its faces and edges carry the direction along, and for its
 /// corners that is no worse.
 inline const Mover* box_of_point(const Sweep& w) {
-  const auto a = w.a().body.kind, b = w.b().body.kind;
-  if (a == narrow::CoreKind::point && b == narrow::CoreKind::box) return &w.b();
-  return b == narrow::CoreKind::point && a == narrow::CoreKind::box ? &w.a() : nullptr;
+  if (is_point(w.a()) && box_core(w.b())) return &w.b();
+  return is_point(w.b()) && box_core(w.a()) ? &w.a() : nullptr;
 }
 
 /// From the first point to the first one that differs from it.

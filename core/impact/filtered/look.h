@@ -140,13 +140,12 @@ namespace detail {
 
 // A point against a point or a box: no search. Sets the features as the search would; false: they meet.
 inline bool point_and_box(const Sweep& w, const Spot& x, Features& f, View& v) {
-  const bool first = w.a().body.kind == narrow::CoreKind::point;
+  const bool first = is_point(w.a());
   const Mover& other = first ? w.b() : w.a();
   const Mat& r = first ? x.rb : x.ra;
   const Vec o = first ? Vec(-x.offset) : x.offset;  // of the point, from the box
-  const Vec p = r.transpose() * o,
-            h = other.body.kind == narrow::CoreKind::box ? other.body.size : Vec(Vec::Zero()),
-            q = p.cwiseMax(-h).cwiseMin(h);
+  const auto* box = box_core(other);
+  const Vec p = r.transpose() * o, h = box ? box->half() : Vec(Vec::Zero()), q = p.cwiseMax(-h).cwiseMin(h);
   const Vec away = r * (p - q);
   const double length = away.norm();
   v.meeting = !(length > 0);
@@ -165,12 +164,8 @@ inline bool point_and_box(const Sweep& w, const Spot& x, Features& f, View& v) {
 
 inline View look(const Sweep& sweep, const Spot& x, Features& f, double relative, double absolute) {
   View v;
-  const auto kind = [](const Mover& m) { return m.body.kind; };
-  const auto simple = [](narrow::CoreKind k) {
-    return k == narrow::CoreKind::point || k == narrow::CoreKind::box;
-  };
-  const bool point = kind(sweep.a()) == narrow::CoreKind::point || kind(sweep.b()) == narrow::CoreKind::point;
-  if (point && simple(kind(sweep.a())) && simple(kind(sweep.b()))) {
+  const bool point_a = is_point(sweep.a()), point_b = is_point(sweep.b());
+  if ((point_a && (point_b || box_core(sweep.b()))) || (point_b && box_core(sweep.a()))) {
     detail::point_and_box(sweep, x, f, v);
     return v;
   }

@@ -5,39 +5,11 @@
 namespace touchstone::impact::filtered {
 namespace {
 
-using narrow::CoreKind;
-
 // Covers the rounding of products and a root of doubles many times over.
 constexpr double inflation = 1 + 0x1p-46;
 
-// Distance of the farthest core point from the axis through the origin along a (unit, body frame).
-double reach_off_axis(const narrow::filtered::Body<double>& c, const Vec& a) {
-  const auto off = [&](const Vec& p) { return p.cross(a).norm(); };
-  const Vec& s = c.size;
-  switch (c.kind) {
-    case CoreKind::point:
-      return 0;
-    case CoreKind::segment:
-      return off(Vec(0, 0, s[2]));
-    case CoreKind::box:
-      return std::max(std::max(off(s), off(Vec(-s[0], s[1], s[2]))),
-                      std::max(off(Vec(s[0], -s[1], s[2])), off(Vec(s[0], s[1], -s[2]))));
-    case CoreKind::cylinder:
-    case CoreKind::cone:
-      return std::min(c.reach, s[0] + off(Vec(0, 0, s[2])));
-    case CoreKind::ellipsoid:
-      return c.reach;
-    case CoreKind::vertices: {
-      double most = 0;
-      for (const Vec3& v : c.vertices) most = std::max(most, v.cross(a).squaredNorm());
-      return std::sqrt(most);
-    }
-  }
-  return c.reach;
-}
-
 void set_turn(Mover& m, const Vec& angular) {
-  if (m.body.kind == CoreKind::point) return;
+  if (is_point(m)) return;
   const WideVec w = angular.cast<Wide>();
   m.speed_wide = wide_norm(w);
   m.speed = static_cast<double>(m.speed_wide);
@@ -47,9 +19,10 @@ void set_turn(Mover& m, const Vec& angular) {
   m.axis_wide = w / m.speed_wide;
   m.axis = m.axis_wide.cast<double>();
   const Vec local = m.start.transpose() * m.axis;
-  m.off_axis = reach_off_axis(m.body, local) * inflation + 16 * u<double> * m.body.reach;
-  m.up = local.dot(narrow::filtered::support_local<double>(m.body, local));
-  m.down = -local.dot(narrow::filtered::support_local<double>(m.body, -local));
+  const double off_axis = on_core(m.body, [&](const auto& core) { return core.reach_off_axis(local); });
+  m.off_axis = off_axis * inflation + 16 * u<double> * m.body.reach;
+  m.up = local.dot(support_local<double>(m.body, local));
+  m.down = -local.dot(support_local<double>(m.body, -local));
 }
 
 }  // namespace
@@ -68,7 +41,7 @@ WideMat rotation_of(const Quat& any) {
 
 Mover make_mover(const Shape& shape, const WideMat& rotation, const Motion& motion) {
   Mover m;
-  m.body = narrow::filtered::make_body<double>(shape);
+  m.body = convex_body<double>(shape);
   m.start_wide = rotation;
   m.start = rotation.cast<double>();
   m.linear = motion.linear;
@@ -78,9 +51,7 @@ Mover make_mover(const Shape& shape, const WideMat& rotation, const Motion& moti
 
 Mover make_points(std::span<const Vec3> points, const WideMat& rotation) {
   Mover m;
-  m.body.kind = CoreKind::vertices;
-  m.body.vertices = points;
-  m.body.reach = m.body.extent = std::sqrt(narrow::filtered::largest_norm_sq(points));
+  m.body = body_of_vertices<double>(points);
   m.start_wide = rotation;
   m.start = rotation.cast<double>();
   return m;

@@ -2,7 +2,8 @@
 #pragma once
 
 #include "core/impact/advance.h"
-#include "core/narrow/filtered/body.h"
+#include "core/narrow/filtered/query.h"
+#include "core/shape/convex_body.h"
 
 namespace touchstone::impact::filtered {
 
@@ -11,7 +12,7 @@ using Vec = V3<double>;
 using Mat = M3<double>;
 
 struct Mover {
-  narrow::filtered::Body<double> body;
+  ConvexBody<double> body;
   WideMat start_wide;  // rotation at t = 0; `start` is rounded
   Mat start;
   Vec linear = Vec::Zero(), angular = Vec::Zero();
@@ -37,10 +38,21 @@ Mover make_points(std::span<const Vec3> points, const WideMat& rotation);
 /// Rotation at time t. `precise`: computed in extended precision and rounded once.
 Mat rotation_at(const Mover& m, double t, bool precise);
 
+inline bool is_point(const Mover& m) { return symmetry(m.body) == convex::Symmetry::centre; }
+
+/// The core if it is a box, otherwise null.
+inline const convex::BoxCore<double>* box_core(const Mover& m) {
+  return std::get_if<convex::BoxCore<double>>(&m.body.core);
+}
+
 /// Core point farthest along n at a rotation r, in the body's frame.
 inline Vec farthest(const Mover& m, const Mat& r, const Vec& n) {
-  if (m.body.kind == narrow::CoreKind::point) return Vec::Zero();
-  return narrow::filtered::support_local<double>(m.body, r.transpose() * n);
+  return on_core(m.body, [&]<class C>(const C& core) -> Vec {
+    if constexpr (C::symmetry == convex::Symmetry::centre)
+      return Vec::Zero();
+    else
+      return core.support(r.transpose() * n);
+  });
 }
 
 }  // namespace touchstone::impact::filtered

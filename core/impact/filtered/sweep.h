@@ -65,9 +65,8 @@ class Sweep {
     x.rb = rotation_at(b_, t, precise);
     x.offset = (offset_ + static_cast<Wide>(t) * velocity_wide_).cast<double>();
     const auto body = [&](const Mover& m) {
-      const double scan =
-          m.body.kind == narrow::CoreKind::box || m.body.kind == narrow::CoreKind::segment ? 22 : 28;
-      return (scan + (m.turns && !precise ? 31 + 4 * m.speed * t : 0)) * m.body.reach;
+      const int scan = on_core(m.body, [](const auto& core) { return core.support_rounding; });
+      return (22 + scan + (m.turns && !precise ? 31 + 4 * m.speed * t : 0)) * m.body.reach;
     };
     x.error = u<double> * bound_margin * (body(a_) + body(b_) + 5 * x.offset.norm() + 3 * radii_);
     return x;

@@ -12,7 +12,7 @@
 #pragma once
 
 #include "core/impact/filtered/impact_search.h"
-#include "core/narrow/filtered/body.h"
+#include "core/narrow/filtered/query.h"
 
 namespace touchstone::impact::filtered {
 

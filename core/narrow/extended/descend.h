@@ -79,16 +79,6 @@ std::pair<R, R> least_between(R lo, R hi, R noise, F&& f) {
   return {x, fx};
 }
 
-/// Column of the frame that is the axis of (approximate) revolution of a core; -1 if there is none.
-template <class R>
-int round_axis(const ConvexCore<R>& c) {
-  if (c.kind == CoreKind::segment || c.kind == CoreKind::cylinder || c.kind == CoreKind::cone) return 2;
-  if (c.kind != CoreKind::ellipsoid) return -1;
-  const V3<R>& s = c.size;
-  const R d0 = abs(s[1] - s[2]), d1 = abs(s[2] - s[0]), d2 = abs(s[0] - s[1]);
-  return d0 <= d1 && d0 <= d2 ? 0 : (d1 <= d2 ? 1 : 2);
-}
-
 template <class R>
 class MeridianSearch {
  public:
@@ -185,7 +175,7 @@ EpaResult<R> proximal(const V3<R>& n, R share, const ConvexCore<R>& a, const Con
 template <class R>
 void descend(EpaResult<R>& e, const ConvexCore<R>& a, const ConvexCore<R>& b, R size, R tolerance) {
   for (const ConvexCore<R>* c : {&a, &b}) {
-    const int axis = detail::round_axis(*c);
+    const int axis = on_core(*c, [](const auto& core) { return core.round_axis(); });
     if (axis < 0) continue;
     const auto [n, h] = detail::MeridianSearch<R>(a, b, c->frame.rotation.col(axis), size).least();
     if (h < e.upper) {

@@ -21,7 +21,7 @@ class MeshQuery {
         b_(rounded_pose<R>(b.pose)),
         best_(best),
         s_(s) {
-    s.a = make_body<R>(*a.shape, a.graph);
+    s.a = convex_body<R>(*a.shape, a.graph);
     s.at = relative(a_, b_);
     s.contact = ContactForm::point;
     const Vec3 d = a.pose.translation - b.pose.translation;
@@ -74,9 +74,7 @@ class MeshQuery {
     if (out_of_reach(corner_[0].cwiseMin(corner_[1]).cwiseMin(corner_[2]),
                      corner_[0].cwiseMax(corner_[1]).cwiseMax(corner_[2])))
       return;
-    s_.b.kind = CoreKind::vertices;
-    s_.b.vertices = corner_;
-    s_.b.reach = s_.b.extent = static_cast<R>(std::sqrt(largest_norm_sq(corner_)));
+    s_.b = body_of_vertices<R>(corner_);
     Answer<R> r;
     s_.guess.setZero();
     separate_cores(a_, b_, asked_, best_.gap, r, s_);
@@ -122,7 +120,7 @@ template <class R>
 void convex_mesh(const PlacedShape& a, const PlacedShape& b, Asked asked, Answer<R>& r, PairScene<R>& s) {
   MeshQuery<R>(a, b, asked, r, s).run(b.tree);
   // The triangle's corners no longer exist.
-  s.b.vertices = {};
+  s.b = {};
 }
 
 template void convex_mesh(const PlacedShape&, const PlacedShape&, Asked, Answer<double>&, PairScene<double>&);

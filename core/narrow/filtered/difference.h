@@ -1,14 +1,15 @@
 // The Minkowski difference B − A of two placed cores, represented by its support points.
 #pragma once
 
-#include "core/narrow/filtered/body.h"
+#include "core/narrow/filtered/query.h"
 #include "core/narrow/simplex.h"
+#include "core/shape/convex_body.h"
 
 namespace touchstone::narrow::filtered {
 
 template <class R>
 struct Difference {
-  const Body<R>&a, &b;
+  const ConvexBody<R>&a, &b;
   const Relative<R>& at;
   /// A point of B − A farthest along d.
   Vertex<R> support(const V3<R>& d) const {

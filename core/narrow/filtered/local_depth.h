@@ -1,8 +1,8 @@
 // A local minimum of the support function of B − A (for bodies that meet, the depth; for others, minus the
 // distance, and then the only minimum), and how far it is proven to be the least. An expanding polytope needs
 // about fifty support points to close on a curved boundary, most of them for the last digits. Here the
-// touching features (feature.h) are guessed, the direction is found by Newton's method, and the proof is a
-// curvature argument.
+// touching features (core/shape/feature.h) are guessed, the direction is found by Newton's method, and the
+// proof is a curvature argument.
 //
 // C = B − A, h its support function, m a unit direction with h(m) = d, w a point of C along m, v = w − d m.
 // Bodies that lie in C and contain w bound h from below on the great circle m(θ) = m cos θ + t sin θ, t unit
@@ -28,7 +28,7 @@
 // the support points of both bodies have confirmed it.
 #pragma once
 
-#include "core/narrow/filtered/feature.h"
+#include "core/narrow/filtered/difference.h"
 
 namespace touchstone::narrow::filtered {
 
@@ -42,6 +42,11 @@ struct LocalDepth {
 
 template <class R>
 class LocalMinimum {
+  using Feature = convex::Feature<R>;
+  using FeatureKind = convex::FeatureKind;
+  using Cap = convex::Cap<R>;
+  using Form = convex::TangentForm<R>;
+
  public:
   LocalMinimum(const Difference<R>& d, R size) : d_(d), level_(8 * u<R> * size), slight_(64 * u<R> * size) {}
 
@@ -57,14 +62,10 @@ class LocalMinimum {
       foot_b += weight[k] * b[k];
     }
     // Snaps to the exact corners: B's points went through two rotations.
-    if (d_.b.kind == CoreKind::box)
-      for (V3<R>& p : b)
-        for (int k = 0; k < 3; ++k) p[k] = std::copysign(d_.b.size[k], p[k]);
-    if (is_round(d_.b))
-      for (V3<R>& p : b) p[2] = std::copysign(d_.b.size[2], p[2]);
+    for (V3<R>& p : b) p = ask(1, [&](const auto& core) { return core.snap(p); });
     m_ = n;
-    feature_[0] = suggested_feature<R>(d_.a, a, foot_a, in(0, m_), level_);
-    feature_[1] = suggested_feature<R>(d_.b, b, foot_b, in(1, m_), level_);
+    suggest(0, a, foot_a);
+    suggest(1, b, foot_b);
     for (int round = 0; round < rounds; ++round) {
       if (!turn_direction() || !m_.allFinite()) {
         if (!try_disc(n)) return false;
@@ -95,11 +96,12 @@ class LocalMinimum {
     const R far = -q.dot(m_), off = (q + far * m_).squaredNorm(), d = upper_;
     if (!(far > d + slight_)) return r;
     const R tilt = unevenness();
+    const convex::Tangents<R> at[2] = {{in(0, m_), in(0, x), in(0, y)}, {in(1, m_), in(1, x), in(1, y)}};
     const R behind = (std::sqrt(off) + std::sqrt(off + far * far - d * d)) / (far - d) * (1 + 64 * u<R>);
     for (R part = 1; part > least_part; part /= 2) {
       const R t = behind * part;
       Form ball, reach;
-      for (int i = 0; i < 2; ++i) add_side(i, x, y, Cap(t), part / 2, ball, reach);
+      for (int i = 0; i < 2; ++i) add_side(i, x, y, at[i], Cap(t), part / 2, ball, reach);
       ball.xx += reach.xx / t;
       ball.xy += reach.xy / t;
       ball.yy += reach.yy / t;
@@ -118,40 +120,44 @@ class LocalMinimum {
 
  private:
   static constexpr int rounds = 5, steps = 12;
-  // Cosine to the axis above which a disc is worth trying instead of its rim.
-  static constexpr R disc_cosine = R(0.9);
   // Sine to a circle's axis below which the direction has no azimuth to start from.
   static constexpr R pole_sine = R(0.01);
   // Smallest cap worth proving, as a share of the one that makes the minimum global.
   static constexpr R least_part = R(0.001);
   enum class Verdict { confirmed, revised, refuted };
 
-  static bool is_round(const Body<R>& b) {
-    return b.kind == CoreKind::segment || b.kind == CoreKind::cylinder || b.kind == CoreKind::cone;
+  const ConvexBody<R>& body(int side) const { return side == 0 ? d_.a : d_.b; }
+  template <class F>
+  [[gnu::always_inline]] decltype(auto) ask(int side, F&& f) const {
+    return on_core(body(side), f);
   }
-
-  const Body<R>& body(int side) const { return side == 0 ? d_.a : d_.b; }
-  V3<R> in(int side, const V3<R>& m) const {
+  template <class F>
+  [[gnu::always_inline]] void if_curved(int side, F&& f) const {
+    on_core(body(side), [&]<class C>(const C& core) {
+      if constexpr (!C::is_polytope) f(core);
+    });
+  }
+  [[gnu::always_inline]] V3<R> in(int side, const V3<R>& m) const {
     return side == 0 ? V3<R>(-m) : V3<R>(d_.at.b_to_a.transpose() * m);
   }
   V3<R> out(int side, const V3<R>& v) const { return side == 0 ? V3<R>(-v) : V3<R>(d_.at.b_to_a * v); }
 
+  void suggest(int i, const std::array<V3<R>, 3>& q, const V3<R>& foot) {
+    const V3<R> d = in(i, m_);
+    feature_[i] = ask(i, [&](const auto& core) { return core.suggest(q, foot, d, level_); });
+  }
+
   // If a rim has no minimum near n, its disc may have one.
   bool try_disc(const V3<R>& n) {
     m_ = n;
-    for (int i = 0; i < 2; ++i) {
-      Feature<R>& f = feature_[i];
-      const V3<R> d = in(i, n);
-      if (f.shown != Shown::round || body(i).kind == CoreKind::ellipsoid || !(std::abs(d[2]) > disc_cosine))
-        continue;
-      f = detail::face_feature<R>(f.p, V3<R>(0, 0, f.p[2] < 0 ? R(-1) : R(1)));
-      return true;
-    }
+    for (int i = 0; i < 2; ++i)
+      if (ask(i, [&](const auto& core) { return core.use_disc(feature_[i], in(i, n)); })) return true;
     return false;
   }
 
   void place_both() {
-    for (int i = 0; i < 2; ++i) placed_[i] = place<R>(body(i), feature_[i], in(i, m_));
+    for (int i = 0; i < 2; ++i)
+      placed_[i] = ask(i, [&](const auto& core) { return core.locate(feature_[i], in(i, m_)); });
     w_ = d_.at.b_to_a * placed_[1].p + d_.at.offset - placed_[0].p;
   }
 
@@ -162,13 +168,13 @@ class LocalMinimum {
     R s[2], k = 1;
     int circles = 0;
     for (int i = 0; i < 2; ++i) {
-      const Feature<R>& f = feature_[i];
-      if (f.shown == Shown::face) {
+      const Feature& f = feature_[i];
+      if (f.kind == FeatureKind::face) {
         m_ = out(i, f.c);
         place_both();
         return true;
       }
-      if (f.shown == Shown::edge) {
+      if (f.kind == FeatureKind::edge) {
         c[circles] = out(i, f.c);
         s[circles++] = f.s;
         k = f.k;
@@ -204,20 +210,12 @@ class LocalMinimum {
     place_both();
   }
 
-  // xᵀ H y summed over both supports, for tangents x, y.
-  R curvature(const V3<R>& x, const V3<R>& y) const {
-    R sum = 0;
-    for (int i = 0; i < 2; ++i) {
-      const Placed<R>& p = placed_[i];
-      if (p.k == 0 && p.h == 0) continue;
-      const V3<R> lx = in(i, x), ly = in(i, y);
-      if (p.h > 0) {
-        const V3<R>& size = body(i).size;
-        sum += (size.cwiseProduct(lx).dot(size.cwiseProduct(ly)) - p.p.dot(lx) * p.p.dot(ly)) / p.h;
-      } else {
-        sum += p.k * p.t.dot(lx) * p.t.dot(ly);
-      }
-    }
+  // The derivative of both support points, over tangents x, y.
+  Form second_derivative(const V3<R>& x, const V3<R>& y) const {
+    Form sum;
+    for (int i = 0; i < 2; ++i)
+      if_curved(i,
+                [&](const auto& core) { core.add_second_derivative(placed_[i], in(i, x), in(i, y), sum); });
     return sum;
   }
 
@@ -230,7 +228,7 @@ class LocalMinimum {
       m_ = r + c * s;
       place_both();
       if (std::abs(w_.dot(along)) <= level_ / 4) return true;  // a ring of minima has no curvature
-      const R second = curvature(along, along) - w_.dot(r);
+      const R second = second_derivative(along, along).xx - w_.dot(r);
       if (!(second > 0)) return false;
       const R step = std::clamp(-w_.dot(along) / second, R(-0.5), R(0.5));
       if (std::abs(step) <= u<R>) return true;
@@ -251,8 +249,8 @@ class LocalMinimum {
       const V3<R> x = m_.unitOrthogonal(), y = m_.cross(x);
       const R h = m_.dot(w_), gx = x.dot(w_), gy = y.dot(w_);
       if (std::abs(gx) + std::abs(gy) <= level_ / 4) return true;
-      const R xx = curvature(x, x) - h, xy = curvature(x, y), yy = curvature(y, y) - h,
-              det = xx * yy - xy * xy;
+      const Form second = second_derivative(x, y);
+      const R xx = second.xx - h, xy = second.xy, yy = second.yy - h, det = xx * yy - xy * xy;
       if (!(xx > 0 && det > 0)) return false;
       R sx = (xy * gy - yy * gx) / det, sy = (xy * gx - xx * gy) / det;
       const R size = std::sqrt(sx * sx + sy * sy);
@@ -288,16 +286,9 @@ class LocalMinimum {
 
   // Extends the feature by a support point beyond it.
   bool widen(int i, const V3<R>& s) {
-    const Body<R>& b = body(i);
-    Feature<R>& f = feature_[i];
-    const V3<R> d = in(i, m_);
-    if (f.shown == Shown::face) return false;
-    if (f.shown == Shown::edge) {
-      f = suggested_feature<R>(b, {s, s, s}, s, d, level_);
-      return true;
-    }
-    const V3<R> p = placed_[i].p;
-    f = suggested_feature<R>(b, {p, p, s}, s, d, level_);
+    if (feature_[i].kind == FeatureKind::face) return false;
+    const V3<R> p = feature_[i].kind == FeatureKind::edge ? s : placed_[i].p;
+    suggest(i, {p, p, s}, s);
     return true;
   }
 
@@ -306,12 +297,12 @@ class LocalMinimum {
     upper_ = m_.dot(support_);
     rest_ = upper_ * m_ - w_;
     for (int i = 0; i < 2; ++i)
-      if (feature_[i].shown == Shown::face) return on_face(i);
+      if (feature_[i].kind == FeatureKind::face) return on_face(i);
     V3<R> e[2];
     R along[2] = {0, 0};
     int side[2], edges = 0;
     for (int i = 0; i < 2; ++i)
-      if (feature_[i].shown == Shown::edge) {
+      if (feature_[i].kind == FeatureKind::edge) {
         e[edges] = out(i, feature_[i].e);
         side[edges++] = i;
       }
@@ -324,9 +315,9 @@ class LocalMinimum {
       along[1] = (q - g * p) / det;
     }
     for (int k = 0; k < edges; ++k) {
-      const Feature<R>& f = feature_[side[k]];
+      const Feature& f = feature_[side[k]];
       if (along[k] < f.lo || along[k] > f.hi) {
-        shorten(side[k], along[k] > f.hi);
+        ask(side[k], [&](const auto& core) { core.shorten(feature_[side[k]], along[k] > f.hi); });
         return Verdict::revised;
       }
       reach_[side[k]] = std::min(along[k] - f.lo, f.hi - along[k]);
@@ -338,107 +329,46 @@ class LocalMinimum {
     return Verdict::confirmed;
   }
 
-  // Replaces an edge by the feature at its end.
-  void shorten(int i, bool high) {
-    Feature<R>& f = feature_[i];
-    const Body<R>& b = body(i);
-    const bool rim = b.kind == CoreKind::cylinder || (b.kind == CoreKind::cone && high);
-    if (rim) {
-      f.p = V3<R>(0, 0, high && b.kind == CoreKind::cylinder ? b.size[2] : -b.size[2]);
-      f.shown = Shown::round;
-    } else {
-      f.p += (high ? f.hi : f.lo) * f.e;
-      f.shown = Shown::corner;
-    }
-  }
-
   Verdict on_face(int i) {
     V3<R>& p = placed_[i].p;
     p += i == 0 ? V3<R>(-rest_) : V3<R>(d_.at.b_to_a.transpose() * rest_);
     w_ += rest_;
     rest_.setZero();
-    reach_[i] = face_margin<R>(body(i), feature_[i], p);
+    reach_[i] = ask(i, [&](const auto& core) { return core.face_margin(feature_[i], p); });
     return reach_[i] > 0 ? Verdict::confirmed : Verdict::refuted;
   }
 
   // ---- the proof
 
-  struct Form {
-    R xx = 0, xy = 0, yy = 0;
-    void add(R k, R x, R y) {
-      xx += k * x * x;
-      xy += k * x * y;
-      yy += k * y * y;
-    }
-    void add_all(R k) {
-      xx += k;
-      yy += k;
-    }
-    R least() const { return (xx + yy) / 2 - std::sqrt((xx - yy) * (xx - yy) / 4 + xy * xy); }
-  };
-
-  // Directions within θ of m, T = tan(θ/2): least cosine and largest sine.
-  struct Cap {
-    R cosine, sine;
-    explicit Cap(R t) : cosine((1 - t * t) / (1 + t * t)), sine(cosine > 0 ? 2 * t / (1 + t * t) : R(1)) {}
-    /// Largest sine of the angle to an axis whose |cosine| to m is c.
-    R most_sine(R c) const {
-      const R s = std::sqrt(std::max<R>(0, 1 - c * c));
-      return cosine > 0 && c * cosine - s * sine > 0 ? s * cosine + c * sine : R(1);
-    }
-  };
-
   // An edge that is not quite orthogonal to m extends that much less far.
   R unevenness() const {
     R sum = 0;
     for (int i = 0; i < 2; ++i)
-      if (feature_[i].shown == Shown::edge) sum += reach_[i] * std::abs(out(i, feature_[i].e).dot(m_));
+      if (feature_[i].kind == FeatureKind::edge) sum += reach_[i] * std::abs(out(i, feature_[i].e).dot(m_));
     return sum;
   }
 
-  // |E m(θ)|, E the diagonal of the semi-axes: as for a disc, (|E m × E t|)²/X³.
-  void add_ellipsoid(int i, const V3<R>& x, const V3<R>& y, const Cap& cap, Form& ball) const {
-    const V3<R>& s = body(i).size;
-    const V3<R> e = s.cwiseProduct(in(i, m_)), px = e.cross(s.cwiseProduct(in(i, x))),
-                py = e.cross(s.cwiseProduct(in(i, y)));
-    const R most = std::min(s.maxCoeff(), e.norm() + s.maxCoeff() * cap.sine), k = 1 / (most * most * most);
-    ball.xx += k * px.squaredNorm();
-    ball.xy += k * px.dot(py);
-    ball.yy += k * py.squaredNorm();
-  }
-
-  void add_side(int i, const V3<R>& x, const V3<R>& y, const Cap& cap, R share, Form& ball,
-                Form& reach) const {
-    const Feature<R>& f = feature_[i];
-    const Body<R>& b = body(i);
-    // A cone's discs and its generators are not summands, but part of one is together with the rest of the
-    // other.
-    const bool generator = b.kind == CoreKind::cone && f.shown == Shown::edge;
-    if (f.shown == Shown::face) reach.add_all(reach_[i]);
-    if (f.shown == Shown::edge) {
+  /// `at`: m, x and y in the body's frame.
+  void add_side(int i, const V3<R>& x, const V3<R>& y, const convex::Tangents<R>& at, const Cap& cap, R share,
+                Form& ball, Form& reach) const {
+    const Feature& f = feature_[i];
+    R part = 1;
+    if_curved(i, [&](const auto& core) {
+      core.add_curvature(f, along_[i], at, cap, share, ball);
+      part = core.edge_share(f, share);
+    });
+    if (f.kind == FeatureKind::face) reach.add_all(reach_[i]);
+    if (f.kind == FeatureKind::edge) {
       const V3<R> e = out(i, f.e);
-      reach.add(generator ? reach_[i] * share : reach_[i], e.dot(x), e.dot(y));
-    }
-    if (b.kind == CoreKind::ellipsoid && share < R(0.25)) {
-      add_ellipsoid(i, x, y, cap, ball);
-    } else if (b.kind == CoreKind::ellipsoid) {
-      const R least = b.size.minCoeff();
-      ball.add_all(least * least / b.size.maxCoeff());
-    } else if (generator || ((f.shown == Shown::round || f.shown == Shown::edge) &&
-                             (b.kind == CoreKind::cylinder || b.kind == CoreKind::cone))) {
-      const V3<R> axis = out(i, V3<R>::UnitZ());
-      const R most = cap.most_sine(std::abs(axis.dot(m_)));
-      const R radius = generator ? b.size[0] * along_[i] / f.hi * (1 - share) : b.size[0];
-      // m × x = y, m × y = −x.
-      ball.add(radius / (most * most * most), axis.dot(y), -axis.dot(x));
+      reach.add(reach_[i] * part, e.dot(x), e.dot(y));
     }
   }
 
   const Difference<R>& d_;
   R level_, slight_;
   V3<R> m_, w_, support_, rest_;
-  Feature<R> feature_[2];
-  Placed<R> placed_[2];
+  Feature feature_[2];
+  convex::FeaturePoint<R> placed_[2];
   R reach_[2] = {0, 0}, along_[2] = {0, 0}, upper_ = 0;
 };
 

@@ -13,9 +13,9 @@
 #include <algorithm>
 #include <cstdint>
 
-#include "core/narrow/filtered/body.h"
+#include "core/narrow/filtered/query.h"
 #include "core/narrow/result.h"
-#include "core/narrow/rim.h"
+#include "core/shape/convex_body.h"
 
 namespace touchstone::narrow::filtered {
 
@@ -47,7 +47,7 @@ struct Corner {
 template <class R>
 class Corners {
  public:
-  static constexpr int capacity = 72;
+  static constexpr int capacity = convex::face_capacity;
   int size = 0;
   bool overflow = false;
   Corners() {}
@@ -120,127 +120,50 @@ void convex_order(Corners<R>& p, R tolerance) {
 template <class R>
 class FeatureCorners {
  public:
-  FeatureCorners(const Body<R>& c, const M3<R>& to_a, const V3<R>& offset, const PatchPlane<R>& plane, R sign,
-                 R limit, R tolerance)
-      : c_(c), to_a_(to_a), offset_(offset), plane_(plane), limit_(limit), tolerance_(tolerance) {
-    d_ = to_a.transpose() * (sign * plane.n);
-    top_ = d_.dot(support_local<R>(c, d_));
+  FeatureCorners(const ConvexBody<R>& c, const M3<R>& to_a, const V3<R>& offset, const PatchPlane<R>& plane,
+                 R sign, R limit, R tolerance)
+      : c_(c), to_a_(to_a), offset_(offset), plane_(plane) {
+    at_.d = to_a.transpose() * (sign * plane.n);
+    at_.top = at_.d.dot(support_local<R>(c, at_.d));
+    at_.limit = limit;
+    at_.tolerance = tolerance;
   }
 
   const Corners<R>& collect() {
-    const V3<R>& s = c_.size;
-    const R flat = std::sqrt(d_[0] * d_[0] + d_[1] * d_[1]);
-    switch (c_.kind) {
-      case CoreKind::box:
-        box();
-        return out_;
-      case CoreKind::segment:
-        add({0, 0, s[2]}, 0);
-        add({0, 0, -s[2]}, 1);
-        break;
-      case CoreKind::cylinder:
-        if (2 * flat * s[0] <= limit_) {
-          rim_of(std::copysign(s[2], d_[2]));
-        } else {
-          const R k = flat > 0 ? s[0] / flat : 0;
-          add({d_[0] * k, d_[1] * k, s[2]}, 0);
-          add({d_[0] * k, d_[1] * k, -s[2]}, 1);
-        }
-        break;
-      case CoreKind::cone:
-        if (d_[2] < 0 && 2 * flat * s[0] <= limit_) {
-          rim_of(-s[2]);
-        } else {
-          const R k = flat > 0 ? s[0] / flat : 0;
-          add({0, 0, s[2]}, 0);
-          if (flat > 0) add({d_[0] * k, d_[1] * k, -s[2]}, 1);
-        }
-        break;
-      case CoreKind::vertices:
-        vertices();
-        break;
-      case CoreKind::point:
-      case CoreKind::ellipsoid:
-        add(support_local<R>(c_, d_), 0);
-        break;
+    const bool ordered = on_core(c_, [&](const auto& core) { return core.face_corners(at_, *this); });
+    if (ordered && out_.size >= 4) {
+      if (turn(out_[0], out_[1], out_[2]) < 0) std::reverse(out_.begin(), out_.end());
+      return out_;
     }
-    if (out_.size == 0 && !out_.overflow) add_always(support_local<R>(c_, d_), 0);
-    convex_order(out_, tolerance_);
+    if (out_.size == 0 && !out_.overflow) add_certain(support_local<R>(c_, at_.d), 0);
+    convex_order(out_, at_.tolerance);
     return out_;
   }
 
- private:
   void add(const V3<R>& p, std::uint32_t id) {
-    if (top_ - d_.dot(p) <= limit_) add_always(p, id);
+    if (at_.top - at_.d.dot(p) <= at_.limit) add_certain(p, id);
   }
-  void add_always(const V3<R>& p, std::uint32_t id) {
+  void add_certain(const V3<R>& p, std::uint32_t id) {
     const V3<R> q = to_a_ * p + offset_ - plane_.origin;
-    out_.add({plane_.x.dot(q), plane_.y.dot(q), std::max<R>(0, top_ - d_.dot(p)), id, 0});
+    out_.add({plane_.x.dot(q), plane_.y.dot(q), std::max<R>(0, at_.top - at_.d.dot(p)), id, 0});
   }
-  void vertices() {
-    std::array<std::int32_t, Corners<R>::capacity> high;
-    const R least = top_ - limit_;
-    const std::size_t n = c_.graph ? vertices_above(*c_.graph, c_.vertices, d_, least, high)
-                                   : vertices_above(c_.vertices, d_, least, high);
-    if (n > high.size()) return many_vertices();
-    for (std::size_t i = 0; i < n; ++i)
-      add_always(c_.vertices[static_cast<std::size_t>(high[i])].template cast<R>(),
-                 static_cast<std::uint32_t>(high[i]));
-  }
-  // Their outline. If it has more corners than fit, every other one is kept: 36 corners of a circle still
-  // cover 99.5 % of its area.
-  void many_vertices() {
-    for (std::size_t i = 0; i < c_.vertices.size(); ++i) {
-      add(c_.vertices[i].template cast<R>(), static_cast<std::uint32_t>(i));
-      if (out_.size < Corners<R>::capacity) continue;
-      convex_order(out_, tolerance_);
-      if (2 * out_.size <= Corners<R>::capacity) continue;
-      for (int k = 0; 2 * k < out_.size; ++k) out_[k] = out_[2 * k];
-      out_.size = (out_.size + 1) / 2;
-    }
-  }
-  // Ids of rim points rotate with the body.
-  void rim_of(R z) {
-    const R r = c_.size[0];
-    std::uint32_t id = 0;
-    for (const auto& [x, y] : rim()) add({r * static_cast<R>(x), r * static_cast<R>(y), z}, id++);
-  }
-  void box() {
-    const V3<R>& s = c_.size;
-    int free[3], frees = 0;
-    unsigned top = 0;
-    for (int k = 0; k < 3; ++k) {
-      if (d_[k] >= 0) top |= 1u << k;
-      // Across a flat box the corners coincide: four of them do not form a face.
-      if (s[k] > tolerance_ && 2 * std::abs(d_[k]) * s[k] <= limit_) free[frees++] = k;
-    }
-    const auto corner = [&](unsigned bits) {
-      add({bits & 1 ? s[0] : -s[0], bits & 2 ? s[1] : -s[1], bits & 4 ? s[2] : -s[2]}, bits);
-    };
-    if (frees <= 1) {
-      corner(top);
-      if (frees == 1) corner(top ^ (1u << free[0]));
-    } else if (frees == 2) {
-      const unsigned p = 1u << free[0], q = 1u << free[1];
-      corner(top);
-      corner(top ^ p);
-      corner(top ^ p ^ q);
-      corner(top ^ q);
-    } else {
-      for (unsigned bits = 0; bits < 8; ++bits) corner(bits);
-    }
-    if (frees != 2 || out_.size < 4)
-      convex_order(out_, tolerance_);
-    else if (turn(out_[0], out_[1], out_[2]) < 0)
-      std::reverse(out_.begin(), out_.end());
+  // Keeps their outline. If it has more corners than fit, every other one is kept: 36 corners of a circle
+  // still cover 99.5 % of its area.
+  void add_many(const V3<R>& p, std::uint32_t id) {
+    add(p, id);
+    if (out_.size < Corners<R>::capacity) return;
+    convex_order(out_, at_.tolerance);
+    if (2 * out_.size <= Corners<R>::capacity) return;
+    for (int k = 0; 2 * k < out_.size; ++k) out_[k] = out_[2 * k];
+    out_.size = (out_.size + 1) / 2;
   }
 
-  const Body<R>& c_;
+ private:
+  const ConvexBody<R>& c_;
   const M3<R>& to_a_;
   const V3<R>& offset_;
   const PatchPlane<R>& plane_;
-  R limit_, tolerance_, top_;
-  V3<R> d_;
+  convex::FaceQuery<R> at_;
   Corners<R> out_;
 };
 
@@ -328,8 +251,8 @@ Corners<R> cross_edges(Corners<R> a, const Corners<R>& b, R tolerance) {
 /// Manifold of cores a, b (b at `at`; null: a half-space) along n (A's frame, unit, A to B), where `gap` <= 0
 /// up to rounding is the gap of the rounded bodies along n. size 0: too many corners for the storage.
 template <class R>
-Patch<R> contact_patch(const Body<R>& a, const Body<R>* b, const Relative<R>& at, const V3<R>& n, R gap,
-                       const V3<R>* middle) {
+Patch<R> contact_patch(const ConvexBody<R>& a, const ConvexBody<R>* b, const Relative<R>& at, const V3<R>& n,
+                       R gap, const V3<R>* middle) {
   using namespace detail;
   const R size = a.reach + a.radius + (b ? b->reach + b->radius + at.offset.norm() : 0);
   const R tolerance = 32 * u<R> * size, depth = std::max<R>(0, -gap);

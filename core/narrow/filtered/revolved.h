@@ -18,13 +18,14 @@ class Revolved {
   V3<R> outward, a, w;  // as in Depth
 
   Revolved(const Difference<R>& d, R size) : d_(d), level_(8 * u<R> * size) {
-    if (!is_revolved(d.a) || !is_revolved(d.b)) return;
+    const Symmetry of_a = symmetry(d.a), of_b = symmetry(d.b);
+    if (of_a == Symmetry::none || of_b == Symmetry::none) return;
     const M3<R>& m = d.at.b_to_a;
-    const bool point = d.a.kind == CoreKind::point || d.b.kind == CoreKind::point;
+    const bool point = of_a == Symmetry::centre || of_b == Symmetry::centre;
     const R tilt = point ? R(0) : std::sqrt(m(0, 2) * m(0, 2) + m(1, 2) * m(1, 2));
     if (!(tilt <= 16 * u<R>)) return;
     // The axis is z in A's frame, unless A is a point.
-    axis_ = d.a.kind == CoreKind::point ? V3<R>(m.col(2)) : V3<R>(V3<R>::UnitZ());
+    axis_ = of_a == Symmetry::centre ? V3<R>(m.col(2)) : V3<R>(V3<R>::UnitZ());
     const V3<R> off = d.at.offset - axis_ * axis_.dot(d.at.offset);
     const R length = std::sqrt(off.squaredNorm());
     out_ = length > level_ ? V3<R>(off * (-1 / length)) : V3<R>(axis_.unitOrthogonal());
@@ -35,10 +36,7 @@ class Revolved {
   }
 
  private:
-  static bool is_revolved(const Body<R>& b) {
-    return b.kind == CoreKind::point || b.kind == CoreKind::segment || b.kind == CoreKind::cylinder ||
-           b.kind == CoreKind::cone;
-  }
+  using Symmetry = convex::Symmetry;
 
   V3<R> in_b(const V3<R>& v) const { return d_.at.b_to_a.transpose() * v; }
 
@@ -57,12 +55,16 @@ class Revolved {
     try_direction(1, 0);
     try_direction(0, 1);
     try_direction(0, -1);
-    for (const Body<R>* b : {&d_.a, &d_.b})
-      if (b->kind == CoreKind::cone) {
-        const R r = b->size[0], h = 2 * b->size[2], length = std::sqrt(r * r + h * h);
-        const bool up = b == &d_.b && d_.at.b_to_a.col(2).dot(axis_) > 0;
-        try_direction(h / length, up ? r / length : -r / length);
-      }
+    try_slants(d_.a, false);
+    try_slants(d_.b, d_.at.b_to_a.col(2).dot(axis_) > 0);
+  }
+
+  // `up`: the body's z is the outward axis; A's is opposite, since it enters with a negative sign.
+  void try_slants(const ConvexBody<R>& b, bool up) {
+    on_core(b, [&]<class C>(const C& core) {
+      if constexpr (C::symmetry == Symmetry::axis)
+        core.for_each_slant([&](R radial, R axial) { try_direction(radial, up ? axial : -axial); });
+    });
   }
 
   // The ends of a body's edge along d, from its support points for directions tilted by edge_tilt to either
@@ -71,7 +73,7 @@ class Revolved {
   struct Edge {
     V3<R> from, to;
   };
-  Edge edge(const Body<R>& b, const V3<R>& d, const V3<R>& across) const {
+  Edge edge(const ConvexBody<R>& b, const V3<R>& d, const V3<R>& across) const {
     const V3<R> at = support_local<R>(b, d);
     Edge e{support_local<R>(b, V3<R>(d - across * edge_tilt)),
            support_local<R>(b, V3<R>(d + across * edge_tilt))};

@@ -19,7 +19,8 @@ R displacement(const PairScene<R>& s) {
 
 // L of truth.md for the pair as represented in R.
 template <class R>
-R scale(const Body<R>& a, const Body<R>& b, const RoundedPose<R>& at_a, const RoundedPose<R>& at_b) {
+R scale(const ConvexBody<R>& a, const ConvexBody<R>& b, const RoundedPose<R>& at_a,
+        const RoundedPose<R>& at_b) {
   return std::max(std::max(a.extent, b.extent),
                   std::max(at_a.t.cwiseAbs().maxCoeff(), at_b.t.cwiseAbs().maxCoeff()));
 }
@@ -118,13 +119,8 @@ void separate_scaled(const RoundedPose<R>& a, const RoundedPose<R>& b, Asked ask
   const R unit = std::ldexp(R(1), -std::ilogb(size)), back = 1 / unit;
   PairScene<R> t = s;
   RoundedPose<R> at_a = a, at_b = b;
-  for (Body<R>* c : {&t.a, &t.b}) {
-    c->size *= unit;
-    c->unit *= unit;
-    c->radius *= unit;
-    c->reach *= unit;
-    c->extent *= unit;
-  }
+  t.a.scale(unit);
+  t.b.scale(unit);
   t.at.offset *= unit;
   at_a.t *= unit;
   at_b.t *= unit;
@@ -237,8 +233,8 @@ void box_box(const PlacedShape& pa, const PlacedShape& pb, Asked asked, Answer<R
     if (asked == Asked::distance) convex_pair(pa, pb, asked, r, s);
     return;
   }
-  s.a = make_body<R>(*pa.shape, pa.graph);
-  s.b = make_body<R>(*pb.shape, pb.graph);
+  s.a = convex_body<R>(*pa.shape, pa.graph);
+  s.b = convex_body<R>(*pb.shape, pb.graph);
   s.at = p.at;
   s.contact = ContactForm::cores;
   s.normal = r.normal = axis.normal;
@@ -278,7 +274,7 @@ template <class R>
 void convex_half_space(const PlacedShape& pa, const PlacedShape& pb, Asked asked, Answer<R>& r,
                        PairScene<R>& s) {
   const RoundedPose<R> a = rounded_pose<R>(pa.pose), b = rounded_pose<R>(pb.pose);
-  s.a = make_body<R>(*pa.shape, pa.graph);
+  s.a = convex_body<R>(*pa.shape, pa.graph);
   const HalfSpace& plane = *std::get_if<HalfSpace>(pb.shape);
   const double length = plane.normal.norm();
   if (!(length > least_normal && length < largest_normal)) return;

@@ -16,7 +16,7 @@ enum class ContactForm {
 /// Input of contact_patch from a pair that has been queried.
 template <class R>
 struct PairScene {
-  Body<R> a, b;
+  ConvexBody<R> a, b;
   Relative<R> at;
   V3<R> normal;  // A's frame; set with `contact` other than point and segments
   V3<R> middle;  // A's frame: halfway between the witness points; set with `has_middle`
@@ -67,8 +67,8 @@ void closed(const PlacedShape& a, const PlacedShape& b, Asked asked, Answer<R>& 
 template <class R>
 void prepare(const PlacedShape& pa, const RoundedPose<R>& a, const PlacedShape& pb, const RoundedPose<R>& b,
              PairScene<R>& s) {
-  s.a = make_body<R>(*pa.shape, pa.graph);
-  s.b = make_body<R>(*pb.shape, pb.graph);
+  s.a = convex_body<R>(*pa.shape, pa.graph);
+  s.b = convex_body<R>(*pb.shape, pb.graph);
   s.at = relative(a, b);
 }
 

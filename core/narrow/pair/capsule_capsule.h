@@ -13,7 +13,8 @@ namespace touchstone::narrow {
 inline Separation capsule_capsule(const ConvexCore<Wide>& a, const ConvexCore<Wide>& b) {
   const WideVec u = a.frame.rotation.col(2), v = b.frame.rotation.col(2);
   const WideVec ca = a.frame.translation, cb = b.frame.translation, r = cb - ca;
-  const Wide ha = a.size.z(), hb = b.size.z();
+  const Wide ha = std::get<convex::SegmentCore<Wide>>(a.core).half_height,
+             hb = std::get<convex::SegmentCore<Wide>>(b.core).half_height;
   WideVec pa = ca, pb = cb, normal = u.unitOrthogonal();
   Wide best = std::numeric_limits<Wide>::infinity();
   const auto consider = [&](Wide s, Wide t, bool inner_s, bool inner_t) {

@@ -7,7 +7,7 @@ namespace touchstone::narrow {
 
 inline Separation sphere_box(const ConvexCore<Wide>& a, const ConvexCore<Wide>& b) {
   const WideVec p = b.frame.rotation.transpose() * (a.frame.translation - b.frame.translation);
-  const WideVec &h = b.size, q = p.cwiseMax(-h).cwiseMin(h);
+  const WideVec h = std::get<convex::BoxCore<Wide>>(b.core).half(), q = p.cwiseMax(-h).cwiseMin(h);
   if (const Wide d = (q - p).norm(); d > 0)
     return certified_or_general(a, b, a.frame.translation, b.frame.rotation * q + b.frame.translation,
                                 b.frame.rotation * WideVec((q - p) / d));

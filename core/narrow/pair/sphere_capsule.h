@@ -11,7 +11,8 @@ namespace touchstone::narrow {
 
 inline Separation sphere_capsule(const ConvexCore<Wide>& a, const ConvexCore<Wide>& b) {
   const WideVec u = b.frame.rotation.col(2), p = a.frame.translation, r = p - b.frame.translation;
-  const Wide h = b.size.z(), s = std::clamp<Wide>(r.dot(u), -h, h);
+  const Wide h = std::get<convex::SegmentCore<Wide>>(b.core).half_height,
+             s = std::clamp<Wide>(r.dot(u), -h, h);
   const WideVec q = b.frame.translation + s * u;
   WideVec v = q - p;
   if (abs(s) < h) v -= u * u.dot(v);

@@ -32,13 +32,13 @@ struct ExtendedPair {
 /// The same in double or float.
 template <class R>
 struct FilteredPair {
-  narrow::filtered::Body<R> a, b;
+  ConvexBody<R> a, b;
   narrow::filtered::Relative<R> at;
   narrow::filtered::Difference<R> difference{a, b, at};
   R size;
   explicit FilteredPair(const ConvexPair& p)
-      : a(narrow::filtered::make_body<R>(p.a)),
-        b(narrow::filtered::make_body<R>(p.b)),
+      : a(convex_body<R>(p.a)),
+        b(convex_body<R>(p.b)),
         at(narrow::filtered::relative(narrow::filtered::rounded_pose<R>(p.at_a),
                                       narrow::filtered::rounded_pose<R>(p.at_b))),
         size(a.reach + b.reach + at.offset.norm()) {}

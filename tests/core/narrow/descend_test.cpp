@@ -66,7 +66,7 @@ TEST_CASE("descend: minimum of a function of one variable, smooth, with a kink, 
 
 TEST_CASE("descend: the axis of a round core", "[narrow][descend]") {
   const auto axis = [](const Shape& s) {
-    return extended::detail::round_axis<Wide>(narrow::make_core(s, WideFrame{}));
+    return on_core(convex_body<Wide>(s), [](const auto& core) { return core.round_axis(); });
   };
   CHECK(axis(Capsule{1, 2}) == 2);
   CHECK(axis(Cylinder{1, 2}) == 2);

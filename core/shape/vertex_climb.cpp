@@ -1,13 +1,13 @@
-#include "core/narrow/filtered/vertex_climb.h"
+#include "core/shape/vertex_climb.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
 
-#include "core/narrow/filtered/vertex_scan.h"
+#include "core/shape/vertex_scan.h"
 
-namespace touchstone::narrow::filtered {
+namespace touchstone::convex {
 namespace {
 
 template <class R>
@@ -145,4 +145,4 @@ std::int32_t climb_from(const HullGraph& g, std::span<const Vec3> v, const V3<do
   return Climb<double>(g, v, d).climb(from, 0, unique);
 }
 
-}  // namespace touchstone::narrow::filtered
+}  // namespace touchstone::convex

@@ -3,7 +3,7 @@
 // collision detection of convex objects"). Departure: the start comes from a table of directions instead of
 // the last support point, so that no state is kept and queries can run concurrently. The graph is built once
 // per hull and passed to queries by PlacedShape::graph; a query without one scans every vertex. The answers
-// are the same: climbing finds exactly the vertex that the scan finds (core/narrow/filtered/vertex_climb.h).
+// are the same: climbing finds exactly the vertex that the scan finds (core/shape/vertex_climb.h).
 //
 // This relies on the surface being that of a convex polytope exactly, not just to qhull's rounding.
 // Construction proves it (Mehlhorn, Näher, Seidel, Seel, Schirra, Uhrig 1999, "Checking geometric programs or
@@ -21,12 +21,13 @@
 // rounding of their corners (a rotated prism).
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
-#include "core/shape/hull.h"
-
 namespace touchstone {
+
+struct Hull;
 
 /// Hulls with fewer vertices get no graph: scanning all of them, four at once, is as fast. With one direction
 /// after another, the two break even at 80 vertices (128: 52 against 82 ns, 512: 47 against 208; EPYC,

@@ -1,16 +1,16 @@
-#include "core/narrow/filtered/vertex_scan.h"
+#include "core/shape/vertex_scan.h"
 
 #include <algorithm>
 #include <cstdint>
 #include <limits>
 
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "core/narrow/filtered/vertex_scan.cpp"
+#define HWY_TARGET_INCLUDE "core/shape/vertex_scan.cpp"
 #include <hwy/foreach_target.h>  // includes this file once per target
 #include <hwy/highway.h>
 
 HWY_BEFORE_NAMESPACE();
-namespace touchstone::narrow::filtered::HWY_NAMESPACE {
+namespace touchstone::convex::HWY_NAMESPACE {
 namespace {
 
 namespace hn = hwy::HWY_NAMESPACE;
@@ -150,12 +150,12 @@ double largest(const double* p, std::size_t n) {
 }
 
 }  // namespace
-}  // namespace touchstone::narrow::filtered::HWY_NAMESPACE
+}  // namespace touchstone::convex::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
 
-namespace touchstone::narrow::filtered {
+namespace touchstone::convex {
 
 HWY_EXPORT(farthest_64);
 HWY_EXPORT(farthest_32);
@@ -185,6 +185,6 @@ double largest_norm_sq(std::span<const Vec3> v) {
   return HWY_DYNAMIC_DISPATCH(largest)(v.front().data(), v.size());
 }
 
-}  // namespace touchstone::narrow::filtered
+}  // namespace touchstone::convex
 
 #endif

@@ -1,4 +1,4 @@
-// Support mapping of a large hull by climbing along its edges (core/narrow/hull_graph.h). Finds the same
+// Support mapping of a large hull by climbing along its edges (core/shape/hull_graph.h). Finds the same
 // vertex, bit for bit, as farthest_vertex over all vertices:
 //
 // Let f be the computed support value, t the true one, and |f − t| <= e for all vertices. Climbing by f ends
@@ -17,9 +17,9 @@
 #include <span>
 
 #include "core/math/wide.h"
-#include "core/narrow/hull_graph.h"
+#include "core/shape/hull_graph.h"
 
-namespace touchstone::narrow::filtered {
+namespace touchstone::convex {
 
 /// Index of the first vertex farthest along d. The graph is not empty and belongs to v.
 std::size_t farthest_vertex(const HullGraph& g, std::span<const Vec3> v, const V3<double>& d);
@@ -35,4 +35,4 @@ std::size_t vertices_above(const HullGraph& g, std::span<const Vec3> v, const V3
 /// Climbs from `from` to a vertex without a higher neighbour.
 std::int32_t climb_from(const HullGraph& g, std::span<const Vec3> v, const V3<double>& d, std::int32_t from);
 
-}  // namespace touchstone::narrow::filtered
+}  // namespace touchstone::convex

@@ -1,12 +1,13 @@
-#include "core/narrow/hull_graph.h"
+#include "core/shape/hull_graph.h"
 
 #include <algorithm>
 #include <cmath>
 #include <tuple>
 
 #include "core/math/expansion.h"
-#include "core/narrow/filtered/vertex_climb.h"
-#include "core/narrow/filtered/vertex_scan.h"
+#include "core/shape/hull.h"
+#include "core/shape/vertex_climb.h"
+#include "core/shape/vertex_scan.h"
 
 namespace touchstone {
 namespace {
@@ -31,7 +32,7 @@ class Builder {
   explicit Builder(const Hull& h) : v_(h.vertices), faces_(h.faces) {}
 
   bool is_proven() {
-    reach_ = std::sqrt(narrow::filtered::largest_norm_sq(v_));
+    reach_ = std::sqrt(convex::largest_norm_sq(v_));
     const auto is_fit = [](double x) {
       return x == 0 || (std::abs(x) > least_coordinate && std::abs(x) < largest_coordinate);
     };
@@ -128,7 +129,7 @@ class Builder {
           d[face / 2] = face % 2 ? -1 : 1;
           d[(face / 2 + 1) % 3] = (2 * row + 1.0) / c - 1;
           d[(face / 2 + 2) % 3] = (2 * column + 1.0) / c - 1;
-          last = narrow::filtered::climb_from(g, v_, d, last);
+          last = convex::climb_from(g, v_, d, last);
           g.start.push_back(static_cast<std::uint16_t>(last));
         }
   }

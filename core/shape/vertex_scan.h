@@ -8,7 +8,7 @@
 
 #include "core/math/wide.h"
 
-namespace touchstone::narrow::filtered {
+namespace touchstone::convex {
 
 /// Index of the first vertex farthest along d. v is not empty.
 std::size_t farthest_vertex(std::span<const Vec3> v, const V3<double>& d);
@@ -26,4 +26,4 @@ std::size_t vertices_above(std::span<const Vec3> v, const V3<float>& d, float le
 /// Square of the largest distance from the origin.
 double largest_norm_sq(std::span<const Vec3> v);
 
-}  // namespace touchstone::narrow::filtered
+}  // namespace touchstone::convex
