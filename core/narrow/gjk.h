@@ -8,6 +8,8 @@
 // falls back where the bounds do not meet; in extended precision (extended/gjk.h) it decides the rest.
 #pragma once
 
+#include <type_traits>
+
 #include "core/narrow/simplex.h"
 
 namespace touchstone::narrow {
@@ -55,7 +57,7 @@ void prefer_own_direction(const D& d, GjkResult<R>& g, const V3<R>& v, R length,
 /// D: `d.support(n)` is the Vertex of B − A farthest along n. `start`: a first direction from A to B, or
 /// zero. Help proposes directions and may end the iteration: `settle(g)` is asked before each support point,
 /// `direction(g, n, w)` replaces the next direction n, w being the support point of the best lower bound, and
-/// `see(s)` is told each support point.
+/// `see(s)` is told each support point; `careful`: of reduce().
 template <class R, class D, class Help>
 GjkResult<R> gjk(const D& d, const GjkLimits<R>& limit, const V3<R>& start, Help&& help) {
   using std::sqrt;
@@ -96,7 +98,7 @@ GjkResult<R> gjk(const D& d, const GjkLimits<R>& limit, const V3<R>& start, Help
     if (g.simplex.size == 4 || (idle > limit.idle && !better)) return g;
     g.simplex.p[static_cast<std::size_t>(g.simplex.size++)] = s;
     const R last = dist_sq;
-    if (reduce(g.simplex, v, dist_sq, g.margin)) {
+    if (reduce<std::remove_reference_t<Help>::careful>(g.simplex, v, dist_sq, g.margin)) {
       g.status = GjkStatus::enclosed;
       return g;
     }

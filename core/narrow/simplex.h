@@ -87,13 +87,18 @@ void take_edge(const Simplex<R>& s, int i, int j, Foot<R>& best) {
   best.weight[1] = k;
 }
 
-template <class R>
+/// `careful`: a nearly flat triangle is replaced by its edges, and the normal is upright. Extended precision
+/// decides what doubles could not, and cannot afford a wrong face; doubles can, and it would cost them time.
+template <bool careful, class R>
 void take_triangle(const Simplex<R>& s, int i, int j, int k, Foot<R>& best) {
   const V3<R>&a = s.p[static_cast<std::size_t>(i)].w, &b = s.p[static_cast<std::size_t>(j)].w,
         &c = s.p[static_cast<std::size_t>(k)].w;
-  const V3<R> n = triangle_normal(a, b, c);
+  const V3<R> n = careful ? upright_normal(a, b, c) : triangle_normal(a, b, c);
+  const R flat = 16 * std::numeric_limits<R>::epsilon();
+  const bool skip =
+      careful && !(n.squaredNorm() > flat * flat * (b - a).squaredNorm() * (c - a).squaredNorm());
   const R wa = n.dot(b.cross(c)), wb = n.dot(c.cross(a)), wc = n.dot(a.cross(b)), sum = wa + wb + wc;
-  if (wa > 0 && wb > 0 && wc > 0) {
+  if (!skip && wa > 0 && wb > 0 && wc > 0) {
     const R aa = a.squaredNorm(), bb = b.squaredNorm(), cc = c.squaredNorm();
     const V3<R>& nearest = aa <= bb && aa <= cc ? a : (bb <= cc ? b : c);
     const V3<R> x = n * (nearest.dot(n) / n.squaredNorm());
@@ -107,16 +112,16 @@ void take_triangle(const Simplex<R>& s, int i, int j, int k, Foot<R>& best) {
     best.weight = {wa * share, wb * share, wc * share};
     return;
   }
-  if (!(wa > 0)) take_edge(s, j, k, best);
-  if (!(wb > 0)) take_edge(s, k, i, best);
-  if (!(wc > 0)) take_edge(s, i, j, best);
+  if (skip || !(wa > 0)) take_edge(s, j, k, best);
+  if (skip || !(wb > 0)) take_edge(s, k, i, best);
+  if (skip || !(wc > 0)) take_edge(s, i, j, best);
 }
 
 /// Takes the faces that have the origin on their outer side; if there are none, the tetrahedron encloses the
 /// origin, and `margin` is its least distance to a plane, less the possible rounding of the normal. The face
 /// opposite the newest (last) corner is tested last, and only if the others have not improved on `last_sq`
 /// (skipping it entirely does not work: near triangles, the iteration stalls).
-template <class R>
+template <bool careful, class R>
 bool take_tetrahedron(const Simplex<R>& s, R last_sq, Foot<R>& best, R& margin) {
   using std::abs;
   using std::sqrt;
@@ -141,14 +146,14 @@ bool take_tetrahedron(const Simplex<R>& s, R last_sq, Foot<R>& best, R& margin) 
     }
     if (!outside) continue;
     enclosed = false;
-    take_triangle(s, f[0], f[1], f[2], best);
+    take_triangle<careful>(s, f[0], f[1], f[2], best);
   }
   if (enclosed) {
     margin = std::numeric_limits<R>::infinity();
     for (std::size_t i = 0; i < 4; ++i) margin = std::min<R>(margin, height[i] / sqrt(square[i]));
   }
   // Rounding rejected every face: fall back to the last one.
-  if (!enclosed && best.size == 0) take_triangle(s, 0, 2, 1, best);
+  if (!enclosed && best.size == 0) take_triangle<careful>(s, 0, 2, 1, best);
   return enclosed;
 }
 
@@ -156,11 +161,11 @@ bool take_tetrahedron(const Simplex<R>& s, R last_sq, Foot<R>& best, R& margin) 
 
 /// Reduces the simplex to the corners that support its nearest point; true: it encloses the origin
 /// (unchanged). dist_sq: in, of the last nearest point; out, of this one.
-template <class R>
+template <bool careful = false, class R>
 bool reduce(Simplex<R>& s, V3<R>& v, R& dist_sq, R& margin) {
   Foot<R> foot{};
-  if (s.size == 4 && detail::take_tetrahedron(s, dist_sq, foot, margin)) return true;
-  if (s.size == 3) detail::take_triangle(s, 0, 1, 2, foot);
+  if (s.size == 4 && detail::take_tetrahedron<careful>(s, dist_sq, foot, margin)) return true;
+  if (s.size == 3) detail::take_triangle<careful>(s, 0, 1, 2, foot);
   if (s.size == 2) detail::take_edge(s, 0, 1, foot);
   if (s.size == 1) detail::take_corner(s, 0, foot);
   std::array<Vertex<R>, 3> kept;

@@ -20,6 +20,7 @@
 #include <vector>
 
 #include "core/narrow/extended/gjk.h"
+#include "core/narrow/start_tetrahedron.h"
 
 namespace touchstone::narrow::extended {
 
@@ -137,43 +138,12 @@ class Epa {
     return longest > 0 ? upright_normal<R>(a, b, c).norm() / sqrt(longest) : R(0);
   }
 
-  bool add_farthest(std::vector<Vertex<R>>& s, std::span<const V3<R>> directions, auto&& distance) {
-    R best = thin_;
-    Vertex<R> chosen;
-    for (const V3<R>& m : directions) {
-      const Vertex<R> p = probe(m);
-      if (const R d = distance(p.w); d > best) {
-        best = d;
-        chosen = p;
-      }
-    }
-    if (!(best > thin_)) return false;
-    s.push_back(chosen);
-    return true;
-  }
-
-  // Extends the simplex to a tetrahedron with support points away from the current point, line or plane;
-  // false when D is flat.
+  // Extends the simplex to a tetrahedron; false when D is flat.
   bool grow(std::vector<Vertex<R>>& s) {
-    if (s.size() == 1) {
-      const V3<R> x = V3<R>::UnitX(), y = V3<R>::UnitY(), z = V3<R>::UnitZ();
-      const std::array<V3<R>, 6> axes{x, V3<R>(-x), y, V3<R>(-y), z, V3<R>(-z)};
-      if (!add_farthest(s, axes, [&](const V3<R>& p) { return (p - s[0].w).norm(); })) return false;
-    }
-    if (s.size() == 2) {
-      const V3<R> d = (s[1].w - s[0].w).normalized();
-      const V3<R> u = d.unitOrthogonal(), v = d.cross(u);
-      const R c = R(0.5), h = sqrt(R(3)) / 2;
-      const std::array<V3<R>, 6> around{u,         V3<R>(u * c + v * h),  V3<R>(v * h - u * c),
-                                        V3<R>(-u), V3<R>(-u * c - v * h), V3<R>(u * c - v * h)};
-      if (!add_farthest(s, around, [&](const V3<R>& p) { return d.cross(p - s[0].w).norm(); })) return false;
-    }
-    if (s.size() == 3) {
-      const V3<R> n = (s[1].w - s[0].w).cross(s[2].w - s[0].w).normalized();
-      const std::array<V3<R>, 2> sides{n, V3<R>(-n)};
-      if (!add_farthest(s, sides, [&](const V3<R>& p) { return abs(n.dot(p - s[0].w)); })) return false;
-    }
-    return true;
+    return grow_to_tetrahedron<R>(
+        static_cast<int>(s.size()), thin_,
+        [&](int i) -> const V3<R>& { return s[static_cast<std::size_t>(i)].w; },
+        [&](const V3<R>& n) { return probe(n); }, [&](const Vertex<R>& v) { s.push_back(v); });
   }
 
   void build_tetrahedron(const std::vector<Vertex<R>>& s) {
@@ -220,7 +190,7 @@ class Epa {
     Simplex<R> s;
     for (std::size_t k = 0; k < 3; ++k) s.p[k].w = point(f.v[k]);
     Foot<R> foot;
-    narrow::detail::take_triangle(s, 0, 1, 2, foot);
+    narrow::detail::take_triangle<true>(s, 0, 1, 2, foot);
     return foot;
   }
 

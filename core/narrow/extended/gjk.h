@@ -29,6 +29,7 @@ namespace detail {
 template <class R>
 class Recent {
  public:
+  static constexpr bool careful = true;
   bool settle(const GjkResult<R>&) const { return false; }
   V3<R> direction(const GjkResult<R>&, const V3<R>& n, const V3<R>&) const { return n; }
   void see(const Vertex<R>& s) { seen_[count_++ % seen_.size()] = s; }
@@ -82,7 +83,9 @@ Distance<R> gjk(const ConvexCore<R>& a, const ConvexCore<R>& b, R tolerance, R t
   const Difference<R> d{a, b};
   const GjkLimits<R> limit{tolerance, std::numeric_limits<R>::infinity(), touching, iterations, idle};
   detail::Recent<R> recent;
-  Distance<R> g{narrow::gjk<R>(d, limit, V3<R>(b.frame.translation - a.frame.translation), recent), {}, {}};
+  Distance<R> g;
+  static_cast<GjkResult<R>&>(g) =
+      narrow::gjk<R>(d, limit, V3<R>(b.frame.translation - a.frame.translation), recent);
   // A support plane that separates the origin is proof; the signs of a flat tetrahedron are not.
   if (g.status == GjkStatus::enclosed && g.lower > 0) g.status = GjkStatus::stalled;
   if (g.status == GjkStatus::stalled) {

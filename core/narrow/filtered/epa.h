@@ -7,6 +7,7 @@
 #pragma once
 
 #include "core/narrow/filtered/gjk.h"
+#include "core/narrow/start_tetrahedron.h"
 
 namespace touchstone::narrow::filtered {
 
@@ -68,7 +69,7 @@ class Expander {
       if (vertices_ + 1 > vertex_capacity ||
           (vertices_ > patience && result_.upper - result_.lower <= 3 * tolerance_))
         return finish(ExpandEnd::full, f);
-      if (const ExpandEnd end = insert(f, s); end != ExpandEnd::closed) return finish(end, f);
+      if (!insert(f, s)) return finish(ExpandEnd::broken, f);
     }
   }
 
@@ -156,27 +157,15 @@ class Expander {
     }
     drop_repeats();
     if (vertices_ == 4) vertices_ = 3;
-    if (vertices_ == 1 && !add_farthest({V3<R>::UnitX(), V3<R>::UnitY(), V3<R>::UnitZ()},
-                                        [&](const V3<R>& p) { return (p - w(0)).norm(); }))
-      return false;
     if (vertices_ == 3) {
       const R area = triangle_normal(w(0), w(1), w(2)).norm();
       const R longest = std::sqrt(std::max(
           (w(1) - w(0)).squaredNorm(), std::max((w(2) - w(1)).squaredNorm(), (w(0) - w(2)).squaredNorm())));
       if (!(area > thin_ * longest)) vertices_ = 2;
     }
-    if (vertices_ == 2) {
-      const V3<R> e = w(1) - w(0), k = e / e.norm(), x = k.unitOrthogonal(), y = k.cross(x);
-      const R c = R(0.5), h = R(0.86602540378443864676);  // cosine and sine of 60°
-      if (!add_farthest({x, V3<R>(c * x + h * y), V3<R>(h * y - c * x)},
-                        [&](const V3<R>& p) { return k.cross(p - w(0)).norm(); }))
-        return false;
-    }
-    if (vertices_ == 3) {
-      const V3<R> n = triangle_normal(w(0), w(1), w(2)).normalized();
-      if (!add_farthest({n, n, n}, [&](const V3<R>& p) { return std::abs(n.dot(p - w(0))); })) return false;
-    }
-    return true;
+    return grow_to_tetrahedron<R>(
+        vertices_, thin_, [&](int i) -> const V3<R>& { return w(i); },
+        [&](const V3<R>& n) { return probe(n); }, [&](const Vertex<R>& v) { set_vertex(vertices_++, v); });
   }
 
   void drop_repeats() {
@@ -190,23 +179,6 @@ class Expander {
       }
     }
     vertices_ = kept;
-  }
-
-  template <class F>
-  bool add_farthest(const std::array<V3<R>, 3>& directions, F&& distance) {
-    R best = thin_;
-    Vertex<R> chosen;
-    for (const V3<R>& m : directions)
-      for (const R sign : {R(1), R(-1)}) {
-        const Vertex<R> p = probe(sign * m);
-        if (const R far = distance(p.w); far > best) {
-          best = far;
-          chosen = p;
-        }
-      }
-    if (!(best > thin_)) return false;
-    set_vertex(vertices_++, chosen);
-    return true;
   }
 
   bool build() {
@@ -317,25 +289,27 @@ class Expander {
     return true;
   }
 
-  ExpandEnd insert(int f, const Vertex<R>& s) {
+  // False: the horizon could not be repaired.
+  bool insert(int f, const Vertex<R>& s) {
     ++stamp_;
     regions_ = 0;
     take(f);
     flood(0, s.w);
     for (;;) {
       collect();
-      if (edges_ < 3) return ExpandEnd::broken;
+      if (edges_ < 3) return false;
       const int before = regions_;
       for (int i = 0; i < edges_; ++i)
         if (is_bad(edge_[i], s.w) && facet_[edge_[i].behind].stamp != stamp_) take(edge_[i].behind);
       if (regions_ == before) break;
       flood(before, s.w);
     }
-    if (!order()) return ExpandEnd::broken;
-    return fan(s);
+    if (!order()) return false;
+    fan(s);
+    return true;
   }
 
-  ExpandEnd fan(const Vertex<R>& s) {
+  void fan(const Vertex<R>& s) {
     // Storage of dead facets is reused.
     for (int i = 0; i < regions_; ++i) {
       key_[region_[i]] = rank_[region_[i]] = infinite;
@@ -345,7 +319,6 @@ class Expander {
     set_vertex(vertices_++, s);
     for (int i = 0; i < edges_; ++i) slot_[i] = free_count_ > 0 ? free_[--free_count_] : fresh();
     for (int i = 0; i < edges_; ++i) {
-      if (slot_[i] < 0) return ExpandEnd::full;
       const Edge& e = edge_[i];
       Facet& f = facet_[slot_[i]];
       f.v = {e.from, e.to, apex};
@@ -358,10 +331,10 @@ class Expander {
       for (std::size_t k = 0; k < 3; ++k)
         if (behind.v[k] == e.to && behind.v[(k + 1) % 3] == e.from) behind.adjacent[k] = slot_[i];
     }
-    return ExpandEnd::closed;
   }
 
-  short fresh() { return facets_ < facet_capacity ? static_cast<short>(facets_++) : short(-1); }
+  // The surface is closed and of one piece: of V vertices, it has 2V − 4 facets, which are fewer than 4V.
+  short fresh() { return static_cast<short>(facets_++); }
 
   // ---- end
 
@@ -370,7 +343,7 @@ class Expander {
     for (std::size_t k = 0; k < 3; ++k) s.p[k].w = w_[facet_[f].v[k]];
     s.size = 3;
     Foot<R> foot;
-    narrow::detail::take_triangle(s, 0, 1, 2, foot);
+    narrow::detail::take_triangle<false>(s, 0, 1, 2, foot);
     return foot;
   }
 

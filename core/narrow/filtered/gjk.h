@@ -28,6 +28,7 @@ V3<R> newton_direction(const Difference<R>& d, const V3<R>& n, const V3<R>& w) {
 template <class R>
 class CurvedHelp {
  public:
+  static constexpr bool careful = false;
   CurvedHelp(const Difference<R>& d, R size, const GjkLimits<R>& limit)
       : d_(d),
         size_(size),
