@@ -183,6 +183,7 @@ inline constexpr std::array<DoubleDouble, 9> sines = {{{0},
 
 /// x − k·π/16 for an integer k; π/16 in 160 bits, and its sum with k ones.
 inline DoubleDouble without_sixteenths(const DoubleDouble& x, double k) {
+  // π/16 = a + b + c to 160 bits.
   constexpr double a = 0x1.921fb54442d18p-3, b = 0x1.1a62633145c07p-57, c = -0x1.f1976b7ed8fbcp-113;
   const Rounded ka = two_product(k, a), kb = two_product(k, b);
   return ((x - DoubleDouble(ka.value, ka.error)) - DoubleDouble(kb.value, kb.error)) - k * c;
@@ -238,16 +239,23 @@ class std::numeric_limits<touchstone::DoubleDouble> {
   static constexpr std::float_round_style round_style = std::round_indeterminate;
   static constexpr int radix = 2, digits = 102, digits10 = 30, max_digits10 = 33;
   static constexpr int min_exponent = -968, max_exponent = 1024, min_exponent10 = -291, max_exponent10 = 308;
-  static constexpr T min() { return 0x1p-969; }
-  static constexpr T max() { return {0x1.fffffffffffffp+1023, 0x1.fffffffffffffp+969}; }
+  // Both parts are normal doubles.
+  static constexpr double least = 0x1p-969;
+  // The parts of the largest number.
+  static constexpr double most_high = 0x1.fffffffffffffp+1023, most_low = 0x1.fffffffffffffp+969;
+  // The last of the 102 digits of 1.
+  static constexpr double last_digit = 0x1p-101;
+  static constexpr T min() { return least; }
+  static constexpr T max() { return {most_high, most_low}; }
   static constexpr T lowest() { return -max(); }
-  static constexpr T epsilon() { return 0x1p-101; }
+  static constexpr T epsilon() { return last_digit; }
   static constexpr T round_error() { return 1; }
   static constexpr T infinity() { return std::numeric_limits<double>::infinity(); }
   static constexpr T quiet_NaN() { return std::numeric_limits<double>::quiet_NaN(); }
   static constexpr T denorm_min() { return std::numeric_limits<double>::denorm_min(); }
 };
 
+// Two doubles that sum to π.
 template <>
 inline constexpr touchstone::DoubleDouble std::numbers::pi_v<touchstone::DoubleDouble> = {
     0x1.921fb54442d18p+1, 0x1.1a62633145c07p-53};
@@ -263,5 +271,7 @@ struct Eigen::NumTraits<touchstone::DoubleDouble> : Eigen::GenericNumTraits<touc
     AddCost = 20,
     MulCost = 25
   };
-  static touchstone::DoubleDouble dummy_precision() { return 0x1p-90; }
+  // For Eigen's approximate comparisons: ten bits above the rounding.
+  static constexpr double loose_precision = 0x1p-90;
+  static touchstone::DoubleDouble dummy_precision() { return loose_precision; }
 };

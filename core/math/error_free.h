@@ -31,8 +31,11 @@ struct Halves {
   double high, low;  // of 26 bits each; the low half has a sign of its own
 };
 
+/// 2^27 + 1, which splits 53 bits in two halves (Dekker 1971).
+inline constexpr double splitter = 0x1.0000002p+27;
+
 constexpr Halves split(double a) {
-  const double c = 0x1.0000002p+27 * a, high = c - (c - a);
+  const double c = splitter * a, high = c - (c - a);
   return {high, a - high};
 }
 
