@@ -146,15 +146,15 @@ struct SineCosine {
 
 namespace detail {
 
-/// 1/n!, alternating in sign: +, −, +, ... of the given first n and step 2.
+/// 1/n!
 constexpr DoubleDouble inverse_factorial(int n) {
   double product = 1;  // exact up to 22!
   for (int k = 2; k <= n; ++k) product *= k;
   return DoubleDouble(1) / product;
 }
 
-/// Σ (−z)ᵏ/(first + 2k)!, k = 0 .. 7, for 0 <= z <= (π/32)². The last four terms are below 2⁻⁴⁹ of the first,
-/// so doubles carry them.
+/// Σ (−z)ᵏ/(first + 2k)!, k = 0 .. 7, for 0 <= z <= (π/32)². The last four terms are below 2⁻⁴⁷ of the first,
+/// so doubles are enough for them.
 inline DoubleDouble alternating_series(int first, const DoubleDouble& z) {
   static constexpr auto from = [](int n) {
     std::array<DoubleDouble, 8> c;
@@ -181,7 +181,7 @@ inline constexpr std::array<DoubleDouble, 9> sines = {{{0},
                                                        {0x1.f6297cff75cb0p-1, 0x1.562172a361fd3p-56},
                                                        {1}}};
 
-/// x − k·π/16 for an integer k; π/16 in 160 bits, and its sum with k ones.
+/// x − k·π/16 for an integer k, with π/16 to 160 bits.
 inline DoubleDouble without_sixteenths(const DoubleDouble& x, double k) {
   constexpr double a = 0x1.921fb54442d18p-3, b = 0x1.1a62633145c07p-57, c = -0x1.f1976b7ed8fbcp-113;
   const Rounded ka = two_product(k, a), kb = two_product(k, b);
