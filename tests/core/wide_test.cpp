@@ -67,6 +67,25 @@ TEST_CASE("signed distances in extended precision scale with the unit of length"
   CHECK(answered > 40);
 }
 
+TEST_CASE("signed distances do not depend on the unit of length", "[wide]") {
+  Rng r(13);
+  int answered = 0;
+  for (int i = 0; i < 600; ++i) {
+    const Pair p = plain_pair(r);
+    const DistanceAnswer x = distance(p.placed_a(), p.placed_b());
+    if (x.outcome != Outcome::answered) continue;
+    const int e = units[i % std::size(units)];
+    const Pair q = in_unit(p, e);
+    const DistanceAnswer y = distance(q.placed_a(), q.placed_b());
+    INFO("pair " << i << " of kinds " << p.a.index() << " and " << p.b.index() << ", unit 2^" << e);
+    REQUIRE(y.outcome == Outcome::answered);
+    ++answered;
+    CHECK(std::abs(x.distance - std::ldexp(y.distance, -e)) <= 0x1p-46 * size_of(p));
+    CHECK(overlap(q.placed_a(), q.placed_b()).overlap == (y.distance <= 0));
+  }
+  CHECK(answered > 500);
+}
+
 TEST_CASE("times of impact do not depend on the unit of length", "[wide]") {
   Rng r(12);
   int hits = 0;

@@ -26,7 +26,7 @@ void finish(Answer& c) {
 // Support points facing each other at a distance: the plane between them shows that nothing is nearer.
 Answer apart(Rng& r, int i) {
   Answer c{
-      random_convex(r, convex_kinds[i % 7]), random_convex(r, convex_kinds[i / 7 % 7]), {}, {}, {}, 0, 0};
+      random_convex(r, tested_kinds[i % 7]), random_convex(r, tested_kinds[i / 7 % 7]), {}, {}, {}, 0, 0};
   c.pose_a.translation = r.vector(0, r.chance(0.2) ? 100 : 1);
   c.pose_a.rotation = r.rotation();
   c.pose_b.rotation = r.rotation();
@@ -41,7 +41,7 @@ Answer apart(Rng& r, int i) {
 // The centre of a ball outside A, above a support point: the depth is the radius minus the height.
 Answer ball_in_side(Rng& r, int i) {
   const double radius = log_uniform(r, -4, 1);
-  Answer c{random_convex(r, convex_kinds[i % 7]), Sphere{radius}, {}, {}, {}, 0, 0};
+  Answer c{random_convex(r, tested_kinds[i % 7]), Sphere{radius}, {}, {}, {}, 0, 0};
   c.pose_a.translation = r.vector(0, 2);
   c.pose_a.rotation = r.rotation();
   c.pose_b.rotation = r.rotation();

@@ -30,7 +30,7 @@ TEST_CASE("every certificate of a pair in general position is accepted after a r
   Rng r(41);
   int planes = 0, points = 0, depths = 0, refused_points = 0, refused_depths = 0, loose = 0;
   for (int i = 0; i < 490; ++i) {
-    const Shape x = random_convex(r, convex_kinds[i % 7]), y = random_convex(r, convex_kinds[i / 7 % 7]);
+    const Shape x = random_convex(r, tested_kinds[i % 7]), y = random_convex(r, tested_kinds[i / 7 % 7]);
     const Pose px = random_pose(r, 0.5), py = random_pose(r, 0.9);
     const Placed a{&x, px}, b{&y, py};
     const PairTruth t = judge_pair(a, b);
@@ -101,7 +101,7 @@ TEST_CASE("planes of cylinder, cone and ellipsoid are decided through their squa
   Rng r(43);
   int held = 0, refused = 0;
   for (int i = 0; i < 600; ++i) {
-    const Shape x = random_convex(r, convex_kinds[4 + i % 3]), dot_shape = Sphere{0};
+    const Shape x = random_convex(r, tested_kinds[4 + i % 3]), dot_shape = Sphere{0};
     const Pose p = random_pose(r, 1);
     const Vec3 n = r.unit_vector();
     const Vec3 s = world_support(x, p, n);
@@ -229,7 +229,7 @@ TEST_CASE("depth in a half-space is certified from both sides", "[referee][check
   int checked = 0;
   for (int i = 0; i < 400; ++i) {
     const Shape h = HalfSpace{r.unit_vector(), r.uniform(-0.2, 0.2)};
-    const Shape x = random_convex(r, convex_kinds[i % 7]);
+    const Shape x = random_convex(r, tested_kinds[i % 7]);
     const Pose ph = random_pose(r, 0.2), px = random_pose(r, 0.3);
     const Placed plane{&h, ph}, body{&x, px};
     const bool first = r.chance(0.5);

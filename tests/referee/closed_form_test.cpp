@@ -94,7 +94,7 @@ TEST_CASE("half-space: the gap is one support value along its normal, and the ve
   int overlaps = 0, total = 0;
   for (int i = 0; i < 3000; ++i) {
     const double size = r.binary_scale(-10, 10);
-    const Shape body = random_convex(r, convex_kinds[r.below(7)], size);
+    const Shape body = random_convex(r, tested_kinds[r.below(7)], size);
     const Vec3 n = r.unit_vector() * r.uniform(0.1, 10);
     const Shape h = HalfSpace{n, size * r.uniform(-1, 1) * n.norm()};
     const Pose hp{size * r.unit_vector(), {}}, bp{size * 1.5 * r.unit_vector(), r.rotation()};

@@ -9,7 +9,7 @@ TEST_CASE("answer first: the bracket of a pair placed at a known gap contains th
   Rng r(31337);
   int reached = 0, undecided = 0;
   for (int i = 0; i < 6000; ++i) {
-    const ShapeKind ka = convex_kinds[r.below(7)], kb = convex_kinds[r.below(7)];
+    const ShapeKind ka = tested_kinds[r.below(7)], kb = tested_kinds[r.below(7)];
     const double size = r.binary_scale(-19, 19), offset = r.chance(0.2) ? 1e6 : 1;
     const Shape sa = random_convex(r, ka, size), sb = random_convex(r, kb, size);
     const Vec3 n = r.unit_vector();
@@ -39,8 +39,8 @@ TEST_CASE("answer first: the bracket of a pair placed at a known gap contains th
 TEST_CASE("no sampled direction beats the lower bound of the depth or exceeds the distance", "[referee]") {
   Rng r(99);
   int overlaps = 0, cases = 0;
-  for (ShapeKind ka : convex_kinds)
-    for (ShapeKind kb : convex_kinds)
+  for (ShapeKind ka : tested_kinds)
+    for (ShapeKind kb : tested_kinds)
       for (int i = 0; i < 8; ++i) {
         const Shape sa = random_convex(r, ka), sb = random_convex(r, kb);
         const Pose pa{Vec3::Zero(), r.rotation()}, pb{r.uniform(0, 1.2) * r.unit_vector(), r.rotation()};
@@ -81,7 +81,7 @@ TEST_CASE("brackets are narrow: polytope and rounded pairs always, curved pairs 
   const auto pairs = [&](int first, int last, auto&& visit) {
     for (int x = first; x < last; ++x)
       for (int y = 0; y < 7; ++y)
-        if (first > 0 || y < last) visit(convex_kinds[x], convex_kinds[y]);
+        if (first > 0 || y < last) visit(tested_kinds[x], tested_kinds[y]);
   };
   int wide = 0, cases = 0, undecided = 0;
   const auto measure = [&](ShapeKind ka, ShapeKind kb, bool exact) {
@@ -136,8 +136,8 @@ TEST_CASE("swapping the bodies mirrors the answer", "[referee][relation]") {
   Rng r(8);
   int cases = 0;
   for (int i = 0; i < 1500; ++i) {
-    const Shape sa = random_convex(r, convex_kinds[r.below(7)]),
-                sb = random_convex(r, convex_kinds[r.below(7)]);
+    const Shape sa = random_convex(r, tested_kinds[r.below(7)]),
+                sb = random_convex(r, tested_kinds[r.below(7)]);
     const Placed a{&sa, Pose{Vec3::Zero(), r.rotation()}},
         b{&sb, Pose{r.uniform(0, 2) * r.unit_vector(), r.rotation()}};
     const PairTruth t = judge_pair(a, b), u = judge_pair(b, a);
@@ -153,8 +153,8 @@ TEST_CASE("hints are tried and never trusted", "[referee]") {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   int cases = 0;
   for (int i = 0; i < 500; ++i) {
-    const Shape sa = random_convex(r, convex_kinds[r.below(4)]),
-                sb = random_convex(r, convex_kinds[r.below(4)]);
+    const Shape sa = random_convex(r, tested_kinds[r.below(4)]),
+                sb = random_convex(r, tested_kinds[r.below(4)]);
     const Placed a{&sa, Pose{Vec3::Zero(), r.rotation()}},
         b{&sb, Pose{r.uniform(0, 2) * r.unit_vector(), r.rotation()}};
     const PairTruth plain = judge_pair(a, b);
@@ -174,7 +174,7 @@ TEST_CASE("the outer box holds the body and is tight to rounding", "[referee]") 
   Rng r(21);
   int cases = 0;
   for (int i = 0; i < 2000; ++i) {
-    const Shape s = random_convex(r, convex_kinds[r.below(7)]);
+    const Shape s = random_convex(r, tested_kinds[r.below(7)]);
     const Pose p{r.unit_vector() * 10, r.rotation()};
     const Aabb box = outer_box({&s, p});
     for (int k = 0; k < 3; ++k) {

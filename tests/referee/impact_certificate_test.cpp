@@ -57,7 +57,7 @@ TEST_CASE("every random motion's certificate is accepted and nearly as sharp as 
   std::size_t keys = 0, most = 0;
   double worst_lo = 0, worst_hi = 0;
   for (int i = 0; i < 147; ++i) {
-    const Shape x = random_convex(r, convex_kinds[i % 7]), y = random_convex(r, convex_kinds[i / 7 % 7]);
+    const Shape x = random_convex(r, tested_kinds[i % 7]), y = random_convex(r, tested_kinds[i / 7 % 7]);
     const Pairing p = random_pairing(r, x, y);
     const TimeTruth t = p.truth();
     if (t.verdict == Hit::undecided) continue;
@@ -165,7 +165,7 @@ TEST_CASE("the depth of bodies during a motion is certified, for triangles and f
   Rng r(77);
   int shown = 0, deep = 0;
   for (int i = 0; i < 56; ++i) {
-    const Shape x = random_convex(r, convex_kinds[i % 7]), y = random_convex(r, convex_kinds[i / 7 % 7]);
+    const Shape x = random_convex(r, tested_kinds[i % 7]), y = random_convex(r, tested_kinds[i / 7 % 7]);
     Pairing p = random_pairing(r, x, y);
     if (i % 4 != 0) {
       p.a = at(x, {0.25, -0.5, 2.5}, r.rotation());
@@ -260,7 +260,7 @@ TEST_CASE("planes that clear smaller bodies beyond the contact of the true ones 
   Rng r(907);
   int refused = 0, kept = 0;
   for (int i = 0; i < 160; ++i) {
-    const Shape x = random_convex(r, convex_kinds[i % 7]), y = random_convex(r, convex_kinds[i / 7 % 7]);
+    const Shape x = random_convex(r, tested_kinds[i % 7]), y = random_convex(r, tested_kinds[i / 7 % 7]);
     const Pairing p = random_pairing(r, x, y);
     const TimeTruth t = p.truth();
     if (t.verdict != Hit::hit || t.t_lo == 0) continue;
@@ -305,7 +305,7 @@ TEST_CASE("a motion's certificate is refused with its times, planes or point cha
   Rng r(31);
   int changed = 0, motions = 0;
   for (int i = 0; i < 120 && motions < 24; ++i) {
-    const Shape x = random_convex(r, convex_kinds[i % 7]), y = random_convex(r, convex_kinds[i / 7 % 7]);
+    const Shape x = random_convex(r, tested_kinds[i % 7]), y = random_convex(r, tested_kinds[i / 7 % 7]);
     const Pairing p = random_pairing(r, x, y);
     const TimeTruth t = p.truth();
     if (t.verdict != Hit::hit || t.t_lo == 0) continue;

@@ -22,7 +22,7 @@ struct Pair {
 using Draw = Pair (*)(Rng&);
 
 Shape exact_shape(Rng& r, double size = 1) {
-  return random_convex(r, convex_kinds[r.below(exact_kind_count)], size);
+  return random_convex(r, tested_kinds[r.below(exact_kind_count)], size);
 }
 
 // A number in [0, 1).

@@ -32,7 +32,7 @@ TEST_CASE("a mesh is a surface: verdict and distance are those of the same flat 
   const Shape square = Box{{1, 1, 0}};
   int overlaps = 0, cases = 0;
   for (int i = 0; i < 700; ++i) {
-    const Shape body = random_convex(r, convex_kinds[r.below(7)]);
+    const Shape body = random_convex(r, tested_kinds[r.below(7)]);
     const Pose mp{Vec3::Zero(), r.rotation()}, bp{r.uniform(0, 1.5) * r.unit_vector(), r.rotation()};
     const PairTruth t = judge_pair({&mesh, mp}, {&body, bp}), u = judge_pair({&square, mp}, {&body, bp});
     if (t.verdict != Verdict::undecided && u.verdict != Verdict::undecided) REQUIRE(t.verdict == u.verdict);

@@ -58,7 +58,7 @@ TEST_CASE("thin walls are never passed through", "[referee][motion]") {
   for (int i = 0; i < 60; ++i) {
     const double spin = i % 3 == 0 ? 0 : std::pow(10.0, r.uniform(-1, 2.69));
     const Shape wall = Box{{5e-7, 0.9, 0.9}};
-    const Shape body = random_convex(r, convex_kinds[r.below(7)], 0.05);
+    const Shape body = random_convex(r, tested_kinds[r.below(7)], 0.05);
     const Placed a = at(body, {-0.5, r.uniform(-0.5, 0.5), r.uniform(-0.5, 0.5)}, r.rotation());
     const TimeTruth t = judge_motion(a, moving({1, 0, 0}, spin * r.unit_vector()), at(wall, {0, 0, 0}), rest);
     INFO(type_name(body) << " spin " << spin << " " << t.note << " [" << t.t_lo << ", " << t.t_hi << "]");
@@ -115,8 +115,8 @@ TEST_CASE("dense sampling finds no contact before t_lo, and none at all when the
   int hits = 0, none = 0, undecided = 0;
   constexpr int cases = 160;
   for (int i = 0; i < cases; ++i) {
-    const Shape sa = random_convex(r, convex_kinds[r.below(7)]),
-                sb = random_convex(r, convex_kinds[r.below(7)]);
+    const Shape sa = random_convex(r, tested_kinds[r.below(7)]),
+                sb = random_convex(r, tested_kinds[r.below(7)]);
     const Placed a = at(sa, 2.2 * r.unit_vector(), r.rotation()), b = at(sb, Vec3::Zero(), r.rotation());
     const Vec3 p = std::get<Pose>(a.pose).translation;
     const Motion ma = moving(-2 * p + 3.0 * r.unit_vector(), r.uniform(0, 6) * r.unit_vector()),
@@ -215,7 +215,7 @@ TEST_CASE("a rotating half-space: closed form for a ball, and a large box in its
   int hits = 0, none = 0, undecided = 0;
   const Shape slab = Box{{1000, 1000, 500}};
   for (int i = 0; i < 60; ++i) {
-    const Shape x = random_convex(r, convex_kinds[i % 7]);
+    const Shape x = random_convex(r, tested_kinds[i % 7]);
     const Quat q = r.rotation();
     const Vec3 up = rotation_matrix(q) * Vec3(0, 0, 1);
     const Placed a = at(x, r.uniform(1, 3) * up + r.vector(0, 1), r.rotation());
@@ -283,7 +283,7 @@ TEST_CASE("the certified depth of a turning motion is that of a dense search, an
   int deep = 0;
   double worst = 0;
   for (int i = 0; i < 42; ++i) {
-    const Shape sa = random_convex(r, convex_kinds[i % 7]), sb = random_convex(r, convex_kinds[i / 7 % 7]);
+    const Shape sa = random_convex(r, tested_kinds[i % 7]), sb = random_convex(r, tested_kinds[i / 7 % 7]);
     const Placed a = at(sa, 1.2 * r.unit_vector(), r.rotation()), b = at(sb, Vec3::Zero(), r.rotation());
     const Vec3 p = std::get<Pose>(a.pose).translation;
     const Motion ma = moving(-2 * p + 0.5 * r.unit_vector(), r.uniform(0, 9) * r.unit_vector()),

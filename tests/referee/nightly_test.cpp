@@ -207,7 +207,7 @@ void smooth(int cases, std::uint64_t seed) {
   double loosest = 0;
   for (int i = 0; i < cases; ++i) {
     INFO("smooth case " << i);
-    const Shape x = random_convex(r, convex_kinds[4 + i % 3]), y = random_convex(r, convex_kinds[i / 3 % 7]);
+    const Shape x = random_convex(r, tested_kinds[4 + i % 3]), y = random_convex(r, tested_kinds[i / 3 % 7]);
     const Pose p{r.vector(0, 0.5), r.rotation()}, q{r.vector(0, 1.1), r.rotation()};
     const PairTruth t = judge_pair({&x, p}, {&y, q});
     undecided += t.verdict == Verdict::undecided;
@@ -245,7 +245,7 @@ void motions(int cases, std::uint64_t seed) {
   int hits = 0, undecided = 0, pointless = 0;
   for (int i = 0; i < cases; ++i) {
     INFO("motion " << i);
-    const Shape x = random_convex(r, convex_kinds[i % 7]), y = random_convex(r, convex_kinds[i / 7 % 7]);
+    const Shape x = random_convex(r, tested_kinds[i % 7]), y = random_convex(r, tested_kinds[i / 7 % 7]);
     const Pose p{2 * r.unit_vector(), r.rotation()}, q{r.vector(0, 0.2), r.rotation()};
     const double fast = r.chance(0.3) ? 30 : 5;
     const Motion ma{-2 * p.translation + 2.2 * r.unit_vector(), r.uniform(0, fast) * r.unit_vector()},

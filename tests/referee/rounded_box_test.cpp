@@ -99,7 +99,7 @@ TEST_CASE("a rounded box is nearer than any hull of its points, by no more than 
           const Vec3 n(std::cos(p) * std::cos(q), std::sin(p) * std::cos(q), std::sin(q));
           inside.vertices.push_back(sign.cwiseProduct(x.half_extents + x.radius * n));
         }
-    const Shape sx = x, hull = inside, other = random_convex(r, convex_kinds[r.below(7)]);
+    const Shape sx = x, hull = inside, other = random_convex(r, tested_kinds[r.below(7)]);
     const Pose p{Vec3::Zero(), r.rotation()}, q{r.unit_vector() * r.uniform(1.5, 4), r.rotation()};
     const PairTruth t = judge_pair({&sx, p}, {&other, q}), h = judge_pair({&hull, p}, {&other, q});
     const double left_out = x.radius * (1 - std::cos(2 * angle)), rounding = 1e-13;
@@ -137,7 +137,7 @@ TEST_CASE("a rounded box without radius is a box, without extents a ball", "[ref
     const RoundedBox x = random_rounded(r);
     const Shape sharp = RoundedBox{x.half_extents, 0}, box = Box{x.half_extents},
                 round = RoundedBox{Vec3::Zero(), x.radius}, ball = Sphere{x.radius};
-    const Shape other = random_convex(r, convex_kinds[r.below(7)]);
+    const Shape other = random_convex(r, tested_kinds[r.below(7)]);
     const Pose p{Vec3::Zero(), r.rotation()}, q{r.unit_vector() * r.uniform(0, 2), r.rotation()};
     const auto same = [&](const Shape& s, const Shape& t) {
       const Bracket u = judge_pair({&s, p}, {&other, q}).gap, v = judge_pair({&t, p}, {&other, q}).gap;

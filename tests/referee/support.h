@@ -41,7 +41,7 @@ inline Shape random_convex(Rng& r, ShapeKind kind, double size = 1) {
   return h;
 }
 
-inline constexpr ShapeKind convex_kinds[] = {ShapeKind::sphere,   ShapeKind::box,      ShapeKind::capsule,
+inline constexpr ShapeKind tested_kinds[] = {ShapeKind::sphere,   ShapeKind::box,      ShapeKind::capsule,
                                              ShapeKind::hull,     ShapeKind::cylinder, ShapeKind::cone,
                                              ShapeKind::ellipsoid};
 inline constexpr int exact_kind_count = 4;  // the first kinds, whose verdict is always decided

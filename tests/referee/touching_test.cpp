@@ -88,7 +88,7 @@ TEST_CASE("curved bodies are decided on both sides of contact, one ulp apart", "
   int by_level[3] = {0, 0, 0}, certified = 0, undecided = 0;
   constexpr int n = 150;
   for (int i = 0; i < n; ++i) {
-    const Shape x = random_convex(r, curved[i % 3]), y = random_convex(r, convex_kinds[i / 3 % 7]);
+    const Shape x = random_convex(r, curved[i % 3]), y = random_convex(r, tested_kinds[i / 3 % 7]);
     const Pose p{Vec3::Zero(), r.rotation()};
     const Quat turn = r.rotation();
     const Vec3 along = r.unit_vector();

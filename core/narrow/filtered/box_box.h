@@ -20,6 +20,9 @@ struct BoxPair {
   V3<R> ha, hb;
   Relative<R> at;
   R displacement;
+  R size() const {
+    return std::max(std::max(ha.maxCoeff(), hb.maxCoeff()), at.offset.template lpNorm<Eigen::Infinity>());
+  }
 };
 
 /// The axis with the largest separation (least depth): 0-2 A's faces, 3-5 B's, 6 + 3i + j edges i of A and j

@@ -28,6 +28,16 @@ V3<R> direction(const V3<R>& v, R length) {
   return length > least_length<R> ? V3<R>(v * (1 / length)) : V3<R>(v.stableNormalized());
 }
 
+/// Whether a form may square lengths of pairs of this size: no square overflows, and one that underflows is
+/// that of a length beyond the last digit of the size. Where it may not, the form is unsure.
+/// Tested by: tests/core "signed distances do not depend on the unit of length".
+template <class R>
+bool squares_hold(R size) {
+  constexpr bool single = sizeof(R) == sizeof(float);
+  constexpr R least = single ? 0x1p-40 : 0x1p-450, most = single ? 0x1p+60 : 0x1p+500;  // lengths
+  return size > least && size < most;
+}
+
 /// Whether the verdict is certain without a value; sets it if so.
 template <class R>
 bool verdict(Answer<R>& s, R gap, R error) {
@@ -58,6 +68,7 @@ void sphere_sphere(const Shape& sa, const Pose& a, const Shape& sb, const Pose& 
   const R ra = static_cast<R>(std::get_if<Sphere>(&sa)->radius),
           rb = static_cast<R>(std::get_if<Sphere>(&sb)->radius);
   const V3<R> d = b.translation.cast<R>() - a.translation.cast<R>();
+  if (!detail::squares_hold(std::max(std::max(ra, rb), detail::largest(d)))) return;
   const R dist = std::sqrt(d.squaredNorm()), error = u<R> * (8 * dist + 4 * (ra + rb));
   if (asked == Asked::overlap && detail::verdict(out, dist - (ra + rb), error)) return;
   detail::inflate<R>(out, dist, dist > 0 ? detail::direction<R>(d, dist) : V3<R>::UnitX(), V3<R>::Zero(), d,
@@ -70,6 +81,7 @@ void sphere_box(const Shape& sa, const Pose& pa, const Shape& sb, const Pose& pb
   const R r = static_cast<R>(std::get_if<Sphere>(&sa)->radius);
   const RoundedPose<R> b = rounded_pose<R>(pb);
   const V3<R> h = std::get_if<Box>(&sb)->half_extents.template cast<R>(), d = b.t - pa.translation.cast<R>();
+  if (!detail::squares_hold(std::max(std::max(r, detail::largest(h)), detail::largest(d)))) return;
   const M3<R> m = matrix(b);
   V3<R> p;
   for (int k = 0; k < 3; ++k) p[k] = -(m(0, k) * d[0] + m(1, k) * d[1] + m(2, k) * d[2]);
@@ -100,6 +112,7 @@ void sphere_capsule(const Shape& sa, const Pose& pa, const Shape& sb, const Pose
   const R h = static_cast<R>(capsule.half_height);
   const RoundedPose<R> b = rounded_pose<R>(pb);
   const V3<R> axis = axis_z(b), d = b.t - pa.translation.cast<R>();
+  if (!detail::squares_hold(std::max(std::max(ra, rb + h), detail::largest(d)))) return;
   const R along = -d.dot(axis), s = std::clamp(along, -h, h);
   const V3<R> q = d + s * axis;
   const R error = u<R> * (16 * d.template lpNorm<1>() + 24 * h + 4 * (ra + rb));
@@ -220,6 +233,7 @@ bool capsule_capsule(const Shape& sa, const Pose& pa, const Shape& sb, const Pos
   const detail::SegmentPair<R> p{axis_z(a), axis_z(b), b.t - a.t, static_cast<R>(ca.half_height),
                                  static_cast<R>(cb.half_height)};
   const R ra = static_cast<R>(ca.radius), rb = static_cast<R>(cb.radius);
+  if (!detail::squares_hold(std::max(std::max(ra + p.ha, rb + p.hb), detail::largest(p.d)))) return false;
   const R rounding = u<R> * (8 * p.d.template lpNorm<1>() + 24 * (p.ha + p.hb) + 4 * (ra + rb));
   detail::SegmentFeet<R> f = detail::segment_feet(p);
   const auto shortfall = [&] { return std::max<R>(0, f.dist - p.separation(f.normal)); };

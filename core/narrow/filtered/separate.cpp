@@ -221,6 +221,7 @@ template <class R>
 void box_box(const PlacedShape& pa, const PlacedShape& pb, Asked asked, Answer<R>& r, PairScene<R>& s) {
   const RoundedPose<R> a = rounded_pose<R>(pa.pose), b = rounded_pose<R>(pb.pose);
   const BoxPair<R> p = box_pair(*pa.shape, a, *pb.shape, b);
+  if (!detail::squares_hold(p.size())) return convex_pair(pa, pb, asked, r, s);
   r.bound = p.displacement;
   if (asked == Asked::overlap) {
     r.found = boxes_meet(p);
@@ -250,7 +251,7 @@ void box_and_capsule(const PlacedShape& pa, const PlacedShape& pb, Asked asked, 
                      PairScene<R>& s) {
   const RoundedPose<R> a = rounded_pose<R>(pa.pose), b = rounded_pose<R>(pb.pose);
   const BoxCapsule<R> q = box_capsule(*pa.shape, a, *pb.shape, b);
-  if (!solve(q, asked, r)) return convex_pair(pa, pb, asked, r, s);
+  if (!detail::squares_hold(q.scale) || !solve(q, asked, r)) return convex_pair(pa, pb, asked, r, s);
   if (asked == Asked::overlap) return;
   const BoxSegment<R>& p = q.cores;
   const R depth = -r.gap, tolerance = 64 * u<R> * (p.half.sum() + p.h + q.radius + p.c.template lpNorm<1>());
@@ -283,6 +284,7 @@ void convex_half_space(const PlacedShape& pa, const PlacedShape& pb, Asked asked
   s.at.a_to_world = matrix(a);
   s.contact = ContactForm::plane;
   const V3<R> d = b.t - a.t, n = -m;
+  if (!detail::squares_hold(std::max(std::max(s.a.extent, std::abs(offset)), detail::largest(d)))) return;
   r.normal = n;
   s.normal = s.at.a_to_world.transpose() * n;
   r.a = s.at.a_to_world * support_local<R>(s.a, s.normal) + s.a.radius * n;
