@@ -83,7 +83,10 @@ struct Asked {
   }
   // Both bodies are flagged for sweeping explicitly, so that the criterion skips nothing.
   void time_of_impact(const Query& q, Observation& o) const {
-    StepWorld world(extract_pair(s, q.a, q.b));
+    Scene pair = extract_pair(s, q.a, q.b);
+    // A world leaves out a pair of static bodies, but here the question names it.
+    if (pair.bodies[0].is_static && pair.bodies[1].is_static) pair.bodies[0].is_static = false;
+    StepWorld world(pair);
     for (const int body : {0, 1}) world.flag(body, true);
     const StepReport r = world.step();
     o.outcome = r.unsupported > 0 ? Outcome::unsupported : r.outcome;

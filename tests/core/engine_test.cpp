@@ -59,6 +59,23 @@ TEST_CASE("every number that the float core has received is a float", "[engine][
   CHECK(through_float(odd) != odd);
 }
 
+TEST_CASE("a time of impact of two static bodies is answered like any other", "[engine]") {
+  Case c;
+  c.scene.shapes = {Box{{1, 1, 1}}};
+  c.scene.bodies.resize(3);
+  c.scene.bodies[1].pose.translation = {1.5, 0, 0};
+  c.scene.bodies[2].pose.translation = {9, 0, 0};
+  for (Body& b : c.scene.bodies) b.is_static = true;
+  c.queries = {{Question::time_of_impact, 0, 1}, {Question::time_of_impact, 0, 2}};
+  for (const auto& engine : {make_core_engine(), std::unique_ptr<Engine>(make_kept_engine())}) {
+    INFO(engine->card().name);
+    const auto answers = engine->run(std::span(&c, 1)).at(0).answers;
+    CHECK(answers[0].toi == 0.0);
+    CHECK(answers[1].outcome == Outcome::answered);
+    CHECK_FALSE(answers[1].toi.has_value());
+  }
+}
+
 TEST_CASE("with acceleration structures and caches the core answers what it answers without", "[engine]") {
   const auto core = make_core_engine();
   const auto kept = make_kept_engine();
