@@ -7,15 +7,15 @@
 #include <thread>
 #include <vector>
 
-#include "cli/chosen_engines.h"
 #include "cli/campaign_end.h"
+#include "cli/chosen_engines.h"
 #include "cli/command.h"
 #include "cli/output.h"
 #include "core/base/input_error.h"
 #include "fuzz/campaign/judge_again.h"
 #include "reports/text/changes_text.h"
-#include "reports/text/text.h"
 #include "reports/text/record_text.h"
+#include "reports/text/text.h"
 #include "scenarios/codec/json_file.h"
 
 namespace touchstone::cli {
@@ -28,11 +28,10 @@ struct JudgeOptions {
 };
 
 // What needs an engine, and so was not judged again.
-std::string limits_in_words(const fuzz::JudgedAgain& j) {
+std::string describe_limits(const fuzz::JudgedAgain& j) {
   std::string s =
       "Carried over, since no engine was asked: times, which answers changed when asked again, the last "
-      "words "
-      "of dying engines, and which engines were set aside.";
+      "words of dying engines, and which engines were set aside.";
   if (j.not_kept_derived > 0)
     s += fmt::format(" {} other forms of cases, which this version would ask about, were not judged.",
                      reports::grouped(j.not_kept_derived));
@@ -95,7 +94,7 @@ int run(const JudgeOptions& o) {
     fmt::print("{}\n", json_text(j, 1));
   } else {
     print_campaign(end, true);
-    fmt::print("{}{}", reports::changes_text(changes), limits_in_words(judged));
+    fmt::print("{}{}", reports::changes_text(changes), describe_limits(judged));
   }
   return campaign_verdict(end, o.json);
 }

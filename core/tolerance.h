@@ -47,8 +47,8 @@ inline constexpr double parallel_sine_sq = 1e-6;
 
 /// A box or ball that bounds part of a mesh is skipped only if it is out of reach by this · (the lengths
 /// involved): far more than a dozen roundings of either arithmetic, and far less than it costs to test one
-/// triangle more. Tested by: tests/core "a body against a mesh: the same with a tree, and in agreement with the
-/// referee".
+/// triangle more. Tested by: tests/core "a body against a mesh: the same with a tree, and in agreement with
+/// the referee".
 inline constexpr double box_rounding = 0x1p-40;
 
 /// Conservative advancement stops at this gap, in units of size: at most 3/8 of τ. Tested by:

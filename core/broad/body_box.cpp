@@ -1,11 +1,13 @@
 // Bound. Let u = 2⁻⁶⁴, which the relative error of an operation of Wide does not exceed, and R̃ the computed
 // rotation.
-//  * Each entry of R is a sum of at most four products of doubles, divided by |q|². A product of doubles rounds
+//  * Each entry of R is a sum of at most four products of doubles, divided by |q|². A product of doubles
+//  rounds
 //    once and a sum of four such terms at most three more times; all terms are <= |q|² in magnitude. The
 //    numerator is within 4u|q|², the denominator within relative 4u, and the quotient rounds once more:
 //    |R̃ − R| <= 10u entrywise. Squares of doubles cannot overflow or lose the largest term in Wide: where its
 //    exponents are those of double, q is scaled first.
-//  * A box bound along an axis is t + Σ R_k s_k, or a square root of Σ (R_k s_k)², or a maximum of dot products:
+//  * A box bound along an axis is t + Σ R_k s_k, or a square root of Σ (R_k s_k)², or a maximum of dot
+//  products:
 //    at most eight more roundings, each relative to a partial result of magnitude at most S + |t|, where
 //    S = Σ|s_k| (or the largest |vertex|₁): error <= (3·10 + 8)·u·S + 2u|t| < 2⁻⁵⁸·(S + |t|) = 64u(S + |t|).
 //  * The widened bound is rounded to the nearest double and stepped outward if that moved it inward.

@@ -120,7 +120,8 @@ class TurningStep {
     const Wide speed = turn.norm(), far = std::max(offset(0).norm(), offset(end).norm());
     curvature_ = offset_curvature<Wide>(speed, far, (b.linear - a.linear).norm());
     for (const MovingCore* m : {&a, &b})
-      curvature_ += core_curvature<Wide>(m->start.reach, (m->angular - turn).norm(), speed, m->angular.norm());
+      curvature_ +=
+          core_curvature<Wide>(m->start.reach, (m->angular - turn).norm(), speed, m->angular.norm());
   }
   /// `step`: proven already.
   Wide extend(Wide step) const {

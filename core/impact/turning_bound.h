@@ -1,8 +1,8 @@
-// How far a pair of cores may advance along one direction n, fixed in the world or rotating with a constant Ω,
-// when its separation is known at both ends.
+// How far a pair of cores may advance along one direction n, fixed in the world or rotating with a constant
+// Ω, when its separation is known at both ends.
 //
-// Every pair of core points has a separation n·(o + p_B − p_A), o the offset of the origins, p within the reach
-// r of its core's origin and rotating with ω. Its second derivative is at most
+// Every pair of core points has a separation n·(o + p_B − p_A), o the offset of the origins, p within the
+// reach r of its core's origin and rotating with ω. Its second derivative is at most
 //
 //   K = Σ r |δ| (|Ω| + |ω|) + |Ω|² max|o| + 2 |Ω| |v|,   δ = ω − Ω, v the rate of o,
 //

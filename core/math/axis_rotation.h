@@ -22,8 +22,8 @@ Eigen::Matrix<R, 3, 3> rotation_about(const Eigen::Matrix<R, 3, 1>& axis, R angl
   return q;
 }
 
-/// Of one vector x: it changes by no more than a few roundings of the angle times |x|, however small the angle,
-/// because 1 − cos θ is computed as 2 sin²(θ/2).
+/// Of one vector x: it changes by no more than a few roundings of the angle times |x|, however small the
+/// angle, because 1 − cos θ is computed as 2 sin²(θ/2).
 template <class R>
 Eigen::Matrix<R, 3, 1> rotated(const Eigen::Matrix<R, 3, 1>& x, const Eigen::Matrix<R, 3, 1>& axis, R angle) {
   using std::sin;

@@ -1,4 +1,4 @@
-// A convex body in a frame, and support points of the Minkowski difference of two of them.
+// A convex body in a frame.
 #pragma once
 
 #include "core/shape/convex_body.h"

@@ -67,7 +67,8 @@ Separation from_epa(extended::EpaResult<Wide> e, const Core& a, const Core& b, W
 // both bounds of the distance.
 Separation second_opinion(const extended::Distance<Wide>& g, const Core& a, const Core& b, Wide size) {
   const extended::EpaResult<Wide> e = expand(g, a, b, size);
-  if (e.status != extended::EpaStatus::broken && e.upper >= 0 && e.lower >= -tolerance::narrow_gap_factor * size)
+  if (e.status != extended::EpaStatus::broken && e.upper >= 0 &&
+      e.lower >= -tolerance::narrow_gap_factor * size)
     return from_epa(e, a, b, size);
   Separation s = from_gjk(g, size);
   Wide lower = g.lower;
@@ -93,8 +94,8 @@ Wide pair_size(const Core& a, const Core& b) {
 Separation separate_convex(const Core& a, const Core& b) {
   const Wide size = pair_size(a, b);
   Separation s;
-  const extended::Distance<Wide> g =
-      extended::gjk<Wide>(a, b, tolerance::narrow_gap_factor * size, tolerance::narrow_touching_factor * size, gjk_cap);
+  const extended::Distance<Wide> g = extended::gjk<Wide>(a, b, tolerance::narrow_gap_factor * size,
+                                                         tolerance::narrow_touching_factor * size, gjk_cap);
   if (g.status == GjkStatus::enclosed || g.status == GjkStatus::touching) {
     s = from_epa(expand(g, a, b, size), a, b, size);
   } else {

@@ -117,7 +117,7 @@ void take_triangle(const Simplex<R>& s, int i, int j, int k, Foot<R>& best) {
   if (skip || !(wc > 0)) take_edge(s, i, j, best);
 }
 
-/// Takes the faces that have the origin on their outer side; if there are none, the tetrahedron encloses the
+/// Considers the faces whose outer side contains the origin. If there are none, the tetrahedron encloses the
 /// origin, and `margin` is its least distance to a plane, less the possible rounding of the normal. The face
 /// opposite the newest (last) corner is tested last, and only if the others have not improved on `last_sq`
 /// (skipping it entirely does not work: near triangles, the iteration stalls).

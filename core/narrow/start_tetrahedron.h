@@ -7,8 +7,9 @@
 
 namespace touchstone::narrow {
 
-/// Extends a point, an edge or a triangle to a tetrahedron, by support points of B − A away from the current
-/// point, line or plane; false: there are none farther than `thin`, so B − A is flat within rounding.
+/// Extends a point, an edge or a triangle to a tetrahedron by support points of B − A away from the current
+/// point, line or plane. Returns false if none is farther away than `thin`: B − A is then flat to within
+/// rounding.
 /// `w(i)`: corner i of the `size` present ones; `probe(n)`: the Vertex farthest along the unit n; `add(v)`:
 /// appends a corner. Precondition: the present corners are farther than `thin` from being degenerate.
 template <class R, class Point, class Probe, class Add>

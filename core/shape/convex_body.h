@@ -1,6 +1,6 @@
-// A bounded convex shape as core ⊕ ball: sphere = point ⊕ ball, capsule = segment ⊕ ball; most others are
-// their own core with radius 0. Searches see only the cores, so a shallow contact of rounded shapes is a
-// distance between cores, which is well conditioned, instead of a depth.
+// A bounded convex shape as core ⊕ ball: sphere = point ⊕ ball, capsule = segment ⊕ ball, rounded box = box ⊕
+// ball; the others are their own core with radius 0. Searches see only the cores, so a shallow contact of
+// rounded shapes is a distance between cores, which is well conditioned, instead of a depth.
 //
 // Each core is a struct in the file of its shape, for R = float, double and Wide. `Core` is the only list of
 // them; on_core() calls a function with the core at hand.
@@ -35,45 +35,43 @@ struct AnyCorners {
 
 /// What a core provides. Directions are in its own frame, of any length unless stated otherwise.
 template <class C, class R>
-concept CoreModule =
-    std::is_trivially_copyable_v<C> &&
+concept CoreModule = std::is_trivially_copyable_v<C> &&
     requires(const C& c, C& changed, const V3<R>& d, R x, Feature<R>& f, const std::array<V3<R>, 3>& three,
              const FaceQuery<R>& face, detail::AnyCorners<R>& corners) {
-      // All its support points are corners.
-      { C::is_polytope } -> std::convertible_to<bool>;
-      { C::symmetry } -> std::convertible_to<Symmetry>;
-      // Units of rounding by which two support values are compared.
-      { C::support_rounding } -> std::convertible_to<int>;
-      // A point farthest along d. -0 counts as negative.
-      { c.support(d) } -> std::same_as<V3<R>>;
-      // Derivative of the support point with respect to a unit direction, where it exists.
-      { c.support_derivative(d) } -> std::same_as<M3<R>>;
-      // Bounds, up to rounding: of the distance from the origin, of the coordinates, and of the distance from
-      // an axis (unit) through the origin.
-      { c.reach() } -> std::same_as<R>;
-      { c.extent() } -> std::same_as<R>;
-      { c.reach_off_axis(d) } -> std::same_as<R>;
-      // The axis of (approximate) revolution, or -1.
-      { c.round_axis() } -> std::same_as<int>;
-      changed.scale(x);
+  // All its support points are corners.
+  { C::is_polytope } -> std::convertible_to<bool>;
+  { C::symmetry } -> std::convertible_to<Symmetry>;
+  // Units of rounding by which two support values are compared.
+  { C::support_rounding } -> std::convertible_to<int>;
+  // A point farthest along d. -0 counts as negative.
+  { c.support(d) } -> std::same_as<V3<R>>;
+  // Derivative of the support point with respect to a unit direction, where it exists.
+  { c.support_derivative(d) } -> std::same_as<M3<R>>;
+  // Bounds, up to rounding: of the distance from the origin, of the coordinates, and of the distance from
+  // an axis (unit) through the origin.
+  { c.reach() } -> std::same_as<R>;
+  { c.extent() } -> std::same_as<R>;
+  { c.reach_off_axis(d) } -> std::same_as<R>;
+  // The axis of (approximate) revolution, or -1.
+  { c.round_axis() } -> std::same_as<int>;
+  changed.scale(x);
 
-      // The exact support point that a rounded one stands for.
-      { c.snap(d) } -> std::same_as<V3<R>>;
-      // The feature suggested by three support points of a facet with normal d. The second argument is the
-      // core's point of the origin's foot; points within x are the same. A guess that is verified afterwards.
-      { c.suggest(three, d, d, x) } -> std::same_as<Feature<R>>;
-      // The feature's support point along a unit direction, which lies on its circle if it has one.
-      { c.locate(f, d) } -> std::same_as<FeaturePoint<R>>;
-      // Replaces a rim by its disc if the direction suggests it.
-      { c.use_disc(f, d) } -> std::same_as<bool>;
-      // Replaces an edge by the feature at its low or high end.
-      c.shorten(f, true);
-      // How far a face extends around its point, in its plane: zero or negative when the point is not on it.
-      { c.face_margin(f, d) } -> std::same_as<R>;
-      // Corners of the supporting face; true: in convex order, either way round.
-      { c.face_corners(face, corners) } -> std::same_as<bool>;
-    } &&
-    (C::is_polytope ||
+  // The exact support point that a rounded one stands for.
+  { c.snap(d) } -> std::same_as<V3<R>>;
+  // The feature suggested by three support points of a facet with normal d. The second argument is the
+  // core's point of the origin's foot; points within x are the same. A guess that is verified afterwards.
+  { c.suggest(three, d, d, x) } -> std::same_as<Feature<R>>;
+  // The feature's support point along a unit direction, which lies on its circle if it has one.
+  { c.locate(f, d) } -> std::same_as<FeaturePoint<R>>;
+  // Replaces a rim by its disc if the direction suggests it.
+  { c.use_disc(f, d) } -> std::same_as<bool>;
+  // Replaces an edge by the feature at its low or high end.
+  c.shorten(f, true);
+  // How far a face extends around its point, in its plane: zero or negative when the point is not on it.
+  { c.face_margin(f, d) } -> std::same_as<R>;
+  // Corners of the supporting face; true: in convex order, either way round.
+  { c.face_corners(face, corners) } -> std::same_as<bool>;
+} &&(C::is_polytope ||
      requires(const C& c, const Feature<R>& f, const FeaturePoint<R>& at, const V3<R>& d, R x,
               const Tangents<R>& tangents, const Cap<R>& cap, TangentForm<R>& form) {
        // The derivative of the support point, as a form over two tangents.
@@ -106,12 +104,13 @@ struct ConvexBody {
   convex::Core<R> core;
   R radius = 0;  // of the ball
   R reach = 0;   // of the core about the body's origin, rounded
-  R extent = 0;  // at most the body's share of L
+  R extent = 0;  // bound on the largest coordinate of a point of the body
 
   ConvexBody() = default;
   template <class C>
-    requires convex::CoreModule<C, R>
-  explicit ConvexBody(const C& c, R ball = 0) : core(c), radius(ball), reach(c.reach()), extent(c.extent() + ball) {}
+  requires convex::CoreModule<C, R>
+  explicit ConvexBody(const C& c, R ball = 0)
+      : core(c), radius(ball), reach(c.reach()), extent(c.extent() + ball) {}
 
   /// By a power of two, which is exact.
   void scale(R unit) {
@@ -124,8 +123,8 @@ struct ConvexBody {
 
 namespace convex::detail {
 
-// A chain of comparisons with constants, which compilers turn into a switch. std::visit does the same behind a
-// call, which costs a search in double up to a tenth.
+// A chain of comparisons with constants, which compilers turn into a switch. std::visit does the same behind
+// a call, which costs a search in double up to a tenth.
 template <std::size_t i, class V, class F>
 [[gnu::always_inline]] inline decltype(auto) visit_from(V& core, F&& f) {
   if constexpr (i + 1 == std::variant_size_v<std::remove_const_t<V>>) {

@@ -42,8 +42,8 @@ std::string_view type_name(ShapeKind k) {
 }
 
 Shape shape_of_kind(ShapeKind k) {
-  static constexpr auto make =
-      detail::per_shape([]<class S>(std::type_identity<S>) -> Shape (*)() { return [] { return Shape(S()); }; });
+  static constexpr auto make = detail::per_shape(
+      []<class S>(std::type_identity<S>) -> Shape (*)() { return [] { return Shape(S()); }; });
   return make[static_cast<std::size_t>(k)]();
 }
 

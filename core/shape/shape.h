@@ -40,7 +40,8 @@ enum class ShapeKind : int {
   rounded_box
 };
 inline constexpr int shape_kind_count = static_cast<int>(std::variant_size_v<Shape>);
-static_assert(static_cast<int>(ShapeKind::rounded_box) + 1 == shape_kind_count, "ShapeKind names every shape");
+static_assert(static_cast<int>(ShapeKind::rounded_box) + 1 == shape_kind_count,
+              "ShapeKind names every shape");
 
 inline ShapeKind kind_of(const Shape& s) { return static_cast<ShapeKind>(s.index()); }
 
@@ -115,15 +116,6 @@ constexpr bool is_bounded(ShapeKind k) { return detail::bounded_shapes[static_ca
 
 /// Bounded and convex. The other kinds, half-space and mesh, are static: their bodies do not move.
 constexpr bool is_convex(ShapeKind k) { return detail::convex_shapes[static_cast<std::size_t>(k)]; }
-
-/// The kinds for which is_convex() holds, in the order of the variant.
-inline constexpr auto convex_kinds = [] {
-  std::array<ShapeKind, static_cast<std::size_t>(std::ranges::count(detail::convex_shapes, true))> kinds{};
-  std::size_t n = 0;
-  for (int k = 0; k < shape_kind_count; ++k)
-    if (is_convex(ShapeKind{k})) kinds[n++] = ShapeKind{k};
-  return kinds;
-}();
 
 std::string_view type_name(ShapeKind k);
 inline std::string_view type_name(const Shape& s) { return type_name(kind_of(s)); }

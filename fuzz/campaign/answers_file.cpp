@@ -16,11 +16,9 @@
 #include "core/base/input_error.h"
 #include "fuzz/campaign/store.h"
 #include "oracles/abi/protocol.h"
-#include "oracles/abi/protocol.h"
-#include "scenarios/codec/value_codec.h"
 #include "scenarios/codec/case_codec.h"
 #include "scenarios/codec/json_file.h"
-#include "scenarios/codec/json_file.h"
+#include "scenarios/codec/value_codec.h"
 #include "scenarios/text/printable.h"
 
 namespace touchstone::fuzz {

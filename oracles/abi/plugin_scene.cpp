@@ -69,16 +69,10 @@ ts_body to_abi(const Body& b) {
   return out;
 }
 
-const std::vector<Vec3>* vertices_of(const Shape& s) {
-  if (const auto* h = std::get_if<Hull>(&s)) return &h->vertices;
-  if (const auto* m = std::get_if<TriangleMesh>(&s)) return &m->vertices;
-  return nullptr;
-}
-
 /// Rounded vertices form a different hull, with its own faces and dimension. Coordinates that overflowed to
 /// infinity are kept as they are, without faces, because no hull can be built from them.
 Shape with_vertices(const Shape& asked, std::vector<Vec3> vertices) {
-  if (*vertices_of(asked) == vertices) return asked;
+  if (*vertices_if(asked) == vertices) return asked;
   if (std::holds_alternative<TriangleMesh>(asked)) {
     TriangleMesh m = std::get<TriangleMesh>(asked);
     m.vertices = std::move(vertices);
@@ -112,7 +106,7 @@ std::optional<Shape> shape_from(const ts_shape& t) {
   if (t.kind < 0 || t.kind >= shape_kind_count) return std::nullopt;
   Shape s = shape_of_kind(static_cast<ShapeKind>(t.kind));
   get_sizes(t.size, s);
-  if (!vertices_of(s)) return s;
+  if (!vertices_if(s)) return s;
   if (!t.vertices || t.vertex_count == 0) return std::nullopt;
   std::vector<Vec3> points = points_from(t.vertices, t.vertex_count);
   if (std::holds_alternative<Hull>(s)) {
@@ -138,7 +132,7 @@ PluginScene::PluginScene(const Scene& scene) {
     double* size = out.size;
     for_each_size(s,
                   [&](auto, const double* numbers, std::size_t n) { size = std::copy_n(numbers, n, size); });
-    if (const std::vector<Vec3>* v = vertices_of(s)) {
+    if (const std::vector<Vec3>* v = vertices_if(s)) {
       vertices_.push_back(flat(*v));
       out.vertices = vertices_.back().data();
       out.vertex_count = v->size();
@@ -190,7 +184,7 @@ void ReceivedCollector::shape(int index, const double* size, const double* verti
   }
   const auto i = static_cast<std::size_t>(index);
   const Shape& asked = scene_.shapes[i];
-  if (const std::vector<Vec3>* v = vertices_of(asked)) {
+  if (const std::vector<Vec3>* v = vertices_if(asked)) {
     const bool is_hull = std::holds_alternative<Hull>(asked);
     if (!vertices || vertex_count == 0 || (!is_hull && vertex_count != v->size())) {
       ++rejected_;

@@ -193,8 +193,7 @@ constexpr Regime rows[] = {
     {"mesh-company", "a mesh among three or more bodies", 64, mesh_in_company},
     {"hull-64", "a hull of 64 or more vertices", 64, hull_of<64>},
     {"hull-256", "a hull of 256 or more vertices", 128, hull_of<256>},
-    {"parallel", "two boxes with edges less than a milliradian from parallel", 80,
-     nearly_parallel_boxes},
+    {"parallel", "two boxes with edges less than a milliradian from parallel", 80, nearly_parallel_boxes},
 };
 
 }  // namespace

@@ -30,7 +30,8 @@ std::string missing() {
     if (!has_command(command)) return std::string(command) + " is not installed";
   for (const char* library : {"qhull_r", "hwy", "gmp", "fmt", "z", "sqlite3", "assimp"}) {
     const fs::path stem = "/usr/lib/aarch64-linux-gnu/lib" + std::string(library);
-    if (!fs::exists(stem.string() + ".so") && !fs::exists(stem.string() + ".a")) return stem.string() + " is not installed";
+    if (!fs::exists(stem.string() + ".so") && !fs::exists(stem.string() + ".a"))
+      return stem.string() + " is not installed";
   }
   return "";
 }
@@ -50,8 +51,7 @@ std::string line_of(const std::string& text, const std::string& name) {
 }  // namespace
 
 TEST_CASE("on ARM64 the tests pass, and answers in double have the same bytes", "[arm64][optional]") {
-  if (const std::string what = missing(); !what.empty())
-    return touchstone::test::skip(what);
+  if (const std::string what = missing(); !what.empty()) return touchstone::test::skip(what);
   const Workspace w("arm64");
   // -O1: compiles in a third of the time. Rounding does not depend on it.
   const Run built =

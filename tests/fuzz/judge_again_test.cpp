@@ -22,27 +22,14 @@
 #include "tests/mutants/lying_engine.h"
 #include "tests/support/catch.h"
 #include "tests/support/stops_after.h"
+#include "tests/support/workspace.h"
 
 using namespace touchstone;
+using touchstone::test::read_all;
+using touchstone::test::Workspace;
 namespace fs = std::filesystem;
 
 namespace {
-
-struct Workspace {
-  fs::path path = fs::temp_directory_path() / ("touchstone-judge-again-" + std::to_string(getpid()));
-  Workspace() {
-    fs::remove_all(path);
-    fs::create_directories(path);
-  }
-  ~Workspace() { fs::remove_all(path); }
-};
-
-std::string read(const fs::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  std::stringstream s;
-  s << in.rdbuf();
-  return s.str();
-}
 
 void write(const fs::path& file, const std::string& bytes) { std::ofstream(file, std::ios::binary) << bytes; }
 
@@ -99,8 +86,8 @@ fuzz::CampaignConfig config_of(const fs::path& out, std::uint64_t cases = 192) {
 std::map<std::string, std::string> findings_in(const fs::path& campaign) {
   std::map<std::string, std::string> r;
   for (const auto& e : fs::recursive_directory_iterator(campaign / "findings"))
-    if (e.is_regular_file()) r[fs::relative(e.path(), campaign).string()] = read(e.path());
-  r["summary"] = read(campaign / "summary.json");
+    if (e.is_regular_file()) r[fs::relative(e.path(), campaign).string()] = read_all(e.path());
+  r["summary"] = read_all(campaign / "summary.json");
   return r;
 }
 
@@ -161,8 +148,8 @@ fuzz::KeptBatch batch_of_everything() {
 
 TEST_CASE("a campaign that keeps its answers is judged again to the same findings, byte for byte",
           "[judge-again]") {
-  const Workspace w;
-  auto config = config_of(w.path / "run");
+  const Workspace w("judge-again");
+  auto config = config_of(w.dir / "run");
   config.jobs = 2;
   const auto result = fuzz::run_campaign(config, engines, {}, go);
   std::set<std::string> faults;
@@ -171,41 +158,41 @@ TEST_CASE("a campaign that keeps its answers is judged again to the same finding
   CHECK(faults.contains("crashed"));
   CHECK(faults.contains("relation"));
   CHECK(result.findings.size() > 10);
-  const auto judged = fuzz::judge_again(w.path / "run", "", 3, go);
+  const auto judged = fuzz::judge_again(w.dir / "run", "", 3, go);
   CHECK(fuzz::digest(judged.after) == fuzz::digest(result));
   CHECK(fuzz::to_json(judged.after, true).dump() == fuzz::to_json(judged.before, true).dump());
   CHECK(fuzz::changes_between(judged.before, judged.after).none);
   CHECK(judged.not_kept_derived == 0);
   CHECK(judged.not_kept_again == 0);
-  fuzz::save_judged_again(w.path / "again", judged);
-  CHECK(findings_in(w.path / "again") == findings_in(w.path / "run"));
-  CHECK_THROWS_AS(fuzz::save_judged_again(w.path / "again", judged), InputError);
+  fuzz::save_judged_again(w.dir / "again", judged);
+  CHECK(findings_in(w.dir / "again") == findings_in(w.dir / "run"));
+  CHECK_THROWS_AS(fuzz::save_judged_again(w.dir / "again", judged), InputError);
 }
 
 TEST_CASE("one engine is judged again alone, with the findings that it has among all", "[judge-again]") {
-  const Workspace w;
-  const auto result = fuzz::run_campaign(config_of(w.path), engines, {}, go);
-  const auto judged = fuzz::judge_again(w.path, "unsteady", 1, go);
+  const Workspace w("judge-again");
+  const auto result = fuzz::run_campaign(config_of(w.dir), engines, {}, go);
+  const auto judged = fuzz::judge_again(w.dir, "unsteady", 1, go);
   REQUIRE(judged.after.tallies.size() == 1);
   CHECK(judged.after.wrong_of("unsteady") == result.wrong_of("unsteady"));
   CHECK(judged.after.failed_of("unsteady") > 0);
   CHECK(fuzz::changes_between(judged.before, judged.after).none);
   for (const auto& [key, f] : judged.after.findings) CHECK(f.engine == "unsteady");
-  CHECK_THROWS_AS(fuzz::judge_again(w.path, "fcl", 1, go), InputError);
+  CHECK_THROWS_AS(fuzz::judge_again(w.dir, "fcl", 1, go), InputError);
 }
 
 TEST_CASE("kept answers are the same bytes for any number of jobs, after a stop, and merged from shards",
           "[judge-again]") {
-  const Workspace w;
-  fuzz::run_campaign(config_of(w.path / "one"), engines, {}, go);
-  const std::string whole = read(w.path / "one/answers.bin");
+  const Workspace w("judge-again");
+  fuzz::run_campaign(config_of(w.dir / "one"), engines, {}, go);
+  const std::string whole = read_all(w.dir / "one/answers.bin");
   REQUIRE(whole.size() > 10'000);
-  auto three = config_of(w.path / "three");
+  auto three = config_of(w.dir / "three");
   three.jobs = 3;
   fuzz::run_campaign(three, engines, {}, go);
-  CHECK(read(w.path / "three/answers.bin") == whole);
+  CHECK(read_all(w.dir / "three/answers.bin") == whole);
 
-  const auto stopped = config_of(w.path / "stopped");
+  const auto stopped = config_of(w.dir / "stopped");
   std::atomic<bool> stop{false};
   const auto stopping = [&] {
     auto all = engines();
@@ -213,37 +200,37 @@ TEST_CASE("kept answers are the same bytes for any number of jobs, after a stop,
     return all;
   };
   fuzz::run_campaign(stopped, stopping, {}, stop);
-  const auto state = nlohmann::json::parse(read(w.path / "stopped/state.json"));
+  const auto state = nlohmann::json::parse(read_all(w.dir / "stopped/state.json"));
   CHECK_FALSE(state.at("finished").get<bool>());
   // Killed while it wrote a block whose end the state does not know.
-  write(w.path / "stopped/answers.bin", read(w.path / "stopped/answers.bin") + "half a block");
-  CHECK(fuzz::changes_between(fuzz::judge_again(w.path / "stopped", "", 1, go).before,
-                              fuzz::judge_again(w.path / "stopped", "", 1, go).after)
+  write(w.dir / "stopped/answers.bin", read_all(w.dir / "stopped/answers.bin") + "half a block");
+  CHECK(fuzz::changes_between(fuzz::judge_again(w.dir / "stopped", "", 1, go).before,
+                              fuzz::judge_again(w.dir / "stopped", "", 1, go).after)
             .none);
   fuzz::run_campaign(stopped, engines, {}, go);
-  CHECK(read(w.path / "stopped/answers.bin") == whole);
+  CHECK(read_all(w.dir / "stopped/answers.bin") == whole);
 
   std::vector<fs::path> shards;
   for (std::uint64_t i = 0; i < 3; ++i) {
-    auto c = config_of(w.path / ("shard" + std::to_string(i)));
+    auto c = config_of(w.dir / ("shard" + std::to_string(i)));
     c.shard = i;
     c.shards = 3;
     fuzz::run_campaign(c, engines, {}, go);
     shards.push_back(c.out);
   }
-  const std::vector<fs::path> two = {shards[2], shards[0]}, rest = {shards[1], w.path / "two"};
-  fuzz::merge_campaigns(w.path / "two", two);
-  CHECK(fuzz::changes_between(fuzz::judge_again(w.path / "two", "", 1, go).before,
-                              fuzz::judge_again(w.path / "two", "", 1, go).after)
+  const std::vector<fs::path> two = {shards[2], shards[0]}, rest = {shards[1], w.dir / "two"};
+  fuzz::merge_campaigns(w.dir / "two", two);
+  CHECK(fuzz::changes_between(fuzz::judge_again(w.dir / "two", "", 1, go).before,
+                              fuzz::judge_again(w.dir / "two", "", 1, go).after)
             .none);
-  fuzz::merge_campaigns(w.path / "merged", rest);
-  CHECK(read(w.path / "merged/answers.bin") == whole);
+  fuzz::merge_campaigns(w.dir / "merged", rest);
+  CHECK(read_all(w.dir / "merged/answers.bin") == whole);
 }
 
 TEST_CASE("judging again names what changed against the stored result", "[judge-again]") {
-  const Workspace w;
-  fuzz::run_campaign(config_of(w.path, 64), engines, {}, go);
-  auto state = nlohmann::ordered_json::parse(read(w.path / "state.json"));
+  const Workspace w("judge-again");
+  fuzz::run_campaign(config_of(w.dir, 64), engines, {}, go);
+  auto state = nlohmann::ordered_json::parse(read_all(w.dir / "state.json"));
   auto& stored = state["result"];
   // As if an older version had not known one finding, had counted another twice, and had reported a third.
   auto& findings = stored["findings"];
@@ -261,8 +248,8 @@ TEST_CASE("judging again names what changed against the stored result", "[judge-
   findings[gone] = third;
   findings.erase(unknown);
   stored["engines"]["depth_halved"]["contact"]["wrong"] = 0;
-  write(w.path / "state.json", state.dump());
-  const auto judged = fuzz::judge_again(w.path, "", 1, go);
+  write(w.dir / "state.json", state.dump());
+  const auto judged = fuzz::judge_again(w.dir, "", 1, go);
   const fuzz::ResultChanges c = fuzz::changes_between(judged.before, judged.after);
   CHECK_FALSE(c.none);
   CHECK(c.appeared == std::vector{unknown});
@@ -323,15 +310,15 @@ TEST_CASE("what was not asked then is not judged, and counted", "[judge-again]")
 }
 
 TEST_CASE("a damaged file of answers is refused with file, byte and reason", "[judge-again]") {
-  const Workspace w;
-  fuzz::run_campaign(config_of(w.path, 64), engines, {}, go);
-  const fs::path file = w.path / "answers.bin";
-  const std::string good = read(file);
+  const Workspace w("judge-again");
+  fuzz::run_campaign(config_of(w.dir, 64), engines, {}, go);
+  const fs::path file = w.dir / "answers.bin";
+  const std::string good = read_all(file);
   const auto damaged = [&](std::size_t at, const std::string& with) {
     std::string bytes = good;
     bytes.replace(at, with.size(), with);
     write(file, bytes);
-    const std::string why = reason_of(w.path);
+    const std::string why = reason_of(w.dir);
     INFO(why);
     CHECK(why.starts_with(file.string()));
     return why;
@@ -350,14 +337,14 @@ TEST_CASE("a damaged file of answers is refused with file, byte and reason", "[j
   CHECK(has(damaged(header + 24, "\xff\xff\xff\x7f"), "ends inside of a block"));
   CHECK(has(damaged(header + 100, "XYZ"), "checksum differs"));
   write(file, good.substr(0, good.size() - 1));
-  CHECK(has(reason_of(w.path), "truncated"));
+  CHECK(has(reason_of(w.dir), "truncated"));
   fs::remove(file);
-  CHECK(has(reason_of(w.path), "no such file"));
+  CHECK(has(reason_of(w.dir), "no such file"));
   // A resumed campaign refuses it too.
-  auto state = nlohmann::ordered_json::parse(read(w.path / "state.json"));
+  auto state = nlohmann::ordered_json::parse(read_all(w.dir / "state.json"));
   state["finished"] = false;
-  write(w.path / "state.json", state.dump());
-  CHECK_THROWS_AS(fuzz::run_campaign(config_of(w.path, 64), engines, {}, go), InputError);
+  write(w.dir / "state.json", state.dump());
+  CHECK_THROWS_AS(fuzz::run_campaign(config_of(w.dir, 64), engines, {}, go), InputError);
   write(file, good);
   // So are engines that describe themselves differently now.
   const auto others = [] {
@@ -365,15 +352,15 @@ TEST_CASE("a damaged file of answers is refused with file, byte and reason", "[j
     std::swap(all[0], all[1]);
     return all;
   };
-  CHECK_THROWS_AS(fuzz::run_campaign(config_of(w.path, 64), others, {}, go), InputError);
-  CHECK(read(file) == good);
-  CHECK_NOTHROW(fuzz::run_campaign(config_of(w.path, 64), engines, {}, go));
-  CHECK(reason_of(w.path).empty());
-  state = nlohmann::ordered_json::parse(read(w.path / "state.json"));
+  CHECK_THROWS_AS(fuzz::run_campaign(config_of(w.dir, 64), others, {}, go), InputError);
+  CHECK(read_all(file) == good);
+  CHECK_NOTHROW(fuzz::run_campaign(config_of(w.dir, 64), engines, {}, go));
+  CHECK(reason_of(w.dir).empty());
+  state = nlohmann::ordered_json::parse(read_all(w.dir / "state.json"));
   state["result"]["cases"] = 65;
-  write(w.path / "state.json", state.dump());
-  CHECK(has(reason_of(w.path), "holds the answers to 64 cases, but the campaign has judged 65"));
+  write(w.dir / "state.json", state.dump());
+  CHECK(has(reason_of(w.dir), "holds the answers to 64 cases, but the campaign has judged 65"));
   state["settings"].erase("keep_answers");
-  write(w.path / "state.json", state.dump());
-  CHECK(has(reason_of(w.path), "keeps no answers"));
+  write(w.dir / "state.json", state.dump());
+  CHECK(has(reason_of(w.dir), "keeps no answers"));
 }

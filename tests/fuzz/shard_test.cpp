@@ -19,36 +19,23 @@
 #include "tests/mutants/lying_engine.h"
 #include "tests/support/catch.h"
 #include "tests/support/skip.h"
+#include "tests/support/workspace.h"
 
 using namespace touchstone;
+using touchstone::test::read_all;
+using touchstone::test::Workspace;
 namespace fs = std::filesystem;
 
 namespace {
-
-struct Workspace {
-  fs::path path = fs::temp_directory_path() / ("touchstone-shards-" + std::to_string(getpid()));
-  Workspace() {
-    fs::remove_all(path);
-    fs::create_directories(path);
-  }
-  ~Workspace() { fs::remove_all(path); }
-};
-
-std::string read(const fs::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  std::stringstream s;
-  s << in.rdbuf();
-  return s.str();
-}
 
 // Findings and state of a campaign without its times.
 std::map<std::string, std::string> files_of(const fs::path& campaign) {
   std::map<std::string, std::string> r;
   if (fs::exists(campaign / "findings"))
     for (const auto& e : fs::recursive_directory_iterator(campaign / "findings"))
-      if (e.is_regular_file()) r[fs::relative(e.path(), campaign).string()] = read(e.path());
+      if (e.is_regular_file()) r[fs::relative(e.path(), campaign).string()] = read_all(e.path());
   for (const char* name : {"state.json", "summary.json"}) {
-    auto j = nlohmann::ordered_json::parse(read(campaign / name));
+    auto j = nlohmann::ordered_json::parse(read_all(campaign / name));
     auto& result = j.contains("result") ? j["result"] : j;
     result.erase("times");
     for (auto& [engine, questions] : result["engines"].items())
@@ -113,38 +100,38 @@ TEST_CASE("a task of a cluster knows its shard", "[shards]") {
 }
 
 TEST_CASE("merged shards are the unsharded campaign, byte for byte but for times", "[shards][merge]") {
-  const Workspace w;
-  const auto whole = files_of(campaign(w.path / "whole", 0, 1));
+  const Workspace w("shards");
+  const auto whole = files_of(campaign(w.dir / "whole", 0, 1));
   CHECK(whole.size() > 10);
   std::vector<fs::path> s;
-  for (std::uint64_t i = 0; i < 3; ++i) s.push_back(campaign(w.path / ("shard" + std::to_string(i)), i, 3));
+  for (std::uint64_t i = 0; i < 3; ++i) s.push_back(campaign(w.dir / ("shard" + std::to_string(i)), i, 3));
   const auto merge = [&](const char* name, const std::vector<fs::path>& in) {
-    return fuzz::merge_campaigns(w.path / name, in);
+    return fuzz::merge_campaigns(w.dir / name, in);
   };
   CHECK(merge("a", {s[0], s[1], s[2]}).missing.empty());
-  CHECK(files_of(w.path / "a") == whole);
+  CHECK(files_of(w.dir / "a") == whole);
   merge("b", {s[2], s[0], s[2], s[1], s[0]});
-  CHECK(files_of(w.path / "b") == whole);
+  CHECK(files_of(w.dir / "b") == whole);
   CHECK(merge("part", {s[2], s[0]}).missing == std::vector<std::uint64_t>{1});
-  merge("c", {s[1], w.path / "part", s[0]});
-  CHECK(files_of(w.path / "c") == whole);
+  merge("c", {s[1], w.dir / "part", s[0]});
+  CHECK(files_of(w.dir / "c") == whole);
   SECTION("a key that names another directory is refused, and nothing is written") {
     const fs::path file = s[0] / "state.json";
-    auto j = nlohmann::ordered_json::parse(read(file));
+    auto j = nlohmann::ordered_json::parse(read_all(file));
     auto& findings = j["result"]["findings"];
     REQUIRE_FALSE(findings.empty());
     findings["../../victim"] = nlohmann::ordered_json(findings.begin().value());
     std::ofstream(file) << j.dump();
     CHECK_THROWS_WITH(merge("evil", {s[0], s[1], s[2]}), Catch::Contains("state.json"));
-    CHECK_FALSE(fs::exists(w.path / "evil"));
-    CHECK_FALSE(fs::exists(w.path / "victim"));
+    CHECK_FALSE(fs::exists(w.dir / "evil"));
+    CHECK_FALSE(fs::exists(w.dir / "victim"));
   }
   SECTION("incompatible parts are refused") {
     merge("other", {s[0], s[1]});
-    CHECK_THROWS_AS(merge("d", {w.path / "part", w.path / "other"}), InputError);
+    CHECK_THROWS_AS(merge("d", {w.dir / "part", w.dir / "other"}), InputError);
     CHECK_THROWS_AS(merge("a", {s[0]}), InputError);
-    CHECK_THROWS_AS(merge("d", {s[0], campaign(w.path / "two", 0, 2)}), InputError);
-    CHECK_THROWS_AS(merge("d", {w.path / "nothing"}), InputError);
+    CHECK_THROWS_AS(merge("d", {s[0], campaign(w.dir / "two", 0, 2)}), InputError);
+    CHECK_THROWS_AS(merge("d", {w.dir / "nothing"}), InputError);
   }
 }
 
@@ -170,8 +157,8 @@ const std::string task_settings =
 }  // namespace
 
 TEST_CASE("the sbatch script's tasks together equal the campaign of one machine", "[shards][cluster]") {
-  const Workspace w;
-  const std::string out = w.path.string();
+  const Workspace w("shards");
+  const std::string out = w.dir.string();
   for (int task = 5; task < 8; ++task)
     REQUIRE(exit_of("cd '" TS_SOURCE_DIR "' && SLURM_ARRAY_TASK_ID=" + std::to_string(task) +
                     " SLURM_ARRAY_TASK_MIN=5 SLURM_ARRAY_TASK_COUNT=3 SLURM_CPUS_PER_TASK=1 " +
@@ -184,8 +171,8 @@ TEST_CASE("the same under a single-node Slurm", "[shards][cluster][slurm][option
     if (exit_of(std::string("PATH=\"$PATH:/usr/sbin\" command -v ") + daemon) != 0)
       return test::skip(std::string(daemon) + " is not installed");
   if (geteuid() != 0) return test::skip("starting a Slurm by hand needs root");
-  const Workspace w;
-  const std::string out = w.path.string();
+  const Workspace w("shards");
+  const std::string out = w.dir.string();
   const std::string cluster = "sh tests/fuzz/single_node_slurm.sh " + out + "/slurm",
                     batch = " sbatch --wait --array=5-7 --cpus-per-task=1 --export=ALL --output=" + out +
                             "/task-%a.log fuzz/cluster/campaign.sbatch";
@@ -231,8 +218,8 @@ TEST_CASE("ledgers merge to the same result in any order and repeatedly", "[shar
   CHECK(xy == fuzz::merged(xy, x));
   CHECK(fuzz::merged(xy, z) == fuzz::merged(x, fuzz::merged(z, y)));
   CHECK(fuzz::merged(xy, z).expired.empty());  // seen again since
-  const Workspace w;
-  const fs::path a = w.path / "a.db", b = w.path / "b.db", sum = w.path / "sum.db";
+  const Workspace w("shards");
+  const fs::path a = w.dir / "a.db", b = w.dir / "b.db", sum = w.dir / "sum.db";
   for (const auto& [file, f] : {std::pair{a, x}, {b, y}}) {
     fuzz::Ledger l(file);
     l.put(f);
@@ -242,12 +229,12 @@ TEST_CASE("ledgers merge to the same result in any order and repeatedly", "[shar
     CHECK(fuzz::merge_ledgers(sum, in) == 1);
     CHECK(fuzz::Ledger(sum).find(x.key) == xy);
   }
-  CHECK_THROWS_AS(fuzz::merge_ledgers(sum, std::vector{w.path / "none.db"}), InputError);
+  CHECK_THROWS_AS(fuzz::merge_ledgers(sum, std::vector{w.dir / "none.db"}), InputError);
 }
 
 TEST_CASE("triage gives the same result with several jobs as with one", "[shards][triage]") {
-  const Workspace w;
-  const auto found = fuzz::load_findings(campaign(w.path / "c", 0, 1));
+  const Workspace w("shards");
+  const auto found = fuzz::load_findings(campaign(w.dir / "c", 0, 1));
   CHECK(found.size() > 5);
   const auto triaged = [&](std::size_t jobs) {
     fuzz::TriageConfig c;
@@ -260,7 +247,7 @@ TEST_CASE("triage gives the same result with several jobs as with one", "[shards
       return smaller;
     };
     const std::vector<fuzz::TriageConfig> configs(jobs, c);
-    fuzz::Ledger ledger(w.path / ("ledger" + std::to_string(jobs) + ".db"));
+    fuzz::Ledger ledger(w.dir / ("ledger" + std::to_string(jobs) + ".db"));
     const auto r = fuzz::triage(found, ledger, configs);
     std::vector<fuzz::KnownFinding> rows;
     for (const auto& t : r) rows.push_back(t.finding);

@@ -16,7 +16,9 @@ std::string error_of(const std::string& text) {
   return "";
 }
 
-EngineCard example() { return {"a \"b\"", "lib\\1", "1.2", "line\nbreak", 0x1p-24, 256, "page 7", false, {}}; }
+EngineCard example() {
+  return {"a \"b\"", "lib\\1", "1.2", "line\nbreak", 0x1p-24, 256, "page 7", false, {}};
+}
 
 }  // namespace
 

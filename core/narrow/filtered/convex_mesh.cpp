@@ -47,7 +47,8 @@ class MeshQuery {
  private:
   bool out_of_reach(const Vec3& lo, const Vec3& hi) const {
     const double gap = asked_ == Asked::distance ? std::max(0.0, static_cast<double>(best_.gap)) : 0;
-    const double far = (ball_ + gap) * (1 + tolerance::box_rounding) + tolerance::box_rounding * centre_.norm();
+    const double far =
+        (ball_ + gap) * (1 + tolerance::box_rounding) + tolerance::box_rounding * centre_.norm();
     return box_distance_sq(centre_, lo, hi) > far * far;
   }
 

@@ -161,7 +161,8 @@ void separate_cores(const RoundedPose<R>& a, const RoundedPose<R>& b, Asked aske
   }
   // A tetrahedron without room for the origin proves nothing, whatever the radii: it may be a sliver of
   // rounding noise.
-  const bool inside = g.status == GjkStatus::enclosed && (g.margin > error || (g.margin > 0 && radii > error));
+  const bool inside =
+      g.status == GjkStatus::enclosed && (g.margin > error || (g.margin > 0 && radii > error));
   if (asked == Asked::overlap && (g.upper < radii - error || inside)) {
     r.found = Found::meeting;
     return;

@@ -33,7 +33,8 @@ Foot foot_of(const Points& points) {
   V3<R> v = V3<R>::Zero();
   R dist_sq = 0, margin = 0;  // 0: nothing is nearer yet, so that all four faces are tried
   Foot r;
-  r.encloses = narrow::reduce<!std::is_floating_point_v<R> || (sizeof(R) > sizeof(double))>(s, v, dist_sq, margin);
+  r.encloses =
+      narrow::reduce < !std::is_floating_point_v<R> || (sizeof(R) > sizeof(double)) > (s, v, dist_sq, margin);
   r.weight.assign(points.size(), 0);
   if (r.encloses) {
     r.margin = static_cast<double>(margin);
