@@ -125,6 +125,20 @@ TEST_CASE("boxes contain the exact body and exceed it by a few ulps", "[broad][b
   CHECK(checked == 6000);
 }
 
+TEST_CASE("loose boxes contain ellipsoids of any size", "[broad]") {
+  Rng r(17);
+  for (const int e : {-1020, -700, -520, -300, 0, 300, 520, 1000})
+    for (int i = 0; i < 20; ++i) {
+      const double unit = std::ldexp(1.0, e);
+      const Shape shape = Ellipsoid{(r.vector(0.5, 1).cwiseAbs() + Vec3::Constant(0.1)) * unit};
+      const Pose pose{r.chance(0.5) ? Vec3(Vec3::Zero()) : Vec3(r.vector(0.1, 1) * unit), r.rotation()};
+      const Aabb box = loose_box(shape, pose, box_size(shape)), tight = body_box(shape, pose);
+      INFO("2^" << e);
+      CHECK((box.lo.array() <= tight.lo.array()).all());
+      CHECK((box.hi.array() >= tight.hi.array()).all());
+    }
+}
+
 TEST_CASE("loose boxes contain the exact body too, at rest and in motion", "[broad][box]") {
   for (std::uint64_t seed = 0; seed < 2000; ++seed) {
     Rng r(seed);
