@@ -317,6 +317,14 @@ constexpr int coarse_bits[] = {1, 2, 3, 4, 6, 8, 12, 16, 24, 32, 40, 46, 50};
 std::span<const ListPart> list_parts() { return parts_table; }
 std::span<const Simplification> simplifications() { return simplifications_table; }
 
+double rounded_to(double v, int significant) {
+  if (v == 0 || !std::isfinite(v)) return v;
+  int exponent = 0;
+  const double m = std::frexp(v, &exponent);
+  const double r = std::ldexp(std::nearbyint(std::ldexp(m, significant)), exponent - significant);
+  return std::isfinite(r) ? r : v;
+}
+
 std::vector<Case> round_all(const Case& c) {
   std::vector<Case> out;
   for (int bits : coarse_bits) {
