@@ -98,6 +98,11 @@ void read_merged(const fs::path& d) {
   reports::campaign_table(merged.result);
 }
 
+void read_result(const fs::path& d) {
+  fuzz::load_settings(d / "campaign");
+  fuzz::keys_by_case(fuzz::load_result(d / "campaign"));
+}
+
 fuzz::CampaignConfig settings_of(const fs::path& d) {
   const Json s = Json::parse(read_file(d / "half.settings"));
   fuzz::CampaignConfig c;
@@ -411,6 +416,7 @@ const std::vector<FileReader>& file_readers() {
       {"impact", {"impact.json"}, read_impact},
       {"finding", {"campaign/findings/one/finding.json", "campaign/findings/one/case.json"}, read_findings},
       {"state to merge", {"campaign/state.json"}, read_merged},
+      {"state to read", {"campaign/state.json"}, read_result},
       {"state to resume", {"half/state.json"}, read_resumed},
       {"summary", {"campaign/summary.json"}, read_summary},
       {"kept answers", {"kept/answers.bin"}, read_answers},

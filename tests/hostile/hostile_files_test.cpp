@@ -239,6 +239,58 @@ TEST_CASE("a state is read completely before anything is written", "[hostile][me
   }
 }
 
+TEST_CASE("damaged examples of a finding are refused with their place", "[hostile][merge]") {
+  const Workspace w("hostile-examples");
+  fs::create_directories(w.dir / "in");
+  const Json good = {{"index", 3}, {"error_in_l", 0.5}, {"bodies", 2},
+                     {"steps", 0}, {"bits", 4},         {"case", "a"}};
+  const auto changed = [&](const char* field, const Json& to) {
+    Json e = good;
+    e[field] = to;
+    return e;
+  };
+  Json bare = good;
+  bare.erase("case");
+  const auto merge = [&](const Json& examples, const Json& document) {
+    Json f = finding("core");
+    f["evidence"] = evidence();
+    f["examples"] = examples;
+    Json s = state(key("core"), f);
+    s["result"]["documents"] = {{"a", document}};
+    w.write("in/state.json", s.dump());
+    return w.touchstone("merge out in");
+  };
+  const auto list = [](const std::vector<Json>& examples) { return Json(examples); };
+  const std::pair<Json, const char*> wrong[] = {
+      {Json::object(), "examples: "},
+      {Json(std::vector<Json>(9, good)), "examples: "},
+      {list({good, good}), "examples[1].index: "},
+      {list({changed("index", 4), good}), "examples[1].index: "},
+      {list({changed("index", -1)}), "examples[0].index: "},
+      {list({changed("error_in_l", "nan")}), "examples[0].error_in_l: "},
+      {list({changed("error_in_l", Json())}), "examples[0].error_in_l: "},
+      {list({changed("bits", 0.5)}), "examples[0].bits: "},
+      {list({changed("bodies", 3)}), "examples[0]: "},
+      {list({changed("steps", 1)}), "examples[0]: "},
+      {list({changed("case", "b")}), "examples[0].case: "},
+      {list({changed("case", two_spheres())}), "examples[0].case: "},
+      {list({Json(7)}), "examples[0]: "}};
+  const auto refused = [&](const Run& r, const std::string& place) {
+    INFO(r.err);
+    CHECK(r.code == 2);
+    CHECK(r.err.find("in/state.json: result." + place) != std::string::npos);
+    CHECK_FALSE(fs::exists(w.dir / "out"));
+  };
+  for (const auto& [examples, place] : wrong)
+    refused(merge(examples, two_spheres()), "findings." + key("core") + ": " + place);
+  refused(merge(list({bare}), two_spheres()), "findings." + key("core") + ".examples: ");
+  Json torn = two_spheres();
+  torn["scene"]["bodies"][0]["shape"] = 7;
+  refused(merge(list({good}), torn), "documents.a");
+  refused(merge(list({good}), Json::array()), "documents.a");
+  CHECK(merge(list({good}), two_spheres()).code == 0);
+}
+
 TEST_CASE("a certificate names a query of the case", "[hostile][check]") {
   const Workspace w("hostile-check");
   w.write("case.json", two_spheres().dump());
