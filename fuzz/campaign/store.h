@@ -43,8 +43,9 @@ Json load_state_json(const std::filesystem::path& directory);
 /// The result in DIR/state.json, of a finished campaign or so far, with evidence and examples and their
 /// cases. Throws InputError when the directory holds no campaign, or a damaged one.
 CampaignResult load_result(const std::filesystem::path& directory);
-/// The settings in DIR/state.json: "seed" is a whole number, "family" a text, "engines" a list of names of
-/// engines, checked; the others are as stored. Throws InputError likewise.
+/// The settings in DIR/state.json: "seed" is a whole number, "family" a text, "engines" a list of texts; the
+/// others are as stored. An engine may be a plug-in's path or a command, which a file must not choose:
+/// compare it with what the command line gives, never run it. Throws InputError likewise.
 Json load_settings(const std::filesystem::path& directory);
 void save_findings(const std::filesystem::path& out, const CampaignResult& result);
 
