@@ -41,6 +41,10 @@ struct Simplification {
 };
 std::span<const Simplification> simplifications();
 
+/// The numbers that are lengths: those of numbers(c) but rotations, angular velocities and the normals of
+/// half-spaces.
+std::vector<double*> lengths(Case& c);
+
 /// The case with all numbers rounded to a few bits, fewest first.
 std::vector<Case> round_all(const Case& c);
 /// The case with the i-th of numbers(c) set to 0, to ±1 and rounded to a few bits, fewest first. Empty when i

@@ -179,6 +179,30 @@ TEST_CASE("shrink reports that there is nothing to shrink, and asks which findin
   CHECK(w.touchstone("shrink spheres.json --key nobody.contact.missed.box-box.algorithm").code == 2);
 }
 
+TEST_CASE("shrink keeps a defensible case, and --smallest the minimum", "[cli]") {
+  const Workspace w("cli");
+  w.write("meeting.json", R"({"touchstone_case":1,"scene":{"touchstone_scene":1,"shapes":[
+{"type":"sphere","radius":1.5}],"bodies":[{"shape":0},
+{"shape":0,"pose":{"translation":[4.3,0.2,0]},"motion":{"linear":[-3,0,0],"angular":[0,0,0]}}]},
+"queries":[{"question":"time_of_impact","a":0,"b":1}]})");
+  const std::string shrink = "shrink meeting.json --engine " + mutant + "impact_denied ";
+  const Run kept = w.touchstone(shrink + "--json");
+  INFO(kept.out << kept.err);
+  REQUIRE(kept.code == 0);
+  const auto doc = nlohmann::json::parse(kept.out);
+  CHECK(doc.at("defensible") == true);
+  REQUIRE(doc.contains("other"));
+  CHECK(doc.at("other").at("defensible") == false);
+  CHECK(doc.at("other").at("after").at("bits") < doc.at("after").at("bits"));
+  const Run smallest = w.touchstone(shrink + "--smallest -o small.json");
+  CHECK(smallest.code == 0);
+  CHECK(smallest.err.find("this is the smallest case; the defensible one has 2 bodies") != std::string::npos);
+  CHECK(nlohmann::json::parse(read_all(w.dir / "small.json")) == doc.at("other").at("case"));
+  const Run text = w.touchstone(shrink);
+  CHECK(text.err.find("this is the defensible case; the smallest one has 2 bodies") != std::string::npos);
+  CHECK(nlohmann::json::parse(text.out) == doc.at("case"));
+}
+
 TEST_CASE("a flat hull works and is reported as flat", "[cli]") {
   const Workspace w("cli");
   w.write("flat.json", R"({"touchstone_scene":1,"shapes":[
