@@ -220,3 +220,26 @@ TEST_CASE("findings about lying engines keep their key in both forms", "[shrink]
   // The last two are about flat and about touching bodies.
   CHECK(defensible == chosen.size() - 2);
 }
+
+TEST_CASE("a fault that is small in its case is defensible in another", "[shrink][mutants][defensible]") {
+  const auto& all = mutants::mutants();
+  const auto m = std::find_if(all.begin(), all.end(),
+                              [](const mutants::Mutant& x) { return x.name == "overlap_denied_above"; });
+  REQUIRE(m != all.end());
+  const EnginePtr engine = mutants::make_lying_engine(*m);
+  for (std::uint64_t i = 0; i < 600; ++i) {
+    const Case c = fuzz::make_case(1, i, m->family);
+    const std::string key = first_key(*m, engine, c);
+    if (!key.ends_with(".small")) continue;
+    INFO(key << " in " << c.id);
+    CHECK_FALSE(fuzz::shrink_both(c, fuzz::keeps_finding(engine, key), 2000).defensible);
+    const auto r = fuzz::shrink_both(c, fuzz::keeps_fault(engine, key), 2000);
+    REQUIRE(r.defensible);
+    CHECK(fuzz::is_defensible(r.defensible->smallest));
+    const auto found = fuzz::findings_of({&r.defensible->smallest, 1}, engine)[0];
+    REQUIRE(found.size() == 1);
+    CHECK(found.begin()->first == key.substr(0, key.rfind('.')) + ".gross");
+    return;
+  }
+  FAIL("the lie is not found");
+}
