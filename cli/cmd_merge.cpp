@@ -31,7 +31,7 @@ int merge_shards(const MergeOptions& o) {
                           {"missing", m.missing}};
     fmt::print("{}\n", j.dump(1));
   } else {
-    fmt::print("{}\n{}", reports::campaign_table(m.result), reports::campaign_footer(m.result));
+    fmt::print("{}\n{}", reports::full_campaign_table(m.result), reports::campaign_footer(m.result));
     fmt::print("{} shards, {} missing; {} kinds of findings in {}/findings; digest {}\n", m.shards.size(),
                m.missing.size(), reports::grouped(m.result.findings.size()), o.out, fuzz::digest(m.result));
   }

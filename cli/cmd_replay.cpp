@@ -120,7 +120,7 @@ void replay_real_scene(const ReplayOptions& o, const ReplayEngines& asked, const
     json.push_back(fuzz::to_json(result, true));
   } else {
     fmt::print("{}: {} bodies, {} of {} frames\n{}\n", scene.name, scene.frame(0).bodies.size(),
-               frames.size(), scene.frame_count(), reports::campaign_table(result));
+               frames.size(), scene.frame_count(), reports::full_campaign_table(result));
     fmt::print("{}{}\n", reports::findings_summary(result, 3), reports::campaign_footer(result));
   }
   const std::uint64_t answered = result.answered_by(asked.subject), failed = result.failed_of(asked.subject);

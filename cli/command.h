@@ -10,6 +10,8 @@
 #include <string>
 #include <string_view>
 
+#include "scenarios/text/shell_word.h"
+
 namespace touchstone::cli {
 
 using Run = std::function<int()>;
@@ -22,8 +24,6 @@ struct Command {
 /// The program's name as it was called, quoted for the shell: for printed commands. main() sets it.
 void set_program_name(std::string name);
 const std::string& program_name();
-/// `text` as one word for the shell, quoted if necessary.
-std::string shell_word(const std::string& text);
 
 /// Option validators with readable messages (CLI11's own print the largest double in full).
 CLI::Validator a_count();

@@ -116,7 +116,7 @@ std::string group_lines(const std::string& title, const Group& g) {
 
 }  // namespace
 
-std::string campaign_table(const CampaignResult& r) {
+std::string full_campaign_table(const CampaignResult& r) {
   std::string s = fmt::format(" {:<8} {:>7} {:>7} {:>6} {:>6} {:>6} {:>6} {:>8} {:>7} {:>8}\n", "", "answers",
                               "right", "wrong", "missed", "ghost", "failed", "worst/L", "ns med", "ns p99");
   for (const auto& [engine, questions] : r.tallies) {

@@ -124,6 +124,7 @@ void read_summary(const fs::path& d) {
   const Json j = load_json(file, campaign_limits);
   const auto r = fuzz::result_from_json(JsonReader(j, file.string()));
   reports::campaign_table(r);
+  reports::full_campaign_table(r);
   reports::findings_summary(r, 3);
   reports::campaign_footer(r);
   json_text(reports::findings_columns(j.at("findings")));
