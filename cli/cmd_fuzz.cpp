@@ -26,7 +26,7 @@ struct FuzzOptions {
   std::string shard, out;
   std::uint64_t cases = 0;
   double minutes = 0;
-  bool json = false;
+  bool json = false, verbose = false;
   WorkerLimits limits;
 };
 
@@ -108,7 +108,7 @@ int run(FuzzOptions& o) {
   if (o.json)
     fmt::print("{}\n", campaign_json(end).dump(1));
   else
-    print_campaign(end, !interrupted);
+    print_campaign(end, {.finished = !interrupted, .verbose = o.verbose});
   if (!interrupted) return campaign_verdict(end, o.json);
   return print_verdict(exit_failed, end.subject,
                        fmt::format("interrupted; resume with the same command and --out {}; so far {}",
@@ -148,6 +148,7 @@ Run declare_fuzz(CLI::App& app) {
                "case for the core alone, 3 kB with FCL, Bullet, ODE and libccd");
   add_error(app, o->config.error);
   add_case_seconds(app, o->limits);
+  add_verbose(app, o->verbose);
   app.add_flag("--json", o->json, "the whole result as one JSON document on stdout");
   return [o] { return run(*o); };
 }

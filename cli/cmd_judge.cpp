@@ -24,7 +24,7 @@ namespace {
 struct JudgeOptions {
   std::string directory, engine, out, junit;
   int jobs = 1;
-  bool json = false;
+  bool json = false, verbose = false;
 };
 
 // What needs an engine, and so was not judged again.
@@ -93,7 +93,7 @@ int run(const JudgeOptions& o) {
     j["not_kept"] = {{"derived", judged.not_kept_derived}, {"again", judged.not_kept_again}};
     fmt::print("{}\n", json_text(j, 1));
   } else {
-    print_campaign(end, true);
+    print_campaign(end, {.verbose = o.verbose});
     fmt::print("{}{}", reports::changes_text(changes), describe_limits(judged));
   }
   return campaign_verdict(end, o.json);
@@ -113,6 +113,7 @@ Run declare_judge(CLI::App& app) {
   app.add_option("-o,--out", o->out,
                  "new directory for the findings as judged now, which `report` and `triage` accept");
   app.add_option("--junit", o->junit, "write the findings as JUnit XML to this file; new ones are failures");
+  add_verbose(app, o->verbose);
   app.add_flag("--json", o->json, "the whole result and what changed as one JSON document on stdout");
   return [o] { return run(*o); };
 }

@@ -166,11 +166,12 @@ std::string causes_of_engines(const Causes& c, std::size_t per_engine, const std
                                 counted(wrong, "wrong answer", "wrong answers")),
                     0, 1);
     const std::size_t shown = std::min(per_engine, causes.size());
-    for (std::size_t i = 0; i < shown; ++i)
+    for (std::size_t i = 0; i < shown; ++i) {
       s += text_block(fmt::format("{:>7} {}: {}", grouped(causes[i]->wrong), to_string(causes[i]->severity),
                                   causes[i]->title),
-                      0, 1) +
-           "        " + command_of(*causes[i], command) + "\n";
+                      0, 1);
+      if (!directory.empty()) s += "        " + command_of(*causes[i], command) + "\n";
+    }
     if (causes.size() > shown) s += fmt::format("        and {} more\n", causes.size() - shown);
   }
   return s;

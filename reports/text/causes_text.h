@@ -19,7 +19,7 @@ std::string cause_text(const fuzz::Cause& c);
 std::string cause_markdown(const fuzz::Cause& c);
 
 /// The end of what a campaign prints: for each engine path its first `per_engine` causes, each with its
-/// command.
+/// command, unless the campaign is stored nowhere (`directory` is empty).
 std::string causes_of_engines(const fuzz::Causes& c, std::size_t per_engine, const std::string& directory,
                               const std::string& program);
 

@@ -278,3 +278,9 @@ TEST_CASE("the page has every cause with its Markdown, its command and the case 
     CHECK(causes[i][defensible ? "defensible" : "smallest"]["case"] == c.causes[i].shown().c);
   }
 }
+
+TEST_CASE("a campaign that is stored nowhere has causes without commands", "[causes]") {
+  const std::string text = causes_of_engines(sample_causes(), 5, "", "touchstone");
+  CHECK(lines(text).size() == 4 + 5);
+  CHECK_FALSE(contains(text, "touchstone"));
+}
