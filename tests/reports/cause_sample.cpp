@@ -116,6 +116,8 @@ Cause infeasible_depth() {
                              "moving by the stated depth 0.5 along the stated normal leaves 0.5 of overlap",
                              0.05, {2, 0, 52});
   c.worst = c.smallest;
+  c.worst.engine = "bullet-f64-query-tuned";
+  c.worst.words = "moving by the stated depth 0.2 along the stated normal leaves 0.61 of overlap";
   c.certificate = Json::parse(R"({"kind": "separating_plane", "direction": [0.29, 0.002, 0.95],
                                   "offset": 1.16, "bodies": [0, 1]})");
   c.program = program_of("btBulletCollisionCommon.h", "  // two boxes\n");
@@ -258,6 +260,10 @@ fuzz::Causes hostile_causes() {
     }
     cause.certificate = {{"note", by}};
   }
+  // No scenes at all.
+  c.causes.at(0).smallest.c =
+      Json::parse(R"({"scene": {"shapes": [{"type": "teapot"}], "bodies": [{"shape": 0}]}})");
+  c.causes.at(3).smallest.c = Json::parse(R"({"scene": 7})");
   return c;
 }
 
