@@ -80,7 +80,7 @@ std::string facts(const Cause& c) {
   s += fmt::format("\n- **Severity:** {}; {}\n", to_string(c.severity), rate_text(c));
   if (!c.questions.empty()) s += fmt::format("- **Questions:** {}\n", code_list(c.questions, most));
   if (!c.shapes.empty()) s += fmt::format("- **Shapes:** {}\n", code_list(c.shapes, most));
-  if (c.worst_in_l > 0) s += fmt::format("- **Worst error:** {} of the scene's size\n", small(c.worst_in_l));
+  if (c.worst_in_l > 0) s += fmt::format("- **Worst error:** {} of the bodies' size\n", small(c.worst_in_l));
   if (!c.documented.empty()) s += fmt::format("- **Documented:** {}\n", prose(c.documented));
   return s;
 }
@@ -94,9 +94,8 @@ std::string scene(const CauseCase& shown) {
 
 std::string responses(const Cause& c) {
   std::string rows;
-  for (const Responded& r : c.response)
-    if (r.response != fuzz::Response::not_applicable)
-      rows += fmt::format("| {} | {} |\n", prose(r.change), words_of(r.response));
+  for (const Responded& r : telling_responses(c))
+    rows += fmt::format("| {} | {} |\n", prose(r.change), words_of(r.response));
   return rows.empty() ? "" : "\n## What makes it vanish\n\n| change | answer then |\n|---|---|\n" + rows;
 }
 

@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
+#include <iterator>
 
 #include "reports/text/text.h"
 #include "scenarios/text/printable.h"
@@ -86,6 +86,14 @@ std::string_view expected_of(Severity s) {
       return "Answers that agree for two forms of the same scene.";
   }
   return "";
+}
+
+std::vector<fuzz::Responded> telling_responses(const Cause& c) {
+  std::vector<fuzz::Responded> all;
+  for (const Response wanted : {Response::gone, Response::differs, Response::stays, Response::open})
+    std::copy_if(c.response.begin(), c.response.end(), std::back_inserter(all),
+                 [&](const fuzz::Responded& r) { return r.response == wanted; });
+  return all;
 }
 
 std::string_view words_of(Response r) {

@@ -26,6 +26,9 @@ std::string size_text(const CaseSize& s);
 /// The right behaviour, in one sentence.
 std::string_view expected_of(fuzz::Severity s);
 
+/// The interventions that apply, those first that make the fault vanish.
+std::vector<fuzz::Responded> telling_responses(const fuzz::Cause& c);
+
 /// What an answer of this kind means, for the response table: "the fault is gone".
 std::string_view words_of(fuzz::Response r);
 

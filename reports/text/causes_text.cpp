@@ -102,21 +102,16 @@ std::string case_row(std::string_view name, const CauseCase& c) {
 
 // Not applicable interventions are counted, not listed.
 std::string response_table(const Cause& c) {
-  std::size_t width = 0, left_out = 0;
+  const std::vector<Responded> rows = telling_responses(c);
+  if (rows.empty()) return "";
   constexpr std::size_t most_width = 50;
-  for (const Responded& r : c.response) {
-    if (r.response == fuzz::Response::not_applicable)
-      ++left_out;
-    else
-      width = std::max(width, std::min(most_width, one_line(r.change).size()));
-  }
-  if (width == 0) return "";
+  std::size_t width = 0;
+  for (const Responded& r : rows) width = std::max(width, std::min(most_width, one_line(r.change).size()));
   std::string s = "What was changed, and the answer then\n";
-  for (const Responded& r : c.response)
-    if (r.response != fuzz::Response::not_applicable)
-      s += fmt::format("  {:<{}}  {}\n", cut_utf8(one_line(r.change), most_width), width,
-                       words_of(r.response));
-  if (left_out > 0) s += fmt::format("  and {} not applicable\n", left_out);
+  for (const Responded& r : rows)
+    s += fmt::format("  {:<{}}  {}\n", cut_utf8(one_line(r.change), most_width), width, words_of(r.response));
+  if (const std::size_t left_out = c.response.size() - rows.size(); left_out > 0)
+    s += fmt::format("  and {} not applicable\n", left_out);
   return s;
 }
 

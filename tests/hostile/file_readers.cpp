@@ -19,6 +19,7 @@
 #include "reports/record/chart.h"
 #include "reports/record/evidence.h"
 #include "reports/record/stored.h"
+#include "reports/text/causes_text.h"
 #include "reports/text/record_text.h"
 #include "reports/text/text.h"
 #include "reports/text/web_page.h"
@@ -29,6 +30,7 @@
 #include "scenarios/import/ccd_queries.h"
 #include "scenarios/import/mesh_import.h"
 #include "scenarios/import/real_scene.h"
+#include "tests/reports/cause_sample.h"
 
 namespace touchstone::test {
 namespace {
@@ -145,6 +147,16 @@ void read_plan(const fs::path& d) {
   const Json json = load_json(file);
   const JsonReader j(json, file.string());
   json_text(fuzz::to_json(fuzz::fidelity_from_json(j["run"].json(), file.string() + ": run")));
+}
+
+void read_causes(const fs::path& d) {
+  const fs::path file = d / "causes.json";
+  const Json j = load_json(file, campaign_limits);
+  const fuzz::Causes c = fuzz::causes_from_json(JsonReader(j, file.string()));
+  reports::causes_text(c, "touchstone causes");
+  reports::causes_of_engines(c, 5, "campaign", "touchstone");
+  for (const fuzz::Cause& cause : c.causes) reports::cause_text(cause);
+  json_text(reports::causes_page(c));
 }
 
 void read_chart(const fs::path& d) {
@@ -395,6 +407,7 @@ void write_chart(const fs::path& d) {
   rows.erase(rows.begin() + std::min<std::ptrdiff_t>(12, static_cast<std::ptrdiff_t>(rows.size())),
              rows.end());
   write_json(d / "chart.json", chart);
+  write_json(d / "causes.json", fuzz::to_json(sample_causes()));
 }
 
 }  // namespace
@@ -419,6 +432,7 @@ const std::vector<FileReader>& file_readers() {
       {"certificate of a broad phase", {"broad.json"}, read_broad},
       {"plan", {"plan.json"}, read_plan},
       {"chart", {"chart.json"}, read_chart},
+      {"causes", {"causes.json"}, read_causes},
       {"ledger", {"ledger.db"}, read_ledger},
       {"ledger, written", {"ledger.db"}, write_ledger},
       {"recording", {"recording/scene.txt", "recording/frames.npy", "recording/frames.csv"}, read_recording},

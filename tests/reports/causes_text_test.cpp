@@ -149,6 +149,7 @@ TEST_CASE("a cause in full has its responses, consequences, engines and cases", 
   CHECK(contains(text, "  A and B exchanged                 wrong in another way\n"));
   CHECK(contains(text, "  the depth halved                  not decided\n"));
   CHECK(contains(text, "  and 1 not applicable\n"));
+  CHECK(contains(text, "the answer then\n  turned by 1e-6 "));  // what makes it vanish comes first
   CHECK(contains(text, "  smallest: bullet-f32-query-tuned, 2 bodies, 131 bits, 6.1e-01 L\n"));
   CHECK(contains(text, "  defensible: bullet-f32-query-tuned, 2 bodies, 52 bits, 5.0e-02 L\n"));
   CHECK(contains(text, "#include <btBulletCollisionCommon.h>\n"));
@@ -189,7 +190,7 @@ TEST_CASE("Markdown has all that a maintainer needs", "[causes]") {
   CHECK(contains(text, "**Expected:** Moving a body by the stated depth"));
   CHECK(contains(text, "**Actual:** `moving by the stated depth 0.5 along the stated normal leaves 0.5 of"));
   CHECK(contains(text, "```json\n" + c.defensible.c.dump() + "\n```\n"));
-  CHECK(contains(text, "| turned by 1e-6 | right |\n"));
+  CHECK(contains(text, "|---|---|\n| turned by 1e-6 | right |\n"));
   CHECK(contains(text, "```cpp\n" + c.program + "```\n"));
   CHECK(contains(text, "```sh\ntouchstone replay case.json --engines bullet-f32-query-tuned\n```\n"));
   CHECK(contains(text, "<details><summary>Certificate of the right answer</summary>\n"));
