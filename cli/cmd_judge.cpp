@@ -14,7 +14,7 @@
 #include "core/base/input_error.h"
 #include "fuzz/campaign/judge_again.h"
 #include "reports/text/changes_text.h"
-#include "reports/text/record_text.h"
+#include "reports/text/junit.h"
 #include "reports/text/text.h"
 #include "scenarios/codec/json_file.h"
 
@@ -49,20 +49,17 @@ bool are_stored(const fuzz::CampaignResult& before, const fuzz::CampaignResult& 
 }
 
 // Every finding of either result, for JUnit: one that appeared is a failure.
-std::vector<fuzz::Triaged> standings(const fuzz::CampaignResult& before, const fuzz::CampaignResult& after) {
-  std::vector<fuzz::Triaged> all;
-  const auto add = [&](const fuzz::Finding& f, fuzz::Standing standing) {
-    fuzz::Triaged& t = all.emplace_back();
-    t.standing = standing;
-    t.finding.key = f.key();
-    t.finding.engine = f.engine;
-    t.finding.words = f.words;
-    t.finding.first_seen = "the stored result";
-  };
+std::vector<reports::JUnitTest> tests_of(const fuzz::CampaignResult& before,
+                                         const fuzz::CampaignResult& after) {
+  using reports::TestResult;
+  std::vector<reports::JUnitTest> all;
   for (const auto& [key, f] : after.findings)
-    add(f, before.findings.contains(key) ? fuzz::Standing::known : fuzz::Standing::fresh);
+    if (before.findings.contains(key))
+      all.push_back({f.engine, key, TestResult::skipped, "known since the stored result", ""});
+    else
+      all.push_back({f.engine, key, TestResult::failed, "new", f.words});
   for (const auto& [key, f] : before.findings)
-    if (!after.findings.contains(key)) add(f, fuzz::Standing::gone);
+    if (!after.findings.contains(key)) all.push_back({f.engine, key, TestResult::passed, "", ""});
   return all;
 }
 
@@ -81,7 +78,7 @@ int run(const JudgeOptions& o) {
   const JsonReader settings(judged.settings, (std::filesystem::path(o.directory) / "state.json").string(),
                             "settings");
   if (!o.out.empty()) fuzz::save_judged_again(o.out, judged);
-  if (!o.junit.empty()) write_file(o.junit, reports::triage_junit(standings(judged.before, judged.after)));
+  if (!o.junit.empty()) write_file(o.junit, reports::junit(tests_of(judged.before, judged.after)));
   CampaignEnd end{judged.after, o.engine.empty() ? settings["subject"].string() : o.engine,
                   settings["family"].string(), o.out};
   // The stored findings are what is there to look at, unless they are others now.

@@ -1,4 +1,4 @@
-// touchstone merge OUT IN…: merges shards of a campaign, or with --ledgers, ledgers of known findings.
+// touchstone merge OUT IN…: merges shards of a campaign, or with --ledgers, ledgers of known causes.
 #include <fmt/format.h>
 
 #include <filesystem>
@@ -45,7 +45,7 @@ int run(const MergeOptions& o) {
                      "--ledgers OUT.db LEDGER.db...");
   if (!o.ledgers) return merge_shards(o);
   const std::size_t n = fuzz::merge_ledgers(o.out, paths(o));
-  fmt::print("{} findings in {}\n", reports::grouped(n), o.out);
+  fmt::print("{} causes in {}\n", reports::grouped(n), o.out);
   return exit_clean;
 }
 
@@ -56,7 +56,7 @@ Run declare_merge(CLI::App& app) {
   app.add_option("out", o->out, "directory (with --ledgers: file) for the result");
   app.add_option("in", o->in,
                  "directories of finished or merged shards, in any order; repetitions are ignored");
-  app.add_flag("--ledgers", o->ledgers, "merge ledgers (findings.db) instead");
+  app.add_flag("--ledgers", o->ledgers, "merge ledgers (causes.db) instead");
   app.add_flag("--json", o->json, "one JSON document on stdout");
   return [o] { return run(*o); };
 }

@@ -60,7 +60,7 @@ inline constexpr auto commands = std::to_array<Command>({
     {"shrink", "find the smallest case that shows the same finding", declare_shrink},
     {"reproduce", "write a finding as a program against the engine", declare_reproduce},
     {"bisect", "find what a finding depends on", declare_bisect},
-    {"triage", "compare findings with the ledger of known ones", declare_triage},
+    {"triage", "compare causes with the ledger of known ones", declare_triage},
     {"plan", "choose the cheapest model a scene can be run with", declare_plan},
     {"merge", "merge the shards of a campaign, or ledgers", declare_merge},
     {"report", "summarise a campaign as text and as a page", declare_report},

@@ -77,15 +77,9 @@ Json to_json(const Cause& c) {
           {"no_program", c.no_program}};
 }
 
-// An id names a directory.
 std::string id_from(const JsonReader& j) {
-  constexpr std::size_t longest = 120;
   const std::string id = j.string();
-  const bool plain = !id.empty() && id.size() <= longest && id.front() != '-' &&
-                     std::all_of(id.begin(), id.end(), [](char c) {
-                       return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '_' || c == '-';
-                     });
-  if (!plain) j.fail("is not the id of a cause: " + printable(id));
+  if (!is_cause_id(id)) j.fail("is not the id of a cause: " + printable(id));
   return id;
 }
 
@@ -122,6 +116,14 @@ Cause cause_from(const JsonReader& j) {
 }
 
 }  // namespace
+
+bool is_cause_id(std::string_view id) {
+  constexpr std::size_t longest = 120;
+  return !id.empty() && id.size() <= longest && id.front() != '-' &&
+         std::all_of(id.begin(), id.end(), [](char c) {
+           return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '_' || c == '-';
+         });
+}
 
 Json to_json(const Causes& c) {
   Json causes = Json::array();

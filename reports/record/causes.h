@@ -112,6 +112,10 @@ struct Causes {
   std::vector<std::string> notes;
 };
 
+/// True for an id: 1 to 120 lower-case letters, digits, _ and -, not beginning with -. It may name a
+/// directory.
+bool is_cause_id(std::string_view id);
+
 Json to_json(const Causes& c);
 /// Throws InputError, naming file and place.
 Causes causes_from_json(const JsonReader& j);

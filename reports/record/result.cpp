@@ -337,6 +337,19 @@ bool has_plain_key(const Finding& f) {
          is_key_word(f.magnitude) && f.key().size() <= longest_key;
 }
 
+std::optional<Finding> finding_of_key(const std::string& engine, const std::string& key) {
+  if (!key.starts_with(engine + ".")) return std::nullopt;
+  Finding f;
+  f.engine = engine;
+  std::size_t at = engine.size() + 1;
+  for (std::string* part : {&f.question, &f.fault, &f.shapes, &f.blame, &f.degeneracy, &f.magnitude}) {
+    const std::size_t dot = std::min(key.find('.', at), key.size());
+    *part = key.substr(std::min(at, key.size()), dot - std::min(at, key.size()));
+    at = dot + 1;
+  }
+  return f.key() == key && has_plain_key(f) ? std::optional(f) : std::nullopt;
+}
+
 Finding finding_from_json(const JsonReader& j) {
   Finding f;
   f.engine = j["engine"].string();

@@ -2,6 +2,9 @@
 // keys name directories. A reader knows the file and its position in it, so errors name both.
 #pragma once
 
+#include <optional>
+#include <string>
+
 #include "reports/record/result.h"
 #include "scenarios/codec/json_file.h"
 
@@ -13,6 +16,9 @@ double number_from(const JsonReader& j);
 /// True if the key may name a directory: short enough, and consisting only of an engine's name and words of
 /// lower-case letters, digits, _ and -.
 bool has_plain_key(const Finding& f);
+
+/// The parts of a key of that engine's findings, or nullopt when it is not such a key, or not a plain one.
+std::optional<Finding> finding_of_key(const std::string& engine, const std::string& key);
 
 /// Reads a finding with a plain key; the evidence may be missing. Throws InputError if a field is missing or
 /// has the wrong type.

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "tests/support/catch.h"
+#include "tests/support/causes_by_hand.h"
 #include "tests/support/skip.h"
 #include "tests/support/workspace.h"
 
@@ -61,7 +62,7 @@ std::string for_test(std::string c) {
   c = std::regex_replace(c, std::regex("out/(part|merged|kept)"), TS_BINARY_DIR "/readme-shards/$1");
   if (c.find(" fuzz ") != std::string::npos && c.find(" --out ") == std::string::npos)
     c += " --out " TS_BINARY_DIR "/readme-out";
-  if (c.find(" triage ") != std::string::npos) c += " --ledger " TS_BINARY_DIR "/readme-out/findings.db";
+  if (c.find(" triage ") != std::string::npos) c += " --ledger " TS_BINARY_DIR "/readme-out/causes.db";
   return c;
 }
 
@@ -142,6 +143,9 @@ TEST_CASE("every command line of the README runs", "[readme]") {
   for (const std::string& line : readme_commands()) {
     if (line == "./touchstone test") continue;
     if (line.find(" fuzz ") != std::string::npos) fs::remove_all(TS_BINARY_DIR "/readme-out");
+    if (line.find(" triage ") != std::string::npos)
+      for (const auto& e : fs::directory_iterator(TS_BINARY_DIR "/readme-out"))
+        if (e.is_directory()) touchstone::test::write_causes_by_hand(e.path());
     const std::string command = "cd " TS_SOURCE_DIR " && " + for_test(line) + " >/dev/null </dev/null";
     const int status = std::system(command.c_str());
     INFO(line);

@@ -9,6 +9,7 @@
 #include "fuzz/campaign/merge.h"
 #include "fuzz/campaign/store.h"
 #include "fuzz/shrink/reductions.h"
+#include "fuzz/triage/cause_files.h"
 #include "fuzz/triage/triage.h"
 #include "oracles/abi/protocol.h"
 #include "oracles/checker/checker.h"
@@ -88,7 +89,15 @@ void read_impact(const fs::path& d) {
 }
 
 void read_findings(const fs::path& d) {
-  for (const auto& s : fuzz::load_findings(d / "campaign")) s.finding.key();
+  const fs::path finding = d / "campaign/findings/one", file = finding / "finding.json";
+  const Json j = load_json(file);
+  fuzz::finding_from_json(JsonReader(j, file.string())).key();
+  load_case(finding / "case.json");
+}
+
+void read_causes(const fs::path& d) {
+  for (const fuzz::Cause& c : fuzz::load_causes(d / "campaign").causes)
+    if (!c.shown().c.is_null()) json_text(fuzz::finding_json_of(c));
 }
 
 void read_merged(const fs::path& d) {
@@ -159,9 +168,9 @@ void read_ledger(const fs::path& d) {
   const fs::path file = d / "ledger.db";
   std::vector<fuzz::Triaged> rows;
   for (const auto& f : fuzz::Ledger(file, fuzz::Ledger::For::reading).all()) {
-    rows.emplace_back().finding = f;
+    rows.emplace_back().cause = f;
     try {
-      fuzz::case_of(f);
+      if (!f.shown.empty()) fuzz::case_of(f);
     } catch (const InputError& e) {
       rows.back().trouble = e.what();
     }
@@ -410,6 +419,7 @@ const std::vector<FileReader>& file_readers() {
       {"depth of round shapes", {"certificate4.json"}, read_certificate<4>},
       {"impact", {"impact.json"}, read_impact},
       {"finding", {"campaign/findings/one/finding.json", "campaign/findings/one/case.json"}, read_findings},
+      {"causes", {"campaign/causes.json"}, read_causes},
       {"state to merge", {"campaign/state.json"}, read_merged},
       {"state to resume", {"half/state.json"}, read_resumed},
       {"summary", {"campaign/summary.json"}, read_summary},
