@@ -59,6 +59,7 @@ std::string for_test(std::string c) {
   c = std::regex_replace(c, std::regex("out/grid"), TS_BINARY_DIR "/readme-grid");
   if (c.find("certify --subject") != std::string::npos) c += " --limit 100";
   c = std::regex_replace(c, std::regex("out/nightly"), TS_BINARY_DIR "/readme-out");
+  c = std::regex_replace(c, std::regex("expected.json"), TS_BINARY_DIR "/readme-expected.json");
   c = std::regex_replace(c, std::regex("out/(part|merged|kept)"), TS_BINARY_DIR "/readme-shards/$1");
   if (c.find(" fuzz ") != std::string::npos && c.find(" --out ") == std::string::npos)
     c += " --out " TS_BINARY_DIR "/readme-out";

@@ -19,7 +19,9 @@
 #include "reports/record/broad_certificate.h"
 #include "reports/record/chart.h"
 #include "reports/record/evidence.h"
+#include "reports/record/expected.h"
 #include "reports/record/stored.h"
+#include "reports/text/expected_text.h"
 #include "reports/text/record_text.h"
 #include "reports/text/text.h"
 #include "reports/text/web_page.h"
@@ -98,6 +100,18 @@ void read_findings(const fs::path& d) {
 void read_causes(const fs::path& d) {
   for (const fuzz::Cause& c : fuzz::load_causes(d / "campaign").causes)
     if (!c.shown().c.is_null()) json_text(fuzz::finding_json_of(c));
+}
+
+void read_expected(const fs::path& d) {
+  const fs::path file = d / "expected.json";
+  const Json j = load_json(file);
+  const auto expected = fuzz::expected_from_json(JsonReader(j, file.string()));
+  const fuzz::ShownFailures shown{{expected.empty() ? fuzz::AskedQuestion{} : expected[0].asked}, {}};
+  const auto compared = fuzz::compare(expected, shown, "2026-11-23");
+  reports::expected_text(compared);
+  reports::expected_junit(shown, compared, true);
+  json_text(fuzz::to_json(compared));
+  json_text(fuzz::to_json(fuzz::as_shown(expected, compared, "r")));
 }
 
 void read_merged(const fs::path& d) {
@@ -299,6 +313,11 @@ constexpr const char* odd =
  {"op": "move", "body": 1, "pose": {"translation": [1, 0, 0], "rotation": [0, 0, 0, 1]}}, {"op": "query"}]},
  "queries": [{"question": "candidates"}], "odd_numbers": {"/bodies/1/pose/translation/1": "NaN"}})";
 
+constexpr const char* expected =
+    R"({"touchstone_expected": 1, "failures": [
+ {"case": "a", "engine": "core", "question": "contact", "fault": "infeasible", "reason": "one", "until": "2026-12-31"},
+ {"case": "a", "engine": "core", "question": "overlap", "fault": "any", "reason": "two"}]})";
+
 Body body_at(int shape, const Vec3& t) {
   Body b;
   b.shape = shape;
@@ -420,6 +439,7 @@ const std::vector<FileReader>& file_readers() {
       {"impact", {"impact.json"}, read_impact},
       {"finding", {"campaign/findings/one/finding.json", "campaign/findings/one/case.json"}, read_findings},
       {"causes", {"campaign/causes.json"}, read_causes},
+      {"expected failures", {"expected.json"}, read_expected},
       {"state to merge", {"campaign/state.json"}, read_merged},
       {"state to resume", {"half/state.json"}, read_resumed},
       {"summary", {"campaign/summary.json"}, read_summary},
@@ -447,6 +467,7 @@ void write_plain_originals(const fs::path& d) {
   write_file(d / "queries.csv", queries);
   write_file(d / "moving.json", moving);
   write_file(d / "odd.json", odd);
+  write_file(d / "expected.json", expected);
   write_json(d / "scene.json", Json::parse(moving)["scene"]);
   write_certificates(d);
   write_frames(d);

@@ -322,6 +322,7 @@ TEST_CASE("every reader of JSON has the limits of the case reader", "[hostile]")
   w.write("in/findings/f/case.json", two_spheres().dump());
   const std::pair<const char*, const char*> commands[] = {
       {"check deep.json", "deep.json"},
+      {"replay two_spheres.json --engines core --expected deep.json", "deep.json"},
       {"certify --check deep.json", "deep.json"},
       {"merge out in", "in/state.json"},
       {"report in", "in/summary.json"},
@@ -577,6 +578,7 @@ TEST_CASE("a pipe in place of a file is refused without waiting for it", "[hosti
       {"p", "plan case.json --use p"},
       {"p", "check p"},
       {"p", "check plane.json --case p"},
+      {"p", "replay case.json --engines core --expected p"},
       {"p", "certify --check p"},
       {"p", "chart --from p"},
       {"finding/case.json", "replay finding --engines core"},
