@@ -97,7 +97,7 @@ void read_findings(const fs::path& d) {
   load_case(finding / "case.json");
 }
 
-void read_causes(const fs::path& d) {
+void read_causes_to_triage(const fs::path& d) {
   for (const fuzz::Cause& c : fuzz::load_causes(d / "campaign").causes)
     if (!c.shown().c.is_null()) json_text(fuzz::finding_json_of(c));
 }
@@ -438,7 +438,7 @@ const std::vector<FileReader>& file_readers() {
       {"depth of round shapes", {"certificate4.json"}, read_certificate<4>},
       {"impact", {"impact.json"}, read_impact},
       {"finding", {"campaign/findings/one/finding.json", "campaign/findings/one/case.json"}, read_findings},
-      {"causes", {"campaign/causes.json"}, read_causes},
+      {"causes to triage", {"campaign/causes.json"}, read_causes_to_triage},
       {"expected failures", {"expected.json"}, read_expected},
       {"state to merge", {"campaign/state.json"}, read_merged},
       {"state to resume", {"half/state.json"}, read_resumed},
