@@ -2,8 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <set>
+
 #include "cli/chosen_engines.h"
 #include "cli/command.h"
+#include "reports/text/causes_text.h"
 #include "reports/text/text.h"
 
 namespace touchstone::cli {
@@ -16,23 +19,57 @@ fuzz::Json campaign_json(const CampaignEnd& end) {
   return j;
 }
 
-void print_campaign(const CampaignEnd& end, bool finished) {
+void add_verbose(CLI::App& app, bool& verbose) {
+  app.add_flag("--verbose", verbose, "print every count, error and time, and the kinds of findings");
+}
+
+namespace {
+
+// So many causes of each engine that all fit on one screen.
+std::size_t causes_per_engine(const fuzz::Causes& c) {
+  std::set<std::string> paths;
+  for (const fuzz::Cause& cause : c.causes) paths.insert(cause.path);
+  constexpr std::size_t few_paths = 2, some_paths = 4;
+  return paths.size() <= few_paths ? 5 : paths.size() <= some_paths ? 3 : 2;
+}
+
+std::string next_steps(const CampaignEnd& end, const Printing& how) {
   const fuzz::CampaignResult& r = end.result;
-  for (const std::string& line : r.too_open(end.subject)) fmt::print("{}\n", reports::wrapped(line, 79, 2));
-  fmt::print("{}\n", reports::campaign_table(r));
-  if (!r.findings.empty())
-    fmt::print("Findings by engine (the three most frequent kinds of each):\n{}\n",
-               reports::findings_summary(r, 3));
-  fmt::print("{}", reports::campaign_footer(r));
-  const std::string out = end.out.string();
-  if (out.empty()) return;
-  if (r.findings.empty()) return fmt::print("no findings; the counts are in {}/summary.json\n", out);
-  fmt::print("{} kinds of findings in {}/findings; to see one:\n  {} replay {}\n",
-             reports::grouped(r.findings.size()), out, program_name(),
-             shell_word(out + "/findings/" + r.findings.begin()->first));
-  if (!finished) return;
-  fmt::print("To see all of them as a page:\n  {} report {} -o {}\n", program_name(), shell_word(out),
-             shell_word(out + "/report.html"));
+  const std::string out = end.out.string(), kinds = reports::grouped(r.findings.size());
+  if (r.findings.empty()) return fmt::format("no findings; the counts are in {}/summary.json\n", out);
+  if (how.causes)
+    return fmt::format(
+        "{} behind {} kinds of findings; all, with what makes each vanish:\n  {} causes {} --page {}\n",
+        reports::counted(how.causes->causes.size(), "cause", "causes"), kinds, program_name(),
+        shell_word(out), shell_word(out + "/causes.html"));
+  std::string s =
+      fmt::format("{} kinds of findings in {}/findings; to see one:\n  {} replay {}\n", kinds, out,
+                  program_name(), shell_word(out + "/findings/" + r.findings.begin()->first));
+  if (how.finished)
+    s += fmt::format("To see all of them as a page:\n  {} report {} -o {}\n", program_name(), shell_word(out),
+                     shell_word(out + "/report.html"));
+  return s;
+}
+
+}  // namespace
+
+std::string results_text(const fuzz::CampaignResult& r, const std::string& directory, const Printing& how) {
+  std::string s = (how.verbose ? reports::full_campaign_table(r) : reports::campaign_table(r)) + "\n";
+  if (!r.findings.empty() && (how.verbose || !how.causes))
+    s += fmt::format("Findings by engine (the three most frequent kinds of each):\n{}\n",
+                     reports::findings_summary(r, 3));
+  if (how.causes && !how.causes->causes.empty())
+    s += fmt::format(
+        "Causes by engine path:\n{}\n",
+        reports::causes_of_engines(*how.causes, causes_per_engine(*how.causes), directory, program_name()));
+  return s + reports::campaign_footer(r, how.verbose);
+}
+
+void print_campaign(const CampaignEnd& end, const Printing& how) {
+  for (const std::string& line : end.result.too_open(end.subject))
+    fmt::print("{}\n", reports::wrapped(line, 79, 2));
+  fmt::print("{}", results_text(end.result, end.out.string(), how));
+  if (!end.out.empty()) fmt::print("{}", next_steps(end, how));
 }
 
 std::string counts_of_subject(const CampaignEnd& end) {

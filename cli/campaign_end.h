@@ -1,9 +1,11 @@
 // What a campaign prints at its end, and its exit code: of `fuzz`, and of `judge`, which judges it again.
 #pragma once
 
+#include <CLI/CLI.hpp>
 #include <filesystem>
 #include <string>
 
+#include "reports/record/causes.h"
 #include "reports/record/result.h"
 
 namespace touchstone::cli {
@@ -17,8 +19,21 @@ struct CampaignEnd {
 
 /// The whole result with digest, directory and open questions.
 fuzz::Json campaign_json(const CampaignEnd& end);
-/// The table and the findings as text; `finished`: name the command that makes a page of them.
-void print_campaign(const CampaignEnd& end, bool finished);
+/// How a campaign is printed.
+struct Printing {
+  bool finished = true;                  // name the command that makes a page of the findings
+  bool verbose = false;                  // all counts and times instead of one screen
+  const fuzz::Causes* causes = nullptr;  // null: kinds of findings instead
+};
+
+/// --verbose, of the commands that print a campaign.
+void add_verbose(CLI::App& app, bool& verbose);
+
+/// The table, the causes or findings of each engine, and the counts of the campaign. `directory`: where it
+/// is stored; empty: nowhere.
+std::string results_text(const fuzz::CampaignResult& r, const std::string& directory, const Printing& how);
+/// The results as text, and what to do next.
+void print_campaign(const CampaignEnd& end, const Printing& how);
 /// "WRONG in 3 and failed in 0 of 1,200 answers".
 std::string counts_of_subject(const CampaignEnd& end);
 /// Prints the last line; returns the exit code.

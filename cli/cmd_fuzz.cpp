@@ -8,6 +8,7 @@
 #include <thread>
 
 #include "cli/campaign_end.h"
+#include "cli/causes_of_campaign.h"
 #include "cli/chosen_engines.h"
 #include "cli/command.h"
 #include "cli/judged_by.h"
@@ -26,7 +27,7 @@ struct FuzzOptions {
   std::string shard, out;
   std::uint64_t cases = 0;
   double minutes = 0;
-  bool json = false;
+  bool json = false, verbose = false;
   WorkerLimits limits;
 };
 
@@ -105,10 +106,12 @@ int run(FuzzOptions& o) {
   catch_stop_signals();
   const auto result = fuzz::run_campaign(o.config, make_all, ProgressPrinter(o.config), interrupted);
   const CampaignEnd end{result, o.config.subject, o.config.family, o.config.out};
-  if (o.json)
+  if (o.json) {
     fmt::print("{}\n", campaign_json(end).dump(1));
-  else
-    print_campaign(end, !interrupted);
+  } else {
+    const fuzz::Causes causes = known_causes("", result);
+    print_campaign(end, {.finished = !interrupted, .verbose = o.verbose, .causes = &causes});
+  }
   if (!interrupted) return campaign_verdict(end, o.json);
   return print_verdict(exit_failed, end.subject,
                        fmt::format("interrupted; resume with the same command and --out {}; so far {}",
@@ -148,6 +151,7 @@ Run declare_fuzz(CLI::App& app) {
                "case for the core alone, 3 kB with FCL, Bullet, ODE and libccd");
   add_error(app, o->config.error);
   add_case_seconds(app, o->limits);
+  add_verbose(app, o->verbose);
   app.add_flag("--json", o->json, "the whole result as one JSON document on stdout");
   return [o] { return run(*o); };
 }

@@ -8,13 +8,14 @@
 #include <vector>
 
 #include "cli/campaign_end.h"
+#include "cli/causes_of_campaign.h"
 #include "cli/chosen_engines.h"
 #include "cli/command.h"
 #include "cli/output.h"
 #include "core/base/input_error.h"
 #include "fuzz/campaign/judge_again.h"
 #include "reports/text/changes_text.h"
-#include "reports/text/record_text.h"
+#include "reports/text/junit.h"
 #include "reports/text/text.h"
 #include "scenarios/codec/json_file.h"
 
@@ -24,7 +25,7 @@ namespace {
 struct JudgeOptions {
   std::string directory, engine, out, junit;
   int jobs = 1;
-  bool json = false;
+  bool json = false, verbose = false;
 };
 
 // What needs an engine, and so was not judged again.
@@ -49,20 +50,17 @@ bool are_stored(const fuzz::CampaignResult& before, const fuzz::CampaignResult& 
 }
 
 // Every finding of either result, for JUnit: one that appeared is a failure.
-std::vector<fuzz::Triaged> standings(const fuzz::CampaignResult& before, const fuzz::CampaignResult& after) {
-  std::vector<fuzz::Triaged> all;
-  const auto add = [&](const fuzz::Finding& f, fuzz::Standing standing) {
-    fuzz::Triaged& t = all.emplace_back();
-    t.standing = standing;
-    t.finding.key = f.key();
-    t.finding.engine = f.engine;
-    t.finding.words = f.words;
-    t.finding.first_seen = "the stored result";
-  };
+std::vector<reports::JUnitTest> tests_of(const fuzz::CampaignResult& before,
+                                         const fuzz::CampaignResult& after) {
+  using reports::TestResult;
+  std::vector<reports::JUnitTest> all;
   for (const auto& [key, f] : after.findings)
-    add(f, before.findings.contains(key) ? fuzz::Standing::known : fuzz::Standing::fresh);
+    if (before.findings.contains(key))
+      all.push_back({f.engine, key, TestResult::skipped, "known since the stored result", ""});
+    else
+      all.push_back({f.engine, key, TestResult::failed, "new", f.words});
   for (const auto& [key, f] : before.findings)
-    if (!after.findings.contains(key)) add(f, fuzz::Standing::gone);
+    if (!after.findings.contains(key)) all.push_back({f.engine, key, TestResult::passed, "", ""});
   return all;
 }
 
@@ -81,7 +79,7 @@ int run(const JudgeOptions& o) {
   const JsonReader settings(judged.settings, (std::filesystem::path(o.directory) / "state.json").string(),
                             "settings");
   if (!o.out.empty()) fuzz::save_judged_again(o.out, judged);
-  if (!o.junit.empty()) write_file(o.junit, reports::triage_junit(standings(judged.before, judged.after)));
+  if (!o.junit.empty()) write_file(o.junit, reports::junit(tests_of(judged.before, judged.after)));
   CampaignEnd end{judged.after, o.engine.empty() ? settings["subject"].string() : o.engine,
                   settings["family"].string(), o.out};
   // The stored findings are what is there to look at, unless they are others now.
@@ -93,7 +91,8 @@ int run(const JudgeOptions& o) {
     j["not_kept"] = {{"derived", judged.not_kept_derived}, {"again", judged.not_kept_again}};
     fmt::print("{}\n", json_text(j, 1));
   } else {
-    print_campaign(end, true);
+    const fuzz::Causes causes = known_causes(end.out.string(), judged.after);
+    print_campaign(end, {.verbose = o.verbose, .causes = &causes});
     fmt::print("{}{}", reports::changes_text(changes), describe_limits(judged));
   }
   return campaign_verdict(end, o.json);
@@ -113,6 +112,7 @@ Run declare_judge(CLI::App& app) {
   app.add_option("-o,--out", o->out,
                  "new directory for the findings as judged now, which `report` and `triage` accept");
   app.add_option("--junit", o->junit, "write the findings as JUnit XML to this file; new ones are failures");
+  add_verbose(app, o->verbose);
   app.add_flag("--json", o->json, "the whole result and what changed as one JSON document on stdout");
   return [o] { return run(*o); };
 }

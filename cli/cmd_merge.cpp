@@ -1,4 +1,4 @@
-// touchstone merge OUT IN…: merges shards of a campaign, or with --ledgers, ledgers of known findings.
+// touchstone merge OUT IN…: merges shards of a campaign, or with --ledgers, ledgers of known causes.
 #include <fmt/format.h>
 
 #include <filesystem>
@@ -31,7 +31,7 @@ int merge_shards(const MergeOptions& o) {
                           {"missing", m.missing}};
     fmt::print("{}\n", j.dump(1));
   } else {
-    fmt::print("{}\n{}", reports::campaign_table(m.result), reports::campaign_footer(m.result));
+    fmt::print("{}\n{}", reports::full_campaign_table(m.result), reports::campaign_footer(m.result));
     fmt::print("{} shards, {} missing; {} kinds of findings in {}/findings; digest {}\n", m.shards.size(),
                m.missing.size(), reports::grouped(m.result.findings.size()), o.out, fuzz::digest(m.result));
   }
@@ -45,7 +45,7 @@ int run(const MergeOptions& o) {
                      "--ledgers OUT.db LEDGER.db...");
   if (!o.ledgers) return merge_shards(o);
   const std::size_t n = fuzz::merge_ledgers(o.out, paths(o));
-  fmt::print("{} findings in {}\n", reports::grouped(n), o.out);
+  fmt::print("{} causes in {}\n", reports::grouped(n), o.out);
   return exit_clean;
 }
 
@@ -56,7 +56,7 @@ Run declare_merge(CLI::App& app) {
   app.add_option("out", o->out, "directory (with --ledgers: file) for the result");
   app.add_option("in", o->in,
                  "directories of finished or merged shards, in any order; repetitions are ignored");
-  app.add_flag("--ledgers", o->ledgers, "merge ledgers (findings.db) instead");
+  app.add_flag("--ledgers", o->ledgers, "merge ledgers (causes.db) instead");
   app.add_flag("--json", o->json, "one JSON document on stdout");
   return [o] { return run(*o); };
 }

@@ -6,6 +6,7 @@
 #include "cli/chosen_engines.h"
 #include "cli/command.h"
 #include "cli/judged_by.h"
+#include "cli/replay_expected.h"
 #include "core/base/input_error.h"
 #include "fuzz/ask/evidence.h"
 #include "fuzz/ask/judged_case.h"
@@ -24,6 +25,7 @@ struct ReplayOptions {
   EngineChoice choice;
   std::string frames, error;
   bool json = false, certificates = false;
+  ExpectedOptions expected;
   WorkerLimits limits;
 };
 
@@ -58,6 +60,14 @@ struct ReplayEngines {
   std::string subject;
 };
 
+fuzz::CampaignResult relations_of(const Case& c, const Engines& engines,
+                                  const std::vector<CaseObservations>& observations) {
+  fuzz::CampaignResult related;
+  for (std::size_t e = 0; e < engines.size(); ++e)
+    fuzz::relate_into(related, c, 0, engines[e], observations[e]);
+  return related;
+}
+
 // One case in full.
 void replay_case(const ReplayOptions& o, const ReplayEngines& asked, const Case& c, Count& count,
                  fuzz::Json& json) {
@@ -74,9 +84,7 @@ void replay_case(const ReplayOptions& o, const ReplayEngines& asked, const Case&
       count.answered += j.outcome == Outcome::answered;
     }
   }
-  fuzz::CampaignResult related;
-  for (std::size_t e = 0; e < engines.size(); ++e)
-    fuzz::relate_into(related, c, 0, engines[e], observations[e]);
+  const fuzz::CampaignResult related = relations_of(c, engines, observations);
   subject_wrong |= related.wrong_of(asked.subject) > 0;
   ++count.cases;
   count.wrong_cases += subject_wrong;
@@ -120,7 +128,7 @@ void replay_real_scene(const ReplayOptions& o, const ReplayEngines& asked, const
     json.push_back(fuzz::to_json(result, true));
   } else {
     fmt::print("{}: {} bodies, {} of {} frames\n{}\n", scene.name, scene.frame(0).bodies.size(),
-               frames.size(), scene.frame_count(), reports::campaign_table(result));
+               frames.size(), scene.frame_count(), reports::full_campaign_table(result));
     fmt::print("{}{}\n", reports::findings_summary(result, 3), reports::campaign_footer(result));
   }
   const std::uint64_t answered = result.answered_by(asked.subject), failed = result.failed_of(asked.subject);
@@ -174,20 +182,17 @@ void replay_stored(const ReplayOptions& o, const ReplayEngines& asked, const std
   replay_case(o, asked, stored.c, count, json);
 }
 
-// Replays one argument. An error is reported and does not stop the others.
-void replay(const ReplayOptions& o, const ReplayEngines& asked, const std::string& path, Count& count,
-            fuzz::Json& json) {
+// Calls `judge` for an argument. An error is reported and does not stop the others.
+template <class Judge>
+void attempt(const std::string& path, Count& count, fuzz::Json& json, const Judge& judge) {
   const auto refuse = [&](const std::string& words) {
     const std::string why = printable(words, "\n");
     fmt::print(stderr, "touchstone: {}\n", why);
     count.bad.push_back(path);
-    if (o.json) json.push_back({{"argument", path}, {"error", why}});
+    json.push_back({{"argument", path}, {"error", why}});
   };
   try {
-    if (is_recording(path))
-      replay_real_scene(o, asked, path, count, json);
-    else
-      replay_stored(o, asked, path, count, json);
+    judge();
   } catch (const InputError& e) {
     refuse(e.what());
   } catch (const std::exception& e) {
@@ -196,12 +201,41 @@ void replay(const ReplayOptions& o, const ReplayEngines& asked, const std::strin
   }
 }
 
+void replay(const ReplayOptions& o, const ReplayEngines& asked, const std::string& path, Count& count,
+            fuzz::Json& json) {
+  if (is_recording(path))
+    replay_real_scene(o, asked, path, count, json);
+  else
+    replay_stored(o, asked, path, count, json);
+}
+
+// All engines count, unless --subject names one.
+int replay_expected(const ReplayOptions& o) {
+  const bool all_count = o.choice.subject.empty();
+  const ChosenEngines chosen =
+      all_count ? ChosenEngines{engine_names(o.choice.engines), ""} : chosen_engines(o.choice, o.limits);
+  const Engines engines = judged_by(make_engines(chosen.names, o.limits), o.error);
+  ExpectedFailures expected(o.expected, chosen.subject);
+  Count count;
+  fuzz::Json errors = fuzz::Json::array();
+  for (const std::string& path : o.paths)
+    attempt(path, count, errors, [&] {
+      if (is_recording(path)) throw InputError(path, "is a recording; expected failures are of single cases");
+      const Case c = case_argument(path).c;
+      const auto observations = ask(engines, c);
+      expected.add(c, engines, observations, relations_of(c, engines, observations));
+    });
+  return expected.finish({count.bad, errors, count.failed ? exit_failed : exit_usage}, o.json);
+}
+
 int run(const ReplayOptions& o) {
+  if (o.expected.given()) return replay_expected(o);
   const ChosenEngines chosen = chosen_engines(o.choice, o.limits);
   const ReplayEngines asked{judged_by(make_engines(chosen.names, o.limits), o.error), chosen.subject};
   Count count;
   fuzz::Json json = fuzz::Json::array();
-  for (const std::string& path : o.paths) replay(o, asked, path, count, json);
+  for (const std::string& path : o.paths)
+    attempt(path, count, json, [&] { replay(o, asked, path, count, json); });
   if (o.json) fmt::print("{}\n", json.dump(1));
   return verdict(count, asked.subject, o.json);
 }
@@ -217,6 +251,7 @@ Run declare_replay(CLI::App& app) {
   add_engine_choice(app, o->choice);
   app.add_option("--frames", o->frames,
                  "frames of recorded scenes, first:end:step (default: about five frames)");
+  add_expected(app, o->expected);
   add_error(app, o->error);
   add_case_seconds(app, o->limits);
   app.add_flag("--json", o->json, "one JSON document on stdout");

@@ -1,10 +1,12 @@
 #include <fmt/format.h>
 
+#include "cli/campaign_end.h"
+#include "cli/causes_of_campaign.h"
 #include "cli/command.h"
 #include "cli/output.h"
 #include "core/base/input_error.h"
+#include "fuzz/campaign/store.h"
 #include "reports/record/stored.h"
-#include "reports/text/text.h"
 #include "reports/text/web_page.h"
 #include "scenarios/codec/json_file.h"
 
@@ -13,6 +15,7 @@ namespace {
 
 struct ReportOptions {
   std::string directory, out;
+  bool verbose = false;
 };
 
 fuzz::Json settings_in(const std::filesystem::path& file) {
@@ -47,9 +50,12 @@ int run(const ReportOptions& o) {
         "holds no summary.json: it is not a campaign's directory, or the campaign is unfinished");
   require_writable(o.out);
   const fuzz::Json summary = load_json(file, campaign_limits);
-  const fuzz::CampaignResult result = fuzz::result_from_json(JsonReader(summary, file.string()));
-  fmt::print("{}\n{}{}", reports::campaign_table(result), reports::findings_summary(result, 3),
-             reports::campaign_footer(result));
+  // The summary has counts only; the state also has the cases that causes are told apart by.
+  const fuzz::CampaignResult result = std::filesystem::exists(directory / "state.json")
+                                          ? fuzz::load_result(directory)
+                                          : fuzz::result_from_json(JsonReader(summary, file.string()));
+  const fuzz::Causes causes = known_causes(directory.string(), result);
+  fmt::print("{}", results_text(result, directory.string(), {.verbose = o.verbose, .causes = &causes}));
   if (o.out.empty()) return exit_clean;
   if (!write_page("report", json_text(report_page(directory, summary)), o.out)) return exit_failed;
   fmt::print("{}: open it in a browser\n", o.out);
@@ -62,6 +68,7 @@ Run declare_report(CLI::App& app) {
   auto o = std::make_shared<ReportOptions>();
   app.add_option("directory", o->directory, "directory of a campaign (`fuzz --out`)")->required();
   app.add_option("-o,--out", o->out, "file for the page (self-contained HTML)");
+  add_verbose(app, o->verbose);
   return [o] { return run(*o); };
 }
 

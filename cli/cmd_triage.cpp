@@ -1,30 +1,31 @@
-// touchstone triage DIR: compares the findings of a campaign with the ledger of known ones.
+// touchstone triage DIR: compares the causes of a campaign with the ledger of known ones.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cerrno>
-#include <chrono>
 #include <cstdio>
 #include <cstring>
-#include <ctime>
 #include <deque>
 #include <filesystem>
-#include <map>
+#include <functional>
 #include <set>
 
+#include "cli/causes_of_campaign.h"
 #include "cli/chosen_engines.h"
 #include "cli/command.h"
+#include "cli/date.h"
+#include "cli/engines_by_card.h"
 #include "cli/judged_by.h"
 #include "cli/output.h"
 #include "core/base/input_error.h"
-#include "fuzz/ask/evidence.h"
 #include "fuzz/campaign/directory_lock.h"
-#include "fuzz/judge/relation.h"
-#include "fuzz/reproduce/reproducer.h"
 #include "fuzz/shrink/keeps_finding.h"
+#include "fuzz/triage/cause_files.h"
 #include "fuzz/triage/triage.h"
 #include "reports/record/stored.h"
+#include "reports/text/causes_text.h"
 #include "reports/text/record_text.h"
-#include "scenarios/codec/case_codec.h"
+#include "reports/text/text.h"
 #include "scenarios/codec/json_file.h"
 #include "scenarios/text/name_list.h"
 #include "scenarios/text/printable.h"
@@ -32,72 +33,28 @@
 namespace touchstone::cli {
 namespace {
 
-// Limits of the cases that the shrinker may try; if the finding is a hang, each try costs a second.
-constexpr std::size_t max_tries = 4000, max_tries_if_slow = 8;
-
 struct TriageOptions {
-  std::string directory, ledger = "findings.db", engines, subject = "all", junit, date, reproducers, error;
-  bool json = false, no_shrink = false;
+  std::string directory, ledger = "causes.db", engines, subject = "all", junit, date, reproducers, error;
+  std::string suppress, unsuppress, reason, until;
+  bool json = false;
   int jobs = 1;
   WorkerLimits limits;
 };
 
-// The date and time, UTC.
-std::string now() {
-  const std::time_t t = std::chrono::system_clock::to_time_t(std::chrono::system_clock::now());
-  std::tm utc{};
-  gmtime_r(&t, &utc);
-  char text[32];
-  std::strftime(text, sizeof text, "%Y-%m-%dT%H:%M:%SZ", &utc);
-  return text;
-}
+/// What triage takes from other commands.
+struct TriageSources {
+  std::function<fuzz::Causes()> causes;
+  std::function<std::string(const fuzz::Cause&)> issue;  // its text for an issue tracker; empty: none
+};
 
-// Engines outside the catalogue, by the names on their cards. Only the command line decides what is run: in a
-// finding, a name is just a label.
-using Foreign = std::map<std::string, std::string>;
-
-Foreign foreign_engines(const TriageOptions& o) {
-  Foreign r;
+Foreign foreign_of(const TriageOptions& o) {
   std::vector<std::string> given;
   if (!o.engines.empty()) given = engine_names(o.engines);
   if (is_foreign(o.subject)) given.push_back(engine_names(o.subject).at(0));
-  for (const std::string& name : given) {
-    if (!is_foreign(name)) continue;
-    const auto [it, added] = r.try_emplace(make_engine(name, o.limits)->card().name, name);
-    if (!added && it->second != name)
-      throw InputError("--engines", fmt::format("{} and {} are both called {}", it->second, name, it->first));
-  }
-  return r;
+  return foreign_engines(given, o.limits);
 }
 
-// Engines as findings name them, created on first use. An engine that is not available is null.
-class Engines {
- public:
-  Engines(const WorkerLimits& limits, const Foreign& foreign, std::string error)
-      : limits_(limits), foreign_(foreign), error_(std::move(error)) {}
-  const EnginePtr& named(const std::string& name) {
-    const auto [it, added] = made_.try_emplace(name);
-    if (added) it->second = made(name);
-    if (added && it->second) it->second = judged_by(std::move(it->second), error_);
-    return it->second;
-  }
-
- private:
-  EnginePtr made(const std::string& name) const try {
-    const auto foreign = foreign_.find(name);
-    if (foreign != foreign_.end()) return make_engine(foreign->second, limits_);
-    return is_catalogued(name) ? make_engine(name, limits_) : nullptr;
-  } catch (const InputError&) {
-    return nullptr;  // not installed: its findings are reported as "not asked"
-  }
-
-  WorkerLimits limits_;
-  const Foreign& foreign_;
-  std::string error_;
-  std::map<std::string, EnginePtr> made_;
-};
-
-fuzz::TriageConfig config_of(const TriageOptions& o, const std::string& date, Engines& engines) {
+fuzz::TriageConfig config_of(const std::string& date, EnginesByCard& engines) {
   fuzz::TriageConfig c;
   c.date = date;
   c.build_of = [&](const std::string& engine) {
@@ -107,92 +64,28 @@ fuzz::TriageConfig config_of(const TriageOptions& o, const std::string& date, En
   c.ask = [&](const std::string& engine, const Case& asked) {
     return fuzz::findings_of({&asked, 1}, engines.named(engine), fuzz::FoundBy::both)[0];
   };
-  c.smallest = [&, shrink = !o.no_shrink](const std::string& engine, const std::string& key,
-                                          const Case& found) {
-    if (!shrink) return found;
-    const bool slow = key.find(".timed_out.") != std::string::npos;
-    return fuzz::shrink(found, fuzz::keeps_finding(engines.named(engine), key),
-                        slow ? max_tries_if_slow : max_tries)
-        .smallest;
-  };
   return c;
 }
 
-// Counts of what happened to the requested reproducers.
-struct Reproducers {
-  std::size_t written = 0, there = 0, without_engine = 0, not_shown = 0;
+// A directory that cannot be written does not affect the others.
+void write_causes(const std::string& directory, const TriageSources& sources, const fuzz::Causes& causes) {
+  std::size_t written = 0, before = 0, no_case = 0;
   std::vector<std::string> failed;
-};
-
-// Writes DIR/<key>/: case.json, the smallest case; certificate.json for `touchstone check`, if there is one;
-// reproduce.cpp, if the engine has a writer. The directory is built under another name and then renamed, so
-// an existing directory is complete and is left alone.
-void write_reproducer(const std::filesystem::path& directory, const fuzz::KnownFinding& known,
-                      const EnginePtr& engine, Reproducers& count) {
-  if (!known.expired.empty()) return;
-  const auto to = directory / known.key;
-  if (std::filesystem::exists(to)) {
-    ++count.there;
-    return;
-  }
-  if (!engine) {
-    ++count.without_engine;
-    return;
-  }
-  const Case smallest = fuzz::case_of(known);
-  auto findings = fuzz::findings_of({&smallest, 1}, engine, fuzz::FoundBy::both)[0];
-  const auto finding = findings.find(known.key);
-  if (finding == findings.end()) {
-    ++count.not_shown;  // showed once but not again; the ledger keeps its case
-    return;
-  }
-  const auto part = directory / (".part-" + known.key);
-  std::filesystem::remove_all(part);
-  std::filesystem::create_directories(part);
-  StoredCase stored;
-  stored.c = smallest;
-  stored.description = "shows " + known.key;
-  save_case(stored, part / "case.json");
-  fuzz::write_evidence(finding->second);
-  const fuzz::Json& certificate = finding->second.evidence_json.at("certificate");
-  if (certificate.value("kind", "none") != "none")
-    write_file((part / "certificate.json").string(), certificate.dump(1) + "\n");
-  if (fuzz::has_reproducer(known.engine)) try {
-      write_file((part / "reproduce.cpp").string(), fuzz::reproducer(finding->second, engine->card()));
+  for (const fuzz::Cause& c : causes.causes) try {
+      const fuzz::Written w = fuzz::write_cause(directory, c, sources.issue);
+      written += w == fuzz::Written::now;
+      before += w == fuzz::Written::before;
+      no_case += w == fuzz::Written::no_case;
     } catch (const std::exception& e) {
-      write_file((part / "no_reproducer.txt").string(), std::string(e.what()) + "\n");
-      // By design, relations get no program; anything else is our own error.
-      if (!dynamic_cast<const InputError*>(&e)) count.failed.push_back(known.key + ": " + e.what());
+      failed.push_back(c.id + ": " + e.what());
     }
-  std::filesystem::rename(part, to);
-  ++count.written;
-}
-
-// A reproducer that cannot be written does not affect the others.
-Reproducers write_reproducers(const std::string& directory, const std::vector<fuzz::Triaged>& triaged,
-                              Engines& engines) {
-  Reproducers count;
-  for (const fuzz::Triaged& t : triaged) try {
-      write_reproducer(directory, t.finding, engines.named(t.finding.engine), count);
-    } catch (const std::exception& e) {
-      count.failed.push_back(t.finding.key + ": " + e.what());
-    }
-  return count;
-}
-
-void print(const Reproducers& r, const std::string& directory) {
   std::string words =
-      fmt::format("reproducers in {}: {} written, {} already there", directory, r.written, r.there);
-  if (r.without_engine > 0)
-    words += fmt::format(", {} skipped because their engines are missing (--engines adds plug-ins)",
-                         r.without_engine);
-  if (r.not_shown > 0)
-    words += fmt::format(", {} skipped because their cases no longer show them", r.not_shown);
-  if (!r.failed.empty()) words += fmt::format(", {} failed", r.failed.size());
-  if (r.written + r.there == 0) words += "; the directory is empty";
+      fmt::format("reproducers in {}: {} written, {} already there", directory, written, before);
+  if (no_case > 0) words += fmt::format(", {} skipped because no case shows them", no_case);
+  if (!failed.empty()) words += fmt::format(", {} failed", failed.size());
+  if (written + before == 0) words += "; this run added nothing";
   fmt::print(stderr, "{}\n", words);
-  for (const std::string& failed : r.failed)
-    fmt::print(stderr, "touchstone: no reproducer: {}\n", printable(failed));
+  for (const std::string& why : failed) fmt::print(stderr, "touchstone: no reproducer: {}\n", printable(why));
 }
 
 // Called before any work is done: a directory that cannot be created is bad usage.
@@ -215,16 +108,16 @@ std::set<std::string> answered_in(const std::string& directory) {
   return names;
 }
 
-// The subject's name in findings, or "all".
+// The subject's name in causes, or "all".
 std::string resolved_subject(const TriageOptions& o, const Foreign& foreign,
                              const std::set<std::string>& answered,
-                             const std::vector<fuzz::KnownFinding>& known) {
+                             const std::vector<fuzz::KnownCause>& known) {
   if (o.subject == "all") return o.subject;
   for (const auto& [card_name, name] : foreign)
     if (name == o.subject || card_name == o.subject) return card_name;
   if (is_catalogued(o.subject)) return o.subject;
   std::set<std::string> names = answered;
-  for (const fuzz::KnownFinding& f : known) names.insert(f.engine);
+  for (const fuzz::KnownCause& k : known) names.insert(k.engines.begin(), k.engines.end());
   if (names.contains(o.subject)) return o.subject;
   std::vector<std::string> all = catalogued_names();
   all.insert(all.end(), names.begin(), names.end());
@@ -236,7 +129,7 @@ std::string resolved_subject(const TriageOptions& o, const Foreign& foreign,
 struct Verdict {
   std::string subject;
   bool answered = false;  // it answered something, in the campaign or now
-  std::size_t fresh = 0, back = 0, troubled = 0;
+  std::size_t fresh = 0, back = 0, ended = 0, troubled = 0;
 };
 
 Verdict verdict_on(const std::string& subject, const std::set<std::string>& answered,
@@ -244,25 +137,30 @@ Verdict verdict_on(const std::string& subject, const std::set<std::string>& answ
   Verdict v{subject == "all" ? "all engines" : subject};
   v.answered = subject == "all" ? !answered.empty() : answered.contains(subject);
   for (const fuzz::Triaged& t : triaged) {
-    if (subject != "all" && subject != t.finding.engine) continue;
+    const auto& engines = t.cause.engines;
+    if (subject != "all" && !std::binary_search(engines.begin(), engines.end(), subject)) continue;
     v.answered |= t.asked > 0;
     v.fresh += t.standing == fuzz::Standing::fresh;
     v.back += t.standing == fuzz::Standing::back;
+    v.ended += t.suppression_ended && t.standing != fuzz::Standing::back;
     v.troubled += !t.trouble.empty();
   }
   return v;
 }
 
 int say(const Verdict& v, bool json) {
-  if (v.fresh + v.back > 0)
-    return print_verdict(exit_wrong, v.subject, fmt::format("{} new findings, {} back", v.fresh, v.back),
-                         json);
+  if (v.fresh + v.back + v.ended > 0) {
+    std::string words =
+        fmt::format("{}, {} back", reports::counted(v.fresh, "new cause", "new causes"), v.back);
+    if (v.ended > 0) words += fmt::format(", {} no longer suppressed", v.ended);
+    return print_verdict(exit_wrong, v.subject, words, json);
+  }
   if (v.troubled > 0)
-    return print_verdict(exit_failed, v.subject, fmt::format("{} findings could not be triaged", v.troubled),
-                         json);
+    return print_verdict(exit_failed, v.subject,
+                         reports::counted(v.troubled, "cause", "causes") + " could not be asked again", json);
   if (!v.answered)
     return print_verdict(exit_failed, v.subject, "it answered nothing; this campaign proves nothing", json);
-  return print_verdict(exit_clean, v.subject, "no new findings", json);
+  return print_verdict(exit_clean, v.subject, "no new causes", json);
 }
 
 void require_stdout_written() {
@@ -270,30 +168,31 @@ void require_stdout_written() {
     throw std::runtime_error(std::string("the output cannot be written: ") + std::strerror(errno));
 }
 
-int run(const TriageOptions& o) {
+int triage_campaign(const TriageOptions& o, const TriageSources& sources) {
+  const std::string date = date_of_run(o.date);
   if (!o.reproducers.empty()) make_directory("--reproducers", o.reproducers);
   if (!o.error.empty()) length_from_text(o.error);  // refuses a bad length at once
   require_writable(o.junit);
-  const Foreign foreign = foreign_engines(o);
+  const Foreign foreign = foreign_of(o);
   const fuzz::DirectoryLock lock(o.directory, fuzz::DirectoryLock::For::reading);
-  const auto found = fuzz::load_findings(o.directory);
+  const fuzz::Causes causes = sources.causes();
   const auto answered = answered_in(o.directory);
   fuzz::Ledger ledger(o.ledger);
   const std::string subject = resolved_subject(o, foreign, answered, ledger.all());
-  const std::string date = o.date.empty() ? now() : o.date;
-  std::deque<Engines> of_job;
+  std::deque<EnginesByCard> of_job;
   std::vector<fuzz::TriageConfig> jobs;
   for (int i = 0; i < o.jobs; ++i) {
     of_job.emplace_back(o.limits, foreign, o.error);
-    jobs.push_back(config_of(o, date, of_job.back()));
+    jobs.push_back(config_of(date, of_job.back()));
   }
-  const auto triaged = fuzz::triage(found, ledger, jobs);
+  const auto triaged = fuzz::triage(causes.causes, ledger, jobs);
   for (const fuzz::Triaged& t : triaged)
     if (!t.trouble.empty())
-      fmt::print(stderr, "touchstone: {}: {}\n", t.finding.key, printable(t.trouble, "\n"));
-  if (!o.reproducers.empty()) print(write_reproducers(o.reproducers, triaged, of_job.front()), o.reproducers);
+      fmt::print(stderr, "touchstone: {}: {}\n", t.cause.id, printable(t.trouble, "\n"));
+  if (!o.reproducers.empty()) write_causes(o.reproducers, sources, causes);
   if (!o.junit.empty()) write_file(o.junit, reports::triage_junit(triaged));
-  fmt::print("{}", o.json ? reports::triage_json(triaged).dump(1) + "\n" : reports::triage_text(triaged));
+  fmt::print("{}",
+             o.json ? json_text(reports::triage_json(triaged), 1) + "\n" : reports::triage_text(triaged));
   const int code = say(verdict_on(subject, answered, triaged), o.json);
   // The commit comes last: what is in the ledger is no longer new, so every report of it must be out by then.
   require_stdout_written();
@@ -301,28 +200,71 @@ int run(const TriageOptions& o) {
   return code;
 }
 
+int change_suppression(const TriageOptions& o) {
+  require_regular_file(o.ledger);
+  fuzz::Ledger ledger(o.ledger);
+  if (o.suppress.empty())
+    fuzz::unsuppress(ledger, o.unsuppress);
+  else
+    fuzz::suppress(ledger, o.suppress, o.reason, o.until, date_of_run(o.date));
+  ledger.commit();
+  if (o.suppress.empty())
+    fmt::print("{}: {} counts again\n", o.ledger, o.unsuppress);
+  else
+    fmt::print("{}: {} is suppressed through {}\n", o.ledger, o.suppress, o.until);
+  return exit_clean;
+}
+
+int run(const TriageOptions& o) {
+  if (!o.suppress.empty() || !o.unsuppress.empty()) return change_suppression(o);
+  if (o.directory.empty())
+    throw InputError("triage", "needs the directory of a campaign (or --suppress ID, --unsuppress ID)");
+  CausesSearch search;
+  search.directory = o.directory;
+  search.engines = o.engines;
+  search.error = o.error;
+  search.jobs = o.jobs;
+  search.limits = o.limits;
+  const auto causes = [&] {
+    if (!fuzz::has_causes(o.directory)) causes_of_campaign(search, false);  // finds and stores them
+    return fuzz::load_causes(o.directory);
+  };
+  return triage_campaign(o, {causes, reports::cause_markdown});
+}
+
 }  // namespace
 
 Run declare_triage(CLI::App& app) {
   auto o = std::make_shared<TriageOptions>();
-  app.add_option("directory", o->directory, "directory of a campaign (`fuzz --out`)")->required();
-  app.add_option("--ledger", o->ledger, "file of known findings; created if missing")->capture_default_str();
+  auto* directory =
+      app.add_option("directory", o->directory,
+                     "directory of a campaign (`fuzz --out`) with its causes (`touchstone causes`)");
+  app.add_option("--ledger", o->ledger, "file of known causes; created if missing")->capture_default_str();
   app.add_option("--engines", o->engines,
-                 "plug-ins and pipes whose findings are to be asked again: ./libmine.so, pipe:COMMAND");
-  app.add_option("--subject", o->subject, "the engine whose new findings make the exit code 1, or all")
+                 "plug-ins and pipes whose causes are to be asked again: ./libmine.so, pipe:COMMAND");
+  app.add_option("--subject", o->subject, "the engine whose new causes make the exit code 1, or all")
       ->capture_default_str();
-  app.add_option("--junit", o->junit, "write the result as JUnit XML to this file");
-  app.add_option(
-      "--reproducers", o->reproducers,
-      "directory for one subdirectory per finding: case, certificate, and a C++ program that shows it");
+  app.add_option("--junit", o->junit, "write the result as JUnit XML to this file: one test per cause");
+  app.add_option("--reproducers", o->reproducers,
+                 "directory for one subdirectory per cause of this campaign: case, certificate, and a C++ "
+                 "program that shows it");
   app.add_option("--date", o->date, "date of the run, for the ledger (default: now)");
-  app.add_option("--jobs", o->jobs, "number of findings shrunk in parallel")
+  app.add_option("--jobs", o->jobs, "number of causes asked again in parallel")
       ->check(CLI::Range(1, 1024))
       ->capture_default_str();
-  app.add_flag("--no-shrink", o->no_shrink, "store the cases of new findings without shrinking them");
   add_error(app, o->error);
   add_case_seconds(app, o->limits);
   app.add_flag("--json", o->json, "one JSON document on stdout");
+  auto* suppress = app.add_option("--suppress", o->suppress,
+                                  "record in the ledger, without a campaign, that this cause is not to count")
+                       ->excludes(directory);
+  app.add_option("--unsuppress", o->unsuppress, "record that this cause counts again")
+      ->excludes(directory)
+      ->excludes(suppress);
+  auto* reason = app.add_option("--reason", o->reason, "why the cause is suppressed")->needs(suppress);
+  auto* until =
+      app.add_option("--until", o->until, "last day of the suppression: 2026-12-31")->needs(suppress);
+  suppress->needs(reason)->needs(until);
   return [o] { return run(*o); };
 }
 

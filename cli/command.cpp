@@ -1,7 +1,5 @@
 #include "cli/command.h"
 
-#include <algorithm>
-#include <cctype>
 #include <charconv>
 #include <cmath>
 #include <csignal>
@@ -15,23 +13,11 @@ std::string& stored_program_name() {
   return name;
 }
 
-bool is_plain(char c) {
-  return std::isalnum(static_cast<unsigned char>(c)) != 0 ||
-         std::string_view("_-+=./:@,%^").find(c) != std::string::npos;
-}
-
 }  // namespace
 
 void set_program_name(std::string name) { stored_program_name() = shell_word(name); }
 
 const std::string& program_name() { return stored_program_name(); }
-
-std::string shell_word(const std::string& text) {
-  if (!text.empty() && std::all_of(text.begin(), text.end(), is_plain)) return text;
-  std::string quoted = "'";
-  for (const char c : text) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  return quoted + "'";
-}
 
 namespace {
 

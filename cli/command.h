@@ -10,6 +10,8 @@
 #include <string>
 #include <string_view>
 
+#include "scenarios/text/shell_word.h"
+
 namespace touchstone::cli {
 
 using Run = std::function<int()>;
@@ -22,8 +24,6 @@ struct Command {
 /// The program's name as it was called, quoted for the shell: for printed commands. main() sets it.
 void set_program_name(std::string name);
 const std::string& program_name();
-/// `text` as one word for the shell, quoted if necessary.
-std::string shell_word(const std::string& text);
 
 /// Option validators with readable messages (CLI11's own print the largest double in full).
 CLI::Validator a_count();
@@ -31,6 +31,7 @@ CLI::Validator a_positive_number();
 
 inline constexpr int exit_clean = 0, exit_wrong = 1, exit_usage = 2, exit_failed = 3;
 
+Run declare_causes(CLI::App& app);
 Run declare_certify(CLI::App& app);
 Run declare_chart(CLI::App& app);
 Run declare_check(CLI::App& app);
@@ -38,7 +39,6 @@ Run declare_engines(CLI::App& app);
 Run declare_families(CLI::App& app);
 Run declare_scenarios(CLI::App& app);
 Run declare_fuzz(CLI::App& app);
-Run declare_judge(CLI::App& app);
 Run declare_judge(CLI::App& app);
 Run declare_plan(CLI::App& app);
 Run declare_primitives(CLI::App& app);
@@ -60,7 +60,8 @@ inline constexpr auto commands = std::to_array<Command>({
     {"shrink", "find the smallest case that shows the same finding", declare_shrink},
     {"reproduce", "write a finding as a program against the engine", declare_reproduce},
     {"bisect", "find what a finding depends on", declare_bisect},
-    {"triage", "compare findings with the ledger of known ones", declare_triage},
+    {"causes", "find the distinct causes behind a campaign's findings", declare_causes},
+    {"triage", "compare causes with the ledger of known ones", declare_triage},
     {"plan", "choose the cheapest model a scene can be run with", declare_plan},
     {"merge", "merge the shards of a campaign, or ledgers", declare_merge},
     {"report", "summarise a campaign as text and as a page", declare_report},

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <system_error>
@@ -19,18 +18,12 @@ namespace {
 using Json = nlohmann::ordered_json;
 namespace fs = std::filesystem;
 
-// The key of a finding's directory: from its finding.json, or for directories written by
-// `triage --reproducers`, the directory's name.
+// The key of a finding's directory, or of one that `triage --reproducers` wrote; "" when there is none.
 std::string stored_key(const std::string& path) {
   std::error_code ec;
   const fs::path directory = fs::is_directory(path, ec) ? fs::path(path) : fs::path(path).parent_path();
   const fs::path beside = directory / "finding.json";
-  if (!fs::exists(beside, ec)) {
-    const std::string name = fs::absolute(directory, ec).lexically_normal().filename();
-    constexpr int dots_in_key = 6;
-    const bool is_case = fs::exists(directory / "case.json", ec);
-    return is_case && std::count(name.begin(), name.end(), '.') >= dots_in_key ? name : "";
-  }
+  if (!fs::exists(beside, ec)) return "";
   const Json finding = load_json(beside);
   return JsonReader(finding, beside.string())["key"].string();
 }

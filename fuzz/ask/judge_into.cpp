@@ -3,6 +3,7 @@
 #include <optional>
 
 #include "fuzz/ask/ask.h"
+#include "fuzz/ask/asked_case.h"
 #include "fuzz/ask/degeneracy.h"
 #include "fuzz/ask/magnitude.h"
 #include "fuzz/ask/novelty.h"
@@ -23,8 +24,9 @@ void name_by_site(Finding& f, const std::string& site) {
   f.degeneracy = "any";
 }
 
-void add_findings(CampaignResult& r, const Case& c, std::uint64_t index, const std::string& engine,
-                  const Query& q, const Judgement& j, const CaseObservations& all, const Observation& o) {
+void add_findings(CampaignResult& r, AskedCase& asked, const std::string& engine, const Query& q,
+                  const Judgement& j, const CaseObservations& all, const Observation& o) {
+  const Case& c = asked.get();
   for (const FaultReport& fault : j.faults) {
     Finding f;
     f.engine = engine;
@@ -38,9 +40,10 @@ void add_findings(CampaignResult& r, const Case& c, std::uint64_t index, const s
     if (!o.site.empty()) name_by_site(f, o.site);
     f.count = 1;
     f.worst_in_l = fault.error_in_l;
-    f.first_index = index;
+    f.first_index = asked.index();
+    f.examples = {asked.example(fault.error_in_l)};
     auto& kept = r.findings[f.key()];
-    if (kept.count == 0 || index < kept.first_index) {
+    if (kept.count == 0 || f.first_index < kept.first_index) {
       // The last words of a dying process stay out of the finding: they may differ from run to run.
       f.words = fault.fault == Fault::failed ? std::string(to_string(j.outcome)) : fault.words;
       if (!o.site.empty()) f.words += " at " + o.site;
@@ -125,6 +128,7 @@ void judge_into(CampaignResult& r, const Case& c, std::uint64_t index, std::span
                 std::span<const CaseObservations> observations, std::vector<std::uint64_t>* features) {
   const auto start = std::chrono::steady_clock::now();
   Truth truth(c.scene);
+  AskedCase asked(c, index);
   if (!observations.empty()) give_hints(truth, c, observations[0]);
   for (std::size_t e = 0; e < engines.size(); ++e) {
     const EngineCard& card = engines[e]->card();
@@ -140,7 +144,7 @@ void judge_into(CampaignResult& r, const Case& c, std::uint64_t index, std::span
       r.tallies[card.name][c.queries[i].question].add(judgements[i], o);
       count_open(r, c, card.name, c.queries[i], judgements[i]);
       r.engine_ns += o.elapsed_ns;
-      add_findings(r, c, index, card.name, c.queries[i], judgements[i], all, o);
+      add_findings(r, asked, card.name, c.queries[i], judgements[i], all, o);
       if (features) add_features(c, c.queries[i], card, o, judgements[i], *features);
     }
   }

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "fuzz/ask/ask.h"
+#include "fuzz/ask/asked_case.h"
 #include "fuzz/ask/degeneracy.h"
 #include "fuzz/ask/magnitude.h"
 #include "fuzz/ask/shapes_of.h"
@@ -28,8 +29,8 @@ std::vector<Asked> derive_all(const RelationInput& in) {
   return all;
 }
 
-void add_break(CampaignResult& r, const Case& c, std::uint64_t index, const RelationInput& in,
-               const RelationBreak& b) {
+void add_break(CampaignResult& r, AskedCase& base, const RelationInput& in, const RelationBreak& b) {
+  const Case& c = base.get();
   const auto q = static_cast<std::size_t>(b.query);
   const Question question = c.queries[q].question;
   Finding f;
@@ -42,10 +43,11 @@ void add_break(CampaignResult& r, const Case& c, std::uint64_t index, const Rela
   f.magnitude = to_string(magnitude_of(b.error_in_l));
   f.count = 1;
   f.worst_in_l = b.error_in_l;
-  f.first_index = index;
+  f.first_index = base.index();
+  f.examples = {base.example(b.error_in_l)};
   f.words = b.words;
   auto& kept = r.findings[f.key()];
-  if (kept.count == 0 || index < kept.first_index)
+  if (kept.count == 0 || f.first_index < kept.first_index)
     f.evidence = std::make_shared<const Evidence>(
         Evidence{c, in.base.answers[q], in.base.received, {}, b.a, b.b, -1, question});
   kept.merge(f);
@@ -53,8 +55,8 @@ void add_break(CampaignResult& r, const Case& c, std::uint64_t index, const Rela
 
 // The forms of the case cannot be compared: one of them is not answered the same way twice. The answers are
 // not kept, since they may vary from run to run.
-void add_unstable(CampaignResult& r, const Case& c, std::uint64_t index, const RelationInput& in,
-                  const RelationBreak& b) {
+void add_unstable(CampaignResult& r, AskedCase& base, const RelationInput& in, const RelationBreak& b) {
+  const Case& c = base.get();
   const auto q = static_cast<std::size_t>(b.query);
   const Question question = c.queries[q].question;
   Finding f;
@@ -66,10 +68,11 @@ void add_unstable(CampaignResult& r, const Case& c, std::uint64_t index, const R
   f.degeneracy = degeneracy_of(c, b.a, b.b);
   f.magnitude = to_string(magnitude_of(0));
   f.count = 1;
-  f.first_index = index;
+  f.first_index = base.index();
+  f.examples = {base.example(0)};
   f.words = "asked again, it answers differently";
   auto& kept = r.findings[f.key()];
-  if (kept.count == 0 || index < kept.first_index) {
+  if (kept.count == 0 || f.first_index < kept.first_index) {
     Observation outcome_alone;
     outcome_alone.outcome = in.base.answers[q].outcome;
     f.evidence = std::make_shared<const Evidence>(
@@ -92,6 +95,7 @@ void relate_into(CampaignResult& r, const Case& c, std::uint64_t index, const En
   if (!any_is(base, Outcome::answered) || any_is(base, Outcome::timed_out)) return;
   if (!odd_numbers(c.scene).empty()) return;
   const RelationInput in{c, engine->card(), base};
+  AskedCase base_case(c, index);
   const std::vector<Asked> asked = derive_all(in);
   std::vector<Case> cases;
   for (const Asked& a : asked) cases.push_back(a.derived.c);
@@ -109,9 +113,9 @@ void relate_into(CampaignResult& r, const Case& c, std::uint64_t index, const En
     if (!broken) continue;
     ++count.broken;
     if (base_repeats() && repeats(asked[i].derived.c, *engine, observed[i]))
-      add_break(r, c, index, in, *broken);
+      add_break(r, base_case, in, *broken);
     else
-      add_unstable(r, c, index, in, *broken);
+      add_unstable(r, base_case, in, *broken);
   }
 }
 

@@ -14,8 +14,8 @@
 #include <utility>
 
 #include "core/base/input_error.h"
-#include "fuzz/campaign/store.h"
 #include "oracles/abi/protocol.h"
+#include "reports/record/stored.h"
 #include "scenarios/codec/case_codec.h"
 #include "scenarios/codec/json_file.h"
 #include "scenarios/codec/value_codec.h"

@@ -44,9 +44,7 @@ std::vector<std::uint64_t> shards_of(const JsonReader& settings) {
 
 Part load_part(const std::filesystem::path& directory) {
   const auto file = directory / "state.json";
-  if (!std::filesystem::exists(file))
-    throw InputError(directory.string(), "does not hold a campaign; touchstone fuzz --out DIR creates one");
-  const Json json = load_json(file, campaign_limits);
+  const Json json = load_state_json(directory);
   const JsonReader j(json, file.string());
   if (!j["finished"].boolean())
     throw InputError(directory.string(), "is unfinished; resume it first (same command, same --out)");

@@ -40,14 +40,6 @@ Pool pool_from_json(const JsonReader& j) {
 
 }  // namespace
 
-Case campaign_case(const Json& j, const std::string& place) {
-  Case c = case_from_json(j, place);
-  // The body indices of a question about the whole scene are meaningless and not stored; families use -1.
-  for (Query& q : c.queries)
-    if (!is_pair_question(q.question)) q.a = q.b = -1;
-  return c;
-}
-
 std::optional<StoredState> load_state(const CampaignConfig& config) {
   const auto file = config.out / "state.json";
   if (!std::filesystem::exists(file)) return std::nullopt;
@@ -84,6 +76,28 @@ void save_state(const std::filesystem::path& out, const Json& settings, const St
   write_file(out / "state.json", j.dump());
 }
 
+Json load_state_json(const std::filesystem::path& directory) {
+  const auto file = directory / "state.json";
+  if (!std::filesystem::exists(file))
+    throw InputError(directory.string(), "does not hold a campaign; touchstone fuzz --out DIR creates one");
+  return load_json(file, campaign_limits);
+}
+
+CampaignResult load_result(const std::filesystem::path& directory) {
+  const Json json = load_state_json(directory);
+  return result_with_evidence(JsonReader(json, (directory / "state.json").string())["result"]);
+}
+
+Json load_settings(const std::filesystem::path& directory) {
+  const Json json = load_state_json(directory);
+  const JsonReader settings = JsonReader(json, (directory / "state.json").string())["settings"];
+  settings.require_object();
+  count_of(settings["seed"]);
+  settings["family"].string();
+  for (const JsonReader& engine : settings["engines"].items()) engine.string();
+  return settings.json();
+}
+
 bool move_aside(const std::filesystem::path& out) {
   namespace fs = std::filesystem;
   if (!fs::exists(out / "state.json")) return false;
@@ -114,10 +128,14 @@ void save_findings(const std::filesystem::path& out, const CampaignResult& resul
     Json j = {{"key", key}};
     j.update(to_json(f));
     for (const char* part : {"observation", "certificate", "received"}) j[part] = evidence.at(part);
+    for (const Example& e : f.examples) j["examples"].push_back(to_json(e));
     write_file(dir / "finding.json", j.dump(1) + "\n");
   }
   Json summary = to_json(result, true);
-  for (auto& [key, f] : summary["findings"].items()) f.erase("evidence");
+  for (auto& [key, f] : summary["findings"].items()) {
+    f.erase("evidence");
+    f.erase("examples");
+  }
   summary.erase("documents");
   summary["digest"] = digest(result);
   write_file(out / "summary.json", summary.dump(1) + "\n");

@@ -29,4 +29,16 @@ StillShows keeps_finding(const EnginePtr& engine, std::string key) {
   };
 }
 
+StillShows keeps_fault(const EnginePtr& engine, const std::string& key) {
+  return
+      [&engine, by = found_by(key), prefix = key.substr(0, key.rfind('.') + 1)](std::span<const Case> cases) {
+        std::vector<bool> shows;
+        for (const auto& found : findings_of(cases, engine, by)) {
+          const auto at = found.lower_bound(prefix);
+          shows.push_back(at != found.end() && at->first.starts_with(prefix));
+        }
+        return shows;
+      };
+}
+
 }  // namespace touchstone::fuzz

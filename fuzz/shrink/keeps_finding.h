@@ -24,4 +24,8 @@ FoundBy found_by(const std::string& key);
 /// `engine` must outlive the result.
 StillShows keeps_finding(const EnginePtr& engine, std::string key);
 
+/// The same, but the error may be of any magnitude: the last part of the key is not compared. A missed
+/// overlap of 1e-8 and one of half a body are then one fault, of which only the second can be defensible.
+StillShows keeps_fault(const EnginePtr& engine, const std::string& key);
+
 }  // namespace touchstone::fuzz

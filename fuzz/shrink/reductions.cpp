@@ -7,6 +7,27 @@
 #include "scenarios/value/odd_numbers.h"
 
 namespace touchstone::fuzz {
+
+std::vector<double*> lengths(Case& c) {
+  std::vector<double*> out;
+  const auto add = [&](Vec3& v) {
+    for (double& x : v) out.push_back(&x);
+  };
+  for (Shape& s : c.scene.shapes) {
+    if (auto* h = std::get_if<HalfSpace>(&s))
+      out.push_back(&h->offset);
+    else
+      for (double* x : numbers(s)) out.push_back(x);
+  }
+  for (Body& b : c.scene.bodies) {
+    add(b.pose.translation);
+    if (b.motion) add(b.motion->linear);
+  }
+  for (Step& s : c.scene.script)
+    if (s.pose) add(s.pose->translation);
+  return out;
+}
+
 namespace {
 
 template <class T>
@@ -276,7 +297,7 @@ void propose_renewed(std::vector<Case>& out, Case r) {
   out.push_back(std::move(r));
 }
 
-// Scales lengths by the power of two that brings the largest to about 1; exact.
+// Scales lengths by the power of two that brings the largest number to about 1; exact.
 void scale_to_one(const Case& c, std::vector<Case>& out) {
   Case r = c;
   double largest = 0;
@@ -284,21 +305,7 @@ void scale_to_one(const Case& c, std::vector<Case>& out) {
   if (!(largest > 0) || !std::isfinite(largest)) return;
   const double factor = std::ldexp(1.0, -std::ilogb(largest));
   if (!std::isfinite(factor)) return;
-  for (Shape& s : r.scene.shapes) {
-    Vec3 normal = Vec3::Zero();
-    if (auto* h = std::get_if<HalfSpace>(&s)) normal = h->normal;
-    Case only;
-    only.scene.shapes = {s};
-    for (double* x : numbers(only)) *x *= factor;
-    s = only.scene.shapes[0];
-    if (auto* h = std::get_if<HalfSpace>(&s)) h->normal = normal;
-  }
-  for (Body& b : r.scene.bodies) {
-    b.pose.translation *= factor;
-    if (b.motion) b.motion->linear *= factor;
-  }
-  for (Step& s : r.scene.script)
-    if (s.pose) s.pose->translation *= factor;
+  for (double* x : lengths(r)) *x *= factor;
   propose_renewed(out, std::move(r));
 }
 
@@ -316,6 +323,14 @@ constexpr int coarse_bits[] = {1, 2, 3, 4, 6, 8, 12, 16, 24, 32, 40, 46, 50};
 
 std::span<const ListPart> list_parts() { return parts_table; }
 std::span<const Simplification> simplifications() { return simplifications_table; }
+
+double rounded_to(double v, int significant) {
+  if (v == 0 || !std::isfinite(v)) return v;
+  int exponent = 0;
+  const double m = std::frexp(v, &exponent);
+  const double r = std::ldexp(std::nearbyint(std::ldexp(m, significant)), exponent - significant);
+  return std::isfinite(r) ? r : v;
+}
 
 std::vector<Case> round_all(const Case& c) {
   std::vector<Case> out;

@@ -1,5 +1,6 @@
 // Reductions that make a case smaller. Each proposes cases, boldest first, without querying an engine. A
-// proposal need not be a valid scene: smaller_and_valid() keeps those that are valid and smaller.
+// proposal need not be a valid scene: smaller_and_valid() keeps those that are valid, and smaller by
+// measure(), so the shrinker terminates.
 #pragma once
 
 #include <functional>
@@ -8,18 +9,11 @@
 #include <string_view>
 #include <vector>
 
+#include "scenarios/random/case_size.h"
 #include "scenarios/random/numbers.h"
 #include "scenarios/value/case.h"
 
 namespace touchstone::fuzz {
-
-// The size of a case and of every number in it. The shrinker accepts only cases that are smaller by this
-// measure, so it terminates.
-
-CaseSize measure(const Case& c);
-
-/// Significant bits of the mantissa plus bits of the exponent: 0 costs 0, 1 costs 1, 0.1 costs 56.
-int bits_of(double v);
 
 /// Rounds v to the nearest number with `significant` bits.
 double rounded_to(double v, int significant);
@@ -40,6 +34,10 @@ struct Simplification {
   void (*propose)(const Case& c, std::vector<Case>& out);
 };
 std::span<const Simplification> simplifications();
+
+/// The numbers that are lengths: those of numbers(c) but rotations, angular velocities and the normals of
+/// half-spaces.
+std::vector<double*> lengths(Case& c);
 
 /// The case with all numbers rounded to a few bits, fewest first.
 std::vector<Case> round_all(const Case& c);

@@ -3,19 +3,24 @@
 #include <fmt/format.h>
 #include <sqlite3.h>
 
+#include <algorithm>
 #include <array>
+#include <functional>
+#include <limits>
 #include <string_view>
 #include <system_error>
 
 #include "core/base/input_error.h"
 #include "reports/record/stored.h"
 #include "scenarios/codec/json_file.h"
+#include "scenarios/text/iso_date.h"
 #include "scenarios/text/printable.h"
 
 namespace touchstone::fuzz {
 namespace {
 
-constexpr int application_id = 0x54534c31;  // "TSL1", in the header of the file
+constexpr int application_id = 0x54534c32;  // "TSL2", in the header of the file
+constexpr int of_findings = 0x54534c31;     // "TSL1": a ledger whose rows are findings
 constexpr int busy_ms = 60'000;
 constexpr int max_field_bytes = 64 << 20;  // the largest is a case
 constexpr std::uintmax_t max_file_bytes = std::uintmax_t{1} << 30;
@@ -23,21 +28,24 @@ constexpr std::uintmax_t max_journal_bytes = 2 * max_file_bytes;
 
 // SQLite stores the text of a table definition exactly as written.
 constexpr const char* schema =
-    "CREATE TABLE finding("
-    "key TEXT PRIMARY KEY, engine TEXT, question TEXT, fault TEXT, shapes TEXT, blame TEXT, degeneracy TEXT, "
-    "magnitude TEXT, first_seen TEXT, last_seen TEXT, first_build TEXT, last_build TEXT, "
-    "count INTEGER, bodies INTEGER, steps INTEGER, bits INTEGER, smallest TEXT, words TEXT, expired TEXT)";
+    "CREATE TABLE cause("
+    "id TEXT PRIMARY KEY, path TEXT, title TEXT, documented TEXT, severity TEXT, engines TEXT, shapes TEXT, "
+    "first_seen TEXT, last_seen TEXT, first_build TEXT, last_build TEXT, "
+    "count INTEGER, bodies INTEGER, steps INTEGER, bits INTEGER, "
+    "engine TEXT, key TEXT, shown TEXT, words TEXT, expired TEXT, reason TEXT, until TEXT)";
 
 constexpr const char* columns =
-    "key, engine, question, fault, shapes, blame, degeneracy, magnitude, first_seen, last_seen, first_build, "
-    "last_build, count, bodies, steps, bits, smallest, words, expired";
+    "id, path, title, documented, severity, engines, shapes, first_seen, last_seen, first_build, last_build, "
+    "count, bodies, steps, bits, engine, key, shown, words, expired, reason, until";
 
-constexpr std::array texts_before{
-    &KnownFinding::key,        &KnownFinding::engine,      &KnownFinding::question,
-    &KnownFinding::fault,      &KnownFinding::shapes,      &KnownFinding::blame,
-    &KnownFinding::degeneracy, &KnownFinding::magnitude,   &KnownFinding::first_seen,
-    &KnownFinding::last_seen,  &KnownFinding::first_build, &KnownFinding::last_build};
-constexpr std::array texts_after{&KnownFinding::smallest, &KnownFinding::words, &KnownFinding::expired};
+constexpr std::array texts_before{&KnownCause::id, &KnownCause::path, &KnownCause::title,
+                                  &KnownCause::documented};
+constexpr std::array lists{&KnownCause::engines, &KnownCause::shapes};
+constexpr std::array sightings{&KnownCause::first_seen, &KnownCause::last_seen, &KnownCause::first_build,
+                               &KnownCause::last_build};
+constexpr std::array texts_after{&KnownCause::engine, &KnownCause::key,     &KnownCause::shown,
+                                 &KnownCause::words,  &KnownCause::expired, &KnownCause::reason,
+                                 &KnownCause::until};
 
 }  // namespace
 
@@ -116,12 +124,16 @@ class Statement {
   Statement& operator=(const Statement&) = delete;
 
   bool ok() const { return ok_; }
-  void bind(const std::string& v) {
+  void bind(const std::string& text) {
+    const std::string v = valid_utf8(text);
     ok_ = ok_ && sqlite3_bind_text(s_, ++bound_, v.data(), static_cast<int>(v.size()), SQLITE_TRANSIENT) ==
                      SQLITE_OK;
   }
+  /// The database has signed numbers.
   void bind(std::uint64_t v) {
-    ok_ = ok_ && sqlite3_bind_int64(s_, ++bound_, static_cast<sqlite3_int64>(v)) == SQLITE_OK;
+    const auto n =
+        static_cast<sqlite3_int64>(std::min(v, std::uint64_t{std::numeric_limits<sqlite3_int64>::max()}));
+    ok_ = ok_ && sqlite3_bind_int64(s_, ++bound_, n) == SQLITE_OK;
   }
   /// Returns true if there is a row, false at the end or after an error (see ok()).
   bool step() {
@@ -157,37 +169,64 @@ std::uint64_t count_of(const Statement& s, int column, const std::string& file) 
   return static_cast<std::uint64_t>(s.number(column));
 }
 
-// Keys name directories (triage --reproducers).
-void require_own_key(const KnownFinding& f, const std::string& file) {
-  Finding parts;
-  parts.engine = f.engine;
-  parts.question = f.question;
-  parts.fault = f.fault;
-  parts.shapes = f.shapes;
-  parts.blame = f.blame;
-  parts.degeneracy = f.degeneracy;
-  parts.magnitude = f.magnitude;
-  if (parts.key() != f.key || !has_plain_key(parts))
-    throw InputError(file, "ledger: the key of a row does not match its fields: " + printable(f.key));
+Severity severity_in(const Statement& s, int column, const std::string& file) {
+  const std::string name = text_of(s, column, file);
+  const auto at = std::find(severity_names.begin(), severity_names.end(), name);
+  if (at == severity_names.end())
+    throw InputError(file, "ledger: a row has an unknown severity: " + printable(name));
+  return static_cast<Severity>(at - severity_names.begin());
 }
 
-KnownFinding row(const Statement& s, const std::string& file) {
-  KnownFinding f;
+std::vector<std::string> list_of(const Statement& s, int column, const std::string& file) {
+  const std::string place = file + ": ledger: a list of a row";
+  const Json j = parse_json(text_of(s, column, file), place);
+  std::vector<std::string> list;
+  for (const JsonReader& item : JsonReader(j, place).items()) list.push_back(item.string());
+  return list;
+}
+
+bool is_list(const std::vector<std::string>& list) {
+  return std::all_of(list.begin(), list.end(), [](const std::string& s) { return printable(s) == s; }) &&
+         std::adjacent_find(list.begin(), list.end(), std::greater_equal<>()) == list.end();
+}
+
+// Why a row cannot be one of a ledger, or "". Ids name directories (triage --reproducers).
+std::string complaint(const KnownCause& k) {
+  if (!is_cause_id(k.id)) return "the id of a row is not the id of a cause: " + printable(k.id);
+  if (!is_list(k.engines) || !is_list(k.shapes))
+    return "a list of row " + k.id + " is not one of sorted words";
+  const bool has_no_case = k.engine.empty() && k.key.empty() && k.shown.empty();
+  if (!has_no_case && (k.shown.empty() || !finding_of_key(k.engine, k.key)))
+    return "the key of row " + k.id + " is not one of its engine: " + printable(k.key);
+  const bool is_not_suppressed = k.reason.empty() && k.until.empty();
+  if (!is_not_suppressed && (k.reason.empty() || !is_iso_date(k.until)))
+    return "row " + k.id + " is suppressed without a reason or a date";
+  return "";
+}
+
+KnownCause row(const Statement& s, const std::string& file) {
+  KnownCause k;
   int i = 0;
-  for (const auto field : texts_before) f.*field = text_of(s, i++, file);
-  f.count = count_of(s, i++, file);
-  f.size.bodies = count_of(s, i++, file);
-  f.size.steps = count_of(s, i++, file);
-  f.size.bits = count_of(s, i++, file);
-  for (const auto field : texts_after) f.*field = text_of(s, i++, file);
-  require_own_key(f, file);
-  return f;
+  for (const auto field : texts_before) k.*field = text_of(s, i++, file);
+  k.severity = severity_in(s, i++, file);
+  for (const auto field : lists) k.*field = list_of(s, i++, file);
+  for (const auto field : sightings) k.*field = text_of(s, i++, file);
+  k.count = count_of(s, i++, file);
+  k.size.bodies = count_of(s, i++, file);
+  k.size.steps = count_of(s, i++, file);
+  k.size.bits = count_of(s, i++, file);
+  for (const auto field : texts_after) k.*field = text_of(s, i++, file);
+  if (const std::string why = complaint(k); !why.empty()) throw InputError(file, "ledger: " + why);
+  return k;
 }
 
-std::size_t bytes_of(const KnownFinding& f) {
+std::size_t bytes_of(const KnownCause& k) {
   std::size_t n = 0;
-  for (const auto field : texts_before) n += (f.*field).size();
-  for (const auto field : texts_after) n += (f.*field).size();
+  for (const auto field : texts_before) n += (k.*field).size();
+  for (const auto field : lists)
+    for (const std::string& item : k.*field) n += item.size();
+  for (const auto field : sightings) n += (k.*field).size();
+  for (const auto field : texts_after) n += (k.*field).size();
   return n;
 }
 
@@ -197,19 +236,29 @@ int pragma(sqlite3* db, const char* name) {
 }
 
 // Stops at the first object that does not belong to a ledger, without reading or running it.
-enum class Holds { nothing, findings, something_else };
+enum class Holds { nothing, causes, findings, something_else };
 Holds contents(sqlite3* db, const std::string& file) {
   Statement s(db, "SELECT type, name, tbl_name, sql FROM sqlite_master");
   Holds holds = Holds::nothing;
   while (s.step()) {
-    const bool is_table = s.text(0) == "table" && s.text(1) == "finding" && s.text(3) == schema;
-    const bool is_its_index = s.text(0) == "index" && s.text(1) == "sqlite_autoindex_finding_1" &&
-                              s.text(2) == "finding" && s.text(3).empty();
+    const bool is_table = s.text(0) == "table" && s.text(1) == "cause" && s.text(3) == schema;
+    const bool is_its_index = s.text(0) == "index" && s.text(1) == "sqlite_autoindex_cause_1" &&
+                              s.text(2) == "cause" && s.text(3).empty();
+    if (s.text(0) == "table" && s.text(1) == "finding") return Holds::findings;
     if (!is_table && !is_its_index) return Holds::something_else;
-    if (is_table) holds = Holds::findings;
+    if (is_table) holds = Holds::causes;
   }
   if (!s.ok()) throw InputError(file, std::string("ledger: ") + sqlite3_errmsg(db));
   return holds;
+}
+
+// The keys of findings do not tell which of them had the same cause, so the rows cannot be converted.
+[[noreturn]] void refuse_ledger_of_findings(const std::string& file) {
+  throw InputError(
+      file,
+      "is a ledger of findings, from an earlier version; this version keeps causes. Give --ledger "
+      "another file, which is created: the causes of the next campaign are all new in it. The old "
+      "file may be deleted");
 }
 
 }  // namespace
@@ -220,8 +269,10 @@ Ledger::Ledger(const std::filesystem::path& file, For purpose)
   db_->run(purpose == For::reading ? "BEGIN" : "BEGIN IMMEDIATE");
   const int id = pragma(db_->handle, "application_id");
   const Holds holds = contents(db_->handle, db_->file);
-  if (holds == Holds::something_else || (holds == Holds::findings) != (id == application_id))
-    throw InputError(file.string(), "is a database, but not a ledger of findings of this version");
+  if (holds == Holds::findings && id == of_findings) refuse_ledger_of_findings(db_->file);
+  const bool is_ledger = holds == Holds::causes && id == application_id;
+  if (!is_ledger && !(holds == Holds::nothing && id == 0))
+    throw InputError(file.string(), "is a database, but not a ledger of causes of this version");
   is_empty_ = holds == Holds::nothing;
   if (purpose == For::reading || !is_empty_) return;
   db_->run(fmt::format("PRAGMA application_id = {}", application_id).c_str());
@@ -231,42 +282,47 @@ Ledger::Ledger(const std::filesystem::path& file, For purpose)
 
 Ledger::~Ledger() = default;
 
-std::optional<KnownFinding> Ledger::find(const std::string& key) const {
+std::optional<KnownCause> Ledger::find(const std::string& id) const {
   if (is_empty_) return std::nullopt;
-  Statement s(db_->handle, fmt::format("SELECT {} FROM finding WHERE key = ?", columns));
-  s.bind(key);
+  Statement s(db_->handle, fmt::format("SELECT {} FROM cause WHERE id = ?", columns));
+  s.bind(id);
   if (s.step()) return row(s, db_->file);
   if (!s.ok()) db_->fail();
   return std::nullopt;
 }
 
-// A damaged file can refer to a page many times. Rejecting keys that do not ascend, and more text than the
+// A damaged file can refer to a page many times. Rejecting ids that do not ascend, and more text than the
 // file has bytes, keeps the loop finite.
-std::vector<KnownFinding> Ledger::all() const {
-  std::vector<KnownFinding> r;
+std::vector<KnownCause> Ledger::all() const {
+  std::vector<KnownCause> r;
   if (is_empty_) return r;
-  Statement s(db_->handle, fmt::format("SELECT {} FROM finding ORDER BY key", columns));
+  Statement s(db_->handle, fmt::format("SELECT {} FROM cause ORDER BY id", columns));
   const auto pages = pragma(db_->handle, "page_count"), size = pragma(db_->handle, "page_size");
   const auto most = static_cast<std::uint64_t>(pages) * static_cast<std::uint64_t>(size);
   std::uint64_t bytes = 0;
   while (s.step()) {
-    KnownFinding f = row(s, db_->file);
-    bytes += bytes_of(f);
-    if ((!r.empty() && r.back().key >= f.key) || bytes > most)
+    KnownCause k = row(s, db_->file);
+    bytes += bytes_of(k);
+    if ((!r.empty() && r.back().id >= k.id) || bytes > most)
       throw InputError(db_->file, "ledger: is damaged: it contains the same pages more than once");
-    r.push_back(std::move(f));
+    r.push_back(std::move(k));
   }
   if (!s.ok()) db_->fail();
   return r;
 }
 
-void Ledger::put(const KnownFinding& f) {
-  Statement s(db_->handle,
-              fmt::format("INSERT OR REPLACE INTO finding({}) VALUES(?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?)",
-                          columns));
-  for (const auto field : texts_before) s.bind(f.*field);
-  for (const std::uint64_t n : {f.count, f.size.bodies, f.size.steps, f.size.bits}) s.bind(n);
-  for (const auto field : texts_after) s.bind(f.*field);
+void Ledger::put(const KnownCause& k) {
+  if (const std::string why = complaint(k); !why.empty()) throw InputError(db_->file, "ledger: " + why);
+  Statement s(
+      db_->handle,
+      fmt::format("INSERT OR REPLACE INTO cause({}) VALUES(?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?)",
+                  columns));
+  for (const auto field : texts_before) s.bind(k.*field);
+  s.bind(std::string(to_string(k.severity)));
+  for (const auto field : lists) s.bind(json_text(Json(k.*field)));
+  for (const auto field : sightings) s.bind(k.*field);
+  for (const std::uint64_t n : {k.count, k.size.bodies, k.size.steps, k.size.bits}) s.bind(n);
+  for (const auto field : texts_after) s.bind(k.*field);
   s.step();
   if (!s.ok()) db_->fail();
 }

@@ -1,12 +1,12 @@
-// The ledger of known findings: one SQLite file, one row per key. It outlives campaigns, so that a nightly
-// run reports only what is new. A row expires when its case stops reproducing, and comes back when it does
-// again.
+// The ledger of known causes: one SQLite file, one row per cause. It outlives campaigns, so that a nightly
+// run reports only what is new. A row expires when its case stops showing the cause, and comes back when the
+// cause is seen again.
 //
-//   finding(key TEXT PRIMARY KEY, engine, question, fault, shapes, blame, degeneracy, magnitude TEXT,
-//           first_seen, last_seen TEXT, first_build, last_build TEXT, count INTEGER, bodies, steps, bits
-//           INTEGER, smallest TEXT, words TEXT, expired TEXT)
-// Dates are ISO 8601, UTC. Builds name the engine's library and version. `smallest` is the case as JSON.
-// `expired` is empty while the finding reproduces, else the date on which it first did not.
+//   cause(id TEXT PRIMARY KEY, path, title, documented, severity, engines, shapes, first_seen, last_seen,
+//         first_build, last_build TEXT, count, bodies, steps, bits INTEGER, engine, key, shown, words,
+//         expired, reason, until TEXT)
+// The fields of KnownCause; lists are arrays in JSON. Dates are ISO 8601, UTC. Builds name the engine's
+// library and version.
 #pragma once
 
 #include <cstdint>
@@ -23,9 +23,9 @@ namespace touchstone::fuzz {
 
 /// One transaction from construction to commit(): a run that is killed half-way changes nothing, and other
 /// processes wait for it. All functions throw InputError naming the file when it is not a ledger, has a later
-/// version, stays locked for a minute, or the disk is full. The file is untrusted: views, triggers and
-/// functions in it are not run. Any schema other than the one above is rejected, and so is a row whose key
-/// does not match its fields or cannot name a directory.
+/// version, is an older ledger of findings, stays locked for a minute, or the disk is full. The file is
+/// untrusted: views, triggers and functions in it are not run. Any schema other than the one above is
+/// rejected, and so is a row whose id cannot name a directory or whose key is not one of its engine.
 class Ledger {
  public:
   enum class For { reading, writing };
@@ -35,11 +35,11 @@ class Ledger {
   Ledger(const Ledger&) = delete;
   Ledger& operator=(const Ledger&) = delete;
 
-  std::optional<KnownFinding> find(const std::string& key) const;
-  /// Sorted by key.
-  std::vector<KnownFinding> all() const;
-  /// Inserts, or replaces the row of the same key.
-  void put(const KnownFinding& f);
+  std::optional<KnownCause> find(const std::string& id) const;
+  /// Sorted by id.
+  std::vector<KnownCause> all() const;
+  /// Inserts, or replaces the row of the same id. Refuses what could not be read back.
+  void put(const KnownCause& k);
   /// Ends the transaction; afterwards the ledger may only be read.
   void commit();
 
@@ -51,10 +51,11 @@ class Ledger {
 
 // Merges several ledgers into one.
 
-/// Merges two rows with the same key: the earlier first sighting, the later last sighting, the expiry of the
-/// row updated last, the smaller case, and the larger count (not the sum: both ledgers may have counted the
-/// same runs, so a sum would grow with every merge). Commutative, associative, idempotent.
-KnownFinding merged(const KnownFinding& x, const KnownFinding& y);
+/// Merges two rows of the same cause: the earlier first sighting; the later last sighting, with what was said
+/// of the cause then; the graver severity; all engines and shapes; the expiry date of the row updated last;
+/// the smaller case; the suppression that lasts longer; and the larger count (not the sum: both ledgers may
+/// have counted the same runs, so a sum would grow with every merge). Commutative, associative, idempotent.
+KnownCause merged(const KnownCause& x, const KnownCause& y);
 
 /// Adds the rows of all `in` to `out`, which is created if needed. Returns the number of rows in `out`.
 /// Throws InputError.

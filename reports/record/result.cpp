@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <unordered_map>
 
 #include "core/base/exact_text.h"
 #include "core/base/hash.h"
@@ -124,9 +125,12 @@ std::string Finding::key() const {
 void Finding::merge(const Finding& o) {
   const std::uint64_t both = count + o.count;
   const double worst = std::max(worst_in_l, o.worst_in_l);
+  std::vector<Example> shown = std::move(examples);
+  shown.insert(shown.end(), o.examples.begin(), o.examples.end());
   if (count == 0 || o.first_index < first_index) *this = o;
   count = both;
   worst_in_l = worst;
+  examples = shown.empty() ? std::move(shown) : kept_examples(std::move(shown), key());
 }
 
 void CampaignResult::merge(const CampaignResult& o) {
@@ -337,6 +341,27 @@ bool has_plain_key(const Finding& f) {
          is_key_word(f.magnitude) && f.key().size() <= longest_key;
 }
 
+Case campaign_case(const Json& j, const std::string& place) {
+  Case c = case_from_json(j, place);
+  // The body indices of a question about the whole scene are meaningless and not stored; families use -1.
+  for (Query& q : c.queries)
+    if (!is_pair_question(q.question)) q.a = q.b = -1;
+  return c;
+}
+
+std::optional<Finding> finding_of_key(const std::string& engine, const std::string& key) {
+  if (!key.starts_with(engine + ".")) return std::nullopt;
+  Finding f;
+  f.engine = engine;
+  std::size_t at = engine.size() + 1;
+  for (std::string* part : {&f.question, &f.fault, &f.shapes, &f.blame, &f.degeneracy, &f.magnitude}) {
+    const std::size_t dot = std::min(key.find('.', at), key.size());
+    *part = key.substr(std::min(at, key.size()), dot - std::min(at, key.size()));
+    at = dot + 1;
+  }
+  return f.key() == key && has_plain_key(f) ? std::optional(f) : std::nullopt;
+}
+
 Finding finding_from_json(const JsonReader& j) {
   Finding f;
   f.engine = j["engine"].string();
@@ -358,6 +383,7 @@ Finding finding_from_json(const JsonReader& j) {
     evidence["observation"].require_object();
     f.evidence_json = evidence.json();
   }
+  if (j.has("examples")) f.examples = examples_from_json(j["examples"]);
   return f;
 }
 
@@ -374,6 +400,16 @@ class Documents {
     stored_.try_emplace(name, std::move(document));
     document = std::move(name);
   }
+  /// The name of the case's document.
+  const std::string& name_of(const Case& c) {
+    std::string& name = names_[&c];
+    if (name.empty()) {
+      Json document = case_to_json(c);
+      take(document);
+      name = document.get<std::string>();
+    }
+    return name;
+  }
   Json json() && {
     Json j = Json::object();
     for (auto& [name, document] : stored_) j[name] = std::move(document);
@@ -382,29 +418,68 @@ class Documents {
 
  private:
   std::map<std::string, Json> stored_;
+  std::unordered_map<const Case*, std::string> names_;
 };
 
 constexpr const char* documents_of_evidence[] = {"case", "received"};
 
-using NamedDocuments = std::map<std::string, const Json*>;
-
-NamedDocuments documents_of(const JsonReader& j) {
-  NamedDocuments documents;
-  if (j.has("documents"))
-    for (const auto& [name, document] : members_of(j["documents"])) documents[name] = &document.json();
-  return documents;
+Json examples_json(const Finding& f, Documents& documents) {
+  Json all = Json::array();
+  for (const Example& e : f.examples) {
+    all.push_back(to_json(e));
+    if (e.c) all.back()["case"] = documents.name_of(*e.c);
+  }
+  return all;
 }
+
+class NamedDocuments {
+ public:
+  explicit NamedDocuments(const JsonReader& j) {
+    if (!j.has("documents")) return;
+    for (const auto& [name, document] : members_of(j["documents"])) documents_.emplace(name, document);
+  }
+  const Json& at(const JsonReader& name) const { return find(name).json(); }
+  /// The document as a case, read once.
+  std::shared_ptr<const Case> case_at(const JsonReader& name) {
+    auto& c = cases_[name.string()];
+    if (!c) {
+      const JsonReader& document = find(name);
+      c = std::make_shared<const Case>(campaign_case(document.json(), document.place()));
+    }
+    return c;
+  }
+
+ private:
+  const JsonReader& find(const JsonReader& name) const {
+    const auto document = documents_.find(name.string());
+    if (document == documents_.end()) name.fail("names a document that does not exist");
+    return document->second;
+  }
+
+  std::map<std::string, JsonReader> documents_;
+  std::map<std::string, std::shared_ptr<const Case>> cases_;
+};
 
 // Puts documents back in place; results of earlier versions already have them there.
 void fill_in(Finding& f, const JsonReader& at, const NamedDocuments& documents) {
-  for (const char* part : documents_of_evidence) {
-    if (!f.evidence_json.is_object() || !f.evidence_json[part].is_string()) continue;
-    const auto document = documents.find(f.evidence_json[part].get<std::string>());
-    if (document == documents.end()) at["evidence"][part].fail("names a document that does not exist");
-    f.evidence_json[part] = *document->second;
-  }
+  for (const char* part : documents_of_evidence)
+    if (f.evidence_json.is_object() && f.evidence_json[part].is_string())
+      f.evidence_json[part] = documents.at(at["evidence"][part]);
   if (f.evidence_json.is_object() && !f.evidence_json["case"].is_object())
     at["evidence"]["case"].fail("is not a case");
+}
+
+// A summary has no documents, and its examples no cases.
+void fill_in_examples(Finding& f, const JsonReader& at, NamedDocuments& documents) {
+  if (f.examples.empty()) return;
+  const auto items = at["examples"].items();
+  for (std::size_t i = 0; i < items.size(); ++i) {
+    if (!items[i].has("case")) continue;
+    Example& e = f.examples[i];
+    e.c = documents.case_at(items[i]["case"]);
+    if (e.size.bodies != e.c->scene.bodies.size() || e.size.steps != e.c->scene.script.size())
+      items[i].fail("is not of the size of its case");
+  }
 }
 
 }  // namespace
@@ -444,6 +519,7 @@ Json to_json(const CampaignResult& r, bool with_times) {
     // The last output of a crashed process may contain addresses: for people, not for comparison.
     if (!with_times && evidence.contains("observation")) evidence["observation"].erase("detail");
     item["evidence"] = std::move(evidence);
+    if (!f.examples.empty()) item["examples"] = examples_json(f, documents);
     j["findings"][key] = std::move(item);
   }
   j["documents"] = std::move(documents).json();
@@ -514,11 +590,12 @@ CampaignResult result_from_json(const JsonReader& j) {
     r.tallies[engine][q] = tally_from_json(t);
   });
   read_later_additions(j, r);
-  const NamedDocuments documents = documents_of(j);
+  NamedDocuments documents(j);
   for (const auto& [key, f] : members_of(j["findings"])) {
     Finding finding = finding_from_json(f);
     if (finding.key() != key) f.fail("a finding is filed under a key other than its own");
     fill_in(finding, f, documents);
+    fill_in_examples(finding, f, documents);
     r.findings.emplace(key, std::move(finding));
   }
   if (j.has("times")) read_times(j["times"], r);
@@ -527,11 +604,21 @@ CampaignResult result_from_json(const JsonReader& j) {
 
 CampaignResult result_with_evidence(const JsonReader& j) {
   CampaignResult r = result_from_json(j);
-  for (const auto& [key, f] : r.findings)
+  for (const auto& [key, f] : r.findings) {
     if (f.evidence_json.is_null()) j["findings"][key].fail("has no evidence");
+    for (const Example& e : f.examples)
+      if (!e.c) j["findings"][key]["examples"].fail("has an example without its case");
+  }
   return r;
 }
 
 std::string digest(const CampaignResult& r) { return hex64(Hasher().add(to_json(r, false).dump()).value()); }
+
+std::map<std::uint64_t, std::vector<std::string>> keys_by_case(const CampaignResult& r) {
+  std::map<std::uint64_t, std::vector<std::string>> keys;
+  for (const auto& [key, f] : r.findings)
+    for (const Example& e : f.examples) keys[e.index].push_back(key);
+  return keys;
+}
 
 }  // namespace touchstone::fuzz

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "reports/record/evidence.h"
+#include "reports/record/examples.h"
 #include "reports/record/observation_json.h"
 #include "scenarios/value/engine_card.h"
 #include "scenarios/value/judgement.h"
@@ -62,7 +63,8 @@ struct Tally {
 };
 
 /// One kind of wrong answer: the same engine (whose name includes its path), question, fault, shapes, blame,
-/// degeneracy (degeneracy.h) and magnitude of the error (magnitude.h). Keeps the evidence of its first case.
+/// degeneracy (degeneracy.h) and magnitude of the error (magnitude.h). Keeps the evidence of its first case,
+/// and some cases as examples.
 struct Finding {
   std::string engine, question, fault, shapes, blame, degeneracy, magnitude;
   std::uint64_t count = 0;
@@ -73,10 +75,12 @@ struct Finding {
   /// The evidence as JSON: {"case", "observation", "certificate", "received"}; null until write_evidence
   /// (fuzz/ask/evidence.h) has filled it in.
   Json evidence_json;
+  /// Of all cases that show it (kept_examples), sorted by index. Empty in results of earlier versions.
+  std::vector<Example> examples;
   std::string key() const;
   void merge(const Finding& o);
 };
-Json to_json(const Finding& f);  // without evidence
+Json to_json(const Finding& f);  // without evidence and examples
 
 /// Answers to one question about one kind of pair, and how many of them the judge left open: undecided, or
 /// not judged for a reason other than by definition.
@@ -143,5 +147,8 @@ struct CampaignResult {
 Json to_json(const CampaignResult& r, bool with_times);
 /// Hash of the reproducible part.
 std::string digest(const CampaignResult& r);
+
+/// By index of a case: the keys of the findings that it is an example of, sorted.
+std::map<std::uint64_t, std::vector<std::string>> keys_by_case(const CampaignResult& r);
 
 }  // namespace touchstone::fuzz

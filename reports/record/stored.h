@@ -2,6 +2,9 @@
 // keys name directories. A reader knows the file and its position in it, so errors name both.
 #pragma once
 
+#include <optional>
+#include <string>
+
 #include "reports/record/result.h"
 #include "scenarios/codec/json_file.h"
 
@@ -14,13 +17,23 @@ double number_from(const JsonReader& j);
 /// lower-case letters, digits, _ and -.
 bool has_plain_key(const Finding& f);
 
-/// Reads a finding with a plain key; the evidence may be missing. Throws InputError if a field is missing or
-/// has the wrong type.
+/// The parts of a key of that engine's findings, or nullopt when it is not such a key, or not a plain one.
+std::optional<Finding> finding_of_key(const std::string& engine, const std::string& key);
+
+/// A case of a campaign, from its JSON. Throws InputError, naming the place.
+Case campaign_case(const Json& j, const std::string& place);
+
+/// Without their cases. Throws InputError if there are too many, or not in the order of their indices.
+std::vector<Example> examples_from_json(const JsonReader& j);
+
+/// Reads a finding with a plain key; the evidence and the examples may be missing, and examples have no
+/// cases. Throws InputError if a field is missing or has the wrong type.
 Finding finding_from_json(const JsonReader& j);
 
-/// Throws InputError as above, and if a finding is filed under a key other than its own.
+/// With the cases of the examples. Throws InputError as above, and if a finding is filed under a key other
+/// than its own.
 CampaignResult result_from_json(const JsonReader& j);
-/// The same; also throws if a finding has no evidence.
+/// The same; also throws if a finding has no evidence, or an example no case.
 CampaignResult result_with_evidence(const JsonReader& j);
 
 }  // namespace touchstone::fuzz

@@ -4,6 +4,8 @@
 
 namespace touchstone::fuzz {
 
-Json case_json_of(const KnownFinding& f) { return parse_json(f.smallest, "ledger, " + f.key); }
+Json case_json_of(const KnownCause& k) {
+  return k.shown.empty() ? Json() : parse_json(k.shown, "ledger, " + k.id);
+}
 
 }  // namespace touchstone::fuzz

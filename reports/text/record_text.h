@@ -54,11 +54,12 @@ std::string certificate_line(const fuzz::BroadCertificate& c);
 
 // The result of a triage, for people and for continuous integration.
 
-/// Lists new, back, flaky and gone findings and counts the others. 80 columns, except for keys.
+/// Lists new, back, changed, flaky and gone causes, suppressed ones and those whose suppression has ended,
+/// and counts the others. 80 columns, except for ids.
 std::string triage_text(const std::vector<fuzz::Triaged>& triaged);
 fuzz::Json triage_json(const std::vector<fuzz::Triaged>& triaged);
-/// JUnit: one suite per engine and one test case per finding. New and back findings fail, known ones are
-/// skipped, gone ones pass.
+/// JUnit: one suite per path and one test per cause. New and back causes fail, and so do those whose
+/// suppression has ended; known ones are skipped, gone ones pass.
 std::string triage_junit(const std::vector<fuzz::Triaged>& triaged);
 
 }  // namespace touchstone::reports

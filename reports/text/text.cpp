@@ -116,7 +116,7 @@ std::string group_lines(const std::string& title, const Group& g) {
 
 }  // namespace
 
-std::string campaign_table(const CampaignResult& r) {
+std::string full_campaign_table(const CampaignResult& r) {
   std::string s = fmt::format(" {:<8} {:>7} {:>7} {:>6} {:>6} {:>6} {:>6} {:>8} {:>7} {:>8}\n", "", "answers",
                               "right", "wrong", "missed", "ghost", "failed", "worst/L", "ns med", "ns p99");
   for (const auto& [engine, questions] : r.tallies) {
@@ -149,7 +149,7 @@ std::string findings_summary(const CampaignResult& r, std::size_t per_engine) {
   return s;
 }
 
-std::string campaign_footer(const CampaignResult& r) {
+std::string campaign_footer(const CampaignResult& r, bool full) {
   const auto share = [&](std::int64_t ns) {
     return r.total_ns > 0 ? 100.0 * static_cast<double>(ns) / static_cast<double>(r.total_ns) : 0.0;
   };
@@ -157,7 +157,7 @@ std::string campaign_footer(const CampaignResult& r) {
   std::string s =
       fmt::format("{} cases; {:.0f} % of the pairs touch or overlap; {} undecided by the referee\n",
                   grouped(r.cases), 100 * r.hit_rate(), grouped(r.undecided));
-  if (const std::uint64_t n = r.levels[0] + r.levels[1] + r.levels[2]; n > 0)
+  if (const std::uint64_t n = r.levels[0] + r.levels[1] + r.levels[2]; full && n > 0)
     s += fmt::format("referee: {} pairs settled by doubles, {} in extended precision, {} exactly\n",
                      grouped(r.levels[0]), grouped(r.levels[1]), grouped(r.levels[2]));
   for (const auto& [engine, questions] : r.tallies)
@@ -174,7 +174,7 @@ std::string campaign_footer(const CampaignResult& r) {
   if (asked > 0)
     s += fmt::format("relations: {} derived cases asked, {} contradict the engine's own answers\n",
                      grouped(asked), grouped(broken));
-  if (r.pair_rate() > 0)
+  if (full && r.pair_rate() > 0)
     s += fmt::format("{} pair cases, {} per core-second (excl. motions, crowds, relations)\n",
                      grouped(r.pair_asked), grouped(static_cast<std::uint64_t>(r.pair_rate())));
   for (const auto& [engine, aside] : r.set_aside)
@@ -182,8 +182,9 @@ std::string campaign_footer(const CampaignResult& r) {
                              grouped(aside.first_index), grouped(r.not_asked_of(engine))),
                  78, 2) +
          "\n";
-  s += fmt::format("time: engines {:.0f} %, harness {:.0f} % (referee and judge {:.0f} %)\n", engines,
-                   100 - engines, judge);
+  if (full)
+    s += fmt::format("time: engines {:.0f} %, harness {:.0f} % (referee and judge {:.0f} %)\n", engines,
+                     100 - engines, judge);
   return s;
 }
 

@@ -10,15 +10,19 @@
 
 namespace touchstone::reports {
 
-/// The table of a campaign: engine × question -> answered, right, wrong, missed, ghost, failed, worst error
-/// in L, ns per query (median, p99).
+/// One row an engine, one column a question: the share of wrong and failed answers. An engine and the same
+/// engine with tuned settings ("NAME-tuned") share a row.
 std::string campaign_table(const fuzz::CampaignResult& r);
+
+/// One row an engine and question: answered, right, wrong, missed, ghost, failed, worst error in L, ns per
+/// query (median, p99).
+std::string full_campaign_table(const fuzz::CampaignResult& r);
 
 /// Findings grouped by engine, question and fault, the most frequent `per_engine` groups of each engine.
 std::string findings_summary(const fuzz::CampaignResult& r, std::size_t per_engine);
 
-/// Where the time went, and whether the cases prove anything.
-std::string campaign_footer(const fuzz::CampaignResult& r);
+/// Whether the cases prove anything; if `full`, also where the time went.
+std::string campaign_footer(const fuzz::CampaignResult& r, bool full = true);
 
 /// "1,234,567".
 std::string grouped(std::uint64_t n);

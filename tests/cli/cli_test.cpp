@@ -7,6 +7,7 @@
 #include <string>
 
 #include "tests/support/catch.h"
+#include "tests/support/causes_by_hand.h"
 #include "tests/support/skip.h"
 #include "tests/support/workspace.h"
 
@@ -156,11 +157,12 @@ TEST_CASE("a second triage of the same campaign finds nothing new", "[cli][optio
   const Workspace w("cli");
   w.touchstone("fuzz --cases 96 --seed 3 --out results");
   if (!fs::exists(w.dir / "results" / "findings")) return skip("no findings: no other engine is installed");
-  const Run first = w.touchstone("triage results --no-shrink --junit junit.xml");
+  write_causes_by_hand(w.dir / "results");
+  const Run first = w.touchstone("triage results --junit junit.xml");
   INFO(first.err);
   CHECK(first.code == 1);
   CHECK(read_all(w.dir / "junit.xml").find("<failure message=\"new\">") != std::string::npos);
-  CHECK(w.touchstone("triage results --no-shrink --ledger other.db --subject core").code == 0);
+  CHECK(w.touchstone("triage results --ledger other.db --subject core").code == 0);
   const Run second = w.touchstone("triage results --json");
   CHECK(second.code == 0);
   const auto doc = nlohmann::json::parse(second.out);
@@ -177,6 +179,30 @@ TEST_CASE("shrink reports that there is nothing to shrink, and asks which findin
   CHECK(clean.code == 3);
   CHECK(clean.err == "core is not found wrong\n");
   CHECK(w.touchstone("shrink spheres.json --key nobody.contact.missed.box-box.algorithm").code == 2);
+}
+
+TEST_CASE("shrink keeps a defensible case, and --smallest the minimum", "[cli]") {
+  const Workspace w("cli");
+  w.write("meeting.json", R"({"touchstone_case":1,"scene":{"touchstone_scene":1,"shapes":[
+{"type":"sphere","radius":1.5}],"bodies":[{"shape":0},
+{"shape":0,"pose":{"translation":[4.3,0.2,0]},"motion":{"linear":[-3,0,0],"angular":[0,0,0]}}]},
+"queries":[{"question":"time_of_impact","a":0,"b":1}]})");
+  const std::string shrink = "shrink meeting.json --engine " + mutant + "impact_denied ";
+  const Run kept = w.touchstone(shrink + "--json");
+  INFO(kept.out << kept.err);
+  REQUIRE(kept.code == 0);
+  const auto doc = nlohmann::json::parse(kept.out);
+  CHECK(doc.at("defensible") == true);
+  REQUIRE(doc.contains("other"));
+  CHECK(doc.at("other").at("defensible") == false);
+  CHECK(doc.at("other").at("after").at("bits") < doc.at("after").at("bits"));
+  const Run smallest = w.touchstone(shrink + "--smallest -o small.json");
+  CHECK(smallest.code == 0);
+  CHECK(smallest.err.find("this is the smallest case; the defensible one has 2 bodies") != std::string::npos);
+  CHECK(nlohmann::json::parse(read_all(w.dir / "small.json")) == doc.at("other").at("case"));
+  const Run text = w.touchstone(shrink);
+  CHECK(text.err.find("this is the defensible case; the smallest one has 2 bodies") != std::string::npos);
+  CHECK(nlohmann::json::parse(text.out) == doc.at("case"));
 }
 
 TEST_CASE("a flat hull works and is reported as flat", "[cli]") {
@@ -425,16 +451,23 @@ TEST_CASE("spheres 1e308 apart: derived cases beyond the range of doubles are no
   CHECK(r.out.find("relation_") == std::string::npos);
 }
 
-TEST_CASE("a finding that triage could not report is not known in the next run", "[cli][triage]") {
+TEST_CASE("a cause that triage could not report is not known in the next run", "[cli][triage]") {
   const Workspace w("cli");
   const std::string liar = mutant + "overlap_always";
   REQUIRE(w.touchstone("fuzz --cases 64 --relations 0 --engines " + liar + " --out lies").code == 1);
-  const std::string asked = "triage lies --no-shrink --engines " + liar,
-                    triage = asked + " --ledger known.db ";
+  const std::string asked = "triage lies --engines " + liar, triage = asked + " --ledger known.db ";
+  // Triage finds and stores the causes if nobody has yet.
+  const Run first_of_all = w.touchstone(asked + " --ledger first.db");
+  INFO(first_of_all.out << first_of_all.err);
+  CHECK(first_of_all.code == 1);
+  CHECK(first_of_all.err.find("representative findings reduced") != std::string::npos);
+  CHECK(fs::exists(w.dir / "lies/causes.json"));
+  write_causes_by_hand(w.dir / "lies");
   CHECK(w.touchstone(triage + "--junit /dev/full").code == 2);
   CHECK(w.run(program + triage + " >/dev/full").code == 3);
   const Run bad = w.touchstone(triage + "--junit no/such/file.xml");
   CHECK(bad.code == 2);
+  CHECK(w.touchstone(triage + "--date yesterday").code == 2);
   CHECK(w.touchstone(triage + "--subject overlap_alway").err.find("did you mean overlap_always?") !=
         std::string::npos);
   CHECK(w.touchstone(asked + " --ledger other.db --subject core").code ==
@@ -448,8 +481,9 @@ TEST_CASE("a finding that triage could not report is not known in the next run",
   const auto kept = fs::directory_iterator(w.dir / "kept")->path().string();
   CHECK(w.touchstone("shrink " + kept + " --engine " + liar + " -o small.json").code ==
         0);  // selected by its key
-             // A later run that finds nothing: the plug-in is queried again only when it is named.
+  // A later run that finds nothing: the plug-in is queried again only when it is named.
   REQUIRE(w.touchstone("fuzz --cases 32 --engines core --out clean").code == 0);
+  write_causes_by_hand(w.dir / "clean");
   const auto standings = [&](const std::string& engines, const std::string& standing) {
     const Run r = w.touchstone("triage clean --ledger known.db --json " + engines);
     INFO(r.err);
@@ -459,5 +493,40 @@ TEST_CASE("a finding that triage could not report is not known in the next run",
   standings("", "not asked");
   standings("--engines " + liar, "still");
   const Run empty = w.touchstone("triage clean --ledger known.db --reproducers none");
-  CHECK(empty.err.find("the directory is empty") != std::string::npos);
+  CHECK(empty.err.find("0 written, 0 already there; this run added nothing") != std::string::npos);
+}
+
+TEST_CASE("a suppressed cause does not fail triage through its date, and then it does", "[cli][triage]") {
+  const Workspace w("cli");
+  const std::string liar = mutant + "overlap_always";
+  REQUIRE(w.touchstone("fuzz --cases 64 --relations 0 --engines " + liar + " --out lies").code == 1);
+  write_causes_by_hand(w.dir / "lies");
+  const std::string triage = "triage lies --engines " + liar;
+  const Run first = w.touchstone(triage + " --json --date 2026-11-01");
+  REQUIRE(first.code == 1);
+  const std::string id = nlohmann::json::parse(first.out).at(0).at("id");
+  const std::string suppress = "triage --suppress " + id;
+  for (const std::string& bad : std::initializer_list<std::string>{
+           suppress, suppress + " --reason r", suppress + " --until 2099-01-01",
+           suppress + " --reason r --until 2026-13-01", suppress + " --reason r --until 2020-01-01",
+           suppress + "x --reason r --until 2099-01-01", "triage --suppress '' --reason r --until 2099-01-01",
+           suppress + " --reason r --until 2099-01-01 --ledger none.db", "triage --unsuppress " + id,
+           "triage lies --suppress " + id + " --reason r --until 2099-01-01", "triage"}) {
+    const Run r = w.touchstone(bad);
+    INFO(bad << ": " << r.out << r.err);
+    CHECK(r.code == 2);
+    CHECK_FALSE(fs::exists(w.dir / "none.db"));
+  }
+  const Run done = w.touchstone(suppress + " --reason 'known upstream' --until 2026-12-31 --date 2026-11-02");
+  INFO(done.err);
+  CHECK(done.code == 0);
+  const Run before = w.touchstone(triage + " --date 2026-12-31 --junit j.xml"),
+            after = w.touchstone(triage + " --date 2027-01-01");
+  CHECK(before.code == 0);
+  CHECK(before.out.find("until 2026-12-31: known upstream") != std::string::npos);
+  CHECK(read_all(w.dir / "j.xml").find("suppressed until 2026-12-31: known upstream") != std::string::npos);
+  CHECK(after.code == 1);
+  CHECK(last_line(after.out).find("1 no longer suppressed") != std::string::npos);
+  CHECK(w.touchstone("triage --unsuppress " + id).code == 0);
+  CHECK(w.touchstone(triage + " --date 2027-01-01").code == 0);
 }

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "tests/support/catch.h"
+#include "tests/support/causes_by_hand.h"
 #include "tests/support/workspace.h"
 
 using namespace touchstone::test;
@@ -25,6 +26,12 @@ Workspace with_dying_core() {
 const std::string dies = "TS_DYING_CORE=segv TS_DEADLY=3 bin/touchstone ";
 const std::string site = "libtouchstone_core:touchstone::dies_in_the_core";
 
+std::string nothing_found(const fs::path& campaign) {
+  auto all = causes_by_hand(campaign);
+  all.causes.clear();
+  return touchstone::fuzz::to_json(all).dump();
+}
+
 bool says(const Run& r, const std::string& words) { return (r.out + r.err).find(words) != std::string::npos; }
 
 }  // namespace
@@ -36,14 +43,22 @@ TEST_CASE("a campaign survives a core that dies; triage and replay query it agai
     const Run r = w.run(fuzz + "--jobs " + jobs + " --out with" + jobs);
     INFO(r.out << r.err);
     CHECK(r.code == 1);
-    CHECK(says(r, "crashed at " + site));
+    CHECK(says(r, "Fails: crashed in libtouchstone_core-touchstone-"));
     CHECK(says(r, "32 cases;"));
   }
   CHECK(w.run("diff -r with1/findings with2/findings").code == 0);
-  const Run triage = w.run(dies + "triage with1 --ledger ledger.db --no-shrink");
+  write_causes_by_hand(w.dir / "with1");
+  const Run triage = w.run(dies + "triage with1 --ledger ledger.db");
   INFO(triage.out << triage.err);
   CHECK(says(triage, "crashed at " + site));
   CHECK(says(triage, " new, 0 back"));
+  // Without causes of its own, a later run asks for the crash again.
+  w.write("with2/causes.json", nothing_found(w.dir / "with2"));
+  const Run later = w.run(dies + "triage with2 --ledger ledger.db");
+  INFO(later.out << later.err);
+  CHECK(later.code != 2);
+  CHECK(says(later, "0 new, 0 back"));
+  CHECK(says(later, " 0 gone"));
   const Run replay =
       w.run(dies + "replay with1/findings/core.contact.crashed_* --engines core --subject core");
   INFO(replay.out << replay.err);

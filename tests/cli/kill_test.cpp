@@ -10,6 +10,7 @@
 #include <string>
 
 #include "tests/support/catch.h"
+#include "tests/support/causes_by_hand.h"
 #include "tests/support/workspace.h"
 
 using namespace touchstone::test;
@@ -101,12 +102,14 @@ TEST_CASE("a killed merge, run again, gives the same result", "[kill][merge]") {
 TEST_CASE("a killed triage has reported whatever it put into the ledger", "[kill][triage]") {
   const Workspace w("kill");
   REQUIRE(w.touchstone("fuzz --cases 128 --seed 5 --engines " + liar + " --out lies").code == 1);
+  write_causes_by_hand(w.dir / "lies");
   const auto triage = [](const std::string& i) {
-    return "triage lies --json --date d --engines " + liar + " --ledger l" + i + ".db --junit j" + i + ".xml";
+    return "triage lies --json --date 2026-11-23 --engines " + liar + " --ledger l" + i + ".db --junit j" +
+           i + ".xml";
   };
   const auto cases = [&](const std::string& json) {
     std::map<std::string, std::string> r;
-    for (const auto& f : nlohmann::json::parse(json)) r[f.at("key")] = f.at("case").dump();
+    for (const auto& f : nlohmann::json::parse(json)) r[f.at("id")] = f.at("case").dump();
     return r;
   };
   int code = 0;

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "tests/support/catch.h"
+#include "tests/support/causes_by_hand.h"
 #include "tests/support/skip.h"
 #include "tests/support/workspace.h"
 
@@ -147,6 +148,7 @@ TEST_CASE("triage reports at once that it cannot create the directory for reprod
   const Workspace w("reproduce");
   w.write("file", "");
   REQUIRE(w.touchstone("fuzz --cases 2 --engines core --out empty").code == 0);
+  write_causes_by_hand(w.dir / "empty");
   for (const std::string taken : {"file", "file/below"}) {
     const Run r = w.touchstone("triage empty --reproducers " + taken);
     CHECK(r.code == 2);
@@ -154,28 +156,31 @@ TEST_CASE("triage reports at once that it cannot create the directory for reprod
   }
 }
 
-TEST_CASE("triage writes one directory per finding, with a valid certificate and a program that compiles",
+TEST_CASE("triage writes one directory per cause, which replay, check and reproduce accept",
           "[reproduce][optional]") {
   const Workspace w("reproduce");
-  const auto keys = findings(w, "libccd-mpr", "--cases 60");
-  if (keys.empty()) return skip("no findings: libccd is not installed");
+  if (findings(w, "libccd-mpr", "--cases 60").empty()) return skip("no findings: libccd is not installed");
+  const auto causes = causes_by_hand(w.dir / "libccd-mpr").causes;
+  write_causes_by_hand(w.dir / "libccd-mpr");
   const Run first = w.touchstone("triage libccd-mpr --reproducers kept");
   INFO(first.err);
   REQUIRE(first.code == 1);
   int certificates = 0;
-  for (const std::string& key : keys) {
-    CAPTURE(key);
-    const fs::path kept = w.dir / "kept" / key;
+  for (const auto& cause : causes) {
+    CAPTURE(cause.id);
+    const fs::path kept = w.dir / "kept" / cause.id;
     REQUIRE(fs::exists(kept / "case.json"));
-    CHECK(w.touchstone("replay " + kept.string() + " --engines core,libccd-mpr --subject libccd-mpr").code ==
-          1);
-    CHECK(fs::exists(kept / "reproduce.cpp") != is_relation(key));
-    CHECK(fs::exists(kept / "no_reproducer.txt") == is_relation(key));
+    const std::string engine = cause.path;
+    CHECK(w.touchstone("replay " + kept.string() + " --engines " + engine).code == 1);
+    CHECK(w.touchstone("reproduce " + kept.string() + " -o r.cpp").code ==
+          (is_relation(cause.smallest.key) ? 2 : 0));
     if (!fs::exists(kept / "certificate.json")) continue;
     ++certificates;
     CHECK(w.touchstone("check " + (kept / "certificate.json").string()).code == 0);
+    CHECK(w.touchstone("check " + (kept / "finding.json").string()).code == 0);
   }
   CHECK(certificates > 0);
+  CHECK(w.touchstone("triage libccd-mpr --reproducers kept").err.find(" 0 written") != std::string::npos);
 }
 
 TEST_CASE("reproduce refuses what no program can show", "[reproduce]") {

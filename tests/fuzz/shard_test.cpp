@@ -16,8 +16,11 @@
 #include "fuzz/triage/ledger.h"
 #include "fuzz/triage/triage.h"
 #include "oracles/core/core_engine.h"
+#include "reports/record/stored.h"
+#include "reports/text/record_text.h"
 #include "tests/mutants/lying_engine.h"
 #include "tests/support/catch.h"
+#include "tests/support/causes_by_hand.h"
 #include "tests/support/skip.h"
 #include "tests/support/workspace.h"
 
@@ -184,40 +187,53 @@ TEST_CASE("the same under a single-node Slurm", "[shards][cluster][slurm][option
 
 namespace {
 
-fuzz::KnownFinding row(const char* first, const char* last, std::uint64_t count, const char* expired) {
-  fuzz::KnownFinding f;
-  f.key = "e.overlap.missed.box-box.algorithm.solid.gross";
-  f.engine = "e";
-  f.question = "overlap";
-  f.fault = "missed";
-  f.shapes = "box-box";
-  f.blame = "algorithm";
-  f.degeneracy = "solid";
-  f.magnitude = "gross";
-  f.first_seen = first;
-  f.last_seen = last;
-  f.count = count;
-  f.expired = expired;
-  f.smallest = std::string("case of ") + first;
-  f.size.bits = count;
-  return f;
+fuzz::KnownCause row(const char* first, const char* last, std::uint64_t count, const char* expired) {
+  fuzz::KnownCause k;
+  k.id = "e-missed";
+  k.title = std::string("as of ") + last;
+  k.engine = "e";
+  k.key = "e.overlap.missed.box-box.algorithm.solid.gross";
+  k.first_seen = first;
+  k.last_seen = last;
+  k.count = count;
+  k.expired = expired;
+  k.shown = std::string("case of ") + first;
+  k.size.bits = count;
+  return k;
 }
 
 }  // namespace
 
 TEST_CASE("ledgers merge to the same result in any order and repeatedly", "[shards][merge][ledger]") {
-  const auto x = row("2026-01-02", "2026-01-05", 7, "2026-01-09"), y = row("2026-01-01", "2026-01-07", 3, ""),
-             z = row("2026-01-03", "2026-01-11", 5, "");
+  auto x = row("2026-01-02", "2026-01-05", 7, "2026-01-09"), y = row("2026-01-01", "2026-01-07", 3, ""),
+       z = row("2026-01-03", "2026-01-11", 5, "");
+  x.severity = fuzz::Severity::missed;
+  x.shapes = {"box-box", "box-cone"};
+  y.shapes = {"box-box", "box-hull"};
+  x.reason = "upstream #1";
+  x.until = "2026-03-01";
+  y.reason = "upstream #2";
+  y.until = "2026-02-01";
+  z.shown.clear();  // without a case
+  z.engine.clear();
+  z.key.clear();
+  z.size = {};
   const auto xy = fuzz::merged(x, y);
   CHECK(xy.first_seen == "2026-01-01");
   CHECK(xy.last_seen == "2026-01-07");
+  CHECK(xy.title == "as of 2026-01-07");
   CHECK(xy.expired == "2026-01-09");  // the latest status
   CHECK(xy.count == 7);
   CHECK(xy.size.bits == 3);
+  CHECK(xy.severity == fuzz::Severity::missed);
+  CHECK(xy.shapes == std::vector<std::string>{"box-box", "box-cone", "box-hull"});
+  CHECK(xy.reason == "upstream #1");  // it lasts longer
   CHECK(xy == fuzz::merged(y, x));
   CHECK(xy == fuzz::merged(xy, x));
+  CHECK(xy == fuzz::merged(xy, xy));
   CHECK(fuzz::merged(xy, z) == fuzz::merged(x, fuzz::merged(z, y)));
   CHECK(fuzz::merged(xy, z).expired.empty());  // seen again since
+  CHECK(fuzz::merged(xy, z).shown == y.shown);
   const Workspace w("shards");
   const fs::path a = w.dir / "a.db", b = w.dir / "b.db", sum = w.dir / "sum.db";
   for (const auto& [file, f] : {std::pair{a, x}, {b, y}}) {
@@ -227,33 +243,36 @@ TEST_CASE("ledgers merge to the same result in any order and repeatedly", "[shar
   }
   for (const auto& in : {std::vector{a, b}, std::vector{b, a, a}}) {
     CHECK(fuzz::merge_ledgers(sum, in) == 1);
-    CHECK(fuzz::Ledger(sum).find(x.key) == xy);
+    CHECK(fuzz::Ledger(sum).find(x.id) == xy);
   }
   CHECK_THROWS_AS(fuzz::merge_ledgers(sum, std::vector{w.dir / "none.db"}), InputError);
 }
 
 TEST_CASE("triage gives the same result with several jobs as with one", "[shards][triage]") {
   const Workspace w("shards");
-  const auto found = fuzz::load_findings(campaign(w.dir / "c", 0, 1));
-  CHECK(found.size() > 5);
+  const auto found = test::causes_by_hand(campaign(w.dir / "c", 0, 1)).causes;
+  CHECK(found.size() > 2);
   const auto triaged = [&](std::size_t jobs) {
     fuzz::TriageConfig c;
     c.date = "2026-01-01";
     c.build_of = [](const std::string&) { return "b"; };
-    c.ask = [](const std::string&, const Case&) { return std::map<std::string, fuzz::Finding>{}; };
-    c.smallest = [](const std::string&, const std::string&, const Case& x) {
-      Case smaller = x;
-      smaller.queries.resize(1);
-      return smaller;
+    // What is shown depends on the case alone.
+    c.ask = [](const std::string& engine, const Case& asked) {
+      const std::string key = engine + "." + std::string(to_string(asked.queries.at(0).question)) +
+                              ".infeasible.box-box.algorithm.solid.gross";
+      return std::map<std::string, fuzz::Finding>{{key, fuzz::finding_of_key(engine, key).value()}};
     };
     const std::vector<fuzz::TriageConfig> configs(jobs, c);
     fuzz::Ledger ledger(w.dir / ("ledger" + std::to_string(jobs) + ".db"));
-    const auto r = fuzz::triage(found, ledger, configs);
-    std::vector<fuzz::KnownFinding> rows;
-    for (const auto& t : r) rows.push_back(t.finding);
+    fuzz::triage(found, ledger, configs);
+    const auto r = fuzz::triage({}, ledger, configs);  // asks all of them again
+    CHECK(r.size() == found.size());
+    std::vector<fuzz::KnownCause> rows;
+    for (const auto& t : r) rows.push_back(t.cause);
+    std::sort(rows.begin(), rows.end(), [](const auto& a, const auto& b) { return a.id < b.id; });
     ledger.commit();
     CHECK(ledger.all() == rows);
-    return rows;
+    return reports::triage_json(r).dump();
   };
   CHECK(triaged(1) == triaged(3));
 }

@@ -1,15 +1,18 @@
-// The ledger remembers findings, and triage tells new, known and gone ones apart.
+// The ledger remembers causes, and triage tells new, known and gone ones apart.
 #include "fuzz/triage/triage.h"
 
 #include <unistd.h>
 
 #include <filesystem>
 #include <fstream>
+#include <limits>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <thread>
 
 #include "core/base/input_error.h"
+#include "fuzz/triage/cause_files.h"
+#include "reports/record/stored.h"
 #include "reports/text/record_text.h"
 #include "scenarios/codec/case_codec.h"
 #include "tests/support/catch.h"
@@ -22,7 +25,7 @@ namespace {
 
 struct Place {
   fs::path dir = fs::temp_directory_path() / ("touchstone-triage-" + std::to_string(getpid()));
-  fs::path ledger = dir / "findings.db";
+  fs::path ledger = dir / "causes.db";
   Place() {
     fs::remove_all(dir);
     fs::create_directories(dir);
@@ -30,182 +33,330 @@ struct Place {
   ~Place() { fs::remove_all(dir); }
 };
 
-StoredFinding finding(const std::string& engine, const std::string& fault) {
-  StoredFinding s;
-  s.finding.engine = engine;
-  s.finding.fault = fault;
-  s.finding.question = "contact";
-  s.finding.shapes = "box-box";
-  s.finding.blame = "algorithm";
-  s.finding.degeneracy = "solid";
-  s.finding.magnitude = "gross";
-  s.finding.count = 3;
-  s.finding.words = "it is <wrong> & \"off\"";
-  s.c.scene.shapes = {Sphere{1}};
-  s.c.scene.bodies.resize(2);
-  s.c.queries = {{Question::contact, 0, 1}};
-  return s;
+Json spheres(const std::string& name) {
+  Case c;
+  c.scene.name = name;
+  c.scene.shapes = {Sphere{1}};
+  c.scene.bodies.resize(2);
+  c.queries = {{Question::contact, 0, 1}};
+  return case_to_json(c);
+}
+
+std::string key_of(const std::string& engine, const std::string& fault,
+                   const std::string& magnitude = "gross") {
+  return engine + ".contact." + fault + ".box-box.algorithm.solid." + magnitude;
+}
+
+Cause cause(const std::string& engine, const std::string& fault) {
+  Cause c;
+  c.id = engine + "-" + fault;
+  c.path = engine;
+  c.library = "Lib 1";
+  c.title = "it is <wrong> & \"off\"";
+  c.severity = Severity::not_minimal;
+  c.wrong = 3;
+  c.engines = {engine};
+  c.shapes = {"box-box"};
+  c.smallest.engine = engine;
+  c.smallest.key = key_of(engine, fault);
+  c.smallest.c = spheres("small");
+  c.smallest.words = "too deep by 0.1";
+  c.smallest.size = {2, 0, 20};
+  return c;
+}
+
+Cause with_shapes(Cause c, std::vector<std::string> shapes) {
+  c.shapes = std::move(shapes);
+  return c;
 }
 
 // An engine that shows a fixed set of keys in every case.
 struct Fake {
   std::set<std::string> shows;
   std::set<std::string> here{"one", "two"};
-  int asked = 0, shrunk = 0;
+  int asked = 0;
   TriageConfig config(const std::string& date) {
     TriageConfig c;
     c.date = date;
-    c.build_of = [this](const std::string& e) { return here.contains(e) ? "Lib 1" : std::string(); };
-    c.ask = [this](const std::string&, const Case&) {
+    c.build_of = [this](const std::string& e) { return here.contains(e) ? "Lib 2" : std::string(); };
+    c.ask = [this](const std::string& engine, const Case&) {
       ++asked;
       std::map<std::string, Finding> r;
-      for (const auto& key : shows) r[key] = {};
+      for (const auto& key : shows)
+        if (const auto f = finding_of_key(engine, key)) r[key] = *f;
       return r;
-    };
-    c.smallest = [this](const std::string&, const std::string&, Case c2) {
-      ++shrunk;
-      c2.scene.name = "small";
-      return c2;
     };
     return c;
   }
 };
 
-KnownFinding row_of(const std::string& engine) {
-  const Finding f = finding(engine, "depth_off").finding;
-  KnownFinding known;
-  known.key = f.key();
-  known.engine = f.engine;
-  known.question = f.question;
-  known.fault = f.fault;
-  known.shapes = f.shapes;
-  known.blame = f.blame;
-  known.degeneracy = f.degeneracy;
-  known.magnitude = f.magnitude;
-  return known;
+// Runs a night and commits it.
+std::vector<Triaged> night(const Place& place, const std::vector<Cause>& found, const TriageConfig& config) {
+  Ledger ledger(place.ledger);
+  const auto r = triage(found, ledger, config);
+  ledger.commit();
+  return r;
 }
 
-std::map<std::string, Standing> by_fault(const std::vector<Triaged>& all) {
+std::map<std::string, Standing> standings(const std::vector<Triaged>& all) {
   std::map<std::string, Standing> r;
-  for (const auto& t : all) r[t.finding.engine + " " + t.finding.fault] = t.standing;
+  for (const auto& t : all) r[t.cause.id] = t.standing;
   return r;
+}
+using S = std::map<std::string, Standing>;
+
+KnownCause row_of(const std::string& id) {
+  KnownCause k;
+  k.id = id;
+  k.engine = "e";
+  k.key = key_of("e", "depth_off");
+  k.shown = "{}";
+  return k;
 }
 
 }  // namespace
 
-TEST_CASE("a finding is new once, then known, still present, gone, and back", "[triage]") {
+TEST_CASE("a cause is new once, then known, still present, gone, and back", "[triage]") {
   const Place place;
-  const auto missed = finding("one", "missed"), ghost = finding("two", "ghost");
+  const Cause missed = cause("one", "missed"), ghost = cause("two", "ghost");
   Fake fake;
-  const auto night = [&](const std::vector<StoredFinding>& found, const std::string& date) {
-    Ledger ledger(place.ledger);
-    const auto r = triage(found, ledger, fake.config(date));
-    ledger.commit();
-    return by_fault(r);
+  const auto on = [&](const std::vector<Cause>& found, const std::string& date) {
+    return standings(night(place, found, fake.config(date)));
   };
-  using S = std::map<std::string, Standing>;
-  CHECK(night({missed, ghost}, "d1") == S{{"one missed", Standing::fresh}, {"two ghost", Standing::fresh}});
-  CHECK(fake.shrunk == 2);
-  CHECK(night({missed, ghost}, "d2") == S{{"one missed", Standing::known}, {"two ghost", Standing::known}});
-  CHECK(fake.shrunk == 2);
+  CHECK(on({missed, ghost}, "d1") == S{{"one-missed", Standing::fresh}, {"two-ghost", Standing::fresh}});
+  CHECK(on({missed, ghost}, "d2") == S{{"one-missed", Standing::known}, {"two-ghost", Standing::known}});
   CHECK(fake.asked == 0);
-  fake.shows = {missed.finding.key()};
-  CHECK(night({}, "d3") == S{{"one missed", Standing::still}, {"two ghost", Standing::gone}});
+  fake.shows = {missed.smallest.key};
+  CHECK(on({}, "d3") == S{{"one-missed", Standing::still}, {"two-ghost", Standing::gone}});
   CHECK(fake.asked == 1 + asks_before_gone);
-  CHECK(night({}, "d4") == S{{"one missed", Standing::still}});
-  CHECK(night({ghost}, "d5") == S{{"one missed", Standing::still}, {"two ghost", Standing::back}});
+  CHECK(on({}, "d4") == S{{"one-missed", Standing::still}});
+  CHECK(on({ghost}, "d5") == S{{"one-missed", Standing::still}, {"two-ghost", Standing::back}});
   fake.here.erase("one");
-  CHECK(night({ghost}, "d6") == S{{"one missed", Standing::not_asked}, {"two ghost", Standing::known}});
+  CHECK(on({ghost}, "d6") == S{{"one-missed", Standing::not_asked}, {"two-ghost", Standing::known}});
   const Ledger ledger(place.ledger);
-  const auto m = ledger.find(missed.finding.key()), g = ledger.find(ghost.finding.key());
+  const auto m = ledger.find("one-missed"), g = ledger.find("two-ghost");
   REQUIRE(m.has_value());
   REQUIRE(g.has_value());
   CHECK(m->first_seen == "d1");
   CHECK(m->last_seen == "d5");
   CHECK(m->count == 6);
   CHECK(m->first_build == "Lib 1");
+  CHECK(m->last_build == "Lib 2");  // of the engine that showed it again
   CHECK(g->first_seen == "d1");
   CHECK(g->last_seen == "d6");
   CHECK(g->expired.empty());
-  CHECK(case_from_json(nlohmann::ordered_json::parse(m->smallest)).scene.name == "small");
+  CHECK(case_of(*m).scene.name == "small");
 }
 
-TEST_CASE("a finding that shows only sometimes is flaky, not gone", "[triage]") {
+TEST_CASE("a known cause with other kinds of shapes is changed, and names them", "[triage]") {
   const Place place;
-  const auto missed = finding("one", "missed");
+  const Cause c = cause("one", "missed");
   Fake fake;
-  const auto night = [&](const std::vector<StoredFinding>& found, int shows_at) {
+  night(place, {c}, fake.config("d1"));
+  const auto changed =
+      night(place, {with_shapes(c, {"box-box", "box-cone", "box-hull"})}, fake.config("d2")).at(0);
+  CHECK(changed.standing == Standing::changed);
+  CHECK(changed.new_shapes == std::vector<std::string>{"box-cone", "box-hull"});
+  CHECK_FALSE(changed.counts());
+  CHECK(reports::triage_text({changed}).find("not seen before: box-cone, box-hull") != std::string::npos);
+  // All shapes ever seen are remembered.
+  CHECK(night(place, {with_shapes(c, {"box-hull"})}, fake.config("d3")).at(0).standing == Standing::known);
+  CHECK(Ledger(place.ledger).find(c.id)->shapes.size() == 3);
+}
+
+TEST_CASE("a smaller case replaces the one in the ledger, and so does one of a cause that is back",
+          "[triage]") {
+  const Place place;
+  Cause c = cause("one", "missed");
+  Fake fake;
+  const auto stored = [&](const std::string& name, std::uint64_t bits) {
+    c.smallest.c = spheres(name);
+    c.smallest.size.bits = bits;
+    night(place, {c}, fake.config("d"));
+    return case_of(*Ledger(place.ledger).find(c.id)).scene.name;
+  };
+  CHECK(stored("first", 20) == "first");
+  CHECK(stored("larger", 30) == "first");
+  CHECK(stored("smaller", 10) == "smaller");
+  CHECK(night(place, {}, fake.config("d")).at(0).standing == Standing::gone);
+  CHECK(stored("of its return", 40) == "of its return");
+}
+
+TEST_CASE("a cause is shown again by the same question and kind of fault", "[triage]") {
+  const auto shown = [](const std::string& stored, const std::string& now) {
+    return shows_again("e", stored, {{now, finding_of_key("e", now).value()}});
+  };
+  CHECK(shown(key_of("e", "missed", "gross"), key_of("e", "missed", "small")));
+  CHECK(shown("e.contact.missed.box-box.algorithm.solid.gross",
+              "e.contact.missed.box-box.representation.flat.gross"));
+  // A crash at another line.
+  CHECK(shown(key_of("e", "crashed_epa-h-177"), key_of("e", "crashed_epa-h-180")));
+  CHECK_FALSE(shown(key_of("e", "crashed_epa-h-177"), key_of("e", "timed_out")));
+  CHECK_FALSE(shown(key_of("e", "late"), key_of("e", "early")));
+  CHECK_FALSE(shown(key_of("e", "missed"), "e.overlap.missed.box-box.algorithm.solid.gross"));
+  CHECK_FALSE(shows_again("e", key_of("e", "missed"), {}));
+}
+
+TEST_CASE("a cause that shows only sometimes is flaky, not gone", "[triage]") {
+  const Place place;
+  const Cause missed = cause("one", "missed");
+  Fake fake;
+  const auto shown_at = [&](const std::vector<Cause>& found, int shows_at) {
     TriageConfig c = fake.config("d");
     int asked = 0;
     c.ask = [&](const std::string&, const Case&) {
       std::map<std::string, Finding> r;
-      if (++asked == shows_at) r[missed.finding.key()] = {};
+      if (++asked == shows_at) r[missed.smallest.key] = finding_of_key("one", missed.smallest.key).value();
       return r;
     };
-    Ledger ledger(place.ledger);
-    const auto r = triage(found, ledger, c);
-    ledger.commit();
-    return r.at(0);
+    return night(place, found, c).at(0);
   };
-  night({missed}, 0);
-  const Triaged flaky = night({}, 3);
+  shown_at({missed}, 0);
+  const Triaged flaky = shown_at({}, 3);
   CHECK(flaky.standing == Standing::flaky);
   CHECK(flaky.shown == 1);
   CHECK(flaky.asked == asks_before_gone);
-  CHECK(flaky.finding.expired.empty());
+  CHECK(flaky.cause.expired.empty());
   CHECK(reports::triage_text({flaky}).find("shown in 1 of 5 runs") != std::string::npos);
-  CHECK(night({}, 1).standing == Standing::still);
-  CHECK(night({}, 0).standing == Standing::gone);
+  CHECK(shown_at({}, 1).standing == Standing::still);
+  CHECK(shown_at({}, 0).standing == Standing::gone);
 }
 
-TEST_CASE("a finding that cannot be shrunk or asked does not affect the others", "[triage]") {
+TEST_CASE("a cause that cannot be asked again does not affect the others", "[triage]") {
   const Place place;
   Fake fake;
-  const auto with_trouble = [&](const std::vector<StoredFinding>& found) {
-    TriageConfig c = fake.config("d");
-    const auto fail_for_one = [](const std::string& engine) {
-      if (engine == "one") throw std::runtime_error("its worker does not start");
-    };
-    c.smallest = [=](const std::string& engine, const std::string&, const Case& as_found) {
-      fail_for_one(engine);
-      return as_found;
-    };
-    c.ask = [=](const std::string& engine, const Case&) {
-      fail_for_one(engine);
-      return std::map<std::string, Finding>();
-    };
-    Ledger ledger(place.ledger);
-    const auto r = triage(found, ledger, c);
-    ledger.commit();
-    return r;
+  Cause without_case = cause("two", "late");
+  without_case.smallest = {};
+  night(place, {cause("one", "missed"), cause("two", "ghost"), without_case}, fake.config("d"));
+  TriageConfig c = fake.config("d");
+  c.ask = [](const std::string& engine, const Case&) {
+    if (engine == "one") throw std::runtime_error("its worker does not start");
+    return std::map<std::string, Finding>();
   };
-  const auto first = with_trouble({finding("one", "missed"), finding("two", "ghost")});
-  REQUIRE(first.size() == 2);
-  CHECK(first[0].standing == Standing::fresh);
-  CHECK(first[0].trouble.find("its worker does not start") != std::string::npos);
-  CHECK(first[1].trouble.empty());
-  const auto second = with_trouble({});
-  REQUIRE(second.size() == 2);
-  CHECK(second[0].standing == Standing::not_asked);
-  CHECK(!second[0].trouble.empty());
-  CHECK(second[1].standing == Standing::gone);
-  CHECK(Ledger(place.ledger).find(second[0].finding.key)->expired.empty());
+  const auto r = night(place, {}, c);
+  REQUIRE(r.size() == 3);
+  CHECK(r[0].standing == Standing::not_asked);
+  CHECK(r[0].trouble.find("its worker does not start") != std::string::npos);
+  CHECK(r[1].standing == Standing::gone);
+  CHECK(r[2].standing == Standing::not_asked);
+  CHECK(r[2].trouble.empty());
+  CHECK(Ledger(place.ledger).find("one-missed")->expired.empty());
 }
 
-TEST_CASE("uncommitted findings are not in the ledger", "[triage]") {
+TEST_CASE("a suppressed cause does not count through a date; then it counts until it is decided again",
+          "[triage]") {
   const Place place;
-  const KnownFinding f = row_of("a");
+  const Cause c = cause("one", "missed");
+  Fake fake;
+  fake.shows = {c.smallest.key};
+  const auto on = [&](const std::vector<Cause>& found, const std::string& date) {
+    return night(place, found, fake.config(date)).at(0);
+  };
+  const auto change = [&](const auto& what) {
+    Ledger ledger(place.ledger);
+    what(ledger);
+    ledger.commit();
+  };
+  CHECK(on({c}, "2026-11-01T03:00:00Z").standing == Standing::fresh);
+  change([&](Ledger& l) { suppress(l, c.id, "upstream #12", "2026-11-23", "2026-11-02"); });
+  const Triaged last_day = on({with_shapes(c, {"box-cone"})}, "2026-11-23T23:59:59Z");
+  CHECK(last_day.standing == Standing::suppressed);
+  CHECK_FALSE(last_day.counts());
+  CHECK(last_day.new_shapes.size() == 1);
+  CHECK(reports::triage_junit({last_day})
+            .find("<skipped message=\"suppressed until 2026-11-23: upstream #12\"/>") != std::string::npos);
+  CHECK(on({}, "2026-11-23").standing == Standing::suppressed);
+  for (const auto& found : {std::vector{c}, std::vector<Cause>{}}) {
+    const Triaged after = on(found, "2026-11-24");
+    CHECK(after.suppression_ended);
+    CHECK(after.counts());
+    CHECK(reports::triage_text({after}).find("its suppression ended on 2026-11-23: upstream #12") !=
+          std::string::npos);
+    CHECK(reports::triage_junit({after}).find("failures=\"1\"") != std::string::npos);
+  }
+  change([&](Ledger& l) { unsuppress(l, c.id); });
+  CHECK_FALSE(on({c}, "2026-11-25").counts());
+  change([&](Ledger& l) { suppress(l, c.id, "again", "2026-12-31", "2026-11-25"); });
+  fake.shows.clear();
+  CHECK(on({}, "2026-11-26").standing == Standing::gone);  // good news is told
+  CHECK(on({c}, "2026-11-27").standing == Standing::suppressed);
+}
+
+TEST_CASE("a suppression needs a known cause, a reason and a date to come", "[triage]") {
+  const Place place;
+  Ledger ledger(place.ledger);
+  ledger.put(row_of("convex-late"));
+  const auto refused = [&](const char* id, const char* reason, const char* until, const char* words) {
+    try {
+      suppress(ledger, id, reason, until, "2026-11-23T01:00:00Z");
+      return false;
+    } catch (const InputError& e) {
+      return std::string(e.what()).find(words) != std::string::npos;
+    }
+  };
+  CHECK(refused("convex-latr", "r", "2026-12-01", "did you mean convex-late?"));
+  CHECK(refused("convex-late", "  ", "2026-12-01", "--reason"));
+  CHECK(refused("convex-late", "r", "2026-02-29", "--until"));
+  CHECK(refused("convex-late", "r", "tomorrow", "--until"));
+  CHECK(refused("convex-late", "r", "2026-11-22", "has passed"));
+  CHECK_THROWS_AS(unsuppress(ledger, "convex-late"), InputError);
+  suppress(ledger, "convex-late", "r", "2026-11-23", "2026-11-23T01:00:00Z");
+  CHECK(ledger.find("convex-late")->until == "2026-11-23");
+  unsuppress(ledger, "convex-late");
+  CHECK(ledger.find("convex-late") == row_of("convex-late"));
+}
+
+TEST_CASE("two causes of the same id are refused", "[triage]") {
+  const Place place;
+  Ledger ledger(place.ledger);
+  const Cause c = cause("one", "missed");
+  CHECK_THROWS_AS(triage({c, c}, ledger, Fake().config("d")), InputError);
+}
+
+TEST_CASE("uncommitted causes are not in the ledger", "[triage]") {
+  const Place place;
+  const KnownCause k = row_of("a");
   {
     Ledger ledger(place.ledger);
-    ledger.put(f);
+    ledger.put(k);
   }
   CHECK(Ledger(place.ledger).all().empty());
   {
     Ledger ledger(place.ledger);
-    ledger.put(f);
+    ledger.put(k);
     ledger.commit();
   }
-  CHECK(Ledger(place.ledger).all() == std::vector<KnownFinding>{f});
+  CHECK(Ledger(place.ledger).all() == std::vector<KnownCause>{k});
+}
+
+TEST_CASE("a row that could not be read back is not written", "[triage]") {
+  const Place place;
+  Ledger ledger(place.ledger);
+  for (const char* id : {"", "../../victim", "A", "a.b", "-a"})
+    CHECK_THROWS_AS(ledger.put(row_of(id)), InputError);
+  const auto refused = [&](const auto& damage) {
+    KnownCause k = row_of("a");
+    damage(k);
+    try {
+      ledger.put(k);
+      return false;
+    } catch (const InputError&) {
+      return true;
+    }
+  };
+  CHECK(refused([](KnownCause& k) { k.key = key_of("other", "late"); }));
+  CHECK(refused([](KnownCause& k) { k.key = "e.x/y.late.box-box.algorithm.solid.gross"; }));
+  CHECK(refused([](KnownCause& k) { k.shown.clear(); }));
+  CHECK(refused([](KnownCause& k) { k.engines = {"b", "a"}; }));
+  CHECK(refused([](KnownCause& k) { k.shapes = {"a", "a"}; }));
+  CHECK(refused([](KnownCause& k) { k.shapes = {"\x1b[2J"}; }));
+  CHECK(refused([](KnownCause& k) { k.reason = "for ever"; }));
+  CHECK(refused([](KnownCause& k) { k.until = "2026-11-23"; }));
+  KnownCause largest = row_of("a");
+  largest.count = ~std::uint64_t{0};  // more than the database can hold
+  largest.title = "a\xff";
+  ledger.put(largest);
+  CHECK(ledger.find("a")->count == static_cast<std::uint64_t>(std::numeric_limits<std::int64_t>::max()));
 }
 
 TEST_CASE("two runs that write at the same time both succeed", "[triage]") {
@@ -231,19 +382,91 @@ TEST_CASE("a file that is not a ledger is refused by name and left unchanged", "
     const Ledger ledger(place.ledger);
     FAIL("it was taken for a ledger");
   } catch (const InputError& e) {
-    CHECK(std::string(e.what()).find("findings.db") != std::string::npos);
+    CHECK(std::string(e.what()).find("causes.db") != std::string::npos);
   }
   CHECK(fs::file_size(place.ledger) == size);
   CHECK_THROWS_AS(Ledger(place.dir / "absent" / "x.db"), InputError);
-  CHECK_THROWS_AS(load_findings(place.dir), InputError);
+}
+
+TEST_CASE("causes are read from a campaign's directory, and only its own", "[triage]") {
+  const Place place;
+  const auto why = [&] {
+    try {
+      load_causes(place.dir);
+      return std::string();
+    } catch (const InputError& e) {
+      return std::string(e.what());
+    }
+  };
+  const auto says = [&](const std::string& words) {
+    const std::string w = why();
+    INFO(w);
+    return w.find(words) != std::string::npos;
+  };
+  CHECK(says("does not hold a campaign"));
+  std::ofstream(place.dir / "state.json") << "{}";
+  CHECK(says("run touchstone causes " + place.dir.string() + " first"));
+  std::ofstream(place.dir / "summary.json") << R"({"digest": "1234"})";
+  Causes all;
+  all.digest = "1234";
+  all.causes = {cause("one", "missed"), cause("two", "ghost")};
+  const auto write = [&] { std::ofstream(place.dir / "causes.json") << to_json(all).dump(1); };
+  write();
+  CHECK(why().empty());
+  CHECK(load_causes(place.dir).causes.size() == 2);
+  all.causes[1].id = all.causes[0].id;
+  write();
+  CHECK(says("causes[1].id: is the id of two causes"));
+  all.causes[1] = cause("two", "ghost");
+  all.causes[1].smallest.key = key_of("one", "ghost");
+  write();
+  CHECK(says("causes[1].smallest.key: is not the key of a finding of two"));
+  all.causes[1] = cause("two", "ghost");
+  all.causes[1].smallest.c["scene"] = 7;
+  write();
+  CHECK(says("causes[1].smallest.case"));
+  all.digest = "another";
+  write();
+  CHECK(says("another state of the campaign"));
+}
+
+TEST_CASE("a cause's directory has its case, finding, certificate, issue and program", "[triage]") {
+  const Place place;
+  Cause c = cause("one", "missed");
+  c.certificate = {{"kind", "common_point"}, {"point", {0, 0, 0}}};
+  c.program = "int main() { return 1; }\n";
+  const auto issue = [](const Cause& of) { return "# " + of.title + "\n"; };
+  CHECK(write_cause(place.dir, c, issue) == Written::now);
+  const fs::path to = place.dir / c.id;
+  const auto text = [&](const char* file) {
+    std::ifstream f(to / file);
+    return std::string(std::istreambuf_iterator<char>(f), {});
+  };
+  CHECK(load_stored_case(to / "case.json").c.scene.name == "small");
+  CHECK(Json::parse(text("certificate.json")) == c.certificate);
+  CHECK(Json::parse(text("finding.json")).at("key") == c.smallest.key);
+  CHECK(text("issue.md") == "# " + c.title + "\n");
+  CHECK(text("reproduce.cpp") == c.program);
+  CHECK_FALSE(fs::exists(to / "no_reproducer.txt"));
+  CHECK(write_cause(place.dir, c, issue) == Written::before);
+  Cause other = cause("two", "late");
+  other.no_program = "its API has no such question";
+  CHECK(write_cause(place.dir, other, {}) == Written::now);
+  CHECK(fs::exists(place.dir / other.id / "no_reproducer.txt"));
+  for (const char* absent : {"issue.md", "reproduce.cpp", "certificate.json"})
+    CHECK_FALSE(fs::exists(place.dir / other.id / absent));
+  other.id = "../../victim";
+  CHECK_THROWS_AS(write_cause(place.dir, other, {}), InputError);
+  other = cause("two", "early");
+  other.smallest = {};
+  CHECK(write_cause(place.dir, other, {}) == Written::no_case);
 }
 
 TEST_CASE("the report for continuous integration is well-formed and its counts are right", "[triage]") {
   std::vector<Triaged> all(3);
-  all[0].finding.key = "one.a";
-  all[0].finding.engine = "one";
-  all[0].finding.words = "x < y & \"z\"";
-  all[0].finding.smallest = "{}";
+  all[0].cause.id = "one-a";
+  all[0].cause.path = "one";
+  all[0].cause.title = "x < y & \"z\"";
   all[1] = all[2] = all[0];
   all[1].standing = Standing::still;
   all[2].standing = Standing::gone;

@@ -9,6 +9,7 @@
 #include "fuzz/campaign/merge.h"
 #include "fuzz/campaign/store.h"
 #include "fuzz/shrink/reductions.h"
+#include "fuzz/triage/cause_files.h"
 #include "fuzz/triage/triage.h"
 #include "oracles/abi/protocol.h"
 #include "oracles/checker/checker.h"
@@ -18,7 +19,10 @@
 #include "reports/record/broad_certificate.h"
 #include "reports/record/chart.h"
 #include "reports/record/evidence.h"
+#include "reports/record/expected.h"
 #include "reports/record/stored.h"
+#include "reports/text/causes_text.h"
+#include "reports/text/expected_text.h"
 #include "reports/text/record_text.h"
 #include "reports/text/text.h"
 #include "reports/text/web_page.h"
@@ -29,6 +33,7 @@
 #include "scenarios/import/ccd_queries.h"
 #include "scenarios/import/mesh_import.h"
 #include "scenarios/import/real_scene.h"
+#include "tests/reports/cause_sample.h"
 
 namespace touchstone::test {
 namespace {
@@ -88,7 +93,27 @@ void read_impact(const fs::path& d) {
 }
 
 void read_findings(const fs::path& d) {
-  for (const auto& s : fuzz::load_findings(d / "campaign")) s.finding.key();
+  const fs::path finding = d / "campaign/findings/one", file = finding / "finding.json";
+  const Json j = load_json(file);
+  fuzz::finding_from_json(JsonReader(j, file.string())).key();
+  load_case(finding / "case.json");
+}
+
+void read_causes_to_triage(const fs::path& d) {
+  for (const fuzz::Cause& c : fuzz::load_causes(d / "campaign").causes)
+    if (!c.shown().c.is_null()) json_text(fuzz::finding_json_of(c));
+}
+
+void read_expected(const fs::path& d) {
+  const fs::path file = d / "expected.json";
+  const Json j = load_json(file);
+  const auto expected = fuzz::expected_from_json(JsonReader(j, file.string()));
+  const fuzz::ShownFailures shown{{expected.empty() ? fuzz::AskedQuestion{} : expected[0].asked}, {}};
+  const auto compared = fuzz::compare(expected, shown, "2026-11-23");
+  reports::expected_text(compared);
+  reports::expected_junit(shown, compared, true);
+  json_text(fuzz::to_json(compared));
+  json_text(fuzz::to_json(fuzz::as_shown(expected, compared, "r")));
 }
 
 void read_merged(const fs::path& d) {
@@ -96,6 +121,11 @@ void read_merged(const fs::path& d) {
   const auto merged = fuzz::merge_campaigns(d / "merged", in);
   fs::remove_all(d / "merged");
   reports::campaign_table(merged.result);
+}
+
+void read_result(const fs::path& d) {
+  fuzz::load_settings(d / "campaign");
+  fuzz::keys_by_case(fuzz::load_result(d / "campaign"));
 }
 
 fuzz::CampaignConfig settings_of(const fs::path& d) {
@@ -124,6 +154,7 @@ void read_summary(const fs::path& d) {
   const Json j = load_json(file, campaign_limits);
   const auto r = fuzz::result_from_json(JsonReader(j, file.string()));
   reports::campaign_table(r);
+  reports::full_campaign_table(r);
   reports::findings_summary(r, 3);
   reports::campaign_footer(r);
   json_text(reports::findings_columns(j.at("findings")));
@@ -146,6 +177,16 @@ void read_plan(const fs::path& d) {
   json_text(fuzz::to_json(fuzz::fidelity_from_json(j["run"].json(), file.string() + ": run")));
 }
 
+void read_causes(const fs::path& d) {
+  const fs::path file = d / "causes.json";
+  const Json j = load_json(file, campaign_limits);
+  const fuzz::Causes c = fuzz::causes_from_json(JsonReader(j, file.string()));
+  reports::causes_text(c, "touchstone causes");
+  reports::causes_of_engines(c, 5, "campaign", "touchstone");
+  for (const fuzz::Cause& cause : c.causes) reports::cause_text(cause);
+  json_text(reports::causes_page(c));
+}
+
 void read_chart(const fs::path& d) {
   const fs::path file = d / "chart.json";
   const auto c = fuzz::chart_from_json(load_json(file), file.string());
@@ -159,9 +200,9 @@ void read_ledger(const fs::path& d) {
   const fs::path file = d / "ledger.db";
   std::vector<fuzz::Triaged> rows;
   for (const auto& f : fuzz::Ledger(file, fuzz::Ledger::For::reading).all()) {
-    rows.emplace_back().finding = f;
+    rows.emplace_back().cause = f;
     try {
-      fuzz::case_of(f);
+      if (!f.shown.empty()) fuzz::case_of(f);
     } catch (const InputError& e) {
       rows.back().trouble = e.what();
     }
@@ -290,6 +331,11 @@ constexpr const char* odd =
  {"op": "move", "body": 1, "pose": {"translation": [1, 0, 0], "rotation": [0, 0, 0, 1]}}, {"op": "query"}]},
  "queries": [{"question": "candidates"}], "odd_numbers": {"/bodies/1/pose/translation/1": "NaN"}})";
 
+constexpr const char* expected =
+    R"({"touchstone_expected": 1, "failures": [
+ {"case": "a", "engine": "core", "question": "contact", "fault": "infeasible", "reason": "one", "until": "2026-12-31"},
+ {"case": "a", "engine": "core", "question": "overlap", "fault": "any", "reason": "two"}]})";
+
 Body body_at(int shape, const Vec3& t) {
   Body b;
   b.shape = shape;
@@ -394,6 +440,7 @@ void write_chart(const fs::path& d) {
   rows.erase(rows.begin() + std::min<std::ptrdiff_t>(12, static_cast<std::ptrdiff_t>(rows.size())),
              rows.end());
   write_json(d / "chart.json", chart);
+  write_json(d / "causes.json", fuzz::to_json(sample_causes()));
 }
 
 }  // namespace
@@ -410,7 +457,10 @@ const std::vector<FileReader>& file_readers() {
       {"depth of round shapes", {"certificate4.json"}, read_certificate<4>},
       {"impact", {"impact.json"}, read_impact},
       {"finding", {"campaign/findings/one/finding.json", "campaign/findings/one/case.json"}, read_findings},
+      {"causes to triage", {"campaign/causes.json"}, read_causes_to_triage},
+      {"expected failures", {"expected.json"}, read_expected},
       {"state to merge", {"campaign/state.json"}, read_merged},
+      {"state to read", {"campaign/state.json"}, read_result},
       {"state to resume", {"half/state.json"}, read_resumed},
       {"summary", {"campaign/summary.json"}, read_summary},
       {"kept answers", {"kept/answers.bin"}, read_answers},
@@ -418,6 +468,7 @@ const std::vector<FileReader>& file_readers() {
       {"certificate of a broad phase", {"broad.json"}, read_broad},
       {"plan", {"plan.json"}, read_plan},
       {"chart", {"chart.json"}, read_chart},
+      {"causes", {"causes.json"}, read_causes},
       {"ledger", {"ledger.db"}, read_ledger},
       {"ledger, written", {"ledger.db"}, write_ledger},
       {"recording", {"recording/scene.txt", "recording/frames.npy", "recording/frames.csv"}, read_recording},
@@ -437,6 +488,7 @@ void write_plain_originals(const fs::path& d) {
   write_file(d / "queries.csv", queries);
   write_file(d / "moving.json", moving);
   write_file(d / "odd.json", odd);
+  write_file(d / "expected.json", expected);
   write_json(d / "scene.json", Json::parse(moving)["scene"]);
   write_certificates(d);
   write_frames(d);

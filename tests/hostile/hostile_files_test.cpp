@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "fuzz/triage/ledger.h"
+#include "reports/record/causes.h"
 #include "scenarios/codec/case_codec.h"
 #include "scenarios/codec/json_file.h"
 #include "tests/support/catch.h"
@@ -60,17 +61,29 @@ std::string key(const std::string& engine) {
   return engine + ".overlap.missed.sphere-sphere.algorithm.solid.gross";
 }
 
-fuzz::KnownFinding ledger_row(const std::string& engine, const std::string& under) {
-  fuzz::KnownFinding f;
-  f.key = under;
-  f.engine = engine;
-  f.question = "overlap";
-  f.fault = "missed";
-  f.shapes = "sphere-sphere";
-  f.blame = "algorithm";
-  f.degeneracy = "solid";
-  f.magnitude = "gross";
-  return f;
+fuzz::KnownCause ledger_row(const std::string& engine) {
+  fuzz::KnownCause k;
+  k.id = "one";
+  k.engines = {engine};
+  k.engine = engine;
+  k.key = key(engine);
+  k.shown = two_spheres().dump();
+  return k;
+}
+
+// The causes of a campaign, with one that the engine shows.
+Json causes(const std::string& engine) {
+  fuzz::Causes all;
+  fuzz::Cause c;
+  c.id = "one";
+  c.library = "l 1";
+  c.engines = {engine};
+  c.shapes = {"sphere-sphere"};
+  c.smallest.engine = engine;
+  c.smallest.key = key(engine);
+  c.smallest.c = two_spheres();
+  all.causes = {c};
+  return fuzz::to_json(all);
 }
 
 Json evidence() {
@@ -103,11 +116,20 @@ Json state(const std::string& under, Json f) {
 void write_campaign(const Workspace& w, const std::string& engine) {
   fs::create_directories(w.dir / "out/findings/f");
   w.write("out/state.json", "{}");
-  w.write("out/summary.json", empty_result().dump());
+  Json summary = empty_result();
+  summary["digest"] = "";
+  w.write("out/summary.json", summary.dump());
+  w.write("out/causes.json", causes(engine).dump());
   w.write("out/findings/f/case.json", two_spheres().dump());
   Json f = finding(engine);
   f["key"] = key(engine);
   w.write("out/findings/f/finding.json", f.dump());
+}
+
+void write_no_causes(const Workspace& w) {
+  Json none = causes("core");
+  none["causes"] = Json::array();
+  w.write("out/causes.json", none.dump());
 }
 
 }  // namespace
@@ -136,26 +158,24 @@ TEST_CASE("a certificate's subject runs only when the command line names the sam
   CHECK_FALSE(w.ran());
 }
 
-TEST_CASE("findings and ledgers name engines but never run them", "[hostile][triage]") {
+TEST_CASE("findings, causes and ledgers name engines but never run them", "[hostile][triage]") {
   const Marked w("hostile-triage");
   w.engine("e.sh", "stranger");
   for (const char* engine :
        {"pipe:sh e.sh", "./evil.so", "pipe:touch mark", "stranger", "core,core", "all"}) {
     INFO(engine);
     write_campaign(w, engine);
-    const Run r = w.touchstone("triage out --ledger l.db --no-shrink --no-sandbox");
+    const Run r = w.touchstone("triage out --ledger l.db --no-sandbox");
     CHECK((r.code == 1 || r.code == 2));
     for (const char* command : {"replay", "shrink", "reproduce", "view", "bisect stage"})
       CHECK_FALSE(w.touchstone(std::string(command) + " out/findings/f").code == -1);
     CHECK_FALSE(w.ran());
     fs::remove(w.dir / "l.db");
   }
-  fs::remove_all(w.dir / "out/findings");
+  write_no_causes(w);
   {
     fuzz::Ledger ledger(w.dir / "l.db");
-    fuzz::KnownFinding known = ledger_row("pipe:touch mark", key("pipe:touch mark"));
-    known.smallest = two_spheres().dump();
-    ledger.put(known);
+    ledger.put(ledger_row("pipe:touch mark"));
     ledger.commit();
   }
   const Run r = w.touchstone("triage out --ledger l.db --no-sandbox");
@@ -165,17 +185,22 @@ TEST_CASE("findings and ledgers name engines but never run them", "[hostile][tri
   CHECK_FALSE(w.ran());
 }
 
-TEST_CASE("a plug-in's findings are replayed when the command line names it", "[hostile][triage]") {
+TEST_CASE("a plug-in's causes are asked again when the command line names it", "[hostile][triage]") {
   const Marked w("hostile-given");
   w.engine("e.sh", "stranger");
   write_campaign(w, "stranger");
-  const Run r = w.touchstone("triage out --ledger l.db --no-shrink --engines 'pipe:sh e.sh'");
+  REQUIRE(w.touchstone("triage out --ledger l.db").code == 1);
+  write_no_causes(w);
+  const Run without = w.touchstone("triage out --ledger l.db");
+  CHECK(without.out.find("1 not asked") != std::string::npos);
+  const Run r = w.touchstone("triage out --ledger l.db --engines 'pipe:sh e.sh'");
   INFO(r.out << r.err);
-  CHECK(r.code == 1);
-  const fuzz::Ledger ledger(w.dir / "l.db");
-  const auto known = ledger.find(key("stranger"));
+  CHECK(r.code == 0);
+  CHECK(r.out.find("1 gone") != std::string::npos);
+  const auto known = fuzz::Ledger(w.dir / "l.db").find("one");
   REQUIRE(known);
   CHECK(known->first_build == "l 1");
+  CHECK_FALSE(known->expired.empty());
 }
 
 TEST_CASE("two engines of the same name are refused in one run", "[hostile]") {
@@ -239,6 +264,58 @@ TEST_CASE("a state is read completely before anything is written", "[hostile][me
   }
 }
 
+TEST_CASE("damaged examples of a finding are refused with their place", "[hostile][merge]") {
+  const Workspace w("hostile-examples");
+  fs::create_directories(w.dir / "in");
+  const Json good = {{"index", 3}, {"error_in_l", 0.5}, {"bodies", 2},
+                     {"steps", 0}, {"bits", 4},         {"case", "a"}};
+  const auto changed = [&](const char* field, const Json& to) {
+    Json e = good;
+    e[field] = to;
+    return e;
+  };
+  Json bare = good;
+  bare.erase("case");
+  const auto merge = [&](const Json& examples, const Json& document) {
+    Json f = finding("core");
+    f["evidence"] = evidence();
+    f["examples"] = examples;
+    Json s = state(key("core"), f);
+    s["result"]["documents"] = {{"a", document}};
+    w.write("in/state.json", s.dump());
+    return w.touchstone("merge out in");
+  };
+  const auto list = [](const std::vector<Json>& examples) { return Json(examples); };
+  const std::pair<Json, const char*> wrong[] = {
+      {Json::object(), "examples: "},
+      {Json(std::vector<Json>(9, good)), "examples: "},
+      {list({good, good}), "examples[1].index: "},
+      {list({changed("index", 4), good}), "examples[1].index: "},
+      {list({changed("index", -1)}), "examples[0].index: "},
+      {list({changed("error_in_l", "nan")}), "examples[0].error_in_l: "},
+      {list({changed("error_in_l", Json())}), "examples[0].error_in_l: "},
+      {list({changed("bits", 0.5)}), "examples[0].bits: "},
+      {list({changed("bodies", 3)}), "examples[0]: "},
+      {list({changed("steps", 1)}), "examples[0]: "},
+      {list({changed("case", "b")}), "examples[0].case: "},
+      {list({changed("case", two_spheres())}), "examples[0].case: "},
+      {list({Json(7)}), "examples[0]: "}};
+  const auto refused = [&](const Run& r, const std::string& place) {
+    INFO(r.err);
+    CHECK(r.code == 2);
+    CHECK(r.err.find("in/state.json: result." + place) != std::string::npos);
+    CHECK_FALSE(fs::exists(w.dir / "out"));
+  };
+  for (const auto& [examples, place] : wrong)
+    refused(merge(examples, two_spheres()), "findings." + key("core") + ": " + place);
+  refused(merge(list({bare}), two_spheres()), "findings." + key("core") + ".examples: ");
+  Json torn = two_spheres();
+  torn["scene"]["bodies"][0]["shape"] = 7;
+  refused(merge(list({good}), torn), "documents.a");
+  refused(merge(list({good}), Json::array()), "documents.a");
+  CHECK(merge(list({good}), two_spheres()).code == 0);
+}
+
 TEST_CASE("a certificate names a query of the case", "[hostile][check]") {
   const Workspace w("hostile-check");
   w.write("case.json", two_spheres().dump());
@@ -291,16 +368,18 @@ TEST_CASE("every reader of JSON has the limits of the case reader", "[hostile]")
   fs::create_directories(w.dir / "in/findings/f");
   w.write("deep.json", deep);
   w.write("two_spheres.json", two_spheres().dump());
-  for (const char* file : {"in/state.json", "in/summary.json", "in/findings/f/finding.json"})
+  for (const char* file :
+       {"in/state.json", "in/summary.json", "in/causes.json", "in/findings/f/finding.json"})
     w.write(file, R"({"key": )" + deep + "}");
   w.write("in/findings/f/case.json", two_spheres().dump());
   const std::pair<const char*, const char*> commands[] = {
       {"check deep.json", "deep.json"},
+      {"replay two_spheres.json --engines core --expected deep.json", "deep.json"},
       {"certify --check deep.json", "deep.json"},
       {"merge out in", "in/state.json"},
       {"report in", "in/summary.json"},
       {"fuzz --cases 1 --out in", "in/state.json"},
-      {"triage in --ledger l.db", "finding.json"},
+      {"triage in --ledger l.db", "causes.json"},
       {"shrink in/findings/f", "finding.json"},
       {"reproduce in/findings/f", "finding.json"},
       {"chart --from deep.json", "deep.json"},
@@ -317,13 +396,9 @@ TEST_CASE("every reader of JSON has the limits of the case reader", "[hostile]")
 
 namespace {
 
-const std::string known_key = key("core");
-
 void make_ledger(const fs::path& file) {
   fuzz::Ledger ledger(file);
-  fuzz::KnownFinding known = ledger_row("core", known_key);
-  known.smallest = two_spheres().dump();
-  ledger.put(known);
+  ledger.put(ledger_row("core"));
   ledger.commit();
 }
 
@@ -341,28 +416,46 @@ void tamper(const fs::path& file, const char* sql) {
 
 }  // namespace
 
-TEST_CASE("a ledger is a table of findings and nothing else", "[hostile][triage]") {
+TEST_CASE("a ledger is a table of causes and nothing else", "[hostile][triage]") {
   const Workspace w("hostile-ledger");
   write_campaign(w, "core");
-  // An endless view in place of the table; triggers; another definition; rows of other types or keys.
+  // An endless view in place of the table; triggers; another definition; rows of other types, ids or keys.
   for (const char* sql :
-       {"DROP TABLE finding; CREATE VIEW finding AS WITH RECURSIVE n(i) AS (SELECT 1 UNION ALL SELECT i + 1 "
-        "FROM "
-        "n) SELECT i AS key FROM n",
-        "CREATE TRIGGER t AFTER INSERT ON finding BEGIN DELETE FROM finding; END", "CREATE TABLE other(x)",
-        "CREATE INDEX other ON finding(engine)", "ALTER TABLE finding ADD COLUMN more TEXT",
-        "UPDATE finding SET key = '../../victim'", "UPDATE finding SET engine = '../../victim'",
-        "UPDATE finding SET count = -1", "UPDATE finding SET count = 'many'",
-        "UPDATE finding SET bits = 1e300", "UPDATE finding SET words = x'ff00'",
-        "UPDATE finding SET words = CAST(x'ff' AS TEXT)", "UPDATE finding SET smallest = NULL",
-        "PRAGMA application_id = 7"}) {
+       {"DROP TABLE cause; CREATE VIEW cause AS WITH RECURSIVE n(i) AS (SELECT 1 UNION ALL SELECT i + 1 FROM "
+        "n) SELECT i AS id FROM n",
+        "CREATE TRIGGER t AFTER INSERT ON cause BEGIN DELETE FROM cause; END",
+        "CREATE TABLE other(x)",
+        "CREATE INDEX other ON cause(engine)",
+        "ALTER TABLE cause ADD COLUMN more TEXT",
+        "UPDATE cause SET id = '../../victim'",
+        "UPDATE cause SET id = '.'",
+        "UPDATE cause SET id = 'A'",
+        "UPDATE cause SET key = '../../victim'",
+        "UPDATE cause SET engine = '../../victim'",
+        "UPDATE cause SET shown = ''",
+        "UPDATE cause SET severity = 'none'",
+        "UPDATE cause SET engines = 'core'",
+        "UPDATE cause SET engines = '[\"b\",\"a\"]'",
+        "UPDATE cause SET shapes = '[1]'",
+        "UPDATE cause SET shapes = '[\"a\\nb\"]'",
+        "UPDATE cause SET reason = 'for ever'",
+        "UPDATE cause SET until = '2026-01-01'",
+        "UPDATE cause SET reason = 'r', until = 'never'",
+        "UPDATE cause SET count = -1",
+        "UPDATE cause SET count = 'many'",
+        "UPDATE cause SET bits = 1e300",
+        "UPDATE cause SET words = x'ff00'",
+        "UPDATE cause SET words = CAST(x'ff' AS TEXT)",
+        "UPDATE cause SET shown = NULL",
+        "PRAGMA application_id = 7",
+        "PRAGMA application_id = 1414745137"}) {
     INFO(sql);
     fs::remove(w.dir / "l.db");
     make_ledger(w.dir / "l.db");
     tamper(w.dir / "l.db", sql);
     const std::string before = read_all(w.dir / "l.db");
-    for (const char* command :
-         {"triage out --ledger l.db --no-shrink --reproducers r", "merge --ledgers sum.db l.db"}) {
+    for (const char* command : {"triage out --ledger l.db --reproducers r", "merge --ledgers sum.db l.db",
+                                "triage --ledger l.db --suppress one --reason r --until 2099-01-01"}) {
       const Run r = w.touchstone(command);
       INFO(command << ": " << r.out << r.err);
       CHECK(r.code == 2);
@@ -373,27 +466,72 @@ TEST_CASE("a ledger is a table of findings and nothing else", "[hostile][triage]
   CHECK_FALSE(fs::exists(w.dir / "victim"));
 }
 
+TEST_CASE("a ledger of findings, from an earlier version, is refused with what to do", "[hostile][triage]") {
+  const Workspace w("hostile-old-ledger");
+  write_campaign(w, "core");
+  tamper(w.dir / "l.db",
+         "PRAGMA application_id = 1414745137; CREATE TABLE finding(key TEXT PRIMARY KEY, engine TEXT)");
+  const std::string before = read_all(w.dir / "l.db");
+  for (const char* command : {"triage out --ledger l.db", "merge --ledgers sum.db l.db"}) {
+    const Run r = w.touchstone(command);
+    INFO(command << ": " << r.err);
+    CHECK(r.code == 2);
+    CHECK(r.err.find("l.db: is a ledger of findings, from an earlier version") != std::string::npos);
+    CHECK(r.err.find("Give --ledger another file") != std::string::npos);
+  }
+  CHECK(read_all(w.dir / "l.db") == before);
+}
+
 TEST_CASE("a ledger's case is read with the limits of every reader, and does not affect the others",
           "[hostile][triage]") {
   const Workspace w("hostile-case");
   write_campaign(w, "core");
-  fs::remove_all(w.dir / "out/findings");
-  for (const std::string& smallest :
+  write_no_causes(w);
+  for (const std::string& shown :
        {std::string(100'000, '['), std::string("{}"), std::string("\"\\ud800\"")}) {
     fs::remove(w.dir / "l.db");
     {
       fuzz::Ledger ledger(w.dir / "l.db");
-      fuzz::KnownFinding known = ledger_row("core", known_key);
-      known.smallest = smallest;
+      fuzz::KnownCause known = ledger_row("core");
+      known.shown = shown;
       ledger.put(known);
       ledger.commit();
     }
     const Run r = w.touchstone("triage out --ledger l.db --json");
     INFO(r.out << r.err);
     CHECK(r.code == 3);
-    CHECK(r.err.find("not asked: ledger, " + known_key) != std::string::npos);
+    CHECK(r.err.find("not asked: ledger, one") != std::string::npos);
     CHECK(Json::accept(r.out));
   }
+}
+
+TEST_CASE("causes.json names nothing to run and no place to write", "[hostile][triage]") {
+  const Marked w("hostile-causes");
+  w.engine("e.sh", "stranger");
+  write_campaign(w, "core");
+  const Json good = causes("core");
+  const std::string triage = "triage out --ledger l.db --reproducers r";
+  const auto refused = [&](const char* place, const auto& damage) {
+    Json j = good;
+    damage(j["causes"][0]);
+    w.write("out/causes.json", j.dump());
+    const Run r = w.touchstone(triage);
+    INFO(r.out << r.err);
+    CHECK(r.err.find(std::string("out/causes.json: causes[0]") + place) != std::string::npos);
+    CHECK_FALSE(fs::exists(w.dir / "l.db"));
+    CHECK(fs::is_empty(w.dir / "r"));
+    return r.code == 2;
+  };
+  for (const char* id : {"../../victim", "/tmp/x", ".", "", "a/b", "-rf"})
+    CHECK(refused(".id", [&](Json& c) { c["id"] = id; }));
+  CHECK(refused(".smallest.key", [](Json& c) { c["smallest"]["key"] = "../../victim"; }));
+  CHECK(refused(".smallest.key", [](Json& c) { c["smallest"]["engine"] = "pipe:sh e.sh"; }));
+  CHECK(refused(".smallest.case", [](Json& c) { c["smallest"]["case"] = "x"; }));
+  CHECK(refused("", [](Json& c) { c["shapes"] = {"\n"}; }));
+  CHECK_FALSE(w.ran());
+  w.write("out/causes.json", good.dump());
+  CHECK(w.touchstone(triage).code == 1);
+  CHECK(fs::exists(w.dir / "r/one/case.json"));
 }
 
 TEST_CASE("a ledger that is only read need not be writable", "[hostile][merge]") {
@@ -429,7 +567,7 @@ TEST_CASE("a journal beside a ledger removes no other file", "[hostile][triage]"
   journal += number(0x40000000 / 4096 + 1) + victim + number(static_cast<std::uint32_t>(victim.size())) +
              number(sum) + magic;
   for (const char* command :
-       {"triage out --ledger l.db --no-shrink", "merge --ledgers sum.db l.db", "merge --ledgers l.db l.db"}) {
+       {"triage out --ledger l.db", "merge --ledgers sum.db l.db", "merge --ledgers l.db l.db"}) {
     w.write("l.db-journal", journal);
     const Run r = w.touchstone(command);
     INFO(command << ": " << r.err);
@@ -481,6 +619,7 @@ TEST_CASE("a pipe in place of a file is refused without waiting for it", "[hosti
   w.write("r/scene.txt", "");
   write_campaign(w, "core");
   w.write("t/state.json", "{}");
+  w.write("t/causes.json", causes("core").dump());
   const std::pair<const char*, const char*> commands[] = {
       {"p", "replay p --engines core"},
       {"p", "shrink p"},
@@ -491,11 +630,12 @@ TEST_CASE("a pipe in place of a file is refused without waiting for it", "[hosti
       {"p", "plan case.json --use p"},
       {"p", "check p"},
       {"p", "check plane.json --case p"},
+      {"p", "replay case.json --engines core --expected p"},
       {"p", "certify --check p"},
       {"p", "chart --from p"},
       {"finding/case.json", "replay finding --engines core"},
       {"out/findings/f/finding.json", "shrink out/findings/f"},
-      {"out/findings/f/finding.json", "triage out --ledger l.db"},
+      {"out/causes.json", "triage out --ledger l.db"},
       {"t/summary.json", "triage t --ledger l.db"},
       {"l/l.db", "triage out --ledger l/l.db"},
       {"l/l.db", "merge --ledgers sum.db l/l.db"},

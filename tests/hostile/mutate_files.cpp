@@ -32,6 +32,7 @@
 #include "core/math/rng.h"
 #include "tests/hostile/file_readers.h"
 #include "tests/hostile/mutation.h"
+#include "tests/support/causes_by_hand.h"
 
 namespace {
 
@@ -149,13 +150,17 @@ const std::vector<Target>& targets() {
        {"fuzz --cases 32 --seed 5 --jobs 1 --relations 0 --shard 1/2 --engines core --out half",
         "merge merged campaign half"}},
       {{"kept/answers.bin", "kept/state.json"}, {"judge kept --jobs 1", "judge kept --jobs 1 --json"}},
-      {{"campaign/summary.json"}, {"report campaign", "triage campaign --ledger ledger.db --no-shrink"}},
+      {{"campaign/summary.json"}, {"report campaign", "triage campaign --ledger ledger.db"}},
+      {{"expected.json"},
+       {"replay case.json --engines core --expected expected.json --junit j.xml",
+        "replay case.json --engines core --expected expected.json --write-expected now.json --json"}},
+      {{"campaign/causes.json"}, {"triage campaign --ledger ledger.db --reproducers r --junit j.xml"}},
       {{"broad.json"}, {"certify --check broad.json --jobs 1"}},
       {{"plan.json"}, {"plan case.json --use plan.json --rounds 1 --judged 4"}},
       {{"chart.json"}, {"chart --from chart.json"}},
       {{"ledger.db"},
-       {"triage campaign --ledger ledger.db --no-shrink", "merge --ledgers sum.db ledger.db",
-        "triage campaign --ledger ledger.db --no-shrink --json --reproducers r"}},
+       {"triage campaign --ledger ledger.db", "merge --ledgers sum.db ledger.db",
+        "triage campaign --ledger ledger.db --json --reproducers r"}},
       {{"recording/scene.txt", "recording/frames.npy", "recording/frames.csv"},
        {"replay recording --engines core", "plan recording --rounds 1 --judged 4 --steps 2"}}};
   return all;
@@ -314,7 +319,8 @@ bool make_originals(const fs::path& dir) {
     findings.push_back(entry.path());
   std::sort(findings.begin(), findings.end());
   fs::copy(findings.front(), dir / "finding", fs::copy_options::recursive);
-  run(dir, "triage campaign --ledger ledger.db --no-shrink");
+  write_causes_by_hand(dir / "campaign");
+  run(dir, "triage campaign --ledger ledger.db");
   for (std::size_t i = 1; i < findings.size(); ++i) fs::remove_all(findings[i]);
   fs::rename(findings.front(), dir / "campaign/findings/one");
   fs::copy(dir / "finding/case.json", dir / "case.json");

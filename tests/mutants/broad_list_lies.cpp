@@ -31,7 +31,7 @@ void second_id_off_by_one(const Scene&, const QueryState&, Pairs& p) {
   if (!p.empty()) ++p.back().second;
 }
 void pair_of_one(const Scene&, const QueryState& s, Pairs& p) {
-  if (s.bodies[0].pose) p.emplace_back(0, 0);
+  if (!s.bodies.empty() && s.bodies[0].pose) p.emplace_back(0, 0);
 }
 void body_that_never_was(const Scene& scene, const QueryState&, Pairs& p) {
   p.emplace_back(0, static_cast<int>(scene.bodies.size()));

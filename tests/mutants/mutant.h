@@ -19,6 +19,8 @@ struct Mutant {
   Lie lie;
   bool repeats = true;           // false: its answers depend on earlier questions
   bool reads_unwritten = false;  // its lie is the content of unwritten memory
+  /// Lies of one symptom give the same kind of wrong answer, from other triggers or faults. May be empty.
+  std::string_view symptom = "";
 };
 
 }  // namespace touchstone::mutants

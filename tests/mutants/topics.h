@@ -22,5 +22,7 @@ std::vector<Mutant> scene_lies();
 std::vector<Mutant> relation_lies();  // visible only in another form of the case
 std::vector<Mutant> regime_lies();    // visible only in one regime of the generator
 std::vector<Mutant> memory_lies();    // earlier questions
+std::vector<Mutant> trigger_lies();   // the same wrong answer in other cases
+std::vector<Mutant> symptom_lies();   // the same wrong answer for other reasons
 
 }  // namespace touchstone::mutants

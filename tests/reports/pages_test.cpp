@@ -10,7 +10,10 @@
 #include <sstream>
 
 #include "core/shape/shape.h"
+#include "reports/text/causes_text.h"
 #include "reports/text/web_page.h"
+#include "scenarios/codec/json_file.h"
+#include "tests/reports/cause_sample.h"
 #include "tests/support/catch.h"
 #include "tests/support/skip.h"
 #include "tests/support/workspace.h"
@@ -26,7 +29,7 @@ const fs::path built = TS_BINARY_DIR "/share/touchstone/web";
 
 // Empty when everything that a browser test needs is present.
 std::string missing_for_browser() {
-  for (const char* kind : {"broad", "case", "report", "chart", "stability", "certificate"})
+  for (const char* kind : {"broad", "case", "causes", "report", "chart", "stability", "certificate"})
     if (!fs::exists(built / (std::string(kind) + ".html"))) return "the built pages";
   if (!fs::exists(TS_BINARY_DIR "/web/node_modules/playwright-core")) return "playwright-core";
   if (!touchstone::test::has_command("node")) return "node";
@@ -59,6 +62,12 @@ std::string figures_of(const std::string& out) {
   for (std::string line; std::getline(lines, line);)
     if (line.starts_with("     ")) figures += line.substr(5) + "\n";
   return figures;
+}
+
+// Kept for inspection (continuous integration stores them as artefacts).
+std::string pictures_directory() {
+  const char* wanted = std::getenv("TOUCHSTONE_SCREENSHOTS");
+  return fs::absolute(wanted && *wanted ? wanted : TS_BINARY_DIR "/screenshots").string();
 }
 
 // Repeats the findings of a campaign with other shapes and numbers until there are `count`.
@@ -136,10 +145,7 @@ TEST_CASE("pages load, show the numbers of their JSON, draw, move and link in a 
              "/lib/libtouchstone_mutants.so:stale_after_move --level boxes --without no_boxes --limit 2000 "
              "-o refuted.json --page refuted.html")
             .code == 1);
-  // Kept for inspection (continuous integration stores them as artefacts).
-  const char* wanted = std::getenv("TOUCHSTONE_SCREENSHOTS");
-  const std::string pictures =
-      fs::absolute(wanted && *wanted ? wanted : TS_BINARY_DIR "/screenshots").string();
+  const std::string pictures = pictures_directory();
   const auto node =
       w.run("node " TS_BINARY_DIR "/web/test/pages.mjs /usr/bin/chromium " + w.dir.string() + " " + pictures);
   std::cout << figures_of(node.out) << "screenshots: " << pictures << "\n";
@@ -148,6 +154,26 @@ TEST_CASE("pages load, show the numbers of their JSON, draw, move and link in a 
   CHECK(node.out.find("all checks hold") != std::string::npos);
   for (const char* name : {"case-1280", "motion-390-dark", "report-print", "curved-contact"})
     CHECK(fs::file_size(fs::path(pictures) / (std::string(name) + ".png")) > 5000);
+}
+
+TEST_CASE("the page of causes shows, filters and hands out its causes in a browser", "[pages][optional]") {
+  if (const std::string missing = missing_for_browser(); !missing.empty())
+    return touchstone::test::skip("missing: " + missing);
+  const Workspace w("causes");
+  const std::string shell = read_all(built / "causes.html");
+  const auto write = [&](const char* name, const touchstone::fuzz::Causes& c) {
+    using namespace touchstone;
+    w.write(name, reports::web_page(shell, json_text(reports::causes_page(c))));
+  };
+  write("causes.html", touchstone::test::sample_causes());
+  write("causes-many.html", touchstone::test::many_causes(60));
+  write("causes-hostile.html", touchstone::test::hostile_causes());
+  const auto node = w.run("node " TS_BINARY_DIR "/web/test/causes.mjs /usr/bin/chromium " + w.dir.string() +
+                          " " + pictures_directory());
+  std::cout << figures_of(node.out);
+  INFO(node.out << node.err);
+  CHECK(node.code == 0);
+  CHECK(node.out.find("all checks hold") != std::string::npos);
 }
 
 TEST_CASE("the pages can be built and tested with Debian 12's Node 18 and npm 9", "[pages]") {

@@ -2,34 +2,9 @@
 // motion.html, report.html, chart.html, stability.html, many.html: a report of 1e5 kinds of
 // findings, separate.html, touching.html, curved.html, mesh.html, script.html, crowd.html: cases of these kinds, certified.html, refuted.html: certificates of broad phases,
 // broad.html, broad.json: a script's broad phases as a page and as `--json`. Prints one line a check; exit code 1 when one fails.
-import { mkdirSync, readFileSync, statSync } from "node:fs";
+import { readFileSync, statSync } from "node:fs";
 import { join } from "node:path";
-import { chromium } from "playwright-core";
-
-const [, , executablePath, dir, pictures] = process.argv;
-if (pictures) mkdirSync(pictures, { recursive: true });
-const browser = await chromium.launch({
-  executablePath,
-  args: ["--no-sandbox", "--use-angle=swiftshader", "--enable-unsafe-swiftshader", "--ignore-gpu-blocklist"],
-});
-let failed = 0;
-function check(what, ok, more = "") {
-  console.log(`${ok ? "ok  " : "FAIL"} ${what} ${ok ? "" : more}`);
-  if (!ok) ++failed;
-}
-
-async function open(name, { settle = 150, hash = "", width = 1280, height = 720, dark = false } = {}) {
-  const page = await browser.newPage({ viewport: { width, height }, colorScheme: dark ? "dark" : "light" });
-  const errors = [];
-  page.on("console", (m) => m.type() === "error" && errors.push(m.text()));
-  page.on("pageerror", (e) => errors.push(String(e)));
-  page.on("request", (r) => /^https?:/.test(r.url()) && errors.push(`asks the network for ${r.url()}`));
-  await page.goto(`file://${join(dir, name)}${hash}`);
-  await page.waitForTimeout(settle);
-  return { page, errors };
-}
-const shoot = (page, name, more = {}) => (pictures ? page.screenshot({ path: join(pictures, `${name}.png`), ...more }) : undefined);
-const data = (page) => page.evaluate(() => globalThis.touchstoneData);
+import { check, data, dir, end, open, shoot, wide } from "./browser.mjs";
 
 // Different colours in the middle of the canvas: a picture, not a background.
 const colours = (page) =>
@@ -48,7 +23,6 @@ const colours = (page) =>
     return { kinds: seen.size, share: 1 - Math.max(...seen.values()) / (160 * 120) };
   });
 const picture = (page) => page.evaluate(() => document.querySelector("#view canvas").toDataURL());
-const wide = (page) => page.evaluate(() => document.documentElement.scrollWidth <= innerWidth + 1);
 
 for (const name of ["case.html", "crowd.html", "motion.html", "report.html", "many.html", "chart.html", "stability.html", "certified.html", "refuted.html", "broad.html"]) {
   check(`${name} is smaller than 5 MB`, statSync(join(dir, name)).size < 5e6);
@@ -305,6 +279,4 @@ for (const name of ["certified.html", "refuted.html"]) {
   await page.close();
 }
 
-await browser.close();
-console.log(failed ? `${failed} checks failed` : "all checks hold");
-process.exit(failed ? 1 : 0);
+await end();

@@ -7,6 +7,7 @@ import {
 } from "three";
 import { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
 import type { Drawn } from "./certificate";
+import { bodyColours, frameOf } from "./frame";
 import type { Stand } from "./motion";
 import { geometryOf, reachOf } from "./shapes";
 import type { CasePage, V3 } from "./types";
@@ -25,8 +26,6 @@ export interface Mark {
   lines?: [V3, V3][] | undefined;
 }
 
-/** Paler than the engines' colours. */
-export const bodyColours = ["#7f93ad", "#c4b184"] as const;
 const up = new Vector3(0, 0, 1);
 
 export class Picture {
@@ -47,7 +46,7 @@ export class Picture {
   private smallest = 1;  // reach of the smallest body, in the picture's unit
 
   constructor(private data: CasePage, stands: (Stand | null)[][], host: HTMLElement, moved: () => void) {
-    [this.centre, this.size] = frameOf(data, stands);
+    [this.centre, this.size] = frameOf(data.case.scene, stands);
     this.renderer = new WebGLRenderer({ antialias: true, preserveDrawingBuffer: true });
     this.canvas = this.renderer.domElement;
     this.canvas.tabIndex = 0;
@@ -336,26 +335,4 @@ export class Picture {
     });
     this.renderer.render(this.scene, this.camera);
   }
-}
-
-// Centre and size of the scene over all frames. Half-spaces have no size; a scene with nothing else has size 1.
-function frameOf(data: CasePage, frames: (Stand | null)[][]): [V3, number] {
-  const low: V3 = [Infinity, Infinity, Infinity], high: V3 = [-Infinity, -Infinity, -Infinity];
-  const { shapes, bodies } = data.case.scene;
-  const reach = bodies.map((b) => reachOf(shapes[b.shape]!));
-  const sized = reach.filter((r) => r > 0).sort((a, b) => a - b);
-  // A mesh or body a thousand times larger than the smallest is taken as the ground and does not set the size.
-  const most = (sized[0] ?? 1) * 1000;
-  for (const stands of frames)
-    stands.forEach((s, i) => {
-      if (!s || reach[i]! <= 0 || (reach[i]! > most && bodies.length > 1)) return;
-      for (let k = 0; k < 3; ++k) {
-        low[k] = Math.min(low[k]!, s.position[k]! - reach[i]!);
-        high[k] = Math.max(high[k]!, s.position[k]! + reach[i]!);
-      }
-    });
-  if (!low.every(Number.isFinite)) return [frames[0]?.find((s) => s)?.position ?? [0, 0, 0], 1];
-  const centre = low.map((x, k) => x / 2 + high[k]! / 2) as V3;
-  const size = Math.max(...high.map((x, k) => x - low[k]!));
-  return [centre, size > 0 ? size : 1];
 }

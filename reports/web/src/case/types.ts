@@ -30,6 +30,12 @@ export interface StepJson {
   body?: number;
   pose?: PoseJson;
 }
+export interface SceneJson {
+  name?: string;
+  shapes: ShapeJson[];
+  bodies: BodyJson[];
+  script?: StepJson[];
+}
 export interface CertificateJson {
   kind: string;
   direction?: V3;
@@ -99,7 +105,7 @@ export interface CasePage {
     description?: string;
     source?: string;
     family?: string;
-    scene: { name?: string; shapes: ShapeJson[]; bodies: BodyJson[]; script?: StepJson[] };
+    scene: SceneJson;
   };
   /** Triangles of hulls, by shape index. */
   hull_faces: Record<string, V3[]>;

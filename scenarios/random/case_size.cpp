@@ -1,7 +1,9 @@
-#include "fuzz/shrink/reductions.h"
+#include "scenarios/random/case_size.h"
 
 #include <bit>
 #include <cmath>
+
+#include "scenarios/random/numbers.h"
 
 namespace touchstone::fuzz {
 namespace {
@@ -31,14 +33,6 @@ int bits_of(double v) {
   const int significant = 53 - std::countr_zero(mantissa);
   return significant + static_cast<int>(std::bit_width(static_cast<unsigned>(std::abs(exponent - 1)))) +
          (std::signbit(v) ? 1 : 0);
-}
-
-double rounded_to(double v, int significant) {
-  if (v == 0 || !std::isfinite(v)) return v;
-  int exponent = 0;
-  const double m = std::frexp(v, &exponent);
-  const double r = std::ldexp(std::nearbyint(std::ldexp(m, significant)), exponent - significant);
-  return std::isfinite(r) ? r : v;
 }
 
 CaseSize measure(const Case& c) {

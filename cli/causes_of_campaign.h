@@ -1,0 +1,30 @@
+// The causes behind a stored campaign, as `causes` and `triage` need them: those stored beside it if they are
+// of the same results, else found by asking the engines.
+#pragma once
+
+#include <string>
+
+#include "oracles/client/worker_limits.h"
+#include "reports/record/causes.h"
+#include "reports/record/result.h"
+
+namespace touchstone::cli {
+
+struct CausesSearch {
+  std::string directory;  // of the campaign
+  std::string engines;    // engines outside the catalogue that may be asked, as given on the command line
+  std::string error;      // the user's tolerance (--error); empty: the engines' own claims
+  double minutes = 10;
+  int jobs = 1;
+  WorkerLimits limits;
+};
+
+/// Reads DIR/causes.json, or finds the causes and writes that file. Throws InputError when DIR holds no
+/// campaign, or a damaged one.
+fuzz::Causes causes_of_campaign(CausesSearch& search, bool again);
+
+/// Asks no engine: those in DIR/causes.json if they are of this result, else what is stored alone tells.
+/// `directory` may be empty: the result is stored nowhere.
+fuzz::Causes known_causes(const std::string& directory, const fuzz::CampaignResult& result);
+
+}  // namespace touchstone::cli

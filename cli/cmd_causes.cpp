@@ -1,0 +1,114 @@
+// touchstone causes DIR: the distinct causes behind the findings of a campaign.
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <filesystem>
+#include <thread>
+
+#include "cli/causes_of_campaign.h"
+#include "cli/chosen_engines.h"
+#include "cli/command.h"
+#include "cli/judged_by.h"
+#include "cli/output.h"
+#include "core/base/input_error.h"
+#include "reports/text/causes_text.h"
+#include "reports/text/web_page.h"
+#include "scenarios/codec/json_file.h"
+#include "scenarios/text/name_list.h"
+
+namespace touchstone::cli {
+namespace {
+
+struct CausesOptions {
+  CausesSearch search;
+  std::string engine, cause, out, page;
+  bool again = false, json = false, markdown = false;
+};
+
+bool is_of(const fuzz::Cause& c, const std::string& engine) {
+  return c.path == engine || std::ranges::find(c.engines, engine) != c.engines.end();
+}
+
+void keep_engine(fuzz::Causes& causes, const std::string& engine) {
+  std::vector<std::string> known;
+  for (const fuzz::Cause& c : causes.causes) {
+    known.push_back(c.path);
+    known.insert(known.end(), c.engines.begin(), c.engines.end());
+  }
+  std::erase_if(causes.causes, [&](const fuzz::Cause& c) { return !is_of(c, engine); });
+  if (causes.causes.empty() && std::ranges::find(known, engine) == known.end())
+    throw InputError("--engine " + engine, "no cause is of this engine" + did_you_mean(engine, known));
+}
+
+const fuzz::Cause& cause_named(const fuzz::Causes& causes, const std::string& id) {
+  std::vector<std::string> known;
+  for (const fuzz::Cause& c : causes.causes) {
+    if (c.id == id) return c;
+    known.push_back(c.id);
+  }
+  throw InputError("--cause " + id, "there is no such cause" + did_you_mean(id, known));
+}
+
+std::string one_cause(const CausesOptions& o, const fuzz::Cause& c) {
+  if (o.json) return json_text(to_json(c), 1) + "\n";
+  return o.markdown ? reports::cause_markdown(c) : reports::cause_text(c);
+}
+
+int run(CausesOptions& o) {
+  require_writable(o.out);
+  require_writable(o.page);
+  if (o.markdown && o.cause.empty())
+    throw InputError("--markdown", "needs --cause ID: the issue is about one");
+  catch_stop_signals();
+  fuzz::Causes causes = causes_of_campaign(o.search, o.again);
+  if (!o.engine.empty()) keep_engine(causes, o.engine);
+  if (!o.out.empty()) write_file(o.out, json_text(to_json(causes), 1) + "\n");
+  if (!o.cause.empty()) {
+    fmt::print("{}", one_cause(o, cause_named(causes, o.cause)));
+    return exit_clean;
+  }
+  if (o.json)
+    fmt::print("{}\n", json_text(to_json(causes), 1));
+  else
+    fmt::print("{}", reports::causes_text(causes, fmt::format("{} causes {}", program_name(),
+                                                              shell_word(o.search.directory))));
+  if (o.page.empty()) return exit_clean;
+  if (!write_page("causes", json_text(reports::causes_page(causes)), o.page)) return exit_failed;
+  fmt::print(stderr, "{}: open it in a browser\n", o.page);
+  return exit_clean;
+}
+
+}  // namespace
+
+Run declare_causes(CLI::App& app) {
+  auto o = std::make_shared<CausesOptions>();
+  o->search.jobs = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+  app.add_option("directory", o->search.directory, "directory of a campaign (`fuzz --out`)")->required();
+  app.add_option("--engine", o->engine,
+                 "only causes of this engine, or of this path (fcl-libccd, bullet-query)");
+  app.add_option("--cause", o->cause, "print the cause with this id in full");
+  app.add_flag("--markdown", o->markdown, "with --cause: as text for an issue tracker");
+  app.add_option("--budget", o->search.minutes,
+                 "minutes for asking the engines again; findings that remain are grouped by what is stored")
+      ->check(a_positive_number())
+      ->capture_default_str();
+  app.add_option("--engines", o->search.engines,
+                 "plug-ins and pipes whose findings are to be asked again: ./libmine.so, pipe:COMMAND");
+  app.add_flag("--again", o->again,
+               "find the causes again, even if DIR/causes.json holds those of this campaign");
+  app.add_option("-o,--out", o->out,
+                 "also write the causes as JSON to this file (DIR/causes.json always has them)");
+  app.add_option("--page", o->page, "write a page (self-contained HTML) to this file");
+  app.add_option("--jobs", o->search.jobs, "number of findings examined in parallel")
+      ->check(CLI::Range(1, 1024))
+      ->capture_default_str();
+  add_error(app, o->search.error);
+  add_case_seconds(app, o->search.limits);
+  app.add_flag("--json", o->json, "one JSON document on stdout");
+  return [o] { return run(*o); };
+}
+
+}  // namespace touchstone::cli

@@ -1,0 +1,144 @@
+#include "cli/engine_paths.h"
+
+#include <algorithm>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "cli/engine_catalog.h"
+#include "oracles/routes/routes.h"
+
+namespace touchstone::cli {
+namespace {
+
+// A way to put a question differently: the name of the other engine is that of the engine with `part`
+// replaced by `by`.
+struct OtherRow {
+  std::string_view engines;  // those whose names begin so
+  std::string_view part, by;
+  std::string_view name, change, if_gone;
+};
+
+constexpr std::string_view double_name = "other_precision", settings_name = "other_settings",
+                           looser_name = "looser", tighter_name = "tighter", path_name = "other_path",
+                           solver_name = "other_solver", iterations_name = "more_iterations";
+
+constexpr OtherRow other_rows[] = {
+    {"bullet-f32-", "-f32-", "-f64-", double_name, "asked in double precision",
+     "only in single precision: vanishes in double"},
+    {"bullet-f64-", "-f64-", "-f32-", double_name, "asked in single precision", "only in double precision"},
+    {"fcl-libccd-tuned", "-tuned", "", settings_name, "asked as shipped", "only with tight tolerances"},
+    {"fcl-indep-tuned", "-tuned", "", settings_name, "asked as shipped", "only with tight tolerances"},
+    {"libccd-gjk-tuned", "-tuned", "", settings_name, "asked as shipped", "only with tight tolerances"},
+    {"libccd-mpr-tuned", "-tuned", "", settings_name, "asked as shipped", "only with tight tolerances"},
+    {"fcl-libccd", "", "-tuned", settings_name, "asked with tight tolerances",
+     "a matter of settings: vanishes with tight tolerances"},
+    {"fcl-indep", "", "-tuned", settings_name, "asked with tight tolerances",
+     "a matter of settings: vanishes with tight tolerances"},
+    {"libccd-gjk", "", "-tuned", settings_name, "asked with tight tolerances",
+     "a matter of settings: vanishes with tight tolerances"},
+    {"libccd-mpr", "", "-tuned", settings_name, "asked with tight tolerances",
+     "a matter of settings: vanishes with tight tolerances"},
+    {"bullet-f32-query-tuned", "-tuned", "", settings_name, "asked with default margins",
+     "only without margins"},
+    {"bullet-f32-sim-tuned", "-tuned", "", settings_name, "asked with default margins",
+     "only without margins"},
+    {"bullet-f64-query-tuned", "-tuned", "", settings_name, "asked with default margins",
+     "only without margins"},
+    {"bullet-f64-sim-tuned", "-tuned", "", settings_name, "asked with default margins",
+     "only without margins"},
+    {"bullet-", "", "-tuned", settings_name, "asked with margin 0", "vanishes with margin 0"},
+    {"fcl-libccd", "", "@1e-3", looser_name, "tolerances 1e-3", "vanishes with looser tolerances"},
+    {"fcl-indep", "", "@1e-3", looser_name, "tolerances 1e-3", "vanishes with looser tolerances"},
+    {"libccd-gjk", "", "@1e-2", looser_name, "tolerances 1e-2", "vanishes with looser tolerances"},
+    {"libccd-mpr", "", "@1e-2", looser_name, "tolerance 1e-2", "vanishes with looser tolerances"},
+    {"fcl-libccd", "", "@1e-9", tighter_name, "tolerances 1e-9", "vanishes with tighter tolerances"},
+    {"fcl-indep", "", "@1e-9", tighter_name, "tolerances 1e-9", "vanishes with tighter tolerances"},
+    {"libccd-gjk", "", "@1e-8", tighter_name, "tolerances 1e-8", "vanishes with tighter tolerances"},
+    {"libccd-mpr", "", "@1e-8", tighter_name, "tolerance 1e-8", "vanishes with tighter tolerances"},
+    {"bullet-f32-query", "query", "epa@1e-9", tighter_name, "EPA tolerance 1e-9",
+     "vanishes with a tighter EPA tolerance"},
+    {"bullet-f64-query", "query", "epa@1e-9", tighter_name, "EPA tolerance 1e-9",
+     "vanishes with a tighter EPA tolerance"},
+    {"libccd-gjk", "", "-iterations@128", iterations_name, "at most 128 iterations",
+     "vanishes with a limit of iterations"},
+    {"libccd-mpr", "", "-iterations@128", iterations_name, "at most 128 iterations",
+     "vanishes with a limit of iterations"},
+    {"bullet-f32-query", "query", "sim", path_name, "asked by the simulation",
+     "only in queries: vanishes in the simulation"},
+    {"bullet-f64-query", "query", "sim", path_name, "asked by the simulation",
+     "only in queries: vanishes in the simulation"},
+    {"bullet-f32-sim", "sim", "query", path_name, "asked by a query",
+     "only in the simulation: vanishes in a query"},
+    {"bullet-f64-sim", "sim", "query", path_name, "asked by a query",
+     "only in the simulation: vanishes in a query"},
+    {"fcl-libccd", "libccd", "indep", solver_name, "asked with GST_INDEP", "only with GST_LIBCCD"},
+    {"fcl-indep", "indep", "libccd", solver_name, "asked with GST_LIBCCD", "only with GST_INDEP"},
+    {"libccd-gjk", "gjk", "mpr", solver_name, "asked by MPR", "in GJK or EPA: vanishes with MPR"},
+    {"libccd-mpr", "mpr", "gjk", solver_name, "asked by GJK and EPA", "in MPR: vanishes with GJK and EPA"},
+    {"bullet-f32-query", "query", "minkowski@0", solver_name, "asked with the Minkowski depth solver",
+     "in EPA: vanishes with the Minkowski depth solver"},
+    {"bullet-f64-query", "query", "minkowski@0", solver_name, "asked with the Minkowski depth solver",
+     "in EPA: vanishes with the Minkowski depth solver"},
+};
+
+constexpr std::string_view tuned_suffix = "-tuned";
+
+std::string without_suffix(const std::string& name) {
+  std::string r = name.substr(0, name.find('@'));
+  if (r.ends_with(tuned_suffix)) r.resize(r.size() - tuned_suffix.size());
+  return r;
+}
+
+// Settings in a name are replaced, not added to.
+std::string other_name(const std::string& engine, const OtherRow& row) {
+  const bool replaces_settings = row.part != tuned_suffix && row.name != double_name && row.name != path_name;
+  std::string r = replaces_settings ? without_suffix(engine) : engine;
+  if (row.part.empty()) return r + std::string(row.by);
+  const auto at = r.find(row.part);
+  return at == std::string::npos ? "" : r.replace(at, row.part.size(), row.by);
+}
+
+std::vector<fuzz::OtherEngine> others(const std::string& engine) {
+  std::vector<fuzz::OtherEngine> all;
+  if (is_foreign(engine)) return all;
+  for (const OtherRow& row : other_rows) {
+    if (!engine.starts_with(row.engines)) continue;
+    const bool known =
+        std::ranges::any_of(all, [&](const fuzz::OtherEngine& o) { return o.name == row.name; });
+    const std::string name = other_name(engine, row);
+    if (known || name.empty() || name == engine || !is_catalogued(name)) continue;
+    all.push_back({std::string(row.name), std::string(row.change), std::string(row.if_gone), name});
+  }
+  return all;
+}
+
+std::string path_of(const std::string& engine) {
+  std::string r = without_suffix(engine);
+  for (const std::string_view precision : {"bullet-f32-", "bullet-f64-"})
+    if (r.starts_with(precision)) r.replace(0, precision.size(), "bullet-");
+  return r;
+}
+
+std::string route_of(const std::string& engine, Question question, ShapeKind a, ShapeKind b) {
+  const routes::Pair p{question, a, b};
+  const std::string path = path_of(engine);
+  if (path.starts_with("fcl-")) return std::string(routes::fcl_route(p));
+  if (path.starts_with("bullet-")) return std::string(routes::bullet_route(p, path.find("sim") != path.npos));
+  if (path.starts_with("libccd-")) return std::string(routes::libccd_route(p));
+  if (path == "ode") return std::string(routes::ode_route(p));
+  return std::string(routes::common_route(p));
+}
+
+std::string documented(const std::string& engine, const fuzz::Symptom& s, const std::string& route, Fault f) {
+  if (engine.starts_with("fcl-")) return std::string(routes::fcl_documents(engine, s.question, route, f));
+  if (engine.starts_with("libccd-"))
+    return std::string(routes::libccd_documents(engine, s.question, route, f));
+  return "";
+}
+
+}  // namespace
+
+fuzz::EngineKnowledge catalogued_knowledge() { return {path_of, route_of, documented, others}; }
+
+}  // namespace touchstone::cli

@@ -1,0 +1,258 @@
+#include "fuzz/causes/assembly.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <set>
+#include <tuple>
+
+#include "core/base/exact_text.h"
+#include "core/base/hash.h"
+#include "fuzz/causes/name.h"
+#include "fuzz/causes/rates.h"
+#include "scenarios/codec/case_codec.h"
+
+namespace touchstone::fuzz {
+namespace {
+
+using Texts = std::set<std::string>;
+
+std::vector<std::string> listed(const Texts& texts) { return {texts.begin(), texts.end()}; }
+
+std::string joined(const Texts& texts) {
+  std::string all;
+  for (const std::string& text : texts) {
+    if (!all.empty()) all += ", ";
+    all += text;
+  }
+  return all;
+}
+
+// A word that may name a directory.
+std::string id_word(const std::string& text) {
+  std::string word;
+  for (const char c : text) {
+    const bool plain = (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9');
+    const bool upper = c >= 'A' && c <= 'Z';
+    word += plain ? c : upper ? static_cast<char>(c - 'A' + 'a') : '-';
+  }
+  return word;
+}
+
+constexpr std::string_view not_shown = "not shown";
+
+CauseCase of_example(const Finding& f, const Example& e) {
+  return {f.engine, f.key(), case_to_json(*e.c), f.words, e.error_in_l, e.size};
+}
+
+// The example that is best by `is_better`, the first of equals; an empty case if there is none.
+template <class IsBetter>
+CauseCase best_example(const std::vector<const Finding*>& findings, IsBetter&& is_better) {
+  const Finding* of = nullptr;
+  const Example* best = nullptr;
+  for (const Finding* f : findings)
+    for (const Example& e : f->examples)
+      if (e.c && (!best || is_better(e, *best))) {
+        of = f;
+        best = &e;
+      }
+  return best ? of_example(*of, *best) : CauseCase{};
+}
+
+// An answer may have several faults, each in a finding of its own: of all findings of one engine about one
+// question and the same shapes, the most frequent fault counts. At most the true number.
+std::uint64_t wrong_answers(const std::vector<const Finding*>& findings) {
+  std::map<std::tuple<std::string, std::string, std::string>, std::map<std::string, std::uint64_t>> counts;
+  for (const Finding* f : findings) counts[{f->engine, f->question, f->shapes}][f->fault] += f->count;
+  std::uint64_t n = 0;
+  for (const auto& [place, by_fault] : counts)
+    n += std::ranges::max_element(by_fault, {}, [](const auto& x) { return x.second; })->second;
+  return n;
+}
+
+std::string most_frequent_fault(const std::vector<const Finding*>& findings, Severity severity) {
+  std::map<std::string, std::uint64_t> counts;
+  for (const Finding* f : findings)
+    if (severity_of(*f) == severity) counts[f->fault] += f->count;
+  return std::ranges::max_element(counts, {}, [](const auto& x) { return x.second; })->first;
+}
+
+}  // namespace
+
+Assembly::Findings Assembly::findings_of(const Group& g) const {
+  Findings findings;
+  for (const std::size_t m : g.members)
+    findings.insert(findings.end(), all_[m].stands_for.begin(), all_[m].stands_for.end());
+  return findings;
+}
+
+Cause Assembly::cause_of(const Group& g) const {
+  const Findings findings = findings_of(g);
+  Cause c;
+  Texts paths, routes;
+  for (const std::size_t m : g.members) {
+    paths.insert(classes_[all_[m].of_class].path);
+    routes.insert(classes_[all_[m].of_class].route);
+  }
+  c.path = joined(paths);
+  c.route = joined(routes);
+  c.documented = g.documented;
+  add_lists(c, findings);
+  c.wrong = wrong_answers(findings);
+  c.asked = std::max(c.wrong, asked_about(result_, findings));
+  add_consequences(c, g);
+  add_name(c, g);
+  c.worst =
+      best_example(findings, [](const Example& x, const Example& y) { return x.error_in_l > y.error_in_l; });
+  c.smallest = best_example(findings, [](const Example& x, const Example& y) { return x.size < y.size; });
+  return c;
+}
+
+void Assembly::add_lists(Cause& c, const Findings& findings) const {
+  Texts engines, questions, faults, shapes, families, keys;
+  c.first_index = ~std::uint64_t{0};
+  for (const Finding* f : findings) {
+    engines.insert(f->engine);
+    questions.insert(f->question);
+    faults.insert(f->fault);
+    shapes.insert(f->shapes);
+    keys.insert(f->key());
+    for (const Example& e : f->examples)
+      if (e.c) families.insert(e.c->family);
+    c.severity = std::min(c.severity, severity_of(*f));
+    c.first_index = std::min(c.first_index, f->first_index);
+    c.worst_in_l = std::max(c.worst_in_l, f->worst_in_l);
+  }
+  c.engines = listed(engines);
+  c.questions = listed(questions);
+  c.faults = listed(faults);
+  c.shapes = listed(shapes);
+  c.families = listed(families);
+  c.keys = listed(keys);
+}
+
+void Assembly::add_consequences(Cause& c, const Group& g) const {
+  std::map<std::string, std::uint64_t> counts;
+  Texts keys(c.keys.begin(), c.keys.end());
+  const auto add = [&](const Finding& f) {
+    counts[fmt::format("{} {}", f.question, f.fault)] += f.count;
+    keys.insert(f.key());
+  };
+  for (const std::size_t m : g.consequences)
+    for (const Finding* f : all_[m].stands_for) add(*f);
+  // Contradictions that a class explains belong to the group of its first representative.
+  for (const std::vector<std::size_t>* part : {&g.members, &g.consequences})
+    for (const std::size_t m : *part)
+      if (m < classes_.size())
+        for (const Finding* f : classes_[m].explained) add(*f);
+  for (const auto& [what, n] : counts) c.consequences.push_back(fmt::format("{} ({})", what, n));
+  c.keys = listed(keys);
+}
+
+std::uint64_t Assembly::wrong(const Group& g) const { return wrong_answers(findings_of(g)); }
+
+std::string Assembly::path_word(const Group& g) const {
+  std::string first = classes_[leader(g).of_class].path;
+  for (const std::size_t m : g.members) first = std::min(first, classes_[all_[m].of_class].path);
+  return id_word(first);
+}
+
+// The first path, route and question of the members, in their order.
+std::uint64_t Assembly::place_hash(const Group& g) const {
+  std::string route = classes_[leader(g).of_class].route;
+  Question question = symptom(g).question;
+  for (const std::size_t m : g.members) {
+    const FindingClass& c = classes_[all_[m].of_class];
+    route = std::min(route, c.route);
+    question = std::min(question, c.symptom.question);
+  }
+  Hasher hash;
+  hash.add(path_word(g)).add(symptom(g).detail).add(g.documented);
+  if (g.documented.empty()) hash.add(route).add(to_string(question));
+  return hash.value();
+}
+
+std::uint64_t Assembly::response_hash(const Group& g, std::uint64_t place) const {
+  const Responses of_all = common_response(g);
+  Hasher hash;
+  hash.add(place).add(reason_of(g, of_all));
+  if (!is_exact(g)) return hash.value();
+  for (const Responded& r : of_all.responses) hash.add(to_string(r.response));
+  for (const std::string& fault : of_all.faults) hash.add(fault);
+  hash.add(leader(g).first.shown().scene.bodies.size());
+  return hash.value();
+}
+
+std::vector<Group> Assembly::identified(std::vector<Group> groups) const {
+  std::stable_sort(groups.begin(), groups.end(),
+                   [&](const Group& x, const Group& y) { return wrong(x) > wrong(y); });
+  std::set<std::uint64_t> taken;  // places, each by the most frequent group there
+  std::map<std::string, std::size_t> known;
+  std::vector<Group> distinct;
+  for (Group& g : groups) {
+    const std::uint64_t place = place_hash(g);
+    const bool is_first = taken.insert(place).second && !is_exact(g);
+    constexpr std::size_t digits = 6;
+    g.id = fmt::format("{}-{}-{}", path_word(g), to_string(symptom(g).stage),
+                       hex64(is_first ? place : response_hash(g, place)).substr(0, digits));
+    const auto [at, is_new] = known.try_emplace(g.id, distinct.size());
+    if (is_new) {
+      distinct.push_back(std::move(g));
+      continue;
+    }
+    Group& to = distinct[at->second];
+    to.members.insert(to.members.end(), g.members.begin(), g.members.end());
+    to.consequences.insert(to.consequences.end(), g.consequences.begin(), g.consequences.end());
+  }
+  return distinct;
+}
+
+void Assembly::add_name(Cause& c, const Group& g) const {
+  const Representative& led = leader(g);
+  Texts routes;
+  for (const std::size_t m : g.members) routes.insert(classes_[all_[m].of_class].route);
+  const Symptom& s = symptom(g);
+  c.title = describe_fault(
+      {c.severity, s, most_frequent_fault(findings_of(g), c.severity), listed(routes), c.shapes});
+  const Responses of_all = common_response(g);
+  c.response = of_all.responses;
+  const std::string reason = reason_of(g, of_all);
+  if (reason == not_shown)
+    c.title += ": not shown when its case is asked alone";
+  else if (!reason.empty())
+    c.title += fmt::format(": {}", describe_reason(reason, of_all, knowledge_.others(led.finding->engine)));
+  c.id = g.id;
+}
+
+// For each intervention, the response of most members; of as many, the leader's.
+Responses Assembly::common_response(const Group& g) const {
+  Responses common = leader(g).first.responses;
+  for (std::size_t i = 0; i < common.responses.size(); ++i) {
+    Response& r = common.responses[i].response;
+    std::map<Response, std::size_t> votes;
+    for (const std::size_t m : g.members) {
+      const Responses& of = all_[m].first.responses;
+      if (of.shown && i < of.responses.size() &&
+          of.responses[i].intervention == common.responses[i].intervention)
+        ++votes[of.responses[i].response];
+    }
+    votes.erase(Response::not_applicable);
+    votes.erase(Response::open);
+    for (const auto& [response, n] : votes)
+      if (n > votes[r]) r = response;
+  }
+  return common;
+}
+
+std::string Assembly::reason_of(const Group& g, const Responses& of_all) const {
+  if (leader(g).asked && !leader(g).first.responses.shown) return std::string(not_shown);
+  return main_reason(of_all, symptom(g).stage);
+}
+
+bool Assembly::is_exact(const Group& g) const {
+  const auto noise = noise_.find(classes_[leader(g).of_class].path);
+  return noise == noise_.end() || noise->second.share == 0;
+}
+
+}  // namespace touchstone::fuzz

@@ -1,0 +1,96 @@
+#include "fuzz/causes/classes.h"
+
+#include <algorithm>
+#include <map>
+#include <optional>
+#include <tuple>
+#include <utility>
+
+namespace touchstone::fuzz {
+namespace {
+
+std::optional<ShapeKind> kind_named(std::string_view name) {
+  for (int k = 0; k < shape_kind_count; ++k)
+    if (type_name(static_cast<ShapeKind>(k)) == name) return static_cast<ShapeKind>(k);
+  return std::nullopt;
+}
+
+// A failure whose place in the code is known has one route, wherever it was met.
+constexpr std::string_view any_route = "any", scene_route = "scene";
+
+std::string route_of(const Finding& f, const Symptom& s, const EngineKnowledge& knowledge) {
+  if (f.shapes == any_route) return std::string(any_route);
+  const auto dash = f.shapes.find('-');
+  if (dash == std::string::npos) return std::string(scene_route);
+  const auto a = kind_named(std::string_view(f.shapes).substr(0, dash));
+  const auto b = kind_named(std::string_view(f.shapes).substr(dash + 1));
+  if (!a || !b) return f.shapes;
+  return knowledge.route_of(f.engine, s.question, *a, *b);
+}
+
+using Place = std::tuple<std::string, std::string, Symptom>;  // path, route, symptom
+
+std::map<Place, FindingClass> fold(const CampaignResult& result, const EngineKnowledge& knowledge) {
+  std::map<Place, FindingClass> classes;
+  for (const auto& [key, f] : result.findings) {
+    Symptom s = symptom_of(f);
+    std::string path = knowledge.path_of(f.engine), route = route_of(f, s, knowledge);
+    FindingClass& c = classes[{path, route, s}];
+    c.path = std::move(path);
+    c.route = std::move(route);
+    c.symptom = std::move(s);
+    c.findings.push_back(&f);
+    c.count += f.count;
+  }
+  return classes;
+}
+
+FindingClass* plain_class(std::map<Place, FindingClass>& classes, const FindingClass& of) {
+  FindingClass* best = nullptr;
+  for (auto& [place, c] : classes) {
+    if (c.path != of.path || c.symptom.question != of.symptom.question) continue;
+    if (c.symptom.stage == FaultStage::contradiction) continue;
+    if (c.route != of.route && c.route != any_route) continue;
+    if (!best || c.symptom.stage < best->symptom.stage) best = &c;
+  }
+  return best;
+}
+
+}  // namespace
+
+EngineKnowledge no_knowledge() {
+  EngineKnowledge k;
+  k.path_of = [](const std::string& engine) { return engine; };
+  k.route_of = [](const std::string&, Question question, ShapeKind a, ShapeKind b) {
+    if (is_broad_question(question)) return "pairs";
+    if (a == ShapeKind::mesh || b == ShapeKind::mesh) return "mesh";
+    if (a == ShapeKind::half_space || b == ShapeKind::half_space) return "half-space";
+    return "convex";
+  };
+  k.documented = [](const std::string&, const Symptom&, const std::string&, Fault) { return std::string(); };
+  k.others = [](const std::string&) { return std::vector<OtherEngine>(); };
+  return k;
+}
+
+std::vector<FindingClass> classes_of(const CampaignResult& result, const EngineKnowledge& knowledge) {
+  std::map<Place, FindingClass> classes = fold(result, knowledge);
+  for (auto at = classes.begin(); at != classes.end();) {
+    FindingClass* explains =
+        at->second.symptom.stage == FaultStage::contradiction ? plain_class(classes, at->second) : nullptr;
+    if (!explains) {
+      ++at;
+      continue;
+    }
+    for (const Finding* f : at->second.findings) explains->explained.push_back(f);
+    at = classes.erase(at);
+  }
+  std::vector<FindingClass> sorted;
+  for (auto& [place, c] : classes) {
+    std::stable_sort(c.findings.begin(), c.findings.end(),
+                     [](const Finding* x, const Finding* y) { return x->count > y->count; });
+    sorted.push_back(std::move(c));
+  }
+  return sorted;
+}
+
+}  // namespace touchstone::fuzz

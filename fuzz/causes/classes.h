@@ -1,0 +1,51 @@
+// Findings folded into classes: engines that share code, shapes that take the same route through it, faults
+// that show the same symptom. Nothing is asked.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "fuzz/causes/symptom.h"
+#include "reports/record/result.h"
+
+namespace touchstone::fuzz {
+
+/// Another engine to put the same case to, which differs in one respect.
+struct OtherEngine {
+  std::string name;     // of the intervention: "other_precision", "tighter", "other_path"
+  std::string change;   // for people: "asked in double precision"
+  std::string if_gone;  // what it means when the fault vanishes
+  std::string engine;
+};
+
+/// What is known about engines beyond their cards; all functions accept any engine's name.
+struct EngineKnowledge {
+  /// Settings and precisions of one code: "bullet-query" for bullet-f32-query-tuned.
+  std::function<std::string(const std::string& engine)> path_of;
+  /// The routine that the library chooses for the pair: "sphere", "convex", "mesh".
+  std::function<std::string(const std::string& engine, Question question, ShapeKind a, ShapeKind b)> route_of;
+  /// Where the engine's documentation states that it has this fault; empty: nowhere.
+  std::function<std::string(const std::string& engine, const Symptom& symptom, const std::string& route,
+                            Fault fault)>
+      documented;
+  std::function<std::vector<OtherEngine>(const std::string& engine)> others;
+};
+
+/// For engines of which nothing is known.
+EngineKnowledge no_knowledge();
+
+struct FindingClass {
+  std::string path, route;
+  Symptom symptom;
+  std::vector<const Finding*> findings;   // by descending count, then by key
+  std::vector<const Finding*> explained;  // contradictions that this class explains; by key
+  std::uint64_t count = 0;                // of `findings`
+};
+
+/// Sorted by path, route and symptom. A contradiction joins the gravest class of the same path, question and
+/// route, if there is one. The result must outlive the classes.
+std::vector<FindingClass> classes_of(const CampaignResult& result, const EngineKnowledge& knowledge);
+
+}  // namespace touchstone::fuzz

@@ -1,0 +1,55 @@
+// Representatives that have one cause. Two responses of one cause differ by chance: cases lie closer to a
+// boundary or farther from it. How much is measured, on two examples of one finding; more than that is
+// another cause.
+#pragma once
+
+#include <map>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "fuzz/causes/representative.h"
+
+namespace touchstone::fuzz {
+
+/// How unlike two examined findings are. Both cases are reduced, so a change that does not apply, because its
+/// object was reduced away (there is no script, no box), counts as one that the fault survives.
+struct Difference {
+  /// The share of interventions after which one fault vanishes and the other stays, or their errors change by
+  /// factors more than 16 apart. The number of bodies, the kinds of shapes, the steps of the script and the
+  /// faults count as four more. 0 when nothing was asked.
+  double share = 0;
+  double octaves = 0;  // between the errors of the reduced cases themselves
+};
+Difference difference(const Representative& x, const Representative& y);
+Difference difference(const Examined& x, const Examined& y);
+
+/// True when the fault vanishes under at least two thirds of the interventions that apply: its case is a
+/// borderline one and says nothing about its cause.
+bool is_fragile(const Responses& r);
+
+struct Group {
+  std::vector<std::size_t> members;       // indices of representatives; the first is the clearest
+  std::vector<std::size_t> consequences;  // representatives whose faults follow from this one's
+  std::string documented;                 // as in EngineKnowledge; of all members
+  std::string id;                         // of its cause; set by Assembly
+};
+
+/// By path: the difference that three of four pairs of examples of one finding do not exceed. A path with
+/// fewer than four pairs has that of the others, three of four of which have no more; if no path has as many,
+/// none: any difference tells causes apart.
+using Noise = std::map<std::string, Difference>;
+Noise noise_of(std::span<const FindingClass> classes, std::span<const Representative> all);
+
+struct GroupInput {
+  std::span<const FindingClass> classes;
+  std::span<const Representative> representatives;
+  std::span<const double> rates;  // of each class: wrong answers / answers
+  const EngineKnowledge& knowledge;
+  const Noise& noise;
+};
+
+/// Every representative is in exactly one group, as a member or as a consequence. Deterministic.
+std::vector<Group> grouped(const GroupInput& in);
+
+}  // namespace touchstone::fuzz

@@ -1,0 +1,29 @@
+// A sentence for a cause: what is wrong, where, and what makes it vanish.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "fuzz/causes/respond.h"
+#include "reports/record/causes.h"
+
+namespace touchstone::fuzz {
+
+/// The intervention that says most about the cause among those that make the fault vanish: its name.
+/// "fragile" when nearly all do, "steady" when none does, "" when nothing was asked.
+std::string main_reason(const Responses& r, FaultStage stage);
+
+/// What it means, with the numbers of interventions: "vanishes when scaled by 1024: an absolute tolerance".
+std::string describe_reason(const std::string& reason, const Responses& r,
+                            const std::vector<OtherEngine>& others);
+
+struct Subject {
+  Severity severity = Severity::relation;
+  Symptom symptom;
+  std::string fault;                        // the most frequent of that severity
+  std::vector<std::string> routes, shapes;  // sorted
+};
+/// "Contacts are not minimal (two boxes)".
+std::string describe_fault(const Subject& s);
+
+}  // namespace touchstone::fuzz

@@ -1,0 +1,89 @@
+#include "fuzz/causes/representative.h"
+
+#include <algorithm>
+#include <set>
+#include <utility>
+
+#include "fuzz/shrink/shrink_both.h"
+#include "scenarios/codec/case_codec.h"
+
+namespace touchstone::fuzz {
+namespace {
+
+// How alike two findings of one class are.
+int likeness(const Finding& x, const Finding& y) {
+  return 4 * (x.shapes == y.shapes) + 2 * (x.fault == y.fault) + (x.engine == y.engine) +
+         (x.degeneracy == y.degeneracy);
+}
+
+// A question that exceeds its time costs a thousand others.
+bool is_slow(const Symptom& s) { return s.detail.starts_with(to_string(Outcome::timed_out)); }
+std::size_t tries_for(const Symptom& s, std::size_t tries) {
+  constexpr std::size_t most_if_slow = 12;
+  return is_slow(s) ? std::min(tries, most_if_slow) : tries;
+}
+
+// The cases to start from: the simplest example, and the one that is least like it.
+std::vector<const Case*> starting_cases(const Finding& f) {
+  std::vector<const Example*> all;
+  for (const Example& e : f.examples)
+    if (e.c) all.push_back(&e);
+  std::stable_sort(all.begin(), all.end(),
+                   [](const Example* x, const Example* y) { return x->size < y->size; });
+  std::vector<const Case*> cases;
+  for (const Example* e : all) cases.push_back(e->c.get());
+  return cases;
+}
+
+}  // namespace
+
+std::vector<Representative> representatives_of(const FindingClass& c, std::size_t of_class,
+                                               std::size_t most) {
+  std::vector<const Finding*> unlike, alike;
+  std::set<std::pair<std::string, std::string>> taken;
+  for (const Finding* f : c.findings)
+    (taken.emplace(f->shapes, f->fault).second ? unlike : alike).push_back(f);
+  unlike.insert(unlike.end(), alike.begin(), alike.end());
+  std::vector<Representative> chosen;
+  for (const Finding* f : unlike) {
+    if (chosen.size() >= most) break;
+    Representative r;
+    r.of_class = of_class;
+    r.finding = f;
+    r.stands_for.push_back(f);
+    chosen.push_back(std::move(r));
+  }
+  for (std::size_t i = chosen.size(); i < unlike.size(); ++i) {
+    const auto nearest =
+        std::max_element(chosen.begin(), chosen.end(), [&](const Representative& x, const Representative& y) {
+          return likeness(*x.finding, *unlike[i]) < likeness(*y.finding, *unlike[i]);
+        });
+    nearest->stands_for.push_back(unlike[i]);
+  }
+  return chosen;
+}
+
+Case case_of(const Finding& f) { return case_from_json(f.evidence_json.at("case"), f.key()); }
+
+void examine(Representative& r, const FindingClass& c, const EngineKnowledge& knowledge, std::size_t tries,
+             bool twice, EnginePool& pool) {
+  const std::vector<const Case*> cases = starting_cases(*r.finding);
+  r.first.smallest = cases.empty() ? case_of(*r.finding) : *cases.front();
+  const EnginePtr& engine = pool.named(r.finding->engine);
+  if (!engine) return;
+  engine->take_back();
+  const std::vector<OtherEngine> others = knowledge.others(r.finding->engine);
+  const StillShows still = keeps_symptom(engine, c.symptom);
+  const auto examined = [&](const Case& from) {
+    ShrunkPair shrunk = shrink_both(from, still, tries_for(c.symptom, tries));
+    Examined e{std::move(shrunk.minimum.smallest), {}, {}};
+    if (shrunk.defensible) e.defensible = std::move(shrunk.defensible->smallest);
+    e.responses = respond(e.shown(), c.symptom, r.finding->engine, others, pool);
+    return e;
+  };
+  r.first = examined(r.first.smallest);
+  r.asked = true;
+  if (twice && cases.size() > 1 && !is_slow(c.symptom)) r.second = examined(*cases.back());
+}
+
+}  // namespace touchstone::fuzz

@@ -1,0 +1,184 @@
+#include "reports/text/causes_text.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+
+#include "reports/text/cause_words.h"
+#include "reports/text/text.h"
+#include "scenarios/text/printable.h"
+#include "scenarios/text/shell_word.h"
+
+namespace touchstone::reports {
+namespace {
+
+using fuzz::Cause;
+using fuzz::CauseCase;
+using fuzz::Causes;
+using fuzz::Responded;
+
+constexpr std::size_t line_width = 79;
+
+// At most `most` lines. A word longer than a line is broken.
+std::string paragraph(std::string_view words, std::size_t indent, std::size_t most) {
+  const std::size_t width = line_width - indent;
+  std::string broken;
+  std::size_t in_word = 0;
+  for (std::string_view rest = std::string_view(words); !rest.empty();) {
+    const std::size_t n = std::max<std::size_t>(1, utf8_length(rest));
+    in_word = rest[0] == ' ' ? 0 : in_word + n;
+    if (in_word > width) {
+      broken += ' ';
+      in_word = n;
+    }
+    broken += rest.substr(0, n);
+    rest.remove_prefix(n);
+  }
+  const std::string margin(indent, ' ');
+  const std::string all = wrapped(margin + broken, line_width, indent) + "\n";
+  std::size_t end = 0;
+  for (std::size_t i = 0; i < most && end < all.size(); ++i) end = all.find('\n', end) + 1;
+  if (end == all.size()) return all;
+  constexpr std::string_view mark = " ...";
+  const std::size_t last = all.rfind('\n', end - 2) + 1;
+  std::string line = all.substr(last, end - 1 - last);
+  if (line.size() + mark.size() > line_width) {
+    line = cut_utf8(line, line_width - mark.size());
+    if (const std::size_t space = line.rfind(' '); space != std::string::npos && space > line_width / 2)
+      line.resize(space);
+  }
+  return all.substr(0, last) + line + std::string(mark) + "\n";
+}
+
+std::string text_block(std::string_view words, std::size_t indent, std::size_t most = 3) {
+  return paragraph(one_line(words), indent, most);
+}
+
+std::string documented_line(const Cause& c, std::size_t indent) {
+  return c.documented.empty() ? "" : text_block("documented: " + c.documented, indent);
+}
+
+std::string block(const Cause& c, std::size_t number, const std::string& command) {
+  constexpr std::size_t indent = 4, list_width = line_width - indent;
+  std::string s =
+      text_block(fmt::format("{:>2}. {}  {}  {}", number, to_string(c.severity), c.path, rate_text(c)), 0, 2);
+  s += text_block(c.title, indent);
+  s += documented_line(c, indent);
+  const std::string asked = listed(c.questions, list_width / 2);
+  const std::string shapes = listed(c.shapes, list_width - asked.size() - 2);
+  s += text_block(shapes + (shapes.empty() || asked.empty() ? "" : "; ") + asked, indent, 1);
+  const CauseCase& shown = c.shown();
+  if (!shown.words.empty()) s += text_block(fmt::format("e.g. {}: {}", shown.engine, shown.words), indent);
+  return s + std::string(indent, ' ') + command_of(c, command) + "\n";
+}
+
+std::string ending(const Causes& c) {
+  std::string s = text_block(
+      fmt::format("{} behind {} ({}); chance that the next wrong answer is of a cause not listed: {}",
+                  counted(c.causes.size(), "cause", "causes"),
+                  counted(c.answers, "wrong answer", "wrong answers"), counted(c.keys, "key", "keys"),
+                  share_text(c.unseen)),
+      0);
+  for (const std::string& note : c.notes) s += text_block("note: " + note, 0);
+  return s;
+}
+
+// "name:  a, b, c", all of them.
+std::string row_of(std::string_view name, const std::vector<std::string>& items) {
+  std::string all;
+  for (const std::string& item : items) all += (all.empty() ? "" : ", ") + one_line(item);
+  return all.empty() ? "" : paragraph(fmt::format("{}: {}", name, all), 2, 40);
+}
+
+std::string case_row(std::string_view name, const CauseCase& c) {
+  if (c.c.is_null()) return "";
+  std::string s = text_block(fmt::format("{}: {}, {}{}", name, c.engine, size_text(c.size),
+                                         c.error_in_l > 0 ? fmt::format(", {} L", small(c.error_in_l)) : ""),
+                             2);
+  if (!c.words.empty()) s += text_block(c.words, 4);
+  return s + text_block(c.key, 4);
+}
+
+// Not applicable interventions are counted, not listed.
+std::string response_table(const Cause& c) {
+  const std::vector<Responded> rows = telling_responses(c);
+  if (rows.empty()) return "";
+  constexpr std::size_t most_width = 50;
+  std::size_t width = 0;
+  for (const Responded& r : rows) width = std::max(width, std::min(most_width, one_line(r.change).size()));
+  std::string s = "What was changed, and the answer then\n";
+  for (const Responded& r : rows)
+    s += fmt::format("  {:<{}}  {}\n", cut_utf8(one_line(r.change), most_width), width, words_of(r.response));
+  if (const std::size_t left_out = c.response.size() - rows.size(); left_out > 0)
+    s += fmt::format("  and {} not applicable\n", left_out);
+  return s;
+}
+
+}  // namespace
+
+std::string causes_text(const Causes& c, const std::string& command) {
+  std::string s;
+  std::size_t number = 0;
+  for (const Cause& cause : c.causes) s += block(cause, ++number, command) + "\n";
+  if (c.causes.empty()) s = "no causes: no answer was wrong\n";
+  return s + ending(c);
+}
+
+std::string cause_text(const Cause& c) {
+  std::string s = text_block(fmt::format("{}  {}  {}", to_string(c.severity), c.path, c.id), 0);
+  s += text_block(c.title, 2);
+  s += documented_line(c, 2);
+  s += text_block(rate_text(c), 2);
+  if (c.worst_in_l > 0) s += text_block(fmt::format("worst error: {} L", small(c.worst_in_l)), 2);
+  s +=
+      text_block(fmt::format("{}; routine: {}; first seen in case {}", c.library, c.route, c.first_index), 2);
+  s += row_of("engines", c.engines) + row_of("questions", c.questions) + row_of("faults", c.faults);
+  s += row_of("shapes", c.shapes) + row_of("families", c.families);
+  s += text_block(fmt::format("filed under {}", counted(c.keys.size(), "key", "keys")), 2);
+  if (!c.consequences.empty()) {
+    s += "\nConsequences\n";
+    for (const std::string& one : c.consequences) s += text_block(one, 2);
+  }
+  if (const std::string table = response_table(c); !table.empty()) s += "\n" + table;
+  s += "\nCases\n" + case_row("defensible", c.defensible) + case_row("smallest", c.smallest) +
+       case_row("worst", c.worst);
+  if (!c.program.empty())
+    return s + "\nProgram in the engine's own API\n" + printable(c.program, "\n\t") + "\n";
+  return s + (c.no_program.empty() ? "" : "\n" + text_block("no program: " + c.no_program, 0));
+}
+
+// A cause that was not examined may be several: one of its findings is shown instead.
+static std::string replay_of(const Cause& c, const std::string& directory, const std::string& program) {
+  const std::string key = !c.smallest.key.empty() ? c.smallest.key : c.keys.empty() ? "" : c.keys.front();
+  return program + " replay " + shell_word(directory + "/findings/" + key);
+}
+
+std::string causes_of_engines(const Causes& c, std::size_t per_engine, const std::string& directory,
+                              const std::string& program) {
+  std::map<std::string, std::vector<const Cause*>> paths;
+  for (const Cause& cause : c.causes) paths[cause.path].push_back(&cause);
+  const std::string command = program + " causes " + shell_word(directory);
+  std::string s;
+  for (const auto& [path, causes] : paths) {
+    std::uint64_t wrong = 0;
+    for (const Cause* cause : causes) wrong += cause->wrong;
+    s += text_block(fmt::format("{}: {} behind {}", path, counted(causes.size(), "cause", "causes"),
+                                counted(wrong, "wrong answer", "wrong answers")),
+                    0, 1);
+    const std::size_t shown = std::min(per_engine, causes.size());
+    for (std::size_t i = 0; i < shown; ++i) {
+      s += text_block(fmt::format("{:>7} {}: {}", grouped(causes[i]->wrong), to_string(causes[i]->severity),
+                                  causes[i]->title),
+                      0, 1);
+      if (!directory.empty())
+        s += "        " + (causes[i]->response.empty() ? replay_of(*causes[i], directory, program)
+                                                      : command_of(*causes[i], command)) +
+             "\n";
+    }
+    if (causes.size() > shown) s += fmt::format("        and {} more\n", causes.size() - shown);
+  }
+  return s;
+}
+
+}  // namespace touchstone::reports

@@ -1,0 +1,284 @@
+// From findings to causes: folding, interventions, responses, groups, order.
+#include <cmath>
+#include <set>
+
+#include "fuzz/ask/evidence.h"
+#include "fuzz/campaign/campaign.h"
+#include "fuzz/causes/causes.h"
+#include "fuzz/causes/intervention.h"
+#include "fuzz/causes/name.h"
+#include "fuzz/causes/order.h"
+#include "fuzz/judge/truth.h"
+#include "oracles/core/core_engine.h"
+#include "scenarios/codec/case_codec.h"
+#include "scenarios/random/family.h"
+#include "tests/mutants/lying_engine.h"
+#include "tests/support/catch.h"
+
+using namespace touchstone;
+using fuzz::FaultStage;
+
+namespace {
+
+EnginePtr liar(const std::string& name) {
+  for (const mutants::Mutant& m : mutants::mutants())
+    if (m.name == name) return mutants::make_lying_engine(m);
+  return nullptr;
+}
+
+fuzz::CampaignResult campaign(const std::vector<std::string>& engines, std::uint64_t cases,
+                              const std::string& family = "") {
+  fuzz::CampaignConfig config;
+  config.engines = engines;
+  config.subject = engines.at(0);
+  config.family = family;
+  config.cases = cases;
+  const std::atomic<bool> stop = false;
+  const auto make = [&] {
+    std::vector<EnginePtr> all;
+    for (const std::string& name : engines) {
+      all.push_back(liar(name));
+      REQUIRE(all.back() != nullptr);
+    }
+    return all;
+  };
+  return fuzz::run_campaign(config, make, {}, stop);
+}
+
+fuzz::CausesConfig config_for_liars() {
+  fuzz::CausesConfig config;
+  config.knowledge = fuzz::no_knowledge();
+  config.make = liar;
+  config.tries = 200;
+  return config;
+}
+
+Case pair_case(Shape a, Shape b, const Vec3& at, Question q) {
+  Case c;
+  c.scene.shapes = {std::move(a), std::move(b)};
+  c.scene.bodies.resize(2);
+  c.scene.bodies[1].shape = 1;
+  c.scene.bodies[1].pose.translation = at;
+  c.queries = {{q, 0, 1}};
+  return c;
+}
+
+fuzz::Finding finding(const std::string& engine, const std::string& question, const std::string& fault,
+                      const std::string& shapes, std::uint64_t count) {
+  fuzz::Finding f;
+  f.engine = engine;
+  f.question = question;
+  f.fault = fault;
+  f.shapes = shapes;
+  f.blame = "algorithm";
+  f.degeneracy = "solid";
+  f.magnitude = "gross";
+  f.count = count;
+  return f;
+}
+
+fuzz::CampaignResult result_of(const std::vector<fuzz::Finding>& findings) {
+  fuzz::CampaignResult r;
+  for (const fuzz::Finding& f : findings) r.findings[f.key()] = f;
+  return r;
+}
+
+}  // namespace
+
+TEST_CASE("findings fold into classes by path, symptom and route", "[causes]") {
+  const auto r = result_of({finding("x", "contact", "infeasible", "box-sphere", 3),
+                            finding("x", "scene_contacts", "not_minimal", "box-cone", 5),
+                            finding("x", "contact", "relation_scale", "box-box", 2),
+                            finding("x", "distance", "relation_scale", "box-box", 1),
+                            finding("x", "contact", "missed", "mesh-sphere", 1)});
+  const auto classes = fuzz::classes_of(r, fuzz::no_knowledge());
+  REQUIRE(classes.size() == 3);
+  CHECK(classes[0].route == "convex");
+  CHECK(classes[0].symptom == fuzz::Symptom{Question::distance, FaultStage::contradiction, "relation_scale"});
+  CHECK(classes[1].symptom == fuzz::Symptom{Question::contact, FaultStage::depth, ""});
+  CHECK(classes[1].count == 8);
+  CHECK(classes[1].findings.front()->fault == "not_minimal");  // the most frequent first
+  REQUIRE(classes[1].explained.size() == 1);                   // the contradiction about contacts
+  CHECK(classes[1].explained[0]->fault == "relation_scale");
+  CHECK(classes[2].route == "mesh");
+}
+
+TEST_CASE("a failure is a symptom of its own, named by its place", "[causes]") {
+  const fuzz::Finding f = finding("x", "distance", "crashed_distance-inl-h-177", "any", 1);
+  CHECK(fuzz::symptom_of(f) ==
+        fuzz::Symptom{Question::distance, FaultStage::failure, "crashed_distance-inl-h-177"});
+  CHECK(fuzz::severity_of(f) == fuzz::Severity::crash);
+  CHECK(fuzz::severity_of(finding("x", "overlap", "timed_out", "box-box", 1)) == fuzz::Severity::hang);
+  CHECK(fuzz::severity_of(finding("x", "overlap", "relation_swap", "box-box", 1)) ==
+        fuzz::Severity::relation);
+}
+
+TEST_CASE("every representative stands for itself, and every finding has one", "[causes]") {
+  const auto r = result_of({finding("x", "contact", "infeasible", "box-sphere", 3),
+                            finding("x", "contact", "infeasible", "box-box", 9),
+                            finding("y", "contact", "infeasible", "box-box", 1),
+                            finding("x", "contact", "not_minimal", "box-box", 4)});
+  fuzz::EngineKnowledge k = fuzz::no_knowledge();
+  k.path_of = [](const std::string&) { return std::string("one"); };
+  const auto classes = fuzz::classes_of(r, k);
+  REQUIRE(classes.size() == 1);
+  const auto chosen = fuzz::representatives_of(classes[0], 0, 2);
+  REQUIRE(chosen.size() == 2);
+  CHECK(chosen[0].finding->count == 9);
+  CHECK(chosen[1].finding->count == 4);
+  std::set<const fuzz::Finding*> stood_for;
+  for (const auto& c : chosen)
+    for (const auto* f : c.stands_for) CHECK(stood_for.insert(f).second);
+  CHECK(stood_for.size() == 4);
+}
+
+TEST_CASE("every intervention changes some case of a campaign, and leaves it valid", "[causes]") {
+  std::set<std::string_view> applied;
+  for (std::uint64_t i = 0; i < 400; ++i) {
+    const Case c = fuzz::make_case(5, i);
+    for (const fuzz::Intervention& x : fuzz::interventions) {
+      if (applied.contains(x.name)) continue;
+      const auto changed = x.changed(c);
+      if (!changed) continue;
+      CHECK_NOTHROW(validate(changed->scene));
+      CHECK(changed->queries.size() == c.queries.size());
+      if (changed->scene != c.scene || changed->queries != c.queries) applied.insert(x.name);
+    }
+  }
+  for (const fuzz::Intervention& x : fuzz::interventions) {
+    INFO(x.name);
+    CHECK((applied.contains(x.name) || x.name == "leave_groups"));
+  }
+}
+
+TEST_CASE("interventions that keep the set keep the signed gap", "[causes]") {
+  const Case c = pair_case(Box{Vec3(0.5, 1, 0.25)}, Sphere{0.75}, Vec3(0.5, 1.5, 0.25), Question::distance);
+  const auto gap = [](const Case& x) {
+    fuzz::Truth truth(x.scene);
+    return truth.pair(0, x.queries[0].a, x.queries[0].b).gap;
+  };
+  const auto before = gap(c);
+  for (const auto change : {fuzz::exchange, fuzz::move_away, fuzz::turn_world, fuzz::box_as_hull,
+                            fuzz::sphere_as_ellipsoid, fuzz::sphere_as_capsule}) {
+    const auto changed = change(c);
+    REQUIRE(changed);
+    const auto after = gap(*changed);
+    CHECK(after.lo <= before.hi + 1e-12);
+    CHECK(after.hi >= before.lo - 1e-12);
+  }
+  const auto scaled = fuzz::scale_up(c);
+  REQUIRE(scaled);
+  CHECK(std::abs(gap(*scaled).lo - 1024 * before.lo) < 1e-9);
+}
+
+TEST_CASE("depths are halved, resolved and produced along the true normal", "[causes]") {
+  const Case deep = pair_case(Sphere{1}, Sphere{1}, Vec3(1.5, 0, 0), Question::contact);
+  const auto gap_after = [](const std::optional<Case>& x) {
+    REQUIRE(x);
+    fuzz::Truth truth(x->scene);
+    const auto& g = truth.pair(0, 0, 1).gap;
+    return (g.lo + g.hi) / 2;
+  };
+  CHECK(std::abs(gap_after(fuzz::halve_depth(deep)) + 0.25) < 1e-12);
+  CHECK(gap_after(fuzz::pull_apart(deep)) > 0);
+  CHECK_FALSE(fuzz::push_together(deep));
+  const Case apart = pair_case(Sphere{1}, Sphere{1}, Vec3(3, 0, 0), Question::contact);
+  CHECK_FALSE(fuzz::halve_depth(apart));
+  CHECK(gap_after(fuzz::push_together(apart)) < 0);
+}
+
+TEST_CASE("the response tells what a lie depends on", "[causes]") {
+  fuzz::EnginePool pool(liar);
+  const auto response = [&](const std::string& engine, const Case& c, const fuzz::Symptom& s,
+                            const std::string& intervention) {
+    const fuzz::Responses r = fuzz::respond(c, s, engine, {}, pool);
+    CHECK(r.shown);
+    for (const fuzz::Responded& x : r.responses)
+      if (x.intervention == intervention) return x.response;
+    return fuzz::Response::not_applicable;
+  };
+  const fuzz::Symptom off{Question::distance, FaultStage::distance, ""};
+  const Case boxes = pair_case(Box{Vec3(0.5, 0.5, 0.5)}, Sphere{0.5}, Vec3(2, 0, 0), Question::distance);
+  // off by 0.04 where a box is concerned
+  CHECK(response("distance_margin", boxes, off, "box_as_hull") == fuzz::Response::gone);
+  CHECK(response("distance_margin", boxes, off, "exchange") == fuzz::Response::stays);
+  CHECK(response("distance_margin", boxes, off, "fresh_process") == fuzz::Response::stays);
+  // wrong when B's kind is the lower one
+  const Case ordered = pair_case(Box{Vec3(0.5, 0.5, 0.5)}, Sphere{0.5}, Vec3(2, 0, 0), Question::distance);
+  CHECK(response("distance_one_order", ordered, off, "exchange") == fuzz::Response::gone);
+  // 1e-12 too large, whatever the scale
+  CHECK(response("distance_absolute", boxes, off, "scale_up") == fuzz::Response::gone);
+}
+
+TEST_CASE("causes of a campaign: every key in one cause, the same for any number of jobs", "[causes]") {
+  const auto result = campaign({"distance_margin", "depth_halved", "witness_swapped", "overlap_always"}, 200,
+                               "separate,deep");
+  REQUIRE(result.findings.size() > 4);
+  fuzz::CausesConfig config = config_for_liars();
+  const fuzz::Causes one = fuzz::causes_of(result, config);
+  config.jobs = 3;
+  const fuzz::Causes three = fuzz::causes_of(result, config);
+  CHECK(to_json(one) == to_json(three));
+  std::set<std::string> assigned, ids;
+  for (const fuzz::Cause& c : one.causes) {
+    CHECK(ids.insert(c.id).second);
+    CHECK_FALSE(c.title.empty());
+    CHECK(c.wrong > 0);
+    CHECK(c.asked >= c.wrong);
+    CHECK_FALSE(c.shown().c.is_null());
+    for (const std::string& key : c.keys) CHECK(assigned.insert(key).second);
+  }
+  CHECK(assigned.size() == result.findings.size());
+  CHECK(one.keys == result.findings.size());
+}
+
+TEST_CASE("two lies are two causes, and one lie is one", "[causes]") {
+  fuzz::CausesConfig config = config_for_liars();
+  config.knowledge.path_of = [](const std::string&) { return std::string("liar"); };
+  config.representatives = 100;  // every finding, so that none is taken for one that it is like
+  const auto result = campaign({"distance_margin", "distance_one_order"}, 300, "separate");
+  const fuzz::Causes causes = fuzz::causes_of(result, config);
+  std::set<std::set<std::string>> engines;
+  for (const fuzz::Cause& c : causes.causes) engines.insert({c.engines.begin(), c.engines.end()});
+  CHECK(engines == std::set<std::set<std::string>>{{"distance_margin"}, {"distance_one_order"}});
+}
+
+TEST_CASE("causes at once ask nothing and assign every key", "[causes]") {
+  const auto result = campaign({"distance_margin", "depth_halved"}, 100);
+  const fuzz::Causes causes = fuzz::causes_at_once(result, fuzz::no_knowledge());
+  std::set<std::string> assigned;
+  for (const fuzz::Cause& c : causes.causes) {
+    CHECK(c.response.empty());
+    for (const std::string& key : c.keys) CHECK(assigned.insert(key).second);
+  }
+  CHECK(assigned.size() == result.findings.size());
+}
+
+TEST_CASE("reading order: documented last, by severity, most unlike first", "[causes]") {
+  std::vector<fuzz::Cause> causes(5);
+  const double place[] = {0, 0.1, 1, 0.6, 0};
+  for (std::size_t i = 0; i < causes.size(); ++i) {
+    causes[i].id = std::to_string(i);
+    causes[i].severity = fuzz::Severity::distance;
+    causes[i].wrong = 10 - i;
+  }
+  causes[0].documented = "manual, page 3";
+  causes[4].severity = fuzz::Severity::crash;
+  const auto order = fuzz::reading_order(
+      causes, [&](std::size_t x, std::size_t y) { return std::abs(place[x] - place[y]); });
+  // The crash; then the most frequent distance; then the one farthest from it; then the middle.
+  CHECK(order == std::vector<std::size_t>{4, 1, 2, 3, 0});
+}
+
+TEST_CASE("a title names the most telling change", "[causes]") {
+  fuzz::Responses r;
+  for (const fuzz::Intervention& i : fuzz::interventions)
+    r.responses.push_back({std::string(i.name), std::string(i.change), fuzz::Response::stays});
+  CHECK(fuzz::main_reason(r, FaultStage::depth) == "steady");
+  for (fuzz::Responded& x : r.responses)
+    if (x.intervention == "scale_up" || x.intervention == "grow_a") x.response = fuzz::Response::gone;
+  CHECK(fuzz::main_reason(r, FaultStage::depth) == "scale_up");
+  CHECK(fuzz::describe_reason("scale_up", r, {}).find("absolute tolerance") != std::string::npos);
+  for (fuzz::Responded& x : r.responses) x.response = fuzz::Response::gone;
+  CHECK(fuzz::main_reason(r, FaultStage::depth) == "fragile");
+}
