@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <set>
 #include <tuple>
@@ -180,7 +181,10 @@ std::uint64_t Assembly::response_hash(const Group& g, std::uint64_t place) const
   if (!is_exact(g)) return hash.value();
   for (const Responded& r : of_all.responses) hash.add(to_string(r.response));
   for (const std::string& fault : of_all.faults) hash.add(fault);
-  hash.add(leader(g).first.shown().scene.bodies.size());
+  const Case& shown = leader(g).first.shown();
+  hash.add(shown.scene.bodies.size()).add(shown.scene.script.size());
+  for (const Shape& shape : shown.scene.shapes) hash.add(type_name(shape));
+  if (std::isfinite(of_all.error_in_l) && of_all.error_in_l > 0) hash.add(std::ilogb(of_all.error_in_l));
   return hash.value();
 }
 
@@ -213,8 +217,9 @@ void Assembly::add_name(Cause& c, const Group& g) const {
   Texts routes;
   for (const std::size_t m : g.members) routes.insert(classes_[all_[m].of_class].route);
   const Symptom& s = symptom(g);
-  c.title = describe_fault(
-      {c.severity, s, most_frequent_fault(findings_of(g), c.severity), listed(routes), c.shapes});
+  c.title =
+      describe_fault({c.severity, s, most_frequent_fault(findings_of(g), c.severity),
+                      s.stage == FaultStage::failure ? led.finding->words : "", listed(routes), c.shapes});
   const Responses of_all = common_response(g);
   c.response = of_all.responses;
   const std::string reason = reason_of(g, of_all);
@@ -252,7 +257,7 @@ std::string Assembly::reason_of(const Group& g, const Responses& of_all) const {
 
 bool Assembly::is_exact(const Group& g) const {
   const auto noise = noise_.find(classes_[leader(g).of_class].path);
-  return noise == noise_.end() || noise->second.share == 0;
+  return noise == noise_.end() || fuzz::is_exact(noise->second);
 }
 
 }  // namespace touchstone::fuzz

@@ -45,13 +45,18 @@ std::map<Place, FindingClass> fold(const CampaignResult& result, const EngineKno
   return classes;
 }
 
+// Of the classes of the same path and question: one of the same route before a failure of any route, a wrong
+// answer before a failure, the more frequent before the rarer.
 FindingClass* plain_class(std::map<Place, FindingClass>& classes, const FindingClass& of) {
+  const auto rank = [&](const FindingClass& c) {
+    return std::tuple(c.route == of.route, c.symptom.stage != FaultStage::failure, c.count);
+  };
   FindingClass* best = nullptr;
   for (auto& [place, c] : classes) {
     if (c.path != of.path || c.symptom.question != of.symptom.question) continue;
     if (c.symptom.stage == FaultStage::contradiction) continue;
     if (c.route != of.route && c.route != any_route) continue;
-    if (!best || c.symptom.stage < best->symptom.stage) best = &c;
+    if (!best || rank(c) > rank(*best)) best = &c;
   }
   return best;
 }

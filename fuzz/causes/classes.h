@@ -44,8 +44,8 @@ struct FindingClass {
   std::uint64_t count = 0;                // of `findings`
 };
 
-/// Sorted by path, route and symptom. A contradiction joins the gravest class of the same path, question and
-/// route, if there is one. The result must outlive the classes.
+/// Sorted by path, route and symptom. A contradiction joins the most frequent class of the same path,
+/// question and route, if there is one. The result must outlive the classes.
 std::vector<FindingClass> classes_of(const CampaignResult& result, const EngineKnowledge& knowledge);
 
 }  // namespace touchstone::fuzz

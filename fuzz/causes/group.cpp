@@ -80,10 +80,9 @@ class Grouping {
   bool respond_alike(std::size_t i, std::size_t j, bool same_route) const {
     const Difference x = noise(class_of(i).path), y = noise(class_of(j).path);
     const Difference d = difference(at(i), at(j));
-    const double usual = std::max(x.share, y.share);
     constexpr double octave = 1;  // of an error that depends on the shapes by a small factor
-    if (usual == 0) return d.share == 0 && d.octaves <= std::max(x.octaves, y.octaves) + octave;
-    return same_route && d.share <= 2 * usual;
+    if (is_exact(x) && is_exact(y)) return d.share == 0 && d.octaves <= octave;
+    return same_route && d.share <= 2 * std::max(x.share, y.share);
   }
 
   // One place in the library's code, whatever was asked.
@@ -142,7 +141,8 @@ class Grouping {
     if (why != g.documented) return false;
     if (!why.empty()) return shares_code(i, leader) || is_same_library(i, leader);
     if (have_one_cause(leader, i)) return true;
-    if (is_usable(i) && !is_fragile(at(i).first.responses)) return false;
+    const bool says_something = is_exact(noise(class_of(i).path)) || !is_fragile(at(i).first.responses);
+    if (is_usable(i) && says_something) return false;
     return std::ranges::any_of(g.members, [&](std::size_t m) { return at(m).of_class == at(i).of_class; });
   }
 
@@ -178,7 +178,7 @@ class Grouping {
   // no evidence of another cause; two alike are.
   void merge_single_responses() {
     for (Group& g : groups_) {
-      if (g.members.size() != 1 || noise(class_of(g.members[0]).path).share == 0) continue;
+      if (g.members.size() != 1 || is_exact(noise(class_of(g.members[0]).path))) continue;
       Group* to = largest_of_class(at(g.members[0]).of_class, g);
       if (!to) continue;
       to->members.push_back(g.members[0]);

@@ -66,23 +66,22 @@ std::string verdict_words(const Subject& s, bool missed) {
   return missed ? "Overlaps are denied" : "Bodies that are apart are said to overlap";
 }
 
-// "Fails: crashed in distance-inl-h-177" from "crashed_distance-inl-h-177". Names of outcomes contain the
-// same character that separates them from the place.
-std::string failure_words(const std::string& detail) {
-  for (const std::string_view outcome : outcome_names) {
-    if (!detail.starts_with(outcome)) continue;
-    std::string name(outcome);
-    std::replace(name.begin(), name.end(), '_', ' ');
-    if (detail.size() <= outcome.size() + 1) return fmt::format("Fails: {}", name);
-    return fmt::format("Fails: {} in {}", name, std::string_view(detail).substr(outcome.size() + 1));
-  }
-  return fmt::format("Fails: {}", detail);
+// "Crashed at distance-inl.h:177", from the words of a finding.
+std::string failure_words(const Subject& s) {
+  std::string words = s.failure.empty() ? s.symptom.detail : s.failure;
+  // Names of outcomes have words joined by _; names of places may contain it too.
+  for (const std::string_view outcome : outcome_names)
+    if (words.starts_with(outcome))
+      std::replace(words.begin(), words.begin() + static_cast<std::ptrdiff_t>(outcome.size()), '_', ' ');
+  if (!words.empty() && words.front() >= 'a' && words.front() <= 'z')
+    words.front() = static_cast<char>(words.front() - 'a' + 'A');
+  return words;
 }
 
 std::string words_of(const Subject& s) {
   switch (s.severity) {
     case Severity::crash:
-      return failure_words(s.symptom.detail);
+      return failure_words(s);
     case Severity::hang:
       return fmt::format("Does not answer in time ({})", to_string(s.symptom.question));
     case Severity::missed:
@@ -111,13 +110,28 @@ std::string words_of(const Subject& s) {
   return "";
 }
 
+std::string_view route_words(std::string_view route) {
+  if (route == "convex") return "convex shapes";
+  if (route == "mesh") return "meshes";
+  if (route == "half-space") return "half-spaces";
+  if (route == "sphere") return "spheres";
+  if (route == "any" || route == "scene" || route == "pairs") return "";
+  return route;
+}
+
+// The kinds of shapes if they are few, else the routes.
 std::string place_words(const Subject& s) {
   constexpr std::size_t few = 2;
-  if (s.shapes == std::vector<std::string>{"any"} || s.shapes == std::vector<std::string>{"scene"}) return "";
+  const bool are_kinds = s.shapes.size() <= few;
   std::string words;
-  const auto& names = s.shapes.size() <= few ? s.shapes : s.routes;
-  for (const std::string& name : names) words += (words.empty() ? "" : ", ") + name;
-  return words.empty() ? "" : " (" + words + ")";
+  for (const std::string& name : are_kinds ? s.shapes : s.routes) {
+    const std::string_view word = route_words(name);
+    if (word.empty()) continue;
+    words += words.empty() ? " (" : ", ";
+    words += word;
+  }
+  if (!words.empty()) words += ")";
+  return words;
 }
 
 }  // namespace

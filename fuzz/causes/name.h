@@ -21,6 +21,7 @@ struct Subject {
   Severity severity = Severity::relation;
   Symptom symptom;
   std::string fault;                        // the most frequent of that severity
+  std::string failure;                      // words of a failure: "crashed at distance-inl.h:177"
   std::vector<std::string> routes, shapes;  // sorted
 };
 /// "Contacts are not minimal (two boxes)".

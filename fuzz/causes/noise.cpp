@@ -20,26 +20,27 @@ Noise noise_of(std::span<const FindingClass> classes, std::span<const Representa
     std::vector<double> shares, octaves;
   };
   std::map<std::string, Measured> by_path;
+  Measured every;
   for (const Representative& r : all) {
     if (!r.second || !r.second->responses.shown || !r.first.responses.shown) continue;
     if (is_fragile(r.first.responses) || is_fragile(r.second->responses)) continue;
     const Difference d = difference(r.first, *r.second);
-    Measured& m = by_path[classes[r.of_class].path];
-    m.shares.push_back(d.share);
-    m.octaves.push_back(d.octaves);
+    for (Measured* m : {&every, &by_path[classes[r.of_class].path]}) {
+      m->shares.push_back(d.share);
+      m->octaves.push_back(d.octaves);
+    }
   }
   constexpr std::size_t fewest_pairs = 4;  // fewer have no quartile
   Noise noise;
-  std::vector<double> shares, octaves;
+  if (every.shares.size() < fewest_pairs) return noise;
+  const Difference usual{upper_quartile(every.shares), upper_quartile(every.octaves)};
+  for (const FindingClass& c : classes) noise[c.path] = usual;
   for (auto& [path, m] : by_path) {
     if (m.shares.size() < fewest_pairs) continue;
-    noise[path] = {upper_quartile(m.shares), upper_quartile(m.octaves)};
-    shares.push_back(noise[path].share);
-    octaves.push_back(noise[path].octaves);
+    Difference& n = noise[path];
+    n.share = std::max(n.share, upper_quartile(m.shares));
+    n.octaves = std::max(n.octaves, upper_quartile(m.octaves));
   }
-  if (shares.empty()) return noise;
-  const Difference usual{upper_quartile(shares), upper_quartile(octaves)};
-  for (const FindingClass& c : classes) noise.try_emplace(c.path, usual);
   return noise;
 }
 
