@@ -137,11 +137,25 @@ void ask_afresh(const Case& c, const Symptom& s, const std::string& engine, Engi
   table.add(other_memory, "asked in memory with other contents", again);
 }
 
-void ask_others(const Case& c, const Symptom& s, const std::vector<OtherEngine>& others, EnginePool& pool,
-                Table& table) {
+// Judged as an answer of the engine concerned: a sibling that claims more for the same wrong answer does not
+// repair it.
+Answer judged_as(const Case& c, const EngineCard& card, const CaseObservations& base,
+                 CaseObservations observed, const Symptom& s) {
+  for (std::size_t i = 0; i < observed.answers.size() && i < base.answers.size(); ++i)
+    if (base.answers[i].outcome == Outcome::answered)
+      observed.answers[i].claimed_tolerance = base.answers[i].claimed_tolerance;
+  return judged(c, card, observed, s);
+}
+
+void ask_others(const Case& c, const Symptom& s, const EnginePtr& engine,
+                const std::vector<OtherEngine>& others, EnginePool& pool, Table& table) {
+  if (others.empty()) return;
+  const CaseObservations base = engine->run({&c, 1}).at(0);
   for (const OtherEngine& other : others) {
     Answer answer;
-    if (const EnginePtr& e = pool.named(other.engine)) answer = answers_of({&c, 1}, e, s).at(0);
+    if (const EnginePtr& e = pool.named(other.engine))
+      answer = needs_comparison(s) ? answers_of({&c, 1}, e, s).at(0)
+                                   : judged_as(c, engine->card(), base, e->run({&c, 1}).at(0), s);
     table.add(other.name, other.change, answer);
   }
 }
@@ -187,7 +201,7 @@ Responses respond(const Case& c, const Symptom& symptom, const std::string& engi
   for (std::size_t i = 0; i < interventions.size(); ++i)
     table.add(interventions[i].name, interventions[i].change, place[i] ? answers[*place[i]] : Answer{});
   ask_afresh(c, symptom, engine, pool, table);
-  ask_others(c, symptom, others, pool, table);
+  ask_others(c, symptom, e, others, pool, table);
   return r;
 }
 

@@ -105,14 +105,16 @@ class Engine {
   }
   btCollisionObject& object(int body) { return *objects_[static_cast<std::size_t>(body)]; }
 
-  // Plane algorithms use the support point with margin, which is the nominal corner; btBoxBoxDetector works
-  // on the nominal boxes.
+  // Plane algorithms use the support point with margin. Of a box it is the nominal corner; a cylinder adds a
+  // sphere of the margin to its smaller core, which rounds its edges there too (btCylinderShape.h,
+  // localGetSupportingVertex). btBoxBoxDetector works on the nominal boxes.
+  bool is_nominal(const Shape& s, const Shape& other) const {
+    return s.kind == TS_BOX && (other.kind == TS_HALF_SPACE || (sim_ && other.kind == TS_BOX));
+  }
   double claimed_margin(int a, int b) const {
     const Shape &one = shape(a), &two = shape(b);
-    const double outside = one.outside_margin() + two.outside_margin();
-    const bool exact = one.kind == TS_HALF_SPACE || two.kind == TS_HALF_SPACE ||
-                       (sim_ && one.kind == TS_BOX && two.kind == TS_BOX);
-    return outside + (exact ? 0 : one.inside_margin() + two.inside_margin());
+    return one.outside_margin() + two.outside_margin() + (is_nominal(one, two) ? 0 : one.inside_margin()) +
+           (is_nominal(two, one) ? 0 : two.inside_margin());
   }
 
   std::vector<Point> points(int a, int b) {

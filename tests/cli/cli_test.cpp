@@ -289,6 +289,22 @@ TEST_CASE("a wide claim of Bullet is named, and --error overrides it", "[cli][op
   CHECK(own.out.find("WRONG") != std::string::npos);
 }
 
+TEST_CASE("Bullet's margin rounds a cylinder above a half-space, as it claims", "[cli][optional]") {
+  const Workspace w("cli");
+  // An edge 0.01 deep in the ground; the cylinder is turned by an eighth about x.
+  w.write("edge.json", R"({"touchstone_scene":1,"shapes":[{"type":"half_space","normal":[0,0,1],"offset":0},
+{"type":"cylinder","radius":0.5,"half_height":1}],
+"bodies":[{"shape":0,"static":true},{"shape":1,"pose":{"translation":[0,0,1.05066],
+"rotation":[0.41421356237309503,0,0,1]}}]})");
+  for (const std::string engine : {"bullet-f64-query", "bullet-f64-sim"}) {
+    const Run r = w.touchstone("replay edge.json --engines " + engine);
+    if (r.code == 2) return skip("Bullet is not installed");
+    INFO(r.out << r.err);
+    CHECK(r.code == 0);
+    CHECK(r.out.find("WRONG") == std::string::npos);
+  }
+}
+
 TEST_CASE("merge without arguments prints its usage", "[cli][merge]") {
   const Workspace w("merge");
   for (const char* arguments : {"merge", "merge out", "merge --ledgers all.db"}) {

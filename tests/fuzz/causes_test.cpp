@@ -210,6 +210,43 @@ TEST_CASE("the response tells what a lie depends on", "[causes]") {
   CHECK(response("distance_absolute", boxes, off, "scale_up") == fuzz::Response::gone);
 }
 
+namespace {
+
+// Every distance is 1e-3 too large; claims that tolerance or another.
+class Claiming final : public Engine {
+ public:
+  explicit Claiming(double claim) : claim_(claim), card_(core_.card()) { card_.source = "the test"; }
+  const EngineCard& card() const override { return card_; }
+  std::vector<CaseObservations> run(std::span<const Case> cases) override {
+    auto all = core_.run(cases);
+    for (CaseObservations& of_case : all)
+      for (Observation& o : of_case.answers) {
+        if (o.distance) *o.distance += 1e-3;
+        o.claimed_tolerance = claim_;
+      }
+    return all;
+  }
+
+ private:
+  CoreEngine core_;
+  double claim_;
+  EngineCard card_;
+};
+
+}  // namespace
+
+TEST_CASE("another engine that only claims more for the same wrong answer does not repair it", "[causes]") {
+  fuzz::EnginePool pool([](const std::string& name) -> EnginePtr {
+    return std::make_unique<Claiming>(name == "generous" ? 1e-2 : 0);
+  });
+  const Case c = pair_case(Box{Vec3(0.5, 0.5, 0.5)}, Sphere{0.5}, Vec3(2, 0, 0), Question::distance);
+  const fuzz::Symptom off{Question::distance, FaultStage::distance, ""};
+  const auto r = fuzz::respond(c, off, "strict", {{"looser", "a claim of 1e-2", "", "generous"}}, pool);
+  CHECK(r.shown);
+  REQUIRE(r.responses.back().intervention == "looser");
+  CHECK(r.responses.back().response == fuzz::Response::stays);
+}
+
 TEST_CASE("causes of a campaign: every key in one cause, the same for any number of jobs", "[causes]") {
   const auto result = campaign({"distance_margin", "depth_halved", "witness_swapped", "overlap_always"}, 200,
                                "separate,deep");
