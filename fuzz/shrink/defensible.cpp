@@ -1,6 +1,7 @@
 #include "fuzz/shrink/defensible.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "fuzz/ask/degeneracy.h"
@@ -26,13 +27,29 @@ bool has_plain_numbers(Case c) {
   return std::all_of(all.begin(), all.end(), [](const double* x) { return is_plain(*x); });
 }
 
+// Twice the area, as a share of the square of the longest edge, is at least clear_share.
+bool has_area(const Vec3& a, const Vec3& b, const Vec3& c) {
+  const double longest = std::max({(b - a).squaredNorm(), (c - b).squaredNorm(), (a - c).squaredNorm()});
+  return longest > 0 && (b - a).cross(c - a).norm() >= clear_share * longest;
+}
+
+bool is_degenerate(const Shape& shape) {
+  const auto* mesh = std::get_if<TriangleMesh>(&shape);
+  if (!mesh) return is_flat(shape);
+  const auto vertex = [&](int i) -> const Vec3& { return mesh->vertices[static_cast<std::size_t>(i)]; };
+  return std::any_of(mesh->triangles.begin(), mesh->triangles.end(), [&](const std::array<int, 3>& t) {
+    return !has_area(vertex(t[0]), vertex(t[1]), vertex(t[2]));
+  });
+}
+
+// Volume, or, for the triangles of a mesh, area.
 bool have_volume(const Case& c) {
   for (const Query& q : c.queries) {
     if (!is_pair_question(q.question))
       return std::none_of(c.scene.bodies.begin(), c.scene.bodies.end(), [&](const Body& b) {
-        return is_flat(c.scene.shapes[static_cast<std::size_t>(b.shape)]);
+        return is_degenerate(c.scene.shapes[static_cast<std::size_t>(b.shape)]);
       });
-    if (is_flat(c.scene.shape_of(q.a)) || is_flat(c.scene.shape_of(q.b))) return false;
+    if (is_degenerate(c.scene.shape_of(q.a)) || is_degenerate(c.scene.shape_of(q.b))) return false;
   }
   return true;
 }

@@ -12,10 +12,11 @@ inline constexpr double clear_share = 0.01;
 /// Numbers that are not zero have a magnitude between these.
 inline constexpr double least_plain_number = 0x1p-10, largest_plain_number = 0x1p10;
 
-/// Whether the numbers are plain, the bodies asked about have volume (degeneracy.h), and each pair of them
-/// certainly overlaps or is apart by more than clear_share. A time of impact also needs bodies that are apart
-/// at the start and either meet within (0.01, 0.99) and then overlap as much, or stay as far apart.
-/// Questions about a scene are about every pair; false when that is too many to examine.
+/// Whether the numbers are plain, the bodies asked about have volume (degeneracy.h) and every triangle of a
+/// mesh has area, and each pair of them certainly overlaps or is apart by more than clear_share. A time of
+/// impact also needs bodies that are apart at the start and either meet within (0.01, 0.99) and then overlap
+/// as much, or stay as far apart. Questions about a scene are about every pair; false when that is too many
+/// to examine.
 bool is_defensible(const Case& c);
 
 /// The size that clear_share refers to; 0 when neither body has one (half-spaces).

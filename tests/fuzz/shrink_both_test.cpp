@@ -126,6 +126,20 @@ TEST_CASE("a mesh overlaps by the depth in a triangle", "[shrink][defensible]") 
   CHECK_FALSE(fuzz::is_defensible(c));
 }
 
+TEST_CASE("a mesh whose triangle is a point or a line is not defensible", "[shrink][defensible]") {
+  Case c = two_boxes(0);
+  c.scene.shapes.emplace_back(TriangleMesh{{{-1, -1, 0}, {1, -1, 0}, {0, 1, 0}}, {{0, 1, 2}}});
+  c.scene.bodies[0].shape = 1;
+  c.scene.bodies[0].is_static = true;
+  c.scene.bodies[1].pose.translation = Vec3(0, 0, 2);
+  CHECK(fuzz::is_defensible(c));
+  auto& vertices = std::get<TriangleMesh>(c.scene.shapes[1]).vertices;
+  vertices[2] = Vec3(0, -1, 0);
+  CHECK_FALSE(fuzz::is_defensible(c));
+  vertices[1] = vertices[2] = vertices[0];
+  CHECK_FALSE(fuzz::is_defensible(c));
+}
+
 TEST_CASE("two cubes that overlap by 1 do not only shrink to cubes that touch", "[shrink][defensible]") {
   Case c = two_boxes(1);
   c.scene.bodies[1].pose.translation = {0.875, 0.123, 0.3};
