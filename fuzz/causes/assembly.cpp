@@ -142,11 +142,7 @@ void Assembly::add_consequences(Cause& c, const Group& g) const {
   };
   for (const std::size_t m : g.consequences)
     for (const Finding* f : all_[m].stands_for) add(*f);
-  // Contradictions that a class explains belong to the group of its first representative.
-  for (const std::vector<std::size_t>* part : {&g.members, &g.consequences})
-    for (const std::size_t m : *part)
-      if (m < classes_.size())
-        for (const Finding* f : classes_[m].explained) add(*f);
+  for (const Finding* f : g.explained) add(*f);
   for (const auto& [what, n] : counts) c.consequences.push_back(fmt::format("{} ({})", what, n));
   c.keys = listed(keys);
 }
@@ -209,7 +205,30 @@ std::vector<Group> Assembly::identified(std::vector<Group> groups) const {
     to.members.insert(to.members.end(), g.members.begin(), g.members.end());
     to.consequences.insert(to.consequences.end(), g.consequences.begin(), g.consequences.end());
   }
+  share_explained(distinct);
   return distinct;
+}
+
+// A contradiction belongs to the group that has a finding of the class that explains it: of the same engine
+// about the same shapes, if there is one, else of the same engine, else the first.
+void Assembly::share_explained(std::vector<Group>& groups) const {
+  for (std::size_t k = 0; k < classes_.size(); ++k)
+    for (const Finding* f : classes_[k].explained) {
+      Group* owner = nullptr;
+      int best = -1;
+      for (Group& g : groups)
+        for (const std::vector<std::size_t>* part : {&g.members, &g.consequences})
+          for (const std::size_t m : *part) {
+            if (all_[m].of_class != k) continue;
+            for (const Finding* plain : all_[m].stands_for) {
+              const int likeness = 2 * (plain->engine == f->engine) + (plain->shapes == f->shapes);
+              if (likeness <= best) continue;
+              best = likeness;
+              owner = &g;
+            }
+          }
+      owner->explained.push_back(f);  // every class has a representative
+    }
 }
 
 void Assembly::add_name(Cause& c, const Group& g) const {

@@ -152,7 +152,7 @@ class Grouping {
         g.members.push_back(i);
         return;
       }
-    groups_.push_back({{i}, {}, documented(i), ""});
+    groups_.push_back({{i}, {}, {}, documented(i), ""});
   }
 
   std::uint64_t wrong(const Group& g) const {

@@ -31,6 +31,7 @@ bool is_fragile(const Responses& r);
 struct Group {
   std::vector<std::size_t> members;       // indices of representatives; the first is the clearest
   std::vector<std::size_t> consequences;  // representatives whose faults follow from this one's
+  std::vector<const Finding*> explained;  // contradictions; set by Assembly
   std::string documented;                 // as in EngineKnowledge; of all members
   std::string id;                         // of its cause; set by Assembly
 };
