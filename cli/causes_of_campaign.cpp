@@ -24,8 +24,8 @@
 namespace touchstone::cli {
 namespace {
 
-// An engine that hangs is asked often; less than half a second, after WorkerLimits::patience, tells as much as
-// the four of a campaign.
+// An engine that hangs is asked often; less than half a second, after WorkerLimits::patience, tells as much
+// as the four of a campaign.
 constexpr double most_query_seconds = 0.1;
 
 // What was done so far: one line on a terminal, otherwise a line every ten seconds.
@@ -46,15 +46,6 @@ class ExaminationProgress {
   Clock::time_point last_ = Clock::now();
 };
 
-// Creates the engine that findings call so; null when it is not available: its findings are not asked again.
-EnginePtr make_by_card(const std::string& name, const Foreign& foreign, const CausesSearch& search) try {
-  const auto given = foreign.find(name);
-  if (given == foreign.end() && !is_catalogued(name)) return nullptr;
-  return judged_by(make_engine(given == foreign.end() ? name : given->second, search.limits), search.error);
-} catch (const InputError&) {
-  return nullptr;
-}
-
 fuzz::Causes find_causes(const CausesSearch& search, const fuzz::CampaignResult& result) {
   const std::vector<std::string> given =
       search.engines.empty() ? std::vector<std::string>() : engine_names(search.engines);
@@ -62,7 +53,9 @@ fuzz::Causes find_causes(const CausesSearch& search, const fuzz::CampaignResult&
   ExaminationProgress progress;
   fuzz::CausesConfig config;
   config.knowledge = catalogued_knowledge();
-  config.make = [&](const std::string& name) { return make_by_card(name, foreign, search); };
+  config.make = [&](const std::string& name) {
+    return make_by_card(name, foreign, search.limits, search.error);
+  };
   config.program = [](const fuzz::Finding& f, const EngineCard& card) { return fuzz::reproducer(f, card); };
   config.jobs = search.jobs;
   config.minutes = search.minutes;

@@ -1,11 +1,7 @@
 // touchstone causes DIR: the distinct causes behind the findings of a campaign.
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
-#include <chrono>
-#include <cstdio>
-#include <filesystem>
 #include <thread>
 
 #include "cli/causes_of_campaign.h"

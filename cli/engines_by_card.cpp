@@ -19,19 +19,19 @@ Foreign foreign_engines(const std::vector<std::string>& given, const WorkerLimit
   return r;
 }
 
-const EnginePtr& EnginesByCard::named(const std::string& name) {
-  const auto [it, added] = made_.try_emplace(name);
-  if (added) it->second = made(name);
-  if (added && it->second) it->second = judged_by(std::move(it->second), error_);
-  return it->second;
+EnginePtr make_by_card(const std::string& name, const Foreign& foreign, const WorkerLimits& limits,
+                       const std::string& error) try {
+  const auto given = foreign.find(name);
+  if (given == foreign.end() && !is_catalogued(name)) return nullptr;
+  return judged_by(make_engine(given == foreign.end() ? name : given->second, limits), error);
+} catch (const InputError&) {
+  return nullptr;  // not installed: its findings and causes are not asked again
 }
 
-EnginePtr EnginesByCard::made(const std::string& name) const try {
-  const auto foreign = foreign_.find(name);
-  if (foreign != foreign_.end()) return make_engine(foreign->second, limits_);
-  return is_catalogued(name) ? make_engine(name, limits_) : nullptr;
-} catch (const InputError&) {
-  return nullptr;  // not installed: its causes are reported as "not asked"
+const EnginePtr& EnginesByCard::named(const std::string& name) {
+  const auto [it, added] = made_.try_emplace(name);
+  if (added) it->second = make_by_card(name, foreign_, limits_, error_);
+  return it->second;
 }
 
 }  // namespace touchstone::cli

@@ -17,6 +17,10 @@ using Foreign = std::map<std::string, std::string>;
 /// Those among the given names. Throws InputError when two have the same name.
 Foreign foreign_engines(const std::vector<std::string>& given, const WorkerLimits& limits);
 
+/// Creates the engine of that name, judged by `error` as given to --error; null when it is not available.
+EnginePtr make_by_card(const std::string& name, const Foreign& foreign, const WorkerLimits& limits,
+                       const std::string& error);
+
 /// Creates engines on first use. An engine that is not available is null.
 class EnginesByCard {
  public:
@@ -26,8 +30,6 @@ class EnginesByCard {
   const EnginePtr& named(const std::string& name);
 
  private:
-  EnginePtr made(const std::string& name) const;
-
   WorkerLimits limits_;
   const Foreign& foreign_;
   std::string error_;

@@ -103,7 +103,7 @@ Cause Assembly::cause_of(const Group& g) const {
   c.wrong = wrong_answers(findings);
   c.asked = std::max(c.wrong, asked_about(result_, findings));
   add_consequences(c, g);
-  add_name(c, g);
+  add_name(c, g, findings, listed(routes));
   c.worst =
       best_example(findings, [](const Example& x, const Example& y) { return x.error_in_l > y.error_in_l; });
   c.smallest = best_example(findings, [](const Example& x, const Example& y) { return x.size < y.size; });
@@ -231,14 +231,12 @@ void Assembly::share_explained(std::vector<Group>& groups) const {
     }
 }
 
-void Assembly::add_name(Cause& c, const Group& g) const {
+void Assembly::add_name(Cause& c, const Group& g, const Findings& findings,
+                        const std::vector<std::string>& routes) const {
   const Representative& led = leader(g);
-  Texts routes;
-  for (const std::size_t m : g.members) routes.insert(classes_[all_[m].of_class].route);
   const Symptom& s = symptom(g);
-  c.title =
-      describe_fault({c.severity, s, most_frequent_fault(findings_of(g), c.severity),
-                      s.stage == FaultStage::failure ? led.finding->words : "", listed(routes), c.shapes});
+  c.title = describe_fault({c.severity, s, most_frequent_fault(findings, c.severity),
+                            s.stage == FaultStage::failure ? led.finding->words : "", routes, c.shapes});
   const Responses of_all = common_response(g);
   c.response = of_all.responses;
   const std::string reason = reason_of(g, of_all);

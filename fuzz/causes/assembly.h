@@ -15,7 +15,7 @@ namespace touchstone::fuzz {
 /// What a campaign's findings were divided into.
 struct Parts {
   std::vector<FindingClass> classes;
-  std::vector<Representative> all;  // the first of every class come first, in the order of the classes
+  std::vector<Representative> all;
   Noise noise;
   std::vector<Group> groups;
 };
@@ -42,7 +42,8 @@ class Assembly {
   Findings findings_of(const Group& g) const;
   void add_lists(Cause& c, const Findings& findings) const;
   void add_consequences(Cause& c, const Group& g) const;
-  void add_name(Cause& c, const Group& g) const;
+  void add_name(Cause& c, const Group& g, const Findings& findings,
+                const std::vector<std::string>& routes) const;
   Responses common_response(const Group& g) const;
   std::string reason_of(const Group& g, const Responses& of_all) const;
   bool is_exact(const Group& g) const;

@@ -6,6 +6,8 @@
 #include <tuple>
 #include <utility>
 
+#include "oracles/routes/routes.h"
+
 namespace touchstone::fuzz {
 namespace {
 
@@ -67,10 +69,7 @@ EngineKnowledge no_knowledge() {
   EngineKnowledge k;
   k.path_of = [](const std::string& engine) { return engine; };
   k.route_of = [](const std::string&, Question question, ShapeKind a, ShapeKind b) {
-    if (is_broad_question(question)) return "pairs";
-    if (a == ShapeKind::mesh || b == ShapeKind::mesh) return "mesh";
-    if (a == ShapeKind::half_space || b == ShapeKind::half_space) return "half-space";
-    return "convex";
+    return std::string(routes::common_route({question, a, b}));
   };
   k.documented = [](const std::string&, const Symptom&, const std::string&, Fault) { return std::string(); };
   k.others = [](const std::string&) { return std::vector<OtherEngine>(); };

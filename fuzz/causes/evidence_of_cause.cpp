@@ -2,7 +2,6 @@
 
 #include "core/base/input_error.h"
 #include "fuzz/ask/evidence.h"
-#include "fuzz/shrink/keeps_finding.h"
 #include "scenarios/codec/case_codec.h"
 #include "scenarios/random/case_size.h"
 
@@ -11,8 +10,7 @@ namespace {
 
 // The finding with the symptom that the engine shows in the case; the one with the largest error.
 std::optional<Finding> finding_in(const Case& c, const Symptom& symptom, const EnginePtr& engine) {
-  const FoundBy by = symptom.stage == FaultStage::contradiction ? FoundBy::relations : FoundBy::referee;
-  const auto found = findings_of({&c, 1}, engine, by);
+  const auto found = findings_of({&c, 1}, engine, found_by(symptom));
   std::optional<Finding> best;
   for (const auto& [key, f] : found.at(0))
     if (symptom_of(f) == symptom && (!best || f.worst_in_l > best->worst_in_l)) best = f;
@@ -31,11 +29,13 @@ void add_evidence(Cause& cause, const Representative& r, const Symptom& symptom,
   if (!engine) return;
   engine->take_back();
   cause.library = engine->card().library + " " + engine->card().version;
-  if (const auto f = finding_in(r.first.smallest, symptom, engine))
-    cause.smallest = as_case(r.first.smallest, *f);
-  std::optional<Finding> shown = finding_in(r.first.shown(), symptom, engine);
+  std::optional<Finding> shown = finding_in(r.first.smallest, symptom, engine);
+  if (shown) cause.smallest = as_case(r.first.smallest, *shown);
+  if (r.first.defensible) {
+    shown = finding_in(*r.first.defensible, symptom, engine);
+    if (shown) cause.defensible = as_case(*r.first.defensible, *shown);
+  }
   if (!shown) return;
-  if (r.first.defensible) cause.defensible = as_case(*r.first.defensible, *shown);
   write_evidence(*shown);
   const Json& certificate = shown->evidence_json.at("certificate");
   if (certificate.value("kind", "none") != "none") cause.certificate = certificate;

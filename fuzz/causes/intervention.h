@@ -11,6 +11,11 @@
 
 namespace touchstone::fuzz {
 
+/// True when the case's first question is about two bodies, rather than about the scene.
+inline bool asks_about_pair(const Case& c) {
+  return !c.queries.empty() && is_pair_question(c.queries[0].question);
+}
+
 /// Each returns the changed case, or nothing if there is nothing to change. The result may be invalid; the
 /// caller validates it.
 std::optional<Case> round_to_float(const Case& c);

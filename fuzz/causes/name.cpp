@@ -15,7 +15,6 @@ namespace {
 // itself: a contact vanishes when the bodies are moved apart.
 constexpr auto telling = std::to_array<std::string_view>({fresh_process,
                                                           other_memory,
-                                                          "other_version",
                                                           "other_settings",
                                                           "tighter",
                                                           "looser",

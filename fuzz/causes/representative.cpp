@@ -23,7 +23,7 @@ std::size_t tries_for(const Symptom& s, std::size_t tries) {
   return is_slow(s) ? std::min(tries, most_if_slow) : tries;
 }
 
-// The cases to start from: the simplest example, and the one that is least like it.
+// The examples whose cases are stored, the simplest first.
 std::vector<const Case*> starting_cases(const Finding& f) {
   std::vector<const Example*> all;
   for (const Example& e : f.examples)

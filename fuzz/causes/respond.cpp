@@ -7,7 +7,6 @@
 #include "core/base/input_error.h"
 #include "fuzz/causes/intervention.h"
 #include "fuzz/judge/judge.h"
-#include "fuzz/shrink/keeps_finding.h"
 
 namespace touchstone::fuzz {
 namespace {
@@ -68,10 +67,6 @@ Answer compared(const std::map<std::string, Finding>& found, const Symptom& s) {
     if (other.question == s.question) answer.response = Response::differs;
   }
   return answer;
-}
-
-FoundBy found_by(const Symptom& s) {
-  return s.stage == FaultStage::contradiction ? FoundBy::relations : FoundBy::referee;
 }
 
 // The engine's answers to all cases, for one symptom. `bodies`: one a case, or empty: all.
@@ -169,6 +164,10 @@ std::set<Symptom> all_symptoms(const Case& c, const EnginePtr& e) {
 }
 
 }  // namespace
+
+FoundBy found_by(const Symptom& symptom) {
+  return symptom.stage == FaultStage::contradiction ? FoundBy::relations : FoundBy::referee;
+}
 
 StillShows keeps_symptom(const EnginePtr& engine, const Symptom& symptom) {
   return [&engine, symptom](std::span<const Case> cases) {

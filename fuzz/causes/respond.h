@@ -8,7 +8,7 @@
 #include "fuzz/causes/classes.h"
 #include "fuzz/causes/engine_pool.h"
 #include "fuzz/causes/symptom.h"
-#include "fuzz/shrink/shrink.h"
+#include "fuzz/shrink/keeps_finding.h"
 #include "reports/record/causes.h"
 
 namespace touchstone::fuzz {
@@ -25,6 +25,9 @@ struct Responses {
 
 /// Names and changes of the interventions that need no other engine, after those of intervention.h.
 inline constexpr std::string_view fresh_process = "fresh_process", other_memory = "other_memory";
+
+/// What detects findings with the symptom.
+FoundBy found_by(const Symptom& symptom);
 
 /// For each case, whether the engine shows the symptom in it. `engine` must outlive the result.
 StillShows keeps_symptom(const EnginePtr& engine, const Symptom& symptom);

@@ -7,8 +7,6 @@
 namespace touchstone::fuzz {
 namespace {
 
-bool asks_about_pair(const Case& c) { return !c.queries.empty() && is_pair_question(c.queries[0].question); }
-
 // Unit spheres far from everything, one after the other at half their diameter, so that two of them overlap.
 std::optional<Case> with_distant_bodies(const Case& c, int count, bool first) {
   if (asks_about_pair(c)) return std::nullopt;

@@ -40,7 +40,7 @@ double largest_length(const Scene& s) {
 }
 
 const Vec3& first_position(const Case& c) {
-  const int a = c.queries.empty() || !is_pair_question(c.queries[0].question) ? 0 : c.queries[0].a;
+  const int a = asks_about_pair(c) ? c.queries[0].a : 0;
   return c.scene.bodies[static_cast<std::size_t>(a)].pose.translation;
 }
 

@@ -8,7 +8,7 @@ namespace {
 constexpr double growth = 1.125;
 
 std::optional<Case> grown(const Case& c, bool second) {
-  if (c.queries.empty() || !is_pair_question(c.queries[0].question)) return std::nullopt;
+  if (!asks_about_pair(c)) return std::nullopt;
   Case r = c;
   const auto body = static_cast<std::size_t>(second ? c.queries[0].b : c.queries[0].a);
   Shape shape = c.scene.shapes[static_cast<std::size_t>(c.scene.bodies[body].shape)];

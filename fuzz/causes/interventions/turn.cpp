@@ -9,8 +9,7 @@ namespace {
 
 // The body that is changed: B of the question, else the last one.
 std::size_t second_body(const Case& c) {
-  const bool pair = !c.queries.empty() && is_pair_question(c.queries[0].question);
-  return pair ? static_cast<std::size_t>(c.queries[0].b) : c.scene.bodies.size() - 1;
+  return asks_about_pair(c) ? static_cast<std::size_t>(c.queries[0].b) : c.scene.bodies.size() - 1;
 }
 
 template <class F>
@@ -32,7 +31,8 @@ std::optional<Case> turned(const Case& c, double angle) {
 
 }  // namespace
 
-// Angles in radians: below the rounding of floats, near the tolerances that engines compare with, and visible.
+// Angles in radians: below the rounding of floats, near the tolerances that engines compare with, and
+// visible.
 constexpr double below_float = 1e-9, near_tolerances = 1e-6, visible = 1e-3;
 std::optional<Case> turn_by_1e_9(const Case& c) { return turned(c, below_float); }
 std::optional<Case> turn_by_1e_6(const Case& c) { return turned(c, near_tolerances); }
