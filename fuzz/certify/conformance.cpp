@@ -112,9 +112,10 @@ void number_probes(std::vector<Probe>& all) {
                  "between the surfaces"});
   all.push_back({"distance of two spheres that overlap", pair_case(Question::distance, a, deep),
                  [](const Observation& o) {
+                   if (!o.distance && o.overlap.value_or(false)) return std::string();
                    return o.distance && *o.distance <= slack ? "" : expect("distance", o.distance, -0.5);
                  },
-                 "negative: minus the depth; or unsupported"});
+                 "negative: minus the depth; or the overlap alone; or unsupported"});
   all.push_back({"normal from A to B", pair_case(Question::contact, a, deep),
                  [](const Observation& o) -> std::string {
                    if (!o.normal) return "does not state the normal of an overlap";

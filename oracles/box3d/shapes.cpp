@@ -31,6 +31,13 @@ std::vector<double> numbers_of(const b3HullData& hull) {
   return numbers;
 }
 
+void report_sphere(int index, double radius, const ts_received& to) {
+  ts_shape sphere{};
+  sphere.kind = TS_SPHERE;
+  sphere.size[0] = radius;
+  kit::report_other_shape(to, index, sphere);
+}
+
 }  // namespace
 
 Shape make_shape(const ts_shape& s) {
@@ -39,9 +46,8 @@ Shape make_shape(const ts_shape& s) {
     case TS_SPHERE:
       return b3Sphere{{0, 0, 0}, f(0)};
     case TS_CAPSULE:
-      // A sphere of that radius is what Box3D's documentation asks for instead of a very short capsule.
-      if (2 * s.size[1] < B3_MIN_CAPSULE_LENGTH)
-        throw kit::Unsupported("Box3D's capsules have a least length (constants.h)");
+      // constants.h asks for a sphere instead of a very short capsule.
+      if (2 * f(1) < B3_MIN_CAPSULE_LENGTH) return b3Sphere{{0, 0, 0}, f(0)};
       return b3Capsule{{0, 0, -f(1)}, {0, 0, f(1)}, f(0)};
     case TS_BOX:
       return b3MakeBoxHull(f(0), f(1), f(2));
@@ -89,7 +95,10 @@ Mat3 rotation_of(const b3Quat& q) {
 
 void report_shape(int index, const ts_shape& asked, const Shape& held, const ts_received& to) {
   double size[4] = {asked.size[0], asked.size[1], asked.size[2], asked.size[3]};
-  if (const auto* sphere = std::get_if<b3Sphere>(&held)) size[0] = sphere->radius;
+  if (const auto* sphere = std::get_if<b3Sphere>(&held)) {
+    size[0] = sphere->radius;
+    if (asked.kind != TS_SPHERE) return report_sphere(index, size[0], to);
+  }
   if (const auto* capsule = std::get_if<b3Capsule>(&held)) {
     size[0] = capsule->radius;
     size[1] = capsule->center2.z;

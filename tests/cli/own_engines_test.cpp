@@ -161,30 +161,29 @@ TEST_CASE("a system's own copy of the library is not taken for the one in the pr
 
 TEST_CASE("a command is run when it is given, and never stored", "[own]") {
   const Place w("own-command");
-  const std::string good = " --prefix " + (stubs / "coal").string();
-  const Run failed =
-      w.touchstone("engines --build coal --name mine --rebuild-with 'echo broken; false'" + good);
+  const std::string ran = (w.dir / "ran").string();
+  const std::string good = " --build coal --name mine --prefix " + (stubs / "coal").string();
+  const Run failed = w.touchstone("engines" + good + " --rebuild-with 'echo broken; false'");
   CHECK(failed.code == 3);
   CHECK(has(failed.err, "the command failed"));
+  CHECK(has(failed.err, "broken"));
   CHECK_FALSE(fs::exists(w.dir / "engines/mine"));
 
-  const std::string command = " --rebuild-with 'echo run >>" + (w.dir / "ran").string() + "'";
-  REQUIRE(w.touchstone("engines --build coal --name mine" + good + command).code == 0);
-  REQUIRE(w.touchstone("engines --rebuild mine").code == 0);
-  CHECK(read_all(w.dir / "ran") == "run\n");
-  const Run again = w.touchstone("engines --rebuild mine" + command);
+  REQUIRE(w.touchstone("engines" + good + " --rebuild-with 'echo run >>" + ran + "'").code == 0);
+  CHECK(read_all(ran) == "run\n");
+  CHECK_FALSE(has(read_all(w.dir / "engines/mine/registration.json"), "echo"));
+  const Run again = w.touchstone("engines --rebuild mine");
   INFO(again.out << again.err);
   CHECK(again.code == 0);
-  CHECK(read_all(w.dir / "ran") == "run\nrun\n");
-  CHECK_FALSE(has(read_all(w.dir / "engines/mine/registration.json"), "echo"));
-}
+  CHECK(read_all(ran) == "run\n");
+  CHECK(w.touchstone("engines --rebuild mine --rebuild-with 'echo run >>" + ran + "; false'").code == 3);
+  CHECK(read_all(ran) == "run\nrun\n");
+  CHECK(w.touchstone("engines mine").code == 0);  // as before the failure
 
-TEST_CASE("a registration that others may write is not loaded", "[own][bad-input]") {
-  const Place w("own-private");
-  build_stub(w, "coal");
-  const fs::path folder = w.dir / "engines/my-coal";
+  // A registration that others may write is not loaded.
+  const fs::path folder = w.dir / "engines/mine";
   const auto refuses = [&](const std::string& why) {
-    const Run r = w.touchstone("engines my-coal");
+    const Run r = w.touchstone("engines mine");
     INFO(r.out << r.err);
     CHECK(r.code == 2);
     CHECK(has(r.err, why));
@@ -198,11 +197,11 @@ TEST_CASE("a registration that others may write is not loaded", "[own][bad-input
     refuses("can be written by others");
     fs::permissions(path, fs::perms::group_write, fs::perm_options::remove);
   }
-  CHECK(w.touchstone("engines my-coal").code == 0);
+  CHECK(w.touchstone("engines mine").code == 0);
   for (const char* text :
-       {"{}", R"({"touchstone_registration":1,"name":"my-coal","adapter":"../x","prefix":""})",
-        R"({"touchstone_registration":2,"name":"my-coal","adapter":"coal","prefix":""})"}) {
-    w.write("engines/my-coal/registration.json", text);
+       {"{}", R"({"touchstone_registration":1,"name":"mine","adapter":"../x","prefix":""})",
+        R"({"touchstone_registration":2,"name":"mine","adapter":"coal","prefix":""})"}) {
+    w.write("engines/mine/registration.json", text);
     refuses("registration.json");
   }
 }
