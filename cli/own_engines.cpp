@@ -65,7 +65,9 @@ std::string shown_version(const OwnEngine& own, const std::string& version) {
 }
 
 std::string default_name(const std::string& adapter) {
-  return is_catalogued_folder(adapter) ? adapter + "-own" : adapter;
+  const bool is_own = own_name_of(adapter) == adapter;
+  const bool is_taken = is_catalogued_folder(adapter) || (!is_own && is_catalogued(adapter));
+  return is_taken ? adapter + "-own" : adapter;
 }
 
 void require_free(const std::string& name) {

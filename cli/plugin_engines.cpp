@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <map>
+#include <mutex>
 
 #include "cli/engine_catalog.h"
 #include "oracles/client/remote_engine.h"
@@ -37,7 +38,9 @@ std::vector<fs::path> plugins_of(const fs::path& folder, const std::string& name
 }
 
 const std::vector<PluginEngine>& engines_in(const fs::path& plugin) {
+  static std::mutex one_at_a_time;  // a campaign's jobs make their engines in threads of their own
   static std::map<fs::path, std::vector<PluginEngine>> read;
+  const std::lock_guard lock(one_at_a_time);
   const auto found = read.find(plugin);
   if (found != read.end()) return found->second;
   std::vector<PluginEngine> engines;

@@ -109,14 +109,13 @@ TEST_CASE("bisect commit builds each commit once, skips what does not build, and
   CHECK(again.out.substr(0, again.out.find('\n')) == found.out.substr(0, found.out.find('\n')));
 
   // As git runs it.
-  w.must("git -C library stash -q -u && cp case.json library/../ && git -C library bisect start -q HEAD " +
-         first);
+  w.must("git -C library stash -q -u && git -C library bisect start HEAD " + first);
   const Run by_git =
       w.run("cd library && git bisect run " TS_BINARY_DIR
             "/bin/touchstone bisect commit ../case.json --engine box3d --source . --cache ../cache");
   INFO(by_git.out << by_git.err);
   CHECK(has(by_git.out, wrong + " is the first bad commit"));
-  w.must("git -C library bisect reset -q || git -C library bisect reset");
+  w.must("git -C library bisect reset");
 
   const Run reversed = w.touchstone(bisect + "--good " + wrong);
   CHECK(reversed.code == 3);
