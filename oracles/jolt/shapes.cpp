@@ -16,6 +16,7 @@
 namespace touchstone::jolt_adapter {
 namespace {
 
+// Relative to a shape of size 1, about the rounding of floats.
 constexpr float tuned_tolerance = 1e-7F;
 
 float convex_radius(const Setting& setting, double most) {
