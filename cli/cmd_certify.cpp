@@ -132,14 +132,19 @@ void write_scripts(const CertifyOptions& o, const BroadCertificate& c) {
   }
 }
 
+// In two columns, the second wrapped.
+void print_subject(std::string_view name, const std::string& words) {
+  constexpr std::size_t column = 34;
+  const std::string blank(column, '_');  // takes the first column's room in the first line
+  fmt::print("{:<{}}{}\n", name, column, reports::wrapped(blank + words, 78, column).substr(column));
+}
+
 int list_subjects() {
-  for (const auto name : core_broad_phases()) fmt::print("{:<34}core\n", name);
+  for (const auto name : core_broad_phases()) print_subject(name, "core");
   for (const std::string_view folder : engine_folders()) {
     if (!is_present(folder)) fmt::print("{:<34}absent: not built\n", folder);
     for (const PluginEngine& e : engines_of_folder(folder))
-      if (e.kind == EngineKind::broad)
-        fmt::print("{:<34}{}\n", e.card.name,
-                   reports::wrapped(e.card.library + ", " + e.card.settings, 44, 34));
+      if (e.kind == EngineKind::broad) print_subject(e.card.name, e.card.library + ", " + e.card.settings);
   }
   fmt::print("also every engine listed by `touchstone engines`, ./libmine.so, pipe:COMMAND\n");
   return exit_clean;
