@@ -21,13 +21,17 @@ export const f = Math.fround;
 export const floats = (v) => v.map(f);
 export const stands_on_z = (shape) => ["capsule", "cylinder", "cone"].includes(shape.type);
 
-/** The requested rotation, normalised in doubles; `to_y` if the engine's axis is y rather than z. */
+/** The requested rotation, normalised in doubles. */
+export function unit(q) {
+  const most = Math.max(...q.map(Math.abs)), scaled = q.map((c) => c / most), n = Math.hypot(...scaled);
+  return scaled.map((c) => c / n);
+}
+
+/** The same as floats; `to_y` if the engine's axis is y rather than z. */
 export function unit_quaternion(q, to_y) {
-  const most = Math.max(...q.map(Math.abs));
-  const [x, y, z, w] = q.map((c) => c / most);
-  const n = Math.hypot(x, y, z, w), s = to_y ? half_turn : 1;
+  const [x, y, z, w] = unit(q), s = to_y ? half_turn : 1;
   const turned = to_y ? [x + w, y + z, z - y, w - x] : [x, y, z, w];
-  return turned.map((c) => f((c / n) * s));
+  return turned.map((c) => f(c * s));
 }
 
 /** A body's receipt, from the columns of the engine's own matrix, in the frame of the original shape. */
@@ -56,14 +60,19 @@ export function relative_translation(a, b) {
   return m.linear.map((x, k) => x - n.linear[k]);
 }
 
-/** Runs the steps of a scene on the engine's world; world.pairs(report) reports pairs of bodies. */
-export function candidates(scene, world) {
+/** Whether the scene filters out a pair of bodies. */
+export function filter_of(scene) {
   const ignored = new Set(scene.ignored.map(([a, b]) => `${Math.min(a, b)} ${Math.max(a, b)}`));
-  const drops = (a, b) => {
+  return (a, b) => {
     const [p, q] = [scene.bodies[a], scene.bodies[b]];
     return a === b || (p.static && q.static) || (p.group >= 0 && p.group === q.group) ||
       ignored.has(`${Math.min(a, b)} ${Math.max(a, b)}`);
   };
+}
+
+/** Runs the steps of a scene on the engine's world; world.pairs(report) reports pairs of bodies. */
+export function candidates(scene, world) {
+  const drops = filter_of(scene);
   const lists = [];
   for (const step of scene.steps) {
     if (step.op !== "query") {
