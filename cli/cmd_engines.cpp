@@ -99,7 +99,7 @@ Run declare_engines(CLI::App& app) {
                  "test whether an engine (./libmine.so, pipe:COMMAND) uses the interface correctly");
   auto wanted = std::make_shared<std::vector<std::string>>();
   app.add_option("--install", *wanted,
-                 "engines to install from npm, separated by commas: jolt, jolt-tuned, rapier")
+                 "engines to install from npm, separated by commas: jolt, rapier, mujoco, physx, havok")
       ->delimiter(',')
       ->allow_extra_args(false);
   auto limits = std::make_shared<WorkerLimits>();

@@ -1,6 +1,7 @@
 #include "cli/npm_engines.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cstdlib>
@@ -24,7 +25,39 @@ constexpr NpmRow npm_rows[] = {
     {"jolt-tuned", "jolt-physics", "1.1.0", "npm/jolt/jolt.mjs", "tuned",
      "Jolt Physics, convex radius 0, tolerances 1e-7, WASM"},
     {"rapier", "@dimforge/rapier3d-compat", "0.21.0", "npm/rapier/rapier.mjs", "", "Rapier, WASM"},
+    {"mujoco", "@mujoco/mujoco", "3.14.0", "npm/mujoco/mujoco.mjs", "",
+     "MuJoCo as shipped: native convex collisions, several contacts; WASM"},
+    {"mujoco-single", "@mujoco/mujoco", "3.14.0", "npm/mujoco/mujoco.mjs", "single",
+     "MuJoCo without multiccd, WASM"},
+    {"mujoco-libccd", "@mujoco/mujoco", "3.14.0", "npm/mujoco/mujoco.mjs", "libccd",
+     "MuJoCo without nativeccd (libccd's MPR), WASM"},
+    {"physx-query", "physx-js-webidl", "2.7.3", "npm/physx/physx.mjs", "query",
+     "PhysX, PxGeometryQuery: overlap and sweep; WASM"},
+    {"physx-gjk", "physx-js-webidl", "2.7.3", "npm/physx/physx.mjs", "gjk",
+     "PhysX, PxGjkQuery: proximity, overlap and sweep; WASM"},
+    {"physx-sim", "physx-js-webidl", "2.7.3", "npm/physx/physx.mjs", "sim",
+     "PhysX, contact reports of a step; WASM"},
+    {"physx-sap", "physx-js-webidl", "2.7.3", "npm/physx/physx.mjs", "sap", "PhysX's broad phase eSAP, WASM"},
+    {"physx-mbp", "physx-js-webidl", "2.7.3", "npm/physx/physx.mjs", "mbp", "PhysX's broad phase eMBP, WASM"},
+    {"physx-abp", "physx-js-webidl", "2.7.3", "npm/physx/physx.mjs", "abp", "PhysX's broad phase eABP, WASM"},
+    {"havok", "@babylonjs/havok", "1.3.14", "npm/havok/havok.mjs", "",
+     "Havok, shape proximity and shape casts; WASM"},
+    {"havok-sim", "@babylonjs/havok", "1.3.14", "npm/havok/havok.mjs", "sim",
+     "Havok, collision events of a step; WASM"},
 };
+
+// The row of that name; or, for a library such as physx, its rows: those whose names begin with it and a
+// dash.
+std::vector<const NpmRow*> rows_named(const std::string& name) {
+  if (const NpmRow* row = find_npm_row(name)) return {row};
+  std::vector<const NpmRow*> out;
+  for (const NpmRow& r : npm_rows)
+    if (r.name.starts_with(name + "-")) out.push_back(&r);
+  if (!out.empty()) return out;
+  std::set<std::string_view> known;
+  for (const NpmRow& r : npm_rows) known.insert(r.name);
+  throw InputError("--install " + name, fmt::format("unknown; npm has {}", fmt::join(known, ", ")));
+}
 
 fs::path script_folder() { return plugin_directory().parent_path() / "share/touchstone/engines"; }
 fs::path package_folder(const NpmRow& r) { return npm_folder() / "node_modules" / r.package; }
@@ -105,8 +138,13 @@ std::string pipe_of(const NpmRow& row) {
 }
 
 std::vector<fs::path> files_of(const NpmRow& row) {
-  std::vector<fs::path> out{script_folder() / row.script, script_folder() / "npm/adapter.mjs"}, programs;
+  std::vector<fs::path> out{script_folder() / "npm/adapter.mjs"}, programs;
+  for (const auto& entry : fs::directory_iterator((script_folder() / row.script).parent_path()))
+    programs.push_back(entry.path());
+  std::sort(programs.begin(), programs.end());
+  out.insert(out.end(), programs.begin(), programs.end());
   if (!is_installed(row)) return out;
+  programs.clear();
   for (const auto& entry : fs::recursive_directory_iterator(package_folder(row)))
     if (entry.is_regular_file()) programs.push_back(entry.path());
   std::sort(programs.begin(), programs.end());
@@ -115,16 +153,16 @@ std::vector<fs::path> files_of(const NpmRow& row) {
 }
 
 int install_npm_engines(const std::vector<std::string>& names) {
+  std::vector<const NpmRow*> rows;
+  for (const std::string& name : names)
+    for (const NpmRow* row : rows_named(name)) rows.push_back(row);
   std::set<std::string> wanted;
-  for (const std::string& name : names) {
-    const NpmRow* row = find_npm_row(name);
-    if (!row) throw InputError("--install " + name, "unknown; npm has jolt, jolt-tuned and rapier");
+  for (const NpmRow* row : rows)
     if (!is_installed(*row)) wanted.insert(fmt::format("{}@{}", row->package, row->version));
-  }
   if (!wanted.empty())
     if (const int code = fetch(wanted); code != exit_clean) return code;
-  for (const std::string& name : names) {
-    const EngineCard card = make_engine(name, {})->card();
+  for (const NpmRow* row : rows) {
+    const EngineCard card = make_engine(std::string(row->name), {})->card();
     fmt::print("{}: {} {} is installed; use it with --engines or --subject\n", card.name, card.library,
                card.version);
   }

@@ -1,5 +1,5 @@
-// Optional engines from npm, with JavaScript adapters (oracles/npm/jolt, oracles/npm/rapier) over the pipe
-// protocol. Their packages are installed in a folder beside the program, only on request.
+// Optional engines from npm, with JavaScript adapters (oracles/npm) over the pipe protocol. Their packages
+// are installed in a folder beside the program, only on request.
 #pragma once
 
 #include <filesystem>
@@ -26,10 +26,12 @@ bool is_installed(const NpmRow& row);
 
 /// The command that runs it: "pipe:node SCRIPT FOLDER".
 std::string pipe_of(const NpmRow& row);
-/// The files that make up the engine, for the hash of a certificate: its scripts and its package's files.
+/// The files that make up the engine, for the hash of a certificate: the scripts of its folder, the kit and
+/// its package's files.
 std::vector<std::filesystem::path> files_of(const NpmRow& row);
 
-/// Installs the packages of these engines in the folder unless they are there, and reports what it does.
+/// Installs the packages of these engines in the folder unless they are there, and reports what it does. A
+/// library stands for all of its engines.
 /// Throws InputError for an unknown name, or when node or npm is missing.
 int install_npm_engines(const std::vector<std::string>& names);
 

@@ -19,6 +19,22 @@ export const version = (modules, name) =>
 
 export const f = Math.fround;
 export const floats = (v) => v.map(f);
+
+/** Objects on the heap of a WebIDL module live until they are destroyed: kept here until the next sweep. */
+export class Heap {
+  constructor(destroy) {
+    this.destroy = destroy;
+    this.objects = [];
+  }
+  keep(x) {
+    this.objects.push(x);
+    return x;
+  }
+  sweep() {
+    this.objects.forEach((x) => this.destroy(x));
+    this.objects = [];
+  }
+}
 export const stands_on_z = (shape) => ["capsule", "cylinder", "cone"].includes(shape.type);
 
 /** The requested rotation, normalised in doubles. */
@@ -34,10 +50,21 @@ export function unit_quaternion(q, to_y) {
   return turned.map((c) => f(c * s));
 }
 
+/** The same for an engine whose axis is x. */
+export function unit_quaternion_to_x(q) {
+  const [x, y, z, w] = unit(q);
+  return [x + z, y - w, z - x, w + y].map((c) => f(c * half_turn));
+}
+
 /** A body's receipt, from the columns of the engine's own matrix, in the frame of the original shape. */
 export function received_body(number, body, columns, from_y) {
   const [x, y, z] = from_y ? [columns[0], columns[2].map((c) => -c), columns[1]] : columns;
   return { body: number, matrix: [0, 1, 2].flatMap((k) => [x[k], y[k], z[k]]), translation: floats(body.pose.translation) };
+}
+
+/** The same for an engine whose axis is x. */
+export function received_body_from_x(number, body, [x, y, z], from_x) {
+  return received_body(number, body, from_x ? [z.map((c) => -c), y, x] : [x, y, z], false);
 }
 
 /** The columns of the rotation matrix of a unit quaternion of floats, for engines that store only the quaternion. */
@@ -58,6 +85,12 @@ export function relative_translation(a, b) {
   const still = [0, 0, 0], [m, n] = [a, b].map((x) => x.motion || { linear: still, angular: still });
   if ([...m.angular, ...n.angular].some((x) => x !== 0)) throw new Unsupported("its shape casts support no rotation");
   return m.linear.map((x, k) => x - n.linear[k]);
+}
+
+/** The normal of the deepest of {position, normal, depth}, and all of them as points of a manifold. */
+export function manifold(points) {
+  const { normal } = points.reduce((p, q) => (q.depth > p.depth ? q : p)), same = (n) => n.every((x, k) => x === normal[k]);
+  return { normal, points: points.map((p) => ({ position: p.position, depth: same(p.normal) ? p.depth : null })) };
 }
 
 /** Whether the scene filters out a pair of bodies. */
