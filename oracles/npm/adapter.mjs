@@ -87,10 +87,15 @@ export function relative_translation(a, b) {
   return m.linear.map((x, k) => x - n.linear[k]);
 }
 
-/** The normal of the deepest of {position, normal, depth}, and all of them as points of a manifold. */
+/**
+ * For an engine that states depths at points, {position, normal, depth}: the normal of the deepest, and all as points of
+ * a manifold. The depth of the contact may exceed those of a clipped manifold, so it is stated for a single point only.
+ */
 export function manifold(points) {
-  const { normal } = points.reduce((p, q) => (q.depth > p.depth ? q : p)), same = (n) => n.every((x, k) => x === normal[k]);
-  return { normal, points: points.map((p) => ({ position: p.position, depth: same(p.normal) ? p.depth : null })) };
+  const { normal, depth } = points.reduce((p, q) => (q.depth > p.depth ? q : p));
+  const same = (n) => n.every((x, k) => x === normal[k]);
+  return { normal, ...(points.length === 1 && { depth }),
+    points: points.map((p) => ({ position: p.position, depth: same(p.normal) ? p.depth : null })) };
 }
 
 /** Whether the scene filters out a pair of bodies. */

@@ -132,7 +132,7 @@ function touching(scene, a, b) {
   if ([a, b].every((body) => is_fixed(shape_of(scene, body)))) throw new kit.Unsupported("PhysX reports no contacts of two planes");
   return contact_points(scene, a, b).filter((p) => p.depth >= 0);
 }
-// PxContactPairPoint: the separation is that of the shapes at the point, so no depth is stated for the whole contact.
+// PxContactPairPoint: the separation is that of the shapes at the point.
 export const simulation = {
   settings: "contact reports of a step, PCM, contact offset 0.02, rest offset 0; bodies without a response",
   overlap({ a, b }, scene) {
