@@ -89,14 +89,16 @@ export function relative_translation(a, b) {
 
 /**
  * For an engine that states depths at points, {position, normal, depth}: the normal of the deepest, and all as points of
- * a manifold. The depth of the contact may exceed those of a clipped manifold, so it is stated for a single point only.
+ * a manifold. A clipped manifold may miss the deepest point of the contact: its depth is stated only if `is_whole`.
  */
-export function manifold(points) {
+export function manifold(points, is_whole) {
   const { normal, depth } = points.reduce((p, q) => (q.depth > p.depth ? q : p));
   const same = (n) => n.every((x, k) => x === normal[k]);
-  return { normal, ...(points.length === 1 && { depth }),
+  return { normal, ...(is_whole && { depth }),
     points: points.map((p) => ({ position: p.position, depth: same(p.normal) ? p.depth : null })) };
 }
+/** Whether one of the shapes is a ball, which touches any other at one point. */
+export const has_ball = (scene, a, b) => [a, b].some((body) => scene.shapes[scene.bodies[body].shape].type === "sphere");
 
 /** Whether the scene filters out a pair of bodies. */
 export function filter_of(scene) {

@@ -60,19 +60,20 @@ function prism(core, radius) {
   const grown = 1 + radius / (slant * outer);
   return core.map(([x, y, z]) => [x * grown, y * grown, z + Math.sign(z) * radius]);
 }
-// What is held for a shape, for the receipt, and how far its rounded edges and corners fall short of that.
+// What is held for a shape, for the receipt, and how far it departs from that at its edges and corners, or, if flat, at
+// its faces. A box is held as a rounded box; that its corners are missing is claimed all the same.
 function held_for(s, shape, k) {
-  if (s.type === "sphere" || s.type === "capsule") return { receipt: kit.received_shape(s, k), short: 0 };
+  if (s.type === "sphere" || s.type === "capsule") return { receipt: kit.received_shape(s, k), off: 0 };
   const core = core_of(shape), [, above] = checked(hk.HP_Shape_GetBoundingBox(shape, [[0, 0, 0], identity]), "HP_Shape_GetBoundingBox");
-  if (core.length === 0) throw new kit.Unsupported(`Havok makes nothing of the ${s.type}`);
+  if (core.length === 0 || ![above, ...core].flat().every(Number.isFinite)) throw new kit.Unsupported(`Havok makes no shape of the ${s.type}`);
   const radius = Math.max(0, above[2] - most(core, 2));
   if (s.type === "box") {
     const half_extents = [0, 1, 2].map((axis) => most(core, axis));
-    return { receipt: { shape: k, as: { type: "rounded_box", half_extents, radius } }, short: 0 };
+    return { receipt: { shape: k, as: { type: "rounded_box", half_extents, radius } }, off: (Math.sqrt(3) - 1) * radius };
   }
   const vertices = s.type === "cylinder" ? prism(core, radius) : s.vertices.map(kit.floats);
-  const short = Math.max(0, ...vertices.map((v) => Math.min(...core.map((c) => apart(v, c))) - radius));
-  return { receipt: s.type === "cylinder" ? { shape: k, as: { type: "hull", vertices } } : { ...kit.received_shape(s, k), vertices }, short };
+  const off = Math.max(...vertices.map((v) => Math.abs(Math.min(...core.map((c) => apart(v, c))) - radius)));
+  return { receipt: s.type === "cylinder" ? { shape: k, as: { type: "hull", vertices } } : { ...kit.received_shape(s, k), vertices }, off };
 }
 
 let made = [];
@@ -83,7 +84,7 @@ function make(s, k) {
   Object.assign(made.at(-1), held_for(s, shape, k));
 }
 const of = (scene, body) => made[scene.bodies[body].shape];
-const claim = (scene, a, b) => of(scene, a).short + of(scene, b).short;
+const claim = (scene, a, b) => of(scene, a).off + of(scene, b).off;
 
 function with_bodies(scene, numbers, motion, use) {
   const bodies = numbers.map((body) => {
@@ -172,7 +173,7 @@ const steps = {
   contact({ a, b }, scene) {
     const points = events(scene, a, b), claimed_tolerance = claim(scene, a, b);
     if (points.length === 0) return { overlap: false, claimed_tolerance };
-    return { overlap: true, ...kit.manifold(points), claimed_tolerance };
+    return { overlap: true, ...kit.manifold(points, kit.has_ball(scene, a, b)), claimed_tolerance };
   },
 };
 

@@ -22,6 +22,7 @@ const kinds = (scene, a, b) => [a, b].map((body) => shape_of(scene, body).type).
 function require_collider(scene, a, b) {
   if (kinds(scene, a, b).every((k) => k === "half_space")) throw new kit.Unsupported("MuJoCo collides no two planes");
 }
+const is_box_pair = (scene, a, b) => kinds(scene, a, b).every((k) => k === "box");
 const is_convex_pair = (scene, a, b) => {
   const both = kinds(scene, a, b);
   return !both.includes("half_space") && !analytic.has(both.join(" "));
@@ -102,12 +103,34 @@ function contacts(a, b) {
   all.delete();
   return out;
 }
+// mjmodel.h: vertices of a mesh are floats; they are also turned into the frame of its inertia and back.
+const vertex_roundings = 4;
+const rounding_of = (s) => (s.type === "hull"
+  ? vertex_roundings * kit.float_roundoff * Math.max(...s.vertices.map((v) => Math.hypot(...v))) : 0);
+const roundings = (scene, a, b) => rounding_of(shape_of(scene, a)) + rounding_of(shape_of(scene, b));
+// Box-box distances go through the convex pipeline too.
+const distance_claim = (scene, a, b) => roundings(scene, a, b) +
+  (is_convex_pair(scene, a, b) || is_box_pair(scene, a, b) ? ccd_tolerance : 0);
+// The depth may fall short of the least one by the tolerance, and the width along the normal exceed it by as much.
 // engine_collision_box.c: a face is preferred to an edge pair of up to 5 % less depth.
-function claim(scene, a, b, depth = 0) {
-  if (kinds(scene, a, b).join(" ") === "box box") return box_preference * depth;
-  return is_convex_pair(scene, a, b) ? ccd_tolerance : 0;
+function contact_claim(scene, a, b, depth = 0) {
+  if (is_box_pair(scene, a, b)) return box_preference * depth;
+  return roundings(scene, a, b) + (is_convex_pair(scene, a, b) ? 2 * ccd_tolerance : 0);
 }
 const deepest_of = (all) => all.reduce((x, y) => (y.distance < x.distance ? y : x));
+
+// The contact of a pair, with normal from a to b. Of contacts found after rotating geoms only the first is of the bodies
+// as placed, and all have its depth. Manifolds of the convex pipeline are clipped, and state depths at points, except
+// for balls and ellipsoids, which it does not clip.
+function answer_of(scene, found, a, b) {
+  const rotated = has_rotated_points(scene, a, b) && found.every((c) => c.distance === found[0].distance);
+  const all = (rotated ? found.slice(0, 1) : found).map((c) => ({ position: c.position, depth: -c.distance,
+    normal: c.geom[0] === a ? c.normal : c.normal.map((x) => -x) }));
+  const smooth = kinds(scene, a, b).some((k) => k === "sphere" || k === "ellipsoid");
+  const is_whole = !is_convex_pair(scene, a, b) || how !== "" || smooth || found.length > 1 && rotated;
+  const claimed_tolerance = contact_claim(scene, a, b, deepest_of(found).distance * -1);
+  return { overlap: true, ...kit.manifold(all, is_whole), claimed_tolerance };
+}
 const from_to = new mj.DoubleBuffer(6);
 
 const engine = {
@@ -134,25 +157,19 @@ const engine = {
   },
   overlap({ a, b }, scene) {
     require_collider(scene, a, b);
-    return { overlap: contacts(a, b).length > 0, claimed_tolerance: claim(scene, a, b) };
+    return { overlap: contacts(a, b).length > 0, claimed_tolerance: contact_claim(scene, a, b) };
   },
-  // The deepest contact is the answer. The others are points of its manifold, with a depth if it is along its normal.
   contact({ a, b }, scene) {
     require_collider(scene, a, b);
     const found = contacts(a, b);
-    if (found.length === 0) return { overlap: false, claimed_tolerance: claim(scene, a, b) };
-    const deepest = deepest_of(found), depth = -deepest.distance, side = deepest.geom[0] === a ? 1 : -1;
-    const points = (has_rotated_points(scene, a, b) ? [deepest] : found).map((c) => ({
-      position: c.position, depth: c.normal.every((x, k) => x === deepest.normal[k]) ? -c.distance : null }));
-    const normal = deepest.normal.map((x) => side * x);
-    return { overlap: true, normal, depth, points, claimed_tolerance: claim(scene, a, b, depth) };
+    return found.length > 0 ? answer_of(scene, found, a, b) : { overlap: false, claimed_tolerance: contact_claim(scene, a, b) };
   },
   distance({ a, b }, scene) {
-    if (how === "libccd" && is_convex_pair(scene, a, b))
+    if (how === "libccd" && (is_convex_pair(scene, a, b)))
       throw new kit.Unsupported("MuJoCo's documentation disclaims distances of its libccd pipeline");
     const distance = mj.mj_geomDistance(model, data, a, b, farthest, from_to), points = Array.from(from_to.GetView());
     if (distance >= farthest) throw new kit.Unsupported(`MuJoCo finds no distance below ${farthest}`);
-    const answer = { distance, claimed_tolerance: claim(scene, a, b, Math.max(0, -distance)) };
+    const answer = { distance, claimed_tolerance: distance_claim(scene, a, b) };
     if (points.every((x) => x === 0)) return answer; // it has written none
     return { ...answer, point_a: points.slice(0, 3), point_b: points.slice(3) };
   },
@@ -160,14 +177,14 @@ const engine = {
     const drops = kit.filter_of(scene), pairs = new Map(), planes = [...scene.bodies.keys()].filter((k) =>
       shape_of(scene, k).type === "half_space");
     planes.forEach((a) => planes.forEach((b) => drops(a, b) || require_collider(scene, a, b)));
-    for (const c of contacts()) {
+    for (const c of contacts().filter(({ geom }) => !drops(...geom))) {
       const key = c.geom.join(" ");
       pairs.set(key, [...(pairs.get(key) ?? []), c]);
     }
-    const kept = [...pairs.values()].map(deepest_of).filter((c) => !drops(...c.geom));
-    const tolerance = Math.max(0, ...kept.map((c) => claim(scene, ...c.geom, -c.distance)));
-    return { contacts: kept.map((c) => ({ a: c.geom[0], b: c.geom[1], normal: c.normal, depth: -c.distance })),
-      claimed_tolerance: tolerance };
+    const answers = [...pairs.values()].map((found) => ({ geom: found[0].geom, ...answer_of(scene, found, ...found[0].geom) }));
+    if (answers.some((x) => x.depth === undefined)) throw new kit.Unsupported("a clipped manifold of MuJoCo states no depth of the whole contact");
+    return { contacts: answers.map(({ geom: [a, b], normal, depth }) => ({ a, b, normal, depth })),
+      claimed_tolerance: Math.max(0, ...answers.map((x) => x.claimed_tolerance)) };
   },
 };
 kit.serve(engine);

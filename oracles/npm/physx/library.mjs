@@ -118,19 +118,26 @@ export const pair = (scene, a, b) => [of(scene, a), pose_of(scene, a), of(scene,
 // of the distance between their cores. GuVecBox.h, GuVecConvexHull.h, GuVecCapsule.h, GuGjkQuery.cpp: the margins.
 export const iteration_share = 0.1, core_share = 0.000225, support_margin = 0.001;
 const margin_share = 0.05;
+const sides_of = (s) => [0, 1, 2].map((k) => Math.max(...s.vertices.map((v) => v[k])) - Math.min(...s.vertices.map((v) => v[k])));
 function margin(s) {
-  const sides = [0, 1, 2].map((k) => s.vertices && s.vertices.map((v) => v[k]));
   switch (s.type) {
     case "box": return margin_share * Math.min(...s.half_extents);
-    case "hull": return (margin_share / 2) * Math.min(...sides.map((c) => Math.max(...c) - Math.min(...c)));
+    case "hull": return (margin_share / 2) * Math.min(...sides_of(s));
     case "sphere": case "capsule": return margin_share * s.radius;
     default: return support_margin;
   }
 }
+// PxCooking.h: points nearer to a hull than planeTolerance, which grows with the hull's size, are dropped.
+export function cooking_claim(scene, a, b) {
+  const dropped = (s) => cooking.planeTolerance * Math.max(1, sides_of(s).reduce((x, y) => x + y) / 2);
+  return [a, b].map((body) => shape_of(scene, body)).reduce((sum, s) => sum + (s.type === "hull" ? dropped(s) : 0), 0);
+}
 /** Of an iteration about these bodies; 0 if the pair has a closed form. Convex cores go through PxGjkQuery. */
-export function claim(scene, a, b, iterates = (s) => s.type === "hull" || s.type === "box") {
+function iteration_claim(scene, a, b, iterates) {
   const both = [a, b].map((body) => shape_of(scene, body));
   if (both.some((s) => s.type === "half_space")) return 0;
   if (both.some(is_core)) return iteration_share * support_margin;
   return both.some(iterates) ? iteration_share * Math.min(...both.map(margin)) : 0;
 }
+export const claim = (scene, a, b, iterates = (s) => s.type === "hull" || s.type === "box") =>
+  iteration_claim(scene, a, b, iterates) + cooking_claim(scene, a, b);

@@ -1,7 +1,7 @@
 // PhysX's queries about pairs: PxGeometryQuery, and PxGjkQuery with the supports of PxGjkQueryExt, whose
 // generateContacts wraps proximityInfo.
 import * as kit from "../adapter.mjs";
-import { claim, core_share, iteration_share, keep, list, pair, px, scale, shape_of, support_margin, vec } from "./library.mjs";
+import { claim, cooking_claim, core_share, is_core, iteration_share, keep, list, pair, px, scale, shape_of, support_margin, vec } from "./library.mjs";
 
 const gjk = px.PxGjkQuery.prototype, geometry_query = px.PxGeometryQuery.prototype;
 const unlimited = 1e15; // contact distance of proximityInfo
@@ -32,8 +32,17 @@ function proximity(scene, a, b, reach) {
   return gjk.proximityInfo(p.support, q.support, at, there, reach, scale.length, found) ? found : null;
 }
 const radius_of = (s) => (["sphere", "capsule"].includes(s.type) ? s.radius : 0);
-const gjk_claim = (scene, a, b, separation = 0) => iteration_share * support_margin + core_share *
-  Math.abs(separation + radius_of(shape_of(scene, a)) + radius_of(shape_of(scene, b)));
+// GuGjkQuery.cpp: cores about which GJK degenerates are asked again, smaller by this share.
+const degenerate_share = 0.001;
+function core_size(s) {
+  const sizes = s.half_extents ?? s.semi_axes ?? [s.type === "capsule" || is_core(s) ? s.half_height : 0, is_core(s) ? s.radius : 0];
+  return s.vertices ? Math.max(...s.vertices.map((v) => Math.hypot(...v))) : Math.hypot(...sizes);
+}
+function gjk_claim(scene, a, b, separation = 0) {
+  const both = [a, b].map((body) => shape_of(scene, body)), sum = (of) => of(both[0]) + of(both[1]);
+  return iteration_share * support_margin + core_share * Math.abs(separation + sum(radius_of))
+    + degenerate_share * sum(core_size) + cooking_claim(scene, a, b);
+}
 export const supports = {
   settings: "PxGjkQuery::overlap, sweep and proximityInfo, toleranceLength 1",
   overlap({ a, b }, scene) {

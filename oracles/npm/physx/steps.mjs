@@ -141,6 +141,6 @@ export const simulation = {
   contact({ a, b }, scene) {
     const points = touching(scene, a, b), claimed_tolerance = claim(scene, a, b);
     if (points.length === 0) return { overlap: false, claimed_tolerance };
-    return { overlap: true, ...kit.manifold(points), claimed_tolerance };
+    return { overlap: true, ...kit.manifold(points, kit.has_ball(scene, a, b)), claimed_tolerance };
   },
 };
