@@ -127,6 +127,8 @@ std::string route_of(const std::string& engine, Question question, ShapeKind a, 
   if (path.starts_with("bullet-")) return std::string(routes::bullet_route(p, path.find("sim") != path.npos));
   if (path.starts_with("libccd-")) return std::string(routes::libccd_route(p));
   if (path == "ode") return std::string(routes::ode_route(p));
+  if (path.starts_with("mujoco")) return std::string(routes::mujoco_route(p));
+  if (path.starts_with("physx-")) return std::string(routes::physx_route(path, p));
   return std::string(routes::common_route(p));
 }
 
@@ -134,6 +136,8 @@ std::string documented(const std::string& engine, const fuzz::Symptom& s, const 
   if (engine.starts_with("fcl-")) return std::string(routes::fcl_documents(engine, s.question, route, f));
   if (engine.starts_with("libccd-"))
     return std::string(routes::libccd_documents(engine, s.question, route, f));
+  if (engine.starts_with("mujoco"))
+    return std::string(routes::mujoco_documents(engine, s.question, route, f));
   return "";
 }
 

@@ -7,6 +7,7 @@
 #include "core/base/input_error.h"
 #include "fuzz/judge/relation.h"
 #include "fuzz/judge/truth.h"
+#include "fuzz/reproduce/javascript.h"
 #include "oracles/reproducer/engine_source.h"
 #include "oracles/reproducer/source_text.h"
 
@@ -271,14 +272,20 @@ std::string check_of(const ExpectedAnswer& e) {
 }
 
 bool is_ode(std::string_view engine) { return engine == "ode" || engine.starts_with("ode-"); }
+bool is_mujoco(std::string_view engine) { return engine == "mujoco" || engine.starts_with("mujoco-"); }
+bool is_physx(std::string_view engine) { return engine == "physx-query" || engine == "physx-gjk"; }
 
 EngineSource source_of(const EngineQuestion& q) {
   if (q.engine.starts_with("fcl-")) return fcl_source(q);
   if (q.engine.starts_with("bullet-")) return bullet_source(q);
   if (q.engine.starts_with("libccd-")) return libccd_source(q);
   if (is_ode(q.engine)) return ode_source(q);
+  if (is_mujoco(q.engine)) return mujoco_source(q);
+  if (is_physx(q.engine)) return physx_source(q);
+  if (q.engine == "havok") return havok_source(q);
   throw InputError("reproduce",
-                   fmt::format("is not available for {}, only for engines of FCL, Bullet, libccd and ODE",
+                   fmt::format("is not available for {}, only for engines of FCL, Bullet, libccd, "
+                               "ODE and MuJoCo, for physx-query, physx-gjk and havok",
                                std::string(q.engine)));
 }
 
@@ -286,7 +293,7 @@ EngineSource source_of(const EngineQuestion& q) {
 
 bool has_reproducer(std::string_view engine) {
   return engine.starts_with("fcl-") || engine.starts_with("bullet-") || engine.starts_with("libccd-") ||
-         is_ode(engine);
+         is_ode(engine) || is_mujoco(engine) || is_physx(engine) || engine == "havok";
 }
 
 std::string reproducer(const Finding& finding, const EngineCard& card) {
@@ -305,6 +312,7 @@ std::string reproducer(const Finding& finding, const EngineCard& card) {
   Truth truth(v.c.scene);
   const double tau = tau_of(card, v.observation, truth.scale(v.a, v.b));
   const EngineSource source = source_of(q);
+  if (!source.npm_package.empty()) return javascript_program(finding, card, q, source, truth, tau);
   const ExpectedAnswer expected{truth, q, finding, tau};
   const std::string check = check_of(expected);
   const auto support_of = [&](std::string_view who, int body) {

@@ -1,6 +1,6 @@
-// Turns a finding into one C++ file that uses only the engine's own API and nothing of this project: for the
-// engine's developers, and for anyone who doubts the adapter. The program prints the engine's answer and the
-// certain result, and exits with 1 while the answer is wrong.
+// Turns a finding into one file, C++ or (for engines from npm) JavaScript, that uses only the engine's own
+// API and nothing of this project: for the engine's developers, and for anyone who doubts the adapter. The
+// program prints the engine's answer and the certain result, and exits with 1 while the answer is wrong.
 #pragma once
 
 #include <string>
@@ -10,7 +10,7 @@
 
 namespace touchstone::fuzz {
 
-/// True for engines of FCL, Bullet, libccd and ODE.
+/// True for engines of FCL, Bullet, libccd, ODE and MuJoCo, and for physx-query, physx-gjk and havok.
 bool has_reproducer(std::string_view engine);
 
 /// Returns the program. `finding` must carry its evidence, as returned by findings_of; `card` is the

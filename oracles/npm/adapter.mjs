@@ -87,15 +87,17 @@ export function relative_translation(a, b) {
   return m.linear.map((x, k) => x - n.linear[k]);
 }
 
+const same_normal = 1 - 1e-9; // cosine
 /**
- * For an engine that states depths at points, {position, normal, depth}: the normal of the deepest, and all as points of
- * a manifold. A clipped manifold may miss the deepest point of the contact: its depth is stated only if `is_whole`.
+ * For an engine that states depths at points, {position, normal, depth}: the normal of the deepest, and the points that
+ * share it as a manifold. A clipped manifold may miss the deepest point of the contact: its depth is stated only if
+ * `is_whole`.
  */
 export function manifold(points, is_whole) {
   const { normal, depth } = points.reduce((p, q) => (q.depth > p.depth ? q : p));
-  const same = (n) => n.every((x, k) => x === normal[k]);
+  const shares = (p) => p.normal.reduce((sum, x, k) => sum + x * normal[k], 0) >= same_normal * Math.hypot(...normal) ** 2;
   return { normal, ...(is_whole && { depth }),
-    points: points.map((p) => ({ position: p.position, depth: same(p.normal) ? p.depth : null })) };
+    points: points.filter(shares).map((p) => ({ position: p.position, depth: p.depth })) };
 }
 /** Whether one of the shapes is a ball, which touches any other at one point. */
 export const has_ball = (scene, a, b) => [a, b].some((body) => scene.shapes[scene.bodies[body].shape].type === "sphere");
