@@ -158,10 +158,22 @@ std::string impact_check(const Finding& finding, const EngineQuestion& q, Truth&
                                {"SLACK", fmt::format("{}", std::max(off, 0.0) / 2)}});
 }
 
+// Engines from npm cast shapes along a line.
+void require_straight(const EngineQuestion& q) {
+  for (const int i : {q.a, q.b})
+    if (q.body(i).motion && !q.body(i).motion->angular.isZero(0))
+      throw InputError("reproduce", "no program in JavaScript is written for bodies that turn");
+}
+
 std::string check_of(const Finding& finding, const EngineQuestion& q, Truth& truth, double tau) {
   if (is_about_a_point(finding.fault))
     throw InputError("reproduce", "no program in JavaScript checks this fault: " + finding.key());
-  if (q.question == Question::time_of_impact) return impact_check(finding, q, truth);
+  if (q.question == Question::candidates)
+    throw InputError("reproduce", "no program in JavaScript is written for broad phases");
+  if (q.question == Question::time_of_impact) {
+    require_straight(q);
+    return impact_check(finding, q, truth);
+  }
   const auto& t = truth.pair(0, q.a, q.b);
   if (q.question == Question::distance)
     return filled(check_distance, {{"LO", fmt::format("{}", t.gap.lo)},

@@ -103,3 +103,42 @@ TEST_CASE("every engine with a writer has a program for every question and every
     }
   CHECK(written > 1000);
 }
+
+TEST_CASE("engines from npm have programs in JavaScript, and none in C++", "[reproduce]") {
+  const std::vector<std::pair<Shape, Shape>> pairs{{Box{{0.5, 0.5, 0.5}}, Sphere{0.5}},
+                                                   {Capsule{0.5, 0.5}, Cylinder{0.5, 0.5}}};
+  const std::pair<const char*, const char*> packages[] = {{"mujoco", "@mujoco/mujoco@"},
+                                                          {"mujoco-libccd", "@mujoco/mujoco@"},
+                                                          {"physx-query", "physx-js-webidl@"},
+                                                          {"physx-gjk", "physx-js-webidl@"},
+                                                          {"havok", "@babylonjs/havok@"}};
+  for (const auto& [engine, package] : packages) {
+    CHECK(has_reproducer(engine));
+    int written = 0;
+    for (const Question question :
+         {Question::overlap, Question::distance, Question::contact, Question::time_of_impact})
+      for (const auto& [a, b] : pairs) {
+        Case c = case_of(question, a, b);
+        if (c.scene.bodies[1].motion) c.scene.bodies[1].motion->angular = Vec3::Zero();
+        CAPTURE(engine, to_string(question));
+        try {
+          const std::string text = reproducer(finding_of(engine, c, to_string(Fault::missed)), EngineCard{});
+          CHECK(!has_open_token(text));
+          CHECK(text.find("int main()") == std::string::npos);
+          CHECK(text.find(std::string("npm install ") + package) != std::string::npos);
+          CHECK(text.find("function ask()") != std::string::npos);
+          CHECK(text.find("function check(x)") != std::string::npos);
+          ++written;
+        } catch (const InputError&) {
+          // Refused with a message: this engine does not answer this question.
+        }
+      }
+    CHECK(written >= 4);
+  }
+  // A broad phase, a body that turns, and an engine without a writer.
+  const Case turning = case_of(Question::time_of_impact, pairs[0].first, pairs[0].second);
+  CHECK_THROWS_AS(reproducer(finding_of("havok", turning, to_string(Fault::missed)), EngineCard{}),
+                  InputError);
+  CHECK_FALSE(has_reproducer("physx-sap"));
+  CHECK_FALSE(has_reproducer("havok-sim"));
+}

@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include "core/base/input_error.h"
 #include "oracles/reproducer/engine_source.h"
 #include "oracles/reproducer/source_text.h"
 
@@ -65,6 +66,11 @@ std::string question(const EngineQuestion& q) {
 }  // namespace
 
 EngineSource havok_source(const EngineQuestion& q) {
+  for (const int i : {q.a, q.b}) {
+    const ShapeKind kind = kind_of(q.scene.shape_of(i));
+    if (kind == ShapeKind::half_space || kind == ShapeKind::cone || kind == ShapeKind::ellipsoid)
+      throw InputError("reproduce", "Havok has no such shape");
+  }
   EngineSource s;
   s.npm_package = "@babylonjs/havok";
   s.includes = includes;

@@ -52,6 +52,8 @@ std::string flags(std::string_view engine) {
 }  // namespace
 
 EngineSource mujoco_source(const EngineQuestion& q) {
+  if (q.question == Question::time_of_impact)
+    throw InputError("reproduce", "MuJoCo does not answer this question");
   for (const int i : {q.a, q.b})
     if (std::holds_alternative<HalfSpace>(q.scene.shape_of(i)))
       throw InputError("reproduce", "for MuJoCo no program with a half-space is written");

@@ -23,7 +23,8 @@ std::string_view mujoco_documents(std::string_view engine, Question question, st
   const bool is_contact = question == Question::contact || question == Question::scene_contacts;
   if (engine == "mujoco-libccd" && is_contact && route == "convex" && is_depth)
     return "MuJoCo documentation, Computation, Convex collisions: the libccd pipeline is Minkowski Portal "
-           "Refinement; G. Snethen, XenoCollide (Game Programming Gems 7): MPR finds the depth along the portal "
+           "Refinement; G. Snethen, XenoCollide (Game Programming Gems 7): MPR finds the depth along the "
+           "portal "
            "that the origin ray leaves through, not the least depth";
   return "";
 }

@@ -96,6 +96,9 @@ std::string question(const EngineQuestion& q) {
 }  // namespace
 
 EngineSource physx_source(const EngineQuestion& q) {
+  const bool measures = q.question != Question::overlap && q.question != Question::time_of_impact;
+  if (q.engine == "physx-query" && measures)
+    throw InputError("reproduce", "physx-query does not answer this question");
   for (const int i : {q.a, q.b})
     if (std::holds_alternative<HalfSpace>(q.scene.shape_of(i)))
       throw InputError("reproduce", "for PhysX no program with a half-space is written");
