@@ -165,7 +165,7 @@ const engine = {
     return found.length > 0 ? answer_of(scene, found, a, b) : { overlap: false, claimed_tolerance: contact_claim(scene, a, b) };
   },
   distance({ a, b }, scene) {
-    if (how === "libccd" && (is_convex_pair(scene, a, b)))
+    if (how === "libccd" && (is_convex_pair(scene, a, b) || is_box_pair(scene, a, b)))
       throw new kit.Unsupported("MuJoCo's documentation disclaims distances of its libccd pipeline");
     const distance = mj.mj_geomDistance(model, data, a, b, farthest, from_to), points = Array.from(from_to.GetView());
     if (distance >= farthest) throw new kit.Unsupported(`MuJoCo finds no distance below ${farthest}`);

@@ -18,8 +18,8 @@ std::string_view mujoco_route(const Pair& p) {
 
 std::string_view mujoco_documents(std::string_view engine, Question question, std::string_view route,
                                   Fault fault) {
-  const bool is_depth =
-      fault == Fault::not_minimal || fault == Fault::depth_excess || fault == Fault::infeasible;
+  const bool is_depth = fault == Fault::not_minimal || fault == Fault::depth_excess ||
+                        fault == Fault::infeasible || fault == Fault::point_depth;
   const bool is_contact = question == Question::contact || question == Question::scene_contacts;
   if (engine == "mujoco-libccd" && is_contact && route == "convex" && is_depth)
     return "MuJoCo documentation, Computation, Convex collisions: the libccd pipeline is Minkowski Portal "
