@@ -46,13 +46,12 @@ constexpr NpmRow npm_rows[] = {
      "Havok, collision events of a step; WASM"},
 };
 
-// The row of that name; or, for a library such as physx, its rows: those whose names begin with it and a
+// The rows of an engine, or of a library such as jolt or physx: also those whose names begin with it and a
 // dash.
 std::vector<const NpmRow*> rows_named(const std::string& name) {
-  if (const NpmRow* row = find_npm_row(name)) return {row};
   std::vector<const NpmRow*> out;
   for (const NpmRow& r : npm_rows)
-    if (r.name.starts_with(name + "-")) out.push_back(&r);
+    if (r.name == name || r.name.starts_with(name + "-")) out.push_back(&r);
   if (!out.empty()) return out;
   std::set<std::string_view> known;
   for (const NpmRow& r : npm_rows) known.insert(r.name);
