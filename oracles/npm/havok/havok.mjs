@@ -64,13 +64,14 @@ function prism(core, radius) {
 function held_for(s, shape, k) {
   if (s.type === "sphere" || s.type === "capsule") return { receipt: kit.received_shape(s, k), off: 0 };
   const core = core_of(shape), [, above] = checked(hk.HP_Shape_GetBoundingBox(shape, [[0, 0, 0], identity]), "HP_Shape_GetBoundingBox");
-  if (core.length === 0 || ![above, ...core].flat().every(Number.isFinite)) throw new kit.Unsupported(`Havok makes no shape of the ${s.type}`);
+  if (core.length === 0) throw new kit.Unsupported(`Havok makes no core of the ${s.type}`);
   const radius = Math.max(0, above[2] - most(core, 2));
   if (s.type === "box") {
     const half_extents = [0, 1, 2].map((axis) => most(core, axis));
     return { receipt: { shape: k, as: { type: "rounded_box", half_extents, radius } }, off: (Math.sqrt(3) - 1) * radius };
   }
   const vertices = s.type === "cylinder" ? prism(core, radius) : s.vertices.map(kit.floats);
+  if (![above, ...core, ...vertices].flat().every(Number.isFinite)) throw new kit.Unsupported(`Havok's ${s.type} is not finite`);
   const off = Math.max(...vertices.map((v) => Math.abs(Math.min(...core.map((c) => apart(v, c))) - radius)));
   return { receipt: s.type === "cylinder" ? { shape: k, as: { type: "hull", vertices } } : { ...kit.received_shape(s, k), vertices }, off };
 }
@@ -193,8 +194,7 @@ kit.serve({
     made.forEach(({ shape }) => hk.HP_Shape_Release(shape));
     made = [];
     scene.shapes.forEach(make);
-    const bodies = scene.bodies.map((b, k) => ({ ...kit.received_body(k, b, kit.columns_of(place(b)[1]), false) }));
-    return { shapes: made.map((m) => m.receipt), bodies };
+    return { shapes: made.map((m) => m.receipt), bodies: scene.bodies.map((b, k) => kit.received_body(k, b, kit.columns_of(place(b)[1]))) };
   },
   ...questions,
 });

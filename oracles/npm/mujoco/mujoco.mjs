@@ -10,7 +10,7 @@ const mj = await (await kit.from(modules, "@mujoco/mujoco")).default({ print: co
 
 // Documentation, XMLreference, option/ccd_tolerance: "in units of distance" (Computation, Convex collisions).
 const ccd_tolerance = 1e-6;
-const box_preference = 0.05;
+const box_preference = 0.05, box_slack = 1e-13; // share of the depth; of the sum of half extents
 const farthest = 1e10; // distmax of mj_geomDistance: mjMAXVAL
 const flags = { "": "", single: '<flag multiccd="disable"/>', libccd: '<flag nativeccd="disable"/>' }[how];
 
@@ -112,9 +112,10 @@ const roundings = (scene, a, b) => rounding_of(shape_of(scene, a)) + rounding_of
 const distance_claim = (scene, a, b) => roundings(scene, a, b) +
   (is_convex_pair(scene, a, b) || is_box_pair(scene, a, b) ? ccd_tolerance : 0);
 // The depth may fall short of the least one by the tolerance, and the width along the normal exceed it by as much.
-// engine_collision_box.c: a face is preferred to an edge pair of up to 5 % less depth.
+// engine_collision_box.c: a face is preferred to an edge pair of up to 5 % less depth, and separation has some slack.
 function contact_claim(scene, a, b, depth = 0) {
-  if (is_box_pair(scene, a, b)) return box_preference * depth;
+  if (is_box_pair(scene, a, b)) return box_preference * depth + box_slack *
+    [a, b].flatMap((body) => shape_of(scene, body).half_extents).reduce((x, y) => x + y);
   return roundings(scene, a, b) + (is_convex_pair(scene, a, b) ? 2 * ccd_tolerance : 0);
 }
 const deepest_of = (all) => all.reduce((x, y) => (y.distance < x.distance ? y : x));

@@ -44,10 +44,11 @@ class Stage {
     const shape = physics.createShape(of(this.scene, body).geometry, material, true, flags);
     shape.setSimulationFilterData(this.filter_data(body));
     const at = transform(place(this.scene, body, pose));
-    const actor = is_fixed(s) ? physics.createRigidStatic(at) : physics.createRigidDynamic(at);
+    const is_static = is_fixed(s) && !this.kinematic; // PhysX pairs no static actors
+    const actor = is_static ? physics.createRigidStatic(at) : physics.createRigidDynamic(at);
     actor.attachShape(shape);
     shape.release(); // the actor holds it
-    if (!is_fixed(s) && this.kinematic) actor.setRigidBodyFlag(px.PxRigidBodyFlagEnum.eKINEMATIC, true);
+    if (this.kinematic) actor.setRigidBodyFlag(px.PxRigidBodyFlagEnum.eKINEMATIC, true);
     this.world.addActor(actor);
     this.bodies.set(body, { actor, shape });
   }
