@@ -3,6 +3,7 @@
 #include <set>
 
 #include "cli/command.h"
+#include "cli/debian_engines.h"
 #include "cli/engine_catalog.h"
 #include "cli/npm_engines.h"
 #include "core/base/input_error.h"
@@ -63,6 +64,14 @@ int list(const std::string& which, bool json, const WorkerLimits& limits) {
         fmt::print("{:<24} absent: engines --install {} gets it from npm\n    {}\n", row.name, row.name,
                    row.line);
     }
+    for (const DebianRow& row : debian_catalog()) {
+      if (is_installed(row))
+        show(std::string(row.name));
+      else if (json)
+        j.push_back({{"name", row.name}, {"absent", true}});
+      else
+        fmt::print("{:<24} absent: engines --install {} compiles it\n    {}\n", row.name, row.name, row.line);
+    }
   }
   if (json) fmt::print("{}\n", j.dump(1));
   if (!json) print_sandboxes(sandboxes);
@@ -87,6 +96,25 @@ int check(const std::string& which, const WorkerLimits& limits) {
   return right > 0 ? exit_clean : exit_failed;
 }
 
+// Engines from npm and engines from Debian have an installer each.
+int install(const std::vector<std::string>& names) {
+  std::vector<std::string> npm, debian;
+  for (const std::string& name : names) (find_debian_row(name) ? debian : npm).push_back(name);
+  const int code = npm.empty() ? exit_clean : install_npm_engines(npm);
+  return code != exit_clean || debian.empty() ? code : install_debian_engines(debian);
+}
+
+// For the launcher, which installs them.
+int print_packages(const std::vector<std::string>& names) {
+  std::vector<std::string> debian;
+  for (const std::string& name : names)
+    if (find_debian_row(name)) debian.push_back(name);
+  std::vector<std::string> packages = debian_packages_of(debian);
+  if (debian.size() < names.size()) packages.insert(packages.end(), {"nodejs", "npm"});
+  fmt::print("{}\n", fmt::join(packages, " "));
+  return exit_clean;
+}
+
 }  // namespace
 
 Run declare_engines(CLI::App& app) {
@@ -98,14 +126,19 @@ Run declare_engines(CLI::App& app) {
   app.add_option("--check", *checked,
                  "test whether an engine (./libmine.so, pipe:COMMAND) uses the interface correctly");
   auto wanted = std::make_shared<std::vector<std::string>>();
-  app.add_option("--install", *wanted,
-                 "engines to install from npm, separated by commas: jolt, jolt-tuned, rapier")
+  app.add_option(
+         "--install", *wanted,
+         "engines to install, separated by commas: from npm, or compiled against Debian's libraries; the "
+         "list of engines names them")
       ->delimiter(',')
       ->allow_extra_args(false);
+  auto packages = std::make_shared<bool>(false);
+  app.add_flag("--debian-packages", *packages, "print the Debian packages that --install needs, and stop");
   auto limits = std::make_shared<WorkerLimits>();
   add_no_sandbox(app, *limits);
-  return [which, json, checked, wanted, limits] {
-    if (!wanted->empty()) return install_npm_engines(*wanted);
+  return [which, json, checked, wanted, packages, limits] {
+    if (*packages) return print_packages(*wanted);
+    if (!wanted->empty()) return install(*wanted);
     return checked->empty() ? list(*which, *json, *limits) : check(*checked, *limits);
   };
 }

@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "cli/command.h"
+#include "cli/debian_engines.h"
 #include "cli/npm_engines.h"
 #include "core/base/input_error.h"
 #include "oracles/core/core_engine.h"
@@ -213,6 +214,11 @@ void check_name(const std::string& name) {
                      fmt::format("is not installed: ./touchstone engines --install {} installs {} {}", name,
                                  npm->package, npm->version));
   }
+  if (const DebianRow* debian = find_debian_row(name)) {
+    if (is_installed(*debian)) return;
+    throw InputError("engine " + name,
+                     fmt::format("is not installed: ./touchstone engines --install {} compiles it", name));
+  }
   if (is_core_broad_phase(name)) return;
   const EngineRow* row = find_row(name);
   if (!row) refuse_unknown(name);
@@ -286,13 +292,15 @@ std::vector<std::string> catalogued_names() {
   for (const auto catalog : {engine_catalog(), broad_catalog(), sweep_catalog()})
     for (const EngineRow& row : catalog) names.emplace_back(row.name);
   for (const NpmRow& row : npm_catalog()) names.emplace_back(row.name);
+  for (const DebianRow& row : debian_catalog()) names.emplace_back(row.name);
   return names;
 }
 
 bool is_foreign(const std::string& name) { return is_pipe(name) || is_path(name); }
 
 bool is_catalogued(const std::string& name) {
-  return !is_foreign(name) && (find_npm_row(name) || find_row(name) || fuzz::sub_steps_name(name));
+  return !is_foreign(name) &&
+         (find_npm_row(name) || find_debian_row(name) || find_row(name) || fuzz::sub_steps_name(name));
 }
 
 std::vector<std::filesystem::path> engine_files(const std::string& name) {
@@ -300,6 +308,7 @@ std::vector<std::filesystem::path> engine_files(const std::string& name) {
   if (const auto stepped = fuzz::sub_steps_name(name)) return engine_files(stepped->engine);
   if (is_path(name)) return {plugin_spec(name).plugin};
   if (const NpmRow* npm = find_npm_row(name)) return files_of(*npm);
+  if (const DebianRow* debian = find_debian_row(name)) return {plugin_of(*debian)};
   const EngineRow* row = find_row(name);
   if (!row || row->library.empty()) return {};
   return {plugin_directory() / row->library};
@@ -315,9 +324,11 @@ EnginePtr make_engine(const std::string& name, const WorkerLimits& limits) {
   if (const auto stepped = fuzz::sub_steps_name(name); stepped && !is_pipe(name))
     return fuzz::sub_stepped(make_engine(stepped->engine, limits), stepped->steps);
   const NpmRow* npm = find_npm_row(name);
+  const DebianRow* debian = find_debian_row(name);
   RemoteSpec spec = is_pipe(name) || npm ? RemoteSpec{host_program(), npm ? pipe_of(*npm) : name, "", {}}
-                    : is_path(name)
-                        ? plugin_spec(name)
+                    : is_path(name)      ? plugin_spec(name)
+                    : debian
+                        ? RemoteSpec{host_program(), plugin_of(*debian), name, {}}
                         : RemoteSpec{host_program(), plugin_directory() / find_row(name)->library, name, {}};
   spec.limits = limits;
   return std::make_unique<RemoteEngine>(std::move(spec));

@@ -7,6 +7,7 @@
 #include <system_error>
 
 #include "cli/command.h"
+#include "cli/debian_engines.h"
 #include "cli/npm_engines.h"
 #include "core/base/input_error.h"
 #include "fuzz/shrink/keeps_finding.h"
@@ -37,6 +38,7 @@ std::string engine_of(const std::string& key) {
   for (const EngineRow& row : engine_catalog()) consider(row.name);
   for (const EngineRow& row : broad_catalog()) consider(row.name);
   for (const NpmRow& row : npm_catalog()) consider(row.name);
+  for (const DebianRow& row : debian_catalog()) consider(row.name);
   if (found.empty())
     throw InputError("--key", "names no engine in the catalogue: " + key + " (for a plug-in, add --engine)");
   return found;
