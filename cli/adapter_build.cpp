@@ -3,40 +3,39 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cstdlib>
+#include <fstream>
+#include <iterator>
+#include <thread>
 
 #include "cli/engine_catalog.h"
-#include "cli/shell.h"
+#include "cli/logged_command.h"
 #include "core/base/input_error.h"
+#include "scenarios/text/name_list.h"
 
 namespace touchstone::cli {
 namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t shown_lines = 8;
+constexpr const char* user_mark = "touchstone: ";  // of the lines that adapter_project writes for the user
 
-void require_tools() {
-  for (const char* name : {"cmake", "c++"})
-    if (!has_program(name))
-      throw InputError(
-          "adapter", fmt::format("{} is missing; Debian's packages are cmake, g++ and libeigen3-dev", name));
+// The core's plug-in is compiled with the core, not against a library.
+bool is_adapter(const fs::path& folder) {
+  if (folder.filename() == "core") return false;
+  std::ifstream in(folder / "CMakeLists.txt");
+  const std::string text{std::istreambuf_iterator<char>(in), {}};
+  return text.find("ts_add_plugin(") != std::string::npos;
 }
+
+std::string processors() { return std::to_string(std::max(1U, std::thread::hardware_concurrency())); }
 
 std::vector<fs::path> plugins_in(const fs::path& folder) {
-  std::vector<fs::path> all;
+  std::vector<fs::path> files;
   std::error_code none;
   for (const auto& entry : fs::directory_iterator(folder, none))
-    if (entry.path().extension() == ".so") all.push_back(entry.path());
-  std::sort(all.begin(), all.end());
-  return all;
-}
-
-void run_logged(const std::string& command, const fs::path& log, const std::string& what) {
-  const std::string logged = fmt::format("{} >>{} 2>&1 </dev/null", command, shell_word(log));
-  if (std::system(logged.c_str()) == 0) return;
-  fmt::print(stderr, "{}", end_of_log(log, shown_lines));
-  throw InputError(what, "failed; the whole log is " + log.string());
+    if (entry.path().extension() == ".so") files.push_back(entry.path());
+  std::sort(files.begin(), files.end());
+  return files;
 }
 
 }  // namespace
@@ -47,21 +46,52 @@ fs::path kit_folder() {
   return fs::is_directory(installed, none) ? installed : fs::path(TOUCHSTONE_SOURCE);
 }
 
+std::vector<std::string> adapters() {
+  std::vector<std::string> names;
+  std::error_code none;
+  for (const auto& entry : fs::directory_iterator(kit_folder() / "oracles", none))
+    if (entry.is_directory() && is_adapter(entry.path())) names.push_back(entry.path().filename());
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+void require_adapter(const std::string& name) {
+  const auto all = adapters();
+  if (std::find(all.begin(), all.end(), name) != all.end()) return;
+  std::string list;
+  for (const std::string& each : all) list += (list.empty() ? "" : ", ") + each;
+  throw InputError("adapter " + name, fmt::format("unknown{}; there are {}", did_you_mean(name, all),
+                                                  list.empty() ? "none" : list));
+}
+
+std::string adapter_of(const std::string& engine) {
+  std::string found;
+  for (const std::string& name : adapters())
+    if ((engine == name || engine.starts_with(name + "-")) && name.size() > found.size()) found = name;
+  return found;
+}
+
 std::vector<fs::path> build_adapter(const AdapterBuild& build) {
-  const fs::path oracles = kit_folder() / "oracles";
-  if (!fs::exists(oracles / build.adapter / "CMakeLists.txt"))
-    throw InputError((oracles / build.adapter).string(), "holds no adapter");
-  require_tools();
-  std::error_code error;
-  fs::create_directories(build.folder, error);
-  if (error) throw InputError(build.folder.string(), "cannot be created: " + error.message());
-  fs::remove(build.log, error);
-  run_logged(fmt::format("cmake{} -S {} -B {} -DTOUCHSTONE_ADAPTER={} -DTOUCHSTONE_PREFIX={}",
-                         has_program("ninja") ? " -G Ninja" : "", shell_word(oracles / "abi/adapter_project"),
-                         shell_word(build.folder), shell_word(build.adapter), shell_word(build.prefix)),
-             build.log, "configuring the adapter " + build.adapter);
-  run_logged(fmt::format("cmake --build {}", shell_word(build.folder)), build.log,
-             "compiling the adapter " + build.adapter);
+  require_adapter(build.adapter);
+  require_program("cmake", "to compile adapters (Debian: cmake)");
+  Words configure{"cmake",
+                  "-S",
+                  (kit_folder() / "oracles/abi/adapter_project").string(),
+                  "-B",
+                  build.folder.string(),
+                  "-DTOUCHSTONE_ADAPTER=" + build.adapter};
+  if (!build.prefix.empty()) {
+    std::error_code none;
+    if (!fs::is_directory(build.prefix, none))
+      throw InputError("--prefix " + build.prefix.string(), "is not a folder");
+    configure.push_back("-DTOUCHSTONE_PREFIX=" + fs::absolute(build.prefix).string());
+  }
+  if (!run_logged(configure, build.log))
+    throw InputError("adapter " + build.adapter,
+                     fmt::format("{}full log: {}", reasons_in(build.log, user_mark), build.log.string()));
+  if (!run_logged({"cmake", "--build", build.folder.string(), "--parallel", processors()}, build.log))
+    throw CommandFailed(fmt::format("the adapter {} does not compile against this library:\n{}full log: {}",
+                                    build.adapter, reasons_in(build.log, user_mark), build.log.string()));
   return plugins_in(build.folder / "lib");
 }
 

@@ -1,5 +1,5 @@
-// Compiles the adapter of one engine (a folder oracles/NAME) by itself, after Touchstone was built. CMake
-// does the work: oracles/abi/adapter_project.
+// Compiling the adapter of one engine (a folder oracles/NAME) against a library of the user's, from the
+// checkout or from an installed Touchstone. CMake does the work: oracles/abi/adapter_project.
 #pragma once
 
 #include <filesystem>
@@ -12,16 +12,25 @@ namespace touchstone::cli {
 /// program, or the source tree.
 std::filesystem::path kit_folder();
 
+/// The names of all adapters, sorted.
+std::vector<std::string> adapters();
+
+/// Throws InputError with suggestions.
+void require_adapter(const std::string& name);
+
+/// The adapter whose engines have names like this one: the longest that is `engine` or its beginning up to a
+/// hyphen; empty if there is none.
+std::string adapter_of(const std::string& engine);
+
 struct AdapterBuild {
-  std::string adapter;           // folder of oracles/
+  std::string adapter;
   std::filesystem::path prefix;  // where the library is installed; empty: where CMake finds it
-  std::filesystem::path
-      folder;  // for the build; is kept, so that a second call compiles only what has changed
+  std::filesystem::path folder;  // for the build; it need not exist
   std::filesystem::path log;
 };
 
-/// Returns the plug-ins, sorted. Throws InputError if there is no such adapter, if CMake or a compiler is
-/// missing, if the library was not found, or if the adapter does not compile; the last two name the log.
+/// Returns the plug-ins, sorted. Throws InputError when the prefix does not hold the library, CommandFailed
+/// when the adapter does not compile; both name the log.
 std::vector<std::filesystem::path> build_adapter(const AdapterBuild& build);
 
 }  // namespace touchstone::cli

@@ -1,4 +1,5 @@
 #include "cli/causes_of_campaign.h"
+#include "cli/engine_program.h"
 
 #include <fmt/format.h>
 #include <unistd.h>
@@ -18,7 +19,6 @@
 #include "fuzz/campaign/directory_lock.h"
 #include "fuzz/campaign/store.h"
 #include "fuzz/causes/causes.h"
-#include "fuzz/reproduce/reproducer.h"
 #include "scenarios/codec/json_file.h"
 
 namespace touchstone::cli {
@@ -56,7 +56,7 @@ fuzz::Causes find_causes(const CausesSearch& search, const fuzz::CampaignResult&
   config.make = [&](const std::string& name) {
     return make_by_card(name, foreign, search.limits, search.error);
   };
-  config.program = [](const fuzz::Finding& f, const EngineCard& card) { return fuzz::reproducer(f, card); };
+  config.program = [](const fuzz::Finding& f, const EngineCard& card) { return engine_program(f, card); };
   config.jobs = search.jobs;
   config.minutes = search.minutes;
   config.stop = &interrupted;

@@ -14,10 +14,10 @@
 #include "cli/chosen_engines.h"
 #include "cli/command.h"
 #include "cli/engine_catalog.h"
+#include "cli/engine_program.h"
 #include "cli/output.h"
 #include "core/base/input_error.h"
 #include "fuzz/campaign/store.h"
-#include "fuzz/reproduce/reproducer.h"
 #include "oracles/core/core_engine.h"
 #include "reports/text/record_text.h"
 #include "reports/text/text.h"
@@ -134,8 +134,13 @@ void write_scripts(const CertifyOptions& o, const BroadCertificate& c) {
 
 int list_subjects() {
   for (const auto name : core_broad_phases()) fmt::print("{:<34}core\n", name);
-  for (const EngineRow& row : broad_catalog())
-    fmt::print("{:<34}{}{}\n", row.name, row.line, is_present(row) ? "" : " (absent: not built)");
+  for (const std::string_view folder : engine_folders()) {
+    if (!is_present(folder)) fmt::print("{:<34}absent: not built\n", folder);
+    for (const PluginEngine& e : engines_of_folder(folder))
+      if (e.kind == EngineKind::broad)
+        fmt::print("{:<34}{}\n", e.card.name,
+                   reports::wrapped(e.card.library + ", " + e.card.settings, 44, 34));
+  }
   fmt::print("also every engine listed by `touchstone engines`, ./libmine.so, pipe:COMMAND\n");
   return exit_clean;
 }
@@ -150,7 +155,7 @@ bool write_certificate_page(const CertifyOptions& o, const BroadCertificate& c) 
                      {"subject", o.subject},
                      {"file", o.out},
                      {"scripts", std::move(scripts)},
-                     {"has_writer", fuzz::has_reproducer(o.subject)},
+                     {"has_writer", has_program(o.subject)},
                      {"certificate", to_json(c)}};
   return write_page("certificate", page.dump(), o.page, o.out);
 }

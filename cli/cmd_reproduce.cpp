@@ -3,8 +3,8 @@
 
 #include "cli/case_argument.h"
 #include "cli/command.h"
+#include "cli/engine_program.h"
 #include "cli/output.h"
-#include "fuzz/reproduce/reproducer.h"
 #include "scenarios/codec/json_file.h"
 
 namespace touchstone::cli {
@@ -20,7 +20,7 @@ int run(const ReproduceOptions& o) {
   require_writable(o.out);
   const AskedFinding asked = ask_for_finding(o.finding, o.limits);
   if (asked.key.empty()) return not_found(asked, o.finding);
-  const std::string text = fuzz::reproducer(asked.findings.at(asked.key), asked.engine->card());
+  const std::string text = engine_program(asked.findings.at(asked.key), asked.engine->card());
   if (o.out.empty())
     fmt::print("{}", text);
   else

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "cli/engine_catalog.h"
+#include "cli/own_engines.h"
 #include "oracles/routes/routes.h"
 
 namespace touchstone::cli {
@@ -102,27 +103,35 @@ std::string other_name(const std::string& engine, const OtherRow& row) {
 std::vector<fuzz::OtherEngine> others(const std::string& engine) {
   std::vector<fuzz::OtherEngine> all;
   if (is_foreign(engine)) return all;
+  const std::string in_adapter = name_in_adapter(engine);
   for (const OtherRow& row : other_rows) {
-    if (!engine.starts_with(row.engines)) continue;
+    if (!in_adapter.starts_with(row.engines)) continue;
     const bool known =
         std::ranges::any_of(all, [&](const fuzz::OtherEngine& o) { return o.name == row.name; });
-    const std::string name = other_name(engine, row);
-    if (known || name.empty() || name == engine || !is_catalogued(name)) continue;
+    const std::string other = other_name(in_adapter, row);
+    if (known || other.empty()) continue;
+    const std::string name = beside(engine, other);
+    if (name == engine || !is_catalogued(name)) continue;
     all.push_back({std::string(row.name), std::string(row.change), std::string(row.if_gone), name});
   }
   return all;
 }
 
-std::string path_of(const std::string& engine) {
+std::string path_in_adapter(const std::string& engine) {
   std::string r = without_suffix(engine);
   for (const std::string_view precision : {"bullet-f32-", "bullet-f64-"})
     if (r.starts_with(precision)) r.replace(0, precision.size(), "bullet-");
   return r;
 }
 
+// The user's own build of a library shares no code with the build's.
+std::string path_of(const std::string& engine) {
+  return beside(engine, path_in_adapter(name_in_adapter(engine)));
+}
+
 std::string route_of(const std::string& engine, Question question, ShapeKind a, ShapeKind b) {
   const routes::Pair p{question, a, b};
-  const std::string path = path_of(engine);
+  const std::string path = path_in_adapter(name_in_adapter(engine));
   if (path.starts_with("fcl-")) return std::string(routes::fcl_route(p));
   if (path.starts_with("bullet-")) return std::string(routes::bullet_route(p, path.find("sim") != path.npos));
   if (path.starts_with("libccd-")) return std::string(routes::libccd_route(p));
@@ -130,7 +139,8 @@ std::string route_of(const std::string& engine, Question question, ShapeKind a, 
   return std::string(routes::common_route(p));
 }
 
-std::string documented(const std::string& engine, const fuzz::Symptom& s, const std::string& route, Fault f) {
+std::string documented(const std::string& name, const fuzz::Symptom& s, const std::string& route, Fault f) {
+  const std::string engine = name_in_adapter(name);
   if (engine.starts_with("fcl-")) return std::string(routes::fcl_documents(engine, s.question, route, f));
   if (engine.starts_with("libccd-"))
     return std::string(routes::libccd_documents(engine, s.question, route, f));

@@ -53,6 +53,8 @@ class RemoteEngine::Impl {
     } catch (const InputError& e) {
       throw e.within(spec_.plugin.string() + ": card");
     }
+    if (!spec_.shown_name.empty()) card_.name = spec_.shown_name;
+    if (!spec_.shown_version.empty()) card_.version = spec_.shown_version;
   }
 
   std::vector<CaseObservations> run(std::span<const Case> cases, std::uint8_t fill) try {

@@ -1,7 +1,7 @@
 // Every command line of the README and of the guides in docs/ runs. In the README, `./touchstone` is replaced
 // by the program itself (its launcher would build it again), `test` is left out (it runs this test), minutes
 // are shortened, and
-// ./libmine.so and ./libmybroad.so are replaced by the example plug-ins.
+// ./libmine.so and ./libmybroad.so are replaced by the example plug-ins, and Box3D by a stand-in.
 #include <sys/wait.h>
 
 #include <cstdio>
@@ -106,10 +106,32 @@ std::vector<std::string> lines_of(const std::string& text) {
 std::string in_workspace(const Workspace& w, std::string line) {
   line = std::regex_replace(line, std::regex("build/release"), TS_BINARY_DIR);
   line = std::regex_replace(line, std::regex("PREFIX(?!_)"), (w.dir / "prefix").string());
+  line = std::regex_replace(line, std::regex("/opt/box3d"), TS_SOURCE_DIR "/tests/oracles/stubs/box3d");
+  line = std::regex_replace(line, std::regex("~/"), w.dir.string() + "/");
   line = std::regex_replace(line, std::regex("--cases [0-9]+"), "--cases 300");
   line = std::regex_replace(line, std::regex(" --limit [0-9]+"), "");
   if (line.find(" certify --subject") != std::string::npos) line += " --limit 40";
   return line;
+}
+
+// A repository ~/box3d of a stand-in, whose last commit but one is wrong, and ~/box3d-build, which installs
+// it.
+void make_library(const Workspace& w) {
+  fs::copy(TS_SOURCE_DIR "/tests/oracles/stubs/box3d", w.dir / "box3d", fs::copy_options::recursive);
+  w.write(
+      "box3d/CMakeLists.txt",
+      "cmake_minimum_required(VERSION 3.16)\nproject(box3d)\ninstall(DIRECTORY include lib DESTINATION .)\n");
+  fs::create_directory(w.dir / "box3d-build");
+  w.write("box3d-build/Makefile", "install:\n\ttrue\n");
+  const Run r = w.run(
+      "cd box3d && git init -q -b main && git config user.email test@example.org && git config user.name "
+      "Test && "
+      "git add -A && git commit -q -m first && git tag v0.1 && "
+      "sed -i 's/apart - c->radius - s->radius;/apart - c->radius - s->radius - 0.1f;/' "
+      "include/box3d/collision.h && "
+      "git commit -q -a -m second && git commit -q --allow-empty -m third");
+  INFO(r.err);
+  REQUIRE(r.code == 0);
 }
 
 // Runs a guide's blocks in order in one directory: `sh` is run, `text` lists lines of the output of the block
@@ -117,6 +139,9 @@ std::string in_workspace(const Workspace& w, std::string line) {
 std::size_t run_guide(const fs::path& guide) {
   static const std::regex file_name("`([^`/]+)`:");
   const Workspace w("guide-" + guide.stem().string());
+  if (guide.stem() == "engines") make_library(w);
+  setenv("TOUCHSTONE_ENGINES", (w.dir / "registered").c_str(), 1);
+  setenv("XDG_CACHE_HOME", (w.dir / "cache").c_str(), 1);
   std::size_t run = 0;
   std::string out;
   for (const Block& block : blocks_of(guide)) {
@@ -161,7 +186,8 @@ TEST_CASE("every command line of the README runs", "[readme]") {
 }
 
 TEST_CASE("every command line of the guides runs, and prints what they say", "[readme][optional]") {
-  if (!has_command("python3")) return touchstone::test::skip("python3 is not installed");
+  for (const char* needed : {"python3", "git", "make"})
+    if (!has_command(needed)) return touchstone::test::skip(std::string(needed) + " is not installed");
   std::size_t run = 0;
   for (const auto& entry : fs::directory_iterator(TS_SOURCE_DIR "/docs"))
     if (entry.path().extension() == ".md") run += run_guide(entry.path());

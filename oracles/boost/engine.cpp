@@ -11,7 +11,7 @@
 #include "core/math/roundoff.h"
 #include "oracles/abi/outer_bounds.h"
 
-namespace touchstone::boost_rtree {
+namespace touchstone::boost_adapter {
 namespace {
 
 namespace bg = boost::geometry;
@@ -122,6 +122,6 @@ class Engine {
 };
 
 }  // namespace
-}  // namespace touchstone::boost_rtree
+}  // namespace touchstone::boost_adapter
 
-TS_PLUGIN(touchstone::boost_rtree::Engine)
+TS_PLUGIN(touchstone::boost_adapter::Engine)
