@@ -38,6 +38,9 @@ constexpr double face_preference = 1.05;
 // all of them are from the pose asked about, where they are found again or repeat a contact.
 constexpr int ode_calls = 24;
 
+// The depth of a contact of one point is that of the bodies.
+constexpr double no_depth = std::numeric_limits<double>::quiet_NaN();
+
 struct Row {
   Backend backend;
   const char *name, *settings, *source;
@@ -96,17 +99,21 @@ class Engine {
   void load(const ts_scene& scene, const ts_received& received) {
     unload();
     scene_ = &scene;
-    for (std::size_t i = 0; i < scene.shape_count; ++i)
+    for (std::size_t i = 0; i < scene.shape_count; ++i) {
       shapes_.push_back(make_shape(backend_, scene.shapes[i]));
+      if (backend_ == Backend::bullet && shapes_.back())
+        report_floats(static_cast<int>(i), scene.shapes[i], received);
+    }
     for (std::size_t i = 0; i < scene.body_count; ++i) {
       const int index = static_cast<int>(i), number = scene.bodies[i].shape;
       frames_.push_back(make_frame(shapes_[static_cast<std::size_t>(number)], scene.bodies[i].pose));
-      report_body(index, *frames_.back(), received);
-      if (uses_fcl() && frames_.back()->getShape())
-        report_fcl_mesh(number, detector_, *frames_.back(), received);
+      report_body(index, backend_, *frames_.back(), received);
+      is_mesh_.push_back(uses_fcl() && frames_.back()->getShape() &&
+                         report_fcl_mesh(number, detector_, *frames_.back(), received));
     }
   }
   void unload() {
+    is_mesh_.clear();
     frames_.clear();
     shapes_.clear();
     scene_ = nullptr;
@@ -121,7 +128,7 @@ class Engine {
       if (!frame(i).getShape()) kit::no_such_shape("this back end of DART");
     if (kind(a) == TS_HALF_SPACE && kind(b) == TS_HALF_SPACE)
       throw kit::Unsupported("DART's back ends have no code for two planes");
-    if (question == TS_CONTACT && backend_ == Backend::fcl_mesh)
+    if (question == TS_CONTACT && (is_mesh(a) || is_mesh(b)))
       throw kit::Unsupported("contacts of meshes are those of single triangles, not of the bodies");
     if (question == TS_DISTANCE) return ask_distance(a, b, out);
     if (question == TS_OVERLAP && backend_ != Backend::bullet) return ask_overlap(a, b, out);
@@ -135,6 +142,7 @@ class Engine {
   }
   const ts_shape& shape(int body) const { return scene_->shapes[scene_->bodies[body].shape]; }
   int kind(int body) const { return shape(body).kind; }
+  bool is_mesh(int body) const { return is_mesh_[static_cast<std::size_t>(body)]; }
   bool are(int a, int b, int one, int two) const {
     return (kind(a) == one && kind(b) == two) || (kind(a) == two && kind(b) == one);
   }
@@ -197,7 +205,8 @@ class Engine {
     };
     const bool is_manifold = result.getNumContacts() > 1;
     for (const collision::Contact& c : result.getContacts())
-      sink.point(sink.ctx, c.point.data(), kit::depth_along(normal(deepest), normal(c), c.penetrationDepth));
+      sink.point(sink.ctx, c.point.data(),
+                 is_manifold ? kit::depth_along(normal(deepest), normal(c), c.penetrationDepth) : no_depth);
     kit::set_normal(out, normal(deepest));
     // The deepest of several points is not the depth along the normal where the face was clipped.
     if (!is_manifold || !are(a, b, TS_BOX, TS_BOX)) kit::set_depth(out, deepest.penetrationDepth);
@@ -228,6 +237,7 @@ class Engine {
   const ts_scene* scene_ = nullptr;
   std::vector<dart::dynamics::ShapePtr> shapes_;        // null if the back end does not take the shape
   std::vector<dart::dynamics::SimpleFramePtr> frames_;  // one per body
+  std::vector<bool> is_mesh_;                           // whether FCL holds a mesh for the body
 };
 
 }  // namespace

@@ -18,13 +18,13 @@ class ReadableGroup : public collision::FCLCollisionGroup {
 
 }  // namespace
 
-void report_fcl_mesh(int index, const collision::CollisionDetectorPtr& detector,
+bool report_fcl_mesh(int index, const collision::CollisionDetectorPtr& detector,
                      const dart::dynamics::SimpleFrame& frame, const ts_received& to) {
   ReadableGroup group(detector);
   group.addShapeFrame(&frame);
   std::vector<collision::fcl::CollisionObject*> objects;
   group.getFCLCollisionManager()->getObjects(objects);
-  if (objects.empty() || objects[0]->getObjectType() != ::fcl::OT_BVH) return;
+  if (objects.empty() || objects[0]->getObjectType() != ::fcl::OT_BVH) return false;
   const auto* mesh = static_cast<const Mesh*>(objects[0]->collisionGeometry().get());
   std::vector<double> vertices;
   for (int i = 0; i < mesh->num_vertices; ++i)
@@ -40,6 +40,7 @@ void report_fcl_mesh(int index, const collision::CollisionDetectorPtr& detector,
   held.triangles = triangles.data();
   held.triangle_count = triangles.size() / 3;
   kit::report_other_shape(to, index, held);
+  return true;
 }
 
 }  // namespace touchstone::dart_adapter

@@ -92,11 +92,25 @@ dynamics::SimpleFramePtr make_frame(const dynamics::ShapePtr& shape, const ts_po
   return frame;
 }
 
-void report_body(int index, const dynamics::SimpleFrame& frame, const ts_received& to) {
+void report_body(int index, Backend backend, const dynamics::SimpleFrame& frame, const ts_received& to) {
   const Eigen::Isometry3d& held = frame.getWorldTransform();
-  const Eigen::Matrix<double, 3, 3, Eigen::RowMajor> rows = held.linear();
-  const Vec3 translation = held.translation();
+  Eigen::Matrix<double, 3, 3, Eigen::RowMajor> rows = held.linear();
+  Vec3 translation = held.translation();
+  if (backend == Backend::bullet) {
+    rows = rows.cast<float>().cast<double>();
+    translation = translation.cast<float>().cast<double>();
+  }
   to.body(to.ctx, index, rows.data(), translation.data());
+}
+
+void report_floats(int index, const ts_shape& s, const ts_received& to) {
+  double held[4] = {s.size[0], s.size[1], s.size[2], s.size[3]};
+  if (s.kind == TS_HALF_SPACE) {
+    const double length = kit::vec3(s.size).stableNorm();
+    for (double& x : held) x /= length;
+  }
+  for (double& x : held) x = static_cast<float>(x);
+  to.shape(to.ctx, index, held, nullptr, 0);
 }
 
 }  // namespace touchstone::dart_adapter

@@ -23,12 +23,15 @@ dart::dynamics::ShapePtr make_shape(Backend backend, const ts_shape& s);
 
 dart::dynamics::SimpleFramePtr make_frame(const dart::dynamics::ShapePtr& shape, const ts_pose& pose);
 
-/// The pose that the frame holds.
-void report_body(int index, const dart::dynamics::SimpleFrame& frame, const ts_received& to);
+/// The pose that the back end holds for the frame.
+void report_body(int index, Backend backend, const dart::dynamics::SimpleFrame& frame, const ts_received& to);
+
+/// The sizes of a shape as Bullet holds them, which Debian builds for floats.
+void report_floats(int index, const ts_shape& s, const ts_received& to);
 
 /// With FCL, DART replaces some shapes by meshes, made of floats. Reports the mesh that the detector holds
 /// for the frame's shape, if it holds one.
-void report_fcl_mesh(int index, const dart::collision::CollisionDetectorPtr& detector,
+bool report_fcl_mesh(int index, const dart::collision::CollisionDetectorPtr& detector,
                      const dart::dynamics::SimpleFrame& frame, const ts_received& to);
 
 }  // namespace touchstone::dart_adapter

@@ -81,8 +81,11 @@ class Engine {
     if (all.empty() || !sink) return;
     const mjContact& deepest = **std::ranges::min_element(all, {}, &mjContact::dist);
     const Vec3 normal = normal_from(a, deepest);
+    // The depth of a single contact is that of the bodies.
     for (const mjContact* c : all)
-      sink->point(sink->ctx, c->pos, kit::depth_along(normal, normal_from(a, *c), -c->dist));
+      sink->point(sink->ctx, c->pos,
+                  all.size() > 1 ? kit::depth_along(normal, normal_from(a, *c), -c->dist)
+                                 : std::numeric_limits<double>::quiet_NaN());
     kit::set_normal(out, normal);
     // The deepest point of a clipped face is not the depth along its normal.
     const bool is_clipped = all.size() > 1 && world_->type(a) == mjGEOM_BOX && world_->type(b) == mjGEOM_BOX;
@@ -90,6 +93,7 @@ class Engine {
   }
 
   void ask_scene(ts_answer& out, const ts_sink& sink) {
+    if (!world_->has_all()) kit::no_such_shape("MuJoCo");
     collide();
     std::map<std::pair<int, int>, const mjContact*> deepest;
     for (const mjContact& c : *world_) {

@@ -6,6 +6,7 @@
 
 #include <mujoco/mujoco.h>
 
+#include <algorithm>
 #include <memory>
 #include <vector>
 
@@ -27,6 +28,9 @@ class World {
 
   /// Whether MuJoCo has such a shape, and so a geom for the body.
   bool has_geom(int body) const { return geoms_[static_cast<std::size_t>(body)] >= 0; }
+  bool has_all() const {
+    return std::ranges::all_of(geoms_, [](int geom) { return geom >= 0; });
+  }
   int type(int body) const { return model_->geom_type[geoms_[static_cast<std::size_t>(body)]]; }
 
   /// Runs mj_collision at the scene's poses.
