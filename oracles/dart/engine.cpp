@@ -54,7 +54,7 @@ constexpr Row rows[] = {
      "FCLCollisionDetector as created: meshes of floats in place of shapes",
      "FCL's requests: distance_tolerance 1e-6"},
 #ifdef TOUCHSTONE_DART_BULLET
-    {Backend::bullet, "dart-bullet", "BulletCollisionDetector",
+    {Backend::bullet, "dart-bullet", "BulletCollisionDetector, which Debian builds with Bullet in floats",
      "btCollisionMargin.h: 0.04, inside for box and cylinder (setSafeMargin); a cone's is 0, by DART"},
 #endif
 #ifdef TOUCHSTONE_DART_ODE
@@ -89,8 +89,9 @@ class Engine {
   static std::vector<kit::CardText> cards() {
     std::vector<kit::CardText> all;
     for (const Row& r : rows)
-      all.push_back(
-          {r.name, "DART", DART_VERSION, r.settings, double_roundoff, kit::oracle_tau_factor, r.source});
+      all.push_back({r.name, "DART", DART_VERSION, r.settings,
+                     r.backend == Backend::bullet ? float_roundoff : double_roundoff, kit::oracle_tau_factor,
+                     r.source});
     return all;
   }
 
