@@ -29,8 +29,8 @@ constexpr double fcl_tolerance = 1e-6;
 constexpr double ode_mpr_tolerance = 1e-6;
 // CONVEX_DISTANCE_MARGIN of Bullet's btCollisionMargin.h.
 constexpr double bullet_margin = 0.04;
-// The routine for two boxes of DART, FCL and ODE takes a face's normal if an edge's needs less depth by no
-// more than this factor ("fudge_factor"): a share of (factor - 1) / factor of the depth stated.
+// The routine for two boxes of DART, FCL, ODE and Bullet takes a face's normal if an edge's needs less depth
+// by no more than this factor ("fudge_factor"): a share of (factor - 1) / factor of the depth stated.
 constexpr double face_preference = 1.05;
 
 // DART adds to fewer than three contacts of ODE those that it found earlier for the same two objects, known
@@ -55,7 +55,9 @@ constexpr Row rows[] = {
      "FCL's requests: distance_tolerance 1e-6"},
 #ifdef TOUCHSTONE_DART_BULLET
     {Backend::bullet, "dart-bullet", "BulletCollisionDetector, which Debian builds with Bullet in floats",
-     "btCollisionMargin.h: 0.04, inside for box and cylinder (setSafeMargin); a cone's is 0, by DART"},
+     "btCollisionMargin.h: 0.04, inside for box and cylinder (setSafeMargin); a cone's is 0, by DART; "
+     "dBoxBox2 prefers faces by "
+     "fudge_factor 1.05"},
 #endif
 #ifdef TOUCHSTONE_DART_ODE
     {Backend::ode, "dart-ode", "OdeCollisionDetector",
@@ -211,7 +213,7 @@ class Engine {
     kit::set_normal(out, normal(deepest));
     // The deepest of several points is not the depth along the normal where the face was clipped.
     if (!is_manifold || !are(a, b, TS_BOX, TS_BOX)) kit::set_depth(out, deepest.penetrationDepth);
-    if (are(a, b, TS_BOX, TS_BOX) && backend_ != Backend::bullet)
+    if (are(a, b, TS_BOX, TS_BOX))
       out.claimed_tolerance += (face_preference - 1) / face_preference * deepest.penetrationDepth;
   }
 
