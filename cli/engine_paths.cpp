@@ -136,6 +136,8 @@ std::string route_of(const std::string& engine, Question question, ShapeKind a, 
   if (path.starts_with("bullet-")) return std::string(routes::bullet_route(p, path.find("sim") != path.npos));
   if (path.starts_with("libccd-")) return std::string(routes::libccd_route(p));
   if (path == "ode") return std::string(routes::ode_route(p));
+  if (path == "dart" || path.starts_with("dart-")) return std::string(routes::dart_route(path, p));
+  if (path == "mujoco2") return std::string(routes::mujoco2_route(p));
   return std::string(routes::common_route(p));
 }
 

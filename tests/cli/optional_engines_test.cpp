@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <string>
 
+#include "oracles/routes/routes.h"
 #include "tests/support/catch.h"
 #include "tests/support/skip.h"
 #include "tests/support/workspace.h"
@@ -117,4 +118,21 @@ TEST_CASE("Boost's R-trees keep every pair of boxes", "[optional_engines][certif
     CHECK(r.code == 0);
     CHECK(has(r.out, "boxes certified"));
   }
+}
+
+TEST_CASE("routes of optional engines are those of their libraries", "[optional_engines]") {
+  using namespace touchstone;
+  using touchstone::routes::Pair;
+  const Pair balls{Question::contact, ShapeKind::sphere, ShapeKind::sphere};
+  const Pair boxes{Question::contact, ShapeKind::box, ShapeKind::box};
+  const Pair cylinder{Question::distance, ShapeKind::cylinder, ShapeKind::sphere};
+  CHECK(routes::dart_route("dart", balls) == "sphere-sphere");
+  CHECK(routes::dart_route("dart-fcl", cylinder) == "mesh");
+  CHECK(routes::dart_route("dart-fcl", {Question::distance, ShapeKind::sphere, ShapeKind::box}) == "sphere");
+  CHECK(routes::dart_route("dart-fcl-mesh", balls) == "mesh");
+  CHECK(routes::dart_route("dart-bullet", boxes) == routes::bullet_route(boxes, true));
+  CHECK(routes::dart_route("dart-ode", cylinder) == routes::ode_route(cylinder));
+  CHECK(routes::mujoco2_route(balls) == "closed form");
+  CHECK(routes::mujoco2_route(cylinder) == "libccd");
+  CHECK(routes::mujoco2_route({Question::contact, ShapeKind::half_space, ShapeKind::hull}) == "half-space");
 }
