@@ -33,11 +33,6 @@ constexpr double bullet_margin = 0.04;
 // by no more than this factor ("fudge_factor"): a share of (factor - 1) / factor of the depth stated.
 constexpr double face_preference = 1.05;
 
-// DART adds to fewer than three contacts of ODE those that it found earlier for the same two objects, known
-// by their addresses, even if those objects are gone. It keeps at most eleven, so that after this many calls
-// all of them are from the pose asked about, where they are found again or repeat a contact.
-constexpr int ode_calls = 24;
-
 // The depth of a contact of one point is that of the bodies.
 constexpr double no_depth = std::numeric_limits<double>::quiet_NaN();
 
@@ -183,12 +178,7 @@ class Engine {
   void ask_contact(int a, int b, ts_answer& out, const ts_sink* sink) {
     const auto group = detector_->createCollisionGroup(&frame(a), &frame(b));
     collision::CollisionResult result;
-    const int calls = backend_ == Backend::ode ? ode_calls : 1;
-    bool overlap = false;
-    for (int i = 0; i < calls; ++i) {
-      result.clear();
-      overlap = group->collide(collision::CollisionOption(), &result);
-    }
+    bool overlap = group->collide(collision::CollisionOption(), &result);
     const collision::Contact* deepest = nullptr;
     for (const collision::Contact& c : result.getContacts())
       if (!deepest || c.penetrationDepth > deepest->penetrationDepth) deepest = &c;
