@@ -29,6 +29,8 @@ constexpr double fcl_tolerance = 1e-6;
 constexpr double ode_mpr_tolerance = 1e-6;
 // CONVEX_DISTANCE_MARGIN of Bullet's btCollisionMargin.h.
 constexpr double bullet_margin = 0.04;
+// btCollisionShape's setSafeMargin: the margin is at most this share of the least half extent.
+constexpr double safe_margin_share = 0.1;
 // The routine for two boxes of DART, FCL, ODE and Bullet takes a face's normal if an edge's needs less depth
 // by no more than this factor ("fudge_factor"): a share of (factor - 1) / factor of the depth stated.
 constexpr double face_preference = 1.05;
@@ -145,13 +147,12 @@ class Engine {
     return (kind(a) == one && kind(b) == two) || (kind(a) == two && kind(b) == one);
   }
 
-  // Bullet's setSafeMargin: a tenth of the smallest half extent if that is less than the default.
   double bullet_inside_margin(int body, int other) const {
     const double* z = shape(body).size;
     const bool is_nominal = kind(body) == TS_BOX && (kind(other) == TS_BOX || kind(other) == TS_HALF_SPACE);
     if (is_nominal || (kind(body) != TS_BOX && kind(body) != TS_CYLINDER)) return 0;
     const double least = kind(body) == TS_BOX ? std::min({z[0], z[1], z[2]}) : std::min(z[0], z[1]);
-    return std::min(bullet_margin, 0.1 * least);
+    return std::min(bullet_margin, safe_margin_share * least);
   }
 
   double claimed_tolerance(int a, int b) const {
