@@ -20,6 +20,18 @@ bool goes_to_mpr(int a, int b) {
   return is_curved || b == mjGEOM_MESH;
 }
 
+// Relative to the depth: more than its rounding.
+constexpr double same_depth = 1e-9;
+
+// The points of two boxes are those of a clipped face, whose deepest point may have been clipped off. Three
+// points of the same depth show that the faces are parallel, and so every point is as deep as the boxes are.
+bool are_parallel(const std::vector<const mjContact*>& points) {
+  const double depth = points.front()->dist;
+  return points.size() >= 3 && std::ranges::all_of(points, [&](const mjContact* c) {
+           return std::abs(c->dist - depth) <= same_depth * std::abs(depth);
+         });
+}
+
 Vec3 normal_of(const mjContact& c) { return kit::vec3(c.frame); }
 
 class Engine {
@@ -87,9 +99,8 @@ class Engine {
                   all.size() > 1 ? kit::depth_along(normal, normal_from(a, *c), -c->dist)
                                  : std::numeric_limits<double>::quiet_NaN());
     kit::set_normal(out, normal);
-    // The deepest point of a clipped face is not the depth along its normal.
-    const bool is_clipped = all.size() > 1 && world_->type(a) == mjGEOM_BOX && world_->type(b) == mjGEOM_BOX;
-    if (!is_clipped) kit::set_depth(out, -deepest.dist);
+    const bool are_boxes = world_->type(a) == mjGEOM_BOX && world_->type(b) == mjGEOM_BOX;
+    if (all.size() == 1 || !are_boxes || are_parallel(all)) kit::set_depth(out, -deepest.dist);
   }
 
   void ask_scene(ts_answer& out, const ts_sink& sink) {
