@@ -14,11 +14,11 @@
 #include "cli/engine_paths.h"
 #include "cli/engines_by_card.h"
 #include "cli/judged_by.h"
+#include "cli/program_for.h"
 #include "core/base/input_error.h"
 #include "fuzz/campaign/directory_lock.h"
 #include "fuzz/campaign/store.h"
 #include "fuzz/causes/causes.h"
-#include "fuzz/reproduce/reproducer.h"
 #include "scenarios/codec/json_file.h"
 
 namespace touchstone::cli {
@@ -56,7 +56,10 @@ fuzz::Causes find_causes(const CausesSearch& search, const fuzz::CampaignResult&
   config.make = [&](const std::string& name) {
     return make_by_card(name, foreign, search.limits, search.error);
   };
-  config.program = [](const fuzz::Finding& f, const EngineCard& card) { return fuzz::reproducer(f, card); };
+  config.program = [&](const fuzz::Finding& f, const EngineCard& card) {
+    const auto given_as = foreign.find(f.engine);
+    return program_for(f, card, given_as == foreign.end() ? f.engine : given_as->second);
+  };
   config.jobs = search.jobs;
   config.minutes = search.minutes;
   config.stop = &interrupted;

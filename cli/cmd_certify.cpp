@@ -34,6 +34,7 @@ struct CertifyOptions {
   std::string subject, scope = "quick", level = "both", out, page, script, check;
   std::vector<std::string> without;
   std::uint64_t seed = 1, limit = 0;
+  double minutes = 0;
   int jobs = 1;
   bool sweeps = false, first_fault = false, json = false, list = false, memcheck = false;
   WorkerLimits limits{.patience = 1};
@@ -68,6 +69,7 @@ fuzz::CertifyConfig config_of(const CertifyOptions& o) {
   c.scope = scope_named(o.scope);
   c.seed = o.seed;
   c.limit = o.limit;
+  if (o.minutes > 0) c.minutes = o.minutes;
   c.jobs = o.jobs;
   c.without = o.without;
   c.first_fault = o.first_fault;
@@ -251,6 +253,9 @@ int check(const CertifyOptions& o) {
   c.scope = scope_named(was.scope);
   c.seed = was.seed;
   c.limit = was.limit;
+  c.minutes.reset();
+  for (const fuzz::EvidenceCount& e : was.evidence)
+    if (e.out_of_time) c.most_cases[e.name] = e.cases;
   c.levels = was.levels;
   c.without = was.without;
   c.first_fault = was.first_fault;
@@ -295,6 +300,10 @@ Run declare_certify(CLI::App& app) {
       ->allow_extra_args(false);
   app.add_option("--seed", o->seed, "same seed, same certificate")->capture_default_str();
   app.add_option("--limit", o->limit, "maximum number of cases per suite; recorded in the certificate");
+  app.add_option("--minutes", o->minutes,
+                 "time for all suites together, shared equally; each runs as many of its cases, in order, as "
+                 "its share allows, and --check runs the same ones")
+      ->check(a_positive_number());
   app.add_option("--jobs", o->jobs, "number of parallel jobs")
       ->check(CLI::Range(1, 1024))
       ->capture_default_str();

@@ -1,6 +1,8 @@
 #include <fmt/format.h>
 
 #include <set>
+#include <string>
+#include <vector>
 
 #include "cli/command.h"
 #include "cli/engine_catalog.h"
@@ -14,10 +16,32 @@
 namespace touchstone::cli {
 namespace {
 
+// What a card states only if it applies.
+std::vector<std::string> further_claims(const EngineCard& c) {
+  std::vector<std::string> lines;
+  if (!c.shapes.empty()) {
+    std::string names;
+    for (const ShapeKind k : c.shapes) names.append(names.empty() ? "" : ", ").append(type_name(k));
+    lines.push_back("takes " + names);
+  }
+  for (const KindRoundoff& r : c.unit_roundoffs)
+    lines.push_back(fmt::format("unit roundoff of {}: {:.3g}", type_name(r.kind), r.unit_roundoff));
+  if (c.contact_offset > 0)
+    lines.push_back(fmt::format("reports contacts up to {:g} apart", c.contact_offset));
+  if (c.sweep_skin > 0)
+    lines.push_back(fmt::format("sweeps stop up to {:g} before the contact", c.sweep_skin));
+  for (const DepthBias& d : c.depth_biases)
+    lines.push_back(fmt::format("{} and {}: its normal may need {:g} % more depth than the least",
+                                type_name(d.a), type_name(d.b), 100 * d.share));
+  if (c.times_include_pipe) lines.emplace_back("times include the pipe: it states none of its own");
+  return lines;
+}
+
 void print_card(const EngineCard& c) {
   fmt::print("{:<24} {} {}\n", c.name, c.library, c.version);
   if (!c.settings.empty()) fmt::print("    {}\n", reports::wrapped(c.settings, 76, 4));
   fmt::print("    tolerance {:g}·{:.3g}·L plus each answer's claim", c.tau_factor, c.unit_roundoff);
+  for (const std::string& line : further_claims(c)) fmt::print("\n    {}", reports::wrapped(line, 76, 4));
   if (!c.source.empty()) fmt::print("\n    {}", reports::wrapped("(" + c.source + ")", 76, 4));
   fmt::print("\n");
 }

@@ -95,6 +95,7 @@ int run(FuzzOptions& o) {
   const ChosenEngines chosen = chosen_engines(o.choice, o.limits);
   o.config.engines = chosen.names;
   o.config.subject = chosen.subject;
+  o.config.kinds = chosen.shapes;
   if (!o.config.error.empty()) length_from_text(o.config.error);  // refuses a bad length at once
   if (o.cases > 0) o.config.cases = o.cases;
   if (o.minutes > 0) o.config.minutes = o.minutes;

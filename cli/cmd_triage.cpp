@@ -222,6 +222,7 @@ int run(const TriageOptions& o) {
   CausesSearch search;
   search.directory = o.directory;
   search.engines = o.engines;
+  if (is_foreign(o.subject)) search.engines += (o.engines.empty() ? "" : ",") + o.subject;
   search.error = o.error;
   search.jobs = o.jobs;
   search.limits = o.limits;

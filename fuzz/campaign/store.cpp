@@ -19,6 +19,7 @@ Json settings(const CampaignConfig& c) {
             {"shards", c.shards},       {"relations_every", c.relations_every},
             {"guided", c.guided}};
   j["cases"] = c.cases ? Json(*c.cases) : Json(nullptr);
+  for (const ShapeKind k : c.kinds) j["kinds"].push_back(type_name(k));
   if (!c.error.empty()) j["error"] = c.error;
   if (c.keep_answers) j["keep_answers"] = true;
   return j;

@@ -63,8 +63,9 @@ class SubjectRunner {
     if (has_swept_candidates_query(c)) return level_ == BroadLevel::bodies;
     if (c.scene.script.empty()) return false;  // would mean: insert all bodies
     if (level_ == BroadLevel::bodies) return true;
-    const Scalar scalar =
-        engine().card().unit_roundoff > max_float64_roundoff ? Scalar::float32 : Scalar::float64;
+    const Scalar scalar = roundoff_of(engine().card(), ShapeKind::box) > max_float64_roundoff
+                              ? Scalar::float32
+                              : Scalar::float64;
     for (const Step& step : c.scene.script) {
       if (step.op != Step::Op::insert && step.op != Step::Op::move) continue;
       const Pose p = step.pose.value_or(c.scene.bodies[static_cast<std::size_t>(step.body)].pose);

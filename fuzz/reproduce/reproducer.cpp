@@ -7,6 +7,7 @@
 #include "core/base/input_error.h"
 #include "fuzz/judge/relation.h"
 #include "fuzz/judge/truth.h"
+#include "fuzz/reproduce/public_interface.h"
 #include "oracles/reproducer/engine_source.h"
 #include "oracles/reproducer/source_text.h"
 
@@ -270,6 +271,23 @@ std::string check_of(const ExpectedAnswer& e) {
   return pair_check(e);
 }
 
+std::string expected_words(const ExpectedAnswer& e) {
+  using V = referee::TimeTruth::Verdict;
+  if (e.q.question == Question::candidates)
+    return fmt::format("at query {} the pair ({}, {}) {}", e.q.step, e.q.a, e.q.b,
+                       e.finding.fault == to_string(Fault::missed) ? "is reported" : "is not reported");
+  if (e.q.question == Question::time_of_impact) {
+    const auto& t = e.truth.motion(0, e.q.a, e.q.b);
+    if (t.verdict == V::none) return "no impact";
+    return fmt::format("an impact within [{}, {}] of the step; the gap there is at most {}", t.t_lo, t.t_hi,
+                       e.tau);
+  }
+  const auto& t = e.truth.pair(0, e.q.a, e.q.b);
+  const std::string verdict = t.verdict == referee::Verdict::overlap ? "overlap" : "apart";
+  if (e.q.question == Question::overlap || !std::isfinite(t.gap.lo)) return verdict;
+  return fmt::format("{}, signed distance within [{}, {}], tolerance {}", verdict, t.gap.lo, t.gap.hi, e.tau);
+}
+
 bool is_ode(std::string_view engine) { return engine == "ode" || engine.starts_with("ode-"); }
 
 EngineSource source_of(const EngineQuestion& q) {
@@ -289,7 +307,10 @@ bool has_reproducer(std::string_view engine) {
          is_ode(engine);
 }
 
-std::string reproducer(const Finding& finding, const EngineCard& card) {
+namespace {
+
+/// The question that the finding is about. Throws InputError if no program can ask it.
+EngineQuestion question_of(const Finding& finding) {
   const Evidence& v = *finding.evidence;
   if (is_relation(finding.fault))
     throw InputError("reproduce",
@@ -301,10 +322,14 @@ std::string reproducer(const Finding& finding, const EngineCard& card) {
   const int n = static_cast<int>(v.c.scene.bodies.size());
   if (v.a < 0 || v.b < 0 || v.a >= n || v.b >= n)
     throw InputError("reproduce", "the finding is not about a pair of bodies: " + finding.key());
-  const EngineQuestion q{v.c.scene, v.question, v.a, v.b, v.step, finding.engine};
+  return {v.c.scene, v.question, v.a, v.b, v.step, finding.engine};
+}
+
+std::string program_of(const Finding& finding, const EngineCard& card, const EngineQuestion& q,
+                       const EngineSource& source) {
+  const Evidence& v = *finding.evidence;
   Truth truth(v.c.scene);
-  const double tau = tau_of(card, v.observation, truth.scale(v.a, v.b));
-  const EngineSource source = source_of(q);
+  const double tau = tau_of(card, v.observation, v.c.scene, v.a, v.b, truth.scale(v.a, v.b));
   const ExpectedAnswer expected{truth, q, finding, tau};
   const std::string check = check_of(expected);
   const auto support_of = [&](std::string_view who, int body) {
@@ -325,6 +350,25 @@ std::string reproducer(const Finding& finding, const EngineCard& card) {
        {"SUPPORT", support_of("a", v.a) + support_of("b", v.b)},
        {"CODE", source.code},
        {"CHECK", check}});
+}
+
+}  // namespace
+
+std::string reproducer(const Finding& finding, const EngineCard& card) {
+  const EngineQuestion q = question_of(finding);
+  return program_of(finding, card, q, source_of(q));
+}
+
+std::string plugin_reproducer(const Finding& finding, const EngineCard& card, const PluginFile& plugin) {
+  const EngineQuestion q = question_of(finding);
+  return program_of(finding, card, q, plugin_source(q, plugin));
+}
+
+std::string pipe_reproducer(const Finding& finding, const EngineCard& card) {
+  const EngineQuestion q = question_of(finding);
+  Truth truth(q.scene);
+  const double tau = tau_of(card, finding.evidence->observation, q.scene, q.a, q.b, truth.scale(q.a, q.b));
+  return pipe_lines(q, expected_words({truth, q, finding, tau}));
 }
 
 }  // namespace touchstone::fuzz

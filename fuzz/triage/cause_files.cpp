@@ -28,6 +28,8 @@ void require_usable(const Cause& c, const JsonReader& j) {
   case_from_json(shown.c, place["case"].place());
 }
 
+bool is_lines_for_a_pipe(const std::string& program) { return program.starts_with('{'); }
+
 bool is_certificate(const Json& j) { return j.is_object() && j.contains("kind") && j["kind"] != "none"; }
 
 }  // namespace
@@ -95,7 +97,7 @@ Written write_cause(const fs::path& directory, const Cause& c,
     write_file(part / "certificate.json", json_text(c.certificate, 1) + "\n");
   if (issue) write_file(part / "issue.md", issue(c));
   if (!c.program.empty())
-    write_file(part / "reproduce.cpp", c.program);
+    write_file(part / (is_lines_for_a_pipe(c.program) ? "reproduce.jsonl" : "reproduce.cpp"), c.program);
   else if (!c.no_program.empty())
     write_file(part / "no_reproducer.txt", c.no_program + "\n");
   fs::rename(part, to);

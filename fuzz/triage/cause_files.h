@@ -25,9 +25,9 @@ Json finding_json_of(const Cause& c);
 enum class Written { now, before, no_case };
 
 /// Writes DIR/<id>/: case.json, the shown case; finding.json; certificate.json for `touchstone check`, if
-/// there is one; issue.md, if `issue` is given; reproduce.cpp, or no_reproducer.txt with the reason why there
-/// is none. The directory is built under another name and then renamed, so an existing one is complete and is
-/// left alone. Throws InputError.
+/// there is one; issue.md, if `issue` is given; reproduce.cpp (reproduce.jsonl for a command behind a pipe),
+/// or no_reproducer.txt with the reason why there is none. The directory is built under another name and then
+/// renamed, so an existing one is complete and is left alone. Throws InputError.
 Written write_cause(const std::filesystem::path& directory, const Cause& c,
                     const std::function<std::string(const Cause&)>& issue);
 

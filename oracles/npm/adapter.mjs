@@ -94,7 +94,12 @@ export function serve(engine) {
       return { outcome: why instanceof Unsupported ? "unsupported" : "threw", detail: String(why.message || why) };
     }
   };
-  say({ touchstone_pipe: 1, receipts: true, unit_roundoff: float_roundoff, tau_factor: oracle_tau_factor, ...engine.card });
+  // The engine's own time, without the pipe.
+  const timed = (what) => {
+    const start = process.hrtime.bigint(), answer = guarded(what);
+    return { ...answer, ns: Number(process.hrtime.bigint() - start) };
+  };
+  say({ touchstone_pipe: 1, receipts: true, states_ns: true, unit_roundoff: float_roundoff, tau_factor: oracle_tau_factor, ...engine.card });
   let scene = null;
   createInterface({ input: process.stdin }).on("line", (line) => {
     const message = JSON.parse(line);
@@ -104,7 +109,7 @@ export function serve(engine) {
     } else if (!engine[message.ask]) {
       say({ outcome: "unsupported", detail: `the adapter does not support ${message.ask}` });
     } else {
-      say(guarded(() => engine[message.ask](message, scene)));
+      say(timed(() => engine[message.ask](message, scene)));
     }
   });
 }

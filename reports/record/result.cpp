@@ -68,10 +68,11 @@ std::uint64_t Tally::failed() const {
   return n - answered() - unsupported() - not_asked();
 }
 
-void Tally::add(const Judgement& j, const Observation& o) {
+void Tally::add(const Judgement& j, const Observation& o, bool time_includes_pipe) {
   ++outcomes[static_cast<std::size_t>(j.outcome)];
   if (j.outcome != Outcome::answered) return;
   time.add(o.elapsed_ns);
+  times_include_pipe |= time_includes_pipe;
   slow += o.slow;
   const Ruling ruling = j.ruling();
   right += ruling == Ruling::right;
@@ -115,6 +116,7 @@ void Tally::merge(const Tally& o) {
   coverage_permille += o.coverage_permille;
   worst_in_l = std::max(worst_in_l, o.worst_in_l);
   time.merge(o.time);
+  times_include_pipe |= o.times_include_pipe;
   slow += o.slow;
 }
 
@@ -158,6 +160,7 @@ void CampaignResult::merge(const CampaignResult& o) {
   cases += o.cases;
   pair_cases += o.pair_cases;
   overlapping += o.overlapping;
+  not_refereed += o.not_refereed;
   undecided += o.undecided;
   for (std::size_t k = 0; k < levels.size(); ++k) levels[k] += o.levels[k];
   total_ns += o.total_ns;
@@ -262,6 +265,7 @@ Json to_json(const Tally& t, bool with_times) {
     j["ns_median"] = t.time.quantile(0.5);
     j["ns_p99"] = t.time.quantile(tail_quantile);
     j["ns_histogram"] = t.time.json();
+    if (t.times_include_pipe) j["times_include_pipe"] = true;
     j["slow"] = t.slow;
   }
   return j;
@@ -309,6 +313,7 @@ Tally tally_from_json(const JsonReader& j) {
   t.worst_in_l = number_from(j["worst_in_l"]);
   t.slow = count_or_zero(j, "slow");
   if (j.has("ns_histogram")) t.time = histogram_from(j["ns_histogram"]);
+  if (j.has("times_include_pipe")) t.times_include_pipe = j["times_include_pipe"].boolean();
   return t;
 }
 
@@ -490,6 +495,7 @@ Json to_json(const CampaignResult& r, bool with_times) {
   j["pair_cases"] = r.pair_cases;
   j["overlapping"] = r.overlapping;
   j["undecided"] = r.undecided;
+  if (r.not_refereed > 0) j["not_refereed"] = r.not_refereed;
   j["levels"] = r.levels;
   j["families"] = r.families;
   j["engines"] = Json::object();
@@ -549,6 +555,7 @@ void for_each_question(const JsonReader& j, Use&& use) {
 
 // Fields that results of earlier versions lack.
 void read_later_additions(const JsonReader& j, CampaignResult& r) {
+  if (j.has("not_refereed")) r.not_refereed = count_of(j["not_refereed"]);
   if (j.has("levels")) {
     const auto levels = j["levels"].items(r.levels.size());
     for (std::size_t i = 0; i < levels.size(); ++i) r.levels[i] = count_of(levels[i]);

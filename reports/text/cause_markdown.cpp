@@ -102,7 +102,10 @@ std::string responses(const Cause& c) {
 std::string reproduction(const Cause& c) {
   const std::string engine = shell_word(one_line(c.shown().engine));
   std::string s = "\n## How to reproduce\n\n";
-  if (!c.program.empty() && c.program.size() <= longest_code)
+  if (c.program.starts_with('{') && c.program.size() <= longest_code)
+    s += "The lines for a command behind a pipe; the last one states what is right:\n\n" +
+         fenced("json", printable(c.program, "\n\t")) + "\n";
+  else if (!c.program.empty() && c.program.size() <= longest_code)
     s += "A program in the engine's own API; it exits with 1 while the answer is wrong:\n\n" +
          fenced("cpp", printable(c.program, "\n\t")) + "\n";
   else if (!c.program.empty())

@@ -72,13 +72,18 @@ constexpr auto short_names =
     std::to_array<std::string_view>({"overlap", "distance", "contact", "impact", "pairs", "scene", "swept"});
 static_assert(short_names.size() == question_names.size());
 
+// A time that includes the pipe is marked.
+std::string time_of(const Tally& t, double share) {
+  return nanoseconds(t.time.quantile(share)) + (t.times_include_pipe && t.answered() > 0 ? "p" : "");
+}
+
 std::string row(Question q, const Tally& t) {
   if (t.answered() == 0 && t.failed() == 0 && t.not_asked() == 0)
     return fmt::format(" {:<8} {:>7}\n", short_names[static_cast<std::size_t>(q)], "cannot");
   return fmt::format(" {:<8} {:>7} {:>7} {:>6} {:>6} {:>6} {:>6} {:>8} {:>7} {:>8}\n",
                      short_names[static_cast<std::size_t>(q)], t.answered(), t.right, t.wrong, t.missed,
-                     t.ghost, t.failed(), small(t.worst_in_l), nanoseconds(t.time.quantile(0.5)),
-                     nanoseconds(t.time.quantile(fuzz::tail_quantile)));
+                     t.ghost, t.failed(), small(t.worst_in_l), time_of(t, 0.5),
+                     time_of(t, fuzz::tail_quantile));
 }
 
 // The answers that the row's counts leave out; empty if there are none.
@@ -119,10 +124,15 @@ std::string group_lines(const std::string& title, const Group& g) {
 std::string full_campaign_table(const CampaignResult& r) {
   std::string s = fmt::format(" {:<8} {:>7} {:>7} {:>6} {:>6} {:>6} {:>6} {:>8} {:>7} {:>8}\n", "", "answers",
                               "right", "wrong", "missed", "ghost", "failed", "worst/L", "ns med", "ns p99");
+  bool pipe = false;
   for (const auto& [engine, questions] : r.tallies) {
     s += engine + "\n";
-    for (const auto& [q, t] : questions) s += row(q, t) + open_line(t);
+    for (const auto& [q, t] : questions) {
+      s += row(q, t) + open_line(t);
+      pipe |= t.times_include_pipe;
+    }
   }
+  if (pipe) s += "p: the time includes the pipe; the engine states none of its own\n";
   return s;
 }
 
@@ -157,6 +167,8 @@ std::string campaign_footer(const CampaignResult& r, bool full) {
   std::string s =
       fmt::format("{} cases; {:.0f} % of the pairs touch or overlap; {} undecided by the referee\n",
                   grouped(r.cases), 100 * r.hit_rate(), grouped(r.undecided));
+  if (r.not_refereed > 0)
+    s += fmt::format("{} cases that no engine answers were not refereed\n", grouped(r.not_refereed));
   if (const std::uint64_t n = r.levels[0] + r.levels[1] + r.levels[2]; full && n > 0)
     s += fmt::format("referee: {} pairs settled by doubles, {} in extended precision, {} exactly\n",
                      grouped(r.levels[0]), grouped(r.levels[1]), grouped(r.levels[2]));

@@ -165,7 +165,7 @@ const engine = {
     settings: tuned ? "CollideShape and CastShape, convex radius 0, tolerances 1e-7, back faces hit; CollideAABox"
       : "CollideShape and CastShape as shipped: convex radius 0.05 or the smallest half extent; CollideAABox",
     source: "PhysicsSettings.h: cDefaultCollisionTolerance, cDefaultPenetrationTolerance, cDefaultConvexRadius; "
-      + "ConvexHullShape.h: mMaxErrorConvexRadius, mHullTolerance. Times include the pipe",
+      + "ConvexHullShape.h: mMaxErrorConvexRadius, mHullTolerance",
   },
   load(scene) {
     shapes.forEach((s) => s.Release());

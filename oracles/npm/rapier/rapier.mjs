@@ -81,7 +81,7 @@ const engine = {
   card: {
     name: "rapier", library: "Rapier, WASM", version: kit.version(modules, "@dimforge/rapier3d-compat"),
     settings: "contactShape, intersectsShape and castShape; World.step and contactPairsWith",
-    source: "no tolerance is documented for queries. Times include the pipe",
+    source: "no tolerance is documented for queries",
   },
   load(scene) {
     shapes = scene.shapes.map(make_shape);

@@ -1,0 +1,16 @@
+// The program that shows a finding, whatever kind of engine it is about.
+#pragma once
+
+#include <string>
+
+#include "reports/record/result.h"
+#include "scenarios/value/engine_card.h"
+
+namespace touchstone::cli {
+
+/// `name`: the engine as the command line gives it. For engines with a writer of their own, a program against
+/// their API; for other plug-ins, one that loads the shared object; for a command behind a pipe, its lines.
+/// Throws InputError if there is none.
+std::string program_for(const fuzz::Finding& finding, const EngineCard& card, const std::string& name);
+
+}  // namespace touchstone::cli
