@@ -39,9 +39,10 @@ std::string next_steps(const CampaignEnd& end, const Printing& how) {
   if (r.findings.empty()) return fmt::format("no findings; the counts are in {}/summary.json\n", out);
   if (how.causes)
     return fmt::format(
-        "{} behind {} kinds of findings; all, with what makes each vanish:\n  {} causes {} --page {}\n",
+        "{} behind {} kinds of findings; all, with what makes each vanish:\n  {} causes {} --page {}{}\n",
         reports::counted(how.causes->causes.size(), "cause", "causes"), kinds, program_name(),
-        shell_word(out), shell_word(out + "/causes.html"));
+        shell_word(out), shell_word(out + "/causes.html"),
+        end.foreign.empty() ? "" : " --engines " + shell_word(end.foreign));
   std::string s =
       fmt::format("{} kinds of findings in {}/findings; to see one:\n  {} replay {}\n", kinds, out,
                   program_name(), shell_word(out + "/findings/" + r.findings.begin()->first));

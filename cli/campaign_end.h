@@ -15,6 +15,8 @@ struct CampaignEnd {
   std::string subject;
   std::string family;         // empty: the default mix of cases
   std::filesystem::path out;  // where the findings are; empty: nowhere
+  /// The plug-ins and commands asked, separated by commas: further commands need to be given them again.
+  std::string foreign = {};
 };
 
 /// The whole result with digest, directory and open questions.

@@ -106,7 +106,10 @@ int run(FuzzOptions& o) {
   const auto make_all = [&] { return judged_by(make_engines(o.config.engines, o.limits), o.config.error); };
   catch_stop_signals();
   const auto result = fuzz::run_campaign(o.config, make_all, ProgressPrinter(o.config), interrupted);
-  const CampaignEnd end{result, o.config.subject, o.config.family, o.config.out};
+  std::string foreign;
+  for (const std::string& name : o.config.engines)
+    if (is_foreign(name)) foreign += (foreign.empty() ? "" : ",") + name;
+  const CampaignEnd end{result, o.config.subject, o.config.family, o.config.out, foreign};
   if (o.json) {
     fmt::print("{}\n", campaign_json(end).dump(1));
   } else {

@@ -15,12 +15,13 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 /// "the box of a step contains the body".
 constexpr double turning_slack = 0x1p-47;
 
-// The sum; if it is not exact, the next double in the direction `outward`. The
+// The sum, rounded to the next double in the direction `outward`. The
 // error is NaN if the sum overflows: then one step is enough.
 double rounded_sum(double a, double b, double outward) {
   const Rounded s = two_sum(a, b);
-  if (s.error == 0 || std::isinf(a) || std::isinf(b)) return s.value;
-  return std::nextafter(s.value, outward);
+  if (std::isinf(a) || std::isinf(b)) return s.value;
+  const bool is_outside = outward > 0 ? s.error <= 0 : s.error >= 0;
+  return is_outside ? s.value : std::nextafter(s.value, outward);
 }
 
 Interval<double> extent_along(const Shape& shape, const Vec3& row) {

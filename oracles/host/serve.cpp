@@ -141,8 +141,10 @@ class Server {
   std::optional<Observation> refusal_of(const Scene& scene) const {
     for (const Shape& s : scene.shapes)
       if (!is_sent(card_, kind_of(s)))
-        return no_answer(Outcome::unsupported,
-                         "more_shapes of its card does not list " + std::string(type_name(s)));
+        return no_answer(
+            Outcome::unsupported,
+            (card_.shapes.empty() ? "more_shapes of its card does not list " : "its card does not list ") +
+                std::string(type_name(s)));
     return std::nullopt;
   }
 

@@ -1,12 +1,14 @@
 // bench_pipe [ENGINE]: questions per second that a worker gets answered by an engine behind a pipe, or by a
-// plug-in, with batches and without. By default the example on NumPy arrays. No assertions.
+// plug-in, with batches and without, and per second of CPU time of all processes (harness, worker, command),
+// which a loaded machine does not change much. By default the example on NumPy arrays. No assertions.
 #include <fmt/format.h>
 
 #include <chrono>
-#include <cstdlib>
+#include <ctime>
 #include <string>
 
 #include "core/math/rng.h"
+#include "oracles/client/process_usage.h"
 #include "oracles/client/remote_engine.h"
 
 using namespace touchstone;
@@ -33,12 +35,18 @@ std::vector<Case> pairs(std::size_t n, bool one_pair_of_shapes, const std::vecto
   return cases;
 }
 
+double cpu_seconds(const RemoteEngine& engine) {
+  return static_cast<double>(std::clock()) / CLOCKS_PER_SEC +
+         usage_of_tree(engine.worker_pid(), /*with_root=*/true).cpu_seconds;
+}
+
 // Runs the cases in portions of `portion` until enough time has passed.
-void measure(Engine& engine, const char* what, const std::vector<Case>& cases, std::size_t portion) {
+void measure(RemoteEngine& engine, const char* what, const std::vector<Case>& cases, std::size_t portion) {
   using Clock = std::chrono::steady_clock;
   const std::span<const Case> all(cases);
   std::size_t answered = 0, pairs = 0;
   engine.run(all.first(portion));  // starts the worker and its libraries
+  const double cpu_before = cpu_seconds(engine);
   const auto start = Clock::now();
   double seconds = 0;
   for (std::size_t at = 0; seconds < least_seconds; at = (at + portion) % (cases.size() - portion + 1)) {
@@ -48,8 +56,10 @@ void measure(Engine& engine, const char* what, const std::vector<Case>& cases, s
     }
     seconds = std::chrono::duration<double>(Clock::now() - start).count();
   }
-  fmt::print("{:<62}{:>10.0f} pairs/s{:>10.0f} answers/s\n", what, static_cast<double>(pairs) / seconds,
-             static_cast<double>(answered) / seconds);
+  const double cpu = cpu_seconds(engine) - cpu_before;
+  fmt::print("{:<55}{:>9.0f} pairs/s{:>9.0f} answers/s{:>9.0f} pairs{:>9.0f} answers per CPU second\n", what,
+             static_cast<double>(pairs) / seconds, static_cast<double>(answered) / seconds,
+             static_cast<double>(pairs) / cpu, static_cast<double>(answered) / cpu);
 }
 
 }  // namespace

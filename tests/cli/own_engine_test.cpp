@@ -266,7 +266,8 @@ TEST_CASE("a finding about a command is shown by the lines that it gets", "[repr
 TEST_CASE("triage asks a plug-in again, and writes its program, if the command line names it", "[triage]") {
   const Workspace w("plugin-triage");
   const std::string engine = mutants + ":depth_halved";
-  w.touchstone("fuzz --seed 3 --cases 40 --relations 0 --engines " + engine + " --out run");
+  const Run run = w.touchstone("fuzz --seed 3 --cases 40 --relations 0 --engines " + engine + " --out run");
+  CHECK(run.out.find("--page run/causes.html --engines " + engine) != std::string::npos);
   for (const char* how : {"--engines ", "--subject "}) {
     fs::remove_all(w.dir / "kept");
     fs::remove(w.dir / "run/causes.json");

@@ -9,19 +9,19 @@ using namespace touchstone::testing;
 
 namespace {
 
-constexpr int case_count = 50, of_three_bodies = 20, bad_case = 33;
+constexpr int pair_count = 50, of_three_bodies = 20, bad_pair = 33;
 
 // Spheres of increasing size; the case of_three_bodies cannot be part of a batch.
-std::vector<Case> cases(bool triggered = false) {
-  std::vector<Case> all(case_count);
-  for (int i = 0; i < case_count; ++i) {
+std::vector<Case> pair_cases(bool triggered = false) {
+  std::vector<Case> all(pair_count);
+  for (int i = 0; i < pair_count; ++i) {
     Case& c = all[static_cast<std::size_t>(i)];
     c.scene.shapes = {Sphere{1}, Sphere{0.5 + 0.01 * i}};
     c.scene.bodies.resize(i == of_three_bodies ? 3 : 2);
     c.scene.bodies[1].shape = 1;
     for (std::size_t b = 0; b < c.scene.bodies.size(); ++b)
       c.scene.bodies[b].pose.translation = Vec3(0.1 + static_cast<double>(b), 0.03 * i, 0);
-    if (triggered && i == bad_case) c.scene.bodies[0].pose.translation.x() = 666;
+    if (triggered && i == bad_pair) c.scene.bodies[0].pose.translation.x() = 666;
     c.queries = {{Question::overlap, 0, 1},
                  {Question::contact, 1, 0},
                  {Question::distance, 0, 1},
@@ -30,28 +30,28 @@ std::vector<Case> cases(bool triggered = false) {
   return all;
 }
 
-RemoteSpec spec(const char* engine) {
+RemoteSpec batch_spec(const char* engine) {
   return {host_path(), plugin_path("ts_batches"), engine, short_limits()};
 }
 
 constexpr std::int64_t stated_together = 5, stated_alone = 3;
 
-bool equal(const CaseObservations& x, const CaseObservations& y) {
+bool same_answers(const CaseObservations& x, const CaseObservations& y) {
   return x.answers == y.answers && x.received == y.received;
 }
 
 }  // namespace
 
 TEST_CASE("pairs are asked together, and get the answers that they get alone", "[oracles][batch]") {
-  const auto all = cases();
+  const auto all = pair_cases();
   for (const char* name : {"together", "floats"}) {
-    RemoteEngine engine(spec(name));
+    RemoteEngine engine(batch_spec(name));
     const auto at_once = engine.run(all);
     int together = 0;
     for (std::size_t i = 0; i < all.size(); ++i) {
       INFO(name << " case " << i);
       const auto alone = engine.run({&all[i], 1});
-      CHECK(equal(at_once[i], alone[0]));
+      CHECK(same_answers(at_once[i], alone[0]));
       CHECK(alone[0].answers[0].elapsed_ns == stated_alone);
       CHECK(alone[0].answers[3].detail == "spheres only");
       CHECK(at_once[i].answers[1].manifold.size() == (at_once[i].answers[1].overlap.value() ? 1 : 0));
@@ -60,37 +60,37 @@ TEST_CASE("pairs are asked together, and get the answers that they get alone", "
       if (i == of_three_bodies) CHECK(at_once[i].answers[0].elapsed_ns == stated_alone);
     }
     // How many arrive together depends on when they are read; the first may be alone.
-    CHECK(together >= case_count - 5);
+    CHECK(together >= pair_count - 5);
     CHECK(engine.restarts() == 0);
   }
 }
 
 TEST_CASE("questions asked again are asked alone", "[oracles][batch]") {
-  const auto all = cases();
-  RemoteEngine engine(spec("together"));
+  const auto all = pair_cases();
+  RemoteEngine engine(batch_spec("together"));
   for (const CaseObservations& c : engine.run_again(all)) CHECK(c.answers[0].elapsed_ns == stated_alone);
 }
 
 TEST_CASE("a failure within a batch is charged to the question that causes it", "[oracles][batch]") {
-  const auto all = cases(true);
+  const auto all = pair_cases(true);
   for (const auto& [name, outcome] : {std::pair("dies", Outcome::crashed), {"loops", Outcome::timed_out}}) {
-    RemoteEngine engine(spec(name));
+    RemoteEngine engine(batch_spec(name));
     const auto results = engine.run(all);
     for (std::size_t i = 0; i < all.size(); ++i)
       for (const std::size_t q : {0U, 2U}) {
         INFO(name << " case " << i << " question " << q << ": " << results[i].answers[q].detail);
-        CHECK(results[i].answers[q].outcome == (i == bad_case ? outcome : Outcome::answered));
+        CHECK(results[i].answers[q].outcome == (i == bad_pair ? outcome : Outcome::answered));
       }
-    CHECK(results[bad_case].answers[0].detail.find("did not recur") == std::string::npos);
+    CHECK(results[bad_pair].answers[0].detail.find("did not recur") == std::string::npos);
     // The next run may have batches again.
-    const auto healthy = cases();
+    const auto healthy = pair_cases();
     CHECK(engine.run(healthy).back().answers[0].elapsed_ns == stated_together);
   }
 }
 
 TEST_CASE("a crash that happens in batches alone is charged once", "[oracles][batch]") {
-  RemoteEngine engine(spec("dies_together"));
-  const auto all = cases();
+  RemoteEngine engine(batch_spec("dies_together"));
+  const auto all = pair_cases();
   int crashed = 0;
   for (const CaseObservations& c : engine.run(all))
     for (const Observation& o : c.answers)
@@ -103,15 +103,15 @@ TEST_CASE("a crash that happens in batches alone is charged once", "[oracles][ba
 
 TEST_CASE("a batch that throws, or reports about a pair that is not there, is asked one by one",
           "[oracles][batch]") {
-  const auto all = cases();
-  RemoteEngine plain(spec("together"));
+  const auto all = pair_cases();
+  RemoteEngine plain(batch_spec("together"));
   const auto expected = plain.run(all);
   for (const char* name : {"throws_together", "strangers"}) {
-    RemoteEngine engine(spec(name));
+    RemoteEngine engine(batch_spec(name));
     const auto results = engine.run(all);
     for (std::size_t i = 0; i < all.size(); ++i) {
       INFO(name << " case " << i);
-      CHECK(equal(results[i], expected[i]));
+      CHECK(same_answers(results[i], expected[i]));
       CHECK(results[i].answers[0].elapsed_ns == stated_alone);
     }
     CHECK(engine.restarts() == 0);
@@ -119,9 +119,9 @@ TEST_CASE("a batch that throws, or reports about a pair that is not there, is as
 }
 
 TEST_CASE("a scene with a shape that the card does not list is not sent", "[oracles][batch][card]") {
-  RemoteEngine engine(spec("partial"));
+  RemoteEngine engine(batch_spec("partial"));
   CHECK(engine.card().shapes == std::vector{ShapeKind::sphere, ShapeKind::box});
-  auto all = cases();
+  auto all = pair_cases();
   all[7].scene.shapes[1] = Capsule{1, 1};
   const auto results = engine.run(all);
   for (std::size_t i = 0; i < all.size(); ++i)
@@ -133,7 +133,7 @@ TEST_CASE("a plug-in built with the header of version 1 works", "[oracles][abi]"
   RemoteEngine engine({host_path(), plugin_path("ts_version_1"), "", short_limits()});
   CHECK(engine.card().name == "version 1");
   CHECK(engine.card().more_shapes == std::vector{ShapeKind::rounded_box});  // it was told the minor version
-  const auto all = cases();
+  const auto all = pair_cases();
   for (const CaseObservations& c : engine.run(all)) {
     CHECK(c.answers[0].outcome == Outcome::answered);
     CHECK(c.answers[0].detail == "version 1");

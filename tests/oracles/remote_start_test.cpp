@@ -35,7 +35,7 @@ TEST_CASE("an unusable plug-in is an input error that names file and reason",
     const char *target, *engine, *reason;
   };
   for (const Row& row : {Row{"ts_absent", "", "there is no such plug-in file"},
-                         Row{"ts_bad_abi", "", "uses ABI version 42 instead of 1"},
+                         Row{"ts_bad_abi", "", "uses ABI version 43; this host loads 1 to 2"},
                          Row{"ts_bad_symbol", "", "exports no touchstone_plugin_v1"},
                          Row{"ts_bad_start", "", "died while loading it: SIGABRT: bad: cannot live here"},
                          Row{"ts_bad_card", "", "the engine card is not JSON"},
