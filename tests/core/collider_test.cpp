@@ -36,6 +36,12 @@ std::vector<Shape> one_of_each(Rng& r) {
   return all;
 }
 
+// Leaves the byte all over the part of the stack that the next calls use.
+[[gnu::noinline]] void fill_stack(unsigned char byte) {
+  volatile unsigned char room[1 << 16];
+  for (volatile unsigned char& x : room) x = byte;
+}
+
 bool same(const OverlapAnswer& x, const OverlapAnswer& y) {
   return x.outcome == y.outcome && x.overlap == y.overlap && x.error_bound == y.error_bound;
 }
@@ -113,6 +119,25 @@ TEST_CASE("collider: every pair of which one body moves has a time of impact", "
       const Outcome moving_y = time_of_impact({&x, {Vec3(-20, 0, 0), {}}, {}}, {&y, {}, slide}).outcome;
       CHECK(moving_x == (is_convex(kind_of(x)) ? Outcome::answered : Outcome::unsupported));
       CHECK(moving_y == (is_convex(kind_of(y)) ? Outcome::answered : Outcome::unsupported));
+    }
+}
+
+TEST_CASE("collider: a time of impact depends on nothing that the stack held before", "[impact][collider]") {
+  Rng r(23);
+  const std::vector<Shape> shapes = one_of_each(r);
+  for (const Shape& a : shapes)
+    for (const Shape& b : shapes) {
+      if (!is_convex(kind_of(a))) continue;
+      INFO(type_name(a) << " and " << type_name(b));
+      const Motion m{r.unit_vector() * 3, r.unit_vector()};
+      const Pose at{r.unit_vector() * 4, r.rotation()};
+      std::vector<ImpactAnswer> answers;
+      for (const unsigned char byte : {0x00, 0xff, 0x7f}) {  // 0xff: NaNs, 0x7f: large numbers
+        fill_stack(byte);
+        answers.push_back(time_of_impact({&a, at, m}, {&b, {}, {}}));
+      }
+      CHECK(same(answers[0], answers[1]));
+      CHECK(same(answers[0], answers[2]));
     }
 }
 
