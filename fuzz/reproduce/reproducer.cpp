@@ -55,8 +55,8 @@ struct Placement {
 
 @SUPPORT@// The engine's answer. Normals point from A to B.
 struct Answer {
-  bool overlap = false;
-  double distance = INFINITY, depth = -INFINITY, impact = NAN;  // impact NAN: no impact in the step
+  bool overlap = false, hit = false;  // hit: the engine reports an impact, at the time `impact`
+  double distance = INFINITY, depth = -INFINITY, impact = NAN;
   Vec normal{}, on_a{}, on_b{};
   std::vector<Vec> points;
 };
@@ -124,12 +124,12 @@ constexpr std::string_view check_points =
     R"(  // No point of the manifold may be farther than the depth from either body. One was, along these directions.
   for (const Vec& p : x.points)
     for (const Vec& u : {@DIRECTIONS@}) {
-      const double off_a = dot(u, p) - dot(u, support_a(u)), off_b = dot(u, p) - dot(u, support_b(u));
-      const double off = std::fmax(off_a, off_b) - std::fmax(0, x.depth);
-      if (off > @TAU@) {
-        std::printf("a point is %.17g farther out than the depth\n", off);
-        return false;
-      }
+      const double depth = std::fmax(0, x.depth);
+      for (const double out : {dot(u, p) - dot(u, support_a(u)), dot(u, p) - dot(u, support_b(u))})
+        if (!(out - depth <= @TAU@)) {
+          std::printf("a point is %.17g farther out than the depth\n", out - depth);
+          return false;
+        }
     }
 )";
 
@@ -142,7 +142,7 @@ bool check(const Answer& x) {
               q[2], apart);
   std::printf("expected: %.17g to %.17g apart, tolerance %g\n", @LO@, @HI@, @TAU@);
   for (const Vec& u : {@DIRECTIONS@})
-    if (dot(u, p) - dot(u, support_a(u)) > @TAU@ || dot(u, q) - dot(u, support_b(u)) > @TAU@) {
+    if (!(dot(u, p) - dot(u, support_a(u)) <= @TAU@) || !(dot(u, q) - dot(u, support_b(u)) <= @TAU@)) {
       std::puts("a point is off its body");
       return false;
     }
@@ -150,22 +150,33 @@ bool check(const Answer& x) {
 }
 )";
 
+// An impact at a time that is no number is an impact, and wrong.
+constexpr std::string_view print_impact = R"(void print_impact(const Answer& x) {
+  if (x.hit)
+    std::printf("says: impact at %.17g\n", x.impact);
+  else
+    std::puts("says: no impact");
+}
+)";
 constexpr std::string_view check_impact =
     R"(// The first contact is certainly within [@LO@, @HI@] of the step; the slack is half of the recorded error.
 bool check(const Answer& x) {
-  std::printf("says: impact at %.17g\nexpected: within [%.17g, %.17g], slack %g\n", x.impact, @LO@, @HI@, @SLACK@);
-  return x.impact >= @LO@ - @SLACK@ && x.impact <= @HI@ + @SLACK@;
+  print_impact(x);
+  std::printf("expected: impact within [%.17g, %.17g], slack %g\n", @LO@, @HI@, @SLACK@);
+  return x.hit && x.impact >= @LO@ - @SLACK@ && x.impact <= @HI@ + @SLACK@;
 }
 )";
 constexpr std::string_view check_no_impact = R"(bool check(const Answer& x) {
-  std::printf("says: impact at %.17g (nan: none)\nexpected: no impact in the step\n", x.impact);
-  return std::isnan(x.impact);
+  print_impact(x);
+  std::puts("expected: no impact in the step");
+  return !x.hit;
 }
 )";
 
 // Step of the difference quotient, relative to the distance: small, but far above rounding.
 constexpr double difference_step = 1e-3;
-// Error assumed for an impact that was not reported; half of it is the slack of the check.
+// Error assumed for an impact that was not reported, or not as a number; half of it is the slack of the
+// check.
 constexpr double error_of_missing_impact = 0.02;
 
 struct ExpectedAnswer {
@@ -233,11 +244,13 @@ std::string witness_check(const ExpectedAnswer& e) {
 std::string impact_check(const ExpectedAnswer& e) {
   using V = referee::TimeTruth::Verdict;
   const auto& t = e.truth.motion(0, e.q.a, e.q.b);
-  if (t.verdict == V::none) return std::string(check_no_impact);
+  if (t.verdict == V::none) return std::string(print_impact) + std::string(check_no_impact);
   const auto& toi = e.finding.evidence->observation.toi;
-  const double off = !toi ? error_of_missing_impact : *toi < t.t_lo ? t.t_lo - *toi : *toi - t.t_hi;
+  const double off = !toi || !std::isfinite(*toi) ? error_of_missing_impact
+                     : *toi < t.t_lo              ? t.t_lo - *toi
+                                                  : *toi - t.t_hi;
   return filled(
-      check_impact,
+      std::string(print_impact) + std::string(check_impact),
       {{"LO", literal(t.t_lo)}, {"HI", literal(t.t_hi)}, {"SLACK", literal(std::max(off, 0.0) / 2)}});
 }
 
