@@ -143,7 +143,7 @@ void append(std::string& out, const Hello& m) {
   framed(out, Type::hello, [&](Writer& w) {
     w.count(m.cards.size());
     for (const std::string& c : m.cards) w.text(c);
-    w.put(m.chosen).text(m.error).text(m.sandbox);
+    w.put(m.chosen).text(m.error).text(m.sandbox).text(m.built_from);
   });
 }
 
@@ -178,6 +178,7 @@ Hello decode_hello(std::string_view payload) {
   m.chosen = r.get<std::int32_t>();
   m.error = valid_utf8(r.text());
   m.sandbox = printable(r.text());
+  m.built_from = printable(r.text());
   r.finish();
   if (m.chosen < -1 || m.chosen >= static_cast<std::int32_t>(m.cards.size()))
     throw Malformed("hello names an engine that it does not list");

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "oracles/abi/bytes.h"
+#include "oracles/abi/source_id.h"
 #include "scenarios/value/observation.h"
 
 namespace touchstone::protocol {
@@ -44,6 +45,7 @@ struct Hello {
   std::int32_t chosen = -1;        // index into cards; -1: cards only
   std::string error;               // not empty: why the plug-in cannot be used
   std::string sandbox{};           // for people: which parts of the sandbox are in force
+  std::string built_from = source_id();
   bool operator==(const Hello&) const = default;
 };
 

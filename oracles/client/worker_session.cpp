@@ -24,6 +24,13 @@ void wait_for_output(WorkerProcess& worker) {
   if (worker.errors_fd() >= 0) worker.drain_errors();
 }
 
+protocol::Hello of_this_build(protocol::Hello hello) {
+  if (hello.built_from != source_id())
+    throw InputError("touchstone-host", "was built from other sources (" + hello.built_from +
+                                            ") than this program (" + source_id() + "): build both again");
+  return hello;
+}
+
 protocol::Hello await_hello(WorkerSession& s, const std::string& place, const WorkerLimits& limits) {
   Watchdog watchdog(limits);
   watchdog.progress(*s.process);
@@ -33,10 +40,11 @@ protocol::Hello await_hello(WorkerSession& s, const std::string& place, const Wo
     try {
       if (const auto frame = s.frames.next()) {
         if (frame->type != protocol::Type::hello) throw protocol::Malformed("unexpected type of message");
-        return protocol::decode_hello(frame->payload);
+        return of_this_build(protocol::decode_hello(frame->payload));
       }
     } catch (const protocol::Malformed& e) {
-      throw InputError(place, std::string("the worker's first message is not a hello: ") + e.what());
+      throw InputError(place,
+                       std::string("the worker's first message is not a hello of this build: ") + e.what());
     }
     if (r == ReadResult::closed) {
       s.process->ends_within(death_wait_seconds);

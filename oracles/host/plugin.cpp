@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "oracles/abi/engine.h"
+#include "oracles/abi/source_id.h"
 #include "scenarios/codec/value_codec.h"
 
 namespace touchstone::host {
@@ -15,6 +16,16 @@ constexpr std::uint32_t max_engines = 4096;
 
 }  // namespace
 
+void require_same_sources(void* library) {
+  using SourceId = const char*();
+  const auto theirs = reinterpret_cast<SourceId*>(dlsym(library, source_id_symbol));
+  if (!theirs) return;
+  const std::string id = theirs();
+  if (id != source_id())
+    throw std::runtime_error("was built from other sources (" + id + ") than touchstone-host (" +
+                             source_id() + "): build both again");
+}
+
 const ts_plugin& load_plugin(const std::string& file) {
   if (file.starts_with(pipe_prefix)) return load_pipe(file.substr(std::string(pipe_prefix).size()));
   void* const library = dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL);
@@ -22,6 +33,7 @@ const ts_plugin& load_plugin(const std::string& file) {
   using Entry = const ts_plugin* (*)();
   const auto entry = reinterpret_cast<Entry>(dlsym(library, "touchstone_plugin_v1"));
   if (!entry) throw std::runtime_error("exports no touchstone_plugin_v1: it is not a Touchstone plug-in");
+  require_same_sources(library);
   using TellMinor = void (*)(std::uint32_t);
   if (const auto tell = reinterpret_cast<TellMinor>(dlsym(library, "touchstone_host_v1"))) tell(TS_ABI_MINOR);
   const ts_plugin* const plugin = entry();
