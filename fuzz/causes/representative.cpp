@@ -4,6 +4,8 @@
 #include <set>
 #include <utility>
 
+#include "fuzz/causes/failing_form.h"
+#include "fuzz/causes/kept.h"
 #include "fuzz/shrink/shrink_both.h"
 #include "scenarios/codec/case_codec.h"
 
@@ -72,18 +74,24 @@ void examine(Representative& r, const FindingClass& c, const EngineKnowledge& kn
   const EnginePtr& engine = pool.named(r.finding->engine);
   if (!engine) return;
   engine->take_back();
+  if (c.symptom.stage == FaultStage::contradiction)
+    if (auto form = failing_form(cases, r.finding->fault, engine)) {
+      r.first.smallest = std::move(form->c);
+      r.failing = std::move(form->finding);
+    }
+  const Symptom symptom = symptom_of(r.shown());
   const std::vector<OtherEngine> others = knowledge.others(r.finding->engine);
-  const StillShows still = keeps_symptom(engine, c.symptom);
   const auto examined = [&](const Case& from) {
-    ShrunkPair shrunk = shrink_both(from, still, tries_for(c.symptom, tries));
+    const StillShows still = keeps(engine, kept_of(from, r.shown(), engine, knowledge), knowledge);
+    ShrunkPair shrunk = shrink_both(from, still, tries_for(symptom, tries));
     Examined e{std::move(shrunk.minimum.smallest), {}, {}};
     if (shrunk.defensible) e.defensible = std::move(shrunk.defensible->smallest);
-    e.responses = respond(e.shown(), c.symptom, r.finding->engine, others, pool);
+    e.responses = respond(e.shown(), symptom, r.finding->engine, others, pool);
     return e;
   };
   r.first = examined(r.first.smallest);
   r.asked = true;
-  if (twice && cases.size() > 1 && !is_slow(c.symptom)) r.second = examined(*cases.back());
+  if (twice && !r.failing && cases.size() > 1 && !is_slow(symptom)) r.second = examined(*cases.back());
 }
 
 }  // namespace touchstone::fuzz

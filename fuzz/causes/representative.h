@@ -21,10 +21,16 @@ struct Representative {
   std::size_t of_class = 0;                // index of its class
   const Finding* finding = nullptr;        // shown by its engine
   std::vector<const Finding*> stands_for;  // it and those of the class that are most like it; by key
+  /// Of a contradiction: the fault that one of the two forms shows by itself (failing_form.h). Then `first`
+  /// is about that form, reduced so that it keeps this fault.
+  std::optional<Finding> failing;
   Examined first;
   std::optional<Examined>
       second;          // another example of the finding; empty if there is none or it was not asked
   bool asked = false;  // false: its engine is missing, or the time was up
+
+  /// What `first` shows.
+  const Finding& shown() const { return failing ? *failing : *finding; }
 };
 
 /// At most `most` findings of a class: first those with different faults and kinds of shapes, then the

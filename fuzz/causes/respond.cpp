@@ -54,11 +54,6 @@ Answer judged(const Case& c, const EngineCard& card, const CaseObservations& obs
   return answer;
 }
 
-// Symptoms that only a comparison of several answers shows.
-bool needs_comparison(const Symptom& s) {
-  return s.stage == FaultStage::state || s.stage == FaultStage::contradiction;
-}
-
 Answer compared(const std::map<std::string, Finding>& found, const Symptom& s) {
   Answer answer{Response::gone, 0, {}};
   for (const auto& [key, f] : found) {
@@ -169,12 +164,8 @@ FoundBy found_by(const Symptom& symptom) {
   return symptom.stage == FaultStage::contradiction ? FoundBy::relations : FoundBy::referee;
 }
 
-StillShows keeps_symptom(const EnginePtr& engine, const Symptom& symptom) {
-  return [&engine, symptom](std::span<const Case> cases) {
-    std::vector<bool> all;
-    for (const Answer& a : answers_of(cases, engine, symptom)) all.push_back(a.response == Response::stays);
-    return all;
-  };
+bool needs_comparison(const Symptom& s) {
+  return s.stage == FaultStage::state || s.stage == FaultStage::contradiction;
 }
 
 Responses respond(const Case& c, const Symptom& symptom, const std::string& engine,

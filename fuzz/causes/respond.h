@@ -29,8 +29,8 @@ inline constexpr std::string_view fresh_process = "fresh_process", other_memory 
 /// What detects findings with the symptom.
 FoundBy found_by(const Symptom& symptom);
 
-/// For each case, whether the engine shows the symptom in it. `engine` must outlive the result.
-StillShows keeps_symptom(const EnginePtr& engine, const Symptom& symptom);
+/// True for symptoms that only a comparison of several answers shows.
+bool needs_comparison(const Symptom& s);
 
 Responses respond(const Case& c, const Symptom& symptom, const std::string& engine,
                   const std::vector<OtherEngine>& others, EnginePool& pool);

@@ -6,7 +6,7 @@
 #include <set>
 
 #include "core/base/input_error.h"
-#include "fuzz/shrink/shrink.h"
+#include "fuzz/shrink/shrink_both.h"
 #include "scenarios/value/candidate_pairs.h"
 #include "scenarios/value/odd_numbers.h"
 
@@ -168,8 +168,10 @@ Refutation refute(const Subject& subject, const EvidenceRow& e, const FaultCount
     return r;
   }
   const StillShows still = [&](std::span<const Case> cases) { return runner.shows(cases); };
-  const Shrunk shrunk = shrink(start_of(runner, c, *fault), still, most_tries(found.what.fault));
-  r.is_shown_again = shrunk.exit != ShrinkExit::not_shown;
+  const ShrunkPair both =
+      shrink_both(start_of(runner, c, *fault), still, most_tries(found.what.fault), defensible_or_solid);
+  const Shrunk& shrunk = both.defensible ? *both.defensible : both.minimum;
+  r.is_shown_again = both.minimum.exit != ShrinkExit::not_shown;
   r.shrink = r.is_shown_again ? std::string(to_string(shrunk.exit))
                               : "not reproduced every time: the subject's answers vary";
   r.script = shrunk.smallest;

@@ -8,6 +8,7 @@
 
 #include "core/base/input_error.h"
 #include "fuzz/certify/candidate_verdict.h"
+#include "fuzz/shrink/defensible.h"
 #include "fuzz/shrink/keeps_finding.h"
 #include "oracles/core/core_engine.h"
 #include "scenarios/codec/case_codec.h"
@@ -281,6 +282,24 @@ std::size_t count_of(const BroadCertificate& c, std::string_view fault, FaultKin
 }
 
 }  // namespace
+
+TEST_CASE("a subject that takes touching for apart is refuted by boxes with volume", "[certify]") {
+  const Subject open = faulty([](const Scene& scene, Observation& o) {
+    for (auto& pairs : o.candidate_pairs)
+      std::erase_if(pairs, [&](const BodyPair& p) { return touches(scene, p); });
+  });
+  const BroadCertificate c = first_fault(open, BroadLevel::boxes);
+  REQUIRE_FALSE(c.refutations.empty());
+  const Refutation& r = c.refutations[0];
+  CHECK(r.what.fault == "missed");
+  REQUIRE(r.script);
+  CHECK(r.bodies == 2);
+  CHECK(r.steps == 3);
+  INFO(case_to_json(*r.script).dump());
+  CHECK(is_solid(*r.script));
+  for (const Shape& shape : r.script->scene.shapes)
+    if (const auto* box = std::get_if<Box>(&shape)) CHECK(box->half_extents.minCoeff() > 0);
+}
 
 TEST_CASE("a subject that times out is neither refuted nor certified, and the time limit to set is named",
           "[certify]") {
