@@ -137,7 +137,25 @@ std::string documented(const std::string& engine, const fuzz::Symptom& s, const 
   return "";
 }
 
+// True when some engine of the catalogue has this path.
+bool is_catalogued_path(const std::string& path) {
+  return std::ranges::any_of(catalogued_names(),
+                             [&](const std::string& name) { return path_of(name) == path; });
+}
+
 }  // namespace
+
+std::string library_of(const std::string& path) {
+  struct Library {
+    std::string_view paths, name;
+  };
+  constexpr Library libraries[] = {
+      {"fcl-", "FCL"}, {"bullet-", "Bullet"}, {"libccd-", "libccd"}, {"ode", "ODE"}, {"core", "the core"}};
+  const std::string first = path.substr(0, path.find(", "));  // a cause may have several paths
+  for (const Library& l : libraries)
+    if (first.starts_with(l.paths) && is_catalogued_path(first)) return std::string(l.name);
+  return path;
+}
 
 fuzz::EngineKnowledge catalogued_knowledge() { return {path_of, route_of, documented, others}; }
 

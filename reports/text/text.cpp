@@ -149,6 +149,30 @@ std::string findings_summary(const CampaignResult& r, std::size_t per_engine) {
   return s;
 }
 
+static std::string slow_lines(const CampaignResult& r) {
+  std::string s;
+  for (const auto& [engine, questions] : r.tallies)
+    for (const auto& [q, t] : questions)
+      if (t.slow > 0)
+        s += fmt::format("slow: {} of {}'s answers to {} took longer than the time limit\n", grouped(t.slow),
+                         engine, to_string(q));
+  return s;
+}
+
+static std::string slow_line(const CampaignResult& r) {
+  std::uint64_t slow = 0;
+  std::size_t engines = 0;
+  for (const auto& [engine, questions] : r.tallies) {
+    std::uint64_t of_engine = 0;
+    for (const auto& [q, t] : questions) of_engine += t.slow;
+    slow += of_engine;
+    engines += of_engine > 0;
+  }
+  if (slow == 0) return "";
+  return fmt::format("slow: {} of {} took longer than the time limit\n", counted(slow, "answer", "answers"),
+                     counted(engines, "engine", "engines"));
+}
+
 std::string campaign_footer(const CampaignResult& r, bool full) {
   const auto share = [&](std::int64_t ns) {
     return r.total_ns > 0 ? 100.0 * static_cast<double>(ns) / static_cast<double>(r.total_ns) : 0.0;
@@ -160,11 +184,7 @@ std::string campaign_footer(const CampaignResult& r, bool full) {
   if (const std::uint64_t n = r.levels[0] + r.levels[1] + r.levels[2]; full && n > 0)
     s += fmt::format("referee: {} pairs settled by doubles, {} in extended precision, {} exactly\n",
                      grouped(r.levels[0]), grouped(r.levels[1]), grouped(r.levels[2]));
-  for (const auto& [engine, questions] : r.tallies)
-    for (const auto& [q, t] : questions)
-      if (t.slow > 0)
-        s += fmt::format("slow: {} of {}'s answers to {} took longer than the time limit\n", grouped(t.slow),
-                         engine, to_string(q));
+  s += full ? slow_lines(r) : slow_line(r);
   std::uint64_t asked = 0, broken = 0;
   for (const auto& [engine, of_engine] : r.relations)
     for (const auto& [name, n] : of_engine) {
