@@ -83,7 +83,7 @@ void examine(Representative& r, const FindingClass& c, const EngineKnowledge& kn
   const std::vector<OtherEngine> others = knowledge.others(r.finding->engine);
   const auto examined = [&](const Case& from) {
     const StillShows still = keeps(engine, kept_of(from, r.shown(), engine, knowledge), knowledge);
-    ShrunkPair shrunk = shrink_both(from, still, tries_for(symptom, tries));
+    ShrunkPair shrunk = shrink_solid(from, still, tries_for(symptom, tries));
     Examined e{std::move(shrunk.minimum.smallest), {}, {}};
     if (shrunk.defensible) e.defensible = std::move(shrunk.defensible->smallest);
     e.responses = respond(e.shown(), symptom, r.finding->engine, others, pool);

@@ -11,7 +11,7 @@ namespace touchstone::fuzz {
 
 /// A case of a finding, reduced and asked in all changed forms.
 struct Examined {
-  Case smallest;
+  Case smallest;                   // with volume and plain numbers if such a case shows it (shrink_solid)
   std::optional<Case> defensible;  // fuzz/shrink/defensible.h
   Responses responses;             // of the defensible case, or of the smallest
   const Case& shown() const { return defensible ? *defensible : smallest; }

@@ -9,12 +9,12 @@ namespace touchstone::fuzz {
 namespace {
 
 // The predicate costs less than an engine's answer and its judgement, so it comes first.
-StillShows while_up_to(Standard standard, const StillShows& still) {
-  return [standard, &still](std::span<const Case> cases) {
+StillShows as_long_as(bool (*is_fit)(const Case&), const StillShows& still) {
+  return [is_fit, &still](std::span<const Case> cases) {
     std::vector<bool> shows(cases.size(), false);
     std::vector<Case> asked;
     for (std::size_t i = 0; i < cases.size(); ++i)
-      if (standard(cases[i])) {
+      if (is_fit(cases[i])) {
         shows[i] = true;
         asked.push_back(cases[i]);
       }
@@ -28,9 +28,8 @@ StillShows while_up_to(Standard standard, const StillShows& still) {
 
 class BothShrinker {
  public:
-  BothShrinker(const Case& c, const StillShows& still, std::size_t max_tries,
-               std::span<const Standard> standards)
-      : case_(c), still_(still), max_tries_(max_tries), standards_(standards) {}
+  BothShrinker(const Case& c, const StillShows& still, std::size_t max_tries)
+      : case_(c), still_(still), max_tries_(max_tries) {}
 
   ShrunkPair run() {
     if (!shows(case_)) {
@@ -38,15 +37,17 @@ class BothShrinker {
       result_.minimum.before = result_.minimum.after = measure(case_);
       return std::move(result_);
     }
-    shrink_defensible(standards_.front(), case_, max_tries_ / 2);
+    shrink_defensible(case_, max_tries_ / 2);
     const bool is_found = result_.defensible.has_value();
     shrink_to_minimum(is_found ? left() : left() * 3 / 4);
     if (is_found || result_.minimum.exit == ShrinkExit::not_shown) return std::move(result_);
-    for (std::size_t i = 0; i < standards_.size() && !result_.defensible; ++i) {
-      const std::size_t share = left() / (standards_.size() - i);
-      if (i > 0) shrink_defensible(standards_[i], case_, share / 2);
-      if (!result_.defensible) from_minimum(standards_[i], i > 0 ? share / 2 : share);
+    if (is_defensible(result_.minimum.smallest)) {
+      result_.defensible = result_.minimum;
+      result_.defensible->tried = 0;
+      return std::move(result_);
     }
+    shrink_defensible(result_.minimum.smallest, left());
+    if (result_.defensible && result_.defensible->after < result_.minimum.after) shrink_to_minimum(left());
     return std::move(result_);
   }
 
@@ -69,30 +70,21 @@ class BothShrinker {
     result_.minimum.tried += tried_before;
   }
 
-  void from_minimum(Standard standard, std::size_t tries) {
-    if (standard(result_.minimum.smallest)) {
-      result_.defensible = result_.minimum;
-      result_.defensible->tried = 0;
-      return;
-    }
-    shrink_defensible(standard, result_.minimum.smallest, tries);
-    if (result_.defensible && result_.defensible->after < result_.minimum.after) shrink_to_minimum(left());
-  }
-
-  void shrink_defensible(Standard standard, const Case& start, std::size_t tries) {
-    const std::optional<Case> shown = form_up_to(standard, start, tries / 2);
+  void shrink_defensible(const Case& start, std::size_t tries) {
+    const std::optional<Case> shown = defensible_form(start, tries / 2);
     if (!shown) return;
-    result_.defensible = shrink(*shown, while_up_to(standard, still_), std::max<std::size_t>(tries / 2, 1));
+    result_.defensible =
+        shrink(*shown, as_long_as(is_defensible, still_), std::max<std::size_t>(tries / 2, 1));
     result_.defensible->before = measure(case_);
   }
 
-  // The first form that meets the standard and shows the finding. They are put one at a time, because an
-  // answer may take a second.
-  std::optional<Case> form_up_to(Standard standard, const Case& start, std::size_t tries) {
+  // The first form that is defensible and shows the finding. They are put one at a time, because an answer
+  // may take a second.
+  std::optional<Case> defensible_form(const Case& start, std::size_t tries) {
     const std::size_t most = result_.forms_tried + tries;
     for (const Case& form : defensible_forms(start)) {
       if (result_.forms_tried >= most) return std::nullopt;
-      if (standard(form) && shows(form)) return form;
+      if (is_defensible(form) && shows(form)) return form;
     }
     return std::nullopt;
   }
@@ -100,15 +92,32 @@ class BothShrinker {
   const Case& case_;
   const StillShows& still_;
   const std::size_t max_tries_;
-  const std::span<const Standard> standards_;
   ShrunkPair result_;
 };
 
 }  // namespace
 
-ShrunkPair shrink_both(const Case& c, const StillShows& still, std::size_t max_tries,
-                       std::span<const Standard> standards) {
-  return BothShrinker(c, still, max_tries, standards).run();
+ShrunkPair shrink_both(const Case& c, const StillShows& still, std::size_t max_tries) {
+  return BothShrinker(c, still, max_tries).run();
+}
+
+ShrunkPair shrink_solid(const Case& c, const StillShows& still, std::size_t max_tries) {
+  constexpr std::size_t most_forms = 8;  // that are asked: c itself and those nearest to it
+  const StillShows solid = as_long_as(is_solid, still);
+  std::size_t tried = 0;
+  for (const Case& form : defensible_forms(c)) {
+    if (tried >= std::min(most_forms, max_tries)) break;
+    if (!is_solid(form)) continue;
+    ++tried;
+    if (!still({&form, 1})[0]) continue;
+    ShrunkPair r = shrink_both(form, solid, max_tries - tried);
+    r.minimum.before = measure(c);
+    r.forms_tried += tried;
+    return r;
+  }
+  ShrunkPair r = shrink_both(c, still, max_tries - tried);
+  r.forms_tried += tried;
+  return r;
 }
 
 }  // namespace touchstone::fuzz

@@ -45,6 +45,7 @@ struct Reported {
   std::vector<std::string> reported_for;  // engines, in the reporter's words
   Case c;
   std::vector<Question> questions;  // those that the report is about, the most telling first
+  bool fails = false;               // no answer: an exception, an assertion, an endless loop
 };
 
 // The first question shows the reported fault most directly; the others show it in engines that answer
@@ -91,6 +92,15 @@ std::string mechanism_of(const std::string& words, const std::string& above,
   return words;
 }
 
+bool is_failure(const Json& seen) {
+  if (!seen.is_string()) return false;
+  const std::string words = seen;
+  for (const char* word :
+       {"throw", "threw", "assert", "abort", "crash", "loop", "hang", "recursion", "FailedAt"})
+    if (words.find(word) != std::string::npos) return true;
+  return false;
+}
+
 std::vector<Reported> reported_failures(const std::string& file) {
   std::ifstream in(file);
   if (!in) throw InputError(file, "cannot be opened");
@@ -103,6 +113,7 @@ std::vector<Reported> reported_failures(const std::string& file) {
     if (!test::has_shapes(e)) continue;
     r.reported_for = e.at("engines_affected").get<std::vector<std::string>>();
     r.questions = questions_of(e.at("phase"));
+    r.fails = is_failure(e.at("wrong_answer_seen"));
     r.c = case_of(e, r.questions);
     all.push_back(std::move(r));
   }
@@ -212,18 +223,25 @@ fuzz::EngineKnowledge knowledge() {
   return k;
 }
 
-// The finding about the most telling question that the engine answers wrongly.
+// The gravest finding about the question; if asked for, only of failures to answer.
+const fuzz::Finding* worst_of(const fuzz::CampaignResult& r, Question q, bool failures_only) {
+  const fuzz::Finding* worst = nullptr;
+  for (const auto& [key, f] : r.findings) {
+    if (f.question != to_string(q)) continue;
+    if (failures_only && fuzz::symptom_of(f).stage != fuzz::FaultStage::failure) continue;
+    if (!worst || fuzz::severity_of(f) < fuzz::severity_of(*worst)) worst = &f;
+  }
+  return worst;
+}
+
+// The finding that the report is about: of a report that there is no answer, a failure to answer, else the
+// gravest; about the most telling question that the engine answers wrongly.
 std::optional<fuzz::Finding> finding_of(const Reported& r, std::size_t index, const EnginePtr& engine) {
   const auto answers = engine->run({&r.c, 1});
   fuzz::CampaignResult alone;
   fuzz::judge_into(alone, r.c, index, {&engine, 1}, answers);
-  for (const Question q : r.questions) {
-    const fuzz::Finding* worst = nullptr;
-    for (const auto& [key, f] : alone.findings)
-      if (f.question == to_string(q) && (!worst || fuzz::severity_of(f) < fuzz::severity_of(*worst)))
-        worst = &f;
-    if (worst) return *worst;
-  }
+  for (const Question q : r.questions)
+    if (const fuzz::Finding* worst = worst_of(alone, q, r.fails)) return *worst;
   return std::nullopt;
 }
 

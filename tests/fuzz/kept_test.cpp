@@ -9,6 +9,7 @@
 #include "fuzz/campaign/campaign.h"
 #include "fuzz/causes/causes.h"
 #include "fuzz/causes/failing_form.h"
+#include "fuzz/shrink/defensible.h"
 #include "fuzz/shrink/shrink_both.h"
 #include "oracles/core/core_engine.h"
 #include "scenarios/codec/case_codec.h"
@@ -55,6 +56,15 @@ fuzz::Finding finding_in(const Case& c, const EnginePtr& engine) {
   return found.begin()->second;
 }
 
+// Of a library with a routine for each pair of shapes.
+fuzz::EngineKnowledge routine_for_each_pair() {
+  fuzz::EngineKnowledge k = fuzz::no_knowledge();
+  k.route_of = [](const std::string&, Question, ShapeKind a, ShapeKind b) {
+    return std::string(type_name(a)) + "-" + std::string(type_name(b));
+  };
+  return k;
+}
+
 EnginePtr liar(const std::string& name) {
   for (const mutants::Mutant& m : mutants::mutants())
     if (m.name == name) return mutants::make_lying_engine(m);
@@ -65,7 +75,7 @@ EnginePtr liar(const std::string& name) {
 
 TEST_CASE("reducing keeps the direction of a wrong verdict, and the routine", "[causes][shrink]") {
   const EnginePtr engine = std::make_unique<Opposite>();
-  const fuzz::EngineKnowledge knowledge = fuzz::no_knowledge();
+  const fuzz::EngineKnowledge knowledge = routine_for_each_pair();
   const Box box{Vec3(0.5, 0.5, 0.5)};
   const Case ghost = pair_case(box, box, 3, Question::overlap),
              missed = pair_case(box, box, 0.5, Question::overlap),
@@ -104,6 +114,27 @@ TEST_CASE("reducing keeps what moves moving, and what rests at rest", "[causes][
   Case pose = pair_case(Sphere{0.5}, Sphere{0.5}, 0.5, Question::overlap);
   pose.scene.bodies[1].motion = Motion{Vec3(-1, 0, 0), Vec3(0, 0, 0)};
   CHECK(fuzz::kept_of(pose, finding_in(pose, engine), engine, knowledge).moves == false);
+}
+
+TEST_CASE("the smallest case keeps volume and plain numbers if the case has them", "[causes][shrink]") {
+  const EnginePtr engine = std::make_unique<Opposite>();
+  const Box box{Vec3(0.5, 0.75, 0.5)};
+  const Case base = pair_case(box, box, 0.5, Question::overlap);
+  const fuzz::EngineKnowledge knowledge = fuzz::no_knowledge();
+  const auto still =
+      fuzz::keeps(engine, fuzz::kept_of(base, finding_in(base, engine), engine, knowledge), knowledge);
+  CHECK_FALSE(fuzz::is_solid(fuzz::shrink_both(base, still, 500).minimum.smallest));
+  const auto solid = fuzz::shrink_solid(base, still, 500);
+  CHECK(fuzz::is_solid(solid.minimum.smallest));
+  CHECK(solid.minimum.after < solid.minimum.before);
+  CHECK(still({&solid.minimum.smallest, 1})[0]);
+  // A point has no volume, and a body that has shows another key.
+  const Case point = pair_case(Sphere{0.5}, Sphere{0}, 0.25, Question::overlap);
+  const auto of_point = fuzz::keeps_finding(engine, finding_in(point, engine).key());
+  const auto as_it_is = fuzz::shrink_solid(point, of_point, 500);
+  CHECK(as_it_is.minimum.exit == fuzz::ShrinkExit::smallest);
+  CHECK(of_point({&as_it_is.minimum.smallest, 1})[0]);
+  CHECK_FALSE(fuzz::is_solid(as_it_is.minimum.smallest));
 }
 
 TEST_CASE("of two forms that contradict each other, the wrong one is found", "[causes][relations]") {

@@ -69,7 +69,7 @@ std::string asked_by_hand(const std::string& program) {
 #include <cstdio>
 #include <vector>
 using Vec = std::array<double, 3>;
-)" + part_of(program, "struct Answer {", "};\n") +
+)" + part_of(program, "struct Answer {", "\n};\n") +
          "namespace {\n" + part_of(program, "void print_impact", "}  // namespace") + R"(
 int main() {
   Answer none, nan, at_half;
