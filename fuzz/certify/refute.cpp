@@ -6,6 +6,7 @@
 #include <set>
 
 #include "core/base/input_error.h"
+#include "fuzz/shrink/defensible.h"
 #include "fuzz/shrink/shrink_both.h"
 #include "scenarios/value/candidate_pairs.h"
 #include "scenarios/value/odd_numbers.h"
@@ -128,6 +129,38 @@ Case start_of(SubjectRunner& runner, const Case& c, const CandidateFault& v) {
   return cut;
 }
 
+// Boxes without volume get some, and the two bodies touch along an axis, at their own poses.
+std::vector<Case> touching_forms(const Case& c, const CandidateFault& v) {
+  std::vector<Case> forms;
+  if (v.a < 0 || v.b < 0) return forms;
+  constexpr double restored = 0.5;  // of a half extent that is 0, in a scene about 1
+  Case solid = c;
+  for (Shape& shape : solid.scene.shapes)
+    if (auto* box = std::get_if<Box>(&shape))
+      for (double& h : box->half_extents)
+        if (!(h > 0)) h = restored;
+  const auto *a = std::get_if<Box>(&solid.scene.shape_of(v.a)),
+             *b = std::get_if<Box>(&solid.scene.shape_of(v.b));
+  if (!a || !b) return forms;
+  for (Eigen::Index axis = 0; axis < 3; ++axis) {
+    Case form = solid;
+    const Vec3 apart = (a->half_extents[axis] + b->half_extents[axis]) * Vec3::Unit(axis);
+    std::vector<Body>& bodies = form.scene.bodies;
+    bodies[static_cast<std::size_t>(v.b)].pose.translation =
+        bodies[static_cast<std::size_t>(v.a)].pose.translation + apart;
+    forms.push_back(std::move(form));
+  }
+  return forms;
+}
+
+// The start itself, or bodies with volume that show the same class of fault.
+Case solid_start(SubjectRunner& runner, Case start, const CandidateFault& v) {
+  if (is_solid(start)) return start;
+  for (Case& form : touching_forms(start, v))
+    if (is_solid(form) && runner.shows({&form, 1})[0]) return std::move(form);
+  return start;
+}
+
 std::string in_words(const Vec3& v) { return fmt::format("({:g}, {:g}, {:g})", v.x(), v.y(), v.z()); }
 
 // Lists the bodies whose numbers are not finite or do not make a box.
@@ -168,8 +201,8 @@ Refutation refute(const Subject& subject, const EvidenceRow& e, const FaultCount
     return r;
   }
   const StillShows still = [&](std::span<const Case> cases) { return runner.shows(cases); };
-  const ShrunkPair both =
-      shrink_both(start_of(runner, c, *fault), still, most_tries(found.what.fault), defensible_or_solid);
+  const ShrunkPair both = shrink_solid(solid_start(runner, start_of(runner, c, *fault), *fault), still,
+                                       most_tries(found.what.fault));
   const Shrunk& shrunk = both.defensible ? *both.defensible : both.minimum;
   r.is_shown_again = both.minimum.exit != ShrinkExit::not_shown;
   r.shrink = r.is_shown_again ? std::string(to_string(shrunk.exit))

@@ -159,7 +159,7 @@ TEST_CASE("a program tells a time that is no number from no impact", "[reproduce
   for (const std::optional<double>& toi : answers) {
     const std::string of_hit = says(hit, toi);
     INFO(of_hit);
-    CHECK(of_hit.starts_with("says: no impact\nexpected: impact within [0.5, 0.5]"));
+    CHECK(of_hit.starts_with("says: no impact\nexpected: impact within ["));
     CHECK(of_hit.find(nan) != std::string::npos);
     CHECK(of_hit.find("slack nan") == std::string::npos);
     CHECK(of_hit.find("WRONG") != of_hit.rfind("WRONG"));
