@@ -170,14 +170,14 @@ TEST_CASE("the last lines of a campaign have the first causes of each library, o
   INFO(text);
   CHECK(text ==
         "bullet: 1 cause behind 31 wrong answers\n"
-        "  9ab0      31 infeasible: bullet-query: wrong only where faces are parallel: ...\n"
+        "  9ab0      31 infeasible: bullet-query: wrong only where faces are ...\n"
         "fcl: 2 causes behind 1,211 wrong answers\n"
         "  51       7 crash: fcl-libccd: throws from ...\n"
         "  and 1 more\n"
         "libccd: 1 cause behind 5,260 wrong answers\n"
-        "  77e2   5,260 not minimal: libccd-mpr: states a depth that is not the least ...\n"
+        "  77e2   5,260 not minimal: libccd-mpr: states a depth that is not the ...\n"
         "ode: 1 cause behind 44 wrong answers\n"
-        "  0c0c      44 distance: routine box-cylinder: vanishes when the box is given ...\n");
+        "  0c0c      44 distance: routine box-cylinder: vanishes when the box is ...\n");
   CHECK(lines(causes_of_libraries(sample_causes(), 5, first_word)).size() == 4 + 5);
   CHECK(causes_of_libraries({}, 5, first_word).empty());
 }
