@@ -2,10 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <set>
 
 #include "cli/chosen_engines.h"
 #include "cli/command.h"
+#include "cli/engine_paths.h"
 #include "reports/text/causes_text.h"
 #include "reports/text/text.h"
 
@@ -25,12 +27,13 @@ void add_verbose(CLI::App& app, bool& verbose) {
 
 namespace {
 
-// So many causes of each engine that all fit on one screen.
-std::size_t causes_per_engine(const fuzz::Causes& c) {
-  std::set<std::string> paths;
-  for (const fuzz::Cause& cause : c.causes) paths.insert(cause.path);
-  constexpr std::size_t few_paths = 2, some_paths = 4;
-  return paths.size() <= few_paths ? 5 : paths.size() <= some_paths ? 3 : 2;
+// So many causes of each library that all fit on one screen.
+std::size_t causes_per_library(const fuzz::Causes& c) {
+  std::set<std::string> libraries;
+  for (const fuzz::Cause& cause : c.causes) libraries.insert(library_of(cause.path));
+  constexpr std::size_t lines = 28, around = 2, most = 5;  // of all libraries; of each besides its causes
+  const std::size_t each = lines / std::max<std::size_t>(1, libraries.size());
+  return std::clamp<std::size_t>(each > around ? each - around : 1, 1, most);
 }
 
 std::string next_steps(const CampaignEnd& end, const Printing& how) {
@@ -39,9 +42,11 @@ std::string next_steps(const CampaignEnd& end, const Printing& how) {
   if (r.findings.empty()) return fmt::format("no findings; the counts are in {}/summary.json\n", out);
   if (how.causes)
     return fmt::format(
-        "{} behind {} kinds of findings; all, with what makes each vanish:\n  {} causes {} --page {}\n",
+        "{0} behind {1} kinds of findings. To see one, or all on a page:\n"
+        "  {2} causes {3}{6} --cause {4}\n  {2} causes {3}{6} --page {5}\n",
         reports::counted(how.causes->causes.size(), "cause", "causes"), kinds, program_name(),
-        shell_word(out), shell_word(out + "/causes.html"));
+        shell_word(out), reports::code_of(how.causes->causes.front()), shell_word(out + "/causes.html"),
+        end.foreign.empty() ? "" : " --engines " + shell_word(end.foreign));
   std::string s =
       fmt::format("{} kinds of findings in {}/findings; to see one:\n  {} replay {}\n", kinds, out,
                   program_name(), shell_word(out + "/findings/" + r.findings.begin()->first));
@@ -53,22 +58,21 @@ std::string next_steps(const CampaignEnd& end, const Printing& how) {
 
 }  // namespace
 
-std::string results_text(const fuzz::CampaignResult& r, const std::string& directory, const Printing& how) {
+std::string results_text(const fuzz::CampaignResult& r, const Printing& how) {
   std::string s = (how.verbose ? reports::full_campaign_table(r) : reports::campaign_table(r)) + "\n";
   if (!r.findings.empty() && (how.verbose || !how.causes))
     s += fmt::format("Findings by engine (the three most frequent kinds of each):\n{}\n",
                      reports::findings_summary(r, 3));
   if (how.causes && !how.causes->causes.empty())
-    s += fmt::format(
-        "Causes by engine path:\n{}\n",
-        reports::causes_of_engines(*how.causes, causes_per_engine(*how.causes), directory, program_name()));
+    s += fmt::format("Causes: code, wrong answers, what is wrong\n{}\n",
+                     reports::causes_of_libraries(*how.causes, causes_per_library(*how.causes), library_of));
   return s + reports::campaign_footer(r, how.verbose);
 }
 
 void print_campaign(const CampaignEnd& end, const Printing& how) {
   for (const std::string& line : end.result.too_open(end.subject))
     fmt::print("{}\n", reports::wrapped(line, 79, 2));
-  fmt::print("{}", results_text(end.result, end.out.string(), how));
+  fmt::print("{}", results_text(end.result, how));
   if (!end.out.empty()) fmt::print("{}", next_steps(end, how));
 }
 

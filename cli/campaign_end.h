@@ -15,6 +15,8 @@ struct CampaignEnd {
   std::string subject;
   std::string family;         // empty: the default mix of cases
   std::filesystem::path out;  // where the findings are; empty: nowhere
+  /// The plug-ins and commands asked, separated by commas: further commands need to be given them again.
+  std::string foreign = {};
 };
 
 /// The whole result with digest, directory and open questions.
@@ -29,9 +31,8 @@ struct Printing {
 /// --verbose, of the commands that print a campaign.
 void add_verbose(CLI::App& app, bool& verbose);
 
-/// The table, the causes or findings of each engine, and the counts of the campaign. `directory`: where it
-/// is stored; empty: nowhere.
-std::string results_text(const fuzz::CampaignResult& r, const std::string& directory, const Printing& how);
+/// The table, the causes of each library or the findings of each engine, and the counts of the campaign.
+std::string results_text(const fuzz::CampaignResult& r, const Printing& how);
 /// The results as text, and what to do next.
 void print_campaign(const CampaignEnd& end, const Printing& how);
 /// "WRONG in 3 and failed in 0 of 1,200 answers".

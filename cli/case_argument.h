@@ -30,6 +30,9 @@ struct AskedFinding {
   std::string key;  // empty: the engine is right, or not wrong in the requested way
   std::map<std::string, fuzz::Finding> findings;  // by key, with evidence
 };
+/// The key in finding.json beside the case; empty if there is none.
+std::string stored_key(const std::string& path);
+
 /// Queries the engine. Throws InputError if the case or engine does not exist, or several findings show and
 /// no key is given.
 AskedFinding ask_for_finding(FindingArgument o, const WorkerLimits& limits);

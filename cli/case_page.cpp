@@ -5,10 +5,10 @@
 
 #include "cli/chosen_engines.h"
 #include "cli/command.h"
+#include "cli/program_for.h"
 #include "core/base/input_error.h"
 #include "fuzz/ask/judged_case.h"
 #include "fuzz/bisect/bisect.h"
-#include "fuzz/reproduce/reproducer.h"
 #include "fuzz/shrink/keeps_finding.h"
 
 namespace touchstone::cli {
@@ -50,7 +50,7 @@ Json programs_of(const Case& c, const EnginePtr& engine) {
   for (const auto& [key, finding] : found[0]) {
     if (questions.contains(finding.question)) continue;
     try {
-      const std::string text = fuzz::reproducer(finding, engine->card());
+      const std::string text = program_for(finding, engine->card(), engine->card().name);
       if (text.size() > max_program_size) continue;
       list.push_back({{"key", key}, {"question", finding.question}, {"program", text}});
       questions.insert(finding.question);
@@ -64,10 +64,10 @@ Json programs_of(const Case& c, const EnginePtr& engine) {
 Json engine_json(const Case& c, const EnginePtr& engine, bool wrong) {
   const EngineCard& card = engine->card();
   Json j = {{"library", card.library}, {"version", card.version}, {"settings", card.settings}};
-  j["has_reproducer"] = fuzz::has_reproducer(card.name);
+  j["has_reproducer"] = has_program(card.name);
   if (!wrong || c.scene.bodies.size() > most_bodies) return j;
   j["stages"] = stages_of(c, engine);
-  if (fuzz::has_reproducer(card.name)) j["programs"] = programs_of(c, engine);
+  if (has_program(card.name)) j["programs"] = programs_of(c, engine);
   return j;
 }
 

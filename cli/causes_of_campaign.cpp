@@ -14,11 +14,12 @@
 #include "cli/engine_paths.h"
 #include "cli/engines_by_card.h"
 #include "cli/judged_by.h"
+#include "cli/program_for.h"
 #include "core/base/input_error.h"
 #include "fuzz/campaign/directory_lock.h"
 #include "fuzz/campaign/store.h"
 #include "fuzz/causes/causes.h"
-#include "fuzz/reproduce/reproducer.h"
+#include "fuzz/triage/cause_files.h"
 #include "scenarios/codec/json_file.h"
 
 namespace touchstone::cli {
@@ -56,7 +57,10 @@ fuzz::Causes find_causes(const CausesSearch& search, const fuzz::CampaignResult&
   config.make = [&](const std::string& name) {
     return make_by_card(name, foreign, search.limits, search.error);
   };
-  config.program = [](const fuzz::Finding& f, const EngineCard& card) { return fuzz::reproducer(f, card); };
+  config.program = [&](const fuzz::Finding& f, const EngineCard& card) {
+    const auto given_as = foreign.find(f.engine);
+    return program_for(f, card, given_as == foreign.end() ? f.engine : given_as->second);
+  };
   config.jobs = search.jobs;
   config.minutes = search.minutes;
   config.stop = &interrupted;
@@ -64,42 +68,53 @@ fuzz::Causes find_causes(const CausesSearch& search, const fuzz::CampaignResult&
   return fuzz::causes_of(result, config);
 }
 
-constexpr const char* file_name = "causes.json";
-
-// Those stored beside the campaign, if they are of this result.
-std::optional<fuzz::Causes> stored_causes(const std::filesystem::path& directory,
-                                          const fuzz::CampaignResult& result) {
-  const std::filesystem::path file = directory / file_name;
-  if (!std::filesystem::exists(file)) return std::nullopt;
-  const fuzz::Json j = load_json(file, campaign_limits);
-  fuzz::Causes causes = fuzz::causes_from_json(JsonReader(j, file.string()));
-  if (causes.digest != fuzz::digest(result)) return std::nullopt;
-  return causes;
+// Those of the campaign's present state.
+std::optional<fuzz::Causes> stored_causes_of(const std::filesystem::path& directory) {
+  if (!fuzz::has_causes(directory)) return std::nullopt;
+  const fuzz::DirectoryLock lock(directory, fuzz::DirectoryLock::For::reading);
+  return fuzz::stored_causes(directory, fuzz::digest(fuzz::load_result(directory)));
 }
 
 }  // namespace
 
 fuzz::Causes known_causes(const std::string& directory, const fuzz::CampaignResult& result) {
   if (!directory.empty())
-    if (auto stored = stored_causes(directory, result)) return *std::move(stored);
+    if (auto stored = fuzz::stored_causes(directory, fuzz::digest(result))) return *std::move(stored);
   return fuzz::causes_at_once(result, catalogued_knowledge());
 }
 
-fuzz::Causes causes_of_campaign(CausesSearch& search, bool again) {
+fuzz::Causes causes_without_asking(const std::string& directory) {
+  fuzz::require_campaign(directory);
+  const fuzz::DirectoryLock lock(directory, fuzz::DirectoryLock::For::reading);
+  return known_causes(directory, fuzz::load_result(directory));
+}
+
+FoundCauses causes_of_campaign(CausesSearch& search, bool again) {
   search.limits.query_cpu_seconds = std::min(search.limits.query_cpu_seconds, most_query_seconds);
   search.limits.stop = &interrupted;
   if (!search.error.empty()) length_from_text(search.error);  // refuses a bad length at once
   const std::filesystem::path directory = search.directory;
-  const fuzz::DirectoryLock lock(directory, fuzz::DirectoryLock::For::reading);
-  const fuzz::CampaignResult result = fuzz::load_result(directory);
+  fuzz::require_campaign(directory);
+  FoundCauses found;
   if (!again)
-    if (auto stored = stored_causes(directory, result)) return *std::move(stored);
+    if (auto stored = stored_causes_of(directory)) {
+      found.causes = *std::move(stored);
+      return found;
+    }
+  const fuzz::DirectoryLock lock(directory, fuzz::DirectoryLock::For::writing);
+  const fuzz::CampaignResult result = fuzz::load_result(directory);
   const auto j = fuzz::load_settings(directory);
-  fuzz::Causes causes = find_causes(search, result);
-  causes.campaign = search.directory;
-  causes.seed = j.at("seed").get<std::uint64_t>();
-  if (!interrupted) write_file(directory / file_name, json_text(to_json(causes), 1) + "\n");
-  return causes;
+  found.causes = find_causes(search, result);
+  found.causes.campaign = search.directory;
+  found.causes.seed = j.at("seed").get<std::uint64_t>();
+  found.interrupted = interrupted;
+  if (found.interrupted) return found;
+  try {
+    fuzz::store_causes(directory, found.causes);
+  } catch (const InputError& e) {
+    found.not_stored = e.what();
+  }
+  return found;
 }
 
 }  // namespace touchstone::cli

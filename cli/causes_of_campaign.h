@@ -19,9 +19,19 @@ struct CausesSearch {
   WorkerLimits limits;
 };
 
-/// Reads DIR/causes.json, or finds the causes and writes that file. Throws InputError when DIR holds no
-/// campaign, or a damaged one.
-fuzz::Causes causes_of_campaign(CausesSearch& search, bool again);
+struct FoundCauses {
+  fuzz::Causes causes;
+  bool interrupted = false;  // the causes are incomplete and not stored
+  std::string not_stored;    // not empty: why DIR/causes.json could not be written
+};
+
+/// Reads DIR/causes.json, or finds the causes and writes that file, unless interrupted. Nobody else may write
+/// to DIR meanwhile. Throws InputError when DIR holds no campaign, or a damaged one.
+FoundCauses causes_of_campaign(CausesSearch& search, bool again);
+
+/// Asks no engine: the causes of the campaign in DIR as known_causes gives them. Throws InputError when DIR
+/// holds no campaign, or a damaged one.
+fuzz::Causes causes_without_asking(const std::string& directory);
 
 /// Asks no engine: those in DIR/causes.json if they are of this result, else what is stored alone tells.
 /// `directory` may be empty: the result is stored nowhere.

@@ -64,7 +64,11 @@ ChosenEngines chosen_engines(const EngineChoice& choice, const WorkerLimits& lim
   const std::string subject =
       choice.subject.empty() ? subject_by_rule(r.names) : subject_given(choice.subject, r.names, limits);
   if (!contains(r.names, subject)) r.names.insert(r.names.begin(), subject);
-  r.subject = is_foreign(subject) ? make_engine(subject, limits)->card().name : subject;
+  r.subject = subject;
+  if (!is_foreign(subject)) return r;
+  const EnginePtr engine = make_engine(subject, limits);
+  r.subject = engine->card().name;
+  r.shapes = engine->card().shapes;
   return r;
 }
 

@@ -21,6 +21,7 @@ void add_engine_choice(CLI::App& app, EngineChoice& to);
 struct ChosenEngines {
   std::vector<std::string> names;  // as make_engine takes them; the subject is among them
   std::string subject;             // the name on its card, which results use
+  std::vector<ShapeKind> shapes;   // the kinds that the subject's card lists; empty: it lists none
 };
 /// The subject given may be a name from --engines, the name on an engine's card, or a further engine, which
 /// is then queried too. If none is given, it is the only engine queried, else the core if the core is

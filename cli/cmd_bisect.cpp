@@ -1,11 +1,13 @@
-// touchstone bisect bodies|step|stage|value|commit CASE: what a finding depends on.
+// touchstone bisect bodies|step|stage|value|commit|release CASE: what a finding depends on.
 #include <fmt/format.h>
 
 #include <cstdlib>
 #include <nlohmann/json.hpp>
 
+#include "cli/bisect_release.h"
 #include "cli/case_argument.h"
 #include "cli/command.h"
+#include "cli/commit_bisection.h"
 #include "cli/output.h"
 #include "core/base/input_error.h"
 #include "fuzz/bisect/bisect.h"
@@ -22,6 +24,7 @@ struct BisectOptions {
   std::string out, at, build;
   double to = 0;
   bool json = false;
+  CommitOptions commits;
   WorkerLimits limits;
 };
 
@@ -113,10 +116,8 @@ int value(const BisectOptions& o, const AskedFinding& asked, const fuzz::Finding
   return exit_clean;
 }
 
-// Exit code that tells `git bisect run` to skip the commit (0 good, 1 bad).
-constexpr int exit_skip = 125;
-
 int commit(const BisectOptions& o) {
+  if (!o.commits.source.empty()) return bisect_commits(o.finding, o.commits, o.limits);
   if (!o.build.empty() && std::system(o.build.c_str()) != 0) {
     fmt::print(stderr, "the build failed: {}\n", o.build);
     return exit_skip;
@@ -129,6 +130,30 @@ int commit(const BisectOptions& o) {
     fmt::print(stderr, "touchstone: {}\n", printable(e.what(), "\n"));
     return exit_skip;
   }
+}
+
+void add_commit_options(CLI::App& app, BisectOptions& o) {
+  CommitOptions& c = o.commits;
+  auto* build =
+      app.add_option("--build", o.build, "command that builds the engine first; exit code 125 if it fails");
+  auto* source =
+      app.add_option("--source", c.source,
+                     "git repository of the engine's library: it is built by CMake and the adapter of "
+                     "--engine compiled against it")
+          ->excludes(build);
+  auto* one =
+      app.add_option("--commit", c.commit, "the commit to answer for")->capture_default_str()->needs(source);
+  auto* good = app.add_option("--good", c.good, "search from this commit, which is right, …")->needs(source);
+  good->excludes(one);
+  app.add_option("--bad", c.bad, "… to this one, which is wrong")->capture_default_str()->needs(good);
+  app.add_option("--cmake", c.cmake_options,
+                 "option for the library's CMake, as --cmake=-DNAME=VALUE; repeatable")
+      ->allow_extra_args(false)
+      ->needs(source);
+  app.add_option("--cache", c.cache,
+                 "folder for the libraries built (default: touchstone/libraries in "
+                 "$XDG_CACHE_HOME)")
+      ->needs(source);
 }
 
 using Verb = int (*)(const BisectOptions&, const AskedFinding&, const fuzz::Finding&);
@@ -165,7 +190,7 @@ Run declare_bisect(CLI::App& app) {
     add_case_seconds(*sub, o->limits);
     const std::string name = row.name;
     if (name == "commit") {
-      sub->add_option("--build", o->build, "command that builds the engine first; exit code 125 if it fails");
+      add_commit_options(*sub, *o);
     } else {
       sub->add_flag("--json", o->json, "one JSON document on stdout");
     }
@@ -177,7 +202,10 @@ Run declare_bisect(CLI::App& app) {
     }
     sub->callback([verb, run = row.run] { *verb = run; });
   }
-  return [o, verb] { return run(*o, *verb); };
+  auto other = std::make_shared<Run>();
+  CLI::App* release = app.add_subcommand("release", "the first release on npm that shows it");
+  release->callback([other, run_release = declare_bisect_release(*release)] { *other = run_release; });
+  return [o, verb, other] { return *other ? (*other)() : run(*o, *verb); };
 }
 
 }  // namespace touchstone::cli

@@ -2,6 +2,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstdio>
+#include <filesystem>
 #include <thread>
 
 #include "cli/causes_of_campaign.h"
@@ -14,6 +16,7 @@
 #include "reports/text/web_page.h"
 #include "scenarios/codec/json_file.h"
 #include "scenarios/text/name_list.h"
+#include "scenarios/text/printable.h"
 
 namespace touchstone::cli {
 namespace {
@@ -39,12 +42,23 @@ void keep_engine(fuzz::Causes& causes, const std::string& engine) {
     throw InputError("--engine " + engine, "no cause is of this engine" + did_you_mean(engine, known));
 }
 
-const fuzz::Cause& cause_named(const fuzz::Causes& causes, const std::string& id) {
-  std::vector<std::string> known;
+// By its id, or by the last word of it, its code. Null when there is none. Throws InputError when there are
+// several.
+const fuzz::Cause* find_cause(const fuzz::Causes& causes, const std::string& id) {
+  const fuzz::Cause* found = nullptr;
   for (const fuzz::Cause& c : causes.causes) {
-    if (c.id == id) return c;
-    known.push_back(c.id);
+    if (c.id == id) return &c;
+    if (reports::code_of(c) != id) continue;
+    if (found) throw InputError("--cause " + id, "is the code of several causes: " + found->id + ", " + c.id);
+    found = &c;
   }
+  return found;
+}
+
+const fuzz::Cause& cause_named(const fuzz::Causes& causes, const std::string& id) {
+  if (const fuzz::Cause* c = find_cause(causes, id)) return *c;
+  std::vector<std::string> known;
+  for (const fuzz::Cause& c : causes.causes) known.push_back(c.id);
   throw InputError("--cause " + id, "there is no such cause" + did_you_mean(id, known));
 }
 
@@ -53,13 +67,22 @@ std::string one_cause(const CausesOptions& o, const fuzz::Cause& c) {
   return o.markdown ? reports::cause_markdown(c) : reports::cause_text(c);
 }
 
-int run(CausesOptions& o) {
-  require_writable(o.out);
-  require_writable(o.page);
-  if (o.markdown && o.cause.empty())
-    throw InputError("--markdown", "needs --cause ID: the issue is about one");
-  catch_stop_signals();
-  fuzz::Causes causes = causes_of_campaign(o.search, o.again);
+// Whether DIR/causes.json holds what is printed; if not, says so last.
+int stored_or_not(const CausesOptions& o, const FoundCauses& found) {
+  if (found.interrupted)
+    fmt::print(stderr,
+               "touchstone: interrupted: these causes are incomplete and not stored; {} is as before. The "
+               "same command starts again; --budget MINUTES limits its time\n",
+               printable(o.search.directory));
+  else if (!found.not_stored.empty())
+    fmt::print(stderr, "touchstone: these causes are not stored with the campaign: {}\n",
+               printable(found.not_stored, "\n"));
+  else
+    return exit_clean;
+  return exit_failed;
+}
+
+int print_causes(const CausesOptions& o, fuzz::Causes& causes) {
   if (!o.engine.empty()) keep_engine(causes, o.engine);
   if (!o.out.empty()) write_file(o.out, json_text(to_json(causes), 1) + "\n");
   if (!o.cause.empty()) {
@@ -77,6 +100,39 @@ int run(CausesOptions& o) {
   return exit_clean;
 }
 
+// As it was printed at the end of the campaign, if its case has not been reduced and asked in other forms.
+bool print_at_once(const CausesOptions& o) {
+  if (o.cause.empty() || o.again || o.json || o.markdown || !o.out.empty() || !o.page.empty()) return false;
+  const fuzz::Causes causes = causes_without_asking(o.search.directory);
+  const fuzz::Cause* c = find_cause(causes, o.cause);
+  if (!c) return false;
+  fmt::print("{}", reports::cause_text(*c));
+  const std::filesystem::path finding =
+      std::filesystem::path(o.search.directory) / "findings" / c->shown().key;
+  if (!c->shown().key.empty() && std::filesystem::exists(finding))
+    fmt::print("\nIts answer beside the referee's\n  {} replay {}\n", program_name(),
+               shell_word(finding.string()));
+  if (c->response.empty())
+    fmt::print(
+        "\nNot examined yet: to reduce its case and to find out what makes it vanish\n  {} causes {}\n",
+        program_name(), shell_word(o.search.directory));
+  return true;
+}
+
+int run(CausesOptions& o) {
+  require_writable(o.out);
+  require_writable(o.page);
+  if (o.markdown && o.cause.empty())
+    throw InputError("--markdown", "needs --cause ID: the issue is about one");
+  if (print_at_once(o)) return exit_clean;
+  catch_stop_signals();
+  FoundCauses found = causes_of_campaign(o.search, o.again);
+  const int printed = print_causes(o, found.causes);
+  std::fflush(stdout);
+  const int stored = stored_or_not(o, found);
+  return printed == exit_clean ? stored : printed;
+}
+
 }  // namespace
 
 Run declare_causes(CLI::App& app) {
@@ -85,7 +141,8 @@ Run declare_causes(CLI::App& app) {
   app.add_option("directory", o->search.directory, "directory of a campaign (`fuzz --out`)")->required();
   app.add_option("--engine", o->engine,
                  "only causes of this engine, or of this path (fcl-libccd, bullet-query)");
-  app.add_option("--cause", o->cause, "print the cause with this id in full");
+  app.add_option("--cause", o->cause,
+                 "print the cause with this id, or with this code (the last word of its id), in full");
   app.add_flag("--markdown", o->markdown, "with --cause: as text for an issue tracker");
   app.add_option("--budget", o->search.minutes,
                  "minutes for asking the engines again; findings that remain are grouped by what is stored")

@@ -15,9 +15,10 @@
 #include "cli/command.h"
 #include "cli/engine_catalog.h"
 #include "cli/output.h"
+#include "cli/program_for.h"
+#include "cli/program_on_path.h"
 #include "core/base/input_error.h"
 #include "fuzz/campaign/store.h"
-#include "fuzz/reproduce/reproducer.h"
 #include "oracles/core/core_engine.h"
 #include "reports/text/record_text.h"
 #include "reports/text/text.h"
@@ -34,6 +35,7 @@ struct CertifyOptions {
   std::string subject, scope = "quick", level = "both", out, page, script, check;
   std::vector<std::string> without;
   std::uint64_t seed = 1, limit = 0;
+  double minutes = 0;
   int jobs = 1;
   bool sweeps = false, first_fault = false, json = false, list = false, memcheck = false;
   WorkerLimits limits{.patience = 1};
@@ -68,6 +70,7 @@ fuzz::CertifyConfig config_of(const CertifyOptions& o) {
   c.scope = scope_named(o.scope);
   c.seed = o.seed;
   c.limit = o.limit;
+  if (o.minutes > 0) c.minutes = o.minutes;
   c.jobs = o.jobs;
   c.without = o.without;
   c.first_fault = o.first_fault;
@@ -132,10 +135,20 @@ void write_scripts(const CertifyOptions& o, const BroadCertificate& c) {
   }
 }
 
+// In two columns, the second wrapped.
+void print_subject(std::string_view name, const std::string& words) {
+  constexpr std::size_t column = 34;
+  const std::string blank(column, '_');  // takes the first column's room in the first line
+  fmt::print("{:<{}}{}\n", name, column, reports::wrapped(blank + words, 78, column).substr(column));
+}
+
 int list_subjects() {
-  for (const auto name : core_broad_phases()) fmt::print("{:<34}core\n", name);
-  for (const EngineRow& row : broad_catalog())
-    fmt::print("{:<34}{}{}\n", row.name, row.line, is_present(row) ? "" : " (absent: not built)");
+  for (const auto name : core_broad_phases()) print_subject(name, "core");
+  for (const std::string_view folder : engine_folders()) {
+    if (!is_present(folder)) fmt::print("{:<34}absent: not built\n", folder);
+    for (const PluginEngine& e : engines_of_folder(folder))
+      if (e.kind == EngineKind::broad) print_subject(e.card.name, e.card.library + ", " + e.card.settings);
+  }
   fmt::print("also every engine listed by `touchstone engines`, ./libmine.so, pipe:COMMAND\n");
   return exit_clean;
 }
@@ -150,22 +163,12 @@ bool write_certificate_page(const CertifyOptions& o, const BroadCertificate& c) 
                      {"subject", o.subject},
                      {"file", o.out},
                      {"scripts", std::move(scripts)},
-                     {"has_writer", fuzz::has_reproducer(o.subject)},
+                     {"has_writer", has_program(o.subject)},
                      {"certificate", to_json(c)}};
   return write_page("certificate", page.dump(), o.page, o.out);
 }
 
 // The path at which the shell would find the program; empty if it would not.
-std::string program_on_path(const std::string& name) {
-  const char* path = std::getenv("PATH");
-  std::stringstream directories(path ? path : "");
-  for (std::string directory; std::getline(directories, directory, ':');)
-    if (const std::string file = directory + "/" + name;
-        !directory.empty() && access(file.c_str(), X_OK) == 0)
-      return file;
-  return "";
-}
-
 // Under Valgrind everything is slower, so fewer cases are run and each gets more time.
 void use_memcheck(CertifyOptions& o) {
   constexpr std::uint64_t cases_per_suite = 60;
@@ -251,6 +254,9 @@ int check(const CertifyOptions& o) {
   c.scope = scope_named(was.scope);
   c.seed = was.seed;
   c.limit = was.limit;
+  c.minutes.reset();
+  for (const fuzz::EvidenceCount& e : was.evidence)
+    if (e.out_of_time) c.most_cases[e.name] = e.cases;
   c.levels = was.levels;
   c.without = was.without;
   c.first_fault = was.first_fault;
@@ -295,6 +301,10 @@ Run declare_certify(CLI::App& app) {
       ->allow_extra_args(false);
   app.add_option("--seed", o->seed, "same seed, same certificate")->capture_default_str();
   app.add_option("--limit", o->limit, "maximum number of cases per suite; recorded in the certificate");
+  app.add_option("--minutes", o->minutes,
+                 "time for all suites together, shared equally; each runs as many of its cases, in order, as "
+                 "its share allows, and --check runs the same ones")
+      ->check(a_positive_number());
   app.add_option("--jobs", o->jobs, "number of parallel jobs")
       ->check(CLI::Range(1, 1024))
       ->capture_default_str();

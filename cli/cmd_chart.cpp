@@ -40,8 +40,7 @@ std::vector<EnginePtr> broad_engines(const ChartOptions& o) {
   std::vector<std::string> names;
   if (o.broad == "all") {
     for (std::string_view name : core_broad_phases()) names.emplace_back(name);
-    for (const EngineRow& row : broad_catalog())
-      if (is_present(row)) names.emplace_back(row.name);
+    for (std::string& name : present_engines(EngineKind::broad)) names.push_back(std::move(name));
   } else if (!o.broad.empty()) {
     for_each_in_list(o.broad, [&](std::string_view name) { names.emplace_back(name); });
   }
@@ -58,12 +57,12 @@ std::vector<EnginePtr> pair_engines(const ChartOptions& o, std::vector<std::stri
   if (all) std::erase(names, "core-kept");
   std::vector<EnginePtr> engines = make_engines(names, o.limits);
   if (!all) return engines;
-  for (const EngineRow& row : sweep_catalog())
-    if (is_present(row)) engines.push_back(make_engine(std::string(row.name), o.limits));
+  for (const std::string& name : present_engines(EngineKind::settings))
+    engines.push_back(make_engine(name, o.limits));
   const auto stepped = stepped_engines();
-  for (const EngineRow& row : engine_catalog()) {
-    if (!is_present(row) || std::find(stepped.begin(), stepped.end(), row.name) == stepped.end()) continue;
-    const std::shared_ptr<Engine> inner = make_engine(std::string(row.name), o.limits);
+  for (const std::string& name : present_engines(EngineKind::pairs)) {
+    if (std::find(stepped.begin(), stepped.end(), name) == stepped.end()) continue;
+    const std::shared_ptr<Engine> inner = make_engine(name, o.limits);
     for (const int steps : step_counts) engines.push_back(fuzz::sub_stepped(inner, steps));
   }
   return engines;

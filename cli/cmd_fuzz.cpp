@@ -95,6 +95,7 @@ int run(FuzzOptions& o) {
   const ChosenEngines chosen = chosen_engines(o.choice, o.limits);
   o.config.engines = chosen.names;
   o.config.subject = chosen.subject;
+  o.config.kinds = chosen.shapes;
   if (!o.config.error.empty()) length_from_text(o.config.error);  // refuses a bad length at once
   if (o.cases > 0) o.config.cases = o.cases;
   if (o.minutes > 0) o.config.minutes = o.minutes;
@@ -105,7 +106,10 @@ int run(FuzzOptions& o) {
   const auto make_all = [&] { return judged_by(make_engines(o.config.engines, o.limits), o.config.error); };
   catch_stop_signals();
   const auto result = fuzz::run_campaign(o.config, make_all, ProgressPrinter(o.config), interrupted);
-  const CampaignEnd end{result, o.config.subject, o.config.family, o.config.out};
+  std::string foreign;
+  for (const std::string& name : o.config.engines)
+    if (is_foreign(name)) foreign += (foreign.empty() ? "" : ",") + name;
+  const CampaignEnd end{result, o.config.subject, o.config.family, o.config.out, foreign};
   if (o.json) {
     fmt::print("{}\n", campaign_json(end).dump(1));
   } else {

@@ -1,6 +1,7 @@
-// touchstone primitives [PATH...]: deforming primitives (a vertex against a triangle, an edge against an edge, every
-// vertex on a straight path), answered by the core and decided exactly by the referee. Queries come from files in the
-// format of the published Sample-Queries (scenarios/import/ccd_queries.h) or from a generator.
+// touchstone primitives [PATH...]: deforming primitives (a vertex against a triangle, an edge against an
+// edge, every vertex on a straight path), answered by the core and decided exactly by the referee. Queries
+// come from files in the format of the published Sample-Queries (scenarios/import/ccd_queries.h) or from a
+// generator.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -55,10 +56,12 @@ void judge(const CcdQuery& q, bool from_file, const PrimitiveOptions& options, f
 bool names_kind(const fs::path& folder) { return folder == "vertex-face" || folder == "edge-edge"; }
 
 // The published layout: SOURCE/vertex-face/*.csv and SOURCE/edge-edge/*.csv.
-void read_file_of_queries(const fs::path& file, const PrimitiveOptions& options, fuzz::PrimitiveTallies& all) {
+void read_file_of_queries(const fs::path& file, const PrimitiveOptions& options,
+                          fuzz::PrimitiveTallies& all) {
   const fs::path folder = file.parent_path().filename();
   if (!names_kind(folder))
-    throw InputError(file.string(), "lies in no folder `vertex-face` or `edge-edge`, which says what its queries are");
+    throw InputError(file.string(),
+                     "lies in no folder `vertex-face` or `edge-edge`, which says what its queries are");
   const bool is_vertex_face = folder == "vertex-face";
   std::string source = printable(file.parent_path().parent_path().filename().string());
   if (source.empty()) source = ".";
@@ -70,7 +73,8 @@ void read_path(const fs::path& path, const PrimitiveOptions& options, fuzz::Prim
   if (!fs::is_directory(path)) return read_file_of_queries(fs::absolute(path), options, all);
   std::vector<fs::path> files;
   for (const auto& e : fs::recursive_directory_iterator(path))
-    if (e.is_regular_file() && e.path().extension() == ".csv" && names_kind(e.path().parent_path().filename()))
+    if (e.is_regular_file() && e.path().extension() == ".csv" &&
+        names_kind(e.path().parent_path().filename()))
       files.push_back(fs::absolute(e.path()));
   if (files.empty())
     throw InputError(path.string(), "holds no queries (folders `vertex-face` and `edge-edge` of CSV files)");
@@ -97,8 +101,8 @@ void print_row(std::string_view source, std::string_view kind, const fuzz::Primi
 }
 
 void print_text(const fuzz::PrimitiveTallies& all, const fuzz::PrimitiveTally& sum) {
-  fmt::print("{:<22} {:<11} {:>7} {:>5} {:>3} {:>3} {:>4} {:>4} {:>6} {:>6}\n", "source", "kind", "queries", "hits",
-             "FN", "FP", "late", "fail", "ns", "p99");
+  fmt::print("{:<22} {:<11} {:>7} {:>5} {:>3} {:>3} {:>4} {:>4} {:>6} {:>6}\n", "source", "kind", "queries",
+             "hits", "FN", "FP", "late", "fail", "ns", "p99");
   for (const auto& [key, t] : all) print_row(key.first, key.second, t);
   print_row("all", "", sum);
   fmt::print(

@@ -213,7 +213,7 @@ void replay(const ReplayOptions& o, const ReplayEngines& asked, const std::strin
 int replay_expected(const ReplayOptions& o) {
   const bool all_count = o.choice.subject.empty();
   const ChosenEngines chosen =
-      all_count ? ChosenEngines{engine_names(o.choice.engines), ""} : chosen_engines(o.choice, o.limits);
+      all_count ? ChosenEngines{engine_names(o.choice.engines), "", {}} : chosen_engines(o.choice, o.limits);
   const Engines engines = judged_by(make_engines(chosen.names, o.limits), o.error);
   ExpectedFailures expected(o.expected, chosen.subject);
   Count count;

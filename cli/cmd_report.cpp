@@ -55,7 +55,7 @@ int run(const ReportOptions& o) {
                                           ? fuzz::load_result(directory)
                                           : fuzz::result_from_json(JsonReader(summary, file.string()));
   const fuzz::Causes causes = known_causes(directory.string(), result);
-  fmt::print("{}", results_text(result, directory.string(), {.verbose = o.verbose, .causes = &causes}));
+  fmt::print("{}", results_text(result, {.verbose = o.verbose, .causes = &causes}));
   if (o.out.empty()) return exit_clean;
   if (!write_page("report", json_text(report_page(directory, summary)), o.out)) return exit_failed;
   fmt::print("{}: open it in a browser\n", o.out);

@@ -1,10 +1,11 @@
-// touchstone reproduce CASE: writes a finding as one C++ file against the engine's own API.
+// touchstone reproduce CASE: writes a finding as one C++ file against the engine's own API, or, for a command
+// behind a pipe, as the lines that it gets.
 #include <fmt/format.h>
 
 #include "cli/case_argument.h"
 #include "cli/command.h"
 #include "cli/output.h"
-#include "fuzz/reproduce/reproducer.h"
+#include "cli/program_for.h"
 #include "scenarios/codec/json_file.h"
 
 namespace touchstone::cli {
@@ -20,7 +21,7 @@ int run(const ReproduceOptions& o) {
   require_writable(o.out);
   const AskedFinding asked = ask_for_finding(o.finding, o.limits);
   if (asked.key.empty()) return not_found(asked, o.finding);
-  const std::string text = fuzz::reproducer(asked.findings.at(asked.key), asked.engine->card());
+  const std::string text = program_for(asked.findings.at(asked.key), asked.engine->card(), asked.engine_name);
   if (o.out.empty())
     fmt::print("{}", text);
   else

@@ -33,10 +33,18 @@ std::string describe(const CaseSize& m) {
 
 Json to_json(const CaseSize& m) { return {{"bodies", m.bodies}, {"steps", m.steps}, {"bits", m.bits}}; }
 
+// The key that the engine shows in the shrunk case: the one asked for, or that of the same fault with an
+// error of another magnitude.
+std::string shown_key(const fuzz::Shrunk& r, const AskedFinding& asked) {
+  const auto found = fuzz::findings_of({&r.smallest, 1}, asked.engine, fuzz::found_by(asked.key));
+  const std::string key = fuzz::key_of_fault(found[0], asked.key);
+  return key.empty() ? asked.key : key;
+}
+
 StoredCase stored(const fuzz::Shrunk& r, const AskedFinding& asked) {
   StoredCase s;
   s.c = r.smallest;
-  s.description = "shows " + asked.key;
+  s.description = "shows " + shown_key(r, asked);
   s.source = "shrunk from " + (asked.stored.source.empty() ? asked.stored.c.id : asked.stored.source);
   return s;
 }
@@ -63,6 +71,7 @@ std::string_view kind_of_case(const fuzz::Shrunk& r) {
 void print_json(const Chosen& chosen, const AskedFinding& asked) {
   const fuzz::Shrunk& r = chosen.result;
   Json j = {{"key", asked.key},
+            {"shows", shown_key(r, asked)},
             {"exit", to_string(r.exit)},
             {"tried", chosen.tried},
             {"before", to_json(r.before)},
@@ -79,8 +88,10 @@ void print_json(const Chosen& chosen, const AskedFinding& asked) {
 
 void print_text(const ShrinkOptions& o, const Chosen& chosen, const AskedFinding& asked) {
   const fuzz::Shrunk& r = chosen.result;
+  const std::string key = shown_key(r, asked);
   fmt::print(stderr, "{}\nbefore: {}\nafter:  {} ({}, {} cases tried)\n", asked.key, describe(r.before),
              describe(r.after), to_string(r.exit), chosen.tried);
+  if (key != asked.key) fmt::print(stderr, "the same fault, with an error of another magnitude: {}\n", key);
   if (chosen.other) {
     fmt::print(stderr, "this is the {} case; the {} one has {}{}\n", kind_of_case(r),
                kind_of_case(*chosen.other), describe(chosen.other->after), o.smallest ? "" : " (--smallest)");
@@ -93,12 +104,23 @@ void print_text(const ShrinkOptions& o, const Chosen& chosen, const AskedFinding
     fmt::print("{}\n", o.out);
 }
 
+// Where the finding itself has no defensible case, one of the same fault with a larger error may be.
+fuzz::ShrunkPair shrink(const ShrinkOptions& o, const AskedFinding& asked) {
+  fuzz::ShrunkPair both =
+      fuzz::shrink_both(asked.stored.c, fuzz::keeps_finding(asked.engine, asked.key), o.tries);
+  if (both.defensible || both.minimum.exit == fuzz::ShrinkExit::not_shown) return both;
+  fuzz::ShrunkPair of_fault =
+      fuzz::shrink_both(asked.stored.c, fuzz::keeps_fault(asked.engine, asked.key), o.tries);
+  both.defensible = std::move(of_fault.defensible);
+  both.forms_tried += of_fault.forms_tried + of_fault.minimum.tried;
+  return both;
+}
+
 int run(const ShrinkOptions& o) {
   require_writable(o.out);
   const AskedFinding asked = ask_for_finding(o.finding, o.limits);
   if (asked.key.empty()) return not_found(asked, o.finding);
-  const fuzz::ShrunkPair both =
-      fuzz::shrink_both(asked.stored.c, fuzz::keeps_finding(asked.engine, asked.key), o.tries);
+  const fuzz::ShrunkPair both = shrink(o, asked);
   const Chosen chosen = choose(both, o.smallest);
   if (!o.out.empty()) save_case(stored(chosen.result, asked), o.out);
   if (o.json)

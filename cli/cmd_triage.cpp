@@ -18,7 +18,7 @@
 #include "cli/judged_by.h"
 #include "cli/output.h"
 #include "core/base/input_error.h"
-#include "fuzz/campaign/directory_lock.h"
+#include "fuzz/campaign/store.h"
 #include "fuzz/shrink/keeps_finding.h"
 #include "fuzz/triage/cause_files.h"
 #include "fuzz/triage/triage.h"
@@ -99,6 +99,7 @@ void make_directory(const std::string& option, const std::string& path) {
 
 // The engines that answered or failed in the campaign, from its summary.
 std::set<std::string> answered_in(const std::string& directory) {
+  fuzz::require_campaign(directory);
   const auto file = std::filesystem::path(directory) / "summary.json";
   const fuzz::Json j = load_json(file, campaign_limits);
   const fuzz::CampaignResult r = fuzz::result_from_json(JsonReader(j, file.string()));
@@ -174,9 +175,8 @@ int triage_campaign(const TriageOptions& o, const TriageSources& sources) {
   if (!o.error.empty()) length_from_text(o.error);  // refuses a bad length at once
   require_writable(o.junit);
   const Foreign foreign = foreign_of(o);
-  const fuzz::DirectoryLock lock(o.directory, fuzz::DirectoryLock::For::reading);
-  const fuzz::Causes causes = sources.causes();
   const auto answered = answered_in(o.directory);
+  const fuzz::Causes causes = sources.causes();
   fuzz::Ledger ledger(o.ledger);
   const std::string subject = resolved_subject(o, foreign, answered, ledger.all());
   std::deque<EnginesByCard> of_job;
@@ -222,12 +222,16 @@ int run(const TriageOptions& o) {
   CausesSearch search;
   search.directory = o.directory;
   search.engines = o.engines;
+  if (is_foreign(o.subject)) search.engines += (o.engines.empty() ? "" : ",") + o.subject;
   search.error = o.error;
   search.jobs = o.jobs;
   search.limits = o.limits;
   const auto causes = [&] {
-    if (!fuzz::has_causes(o.directory)) causes_of_campaign(search, false);  // finds and stores them
-    return fuzz::load_causes(o.directory);
+    FoundCauses found = causes_of_campaign(search, false);
+    if (found.interrupted) throw Stopped{};
+    if (!found.not_stored.empty())
+      fmt::print(stderr, "touchstone: {}: they will be found again\n", printable(found.not_stored, "\n"));
+    return std::move(found.causes);
   };
   return triage_campaign(o, {causes, reports::cause_markdown});
 }

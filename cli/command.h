@@ -37,6 +37,7 @@ Run declare_chart(CLI::App& app);
 Run declare_check(CLI::App& app);
 Run declare_engines(CLI::App& app);
 Run declare_families(CLI::App& app);
+Run declare_fingerprint(CLI::App& app);
 Run declare_scenarios(CLI::App& app);
 Run declare_fuzz(CLI::App& app);
 Run declare_judge(CLI::App& app);
@@ -50,6 +51,7 @@ Run declare_reproduce(CLI::App& app);
 Run declare_bisect(CLI::App& app);
 Run declare_merge(CLI::App& app);
 Run declare_triage(CLI::App& app);
+Run declare_versions(CLI::App& app);
 Run declare_view(CLI::App& app);
 
 /// In the order of --help.
@@ -61,6 +63,7 @@ inline constexpr auto commands = std::to_array<Command>({
     {"reproduce", "write a finding as a program against the engine", declare_reproduce},
     {"bisect", "find what a finding depends on", declare_bisect},
     {"causes", "find the distinct causes behind a campaign's findings", declare_causes},
+    {"versions", "find which releases of an engine have which causes", declare_versions},
     {"triage", "compare causes with the ledger of known ones", declare_triage},
     {"plan", "choose the cheapest model a scene can be run with", declare_plan},
     {"merge", "merge the shards of a campaign, or ledgers", declare_merge},
@@ -70,6 +73,7 @@ inline constexpr auto commands = std::to_array<Command>({
     {"check", "verify a stored certificate in exact arithmetic", declare_check},
     {"chart", "measure the speed and accuracy of every engine", declare_chart},
     {"stability", "find where degeneracy makes each engine fail", declare_stability},
+    {"fingerprint", "hash an engine's answers, to compare builds of it", declare_fingerprint},
     {"primitives", "check the core on deforming primitives", declare_primitives},
     {"engines", "list engines, versions, settings and tolerances", declare_engines},
     {"families", "list the families of random cases", declare_families},

@@ -4,9 +4,12 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <optional>
 
 #include "cli/command.h"
 #include "cli/npm_engines.h"
+#include "cli/optional_engines.h"
+#include "cli/own_engines.h"
 #include "core/base/input_error.h"
 #include "oracles/core/core_engine.h"
 #include "reports/chart/sub_steps.h"
@@ -16,127 +19,26 @@
 namespace touchstone::cli {
 namespace {
 
-constexpr std::string_view fcl = "libtouchstone_fcl.so", f32 = "libtouchstone_bullet_f32.so",
-                           f64 = "libtouchstone_bullet_f64.so", ccd = "libtouchstone_libccd.so",
-                           ode = "libtouchstone_ode.so";
+// The folders in oracles/ whose plug-ins the build makes. Their cards say the rest.
+constexpr std::string_view folders[] = {"fcl", "bullet", "libccd", "ode"};
 
-constexpr EngineRow rows[] = {
-    {"core", "", "our own core"},
-    {"core-f32", "", "its narrow phase in float"},
-    {"core-kept", "", "our core with everything it may keep: hull graphs, pair memory, StepWorld"},
-    {"fcl-libccd", fcl, "FCL as shipped, GST_LIBCCD"},
-    {"fcl-libccd-tuned", fcl, "FCL, GST_LIBCCD, tolerances 1e-12 and 1e-7"},
-    {"fcl-indep", fcl, "FCL as shipped, GST_INDEP"},
-    {"fcl-indep-tuned", fcl, "FCL, GST_INDEP, tolerances 1e-12"},
-    {"bullet-f32-query", f32, "Bullet float, contactPairTest, default margins"},
-    {"bullet-f32-query-tuned", f32, "Bullet float, contactPairTest, margin 0"},
-    {"bullet-f32-sim", f32, "Bullet float, performDiscreteCollisionDetection, default margins"},
-    {"bullet-f32-sim-tuned", f32, "Bullet float, performDiscreteCollisionDetection, margin 0"},
-    {"bullet-f64-query", f64, "Bullet double, contactPairTest, default margins"},
-    {"bullet-f64-query-tuned", f64, "Bullet double, contactPairTest, margin 0"},
-    {"bullet-f64-sim", f64, "Bullet double, performDiscreteCollisionDetection, default margins"},
-    {"bullet-f64-sim-tuned", f64, "Bullet double, performDiscreteCollisionDetection, margin 0"},
-    {"libccd-gjk", ccd, "libccd as shipped, GJK and EPA"},
-    {"libccd-gjk-tuned", ccd, "libccd, GJK and EPA, tight tolerances"},
-    {"libccd-mpr", ccd, "libccd as shipped, MPR"},
-    {"libccd-mpr-tuned", ccd, "libccd, MPR, tight tolerances"},
-    {"ode", ode, "ODE as shipped, dCollide"},
+// The core is part of this program and has no plug-in.
+struct CoreRow {
+  std::string_view name;
+  EngineKind kind;
 };
-
-constexpr std::string_view fcl_sweep = "libtouchstone_fcl_sweep.so",
-                           ccd_sweep = "libtouchstone_libccd_sweep.so",
-                           f32_sweep = "libtouchstone_bullet_sweep_f32.so",
-                           f64_sweep = "libtouchstone_bullet_sweep_f64.so";
-
-constexpr EngineRow sweep_rows[] = {
-    {"core-extended", "", "our core, every pair in extended precision"},
-    {"core-speculative@0.25", "", "our core, speculative contact, margin a quarter of the farthest approach"},
-    {"core-speculative@0.5", "", "our core, speculative contact, margin half of the farthest approach"},
-    {"core-speculative@1", "", "our core, speculative contact, margin the farthest approach"},
-    {"fcl-libccd@1e-3", fcl_sweep, "FCL, GST_LIBCCD, tolerances 1e-3"},
-    {"fcl-indep@1e-3", fcl_sweep, "FCL, GST_INDEP, tolerances 1e-3"},
-    {"fcl-libccd@1e-9", fcl_sweep, "FCL, GST_LIBCCD, tolerances 1e-9"},
-    {"fcl-indep@1e-9", fcl_sweep, "FCL, GST_INDEP, tolerances 1e-9"},
-    {"fcl-naive@4", fcl_sweep, "FCL, CCDC_NAIVE, 4 samples"},
-    {"fcl-naive@16", fcl_sweep, "FCL, CCDC_NAIVE, 16 samples"},
-    {"fcl-naive@64", fcl_sweep, "FCL, CCDC_NAIVE, 64 samples"},
-    {"fcl-naive@256", fcl_sweep, "FCL, CCDC_NAIVE, 256 samples"},
-    {"fcl-advance@1e-2", fcl_sweep, "FCL, CCDC_CONSERVATIVE_ADVANCEMENT, toc_err 1e-2"},
-    {"fcl-advance@1e-8", fcl_sweep, "FCL, CCDC_CONSERVATIVE_ADVANCEMENT, toc_err 1e-8"},
-    {"libccd-gjk@1e-2", ccd_sweep, "libccd, GJK and EPA, tolerances 1e-2"},
-    {"libccd-mpr@1e-2", ccd_sweep, "libccd, MPR, tolerance 1e-2"},
-    {"libccd-gjk@1e-6", ccd_sweep, "libccd, GJK and EPA, tolerances 1e-6"},
-    {"libccd-mpr@1e-6", ccd_sweep, "libccd, MPR, tolerance 1e-6"},
-    {"libccd-gjk@1e-8", ccd_sweep, "libccd, GJK and EPA, tolerances 1e-8"},
-    {"libccd-mpr@1e-8", ccd_sweep, "libccd, MPR, tolerance 1e-8"},
-    {"libccd-gjk-iterations@8", ccd_sweep, "libccd, GJK and EPA, at most 8 iterations"},
-    {"libccd-mpr-iterations@8", ccd_sweep, "libccd, MPR, at most 8 iterations"},
-    {"libccd-gjk-iterations@16", ccd_sweep, "libccd, GJK and EPA, at most 16 iterations"},
-    {"libccd-mpr-iterations@16", ccd_sweep, "libccd, MPR, at most 16 iterations"},
-    {"libccd-gjk-iterations@32", ccd_sweep, "libccd, GJK and EPA, at most 32 iterations"},
-    {"libccd-mpr-iterations@32", ccd_sweep, "libccd, MPR, at most 32 iterations"},
-    {"libccd-gjk-iterations@128", ccd_sweep, "libccd, GJK and EPA, at most 128 iterations"},
-    {"libccd-mpr-iterations@128", ccd_sweep, "libccd, MPR, at most 128 iterations"},
-    {"bullet-f32-query@0.001", f32_sweep, "Bullet float, contactPairTest, margin 0.001"},
-    {"bullet-f32-query@0.01", f32_sweep, "Bullet float, contactPairTest, margin 0.01"},
-    {"bullet-f32-sim@0.01", f32_sweep, "Bullet float, performDiscreteCollisionDetection, margin 0.01"},
-    {"bullet-f32-minkowski@0", f32_sweep, "Bullet float, Minkowski depth solver, margin 0"},
-    {"bullet-f32-minkowski@0.01", f32_sweep, "Bullet float, Minkowski depth solver, margin 0.01"},
-    {"bullet-f32-minkowski@0.04", f32_sweep, "Bullet float, Minkowski depth solver, margin 0.04"},
-    {"bullet-f32-epa@1e-1", f32_sweep, "Bullet float, margin 0, EPA tolerance 1e-1"},
-    {"bullet-f32-epa@1e-5", f32_sweep, "Bullet float, margin 0, EPA tolerance 1e-5"},
-    {"bullet-f32-epa@1e-9", f32_sweep, "Bullet float, margin 0, EPA tolerance 1e-9"},
-    {"bullet-f32-cast@0.001", f32_sweep, "Bullet float, convexSweepTest, allowed penetration 0.001"},
-    {"bullet-f32-cast@0.01", f32_sweep, "Bullet float, convexSweepTest, allowed penetration 0.01"},
-    {"bullet-f32-cast@0.1", f32_sweep, "Bullet float, convexSweepTest, allowed penetration 0.1"},
-    {"bullet-f64-query@0.001", f64_sweep, "Bullet double, contactPairTest, margin 0.001"},
-    {"bullet-f64-query@0.01", f64_sweep, "Bullet double, contactPairTest, margin 0.01"},
-    {"bullet-f64-sim@0.01", f64_sweep, "Bullet double, performDiscreteCollisionDetection, margin 0.01"},
-    {"bullet-f64-minkowski@0", f64_sweep, "Bullet double, Minkowski depth solver, margin 0"},
-    {"bullet-f64-minkowski@0.01", f64_sweep, "Bullet double, Minkowski depth solver, margin 0.01"},
-    {"bullet-f64-minkowski@0.04", f64_sweep, "Bullet double, Minkowski depth solver, margin 0.04"},
-    {"bullet-f64-epa@1e-1", f64_sweep, "Bullet double, margin 0, EPA tolerance 1e-1"},
-    {"bullet-f64-epa@1e-5", f64_sweep, "Bullet double, margin 0, EPA tolerance 1e-5"},
-    {"bullet-f64-epa@1e-9", f64_sweep, "Bullet double, margin 0, EPA tolerance 1e-9"},
-    {"bullet-f64-cast@0.001", f64_sweep, "Bullet double, convexSweepTest, allowed penetration 0.001"},
-    {"bullet-f64-cast@0.01", f64_sweep, "Bullet double, convexSweepTest, allowed penetration 0.01"},
-    {"bullet-f64-cast@0.1", f64_sweep, "Bullet double, convexSweepTest, allowed penetration 0.1"},
+constexpr CoreRow core_rows[] = {
+    {"core", EngineKind::pairs},
+    {"core-f32", EngineKind::pairs},
+    {"core-kept", EngineKind::pairs},
+    {"core-extended", EngineKind::settings},
+    {"core-speculative@0.25", EngineKind::settings},
+    {"core-speculative@0.5", EngineKind::settings},
+    {"core-speculative@1", EngineKind::settings},
 };
 
 constexpr std::string_view stepped[] = {"core", "fcl-libccd", "bullet-f32-query", "bullet-f64-query",
                                         "libccd-gjk"};
-
-constexpr std::string_view fcl_broad = "libtouchstone_fcl_broad.so",
-                           f32_broad = "libtouchstone_bullet_broad_f32.so",
-                           f64_broad = "libtouchstone_bullet_broad_f64.so",
-                           ode_broad = "libtouchstone_ode_broad.so";
-
-constexpr EngineRow broad_rows[] = {
-    {"fcl-naive", fcl_broad, "FCL, NaiveCollisionManager"},
-    {"fcl-sap", fcl_broad, "FCL, SaPCollisionManager"},
-    {"fcl-ssap", fcl_broad, "FCL, SSaPCollisionManager"},
-    {"fcl-interval-tree", fcl_broad, "FCL, IntervalTreeCollisionManager"},
-    {"fcl-spatial-hash", fcl_broad, "FCL, SpatialHashingCollisionManager"},
-    {"fcl-dynamic-tree", fcl_broad, "FCL, DynamicAABBTreeCollisionManager"},
-    {"fcl-dynamic-tree-array", fcl_broad, "FCL, DynamicAABBTreeCollisionManager_Array"},
-    {"fcl-sap-update-one", fcl_broad, "FCL, update(object) after each move"},
-    {"fcl-interval-tree-update-one", fcl_broad, "FCL, update(object) after each move"},
-    {"fcl-spatial-hash-update-one", fcl_broad, "FCL, update(object) after each move"},
-    {"fcl-dynamic-tree-update-one", fcl_broad, "FCL, update(object) after each move"},
-    {"fcl-dynamic-tree-array-update-one", fcl_broad, "FCL, update(object) after each move"},
-    {"bullet-f32-dbvt", f32_broad, "Bullet float, btDbvtBroadphase"},
-    {"bullet-f32-axis-sweep", f32_broad, "Bullet float, btAxisSweep3"},
-    {"bullet-f32-axis-sweep-32", f32_broad, "Bullet float, bt32BitAxisSweep3"},
-    {"bullet-f32-simple", f32_broad, "Bullet float, btSimpleBroadphase"},
-    {"bullet-f64-dbvt", f64_broad, "Bullet double, btDbvtBroadphase"},
-    {"bullet-f64-axis-sweep", f64_broad, "Bullet double, btAxisSweep3"},
-    {"bullet-f64-axis-sweep-32", f64_broad, "Bullet double, bt32BitAxisSweep3"},
-    {"bullet-f64-simple", f64_broad, "Bullet double, btSimpleBroadphase"},
-    {"ode-simple", ode_broad, "ODE, dSimpleSpace"},
-    {"ode-hash", ode_broad, "ODE, dHashSpace"},
-    {"ode-quadtree", ode_broad, "ODE, dQuadTreeSpace"},
-    {"ode-sap", ode_broad, "ODE, dSweepAndPruneSpace"},
-};
 
 std::filesystem::path program_directory() {
   std::error_code ec;
@@ -155,11 +57,46 @@ bool is_core_broad_phase(std::string_view name) {
   return std::find(phases.begin(), phases.end(), name) != phases.end();
 }
 
-const EngineRow* find_row(const std::string& name) {
-  for (const auto catalog : {engine_catalog(), broad_catalog(), sweep_catalog()})
-    for (const EngineRow& r : catalog)
-      if (r.name == name) return &r;
-  return nullptr;
+bool is_core_row(const std::string& name) {
+  return std::any_of(std::begin(core_rows), std::end(core_rows),
+                     [&](const CoreRow& r) { return r.name == name; });
+}
+
+// The folder that an engine's name begins with; empty if there is none.
+std::string_view folder_of(const std::string& name) {
+  const auto begins = [&](std::string_view folder) {
+    return name.starts_with(folder) && (name.size() == folder.size() || name[folder.size()] == '-');
+  };
+  const auto found = std::find_if(std::begin(folders), std::end(folders), begins);
+  return found == std::end(folders) ? std::string_view() : *found;
+}
+
+std::vector<std::filesystem::path> plugins_in_folder(std::string_view folder) {
+  return plugins_of(plugin_directory(), std::string(folder));
+}
+
+std::optional<PluginEngine> named(const std::string& name, const std::vector<PluginEngine>& engines) {
+  const auto found = std::find_if(engines.begin(), engines.end(),
+                                  [&](const PluginEngine& e) { return e.card.name == name; });
+  return found == engines.end() ? std::nullopt : std::optional(*found);
+}
+
+// An engine of a plug-in: of the build, or registered by the user.
+std::optional<PluginEngine> find_plugin_engine(const std::string& name) {
+  if (const std::string_view folder = folder_of(name); !folder.empty())
+    if (auto found = named(name, engines_in(plugins_in_folder(folder)))) return found;
+  const std::string own = own_name_of(name);
+  return own.empty() ? std::nullopt : named(name, engines_of(own_engine(own)));
+}
+
+// The names that stand for a registration: its engine of that name, or all that answer about pairs.
+std::vector<std::string> expanded(const std::string& name) {
+  if (own_name_of(name) != name) return {name};
+  std::vector<std::string> names;
+  for (const PluginEngine& e : engines_of(own_engine(name)))
+    if (e.kind == EngineKind::pairs) names.push_back(e.card.name);
+  const bool is_engine = std::find(names.begin(), names.end(), name) != names.end();
+  return is_engine || names.empty() ? std::vector{name} : names;
 }
 
 // "./libmine.so:name" names one engine of a plug-in, "./libmine.so" its only one.
@@ -167,6 +104,13 @@ RemoteSpec plugin_spec(const std::string& name) {
   const auto colon = name.rfind(".so:");
   if (colon == std::string::npos) return {host_program(), name, "", {}};
   return {host_program(), name.substr(0, colon + 3), name.substr(colon + 4), {}};
+}
+
+RemoteSpec spec_of(const PluginEngine& e) {
+  RemoteSpec spec{host_program(), e.plugin, e.engine, {}};
+  spec.shown_name = e.card.name;
+  spec.shown_version = e.card.version;
+  return spec;
 }
 
 // The words of a command that are paths of existing files: the program or its script.
@@ -207,39 +151,62 @@ void check_name(const std::string& name) {
     if (!std::filesystem::exists(file)) throw InputError(file.string(), "no such plug-in file");
     return require_regular_file(file);  // loading a named pipe would block the worker
   }
-  if (const NpmRow* npm = find_npm_row(name)) {
+  if (const auto npm = find_npm_engine(name)) {
     if (is_installed(*npm)) return;
     throw InputError("engine " + name,
                      fmt::format("is not installed: ./touchstone engines --install {} installs {} {}", name,
-                                 npm->package, npm->version));
+                                 npm->row->package, npm->version()));
   }
   if (is_core_broad_phase(name)) return;
-  const EngineRow* row = find_row(name);
-  if (!row) refuse_unknown(name);
-  if (!is_present(*row))
+  if (is_core_row(name) || find_plugin_engine(name)) return;
+  if (const std::string adapter = optional_adapter_of(name); !adapter.empty() && own_name_of(name).empty())
     throw InputError("engine " + name,
-                     fmt::format("is not available: {} was not built because its library was not found",
-                                 std::string(row->library)));
+                     fmt::format("is not installed: ./touchstone engines --install {} compiles it", adapter));
+  const std::string folder(folder_of(name));
+  if (folder.empty() || is_present(folder)) refuse_unknown(name);
+  throw InputError(
+      "engine " + name,
+      fmt::format("is not available: oracles/{} was not built because its library was not found", folder));
 }
 
 /// Null if the core has no engine of this native name. The instance made here only provides the card.
-EnginePtr core_in_worker(const std::string& native, const WorkerLimits& limits) {
+EnginePtr core_in_worker(const std::string& native, const WorkerLimits& limits,
+                         const std::filesystem::path& build = program_directory().parent_path()) {
   const auto here = make_native_core(native);
   if (!here) return nullptr;
-  const std::filesystem::path library = plugin_directory() / "libtouchstone_core.so";
+  const std::filesystem::path host = build / "bin/touchstone-host",
+                              library = build / "lib/libtouchstone_core.so";
   // The worker starts with the first question; a missing file would then look like a failure of the core.
-  for (const std::filesystem::path& file : {host_program(), library})
+  for (const std::filesystem::path& file : {host, library})
     if (std::error_code none; !std::filesystem::is_regular_file(file, none))
       throw InputError(file.string(), "is missing; the core's engines need it");
-  return std::make_unique<RemoteEngine>(RemoteSpec{host_program(), library, native, limits, here->card()});
+  return std::make_unique<RemoteEngine>(RemoteSpec{host, library, native, limits, here->card()});
 }
 
 }  // namespace
 
-std::span<const EngineRow> engine_catalog() { return rows; }
-std::span<const EngineRow> broad_catalog() { return broad_rows; }
-std::span<const EngineRow> sweep_catalog() { return sweep_rows; }
+std::span<const std::string_view> engine_folders() { return folders; }
 std::span<const std::string_view> stepped_engines() { return stepped; }
+
+bool is_catalogued_folder(const std::string& name) {
+  return name == "core" || std::find(std::begin(folders), std::end(folders), name) != std::end(folders);
+}
+
+bool is_present(std::string_view folder) { return !plugins_in_folder(folder).empty(); }
+
+std::vector<PluginEngine> engines_of_folder(std::string_view folder) {
+  return engines_in(plugins_in_folder(folder));
+}
+
+std::vector<std::string> present_engines(EngineKind kind) {
+  std::vector<std::string> names;
+  for (const CoreRow& row : core_rows)
+    if (row.kind == kind) names.emplace_back(row.name);
+  for (const std::string_view folder : folders)
+    for (const PluginEngine& e : engines_of_folder(folder))
+      if (e.kind == kind) names.push_back(e.card.name);
+  return names;
+}
 
 void add_case_seconds(CLI::App& app, WorkerLimits& limits) {
   app.add_option(
@@ -261,48 +228,50 @@ std::filesystem::path host_program() { return program_directory() / "touchstone-
 
 std::filesystem::path plugin_directory() { return program_directory().parent_path() / "lib"; }
 
-bool is_present(const EngineRow& row) {
-  return row.library.empty() || std::filesystem::exists(plugin_directory() / row.library);
-}
-
 std::vector<std::string> engine_names(const std::string& text) {
+  if (text == "all") return present_engines(EngineKind::pairs);
   std::vector<std::string> names;
-  if (text == "all") {
-    for (const EngineRow& row : rows)
-      if (is_present(row)) names.emplace_back(row.name);
-    return names;
-  }
   for_each_in_list(text, [&](std::string_view part) {
     const std::string name(part);
     if (name.empty()) throw InputError("engines '" + text + "'", "contains an empty name");
-    check_name(name);
-    if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
+    for (const std::string& each : is_foreign(name) ? std::vector{name} : expanded(name)) {
+      check_name(each);
+      if (std::find(names.begin(), names.end(), each) == names.end()) names.push_back(each);
+    }
   });
   return names;
 }
 
 std::vector<std::string> catalogued_names() {
   std::vector<std::string> names;
-  for (const auto catalog : {engine_catalog(), broad_catalog(), sweep_catalog()})
-    for (const EngineRow& row : catalog) names.emplace_back(row.name);
+  for (const EngineKind kind : {EngineKind::pairs, EngineKind::broad, EngineKind::settings}) {
+    const auto present = present_engines(kind);
+    names.insert(names.end(), present.begin(), present.end());
+  }
   for (const NpmRow& row : npm_catalog()) names.emplace_back(row.name);
+  for (const NpmEngine& e : installed_releases()) names.push_back(e.name());
+  for (const std::string& own : own_names()) try {
+      for (const PluginEngine& e : engines_of(own_engine(own))) names.push_back(e.card.name);
+    } catch (const InputError& e) {
+      fmt::print(stderr, "touchstone: {} is left out: {}\n", own, e.what());
+    }
   return names;
 }
 
 bool is_foreign(const std::string& name) { return is_pipe(name) || is_path(name); }
 
 bool is_catalogued(const std::string& name) {
-  return !is_foreign(name) && (find_npm_row(name) || find_row(name) || fuzz::sub_steps_name(name));
+  return !is_foreign(name) && (find_npm_engine(name) || is_core_row(name) || fuzz::sub_steps_name(name) ||
+                               find_plugin_engine(name));
 }
 
 std::vector<std::filesystem::path> engine_files(const std::string& name) {
   if (is_pipe(name)) return files_named_in(name.substr(5));
   if (const auto stepped = fuzz::sub_steps_name(name)) return engine_files(stepped->engine);
   if (is_path(name)) return {plugin_spec(name).plugin};
-  if (const NpmRow* npm = find_npm_row(name)) return files_of(*npm);
-  const EngineRow* row = find_row(name);
-  if (!row || row->library.empty()) return {};
-  return {plugin_directory() / row->library};
+  if (const auto npm = find_npm_engine(name)) return files_of(*npm);
+  if (const auto found = find_plugin_engine(name)) return {found->plugin};
+  return {};
 }
 
 EnginePtr make_core_broad_phase(const std::string& name, BroadBoxes boxes, const WorkerLimits& limits) {
@@ -314,11 +283,22 @@ EnginePtr make_engine(const std::string& name, const WorkerLimits& limits) {
   if (EnginePtr core = core_in_worker(name, limits)) return core;
   if (const auto stepped = fuzz::sub_steps_name(name); stepped && !is_pipe(name))
     return fuzz::sub_stepped(make_engine(stepped->engine, limits), stepped->steps);
-  const NpmRow* npm = find_npm_row(name);
+  const auto npm = find_npm_engine(name);
   RemoteSpec spec = is_pipe(name) || npm ? RemoteSpec{host_program(), npm ? pipe_of(*npm) : name, "", {}}
-                    : is_path(name)
-                        ? plugin_spec(name)
-                        : RemoteSpec{host_program(), plugin_directory() / find_row(name)->library, name, {}};
+                    : is_path(name)      ? plugin_spec(name)
+                                         : spec_of(find_plugin_engine(name).value());
+  spec.limits = limits;
+  return std::make_unique<RemoteEngine>(std::move(spec));
+}
+
+EnginePtr make_engine_of_build(const std::string& name, const std::filesystem::path& build,
+                               const WorkerLimits& limits) {
+  if (EnginePtr core = core_in_worker(name, limits, build)) return core;
+  const auto found = find_plugin_engine(name);
+  if (!found) throw InputError("engine " + name, "is not one that a build has");
+  RemoteSpec spec = spec_of(*found);
+  spec.host = build / "bin/touchstone-host";
+  spec.plugin = build / "lib" / found->plugin.filename();
   spec.limits = limits;
   return std::make_unique<RemoteEngine>(std::move(spec));
 }

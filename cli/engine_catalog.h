@@ -1,5 +1,7 @@
-// The one place that names concrete engines: catalogue name -> plug-in file. Every engine, our own core
-// included, runs in a worker process; all others sit behind the C ABI, like a user's plug-in.
+// The one place that names concrete engines: the core, the folders in oracles/ whose plug-ins the build
+// makes, and what the user installed or registered. What an engine is called, and what it claims, its
+// plug-in's cards say. Every engine, our own core included, runs in a worker process; all others sit behind
+// the C ABI, like a user's plug-in.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -9,37 +11,44 @@
 #include <string_view>
 #include <vector>
 
+#include "cli/plugin_engines.h"
 #include "oracles/client/remote_engine.h"
 #include "oracles/core/core_engine.h"
 
 namespace touchstone::cli {
 
-struct EngineRow {
-  std::string_view name;
-  std::string_view library;  // file in the plug-in directory; empty for the core
-  std::string_view line;     // description
-};
-std::span<const EngineRow> engine_catalog();
-/// Broad phases of the oracles. They answer only `candidates` and must be requested by name.
-std::span<const EngineRow> broad_catalog();
+/// The folders, in the order of "all".
+std::span<const std::string_view> engine_folders();
+/// True for a folder in the catalogue, and for the core.
+bool is_catalogued_folder(const std::string& name);
+/// True if the build made a plug-in of the folder.
+bool is_present(std::string_view folder);
+/// The engines of all its plug-ins.
+std::vector<PluginEngine> engines_of_folder(std::string_view folder);
 
-/// True if the engine's plug-in file exists.
-bool is_present(const EngineRow& row);
+/// The names of the engines of one kind that this build has, the core's first. Broad phases of the core are
+/// not among them (core_broad_phases()).
+std::vector<std::string> present_engines(EngineKind kind);
 
 /// Names of `text` ("a,b", "all", "./libmine.so", "./libmine.so:name", "core-steps@16", a broad phase of the
-/// core or of an oracle); "all" is every engine present that answers more than candidates. Throws InputError
-/// for a name that is unknown or absent.
+/// core or of an oracle, a release of an engine from npm "jolt@0.29.0", an engine that the user registered or
+/// the name of its registration); "all" is every engine of this build that answers more than candidates.
+/// Throws InputError for a name that is unknown or absent.
 std::vector<std::string> engine_names(const std::string& text);
 
 /// True for a plug-in's path or a pipe's command.
 bool is_foreign(const std::string& name);
-/// True for a name in a catalogue, whether or not its library exists.
+/// True for an engine of this build, of npm (installed or not), or of the user's registrations.
 bool is_catalogued(const std::string& name);
-/// The names in all catalogues, in order.
+/// All such names.
 std::vector<std::string> catalogued_names();
 
 /// Throws InputError when the plug-in is missing or does not offer the engine.
 EnginePtr make_engine(const std::string& name, const WorkerLimits& limits);
+/// An engine of the catalogue from another build of this program, in that build's directory. Throws
+/// InputError when the build does not have it, or it is an engine from npm or one given by a path.
+EnginePtr make_engine_of_build(const std::string& name, const std::filesystem::path& build,
+                               const WorkerLimits& limits);
 /// A broad phase of the core, with these boxes.
 EnginePtr make_core_broad_phase(const std::string& name, BroadBoxes boxes, const WorkerLimits& limits);
 
@@ -53,11 +62,6 @@ void add_no_sandbox(CLI::App& app, WorkerLimits& limits);
 
 std::filesystem::path host_program();
 std::filesystem::path plugin_directory();
-
-// Engines of the catalogue with other tolerances. They are used by name, and by `chart`, which draws a method
-// as a curve.
-
-std::span<const EngineRow> sweep_catalog();
 
 /// Engines whose overlap test `chart` runs at k samples of a motion (`name-steps@k`), beside those that
 /// sweep.

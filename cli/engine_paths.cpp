@@ -6,6 +6,8 @@
 #include <vector>
 
 #include "cli/engine_catalog.h"
+#include "cli/own_engines.h"
+#include "fuzz/causes/respond.h"
 #include "oracles/routes/routes.h"
 
 namespace touchstone::cli {
@@ -19,7 +21,7 @@ struct OtherRow {
   std::string_view name, change, if_gone;
 };
 
-constexpr std::string_view double_name = "other_precision", settings_name = "other_settings",
+constexpr std::string_view double_name = fuzz::other_precision, settings_name = "other_settings",
                            looser_name = "looser", tighter_name = "tighter", path_name = "other_path",
                            solver_name = "other_solver", iterations_name = "more_iterations";
 
@@ -82,6 +84,26 @@ constexpr OtherRow other_rows[] = {
      "in EPA: vanishes with the Minkowski depth solver"},
 };
 
+// How much it says when the fault vanishes (fuzz/causes/intervention.h): more than any change of the case,
+// but for another solver or path, which share little code.
+struct TellingRow {
+  std::string_view name;
+  int telling;
+};
+constexpr TellingRow telling_rows[] = {
+    {settings_name, 680}, {tighter_name, 670}, {looser_name, 660}, {iterations_name, 650},
+    {double_name, 640},   {solver_name, 76},   {path_name, 74},
+};
+
+// FCL's settings name other calls (oracles/fcl/queries.cpp): the signed distance as shipped and the unsigned
+// one with tight tolerances; for the libccd solver, contacts by the signed distance instead of collide(); and
+// conservative advancement instead of ten samples.
+std::vector<Question> other_calls(const std::string& engine, const OtherRow& row) {
+  if (row.name != settings_name || !engine.starts_with("fcl-")) return {};
+  if (engine.starts_with("fcl-indep")) return {Question::distance, Question::time_of_impact};
+  return {Question::distance, Question::contact, Question::time_of_impact};
+}
+
 constexpr std::string_view tuned_suffix = "-tuned";
 
 std::string without_suffix(const std::string& name) {
@@ -102,42 +124,77 @@ std::string other_name(const std::string& engine, const OtherRow& row) {
 std::vector<fuzz::OtherEngine> others(const std::string& engine) {
   std::vector<fuzz::OtherEngine> all;
   if (is_foreign(engine)) return all;
+  const std::string in_adapter = name_in_adapter(engine);
   for (const OtherRow& row : other_rows) {
-    if (!engine.starts_with(row.engines)) continue;
+    if (!in_adapter.starts_with(row.engines)) continue;
     const bool known =
         std::ranges::any_of(all, [&](const fuzz::OtherEngine& o) { return o.name == row.name; });
-    const std::string name = other_name(engine, row);
-    if (known || name.empty() || name == engine || !is_catalogued(name)) continue;
-    all.push_back({std::string(row.name), std::string(row.change), std::string(row.if_gone), name});
+    const std::string other = other_name(in_adapter, row);
+    if (known || other.empty()) continue;
+    const std::string name = beside(engine, other);
+    if (name == engine || !is_catalogued(name)) continue;
+    all.push_back({std::string(row.name), std::string(row.change), std::string(row.if_gone), name,
+                   std::ranges::find(telling_rows, row.name, &TellingRow::name)->telling,
+                   other_calls(in_adapter, row)});
   }
   return all;
 }
 
-std::string path_of(const std::string& engine) {
+std::string path_in_adapter(const std::string& engine) {
   std::string r = without_suffix(engine);
   for (const std::string_view precision : {"bullet-f32-", "bullet-f64-"})
     if (r.starts_with(precision)) r.replace(0, precision.size(), "bullet-");
   return r;
 }
 
+// The user's own build of a library shares no code with the build's.
+std::string path_of(const std::string& engine) {
+  return beside(engine, path_in_adapter(name_in_adapter(engine)));
+}
+
 std::string route_of(const std::string& engine, Question question, ShapeKind a, ShapeKind b) {
   const routes::Pair p{question, a, b};
-  const std::string path = path_of(engine);
+  const std::string path = path_in_adapter(name_in_adapter(engine));
   if (path.starts_with("fcl-")) return std::string(routes::fcl_route(p));
   if (path.starts_with("bullet-")) return std::string(routes::bullet_route(p, path.find("sim") != path.npos));
   if (path.starts_with("libccd-")) return std::string(routes::libccd_route(p));
   if (path == "ode") return std::string(routes::ode_route(p));
+  if (path == "dart" || path.starts_with("dart-")) return std::string(routes::dart_route(path, p));
+  if (path == "mujoco2") return std::string(routes::mujoco2_route(p));
+  if (path.starts_with("mujoco")) return std::string(routes::mujoco_route(p));
+  if (path.starts_with("physx-")) return std::string(routes::physx_route(path, p));
   return std::string(routes::common_route(p));
 }
 
-std::string documented(const std::string& engine, const fuzz::Symptom& s, const std::string& route, Fault f) {
+std::string documented(const std::string& name, const fuzz::Symptom& s, const std::string& route, Fault f) {
+  const std::string engine = name_in_adapter(name);
   if (engine.starts_with("fcl-")) return std::string(routes::fcl_documents(engine, s.question, route, f));
   if (engine.starts_with("libccd-"))
     return std::string(routes::libccd_documents(engine, s.question, route, f));
+  if (engine.starts_with("mujoco"))
+    return std::string(routes::mujoco_documents(engine, s.question, route, f));
   return "";
 }
 
+// True when some engine of the catalogue has this path.
+bool is_catalogued_path(const std::string& path) {
+  return std::ranges::any_of(catalogued_names(),
+                             [&](const std::string& name) { return path_of(name) == path; });
+}
+
 }  // namespace
+
+std::string library_of(const std::string& path) {
+  struct Library {
+    std::string_view paths, name;
+  };
+  constexpr Library libraries[] = {
+      {"fcl-", "FCL"}, {"bullet-", "Bullet"}, {"libccd-", "libccd"}, {"ode", "ODE"}, {"core", "the core"}};
+  const std::string first = path.substr(0, path.find(", "));  // a cause may have several paths
+  for (const Library& l : libraries)
+    if (first.starts_with(l.paths) && is_catalogued_path(first)) return std::string(l.name);
+  return path;
+}
 
 fuzz::EngineKnowledge catalogued_knowledge() { return {path_of, route_of, documented, others}; }
 

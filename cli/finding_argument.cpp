@@ -7,7 +7,6 @@
 #include <system_error>
 
 #include "cli/command.h"
-#include "cli/npm_engines.h"
 #include "core/base/input_error.h"
 #include "fuzz/shrink/keeps_finding.h"
 #include "scenarios/codec/json_file.h"
@@ -18,25 +17,13 @@ namespace {
 using Json = nlohmann::ordered_json;
 namespace fs = std::filesystem;
 
-// The key of a finding's directory, or of one that `triage --reproducers` wrote; "" when there is none.
-std::string stored_key(const std::string& path) {
-  std::error_code ec;
-  const fs::path directory = fs::is_directory(path, ec) ? fs::path(path) : fs::path(path).parent_path();
-  const fs::path beside = directory / "finding.json";
-  if (!fs::exists(beside, ec)) return "";
-  const Json finding = load_json(beside);
-  return JsonReader(finding, beside.string())["key"].string();
-}
-
 // A key starts with its engine's name, which may contain dots if the engine is a plug-in.
 std::string engine_of(const std::string& key) {
   std::string found;
   const auto consider = [&](std::string_view name) {
     if (key.starts_with(std::string(name) + ".") && name.size() > found.size()) found = name;
   };
-  for (const EngineRow& row : engine_catalog()) consider(row.name);
-  for (const EngineRow& row : broad_catalog()) consider(row.name);
-  for (const NpmRow& row : npm_catalog()) consider(row.name);
+  for (const std::string& name : catalogued_names()) consider(name);
   if (found.empty())
     throw InputError("--key", "names no engine in the catalogue: " + key + " (for a plug-in, add --engine)");
   return found;
@@ -55,6 +42,15 @@ std::string choose(const std::string& key, const Findings& findings) {
 }
 
 }  // namespace
+
+std::string stored_key(const std::string& path) {
+  std::error_code ec;
+  const fs::path directory = fs::is_directory(path, ec) ? fs::path(path) : fs::path(path).parent_path();
+  const fs::path beside = directory / "finding.json";
+  if (!fs::exists(beside, ec)) return "";
+  const Json finding = load_json(beside);
+  return JsonReader(finding, beside.string())["key"].string();
+}
 
 void add_finding_argument(CLI::App& app, FindingArgument& to) {
   app.add_option("case", to.path, "a finding's directory, a case or scene file, or the name of a scenario")

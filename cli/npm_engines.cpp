@@ -5,11 +5,14 @@
 #include <algorithm>
 #include <cstdlib>
 #include <fstream>
+#include <iterator>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <set>
 
 #include "cli/command.h"
 #include "cli/engine_catalog.h"
+#include "cli/npm_releases.h"
 #include "core/base/input_error.h"
 #include "scenarios/codec/json_file.h"
 
@@ -24,10 +27,37 @@ constexpr NpmRow npm_rows[] = {
     {"jolt-tuned", "jolt-physics", "1.1.0", "npm/jolt/jolt.mjs", "tuned",
      "Jolt Physics, convex radius 0, tolerances 1e-7, WASM"},
     {"rapier", "@dimforge/rapier3d-compat", "0.21.0", "npm/rapier/rapier.mjs", "", "Rapier, WASM"},
+    {"mujoco", "@mujoco/mujoco", "3.14.0", "npm/mujoco/mujoco.mjs", "",
+     "MuJoCo as shipped: native convex collisions, several contacts; WASM"},
+    {"mujoco-single", "@mujoco/mujoco", "3.14.0", "npm/mujoco/mujoco.mjs", "single",
+     "MuJoCo without multiccd, WASM"},
+    {"mujoco-libccd", "@mujoco/mujoco", "3.14.0", "npm/mujoco/mujoco.mjs", "libccd",
+     "MuJoCo without nativeccd (libccd's MPR), WASM"},
+    {"physx-query", "physx-js-webidl", "2.7.3", "npm/physx/physx.mjs", "query",
+     "PhysX, PxGeometryQuery: overlap and sweep; WASM"},
+    {"physx-gjk", "physx-js-webidl", "2.7.3", "npm/physx/physx.mjs", "gjk",
+     "PhysX, PxGjkQuery: proximity, overlap and sweep; WASM"},
+    {"physx-sim", "physx-js-webidl", "2.7.3", "npm/physx/physx.mjs", "sim",
+     "PhysX, contact reports of a step; WASM"},
+    {"physx-sap", "physx-js-webidl", "2.7.3", "npm/physx/physx.mjs", "sap", "PhysX's broad phase eSAP, WASM"},
+    {"physx-mbp", "physx-js-webidl", "2.7.3", "npm/physx/physx.mjs", "mbp", "PhysX's broad phase eMBP, WASM"},
+    {"physx-abp", "physx-js-webidl", "2.7.3", "npm/physx/physx.mjs", "abp", "PhysX's broad phase eABP, WASM"},
+    {"havok", "@babylonjs/havok", "1.3.14", "npm/havok/havok.mjs", "",
+     "Havok, shape proximity and shape casts; WASM"},
+    {"havok-sim", "@babylonjs/havok", "1.3.14", "npm/havok/havok.mjs", "sim",
+     "Havok, collision events of a step; WASM"},
 };
 
 fs::path script_folder() { return plugin_directory().parent_path() / "share/touchstone/engines"; }
-fs::path package_folder(const NpmRow& r) { return npm_folder() / "node_modules" / r.package; }
+
+// The release that an adapter was written against lies in the folder itself, any other in one of its own.
+fs::path folder_of(const NpmEngine& e) {
+  if (e.release.empty()) return npm_folder();
+  std::string package(e.row->package);
+  std::replace(package.begin(), package.end(), '/', '+');
+  return npm_folder() / "releases" / fmt::format("{}@{}", package, e.release);
+}
+fs::path package_folder(const NpmEngine& e) { return folder_of(e) / "node_modules" / e.row->package; }
 
 std::string quoted(const fs::path& p) {
   std::string out = "'";
@@ -37,14 +67,6 @@ std::string quoted(const fs::path& p) {
     else
       out += c;
   return out + "'";
-}
-
-void require_command(const char* name) {
-  if (std::system(fmt::format("command -v {} >/dev/null 2>&1", name).c_str()) == 0) return;
-  throw InputError("engines --install",
-                   fmt::format("{} is missing; it is in Debian's packages nodejs and npm, "
-                               "which ./touchstone engines --install installs",
-                               name));
 }
 
 std::string last_lines(const fs::path& file, std::size_t most) {
@@ -57,18 +79,18 @@ std::string last_lines(const fs::path& file, std::size_t most) {
   return out;
 }
 
-int fetch(const std::set<std::string>& packages) {
-  require_command("node");
-  require_command("npm");
-  const fs::path folder = npm_folder(), log = folder / "install.log";
+int fetch(const fs::path& folder, const std::set<std::string>& packages) {
+  const fs::path log = folder / "install.log";
   std::error_code error;
   fs::create_directories(folder, error);
   if (error) throw InputError(folder.string(), "cannot be created: " + error.message());
   std::string list;
   for (const std::string& p : packages) list += " " + p;
   fmt::print(stderr, "installing{} from npm into {}\n", list, folder.string());
+  // In its own folder: npm would take a folder here that is called NAME@RELEASE for the package.
   const std::string command = fmt::format(
-      "npm install --prefix {} --no-audit --no-fund --ignore-scripts --save-exact --loglevel=error{} >{} "
+      "cd {0} && npm install --prefix {0} --no-audit --no-fund --ignore-scripts --save-exact "
+      "--loglevel=error{1} >{2} "
       "2>&1 </dev/null",
       quoted(folder), list, quoted(log));
   if (std::system(command.c_str()) == 0) return exit_clean;
@@ -80,10 +102,38 @@ int fetch(const std::set<std::string>& packages) {
 
 std::span<const NpmRow> npm_catalog() { return npm_rows; }
 
-const NpmRow* find_npm_row(const std::string& name) {
-  const auto row =
-      std::find_if(std::begin(npm_rows), std::end(npm_rows), [&](const NpmRow& r) { return r.name == name; });
-  return row == std::end(npm_rows) ? nullptr : row;
+bool is_of_npm(const std::string& name) {
+  const std::string base = name.substr(0, name.find('@'));
+  return std::ranges::any_of(
+      npm_rows, [&](const NpmRow& row) { return row.name == base || row.name.starts_with(base + "-"); });
+}
+
+std::optional<NpmEngine> find_npm_engine(const std::string& name) {
+  const auto at = name.find('@');
+  for (const NpmRow& row : npm_rows) {
+    if (row.name != std::string_view(name).substr(0, at)) continue;
+    if (at == std::string::npos) return NpmEngine{&row, ""};
+    if (is_release(name.substr(at + 1))) return NpmEngine{&row, name.substr(at + 1)};
+  }
+  return std::nullopt;
+}
+
+std::vector<NpmEngine> installed_releases() {
+  std::set<std::string> folders;
+  std::error_code none;
+  for (const auto& entry : fs::directory_iterator(npm_folder() / "releases", none))
+    folders.insert(entry.path().filename());
+  std::vector<NpmEngine> all;
+  for (const NpmRow& row : npm_rows) {
+    std::vector<std::string> releases;
+    for (const std::string& folder : folders)
+      if (const std::string release = folder.substr(folder.rfind('@') + 1); is_release(release))
+        if (const NpmEngine e{&row, release}; folder_of(e).filename() == folder && is_installed(e))
+          releases.push_back(release);
+    sort_releases(releases);
+    for (std::string& release : releases) all.push_back({&row, std::move(release)});
+  }
+  return all;
 }
 
 fs::path npm_folder() {
@@ -91,40 +141,55 @@ fs::path npm_folder() {
   return chosen && *chosen ? fs::absolute(chosen) : plugin_directory().parent_path() / "npm";
 }
 
-bool is_installed(const NpmRow& row) try {
-  const fs::path file = package_folder(row) / "package.json";
+bool is_installed(const NpmEngine& e) try {
+  const fs::path file = package_folder(e) / "package.json";
   const auto package = load_json(file);
-  return JsonReader(package, file.string())["version"].string() == row.version;
+  return JsonReader(package, file.string())["version"].string() == e.version();
 } catch (const InputError&) {
   return false;  // missing or damaged; installing it again fixes both
 }
 
-std::string pipe_of(const NpmRow& row) {
-  return fmt::format("pipe:node {} {}{}{}", quoted(script_folder() / row.script), quoted(npm_folder()),
-                     row.argument.empty() ? "" : " ", row.argument);
+std::string pipe_of(const NpmEngine& e) {
+  return fmt::format("pipe:{}node {} {}{}{}",
+                     e.release.empty() ? "" : fmt::format("env TOUCHSTONE_ENGINE={} ", e.name()),
+                     quoted(script_folder() / e.row->script), quoted(folder_of(e)),
+                     e.row->argument.empty() ? "" : " ", e.row->argument);
 }
 
-std::vector<fs::path> files_of(const NpmRow& row) {
-  std::vector<fs::path> out{script_folder() / row.script, script_folder() / "npm/adapter.mjs"}, programs;
-  if (!is_installed(row)) return out;
-  for (const auto& entry : fs::recursive_directory_iterator(package_folder(row)))
+std::vector<fs::path> files_of(const NpmEngine& e) {
+  std::vector<fs::path> out{script_folder() / "npm/adapter.mjs"}, programs;
+  if (!e.release.empty()) out.push_back(script_folder() / "npm/release.mjs");
+  for (const auto& entry : fs::directory_iterator((script_folder() / e.row->script).parent_path()))
+    programs.push_back(entry.path());
+  std::sort(programs.begin(), programs.end());
+  out.insert(out.end(), programs.begin(), programs.end());
+  if (!is_installed(e)) return out;
+  programs.clear();
+  for (const auto& entry : fs::recursive_directory_iterator(package_folder(e)))
     if (entry.is_regular_file()) programs.push_back(entry.path());
   std::sort(programs.begin(), programs.end());
   out.insert(out.end(), programs.begin(), programs.end());
   return out;
 }
 
+int fetch_npm_engines(const std::vector<NpmEngine>& engines) {
+  std::map<fs::path, std::set<std::string>> wanted;
+  for (const NpmEngine& e : engines)
+    if (!is_installed(e)) wanted[folder_of(e)].insert(fmt::format("{}@{}", e.row->package, e.version()));
+  if (wanted.empty()) return exit_clean;
+  require_npm("engines --install");
+  for (const auto& [folder, packages] : wanted)
+    if (const int code = fetch(folder, packages); code != exit_clean) return code;
+  return exit_clean;
+}
+
 int install_npm_engines(const std::vector<std::string>& names) {
-  std::set<std::string> wanted;
-  for (const std::string& name : names) {
-    const NpmRow* row = find_npm_row(name);
-    if (!row) throw InputError("--install " + name, "unknown; npm has jolt, jolt-tuned and rapier");
-    if (!is_installed(*row)) wanted.insert(fmt::format("{}@{}", row->package, row->version));
-  }
-  if (!wanted.empty())
-    if (const int code = fetch(wanted); code != exit_clean) return code;
-  for (const std::string& name : names) {
-    const EngineCard card = make_engine(name, {})->card();
+  std::vector<NpmEngine> engines;
+  for (const std::string& name : names)
+    std::ranges::copy(npm_engines_matching(name), std::back_inserter(engines));
+  if (const int code = fetch_npm_engines(engines); code != exit_clean) return code;
+  for (const NpmEngine& e : engines) {
+    const EngineCard card = make_engine(e.name(), {})->card();
     fmt::print("{}: {} {} is installed; use it with --engines or --subject\n", card.name, card.library,
                card.version);
   }

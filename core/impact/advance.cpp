@@ -36,6 +36,9 @@ constexpr Wide step_tolerance = 0x1p-30, gap_share = 0x1p-10;
 constexpr Wide across_tolerance = 0x1p-34, push = 0x1p-20;
 // After this many steps along fixed directions, rotating ones are tried too.
 constexpr int steps_before_turning = 4;
+// Halvings of the interval in which a step along a rotating direction ceases to be proven: it is known to
+// 2⁻¹², and what it falls short of is left to the next step.
+constexpr int turning_halvings = 12;
 
 Wide turned_support(const Core& c, const WideVec& d) {
   const WideVec local = c.frame.rotation.transpose() * d;
@@ -129,7 +132,7 @@ class TurningStep {
     for (; far < end_ && proven(far); far *= 2) step = far;
     far = std::min(far, end_);
     if (proven(far)) return far;
-    for (int i = 0; i < 12; ++i) {
+    for (int i = 0; i < turning_halvings; ++i) {
       const Wide middle = step + (far - step) / 2;
       (proven(middle) ? step : far) = middle;
     }

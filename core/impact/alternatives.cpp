@@ -5,10 +5,14 @@
 namespace touchstone {
 namespace {
 
-PlacedShape placed_at(const MovingShape& s, double t) { return {s.shape, pose_at(s.pose, s.motion, t)}; }
+PlacedShape placed_at(const MovingShape& s, double t) {
+  PlacedShape r = s;
+  r.pose = pose_at(s.pose, s.motion, t);
+  return r;
+}
 
 double reach_of_turning(const MovingShape& s) {
-  return s.motion.angular.isZero(0) ? 0 : bounding_radius(*s.shape) * s.motion.angular.norm();
+  return s.motion.angular.isZero(0) ? 0 : s.bounding_radius() * s.motion.angular.norm();
 }
 
 Vec3 velocity_at(const MovingShape& s, const Vec3& point_w) {

@@ -1,10 +1,11 @@
-#include "core/impact/convex_mesh.h"
-
+// First contact of a moving convex body and a mesh at rest: the earliest over its triangles. The tree's boxes
+// are tested against the ball about the body's origin that contains it at any rotation; boxes that the ball
+// enters never, or later than the earliest contact so far, are skipped.
 #include <cmath>
 
+#include "core/impact/pair.h"
 #include "core/impact/pursue.h"
 #include "core/narrow/mesh.h"
-#include "core/narrow/mesh_tree.h"
 
 namespace touchstone::impact {
 namespace {
@@ -15,10 +16,11 @@ constexpr double slab_rounding = 0x1p-40;
 
 class Query {
  public:
+  /// `frame`: the mesh's pose relative to A's start, which witness points are relative to as well.
   Query(const MovingShape& a, const TriangleMesh& mesh, const WideFrame& frame, double accuracy)
       : shape_(a), mesh_(mesh), frame_(frame), accuracy_(accuracy) {
     const WideMat rotation = filtered::rotation_of(a.pose.rotation);
-    mover_ = filtered::make_mover(*a.shape, rotation, a.motion);
+    mover_ = filtered::make_mover(a, rotation, a.motion);
     const Mat3 to_mesh = frame.rotation.cast<double>().transpose();
     from_ = -(to_mesh * frame.translation.cast<double>());
     path_ = to_mesh * a.motion.linear;
@@ -94,8 +96,7 @@ class Query {
 
   const MovingCore& core() {
     if (!core_)
-      core_ =
-          moving_core(narrow::make_core(*shape_.shape, {mover_.start_wide, WideVec::Zero()}), shape_.motion);
+      core_ = moving_core(narrow::make_core(shape_, {mover_.start_wide, WideVec::Zero()}), shape_.motion);
     return *core_;
   }
 
@@ -126,9 +127,12 @@ class Query {
 
 }  // namespace
 
-ImpactAnswer convex_mesh(const MovingShape& a, const TriangleMesh& mesh, const MeshTree* tree,
-                         const WideFrame& frame, double accuracy) {
-  return Query(a, mesh, frame, accuracy).run(tree);
+ImpactAnswer convex_mesh(const MovingShape& a, const MovingShape& b, ImpactDetail, const Row&) {
+  WideFrame frame = wide_frame(b.pose);  // relative to A's start
+  frame.translation -= a.pose.translation.cast<Wide>();
+  const double accuracy = accuracy_of(std::max(scale_of(a, 0), scale_of(b, 0)));
+  const ImpactAnswer r = Query(a, std::get<TriangleMesh>(*b.shape), frame, accuracy).run(b.tree());
+  return shift_witnesses(r, a.pose.translation);
 }
 
 }  // namespace touchstone::impact

@@ -1,6 +1,7 @@
 #include "core/impact/exact_root.h"
 
 #include <cmath>
+#include <limits>
 
 namespace touchstone::impact {
 namespace {
@@ -170,11 +171,12 @@ DyadicInterval narrowed(const Poly& p, DyadicInterval root) {
 double below(const DyadicInterval& i) {
   if (i.lo.sign() <= 0) return 0;
   // Bit by bit: the largest m / 2^53 that is not above.
+  constexpr int bits = std::numeric_limits<double>::digits;
   double t = 0;
-  for (int k = 1; k <= 53; ++k) {
+  for (int k = 1; k <= bits; ++k) {
     const double next = t + std::ldexp(1.0, -k);
-    const Integer m(static_cast<std::int64_t>(std::ldexp(next, 53)));
-    if ((m.shifted(i.bits) - i.lo.shifted(53)).sign() <= 0) t = next;
+    const Integer m(static_cast<std::int64_t>(std::ldexp(next, bits)));
+    if ((m.shifted(i.bits) - i.lo.shifted(bits)).sign() <= 0) t = next;
   }
   return t;
 }

@@ -1,23 +1,14 @@
-// Time of impact under constant velocities (core/math/pose.h, Motion), t in [0,1].
+// Time of impact under constant velocities (core/math/pose.h, Motion), t in [0,1], of two moving shapes,
+// which come from colliders, Collider::at(pose, motion), or from shapes as they are, {&shape, pose, motion}.
 #pragma once
 
 #include <array>
 #include <optional>
 
 #include "core/base/outcome.h"
-#include "core/shape/shape.h"
+#include "core/narrow/collider.h"
 
 namespace touchstone {
-
-struct MeshTree;
-
-struct MovingShape {
-  const Shape* shape = nullptr;
-  Pose pose;
-  Motion motion;
-  /// Optional acceleration structure of a mesh (core/narrow/mesh_tree.h). The answer is the same without it.
-  const MeshTree* tree = nullptr;
-};
 
 struct ImpactAnswer {
   Outcome outcome = Outcome::answered;

@@ -47,9 +47,17 @@ namespace {
 
 using namespace impact;
 
+// Rounding of a difference of coordinates and of the product with it, in u.
+constexpr int coordinate_rounding = 4;
+// A step to t (1 + this · u) is the rounding of t, not progress.
+constexpr int time_rounding = 2;
+// Resolution of a separation in doubles, in u and units of the polygon's size: four errors of a projection
+// (primitive_separate.cpp).
+constexpr int separation_rounding = 64;
+
 // Along a coordinate axis, the sign of a difference is exact and its magnitude off by u.
 bool apart_along_an_axis(const MovingPolygon& p, double min_separation) {
-  const double need = min_separation * (1 + 4 * double_roundoff);
+  const double need = min_separation * (1 + coordinate_rounding * double_roundoff);
   Vec3 lo = p.start[0].cwiseMin(p.end[0]), hi = p.start[0].cwiseMax(p.end[0]);
   for (std::size_t k = 1; k < p.corners; ++k) {
     lo = lo.cwiseMin(p.start[k]).cwiseMin(p.end[k]);
@@ -82,8 +90,7 @@ Advance advance(const MovingPolygon& p, const PrimitiveOptions& o, int most_step
     a.reached_end = until >= 1;
     a.within_tolerance = o.tolerance > 0 && a.separation <= o.min_separation + o.tolerance;
     if (a.reached_end || a.within_tolerance) return a;
-    // A step of one ulp is the rounding of t, not progress.
-    a.ended = until <= a.t * (1 + 2 * double_roundoff);
+    a.ended = until <= a.t * (1 + time_rounding * double_roundoff);
     if (a.ended) return a;
     a.t = until;
     // Where the polygon rotates, a fixed direction lasts only for distance / (angular speed · reach). The
@@ -135,9 +142,9 @@ PrimitiveImpact primitive_impact(PrimitiveKind kind, const std::array<Vec3, 4>& 
   if (a.within_tolerance) return hit(PrimitiveExit::tolerance);
   // No direction separates: contact to within the resolution of doubles, unless the nearest point itself was
   // lost.
-  const double resolved = 64 * double_roundoff * p.size.sum();
+  const double resolved = separation_rounding * double_roundoff * p.size.sum();
   if (!can_be_exact) {
-    if (a.separation <= options.min_separation * (1 + 64 * double_roundoff) + resolved)
+    if (a.separation <= options.min_separation * (1 + separation_rounding * double_roundoff) + resolved)
       return hit(PrimitiveExit::tolerance);
     r.outcome = Outcome::not_converged;
     r.exit = PrimitiveExit::stuck;

@@ -24,6 +24,9 @@ struct MovingPolygon {
 
 using Corners = std::array<Vec3, 4>;
 
+/// In u·M_c: more than the error of a corner (above), by which a true component may exceed the computed one.
+inline constexpr int corner_rounding = 8;
+
 MovingPolygon difference_polygon(PrimitiveKind kind, const std::array<Vec3, 4>& start,
                                  const std::array<Vec3, 4>& end);
 
@@ -37,7 +40,7 @@ inline Corners corners_at(const MovingPolygon& p, double t) {
 inline Vec3 local_size(const MovingPolygon& p, const Corners& from, const Corners& to) {
   Vec3 l = Vec3::Zero();
   for (std::size_t k = 0; k < p.corners; ++k) l = l.cwiseMax(from[k].cwiseAbs()).cwiseMax(to[k].cwiseAbs());
-  return l + 8 * double_roundoff * p.size;
+  return l + corner_rounding * double_roundoff * p.size;
 }
 
 }  // namespace touchstone::impact

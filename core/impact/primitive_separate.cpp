@@ -65,12 +65,14 @@ Directions separating_directions(const MovingPolygon& p, double t) {
 
 // Error of a projection in units of u·S, from the bound in the header.
 constexpr double error_units = 16;
+// Rounding of a product with |n|, in u, with room.
+constexpr int norm_rounding = 16;
 
 Clearance clear_along(const MovingPolygon& p, const Vec3& n, double t, double min_separation) {
   std::array<double, 4> s0, s1;
   const double error =
       error_units * double_roundoff * n.cwiseAbs().dot(p.size) + std::numeric_limits<double>::min();
-  const double need = min_separation * n.norm() * (1 + 16 * double_roundoff) + error;
+  const double need = min_separation * n.norm() * (1 + norm_rounding * double_roundoff) + error;
   const auto value = [&](std::size_t k, double at) { return (1 - at) * s0[k] + at * s1[k]; };
   Clearance r{t, std::numeric_limits<double>::infinity()};
   if (!(need < std::numeric_limits<double>::infinity())) return r;

@@ -24,6 +24,10 @@ namespace {
 constexpr double infinity = std::numeric_limits<double>::infinity();
 // Range of the sizes for which the bounds hold in spite of underflow (volume_bound).
 constexpr double least_size = 0x1p-200, largest_size = 0x1p+300;
+// The bounds above, in u·Q and u·Σ|n_c|·P_c.
+constexpr int volume_error = 48, side_error = 20;
+// Half lengths of the intervals of time that crosses_near() tries.
+constexpr double crossing_reaches[] = {0x1p-40, 0x1p-32, 0x1p-24, 0x1p-16, 0x1p-9, 0x1p-4};
 // Share by which a step ends before the computed root, to cover the rounding of the quotient.
 constexpr double step_margin = 0x1p-20;
 
@@ -37,7 +41,7 @@ bool is_in_range(const MovingPolygon& p) {
 // With M between 2⁻²⁰⁰ and 2³⁰⁰ and L >= 8u·M, the bound is more than u·2⁻⁷⁰⁰; an underflow in a product of
 // two, 2⁻¹⁰⁷⁴, becomes at most 2⁻⁷⁷⁰ with the third factor.
 double volume_bound(const MovingPolygon& p, const Vec3& local) {
-  return 48 * double_roundoff * p.size.dot(pairs(local, local));
+  return volume_error * double_roundoff * p.size.dot(pairs(local, local));
 }
 
 double volume_at(const MovingPolygon& p, const Corners& w) { return w[0].dot(w[1].cross(w[p.corners - 1])); }
@@ -69,8 +73,9 @@ int proven_side(const MovingPolygon& p, const Corners& w) {
 
 bool stays_inside(const MovingPolygon& p, const Corners& from, const Corners& to, const Vec3& n) {
   const Vec3 local = local_size(p, from, to);
-  const double bound = 20 * double_roundoff * n.cwiseAbs().dot(pairs(p.size, local) + pairs(local, p.size)) +
-                       std::numeric_limits<double>::min();
+  const double bound =
+      side_error * double_roundoff * n.cwiseAbs().dot(pairs(p.size, local) + pairs(local, p.size)) +
+      std::numeric_limits<double>::min();
   for (std::size_t k = 0; k < p.corners; ++k) {
     const std::size_t l = k + 1 == p.corners ? 0 : k + 1;
     const double first = n.dot(from[k].cross(from[l])), last = n.dot(to[k].cross(to[l]));
@@ -105,7 +110,7 @@ bool crosses_near(const MovingPolygon& p, double t) {
   if (!is_in_range(p)) return false;
   // Tries a sequence of intervals: in a shorter one the sides are lost in rounding, in a longer one the
   // origin leaves the polygon.
-  for (const double reach : {0x1p-40, 0x1p-32, 0x1p-24, 0x1p-16, 0x1p-9, 0x1p-4}) {
+  for (const double reach : crossing_reaches) {
     const Corners from = corners_at(p, std::max(0.0, t - reach)),
                   to = corners_at(p, std::min(1.0, t + reach));
     const int side = proven_side(p, from);

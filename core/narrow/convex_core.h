@@ -1,7 +1,7 @@
 // A convex body in a frame.
 #pragma once
 
-#include "core/shape/convex_body.h"
+#include "core/narrow/collider.h"
 
 namespace touchstone::narrow {
 
@@ -15,8 +15,8 @@ inline ConvexCore<Wide> vertices_core(std::span<const Vec3> vertices, const Wide
 }
 
 /// Precondition: a bounded convex shape.
-inline ConvexCore<Wide> make_core(const Shape& shape, const WideFrame& frame) {
-  return {convex_body<Wide>(shape), frame};
+inline ConvexCore<Wide> make_core(const ShapeRef& shape, const WideFrame& frame) {
+  return {shape.body<Wide>(), frame};
 }
 
 /// A core point farthest along d, in the outer coordinates of the frame.

@@ -1,9 +1,8 @@
 #include "core/narrow/manifold.h"
 
 #include <algorithm>
-#include <array>
-#include <cmath>
 
+#include "core/narrow/outline.h"
 #include "core/tolerance.h"
 
 namespace touchstone::narrow {
@@ -11,9 +10,8 @@ namespace {
 
 using Points = std::vector<WideVec>;
 using Plane2 = Eigen::Matrix<Wide, 2, 1>;
-using Polygon = std::vector<Plane2>;
-
-Wide cross2(const Plane2& a, const Plane2& b) { return a.x() * b.y() - a.y() * b.x(); }
+using Corner = outline::Corner<Wide>;
+using Outline = outline::Corners<Wide>;
 
 struct Basis {
   WideVec u, v;
@@ -32,70 +30,34 @@ struct FacePoints {
   void add_many(const WideVec& p, std::uint32_t id) { add(p, id); }
 };
 
-// Andrew's monotone chain; drops points on edges. Returns indices into p.
-std::vector<std::size_t> convex_order(const Polygon& p, Wide tolerance) {
-  std::vector<std::size_t> order(p.size());
-  for (std::size_t i = 0; i < p.size(); ++i) order[i] = i;
-  std::sort(order.begin(), order.end(), [&](std::size_t i, std::size_t j) {
-    return p[i].x() != p[j].x() ? p[i].x() < p[j].x() : p[i].y() < p[j].y();
-  });
-  std::vector<std::size_t> chain;
-  const auto add = [&](std::size_t i, std::size_t floor) {
-    while (chain.size() >= floor + 2) {
-      const Plane2 e = p[chain.back()] - p[chain[chain.size() - 2]], f = p[i] - p[chain[chain.size() - 2]];
-      if (cross2(e, f) > tolerance * f.norm()) break;
-      chain.pop_back();
-    }
-    chain.push_back(i);
-  };
-  for (std::size_t i : order) add(i, 0);
-  const std::size_t lower = chain.size() - 1;
-  for (std::size_t k = order.size() - 1; k-- > 0;) add(order[k], lower);
-  if (chain.size() > 1) chain.pop_back();
-  return chain;
+void drop_repeats(Outline& p, Wide tolerance) {
+  Outline kept;
+  for (const Corner& x : p)
+    if (std::none_of(kept.begin(), kept.end(),
+                     [&](const Corner& k) { return Plane2(k.x - x.x, k.y - x.y).norm() <= tolerance; }))
+      kept.add(x);
+  p = kept;
 }
 
-Polygon clip(const Polygon& subject, const Polygon& window, Wide tolerance) {
-  Polygon in = subject;
-  for (std::size_t i = 0; i < window.size() && !in.empty(); ++i) {
-    const Plane2 &w0 = window[i], e = window[(i + 1) % window.size()] - w0;
-    const auto side = [&](const Plane2& p) {
-      const Wide d = cross2(e, p - w0) / e.norm();
-      return abs(d) <= tolerance ? Wide(0) : d;
-    };
-    Polygon out;
-    const std::size_t n = in.size();
-    for (std::size_t k = 0; k < n; ++k) {
-      const Plane2 &p = in[k], &q = in[(k + 1) % n];
-      const Wide sp = side(p), sq = side(q);
-      if (sp >= 0) out.push_back(p);
-      if (sp * sq < 0) out.push_back(p + (q - p) * (sp / (sp - sq)));
-    }
-    in = std::move(out);
+// The support face in the plane's coordinates.
+Outline flattened(const Points& face, const Basis& basis, const WideVec& origin) {
+  Outline r;
+  for (const WideVec& p : face) {
+    const Plane2 q = basis.flatten(p - origin);
+    r.add({q.x(), q.y(), 0, static_cast<std::uint32_t>(r.size), 0});
   }
-  return in;
+  return r;
 }
 
-// Overlap of two segments: an interval when they are collinear, otherwise nothing (their crossing is the
-// deepest point, which the caller has).
-Polygon overlap_of_segments(const Polygon& a, const Polygon& b, Wide tolerance) {
-  const Plane2 d = a[1] - a[0];
-  const Wide length = d.norm();
-  const auto off = [&](const Plane2& p) { return abs(cross2(d, p - a[0])) / length; };
-  if (off(b[0]) > tolerance || off(b[1]) > tolerance) return {};
-  Wide t0 = d.dot(b[0] - a[0]) / length, t1 = d.dot(b[1] - a[0]) / length;
-  if (t0 > t1) std::swap(t0, t1);
-  const Wide lo = std::max<Wide>(t0, 0), hi = std::min(t1, length);
-  if (lo > hi) return {};
-  return {a[0] + d * (lo / length), a[0] + d * (hi / length)};
-}
-
-void drop_repeats(Polygon& p, Wide tolerance) {
-  Polygon kept;
-  for (const Plane2& x : p)
-    if (std::none_of(kept.begin(), kept.end(), [&](const Plane2& k) { return (k - x).norm() <= tolerance; }))
-      kept.push_back(x);
-  p = std::move(kept);
+// Crossing segments share a point that the caller has: the deepest.
+Outline intersection(Outline a, Outline b, Wide tolerance) {
+  if (a.size == 2 && b.size == 2) {
+    const outline::EdgePair<Wide> pair(a, b);
+    return pair.is_collinear(tolerance) ? pair.common(0) : Outline();
+  }
+  if (a.size > 2 && b.size == 2) std::swap(a, b);
+  outline::clip(a, b, tolerance, false);
+  return a;
 }
 
 }  // namespace
@@ -106,16 +68,12 @@ std::vector<WideVec> support_face(const ConvexCore<Wide>& c, const WideVec& n, W
   FacePoints corners{at, {}};
   on_core(c, [&](const auto& core) { core.face_corners(at, corners); });
   Points face;
-  const Basis basis(n);
-  Polygon flat;
-  for (const WideVec& p : corners.points) {
+  for (const WideVec& p : corners.points)
     face.push_back(c.frame.rotation * p + c.frame.translation + c.radius * n);
-    flat.push_back(basis.flatten(face.back()));
-  }
-  if (face.size() < 2) return face;
+  Outline flat = flattened(face, Basis(n), WideVec::Zero());
+  outline::convex_order(flat, tolerance);
   Points ordered;
-  for (std::size_t i : convex_order(flat, tolerance)) ordered.push_back(face[i]);
-  if (ordered.size() == 2 && (ordered[0] - ordered[1]).norm() <= tolerance) ordered.pop_back();
+  for (const Corner& k : flat) ordered.push_back(face[k.id]);
   return ordered;
 }
 
@@ -124,27 +82,21 @@ std::vector<WideVec> contact_points(const ConvexCore<Wide>& a, const ConvexCore<
   const Wide tolerance = tolerance::manifold_face_factor * s.size;
   const WideVec &n = s.normal, middle = (s.a + s.b) / 2;
   const Basis basis(n);
-  Polygon fa;
-  for (const WideVec& p : support_face(a, n, tolerance)) fa.push_back(basis.flatten(p - middle));
-  Polygon region = fa;
+  Outline region = flattened(support_face(a, n, tolerance), basis, middle);
   if (b) {
-    Polygon fb;
-    for (const WideVec& p : support_face(*b, -n, tolerance)) fb.push_back(basis.flatten(p - middle));
-    std::reverse(fb.begin(), fb.end());  // counter-clockwise about n as well
-    if (fa.size() < 2 || fb.size() < 2) return {middle};
-    if (fa.size() == 2 && fb.size() == 2)
-      region = overlap_of_segments(fa, fb, tolerance);
-    else
-      region = fa.size() > 2 && fb.size() == 2 ? clip(fb, fa, tolerance) : clip(fa, fb, tolerance);
+    Outline other = flattened(support_face(*b, -n, tolerance), basis, middle);
+    std::reverse(other.begin(), other.end());  // counter-clockwise about n as well
+    if (region.size < 2 || other.size < 2) return {middle};
+    region = intersection(region, other, tolerance);
   }
   drop_repeats(region, tolerance);
-  if (region.empty()) return {middle};
+  if (region.size == 0) return {middle};
   // Picks points evenly when there are more than the manifold holds.
   Points r;
-  const std::size_t kept = std::min(region.size(), Manifold::capacity);
-  for (std::size_t i = 0; i < kept; ++i) {
-    const Plane2& p = region[i * region.size() / kept];
-    r.push_back(middle + basis.u * p.x() + basis.v * p.y());
+  const int kept = std::min(region.size, static_cast<int>(Manifold::capacity));
+  for (int i = 0; i < kept; ++i) {
+    const Corner& p = region[i * region.size / kept];
+    r.push_back(middle + basis.u * p.x + basis.v * p.y);
   }
   return r;
 }

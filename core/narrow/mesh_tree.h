@@ -1,7 +1,7 @@
 // Finds the triangles of a mesh that may be near a ball: a binary tree of axis-aligned boxes in the mesh's
-// own frame, split at the median of the centroids' longest axis (Ericson 2005, §6.2). It is built once per
-// mesh and passed to queries by PlacedShape::tree; a query without one tests every triangle's box. The tree
-// only prunes: the answer is that of all triangles.
+// own frame, split at the median of the centroids' longest axis (Ericson 2005, §6.2). It belongs to
+// the mesh's collider; a query without one tests every triangle's box. The tree only prunes: the answer is
+// that of all triangles.
 #pragma once
 
 #include <cstdint>

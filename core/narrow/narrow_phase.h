@@ -1,25 +1,14 @@
-// The public interface of the narrow phase: overlap, signed distance and contact of two placed shapes. Every
-// pair is supported except mesh–mesh and half-space–half-space (`unsupported`). Results are computed in
-// double with a proven error bound; where that bound cannot decide a verdict or exceeds τ, they are computed
-// in extended precision on the exact pose and rounded once.
+// The public interface of the narrow phase: overlap, signed distance and contact of two placed shapes, which
+// come from colliders, Collider::at(pose), or from shapes as they are, {&shape, pose}. Every pair is
+// supported except mesh–mesh and half-space–half-space (`unsupported`). Results are computed in double with a
+// proven error bound; where that bound cannot decide a verdict or exceeds τ, they are computed in extended
+// precision on the exact pose and rounded once.
 #pragma once
 
+#include "core/narrow/collider.h"
 #include "core/narrow/result.h"
-#include "core/shape/shape.h"
 
 namespace touchstone {
-
-struct MeshTree;
-struct HullGraph;
-
-struct PlacedShape {
-  const Shape* shape = nullptr;
-  Pose pose;
-  /// Optional acceleration structure of a mesh (mesh_tree.h). The answer is the same without it.
-  const MeshTree* tree = nullptr;
-  /// Optional acceleration structure of a hull (hull_graph.h). The answer is the same without it.
-  const HullGraph* graph = nullptr;
-};
 
 /// Cached state of a pair that a caller may keep between queries of any kind, so that a search starts where
 /// the last one ended: a separating direction or the last normal. It is only a guess: verdicts, bounds and

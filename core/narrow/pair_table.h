@@ -10,11 +10,11 @@
 namespace touchstone::narrow {
 
 /// Frames are relative to A's translation. `unsupported` for mesh–mesh and half-space–half-space.
-Separation separate_placed(const Shape& a, const WideFrame& frame_a, const Shape& b,
+Separation separate_placed(const ShapeRef& a, const WideFrame& frame_a, const ShapeRef& b,
                            const WideFrame& frame_b);
 
 /// Takes world frames and subtracts A's translation once, so that a large common offset costs no accuracy.
-Separation separate(const Shape& a, const WideFrame& frame_a, const Shape& b, const WideFrame& frame_b);
+Separation separate(const ShapeRef& a, const WideFrame& frame_a, const ShapeRef& b, const WideFrame& frame_b);
 
 /// The fast answer to the query (A, B): normal from A to B, points relative to A's translation. `mirrored`:
 /// the table row is (B, A), and `scene` follows the row. If the pair has no function, `has_fast` is false and

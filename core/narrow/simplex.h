@@ -10,6 +10,7 @@
 #include <limits>
 
 #include "core/math/wide.h"
+#include "core/narrow/rounding.h"
 #include "core/shape/feature.h"
 
 namespace touchstone::narrow {
@@ -94,7 +95,7 @@ void take_triangle(const Simplex<R>& s, int i, int j, int k, Foot<R>& best) {
   const V3<R>&a = s.p[static_cast<std::size_t>(i)].w, &b = s.p[static_cast<std::size_t>(j)].w,
         &c = s.p[static_cast<std::size_t>(k)].w;
   const V3<R> n = careful ? upright_normal(a, b, c) : triangle_normal(a, b, c);
-  const R flat = 16 * std::numeric_limits<R>::epsilon();
+  const R flat = rounding::flat_triangle * std::numeric_limits<R>::epsilon();
   const bool skip =
       careful && !(n.squaredNorm() > flat * flat * (b - a).squaredNorm() * (c - a).squaredNorm());
   const R wa = n.dot(b.cross(c)), wb = n.dot(c.cross(a)), wc = n.dot(a.cross(b)), sum = wa + wb + wc;
@@ -136,12 +137,11 @@ bool take_tetrahedron(const Simplex<R>& s, R last_sq, Foot<R>& best, R& margin) 
     const R apex = n.dot(e3), origin = -n.dot(w(0));
     bool outside = !(apex * origin > 0);
     if (!outside) {
-      const R rounding = 4 * std::numeric_limits<R>::epsilon() * e1.template lpNorm<1>() *
-                         e2.template lpNorm<1>() *
-                         std::max(w(0).template lpNorm<1>(), e3.template lpNorm<1>());
+      const R error = rounding::volume * std::numeric_limits<R>::epsilon() * e1.template lpNorm<1>() *
+                      e2.template lpNorm<1>() * std::max(w(0).template lpNorm<1>(), e3.template lpNorm<1>());
       // The sign of a sliver is noise, but then the origin is farther from the plane than the apex is.
-      outside = abs(origin) > abs(apex) + rounding;
-      height[static_cast<std::size_t>(i)] = abs(origin) - rounding;
+      outside = abs(origin) > abs(apex) + error;
+      height[static_cast<std::size_t>(i)] = abs(origin) - error;
       square[static_cast<std::size_t>(i)] = n.squaredNorm();
     }
     if (!outside) continue;

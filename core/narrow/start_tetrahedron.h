@@ -7,6 +7,9 @@
 
 namespace touchstone::narrow {
 
+/// In double: the directions that they make are only tried.
+inline constexpr double cosine_of_60 = 0.5, sine_of_60 = 0.86602540378443864676;
+
 /// Extends a point, an edge or a triangle to a tetrahedron by support points of B − A away from the current
 /// point, line or plane. Returns false if none is farther away than `thin`: B − A is then flat to within
 /// rounding.
@@ -36,7 +39,7 @@ bool grow_to_tetrahedron(int size, R thin, const Point& w, const Probe& probe, c
   }
   if (size == 2) {
     const V3<R> e = w(1) - w(0), k = e / e.norm(), x = k.unitOrthogonal(), y = k.cross(x);
-    const R c = R(0.5), h = R(0.86602540378443864676);  // cosine and sine of 60°
+    const R c = R(cosine_of_60), h = R(sine_of_60);
     const V3<R> around[] = {x, c * x + h * y, h * y - c * x};
     if (!add_farthest(around, [&](const V3<R>& p) { return k.cross(p - w(0)).norm(); })) return false;
     size = 3;

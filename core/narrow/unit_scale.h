@@ -8,8 +8,7 @@
 #include <type_traits>
 
 #include "core/math/wide.h"
-#include "core/narrow/mesh_tree.h"
-#include "core/shape/shape.h"
+#include "core/narrow/collider.h"
 
 namespace touchstone::narrow {
 
@@ -74,9 +73,8 @@ int unit_scale(const P& a, const P& b, double way = 0) {
   if constexpr (wide_holds_squares) return 0;
   const double apart = (b.pose.translation / 2 - a.pose.translation / 2).cwiseAbs().maxCoeff();
   const auto length = [](const P& p) {
-    if (!p.tree || p.tree->nodes.empty()) return largest_length(*p.shape);
-    const auto& root = p.tree->nodes.front();
-    return std::max<double>(root.lo.cwiseAbs().maxCoeff(), root.hi.cwiseAbs().maxCoeff());
+    return p.collider && is_bounded(kind_of(*p.shape)) ? p.collider->largest_length()
+                                                       : largest_length(*p.shape);
   };
   const double size = std::max({length(a), length(b), apart, way});
   const auto normal_in_range = [](const Shape& s) {

@@ -30,14 +30,14 @@ std::vector<WideVec> unit_manifold(const PlacedShape& a, const PlacedShape& b, c
   const WideFrame fa = wide_frame(a.pose), fb = wide_frame(b.pose);
   const WideFrame la{fa.rotation, WideVec::Zero()}, lb{fb.rotation, fb.translation - fa.translation};
   if (is_bounded_convex(*a.shape) && is_bounded_convex(*b.shape)) {
-    const auto cb = narrow::make_core(*b.shape, lb);
-    return narrow::contact_points(narrow::make_core(*a.shape, la), &cb, s);
+    const auto cb = narrow::make_core(b, lb);
+    return narrow::contact_points(narrow::make_core(a, la), &cb, s);
   }
   if (is_bounded_convex(*a.shape) && kind_of(*b.shape) == ShapeKind::half_space)
-    return narrow::contact_points(narrow::make_core(*a.shape, la), nullptr, s);
+    return narrow::contact_points(narrow::make_core(a, la), nullptr, s);
   if (is_bounded_convex(*b.shape) && kind_of(*a.shape) == ShapeKind::half_space) {
     Separation t = narrow::mirrored(s);
-    return narrow::contact_points(narrow::make_core(*b.shape, lb), nullptr, t);
+    return narrow::contact_points(narrow::make_core(b, lb), nullptr, t);
   }
   return {WideVec((s.a + s.b) / 2)};
 }
@@ -61,13 +61,11 @@ std::vector<WideVec> manifold_of(const PlacedShape& a, const PlacedShape& b, con
 
 }  // namespace
 
-OverlapAnswer wide_overlap(const PlacedShape& a, const PlacedShape& b) {
-  const Separation s = separation(a, b);
+OverlapAnswer overlap_of(const Separation& s) {
   return {s.outcome, s.outcome == Outcome::answered && touches(s), arithmetic_error(s)};
 }
 
-DistanceAnswer wide_distance(const PlacedShape& a, const PlacedShape& b) {
-  const Separation s = separation(a, b);
+DistanceAnswer distance_of(const Separation& s, const PlacedShape& a) {
   DistanceAnswer r;
   r.outcome = s.outcome;
   r.error_bound = arithmetic_error(s);
@@ -76,6 +74,14 @@ DistanceAnswer wide_distance(const PlacedShape& a, const PlacedShape& b) {
   r.normal = s.normal.cast<double>();
   r.witness = {world(s.a, a), world(s.b, a)};
   return r;
+}
+
+OverlapAnswer wide_overlap(const PlacedShape& a, const PlacedShape& b) {
+  return overlap_of(separation(a, b));
+}
+
+DistanceAnswer wide_distance(const PlacedShape& a, const PlacedShape& b) {
+  return distance_of(separation(a, b), a);
 }
 
 ContactAnswer wide_contact(const PlacedShape& a, const PlacedShape& b) {
@@ -102,7 +108,7 @@ Separation separation(const PlacedShape& a, const PlacedShape& b) {
     const narrow::ScaledPair<PlacedShape> pair(a, b, e);
     return narrow::rescaled(separation(pair.a, pair.b), -e);
   }
-  return narrow::separate(*a.shape, wide_frame(a.pose), *b.shape, wide_frame(b.pose));
+  return narrow::separate(a, wide_frame(a.pose), b, wide_frame(b.pose));
 }
 
 }  // namespace touchstone

@@ -10,4 +10,8 @@ OverlapAnswer wide_overlap(const PlacedShape& a, const PlacedShape& b);
 DistanceAnswer wide_distance(const PlacedShape& a, const PlacedShape& b);
 ContactAnswer wide_contact(const PlacedShape& a, const PlacedShape& b);
 
+/// The first two, from separation(a, b).
+OverlapAnswer overlap_of(const Separation& s);
+DistanceAnswer distance_of(const Separation& s, const PlacedShape& a);
+
 }  // namespace touchstone::narrow

@@ -192,15 +192,12 @@ convex::Symmetry symmetry(const ConvexBody<R>& b) {
 }
 
 /// A bounded convex shape without a ball whose core is a polytope, whatever its sizes.
-inline bool is_polytope(const Shape& shape) {
-  return std::visit(
-      []<class S>(const S& s) {
-        if constexpr (is_convex_shape<S>)
-          return !S::has_ball && decltype(s.template core<double>())::is_polytope;
-        else
-          return false;
-      },
-      shape);
-}
+template <class S>
+inline constexpr bool is_polytope_shape = [] {
+  if constexpr (is_convex_shape<S>)
+    return !S::has_ball && decltype(std::declval<const S&>().template core<double>())::is_polytope;
+  else
+    return false;
+}();
 
 }  // namespace touchstone

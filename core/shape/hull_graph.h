@@ -1,9 +1,9 @@
 // Edge graph of the vertices of a large hull. Its support point is found by climbing from vertex to vertex
 // instead of scanning all of them (Gino van den Bergen 1999, "A fast and robust GJK implementation for
 // collision detection of convex objects"). Departure: the start comes from a table of directions instead of
-// the last support point, so that no state is kept and queries can run concurrently. The graph is built once
-// per hull and passed to queries by PlacedShape::graph; a query without one scans every vertex. The answers
-// are the same: climbing finds exactly the vertex that the scan finds (core/shape/vertex_climb.h).
+// the last support point, so that no state is kept and queries can run concurrently. The graph belongs to
+// the hull's collider; a query without one scans every vertex. The answers are the same: climbing finds
+// exactly the vertex that the scan finds (core/shape/vertex_climb.h).
 //
 // This relies on the surface being that of a convex polytope exactly, not just to qhull's rounding.
 // Construction proves it (Mehlhorn, Näher, Seidel, Seel, Schirra, Uhrig 1999, "Checking geometric programs or

@@ -26,26 +26,20 @@ double proven(const ContactAnswer& r) {
 }
 
 // The float answer, its bounds including the cost of rounding the bodies; or `unsupported`, `not_converged`.
-ContactAnswer contact_by_float(const PlacedShape& a, double reach_a, const PlacedShape& b, double reach_b,
-                               PairMemory* memory) {
+ContactAnswer contact_by_float(const PlacedShape& a, const PlacedShape& b, PairMemory* memory) {
   // Relative to A's translation, so that float's error does not grow with the distance from the world origin.
   const Vec3 origin = a.pose.translation;
   PlacedShape x = a, y = b;
   x.pose.translation.setZero();
   y.pose.translation -= origin;
   ContactAnswer r = contact(x, y, Arithmetic::float32, memory);
-  const double rounding =
-      float_rounding(x.pose, reach_a) + float_rounding(y.pose, reach_b) +
-      origin_rounding * origin.lpNorm<1>();
+  const double rounding = float_rounding(x.pose, x.bounding_radius()) +
+                          float_rounding(y.pose, y.bounding_radius()) + origin_rounding * origin.lpNorm<1>();
   r.error_bound = r.regret_bound = proven(r) + rounding;
   Manifold at_home;
   for (const ContactPoint& p : r.manifold) at_home.push_back({p.position + origin, p.depth, p.feature});
   r.manifold = at_home;
   return r;
-}
-
-PlacedShape placed(const PlannedShape& s, const PlannedBody& at) {
-  return {s.shape, at.pose, s.tree.nodes.empty() ? nullptr : &s.tree, &s.graph};
 }
 
 }  // namespace
@@ -62,19 +56,13 @@ BoundingBall bounding_ball(const Shape& shape) {
 }
 
 std::vector<PlannedShape> planned_shapes(const Scene& scene, const Fidelity& fidelity) {
-  std::vector<PlannedShape> planned(scene.shapes.size());
-  for (std::size_t i = 0; i < planned.size(); ++i) {
-    PlannedShape& s = planned[i];
-    s.shape = &scene.shapes[i];
-    if (i < fidelity.simpler.size() && fidelity.simpler[i]) {
-      s.simpler = &*fidelity.simpler[i];
-      s.shape = &s.simpler->shape;
-    }
-    if (const auto* mesh = std::get_if<TriangleMesh>(s.shape)) s.tree = build_mesh_tree(*mesh);
-    if (const auto* hull = std::get_if<Hull>(s.shape)) s.graph = build_hull_graph(*hull);
-    s.ball = bounding_ball(*s.shape);
-    s.reach = bounding_radius(*s.shape);
-    s.size = broad::box_size(*s.shape);
+  std::vector<PlannedShape> planned;
+  planned.reserve(scene.shapes.size());
+  for (std::size_t i = 0; i < scene.shapes.size(); ++i) {
+    const bool is_simpler = i < fidelity.simpler.size() && fidelity.simpler[i];
+    const SimplerShape* simpler = is_simpler ? &*fidelity.simpler[i] : nullptr;
+    const Shape& shape = simpler ? simpler->shape : scene.shapes[i];
+    planned.push_back({Collider(shape), simpler, bounding_ball(shape), broad::box_size(shape)});
   }
   return planned;
 }
@@ -87,7 +75,8 @@ PlannedBody planned_body(const PlannedShape& shape, const Pose& body) {
 }
 
 Aabb planned_box(const Fidelity& f, const PlannedShape& s, const PlannedBody& body) {
-  return f.loose_boxes ? broad::loose_box(*s.shape, body.pose, s.size) : broad::body_box(*s.shape, body.pose);
+  return f.loose_boxes ? broad::loose_box(s.shape(), body.pose, s.size)
+                       : broad::body_box(s.shape(), body.pose);
 }
 
 ContactAnswer planned_contact(const Fidelity& fidelity, const PlannedShape& a, const PlannedBody& at_a,
@@ -97,16 +86,16 @@ ContactAnswer planned_contact(const Fidelity& fidelity, const PlannedShape& a, c
     if (decided) *decided = by;
     if (bound) *bound = error;
   };
-  const PairMethod& method = fidelity.of(kind_of(*a.shape), kind_of(*b.shape));
+  const PairMethod& method = fidelity.of(kind_of(a.shape()), kind_of(b.shape()));
   if (method.balls_first && balls_apart(at_a.centre_w, a.ball.radius, at_b.centre_w, b.ball.radius)) {
     decide(DecidedBy::balls, 0);
     return {};
   }
-  const PlacedShape x = placed(a, at_a), y = placed(b, at_b);
+  const PlacedShape x = a.collider.at(at_a.pose), y = b.collider.at(at_b.pose);
   const double shapes = a.error() + b.error();
   if (method.arithmetic != Arithmetic::float64) {
     const ContactAnswer r = method.arithmetic == Arithmetic::float32
-                                ? contact_by_float(x, a.reach, y, b.reach, memory)
+                                ? contact_by_float(x, y, memory)
                                 : contact(x, y, Arithmetic::float64_alone, memory);
     // A NaN proves nothing.
     if (r.outcome == Outcome::answered && proven(r) + shapes <= Fidelity::answer_share * fidelity.error) {

@@ -1,9 +1,8 @@
 // Bodies as a plan presents them to contact queries, and the contact of two of them within the plan's error.
 #pragma once
 
-#include "core/narrow/mesh_tree.h"
+#include "core/narrow/collider.h"
 #include "core/scene/scene.h"
-#include "core/shape/hull_graph.h"
 #include "core/world/fidelity.h"
 
 namespace touchstone {
@@ -24,15 +23,15 @@ inline bool balls_apart(const Vec3& a, double radius_a, const Vec3& b, double ra
   return (b - a).squaredNorm() > reach * reach * (1 + ball_product_slack);
 }
 
-/// A shape of a scene, or the simpler shape that replaces it, with the data that its queries need. Points
-/// into the scene and the plan.
+/// A shape of a scene, or the simpler shape that replaces it, prepared for its queries. Refers to the scene
+/// and the plan.
 struct PlannedShape {
-  const Shape* shape = nullptr;
-  const SimplerShape* simpler = nullptr;
-  MeshTree tree;    // empty unless the shape is a mesh
-  HullGraph graph;  // empty unless the shape is a hull
+  Collider collider;
+  const SimplerShape* simpler = nullptr;  // null: the shape is the scene's own
   BoundingBall ball;
-  double reach = 0, size = 0;  // bounding_radius, box_size
+  double size = 0;  // box_size
+  const Shape& shape() const { return collider.shape(); }
+  double reach() const { return collider.bounding_radius(); }
   double error() const { return simpler ? simpler->error : 0; }
 };
 std::vector<PlannedShape> planned_shapes(const Scene& scene, const Fidelity& fidelity);

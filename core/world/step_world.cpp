@@ -95,11 +95,6 @@ void StepWorld::accept() {
 
 Motion StepWorld::motion_of(int body) const { return scene_.bodies[at(body)].motion.value_or(Motion{}); }
 
-const MeshTree* StepWorld::tree_of(int body) const {
-  const MeshTree& tree = planned_shape(body).tree;
-  return tree.nodes.empty() ? nullptr : &tree;
-}
-
 void StepWorld::place_at_end() {
   updates_.clear();
   for (std::size_t i = 0; i < end_.size(); ++i) {
@@ -177,7 +172,7 @@ std::vector<BodyPair> StepWorld::swept_pairs(const StepReport& r) {
     Aabb end = end_box_[at(i)];
     if (planned_shape(i).simpler) {
       const double out = planned_shape(i).error() +
-                         pose_slack * (planned_shape(i).reach + end_[at(i)].translation.lpNorm<1>());
+                         pose_slack * (planned_shape(i).reach() + end_[at(i)].translation.lpNorm<1>());
       end.lo.array() -= out;
       end.hi.array() += out;
     }
@@ -216,8 +211,12 @@ void StepWorld::find_impact(const BodyPair& pair, const SweepOptions& o, StepRep
     return;
   }
   ++r.asked;
+  // Impacts are those of the original shapes.
   const auto moving = [&](int i) {
-    return MovingShape{&scene_.shape_of(i), scene_.bodies[at(i)].pose, motion_of(i), tree_of(i)};
+    const PlannedShape& s = planned_shape(i);
+    const Pose& pose = scene_.bodies[at(i)].pose;
+    return s.simpler ? MovingShape(&scene_.shape_of(i), pose, motion_of(i))
+                     : s.collider.at(pose, motion_of(i));
   };
   const ImpactAnswer x = time_of_impact(moving(a), moving(b));
   if (x.outcome == Outcome::unsupported) {

@@ -79,7 +79,6 @@ class StepWorld {
   std::vector<BodyPair> swept_pairs(const StepReport& r);
   void find_impact(const BodyPair& pair, const SweepOptions& o, StepReport& r) const;
   Motion motion_of(int body) const;
-  const MeshTree* tree_of(int body) const;  // null: not a mesh
 
   Scene scene_;
   Fidelity fidelity_;

@@ -1,7 +1,7 @@
 #include "core/world/world.h"
 
 #include "core/broad/body_box.h"
-#include "core/narrow/mesh_tree.h"
+#include "core/narrow/collider.h"
 
 namespace touchstone {
 namespace {
@@ -17,17 +17,12 @@ std::vector<BodyPair> reported(const Scene& scene, broad::BroadPhase& phase) {
   return kept;
 }
 
-// One tree per shape; empty unless the shape is a mesh.
-std::vector<MeshTree> mesh_trees(const Scene& scene) {
-  std::vector<MeshTree> trees(scene.shapes.size());
-  for (std::size_t i = 0; i < trees.size(); ++i)
-    if (const auto* m = std::get_if<TriangleMesh>(&scene.shapes[i])) trees[i] = build_mesh_tree(*m);
-  return trees;
-}
-
-PlacedShape placed(const Scene& s, int i, const std::vector<MeshTree>& trees) {
-  const MeshTree& tree = trees[static_cast<std::size_t>(body_of(s, i).shape)];
-  return {&s.shape_of(i), body_of(s, i).pose, tree.nodes.empty() ? nullptr : &tree};
+// One for each shape. A graph does not pay for the few contacts of one scene.
+std::vector<Collider> colliders_of(const Scene& scene) {
+  std::vector<Collider> all;
+  all.reserve(scene.shapes.size());
+  for (const Shape& s : scene.shapes) all.emplace_back(s, Collider::no_graph);
+  return all;
 }
 
 }  // namespace
@@ -77,10 +72,13 @@ SceneContacts scene_contacts(const Scene& scene, broad::BroadPhase& phase) {
   for (int i = 0; i < static_cast<int>(scene.bodies.size()); ++i)
     phase.insert(i, broad::body_box(scene.shape_of(i), body_of(scene, i).pose));
   SceneContacts r;
-  const auto trees = mesh_trees(scene);
+  const std::vector<Collider> colliders = colliders_of(scene);
+  const auto placed = [&](int i) {
+    return colliders[static_cast<std::size_t>(body_of(scene, i).shape)].at(body_of(scene, i).pose);
+  };
   for (const auto& [a, b] : reported(scene, phase)) {
     ++r.candidates;
-    ContactAnswer c = contact(placed(scene, a, trees), placed(scene, b, trees));
+    ContactAnswer c = contact(placed(a), placed(b));
     if (c.outcome == Outcome::unsupported) {
       ++r.unsupported;
       continue;

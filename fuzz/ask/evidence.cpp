@@ -13,8 +13,6 @@ Motion motion_of(const Scene& s, int body) {
   return s.bodies[static_cast<std::size_t>(body)].motion.value_or(Motion{});
 }
 
-bool is_of_motion(Question q) { return q == Question::time_of_impact || q == Question::swept_candidates; }
-
 Json named(Json certificate, int a, int b, int step) {
   if (certificate.at("kind") == "none") return certificate;
   certificate["bodies"] = {a, b};
@@ -57,7 +55,8 @@ Json certificate_of(const Evidence& e, std::uint64_t index, CaseCertificates& fo
   }
   const int n = static_cast<int>(e.c.scene.bodies.size());
   const bool names = e.a >= 0 && e.b >= 0 && e.a < n && e.b < n;
-  return names ? named(touchstone::to_json(e.certificate), e.a, e.b, e.step) : touchstone::to_json(e.certificate);
+  return names ? named(touchstone::to_json(e.certificate), e.a, e.b, e.step)
+               : touchstone::to_json(e.certificate);
 }
 
 // Shapes that differ only by rounding are left out.

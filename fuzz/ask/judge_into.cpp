@@ -101,6 +101,14 @@ void count_hit(CampaignResult& r, const Case& c, Truth& truth) {
   }
 }
 
+// Whether some engine answered, or tried to, so that there is something to referee.
+bool was_attempted(std::span<const CaseObservations> observations) {
+  for (const CaseObservations& all : observations)
+    for (const Observation& o : all.answers)
+      if (!was_not_attempted(o.outcome)) return true;
+  return false;
+}
+
 bool asks_pair(const Case& c) {
   return !c.queries.empty() && c.queries[0].question < Question::time_of_impact;
 }
@@ -141,7 +149,7 @@ void judge_into(CampaignResult& r, const Case& c, std::uint64_t index, std::span
     const CaseObservations& all = without_unstable ? *without_unstable : observations[e];
     for (std::size_t i = 0; i < c.queries.size(); ++i) {
       const Observation& o = all.answers[i];
-      r.tallies[card.name][c.queries[i].question].add(judgements[i], o);
+      r.tallies[card.name][c.queries[i].question].add(judgements[i], o, card.times_include_pipe);
       count_open(r, c, card.name, c.queries[i], judgements[i]);
       r.engine_ns += o.elapsed_ns;
       add_findings(r, asked, card.name, c.queries[i], judgements[i], all, o);
@@ -150,7 +158,10 @@ void judge_into(CampaignResult& r, const Case& c, std::uint64_t index, std::span
   }
   if (features)
     for (std::size_t i = 0; i < c.queries.size(); ++i) add_pattern(c, i, observations, *features);
-  count_hit(r, c, truth);
+  if (was_attempted(observations))
+    count_hit(r, c, truth);
+  else
+    ++r.not_refereed;
   ++r.cases;
   ++r.families[c.family];
   r.judge_ns += std::chrono::nanoseconds(std::chrono::steady_clock::now() - start).count();

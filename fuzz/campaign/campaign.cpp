@@ -137,7 +137,7 @@ class Runner {
   using SetAside = std::map<std::string, CampaignResult::SetAside>;
   struct Chunk {
     CampaignResult result;
-    SetAside known;           // engines already set aside when the chunk ran
+    SetAside known;  // engines already set aside when the chunk ran
     std::vector<Case> cases;
     std::vector<std::vector<std::uint64_t>> features;  // guided campaigns only, of each case
     std::string answers;                               // as a block of the file, if answers are kept
@@ -153,7 +153,7 @@ class Runner {
       c.id = "guided/" + std::to_string(config_.seed) + "/" + std::to_string(index);
       if (!c.queries.empty()) return c;
     }
-    return make_case(config_.seed, index, config_.family);
+    return make_case(config_.seed, index, config_.family, config_.kinds);
   }
 
   // Waits until all chunks of earlier generations are in the pool; false if that will never happen.

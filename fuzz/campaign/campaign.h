@@ -21,6 +21,8 @@ struct CampaignConfig {
   std::vector<std::string> engines;  // catalog names, as recorded
   std::string subject = "core";
   std::string family;  // one name, several (`a,b`), or empty for the default mix
+  /// The kinds of shapes of which cases are made, if the subject's card lists them; empty: all.
+  std::vector<ShapeKind> kinds = {};
   std::uint64_t seed = 1;
   std::optional<std::uint64_t> cases;
   std::optional<double> minutes;

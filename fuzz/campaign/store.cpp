@@ -19,6 +19,7 @@ Json settings(const CampaignConfig& c) {
             {"shards", c.shards},       {"relations_every", c.relations_every},
             {"guided", c.guided}};
   j["cases"] = c.cases ? Json(*c.cases) : Json(nullptr);
+  for (const ShapeKind k : c.kinds) j["kinds"].push_back(type_name(k));
   if (!c.error.empty()) j["error"] = c.error;
   if (c.keep_answers) j["keep_answers"] = true;
   return j;
@@ -76,11 +77,14 @@ void save_state(const std::filesystem::path& out, const Json& settings, const St
   write_file(out / "state.json", j.dump());
 }
 
-Json load_state_json(const std::filesystem::path& directory) {
-  const auto file = directory / "state.json";
-  if (!std::filesystem::exists(file))
+void require_campaign(const std::filesystem::path& directory) {
+  if (!std::filesystem::exists(directory / "state.json"))
     throw InputError(directory.string(), "does not hold a campaign; touchstone fuzz --out DIR creates one");
-  return load_json(file, campaign_limits);
+}
+
+Json load_state_json(const std::filesystem::path& directory) {
+  require_campaign(directory);
+  return load_json(directory / "state.json", campaign_limits);
 }
 
 CampaignResult load_result(const std::filesystem::path& directory) {

@@ -38,6 +38,8 @@ std::optional<StoredState> load_state(const CampaignConfig& config);
 void save_state(const CampaignConfig& config, const StoredState& state);
 /// The same with settings taken from another state.
 void save_state(const std::filesystem::path& out, const Json& settings, const StoredState& state);
+/// Throws InputError when the directory holds no campaign.
+void require_campaign(const std::filesystem::path& directory);
 /// The contents of DIR/state.json. Throws InputError when the directory holds no campaign.
 Json load_state_json(const std::filesystem::path& directory);
 /// The result in DIR/state.json, of a finished campaign or so far, with evidence and examples and their

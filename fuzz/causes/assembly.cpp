@@ -160,9 +160,8 @@ std::uint64_t Assembly::place_hash(const Group& g) const {
   std::string route = classes_[leader(g).of_class].route;
   Question question = symptom(g).question;
   for (const std::size_t m : g.members) {
-    const FindingClass& c = classes_[all_[m].of_class];
-    route = std::min(route, c.route);
-    question = std::min(question, c.symptom.question);
+    route = std::min(route, classes_[all_[m].of_class].route);
+    question = std::min(question, all_[m].symptom.question);
   }
   Hasher hash;
   hash.add(path_word(g)).add(symptom(g).detail).add(g.documented);
@@ -177,6 +176,8 @@ std::uint64_t Assembly::response_hash(const Group& g, std::uint64_t place) const
   if (!is_exact(g)) return hash.value();
   for (const Responded& r : of_all.responses) hash.add(to_string(r.response));
   for (const std::string& fault : of_all.faults) hash.add(fault);
+  hash.add(of_all.deviation.manner);
+  for (const ErrorLaw& law : of_all.laws) hash.add(static_cast<int>(law.reference));
   const Case& shown = leader(g).first.shown();
   hash.add(shown.scene.bodies.size()).add(shown.scene.script.size());
   for (const Shape& shape : shown.scene.shapes) hash.add(type_name(shape));
@@ -204,6 +205,7 @@ std::vector<Group> Assembly::identified(std::vector<Group> groups) const {
     Group& to = distinct[at->second];
     to.members.insert(to.members.end(), g.members.begin(), g.members.end());
     to.consequences.insert(to.consequences.end(), g.consequences.begin(), g.consequences.end());
+    to.explained.insert(to.explained.end(), g.explained.begin(), g.explained.end());
   }
   share_explained(distinct);
   return distinct;
@@ -244,6 +246,7 @@ void Assembly::add_name(Cause& c, const Group& g, const Findings& findings,
     c.title += ": not shown when its case is asked alone";
   else if (!reason.empty())
     c.title += fmt::format(": {}", describe_reason(reason, of_all, knowledge_.others(led.finding->engine)));
+  if (const std::string law = describe_law(of_all.laws); !law.empty()) c.title += fmt::format("; {}", law);
   c.id = g.id;
 }
 
@@ -269,7 +272,7 @@ Responses Assembly::common_response(const Group& g) const {
 
 std::string Assembly::reason_of(const Group& g, const Responses& of_all) const {
   if (leader(g).asked && !leader(g).first.responses.shown) return std::string(not_shown);
-  return main_reason(of_all, symptom(g).stage);
+  return main_reason(of_all, symptom(g).stage, knowledge_.others(leader(g).finding->engine));
 }
 
 bool Assembly::is_exact(const Group& g) const {

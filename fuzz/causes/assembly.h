@@ -35,7 +35,7 @@ class Assembly {
   Cause cause_of(const Group& g) const;
 
   const Representative& leader(const Group& g) const { return all_[g.members.front()]; }
-  const Symptom& symptom(const Group& g) const { return classes_[leader(g).of_class].symptom; }
+  const Symptom& symptom(const Group& g) const { return leader(g).symptom; }
 
  private:
   using Findings = std::vector<const Finding*>;

@@ -24,19 +24,19 @@ void count_all(Causes& out, const CampaignResult& result) {
 }
 
 Causes assembled(const CampaignResult& result, const Parts& p, const EngineKnowledge& knowledge,
-                 const std::function<void(Cause&, const Representative&, const Symptom&)>& add) {
+                 const std::function<void(Cause&, const Representative&)>& add) {
   const Assembly assembly(result, p, knowledge);
   std::vector<Cause> causes;
   std::vector<const Representative*> leaders;
   const std::vector<Group> groups = assembly.identified(p.groups);
   for (const Group& g : groups) {
     causes.push_back(assembly.cause_of(g));
-    add(causes.back(), assembly.leader(g), assembly.symptom(g));
+    add(causes.back(), assembly.leader(g));
     leaders.push_back(&assembly.leader(g));
   }
   Causes out;
   for (const std::size_t i : reading_order(causes, [&](std::size_t x, std::size_t y) {
-         return difference(*leaders[x], *leaders[y]).share + (causes[x].path != causes[y].path) +
+         return difference(*leaders[x], *leaders[y]) + (causes[x].path != causes[y].path) +
                 (causes[x].route != causes[y].route);
        }))
     out.causes.push_back(std::move(causes[i]));
@@ -87,21 +87,20 @@ Causes causes_at_once(const CampaignResult& result, const EngineKnowledge& knowl
   }
   const std::vector<double> rates = rates_of(p.classes, result);
   p.groups = grouped({p.classes, p.all, rates, knowledge, p.noise});
-  return assembled(result, p, knowledge, [](Cause&, const Representative&, const Symptom&) {});
+  return assembled(result, p, knowledge, [](Cause&, const Representative&) {});
 }
 
 Causes causes_of(const CampaignResult& result, const CausesConfig& config) {
   Parts p;
-  p.classes = classes_of(result, config.knowledge);
+  p.classes = classes_of(result, config.knowledge, Contradictions::apart);
   p.all = examined(p.classes, config);
   const std::vector<double> rates = rates_of(p.classes, result);
   p.noise = noise_of(p.classes, p.all);
   p.groups = grouped({p.classes, p.all, rates, config.knowledge, p.noise});
   EnginePool pool(config.make);
-  Causes out =
-      assembled(result, p, config.knowledge, [&](Cause& cause, const Representative& r, const Symptom& s) {
-        if (r.asked) add_evidence(cause, r, s, config, pool);
-      });
+  Causes out = assembled(result, p, config.knowledge, [&](Cause& cause, const Representative& r) {
+    if (r.asked) add_evidence(cause, r, config, pool);
+  });
   add_missing_engines(out, p);
   return out;
 }

@@ -17,18 +17,7 @@ std::optional<ShapeKind> kind_named(std::string_view name) {
   return std::nullopt;
 }
 
-// A failure whose place in the code is known has one route, wherever it was met.
-constexpr std::string_view any_route = "any", scene_route = "scene";
-
-std::string route_of(const Finding& f, const Symptom& s, const EngineKnowledge& knowledge) {
-  if (f.shapes == any_route) return std::string(any_route);
-  const auto dash = f.shapes.find('-');
-  if (dash == std::string::npos) return std::string(scene_route);
-  const auto a = kind_named(std::string_view(f.shapes).substr(0, dash));
-  const auto b = kind_named(std::string_view(f.shapes).substr(dash + 1));
-  if (!a || !b) return f.shapes;
-  return knowledge.route_of(f.engine, s.question, *a, *b);
-}
+constexpr std::string_view scene_route = "scene";
 
 using Place = std::tuple<std::string, std::string, Symptom>;  // path, route, symptom
 
@@ -36,7 +25,8 @@ std::map<Place, FindingClass> fold(const CampaignResult& result, const EngineKno
   std::map<Place, FindingClass> classes;
   for (const auto& [key, f] : result.findings) {
     Symptom s = symptom_of(f);
-    std::string path = knowledge.path_of(f.engine), route = route_of(f, s, knowledge);
+    std::string path = knowledge.path_of(f.engine),
+                route = route_of(f.engine, f.shapes, s.question, knowledge);
     FindingClass& c = classes[{path, route, s}];
     c.path = std::move(path);
     c.route = std::move(route);
@@ -57,7 +47,7 @@ FindingClass* plain_class(std::map<Place, FindingClass>& classes, const FindingC
   for (auto& [place, c] : classes) {
     if (c.path != of.path || c.symptom.question != of.symptom.question) continue;
     if (c.symptom.stage == FaultStage::contradiction) continue;
-    if (c.route != of.route && c.route != any_route) continue;
+    if (c.route != of.route && c.route != any_shapes) continue;
     if (!best || rank(c) > rank(*best)) best = &c;
   }
   return best;
@@ -76,9 +66,22 @@ EngineKnowledge no_knowledge() {
   return k;
 }
 
-std::vector<FindingClass> classes_of(const CampaignResult& result, const EngineKnowledge& knowledge) {
+std::string route_of(const std::string& engine, const std::string& shapes, Question question,
+                     const EngineKnowledge& knowledge) {
+  if (shapes == any_shapes) return shapes;
+  const auto dash = shapes.find('-');
+  if (dash == std::string::npos) return std::string(scene_route);
+  const auto a = kind_named(std::string_view(shapes).substr(0, dash));
+  const auto b = kind_named(std::string_view(shapes).substr(dash + 1));
+  if (!a || !b) return shapes;
+  return knowledge.route_of(engine, question, *a, *b);
+}
+
+std::vector<FindingClass> classes_of(const CampaignResult& result, const EngineKnowledge& knowledge,
+                                     Contradictions contradictions) {
   std::map<Place, FindingClass> classes = fold(result, knowledge);
   for (auto at = classes.begin(); at != classes.end();) {
+    if (contradictions == Contradictions::apart) break;
     FindingClass* explains =
         at->second.symptom.stage == FaultStage::contradiction ? plain_class(classes, at->second) : nullptr;
     if (!explains) {

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <functional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "fuzz/causes/symptom.h"
@@ -18,6 +19,10 @@ struct OtherEngine {
   std::string change;   // for people: "asked in double precision"
   std::string if_gone;  // what it means when the fault vanishes
   std::string engine;
+  int telling = 0;  // as in Intervention
+  /// Questions that it answers by another call of its library: that such a fault vanishes says nothing about
+  /// the change.
+  std::vector<Question> other_calls = {};
 };
 
 /// What is known about engines beyond their cards; all functions accept any engine's name.
@@ -36,6 +41,14 @@ struct EngineKnowledge {
 /// For engines of which nothing is known.
 EngineKnowledge no_knowledge();
 
+/// Instead of shapes, in findings of failures whose place in the code is known (fuzz/ask): one route,
+/// wherever it was met.
+inline constexpr std::string_view any_shapes = "any";
+
+/// The route of a finding about these shapes, as in its key; `question` is folded (symptom.h).
+std::string route_of(const std::string& engine, const std::string& shapes, Question question,
+                     const EngineKnowledge& knowledge);
+
 struct FindingClass {
   std::string path, route;
   Symptom symptom;
@@ -44,8 +57,12 @@ struct FindingClass {
   std::uint64_t count = 0;                // of `findings`
 };
 
-/// Sorted by path, route and symptom. A contradiction joins the most frequent class of the same path,
-/// question and route, if there is one. The result must outlive the classes.
-std::vector<FindingClass> classes_of(const CampaignResult& result, const EngineKnowledge& knowledge);
+enum class Contradictions { explained, apart };
+
+/// Sorted by path, route and symptom. With `explained`, a contradiction joins the most frequent class of the
+/// same path, question and route, if there is one; that is what can be said without asking. The result must
+/// outlive the classes.
+std::vector<FindingClass> classes_of(const CampaignResult& result, const EngineKnowledge& knowledge,
+                                     Contradictions contradictions = Contradictions::explained);
 
 }  // namespace touchstone::fuzz

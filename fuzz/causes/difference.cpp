@@ -1,11 +1,10 @@
 #include <algorithm>
 #include <array>
-#include <cmath>
-#include <limits>
 #include <set>
 
 #include "fuzz/causes/group.h"
 #include "fuzz/causes/intervention.h"
+#include "fuzz/causes/interventions/true_pair.h"
 
 namespace touchstone::fuzz {
 namespace {
@@ -20,21 +19,6 @@ Response effective(const Responses& r, std::size_t i) {
   return response == Response::not_applicable && is_change_of_case(i) ? Response::stays : response;
 }
 
-double octaves_between(double x, double y) {
-  if (x == y) return 0;
-  if (!(x > 0) || !(y > 0) || !std::isfinite(x) || !std::isfinite(y))
-    return std::numeric_limits<double>::infinity();
-  return std::abs(std::log2(x / y));
-}
-
-// Whether the errors change alike. Not compared where there is no error: a verdict, a crash.
-bool errors_change_alike(const Responses& x, const Responses& y, std::size_t i) {
-  constexpr double octaves_apart = 4;
-  for (const double error : {x.error_in_l, y.error_in_l, x.errors_in_l[i], y.errors_in_l[i]})
-    if (!(error > 0) || !std::isfinite(error)) return true;
-  return octaves_between(x.errors_in_l[i] / x.error_in_l, y.errors_in_l[i] / y.error_in_l) <= octaves_apart;
-}
-
 using Steps = std::array<std::size_t, 4>;  // by Step::Op
 
 Steps steps_of(const Case& c) {
@@ -43,45 +27,52 @@ Steps steps_of(const Case& c) {
   return n;
 }
 
-std::set<ShapeKind> kinds_of(const Case& c) {
+bool is_gone(const Responses& r, std::string_view intervention) {
+  return std::ranges::any_of(r.responses, [&](const Responded& x) {
+    return x.intervention == intervention && x.response == Response::gone;
+  });
+}
+
+// The kinds of shapes that the fault needs: those that cannot be a sphere or a cube instead.
+std::set<ShapeKind> needed_kinds(const Examined& e) {
   std::set<ShapeKind> kinds;
-  for (const Body& b : c.scene.bodies)
-    kinds.insert(kind_of(c.scene.shapes[static_cast<std::size_t>(b.shape)]));
+  const auto pair = pair_of(e.shown());
+  if (!pair) return kinds;
+  const auto add_if_needed = [&](int body, std::string_view as_sphere, std::string_view as_cube) {
+    if (is_gone(e.responses, as_sphere) || is_gone(e.responses, as_cube))
+      kinds.insert(kind_of(e.shown().scene.shape_of(body)));
+  };
+  add_if_needed(pair->first, "a_as_sphere", "a_as_cube");
+  add_if_needed(pair->second, "b_as_sphere", "b_as_cube");
   return kinds;
 }
 
-bool have_common_fault(const Responses& x, const Responses& y) {
-  return std::ranges::any_of(x.faults, [&](const std::string& f) { return y.faults.contains(f); });
-}
-
+constexpr std::size_t parts_of_case = 5;
 std::size_t parts_that_differ(const Examined& a, const Examined& b) {
   const Case &x = a.shown(), &y = b.shown();
   return std::size_t{x.scene.bodies.size() != y.scene.bodies.size()} +
-         std::size_t{steps_of(x) != steps_of(y)} + std::size_t{kinds_of(x) != kinds_of(y)} +
-         std::size_t{!have_common_fault(a.responses, b.responses)};
+         std::size_t{steps_of(x) != steps_of(y)} + std::size_t{needed_kinds(a) != needed_kinds(b)} +
+         std::size_t{a.responses.deviation.manner != b.responses.deviation.manner} +
+         std::size_t{!obey_one_law(a.responses.laws, b.responses.laws)};
 }
 
 }  // namespace
 
-Difference difference(const Examined& a, const Examined& b) {
+double difference(const Examined& a, const Examined& b) {
   const Responses &x = a.responses, &y = b.responses;
-  if (x.responses.empty() || y.responses.empty()) return {};
-  constexpr std::size_t parts_of_case = 4;
+  if (x.responses.empty() || y.responses.empty()) return 0;
   std::size_t compared = parts_of_case, different = parts_that_differ(a, b);
   for (std::size_t i = 0; i < x.responses.size() && i < y.responses.size(); ++i) {
     if (x.responses[i].intervention != y.responses[i].intervention) break;
     const Response p = effective(x, i), q = effective(y, i);
     if (!is_decided(p) || !is_decided(q)) continue;
     ++compared;
-    different += p != q || (p == Response::stays && !errors_change_alike(x, y, i));
+    different += p != q;
   }
-  return {static_cast<double>(different) / static_cast<double>(compared),
-          octaves_between(x.error_in_l, y.error_in_l)};
+  return static_cast<double>(different) / static_cast<double>(compared);
 }
 
-Difference difference(const Representative& x, const Representative& y) {
-  return difference(x.first, y.first);
-}
+double difference(const Representative& x, const Representative& y) { return difference(x.first, y.first); }
 
 bool is_fragile(const Responses& r) {
   std::size_t gone = 0, decided = 0;

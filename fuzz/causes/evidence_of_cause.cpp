@@ -1,5 +1,7 @@
 #include "fuzz/causes/evidence_of_cause.h"
 
+#include <utility>
+
 #include "core/base/input_error.h"
 #include "fuzz/ask/evidence.h"
 #include "scenarios/codec/case_codec.h"
@@ -8,12 +10,15 @@
 namespace touchstone::fuzz {
 namespace {
 
-// The finding with the symptom that the engine shows in the case; the one with the largest error.
-std::optional<Finding> finding_in(const Case& c, const Symptom& symptom, const EnginePtr& engine) {
+// What the engine shows in the case: the same fault, or else another with the same symptom; the one with the
+// largest error.
+std::optional<Finding> finding_in(const Case& c, const Finding& wanted, const EnginePtr& engine) {
+  const Symptom symptom = symptom_of(wanted);
   const auto found = findings_of({&c, 1}, engine, found_by(symptom));
+  const auto rank = [&](const Finding& f) { return std::pair(f.fault == wanted.fault, f.worst_in_l); };
   std::optional<Finding> best;
   for (const auto& [key, f] : found.at(0))
-    if (symptom_of(f) == symptom && (!best || f.worst_in_l > best->worst_in_l)) best = f;
+    if (symptom_of(f) == symptom && (!best || rank(f) > rank(*best))) best = f;
   return best;
 }
 
@@ -23,16 +28,15 @@ CauseCase as_case(const Case& c, const Finding& f) {
 
 }  // namespace
 
-void add_evidence(Cause& cause, const Representative& r, const Symptom& symptom, const CausesConfig& config,
-                  EnginePool& pool) {
+void add_evidence(Cause& cause, const Representative& r, const CausesConfig& config, EnginePool& pool) {
   const EnginePtr& engine = pool.named(r.finding->engine);
   if (!engine) return;
   engine->take_back();
   cause.library = engine->card().library + " " + engine->card().version;
-  std::optional<Finding> shown = finding_in(r.first.smallest, symptom, engine);
+  std::optional<Finding> shown = finding_in(r.first.smallest, r.shown(), engine);
   if (shown) cause.smallest = as_case(r.first.smallest, *shown);
   if (r.first.defensible) {
-    shown = finding_in(*r.first.defensible, symptom, engine);
+    shown = finding_in(*r.first.defensible, r.shown(), engine);
     if (shown) cause.defensible = as_case(*r.first.defensible, *shown);
   }
   if (!shown) return;

@@ -7,7 +7,6 @@ namespace touchstone::fuzz {
 
 /// Asks the engine about both cases of the representative and fills in shown, smallest, certificate and
 /// program. Leaves out what the engine no longer shows.
-void add_evidence(Cause& cause, const Representative& r, const Symptom& symptom, const CausesConfig& config,
-                  EnginePool& pool);
+void add_evidence(Cause& cause, const Representative& r, const CausesConfig& config, EnginePool& pool);
 
 }  // namespace touchstone::fuzz

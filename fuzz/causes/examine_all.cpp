@@ -15,8 +15,7 @@ using Clock = std::chrono::steady_clock;
 
 class Examiner {
  public:
-  Examiner(const std::vector<FindingClass>& classes, const CausesConfig& config,
-           std::vector<Representative>& all)
+  Examiner(std::size_t classes, const CausesConfig& config, std::vector<Representative>& all)
       : classes_(classes), config_(config), all_(all) {}
 
   void run() {
@@ -37,8 +36,7 @@ class Examiner {
   void run_job() try {
     EnginePool pool(config_.make);
     for (std::size_t i = next_++; i < all_.size() && !is_over(); i = next_++) {
-      examine(all_[i], classes_[all_[i].of_class], config_.knowledge, config_.tries, i < classes_.size(),
-              pool);
+      examine(all_[i], config_.knowledge, config_.tries, i < classes_, pool);
       const std::lock_guard lock(mutex_);
       if (config_.progress) config_.progress(++done_, all_.size());
     }
@@ -50,7 +48,7 @@ class Examiner {
     next_ = all_.size();
   }
 
-  const std::vector<FindingClass>& classes_;
+  const std::size_t classes_;  // as many representatives are the first of their class
   const CausesConfig& config_;
   std::vector<Representative>& all_;
   const Clock::time_point start_ = Clock::now();
@@ -66,12 +64,16 @@ std::vector<Representative> examined(const std::vector<FindingClass>& classes, c
   std::vector<Representative> all;
   // The first of every class comes before the second of any, so that a short budget covers all classes.
   std::vector<std::vector<Representative>> by_class;
-  for (std::size_t i = 0; i < classes.size(); ++i)
-    by_class.push_back(representatives_of(classes[i], i, config.representatives));
+  for (std::size_t i = 0; i < classes.size(); ++i) {
+    const bool is_explained = classes[i].symptom.stage == FaultStage::contradiction;
+    const std::size_t most =
+        is_explained ? std::max<std::size_t>(config.representatives / 3, 1) : config.representatives;
+    by_class.push_back(representatives_of(classes[i], i, most));
+  }
   for (std::size_t k = 0; k < config.representatives; ++k)
     for (std::vector<Representative>& of_class : by_class)
       if (k < of_class.size()) all.push_back(std::move(of_class[k]));
-  Examiner(classes, config, all).run();
+  Examiner(classes.size(), config, all).run();
   return all;
 }
 

@@ -6,6 +6,8 @@
 #include <set>
 #include <tuple>
 
+#include "fuzz/judge/relation.h"
+
 namespace touchstone::fuzz {
 namespace {
 
@@ -21,15 +23,18 @@ class Grouping {
     // The clearest first: they lead the groups that the others join.
     std::stable_sort(order.begin(), order.end(),
                      [&](std::size_t x, std::size_t y) { return clarity(x) > clarity(y); });
-    std::vector<std::size_t> following;
+    std::vector<std::size_t> following, contradictions;
     for (const std::size_t i : order) {
-      if (earlier_symptom(i))
+      if (is_relation(at(i).finding->fault))
+        contradictions.push_back(i);
+      else if (earlier_symptom(i))
         following.push_back(i);
       else
         join_or_found(i);
     }
     merge_single_responses();
     for (const std::size_t i : following) follow(i);
+    for (const std::size_t i : contradictions) explain(i);
     return std::move(groups_);
   }
 
@@ -38,7 +43,7 @@ class Grouping {
 
   const Representative& at(std::size_t i) const { return in_.representatives[i]; }
   const FindingClass& class_of(std::size_t i) const { return in_.classes[at(i).of_class]; }
-  const Symptom& symptom(std::size_t i) const { return class_of(i).symptom; }
+  const Symptom& symptom(std::size_t i) const { return at(i).symptom; }
   bool is_usable(std::size_t i) const { return at(i).asked && at(i).first.responses.shown; }
 
   // Shown and not fragile first, then by the number of wrong answers.
@@ -70,19 +75,33 @@ class Grouping {
                                     static_cast<Fault>(fault - fault_names.begin()));
   }
 
-  Difference noise(const std::string& path) const {
+  double noise(const std::string& path) const {
     const auto found = in_.noise.find(path);
-    return found == in_.noise.end() ? Difference{} : found->second;
+    return found == in_.noise.end() ? 0 : found->second;
   }
-  // Twice the usual difference is allowed: one in four pairs of one cause exceeds the usual one. Where those
-  // of one cause are equal, errors are compared too, and causes may be of several routes; elsewhere, that
-  // responses of two routes are equal is chance.
-  bool respond_alike(std::size_t i, std::size_t j, bool same_route) const {
-    const Difference x = noise(class_of(i).path), y = noise(class_of(j).path);
-    const Difference d = difference(at(i), at(j));
-    constexpr double octave = 1;  // of an error that depends on the shapes by a small factor
-    if (is_exact(x) && is_exact(y)) return d.share == 0 && d.octaves <= octave;
-    return same_route && d.share <= 2 * std::max(x.share, y.share);
+  bool are_exact(std::size_t i, std::size_t j) const {
+    return is_exact(noise(class_of(i).path)) && is_exact(noise(class_of(j).path));
+  }
+  // Twice the usual difference is allowed: one in four pairs of one cause exceeds the usual one.
+  bool respond_alike(std::size_t i, std::size_t j) const {
+    const double d = difference(at(i), at(j));
+    if (are_exact(i, j)) return d == 0;
+    return d <= 2 * std::max(noise(class_of(i).path), noise(class_of(j).path));
+  }
+  // Reduced to one case, up to symmetry and precision.
+  bool is_same_case(std::size_t i, std::size_t j) const {
+    return is_usable(i) && is_usable(j) && at(i).first.canonical == at(j).first.canonical &&
+           at(i).first.responses.deviation.manner == at(j).first.responses.deviation.manner;
+  }
+  // One of them is right when asked in the other precision, the other is not.
+  bool differ_in_precision(std::size_t i, std::size_t j) const {
+    const auto of = [&](std::size_t k) {
+      for (const Responded& r : at(k).first.responses.responses)
+        if (r.intervention == other_precision) return r.response;
+      return Response::not_applicable;
+    };
+    const Response x = of(i), y = of(j);
+    return (x == Response::gone && y == Response::stays) || (x == Response::stays && y == Response::gone);
   }
 
   // One place in the library's code, whatever was asked.
@@ -111,9 +130,15 @@ class Grouping {
 
   // A fault of every route comes before the routes divide: it is about as frequent on each.
   bool is_of_all_routes(std::size_t i, std::size_t j) const {
-    if (symptom(i).stage == FaultStage::state) return true;
     const double x = in_.rates[at(i).of_class], y = in_.rates[at(j).of_class];
     return std::min(x, y) > 0 && std::max(x, y) <= 2 * std::min(x, y);
+  }
+
+  // Where responses of one cause are equal, a cause may be of several routes; elsewhere, that responses of
+  // two routes are alike is chance.
+  bool may_share_route(std::size_t i, std::size_t j) const {
+    if (class_of(i).route == class_of(j).route || symptom(i).stage == FaultStage::state) return true;
+    return are_exact(i, j) && ((is_usable(i) && is_usable(j)) || is_of_all_routes(i, j));
   }
 
   // Another question about the same bodies has the same fault.
@@ -128,10 +153,10 @@ class Grouping {
   bool have_one_cause(std::size_t i, std::size_t j) const {
     if (is_same_site(i, j)) return true;
     if (symptom(i).stage != symptom(j).stage || symptom(i).detail != symptom(j).detail) return false;
+    if (differ_in_precision(i, j)) return false;
+    if (is_same_case(i, j) && is_same_library(i, j) && respond_alike(i, j)) return true;
     if (!shares_code(i, j) || !is_same_question(i, j)) return false;
-    const bool same_route = class_of(i).route == class_of(j).route;
-    if (!same_route && !is_of_all_routes(i, j)) return false;
-    return respond_alike(i, j, same_route || symptom(i).stage == FaultStage::state);
+    return may_share_route(i, j) && respond_alike(i, j);
   }
 
   // A case that proves nothing about its cause joins the first group of its class.
@@ -197,13 +222,42 @@ class Grouping {
       for (const std::size_t m : g.members) {
         if (class_of(m).path != class_of(i).path || symptom(m).stage != s.stage) continue;
         if (folded(symptom(m).question) != s.question) continue;
-        const double d = difference(at(m), at(i)).share + (class_of(m).route == class_of(i).route ? 0 : 1);
+        const double d = difference(at(m), at(i)) + (class_of(m).route == class_of(i).route ? 0 : 1);
         if (d >= least) continue;
         least = d;
         best = &g;
       }
     if (best)
       best->consequences.push_back(i);
+    else
+      join_or_found(i);
+  }
+
+  // How likely it is that a group's member explains a contradiction, where responses vary by chance: the same
+  // fault, the same engine, the same shapes. Negative: not at all.
+  int explains(std::size_t m, std::size_t i) const {
+    if (class_of(m).path != class_of(i).path || symptom(m).question != symptom(i).question) return -1;
+    if (class_of(m).route != class_of(i).route && class_of(m).route != "any") return -1;
+    const Finding &x = *at(m).finding, &y = *at(i).finding;
+    return 4 * (symptom(m).stage == symptom(i).stage && symptom(m).detail == symptom(i).detail) +
+           2 * (x.engine == y.engine) + (x.shapes == y.shapes);
+  }
+
+  // A contradiction is evidence of the cause whose fault it shows; a cause of its own if there is none.
+  void explain(std::size_t i) {
+    Group* best = nullptr;
+    int most = -1;
+    for (Group& g : groups_)
+      for (const std::size_t m : g.members) {
+        const bool alike = have_one_cause(m, i);
+        if (!alike && is_exact(noise(class_of(i).path))) continue;
+        const int likely = explains(m, i) + (alike ? 8 : 0);
+        if (likely <= most) continue;
+        most = likely;
+        best = &g;
+      }
+    if (best)
+      best->explained.insert(best->explained.end(), at(i).stands_for.begin(), at(i).stands_for.end());
     else
       join_or_found(i);
   }

@@ -12,17 +12,14 @@
 
 namespace touchstone::fuzz {
 
-/// How unlike two examined findings are. Both cases are reduced, so a change that does not apply, because its
-/// object was reduced away (there is no script, no box), counts as one that the fault survives.
-struct Difference {
-  /// The share of interventions after which one fault vanishes and the other stays, or their errors change by
-  /// factors more than 16 apart. The number of bodies, the kinds of shapes, the steps of the script and the
-  /// faults count as four more. 0 when nothing was asked.
-  double share = 0;
-  double octaves = 0;  // between the errors of the reduced cases themselves
-};
-Difference difference(const Representative& x, const Representative& y);
-Difference difference(const Examined& x, const Examined& y);
+/// How unlike two examined findings are: the share of interventions after which one fault vanishes and the
+/// other stays. The number of bodies, the steps of the script, the kinds of shapes that the fault needs, the
+/// part of the answer that is wrong and the law of its errors count as five more. 0 when nothing was asked.
+///
+/// Both cases are reduced, so a change that does not apply, because its object was reduced away (there is no
+/// script, no box), counts as one that the fault survives.
+double difference(const Representative& x, const Representative& y);
+double difference(const Examined& x, const Examined& y);
 
 /// True when the fault vanishes under at least two thirds of the interventions that apply: its case is a
 /// borderline one and says nothing about its cause.
@@ -38,15 +35,14 @@ struct Group {
 
 /// By path: the difference that three of four pairs of examples of one finding do not exceed; at least that
 /// of all paths together. Empty with fewer than four pairs: any difference tells causes apart.
-using Noise = std::map<std::string, Difference>;
+using Noise = std::map<std::string, double>;
 Noise noise_of(std::span<const FindingClass> classes, std::span<const Representative> all);
 
-/// True when the responses of one cause differ in one intervention at most, as those of engines that are
-/// wrong by a simple rule: then any difference tells causes apart. Measured: 0.03 for the lying engines of
-/// tests/mutants, 0.10 for FCL, Bullet, libccd and ODE.
-inline bool is_exact(const Difference& usual) {
-  constexpr double one_response = 0.04;  // about one of the forty that are compared
-  return usual.share < one_response;
+/// True when the responses of one cause are equal as a rule, as those of engines that are wrong by a simple
+/// condition: then any difference tells causes apart.
+inline bool is_exact(double noise) {
+  constexpr double one_response = 0.01;  // of the hundred that are compared
+  return noise < one_response;
 }
 
 struct GroupInput {

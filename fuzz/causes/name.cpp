@@ -3,52 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
+#include <cmath>
 
 #include "fuzz/causes/group.h"
 #include "fuzz/causes/intervention.h"
 
 namespace touchstone::fuzz {
 namespace {
-
-// The more an intervention says about the cause, the earlier it stands here. What is left out says nothing by
-// itself: a contact vanishes when the bodies are moved apart.
-constexpr auto telling = std::to_array<std::string_view>({fresh_process,
-                                                          other_memory,
-                                                          "other_settings",
-                                                          "tighter",
-                                                          "looser",
-                                                          "more_iterations",
-                                                          "other_precision",
-                                                          "normalize_rotations",
-                                                          "box_as_hull",
-                                                          "sphere_as_ellipsoid",
-                                                          "sphere_as_capsule",
-                                                          "cylinder_as_hull",
-                                                          "reorder_hull",
-                                                          "scale_up",
-                                                          "scale_down",
-                                                          "turn_by_1e_9",
-                                                          "turn_by_1e_6",
-                                                          "turn_by_1e_3",
-                                                          "exchange",
-                                                          "insert_in_reverse",
-                                                          "insert_final_poses",
-                                                          "release_static",
-                                                          "leave_groups",
-                                                          "move_to_origin",
-                                                          "move_away",
-                                                          "turn_world",
-                                                          "round_to_float",
-                                                          "stop_turning",
-                                                          "move_b_only",
-                                                          "set_upright",
-                                                          "halve_depth",
-                                                          "other_solver",
-                                                          "other_path",
-                                                          "grow_a",
-                                                          "grow_b",
-                                                          "nudge"});
 
 constexpr std::string_view fragile_reason = "fragile", steady_reason = "steady";
 
@@ -80,6 +41,7 @@ std::string failure_words(const Subject& s) {
 std::string words_of(const Subject& s) {
   switch (s.severity) {
     case Severity::crash:
+    case Severity::declined:
       return failure_words(s);
     case Severity::hang:
       return fmt::format("Does not answer in time ({})", to_string(s.symptom.question));
@@ -104,7 +66,7 @@ std::string words_of(const Subject& s) {
     case Severity::unstable:
       return fmt::format("The same question is answered differently ({})", to_string(s.symptom.question));
     case Severity::relation:
-      return fmt::format("Answers contradict each other ({})", s.symptom.detail);
+      return fmt::format("Answers contradict each other ({})", s.fault);
   }
   return "";
 }
@@ -135,20 +97,22 @@ std::string place_words(const Subject& s) {
 
 }  // namespace
 
-std::string main_reason(const Responses& r, FaultStage stage) {
+std::string main_reason(const Responses& r, FaultStage stage, const std::vector<OtherEngine>& others) {
   if (r.responses.empty()) return "";
   if (is_fragile(r)) return std::string(fragile_reason);
-  const auto gone = [&](std::string_view name) {
-    return std::ranges::any_of(r.responses, [&](const Responded& x) {
-      return x.intervention == name && x.response == Response::gone;
-    });
-  };
-  for (const std::string_view name : telling)
-    if (gone(name)) return std::string(name);
-  // Whether the bodies overlap matters for distances alone: other faults need it.
-  for (const std::string_view name : {"pull_apart", "push_together"})
-    if (stage == FaultStage::distance && gone(name)) return std::string(name);
-  return std::string(steady_reason);
+  const Responded* best = nullptr;
+  int most = 0;
+  for (const Responded& x : r.responses) {
+    if (x.response != Response::gone) continue;
+    // Whether the bodies overlap matters for distances alone: other faults need it.
+    const bool is_about_side = x.intervention == "pull_apart" || x.intervention == "push_together";
+    const int telling =
+        is_about_side && stage == FaultStage::distance ? 1 : telling_of(x.intervention, others);
+    if (telling <= most) continue;
+    most = telling;
+    best = &x;
+  }
+  return best ? best->intervention : std::string(steady_reason);
 }
 
 std::string describe_reason(const std::string& reason, const Responses& r,
@@ -158,6 +122,27 @@ std::string describe_reason(const std::string& reason, const Responses& r,
     return fmt::format("a borderline case: vanishes under {} of {} changes", gone, gone + stays);
   if (reason == steady_reason) return fmt::format("whatever is changed: stays under all {} changes", stays);
   return meaning_of(reason, others);
+}
+
+std::string describe_law(std::span<const ErrorLaw> laws) {
+  constexpr double visible_share = 1.0 / 128;  // in three digits of a factor
+  if (laws.size() != 1) return "";
+  const double factor = laws[0].factor;
+  switch (laws[0].reference) {
+    case Reference::truth:
+      if (std::abs(factor) < visible_share)
+        return fmt::format("off by {:.2g} of the true value", std::abs(factor));
+      return fmt::format("{:.3g} times the true value", 1 + factor);
+    case Reference::one:
+      return fmt::format("off by {:.2g} at any scale", std::abs(factor));
+    case Reference::scale:
+      return fmt::format("off by {:.2g} of the scale of the scene", std::abs(factor));
+    case Reference::smaller:
+      return fmt::format("off by {:.2g} of the smaller body", std::abs(factor));
+    case Reference::larger:
+      return fmt::format("off by {:.2g} of the larger body", std::abs(factor));
+  }
+  return "";
 }
 
 std::string describe_fault(const Subject& s) { return words_of(s) + place_words(s); }

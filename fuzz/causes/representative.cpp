@@ -4,8 +4,15 @@
 #include <set>
 #include <utility>
 
+#include "fuzz/causes/kept.h"
+#include "fuzz/causes/normal_form.h"
+#include "fuzz/causes/plain_form.h"
+#include "fuzz/judge/relation.h"
+#include "fuzz/shrink/canonical.h"
+#include "fuzz/shrink/defensible.h"
 #include "fuzz/shrink/shrink_both.h"
 #include "scenarios/codec/case_codec.h"
+#include "scenarios/random/case_size.h"
 
 namespace touchstone::fuzz {
 namespace {
@@ -16,11 +23,13 @@ int likeness(const Finding& x, const Finding& y) {
          (x.degeneracy == y.degeneracy);
 }
 
-// A question that exceeds its time costs a thousand others.
+// A question that exceeds its time costs a thousand others. A contradiction is to be compared with faults
+// that are known; its case is seldom shown.
 bool is_slow(const Symptom& s) { return s.detail.starts_with(to_string(Outcome::timed_out)); }
-std::size_t tries_for(const Symptom& s, std::size_t tries) {
+std::size_t tries_for(const Representative& r, std::size_t tries) {
   constexpr std::size_t most_if_slow = 12;
-  return is_slow(s) ? std::min(tries, most_if_slow) : tries;
+  if (is_slow(r.symptom)) return std::min(tries, most_if_slow);
+  return is_relation(r.finding->fault) ? tries / 4 : tries;
 }
 
 // The examples whose cases are stored, the simplest first.
@@ -33,6 +42,16 @@ std::vector<const Case*> starting_cases(const Finding& f) {
   std::vector<const Case*> cases;
   for (const Example* e : all) cases.push_back(e->c.get());
   return cases;
+}
+
+// What is defensible stays so, and the smallest case gets no larger.
+void normalize(Examined& e, const StillShows& still) {
+  Case plain = normal_form(e.shown(), still);
+  if (e.defensible) {
+    if (is_defensible(plain)) e.defensible = std::move(plain);
+  } else if (measure(plain) < measure(e.smallest) && (is_solid(plain) || !is_solid(e.smallest))) {
+    e.smallest = std::move(plain);
+  }
 }
 
 }  // namespace
@@ -49,6 +68,7 @@ std::vector<Representative> representatives_of(const FindingClass& c, std::size_
     if (chosen.size() >= most) break;
     Representative r;
     r.of_class = of_class;
+    r.symptom = c.symptom;
     r.finding = f;
     r.stands_for.push_back(f);
     chosen.push_back(std::move(r));
@@ -65,25 +85,34 @@ std::vector<Representative> representatives_of(const FindingClass& c, std::size_
 
 Case case_of(const Finding& f) { return case_from_json(f.evidence_json.at("case"), f.key()); }
 
-void examine(Representative& r, const FindingClass& c, const EngineKnowledge& knowledge, std::size_t tries,
-             bool twice, EnginePool& pool) {
+void examine(Representative& r, const EngineKnowledge& knowledge, std::size_t tries, bool twice,
+             EnginePool& pool) {
   const std::vector<const Case*> cases = starting_cases(*r.finding);
   r.first.smallest = cases.empty() ? case_of(*r.finding) : *cases.front();
   const EnginePtr& engine = pool.named(r.finding->engine);
   if (!engine) return;
   engine->take_back();
+  if (r.symptom.stage == FaultStage::contradiction)
+    if (auto plain = plain_form(r.first.smallest, r.symptom.question, engine)) {
+      r.first.smallest = std::move(plain->c);
+      r.failing = std::move(plain->finding);
+      r.symptom = symptom_of(*r.failing);
+    }
   const std::vector<OtherEngine> others = knowledge.others(r.finding->engine);
-  const StillShows still = keeps_symptom(engine, c.symptom);
   const auto examined = [&](const Case& from) {
-    ShrunkPair shrunk = shrink_both(from, still, tries_for(c.symptom, tries));
-    Examined e{std::move(shrunk.minimum.smallest), {}, {}};
+    const StillShows still = keeps(engine, kept_of(from, r.shown(), engine, knowledge), knowledge);
+    ShrunkPair shrunk = shrink_solid(from, still, tries_for(r, tries));
+    Examined e{std::move(shrunk.minimum.smallest), {}, {}, {}};
     if (shrunk.defensible) e.defensible = std::move(shrunk.defensible->smallest);
-    e.responses = respond(e.shown(), c.symptom, r.finding->engine, others, pool);
+    if (!is_slow(r.symptom)) normalize(e, still);
+    e.responses = respond(e.shown(), r.symptom, r.finding->engine, others, pool);
+    e.canonical = canonical(e.shown());
     return e;
   };
   r.first = examined(r.first.smallest);
   r.asked = true;
-  if (twice && cases.size() > 1 && !is_slow(c.symptom)) r.second = examined(*cases.back());
+  if (twice && cases.size() > 1 && !is_slow(r.symptom) && !is_relation(r.finding->fault))
+    r.second = examined(*cases.back());
 }
 
 }  // namespace touchstone::fuzz

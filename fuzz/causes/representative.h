@@ -11,20 +11,28 @@ namespace touchstone::fuzz {
 
 /// A case of a finding, reduced and asked in all changed forms.
 struct Examined {
-  Case smallest;
+  Case smallest;                   // with volume and plain numbers if such a case shows it (shrink_solid)
   std::optional<Case> defensible;  // fuzz/shrink/defensible.h
   Responses responses;             // of the defensible case, or of the smallest
+  Case canonical;                  // of the case shown (fuzz/shrink/canonical.h)
   const Case& shown() const { return defensible ? *defensible : smallest; }
 };
 
 struct Representative {
   std::size_t of_class = 0;                // index of its class
+  Symptom symptom;                         // of its class; of a contradiction, the fault that explains it
   const Finding* finding = nullptr;        // shown by its engine
   std::vector<const Finding*> stands_for;  // it and those of the class that are most like it; by key
+  /// Of a contradiction: the fault that one of the two forms shows by itself (plain_form.h). Then `first`
+  /// is about that form, reduced so that it keeps this fault.
+  std::optional<Finding> failing;
   Examined first;
   std::optional<Examined>
       second;          // another example of the finding; empty if there is none or it was not asked
   bool asked = false;  // false: its engine is missing, or the time was up
+
+  /// What `first` shows.
+  const Finding& shown() const { return failing ? *failing : *finding; }
 };
 
 /// At most `most` findings of a class: first those with different faults and kinds of shapes, then the
@@ -37,7 +45,7 @@ Case case_of(const Finding& f);
 
 /// Reduces a case of the representative with at most `tries` questions and asks it in all forms; and, if
 /// `twice`, another example.
-void examine(Representative& r, const FindingClass& c, const EngineKnowledge& knowledge, std::size_t tries,
-             bool twice, EnginePool& pool);
+void examine(Representative& r, const EngineKnowledge& knowledge, std::size_t tries, bool twice,
+             EnginePool& pool);
 
 }  // namespace touchstone::fuzz

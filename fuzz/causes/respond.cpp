@@ -15,13 +15,38 @@ struct Answer {
   Response response = Response::not_applicable;
   double error_in_l = 0;
   std::set<std::string> faults;  // with the symptom
+  Deviation deviation;           // of the fault with the largest error
 };
 
-// The bodies whose faults count, of a case to which others were added.
-struct Bodies {
-  int first = 0, end = std::numeric_limits<int>::max();
+// The part of a case to which others were added: only its faults count.
+struct Part {
+  Added before;
+  std::size_t queries = std::numeric_limits<std::size_t>::max();
+  int bodies = std::numeric_limits<int>::max(), query_steps = std::numeric_limits<int>::max();
+
+  static Part of(const Case& c, const Added& added) {
+    Part p;
+    p.before = added;
+    if (added.queries_doubled) p.before.queries = static_cast<int>(c.queries.size());
+    p.queries = c.queries.size();
+    p.bodies = static_cast<int>(c.scene.bodies.size());
+    p.query_steps =
+        std::max(1, static_cast<int>(std::ranges::count(c.scene.script, Step::Op::query, &Step::op)));
+    return p;
+  }
+  bool has_query(std::size_t i) const {
+    const auto first = static_cast<std::size_t>(before.queries);
+    return i >= first && i - first < queries;
+  }
+  bool has_body(int i) const {
+    const int n = i - before.bodies;
+    if (n <= 0) return n == 0;
+    return n > before.bodies_amid && n - before.bodies_amid < bodies;
+  }
   bool has(const FaultReport& f) const {
-    return (f.a < 0 && f.b < 0) || (f.a >= first && f.b >= first && f.a < end && f.b < end);
+    if (f.step >= 0 && (f.step < before.query_steps || f.step - before.query_steps >= query_steps))
+      return false;
+    return (f.a < 0 && f.b < 0) || (has_body(f.a) && has_body(f.b));
   }
 };
 
@@ -31,55 +56,56 @@ bool is_verdict(const Judgement& j) {
 
 // Judges the answers to one case, which settles every symptom that one answer can show.
 Answer judged(const Case& c, const EngineCard& card, const CaseObservations& observed, const Symptom& s,
-              const Bodies& bodies = {}, std::set<Symptom>* found = nullptr) {
+              const Part& part = {}, std::set<Symptom>* found = nullptr) {
   Truth truth(c.scene);
   const auto judgements = judge(c, card, observed, truth);
   Answer answer;
   bool all_decided = true, any_wrong = false;
   for (std::size_t i = 0; i < c.queries.size(); ++i) {
+    if (!part.has_query(i)) continue;
     const Question q = c.queries[i].question;
     for (const FaultReport& f : judgements[i].faults) {
+      any_wrong |= folded(q) == s.question && part.has(f);
       if (found) found->insert({folded(q), stage_of(f.fault), ""});
-      if (!shows(s, q, f, judgements[i], observed.answers[i]) || !bodies.has(f)) continue;
+      if (!shows(s, q, f, judgements[i], observed.answers[i]) || !part.has(f)) continue;
+      if (answer.response != Response::stays || f.error_in_l > answer.error_in_l) {
+        answer.error_in_l = f.error_in_l;
+        answer.deviation = deviation_of(c, c.queries[i], observed.answers[i], f, truth);
+      }
       answer.response = Response::stays;
       answer.faults.emplace(to_string(f.fault));
-      answer.error_in_l = std::max(answer.error_in_l, f.error_in_l);
     }
     if (folded(q) != s.question) continue;
     all_decided &= is_verdict(judgements[i]);
-    any_wrong |= !judgements[i].faults.empty();
   }
   if (answer.response == Response::stays) return answer;
   answer.response = any_wrong ? Response::differs : all_decided ? Response::gone : Response::open;
   return answer;
 }
 
-// Symptoms that only a comparison of several answers shows.
-bool needs_comparison(const Symptom& s) {
-  return s.stage == FaultStage::state || s.stage == FaultStage::contradiction;
-}
-
 Answer compared(const std::map<std::string, Finding>& found, const Symptom& s) {
-  Answer answer{Response::gone, 0, {}};
+  Answer answer;
+  answer.response = Response::gone;
   for (const auto& [key, f] : found) {
     const Symptom other = symptom_of(f);
-    if (other == s) return {Response::stays, f.worst_in_l, {f.fault}};
+    if (other == s) return {Response::stays, f.worst_in_l, {f.fault}, {}};
     if (other.question == s.question) answer.response = Response::differs;
   }
   return answer;
 }
 
-// The engine's answers to all cases, for one symptom. `bodies`: one a case, or empty: all.
-std::vector<Answer> answers_of(std::span<const Case> cases, const EnginePtr& e, const Symptom& s,
-                               std::span<const Bodies> bodies = {}) {
+std::vector<Answer> compared(std::span<const Case> cases, const EnginePtr& e, const Symptom& s) {
   std::vector<Answer> all;
-  if (needs_comparison(s)) {
-    for (const auto& found : findings_of(cases, e, found_by(s))) all.push_back(compared(found, s));
-    return all;
-  }
+  for (const auto& found : findings_of(cases, e, found_by(s))) all.push_back(compared(found, s));
+  return all;
+}
+
+// The engine's answers to all cases, for one symptom.
+std::vector<Answer> answers_of(std::span<const Case> cases, const EnginePtr& e, const Symptom& s) {
+  if (needs_comparison(s)) return compared(cases, e, s);
+  std::vector<Answer> all;
   const auto observed = e->run(cases);
-  for (std::size_t i = 0; i < cases.size(); ++i)
-    all.push_back(judged(cases[i], e->card(), observed[i], s, bodies.empty() ? Bodies{} : bodies[i]));
+  for (std::size_t i = 0; i < cases.size(); ++i) all.push_back(judged(cases[i], e->card(), observed[i], s));
   return all;
 }
 
@@ -114,7 +140,7 @@ class Table {
   explicit Table(Responses& to) : to_(to) {}
   void add(std::string_view name, std::string_view change, const Answer& a) {
     to_.responses.push_back({std::string(name), std::string(change), a.response});
-    to_.errors_in_l.push_back(a.error_in_l);
+    to_.deviations.push_back(a.deviation);
   }
 
  private:
@@ -142,15 +168,14 @@ Answer judged_as(const Case& c, const EngineCard& card, const CaseObservations& 
   return judged(c, card, observed, s);
 }
 
-void ask_others(const Case& c, const Symptom& s, const EnginePtr& engine,
+// `base`: the engine's own answer; null for a symptom that needs a comparison.
+void ask_others(const Case& c, const Symptom& s, const EngineCard& card, const CaseObservations* base,
                 const std::vector<OtherEngine>& others, EnginePool& pool, Table& table) {
-  if (others.empty()) return;
-  const CaseObservations base = engine->run({&c, 1}).at(0);
   for (const OtherEngine& other : others) {
     Answer answer;
-    if (const EnginePtr& e = pool.named(other.engine))
-      answer = needs_comparison(s) ? answers_of({&c, 1}, e, s).at(0)
-                                   : judged_as(c, engine->card(), base, e->run({&c, 1}).at(0), s);
+    const bool is_asked = std::ranges::find(other.other_calls, s.question) == other.other_calls.end();
+    if (const EnginePtr& e = pool.named(other.engine); e && is_asked)
+      answer = base ? judged_as(c, card, *base, e->run({&c, 1}).at(0), s) : answers_of({&c, 1}, e, s).at(0);
     table.add(other.name, other.change, answer);
   }
 }
@@ -165,43 +190,80 @@ std::set<Symptom> all_symptoms(const Case& c, const EnginePtr& e) {
 
 }  // namespace
 
+std::vector<Deviation> deviations_of(const Responses& r) {
+  std::vector<Deviation> all{r.deviation};
+  for (const Deviation& d : r.deviations)
+    if (d.manner == r.deviation.manner) all.push_back(d);
+  return all;
+}
+
 FoundBy found_by(const Symptom& symptom) {
   return symptom.stage == FaultStage::contradiction ? FoundBy::relations : FoundBy::referee;
 }
 
-StillShows keeps_symptom(const EnginePtr& engine, const Symptom& symptom) {
-  return [&engine, symptom](std::span<const Case> cases) {
-    std::vector<bool> all;
-    for (const Answer& a : answers_of(cases, engine, symptom)) all.push_back(a.response == Response::stays);
-    return all;
-  };
+bool needs_comparison(const Symptom& s) {
+  return s.stage == FaultStage::state || s.stage == FaultStage::contradiction;
 }
+
+namespace {
+
+// A case and its changed forms.
+struct Forms {
+  std::vector<Case> cases;
+  std::vector<Part> parts;
+  std::vector<std::optional<std::size_t>> of;  // each intervention's place in `cases`
+};
+
+Forms forms_of(const Case& c) {
+  Forms f{{c}, {Part()}, {}};
+  for (const Intervention& i : interventions) {
+    auto form = changed(i, c);
+    f.of.push_back(form ? std::optional(f.cases.size()) : std::nullopt);
+    if (!form) continue;
+    f.cases.push_back(std::move(*form));
+    f.parts.push_back(Part::of(c, i.added));
+  }
+  return f;
+}
+
+}  // namespace
 
 Responses respond(const Case& c, const Symptom& symptom, const std::string& engine,
                   const std::vector<OtherEngine>& others, EnginePool& pool) {
   const EnginePtr& e = pool.named(engine);
-  std::vector<Case> asked{c};
-  std::vector<Bodies> bodies(1);
-  std::vector<std::optional<std::size_t>> place;
-  for (const Intervention& i : interventions) {
-    auto form = changed(i, c);
-    place.push_back(form ? std::optional(asked.size()) : std::nullopt);
-    if (!form) continue;
-    asked.push_back(std::move(*form));
-    bodies.push_back({i.added_first, i.added_first + static_cast<int>(c.scene.bodies.size())});
-  }
-  const std::vector<Answer> answers = answers_of(asked, e, symptom, bodies);
+  const Forms forms = forms_of(c);
+  std::vector<CaseObservations> observed;
+  std::vector<Answer> answers;
+  if (needs_comparison(symptom))
+    answers = compared(forms.cases, e, symptom);
+  else
+    observed = e->run(forms.cases);
+  for (std::size_t i = 0; i < observed.size(); ++i)
+    answers.push_back(judged(forms.cases[i], e->card(), observed[i], symptom, forms.parts[i]));
   Responses r;
   r.shown = answers[0].response == Response::stays;
   r.error_in_l = answers[0].error_in_l;
   r.faults = answers[0].faults;
+  r.deviation = answers[0].deviation;
   r.also = all_symptoms(c, e);
   Table table(r);
   for (std::size_t i = 0; i < interventions.size(); ++i)
-    table.add(interventions[i].name, interventions[i].change, place[i] ? answers[*place[i]] : Answer{});
+    table.add(interventions[i].name, interventions[i].change, forms.of[i] ? answers[*forms.of[i]] : Answer{});
   ask_afresh(c, symptom, engine, pool, table);
-  ask_others(c, symptom, e, others, pool, table);
+  r.laws = laws_of(deviations_of(r));
+  ask_others(c, symptom, e->card(), observed.empty() ? nullptr : &observed[0], others, pool, table);
   return r;
+}
+
+int telling_of(const std::string& intervention, const std::vector<OtherEngine>& others) {
+  constexpr int of_fresh_process = 700, of_other_memory = 690;  // before all interventions
+  for (const Intervention& i : interventions)
+    if (i.name == intervention) return i.telling;
+  for (const OtherEngine& other : others)
+    if (other.name == intervention) return other.telling;
+  if (intervention == fresh_process) return of_fresh_process;
+  if (intervention == other_memory) return of_other_memory;
+  return 0;
 }
 
 std::string meaning_of(const std::string& intervention, const std::vector<OtherEngine>& others) {

@@ -48,6 +48,9 @@ static_assert(std::size(fault_rows) == fault_names.size());
 
 const FaultRow& row_of(Fault f) { return fault_rows[static_cast<std::size_t>(f)]; }
 
+// A missed overlap and a ghost come from opposite errors: no other faults of one stage are so unlike.
+bool is_distinct(Fault f) { return stage_of(f) == FaultStage::verdict || f == Fault::no_number; }
+
 }  // namespace
 
 FaultStage stage_of(Fault f) { return row_of(f).stage; }
@@ -60,20 +63,25 @@ Symptom symptom_of(const Finding& f) {
   if (is_relation(f.fault)) return {folded(*question), FaultStage::contradiction, f.fault};
   const auto fault = fault_named(f.fault);
   if (!fault) return {folded(*question), FaultStage::failure, f.fault};
-  return {folded(*question), stage_of(*fault), *fault == Fault::no_number ? f.fault : ""};
+  return {folded(*question), stage_of(*fault), is_distinct(*fault) ? f.fault : ""};
 }
 
 Severity severity_of(const Finding& f) {
   if (is_relation(f.fault)) return Severity::relation;
   if (const auto fault = fault_named(f.fault)) return row_of(*fault).severity;
-  const bool hangs = f.fault.starts_with(to_string(Outcome::timed_out));
-  return hangs ? Severity::hang : Severity::crash;
+  if (f.fault.starts_with(to_string(Outcome::timed_out))) return Severity::hang;
+  // The engine says itself that it has no answer.
+  for (const Outcome declines : {Outcome::not_converged, Outcome::invalid_input})
+    if (f.fault.starts_with(to_string(declines))) return Severity::declined;
+  return Severity::crash;
 }
 
 bool shows(const Symptom& s, Question question, const FaultReport& fault, const Judgement& j,
            const Observation& o) {
   if (folded(question) != s.question) return false;
-  if (fault.fault != Fault::failed) return stage_of(fault.fault) == s.stage;
+  if (fault.fault != Fault::failed)
+    return stage_of(fault.fault) == s.stage &&
+           s.detail == (is_distinct(fault.fault) ? to_string(fault.fault) : "");
   if (s.stage != FaultStage::failure) return false;
   const std::string outcome(to_string(j.outcome));
   return s.detail == (o.site.empty() ? outcome : fmt::format("{}_{}", outcome, site_word(o.site)));

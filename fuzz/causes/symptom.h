@@ -40,7 +40,8 @@ Question folded(Question q);
 struct Symptom {
   Question question = Question::overlap;  // folded
   FaultStage stage = FaultStage::failure;
-  /// Of a failure, how it fails and where ("crashed_distance-inl_h_177"); of a contradiction, the relation.
+  /// Of a failure, how it fails and where ("crashed_distance-inl_h_177"); of a verdict, its fault; of a
+  /// contradiction, the relation.
   std::string detail;
   auto operator<=>(const Symptom&) const = default;
 };

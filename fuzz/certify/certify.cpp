@@ -21,6 +21,7 @@ constexpr std::uint64_t largest_batch = 32;
 std::uint64_t most_failures(const EvidenceRow& e) { return std::max<std::uint64_t>(4, e.chunk / 4); }
 // How often the time for a question is doubled to find out what it needs.
 constexpr int most_doublings = 3;
+constexpr double seconds_per_minute = 60;
 
 struct Part {
   EvidenceCount count;
@@ -123,6 +124,8 @@ struct Job {
 };
 
 class Certifier {
+  using Clock = std::chrono::steady_clock;
+
  public:
   Certifier(const Subject& s, const CertifyConfig& c, const CertifyProgress& p, const std::atomic<bool>& stop)
       : subject_(s),
@@ -144,12 +147,18 @@ class Certifier {
     out_.sweeps = subject_.sweeps;
     out_.without = config_.without;
     out_.first_fault = config_.first_fault;
-    draw_ = {config_.seed, out_.card.unit_roundoff > max_float64_roundoff ? Scalar::float32 : Scalar::float64,
-             config_.scope};
+    draw_ = {
+        config_.seed,
+        roundoff_of(out_.card, ShapeKind::box) > max_float64_roundoff ? Scalar::float32 : Scalar::float64,
+        config_.scope};
+    const auto all = all_evidence();
+    if (config_.minutes) time_left_ = seconds_per_minute * *config_.minutes;
+    auto selected =
+        std::count_if(all.begin(), all.end(), [&](const EvidenceRow& e) { return is_selected(e); });
     std::size_t index = 0;
-    for (const EvidenceRow& e : all_evidence()) {
+    for (const EvidenceRow& e : all) {
       if (stop_) return std::nullopt;
-      if (is_selected(e)) gather(e, index);
+      if (is_selected(e)) gather(e, index, static_cast<double>(std::max<std::ptrdiff_t>(1, selected--)));
       ++index;
     }
     for (const BroadLevel l : config_.levels) refute_level(l);
@@ -177,8 +186,12 @@ class Certifier {
                        [&](const FaultCount& f) { return f.level == level; });
   }
 
-  void gather(const EvidenceRow& e, std::size_t index) {
-    const auto start = std::chrono::steady_clock::now();
+  /// `sharing`: the evidence that is still to be run, this one included.
+  void gather(const EvidenceRow& e, std::size_t index, double sharing) {
+    const auto start = Clock::now();
+    if (config_.minutes)
+      deadline_ = start + std::chrono::duration_cast<Clock::duration>(
+                              std::chrono::duration<double>(std::max(0.0, time_left_) / sharing));
     EvidenceCount total;
     total.name = e.name;
     total.line = e.line;
@@ -188,7 +201,8 @@ class Certifier {
     total.population = e.population ? e.population(draw_) : 0;
     Part sum = run_parts(e, total, index);
     if (stop_) return;
-    total.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    total.seconds = std::chrono::duration<double>(Clock::now() - start).count();
+    time_left_ -= total.seconds;
     out_.evidence.push_back(total);
     std::stable_sort(sum.faults.begin(), sum.faults.end(),
                      [](const FaultCount& x, const FaultCount& y) { return is_graver(x.what, y.what); });
@@ -247,7 +261,12 @@ class Certifier {
 
   // Counts parts up to the first that ends the evidence, whichever job finished first.
   Part run_parts(const EvidenceRow& e, EvidenceCount& total, std::size_t index) {
-    const std::uint64_t parts = (total.planned + e.chunk - 1) / e.chunk;
+    std::uint64_t parts = (total.planned + e.chunk - 1) / e.chunk;
+    if (const auto most = config_.most_cases.find(total.name); most != config_.most_cases.end()) {
+      const std::uint64_t again = std::max<std::uint64_t>(1, most->second / e.chunk);
+      total.out_of_time = again < parts;
+      parts = std::min(parts, again);
+    }
     std::vector<Part> done(parts);
     std::atomic<std::uint64_t> next{0}, last{parts};
     std::exception_ptr failure;
@@ -255,6 +274,12 @@ class Certifier {
     EvidenceCount so_far = total;
     const auto do_parts = [&](Job& job) {
       for (std::uint64_t p = next++; p < last.load() && !stop_; p = next++) {
+        if (p > 0 && config_.minutes && Clock::now() >= deadline_) {
+          const std::lock_guard lock(guard);
+          last = std::min(last.load(), p);
+          total.out_of_time = true;
+          return;
+        }
         Engine& engine = job.engine(subject_, e.level);
         engine.take_back();  // the result must not depend on which parts this job ran before
         done[p] = PartRun(e, draw_, total.planned, engine).run(p * e.chunk, stop_);
@@ -278,6 +303,8 @@ class Certifier {
     if (failure) std::rethrow_exception(failure);
     Part sum;
     for (std::uint64_t p = 0; p < last.load() && !stop_; ++p) {
+      // It had ended by itself.
+      if (done[p].is_last || (config_.first_fault && !done[p].faults.empty())) total.out_of_time = false;
       add(total, done[p].count);
       for (const FaultCount& f : done[p].faults) add(sum.faults, f);
       if (done[p].too_slow) sum.too_slow = done[p].too_slow;
@@ -299,6 +326,8 @@ class Certifier {
   std::vector<Job> jobs_;
   Draw draw_;
   bool more_time_is_useless_ = false;
+  double time_left_ = 0;  // seconds
+  Clock::time_point deadline_;
   BroadCertificate out_;
 };
 

@@ -7,6 +7,8 @@
 
 #include <atomic>
 #include <functional>
+#include <map>
+#include <optional>
 
 #include "fuzz/certify/candidate_verdict.h"
 #include "oracles/abi/engine.h"
@@ -38,6 +40,12 @@ struct CertifyConfig {
   std::vector<BroadLevel> levels{BroadLevel::boxes, BroadLevel::bodies};
   std::vector<std::string> without;  // evidence to leave out, by name; an unknown name throws InputError
   bool first_fault = false;          // end a level at the first evidence that shows a fault
+  /// Time for all evidence together, without refutations. Each evidence gets an equal share of what is left,
+  /// and runs a prefix of its cases, at least its first part: what was run depends on the machine, the result
+  /// of what was run does not.
+  std::optional<double> minutes = std::nullopt;
+  /// By name: the cases of an evidence that ran out of time, to run the same ones again.
+  std::map<std::string, std::uint64_t> most_cases = {};
   int jobs = 1;
   std::string program;
 };

@@ -6,7 +6,8 @@
 #include <set>
 
 #include "core/base/input_error.h"
-#include "fuzz/shrink/shrink.h"
+#include "fuzz/shrink/defensible.h"
+#include "fuzz/shrink/shrink_both.h"
 #include "scenarios/value/candidate_pairs.h"
 #include "scenarios/value/odd_numbers.h"
 
@@ -63,8 +64,9 @@ class SubjectRunner {
     if (has_swept_candidates_query(c)) return level_ == BroadLevel::bodies;
     if (c.scene.script.empty()) return false;  // would mean: insert all bodies
     if (level_ == BroadLevel::bodies) return true;
-    const Scalar scalar =
-        engine().card().unit_roundoff > max_float64_roundoff ? Scalar::float32 : Scalar::float64;
+    const Scalar scalar = roundoff_of(engine().card(), ShapeKind::box) > max_float64_roundoff
+                              ? Scalar::float32
+                              : Scalar::float64;
     for (const Step& step : c.scene.script) {
       if (step.op != Step::Op::insert && step.op != Step::Op::move) continue;
       const Pose p = step.pose.value_or(c.scene.bodies[static_cast<std::size_t>(step.body)].pose);
@@ -128,6 +130,40 @@ Case start_of(SubjectRunner& runner, const Case& c, const CandidateFault& v) {
   return cut;
 }
 
+// Boxes without volume get some, and the two bodies touch along an axis, at their own poses.
+std::vector<Case> touching_forms(const Case& c, const CandidateFault& v) {
+  std::vector<Case> forms;
+  // A subject may report bodies that do not exist.
+  const int n = static_cast<int>(c.scene.bodies.size());
+  if (std::min(v.a, v.b) < 0 || std::max(v.a, v.b) >= n) return forms;
+  constexpr double restored = 0.5;  // of a half extent that is 0, in a scene about 1
+  Case solid = c;
+  for (Shape& shape : solid.scene.shapes)
+    if (auto* box = std::get_if<Box>(&shape))
+      for (double& h : box->half_extents)
+        if (!(h > 0)) h = restored;
+  const auto *a = std::get_if<Box>(&solid.scene.shape_of(v.a)),
+             *b = std::get_if<Box>(&solid.scene.shape_of(v.b));
+  if (!a || !b) return forms;
+  for (Eigen::Index axis = 0; axis < 3; ++axis) {
+    Case form = solid;
+    const Vec3 apart = (a->half_extents[axis] + b->half_extents[axis]) * Vec3::Unit(axis);
+    std::vector<Body>& bodies = form.scene.bodies;
+    bodies[static_cast<std::size_t>(v.b)].pose.translation =
+        bodies[static_cast<std::size_t>(v.a)].pose.translation + apart;
+    forms.push_back(std::move(form));
+  }
+  return forms;
+}
+
+// The start itself, or bodies with volume that show the same class of fault.
+Case solid_start(SubjectRunner& runner, Case start, const CandidateFault& v) {
+  if (is_solid(start)) return start;
+  for (Case& form : touching_forms(start, v))
+    if (is_solid(form) && runner.shows({&form, 1})[0]) return std::move(form);
+  return start;
+}
+
 std::string in_words(const Vec3& v) { return fmt::format("({:g}, {:g}, {:g})", v.x(), v.y(), v.z()); }
 
 // Lists the bodies whose numbers are not finite or do not make a box.
@@ -168,8 +204,10 @@ Refutation refute(const Subject& subject, const EvidenceRow& e, const FaultCount
     return r;
   }
   const StillShows still = [&](std::span<const Case> cases) { return runner.shows(cases); };
-  const Shrunk shrunk = shrink(start_of(runner, c, *fault), still, most_tries(found.what.fault));
-  r.is_shown_again = shrunk.exit != ShrinkExit::not_shown;
+  const ShrunkPair both = shrink_solid(solid_start(runner, start_of(runner, c, *fault), *fault), still,
+                                       most_tries(found.what.fault));
+  const Shrunk& shrunk = both.defensible ? *both.defensible : both.minimum;
+  r.is_shown_again = both.minimum.exit != ShrinkExit::not_shown;
   r.shrink = r.is_shown_again ? std::string(to_string(shrunk.exit))
                               : "not reproduced every time: the subject's answers vary";
   r.script = shrunk.smallest;

@@ -22,8 +22,16 @@ struct CheckInput {
   const Observation& answer;
   const EngineCard& card;
 
-  /// τ for a pair of scale l.
-  double tau(double l) const { return tau_of(card, answer, l); }
+  /// τ for the pair of bodies a and b, of scale l.
+  double tau(int a, int b, double l) const { return tau_of(card, answer, truth.scene(), a, b, l); }
+  /// For the pair asked about.
+  double tau(double l) const { return tau(query.a, query.b, l); }
+  /// What the engine's settings let it report beyond τ (tau.h).
+  double offset() const { return contact_offset(card); }
+  double bias(int a, int b) const {
+    const Scene& s = truth.scene();
+    return depth_bias(card, kind_of(s.shape_of(a)), kind_of(s.shape_of(b)));
+  }
   bool is_surface(int body) const { return kind_of(truth.scene().shape_of(body)) == ShapeKind::mesh; }
 };
 

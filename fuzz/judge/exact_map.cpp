@@ -8,6 +8,13 @@ namespace {
 
 bool is_size(Domain d) { return d == Domain::positive || d == Domain::non_negative; }
 
+template <class F>
+void for_each_pose(Scene& s, F&& f) {
+  for (Body& b : s.bodies) f(b.pose);
+  for (Step& step : s.script)
+    if (step.pose) f(*step.pose);
+}
+
 }  // namespace
 
 void turn_axes(Scene& s, const Mat3& m) {
@@ -16,10 +23,12 @@ void turn_axes(Scene& s, const Mat3& m) {
       if constexpr (std::is_same_v<std::decay_t<decltype(v)>, Vec3>)
         v = is_size(domain) ? Vec3((m * v).cwiseAbs()) : Vec3(m * v);
     });
+  for_each_pose(s, [&](Pose& p) {
+    p.translation = m * p.translation;
+    const Vec3 q = m * Vec3(p.rotation.x, p.rotation.y, p.rotation.z);
+    p.rotation = {q.x(), q.y(), q.z(), p.rotation.w};
+  });
   for (Body& b : s.bodies) {
-    b.pose.translation = m * b.pose.translation;
-    const Vec3 q = m * Vec3(b.pose.rotation.x, b.pose.rotation.y, b.pose.rotation.z);
-    b.pose.rotation = {q.x(), q.y(), q.z(), b.pose.rotation.w};
     if (!b.motion) continue;
     b.motion->linear = m * b.motion->linear;
     b.motion->angular = m * b.motion->angular;
@@ -80,6 +89,8 @@ bool scale_by(Scene& s, double factor) {
     if (!scales(shape, factor)) return false;
   for (const Body& b : s.bodies)
     if (!scales(b.pose.translation, factor) || (b.motion && !scales(b.motion->linear, factor))) return false;
+  for (const Step& step : s.script)
+    if (step.pose && !scales(step.pose->translation, factor)) return false;
   for (Shape& shape : s.shapes)
     change_numbers(shape, [&](auto& v, Domain domain) {
       if constexpr (std::is_same_v<std::decay_t<decltype(v)>, double>)
@@ -87,10 +98,9 @@ bool scale_by(Scene& s, double factor) {
       else if (is_length(domain))
         v *= factor;
     });
-  for (Body& b : s.bodies) {
-    b.pose.translation *= factor;
+  for_each_pose(s, [&](Pose& p) { p.translation *= factor; });
+  for (Body& b : s.bodies)
     if (b.motion) b.motion->linear *= factor;
-  }
   return true;
 }
 
@@ -99,12 +109,11 @@ void half_turn(Scene& s, int axis) {
   signs[axis] = 1;
   Vec3 h = Vec3::Zero();
   h[axis] = 1;
-  const auto turn = [&](Pose& p) {
+  for_each_pose(s, [&](Pose& p) {
     p.translation = p.translation.cwiseProduct(signs);
     p.rotation = Quat{h.x(), h.y(), h.z(), 0} * p.rotation;
-  };
+  });
   for (Body& b : s.bodies) {
-    turn(b.pose);
     if (!b.motion) continue;
     b.motion->linear = b.motion->linear.cwiseProduct(signs);
     b.motion->angular = b.motion->angular.cwiseProduct(signs);
@@ -113,13 +122,14 @@ void half_turn(Scene& s, int axis) {
 
 bool translate_by(Scene& s, const Vec3& by) {
   bool exact = true;
-  for (Body& b : s.bodies)
+  for_each_pose(s, [&](Pose& p) {
     for (int k = 0; k < 3; ++k) {
       // Knuth's TwoSum: what rounding left out.
-      const double x = b.pose.translation[k], sum = x + by[k], back = sum - x;
+      const double x = p.translation[k], sum = x + by[k], back = sum - x;
       exact &= std::isfinite(sum) && (x - (sum - back)) + (by[k] - back) == 0;
-      b.pose.translation[k] = sum;
+      p.translation[k] = sum;
     }
+  });
   return exact;
 }
 

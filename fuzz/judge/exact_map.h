@@ -1,5 +1,5 @@
 // The same scene in another frame or unit of length, without rounding: what is true of one is true of the
-// other, to the last bit. Scripts are unchanged.
+// other, to the last bit. The poses of a script's steps change with those of the bodies.
 #pragma once
 
 #include <array>

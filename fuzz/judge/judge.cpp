@@ -38,7 +38,8 @@ Blame blame_of(const Judgement& j, const CheckInput& in) {
   if (is_broad_question(in.query.question)) {
     const FaultReport& worst = j.faults.front();
     if (worst.fault != Fault::missed) return Blame::algorithm;
-    return worst.error > in.tau(in.truth.scale(worst.a, worst.b)) || in.card.unit_roundoff <= double_roundoff
+    return worst.error > in.tau(worst.a, worst.b, in.truth.scale(worst.a, worst.b)) ||
+                   pair_roundoff(in.card, in.truth.scene(), worst.a, worst.b) <= double_roundoff
                ? Blame::algorithm
                : Blame::representation;
   }
@@ -107,7 +108,11 @@ void CheckOutput::not_judged(std::string claim, bool by_definition) {
 }
 
 void CheckOutput::note_claim(const CheckInput& in, double l) {
-  const double claim = in.card.source == claimed_by_user ? 0 : believed_claim(in.card, in.answer);
+  const double of_settings = in.query.question == Question::time_of_impact ? sweep_skin(in.card)
+                             : in.query.question == Question::distance     ? 0
+                                                                           : contact_offset(in.card);
+  const double claim =
+      in.card.source == claimed_by_user ? 0 : std::max(of_settings, believed_claim(in.card, in.answer));
   if (!(claim > fuzz::wide_claim * l) || claim / l <= wide_claim_in_l) return;
   wide_claim = claim;
   wide_claim_in_l = claim / l;

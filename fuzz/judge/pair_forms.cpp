@@ -20,7 +20,9 @@ bool times_contradict(const Observation& x, bool x_is_wrong, const PairForm& for
                       Truth& truth) {
   const Observation& y = observed.answers[query];
   if (!x.toi && !y.toi) return false;
-  const double tau = tau_of(card, x, truth.scale(0, 1)) + tau_of(card, y, truth.scale(0, 1));
+  const double l = truth.scale(0, 1);
+  const double tau =
+      tau_of(card, x, form.c.scene, 0, 1, l) + tau_of(card, y, form.c.scene, 0, 1, l) + sweep_skin(card);
   if (x.toi && y.toi && std::fabs(*x.toi - *y.toi) * truth.speed(0, 1) <= tau) return false;
   if (x_is_wrong) return true;
   Truth of_form(form.c.scene);

@@ -151,15 +151,18 @@ bool is_within_numbers(const Scene& base, const Scene& derived) {
 
 GapInterval implied_gap(const Scene& s, const Query& q, const Observation& o, const EngineCard& card) {
   if (o.outcome != Outcome::answered || !is_pair_question(q.question)) return {};
-  const double tau = tau_of(card, o, scale_of_pair(s, q.a, q.b));
+  const double tau = tau_of(card, o, s, q.a, q.b, scale_of_pair(s, q.a, q.b));
   const bool mesh = is_mesh(s, q.a) || is_mesh(s, q.b);
   if (q.question == Question::distance && o.distance)
     return std::isfinite(*o.distance) ? of_distance(*o.distance, tau, mesh) : GapInterval{};
   if (q.question == Question::contact && o.overlap && *o.overlap && o.normal && o.depth && !mesh) {
     const double p = *o.depth;
-    return std::isfinite(p) ? GapInterval{-p - tau, -p + 2 * tau} : GapInterval{};
+    const double bias = depth_bias(card, kind_of(s.shape_of(q.a)), kind_of(s.shape_of(q.b)));
+    const double least = -p + 2 * tau + bias * std::max(0.0, p);
+    return std::isfinite(p) ? GapInterval{-p - tau, least} : GapInterval{};
   }
-  if (q.question != Question::time_of_impact && o.overlap) return of_verdict(*o.overlap, tau);
+  if (q.question != Question::time_of_impact && o.overlap)
+    return of_verdict(*o.overlap, *o.overlap ? tau + contact_offset(card) : tau);
   return {};
 }
 

@@ -1,9 +1,12 @@
 // τ of an answer: the error up to which it is right (docs/truth.md §3).
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <string_view>
+#include <utility>
 
+#include "core/scene/scene.h"
 #include "scenarios/value/engine_card.h"
 #include "scenarios/value/observation.h"
 
@@ -27,9 +30,31 @@ inline double believed_claim(const EngineCard& card, const Observation& o) {
   return !card.source.empty() && std::isfinite(c) && c > 0 ? c : 0;
 }
 
-/// For a pair of scale l.
-inline double tau_of(const EngineCard& card, const Observation& o, double l) {
-  return card.tau_factor * card.unit_roundoff * l + believed_claim(card, o);
+/// The coarser unit roundoff of the bodies a and b.
+inline double pair_roundoff(const EngineCard& card, const Scene& s, int a, int b) {
+  return std::max(roundoff_of(card, kind_of(s.shape_of(a))), roundoff_of(card, kind_of(s.shape_of(b))));
+}
+/// For the bodies a and b of the scene, a pair of scale l.
+inline double tau_of(const EngineCard& card, const Observation& o, const Scene& s, int a, int b, double l) {
+  return card.tau_factor * pair_roundoff(card, s, a, b) * l + believed_claim(card, o);
+}
+
+// What an engine claims about its settings rather than about one answer (docs/truth.md §3). Zero unless its
+// card names a source; the user's own tolerance replaces it.
+
+inline bool are_believed(const EngineCard& card) {
+  return !card.source.empty() && card.source != claimed_by_user;
+}
+/// Bodies apart by at most this may be reported as in contact.
+inline double contact_offset(const EngineCard& card) { return are_believed(card) ? card.contact_offset : 0; }
+/// A sweep may stop when the gap is at most this.
+inline double sweep_skin(const EngineCard& card) { return are_believed(card) ? card.sweep_skin : 0; }
+/// By what share of the least depth the chosen normal may need more.
+inline double depth_bias(const EngineCard& card, ShapeKind a, ShapeKind b) {
+  if (!are_believed(card)) return 0;
+  for (const DepthBias& d : card.depth_biases)
+    if (std::pair(d.a, d.b) == std::pair(std::min(a, b), std::max(a, b))) return d.share;
+  return 0;
 }
 
 }  // namespace touchstone::fuzz

@@ -7,6 +7,8 @@
 #include "core/base/input_error.h"
 #include "fuzz/judge/relation.h"
 #include "fuzz/judge/truth.h"
+#include "fuzz/reproduce/javascript.h"
+#include "fuzz/reproduce/public_interface.h"
 #include "oracles/reproducer/engine_source.h"
 #include "oracles/reproducer/source_text.h"
 
@@ -55,8 +57,8 @@ struct Placement {
 
 @SUPPORT@// The engine's answer. Normals point from A to B.
 struct Answer {
-  bool overlap = false;
-  double distance = INFINITY, depth = -INFINITY, impact = NAN;  // impact NAN: no impact in the step
+  bool overlap = false, hit = false;  // hit: the engine reports an impact, at the time `impact`
+  double distance = INFINITY, depth = -INFINITY, impact = NAN;
   Vec normal{}, on_a{}, on_b{};
   std::vector<Vec> points;
 };
@@ -124,12 +126,12 @@ constexpr std::string_view check_points =
     R"(  // No point of the manifold may be farther than the depth from either body. One was, along these directions.
   for (const Vec& p : x.points)
     for (const Vec& u : {@DIRECTIONS@}) {
-      const double off_a = dot(u, p) - dot(u, support_a(u)), off_b = dot(u, p) - dot(u, support_b(u));
-      const double off = std::fmax(off_a, off_b) - std::fmax(0, x.depth);
-      if (off > @TAU@) {
-        std::printf("a point is %.17g farther out than the depth\n", off);
-        return false;
-      }
+      const double depth = std::fmax(0, x.depth);
+      for (const double out : {dot(u, p) - dot(u, support_a(u)), dot(u, p) - dot(u, support_b(u))})
+        if (!(out - depth <= @TAU@)) {
+          std::printf("a point is %.17g farther out than the depth\n", out - depth);
+          return false;
+        }
     }
 )";
 
@@ -142,7 +144,7 @@ bool check(const Answer& x) {
               q[2], apart);
   std::printf("expected: %.17g to %.17g apart, tolerance %g\n", @LO@, @HI@, @TAU@);
   for (const Vec& u : {@DIRECTIONS@})
-    if (dot(u, p) - dot(u, support_a(u)) > @TAU@ || dot(u, q) - dot(u, support_b(u)) > @TAU@) {
+    if (!(dot(u, p) - dot(u, support_a(u)) <= @TAU@) || !(dot(u, q) - dot(u, support_b(u)) <= @TAU@)) {
       std::puts("a point is off its body");
       return false;
     }
@@ -150,22 +152,33 @@ bool check(const Answer& x) {
 }
 )";
 
+// An impact at a time that is no number is an impact, and wrong.
+constexpr std::string_view print_impact = R"(void print_impact(const Answer& x) {
+  if (x.hit)
+    std::printf("says: impact at %.17g\n", x.impact);
+  else
+    std::puts("says: no impact");
+}
+)";
 constexpr std::string_view check_impact =
     R"(// The first contact is certainly within [@LO@, @HI@] of the step; the slack is half of the recorded error.
 bool check(const Answer& x) {
-  std::printf("says: impact at %.17g\nexpected: within [%.17g, %.17g], slack %g\n", x.impact, @LO@, @HI@, @SLACK@);
-  return x.impact >= @LO@ - @SLACK@ && x.impact <= @HI@ + @SLACK@;
+  print_impact(x);
+  std::printf("expected: impact within [%.17g, %.17g], slack %g\n", @LO@, @HI@, @SLACK@);
+  return x.hit && x.impact >= @LO@ - @SLACK@ && x.impact <= @HI@ + @SLACK@;
 }
 )";
 constexpr std::string_view check_no_impact = R"(bool check(const Answer& x) {
-  std::printf("says: impact at %.17g (nan: none)\nexpected: no impact in the step\n", x.impact);
-  return std::isnan(x.impact);
+  print_impact(x);
+  std::puts("expected: no impact in the step");
+  return !x.hit;
 }
 )";
 
 // Step of the difference quotient, relative to the distance: small, but far above rounding.
 constexpr double difference_step = 1e-3;
-// Error assumed for an impact that was not reported; half of it is the slack of the check.
+// Error assumed for an impact that was not reported, or not as a number; half of it is the slack of the
+// check.
 constexpr double error_of_missing_impact = 0.02;
 
 struct ExpectedAnswer {
@@ -233,11 +246,13 @@ std::string witness_check(const ExpectedAnswer& e) {
 std::string impact_check(const ExpectedAnswer& e) {
   using V = referee::TimeTruth::Verdict;
   const auto& t = e.truth.motion(0, e.q.a, e.q.b);
-  if (t.verdict == V::none) return std::string(check_no_impact);
+  if (t.verdict == V::none) return std::string(print_impact) + std::string(check_no_impact);
   const auto& toi = e.finding.evidence->observation.toi;
-  const double off = !toi ? error_of_missing_impact : *toi < t.t_lo ? t.t_lo - *toi : *toi - t.t_hi;
+  const double off = !toi || !std::isfinite(*toi) ? error_of_missing_impact
+                     : *toi < t.t_lo              ? t.t_lo - *toi
+                                                  : *toi - t.t_hi;
   return filled(
-      check_impact,
+      std::string(print_impact) + std::string(check_impact),
       {{"LO", literal(t.t_lo)}, {"HI", literal(t.t_hi)}, {"SLACK", literal(std::max(off, 0.0) / 2)}});
 }
 
@@ -270,15 +285,38 @@ std::string check_of(const ExpectedAnswer& e) {
   return pair_check(e);
 }
 
+std::string expected_words(const ExpectedAnswer& e) {
+  using V = referee::TimeTruth::Verdict;
+  if (e.q.question == Question::candidates)
+    return fmt::format("at query {} the pair ({}, {}) {}", e.q.step, e.q.a, e.q.b,
+                       e.finding.fault == to_string(Fault::missed) ? "is reported" : "is not reported");
+  if (e.q.question == Question::time_of_impact) {
+    const auto& t = e.truth.motion(0, e.q.a, e.q.b);
+    if (t.verdict == V::none) return "no impact";
+    return fmt::format("an impact within [{}, {}] of the step; the gap there is at most {}", t.t_lo, t.t_hi,
+                       e.tau);
+  }
+  const auto& t = e.truth.pair(0, e.q.a, e.q.b);
+  const std::string verdict = t.verdict == referee::Verdict::overlap ? "overlap" : "apart";
+  if (e.q.question == Question::overlap || !std::isfinite(t.gap.lo)) return verdict;
+  return fmt::format("{}, signed distance within [{}, {}], tolerance {}", verdict, t.gap.lo, t.gap.hi, e.tau);
+}
+
 bool is_ode(std::string_view engine) { return engine == "ode" || engine.starts_with("ode-"); }
+bool is_mujoco(std::string_view engine) { return engine == "mujoco" || engine.starts_with("mujoco-"); }
+bool is_physx(std::string_view engine) { return engine == "physx-query" || engine == "physx-gjk"; }
 
 EngineSource source_of(const EngineQuestion& q) {
   if (q.engine.starts_with("fcl-")) return fcl_source(q);
   if (q.engine.starts_with("bullet-")) return bullet_source(q);
   if (q.engine.starts_with("libccd-")) return libccd_source(q);
   if (is_ode(q.engine)) return ode_source(q);
+  if (is_mujoco(q.engine)) return mujoco_source(q);
+  if (is_physx(q.engine)) return physx_source(q);
+  if (q.engine == "havok") return havok_source(q);
   throw InputError("reproduce",
-                   fmt::format("is not available for {}, only for engines of FCL, Bullet, libccd and ODE",
+                   fmt::format("is not available for {}, only for engines of FCL, Bullet, libccd, "
+                               "ODE and MuJoCo, for physx-query, physx-gjk and havok",
                                std::string(q.engine)));
 }
 
@@ -286,10 +324,13 @@ EngineSource source_of(const EngineQuestion& q) {
 
 bool has_reproducer(std::string_view engine) {
   return engine.starts_with("fcl-") || engine.starts_with("bullet-") || engine.starts_with("libccd-") ||
-         is_ode(engine);
+         is_ode(engine) || is_mujoco(engine) || is_physx(engine) || engine == "havok";
 }
 
-std::string reproducer(const Finding& finding, const EngineCard& card) {
+namespace {
+
+/// The question that the finding is about. Throws InputError if no program can ask it.
+EngineQuestion question_of(const Finding& finding) {
   const Evidence& v = *finding.evidence;
   if (is_relation(finding.fault))
     throw InputError("reproduce",
@@ -301,10 +342,15 @@ std::string reproducer(const Finding& finding, const EngineCard& card) {
   const int n = static_cast<int>(v.c.scene.bodies.size());
   if (v.a < 0 || v.b < 0 || v.a >= n || v.b >= n)
     throw InputError("reproduce", "the finding is not about a pair of bodies: " + finding.key());
-  const EngineQuestion q{v.c.scene, v.question, v.a, v.b, v.step, finding.engine};
+  return {v.c.scene, v.question, v.a, v.b, v.step, finding.engine};
+}
+
+std::string program_of(const Finding& finding, const EngineCard& card, const EngineQuestion& q,
+                       const EngineSource& source) {
+  const Evidence& v = *finding.evidence;
   Truth truth(v.c.scene);
-  const double tau = tau_of(card, v.observation, truth.scale(v.a, v.b));
-  const EngineSource source = source_of(q);
+  const double tau = tau_of(card, v.observation, v.c.scene, v.a, v.b, truth.scale(v.a, v.b));
+  if (!source.npm_package.empty()) return javascript_program(finding, card, q, source, truth, tau);
   const ExpectedAnswer expected{truth, q, finding, tau};
   const std::string check = check_of(expected);
   const auto support_of = [&](std::string_view who, int body) {
@@ -325,6 +371,25 @@ std::string reproducer(const Finding& finding, const EngineCard& card) {
        {"SUPPORT", support_of("a", v.a) + support_of("b", v.b)},
        {"CODE", source.code},
        {"CHECK", check}});
+}
+
+}  // namespace
+
+std::string reproducer(const Finding& finding, const EngineCard& card) {
+  const EngineQuestion q = question_of(finding);
+  return program_of(finding, card, q, source_of(q));
+}
+
+std::string plugin_reproducer(const Finding& finding, const EngineCard& card, const PluginFile& plugin) {
+  const EngineQuestion q = question_of(finding);
+  return program_of(finding, card, q, plugin_source(q, plugin));
+}
+
+std::string pipe_reproducer(const Finding& finding, const EngineCard& card) {
+  const EngineQuestion q = question_of(finding);
+  Truth truth(q.scene);
+  const double tau = tau_of(card, finding.evidence->observation, q.scene, q.a, q.b, truth.scale(q.a, q.b));
+  return pipe_lines(q, expected_words({truth, q, finding, tau}));
 }
 
 }  // namespace touchstone::fuzz

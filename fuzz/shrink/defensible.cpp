@@ -175,8 +175,10 @@ double smaller_size(const Scene& scene, int a, int b) {
   return is_bounded(kind_of(scene.shape_of(b))) ? std::min(x, y) : x;
 }
 
+bool is_solid(const Case& c) { return has_plain_numbers(c) && have_volume(c); }
+
 bool is_defensible(const Case& c) {
-  if (c.scene.bodies.size() > most_bodies || !has_plain_numbers(c) || !have_volume(c)) return false;
+  if (c.scene.bodies.size() > most_bodies || !is_solid(c)) return false;
   PairClearance pairs(c.scene);
   return std::all_of(c.queries.begin(), c.queries.end(),
                      [&](const Query& q) { return is_question_clear(c.scene, q, pairs); });

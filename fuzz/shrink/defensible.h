@@ -19,6 +19,10 @@ inline constexpr double least_plain_number = 0x1p-10, largest_plain_number = 0x1
 /// to examine.
 bool is_defensible(const Case& c);
 
+/// A part of it: plain numbers and volume. Bodies may touch, or be as close as they like: all that can be
+/// asked of a case that shows how touching is treated.
+bool is_solid(const Case& c);
+
 /// The size that clear_share refers to; 0 when neither body has one (half-spaces).
 double smaller_size(const Scene& scene, int a, int b);
 

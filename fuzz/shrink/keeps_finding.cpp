@@ -29,16 +29,20 @@ StillShows keeps_finding(const EnginePtr& engine, std::string key) {
   };
 }
 
+std::string key_of_fault(const std::map<std::string, Finding>& found, const std::string& key) {
+  if (found.contains(key)) return key;
+  const std::string prefix = key.substr(0, key.rfind('.') + 1);
+  const auto at = found.lower_bound(prefix);
+  return at != found.end() && at->first.starts_with(prefix) ? at->first : std::string();
+}
+
 StillShows keeps_fault(const EnginePtr& engine, const std::string& key) {
-  return
-      [&engine, by = found_by(key), prefix = key.substr(0, key.rfind('.') + 1)](std::span<const Case> cases) {
-        std::vector<bool> shows;
-        for (const auto& found : findings_of(cases, engine, by)) {
-          const auto at = found.lower_bound(prefix);
-          shows.push_back(at != found.end() && at->first.starts_with(prefix));
-        }
-        return shows;
-      };
+  return [&engine, by = found_by(key), key](std::span<const Case> cases) {
+    std::vector<bool> shows;
+    for (const auto& found : findings_of(cases, engine, by))
+      shows.push_back(!key_of_fault(found, key).empty());
+    return shows;
+  };
 }
 
 }  // namespace touchstone::fuzz

@@ -24,8 +24,12 @@ FoundBy found_by(const std::string& key);
 /// `engine` must outlive the result.
 StillShows keeps_finding(const EnginePtr& engine, std::string key);
 
-/// The same, but the error may be of any magnitude: the last part of the key is not compared. A missed
-/// overlap of 1e-8 and one of half a body are then one fault, of which only the second can be defensible.
+/// The key among `found` of the same fault: `key` itself, or one that differs in its last part only, the
+/// magnitude of the error. A missed overlap of 1e-8 and one of half a body are one fault, of which only the
+/// second can be defensible. Empty if there is none.
+std::string key_of_fault(const std::map<std::string, Finding>& found, const std::string& key);
+
+/// Like keeps_finding, for any key of the same fault.
 StillShows keeps_fault(const EnginePtr& engine, const std::string& key);
 
 }  // namespace touchstone::fuzz

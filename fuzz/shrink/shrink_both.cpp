@@ -9,12 +9,12 @@ namespace touchstone::fuzz {
 namespace {
 
 // The predicate costs less than an engine's answer and its judgement, so it comes first.
-StillShows while_defensible(const StillShows& still) {
-  return [&still](std::span<const Case> cases) {
+StillShows as_long_as(bool (*is_fit)(const Case&), const StillShows& still) {
+  return [is_fit, &still](std::span<const Case> cases) {
     std::vector<bool> shows(cases.size(), false);
     std::vector<Case> asked;
     for (std::size_t i = 0; i < cases.size(); ++i)
-      if (is_defensible(cases[i])) {
+      if (is_fit(cases[i])) {
         shows[i] = true;
         asked.push_back(cases[i]);
       }
@@ -73,7 +73,8 @@ class BothShrinker {
   void shrink_defensible(const Case& start, std::size_t tries) {
     const std::optional<Case> shown = defensible_form(start, tries / 2);
     if (!shown) return;
-    result_.defensible = shrink(*shown, while_defensible(still_), std::max<std::size_t>(tries / 2, 1));
+    result_.defensible =
+        shrink(*shown, as_long_as(is_defensible, still_), std::max<std::size_t>(tries / 2, 1));
     result_.defensible->before = measure(case_);
   }
 
@@ -98,6 +99,25 @@ class BothShrinker {
 
 ShrunkPair shrink_both(const Case& c, const StillShows& still, std::size_t max_tries) {
   return BothShrinker(c, still, max_tries).run();
+}
+
+ShrunkPair shrink_solid(const Case& c, const StillShows& still, std::size_t max_tries) {
+  constexpr std::size_t most_forms = 8;  // that are asked: c itself and those nearest to it
+  const StillShows solid = as_long_as(is_solid, still);
+  std::size_t tried = 0;
+  for (const Case& form : defensible_forms(c)) {
+    if (tried >= std::min(most_forms, max_tries)) break;
+    if (!is_solid(form)) continue;
+    ++tried;
+    if (!still({&form, 1})[0]) continue;
+    ShrunkPair r = shrink_both(form, solid, max_tries - tried);
+    r.minimum.before = measure(c);
+    r.forms_tried += tried;
+    return r;
+  }
+  ShrunkPair r = shrink_both(c, still, max_tries - tried);
+  r.forms_tried += tried;
+  return r;
 }
 
 }  // namespace touchstone::fuzz

@@ -21,4 +21,9 @@ struct ShrunkPair {
 /// tried() is at most max_tries, but for the last batch of each search.
 ShrunkPair shrink_both(const Case& c, const StillShows& still, std::size_t max_tries = 20000);
 
+/// The same, and the minimum too has volume and plain numbers (is_solid in defensible.h), if c or one of its
+/// nearest forms that show the finding has: a finding that needs bodies to touch is then shown by bodies that
+/// touch, and not by points.
+ShrunkPair shrink_solid(const Case& c, const StillShows& still, std::size_t max_tries = 20000);
+
 }  // namespace touchstone::fuzz

@@ -15,6 +15,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr const char* file_name = "causes.json";
+
 // Throws unless triage can ask the cause again.
 void require_usable(const Cause& c, const JsonReader& j) {
   for (const auto* list : {&c.engines, &c.shapes})
@@ -28,22 +30,21 @@ void require_usable(const Cause& c, const JsonReader& j) {
   case_from_json(shown.c, place["case"].place());
 }
 
+bool is_lines_for_a_pipe(const std::string& program) { return program.starts_with('{'); }
+
 bool is_certificate(const Json& j) { return j.is_object() && j.contains("kind") && j["kind"] != "none"; }
 
 }  // namespace
 
-Causes load_causes(const fs::path& directory) {
-  if (!fs::exists(directory / "state.json"))
-    throw InputError(directory.string(), "does not hold a campaign; touchstone fuzz --out DIR creates one");
-  const fs::path file = directory / "causes.json", of_campaign = directory / "summary.json";
-  if (!fs::exists(file))
-    throw InputError(file.string(), "is missing: run touchstone causes " + directory.string() + " first");
-  const Json json = load_json(file, campaign_limits), summary = load_json(of_campaign, campaign_limits);
+bool has_causes(const fs::path& directory) { return fs::exists(directory / file_name); }
+
+std::optional<Causes> stored_causes(const fs::path& directory, const std::string& digest) {
+  if (!has_causes(directory)) return std::nullopt;
+  const fs::path file = directory / file_name;
+  const Json json = load_json(file, campaign_limits);
   const JsonReader j(json, file.string());
+  if (j["digest"].string() != digest) return std::nullopt;
   Causes causes = causes_from_json(j);
-  if (causes.digest != JsonReader(summary, of_campaign.string())["digest"].string())
-    j["digest"].fail("is that of another state of the campaign: run touchstone causes " + directory.string() +
-                     " again");
   const auto items = j["causes"].items();
   std::set<std::string> ids;
   for (std::size_t i = 0; i < items.size(); ++i) {
@@ -53,14 +54,8 @@ Causes load_causes(const fs::path& directory) {
   return causes;
 }
 
-bool has_causes(const fs::path& directory) try {
-  const fs::path file = directory / "causes.json", of_campaign = directory / "summary.json";
-  if (!fs::exists(file)) return false;
-  const Json json = load_json(file, campaign_limits), summary = load_json(of_campaign, campaign_limits);
-  return JsonReader(json, file.string())["digest"].string() ==
-         JsonReader(summary, of_campaign.string())["digest"].string();
-} catch (const InputError&) {
-  return true;
+void store_causes(const fs::path& directory, const Causes& causes) {
+  write_file(directory / file_name, json_text(to_json(causes), 1) + "\n");
 }
 
 Json finding_json_of(const Cause& c) {
@@ -95,7 +90,7 @@ Written write_cause(const fs::path& directory, const Cause& c,
     write_file(part / "certificate.json", json_text(c.certificate, 1) + "\n");
   if (issue) write_file(part / "issue.md", issue(c));
   if (!c.program.empty())
-    write_file(part / "reproduce.cpp", c.program);
+    write_file(part / (is_lines_for_a_pipe(c.program) ? "reproduce.jsonl" : "reproduce.cpp"), c.program);
   else if (!c.no_program.empty())
     write_file(part / "no_reproducer.txt", c.no_program + "\n");
   fs::rename(part, to);

@@ -37,7 +37,7 @@ class NativeEngine : public Engine {
 };
 
 /// The factory that a library of native engines exports under the name below, with C linkage: creates the
-/// engine of that name, or returns null. Library and host come from the same build.
+/// engine of that name, or returns null. Library and host come from the same sources (source_id.h).
 using MakeNativeEngine = NativeEngine*(const char* name);
 inline constexpr const char* make_native_engine_symbol = "touchstone_native_engine";
 

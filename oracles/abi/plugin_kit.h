@@ -7,6 +7,8 @@
 //     void load(const ts_scene&, const ts_received&);      // may throw Unsupported or anything
 //     void unload();
 //     void ask(ts_question, int a, int b, ts_answer&, const ts_sink&);
+//     // Optional. What it throws makes the host ask about each pair alone.
+//     void ask_many(const ts_batch&, ts_answer* answers, const ts_batch_sink&);
 //   };
 //   TS_PLUGIN(Mine)
 #pragma once
@@ -19,6 +21,7 @@
 #include <limits>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/math/pose.h"
@@ -45,6 +48,10 @@ struct CardText {
   std::string source;
   bool complete_manifolds = false;
   std::vector<std::string> more_shapes = {};  // a host of minor 0 or 1 is not told
+  // A host of minor 0 to 2 is not told of what follows.
+  std::vector<std::string> shapes = {};
+  std::vector<std::pair<std::string, double>> unit_roundoffs = {}, depth_biases = {};
+  double contact_offset = 0, sweep_skin = 0;
   std::string json() const {
     std::string out;
     const auto field = [&out](const char* key, const std::string& value) {
@@ -65,12 +72,39 @@ struct CardText {
                   tau_factor);
     out.append(numbers);
     if (complete_manifolds) out.append(",\"complete_manifolds\":true");
-    if (host_minor >= 2 && !more_shapes.empty()) {
-      for (const std::string& s : more_shapes)
-        out.append(&s == &more_shapes.front() ? ",\"more_shapes\":[\"" : ",\"").append(s).append("\"");
-      out.push_back(']');
+    if (host_minor >= 2) add_names(out, "more_shapes", more_shapes);
+    if (host_minor >= 3) {
+      add_names(out, "shapes", shapes);
+      add_numbers(out, "unit_roundoffs", unit_roundoffs);
+      add_numbers(out, "depth_biases", depth_biases);
+      if (contact_offset > 0) out.append(",\"contact_offset\":").append(text_of(contact_offset));
+      if (sweep_skin > 0) out.append(",\"sweep_skin\":").append(text_of(sweep_skin));
     }
     return out.append("}");
+  }
+
+ private:
+  static std::string text_of(double x) {
+    char text[32];
+    std::snprintf(text, sizeof text, "%.17g", x);
+    return text;
+  }
+  static void add_names(std::string& out, const char* field, const std::vector<std::string>& names) {
+    if (names.empty()) return;
+    out.append(",\"").append(field).append("\":[");
+    for (const std::string& s : names) out.append(&s == &names.front() ? "\"" : ",\"").append(s).append("\"");
+    out.push_back(']');
+  }
+  static void add_numbers(std::string& out, const char* field,
+                          const std::vector<std::pair<std::string, double>>& numbers) {
+    if (numbers.empty()) return;
+    out.append(",\"").append(field).append("\":{");
+    for (const auto& entry : numbers)
+      out.append(&entry == &numbers.front() ? "\"" : ",\"")
+          .append(entry.first)
+          .append("\":")
+          .append(text_of(entry.second));
+    out.push_back('}');
   }
 };
 
@@ -214,9 +248,23 @@ struct Table {
       set_detail(*out, why.what());
     }
   }
+  static void ask_many(ts_engine* e, const ts_batch* batch, ts_answer* answers, const ts_batch_sink* sink) {
+    self(e).ask_many(*batch, answers, *sink);
+  }
+  static constexpr bool takes_batches =
+      requires(Engine & e, const ts_batch& batch, ts_answer* answers, const ts_batch_sink& sink) {
+    e.ask_many(batch, answers, sink);
+  };
   static const ts_plugin* plugin() {
-    static const ts_plugin table{
-        TS_ABI_VERSION, static_cast<std::uint32_t>(cards().size()), card, create, destroy, load, unload, ask};
+    static const ts_plugin table = [] {
+      ts_plugin t{TS_ABI_VERSION, static_cast<std::uint32_t>(cards().size()),
+                  card,           create,
+                  destroy,        load,
+                  unload,         ask,
+                  nullptr,        {}};
+      if constexpr (takes_batches) t.ask_many = ask_many;
+      return t;
+    }();
     return &table;
   }
 };

@@ -7,6 +7,7 @@
 #include <string>
 #include <utility>
 
+#include "oracles/abi/outer_box.h"
 #include "scenarios/value/engine_card.h"
 
 namespace touchstone {
@@ -45,13 +46,10 @@ std::vector<double> flat(const std::vector<Vec3>& points) {
   return out;
 }
 
-ts_pose to_abi(const Pose& p) {
-  ts_pose out;
-  copy3(p.translation, out.translation);
-  out.rotation[0] = p.rotation.x;
-  out.rotation[1] = p.rotation.y;
-  out.rotation[2] = p.rotation.z;
-  out.rotation[3] = p.rotation.w;
+ts_aabb to_abi(const Aabb& b) {
+  ts_aabb out;
+  copy3(b.lo, out.lower);
+  copy3(b.hi, out.upper);
   return out;
 }
 
@@ -61,7 +59,7 @@ ts_body to_abi(const Body& b) {
   out.is_static = b.is_static;
   out.has_motion = b.motion.has_value();
   out.group = b.group;
-  out.pose = to_abi(b.pose);
+  out.pose = pose_to(b.pose);
   if (b.motion) {
     copy3(b.motion->linear, out.linear);
     copy3(b.motion->angular, out.angular);
@@ -124,38 +122,56 @@ std::optional<Shape> shape_from(const ts_shape& t) {
   return m;
 }
 
-PluginScene::PluginScene(const Scene& scene) {
-  vertices_.reserve(scene.shapes.size());
-  for (const Shape& s : scene.shapes) {
-    ts_shape out{};
-    out.kind = static_cast<std::int32_t>(s.index());
-    double* size = out.size;
-    for_each_size(s,
-                  [&](auto, const double* numbers, std::size_t n) { size = std::copy_n(numbers, n, size); });
-    if (const std::vector<Vec3>* v = vertices_if(s)) {
-      vertices_.push_back(flat(*v));
-      out.vertices = vertices_.back().data();
-      out.vertex_count = v->size();
-    }
-    if (const auto* h = std::get_if<Hull>(&s)) {
-      point_at(h->faces, out);
-      out.dimension = h->dimension;
-    }
-    if (const auto* m = std::get_if<TriangleMesh>(&s)) point_at(m->triangles, out);
-    shapes_.push_back(out);
+ts_pose pose_to(const Pose& p) {
+  ts_pose out;
+  copy3(p.translation, out.translation);
+  out.rotation[0] = p.rotation.x;
+  out.rotation[1] = p.rotation.y;
+  out.rotation[2] = p.rotation.z;
+  out.rotation[3] = p.rotation.w;
+  return out;
+}
+
+ts_shape shape_to(const Shape& s, std::vector<double>& vertices) {
+  ts_shape out{};
+  out.kind = static_cast<std::int32_t>(s.index());
+  double* size = out.size;
+  for_each_size(s, [&](auto, const double* numbers, std::size_t n) { size = std::copy_n(numbers, n, size); });
+  if (const std::vector<Vec3>* v = vertices_if(s)) {
+    vertices = flat(*v);
+    out.vertices = vertices.data();
+    out.vertex_count = v->size();
   }
+  if (const auto* h = std::get_if<Hull>(&s)) {
+    point_at(h->faces, out);
+    out.dimension = h->dimension;
+  }
+  if (const auto* m = std::get_if<TriangleMesh>(&s)) point_at(m->triangles, out);
+  return out;
+}
+
+PluginScene::PluginScene(const Scene& scene, bool with_boxes) {
+  vertices_.resize(scene.shapes.size());
+  for (std::size_t i = 0; i < scene.shapes.size(); ++i)
+    shapes_.push_back(shape_to(scene.shapes[i], vertices_[i]));
   for (const Body& b : scene.bodies) bodies_.push_back(to_abi(b));
   for (const Step& step : effective_script(scene)) {
     ts_step out{};
+    ts_aabb box{};
     out.op = static_cast<std::int32_t>(step.op);
     out.body = step.body;
-    if (step.op != Step::Op::query)
-      out.pose = to_abi(step.pose ? *step.pose : scene.bodies[static_cast<std::size_t>(step.body)].pose);
+    if (step.op != Step::Op::query) {
+      const Pose& pose = step.pose ? *step.pose : scene.bodies[static_cast<std::size_t>(step.body)].pose;
+      out.pose = pose_to(pose);
+      if (with_boxes && step.op != Step::Op::remove) box = to_abi(outer_box(scene.shape_of(step.body), pose));
+    }
     steps_.push_back(out);
+    if (with_boxes) boxes_.push_back(box);
   }
   for (auto [a, b] : scene.ignored) ignored_.insert(ignored_.end(), {a, b});
-  view_ = {shapes_.data(), shapes_.size(), bodies_.data(),  bodies_.size(),
-           steps_.data(),  steps_.size(),  ignored_.data(), scene.ignored.size()};
+  view_ = {shapes_.data(),  shapes_.size(),       bodies_.data(),
+           bodies_.size(),  steps_.data(),        steps_.size(),
+           ignored_.data(), scene.ignored.size(), with_boxes ? boxes_.data() : nullptr};
 }
 
 ReceivedCollector::ReceivedCollector(const Scene& scene) : scene_(scene) {
@@ -218,17 +234,27 @@ void ReceivedCollector::body(int index, const double* matrix, const double* tran
   received_.bodies[static_cast<std::size_t>(index)] = p;
 }
 
-AnswerCollector::AnswerCollector(int body_count, int query_step_count) : bodies_(body_count), answer_{} {
-  answer_.outcome = TS_UNSUPPORTED;
-  answer_.distance = answer_.depth = answer_.toi = nan_value;
-  for (double* v : {answer_.point_a, answer_.point_b, answer_.normal}) std::fill_n(v, 3, nan_value);
+ts_answer blank_answer() {
+  ts_answer blank{};
+  blank.outcome = TS_UNSUPPORTED;
+  blank.distance = blank.depth = blank.toi = nan_value;
+  for (double* v : {blank.point_a, blank.point_b, blank.normal}) std::fill_n(v, 3, nan_value);
+  return blank;
+}
+
+void AnswerCollector::add_point(const double position[3], double depth) {
+  seen_.manifold.push_back({vec3(position), depth});
+}
+
+AnswerCollector::AnswerCollector(int body_count, int query_step_count)
+    : bodies_(body_count), answer_(blank_answer()) {
   seen_.candidate_pairs.resize(static_cast<std::size_t>(query_step_count));
 }
 
 ts_sink AnswerCollector::callbacks() {
   return {this,
           [](void* ctx, const double position[3], double depth) noexcept {
-            static_cast<AnswerCollector*>(ctx)->seen_.manifold.push_back({vec3(position), depth});
+            static_cast<AnswerCollector*>(ctx)->add_point(position, depth);
           },
           [](void* ctx, std::int32_t k, std::int32_t a, std::int32_t b) noexcept {
             auto& c = *static_cast<AnswerCollector*>(ctx);
@@ -269,6 +295,7 @@ Observation AnswerCollector::take(Question question) {
   if (a.has & TS_HAS_TOI) o.toi = a.toi;
   if (std::isfinite(a.claimed_tolerance) && a.claimed_tolerance > 0)
     o.claimed_tolerance = a.claimed_tolerance;
+  if (a.ns > 0) o.elapsed_ns = a.ns;
   if (!is_broad_question(question) || o.outcome != Outcome::answered) o.candidate_pairs.clear();
   return o;
 }

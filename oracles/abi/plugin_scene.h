@@ -31,10 +31,16 @@ void for_each_size(S& shape, F&& f) {
 /// The shape that a plug-in describes; nothing if the description is not valid.
 std::optional<Shape> shape_from(const ts_shape& t);
 
+/// The shape as the ABI describes it. Points into the shape; the vertices are copied to `vertices`, which
+/// must outlive the result.
+ts_shape shape_to(const Shape& s, std::vector<double>& vertices);
+ts_pose pose_to(const Pose& p);
+
 /// Owns the arrays that `view()` points into; the scene itself must outlive it.
 class PluginScene {
  public:
-  explicit PluginScene(const Scene& scene);
+  /// `with_boxes`: also the boxes of the steps.
+  explicit PluginScene(const Scene& scene, bool with_boxes = false);
   PluginScene(const PluginScene&) = delete;
   PluginScene& operator=(const PluginScene&) = delete;
   const ts_scene& view() const { return view_; }
@@ -44,6 +50,7 @@ class PluginScene {
   std::vector<ts_shape> shapes_;
   std::vector<ts_body> bodies_;
   std::vector<ts_step> steps_;
+  std::vector<ts_aabb> boxes_;
   std::vector<std::int32_t> ignored_;
   std::vector<std::vector<double>> vertices_;
 };
@@ -57,14 +64,18 @@ class ReceivedCollector {
   ReceivedScene take() { return std::move(received_); }
   int rejected() const { return rejected_; }
 
- private:
   void shape(int index, const double* size, const double* vertices, std::size_t vertex_count);
   void other_shape(int index, const ts_shape& held);
   void body(int index, const double* matrix, const double* translation);
+
+ private:
   const Scene& scene_;
   ReceivedScene received_;
   int rejected_ = 0;
 };
+
+/// As an answer is before the engine fills it in.
+ts_answer blank_answer();
 
 /// Collects one answer: the ABI's record, and the lists that come through the sink.
 class AnswerCollector {
@@ -72,6 +83,7 @@ class AnswerCollector {
   AnswerCollector(int body_count, int query_step_count);
   ts_sink callbacks();
   ts_answer& answer() { return answer_; }
+  void add_point(const double position[3], double depth);
   /// The answer as an observation; a malformed answer (unknown outcome, nonexistent body) becomes
   /// `invalid_answer`.
   Observation take(Question question);

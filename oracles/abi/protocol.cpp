@@ -143,13 +143,13 @@ void append(std::string& out, const Hello& m) {
   framed(out, Type::hello, [&](Writer& w) {
     w.count(m.cards.size());
     for (const std::string& c : m.cards) w.text(c);
-    w.put(m.chosen).text(m.error).text(m.sandbox);
+    w.put(m.chosen).text(m.error).text(m.sandbox).put(static_cast<std::uint8_t>(m.batches)).text(m.built_from);
   });
 }
 
 void append(std::string& out, const QuestionRef& m) {
   framed(out, Type::question, [&](Writer& w) {
-    w.put(m.sequence).put(m.first_query).put(m.fill);
+    w.put(m.sequence).put(m.first_query).put(m.fill).put(static_cast<std::uint8_t>(m.alone));
     put_scene(w, m.scene);
     w.count(m.queries.size());
     for (const Query& q : m.queries) w.put(static_cast<std::uint8_t>(q.question)).put(q.a).put(q.b);
@@ -178,6 +178,8 @@ Hello decode_hello(std::string_view payload) {
   m.chosen = r.get<std::int32_t>();
   m.error = valid_utf8(r.text());
   m.sandbox = printable(r.text());
+  m.batches = r.flag();
+  m.built_from = printable(r.text());
   r.finish();
   if (m.chosen < -1 || m.chosen >= static_cast<std::int32_t>(m.cards.size()))
     throw Malformed("hello names an engine that it does not list");
@@ -190,6 +192,7 @@ QuestionMessage decode_question(std::string_view payload) {
   m.sequence = r.get<std::uint64_t>();
   m.first_query = r.get<std::uint32_t>();
   m.fill = r.get<std::uint8_t>();
+  m.alone = r.flag();
   m.scene = get_scene(r);
   m.queries.resize(r.count(9));
   for (Query& q : m.queries) {

@@ -11,11 +11,12 @@
 #include <vector>
 
 #include "oracles/abi/bytes.h"
+#include "oracles/abi/source_id.h"
 #include "scenarios/value/observation.h"
 
 namespace touchstone::protocol {
 
-inline constexpr std::uint16_t version = 1;
+inline constexpr std::uint16_t version = 2;
 /// A frame longer than this is malformed.
 inline constexpr std::uint32_t max_payload_bytes = std::uint32_t{1} << 30;
 
@@ -44,6 +45,9 @@ struct Hello {
   std::int32_t chosen = -1;        // index into cards; -1: cards only
   std::string error;               // not empty: why the plug-in cannot be used
   std::string sandbox{};           // for people: which parts of the sandbox are in force
+  bool batches = false;            // answers several cases at once, so the first unanswered one need not be
+                                   // the one that ended the worker
+  std::string built_from = message_id();
   bool operator==(const Hello&) const = default;
 };
 
@@ -54,6 +58,7 @@ struct QuestionRef {
   const Scene& scene;
   std::span<const Query> queries;
   std::uint8_t fill = 0;  // content of memory that the engine has not written yet
+  bool alone = false;     // not to be answered together with others
 };
 struct QuestionMessage {
   std::uint64_t sequence = 0;
@@ -61,6 +66,7 @@ struct QuestionMessage {
   Scene scene;  // names and ids left out
   std::vector<Query> queries;
   std::uint8_t fill = 0;
+  bool alone = false;
 };
 
 /// Worker → harness after loading, before the first query.

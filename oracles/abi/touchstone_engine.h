@@ -1,7 +1,7 @@
-/* touchstone_engine.h — the interface of an engine plug-in. Plain C, ABI version 1.
+/* touchstone_engine.h — the interface of an engine plug-in. Plain C, ABI version 2.
  *
  * A plug-in is a shared object that exports one function, `touchstone_plugin_v1`. It returns a table that lists one or
- * more engines. The host process loads the plug-in, creates one engine, loads scenes and asks questions. The plug-in
+ * more engines; `./libmine.so` on a command line names its only one, `./libmine.so:NAME` one of several. The host process loads the plug-in, creates one engine, loads scenes and asks questions. The plug-in
  * may crash, hang, print or throw: the host is a separate process, and all of that is recorded as an observation.
  * The process that loads the plug-in is forked before `create`, and again after each crash: start threads in `create`
  * or later, not while the library is loaded.
@@ -10,10 +10,20 @@
  * vectors, right-handed. Quaternions are x, y, z, w, non-zero and NOT necessarily unit. Matrices are row-major.
  * Arrays passed by the host stay valid until the function returns; those of a scene, until it is unloaded.
  *
- * Within version 1 everything here keeps its name, place and meaning, so a plug-in built with an earlier header
- * continues to work. Two things may change: structures filled in by the host (ts_scene, ts_sink, ts_received) may get
- * new fields at their ends, and enumerations new values at theirs. Each such change increments the minor version; a
- * plug-in that uses one learns the host's minor version by exporting touchstone_host_v1 (at the end of this header).
+ * Compatibility. The table's first field is the version of the header that the plug-in was built with. A host of
+ * version N loads plug-ins of all versions from 1 to N, and refuses newer ones. Within a version, what is here keeps
+ * its name, place, type and meaning. Only this may change:
+ *  - structures of which the host passes one at a time (ts_scene, ts_batch, ts_sink, ts_batch_sink, ts_received) may
+ *    get fields at their ends;
+ *  - elements of arrays (ts_shape, ts_pose, ts_aabb, ts_body, ts_step, ts_answer) keep their size; what is added about
+ *    them takes the place of a `reserved` field, or is a further array at the end of ts_scene or ts_batch;
+ *  - `reserved` entries of ts_plugin may become functions. A table leaves those that it does not know null (the rest of
+ *    an initialiser may be left out), and the host calls none that is null;
+ *  - enumerations may get values at their ends, and cards optional fields.
+ * Whoever fills in a structure sets its `reserved` fields to zero; ts_answer arrives that way. Each change increments
+ * the minor version, which counts on from version to version. A plug-in that needs one exports touchstone_host_v1 (at
+ * the end of this header) to learn the host's. Version 2 differs from version 1 only by the ends of ts_plugin and
+ * ts_answer.
  */
 #ifndef TOUCHSTONE_ENGINE_H
 #define TOUCHSTONE_ENGINE_H
@@ -25,10 +35,12 @@
 extern "C" {
 #endif
 
-#define TS_ABI_VERSION 1
+#define TS_ABI_VERSION 2
 /* 1: ts_received.other_shape, and received hulls with a different number of vertices
- * 2: "more_shapes" of a card, TS_ROUNDED_BOX */
-#define TS_ABI_MINOR 2
+ * 2: "more_shapes" of a card, TS_ROUNDED_BOX
+ * 3: version 2: ts_plugin.ask_many, ts_answer.ns; ts_scene.step_boxes; "shapes", "unit_roundoffs", "contact_offset",
+ *    "sweep_skin", "depth_biases" and "times_include_pipe" of a card */
+#define TS_ABI_MINOR 3
 
 #if defined(_WIN32)
 #define TS_EXPORT __declspec(dllexport)
@@ -48,7 +60,8 @@ enum ts_shape_kind {
   TS_MESH = 8,       /* vertices, triangles: a surface */
   TS_ROUNDED_BOX = 9 /* size[0..2] = half extents of a box, size[3] = radius: all points within it of the box */
 };
-/* Every engine is sent the kinds up to this one, and those after it that its card lists ("more_shapes"). */
+/* Unless its card lists the kinds that it takes ("shapes"), an engine is sent those up to this one, and those after it
+ * that the card adds ("more_shapes"). */
 #define TS_LAST_COMMON_SHAPE TS_MESH
 /* The last kind of this header. */
 #define TS_LAST_SHAPE TS_ROUNDED_BOX
@@ -67,6 +80,10 @@ typedef struct ts_pose {
   double translation[3];
   double rotation[4]; /* x y z w, non-zero, any length */
 } ts_pose;
+
+typedef struct ts_aabb {
+  double lower[3], upper[3]; /* closed */
+} ts_aabb;
 
 typedef struct ts_body {
   int32_t shape;
@@ -95,6 +112,10 @@ typedef struct ts_scene {
   size_t step_count;
   const int32_t* ignored; /* ignored_count x 2, pairs i < j to filter out */
   size_t ignored_count;
+  /* Since minor 3. step_count boxes: for TS_INSERT and TS_MOVE an axis-aligned box that contains the body at the step's
+   * pose, rounded outward; infinite for a half-space; not a box (upper < lower, or NaN) if the body's own numbers are
+   * none. NULL unless TS_CANDIDATES will be asked about the scene. */
+  const ts_aabb* step_boxes;
 } ts_scene;
 
 enum ts_question {
@@ -111,12 +132,14 @@ enum ts_question {
   TS_SWEPT_CANDIDATES = 6
 }; /* Questions may be added: leave the answer to an unknown one unchanged, i.e. TS_UNSUPPORTED. */
 
+/* All but the first two are faults. An outcome is that of one question: the scene's other questions are asked all the
+ * same. */
 enum ts_outcome {
   TS_ANSWERED = 0,
-  TS_UNSUPPORTED = 1,
-  TS_NOT_CONVERGED = 2,
-  TS_INVALID_INPUT = 3,
-  TS_THREW = 4
+  TS_UNSUPPORTED = 1,   /* the engine has no such query for these shapes: not a fault */
+  TS_NOT_CONVERGED = 2, /* the engine says that its method failed here: an iteration cap, a status other than success */
+  TS_INVALID_INPUT = 3, /* the engine refuses numbers that are valid */
+  TS_THREW = 4          /* an exception */
 };
 
 /* Which fields of an answer are set. Fields that are not set are not judged: leave out whatever the engine's own
@@ -145,6 +168,10 @@ typedef struct ts_answer {
                                answer on these shapes; 0 if it claims none beyond arithmetic. Believed only if the
                                card has a `source`; above 1e-2 L it is shown beside the verdict */
   char detail[128];         /* zero-terminated message for people */
+  /* Version 2. */
+  int64_t ns; /* the time of this answer in nanoseconds, if the engine knows it better than a clock around `ask`;
+                 0: the host's clock decides */
+  int64_t reserved2[7];
 } ts_answer;
 
 /* Callbacks for the variable-length parts of an answer. Pass `ctx` back unchanged. */
@@ -179,21 +206,62 @@ typedef struct ts_received {
   void (*other_shape)(void* ctx, int32_t shape, const ts_shape* held);
 } ts_received;
 
+/* Version 2: one question about many pairs, as arrays. Pair i is shapes[shape_a[i]] at pose_a[i] and shapes[shape_b[i]]
+ * at pose_b[i]. If all pairs are of the same two shapes, shape_count is at most 2. */
+typedef struct ts_batch {
+  int32_t question; /* TS_OVERLAP to TS_TIME_OF_IMPACT */
+  int32_t reserved;
+  size_t count; /* of pairs, at least 1 */
+  const ts_shape* shapes;
+  size_t shape_count;
+  const int32_t* shape_a; /* count each */
+  const int32_t* shape_b;
+  const ts_pose* pose_a; /* count each: 7 doubles without gaps */
+  const ts_pose* pose_b;
+  const double* motion_a; /* count x 6 each: linear, angular as in ts_body; NULL if no body moves */
+  const double* motion_b;
+} ts_batch;
+
+/* Callbacks of a batch: those of ts_sink and ts_received for pair i, whose bodies are 0 (a) and 1 (b). What a pair
+ * shares with others is reported for each. */
+typedef struct ts_batch_sink {
+  void* ctx;
+  void (*point)(void* ctx, size_t i, const double position[3], double depth);
+  void (*received_shape)(void* ctx, size_t i, int32_t body, const double size[4], const double* vertices,
+                         size_t vertex_count);
+  void (*received_other_shape)(void* ctx, size_t i, int32_t body, const ts_shape* held);
+  void (*received_body)(void* ctx, size_t i, int32_t body, const double matrix[9], const double translation[3]);
+} ts_batch_sink;
+
 typedef struct ts_engine ts_engine; /* yours */
 
 typedef struct ts_plugin {
   uint32_t abi_version; /* TS_ABI_VERSION */
   uint32_t engine_count;
-  /* JSON card of the i-th engine, an object with these fields and no others:
-   *   "name", "library", "version", "settings": strings; the name must not be empty
-   *   "source": string: where the documentation makes the claims in claimed_tolerance; if empty, they are not
-   * believed "unit_roundoff": of its arithmetic, 1.1102230246251565e-16 for doubles, 5.960464477539063e-08
-   * for floats; at most 2^-8 "tau_factor": the error allowed for rounding, in units of unit_roundoff times
-   * the scale L of the pair; typically 64; at most 16384, and at most 0.01 after multiplication by
-   * unit_roundoff "complete_manifolds", optional: true if manifolds cover the whole contact region, which is
-   * then checked "more_shapes", optional, since minor 2: the kinds after TS_LAST_COMMON_SHAPE that the engine
-   * takes, by the names of the scene's JSON form, e.g. ["rounded_box"]. For a scene with any other kind after
-   * TS_LAST_COMMON_SHAPE the host answers "unsupported" and does not call `load` */
+  /* JSON card of the i-th engine, an object with these fields and no others; those from "complete_manifolds" on are
+   * optional. Lengths are in the scene's unit.
+   *  - "name", "library", "version", "settings": strings; the name must not be empty.
+   *  - "source": string: where the documentation makes the claims below and those of claimed_tolerance; if empty, they
+   *    are not believed.
+   *  - "unit_roundoff": of its arithmetic, 1.1102230246251565e-16 for doubles, 5.960464477539063e-08 for floats; at
+   *    most 2^-8.
+   *  - "tau_factor": the error allowed for rounding, in units of unit_roundoff times the scale L of the pair;
+   *    typically 64; at most 16384, and at most 0.01 after multiplication by a unit roundoff.
+   *  - "complete_manifolds": true if manifolds cover the whole contact region, which is then checked.
+   *  - "more_shapes", since minor 2: the kinds after TS_LAST_COMMON_SHAPE that the engine takes besides the common
+   *    ones, by the names of the scene's JSON form, e.g. ["rounded_box"].
+   *  - "shapes", since minor 3, instead of "more_shapes": all kinds that the engine takes, e.g. ["sphere", "box"].
+   *    Campaigns about the engine are made of these. For a scene with a kind that the engine does not take, the host
+   *    answers "unsupported" and does not call `load`.
+   *  - "unit_roundoffs", since minor 3: of kinds that are computed more coarsely than "unit_roundoff" says, e.g.
+   *    {"mesh": 5.960464477539063e-08}. The coarser one of a pair counts.
+   *  - "contact_offset", since minor 3: bodies apart by at most this are reported as in contact, with a depth of minus
+   *    the distance.
+   *  - "sweep_skin", since minor 3: a sweep stops when the gap is at most this.
+   *  - "depth_biases", since minor 3: by what share of the least depth the normal chosen for a pair of kinds may need
+   *    more, e.g. {"box box": 0.05} for a routine that prefers faces; at most 0.25.
+   *  - "times_include_pipe", since minor 3: true if times include talking to another process; they are then not charted
+   *    as the engine's. The host sets it for a command behind a pipe that does not state its own times. */
   const char* (*card)(uint32_t i);
   ts_engine* (*create)(uint32_t i);
   void (*destroy)(ts_engine*);
@@ -203,9 +271,15 @@ typedef struct ts_plugin {
   /* Answers one question about the loaded scene. `answer` is zeroed on entry, with numbers NaN and outcome
    * TS_UNSUPPORTED. */
   void (*ask)(ts_engine*, int32_t question, int32_t a, int32_t b, ts_answer* answer, const ts_sink* sink);
+  /* Version 2, or NULL: answers one question about many pairs, with the answers that `ask` gives. No scene is loaded
+   * then. `answers` holds batch->count answers, each as for `ask`; without an `ns` they share the time of the call
+   * equally. The host asks in batches where it has several pairs to ask about. If the call crashes, hangs or throws,
+   * it asks about each pair alone, through `ask`. */
+  void (*ask_many)(ts_engine*, const ts_batch* batch, ts_answer* answers, const ts_batch_sink* sink);
+  void (*reserved[7])(void); /* null */
 } ts_plugin;
 
-/* The one symbol that every plug-in must export. */
+/* The one symbol that every plug-in must export. Symbols keep their names in all versions. */
 TS_EXPORT const ts_plugin* touchstone_plugin_v1(void);
 
 /* Optional: called once, before touchstone_plugin_v1, with the host's TS_ABI_MINOR. Hosts of minor 0 do not call it. */

@@ -190,7 +190,8 @@ std::string impact(const EngineQuestion& q) {
   btCollisionWorld::ClosestConvexResultCallback closest(from.getOrigin(), to.getOrigin());
   w.world.convexSweepTest(&shape_{3}, from, to, closest);
   w.world.removeCollisionObject(&object_{0});
-  if (closest.hasHit()) x.impact = closest.m_closestHitFraction;
+  x.hit = closest.hasHit();
+  if (x.hit) x.impact = closest.m_closestHitFraction;
 )",
                      target, transform(start), transform(pose_at(start, relative, 1)), q.body(mover).shape);
 }

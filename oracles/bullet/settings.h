@@ -22,7 +22,7 @@ struct Setting {
 };
 #ifndef TOUCHSTONE_SWEEP
 inline constexpr Setting settings[] = {
-    {"query"}, {"sim", true}, {"query-tuned", false, 0}, {"sim-tuned", true, 0}};
+    {"query"}, {"query-tuned", false, 0}, {"sim", true}, {"sim-tuned", true, 0}};
 #else
 // The values in the names, as lengths in the unit of the scene.
 inline constexpr Setting settings[] = {{"query@0.001", false, 0.001},

@@ -53,6 +53,8 @@ class RemoteEngine::Impl {
     } catch (const InputError& e) {
       throw e.within(spec_.plugin.string() + ": card");
     }
+    if (!spec_.shown_name.empty()) card_.name = spec_.shown_name;
+    if (!spec_.shown_version.empty()) card_.version = spec_.shown_version;
   }
 
   std::vector<CaseObservations> run(std::span<const Case> cases, std::uint8_t fill) try {
@@ -89,7 +91,7 @@ class RemoteEngine::Impl {
     }
     at_ = {};
     skip_done();
-    if (std::exchange(one_by_one_, false)) session_.reset();
+    if (std::exchange(one_by_one_, false) && spec_.native) session_.reset();
     lost_.reset();
     // Memory that earlier batches left behind must not be charged to a query of this one.
     // (Native engines do not need this: questions that end their worker are repeated in a new one.)
@@ -181,7 +183,9 @@ class RemoteEngine::Impl {
 
   Watchdog::Phase phase() const {
     // A native engine uses the scene as it is, without a loading phase.
-    return at_.loaded || spec_.native ? Watchdog::Phase::answering : Watchdog::Phase::loading_scene;
+    // A batch is loaded and answered at once.
+    const bool batch = session_->hello.batches && !one_by_one_;
+    return at_.loaded || spec_.native || batch ? Watchdog::Phase::answering : Watchdog::Phase::loading_scene;
   }
 
   /// True when nothing is left to read from a process that has ended.
@@ -204,8 +208,8 @@ class RemoteEngine::Impl {
       const Case& c = cases_[next_to_send_];
       const std::uint32_t first = next_to_send_ == at_.item ? at_.query : 0;
       if (first < c.queries.size()) {
-        protocol::append(outgoing_,
-                         protocol::QuestionRef{sequence_of(next_to_send_), first, c.scene, c.queries, fill_});
+        protocol::append(outgoing_, protocol::QuestionRef{sequence_of(next_to_send_), first, c.scene,
+                                                          c.queries, fill_, one_by_one_});
         sequence_ = sequence_of(next_to_send_) + 1;
       }
       ++next_to_send_;
@@ -291,12 +295,12 @@ class RemoteEngine::Impl {
     replace_worker();
   }
 
-  /// A native engine's worker buffers its answers, so the question that ended it is found by repeating the
-  /// unanswered ones one by one. If the crash does not recur, the first of them is charged. A time-out that
-  /// does not recur is not charged.
+  /// A native engine's worker buffers its answers, and others may answer several cases at once; the question
+  /// that ended the worker is then found by repeating the unanswered ones one by one. If the crash does not
+  /// recur, the first of them is charged. A time-out that does not recur is not charged.
   bool retries_one_by_one(Observation what) {
     lost_.reset();
-    if (!spec_.native || one_by_one_) return false;
+    if (!(spec_.native || session_->hello.batches) || one_by_one_) return false;
     what.detail += "; it did not recur when asked again";
     if (what.outcome == Outcome::crashed) lost_ = Lost{at_, std::move(what)};
     one_by_one_ = true;

@@ -23,6 +23,8 @@ struct RemoteSpec {
   /// For an engine of this build (native_engine.h): its card. No worker is started before the first question,
   /// and answers arrive in batches.
   std::optional<EngineCard> native = std::nullopt;
+  /// What its card shall say instead, if not empty: for a library that is present in several builds.
+  std::string shown_name = {}, shown_version = {};
 };
 
 class RemoteEngine final : public Engine {

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <exception>
 #include <string>
+#include <vector>
 
 namespace touchstone {
 
@@ -29,6 +30,9 @@ struct WorkerLimits {
   /// If not empty: the program (Valgrind) that runs the worker, which ends at its first invalid memory
   /// access. About thirty times slower, and without a sandbox.
   std::string memcheck = {};
+  /// If not empty: the program that runs the worker, with its arguments: an emulator of the machine that the
+  /// worker was built for. Without a sandbox.
+  std::vector<std::string> run_with = {};
   /// Set to stop all engines: they then throw Stopped, whatever they are waiting for.
   const std::atomic<bool>* stop = nullptr;
 };

@@ -1,5 +1,7 @@
 #include "oracles/client/worker_session.h"
 
+#include <fmt/format.h>
+
 #include <poll.h>
 #include <unistd.h>
 
@@ -24,6 +26,14 @@ void wait_for_output(WorkerProcess& worker) {
   if (worker.errors_fd() >= 0) worker.drain_errors();
 }
 
+protocol::Hello of_this_build(protocol::Hello hello) {
+  if (hello.built_from != message_id())
+    throw InputError("touchstone-host",
+                     fmt::format("was built from other sources ({}) than this program ({}): build both again",
+                                 hello.built_from, message_id()));
+  return hello;
+}
+
 protocol::Hello await_hello(WorkerSession& s, const std::string& place, const WorkerLimits& limits) {
   Watchdog watchdog(limits);
   watchdog.progress(*s.process);
@@ -33,10 +43,11 @@ protocol::Hello await_hello(WorkerSession& s, const std::string& place, const Wo
     try {
       if (const auto frame = s.frames.next()) {
         if (frame->type != protocol::Type::hello) throw protocol::Malformed("unexpected type of message");
-        return protocol::decode_hello(frame->payload);
+        return of_this_build(protocol::decode_hello(frame->payload));
       }
     } catch (const protocol::Malformed& e) {
-      throw InputError(place, std::string("the worker's first message is not a hello: ") + e.what());
+      throw InputError(place,
+                       std::string("the worker's first message is not a hello of this build: ") + e.what());
     }
     if (r == ReadResult::closed) {
       s.process->ends_within(death_wait_seconds);
@@ -68,6 +79,17 @@ namespace {
 
 constexpr int memcheck_exit = 99;  // of a process in which Valgrind found an error
 
+// The program that runs the worker, with its arguments; empty: the system.
+std::vector<std::string> runner_of(const WorkerLimits& limits) {
+  if (limits.memcheck.empty()) return limits.run_with;
+  // Uninitialised values are detected by Engine::run_again instead; dynamic loaders are full of them.
+  std::vector<std::string> runner{limits.memcheck};
+  for (const char* option : {"--quiet", "--undef-value-errors=no", "--exit-on-first-error=yes"})
+    runner.emplace_back(option);
+  runner.push_back(fmt::format("--error-exitcode={}", memcheck_exit));
+  return runner;
+}
+
 WorkerSession start_fork_server(const std::filesystem::path& host, const std::filesystem::path& plugin,
                                 const std::string& argument, const WorkerLimits& limits, bool native) {
   const std::string place = plugin.string();
@@ -77,7 +99,8 @@ WorkerSession start_fork_server(const std::filesystem::path& host, const std::fi
     throw InputError(place, "there is no such plug-in file");
   // An absolute path, because the dynamic linker searches elsewhere for a name without a slash.
   std::vector<std::string> arguments{is_command ? place : std::filesystem::absolute(plugin).string()};
-  const bool sandbox = limits.sandbox && limits.memcheck.empty();
+  const std::vector<std::string> runner = runner_of(limits);
+  const bool sandbox = limits.sandbox && runner.empty();
   if (!argument.empty() || sandbox) arguments.push_back(argument);
   std::unique_ptr<ScratchDirectory> scratch;
   if (sandbox) {
@@ -85,17 +108,13 @@ WorkerSession start_fork_server(const std::filesystem::path& host, const std::fi
     arguments.push_back(scratch->path());
     arguments.push_back(std::to_string(limits.resident_bytes));
   }
-  if (!limits.memcheck.empty()) {
-    // Uninitialised values are detected by Engine::run_again instead; dynamic loaders are full of them.
-    const auto before = {std::string("--quiet"), std::string("--undef-value-errors=no"),
-                         std::string("--exit-on-first-error=yes"),
-                         "--error-exitcode=" + std::to_string(memcheck_exit), host.string()};
-    arguments.insert(arguments.begin(), before.begin(), before.end());
+  if (!runner.empty()) {
+    arguments.insert(arguments.begin(), host.string());
+    arguments.insert(arguments.begin(), runner.begin() + 1, runner.end());
   }
   WorkerSession s;
-  s.process =
-      std::make_shared<WorkerProcess>(limits.memcheck.empty() ? host : std::filesystem::path(limits.memcheck),
-                                      arguments, std::move(scratch), native);
+  s.process = std::make_shared<WorkerProcess>(runner.empty() ? host : std::filesystem::path(runner.front()),
+                                              arguments, std::move(scratch), native);
   s.hello = await_hello(s, place, limits);
   if (!s.hello.error.empty()) throw InputError(place, s.hello.error);
   return s;
@@ -112,12 +131,13 @@ std::shared_ptr<const WorkerSession> share_native_fork_server(const std::filesys
                                                               const std::filesystem::path& library,
                                                               const WorkerLimits& limits) {
   // Everything that determines how the fork server is started.
-  using Key = std::tuple<pid_t, std::string, std::string, bool, std::uint64_t, std::string>;
+  using Key =
+      std::tuple<pid_t, std::string, std::string, bool, std::uint64_t, std::string, std::vector<std::string>>;
   static std::mutex guard;
   static std::map<Key, std::weak_ptr<const WorkerSession>> fork_servers;
   const std::lock_guard lock(guard);
   auto& kept = fork_servers[{getpid(), host.string(), library.string(), limits.sandbox, limits.resident_bytes,
-                             limits.memcheck}];
+                             limits.memcheck, limits.run_with}];
   auto fork_server = kept.lock();
   if (!fork_server || fork_server->process->has_ended())
     kept = fork_server =

@@ -2,9 +2,7 @@
 
 #include "core/broad/catalog.h"
 #include "core/math/roundoff.h"
-#include "core/narrow/mesh_tree.h"
 #include "core/narrow/narrow_phase.h"
-#include "core/shape/hull_graph.h"
 #include "core/world/step_world.h"
 #include "oracles/core/core_answers.h"
 #include "oracles/core/core_engine.h"
@@ -26,20 +24,15 @@ Pose previous_pose(const Scene& s, int body) {
   return {now.translation + Vec3(shift, -shift / 2, shift / 4), now.rotation};
 }
 
-// Acceleration structures built once per scene, and the cached state of its pairs.
+// The colliders of a scene, and the cached state of its pairs.
 class Kept {
  public:
-  explicit Kept(const Scene& s) : s_(s), graphs_(s.shapes.size()), trees_(s.shapes.size()) {
-    for (std::size_t i = 0; i < s.shapes.size(); ++i) {
-      if (const auto* h = std::get_if<Hull>(&s.shapes[i])) graphs_[i] = build_hull_graph(*h, least_graph);
-      if (const auto* m = std::get_if<TriangleMesh>(&s.shapes[i])) trees_[i] = build_mesh_tree(*m);
-    }
+  explicit Kept(const Scene& s) : s_(s) {
+    for (const Shape& shape : s.shapes) colliders_.emplace_back(shape, least_graph);
   }
 
   PlacedShape placed(int i, const Pose& pose) const {
-    const std::size_t shape = at(s_.bodies.at(at(i)).shape);
-    return {&s_.shapes[shape], pose, trees_[shape].nodes.empty() ? nullptr : &trees_[shape],
-            graphs_[shape] ? &graphs_[shape] : nullptr};
+    return colliders_[at(s_.bodies.at(at(i)).shape)].at(pose);
   }
   PlacedShape placed(int i) const { return placed(i, s_.bodies.at(at(i)).pose); }
 
@@ -51,8 +44,7 @@ class Kept {
 
  private:
   const Scene& s_;
-  std::vector<HullGraph> graphs_;
-  std::vector<MeshTree> trees_;
+  std::vector<Collider> colliders_;
   std::map<std::pair<int, int>, PairMemory> memory_;
 };
 

@@ -1,6 +1,6 @@
 /* The smallest useful engine: spheres against spheres, in plain C. Copy it, rename it, and call your own
  * detector from `ask`. Anything that it does not support is left unchanged, i.e. TS_UNSUPPORTED. Build:
- *   cc -shared -fPIC -I <touchstone> example_engine.c -o libmine.so -lm
+ *   cc -O2 -shared -fPIC -I <touchstone> example_engine.c -o libmine.so -lm
  */
 #include <math.h>
 #include <stdlib.h>
@@ -15,7 +15,8 @@ struct ts_engine {
 static const char* card(uint32_t i) {
   (void)i;
   return "{\"name\":\"example\",\"library\":\"example\",\"version\":\"1\",\"settings\":\"spheres only\","
-         "\"unit_roundoff\":1.1102230246251565e-16,\"tau_factor\":64,\"source\":\"arithmetic only\"}";
+         "\"unit_roundoff\":1.1102230246251565e-16,\"tau_factor\":64,\"source\":\"arithmetic only\","
+         "\"shapes\":[\"sphere\"]}";
 }
 
 static ts_engine* create(uint32_t i) {
@@ -67,6 +68,6 @@ static void ask(ts_engine* e, int32_t question, int32_t a, int32_t b, ts_answer*
 }
 
 const ts_plugin* touchstone_plugin_v1(void) {
-  static const ts_plugin plugin = {TS_ABI_VERSION, 1, card, create, destroy, load, unload, ask};
+  static const ts_plugin plugin = {TS_ABI_VERSION, 1, card, create, destroy, load, unload, ask, NULL, {NULL}};
   return &plugin;
 }

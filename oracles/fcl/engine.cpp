@@ -61,8 +61,8 @@ class Engine {
                            source};
     };
 #ifndef TOUCHSTONE_SWEEP
-    return {card("fcl-libccd", shipped_settings), card("fcl-indep", shipped_settings),
-            card("fcl-libccd-tuned", tuned_libccd_settings), card("fcl-indep-tuned", tuned_indep_settings)};
+    return {card("fcl-libccd", shipped_settings), card("fcl-libccd-tuned", tuned_libccd_settings),
+            card("fcl-indep", shipped_settings), card("fcl-indep-tuned", tuned_indep_settings)};
 #else
     std::vector<kit::CardText> all;
     for (const Sweep& s : sweeps) all.push_back(card(s.name, s.text));
@@ -71,7 +71,8 @@ class Engine {
   }
 
 #ifndef TOUCHSTONE_SWEEP
-  explicit Engine(unsigned index) : settings_{index % 2 ? fcl::GST_INDEP : fcl::GST_LIBCCD, index >= 2} {}
+  explicit Engine(unsigned index)
+      : settings_{index >= 2 ? fcl::GST_INDEP : fcl::GST_LIBCCD, index % 2 == 1} {}
 #else
   explicit Engine(unsigned index) : settings_(sweeps[index].settings) {}
 #endif

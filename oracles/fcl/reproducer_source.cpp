@@ -174,7 +174,8 @@ Answer ask() {
   request.gjk_solver_type = fcl::@SOLVER@;
   fcl::ContinuousCollisionResultd result;
 @CALL@  Answer x;
-  if (result.is_collide) x.impact = result.time_of_contact;
+  x.hit = result.is_collide;
+  if (x.hit) x.impact = result.time_of_contact;
   return x;
 }
 )";

@@ -101,6 +101,7 @@ void work(const Loaded& l, host::WorkerStreams streams) {
   if (l.native) return work_natively(hello, *l.native, streams);
   ts_engine* engine = nullptr;
   try {
+    hello.batches = l.plugin->ask_many != nullptr;
     engine = l.plugin->create(static_cast<std::uint32_t>(hello.chosen));
     if (!engine) hello.error = "created no engine";
   } catch (const std::exception& e) {

@@ -75,7 +75,9 @@ MakeNativeEngine* load_native(const std::string& file) {
   if (file.starts_with(pipe_prefix)) return nullptr;
   void* const library = dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL);
   if (!library) return nullptr;  // load_plugin() says why
-  return reinterpret_cast<MakeNativeEngine*>(dlsym(library, make_native_engine_symbol));
+  const auto make = reinterpret_cast<MakeNativeEngine*>(dlsym(library, make_native_engine_symbol));
+  if (make) require_same_sources(library);
+  return make;
 }
 
 void serve_native(NativeEngine& engine, const WorkerStreams& streams) {

@@ -19,26 +19,31 @@
 #include <string_view>
 #include <vector>
 
-#include "oracles/host/pipe_scene.h"
+#include "oracles/abi/pipe_scene.h"
+#include "oracles/host/pipe_batch.h"
 #include "scenarios/value/observation.h"
 
 namespace touchstone::host {
 namespace {
 
+using pipe::Json;
+using pipe::NotFinite;
+
 constexpr int protocol_version = 1;
 constexpr std::size_t longest_line = std::size_t{1} << 28;
+constexpr double longest_ns = 1e15;       // of a time that a command states
 constexpr std::size_t quoted_bytes = 80;  // of the command's output in a message
 
 // Set once by load_pipe(); a process serves a single command.
 std::string command_line, card_text;
-bool gives_receipts = false;
+bool gives_receipts = false, states_times = false;
 
 /// The command and its three streams.
 class Child {
  public:
   explicit Child(const std::string& command) {
     int to[2], from[2], errors[2];
-    if (pipe(to) != 0 || pipe(from) != 0 || pipe(errors) != 0)
+    if (::pipe(to) != 0 || ::pipe(from) != 0 || ::pipe(errors) != 0)
       throw std::runtime_error("cannot create a pipe");
     pid_ = fork();
     if (pid_ < 0) throw std::runtime_error("cannot be started");
@@ -79,8 +84,12 @@ class Child {
           buffer_.substr(0, std::min(buffer_.find('\n'), quoted_bytes)));
   }
   void write_line(std::string line) {
-    require_silence();
     line.push_back('\n');
+    write_all(line);
+  }
+  /// A message as it is.
+  void write_all(std::string_view line) {
+    require_silence();
     for (std::size_t done = 0; done < line.size();) {
       const ssize_t n = write(to_, line.data() + done, line.size() - done);
       if (n < 0 && errno == EINTR) continue;
@@ -95,20 +104,15 @@ class Child {
   std::string read_line() {
     for (std::size_t seen = 0;;) {
       const auto end = buffer_.find('\n', seen);
-      if (end != std::string::npos) {
-        std::string line = buffer_.substr(0, end);
-        buffer_.erase(0, end + 1);
-        return line;
-      }
+      if (end != std::string::npos) return take(end, 1);
       seen = buffer_.size();
-      char bytes[1 << 14];
-      wait({from_, POLLIN, 0});
-      const ssize_t n = read(from_, bytes, sizeof bytes);
-      if (n < 0 && errno == EINTR) continue;
-      if (n <= 0) throw std::runtime_error(how_it_ended());
-      buffer_.append(bytes, static_cast<std::size_t>(n));
+      read_some();
       if (buffer_.size() > longest_line) throw std::runtime_error("the command wrote a line without an end");
     }
+  }
+  std::string read_bytes(std::size_t n) {
+    while (buffer_.size() < n) read_some();
+    return take(n, 0);
   }
 
  private:
@@ -116,6 +120,24 @@ class Child {
   // A command that has closed its output gets a second to end.
   static constexpr int end_tries = 100;
   static constexpr unsigned end_try_microseconds = 10000;
+
+  /// The first n bytes; drops `more` after them.
+  std::string take(std::size_t n, std::size_t more) {
+    std::string bytes = buffer_.substr(0, n);
+    buffer_.erase(0, n + more);
+    return bytes;
+  }
+  void read_some() {
+    char bytes[1 << 16];
+    for (;;) {
+      wait({from_, POLLIN, 0});
+      const ssize_t n = read(from_, bytes, sizeof bytes);
+      if (n < 0 && errno == EINTR) continue;
+      if (n <= 0) throw std::runtime_error(how_it_ended());
+      buffer_.append(bytes, static_cast<std::size_t>(n));
+      return;
+    }
+  }
 
   /// Waits until that stream is ready. Reads the command's standard error meanwhile: otherwise the command
   /// could block on it while we wait for the command.
@@ -233,6 +255,13 @@ std::int32_t outcome_of(const std::string& name) {
   throw std::runtime_error("the command names an unknown outcome: " + name);
 }
 
+// A command whose card promises its own times states them with each answer.
+std::int64_t stated_ns(const Json& j) {
+  const double ns = j.at("ns").get<double>();
+  if (!(ns >= 0 && ns <= longest_ns)) throw std::runtime_error("the command states a time that is none");
+  return std::max<std::int64_t>(1, std::llround(ns));
+}
+
 void read_answer(const Json& j, ts_answer& out, const ts_sink& sink) {
   out.outcome = outcome_of(j.value("outcome", "answered"));
   std::snprintf(out.detail, sizeof out.detail, "%s", j.value("detail", "").c_str());
@@ -260,6 +289,7 @@ void read_answer(const Json& j, ts_answer& out, const ts_sink& sink) {
     read3(j.at("point_b"), out.point_b);
   }
   out.claimed_tolerance = j.value("claimed_tolerance", 0.0);
+  if (states_times) out.ns = stated_ns(j);
   read_lists(j, sink);
 }
 
@@ -281,11 +311,11 @@ ts_engine* create(std::uint32_t) {
 void destroy(ts_engine* e) { delete &child(e); }
 std::int32_t load(ts_engine* e, const ts_scene* scene, const ts_received* received, char* detail) {
   try {
-    child(e).write_line(Json{{"scene", scene_of(*scene)}}.dump());
+    child(e).write_line(Json{{"scene", pipe::scene_of(*scene)}}.dump());
     if (!gives_receipts) return TS_ANSWERED;
     const Json receipt = parsed(child(e).read_line());
     std::snprintf(detail, 256, "%s", receipt.value("detail", "").c_str());
-    if (receipt.contains("received")) read_receipt(receipt["received"], *scene, *received);
+    if (receipt.contains("received")) pipe::read_receipt(receipt["received"], *scene, *received);
     return outcome_of(receipt.value("outcome", "answered"));
   } catch (const NotFinite&) {
     std::snprintf(detail, 256, "JSON cannot represent a number that is not finite");
@@ -316,6 +346,23 @@ void ask(ts_engine* e, std::int32_t question, std::int32_t a, std::int32_t b, ts
   }
 }
 
+void ask_many(ts_engine* e, const ts_batch* batch, ts_answer* answers, const ts_batch_sink* sink) {
+  try {
+    child(e).write_all(batch_message(*batch));
+    const Json header = parsed(child(e).read_line());
+    const BatchAnswers form(header, *batch);
+    form.read(child(e).read_bytes(form.bytes()), answers, *sink);
+    child(e).require_silence();
+    if (!states_times) return;
+    const std::int64_t each = stated_ns(header) / static_cast<std::int64_t>(batch->count);
+    for (std::size_t i = 0; i < batch->count; ++i) answers[i].ns = std::max<std::int64_t>(1, each);
+  } catch (const Json::exception& why) {
+    abort_with(("the command's answers do not have the required form: " + std::string(why.what())).c_str());
+  } catch (const std::exception& why) {
+    abort_with(why.what());
+  }
+}
+
 }  // namespace
 
 const ts_plugin& load_pipe(const std::string& command) {
@@ -329,10 +376,14 @@ const ts_plugin& load_pipe(const std::string& command) {
     throw std::runtime_error("speaks version " + j["touchstone_pipe"].dump() +
                              " of the pipe protocol instead of 1");
   gives_receipts = j.value("receipts", false);
-  j.erase("touchstone_pipe");
-  j.erase("receipts");
+  states_times = j.value("states_ns", false);
+  const bool takes_batches = j.value("batches", false);
+  for (const char* of_the_pipe : {"touchstone_pipe", "receipts", "states_ns", "batches"})
+    j.erase(of_the_pipe);
+  if (!states_times) j["times_include_pipe"] = true;
   card_text = j.dump();
-  static const ts_plugin table{TS_ABI_VERSION, 1, card, create, destroy, load, unload, ask};
+  static const ts_plugin table{
+      TS_ABI_VERSION, 1, card, create, destroy, load, unload, ask, takes_batches ? ask_many : nullptr, {}};
   return table;
 }
 

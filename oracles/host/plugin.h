@@ -21,8 +21,12 @@ std::vector<std::string> cards_of(const ts_plugin& plugin);
 /// std::runtime_error.
 int choose_engine(const std::vector<std::string>& cards, const std::string& name);
 
+/// `library` as returned by dlopen. Throws std::runtime_error if it says that it was built from other sources
+/// than this host (oracles/abi/source_id.h).
+void require_same_sources(void* library);
+
 /// The factory of the file's engines if it is a library of native engines (oracles/abi/native_engine.h), or
-/// null.
+/// null. Throws like require_same_sources.
 MakeNativeEngine* load_native(const std::string& file);
 
 // An engine in any language behind a pipe (oracles/abi/pipe_protocol.md), seen as a plug-in: the worker

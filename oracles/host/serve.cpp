@@ -1,19 +1,25 @@
 #include "oracles/host/serve.h"
 
+#include <poll.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <cerrno>
 #include <chrono>
 #include <cstring>
+#include <deque>
 #include <exception>
 #include <optional>
+#include <span>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "oracles/abi/measure.h"
 #include "oracles/abi/plugin_scene.h"
 #include "oracles/abi/protocol.h"
 #include "oracles/host/diagnosis.h"
+#include "oracles/host/pair_batch.h"
 
 namespace touchstone::host {
 namespace {
@@ -37,24 +43,108 @@ class Server {
   Server(const ts_plugin& plugin, ts_engine* engine, const EngineCard& card, int answers_fd)
       : plugin_(plugin), engine_(engine), card_(card), answers_fd_(answers_fd) {}
 
+  bool takes_batches() const { return plugin_.ask_many && measure_ns_ == 0; }
+
+  /// Runs of scenes that can be asked about together are, the others one after the other.
+  void answer(std::span<const protocol::QuestionMessage> messages) {
+    while (!messages.empty()) {
+      const auto end =
+          std::find_if_not(messages.begin(), messages.end(), [&](const auto& m) { return can_share(m); });
+      const auto n = static_cast<std::size_t>(end - messages.begin());
+      if (n > 1 && answer_together(messages.first(n))) {
+        messages = messages.subspan(n);
+        continue;
+      }
+      const std::size_t alone = std::max<std::size_t>(n, 1);
+      for (const protocol::QuestionMessage& m : messages.first(alone)) answer(m);
+      messages = messages.subspan(alone);
+    }
+  }
+
   void answer(const protocol::QuestionMessage& m) {
     fill_ = m.fill;
     fill_new_memory(fill_);
-    const PluginScene scene(m.scene);
+    const bool broad = std::any_of(m.queries.begin(), m.queries.end(),
+                                   [](const Query& q) { return q.question == Question::candidates; });
+    const PluginScene scene(m.scene, broad);
     LoadResult loaded = load(m.scene, scene.view());
+    // Each message is written immediately, so that a crash loses only the running query.
     send(protocol::ReceivedMessage{m.sequence, std::move(loaded.received)});
-    for (std::uint32_t i = m.first_query; i < m.queries.size(); ++i)
+    flush();
+    for (std::uint32_t i = m.first_query; i < m.queries.size(); ++i) {
       send(protocol::AnswerMessage{m.sequence, i,
                                    loaded.refusal ? *loaded.refusal : ask(m.scene, m.queries[i])});
+      flush();
+    }
     if (loaded.asked) unload();
   }
 
  private:
+  // A pair of bodies and questions about it. What a batch reports as received is that of its pairs: all of
+  // the scene.
+  bool can_share(const protocol::QuestionMessage& m) const {
+    if (!takes_batches() || m.alone || m.fill != 0) return false;
+    if (m.scene.bodies.size() != 2 || refusal_of(m.scene)) return false;
+    const auto uses = [&](std::size_t shape) {
+      return std::any_of(m.scene.bodies.begin(), m.scene.bodies.end(),
+                         [&](const Body& b) { return static_cast<std::size_t>(b.shape) == shape; });
+    };
+    for (std::size_t s = 0; s < m.scene.shapes.size(); ++s)
+      if (!uses(s)) return false;
+    return m.first_query < m.queries.size() &&
+           std::all_of(m.queries.begin(), m.queries.end(), [](const Query& q) {
+             return is_pair_question(q.question) && std::min(q.a, q.b) == 0 && std::max(q.a, q.b) == 1;
+           });
+  }
+
+  // Asks each question about all its pairs at once. False, with nothing sent, if an answer is to be had one
+  // by one only.
+  bool answer_together(std::span<const protocol::QuestionMessage> messages) {
+    std::vector<std::vector<Observation>> answers(messages.size());
+    std::deque<ReceivedCollector> received;
+    for (std::size_t i = 0; i < messages.size(); ++i) {
+      received.emplace_back(messages[i].scene);
+      answers[i].resize(messages[i].queries.size());
+    }
+    fill_ = 0;
+    fill_new_memory(fill_);
+    for (int k = 0; is_pair_question(static_cast<Question>(k)); ++k)
+      if (!ask_together(static_cast<Question>(k), messages, received, answers)) return false;
+    for (const ReceivedCollector& r : received)
+      if (r.rejected() > 0) return false;
+    for (std::size_t i = 0; i < messages.size(); ++i) {
+      send(protocol::ReceivedMessage{messages[i].sequence, received[i].take()});
+      for (std::uint32_t q = messages[i].first_query; q < answers[i].size(); ++q)
+        send(protocol::AnswerMessage{messages[i].sequence, q, std::move(answers[i][q])});
+    }
+    flush();
+    return true;
+  }
+
+  bool ask_together(Question question, std::span<const protocol::QuestionMessage> messages,
+                    std::deque<ReceivedCollector>& received, std::vector<std::vector<Observation>>& answers) {
+    PairBatch batch(question);
+    std::vector<Observation*> places;
+    for (std::size_t i = 0; i < messages.size(); ++i)
+      for (std::uint32_t q = messages[i].first_query; q < messages[i].queries.size(); ++q)
+        if (messages[i].queries[q].question == question) {
+          batch.add(messages[i].scene, messages[i].queries[q], received[i]);
+          places.push_back(&answers[i][q]);
+        }
+    if (batch.empty()) return true;
+    auto given = batch.ask(plugin_, engine_);
+    if (given.empty()) return false;
+    for (std::size_t k = 0; k < places.size(); ++k) *places[k] = std::move(given[k]);
+    return true;
+  }
+
   std::optional<Observation> refusal_of(const Scene& scene) const {
     for (const Shape& s : scene.shapes)
       if (!is_sent(card_, kind_of(s)))
-        return no_answer(Outcome::unsupported,
-                         "more_shapes of its card does not list " + std::string(type_name(s)));
+        return no_answer(
+            Outcome::unsupported,
+            (card_.shapes.empty() ? "more_shapes of its card does not list " : "its card does not list ") +
+                std::string(type_name(s)));
     return std::nullopt;
   }
 
@@ -108,9 +198,11 @@ class Server {
       plugin_.ask(engine_, static_cast<std::int32_t>(q.question), q.a, q.b, &answer.answer(), &sink);
       const auto stop = Clock::now();
       o = answer.take(q.question);
-      o.elapsed_ns = std::chrono::duration_cast<std::chrono::nanoseconds>(stop - start).count();
+      const std::int64_t took = std::chrono::duration_cast<std::chrono::nanoseconds>(stop - start).count();
+      const std::int64_t stated = answer.answer().ns;
+      o.elapsed_ns = stated > 0 ? std::min(stated, took) : took;
       if (measure_ns_ > 0 && o.outcome == Outcome::answered && is_pair_question(q.question))
-        o.elapsed_ns = ask_again(q, o.elapsed_ns);
+        o.elapsed_ns = ask_again(q, took, o.elapsed_ns);
       return o;
     } catch (const std::exception& e) {
       o = no_answer(Outcome::threw, e.what());
@@ -121,29 +213,33 @@ class Server {
     return o;
   }
 
-  // Repeats the query with a sink that ignores its input, so that only the engine is timed. Failures are
-  // ignored, since the first answer succeeded.
-  std::int64_t ask_again(const Query& q, std::int64_t first) {
+  // Repeats the query with a sink that ignores its input, so that only the engine is timed; the least time
+  // that the engine states, if it states any. Failures are ignored, since the first answer succeeded.
+  std::int64_t ask_again(const Query& q, std::int64_t took, std::int64_t stated) {
     const ts_sink sink{nullptr, [](void*, const double*, double) {},
                        [](void*, std::int32_t, std::int32_t, std::int32_t) {},
                        [](void*, std::int32_t, std::int32_t, const double*, double) {}};
-    const ts_answer blank = AnswerCollector(0, 0).answer();
+    const ts_answer blank = blank_answer();
+    std::int64_t least = stated;
     try {
-      return least_mean_ns(first, measure_ns_, [&] {
+      const std::int64_t measured = least_mean_ns(took, measure_ns_, [&] {
         ts_answer answer = blank;
         plugin_.ask(engine_, static_cast<std::int32_t>(q.question), q.a, q.b, &answer, &sink);
+        if (answer.ns > 0) least = std::min(least, answer.ns);
       });
+      return std::min(least, measured);
     } catch (...) {
-      return first;
+      return least;
     }
   }
 
-  // Each message is written immediately, so that a crash loses only the running query.
   template <class Message>
   void send(const Message& m) {
-    out_.clear();
     protocol::append(out_, m);
+  }
+  void flush() {
     write_all(answers_fd_, out_.data(), out_.size());
+    out_.clear();
   }
 
   const ts_plugin& plugin_;
@@ -154,6 +250,14 @@ class Server {
   std::string out_;
   const std::int64_t measure_ns_ = measure_ns();
 };
+
+/// Scenes asked about at once.
+constexpr std::size_t most_together = 4096;
+
+bool has_input(int fd) {
+  pollfd p{fd, POLLIN, 0};
+  return poll(&p, 1, 0) > 0;
+}
 
 }  // namespace
 
@@ -171,9 +275,23 @@ void serve(const ts_plugin& plugin, ts_engine* engine, const EngineCard& card, i
            int answers_fd) {
   Server server(plugin, engine, card, answers_fd);
   protocol::FrameReader frames;
+  std::vector<protocol::QuestionMessage> together;
   char buffer[1 << 16];
   for (;;) {
-    while (const auto frame = frames.next()) server.answer(protocol::decode_question(frame->payload));
+    while (const auto frame = frames.next()) {
+      if (!server.takes_batches()) {
+        server.answer(protocol::decode_question(frame->payload));
+        continue;
+      }
+      together.push_back(protocol::decode_question(frame->payload));
+      if (together.size() < most_together) continue;
+      server.answer(together);
+      together.clear();
+    }
+    if (!together.empty() && !has_input(questions_fd)) {
+      server.answer(together);
+      together.clear();
+    }
     const ssize_t n = read(questions_fd, buffer, sizeof buffer);
     if (n < 0 && errno == EINTR) continue;
     if (n <= 0) return;

@@ -17,58 +17,72 @@ namespace {
 constexpr unsigned long tuned_iterations = 1000;
 constexpr int out_of_memory = -2;  // returned by ccdGJKPenetration and ccdMPRPenetration
 struct Setting {
-  const char *gjk, *mpr;
-  double tolerance;  // 0: as shipped
-  const char* text;
+  const char* name;
+  bool mpr;
+  double tolerance = 0;  // 0: as shipped
+  const char* text = "";
   unsigned long iterations = 0;  // 0: tuned_iterations if there is a tolerance, otherwise as shipped
 };
 #ifndef TOUCHSTONE_SWEEP
 // The tuned tolerance is far below the default, 1e-4, and above the rounding of doubles.
-constexpr Setting rows[] = {{"libccd-gjk", "libccd-mpr", 0, ""},
-                            {"libccd-gjk-tuned", "libccd-mpr-tuned", 1e-10, "1e-10"}};
+constexpr Setting settings[] = {{"libccd-gjk", false},
+                                {"libccd-gjk-tuned", false, 1e-10, "1e-10"},
+                                {"libccd-mpr", true},
+                                {"libccd-mpr-tuned", true, 1e-10, "1e-10"}};
 #else
 // The values in the names.
-constexpr Setting rows[] = {{"libccd-gjk@1e-2", "libccd-mpr@1e-2", 1e-2, "1e-2"},
-                            {"libccd-gjk@1e-6", "libccd-mpr@1e-6", 1e-6, "1e-6"},
-                            {"libccd-gjk@1e-8", "libccd-mpr@1e-8", 1e-8, "1e-8"},
-                            {"libccd-gjk-iterations@8", "libccd-mpr-iterations@8", 0, "", 8},
-                            {"libccd-gjk-iterations@16", "libccd-mpr-iterations@16", 0, "", 16},
-                            {"libccd-gjk-iterations@32", "libccd-mpr-iterations@32", 0, "", 32},
-                            {"libccd-gjk-iterations@128", "libccd-mpr-iterations@128", 0, "", 128}};
+constexpr Setting settings[] = {
+    {"libccd-gjk@1e-2", false, 1e-2, "1e-2"},         {"libccd-mpr@1e-2", true, 1e-2, "1e-2"},
+    {"libccd-gjk@1e-6", false, 1e-6, "1e-6"},         {"libccd-mpr@1e-6", true, 1e-6, "1e-6"},
+    {"libccd-gjk@1e-8", false, 1e-8, "1e-8"},         {"libccd-mpr@1e-8", true, 1e-8, "1e-8"},
+    {"libccd-gjk-iterations@8", false, 0, "", 8},     {"libccd-mpr-iterations@8", true, 0, "", 8},
+    {"libccd-gjk-iterations@16", false, 0, "", 16},   {"libccd-mpr-iterations@16", true, 0, "", 16},
+    {"libccd-gjk-iterations@32", false, 0, "", 32},   {"libccd-mpr-iterations@32", true, 0, "", 32},
+    {"libccd-gjk-iterations@128", false, 0, "", 128}, {"libccd-mpr-iterations@128", true, 0, "", 128}};
 #endif
+// The library states no version; 2.1 is Debian's.
+#ifndef TOUCHSTONE_OWN_BUILD
+constexpr const char* version = "2.1";
+#else
+constexpr const char* version = "";
+#endif
+static_assert(sizeof(ccd_real_t) == sizeof(double),
+              "the adapter needs libccd in doubles: configure it with ENABLE_DOUBLE_PRECISION");
 constexpr double nan_value = std::numeric_limits<double>::quiet_NaN();
 
 constexpr const char* source =
     "ccd/ccd.h: epa_tolerance and mpr_tolerance (default 1e-4) are the only accuracy that libccd states";
 
+std::string calls_of(const Setting& s) {
+  return s.mpr ? "ccdMPRIntersect and ccdMPRPenetration" : "ccdGJKIntersect and ccdGJKPenetration";
+}
+
+std::string limits_of(const Setting& s) {
+  const std::string tolerances = s.mpr ? "mpr_tolerance" : "epa_tolerance and dist_tolerance";
+  if (s.tolerance > 0) return tolerances + " " + s.text + ", max_iterations 1000";
+  if (s.iterations > 0) return "CCD_INIT defaults, max_iterations " + std::to_string(s.iterations);
+  return "CCD_INIT defaults, unlimited iterations";
+}
+
 class Engine {
  public:
   static std::vector<kit::CardText> cards() {
     std::vector<kit::CardText> cards;
-    const auto add = [&](const char* name, const std::string& calls, const std::string& tolerances,
-                         const Setting& r) {
-      const std::string how = r.tolerance > 0 ? tolerances + " " + r.text + ", max_iterations 1000"
-                              : r.iterations > 0
-                                  ? "CCD_INIT defaults, max_iterations " + std::to_string(r.iterations)
-                                  : "CCD_INIT defaults, unlimited iterations";
-      cards.push_back(
-          {name, "libccd", "2.1", calls + "; " + how, double_roundoff, kit::oracle_tau_factor, source});
-    };
-    for (const Setting& r : rows) {
-      add(r.gjk, "ccdGJKIntersect and ccdGJKPenetration", "epa_tolerance and dist_tolerance", r);
-      add(r.mpr, "ccdMPRIntersect and ccdMPRPenetration", "mpr_tolerance", r);
-    }
+    for (const Setting& s : settings)
+      cards.push_back({s.name, "libccd", version, calls_of(s) + "; " + limits_of(s), double_roundoff,
+                       kit::oracle_tau_factor, source});
     return cards;
   }
 
-  explicit Engine(unsigned index) : mpr_(index % 2 == 1) {
+  explicit Engine(unsigned index) : mpr_(settings[index].mpr) {
+    const Setting& s = settings[index];
     CCD_INIT(&ccd_);
     ccd_.support1 = ccd_.support2 = support;
     ccd_.center1 = ccd_.center2 = center;
-    if (const auto limit = rows[index / 2].iterations; limit > 0) ccd_.max_iterations = limit;
-    if (const double tolerance = rows[index / 2].tolerance; tolerance > 0) {
+    if (s.iterations > 0) ccd_.max_iterations = s.iterations;
+    if (s.tolerance > 0) {
       ccd_.max_iterations = tuned_iterations;
-      ccd_.epa_tolerance = ccd_.mpr_tolerance = ccd_.dist_tolerance = tolerance;
+      ccd_.epa_tolerance = ccd_.mpr_tolerance = ccd_.dist_tolerance = s.tolerance;
     }
   }
 

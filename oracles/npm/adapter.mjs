@@ -1,7 +1,9 @@
-// Shared by the adapters of engines from npm: the pipe protocol (pipe_protocol.md), floats, axes, scripts.
+// Shared by the adapters of engines from npm: the pipe protocol (pipe_protocol.md), floats, axes, scripts. An
+// adapter is written against one release of its package; with TOUCHSTONE_ENGINE=NAME@RELEASE in the environment it
+// runs another one, whose API may differ (release.mjs).
 import { createRequire } from "node:module";
-import { createInterface } from "node:readline";
 import { pathToFileURL } from "node:url";
+import { answer_for, is_of_interface, other_release, questions_that_fail } from "./release.mjs";
 
 export const float_roundoff = 2 ** -24;
 export const oracle_tau_factor = 256; // as for every other oracle: oracles/abi/plugin_kit.h
@@ -10,30 +12,69 @@ const half_turn = Math.SQRT1_2; // a quarter turn about x takes y to z
 /** Thrown when the engine has no such query for these shapes. */
 export class Unsupported extends Error {}
 
-/** Imports a module from the folder in which it was installed. */
+/** Imports a module from the folder in which it was installed. Some releases can only be imported by the file that their
+ * package names as `module`. */
 export async function from(modules, name) {
-  return import(pathToFileURL(createRequire(`${modules}/-`).resolve(name)));
+  const require = createRequire(`${modules}/-`), load = (file) => import(pathToFileURL(file));
+  try {
+    return await load(require.resolve(name));
+  } catch (why) {
+    const { module } = other_release ? require(`${modules}/node_modules/${name}/package.json`) : {};
+    if (!module) throw why;
+    return load(`${modules}/node_modules/${name}/${module}`);
+  }
 }
 export const version = (modules, name) =>
   createRequire(`${modules}/-`)(`${modules}/node_modules/${name}/package.json`).version;
 
 export const f = Math.fround;
 export const floats = (v) => v.map(f);
+
+/** Objects on the heap of a WebIDL module live until they are destroyed: kept here until the next sweep. */
+export class Heap {
+  constructor(destroy) {
+    this.destroy = destroy;
+    this.objects = [];
+  }
+  keep(x) {
+    this.objects.push(x);
+    return x;
+  }
+  sweep() {
+    this.objects.forEach((x) => this.destroy(x));
+    this.objects = [];
+  }
+}
 export const stands_on_z = (shape) => ["capsule", "cylinder", "cone"].includes(shape.type);
 
-/** The requested rotation, normalised in doubles; `to_y` if the engine's axis is y rather than z. */
+/** The requested rotation, normalised in doubles. */
+export function unit(q) {
+  const most = Math.max(...q.map(Math.abs)), scaled = q.map((c) => c / most), n = Math.hypot(...scaled);
+  return scaled.map((c) => c / n);
+}
+
+/** The same as floats; `to_y` if the engine's axis is y rather than z. */
 export function unit_quaternion(q, to_y) {
-  const most = Math.max(...q.map(Math.abs));
-  const [x, y, z, w] = q.map((c) => c / most);
-  const n = Math.hypot(x, y, z, w), s = to_y ? half_turn : 1;
+  const [x, y, z, w] = unit(q), s = to_y ? half_turn : 1;
   const turned = to_y ? [x + w, y + z, z - y, w - x] : [x, y, z, w];
-  return turned.map((c) => f((c / n) * s));
+  return turned.map((c) => f(c * s));
+}
+
+/** The same for an engine whose axis is x. */
+export function unit_quaternion_to_x(q) {
+  const [x, y, z, w] = unit(q);
+  return [x + z, y - w, z - x, w + y].map((c) => f(c * half_turn));
 }
 
 /** A body's receipt, from the columns of the engine's own matrix, in the frame of the original shape. */
 export function received_body(number, body, columns, from_y) {
   const [x, y, z] = from_y ? [columns[0], columns[2].map((c) => -c), columns[1]] : columns;
   return { body: number, matrix: [0, 1, 2].flatMap((k) => [x[k], y[k], z[k]]), translation: floats(body.pose.translation) };
+}
+
+/** The same for an engine whose axis is x. */
+export function received_body_from_x(number, body, [x, y, z], from_x) {
+  return received_body(number, body, from_x ? [z.map((c) => -c), y, x] : [x, y, z], false);
 }
 
 /** The columns of the rotation matrix of a unit quaternion of floats, for engines that store only the quaternion. */
@@ -56,14 +97,34 @@ export function relative_translation(a, b) {
   return m.linear.map((x, k) => x - n.linear[k]);
 }
 
-/** Runs the steps of a scene on the engine's world; world.pairs(report) reports pairs of bodies. */
-export function candidates(scene, world) {
+const same_normal = 1 - 1e-9; // cosine
+/**
+ * For an engine that states depths at points, {position, normal, depth}: the normal of the deepest, and the points that
+ * share it as a manifold. A clipped manifold may miss the deepest point of the contact: its depth is stated only if
+ * `is_whole`.
+ */
+export function manifold(points, is_whole) {
+  const { normal, depth } = points.reduce((p, q) => (q.depth > p.depth ? q : p));
+  const shares = (p) => p.normal.reduce((sum, x, k) => sum + x * normal[k], 0) >= same_normal * Math.hypot(...normal) ** 2;
+  return { normal, ...(is_whole && { depth }),
+    points: points.filter(shares).map((p) => ({ position: p.position, depth: p.depth })) };
+}
+/** Whether one of the shapes is a ball, which touches any other at one point. */
+export const has_ball = (scene, a, b) => [a, b].some((body) => scene.shapes[scene.bodies[body].shape].type === "sphere");
+
+/** Whether the scene filters out a pair of bodies. */
+export function filter_of(scene) {
   const ignored = new Set(scene.ignored.map(([a, b]) => `${Math.min(a, b)} ${Math.max(a, b)}`));
-  const drops = (a, b) => {
+  return (a, b) => {
     const [p, q] = [scene.bodies[a], scene.bodies[b]];
     return a === b || (p.static && q.static) || (p.group >= 0 && p.group === q.group) ||
       ignored.has(`${Math.min(a, b)} ${Math.max(a, b)}`);
   };
+}
+
+/** Runs the steps of a scene on the engine's world; world.pairs(report) reports pairs of bodies. */
+export function candidates(scene, world) {
+  const drops = filter_of(scene);
   const lists = [];
   for (const step of scene.steps) {
     if (step.op !== "query") {
@@ -91,20 +152,30 @@ export function serve(engine) {
       return checked(what());
     } catch (why) {
       if (why instanceof WebAssembly.RuntimeError) throw why; // a crash: the module's memory can no longer be trusted
-      return { outcome: why instanceof Unsupported ? "unsupported" : "threw", detail: String(why.message || why) };
+      const lacking = why instanceof Unsupported || (other_release && is_of_interface(why));
+      return { outcome: lacking ? "unsupported" : "threw", detail: String(why.message || why) };
     }
   };
-  say({ touchstone_pipe: 1, receipts: true, unit_roundoff: float_roundoff, tau_factor: oracle_tau_factor, ...engine.card });
+  // The engine's own time, without the pipe.
+  const timed = (what) => {
+    const start = process.hrtime.bigint(), answer = guarded(what);
+    return { ...answer, ns: Number(process.hrtime.bigint() - start) };
+  };
+  const fails = other_release ? questions_that_fail(engine, guarded) : new Map();
+  if (!fails) return;
+  say({ touchstone_pipe: 1, receipts: true, states_ns: true, unit_roundoff: float_roundoff, tau_factor: oracle_tau_factor, ...engine.card,
+        ...(other_release && { name: other_release }) });
   let scene = null;
-  createInterface({ input: process.stdin }).on("line", (line) => {
-    const message = JSON.parse(line);
+  answer_for((message) => {
     if (message.scene) {
       scene = message.scene;
       say(guarded(() => ({ received: engine.load(scene) })));
     } else if (!engine[message.ask]) {
       say({ outcome: "unsupported", detail: `the adapter does not support ${message.ask}` });
+    } else if (fails.has(message.ask)) {
+      say({ outcome: "unsupported", detail: fails.get(message.ask) });
     } else {
-      say(guarded(() => engine[message.ask](message, scene)));
+      say(timed(() => engine[message.ask](message, scene)));
     }
   });
 }

@@ -11,6 +11,9 @@
 
 namespace touchstone::ode_adapter {
 
+static_assert(sizeof(dReal) == sizeof(double),
+              "the adapter needs ODE in doubles: configure it with ODE_DOUBLE_PRECISION");
+
 struct DestroyGeom {
   void operator()(dGeomID g) const { dGeomDestroy(g); }
 };

@@ -23,6 +23,10 @@ struct EngineSource {
   std::string compile;   // arguments after "g++ -std=c++17 reproduce.cpp -o reproduce"
   std::string includes;  // #include lines
   std::string code;      // defines `Answer ask()`
+  /// Not empty: the program is a JavaScript module that uses this package. `includes` imports it, and `code`
+  /// defines `ask()`, which returns {overlap, distance, depth, normal, impact} as far as the question asks
+  /// for them, about the constant `bodies` of the program: {a, b}, each {shape, at, quaternion, rows}.
+  std::string npm_package = {};
 };
 
 /// Throw InputError if the engine's API does not offer the question or a shape.
@@ -30,5 +34,8 @@ EngineSource fcl_source(const EngineQuestion& q);
 EngineSource bullet_source(const EngineQuestion& q);
 EngineSource libccd_source(const EngineQuestion& q);
 EngineSource ode_source(const EngineQuestion& q);
+EngineSource mujoco_source(const EngineQuestion& q);
+EngineSource physx_source(const EngineQuestion& q);
+EngineSource havok_source(const EngineQuestion& q);
 
 }  // namespace touchstone::fuzz

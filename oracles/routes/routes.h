@@ -22,6 +22,11 @@ std::string_view fcl_route(const Pair& p);
 std::string_view bullet_route(const Pair& p, bool simulates);
 std::string_view libccd_route(const Pair& p);
 std::string_view ode_route(const Pair& p);
+std::string_view mujoco_route(const Pair& p);
+std::string_view physx_route(std::string_view engine, const Pair& p);
+/// `engine`: a name of the adapter's.
+std::string_view dart_route(std::string_view engine, const Pair& p);
+std::string_view mujoco2_route(const Pair& p);
 /// For a library of which nothing is known: by what any library must tell apart.
 std::string_view common_route(const Pair& p);
 
@@ -30,6 +35,9 @@ std::string_view common_route(const Pair& p);
 std::string_view fcl_documents(std::string_view engine, Question question, std::string_view route,
                                Fault fault);
 std::string_view libccd_documents(std::string_view engine, Question question, std::string_view route,
+                                  Fault fault);
+
+std::string_view mujoco_documents(std::string_view engine, Question question, std::string_view route,
                                   Fault fault);
 
 }  // namespace touchstone::routes

@@ -57,7 +57,8 @@ void add(ChartRows& rows, std::span<const ChartCase> cases, std::span<const Engi
       const auto judgements = judge(c.c, card, asked[k][i].first, truth);
       for (std::size_t q = 0; q < judgements.size(); ++q)
         rows.add({card.name, std::string(to_string(c.c.queries[q].question)), c.regime, c.pair, c.scale,
-                  c.bodies, judgements[q], asked[k][i].ns[q]});
+                  c.bodies, judgements[q],
+                  card.times_include_pipe ? std::vector<double>() : asked[k][i].ns[q]});
     }
   }
 }

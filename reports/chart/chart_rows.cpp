@@ -49,6 +49,7 @@ std::string why_unsound(const ChartRow& r) {
         why.empty() ? fmt::format("{} wrong", r.wrong) : fmt::format(", {} otherwise wrong", r.wrong - named);
   if (!why.empty()) return fmt::format("{} of {}", why, r.answers + r.failed);
   if (r.answers == 0) return "answers nothing";
+  if (!is_timed(r)) return "its times include the pipe";
   if (r.not_judged > 0) return fmt::format("{} of {} not judged", r.not_judged, r.answers);
   // Being right within a very wide tolerance does not prove accuracy.
   if (r.wide_claim > 0)
@@ -114,7 +115,7 @@ void ChartRows::add(const ChartSample& s) {
     count(r, s.judgement);
     if (s.judgement.outcome != Outcome::answered) continue;
     if (!s.judgement.undecided) c.errors.push_back(s.judgement.worst_in_l);
-    c.ns.push_back(s.ns);
+    if (!s.ns.empty()) c.ns.push_back(s.ns);
   }
 }
 

@@ -13,7 +13,7 @@ struct ChartSample {
   std::string engine, question, regime, pair, scale;
   std::uint64_t bodies = 0;
   Judgement judgement;
-  std::vector<double> ns;  // by round
+  std::vector<double> ns;  // by round; empty: not the engine's own
 };
 
 class ChartRows {

@@ -62,7 +62,7 @@ std::map<Kinds, Sample> sample_pairs(const Course& c, const std::vector<PlannedS
                                      const std::vector<std::vector<BodyPair>>& candidates, Rng& rng) {
   constexpr std::size_t sample_size = 192;
   std::map<Kinds, Sample> samples;
-  const auto kind = [&](int i) { return kind_of(*shapes[at(c.scene.bodies[at(i)].shape)].shape); };
+  const auto kind = [&](int i) { return kind_of(shapes[at(c.scene.bodies[at(i)].shape)].shape()); };
   for (std::size_t s = 0; s < candidates.size(); ++s)
     for (const auto& [a, b] : candidates[s]) {
       Sample& of = samples[std::minmax(kind(a), kind(b))];

@@ -1,7 +1,7 @@
 #include "reports/record/broad_certificate.h"
 
-#include <array>
 #include <fmt/format.h>
+#include <array>
 
 #include <algorithm>
 #include <charconv>
@@ -56,6 +56,7 @@ Json to_json(const EvidenceCount& e) {
             {"undecided", e.undecided},
             {"digest", hex(e.digest)},
             {"refusal", e.refusal}};
+  if (e.out_of_time) j["out_of_time"] = true;
   return j;
 }
 
@@ -77,6 +78,7 @@ EvidenceCount evidence_from_json(const JsonReader& j) {
   e.pairs_reported = count_of(j["pairs_reported"]);
   e.undecided = count_of(j["undecided"]);
   e.digest = from_hex(j["digest"].string());
+  if (j.has("out_of_time")) e.out_of_time = j["out_of_time"].boolean();
   return e;
 }
 
@@ -198,7 +200,8 @@ void note_counts(const BroadCertificate& c, std::vector<std::string>& out) {
     undecided += e.undecided;
     refused += e.refused;
     if (e.cases < e.planned)
-      out.push_back(fmt::format("{}: stopped after {} of {} cases.", e.name, e.cases, e.planned));
+      out.push_back(fmt::format("{}: stopped after {} of {} cases{}.", e.name, e.cases, e.planned,
+                                e.out_of_time ? ", when its share of the time was used" : ""));
     if (e.population > e.planned)
       out.push_back(fmt::format("{}: a sample of {} of {} cases.", e.name, e.planned, e.population));
   }

@@ -22,13 +22,14 @@ struct EvidenceCount {
   BroadLevel level = BroadLevel::boxes;
   std::uint64_t planned = 0;     // cases
   std::uint64_t population = 0;  // exhaustive: number of all cases; planned < population is a sample
-  std::uint64_t cases = 0;       // run; fewer than planned if crashes or a time-out ended the evidence
+  std::uint64_t cases = 0;  // run; fewer than planned if crashes, a time-out or the end of the time ended it
   std::uint64_t answered = 0, refused = 0;  // cases; refused: unsupported or invalid input, with a reason
   std::uint64_t steps = 0, queries = 0;
   std::uint64_t pairs_true = 0, pairs_reported = 0;  // the price is reported / true - 1
   std::uint64_t undecided = 0;                       // pairs that the referee could not decide
   std::uint64_t digest = 0;                          // over cases and answers
   std::string refusal;                               // the first reason for a refusal
+  bool out_of_time = false;                          // ended by the time allowed for all evidence
   double seconds = 0;                                // not compared
 };
 

@@ -26,12 +26,13 @@ enum class Severity : std::uint8_t {
   not_minimal,  // the contact separates, but by more than necessary
   distance,     // the signed distance
   witness,      // points of a distance or of a manifold
+  declined,     // it says that it has no answer: not converged, input refused
   unstable,     // the same question is answered differently
   relation      // it contradicts itself, and no other fault explains that
 };
 inline constexpr auto severity_names =
     std::to_array<std::string_view>({"crash", "hang", "missed", "ghost", "infeasible", "time", "not minimal",
-                                     "distance", "witness", "unstable", "contradiction"});
+                                     "distance", "witness", "declined", "unstable", "contradiction"});
 static_assert(severity_names.size() == static_cast<std::size_t>(Severity::relation) + 1);
 constexpr std::string_view to_string(Severity s) { return severity_names[static_cast<std::size_t>(s)]; }
 

@@ -41,6 +41,9 @@ struct ChartRow {
   }
 };
 
+/// False if the engine's own times are not known.
+inline bool is_timed(const ChartRow& r) { return r.ns_median > 0; }
+
 struct ChartEngine {
   std::string name, library, version, settings;
 };

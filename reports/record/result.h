@@ -51,14 +51,15 @@ struct Tally {
   /// coverage limited to 10). Integers, so that the order of summation does not matter.
   std::uint64_t manifolds = 0, coverage_permille = 0;
   double worst_in_l = 0;
-  std::uint64_t slow = 0;  // answered, but beyond the time limit; never hashed
-  TimeHistogram time;      // of answered queries; never hashed
+  std::uint64_t slow = 0;           // answered, but beyond the time limit; never hashed
+  TimeHistogram time;               // of answered queries; never hashed
+  bool times_include_pipe = false;  // they are not the engine's alone; never hashed
 
   std::uint64_t answered() const { return outcomes[static_cast<std::size_t>(Outcome::answered)]; }
   std::uint64_t unsupported() const { return outcomes[static_cast<std::size_t>(Outcome::unsupported)]; }
   std::uint64_t not_asked() const { return outcomes[static_cast<std::size_t>(Outcome::not_asked)]; }
   std::uint64_t failed() const;  // queried, but neither answered nor unsupported
-  void add(const Judgement& j, const Observation& o);
+  void add(const Judgement& j, const Observation& o, bool time_includes_pipe = false);
   void merge(const Tally& o);
 };
 
@@ -112,6 +113,7 @@ struct CampaignResult {
   std::uint64_t cases = 0, pair_cases = 0,
                 overlapping = 0;  // pair cases with a decided verdict, and how many overlap
   std::uint64_t undecided = 0;
+  std::uint64_t not_refereed = 0;         // cases that no engine answers
   std::array<std::uint64_t, 3> levels{};  // decided discrete pairs by referee::PairTruth::level
   std::map<std::string, std::uint64_t> families;
   // Times, never hashed: the total of all jobs, and the shares of the engines and of referee and judge.

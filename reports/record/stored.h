@@ -30,6 +30,9 @@ std::vector<Example> examples_from_json(const JsonReader& j);
 /// cases. Throws InputError if a field is missing or has the wrong type.
 Finding finding_from_json(const JsonReader& j);
 
+/// The parts of a finding's evidence that a result stores once, under the hash of their contents.
+inline constexpr const char* documents_of_evidence[] = {"case", "received"};
+
 /// With the cases of the examples. Throws InputError as above, and if a finding is filed under a key other
 /// than its own.
 CampaignResult result_from_json(const JsonReader& j);

@@ -21,23 +21,6 @@ using fuzz::Responded;
 // An issue of GitHub holds 65,536 characters.
 constexpr std::size_t longest_code = 16'000;
 
-std::string prose(std::string_view words) {
-  std::string s;
-  for (const char c : one_line(words)) {
-    if (c == '<')
-      s += "&lt;";
-    else if (c == '&')
-      s += "&amp;";
-    else if (c == '@')
-      s += "@<!-- -->";  // an escaped @ still mentions a user
-    else if (std::string_view("\\`*_{}[]>#|~$").find(c) != std::string_view::npos)
-      s += {'\\', c};
-    else
-      s += c;
-  }
-  return s;
-}
-
 std::size_t longest_run_of_backticks(std::string_view text) {
   std::size_t run = 0, longest = 0;
   for (const char c : text) longest = std::max(longest, run = c == '`' ? run + 1 : 0);
@@ -75,13 +58,13 @@ std::string code_list(const std::vector<std::string>& items, std::size_t most) {
 
 std::string facts(const Cause& c) {
   constexpr std::size_t most = 12;
-  std::string s = fmt::format("- **Library:** {}", prose(c.library));
+  std::string s = fmt::format("- **Library:** {}", markdown_prose(c.library));
   if (!c.engines.empty()) s += fmt::format(" ({})", code_list(c.engines, most));
   s += fmt::format("\n- **Severity:** {}; {}\n", to_string(c.severity), rate_text(c));
   if (!c.questions.empty()) s += fmt::format("- **Questions:** {}\n", code_list(c.questions, most));
   if (!c.shapes.empty()) s += fmt::format("- **Shapes:** {}\n", code_list(c.shapes, most));
   if (c.worst_in_l > 0) s += fmt::format("- **Worst error:** {} of the bodies' size\n", small(c.worst_in_l));
-  if (!c.documented.empty()) s += fmt::format("- **Documented:** {}\n", prose(c.documented));
+  if (!c.documented.empty()) s += fmt::format("- **Documented:** {}\n", markdown_prose(c.documented));
   return s;
 }
 
@@ -95,20 +78,23 @@ std::string scene(const CauseCase& shown) {
 std::string responses(const Cause& c) {
   std::string rows;
   for (const Responded& r : telling_responses(c))
-    rows += fmt::format("| {} | {} |\n", prose(r.change), words_of(r.response));
+    rows += fmt::format("| {} | {} |\n", markdown_prose(r.change), words_of(r.response));
   return rows.empty() ? "" : "\n## What makes it vanish\n\n| change | answer then |\n|---|---|\n" + rows;
 }
 
 std::string reproduction(const Cause& c) {
   const std::string engine = shell_word(one_line(c.shown().engine));
   std::string s = "\n## How to reproduce\n\n";
-  if (!c.program.empty() && c.program.size() <= longest_code)
+  if (c.program.starts_with('{') && c.program.size() <= longest_code)
+    s += "The lines for a command behind a pipe; the last one states what is right:\n\n" +
+         fenced("json", printable(c.program, "\n\t")) + "\n";
+  else if (!c.program.empty() && c.program.size() <= longest_code)
     s += "A program in the engine's own API; it exits with 1 while the answer is wrong:\n\n" +
          fenced("cpp", printable(c.program, "\n\t")) + "\n";
   else if (!c.program.empty())
     s += "The program in the engine's own API is too long to print here; it is attached.\n\n";
   else if (!c.no_program.empty())
-    s += fmt::format("There is no program in the engine's own API: {}.\n\n", prose(c.no_program));
+    s += fmt::format("There is no program in the engine's own API: {}.\n\n", markdown_prose(c.no_program));
   return s + "With Touchstone, the case saved as `case.json`:\n\n" +
          fenced("sh", "touchstone replay case.json --engines " + engine);
 }
@@ -128,7 +114,7 @@ std::string certificate(const Cause& c) {
 
 std::string cause_markdown(const Cause& c) {
   const CauseCase& shown = c.shown();
-  std::string s = fmt::format("# {}: {}\n\n{}\n", prose(c.path), prose(c.title), facts(c));
+  std::string s = fmt::format("# {}: {}\n\n{}\n", markdown_prose(c.path), markdown_prose(c.title), facts(c));
   s += fmt::format("**Expected:** {}\n\n**Actual:** {}\n\n", expected_of(c.severity), code(shown.words));
   if (!shown.c.is_null()) s += scene(shown);
   s += responses(c);

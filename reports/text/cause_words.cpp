@@ -22,6 +22,23 @@ std::string one_line(std::string_view words) {
   return s;
 }
 
+std::string markdown_prose(std::string_view words) {
+  std::string s;
+  for (const char c : one_line(words)) {
+    if (c == '<')
+      s += "&lt;";
+    else if (c == '&')
+      s += "&amp;";
+    else if (c == '@')
+      s += "@<!-- -->";  // an escaped @ still mentions a user
+    else if (std::string_view("\\`*_{}[]>#|~$").find(c) != std::string_view::npos)
+      s += {'\\', c};
+    else
+      s += c;
+  }
+  return s;
+}
+
 std::string share_text(double share) {
   constexpr double least = 0.05, one_decimal_below = 9.95;  // in %, where the rounding changes
   const double x = 100 * share;
@@ -80,6 +97,8 @@ std::string_view expected_of(Severity s) {
       return "The signed distance of the bodies.";
     case Severity::witness:
       return "Points of the bodies, where the answer says they are.";
+    case Severity::declined:
+      return "An answer.";
     case Severity::unstable:
       return "The same answer to the same question.";
     case Severity::relation:

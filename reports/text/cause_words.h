@@ -11,6 +11,9 @@ namespace touchstone::reports {
 /// One line: printable, with spaces in place of line breaks.
 std::string one_line(std::string_view words);
 
+/// The same as Markdown: it does not become markup, mention a user or end a table's cell.
+std::string markdown_prose(std::string_view words);
+
 /// A share for people: "<0.1 %", "3.1 %", "64 %". Only 0 is "0 %", only all is "100 %".
 std::string share_text(double share);
 

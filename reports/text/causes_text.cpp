@@ -131,8 +131,9 @@ std::string cause_text(const Cause& c) {
   s += documented_line(c, 2);
   s += text_block(rate_text(c), 2);
   if (c.worst_in_l > 0) s += text_block(fmt::format("worst error: {} L", small(c.worst_in_l)), 2);
-  s +=
-      text_block(fmt::format("{}; routine: {}; first seen in case {}", c.library, c.route, c.first_index), 2);
+  s += text_block(fmt::format("{}{}routine: {}; first seen in case {}", c.library,
+                              c.library.empty() ? "" : "; ", c.route, c.first_index),
+                  2);
   s += row_of("engines", c.engines) + row_of("questions", c.questions) + row_of("faults", c.faults);
   s += row_of("shapes", c.shapes) + row_of("families", c.families);
   s += text_block(fmt::format("filed under {}", counted(c.keys.size(), "key", "keys")), 2);
@@ -148,35 +149,32 @@ std::string cause_text(const Cause& c) {
   return s + (c.no_program.empty() ? "" : "\n" + text_block("no program: " + c.no_program, 0));
 }
 
-// A cause that was not examined may be several: one of its findings is shown instead.
-static std::string replay_of(const Cause& c, const std::string& directory, const std::string& program) {
-  const std::string key = !c.smallest.key.empty() ? c.smallest.key : c.keys.empty() ? "" : c.keys.front();
-  return program + " replay " + shell_word(directory + "/findings/" + key);
+std::string_view code_of(const Cause& c) {
+  const std::size_t dash = c.id.rfind('-');
+  return std::string_view(c.id).substr(dash == std::string::npos ? 0 : dash + 1);
 }
 
-std::string causes_of_engines(const Causes& c, std::size_t per_engine, const std::string& directory,
-                              const std::string& program) {
-  std::map<std::string, std::vector<const Cause*>> paths;
-  for (const Cause& cause : c.causes) paths[cause.path].push_back(&cause);
-  const std::string command = program + " causes " + shell_word(directory);
+// A place in code is never cut off: a crash may have two lines.
+static std::string in_brief(const Cause& c, bool with_path) {
+  return text_block(
+      fmt::format("{} {:>7} {}: {}{}{}", code_of(c), grouped(c.wrong), to_string(c.severity),
+                  with_path ? c.path + ": " : "", c.title, c.documented.empty() ? "" : " (documented)"),
+      2, c.severity == fuzz::Severity::crash ? 2 : 1);
+}
+
+std::string causes_of_libraries(const Causes& c, std::size_t most, const LibraryOf& library_of) {
+  std::map<std::string, std::vector<const Cause*>> libraries;
+  for (const Cause& cause : c.causes) libraries[library_of(cause.path)].push_back(&cause);
   std::string s;
-  for (const auto& [path, causes] : paths) {
+  for (const auto& [library, causes] : libraries) {
     std::uint64_t wrong = 0;
     for (const Cause* cause : causes) wrong += cause->wrong;
-    s += text_block(fmt::format("{}: {} behind {}", path, counted(causes.size(), "cause", "causes"),
+    s += text_block(fmt::format("{}: {} behind {}", library, counted(causes.size(), "cause", "causes"),
                                 counted(wrong, "wrong answer", "wrong answers")),
                     0, 1);
-    const std::size_t shown = std::min(per_engine, causes.size());
-    for (std::size_t i = 0; i < shown; ++i) {
-      s += text_block(fmt::format("{:>7} {}: {}", grouped(causes[i]->wrong), to_string(causes[i]->severity),
-                                  causes[i]->title),
-                      0, 1);
-      if (!directory.empty())
-        s += "        " + (causes[i]->response.empty() ? replay_of(*causes[i], directory, program)
-                                                      : command_of(*causes[i], command)) +
-             "\n";
-    }
-    if (causes.size() > shown) s += fmt::format("        and {} more\n", causes.size() - shown);
+    const std::size_t shown = std::min(most, causes.size());
+    for (std::size_t i = 0; i < shown; ++i) s += in_brief(*causes[i], causes[i]->path != library);
+    if (causes.size() > shown) s += fmt::format("  and {} more\n", causes.size() - shown);
   }
   return s;
 }

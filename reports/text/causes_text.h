@@ -1,7 +1,9 @@
 // The causes of a campaign's findings, for people: in a terminal, in an issue tracker, on a page.
 #pragma once
 
+#include <functional>
 #include <string>
+#include <string_view>
 
 #include "reports/record/causes.h"
 
@@ -18,10 +20,15 @@ std::string cause_text(const fuzz::Cause& c);
 /// program that would exceed what trackers accept is left out, and said so.
 std::string cause_markdown(const fuzz::Cause& c);
 
-/// The end of what a campaign prints: for each engine path its first `per_engine` causes, each with its
-/// command, unless the campaign is stored nowhere (`directory` is empty).
-std::string causes_of_engines(const fuzz::Causes& c, std::size_t per_engine, const std::string& directory,
-                              const std::string& program);
+/// The last word of an id, which tells causes of a campaign apart: "1a2b3c" of "fcl-libccd-depth-1a2b3c".
+std::string_view code_of(const fuzz::Cause& c);
+
+/// Name of the library that an engine path is of: "FCL" for "fcl-libccd".
+using LibraryOf = std::function<std::string(const std::string& path)>;
+
+/// The end of what a campaign prints: for each library its first `most` causes, one in a line that begins
+/// with its code and the number of wrong answers, and how many there are besides.
+std::string causes_of_libraries(const fuzz::Causes& c, std::size_t most, const LibraryOf& library_of);
 
 /// The data of the page `causes`.
 fuzz::Json causes_page(const fuzz::Causes& c);

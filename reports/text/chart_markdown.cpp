@@ -71,8 +71,9 @@ std::vector<ChartRow> rows_of(const Chart& c, const Part& part) {
     if (r.question == part.question && is_overall(r, crowd) &&
         std::find(part.engines.begin(), part.engines.end(), r.engine) != part.engines.end())
       rows.push_back(r);
-  std::stable_sort(rows.begin(), rows.end(),
-                   [](const ChartRow& a, const ChartRow& b) { return a.ns_median < b.ns_median; });
+  std::stable_sort(rows.begin(), rows.end(), [](const ChartRow& a, const ChartRow& b) {
+    return std::pair(!is_timed(a), a.ns_median) < std::pair(!is_timed(b), b.ns_median);
+  });
   return rows;
 }
 
@@ -90,7 +91,8 @@ std::string line(const ChartRow& r, const std::string& asked) {
   // For candidates a ghost is not a fault.
   const std::uint64_t ghosts = crowd ? 0 : r.ghost, verdicts = r.missed + ghosts;
   return fmt::format("| {} | {} | {} | {} | {} | {} | {} | {} | {} | {} |\n", asked, name,
-                     nanoseconds(r.ns_median), nanoseconds(r.ns_p99), worst, grouped(r.missed),
+                     is_timed(r) ? nanoseconds(r.ns_median) : "pipe",
+                     is_timed(r) ? nanoseconds(r.ns_p99) : "pipe", worst, grouped(r.missed),
                      crowd ? "" : grouped(ghosts), grouped(r.wrong - std::min(r.wrong, verdicts)),
                      grouped(r.failed), grouped(r.answers + r.failed));
 }

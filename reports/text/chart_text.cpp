@@ -15,12 +15,16 @@ namespace {
 using fuzz::ChartRow;
 using Rows = std::vector<const ChartRow*>;
 
+// Rows without times come last.
+double shown_order(const ChartRow& r) { return is_timed(r) ? r.ns_median : HUGE_VAL; }
+std::string time_text(const ChartRow& r, double ns) { return is_timed(r) ? nanoseconds(ns) : "pipe"; }
+
 Rows by_time(const fuzz::Chart& c, const auto& keep) {
   Rows rows;
   for (const ChartRow& r : c.rows)
     if (r.answers > 0 && keep(r)) rows.push_back(&r);
   std::stable_sort(rows.begin(), rows.end(),
-                   [](const auto* a, const auto* b) { return a->ns_median < b->ns_median; });
+                   [](const auto* a, const auto* b) { return shown_order(*a) < shown_order(*b); });
   return rows;
 }
 
@@ -42,7 +46,7 @@ std::string question_table(const fuzz::Chart& c, const std::string& question) {
                               "ns p50", "ns p99", "err p50", "err p99", "err max", "mis%", "gho%", "fail");
   for (const ChartRow* r : rows)
     s += fmt::format("{} {:<26}{:>6}{:>7}{:>8}{:>8}{:>8}{:>5}{:>5}{:>5}\n", mark(*r), r->engine,
-                     nanoseconds(r->ns_median), nanoseconds(r->ns_p99), small(r->error_p50),
+                     time_text(*r, r->ns_median), time_text(*r, r->ns_p99), small(r->error_p50),
                      small(r->error_p99), small(r->error_max), percent(r->missed, r->answers),
                      percent(r->ghost, r->answers), r->failed);
   return s;
@@ -73,9 +77,10 @@ std::string crowds(const fuzz::Chart& c) {
   for (auto& [name, sizes] : engines) {
     std::string line = fmt::format("{} {:<26}", mark(*sizes.rbegin()->second), name);
     for (const std::uint64_t n : crowd_sizes)
-      line += fmt::format("{:>9}", !sizes.contains(n)          ? ""
-                                   : sizes.at(n)->answers == 0 ? "none"
-                                                               : nanoseconds(sizes.at(n)->ns_median));
+      line +=
+          fmt::format("{:>9}", !sizes.contains(n)          ? ""
+                               : sizes.at(n)->answers == 0 ? "none"
+                                                           : time_text(*sizes.at(n), sizes.at(n)->ns_median));
     std::erase_if(sizes, [](const auto& x) { return x.second->answers == 0; });
     if (sizes.empty()) {
       lines.emplace_back(HUGE_VAL, line);
@@ -83,12 +88,12 @@ std::string crowds(const fuzz::Chart& c) {
     }
     const ChartRow &first = *sizes.begin()->second, &last = *sizes.rbegin()->second;
     // Slope in the log-log plane between the smallest crowd and the largest.
-    if (sizes.size() > 1)
+    if (sizes.size() > 1 && is_timed(first) && is_timed(last))
       line += fmt::format("   n^{:.2f}",
                           std::log(last.ns_median / first.ns_median) /
                               std::log(static_cast<double>(last.bodies) / static_cast<double>(first.bodies)));
     line += fmt::format("{:>6.1f}%{}", 100 * last.precision(), last.missed ? " LOSES PAIRS" : "");
-    lines.emplace_back(last.ns_median, line);
+    lines.emplace_back(shown_order(last), line);
   }
   std::sort(lines.begin(), lines.end());
   std::string head = fmt::format("candidates, inserted and queried once, ns by bodies\n  {:<26}", "");

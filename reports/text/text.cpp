@@ -72,13 +72,18 @@ constexpr auto short_names =
     std::to_array<std::string_view>({"overlap", "distance", "contact", "impact", "pairs", "scene", "swept"});
 static_assert(short_names.size() == question_names.size());
 
+// A time that includes the pipe is marked.
+std::string time_of(const Tally& t, double share) {
+  return nanoseconds(t.time.quantile(share)) + (t.times_include_pipe && t.answered() > 0 ? "p" : "");
+}
+
 std::string row(Question q, const Tally& t) {
   if (t.answered() == 0 && t.failed() == 0 && t.not_asked() == 0)
     return fmt::format(" {:<8} {:>7}\n", short_names[static_cast<std::size_t>(q)], "cannot");
   return fmt::format(" {:<8} {:>7} {:>7} {:>6} {:>6} {:>6} {:>6} {:>8} {:>7} {:>8}\n",
                      short_names[static_cast<std::size_t>(q)], t.answered(), t.right, t.wrong, t.missed,
-                     t.ghost, t.failed(), small(t.worst_in_l), nanoseconds(t.time.quantile(0.5)),
-                     nanoseconds(t.time.quantile(fuzz::tail_quantile)));
+                     t.ghost, t.failed(), small(t.worst_in_l), time_of(t, 0.5),
+                     time_of(t, fuzz::tail_quantile));
 }
 
 // The answers that the row's counts leave out; empty if there are none.
@@ -119,10 +124,15 @@ std::string group_lines(const std::string& title, const Group& g) {
 std::string full_campaign_table(const CampaignResult& r) {
   std::string s = fmt::format(" {:<8} {:>7} {:>7} {:>6} {:>6} {:>6} {:>6} {:>8} {:>7} {:>8}\n", "", "answers",
                               "right", "wrong", "missed", "ghost", "failed", "worst/L", "ns med", "ns p99");
+  bool pipe = false;
   for (const auto& [engine, questions] : r.tallies) {
     s += engine + "\n";
-    for (const auto& [q, t] : questions) s += row(q, t) + open_line(t);
+    for (const auto& [q, t] : questions) {
+      s += row(q, t) + open_line(t);
+      pipe |= t.times_include_pipe;
+    }
   }
+  if (pipe) s += "p: the time includes the pipe; the engine states none of its own\n";
   return s;
 }
 
@@ -149,6 +159,30 @@ std::string findings_summary(const CampaignResult& r, std::size_t per_engine) {
   return s;
 }
 
+static std::string slow_lines(const CampaignResult& r) {
+  std::string s;
+  for (const auto& [engine, questions] : r.tallies)
+    for (const auto& [q, t] : questions)
+      if (t.slow > 0)
+        s += fmt::format("slow: {} of {}'s answers to {} took longer than the time limit\n", grouped(t.slow),
+                         engine, to_string(q));
+  return s;
+}
+
+static std::string slow_line(const CampaignResult& r) {
+  std::uint64_t slow = 0;
+  std::size_t engines = 0;
+  for (const auto& [engine, questions] : r.tallies) {
+    std::uint64_t of_engine = 0;
+    for (const auto& [q, t] : questions) of_engine += t.slow;
+    slow += of_engine;
+    engines += of_engine > 0;
+  }
+  if (slow == 0) return "";
+  return fmt::format("slow: {} of {} took longer than the time limit\n", counted(slow, "answer", "answers"),
+                     counted(engines, "engine", "engines"));
+}
+
 std::string campaign_footer(const CampaignResult& r, bool full) {
   const auto share = [&](std::int64_t ns) {
     return r.total_ns > 0 ? 100.0 * static_cast<double>(ns) / static_cast<double>(r.total_ns) : 0.0;
@@ -157,14 +191,12 @@ std::string campaign_footer(const CampaignResult& r, bool full) {
   std::string s =
       fmt::format("{} cases; {:.0f} % of the pairs touch or overlap; {} undecided by the referee\n",
                   grouped(r.cases), 100 * r.hit_rate(), grouped(r.undecided));
+  if (r.not_refereed > 0)
+    s += fmt::format("{} cases that no engine answers were not refereed\n", grouped(r.not_refereed));
   if (const std::uint64_t n = r.levels[0] + r.levels[1] + r.levels[2]; full && n > 0)
     s += fmt::format("referee: {} pairs settled by doubles, {} in extended precision, {} exactly\n",
                      grouped(r.levels[0]), grouped(r.levels[1]), grouped(r.levels[2]));
-  for (const auto& [engine, questions] : r.tallies)
-    for (const auto& [q, t] : questions)
-      if (t.slow > 0)
-        s += fmt::format("slow: {} of {}'s answers to {} took longer than the time limit\n", grouped(t.slow),
-                         engine, to_string(q));
+  s += full ? slow_lines(r) : slow_line(r);
   std::uint64_t asked = 0, broken = 0;
   for (const auto& [engine, of_engine] : r.relations)
     for (const auto& [name, n] : of_engine) {

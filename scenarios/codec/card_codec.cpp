@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <nlohmann/json.hpp>
 #include <string_view>
 
@@ -28,7 +29,11 @@ struct NumberField {
   double most;
 };
 constexpr const char* complete_field = "complete_manifolds";
-constexpr const char* shapes_field = "more_shapes";
+constexpr const char* more_shapes_field = "more_shapes";
+constexpr const char* shapes_field = "shapes";
+constexpr const char* roundoffs_field = "unit_roundoffs";
+constexpr const char* biases_field = "depth_biases";
+constexpr const char* pipe_field = "times_include_pipe";
 constexpr std::array text_fields{
     TextField{"name", &EngineCard::name}, TextField{"library", &EngineCard::library},
     TextField{"version", &EngineCard::version}, TextField{"settings", &EngineCard::settings},
@@ -39,6 +44,15 @@ constexpr std::array text_fields{
 constexpr std::array number_fields{NumberField{"unit_roundoff", &EngineCard::unit_roundoff, 0x1p-8},
                                    NumberField{"tau_factor", &EngineCard::tau_factor, 0x1p14}};
 constexpr double most_of_l = 1e-2;  // as above
+struct LengthField {
+  const char* name;
+  double EngineCard::*member;
+};
+constexpr std::array length_fields{LengthField{"contact_offset", &EngineCard::contact_offset},
+                                   LengthField{"sweep_skin", &EngineCard::sweep_skin}};
+// Bias of the routines that prefer faces of boxes: 5 % (Bullet and ODE, dBoxBox2). A bias of a quarter is
+// already another direction than that of least depth.
+constexpr double most_bias = 0.25;
 
 // These texts are shown to people, also on a terminal.
 constexpr std::size_t max_text_bytes = 1000;
@@ -48,7 +62,12 @@ bool is_known(std::string_view key) {
     if (key == f.name) return true;
   for (const auto& f : number_fields)
     if (key == f.name) return true;
-  return key == complete_field || key == shapes_field;
+  for (const auto& f : length_fields)
+    if (key == f.name) return true;
+  for (const char* name :
+       {complete_field, more_shapes_field, shapes_field, roundoffs_field, biases_field, pipe_field})
+    if (key == name) return true;
+  return false;
 }
 
 std::string text_of(const Json& j, const char* field) {
@@ -64,20 +83,93 @@ std::string too_large(double x, double most) {
   return "is " + to_text(x) + "; at most " + to_text(most) + " is accepted";
 }
 
-double positive_number_of(const Json& j, const char* field, double most) {
-  if (!j.contains(field)) throw InputError(field, "is missing from the engine card");
-  if (!j[field].is_number()) throw InputError(field, "is not a number");
-  const double x = j[field].get<double>();
-  if (!(x > 0 && std::isfinite(x))) throw InputError(field, "is not a positive finite number");
-  if (x > most) throw InputError(field, too_large(x, most));
+double positive_number(const Json& j, const std::string& place, double most) {
+  if (!j.is_number()) throw InputError(place, "is not a number");
+  const double x = j.get<double>();
+  if (!(x > 0 && std::isfinite(x))) throw InputError(place, "is not a positive finite number");
+  if (x > most) throw InputError(place, too_large(x, most));
   return x;
 }
 
-ShapeKind shape_named(const Json& name) {
+double positive_number_of(const Json& j, const char* field, double most) {
+  if (!j.contains(field)) throw InputError(field, "is missing from the engine card");
+  return positive_number(j[field], field, most);
+}
+
+void require_tau(const EngineCard& card, double unit_roundoff, const char* field) {
+  if (card.tau_factor * unit_roundoff > most_of_l)
+    throw InputError(field, "times unit_roundoff " + too_large(card.tau_factor * unit_roundoff, most_of_l));
+}
+
+bool flag_of(const Json& j, const char* field) {
+  if (!j.contains(field)) return false;
+  if (!j[field].is_boolean()) throw InputError(field, "is neither true nor false");
+  return j[field].get<bool>();
+}
+
+ShapeKind kind_named(std::string_view name, const char* field) {
+  for (int k = 0; k < shape_kind_count; ++k)
+    if (name == type_name(static_cast<ShapeKind>(k))) return static_cast<ShapeKind>(k);
+  throw InputError(field, "names something other than a kind of shape: " +
+                              printable(std::string(name.substr(0, max_engine_name_bytes))));
+}
+
+ShapeKind later_shape_named(const Json& name) {
   for (int k = static_cast<int>(last_common_shape) + 1; k < shape_kind_count; ++k)
     if (name == type_name(static_cast<ShapeKind>(k))) return static_cast<ShapeKind>(k);
-  throw InputError(shapes_field, "lists something other than a kind of shape after the " +
-                                     std::string(type_name(last_common_shape)));
+  throw InputError(more_shapes_field, "lists something other than a kind of shape after the " +
+                                          std::string(type_name(last_common_shape)));
+}
+
+void read_shapes(const Json& j, EngineCard& card) {
+  if (j.contains(more_shapes_field)) {
+    if (!j[more_shapes_field].is_array()) throw InputError(more_shapes_field, "is not a list");
+    for (const Json& name : j[more_shapes_field]) card.more_shapes.push_back(later_shape_named(name));
+  }
+  if (!j.contains(shapes_field)) return;
+  const Json& list = j[shapes_field];
+  if (!list.is_array() || list.empty()) throw InputError(shapes_field, "is not a list of kinds of shapes");
+  if (!card.more_shapes.empty()) throw InputError(shapes_field, "excludes more_shapes");
+  for (const Json& name : list) {
+    if (!name.is_string()) throw InputError(shapes_field, "lists something other than a string");
+    const ShapeKind kind = kind_named(name.get_ref<const std::string&>(), shapes_field);
+    if (std::ranges::find(card.shapes, kind) != card.shapes.end())
+      throw InputError(shapes_field, "lists a kind twice: " + std::string(type_name(kind)));
+    card.shapes.push_back(kind);
+  }
+  std::ranges::sort(card.shapes);
+}
+
+void read_roundoffs(const Json& j, EngineCard& card) {
+  if (!j.contains(roundoffs_field)) return;
+  if (!j[roundoffs_field].is_object()) throw InputError(roundoffs_field, "is not an object");
+  for (const auto& [name, value] : j[roundoffs_field].items()) {
+    const ShapeKind kind = kind_named(name, roundoffs_field);
+    const std::string place = std::string(roundoffs_field) + "." + name;
+    const double u = positive_number(value, place, number_fields[0].most);
+    if (u < card.unit_roundoff) throw InputError(place, "is less than unit_roundoff");
+    require_tau(card, u, place.c_str());
+    card.unit_roundoffs.push_back({kind, u});
+  }
+  std::ranges::sort(card.unit_roundoffs, {}, &KindRoundoff::kind);
+}
+
+void read_biases(const Json& j, EngineCard& card) {
+  if (!j.contains(biases_field)) return;
+  if (!j[biases_field].is_object()) throw InputError(biases_field, "is not an object");
+  for (const auto& [names, value] : j[biases_field].items()) {
+    const std::size_t space = names.find(' ');
+    if (space == std::string::npos)
+      throw InputError(biases_field, "has a name that is not two kinds of shapes, as in \"box box\"");
+    const std::string_view all = names;
+    const auto [a, b] = std::minmax(
+        {kind_named(all.substr(0, space), biases_field), kind_named(all.substr(space + 1), biases_field)});
+    const auto same = [a = a, b = b](const DepthBias& x) { return x.a == a && x.b == b; };
+    if (std::ranges::any_of(card.depth_biases, same))
+      throw InputError(biases_field, "lists a pair twice: " + names);
+    card.depth_biases.push_back({a, b, positive_number(value, biases_field, most_bias)});
+  }
+  std::ranges::sort(card.depth_biases, {}, [](const DepthBias& x) { return std::pair(x.a, x.b); });
 }
 
 }  // namespace
@@ -91,17 +183,15 @@ EngineCard card_from_json(const std::string& text) {
   EngineCard card;
   for (const auto& f : text_fields) card.*f.member = text_of(j, f.name);
   for (const auto& f : number_fields) card.*f.member = positive_number_of(j, f.name, f.most);
-  if (card.tau_factor * card.unit_roundoff > most_of_l)
-    throw InputError("tau_factor",
-                     "times unit_roundoff " + too_large(card.tau_factor * card.unit_roundoff, most_of_l));
-  if (j.contains(complete_field)) {
-    if (!j[complete_field].is_boolean()) throw InputError(complete_field, "is neither true nor false");
-    card.complete_manifolds = j[complete_field].get<bool>();
-  }
-  if (j.contains(shapes_field)) {
-    if (!j[shapes_field].is_array()) throw InputError(shapes_field, "is not a list");
-    for (const Json& name : j[shapes_field]) card.more_shapes.push_back(shape_named(name));
-  }
+  require_tau(card, card.unit_roundoff, "tau_factor");
+  card.complete_manifolds = flag_of(j, complete_field);
+  card.times_include_pipe = flag_of(j, pipe_field);
+  read_shapes(j, card);
+  read_roundoffs(j, card);
+  read_biases(j, card);
+  for (const auto& f : length_fields)
+    if (j.contains(f.name))
+      card.*f.member = positive_number(j[f.name], f.name, std::numeric_limits<double>::max());
   if (card.name.empty()) throw InputError("name", "is empty");
   if (!is_engine_name(card.name))
     throw InputError(
@@ -119,7 +209,15 @@ std::string to_json_text(const EngineCard& card) {
   j["tau_factor"] = card.tau_factor;
   j["source"] = card.source;
   if (card.complete_manifolds) j[complete_field] = true;
-  for (const ShapeKind k : card.more_shapes) j[shapes_field].push_back(type_name(k));
+  for (const ShapeKind k : card.more_shapes) j[more_shapes_field].push_back(type_name(k));
+  for (const ShapeKind k : card.shapes) j[shapes_field].push_back(type_name(k));
+  for (const KindRoundoff& r : card.unit_roundoffs)
+    j[roundoffs_field][std::string(type_name(r.kind))] = r.unit_roundoff;
+  for (const auto& f : length_fields)
+    if (card.*f.member > 0) j[f.name] = card.*f.member;
+  for (const DepthBias& d : card.depth_biases)
+    j[biases_field][std::string(type_name(d.a)) + " " + std::string(type_name(d.b))] = d.share;
+  if (card.times_include_pipe) j[pipe_field] = true;
   return j.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 

@@ -306,10 +306,34 @@ Case make_new(std::uint64_t seed, std::uint64_t index, std::string_view names) {
 
 std::span<const Family> families() { return catalog; }
 
-Case make_case(std::uint64_t seed, std::uint64_t index, std::string_view names) {
+namespace {
+
+constexpr std::uint64_t kinds_stream = 0x6b696e6473ULL;  // of the cases drawn again; separate from the others
+// Families that draw one of several kinds have such a case among this many; others have none.
+constexpr std::uint64_t most_draws = 64;
+
+bool is_of(const Scene& s, std::span<const ShapeKind> kinds) {
+  return std::ranges::all_of(
+      s.shapes, [&](const Shape& x) { return std::ranges::find(kinds, kind_of(x)) != kinds.end(); });
+}
+
+// Families that draw their kinds by name are drawn again, with the family, until all shapes are of the kinds.
+Case make_new_of(std::uint64_t seed, std::uint64_t index, std::string_view names,
+                 std::span<const ShapeKind> kinds) {
+  const OnlyKinds only(kinds);
+  Case c = make_new(seed, index, names);
+  for (std::uint64_t k = 1; k < most_draws && !kinds.empty() && !is_of(c.scene, kinds); ++k)
+    c = make_new(seed ^ (kinds_stream * k), index, names);
+  return c;
+}
+
+}  // namespace
+
+Case make_case(std::uint64_t seed, std::uint64_t index, std::string_view names,
+               std::span<const ShapeKind> kinds) {
   Rng rng = Rng::stream(seed ^ forms_stream, index);
   const bool sequel = is_sequel(rng) && index > 0;
-  Case c = sequel ? make_case(seed, index - 1, names) : make_new(seed, index, names);
+  Case c = sequel ? make_case(seed, index - 1, names, kinds) : make_new_of(seed, index, names, kinds);
   if (sequel) move_a_body(rng, c);
   apply_forms(rng, c);
   c.id = c.family + "/" + std::to_string(seed) + "/" + std::to_string(index);

@@ -24,8 +24,10 @@ struct Family {
 std::span<const Family> families();
 
 /// The index-th case of a campaign with one family, several by weight (`deep,far`) or, when `names` is empty,
-/// all. Throws InputError on an unknown family.
-Case make_case(std::uint64_t seed, std::uint64_t index, std::string_view names = {});
+/// all. Throws InputError on an unknown family. If `kinds` are given, all shapes are of these kinds, except
+/// where the family has no such case.
+Case make_case(std::uint64_t seed, std::uint64_t index, std::string_view names = {},
+               std::span<const ShapeKind> kinds = {});
 
 // Regimes: situations that the default mix must contain whatever its families are, because some engine fails
 // only there. A row has a test for the situation and its minimum share of the default mix.

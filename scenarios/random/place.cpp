@@ -63,8 +63,8 @@ double mean_extent(const Scene& s) {
 std::pair<ShapeKind, ShapeKind> random_kinds(Rng& rng) {
   const auto pick = rng.below(10);
   const ShapeKind b = random_convex_kind(rng);
-  if (pick == 0) return {ShapeKind::half_space, b};
-  if (pick == 1) return {ShapeKind::mesh, b};
+  if (pick == 0 && may_draw(ShapeKind::half_space)) return {ShapeKind::half_space, b};
+  if (pick == 1 && may_draw(ShapeKind::mesh)) return {ShapeKind::mesh, b};
   return {random_convex_kind(rng), b};  // b was drawn first
 }
 

@@ -1,6 +1,9 @@
 #include "scenarios/random/random_shape.h"
 
+#include <algorithm>
+#include <iterator>
 #include <limits>
+#include <utility>
 
 namespace touchstone::fuzz {
 namespace {
@@ -76,7 +79,28 @@ Shape random_shape(Rng& rng, ShapeKind kind, double scale) {
   return Sphere{a};
 }
 
-ShapeKind random_convex_kind(Rng& rng) { return common_convex_kinds[rng.below(common_convex_kinds.size())]; }
+namespace {
+
+thread_local std::vector<ShapeKind> only_kinds;  // empty: all
+
+}  // namespace
+
+OnlyKinds::OnlyKinds(std::span<const ShapeKind> kinds) : before_(kinds.begin(), kinds.end()) {
+  if (std::ranges::none_of(kinds, is_convex)) before_.clear();
+  std::swap(before_, only_kinds);
+}
+OnlyKinds::~OnlyKinds() { std::swap(before_, only_kinds); }
+
+bool may_draw(ShapeKind kind) {
+  return only_kinds.empty() || std::ranges::find(only_kinds, kind) != only_kinds.end();
+}
+
+ShapeKind random_convex_kind(Rng& rng) {
+  if (only_kinds.empty()) return common_convex_kinds[rng.below(common_convex_kinds.size())];
+  std::vector<ShapeKind> convex;
+  std::ranges::copy_if(only_kinds, std::back_inserter(convex), is_convex);
+  return convex[rng.below(convex.size())];
+}
 
 double support_value(const Shape& shape, const Vec3& n) {
   return std::visit(

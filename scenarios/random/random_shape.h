@@ -2,6 +2,8 @@
 #pragma once
 
 #include <array>
+#include <span>
+#include <vector>
 
 #include "core/math/rng.h"
 #include "core/shape/shape.h"
@@ -26,8 +28,23 @@ inline constexpr auto common_convex_kinds = [] {
   return kinds;
 }();
 
-/// One of common_convex_kinds, with equal probability. Later kinds have families of their own, so that the
-/// cases of a seed remain what they were.
+/// While it lives, the kinds that this thread draws are among these, if they include a bounded convex one.
+/// make_case() sets it from its arguments alone.
+class OnlyKinds {
+ public:
+  explicit OnlyKinds(std::span<const ShapeKind> kinds);
+  ~OnlyKinds();
+  OnlyKinds(const OnlyKinds&) = delete;
+  OnlyKinds& operator=(const OnlyKinds&) = delete;
+
+ private:
+  std::vector<ShapeKind> before_;
+};
+/// Whether the kind may be drawn.
+bool may_draw(ShapeKind kind);
+
+/// One of common_convex_kinds, or of the bounded convex ones of OnlyKinds, with equal probability. Later
+/// kinds have families of their own, so that the cases of a seed remain what they were.
 ShapeKind random_convex_kind(Rng& rng);
 
 /// Support value max n·x over the shape in its body frame; +inf for a half-space unless n is its normal.

@@ -21,9 +21,11 @@ double one_size(Rng& rng, Sizes sizes) {
 Shape tile(Rng& rng, Sizes sizes) {
   const double x = one_size(rng, sizes), y = one_size(rng, sizes), z = one_size(rng, sizes);
   const auto kind = rng.below(10);
-  if (kind == 0) return Sphere{x};
-  if (kind == 1) return Capsule{x, y};
-  if (kind == 2) return make_hull({{x, 0, 0}, {-x, 0, 0}, {0, y, 0}, {0, -y, 0}, {0, 0, z}, {0, 0, -z}});
+  if (kind == 0 && may_draw(ShapeKind::sphere)) return Sphere{x};
+  if (kind == 1 && may_draw(ShapeKind::capsule)) return Capsule{x, y};
+  if (kind == 2 && may_draw(ShapeKind::hull))
+    return make_hull({{x, 0, 0}, {-x, 0, 0}, {0, y, 0}, {0, -y, 0}, {0, 0, z}, {0, 0, -z}});
+  if (!may_draw(ShapeKind::box)) return random_shape(rng, random_convex_kind(rng), x);
   return Box{{x, y, z}};
 }
 

@@ -23,6 +23,20 @@ inline bool is_engine_name(std::string_view name) {
                      [](char c) { return c >= ' ' && c <= '~' && c != '/' && c != '\\'; });
 }
 
+/// By what share of the least depth the normal that an engine chooses for a pair of these kinds (a <= b) may
+/// need more.
+struct DepthBias {
+  ShapeKind a = ShapeKind::sphere, b = ShapeKind::sphere;
+  double share = 0;
+  bool operator==(const DepthBias&) const = default;
+};
+/// The unit roundoff of a kind that is computed more coarsely than the others.
+struct KindRoundoff {
+  ShapeKind kind = ShapeKind::sphere;
+  double unit_roundoff = 0;
+  bool operator==(const KindRoundoff&) const = default;
+};
+
 /// An engine's description of itself: the JSON card of touchstone_engine.h.
 /// τ of an answer = tau_factor · unit_roundoff · L + the answer's claimed_tolerance (docs/truth.md §3).
 struct EngineCard {
@@ -37,14 +51,35 @@ struct EngineCard {
   bool complete_manifolds = false;
   /// The kinds after last_common_shape that it takes.
   std::vector<ShapeKind> more_shapes = {};
+  /// All kinds that it takes; empty: the common ones and more_shapes.
+  std::vector<ShapeKind> shapes = {};
+  std::vector<KindRoundoff> unit_roundoffs = {};
+  /// Bodies apart by at most this are reported as in contact. A length; believed only with a source.
+  double contact_offset = 0;
+  /// A sweep stops when the gap is at most this. A length; believed only with a source.
+  double sweep_skin = 0;
+  std::vector<DepthBias> depth_biases = {};  // believed only with a source
+  /// Times include talking to another process, so they are not charted as the engine's.
+  bool times_include_pipe = false;
   bool operator==(const EngineCard&) const = default;
 };
 
-/// Every engine is sent the kinds up to this one (TS_LAST_COMMON_SHAPE), and those after it that its card
-/// lists.
+/// An engine whose card lists no `shapes` is sent the kinds up to this one (TS_LAST_COMMON_SHAPE), and those
+/// after it that its card adds.
 inline constexpr ShapeKind last_common_shape = ShapeKind::mesh;
 inline bool is_sent(const EngineCard& card, ShapeKind k) {
-  return k <= last_common_shape || std::ranges::find(card.more_shapes, k) != card.more_shapes.end();
+  const auto has = [k](const std::vector<ShapeKind>& list) {
+    return std::ranges::find(list, k) != list.end();
+  };
+  return card.shapes.empty() ? k <= last_common_shape || has(card.more_shapes) : has(card.shapes);
+}
+
+/// Of what an engine computes with a shape of this kind.
+inline double roundoff_of(const EngineCard& card, ShapeKind k) {
+  double u = card.unit_roundoff;
+  for (const KindRoundoff& r : card.unit_roundoffs)
+    if (r.kind == k) u = std::max(u, r.unit_roundoff);
+  return u;
 }
 
 }  // namespace touchstone

@@ -17,7 +17,6 @@
 
 #include "core/narrow/narrow_phase.h"
 #include "core/scene/scene.h"
-#include "core/shape/hull_graph.h"
 #include "oracles/referee/referee.h"
 #include "tests/bench/narrow_cases.h"
 #include "tests/bench/pair_options.h"
@@ -46,9 +45,9 @@ class Plain final : public Variant {
  public:
   Plain(Task task, Arithmetic arithmetic, const std::vector<PairCase>& cases, bool graphs = true)
       : task_(task), arithmetic_(arithmetic), with_graphs_(graphs) {
-    graphs_.reserve(2 * cases.size());
+    colliders_.reserve(2 * cases.size());
     for (const PairCase& c : cases)
-      pairs_.push_back({{&c.a, c.pose_a, nullptr, graph_of(c.a)}, {&c.b, c.pose_b, nullptr, graph_of(c.b)}});
+      pairs_.push_back({collider_of(c.a).at(c.pose_a), collider_of(c.b).at(c.pose_b)});
   }
   void ask(std::size_t i, Found& out) override { ask_with(i, out, nullptr); }
   void ask_with(std::size_t i, Found& out, PairMemory* memory) const {
@@ -72,14 +71,13 @@ class Plain final : public Variant {
   struct Placed2 {
     PlacedShape a, b;
   };
-  const HullGraph* graph_of(const Shape& s) {
-    const auto* hull = std::get_if<Hull>(&s);
-    return hull && with_graphs_ ? &graphs_.emplace_back(build_hull_graph(*hull)) : nullptr;
+  const Collider& collider_of(const Shape& s) {
+    return colliders_.emplace_back(s, with_graphs_ ? hull_graph_least : Collider::no_graph);
   }
   Task task_;
   Arithmetic arithmetic_;
   bool with_graphs_;
-  std::vector<HullGraph> graphs_;
+  std::vector<Collider> colliders_;
   std::vector<Placed2> pairs_;
 };
 

@@ -114,7 +114,7 @@ TEST_CASE("a campaign prints its table in 80 columns", "[cli]") {
   INFO(r.out << r.err);
   CHECK(r.code == 0);
   // A command to copy stays on one line, however long its path.
-  const auto command = r.out.find("/touchstone replay ");
+  const auto command = r.out.find("/touchstone causes ");
   REQUIRE(command != std::string::npos);
   CHECK(longest_line(r.out.substr(0, r.out.rfind('\n', command))) <= 80);
   CHECK(last_line(r.out).starts_with("exit code 0 is about core: 0 wrong in "));

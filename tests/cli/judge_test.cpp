@@ -45,7 +45,10 @@ TEST_CASE("judge prints what fuzz printed, without the engine", "[cli][judge]") 
   CHECK(w.touchstone("judge run -o again").code == 2);
   // Without -o, the stored findings are shown: everything but the last lines is the same text.
   const Run there = w.touchstone("judge run --jobs 1");
-  CHECK(there.out.starts_with(before_verdict(fuzz.out)));
+  const auto next =
+      fuzz.out.find("To see one, or all on a page");  // by commands that name the plug-in: judge asks none
+  REQUIRE(next != std::string::npos);
+  CHECK(there.out.starts_with(fuzz.out.substr(0, next)));
   CHECK(there.out.ends_with(fuzz.out.substr(before_verdict(fuzz.out).size())));
   const Run one = w.touchstone("judge run --engine core --json --junit j.xml");
   CHECK(one.code == 0);

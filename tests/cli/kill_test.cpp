@@ -129,6 +129,30 @@ TEST_CASE("a killed triage has reported whatever it put into the ledger", "[kill
   }
 }
 
+TEST_CASE("killed causes leave the stored ones whole, and are found again", "[kill][causes]") {
+  const Workspace w("kill");
+  REQUIRE(w.touchstone("fuzz --cases 128 --seed 5 --engines " + liar + " --out lies").code == 1);
+  const std::string causes = "causes lies --engines " + liar + " ";
+  int code = 0;
+  const int whole_ms = elapsed_ms(w, causes, code);
+  REQUIRE(code == 0);
+  const std::string whole = read_all(w.dir / "lies/causes.json");
+  const auto campaign = findings_of(w.dir / "lies");
+  std::mt19937_64 rng(21);
+  int caught = 0;
+  for (int i = 0; i < kills(); ++i) {
+    caught += killed(w, causes + "--again", rng, whole_ms);
+    CHECK(read_all(w.dir / "lies/causes.json") == whole);
+    fs::remove(w.dir / "lies/causes.json");
+    caught += killed(w, causes, rng, whole_ms);
+    if (fs::exists(w.dir / "lies/causes.json")) CHECK(read_all(w.dir / "lies/causes.json") == whole);
+    CHECK(w.touchstone(causes).code == 0);
+    CHECK(read_all(w.dir / "lies/causes.json") == whole);
+    CHECK(findings_of(w.dir / "lies") == campaign);
+  }
+  CHECK(caught > 0);
+}
+
 TEST_CASE("a killed certification leaves its certificate whole or not at all", "[kill][certify]") {
   const Workspace w("kill");
   const std::string certify = "certify --subject grid --level boxes --limit 40 -o ";

@@ -1,5 +1,6 @@
 // Engines behind a pipe as a user meets them: receipts, missing commands, engines from npm.
 #include <cstdio>
+#include <cstdlib>
 
 #include "tests/support/catch.h"
 #include "tests/support/skip.h"
@@ -207,39 +208,127 @@ TEST_CASE("a certificate of a command holds for the scripts that it names and no
 
 TEST_CASE("engines from npm say what to do when they are not installed", "[pipe][npm]") {
   const Workspace w("npm");
-  for (const char* name : {"jolt", "jolt-tuned", "rapier"}) {
+  for (const char* name : {"jolt", "jolt-tuned", "rapier", "mujoco", "physx-query", "physx-abp", "havok"}) {
     const Run r =
         w.run("TOUCHSTONE_NPM=" + w.dir.string() + "/none " TS_BINARY_DIR "/bin/touchstone engines " + name);
     INFO(r.out << r.err);
     CHECK(r.code == 2);
     CHECK(r.err.find("./touchstone engines --install " + std::string(name)) != std::string::npos);
   }
-  const Run unknown = w.touchstone("engines --install physx");
+  const Run unknown = w.touchstone("engines --install ph");
   CHECK(unknown.code == 2);
-  CHECK(unknown.err.find("jolt, jolt-tuned and rapier") != std::string::npos);
-  const Run no_npm = w.run("PATH=" + w.dir.string() +
-                           " TOUCHSTONE_NPM=none " TS_BINARY_DIR "/bin/touchstone engines --install rapier");
-  INFO(no_npm.out << no_npm.err);
-  CHECK(no_npm.code == 2);
-  CHECK(no_npm.err.find("nodejs and npm") != std::string::npos);
+  for (const char* name : {"havok", "jolt-tuned", "mujoco-libccd", "physx-query"})
+    CHECK(unknown.err.find(name) != std::string::npos);
+  // A library stands for its engines.
+  for (const char* name : {"rapier", "physx"}) {
+    const Run no_npm =
+        w.run("PATH=" + w.dir.string() +
+              " TOUCHSTONE_NPM=none " TS_BINARY_DIR "/bin/touchstone engines --install " + name);
+    INFO(no_npm.out << no_npm.err);
+    CHECK(no_npm.code == 2);
+    CHECK(no_npm.err.find("nodejs and npm") != std::string::npos);
+  }
   CHECK_FALSE(fs::exists(w.dir / "none"));
 }
 
+namespace {
+
+bool is_installed(const Workspace& w, const std::string& name) {
+  if (w.touchstone("engines " + name).code == 0) return true;
+  std::printf("left out: %s is not installed (touchstone engines --install %s)\n", name.c_str(),
+              name.c_str());
+  return false;
+}
+
+}  // namespace
+
 TEST_CASE("engines from npm use the interface correctly", "[pipe][npm][optional]") {
   const Workspace w("npm");
+  const std::pair<const char*, int> right[] = {
+      {"jolt", 19},          {"jolt-tuned", 19},  {"rapier", 19},    {"mujoco", 16},    {"mujoco-single", 16},
+      {"mujoco-libccd", 16}, {"physx-query", 15}, {"physx-gjk", 17}, {"physx-sim", 16}, {"physx-sap", 2},
+      {"physx-mbp", 2},      {"physx-abp", 2},    {"havok", 15},     {"havok-sim", 12}};
   std::size_t checked = 0;
-  for (const char* name : {"jolt", "jolt-tuned", "rapier"}) {
-    if (w.touchstone("engines " + std::string(name)).code != 0) {
-      std::printf("left out: %s is not installed (touchstone engines --install %s)\n", name, name);
-      continue;
-    }
+  for (const auto& [name, count] : right) {
+    if (!is_installed(w, name)) continue;
     const Run r = w.touchstone("engines --check " + std::string(name));
     INFO(r.out << r.err);
     CHECK(r.code == 0);
-    CHECK(r.out.find(std::string(name) + ": 19 right, 0 wrong") != std::string::npos);
+    CHECK(r.out.find(std::string(name) + ": " + std::to_string(count) + " right, 0 wrong") !=
+          std::string::npos);
     ++checked;
   }
   if (checked == 0) skip("no engine from npm is installed");
+}
+
+TEST_CASE("PhysX's broad phases keep every pair of boxes", "[pipe][npm][certify][optional]") {
+  const Workspace w("npm");
+  if (!is_installed(w, "physx-sap")) return skip("PhysX is not installed");
+  for (const char* name : {"physx-sap", "physx-mbp", "physx-abp"}) {
+    const Run r = w.touchstone("certify --level boxes --limit 20 --subject " + std::string(name));
+    INFO(r.out << r.err);
+    CHECK(r.code == 0);
+    CHECK(r.out.find("boxes certified") != std::string::npos);
+  }
+}
+
+namespace {
+
+// Two bodies at the origin, and one question about them.
+std::string pair_case(const std::string& a, const std::string& b, const std::string& question,
+                      const std::string& of_a = "") {
+  return R"({"touchstone_case": 1, "scene": {"touchstone_scene": 1, "shapes": [)" + a + ", " + b +
+         R"(], "bodies": [{"shape": 0)" + of_a + R"(}, {"shape": 1}]}, "queries": [{"question": ")" +
+         question + R"(", "a": 0, "b": 1}]})";
+}
+
+}  // namespace
+
+TEST_CASE("known faults of engines from npm are shown by programs against the engine alone",
+          "[pipe][npm][reproduce][optional]") {
+  const Workspace w("npm");
+  const std::string unit = R"({"type": "box", "half_extents": [1, 1, 1]})",
+                    small = R"({"type": "box", "half_extents": [0.5, 0.5, 0.5]})",
+                    cylinder = R"({"type": "cylinder", "radius": 1, "half_height": 1})";
+  const std::string moves = R"(, "pose": {"translation": [0, 0, 5]}, "motion": {"linear": [0, 0, -10]})";
+  struct Known {
+    const char *engine, *key;
+    std::string text;
+  };
+  // Truth by hand. Two equal cylinders with one centre overlap by 2 (axis and diameter). Cubes of side 1 with
+  // one centre need 1 along a face, √3 along a diagonal. The cylinder's lower end, at 4, meets the box's
+  // upper face, at 1, after 3 of 10. A ball of radius 1 at distance 3 from the axis of a cylinder of radius 1
+  // is 1 from it at every angle.
+  const Known all[] = {
+      {"mujoco", "mujoco.overlap.missed.cylinder-cylinder.algorithm.solid.gross",
+       pair_case(cylinder, cylinder, "overlap")},
+      {"physx-gjk", "physx-gjk.contact.not_minimal.box-box.algorithm.solid.gross",
+       pair_case(small, small, "contact")},
+      {"physx-query", "physx-query.time_of_impact.missed.box-cylinder.algorithm.solid.gross",
+       pair_case(cylinder, unit, "time_of_impact", moves)},
+      {"havok", "havok.distance.distance_off.cylinder-sphere.representation.solid.small",
+       pair_case(cylinder, R"({"type": "sphere", "radius": 1})", "distance",
+                 R"(, "pose": {"translation": [2.942355841, 0.5853, 0]})")},
+  };
+  std::size_t shown = 0;
+  for (const Known& k : all) {
+    if (!is_installed(w, k.engine)) continue;
+    w.write("known.json", k.text);
+    const Run made = w.touchstone("reproduce known.json --engine " + std::string(k.engine) + " --key " +
+                                  k.key + " -o reproduce.mjs");
+    INFO(k.engine << made.out << made.err);
+    REQUIRE(made.code == 0);
+    const char* chosen = std::getenv("TOUCHSTONE_NPM");
+    const fs::path folder = chosen ? fs::path(chosen) : fs::path(TS_BINARY_DIR "/npm");
+    if (!fs::exists(w.dir / "node_modules"))
+      fs::create_symlink(folder / "node_modules", w.dir / "node_modules");
+    const Run ran = w.run("node reproduce.mjs");
+    INFO(ran.out << ran.err);
+    CHECK(ran.code == 1);
+    CHECK(ran.out.find("WRONG") != std::string::npos);
+    ++shown;
+  }
+  if (shown == 0) skip("no engine from npm is installed");
 }
 
 TEST_CASE("ODE is queried correctly, and its spaces keep every pair of boxes", "[ode][certify][optional]") {

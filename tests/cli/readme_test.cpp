@@ -1,7 +1,8 @@
 // Every command line of the README and of the guides in docs/ runs. In the README, `./touchstone` is replaced
 // by the program itself (its launcher would build it again), `test` is left out (it runs this test), minutes
 // are shortened, and
-// ./libmine.so and ./libmybroad.so are replaced by the example plug-ins.
+// ./libmine.so and ./libmybroad.so are replaced by the example plug-ins, and Box3D by a stand-in. Engines from
+// npm come from a folder of packages that imitate them (npm_registry.h).
 #include <sys/wait.h>
 
 #include <cstdio>
@@ -14,12 +15,15 @@
 #include <vector>
 
 #include "tests/support/catch.h"
+#include "tests/support/npm_registry.h"
 #include "tests/support/skip.h"
 #include "tests/support/workspace.h"
 
 using touchstone::test::has_command;
+using touchstone::test::NpmRegistry;
 using touchstone::test::read_all;
 using touchstone::test::Run;
+using touchstone::test::two_small_balls;
 using touchstone::test::Workspace;
 namespace fs = std::filesystem;
 
@@ -36,6 +40,18 @@ std::vector<std::string> readme_commands() {
       commands.push_back(line);
   }
   return commands;
+}
+
+bool is_about_npm(const std::string& c) { return c.find("rapier") != std::string::npos; }
+
+// With the releases of the packages that imitate Rapier, and a case that they get wrong.
+std::string with_registry(std::string c, const Workspace& w, const NpmRegistry& npm) {
+  c = std::regex_replace(c, std::regex("rapier@0.19,rapier@0.21"), "rapier@0.3,rapier@0.5");
+  c = std::regex_replace(c, std::regex("--bad 0.19"), "--bad 0.6.0");
+  c = std::regex_replace(c, std::regex("teleport_there_and_back"),
+                         w.write("balls.json", two_small_balls).string());
+  if (c.find(" versions ") != std::string::npos) c += " --releases 3 --cases 20";
+  return npm.environment() + " " + c;
 }
 
 std::string for_test(std::string c) {
@@ -55,6 +71,8 @@ std::string for_test(std::string c) {
   if (c.find(" chart ") != std::string::npos) c += " --engines core --broad grid --measure 0";
   if (c.find(" stability ") != std::string::npos) c += " --engines core --ladder gap";
   c = std::regex_replace(c, std::regex("out/(chart|stability)"), TS_BINARY_DIR "/readme-$1");
+  c = std::regex_replace(c, std::regex("out/core.json"), TS_BINARY_DIR "/readme-fingerprint.json");
+  if (c.find(" fingerprint ") != std::string::npos) c += " --cases 300";
   c = std::regex_replace(c, std::regex("out/grid"), TS_BINARY_DIR "/readme-grid");
   if (c.find("certify --subject") != std::string::npos) c += " --limit 100";
   // The causes of all engines take minutes.
@@ -106,10 +124,32 @@ std::vector<std::string> lines_of(const std::string& text) {
 std::string in_workspace(const Workspace& w, std::string line) {
   line = std::regex_replace(line, std::regex("build/release"), TS_BINARY_DIR);
   line = std::regex_replace(line, std::regex("PREFIX(?!_)"), (w.dir / "prefix").string());
+  line = std::regex_replace(line, std::regex("/opt/box3d"), TS_SOURCE_DIR "/tests/oracles/stubs/box3d");
+  line = std::regex_replace(line, std::regex("~/"), w.dir.string() + "/");
   line = std::regex_replace(line, std::regex("--cases [0-9]+"), "--cases 300");
   line = std::regex_replace(line, std::regex(" --limit [0-9]+"), "");
   if (line.find(" certify --subject") != std::string::npos) line += " --limit 40";
   return line;
+}
+
+// A repository ~/box3d of a stand-in, whose last commit but one is wrong, and ~/box3d-build, which installs
+// it.
+void make_library(const Workspace& w) {
+  fs::copy(TS_SOURCE_DIR "/tests/oracles/stubs/box3d", w.dir / "box3d", fs::copy_options::recursive);
+  w.write(
+      "box3d/CMakeLists.txt",
+      "cmake_minimum_required(VERSION 3.16)\nproject(box3d)\ninstall(DIRECTORY include lib DESTINATION .)\n");
+  fs::create_directory(w.dir / "box3d-build");
+  w.write("box3d-build/Makefile", "install:\n\ttrue\n");
+  const Run r = w.run(
+      "cd box3d && git init -q -b main && git config user.email test@example.org && git config user.name "
+      "Test && "
+      "git add -A && git commit -q -m first && git tag v0.1 && "
+      "sed -i 's/apart - c->radius - s->radius;/apart - c->radius - s->radius - 0.1f;/' "
+      "include/box3d/collision.h && "
+      "git commit -q -a -m second && git commit -q --allow-empty -m third");
+  INFO(r.err);
+  REQUIRE(r.code == 0);
 }
 
 // Runs a guide's blocks in order in one directory: `sh` is run, `text` lists lines of the output of the block
@@ -117,6 +157,9 @@ std::string in_workspace(const Workspace& w, std::string line) {
 std::size_t run_guide(const fs::path& guide) {
   static const std::regex file_name("`([^`/]+)`:");
   const Workspace w("guide-" + guide.stem().string());
+  if (guide.stem() == "engines") make_library(w);
+  setenv("TOUCHSTONE_ENGINES", (w.dir / "registered").c_str(), 1);
+  setenv("XDG_CACHE_HOME", (w.dir / "cache").c_str(), 1);
   std::size_t run = 0;
   std::string out;
   for (const Block& block : blocks_of(guide)) {
@@ -144,11 +187,15 @@ std::size_t run_guide(const fs::path& guide) {
 
 TEST_CASE("every command line of the README runs", "[readme]") {
   std::size_t run = 0;
+  const Workspace w("readme-npm");
+  const NpmRegistry npm(w);
   fs::remove_all(TS_BINARY_DIR "/readme-shards");
   for (const std::string& line : readme_commands()) {
     if (line == "./touchstone test") continue;
+    if (is_about_npm(line) && !has_command("node")) continue;
     if (line.find(" fuzz ") != std::string::npos) fs::remove_all(TS_BINARY_DIR "/readme-out");
-    const std::string command = "cd " TS_SOURCE_DIR " && " + for_test(line) + " >/dev/null </dev/null";
+    const std::string adapted = is_about_npm(line) ? with_registry(for_test(line), w, npm) : for_test(line);
+    const std::string command = "cd " TS_SOURCE_DIR " && " + adapted + " >/dev/null </dev/null";
     const int status = std::system(command.c_str());
     INFO(line);
     CHECK(WIFEXITED(status));
@@ -161,7 +208,8 @@ TEST_CASE("every command line of the README runs", "[readme]") {
 }
 
 TEST_CASE("every command line of the guides runs, and prints what they say", "[readme][optional]") {
-  if (!has_command("python3")) return touchstone::test::skip("python3 is not installed");
+  for (const char* needed : {"python3", "git", "make"})
+    if (!has_command(needed)) return touchstone::test::skip(std::string(needed) + " is not installed");
   std::size_t run = 0;
   for (const auto& entry : fs::directory_iterator(TS_SOURCE_DIR "/docs"))
     if (entry.path().extension() == ".md") run += run_guide(entry.path());

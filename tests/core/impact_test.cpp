@@ -2,7 +2,6 @@
 #include <numbers>
 
 #include "core/impact/impact.h"
-#include "core/narrow/mesh_tree.h"
 #include "core/narrow/narrow_phase.h"
 #include "core/narrow/pair_table.h"
 #include "core/tolerance.h"
@@ -255,15 +254,15 @@ TEST_CASE("impact: a mesh's tree does not change the answer", "[impact][mesh]") 
       terrain.triangles.push_back({v, v + 1, v + n + 1});
       terrain.triangles.push_back({v + 1, v + n + 2, v + n + 1});
     }
-  const MeshTree tree = build_mesh_tree(terrain);
   const Shape mesh = terrain;
+  const Collider prepared(mesh);
   int hits = 0;
   for (std::uint64_t i = 0; i < 60; ++i) {
     Rng r = Rng::stream(6, i);
     const Shape body = random_shape(r, static_cast<ShapeKind>(r.below(7)), false);
     const Pose pose{r.unit_vector() * 4 + Vec3(0, 0, 8), r.rotation()}, ground{Vec3(0, 0, 1), r.rotation()};
     const Motion m{Vec3(r.uniform(-4, 4), r.uniform(-4, 4), r.uniform(-14, -2)), r.vector(0, 5)};
-    const ImpactAnswer with = time_of_impact({&body, pose, m}, {&mesh, ground, {}, &tree});
+    const ImpactAnswer with = time_of_impact({&body, pose, m}, prepared.at(ground, {}));
     const ImpactAnswer without = time_of_impact({&body, pose, m}, {&mesh, ground, {}});
     REQUIRE(with.outcome == Outcome::answered);
     CHECK(with.toi.has_value() == without.toi.has_value());
@@ -271,7 +270,7 @@ TEST_CASE("impact: a mesh's tree does not change the answer", "[impact][mesh]") 
     CHECK(*with.toi == Approx(*without.toi).epsilon(1e-12));
     if (*with.toi == 0) continue;  // any depth
     ++hits;
-    const double gap = distance({&body, pose_at(pose, m, *with.toi)}, {&mesh, ground, &tree}).distance;
+    const double gap = distance({&body, pose_at(pose, m, *with.toi)}, prepared.at(ground)).distance;
     CHECK(std::abs(gap) < 1e-12);
   }
   CHECK(hits > 15);

@@ -159,13 +159,9 @@ TEST_CASE("answers are the same with and without a graph", "[narrow][hull]") {
   for (int i = 0; i < 60; ++i) {
     const Shape a = on_ellipsoid(r, 200, Vec3(1, 0.7, 1.2)),
                 b = i % 3 == 0 ? Shape(Box{{0.5, 0.7, 0.9}}) : Shape(on_ellipsoid(r, 150, Vec3(0.8, 1, 0.6)));
-    const auto graph = [](const Shape& s) {
-      const auto* h = std::get_if<Hull>(&s);
-      return h ? build_hull_graph(*h, 4) : HullGraph{};
-    };
-    const HullGraph ga = graph(a), gb = graph(b);
+    const Collider ca(a, 4), cb(b, 4);
     const Pose pa{r.unit_vector(), r.rotation()}, pb{r.unit_vector() * r.uniform(0, 3), r.rotation()};
-    const PlacedShape a0{&a, pa}, b0{&b, pb}, a1{&a, pa, nullptr, &ga}, b1{&b, pb, nullptr, &gb};
+    const PlacedShape a0{&a, pa}, b0{&b, pb}, a1 = ca.at(pa), b1 = cb.at(pb);
     for (const Arithmetic f : {Arithmetic::float64, Arithmetic::float32}) {
       const DistanceAnswer d0 = distance(a0, b0, f), d1 = distance(a1, b1, f);
       CHECK((d0.distance == d1.distance && d0.normal == d1.normal && d0.witness == d1.witness));
@@ -204,13 +200,13 @@ TEST_CASE("the manifold of a face with many corners covers it", "[narrow][hull]"
   // 64 corners lie on a box: their polygon has 0.5 % more area than that of the 32 that are kept. At depth 0
   // extended precision answers.
   const Hull h = prism(64, 512);
-  const HullGraph g = build_hull_graph(h, 4);
-  REQUIRE(g);
+  REQUIRE(build_hull_graph(h, 4));
   const Shape wheel = h, floor = Box{{8192, 8192, 100}};
+  const Collider climbed(wheel, 4), scanned(wheel, Collider::no_graph);
   const PlacedShape below{&floor, {Vec3(0, 0, -100), Quat{}}};
-  for (const HullGraph* graph : {static_cast<const HullGraph*>(nullptr), &g})
+  for (const Collider* collider : {&climbed, &scanned})
     for (const double depth : {0.0, 0.5, 1.0}) {
-      const ContactAnswer c = contact(below, {&wheel, {Vec3(0, 0, 512 - depth), Quat{}}, nullptr, graph});
+      const ContactAnswer c = contact(below, collider->at({Vec3(0, 0, 512 - depth), Quat{}}));
       REQUIRE(c.overlap);
       CHECK(c.depth == Approx(depth).margin(1e-9));
       double area = 0;

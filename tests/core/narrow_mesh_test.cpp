@@ -80,8 +80,8 @@ TEST_CASE("a body against a mesh: the same with a tree, and in agreement with th
       const MeshCase c = mesh_case(i, kind, i < 4 ? 3 : 6);
       INFO(type_name(c.a) << " round " << i);
       const auto& mesh = std::get<TriangleMesh>(c.mesh);
-      const MeshTree tree = build_mesh_tree(mesh);
-      const PlacedShape a{&c.a, c.pose_a}, plain{&c.mesh, c.pose_mesh}, b{&c.mesh, c.pose_mesh, &tree};
+      const Collider prepared(c.mesh);
+      const PlacedShape a{&c.a, c.pose_a}, plain{&c.mesh, c.pose_mesh}, b = prepared.at(c.pose_mesh);
       Scene scene;
       scene.shapes = {c.a, c.mesh};
       scene.bodies.resize(2);

@@ -15,7 +15,7 @@ int main(int argc, char** argv) {
   long hits = 0, wrong = 0, late = 0, open = 0, in_double = 0;
   for (std::uint64_t i = first; i < first + n; ++i) {
     Rng r = Rng::stream(977, i);
-    const test::PrimitiveMotion m = test::random_motion(r, i);
+    const primitives::PrimitiveMotion m = primitives::random_motion(r, i);
     const PrimitiveKind kind = r.chance(0.5) ? PrimitiveKind::vertex_face : PrimitiveKind::edge_edge;
     const PrimitiveImpact x = primitive_impact(kind, m.a, m.b);
     const impact::ExactImpact exact = impact::decide_exactly(kind, m.a, m.b, 0, true);

@@ -97,6 +97,30 @@ class Unwritten final : public Engine {
   int drawn_ = 0;  // the contents of memory change from run to run
 };
 
+// The core, for spheres, boxes and cylinders only.
+class Partial final : public Engine {
+ public:
+  Partial() {
+    card_ = core_.card();
+    card_.name = "partial";
+    card_.shapes = kinds();
+  }
+  static std::vector<ShapeKind> kinds() { return {ShapeKind::sphere, ShapeKind::box, ShapeKind::cylinder}; }
+  const EngineCard& card() const override { return card_; }
+  std::vector<CaseObservations> run(std::span<const Case> cases) override {
+    auto all = core_.run(cases);
+    for (std::size_t i = 0; i < cases.size(); ++i)
+      for (const Shape& s : cases[i].scene.shapes)
+        if (!is_sent(card_, kind_of(s)))
+          for (Observation& o : all[i].answers) o = no_answer(Outcome::unsupported, "");
+    return all;
+  }
+
+ private:
+  CoreEngine core_;
+  EngineCard card_;
+};
+
 // The core, which stops answering at the case with this index.
 class TiresAt final : public Engine {
  public:
@@ -163,6 +187,39 @@ TEST_CASE("answers from unwritten memory are findings without the answer; crashe
                                          "core.contact.crashed_b-inl-h-2.any.algorithm.any.none"});
   CHECK(unstable > 3);
   CHECK(fuzz::digest(results[0]) == fuzz::digest(results[1]));
+}
+
+TEST_CASE("a campaign of the subject's kinds asks what it answers; what nobody answers is not refereed",
+          "[campaign]") {
+  const auto partial = [] {
+    std::vector<EnginePtr> e;
+    e.push_back(std::make_unique<Partial>());
+    return e;
+  };
+  fuzz::CampaignConfig c;
+  c.engines = {"partial"};
+  c.subject = "partial";
+  c.cases = 160;
+  c.family = "separate,near,shallow,deep,contained";
+  const std::atomic<bool> go{false};
+  const auto any = fuzz::run_campaign(c, partial, {}, go);
+  c.kinds = Partial::kinds();
+  const auto own = fuzz::run_campaign(c, partial, {}, go);
+  c.jobs = 3;
+  CHECK(fuzz::digest(fuzz::run_campaign(c, partial, {}, go)) == fuzz::digest(own));
+  const auto answered = [](const fuzz::CampaignResult& r) {
+    return r.tallies.at("partial").at(Question::overlap).answered();
+  };
+  // A case may ask for an overlap twice.
+  CHECK(answered(own) >= 160);
+  CHECK(own.not_refereed == 0);
+  CHECK(own.pair_cases + own.undecided == 160);
+  CHECK(answered(any) < 60);
+  CHECK(any.pair_cases + any.undecided + any.not_refereed == 160);
+  CHECK(any.pair_cases + any.undecided <= answered(any));
+  CHECK(any.levels[0] + any.levels[1] + any.levels[2] == any.pair_cases);
+  const fuzz::Json stored = fuzz::to_json(any, true);
+  CHECK(fuzz::result_from_json(JsonReader(stored, "stored")).not_refereed == any.not_refereed);
 }
 
 TEST_CASE("a campaign runs its first chunk however little time it has", "[campaign]") {

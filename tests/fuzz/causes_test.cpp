@@ -1,4 +1,6 @@
 // From findings to causes: folding, interventions, responses, groups, order.
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <set>
 
@@ -6,9 +8,13 @@
 #include "fuzz/campaign/campaign.h"
 #include "fuzz/causes/causes.h"
 #include "fuzz/causes/intervention.h"
+#include "fuzz/causes/kept.h"
 #include "fuzz/causes/name.h"
+#include "fuzz/causes/normal_form.h"
 #include "fuzz/causes/order.h"
+#include "fuzz/causes/plain_form.h"
 #include "fuzz/judge/truth.h"
+#include "fuzz/shrink/keeps_finding.h"
 #include "oracles/core/core_engine.h"
 #include "scenarios/codec/case_codec.h"
 #include "scenarios/random/family.h"
@@ -109,8 +115,22 @@ TEST_CASE("a failure is a symptom of its own, named by its place", "[causes]") {
         fuzz::Symptom{Question::distance, FaultStage::failure, "crashed_distance-inl-h-177"});
   CHECK(fuzz::severity_of(f) == fuzz::Severity::crash);
   CHECK(fuzz::severity_of(finding("x", "overlap", "timed_out", "box-box", 1)) == fuzz::Severity::hang);
+  CHECK(fuzz::severity_of(finding("x", "overlap", "threw", "box-box", 1)) == fuzz::Severity::crash);
+  // An engine that says that it has no answer.
+  CHECK(fuzz::severity_of(finding("x", "distance", "not_converged", "box-box", 1)) ==
+        fuzz::Severity::declined);
+  CHECK(fuzz::severity_of(finding("x", "distance", "invalid_input", "box-box", 1)) ==
+        fuzz::Severity::declined);
   CHECK(fuzz::severity_of(finding("x", "overlap", "relation_swap", "box-box", 1)) ==
         fuzz::Severity::relation);
+}
+
+TEST_CASE("a denied overlap and an invented one are two symptoms", "[causes]") {
+  const auto r = result_of({finding("x", "overlap", "missed", "box-box", 3),
+                            finding("x", "overlap", "ghost", "box-box", 5),
+                            finding("x", "contact", "infeasible", "box-box", 2),
+                            finding("x", "contact", "not_minimal", "box-box", 2)});
+  CHECK(fuzz::classes_of(r, fuzz::no_knowledge()).size() == 3);
 }
 
 TEST_CASE("every representative stands for itself, and every finding has one", "[causes]") {
@@ -141,7 +161,7 @@ TEST_CASE("every intervention changes some case of a campaign, and leaves it val
       const auto changed = x.changed(c);
       if (!changed) continue;
       CHECK_NOTHROW(validate(changed->scene));
-      CHECK(changed->queries.size() == c.queries.size());
+      CHECK_FALSE(changed->queries.empty());
       if (changed->scene != c.scene || changed->queries != c.queries) applied.insert(x.name);
     }
   }
@@ -185,6 +205,104 @@ TEST_CASE("depths are halved, resolved and produced along the true normal", "[ca
   const Case apart = pair_case(Sphere{1}, Sphere{1}, Vec3(3, 0, 0), Question::contact);
   CHECK_FALSE(fuzz::halve_depth(apart));
   CHECK(gap_after(fuzz::push_together(apart)) < 0);
+}
+
+TEST_CASE("gaps are set to shares of the smaller body, whatever they were", "[causes]") {
+  const auto gap_after = [](const std::optional<Case>& x) {
+    REQUIRE(x);
+    fuzz::Truth truth(x->scene);
+    const auto& g = truth.pair(0, 0, 1).gap;
+    return (g.lo + g.hi) / 2;
+  };
+  for (const double at : {0.5, 1.99, 2.0, 3.5}) {  // deep, shallow, touching, apart
+    const Case c = pair_case(Sphere{1}, Sphere{1}, Vec3(at, 0, 0), Question::overlap);
+    CHECK(std::abs(gap_after(fuzz::overlap_by_half(c)) + 0.5) < 1e-14);
+    CHECK(std::abs(gap_after(fuzz::overlap_by_millionth(c)) + 0x1p-20) < 1e-14);
+    CHECK(std::abs(gap_after(fuzz::apart_by_256th(c)) - 0x1p-8) < 1e-14);
+    CHECK(std::abs(gap_after(fuzz::apart_by_four(c)) - 4) < 1e-14);
+    // A larger or another body keeps the gap.
+    CHECK(std::abs(gap_after(fuzz::grow_a_much(c)) - (at - 2)) < 1e-13);
+    CHECK(std::abs(gap_after(fuzz::b_as_cube(c)) - (at - 2)) < 1e-13);
+  }
+}
+
+TEST_CASE("an impact is moved to another time of the step", "[causes]") {
+  Case c = pair_case(Sphere{0.5}, Sphere{0.5}, Vec3(3, 0, 0), Question::time_of_impact);
+  c.scene.bodies[1].motion = Motion{Vec3(-8, 0, 0), Vec3::Zero()};
+  const auto time_after = [](const std::optional<Case>& x) {
+    REQUIRE(x);
+    fuzz::Truth truth(x->scene);
+    const auto& t = truth.motion(0, 0, 1);
+    return (t.t_lo + t.t_hi) / 2;
+  };
+  CHECK(std::abs(time_after(fuzz::meet_early(c)) - 0.0625) < 1e-9);
+  CHECK(std::abs(time_after(fuzz::meet_late(c)) - 0.9375) < 1e-9);
+  CHECK(std::abs(time_after(fuzz::move_faster(c)) - 0.5) < 1e-9);
+  CHECK(fuzz::move_faster(c)->scene.bodies[1].motion->linear.x() == -512);
+  CHECK_FALSE(fuzz::turn_faster(c));
+  CHECK(fuzz::let_b_turn(c));
+}
+
+TEST_CASE("only faults of the case itself count, not those of what was added", "[causes]") {
+  fuzz::EnginePool pool(liar);
+  Case crowd;
+  crowd.scene.shapes = {Box{Vec3(0.5, 0.5, 0.5)}};
+  crowd.scene.bodies.resize(2);
+  crowd.scene.bodies[1].pose.translation = Vec3(0.5, 0, 0);
+  crowd.queries = {{Question::candidates, 0, 1}};
+  const fuzz::Symptom lost{Question::candidates, FaultStage::verdict, "missed"};
+  const auto response = [&](const std::string& engine, const std::string& intervention) {
+    const fuzz::Responses r = fuzz::respond(crowd, lost, engine, {}, pool);
+    CHECK(r.shown);
+    for (const fuzz::Responded& x : r.responses)
+      if (x.intervention == intervention) return x.response;
+    return fuzz::Response::not_applicable;
+  };
+  CHECK(response("first_pair_dropped", "add_pair_first") == fuzz::Response::gone);
+  CHECK(response("first_pair_dropped", "add_pair_last") == fuzz::Response::stays);
+  CHECK(response("first_pair_dropped", "add_body_between") == fuzz::Response::stays);
+  CHECK(response("first_pair_dropped", "query_afterwards") == fuzz::Response::stays);
+  CHECK(response("last_query_unanswered", "query_afterwards") != fuzz::Response::stays);
+  CHECK(response("last_query_unanswered", "query_twice") != fuzz::Response::gone);
+}
+
+TEST_CASE("the errors of one fault follow a law", "[causes]") {
+  fuzz::EnginePool pool(liar);
+  const auto law = [&](const std::string& engine, const Case& c, const fuzz::Symptom& s) {
+    const fuzz::Responses r = fuzz::respond(c, s, engine, {}, pool);
+    CHECK(r.shown);
+    return r.laws;
+  };
+  const Case deep =
+      pair_case(Box{Vec3(0.5, 0.5, 0.5)}, Sphere{0.75}, Vec3(1, 0.125, 0.25), Question::contact);
+  const auto halved = law("depth_halved", deep, {Question::contact, FaultStage::depth, ""});
+  REQUIRE(halved.size() == 1);
+  CHECK(halved[0].reference == fuzz::Reference::truth);
+  CHECK(std::abs(halved[0].factor + 0.5) < 1e-5);
+  const Case apart = pair_case(Box{Vec3(0.5, 0.5, 0.5)}, Sphere{0.5}, Vec3(2, 0, 0), Question::distance);
+  const auto margin = law("distance_margin", apart, {Question::distance, FaultStage::distance, ""});
+  REQUIRE(margin.size() == 1);
+  CHECK(margin[0].reference == fuzz::Reference::one);
+  CHECK(std::abs(margin[0].factor + 0.04) < 1e-9);
+  CHECK_FALSE(fuzz::obey_one_law(halved, margin));
+  CHECK(fuzz::obey_one_law(halved, std::array{fuzz::ErrorLaw{fuzz::Reference::truth, -0.51}}));
+  CHECK_FALSE(fuzz::obey_one_law(halved, std::array{fuzz::ErrorLaw{fuzz::Reference::truth, 0.5}}));
+  CHECK_FALSE(fuzz::obey_one_law(halved, {}));
+}
+
+TEST_CASE("another engine that makes another call is not applicable", "[causes]") {
+  fuzz::EnginePool pool(liar);
+  const Case c = pair_case(Box{Vec3(0.5, 0.5, 0.5)}, Sphere{0.5}, Vec3(2, 0, 0), Question::distance);
+  const fuzz::Symptom off{Question::distance, FaultStage::distance, ""};
+  const auto with = [&](const std::vector<Question>& other_calls) {
+    return fuzz::respond(c, off, "distance_margin",
+                         {{"tighter", "tight", "", "depth_halved", 0, other_calls}}, pool)
+        .responses.back()
+        .response;
+  };
+  CHECK(with({}) == fuzz::Response::gone);
+  CHECK(with({Question::contact}) == fuzz::Response::gone);
+  CHECK(with({Question::distance}) == fuzz::Response::not_applicable);
 }
 
 TEST_CASE("the response tells what a lie depends on", "[causes]") {
@@ -267,6 +385,119 @@ TEST_CASE("causes of a campaign: every key in one cause, the same for any number
   }
   CHECK(assigned.size() == result.findings.size());
   CHECK(one.keys == result.findings.size());
+}
+
+TEST_CASE("a contradiction is explained by the fault that the referee finds in one of its forms",
+          "[causes]") {
+  const Case c = pair_case(Box{Vec3(0.5, 0.5, 0.5)}, Sphere{0.5}, Vec3(2, 0, 0), Question::distance);
+  // Right about this case, off by 1 about bodies larger than 1000.
+  const auto errs = fuzz::plain_form(c, Question::distance, liar("errs_when_large"));
+  REQUIRE(errs);
+  CHECK(fuzz::symptom_of(errs->finding) == fuzz::Symptom{Question::distance, FaultStage::distance, ""});
+  CHECK(extent(errs->c.scene.shapes[0]) > 1000);
+  // Wrong about overlaps only.
+  CHECK_FALSE(fuzz::plain_form(c, Question::distance, liar("depth_halved_deep")));
+}
+
+namespace {
+
+// Of a library with one routine for all pairs.
+fuzz::EngineKnowledge one_route() {
+  fuzz::EngineKnowledge k = fuzz::no_knowledge();
+  k.route_of = [](const std::string&, Question, ShapeKind, ShapeKind) { return std::string("all"); };
+  return k;
+}
+
+}  // namespace
+
+TEST_CASE("a case becomes as plain as its fault allows", "[causes]") {
+  const fuzz::Symptom depth{Question::contact, FaultStage::depth, ""};
+  Case c = pair_case(Box{Vec3(0.5, 0.75, 0.25)}, Box{Vec3(0.25, 0.5, 1)}, Vec3(0.375, 0.25, 1.125),
+                     Question::contact);
+  c.scene.bodies[0].pose.rotation = {0.25, 0, 0, 1};
+  const auto plain = [&](const std::string& engine) {
+    const EnginePtr e = liar(engine);
+    const fuzz::EngineKnowledge knowledge = one_route();
+    const auto found = fuzz::findings_of({&c, 1}, e);
+    const auto wrong =
+        std::ranges::find_if(found.at(0), [&](const auto& f) { return fuzz::symptom_of(f.second) == depth; });
+    REQUIRE(wrong != found.at(0).end());
+    const auto still = fuzz::keeps(e, fuzz::kept_of(c, wrong->second, e, knowledge), knowledge);
+    REQUIRE(still({&c, 1})[0]);
+    const Case r = fuzz::normal_form(c, still);
+    CHECK(still({&r, 1})[0]);
+    return r;
+  };
+  const Case any = plain("depth_halved");
+  CHECK(any.scene.shapes == std::vector<Shape>{Sphere{1}, Sphere{1}});
+  CHECK(any.scene.bodies[0].pose == Pose{});
+  const Case boxes = plain("depth_halved_boxes");
+  CHECK(boxes.scene.shapes == std::vector<Shape>{Box{Vec3::Ones()}, Box{Vec3::Ones()}});
+  const Case turned = plain("depth_halved_turned");  // where A is turned
+  CHECK(turned.scene.bodies[0].pose.rotation == c.scene.bodies[0].pose.rotation);
+  CHECK(kind_of(turned.scene.shape_of(1)) == ShapeKind::sphere);
+}
+
+namespace {
+
+// One finding of each of two classes, examined: their faults survive every change.
+struct TwoExamined {
+  TwoExamined(const fuzz::Finding& x, const fuzz::Finding& y)
+      : result(result_of({x, y})), classes(fuzz::classes_of(result, knowledge)) {
+    for (std::size_t i = 0; i < classes.size(); ++i) {
+      all.push_back(std::move(fuzz::representatives_of(classes[i], i, 1).at(0)));
+      fuzz::Representative& r = all.back();
+      r.asked = true;
+      r.first.smallest = r.first.canonical =
+          pair_case(Sphere{1}, Sphere{1}, Vec3(static_cast<double>(i), 0, 0), Question::contact);
+      r.first.responses.shown = true;
+      r.first.responses.faults = {"infeasible"};
+      for (const fuzz::Intervention& change : fuzz::interventions)
+        r.first.responses.responses.push_back({std::string(change.name), "", fuzz::Response::stays});
+      r.first.responses.responses.push_back(
+          {std::string(fuzz::other_precision), "", fuzz::Response::not_applicable});
+    }
+    REQUIRE(all.size() == 2);
+  }
+  std::size_t groups(const fuzz::Noise& noise = {}) const {
+    const std::vector<double> rates(classes.size(), 0.0);
+    return fuzz::grouped({classes, all, rates, knowledge, noise}).size();
+  }
+  fuzz::Responded& response(std::size_t i, std::string_view name) {
+    return *std::ranges::find(all[i].first.responses.responses, name, &fuzz::Responded::intervention);
+  }
+  fuzz::EngineKnowledge knowledge = fuzz::no_knowledge();
+  fuzz::CampaignResult result;
+  std::vector<fuzz::FindingClass> classes;
+  std::vector<fuzz::Representative> all;
+};
+
+}  // namespace
+
+TEST_CASE("findings of one library that are reduced to one case are one, whatever their path", "[causes]") {
+  TwoExamined two(finding("fcl-x", "contact", "infeasible", "box-box", 3),
+                  finding("fcl-y", "contact", "infeasible", "box-box", 2));
+  CHECK(two.groups() == 2);
+  two.all[1].first.canonical = two.all[0].first.canonical;
+  CHECK(two.groups() == 1);
+  two.response(0, "exchange").response = fuzz::Response::gone;
+  CHECK(two.groups() == 2);
+  two.response(1, "exchange").response = fuzz::Response::gone;
+  CHECK(two.groups() == 1);
+  two.all[1].first.responses.deviation.manner = "normal";
+  CHECK(two.groups() == 2);
+}
+
+TEST_CASE("a fault of single precision is not one of both precisions", "[causes]") {
+  TwoExamined two(finding("x", "contact", "unstable", "box-box", 3),
+                  finding("x", "contact", "unstable", "mesh-sphere", 2));
+  const fuzz::Noise noise{{"x", 0.125}};
+  two.response(0, "exchange").response = fuzz::Response::gone;  // less than responses vary by chance
+  CHECK(two.groups(noise) == 1);
+  two.response(0, fuzz::other_precision).response = fuzz::Response::stays;
+  CHECK(two.groups(noise) == 1);
+  two.response(1, fuzz::other_precision).response = fuzz::Response::gone;
+  CHECK(two.groups(noise) == 2);
 }
 
 TEST_CASE("two lies are two causes, and one lie is one", "[causes]") {

@@ -8,6 +8,7 @@
 
 #include "core/base/input_error.h"
 #include "fuzz/certify/candidate_verdict.h"
+#include "fuzz/shrink/defensible.h"
 #include "fuzz/shrink/keeps_finding.h"
 #include "oracles/core/core_engine.h"
 #include "scenarios/codec/case_codec.h"
@@ -161,6 +162,41 @@ TEST_CASE("a certificate has the same bytes for any number of jobs, and survives
   CHECK_FALSE(holds);
 }
 
+TEST_CASE("a certificate that ran out of time states what was run, and can be run again", "[certify]") {
+  const std::atomic<bool> go{false};
+  const Subject s = core_subject("grid");
+  CertifyConfig c;
+  c.limit = 700;
+  c.program = "test";
+  c.minutes = 1e-9;
+  const auto cut = certify(s, c, {}, go);
+  REQUIRE(cut);
+  std::size_t out_of_time = 0;
+  for (const EvidenceCount& e : cut->evidence) {
+    CHECK(e.cases > 0);  // the first part always runs
+    CHECK(e.out_of_time == (e.cases < e.planned));
+    out_of_time += e.out_of_time;
+  }
+  CHECK(out_of_time > 5);
+  CHECK(verdict(*cut, BroadLevel::boxes) == LevelVerdict::certified);
+  const auto words = not_proved(*cut);
+  CHECK(std::any_of(words.begin(), words.end(), [](const std::string& w) {
+    return w.find("when its share of the time was used") != std::string::npos;
+  }));
+  CertifyConfig again = c;
+  again.minutes.reset();
+  again.jobs = 3;
+  for (const EvidenceCount& e : cut->evidence)
+    if (e.out_of_time) again.most_cases[e.name] = e.cases;
+  CHECK(to_json(*certify(s, again, {}, go)).dump() == to_json(*cut).dump());
+  bool holds = false;
+  CHECK(to_json(broad_certificate_from_json(to_json(*cut), holds)) == to_json(*cut));
+  CHECK(holds);
+  // Time enough changes nothing.
+  c.minutes = 1000;
+  CHECK(to_json(*certify(s, c, {}, go)).dump() == to_json(certificate(s, 700)).dump());
+}
+
 TEST_CASE("every lying broad phase is refuted by a script of few bodies and steps", "[certify]") {
   std::size_t refuted = 0, small = 0;
   for (const mutants::Mutant& m : broad_mutants()) {
@@ -281,6 +317,22 @@ std::size_t count_of(const BroadCertificate& c, std::string_view fault, FaultKin
 }
 
 }  // namespace
+
+TEST_CASE("a subject that takes touching for apart is refuted by boxes with volume", "[certify]") {
+  const Subject open = faulty([](const Scene& scene, Observation& o) {
+    for (auto& pairs : o.candidate_pairs)
+      std::erase_if(pairs, [&](const BodyPair& p) { return touches(scene, p); });
+  });
+  const BroadCertificate c = first_fault(open, BroadLevel::boxes);
+  REQUIRE_FALSE(c.refutations.empty());
+  const Refutation& r = c.refutations[0];
+  CHECK(r.what == FaultClass{"missed", FaultKind::touching});
+  REQUIRE(r.script);
+  CHECK(r.bodies == 2);
+  CHECK(r.steps == 3);
+  INFO(case_to_json(*r.script).dump());
+  CHECK(is_solid(*r.script));
+}
 
 TEST_CASE("a subject that times out is neither refuted nor certified, and the time limit to set is named",
           "[certify]") {

@@ -82,6 +82,114 @@ TEST_CASE("a contact must separate, and its depth must be minimal", "[judge]") {
   CHECK(has(judge_one(c, contact({1, 0, 0}, NAN)), Fault::no_number));
 }
 
+TEST_CASE("a coarser unit roundoff of one kind widens what is accepted for its pairs alone",
+          "[judge][card]") {
+  EngineCard card = double_card();
+  card.unit_roundoffs = {{ShapeKind::mesh, 0x1p-24}, {ShapeKind::hull, 0x1p-24}};
+  Observation o = answered();
+  o.distance = 1 + 1e-6;
+  Case c = spheres(3, Question::distance);
+  CHECK(has(judge_one(c, o, card), Fault::distance_off));
+  c.scene.shapes.push_back(make_hull({{-1, 0, 0}, {1, 1, 0}, {1, -1, 0}, {1, 0, 1}}));
+  c.scene.bodies[1].shape = 1;
+  CHECK(judge_one(c, o, card).right());
+  CHECK(has(judge_one(c, o), Fault::distance_off));
+  // In a scene, each pair for itself.
+  c.scene.bodies.push_back(c.scene.bodies[0]);
+  c.scene.bodies[0].pose.translation.x() = 1.5;
+  c.scene.bodies[1].pose.translation.x() = 20;
+  c.queries = {{Question::scene_contacts, -1, -1}};
+  Observation contacts = answered();
+  contacts.contacts = {{0, 2, {-1, 0, 0}, 0.5 + 1e-6}};
+  CHECK(has(judge_one(c, contacts, card), Fault::depth_excess));
+  contacts.contacts[0].normal = {-1, 2e-8, 0};
+  CHECK(has(judge_one(c, contacts, card), Fault::depth_excess));
+}
+
+TEST_CASE(
+    "a contact offset lets an engine report contacts of bodies that are apart, with minus their distance",
+    "[judge][card]") {
+  EngineCard card = double_card();
+  card.contact_offset = 0.02;
+  Observation says = answered();
+  says.overlap = true;
+  const auto at = [](double gap, Question q) { return spheres(2 + gap, q); };
+  CHECK(judge_one(at(0.015, Question::overlap), says, card).right());
+  CHECK(has(judge_one(at(0.015, Question::overlap), says), Fault::ghost));
+  CHECK(has(judge_one(at(0.021, Question::overlap), says, card), Fault::ghost));
+  says.overlap = false;
+  CHECK(has(judge_one(at(-0.015, Question::overlap), says, card), Fault::missed));
+  CHECK(judge_one(at(0.015, Question::contact), contact({1, 0, 0}, -0.015), card).right());
+  CHECK(has(judge_one(at(0.015, Question::contact), contact({1, 0, 0}, -0.015)), Fault::ghost));
+  CHECK(has(judge_one(at(0.015, Question::contact), contact({1, 0, 0}, -0.005), card), Fault::depth_excess));
+  CHECK(has(judge_one(at(0.015, Question::contact), contact({1, 0, 0}, -0.018), card), Fault::infeasible));
+  CHECK(has(judge_one(at(0.015, Question::contact), contact({0, 1, 0}, 2), card), Fault::not_minimal));
+  CHECK(has(judge_one(at(0.021, Question::contact), contact({1, 0, 0}, -0.021), card), Fault::ghost));
+  // Bodies that overlap are judged as ever.
+  CHECK(has(judge_one(at(-0.5, Question::contact), contact({1, 0, 0}, 0.49), card), Fault::infeasible));
+  Observation with_point = contact({1, 0, 0}, -0.015);
+  with_point.manifold = {{{1.0075, 0, 0}, -0.015}};
+  CHECK(judge_one(at(0.015, Question::contact), with_point, card).right());
+  with_point.manifold[0].position.x() = 1.04;
+  CHECK(has(judge_one(at(0.015, Question::contact), with_point, card), Fault::point_off));
+  Case scene = at(0.015, Question::scene_contacts);
+  Observation contacts = answered();
+  contacts.contacts = {{0, 1, {1, 0, 0}, -0.015}};
+  CHECK(judge_one(scene, contacts, card).right());
+  CHECK(has(judge_one(scene, contacts), Fault::ghost));
+  // Believed only with a source, and not beside the user's own tolerance.
+  for (const char* source : {"", "--error"}) {
+    card.source = source;
+    says.overlap = true;
+    CHECK(has(judge_one(at(0.015, Question::overlap), says, card), Fault::ghost));
+  }
+  // Above 1e-2 L it is shown; as wide as the pair, nothing is judged.
+  card = double_card();
+  card.contact_offset = 0.1;
+  CHECK(judge_one(at(0.015, Question::overlap), says, card).wide_claim == 0.1);
+  card.contact_offset = 10;
+  CHECK(judge_one(at(0.015, Question::overlap), says, card).ruling() == Ruling::not_judged);
+}
+
+TEST_CASE("a sweep may stop within its skin, and not later for it", "[judge][toi][card]") {
+  Case c = spheres(4, Question::time_of_impact);
+  c.scene.bodies[1].motion = Motion{{-4, 0, 0}, Vec3::Zero()};  // the gap is 2 - 4 t
+  EngineCard card = double_card();
+  card.sweep_skin = 0.1;
+  Observation o = answered();
+  for (const auto& [t, right] : {std::pair(0.5, true), {0.48, true}, {0.47, false}, {0.51, false}}) {
+    o.toi = t;
+    CHECK(judge_one(c, o, card).right() == right);
+    CHECK(judge_one(c, o).right() == (t == 0.5));
+  }
+  // Passing within the skin may be a hit; passing farther away is none.
+  c.scene.bodies[0].pose.translation.y() = 2.05;
+  o.toi = 1;
+  CHECK(judge_one(c, o, card).right());
+  CHECK(has(judge_one(c, o), Fault::ghost));
+  c.scene.bodies[0].pose.translation.y() = 2.2;
+  CHECK(has(judge_one(c, o, card), Fault::ghost));
+}
+
+TEST_CASE("a biased routine may choose a direction that needs that much more, and states its depth right",
+          "[judge][card]") {
+  Case c;  // two cubes of side 2; A's faces need 1 along x and 1.04 along y
+  c.scene.shapes = {Box{{1, 1, 1}}};
+  c.scene.bodies.resize(2);
+  c.scene.bodies[1].pose.translation = {1, 0.96, 0};
+  c.queries = {{Question::contact, 0, 1}};
+  EngineCard card = double_card();
+  card.depth_biases = {{ShapeKind::box, ShapeKind::box, 0.05}};
+  CHECK(judge_one(c, contact({0, 1, 0}, 1.04), card).right());
+  CHECK(has(judge_one(c, contact({0, 1, 0}, 1.04)), Fault::not_minimal));
+  CHECK(has(judge_one(c, contact({0, 1, 0}, 1), card), Fault::infeasible));
+  c.scene.bodies[1].pose.translation = {1, 0.94, 0};
+  CHECK(has(judge_one(c, contact({0, 1, 0}, 1.06), card), Fault::not_minimal));
+  c.scene.bodies[1].pose.translation = {1, 0.96, 0};
+  card.depth_biases = {{ShapeKind::box, ShapeKind::hull, 0.05}};
+  CHECK(has(judge_one(c, contact({0, 1, 0}, 1.04), card), Fault::not_minimal));
+}
+
 TEST_CASE("every best normal of concentric spheres is right", "[judge]") {
   const Case c = spheres(0, Question::contact);
   for (const Vec3& n : {Vec3(1, 0, 0), Vec3(0, -1, 0), Vec3(0.6, 0, 0.8)})

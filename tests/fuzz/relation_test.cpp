@@ -187,6 +187,31 @@ TEST_CASE("derived cases stay within the range of doubles, or are not asked", "[
   CHECK(!fuzz::is_within_numbers(beyond, beyond));
 }
 
+TEST_CASE("the poses of a script change with those of its bodies", "[relations]") {
+  Scene s;
+  s.shapes = {Sphere{1}};
+  s.bodies.resize(1);
+  Pose at;
+  at.translation = {3, 5, -7};
+  s.script = {{Step::Op::insert, 0, std::nullopt}, {Step::Op::move, 0, at}, {}};
+  const auto moved_to = [](const Scene& x) { return x.script[1].pose->translation; };
+  Scene r = s;
+  REQUIRE(fuzz::scale_by(r, 0x1p20));
+  CHECK(moved_to(r) == Vec3(at.translation * 0x1p20));
+  r = s;
+  CHECK(fuzz::translate_by(r, Vec3(1, 1, 1)));
+  CHECK(moved_to(r) == Vec3(4, 6, -6));
+  r = s;
+  fuzz::half_turn(r, 2);
+  CHECK(moved_to(r) == Vec3(-3, -5, -7));
+  r = s;
+  REQUIRE(fuzz::cycle_axes(r));
+  CHECK(moved_to(r) == Vec3(5, -7, 3));
+  r = s;
+  r.script[1].pose->translation.x() = 1e308;
+  CHECK_FALSE(fuzz::scale_by(r, 0x1p20));
+}
+
 TEST_CASE("a pair is pushed apart only by a complete claim of an overlap", "[relations]") {
   Case c;
   c.scene.shapes = {Box{{1, 1, 1}}};

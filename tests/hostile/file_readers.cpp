@@ -100,7 +100,10 @@ void read_findings(const fs::path& d) {
 }
 
 void read_causes_to_triage(const fs::path& d) {
-  for (const fuzz::Cause& c : fuzz::load_causes(d / "campaign").causes)
+  const fs::path campaign = d / "campaign";
+  const auto causes = fuzz::stored_causes(campaign, fuzz::digest(fuzz::load_result(campaign)));
+  if (!causes) return;
+  for (const fuzz::Cause& c : causes->causes)
     if (!c.shown().c.is_null()) json_text(fuzz::finding_json_of(c));
 }
 
@@ -182,7 +185,7 @@ void read_causes(const fs::path& d) {
   const Json j = load_json(file, campaign_limits);
   const fuzz::Causes c = fuzz::causes_from_json(JsonReader(j, file.string()));
   reports::causes_text(c, "touchstone causes");
-  reports::causes_of_engines(c, 5, "campaign", "touchstone");
+  reports::causes_of_libraries(c, 5, [](const std::string& path) { return path; });
   for (const fuzz::Cause& cause : c.causes) reports::cause_text(cause);
   json_text(reports::causes_page(c));
 }

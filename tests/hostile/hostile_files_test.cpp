@@ -8,6 +8,7 @@
 
 #include "fuzz/triage/ledger.h"
 #include "reports/record/causes.h"
+#include "reports/record/stored.h"
 #include "scenarios/codec/case_codec.h"
 #include "scenarios/codec/json_file.h"
 #include "tests/support/catch.h"
@@ -71,9 +72,24 @@ fuzz::KnownCause ledger_row(const std::string& engine) {
   return k;
 }
 
-// The causes of a campaign, with one that the engine shows.
+Json empty_result() {
+  return {{"cases", 1},
+          {"pair_cases", 1},
+          {"overlapping", 1},
+          {"undecided", 0},
+          {"families", Json::object()},
+          {"engines", Json::object()},
+          {"findings", Json::object()}};
+}
+
+std::string digest_of(const Json& result) {
+  return fuzz::digest(fuzz::result_from_json(JsonReader(result, "result")));
+}
+
+// The causes of a campaign without findings, with one that the engine shows.
 Json causes(const std::string& engine) {
   fuzz::Causes all;
+  all.digest = digest_of(empty_result());
   fuzz::Cause c;
   c.id = "one";
   c.library = "l 1";
@@ -93,32 +109,24 @@ Json evidence() {
           {"received", Json::object()}};
 }
 
-Json empty_result() {
-  return {{"cases", 1},
-          {"pair_cases", 1},
-          {"overlapping", 1},
-          {"undecided", 0},
-          {"families", Json::object()},
-          {"engines", Json::object()},
-          {"findings", Json::object()}};
-}
-
-// A campaign with one finding in its state, under any key.
-Json state(const std::string& under, Json f) {
-  Json result = empty_result();
-  result["findings"][under] = std::move(f);
+Json state(Json result) {
   return {{"settings", {{"touchstone_campaign", 1}, {"shard", 0}, {"shards", 1}}},
           {"finished", true},
           {"next_chunk", 1},
           {"result", std::move(result)}};
 }
 
+// A campaign with one finding in its state, under any key.
+Json state(const std::string& under, Json f) {
+  Json result = empty_result();
+  result["findings"][under] = std::move(f);
+  return state(std::move(result));
+}
+
 void write_campaign(const Workspace& w, const std::string& engine) {
   fs::create_directories(w.dir / "out/findings/f");
-  w.write("out/state.json", "{}");
-  Json summary = empty_result();
-  summary["digest"] = "";
-  w.write("out/summary.json", summary.dump());
+  w.write("out/state.json", state(empty_result()).dump());
+  w.write("out/summary.json", empty_result().dump());
   w.write("out/causes.json", causes(engine).dump());
   w.write("out/findings/f/case.json", two_spheres().dump());
   Json f = finding(engine);
@@ -379,7 +387,7 @@ TEST_CASE("every reader of JSON has the limits of the case reader", "[hostile]")
       {"merge out in", "in/state.json"},
       {"report in", "in/summary.json"},
       {"fuzz --cases 1 --out in", "in/state.json"},
-      {"triage in --ledger l.db", "causes.json"},
+      {"triage in --ledger l.db", "in/summary.json"},
       {"shrink in/findings/f", "finding.json"},
       {"reproduce in/findings/f", "finding.json"},
       {"chart --from deep.json", "deep.json"},

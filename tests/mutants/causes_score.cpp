@@ -1,6 +1,7 @@
 // Do causes tell the lying engines apart?
 //
-//   causes_score [--cases 400] [--seed 1] [--findings 4] [--jobs 2] [--only NAME] [--list]
+//   causes_score [--cases 400] [--seed 1] [--findings 4] [--jobs 2] [--only NAME] [--list] [--confusion]
+//                [--dump FILE]
 //
 // Every lying engine answers the same campaign. Their findings are put together as if they came from one
 // engine: what is known about engines says that all of them share one path, so only their answers can tell
@@ -13,6 +14,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <fstream>
 #include <map>
 #include <set>
 #include <string>
@@ -21,9 +23,12 @@
 #include "fuzz/ask/evidence.h"
 #include "fuzz/campaign/campaign.h"
 #include "fuzz/causes/causes.h"
+#include "fuzz/shrink/canonical.h"
+#include "scenarios/codec/case_codec.h"
 #include "tests/mutants/lying_engine.h"
 
 using namespace touchstone;
+using fuzz::Json;
 
 namespace {
 
@@ -31,8 +36,8 @@ struct Options {
   std::uint64_t cases = 400, seed = 1;
   std::size_t findings = 4;
   int jobs = 2;
-  std::string only;
-  bool list = false;
+  std::string only, dump;
+  bool list = false, confusion = false;
 };
 
 EnginePtr liar(const std::string& name) {
@@ -120,11 +125,97 @@ void print_score(const fuzz::Causes& causes, const std::vector<Item>& items) {
              100 * static_cast<double>(read) / lies);
 }
 
+// Where the index is lost: it counts pairs of findings.
+void print_confusion(const fuzz::Causes& causes, const std::vector<Item>& items) {
+  std::map<std::size_t, std::map<std::string, double>> lies_of_cause;
+  std::map<std::string, std::map<std::size_t, double>> causes_of_lie;
+  for (const Item& item : items) {
+    ++lies_of_cause[item.cause][item.lie];
+    ++causes_of_lie[item.lie][item.cause];
+  }
+  const auto pairs_apart = [](const auto& counts) {
+    double n = 0, within = 0;
+    for (const auto& [k, count] : counts) {
+      n += count;
+      within += pairs(count);
+    }
+    return pairs(n) - within;
+  };
+  std::vector<std::pair<double, std::string>> merged, split;
+  for (const auto& [cause, lies] : lies_of_cause) {
+    std::string words;
+    for (const auto& [lie, n] : lies) words += fmt::format(" {} ({})", lie, n);
+    merged.emplace_back(pairs_apart(lies), fmt::format("{}:{}", causes.causes[cause].id, words));
+  }
+  for (const auto& [lie, of] : causes_of_lie) {
+    std::string words;
+    for (const auto& [cause, n] : of) words += fmt::format(" {} ({})", causes.causes[cause].id, n);
+    split.emplace_back(pairs_apart(of), fmt::format("{}:{}", lie, words));
+  }
+  for (auto* list : {&merged, &split}) {
+    std::sort(list->rbegin(), list->rend());
+    double all = 0;
+    for (const auto& [lost, words] : *list) all += lost;
+    fmt::print("{:.0f} pairs of findings {}\n", all,
+               list == &merged ? "of different lies in one cause" : "of one lie in different causes");
+    for (const auto& [lost, words] : *list)
+      if (lost > 0) fmt::print("{:6.0f}  {}\n", lost, words);
+  }
+}
+
 void print_list(const fuzz::Causes& causes) {
   for (const fuzz::Cause& c : causes.causes) {
     fmt::print("{}:", c.id);
     for (const std::string& lie : c.engines) fmt::print(" {}", lie);
     fmt::print("\n    {}\n", c.title);
+  }
+}
+
+// All that grouping knows, one representative a line: for experiments with other ways to group.
+void dump(const std::string& file, const fuzz::CampaignResult& result, const fuzz::CausesConfig& config) {
+  const auto classes = fuzz::classes_of(result, config.knowledge, fuzz::Contradictions::apart);
+  const auto all = fuzz::examined(classes, config);
+  std::ofstream out(file);
+  const auto deviation = [](const fuzz::Deviation& d) { return Json::array({d.manner, d.error, d.of}); };
+  for (const fuzz::Representative& r : all) {
+    const fuzz::FindingClass& c = classes[r.of_class];
+    const auto examined = [&](const fuzz::Examined& e) {
+      Json responses = Json::array();
+      for (std::size_t i = 0; i < e.responses.responses.size(); ++i)
+        responses.push_back({e.responses.responses[i].intervention,
+                             to_string(e.responses.responses[i].response),
+                             deviation(e.responses.deviations[i])});
+      Json also = Json::array();
+      for (const fuzz::Symptom& s : e.responses.also)
+        also.push_back({to_string(s.question), to_string(s.stage)});
+      return Json{{"shown", e.responses.shown},
+                  {"defensible", e.defensible.has_value()},
+                  {"case", case_to_json(e.shown())},
+                  {"smallest", case_to_json(e.smallest)},
+                  {"canonical", case_to_json(e.canonical)},
+                  {"canonical_smallest", case_to_json(fuzz::canonical(e.smallest))},
+                  {"error_in_l", e.responses.error_in_l},
+                  {"faults", e.responses.faults},
+                  {"deviation", deviation(e.responses.deviation)},
+                  {"also", also},
+                  {"responses", responses}};
+    };
+    out << Json{{"lie", r.finding->engine},
+                {"key", r.finding->key()},
+                {"count", r.finding->count},
+                {"fault", r.finding->fault},
+                {"shapes", r.finding->shapes},
+                {"route", c.route},
+                {"question", to_string(r.symptom.question)},
+                {"stage", to_string(r.symptom.stage)},
+                {"detail", r.symptom.detail},
+                {"asked", r.asked},
+                {"class", r.of_class},
+                {"explained", c.explained.size()},
+                {"first", examined(r.first)},
+                {"second", r.second ? examined(*r.second) : Json()}}
+               .dump()
+        << "\n";
   }
 }
 
@@ -138,8 +229,13 @@ int run(const Options& o) {
   config.make = liar;
   config.jobs = o.jobs;
   config.representatives = result.findings.size();
+  if (!o.dump.empty()) {
+    dump(o.dump, result, config);
+    return 0;
+  }
   const fuzz::Causes causes = fuzz::causes_of(result, config);
   if (o.list) print_list(causes);
+  if (o.confusion) print_confusion(causes, items_of(causes, result));
   print_score(causes, items_of(causes, result));
   return 0;
 }
@@ -154,7 +250,11 @@ int main(int argc, char** argv) {
   app.add_option("--findings", o.findings, "findings of each lie, the most frequent")->capture_default_str();
   app.add_option("--jobs", o.jobs, "number of parallel jobs")->capture_default_str();
   app.add_option("--only", o.only, "lies whose names begin so");
+  app.add_option("--dump", o.dump,
+                 "only write what grouping knows about each finding to this file, as JSON lines");
   app.add_flag("--list", o.list, "print the causes");
+  app.add_flag("--confusion", o.confusion,
+               "print which lies are merged and which are split, most pairs first");
   CLI11_PARSE(app, argc, argv);
   return run(o);
 }

@@ -7,6 +7,7 @@
 #include "core/base/hash.h"
 #include "core/math/rng.h"
 #include "core/scene/scene.h"
+#include "oracles/abi/outer_box.h"
 #include "oracles/abi/plugin_scene.h"
 #include "tests/support/catch.h"
 
@@ -155,7 +156,7 @@ TEST_CASE("questions keep every number, face and step of their scene", "[oracles
     const Scene scene = any_scene(rng);
     const auto queries = any_queries(rng);
     std::string bytes;
-    append(bytes, QuestionRef{77, 3, scene, queries, 0x41});
+    append(bytes, QuestionRef{77, 3, scene, queries, 0x41, true});
     const QuestionMessage m = decode_question(payload_of(bytes, Type::question));
     REQUIRE(m.scene == scene);
     REQUIRE(hash(m.scene) == hash(scene));
@@ -185,7 +186,7 @@ TEST_CASE("answers, received scenes and hellos round-trip", "[oracles][protocol]
     append(bytes, ReceivedMessage{9, received});
     REQUIRE(decode_received(payload_of(bytes, Type::received), scene).scene == received);
   }
-  const Hello hello{{"{}", "two"}, 1, "error", "read-only"};
+  const Hello hello{{"{}", "two"}, 1, "error", "read-only", true};
   std::string bytes;
   append(bytes, hello);
   CHECK(decode_hello(payload_of(bytes, Type::hello)) == hello);
@@ -218,6 +219,93 @@ TEST_CASE("shapes pass through the C ABI and back", "[oracles][abi]") {
     unknown.kind = kind;
     CHECK_FALSE(shape_from(unknown));
   }
+}
+
+namespace {
+
+using Extended3 = Eigen::Matrix<long double, 3, 1>;
+
+// A point of the body farthest along some direction, moved to its pose; in extended precision.
+Extended3 point_of(const Body& b, const Shape& shape, Rng& rng) {
+  const Vec3 local = std::visit(
+      [&](const auto& s) -> Vec3 {
+        if constexpr (requires { support(s, Vec3()); })
+          return support(s, rng.unit_vector());
+        else
+          return (*vertices_if(shape))[rng.below(vertices_if(shape)->size())];
+      },
+      shape);
+  const Quat& q = b.pose.rotation;
+  const Eigen::Quaternion<long double> turn(static_cast<long double>(q.w), static_cast<long double>(q.x),
+                                            static_cast<long double>(q.y), static_cast<long double>(q.z));
+  return turn.normalized() * Extended3(local.cast<long double>()) + b.pose.translation.cast<long double>();
+}
+
+}  // namespace
+
+TEST_CASE("the box of a step contains the body", "[oracles][abi]") {
+  Rng rng(8);
+  int tight = 0, checked = 0;
+  for (int i = 0; i < 400; ++i) {
+    Scene scene = any_scene(rng);
+    scene.script.clear();
+    for (Body& b : scene.bodies) {
+      b.pose.translation = rng.vector(1e-3, 1e3);
+      b.pose.rotation = rng.chance(0.3) ? Quat{} : rng.rotation();
+      if (rng.chance(0.5))
+        b.pose.rotation = {3 * b.pose.rotation.x, 3 * b.pose.rotation.y, 3 * b.pose.rotation.z,
+                           3 * b.pose.rotation.w};
+    }
+    CHECK(PluginScene(scene).view().step_boxes == nullptr);
+    const PluginScene sent(scene, true);
+    for (std::size_t k = 0; k < sent.view().step_count; ++k) {
+      const ts_step& step = sent.view().steps[k];
+      if (step.op == TS_QUERY) continue;
+      const Body& b = scene.bodies[static_cast<std::size_t>(step.body)];
+      const Shape& shape = scene.shape_of(step.body);
+      const ts_aabb& box = sent.view().step_boxes[k];
+      if (!is_bounded(kind_of(shape))) {
+        CHECK(std::isinf(box.lower[0]));
+        continue;
+      }
+      double widest = 0, nearest = HUGE_VAL;
+      for (int n = 0; n < 40; ++n) {
+        const Extended3 p = point_of(b, shape, rng);
+        for (int axis = 0; axis < 3; ++axis) {
+          REQUIRE(p[axis] >= static_cast<long double>(box.lower[axis]));
+          REQUIRE(p[axis] <= static_cast<long double>(box.upper[axis]));
+          widest = std::max(widest, box.upper[axis] - box.lower[axis]);
+          nearest =
+              std::min(nearest, static_cast<double>(static_cast<long double>(box.upper[axis]) - p[axis]));
+        }
+      }
+      ++checked;
+      tight += nearest <= 0.2 * widest;
+    }
+  }
+  CHECK(checked > 200);
+  CHECK(tight > checked / 2);  // none of them is the whole space
+}
+
+TEST_CASE("boxes of boxes are exact, and those of no bodies are no boxes", "[oracles][abi]") {
+  constexpr double inf = std::numeric_limits<double>::infinity();
+  Pose at;
+  at.translation = {1, 2, 3};
+  CHECK(outer_box(Box{{1, 2, 4}}, at) == Aabb{{0, 0, -1}, {2, 4, 7}});
+  CHECK(outer_box(Box{{inf, 1, 1}}, at) == Aabb{{-inf, 1, 2}, {inf, 3, 4}});
+  CHECK(outer_box(HalfSpace{{0, 0, 1}, 0}, at).hi == Vec3(inf, inf, inf));
+  const Aabb inverted = outer_box(Box{{-1, 1, 1}}, at);
+  CHECK(inverted.hi.x() < inverted.lo.x());
+  CHECK(std::isnan(outer_box(Box{{std::nan(""), 1, 1}}, at).lo.x()));
+  at.rotation = {1, 0, 0, 1};
+  CHECK(outer_box(Box{{inf, 1, 1}}, at).lo == Vec3(-inf, -inf, -inf));
+  // One third and its double are no doubles: the box is rounded outward, by one number at most.
+  Pose third;
+  third.translation = Vec3::Constant(1.0 / 3);
+  const Aabb box = outer_box(Sphere{0.1}, third);
+  const long double exact = static_cast<long double>(1.0 / 3) + static_cast<long double>(0.1);
+  CHECK(static_cast<long double>(box.hi.x()) >= exact);
+  CHECK(static_cast<long double>(std::nextafter(box.hi.x(), 0)) < exact);
 }
 
 TEST_CASE("frames may arrive in pieces of any size", "[oracles][protocol]") {

@@ -1,7 +1,9 @@
 // Plug-ins that cannot be used at all: one InputError with place and reason.
 #include "core/base/input_error.h"
+#include "oracles/abi/protocol.h"
 #include "tests/oracles/remote_fixture.h"
 #include "tests/support/catch.h"
+#include "tests/support/workspace.h"
 
 using namespace touchstone;
 using namespace touchstone::testing;
@@ -35,8 +37,10 @@ TEST_CASE("an unusable plug-in is an input error that names file and reason",
     const char *target, *engine, *reason;
   };
   for (const Row& row : {Row{"ts_absent", "", "there is no such plug-in file"},
-                         Row{"ts_bad_abi", "", "uses ABI version 42 instead of 1"},
+                         Row{"ts_bad_abi", "", "uses ABI version 43; this host loads 1 to 2"},
                          Row{"ts_bad_symbol", "", "exports no touchstone_plugin_v1"},
+                         Row{"ts_bad_source", "", "was built from other sources (0123456789abcdef) than"},
+                         Row{"ts_bad_native_source", "", "was built from other sources (0123456789abcdef)"},
                          Row{"ts_bad_start", "", "died while loading it: SIGABRT: bad: cannot live here"},
                          Row{"ts_bad_card", "", "the engine card is not JSON"},
                          Row{"ts_bad_behaviours", "virtue", "offers no engine 'virtue', only: good, loops"},
@@ -61,6 +65,25 @@ TEST_CASE("a file that is not a shared object, a directory and a missing host ar
   });
   CHECK(contains(missing, "/nonexistent/host"));
   CHECK(contains(missing, "cannot be started"));
+}
+
+TEST_CASE("a host built from other sources is refused", "[oracles][remote][bad-input]") {
+  const test::Workspace w("other-host");
+  const auto start_with = [&](const std::string& hello) {
+    w.write("hello", hello);
+    w.write("host", "#!/bin/sh\nexec cat " + (w.dir / "hello").string() + "\n");
+    std::filesystem::permissions(w.dir / "host", std::filesystem::perms::owner_all);
+    return input_error_of([&] { RemoteEngine e({w.dir / "host", plugin_path("ts_plain_c"), "", {}}); });
+  };
+  protocol::Hello hello{{"{}"}, 0, "", "none", false, "0123456789abcdef"};
+  std::string bytes;
+  protocol::append(bytes, hello);
+  const std::string refused = start_with(bytes);
+  INFO(refused);
+  CHECK(contains(refused,
+                 "touchstone-host: was built from other sources (0123456789abcdef) than this program ("));
+  ++bytes[4];  // the version of the protocol
+  CHECK(contains(start_with(bytes), "not a hello of this build: a different protocol version"));
 }
 
 TEST_CASE("a plug-in's engines are listed by its worker, not by the harness", "[oracles][remote]") {

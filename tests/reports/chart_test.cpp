@@ -137,6 +137,7 @@ TEST_CASE("an engine that is wrong, fails or declines is not on the front, and i
     }
     rows.add(crashes);
     rows.add(partial);
+    rows.add(sample("piped", 0, {}));
   }
   const auto all = rows.rows();
   CHECK(overall(all, "exact").front);
@@ -147,7 +148,11 @@ TEST_CASE("an engine that is wrong, fails or declines is not on the front, and i
   CHECK(overall(all, "alike").tie);
   CHECK_FALSE(overall(all, "exact").tie);
   CHECK(overall(all, "dominated").unsound.empty());
-  for (const char* name : {"misses", "off", "crashes", "partial"}) CHECK_FALSE(overall(all, name).front);
+  for (const char* name : {"misses", "off", "crashes", "partial", "piped"})
+    CHECK_FALSE(overall(all, name).front);
+  CHECK(overall(all, "piped").unsound == "its times include the pipe");
+  CHECK_FALSE(is_timed(overall(all, "piped")));
+  CHECK(is_timed(overall(all, "exact")));
   CHECK(overall(all, "misses").unsound == "1 missed of 10");
   CHECK(overall(all, "off").unsound == "1 wrong of 10");
   CHECK(overall(all, "crashes").unsound == "1 failed of 10");

@@ -1,5 +1,7 @@
+#include <algorithm>
 #include <map>
 #include <set>
+#include <vector>
 
 #include "core/base/input_error.h"
 #include "scenarios/random/family.h"
@@ -30,6 +32,38 @@ TEST_CASE("the mix reaches every family and every pair of convex shapes", "[gene
   }
   CHECK(families.size() == fuzz::families().size());
   CHECK(pairs.size() >= 49 + 7 + 7);
+}
+
+TEST_CASE("cases of given kinds have no others, in nearly all families, and depend on nothing else",
+          "[generate]") {
+  const std::vector<ShapeKind> kinds{ShapeKind::sphere, ShapeKind::box, ShapeKind::cylinder};
+  std::set<std::string> families, pairs;
+  std::size_t others = 0;
+  constexpr std::uint64_t cases = 3000;
+  for (std::uint64_t i = 0; i < cases; ++i) {
+    const Case c = fuzz::make_case(3, i, {}, kinds);
+    for (const Shape& s : c.scene.shapes)
+      if (std::find(kinds.begin(), kinds.end(), kind_of(s)) == kinds.end()) {
+        ++others;
+        break;
+      }
+    families.insert(c.family);
+    if (c.scene.bodies.size() == 2)
+      pairs.insert(std::string(type_name(c.scene.shape_of(0))) + "-" +
+                   std::string(type_name(c.scene.shape_of(1))));
+    if (i % 100 != 0) continue;
+    REQUIRE_NOTHROW(validate(c.scene));
+    const Case plain = fuzz::make_case(3, i);
+    CHECK(fuzz::make_case(3, i, {}, kinds) == c);
+    CHECK(fuzz::make_case(3, i) == plain);
+  }
+  CHECK(others == 0);
+  CHECK(pairs.size() >= 9);
+  // Without those of meshes, of hulls of many vertices, of rounded boxes and with half-spaces and meshes.
+  CHECK(families.size() >= fuzz::families().size() - 5);
+  // No body can be made of these alone: they are drawn as ever.
+  const std::vector<ShapeKind> unbounded{ShapeKind::half_space};
+  CHECK(fuzz::make_case(3, 1, "deep", unbounded).scene.bodies.size() == 2);
 }
 
 TEST_CASE("different seeds give different cases; unknown families are refused", "[generate]") {

@@ -131,7 +131,10 @@ struct Loading {
 
 extern "C" const ts_plugin* touchstone_plugin_v1(void) {
   using namespace touchstone::zoo;
-  static const ts_plugin plugin{
-      TS_ABI_VERSION, static_cast<uint32_t>(kinds().size()), card, create, destroy, load, unload, ask};
+  static const ts_plugin plugin{TS_ABI_VERSION, static_cast<uint32_t>(kinds().size()),
+                                card,           create,
+                                destroy,        load,
+                                unload,         ask,
+                                nullptr,        {}};
   return &plugin;
 }

@@ -26,6 +26,18 @@ namespace detail {
 inline constexpr int follow_cap = 40, chain_cap = 6;
 /// Cover the rounding of a bound by far.
 inline constexpr double round_up = 1 + 0x1p-40, round_down = 1 - 0x1p-40;
+/// A step is followed by another along the same direction while the separation is at least this share of the
+/// first, and this many errors: it is cheaper than a look only where it gains much.
+inline constexpr double chain_share = 0.3, chain_errors = 64;
+/// Rounding of a rotated unit vector, in u.
+inline constexpr int normal_rounding = 16;
+/// A step that is too long is shortened to the root of a parabola through its ends, but to these shares of
+/// its length at least and at most; to half of it after the first few trials.
+inline constexpr double shortest_share = 0.05, longest_share = 0.98;
+inline constexpr int trials_by_root = 3;
+/// A step that is not proven, though its end is apart: a bit less than the bound allows, and shorter than it
+/// was.
+inline constexpr double certain_share = 0.95, shrinking_share = 0.9;
 
 class Follower {
  public:
@@ -49,7 +61,7 @@ class Follower {
       if (revolve()) return {spot_, true};
       if (spot_.t >= end_ || step()) return {spot_, true};
       // Continues along the same direction while that gains much.
-      if (!(spot_.t > before) || side_.s < 0.3 * s0 || side_.s < 64 * spot_.error) break;
+      if (!(spot_.t > before) || side_.s < chain_share * s0 || side_.s < chain_errors * spot_.error) break;
     }
     return {spot_, false};
   }
@@ -80,7 +92,7 @@ class Follower {
   // K for a step h.
   double curvature(double h) const {
     if (!turning()) return still_;
-    const double slack = 16 * u<double> / h, speed = turn_speed_ + slack;
+    const double slack = normal_rounding * u<double> / h, speed = turn_speed_ + slack;
     double k = offset_curvature(speed, far_, w_.velocity().norm());
     for (const Mover* m : {&w_.a(), &w_.b()})
       k += core_curvature(m->body.reach, (m->angular - turn_).norm() + slack, speed, m->speed);
@@ -187,10 +199,11 @@ class Follower {
       }
       if (e2 < 0) {
         const double q = (side.s - s1 - d * length) / (length * length);
-        const double r = root(s1, d, 2 * q, 2 * spot_.error + (i > 3 ? s1 / 4 : 0));
-        h = std::clamp(r, 0.05 * length, (i > 3 ? 0.5 : 0.98) * length);
+        const bool late = i > trials_by_root;
+        const double r = root(s1, d, 2 * q, 2 * spot_.error + (late ? s1 / 4 : 0));
+        h = std::clamp(r, shortest_share * length, (late ? 0.5 : longest_share) * length);
       } else {
-        h = std::min(0.95 * certain_step(e2, length), 0.9 * length);
+        h = std::min(certain_share * certain_step(e2, length), shrinking_share * length);
       }
     }
     return false;

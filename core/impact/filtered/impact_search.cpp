@@ -13,6 +13,9 @@ constexpr double near_enough = 8;
 // Below this many errors of the gap, rotations are computed in extended precision.
 constexpr double precise_errors = 512;
 
+// Distances by which bodies are pushed apart to find their nearest points (improve_points), in units of size.
+constexpr double pushes[] = {0x1p-20, 0x1p-13, 0x1p-7};
+
 // In units of size: witness points that are farther apart across n than this are visibly wrong.
 constexpr double visible = 0x1p-30;
 
@@ -99,7 +102,7 @@ double witness_error(const Search& r, double error) {
 void improve_points(Search& r, const Sweep& w, const Spot& hit, const Features& near) {
   const double size = w.a().body.reach + w.b().body.reach + w.radii();
   double best = witness_error(r, hit.error);
-  for (const double share : {0x1p-20, 0x1p-13, 0x1p-7})
+  for (const double share : pushes)
     for (const bool warm : {true, false}) {
       if (!(best > 0)) return;
       Spot x = hit;

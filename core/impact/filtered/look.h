@@ -36,7 +36,8 @@ class Looker {
 
   // Ends when the bounds of the gap differ by at most `relative` of it or by `absolute`.
   void run(double relative, double absolute) {
-    const double touching = 4 * u<double> * (w_.a().body.reach + w_.b().body.reach + x_.offset.norm());
+    const double touching =
+        narrow::rounding::height * u<double> * (w_.a().body.reach + w_.b().body.reach + x_.offset.norm());
     Vec v = x_.offset;
     if (!start(v)) return;
     // The features of the smallest upper bound: a later simplex may be worse, or contain the origin.

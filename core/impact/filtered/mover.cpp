@@ -7,6 +7,8 @@ namespace {
 
 // Covers the rounding of products and a root of doubles many times over.
 constexpr double inflation = 1 + 0x1p-46;
+// Rounding of the axis in the body's frame, in u: of the rotation, the axis and their product.
+constexpr int axis_rounding = 16;
 
 void set_turn(Mover& m, const Vec& angular) {
   if (is_point(m)) return;
@@ -20,7 +22,7 @@ void set_turn(Mover& m, const Vec& angular) {
   m.axis = m.axis_wide.cast<double>();
   const Vec local = m.start.transpose() * m.axis;
   const double off_axis = on_core(m.body, [&](const auto& core) { return core.reach_off_axis(local); });
-  m.off_axis = off_axis * inflation + 16 * u<double> * m.body.reach;
+  m.off_axis = off_axis * inflation + axis_rounding * u<double> * m.body.reach;
   m.up = local.dot(support_local<double>(m.body, local));
   m.down = -local.dot(support_local<double>(m.body, -local));
 }
@@ -39,9 +41,9 @@ WideMat rotation_of(const Quat& any) {
   return r;
 }
 
-Mover make_mover(const Shape& shape, const WideMat& rotation, const Motion& motion) {
+Mover make_mover(const ShapeRef& shape, const WideMat& rotation, const Motion& motion) {
   Mover m;
-  m.body = convex_body<double>(shape);
+  m.body = shape.body<double>();
   m.start_wide = rotation;
   m.start = rotation.cast<double>();
   m.linear = motion.linear;

@@ -30,7 +30,7 @@ struct Mover {
 WideMat rotation_of(const Quat& q);
 
 /// Precondition: a bounded convex shape. A body whose core is a point does not rotate.
-Mover make_mover(const Shape& shape, const WideMat& rotation, const Motion& motion);
+Mover make_mover(const ShapeRef& shape, const WideMat& rotation, const Motion& motion);
 
 /// A triangle, or any few points, at rest. The points must outlive the mover.
 Mover make_points(std::span<const Vec3> points, const WideMat& rotation);

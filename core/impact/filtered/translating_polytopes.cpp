@@ -17,6 +17,13 @@ namespace {
 using narrow::Vertex;
 
 constexpr int portal_cap = 40;
+// Rounding of n·v, in u: of the velocity, its projection and the sum.
+constexpr int velocity_rounding = 8;
+// In units of the error: a support plane this near to the portal cannot be improved.
+constexpr double portal_errors = 0.1;
+// In units of the error: the gap that a hit aims at. More than 1, so that the hit is proven to be none too
+// late.
+constexpr double aimed_gap = 1.1;
 
 enum class Pass { on, clear, lost };
 
@@ -28,7 +35,7 @@ class Cast {
     if (!(speed_ > 0)) return {};
     ray_ = v_ / speed_;
     // The end is extrapolated from the start: both errors, and that of n·v.
-    end_error_ = start_.error + sweep_.at(1, true).error + 8 * u<double> * speed_;
+    end_error_ = start_.error + sweep_.at(1, true).error + velocity_rounding * u<double> * speed_;
     Pass p = find_portal();
     if (p == Pass::on) p = refine();
     if (p == Pass::clear) return {.end = SearchEnd::clear, .clear_until = 1, .steps = steps_};
@@ -103,7 +110,7 @@ class Cast {
       Vertex<double> q;
       if (look(n, q, s_) == Pass::clear) return Pass::clear;
       n_ = n;
-      if (n.dot(p_[0].w) - s_ <= 0.1 * start_.error) return Pass::on;
+      if (n.dot(p_[0].w) - s_ <= portal_errors * start_.error) return Pass::on;
       // The ray crosses one of the three triangles with q.
       const double sign = side(p_[0], p_[1]) + side(p_[1], p_[2]) + side(p_[2], p_[0]) < 0 ? -1 : 1;
       const double a = sign * side(p_[0], q), b = sign * side(p_[1], q), c = sign * side(p_[2], q);
@@ -123,7 +130,7 @@ class Cast {
     const double rate = -n_.dot(v_);
     if (!(rate > 0)) return {};
     const double e = sweep_.at(std::clamp(s_ / rate, 0.0, 1.0), true).error;
-    const double t = (s_ - 1.1 * e) / rate;
+    const double t = (s_ - aimed_gap * e) / rate;
     if (!(t >= 0 && t <= 1)) return {};
     const Spot spot = sweep_.at(t, true);
     const double s = sweep_.along(spot, n_).s;

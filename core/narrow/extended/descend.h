@@ -85,7 +85,7 @@ class MeridianSearch {
   MeridianSearch(const ConvexCore<R>& a, const ConvexCore<R>& b, const V3<R>& axis, R size)
       : a_(a),
         b_(b),
-        noise_(16 * std::numeric_limits<R>::epsilon() * size),
+        noise_(rounding::wide_support_noise * std::numeric_limits<R>::epsilon() * size),
         w_(axis.normalized()),
         u_(w_.unitOrthogonal()),
         v_(w_.cross(u_)) {}
@@ -150,6 +150,10 @@ class MeridianSearch {
   V3<R> w_, u_, v_;
 };
 
+/// Shares s of the way to the foot, tried in turn. The nearer to 1, the better is the point isolated, and the
+/// flatter is what EPA has to resolve.
+inline constexpr double proximal_shares[] = {0.25, 0.5, 0.75, 0.9375};
+
 /// The proximal step from direction n (A to B).
 template <class R>
 EpaResult<R> proximal(const V3<R>& n, R share, const ConvexCore<R>& a, const ConvexCore<R>& b, R size,
@@ -183,8 +187,8 @@ void descend(EpaResult<R>& e, const ConvexCore<R>& a, const ConvexCore<R>& b, R 
       e.normal = n;
     }
   }
-  for (const R share : {R(0.25), R(0.5), R(0.75), R(0.9375)}) {
-    const EpaResult<R> step = detail::proximal<R>(e.normal, share, a, b, size, tolerance);
+  for (const double share : detail::proximal_shares) {
+    const EpaResult<R> step = detail::proximal<R>(e.normal, R(share), a, b, size, tolerance);
     const R depth = std::min(step.upper, e.upper);
     // EPA's tolerance enters twice through the shift: once in height and once in length.
     if (step.status == EpaStatus::broken || abs((step.b - step.a).norm() - depth) > 4 * tolerance) continue;

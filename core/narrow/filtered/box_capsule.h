@@ -184,7 +184,8 @@ struct BoxCapsule {
 };
 
 template <class R>
-BoxCapsule<R> box_capsule(const Shape& sa, const RoundedPose<R>& a, const Shape& sb, const RoundedPose<R>& b) {
+BoxCapsule<R> box_capsule(const Shape& sa, const RoundedPose<R>& a, const Shape& sb,
+                          const RoundedPose<R>& b) {
   const auto& capsule = *std::get_if<Capsule>(&sb);
   BoxCapsule<R> r{matrix(a), {}, static_cast<R>(capsule.radius), 0};
   BoxSegment<R>& p = r.cores;
@@ -193,7 +194,7 @@ BoxCapsule<R> box_capsule(const Shape& sa, const RoundedPose<R>& a, const Shape&
   p.h = static_cast<R>(capsule.half_height);
   p.c = r.to_world.transpose() * offset;
   p.d = r.to_world.transpose() * axis_z(b);
-  p.error = displacement_of<R>(p.half.norm(), p.h, p.c.norm()) + 4 * u<R> * r.radius;
+  p.error = displacement_of<R>(p.half.norm(), p.h, p.c.norm()) + rounding::ball * u<R> * r.radius;
   r.scale = std::max(std::max(detail::largest(p.half), r.radius + p.h), detail::largest(offset) / 2);
   return r;
 }

@@ -186,7 +186,7 @@ SegmentFeet<R> segment_feet(const SegmentPair<R>& p) {
   const V3<R> n = p.axis_a.cross(p.axis_b);
   const R nn = best.sine_sq = n.squaredNorm();
   R s = 0;
-  if (nn > 64 * u<R> * u<R>) {
+  if (nn > rounding::parallel_sine_sq * u<R> * u<R>) {
     const R inverse = 1 / nn, t = p.d.cross(p.axis_a).dot(n) * inverse;
     s = p.d.cross(p.axis_b).dot(n) * inverse;
     if (std::abs(s) <= p.ha && std::abs(t) <= p.hb) {
@@ -216,7 +216,7 @@ void retry_feet(const SegmentPair<R>& p, SegmentFeet<R>& best) {
     try_feet(p, std::clamp((p.d + t * p.axis_b).dot(p.axis_a), -p.ha, p.ha), t, best);
   const V3<R> n = p.axis_a.cross(p.axis_b);
   const R nn = n.squaredNorm();
-  if (nn > 64 * u<R> * u<R>) try_level(p, V3<R>(n * (1 / std::sqrt(nn))), best);
+  if (nn > rounding::parallel_sine_sq * u<R> * u<R>) try_level(p, V3<R>(n * (1 / std::sqrt(nn))), best);
   const V3<R> x = p.axis_a.unitOrthogonal(), y = p.axis_a.cross(x);
   try_level(p, x, best);
   try_level(p, y, best);

@@ -21,7 +21,7 @@ class MeshQuery {
         b_(rounded_pose<R>(b.pose)),
         best_(best),
         s_(s) {
-    s.a = convex_body<R>(*a.shape, a.graph);
+    s.a = a.body<R>();
     s.at = relative(a_, b_);
     s.contact = ContactForm::point;
     const Vec3 d = a.pose.translation - b.pose.translation;
@@ -119,7 +119,7 @@ class MeshQuery {
 
 template <class R>
 void convex_mesh(const PlacedShape& a, const PlacedShape& b, Asked asked, Answer<R>& r, PairScene<R>& s) {
-  MeshQuery<R>(a, b, asked, r, s).run(b.tree);
+  MeshQuery<R>(a, b, asked, r, s).run(b.tree());
   // The triangle's corners no longer exist.
   s.b = {};
 }

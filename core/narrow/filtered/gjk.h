@@ -87,7 +87,7 @@ class CurvedHelp {
 template <class R>
 GjkResult<R> gjk(const Difference<R>& d, R tolerance, R certain, R size, const V3<R>& guess) {
   constexpr int iterations = 96, idle = 3;
-  const GjkLimits<R> limit{tolerance, certain, 4 * u<R> * size, iterations, idle};
+  const GjkLimits<R> limit{tolerance, certain, rounding::height * u<R> * size, iterations, idle};
   const R guessed = guess.squaredNorm();
   return narrow::gjk<R>(d, limit, guessed > R(0.5) && guessed < 2 ? guess : d.at.offset,
                         CurvedHelp<R>(d, size, limit));

@@ -48,7 +48,10 @@ class LocalMinimum {
   using Form = convex::TangentForm<R>;
 
  public:
-  LocalMinimum(const Difference<R>& d, R size) : d_(d), level_(8 * u<R> * size), slight_(64 * u<R> * size) {}
+  LocalMinimum(const Difference<R>& d, R size)
+      : d_(d),
+        level_(rounding::feature_height * u<R> * size),
+        slight_(rounding::certain_height * u<R> * size) {}
 
   /// Starts from a facet of support points with unit outward normal n and the weights of the origin's foot in
   /// it.
@@ -97,7 +100,8 @@ class LocalMinimum {
     if (!(far > d + slight_)) return r;
     const R tilt = unevenness();
     const convex::Tangents<R> at[2] = {{in(0, m_), in(0, x), in(0, y)}, {in(1, m_), in(1, x), in(1, y)}};
-    const R behind = (std::sqrt(off) + std::sqrt(off + far * far - d * d)) / (far - d) * (1 + 64 * u<R>);
+    const R behind =
+        (std::sqrt(off) + std::sqrt(off + far * far - d * d)) / (far - d) * (1 + rounding::formula * u<R>);
     for (R part = 1; part > least_part; part /= 2) {
       const R t = behind * part;
       Form ball, reach;

@@ -18,6 +18,7 @@
 
 #include "core/math/wide.h"
 #include "core/narrow/narrow_phase.h"
+#include "core/narrow/rounding.h"
 #include "core/tolerance.h"
 
 namespace touchstone::narrow::filtered {

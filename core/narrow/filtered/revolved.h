@@ -17,13 +17,13 @@ class Revolved {
   R upper = 0, lower = 0;
   V3<R> outward, a, w;  // as in Depth
 
-  Revolved(const Difference<R>& d, R size) : d_(d), level_(8 * u<R> * size) {
+  Revolved(const Difference<R>& d, R size) : d_(d), level_(rounding::feature_height * u<R> * size) {
     const Symmetry of_a = symmetry(d.a), of_b = symmetry(d.b);
     if (of_a == Symmetry::none || of_b == Symmetry::none) return;
     const M3<R>& m = d.at.b_to_a;
     const bool point = of_a == Symmetry::centre || of_b == Symmetry::centre;
     const R tilt = point ? R(0) : std::sqrt(m(0, 2) * m(0, 2) + m(1, 2) * m(1, 2));
-    if (!(tilt <= 16 * u<R>)) return;
+    if (!(tilt <= rounding::parallel_sine * u<R>)) return;
     // The axis is z in A's frame, unless A is a point.
     axis_ = of_a == Symmetry::centre ? V3<R>(m.col(2)) : V3<R>(V3<R>::UnitZ());
     const V3<R> off = d.at.offset - axis_ * axis_.dot(d.at.offset);

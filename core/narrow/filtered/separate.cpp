@@ -99,23 +99,27 @@ void from_flat(const GjkResult<R>& g, const Depth<R>& e, R size, R error, Answer
     a += g.simplex.weight[static_cast<std::size_t>(i)] * g.simplex.p[static_cast<std::size_t>(i)].a;
   r.a = a + (e.upper / 2 + s.a.radius) * r.normal;
   r.b = a - (e.upper / 2 + s.b.radius) * r.normal;
-  r.bound = error + e.upper + 8 * u<R> * size;
+  r.bound = error + e.upper + rounding::feature_height * u<R> * size;
   s.middle = (r.a + r.b) / 2;
   s.has_middle = true;
 }
 
 // Searches square areas: fourth powers of lengths. Bodies for which these would leave the range of R are
-// scaled by a power of two, which is exact. Returns whether a size needs no scaling: at L = 2^-22 the fourth
-// power in float still represents slivers of L·2^-18.
+// scaled by a power of two, which is exact. Sizes that need no scaling: at L = 2^-22 the fourth power in
+// float still represents slivers of L·2^-18.
+template <class R>
+constexpr R least_size = R(sizeof(R) == sizeof(float) ? 0x1p-22 : 0x1p-230);
+template <class R>
+constexpr R largest_size = R(sizeof(R) == sizeof(float) ? 0x1p+30 : 0x1p+250);
+
 template <class R>
 bool in_range(R size) {
-  constexpr bool single = sizeof(R) == sizeof(float);
-  return size > R(single ? 0x1p-22 : 0x1p-230) && size < R(single ? 0x1p+30 : 0x1p+250);
+  return size > least_size<R> && size < largest_size<R>;
 }
 
 template <class R>
-void separate_scaled(const RoundedPose<R>& a, const RoundedPose<R>& b, Asked asked, R enough, R size, Answer<R>& r,
-                     PairScene<R>& s) {
+void separate_scaled(const RoundedPose<R>& a, const RoundedPose<R>& b, Asked asked, R enough, R size,
+                     Answer<R>& r, PairScene<R>& s) {
   const R unit = std::ldexp(R(1), -std::ilogb(size)), back = 1 / unit;
   PairScene<R> t = s;
   RoundedPose<R> at_a = a, at_b = b;
@@ -235,8 +239,8 @@ void box_box(const PlacedShape& pa, const PlacedShape& pb, Asked asked, Answer<R
     if (asked == Asked::distance) convex_pair(pa, pb, asked, r, s);
     return;
   }
-  s.a = convex_body<R>(*pa.shape, pa.graph);
-  s.b = convex_body<R>(*pb.shape, pb.graph);
+  s.a = pa.body<R>();
+  s.b = pb.body<R>();
   s.at = p.at;
   s.contact = ContactForm::cores;
   s.normal = r.normal = axis.normal;
@@ -255,7 +259,8 @@ void box_and_capsule(const PlacedShape& pa, const PlacedShape& pb, Asked asked, 
   if (!detail::squares_hold(q.scale) || !solve(q, asked, r)) return convex_pair(pa, pb, asked, r, s);
   if (asked == Asked::overlap) return;
   const BoxSegment<R>& p = q.cores;
-  const R depth = -r.gap, tolerance = 64 * u<R> * (p.half.sum() + p.h + q.radius + p.c.template lpNorm<1>());
+  const R depth = -r.gap, tolerance = rounding::axis_distance * u<R> *
+                                      (p.half.sum() + p.h + q.radius + p.c.template lpNorm<1>());
   if (asked == Asked::contact && depth >= -r.bound && detail::lies_along(p, r.normal, depth, tolerance)) {
     prepare(pa, a, pb, b, s);
     s.contact = ContactForm::cores;
@@ -276,12 +281,11 @@ template <class R>
 void convex_half_space(const PlacedShape& pa, const PlacedShape& pb, Asked asked, Answer<R>& r,
                        PairScene<R>& s) {
   const RoundedPose<R> a = rounded_pose<R>(pa.pose), b = rounded_pose<R>(pb.pose);
-  s.a = convex_body<R>(*pa.shape, pa.graph);
-  const HalfSpace& plane = *std::get_if<HalfSpace>(pb.shape);
-  const double length = plane.normal.norm();
-  if (!(length > least_normal && length < largest_normal)) return;
-  const V3<R> m = (matrix(b) * (plane.normal / length).template cast<R>()).normalized();
-  const R offset = static_cast<R>(plane.offset / length);
+  s.a = pa.body<R>();
+  const UnitHalfSpace plane = pb.half_space();
+  if (!(plane.length > least_normal && plane.length < largest_normal)) return;
+  const V3<R> m = (matrix(b) * plane.normal.template cast<R>()).normalized();
+  const R offset = static_cast<R>(plane.offset);
   s.at.a_to_world = matrix(a);
   s.contact = ContactForm::plane;
   const V3<R> d = b.t - a.t, n = -m;
@@ -299,7 +303,8 @@ void convex_half_space(const PlacedShape& pa, const PlacedShape& pb, Asked asked
 
 #define TS_INSTANTIATE(R)                                                                                  \
   template void convex_pair(const PlacedShape&, const PlacedShape&, Asked, Answer<R>&, PairScene<R>&);     \
-  template void separate_cores(const RoundedPose<R>&, const RoundedPose<R>&, Asked, R, Answer<R>&, PairScene<R>&);     \
+  template void separate_cores(const RoundedPose<R>&, const RoundedPose<R>&, Asked, R, Answer<R>&,         \
+                               PairScene<R>&);                                                             \
   template void box_box(const PlacedShape&, const PlacedShape&, Asked, Answer<R>&, PairScene<R>&);         \
   template void box_and_capsule(const PlacedShape&, const PlacedShape&, Asked, Answer<R>&, PairScene<R>&); \
   template void convex_half_space(const PlacedShape&, const PlacedShape&, Asked, Answer<R>&, PairScene<R>&);

@@ -65,10 +65,10 @@ void closed(const PlacedShape& a, const PlacedShape& b, Asked asked, Answer<R>& 
 
 /// Bodies and frames of two shapes, for contact_patch after a closed form.
 template <class R>
-void prepare(const PlacedShape& pa, const RoundedPose<R>& a, const PlacedShape& pb, const RoundedPose<R>& b,
+void prepare(const ShapeRef& pa, const RoundedPose<R>& a, const ShapeRef& pb, const RoundedPose<R>& b,
              PairScene<R>& s) {
-  s.a = convex_body<R>(*pa.shape, pa.graph);
-  s.b = convex_body<R>(*pb.shape, pb.graph);
+  s.a = pa.body<R>();
+  s.b = pb.body<R>();
   s.at = relative(a, b);
 }
 

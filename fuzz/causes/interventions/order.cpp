@@ -41,6 +41,21 @@ std::optional<Case> add_body_first(const Case& c) { return with_distant_bodies(c
 std::optional<Case> add_pair_first(const Case& c) { return with_distant_bodies(c, 2, true); }
 std::optional<Case> add_pair_last(const Case& c) { return with_distant_bodies(c, 2, false); }
 
+std::optional<Case> add_body_between(const Case& c) {
+  if (asks_about_pair(c) || c.scene.bodies.size() < 2) return std::nullopt;
+  const auto with = with_distant_bodies(c, 1, true);
+  if (!with) return std::nullopt;
+  // The new body changes places with the one after it, which is the first of the case.
+  Case r = *with;
+  std::swap(r.scene.bodies[0], r.scene.bodies[1]);
+  const auto swapped = [](int i) { return i > 1 ? i : 1 - i; };
+  for (Step& s : r.scene.script)
+    if (s.op != Step::Op::query) s.body = swapped(s.body);
+  for (BodyPair& p : r.scene.ignored) p = std::minmax(swapped(p.first), swapped(p.second));
+  std::sort(r.scene.ignored.begin(), r.scene.ignored.end());
+  return r;
+}
+
 std::optional<Case> exchange(const Case& c) {
   if (!asks_about_pair(c)) return std::nullopt;
   Case r = c;

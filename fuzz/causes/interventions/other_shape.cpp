@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "fuzz/causes/intervention.h"
+#include "fuzz/causes/interventions/true_pair.h"
 
 namespace touchstone::fuzz {
 namespace {
@@ -21,7 +22,62 @@ std::optional<Case> with_shapes(const Case& c, Make&& make) {
   return r;
 }
 
+// One body given as a sphere or a box of its extent; the gap stays as it is.
+template <class Make>
+std::optional<Case> replaced(const Case& c, bool second, Make&& make) {
+  const auto before = true_pair(c);
+  if (!before) return std::nullopt;
+  const int of = second ? before->b : before->a;
+  const double size = extent(c.scene.shape_of(of));
+  Shape shape = make(size > 0 && std::isfinite(size) ? size : before->size);
+  if (shape == c.scene.shape_of(of)) return std::nullopt;
+  Case r = c;
+  r.scene.shapes.push_back(std::move(shape));
+  r.scene.bodies[static_cast<std::size_t>(of)].shape = static_cast<int>(r.scene.shapes.size()) - 1;
+  return with_gap(r, before->gap);
+}
+Shape a_sphere(double size) { return Sphere{size}; }
+Shape a_cube(double size) { return Box{Vec3::Constant(size)}; }
+
 }  // namespace
+
+std::optional<Case> a_as_sphere(const Case& c) { return replaced(c, false, a_sphere); }
+std::optional<Case> b_as_sphere(const Case& c) { return replaced(c, true, a_sphere); }
+std::optional<Case> a_as_cube(const Case& c) { return replaced(c, false, a_cube); }
+std::optional<Case> b_as_cube(const Case& c) { return replaced(c, true, a_cube); }
+
+namespace {
+
+// Two cubes of side 2 in place of the bodies, the second above a face of the first.
+std::optional<Case> as_cubes(const Case& c, double height) {
+  const auto pair = pair_of(c);
+  if (!pair || c.scene.bodies.size() != 2 || !c.scene.script.empty()) return std::nullopt;
+  if (c.queries[0].question == Question::time_of_impact) return std::nullopt;
+  Case r = c;
+  r.scene.shapes = {Box{Vec3::Ones()}};
+  for (Body& b : r.scene.bodies) {
+    b.shape = 0;
+    b.pose = {};
+  }
+  r.scene.bodies[static_cast<std::size_t>(pair->second)].pose.translation.x() = height;
+  return r;
+}
+
+}  // namespace
+
+std::optional<Case> as_touching_cubes(const Case& c) { return as_cubes(c, 2); }
+std::optional<Case> as_pressed_cubes(const Case& c) { return as_cubes(c, std::nextafter(2, 0)); }
+
+std::optional<Case> own_shapes(const Case& c) {
+  if (c.scene.bodies.size() <= c.scene.shapes.size()) return std::nullopt;
+  Case r = c;
+  r.scene.shapes.clear();
+  for (std::size_t i = 0; i < c.scene.bodies.size(); ++i) {
+    r.scene.shapes.push_back(c.scene.shape_of(static_cast<int>(i)));
+    r.scene.bodies[i].shape = static_cast<int>(i);
+  }
+  return r;
+}
 
 std::optional<Case> box_as_hull(const Case& c) {
   return with_shapes<Box>(c, [](const Box& box) -> Shape {

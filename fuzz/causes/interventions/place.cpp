@@ -8,17 +8,12 @@
 namespace touchstone::fuzz {
 namespace {
 
-constexpr double factor = 1024;
-
-void scale_script(Scene& s, double by) {
-  for (Step& step : s.script)
-    if (step.pose) step.pose->translation *= by;
-}
+constexpr double factor = 1024, small_factor = 16;
+constexpr double very_far = 0x1p20;  // in sizes: doubles keep 32 bits of the size, floats few
 
 std::optional<Case> scaled(const Case& c, double by) {
   Case r = c;
   if (!scale_by(r.scene, by)) return std::nullopt;
-  scale_script(r.scene, by);
   return r;
 }
 
@@ -27,8 +22,6 @@ std::optional<Case> moved(const Case& c, const Vec3& by) {
   if (by.isZero(0)) return std::nullopt;
   Case r = c;
   translate_by(r.scene, by);
-  for (Step& step : r.scene.script)
-    if (step.pose) step.pose->translation += by;
   return r;
 }
 
@@ -48,6 +41,8 @@ const Vec3& first_position(const Case& c) {
 
 std::optional<Case> scale_up(const Case& c) { return scaled(c, factor); }
 std::optional<Case> scale_down(const Case& c) { return scaled(c, 1 / factor); }
+std::optional<Case> scale_up_little(const Case& c) { return scaled(c, small_factor); }
+std::optional<Case> scale_down_little(const Case& c) { return scaled(c, 1 / small_factor); }
 
 std::optional<Case> move_to_origin(const Case& c) {
   if (c.scene.bodies.empty()) return std::nullopt;
@@ -60,10 +55,27 @@ std::optional<Case> move_away(const Case& c) {
   return moved(c, Vec3(16, -32, 64) * length);
 }
 
-std::optional<Case> turn_world(const Case& c) {
-  constexpr Quat quarter{1, 0, 0, 1};
-  Mat3 m;
-  m << 1, 0, 0, 0, 0, -1, 0, 1, 0;
+std::optional<Case> move_far(const Case& c) {
+  if (c.scene.bodies.empty()) return std::nullopt;
+  return moved(c, Vec3(1, 1, 1) * (largest_length(c.scene) * very_far));
+}
+
+std::optional<Case> move_to_negative(const Case& c) {
+  if (c.scene.bodies.empty()) return std::nullopt;
+  return moved(c, Vec3(-16, -32, -64) * largest_length(c.scene));
+}
+
+namespace {
+
+// A quarter turn about one axis of the world, which rounds.
+Case quarter_turn(const Case& c, int axis) {
+  const Vec3 about = Vec3::Unit(axis);
+  const Quat quarter{about.x(), about.y(), about.z(), 1};
+  const int next = (axis + 1) % 3, after = (axis + 2) % 3;
+  Mat3 m = Mat3::Zero();
+  m(axis, axis) = 1;
+  m(next, after) = -1;
+  m(after, next) = 1;
   Case r = c;
   const auto turn = [&](Pose& p) {
     p.translation = m * p.translation;
@@ -79,5 +91,19 @@ std::optional<Case> turn_world(const Case& c) {
     if (s.pose) turn(*s.pose);
   return r;
 }
+
+std::optional<Case> half_turned(const Case& c, int axis) {
+  Case r = c;
+  half_turn(r.scene, axis);
+  return r;
+}
+
+}  // namespace
+
+std::optional<Case> turn_world(const Case& c) { return quarter_turn(c, 0); }
+std::optional<Case> turn_world_y(const Case& c) { return quarter_turn(c, 1); }
+std::optional<Case> turn_world_z(const Case& c) { return quarter_turn(c, 2); }
+std::optional<Case> half_turn_world(const Case& c) { return half_turned(c, 0); }
+std::optional<Case> half_turn_world_z(const Case& c) { return half_turned(c, 2); }
 
 }  // namespace touchstone::fuzz

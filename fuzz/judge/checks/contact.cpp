@@ -29,7 +29,7 @@ Certificate direction_certificate(const CheckInput& in, const StatedContact& c,
 // plausible depth: not negative, and no more than leaving the hull of the surface takes.
 void judge_surface_contact(const CheckInput& in, CheckOutput& out, const StatedContact& c,
                            const referee::PairTruth& truth) {
-  const double l = in.truth.scale(c.a, c.b), tau = in.tau(l);
+  const double l = in.truth.scale(c.a, c.b), tau = in.tau(c.a, c.b, l);
   const Query q{in.query.question, c.a, c.b};
   if (c.depth && c.normal) {
     const double excess = *c.depth - std::max(0.0, in.truth.width(in.frame, c.a, c.b, *c.normal).hi);
@@ -42,8 +42,9 @@ void judge_surface_contact(const CheckInput& in, CheckOutput& out, const StatedC
                 truth.verdict_certificate);
   }
   if (c.depth) {
-    out.error(-*c.depth, l, tau);
-    if (-*c.depth > tau)
+    const double most = truth.gap.lo > 0 ? tau + in.offset() : tau;
+    out.error(-*c.depth, l, most);
+    if (-*c.depth > most)
       out.fault(Fault::infeasible, -*c.depth, l, q,
                 fmt::format("says overlap with depth {:.9g}; a depth is never negative", *c.depth),
                 truth.verdict_certificate);
@@ -51,16 +52,22 @@ void judge_surface_contact(const CheckInput& in, CheckOutput& out, const StatedC
   out.not_judged(c.depth && c.normal ? "normal and depth" : c.normal ? "normal" : "depth", true);
 }
 
+// Bodies that are apart and that the engine's contact offset lets it report: their depth is minus the gap.
+bool is_speculative(const CheckInput& in, const referee::PairTruth& truth) {
+  return in.offset() > 0 && truth.gap.lo > 0;
+}
+
 // Bracket of the least depth d*.
-referee::Bracket least_depth(const referee::PairTruth& truth) {
+referee::Bracket least_depth(const CheckInput& in, const referee::PairTruth& truth) {
+  if (is_speculative(in, truth)) return {-truth.gap.hi, -truth.gap.lo};
   return {std::max(0.0, -truth.gap.hi), std::max(0.0, -truth.gap.lo)};
 }
 
 void judge_depth_alone(const CheckInput& in, CheckOutput& out, const StatedContact& c,
                        const referee::PairTruth& truth) {
-  const double l = in.truth.scale(c.a, c.b), tau = in.tau(l), depth = *c.depth;
+  const double l = in.truth.scale(c.a, c.b), tau = in.tau(c.a, c.b, l), depth = *c.depth;
   const Query q{in.query.question, c.a, c.b};
-  const referee::Bracket least = least_depth(truth);
+  const referee::Bracket least = least_depth(in, truth);
   out.error(std::max(least.lo - depth, depth - least.hi), l, tau);
   if (least.lo - depth > tau)
     out.fault(Fault::infeasible, least.lo - depth, l, q,
@@ -82,7 +89,8 @@ double certain_depth(const CheckInput& in, int a, int b, const referee::PairTrut
 bool judge_validity(const CheckInput& in, CheckOutput& out, const StatedContact& c) {
   const Query q{in.query.question, c.a, c.b};
   const double length = c.normal ? c.normal->stableNorm() : 1;
-  const bool unit = std::abs(length - 1) <= in.card.tau_factor * in.card.unit_roundoff;
+  const bool unit =
+      std::abs(length - 1) <= in.card.tau_factor * pair_roundoff(in.card, in.truth.scene(), c.a, c.b);
   if (!unit)
     out.fault_always(Fault::normal_not_unit, std::abs(length - 1), q,
                      fmt::format("the normal has length {:.9g}", length));
@@ -98,18 +106,20 @@ void judge_normal_and_depth(const CheckInput& in, CheckOutput& out, const Stated
   if (in.is_surface(c.a) || in.is_surface(c.b) || !std::isfinite(truth.gap.lo))
     return judge_surface_contact(in, out, c, truth);
   if (!c.normal) return judge_depth_alone(in, out, c, truth);
-  const double l = in.truth.scale(c.a, c.b), tau = in.tau(l);
+  const double l = in.truth.scale(c.a, c.b), tau = in.tau(c.a, c.b, l);
   const Query q{in.query.question, c.a, c.b};
-  const referee::Bracket w = in.truth.width(in.frame, c.a, c.b, *c.normal), least = least_depth(truth);
+  const referee::Bracket w = in.truth.width(in.frame, c.a, c.b, *c.normal), least = least_depth(in, truth);
   const double regret = w.lo - least.hi;
-  out.error(regret, l, tau);
-  if (regret > tau)
+  const double most_regret = tau + in.bias(c.a, c.b) * std::max(0.0, least.lo);
+  out.error(regret, l, most_regret);
+  if (regret > most_regret)
     out.fault(Fault::not_minimal, regret, l, q,
               fmt::format("the stated normal needs {:.9g}; the least depth is {:.9g}", w.lo,
                           (least.lo + least.hi) / 2),
               direction_certificate(in, c, truth));
   if (!c.depth) return;
-  const double depth = *c.depth, infeasible = w.lo - depth, excess = depth - std::max(0.0, w.hi);
+  const double depth = *c.depth, infeasible = w.lo - depth,
+               excess = depth - (is_speculative(in, truth) ? w.hi : std::max(0.0, w.hi));
   out.error(std::max(infeasible, excess), l, tau);
   if (infeasible > tau)
     out.fault(
@@ -133,7 +143,7 @@ void check_contact(const CheckInput& in, CheckOutput& out) {
   if (truth.verdict != referee::Verdict::overlap) out.frame_matters();
   // Bodies farther apart than τ have no contact to measure: the verdict is a ghost.
   if (truth.verdict == referee::Verdict::undecided ||
-      truth.gap.lo > in.tau(in.truth.scale(stated.a, stated.b)))
+      truth.gap.lo > in.tau(in.truth.scale(stated.a, stated.b)) + in.offset())
     return;
   judge_normal_and_depth(in, out, stated, truth);
 }

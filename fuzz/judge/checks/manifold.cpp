@@ -139,10 +139,11 @@ void check_manifold(const CheckInput& in, CheckOutput& out) {
       return out.fault_always(Fault::point_off, 0, in.query, "a manifold point is not finite");
   const referee::PairTruth& truth = in.truth.pair(in.frame, a, b);
   const double l = in.truth.scale(a, b), tau = in.tau(l);
-  if (truth.verdict == referee::Verdict::undecided || truth.gap.lo > tau) return;
+  if (truth.verdict == referee::Verdict::undecided || truth.gap.lo > tau + in.offset()) return;
   // Bodies are inflated by the depth that the engine states: a point of a contact plane lies within that
-  // depth of both.
-  const double of_contact = positive_or_zero(in.answer.depth.value_or(0));
+  // depth of both. One between bodies that are apart, which a contact offset allows, is within their gap.
+  const double of_gap = in.offset() > 0 ? positive_or_zero(truth.gap.hi) : 0;
+  const double of_contact = std::max(of_gap, positive_or_zero(in.answer.depth.value_or(0)));
   double worst = 0;
   for (const ManifoldPoint& p : in.answer.manifold) {
     const double inflate = std::max(of_contact, positive_or_zero(p.depth));

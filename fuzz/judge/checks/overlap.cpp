@@ -28,8 +28,9 @@ void check_overlap(const CheckInput& in, CheckOutput& out) {
   }
   // The certified part of |g|.
   const double error = is ? certain_depth(in, a, b, truth) : std::max(0.0, truth.gap.lo);
-  out.error(error, l, tau);
-  if (error <= tau) return;
+  const double allowed = is ? tau : tau + in.offset();
+  out.error(error, l, allowed);
+  if (error <= allowed) return;
   out.fault(is ? Fault::missed : Fault::ghost, error, l, in.query,
             is ? fmt::format("says apart; the bodies overlap by at least {:.6g}", error)
                : fmt::format("says overlap; the bodies are at least {:.6g} apart", error),

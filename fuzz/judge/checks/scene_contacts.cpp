@@ -25,6 +25,7 @@ void check_stated(const CheckInput& in, CheckOutput& out, const SceneContact& c,
   const referee::PairTruth& truth = in.truth.pair(in.frame, a, b);
   const double l = in.truth.scale(a, b);
   out.note_claim(in, l);
+  const double most_gap = in.tau(a, b, l) + in.offset();
   if (truth.verdict == referee::Verdict::undecided) {
     out.undecided = true;
     out.frame_matters();
@@ -32,13 +33,13 @@ void check_stated(const CheckInput& in, CheckOutput& out, const SceneContact& c,
   }
   if (truth.verdict == referee::Verdict::disjoint) {
     const double gap = std::max(0.0, truth.gap.lo);
-    out.error(gap, l, in.tau(l));
+    out.error(gap, l, most_gap);
     out.frame_matters();
-    if (gap > in.tau(l))
+    if (gap > most_gap)
       out.fault(Fault::ghost, gap, l, {in.query.question, a, b},
                 fmt::format("contact between {} and {}, which are {:.6g} apart", a, b, gap),
                 truth.verdict_certificate);
-    if (gap > in.tau(l)) return;
+    if (gap > most_gap) return;
   }
   judge_normal_and_depth(in, out, contact, truth);
 }
@@ -63,8 +64,9 @@ void check_scene_contacts(const CheckInput& in, CheckOutput& out) {
     if (stated.count(p.bodies)) continue;
     const auto [a, b] = p.bodies;
     const double l = in.truth.scale(a, b), depth = certain_depth(in, a, b, p.truth);
-    out.error(depth, l, in.tau(l));
-    if (depth > in.tau(l))
+    const double tau = in.tau(a, b, l);
+    out.error(depth, l, tau);
+    if (depth > tau)
       out.fault(Fault::missed, depth, l, {in.query.question, a, b},
                 fmt::format("no contact between {} and {}, which overlap by {:.6g}", a, b, depth),
                 p.truth.verdict_certificate);

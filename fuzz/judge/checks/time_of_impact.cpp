@@ -73,8 +73,10 @@ void check_time_of_impact(const CheckInput& in, CheckOutput& out) {
   const double early = gap.lo;
   // Overlap from the start is reported as t = 0, however deep it is.
   const double late = t == 0 ? 0 : late_by(in, out, t, -gap.hi, tau);
-  out.error(std::max(early, late), l, tau);
-  if (early > tau) {
+  const double most_early = tau + sweep_skin(in.card);
+  out.error(early, l, most_early);
+  out.error(late, l, tau);
+  if (early > most_early) {
     const bool none = in.truth.motion(in.frame, a, b).verdict == Verdict::none;
     out.fault(none ? Fault::ghost : Fault::early, early, l, in.query,
               fmt::format("says impact at t = {:.9g}, where the gap is {:.6g}{}", t, early,

@@ -109,8 +109,11 @@ std::vector<Derived> derive_push(const RelationInput& in) {
     d.rounding += pose_rounding(d.c.scene);
     // The Minkowski difference contains a ball of radius d* about the origin and lies behind the plane w(n):
     // a point at p along n is outside it by at most p - d* <= 2τ and inside by at most w(n) - p <= τ.
-    const double tau = tau_of(in.card, o, scale_of_pair(in.c.scene, pair->first, pair->second));
-    d.expected = {{static_cast<int>(i), {-tau, 2 * tau}}};
+    // A biased choice of n lets p exceed d* by that share of it more.
+    const auto [a, b] = *pair;
+    const double tau = tau_of(in.card, o, in.c.scene, a, b, scale_of_pair(in.c.scene, a, b));
+    const double bias = depth_bias(in.card, kind_of(in.c.scene.shape_of(a)), kind_of(in.c.scene.shape_of(b)));
+    d.expected = {{static_cast<int>(i), {-tau, 2 * tau + bias * std::max(0.0, *o.depth)}}};
     r.push_back(std::move(d));
   }
   return r;

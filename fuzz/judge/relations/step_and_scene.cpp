@@ -39,11 +39,11 @@ Derived snapshot(const RelationInput& in, const Query& q, double t) {
 
 // What a right answer to a cast implies about the gap at time t. No impact: no depth above τ at any time. A
 // hit at t0: no depth above τ before t0; at t0 neither gap nor depth beyond τ, but any depth if the overlap
-// is there from the start.
-GapInterval claimed_at(const Observation& o, double t, double tau) {
+// is there from the start. A sweep skin lets it stop that much earlier.
+GapInterval claimed_at(const Observation& o, double t, double tau, double skin) {
   if (!o.toi || t < *o.toi) return {-tau, infinity};
   if (t > *o.toi) return {};
-  return {t == 0 ? -infinity : -tau, tau};
+  return {t == 0 ? -infinity : -tau, tau + skin};
 }
 
 const std::vector<double>& probe_times() {
@@ -62,11 +62,11 @@ std::vector<Derived> derive_step(const RelationInput& in) {
     const Observation& o = in.base.answers[i];
     if (q.question != Question::time_of_impact || o.outcome != Outcome::answered) continue;
     if (o.toi && !(*o.toi >= 0 && *o.toi <= 1)) continue;
-    const double tau = tau_of(in.card, o, scale_of_pair(in.c.scene, q.a, q.b));
+    const double tau = tau_of(in.card, o, in.c.scene, q.a, q.b, scale_of_pair(in.c.scene, q.a, q.b));
     std::vector<double> times = probe_times();
     if (o.toi) times.push_back(*o.toi);
     for (const double t : times) {
-      const GapInterval claim = claimed_at(o, t, tau);
+      const GapInterval claim = claimed_at(o, t, tau, sweep_skin(in.card));
       if (claim.says_nothing()) continue;
       r.push_back(snapshot(in, q, t));
       r.back().expected = {{static_cast<int>(i), claim}};
@@ -149,7 +149,7 @@ bool boxes_overlap(const RelationInput& in, const Observation& o, const Truth::S
   const double l = std::max(scale_of_pair(in.c.scene, p.first, p.second),
                             std::max(at.pose[static_cast<std::size_t>(p.first)]->translation.stableNorm(),
                                      at.pose[static_cast<std::size_t>(p.second)]->translation.stableNorm()));
-  const double tau = tau_of(in.card, o, l);
+  const double tau = tau_of(in.card, o, in.c.scene, p.first, p.second, l);
   return ((x->hi.cwiseMin(y->hi) - x->lo.cwiseMax(y->lo)).array() > tau).all();
 }
 
@@ -197,7 +197,7 @@ Depths deepest(const Observation& o, const std::vector<int>& body_of) {
   return r;
 }
 
-// A right contact of depth p has p <= d* + 2τ; an omitted pair has d* <= τ.
+// A right contact of depth p has p <= (1 + bias) d* + 2τ; an omitted pair has d* <= τ.
 std::optional<RelationBreak> find_other_contacts(const Relation& r, const RelationInput& in, const Derived& d,
                                                  std::size_t query, const Observation& after) {
   const Observation& before = in.base.answers[query];
@@ -213,8 +213,9 @@ std::optional<RelationBreak> find_other_contacts(const Relation& r, const Relati
           kind_of(s.shape_of(b)) == ShapeKind::mesh)
         continue;
       const double l = scale_of_pair(s, a, b);
-      const double tau = std::max(tau_of(in.card, before, l), tau_of(in.card, after, l));
-      if (p > 3 * tau)
+      const double tau = std::max(tau_of(in.card, before, s, a, b, l), tau_of(in.card, after, s, a, b, l));
+      const double bias = depth_bias(in.card, kind_of(s.shape_of(a)), kind_of(s.shape_of(b)));
+      if (p > (3 + bias) * tau)
         return RelationBreak{r.name,
                              static_cast<int>(query),
                              a,

@@ -84,7 +84,7 @@ const rotation_of = (scene, body, pose) =>
 // A value returned by a function is overwritten by its next call, so it has to be copied.
 function copy_of(m) {
   const out = keep(new Jolt.RMat44());
-  for (let k = 0; k < 3; ++k) out.SetColumn3(k, vec(list(m.GetColumn3(k))));
+  for (const axis of "XYZ") out[`SetAxis${axis}`](vec(list(m[`GetAxis${axis}`]())));
   out.SetTranslation(rvec(list(m.GetTranslation())));
   return out;
 }
@@ -130,7 +130,6 @@ class World {
     const s = this.scene.bodies[body], at = keep(new Jolt.BodyCreationSettings(shapes[s.shape], rvec(pose.translation),
       rotation_of(this.scene, body, pose), s.static ? Jolt.EMotionType_Static : Jolt.EMotionType_Kinematic, 0));
     const made = bodies.CreateBody(at);
-    made.SetUserData(body);
     bodies.AddBody(made.GetID(), Jolt.EActivation_DontActivate);
     this.ids.set(body, made);
   }
@@ -165,7 +164,7 @@ const engine = {
     settings: tuned ? "CollideShape and CastShape, convex radius 0, tolerances 1e-7, back faces hit; CollideAABox"
       : "CollideShape and CastShape as shipped: convex radius 0.05 or the smallest half extent; CollideAABox",
     source: "PhysicsSettings.h: cDefaultCollisionTolerance, cDefaultPenetrationTolerance, cDefaultConvexRadius; "
-      + "ConvexHullShape.h: mMaxErrorConvexRadius, mHullTolerance. Times include the pipe",
+      + "ConvexHullShape.h: mMaxErrorConvexRadius, mHullTolerance",
   },
   load(scene) {
     shapes.forEach((s) => s.Release());

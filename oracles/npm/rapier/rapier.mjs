@@ -43,6 +43,17 @@ function contact_of(scene, a, b, reach) {
   return p.shape.contactShape(p.t, p.q, q.shape, q.t, q.q, reach);
 }
 
+// What castShape takes after the two shapes, by the number of its arguments, which differs between releases: the
+// latest time; whether a shape that starts in contact is reported, as it is without this argument; before both, the
+// distance to stop at; after them, an object to write to, which may be left out.
+const last_arguments = { 8: [1], 9: [1, true], 10: [0, 1, true], 11: [0, 1, true] };
+function cast(p, velocity, q) {
+  const last = last_arguments[p.shape.castShape.length];
+  if (!last) throw new kit.Unsupported(`Rapier's castShape takes ${p.shape.castShape.length} arguments`);
+  const hit = p.shape.castShape(p.t, p.q, xyz(velocity), q.shape, q.t, q.q, xyz([0, 0, 0]), ...last);
+  return hit ? { toi: hit.time_of_impact ?? hit.toi } : { toi: null };
+}
+
 // Bodies are kinematic, because Rapier reports no pairs of fixed colliders or colliders without a body.
 class World {
   constructor(scene) {
@@ -73,7 +84,8 @@ class World {
   pairs(report) {
     this.world.step();
     const numbers = new Map([...this.colliders].map(([body, c]) => [c.handle, body]));
-    for (const [body, c] of this.colliders) this.world.contactPairsWith(c, (d) => report(body, numbers.get(d.handle)));
+    const visit = this.world.contactPairsWith ? "contactPairsWith" : "contactsWith"; // its earlier name
+    for (const [body, c] of this.colliders) this.world[visit](c, (d) => report(body, numbers.get(d.handle)));
   }
 }
 
@@ -81,7 +93,7 @@ const engine = {
   card: {
     name: "rapier", library: "Rapier, WASM", version: kit.version(modules, "@dimforge/rapier3d-compat"),
     settings: "contactShape, intersectsShape and castShape; World.step and contactPairsWith",
-    source: "no tolerance is documented for queries. Times include the pipe",
+    source: "no tolerance is documented for queries",
   },
   load(scene) {
     shapes = scene.shapes.map(make_shape);
@@ -109,8 +121,7 @@ const engine = {
   },
   time_of_impact({ a, b }, scene) {
     const translation = kit.relative_translation(scene.bodies[a], scene.bodies[b]), [p, q] = pair(scene, a, b);
-    const hit = p.shape.castShape(p.t, p.q, xyz(translation), q.shape, q.t, q.q, xyz([0, 0, 0]), 0, 1, true);
-    return { toi: hit ? hit.time_of_impact : null };
+    return cast(p, translation, q);
   },
   candidates(_, scene) {
     const world = new World(scene);

@@ -241,6 +241,7 @@ void ask(ts_engine* e, int32_t, int32_t a, int32_t b, ts_answer* out, const ts_s
 }  // namespace
 
 extern "C" const ts_plugin* touchstone_plugin_v1(void) {
-  static const ts_plugin plugin{TS_ABI_VERSION, behaviours.size(), card, create, destroy, load, unload, ask};
+  static const ts_plugin plugin{
+      TS_ABI_VERSION, behaviours.size(), card, create, destroy, load, unload, ask, nullptr, {}};
   return &plugin;
 }

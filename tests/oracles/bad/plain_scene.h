@@ -30,6 +30,6 @@ static int32_t load(ts_engine* e, const ts_scene* scene, const ts_received* rece
 static void unload(ts_engine* e) { e->scene = NULL; }
 
 const ts_plugin* touchstone_plugin_v1(void) {
-  static const ts_plugin plugin = {TS_ABI_VERSION, 1, card, create, destroy, load, unload, ask};
+  static const ts_plugin plugin = {TS_ABI_VERSION, 1, card, create, destroy, load, unload, ask, NULL, {NULL}};
   return &plugin;
 }

@@ -61,11 +61,12 @@ export function standAlone(data: CasePage, engine: string, question: string, ask
   const e = data.engines[engine];
   if (!e?.has_reproducer) return [];
   const p = e.programs?.find((x) => x.question === question);
-  const command = commandLine(`./touchstone reproduce ${asked} --engine ${engine}${p ? ` --key ${p.key}` : ""} -o reproduce.cpp`);
+  const is_module = p?.program.includes("node reproduce.mjs") ?? false, file = is_module ? "reproduce.mjs" : "reproduce.cpp";
+  const command = commandLine(`./touchstone reproduce ${asked} --engine ${engine}${p ? ` --key ${p.key}` : ""} -o ${file}`);
   if (!p) return [el("p", { class: "soft" }, `The stand-alone test against ${e.library}'s own API, if it supports the question:`), command];
   const copy = el("button", { type: "button" }, "copy");
   copy.addEventListener("click", () => void navigator.clipboard?.writeText(p.program).then(() => (copy.textContent = "copied")));
-  const save = el("a", { download: "reproduce.cpp", href: `data:text/x-c++src,${encodeURIComponent(p.program)}` }, "save");
-  return [el("p", { class: "soft" }, `The stand-alone test: one C++ file against ${e.library}'s own API, which exits with 1 while the answer is wrong.`), command,
+  const save = el("a", { download: file, href: `data:text/plain,${encodeURIComponent(p.program)}` }, "save");
+  return [el("p", { class: "soft" }, `The stand-alone test: one ${is_module ? "JavaScript" : "C++"} file against ${e.library}'s own API, which exits with 1 while the answer is wrong.`), command,
     el("details", { id: "program" }, el("summary", {}, `show it (${p.program.split("\n").length} lines)`), el("div", { class: "controls screen-only" }, copy, save), el("pre", {}, p.program))];
 }

@@ -73,8 +73,12 @@ const words = (r: Row): string =>
   (r.question === "candidates" ? `precision ${(100 * precision(r)).toFixed(1)} %<br>` : `error/L ${numberOf(r.error_p50).toExponential(1)}, 99 % ${numberOf(r.error_p99).toExponential(1)}, most ${numberOf(r.error_max).toExponential(1)}<br>`) +
   `${grouped(r.answers)} answers, ${r.wrong} wrong` + (r.unsound ? `<br>not on the front: ${r.unsound}` : r.front ? `<br>on the Pareto front${r.tie ? ", tied within noise" : ""}` : "");
 
+// False if the row's times would be those of a pipe.
+const isTimed = (r: Row): boolean => r.ns_median > 0;
+
 function draw(): void {
-  const list = shown();
+  const all = shown();
+  const list = all.filter(isTimed);
   const crowd = question.value === "candidates";
   for (const s of [regime, pair, scale]) s.disabled = crowd;
   const point = (r: Row): [number, number] => [Math.max(r[time.value as "ns_median"], 0.5), crowd ? inaccuracy(r) : Math.max(inaccuracy(r), floor)];
@@ -108,17 +112,17 @@ function draw(): void {
   }, { notMerge: true });
   note.textContent = (crowd ? `Crowds of ${grouped(shown()[0]?.bodies ?? 0)} bodies, inserted and queried once. ` : "") +
     "Diamonds and line: the Pareto front; small diamonds are tied with another engine within noise. Hollow: unsound or incomplete, so not on the front; the table gives the reason. Dashed: settings of one method.";
-  drawTable(list);
+  drawTable(all);
   drawGrowth();
 }
 
 function drawTable(list: Row[]): void {
   const head = ["engine", "", "answers", "median", "99 %", "± rounds", "error p50", "p99", "most", "missed", "ghost", "failed", "wrong", "reason it is not on the front"];
   const e = (x: unknown): string => (numberOf(x) === 0 ? "0" : numberOf(x).toExponential(1));
-  const body = el("tbody", {}, ...[...list].sort((a, b) => a.ns_median - b.ns_median).map((r) => {
+  const body = el("tbody", {}, ...[...list].sort((a, b) => Number(!isTimed(a)) - Number(!isTimed(b)) || a.ns_median - b.ns_median).map((r) => {
     const n = (text: string, bad = false): HTMLElement => el("td", { class: bad ? "n bad" : "n" }, text);
     return el("tr", { "data-engine": r.engine }, el("td", { style: "white-space:nowrap" }, el("span", { class: "swatch", style: `background:${colour(r.engine)}` }), r.engine), el("td", { class: "good" }, r.tie ? "front, tie" : r.front ? "front" : ""),
-      n(grouped(r.answers)), n(nanoseconds(r.ns_median)), n(nanoseconds(r.ns_p99)), n(`${Math.round(100 * r.ns_spread)} %`),
+      n(grouped(r.answers)), ...(isTimed(r) ? [n(nanoseconds(r.ns_median)), n(nanoseconds(r.ns_p99)), n(`${Math.round(100 * r.ns_spread)} %`)] : [n("pipe"), n("pipe"), n("")]),
       ...(r.question === "candidates" ? [n(""), n(`${(100 * precision(r)).toFixed(1)} %`), n("")] : [n(e(r.error_p50)), n(e(r.error_p99)), n(e(r.error_max))]),
       n(grouped(r.missed), r.missed > 0), n(grouped(r.ghost), r.ghost > 0), n(grouped(r.failed), r.failed > 0), n(grouped(r.wrong), r.wrong > 0), el("td", { class: "soft", style: "min-width:10rem" }, r.unsound));
   }));
@@ -140,7 +144,7 @@ function drawGrowth(): void {
     xAxis: axis("bodies", true), yAxis: axis("time to insert all and query, ns", true, { nameGap: 58, axisLabel: { color: css("--ink"), formatter: (x: number) => x.toExponential(0) } }),
     series: names.map((n) => {
       const c = colour(n);
-      return { name: n, type: "line", lineStyle: { color: c }, itemStyle: { color: c }, data: crowds.filter((r) => r.engine === n).sort((a, b) => a.bodies - b.bodies).map((r) => ({ value: [r.bodies, r.ns_median], row: r })) };
+      return { name: n, type: "line", lineStyle: { color: c }, itemStyle: { color: c }, data: crowds.filter((r) => r.engine === n && isTimed(r)).sort((a, b) => a.bodies - b.bodies).map((r) => ({ value: [r.bodies, r.ns_median], row: r })) };
     }),
   }, { notMerge: true });
 }

@@ -219,6 +219,6 @@ export class FindingsBrowser {
       el("p", {}, f.words(i)), el("p", { class: "soft" }, `${grouped(f.answers[i]!)} ${f.answers[i] === 1 ? "answer" : "answers"} like this${f.worst[i]! > 0 ? `; the worst is off by ${f.worst[i]!.toExponential(1)} of the scene's scale L` : ""}. ${blameWords[f.value(i, "blame")] ?? ""}`),
       ...say("Every engine's answer beside the referee's:", `./touchstone replay ${path}`), ...say("The case as a picture:", `./touchstone view ${path} -o page.html`),
       ...say("The smallest case that shows it:", `./touchstone shrink ${path} --engine ${engine}`),
-      ...say("As one C++ file against the engine alone:", `./touchstone reproduce ${path} --engine ${engine} -o reproduce.cpp`));
+      ...say("As one file against the engine alone:", `./touchstone reproduce ${path} --engine ${engine} -o reproduce.cpp`));
   }
 }

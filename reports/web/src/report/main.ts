@@ -13,7 +13,7 @@ use([BarChart, GridComponent, LegendComponent, TooltipComponent, SVGRenderer]);
 interface Tally {
   outcomes: Record<string, number>;
   right: number; wrong: number; missed: number; ghost: number; undecided: number; not_judged?: number; representation: number;
-  worst_in_l: unknown; ns_median?: number; ns_p99?: number;
+  worst_in_l: unknown; ns_median?: number; ns_p99?: number; times_include_pipe?: boolean;
 }
 interface ReportPage {
   page: "report"; version: number; title: string; directory: string;
@@ -81,10 +81,11 @@ function drawEngines(): void {
       const answered = t.outcomes["answered"] ?? 0;
       if (answered + failed(t) === 0) continue;
       const n = (x: number, bad = false): HTMLElement => el("td", { class: bad && x > 0 ? "n bad" : "n" }, grouped(x));
+      const time = (t: Tally, ns?: number): string => (ns ? nanoseconds(ns) + (t.times_include_pipe ? " (with pipe)" : "") : "–");
       const same = body.lastElementChild?.getAttribute("data-engine") === engine;
       body.append(el("tr", { "data-engine": engine, class: same ? "same" : "" }, el("td", {}, engine), el("td", {}, question.replaceAll("_", " ")), n(answered), n(t.right), n(t.wrong, true), n(t.missed, true), n(t.ghost, true), n(failed(t), true),
         n(t.undecided), n(t.not_judged ?? 0), el("td", { class: "n" }, numberOf(t.worst_in_l) > 0 ? numberOf(t.worst_in_l).toExponential(1) : "0"),
-        el("td", { class: "n" }, t.ns_median ? nanoseconds(t.ns_median) : "–"), el("td", { class: "n" }, t.ns_p99 ? nanoseconds(t.ns_p99) : "–")));
+        el("td", { class: "n" }, time(t, t.ns_median)), el("td", { class: "n" }, time(t, t.ns_p99))));
     }
   engineTable.replaceChildren(el("table", {}, el("thead", {}, el("tr", {}, ...head.map((h, i) => el("th", i > 1 ? { class: "n" } : {}, h)))), body));
 }

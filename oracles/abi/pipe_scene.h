@@ -5,7 +5,7 @@
 
 #include "oracles/abi/touchstone_engine.h"
 
-namespace touchstone::host {
+namespace touchstone::pipe {
 
 using Json = nlohmann::ordered_json;
 
@@ -19,4 +19,4 @@ Json scene_of(const ts_scene& s);
 /// something that does not exist.
 void read_receipt(const Json& j, const ts_scene& scene, const ts_received& received);
 
-}  // namespace touchstone::host
+}  // namespace touchstone::pipe

@@ -1,4 +1,4 @@
-#include "oracles/host/pipe_scene.h"
+#include "oracles/abi/pipe_scene.h"
 
 #include <cmath>
 #include <stdexcept>
@@ -8,7 +8,7 @@
 #include "oracles/abi/plugin_scene.h"
 #include "scenarios/codec/scene_fields.h"
 
-namespace touchstone::host {
+namespace touchstone::pipe {
 namespace {
 
 double finite(double x) { return std::isfinite(x) ? x : throw NotFinite{}; }
@@ -155,4 +155,4 @@ void read_receipt(const Json& j, const ts_scene& scene, const ts_received& recei
   }
 }
 
-}  // namespace touchstone::host
+}  // namespace touchstone::pipe

@@ -1,0 +1,10 @@
+# The sources whose types and messages pass between harness, worker and engines, relative to the root and sorted.
+function(ts_shared_sources root files)
+  set(all)
+  foreach(room core/base core/math core/shape core/scene scenarios/value scenarios/codec oracles/abi oracles/client oracles/host)
+    file(GLOB found RELATIVE ${root} ${root}/${room}/*.h ${root}/${room}/*.cpp)
+    list(APPEND all ${found})
+  endforeach()
+  list(SORT all)
+  set(${files} ${all} PARENT_SCOPE)
+endfunction()

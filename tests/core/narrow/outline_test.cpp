@@ -1,0 +1,117 @@
+// Outlines of supporting faces, in doubles and in extended precision: order, clipping, common parts of edges.
+#include "core/narrow/outline.h"
+
+#include "tests/support/catch.h"
+
+using namespace touchstone;
+using namespace touchstone::narrow::outline;
+
+namespace {
+
+using Point = std::array<double, 2>;
+
+template <class R>
+Corners<R> outline_of(const std::vector<Point>& points) {
+  Corners<R> c;
+  for (const auto& [x, y] : points) c.add({R(x), R(y), R(0), static_cast<std::uint32_t>(c.size + 1), 0});
+  return c;
+}
+
+template <class R>
+std::vector<Point> points_of(const Corners<R>& c) {
+  std::vector<Point> r;
+  for (const Corner<R>& k : c) r.push_back({static_cast<double>(k.x), static_cast<double>(k.y)});
+  return r;
+}
+
+// Twice the area; positive: counter-clockwise.
+template <class R>
+double area_of(const Corners<R>& c) {
+  R sum = 0;
+  for (int i = 0; i < c.size; ++i) {
+    const Corner<R>&a = c[i], &b = c[(i + 1) % c.size];
+    sum += a.x * b.y - a.y * b.x;
+  }
+  return static_cast<double>(sum);
+}
+
+constexpr double tolerance = 1e-12;
+
+template <class R>
+Corners<R> ordered(const std::vector<Point>& points) {
+  Corners<R> c = outline_of<R>(points);
+  convex_order(c, R(tolerance));
+  return c;
+}
+
+template <class R>
+Corners<R> clipped(const std::vector<Point>& subject, const std::vector<Point>& window) {
+  Corners<R> c = outline_of<R>(subject);
+  clip(c, outline_of<R>(window), R(tolerance), true);
+  return c;
+}
+
+const std::vector<Point> square{{0, 0}, {2, 0}, {2, 2}, {0, 2}};
+
+}  // namespace
+
+TEMPLATE_TEST_CASE("outline: convex order is counter-clockwise, without points on edges or inside",
+                   "[narrow][outline]", float, double, Wide) {
+  const std::vector<Point> mixed{{1, 1}, {2, 2}, {0, 0}, {1, 0}, {0, 2}, {2, 0}, {0.5, 1.5}};
+  CHECK(points_of(ordered<TestType>(mixed)) == square);
+  CHECK(area_of(ordered<TestType>(mixed)) == 8);
+  const std::vector<Point> line{{1, 1}, {0, 0}, {2, 2}};
+  CHECK(points_of(ordered<TestType>(line)) == std::vector<Point>{{0, 0}, {2, 2}});
+  CHECK(ordered<TestType>({{1, 1}, {1, 1 + tolerance / 4}}).size == 1);
+  CHECK(ordered<TestType>({{1, 1}}).size == 1);
+}
+
+TEMPLATE_TEST_CASE("outline: clipping keeps what is inside the window", "[narrow][outline]", float, double,
+                   Wide) {
+  using Points = std::vector<Point>;
+  // A square turned by 45°, on whose edges the window's corners lie.
+  CHECK(points_of(clipped<TestType>({{1, -1}, {3, 1}, {1, 3}, {-1, 1}}, square)) ==
+        Points{{2, 0}, {2, 2}, {0, 2}, {0, 0}});
+  CHECK(points_of(clipped<TestType>({{1, 1}, {3, 1}, {3, 3}, {1, 3}}, square)) ==
+        Points{{1, 1}, {2, 1}, {2, 2}, {1, 2}});
+  CHECK(points_of(clipped<TestType>({{-1, 1}, {3, 1}}, square)) == Points{{0, 1}, {2, 1}});
+  CHECK(clipped<TestType>({{3, 0}, {4, 0}, {4, 1}}, square).size == 0);
+  // A common edge stays, up to the tolerance.
+  CHECK(clipped<TestType>({{0, -1}, {2, -1}, {2, tolerance / -4}, {0, 0}}, square).size == 2);
+}
+
+TEMPLATE_TEST_CASE("outline: two edges have an interval in common, or none", "[narrow][outline]", float,
+                   double, Wide) {
+  using Points = std::vector<Point>;
+  const auto common = [](const Points& a, const Points& b) {
+    const Corners<TestType> x = outline_of<TestType>(a), y = outline_of<TestType>(b);
+    const EdgePair<TestType> e(x, y);
+    REQUIRE(e.is_collinear(TestType(tolerance)));
+    return points_of(e.common(7));
+  };
+  CHECK(common({{0, 1}, {4, 1}}, {{5, 1}, {3, 1}}) == Points{{3, 1}, {4, 1}});
+  CHECK(common({{0, 1}, {4, 1}}, {{1, 1}, {2, 1}}) == Points{{1, 1}, {2, 1}});
+  CHECK(common({{0, 1}, {4, 1}}, {{5, 1}, {6, 1}}).empty());
+  const auto a = outline_of<TestType>({{0, 0}, {4, 0}}), b = outline_of<TestType>({{1, -1}, {1, 3}});
+  const EdgePair<TestType> crossing(a, b);
+  CHECK_FALSE(crossing.is_collinear(TestType(tolerance)));
+  CHECK(static_cast<double>(crossing.s0) == -1);
+  CHECK(static_cast<double>(crossing.s1) == 3);
+}
+
+TEST_CASE("outline: storage is bounded in double, and not in extended precision", "[narrow][outline]") {
+  Corners<double> narrow;
+  Corners<Wide> wide;
+  for (int i = 0; i <= Corners<double>::capacity; ++i) {
+    CHECK_FALSE(narrow.overflow);
+    narrow.add({static_cast<double>(i), 0, 0, 0, 0});
+    wide.add({Wide(i), 0, 0, 0, 0});
+  }
+  CHECK(narrow.overflow);
+  CHECK(narrow.size == Corners<double>::capacity);
+  CHECK_FALSE(wide.overflow);
+  CHECK(wide.size == Corners<double>::capacity + 1);
+  const Corners<Wide> copy = wide;
+  CHECK(copy.size == wide.size);
+  CHECK(copy[wide.size - 1].x == Wide(Corners<double>::capacity));
+}

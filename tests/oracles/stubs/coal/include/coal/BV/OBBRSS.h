@@ -1,0 +1,4 @@
+#pragma once
+namespace coal {
+struct OBBRSS {};
+}  // namespace coal

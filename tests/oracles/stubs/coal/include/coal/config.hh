@@ -1,0 +1,2 @@
+#pragma once
+#define COAL_VERSION "0.0.1"
