@@ -24,6 +24,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/math/aabb.h"
 #include "core/math/pose.h"
 #include "oracles/abi/touchstone_engine.h"
 
@@ -186,6 +187,13 @@ class PairFilter {
   const ts_scene* scene_ = nullptr;
   std::vector<std::pair<int, int>> ignored_;
 };
+
+/// The box that contains the body of a step, one of the scene's that inserts or moves it; not a box if the
+/// body's own numbers are none. The scene must be one that is asked for candidates (ts_scene::step_boxes).
+inline Aabb box_of(const ts_scene& scene, const ts_step& step) {
+  const ts_aabb& box = scene.step_boxes[&step - scene.steps];
+  return {vec3(box.lower), vec3(box.upper)};
+}
 
 /// Runs the scene's script: apply(step) for every change, query(k) for the k-th query.
 template <class Apply, class Query>

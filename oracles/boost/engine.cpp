@@ -9,7 +9,7 @@
 #include <memory>
 
 #include "core/math/roundoff.h"
-#include "oracles/abi/outer_bounds.h"
+#include "oracles/abi/plugin_kit.h"
 
 namespace touchstone::boost_adapter {
 namespace {
@@ -26,8 +26,7 @@ Point point(const Vec3& p) {
   const double most = std::numeric_limits<double>::max();
   return {std::clamp(p.x(), -most, most), std::clamp(p.y(), -most, most), std::clamp(p.z(), -most, most)};
 }
-Box box_of(const ts_shape& shape, const ts_pose& pose) {
-  const Aabb b = kit::outer_bounds(shape, pose);
+Box tree_box(const Aabb& b) {
   if (!(b.lo.array() <= b.hi.array()).all())
     throw kit::Unsupported("Boost.Geometry refuses boxes that are not valid");
   return {point(b.lo), point(b.hi)};
@@ -107,7 +106,7 @@ class Engine {
     const auto phase = row_.make();
     const auto apply = [&](const ts_step& step) {
       if (step.op == TS_REMOVE) return phase->remove(step.body);
-      phase->put(step.body, box_of(scene_->shapes[scene_->bodies[step.body].shape], step.pose));
+      phase->put(step.body, tree_box(kit::box_of(*scene_, step)));
     };
     kit::run_script(*scene_, apply, [&](int k) {
       for (const auto& [a, b] : phase->pairs())

@@ -1,6 +1,6 @@
 // Embree's collision detection as a broad phase: rtcCollide of a scene of boxes with itself.
 #include "core/math/roundoff.h"
-#include "oracles/abi/outer_bounds.h"
+#include "oracles/abi/plugin_kit.h"
 #include "oracles/embree/scene.h"
 
 namespace touchstone::embree {
@@ -44,8 +44,7 @@ class Engine {
     const auto held = row_.make(device_.get());
     const auto apply = [&](const ts_step& step) {
       if (step.op == TS_REMOVE) return held->remove(step.body);
-      const ts_shape& shape = scene_->shapes[scene_->bodies[step.body].shape];
-      held->put(step.body, outer_floats(kit::outer_bounds(shape, step.pose)));
+      held->put(step.body, outer_floats(kit::box_of(*scene_, step)));
     };
     kit::run_script(*scene_, apply, [&](int k) {
       for (const auto& [a, b] : held->pairs())
