@@ -1,12 +1,13 @@
 #include "cli/adapter_build.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <fstream>
 #include <iterator>
-#include <thread>
 
+#include "cli/command.h"
 #include "cli/engine_catalog.h"
 #include "cli/logged_command.h"
 #include "core/base/input_error.h"
@@ -26,8 +27,6 @@ bool is_adapter(const fs::path& folder) {
   const std::string text{std::istreambuf_iterator<char>(in), {}};
   return text.find("ts_add_plugin(") != std::string::npos;
 }
-
-std::string processors() { return std::to_string(std::max(1U, std::thread::hardware_concurrency())); }
 
 std::vector<fs::path> plugins_in(const fs::path& folder) {
   std::vector<fs::path> files;
@@ -58,10 +57,9 @@ std::vector<std::string> adapters() {
 void require_adapter(const std::string& name) {
   const auto all = adapters();
   if (std::find(all.begin(), all.end(), name) != all.end()) return;
-  std::string list;
-  for (const std::string& each : all) list += (list.empty() ? "" : ", ") + each;
-  throw InputError("adapter " + name, fmt::format("unknown{}; there are {}", did_you_mean(name, all),
-                                                  list.empty() ? "none" : list));
+  throw InputError("adapter " + name,
+                   fmt::format("unknown{}; there are {}", did_you_mean(name, all),
+                               all.empty() ? "none" : fmt::format("{}", fmt::join(all, ", "))));
 }
 
 std::string adapter_of(const std::string& engine) {
@@ -89,7 +87,9 @@ std::vector<fs::path> build_adapter(const AdapterBuild& build) {
   if (!run_logged(configure, build.log))
     throw InputError("adapter " + build.adapter,
                      fmt::format("{}full log: {}", reasons_in(build.log, user_mark), build.log.string()));
-  if (!run_logged({"cmake", "--build", build.folder.string(), "--parallel", processors()}, build.log))
+  if (!run_logged(
+          {"cmake", "--build", build.folder.string(), "--parallel", std::to_string(processor_count())},
+          build.log))
     throw CommandFailed(fmt::format("the adapter {} does not compile against this library:\n{}full log: {}",
                                     build.adapter, reasons_in(build.log, user_mark), build.log.string()));
   return plugins_in(build.folder / "lib");

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
-#include <thread>
 
 #include "cli/causes_of_campaign.h"
 #include "cli/chosen_engines.h"
@@ -137,7 +136,7 @@ int run(CausesOptions& o) {
 
 Run declare_causes(CLI::App& app) {
   auto o = std::make_shared<CausesOptions>();
-  o->search.jobs = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+  o->search.jobs = processor_count();
   app.add_option("directory", o->search.directory, "directory of a campaign (`fuzz --out`)")->required();
   app.add_option("--engine", o->engine,
                  "only causes of this engine, or of this path (fcl-libccd, bullet-query)");

@@ -9,7 +9,6 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 #include <stdexcept>
-#include <thread>
 
 #include "cli/chosen_engines.h"
 #include "cli/command.h"
@@ -281,7 +280,7 @@ int check(const CertifyOptions& o) {
 
 Run declare_certify(CLI::App& app) {
   auto o = std::make_shared<CertifyOptions>();
-  o->jobs = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+  o->jobs = processor_count();
   app.add_option("--subject", o->subject,
                  "a core broad phase, an engine (`touchstone engines`), ./libmine.so, or pipe:COMMAND");
   app.add_option("--scope", o->scope, "quick (a minute) or full (half an hour)")

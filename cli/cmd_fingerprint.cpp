@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <optional>
-#include <thread>
 
 #include "cli/command.h"
 #include "cli/engine_catalog.h"
@@ -143,7 +142,7 @@ int run(FingerprintOptions& o) {
 
 Run declare_fingerprint(CLI::App& app) {
   auto o = std::make_shared<FingerprintOptions>();
-  o->jobs = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+  o->jobs = processor_count();
   app.add_option("engine", o->engine, "a name, ./libmine.so or pipe:COMMAND");
   app.add_option(
          "--compare", o->compared,

@@ -5,7 +5,6 @@
 #include <cstdlib>
 #include <ctime>
 #include <set>
-#include <thread>
 
 #include "cli/campaign_end.h"
 #include "cli/causes_of_campaign.h"
@@ -127,7 +126,7 @@ int run(FuzzOptions& o) {
 
 Run declare_fuzz(CLI::App& app) {
   auto o = std::make_shared<FuzzOptions>();
-  o->config.jobs = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+  o->config.jobs = processor_count();
   add_engine_choice(app, o->choice);
   app.add_option("--family", o->config.family,
                  "only these families of cases: a,b,… (see `touchstone families`)");

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <chrono>
 #include <filesystem>
-#include <thread>
 #include <vector>
 
 #include "cli/campaign_end.h"
@@ -102,7 +101,7 @@ int run(const JudgeOptions& o) {
 
 Run declare_judge(CLI::App& app) {
   auto o = std::make_shared<JudgeOptions>();
-  o->jobs = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+  o->jobs = processor_count();
   app.add_option("directory", o->directory, "directory of a campaign that was run with --keep-answers")
       ->required();
   app.add_option("--engine", o->engine, "judge this engine alone; it is then the subject");

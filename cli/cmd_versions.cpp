@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <optional>
-#include <thread>
 
 #include "cli/command.h"
 #include "cli/engine_catalog.h"
@@ -165,7 +164,7 @@ int run(VersionsOptions& o) {
 
 Run declare_versions(CLI::App& app) {
   auto o = std::make_shared<VersionsOptions>();
-  o->jobs = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+  o->jobs = processor_count();
   app.add_option("engines", o->engines, "engines from npm, separated by commas: jolt,rapier")->required();
   app.add_option("--releases", o->releases,
                  "how many, spread from the oldest to the newest: the newest patch of each minor release, or "

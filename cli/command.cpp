@@ -1,9 +1,11 @@
 #include "cli/command.h"
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <csignal>
 #include <cstdint>
+#include <thread>
 
 namespace touchstone::cli {
 namespace {
@@ -18,6 +20,8 @@ std::string& stored_program_name() {
 void set_program_name(std::string name) { stored_program_name() = shell_word(name); }
 
 const std::string& program_name() { return stored_program_name(); }
+
+int processor_count() { return static_cast<int>(std::max(1U, std::thread::hardware_concurrency())); }
 
 namespace {
 

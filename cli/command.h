@@ -25,6 +25,9 @@ struct Command {
 void set_program_name(std::string name);
 const std::string& program_name();
 
+/// How many jobs run side by side unless --jobs says otherwise; at least 1.
+int processor_count();
+
 /// Option validators with readable messages (CLI11's own print the largest double in full).
 CLI::Validator a_count();
 CLI::Validator a_positive_number();

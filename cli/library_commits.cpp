@@ -6,9 +6,9 @@
 #include <algorithm>
 #include <cstdlib>
 #include <sstream>
-#include <thread>
 
 #include "cli/adapter_build.h"
+#include "cli/command.h"
 #include "cli/logged_command.h"
 #include "core/base/hash.h"
 #include "core/base/input_error.h"
@@ -142,7 +142,7 @@ void LibraryCommits::build_library(const std::string& commit, const fs::path& fo
                   "-DCMAKE_INSTALL_PREFIX=" + (folder / "prefix").string()};
   configure.insert(configure.end(), source_.cmake_options.begin(), source_.cmake_options.end());
   run_or_fail(configure, log, "CMake does not configure the library");
-  const std::string jobs = std::to_string(std::max(1U, std::thread::hardware_concurrency()));
+  const std::string jobs = std::to_string(processor_count());
   run_or_fail({"cmake", "--build", build.string(), "--parallel", jobs}, log, "the library does not build");
   run_or_fail({"cmake", "--install", build.string()}, log, "the library does not install");
   fs::remove_all(source, none);

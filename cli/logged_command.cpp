@@ -8,6 +8,7 @@
 #include <fstream>
 #include <memory>
 
+#include "cli/program_on_path.h"
 #include "core/base/input_error.h"
 #include "scenarios/text/shell_word.h"
 
@@ -79,7 +80,7 @@ std::string reasons_in(const fs::path& log, const std::string& mark) {
 }
 
 void require_program(const std::string& name, const std::string& why) {
-  if (std::system(fmt::format("command -v {} >/dev/null 2>&1", shell_word(name)).c_str()) == 0) return;
+  if (!program_on_path(name).empty()) return;
   throw InputError(name, "is not installed; it is needed " + why);
 }
 

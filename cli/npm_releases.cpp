@@ -11,6 +11,7 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/engine_catalog.h"
+#include "cli/program_on_path.h"
 #include "core/base/input_error.h"
 #include "scenarios/codec/json_file.h"
 #include "scenarios/text/name_list.h"
@@ -115,7 +116,7 @@ void sort_releases(std::vector<std::string>& releases) {
 
 void require_npm(const std::string& what) {
   for (const char* name : {"node", "npm"})
-    if (std::system(fmt::format("command -v {} >/dev/null 2>&1", name).c_str()) != 0)
+    if (program_on_path(name).empty())
       throw InputError(what, fmt::format("{} is missing; it is in Debian's packages nodejs and npm, "
                                          "which ./touchstone engines --install installs",
                                          name));
