@@ -1,5 +1,5 @@
 // touchstone check CERT: does a stored certificate prove its claim about its scene? The scene is the
-// case.json beside it, unless --case names another.
+// case.json beside it, unless --case names another. A finding may have left its certificate to be made now.
 #include <fmt/format.h>
 
 #include <filesystem>
@@ -22,14 +22,24 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 struct CheckOptions {
-  std::string path, scene;
+  std::string path, scene, out;
   std::vector<int> pair;
 };
 
 // A finding stores its certificate in the field "certificate"; other files are certificates themselves.
-Json certificate_in(const std::string& path) {
-  const Json j = load_json(path);
-  return j.is_object() && j.contains("certificate") ? j.at("certificate") : j;
+Json certificate_in(const Json& file) {
+  return file.is_object() && file.contains("certificate") ? file.at("certificate") : file;
+}
+
+std::string scene_file(const CheckOptions& o) {
+  if (!o.scene.empty()) return o.scene;
+  return (std::filesystem::path(o.path).parent_path() / "case.json").string();
+}
+
+Json certificate_made_now(const CheckOptions& o, const Json& finding, const Json& deferred) {
+  const JsonReader j(finding, o.path);
+  if (!j.has("observation")) j.fail("has a deferred certificate, but no observation to make it from");
+  return fuzz::deferred_certificate(load_case(scene_file(o)), j["observation"].json(), deferred, o.path);
 }
 
 std::string claim(const Certificate& c) {
@@ -109,8 +119,7 @@ Claim claim_of(const Json& j) {
 }
 
 // The fault, if the file is a finding without a certificate: a crash is observed, not proved.
-std::string failure_in(const std::string& path) {
-  const Json j = load_json(path);
+std::string failure_in(const Json& j) {
   const bool is_finding = j.is_object() && j.contains("fault") && j.contains("certificate");
   return is_finding && j["fault"].is_string() ? j["fault"].get<std::string>() : "";
 }
@@ -134,20 +143,22 @@ Claim claim_in(const Json& j, const std::string& file) try {
 }
 
 int run(const CheckOptions& o) {
-  const Json j = certificate_in(o.path);
+  const Json file = load_json(o.path);
+  Json j = certificate_in(file);
+  const bool made_now = fuzz::is_deferred(j);
+  if (made_now) j = certificate_made_now(o, file, j);
+  if (!o.out.empty()) write_file(o.out, json_text(j, 1) + "\n");
   const Claim c = claim_in(j, o.path);
-  if (const std::string fault = c.words.empty() ? failure_in(o.path) : ""; !fault.empty()) {
+  if (const std::string fault = c.words.empty() ? failure_in(file) : ""; !fault.empty()) {
     fmt::print("nothing to check: {} has no certificate\n",
                fault == "crashed" ? "a crash" : "`" + fault + "`");
     return exit_failed;
   }
-  const std::string scene =
-      o.scene.empty() ? (std::filesystem::path(o.path).parent_path() / "case.json").string() : o.scene;
-  const Case stored = load_case(scene);
+  const Case stored = load_case(scene_file(o));
   const int step = step_of(j, o.path);
   for (const Bodies& p : pairs_of(o, j, stored.scene)) {
     if (!c.holds(stored.scene, p, step)) continue;
-    fmt::print("valid: bodies {} and {} {}\n", p.a, p.b, c.words);
+    fmt::print("valid: bodies {} and {} {}{}\n", p.a, p.b, c.words, made_now ? " (made now)" : "");
     return exit_clean;
   }
   fmt::print("not valid: {}\n", c.words.empty() ? "this kind of certificate proves nothing by itself"
@@ -161,6 +172,7 @@ Run declare_check(CLI::App& app) {
   auto o = std::make_shared<CheckOptions>();
   app.add_option("certificate", o->path, "a finding.json, or a certificate by itself")->required();
   app.add_option("--case", o->scene, "the case or scene (default: case.json beside the certificate)");
+  app.add_option("-o,--out", o->out, "also write the certificate by itself to this file");
   app.add_option("--pair", o->pair, "bodies A and B, when the scene has more than two")->expected(2);
   return [o] { return run(*o); };
 }

@@ -152,6 +152,10 @@ Run declare_fuzz(CLI::App& app) {
   app.add_flag("--keep-answers", o->config.keep_answers,
                "also keep every case and answer in OUT/answers.bin, for `touchstone judge`: 0.9 kB a "
                "case for the core alone, 3 kB with FCL, Bullet, ODE and libccd");
+  app.add_flag(
+      "--certificates", o->config.certificates,
+      "make the certificate of every finding at once (otherwise `touchstone check FINDING` makes it); "
+      "with all engines this doubles the time a case takes");
   add_error(app, o->config.error);
   add_case_seconds(app, o->limits);
   add_verbose(app, o->verbose);

@@ -2,6 +2,7 @@
 
 #include "fuzz/judge/truth.h"
 #include "oracles/referee/referee.h"
+#include "reports/record/stored.h"
 #include "scenarios/codec/case_codec.h"
 #include "scenarios/codec/scene_codec.h"
 #include "scenarios/codec/value_codec.h"
@@ -44,19 +45,37 @@ Json with_depth(Json certificate, const Evidence& e) {
   return certificate;
 }
 
-Json certificate_of(const Evidence& e, std::uint64_t index, CaseCertificates& found) {
+constexpr const char* deferred_kind = "deferred";
+
+// Depths and distances are certified by what the judge found already.
+bool needs_exact_arithmetic(const Evidence& e) {
   using Kind = Certificate::Kind;
   const Kind k = e.certificate.kind;
-  const bool verdict = k == Kind::separating_plane || k == Kind::common_point;
-  if (is_of_motion(e.question)) {
-    if (Json j = with_depth(exact_certificate_of(e, index, found), e); !j.is_null()) return j;
-  } else if (verdict) {
-    if (Json j = exact_certificate_of(e, index, found); !j.is_null()) return j;
-  }
+  return is_of_motion(e.question) || k == Kind::separating_plane || k == Kind::common_point;
+}
+
+Json deferred(const Evidence& e) {
+  return named({{"kind", deferred_kind},
+                {"question", std::string(to_string(e.question))},
+                {"found", touchstone::to_json(e.certificate)}},
+               e.a, e.b, e.step);
+}
+
+// In a form that the checker accepts; null when there is none.
+Json exact_form(const Evidence& e, std::uint64_t index, CaseCertificates& found) {
+  if (is_of_motion(e.question)) return with_depth(exact_certificate_of(e, index, found), e);
+  return needs_exact_arithmetic(e) ? exact_certificate_of(e, index, found) : Json();
+}
+
+Json with_names(const Json& certificate, const Evidence& e) {
   const int n = static_cast<int>(e.c.scene.bodies.size());
   const bool names = e.a >= 0 && e.b >= 0 && e.a < n && e.b < n;
-  return names ? named(touchstone::to_json(e.certificate), e.a, e.b, e.step)
-               : touchstone::to_json(e.certificate);
+  return names ? named(certificate, e.a, e.b, e.step) : certificate;
+}
+
+Json certificate_of(const Evidence& e, std::uint64_t index, CaseCertificates& found) {
+  if (Json exact = exact_form(e, index, found); !exact.is_null()) return exact;
+  return with_names(touchstone::to_json(e.certificate), e);
 }
 
 // Shapes that differ only by rounding are left out.
@@ -94,18 +113,45 @@ Json exact_certificate(const Scene& s, Question q, int a, int b, int step) {
   return c.kind == Certificate::Kind::none ? Json() : named(touchstone::to_json(c), a, b, step);
 }
 
-void write_evidence(Finding& f, CaseCertificates& found) {
+void write_evidence(Finding& f, CaseCertificates& found, ExactCertificates when) {
   if (!f.evidence || !f.evidence_json.is_null()) return;
   const Evidence& e = *f.evidence;
+  const bool later = when == ExactCertificates::later && needs_exact_arithmetic(e);
   f.evidence_json = {{"case", case_to_json(e.c)},
                      {"observation", to_json(e.observation)},
-                     {"certificate", certificate_of(e, f.first_index, found)},
+                     {"certificate", later ? deferred(e) : certificate_of(e, f.first_index, found)},
                      {"received", received_json(e)}};
 }
 
 void write_evidence(Finding& f) {
   CaseCertificates found;
   write_evidence(f, found);
+}
+
+bool is_deferred(const Json& certificate) {
+  return certificate.is_object() && certificate.contains("kind") && certificate["kind"] == deferred_kind;
+}
+
+Json deferred_certificate(const Case& c, const Json& observation, const Json& deferred,
+                          const std::string& file) {
+  const JsonReader j(deferred, file, "certificate"), seen(observation, file, "observation");
+  Evidence e{c, {}, {}, certificate_from_json(j["found"].json()), -1, -1, -1, Question::overlap};
+  const auto question = question_from_string(j["question"].string());
+  if (!question) j["question"].fail("is not a question");
+  e.question = *question;
+  if (j.has("bodies")) {
+    const auto bodies = j["bodies"].items(2);
+    e.a = bodies[0].integer();
+    e.b = bodies[1].integer();
+  }
+  if (j.has("step")) e.step = j["step"].integer();
+  const auto outcome = outcome_from_string(seen["outcome"].string());
+  if (!outcome) seen["outcome"].fail("is not an outcome");
+  e.observation.outcome = *outcome;
+  if (seen.has("toi")) e.observation.toi = number_from(seen["toi"]);
+  CaseCertificates found;
+  if (Json exact = exact_form(e, 0, found); !exact.is_null()) return exact;
+  return with_names(j["found"].json(), e);
 }
 
 void write_evidence(CampaignResult& r) {

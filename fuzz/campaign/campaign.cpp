@@ -215,10 +215,10 @@ class Runner {
     return chunk;
   }
 
-  // A certificate may take seconds of exact arithmetic. The job that found a new kind writes it here, outside
-  // the lock and within the time limit, while the others continue. Further findings of that kind need none,
-  // since only the first is kept. If another job adds the same kind meanwhile, it is written twice, with the
-  // same bytes.
+  // Evidence takes time, and a certificate may take seconds of exact arithmetic. The job that found a new
+  // kind writes it here, outside the lock and within the time limit, while the others continue. Further
+  // findings of that kind need none, since only the first is kept. If another job adds the same kind
+  // meanwhile, it is written twice, with the same bytes.
   void write_new_evidence(CampaignResult& found) {
     std::vector<Finding*> fresh;
     {
@@ -227,7 +227,8 @@ class Runner {
         if (!state_.result.findings.contains(key)) fresh.push_back(&f);
     }
     CaseCertificates certificates;
-    for (Finding* f : fresh) write_evidence(*f, certificates);
+    const auto when = config_.certificates ? ExactCertificates::now : ExactCertificates::later;
+    for (Finding* f : fresh) write_evidence(*f, certificates, when);
   }
 
   void merge(const Chunk& c) {

@@ -37,6 +37,9 @@ struct CampaignConfig {
   std::string error;  // the user's tolerance (--error); empty: the engines' own claims
   /// Keep every case and every answer in `out` (answers_file.h), so that they can be judged again.
   bool keep_answers = false;
+  /// Make the certificate of every finding, in exact arithmetic; otherwise those that take long are deferred
+  /// (fuzz/ask/evidence.h) until somebody checks them.
+  bool certificates = false;
 };
 
 /// Creates the engines of one job, in the order of CampaignConfig::engines.

@@ -73,14 +73,14 @@ void judge_block(const AnswersFile& file, const AnswersFile::Block& block,
 }
 
 // Findings of one case share certificates.
-void write_all_evidence(CampaignResult& r, int jobs, const std::atomic<bool>& stop) {
+void write_all_evidence(CampaignResult& r, ExactCertificates when, int jobs, const std::atomic<bool>& stop) {
   std::map<std::uint64_t, std::vector<Finding*>> by_case;
   for (auto& [key, f] : r.findings) by_case[f.first_index].push_back(&f);
   std::vector<std::vector<Finding*>> groups;
   for (auto& [index, findings] : by_case) groups.push_back(std::move(findings));
   in_parallel(groups.size(), jobs, stop, [&](std::size_t i) {
     CaseCertificates certificates;
-    for (Finding* f : groups[i]) write_evidence(*f, certificates);
+    for (Finding* f : groups[i]) write_evidence(*f, certificates, when);
   });
 }
 
@@ -180,7 +180,8 @@ JudgedAgain judge_again(const std::filesystem::path& directory, const std::strin
     keep_only(judged.before, engine);
     keep_only(judged.after, engine);
   }
-  write_all_evidence(judged.after, jobs, stop);
+  const auto when = state["settings"].has("certificates") ? ExactCertificates::now : ExactCertificates::later;
+  write_all_evidence(judged.after, when, jobs, stop);
   carry_over(judged.before, judged.after);
   return judged;
 }

@@ -22,6 +22,7 @@ Json settings(const CampaignConfig& c) {
   for (const ShapeKind k : c.kinds) j["kinds"].push_back(type_name(k));
   if (!c.error.empty()) j["error"] = c.error;
   if (c.keep_answers) j["keep_answers"] = true;
+  if (c.certificates) j["certificates"] = true;
   return j;
 }
 
