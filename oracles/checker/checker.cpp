@@ -79,8 +79,7 @@ bool holds_ball(const std::vector<V>& point, const std::vector<std::array<int, 3
     }
     const auto at = [&](std::size_t i) { return point[static_cast<std::size_t>(f[i])]; };
     const auto more = crossing(at(0), at(1), at(2), {1, Q(1009, 1013), Q(-499, 997)});
-    const V near = nearest_to_origin({at(0), at(1), at(2)});
-    if (!more || dot(near, near) == 0 || dot(near, near) < r * r) return false;
+    if (!more || !is_clear_of_ball({at(0), at(1), at(2)}, r)) return false;
     crossings += *more;
   }
   std::sort(forward.begin(), forward.end());

@@ -162,6 +162,52 @@ std::vector<Q> affine_weights(const std::vector<V>& p) {
   return w;
 }
 
+// Nearest point of a hull to the origin (Wolfe 1976), or an earlier one for which stop(v, far) holds: v is in
+// the hull, and `far` is the point of p with the least product with v.
+template <class Stop>
+V nearest_until(const std::vector<V>& p, Stop&& stop) {
+  std::vector<V> face{p.front()};
+  std::vector<Q> weight{1};
+  for (;;) {
+    V v{0, 0, 0};
+    for (std::size_t i = 0; i < face.size(); ++i) v = v + weight[i] * face[i];
+    const V* far = &p.front();
+    Q least = dot(v, *far);
+    for (const V& q : p)
+      if (Q product = dot(v, q); product < least) {
+        least = std::move(product);
+        far = &q;
+      }
+    if (const Q square = dot(v, v); least >= square || stop(square, least)) return v;
+    face.push_back(*far);
+    weight.emplace_back(0);
+    for (bool clear = false; !clear;) {
+      const std::vector<Q> goal = affine_weights(face);
+      Q step = 1;
+      for (std::size_t i = 0; i < face.size(); ++i)
+        if (goal[i] < 0) step = std::min(step, Q(weight[i] / (weight[i] - goal[i])));
+      for (std::size_t i = face.size(); i-- > 0;) {
+        weight[i] += step * (goal[i] - weight[i]);
+        if (weight[i] != 0) continue;
+        face.erase(face.begin() + static_cast<std::ptrdiff_t>(i));
+        weight.erase(weight.begin() + static_cast<std::ptrdiff_t>(i));
+      }
+      clear = step == 1;
+    }
+  }
+}
+
+// Multiplies the points by the least factor that makes them whole numbers, which are products and sums
+// without greatest common divisors. Returns the factor.
+Q make_whole(std::vector<V>& points) {
+  Z factor = 1;
+  for (const V& v : points)
+    for (const Q* x : {&v.x, &v.y, &v.z}) factor = lcm(factor, denominator(*x));
+  const Q by = factor;
+  for (V& v : points) v = by * v;
+  return by;
+}
+
 }  // namespace
 
 // Lowest terms are not required, but the denominator must have no sign and not be zero: GMP relies on both.
@@ -215,36 +261,21 @@ bool is_within(const Set& s, const V& x, const Q& r) {
   if (s.kind != Set::Kind::hull) return is_within_curved(s, x, r);
   std::vector<V> about;
   for (const Set::Round& piece : s.core) about.push_back(piece.centre - x);
-  const V v = nearest_to_origin(about);
-  return dot(v, v) <= r * r;
+  const Q reach = r * make_whole(about), limit = reach * reach;
+  // A point of the hull within reach, or a plane between the hull and all that is within reach, ends the
+  // search.
+  const V v = nearest_until(about, [&](const Q& square, const Q& least) {
+    return square <= limit || (least > 0 && least * least > limit * square);
+  });
+  return dot(v, v) <= limit;
 }
 
-V nearest_to_origin(const std::vector<V>& p) {
-  std::vector<V> face{p.front()};
-  std::vector<Q> weight{1};
-  for (;;) {
-    V v{0, 0, 0};
-    for (std::size_t i = 0; i < face.size(); ++i) v = v + weight[i] * face[i];
-    const V* far = &p.front();
-    for (const V& q : p)
-      if (dot(v, q) < dot(v, *far)) far = &q;
-    if (dot(v, *far) >= dot(v, v)) return v;
-    face.push_back(*far);
-    weight.emplace_back(0);
-    for (bool clear = false; !clear;) {
-      const std::vector<Q> goal = affine_weights(face);
-      Q step = 1;
-      for (std::size_t i = 0; i < face.size(); ++i)
-        if (goal[i] < 0) step = std::min(step, Q(weight[i] / (weight[i] - goal[i])));
-      for (std::size_t i = face.size(); i-- > 0;) {
-        weight[i] += step * (goal[i] - weight[i]);
-        if (weight[i] != 0) continue;
-        face.erase(face.begin() + static_cast<std::ptrdiff_t>(i));
-        weight.erase(weight.begin() + static_cast<std::ptrdiff_t>(i));
-      }
-      clear = step == 1;
-    }
-  }
+bool is_clear_of_ball(const std::array<V, 3>& t, const Q& r) {
+  const V n = cross(t[1] - t[0], t[2] - t[0]);
+  const Q along = dot(n, t[0]), nn = dot(n, n);
+  if (along != 0 && along * along >= r * r * nn) return true;
+  const V near = nearest_until({t[0], t[1], t[2]}, [](const Q&, const Q&) { return false; });
+  return dot(near, near) != 0 && dot(near, near) >= r * r;
 }
 
 }  // namespace touchstone::checker

@@ -7,6 +7,7 @@
 // ball·|n|.
 #pragma once
 
+#include <array>
 #include <boost/multiprecision/gmp.hpp>
 #include <optional>
 #include <vector>
@@ -68,7 +69,7 @@ bool is_finite(const Certificate& c);
 /// true sets may be turned slightly relative to a and b: a point at distance d from the body's origin is
 /// within loose·d of its position here.
 bool shows_depth(const Certificate& c, const Set& a, const Set& b, const Q& loose = 0);
-/// Nearest point of a hull to the origin (Wolfe 1976).
-V nearest_to_origin(const std::vector<V>& hull);
+/// Whether the triangle does not hold the origin and is nowhere within less than r of it.
+bool is_clear_of_ball(const std::array<V, 3>& triangle, const Q& r);
 
 }  // namespace touchstone::checker
