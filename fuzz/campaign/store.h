@@ -3,7 +3,8 @@
 //                                  examples; replaced atomically
 //   DIR/summary.json               the whole result, at the end
 //   DIR/findings/<key>/case.json   the first case of a finding, ready for `touchstone replay`
-//   DIR/findings/<key>/finding.json  message, answer, certificate, counts, examples without their cases
+//   DIR/findings/<key>/finding.json  message, answer, certificate (it may be deferred: fuzz/ask/evidence.h),
+//                                  counts, examples without their cases
 //   DIR/answers.bin                every case and answer (answers_file.h), if the campaign keeps them;
 //   appended
 //                                  to, and cut to the length in state.json when the campaign is resumed

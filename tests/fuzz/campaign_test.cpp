@@ -37,6 +37,15 @@ std::vector<EnginePtr> two_engines() {
   return e;
 }
 
+// Engines that lie about verdicts, whose certificates take exact arithmetic.
+std::vector<EnginePtr> verdict_liars() {
+  std::vector<EnginePtr> e;
+  for (const auto& m : mutants::mutants())
+    if (m.name == "overlap_always" || m.name == "overlap_deep_denied" || m.name == "impact_late")
+      e.push_back(mutants::make_lying_engine(m));
+  return e;
+}
+
 fuzz::CampaignConfig config_of(std::uint64_t cases) {
   fuzz::CampaignConfig c;
   c.engines = {"core", "depth_halved"};
@@ -477,6 +486,62 @@ TEST_CASE("a finding's certificate is created by the job that found it, not when
       go);
   REQUIRE(seen > 0);
   CHECK(made == seen);
+}
+
+TEST_CASE("a deferred certificate is the one that would have been made at once", "[campaign]") {
+  auto later = config_of(320);
+  later.engines = {"overlap_always", "overlap_deep_denied", "impact_late"};
+  auto now = later;
+  now.certificates = true;
+  const auto a = fuzz::run_campaign(later, verdict_liars, {}, go),
+             b = fuzz::run_campaign(now, verdict_liars, {}, go);
+  REQUIRE(a.findings.size() == b.findings.size());
+  std::map<std::string, int> deferred;
+  for (const auto& [key, f] : a.findings) {
+    CAPTURE(key);
+    const fuzz::Json &evidence = f.evidence_json, &made = b.findings.at(key).evidence_json.at("certificate"),
+                     &left = evidence.at("certificate");
+    CHECK_FALSE(fuzz::is_deferred(made));
+    if (!fuzz::is_deferred(left)) {
+      CHECK(left == made);
+      continue;
+    }
+    ++deferred[f.question];
+    const Case c = case_from_json(evidence.at("case"), key);
+    CHECK(fuzz::deferred_certificate(c, evidence.at("observation"), left, "f.json") == made);
+  }
+  CHECK(deferred["overlap"] > 0);
+  CHECK(deferred["time_of_impact"] > 0);
+}
+
+TEST_CASE("a damaged deferred certificate is refused with the place", "[campaign]") {
+  Case c;
+  c.scene.shapes = {Sphere{1}};
+  c.scene.bodies.resize(2);
+  const fuzz::Json observation = {{"outcome", "answered"}, {"toi", 0.5}};
+  const fuzz::Json good = {{"kind", "deferred"},
+                           {"question", "overlap"},
+                           {"found", {{"kind", "common_point"}, {"point", {0, 0, 0}}}},
+                           {"bodies", {0, 1}}};
+  CHECK(fuzz::deferred_certificate(c, observation, good, "f.json").at("kind") == "common_point");
+  const auto refuses = [&](const char* part, const fuzz::Json& value, const char* place) {
+    CAPTURE(part);
+    fuzz::Json bad = good;
+    bad[part] = value;
+    try {
+      fuzz::deferred_certificate(c, observation, bad, "f.json");
+      FAIL("was accepted");
+    } catch (const InputError& e) {
+      CHECK(std::string(e.what()).find(place) != std::string::npos);
+    }
+  };
+  refuses("question", "rumour", "f.json: certificate.question");
+  refuses("bodies", {0}, "f.json: certificate.bodies");
+  refuses("found", {{"kind", "rumour"}}, "certificate");
+  fuzz::Json absent = good;
+  absent["bodies"] = {0, 7};
+  // Nothing is made: what the file has is left as it is.
+  CHECK(fuzz::deferred_certificate(c, observation, absent, "f.json") == good.at("found"));
 }
 
 TEST_CASE("a point visible from every facet of the referee's polytope does not loop forever", "[campaign]") {

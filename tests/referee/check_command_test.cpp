@@ -51,6 +51,30 @@ TEST_CASE("check exits with 0 for a proof, 1 without one, 2 for bad input", "[re
   std::filesystem::remove_all(dir);
 }
 
+TEST_CASE("check makes a deferred certificate and writes it by itself", "[referee][checker]") {
+  const auto dir = std::filesystem::temp_directory_path() / ("touchstone-later-" + std::to_string(getpid()));
+  std::filesystem::create_directories(dir);
+  write(dir / "case.json", R"({"touchstone_scene": 1, "shapes": [{"type": "sphere", "radius": 1}],
+    "bodies": [{"shape": 0, "pose": {"translation": [0, 0, 0]}},
+               {"shape": 0, "pose": {"translation": [3, 0, 0]}}]})");
+  const auto finding = [&](const std::string& question) {
+    return write(dir / "finding.json", R"({"key": "k", "observation": {"outcome": "answered"},
+      "certificate": {"kind": "deferred", "question": ")" +
+                                           question +
+                                           R"(", "bodies": [0, 1], "found": {"kind": "separating_plane",
+      "direction": [1, 0, 0], "offset": 7}}})");
+  };
+  const auto made = dir / "made.json";
+  CHECK(check(finding("overlap"), "-o " + made.string()) == 0);
+  CHECK(check(made) == 0);
+  std::ifstream f(made);
+  CHECK(nlohmann::ordered_json::parse(f).at("kind") == "separating_plane");
+  CHECK(check(finding("rumour")) == 2);
+  write(dir / "finding.json", R"({"certificate": {"kind": "deferred", "question": "overlap"}})");
+  CHECK(check(dir / "finding.json") == 2);
+  std::filesystem::remove_all(dir);
+}
+
 TEST_CASE(
     "check finds the two bodies of a crowd, their motion and their place in a script by the certificate",
     "[referee][checker]") {
