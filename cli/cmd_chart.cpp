@@ -24,7 +24,7 @@ namespace {
 
 struct ChartOptions {
   EngineChoice choice;
-  std::string broad = "all", out = "out/chart", from, readme;
+  std::string broad = "all", out = "out/chart", from, document;
   std::uint64_t seed = 1;
   std::int64_t measure = 20'000;
   bool quick = false, json = false;
@@ -106,17 +106,19 @@ fuzz::Chart stored(const std::string& file) {
   return fuzz::chart_from_json(j, file);
 }
 
-// The numbers are stored beside the README so that a test can compare the two. The block is made from the
-// stored numbers, which have fewer digits than the measured ones.
-void write_readme(const std::filesystem::path& readme, const fuzz::Chart& chart) {
-  const std::string before = read_file(readme, std::uintmax_t{1} << 24);
-  const auto docs = readme.parent_path() / "docs";
-  fuzz::make_directory(docs.string());
-  const auto kept = docs / "chart.json";
+// The numbers and the picture, for a light and a dark page, are stored beside the document, so that a test
+// can compare them. All are made from the stored numbers, which have fewer digits than the measured ones.
+void update_document(const std::filesystem::path& document, const fuzz::Chart& chart) {
+  const std::string before = read_file(document, std::uintmax_t{1} << 24);
+  const auto kept = document.parent_path() / "chart.json";
   write_file(kept, fuzz::to_json(reports::chart_excerpt(chart)).dump() + "\n");
-  const std::string block = reports::chart_markdown(stored(kept.string()));
-  write_file(readme, reports::with_chart_block(before, block, readme.string()));
-  fmt::print("{}, {}\n", readme.string(), kept.string());
+  const fuzz::Chart excerpt = stored(kept.string());
+  write_file(document,
+             reports::with_chart_block(before, reports::chart_markdown(excerpt), document.string()));
+  for (const bool dark : {false, true})
+    write_file(document.parent_path() / (dark ? "chart-dark.svg" : "chart-light.svg"),
+               reports::chart_svg(excerpt, dark));
+  fmt::print("{}, {} and its picture\n", document.string(), kept.string());
 }
 
 // The subject of a stored chart: one of the engines in its rows.
@@ -159,7 +161,7 @@ int run(const ChartOptions& o) {
                  o.json);
   else
     fmt::print("{}", o.json ? fuzz::to_json(chart).dump() + "\n" : reports::chart_text(chart));
-  if (!o.readme.empty()) write_readme(o.readme, chart);
+  if (!o.document.empty()) update_document(o.document, chart);
   return verdict(chart, subject, o.json);
 }
 
@@ -178,8 +180,8 @@ Run declare_chart(CLI::App& app) {
   app.add_option("--out", o->out, "directory for chart.json, chart.csv, chart.html")->capture_default_str();
   add_case_seconds(app, o->limits);
   app.add_option("--from", o->from, "a chart.json to print instead of measuring one");
-  app.add_option("--readme", o->readme,
-                 "also update the chart block in this file, and docs/chart.json beside it");
+  app.add_option("--update", o->document,
+                 "also update the chart block in this file, and chart.json and the pictures beside it");
   app.add_flag("--json", o->json, "the whole result as one JSON document on stdout");
   return [o] { return run(*o); };
 }

@@ -21,8 +21,8 @@ std::string plan_text(const fuzz::Plan& p);
 /// One table per question over all regimes, then the Pareto front of each regime, crowds, and the machine.
 std::string chart_text(const fuzz::Chart& c);
 
-// The README's comparison of the core with the engines as shipped: an excerpt of a chart, and its block of
-// Markdown.
+// The documents' comparison of the core with the engines as shipped: an excerpt of a chart, its block of
+// Markdown, and its picture.
 
 /// The rows that the block needs and the engines that they name. Idempotent.
 fuzz::Chart chart_excerpt(const fuzz::Chart& c);
@@ -33,6 +33,10 @@ std::string chart_markdown(const fuzz::Chart& excerpt);
 /// `text` with everything between the markers replaced by `block`. Throws InputError, naming `file`, if the
 /// markers are missing or out of order.
 std::string with_chart_block(const std::string& text, const std::string& block, const std::string& file);
+
+/// The excerpt as a picture (SVG): median time across, worst error upwards, both logarithmic, one panel a
+/// question; for a light or a dark page.
+std::string chart_svg(const fuzz::Chart& excerpt, bool for_dark);
 
 inline constexpr const char* chart_begin = "<!-- chart: generated -->\n";
 inline constexpr const char* chart_end = "<!-- chart: end -->\n";

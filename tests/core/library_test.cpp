@@ -1,4 +1,5 @@
-// The core and the referee as installed libraries: README's example is built against them and run.
+// The core and the referee as installed libraries: the example of docs/libraries.md is built against them and
+// run.
 #include <regex>
 #include <string>
 
@@ -23,8 +24,9 @@ std::string block(const std::string& text, const std::string& heading, const std
 Run built_and_run(const Workspace& w, const std::string& cmake_lists, const std::string& source) {
   w.write("CMakeLists.txt", cmake_lists);
   w.write("example.cpp", source);
-  return w.run("rm -rf build && cmake -S . -B build -DCMAKE_PREFIX_PATH=$PWD/prefix >cmake.log 2>&1 && "
-               "cmake --build build >build.log 2>&1 && build/example");
+  return w.run(
+      "rm -rf build && cmake -S . -B build -DCMAKE_PREFIX_PATH=$PWD/prefix >cmake.log 2>&1 && "
+      "cmake --build build >build.log 2>&1 && build/example");
 }
 
 Run installed(const Workspace& w, const std::string& component) {
@@ -33,18 +35,20 @@ Run installed(const Workspace& w, const std::string& component) {
 
 }  // namespace
 
-TEST_CASE("README's example is built against the installed core and prints what README says", "[library]") {
+TEST_CASE("the documented example is built against the installed core and prints what is documented",
+          "[library]") {
   const Workspace w("core-library");
-  const std::string readme = read_all(TS_SOURCE_DIR "/README.md");
+  const std::string guide = read_all(TS_SOURCE_DIR "/docs/libraries.md");
   const std::string heading = "The core and the referee as libraries";
-  const std::string lists = block(readme, heading, "cmake"), source = block(readme, heading, "cpp");
+  const std::string lists = block(guide, heading, "cmake"), source = block(guide, heading, "cpp");
   REQUIRE(installed(w, "core").code == 0);
   CHECK_FALSE(std::filesystem::exists(w.dir / "prefix/bin"));
   for (const char* library : {"touchstone::core", "touchstone::core_static"}) {
-    const Run r = built_and_run(w, std::regex_replace(lists, std::regex("touchstone::core"), library), source);
+    const Run r =
+        built_and_run(w, std::regex_replace(lists, std::regex("touchstone::core"), library), source);
     INFO(library << read_all(w.dir / "cmake.log") << read_all(w.dir / "build.log") << r.err);
     CHECK(r.code == 0);
-    CHECK(r.out == block(readme, heading, "text"));
+    CHECK(r.out == block(guide, heading, "text"));
   }
 }
 
@@ -58,7 +62,8 @@ TEST_CASE("the installed headers of the core include no other room", "[library]"
     const std::string text = read_all(e.path());
     std::smatch m;
     for (auto from = text.cbegin();
-         std::regex_search(from, text.cend(), m, std::regex("#include \"([^\"]+)\"")); from = m.suffix().first)
+         std::regex_search(from, text.cend(), m, std::regex("#include \"([^\"]+)\""));
+         from = m.suffix().first)
       if (!std::filesystem::exists(w.dir / "prefix/include/touchstone" / m[1].str()))
         FAIL_CHECK(e.path() << " includes " << m[1]);
   }

@@ -1,4 +1,5 @@
-// What the README states about engines agrees with the stored numbers and with the engines themselves.
+// What docs/findings.md and the README's picture state about engines agrees with the stored numbers and with
+// the engines themselves.
 #include <algorithm>
 #include <nlohmann/json.hpp>
 #include <regex>
@@ -17,7 +18,8 @@ using touchstone::test::Workspace;
 
 namespace {
 
-const std::string readme_file = TS_SOURCE_DIR "/README.md", chart_file = TS_SOURCE_DIR "/docs/chart.json";
+const std::string findings_file = TS_SOURCE_DIR "/docs/findings.md",
+                  chart_file = TS_SOURCE_DIR "/docs/chart.json";
 
 fuzz::Chart kept_chart() { return fuzz::chart_from_json(Json::parse(read_all(chart_file)), chart_file); }
 
@@ -27,7 +29,7 @@ struct Claim {
 
 // The rows | `engine` | question | fault | words | `case` |.
 std::vector<Claim> claims() {
-  const std::string text = read_all(readme_file);
+  const std::string text = read_all(findings_file);
   const std::regex row(R"(\n\| `([^`]+)` \| (\w+) \| (\w+) \| [^|]+ \| `([^`]+)` \|)");
   std::vector<Claim> all;
   for (auto m = std::sregex_iterator(text.begin(), text.end(), row); m != std::sregex_iterator(); ++m)
@@ -37,12 +39,12 @@ std::vector<Claim> claims() {
 
 }  // namespace
 
-TEST_CASE("the README's chart is that of docs/chart.json", "[readme][chart]") {
-  const std::string text = read_all(readme_file);
+TEST_CASE("the chart in the findings is that of docs/chart.json", "[readme][chart]") {
+  const std::string text = read_all(findings_file);
   const fuzz::Chart kept = kept_chart();
   const fuzz::Chart excerpt = reports::chart_excerpt(kept);
   CHECK(fuzz::to_json(excerpt) == fuzz::to_json(kept));
-  CHECK(reports::with_chart_block(text, reports::chart_markdown(kept), readme_file) == text);
+  CHECK(reports::with_chart_block(text, reports::chart_markdown(kept), findings_file) == text);
   CHECK(kept.rows.size() >= 20);
   std::set<std::string> questions;
   for (const fuzz::ChartRow& r : kept.rows) questions.insert(r.question);
@@ -50,6 +52,19 @@ TEST_CASE("the README's chart is that of docs/chart.json", "[readme][chart]") {
   fuzz::Chart other = kept;
   other.rows[3].ns_median *= 2;
   CHECK(reports::chart_markdown(other) != reports::chart_markdown(kept));
+}
+
+TEST_CASE("the README's picture is that of docs/chart.json", "[readme][chart]") {
+  const fuzz::Chart kept = kept_chart();
+  for (const bool dark : {false, true}) {
+    const std::string file = dark ? "chart-dark.svg" : "chart-light.svg";
+    INFO(file);
+    const std::string picture = reports::chart_svg(kept, dark);
+    CHECK(read_all(TS_SOURCE_DIR "/docs/" + file) == picture);
+    CHECK(read_all(TS_SOURCE_DIR "/README.md").find("docs/" + file) != std::string::npos);
+    for (const fuzz::ChartRow& r : kept.rows)
+      if (r.question != "candidates") CHECK(picture.find(">" + r.engine + "</text>") != std::string::npos);
+  }
 }
 
 TEST_CASE("a stored chart is read back unchanged, and an invalid one is refused", "[chart]") {
@@ -64,7 +79,7 @@ TEST_CASE("a stored chart is read back unchanged, and an invalid one is refused"
   CHECK_THROWS_AS(reports::with_chart_block("no markers", "", "x"), InputError);
 }
 
-TEST_CASE("every finding in the README's table is shown by its case, and has a reproducer",
+TEST_CASE("every fault in the table of findings is shown by its case, and has a reproducer",
           "[readme][optional]") {
   const Workspace w("readme_findings");
   const auto all = claims();
