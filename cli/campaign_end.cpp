@@ -45,8 +45,8 @@ std::string next_steps(const CampaignEnd& end, const Printing& how) {
         "{0} behind {1} kinds of findings. To see one, or all on a page:\n"
         "  {2} causes {3}{6} --cause {4}\n  {2} causes {3}{6} --page {5}\n",
         reports::counted(how.causes->causes.size(), "cause", "causes"), kinds, program_name(),
-        shell_word(out), reports::code_of(how.causes->causes.front()), shell_word(out + "/causes.html"),
-        end.foreign.empty() ? "" : " --engines " + shell_word(end.foreign));
+        shell_word(out), reports::code_of(how.causes->causes.front(), *how.causes),
+        shell_word(out + "/causes.html"), end.foreign.empty() ? "" : " --engines " + shell_word(end.foreign));
   std::string s =
       fmt::format("{} kinds of findings in {}/findings; to see one:\n  {} replay {}\n", kinds, out,
                   program_name(), shell_word(out + "/findings/" + r.findings.begin()->first));

@@ -41,13 +41,13 @@ void keep_engine(fuzz::Causes& causes, const std::string& engine) {
     throw InputError("--engine " + engine, "no cause is of this engine" + did_you_mean(engine, known));
 }
 
-// By its id, or by the last word of it, its code. Null when there is none. Throws InputError when there are
+// By its id, or by last words of it, its code. Null when there is none. Throws InputError when there are
 // several.
 const fuzz::Cause* find_cause(const fuzz::Causes& causes, const std::string& id) {
   const fuzz::Cause* found = nullptr;
   for (const fuzz::Cause& c : causes.causes) {
     if (c.id == id) return &c;
-    if (reports::code_of(c) != id) continue;
+    if (!reports::is_named(c, id)) continue;
     if (found) throw InputError("--cause " + id, "is the code of several causes: " + found->id + ", " + c.id);
     found = &c;
   }

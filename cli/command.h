@@ -16,9 +16,11 @@ namespace touchstone::cli {
 
 using Run = std::function<int()>;
 
+/// `group`: the heading above it in --help; empty: that of the command before it.
 struct Command {
   std::string_view name, line;
   Run (*declare)(CLI::App& app);
+  std::string_view group = {};
 };
 
 /// The program's name as it was called, quoted for the shell: for printed commands. main() sets it.
@@ -59,26 +61,30 @@ Run declare_view(CLI::App& app);
 
 /// In the order of --help.
 inline constexpr auto commands = std::to_array<Command>({
-    {"fuzz", "run a campaign of random, refereed cases", declare_fuzz},
-    {"judge", "judge a stored campaign again, without engines", declare_judge},
-    {"replay", "show every engine's answer to stored cases", declare_replay},
-    {"shrink", "find the smallest case that shows the same finding", declare_shrink},
-    {"reproduce", "write a finding as a program against the engine", declare_reproduce},
-    {"bisect", "find what a finding depends on", declare_bisect},
+    {"fuzz", "run a campaign of random, refereed cases", declare_fuzz, "Find what is wrong"},
     {"causes", "find the distinct causes behind a campaign's findings", declare_causes},
-    {"versions", "find which releases of an engine have which causes", declare_versions},
-    {"triage", "compare causes with the ledger of known ones", declare_triage},
-    {"plan", "choose the cheapest model a scene can be run with", declare_plan},
-    {"merge", "merge the shards of a campaign, or ledgers", declare_merge},
-    {"report", "summarise a campaign as text and as a page", declare_report},
-    {"view", "write a page that shows a case or its broad phase", declare_view},
-    {"certify", "test whether a broad phase ever loses a pair", declare_certify},
+    {"replay", "show every engine's answer to stored cases", declare_replay},
     {"check", "verify a stored certificate in exact arithmetic", declare_check},
-    {"chart", "measure the speed and accuracy of every engine", declare_chart},
-    {"stability", "find where degeneracy makes each engine fail", declare_stability},
-    {"fingerprint", "hash an engine's answers, to compare builds of it", declare_fingerprint},
+    {"certify", "test whether a broad phase ever loses a pair", declare_certify},
     {"primitives", "check the core on deforming primitives", declare_primitives},
-    {"engines", "list engines, versions, settings and tolerances", declare_engines},
+    {"shrink", "find the smallest case that shows the same finding", declare_shrink,
+     "From a finding to its fix"},
+    {"bisect", "find what a finding depends on", declare_bisect},
+    {"reproduce", "write a finding as a program against the engine", declare_reproduce},
+    {"view", "write a page that shows a case or its broad phase", declare_view},
+    {"report", "summarise a campaign as text and as a page", declare_report},
+    {"triage", "compare causes with the ledger of known ones", declare_triage,
+     "Every night, on many machines"},
+    {"judge", "judge a stored campaign again, without engines", declare_judge},
+    {"merge", "merge the shards of a campaign, or ledgers", declare_merge},
+    {"chart", "measure the speed and accuracy of every engine", declare_chart,
+     "Choose an engine and its settings"},
+    {"stability", "find where degeneracy makes each engine fail", declare_stability},
+    {"plan", "choose the cheapest model a scene can be run with", declare_plan},
+    {"versions", "find which releases of an engine have which causes", declare_versions,
+     "Compare builds and releases"},
+    {"fingerprint", "hash an engine's answers, to compare builds of it", declare_fingerprint},
+    {"engines", "list, install or build engines", declare_engines, "What there is"},
     {"families", "list the families of random cases", declare_families},
     {"scenarios", "list the hand-built scenarios, or write one", declare_scenarios},
 });

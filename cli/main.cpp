@@ -52,9 +52,16 @@ int run(int argc, char** argv) {
       "Exit codes: 0 clean, 1 subject found wrong, 2 bad usage or input,\n"
       "3 run failed or proved nothing, 125 cannot tell (bisect commit).");
   std::vector<std::pair<CLI::App*, Run>> runs;
+  std::string_view group;
   for (const Command& c : commands) {
+    if (!c.group.empty()) group = c.group;
     CLI::App* sub = app.add_subcommand(std::string(c.name), std::string(c.line));
+    sub->group(std::string(group));
     runs.emplace_back(sub, c.declare(*sub));
+  }
+  if (argc == 1) {
+    fmt::print(stderr, "{}", app.help());
+    return exit_usage;
   }
   try {
     app.parse(argc, argv);

@@ -149,15 +149,25 @@ std::string cause_text(const Cause& c) {
   return s + (c.no_program.empty() ? "" : "\n" + text_block("no program: " + c.no_program, 0));
 }
 
-std::string_view code_of(const Cause& c) {
-  const std::size_t dash = c.id.rfind('-');
-  return std::string_view(c.id).substr(dash == std::string::npos ? 0 : dash + 1);
+bool is_named(const Cause& c, std::string_view code) {
+  return c.id == code || (c.id.ends_with(code) && c.id[c.id.size() - code.size() - 1] == '-');
+}
+
+std::string_view code_of(const Cause& c, const Causes& all) {
+  const std::string_view id = c.id;
+  for (std::size_t dash = id.rfind('-'); dash != std::string_view::npos && dash > 0;
+       dash = id.rfind('-', dash - 1)) {
+    const std::string_view code = id.substr(dash + 1);
+    if (std::ranges::count_if(all.causes, [&](const Cause& one) { return is_named(one, code); }) == 1)
+      return code;
+  }
+  return id;
 }
 
 // A place in code is never cut off: a crash may have two lines.
-static std::string in_brief(const Cause& c, bool with_path) {
+static std::string in_brief(const Cause& c, const Causes& all, bool with_path) {
   return text_block(
-      fmt::format("{} {:>7} {}: {}{}{}", code_of(c), grouped(c.wrong), to_string(c.severity),
+      fmt::format("{} {:>7} {}: {}{}{}", code_of(c, all), grouped(c.wrong), to_string(c.severity),
                   with_path ? c.path + ": " : "", c.title, c.documented.empty() ? "" : " (documented)"),
       2, c.severity == fuzz::Severity::crash ? 2 : 1);
 }
@@ -173,7 +183,7 @@ std::string causes_of_libraries(const Causes& c, std::size_t most, const Library
                                 counted(wrong, "wrong answer", "wrong answers")),
                     0, 1);
     const std::size_t shown = std::min(most, causes.size());
-    for (std::size_t i = 0; i < shown; ++i) s += in_brief(*causes[i], causes[i]->path != library);
+    for (std::size_t i = 0; i < shown; ++i) s += in_brief(*causes[i], c, causes[i]->path != library);
     if (causes.size() > shown) s += fmt::format("  and {} more\n", causes.size() - shown);
   }
   return s;

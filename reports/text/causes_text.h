@@ -20,8 +20,12 @@ std::string cause_text(const fuzz::Cause& c);
 /// program that would exceed what trackers accept is left out, and said so.
 std::string cause_markdown(const fuzz::Cause& c);
 
-/// The last word of an id, which tells causes of a campaign apart: "1a2b3c" of "fcl-libccd-depth-1a2b3c".
-std::string_view code_of(const fuzz::Cause& c);
+/// The fewest last words of an id that tell it from all others: "1a2b3c" of "fcl-libccd-depth-1a2b3c", or
+/// "depth-1a2b3c" if there is also "fcl-libccd-points-1a2b3c".
+std::string_view code_of(const fuzz::Cause& c, const fuzz::Causes& all);
+
+/// Whether the code is the cause's id or last words of it.
+bool is_named(const fuzz::Cause& c, std::string_view code);
 
 /// Name of the library that an engine path is of: "FCL" for "fcl-libccd".
 using LibraryOf = std::function<std::string(const std::string& path)>;

@@ -165,7 +165,8 @@ std::string first_word(const std::string& path) { return path.substr(0, path.fin
 
 }  // namespace
 
-TEST_CASE("the last lines of a campaign have the first causes of each library, one a line but crashes", "[causes]") {
+TEST_CASE("the last lines of a campaign have the first causes of each library, one a line but crashes",
+          "[causes]") {
   const std::string text = causes_of_libraries(sample_causes(), 1, first_word);
   INFO(text);
   CHECK(text ==
@@ -181,6 +182,25 @@ TEST_CASE("the last lines of a campaign have the first causes of each library, o
         "  0c0c      44 distance: routine box-cylinder: vanishes when the box is ...\n");
   CHECK(lines(causes_of_libraries(sample_causes(), 5, first_word)).size() == 4 + 5 + 1);
   CHECK(causes_of_libraries({}, 5, first_word).empty());
+}
+
+TEST_CASE("a code has as many words of the id as tell it from all others", "[causes]") {
+  fuzz::Causes all;
+  for (const char* id : {"ode-depth-c9e889", "ode-points-c9e889", "ode-depth-2cd519",
+                         "fcl-libccd-depth-aaaaaa", "fcl-indep-depth-aaaaaa", "aaaaaa"}) {
+    all.causes.emplace_back();
+    all.causes.back().id = id;
+  }
+  const auto code = [&](std::size_t i) { return std::string(reports::code_of(all.causes[i], all)); };
+  CHECK(code(0) == "depth-c9e889");
+  CHECK(code(1) == "points-c9e889");
+  CHECK(code(2) == "2cd519");
+  CHECK(code(3) == "libccd-depth-aaaaaa");
+  CHECK(code(4) == "indep-depth-aaaaaa");
+  for (const fuzz::Cause& c : all.causes) CHECK(reports::is_named(c, reports::code_of(c, all)));
+  CHECK(reports::is_named(all.causes[0], "c9e889"));
+  CHECK_FALSE(reports::is_named(all.causes[0], "9e889"));
+  CHECK_FALSE(reports::is_named(all.causes[0], ""));
 }
 
 TEST_CASE("Markdown has all that a maintainer needs", "[causes]") {
