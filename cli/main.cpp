@@ -45,6 +45,7 @@ void refuse_unknown_command(const std::string& word) {
 int run(int argc, char** argv) {
   if (argc > 1) refuse_unknown_command(argv[1]);
   CLI::App app{"Touchstone: finds which collision engine is wrong, with a certificate"};
+  app.name(program_name());
   app.formatter(std::make_shared<HelpFormatter>());
   app.set_version_flag("--version", "touchstone " TOUCHSTONE_VERSION);
   app.require_subcommand(1);

@@ -20,8 +20,8 @@ struct Bin {
 };
 constexpr double none = std::numeric_limits<double>::infinity();
 
-constexpr Bin sizes[] = {{0x1p-1074, "zero"}, {1e-5, "< 1e-5"}, {1e-3, "< 1e-3"},     {0.1, "< 0.1"},
-                         {10, "< 10"},        {1e3, "< 1e3"},   {none, "1e3 or more"}};
+constexpr Bin sizes[] = {{0x1p-1074, "zero"}, {1e-5, "< 1e-5"}, {1e-3, "< 1e-3"},
+                         {0.1, "< 0.1"},      {10, "< 10"},     {none, "10 or more"}};
 constexpr Bin ratios[] = {{2, "< 2"}, {10, "< 10"}, {120, "< 120"}, {1e5, "< 1e5"}, {none, "1e5 or more"}};
 constexpr Bin vertices[] = {{4, "< 4"},   {5, "4"},     {9, "< 9"},     {17, "< 17"},
                             {33, "< 33"}, {65, "< 65"}, {129, "< 129"}, {none, "129 or more"}};
@@ -34,7 +34,7 @@ constexpr Bin turns[] = {{0x1p-1074, "none"},
                          {std::numbers::pi, "< half a turn"},
                          {2 * std::numbers::pi, "< a turn"},
                          {none, "a turn or more"}};
-constexpr Bin crowds[] = {{2, "1"}, {3, "2"}, {16, "< 16"}, {64, "< 64"}, {none, "64 or more"}};
+constexpr Bin crowds[] = {{3, "2"}, {16, "< 16"}, {64, "< 64"}, {none, "64 or more"}};
 // Of the gap divided by the scale of the pair; depths are negative.
 constexpr Bin gaps[] = {{-0.1, "deeper than 0.1"},        {-1e-3, "deeper than 1e-3"},
                         {-1e-7, "deeper than 1e-7"},      {-1e-13, "deeper than 1e-13"},
@@ -60,7 +60,7 @@ std::vector<std::string> kind_names() {
 }
 
 std::string pair_name(ShapeKind a, ShapeKind b) {
-  const auto [first, second] = std::minmax(type_name(a), type_name(b));
+  const auto [first, second] = std::minmax({type_name(a), type_name(b)});
   return fmt::format("{}-{}", first, second);
 }
 
@@ -158,7 +158,7 @@ void Coverage::note_pair(const Case& c, const Query& q) {
   const auto body = [&](int k) -> const Body& { return c.scene.bodies[static_cast<std::size_t>(k)]; };
   note("shared", body(q.a).shape == body(q.b).shape ? "one shape" : "two shapes");
   if (is_bounded(kind_of(a)) && is_bounded(kind_of(b))) {
-    const auto [small, large] = std::minmax(bounding_radius(a), bounding_radius(b));
+    const auto [small, large] = std::minmax({bounding_radius(a), bounding_radius(b)});
     note("ratio", name_in(ratios, small > 0 ? large / small : large > 0 ? none : 1));
   }
   if (q.question == Question::time_of_impact)
