@@ -159,7 +159,7 @@ TEST_CASE("triage reports at once that it cannot create the directory for reprod
 TEST_CASE("triage writes one directory per cause, which replay, check and reproduce accept",
           "[reproduce][optional]") {
   const Workspace w("reproduce");
-  if (findings(w, "libccd-mpr", "--cases 60").empty()) return skip("no findings: libccd is not installed");
+  if (findings(w, "libccd-mpr", "--cases 60 --certificates").empty()) return skip("no findings: libccd is not installed");
   const auto causes = causes_by_hand(w.dir / "libccd-mpr").causes;
   write_causes_by_hand(w.dir / "libccd-mpr");
   const Run first = w.touchstone("triage libccd-mpr --reproducers kept");
