@@ -56,7 +56,7 @@ constexpr Course courses[] = {
     {.gap = 15, .speed = 16},
     {.gap = 64, .speed = 128},
     {.gap = 4096, .speed = 8192},
-    {.gap = 0x1p-7, .speed = 0x1p-6},
+    {.gap = 1.0 / 128, .speed = 1.0 / 64},
     {.gap = 2, .speed = 2},
     {.gap = 0, .speed = 1},
     {.gap = -1, .speed = 1},
