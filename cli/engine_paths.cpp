@@ -1,6 +1,7 @@
 #include "cli/engine_paths.h"
 
 #include <algorithm>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -152,18 +153,27 @@ std::string path_of(const std::string& engine) {
   return beside(engine, path_in_adapter(name_in_adapter(engine)));
 }
 
+// Empty for an engine whose routines are not known.
+std::optional<std::string_view> known_route(const std::string& engine, const routes::Pair& p) {
+  const std::string path = path_in_adapter(name_in_adapter(engine));
+  if (path.starts_with("fcl-")) return routes::fcl_route(p);
+  if (path.starts_with("bullet-")) return routes::bullet_route(p, path.find("sim") != path.npos);
+  if (path.starts_with("libccd-")) return routes::libccd_route(p);
+  if (path == "ode") return routes::ode_route(p);
+  if (path == "dart" || path.starts_with("dart-")) return routes::dart_route(path, p);
+  if (path == "mujoco2") return routes::mujoco2_route(p);
+  if (path.starts_with("mujoco")) return routes::mujoco_route(p);
+  if (path.starts_with("physx-")) return routes::physx_route(path, p);
+  return std::nullopt;
+}
+
 std::string route_of(const std::string& engine, Question question, ShapeKind a, ShapeKind b) {
   const routes::Pair p{question, a, b};
-  const std::string path = path_in_adapter(name_in_adapter(engine));
-  if (path.starts_with("fcl-")) return std::string(routes::fcl_route(p));
-  if (path.starts_with("bullet-")) return std::string(routes::bullet_route(p, path.find("sim") != path.npos));
-  if (path.starts_with("libccd-")) return std::string(routes::libccd_route(p));
-  if (path == "ode") return std::string(routes::ode_route(p));
-  if (path == "dart" || path.starts_with("dart-")) return std::string(routes::dart_route(path, p));
-  if (path == "mujoco2") return std::string(routes::mujoco2_route(p));
-  if (path.starts_with("mujoco")) return std::string(routes::mujoco_route(p));
-  if (path.starts_with("physx-")) return std::string(routes::physx_route(path, p));
-  return std::string(routes::common_route(p));
+  return std::string(known_route(engine, p).value_or(routes::common_route(p)));
+}
+
+bool knows_routes(const std::string& engine) {
+  return known_route(engine, {Question::overlap, ShapeKind::sphere, ShapeKind::sphere}).has_value();
 }
 
 std::string documented(const std::string& name, const fuzz::Symptom& s, const std::string& route, Fault f) {
@@ -196,6 +206,6 @@ std::string library_of(const std::string& path) {
   return path;
 }
 
-fuzz::EngineKnowledge catalogued_knowledge() { return {path_of, route_of, documented, others}; }
+fuzz::EngineKnowledge catalogued_knowledge() { return {path_of, route_of, knows_routes, documented, others}; }
 
 }  // namespace touchstone::cli

@@ -61,6 +61,7 @@ EngineKnowledge no_knowledge() {
   k.route_of = [](const std::string&, Question question, ShapeKind a, ShapeKind b) {
     return std::string(routes::common_route({question, a, b}));
   };
+  k.knows_routes = [](const std::string&) { return false; };
   k.documented = [](const std::string&, const Symptom&, const std::string&, Fault) { return std::string(); };
   k.others = [](const std::string&) { return std::vector<OtherEngine>(); };
   return k;

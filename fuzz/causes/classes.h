@@ -31,6 +31,8 @@ struct EngineKnowledge {
   std::function<std::string(const std::string& engine)> path_of;
   /// The routine that the library chooses for the pair: "sphere", "convex", "mesh".
   std::function<std::string(const std::string& engine, Question question, ShapeKind a, ShapeKind b)> route_of;
+  /// False where route_of is a guess: then a case may be reduced to one on another route.
+  std::function<bool(const std::string& engine)> knows_routes;
   /// Where the engine's documentation states that it has this fault; empty: nowhere.
   std::function<std::string(const std::string& engine, const Symptom& symptom, const std::string& route,
                             Fault fault)>

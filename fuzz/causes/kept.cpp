@@ -72,14 +72,14 @@ std::vector<std::vector<Occurrence>> occurrences(std::span<const Case> cases, co
 bool is_kept(const Occurrence& o, const Kept& k, const std::string& engine,
              const EngineKnowledge& knowledge) {
   return o.fault == k.fault && (!k.moves || o.moves == *k.moves) &&
-         route_of(engine, o.shapes, k.symptom.question, knowledge) == k.route;
+         (!k.route || route_of(engine, o.shapes, k.symptom.question, knowledge) == *k.route);
 }
 
 }  // namespace
 
 Kept kept_of(const Case& c, const Finding& f, const EnginePtr& engine, const EngineKnowledge& knowledge) {
-  Kept k{symptom_of(f), f.fault, "", std::nullopt};
-  k.route = route_of(f.engine, f.shapes, k.symptom.question, knowledge);
+  Kept k{symptom_of(f), f.fault, std::nullopt, std::nullopt};
+  if (knowledge.knows_routes(f.engine)) k.route = route_of(f.engine, f.shapes, k.symptom.question, knowledge);
   bool any_moves = false, any_rests = false;
   const auto found = occurrences({&c, 1}, engine, k.symptom);
   for (const Occurrence& o : found.at(0))

@@ -1,7 +1,7 @@
 // What reducing a case must keep for the smallest case to show what the campaign found: the engine's same
-// fault, in the same routine of the library, about bodies that move or rest as before. Otherwise a ghost
-// shrinks to a missed overlap, a box against a mesh to two spheres, and a moving body to one that overlaps
-// from the start.
+// fault, in the same routine of the library if its routines are known, about bodies that move or rest as
+// before. Otherwise a ghost shrinks to a missed overlap, a box against a mesh to two spheres, and a moving
+// body to one that overlaps from the start.
 #pragma once
 
 #include <optional>
@@ -16,9 +16,9 @@ namespace touchstone::fuzz {
 
 struct Kept {
   Symptom symptom;
-  std::string fault;          // as in findings: "ghost", "crashed_gjk-c-177", "relation_scale"
-  std::string route;          // EngineKnowledge::route_of
-  std::optional<bool> moves;  // whether one of the bodies concerned moves; empty: either
+  std::string fault;                 // as in findings: "ghost", "crashed_gjk-c-177", "relation_scale"
+  std::optional<std::string> route;  // EngineKnowledge::route_of; empty: any
+  std::optional<bool> moves;         // whether one of the bodies concerned moves; empty: either
 };
 
 /// What the engine shows in the case under the finding. Where it shows nothing, or both moving and resting

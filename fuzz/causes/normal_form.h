@@ -6,9 +6,9 @@
 
 namespace touchstone::fuzz {
 
-/// The case with its two bodies as unit spheres, as cubes or as one of each, side by side and upright, with
-/// the gap rounded to a power of two of their size; if none of these shows the fault, the case with single
-/// bodies made plain where they can be. Where the fault needs what is plain no longer, the case itself.
+/// The first of the plain cases (plain_cases.h) that shows the fault; if none does, the case with single
+/// bodies and motions made plain where they can be. A case with more than two bodies or a script is returned
+/// unchanged.
 Case normal_form(const Case& c, const StillShows& still);
 
 }  // namespace touchstone::fuzz

@@ -31,10 +31,15 @@ std::string_view file_name(std::string_view path) { return path.substr(path.rfin
 
 struct Place {
   std::string_view text;  // "dir/distance-inl.h:177" within the line
-  std::string label() const { return std::string(file_name(text)); }
+  /// "distance-inl.h:177", of "dir/distance-inl.h:(177" too.
+  std::string label() const {
+    std::string name(file_name(text));
+    std::erase(name, '(');
+    return name;
+  }
 };
 
-/// The first "file.ext:line" in a line, as assertions and panics print it.
+/// The first "file.ext:line" or "file.ext:(line)" in a line, as assertions, panics and exceptions print it.
 Place place_in(std::string_view line) {
   const auto in_path = [](char c) {
     return std::isalnum(static_cast<unsigned char>(c)) ||
@@ -42,11 +47,13 @@ Place place_in(std::string_view line) {
   };
   for (std::size_t colon = line.find(':'); colon != std::string_view::npos;
        colon = line.find(':', colon + 1)) {
-    std::size_t end = colon + 1, begin = colon;
+    std::size_t first_digit = colon + 1, begin = colon;
+    if (first_digit < line.size() && line[first_digit] == '(') ++first_digit;
+    std::size_t end = first_digit;
     while (end < line.size() && std::isdigit(static_cast<unsigned char>(line[end]))) ++end;
     while (begin > 0 && in_path(line[begin - 1])) --begin;
     const std::string_view file = line.substr(begin, colon - begin);
-    if (end > colon + 1 && file_name(file).find('.') != std::string_view::npos && !file.ends_with('.'))
+    if (end > first_digit && file_name(file).find('.') != std::string_view::npos && !file.ends_with('.'))
       return {line.substr(begin, end - begin)};
   }
   return {};
@@ -209,6 +216,8 @@ LastWords last_words(std::string_view how, std::string_view standard_error, bool
       out.detail.begin(), out.detail.end(), [](char c) { return static_cast<unsigned char>(c) < 0x20; }, ' ');
   return out;
 }
+
+std::string site_of_exception(std::string_view text) { return place_in(text).label(); }
 
 std::string site_word(std::string_view site) {
   std::string out;

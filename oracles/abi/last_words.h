@@ -1,4 +1,5 @@
-// The final output of a process that died, summarised: how it ended, what it printed, where it was.
+// The final output of a process that died, summarised: how it ended, what it printed, where it was. Also
+// where an exception that an engine reports was thrown.
 #pragma once
 
 #include <cstddef>
@@ -24,6 +25,9 @@ struct LastWords {
 
 /// `how`: "SIGABRT", "exit code 3". `speaks`: this kind of end prints a message, which is the last line.
 LastWords last_words(std::string_view how, std::string_view standard_error, bool speaks);
+
+/// Where an exception was thrown, if its text names a file and a line: "gjk_libccd-inl.h:1270"; else empty.
+std::string site_of_exception(std::string_view text);
 
 /// The site as part of a key: at most 48 lower-case letters, digits, '_' and '-'.
 std::string site_word(std::string_view site);

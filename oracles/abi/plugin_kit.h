@@ -118,9 +118,27 @@ inline constexpr double oracle_tau_factor = 256;
 /// Unit normals closer than this count as the same normal.
 inline constexpr double same_normal = 1e-6;
 
+/// The text, or, if it is longer than `bytes`, the text with files named without their directories: a message
+/// that begins with a long path is not cut before the line that it is about.
+inline std::string brief(const std::string& text, std::size_t bytes) {
+  if (text.size() <= bytes) return text;
+  std::string out;
+  std::size_t word = 0;  // where the current word begins in `out`
+  for (const char c : text) {
+    if (c == '/')
+      out.resize(word);
+    else
+      out += c;
+    if (c == ' ' || c == '\n' || c == '"' || c == '(') word = out.size();
+  }
+  return out;
+}
+
 inline void set_detail(ts_answer& out, const std::string& text) {
-  const std::size_t n = std::min(text.size(), sizeof out.detail - 1);
-  std::memcpy(out.detail, text.data(), n);
+  constexpr std::size_t most = sizeof out.detail - 1;
+  const std::string shown = brief(text, most);
+  const std::size_t n = std::min(shown.size(), most);
+  std::memcpy(out.detail, shown.data(), n);
   out.detail[n] = 0;
 }
 

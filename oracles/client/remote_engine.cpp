@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "core/base/input_error.h"
+#include "oracles/abi/last_words.h"
 #include "oracles/client/patience.h"
 #include "oracles/client/process_usage.h"
 #include "oracles/client/watchdog.h"
@@ -258,6 +259,7 @@ class RemoteEngine::Impl {
     auto m = protocol::decode_answer(payload);
     if (m.sequence != sequence_of(at_.item) || m.query != at_.query || !at_.loaded)
       throw protocol::Malformed("an answer out of order");
+    if (m.observation.outcome == Outcome::threw) m.observation.site = site_of_exception(m.observation.detail);
     m.observation.slow = watchdog_.was_slow(*session_->process, m.observation.elapsed_ns);
     results_[at_.item].answers[at_.query++] = std::move(m.observation);
     patience_.note_answer();

@@ -438,6 +438,33 @@ TEST_CASE("a case becomes as plain as its fault allows", "[causes]") {
   CHECK(kind_of(turned.scene.shape_of(1)) == ShapeKind::sphere);
 }
 
+TEST_CASE("an impact becomes as plain as its fault allows", "[causes]") {
+  Case c = pair_case(Box{Vec3(0.5, 0.75, 0.25)}, Box{Vec3(0.25, 0.5, 1)}, Vec3(3.375, 0.25, 1.125),
+                     Question::time_of_impact);
+  c.scene.bodies[0].motion = Motion{Vec3(0.5, 0, 0), Vec3(0.25, 0, 0.125)};
+  c.scene.bodies[1].motion = Motion{Vec3(-4, 0, -0.5), Vec3(0, 0.5, 0.25)};
+  const auto plain = [&](const std::string& engine) {
+    const EnginePtr e = liar(engine);
+    const fuzz::EngineKnowledge knowledge = fuzz::no_knowledge();
+    const auto found = fuzz::findings_of({&c, 1}, e);
+    REQUIRE(found.at(0).size() == 1);
+    const auto still = fuzz::keeps(e, fuzz::kept_of(c, found[0].begin()->second, e, knowledge), knowledge);
+    const Case r = fuzz::normal_form(c, still);
+    CHECK(still({&r, 1})[0]);
+    return r;
+  };
+  const Case any = plain("impact_denied");
+  CHECK(any.scene.shapes == std::vector<Shape>{Sphere{1}, Sphere{1}});
+  CHECK_FALSE(any.scene.bodies[0].motion);
+  REQUIRE(any.scene.bodies[1].motion);
+  CHECK(any.scene.bodies[1].motion->angular.isZero(0));
+  // Where the rotation is ignored, a body that is not round turns.
+  const Case turning = plain("impact_rotation_ignored");
+  REQUIRE(turning.scene.bodies[1].motion);
+  CHECK_FALSE(turning.scene.bodies[1].motion->angular.isZero(0));
+  CHECK(turning.scene.shape_of(1) == Shape{Box{Vec3::Ones()}});
+}
+
 namespace {
 
 // One finding of each of two classes, examined: their faults survive every change.

@@ -62,6 +62,7 @@ fuzz::EngineKnowledge routine_for_each_pair() {
   k.route_of = [](const std::string&, Question, ShapeKind a, ShapeKind b) {
     return std::string(type_name(a)) + "-" + std::string(type_name(b));
   };
+  k.knows_routes = [](const std::string&) { return true; };
   return k;
 }
 
@@ -94,6 +95,13 @@ TEST_CASE("reducing keeps the direction of a wrong verdict, and the routine", "[
   CHECK(finding_in(shrunk.minimum.smallest, engine).fault == "ghost");
   REQUIRE(shrunk.defensible);
   CHECK(finding_in(shrunk.defensible->smallest, engine).key() == finding_in(ghost, engine).key());
+
+  // Where routines are guessed, a case on another route shows the fault as well.
+  fuzz::EngineKnowledge guessed = routine_for_each_pair();
+  guessed.knows_routes = fuzz::no_knowledge().knows_routes;
+  const Case all[] = {ghost, missed, spheres};
+  CHECK(fuzz::keeps(engine, fuzz::kept_of(ghost, finding_in(ghost, engine), engine, guessed), guessed)(all) ==
+        std::vector<bool>{true, false, true});
 }
 
 TEST_CASE("reducing keeps what moves moving, and what rests at rest", "[causes][shrink]") {

@@ -3,6 +3,7 @@
 
 #include <string>
 
+#include "oracles/abi/plugin_kit.h"
 #include "tests/support/catch.h"
 
 using namespace touchstone;
@@ -88,4 +89,34 @@ TEST_CASE("a site's word fits into a key and stays distinct", "[oracles][last-wo
   CHECK(site_word(longer + "1") != site_word(longer + "2"));
   CHECK(site_word(longer).size() <= 48);
   CHECK(site_word("::\xc3\xa9::") == "");
+}
+
+TEST_CASE("an exception is named by the file and line in its text", "[oracles][last-words]") {
+  CHECK(site_of_exception(
+            "Error with configuration\n  Original error message: ./include/fcl/gjk_libccd-inl.h:(1270): "
+            "expandPolytope(): no visible face") == "gjk_libccd-inl.h:1270");
+  CHECK(site_of_exception("at src/lib.rs:10:5") == "lib.rs:10");
+  CHECK(site_of_exception("no such luck").empty());
+  CHECK(site_of_exception("at 12:30:05").empty());
+  CHECK(site_of_exception("gjk.cpp:(").empty());
+  CHECK(site_of_exception("gjk.cpp:()").empty());
+  // Bytes of any kind: only those of a path belong to the site.
+  CHECK(site_of_exception("\x1b[31m../\x1bgjk.cpp:12") == "gjk.cpp:12");
+}
+
+TEST_CASE("a message too long for an answer names files without directories", "[oracles][last-words]") {
+  const std::string path = "./include/fcl/narrowphase/detail/convexity_based_algorithm/gjk_libccd-inl.h";
+  const std::string text = "Error with configuration\n  Original error message: " + path +
+                           ":(1270): expandPolytope(): no visible face";
+  REQUIRE(text.size() > sizeof(ts_answer::detail));
+  ts_answer answer{};
+  kit::set_detail(answer, text);
+  CHECK(std::string(answer.detail) ==
+        "Error with configuration\n  Original error message: gjk_libccd-inl.h:(1270): expandPolytope(): no "
+        "visible face");
+  CHECK(site_of_exception(answer.detail) == "gjk_libccd-inl.h:1270");
+  kit::set_detail(answer, path);
+  CHECK(answer.detail == path);
+  kit::set_detail(answer, std::string(1000, 'x'));
+  CHECK(std::string(answer.detail) == std::string(sizeof answer.detail - 1, 'x'));
 }

@@ -70,6 +70,14 @@ TEST_CASE("one misbehaving query costs one answer and no more", "[oracles][remot
   CHECK(reached == 14);
 }
 
+TEST_CASE("an exception carries the place that its text names", "[oracles][remote]") {
+  RemoteEngine engine(bad_spec("throws_at"));
+  const auto results = engine.run(make_cases(case_count, bad_case));
+  const Observation& bad = results.at(bad_case).answers.at(1);
+  CHECK(bad.outcome == Outcome::threw);
+  CHECK(bad.site == "gjk-inl.h:1270");
+}
+
 // Its output reaches all descriptors of the process, which depend on how the test was started. The harness
 // may see an endless message or garbage. Either way it allocates nothing for it and loses one answer.
 TEST_CASE("a frame that announces a gigabyte costs one answer and no memory", "[oracles][remote]") {

@@ -139,6 +139,9 @@ const std::array behaviours{
     Behaviour{"overflows",
               [](ts_answer*, const ts_sink*) { sink_value = static_cast<unsigned>(overflow_the_stack(1)); }},
     Behaviour{"throws", [](ts_answer*, const ts_sink*) { throw std::runtime_error("no such luck"); }},
+    Behaviour{
+        "throws_at",
+        [](ts_answer*, const ts_sink*) { throw std::runtime_error("./fcl/gjk-inl.h:(1270): no such luck"); }},
     Behaviour{"throws_int", [](ts_answer*, const ts_sink*) { throw 7; }},
     Behaviour{"eats_memory", [](ts_answer*, const ts_sink*) { eat_memory(); }},
     Behaviour{"exits", [](ts_answer*, const ts_sink*) { _exit(0); }},

@@ -1,0 +1,20 @@
+// Cases that anyone would write by hand: two spheres or cubes of half extent 1 on the x axis. A fault that
+// one of them shows needs nothing else.
+#pragma once
+
+#include <vector>
+
+#include "fuzz/causes/interventions/true_pair.h"
+#include "scenarios/value/case.h"
+
+namespace touchstone::fuzz {
+
+/// Side by side, at rest: apart or overlapping as the pair is, by plain shares of the size, the largest
+/// first; then by about the share that the pair has.
+std::vector<Case> plain_pairs(const Case& c, const TruePair& p);
+
+/// In motion, the plainest first: head on, then one of them turning, past each other, fast, slow, touching at
+/// the start or at the end.
+std::vector<Case> plain_impacts(const Case& c, const BodyPair& p);
+
+}  // namespace touchstone::fuzz
