@@ -34,6 +34,7 @@ CLI::Validator a_positive_number();
 
 inline constexpr int exit_clean = 0, exit_wrong = 1, exit_usage = 2, exit_failed = 3;
 
+Run declare_answer(CLI::App& app);
 Run declare_causes(CLI::App& app);
 Run declare_certify(CLI::App& app);
 Run declare_chart(CLI::App& app);
@@ -73,6 +74,7 @@ inline constexpr auto commands = std::to_array<Command>({
     {"report", "summarise a campaign as text and as a page", declare_report},
     {"view", "write a page that shows a case or its broad phase", declare_view},
     {"certify", "test whether a broad phase ever loses a pair", declare_certify},
+    {"answer", "what is true of two shapes, and is your answer right?", declare_answer},
     {"check", "verify a stored certificate in exact arithmetic", declare_check},
     {"chart", "measure the speed and accuracy of every engine", declare_chart},
     {"stability", "find where degeneracy makes each engine fail", declare_stability},

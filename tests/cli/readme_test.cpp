@@ -1,8 +1,8 @@
 // Every command line of the README and of the guides in docs/ runs. In the README, `./touchstone` is replaced
 // by the program itself (its launcher would build it again), `test` is left out (it runs this test), minutes
 // are shortened, and
-// ./libmine.so and ./libmybroad.so are replaced by the example plug-ins, and Box3D by a stand-in. Engines from
-// npm come from a folder of packages that imitate them (npm_registry.h).
+// ./libmine.so and ./libmybroad.so are replaced by the example plug-ins, and Box3D by a stand-in. Engines
+// from npm come from a folder of packages that imitate them (npm_registry.h).
 #include <sys/wait.h>
 
 #include <cstdio>
@@ -16,6 +16,7 @@
 
 #include "tests/support/catch.h"
 #include "tests/support/npm_registry.h"
+#include "tests/support/python.h"
 #include "tests/support/skip.h"
 #include "tests/support/workspace.h"
 
@@ -124,6 +125,7 @@ std::vector<std::string> lines_of(const std::string& text) {
 std::string in_workspace(const Workspace& w, std::string line) {
   line = std::regex_replace(line, std::regex("build/release"), TS_BINARY_DIR);
   line = std::regex_replace(line, std::regex("PREFIX(?!_)"), (w.dir / "prefix").string());
+  line = std::regex_replace(line, std::regex("SOURCE_DIR"), TS_SOURCE_DIR);
   line = std::regex_replace(line, std::regex("/opt/box3d"), TS_SOURCE_DIR "/tests/oracles/stubs/box3d");
   line = std::regex_replace(line, std::regex("~/"), w.dir.string() + "/");
   line = std::regex_replace(line, std::regex("--cases [0-9]+"), "--cases 300");
@@ -210,6 +212,8 @@ TEST_CASE("every command line of the README runs", "[readme]") {
 TEST_CASE("every command line of the guides runs, and prints what they say", "[readme][optional]") {
   for (const char* needed : {"python3", "git", "make"})
     if (!has_command(needed)) return touchstone::test::skip(std::string(needed) + " is not installed");
+  if (!touchstone::test::has_python_with("numpy, pip"))
+    return touchstone::test::skip("python3-numpy or python3-pip is not installed");
   std::size_t run = 0;
   for (const auto& entry : fs::directory_iterator(TS_SOURCE_DIR "/docs"))
     if (entry.path().extension() == ".md") run += run_guide(entry.path());
