@@ -6,6 +6,8 @@
 #include "cli/chosen_engines.h"
 #include "cli/command.h"
 #include "cli/judged_by.h"
+#include "cli/query_file.h"
+#include "cli/replay_capture.h"
 #include "cli/replay_expected.h"
 #include "core/base/input_error.h"
 #include "fuzz/ask/evidence.h"
@@ -24,7 +26,7 @@ struct ReplayOptions {
   std::vector<std::string> paths;
   EngineChoice choice;
   std::string frames, error;
-  bool json = false, certificates = false;
+  bool json = false, certificates = false, single = false;
   ExpectedOptions expected;
   WorkerLimits limits;
 };
@@ -228,7 +230,20 @@ int replay_expected(const ReplayOptions& o) {
   return expected.finish({count.bad, errors, count.failed ? exit_failed : exit_usage}, o.json);
 }
 
-int run(const ReplayOptions& o) {
+// Engines answer beside the recorded answers only if they are named.
+int replay_captured(const ReplayOptions& o, bool engines_named) {
+  for (const std::string& path : o.paths)
+    if (!is_query_file(path)) throw InputError(path, "is no capture (.jsonl); replay captures by themselves");
+  std::vector<EnginePtr> beside;
+  if (engines_named) beside = judged_by(make_engines(engine_names(o.choice.engines), o.limits), o.error);
+  CaptureOptions capture{.precision = {.single = o.single, .tolerance = 0}, .json = o.json};
+  if (!o.error.empty()) capture.precision.tolerance = length_from_text(o.error);
+  return replay_captures(o.paths, beside, capture);
+}
+
+int run(const ReplayOptions& o, bool engines_named) {
+  if (std::any_of(o.paths.begin(), o.paths.end(), is_query_file)) return replay_captured(o, engines_named);
+  if (o.single) throw InputError("--single", "is about the answers of a capture (.jsonl)");
   if (o.expected.given()) return replay_expected(o);
   const ChosenEngines chosen = chosen_engines(o.choice, o.limits);
   const ReplayEngines asked{judged_by(make_engines(chosen.names, o.limits), o.error), chosen.subject};
@@ -245,8 +260,9 @@ int run(const ReplayOptions& o) {
 Run declare_replay(CLI::App& app) {
   auto o = std::make_shared<ReplayOptions>();
   app.add_option("case", o->paths,
-                 "case or scene files, directories of findings, names of scenarios, or directories of "
-                 "recorded scenes (scene.txt, frames.npy)")
+                 "case or scene files, directories of findings, names of scenarios, directories of "
+                 "recorded scenes (scene.txt, frames.npy), or captures (.jsonl), whose recorded answers are "
+                 "judged; engines answer beside those only if --engines names them")
       ->required();
   add_engine_choice(app, o->choice);
   app.add_option("--frames", o->frames,
@@ -254,12 +270,14 @@ Run declare_replay(CLI::App& app) {
   add_expected(app, o->expected);
   add_error(app, o->error);
   add_case_seconds(app, o->limits);
+  app.add_flag("--single", o->single, "the answers of a capture were computed in single precision");
   app.add_flag("--json", o->json, "one JSON document on stdout");
   app.add_flag(
       "--certificates", o->certificates,
       "add certificates in exact arithmetic to the JSON, as `touchstone check` takes them (takes minutes for "
       "moving meshes)");
-  return [o] { return run(*o); };
+  const CLI::Option* engines = app.get_option("--engines");
+  return [o, engines] { return run(*o, engines->count() > 0); };
 }
 
 }  // namespace touchstone::cli

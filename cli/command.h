@@ -36,6 +36,7 @@ CLI::Validator a_positive_number();
 
 inline constexpr int exit_clean = 0, exit_wrong = 1, exit_usage = 2, exit_failed = 3;
 
+Run declare_answer(CLI::App& app);
 Run declare_causes(CLI::App& app);
 Run declare_certify(CLI::App& app);
 Run declare_chart(CLI::App& app);
@@ -63,6 +64,7 @@ Run declare_view(CLI::App& app);
 inline constexpr auto commands = std::to_array<Command>({
     {"fuzz", "run a campaign of random, refereed cases", declare_fuzz, "Find what is wrong"},
     {"causes", "find the distinct causes behind a campaign's findings", declare_causes},
+    {"answer", "what is true of two shapes, and is your answer right?", declare_answer},
     {"replay", "show every engine's answer to stored cases", declare_replay},
     {"check", "verify a stored certificate in exact arithmetic", declare_check},
     {"certify", "test whether a broad phase ever loses a pair", declare_certify},

@@ -3,7 +3,9 @@
 #            touchstone_add_plugin(name sources...), a plug-in, lib<name>.so;
 #            TOUCHSTONE_PROGRAM, the program, for instance for add_test(COMMAND ${TOUCHSTONE_PROGRAM} certify ...)
 #   core     touchstone::core (shared) and touchstone::core_static: collision detection; needs Eigen
-#   referee  touchstone::referee (static): exact answers with certificates, and their checker; needs Eigen and GMP
+#   referee  touchstone::library (shared), the C interface touchstone.h and its C++ wrapper: exact answers with
+#            certificates, their checker, and the judge of other answers; needs nothing else.
+#            Where Eigen, qhull and GMP are installed, also touchstone::referee (static), the referee's own C++ interface
 include(CMakeFindDependencyMacro)
 get_filename_component(touchstone_prefix "${CMAKE_CURRENT_LIST_DIR}/../../.." ABSOLUTE)
 if(NOT touchstone_FIND_COMPONENTS)
@@ -30,17 +32,24 @@ foreach(component IN LISTS touchstone_FIND_COMPONENTS)
       add_library(touchstone::engine INTERFACE IMPORTED)
       set_target_properties(touchstone::engine PROPERTIES INTERFACE_INCLUDE_DIRECTORIES "${touchstone_prefix}/include")
     endif()
-  elseif(component MATCHES "^(core|referee)$" AND EXISTS "${touchstone_prefix}/lib/libtouchstone-${component}.a")
+  elseif(component STREQUAL "core" AND EXISTS "${touchstone_prefix}/lib/libtouchstone-core.a")
     find_dependency(Eigen3 3.3)
     find_dependency(Threads)
     find_library(TOUCHSTONE_QHULL_R NAMES qhull_r REQUIRED)
-    if(component STREQUAL "core")
-      find_library(TOUCHSTONE_HWY NAMES hwy REQUIRED)
-      touchstone_import(core SHARED libtouchstone-core.so Eigen3::Eigen)
-      touchstone_import(core_static STATIC libtouchstone-core.a Eigen3::Eigen ${TOUCHSTONE_QHULL_R} ${TOUCHSTONE_HWY}
-                        Threads::Threads)
-    else()
-      find_library(TOUCHSTONE_GMP NAMES gmp REQUIRED)
+    find_library(TOUCHSTONE_HWY NAMES hwy REQUIRED)
+    touchstone_import(core SHARED libtouchstone-core.so Eigen3::Eigen)
+    touchstone_import(core_static STATIC libtouchstone-core.a Eigen3::Eigen ${TOUCHSTONE_QHULL_R} ${TOUCHSTONE_HWY}
+                      Threads::Threads)
+  elseif(component STREQUAL "referee" AND EXISTS "${touchstone_prefix}/lib/libtouchstone.so")
+    if(NOT TARGET touchstone::library)
+      add_library(touchstone::library SHARED IMPORTED)
+      set_target_properties(touchstone::library PROPERTIES IMPORTED_LOCATION "${touchstone_prefix}/lib/libtouchstone.so"
+        INTERFACE_INCLUDE_DIRECTORIES "${touchstone_prefix}/include")
+    endif()
+    find_package(Eigen3 3.3 QUIET)
+    find_library(TOUCHSTONE_QHULL_R NAMES qhull_r)
+    find_library(TOUCHSTONE_GMP NAMES gmp)
+    if(Eigen3_FOUND AND TOUCHSTONE_QHULL_R AND TOUCHSTONE_GMP)
       touchstone_import(referee STATIC libtouchstone-referee.a Eigen3::Eigen ${TOUCHSTONE_QHULL_R} ${TOUCHSTONE_GMP})
     endif()
   else()

@@ -22,7 +22,7 @@ fs::path scratch_copy(const Workspace& w) {
   const fs::path root = w.dir / "source";
   fs::create_directory(root);
   for (const char* part :
-       {"CMakeLists.txt", "cli", "cmake", "core", "docs", "fuzz", "oracles", "reports", "scenarios", "tests"})
+       {"CMakeLists.txt", "cli", "cmake", "core", "docs", "fuzz", "library", "oracles", "reports", "scenarios", "tests"})
     fs::copy(fs::path(TS_SOURCE_DIR) / part, root / part, fs::copy_options::recursive);
   return root;
 }

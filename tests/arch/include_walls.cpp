@@ -31,7 +31,7 @@ using Table = std::map<std::string, std::set<std::string>>;
 // Rows "| `room` | *values*, `room`, ... |".
 Table table_of(const fs::path& root) {
   static const std::regex row(
-      R"(^\| `((?:core|scenarios|oracles|fuzz|reports)/(?:\w+|\*)|cli)` \| (.*) \|$)");
+      R"(^\| `((?:core|scenarios|oracles|fuzz|reports)/(?:\w+|\*)|library|cli)` \| (.*) \|$)");
   static const std::regex name("`([^`]+)`");
   std::ifstream in(root / "docs/architecture.md");
   Table table;
@@ -74,7 +74,7 @@ struct Include {
 std::vector<Include> all_includes(const fs::path& root) {
   static const std::regex line_form(R"(^\s*#\s*include\s*([<"])([^>"]+)[>"])");
   std::vector<Include> found;
-  for (const char* top : {"core", "scenarios", "oracles", "fuzz", "reports", "cli"})
+  for (const char* top : {"core", "scenarios", "oracles", "fuzz", "reports", "library", "cli"})
     for (const auto& entry : fs::recursive_directory_iterator(root / top)) {
       const auto ext = entry.path().extension();
       if (ext != ".h" && ext != ".cpp" && ext != ".c") continue;

@@ -108,7 +108,7 @@ std::vector<SourceFile> sources(const std::vector<std::string>& folders) {
 }
 
 const std::vector<SourceFile>& product_sources() {
-  static const auto all = sources({"core", "scenarios", "oracles", "fuzz", "reports", "cli"});
+  static const auto all = sources({"core", "scenarios", "oracles", "fuzz", "reports", "library", "cli"});
   return all;
 }
 

@@ -1,4 +1,4 @@
-// The core and the referee as installed libraries: the example of docs/libraries.md is built against them and
+// The core and the referee as installed libraries: the example of docs/core-library.md is built against them and
 // run.
 #include <regex>
 #include <string>
@@ -38,8 +38,8 @@ Run installed(const Workspace& w, const std::string& component) {
 TEST_CASE("the documented example is built against the installed core and prints what is documented",
           "[library]") {
   const Workspace w("core-library");
-  const std::string guide = read_all(TS_SOURCE_DIR "/docs/libraries.md");
-  const std::string heading = "The core and the referee as libraries";
+  const std::string guide = read_all(TS_SOURCE_DIR "/docs/core-library.md");
+  const std::string heading = "The core and the referee as C++ libraries";
   const std::string lists = block(guide, heading, "cmake"), source = block(guide, heading, "cpp");
   REQUIRE(installed(w, "core").code == 0);
   CHECK_FALSE(std::filesystem::exists(w.dir / "prefix/bin"));

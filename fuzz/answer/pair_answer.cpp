@@ -1,0 +1,140 @@
+#include "fuzz/answer/pair_answer.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "oracles/checker/checker.h"
+
+namespace touchstone::fuzz {
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+bool is_mesh(const Placed& p) { return std::holds_alternative<TriangleMesh>(*p.shape); }
+bool is_half_space(const Placed& p) { return std::holds_alternative<HalfSpace>(*p.shape); }
+
+// Radius of the ball that the checker adds to the shape's core.
+double ball_of(const Placed& p) {
+  return std::visit(
+      [](const auto& s) -> double {
+        if constexpr (is_convex_shape<std::decay_t<decltype(s)>>) return s.ball_radius();
+        return 0;
+      },
+      *p.shape);
+}
+
+Certificate direction_certificate(const referee::PairTruth& truth, const Placed& a, const Placed& b) {
+  Certificate c;
+  c.kind = Certificate::Kind::depth_direction;
+  c.direction = truth.normal;
+  c.offset = referee::width(a, b, truth.normal).hi;
+  c.note = "gap >= -offset: moving B by `offset` along `direction` brings the bodies into contact at most";
+  return c;
+}
+
+// Bodies that are apart: two points of the cores prove gap <= their distance - both radii, less what the
+// checker allows for the rounding of the points; a half-space needs the point of the other body alone.
+Certificate nearest_points_certificate(const referee::PairTruth& truth, const Placed& a, const Placed& b) {
+  const double ball_a = ball_of(a), ball_b = ball_of(b);
+  const Vec3 p = truth.witness[0] - ball_a * truth.normal, q = truth.witness[1] + ball_b * truth.normal;
+  Certificate c;
+  c.kind = Certificate::Kind::inner_polytope;
+  c.support_pairs.push_back({p, q});
+  const double largest = std::max(p.cwiseAbs().maxCoeff(), q.cwiseAbs().maxCoeff());
+  constexpr double allowances = 4;  // two for the points, two for the roundings of this sum and of the gap
+  const double allowed = allowances * checker::point_factor * largest;
+  const bool plane = is_half_space(a) || is_half_space(b);
+  const double apart = plane ? truth.gap.hi : (q - p).stableNorm() - ball_a - ball_b;
+  c.offset = -(apart + allowed);
+  c.note = "gap <= -offset: one point of each core, less the radii of the balls around them";
+  return c;
+}
+
+Certificate accepted(Certificate c, const Placed& a, const Placed& b) {
+  return c.kind != Certificate::Kind::none && checker::check(c, a, b) ? c : Certificate{};
+}
+
+GapProof prove(const referee::PairTruth& truth, const Placed& a, const Placed& b) {
+  GapProof r;
+  r.gap = {-infinity, infinity};
+  if (truth.verdict == referee::Verdict::undecided) return r;
+  r.verdict = accepted(referee::checkable_certificate(truth, a, b), a, b);
+  if (is_mesh(a) || is_mesh(b)) return r;
+  if (truth.normal.allFinite() && !truth.normal.isZero(0))
+    r.at_least = accepted(direction_certificate(truth, a, b), a, b);
+  const bool apart = truth.verdict == referee::Verdict::disjoint;
+  r.at_most = accepted(
+      apart ? nearest_points_certificate(truth, a, b) : referee::depth_certificate(truth, a, b), a, b);
+  if (r.at_least.kind != Certificate::Kind::none) r.gap.lo = -r.at_least.offset;
+  if (r.at_most.kind != Certificate::Kind::none) r.gap.hi = -r.at_most.offset;
+  return r;
+}
+
+std::string missing_in(const GapProof& proof, const referee::PairTruth& truth, const Placed& a,
+                       const Placed& b) {
+  const auto has = [](const Certificate& c) { return c.kind != Certificate::Kind::none; };
+  if (truth.verdict == referee::Verdict::undecided) return "the verdict is undecided";
+  if (!has(proof.verdict)) return "the verdict has no certificate of a form that can be checked";
+  const bool surface = is_mesh(a) || is_mesh(b);
+  if (surface && truth.verdict == referee::Verdict::overlap) return "";
+  if (surface) return "the distance of a mesh has no certificate, only the verdict";
+  if (!has(proof.at_least)) return "the lower end of the gap has no certificate";
+  if (!has(proof.at_most)) return "the upper end of the gap has no certificate";
+  return "";
+}
+
+std::string missing_in(const ImpactCertificate& c, const referee::TimeTruth& truth) {
+  using Verdict = referee::TimeTruth::Verdict;
+  if (truth.verdict == Verdict::undecided) return "the verdict is undecided";
+  const bool clear_needed = truth.verdict == Verdict::none || truth.t_lo > 0;
+  if (clear_needed && c.tracks.empty()) return "that the bodies are apart before has no certificate";
+  if (truth.verdict == Verdict::hit && !c.contact) return "the contact has no certificate";
+  return "";
+}
+
+bool has_listed_normals(const Placed& p) {
+  const ShapeKind k = kind_of(*p.shape);
+  return k == ShapeKind::sphere || k == ShapeKind::box || k == ShapeKind::capsule || k == ShapeKind::hull ||
+         k == ShapeKind::rounded_box;
+}
+
+// Where several directions have the least depth, the referee's witness points may belong to another of them
+// than its normal. Their direction is taken if it is not proven to need more than the depth.
+void match_normal_to_witness(referee::PairTruth& t, const Placed& a, const Placed& b) {
+  if (t.verdict != referee::Verdict::overlap || !std::isfinite(t.gap.lo)) return;
+  const Vec3 n = (t.witness[0] - t.witness[1]).stableNormalized();
+  constexpr double same = 1 - 0x1p-20;  // cosine: directions within 1.4e-3 rad need no change
+  if (!n.allFinite() || n.isZero(0) || n.dot(t.normal) >= same) return;
+  if (referee::width(a, b, n).lo <= -t.gap.lo) t.normal = n;
+}
+
+}  // namespace
+
+PairAnswer answer_pair(const Placed& a, const Placed& b, const AnswerOptions& options) {
+  PairAnswer r;
+  r.truth = referee::judge_pair(a, b);
+  match_normal_to_witness(r.truth, a, b);
+  if (options.normals && has_listed_normals(a) && has_listed_normals(b))
+    r.normals = referee::near_minimal_normals(a, b);
+  if (!options.certificates) return r;
+  r.proof = prove(r.truth, a, b);
+  r.not_certified = missing_in(*r.proof, r.truth, a, b);
+  r.certified = r.not_certified.empty();
+  return r;
+}
+
+ImpactAnswer answer_motion(const Placed& a, const Motion& motion_a, const Placed& b, const Motion& motion_b,
+                           const AnswerOptions& options) {
+  ImpactAnswer r;
+  r.truth = referee::judge_motion(a, motion_a, b, motion_b);
+  if (!options.certificates) return r;
+  ImpactCertificate c = referee::impact_certificate(a, motion_a, b, motion_b, r.truth);
+  if (!c.claims_nothing() && !checker::check(c, a, motion_a, b, motion_b)) c = {};
+  r.not_certified = missing_in(c, r.truth);
+  r.certified = r.not_certified.empty();
+  r.certificate = std::move(c);
+  return r;
+}
+
+}  // namespace touchstone::fuzz

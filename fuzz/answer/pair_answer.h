@@ -1,0 +1,60 @@
+// What is true of one pair of bodies, with certificates that the checker has accepted.
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+
+#include "oracles/referee/referee.h"
+#include "scenarios/value/certificate.h"
+
+namespace touchstone::fuzz {
+
+/// A certificate with what it proves. The kind is `none` when the referee has none that the checker accepts.
+struct GapProof {
+  Certificate verdict;
+  Certificate at_least;  // depth_direction: gap >= -offset
+  Certificate at_most;   // inner_polytope: gap <= -offset
+  /// What the two prove, in the scene's unit; infinite without a certificate. Contains the truth like
+  /// PairTruth::gap, and is wider by the rounding of the points to doubles.
+  referee::Bracket gap;
+};
+
+struct PairAnswer {
+  referee::PairTruth truth;
+  /// Present if asked for and known: every normal when several are about equally good.
+  std::optional<referee::NearMinimalNormals> normals;
+  /// Present if asked for.
+  std::optional<GapProof> proof;
+  /// The checker accepted a certificate of the verdict and of both ends of the gap. For an overlapping mesh,
+  /// whose depth is not defined, that of the verdict is all there is to prove.
+  bool certified = false;
+  std::string not_certified;  // why not; empty when certified or not asked
+};
+
+struct ImpactAnswer {
+  referee::TimeTruth truth;
+  std::optional<ImpactCertificate> certificate;  // if asked for
+  /// The checker accepted that there is no contact before t_lo (less a few ulps) and, for a hit, that there
+  /// is one at t_hi (plus as little).
+  bool certified = false;
+  std::string not_certified;
+};
+
+struct AnswerOptions {
+  bool certificates = true;  // exact arithmetic: about a hundred times slower than the answer
+  /// The set of normals of least depth. Only for spheres, boxes, capsules, hulls and rounded boxes, whose set
+  /// is known to be complete; that of others is an estimate that takes seconds.
+  bool normals = true;
+};
+
+/// Never throws for valid shapes; what cannot be decided is undecided.
+PairAnswer answer_pair(const Placed& a, const Placed& b, const AnswerOptions& options = {});
+ImpactAnswer answer_motion(const Placed& a, const Motion& motion_a, const Placed& b, const Motion& motion_b,
+                           const AnswerOptions& options = {});
+
+/// Infinite ends of brackets are null. Certificates are as `touchstone check` reads them.
+nlohmann::ordered_json to_json(const PairAnswer& answer);
+nlohmann::ordered_json to_json(const ImpactAnswer& answer);
+
+}  // namespace touchstone::fuzz
