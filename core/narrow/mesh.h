@@ -1,6 +1,6 @@
-// A convex body against a triangle mesh, triangle by triangle. The mesh is a surface: the distance is that to
-// the nearest triangle. When triangles are hit, gap, normal and depth are those of the deepest one (the least
-// motion that frees the body from that triangle, not from the whole mesh).
+// A convex body or a mesh against a triangle mesh, triangle by triangle. A mesh is a surface: the distance is
+// that to the nearest triangle. When triangles are hit, gap, normal and depth are those of the deepest one
+// (the least motion that frees the body from that triangle, not from the whole mesh).
 #pragma once
 
 #include <vector>
@@ -25,5 +25,9 @@ std::vector<TriangleBound> triangles_near(const TriangleMesh& m, const WideVec& 
 std::array<Vec3, 3> corners(const TriangleMesh& m, std::size_t triangle);
 
 Separation core_mesh(const ConvexCore<Wide>& a, const TriangleMesh& mesh, const WideFrame& frame);
+
+/// Two meshes: the least gap of their pairs of triangles.
+Separation mesh_mesh(const ShapeRef& a, const WideFrame& frame_a, const ShapeRef& b,
+                     const WideFrame& frame_b);
 
 }  // namespace touchstone::narrow

@@ -1,6 +1,6 @@
 // The public interface of the narrow phase: overlap, signed distance and contact of two placed shapes, which
 // come from colliders, Collider::at(pose), or from shapes as they are, {&shape, pose}. Every pair is
-// supported except mesh–mesh and half-space–half-space (`unsupported`). Results are computed in double with a
+// supported except half-space–half-space (`unsupported`). Results are computed in double with a
 // proven error bound; where that bound cannot decide a verdict or exceeds τ, they are computed in extended
 // precision on the exact pose and rounded once.
 #pragma once
@@ -30,12 +30,13 @@ Separation separation(const PlacedShape& a, const PlacedShape& b);
 OverlapAnswer overlap(const PlacedShape& a, const PlacedShape& b, Arithmetic arithmetic = Arithmetic::float64,
                       PairMemory* memory = nullptr);
 
-/// For a convex body that hits a mesh: minus the depth in the deepest triangle.
+/// For a convex body that hits a mesh: minus the depth in the deepest triangle; for two meshes that meet: of
+/// the deepest pair of triangles.
 DistanceAnswer distance(const PlacedShape& a, const PlacedShape& b,
                         Arithmetic arithmetic = Arithmetic::float64, PairMemory* memory = nullptr);
 
-/// For a mesh: normal, depth and point of the deepest triangle. The normal minimises the depth over
-/// directions.
+/// For a mesh: normal, depth and point of the deepest triangle or pair of triangles. The normal minimises the
+/// depth over directions.
 ContactAnswer contact(const PlacedShape& a, const PlacedShape& b, Arithmetic arithmetic = Arithmetic::float64,
                       PairMemory* memory = nullptr);
 

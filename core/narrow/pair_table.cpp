@@ -82,6 +82,7 @@ constexpr void set(PairTable<Row>& t, const Row& row) {
 constexpr PairTable<Row> make_table() {
   PairTable<Row> t{General()};
   set<HalfSpace, TriangleMesh>(t, {&half_space_mesh, nullptr, nullptr});
+  set<TriangleMesh, TriangleMesh>(t, {&mesh_mesh, &filtered::mesh_mesh<double>, nullptr});
   set<Sphere, Sphere>(t, TS_CLOSED(sphere_sphere));
   set<Sphere, Capsule>(t, TS_CLOSED(sphere_capsule));
   set<Sphere, Box>(t, TS_CLOSED(sphere_box));

@@ -9,7 +9,7 @@
 
 namespace touchstone::narrow {
 
-/// Frames are relative to A's translation. `unsupported` for mesh–mesh and half-space–half-space.
+/// Frames are relative to A's translation. `unsupported` for half-space–half-space.
 Separation separate_placed(const ShapeRef& a, const WideFrame& frame_a, const ShapeRef& b,
                            const WideFrame& frame_b);
 

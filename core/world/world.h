@@ -7,7 +7,7 @@
 // * Scene contacts: of the same pairs at the bodies' own poses (the script is not run), those that overlap,
 //   with
 //   depth and with the normal from the first to the second body. A pair that the narrow phase does not support
-//   (mesh–mesh, half-space–half-space) is omitted and counted in `unsupported`.
+//   (half-space–half-space) is omitted and counted in `unsupported`.
 #pragma once
 
 #include <string_view>

@@ -212,7 +212,9 @@ double Truth::depth_in_mesh(int frame, int a, int b) const {
   Placed mesh = placed(frame, a), body = placed(frame, b);
   if (!std::holds_alternative<TriangleMesh>(*mesh.shape)) std::swap(mesh, body);
   const auto* m = std::get_if<TriangleMesh>(mesh.shape);
-  if (!m || std::holds_alternative<TriangleMesh>(*body.shape)) return 0;
+  if (!m) return 0;
+  if (std::holds_alternative<TriangleMesh>(*body.shape))
+    return std::max(0.0, -referee::gap_at(mesh, {}, body, {}, 0).hi);
   double depth = 0;
   for (const auto& [i, j, k] : m->triangles) {
     const auto vertex = [&](int v) { return m->vertices[static_cast<std::size_t>(v)]; };

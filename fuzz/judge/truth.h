@@ -45,7 +45,8 @@ class Truth {
   referee::Bracket distance_to(int frame, int body, const Vec3& p, double enough = 0) const;
   referee::Bracket gap_at(int frame, int a, int b, double t) const;
   /// For a convex body and a mesh that overlap: the certain depth in the deepest triangle, i.e. how far the
-  /// body must move at least to leave that triangle. 0 when neither is a mesh.
+  /// body must move at least to leave that triangle; for two meshes, the depth of the deepest pair of
+  /// triangles. 0 when neither is a mesh.
   double depth_in_mesh(int frame, int a, int b) const;
   /// The largest depth that is certain at any time up to t (for a mesh: in the deepest triangle); -infinity:
   /// too expensive to find.

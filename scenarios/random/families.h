@@ -11,8 +11,16 @@ namespace touchstone::fuzz {
 
 void meshes(Rng& rng, Case& c);
 void many_vertices(Rng& rng, Case& c);
+void two_meshes(Rng& rng, Case& c);
 
 Shape any_mesh(Rng& rng, double scale);
+
+/// A point of one triangle (in its interior, on its border or at a corner) and its normal, to either side.
+struct Spot {
+  Vec3 point, normal;  // world
+};
+/// Precondition: a mesh.
+Spot spot_on(Rng& rng, const Scene& s, int body);
 
 // Pairs whose sizes are unusual: zero (points, segments, discs, plates), or very different; and boxes and
 // prisms whose edges are almost parallel.

@@ -242,6 +242,7 @@ constexpr Family catalog[] = {
     {"dialogue", "3 to 6 bodies, few shapes; pairs queried in turn, in both orders, and again", 5, dialogue},
     {"later", "rounded boxes against any shape: apart, touching, deep, concentric, in motion", 6,
      later_shapes},
+    {"surfaces", "two meshes: apart, touching, crossing, one inside the other, coplanar", 6, two_meshes},
 };
 static_assert(catalog[first_later - 1].name == "dialogue");
 

@@ -78,32 +78,6 @@ TriangleMesh closed(Rng& rng, double scale) {
   return m;
 }
 
-struct Spot {
-  Vec3 point, normal;  // world
-};
-
-// A point of one triangle (in its interior, on its border or at a corner) and its normal, to either side.
-Spot spot_on(Rng& rng, const Scene& s, int body) {
-  const auto& m = std::get<TriangleMesh>(s.shape_of(body));
-  const auto& t = m.triangles[rng.below(m.triangles.size())];
-  const auto corner = [&](std::size_t k) { return m.vertices[static_cast<std::size_t>(t[k])]; };
-  double u = rng.uniform(), v = rng.uniform();
-  if (u + v > 1) {
-    u = 1 - u;
-    v = 1 - v;
-  }
-  const auto place = rng.below(8);
-  if (place < 2) v = 0;
-  if (place == 0) u = 0;
-  const Vec3 along = corner(1) - corner(0), across = corner(2) - corner(0);
-  const Vec3 n = along.cross(across);
-  const Pose& pose = s.bodies[static_cast<std::size_t>(body)].pose;
-  const Mat3 r = rotation_matrix(pose.rotation);
-  const double side = rng.chance(0.5) ? 1 : -1;
-  const Vec3 normal = n.norm() > 0 ? Vec3(n.normalized() * side) : rng.unit_vector();
-  return {r * (corner(0) + u * along + v * across) + pose.translation, r * normal};
-}
-
 void ask_impact(Rng& rng, Case& c, const Vec3& n) {
   Motion m{rng.vector(0, 1) - n * rng.uniform(0.2, 3), Vec3::Zero()};
   if (rng.chance(0.4)) m.angular = rng.vector(0.1, 2);
@@ -124,6 +98,27 @@ void ask_pair(Case& c) {
 }
 
 }  // namespace
+
+Spot spot_on(Rng& rng, const Scene& s, int body) {
+  const auto& m = std::get<TriangleMesh>(s.shape_of(body));
+  const auto& t = m.triangles[rng.below(m.triangles.size())];
+  const auto corner = [&](std::size_t k) { return m.vertices[static_cast<std::size_t>(t[k])]; };
+  double u = rng.uniform(), v = rng.uniform();
+  if (u + v > 1) {
+    u = 1 - u;
+    v = 1 - v;
+  }
+  const auto place = rng.below(8);
+  if (place < 2) v = 0;
+  if (place == 0) u = 0;
+  const Vec3 along = corner(1) - corner(0), across = corner(2) - corner(0);
+  const Vec3 n = along.cross(across);
+  const Pose& pose = s.bodies[static_cast<std::size_t>(body)].pose;
+  const Mat3 r = rotation_matrix(pose.rotation);
+  const double side = rng.chance(0.5) ? 1 : -1;
+  const Vec3 normal = n.norm() > 0 ? Vec3(n.normalized() * side) : rng.unit_vector();
+  return {r * (corner(0) + u * along + v * across) + pose.translation, r * normal};
+}
 
 Shape any_mesh(Rng& rng, double scale) {
   const auto style = rng.below(16);

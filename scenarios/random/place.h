@@ -23,8 +23,8 @@ Vec3 farthest_point(const Scene& s, int body, const Vec3& n);
 
 double mean_extent(const Scene& pair);
 
-/// Two kinds that some engine supports as a pair: never mesh with mesh, half-space with half-space, or mesh
-/// with half-space. The unbounded or static kind comes first.
+/// Two kinds of which at least one is bounded and convex: never mesh with mesh (family `surfaces`),
+/// half-space with half-space, or mesh with half-space. The unbounded or static kind comes first.
 std::pair<ShapeKind, ShapeKind> random_kinds(Rng& rng);
 
 /// Places body 1 so that the point of A farthest along a random direction n (the normal of a half-space) and

@@ -139,6 +139,12 @@ bool coplanar(const Case& c, const Case&) {
 bool mesh_in_company(const Case& c, const Case&) {
   return c.scene.bodies.size() > 2 && any_shape<TriangleMesh>(c, [](const TriangleMesh&) { return true; });
 }
+bool mesh_and_mesh(const Case& c, const Case&) {
+  return any_question(c, [&](const Query& q) {
+    return kind_of(c.scene.shape_of(q.a)) == ShapeKind::mesh &&
+           kind_of(c.scene.shape_of(q.b)) == ShapeKind::mesh;
+  });
+}
 bool mesh_second(const Case& c, const Case&) {
   return any_question(c, [&](const Query& q) { return kind_of(c.scene.shape_of(q.b)) == ShapeKind::mesh; });
 }
@@ -190,6 +196,7 @@ constexpr Regime rows[] = {
     {"large-mesh", "a mesh of 100 or more triangles", 100, hundreds_of_triangles},
     {"coplanar", "a mesh whose triangles lie in one plane", 128, coplanar},
     {"mesh-second", "a query whose second body is a mesh", 64, mesh_second},
+    {"two-meshes", "a query about two meshes", 64, mesh_and_mesh},
     {"mesh-company", "a mesh among three or more bodies", 64, mesh_in_company},
     {"hull-64", "a hull of 64 or more vertices", 64, hull_of<64>},
     {"hull-256", "a hull of 256 or more vertices", 128, hull_of<256>},

@@ -58,6 +58,12 @@ TEST_CASE("a mesh tree contains every triangle once, inside its boxes", "[narrow
     Rng r = Rng::stream(90, static_cast<std::uint64_t>(n));
     const TriangleMesh m = field(r, n);
     const MeshTree tree = build_mesh_tree(m);
+    CHECK(tree.oriented.size() == tree.nodes.size());
+    for (std::size_t i = 0; i < tree.nodes.size(); ++i) {
+      const OrientedBox& box = tree.oriented[i];
+      CHECK((box.axes.transpose() * box.axes - Mat3::Identity()).norm() < 1e-14);
+      CHECK((box.half.array() >= 0).all());
+    }
     std::vector<int> seen(m.triangles.size(), 0);
     for (const MeshTree::Node& node : tree.nodes)
       for (std::int32_t i = node.first; i < node.first + node.count; ++i) {
@@ -66,6 +72,8 @@ TEST_CASE("a mesh tree contains every triangle once, inside its boxes", "[narrow
         for (const int k : m.triangles[t]) {
           const Vec3& v = m.vertices[static_cast<std::size_t>(k)];
           CHECK(((v.array() >= node.lo.array()) && (v.array() <= node.hi.array())).all());
+          const OrientedBox& box = tree.oriented[static_cast<std::size_t>(&node - tree.nodes.data())];
+          CHECK(((box.axes.transpose() * (v - box.centre)).cwiseAbs() - box.half).maxCoeff() < 1e-14);
         }
       }
     for (const int s : seen) CHECK(s == 1);

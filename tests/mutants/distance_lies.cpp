@@ -41,6 +41,18 @@ double about_world_origin(const Case& c, const Query& q, double d) {
   const double far = body(c, q.b).pose.translation.norm() * 4096;
   return (d + far) - far;
 }
+// As if the surfaces were their vertices.
+double between_vertices(const Case& c, const Query& q, double d) {
+  if (!two_meshes(c, q) || d <= 0) return d;
+  double least = std::numeric_limits<double>::infinity();
+  const auto at = [&](int i, const Vec3& v) {
+    return Vec3(rotation_matrix(body(c, i).pose.rotation) * v + body(c, i).pose.translation);
+  };
+  for (const Vec3& x : std::get<TriangleMesh>(c.scene.shape_of(q.a)).vertices)
+    for (const Vec3& y : std::get<TriangleMesh>(c.scene.shape_of(q.b)).vertices)
+      least = std::min(least, (at(q.b, y) - at(q.a, x)).norm());
+  return least;
+}
 double radius_forgotten(const Case& c, const Query& q, double d) {
   const auto* sphere = std::get_if<Sphere>(&c.scene.shape_of(q.b));
   return sphere && kind(c, q.a) == ShapeKind::capsule ? d + sphere->radius : d;
@@ -97,6 +109,8 @@ std::vector<Mutant> distance_lies() {
        "off by 1e-6 when B's kind of shape is the lower one", says(one_order)},
       {"distance_cancels", "distance_off", "far", "computed from coordinates 4096 times as large",
        says(about_world_origin)},
+      {"distance_between_vertices", "distance_off", "surfaces",
+       "of two meshes, that of their nearest vertices", says(between_vertices)},
       {"distance_radius_forgotten", "distance_off", "separate", "capsule-sphere without the sphere's radius",
        says(radius_forgotten)},
       {"distance_of_centres", "distance_off", "separate", "for two ellipsoids, the distance of their centres",

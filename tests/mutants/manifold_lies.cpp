@@ -105,6 +105,13 @@ void as_deep_beside(const Case&, const Query&, Observation& o) {
     o.manifold.push_back({o.manifold[0].position + 0.4 * *o.depth * o.normal->unitOrthogonal(), *o.depth});
 }
 
+void corner_of_first_mesh(const Case& c, const Query& q, Observation& o) {
+  if (!two_meshes(c, q) || o.manifold.empty()) return;
+  const Vec3& corner = std::get<TriangleMesh>(c.scene.shape_of(q.a)).vertices.front();
+  o.manifold[0].position =
+      rotation_matrix(body(c, q.a).pose.rotation) * corner + body(c, q.a).pose.translation;
+}
+
 }  // namespace
 
 std::vector<Mutant> manifold_lies() {
@@ -119,6 +126,8 @@ std::vector<Mutant> manifold_lies() {
        on_contact(whole_reference_face)},
       {"point_at_origin", "point_off", "shallow", "the first point is A's origin",
        on_contact(origin_of_first)},
+      {"point_at_corner", "point_off", "surfaces", "of two meshes, a vertex of the first",
+       on_contact(corner_of_first_mesh)},
       {"point_extrapolated", "point_off", "shallow", "the first point is 10 % too far from the second",
        on_contact(extrapolated)},
       {"point_not_a_number", "point_off", "lattice", "the fourth point is NaN", on_contact(not_a_number)},

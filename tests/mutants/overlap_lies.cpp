@@ -32,6 +32,15 @@ bool tiny(const Case& c, const Query& q) { return small_size(c, q) < 0.0005; }
 bool deep(const Case& c, const Query& q) { return gap(c, q) < -0.8 * small_size(c, q); }
 bool capsule_cone(const Case& c, const Query& q) { return are(c, q, ShapeKind::capsule, ShapeKind::cone); }
 bool mesh(const Case& c, const Query& q) { return kind(c, q.a) == ShapeKind::mesh; }
+// Two meshes whose hulls, but not whose surfaces, overlap.
+bool hulls_overlap(const Case& c, const Query& q) {
+  if (!two_meshes(c, q)) return false;
+  const auto hull = [&](int i) {
+    return Shape(make_hull(std::get<TriangleMesh>(c.scene.shape_of(i)).vertices));
+  };
+  const Shape x = hull(q.a), y = hull(q.b);
+  return overlap({&x, body(c, q.a).pose}, {&y, body(c, q.b).pose}).overlap;
+}
 bool second_kind_lower(const Case& c, const Query& q) { return kind(c, q.b) < kind(c, q.a); }
 bool same_rotation(const Case& c, const Query& q) {
   return body(c, q.a).pose.rotation == body(c, q.b).pose.rotation;
@@ -83,6 +92,10 @@ std::vector<Mutant> overlap_lies() {
       {"overlap_one_pair_denied", "missed", "shallow", "a capsule and a cone never overlap",
        denied_where(capsule_cone)},
       {"overlap_mesh_denied", "missed", "deep", "a mesh overlaps nothing", denied_where(mesh)},
+      {"overlap_two_meshes_denied", "missed", "surfaces", "two meshes never overlap",
+       denied_where(two_meshes)},
+      {"overlap_of_hulls", "ghost", "surfaces", "two meshes overlap where their hulls do",
+       claimed_where(hulls_overlap)},
       {"overlap_flat_hull_denied", "missed", "zero", "a flat hull as the second body overlaps nothing",
        denied_where(flat_hull)},
       {"overlap_one_order_denied", "missed", "shallow", "apart when B's kind of shape is the lower one",

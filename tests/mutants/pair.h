@@ -16,6 +16,7 @@ inline ShapeKind kind(const Case& c, int i) { return kind_of(c.scene.shape_of(i)
 inline bool are(const Case& c, const Query& q, ShapeKind x, ShapeKind y) {
   return (kind(c, q.a) == x && kind(c, q.b) == y) || (kind(c, q.a) == y && kind(c, q.b) == x);
 }
+inline bool two_meshes(const Case& c, const Query& q) { return are(c, q, ShapeKind::mesh, ShapeKind::mesh); }
 inline bool smooth(ShapeKind k) {
   return k == ShapeKind::cylinder || k == ShapeKind::cone || k == ShapeKind::ellipsoid;
 }

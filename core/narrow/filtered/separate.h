@@ -45,6 +45,10 @@ template <class R>
 void convex_mesh(const PlacedShape& a, const PlacedShape& b, Asked asked, Answer<R>& out,
                  PairScene<R>& scene);
 
+/// Two meshes, in double.
+template <class R>
+void mesh_mesh(const PlacedShape& a, const PlacedShape& b, Asked asked, Answer<R>& out, PairScene<R>& scene);
+
 template <class R>
 void box_box(const PlacedShape& a, const PlacedShape& b, Asked asked, Answer<R>& out, PairScene<R>& scene);
 
