@@ -64,14 +64,14 @@ std::string pair_name(ShapeKind a, ShapeKind b) {
   return fmt::format("{}-{}", first, second);
 }
 
-// Half-spaces and meshes do not meet each other: no engine has an answer for two half-spaces, and few for two
-// meshes.
+// Half-spaces meet bounded convex shapes only: no engine has an answer for two of them, and few for one and a
+// mesh.
 std::vector<std::string> pair_names() {
   std::vector<std::string> names;
   for (int a = 0; a < shape_kind_count; ++a)
     for (int b = a; b < shape_kind_count; ++b) {
       const auto x = static_cast<ShapeKind>(a), y = static_cast<ShapeKind>(b);
-      if (is_convex(x) || is_convex(y)) names.push_back(pair_name(x, y));
+      if (is_convex(x) || is_convex(y) || (x == ShapeKind::mesh && y == x)) names.push_back(pair_name(x, y));
     }
   return names;
 }
