@@ -63,7 +63,10 @@ const fuzz::Cause& cause_named(const fuzz::Causes& causes, const std::string& id
 
 std::string one_cause(const CausesOptions& o, const fuzz::Cause& c) {
   if (o.json) return json_text(to_json(c), 1) + "\n";
-  return o.markdown ? reports::cause_markdown(c) : reports::cause_text(c);
+  if (o.markdown) return reports::cause_markdown(c);
+  return reports::cause_text(c) +
+         fmt::format("\nTo report it, with its case and program\n  {} causes {} --cause {} --markdown\n",
+                     program_name(), shell_word(o.search.directory), shell_word(c.id));
 }
 
 // Whether DIR/causes.json holds what is printed; if not, says so last.

@@ -208,7 +208,18 @@ std::vector<Group> Assembly::identified(std::vector<Group> groups) const {
     to.explained.insert(to.explained.end(), g.explained.begin(), g.explained.end());
   }
   share_explained(distinct);
+  for (Group& g : distinct) show_gravest(g);
   return distinct;
+}
+
+// The first member with the gravest fault that its case shows leads: its case is the one that people see.
+void Assembly::show_gravest(Group& g) const {
+  const auto severity = [&](std::size_t m) {
+    const Representative& r = all_[m];
+    return r.asked && r.first.responses.shown ? severity_of(r.shown()) : Severity::relation;
+  };
+  const auto gravest = std::ranges::min_element(g.members, {}, severity);
+  std::rotate(g.members.begin(), gravest, gravest + 1);
 }
 
 // A contradiction belongs to the group that has a finding of the class that explains it: of the same engine
@@ -237,8 +248,15 @@ void Assembly::add_name(Cause& c, const Group& g, const Findings& findings,
                         const std::vector<std::string>& routes) const {
   const Representative& led = leader(g);
   const Symptom& s = symptom(g);
-  c.title = describe_fault({c.severity, s, most_frequent_fault(findings, c.severity),
-                            s.stage == FaultStage::failure ? led.finding->words : "", routes, c.shapes});
+  std::set<Question> questions;
+  for (const std::size_t m : g.members) questions.insert(all_[m].symptom.question);
+  // What the case that is shown shows, if it was asked.
+  const bool is_shown = led.asked && led.first.responses.shown;
+  const Severity severity = is_shown ? severity_of(led.shown()) : c.severity;
+  c.severity = std::min(c.severity, severity);
+  c.title = describe_fault(
+      {severity, s, is_shown ? led.shown().fault : most_frequent_fault(findings, severity),
+       s.stage == FaultStage::failure ? led.finding->words : "", routes, c.shapes, questions.size() == 1});
   const Responses of_all = common_response(g);
   c.response = of_all.responses;
   const std::string reason = reason_of(g, of_all);

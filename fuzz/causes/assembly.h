@@ -47,6 +47,7 @@ class Assembly {
   Responses common_response(const Group& g) const;
   std::string reason_of(const Group& g, const Responses& of_all) const;
   bool is_exact(const Group& g) const;
+  void show_gravest(Group& g) const;
   void share_explained(std::vector<Group>& groups) const;
   std::uint64_t wrong(const Group& g) const;
   std::string path_word(const Group& g) const;

@@ -23,6 +23,10 @@ std::string verdict_words(const Subject& s, bool missed) {
     return missed ? "Impacts are missed" : "Impacts that never happen are reported";
   if (is_broad_question(s.symptom.question))
     return missed ? "Pairs are missing" : "Pairs name bodies that are not there";
+  if (s.is_of_one_question && s.symptom.question == Question::distance)
+    return missed ? "Distances deny overlaps" : "Distances claim overlaps that do not exist";
+  if (s.is_of_one_question && s.symptom.question == Question::contact)
+    return missed ? "Contacts are missing" : "Contacts are reported where there are none";
   return missed ? "Overlaps are denied" : "Bodies that are apart are said to overlap";
 }
 
@@ -38,13 +42,26 @@ std::string failure_words(const Subject& s) {
   return words;
 }
 
+// "time of impact"
+std::string question_words(Question q) {
+  std::string words(to_string(q));
+  std::replace(words.begin(), words.end(), '_', ' ');
+  return words;
+}
+
+// "relation scale"
+std::string relation_words(std::string fault) {
+  std::replace(fault.begin(), fault.end(), '_', ' ');
+  return fault;
+}
+
 std::string words_of(const Subject& s) {
   switch (s.severity) {
     case Severity::crash:
     case Severity::declined:
       return failure_words(s);
     case Severity::hang:
-      return fmt::format("Does not answer in time ({})", to_string(s.symptom.question));
+      return fmt::format("Questions about {} are not answered in time", question_words(s.symptom.question));
     case Severity::missed:
       return verdict_words(s, true);
     case Severity::ghost:
@@ -52,7 +69,7 @@ std::string words_of(const Subject& s) {
     case Severity::infeasible:
       if (s.fault == "no_number") return "The number asked for is missing";
       if (s.fault == "normal_not_unit") return "Normals are zero or not of unit length";
-      return "Moving by the depth along the normal does not separate";
+      return "Depth and normal do not separate";
     case Severity::time:
       return s.fault == "early" ? "Times of impact are early" : "Times of impact are late";
     case Severity::not_minimal:
@@ -64,9 +81,10 @@ std::string words_of(const Subject& s) {
       return s.fault == "incomplete" ? "Manifolds leave out a part of the contact"
                                      : "Points of manifolds are wrong";
     case Severity::unstable:
-      return fmt::format("The same question is answered differently ({})", to_string(s.symptom.question));
+      return fmt::format("The same question about {} is answered differently",
+                         question_words(s.symptom.question));
     case Severity::relation:
-      return fmt::format("Answers contradict each other ({})", s.fault);
+      return fmt::format("Answers contradict each other ({})", relation_words(s.fault));
   }
   return "";
 }

@@ -28,6 +28,7 @@ struct Subject {
   std::string fault;                        // the most frequent of that severity
   std::string failure;                      // words of a failure: "crashed at distance-inl.h:177"
   std::vector<std::string> routes, shapes;  // sorted
+  bool is_of_one_question = true;           // false: other questions show the fault as well
 };
 /// "Contacts are not minimal (two boxes)".
 std::string describe_fault(const Subject& s);

@@ -3,7 +3,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 #include <utility>
+
+#include "fuzz/judge/exact_map.h"
 
 namespace touchstone::fuzz {
 namespace {
@@ -83,6 +86,58 @@ Case on_course(const Case& c, const BodyPair& p, const ShapePair& shapes, const 
 // Shares of the size, the largest first: those of the interventions that move bodies together and apart.
 constexpr double shares[] = {0.5, 0x1p-8, 0x1p-20, 0x1p-40};
 
+// What else a fault may need: another direction or place, bodies of two sizes, turned, or one in the other.
+struct Arrangement {
+  std::array<double, 3> towards = {1, 0, 0};  // from the first body to the second
+  std::array<double, 3> at = {0, 0, 0};       // the first body
+  double size_a = 1, size_b = 1;
+  bool turned_a = false, turned_b = false;
+  bool is_inside = false;  // the second body, not quite at the centre of the first
+};
+constexpr Arrangement arrangements[] = {
+    {.towards = {-1, 0, 0}},
+    {.towards = {0, 1, 0}},
+    {.towards = {0, 0, 1}},
+    {.towards = {0, 0, -1}},
+    {.at = {16, 32, 64}},
+    {.at = {-16, -32, -64}},
+    {.at = {4096, 0, 0}},
+    {.size_a = 16},
+    {.size_b = 16},
+    {.turned_a = true},
+    {.turned_b = true},
+    {.turned_a = true, .turned_b = true},
+    {.towards = {1, 0.5, 0.25}},
+    {.at = {16, 32, 64}, .turned_a = true, .turned_b = true},
+    {.size_a = 4, .is_inside = true},
+    {.size_b = 4, .is_inside = true},
+    {.at = {16, 32, 64}, .size_a = 4, .is_inside = true},
+};
+
+Vec3 vec3(const std::array<double, 3>& v) { return {v[0], v[1], v[2]}; }
+Shape sized(const Shape& s, double by) {
+  Shape r = s;
+  change_numbers(r, [by](auto& v, Domain) { v *= by; });
+  return r;
+}
+
+// Empty where the gap cannot be had.
+std::optional<Case> arranged(const Case& c, const BodyPair& p, const ShapePair& shapes,
+                             const Arrangement& how, double gap) {
+  Case r = side_by_side(c, p, {sized(shapes.first, how.size_a), sized(shapes.second, how.size_b)}, gap);
+  Pose &a = r.scene.bodies[static_cast<std::size_t>(p.first)].pose,
+       &b = r.scene.bodies[static_cast<std::size_t>(p.second)].pose;
+  const Quat turn = normalized(Quat{0.25, 0.125, 0.5, 1});
+  if (how.turned_a) a.rotation = turn;
+  if (how.turned_b) b.rotation = turn;
+  const double between = how.is_inside ? 0.25 : how.size_a + how.size_b + gap;
+  a.translation = vec3(how.at);
+  b.translation = a.translation + vec3(how.towards) * between;
+  const bool is_exact = !how.turned_a && !how.turned_b && vec3(how.towards).norm() == 1;
+  if (how.is_inside) return gap < 0 ? std::optional(r) : std::nullopt;
+  return is_exact ? std::optional(r) : with_gap(r, gap);
+}
+
 }  // namespace
 
 std::vector<Case> plain_pairs(const Case& c, const TruePair& p) {
@@ -91,9 +146,13 @@ std::vector<Case> plain_pairs(const Case& c, const TruePair& p) {
   if (own != 0)
     for (const double share : shares) gaps.push_back(std::copysign(share, own));
   gaps.push_back(own);
+  const BodyPair pair{p.a, p.b};
   std::vector<Case> all;
   for (const double gap : gaps)
-    for (const ShapePair& shapes : shape_pairs()) all.push_back(side_by_side(c, {p.a, p.b}, shapes, gap));
+    for (const ShapePair& shapes : shape_pairs()) all.push_back(side_by_side(c, pair, shapes, gap));
+  for (const Arrangement& how : arrangements)
+    for (const ShapePair& shapes : shape_pairs())
+      if (auto plain = arranged(c, pair, shapes, how, gaps.front())) all.push_back(*std::move(plain));
   return all;
 }
 

@@ -1,5 +1,5 @@
-// Cases that anyone would write by hand: two spheres or cubes of half extent 1 on the x axis. A fault that
-// one of them shows needs nothing else.
+// Cases that anyone would write by hand, the plainest first: two spheres or cubes of half extent 1 on the x
+// axis, and what differs from that in one respect. A fault that the first one shows needs nothing else.
 #pragma once
 
 #include <vector>
@@ -9,8 +9,9 @@
 
 namespace touchstone::fuzz {
 
-/// Side by side, at rest: apart or overlapping as the pair is, by plain shares of the size, the largest
-/// first; then by about the share that the pair has.
+/// At rest: side by side, apart or overlapping as the pair is, by plain shares of the size, the largest
+/// first, then by about the share that the pair has; then in other directions and places, of two sizes,
+/// turned, one in the other.
 std::vector<Case> plain_pairs(const Case& c, const TruePair& p);
 
 /// In motion, the plainest first: head on, then one of them turning, past each other, fast, slow, touching at

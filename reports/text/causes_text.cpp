@@ -20,9 +20,9 @@ using fuzz::Responded;
 
 constexpr std::size_t line_width = 79;
 
-// At most `most` lines. A word longer than a line is broken.
-std::string paragraph(std::string_view words, std::size_t indent, std::size_t most) {
-  const std::size_t width = line_width - indent;
+// At most `most` lines, all but the first indented by `hang`. A word longer than a line is broken.
+std::string paragraph(std::string_view words, std::size_t indent, std::size_t most, std::size_t hang) {
+  const std::size_t width = line_width - hang;
   std::string broken;
   std::size_t in_word = 0;
   for (std::string_view rest = std::string_view(words); !rest.empty();) {
@@ -36,7 +36,7 @@ std::string paragraph(std::string_view words, std::size_t indent, std::size_t mo
     rest.remove_prefix(n);
   }
   const std::string margin(indent, ' ');
-  const std::string all = wrapped(margin + broken, line_width, indent) + "\n";
+  const std::string all = wrapped(margin + broken, line_width, hang) + "\n";
   std::size_t end = 0;
   for (std::size_t i = 0; i < most && end < all.size(); ++i) end = all.find('\n', end) + 1;
   if (end == all.size()) return all;
@@ -52,7 +52,7 @@ std::string paragraph(std::string_view words, std::size_t indent, std::size_t mo
 }
 
 std::string text_block(std::string_view words, std::size_t indent, std::size_t most = 3) {
-  return paragraph(one_line(words), indent, most);
+  return paragraph(one_line(words), indent, most, indent);
 }
 
 std::string documented_line(const Cause& c, std::size_t indent) {
@@ -66,7 +66,8 @@ std::string block(const Cause& c, std::size_t number, const std::string& command
   s += text_block(c.title, indent);
   s += documented_line(c, indent);
   const std::string asked = listed(c.questions, list_width / 2);
-  const std::string shapes = listed(c.shapes, list_width - asked.size() - 2);
+  const bool are_any = c.shapes == std::vector<std::string>{"any"};  // of failures at one place in the code
+  const std::string shapes = are_any ? "any shapes" : listed(c.shapes, list_width - asked.size() - 2);
   s += text_block(shapes + (shapes.empty() || asked.empty() ? "" : "; ") + asked, indent, 1);
   const CauseCase& shown = c.shown();
   if (!shown.words.empty()) s += text_block(fmt::format("e.g. {}: {}", shown.engine, shown.words), indent);
@@ -88,7 +89,7 @@ std::string ending(const Causes& c) {
 std::string row_of(std::string_view name, const std::vector<std::string>& items) {
   std::string all;
   for (const std::string& item : items) all += (all.empty() ? "" : ", ") + one_line(item);
-  return all.empty() ? "" : paragraph(fmt::format("{}: {}", name, all), 2, 40);
+  return all.empty() ? "" : paragraph(fmt::format("{}: {}", name, all), 2, 40, 2);
 }
 
 std::string case_row(std::string_view name, const CauseCase& c) {
@@ -100,18 +101,31 @@ std::string case_row(std::string_view name, const CauseCase& c) {
   return s + text_block(c.key, 4);
 }
 
-// Not applicable interventions are counted, not listed.
+// Changes after which the answer is still wrong are listed in brief, and those that do not apply are counted.
 std::string response_table(const Cause& c) {
-  const std::vector<Responded> rows = telling_responses(c);
+  std::vector<Responded> rows = telling_responses(c);
   if (rows.empty()) return "";
-  constexpr std::size_t most_width = 50;
+  const std::size_t left_out = c.response.size() - rows.size();
+  std::string still;
+  for (const Responded& r : rows)
+    if (r.response == fuzz::Response::stays) still += (still.empty() ? "" : "; ") + one_line(r.change);
+  std::erase_if(rows, [](const Responded& r) { return r.response == fuzz::Response::stays; });
+  constexpr std::size_t most_width = 55, most_lines = 40;
   std::size_t width = 0;
   for (const Responded& r : rows) width = std::max(width, std::min(most_width, one_line(r.change).size()));
-  std::string s = "What was changed, and the answer then\n";
+  std::string s = rows.empty() ? "" : "What was changed, and the answer then\n";
   for (const Responded& r : rows)
     s += fmt::format("  {:<{}}  {}\n", cut_utf8(one_line(r.change), most_width), width, words_of(r.response));
-  if (const std::size_t left_out = c.response.size() - rows.size(); left_out > 0)
-    s += fmt::format("  and {} not applicable\n", left_out);
+  if (!still.empty()) s += "Still wrong when changed thus\n" + paragraph(still, 2, most_lines, 2);
+  if (left_out > 0) s += fmt::format("  and {} not applicable\n", left_out);
+  return s;
+}
+
+// What the answer should be, and what it is, in the case that is shown.
+std::string expected_and_actual(const Cause& c) {
+  const CauseCase& shown = c.shown();
+  std::string s = text_block(fmt::format("expected: {}", expected_of(c.severity)), 2);
+  if (!shown.words.empty()) s += text_block(fmt::format("actual: {}: {}", shown.engine, shown.words), 2);
   return s;
 }
 
@@ -129,6 +143,7 @@ std::string cause_text(const Cause& c) {
   std::string s = text_block(fmt::format("{}  {}  {}", to_string(c.severity), c.path, c.id), 0);
   s += text_block(c.title, 2);
   s += documented_line(c, 2);
+  s += expected_and_actual(c);
   s += text_block(rate_text(c), 2);
   if (c.worst_in_l > 0) s += text_block(fmt::format("worst error: {} L", small(c.worst_in_l)), 2);
   s += text_block(fmt::format("{}{}routine: {}; first seen in case {}", c.library,
@@ -141,9 +156,9 @@ std::string cause_text(const Cause& c) {
     s += "\nConsequences\n";
     for (const std::string& one : c.consequences) s += text_block(one, 2);
   }
-  if (const std::string table = response_table(c); !table.empty()) s += "\n" + table;
   s += "\nCases\n" + case_row("defensible", c.defensible) + case_row("smallest", c.smallest) +
        case_row("worst", c.worst);
+  if (const std::string table = response_table(c); !table.empty()) s += "\n" + table;
   if (!c.program.empty())
     return s + "\nProgram in the engine's own API\n" + printable(c.program, "\n\t") + "\n";
   return s + (c.no_program.empty() ? "" : "\n" + text_block("no program: " + c.no_program, 0));
@@ -166,10 +181,11 @@ std::string_view code_of(const Cause& c, const Causes& all) {
 
 // A place in code is never cut off: a crash may have two lines.
 static std::string in_brief(const Cause& c, const Causes& all, bool with_path) {
-  return text_block(
+  constexpr std::size_t indent = 2, hang = 17;  // further lines begin under the words
+  const std::string words =
       fmt::format("{} {:>7} {}: {}{}{}", code_of(c, all), grouped(c.wrong), to_string(c.severity),
-                  with_path ? c.path + ": " : "", c.title, c.documented.empty() ? "" : " (documented)"),
-      2, c.severity == fuzz::Severity::crash ? 2 : 1);
+                  with_path ? c.path + ": " : "", c.title, c.documented.empty() ? "" : " (documented)");
+  return paragraph(one_line(words), indent, c.severity == fuzz::Severity::crash ? 2 : 1, hang);
 }
 
 std::string causes_of_libraries(const Causes& c, std::size_t most, const LibraryOf& library_of) {

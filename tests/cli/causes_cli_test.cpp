@@ -124,5 +124,6 @@ TEST_CASE("a cause is shown by its code before and after it is examined", "[cli]
   CHECK(by_code.code == 0);
   CHECK(contains(by_code.out, id));
   CHECK_FALSE(contains(by_code.out, "Not examined yet"));
+  CHECK(contains(by_code.out, " causes lies --cause " + id + " --markdown\n"));
   CHECK(w.touchstone("causes lies --cause zzzzzz").code == 2);
 }

@@ -82,6 +82,17 @@ TEST_CASE("a contact must separate, and its depth must be minimal", "[judge]") {
   CHECK(has(judge_one(c, contact({1, 0, 0}, NAN)), Fault::no_number));
 }
 
+TEST_CASE("a wrong distance that prints like the true one is told by its error", "[judge]") {
+  Observation o = answered();
+  o.distance = 1 + 0x1p-36;
+  const Judgement close = judge_one(spheres(3, Question::distance), o);
+  REQUIRE(has(close, Fault::distance_off));
+  CHECK(close.faults[0].words == "says 1; the signed distance is 1.5e-11 off that");
+  o.distance = 1.5;
+  CHECK(judge_one(spheres(3, Question::distance), o).faults.at(0).words ==
+        "says 1.5; the signed distance is 1");
+}
+
 TEST_CASE("a coarser unit roundoff of one kind widens what is accepted for its pairs alone",
           "[judge][card]") {
   EngineCard card = double_card();

@@ -1,13 +1,14 @@
 // Do causes tell the lying engines apart?
 //
 //   causes_score [--cases 400] [--seed 1] [--findings 4] [--jobs 2] [--only NAME] [--list] [--confusion]
-//                [--dump FILE]
+//                [--bound] [--dump FILE]
 //
 // Every lying engine answers the same campaign. Their findings are put together as if they came from one
 // engine: what is known about engines says that all of them share one path, so only their answers can tell
 // one lie from another. The score compares causes with lies: the adjusted Rand index over findings (Hubert
 // and Arabie 1985), causes per lie, and how many lies the first 1.5·N causes show, for N lies, in the order
-// in which causes are to be read.
+// in which causes are to be read. --bound repeats the score with lies that no answer tells apart
+// (equal_lies.h) counted as one.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -25,6 +26,7 @@
 #include "fuzz/causes/causes.h"
 #include "fuzz/shrink/canonical.h"
 #include "scenarios/codec/case_codec.h"
+#include "tests/mutants/equal_lies.h"
 #include "tests/mutants/lying_engine.h"
 
 using namespace touchstone;
@@ -37,7 +39,7 @@ struct Options {
   std::size_t findings = 4;
   int jobs = 2;
   std::string only, dump;
-  bool list = false, confusion = false;
+  bool list = false, confusion = false, bound = false;
 };
 
 EnginePtr liar(const std::string& name) {
@@ -123,6 +125,18 @@ void print_score(const fuzz::Causes& causes, const std::vector<Item>& items) {
   fmt::print("causes per lie {:.2f}\n", static_cast<double>(listed) / lies);
   fmt::print("the first {} causes show {:.1f} % of the lies\n", first,
              100 * static_cast<double>(read) / lies);
+}
+
+void print_bound(const fuzz::Causes& causes, std::vector<Item> items,
+                 const std::map<std::string, std::string>& first) {
+  std::map<std::string, std::set<std::string>> equal;
+  for (const auto& [lie, of] : first) equal[of].insert(lie);
+  fmt::print("\nlies that no answer tells apart:\n");
+  for (const auto& [of, lies] : equal)
+    if (lies.size() > 1) fmt::print("  {}\n", fmt::join(lies, " "));
+  for (Item& item : items) item.lie = first.at(item.lie);
+  fmt::print("each such group counted as one lie:\n");
+  print_score(causes, items);
 }
 
 // Where the index is lost: it counts pairs of findings.
@@ -236,7 +250,9 @@ int run(const Options& o) {
   const fuzz::Causes causes = fuzz::causes_of(result, config);
   if (o.list) print_list(causes);
   if (o.confusion) print_confusion(causes, items_of(causes, result));
-  print_score(causes, items_of(causes, result));
+  const std::vector<Item> items = items_of(causes, result);
+  print_score(causes, items);
+  if (o.bound) print_bound(causes, items, mutants::equal_lies(causes, result, config.make));
   return 0;
 }
 
@@ -253,6 +269,7 @@ int main(int argc, char** argv) {
   app.add_option("--dump", o.dump,
                  "only write what grouping knows about each finding to this file, as JSON lines");
   app.add_flag("--list", o.list, "print the causes");
+  app.add_flag("--bound", o.bound, "print the score with lies that no answer tells apart counted as one too");
   app.add_flag("--confusion", o.confusion,
                "print which lies are merged and which are split, most pairs first");
   CLI11_PARSE(app, argc, argv);

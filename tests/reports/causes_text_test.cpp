@@ -145,10 +145,13 @@ TEST_CASE("a cause in full has its responses, consequences, engines and cases", 
   CHECK(contains(text, "  engines: bullet-f32-query, bullet-f32-query-tuned, bullet-f64-query,\n"));
   CHECK(contains(text, "  filed under 2 keys\n"));
   CHECK(contains(text, "Consequences\n  contact not_minimal (212)\n  distance points_off_body (31)\n"));
-  CHECK(contains(text, "  turned by 1e-6                    right\n"));
-  CHECK(contains(text, "  A and B exchanged                 wrong in another way\n"));
-  CHECK(contains(text, "  the depth halved                  not decided\n"));
+  CHECK(contains(text, "  turned by 1e-6                right\n"));
+  CHECK(contains(text, "  A and B exchanged             wrong in another way\n"));
+  CHECK(contains(text, "  the depth halved              not decided\n"));
   CHECK(contains(text, "  and 1 not applicable\n"));
+  CHECK(contains(text, "Still wrong when changed thus\n  "));
+  CHECK(contains(text, "  expected: Moving a body by the stated depth along the stated normal separates\n"));
+  CHECK(contains(text, "  actual: bullet-f32-query-tuned: "));
   CHECK(contains(text, "the answer then\n  turned by 1e-6 "));  // what makes it vanish comes first
   CHECK(contains(text, "  smallest: bullet-f32-query-tuned, 2 bodies, 131 bits, 6.1e-01 L\n"));
   CHECK(contains(text, "  defensible: bullet-f32-query-tuned, 2 bodies, 52 bits, 5.0e-02 L\n"));
@@ -174,7 +177,7 @@ TEST_CASE("the last lines of a campaign have the first causes of each library, o
         "  9ab0      31 infeasible: bullet-query: wrong only where faces are ...\n"
         "fcl: 2 causes behind 1,211 wrong answers\n"
         "  51       7 crash: fcl-libccd: throws from\n"
-        "  validateNearestFeatureOfPolytopeBeingEdge: vanishes when turned by 1e-9\n"
+        "                 validateNearestFeatureOfPolytopeBeingEdge: vanishes when ...\n"
         "  and 1 more\n"
         "libccd: 1 cause behind 5,260 wrong answers\n"
         "  77e2   5,260 not minimal: libccd-mpr: states a depth that is not the ...\n"

@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <limits>
+#include <string>
 
 #include "fuzz/judge/check.h"
 
@@ -11,6 +12,13 @@ namespace {
 
 double outside(double x, const referee::Bracket& b) {
   return x < b.lo ? b.lo - x : (x > b.hi ? x - b.hi : 0.0);
+}
+
+// Two numbers that print alike differ by their error.
+std::string words_of(double said, double truth, double error) {
+  const std::string x = fmt::format("{:.9g}", said), y = fmt::format("{:.9g}", truth);
+  return fmt::format("says {}; the signed distance is {}", x,
+                     x == y ? fmt::format("{:.2g} off that", error) : y);
 }
 
 }  // namespace
@@ -49,7 +57,7 @@ void check_distance(const CheckInput& in, CheckOutput& out) {
   if (truth.verdict == referee::Verdict::overlap && d > tau && truth.gap.hi < -tau) f = Fault::missed;
   if (truth.verdict == referee::Verdict::disjoint && d < -tau && truth.gap.lo > tau) f = Fault::ghost;
   out.fault(
-      f, error, l, in.query, fmt::format("says {:.9g}; the signed distance is {:.9g}", d, mid),
+      f, error, l, in.query, words_of(d, mid, error),
       truth.verdict == referee::Verdict::overlap && d < 0
           ? referee::depth_certificate(truth, in.truth.placed(in.frame, a), in.truth.placed(in.frame, b))
           : truth.verdict_certificate);
