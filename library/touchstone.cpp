@@ -60,7 +60,10 @@ T& given(T* p, const char* name) {
 }
 
 Vec3 vector_at(const double* v) { return {v[0], v[1], v[2]}; }
-void store(const Vec3& v, double* to) { std::memcpy(to, v.data(), 3 * sizeof(double)); }
+// Adding 0 turns -0 into 0.
+void store(const Vec3& v, double* to) {
+  for (int i = 0; i < 3; ++i) to[i] = v[i] + 0.0;
+}
 
 constexpr std::size_t pose_numbers = 7, motion_numbers = 6;
 

@@ -8,7 +8,8 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-Json list(const Vec3& v) { return Json::array({v.x(), v.y(), v.z()}); }
+// Adding 0 turns -0 into 0.
+Json list(const Vec3& v) { return Json::array({v.x() + 0.0, v.y() + 0.0, v.z() + 0.0}); }
 Json number(double x) { return std::isfinite(x) ? Json(x) : Json(); }
 Json bracket(double lo, double hi) { return Json::array({number(lo), number(hi)}); }
 Json bracket(const referee::Bracket& b) { return bracket(b.lo, b.hi); }
