@@ -14,6 +14,9 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
+// Lengths, in the scene's unit: the fourth power of one and its rounding are normal numbers in between.
+constexpr double least_length = 0x1p-200, greatest_length = 0x1p+200;
+
 // A box of B in A's frame.
 OrientedBox moved(const OrientedBox& b, const MeshScene& s) {
   return {s.rotation * b.axes, s.rotation * b.centre + s.offset, b.half};
@@ -260,8 +263,7 @@ double MeshScene::largest_length() const {
 }
 
 bool MeshScene::in_range() const {
-  constexpr double least = 0x1p-200, most = 0x1p+200;
-  return largest_length() > least && largest_length() < most;
+  return largest_length() > least_length && largest_length() < greatest_length;
 }
 
 TreeOf::TreeOf(const ShapeRef& mesh) : tree_(mesh.tree()) {

@@ -11,6 +11,10 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
+// Square of a direction's length, in the fourth power of the scene's unit, below which it may have lost
+// digits to underflow: no such direction is tried.
+constexpr double least_square = 0x1p-900;
+
 // Both triangles relative to the first corner of A.
 struct Local {
   Triangle a, b;
@@ -32,11 +36,10 @@ Range along(const Triangle& t, const Vec3& n) {
   return {std::min(std::min(x, y), z), std::max(std::max(x, y), z)};
 }
 
-// Takes the bound of the gap along n and -n if it is the best so far. A direction that rounding has destroyed
-// gives none.
+// Takes the bound of the gap along n and -n if it is the best so far.
 void try_axis(const Local& t, const Vec3& n, AxisGap& best) {
   const double sq = n.squaredNorm();
-  if (!(sq > 0)) return;
+  if (!(sq > least_square)) return;
   const Range a = along(t.a, n), b = along(t.b, n);
   const double ahead = b.lo - a.hi, behind = a.lo - b.hi, length = std::sqrt(sq);
   const double lo = std::max(ahead, behind) / length - t.rounding;
@@ -141,8 +144,9 @@ int certain_sign(const Vec3& u, const Vec3& v, const Vec3& w, double displacemen
   const double volume = u.dot(v.cross(w));
   const double lu = u.norm(), lv = v.norm(), lw = w.norm();
   const double off = 2 * displacement + double_roundoff * (lu + lv + lw);
-  const double error = 1.01 * (off * (lu * lv + lv * lw + lw * lu) + off * off * (lu + lv + lw + off)) +
-                       triangle_rounding * double_roundoff * lu * lv * lw;
+  const double shift = off * (lu * lv + lv * lw + lw * lu) + off * off * (lu + lv + lw + off);
+  const double rounding = triangle_rounding * double_roundoff * lu * lv * lw;
+  const double error = 2 * (shift + rounding);  // twice: the bound is rounded itself
   return volume > error ? 1 : (volume < -error ? -1 : 0);
 }
 

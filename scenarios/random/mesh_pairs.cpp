@@ -30,7 +30,8 @@ void repeat(Rng& rng, Scene& s) {
   s.bodies[1].pose = s.bodies[0].pose;
   if (rng.chance(0.5)) s.bodies[0].pose.rotation = s.bodies[1].pose.rotation = Quat{};
   Vec3 shift = Vec3::Zero();
-  shift[static_cast<int>(rng.below(3))] = static_cast<double>(rng.below(5)) / 4 - 0.5;
+  const auto axis = static_cast<int>(rng.below(3));
+  shift[axis] = static_cast<double>(rng.below(5)) / 4 - 0.5;
   move_by(s, shift);
 }
 
@@ -42,7 +43,8 @@ void two_meshes(Rng& rng, Case& c) {
   constexpr double sizes[] = {1, 1, 0.25, 3};
   Scene s = random_pair(rng, ShapeKind::mesh, ShapeKind::mesh, 1, Vec3::Zero());
   s.shapes[0] = any_mesh(rng, rng.uniform(0.5, 1.5));
-  s.shapes[1] = any_mesh(rng, rng.uniform(0.5, 1.5) * sizes[rng.below(std::size(sizes))]);
+  const double size = rng.uniform(0.5, 1.5);
+  s.shapes[1] = any_mesh(rng, size * sizes[rng.below(std::size(sizes))]);
   const Spot at = spot_on(rng, s, 0);
   const Vec3 target = at.point + at.normal * any_gap(rng, extent(s.shapes[1]));
   const auto placing = rng.below(8);
