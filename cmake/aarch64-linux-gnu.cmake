@@ -1,6 +1,6 @@
 # Cross build for 64-bit ARM with Debian's packages: g++-aarch64-linux-gnu, qemu-user (to run the tests), and, after
 # dpkg --add-architecture arm64, the :arm64 packages of libqhull-dev, libhwy-dev, libgmp-dev, libfmt-dev,
-# zlib1g-dev, libsqlite3-dev and libassimp-dev.
+# zlib1g-dev, libsqlite3-dev, libtinyxml2-dev and libassimp-dev.
 set(CMAKE_SYSTEM_NAME Linux)
 set(CMAKE_SYSTEM_PROCESSOR aarch64)
 set(CMAKE_C_COMPILER aarch64-linux-gnu-gcc)

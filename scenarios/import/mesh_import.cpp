@@ -1,8 +1,11 @@
 #include "scenarios/import/mesh_import.h"
 
+#include <assimp/DefaultIOSystem.h>
+#include <assimp/config.h>
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>
 
+#include <algorithm>
 #include <assimp/Importer.hpp>
 #include <cmath>
 #include <map>
@@ -75,13 +78,36 @@ void check_binary_stl(const std::string& file, const std::string& bytes) {
                                " bytes, the file has " + std::to_string(bytes.size()));
 }
 
+// A mesh file may name others. This opens regular files of one folder, and nothing outside it.
+class FolderFiles final : public Assimp::DefaultIOSystem {
+ public:
+  explicit FolderFiles(const std::filesystem::path& file) {
+    std::error_code ec;
+    folder_ = std::filesystem::canonical(file, ec).parent_path();
+  }
+  bool Exists(const char* file) const override { return is_inside(file); }
+  Assimp::IOStream* Open(const char* file, const char* mode) override {
+    const bool reads = std::string_view(mode).find_first_of("wa+") == std::string_view::npos;
+    return reads && is_inside(file) ? DefaultIOSystem::Open(file, mode) : nullptr;
+  }
+
+ private:
+  bool is_inside(const char* file) const {
+    std::error_code ec;
+    const std::filesystem::path f = std::filesystem::canonical(file, ec);
+    if (ec || !std::filesystem::is_regular_file(f, ec)) return false;
+    return std::mismatch(folder_.begin(), folder_.end(), f.begin(), f.end()).first == folder_.end();
+  }
+  std::filesystem::path folder_;
+};
+
+}  // namespace
+
 std::string lower_extension(const std::filesystem::path& file) {
   std::string s = file.extension().string();
   for (char& c : s) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
   return s;
 }
-
-}  // namespace
 
 TriangleMesh load_mesh(const std::filesystem::path& path, const MeshImport& options) {
   const std::string file = path.string();
@@ -90,6 +116,8 @@ TriangleMesh load_mesh(const std::filesystem::path& path, const MeshImport& opti
   if (bytes.empty()) throw InputError(file, "is empty");
   if (lower_extension(path) == ".stl") check_binary_stl(file, bytes);
   Assimp::Importer importer;
+  importer.SetIOHandler(new FolderFiles(path));  // the importer deletes it
+  importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_IGNORE_UP_DIRECTION, options.keep_up_axis);
   const aiScene* scene = importer.ReadFile(file, aiProcess_Triangulate);
   if (!scene || !scene->mRootNode) {
     std::string reason = importer.GetErrorString();

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 
 #include "core/shape/triangle_mesh.h"
 
@@ -10,11 +11,16 @@ namespace touchstone {
 
 struct MeshImport {
   bool join_vertices = true;  // merge vertices with equal coordinates, in order of first appearance
+  bool keep_up_axis = false;  // COLLADA: coordinates as written; otherwise y is made to point up
 };
+
+/// The file's ending in lower case, with its dot.
+std::string lower_extension(const std::filesystem::path& file);
 
 /// All triangles of the file in file order; polygons are triangulated, points and lines skipped. Throws
 /// InputError "file: reason" when the file is missing, not readable as a mesh, truncated, has no triangles,
-/// or has a coordinate that is not finite.
+/// or has a coordinate that is not finite. Files that it refers to (materials, buffers) are opened only if
+/// they are in its own folder or below.
 TriangleMesh load_mesh(const std::filesystem::path& file, const MeshImport& options = {});
 
 }  // namespace touchstone

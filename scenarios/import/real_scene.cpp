@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/base/input_error.h"
+#include "scenarios/import/pose_algebra.h"
 #include "scenarios/import/text_lines.h"
 #include "scenarios/text/printable.h"
 
@@ -14,15 +15,6 @@ using Row = std::span<const double>;
 
 Vec3 vec3_of(Row row, std::size_t first) { return {row[first], row[first + 1], row[first + 2]}; }
 Pose pose_of(Row row) { return {vec3_of(row, 0), {row[3], row[4], row[5], row[6]}}; }
-
-// Exact when the geom is at the body's origin.
-Pose compose(const Pose& body, const Pose& geom) {
-  Pose r;
-  r.translation = body.translation;
-  if (!geom.translation.isZero(0)) r.translation += rotation_matrix(body.rotation) * geom.translation;
-  r.rotation = geom.rotation == Quat{} ? body.rotation : body.rotation * geom.rotation;
-  return r;
-}
 
 Vec3 shortest_rotation(const Quat& from, const Quat& to) {
   const Quat f = normalized(from);

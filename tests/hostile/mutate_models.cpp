@@ -1,0 +1,225 @@
+// Damaged files of robots and worlds: elements, attributes and values removed, repeated and exchanged, and
+// bytes changed. A reader must accept the file, or refuse it with an error that names the damaged file,
+// quickly. ctest tries a few; by hand, in a build with AddressSanitizer, many:
+//   build/asan-ubsan/bin/mutate_models --seed 7 --count 1000000
+#include <sys/resource.h>
+#include <sys/time.h>
+#include <unistd.h>
+
+#include <array>
+#include <csignal>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <vector>
+
+#include "core/base/input_error.h"
+#include "core/math/rng.h"
+#include "scenarios/codec/scene_codec.h"
+#include "scenarios/import/model/import.h"
+#include "tests/hostile/mutation.h"
+
+namespace {
+
+using namespace touchstone;
+namespace fs = std::filesystem;
+
+struct Span {
+  std::size_t first = 0, end = 0;
+};
+
+std::vector<Span> tags_in(const std::string& s) {
+  std::vector<Span> tags;
+  for (std::size_t at = s.find('<'); at != std::string::npos; at = s.find('<', at + 1)) {
+    const std::size_t end = s.find('>', at);
+    if (end == std::string::npos) break;
+    tags.push_back({at, end + 1});
+  }
+  return tags;
+}
+
+// Values of attributes with their quotes.
+std::vector<Span> values_in(const std::string& s) {
+  std::vector<Span> values;
+  for (std::size_t at = s.find("=\""); at != std::string::npos; at = s.find("=\"", at + 1)) {
+    const std::size_t end = s.find('"', at + 2);
+    if (end == std::string::npos) break;
+    values.push_back({at + 1, end + 1});
+  }
+  return values;
+}
+
+// From a tag to the end of its element.
+Span element_at(const std::string& s, const std::vector<Span>& tags, std::size_t i) {
+  int depth = 0;
+  for (std::size_t k = i; k < tags.size(); ++k) {
+    const bool closes = s[tags[k].first + 1] == '/', is_empty = s[tags[k].end - 2] == '/';
+    depth += closes ? -1 : is_empty ? 0 : 1;
+    if (depth <= 0) return {tags[i].first, tags[k].end};
+  }
+  return tags[i];
+}
+
+std::string hostile_value(Rng& rng) {
+  static const auto values = std::to_array<std::string>({"",
+                                                         "nan",
+                                                         "1e999",
+                                                         "-1e308 1e308 1",
+                                                         "0 0 0",
+                                                         "0 0 0 0",
+                                                         "../../x.stl",
+                                                         "/etc/passwd",
+                                                         "package://parts/../../x",
+                                                         "file:///etc/passwd",
+                                                         "99999999999999999999",
+                                                         "-1",
+                                                         "1e-320 1 1",
+                                                         "world",
+                                                         "base",
+                                                         "&#0;",
+                                                         "\xff\xfe",
+                                                         "xyzxyz",
+                                                         "mesh",
+                                                         "plane",
+                                                         "free",
+                                                         "ball",
+                                                         "0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0",
+                                                         "m.xml",
+                                                         "__model__",
+                                                         "a::b::c"});
+  return values[rng.below(values.size())];
+}
+
+std::string mutated_xml(std::string s, Rng& rng) {
+  for (std::uint64_t n = 1 + rng.below(4); n > 0; --n) {
+    const auto tags = tags_in(s);
+    const auto values = values_in(s);
+    if (tags.empty() || values.empty()) return s;
+    const std::size_t t = rng.below(tags.size()), v = rng.below(values.size());
+    const Span element = element_at(s, tags, t), value = values[v];
+    switch (rng.below(6)) {
+      case 0:
+        s.erase(element.first, element.end - element.first);
+        break;
+      case 1:
+        s.insert(tags[rng.below(tags.size())].end, s.substr(element.first, element.end - element.first));
+        break;
+      case 2:
+        s.erase(tags[t].first, tags[t].end - tags[t].first);
+        break;
+      case 3: {
+        const Span other = values[rng.below(values.size())];
+        s.replace(value.first, value.end - value.first, s.substr(other.first, other.end - other.first));
+        break;
+      }
+      case 4: {
+        const std::size_t name = s.find_last_of(" \n<", value.first);
+        if (name != std::string::npos) s.erase(name + 1, value.end - name - 1);
+        break;
+      }
+      default:
+        s.replace(value.first + 1, value.end - value.first - 2, hostile_value(rng));
+    }
+  }
+  return s;
+}
+
+struct Good {
+  std::string damaged, text, model;  // which file is damaged, its good text, and the file that is imported
+  ImportOptions options;
+};
+
+std::string said_about(const Good& g, const fs::path& folder) try {
+  const ImportedModel m = import_model(folder / g.model, g.options);
+  const Scene scene = scene_of(m);
+  return scene_from_text(to_text(scene)) == scene ? "" : "the scene changes when it is written and read";
+} catch (const InputError& e) {
+  const bool names = std::string(e.what()).find(g.damaged) != std::string::npos && !e.reason().empty();
+  return names ? "" : std::string("the error does not name the file: ") + e.what();
+}
+
+std::uint64_t current = 0;  // for the handler
+void on_timer(int) {
+  std::fprintf(stderr, "mutant %llu takes too long\n", static_cast<unsigned long long>(current));
+  std::_Exit(1);
+}
+
+// Processor time, which does not depend on what else runs.
+void start_timer() {
+  constexpr int cpu_seconds = 20;
+  itimerval t{};
+  t.it_value.tv_sec = cpu_seconds;
+  setitimer(ITIMER_PROF, &t, nullptr);
+}
+
+std::vector<Good> good_files(const fs::path& folder) {
+  const fs::path from = TS_SOURCE_DIR "/tests/scenarios/import/files";
+  fs::copy(from, folder, fs::copy_options::recursive | fs::copy_options::overwrite_existing);
+  ImportOptions plain, with_all;
+  plain.package_paths = {folder};
+  with_all = plain;
+  with_all.srdf = (folder / "every_joint.srdf").string();
+  with_all.trajectory = (folder / "sweep.csv").string();
+  ImportOptions lenient = plain;
+  lenient.lenient = true;
+  std::vector<Good> all{{"every_joint.urdf", "", "every_joint.urdf", plain},
+                        {"every_joint.urdf", "", "every_joint.urdf", lenient},
+                        {"every_joint.srdf", "", "every_joint.urdf", with_all},
+                        {"sweep.csv", "", "every_joint.urdf", with_all},
+                        {"arm.urdf", "", "arm.urdf", plain},
+                        {"every_geom.xml", "", "every_geom.xml", plain},
+                        {"every_geom.xml", "", "every_geom.xml", lenient},
+                        {"nested.sdf", "", "nested.sdf", plain},
+                        {"nested.sdf", "", "nested.sdf", lenient},
+                        {"table.scene", "", "table.scene", plain},
+                        {"wedge.stl", "", "wedge.stl", plain}};
+  for (Good& g : all) g.text = read_file(folder / g.damaged);
+  return all;
+}
+
+int run(std::uint64_t seed, std::uint64_t count, const fs::path& folder) {
+  const std::vector<Good> all = good_files(folder);
+  std::uint64_t accepted = 0;
+  for (current = 0; current < count; ++current) {
+    Rng rng = Rng::stream(seed, current);
+    const Good& g = all[rng.below(all.size())];
+    const bool is_xml = g.text.starts_with("<");
+    const std::string text =
+        is_xml && rng.chance(0.8) ? mutated_xml(g.text, rng) : test::mutated(test::original_of(g.text), rng);
+    std::ofstream(folder / g.damaged, std::ios::binary) << text;
+    start_timer();
+    const std::string fault = said_about(g, folder);
+    std::ofstream(folder / g.damaged, std::ios::binary) << g.text;
+    if (!fault.empty()) {
+      std::ofstream(fs::path("failed-" + g.damaged), std::ios::binary) << text;
+      std::fprintf(stderr, "mutant %llu of %s, kept as failed-%s: %s\n",
+                   static_cast<unsigned long long>(current), g.damaged.c_str(), g.damaged.c_str(),
+                   fault.c_str());
+      return 1;
+    }
+    ++accepted;
+  }
+  std::printf("%llu damaged files: each read, or refused by name\n",
+              static_cast<unsigned long long>(accepted));
+  return accepted == count && count > 0 ? 0 : 1;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  std::uint64_t seed = 1, count = 2000;
+  for (int i = 1; i + 1 < argc; i += 2) {
+    const std::uint64_t value = std::strtoull(argv[i + 1], nullptr, 10);
+    if (std::strcmp(argv[i], "--seed") == 0) seed = value;
+    if (std::strcmp(argv[i], "--count") == 0) count = value;
+  }
+  std::signal(SIGPROF, on_timer);
+  const fs::path folder = fs::temp_directory_path() / ("touchstone-models-" + std::to_string(getpid()));
+  fs::create_directories(folder);
+  const int code = run(seed, count, folder);
+  fs::remove_all(folder);
+  return code;
+}
