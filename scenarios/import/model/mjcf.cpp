@@ -350,11 +350,16 @@ class MjcfReader {
   void read_contacts(const XmlElement& e) {
     for (const XmlElement& c : expanded(e)) {
       if (c.name() == "exclude")
-        add_filter(model_, bodies_.need(c, c.need("body1"), "body"),
-                   bodies_.need(c, c.need("body2"), "body"));
+        exclude(c);
       else
         context_.refuse(c, "pairs that are asked whatever the filters say cannot be represented");
     }
+  }
+
+  void exclude(const XmlElement& e) {
+    const int a = bodies_.need(e, e.need("body1"), "body"), b = bodies_.need(e, e.need("body2"), "body");
+    if (a == b) e.fail("names the same body twice");
+    add_filter(model_, a, b);
   }
 
   void read_key(const XmlElement& e) {

@@ -58,6 +58,7 @@ class SrdfReader {
   std::optional<LinkPair> pair_in(const XmlElement& e) {
     const int a = link_in(e, "link1"), b = link_in(e, "link2");
     if (a < 0 || b < 0) return std::nullopt;
+    if (a == b) e.fail("names the same link twice");
     return std::minmax(a, b);
   }
 

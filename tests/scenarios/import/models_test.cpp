@@ -120,6 +120,20 @@ TEST_CASE("an SRDF says which pairs are asked; without one, adjacent links are f
   CHECK_FALSE(is_filtered_pair(b, "drone", "puck"));
 }
 
+TEST_CASE("a filter of a link with itself is refused", "[import]") {
+  const test::TempDir dir;
+  ImportOptions o = parts();
+  o.srdf = dir.write("r.srdf",
+                     "<robot name='every_joint'>\n<disable_collisions link1='base' link2='base'/></robot>")
+               .string();
+  CHECK(contains(refusal([&] { import_model(test::model_file("every_joint.urdf"), o); }),
+                 "r.srdf:2: <disable_collisions>: names the same link twice"));
+  CHECK(contains(refused("<mujoco><worldbody><body name='a'/></worldbody>\n<contact><exclude body1='a' "
+                         "body2='a'/></contact></mujoco>",
+                         {}, "m.xml"),
+                 "m.xml:2: <exclude>: names the same body twice"));
+}
+
 TEST_CASE("states and --joint set variables; a trajectory becomes the script", "[import]") {
   ImportOptions o = parts();
   o.srdf = test::model_file("every_joint.srdf");
