@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/command.h"
+#include "cli/import_options.h"
 #include "core/base/input_error.h"
 #include "fuzz/ask/evidence.h"
 #include "oracles/checker/checker.h"
@@ -143,7 +144,7 @@ int run(const CheckOptions& o) {
   }
   const std::string scene =
       o.scene.empty() ? (std::filesystem::path(o.path).parent_path() / "case.json").string() : o.scene;
-  const Case stored = load_case(scene);
+  const Case stored = is_importable(scene) ? imported_case(scene, {}).c : load_case(scene);
   const int step = step_of(j, o.path);
   for (const Bodies& p : pairs_of(o, j, stored.scene)) {
     if (!c.holds(stored.scene, p, step)) continue;

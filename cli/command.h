@@ -43,6 +43,7 @@ Run declare_families(CLI::App& app);
 Run declare_fingerprint(CLI::App& app);
 Run declare_scenarios(CLI::App& app);
 Run declare_fuzz(CLI::App& app);
+Run declare_import(CLI::App& app);
 Run declare_judge(CLI::App& app);
 Run declare_plan(CLI::App& app);
 Run declare_primitives(CLI::App& app);
@@ -51,6 +52,7 @@ Run declare_report(CLI::App& app);
 Run declare_shrink(CLI::App& app);
 Run declare_stability(CLI::App& app);
 Run declare_reproduce(CLI::App& app);
+Run declare_assess(CLI::App& app);
 Run declare_bisect(CLI::App& app);
 Run declare_merge(CLI::App& app);
 Run declare_triage(CLI::App& app);
@@ -68,6 +70,8 @@ inline constexpr auto commands = std::to_array<Command>({
     {"causes", "find the distinct causes behind a campaign's findings", declare_causes},
     {"versions", "find which releases of an engine have which causes", declare_versions},
     {"triage", "compare causes with the ledger of known ones", declare_triage},
+    {"import", "read a robot, a world or a mesh as a scene", declare_import},
+    {"assess", "find which engine can be trusted on a robot", declare_assess},
     {"plan", "choose the cheapest model a scene can be run with", declare_plan},
     {"merge", "merge the shards of a campaign, or ledgers", declare_merge},
     {"report", "summarise a campaign as text and as a page", declare_report},
