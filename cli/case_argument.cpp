@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "cli/engine_catalog.h"
+#include "cli/import_options.h"
 #include "core/base/input_error.h"
 #include "scenarios/handmade/scenario.h"
 #include "scenarios/text/name_list.h"
@@ -40,11 +41,13 @@ std::string corpus_name(std::string text) {
 
 }  // namespace
 
-StoredCase case_argument(const std::string& text) {
+StoredCase case_argument(const std::string& text, const ImportOptions& import) {
+  require_importable(text, import);
   std::error_code ec;
   const fs::file_status status = fs::status(text, ec);
   if (fs::is_directory(status)) return load_stored_case(fs::path(text) / "case.json");
-  if (status.type() != fs::file_type::not_found) return load_stored_case(text);
+  if (status.type() != fs::file_type::not_found)
+    return is_importable(text) ? imported_case(text, import) : load_stored_case(text);
   for (const auto& s : scenarios::catalog())
     if (s.name == text) return {s.make(), s.line, "scenario " + s.name, s.expect};
   const std::string name = corpus_name(text);

@@ -7,11 +7,13 @@
 #include "cli/engine_catalog.h"
 #include "reports/record/result.h"
 #include "scenarios/codec/case_codec.h"
+#include "scenarios/import/import_context.h"
 
 namespace touchstone::cli {
 
-/// Throws InputError when it is none of them.
-StoredCase case_argument(const std::string& text);
+/// A case or scene file, a file that is imported, the directory of a finding, or the name of a scenario or of
+/// a case of the corpus. Throws InputError when it is none of them.
+StoredCase case_argument(const std::string& text, const ImportOptions& import = {});
 
 /// The directory of a recorded scene (scene.txt, frames.npy).
 bool is_recording(const std::string& text);

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/command.h"
+#include "cli/import_options.h"
 #include "core/base/input_error.h"
 #include "fuzz/ask/evidence.h"
 #include "oracles/checker/checker.h"
@@ -154,7 +155,8 @@ int run(const CheckOptions& o) {
                fault == "crashed" ? "a crash" : "`" + fault + "`");
     return exit_failed;
   }
-  const Case stored = load_case(scene_file(o));
+  const std::string scene = scene_file(o);
+  const Case stored = is_importable(scene) ? imported_case(scene, {}).c : load_case(scene);
   const int step = step_of(j, o.path);
   for (const Bodies& p : pairs_of(o, j, stored.scene)) {
     if (!c.holds(stored.scene, p, step)) continue;

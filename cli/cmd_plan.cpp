@@ -5,6 +5,7 @@
 
 #include "cli/case_argument.h"
 #include "cli/command.h"
+#include "cli/import_options.h"
 #include "cli/output.h"
 #include "core/base/input_error.h"
 #include "reports/plan/plan.h"
@@ -20,6 +21,7 @@ struct PlanArguments {
   fuzz::PlanOptions plan;
   int steps = 24;
   bool json = false;
+  ImportOptions import;
 };
 
 fuzz::Course course_named(const PlanArguments& o) {
@@ -34,7 +36,7 @@ fuzz::Course course_named(const PlanArguments& o) {
     const RealScene recorded = load_real_scene(o.scene);
     return of([&] { return fuzz::course_of(recorded, o.steps); });
   }
-  Case c = case_argument(o.scene).c;
+  Case c = case_argument(o.scene, o.import).c;
   if (c.scene.name.empty()) c.scene.name = std::filesystem::path(o.scene).stem().string();
   return of([&] { return fuzz::course_of(c.scene); });
 }
@@ -73,8 +75,9 @@ int run(PlanArguments o, bool error_given) {
 
 Run declare_plan(CLI::App& app) {
   auto o = std::make_shared<PlanArguments>();
-  app.add_option("scene", o->scene,
-                 "scene or case file, name of a scenario, or directory of a recorded scene")
+  app.add_option(
+         "scene", o->scene,
+         "scene or case file, robot or world file, name of a scenario, or directory of a recorded scene")
       ->required();
   auto* error =
       app.add_option("--error", o->plan.error,
@@ -93,6 +96,7 @@ Run declare_plan(CLI::App& app) {
       ->check(CLI::Range(1, 100000))
       ->capture_default_str();
   app.add_option("--seed", o->plan.seed, "seed of the samples")->capture_default_str();
+  add_import_options(app, o->import);
   app.add_flag("--json", o->json, "the whole result as one JSON document on stdout");
   return [o, error] { return run(*o, error->count() > 0); };
 }

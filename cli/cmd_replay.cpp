@@ -5,6 +5,7 @@
 #include "cli/case_argument.h"
 #include "cli/chosen_engines.h"
 #include "cli/command.h"
+#include "cli/import_options.h"
 #include "cli/judged_by.h"
 #include "cli/query_file.h"
 #include "cli/replay_capture.h"
@@ -29,6 +30,7 @@ struct ReplayOptions {
   bool json = false, certificates = false, single = false;
   ExpectedOptions expected;
   WorkerLimits limits;
+  ImportOptions import;
 };
 
 using Engines = std::vector<EnginePtr>;
@@ -179,7 +181,7 @@ void print_origin(const std::string& path, const StoredCase& stored, const Engin
 
 void replay_stored(const ReplayOptions& o, const ReplayEngines& asked, const std::string& path, Count& count,
                    fuzz::Json& json) {
-  const StoredCase stored = case_argument(path);
+  const StoredCase stored = case_argument(path, o.import);
   if (!o.json) print_origin(path, stored, asked.engines);
   replay_case(o, asked, stored.c, count, json);
 }
@@ -223,7 +225,7 @@ int replay_expected(const ReplayOptions& o) {
   for (const std::string& path : o.paths)
     attempt(path, count, errors, [&] {
       if (is_recording(path)) throw InputError(path, "is a recording; expected failures are of single cases");
-      const Case c = case_argument(path).c;
+      const Case c = case_argument(path, o.import).c;
       const auto observations = ask(engines, c);
       expected.add(c, engines, observations, relations_of(c, engines, observations));
     });
@@ -260,7 +262,7 @@ int run(const ReplayOptions& o, bool engines_named) {
 Run declare_replay(CLI::App& app) {
   auto o = std::make_shared<ReplayOptions>();
   app.add_option("case", o->paths,
-                 "case or scene files, directories of findings, names of scenarios, directories of "
+                 "case or scene files, robot or world files, directories of findings, names of scenarios, directories of "
                  "recorded scenes (scene.txt, frames.npy), or captures (.jsonl), whose recorded answers are "
                  "judged; engines answer beside those only if --engines names them")
       ->required();
@@ -271,6 +273,7 @@ Run declare_replay(CLI::App& app) {
   add_error(app, o->error);
   add_case_seconds(app, o->limits);
   app.add_flag("--single", o->single, "the answers of a capture were computed in single precision");
+  add_import_options(app, o->import);
   app.add_flag("--json", o->json, "one JSON document on stdout");
   app.add_flag(
       "--certificates", o->certificates,

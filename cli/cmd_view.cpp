@@ -6,6 +6,7 @@
 #include "cli/case_argument.h"
 #include "cli/command.h"
 #include "cli/engine_catalog.h"
+#include "cli/import_options.h"
 #include "cli/output.h"
 #include "cli/page_contents.h"
 #include "core/base/input_error.h"
@@ -26,6 +27,7 @@ struct ViewOptions {
   std::string engines = "all";
   bool broad = false, json = false;
   WorkerLimits limits;
+  ImportOptions import;
 };
 
 // A file, the name of a scenario, or the directory of a recorded scene, as for replay.
@@ -36,13 +38,13 @@ Scene scene_named(const ViewOptions& o) {
     scene.name = real.name;
     return scene;
   }
-  Case c = case_argument(o.scene).c;
+  Case c = case_argument(o.scene, o.import).c;
   if (c.scene.name.empty()) c.scene.name = std::filesystem::path(o.scene).stem().string();
   return c.scene;
 }
 
 int view_case(const ViewOptions& o) {
-  const StoredCase stored = case_argument(o.scene);
+  const StoredCase stored = case_argument(o.scene, o.import);
   if (const std::string words = words_on_impacts_not_asked(stored.c); !words.empty())
     fmt::print(stderr, "{}\n", words);
   const fuzz::Json page = case_page(o.scene, stored, o.engines, o.limits);
@@ -89,11 +91,13 @@ Run declare_view(CLI::App& app) {
   auto o = std::make_shared<ViewOptions>();
   app.add_option(
          "scene", o->scene,
-         "case or scene file, name of a scenario, or directory of a recorded scene (scene.txt, frames.npy)")
+         "case or scene file, robot or world file, name of a scenario, or directory of a recorded scene "
+         "(scene.txt, frames.npy)")
       ->required();
   app.add_option("--engines", o->engines, "engines to query: names, plug-in paths, or all")
       ->capture_default_str();
   add_case_seconds(app, o->limits);
+  add_import_options(app, o->import);
   app.add_flag(
       "--broad", o->broad,
       "show the broad phase instead of the answers: boxes, intervals, cells or trees, candidate pairs "

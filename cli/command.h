@@ -46,6 +46,7 @@ Run declare_families(CLI::App& app);
 Run declare_fingerprint(CLI::App& app);
 Run declare_scenarios(CLI::App& app);
 Run declare_fuzz(CLI::App& app);
+Run declare_import(CLI::App& app);
 Run declare_judge(CLI::App& app);
 Run declare_plan(CLI::App& app);
 Run declare_primitives(CLI::App& app);
@@ -54,6 +55,7 @@ Run declare_report(CLI::App& app);
 Run declare_shrink(CLI::App& app);
 Run declare_stability(CLI::App& app);
 Run declare_reproduce(CLI::App& app);
+Run declare_assess(CLI::App& app);
 Run declare_bisect(CLI::App& app);
 Run declare_merge(CLI::App& app);
 Run declare_triage(CLI::App& app);
@@ -86,6 +88,8 @@ inline constexpr auto commands = std::to_array<Command>({
     {"versions", "find which releases of an engine have which causes", declare_versions,
      "Compare builds and releases"},
     {"fingerprint", "hash an engine's answers, to compare builds of it", declare_fingerprint},
+    {"import", "read a robot, a world or a mesh as a scene", declare_import, "Your robot or world"},
+    {"assess", "find which engine can be trusted on a robot", declare_assess},
     {"engines", "list, install or build engines", declare_engines, "What there is"},
     {"families", "list the families of random cases", declare_families},
     {"scenarios", "list the hand-built scenarios, or write one", declare_scenarios},

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "reports/record/assessment.h"
 #include "reports/record/broad_certificate.h"
 #include "reports/record/chart.h"
 #include "reports/record/observation_json.h"
@@ -15,6 +16,10 @@ namespace touchstone::reports {
 
 /// What to run and how much it saves, then the evidence; in 80 columns.
 std::string plan_text(const fuzz::Plan& p);
+
+/// Wrong answers, worst errors, times and the padding by engine, and the advice; in 80 columns. Lengths in
+/// millimetres, for scenes in metres.
+std::string assessment_text(const fuzz::Assessment& a);
 
 // The chart as text in 80 columns.
 
