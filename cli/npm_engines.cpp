@@ -46,6 +46,9 @@ constexpr NpmRow npm_rows[] = {
      "Havok, shape proximity and shape casts; WASM"},
     {"havok-sim", "@babylonjs/havok", "1.3.14", "npm/havok/havok.mjs", "sim",
      "Havok, collision events of a step; WASM"},
+    {"cannon", "cannon-es", "0.20.0", "npm/cannon/cannon.mjs", "",
+     "cannon-es as shipped: contacts of balls, boxes, hulls and planes; bounding spheres"},
+    {"cannon-sap", "cannon-es", "0.20.0", "npm/cannon/cannon.mjs", "sap", "cannon-es's SAPBroadphase"},
 };
 
 fs::path script_folder() { return plugin_directory().parent_path() / "share/touchstone/engines"; }

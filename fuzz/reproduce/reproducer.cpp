@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/base/input_error.h"
@@ -186,6 +187,7 @@ struct ExpectedAnswer {
   const EngineQuestion& q;
   const Finding& finding;
   double tau;
+  std::string_view point_a = "", point_b = "";  // of a distance, in the program
 };
 
 std::string verdict(std::string_view yes, std::string_view no, bool expected) {
@@ -233,13 +235,12 @@ std::string witness_check(const ExpectedAnswer& e) {
   add_direction(directions, e.truth, e.q.a, w[0]);
   add_direction(directions, e.truth, e.q.b, w[1]);
   if (directions.empty()) directions = "Vec{1, 0, 0}";
-  const bool bullet = e.q.engine.starts_with("bullet");
   const bool inside = t.gap.hi < 0;
   return filled(check_witness, {{"LO", literal(inside ? -t.gap.hi : std::max(0.0, t.gap.lo))},
                                 {"HI", literal(inside ? -t.gap.lo : std::max(0.0, t.gap.hi))},
                                 {"TAU", literal(e.tau)},
-                                {"P", bullet ? "x.on_a" : "x.points[0]"},
-                                {"Q", bullet ? "x.on_b" : "x.points[1]"},
+                                {"P", std::string(e.point_a)},
+                                {"Q", std::string(e.point_b)},
                                 {"DIRECTIONS", directions}});
 }
 
@@ -302,30 +303,31 @@ std::string expected_words(const ExpectedAnswer& e) {
   return fmt::format("{}, signed distance within [{}, {}], tolerance {}", verdict, t.gap.lo, t.gap.hi, e.tau);
 }
 
-bool is_ode(std::string_view engine) { return engine == "ode" || engine.starts_with("ode-"); }
-bool is_mujoco(std::string_view engine) { return engine == "mujoco" || engine.starts_with("mujoco-"); }
-bool is_physx(std::string_view engine) { return engine == "physx-query" || engine == "physx-gjk"; }
+bool stands_for(std::string_view name, std::string_view engine) {
+  return name.ends_with('-') ? engine.starts_with(name) : engine == name;
+}
+
+const SourceWriter* writer_of(std::string_view engine) {
+  static const std::vector<SourceWriter> all = source_writers();
+  const auto writes = [&](const SourceWriter& w) {
+    return std::ranges::any_of(w.engines, [&](std::string_view name) { return stands_for(name, engine); });
+  };
+  const auto found = std::ranges::find_if(all, writes);
+  return found == all.end() ? nullptr : &*found;
+}
 
 EngineSource source_of(const EngineQuestion& q) {
-  if (q.engine.starts_with("fcl-")) return fcl_source(q);
-  if (q.engine.starts_with("bullet-")) return bullet_source(q);
-  if (q.engine.starts_with("libccd-")) return libccd_source(q);
-  if (is_ode(q.engine)) return ode_source(q);
-  if (is_mujoco(q.engine)) return mujoco_source(q);
-  if (is_physx(q.engine)) return physx_source(q);
-  if (q.engine == "havok") return havok_source(q);
-  throw InputError("reproduce",
-                   fmt::format("is not available for {}, only for engines of FCL, Bullet, libccd, "
-                               "ODE and MuJoCo, for physx-query, physx-gjk and havok",
-                               std::string(q.engine)));
+  if (const SourceWriter* writer = writer_of(q.engine)) return writer->write(q);
+  std::string names;
+  for (const SourceWriter& w : source_writers())
+    for (const std::string_view name : w.engines)
+      names += fmt::format("{}{}{}", names.empty() ? "" : ", ", name, name.ends_with('-') ? "*" : "");
+  throw InputError("reproduce", fmt::format("is not available for {}, only for {}", q.engine, names));
 }
 
 }  // namespace
 
-bool has_reproducer(std::string_view engine) {
-  return engine.starts_with("fcl-") || engine.starts_with("bullet-") || engine.starts_with("libccd-") ||
-         is_ode(engine) || is_mujoco(engine) || is_physx(engine) || engine == "havok";
-}
+bool has_reproducer(std::string_view engine) { return writer_of(engine) != nullptr; }
 
 namespace {
 
@@ -351,7 +353,7 @@ std::string program_of(const Finding& finding, const EngineCard& card, const Eng
   Truth truth(v.c.scene);
   const double tau = tau_of(card, v.observation, v.c.scene, v.a, v.b, truth.scale(v.a, v.b));
   if (!source.npm_package.empty()) return javascript_program(finding, card, q, source, truth, tau);
-  const ExpectedAnswer expected{truth, q, finding, tau};
+  const ExpectedAnswer expected{truth, q, finding, tau, source.point_a, source.point_b};
   const std::string check = check_of(expected);
   const auto support_of = [&](std::string_view who, int body) {
     const std::string call = fmt::format("support_{}(", who);

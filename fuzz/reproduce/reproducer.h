@@ -18,7 +18,7 @@ struct PluginFile {
   std::string include;  // the directory that contains oracles/abi/touchstone_engine.h
 };
 
-/// True for engines of FCL, Bullet, libccd, ODE and MuJoCo, and for physx-query, physx-gjk and havok.
+/// True if the engine's folder has a writer for it (oracles/reproducer/engine_source.h).
 bool has_reproducer(std::string_view engine);
 
 /// Returns the program. `finding` must carry its evidence, as returned by findings_of; `card` is the

@@ -324,15 +324,15 @@ std::string body_of(const EngineQuestion& q) {
   return pair_question(q);
 }
 
-}  // namespace
-
-EngineSource bullet_source(const EngineQuestion& q) {
+EngineSource source(const EngineQuestion& q) {
   const bool f64 = q.engine.starts_with("bullet-f64");
   EngineSource out;
   out.compile =
       f64 ? "-DBT_USE_DOUBLE_PRECISION -I/usr/include/bullet -lBulletCollision-float64 -lLinearMath-float64"
           : "-I/usr/include/bullet -lBulletCollision -lLinearMath";
   out.includes = "#include <btBulletCollisionCommon.h>\n";
+  out.point_a = "x.on_a";
+  out.point_b = "x.on_b";
   out.code = std::string(helpers);
   if (!is_sim(q) && q.question != Question::time_of_impact && q.question != Question::candidates)
     out.code += filled(query_helper,
@@ -341,5 +341,9 @@ EngineSource bullet_source(const EngineQuestion& q) {
   out.code += "Answer ask() {\n  [[maybe_unused]] World w;\n  Answer x;\n" + body_of(q) + "  return x;\n}\n";
   return out;
 }
+
+}  // namespace
+
+SourceWriter bullet_source_writer() { return {{"bullet-"}, source}; }
 
 }  // namespace touchstone::fuzz

@@ -408,9 +408,7 @@ std::string scene(const EngineQuestion& q) {
   return out + "  x.overlap = wanted.found;\n  return x;\n}\n";
 }
 
-}  // namespace
-
-EngineSource fcl_source(const EngineQuestion& q) {
+EngineSource source(const EngineQuestion& q) {
   EngineSource out;
   out.compile = "-I/usr/include/eigen3 -lfcl -lccd";
   out.includes = "#include <fcl/fcl.h>\n\n#include <memory>\n";
@@ -428,5 +426,9 @@ EngineSource fcl_source(const EngineQuestion& q) {
   if (q.question == Question::time_of_impact) out.code += impact(q);
   return out;
 }
+
+}  // namespace
+
+SourceWriter fcl_source_writer() { return {{"fcl-"}, source}; }
 
 }  // namespace touchstone::fuzz

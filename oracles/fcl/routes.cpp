@@ -4,8 +4,9 @@
 #include "oracles/routes/routes.h"
 
 namespace touchstone::routes {
+namespace {
 
-std::string_view fcl_route(const Pair& p) {
+std::string_view route(std::string_view, const Pair& p) {
   const std::string_view common = common_route(p);
   if (common != "convex" || p.question == Question::distance) return common;
   if (p.question == Question::time_of_impact) return "conservative advancement";
@@ -16,12 +17,41 @@ std::string_view fcl_route(const Pair& p) {
   return p.is(ShapeKind::box, ShapeKind::box) ? "box-box" : "convex";
 }
 
-std::string_view fcl_documents(std::string_view engine, Question question, std::string_view, Fault fault) {
+std::string_view documents(std::string_view engine, Question question, std::string_view, Fault fault) {
   const bool shipped = !engine.ends_with("-tuned");
   if (shipped && question == Question::time_of_impact && (fault == Fault::missed || fault == Fault::late))
     return "fcl/narrowphase/continuous_collision_request.h: the default, CCDC_NAIVE with "
            "num_max_iterations 10, tests ten poses of the motion";
   return "";
 }
+
+// Settings name other calls (queries.cpp): the signed distance as shipped and the unsigned one with tight
+// tolerances; for the libccd solver, contacts by the signed distance instead of collide(); and conservative
+// advancement instead of ten samples.
+std::vector<Related> related() {
+  using enum Respect;
+  constexpr std::string_view without = "only with tight tolerances",
+                             with = "a matter of settings: vanishes with tight tolerances",
+                             looser_helps = "vanishes with looser tolerances",
+                             tighter_helps = "vanishes with tighter tolerances";
+  const std::vector<Question> of_indep{Question::distance, Question::time_of_impact},
+      of_libccd{Question::distance, Question::contact, Question::time_of_impact};
+  return {
+      {"fcl-libccd-tuned", "-tuned", "", settings, "asked as shipped", without, of_libccd},
+      {"fcl-indep-tuned", "-tuned", "", settings, "asked as shipped", without, of_indep},
+      {"fcl-libccd", "", "-tuned", settings, "asked with tight tolerances", with, of_libccd},
+      {"fcl-indep", "", "-tuned", settings, "asked with tight tolerances", with, of_indep},
+      {"fcl-libccd", "", "@1e-3", looser, "tolerances 1e-3", looser_helps},
+      {"fcl-indep", "", "@1e-3", looser, "tolerances 1e-3", looser_helps},
+      {"fcl-libccd", "", "@1e-9", tighter, "tolerances 1e-9", tighter_helps},
+      {"fcl-indep", "", "@1e-9", tighter, "tolerances 1e-9", tighter_helps},
+      {"fcl-libccd", "libccd", "indep", solver, "asked with GST_INDEP", "only with GST_LIBCCD"},
+      {"fcl-indep", "indep", "libccd", solver, "asked with GST_LIBCCD", "only with GST_INDEP"},
+  };
+}
+
+}  // namespace
+
+Library fcl_library() { return {"FCL", "fcl", route, documents, related()}; }
 
 }  // namespace touchstone::routes

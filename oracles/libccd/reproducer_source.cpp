@@ -55,9 +55,7 @@ std::string center(const Shape& s, const Pose& p) {
   return literals(Vec3(rotation_matrix(p.rotation) * mean + p.translation));
 }
 
-}  // namespace
-
-EngineSource libccd_source(const EngineQuestion& q) {
+EngineSource source(const EngineQuestion& q) {
   if (q.question != Question::overlap && q.question != Question::contact)
     throw InputError("reproduce", "libccd answers overlap and contact only");
   if (!has_support(q.scene.shape_of(q.a)) || !has_support(q.scene.shape_of(q.b)))
@@ -73,5 +71,9 @@ EngineSource libccd_source(const EngineQuestion& q) {
                         {"TUNED", q.tuned() ? std::string(tuned) : ""},
                         {"ASK", ask}})};
 }
+
+}  // namespace
+
+SourceWriter libccd_source_writer() { return {{"libccd-"}, source}; }
 
 }  // namespace touchstone::fuzz

@@ -2,8 +2,9 @@
 #include "oracles/routes/routes.h"
 
 namespace touchstone::routes {
+namespace {
 
-std::string_view mujoco2_route(const Pair& p) {
+std::string_view route(std::string_view, const Pair& p) {
   const std::string_view common = common_route(p);
   if (common != "convex") return common;
   const auto is_round = [](ShapeKind k) { return k == ShapeKind::sphere || k == ShapeKind::capsule; };
@@ -13,5 +14,9 @@ std::string_view mujoco2_route(const Pair& p) {
   if (p.is(ShapeKind::capsule, ShapeKind::box)) return "capsule-box";
   return "libccd";
 }
+
+}  // namespace
+
+Library mujoco2_library() { return {"MuJoCo 2", "mujoco2", route}; }
 
 }  // namespace touchstone::routes

@@ -102,14 +102,16 @@ std::string candidates(const EngineQuestion& q) {
   return out + "  x.overlap = wanted.found;\n";
 }
 
-}  // namespace
-
-EngineSource ode_source(const EngineQuestion& q) {
+EngineSource source(const EngineQuestion& q) {
   EngineSource s;
   s.compile = "-DdIDEDOUBLE -lode";
   s.includes = "#include <ode/ode.h>\n";
   s.code = filled(code, {{"BODY", q.question == Question::candidates ? candidates(q) : pair_question(q)}});
   return s;
 }
+
+}  // namespace
+
+SourceWriter ode_source_writer() { return {{"ode", "ode-"}, source}; }
 
 }  // namespace touchstone::fuzz

@@ -3,8 +3,9 @@
 #include "oracles/routes/routes.h"
 
 namespace touchstone::routes {
+namespace {
 
-std::string_view ode_route(const Pair& p) {
+std::string_view route(std::string_view, const Pair& p) {
   const std::string_view common = common_route(p);
   if (common != "convex") return common;
   if (p.has(ShapeKind::hull) || p.is(ShapeKind::cylinder, ShapeKind::cylinder) ||
@@ -15,5 +16,9 @@ std::string_view ode_route(const Pair& p) {
   if (p.is(ShapeKind::box, ShapeKind::capsule)) return "box-capsule";
   return "closed form";
 }
+
+}  // namespace
+
+Library ode_library() { return {"ODE", "ode", route}; }
 
 }  // namespace touchstone::routes

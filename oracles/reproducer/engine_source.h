@@ -3,6 +3,7 @@
 
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "core/scene/scene.h"
 #include "scenarios/value/case.h"
@@ -27,15 +28,20 @@ struct EngineSource {
   /// defines `ask()`, which returns {overlap, distance, depth, normal, impact} as far as the question asks
   /// for them, about the constant `bodies` of the program: {a, b}, each {shape, at, quaternion, rows}.
   std::string npm_package = {};
+  /// The points of a distance, of an `Answer x`.
+  std::string point_a = "x.points[0]", point_b = "x.points[1]";
 };
 
-/// Throw InputError if the engine's API does not offer the question or a shape.
-EngineSource fcl_source(const EngineQuestion& q);
-EngineSource bullet_source(const EngineQuestion& q);
-EngineSource libccd_source(const EngineQuestion& q);
-EngineSource ode_source(const EngineQuestion& q);
-EngineSource mujoco_source(const EngineQuestion& q);
-EngineSource physx_source(const EngineQuestion& q);
-EngineSource havok_source(const EngineQuestion& q);
+/// Each engine's part is in its folder, in reproducer_source.cpp, which defines `SourceWriter
+/// <folder>_source_writer()`; the build finds it.
+struct SourceWriter {
+  /// Names of engines in the library's adapter; one that ends with a dash stands for all that begin so.
+  std::vector<std::string_view> engines;
+  /// Throws InputError if the engine's API does not offer the question or a shape.
+  EngineSource (*write)(const EngineQuestion& q);
+};
+
+/// Sorted by folder.
+std::vector<SourceWriter> source_writers();
 
 }  // namespace touchstone::fuzz

@@ -1,8 +1,12 @@
-// Which routine a library chooses for a question about two shapes, and which of its faults its documentation
-// states: faults on one route may have one cause. Each library's part is in its folder.
+// What is known of a library beyond its engines' cards: which routine it chooses for a question about two
+// shapes, which of its faults its documentation states, and which of its engines differ in one respect.
+// Faults on one route may have one cause. Each library's part is in its folder, in routes.cpp, which defines
+// `Library <folder>_library()`; the build finds it.
 #pragma once
 
+#include <span>
 #include <string_view>
+#include <vector>
 
 #include "scenarios/value/case.h"
 #include "scenarios/value/judgement.h"
@@ -17,27 +21,61 @@ struct Pair {
   bool is(ShapeKind x, ShapeKind y) const { return (a == x && b == y) || (a == y && b == x); }
 };
 
-/// The routine, as a word: "sphere", "box-box", "convex", "mesh".
-std::string_view fcl_route(const Pair& p);
-std::string_view bullet_route(const Pair& p, bool simulates);
-std::string_view libccd_route(const Pair& p);
-std::string_view ode_route(const Pair& p);
-std::string_view mujoco_route(const Pair& p);
-std::string_view physx_route(std::string_view engine, const Pair& p);
-/// `engine`: a name of the adapter's.
-std::string_view dart_route(std::string_view engine, const Pair& p);
-std::string_view mujoco2_route(const Pair& p);
-/// For a library of which nothing is known: by what any library must tell apart.
+/// The respect in which two engines of a library differ.
+enum class Respect {
+  settings,    // as shipped or tuned
+  tighter,     // tolerances
+  looser,      // tolerances
+  iterations,  // their limit
+  precision,   // of the numbers
+  solver,      // another algorithm of the library
+  path,        // another interface of the library, such as that of its simulation
+};
+
+/// A way to put a question differently: the other engine's name is that of the engine with `part` replaced by
+/// `by` (appended if `part` is empty).
+struct Related {
+  std::string_view engines;  // those whose names begin so
+  std::string_view part, by;
+  Respect respect;
+  std::string_view change;   // for people: "asked in double precision"
+  std::string_view if_gone;  // what it means when a fault vanishes by it
+  /// Questions that the other engine answers by another call of the library, so that a fault that vanishes
+  /// says nothing about the change.
+  std::vector<Question> other_calls = {};
+};
+
+/// Engines whose names begin with `begins` share their code with that whose name begins with `code` instead.
+struct SameCode {
+  std::string_view begins, code;
+};
+
+/// Engines are given by the names that they have in the library's adapter.
+struct Library {
+  std::string_view name;    // for people
+  std::string_view prefix;  // its engines: this name, and those that begin with it and a dash
+  /// The routine, as a word: "sphere", "box-box", "convex", "mesh".
+  std::string_view (*route)(std::string_view engine, const Pair& p);
+  /// Where the library's documentation states that its answers have this fault; empty: nowhere. Null: there
+  /// is no such fault.
+  std::string_view (*documents)(std::string_view engine, Question question, std::string_view route,
+                                Fault fault) = nullptr;
+  std::vector<Related> related = {};
+  std::vector<SameCode> same_code = {};
+};
+
+/// Those that have a part in their folder, sorted by folder.
+std::vector<Library> libraries();
+
+/// The library of an engine; null if nothing is known of it.
+const Library* library_of(std::string_view engine);
+
+/// The routine that the engine's library chooses; common_route() if nothing is known of the library.
+std::string_view route_of(std::string_view engine, const Pair& p);
+/// As Library::documents; empty if nothing is known of the library.
+std::string_view documented(std::string_view engine, Question question, std::string_view route, Fault fault);
+
+/// By what any library must tell apart.
 std::string_view common_route(const Pair& p);
-
-/// Where the library's documentation states that its answers have this fault; empty: nowhere. `fault` is a
-/// name of judgement.h, `engine` that of a catalogued engine.
-std::string_view fcl_documents(std::string_view engine, Question question, std::string_view route,
-                               Fault fault);
-std::string_view libccd_documents(std::string_view engine, Question question, std::string_view route,
-                                  Fault fault);
-
-std::string_view mujoco_documents(std::string_view engine, Question question, std::string_view route,
-                                  Fault fault);
 
 }  // namespace touchstone::routes

@@ -166,6 +166,32 @@ class Engine {
 
 TS_PLUGIN(touchstone::plain::Engine)
 )");
+  a.write("oracles/plain/routes.cpp", R"(#include "oracles/routes/routes.h"
+
+namespace touchstone::routes {
+namespace {
+
+std::string_view route(std::string_view, const Pair& p) { return common_route(p); }
+
+}  // namespace
+
+Library plain_library() { return {"Plain", "plain", route}; }
+
+}  // namespace touchstone::routes
+)");
+  a.write("oracles/plain/reproducer_source.cpp", R"(#include "oracles/reproducer/engine_source.h"
+
+namespace touchstone::fuzz {
+namespace {
+
+EngineSource source(const EngineQuestion&) { return {}; }
+
+}  // namespace
+
+SourceWriter plain_source_writer() { return {{"plain"}, source}; }
+
+}  // namespace touchstone::fuzz
+)");
   a.insert("cli/engine_catalog.cpp", "\"ode\"};\n\n// The core is part", "\"plain\", ");
   return a;
 }
@@ -317,6 +343,17 @@ static_assert(std::any_of(commands.begin(), commands.end(), [](const auto& row) 
 static_assert(std::find(std::begin(folders), std::end(folders), "plain") != std::end(folders));
 }  // namespace touchstone::cli
 )");
+
+  // Both tables of the build call the engine's part, and nothing else.
+  commands.compile("oracles/plain/routes.cpp");
+  commands.compile("oracles/plain/reproducer_source.cpp");
+  const auto calls = [&](const std::string& table, const std::string& function) {
+    const std::string text = read_all(w.dir / "build/oracles" / table);
+    INFO(table << "\n" << text);
+    CHECK(text.find("      " + function + "(),\n") != std::string::npos);
+  };
+  calls("routes/libraries.cpp", "plain_library");
+  calls("reproducer/source_writers.cpp", "plain_source_writer");
 
   // The engine is built and asked. The program that asks is that of the tree itself, which refuses libraries
   // of other sources (oracles/abi/source_id.h); a C interface is all that the two share here.

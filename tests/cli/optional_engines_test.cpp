@@ -126,13 +126,14 @@ TEST_CASE("routes of optional engines are those of their libraries", "[optional_
   const Pair balls{Question::contact, ShapeKind::sphere, ShapeKind::sphere};
   const Pair boxes{Question::contact, ShapeKind::box, ShapeKind::box};
   const Pair cylinder{Question::distance, ShapeKind::cylinder, ShapeKind::sphere};
-  CHECK(routes::dart_route("dart", balls) == "sphere-sphere");
-  CHECK(routes::dart_route("dart-fcl", cylinder) == "mesh");
-  CHECK(routes::dart_route("dart-fcl", {Question::distance, ShapeKind::sphere, ShapeKind::box}) == "sphere");
-  CHECK(routes::dart_route("dart-fcl-mesh", balls) == "mesh");
-  CHECK(routes::dart_route("dart-bullet", boxes) == routes::bullet_route(boxes, true));
-  CHECK(routes::dart_route("dart-ode", cylinder) == routes::ode_route(cylinder));
-  CHECK(routes::mujoco2_route(balls) == "closed form");
-  CHECK(routes::mujoco2_route(cylinder) == "libccd");
-  CHECK(routes::mujoco2_route({Question::contact, ShapeKind::half_space, ShapeKind::hull}) == "half-space");
+  CHECK(routes::route_of("dart", balls) == "sphere-sphere");
+  CHECK(routes::route_of("dart-fcl", cylinder) == "mesh");
+  CHECK(routes::route_of("dart-fcl", {Question::distance, ShapeKind::sphere, ShapeKind::box}) == "sphere");
+  CHECK(routes::route_of("dart-fcl-mesh", balls) == "mesh");
+  CHECK(routes::route_of("dart-bullet", boxes) == routes::route_of("bullet-sim", boxes));
+  CHECK(routes::route_of("dart-ode", cylinder) == routes::route_of("ode", cylinder));
+  CHECK(routes::route_of("mujoco2", balls) == "closed form");
+  CHECK(routes::route_of("mujoco2", cylinder) == "libccd");
+  CHECK(routes::route_of("mujoco2", {Question::contact, ShapeKind::half_space, ShapeKind::hull}) ==
+        "half-space");
 }

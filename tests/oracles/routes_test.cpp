@@ -8,7 +8,7 @@ using routes::Pair;
 
 TEST_CASE("MuJoCo's pairs take the routes of its table of colliders", "[routes]") {
   using K = ShapeKind;
-  const auto contact = [](K a, K b) { return routes::mujoco_route({Question::contact, a, b}); };
+  const auto contact = [](K a, K b) { return routes::route_of("mujoco", {Question::contact, a, b}); };
   CHECK(contact(K::cylinder, K::sphere) == "closed form");
   CHECK(contact(K::capsule, K::capsule) == "closed form");
   CHECK(contact(K::capsule, K::box) == "box-capsule");
@@ -17,12 +17,12 @@ TEST_CASE("MuJoCo's pairs take the routes of its table of colliders", "[routes]"
   CHECK(contact(K::cylinder, K::cylinder) == "convex");
   CHECK(contact(K::half_space, K::box) == "half-space");
   // Distances of boxes go through the convex pipeline.
-  CHECK(routes::mujoco_route({Question::distance, K::box, K::box}) == "convex");
+  CHECK(routes::route_of("mujoco-single", {Question::distance, K::box, K::box}) == "convex");
 }
 
 TEST_CASE("MuJoCo's documentation disclaims depths of its legacy pipeline alone", "[routes]") {
   const auto documents = [](std::string_view engine, std::string_view route, Fault fault) {
-    return !routes::mujoco_documents(engine, Question::contact, route, fault).empty();
+    return !routes::documented(engine, Question::contact, route, fault).empty();
   };
   CHECK(documents("mujoco-libccd", "convex", Fault::not_minimal));
   CHECK_FALSE(documents("mujoco-libccd", "convex", Fault::missed));
@@ -33,12 +33,41 @@ TEST_CASE("MuJoCo's documentation disclaims depths of its legacy pipeline alone"
 TEST_CASE("PhysX's pairs take the routes of its tables", "[routes]") {
   using K = ShapeKind;
   const auto overlap = [](std::string_view engine, K a, K b) {
-    return routes::physx_route(engine, {Question::overlap, a, b});
+    return routes::route_of(engine, {Question::overlap, a, b});
   };
   CHECK(overlap("physx-query", K::box, K::capsule) == "closed form");
   CHECK(overlap("physx-query", K::box, K::box) == "box-box");
   CHECK(overlap("physx-query", K::hull, K::sphere) == "convex mesh");
   CHECK(overlap("physx-sim", K::cone, K::half_space) == "convex core");
   CHECK(overlap("physx-gjk", K::cone, K::box) == "convex");  // one routine for all
-  CHECK(routes::physx_route("physx-sap", {Question::candidates, K::box, K::box}) == "pairs");
+  CHECK(routes::route_of("physx-sap", {Question::candidates, K::box, K::box}) == "pairs");
+}
+
+TEST_CASE("an engine belongs to the library whose name its own begins with", "[routes]") {
+  const auto name = [](std::string_view engine) {
+    const routes::Library* library = routes::library_of(engine);
+    return library ? library->name : "";
+  };
+  CHECK(name("mujoco-single") == "MuJoCo");
+  CHECK(name("mujoco2") == "MuJoCo 2");
+  CHECK(name("ode") == "ODE");
+  CHECK(name("core-f32") == "the core");
+  CHECK(name("odeon").empty());
+  CHECK(name("physxx-sap").empty());
+  // Of an unknown library, what is common to all.
+  CHECK(routes::route_of("odeon", {Question::contact, ShapeKind::box, ShapeKind::box}) == "convex");
+  CHECK(routes::documented("odeon", Question::contact, "convex", Fault::missed).empty());
+}
+
+TEST_CASE("related engines differ in one respect by name, and say so", "[routes]") {
+  for (const routes::Library& library : routes::libraries())
+    for (const routes::Related& r : library.related) {
+      INFO(r.engines << " " << r.part << " " << r.by);
+      CHECK(routes::library_of(std::string(r.engines) + (r.engines.ends_with('-') ? "x" : ""))->name ==
+            library.name);
+      CHECK((r.part.empty() || r.engines.find(r.part) != std::string_view::npos));
+      CHECK(r.part != r.by);
+      CHECK_FALSE(r.change.empty());
+      CHECK_FALSE(r.if_gone.empty());
+    }
 }

@@ -63,9 +63,7 @@ std::string question(const EngineQuestion& q) {
   return filled(cast, {{"MOVED", fmt::format("[{}, {}, {}]", v.x(), v.y(), v.z())}});
 }
 
-}  // namespace
-
-EngineSource havok_source(const EngineQuestion& q) {
+EngineSource source(const EngineQuestion& q) {
   for (const int i : {q.a, q.b}) {
     const ShapeKind kind = kind_of(q.scene.shape_of(i));
     if (kind == ShapeKind::half_space || kind == ShapeKind::cone || kind == ShapeKind::ellipsoid)
@@ -78,5 +76,9 @@ EngineSource havok_source(const EngineQuestion& q) {
       code, {{"STANDS", q.question == Question::time_of_impact ? "b" : "a"}, {"QUESTION", question(q)}});
   return s;
 }
+
+}  // namespace
+
+SourceWriter havok_source_writer() { return {{"havok"}, source}; }
 
 }  // namespace touchstone::fuzz

@@ -49,9 +49,7 @@ std::string flags(std::string_view engine) {
   return engine == "mujoco-libccd" ? R"(<flag nativeccd="disable"/>)" : "";
 }
 
-}  // namespace
-
-EngineSource mujoco_source(const EngineQuestion& q) {
+EngineSource source(const EngineQuestion& q) {
   if (q.question == Question::time_of_impact)
     throw InputError("reproduce", "MuJoCo does not answer this question");
   for (const int i : {q.a, q.b})
@@ -64,5 +62,9 @@ EngineSource mujoco_source(const EngineQuestion& q) {
                          {"QUESTION", std::string(q.question == Question::distance ? distance : contact)}});
   return s;
 }
+
+}  // namespace
+
+SourceWriter mujoco_source_writer() { return {{"mujoco", "mujoco-"}, source}; }
 
 }  // namespace touchstone::fuzz

@@ -3,8 +3,9 @@
 #include "oracles/routes/routes.h"
 
 namespace touchstone::routes {
+namespace {
 
-std::string_view mujoco_route(const Pair& p) {
+std::string_view route(std::string_view, const Pair& p) {
   const std::string_view common = common_route(p);
   if (common != "convex") return common;
   if (p.is(ShapeKind::box, ShapeKind::box)) return p.question == Question::distance ? "convex" : "box-box";
@@ -16,8 +17,7 @@ std::string_view mujoco_route(const Pair& p) {
   return p.is(ShapeKind::capsule, ShapeKind::capsule) ? "closed form" : "convex";
 }
 
-std::string_view mujoco_documents(std::string_view engine, Question question, std::string_view route,
-                                  Fault fault) {
+std::string_view documents(std::string_view engine, Question question, std::string_view route, Fault fault) {
   const bool is_depth = fault == Fault::not_minimal || fault == Fault::depth_excess ||
                         fault == Fault::infeasible || fault == Fault::point_depth;
   const bool is_contact = question == Question::contact || question == Question::scene_contacts;
@@ -28,5 +28,9 @@ std::string_view mujoco_documents(std::string_view engine, Question question, st
            "that the origin ray leaves through, not the least depth";
   return "";
 }
+
+}  // namespace
+
+Library mujoco_library() { return {"MuJoCo", "mujoco", route, documents}; }
 
 }  // namespace touchstone::routes

@@ -93,9 +93,7 @@ std::string question(const EngineQuestion& q) {
   return filled(gjk_proximity, {{"REACH", q.question == Question::distance ? "1e15" : "0"}});
 }
 
-}  // namespace
-
-EngineSource physx_source(const EngineQuestion& q) {
+EngineSource source(const EngineQuestion& q) {
   const bool measures = q.question != Question::overlap && q.question != Question::time_of_impact;
   if (q.engine == "physx-query" && measures)
     throw InputError("reproduce", "physx-query does not answer this question");
@@ -108,5 +106,9 @@ EngineSource physx_source(const EngineQuestion& q) {
   s.code = filled(code, {{"QUESTION", question(q)}});
   return s;
 }
+
+}  // namespace
+
+SourceWriter physx_source_writer() { return {{"physx-query", "physx-gjk"}, source}; }
 
 }  // namespace touchstone::fuzz

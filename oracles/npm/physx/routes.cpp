@@ -9,9 +9,7 @@ bool has_convex_core(const Pair& p) {
   return p.has(ShapeKind::cylinder) || p.has(ShapeKind::cone) || p.has(ShapeKind::ellipsoid);
 }
 
-}  // namespace
-
-std::string_view physx_route(std::string_view engine, const Pair& p) {
+std::string_view route(std::string_view engine, const Pair& p) {
   const std::string_view common = common_route(p);
   if (engine == "physx-gjk" || is_broad_question(p.question) || p.has(ShapeKind::mesh)) return common;
   if (has_convex_core(p)) return "convex core";
@@ -20,5 +18,9 @@ std::string_view physx_route(std::string_view engine, const Pair& p) {
   if (!p.is(ShapeKind::box, ShapeKind::box)) return "closed form";
   return "box-box";
 }
+
+}  // namespace
+
+Library physx_library() { return {"PhysX", "physx", route}; }
 
 }  // namespace touchstone::routes
