@@ -1,10 +1,10 @@
 #include "cli/npm_engines.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cstdlib>
-#include <fstream>
 #include <iterator>
 #include <map>
 #include <nlohmann/json.hpp>
@@ -12,9 +12,11 @@
 
 #include "cli/command.h"
 #include "cli/engine_catalog.h"
+#include "cli/logged_command.h"
 #include "cli/npm_releases.h"
 #include "core/base/input_error.h"
 #include "scenarios/codec/json_file.h"
+#include "scenarios/text/shell_word.h"
 
 namespace touchstone::cli {
 namespace {
@@ -62,42 +64,22 @@ fs::path folder_of(const NpmEngine& e) {
 }
 fs::path package_folder(const NpmEngine& e) { return folder_of(e) / "node_modules" / e.row->package; }
 
-std::string quoted(const fs::path& p) {
-  std::string out = "'";
-  for (const char c : p.string())
-    if (c == '\'')
-      out += "'\\''";
-    else
-      out += c;
-  return out + "'";
-}
-
-std::string last_lines(const fs::path& file, std::size_t most) {
-  std::ifstream in(file);
-  std::vector<std::string> lines;
-  for (std::string line; std::getline(in, line);) lines.push_back(line);
-  std::string out;
-  for (std::size_t i = lines.size() - std::min(most, lines.size()); i < lines.size(); ++i)
-    out += lines[i] + "\n";
-  return out;
-}
-
 int fetch(const fs::path& folder, const std::set<std::string>& packages) {
   const fs::path log = folder / "install.log";
-  std::error_code error;
-  fs::create_directories(folder, error);
-  if (error) throw InputError(folder.string(), "cannot be created: " + error.message());
-  std::string list;
-  for (const std::string& p : packages) list += " " + p;
-  fmt::print(stderr, "installing{} from npm into {}\n", list, folder.string());
+  create_folder(folder);
+  fs::remove(log);
+  fmt::print(stderr, "installing {} from npm into {}\n", fmt::join(packages, " "), folder.string());
   // In its own folder: npm would take a folder here that is called NAME@RELEASE for the package.
-  const std::string command = fmt::format(
-      "cd {0} && npm install --prefix {0} --no-audit --no-fund --ignore-scripts --save-exact "
-      "--loglevel=error{1} >{2} "
-      "2>&1 </dev/null",
-      quoted(folder), list, quoted(log));
-  if (std::system(command.c_str()) == 0) return exit_clean;
-  fmt::print(stderr, "{}npm could not install them; full log: {}\n", last_lines(log, 8), log.string());
+  Words words{"env",          "-C",
+              folder,         "npm",
+              "install",      "--prefix",
+              folder,         "--no-audit",
+              "--no-fund",    "--ignore-scripts",
+              "--save-exact", "--loglevel=error"};
+  words.insert(words.end(), packages.begin(), packages.end());
+  if (run_logged(words, log)) return exit_clean;
+  fmt::print(stderr, "{}npm could not install them; full log: {}\n", reasons_in(log, "npm ERR! "),
+             log.string());
   return exit_failed;
 }
 
@@ -155,24 +137,22 @@ bool is_installed(const NpmEngine& e) try {
 std::string pipe_of(const NpmEngine& e) {
   return fmt::format("pipe:{}node {} {}{}{}",
                      e.release.empty() ? "" : fmt::format("env TOUCHSTONE_ENGINE={} ", e.name()),
-                     quoted(script_folder() / e.row->script), quoted(folder_of(e)),
-                     e.row->argument.empty() ? "" : " ", e.row->argument);
+                     shell_word((script_folder() / e.row->script).string()),
+                     shell_word(folder_of(e).string()), e.row->argument.empty() ? "" : " ", e.row->argument);
 }
 
 std::vector<fs::path> files_of(const NpmEngine& e) {
-  std::vector<fs::path> out{script_folder() / "npm/adapter.mjs"}, programs;
-  if (!e.release.empty()) out.push_back(script_folder() / "npm/release.mjs");
-  for (const auto& entry : fs::directory_iterator((script_folder() / e.row->script).parent_path()))
-    programs.push_back(entry.path());
-  std::sort(programs.begin(), programs.end());
-  out.insert(out.end(), programs.begin(), programs.end());
-  if (!is_installed(e)) return out;
-  programs.clear();
-  for (const auto& entry : fs::recursive_directory_iterator(package_folder(e)))
-    if (entry.is_regular_file()) programs.push_back(entry.path());
-  std::sort(programs.begin(), programs.end());
-  out.insert(out.end(), programs.begin(), programs.end());
-  return out;
+  std::vector<fs::path> files;
+  const auto add_all = [&](auto entries) {
+    const auto first = static_cast<std::ptrdiff_t>(files.size());
+    for (const auto& entry : entries)
+      if (entry.is_regular_file()) files.push_back(entry.path());
+    std::sort(files.begin() + first, files.end());
+  };
+  add_all(fs::directory_iterator(script_folder() / "npm"));
+  add_all(fs::directory_iterator((script_folder() / e.row->script).parent_path()));
+  if (is_installed(e)) add_all(fs::recursive_directory_iterator(package_folder(e)));
+  return files;
 }
 
 int fetch_npm_engines(const std::vector<NpmEngine>& engines) {

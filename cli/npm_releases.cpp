@@ -4,18 +4,15 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <array>
 #include <charconv>
-#include <cstdio>
-#include <cstdlib>
 #include <nlohmann/json.hpp>
 
 #include "cli/engine_catalog.h"
+#include "cli/logged_command.h"
 #include "cli/program_on_path.h"
 #include "core/base/input_error.h"
 #include "scenarios/codec/json_file.h"
 #include "scenarios/text/name_list.h"
-#include "scenarios/text/shell_word.h"
 
 namespace touchstone::cli {
 namespace {
@@ -41,17 +38,6 @@ Numbers numbers_of(std::string_view text) {
     text.remove_prefix(digits.size() + 1);
   }
   return {};
-}
-
-// What the command prints on stdout, and how it ended.
-std::string output_of(const std::string& command, int& status) {
-  std::string out;
-  FILE* const pipe = popen(command.c_str(), "r");
-  if (!pipe) throw InputError("npm", "cannot be started");
-  std::array<char, 4096> part{};
-  while (const std::size_t n = std::fread(part.data(), 1, part.size(), pipe)) out.append(part.data(), n);
-  status = pclose(pipe);
-  return out;
 }
 
 // npm prints one release as a string, several as an array.
@@ -125,18 +111,14 @@ void require_npm(const std::string& what) {
 std::vector<std::string> published_releases(std::string_view package) {
   require_npm(fmt::format("releases of {}", package));
   const fs::path folder = npm_folder(), log = folder / "view.log";
-  std::error_code error;
-  fs::create_directories(folder, error);
-  if (error) throw InputError(folder.string(), "cannot be created: " + error.message());
-  int status = 0;
-  const std::string json =
-      output_of(fmt::format("npm view {} versions --json --loglevel=error 2>{} </dev/null",
-                            shell_word(std::string(package)), shell_word(log.string())),
-                status);
-  if (status != 0)
+  create_folder(folder);
+  fs::remove(log);
+  const Captured found =
+      run_captured({"npm", "view", std::string(package), "versions", "--json", "--loglevel=error"}, log);
+  if (!found.succeeded)
     throw InputError(fmt::format("releases of {}", package),
                      "npm could not be asked (it needs the network); full log: " + log.string());
-  return releases_in(json, fmt::format("npm view {} versions", package));
+  return releases_in(found.out, fmt::format("npm view {} versions", package));
 }
 
 std::string newest_matching(std::span<const std::string> releases, std::string_view beginning) {

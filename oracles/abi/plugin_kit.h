@@ -43,6 +43,11 @@ struct Unsupported : std::runtime_error {
 /// The host's TS_ABI_MINOR; 0 when it is too old to report it.
 inline std::uint32_t host_minor = 0;
 
+/// The routine for two boxes that began in ODE and was copied into FCL, Bullet and DART keeps a face's normal
+/// unless an edge's needs less depth by more than its `fudge_factor` of 1.05: up to this share of the least
+/// depth more. FCL's box_box-inl.h: "used to prefer face-feature contact over edge-edge".
+inline constexpr double face_preference = 0.05;
+
 struct CardText {
   std::string name, library, version, settings;
   double unit_roundoff, tau_factor;

@@ -31,9 +31,6 @@ constexpr double ode_mpr_tolerance = 1e-6;
 constexpr double bullet_margin = 0.04;
 // btCollisionShape's setSafeMargin: the margin is at most this share of the least half extent.
 constexpr double safe_margin_share = 0.1;
-// The routine for two boxes of DART, FCL, ODE and Bullet takes a face's normal if an edge's needs less depth
-// by no more than this factor ("fudge_factor"): a share of (factor - 1) / factor of the depth stated.
-constexpr double face_preference = 1.05;
 
 // The depth of a contact of one point is that of the bodies.
 constexpr double no_depth = std::numeric_limits<double>::quiet_NaN();
@@ -91,6 +88,8 @@ class Engine {
       all.push_back({r.name, "DART", DART_VERSION, r.settings,
                      r.backend == Backend::bullet ? float_roundoff : double_roundoff, kit::oracle_tau_factor,
                      r.source});
+    for (std::size_t i = 0; i < all.size(); ++i)
+      if (rows[i].backend != Backend::fcl_mesh) all[i].depth_biases = {{"box box", kit::face_preference}};
     return all;
   }
 
@@ -204,8 +203,6 @@ class Engine {
     kit::set_normal(out, normal(deepest));
     // The deepest of several points is not the depth along the normal where the face was clipped.
     if (!is_manifold || !are(a, b, TS_BOX, TS_BOX)) kit::set_depth(out, deepest.penetrationDepth);
-    if (are(a, b, TS_BOX, TS_BOX))
-      out.claimed_tolerance += (face_preference - 1) / face_preference * deepest.penetrationDepth;
   }
 
   void ask_distance(int a, int b, ts_answer& out) {

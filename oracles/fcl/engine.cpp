@@ -27,7 +27,9 @@ constexpr const char* tuned_indep_settings =
 // closing speed.
 constexpr const char* source =
     "fcl/narrowphase/collision_request.h: gjk_tolerance; distance_request.h: distance_tolerance; "
-    "continuous_collision_request.h: toc_err times the closing speed";
+    "continuous_collision_request.h: toc_err times the closing speed; box_box-inl.h: boxBox2 prefers faces "
+    "by "
+    "fudge_factor 1.05";
 
 #ifdef TOUCHSTONE_SWEEP
 struct Sweep {
@@ -57,8 +59,10 @@ class Engine {
  public:
   static std::vector<kit::CardText> cards() {
     const auto card = [](const char* name, const char* settings) {
-      return kit::CardText{name,  "FCL", FCL_VERSION, settings, double_roundoff, kit::oracle_tau_factor,
-                           source};
+      kit::CardText c{name, "FCL", FCL_VERSION, settings, double_roundoff, kit::oracle_tau_factor, source};
+      // Contacts by collide take boxBox2, those by signed distance do not.
+      if (c.name != "fcl-libccd-tuned") c.depth_biases = {{"box box", kit::face_preference}};
+      return c;
     };
 #ifndef TOUCHSTONE_SWEEP
     return {card("fcl-libccd", shipped_settings), card("fcl-libccd-tuned", tuned_libccd_settings),

@@ -20,6 +20,7 @@
 #include <vector>
 
 #include "oracles/abi/pipe_scene.h"
+#include "oracles/host/pipe_answer.h"
 #include "oracles/host/pipe_batch.h"
 #include "scenarios/value/observation.h"
 
@@ -31,7 +32,6 @@ using pipe::NotFinite;
 
 constexpr int protocol_version = 1;
 constexpr std::size_t longest_line = std::size_t{1} << 28;
-constexpr double longest_ns = 1e15;       // of a time that a command states
 constexpr std::size_t quoted_bytes = 80;  // of the command's output in a message
 
 // Set once by load_pipe(); a process serves a single command.
@@ -208,91 +208,6 @@ class Child {
   std::string buffer_, error_text_;
 };
 
-Json parsed(const std::string& line) {
-  Json j = Json::parse(line, nullptr, false);
-  if (!j.is_object())
-    throw std::runtime_error("the command wrote a line that is not a JSON object: " +
-                             line.substr(0, quoted_bytes));
-  return j;
-}
-
-void read3(const Json& j, double out[3]) {
-  for (std::size_t k = 0; k < 3; ++k) out[k] = j.at(k).get<double>();
-}
-
-// Missing or null: not stated.
-double depth_of_point(const Json& p) {
-  return p.contains("depth") && !p.at("depth").is_null() ? p.at("depth").get<double>()
-                                                         : std::numeric_limits<double>::quiet_NaN();
-}
-
-void read_lists(const Json& j, const ts_sink& sink) {
-  double v[3];
-  if (j.contains("pairs")) {
-    std::int32_t k = 0;
-    for (const Json& list : j.at("pairs")) {
-      for (const Json& p : list)
-        sink.pair(sink.ctx, k, p.at(0).get<std::int32_t>(), p.at(1).get<std::int32_t>());
-      ++k;
-    }
-  }
-  for (const Json& p : j.value("points", Json::array())) {
-    read3(p.at("position"), v);
-    sink.point(sink.ctx, v, depth_of_point(p));
-  }
-  for (const Json& c : j.value("contacts", Json::array())) {
-    read3(c.at("normal"), v);
-    sink.contact(sink.ctx, c.at("a").get<std::int32_t>(), c.at("b").get<std::int32_t>(), v,
-                 c.at("depth").get<double>());
-  }
-}
-
-std::int32_t outcome_of(const std::string& name) {
-  constexpr auto names =
-      std::to_array<std::string_view>({"answered", "unsupported", "not_converged", "invalid_input", "threw"});
-  for (std::size_t i = 0; i < names.size(); ++i)
-    if (names[i] == name) return static_cast<std::int32_t>(i);
-  throw std::runtime_error("the command names an unknown outcome: " + name);
-}
-
-// A command whose card promises its own times states them with each answer.
-std::int64_t stated_ns(const Json& j) {
-  const double ns = j.at("ns").get<double>();
-  if (!(ns >= 0 && ns <= longest_ns)) throw std::runtime_error("the command states a time that is none");
-  return std::max<std::int64_t>(1, std::llround(ns));
-}
-
-void read_answer(const Json& j, ts_answer& out, const ts_sink& sink) {
-  out.outcome = outcome_of(j.value("outcome", "answered"));
-  std::snprintf(out.detail, sizeof out.detail, "%s", j.value("detail", "").c_str());
-  if (out.outcome != TS_ANSWERED) return;
-  const auto number = [&](const char* name, std::uint32_t bit, double& field) {
-    if (j.contains(name) && j.at(name).is_number()) {
-      out.has |= bit;
-      field = j.at(name).get<double>();
-    }
-  };
-  number("distance", TS_HAS_DISTANCE, out.distance);
-  number("depth", TS_HAS_DEPTH, out.depth);
-  number("toi", TS_HAS_TOI, out.toi);
-  if (j.contains("overlap")) {
-    out.has |= TS_HAS_OVERLAP;
-    out.overlap = j.at("overlap").get<bool>();
-  }
-  if (j.contains("normal")) {
-    out.has |= TS_HAS_NORMAL;
-    read3(j.at("normal"), out.normal);
-  }
-  if (j.contains("point_a") && j.contains("point_b")) {
-    out.has |= TS_HAS_POINTS;
-    read3(j.at("point_a"), out.point_a);
-    read3(j.at("point_b"), out.point_b);
-  }
-  out.claimed_tolerance = j.value("claimed_tolerance", 0.0);
-  if (states_times) out.ns = stated_ns(j);
-  read_lists(j, sink);
-}
-
 // A command that breaks the protocol counts as a crash with a reason: its later output cannot be trusted.
 [[noreturn]] void abort_with(const char* why) {
   std::fprintf(stderr, "%s\n", why);
@@ -337,7 +252,7 @@ void ask(ts_engine* e, std::int32_t question, std::int32_t a, std::int32_t b, ts
   }
   try {
     child(e).write_line(j.dump());
-    read_answer(parsed(child(e).read_line()), *out, *sink);
+    read_answer(parsed(child(e).read_line()), states_times, *out, *sink);
     child(e).require_silence();
   } catch (const Json::exception& why) {
     abort_with(("the command's answer does not have the required form: " + std::string(why.what())).c_str());
@@ -350,6 +265,11 @@ void ask_many(ts_engine* e, const ts_batch* batch, ts_answer* answers, const ts_
   try {
     child(e).write_all(batch_message(*batch));
     const Json header = parsed(child(e).read_line());
+    if (header.value("lines", false)) {
+      const auto next_line = [&] { return child(e).read_line(); };
+      read_answer_lines(header, *batch, states_times, next_line, answers, *sink);
+      return child(e).require_silence();
+    }
     const BatchAnswers form(header, *batch);
     form.read(child(e).read_bytes(form.bytes()), answers, *sink);
     child(e).require_silence();

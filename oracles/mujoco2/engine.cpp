@@ -1,6 +1,6 @@
 // MuJoCo 2.2: contacts by mj_collision, for pairs and for whole scenes. It has no distance query.
-#include <map>
 #include <optional>
+#include <set>
 
 #include "core/math/roundoff.h"
 #include "oracles/mujoco2/model.h"
@@ -84,6 +84,11 @@ class Engine {
     return world_->body_of(c.geom1) == a ? normal_of(c) : Vec3(-normal_of(c));
   }
 
+  bool knows_depth(int a, int b, const std::vector<const mjContact*>& all) const {
+    const bool are_boxes = world_->type(a) == mjGEOM_BOX && world_->type(b) == mjGEOM_BOX;
+    return all.size() == 1 || !are_boxes || are_parallel(all);
+  }
+
   /// With a sink, answers the whole contact; without one, only the overlap.
   void ask_contact(int a, int b, ts_answer& out, const ts_sink* sink) {
     collide();
@@ -99,20 +104,22 @@ class Engine {
                   all.size() > 1 ? kit::depth_along(normal, normal_from(a, *c), -c->dist)
                                  : std::numeric_limits<double>::quiet_NaN());
     kit::set_normal(out, normal);
-    const bool are_boxes = world_->type(a) == mjGEOM_BOX && world_->type(b) == mjGEOM_BOX;
-    if (all.size() == 1 || !are_boxes || are_parallel(all)) kit::set_depth(out, -deepest.dist);
+    if (knows_depth(a, b, all)) kit::set_depth(out, -deepest.dist);
   }
 
   void ask_scene(ts_answer& out, const ts_sink& sink) {
     if (!world_->has_all()) kit::no_such_shape("MuJoCo");
     collide();
-    std::map<std::pair<int, int>, const mjContact*> deepest;
-    for (const mjContact& c : *world_) {
-      const mjContact*& known = deepest[std::minmax(world_->body_of(c.geom1), world_->body_of(c.geom2))];
-      if (!known || c.dist < known->dist) known = &c;
-    }
-    for (const auto& [pair, c] : deepest) {
+    std::set<std::pair<int, int>> touching;
+    for (const mjContact& c : *world_)
+      touching.insert(std::minmax(world_->body_of(c.geom1), world_->body_of(c.geom2)));
+    for (const auto& pair : touching) {
       if (filter_.drops(pair.first, pair.second)) continue;
+      const std::vector<const mjContact*> all = contacts_of(pair.first, pair.second);
+      if (!knows_depth(pair.first, pair.second, all))
+        throw kit::Unsupported(
+            "the depth of two boxes is not known from a clipped face, and each contact needs one");
+      const mjContact* const c = *std::ranges::min_element(all, {}, &mjContact::dist);
       sink.contact(sink.ctx, pair.first, pair.second, normal_from(pair.first, *c).eval().data(), -c->dist);
       if (goes_to_mpr(world_->type(pair.first), world_->type(pair.second)))
         out.claimed_tolerance = mpr_tolerance;

@@ -3,6 +3,7 @@
 // runs another one, whose API may differ (release.mjs).
 import { createRequire } from "node:module";
 import { pathToFileURL } from "node:url";
+import { scenes_of } from "./batch.mjs";
 import { answer_for, is_of_interface, other_release, questions_that_fail } from "./release.mjs";
 
 export const float_roundoff = 2 ** -24;
@@ -144,9 +145,12 @@ function checked(answer) {
   return bad ? { outcome: "threw", detail: `${bad[0]} is ${bad[1]}` } : answer;
 }
 
-/** engine: {card, load(scene) -> {shapes, bodies} as received, [question](message, scene) -> answer}. */
+/**
+ * engine: {card, load(scene) -> {shapes, bodies} as received, [question](message, scene) -> answer}. `batches` on the card:
+ * the answers about a pair depend on nothing else in the scene, nor on the order of its bodies.
+ */
 export function serve(engine) {
-  const say = (answer) => process.stdout.write(JSON.stringify(answer) + "\n");
+  const text = (answer) => JSON.stringify(answer) + "\n", say = (answer) => process.stdout.write(text(answer));
   const guarded = (what) => {
     try {
       return checked(what());
@@ -166,16 +170,22 @@ export function serve(engine) {
   say({ touchstone_pipe: 1, receipts: true, states_ns: true, unit_roundoff: float_roundoff, tau_factor: oracle_tau_factor, ...engine.card,
         ...(other_release && { name: other_release }) });
   let scene = null;
-  answer_for((message) => {
-    if (message.scene) {
-      scene = message.scene;
-      say(guarded(() => ({ received: engine.load(scene) })));
-    } else if (!engine[message.ask]) {
-      say({ outcome: "unsupported", detail: `the adapter does not support ${message.ask}` });
-    } else if (fails.has(message.ask)) {
-      say({ outcome: "unsupported", detail: fails.get(message.ask) });
-    } else {
-      say(timed(() => engine[message.ask](message, scene)));
-    }
+  const load = (what) => {
+    scene = what;
+    return guarded(() => ({ received: engine.load(scene) }));
+  };
+  const answer = (message) => {
+    if (!engine[message.ask]) return { outcome: "unsupported", detail: `the adapter does not support ${message.ask}` };
+    if (fails.has(message.ask)) return { outcome: "unsupported", detail: fails.get(message.ask) };
+    return timed(() => engine[message.ask](message, scene));
+  };
+  const of_pair = (pair, ask) => {
+    const loaded = load(pair);
+    return loaded.outcome ? loaded : { ...loaded, ...answer({ ask, a: 0, b: 1 }) };
+  };
+  const all = (scenes, ask) => text({ answers: scenes.length, lines: true }) + scenes.map((pair) => text(of_pair(pair, ask))).join("");
+  answer_for((message, bytes) => {
+    if (message.ask_many) process.stdout.write(all(scenes_of(message, bytes), message.ask_many));
+    else say(message.scene ? load(message.scene) : answer(message));
   });
 }

@@ -1,18 +1,34 @@
 // Another release of a package than the one its adapter was written against. Its interface may differ: a function may
 // be missing, take other arguments or return other fields. A difference must never pass for a wrong answer of the
 // engine, so each question is tried first on two balls whose answers are known, and is unsupported where it fails.
-import { createInterface } from "node:readline";
-
 /** NAME@RELEASE as the harness names the engine; empty for the release that the adapter was written against. */
 export const other_release = process.env.TOUCHSTONE_ENGINE || "";
 
-/** Calls `say_to` for each message. From now on, an error ends the process. */
+/** Calls `say_to` for each message, with the bytes that follow it (of a batch). From now on, an error ends the process. */
 export function answer_for(say_to) {
   if (other_release) process.setUncaughtExceptionCaptureCallback(null);
   listen(say_to);
 }
+const newline = 10;
 function listen(say_to) {
-  createInterface({ input: process.stdin }).on("line", (line) => say_to(JSON.parse(line)));
+  let rest = Buffer.alloc(0), message = null;
+  const next_line = () => {
+    const end = rest.indexOf(newline);
+    if (end < 0) return false;
+    message = JSON.parse(rest.toString("utf8", 0, end));
+    rest = rest.subarray(end + 1);
+    return true;
+  };
+  process.stdin.on("data", (part) => {
+    rest = Buffer.concat([rest, part]);
+    while (message || next_line()) {
+      const wanted = message.ask_many ? message.bytes : 0;
+      if (rest.length < wanted) return;
+      const [complete, bytes] = [message, rest.subarray(0, wanted)];
+      [message, rest] = [null, rest.subarray(wanted)];
+      say_to(complete, bytes);
+    }
+  });
 }
 
 /** Whether the error says that the release has no such class, function or type of argument. */

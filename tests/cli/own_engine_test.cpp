@@ -16,7 +16,8 @@ namespace {
 const std::string mutants = TS_BINARY_DIR "/lib/libtouchstone_mutants.so";
 
 // Spheres and boxes that it takes for spheres; floats; with and without batches. Arguments: "batches" and
-// what it does in a batch, or with the radius above which it ends, or where it lies.
+// what it does in a batch, "form=lines" if it answers a batch in lines, or with the radius above which it
+// ends, or where it lies.
 const char* const balls = R"(import json, math, struct, sys, time
 options = dict(x.split("=") for x in sys.argv[1:])
 def say(x, data=b""):
@@ -60,6 +61,10 @@ def many(m, data):
     found.append(answer(m["ask_many"], p, r, q, s))
     receipts.append(([r, 0, 0, 0], [s, 0, 0, 0], p, q))
     points += [[i] + x["position"] + [x["depth"]] for x in found[-1].get("points", [])]
+  if options.get("form") == "lines":
+    lines = [json.dumps({"received": {"shapes": [{"shape": 0, "size": r[0]}, {"shape": 1, "size": r[1]}],
+      "bodies": [{"body": j, "matrix": matrix, "translation": r[2 + j]} for j in (0, 1)]}, **f}) for f, r in zip(found, receipts)]
+    return say({"answers": n, "lines": True}, "".join(x + "\n" for x in lines).encode())
   fields = {"overlap": ["overlap"], "distance": ["distance"], "contact": ["overlap", "normal", "depth"]}[m["ask_many"]]
   empty = {"normal": [0, 0, 0], "depth": 0.0}
   arrays = [[f.get(name, empty.get(name)) for f in found] for name in fields]
@@ -126,16 +131,19 @@ TEST_CASE("a campaign with batches finds the same as one without, byte for byte"
     const std::string option = std::string(" ") + what;
     fs::remove(w.dir / "batches.log");
     const Run without = fuzz(w, option, std::string("one-") + what, 160);
-    const Run with = fuzz(w, option + " batches=log", std::string("many-") + what, 160);
-    INFO(without.out << without.err << with.out << with.err);
     REQUIRE(without.code == 1);
-    REQUIRE(with.code == 1);
-    CHECK(summary(w, std::string("one-") + what).at("digest") ==
-          summary(w, std::string("many-") + what).at("digest"));
-    const auto found = keys(w, std::string("many-") + what);
-    CHECK(found == keys(w, std::string("one-") + what));
-    CHECK(std::any_of(found.begin(), found.end(),
-                      [&, word = word](const std::string& k) { return k.find(word) != std::string::npos; }));
+    for (const std::string form : {"arrays", "lines"}) {
+      const std::string out = form + "-" + what;
+      const Run with = fuzz(w, option + " batches=log form=" + form, out, 160);
+      INFO(without.out << without.err << with.out << with.err);
+      REQUIRE(with.code == 1);
+      CHECK(summary(w, std::string("one-") + what).at("digest") == summary(w, out).at("digest"));
+      const auto found = keys(w, out);
+      CHECK(found == keys(w, std::string("one-") + what));
+      CHECK(std::any_of(found.begin(), found.end(), [&, word = word](const std::string& k) {
+        return k.find(word) != std::string::npos;
+      }));
+    }
     std::istringstream log(read_all(w.dir / "batches.log"));
     int largest = 0;
     for (int n; log >> n;) largest = std::max(largest, n);

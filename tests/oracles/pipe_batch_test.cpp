@@ -8,6 +8,7 @@
 #include "core/math/rng.h"
 #include "oracles/abi/pipe_scene.h"
 #include "oracles/abi/plugin_scene.h"
+#include "oracles/host/pipe_answer.h"
 #include "oracles/host/pipe_batch.h"
 #include "tests/support/catch.h"
 
@@ -220,4 +221,43 @@ TEST_CASE("any numbers in a batch's answer are refused or read, nothing worse",
   }
   CHECK(refused > 1000);
   CHECK(taken > 200);
+}
+
+TEST_CASE("a batch may be answered in lines, each with what was received", "[oracles][pipe][batch]") {
+  const Sample s(Question::contact);
+  const Json header = {{"answers", 3}, {"lines", true}};
+  const auto read_lines = [&](const Json& first, std::vector<std::string> lines) {
+    Read r{std::vector<ts_answer>(3, blank_answer()), {}};
+    std::size_t next = 0;
+    const auto next_line = [&] { return lines.at(next++); };
+    host::read_answer_lines(first, s.batch, /*states_times=*/true, next_line, r.answers.data(),
+                            r.seen.sink());
+    CHECK(next == lines.size());
+    return r;
+  };
+  const std::string apart = R"({"overlap": false, "ns": 7})",
+                    refused = R"({"outcome": "unsupported", "detail": "no meshes"})",
+                    deep = R"({"received": {"shapes": [{"shape": 1, "size": [2.5]}], "bodies": [{"body": 0,
+      "matrix": [1, 0, 0, 0, 1, 0, 0, 0, 1], "translation": [5, 6, 7]}]}, "overlap": true, "normal": [0, 0, 1],
+      "points": [{"position": [1, 2, 3], "depth": 0.5}], "ns": 9})";
+  const Read r = read_lines(header, {apart, deep, refused});
+  CHECK(r.answers[0].has == TS_HAS_OVERLAP);
+  CHECK(r.answers[0].ns == 7);
+  CHECK(r.answers[1].has == (TS_HAS_OVERLAP | TS_HAS_NORMAL));  // a depth was not stated
+  CHECK(r.answers[1].ns == 9);
+  CHECK(r.answers[2].outcome == TS_UNSUPPORTED);
+  CHECK(std::string(r.answers[2].detail) == "no meshes");
+  CHECK(r.seen.points == std::vector<std::pair<std::size_t, double>>{{1, 0.5}});
+  CHECK(r.seen.sizes.size() == 1);
+  CHECK(r.seen.sizes.at({1, 1})[0] == 2.5);
+  CHECK(r.seen.matrices.size() == 1);
+  CHECK(r.seen.matrices.at({1, 0})[9] == 5);
+
+  CHECK_THROWS_AS(read_lines({{"answers", 2}}, {apart, apart}), std::runtime_error);
+  CHECK_THROWS_AS(read_lines(header, {apart, apart, R"({"overlap": false})"}), std::exception);  // no time
+  CHECK_THROWS_AS(read_lines(header, {R"({"pairs": [[[0, 1]]], "ns": 1})", apart, apart}),
+                  std::runtime_error);
+  const std::string stranger =
+      R"({"received": {"shapes": [{"shape": 2, "size": [1]}]}, "overlap": true, "ns": 1})";
+  CHECK_THROWS_AS(read_lines(header, {stranger, apart, apart}), std::runtime_error);
 }

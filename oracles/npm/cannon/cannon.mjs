@@ -108,7 +108,7 @@ const narrow = {
 };
 kit.serve({
   card: {
-    name: how ? `cannon-${how}` : "cannon", library: "cannon-es", version: kit.version(modules, "cannon-es"),
+    batches: !how, name: how ? `cannon-${how}` : "cannon", library: "cannon-es", version: kit.version(modules, "cannon-es"),
     unit_roundoff: 2 ** -53, shapes: ["sphere", "box", "hull", "half_space"],
     settings: how === "sap" ? "SAPBroadphase of bounding spheres" : "Narrowphase.getContacts; NaiveBroadphase of bounding spheres",
     source: "no tolerance is documented for contacts",

@@ -186,7 +186,7 @@ const steps = {
 const { settings, ...questions } = how === "sim" ? steps : queries;
 kit.serve({
   card: {
-    name: how ? `havok-${how}` : "havok", library: "Havok, WASM", version: kit.version(modules, "@babylonjs/havok"), settings,
+    batches: how !== "sim", name: how ? `havok-${how}` : "havok", library: "Havok, WASM", version: kit.version(modules, "@babylonjs/havok"), settings,
     source: "no tolerance is documented; how far rounded corners fall short follows from each shape's debug geometry and "
       + "bounding box. Times include the pipe",
   },

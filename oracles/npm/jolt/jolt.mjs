@@ -160,7 +160,7 @@ class World {
 
 const engine = {
   card: {
-    name: tuned ? "jolt-tuned" : "jolt", library: "Jolt Physics, WASM", version: kit.version(modules, "jolt-physics"),
+    batches: true, name: tuned ? "jolt-tuned" : "jolt", library: "Jolt Physics, WASM", version: kit.version(modules, "jolt-physics"),
     settings: tuned ? "CollideShape and CastShape, convex radius 0, tolerances 1e-7, back faces hit; CollideAABox"
       : "CollideShape and CastShape as shipped: convex radius 0.05 or the smallest half extent; CollideAABox",
     source: "PhysicsSettings.h: cDefaultCollisionTolerance, cDefaultPenetrationTolerance, cDefaultConvexRadius; "

@@ -16,7 +16,7 @@ const freed = ([name, ask]) => [name, (message, scene) => {
 }];
 kit.serve({
   card: {
-    name: `physx-${how}`, library: "PhysX 5.6.1, WASM", version: kit.version(modules, "physx-js-webidl"), settings,
+    batches: how === "query" || how === "gjk", name: `physx-${how}`, library: "PhysX 5.6.1, WASM", version: kit.version(modules, "physx-js-webidl"), settings,
     source: "GuGJKPenetration.h, GuGJKRaycast.h, GuEPA.cpp: iterations end at 10 % of the smaller margin (GuVecBox.h, "
       + "GuVecConvexHull.h, GuVecCapsule.h, GuGjkQuery.cpp), or at 0.000225 of the cores' distance; GuGjkQuery.cpp: cores "
       + "shrunk by 0.1 %; PxCooking.h: planeTolerance. Times include the pipe",

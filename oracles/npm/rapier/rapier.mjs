@@ -91,7 +91,7 @@ class World {
 
 const engine = {
   card: {
-    name: "rapier", library: "Rapier, WASM", version: kit.version(modules, "@dimforge/rapier3d-compat"),
+    batches: true, name: "rapier", library: "Rapier, WASM", version: kit.version(modules, "@dimforge/rapier3d-compat"),
     settings: "contactShape, intersectsShape and castShape; World.step and contactPairsWith",
     source: "no tolerance is documented for queries",
   },
