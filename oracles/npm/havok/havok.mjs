@@ -188,7 +188,7 @@ kit.serve({
   card: {
     batches: how !== "sim", name: how ? `havok-${how}` : "havok", library: "Havok, WASM", version: kit.version(modules, "@babylonjs/havok"), settings,
     source: "no tolerance is documented; how far rounded corners fall short follows from each shape's debug geometry and "
-      + "bounding box. Times include the pipe",
+      + "bounding box",
   },
   load(scene) {
     made.forEach(({ shape }) => hk.HP_Shape_Release(shape));

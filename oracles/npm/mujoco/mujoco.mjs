@@ -141,7 +141,7 @@ const engine = {
       libccd: "nativeccd disabled: libccd's MPR" }[how] + "; mj_collision, mj_geomDistance; margin 0",
     unit_roundoff: 2 ** -53,
     source: "XMLreference, option: ccd_tolerance 1e-6; Computation, Convex collisions: in units of distance. Distances of "
-      + "the libccd pipeline, and points found after rotating geoms, are disclaimed there. Times include the pipe",
+      + "the libccd pipeline, and points found after rotating geoms, are disclaimed there.",
   },
   load(scene) {
     compile(scene);

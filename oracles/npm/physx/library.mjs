@@ -139,5 +139,18 @@ function iteration_claim(scene, a, b, iterates) {
   if (both.some(is_core)) return iteration_share * support_margin;
   return both.some(iterates) ? iteration_share * Math.min(...both.map(margin)) : 0;
 }
+// GuRefGjkEpa.h, which finds the contacts of convex cores in a step: a support point that is nearer to an earlier one than
+// the accuracy of its core, 1 % of the core's greatest extent, is taken for that one.
+const core_accuracy = 0.01;
+function core_extent(s) {
+  if (s.type === "hull") return Math.max(...sides_of(s));
+  return 2 * Math.max(...(s.half_extents ?? s.semi_axes ?? [s.half_height ?? 0, is_core(s) ? s.radius : 0]));
+}
+/** Of the contacts that a step reports. */
+export function step_claim(scene, a, b) {
+  const both = [a, b].map((body) => shape_of(scene, body));
+  if (!both.some(is_core) || both.some((s) => s.type === "half_space")) return claim(scene, a, b);
+  return core_accuracy * (core_extent(both[0]) + core_extent(both[1])) + cooking_claim(scene, a, b);
+}
 export const claim = (scene, a, b, iterates = (s) => s.type === "hull" || s.type === "box") =>
   iteration_claim(scene, a, b, iterates) + cooking_claim(scene, a, b);

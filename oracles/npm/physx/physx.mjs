@@ -19,7 +19,7 @@ kit.serve({
     batches: how === "query" || how === "gjk", name: `physx-${how}`, library: "PhysX 5.6.1, WASM", version: kit.version(modules, "physx-js-webidl"), settings,
     source: "GuGJKPenetration.h, GuGJKRaycast.h, GuEPA.cpp: iterations end at 10 % of the smaller margin (GuVecBox.h, "
       + "GuVecConvexHull.h, GuVecCapsule.h, GuGjkQuery.cpp), or at 0.000225 of the cores' distance; GuGjkQuery.cpp: cores "
-      + "shrunk by 0.1 %; PxCooking.h: planeTolerance. Times include the pipe",
+      + "shrunk by 0.1 %; GuRefGjkEpa.h: accuracy of convex cores in a step 1 % of their extents; PxCooking.h: planeTolerance",
   },
   load,
   ...Object.fromEntries(Object.entries(questions).map(freed)),

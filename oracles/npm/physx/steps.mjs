@@ -2,7 +2,7 @@
 // a suppressed pair is filtered again when filter data change, so after each query's step every pair that is still
 // there is shown again. Contacts of pairs are reported, not solved, so that nothing moves.
 import * as kit from "../adapter.mjs";
-import { claim, keep, list, of, physics, place, px, scale, shape_of, top, transform, vec } from "./library.mjs";
+import { keep, list, of, physics, place, px, scale, shape_of, step_claim, top, transform, vec } from "./library.mjs";
 
 const step_time = 0.01;
 const region_slack = 1.1, least_region = 1; // MBP sees bodies within its regions only
@@ -137,10 +137,10 @@ function touching(scene, a, b) {
 export const simulation = {
   settings: "contact reports of a step, PCM, contact offset 0.02, rest offset 0; bodies without a response",
   overlap({ a, b }, scene) {
-    return { overlap: touching(scene, a, b).length > 0, claimed_tolerance: claim(scene, a, b) };
+    return { overlap: touching(scene, a, b).length > 0, claimed_tolerance: step_claim(scene, a, b) };
   },
   contact({ a, b }, scene) {
-    const points = touching(scene, a, b), claimed_tolerance = claim(scene, a, b);
+    const points = touching(scene, a, b), claimed_tolerance = step_claim(scene, a, b);
     if (points.length === 0) return { overlap: false, claimed_tolerance };
     return { overlap: true, ...kit.manifold(points, kit.has_ball(scene, a, b)), claimed_tolerance };
   },
