@@ -49,6 +49,7 @@ function require_unclipped(p, q) {
 }
 
 const world = new cannon.World();
+// clipFaceAgainstHull keeps points up to 1e-6 outside a face, of bodies that touch; contact() leaves these points out.
 // Points on both bodies and a normal from bi to bj; the depth is that which ContactEquation.computeB opposes.
 function contact_points(scene, a, b) {
   require_unclipped(scene.shapes[scene.bodies[a].shape], scene.shapes[scene.bodies[b].shape]);
@@ -103,7 +104,9 @@ const narrow = {
   overlap: ({ a, b }, scene) => ({ overlap: contact_points(scene, a, b).length > 0 }),
   contact({ a, b }, scene) {
     const points = contact_points(scene, a, b);
-    return points.length === 0 ? { overlap: false } : { overlap: true, ...kit.manifold(points, is_whole(scene, a, b)) };
+    if (points.length === 0) return { overlap: false };
+    const found = kit.manifold(points, is_whole(scene, a, b));
+    return { overlap: true, ...found, points: found.points.filter((p) => p.depth >= 0) };
   },
 };
 kit.serve({
