@@ -88,6 +88,7 @@ class Engine {
       all.push_back({r.name, "DART", DART_VERSION, r.settings,
                      r.backend == Backend::bullet ? float_roundoff : double_roundoff, kit::oracle_tau_factor,
                      r.source});
+    for (std::size_t i = 0; i < all.size(); ++i) all[i].shapes = shapes_of(rows[i].backend);
     for (std::size_t i = 0; i < all.size(); ++i)
       if (rows[i].backend != Backend::fcl_mesh) all[i].depth_biases = {{"box box", kit::face_preference}};
     return all;

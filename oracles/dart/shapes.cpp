@@ -1,5 +1,6 @@
 #include "oracles/dart/shapes.h"
 
+#include <algorithm>
 #include <dart/dynamics/BoxShape.hpp>
 #include <dart/dynamics/CapsuleShape.hpp>
 #include <dart/dynamics/ConeShape.hpp>
@@ -35,28 +36,38 @@ bool has_size(const ts_shape& s) {
   }
 }
 
-bool has_code_for(Backend backend, int kind) {
-  switch (backend) {
-    case Backend::own:
-      return kind == TS_SPHERE || kind == TS_BOX;
-    case Backend::fcl:
-      return kind == TS_SPHERE || kind == TS_BOX || kind == TS_CYLINDER || kind == TS_ELLIPSOID ||
-             kind == TS_HALF_SPACE;
-    case Backend::fcl_mesh:  // a half-space becomes a square of side 1000
-      return kind == TS_SPHERE || kind == TS_BOX || kind == TS_CYLINDER || kind == TS_ELLIPSOID;
-    case Backend::bullet:  // an ellipsoid becomes a mesh that cannot be read back
-      return kind == TS_SPHERE || kind == TS_BOX || kind == TS_CAPSULE || kind == TS_CYLINDER ||
-             kind == TS_CONE || kind == TS_HALF_SPACE;
-    case Backend::ode:
-      return kind == TS_SPHERE || kind == TS_BOX || kind == TS_CAPSULE || kind == TS_CYLINDER ||
-             kind == TS_HALF_SPACE;
-  }
-  return false;
-}
+struct KindRow {
+  int kind;
+  const char* name;
+};
+constexpr KindRow kind_rows[] = {{TS_SPHERE, "sphere"},        {TS_BOX, "box"},   {TS_CAPSULE, "capsule"},
+                                 {TS_CYLINDER, "cylinder"},    {TS_CONE, "cone"}, {TS_ELLIPSOID, "ellipsoid"},
+                                 {TS_HALF_SPACE, "half_space"}};
 
 }  // namespace
 
-bool takes(Backend backend, const ts_shape& s) { return has_code_for(backend, s.kind) && has_size(s); }
+std::vector<std::string> shapes_of(Backend backend) {
+  switch (backend) {
+    case Backend::own:
+      return {"sphere", "box"};
+    case Backend::fcl:
+      return {"sphere", "box", "cylinder", "ellipsoid", "half_space"};
+    case Backend::fcl_mesh:  // a half-space becomes a square of side 1000
+      return {"sphere", "box", "cylinder", "ellipsoid"};
+    case Backend::bullet:  // an ellipsoid becomes a mesh that cannot be read back
+      return {"sphere", "box", "capsule", "cylinder", "cone", "half_space"};
+    case Backend::ode:
+      return {"sphere", "box", "capsule", "cylinder", "half_space"};
+  }
+  return {};
+}
+
+bool takes(Backend backend, const ts_shape& s) {
+  const auto row = std::ranges::find(kind_rows, s.kind, &KindRow::kind);
+  if (row == std::end(kind_rows)) return false;
+  const std::vector<std::string> names = shapes_of(backend);
+  return std::ranges::find(names, row->name) != names.end() && has_size(s);
+}
 
 dynamics::ShapePtr make_shape(Backend backend, const ts_shape& s) {
   if (!takes(backend, s)) return nullptr;

@@ -14,8 +14,11 @@ namespace touchstone::dart_adapter {
 
 enum class Backend { own, fcl, fcl_mesh, bullet, ode };
 
-/// Whether the back end takes the shape; for another it prints an error and answers for a ball, or not at
-/// all.
+/// The kinds that the back end takes, by their names in a card.
+std::vector<std::string> shapes_of(Backend backend);
+
+/// Whether the back end takes the shape, of positive sizes; for another it prints an error and answers for a
+/// ball, or not at all.
 bool takes(Backend backend, const ts_shape& s);
 
 /// Null if the back end does not take the shape.

@@ -37,9 +37,16 @@ Vec3 normal_of(const mjContact& c) { return kit::vec3(c.frame); }
 class Engine {
  public:
   static std::vector<kit::CardText> cards() {
-    return {{"mujoco2", "MuJoCo", mj_versionString(), "mj_collision, options as shipped: margin 0, MPR",
-             double_roundoff, kit::oracle_tau_factor,
-             "XML reference: option mpr_tolerance 1e-6, for pairs of meshes, cylinders and ellipsoids"}};
+    kit::CardText card{
+        "mujoco2",
+        "MuJoCo",
+        mj_versionString(),
+        "mj_collision, options as shipped: margin 0, MPR",
+        double_roundoff,
+        kit::oracle_tau_factor,
+        "XML reference: option mpr_tolerance 1e-6, for pairs of meshes, cylinders and ellipsoids"};
+    card.shapes = {"sphere", "box", "capsule", "cylinder", "ellipsoid", "hull", "half_space"};
+    return {card};
   }
   explicit Engine(unsigned) {}
 
