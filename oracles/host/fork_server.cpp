@@ -82,11 +82,21 @@ void clean_up_after_worker(const ForkServer& server) {
   _exit(0);
 }
 
+// Under qemu-user 7.2, the child of fork() can loop for ever in the C library's list of threads' stacks,
+// which _Fork() leaves alone. The fork server has one thread.
+pid_t fork_once() {
+#if defined(__aarch64__) && defined(__GLIBC__) && __GLIBC_PREREQ(2, 34)
+  return _Fork();
+#else
+  return fork();
+#endif
+}
+
 fork_server::Reply answer(const ForkServer& server, const fork_server::Request& request, const Descriptors& d,
                           const std::function<void(WorkerStreams)>& work) {
   if (request.op == fork_server::Op::fork) {
     const pid_t parent = getpid();
-    const pid_t pid = d[0] < 0 ? -1 : fork();
+    const pid_t pid = d[0] < 0 ? -1 : fork_once();
     if (pid == 0) {
       close(server.control_fd);
       become_worker(server, d, parent, request, work);
