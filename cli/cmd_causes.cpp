@@ -61,12 +61,14 @@ const fuzz::Cause& cause_named(const fuzz::Causes& causes, const std::string& id
   throw InputError("--cause " + id, "there is no such cause" + did_you_mean(id, known));
 }
 
+std::string how_to_report(const CausesOptions& o, const fuzz::Cause& c) {
+  return fmt::format("\nTo report it, with its case and program\n  {} causes {} --cause {} --markdown\n",
+                     program_name(), shell_word(o.search.directory), shell_word(c.id));
+}
+
 std::string one_cause(const CausesOptions& o, const fuzz::Cause& c) {
   if (o.json) return json_text(to_json(c), 1) + "\n";
-  if (o.markdown) return reports::cause_markdown(c);
-  return reports::cause_text(c) +
-         fmt::format("\nTo report it, with its case and program\n  {} causes {} --cause {} --markdown\n",
-                     program_name(), shell_word(o.search.directory), shell_word(c.id));
+  return o.markdown ? reports::cause_markdown(c) : reports::cause_text(c) + how_to_report(o, c);
 }
 
 // Whether DIR/causes.json holds what is printed; if not, says so last.
@@ -118,6 +120,8 @@ bool print_at_once(const CausesOptions& o) {
     fmt::print(
         "\nNot examined yet: to reduce its case and to find out what makes it vanish\n  {} causes {}\n",
         program_name(), shell_word(o.search.directory));
+  else
+    fmt::print("{}", how_to_report(o, *c));
   return true;
 }
 

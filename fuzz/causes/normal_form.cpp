@@ -18,10 +18,11 @@ bool is_about_two(const Case& c) {
          c.queries[0].question != Question::swept_candidates;
 }
 
-std::vector<Case> plain_cases(const Case& c) {
+std::vector<Case> plain_cases(const Case& c, PlainForms forms) {
   if (c.queries[0].question == Question::time_of_impact) return plain_impacts(c, *pair_of(c));
   const auto p = true_pair(c);
-  return p ? plain_pairs(c, *p) : std::vector<Case>();
+  if (!p) return {};
+  return forms == PlainForms::all ? plain_pairs(c, *p) : nearest_plain_pairs(c, *p);
 }
 
 // Put in batches, because the first ones show most faults.
@@ -65,9 +66,10 @@ class Plainer {
   }
   bool take_in_place(Change change) { return take(in_place(best_, change)); }
 
-  Case run() {
-    for (const Change change : {stop_turning, stop_turning_a, stop_turning_b, move_b_only})
-      take(change(best_));
+  Case run(PlainForms forms) {
+    if (forms == PlainForms::all)
+      for (const Change change : {stop_turning, stop_turning_a, stop_turning_b, move_b_only})
+        take(change(best_));
     if (!take_in_place(a_as_sphere)) take_in_place(a_as_cube);
     if (!take_in_place(b_as_sphere)) take_in_place(b_as_cube);
     take_in_place(set_a_upright);
@@ -83,12 +85,13 @@ class Plainer {
 
 }  // namespace
 
-Case normal_form(const Case& c, const StillShows& still) {
+Case normal_form(const Case& c, const StillShows& still, PlainForms forms) {
   if (!is_about_two(c)) return c;
-  const std::vector<Case> plain = plain_cases(c);
+  if (forms == PlainForms::nearest && c.queries[0].question == Question::time_of_impact) return c;
+  const std::vector<Case> plain = plain_cases(c, forms);
   if (auto shown = first_shown(plain, still)) return *std::move(shown);
   if (plain.empty()) return c;
-  return Plainer(c, still).run();
+  return Plainer(c, still).run(forms);
 }
 
 }  // namespace touchstone::fuzz

@@ -156,6 +156,13 @@ std::vector<Case> plain_pairs(const Case& c, const TruePair& p) {
   return all;
 }
 
+std::vector<Case> nearest_plain_pairs(const Case& c, const TruePair& p) {
+  std::vector<Case> all;
+  for (const ShapePair& shapes : shape_pairs())
+    all.push_back(side_by_side(c, {p.a, p.b}, shapes, power_of_two_near(p.gap / p.size)));
+  return all;
+}
+
 std::vector<Case> plain_impacts(const Case& c, const BodyPair& p) {
   std::vector<Case> all;
   for (const Course& course : courses)

@@ -14,6 +14,9 @@ namespace touchstone::fuzz {
 /// turned, one in the other.
 std::vector<Case> plain_pairs(const Case& c, const TruePair& p);
 
+/// Of these, those side by side with about the share that the pair has.
+std::vector<Case> nearest_plain_pairs(const Case& c, const TruePair& p);
+
 /// In motion, the plainest first: head on, then one of them turning, past each other, fast, slow, touching at
 /// the start or at the end.
 std::vector<Case> plain_impacts(const Case& c, const BodyPair& p);

@@ -45,8 +45,8 @@ std::vector<const Case*> starting_cases(const Finding& f) {
 }
 
 // What is defensible stays so, and the smallest case gets no larger.
-void normalize(Examined& e, const StillShows& still) {
-  Case plain = normal_form(e.shown(), still);
+void normalize(Examined& e, const StillShows& still, PlainForms forms) {
+  Case plain = normal_form(e.shown(), still, forms);
   if (e.defensible) {
     if (is_defensible(plain)) e.defensible = std::move(plain);
   } else if (measure(plain) < measure(e.smallest) && (is_solid(plain) || !is_solid(e.smallest))) {
@@ -99,12 +99,13 @@ void examine(Representative& r, const EngineKnowledge& knowledge, std::size_t tr
       r.symptom = symptom_of(*r.failing);
     }
   const std::vector<OtherEngine> others = knowledge.others(r.finding->engine);
+  const PlainForms forms = knowledge.knows_routes(r.finding->engine) ? PlainForms::nearest : PlainForms::all;
   const auto examined = [&](const Case& from) {
     const StillShows still = keeps(engine, kept_of(from, r.shown(), engine, knowledge), knowledge);
     ShrunkPair shrunk = shrink_solid(from, still, tries_for(r, tries));
     Examined e{std::move(shrunk.minimum.smallest), {}, {}, {}};
     if (shrunk.defensible) e.defensible = std::move(shrunk.defensible->smallest);
-    if (!is_slow(r.symptom)) normalize(e, still);
+    if (!is_slow(r.symptom)) normalize(e, still, forms);
     e.responses = respond(e.shown(), r.symptom, r.finding->engine, others, pool);
     e.canonical = canonical(e.shown());
     return e;
