@@ -262,7 +262,8 @@ int run(const ReplayOptions& o, bool engines_named) {
 Run declare_replay(CLI::App& app) {
   auto o = std::make_shared<ReplayOptions>();
   app.add_option("case", o->paths,
-                 "case or scene files, robot or world files, directories of findings, names of scenarios, directories of "
+                 "case or scene files, robot or world files, directories of findings, names of scenarios, "
+                 "directories of "
                  "recorded scenes (scene.txt, frames.npy), or captures (.jsonl), whose recorded answers are "
                  "judged; engines answer beside those only if --engines names them")
       ->required();
