@@ -93,8 +93,12 @@ std::string missing_in(const ImpactCertificate& c, const referee::TimeTruth& tru
   return "";
 }
 
+// A flat shape has minima along a whole plane of directions, whose search takes minutes.
 bool has_listed_normals(const Placed& p) {
   const ShapeKind k = kind_of(*p.shape);
+  constexpr double flat = 0x1p-40;  // of the size
+  const double inside = std::visit([](const auto& s) { return s.inner_radii().anywhere; }, *p.shape);
+  if (inside <= flat * bounding_radius(*p.shape)) return false;
   return k == ShapeKind::sphere || k == ShapeKind::box || k == ShapeKind::capsule || k == ShapeKind::hull ||
          k == ShapeKind::rounded_box;
 }

@@ -95,6 +95,19 @@ TEST_CASE("the bracket of an answer is within what its certificates prove", "[an
   CHECK(certified > 140);
 }
 
+TEST_CASE("the normals of a box are listed, those of flat shapes are not searched for", "[answer]") {
+  const Shape cube = Box{{1, 1, 1}};
+  const Shape triangle = make_hull({{0, 0, 0}, {0.1, 0.2, 0.3}, {0.3, -0.1, 0.7}});
+  Pose beside;
+  beside.translation = {0.5, 0.25, 0.125};
+  const Placed a{&cube, Pose{}}, b{&cube, beside}, flat{&triangle, Pose{}};
+  const auto both = fuzz::answer_pair(a, b);
+  REQUIRE(both.normals);
+  CHECK(both.normals->normals.size() == 1);
+  CHECK_FALSE(fuzz::answer_pair(flat, flat).normals);
+  CHECK_FALSE(fuzz::answer_pair(a, flat).normals);
+}
+
 TEST_CASE("a damaged line of a capture is refused with its place, or is another question", "[answer]") {
   const std::string line =
       R"({"touchstone_query":1,"engine":"e","a":{"type":"box","numbers":[1,1,1],"pose":[0,0,0,0,0,0,1]},)"
