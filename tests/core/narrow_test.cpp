@@ -72,10 +72,10 @@ TEST_CASE("exactly touching pairs overlap", "[narrow]") {
 }
 
 TEST_CASE("a pair without an algorithm is unsupported", "[narrow]") {
-  const Shape plane = HalfSpace{}, mesh = TriangleMesh{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}}};
+  const Shape plane = HalfSpace{};
   CHECK(overlap({&plane, {}}, {&plane, at(0, 0, 1)}).outcome == Outcome::unsupported);
-  CHECK(distance({&mesh, {}}, {&mesh, {}}).outcome == Outcome::unsupported);
-  CHECK(contact({&mesh, {}}, {&plane, at(0, 0, 0.5)}).overlap);
+  CHECK(distance({&plane, {}}, {&plane, at(0, 0, 1)}).outcome == Outcome::unsupported);
+  CHECK(contact({&plane, {}}, {&plane, at(0, 0, 1)}).outcome == Outcome::unsupported);
 }
 
 TEST_CASE("a mesh is queried triangle by triangle; unused vertices are not part of it", "[narrow][mesh]") {

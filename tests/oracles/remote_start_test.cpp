@@ -88,7 +88,7 @@ TEST_CASE("a host built from other sources is refused", "[oracles][remote][bad-i
 
 TEST_CASE("a plug-in's engines are listed by its worker, not by the harness", "[oracles][remote]") {
   const auto cards = list_plugin_engines(host_path(), plugin_path("ts_bad_behaviours"));
-  REQUIRE(cards.size() == 31);
+  REQUIRE(cards.size() == 32);
   CHECK(cards[0].name == "good");
   CHECK(cards[1].name == "loops");
   CHECK(contains(input_error_of([] { list_plugin_engines(host_path(), plugin_path("ts_bad_start")); }),
