@@ -69,9 +69,9 @@ TEST_CASE("a trajectory is a script, and filtered pairs are not asked", "[cli][i
   REQUIRE(r.code == 0);
   const Json query = Json::parse(r.out)[0]["queries"][0];
   REQUIRE(query["question"] == "candidates");
-  REQUIRE(query["referee"]["pairs"].size() == 3);
+  REQUIRE(query["referee"]["overlapping_pairs"].size() == 3);
   // Links that a joint connects overlap in this arm, and are filtered.
-  for (const Json& step : query["referee"]["pairs"])
+  for (const Json& step : query["referee"]["overlapping_pairs"])
     for (const Json& pair : step) CHECK(pair[1].get<int>() - pair[0].get<int>() > 1);
 }
 
