@@ -130,7 +130,8 @@ TEST_CASE("assess shows an engine that misses collisions, and says what finds th
   const auto liar = w.touchstone("assess " + files + "arm.urdf --samples 30 --engines " + mutants +
                                  "overlap_one_order_denied");
   CHECK(liar.code == 1);
-  CHECK(widest_line(liar.out) <= 80);
+  // The last line names an engine that the test chose.
+  CHECK(widest_line(liar.out.substr(0, liar.out.find("\nexit code"))) <= 80);
   CHECK(has(liar.out, "by dist"));
 }
 
