@@ -41,6 +41,7 @@ Run declare_causes(CLI::App& app);
 Run declare_certify(CLI::App& app);
 Run declare_chart(CLI::App& app);
 Run declare_check(CLI::App& app);
+Run declare_corpus(CLI::App& app);
 Run declare_engines(CLI::App& app);
 Run declare_families(CLI::App& app);
 Run declare_fingerprint(CLI::App& app);
@@ -69,6 +70,7 @@ inline constexpr auto commands = std::to_array<Command>({
     {"answer", "what is true of two shapes, and is your answer right?", declare_answer},
     {"replay", "show every engine's answer to stored cases", declare_replay},
     {"check", "verify a stored certificate in exact arithmetic", declare_check},
+    {"corpus", "score engines on a corpus of hard cases; make or check it", declare_corpus},
     {"certify", "test whether a broad phase ever loses a pair", declare_certify},
     {"primitives", "check the core on deforming primitives", declare_primitives},
     {"shrink", "find the smallest case that shows the same finding", declare_shrink,

@@ -1,0 +1,32 @@
+// The JSON of the corpus; its schema is corpus/schema.json.
+#pragma once
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "fuzz/corpus/corpus_case.h"
+
+namespace touchstone::fuzz::corpus {
+
+/// The version of the format, and that of the cases.
+inline constexpr int format_version = 1;
+inline constexpr std::string_view release = "1.0.0";
+
+nlohmann::ordered_json to_json(const CorpusCase& c);
+/// The text of one file: a case a line.
+std::string file_text(const std::vector<CorpusCase>& cases);
+
+/// A case as it is needed to ask engines and to check certificates.
+struct StoredCorpusCase {
+  std::string id, mechanism, size, source;
+  std::vector<std::string> degeneracy;
+  Scene scene;
+  nlohmann::ordered_json truth;
+};
+
+/// The cases of DIR/cases/*.json, sorted by file. Throws InputError, also when there is none.
+std::vector<StoredCorpusCase> load_corpus(const std::filesystem::path& directory);
+
+}  // namespace touchstone::fuzz::corpus
