@@ -20,15 +20,22 @@ struct Bin {
 };
 constexpr double none = std::numeric_limits<double>::infinity();
 
+// Lengths.
 constexpr Bin sizes[] = {{0x1p-1074, "zero"}, {1e-5, "< 1e-5"}, {1e-3, "< 1e-3"},
                          {0.1, "< 0.1"},      {10, "< 10"},     {none, "10 or more"}};
+// Ratios of lengths.
 constexpr Bin ratios[] = {{2, "< 2"}, {10, "< 10"}, {120, "< 120"}, {1e5, "< 1e5"}, {none, "1e5 or more"}};
+// Numbers of vertices.
 constexpr Bin vertices[] = {{4, "< 4"},   {5, "4"},     {9, "< 9"},     {17, "< 17"},
                             {33, "< 33"}, {65, "< 65"}, {129, "< 129"}, {none, "129 or more"}};
+// Numbers of triangles.
 constexpr Bin triangles[] = {{2, "1"}, {3, "2"}, {12, "< 12"}, {100, "< 100"}, {none, "100 or more"}};
+// Lengths.
 constexpr Bin distances[] = {
     {1, "< 1"}, {100, "< 100"}, {1e4, "< 1e4"}, {1e6, "< 1e6"}, {none, "1e6 or more"}};
+// Lengths of quaternions.
 constexpr Bin norms[] = {{1e-6, "< 1e-6"}, {0.1, "< 0.1"}, {10, "about 1"}, {1e6, "> 10"}, {none, "> 1e6"}};
+// Angles in radians.
 constexpr Bin turns[] = {{0x1p-1074, "none"},
                          {0.1, "< 0.1"},
                          {std::numbers::pi, "< half a turn"},
