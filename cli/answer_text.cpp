@@ -24,12 +24,13 @@ std::string row(std::string_view label, const std::string& value) {
 
 // Shortest text without the sign of a zero.
 std::string number(double x) { return to_text(x == 0 ? 0.0 : x); }
+// Nine digits; all are in the JSON.
 std::string vector(const Vec3& v) {
-  return fmt::format("({}, {}, {})", number(v.x()), number(v.y()), number(v.z()));
+  // Adding 0 turns -0 into 0.
+  return fmt::format("({:.9g}, {:.9g}, {:.9g})", v.x() + 0.0, v.y() + 0.0, v.z() + 0.0);
 }
 std::string bracket(double lo, double hi) { return fmt::format("[{}, {}]", number(lo), number(hi)); }
 std::string short_vector(const Vec3& v) {
-  // Adding 0 turns -0 into 0.
   return fmt::format("({:.6g}, {:.6g}, {:.6g})", v.x() + 0.0, v.y() + 0.0, v.z() + 0.0);
 }
 
@@ -54,7 +55,7 @@ std::string normal_words(const PairAnswer& a) {
 std::string plane_words(const Certificate& c) {
   if (!c.rationals.empty())
     return fmt::format("a separating plane in rational numbers ({} planes)", c.rationals.size() / 4);
-  return fmt::format("plane d.x = {} with d = {}: A below, B above", number(c.offset), vector(c.direction));
+  return fmt::format("plane d.x = {:.9g} with d = {}: A below, B above", c.offset + 0.0, vector(c.direction));
 }
 
 std::string point_words(const Certificate& c) {
@@ -68,13 +69,14 @@ std::string proof_rows(const GapProof& p) {
   if (p.verdict.kind == Kind::separating_plane) s += row("proof", plane_words(p.verdict));
   if (p.verdict.kind == Kind::common_point) s += row("proof", point_words(p.verdict));
   if (p.at_least.kind != Kind::none)
-    s += row("", fmt::format("gap >= {} along {}", number(p.gap.lo), vector(p.at_least.direction)));
-  if (p.at_most.kind == Kind::none) return s;
+    s += row("", fmt::format("gap >= {} along {}", number(p.gap.lo), short_vector(p.at_least.direction)));
+  if (p.at_most.kind == Kind::none) return s + row("", "all digits: --json");
   const auto& [a, b] = p.at_most.support_pairs[0];
-  return s + row("", p.at_most.facets.empty()
-                         ? fmt::format("gap <= {} by {} and {}", number(p.gap.hi), vector(a), vector(b))
-                         : fmt::format("gap <= {} by an inner polytope of {} facets", number(p.gap.hi),
-                                       p.at_most.facets.size()));
+  s += row("", p.at_most.facets.empty()
+                   ? fmt::format("gap <= {} by {} and {}", number(p.gap.hi), short_vector(a), short_vector(b))
+                   : fmt::format("gap <= {} by an inner polytope of {} facets", number(p.gap.hi),
+                                 p.at_most.facets.size()));
+  return s + row("", "all digits: --json");
 }
 
 std::string certified_row(bool certified, const std::string& why_not) {

@@ -80,14 +80,14 @@ bool has_large_mesh(const Scene& scene) {
   });
 }
 
+}  // namespace
+
 Json hull_faces(const Scene& scene) {
   Json faces = Json::object();
   for (std::size_t i = 0; i < scene.shapes.size(); ++i)
     if (const auto* h = std::get_if<Hull>(&scene.shapes[i])) faces[std::to_string(i)] = h->faces;
   return faces;
 }
-
-}  // namespace
 
 Json case_page(const std::string& named, const StoredCase& stored, const std::string& engines,
                const WorkerLimits& limits) {

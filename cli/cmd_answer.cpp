@@ -114,7 +114,7 @@ class Answering {
                   std::int64_t ns) const {
     fmt::print("{}\n{}", reports::wrapped(printable(title, "\n"), 79, 2), answer_text(answer));
     if (impact) fmt::print("{}", answer_text(*impact));
-    fmt::print("  {:<12}{}s\n", "time", reports::nanoseconds(static_cast<double>(ns)) + " n");
+    fmt::print("  {:<12}{}\n", "time", reports::duration(static_cast<double>(ns)));
     if (ruling) fmt::print("{}", ruling_text(*ruling));
     std::fflush(stdout);
   }

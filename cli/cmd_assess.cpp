@@ -19,7 +19,7 @@ namespace touchstone::cli {
 namespace {
 
 struct AssessArguments {
-  std::string robot, world, out;
+  std::string robot, world, out, page;
   ImportOptions import;
   fuzz::AssessOptions how;
   EngineChoice choice;
@@ -42,16 +42,14 @@ ImportedModel robot_and_world(const AssessArguments& o) {
 }
 
 // The worst configuration as a case with its wrong pairs; without wrong answers, the first configuration.
-StoredCase worst_case(const ImportedModel& robot, const fuzz::Assessment& a, const fuzz::AssessOptions& how) {
+StoredCase worst_case(const ImportedModel& robot, const std::vector<Configuration>& all,
+                      const fuzz::Assessment& a, std::uint64_t seed) {
   constexpr std::size_t most_pairs = 6;
   const std::uint64_t number = a.worst_configuration.value_or(0);
-  const auto all = a.of_trajectory ? robot.configurations
-                                   : fuzz::drawn_configurations(robot.model, robot.configurations[0],
-                                                                how.seed, number + 1);
   StoredCase s;
   s.c.scene = scene_of(robot.model, std::span(&all[number], 1));
   s.c.id = fmt::format("{}, configuration {}", s.c.scene.name, number);
-  s.source = "assess, seed " + std::to_string(how.seed);
+  s.source = "assess, seed " + std::to_string(seed);
   for (const auto& [x, y] : a.worst_pairs) {
     if (s.c.queries.size() == 3 * most_pairs) break;
     for (const Question q : {Question::overlap, Question::distance, Question::contact})
@@ -61,14 +59,17 @@ StoredCase worst_case(const ImportedModel& robot, const fuzz::Assessment& a, con
   return s;
 }
 
-int write_assessment_page(const AssessArguments& o, const ImportedModel& robot, const fuzz::Assessment& a) {
-  const auto file = std::filesystem::path(o.out).replace_extension(".json");
-  const StoredCase worst = worst_case(robot, a, o.how);
-  save_case(worst, file);
-  const fuzz::Json page = case_page(file.string(), worst, o.choice.engines, o.limits);
-  if (!write_page("case", page.dump(), o.out, file)) return exit_failed;
-  fmt::print(stderr, "{}: open it in a browser; {}: the same configuration as a case\n", printable(o.out),
-             printable(file.string()));
+int write_assessment_page(const AssessArguments& o, const ImportedModel& robot, const fuzz::Assessment& a,
+                          const std::vector<std::string>& engines) {
+  const auto file = std::filesystem::path(o.page).replace_extension(".case.json");
+  const std::vector<Configuration> all = fuzz::asked_configurations(robot, o.how);
+  save_case(worst_case(robot, all, a, o.how.seed), file);
+  const fuzz::Json page = assess_page(robot.model, all, a, make_engines(engines, o.limits),
+                                      program_name() + " replay " + shell_word(file.string()));
+  if (!write_page("assess", page.dump(), o.page)) return exit_failed;
+  fmt::print(stderr,
+             "{}: open it in a browser; {}: the configuration with the most wrong answers, as a case\n",
+             printable(o.page), printable(file.string()));
   return exit_clean;
 }
 
@@ -85,7 +86,9 @@ int verdict_on(const fuzz::Assessment& a, const std::string& subject, bool json)
   if (wrong + failed > 0)
     return print_verdict(
         exit_wrong, subject,
-        fmt::format("wrong in {} and failed in {} of {} answers", wrong, failed, answered + failed), json);
+        fmt::format("wrong in {}{} of {} answers", wrong,
+                    failed > 0 ? fmt::format(" and failed in {}", failed) : "", answered + failed),
+        json);
   if (answered == 0)
     return print_verdict(exit_failed, subject, "it answered nothing; this run proves nothing", json);
   return print_verdict(a.interrupted ? exit_failed : exit_clean, subject,
@@ -95,6 +98,7 @@ int verdict_on(const fuzz::Assessment& a, const std::string& subject, bool json)
 
 int run(AssessArguments o) {
   require_writable(o.out);
+  require_writable(o.page);
   o.limits.stop = &interrupted;
   const ImportedModel robot = robot_and_world(o);
   const auto kept = fuzz::joints_not_drawn(robot.model);
@@ -105,18 +109,20 @@ int run(AssessArguments o) {
   const bool live = isatty(2) == 1;
   fuzz::Assessment a = fuzz::assess(
       robot, o.how, [&] { return make_engines(chosen.names, o.limits); },
-      [live](std::uint64_t asked, std::uint64_t of) {
-        if (live) fmt::print(stderr, "\r\033[K{} of {} pairs", asked, of);
+      [live](std::string_view what, std::uint64_t done, std::uint64_t of) {
+        if (live) fmt::print(stderr, "\r\033[K{} of {} {}", done, of, what);
       },
       interrupted);
   if (live) fmt::print(stderr, "\r\033[K");
+  for (fuzz::AssessedEngine& e : a.engines) e.is_own = is_core_engine(e.name);
   a.world = o.world.empty() ? "" : std::filesystem::path(o.world).filename().string();
   if (o.json)
     fmt::print("{}\n", fuzz::to_json(a, true).dump(1));
   else
     fmt::print("{}", reports::assessment_text(a));
-  if (!o.out.empty() && !a.interrupted)
-    if (const int code = write_assessment_page(o, robot, a); code != exit_clean) return code;
+  if (!o.out.empty()) write_file(o.out, fuzz::to_json(a, true).dump(1) + "\n");
+  if (!o.page.empty() && !a.interrupted)
+    if (const int code = write_assessment_page(o, robot, a, chosen.names); code != exit_clean) return code;
   return verdict_on(a, chosen.subject, o.json);
 }
 
@@ -134,6 +140,10 @@ Run declare_assess(CLI::App& app) {
   app.add_option("--near", o->how.near, "pairs whose boxes are at most this far apart are asked, in metres")
       ->check(a_positive_number())
       ->capture_default_str();
+  app.add_option("--error", o->how.error,
+                 "the advice takes the fastest engine whose distances are off by at most this, in metres")
+      ->check(a_positive_number())
+      ->capture_default_str();
   app.add_option("--pairs", o->how.most_pairs, "at most so many pairs are asked, evenly spread")
       ->check(a_count())
       ->capture_default_str();
@@ -142,9 +152,11 @@ Run declare_assess(CLI::App& app) {
   app.add_option("--jobs", o->how.jobs, "jobs side by side")
       ->check(CLI::Range(1, 1024))
       ->capture_default_str();
+  app.add_option("-o,--out", o->out, "file for the whole result (JSON)");
   app.add_option(
-      "-o,--out", o->out,
-      "file for a page of the configuration with the most wrong answers, and beside it the case (JSON)");
+      "--page", o->page,
+      "file for a page with the pairs that engines get wrong on the robot in 3-D, and beside it the "
+      "configuration with the most of them as a case");
   add_case_seconds(app, o->limits);
   app.add_flag("--json", o->json, "the whole result as one JSON document on stdout");
   return [o] { return run(*o); };

@@ -39,6 +39,7 @@ inline constexpr int exit_clean = 0, exit_wrong = 1, exit_usage = 2, exit_failed
 Run declare_answer(CLI::App& app);
 Run declare_causes(CLI::App& app);
 Run declare_certify(CLI::App& app);
+Run declare_cover(CLI::App& app);
 Run declare_chart(CLI::App& app);
 Run declare_check(CLI::App& app);
 Run declare_corpus(CLI::App& app);
@@ -92,6 +93,7 @@ inline constexpr auto commands = std::to_array<Command>({
     {"fingerprint", "hash an engine's answers, to compare builds of it", declare_fingerprint},
     {"import", "read a robot, a world or a mesh as a scene", declare_import, "Your robot or world"},
     {"assess", "find which engine can be trusted on a robot", declare_assess},
+    {"cover", "test whether convex pieces contain a mesh", declare_cover},
     {"engines", "list, install or build engines", declare_engines, "What there is"},
     {"families", "list the families of random cases", declare_families},
     {"scenarios", "list the hand-built scenarios, or write one", declare_scenarios},

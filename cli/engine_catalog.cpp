@@ -258,6 +258,8 @@ std::vector<std::string> catalogued_names() {
   return names;
 }
 
+bool is_core_engine(const std::string& name) { return is_core_row(name); }
+
 bool is_foreign(const std::string& name) { return is_pipe(name) || is_path(name); }
 
 bool is_catalogued(const std::string& name) {

@@ -36,6 +36,8 @@ std::vector<std::string> present_engines(EngineKind kind);
 /// Throws InputError for a name that is unknown or absent.
 std::vector<std::string> engine_names(const std::string& text);
 
+/// True for an engine of Touchstone's core.
+bool is_core_engine(const std::string& name);
 /// True for a plug-in's path or a pipe's command.
 bool is_foreign(const std::string& name);
 /// True for an engine of this build, of npm (installed or not), or of the user's registrations.

@@ -6,6 +6,7 @@
 
 #include "cli/engine_catalog.h"
 #include "core/scene/scene.h"
+#include "reports/assess/assess.h"
 #include "reports/record/broad_view.h"
 #include "reports/record/observation_json.h"
 #include "scenarios/codec/case_codec.h"
@@ -19,6 +20,17 @@ namespace touchstone::cli {
 /// written by `reproduce`), unless that is too long. `named` is the user's name for the case.
 fuzz::Json case_page(const std::string& named, const StoredCase& stored, const std::string& engines,
                      const WorkerLimits& limits);
+
+/// The triangles of the hulls of a scene, by the number of the shape.
+fuzz::Json hull_faces(const Scene& scene);
+
+// The data that reports/web/src/assess draws.
+
+/// The assessment, its words, and the pairs that engines got wrong with what every engine says about them,
+/// asked again. `all`: the configurations that were asked.
+fuzz::Json assess_page(const Model& model, const std::vector<Configuration>& all,
+                       const fuzz::Assessment& assessment, const std::vector<EnginePtr>& engines,
+                       const std::string& command);
 
 }  // namespace touchstone::cli
 

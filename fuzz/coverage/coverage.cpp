@@ -25,8 +25,10 @@ constexpr Bin sizes[] = {{0x1p-1074, "zero"}, {1e-5, "< 1e-5"}, {1e-3, "< 1e-3"}
                          {0.1, "< 0.1"},      {10, "< 10"},     {none, "10 or more"}};
 // Of the larger size of a pair divided by the smaller.
 constexpr Bin ratios[] = {{2, "< 2"}, {10, "< 10"}, {120, "< 120"}, {1e5, "< 1e5"}, {none, "1e5 or more"}};
+// Numbers of vertices.
 constexpr Bin vertices[] = {{4, "< 4"},   {5, "4"},     {9, "< 9"},     {17, "< 17"},
                             {33, "< 33"}, {65, "< 65"}, {129, "< 129"}, {none, "129 or more"}};
+// Numbers of triangles.
 constexpr Bin triangles[] = {{2, "1"}, {3, "2"}, {12, "< 12"}, {100, "< 100"}, {none, "100 or more"}};
 // From the origin, in the unit of the scene.
 constexpr Bin distances[] = {

@@ -7,54 +7,22 @@
 #include <exception>
 #include <map>
 #include <mutex>
-#include <numbers>
 #include <set>
 #include <thread>
 
 #include "core/base/input_error.h"
-#include "core/math/rng.h"
 #include "fuzz/judge/judge.h"
 #include "oracles/referee/referee.h"
-#include "scenarios/value/candidate_pairs.h"
 
 namespace touchstone::fuzz {
 namespace {
 
 constexpr std::size_t batch_size = 32;
 
-struct AskedPair {
-  std::uint64_t configuration = 0;
-  int a = 0, b = 0;
-};
-
-bool is_drawn(const ModelJoint& j) {
-  const bool has_range = std::isfinite(j.lower) && std::isfinite(j.upper) && j.lower < j.upper;
-  return !j.mimic && ((j.type == JointType::hinge) || (j.type == JointType::slide && has_range));
-}
-
-Scene scene_at(const Model& model, const Configuration& at) { return scene_of(model, std::span(&at, 1)); }
-
-// The pairs that count whose boxes are at most `near` apart along every axis.
-std::vector<BodyPair> near_pairs(const Scene& s, double near) {
-  std::vector<BoxedBody> boxed;
-  const Vec3 margin = Vec3::Constant(near / 2);
-  for (int i = 0; i < static_cast<int>(s.bodies.size()); ++i) {
-    Aabb box = referee::outer_box({&s.shape_of(i), s.bodies[static_cast<std::size_t>(i)].pose});
-    box.lo -= margin;
-    box.hi += margin;
-    boxed.push_back({box, i});
-  }
-  auto pairs = overlapping_boxes(std::move(boxed));
-  std::erase_if(pairs, [&](const BodyPair& p) { return !is_reportable(s, p.first, p.second); });
-  return pairs;
-}
-
-Case case_of(const Scene& scene, const AskedPair& p) {
-  Case c;
-  c.scene = extract_pair(scene, p.a, p.b);
-  c.id = fmt::format("{}/{}/{}-{}", scene.name, p.configuration, p.a, p.b);
-  c.queries = {{Question::overlap, 0, 1}, {Question::distance, 0, 1}, {Question::contact, 0, 1}};
-  return c;
+std::string kinds_of(const Scene& pair) {
+  auto a = type_name(pair.shape_of(0)), b = type_name(pair.shape_of(1));
+  if (b < a) std::swap(a, b);
+  return fmt::format("{}-{}", a, b);
 }
 
 // What one job found out about one batch, or about several.
@@ -80,14 +48,25 @@ struct Part {
       to.worst_distance_error = from.worst_distance_error;
       to.worst_pair = from.worst_pair;
     }
+    to.distances_apart += from.distances_apart;
+    to.denied += from.denied;
+    to.missed += from.missed;
+    to.false_alarms += from.false_alarms;
+    to.largest_gap = std::max(to.largest_gap, from.largest_gap);
+    to.deepest_denied = std::max(to.deepest_denied, from.deepest_denied);
     to.silent += from.silent;
     to.padding = std::max(to.padding, from.padding);
+    for (const auto& [kinds, count] : from.unanswered) to.unanswered[kinds] += count;
+    to.samples.insert(to.samples.end(), from.samples.begin(), from.samples.end());
+    keep_largest(to.samples);
   }
 };
 
 class BatchJudge {
  public:
-  BatchJudge(std::span<const AskedPair> pairs, std::span<const Case> cases) : pairs_(pairs), cases_(cases) {
+  // `first`: the index of the first of the pairs among all that are asked.
+  BatchJudge(double error, std::size_t first, std::span<const AskedPair> pairs, std::span<const Case> cases)
+      : error_(error), first_(first), pairs_(pairs), cases_(cases) {
     for (const Case& c : cases) truths_.emplace_back(c.scene);
     part_.asked = cases.size();
     for (Truth& t : truths_) {
@@ -111,32 +90,65 @@ class BatchJudge {
       if (!judgements[q].faults.empty())
         part_.wrong[pairs_[i].configuration].insert({pairs_[i].a, pairs_[i].b});
     }
-    measure(i, o, e);
+    measure(i, o, !judgements[1].faults.empty(), e);
   }
 
-  void measure(std::size_t i, const CaseObservations& o, AssessedEngine& e) {
+  void measure(std::size_t i, const CaseObservations& o, bool distance_is_wrong, AssessedEngine& e) {
     const referee::PairTruth& truth = truths_[i].pair(0, 0, 1);
     const Observation &verdict = o.answers[0], &distance = o.answers[1];
-    const bool has_distance =
-        distance.outcome == Outcome::answered && distance.distance && std::isfinite(*distance.distance);
-    if (truth.verdict == referee::Verdict::disjoint && has_distance) {
-      const double d = *distance.distance;
-      const double error = std::max({truth.gap.lo - d, d - truth.gap.hi, 0.0});
-      if (error > e.worst_distance_error) {
-        e.worst_distance_error = error;
-        const auto& bodies = cases_[i].scene.bodies;
-        e.worst_pair = fmt::format("{} and {}, configuration {}", bodies[0].name, bodies[1].name,
-                                   pairs_[i].configuration);
-      }
-    }
-    const bool reported = verdict.outcome == Outcome::answered && verdict.overlap.value_or(false);
-    if (truth.verdict != referee::Verdict::overlap || reported) return;
-    if (has_distance)
-      e.padding = std::max(e.padding, *distance.distance);
+    std::optional<double> stated;
+    if (distance.outcome == Outcome::answered && distance.distance && std::isfinite(*distance.distance))
+      stated = distance.distance;
+    if (truth.verdict == referee::Verdict::disjoint && stated)
+      add_error(i, truth, *stated, distance_is_wrong, e);
+    const bool answered = verdict.outcome == Outcome::answered && verdict.overlap;
+    if (!answered) ++e.unanswered[kinds_of(cases_[i].scene)];
+    if (truth.verdict == referee::Verdict::overlap && answered && !*verdict.overlap)
+      add_denied(i, truth, stated, e);
+    if (truth.verdict == referee::Verdict::disjoint && answered && *verdict.overlap)
+      add_false_alarm(i, truth.gap.lo, e);
+    keep_largest(e.samples);
+  }
+
+  void add_false_alarm(std::size_t i, double gap, AssessedEngine& e) {
+    if (gap <= error_) return;
+    ++e.false_alarms;
+    e.largest_gap = std::max(e.largest_gap, gap);
+    add_sample(AssessedSample::Kind::false_alarm, i, gap, e);
+  }
+
+  void add_sample(AssessedSample::Kind kind, std::size_t i, double size, AssessedEngine& e) {
+    const AskedPair& p = pairs_[i];
+    e.samples.push_back({kind, first_ + i, p.configuration, p.a, p.b, size});
+  }
+
+  void add_error(std::size_t i, const referee::PairTruth& truth, double d, bool is_wrong, AssessedEngine& e) {
+    ++e.distances_apart;
+    const double error = std::max({truth.gap.lo - d, d - truth.gap.hi, 0.0});
+    if (is_wrong || error > error_) add_sample(AssessedSample::Kind::distance, i, error, e);
+    if (error <= e.worst_distance_error) return;
+    e.worst_distance_error = error;
+    const auto& bodies = cases_[i].scene.bodies;
+    e.worst_pair =
+        fmt::format("{} and {}, configuration {}", bodies[0].name, bodies[1].name, pairs_[i].configuration);
+  }
+
+  void add_denied(std::size_t i, const referee::PairTruth& truth, const std::optional<double>& stated,
+                  AssessedEngine& e) {
+    ++e.denied;
+    const double depth = std::isfinite(truth.gap.lo) ? std::max(0.0, -truth.gap.hi) : 0;
+    const bool counts = !std::isfinite(truth.gap.lo) || depth > error_;
+    e.missed += counts;
+    if (counts) add_sample(AssessedSample::Kind::missed, i, depth, e);
+    e.deepest_denied = std::max(e.deepest_denied, depth);
+    if (stated)
+      e.padding = std::max(e.padding, *stated);
     else
       ++e.silent;
   }
 
+  double error_;  // of a distance that is accepted
+  std::size_t first_;
   std::span<const AskedPair> pairs_;
   std::span<const Case> cases_;
   std::vector<Truth> truths_;
@@ -145,9 +157,16 @@ class BatchJudge {
 
 class Assessor {
  public:
-  Assessor(const Model& model, const std::vector<Configuration>& configurations,
-           const std::vector<AskedPair>& pairs, const AssessProgress& progress, const std::atomic<bool>& stop)
-      : model_(model), configurations_(configurations), pairs_(pairs), progress_(progress), stop_(stop) {
+  Assessor(const Model& model, const Scene& scene, double error,
+           const std::vector<Configuration>& configurations, const std::vector<AskedPair>& pairs,
+           const AssessProgress& progress, const std::atomic<bool>& stop)
+      : model_(model),
+        scene_(scene),
+        error_(error),
+        configurations_(configurations),
+        pairs_(pairs),
+        progress_(progress),
+        stop_(stop) {
     parts_.resize((pairs.size() + batch_size - 1) / batch_size);
   }
 
@@ -169,7 +188,7 @@ class Assessor {
       parts_[b] = ask(b, engines);
       const std::scoped_lock lock(mutex_);
       done_ += parts_[b]->asked;
-      progress_(done_, pairs_.size());
+      progress_("pairs", done_, pairs_.size());
     }
   } catch (...) {
     const std::scoped_lock lock(mutex_);
@@ -181,14 +200,19 @@ class Assessor {
     const std::size_t first = batch * batch_size;
     const auto pairs = std::span(pairs_).subspan(first, std::min(batch_size, pairs_.size() - first));
     std::vector<Case> cases;
-    for (const AskedPair& p : pairs)
-      cases.push_back(case_of(scene_at(model_, configurations_[p.configuration]), p));
-    BatchJudge judge(pairs, cases);
+    Scene scene = scene_;
+    for (const AskedPair& p : pairs) {
+      place_bodies(model_, configurations_[p.configuration], scene);
+      cases.push_back(case_of_pair(scene, p));
+    }
+    BatchJudge judge(error_, first, pairs, cases);
     for (const EnginePtr& e : engines) judge.add(*e);
     return judge.take();
   }
 
   const Model& model_;
+  const Scene& scene_;
+  double error_;
   const std::vector<Configuration>& configurations_;
   const std::vector<AskedPair>& pairs_;
   const AssessProgress& progress_;
@@ -200,21 +224,6 @@ class Assessor {
   std::uint64_t done_ = 0;
   std::exception_ptr failure_;
 };
-
-// At most `most`, evenly spread.
-std::vector<AskedPair> thinned(const std::vector<AskedPair>& all, std::uint64_t most) {
-  if (all.size() <= most) return all;
-  std::vector<AskedPair> some;
-  for (std::uint64_t i = 0; i < most; ++i) some.push_back(all[i * all.size() / most]);
-  return some;
-}
-
-std::uint64_t possible_pairs(const Scene& s) {
-  std::uint64_t n = 0;
-  for (int b = 0; b < static_cast<int>(s.bodies.size()); ++b)
-    for (int a = 0; a < b; ++a) n += is_reportable(s, a, b);
-  return n;
-}
 
 void name_engines(Assessment& a, const EnginesOfJob& make) {
   const std::vector<EnginePtr> engines = make();
@@ -230,29 +239,18 @@ void name_engines(Assessment& a, const EnginesOfJob& make) {
 
 }  // namespace
 
-std::vector<Configuration> drawn_configurations(const Model& model, const Configuration& standard,
-                                                std::uint64_t seed, std::uint64_t count) {
-  std::vector<Configuration> all;
-  for (std::uint64_t i = 0; i < count; ++i) {
-    Rng rng = Rng::stream(seed, i);
-    Configuration c = standard;
-    for (std::size_t j = 0; j < model.joints.size(); ++j) {
-      const ModelJoint& joint = model.joints[j];
-      if (!is_drawn(joint)) continue;
-      const bool has_range = std::isfinite(joint.lower) && std::isfinite(joint.upper);
-      c[j][0] = has_range ? rng.uniform(joint.lower, joint.upper)
-                          : rng.uniform(-std::numbers::pi, std::numbers::pi);
-    }
-    all.push_back(std::move(c));
-  }
-  return all;
+Case case_of_pair(const Scene& scene, const AskedPair& p) {
+  Case c;
+  c.scene = extract_pair(scene, p.a, p.b);
+  c.id = fmt::format("{}/{}/{}-{}", scene.name, p.configuration, p.a, p.b);
+  c.queries = {{Question::overlap, 0, 1}, {Question::distance, 0, 1}, {Question::contact, 0, 1}};
+  return c;
 }
 
-std::vector<std::string> joints_not_drawn(const Model& model) {
-  std::vector<std::string> names;
-  for (const ModelJoint& j : model.joints)
-    if (variable_count(j.type) > 0 && !j.mimic && !is_drawn(j)) names.push_back(j.name);
-  return names;
+std::vector<Configuration> asked_configurations(const ImportedModel& robot, const AssessOptions& o) {
+  return robot.configurations.size() > 1
+             ? robot.configurations
+             : drawn_configurations(robot.model, robot.configurations[0], o.seed, o.samples);
 }
 
 Assessment assess(const ImportedModel& robot, const AssessOptions& o, const EnginesOfJob& engines,
@@ -261,37 +259,33 @@ Assessment assess(const ImportedModel& robot, const AssessOptions& o, const Engi
   a.robot = robot.model.name;
   a.seed = o.seed;
   a.near = o.near;
+  a.error = o.error;
   a.of_trajectory = robot.configurations.size() > 1;
-  const std::vector<Configuration> configurations =
-      a.of_trajectory ? robot.configurations
-                      : drawn_configurations(robot.model, robot.configurations[0], o.seed, o.samples);
+  const std::vector<Configuration> configurations = asked_configurations(robot, o);
   a.configurations = configurations.size();
-  std::vector<AskedPair> pairs;
-  for (std::size_t i = 0; i < configurations.size() && !stop; ++i) {
-    const Scene scene = scene_at(robot.model, configurations[i]);
-    if (i == 0) {
-      validate(scene);
-      a.possible = possible_pairs(scene);
-    }
-    for (const auto& [x, y] : near_pairs(scene, o.near)) pairs.push_back({i, x, y});
-  }
-  a.near_pairs = pairs.size();
-  pairs = thinned(pairs, o.most_pairs);
+  Scene scene = scene_of(robot.model, std::span(configurations).first(1));
+  validate(scene);
+  a.possible = possible_pairs(scene);
+  const auto near = near_pairs(
+      robot.model, scene, configurations, o.near,
+      [&](std::uint64_t done, std::uint64_t of) { progress("configurations", done, of); }, stop);
+  a.near_pairs = near.size();
+  const auto pairs = thinned(near, o.most_pairs);
   name_engines(a, engines);
-  const Part found = Assessor(robot.model, configurations, pairs, progress, stop).run(engines, o.jobs);
+  const Part found =
+      Assessor(robot.model, scene, o.error, configurations, pairs, progress, stop).run(engines, o.jobs);
   a.interrupted = stop;
   a.asked = found.asked;
   a.overlapping = found.overlapping;
   a.apart = found.apart;
   a.undecided = found.asked - found.overlapping - found.apart;
   for (std::size_t e = 0; e < found.engines.size(); ++e) {
-    AssessedEngine& to = a.engines[e];
-    const AssessedEngine& from = found.engines[e];
-    to.tallies = from.tallies;
-    to.worst_distance_error = from.worst_distance_error;
-    to.worst_pair = from.worst_pair;
-    to.silent = from.silent;
-    to.padding = from.padding;
+    AssessedEngine named = found.engines[e];
+    named.name = a.engines[e].name;
+    named.library = a.engines[e].library;
+    named.version = a.engines[e].version;
+    named.settings = a.engines[e].settings;
+    a.engines[e] = std::move(named);
   }
   for (const auto& [configuration, wrong] : found.wrong)
     if (wrong.size() > a.worst_pairs.size()) {

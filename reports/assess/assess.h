@@ -5,36 +5,41 @@
 #include <atomic>
 #include <cstdint>
 #include <functional>
+#include <string_view>
 #include <vector>
 
 #include "oracles/abi/engine.h"
+#include "reports/assess/asked_pairs.h"
 #include "reports/record/assessment.h"
 #include "scenarios/import/model/import.h"
 
 namespace touchstone::fuzz {
 
-/// How near pairs are that are asked unless the user says otherwise, in metres: about the padding that planners
-/// of motions put around links at most.
+/// How near pairs are that are asked unless the user says otherwise, in metres: about the padding that
+/// planners of motions put around links at most.
 inline constexpr double usual_near = 0.05;
+/// The error of a distance that is accepted unless the user says otherwise, in metres: about how well arms
+/// repeat a position.
+inline constexpr double usual_accepted_error = 1e-4;
 
 struct AssessOptions {
   std::uint64_t seed = 1;
-  std::uint64_t samples = 200;      // configurations drawn, unless there is a trajectory
-  std::uint64_t most_pairs = 4000;  // of all near pairs, evenly spread, are asked
-  double near = usual_near;         // in the scene's unit
+  std::uint64_t samples = 200;          // configurations drawn, unless there is a trajectory
+  std::uint64_t most_pairs = 4000;      // of all near pairs, evenly spread, are asked
+  double near = usual_near;             // in the scene's unit
+  double error = usual_accepted_error;  // of a distance, for the advice
   int jobs = 1;
 };
 
-/// Drawn uniformly within the limits of joints with one variable, or within half a turn each way for hinges
-/// without limits; all other variables keep their values. Number i depends on the seed and i alone.
-std::vector<Configuration> drawn_configurations(const Model& model, const Configuration& standard,
-                                                std::uint64_t seed, std::uint64_t count);
+/// Overlap, distance and contact of one pair of a scene, as assess asks them.
+Case case_of_pair(const Scene& scene, const AskedPair& p);
 
-/// The names of joints that drawn_configurations leaves as they are although they move.
-std::vector<std::string> joints_not_drawn(const Model& model);
+/// Those that assess asks about: the rows of a trajectory, or those drawn.
+std::vector<Configuration> asked_configurations(const ImportedModel& robot, const AssessOptions& options);
 
 using EnginesOfJob = std::function<std::vector<EnginePtr>()>;
-using AssessProgress = std::function<void(std::uint64_t asked, std::uint64_t of)>;
+/// `what`: "configurations" while near pairs are looked for, then "pairs".
+using AssessProgress = std::function<void(std::string_view what, std::uint64_t done, std::uint64_t of)>;
 
 /// `robot.configurations` are asked as they are if there are several, else `samples` are drawn. Stops early
 /// when `stop` is set. The result does not depend on the number of jobs, times aside. Throws what an engine

@@ -21,6 +21,13 @@ std::string plan_text(const fuzz::Plan& p);
 /// millimetres, for scenes in metres.
 std::string assessment_text(const fuzz::Assessment& a);
 
+/// The same in paragraphs, without the table.
+struct AssessmentWords {
+  std::string heading;  // what was asked
+  std::vector<std::string> legend, notes, advice;
+};
+AssessmentWords assessment_words(const fuzz::Assessment& a);
+
 // The chart as text in 80 columns.
 
 /// One table per question over all regimes, then the Pareto front of each regime, crowds, and the machine.

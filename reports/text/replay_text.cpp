@@ -22,7 +22,8 @@ std::string bracket(const std::array<double, 2>& b) {
 std::string body_line(const Scene& s, int i) {
   const Body& b = s.bodies[static_cast<std::size_t>(i)];
   const Shape& shape = s.shape_of(i);
-  std::string t = fmt::format("  body {}: {}", i, type_name(shape));
+  std::string t =
+      fmt::format("  body {}{}: {}", i, b.name.empty() ? "" : " " + printable(b.name), type_name(shape));
   std::visit(
       [&](const auto& x) {
         for_each_field(x, [&](auto name, const auto& v, Domain) {

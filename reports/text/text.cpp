@@ -45,6 +45,16 @@ std::string nanoseconds(double ns) {
   return fmt::format("{:.1f}G", ns / giga);
 }
 
+std::string duration(double ns) {
+  constexpr std::array<std::string_view, 4> units{"ns", "µs", "ms", "s"};
+  constexpr double step = 1000;
+  std::size_t unit = 0;
+  // What would be rounded to 1000 is stated in the next unit.
+  for (; unit + 1 < units.size() && std::round(ns) >= step; ++unit) ns /= step;
+  return ns == std::floor(ns) || unit == 0 ? fmt::format("{:.0f} {}", ns, units[unit])
+                                           : fmt::format("{:.1f} {}", ns, units[unit]);
+}
+
 std::string wrapped(const std::string& words, std::size_t width, std::size_t indent) {
   const std::string text = printable(words, "\n");
   std::size_t start = std::min(text.find_first_not_of(' '), text.size());

@@ -34,6 +34,8 @@ std::string clock_text(double seconds);
 std::string small(double x);
 /// Nanoseconds in at most 6 characters: "830", "12.3k", "1.20M".
 std::string nanoseconds(double ns);
+/// Nanoseconds as a time with its unit: "830 ns", "12.3 µs", "6.1 ms", "1.2 s".
+std::string duration(double ns);
 /// Breaks `text` at spaces to `width` columns; further lines are indented.
 std::string wrapped(const std::string& text, std::size_t width, std::size_t indent);
 

@@ -57,13 +57,15 @@ struct Collector {
       mesh.triangles.push_back(t);
     }
   }
-
-  void add(const aiScene& scene, const aiNode& node, const aiMatrix4x4& to_parent) {
-    const aiMatrix4x4 to_root = to_parent * node.mTransformation;
-    for (unsigned i = 0; i < node.mNumMeshes; ++i) add(*scene.mMeshes[node.mMeshes[i]], to_root);
-    for (unsigned i = 0; i < node.mNumChildren; ++i) add(scene, *node.mChildren[i], to_root);
-  }
 };
+
+// Every instance of a mesh in the scene, with its name and its transform.
+template <class F>
+void for_each_instance(const aiScene& scene, const aiNode& node, const aiMatrix4x4& to_parent, const F& f) {
+  const aiMatrix4x4 to_root = to_parent * node.mTransformation;
+  for (unsigned i = 0; i < node.mNumMeshes; ++i) f(*scene.mMeshes[node.mMeshes[i]], node, to_root);
+  for (unsigned i = 0; i < node.mNumChildren; ++i) for_each_instance(scene, *node.mChildren[i], to_root, f);
+}
 
 // A binary STL file has a facet count; a file with fewer facets is truncated. assimp reports this only for
 // some lengths.
@@ -109,26 +111,54 @@ std::string lower_extension(const std::filesystem::path& file) {
   return s;
 }
 
-TriangleMesh load_mesh(const std::filesystem::path& path, const MeshImport& options) {
+namespace {
+
+// Refers to the importer, which owns it.
+const aiScene& read_scene(Assimp::Importer& importer, const std::filesystem::path& path,
+                          const MeshImport& options) {
   const std::string file = path.string();
   // Reading the file ourselves first gives path errors (missing, directory, too large, empty) a uniform form.
   const std::string bytes = read_file(path);
   if (bytes.empty()) throw InputError(file, "is empty");
   if (lower_extension(path) == ".stl") check_binary_stl(file, bytes);
-  Assimp::Importer importer;
   importer.SetIOHandler(new FolderFiles(path));  // the importer deletes it
   importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_IGNORE_UP_DIRECTION, options.keep_up_axis);
   const aiScene* scene = importer.ReadFile(file, aiProcess_Triangulate);
-  if (!scene || !scene->mRootNode) {
-    std::string reason = importer.GetErrorString();
-    for (char& c : reason)
-      if (c == '\n' || c == '\r') c = ' ';
-    throw InputError(file, "cannot be read as a mesh: " + (reason.empty() ? "no reason given" : reason));
-  }
+  if (scene && scene->mRootNode) return *scene;
+  std::string reason = importer.GetErrorString();
+  for (char& c : reason)
+    if (c == '\n' || c == '\r') c = ' ';
+  throw InputError(file, "cannot be read as a mesh: " + (reason.empty() ? "no reason given" : reason));
+}
+
+}  // namespace
+
+TriangleMesh load_mesh(const std::filesystem::path& path, const MeshImport& options) {
+  const std::string file = path.string();
+  Assimp::Importer importer;
+  const aiScene& scene = read_scene(importer, path, options);
   Collector collector{file, options, {}, {}};
-  collector.add(*scene, *scene->mRootNode, aiMatrix4x4());
+  for_each_instance(
+      scene, *scene.mRootNode, aiMatrix4x4(),
+      [&](const aiMesh& m, const aiNode&, const aiMatrix4x4& to_root) { collector.add(m, to_root); });
   if (collector.mesh.triangles.empty()) throw InputError(file, "has no triangles");
   return std::move(collector.mesh);
+}
+
+std::vector<MeshPart> load_mesh_parts(const std::filesystem::path& path, const MeshImport& options) {
+  const std::string file = path.string();
+  Assimp::Importer importer;
+  const aiScene& scene = read_scene(importer, path, options);
+  std::vector<MeshPart> parts;
+  for_each_instance(scene, *scene.mRootNode, aiMatrix4x4(),
+                    [&](const aiMesh& m, const aiNode& node, const aiMatrix4x4& to_root) {
+                      Collector collector{file, options, {}, {}};
+                      collector.add(m, to_root);
+                      if (!collector.mesh.triangles.empty())
+                        parts.push_back({node.mName.C_Str(), std::move(collector.mesh)});
+                    });
+  if (parts.empty()) throw InputError(file, "has no triangles");
+  return parts;
 }
 
 }  // namespace touchstone

@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include "core/shape/triangle_mesh.h"
 
@@ -22,5 +23,14 @@ std::string lower_extension(const std::filesystem::path& file);
 /// or has a coordinate that is not finite. Files that it refers to (materials, buffers) are opened only if
 /// they are in its own folder or below.
 TriangleMesh load_mesh(const std::filesystem::path& file, const MeshImport& options = {});
+
+/// One object of a file: a group of an OBJ file, a solid of an STL file, an instance of a COLLADA file.
+struct MeshPart {
+  std::string name;  // may be empty
+  TriangleMesh mesh;
+};
+
+/// The objects of a file, in file order, those without triangles left out. Errors are those of load_mesh.
+std::vector<MeshPart> load_mesh_parts(const std::filesystem::path& file, const MeshImport& options = {});
 
 }  // namespace touchstone

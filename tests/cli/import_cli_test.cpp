@@ -3,6 +3,7 @@
 #include <string>
 
 #include "reports/text/record_text.h"
+#include "reports/text/text.h"
 #include "tests/support/catch.h"
 #include "tests/support/workspace.h"
 
@@ -19,14 +20,20 @@ const std::string mutants = TS_BINARY_DIR "/lib/libtouchstone_mutants.so:";
 
 bool has(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 
+// In columns: bytes that continue a character do not count.
 std::size_t widest_line(const std::string& text) {
-  std::size_t most = 0;
-  for (std::size_t at = 0; at < text.size();) {
-    const std::size_t end = std::min(text.find('\n', at), text.size());
-    most = std::max(most, end - at);
-    at = end + 1;
+  std::size_t most = 0, here = 0;
+  for (const char c : text) {
+    here = c == '\n' ? 0 : here + ((static_cast<unsigned char>(c) & 0xc0U) != 0x80U);
+    most = std::max(most, here);
   }
   return most;
+}
+
+// With the line breaks of wrapped paragraphs undone.
+std::string unwrapped(std::string text) {
+  for (std::size_t at = 0; (at = text.find("\n  ", at)) != std::string::npos;) text.replace(at, 3, " ");
+  return text;
 }
 
 // Without times, and without the order of advice that depends on them.
@@ -111,6 +118,20 @@ TEST_CASE("assess gives the same answers for any number of jobs, and the core is
   CHECK_FALSE(reproducible(other.out) == reproducible(one.out));
 }
 
+TEST_CASE("assess on an arm of seven joints at a table", "[cli][import]") {
+  const Workspace w("assess");
+  const std::string cell = files + "cell/";
+  const auto r =
+      w.touchstone("assess " + cell + "arm7.urdf --srdf " + cell + "arm7.srdf --package-path " + files +
+                   " --world " + cell + "table15.scene --samples 20 --engines core,bullet-f64-query");
+  INFO(r.out + r.err);
+  CHECK(r.code == 0);
+  CHECK(has(r.out, "arm7 in table15.scene: 20 configurations"));
+  CHECK(has(unwrapped(r.out), "238 pairs can collide"));
+  CHECK(has(unwrapped(r.out), "No answer by kinds of shapes: bullet-f64-query: mesh-mesh"));
+  CHECK(widest_line(r.out) < 80);
+}
+
 TEST_CASE("assess shows an engine that misses collisions, and says what finds them", "[cli][import]") {
   const Workspace w("assess");
   w.write("table.urdf",
@@ -125,44 +146,119 @@ TEST_CASE("assess shows an engine that misses collisions, and says what finds th
   REQUIRE(j["engines"].size() == 2);
   CHECK(j["world"] == "table.urdf");
   CHECK(j["engines"][1]["questions"]["overlap"]["missed"].get<int>() > 0);
-  CHECK(j["advice"][0]["engine"] == "core");
-  CHECK(j["advice"][1]["by_distance"] == true);
+  const Json& tests = j["advice"]["collision_test"];
+  CHECK(tests[0]["engine"] == "core");
+  CHECK(tests[1]["by_distance"] == true);
+  CHECK(j["engines"][1]["denied_collisions"] >= j["engines"][1]["missed"]);
+  CHECK(j["engines"][1]["missed"].get<int>() > 0);
+  CHECK(j["engines"][1]["samples"][0]["kind"] == "missed");
   const auto liar = w.touchstone("assess " + files + "arm.urdf --samples 30 --engines " + mutants +
                                  "overlap_one_order_denied");
   CHECK(liar.code == 1);
-  // The last line names an engine that the test chose.
-  CHECK(widest_line(liar.out.substr(0, liar.out.find("\nexit code"))) <= 80);
-  CHECK(has(liar.out, "by dist"));
+  CHECK(widest_line(liar.out) <= 80);
+  CHECK(has(unwrapped(liar.out), "distance of 0 finds them"));
 }
 
-TEST_CASE("the advice is the least padding with which no collision is missed", "[import]") {
+namespace {
+
+// An assessment of ten pairs, of which four collide.
+struct Sample {
   fuzz::Assessment a;
-  a.asked = 10;
-  a.overlapping = 4;
-  const auto engine = [&](const std::string& name, std::uint64_t missed, double padding,
-                          std::uint64_t answered) {
-    fuzz::AssessedEngine e;
+  Sample() {
+    a.asked = 10;
+    a.overlapping = 4;
+    a.apart = 6;
+    a.error = 1e-4;
+  }
+  fuzz::AssessedEngine& add(const std::string& name, std::uint64_t answered, std::uint64_t denied = 0,
+                            double padding = 0) {
+    fuzz::AssessedEngine& e = a.engines.emplace_back();
     e.name = name;
-    fuzz::Tally& t = e.tallies[Question::overlap];
-    t.outcomes[static_cast<std::size_t>(Outcome::answered)] = answered;
-    t.missed = missed;
+    e.tallies[Question::overlap].outcomes[static_cast<std::size_t>(Outcome::answered)] = answered;
+    e.denied = denied;
     e.padding = padding;
-    a.engines.push_back(e);
-  };
-  engine("thick", 2, 0.005, 10);
-  engine("thin", 1, 0.001, 10);
-  engine("partial", 0, 0, 9);
-  engine("mute", 1, 0, 10);
-  a.engines.back().silent = 1;
-  auto advice = fuzz::advice_on(a);
+    return e;
+  }
+  fuzz::AssessedEngine& add_distances(const std::string& name, double error, std::int64_t ns) {
+    fuzz::AssessedEngine& e = add(name, 10);
+    e.distances_apart = 6;
+    e.worst_distance_error = error;
+    e.tallies[Question::distance].outcomes[static_cast<std::size_t>(Outcome::answered)] = 10;
+    e.tallies[Question::distance].time.add(ns);
+    return e;
+  }
+};
+
+}  // namespace
+
+TEST_CASE("for collision tests, the advice is the least padding with which none is missed", "[import]") {
+  Sample s;
+  s.add("thick", 10, 2, 0.005);
+  s.add("thin", 10, 1, 0.001);
+  s.add("partial", 9);
+  s.add("mute", 10, 1).silent = 1;
+  const auto advice = fuzz::test_advice(s.a);
   REQUIRE(advice.size() == 2);
   CHECK(advice[0].engine == "thin");
   CHECK(advice[0].padding == 0.001);
-  const std::string text = reports::assessment_text(a);
-  CHECK(has(text, "thin with a padding of 1 mm"));
-  CHECK(has(text, "unknown"));
-  engine("sound", 0, 0, 10);
-  CHECK(fuzz::advice_on(a)[0].engine == "sound");
-  a.overlapping = 0;
-  CHECK(has(reports::assessment_text(a), "Nothing that was asked collides"));
+  const std::string text = reports::assessment_text(s.a);
+  CHECK(has(unwrapped(text), "thin misses no collision that was asked if bodies at most 1 mm apart"));
+  CHECK(has(text, "padding \"unknown\""));
+  CHECK(widest_line(text) < 80);
+  s.add("sound", 10);
+  CHECK(fuzz::test_advice(s.a)[0].engine == "sound");
+  s.a.overlapping = 0;
+  CHECK(has(unwrapped(reports::assessment_text(s.a)), "nothing that was asked collides"));
+}
+
+TEST_CASE("for distances, the advice is the fastest engine that is accurate enough and answers all",
+          "[import]") {
+  Sample s;
+  s.add("tests-only", 10);
+  s.add_distances("coarse", 2e-3, 100);
+  s.add_distances("slow", 1e-9, 5000);
+  s.add_distances("fair", 5e-5, 700);
+  s.add_distances("partial", 0, 50).distances_apart = 5;
+  auto advice = fuzz::distance_advice(s.a);
+  REQUIRE(advice.size() == 3);
+  CHECK(advice[0].engine == "fair");
+  CHECK(advice[1].engine == "slow");
+  CHECK(advice[2].engine == "coarse");
+  CHECK(has(unwrapped(reports::assessment_text(s.a)), "Distances: fair is the fastest"));
+  s.a.error = 1e-12;
+  advice = fuzz::distance_advice(s.a);
+  CHECK(advice[0].engine == "slow");
+  CHECK(has(unwrapped(reports::assessment_text(s.a)),
+            "none has errors of at most <1e-6 mm; slow has the least"));
+}
+
+TEST_CASE("the core is not the advice, but beside it", "[import]") {
+  Sample s;
+  s.add_distances("core", 0, 10).is_own = true;
+  s.add_distances("theirs", 1e-5, 900);
+  const std::string text = reports::assessment_text(s.a);
+  CHECK(has(unwrapped(text), "Distances: theirs is the fastest"));
+  CHECK(has(unwrapped(text), "Touchstone's own core: core is the fastest"));
+  CHECK(has(unwrapped(text), "docs/core-library.md"));
+}
+
+TEST_CASE("names of engines are never cut, and every line fits a terminal", "[import]") {
+  Sample s;
+  const std::string name(64, 'n');
+  s.add(name, 10).unanswered["box-mesh"] = 3;
+  s.add("bullet-f32-query-tuned", 10).unanswered["box-mesh"] = 3;
+  const std::string text = reports::assessment_text(s.a);
+  CHECK(has(text, "\n" + name + "\n"));
+  CHECK(has(text, "bullet-f32-query-tuned "));
+  CHECK(has(unwrapped(text), "box-mesh 3"));
+  CHECK(widest_line(text) < 80);
+}
+
+TEST_CASE("times are stated with their unit", "[import]") {
+  CHECK(reports::duration(830) == "830 ns");
+  CHECK(reports::duration(999.6) == "1.0 µs");
+  CHECK(reports::duration(12345) == "12.3 µs");
+  CHECK(reports::duration(695e3) == "695 µs");
+  CHECK(reports::duration(6.12e6) == "6.1 ms");
+  CHECK(reports::duration(2.5e9) == "2.5 s");
 }

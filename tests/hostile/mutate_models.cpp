@@ -163,8 +163,9 @@ std::vector<Good> good_files(const fs::path& folder) {
   with_all = plain;
   with_all.srdf = (folder / "every_joint.srdf").string();
   with_all.trajectory = (folder / "sweep.csv").string();
-  ImportOptions lenient = plain;
+  ImportOptions lenient = plain, with_filters = plain;
   lenient.lenient = true;
+  with_filters.srdf = (folder / "cell/arm7.srdf").string();
   std::vector<Good> all{{"every_joint.urdf", "", "every_joint.urdf", plain},
                         {"every_joint.urdf", "", "every_joint.urdf", lenient},
                         {"every_joint.srdf", "", "every_joint.urdf", with_all},
@@ -175,7 +176,17 @@ std::vector<Good> good_files(const fs::path& folder) {
                         {"nested.sdf", "", "nested.sdf", plain},
                         {"nested.sdf", "", "nested.sdf", lenient},
                         {"table.scene", "", "table.scene", plain},
-                        {"wedge.stl", "", "wedge.stl", plain}};
+                        {"wedge.stl", "", "wedge.stl", plain},
+                        {"cell/arm7.urdf", "", "cell/arm7.urdf", plain},
+                        {"cell/arm7.srdf", "", "cell/arm7.urdf", with_filters},
+                        {"cell/table15.scene", "", "cell/table15.scene", plain},
+                        {"cell/table15.sdf", "", "cell/table15.sdf", plain},
+                        {"cell/arm7.xml", "", "cell/arm7.xml", plain},
+                        {"cell/meshes/finger.obj", "", "cell/arm7.urdf", plain},
+                        {"cell/meshes/finger.obj", "", "cell/meshes/finger.obj", plain},
+                        {"cell/meshes/wedge.dae", "", "cell/meshes/wedge.dae", plain},
+                        {"cell/meshes/wedge.ply", "", "cell/meshes/wedge.ply", plain},
+                        {"cell/meshes/forearm_shell_mm.stl", "", "cell/arm7.xml", plain}};
   for (Good& g : all) g.text = read_file(folder / g.damaged);
   return all;
 }
@@ -194,10 +205,10 @@ int run(std::uint64_t seed, std::uint64_t count, const fs::path& folder) {
     const std::string fault = said_about(g, folder);
     std::ofstream(folder / g.damaged, std::ios::binary) << g.text;
     if (!fault.empty()) {
-      std::ofstream(fs::path("failed-" + g.damaged), std::ios::binary) << text;
-      std::fprintf(stderr, "mutant %llu of %s, kept as failed-%s: %s\n",
-                   static_cast<unsigned long long>(current), g.damaged.c_str(), g.damaged.c_str(),
-                   fault.c_str());
+      const std::string kept = "failed-" + fs::path(g.damaged).filename().string();
+      std::ofstream(kept, std::ios::binary) << text;
+      std::fprintf(stderr, "mutant %llu of %s, kept as %s: %s\n", static_cast<unsigned long long>(current),
+                   g.damaged.c_str(), kept.c_str(), fault.c_str());
       return 1;
     }
     ++accepted;

@@ -29,7 +29,8 @@ const fs::path built = TS_BINARY_DIR "/share/touchstone/web";
 
 // Empty when everything that a browser test needs is present.
 std::string missing_for_browser() {
-  for (const char* kind : {"broad", "case", "causes", "report", "chart", "stability", "certificate"})
+  for (const char* kind :
+       {"assess", "broad", "case", "causes", "report", "chart", "stability", "certificate"})
     if (!fs::exists(built / (std::string(kind) + ".html"))) return "the built pages";
   if (!fs::exists(TS_BINARY_DIR "/web/node_modules/playwright-core")) return "playwright-core";
   if (!touchstone::test::has_command("node")) return "node";
@@ -171,6 +172,31 @@ TEST_CASE("the page of causes shows, filters and hands out its causes in a brows
   const auto node = w.run("node " TS_BINARY_DIR "/web/test/causes.mjs /usr/bin/chromium " + w.dir.string() +
                           " " + pictures_directory());
   std::cout << figures_of(node.out);
+  INFO(node.out << node.err);
+  CHECK(node.code == 0);
+  CHECK(node.out.find("all checks hold") != std::string::npos);
+}
+
+TEST_CASE("the page of assess shows the robot and what engines get wrong, in a browser",
+          "[pages][optional]") {
+  if (const std::string missing = missing_for_browser(); !missing.empty())
+    return touchstone::test::skip("missing: " + missing);
+  const Workspace w("assess");
+  const std::string files = TS_SOURCE_DIR "/tests/scenarios/import/files/";
+  const std::string command = "assess " + files + "cell/arm7.urdf --srdf " + files +
+                              "cell/arm7.srdf --package-path " + files + " --world " + files +
+                              "cell/table15.scene ";
+  const auto wrong = w.touchstone(
+      command + "--samples 40 --page assess.html --subject core --engines core,core-f32," TS_BINARY_DIR
+                "/lib/libtouchstone_mutants.so:overlap_one_order_denied," TS_BINARY_DIR
+                "/lib/libtouchstone_mutants.so:overlap_spheres");
+  INFO(wrong.err);
+  REQUIRE(wrong.code == 0);
+  REQUIRE(w.touchstone(command + "--samples 3 --page clean.html --engines core").code == 0);
+  const auto replayed = w.touchstone("replay assess.case.json --engines core --json");
+  CHECK(replayed.code == 0);
+  const auto node = w.run("node " TS_BINARY_DIR "/web/test/assess.mjs /usr/bin/chromium " + w.dir.string() +
+                          " " + pictures_directory());
   INFO(node.out << node.err);
   CHECK(node.code == 0);
   CHECK(node.out.find("all checks hold") != std::string::npos);

@@ -114,6 +114,9 @@ std::size_t filter_adjacent(Model& model);
 void add_filter(Model& model, int a, int b);
 void sort_filters(Model& model);
 
+/// Puts the bodies of a scene that scene_of made of `model` where they are at a configuration.
+void place_bodies(const Model& model, const Configuration& at, Scene& scene);
+
 /// The scene at the first configuration: a body for every shape, in the order of links. Shapes of one link
 /// are of one group. With several configurations, also the script that inserts all bodies, queries, and for
 /// each further configuration moves what moves and queries again. Precondition: at least one configuration.

@@ -55,6 +55,14 @@ void add_moves(const Model& m, const std::vector<Pose>& poses, const std::vector
 
 }  // namespace
 
+void place_bodies(const Model& model, const Configuration& at, Scene& scene) {
+  const std::vector<Pose> poses = link_poses(model, at);
+  std::size_t body = 0;
+  for (std::size_t i = 0; i < model.links.size(); ++i)
+    for (const ModelShape& s : model.links[i].shapes)
+      scene.bodies[body++].pose = compose(poses[i], s.in_link);
+}
+
 Scene scene_of(const Model& model, std::span<const Configuration> configurations) {
   Scene scene;
   scene.name = printable(model.name);

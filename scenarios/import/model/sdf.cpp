@@ -33,6 +33,7 @@ class SdfReader {
         frames_.add({SdfFrame::Kind::world, sdf, scope, -1, {}, {}, {}, -1, 0, {}}, scope, "world");
     std::vector<XmlElement> worlds = sdf.children("world");
     if (worlds.size() > 1) worlds[1].fail("is a second world; one is read");
+    if (!worlds.empty()) model_.name = worlds[0].attribute("name").value_or(model_.name);
     const Inside outside{scope, "", file_.parent_path(), -1, false, false, 0};
     read_contents(worlds.empty() ? sdf : worlds[0], outside);
     place_links();
@@ -128,7 +129,8 @@ class SdfReader {
     const XmlElement& with_pose = included && !placed.child("pose") ? e : placed;
     if (in.top_model < 0) {
       ++models_;
-      if (models_ == 1) model_.name = name;
+      const bool is_only_model = files_.front().root().children("world").empty();
+      if (models_ == 1 && is_only_model) model_.name = name;
     }
     const int number = frames_.add(
         SdfFrame{

@@ -69,6 +69,16 @@ TEST_CASE("poses of an MJCF file are MuJoCo's", "[import][optional]") {
   check_poses(s, import_model(file, home), 6, 4);
 }
 
+TEST_CASE("poses of an arm of seven joints are MuJoCo's", "[import][optional]") {
+  const std::string file = test::model_file("cell/arm7.xml");
+  const Simulation s(file);
+  ImportOptions ready;
+  ready.state = "ready";
+  mj_resetDataKeyframe(s.model.get(), s.data.get(), 0);
+  mj_kinematics(s.model.get(), s.data.get());
+  check_poses(s, import_model(file, ready), 11, 0);
+}
+
 TEST_CASE("poses of a URDF file are MuJoCo's", "[import][optional]") {
   const std::string file = test::model_file("arm.urdf");
   const Simulation s(file);

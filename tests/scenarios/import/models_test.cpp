@@ -338,6 +338,67 @@ TEST_CASE("SDFormat: poses relative to frames, nested models, joints", "[import]
                  "type screw cannot be represented"));
 }
 
+TEST_CASE("an arm of seven joints is the same in URDF and in MJCF", "[import]") {
+  ImportOptions urdf, mjcf;
+  urdf.package_paths = {test::model_file("")};
+  urdf.joints = {"shoulder_pan=0.3", "shoulder_lift=-0.7", "upper_arm_roll=2", "elbow_flex=1.1",
+                 "forearm_roll=-1",  "wrist_flex=0.4",     "wrist_roll=0.9",   "finger=0.02"};
+  mjcf.joints = urdf.joints;
+  mjcf.joints.push_back("finger_mirror=0.02");
+  const ImportedModel a = import_model(test::model_file("cell/arm7.urdf"), urdf),
+                      b = import_model(test::model_file("cell/arm7.xml"), mjcf);
+  const Rigid lift = moved({0, 0, 0.001});  // the pedestal of the MJCF file stands above its floor
+  for (const ModelLink& l : a.model.links) {
+    if (l.name == "tool_flange") continue;  // a link without a shape, which the MJCF file leaves out
+    INFO(l.name);
+    test::check_near(lift * test::link_frame(a, l.name), test::link_frame(b, l.name));
+  }
+  const Scene sa = scene_of(a), sb = scene_of(b);
+  CHECK(sa.bodies.size() == 12);
+  CHECK(sb.bodies.size() == 13);
+  const auto& shell = std::get<TriangleMesh>(sa.shape_of(test::body(sa, "forearm_roll_link")));
+  CHECK(shell.triangles.size() == 160);
+  CHECK(std::get<Hull>(sb.shape_of(test::body(sb, "forearm_roll_link"))).vertices.size() <= 82);
+  CHECK(sa.shape_of(test::body(sa, "shoulder_lift_link")) == Shape(Capsule{0.06, 0.08}));
+}
+
+TEST_CASE("a table with fifteen objects, as a planning scene", "[import]") {
+  const ImportedModel m = import_model(test::model_file("cell/table15.scene"), {});
+  CHECK(m.model.links.size() == 15);
+  const Scene s = scene_of(m);
+  CHECK(s.bodies.size() == 19);
+  CHECK(std::all_of(s.bodies.begin(), s.bodies.end(), [](const Body& b) { return b.is_static; }));
+  CHECK(s.shape_of(test::body(s, "traffic_cone")) == Shape(Cone{0.09, 0.15}));
+  CHECK(std::get<TriangleMesh>(s.shape_of(test::body(s, "mug_without_lid"))).triangles.size() == 70);
+}
+
+TEST_CASE("models in models of SDFormat keep their poses, and a world its name", "[import]") {
+  const ImportedModel m = import_model(test::model_file("cell/table15.sdf"), {});
+  CHECK(m.model.name == "table15");
+  const Rigid tray = moved({0.8, 0, 0.25}) * rigid({-0.2, 0.1, 0.011}, {0, 0, 0.4});
+  test::check_near(test::link_frame(m, "table::tray::plate"), tray);
+  test::check_near(test::link_frame(m, "table::tray::fruit::plum"), tray * moved({0.03, 0, 0.051}));
+  test::check_near(test::link_frame(m, "pole::flag"), moved({0.4, 0.3, 0.5}));
+  const Scene s = scene_of(m);
+  const auto& finger = std::get<TriangleMesh>(s.shape_of(test::body(s, "mug::body")));
+  double most = 0;
+  for (const Vec3& v : finger.vertices) most = std::max(most, v.x());
+  CHECK(most == 2 * static_cast<double>(0.02F));
+}
+
+TEST_CASE("a mesh is the same in every format", "[import]") {
+  for (const char* name : {"cell/meshes/wedge.ply", "cell/meshes/wedge.dae", "wedge.stl"}) {
+    INFO(name);
+    const Scene s = scene_of(import_model(test::model_file(name), {}));
+    const auto& mesh = std::get<TriangleMesh>(s.shape_of(0));
+    CHECK(mesh.triangles.size() == 4);
+    CHECK(mesh.vertices.size() == 4);
+    Vec3 most = Vec3::Zero();
+    for (const Vec3& v : mesh.vertices) most = most.cwiseMax(v);
+    CHECK(most == Vec3(static_cast<double>(0.1F), static_cast<double>(0.2F), static_cast<double>(0.05F)));
+  }
+}
+
 TEST_CASE("a planning scene has fixed objects", "[import]") {
   const Scene s = scene_of(import_model(test::model_file("table.scene"), {}));
   REQUIRE(s.bodies.size() == 3);

@@ -38,6 +38,7 @@ export class Picture {
   private marks = new Group();
   private evidence = new Group();
   private grid: GridHelper | null = null;
+  private paints = new Map<string, MeshStandardMaterial | LineBasicMaterial>();
   private centre: V3;
   private size: number;
   private focus: V3 | null = null;
@@ -45,7 +46,7 @@ export class Picture {
   private ready = false;  // nothing is drawn until the marks are set
   private smallest = 1;  // reach of the smallest body, in the picture's unit
 
-  constructor(private data: CasePage, stands: (Stand | null)[][], host: HTMLElement, moved: () => void) {
+  constructor(private data: { case: Pick<CasePage["case"], "scene">; hull_faces: CasePage["hull_faces"] }, stands: (Stand | null)[][], host: HTMLElement, moved: () => void) {
     [this.centre, this.size] = frameOf(data.case.scene, stands);
     this.renderer = new WebGLRenderer({ antialias: true, preserveDrawingBuffer: true });
     this.canvas = this.renderer.domElement;
@@ -104,6 +105,20 @@ export class Picture {
       this.bodies.push(group);
       this.scene.add(group);
     });
+  }
+
+  /** Gives every body its colour; the strong ones are drawn more opaque. */
+  paint(colours: string[], strong: boolean[]): void {
+    this.bodies.forEach((group, i) => group?.traverse((o) => {
+      const mesh = o as Mesh, lines = o as LineSegments;
+      if (!mesh.isMesh && !lines.isLineSegments) return;
+      const key = `${mesh.isMesh ? "face" : "edge"} ${colours[i]} ${strong[i]}`;
+      const made = this.paints.get(key) ?? (mesh.isMesh
+        ? new MeshStandardMaterial({ color: colours[i]!, transparent: true, opacity: strong[i] ? 0.7 : 0.4, roughness: 0.75, side: DoubleSide, depthWrite: false })
+        : new LineBasicMaterial({ color: colours[i]! }));
+      this.paints.set(key, made);
+      mesh.material = made;
+    }));
   }
 
   // Draws the paths of the moving bodies' origins.

@@ -1,0 +1,30 @@
+// The facets of a convex hull, found with exact signs.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "core/math/aabb.h"
+#include "core/math/pose.h"
+
+namespace touchstone::fuzz {
+
+/// Triangles (indices into `points`) of the surface of conv(points), each with every point of the hull on or
+/// behind its plane, seen from outside; triangles of one facet may share a plane. Closed: each edge is in two
+/// of them.
+struct ExactHull {
+  std::vector<Vec3> points;
+  std::vector<std::array<int, 3>> facets;
+  Aabb box;
+};
+
+/// Incremental construction (Clarkson and Shor 1989, without their bookkeeping) with exact orientation tests;
+/// time proportional to points times facets. nullopt for points in one plane.
+std::optional<ExactHull> exact_hull(std::span<const Vec3> points);
+
+/// Whether the point is in the closed hull, exactly.
+bool contains(const ExactHull& hull, const Vec3& p);
+
+}  // namespace touchstone::fuzz
