@@ -8,6 +8,7 @@
 
 #include "cli/command.h"
 #include "cli/corpus_run.h"
+#include "cli/engine_catalog.h"
 #include "cli/in_parallel.h"
 #include "core/base/input_error.h"
 #include "fuzz/corpus/check.h"
@@ -23,11 +24,15 @@ namespace {
 namespace corpus = fuzz::corpus;
 using reports::counted;
 
-constexpr const char *stored_corpus = TOUCHSTONE_SOURCE "/corpus",
-                     *stored_seeds = TOUCHSTONE_SOURCE "/corpus/seeds";
+// The installed corpus, or the one in the source tree.
+std::string stored_corpus() {
+  const std::filesystem::path installed = plugin_directory().parent_path() / "share/touchstone/query-corpus";
+  std::error_code error;
+  return std::filesystem::is_directory(installed, error) ? installed.string() : TOUCHSTONE_SOURCE "/corpus";
+}
 
 struct CorpusMakeOptions {
-  std::string directory, seeds = stored_seeds, only;
+  std::string directory, seeds = stored_corpus() + "/seeds", only;
   int jobs = processor_count();
 };
 
@@ -79,7 +84,7 @@ int make_corpus(const CorpusMakeOptions& o) {
 }
 
 struct CorpusCheckOptions {
-  std::string directory = stored_corpus;
+  std::string directory = stored_corpus();
   int jobs = processor_count();
 };
 
@@ -123,7 +128,7 @@ Run declare_corpus(CLI::App& app) {
   add_corpus_jobs(*check_app, checking->jobs);
 
   auto running = std::make_shared<CorpusRunOptions>();
-  running->directory = stored_corpus;
+  running->directory = stored_corpus();
   CLI::App* run_app = app.add_subcommand("run", "ask engines, and print what they get wrong by flag");
   declare_corpus_run(*run_app, *running);
 

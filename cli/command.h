@@ -42,7 +42,10 @@ Run declare_certify(CLI::App& app);
 Run declare_cover(CLI::App& app);
 Run declare_chart(CLI::App& app);
 Run declare_check(CLI::App& app);
+Run declare_completion(CLI::App& app);
 Run declare_corpus(CLI::App& app);
+Run declare_doctor(CLI::App& app);
+Run declare_man(CLI::App& app);
 Run declare_engines(CLI::App& app);
 Run declare_families(CLI::App& app);
 Run declare_fingerprint(CLI::App& app);
@@ -97,6 +100,9 @@ inline constexpr auto commands = std::to_array<Command>({
     {"engines", "list, install or build engines", declare_engines, "What there is"},
     {"families", "list the families of random cases", declare_families},
     {"scenarios", "list the hand-built scenarios, or write one", declare_scenarios},
+    {"doctor", "say what is installed, what is missing and what for", declare_doctor},
+    {"completion", "write a script that completes commands in a shell", declare_completion},
+    {"man", "write the manual page", declare_man},
 });
 
 /// Set by SIGINT, SIGTERM and SIGHUP.

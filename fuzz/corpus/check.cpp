@@ -22,15 +22,15 @@ class Checking {
  public:
   explicit Checking(const StoredCorpusCase& c)
       : case_(c),
-        truth_(c.truth, c.id, "truth"),
+        truth_(c.truth, c.place, "truth"),
         a_{&c.scene.shape_of(0), c.scene.bodies[0].pose},
         b_{&c.scene.shape_of(1), c.scene.bodies[1].pose} {}
 
   CheckedCase run() {
-    if (truth_["certificates"].has("impact"))
-      impact();
-    else if (truth_.has("gap"))
+    if (questions_about(case_.scene)[0] != Question::time_of_impact)
       pair();
+    else if (truth_["certificates"].has("impact"))
+      impact();
     return result_;
   }
 
@@ -95,8 +95,8 @@ class Checking {
 CheckedCase check_certificates(const StoredCorpusCase& c) try {
   return Checking(c).run();
 } catch (const InputError& e) {
-  if (e.place().starts_with(c.id)) throw;
-  throw InputError(c.id + ": " + e.place(), e.reason());
+  if (e.place().starts_with(c.place)) throw;
+  throw InputError(c.place + ": " + e.place(), e.reason());
 }
 
 }  // namespace touchstone::fuzz::corpus

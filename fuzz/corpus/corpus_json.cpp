@@ -99,6 +99,7 @@ constexpr auto flag_fields = std::to_array<std::string_view>({"mechanism", "dege
 StoredCorpusCase case_from_json(const JsonReader& r) {
   r.require_object(case_fields);
   StoredCorpusCase c;
+  c.place = r.place();
   c.id = r["id"].string();
   const JsonReader flags = r["flags"];
   flags.require_object(flag_fields);
@@ -117,6 +118,12 @@ StoredCorpusCase case_from_json(const JsonReader& r) {
     r["questions"].fail("are not those of such bodies: overlap, distance, contact at rest; time_of_impact");
   r["truth"].require_object();
   c.truth = r["truth"].json();
+  if (about[0] == Question::time_of_impact)
+    for (const JsonReader& row : r["truth"]["right_times"].items()) {
+      const auto numbers = row.items();
+      if (numbers.empty()) row.fail("is empty");
+      c.exponents.push_back(numbers[0].integer());
+    }
   return c;
 }
 

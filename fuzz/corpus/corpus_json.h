@@ -20,10 +20,12 @@ std::string file_text(const std::vector<CorpusCase>& cases);
 
 /// A case as it is needed to ask engines and to check certificates.
 struct StoredCorpusCase {
+  std::string place;  // file and position, for messages
   std::string id, mechanism, size, source;
   std::vector<std::string> degeneracy;
   Scene scene;
   nlohmann::ordered_json truth;
+  std::vector<int> exponents;  // of the tolerances for which right times are listed, of moving bodies
 };
 
 /// The cases of DIR/cases/*.json, sorted by file. Throws InputError, also when there is none.

@@ -31,9 +31,9 @@ Limits limits_of(const EngineCard& card, const Observation& o, const Scene& s) {
 }
 
 // The least tolerance that the case lists times for and that is not smaller; empty if all are.
-std::optional<double> listed(double tau, const Json& right_times, double scale) {
-  for (const Json& row : right_times)
-    if (const double t = std::ldexp(scale, -row.at(0).get<int>()); tau <= t) return t;
+std::optional<double> listed(double tau, const std::vector<int>& exponents, double scale) {
+  for (const int k : exponents)
+    if (const double t = std::ldexp(scale, -k); tau <= t) return t;
   return std::nullopt;
 }
 
@@ -45,10 +45,9 @@ struct Raised {
 std::optional<Raised> with_listed_tolerance(const EngineCard& card, const Observation& o,
                                             const StoredCorpusCase& c) {
   const Scene& s = c.scene;
-  const Json& rows = c.truth.at("right_times");
   const double scale = scale_of_pair(s, 0, 1);
   const Limits l = limits_of(card, o, s);
-  const auto late = listed(l.tau, rows, scale), early = listed(l.tau + l.skin, rows, scale);
+  const auto late = listed(l.tau, c.exponents, scale), early = listed(l.tau + l.skin, c.exponents, scale);
   if (!late || !early) return std::nullopt;
   Raised r{card, o};
   r.card.contact_offset = contact_offset(card);

@@ -91,6 +91,7 @@ std::string for_test(std::string c) {
   if (c.find(" chart ") != std::string::npos) c += " --engines core --broad grid --measure 0";
   if (c.find(" stability ") != std::string::npos) c += " --engines core --ladder gap";
   c = std::regex_replace(c, std::regex("out/(chart|stability)"), TS_BINARY_DIR "/readme-$1");
+  c = std::regex_replace(c, std::regex("out/arm.json"), TS_BINARY_DIR "/readme-arm.json");
   c = std::regex_replace(c, std::regex("out/core.json"), TS_BINARY_DIR "/readme-fingerprint.json");
   if (c.find(" fingerprint ") != std::string::npos) c += " --cases 300";
   c = std::regex_replace(c, std::regex("out/grid"), TS_BINARY_DIR "/readme-grid");
@@ -227,6 +228,38 @@ TEST_CASE("every command line of the README and the pages runs in the checkout",
   fs::remove_all(TS_BINARY_DIR "/readme-out");
   fs::remove_all(TS_BINARY_DIR "/readme-shards");
   CHECK(run >= 30);
+}
+
+TEST_CASE("scripts in the pages are sound", "[readme]") {
+  const Workspace w("readme-scripts");
+  std::size_t checked = 0;
+  for (const fs::path& page : pages())
+    for (const Block& block : blocks_of(page)) {
+      if (block.language != "bash") continue;
+      const Run r = w.run("sh -n " + w.write("script.sh", block.text).string());
+      INFO(page << "\n" << block.text << r.err);
+      CHECK(r.code == 0);
+      ++checked;
+    }
+  CHECK(checked >= 2);
+}
+
+TEST_CASE("jobs in the pages are YAML", "[readme][optional]") {
+  if (!touchstone::test::has_python_with("yaml"))
+    return touchstone::test::skip("python3-yaml is not installed");
+  const Workspace w("readme-yaml");
+  std::size_t checked = 0;
+  for (const fs::path& page : pages())
+    for (const Block& block : blocks_of(page)) {
+      if (block.language != "yaml") continue;
+      const Run r =
+          w.run("python3 -c 'import sys, yaml; assert isinstance(yaml.safe_load(open(sys.argv[1])), dict)' " +
+                w.write("job.yaml", block.text).string());
+      INFO(page << "\n" << block.text << r.err);
+      CHECK(r.code == 0);
+      ++checked;
+    }
+  CHECK(checked >= 3);
 }
 
 TEST_CASE("every command line of the guides runs, and prints what they say", "[readme][optional]") {

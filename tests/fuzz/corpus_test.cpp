@@ -123,7 +123,8 @@ TEST_CASE("certificates of a corpus are checked", "[corpus]") {
   const auto made = corpus::with_truth(seed);
   REQUIRE(std::holds_alternative<corpus::CorpusCase>(made));
   const nlohmann::ordered_json j = corpus::to_json(std::get<corpus::CorpusCase>(made));
-  corpus::StoredCorpusCase c{"test/one", "lattice", "unit", "test", {}, seed.scene, j.at("truth")};
+  corpus::StoredCorpusCase c{"test", "test/one", "lattice",     "unit", "test",
+                             {},     seed.scene, j.at("truth"), {}};
   const auto checked = corpus::check_certificates(c);
   CHECK(checked.refused.empty());
   CHECK(checked.certificates == 3);

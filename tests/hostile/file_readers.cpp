@@ -8,6 +8,8 @@
 #include "fuzz/campaign/answers_file.h"
 #include "fuzz/campaign/merge.h"
 #include "fuzz/campaign/store.h"
+#include "fuzz/corpus/check.h"
+#include "fuzz/corpus/corpus_json.h"
 #include "fuzz/shrink/reductions.h"
 #include "fuzz/triage/cause_files.h"
 #include "fuzz/triage/triage.h"
@@ -105,6 +107,10 @@ void read_causes_to_triage(const fs::path& d) {
   if (!causes) return;
   for (const fuzz::Cause& c : causes->causes)
     if (!c.shown().c.is_null()) json_text(fuzz::finding_json_of(c));
+}
+
+void read_corpus(const fs::path& d) {
+  for (const auto& c : fuzz::corpus::load_corpus(d / "corpus")) fuzz::corpus::check_certificates(c);
 }
 
 void read_expected(const fs::path& d) {
@@ -437,6 +443,21 @@ void write_meshes(const fs::path& d) {
   write_file(d / "mesh.stl", stl);
 }
 
+// One case at rest and one in motion.
+void write_corpus(const fs::path& d) {
+  Json corpus = Json::parse(read_file(TS_SOURCE_DIR "/corpus/cases/handmade.json"));
+  Json chosen = Json::array();
+  for (const char* questions : {"overlap", "time_of_impact"})
+    for (const Json& c : corpus["cases"])
+      if (c["questions"][0] == questions) {
+        chosen.push_back(c);
+        break;
+      }
+  corpus["cases"] = chosen;
+  fs::create_directories(d / "corpus/cases");
+  write_json(d / "corpus/cases/one.json", corpus);
+}
+
 void write_chart(const fs::path& d) {
   Json chart = Json::parse(read_file(TS_SOURCE_DIR "/docs/chart.json"));
   Json& rows = chart["rows"];
@@ -461,6 +482,7 @@ const std::vector<FileReader>& file_readers() {
       {"impact", {"impact.json"}, read_impact},
       {"finding", {"campaign/findings/one/finding.json", "campaign/findings/one/case.json"}, read_findings},
       {"causes to triage", {"campaign/causes.json"}, read_causes_to_triage},
+      {"corpus", {"corpus/cases/one.json"}, read_corpus},
       {"expected failures", {"expected.json"}, read_expected},
       {"state to merge", {"campaign/state.json"}, read_merged},
       {"state to read", {"campaign/state.json"}, read_result},
@@ -498,6 +520,7 @@ void write_plain_originals(const fs::path& d) {
   write_contents(d);
   write_meshes(d);
   write_chart(d);
+  write_corpus(d);
 }
 
 }  // namespace touchstone::test
