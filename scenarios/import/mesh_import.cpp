@@ -6,13 +6,20 @@
 #include <assimp/scene.h>
 
 #include <algorithm>
+#include <assimp/IOStream.hpp>
 #include <assimp/Importer.hpp>
 #include <cmath>
+#include <cstring>
 #include <map>
+#include <memory>
+#include <stdexcept>
 #include <string>
+#include <string_view>
+#include <vector>
 
 #include "core/base/input_error.h"
 #include "scenarios/codec/scene_codec.h"
+#include "scenarios/import/child_process.h"
 
 namespace touchstone {
 namespace {
@@ -80,6 +87,28 @@ void check_binary_stl(const std::string& file, const std::string& bytes) {
                                " bytes, the file has " + std::to_string(bytes.size()));
 }
 
+// Some readers of assimp never stop at the end of a damaged file (5.2.5: a PLY header without its end).
+class EndingStream final : public Assimp::IOStream {
+ public:
+  explicit EndingStream(std::unique_ptr<Assimp::IOStream> of) : of_(std::move(of)) {}
+  std::size_t Read(void* to, std::size_t size, std::size_t count) override {
+    const std::size_t n = of_->Read(to, size, count);
+    if (n == 0 && size * count > 0 && ++reads_past_end_ > most_reads_past_end)
+      throw std::runtime_error("the reader does not stop at the end of the file");
+    return n;
+  }
+  std::size_t Write(const void*, std::size_t, std::size_t) override { return 0; }
+  aiReturn Seek(std::size_t offset, aiOrigin origin) override { return of_->Seek(offset, origin); }
+  std::size_t Tell() const override { return of_->Tell(); }
+  std::size_t FileSize() const override { return of_->FileSize(); }
+  void Flush() override {}
+
+ private:
+  static constexpr int most_reads_past_end = 1000;  // readers that stop need one or two
+  std::unique_ptr<Assimp::IOStream> of_;
+  int reads_past_end_ = 0;
+};
+
 // A mesh file may name others. This opens regular files of one folder, and nothing outside it.
 class FolderFiles final : public Assimp::DefaultIOSystem {
  public:
@@ -90,7 +119,9 @@ class FolderFiles final : public Assimp::DefaultIOSystem {
   bool Exists(const char* file) const override { return is_inside(file); }
   Assimp::IOStream* Open(const char* file, const char* mode) override {
     const bool reads = std::string_view(mode).find_first_of("wa+") == std::string_view::npos;
-    return reads && is_inside(file) ? DefaultIOSystem::Open(file, mode) : nullptr;
+    if (!reads || !is_inside(file)) return nullptr;
+    std::unique_ptr<Assimp::IOStream> stream(DefaultIOSystem::Open(file, mode));
+    return stream ? new EndingStream(std::move(stream)) : nullptr;  // assimp closes it
   }
 
  private:
@@ -131,9 +162,7 @@ const aiScene& read_scene(Assimp::Importer& importer, const std::filesystem::pat
   throw InputError(file, "cannot be read as a mesh: " + (reason.empty() ? "no reason given" : reason));
 }
 
-}  // namespace
-
-TriangleMesh load_mesh(const std::filesystem::path& path, const MeshImport& options) {
+std::vector<MeshPart> read_whole(const std::filesystem::path& path, const MeshImport& options) {
   const std::string file = path.string();
   Assimp::Importer importer;
   const aiScene& scene = read_scene(importer, path, options);
@@ -141,11 +170,10 @@ TriangleMesh load_mesh(const std::filesystem::path& path, const MeshImport& opti
   for_each_instance(
       scene, *scene.mRootNode, aiMatrix4x4(),
       [&](const aiMesh& m, const aiNode&, const aiMatrix4x4& to_root) { collector.add(m, to_root); });
-  if (collector.mesh.triangles.empty()) throw InputError(file, "has no triangles");
-  return std::move(collector.mesh);
+  return {{"", std::move(collector.mesh)}};
 }
 
-std::vector<MeshPart> load_mesh_parts(const std::filesystem::path& path, const MeshImport& options) {
+std::vector<MeshPart> read_parts(const std::filesystem::path& path, const MeshImport& options) {
   const std::string file = path.string();
   Assimp::Importer importer;
   const aiScene& scene = read_scene(importer, path, options);
@@ -154,11 +182,70 @@ std::vector<MeshPart> load_mesh_parts(const std::filesystem::path& path, const M
                     [&](const aiMesh& m, const aiNode& node, const aiMatrix4x4& to_root) {
                       Collector collector{file, options, {}, {}};
                       collector.add(m, to_root);
-                      if (!collector.mesh.triangles.empty())
-                        parts.push_back({node.mName.C_Str(), std::move(collector.mesh)});
+                      parts.push_back({node.mName.C_Str(), std::move(collector.mesh)});
                     });
-  if (parts.empty()) throw InputError(file, "has no triangles");
   return parts;
+}
+
+// ---- between the process of the reader and this one: both are this program
+
+template <class T>
+void put(std::string& to, const T* from, std::size_t count) {
+  to.append(reinterpret_cast<const char*>(from), count * sizeof(T));
+}
+
+template <class T>
+void put_list(std::string& to, const T& list) {
+  const std::size_t count = list.size();
+  put(to, &count, 1);
+  put(to, list.data(), count);
+}
+
+template <class T>
+void take_list(std::string_view& from, T& list) {
+  std::size_t count = 0;
+  std::memcpy(&count, from.data(), sizeof count);
+  from.remove_prefix(sizeof count);
+  list.resize(count);
+  const std::size_t bytes = count * sizeof(list[0]);
+  if (bytes > 0) std::memcpy(static_cast<void*>(list.data()), from.data(), bytes);
+  from.remove_prefix(bytes);
+}
+
+using Reader = std::vector<MeshPart> (*)(const std::filesystem::path&, const MeshImport&);
+
+// assimp crashes on some damaged files, and never ends on others. Parts without triangles are left out.
+std::vector<MeshPart> read_in_child(Reader reader, const std::filesystem::path& path,
+                                    const MeshImport& options) {
+  const std::string bytes = in_child_process(path.string(), [&] {
+    std::string out;
+    for (const MeshPart& p : reader(path, options)) {
+      if (p.mesh.triangles.empty()) continue;
+      put_list(out, p.name);
+      put_list(out, p.mesh.vertices);
+      put_list(out, p.mesh.triangles);
+    }
+    return out;
+  });
+  std::vector<MeshPart> parts;
+  for (std::string_view rest = bytes; !rest.empty();) {
+    MeshPart& p = parts.emplace_back();
+    take_list(rest, p.name);
+    take_list(rest, p.mesh.vertices);
+    take_list(rest, p.mesh.triangles);
+  }
+  if (parts.empty()) throw InputError(path.string(), "has no triangles");
+  return parts;
+}
+
+}  // namespace
+
+TriangleMesh load_mesh(const std::filesystem::path& path, const MeshImport& options) {
+  return std::move(read_in_child(&read_whole, path, options).front().mesh);
+}
+
+std::vector<MeshPart> load_mesh_parts(const std::filesystem::path& path, const MeshImport& options) {
+  return read_in_child(&read_parts, path, options);
 }
 
 }  // namespace touchstone

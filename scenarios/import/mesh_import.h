@@ -21,7 +21,7 @@ std::string lower_extension(const std::filesystem::path& file);
 /// All triangles of the file in file order; polygons are triangulated, points and lines skipped. Throws
 /// InputError "file: reason" when the file is missing, not readable as a mesh, truncated, has no triangles,
 /// or has a coordinate that is not finite. Files that it refers to (materials, buffers) are opened only if
-/// they are in its own folder or below.
+/// they are in its own folder or below. The file is read in a process of its own (child_process.h).
 TriangleMesh load_mesh(const std::filesystem::path& file, const MeshImport& options = {});
 
 /// One object of a file: a group of an OBJ file, a solid of an STL file, an instance of a COLLADA file.

@@ -81,6 +81,19 @@ TEST_CASE("a file that is not a mesh is refused with name and reason", "[scene][
   CHECK(said(dir.write("line.obj", "v 0 0 0\nv 1 0 0\nl 1 2\n")) != "(accepted)");
   CHECK(said(dir.write("index.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 4\n")) != "(accepted)");
   CHECK(contains(said(dir.write("huge.obj", "v 1e300 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")), "not finite"));
+  // assimp reads such a header for ever.
+  CHECK(
+      contains(said(dir.write("endless.ply",
+                              "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n"
+                              "property float z\nend_heade\n0 0 0\n1 0 0\n0 1 0\n")),
+               "does not stop at the end of the file"));
+  // assimp ends the process on faces without corners.
+  CHECK(
+      contains(said(dir.write("faceless.ply",
+                              "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n"
+                              "property float z\nelement face 1\nproperty list uchar int vertex_indices\n"
+                              "end_header\n0 0 0\n1 0 0\n0 1 0\n0\n")),
+               "its reader crashed (Aborted)"));
   CHECK(contains(said(dir.write("nan.obj", "v nan 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")), "not finite"));
 }
 
