@@ -1,6 +1,5 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <unistd.h>
 
 #include <algorithm>
 
@@ -9,6 +8,7 @@
 #include "cli/import_options.h"
 #include "cli/output.h"
 #include "cli/page_contents.h"
+#include "cli/progress_line.h"
 #include "core/base/input_error.h"
 #include "reports/assess/assess.h"
 #include "reports/text/record_text.h"
@@ -99,6 +99,7 @@ int verdict_on(const fuzz::Assessment& a, const std::string& subject, bool json)
 int run(AssessArguments o) {
   require_writable(o.out);
   require_writable(o.page);
+  catch_stop_signals();
   o.limits.stop = &interrupted;
   const ImportedModel robot = robot_and_world(o);
   const auto kept = fuzz::joints_not_drawn(robot.model);
@@ -106,14 +107,12 @@ int run(AssessArguments o) {
     fmt::print(stderr, "touchstone: {} kept at the given value: no limits, or several variables\n",
                printable(fmt::format("{}", fmt::join(kept, ", "))));
   const ChosenEngines chosen = chosen_engines(o.choice, o.limits);
-  const bool live = isatty(2) == 1;
+  ProgressLine progress;
   fuzz::Assessment a = fuzz::assess(
       robot, o.how, [&] { return make_engines(chosen.names, o.limits); },
-      [live](std::string_view what, std::uint64_t done, std::uint64_t of) {
-        if (live) fmt::print(stderr, "\r\033[K{} of {} {}", done, of, what);
-      },
+      [&](std::string_view what, std::uint64_t done, std::uint64_t of) { progress.show(what, done, of); },
       interrupted);
-  if (live) fmt::print(stderr, "\r\033[K");
+  progress.clear();
   for (fuzz::AssessedEngine& e : a.engines) e.is_own = is_core_engine(e.name);
   a.world = o.world.empty() ? "" : std::filesystem::path(o.world).filename().string();
   if (o.json)

@@ -1,10 +1,9 @@
 #include <fmt/format.h>
-#include <unistd.h>
-
 #include <algorithm>
 
 #include "cli/command.h"
 #include "cli/output.h"
+#include "cli/progress_line.h"
 #include "core/base/input_error.h"
 #include "fuzz/cover/cover.h"
 #include "reports/text/text.h"
@@ -84,6 +83,7 @@ int verdict_on(const CoverArguments& o, const Cover& c) {
 
 int run(const CoverArguments& o) {
   require_writable(o.out);
+  catch_stop_signals();
   MeshImport as_written;
   as_written.keep_up_axis = true;
   const TriangleMesh mesh = load_mesh(o.mesh, as_written);
@@ -94,14 +94,12 @@ int run(const CoverArguments& o) {
                     (part.name.empty() ? "" : " (" + printable(part.name) + ")"));
     points.push_back(std::move(part.mesh.vertices));
   }
-  const bool live = isatty(2) == 1;
+  ProgressLine progress;
   const Cover c = fuzz::cover(
       mesh, points, names,
-      [live](std::string_view what, std::size_t done, std::size_t of) {
-        if (live) fmt::print(stderr, "\r\033[K{} of {} {}", done, of, what);
-      },
+      [&](std::string_view what, std::size_t done, std::size_t of) { progress.show(what, done, of); },
       interrupted);
-  if (live) fmt::print(stderr, "\r\033[K");
+  progress.clear();
   const std::string json = fuzz::to_json(c).dump(1) + "\n";
   if (!o.out.empty()) write_file(o.out, json);
   fmt::print("{}", o.json ? json : text_of(o, c));

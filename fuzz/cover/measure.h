@@ -14,7 +14,7 @@ namespace touchstone::fuzz {
 
 /// The searches end when the bracket's ends differ by at most this share of the upper one.
 inline constexpr double bracket_share = 0.01;
-/// And at the latest after so many parts of a triangle, of a piece, or of space.
+/// And at the latest after so many parts of triangles or pieces.
 inline constexpr std::size_t most_parts = 100'000;
 
 /// lo <= truth <= hi; `at`: a point where the quantity is at least lo.
@@ -39,7 +39,7 @@ Reach reaching_beyond(std::span<const ExactHull> pieces, const TriangleMesh& clo
 /// The volume inside a closed mesh; negative if its triangles face inward.
 double volume_inside(const TriangleMesh& closed);
 
-/// The volume of the union of the pieces.
+/// The volume of the union of the pieces: of each piece, what is in none of those before it, in convex parts.
 referee::Bracket volume_of_union(std::span<const ExactHull> pieces, const std::atomic<bool>& stop);
 
 }  // namespace touchstone::fuzz

@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <cmath>
-#include <queue>
 
 #include "fuzz/cover/limits.h"
 #include "fuzz/cover/measure.h"
@@ -9,16 +8,61 @@ namespace touchstone::fuzz {
 namespace {
 
 using Polygon = std::vector<Vec3>;
-// A convex polytope by its faces; no order of the corners is relied on but that they go round.
+// A convex polytope by its faces, whose corners go round.
 using Polytope = std::vector<Polygon>;
 
-// What is at or below the plane x[axis] = at (above it with sign -1), closed by a new face.
-Polytope clipped(const Polytope& p, Eigen::Index axis, double at, double sign) {
+struct Plane {
+  Vec3 normal;  // unit, outward
+  double offset = 0;
+  double height(const Vec3& x) const { return normal.dot(x) - offset; }
+};
+
+struct Piece {
+  Aabb box;
+  Polytope faces;
+  std::vector<Plane> planes;
+};
+
+Aabb box_of(const Polytope& p) {
+  Aabb box;
+  for (const Polygon& f : p)
+    for (const Vec3& v : f) box.extend(v);
+  return box;
+}
+
+Piece piece_of(const ExactHull& h) {
+  Piece piece{h.box, {}, {}};
+  for (const auto& f : h.facets) {
+    Polygon& face = piece.faces.emplace_back();
+    for (const int i : f) face.push_back(h.points[static_cast<std::size_t>(i)]);
+    const Vec3 n = (face[1] - face[0]).cross(face[2] - face[0]);
+    if (!(n.norm() > 0)) continue;  // so thin that its plane is lost in rounding
+    piece.planes.push_back({n.normalized(), n.normalized().dot(face[0])});
+  }
+  return piece;
+}
+
+// The corners of a new face, which are in a plane, in their order around its middle.
+void put_in_order(Polygon& lid, const Vec3& normal) {
+  Vec3 centre = Vec3::Zero();
+  for (const Vec3& v : lid) centre += v / static_cast<double>(lid.size());
+  const Vec3 u = normal.unitOrthogonal(), w = normal.cross(u);
+  const auto angle = [&](const Vec3& x) { return std::atan2(w.dot(x - centre), u.dot(x - centre)); };
+  std::sort(lid.begin(), lid.end(), [&](const Vec3& x, const Vec3& y) { return angle(x) < angle(y); });
+}
+
+// What is below the plane (above it with side -1), closed by a new face; corners within `slack` of the plane
+// are taken as on it.
+Polytope clipped(const Polytope& p, const Plane& plane, double side, double slack) {
+  const auto height = [&](const Vec3& x) {
+    const double h = side * plane.height(x);
+    return std::abs(h) <= slack ? 0 : h;
+  };
   bool is_above = false, is_below = false;
   for (const Polygon& f : p)
     for (const Vec3& v : f) {
-      is_above |= sign * (v[axis] - at) > 0;
-      is_below |= sign * (v[axis] - at) < 0;
+      is_above |= height(v) > 0;
+      is_below |= height(v) < 0;
     }
   if (!is_below) return {};
   if (!is_above) return p;
@@ -28,25 +72,17 @@ Polytope clipped(const Polytope& p, Eigen::Index axis, double at, double sign) {
     Polygon kept;
     for (std::size_t i = 0; i < f.size(); ++i) {
       const Vec3 &a = f[i], &b = f[(i + 1) % f.size()];
-      const double u = sign * (a[axis] - at), v = sign * (b[axis] - at);
-      if (u <= 0) kept.push_back(a);
-      if (u == 0) lid.push_back(a);
-      if (u * v < 0) {
-        Vec3 x = a + (u / (u - v)) * (b - a);
-        x[axis] = at;
-        kept.push_back(x);
-        lid.push_back(x);
-      }
+      const double at_a = height(a), at_b = height(b);
+      if (at_a <= 0) kept.push_back(a);
+      if (at_a == 0) lid.push_back(a);
+      if (at_a * at_b >= 0) continue;
+      kept.push_back(a + (at_a / (at_a - at_b)) * (b - a));
+      lid.push_back(kept.back());
     }
     if (kept.size() >= 3) out.push_back(std::move(kept));
   }
   if (lid.size() < 3) return out;
-  Vec3 centre = Vec3::Zero();
-  for (const Vec3& v : lid) centre += v / static_cast<double>(lid.size());
-  const Eigen::Index i = (axis + 1) % 3, j = (axis + 2) % 3;
-  std::sort(lid.begin(), lid.end(), [&](const Vec3& x, const Vec3& y) {
-    return std::atan2(x[j] - centre[j], x[i] - centre[i]) < std::atan2(y[j] - centre[j], y[i] - centre[i]);
-  });
+  put_in_order(lid, plane.normal);
   out.push_back(std::move(lid));
   return out;
 }
@@ -69,72 +105,71 @@ double volume(const Polytope& p) {
   return six / 6;
 }
 
-// A box, what of the pieces is in it, and how much of it they fill.
-struct Part {
-  Aabb box;
-  std::vector<Polytope> inside;
-  referee::Bracket filled;
-  double open() const { return filled.hi - filled.lo; }
-  bool operator<(const Part& o) const { return open() < o.open(); }
-};
+// Adds up what of each piece is in none of those before it.
+class Sum {
+ public:
+  Sum(std::span<const Piece> pieces, double slack, const std::atomic<bool>& stop)
+      : pieces_(pieces), slack_(slack), stop_(stop) {}
 
-Part part_of(const Aabb& box, const std::vector<Polytope>& pieces) {
-  Part part{box, {}, {}};
-  const Vec3 size = box.hi - box.lo;
-  const double whole = size.x() * size.y() * size.z();
-  double sum = 0;
-  for (const Polytope& piece : pieces) {
-    Polytope p = piece;
-    for (Eigen::Index axis = 0; axis < 3 && !p.empty(); ++axis)
-      p = clipped(clipped(p, axis, box.hi[axis], 1), axis, box.lo[axis], -1);
-    const double v = volume(p);
-    if (v <= 0) continue;
-    part.filled.lo = std::max(part.filled.lo, v);
-    sum += v;
-    part.inside.push_back(std::move(p));
+  void add(Polytope cell, std::size_t first, std::size_t last) {
+    const Aabb box = box_of(cell);
+    while (first < last && !overlaps(pieces_[first].box, box)) ++first;
+    if (first == last) {
+      settled_ += volume(cell);
+      return;
+    }
+    if (stop_ || ++cells_ > most_parts) {
+      open_ += volume(cell);
+      return;
+    }
+    if (is_beyond(cell, pieces_[first])) return add(std::move(cell), first + 1, last);
+    for (const Plane& plane : pieces_[first].planes) {
+      Polytope outside = clipped(cell, plane, -1, slack_);
+      if (!outside.empty()) add(std::move(outside), first + 1, last);
+      cell = clipped(cell, plane, 1, slack_);
+      if (cell.empty()) return;
+    }
   }
-  part.filled.hi = std::min(whole, sum);
-  part.filled.lo = std::min(part.filled.lo, part.filled.hi);
-  return part;
-}
+
+  referee::Bracket bracket() const { return {settled_, settled_ + open_}; }
+  double cells() const { return static_cast<double>(cells_); }
+
+ private:
+  bool is_beyond(const Polytope& cell, const Piece& piece) const {
+    return std::any_of(piece.planes.begin(), piece.planes.end(), [&](const Plane& plane) {
+      return std::all_of(cell.begin(), cell.end(), [&](const Polygon& f) {
+        return std::all_of(f.begin(), f.end(), [&](const Vec3& v) { return plane.height(v) >= -slack_; });
+      });
+    });
+  }
+
+  std::span<const Piece> pieces_;
+  double slack_;
+  const std::atomic<bool>& stop_;
+  std::size_t cells_ = 0;
+  double settled_ = 0, open_ = 0;
+};
 
 }  // namespace
 
-referee::Bracket volume_of_union(std::span<const ExactHull> pieces, const std::atomic<bool>& stop) {
+referee::Bracket volume_of_union(std::span<const ExactHull> hulls, const std::atomic<bool>& stop) {
   Aabb all;
-  std::vector<Polytope> whole;
-  for (const ExactHull& h : pieces) {
+  double reach = 0;
+  std::vector<Piece> pieces;
+  for (const ExactHull& h : hulls) {
+    pieces.push_back(piece_of(h));
     all.extend(h.box);
-    Polytope& p = whole.emplace_back();
-    for (const auto& f : h.facets) {
-      Polygon& face = p.emplace_back();
-      for (const int i : f) face.push_back(h.points[static_cast<std::size_t>(i)]);
-    }
+    for (const Vec3& v : h.points) reach = std::max(reach, v.cwiseAbs().maxCoeff());
   }
-  std::priority_queue<Part> parts;
-  parts.push(part_of(all, whole));
-  referee::Bracket sum = parts.top().filled;
-  const double rounding = cover::computed_in_doubles * (all.hi - all.lo).prod();
-  // A part whose pieces fill it to rounding is settled. The share is of the union: of what is left over, the
-  // caller sees the same bracket.
-  for (std::size_t split = 0; split < most_parts / 8 && !stop; ++split) {
-    if (sum.hi - sum.lo <= bracket_share * bracket_share * sum.hi || parts.empty()) break;
-    const Part p = parts.top();
-    parts.pop();
-    const Vec3 middle = (p.box.lo + p.box.hi) / 2;
-    sum.lo -= p.filled.lo;
-    sum.hi -= p.filled.hi;
-    for (int octant = 0; octant < 8; ++octant) {
-      Aabb box = p.box;
-      for (Eigen::Index axis = 0; axis < 3; ++axis)
-        ((octant >> axis & 1) != 0 ? box.lo : box.hi)[axis] = middle[axis];
-      Part child = part_of(box, p.inside);
-      sum.lo += child.filled.lo;
-      sum.hi += child.filled.hi;
-      if (child.inside.size() > 1) parts.push(std::move(child));
-    }
-  }
-  return {std::max(0.0, sum.lo - rounding), sum.hi + rounding};
+  const double slack = cover::computed_in_doubles * reach;
+  Sum sum(pieces, slack, stop);
+  for (std::size_t i = 0; i < pieces.size(); ++i) sum.add(pieces[i].faces, 0, i);
+  const auto [lo, hi] = sum.bracket();
+  // Each cut moves a face by the slack at most; no face is larger than the largest of the box.
+  const Vec3 size = all.hi - all.lo;
+  const double face = size.maxCoeff() * size.maxCoeff();
+  const double rounding = cover::computed_in_doubles * size.prod() + slack * face * (8 + sum.cells());
+  return {std::max(0.0, lo - rounding), hi + rounding};
 }
 
 }  // namespace touchstone::fuzz

@@ -132,6 +132,16 @@ TEST_CASE("assess on an arm of seven joints at a table", "[cli][import]") {
   CHECK(widest_line(r.out) < 80);
 }
 
+TEST_CASE("assess that is interrupted prints what it has and fails", "[cli][import]") {
+  const Workspace w("assess");
+  // More configurations than any machine asks about in this time.
+  const auto r = w.run("timeout --preserve-status -s INT 3 " TS_BINARY_DIR "/bin/touchstone assess " + files +
+                       "arm.urdf --samples 300000 --pairs 10000000 --engines core");
+  INFO(r.out << r.err);
+  CHECK(r.code == 3);
+  CHECK(has(unwrapped(r.out), "Interrupted before all pairs were asked."));
+}
+
 TEST_CASE("assess shows an engine that misses collisions, and says what finds them", "[cli][import]") {
   const Workspace w("assess");
   w.write("table.urdf",
