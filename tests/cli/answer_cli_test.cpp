@@ -57,7 +57,7 @@ TEST_CASE("two bodies on the command line are answered with certificates", "[ans
   CHECK(deep.out.find("  depth       [1.4999") != std::string::npos);
   CHECK(deep.out.find("one of 6 that") != std::string::npos);
   check_columns(deep.out);
-  const Run help = w.touchstone("answer --help");
+  const Run help = w.touchstone("answer --help", "TOUCHSTONE_LAUNCHER=./touchstone");
   CHECK(help.out.find("rounded_box half_extents(3) radius") != std::string::npos);
   check_columns(help.out);
 }
