@@ -52,6 +52,15 @@ std::string normal_words(const PairAnswer& a) {
   return s + (a.normals->normals.size() > most_shown ? " ..." : "");
 }
 
+std::string within_words(const fuzz::WithinAnswer& w) {
+  using enum referee::Verdict;
+  const std::string margin = number(w.margin);
+  if (w.verdict == undecided) return fmt::format("undecided whether the gap is at most {}", margin);
+  return fmt::format("{}, the gap is {} {}{}", w.verdict == overlap ? "yes" : "no",
+                     w.verdict == overlap ? "at most" : "more than", margin,
+                     w.certified ? "" : " (no certificate)");
+}
+
 std::string plane_words(const Certificate& c) {
   if (!c.rationals.empty())
     return fmt::format("a separating plane in rational numbers ({} planes)", c.rationals.size() / 4);
@@ -98,6 +107,7 @@ std::string answer_text(const fuzz::PairAnswer& answer) {
     s += row("witness A", vector(t.witness[0]));
     s += row("witness B", vector(t.witness[1]));
   }
+  if (answer.within) s += row("within", within_words(*answer.within));
   if (!answer.proof) return s;
   return s + proof_rows(*answer.proof) + certified_row(answer.certified, answer.not_certified);
 }

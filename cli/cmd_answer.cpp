@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <chrono>
+#include <cmath>
 #include <cstdio>
 #include <optional>
 #include <utility>
@@ -30,6 +31,7 @@ struct AnswerOptionsText {
   std::vector<std::string> subjects;
   std::vector<int> pair;
   std::string answers, error;
+  std::optional<double> within;
   bool json = false, no_certificates = false, single = false;
 };
 
@@ -62,7 +64,10 @@ class Answering {
     using Clock = std::chrono::steady_clock;
     const auto start = Clock::now();
     const Placed a{&scene.shape_of(0), scene.bodies[0].pose}, b{&scene.shape_of(1), scene.bodies[1].pose};
-    const fuzz::PairAnswer answer = fuzz::answer_pair(a, b, options_);
+    fuzz::AnswerOptions options = options_;
+    options.margin = o_.within;
+    if (!options.margin && scene.margin != 0) options.margin = scene.margin;
+    const fuzz::PairAnswer answer = fuzz::answer_pair(a, b, options);
     std::optional<fuzz::ImpactAnswer> impact;
     const bool moves = scene.bodies[0].motion || scene.bodies[1].motion;
     if (moves)
@@ -71,7 +76,8 @@ class Answering {
     const auto ns = std::chrono::nanoseconds(Clock::now() - start).count();
     using Undecided = referee::TimeTruth::Verdict;
     tally_.decided += answer.truth.verdict != referee::Verdict::undecided &&
-                      (!impact || impact->truth.verdict != Undecided::undecided);
+                      (!impact || impact->truth.verdict != Undecided::undecided) &&
+                      (!answer.within || answer.within->verdict != referee::Verdict::undecided);
     std::optional<Judgement> ruling;
     if (stated) ruling = fuzz::judge_stated(scene, *stated, precision_);
     if (ruling) {
@@ -173,6 +179,7 @@ void answer_queries(const AnswerOptionsText& o, Answering& answering) {
 }
 
 int run(const AnswerOptionsText& o) {
+  if (o.within && !std::isfinite(*o.within)) throw InputError("--within", "must be a finite number");
   Answering answering(o,
                       o.answers.empty() ? std::vector<fuzz::StatedAnswer>{} : load_stated_answers(o.answers));
   const bool two = o.subjects.size() == 2;
@@ -199,6 +206,9 @@ Run declare_answer(CLI::App& app) {
   app.add_option("--pair", o->pair, "bodies A and B of a scene (default: every pair)")->expected(2);
   app.add_option("--answers", o->answers,
                  "judge these stated answers, one for each pair: a JSON object or array, or JSON lines");
+  app.add_option(
+      "--within", o->within,
+      "also answer whether the signed gap is at most this (default: the scene's margin, if it has one)");
   app.add_option("--error", o->error, "error allowed to stated answers besides rounding: 0.1mm, 1e-4");
   app.add_flag("--single", o->single, "stated answers were computed in single precision");
   app.add_flag("--no-certificates", o->no_certificates, "leave out certificates, which take the most time");
@@ -211,7 +221,8 @@ Run declare_answer(CLI::App& app) {
       "step; with them the time of impact is answered too.\n"
       "A JSON line: {\"a\": BODY, \"b\": BODY, \"answer\": STATED}; BODY is such a text, or\n"
       "{\"shape\", \"pose\", \"motion\"} of the scene format. STATED has any of overlap,\n"
-      "distance (signed), normal (A to B), depth, witness, points, time_of_impact.\n"
+      "distance (signed), lower_bound, upper_bound, normal (A to B), depth, witness,\n"
+      "points, time_of_impact.\n"
       "Exit codes: 0 answered, and what is stated is right; 1 something stated is\n"
       "wrong; 2 bad input; 3 nothing could be decided.");
   return [o] { return run(*o); };

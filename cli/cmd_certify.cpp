@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdlib>
 #include <filesystem>
 #include <nlohmann/json.hpp>
@@ -35,6 +36,7 @@ struct CertifyOptions {
   std::vector<std::string> without;
   std::uint64_t seed = 1, limit = 0;
   double minutes = 0;
+  std::optional<double> margin;
   int jobs = 1;
   bool sweeps = false, first_fault = false, json = false, list = false, memcheck = false;
   WorkerLimits limits{.patience = 1};
@@ -73,6 +75,7 @@ fuzz::CertifyConfig config_of(const CertifyOptions& o) {
   c.jobs = o.jobs;
   c.without = o.without;
   c.first_fault = o.first_fault;
+  c.margin = o.margin;
   if (o.level == "boxes") c.levels = {BroadLevel::boxes};
   if (o.level == "bodies") c.levels = {BroadLevel::bodies};
   c.program = "touchstone " TOUCHSTONE_VERSION;
@@ -184,6 +187,9 @@ void use_memcheck(CertifyOptions& o) {
 
 int certify_subject(CertifyOptions o) {
   if (o.subject.empty()) throw InputError("certify", "needs --subject NAME or --check CERT");
+  if (o.margin && (!std::isfinite(*o.margin) || *o.margin < 0))
+    throw InputError("--margin", "must be a finite number that is not negative");
+  if (o.margin && o.sweeps) throw InputError("--margin", "is about bodies at rest; leave out --sweeps");
   for (const std::string& file : {o.out, o.page, o.script}) require_writable(file);
   if (o.memcheck) use_memcheck(o);
   const auto c = make(broad_subject(o.subject, o.limits, o.sweeps), config_of(o));
@@ -257,6 +263,7 @@ int check(const CertifyOptions& o) {
   for (const fuzz::EvidenceCount& e : was.evidence)
     if (e.out_of_time) c.most_cases[e.name] = e.cases;
   c.levels = was.levels;
+  c.margin = was.margin;
   c.without = was.without;
   c.first_fault = was.first_fault;
   if (was.program != c.program)
@@ -307,6 +314,10 @@ Run declare_certify(CLI::App& app) {
   app.add_option("--jobs", o->jobs, "number of parallel jobs")
       ->check(CLI::Range(1, 1024))
       ->capture_default_str();
+  app.add_option(
+      "--margin", o->margin,
+      "every pair whose distance is at most this must be a candidate (candidates_within), in the unit of "
+      "the suites' scenes, whose boxes are about 1 wide");
   app.add_flag("--sweeps", o->sweeps,
                "also query the subject for swept_candidates: pairs that meet while the bodies move");
   app.add_flag("--first-fault", o->first_fault,

@@ -31,6 +31,11 @@ inline constexpr double narrow_touching_factor = 0x1p-54;
 /// overlap".
 inline constexpr double narrow_contact_factor = 0x1p-58;
 
+/// A lower bound of the distance is lowered by this · (reaches, coordinates and offset of both bodies): about
+/// 60 roundings of double, four times what lies between the poses and the bound. Tested by: tests/core "a
+/// lower bound of the distance is below it".
+inline constexpr double narrow_bound_factor = 0x1p-47;
+
 /// Slack larger than this · size is not_converged: 6·2⁻⁵⁰·L is 3/8 of τ. Tested by: tests/core "distance,
 /// feasibility and witnesses hold within tau".
 inline constexpr double narrow_accept_factor = 0x1p-50;

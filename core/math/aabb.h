@@ -1,6 +1,7 @@
 // Closed axis-aligned box. Touching counts as overlap (truth.md §1).
 #pragma once
 
+#include <cmath>
 #include <limits>
 
 #include "core/math/pose.h"
@@ -24,6 +25,17 @@ struct Aabb {
 inline bool overlaps(const Aabb& a, const Aabb& b) {
   return a.lo.x() <= b.hi.x() && b.lo.x() <= a.hi.x() && a.lo.y() <= b.hi.y() && b.lo.y() <= a.hi.y() &&
          a.lo.z() <= b.hi.z() && b.lo.z() <= a.hi.z();
+}
+
+/// Contains every point within `by` >= 0 of the box: each side is moved outward by that, and by the rounding
+/// of the sum.
+inline Aabb widened(Aabb box, double by) {
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  for (int k = 0; k < 3; ++k) {
+    box.lo[k] = std::nextafter(box.lo[k] - by, -infinity);
+    box.hi[k] = std::nextafter(box.hi[k] + by, infinity);
+  }
+  return box;
 }
 
 }  // namespace touchstone

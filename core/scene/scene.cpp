@@ -96,6 +96,7 @@ void validate(const Scene& s) {
     if (a < 0 || b >= n || a >= b) throw InputError(at("ignored", i), "is not a pair of bodies i < j");
   }
   check_script(s);
+  if (!std::isfinite(s.margin)) throw InputError("margin", "is not finite");
 }
 
 std::uint64_t hash(const Scene& s) {
@@ -122,6 +123,7 @@ std::uint64_t hash(const Scene& s) {
     h.add(static_cast<int>(step.op)).add(step.body).add(step.pose.has_value());
     if (step.pose) field(*step.pose);
   }
+  if (s.margin != 0) h.add(s.margin);
   return h.value();
 }
 
@@ -141,7 +143,7 @@ std::vector<Step> effective_script(const Scene& s) {
 }
 
 double scale_of_pair(const Scene& s, int a, int b) {
-  double l = 0;
+  double l = std::abs(s.margin);
   Vec3 apart_at_start = Vec3::Zero(), apart_at_end = Vec3::Zero();
   for (int i : {a, b}) {
     const Body& body = s.bodies[static_cast<std::size_t>(i)];
@@ -164,6 +166,7 @@ double scale_of_pair(const Scene& s, int a, int b) {
 Scene extract_pair(const Scene& s, int a, int b) {
   Scene r;
   r.name = s.name;
+  r.margin = s.margin;
   for (int i : {a, b}) {
     Body body = s.bodies[static_cast<std::size_t>(i)];
     body.shape = static_cast<int>(r.shapes.size());

@@ -40,6 +40,9 @@ struct Scene {
   std::vector<Body> bodies;
   std::vector<BodyPair> ignored;  // pairs that the user filters out; first < second, sorted
   std::vector<Step> script;       // empty: insert every body, then query once
+  /// The length that questions about a margin refer to, in the scene's unit; any sign. Other questions ignore
+  /// it.
+  double margin = 0;
   const Shape& shape_of(int body) const {
     return shapes[static_cast<std::size_t>(bodies[static_cast<std::size_t>(body)].shape)];
   }
@@ -51,7 +54,7 @@ struct Scene {
 /// only inserted bodies.
 void validate(const Scene& scene);
 
-/// Order-dependent hash of every number in the scene; names are excluded.
+/// Order-dependent hash of every number in the scene, a margin of 0 and names excluded.
 std::uint64_t hash(const Scene& scene);
 
 /// True when both bodies are of the same group or the pair is listed in `ignored`.
@@ -62,10 +65,10 @@ std::vector<Step> effective_script(const Scene& scene);
 
 /// L of docs/truth.md §2: the largest of both shapes' lengths, the coordinates of positions and vertices, and
 /// the distance between the positions. For a half-space, the distance of its plane counts. With motion, L
-/// covers the whole step.
+/// covers the whole step. The scene's margin counts as a length.
 double scale_of_pair(const Scene& scene, int a, int b);
 
-/// A scene of two bodies, a and b of `scene`, renumbered 0 and 1, without a script.
+/// A scene of two bodies, a and b of `scene`, renumbered 0 and 1, with its margin and without a script.
 Scene extract_pair(const Scene& scene, int a, int b);
 
 }  // namespace touchstone

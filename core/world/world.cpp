@@ -37,12 +37,17 @@ Aabb box_of(const Scene& scene, int body, const Pose& pose) {
                 : broad::body_box(scene.shape_of(body), pose);
 }
 
-std::vector<std::vector<BodyPair>> candidate_pairs(const Scene& scene, broad::BroadPhase& phase) {
+namespace {
+
+// `changed` makes of a body's box the one that the broad phase gets.
+template <class Changed>
+std::vector<std::vector<BodyPair>> run_script(const Scene& scene, broad::BroadPhase& phase,
+                                              Changed&& changed) {
   std::vector<std::vector<BodyPair>> answers;
   for (const Step& step : effective_script(scene)) {
     const auto box = [&] {
-      return broad::body_box(scene.shape_of(step.body),
-                             step.pose ? *step.pose : body_of(scene, step.body).pose);
+      return changed(broad::body_box(scene.shape_of(step.body),
+                                     step.pose ? *step.pose : body_of(scene, step.body).pose));
     };
     switch (step.op) {
       case Step::Op::insert:
@@ -60,6 +65,16 @@ std::vector<std::vector<BodyPair>> candidate_pairs(const Scene& scene, broad::Br
     }
   }
   return answers;
+}
+
+}  // namespace
+
+std::vector<std::vector<BodyPair>> candidate_pairs(const Scene& scene, broad::BroadPhase& phase) {
+  return run_script(scene, phase, [](const Aabb& box) { return box; });
+}
+
+std::vector<std::vector<BodyPair>> candidate_pairs_within(const Scene& scene, broad::BroadPhase& phase) {
+  return run_script(scene, phase, [&](const Aabb& box) { return widened(box, scene.margin / 2); });
 }
 
 std::vector<BodyPair> swept_candidate_pairs(const Scene& scene, broad::BroadPhase& phase) {

@@ -1,13 +1,13 @@
 // Whole scenes. Conventions for every engine that is compared with the core:
 //
 // * Candidate pairs: at each `query` step, the pairs (i < j, sorted) of bodies that are present, not filtered
-//   (is_filtered: same group, or listed in `ignored`) and not both static. A body without motion has the box of
-//   its pose at that step; a body with motion has the box of the whole step from that pose, so that a swept
-//   contact is not missed.
+//   (is_filtered: same group, or listed in `ignored`) and not both static. A body without motion has the box
+//   of its pose at that step; a body with motion has the box of the whole step from that pose, so that a
+//   swept contact is not missed.
 // * Scene contacts: of the same pairs at the bodies' own poses (the script is not run), those that overlap,
 //   with
-//   depth and with the normal from the first to the second body. A pair that the narrow phase does not support
-//   (half-space–half-space) is omitted and counted in `unsupported`.
+//   depth and with the normal from the first to the second body. A pair that the narrow phase does not
+//   support (half-space–half-space) is omitted and counted in `unsupported`.
 #pragma once
 
 #include <string_view>
@@ -27,6 +27,9 @@ Aabb box_of(const Scene& scene, int body, const Pose& pose);
 
 /// Runs effective_script(scene) through `phase`, ignoring motions; one sorted list per query step.
 std::vector<std::vector<BodyPair>> candidate_pairs(const Scene& scene, broad::BroadPhase& phase);
+/// The same for pairs that may be within the scene's margin, which is not negative: every box is widened by
+/// half of it.
+std::vector<std::vector<BodyPair>> candidate_pairs_within(const Scene& scene, broad::BroadPhase& phase);
 /// The pairs that may overlap at some time of the step that starts at the bodies' own poses; sorted.
 std::vector<BodyPair> swept_candidate_pairs(const Scene& scene, broad::BroadPhase& phase);
 

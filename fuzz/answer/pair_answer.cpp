@@ -113,6 +113,12 @@ void match_normal_to_witness(referee::PairTruth& t, const Placed& a, const Place
   if (referee::width(a, b, n).lo <= -t.gap.lo) t.normal = n;
 }
 
+// GapProof::gap is infinite where there is no certificate.
+bool shows(const GapProof& proof, const WithinAnswer& within) {
+  if (within.verdict == referee::Verdict::overlap) return proof.gap.hi <= within.margin;
+  return within.verdict == referee::Verdict::disjoint && proof.gap.lo > within.margin;
+}
+
 }  // namespace
 
 PairAnswer answer_pair(const Placed& a, const Placed& b, const AnswerOptions& options) {
@@ -121,10 +127,13 @@ PairAnswer answer_pair(const Placed& a, const Placed& b, const AnswerOptions& op
   match_normal_to_witness(r.truth, a, b);
   if (options.normals && has_listed_normals(a) && has_listed_normals(b))
     r.normals = referee::near_minimal_normals(a, b);
+  if (options.margin)
+    r.within = WithinAnswer{*options.margin, referee::judge_within(a, b, *options.margin, r.truth), false};
   if (!options.certificates) return r;
   r.proof = prove(r.truth, a, b);
   r.not_certified = missing_in(*r.proof, r.truth, a, b);
   r.certified = r.not_certified.empty();
+  if (r.within) r.within->certified = shows(*r.proof, *r.within);
   return r;
 }
 

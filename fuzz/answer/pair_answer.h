@@ -20,8 +20,18 @@ struct GapProof {
   referee::Bracket gap;
 };
 
+/// Is the gap at most the margin? overlap: yes; disjoint: no (referee::judge_within).
+struct WithinAnswer {
+  double margin = 0;
+  referee::Verdict verdict = referee::Verdict::undecided;
+  /// The bounds of the gap that are certified show it. Otherwise it rests on the referee alone: the gap is
+  /// the margin, or differs from it by no more than the rounding of the certificates.
+  bool certified = false;
+};
+
 struct PairAnswer {
   referee::PairTruth truth;
+  std::optional<WithinAnswer> within;  // if asked for
   /// Present if asked for and known: every normal when several are about equally good.
   std::optional<referee::NearMinimalNormals> normals;
   /// Present if asked for.
@@ -42,6 +52,7 @@ struct ImpactAnswer {
 };
 
 struct AnswerOptions {
+  std::optional<double> margin = std::nullopt;  // whether the gap is at most this
   bool certificates = true;  // exact arithmetic: about a hundred times slower than the answer
   /// The set of normals of least depth. Only for spheres, boxes, capsules, hulls and rounded boxes, whose set
   /// is known to be complete; that of others is an estimate that takes seconds.

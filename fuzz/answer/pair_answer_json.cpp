@@ -41,6 +41,14 @@ const char* name_of(referee::TimeTruth::Verdict v) {
   return v == Verdict::hit ? "hit" : v == Verdict::none ? "none" : "undecided";
 }
 
+Json to_json(const WithinAnswer& w) {
+  using enum referee::Verdict;
+  const char* const verdict = w.verdict == overlap    ? "within"
+                              : w.verdict == disjoint ? "beyond"
+                                                      : "undecided";
+  return {{"margin", w.margin}, {"verdict", verdict}, {"certified", w.certified}};
+}
+
 void put_certified(Json& j, bool certified, const std::string& why_not) {
   j["certified"] = certified;
   if (!why_not.empty()) j["not_certified"] = why_not;
@@ -52,6 +60,7 @@ nlohmann::ordered_json to_json(const PairAnswer& answer) {
   const referee::PairTruth& t = answer.truth;
   Json j{{"verdict", to_string(t.verdict)}, {"gap", bracket(t.gap)}};
   if (t.verdict == referee::Verdict::overlap) j["depth"] = bracket(-t.gap.hi, -t.gap.lo);
+  if (answer.within) j["within"] = to_json(*answer.within);
   const bool has_normal = t.normal.allFinite() && !t.normal.isZero(0);
   j["normal"] = has_normal ? list(t.normal) : Json();
   if (answer.normals) j["normals"] = to_json(*answer.normals);

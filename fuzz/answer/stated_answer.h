@@ -20,7 +20,8 @@ struct StatedAnswer {
   bool states_anything() const;
 };
 
-/// {"overlap": bool, "distance": x, "witness": [[x,y,z],[x,y,z]], "normal": [x,y,z], "depth": x,
+/// {"overlap": bool, "distance": x, "lower_bound": x, "upper_bound": x, "witness": [[x,y,z],[x,y,z]],
+/// "normal": [x,y,z], "depth": x,
 ///  "points": [{"position": [x,y,z], "depth": x}], "time_of_impact": t or null}; any of them. A
 /// witness may also be six numbers, and `overlap` null, which states nothing. NaN and
 /// infinities, which JSON lacks, are the strings "NaN", "Infinity" and "-Infinity". A depth of an answer that

@@ -11,9 +11,7 @@
 namespace touchstone::fuzz {
 
 /// About the motion during the step, rather than about poses.
-constexpr bool is_of_motion(Question q) {
-  return q == Question::time_of_impact || q == Question::swept_candidates;
-}
+constexpr bool is_of_motion(Question q) { return is_motion_question(q); }
 
 /// Certificates found so far, by (index of the case, motion?, A, B, step): engines that fail in the same way
 /// on a case share them, since one may take seconds of exact arithmetic.

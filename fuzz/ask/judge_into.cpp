@@ -81,7 +81,7 @@ void count_open(CampaignResult& r, const Case& c, const std::string& engine, con
 void count_hit(CampaignResult& r, const Case& c, Truth& truth) {
   if (c.queries.empty() || !is_pair_question(c.queries[0].question)) return;
   const Query& q = c.queries[0];
-  if (q.question == Question::time_of_impact) {
+  if (is_motion_question(q.question)) {
     const auto v = truth.motion(0, q.a, q.b).verdict;
     if (v == referee::TimeTruth::Verdict::undecided) {
       ++r.undecided;

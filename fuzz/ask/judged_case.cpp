@@ -19,6 +19,11 @@ std::string time_verdict(const referee::TimeTruth& t) {
   return t.verdict == V::hit ? "impact" : t.verdict == V::none ? "no impact" : "undecided";
 }
 
+std::string within_words(referee::Verdict v) {
+  using enum referee::Verdict;
+  return v == overlap ? "within" : v == disjoint ? "beyond" : "undecided";
+}
+
 // True when the text form of a replay states the depth.
 bool has_depth(const Query& q, const referee::PairTruth& t) {
   return q.question == Question::contact && t.verdict == referee::Verdict::overlap && std::isfinite(t.gap.lo);
@@ -37,6 +42,7 @@ RefereeAnswer CaseJudge::referee_answer(const Query& q, Certificates certificate
     return certificates == Certificates::exact ? exact_certificate(c_.scene, q.question, q.a, q.b) : Json();
   };
   switch (q.question) {
+    case Question::ray:
     case Question::time_of_impact: {
       const referee::TimeTruth& t = truth_.motion(0, q.a, q.b);
       r.verdict = time_verdict(t);
@@ -48,6 +54,10 @@ RefereeAnswer CaseJudge::referee_answer(const Query& q, Certificates certificate
     case Question::candidates:
       for (const auto& set : truth_.true_pairs()) r.pairs.push_back(pairs_of(set));
       return r;
+    case Question::candidates_within:
+      for (const auto& set : truth_.pairs_within()) r.pairs.push_back(pairs_of(set));
+      r.undecided_pairs = truth_.undecided_pairs_within();
+      return r;
     case Question::scene_contacts:
       r.pairs = {pairs_of(truth_.scene_pairs(0))};
       return r;
@@ -58,6 +68,8 @@ RefereeAnswer CaseJudge::referee_answer(const Query& q, Certificates certificate
     case Question::overlap:
     case Question::distance:
     case Question::contact:
+    case Question::within:
+    case Question::bounded_distance:
       break;
   }
   const referee::PairTruth& t = truth_.pair(0, q.a, q.b);
@@ -69,6 +81,7 @@ RefereeAnswer CaseJudge::referee_answer(const Query& q, Certificates certificate
   r.verdict_certificate = t.verdict_certificate;
   if (certificates != Certificates::shown || has_depth(q, t))
     r.depth_certificate = referee::depth_certificate(t, truth_.placed(0, q.a), truth_.placed(0, q.b));
+  if (q.question == Question::within) r.within = within_words(truth_.within(0, q.a, q.b));
   r.level = t.level;
   r.certificate = exact();
   return r;

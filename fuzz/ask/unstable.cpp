@@ -27,6 +27,8 @@ void erase(Observation& o, const std::string& name) {
   if (name == "depth") o.depth.reset();
   if (name == "manifold") o.manifold.clear();
   if (name == "toi") o.toi.reset();
+  if (name == "lower_bound") o.lower_bound.reset();
+  if (name == "upper_bound") o.upper_bound.reset();
   if (name == "candidate_pairs") o.candidate_pairs.clear();
   if (name == "contacts") o.contacts.clear();
   if (name == "claimed_tolerance") o.claimed_tolerance = 0;

@@ -86,8 +86,9 @@ void add_time(Deviation& d, int a, int b, const Observation& o, Truth& truth) {
 std::string missing_number(const Query& q, const Observation& o) {
   if (!std::isfinite(o.claimed_tolerance)) return "claim not a number";
   if (o.claimed_tolerance < 0) return "claim negative";
-  if (q.question == Question::distance) return o.distance ? "distance not a number" : "no distance";
-  if (q.question == Question::time_of_impact) return "time not a number";
+  if (q.question == Question::distance || q.question == Question::bounded_distance)
+    return o.distance ? "distance not a number" : "no distance";
+  if (is_motion_question(q.question)) return "time not a number";
   if (!o.overlap) return "no verdict";
   if (q.question != Question::contact || !*o.overlap) return "no_number";
   if (!o.normal) return "no normal";
@@ -136,6 +137,7 @@ Deviation deviation_of(const Case& c, const Query& q, const Observation& o, cons
     case Fault::ghost:
     case Fault::stale:
     case Fault::unstable:
+    case Fault::bound_off:
     case Fault::failed:
       break;
     case Fault::no_number:

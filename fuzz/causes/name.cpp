@@ -19,6 +19,10 @@ std::size_t count(const Responses& r, Response what) {
 }
 
 std::string verdict_words(const Subject& s, bool missed) {
+  if (s.symptom.question == Question::ray)
+    return missed ? "Rays miss what they hit" : "Rays hit what they miss";
+  if (s.symptom.question == Question::within)
+    return missed ? "Bodies within a margin are denied" : "Bodies beyond a margin are said to be within it";
   if (s.symptom.question == Question::time_of_impact)
     return missed ? "Impacts are missed" : "Impacts that never happen are reported";
   if (is_broad_question(s.symptom.question))
@@ -75,7 +79,7 @@ std::string words_of(const Subject& s) {
     case Severity::not_minimal:
       return s.fault == "not_minimal" ? "Normals are not those of the least depth" : "Depths are too large";
     case Severity::distance:
-      return "Distances are wrong";
+      return s.fault == "bound_off" ? "Bounds of distances are none" : "Distances are wrong";
     case Severity::witness:
       if (s.symptom.question == Question::distance) return "Closest points are wrong";
       return s.fault == "incomplete" ? "Manifolds leave out a part of the contact"

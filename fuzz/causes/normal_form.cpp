@@ -19,7 +19,7 @@ bool is_about_two(const Case& c) {
 }
 
 std::vector<Case> plain_cases(const Case& c, PlainForms forms) {
-  if (c.queries[0].question == Question::time_of_impact) return plain_impacts(c, *pair_of(c));
+  if (is_motion_question(c.queries[0].question)) return plain_impacts(c, *pair_of(c));
   const auto p = true_pair(c);
   if (!p) return {};
   return forms == PlainForms::all ? plain_pairs(c, *p) : nearest_plain_pairs(c, *p);
@@ -74,7 +74,7 @@ class Plainer {
     if (!take_in_place(b_as_sphere)) take_in_place(b_as_cube);
     take_in_place(set_a_upright);
     take_in_place(set_b_upright);
-    if (best_.queries[0].question == Question::time_of_impact) take(meet_half_way(best_));
+    if (is_motion_question(best_.queries[0].question)) take(meet_half_way(best_));
     return best_;
   }
 
@@ -87,7 +87,7 @@ class Plainer {
 
 Case normal_form(const Case& c, const StillShows& still, PlainForms forms) {
   if (!is_about_two(c)) return c;
-  if (forms == PlainForms::nearest && c.queries[0].question == Question::time_of_impact) return c;
+  if (forms == PlainForms::nearest && is_motion_question(c.queries[0].question)) return c;
   const std::vector<Case> plain = plain_cases(c, forms);
   if (auto shown = first_shown(plain, still)) return *std::move(shown);
   if (plain.empty()) return c;

@@ -41,6 +41,16 @@ RequiredPair required_by_boxes(BodyPair pair, const Aabb& a, const Aabb& b) {
   return required_with_share(pair, share);
 }
 
+// The share of two bodies that must be reported because they are within a margin: by how much they are nearer
+// than that, divided by the diameter of the smaller. They need not overlap.
+RequiredPair required_within(const Scene& s, const Truth::TruePair& p) {
+  const auto [a, b] = p.bodies;
+  const double ra = bounding_radius(s.shape_of(a)), rb = bounding_radius(s.shape_of(b));
+  if (!(std::isfinite(ra) && std::isfinite(rb))) return {p.bodies, FaultKind::unbounded, 0};
+  const double size = 2 * std::min(ra, rb), by = s.margin - p.truth.gap.hi;
+  return required_with_share(p.bodies, size > 0 ? std::clamp(by / size, 0.0, 1.0) : 0);
+}
+
 // The share of two bodies: the certain depth divided by the diameter of the smaller.
 RequiredPair required_by_bodies(const Scene& s, const Truth::TruePair& p) {
   const auto [a, b] = p.bodies;
@@ -48,6 +58,60 @@ RequiredPair required_by_bodies(const Scene& s, const Truth::TruePair& p) {
   if (!(std::isfinite(ra) && std::isfinite(rb))) return {p.bodies, FaultKind::unbounded, 0};
   const double size = 2 * std::min(ra, rb);
   return required_with_share(p.bodies, size > 0 ? std::clamp(-p.truth.gap.hi / size, 0.0, 1.0) : 0);
+}
+
+// The distance of two closed boxes along an axis; 0 where they overlap. Rounded, but exact zeros are exact.
+double apart_along(const Aabb& a, const Aabb& b, int axis) {
+  return std::max({0.0, a.lo[axis] - b.hi[axis], b.lo[axis] - a.hi[axis]});
+}
+
+// hi - lo <= margin, exactly: rounding is monotonic, and what it left out decides a tie.
+bool is_apart_at_most(double lo, double hi, double margin) {
+  const double apart = hi - lo, back = apart - hi;
+  const double left_out = (hi - (apart - back)) + (-lo - back);
+  return apart < margin || (apart == margin && left_out <= 0);
+}
+
+// Exact. Boxes that are apart along several axes, and so finite, are decided by the referee, as bodies, where
+// rounding cannot.
+bool are_boxes_within(const Aabb& a, const Aabb& b, double margin) {
+  int axes = 0;
+  bool each = true;
+  for (int k = 0; k < 3; ++k) {
+    if (a.lo[k] <= b.hi[k] && b.lo[k] <= a.hi[k]) continue;
+    ++axes;
+    each = each && (a.lo[k] > b.hi[k] ? is_apart_at_most(b.hi[k], a.lo[k], margin)
+                                      : is_apart_at_most(a.hi[k], b.lo[k], margin));
+  }
+  if (axes < 2 || !each) return each;
+  const double about = std::hypot(apart_along(a, b, 0), apart_along(a, b, 1), apart_along(a, b, 2));
+  constexpr double rounding = 0x1p-48;  // of the differences and of the length, with room to spare
+  if (about <= margin * (1 - rounding)) return true;
+  if (about > margin * (1 + rounding)) return false;
+  const auto corners = [](const Aabb& box) {
+    std::vector<Vec3> all;
+    for (int i = 0; i < 8; ++i) {
+      const auto end = [&](int k) { return (i >> k & 1) != 0 ? box.hi[k] : box.lo[k]; };
+      all.emplace_back(end(0), end(1), end(2));
+    }
+    return make_hull(std::move(all));
+  };
+  Scene pair;
+  pair.margin = margin;
+  pair.shapes.emplace_back(corners(a));
+  pair.shapes.emplace_back(corners(b));
+  pair.bodies.resize(2);
+  pair.bodies[1].shape = 1;
+  return Truth(pair).within(0, 0, 1) == referee::Verdict::overlap;
+}
+
+// As required_within, for boxes.
+RequiredPair required_by_margin(BodyPair pair, const Aabb& a, const Aabb& b, double margin) {
+  if (!(a.lo.allFinite() && a.hi.allFinite() && b.lo.allFinite() && b.hi.allFinite()))
+    return {pair, FaultKind::unbounded, 0};
+  const double by = margin - std::hypot(apart_along(a, b, 0), apart_along(a, b, 1), apart_along(a, b, 2));
+  const double size = std::min((a.hi - a.lo).minCoeff(), (b.hi - b.lo).minCoeff());
+  return required_with_share(pair, size > 0 ? std::clamp(by / size, 0.0, 1.0) : 0);
 }
 
 // The bodies present and their poses; at the level of boxes also their boxes.
@@ -60,7 +124,9 @@ struct State {
 
 class Replay {
  public:
-  Replay(const Scene& s, BroadLevel level, bool invalid) : s_(s), level_(level), invalid_(invalid) {
+  /// `margin`: boxes no farther apart than this must be paired.
+  Replay(const Scene& s, BroadLevel level, bool invalid, std::optional<double> margin)
+      : s_(s), level_(level), invalid_(invalid), margin_(margin) {
     const std::size_t n = s.bodies.size();
     now_.present.resize(n);
     now_.pose.resize(n);
@@ -79,12 +145,15 @@ class Replay {
   RequiredPairs required_pairs() const {
     std::vector<BoxedBody> boxed;
     for (std::size_t i = 0; i < now_.present.size(); ++i)
-      if (now_.present[i] && now_.has_box[i]) boxed.push_back({now_.box[i], static_cast<int>(i)});
+      if (now_.present[i] && now_.has_box[i])
+        boxed.push_back({margin_ ? widened(now_.box[i], *margin_ / 2) : now_.box[i], static_cast<int>(i)});
     const auto box = [&](int i) -> const Aabb& { return now_.box[static_cast<std::size_t>(i)]; };
     RequiredPairs out;
     for (const BodyPair& p : overlapping_boxes(std::move(boxed)))
-      if (is_reportable(s_, p.first, p.second))
-        out.push_back(required_by_boxes(p, box(p.first), box(p.second)));
+      if (is_reportable(s_, p.first, p.second) &&
+          (!margin_ || are_boxes_within(box(p.first), box(p.second), *margin_)))
+        out.push_back(margin_ ? required_by_margin(p, box(p.first), box(p.second), *margin_)
+                              : required_by_boxes(p, box(p.first), box(p.second)));
     return out;
   }
 
@@ -101,13 +170,27 @@ class Replay {
   const Scene& s_;
   BroadLevel level_;
   bool invalid_;
+  std::optional<double> margin_;
   State now_;
 };
 
-// If `swept`, the pairs that meet at some time in the step, starting from the bodies' own poses.
-std::vector<RequiredPairs> true_pairs_of_bodies(const Scene& s, bool swept, std::uint64_t& undecided) {
+std::vector<RequiredPairs> pairs_within_of_bodies(const Scene& s, std::uint64_t& undecided) {
   Truth truth(s);
-  if (swept) {
+  std::vector<RequiredPairs> out;
+  for (const auto& step : truth.pairs_within()) {
+    RequiredPairs& pairs = out.emplace_back();
+    for (const auto& p : step) pairs.push_back(required_within(s, p));
+  }
+  undecided += truth.undecided_pairs_within();
+  return out;
+}
+
+// The pairs that overlap or, asked about a motion, that meet at some time in the step, starting from the
+// bodies' own poses, or, asked about a margin, that are within it.
+std::vector<RequiredPairs> true_pairs_of_bodies(const Scene& s, Question asked, std::uint64_t& undecided) {
+  if (asked == Question::candidates_within) return pairs_within_of_bodies(s, undecided);
+  Truth truth(s);
+  if (asked == Question::swept_candidates) {
     RequiredPairs meeting;
     for (const BodyPair& p : truth.meeting_pairs()) meeting.push_back({p, FaultKind::moving, 0});
     undecided += truth.undecided_meetings();
@@ -126,11 +209,13 @@ class Judge {
  public:
   Judge(const Case& c, const Observation& answer, BroadLevel level, bool invalid)
       : s_(c.scene),
-        swept_(has_swept_candidates_query(c)),
+        asked_(c.queries.empty() ? Question::candidates : c.queries[0].question),
+        swept_(asked_ == Question::swept_candidates),
         answer_(answer),
         level_(level),
         invalid_(invalid),
-        replay_(c.scene, level, invalid) {}
+        replay_(c.scene, level, invalid,
+                asked_ == Question::candidates_within ? std::optional(c.scene.margin) : std::nullopt) {}
 
   CandidateVerdict run() {
     hash_.add(hash(s_));
@@ -159,7 +244,7 @@ class Judge {
   }
   void judge() {
     std::vector<RequiredPairs> truth;
-    if (level_ == BroadLevel::bodies) truth = true_pairs_of_bodies(s_, swept_, v_.undecided);
+    if (level_ == BroadLevel::bodies) truth = true_pairs_of_bodies(s_, asked_, v_.undecided);
     if (swept_) return judge_query(0, truth.at(0));
     std::size_t k = 0;
     for (const Step& step : s_.script) {
@@ -189,7 +274,8 @@ class Judge {
   void missed(int k, const RequiredPair& d) {
     const auto [a, b] = d.pair;
     const std::string how =
-        d.kind == FaultKind::solid    ? fmt::format("overlap by {:.2g} of the smaller body's size", d.share)
+        asked_ == Question::candidates_within ? fmt::format("are within the margin of {:g}", s_.margin)
+        : d.kind == FaultKind::solid  ? fmt::format("overlap by {:.2g} of the smaller body's size", d.share)
         : d.kind == FaultKind::moving ? std::string("meet within the step")
         : d.kind == FaultKind::unbounded ? std::string("overlap, one of them unbounded,")
                                          : std::string("touch, overlap by at most 1 %, or have no volume,");
@@ -225,6 +311,7 @@ class Judge {
   }
 
   const Scene& s_;
+  Question asked_;
   bool swept_;  // one question about all bodies, without a script
   const Observation& answer_;
   BroadLevel level_;

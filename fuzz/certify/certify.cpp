@@ -71,10 +71,22 @@ void add(std::vector<FaultCount>& to, const FaultCount& f) {
   same->cases = cases;
 }
 
+// The case of an evidence, asked with the margin.
+Case certified_case(const EvidenceRow& e, const Draw& d, std::uint64_t index, std::uint64_t planned,
+                    std::optional<double> margin) {
+  Case c = evidence_case(e, d, index, planned);
+  if (!margin) return c;
+  c.scene.margin = *margin;
+  for (Query& q : c.queries)
+    if (q.question == Question::candidates) q.question = Question::candidates_within;
+  return c;
+}
+
 class PartRun {
  public:
-  PartRun(const EvidenceRow& e, const Draw& d, std::uint64_t planned, Engine& engine)
-      : e_(e), d_(d), planned_(planned), engine_(engine) {}
+  PartRun(const EvidenceRow& e, const Draw& d, std::uint64_t planned, std::optional<double> margin,
+          Engine& engine)
+      : e_(e), d_(d), planned_(planned), margin_(margin), engine_(engine) {}
 
   Part run(std::uint64_t first, const std::atomic<bool>& stop) {
     const std::uint64_t end = std::min(first + e_.chunk, planned_);
@@ -91,7 +103,8 @@ class PartRun {
  private:
   void ask(std::uint64_t first, std::uint64_t n) {
     std::vector<Case> cases;
-    for (std::uint64_t k = 0; k < n; ++k) cases.push_back(evidence_case(e_, d_, first + k, planned_));
+    for (std::uint64_t k = 0; k < n; ++k)
+      cases.push_back(certified_case(e_, d_, first + k, planned_, margin_));
     const auto observed = engine_.run(cases);
     for (std::size_t k = 0; k < cases.size() && !part_.is_last; ++k)
       judge(first + k, cases[k], observed[k].answers.at(0));
@@ -109,6 +122,7 @@ class PartRun {
   const EvidenceRow& e_;
   const Draw& d_;
   std::uint64_t planned_;
+  std::optional<double> margin_;
   Engine& engine_;
   Part part_;
 };
@@ -144,7 +158,8 @@ class Certifier {
     out_.seed = config_.seed;
     out_.limit = config_.limit;
     out_.levels = config_.levels;
-    out_.sweeps = subject_.sweeps;
+    out_.sweeps = subject_.sweeps && !config_.margin;
+    out_.margin = config_.margin;
     out_.without = config_.without;
     out_.first_fault = config_.first_fault;
     draw_ = {
@@ -178,7 +193,7 @@ class Certifier {
       return std::find(list.begin(), list.end(), x) != list.end();
     };
     return has(config_.levels, e.level) && !has(config_.without, std::string(e.name)) &&
-           (!e.sweeps || subject_.sweeps) && !(config_.first_fault && has_fault(e.level));
+           (!e.sweeps || out_.sweeps) && !(config_.first_fault && has_fault(e.level));
   }
 
   bool has_fault(BroadLevel level) const {
@@ -213,7 +228,7 @@ class Certifier {
 
   // Finds the time that a question needs by doubling, unless more time has already proved useless.
   TooSlow too_slow(const EvidenceRow& e, std::uint64_t index, std::uint64_t planned) {
-    const Case c = evidence_case(e, draw_, index, planned);
+    const Case c = certified_case(e, draw_, index, planned, config_.margin);
     TooSlow t{
         e.level, std::string(e.name),  index, bodies_used(c), c.scene.script.size(), subject_.case_seconds,
         0,       subject_.case_seconds};
@@ -244,7 +259,7 @@ class Certifier {
     for (const FaultCount& f : out_.faults) {
       if (f.level != level || !(f.what == what)) continue;
       const EvidenceRow& e = row_of(f.evidence);
-      Refutation r = refute(subject_, e, f, evidence_case(e, draw_, f.index, planned(e)));
+      Refutation r = refute(subject_, e, f, certified_case(e, draw_, f.index, planned(e), config_.margin));
       if (r.is_shown_again || stop_) return r;
       if (!first) first = std::move(r);
     }
@@ -282,7 +297,7 @@ class Certifier {
         }
         Engine& engine = job.engine(subject_, e.level);
         engine.take_back();  // the result must not depend on which parts this job ran before
-        done[p] = PartRun(e, draw_, total.planned, engine).run(p * e.chunk, stop_);
+        done[p] = PartRun(e, draw_, total.planned, config_.margin, engine).run(p * e.chunk, stop_);
         const std::lock_guard lock(guard);
         if (done[p].is_last || (config_.first_fault && !done[p].faults.empty()))
           last = std::min(last.load(), p + 1);

@@ -38,6 +38,9 @@ struct CertifyConfig {
   std::uint64_t seed = 1;
   std::uint64_t limit = 0;  // most cases per evidence; 0: the scope's number
   std::vector<BroadLevel> levels{BroadLevel::boxes, BroadLevel::bodies};
+  /// If given, >= 0: pairs that are no farther apart must be reported (`candidates_within`). Motions are not
+  /// asked about then.
+  std::optional<double> margin = std::nullopt;
   std::vector<std::string> without;  // evidence to leave out, by name; an unknown name throws InputError
   bool first_fault = false;          // end a level at the first evidence that shows a fault
   /// Time for all evidence together, without refutations. Each evidence gets an equal share of what is left,

@@ -168,7 +168,7 @@ void Coverage::note_pair(const Case& c, const Query& q) {
     const auto [small, large] = std::minmax({bounding_radius(a), bounding_radius(b)});
     note("ratio", name_in(ratios, small > 0 ? large / small : large > 0 ? none : 1));
   }
-  if (q.question == Question::time_of_impact)
+  if (is_motion_question(q.question))
     note("movement",
          movements[static_cast<std::size_t>(moves(body(q.a))) + static_cast<std::size_t>(moves(body(q.b)))]);
 }
@@ -211,7 +211,7 @@ void Coverage::add(const Case& c, bool with_truth) {
     note("question", to_string(q.question));
     if (!is_pair_question(q.question)) continue;
     note_pair(c, q);
-    if (!with_truth || q.question == Question::time_of_impact) continue;
+    if (!with_truth || is_motion_question(q.question)) continue;
     note_regime(c, q);
     note_arithmetic(c, q);
   }

@@ -41,6 +41,7 @@ struct CheckOutput {
   bool undecided = false;
   std::vector<Unjudged> unjudged;
   double wide_claim = 0, wide_claim_in_l = 0;
+  std::optional<double> bound_slack_in_l;  // as Judgement has it
   std::uint64_t pairs_true = 0, pairs_reported = 0, pairs_duplicate = 0;
   std::optional<double> manifold_coverage;
   /// Largest error − τ over everything measured: > 0 wrong by that much, < 0 right with that much to spare.
@@ -80,6 +81,11 @@ void check_time_of_impact(const CheckInput& in, CheckOutput& out);
 void check_candidates(const CheckInput& in, CheckOutput& out);
 void check_scene_contacts(const CheckInput& in, CheckOutput& out);
 void check_swept_candidates(const CheckInput& in, CheckOutput& out);
+void check_within(const CheckInput& in, CheckOutput& out);
+void check_bounds(const CheckInput& in, CheckOutput& out);
+void check_bounded_distance(const CheckInput& in, CheckOutput& out);
+void check_candidates_within(const CheckInput& in, CheckOutput& out);
+void check_ray(const CheckInput& in, CheckOutput& out);
 
 struct CheckRow {
   Question question;
@@ -89,12 +95,19 @@ inline constexpr auto checks = std::to_array<CheckRow>({
     {Question::overlap, check_overlap},
     {Question::distance, check_distance},
     {Question::distance, check_witness},
+    {Question::distance, check_bounds},
     {Question::contact, check_contact},
     {Question::contact, check_manifold},
     {Question::time_of_impact, check_time_of_impact},
     {Question::candidates, check_candidates},
     {Question::scene_contacts, check_scene_contacts},
     {Question::swept_candidates, check_swept_candidates},
+    {Question::within, check_within},
+    {Question::bounded_distance, check_bounded_distance},
+    {Question::bounded_distance, check_witness},
+    {Question::bounded_distance, check_bounds},
+    {Question::candidates_within, check_candidates_within},
+    {Question::ray, check_ray},
 });
 
 /// The part of `contact` that scene contacts share: one stated contact of a pair that is not certainly apart

@@ -91,6 +91,7 @@ bool scale_by(Scene& s, double factor) {
     if (!scales(b.pose.translation, factor) || (b.motion && !scales(b.motion->linear, factor))) return false;
   for (const Step& step : s.script)
     if (step.pose && !scales(step.pose->translation, factor)) return false;
+  if (!scales(s.margin, factor)) return false;
   for (Shape& shape : s.shapes)
     change_numbers(shape, [&](auto& v, Domain domain) {
       if constexpr (std::is_same_v<std::decay_t<decltype(v)>, double>)
@@ -101,6 +102,7 @@ bool scale_by(Scene& s, double factor) {
   for_each_pose(s, [&](Pose& p) { p.translation *= factor; });
   for (Body& b : s.bodies)
     if (b.motion) b.motion->linear *= factor;
+  s.margin *= factor;
   return true;
 }
 

@@ -62,11 +62,17 @@ bool is_refusal(const CheckInput& asked) {
          asked.query.question == Question::candidates && !odd_numbers(asked.truth.scene()).empty();
 }
 
+// A form of a case, a shrunk one for instance, may have lost what makes two bodies a ray and its target.
+bool asks_something(const CheckInput& asked) {
+  return asked.query.question != Question::ray || is_ray(asked.truth.scene(), asked.query);
+}
+
 // received_frame: empty when the engine did not hold the bodies in question. No answer can then be right for
 // what it received, and any fault is due to the representation.
 Judgement judge_one(const CheckInput& asked, std::optional<int> received_frame) {
   Judgement j;
   j.outcome = asked.answer.outcome;
+  if (!asks_something(asked)) j.outcome = Outcome::unsupported;
   if (was_not_attempted(j.outcome) || is_refusal(asked)) return j;
   if (j.outcome != Outcome::answered) {
     FaultReport f;
@@ -90,6 +96,7 @@ Judgement judge_one(const CheckInput& asked, std::optional<int> received_frame) 
   j.pairs_reported = out.pairs_reported;
   j.pairs_duplicate = out.pairs_duplicate;
   j.manifold_coverage = out.manifold_coverage;
+  j.bound_slack_in_l = out.bound_slack_in_l;
   if (!received_frame) {
     j.blame = j.faults.empty() ? Blame::none : Blame::representation;
     return j;
@@ -108,9 +115,11 @@ void CheckOutput::not_judged(std::string claim, bool by_definition) {
 }
 
 void CheckOutput::note_claim(const CheckInput& in, double l) {
-  const double of_settings = in.query.question == Question::time_of_impact ? sweep_skin(in.card)
-                             : in.query.question == Question::distance     ? 0
-                                                                           : contact_offset(in.card);
+  const Question q = in.query.question;
+  const bool has_offset = q == Question::overlap || q == Question::contact;
+  const double of_settings = q == Question::time_of_impact || q == Question::ray ? sweep_skin(in.card)
+                             : has_offset                                        ? contact_offset(in.card)
+                                                                                 : 0;
   const double claim =
       in.card.source == claimed_by_user ? 0 : std::max(of_settings, believed_claim(in.card, in.answer));
   if (!(claim > fuzz::wide_claim * l) || claim / l <= wide_claim_in_l) return;
@@ -125,8 +134,23 @@ std::vector<Judgement> judge(const Case& c, const EngineCard& card, const CaseOb
   const int received = truth.frame_of(observations.received);
   const bool all_held = is_held(c.scene, observations.received, {Question::scene_contacts});
   for (std::size_t i = 0; i < c.queries.size(); ++i) {
-    static const Observation missing{
-        Outcome::crashed, "the engine gave no answer", {}, {}, {}, {}, {}, {}, {}, {}, {}, 0, 0, false, {}};
+    static const Observation missing{Outcome::crashed,
+                                     "the engine gave no answer",
+                                     {},
+                                     {},
+                                     {},
+                                     {},
+                                     {},
+                                     {},
+                                     {},
+                                     {},
+                                     {},
+                                     {},
+                                     {},
+                                     0,
+                                     0,
+                                     false,
+                                     {}};
     const Observation& answer = i < observations.answers.size() ? observations.answers[i] : missing;
     const bool held = all_held || is_held(c.scene, observations.received, c.queries[i]);
     result.push_back(

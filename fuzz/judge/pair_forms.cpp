@@ -51,7 +51,7 @@ bool contradicts(const FormAnswer& asked, bool asked_is_wrong, const PairForm& f
   const Observation &x = asked.observed.answers[query], &y = observed.answers[query];
   if (is_answered_once(x.outcome, y.outcome)) return true;
   if (x.outcome != Outcome::answered || y.outcome != Outcome::answered) return false;
-  if (asked.c.queries[query].question == Question::time_of_impact)
+  if (is_motion_question(asked.c.queries[query].question))
     return times_contradict(x, asked_is_wrong, form, observed, query, card, truth);
   return miss(form, implied_gap(asked.c.scene, asked.c.queries[query], x, card),
               implied_gap(form.c.scene, form.c.queries[query], y, card)) > 0;

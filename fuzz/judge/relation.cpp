@@ -40,6 +40,21 @@ GapInterval of_distance(double d, double tau, bool mesh) {
   return {d - tau, d + tau};
 }
 
+GapInterval of_margin(bool within, double margin, double tau, bool mesh) {
+  if (mesh && margin < 0) return {};
+  return within ? GapInterval{-infinity, margin + tau} : GapInterval{margin - tau, infinity};
+}
+
+// A bound that is not a number implies nothing here: the judge reports it.
+GapInterval of_bounds(const Observation& o, double tau, bool mesh) {
+  GapInterval g;
+  if (o.lower_bound && *o.lower_bound > -infinity && !(mesh && *o.lower_bound <= 0))
+    g.lo = *o.lower_bound - tau;
+  if (o.upper_bound && *o.upper_bound < infinity)
+    g.hi = (mesh ? std::max(0.0, *o.upper_bound) : *o.upper_bound) + tau;
+  return g;
+}
+
 double displacement(const Scene& s, const ReceivedScene& received) {
   if (!is_held(s, received, {Question::scene_contacts})) return infinity;
   Truth truth(s);
@@ -153,15 +168,19 @@ GapInterval implied_gap(const Scene& s, const Query& q, const Observation& o, co
   if (o.outcome != Outcome::answered || !is_pair_question(q.question)) return {};
   const double tau = tau_of(card, o, s, q.a, q.b, scale_of_pair(s, q.a, q.b));
   const bool mesh = is_mesh(s, q.a) || is_mesh(s, q.b);
-  if (q.question == Question::distance && o.distance)
+  const bool measures = q.question == Question::distance || q.question == Question::bounded_distance;
+  if (measures && o.distance)
     return std::isfinite(*o.distance) ? of_distance(*o.distance, tau, mesh) : GapInterval{};
+  if (measures && (o.lower_bound || o.upper_bound)) return of_bounds(o, tau, mesh);
+  if (q.question == Question::within)
+    return o.overlap ? of_margin(*o.overlap, s.margin, tau, mesh) : GapInterval{};
   if (q.question == Question::contact && o.overlap && *o.overlap && o.normal && o.depth && !mesh) {
     const double p = *o.depth;
     const double bias = depth_bias(card, kind_of(s.shape_of(q.a)), kind_of(s.shape_of(q.b)));
     const double least = -p + 2 * tau + bias * std::max(0.0, p);
     return std::isfinite(p) ? GapInterval{-p - tau, least} : GapInterval{};
   }
-  if (q.question != Question::time_of_impact && o.overlap)
+  if (!is_motion_question(q.question) && o.overlap)
     return of_verdict(*o.overlap, *o.overlap ? tau + contact_offset(card) : tau);
   return {};
 }
@@ -173,7 +192,7 @@ std::optional<BodyPair> pair_asked(const Case& c) {
     if (!is_pair_question(q.question)) continue;
     if (pair && *pair != BodyPair{q.a, q.b}) return std::nullopt;
     pair = BodyPair{q.a, q.b};
-    at_rest |= q.question != Question::time_of_impact;
+    at_rest |= !is_motion_question(q.question);
   }
   return at_rest ? pair : std::nullopt;
 }

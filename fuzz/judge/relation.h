@@ -4,6 +4,8 @@
 // Every right answer implies that the signed gap g of the pair lies in an interval:
 //   overlap            g in (-inf, τ]                apart            g in [-τ, inf)
 //   distance d         g in [d - τ, d + τ]           contact, depth p g in [-p - τ, -p + 2τ]
+//   within a margin m  g in (-inf, m + τ]            not within       g in [m - τ, inf)
+//   lower bound l      g in [l - τ, inf)             upper bound u    g in (-inf, u + τ]
 // (a right depth lies between d* - τ, else infeasible, and d* + 2τ, else excess or regret). A derivation maps
 // g exactly, or up to a stated rounding: the intervals of the base's and of the derived answers, mapped, must
 // intersect. Where they do not, one of the two answers is wrong, and both are from the same engine. Nothing

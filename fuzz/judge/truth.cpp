@@ -173,6 +173,10 @@ const referee::PairTruth& Truth::pair(int frame, int a, int b) {
   return it->second;
 }
 
+referee::Verdict Truth::within(int frame, int a, int b) {
+  return referee::judge_within(placed(frame, a), placed(frame, b), asked_.margin, pair(frame, a, b));
+}
+
 const referee::TimeTruth& Truth::motion(int frame, int a, int b) {
   auto& cache = frames_[static_cast<std::size_t>(frame)].motions;
   auto it = cache.find({a, b});
@@ -198,6 +202,13 @@ const referee::ContactRegion& Truth::contact_region(int frame, int a, int b) {
 
 referee::Bracket Truth::width(int frame, int a, int b, const Vec3& n) const {
   return referee::width(placed(frame, a), placed(frame, b), n);
+}
+
+referee::Bracket Truth::width_at(int frame, int a, int b, double t, const Vec3& n) const {
+  Placed moved = placed(frame, b);
+  const Vec3 way = t * motion_of(asked_, b).linear;
+  std::visit([&](auto& pose) { pose.translation += way; }, moved.pose);
+  return referee::width(placed(frame, a), moved, n);
 }
 
 referee::Bracket Truth::distance_to(int frame, int body, const Vec3& p, double enough) const {
@@ -291,6 +302,36 @@ std::vector<Truth::TruePair> Truth::overlapping(const std::vector<std::optional<
   return result;
 }
 
+namespace {
+
+// Contains every point within half the margin of the box.
+Aabb grown(Aabb box, double margin) {
+  for (int k = 0; k < 3; ++k) {
+    box.lo[k] = std::nextafter(box.lo[k] - margin / 2, -unbounded);
+    box.hi[k] = std::nextafter(box.hi[k] + margin / 2, unbounded);
+  }
+  return box;
+}
+
+}  // namespace
+
+std::vector<Truth::TruePair> Truth::near(const std::vector<std::optional<Placed>>& bodies) {
+  std::vector<BoxedBody> entries;
+  for (std::size_t i = 0; i < bodies.size(); ++i)
+    if (bodies[i])
+      entries.push_back({grown(referee::outer_box(*bodies[i]), asked_.margin), static_cast<int>(i)});
+  std::vector<TruePair> result;
+  for (const auto& [a, b] : overlapping_boxes(std::move(entries))) {
+    if (!is_reportable(asked_, a, b)) continue;
+    const Placed &x = *bodies[static_cast<std::size_t>(a)], &y = *bodies[static_cast<std::size_t>(b)];
+    TruePair p{{a, b}, referee::judge_pair(x, y)};
+    const referee::Verdict within = referee::judge_within(x, y, asked_.margin, p.truth);
+    if (within == referee::Verdict::undecided) ++undecided_pairs_within_;
+    if (within == referee::Verdict::overlap) result.push_back(std::move(p));
+  }
+  return result;
+}
+
 const std::vector<BodyPair>& Truth::meeting_pairs() {
   if (meeting_pairs_) return *meeting_pairs_;
   meeting_pairs_.emplace();
@@ -306,19 +347,28 @@ const std::vector<BodyPair>& Truth::meeting_pairs() {
   return *meeting_pairs_;
 }
 
+// A body that is no set, which only candidate queries may contain, is in no true pair.
+std::vector<std::optional<Placed>> Truth::present(const StepState& state) const {
+  std::vector<std::optional<Placed>> bodies(asked_.bodies.size());
+  for (std::size_t i = 0; i < bodies.size(); ++i)
+    if (const Shape& shape = asked_.shape_of(static_cast<int>(i));
+        state.pose[i] && is_closed_set(shape, *state.pose[i]))
+      bodies[i] = Placed{&shape, *state.pose[i]};
+  return bodies;
+}
+
 const std::vector<std::vector<Truth::TruePair>>& Truth::true_pairs() {
   if (true_pairs_) return *true_pairs_;
   true_pairs_.emplace();
-  for (const StepState& state : steps()) {
-    // A body that is no set, which only candidate queries may contain, is in no true pair.
-    std::vector<std::optional<Placed>> bodies(asked_.bodies.size());
-    for (std::size_t i = 0; i < bodies.size(); ++i)
-      if (const Shape& shape = asked_.shape_of(static_cast<int>(i));
-          state.pose[i] && is_closed_set(shape, *state.pose[i]))
-        bodies[i] = Placed{&shape, *state.pose[i]};
-    true_pairs_->push_back(overlapping(bodies));
-  }
+  for (const StepState& state : steps()) true_pairs_->push_back(overlapping(present(state)));
   return *true_pairs_;
+}
+
+const std::vector<std::vector<Truth::TruePair>>& Truth::pairs_within() {
+  if (pairs_within_) return *pairs_within_;
+  pairs_within_.emplace();
+  for (const StepState& state : steps()) pairs_within_->push_back(near(present(state)));
+  return *pairs_within_;
 }
 
 const std::vector<Truth::TruePair>& Truth::scene_pairs(int frame) {

@@ -38,10 +38,14 @@ class Truth {
 
   Placed placed(int frame, int body) const;
   const referee::PairTruth& pair(int frame, int a, int b);
+  /// Is the gap at most the scene's margin? overlap: yes; disjoint: no.
+  referee::Verdict within(int frame, int a, int b);
   const referee::TimeTruth& motion(int frame, int a, int b);
   /// The region of an overlapping pair, along the referee's normal; cached.
   const referee::ContactRegion& contact_region(int frame, int a, int b);
   referee::Bracket width(int frame, int a, int b, const Vec3& n) const;
+  /// The same at time t of b's linear motion, with b's position rounded.
+  referee::Bracket width_at(int frame, int a, int b, double t, const Vec3& n) const;
   referee::Bracket distance_to(int frame, int body, const Vec3& p, double enough = 0) const;
   referee::Bracket gap_at(int frame, int a, int b, double t) const;
   /// For a convex body and a mesh that overlap: the certain depth in the deepest triangle, i.e. how far the
@@ -72,9 +76,12 @@ class Truth {
     referee::PairTruth truth;
   };
   const std::vector<std::vector<TruePair>>& true_pairs();
+  /// The same for pairs whose gap is at most the scene's margin, which is not negative.
+  const std::vector<std::vector<TruePair>>& pairs_within();
   /// Pairs that overlap at the bodies' own poses in the given frame, as above.
   const std::vector<TruePair>& scene_pairs(int frame);
   std::uint64_t undecided_pairs() const { return undecided_pairs_; }
+  std::uint64_t undecided_pairs_within() const { return undecided_pairs_within_; }
   /// Pairs that overlap at some time of the step, given the bodies' own poses and motions (frame 0 only), as
   /// above. Pairs for which this is neither certain nor excluded are left out and counted.
   const std::vector<BodyPair>& meeting_pairs();
@@ -95,13 +102,16 @@ class Truth {
     std::optional<std::vector<TruePair>> scene_pairs;
   };
   std::vector<TruePair> overlapping(const std::vector<std::optional<Placed>>& bodies);
+  std::vector<TruePair> near(const std::vector<std::optional<Placed>>& bodies);
+  std::vector<std::optional<Placed>> present(const StepState& state) const;
 
   const Scene& asked_;
   std::vector<Frame> frames_;
   std::map<BodyPair, std::vector<Vec3>> hints_;
   std::optional<std::vector<StepState>> steps_;
   std::optional<std::vector<std::vector<TruePair>>> true_pairs_;
-  std::uint64_t undecided_pairs_ = 0;
+  std::optional<std::vector<std::vector<TruePair>>> pairs_within_;
+  std::uint64_t undecided_pairs_ = 0, undecided_pairs_within_ = 0;
   std::optional<std::vector<BodyPair>> meeting_pairs_;
   std::uint64_t undecided_meetings_ = 0;
 };

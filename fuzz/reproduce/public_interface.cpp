@@ -155,9 +155,9 @@ std::string scene_source(const ts_scene& s) {
          array("ts_step", "steps", steps) + array("ts_aabb", "boxes", boxes) +
          fmt::format("const int32_t ignored[] = {};\n",
                      s.ignored_count ? list(s.ignored, 2 * s.ignored_count) : "{0}");
-  return out +
-         fmt::format("const ts_scene scene = {{shapes, {}, bodies, {}, steps, {}, ignored, {}, boxes}};\n",
-                     s.shape_count, s.body_count, s.step_count, s.ignored_count);
+  return out + fmt::format(
+                   "const ts_scene scene = {{shapes, {}, bodies, {}, steps, {}, ignored, {}, boxes, {}}};\n",
+                   s.shape_count, s.body_count, s.step_count, s.ignored_count, literal(s.margin));
 }
 
 }  // namespace

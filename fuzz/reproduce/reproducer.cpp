@@ -337,10 +337,9 @@ EngineQuestion question_of(const Finding& finding) {
   if (is_relation(finding.fault))
     throw InputError("reproduce",
                      "a relation compares two scenes; use `touchstone replay` instead: " + finding.key());
-  if (v.question == Question::swept_candidates)
-    throw InputError(
-        "reproduce",
-        "does not support candidates of moving bodies; use `touchstone replay` instead: " + finding.key());
+  if (v.question >= Question::swept_candidates)
+    throw InputError("reproduce", fmt::format("does not support {}; use `touchstone replay` instead: {}",
+                                              to_string(v.question), finding.key()));
   const int n = static_cast<int>(v.c.scene.bodies.size());
   if (v.a < 0 || v.b < 0 || v.a >= n || v.b >= n)
     throw InputError("reproduce", "the finding is not about a pair of bodies: " + finding.key());

@@ -154,6 +154,7 @@ struct Image {
   std::vector<BodyForm> forms;     // by place
   std::vector<Body> bodies;        // by place; poses without rotation, shapes not set
   int exponent = 0;
+  double margin = 0;
 };
 
 class Canonical {
@@ -186,6 +187,7 @@ class Canonical {
                  const std::vector<BodyForm>& forms) const {
     Image image;
     image.order = order;
+    image.margin = case_.scene.margin;
     for (const std::size_t i : order) {
       image.forms.push_back(forms[i]);
       image.bodies.push_back(placed(world, i, order.front()));
@@ -233,8 +235,10 @@ class Canonical {
       only.scene.shapes = {f.shape->shape};
       for (const double* x : lengths(only)) consider(*x);
     }
+    consider(image.margin);
     image.exponent = largest > 0 ? -std::ilogb(rounded_to(largest, float_bits)) : 0;
     const auto scaled = [&](double x) { return rounded_to(std::ldexp(x, image.exponent), float_bits) + 0.0; };
+    image.margin = scaled(image.margin);
     for (Body& b : image.bodies) {
       b.pose.translation = b.pose.translation.unaryExpr(scaled);
       if (!b.motion) continue;
@@ -268,6 +272,7 @@ class Canonical {
       key.push_back(a);
       key.push_back(b);
     }
+    if (image.margin != 0) key.push_back(image.margin);
   }
 
   // The new number of each body.
@@ -303,6 +308,7 @@ class Canonical {
     Case r;
     r.queries = queries(image.order);
     r.scene.ignored = ignored(image.order);
+    r.scene.margin = image.margin;
     for (std::size_t i = 0; i < image.bodies.size(); ++i) {
       Body b = image.bodies[i];
       b.pose.rotation = quaternion_of(image.forms[i].rotation);

@@ -65,6 +65,12 @@ class PairClearance {
 
   bool is_clear(int a, int b) { return is_apart(a, b) || is_deep(a, b); }
 
+  /// The gap is clearly not the scene's margin.
+  bool is_clear_of_margin(int a, int b) {
+    const referee::Bracket gap = truth_.pair(0, a, b).gap;
+    return gap.lo > scene_.margin + margin(a, b) || gap.hi < scene_.margin - margin(a, b);
+  }
+
   bool is_impact_clear(int a, int b) { return is_apart(a, b) && is_course_clear(a, b); }
 
   bool is_step_clear(int a, int b) { return is_deep(a, b) || is_impact_clear(a, b); }
@@ -155,10 +161,16 @@ bool is_question_clear(const Scene& scene, const Query& q, PairClearance& pairs)
     case Question::distance:
     case Question::contact:
       return pairs.is_clear(q.a, q.b);
+    case Question::within:
+    case Question::bounded_distance:
+      return pairs.is_clear(q.a, q.b) && pairs.is_clear_of_margin(q.a, q.b);
+    case Question::ray:
     case Question::time_of_impact:
       return pairs.is_impact_clear(q.a, q.b);
     case Question::candidates:
       return are_candidates_clear(scene);
+    case Question::candidates_within:
+      return false;  // no form is known in which every pair is clear of the margin
     case Question::scene_contacts:
       return are_contacts_clear(scene);
     case Question::swept_candidates:

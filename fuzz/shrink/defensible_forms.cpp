@@ -98,7 +98,7 @@ struct AskedPair {
 
 std::optional<AskedPair> pair_of(const Case& c) {
   for (const Query& q : c.queries)
-    if (is_pair_question(q.question)) return AskedPair{q.a, q.b, q.question == Question::time_of_impact};
+    if (is_pair_question(q.question)) return AskedPair{q.a, q.b, is_motion_question(q.question)};
   if (c.scene.bodies.size() != 2 || !c.scene.script.empty()) return std::nullopt;
   return AskedPair{0, 1, has_swept_candidates_query(c)};
 }

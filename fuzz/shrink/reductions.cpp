@@ -25,6 +25,7 @@ std::vector<double*> lengths(Case& c) {
   }
   for (Step& s : c.scene.script)
     if (s.pose) add(s.pose->translation);
+  out.push_back(&c.scene.margin);
   return out;
 }
 

@@ -18,10 +18,12 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <cstdio>
 #include <exception>
+#include <limits>
 #include <set>
 #include <utility>
 
@@ -54,13 +56,27 @@ inline std::int32_t load(ts_engine* e, const ts_scene* scene, const ts_received*
 }
 inline void unload(ts_engine* e) { held(e) = {}; }
 
+/// Contains every point within `by` of the box, if it is one.
+inline ts_aabb widened(ts_aabb box, double by) {
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  for (int k = 0; k < 3; ++k)
+    if (!(box.lower[k] <= box.upper[k])) return box;
+  for (int k = 0; k < 3; ++k) {
+    box.lower[k] = std::nextafter(box.lower[k] - by, -infinity);
+    box.upper[k] = std::nextafter(box.upper[k] + by, infinity);
+  }
+  return box;
+}
+
+/// `margin`: pairs of boxes that are no farther apart are to be reported, so each is widened by half of it.
 template <class Mine>
-void run(const Held& h, const ts_sink& sink) {
+void run(const Held& h, double margin, const ts_sink& sink) {
   Mine mine;
   std::int32_t queries = 0;
   for (std::size_t i = 0; i < h.scene->step_count; ++i) {
     const ts_step& step = h.scene->steps[i];
-    const ts_aabb& box = h.scene->step_boxes[i];
+    const ts_aabb& own = h.scene->step_boxes[i];
+    const ts_aabb box = margin > 0 ? widened(own, margin / 2) : own;
     if (step.op == TS_INSERT) mine.insert(step.body, box);
     if (step.op == TS_MOVE) mine.move(step.body, box);
     if (step.op == TS_REMOVE) mine.remove(step.body);
@@ -75,9 +91,9 @@ void run(const Held& h, const ts_sink& sink) {
 template <class Mine>
 void ask(ts_engine* e, std::int32_t question, std::int32_t, std::int32_t, ts_answer* out,
          const ts_sink* sink) {
-  if (question != TS_CANDIDATES) return;  // stays TS_UNSUPPORTED
+  if (question != TS_CANDIDATES && question != TS_CANDIDATES_WITHIN) return;  // stays TS_UNSUPPORTED
   try {
-    run<Mine>(held(e), *sink);
+    run<Mine>(held(e), question == TS_CANDIDATES_WITHIN ? held(e).scene->margin : 0, *sink);
     out->outcome = TS_ANSWERED;
   } catch (const std::exception& why) {
     out->outcome = TS_THREW;

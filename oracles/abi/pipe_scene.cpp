@@ -127,6 +127,7 @@ Json scene_of(const ts_scene& s) {
   for (std::size_t i = 0; i < s.step_count; ++i) j["steps"].push_back(step(s.steps[i]));
   for (std::size_t i = 0; i < s.ignored_count; ++i)
     j["ignored"].push_back({s.ignored[2 * i], s.ignored[2 * i + 1]});
+  if (s.margin != 0) j["margin"] = finite(s.margin);
   return j;
 }
 

@@ -7,6 +7,8 @@
 //     void load(const ts_scene&, const ts_received&);      // may throw Unsupported or anything
 //     void unload();
 //     void ask(ts_question, int a, int b, ts_answer&, const ts_sink&);
+//     // Optional: those after TS_SWEPT_CANDIDATES that `ask` takes.
+//     static constexpr ts_question later_questions[] = {TS_WITHIN};
 //     // Optional. What it throws makes the host ask about each pair alone.
 //     void ask_many(const ts_batch&, ts_answer* answers, const ts_batch_sink&);
 //   };
@@ -264,9 +266,18 @@ struct Table {
       return TS_THREW;
     }
   }
+  /// Questions after TS_SWEPT_CANDIDATES are passed on to classes that list them.
+  static bool knows(std::int32_t question) {
+    if (question <= TS_SWEPT_CANDIDATES) return true;
+    if constexpr (requires { Engine::later_questions; })
+      return std::find(std::begin(Engine::later_questions), std::end(Engine::later_questions), question) !=
+             std::end(Engine::later_questions);
+    return false;
+  }
   static void ask(ts_engine* e, std::int32_t question, std::int32_t a, std::int32_t b, ts_answer* out,
                   const ts_sink* sink) {
     try {
+      if (!knows(question)) throw Unsupported("unknown question");
       out->outcome = TS_ANSWERED;
       self(e).ask(static_cast<ts_question>(question), a, b, *out, *sink);
     } catch (const Unsupported& why) {

@@ -171,7 +171,8 @@ PluginScene::PluginScene(const Scene& scene, bool with_boxes) {
   for (auto [a, b] : scene.ignored) ignored_.insert(ignored_.end(), {a, b});
   view_ = {shapes_.data(),  shapes_.size(),       bodies_.data(),
            bodies_.size(),  steps_.data(),        steps_.size(),
-           ignored_.data(), scene.ignored.size(), with_boxes ? boxes_.data() : nullptr};
+           ignored_.data(), scene.ignored.size(), with_boxes ? boxes_.data() : nullptr,
+           scene.margin};
 }
 
 ReceivedCollector::ReceivedCollector(const Scene& scene) : scene_(scene) {
@@ -237,7 +238,7 @@ void ReceivedCollector::body(int index, const double* matrix, const double* tran
 ts_answer blank_answer() {
   ts_answer blank{};
   blank.outcome = TS_UNSUPPORTED;
-  blank.distance = blank.depth = blank.toi = nan_value;
+  blank.distance = blank.depth = blank.toi = blank.lower = blank.upper = nan_value;
   for (double* v : {blank.point_a, blank.point_b, blank.normal}) std::fill_n(v, 3, nan_value);
   return blank;
 }
@@ -293,6 +294,8 @@ Observation AnswerCollector::take(Question question) {
   if (a.has & TS_HAS_NORMAL) o.normal = vec3(a.normal);
   if (a.has & TS_HAS_DEPTH) o.depth = a.depth;
   if (a.has & TS_HAS_TOI) o.toi = a.toi;
+  if (a.has & TS_HAS_LOWER) o.lower_bound = a.lower;
+  if (a.has & TS_HAS_UPPER) o.upper_bound = a.upper;
   if (std::isfinite(a.claimed_tolerance) && a.claimed_tolerance > 0)
     o.claimed_tolerance = a.claimed_tolerance;
   if (a.ns > 0) o.elapsed_ns = a.ns;

@@ -29,7 +29,9 @@ enum Present : std::uint16_t {
   has_depth = 16,
   has_toi = 32,
   has_lists = 64,
-  all_present = 127
+  has_lower = 128,
+  has_upper = 256,
+  all_present = 511
 };
 
 void put_lists(Writer& w, const Observation& o) {
@@ -71,10 +73,10 @@ void get_lists(Reader& r, Observation& o) {
 
 void put_observation(Writer& w, const Observation& o) {
   const bool lists = !o.manifold.empty() || !o.candidate_pairs.empty() || !o.contacts.empty();
-  const auto present =
-      static_cast<std::uint16_t>((o.overlap ? has_overlap : 0) | (o.distance ? has_distance : 0) |
-                                 (o.witness ? has_witness : 0) | (o.normal ? has_normal : 0) |
-                                 (o.depth ? has_depth : 0) | (o.toi ? has_toi : 0) | (lists ? has_lists : 0));
+  const auto present = static_cast<std::uint16_t>(
+      (o.overlap ? has_overlap : 0) | (o.distance ? has_distance : 0) | (o.witness ? has_witness : 0) |
+      (o.normal ? has_normal : 0) | (o.depth ? has_depth : 0) | (o.toi ? has_toi : 0) |
+      (lists ? has_lists : 0) | (o.lower_bound ? has_lower : 0) | (o.upper_bound ? has_upper : 0));
   w.put(static_cast<std::uint8_t>(o.outcome)).put(present).text(o.detail);
   w.put(o.claimed_tolerance).put(o.elapsed_ns);
   if (o.overlap) w.put(static_cast<std::uint8_t>(*o.overlap));
@@ -83,6 +85,8 @@ void put_observation(Writer& w, const Observation& o) {
   if (o.normal) w.put(*o.normal);
   if (o.depth) w.put(*o.depth);
   if (o.toi) w.put(*o.toi);
+  if (o.lower_bound) w.put(*o.lower_bound);
+  if (o.upper_bound) w.put(*o.upper_bound);
   if (lists) put_lists(w, o);
 }
 
@@ -103,6 +107,8 @@ Observation get_observation(Reader& r) {
   if (present & has_normal) o.normal = r.vec3();
   if (present & has_depth) o.depth = r.get<double>();
   if (present & has_toi) o.toi = r.get<double>();
+  if (present & has_lower) o.lower_bound = r.get<double>();
+  if (present & has_upper) o.upper_bound = r.get<double>();
   if (present & has_lists) get_lists(r, o);
   return o;
 }
@@ -143,7 +149,11 @@ void append(std::string& out, const Hello& m) {
   framed(out, Type::hello, [&](Writer& w) {
     w.count(m.cards.size());
     for (const std::string& c : m.cards) w.text(c);
-    w.put(m.chosen).text(m.error).text(m.sandbox).put(static_cast<std::uint8_t>(m.batches)).text(m.built_from);
+    w.put(m.chosen)
+        .text(m.error)
+        .text(m.sandbox)
+        .put(static_cast<std::uint8_t>(m.batches))
+        .text(m.built_from);
   });
 }
 

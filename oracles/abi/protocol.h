@@ -16,7 +16,7 @@
 
 namespace touchstone::protocol {
 
-inline constexpr std::uint16_t version = 2;
+inline constexpr std::uint16_t version = 3;
 /// A frame longer than this is malformed.
 inline constexpr std::uint32_t max_payload_bytes = std::uint32_t{1} << 30;
 

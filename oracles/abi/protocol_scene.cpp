@@ -122,6 +122,7 @@ void put_scene(Writer& w, const Scene& scene) {
     w.put(static_cast<std::uint8_t>(s.op)).put(s.body).put(static_cast<std::uint8_t>(s.pose.has_value()));
     if (s.pose) put_pose(w, *s.pose);
   }
+  w.put(scene.margin);
 }
 
 Scene get_scene(Reader& r) {
@@ -137,6 +138,7 @@ Scene get_scene(Reader& r) {
   }
   scene.script.resize(r.count(6));
   for (Step& s : scene.script) s = get_step(r, scene.bodies.size());
+  scene.margin = r.get<double>();
   return scene;
 }
 

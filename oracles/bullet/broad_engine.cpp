@@ -4,6 +4,8 @@
 #include <BulletCollision/BroadphaseCollision/btDbvtBroadphase.h>
 #include <BulletCollision/BroadphaseCollision/btSimpleBroadphase.h>
 
+#include <cmath>
+#include <limits>
 #include <memory>
 
 #include "oracles/abi/plugin_kit.h"
@@ -34,9 +36,11 @@ constexpr Row rows[] = {
 
 class Run {
  public:
+  /// `margin`: every AABB is widened by half of it.
   Run(const ts_scene& scene, const std::vector<std::unique_ptr<Shape>>& shapes, btDispatcher& dispatcher,
-      BroadPhasePtr phase)
+      BroadPhasePtr phase, double margin)
       : scene_(scene),
+        margin_(margin),
         shapes_(shapes),
         dispatcher_(dispatcher),
         phase_(std::move(phase)),
@@ -59,6 +63,7 @@ class Run {
     }
     btVector3 lo, hi;
     box_of(step, lo, hi);
+    if (margin_ > 0) widen(lo, hi);
     if (step.op == TS_MOVE) return phase_->setAabb(proxy, lo, hi, &dispatcher_);
     const bool fixed = scene_.bodies[step.body].is_static;
     const int group = fixed ? btBroadphaseProxy::StaticFilter : btBroadphaseProxy::DefaultFilter;
@@ -79,6 +84,15 @@ class Run {
   }
 
  private:
+  // Outward by half the margin and by the roundings of the sum and of the margin.
+  void widen(btVector3& lo, btVector3& hi) const {
+    const btScalar most = std::numeric_limits<btScalar>::infinity();
+    const btScalar by = std::nextafter(static_cast<btScalar>(margin_ / 2), most);
+    for (int k = 0; k < 3; ++k) {
+      lo[k] = std::nextafter(lo[k] - by, -most);
+      hi[k] = std::nextafter(hi[k] + by, most);
+    }
+  }
   // The AABB of an axis-aligned box is computed directly, as a user with AABBs would: btBoxShape::getAabb
   // rounds once more because of its margin. A rotation by a third of a turn about the diagonal also keeps a
   // box axis-aligned.
@@ -100,6 +114,7 @@ class Run {
   }
 
   const ts_scene& scene_;
+  double margin_;
   const std::vector<std::unique_ptr<Shape>>& shapes_;
   btDispatcher& dispatcher_;
   BroadPhasePtr phase_;
@@ -110,6 +125,7 @@ class Run {
 
 class Engine {
  public:
+  static constexpr ts_question later_questions[] = {TS_CANDIDATES_WITHIN};
   static std::vector<kit::CardText> cards() {
     std::vector<kit::CardText> all;
     const std::string prefix = is_double ? "bullet-f64-" : "bullet-f32-";
@@ -139,8 +155,10 @@ class Engine {
   }
 
   void ask(ts_question question, int, int, ts_answer&, const ts_sink& sink) {
-    if (question != TS_CANDIDATES) throw kit::Unsupported("a broad phase only");
-    Run run(*scene_, shapes_, dispatcher_, row_.make());
+    if (question != TS_CANDIDATES && question != TS_CANDIDATES_WITHIN)
+      throw kit::Unsupported("a broad phase only");
+    const double margin = question == TS_CANDIDATES_WITHIN ? scene_->margin : 0;
+    Run run(*scene_, shapes_, dispatcher_, row_.make(), margin);
     kit::run_script(
         *scene_, [&](const ts_step& step) { run.apply(step); },
         [&](int k) {

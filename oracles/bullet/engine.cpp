@@ -17,12 +17,14 @@ namespace {
 
 // btContinuousConvexCollision stops at a gap of 0.001, a length hard-coded in its source.
 constexpr double sweep_gap = 0.001;
+// The same in btGjkConvexCast, which casts rays.
+constexpr double ray_gap = 0.001;
 
 constexpr const char* source =
     "btCollisionMargin.h: 0.04; inside for box and cylinder (setSafeMargin), outside for hull, cone; "
-    "btContinuousConvexCollision.cpp: sweep ends at a gap of 0.001; btBoxBoxDetector.cpp: dBoxBox2 prefers "
-    "faces "
-    "by fudge_factor 1.05";
+    "btContinuousConvexCollision.cpp: sweep ends at a gap of 0.001; btGjkConvexCast.cpp: ray ends at a gap "
+    "of "
+    "0.001; btBoxBoxDetector.cpp: dBoxBox2 prefers faces by fudge_factor 1.05";
 
 btDefaultCollisionConstructionInfo construction_of(const Setting& s) {
   btDefaultCollisionConstructionInfo info;
@@ -32,6 +34,7 @@ btDefaultCollisionConstructionInfo construction_of(const Setting& s) {
 
 class Engine {
  public:
+  static constexpr ts_question later_questions[] = {TS_WITHIN, TS_RAY};
   static std::vector<kit::CardText> cards() {
     const std::string prefix = is_double ? "bullet-f64-" : "bullet-f32-";
     const std::string version =
@@ -78,8 +81,9 @@ class Engine {
   }
 
   void ask(ts_question question, int a, int b, ts_answer& out, const ts_sink& sink) {
-    if ((question == TS_TIME_OF_IMPACT) ? setting_.minkowski || setting_.epa_tolerance
-                                        : setting_.allowed_penetration.has_value())
+    const bool of_depths = setting_.minkowski || setting_.epa_tolerance,
+               of_sweeps = setting_.allowed_penetration.has_value();
+    if (question == TS_TIME_OF_IMPACT ? of_depths : question == TS_RAY ? of_depths || of_sweeps : of_sweeps)
       throw kit::Unsupported("this engine's setting does not affect this question");
     if (question == TS_SWEPT_CANDIDATES)
       throw kit::Unsupported("Bullet's broad phases do not support moving bodies");
@@ -99,6 +103,10 @@ class Engine {
         return ask_contact(a, b, out, &sink);
       case TS_DISTANCE:
         return ask_distance(a, b, out);
+      case TS_WITHIN:
+        return ask_within(a, b, out);
+      case TS_RAY:
+        return ask_ray(a, b, out);
       default:
         return ask_time(a, b, out);
     }
@@ -155,6 +163,28 @@ class Engine {
     }
     kit::set_distance(out, d->distance);
     kit::set_points(out, d->on_a, d->on_b);
+  }
+
+  // ContactResultCallback::m_closestDistanceThreshold: points are reported up to that distance.
+  void ask_within(int a, int b, ts_answer& out) {
+    if (sim_) throw kit::Unsupported("the simulation path has no distance query");
+    if (scene_->margin < 0) throw kit::Unsupported("m_closestDistanceThreshold is not for depths");
+    const auto margin = static_cast<btScalar>(scene_->margin);
+    const std::vector<Point> all = query_points(*query_world_, object(a), object(b), margin);
+    const Point* const d = deepest(all);
+    kit::set_overlap(out, d && d->distance <= margin);
+    out.claimed_tolerance = claimed_margin(a, b);
+  }
+
+  void ask_ray(int a, int b, ts_answer& out) {
+    if (sim_) throw kit::Unsupported("the simulation path has no ray test");
+    const Pose start = kit::pose_of(scene_->bodies[b].pose);
+    const Vec3 end = start.translation + kit::vec3(scene_->bodies[b].linear);
+    const auto hit = cast_ray(object(a), start.translation, end);
+    out.claimed_tolerance = shape(a).outside_margin() + shape(a).inside_margin() + ray_gap;
+    if (!hit) return;
+    kit::set_toi(out, hit->part);
+    kit::set_normal(out, hit->normal);
   }
 
   // The sweep requires a target at rest. A target that only translates is brought to rest by using the

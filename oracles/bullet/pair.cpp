@@ -1,5 +1,7 @@
 #include "oracles/bullet/pair.h"
 
+#include <BulletCollision/NarrowPhaseCollision/btRaycastCallback.h>
+
 namespace touchstone::bullet_adapter {
 namespace {
 
@@ -73,6 +75,21 @@ std::optional<double> sweep(btDefaultCollisionConfiguration& configuration, cons
   world->removeCollisionObject(&target);
   if (!closest.hasHit()) return std::nullopt;
   return static_cast<double>(closest.m_closestHitFraction);
+}
+
+std::optional<RayHit> cast_ray(btCollisionObject& target, const Vec3& start, const Vec3& end) {
+  const auto point = [](const Vec3& v) {
+    return btVector3(static_cast<btScalar>(v.x()), static_cast<btScalar>(v.y()),
+                     static_cast<btScalar>(v.z()));
+  };
+  const btTransform from(btQuaternion::getIdentity(), point(start)),
+      to(btQuaternion::getIdentity(), point(end));
+  btCollisionWorld::ClosestRayResultCallback closest(from.getOrigin(), to.getOrigin());
+  closest.m_flags |= btTriangleRaycastCallback::kF_UseGjkConvexCastRaytest;
+  btCollisionWorld::rayTestSingle(from, to, &target, target.getCollisionShape(), target.getWorldTransform(),
+                                  closest);
+  if (!closest.hasHit()) return std::nullopt;
+  return RayHit{static_cast<double>(closest.m_closestHitFraction), vec3(closest.m_hitNormalWorld)};
 }
 
 }  // namespace touchstone::bullet_adapter

@@ -35,4 +35,12 @@ std::optional<double> sweep(btDefaultCollisionConfiguration& configuration, cons
                             const btTransform& from, const btTransform& to, btCollisionObject& target,
                             double allowed_penetration);
 
+struct RayHit {
+  double part;  // of the way from start to end
+  Vec3 normal;
+};
+/// btCollisionWorld::rayTestSingle against one body, as rayTest does for each that the ray's box meets, with
+/// kF_UseGjkConvexCastRaytest: the default for convex shapes is documented as approximate, without a bound.
+std::optional<RayHit> cast_ray(btCollisionObject& target, const Vec3& start, const Vec3& end);
+
 }  // namespace touchstone::bullet_adapter

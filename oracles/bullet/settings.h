@@ -41,7 +41,7 @@ inline constexpr Setting settings[] = {{"query@0.001", false, 0.001},
 
 inline constexpr const char* query_settings =
     "btCollisionWorld::contactPairTest (distance: m_closestDistanceThreshold BT_LARGE_FLOAT); time of impact "
-    "convexSweepTest; candidates btDbvtBroadphase; ";
+    "convexSweepTest; rays rayTest with kF_UseGjkConvexCastRaytest; candidates btDbvtBroadphase; ";
 inline constexpr const char* sim_settings =
     "performDiscreteCollisionDetection in a fresh world; no distance, no time of impact; candidates "
     "btDbvtBroadphase; ";

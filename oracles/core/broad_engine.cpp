@@ -17,8 +17,9 @@ struct NoBox {};
 // Runs a script through one broad phase. Consecutive moves become one update.
 class Run {
  public:
-  Run(const Scene& s, broad::BroadPhase& phase, BroadBoxes boxes, Observation& out)
-      : s_(s), phase_(phase), boxes_(boxes), out_(out) {}
+  /// `margin`: every box is widened by half of it.
+  Run(const Scene& s, broad::BroadPhase& phase, BroadBoxes boxes, double margin, Observation& out)
+      : s_(s), phase_(phase), boxes_(boxes), out_(out), margin_(margin) {}
 
   /// Runs one step of the bodies' motions, from their own poses.
   void step() {
@@ -45,16 +46,21 @@ class Run {
     }
     return swept_ ? box_of(s_, step.body, p) : broad::body_box(s_.shape_of(step.body), p);
   }
+  // An inverted box stays inverted.
+  Aabb box_with_margin(const Step& step) const {
+    const Aabb own = box(step);
+    return margin_ > 0 && (own.lo.array() <= own.hi.array()).all() ? widened(own, margin_ / 2) : own;
+  }
   void apply(const Step& step) {
     if (step.op == Step::Op::move) {
-      moves_.push_back({step.body, box(step)});
+      moves_.push_back({step.body, box_with_margin(step)});
       return;
     }
     flush();
     if (step.op == Step::Op::query) return query();
     if (step.op == Step::Op::remove) return attempt([&] { phase_.remove(step.body); });
     const auto mobility = body_of(s_, step.body).is_static ? broad::Mobility::fixed : broad::Mobility::moving;
-    attempt([&] { phase_.insert(step.body, box(step), mobility); });
+    attempt([&] { phase_.insert(step.body, box_with_margin(step), mobility); });
   }
   void flush() {
     if (moves_.size() == 1) attempt([&] { phase_.move(moves_[0].id, moves_[0].box); });
@@ -90,6 +96,7 @@ class Run {
   BroadBoxes boxes_;
   Observation& out_;
   bool swept_ = false;
+  double margin_;
   std::vector<broad::BoxUpdate> moves_;
   std::vector<broad::IdPair> found_;
 };
@@ -117,7 +124,7 @@ class BroadEngine final : public NativeEngine {
     }
     try {
       const auto phase = row_.make();
-      Run run(s, *phase, boxes_, o);
+      Run run(s, *phase, boxes_, q.question == Question::candidates_within ? s.margin : 0, o);
       if (swept)
         run.step();
       else

@@ -30,6 +30,25 @@ void store(const DistanceAnswer& answer, Observation& o) {
   o.normal = answer.normal;
 }
 
+void store(const WithinAnswer& answer, Observation& o) {
+  o.outcome = answer.outcome;
+  if (answer.outcome == Outcome::answered) o.overlap = answer.within;
+}
+
+void store(const BoundedDistanceAnswer& answer, Observation& o) {
+  if (answer.distance) return store(*answer.distance, o);
+  o.outcome = answer.outcome;
+  if (answer.outcome == Outcome::answered) o.lower_bound = answer.lower_bound;
+}
+
+void store_ray(const ImpactAnswer& answer, Observation& o) {
+  o.outcome = answer.outcome;
+  if (answer.outcome != Outcome::answered) return;
+  o.toi = answer.toi;
+  o.overlap = answer.toi && *answer.toi == 0;
+  if (answer.toi && *answer.toi > 0) o.normal = answer.normal_ab;
+}
+
 void store(const ContactAnswer& answer, const Manifold& manifold, Observation& o) {
   o.outcome = answer.outcome;
   if (answer.outcome != Outcome::answered) return;

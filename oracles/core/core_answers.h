@@ -7,7 +7,8 @@
 #include <vector>
 
 #include "core/base/input_error.h"
-#include "core/narrow/narrow_phase.h"
+#include "core/impact/impact.h"
+#include "core/narrow/bounded.h"
 #include "core/world/world.h"
 #include "oracles/abi/measure.h"
 #include "oracles/abi/native_engine.h"
@@ -19,6 +20,10 @@ EngineCard core_card(std::string_view name, std::string settings);
 
 void store(const OverlapAnswer& answer, Observation& o);
 void store(const DistanceAnswer& answer, Observation& o);
+void store(const WithinAnswer& answer, Observation& o);
+void store(const BoundedDistanceAnswer& answer, Observation& o);
+/// Of a ray: the time, and the normal unless the ray starts inside.
+void store_ray(const ImpactAnswer& answer, Observation& o);
 /// `manifold` is answer.manifold, or a reduced one.
 void store(const ContactAnswer& answer, const Manifold& manifold, Observation& o);
 /// `unsupported`: the number of pairs that were left out.
@@ -42,6 +47,14 @@ void answer_by_question(Asked& asked, const Query& q, Observation& o) {
       return asked.scene_contacts(o);
     case Question::swept_candidates:
       return asked.swept_candidates(o);
+    case Question::within:
+      return asked.within(q, o);
+    case Question::bounded_distance:
+      return asked.bounded_distance(q, o);
+    case Question::candidates_within:
+      return asked.candidates_within(o);
+    case Question::ray:
+      return asked.ray(q, o);
   }
 }
 

@@ -58,6 +58,19 @@ struct Asked {
     o.candidate_pairs = {swept_candidate_pairs(s, *broad::make_broad_phase(broad_phase_name))};
     o.outcome = Outcome::answered;
   }
+  void within(const Query& q, Observation& o) const {
+    store(touchstone::within(placed(s, q.a), placed(s, q.b), s.margin, arithmetic), o);
+  }
+  void bounded_distance(const Query& q, Observation& o) const {
+    store(touchstone::distance(placed(s, q.a), placed(s, q.b), s.margin, arithmetic), o);
+  }
+  void candidates_within(Observation& o) const {
+    o.candidate_pairs = candidate_pairs_within(s, *broad::make_broad_phase(broad_phase_name));
+    o.outcome = Outcome::answered;
+  }
+  void ray(const Query& q, Observation& o) const {
+    store_ray(touchstone::time_of_impact(moving(s, q.a), moving(s, q.b), ImpactDetail::contact), o);
+  }
   void scene_contacts(Observation& o) const {
     const SceneContacts r = touchstone::scene_contacts(s, *broad::make_broad_phase(broad_phase_name));
     o.outcome = r.outcome;
@@ -67,8 +80,7 @@ struct Asked {
 
 void ask(const Scene& s, const Query& q, Arithmetic arithmetic, Observation& o) {
   require_bodies(s, q);
-  const bool narrow =
-      q.question == Question::overlap || q.question == Question::distance || q.question == Question::contact;
+  const bool narrow = is_pair_question(q.question) && !is_motion_question(q.question);
   if (arithmetic == Arithmetic::float32 && !narrow) {
     o = no_answer(Outcome::unsupported, "the float core has a narrow phase only");
     return;

@@ -35,6 +35,10 @@ class Kept {
     return colliders_[at(s_.bodies.at(at(i)).shape)].at(pose);
   }
   PlacedShape placed(int i) const { return placed(i, s_.bodies.at(at(i)).pose); }
+  MovingShape moving(int i) const {
+    const Body& b = s_.bodies.at(at(i));
+    return colliders_[at(b.shape)].at(b.pose, b.motion.value_or(Motion{}));
+  }
 
   PairMemory& memory(const Query& q) {
     const auto [it, is_new] = memory_.try_emplace({q.a, q.b});
@@ -92,6 +96,23 @@ struct Asked {
   void swept_candidates(Observation& o) const {
     o.candidate_pairs = {swept_candidate_pairs(s, *phase_in_turn(s))};
     o.outcome = Outcome::answered;
+  }
+  void within(const Query& q, Observation& o) {
+    store(touchstone::within(kept.placed(q.a), kept.placed(q.b), s.margin, Arithmetic::float64,
+                             &kept.memory(q)),
+          o);
+  }
+  void bounded_distance(const Query& q, Observation& o) {
+    store(touchstone::distance(kept.placed(q.a), kept.placed(q.b), s.margin, Arithmetic::float64,
+                               &kept.memory(q)),
+          o);
+  }
+  void candidates_within(Observation& o) const {
+    o.candidate_pairs = candidate_pairs_within(s, *phase_in_turn(s));
+    o.outcome = Outcome::answered;
+  }
+  void ray(const Query& q, Observation& o) {
+    store_ray(touchstone::time_of_impact(kept.moving(q.a), kept.moving(q.b), ImpactDetail::contact), o);
   }
   // Reports the second of two steps; in the first, the bodies are at their previous poses. Nothing moves
   // within a step.

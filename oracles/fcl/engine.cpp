@@ -127,6 +127,11 @@ class Engine {
         return ask_scene(out, sink);
       case TS_SWEPT_CANDIDATES:
         throw kit::Unsupported("FCL's broad phases do not support moving bodies");
+      case TS_WITHIN:
+      case TS_BOUNDED_DISTANCE:
+      case TS_CANDIDATES_WITHIN:
+      case TS_RAY:
+        break;
     }
     throw kit::Unsupported("unknown question");
   }

@@ -124,6 +124,8 @@ void read_answer(const Json& j, bool states_times, ts_answer& out, const ts_sink
   number("distance", TS_HAS_DISTANCE, out.distance);
   number("depth", TS_HAS_DEPTH, out.depth);
   number("toi", TS_HAS_TOI, out.toi);
+  number("lower", TS_HAS_LOWER, out.lower);
+  number("upper", TS_HAS_UPPER, out.upper);
   if (j.contains("overlap")) {
     out.has |= TS_HAS_OVERLAP;
     out.overlap = j.at("overlap").get<bool>();

@@ -32,6 +32,9 @@ int query_steps(const Scene& scene, const Query& q) {
                                         [](const Step& s) { return s.op == Step::Op::query; }));
 }
 
+/// A ts_batch has no margin.
+bool is_batched(Question q) { return q <= Question::time_of_impact; }
+
 struct LoadResult {
   bool asked = false;  // the engine's load() was called
   ReceivedScene received;
@@ -65,7 +68,7 @@ class Server {
     fill_ = m.fill;
     fill_new_memory(fill_);
     const bool broad = std::any_of(m.queries.begin(), m.queries.end(),
-                                   [](const Query& q) { return q.question == Question::candidates; });
+                                   [](const Query& q) { return is_script_question(q.question); });
     const PluginScene scene(m.scene, broad);
     LoadResult loaded = load(m.scene, scene.view());
     // Each message is written immediately, so that a crash loses only the running query.
@@ -93,7 +96,7 @@ class Server {
       if (!uses(s)) return false;
     return m.first_query < m.queries.size() &&
            std::all_of(m.queries.begin(), m.queries.end(), [](const Query& q) {
-             return is_pair_question(q.question) && std::min(q.a, q.b) == 0 && std::max(q.a, q.b) == 1;
+             return is_batched(q.question) && std::min(q.a, q.b) == 0 && std::max(q.a, q.b) == 1;
            });
   }
 
@@ -108,7 +111,7 @@ class Server {
     }
     fill_ = 0;
     fill_new_memory(fill_);
-    for (int k = 0; is_pair_question(static_cast<Question>(k)); ++k)
+    for (int k = 0; is_batched(static_cast<Question>(k)); ++k)
       if (!ask_together(static_cast<Question>(k), messages, received, answers)) return false;
     for (const ReceivedCollector& r : received)
       if (r.rejected() > 0) return false;

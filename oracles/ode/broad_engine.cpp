@@ -92,6 +92,7 @@ class Engine {
   void unload() { world_.reset(); }
   void ask(ts_question question, int, int, ts_answer&, const ts_sink& sink) {
     if (question != TS_CANDIDATES) throw kit::Unsupported("a broad phase only");
+    world_->require_sizes();
     run_steps(row_, *world_, sink);
   }
 

@@ -1,6 +1,7 @@
 // ODE as an oracle: dCollide for overlap and contact. It has no distance and no time-of-impact query; its
 // spaces are in broad_engine.cpp. ODE prints warnings to standard output, which the host separates from the
 // protocol.
+#include <algorithm>
 #include <optional>
 
 #include "core/math/roundoff.h"
@@ -22,6 +23,7 @@ bool goes_to_libccd(int a, int b) {
 
 class Engine {
  public:
+  static constexpr ts_question later_questions[] = {TS_RAY};
   static std::vector<kit::CardText> cards() {
     kit::CardText ode{
         "ode",
@@ -40,6 +42,8 @@ class Engine {
   void unload() { world_.reset(); }
 
   void ask(ts_question question, int a, int b, ts_answer& out, const ts_sink& sink) {
+    if (question == TS_RAY) return ask_ray(a, b, out);
+    world_->require_sizes();
     if (question != TS_OVERLAP && question != TS_CONTACT) throw kit::Unsupported("ODE has no such query");
     if (world_->kind(a) == TS_HALF_SPACE && world_->kind(b) == TS_HALF_SPACE)
       throw kit::Unsupported("ODE has no code for two planes");
@@ -47,6 +51,24 @@ class Engine {
   }
 
  private:
+  // A dRayClass geometry against a, with the first contact asked for. ODE's depth is then the distance along
+  // the ray, its normal that of a's surface.
+  void ask_ray(int a, int b, ts_answer& out) {
+    const ts_body& ray = world_->scene().bodies[b];
+    const Vec3 start = kit::vec3(ray.pose.translation), way = kit::vec3(ray.linear);
+    const double length = way.norm();
+    if (world_->kind(a) == TS_SPHERE && world_->scene().shapes[world_->scene().bodies[a].shape].size[0] == 0)
+      throw kit::Unsupported("ODE ignores geometries of zero size: GEOM_ZERO_SIZED");
+    if (!(length > 0)) throw kit::Unsupported("a ray of ODE needs a direction");
+    const GeomPtr geom(dCreateRay(nullptr, length));
+    dGeomRaySet(geom.get(), start.x(), start.y(), start.z(), way.x(), way.y(), way.z());
+    dGeomRaySetClosestHit(geom.get(), 1);
+    dContactGeom hit;
+    if (dCollide(geom.get(), world_->geom(a), 1, &hit, sizeof hit) == 0) return;
+    kit::set_toi(out, std::min(hit.depth / length, 1.0));
+    kit::set_normal(out, Vec3(hit.normal[0], hit.normal[1], hit.normal[2]));
+  }
+
   /// With a sink, answers the whole contact; without one, only the overlap.
   void ask_contact(int a, int b, ts_answer& out, const ts_sink* sink) {
     std::vector<dContactGeom> all(most_contacts);

@@ -53,12 +53,17 @@ std::unique_ptr<Hull> make_hull_data(const ts_shape& s) {
   return hull;
 }
 
+[[noreturn]] void refuse_no_size() {
+  throw kit::Unsupported("ODE ignores geometries of zero size: GEOM_ZERO_SIZED");
+}
+
 GeomPtr make_geom(const ts_shape& s, const Hull* hull) {
   const double* z = s.size;
   // ODE's assertions would abort the process.
   if (s.kind != TS_HALF_SPACE && s.kind != TS_HULL && !(z[0] >= 0 && z[1] >= 0 && z[2] >= 0))
     throw kit::Unsupported("ODE refuses sizes that are negative or NaN");
-  if (has_no_size(s)) throw kit::Unsupported("ODE ignores geometries of zero size: GEOM_ZERO_SIZED");
+  // A point may be the start of a ray.
+  if (has_no_size(s) && s.kind != TS_SPHERE) refuse_no_size();
   switch (s.kind) {
     case TS_SPHERE:
       return GeomPtr(dCreateSphere(nullptr, z[0]));
@@ -131,6 +136,11 @@ World::World(const ts_scene& scene, const ts_received& received) : scene_(scene)
     put(i, scene.bodies[i].pose);
     report_body(i, *geom(i), s, received);
   }
+}
+
+void World::require_sizes() const {
+  for (int i = 0; i < static_cast<int>(scene_.body_count); ++i)
+    if (has_no_size(scene_.shapes[scene_.bodies[i].shape])) refuse_no_size();
 }
 
 void World::put(int body, const ts_pose& pose) const {

@@ -35,6 +35,8 @@ class World {
   dxGeom* geom(int body) const { return geoms_[static_cast<std::size_t>(body)].get(); }
   int kind(int body) const { return scene_.shapes[scene_.bodies[body].shape].kind; }
   void put(int body, const ts_pose& pose) const;
+  /// Throws Unsupported if a body has no size. Spheres of radius 0 are held nevertheless, for rays.
+  void require_sizes() const;
 
  private:
   const ts_scene& scene_;

@@ -40,6 +40,13 @@ struct PairTruth {
 PairTruth judge_pair(const Placed& a, const Placed& b, std::span<const Vec3> hint_directions = {},
                      std::span<const Vec3> hint_points = {});
 
+/// Is the signed gap at most `margin` (finite, any sign)? overlap: yes, disjoint: no. `truth` is what
+/// judge_pair says of the pair; where its bracket holds the margin, the answer is exact for hulls of points
+/// rounded by balls, their meshes included, and half-spaces. Undecided: too expensive; a curved body whose
+/// gap is within the bracket's width of the margin; a negative margin and a mesh that overlaps, which has no
+/// depth.
+Verdict judge_within(const Placed& a, const Placed& b, double margin, const PairTruth& truth);
+
 /// The certificate of the verdict on a pair of spheres, boxes, capsules, hulls and half-spaces in a form that
 /// checker.h accepts: unchanged if that holds, else with rationals found by the exact level. Kind none: the
 /// verdict has no such form.

@@ -173,6 +173,7 @@ Json body_of(const BroadCertificate& c) {
             {"first_fault", c.first_fault},
             {"sweeps", c.sweeps},
             {"without", c.without}};
+  if (c.margin) j["margin"] = *c.margin;
   for (const BroadLevel l : c.levels) j["verdict"][std::string(to_string(l))] = to_string(verdict(c, l));
   j["not_proved"] = not_proved(c);
   j["evidence"] = Json::array();
@@ -261,7 +262,10 @@ std::vector<std::string> not_proved(const BroadCertificate& c) {
   for (const BroadLevel l : {BroadLevel::boxes, BroadLevel::bodies})
     if (verdict(c, l) == LevelVerdict::not_asked)
       out.push_back(fmt::format("Anything at the level of {}: it was not tested.", to_string(l)));
-  if (!c.sweeps)
+  if (c.margin)
+    out.push_back(fmt::format(
+        "Anything about other margins than {:g}, or about bodies that move within a step.", *c.margin));
+  else if (!c.sweeps)
     out.push_back("Candidates of bodies that move within a step: the subject does not claim to sweep.");
   if (c.first_fault && !c.refutations.empty())
     out.push_back("That there is no other fault: as requested, a level ended at its first.");
@@ -299,6 +303,7 @@ BroadCertificate broad_certificate_from_json(const Json& json, bool& digest_hold
   c.limit = count_of(j["limit"]);
   c.first_fault = j["first_fault"].boolean();
   c.sweeps = j["sweeps"].boolean();
+  if (j.has("margin")) c.margin = j["margin"].number();
   for (const JsonReader& name : j["without"].items()) c.without.push_back(name.string());
   for (const auto& [name, v] : members_of(j["verdict"]))
     c.levels.push_back(static_cast<BroadLevel>(index_in(level_names, name, v)));

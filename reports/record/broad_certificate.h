@@ -101,9 +101,10 @@ struct BroadCertificate {
   std::uint64_t seed = 1;
   std::uint64_t limit = 0;  // most cases per evidence; 0: the scope's number
   std::vector<BroadLevel> levels;
-  bool first_fault = false;          // requested: end a level at the first evidence that shows a fault
-  bool sweeps = false;               // bodies that move within the step were tested too
-  std::vector<std::string> without;  // evidence left out by request
+  bool first_fault = false;  // requested: end a level at the first evidence that shows a fault
+  std::optional<double> margin = std::nullopt;  // pairs no farther apart had to be reported
+  bool sweeps = false;                          // bodies that move within the step were tested too
+  std::vector<std::string> without;             // evidence left out by request
   std::vector<EvidenceCount> evidence;
   std::vector<FaultCount> faults;       // every class shown, in the order of the evidence
   std::vector<Refutation> refutations;  // one per level and class, the gravest of a level first

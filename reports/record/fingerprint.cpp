@@ -126,6 +126,10 @@ std::uint32_t hash_of_answer(const Observation& o) {
   add(h, o.normal);
   add(h, o.depth);
   add(h, o.toi);
+  if (o.lower_bound || o.upper_bound) {
+    add(h, o.lower_bound);
+    add(h, o.upper_bound);
+  }
   add_points(h, o);
   add_pairs(h, o);
   const auto folded = static_cast<std::uint32_t>(h.value() ^ (h.value() >> 32));

@@ -37,6 +37,8 @@ Json to_json(const Observation& o) {
   for (const ManifoldPoint& p : o.manifold)
     j["manifold"].push_back({{"position", vector(p.position)}, {"depth", number(p.depth)}});
   if (o.toi) j["toi"] = number(*o.toi);
+  if (o.lower_bound) j["lower_bound"] = number(*o.lower_bound);
+  if (o.upper_bound) j["upper_bound"] = number(*o.upper_bound);
   for (const auto& set : o.candidate_pairs) {
     Json pairs = Json::array();
     for (const auto& [a, b] : set) pairs.push_back({a, b});

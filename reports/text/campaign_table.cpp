@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <map>
+#include <optional>
 #include <vector>
 
 #include "reports/text/text.h"
@@ -14,19 +15,26 @@ namespace {
 
 using Tallies = std::map<Question, fuzz::Tally>;
 
+// A question, and one of the same kind that is counted with it: eight columns would not fit.
 struct Column {
   Question question;
   std::string_view title;
+  std::optional<Question> with = std::nullopt;
 };
 // In the order in which an engine works; titles fit the width of a cell.
-constexpr auto columns = std::to_array<Column>({{Question::overlap, "overlap"},
-                                                {Question::distance, "dist"},
+constexpr auto columns = std::to_array<Column>({{Question::overlap, "overlap", Question::within},
+                                                {Question::distance, "dist", Question::bounded_distance},
                                                 {Question::contact, "contact"},
-                                                {Question::time_of_impact, "impact"},
-                                                {Question::candidates, "pairs"},
+                                                {Question::time_of_impact, "impact", Question::ray},
+                                                {Question::candidates, "pairs", Question::candidates_within},
                                                 {Question::scene_contacts, "scene"},
                                                 {Question::swept_candidates, "swept"}});
-static_assert(columns.size() == question_names.size());
+constexpr std::size_t questions_in_columns() {
+  std::size_t n = 0;
+  for (const Column& c : columns) n += c.with ? 2 : 1;
+  return n;
+}
+static_assert(questions_in_columns() == question_names.size());
 
 // An engine as shipped and, if there is one, the same engine with tuned settings.
 struct TableRow {
@@ -35,15 +43,26 @@ struct TableRow {
   const Tallies* tuned = nullptr;
 };
 
-std::uint64_t answers_to(const Tallies* t, Question q) {
-  if (!t) return 0;
-  const auto found = t->find(q);
-  return found == t->end() ? 0 : found->second.answered() + found->second.failed();
+struct Count {
+  std::uint64_t answers = 0, wrong = 0;
+};
+
+Count count_of(const Tallies* t, const Column& c) {
+  Count n;
+  if (!t) return n;
+  for (const auto& [question, tally] : *t)
+    if (question == c.question || question == c.with) {
+      n.answers += tally.answered() + tally.failed();
+      n.wrong += tally.wrong + tally.failed();
+    }
+  return n;
 }
+
+std::uint64_t answers_to(const Tallies* t, const Column& c) { return count_of(t, c).answers; }
 
 std::uint64_t answers_of(const Tallies* t) {
   std::uint64_t n = 0;
-  for (const Column& c : columns) n += answers_to(t, c.question);
+  for (const Column& c : columns) n += answers_to(t, c);
   return n;
 }
 
@@ -71,17 +90,15 @@ std::string percent(std::uint64_t part, std::uint64_t of) {
   return x < one_decimal_below ? fmt::format("{:.1f}", x) : fmt::format("{:.0f}", std::min(x, most));
 }
 
-std::string percent_wrong(const Tallies* t, Question q) {
-  const std::uint64_t answers = answers_to(t, q);
-  if (answers == 0) return "-";
-  const fuzz::Tally& tally = t->at(q);
-  return percent(tally.wrong + tally.failed(), answers);
+std::string percent_wrong(const Tallies* t, const Column& c) {
+  const Count n = count_of(t, c);
+  return n.answers == 0 ? "-" : percent(n.wrong, n.answers);
 }
 
-std::string cell(const TableRow& row, Question q) {
-  const std::string shipped = percent_wrong(row.shipped, q);
+std::string cell(const TableRow& row, const Column& c) {
+  const std::string shipped = percent_wrong(row.shipped, c);
   if (!row.tuned) return shipped;
-  const std::string tuned = percent_wrong(row.tuned, q);
+  const std::string tuned = percent_wrong(row.tuned, c);
   return shipped == "-" && tuned == "-" ? shipped : shipped + "/" + tuned;
 }
 
@@ -103,7 +120,7 @@ std::string campaign_table(const fuzz::CampaignResult& r) {
   for (const TableRow& row : rows) any_tuned |= row.tuned != nullptr;
   for (const Column& c : columns)
     if (std::any_of(rows.begin(), rows.end(), [&](const TableRow& row) {
-          return answers_to(row.shipped, c.question) + answers_to(row.tuned, c.question) > 0;
+          return answers_to(row.shipped, c) + answers_to(row.tuned, c) > 0;
         }))
       shown.push_back(c);
   std::string s =
@@ -118,7 +135,7 @@ std::string campaign_table(const fuzz::CampaignResult& r) {
     else
       s += fmt::format("{:<{}}", name, name_width);
     s += fmt::format("{:>{}}", short_count(answers_of(row.shipped) + answers_of(row.tuned)), answers_width);
-    for (const Column& c : shown) s += fmt::format("{:>{}}", cell(row, c.question), cell_width);
+    for (const Column& c : shown) s += fmt::format("{:>{}}", cell(row, c), cell_width);
     s += "\n";
   }
   return s;

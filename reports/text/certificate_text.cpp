@@ -77,10 +77,9 @@ std::string refutation(const BroadCertificate& c, const fuzz::Refutation& r) {
   std::string seen;
   for (const fuzz::FaultCount& f : c.faults)
     if (f.level == r.level && f.what == r.what)
-      seen += fmt::format("{}{} ({}{})", seen.empty() ? "" : ", ", f.evidence, cases_of(f.cases),
-                          f.what.kind == fuzz::FaultKind::solid
-                              ? fmt::format(", by up to {:.2g} of the size", f.share)
-                              : "");
+      seen += fmt::format(
+          "{}{} ({}{})", seen.empty() ? "" : ", ", f.evidence, cases_of(f.cases),
+          f.what.kind == fuzz::FaultKind::solid ? fmt::format(", by up to {:.2g} of the size", f.share) : "");
   return out + "    " + wrapped("seen in " + seen, 76, 4) + "\n";
 }
 
@@ -141,6 +140,8 @@ std::string certificate_line(const BroadCertificate& c) {
 std::string certificate_text(const BroadCertificate& c, bool times) {
   std::string out = fmt::format("{}: {} {}, scope {}, seed {}{}\n", c.subject, c.card.library, c.card.version,
                                 c.scope, c.seed, c.limit ? fmt::format(", limit {}", c.limit) : "");
+  if (c.margin)
+    out += fmt::format("margin {:g}: every pair no farther apart must be a candidate\n", *c.margin);
   if (!c.plugin_hash.empty()) out += fmt::format("plug-in {}\n", c.plugin_hash);
   for (const BroadLevel l : c.levels) out += level_text(c, l, times);
   out += "\nprice: superfluous pairs per true pair. Not proved:\n";

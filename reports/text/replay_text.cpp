@@ -75,6 +75,13 @@ std::string certificate_lines(const Certificate& c) {
   return "";
 }
 
+std::string bounds_text(const Observation& o) {
+  std::string s;
+  if (o.lower_bound) s = fmt::format("at least {:.12g}", *o.lower_bound);
+  if (o.upper_bound) s += fmt::format("{}at most {:.12g}", s.empty() ? "" : ", ", *o.upper_bound);
+  return s;
+}
+
 std::string stated(const Query& q, const Observation& o) {
   if (o.outcome != Outcome::answered)
     return std::string(to_string(o.outcome)) + (o.detail.empty() ? "" : " (" + o.detail + ")");
@@ -84,6 +91,7 @@ std::string stated(const Query& q, const Observation& o) {
       return !o.overlap ? "-" : *o.overlap ? "overlap" : "apart";
     case Question::distance:
       if (o.distance) return fmt::format("{:.12g}", *o.distance);
+      if (o.lower_bound || o.upper_bound) return bounds_text(o);
       return !o.overlap ? "-" : *o.overlap ? "overlap, no distance" : "apart, no distance";
     case Question::contact:
       if (!o.overlap) return "-";
@@ -92,8 +100,17 @@ std::string stated(const Query& q, const Observation& o) {
       if (o.depth) s += fmt::format(", depth {:.9g}", *o.depth);
       if (o.normal) s += fmt::format(", n {}", vec(*o.normal));
       return s + fmt::format(", {} points", o.manifold.size());
+    case Question::within:
+      return !o.overlap ? "-" : *o.overlap ? "within" : "beyond";
+    case Question::bounded_distance:
+      if (o.distance) return fmt::format("{:.12g}", *o.distance);
+      return o.lower_bound ? fmt::format("at least {:.12g}", *o.lower_bound) : "-";
+    case Question::ray:
+      s = o.toi ? fmt::format("t = {:.12g}", *o.toi) : "no hit";
+      return o.toi && o.normal ? s + fmt::format(", n {}", vec(*o.normal)) : s;
     case Question::time_of_impact:
       return o.toi ? fmt::format("t = {:.12g}", *o.toi) : "no impact";
+    case Question::candidates_within:
     case Question::candidates: {
       std::size_t n = 0;
       for (const auto& set : o.candidate_pairs) n += set.size();
@@ -156,11 +173,16 @@ std::string engine_lines(const std::string& engine, const Query& q, const Observ
 std::string_view at_rest(const Scene& s, const Query& q) {
   const bool moves =
       std::any_of(s.bodies.begin(), s.bodies.end(), [](const Body& b) { return b.motion.has_value(); });
-  return moves && q.question != Question::swept_candidates ? " (at t = 0; motions are ignored)" : "";
+  return moves && !is_motion_question(q.question) ? " (at t = 0; motions are ignored)" : "";
+}
+
+std::string margin_text(const Scene& s, const Query& q) {
+  return is_margin_question(q.question) ? fmt::format(", margin {:.12g}", s.margin) : "";
 }
 
 std::string referee_lines(const Query& q, const fuzz::RefereeAnswer& r) {
   switch (q.question) {
+    case Question::ray:
     case Question::time_of_impact: {
       std::string s = fmt::format("  referee: {}", r.verdict);
       if (r.verdict == "impact") s += fmt::format(", t in [{:.12g}, {:.12g}]", r.time[0], r.time[1]);
@@ -171,6 +193,12 @@ std::string referee_lines(const Query& q, const fuzz::RefereeAnswer& r) {
       for (const auto& set : r.pairs) n += set.size();
       return fmt::format("  referee: {} pairs overlap over {} queries\n", n, r.pairs.size());
     }
+    case Question::candidates_within: {
+      std::size_t n = 0;
+      for (const auto& set : r.pairs) n += set.size();
+      return fmt::format("  referee: {} pairs are within the margin over {} queries{}\n", n, r.pairs.size(),
+                         r.undecided_pairs > 0 ? fmt::format(", {} undecided", r.undecided_pairs) : "");
+    }
     case Question::scene_contacts:
       return fmt::format("  referee: {} pairs overlap\n", r.pairs.at(0).size());
     case Question::swept_candidates:
@@ -179,10 +207,13 @@ std::string referee_lines(const Query& q, const fuzz::RefereeAnswer& r) {
     case Question::overlap:
     case Question::distance:
     case Question::contact:
+    case Question::within:
+    case Question::bounded_distance:
       break;
   }
   const bool has_gap = std::isfinite(r.gap[0]);
-  std::string s = fmt::format("  referee: {}", r.verdict);
+  std::string s =
+      fmt::format("  referee: {}", r.within.empty() ? r.verdict : r.within + " the margin, " + r.verdict);
   if (has_gap) s += fmt::format(", signed distance {}", bracket(r.gap));
   if (r.verdict == "undecided" && !r.note.empty()) s += "; " + r.note;
   s += "\n";
@@ -202,8 +233,9 @@ std::string replay_text(const fuzz::JudgedCase& judged) {
   if (n > 4) out += fmt::format("  and {} more bodies\n", n - 4);
   for (std::size_t i = 0; i < judged.c.queries.size(); ++i) {
     const Query& q = judged.c.queries[i];
-    out += is_pair_question(q.question) ? fmt::format("{} of {} and {}\n", to_string(q.question), q.a, q.b)
-                                        : fmt::format("{}{}\n", to_string(q.question), at_rest(s, q));
+    out += is_pair_question(q.question)
+               ? fmt::format("{} of {} and {}{}\n", to_string(q.question), q.a, q.b, margin_text(s, q))
+               : fmt::format("{}{}{}\n", to_string(q.question), margin_text(s, q), at_rest(s, q));
     out += referee_lines(q, judged.referee[i]);
     std::string cannot;
     for (const fuzz::JudgedCase::OfEngine& e : judged.engines) {

@@ -79,7 +79,8 @@ namespace {
 
 // Names short enough for the table's column.
 constexpr auto short_names =
-    std::to_array<std::string_view>({"overlap", "distance", "contact", "impact", "pairs", "scene", "swept"});
+    std::to_array<std::string_view>({"overlap", "distance", "contact", "impact", "pairs", "scene", "swept",
+                                     "within", "bounded", "near", "ray"});
 static_assert(short_names.size() == question_names.size());
 
 // A time that includes the pipe is marked.

@@ -1,7 +1,7 @@
 #include "scenarios/codec/case_codec.h"
 
-#include <array>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <nlohmann/json.hpp>
@@ -56,12 +56,17 @@ Query read_query(const JsonReader& r, const Scene& scene) {
   q.question = *question;
   if (!is_pair_question(q.question)) {
     r.require_object(scene_query_fields);
+    if (q.question == Question::candidates_within && scene.margin < 0)
+      r["question"].fail("needs a scene whose margin is not negative");
     return q;
   }
   r.require_object(pair_query_fields);
   q.a = read_body(r["a"], scene);
   q.b = read_body(r["b"], scene);
   if (q.a == q.b) r.fail("asks about one body; a and b must differ");
+  if (q.question == Question::ray && !is_ray(scene, q))
+    r.fail(
+        "a ray is a body b that is a sphere of radius 0 and moves without turning, against a body a at rest");
   return q;
 }
 

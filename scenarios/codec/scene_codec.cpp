@@ -196,6 +196,7 @@ nlohmann::ordered_json to_json(const Scene& scene) {
   for (const Body& b : scene.bodies) j["bodies"].push_back(to_json(b));
   for (const auto& [a, b] : scene.ignored) j["ignored"].push_back(Json::array({a, b}));
   for (const Step& s : scene.script) j["script"].push_back(to_json(s));
+  if (scene.margin != 0) j["margin"] = scene.margin;
   return j;
 }
 
@@ -211,6 +212,7 @@ Scene scene_from_json(const nlohmann::ordered_json& j, const std::string& place)
     for (const JsonReader& p : r["ignored"].items()) scene.ignored.push_back(read_pair(p));
   if (r.has("script"))
     for (const JsonReader& s : r["script"].items()) scene.script.push_back(read_step(s));
+  if (r.has("margin")) scene.margin = r["margin"].number();
   try {
     validate(scene);
   } catch (const InputError& e) {
@@ -230,6 +232,7 @@ std::string to_text(const Scene& scene) {
   if (j.contains("name")) out += ",\n \"name\": " + to_line(j["name"]);
   for (const char* list : {"shapes", "bodies", "ignored", "script"})
     if (j.contains(list)) write_list(out, list, j[list]);
+  if (j.contains("margin")) out += ",\n \"margin\": " + to_line(j["margin"]);
   return out + "\n}\n";
 }
 

@@ -14,8 +14,8 @@ namespace touchstone::scene_fields {
 inline constexpr std::string_view version_field = "touchstone_scene";
 inline constexpr int version = 1;
 
-inline constexpr auto scene =
-    std::to_array<std::string_view>({version_field, "name", "shapes", "bodies", "ignored", "script"});
+inline constexpr auto scene = std::to_array<std::string_view>(
+    {version_field, "name", "shapes", "bodies", "ignored", "script", "margin"});
 inline constexpr auto body =
     std::to_array<std::string_view>({"name", "shape", "pose", "motion", "static", "group"});
 inline constexpr auto pose = std::to_array<std::string_view>({"translation", "rotation"});

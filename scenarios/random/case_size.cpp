@@ -50,6 +50,7 @@ CaseSize measure(const Case& c) {
     for (double x : b.motion->linear) m.bits += static_cast<std::uint64_t>(bits_of(x));
     for (double x : b.motion->angular) m.bits += static_cast<std::uint64_t>(bits_of(x));
   }
+  m.bits += static_cast<std::uint64_t>(bits_of(s.margin));
   for (const Step& step : s.script)
     if (step.pose) m.bits += 1 + bits_of(*step.pose);
   return m;

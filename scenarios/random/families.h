@@ -70,6 +70,12 @@ void swarm(Rng& rng, Case& c);
 
 void later_shapes(Rng& rng, Case& c);
 
+// Questions about margins, for pairs and crowds, and rays: at the boundary between two answers.
+
+void margins(Rng& rng, Case& c);
+void loose_crowd(Rng& rng, Case& c);
+void rays(Rng& rng, Case& c);
+
 // Variants in which a case of any family may be presented: the pair swapped, the queries reordered,
 // quaternions of any length, the previous case again with one body moved.
 

@@ -210,6 +210,8 @@ void script(Rng& rng, Case& c) {
 // The families from first_later on came later. In the mix of all families they have a stream of their own and
 // replace a share of the cases: the others remain what they were for the same seed.
 constexpr std::size_t first_later = 28;
+// Those from here on replace a share of the cases of all before them in the same way.
+constexpr std::size_t first_of_margins = 30;
 
 constexpr Family catalog[] = {
     {"separate", "disjoint pairs, gap 0.1 % to 100 % of their size", 14, separate},
@@ -243,8 +245,12 @@ constexpr Family catalog[] = {
     {"later", "rounded boxes against any shape: apart, touching, deep, concentric, in motion", 6,
      later_shapes},
     {"surfaces", "two meshes: apart, touching, crossing, one inside the other, coplanar", 6, two_meshes},
+    {"margins", "pairs at a margin: exactly, within ulps, within 2^-40 to 2^-4 of the size", 4, margins},
+    {"loose", "2 to 10 bodies: candidate pairs within a margin", 2, loose_crowd},
+    {"rays", "rays at and past faces, edges, corners; from inside; ending on the surface", 3, rays},
 };
 static_assert(catalog[first_later - 1].name == "dialogue");
+static_assert(catalog[first_of_margins - 1].name == "surfaces");
 
 int total_weight(std::span<const Family> families) {
   return std::accumulate(families.begin(), families.end(), 0,
@@ -272,7 +278,18 @@ const Family& pick(Rng& rng, std::span<const Family* const> among) {
   return *among.back();
 }
 
-constexpr std::uint64_t later_stream = 0x6c61746572ULL;  // a stream separate from the case's own
+// Streams separate from the case's own.
+constexpr std::uint64_t later_stream = 0x6c61746572ULL, margins_stream = 0x6d617267696e73ULL;
+
+// One of the families from `first` on, by its share of all up to `end`; null: none of them.
+const Family* pick_later(std::uint64_t stream, std::uint64_t index, std::size_t first, std::size_t end) {
+  Rng rng = Rng::stream(stream, index);
+  const std::span<const Family> up_to = std::span(catalog).first(end);
+  auto k = static_cast<int>(rng.below(static_cast<std::uint64_t>(total_weight(up_to))));
+  for (const Family& f : up_to.subspan(first))
+    if ((k -= f.weight) < 0) return &f;
+  return nullptr;
+}
 
 // Of `a`, of `b,c` or, when empty, of all families.
 const Family& pick(Rng& rng, std::uint64_t seed, std::uint64_t index, std::string_view names) {
@@ -281,15 +298,15 @@ const Family& pick(Rng& rng, std::uint64_t seed, std::uint64_t index, std::strin
     for_each_in_list(names, [&](std::string_view name) {
       named_here[static_cast<std::size_t>(&named(name) - catalog)] = true;
     });
-  std::vector<const Family*> first, later;
+  if (names.empty()) {
+    if (const Family* f = pick_later(seed ^ margins_stream, index, first_of_margins, std::size(catalog)))
+      return *f;
+    if (const Family* f = pick_later(seed ^ later_stream, index, first_later, first_of_margins)) return *f;
+  }
+  std::vector<const Family*> among;
   for (std::size_t i = 0; i < std::size(catalog); ++i)
-    if (names.empty() || named_here[i])
-      (names.empty() && i >= first_later ? later : first).push_back(&catalog[i]);
-  Rng side = Rng::stream(seed ^ later_stream, index);
-  auto k = static_cast<int>(side.below(static_cast<std::uint64_t>(total_weight(catalog))));
-  for (const Family* f : later)
-    if ((k -= f->weight) < 0) return *f;
-  return pick(rng, first);
+    if (names.empty() ? i < first_later : named_here[i]) among.push_back(&catalog[i]);
+  return pick(rng, among);
 }
 
 constexpr std::uint64_t forms_stream = 0x666f726d73ULL;  // a stream separate from the case's own

@@ -10,7 +10,8 @@ namespace {
 void reverse_pairs(Rng& rng, Case& c) {
   const bool all = rng.chance(0.7);
   for (Query& q : c.queries)
-    if (is_pair_question(q.question) && (all || rng.chance(0.5))) std::swap(q.a, q.b);
+    if (is_pair_question(q.question) && q.question != Question::ray && (all || rng.chance(0.5)))
+      std::swap(q.a, q.b);
 }
 
 void shuffle_questions(Rng& rng, Case& c) {

@@ -54,6 +54,7 @@ std::vector<double*> numbers(Case& c) {
   }
   for (Step& s : c.scene.script)
     if (s.pose) collect(*s.pose, out);
+  if (c.scene.margin != 0) collect(c.scene.margin, out);
   return out;
 }
 

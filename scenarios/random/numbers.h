@@ -8,7 +8,8 @@
 namespace touchstone::fuzz {
 
 /// Every independent double of the case, in a fixed order: fields of shapes, then poses and motions of
-/// bodies, then poses of steps. Derived data (faces of hulls) is stale after a change until renew().
+/// bodies, then poses of steps, then the margin if it is not 0. Derived data (faces of hulls) is stale after
+/// a change until renew().
 std::vector<double*> numbers(Case& c);
 std::vector<double*> numbers(Shape& s);
 /// The sizes of the shape that may be zero (Domain::non_negative).

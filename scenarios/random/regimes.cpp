@@ -174,6 +174,17 @@ bool nearly_parallel_boxes(const Case& c, const Case&) {
   });
 }
 
+bool about_margin(const Case& c, const Case&) {
+  return std::any_of(c.queries.begin(), c.queries.end(),
+                     [](const Query& q) { return is_margin_question(q.question); });
+}
+bool about_negative_margin(const Case& c, const Case& before) {
+  return c.scene.margin < 0 && about_margin(c, before);
+}
+bool any_ray(const Case& c, const Case&) {
+  return any_question(c, [](const Query& q) { return q.question == Question::ray; });
+}
+
 constexpr Regime rows[] = {
     {"reversed", "a query about bodies a > b", 12, reversed},
     {"distance-last", "a distance query right after a contact query", 32, distance_after_contact},
@@ -200,6 +211,9 @@ constexpr Regime rows[] = {
     {"mesh-company", "a mesh among three or more bodies", 64, mesh_in_company},
     {"hull-64", "a hull of 64 or more vertices", 64, hull_of<64>},
     {"hull-256", "a hull of 256 or more vertices", 128, hull_of<256>},
+    {"margin", "a question about a margin", 64, about_margin},
+    {"penetration", "a question about a negative margin", 200, about_negative_margin},
+    {"ray", "a ray", 120, any_ray},
     {"parallel", "two boxes with edges less than a milliradian from parallel", 80, nearly_parallel_boxes},
 };
 

@@ -20,29 +20,58 @@ enum class Question : std::uint8_t {
   distance,
   contact,
   time_of_impact,
-  candidates,       // at the bodies' poses: motions are ignored
-  scene_contacts,   // likewise
-  swept_candidates  // pairs that overlap at some time of the step, from the bodies' own poses; no script
+  candidates,         // at the bodies' poses: motions are ignored
+  scene_contacts,     // likewise
+  swept_candidates,   // pairs that overlap at some time of the step, from the bodies' own poses; no script
+  within,             // is the signed distance at most the scene's margin?
+  bounded_distance,   // the signed distance, or a lower bound of it that is at least the scene's margin
+  candidates_within,  // as candidates: pairs whose signed distance is at most the scene's margin, >= 0
+  ray                 // b, a sphere of radius 0, moves in a straight line: where it meets a at rest
 };
 inline constexpr auto question_names = std::to_array<std::string_view>(
-    {"overlap", "distance", "contact", "time_of_impact", "candidates", "scene_contacts", "swept_candidates"});
-static_assert(question_names.size() == static_cast<std::size_t>(Question::swept_candidates) + 1);
+    {"overlap", "distance", "contact", "time_of_impact", "candidates", "scene_contacts", "swept_candidates",
+     "within", "bounded_distance", "candidates_within", "ray"});
+static_assert(question_names.size() == static_cast<std::size_t>(Question::ray) + 1);
 constexpr std::string_view to_string(Question q) { return question_names[static_cast<std::size_t>(q)]; }
 constexpr std::optional<Question> question_from_string(std::string_view s) {
   for (std::size_t i = 0; i < question_names.size(); ++i)
     if (question_names[i] == s) return static_cast<Question>(i);
   return std::nullopt;
 }
-constexpr bool is_pair_question(Question q) { return q <= Question::time_of_impact; }
+constexpr bool is_pair_question(Question q) {
+  return q <= Question::time_of_impact || q == Question::within || q == Question::bounded_distance ||
+         q == Question::ray;
+}
 constexpr bool is_broad_question(Question q) {
-  return q == Question::candidates || q == Question::swept_candidates;
+  return q == Question::candidates || q == Question::swept_candidates || q == Question::candidates_within;
+}
+/// Questions about the bodies' motions over the step; all others are about bodies at rest.
+constexpr bool is_motion_question(Question q) {
+  return q == Question::time_of_impact || q == Question::swept_candidates || q == Question::ray;
+}
+/// Questions that run the scene's script.
+constexpr bool is_script_question(Question q) {
+  return q == Question::candidates || q == Question::candidates_within;
+}
+/// Questions that refer to the scene's margin.
+constexpr bool is_margin_question(Question q) {
+  return q == Question::within || q == Question::bounded_distance || q == Question::candidates_within;
 }
 
 struct Query {
   Question question = Question::overlap;
-  int a = 0, b = 1;  // bodies; not used by candidates, scene_contacts and swept_candidates
+  int a = 0, b = 1;  // bodies; used by pair questions only
   bool operator==(const Query&) const = default;
 };
+
+/// Whether the bodies of a `ray` query are a target at rest and a point on a straight way.
+inline bool is_ray(const Scene& s, const Query& q) {
+  const auto body = [&](int i) -> const Body& { return s.bodies[static_cast<std::size_t>(i)]; };
+  const auto* point = std::get_if<Sphere>(&s.shape_of(q.b));
+  const auto& target = body(q.a).motion;
+  const auto& way = body(q.b).motion;
+  return point && point->radius == 0 && way && way->angular.isZero(0) && (!target || *target == Motion{});
+}
 
 /// A scene and its queries.
 struct Case {

@@ -32,13 +32,14 @@ struct SceneContact {
 struct Observation {
   Outcome outcome = Outcome::unsupported;
   std::string detail;
-  std::optional<bool> overlap;
+  std::optional<bool> overlap;     // of `within`: whether the signed distance is at most the margin
   std::optional<double> distance;  // signed
+  std::optional<double> lower_bound, upper_bound;  // of the signed distance
   std::optional<std::array<Vec3, 2>> witness;
-  std::optional<Vec3> normal;  // A to B
+  std::optional<Vec3> normal;  // A to B; of `ray`: of A's surface where it is hit, pointing out of A
   std::optional<double> depth;
   std::vector<ManifoldPoint> manifold;
-  std::optional<double> toi;  // empty when time_of_impact is answered: "no hit"
+  std::optional<double> toi;  // empty when time_of_impact or ray is answered: "no hit"
   std::vector<std::vector<BodyPair>>
       candidate_pairs;  // per query step; as reported (unsorted, duplicates kept)
   std::vector<SceneContact> contacts;
@@ -48,8 +49,9 @@ struct Observation {
   std::string site;  // of a crash: "distance-inl.h:177", "libfcl:detail::collide"; empty when unknown
   bool operator==(const Observation& o) const {
     return outcome == o.outcome && detail == o.detail && overlap == o.overlap && distance == o.distance &&
-           witness == o.witness && normal == o.normal && depth == o.depth && manifold == o.manifold &&
-           toi == o.toi && candidate_pairs == o.candidate_pairs && contacts == o.contacts &&
+           lower_bound == o.lower_bound && upper_bound == o.upper_bound && witness == o.witness &&
+           normal == o.normal && depth == o.depth && manifold == o.manifold && toi == o.toi &&
+           candidate_pairs == o.candidate_pairs && contacts == o.contacts &&
            claimed_tolerance == o.claimed_tolerance && site == o.site;
   }
 };

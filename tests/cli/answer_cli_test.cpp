@@ -62,6 +62,46 @@ TEST_CASE("two bodies on the command line are answered with certificates", "[ans
   check_columns(help.out);
 }
 
+TEST_CASE("whether bodies are within a margin is decided exactly, and from a scene's own margin",
+          "[answer]") {
+  const Workspace w("answer-within");
+  const std::string corners = "answer --json 'box 1 1 1' 'box 1 1 1 at 2.375 2.5 0' --within ";
+  const auto within = [&](const std::string& command) {
+    const Run r = w.touchstone(command);
+    INFO(command << r.out << r.err);
+    CHECK(r.code == 0);
+    return lines_of(r).at(0).at("within");
+  };
+  CHECK(within(corners + "0.625").at("verdict") == "within");
+  CHECK(within(corners + "0.62499999999999989").at("verdict") == "beyond");
+  const json clear = within(corners + "1");
+  CHECK(clear.at("verdict") == "within");
+  CHECK(clear.at("certified") == true);
+  CHECK(within("answer --json 'sphere 1' 'sphere 1 at 1.5 0 0' --within -0.25").at("verdict") == "within");
+  CHECK(within("answer --json 'sphere 1' 'sphere 1 at 1.5 0 0' --within -0.75").at("verdict") == "beyond");
+  w.write("scene.json", R"({"touchstone_scene": 1, "shapes": [{"type": "sphere", "radius": 1}],
+    "bodies": [{"shape": 0}, {"shape": 0, "pose": {"translation": [3, 0, 0]}}], "margin": 1})");
+  CHECK(within("answer --json scene.json").at("margin") == 1.0);
+  const Run text = w.touchstone("answer 'box 1 1 1' 'box 1 1 1 at 2.375 2.5 0' --within 0.625");
+  CHECK(text.out.find("  within      yes, the gap is at most 0.625") != std::string::npos);
+  check_columns(text.out);
+  CHECK(w.touchstone("answer 'sphere 1' 'sphere 1' --within nan").code == 2);
+  CHECK(lines_of(w.touchstone("answer --json 'sphere 1' 'sphere 1 at 3 0 0'"))[0].contains("within") ==
+        false);
+}
+
+TEST_CASE("a stated bound is judged as the bound that it claims to be", "[answer]") {
+  const Workspace w("answer-bounds");
+  const auto code = [&](const std::string& stated) {
+    w.write("stated.json", stated);
+    return w.touchstone("answer 'sphere 1' 'sphere 1 at 3 0 0' --answers stated.json").code;
+  };
+  CHECK(code(R"({"lower_bound": 0.5})") == 0);
+  CHECK(code(R"({"lower_bound": 1.5})") == 1);
+  CHECK(code(R"({"lower_bound": 0.5, "upper_bound": 1.5})") == 0);
+  CHECK(code(R"({"upper_bound": 0.5})") == 1);
+}
+
 TEST_CASE("a turn by a right angle is exact", "[answer]") {
   const Workspace w("answer-right-angle");
   for (const std::string turn : {"90deg", "-270deg", "450deg"}) {

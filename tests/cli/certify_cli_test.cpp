@@ -58,6 +58,9 @@ TEST_CASE("certify refuses bad input with exit code 2, the place and the reason,
                                                           {"--subject grid --scope huge", "--scope"},
                                                           {"--subject grid -o nowhere/c.json", "nowhere"},
                                                           {"--subject grid --without nothing", "nothing"},
+                                                          {"--subject grid --margin -1", "--margin"},
+                                                          {"--subject grid --margin nan", "--margin"},
+                                                          {"--subject grid --margin 1 --sweeps", "--margin"},
                                                           {"--subject core,core-f32", "core"},
                                                           {"--subject pipe:true", "pipe:true"},
                                                           {"--subject pipe:./missing", "missing"},
@@ -73,6 +76,25 @@ TEST_CASE("certify refuses bad input with exit code 2, the place and the reason,
     CHECK(r.out.empty());
   }
   CHECK_FALSE(fs::exists(w.dir / "nowhere"));
+}
+
+TEST_CASE("a certificate with a margin can be checked on its own, and its refutation replayed",
+          "[certify][cli][margin]") {
+  const Workspace w("certify-margin");
+  const Run r = w.touchstone("certify --subject grid --margin 0.5 --limit 60 -o c.json");
+  INFO(r.out << r.err);
+  CHECK(r.code == 0);
+  CHECK(r.out.find("margin 0.5: every pair") != std::string::npos);
+  CHECK(w.touchstone("certify --check c.json").code == 0);
+  // The lying engine ignores the margin.
+  const Run lie = w.touchstone("certify --subject " + mutants +
+                               "near_pairs_no_margin --margin 0.5 --limit 400 -o lie.json");
+  INFO(lie.out << lie.err);
+  CHECK(lie.code == 1);
+  const Run replay = w.touchstone("replay lie.bodies.case.json --engines core");
+  INFO(replay.out << replay.err);
+  CHECK(replay.out.find("within the margin") != std::string::npos);
+  CHECK(replay.code == 0);
 }
 
 TEST_CASE("a certificate can be checked on its own; a tampered one is not valid", "[certify][cli]") {

@@ -80,7 +80,7 @@ TEST_CASE("with acceleration structures and caches the core answers what it answ
   const auto core = make_core_engine();
   const auto kept = make_kept_engine();
   std::array<int, question_names.size()> answered{};
-  for (std::uint64_t i = 0; i < 400; ++i) {
+  for (std::uint64_t i = 0; i < 1600; ++i) {
     const Case c = fuzz::make_case(1, i);
     const auto plain = core->run({&c, 1}), cached = kept->run({&c, 1});
     for (std::size_t q = 0; q < c.queries.size(); ++q) {

@@ -2,6 +2,7 @@
 #include "fuzz/certify/certify.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <map>
 #include <nlohmann/json.hpp>
@@ -146,6 +147,88 @@ TEST_CASE("every broad phase of the core gets its certificate", "[certify]") {
     ++certified;
   }
   CHECK(certified == 8);
+}
+
+namespace {
+
+BroadCertificate with_margin(const Subject& s, double margin, std::uint64_t limit, int jobs = 1) {
+  CertifyConfig c;
+  c.limit = limit;
+  c.jobs = jobs;
+  c.margin = margin;
+  c.program = "test";
+  return *certify(s, c, {}, never);
+}
+
+// The core, told another margin than the one in the case.
+class OtherMargin final : public Engine {
+ public:
+  OtherMargin(BroadLevel level, double (*change)(double))
+      : change_(change),
+        inner_(make_broad_engine("automatic",
+                                 level == BroadLevel::boxes ? BroadBoxes::exact : BroadBoxes::bodies)) {}
+  const EngineCard& card() const override { return inner_->card(); }
+  std::vector<CaseObservations> run(std::span<const Case> cases) override {
+    std::vector<Case> told(cases.begin(), cases.end());
+    for (Case& c : told) c.scene.margin = change_(c.scene.margin);
+    return inner_->run(told);
+  }
+
+ private:
+  double (*change_)(double);
+  EnginePtr inner_;
+};
+
+Subject with_other_margin(double (*change)(double)) {
+  return {"other margin", "", false,
+          [change](BroadLevel level) { return std::make_unique<OtherMargin>(level, change); }};
+}
+
+}  // namespace
+
+TEST_CASE("every broad phase of the core is certified with a margin", "[certify][margin]") {
+  for (const auto name : core_broad_phases())
+    for (const double margin : {0.0, 0.5}) {
+      const BroadCertificate c = with_margin(core_subject(name), margin, 60);
+      INFO(to_json(c).dump(1));
+      CHECK(verdict(c, BroadLevel::boxes) == LevelVerdict::certified);
+      CHECK(verdict(c, BroadLevel::bodies) == LevelVerdict::certified);
+      CHECK(c.margin == margin);
+      CHECK(!c.sweeps);
+    }
+  // More pairs must be reported with a margin than without one.
+  const auto pairs = [](const BroadCertificate& c) {
+    std::uint64_t n = 0;
+    for (const EvidenceCount& e : c.evidence) n += e.pairs_true;
+    return n;
+  };
+  CHECK(pairs(with_margin(core_subject("grid"), 0.5, 60)) > pairs(with_margin(core_subject("grid"), 0, 60)));
+}
+
+TEST_CASE("a certificate with a margin survives its JSON and has the same bytes for any number of jobs",
+          "[certify][margin]") {
+  const BroadCertificate one = with_margin(core_subject("grid"), 0.25, 200),
+                         three = with_margin(core_subject("grid"), 0.25, 200, 3);
+  CHECK(to_json(one).dump() == to_json(three).dump());
+  bool holds = false;
+  CHECK(broad_certificate_from_json(to_json(one), holds).margin == 0.25);
+  CHECK(holds);
+}
+
+TEST_CASE("a subject that shortens the margin is refuted by a small script", "[certify][margin]") {
+  for (double (*change)(double) : {+[](double) { return 0.0; }, +[](double m) { return m / 2; },
+                                   +[](double m) { return std::nextafter(m, 0) - 1e-12; }}) {
+    const BroadCertificate c = with_margin(with_other_margin(change), 0.5, 3000);
+    CHECK(exit_code(c) == 1);
+    REQUIRE(!c.refutations.empty());
+    for (const Refutation& r : c.refutations) {
+      if (!r.script) continue;  // it has numbers that JSON lacks
+      CHECK(r.script->queries.at(0).question == Question::candidates_within);
+      CHECK(r.script->scene.margin > 0);
+      CHECK(r.words.find("within the margin") != std::string::npos);
+      CHECK(r.bodies <= 4);
+    }
+  }
 }
 
 TEST_CASE("a certificate has the same bytes for any number of jobs, and survives its JSON", "[certify]") {

@@ -16,7 +16,8 @@ std::vector<Mutant> normal_lies();
 std::vector<Mutant> depth_lies();
 std::vector<Mutant> manifold_lies();
 std::vector<Mutant> impact_lies();
-std::vector<Mutant> swept_lies();  // the broad phase of a step
+std::vector<Mutant> margin_lies();  // margins, bounds, rays
+std::vector<Mutant> swept_lies();   // the broad phase of a step
 std::vector<Mutant> outcome_lies();
 std::vector<Mutant> scene_lies();
 std::vector<Mutant> relation_lies();  // visible only in another form of the case

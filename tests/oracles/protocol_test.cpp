@@ -75,6 +75,7 @@ Scene any_scene(Rng& rng) {
         {Step::Op::query, -1, std::nullopt}, {Step::Op::move, 1, Pose{}},
         {Step::Op::remove, 0, std::nullopt}, {Step::Op::query, -1, std::nullopt}};
   }
+  if (rng.chance(0.5)) s.margin = rng.uniform(-1, 1);
   return s;
 }
 
@@ -91,6 +92,8 @@ Observation any_observation(Rng& rng) {
   maybe(o.normal, any_vector(rng));
   maybe(o.depth, std::numeric_limits<double>::infinity());
   maybe(o.toi, rng.uniform());
+  maybe(o.lower_bound, rng.uniform(-1, 1));
+  maybe(o.upper_bound, rng.uniform(-1, 1));
   for (std::size_t i = rng.below(3); i > 0; --i) o.manifold.push_back({any_vector(rng), rng.uniform()});
   for (std::size_t i = rng.below(3); i > 0; --i) o.candidate_pairs.push_back({{0, 1}, {2, 7}});
   for (std::size_t i = rng.below(3); i > 0; --i) o.contacts.push_back({0, 1, any_vector(rng), rng.uniform()});
@@ -102,7 +105,7 @@ Observation any_observation(Rng& rng) {
 std::vector<Query> any_queries(Rng& rng) {
   std::vector<Query> q;
   for (std::size_t i = rng.below(5); i > 0; --i)
-    q.push_back({static_cast<Question>(rng.below(6)), static_cast<int>(rng.below(5)),
+    q.push_back({static_cast<Question>(rng.below(question_names.size())), static_cast<int>(rng.below(5)),
                  static_cast<int>(rng.below(5))});
   return q;
 }
@@ -190,6 +193,24 @@ TEST_CASE("answers, received scenes and hellos round-trip", "[oracles][protocol]
   std::string bytes;
   append(bytes, hello);
   CHECK(decode_hello(payload_of(bytes, Type::hello)) == hello);
+}
+
+TEST_CASE("the margin and bounds pass through the C ABI", "[oracles][abi]") {
+  Scene scene;
+  scene.margin = -0.25;
+  CHECK(PluginScene(scene).view().margin == -0.25);
+  AnswerCollector collector(2, 0);
+  ts_answer& a = collector.answer();
+  CHECK(std::isnan(a.lower));
+  CHECK(std::isnan(a.upper));
+  a.outcome = TS_ANSWERED;
+  a.has = TS_HAS_LOWER | TS_HAS_UPPER;
+  a.lower = 1;
+  a.upper = 2;
+  const Observation o = collector.take(Question::bounded_distance);
+  CHECK(o.lower_bound == 1);
+  CHECK(o.upper_bound == 2);
+  CHECK(!o.distance);
 }
 
 TEST_CASE("shapes pass through the C ABI and back", "[oracles][abi]") {

@@ -100,7 +100,7 @@ def extent(shape):
 
 def scale(scene, a, b, poses=(None, None)):
     bodies = [scene["bodies"][a], scene["bodies"][b]]
-    lengths = [extent(scene["shapes"][x["shape"]]) for x in bodies]
+    lengths = [extent(scene["shapes"][x["shape"]]) for x in bodies] + [abs(F(scene.get("margin", 0)))]
     for t in (F(0), F(1)):
         x, y = [pose_of(body, t, p)[1] for body, p in zip(bodies, poses)]
         lengths += [abs(c) for c in x + y] + [sqrt_hi(dot(sub(x, y), sub(x, y)))]

@@ -86,6 +86,28 @@ def verdict_errors(pair, says):
     return {"missed": (-hi, -lo)}
 
 
+def within_errors(pair, margin, says):
+    lo, hi = pair.gap
+    if says:
+        return {"ghost": (lo - margin, hi - margin)}
+    if pair.surface() and lo < 0:
+        if margin < 0:
+            raise CannotTell("the depth of a surface is not defined")
+        lo = -FAR
+    return {"missed": (margin - hi, margin - lo)}
+
+
+def bound_errors(pair, answer):
+    found = {}
+    lo, hi = pair.gap
+    lower, upper = answer.get("lower_bound"), answer.get("upper_bound")
+    if lower is not None and math.isfinite(lower):
+        found["bound_off"] = (F(lower) - hi, F(lower) - lo)
+    if upper is not None and math.isfinite(upper) and not (pair.surface() and lo < 0):
+        found["bound_off"] = largest([found.get("bound_off", (-FAR, -FAR)), (lo - F(upper), hi - F(upper))])
+    return found
+
+
 def witness_errors(pair, points):
     if not (finite(points[0]) and finite(points[1])):
         return {"witness_off": (FAR, FAR)}
@@ -252,6 +274,8 @@ def errors(scene, question, a, b, answer, tau, certificate):
         return candidate_errors(scene, certificate, answer)
     if question == "time_of_impact":
         return impact_errors(scene, a, b, answer, tau, certificate)
+    if question in ("ray", "candidates_within"):
+        raise CannotTell(f"{question} is not judged here")
     if question == "scene_contacts":
         return scene_contact_errors(scene, a, b, answer)
     hint = certificate.get("direction")
@@ -263,6 +287,10 @@ def errors(scene, question, a, b, answer, tau, certificate):
     pair = Pair(world(scene, a), world(scene, b), hints)
     if question == "overlap":
         return verdict_errors(pair, answer["overlap"])
+    if question == "within":
+        return within_errors(pair, F(scene.get("margin", 0)), answer["overlap"])
+    if question == "bounded_distance":
+        return distance_errors(pair, answer) | bound_errors(pair, answer)
     return (distance_errors if question == "distance" else contact_errors)(pair, answer)
 
 

@@ -8,7 +8,7 @@ namespace {
 
 // An impact depends on the motion more than on where it begins.
 std::optional<TruePair> pair_at_rest(const Case& c) {
-  if (!c.queries.empty() && c.queries[0].question == Question::time_of_impact) return std::nullopt;
+  if (!c.queries.empty() && is_motion_question(c.queries[0].question)) return std::nullopt;
   return true_pair(c);
 }
 

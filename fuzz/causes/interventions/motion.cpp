@@ -20,7 +20,7 @@ std::optional<Case> stop_turning(const Case& c) {
 }
 
 std::optional<Case> move_b_only(const Case& c) {
-  if (c.queries.empty() || c.queries[0].question != Question::time_of_impact) return std::nullopt;
+  if (c.queries.empty() || !is_motion_question(c.queries[0].question)) return std::nullopt;
   Case r = c;
   Body& a = r.scene.bodies[static_cast<std::size_t>(c.queries[0].a)];
   Body& b = r.scene.bodies[static_cast<std::size_t>(c.queries[0].b)];
@@ -35,7 +35,7 @@ std::optional<Case> move_b_only(const Case& c) {
 namespace {
 
 bool is_about_impact(const Case& c) {
-  return !c.queries.empty() && c.queries[0].question == Question::time_of_impact;
+  return !c.queries.empty() && is_motion_question(c.queries[0].question);
 }
 
 Vec3 velocity(const Case& c, int body) {

@@ -52,7 +52,7 @@ namespace {
 std::optional<Case> as_cubes(const Case& c, double height) {
   const auto pair = pair_of(c);
   if (!pair || c.scene.bodies.size() != 2 || !c.scene.script.empty()) return std::nullopt;
-  if (c.queries[0].question == Question::time_of_impact) return std::nullopt;
+  if (is_motion_question(c.queries[0].question)) return std::nullopt;
   Case r = c;
   r.scene.shapes = {Box{Vec3::Ones()}};
   for (Body& b : r.scene.bodies) {

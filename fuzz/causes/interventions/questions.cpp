@@ -8,7 +8,7 @@ namespace touchstone::fuzz {
 namespace {
 
 std::optional<Case> with_questions_first(const Case& c, const std::vector<Query>& first) {
-  if (!asks_about_pair(c) || c.queries[0].question == Question::time_of_impact) return std::nullopt;
+  if (!asks_about_pair(c) || is_motion_question(c.queries[0].question)) return std::nullopt;
   Case r = c;
   r.queries.insert(r.queries.begin(), first.begin(), first.end());
   return r;

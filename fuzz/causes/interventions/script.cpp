@@ -28,7 +28,7 @@ namespace {
 // The case with a script in which the steps are inserted before the first query.
 template <class Steps>
 std::optional<Case> before_first_query(const Case& c, Steps&& steps) {
-  if (!c.queries.empty() && c.queries[0].question != Question::candidates) return std::nullopt;
+  if (!c.queries.empty() && !is_script_question(c.queries[0].question)) return std::nullopt;
   Truth truth(c.scene);
   if (truth.steps().empty()) return std::nullopt;
   Case r = c;

@@ -21,11 +21,16 @@ void count(CheckOutput& out, std::size_t required, const CandidateComparison& fo
 
 void fault_missed(const CheckInput& in, CheckOutput& out, int k, const Truth::TruePair& p) {
   const auto [a, b] = p.bodies;
-  const double l = in.truth.scale(a, b), depth = std::max(0.0, -p.truth.gap.hi);
+  const bool overlaps = in.query.question == Question::candidates;
+  const double limit = overlaps ? 0 : in.truth.scene().margin;
+  const double l = in.truth.scale(a, b), depth = std::max(0.0, limit - p.truth.gap.hi);
   out.error(depth, l, 0);
   out.fault(Fault::missed, depth, l, {in.query.question, a, b},
-            fmt::format("query {}: pair ({}, {}) overlaps{} and is not a candidate", k, a, b,
-                        depth > 0 ? fmt::format(" by {:.6g}", depth) : " (touching)"),
+            overlaps ? fmt::format("query {}: pair ({}, {}) overlaps{} and is not a candidate", k, a, b,
+                                   depth > 0 ? fmt::format(" by {:.6g}", depth) : " (touching)")
+                     : fmt::format(
+                           "query {}: pair ({}, {}) is within the margin of {:.6g}{} and is not a candidate",
+                           k, a, b, limit, depth > 0 ? fmt::format(" by {:.6g}", depth) : " (exactly)"),
             p.truth.verdict_certificate);
   out.faults.back().step = k;
 }
@@ -37,11 +42,11 @@ void fault_stale(const CheckInput& in, CheckOutput& out, BodyPair p, const std::
 
 }  // namespace
 
-void check_candidates(const CheckInput& in, CheckOutput& out) {
-  if (in.frame != 0) return;  // engines report only the bodies' first poses; scripts are judged as given
-  const auto& truth = in.truth.true_pairs();
+namespace {
+
+void compare_with(const CheckInput& in, CheckOutput& out,
+                  const std::vector<std::vector<Truth::TruePair>>& truth) {
   const auto& states = in.truth.steps();
-  out.undecided = in.truth.undecided_pairs() > 0;
   if (in.answer.candidate_pairs.size() > truth.size()) {
     out.fault(Fault::no_number, 0, 1, in.query, "answers more queries than the script asks");
     return;
@@ -58,6 +63,23 @@ void check_candidates(const CheckInput& in, CheckOutput& out) {
       out.faults.back().step = static_cast<int>(k);
     }
   }
+}
+
+}  // namespace
+
+// Engines report only the bodies' first poses as received, so scripts are judged as given.
+void check_candidates(const CheckInput& in, CheckOutput& out) {
+  if (in.frame != 0) return;
+  const auto& truth = in.truth.true_pairs();
+  out.undecided = in.truth.undecided_pairs() > 0;
+  compare_with(in, out, truth);
+}
+
+void check_candidates_within(const CheckInput& in, CheckOutput& out) {
+  if (in.frame != 0) return;
+  const auto& truth = in.truth.pairs_within();
+  out.undecided = in.truth.undecided_pairs_within() > 0;
+  compare_with(in, out, truth);
 }
 
 // Every pair that overlaps at some time of the step. The depth is measured only for missed pairs.

@@ -30,7 +30,8 @@ void check_distance(const CheckInput& in, CheckOutput& out) {
   // "They overlap, and I have no depth" is an honest answer.
   if (in.answer.overlap) check_overlap(in, out);
   if (!in.answer.distance) {
-    if (!in.answer.overlap) out.fault_always(Fault::no_number, 0, in.query, "answered without a distance");
+    if (!in.answer.overlap && !in.answer.lower_bound && !in.answer.upper_bound)
+      out.fault_always(Fault::no_number, 0, in.query, "answered without a distance");
     return;
   }
   const double d = *in.answer.distance;

@@ -55,6 +55,16 @@ TEST_CASE("a random scene over all shapes survives text and JSON unchanged", "[s
   CHECK(bodies > 1000);
 }
 
+TEST_CASE("a margin of a scene is kept, and left out when it is 0", "[scene][codec]") {
+  Scene scene;
+  CHECK(to_text(scene).find("margin") == std::string::npos);
+  const auto plain = hash(scene);
+  scene.margin = -0.1;
+  CHECK(hash(scene) != plain);
+  CHECK(scene_from_text(to_text(scene)) == scene);
+  CHECK(scene_from_json(to_json(scene)) == scene);
+}
+
 TEST_CASE("a scene survives a file", "[scene][codec]") {
   Rng rng(3);
   const test::TempDir dir;

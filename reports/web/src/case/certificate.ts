@@ -82,7 +82,7 @@ function drawnImpact(c: CertificateJson, t: number, originOfB: V3): Drawn[] {
 }
 
 export function drawn(r: RefereeJson, question: string, t: number, originOfB: V3): Drawn[] {
-  if (question === "time_of_impact") return r.certificate ? drawnImpact(r.certificate, t, originOfB) : [];
+  if (question === "time_of_impact" || question === "ray") return r.certificate ? drawnImpact(r.certificate, t, originOfB) : [];
   const out: Drawn[] = r.verdict_certificate ? drawnVerdict(r.verdict_certificate) : [];
   const gap = numberOf(r.gap?.[0]);
   if (r.verdict === "disjoint" && gap > 0 && r.witness && question !== "overlap")

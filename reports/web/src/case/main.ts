@@ -32,7 +32,7 @@ let time = link.number("t") ?? momentOf(query);
 // For a time of impact, the time of the impact: nothing shows before it.
 function momentOf(i: number): number {
   const q = data.queries[i];
-  const t = q?.question === "time_of_impact" && q.referee.verdict === "impact" ? numberOf(q.referee.t_hi) : 0;
+  const t = q && isOfMotion(q.question) && q.referee.verdict === "impact" ? numberOf(q.referee.t_hi) : 0;
   return Number.isFinite(t) ? t : 0;
 }
 
@@ -118,10 +118,10 @@ function anchorOf(q: QueryJson, e?: EngineAnswer): V3 {
   if (points.length > 0) return [0, 1, 2].map((k) => points.reduce((s, p) => s + p[k]! / points.length, 0)) as V3;
   const w = e?.answer.witness ?? q.referee.witness;
   if (w && w.flat().every(Number.isFinite)) return w[0].map((x, k) => (x + w[1][k]!) / 2) as V3;
-  if (q.referee.witness && q.question !== "time_of_impact") return anchorOf(q);
+  if (q.referee.witness && !isOfMotion(q.question)) return anchorOf(q);
   const now = stands();
   const a = now[q.a]?.position, b = now[q.b]?.position;
-  const contact = q.question === "time_of_impact" ? q.referee.certificate?.contact : undefined;
+  const contact = isOfMotion(q.question) ? q.referee.certificate?.contact : undefined;
   if (contact && b) return contact.point.map((x, k) => rational(x) + b[k]!) as V3;
   const bounded = [a, b].filter((p, i) => p && shapes[bodies[[q.a, q.b][i]!]!.shape]!.type !== "half_space") as V3[];
   if (bounded.length === 0) return [0, 0, 0];
@@ -165,6 +165,8 @@ function marksOf(q: QueryJson): Mark[] {
   return out;
 }
 
+function isOfMotion(question: string): boolean { return question === "time_of_impact" || question === "ray"; }
+
 function stated(q: QueryJson, e: EngineAnswer): string {
   const a = e.answer;
   if (a.outcome !== "answered") return a.outcome.replace("_", " ");
@@ -176,7 +178,13 @@ function stated(q: QueryJson, e: EngineAnswer): string {
       const n = a.normal ? ` n (${a.normal.map((x) => short(numberOf(x), 3)).join(" ")})` : "";
       return `depth ${a.depth === undefined ? "–" : short(numberOf(a.depth), 9)}${n}, ${a.manifold?.length ?? 0} points`;
     }
+    case "within": return a.overlap === undefined ? "–" : a.overlap ? "within" : "beyond";
+    case "bounded_distance":
+      if (a.distance !== undefined) return short(numberOf(a.distance), 10);
+      return a.lower_bound === undefined ? "–" : `at least ${short(numberOf(a.lower_bound), 10)}`;
+    case "ray": return a.toi === undefined ? "no hit" : `t = ${short(numberOf(a.toi), 10)}`;
     case "time_of_impact": return a.toi === undefined ? "no impact" : `t = ${short(numberOf(a.toi), 10)}`;
+    case "candidates_within":
     case "candidates": return `${(a.candidate_pairs ?? []).reduce((s, p) => s + p.length, 0)} pairs in ${(a.candidate_pairs ?? []).length} queries`;
     default: return `${a.contacts?.length ?? 0} contacts`;
   }
@@ -185,11 +193,12 @@ function stated(q: QueryJson, e: EngineAnswer): string {
 function refereeLine(q: QueryJson): string {
   const r = q.referee;
   if (r.overlapping_pairs) return `${r.overlapping_pairs.reduce((s, p) => s + p.length, 0)} pairs overlap in ${r.overlapping_pairs.length} queries`;
-  if (q.question === "time_of_impact")
+  if (r.pairs_within) return `${r.pairs_within.reduce((s, p) => s + p.length, 0)} pairs are within the margin in ${r.pairs_within.length} queries`;
+  if (isOfMotion(q.question))
     return r.verdict === "impact" ? `impact, t in [${r.t_lo}, ${r.t_hi}]` : `${r.verdict}${r.note ? "; " + r.note : ""}`;
   const lo = numberOf(r.gap?.[0]), hi = numberOf(r.gap?.[1]);
   const gap = Number.isFinite(lo) ? `, signed distance ${short((lo + hi) / 2, 14)}${hi > lo ? `, known to ${(hi - lo).toExponential(1)}` : " exactly"}` : "";
-  return `${r.verdict}${gap}` + (q.question === "contact" && r.verdict === "overlap" && r.normal ? `, least along (${r.normal.map((x) => short(x)).join(" ")})` : "");
+  return `${r.within ? `${r.within} the margin, ` : ""}${r.verdict}${gap}` + (q.question === "contact" && r.verdict === "overlap" && r.normal ? `, least along (${r.normal.map((x) => short(x)).join(" ")})` : "");
 }
 
 function drawTable(q: QueryJson): void {
@@ -296,7 +305,7 @@ function drawTimeline(): void {
   slider.value = String(time);
   clock.value = scripted ? `query ${Math.round(time) + 1} of ${frames.length}` : `t = ${time.toFixed(4)}`;
   // Marks at the impact reported by each engine and by the referee.
-  const impacts = data.queries.filter((x) => x.question === "time_of_impact");
+  const impacts = data.queries.filter((x) => isOfMotion(x.question));
   tick.replaceChildren(...impacts.flatMap((x) => [x.referee.t_hi, ...Object.values(x.engines ?? {}).map((e) => e.answer.toi)])
     .map(numberOf).filter(Number.isFinite).map((t) => el("option", { value: String(t) })));
 }

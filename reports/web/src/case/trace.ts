@@ -9,8 +9,8 @@ const spaced = (s: string): string => s.replaceAll("_", " ");
 /** What the referee did for this question, one line per stage. */
 export function refereeTrace(q: QueryJson): string[] {
   const r = q.referee;
-  if (r.overlapping_pairs) return ["every pair of bodies is decided separately"];
-  if (q.question === "time_of_impact") {
+  if (r.overlapping_pairs || r.pairs_within) return ["every pair of bodies is decided separately"];
+  if (q.question === "time_of_impact" || q.question === "ray") {
     const c = r.certificate;
     if (!c) return ["no certificate in a form that `touchstone check` accepts"];
     const lines = [];

@@ -62,6 +62,8 @@ export interface RefereeJson {
   note?: string;
   filter_level?: number;
   overlapping_pairs?: [number, number][][];
+  pairs_within?: [number, number][][];
+  within?: string;
 }
 export interface AnswerJson {
   outcome: string;
@@ -73,6 +75,8 @@ export interface AnswerJson {
   depth?: unknown;
   manifold?: { position: V3; depth: unknown }[];
   toi?: unknown;
+  lower_bound?: unknown;
+  upper_bound?: unknown;
   candidate_pairs?: [number, number][][];
   contacts?: { a: number; b: number; normal: V3; depth: unknown }[];
 }

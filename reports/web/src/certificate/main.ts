@@ -53,6 +53,7 @@ function facts(): HTMLElement {
   fact("Hash of the plug-in", c.plugin_hash);
   fact("Arithmetic", `${u > 2 ** -50 ? "float" : "double"}, unit roundoff ${u.toExponential(2)}`);
   fact("Source of its tolerances", c.card.source);
+  if (c.margin !== undefined) fact("Margin", `${c.margin}: every pair no farther apart must be a candidate`);
   fact("Motion", c.sweeps ? "tested: candidates over the whole step" : "not tested: --sweeps was not given");
   fact("Scope", `${c.scope}, seed ${c.seed}${c.limit ? `, at most ${grouped(c.limit)} cases per suite` : ""}`);
   fact("Left out", c.without.map(spaced).join(", "));

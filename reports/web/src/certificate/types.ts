@@ -23,7 +23,7 @@ export interface CertificatePage {
   has_writer: boolean;
   certificate: {
     subject: string; card: { library: string; version: string; settings: string; unit_roundoff: unknown; source: string };
-    plugin_hash: string; program: string; scope: string; seed: number; limit: number; sweeps: boolean; without: string[];
+    plugin_hash: string; program: string; scope: string; seed: number; limit: number; sweeps: boolean; margin?: number; without: string[];
     verdict: Partial<Record<Level, string>>; not_proved: string[]; evidence: Evidence[]; faults: FaultCount[]; refutations: Refutation[]; too_slow: TooSlow[]; digest: string;
   };
 }

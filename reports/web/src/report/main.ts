@@ -30,7 +30,8 @@ const data = pageData<ReportPage>();
 const link = new LinkState();
 const findings = new Findings(data.findings);
 // Questions in their usual order, not alphabetically.
-const order = ["overlap", "distance", "contact", "time_of_impact", "candidates", "swept_candidates", "scene_contacts"];
+const order = ["overlap", "distance", "contact", "time_of_impact", "candidates", "swept_candidates", "scene_contacts", "within",
+               "bounded_distance", "candidates_within", "ray"];
 for (const [engine, tallies] of Object.entries(data.summary.engines))
   data.summary.engines[engine] = Object.fromEntries(Object.entries(tallies).sort(([a], [b]) => order.indexOf(a) - order.indexOf(b)));
 document.title = `Touchstone: ${data.title}`;
