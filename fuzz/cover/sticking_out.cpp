@@ -93,12 +93,12 @@ class Search {
   // union changes by no more than one moves.
   void push(Part p) {
     p.most = infinity;
-    for (const auto& [piece, at_first] : p.corner[0].near) {
-      double most = at_first;
+    for (const auto& at_first : p.corner[0].near) {
+      double most = at_first.second;
       for (std::size_t k = 1; k < 3; ++k) {
         const auto& near = p.corner[k].near;
         const auto it =
-            std::find_if(near.begin(), near.end(), [&](const auto& n) { return n.first == piece; });
+            std::find_if(near.begin(), near.end(), [&](const auto& n) { return n.first == at_first.first; });
         most = std::max(most, it == near.end() ? infinity : it->second);
       }
       p.most = std::min(p.most, most);

@@ -160,6 +160,35 @@ TEST_CASE("every certificate of the stored corpus holds", "[cli][corpus]") {
   CHECK(r.out.find(" hold; ") != std::string::npos);
 }
 
+TEST_CASE("the checker in Python accepts the certificates of known failures", "[cli][corpus][optional]") {
+  if (!has_command("python3")) return skip("python3 is not there");
+  const Workspace w("corpus-second-checker");
+  std::string lines;
+  std::size_t count = 0;
+  const Json known = Json::parse(read_all(corpus / "cases/known.json"));
+  for (const Json& c : known.at("cases")) {
+    Json scene{{"touchstone_scene", 1}, {"shapes", Json::array()}, {"bodies", Json::array()}};
+    for (const char* name : {"a", "b"}) {
+      Json body = c.at(name);
+      scene["shapes"].push_back(body.at("shape"));
+      body["shape"] = scene["bodies"].size();
+      scene["bodies"].push_back(body);
+    }
+    for (const Json& certificate : c.at("truth").at("certificates")) {
+      lines += Json{{"scene", scene}, {"certificate", certificate}}.dump() + "\n";
+      ++count;
+    }
+  }
+  w.write("certificates.jsonl", lines);
+  const Run r =
+      w.run("python3 " TS_SOURCE_DIR "/tests/second_checker/check_certificates.py certificates.jsonl");
+  INFO(r.err);
+  CHECK(r.code == 0);
+  const auto said = lines_of(r.out);
+  CHECK(count > 200);
+  CHECK(static_cast<std::size_t>(std::count(said.begin(), said.end(), "valid")) == count);
+}
+
 TEST_CASE("a certificate or a truth that was changed is refused", "[cli][corpus]") {
   const Workspace w("corpus-changed");
   fs::create_directories(w.dir / "cases");
