@@ -82,7 +82,8 @@ std::string proof_rows(const GapProof& p) {
   if (p.at_most.kind == Kind::none) return s + row("", "all digits: --json");
   const auto& [a, b] = p.at_most.support_pairs[0];
   s += row("", p.at_most.facets.empty()
-                   ? fmt::format("gap <= {} by {} and {}", number(p.gap.hi), short_vector(a), short_vector(b))
+                   ? fmt::format("gap <= {} by {} and {}{}", number(p.gap.hi), short_vector(a),
+                                 short_vector(b), p.rounded ? ", less the radii" : "")
                    : fmt::format("gap <= {} by an inner polytope of {} facets", number(p.gap.hi),
                                  p.at_most.facets.size()));
   return s + row("", "all digits: --json");

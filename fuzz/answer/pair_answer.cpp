@@ -64,6 +64,7 @@ GapProof prove(const referee::PairTruth& truth, const Placed& a, const Placed& b
   if (truth.normal.allFinite() && !truth.normal.isZero(0))
     r.at_least = accepted(direction_certificate(truth, a, b), a, b);
   const bool apart = truth.verdict == referee::Verdict::disjoint;
+  r.rounded = ball_of(a) > 0 || ball_of(b) > 0;
   r.at_most = accepted(
       apart ? nearest_points_certificate(truth, a, b) : referee::depth_certificate(truth, a, b), a, b);
   if (r.at_least.kind != Certificate::Kind::none) r.gap.lo = -r.at_least.offset;

@@ -18,6 +18,8 @@ struct GapProof {
   /// What the two prove, in the scene's unit; infinite without a certificate. Contains the truth like
   /// PairTruth::gap, and is wider by the rounding of the points to doubles.
   referee::Bracket gap;
+  /// The points of at_most lie inside the bodies by the radii of the balls that round them.
+  bool rounded = false;
 };
 
 /// Is the gap at most the margin? overlap: yes; disjoint: no (referee::judge_within).

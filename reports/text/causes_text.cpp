@@ -188,15 +188,22 @@ static std::string in_brief(const Cause& c, const Causes& all, bool with_path) {
   return paragraph(one_line(words), indent, c.severity == fuzz::Severity::crash ? 2 : 1, hang);
 }
 
+// What an engine declined is no wrong answer.
+static std::string answers_behind(const std::vector<const Cause*>& causes) {
+  std::uint64_t wrong = 0, declined = 0;
+  for (const Cause* c : causes) (c->severity == fuzz::Severity::declined ? declined : wrong) += c->wrong;
+  if (declined == 0) return counted(wrong, "wrong answer", "wrong answers");
+  if (wrong == 0) return counted(declined, "declined answer", "declined answers");
+  return fmt::format("{} wrong and {} declined answers", grouped(wrong), grouped(declined));
+}
+
 std::string causes_of_libraries(const Causes& c, std::size_t most, const LibraryOf& library_of) {
   std::map<std::string, std::vector<const Cause*>> libraries;
   for (const Cause& cause : c.causes) libraries[library_of(cause.path)].push_back(&cause);
   std::string s;
   for (const auto& [library, causes] : libraries) {
-    std::uint64_t wrong = 0;
-    for (const Cause* cause : causes) wrong += cause->wrong;
     s += text_block(fmt::format("{}: {} behind {}", library, counted(causes.size(), "cause", "causes"),
-                                counted(wrong, "wrong answer", "wrong answers")),
+                                answers_behind(causes)),
                     0, 1);
     const std::size_t shown = std::min(most, causes.size());
     for (std::size_t i = 0; i < shown; ++i) s += in_brief(*causes[i], c, causes[i]->path != library);

@@ -187,6 +187,19 @@ TEST_CASE("the last lines of a campaign have the first causes of each library, o
   CHECK(causes_of_libraries({}, 5, first_word).empty());
 }
 
+TEST_CASE("answers that an engine declined are not counted as wrong", "[causes]") {
+  fuzz::Causes c;
+  c.causes.resize(2);
+  for (fuzz::Cause& one : c.causes) {
+    one.path = "core";
+    one.wrong = 2;
+    one.severity = fuzz::Severity::declined;
+  }
+  CHECK(causes_of_libraries(c, 0, first_word).starts_with("core: 2 causes behind 4 declined answers\n"));
+  c.causes[0].severity = fuzz::Severity::crash;
+  CHECK(causes_of_libraries(c, 0, first_word).starts_with("core: 2 causes behind 2 wrong and 2 declined"));
+}
+
 TEST_CASE("a code has as many words of the id as tell it from all others", "[causes]") {
   fuzz::Causes all;
   for (const char* id : {"ode-depth-c9e889", "ode-points-c9e889", "ode-depth-2cd519",

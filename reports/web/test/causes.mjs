@@ -40,7 +40,7 @@ for (const name of ["causes.html", "causes-many.html", "causes-hostile.html"])
   for (const [summary, text] of [["Markdown", record.causes[i].markdown], ["program", record.causes[i].program]]) {
     await page.click(`${block} summary:text("${summary}")`);
     const there = ([b, t]) => [...document.querySelectorAll(`${b} pre`)].some((x) => x.textContent === t);
-    check(`the ${summary} opens as it is`, await page.waitForFunction(there, [block, text], { timeout: 5000 }).then(() => true, () => false));
+    check(`the ${summary} opens as it is`, await page.waitForFunction(there, [block, text], { timeout: 120_000 }).then(() => true, () => false));
   }
   await page.context().grantPermissions(["clipboard-read", "clipboard-write"]);
   await page.click(`${block} button:text("copy as Markdown")`);

@@ -42,7 +42,7 @@ for (const name of ["case.html", "crowd.html", "motion.html", "report.html", "ma
       check(`${name} prints on white, without buttons`, paper.join() === "rgb(255, 255, 255),none", paper.join());
       // Charts are drawn again for paper a moment later.
       const paleLetters = () => [...document.querySelectorAll("svg text")].map((x) => getComputedStyle(x).fill.match(/\d+/g)?.map(Number) ?? [0]).filter((c) => c.length === 3 && Math.min(...c) > 200).length;
-      await page.waitForFunction(`(${paleLetters})() === 0`, null, { timeout: 10000 }).catch(() => {});
+      await page.waitForFunction(`(${paleLetters})() === 0`, null, { timeout: 120_000 }).catch(() => {});
       const pale = await page.evaluate(paleLetters);
       check(`${name} prints no pale letters`, pale === 0, String(pale));
       await shoot(page, `${name.replace(".html", "")}-print`);
