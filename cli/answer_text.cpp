@@ -102,7 +102,7 @@ std::string answer_text(const fuzz::PairAnswer& answer) {
   if (t.verdict == referee::Verdict::overlap && std::isfinite(t.gap.lo))
     s += row("depth", bracket(-t.gap.hi, -t.gap.lo));
   if (t.verdict == referee::Verdict::overlap && !std::isfinite(t.gap.lo)) s += row("depth", "not defined");
-  const bool has_normal = t.normal.allFinite() && !t.normal.isZero(0);
+  const bool has_normal = std::isfinite(t.gap.lo) && t.normal.allFinite() && !t.normal.isZero(0);
   if (has_normal) {
     s += row("normal", normal_words(answer));
     s += row("witness A", vector(t.witness[0]));

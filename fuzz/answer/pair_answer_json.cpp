@@ -61,7 +61,7 @@ nlohmann::ordered_json to_json(const PairAnswer& answer) {
   Json j{{"verdict", to_string(t.verdict)}, {"gap", bracket(t.gap)}};
   if (t.verdict == referee::Verdict::overlap) j["depth"] = bracket(-t.gap.hi, -t.gap.lo);
   if (answer.within) j["within"] = to_json(*answer.within);
-  const bool has_normal = t.normal.allFinite() && !t.normal.isZero(0);
+  const bool has_normal = std::isfinite(t.gap.lo) && t.normal.allFinite() && !t.normal.isZero(0);
   j["normal"] = has_normal ? list(t.normal) : Json();
   if (answer.normals) j["normals"] = to_json(*answer.normals);
   const bool has_witness = t.witness[0].allFinite() && t.witness[1].allFinite();

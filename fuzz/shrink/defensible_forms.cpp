@@ -28,7 +28,7 @@ void keep_valid(std::vector<Case>& out, Case c) {
   } catch (const InputError&) {
     return;
   }
-  out.push_back(std::move(c));
+  if (has_what_is_asked(c)) out.push_back(std::move(c));
 }
 
 // The first body is at the origin, and the largest length about 1.

@@ -371,7 +371,7 @@ std::vector<Case> smaller_and_valid(const Case& c, std::vector<Case> proposals) 
     } catch (const InputError&) {
       return true;
     }
-    return false;
+    return !has_what_is_asked(p);
   });
   return proposals;
 }

@@ -34,19 +34,10 @@ Bracket outward(Real lo, Real hi) { return {round_down(lo), round_up(hi)}; }
 Bracket half_space_width(const Placed& a, const Placed& b, const Vec3& n, bool a_is_half_space) {
   const Vec3 origin = translation_of(a_is_half_space ? b : a);
   const Placed &h = a_is_half_space ? a : b, &other = a_is_half_space ? b : a;
-  if (get<HalfSpace>(other)) {
-    const ConvexTruth t = judge_half_spaces(h, other, origin);
-    if (!std::isfinite(static_cast<double>(t.lo))) return {infinity, infinity};
-    const Real3 u = normalized(to_real(n));
-    const Real c = dot(u, a_is_half_space ? t.normal : -t.normal);
-    if (!(c > 0)) return {infinity, infinity};
-    const Real w = -0.5L * (t.lo + t.hi), slack = t.hi - t.lo + std::fabs(w) * chain_rounding;
-    return outward((w - slack) / c, (w + slack) / c);
-  }
   ConvexTruth t;
-  if (get<TriangleMesh>(other)) {
-    Operand hull{hull_body(other, origin), std::nullopt};
-    t = judge_half_space(h, hull, origin);
+  if (get<HalfSpace>(other)) {
+    t = judge_half_spaces(h, other, origin);
+    if (!std::isfinite(static_cast<double>(t.lo))) return {infinity, infinity};
   } else {
     t = judge_half_space(h, Operand{hull_body(other, origin), std::nullopt}, origin);
   }

@@ -1,6 +1,7 @@
 // A case: a scene and its queries, as plain values.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <compare>
 #include <cstddef>
@@ -81,6 +82,15 @@ struct Case {
   std::vector<Query> queries;
   bool operator==(const Case&) const = default;
 };
+
+/// Whether the scene has what each query asks about: a ray for a `ray`, a margin that is not negative for
+/// `candidates_within`. Indices of bodies are not looked at.
+inline bool has_what_is_asked(const Case& c) {
+  return std::all_of(c.queries.begin(), c.queries.end(), [&](const Query& q) {
+    if (q.question == Question::ray) return is_ray(c.scene, q);
+    return q.question != Question::candidates_within || c.scene.margin >= 0;
+  });
+}
 
 /// Cases that ask for swept candidates have no other queries.
 inline bool has_swept_candidates_query(const Case& c) {

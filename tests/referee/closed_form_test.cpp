@@ -125,15 +125,36 @@ TEST_CASE("half-space: the gap is one support value along its normal, and the ve
   REQUIRE(overlaps < total * 7 / 10);
 }
 
+static Verdict within(const Placed& a, const Placed& b, double margin) {
+  return judge_within(a, b, margin, judge_pair(a, b));
+}
+
 TEST_CASE("two half-spaces are apart only when antiparallel", "[referee]") {
   const Shape up = HalfSpace{{0, 0, 2}, 2}, down = HalfSpace{{0, 0, -1}, -3}, side = HalfSpace{{1, 0, 0}, 0};
   const PairTruth t = judge_pair(at(up, {0, 0, 0}), at(down, {0, 0, 0}));  // z <= 1 and z >= 3
   REQUIRE(t.verdict == Verdict::disjoint);
   REQUIRE(holds(t.gap, 2));
+  CHECK((t.witness[0] - Vec3(0, 0, 1)).norm() <= 1e-15);
+  CHECK((t.witness[1] - Vec3(0, 0, 3)).norm() <= 1e-15);
+  const PairTruth slab = judge_pair(at(down, {7, 0, -4}), at(up, {0, 0, 0}));  // z >= -1 and z <= 1
+  REQUIRE(holds(slab.gap, -2));
+  CHECK(std::fabs(slab.witness[0].z() + 1) <= 1e-15);
+  CHECK(std::fabs(slab.witness[1].z() - 1) <= 1e-15);
+  CHECK(std::fabs(slab.verdict_certificate.point.z()) <= 1);
+  for (const double margin : {-2.5, -2.0, -1.5}) {
+    const Verdict expected = margin < -2 ? Verdict::disjoint : Verdict::overlap;
+    CHECK(within(at(down, {7, 0, -4}), at(up, {0, 0, 0}), margin) == expected);
+  }
+  CHECK(within(at(up, {0, 0, 0}), at(down, {0, 0, 0}), 2) == Verdict::overlap);
+  CHECK(within(at(up, {0, 0, 0}), at(down, {0, 0, 0}), std::nextafter(2, 0)) == Verdict::disjoint);
+  CHECK(within(at(up, {0, 0, 0}), at(side, {0, 0, 0}), -1e9) == Verdict::overlap);
   REQUIRE(judge_pair(at(up, {0, 0, 2}), at(down, {0, 0, 0})).verdict == Verdict::overlap);
   const PairTruth crossed = judge_pair(at(up, {0, 0, 0}), at(side, {9, 9, 9}));
   REQUIRE(crossed.verdict == Verdict::overlap);
   REQUIRE(crossed.gap.hi == -inf);
+  const PairTruth far = judge_pair(at(up, {0, 0, -50}), at(side, {-20, 0, 0}));  // z <= -49 and x <= -20
+  CHECK(far.verdict_certificate.point.z() <= -49);
+  CHECK(far.verdict_certificate.point.x() <= -20);
 }
 
 TEST_CASE("shapes of size zero are points, segments and discs", "[referee]") {

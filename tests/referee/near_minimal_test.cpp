@@ -66,6 +66,20 @@ TEST_CASE("concentric spheres have a continuum of directions, eccentric ones a s
   REQUIRE(has(one, Vec3(1, 0, 0)));
 }
 
+TEST_CASE("parallel capsules beside each other have one direction, found at a sharp minimum",
+          "[referee][normals]") {
+  const Shape a = Capsule{1, 1};
+  for (const double off : {0.5, 1e-3, 1.5}) {
+    const NearMinimalNormals r = near_minimal_normals({&a, Pose{}}, {&a, Pose{{off, 0, 0}, {}}});
+    INFO(off);
+    REQUIRE_FALSE(r.continuum);
+    REQUIRE(r.normals.size() == 1);
+    CHECK((r.normals[0] - Vec3(1, 0, 0)).norm() < 1e-3);
+    CHECK(std::abs(r.widths[0] - (2 - off)) < 1e-6);
+    CHECK(r.second_best > 2 - off);
+  }
+}
+
 TEST_CASE("a ball on a cylinder's axis leaves in every lateral direction, or in two along the axis",
           "[referee][normals]") {
   const Shape tall = Cylinder{1, 3}, flat = Cylinder{3, 1}, ball = Sphere{0.5};

@@ -81,5 +81,8 @@ struct RationalPlane {
   Rational offset;
 };
 RationalPlane world_plane(const Placed& half_space);
+/// Signed distance of two half-spaces times the length of x.normal; nullopt: they are not antiparallel, so
+/// nothing separates them.
+std::optional<Rational> distance_of_half_spaces(const RationalPlane& x, const RationalPlane& y);
 
 }  // namespace touchstone::referee

@@ -141,7 +141,13 @@ Verdict any_within(const Placed& a, const Placed& b, double margin) {
 
 Verdict half_space_within(const Placed& h, const Placed& other, double margin) {
   const RationalPlane plane = world_plane(h);
-  if (is_zero(plane.normal) || is_half_space(other)) return Verdict::undecided;
+  if (is_zero(plane.normal)) return Verdict::undecided;
+  if (is_half_space(other)) {
+    const RationalPlane second = world_plane(other);
+    if (is_zero(second.normal)) return Verdict::undecided;
+    const std::optional<Rational> between = distance_of_half_spaces(plane, second);
+    return verdict_of(!between || is_at_most(*between, exact(margin), dot(plane.normal, plane.normal)));
+  }
   for (const Operand& part : parts_of(other, translation_of(other))) {
     if (!part.has_exact()) return Verdict::undecided;
     if (within_of_half_space(plane, part.exact_body(), margin)) return Verdict::overlap;

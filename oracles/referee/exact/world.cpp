@@ -62,4 +62,12 @@ RationalPlane world_plane(const Placed& half_space) {
   return p;
 }
 
+std::optional<Rational> distance_of_half_spaces(const RationalPlane& x, const RationalPlane& y) {
+  const Rational along = dot(x.normal, y.normal);
+  if (along >= 0 || !is_zero(cross(x.normal, y.normal))) return std::nullopt;
+  // y.normal = -k·x.normal: B = {x.normal·p >= -y.offset/k}.
+  const Rational k = -along / dot(x.normal, x.normal);
+  return -y.offset / k - x.offset;
+}
+
 }  // namespace touchstone::referee

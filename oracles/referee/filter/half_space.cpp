@@ -127,30 +127,42 @@ ConvexTruth judge_half_space(const Placed& h, const Operand& body, const Vec3& o
   return t;
 }
 
+// A point of both half-spaces {x : u·x <= o} and {x : v·x <= p}, u and v unit vectors that are not
+// antiparallel: far enough against u + v.
+static Real3 point_of_both(const Plane& x, const Plane& y) {
+  const Real3 u = normalized(x.normal), v = normalized(y.normal);
+  const Real3 sum = u + v;
+  const Real along = dot(sum, u), farther = 2;
+  if (!(along > 0)) return {0, 0, 0};
+  const Real o = x.offset / norm(x.normal), p = y.offset / norm(y.normal);
+  return -(farther * std::max({Real{0}, -o, -p}) / along) * sum;
+}
+
 ConvexTruth judge_half_spaces(const Placed& a, const Placed& b, const Vec3& origin) {
   ConvexTruth t;
   t.lo = -infinity;
   t.hi = infinity;
-  const auto p = plane_of(a, origin);
-  if (!p || !plane_of(b, origin)) return t;
-  const RationalPlane x = world_plane(a), y = world_plane(b);
+  const auto p = plane_of(a, origin), q = plane_of(b, origin);
+  if (!p || !q) return t;
   t.level = 2;
   t.normal = normalized(p->normal);
-  const Rational along = dot(x.normal, y.normal);
-  if (along >= 0 || !is_zero(cross(x.normal, y.normal))) {
+  const std::optional<Rational> between = distance_of_half_spaces(world_plane(a), world_plane(b));
+  if (!between) {
     t.verdict = Verdict::overlap;
     t.lo = t.hi = -infinity;
+    t.common = point_of_both(*p, *q);
+    t.witness_a = t.witness_b = t.common;
     return t;
   }
-  // y.normal = -k·x.normal: B = {x.normal·p >= -y.offset/k}.
-  const Rational k = -along / dot(x.normal, x.normal);
-  const Rational between = -y.offset / k - x.offset;
-  t.verdict = between > 0 ? Verdict::disjoint : Verdict::overlap;
-  const Real value = between.convert_to<Real>() / norm(p->normal);
+  t.verdict = *between > 0 ? Verdict::disjoint : Verdict::overlap;
+  const Real length = norm(p->normal), value = between->convert_to<Real>() / length;
   const Real slack =
-      projection_rounding * std::fabs(value) + std::fabs(value) * 4 * (p->normal_error / norm(p->normal));
+      projection_rounding * std::fabs(value) + std::fabs(value) * 4 * (p->normal_error / length);
   t.lo = value - slack;
   t.hi = value + slack;
+  t.witness_a = (p->offset / length) * t.normal;
+  t.witness_b = t.witness_a + value * t.normal;
+  t.common = 0.5L * (t.witness_a + t.witness_b);
   return t;
 }
 

@@ -3,6 +3,7 @@
 // Minkowski difference (inner_polytope.h), found in order of value. Curved pairs: descent of w from
 // directions spread over the sphere; an estimate, and marked as one.
 #include <algorithm>
+#include <optional>
 
 #include "oracles/referee/filter/convex.h"
 #include "oracles/referee/limits.h"
@@ -19,6 +20,8 @@ constexpr Real relative_slack = 1e-6L, absolute_slack = 1e-9L;
 constexpr Real golden_angle = 2.399963229728653322L;  // π(3 - √5) rad
 // A descent stops at a step this short, or when the slope is this small a part of the extent.
 constexpr Real least_step = 1e-10L, least_slope = 1e-12L;
+constexpr Real first_step = 0.25L;
+constexpr int most_steps = 500;
 // A descent ends somewhat above its minimum: this part of the extent is allowed on top of the slack.
 constexpr Real descent_slack = 1e-7L;
 // Directions of descents / of facets that are closer than this are the same.
@@ -42,22 +45,42 @@ Real3 direction(int i) {
 
 Real width_along(const Difference& d, const Real3& n) { return dot(n, d.support(n).w) + d.radius; }
 
-// h is convex, so n moves against the perpendicular part of its support point; a step that does not lower w
-// is halved.
+// The shortest vector on the segment between u and v.
+Real3 nearest_to_origin(const Real3& u, const Real3& v) {
+  const Real3 along = v - u;
+  const Real length_sq = dot(along, along);
+  const Real at = length_sq > 0 ? std::clamp(-dot(u, along) / length_sq, Real{0}, Real{1}) : 0;
+  return u + at * along;
+}
+
+// w is a maximum of dot products, so n moves against the perpendicular part of its support point. Where that
+// does not lower w, n is near an edge between two support points, and moves along it; a step that fails then
+// is halved. Where three or more meet at a sharp minimum, steps lower w ever less: their number is bounded.
 Minimum descend(const Difference& d, Real3 n) {
   spend(20'000 + 400 * static_cast<std::int64_t>(d.a.points.size() + d.b.points.size()));
   Real value = width_along(d, n);
-  for (Real step = 0.25L; step > least_step;) {
-    const Real3 v = d.support(n).w, across = v - dot(n, v) * n;
-    if (!(norm(across) > least_slope * d.extent)) break;
-    const Real3 next = normalized(n - step * normalized(across));
-    const Real there = width_along(d, next);
-    if (there < value) {
-      n = next;
-      value = there;
-    } else {
+  std::optional<Real3> other;  // the support point of the last step that failed
+  Real step = first_step;
+  for (int k = 0; k < most_steps && step > least_step; ++k) {
+    const auto across = [&](const Real3& v) { return v - dot(n, v) * n; };
+    const Real3 steepest = across(d.support(n).w);
+    const Real3 against = other ? nearest_to_origin(steepest, across(*other)) : steepest;
+    if (!(norm(against) > least_slope * d.extent)) {
+      if (!other) break;
+      other.reset();  // on both sides of a minimum, or at an edge's
       step /= 2;
+      continue;
     }
+    const Real3 next = normalized(n - step * normalized(against));
+    const Real3 there = d.support(next).w;
+    const Real lower = dot(next, there) + d.radius;
+    if (lower < value) {
+      n = next;
+      value = lower;
+      continue;
+    }
+    if (other) step /= 2;
+    other = there;
   }
   return {n, value};
 }
