@@ -102,7 +102,8 @@ int verdict_of(referee::Verdict v) {
                                           : TOUCHSTONE_UNDECIDED;
 }
 
-touchstone_gap gap_of(const referee::PairTruth& t, double margin) {
+touchstone_gap gap_of(const Placed& a, const Placed& b, double margin) {
+  const referee::PairTruth t = referee::with_witness(referee::judge_pair(a, b), a, b);
   touchstone_gap g{};
   g.lo = t.gap.lo;
   g.hi = t.gap.hi;
@@ -110,9 +111,8 @@ touchstone_gap gap_of(const referee::PairTruth& t, double margin) {
   store(t.witness[0], g.witness_a);
   store(t.witness[1], g.witness_b);
   g.verdict = verdict_of(t.verdict);
-  const bool near = t.gap.hi <= margin || t.verdict == referee::Verdict::overlap;
-  const bool far = t.gap.lo > margin || (margin == 0 && t.verdict == referee::Verdict::disjoint);
-  g.within_margin = near ? 1 : far ? 0 : -1;
+  const referee::Verdict within = referee::judge_within(a, b, margin, t);
+  g.within_margin = within == referee::Verdict::undecided ? -1 : within == referee::Verdict::overlap;
   return g;
 }
 
@@ -317,7 +317,7 @@ touchstone_status touchstone_gaps(const touchstone_shape* a, const double* poses
     for (std::size_t i = 0; i < n; ++i) pairs.at(i);  // all are valid before the first answer
     for (std::size_t i = 0; i < n; ++i) {
       const Pair p = pairs.at(i);
-      out[i] = gap_of(referee::judge_pair(p.a, p.b), margin);
+      out[i] = gap_of(p.a, p.b, margin);
     }
   });
 }

@@ -104,16 +104,6 @@ bool has_listed_normals(const Placed& p) {
          k == ShapeKind::rounded_box;
 }
 
-// Where several directions have the least depth, the referee's witness points may belong to another of them
-// than its normal. Their direction is taken if it is not proven to need more than the depth.
-void match_normal_to_witness(referee::PairTruth& t, const Placed& a, const Placed& b) {
-  if (t.verdict != referee::Verdict::overlap || !std::isfinite(t.gap.lo)) return;
-  const Vec3 n = (t.witness[0] - t.witness[1]).stableNormalized();
-  constexpr double same = 1 - 0x1p-20;  // cosine: directions within 1.4e-3 rad need no change
-  if (!n.allFinite() || n.isZero(0) || n.dot(t.normal) >= same) return;
-  if (referee::width(a, b, n).lo <= -t.gap.lo) t.normal = n;
-}
-
 // GapProof::gap is infinite where there is no certificate.
 bool shows(const GapProof& proof, const WithinAnswer& within) {
   if (within.verdict == referee::Verdict::overlap) return proof.gap.hi <= within.margin;
@@ -124,8 +114,7 @@ bool shows(const GapProof& proof, const WithinAnswer& within) {
 
 PairAnswer answer_pair(const Placed& a, const Placed& b, const AnswerOptions& options) {
   PairAnswer r;
-  r.truth = referee::judge_pair(a, b);
-  match_normal_to_witness(r.truth, a, b);
+  r.truth = referee::with_witness(referee::judge_pair(a, b), a, b);
   if (options.normals && has_listed_normals(a) && has_listed_normals(b))
     r.normals = referee::near_minimal_normals(a, b);
   if (options.margin)

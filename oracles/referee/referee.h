@@ -29,7 +29,9 @@ struct PairTruth {
   Bracket gap;
   /// Unit within rounding, A to B: a separating direction, or a direction of (nearly) least w.
   Vec3 normal = Vec3::Zero();
-  std::array<Vec3, 2> witness;      // rounded points of A and B that realise the gap
+  /// Rounded points of A and B that realise the gap. Where convex bodies overlap in more than one point they
+  /// need not be those of `normal`, or be one point of both: with_witness.
+  std::array<Vec3, 2> witness;
   Certificate verdict_certificate;  // separating_plane or common_point
   /// Which arithmetic settled the verdict: 0 doubles with their error bounds, 1 extended precision, 2 exact.
   /// The bracket is proven in extended precision in every case.
@@ -39,6 +41,11 @@ struct PairTruth {
 /// `hints`: directions (A to B) and points that engines proposed; tried first as certificates, never trusted.
 PairTruth judge_pair(const Placed& a, const Placed& b, std::span<const Vec3> hint_directions = {},
                      std::span<const Vec3> hint_points = {});
+
+/// `t`, judge_pair's answer for the same bodies, with points that realise the depth along its normal:
+/// witness[0] - witness[1] is the depth times the normal, up to 1e-7 of the bodies' size. Unchanged where they
+/// do so already, for bodies that are apart, half-spaces and meshes.
+PairTruth with_witness(PairTruth t, const Placed& a, const Placed& b);
 
 /// Is the signed gap at most `margin` (finite, any sign)? overlap: yes, disjoint: no. `truth` is what
 /// judge_pair says of the pair; where its bracket holds the margin, the answer is exact for hulls of points

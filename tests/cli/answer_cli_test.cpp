@@ -65,9 +65,8 @@ TEST_CASE("two bodies on the command line are answered with certificates", "[ans
 TEST_CASE("points inside round bodies prove a gap less the radii, and the proof says so", "[answer]") {
   const Workspace w("answer-radii");
   const Run round = w.touchstone("answer 'box 1 1 1' 'sphere 1 at 3 0 0'");
-  CHECK(round.out.find("by (1, 0, 0) and (3, 0, 0), less the radii\n") != std::string::npos);
-  CHECK(w.touchstone("answer 'box 1 1 1' 'box 1 1 1 at 3 0 0'").out.find("less the radii") ==
-        std::string::npos);
+  CHECK(round.out.find("by (1, 0, 0) and (3, 0, 0), less the") != std::string::npos);
+  CHECK(w.touchstone("answer 'box 1 1 1' 'box 1 1 1 at 3 0 0'").out.find("less the") == std::string::npos);
 }
 
 TEST_CASE("whether bodies are within a margin is decided exactly, and from a scene's own margin",
