@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "oracles/checker/checker.h"
+#include "oracles/referee/counters.h"
 #include "oracles/referee/exact/exact_point.h"
 #include "oracles/referee/filter/convex.h"
 #include "oracles/referee/work.h"
@@ -189,6 +190,39 @@ TEST_CASE("no level of the filter contradicts the exact one, and quick brackets 
     CHECK(t.overlaps > cases / 10);
     CHECK(t.overlaps < cases * 9 / 10);
   }
+}
+
+TEST_CASE("a verdict needs no inner polytope, and a gap beyond what is asked for no extended precision",
+          "[referee][levels]") {
+  Rng r(79);
+  int overlaps = 0, apart = 0;
+  for (int i = 0; i < 500; ++i) {
+    Pair p = anywhere(r);
+    if (r.chance(0.5)) p.a = random_convex(r, ShapeKind::ellipsoid);
+    if (r.chance(0.5)) p.b = random_convex(r, ShapeKind::cylinder);
+    const Operand x = make_operand({&p.a, p.pose_a}, Vec3::Zero()),
+                  y = make_operand({&p.b, p.pose_b}, Vec3::Zero());
+    const ConvexTruth whole = judge_convex(x, y);
+    // Doubles tell no difference below this.
+    const Real clear = 1e-13L * (x.body.extent + y.body.extent);
+    if (std::fabs(whole.hi) < clear) continue;
+    const std::uint64_t expansions = counters().expansions;
+    const ConvexTruth verdict = judge_convex(x, y, {}, Effort::verdict_only);
+    REQUIRE(counters().expansions == expansions);
+    REQUIRE(verdict.verdict == whole.verdict);
+    REQUIRE(verdict.lo <= whole.hi);
+    REQUIRE(verdict.hi >= whole.lo);
+    ++(whole.verdict == Verdict::overlap ? overlaps : apart);
+    if (whole.verdict == Verdict::overlap) continue;
+    const ConvexTruth beyond = judge_convex(x, y, {}, Effort::gap, whole.lo / 2),
+                      within = judge_convex(x, y, {}, Effort::gap, whole.hi * 2);
+    REQUIRE(within.lo == whole.lo);
+    REQUIRE(within.hi == whole.hi);
+    REQUIRE(beyond.lo == verdict.lo);
+    REQUIRE(beyond.hi == verdict.hi);
+  }
+  CHECK(overlaps > 50);
+  CHECK(apart > 50);
 }
 
 TEST_CASE("integers of 512 bits and rationals agree on half-spaces", "[referee][levels]") {

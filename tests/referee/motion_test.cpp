@@ -195,6 +195,41 @@ TEST_CASE("the depth of a passage through a mesh is that of one triangle", "[ref
   REQUIRE(certified_depth_before(at(ground, {0, 0, -2}), rest, flat, moving({0, 0, -4}), 1) == Approx(2));
 }
 
+TEST_CASE("a spinning body meets a mesh when it first meets one of its triangles", "[referee][motion]") {
+  Rng r(81);
+  int hits = 0;
+  for (int i = 0; i < 40; ++i) {
+    TriangleMesh whole;
+    for (int k = 0; k < 6; ++k) {
+      for (int j = 0; j < 3; ++j) whole.vertices.push_back(r.vector(0, 1));
+      whole.triangles.push_back({3 * k, 3 * k + 1, 3 * k + 2});
+    }
+    const Shape body = random_convex(r, tested_kinds[r.below(std::size(tested_kinds))], 0.5);
+    const Vec3 from = 3 * r.unit_vector();
+    const Motion way = moving(-1.5 * from + r.vector(0, 0.5), r.vector(0, 6));
+    const auto meets = [&](const TriangleMesh& m) {
+      const Shape mesh = m;
+      return judge_motion(at(body, from), way, at(mesh, Vec3::Zero()), rest);
+    };
+    double lo = 1, hi = 1;
+    bool hit = false;
+    for (const auto& t : whole.triangles) {
+      const TimeTruth part = meets({whole.vertices, {t}});
+      lo = std::min(lo, part.t_lo);
+      if (part.verdict != Hit::hit) continue;
+      hit = true;
+      hi = std::min(hi, part.t_hi);
+    }
+    const TimeTruth all = meets(whole);
+    REQUIRE((all.verdict == Hit::hit) == hit);
+    if (!hit) continue;
+    ++hits;
+    REQUIRE(all.t_lo == lo);
+    REQUIRE(all.t_hi == hi);
+  }
+  CHECK(hits > 10);
+}
+
 TEST_CASE("a rotating half-space: closed form for a ball, and a large box in its place",
           "[referee][motion]") {
   const Shape ground = HalfSpace{{0, 0, 2}, 0}, ball = Sphere{0.5};

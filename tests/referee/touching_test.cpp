@@ -1,6 +1,7 @@
 // Bodies of simple sizes rotated by symmetries of the lattice: many touch exactly. The verdict of a curved
 // pair that touches at a point with simple coordinates is decided, with a point that the checker accepts.
 #include "oracles/checker/checker.h"
+#include "oracles/referee/work.h"
 #include "tests/referee/support.h"
 #include "tests/support/catch.h"
 
@@ -128,6 +129,21 @@ TEST_CASE("contact at a point of a rim and along an edge is found among simple f
   const Shape cone = Cone{1.125, 0.75};
   const Pose below{{0.1, 0.3, -0.75}, {0, 0, 0, 1}};
   REQUIRE(judge_pair({&cone, Pose{}}, {&roof, below}).verdict == Verdict::overlap);
+}
+
+TEST_CASE("an exact search looks first where a mesh is nearest", "[referee][touching]") {
+  const Hull roof = make_hull({{-2, -0.25, 0}, {2, 0.125, 0}, {-2, 1, -1}, {2, -1, -1}, {0, 0, -3}});
+  TriangleMesh crowd{roof.vertices, {}};
+  for (int i = 0; i < 60; ++i) {
+    const int k = static_cast<int>(crowd.vertices.size());
+    for (const Vec3& v : {Vec3(0, 0, 9), Vec3(1, 0, 9 + i), Vec3(0, 1, 9)}) crowd.vertices.push_back(v);
+    crowd.triangles.push_back({k, k + 1, k + 2});
+  }
+  crowd.triangles.insert(crowd.triangles.end(), roof.faces.begin(), roof.faces.end());
+  const Shape cone = Cone{1.125, 0.75}, mesh = crowd;
+  const Pose below{{0.1, 0.3, -0.75}, {0, 0, 0, 1}};
+  const WorkLimit few(200'000'000);
+  REQUIRE(judge_pair({&cone, Pose{}}, {&mesh, below}).verdict == Verdict::overlap);
 }
 
 TEST_CASE("the overlap of a curved body and a mesh has a point that the checker accepts",

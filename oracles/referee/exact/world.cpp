@@ -50,13 +50,18 @@ std::vector<Rational3> world_points(const ExactBody& b) {
 RationalPlane world_plane(const Placed& half_space) {
   const auto& h = std::get<HalfSpace>(*half_space.shape);
   const RationalMatrix m = matrix_of(half_space.pose);
-  // Rows of the cofactor matrix; det(M)·M^-T = cof(M). For a rotation it is the rotation itself.
+  RationalPlane p;
+  if (std::holds_alternative<Pose>(half_space.pose)) {  // a rotation: its own cofactor matrix, determinant 1
+    p.normal = apply(m, exact(h.normal));
+    p.offset = exact(h.offset) + dot(p.normal, translation_of(half_space.pose));
+    return p;
+  }
+  // Rows of the cofactor matrix; det(M)·M^-T = cof(M).
   const RationalMatrix cofactor{
       {cross(m.row[1], m.row[2]), cross(m.row[2], m.row[0]), cross(m.row[0], m.row[1])}};
   const Rational det = dot(m.row[0], cofactor.row[0]);
   if (det == 0) return {{0, 0, 0}, 0};
   const Rational sign = det > 0 ? 1 : -1;
-  RationalPlane p;
   p.normal = sign * apply(cofactor, exact(h.normal));
   p.offset = sign * det * exact(h.offset) + dot(p.normal, translation_of(half_space.pose));
   return p;

@@ -103,19 +103,20 @@ Real target_width(const Difference& d) {
 namespace {
 
 // Whether the origin is inside the tetrahedron and farther than `error` from its faces, so that D contains
-// it, given that the vertices are within `error` of D. With v = 2^-53 and vertices no longer than s: a
+// it, given that the vertices are within `error` of D. With v = unit_of<T> and vertices no longer than s: a
 // determinant is within 64v·s³ (rational.cpp); all four of one sign, seen from outside, put the origin
 // inside. The distance of a face is det/|area vector|, whose computed length is within 32v·s² (edges up to
 // 2s, a cross product, a norm).
-bool holds_origin(const BasicSimplex<double>& x, double s, double error) {
+template <class T>
+bool holds_origin(const BasicSimplex<T>& x, T s, T error) {
   constexpr int face[4][3] = {{0, 1, 2}, {0, 3, 1}, {1, 3, 2}, {2, 3, 0}};
   if (x.size != 4) return false;
   int sign = 0;
   for (const auto& f : face) {
-    const auto w = [&](int k) -> const Double3& { return x.vertex[static_cast<std::size_t>(f[k])].w; };
-    const double det = dot(cross(w(0), w(1)), w(2)), slack = chain_rounding_of<double> * s * s * s;
-    const double area = norm(triangle_normal(w(0), w(1), w(2))) + chain_rounding_of<double> * s * s;
-    if (!(std::abs(det) - slack > error * area * (1 + dot_rounding_of<double>))) return false;
+    const auto w = [&](int k) -> const Triple<T>& { return x.vertex[static_cast<std::size_t>(f[k])].w; };
+    const T det = dot(cross(w(0), w(1)), w(2)), slack = chain_rounding_of<T> * s * s * s;
+    const T area = norm(triangle_normal(w(0), w(1), w(2))) + chain_rounding_of<T> * s * s;
+    if (!(std::abs(det) - slack > error * area * (1 + dot_rounding_of<T>))) return false;
     if (sign != 0 && (det > 0) != (sign > 0)) return false;
     sign = det > 0 ? 1 : -1;
   }
@@ -145,13 +146,26 @@ struct Level0 {
   }
   double target() const { return chain_rounding_of<double> * d->extent + 4 * d->error; }
 
-  /// The simplex's vertices in extended precision; empty when they are not pairs of core vertices.
-  std::optional<Simplex> simplex(const Difference& fine) const {
+  /// The simplex as it is in doubles.
+  Simplex rounded_simplex() const {
+    Simplex s;
+    s.size = gjk.simplex.size;
+    for (std::size_t i = 0; i < static_cast<std::size_t>(s.size); ++i) {
+      const auto& v = gjk.simplex.vertex[i];
+      s.vertex[i] = {to_real(v.w), to_real(v.a), to_real(v.b), v.ia, v.ib, to_real(v.n)};
+      s.weight[i] = gjk.simplex.weight[i];
+    }
+    return s;
+  }
+
+  /// The simplex in extended precision: the same pairs of core vertices, or the support points of curved
+  /// cores in the same directions.
+  Simplex simplex(const Difference& fine) const {
     Simplex s;
     for (int i = 0; i < gjk.simplex.size; ++i) {
       const auto& v = gjk.simplex.vertex[static_cast<std::size_t>(i)];
-      if (v.ia < 0 || v.ib < 0) return std::nullopt;
-      s.vertex[static_cast<std::size_t>(s.size++)] = vertex_at(fine, v.ia, v.ib);
+      s.vertex[static_cast<std::size_t>(s.size++)] =
+          v.ia >= 0 && v.ib >= 0 ? vertex_at(fine, v.ia, v.ib) : fine.support(to_real(v.n));
     }
     return s;
   }
@@ -159,11 +173,13 @@ struct Level0 {
 
 class Judge {
  public:
-  Judge(const Operand& a, const Operand& b, Effort effort)
-      : a_(a), b_(b), effort_(effort), d_(a.body, b.body), target_(target_width(d_)) {}
+  Judge(const Operand& a, const Operand& b, Effort effort, Real enough)
+      : a_(a), b_(b), effort_(effort), enough_(enough), d_(a.body, b.body), target_(target_width(d_)) {}
 
   ConvexTruth run(std::span<const Real3> hints) {
-    run_gjk(hints);
+    if (run_level0(hints) && (effort_ == Effort::verdict_only || is_farther())) return by_doubles();
+    run_gjk();
+    if (effort_ == Effort::verdict_only && holds_origin(gjk_.simplex, d_.extent, d_.error)) overlaps();
     const bool verdict_suffices = effort_ == Effort::verdict_only && t_.verdict != Verdict::undecided;
     if (gap_.hi - gap_.lo > target_ && gap_.lo > 0 && !verdict_suffices) project();
     if (gap_.hi - gap_.lo > target_ && gap_.lo > 0 && !verdict_suffices) search_wider();
@@ -182,19 +198,55 @@ class Judge {
   }
 
  private:
-  void run_gjk(std::span<const Real3> hints) {
-    std::vector<Real3> directions(hints.begin(), hints.end());
-    directions.push_back(between_centres(d_));
-    level0_.run(d_, directions);
-    std::optional<Simplex> seed;
+  // Whether doubles decide the verdict.
+  bool run_level0(std::span<const Real3> hints) {
+    directions_.assign(hints.begin(), hints.end());
+    directions_.push_back(between_centres(d_));
+    level0_.run(d_, directions_);
+    return level0_.verdict != Verdict::undecided;
+  }
+
+  bool is_farther() const {
+    return level0_.verdict == Verdict::disjoint &&
+           static_cast<Real>(level0_.gjk.gap.lo) - d_.radius - d_.radius_error > enough_;
+  }
+
+  void run_gjk() {
     if (level0_.d) {
-      seed = level0_.simplex(d_);
-      if (!seed) directions.push_back(to_real(level0_.gjk.gap.direction));
+      const Simplex seed = level0_.simplex(d_);
+      gjk_ = gjk(d_, std::span<const Real3>(directions_), target_, &seed);
+      gap_ = gjk_.gap;
+      directions_.push_back(to_real(level0_.gjk.gap.direction));
     }
-    gjk_ = gjk(d_, std::span<const Real3>(directions), target_, seed ? &*seed : nullptr);
-    gap_ = gjk_.gap;
+    settle();
+    const bool curved = is_curved(a_.body) || is_curved(b_.body);
+    const bool open = gap_.hi - gap_.lo > target_ || t_.verdict == Verdict::undecided;
+    if (!level0_.d || (curved && gjk_.simplex.size < 4 && open)) {
+      gjk_ = gjk(d_, std::span<const Real3>(directions_), target_);
+      gap_.raise(gjk_.gap.lo, gjk_.gap.direction);
+      gap_.lower(gjk_.gap.hi);
+    } else if (curved) {
+      for (const Real3& n : directions_) gap_.raise(-d_.width_above(d_.support(n), n), n);
+    }
     nearest_ = gjk_.simplex;
     settle();
+  }
+
+  // What level 0 proves is proven of the bodies themselves.
+  ConvexTruth by_doubles() {
+    gap_.raise(level0_.gjk.gap.lo, to_real(level0_.gjk.gap.direction));
+    gap_.lower(level0_.gjk.gap.hi);
+    settle();
+    if (level0_.verdict == Verdict::overlap) overlaps();
+    t_.normal = normalized(gap_.direction);
+    take_witness(t_, d_, level0_.rounded_simplex());
+    count();
+    return std::move(t_);
+  }
+
+  void overlaps() {
+    t_.verdict = Verdict::overlap;
+    t_.hi = std::min(t_.hi, Real{0});
   }
 
   void settle() {
@@ -339,9 +391,11 @@ class Judge {
 
   const Operand &a_, &b_;
   Effort effort_;
+  Real enough_;
   Difference d_;
   Real target_;
   Level0& level0_ = storage();
+  std::vector<Real3> directions_;
   GjkResult gjk_;
   CoreGap gap_;
   Simplex nearest_;
@@ -350,10 +404,11 @@ class Judge {
 
 }  // namespace
 
-ConvexTruth judge_convex(const Operand& a, const Operand& b, std::span<const Real3> hints, Effort effort) {
+ConvexTruth judge_convex(const Operand& a, const Operand& b, std::span<const Real3> hints, Effort effort,
+                         Real enough) {
   ++counters().convex_pairs;
   spend(work_of_support(a.body, b.body) * 24);  // a dozen steps in doubles, then a few more
-  return Judge(a, b, effort).run(hints);
+  return Judge(a, b, effort, enough).run(hints);
 }
 
 std::optional<std::array<double, 2>> gap_at_most(const Operand& a, const Operand& b, double enough) {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <limits>
 #include <optional>
 #include <span>
 
@@ -41,10 +42,12 @@ struct ConvexTruth {
   ExactPair exact_pair() const { return make_exact(exact_operands.at(0), exact_operands.at(1)); }
 };
 
-/// certificate: the bracket is found with an inner polytope in extended precision, which is kept.
+/// verdict_only: the bracket is as wide as deciding the verdict left it. certificate: the bracket is found
+/// with an inner polytope in extended precision, which is kept.
 enum class Effort { verdict_only, gap, certificate };
+/// A pair that is farther apart than `enough` is judged as with verdict_only.
 ConvexTruth judge_convex(const Operand& a, const Operand& b, std::span<const Real3> hints = {},
-                         Effort effort = Effort::gap);
+                         Effort effort = Effort::gap, Real enough = std::numeric_limits<Real>::infinity());
 
 /// Doubles alone: proven bounds [lo, hi] of the gap when hi is at most `enough`; nullopt otherwise. Saves
 /// most when bodies touch or overlap by a rounding, where a verdict needs more than doubles.

@@ -495,7 +495,7 @@ Vertex vertex_at(const Difference& d, int ia, int ib) {
     return k < n ? s.points[k] : s.points[k - n] + s.sweep;
   };
   const Real3 a = point(d.a, ia), b = point(d.b, ib);
-  return {a - b, a, b, ia, ib};
+  return {a - b, a, b, ia, ib, {}};
 }
 
 // A double vertex is within `off` of the extended one: two roundings of a point and one of the difference,
@@ -508,7 +508,7 @@ Confirmed confirm(const Difference& d, const BasicDifference<double>& d0, const 
   Confirmed r;
   const auto& p = found.polytope;
   if (found.nearest_facet < 0 || !is_closed(p)) return r;
-  constexpr Real rounding = 0x1p-40L;  // more than the rounding of the quotient below
+  constexpr Real rounding = 0x1p-40L;                     // more than the rounding of the quotient below
   constexpr double det_rounding = 256 * unit_of<double>;  // as above
   const double off = dot_rounding_of<double> * d0.extent,
                det_slack = det_rounding * d0.extent * d0.extent * d0.extent;

@@ -108,7 +108,8 @@ ConvexTruth judge_parts(std::span<const Operand> a, std::span<const Operand> b, 
   for (const Candidate& c : by_box_distance(a, b)) {
     // All further candidates are farther than the distance already reached.
     if (c.distance > std::max(t.hi, Real{0})) break;
-    ConvexTruth part = judge_convex(a[c.i], b[c.j]);
+    // A part farther away than the nearest so far changes neither end of the bracket.
+    ConvexTruth part = judge_convex(a[c.i], b[c.j], {}, Effort::gap, t.hi);
     if (part.exact) part.exact_operands = {a[c.i].exact_body(), b[c.j].exact_body()};
     join(t, std::move(part));
     if (t.verdict == Verdict::overlap) break;

@@ -13,6 +13,7 @@ struct BasicVertex {
   Triple<T> w;     // a - b
   Triple<T> a, b;  // support points of the cores
   int ia = -1, ib = -1;
+  Triple<T> n;  // the direction they were found in
 };
 using Vertex = BasicVertex<Real>;
 
@@ -35,7 +36,7 @@ struct BasicDifference {
 
   BasicVertex<T> support(const Triple<T>& n) const {
     const SupportPoint<T> p = referee::support(a, n), q = referee::support(b, -n);
-    return {p.point - q.point, p.point, q.point, p.index, q.index};
+    return {p.point - q.point, p.point, q.point, p.index, q.index, n};
   }
   /// Upper bound of h_D(n)/|n| given the support vertex of n.
   T width_above(const BasicVertex<T>& v, const Triple<T>& n) const {

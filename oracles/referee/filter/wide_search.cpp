@@ -1,10 +1,12 @@
 #include "oracles/referee/filter/wide_search.h"
 
+#include <algorithm>
 #include <map>
 #include <optional>
 #include <vector>
 
 #include "oracles/checker/checker.h"
+#include "oracles/referee/counters.h"
 #include "oracles/referee/exact/exact_pair.h"
 #include "oracles/referee/filter/gjk.h"
 #include "oracles/referee/filter/wide.h"
@@ -23,6 +25,7 @@ using WideDifference = BasicDifference<Wide>;
 
 Wide wide(const Rational& x) { return Wide(numerator(x)) / Wide(denominator(x)); }
 Wide3 wide(const Rational3& v) { return {wide(v.x), wide(v.y), wide(v.z)}; }
+Wide3 wide(const Real3& v) { return {Wide(v.x), Wide(v.y), Wide(v.z)}; }
 
 WidePart of_points(const ExactBody& b) {
   WidePart s;
@@ -53,7 +56,7 @@ WidePart of_curved(const Placed& p) {
   return {std::move(s), {}};
 }
 
-std::vector<WidePart> parts_of(const Placed& p) {
+std::vector<WidePart> wide_parts_of(const Placed& p) {
   std::vector<WidePart> all;
   if (const auto* mesh = std::get_if<TriangleMesh>(p.shape)) {
     for (const auto& t : mesh->triangles) {
@@ -88,7 +91,7 @@ std::size_t count_parts(const Placed& p) {
 
 bool is_at_rest(const Operand& x) { return x.exact ? x.exact->times.size() == 1 : x.placed.shape != nullptr; }
 
-WidePart part_of(const Operand& x) { return x.exact ? of_points(*x.exact) : parts_of(x.placed).front(); }
+WidePart part_of(const Operand& x) { return x.exact ? of_points(*x.exact) : wide_parts_of(x.placed).front(); }
 
 Wide3 middle(const WideSolid& s) {
   if (s.kind != WideSolid::Kind::points) return s.centre;
@@ -208,6 +211,28 @@ Certificate simple_point(const std::vector<Meeting>& found, const WidePart& x, c
   return {};
 }
 
+/// Part i of A and part j of B, and the direction from one to the other in extended precision.
+struct Likely {
+  std::size_t i, j;
+  Real gap;
+  Real3 direction;
+};
+
+// A common point is in the parts that are nearest in extended precision, and the others need a plane only.
+std::vector<Likely> nearest_first(const Placed& a, const Placed& b) {
+  const std::vector<Operand> x = parts_of(a, Vec3::Zero()), y = parts_of(b, Vec3::Zero());
+  const Counters before = counters();  // these parts have been counted
+  std::vector<Likely> all;
+  for (std::size_t i = 0; i < x.size(); ++i)
+    for (std::size_t j = 0; j < y.size(); ++j) {
+      const ConvexTruth t = judge_convex(x[i], y[j], {}, Effort::verdict_only);
+      all.push_back({i, j, t.lo, t.normal});
+    }
+  counters() = before;
+  std::stable_sort(all.begin(), all.end(), [](const Likely& p, const Likely& q) { return p.gap < q.gap; });
+  return all;
+}
+
 Wide3 start_direction(const WideDifference& d) {
   const Wide3 towards = normalized(middle(d.b) - middle(d.a));
   return largest(towards) > 0 ? towards : Wide3{1, 0, 0};
@@ -223,9 +248,13 @@ std::vector<Wide3> start_directions(const WideDifference& d) {
 }
 
 // For two convex parts, one of each body: a plane between them (not yet checked), or a point in both bodies.
-Certificate search(const WidePart& x, const WidePart& y, const Placed& a, const Placed& b) {
-  spend(10'000'000);
+// `likely`: the direction from one to the other that extended precision found.
+Certificate search(const WidePart& x, const WidePart& y, const Wide3& likely, const Placed& a,
+                   const Placed& b) {
   const WideDifference d(x.solid, y.solid);
+  if (largest(likely) > 0)
+    if (Certificate c = plane_between(d, likely); c.kind != Certificate::Kind::none) return c;
+  spend(10'000'000);
   std::vector<Meeting> found;
   for (const Wide3& n : start_directions(d)) {
     const auto g = gjk(d, std::span<const Wide3>(&n, 1), Wide(0));
@@ -242,18 +271,21 @@ Certificate search(const WidePart& x, const WidePart& y, const Placed& a, const 
 Certificate search_wide(const Placed& a, const Placed& b) {
   if (std::holds_alternative<HalfSpace>(*a.shape) || std::holds_alternative<HalfSpace>(*b.shape)) return {};
   if (count_parts(a) * count_parts(b) > max_pairs_of_parts) return {};
-  const std::vector<WidePart> x = parts_of(a), y = parts_of(b);
+  const std::vector<WidePart> x = wide_parts_of(a), y = wide_parts_of(b);
+  std::vector<Certificate> found(x.size() * y.size());
+  bool all_apart = true;
+  for (const Likely& l : nearest_first(a, b)) {
+    Certificate c = search(x[l.i], y[l.j], wide(l.direction), a, b);
+    if (c.kind == Certificate::Kind::common_point) return c;
+    all_apart = all_apart && c.kind == Certificate::Kind::separating_plane;
+    found[l.i * y.size() + l.j] = std::move(c);
+  }
+  if (!all_apart) return {};
   Certificate planes;
   planes.kind = Certificate::Kind::separating_plane;
-  bool all_apart = true;
-  for (const WidePart& p : x)
-    for (const WidePart& q : y) {
-      const Certificate c = search(p, q, a, b);
-      if (c.kind == Certificate::Kind::common_point) return c;
-      all_apart = all_apart && c.kind == Certificate::Kind::separating_plane;
-      planes.rationals.insert(planes.rationals.end(), c.rationals.begin(), c.rationals.end());
-    }
-  return all_apart && checker::check(planes, a, b) ? planes : Certificate{};
+  for (const Certificate& c : found)
+    planes.rationals.insert(planes.rationals.end(), c.rationals.begin(), c.rationals.end());
+  return checker::check(planes, a, b) ? planes : Certificate{};
 }
 
 // Core points are sums of a few products and one or two roots in 237-bit arithmetic: they are within 2^-220

@@ -90,11 +90,17 @@ ConvexTruth Course::at(double t, Effort effort) {
     ++evaluations;
     return against_turned_plane(t);
   }
-  return judge(a_.at(t, origin_), b_at(t), effort);
+  const Snapshot& s = parts_at(t);
+  return judge(s.a, s.b, effort);
+}
+
+const Course::Snapshot& Course::parts_at(double t) {
+  if (!now_ || now_->t != t) now_ = Snapshot{t, a_.at(t, origin_), b_ ? b_->at(t, origin_) : Operand{}};
+  return *now_;
 }
 
 ConvexTruth Course::swept(double from, double to, Effort effort) {
-  return judge(a_.swept(from, to, origin_), b_at(0), effort);
+  return judge(a_.swept(from, to, origin_), b_ ? b_->at(0, origin_) : Operand{}, effort);
 }
 
 // m(t) = exp(tω)·m, the plane m(t)·(x - origin) = o. Each entry of the turning matrix has an error of at most
@@ -167,8 +173,8 @@ Real3 turned(const Real3& n, const Real3& angular, Real t) {
 /// Lower bounds of the gap at time t, one along each n; for a half-space, a single one along its own normal.
 std::vector<Real> Course::least_along(const std::vector<Real3>& directions, double t) {
   if (half_space_) return {half_space_turns_ ? against_turned_plane(t).lo : at(t).lo};
-  const Operand x = a_.at(t, origin_), y = b_at(t);
-  const Difference d(x.body, y.body);
+  const Snapshot& s = parts_at(t);
+  const Difference d(s.a.body, s.b.body);
   std::vector<Real> r;
   for (const Real3& n : directions)
     r.push_back(-(d.width_above(d.support(n), n) + d.radius + d.radius_error +

@@ -35,10 +35,18 @@ class Course {
   /// Uses the closing speed along the direction alone, without turning: one Newton step from below.
   double clear_without_turning(double t, const ConvexTruth& g) const;
 
+  /// Frees the storage kept from question to question.
+  void forget() { now_.reset(); }
+
   int evaluations = 0;  // number of calls of at and swept
 
  private:
-  Operand b_at(double t) const { return b_ ? b_->at(t, origin_) : Operand{}; }
+  /// Both parts at one time; kept, because one time is asked about several times in a row.
+  struct Snapshot {
+    double t = 0;
+    Operand a, b;  // b: empty for a half-space
+  };
+  const Snapshot& parts_at(double t);
   ConvexTruth judge(const Operand& x, const Operand& y, Effort effort);
   ConvexTruth against_turned_plane(double t) const;
   Real closing_speed(const Real3& n, bool turning) const;
@@ -57,6 +65,7 @@ class Course {
   Real spin_a_ = 0, spin_b_ = 0;          // core radii about the origins, rounded up
   Real acceleration_ = 0, approach_ = 0;  // bounds of |q'' - p''| and |q' - p'|, q in B, p in A
   double stride_ = 1;                     // first step that by_acceleration tries
+  std::optional<Snapshot> now_;
 };
 
 }  // namespace touchstone::referee

@@ -27,8 +27,10 @@ constexpr int most_halvings = 64;
 constexpr int golden_steps = 90;
 // Lengths are fractions of the step. First length of the sweeps that bracket a translation's contact.
 constexpr double first_sweep = 0x1p-60;
-// Below this advance the gap's own direction is worth the cost of computing it.
+// Below this advance the gap's own direction is worth the cost of computing it, unless the bracket is
+// narrower than this part of the gap.
 constexpr double short_advance = 0x1p-6;
+constexpr Real narrow_bracket = 0x1p-10L;
 // Conservative advancement that progresses by less has stalled.
 constexpr double least_advance = 0x1p-52;
 // The search for contact after a stall doubles its steps from first to last; a separation found at clear_step
@@ -101,9 +103,18 @@ struct Advance {
   enum class Exit { passed, stalled, contact, evaluation_cap } exit = Exit::stalled;
 };
 
-// Advances from `start` until contact, the end, or no progress. A step shorter than `least_step` counts as
-// none: near a graze the steps shrink forever.
-Advance advance_from(Course& c, double start, double least_step) {
+// How long the bodies certainly stay apart after t, given c.at(t). Where that is short and the bracket wide
+// compared with the gap, the gap's own bracket and direction give a longer step.
+Course::Clear clear_after(Course& c, double t, const ConvexTruth& g) {
+  const Course::Clear clear = c.clear_from(t, g);
+  if (clear.until - t >= short_advance || g.hi - g.lo <= narrow_bracket * g.lo) return clear;
+  const Course::Clear other = c.clear_from(t, c.at(t, Effort::gap));
+  return other.until > clear.until ? other : clear;
+}
+
+// Advances from `start` until contact, the time `end`, or no progress. A step shorter than `least_step`
+// counts as none: near a graze the steps shrink forever.
+Advance advance_from(Course& c, double start, double end, double least_step) {
   Advance r;
   r.t = start;
   while (c.evaluations < limits::motion_evaluations) {
@@ -113,14 +124,9 @@ Advance advance_from(Course& c, double start, double least_step) {
       r.exit = Advance::Exit::contact;
       return r;
     }
-    Course::Clear clear = c.clear_from(r.t, g);
-    // The direction of a verdict separates but need not be that of the gap, along which the step is longer.
-    if (clear.until - r.t < short_advance) {
-      const Course::Clear other = c.clear_from(r.t, c.at(r.t, Effort::gap));
-      if (other.until > clear.until) clear = other;
-    }
+    const Course::Clear clear = clear_after(c, r.t, g);
     r.least_lo = std::min(r.least_lo, clear.kept);
-    if (clear.until > 1) {
+    if (clear.until > end) {
       r.t = 1;
       r.exit = Advance::Exit::passed;
       return r;
@@ -148,11 +154,17 @@ double contact_after(Course& c, double t, double& clear_at) {
   return infinity;
 }
 
+// The gap's bracket at t; where the bodies overlap, the verdict is enough.
+ConvexTruth gap_unless_overlap(Course& c, double t) {
+  ConvexTruth g = c.at(t);
+  return g.verdict == Verdict::overlap ? g : c.at(t, Effort::gap);
+}
+
 // Nearest approach in [from, to] by golden-section search on the upper bound of the gap. Returns only times
 // at which contact is certified.
 double contact_within(Course& c, double from, double to) {
   double x = to - limits::golden * (to - from), y = from + limits::golden * (to - from);
-  ConvexTruth gx = c.at(x, Effort::gap), gy = c.at(y, Effort::gap);
+  ConvexTruth gx = gap_unless_overlap(c, x), gy = gap_unless_overlap(c, y);
   for (int i = 0; i < golden_steps && to > from; ++i) {
     if (gx.verdict == Verdict::overlap) return x;
     if (gy.verdict == Verdict::overlap) return y;
@@ -161,13 +173,13 @@ double contact_within(Course& c, double from, double to) {
       y = x;
       gy = gx;
       x = to - limits::golden * (to - from);
-      gx = c.at(x, Effort::gap);
+      gx = gap_unless_overlap(c, x);
     } else {
       from = x;
       x = y;
       gx = gy;
       y = from + limits::golden * (to - from);
-      gy = c.at(y, Effort::gap);
+      gy = gap_unless_overlap(c, y);
     }
   }
   return infinity;
@@ -187,12 +199,20 @@ double earliest_contact(Course& c, double lo, double hi) {
   return hi;
 }
 
-TimeTruth judge_rotation(Course& c) {
+TimeTruth no_hit(Real least_lo, Real least_hi) {
+  TimeTruth r;
+  r.verdict = TimeTruth::Verdict::none;
+  r.t_lo = 1;
+  r.least_gap = {std::max(0.0, round_down(least_lo)), round_up(least_hi)};
+  return r;
+}
+
+TimeTruth judge_rotation(Course& c, double end) {
   double t = 0, first_stall = infinity;
   Real least_lo = std::numeric_limits<Real>::infinity(), least_hi = least_lo;
   const char* note = "";
-  while (t < 1) {
-    const Advance a = advance_from(c, t, least_advance);
+  while (t < end) {
+    const Advance a = advance_from(c, t, end, least_advance);
     least_lo = std::min(least_lo, a.least_lo);
     least_hi = std::min(least_hi, a.least_hi);
     if (a.exit == Advance::Exit::passed) break;
@@ -212,26 +232,28 @@ TimeTruth judge_rotation(Course& c) {
     if (clear_at == infinity) break;
     t = clear_at;
   }
+  if (first_stall == infinity) return no_hit(least_lo, least_hi);
   TimeTruth r;
   r.note = note;
-  if (first_stall == infinity) {
-    r.verdict = TimeTruth::Verdict::none;
-    r.t_lo = 1;
-    r.least_gap = {std::max(0.0, round_down(least_lo)), round_up(least_hi)};
-    return r;
-  }
   r.t_lo = first_stall;
   // Before first_stall the gap is positive; afterwards nothing is known from below.
   r.least_gap = {-infinity, round_up(least_hi)};
   return r;
 }
 
-TimeTruth judge_course(Course& c) {
-  if (!c.turns()) return judge_translation(c);
+// `end`: a contact is known at this time, 1 if none is. A first contact certainly later counts as none, with
+// a least gap that is about the time before.
+TimeTruth judge_course(Course& c, double end) {
+  if (!c.turns()) {
+    if (end < 1)
+      if (const ConvexTruth g = c.swept(0, end); g.verdict == Verdict::disjoint)
+        return no_hit(g.lo, infinity);
+    return judge_translation(c);
+  }
   // The start is exact for every polytope; a contact there is decided whatever follows.
   const ConvexTruth start = c.at(0);
   if (start.verdict == Verdict::overlap) return hit_between(0, 0, "overlap at the start");
-  return judge_rotation(c);
+  return judge_rotation(c, end);
 }
 
 template <class S>
@@ -315,9 +337,12 @@ TimeTruth judge(const Placed& a, const Motion& motion_a, const Placed& b, const 
   r.least_gap = {0, infinity};
   bool first = true;
   for (PartPair& p : part_pairs(a, motion_a, b, motion_b)) {
-    const TimeTruth t = judge_course(p.course);
+    const bool known = !first && r.verdict == TimeTruth::Verdict::hit;
+    const TimeTruth t = judge_course(p.course, known ? r.t_hi : 1);
     r = first ? t : join(r, t);
     first = false;
+    p.course.forget();
+    if (r.verdict == TimeTruth::Verdict::hit && r.t_hi == 0) break;
   }
   if (first) r.note = "the boxes of all parts stay apart";
   // Parts whose boxes stay apart have not been measured.

@@ -178,6 +178,7 @@ std::vector<PartPair> worth_searching(std::vector<PartPair> parts, double t, dou
     for (const double s : {first, first + (t - first) / 2, t})
       near = std::min(near, round_up(parts[i].course.at(s, Effort::gap).hi));
     order.emplace_back(near, i);
+    parts[i].course.forget();
   }
   std::sort(order.begin(), order.end());
   std::vector<PartPair> r;
