@@ -84,9 +84,15 @@ R turn(const Corner<R>& a, const Corner<R>& b, const Corner<R>& c) {
 template <class R>
 void convex_order(Corners<R>& p, R tolerance) {
   if (p.size < 2) return;
-  std::sort(p.begin(), p.end(), [](const Corner<R>& a, const Corner<R>& b) {
+  const auto before = [](const Corner<R>& a, const Corner<R>& b) {
     return a.x != b.x ? a.x < b.x : (a.y != b.y ? a.y < b.y : a.id < b.id);
-  });
+  };
+  if (p.size == 2) {
+    if (before(p[1], p[0])) std::swap(p[0], p[1]);
+    if (abs(p[0].x - p[1].x) + abs(p[0].y - p[1].y) <= tolerance) p.size = 1;
+    return;
+  }
+  std::sort(p.begin(), p.end(), before);
   Corners<R> h;
   Items<R, int, 2 * Corners<R>::capacity + 2> chain;
   make_room(chain, 2 * p.size + 2);
@@ -146,10 +152,13 @@ void clip(Corners<R>& subject, const Corners<R>& window, R tolerance, bool windo
     const R unit = convex::is_hardware<R> ? R(1) : length, zero = tolerance * (length / unit);
     Items<R, R, Corners<R>::capacity> side;
     make_room(side, subject.size);
+    bool cuts = false;
     for (int k = 0; k < subject.size; ++k) {
       const R s = (ex * (subject[k].y - w0.y) - ey * (subject[k].x - w0.x)) / unit;
       side[static_cast<std::size_t>(k)] = abs(s) <= zero ? R(0) : s;
+      cuts |= !(s >= -zero);
     }
+    if (!cuts) continue;
     Corners<R> out;
     const std::uint32_t along = on_window | static_cast<std::uint32_t>(i);
     for (int k = 0; k < subject.size; ++k) {

@@ -10,6 +10,7 @@
 #pragma once
 
 #include <array>
+#include <utility>
 
 #include "core/narrow/filtered/query.h"
 
@@ -43,22 +44,35 @@ struct EdgeAxis {
   R s, length_sq, length_1;
 };
 
-template <int i, class R>
-EdgeAxis<R> edge_axis(const BoxPair<R>& p, int j) {
-  constexpr int k = (i + 1) % 3, l = (i + 2) % 3;
-  const M3<R>& m = p.at.b_to_a;
-  const int j1 = (j + 1) % 3, j2 = (j + 2) % 3;
+/// Of the cross product of B's axes j and j + 1: the coordinate along e_i without its sign, by 3i + j. The
+/// two axes on e_i × b_j and e_i × b_(j + 1) have it in common.
+template <class R>
+using EdgeWidths = std::array<R, 9>;
+
+template <int i, int j, class R>
+R edge_width(const M3<R>& m) {
+  constexpr int k = (i + 1) % 3, l = (i + 2) % 3, next = (j + 1) % 3;
+  return std::abs(m(l, next) * m(k, j) - m(k, next) * m(l, j));
+}
+
+template <int i, int j, class R>
+EdgeAxis<R> edge_axis(const BoxPair<R>& p, const EdgeWidths<R>& width) {
+  constexpr int k = (i + 1) % 3, l = (i + 2) % 3, j1 = (j + 1) % 3, j2 = (j + 2) % 3;
   // n_k = −m(l, j), n_l = m(k, j)
-  const R x = m(k, j), y = m(l, j), ax = std::abs(x), ay = std::abs(y);
+  const R x = p.at.b_to_a(k, j), y = p.at.b_to_a(l, j), ax = std::abs(x), ay = std::abs(y);
   const R radius_a = p.ha[k] * ay + p.ha[l] * ax;
-  const R radius_b =
-      p.hb[j1] * std::abs(m(l, j1) * x - m(k, j1) * y) + p.hb[j2] * std::abs(m(l, j2) * x - m(k, j2) * y);
+  const R radius_b = p.hb[j1] * width[std::size_t{3 * i + j}] + p.hb[j2] * width[std::size_t{3 * i + j2}];
   return {std::abs(p.at.offset[l] * x - p.at.offset[k] * y) - (radius_a + radius_b), x * x + y * y, ax + ay};
 }
 
-template <class R>
-EdgeAxis<R> edge_axis(const BoxPair<R>& p, int i, int j) {
-  return i == 0 ? edge_axis<0>(p, j) : (i == 1 ? edge_axis<1>(p, j) : edge_axis<2>(p, j));
+/// f(axis of edges i, j, 3i + j) for each of the nine, until one returns true; whether one has.
+template <class R, class F>
+bool any_edge_axis(const BoxPair<R>& p, F&& f) {
+  return [&]<int... e>(std::integer_sequence<int, e...>) {
+    const EdgeWidths<R> width{edge_width<e / 3, e % 3>(p.at.b_to_a)...};
+    return (f(edge_axis<e / 3, e % 3>(p, width), e) || ...);
+  }
+  (std::make_integer_sequence<int, 9>());
 }
 
 template <class R>
@@ -103,14 +117,11 @@ Found boxes_meet(const BoxPair<R>& p) {
   for (const R s : faces) most = std::max(most, s);
   if (most > p.displacement) return Found::apart;
   bool certain = most < -p.displacement;
-  const auto edge = [&](const detail::EdgeAxis<R>& e) {
+  const auto edge = [&](const detail::EdgeAxis<R>& e, int) {
     certain &= e.s <= -p.displacement * e.length_1;
     return e.s > p.displacement * e.length_1;
   };
-  for (int j = 0; j < 3; ++j)
-    if (edge(detail::edge_axis<0>(p, j)) || edge(detail::edge_axis<1>(p, j)) ||
-        edge(detail::edge_axis<2>(p, j)))
-      return Found::apart;
+  if (detail::any_edge_axis(p, edge)) return Found::apart;
   return certain ? Found::meeting : Found::unsure;
 }
 
@@ -130,18 +141,17 @@ BoxAxis<R> least_axis(const BoxPair<R>& p) {
     best.found = Found::apart;
     return best;
   }
-  for (int i = 0; i < 3; ++i)
-    for (int j = 0; j < 3; ++j) {
-      const auto e = detail::edge_axis(p, i, j);
-      const R goal = best.separation + tie;
-      // Tests s/|n| > goal without a square root, for all cases of sign.
-      const bool better = goal < 0 ? (e.s > 0 || e.s * e.s < goal * goal * e.length_sq)
-                                   : (e.s > 0 && e.s * e.s > goal * goal * e.length_sq);
-      if (better && e.length_sq > 0) {
-        best.separation = e.s / std::sqrt(e.length_sq);
-        best.index = 6 + 3 * i + j;
-      }
+  detail::any_edge_axis(p, [&](const detail::EdgeAxis<R>& e, int index) {
+    const R goal = best.separation + tie;
+    // Tests s/|n| > goal without a square root, for all cases of sign.
+    const bool better = goal < 0 ? (e.s > 0 || e.s * e.s < goal * goal * e.length_sq)
+                                 : (e.s > 0 && e.s * e.s > goal * goal * e.length_sq);
+    if (better && e.length_sq > 0) {
+      best.separation = e.s / std::sqrt(e.length_sq);
+      best.index = 6 + index;
     }
+    return false;
+  });
   best.found = decide(best.separation, p.displacement);
   if (best.index < 3)
     best.normal = V3<R>::Unit(best.index) * (p.at.offset[best.index] < 0 ? R(-1) : R(1));

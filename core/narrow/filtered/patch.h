@@ -42,28 +42,28 @@ struct PatchPlane {
   explicit PatchPlane(const V3<R>& normal) : n(normal), x(normal.unitOrthogonal()), y(normal.cross(x)) {}
 };
 
-/// Corners of `c` at most `limit` below its support plane along d (in its own frame, unit).
+/// Corners of `c` at most `limit` below its support plane along d (in its own frame, unit), into `out`, which
+/// is empty.
 template <class R>
 class FeatureCorners {
  public:
   FeatureCorners(const ConvexBody<R>& c, const M3<R>& to_a, const V3<R>& offset, const PatchPlane<R>& plane,
-                 R sign, R limit, R tolerance)
-      : c_(c), to_a_(to_a), offset_(offset), plane_(plane) {
+                 R sign, R limit, R tolerance, Corners<R>& out)
+      : c_(c), to_a_(to_a), offset_(offset), plane_(plane), out_(out) {
     at_.d = to_a.transpose() * (sign * plane.n);
     at_.top = at_.d.dot(support_local<R>(c, at_.d));
     at_.limit = limit;
     at_.tolerance = tolerance;
   }
 
-  const Corners<R>& collect() {
+  void collect() {
     const bool ordered = on_core(c_, [&](const auto& core) { return core.face_corners(at_, *this); });
     if (ordered && out_.size >= 4) {
       if (outline::turn(out_[0], out_[1], out_[2]) < 0) std::reverse(out_.begin(), out_.end());
-      return out_;
+      return;
     }
     if (out_.size == 0 && !out_.overflow) add_certain(support_local<R>(c_, at_.d), 0);
     outline::convex_order(out_, at_.tolerance);
-    return out_;
   }
 
   void add(const V3<R>& p, std::uint32_t id) {
@@ -90,12 +90,13 @@ class FeatureCorners {
   const V3<R>& offset_;
   const PatchPlane<R>& plane_;
   convex::FaceQuery<R> at_;
-  Corners<R> out_;
+  Corners<R>& out_;
 };
 
-/// Two edges: their common interval when they are collinear, otherwise their crossing.
+/// Two edges: their common interval when they are collinear, otherwise their crossing. The ends of `a` may be
+/// exchanged.
 template <class R>
-Corners<R> cross_edges(Corners<R> a, const Corners<R>& b, R tolerance) {
+Corners<R> cross_edges(Corners<R>& a, const Corners<R>& b, R tolerance) {
   if (a[1].id < a[0].id) std::swap(a[0], a[1]);  // the first end keeps its id
   const std::uint32_t id =
       outline::crossing | outline::edge_id(a[0].id, a[1].id) << 15 | outline::edge_id(b[0].id, b[1].id);
@@ -123,25 +124,26 @@ Patch<R> contact_patch(const ConvexBody<R>& a, const ConvexBody<R>* b, const Rel
   plane.origin = top;
   const M3<R> identity = M3<R>::Identity();
   const V3<R> zero = V3<R>::Zero();
-  const auto show_a = [&](R limit) {
-    return FeatureCorners<R>(a, identity, zero, plane, 1, limit, tolerance).collect();
+  const auto show_a = [&](R limit, Corners<R>& out) {
+    FeatureCorners<R>(a, identity, zero, plane, 1, limit, tolerance, out).collect();
   };
-  const auto show_b = [&](R limit) {
-    return FeatureCorners<R>(*b, at.b_to_a, at.offset, plane, -1, limit, tolerance).collect();
+  const auto show_b = [&](R limit, Corners<R>& out) {
+    FeatureCorners<R>(*b, at.b_to_a, at.offset, plane, -1, limit, tolerance, out).collect();
   };
   Patch<R> patch;
-  Corners<R> fa = show_a(tolerance), fb, region;
+  Corners<R> fa, fb, region;
+  show_a(tolerance, fa);
   bool by_a = true;
   if (!b) {
-    region = show_a(depth + tolerance);
+    show_a(depth + tolerance, region);
     by_a = false;
   } else if (fa.size >= 3) {
-    region = show_b(depth + tolerance);
+    show_b(depth + tolerance, region);
     outline::clip(region, fa, tolerance, true);
   } else {
-    fb = show_b(tolerance);
+    show_b(tolerance, fb);
     if (fb.size >= 3) {
-      region = show_a(depth + tolerance);
+      show_a(depth + tolerance, region);
       by_a = false;
       outline::clip(region, fb, tolerance, false);
     } else if (fa.size == 2 && fb.size == 2) {

@@ -66,6 +66,23 @@ TEMPLATE_TEST_CASE("outline: convex order is counter-clockwise, without points o
   CHECK(ordered<TestType>({{1, 1}}).size == 1);
 }
 
+TEMPLATE_TEST_CASE("outline: two corners are ordered by x, then by y, and are one where they coincide",
+                   "[narrow][outline]", float, double, Wide) {
+  using R = TestType;
+  const Corners<R> by_x = ordered<R>({{2, 1}, {0, 5}}), by_y = ordered<R>({{1, 3}, {1, -3}});
+  REQUIRE(by_x.size == 2);
+  CHECK(by_x[0].x == R(0));
+  CHECK(by_x[0].y == R(5));
+  CHECK(by_x[1].x == R(2));
+  REQUIRE(by_y.size == 2);
+  CHECK(by_y[0].y == R(-3));
+  CHECK(by_y[1].y == R(3));
+  const Corners<R> one = ordered<R>({{1, 1}, {1 - tolerance / 4, 1 + tolerance / 4}});
+  REQUIRE(one.size == 1);
+  CHECK(one[0].x <= R(1));
+  CHECK(ordered<R>({{1, 1}, {1, 1.5}}).size == 2);
+}
+
 TEMPLATE_TEST_CASE("outline: clipping keeps what is inside the window", "[narrow][outline]", float, double,
                    Wide) {
   using Points = std::vector<Point>;
