@@ -96,8 +96,11 @@ void examine_engines(Examination& e) {
   e.section("Engines of this build");
   for (const std::string_view folder : engine_folders()) {
     const fs::path file = fs::path(TOUCHSTONE_SOURCE "/oracles") / folder / "debian_packages";
-    if (!fs::exists(file)) continue;
     const bool there = is_present(folder);
+    if (!fs::exists(file)) {  // installed without its sources
+      if (there) e.row(true, std::string(folder), "");
+      continue;
+    }
     const auto packages = packages_in(file);
     e.row(there, std::string(folder), names_of_packages(packages));
     if (there) continue;

@@ -17,7 +17,7 @@ namespace {
 std::vector<fs::path> documents() {
   std::vector<fs::path> all = {TS_SOURCE_DIR "/README.md", TS_SOURCE_DIR "/CONTRIBUTING.md",
                                TS_SOURCE_DIR "/corpus/README.md"};
-  for (const auto& entry : fs::directory_iterator(TS_SOURCE_DIR "/docs"))
+  for (const auto& entry : fs::recursive_directory_iterator(TS_SOURCE_DIR "/docs"))
     if (entry.path().extension() == ".md") all.push_back(entry.path());
   return all;
 }

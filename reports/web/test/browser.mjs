@@ -1,5 +1,6 @@
 // What tests of pages share: node TEST.mjs CHROMIUM DIR [SCREENSHOTS].
 import { mkdirSync } from "node:fs";
+import { createRequire } from "node:module";
 import { join } from "node:path";
 import { chromium } from "playwright-core";
 
@@ -32,6 +33,13 @@ export async function open(name, { settle = 150, hash = "", width = 1280, height
 export const shoot = (page, name, more = {}) => (pictures ? page.screenshot({ path: join(pictures, `${name}.png`), ...more }) : undefined);
 export const data = (page) => page.evaluate(() => globalThis.touchstoneData);
 export const wide = (page) => page.evaluate(() => document.documentElement.scrollWidth <= innerWidth + 1);
+
+/** What axe-core finds against WCAG 2.1, levels A and AA: rule, place and reason, in one line. */
+export async function barriers(page) {
+  await page.addScriptTag({ path: createRequire(import.meta.url).resolve("axe-core/axe.min.js") });
+  const found = await page.evaluate(() => globalThis.axe.run(document, { runOnly: ["wcag2a", "wcag2aa", "wcag21a", "wcag21aa"] }));
+  return found.violations.map((v) => `${v.id} at ${v.nodes.map((n) => n.target.join(" ")).join(", ")}: ${v.help}`).join("; ");
+}
 
 export async function end() {
   await browser.close();

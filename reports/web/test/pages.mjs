@@ -4,7 +4,7 @@
 // broad.html, broad.json: a script's broad phases as a page and as `--json`. Prints one line a check; exit code 1 when one fails.
 import { readFileSync, statSync } from "node:fs";
 import { join } from "node:path";
-import { check, data, dir, end, open, shoot, wide } from "./browser.mjs";
+import { barriers, check, data, dir, end, open, shoot, wide } from "./browser.mjs";
 
 // Different colours in the middle of the canvas: a picture, not a background.
 const colours = (page) =>
@@ -30,6 +30,8 @@ for (const name of ["case.html", "crowd.html", "motion.html", "report.html", "ma
     const { page, errors } = await open(name, size);
     check(`${name} at ${size.width} loads without an error`, errors.length === 0, errors.join("; "));
     check(`${name} at ${size.width} does not scroll sideways`, await wide(page));
+    const found = await barriers(page);
+    check(`${name} at ${size.width} has no barrier that axe-core finds`, found === "", found);
     const back = await page.evaluate(() => getComputedStyle(document.documentElement).backgroundColor);
     check(`${name} is ${size.dark ? "dark" : "light"}`, (back === "rgb(255, 255, 255)") !== Boolean(size.dark), back);
     await shoot(page, `${name.replace(".html", "")}-${size.width}${size.dark ? "-dark" : ""}`, { fullPage: size.width < 500 });
@@ -227,6 +229,14 @@ for (const [name, question, drawn, words] of [
 
 {
   const { page } = await open("chart.html", { hash: "#question=distance" });
+  const saved = async (kind) => {
+    const [file] = await Promise.all([page.waitForEvent("download"), page.click(`#save-${kind}`)]);
+    return { name: file.suggestedFilename(), bytes: readFileSync(await file.path()) };
+  };
+  const svg = await saved("svg"), svgText = svg.bytes.toString();
+  check("chart.html saves the plot as SVG, with its caption", svg.name === "touchstone-distance.svg" && svgText.startsWith("<svg") && svgText.includes("distance: speed against accuracy") && (svgText.match(/<path/g) ?? []).length > 5, svg.name);
+  const png = await saved("png");
+  check("chart.html saves the plot as PNG, at twice its size", png.name === "touchstone-distance.png" && png.bytes.readUInt32BE(16) === 2 * (await page.evaluate(() => document.getElementById("chart").clientWidth)), String(png.bytes.readUInt32BE(16)));
   const d = await data(page);
   const column = (name) => d.columns.indexOf(name);
   for (const r of d.rows) for (const name of d.text_columns) r[column(name)] = d.strings[r[column(name)]];

@@ -1,6 +1,6 @@
 // Speed against accuracy: one point per engine, the Pareto front, and unsound methods (hollow) with the reason.
 import { LinkState, app, colourOf, el, grouped, nanoseconds, numberOf, pageData, themeButton } from "../common/page";
-import { axis, choice, css, plotIn } from "../common/plot";
+import { axis, choice, css, plotIn, saveButtons } from "../common/plot";
 
 interface Row {
   engine: string; question: string; regime: string; pair: string; scale: string; bodies: number;
@@ -50,10 +50,15 @@ app().append(
   el("header", {}, el("div", { class: "grow" }, el("h1", {}, "Speed against accuracy"),
     el("p", { class: "soft" }, `${data.machine.processor}, ${data.machine.cores} cores, load ${data.machine.load.toFixed(1)}, ${data.machine.system}, ${data.machine.compiler}, ${data.machine.date}. ` +
       `${data.scope} chart, seed ${data.seed}, ${data.rounds} interleaved rounds.`)), el("div", { class: "controls screen-only" }, themeButton(link, draw))),
-  el("main", {}, el("div", { class: "controls screen-only", style: "margin:0.6rem 0" }, question, regime, pair, scale, time, measure), host, note, growthTitle, growth,
+  el("main", {}, el("div", { class: "controls screen-only", style: "margin:0.6rem 0" }, question, regime, pair, scale, time, measure,
+    ...saveButtons(() => plot, () => `touchstone-${question.value}`, caption)), host, note, growthTitle, growth,
     el("h2", {}, "The numbers"), table, el("h2", {}, "Engines"),
     el("div", { class: "scroll" }, el("table", {}, el("tbody", {}, ...data.engines.map((e) => el("tr", {}, el("td", {}, e.name), el("td", {}, `${e.library} ${e.version}`), el("td", { class: "soft" }, e.settings))))))),
 );
+function caption(): string {
+  const { processor, cores, date, compiler } = data.machine;
+  return `${question.value.replaceAll("_", " ")}: speed against accuracy. ${processor}, ${cores} cores, ${compiler}, ${date}; seed ${data.seed}. Diamonds: the Pareto front; hollow: unsound.`;
+}
 const plot = plotIn(host), growthPlot = plotIn(growth);
 
 const precision = (r: Row): number => (r.pairs_reported ? r.pairs_true / r.pairs_reported : 1);

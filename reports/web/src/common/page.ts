@@ -149,3 +149,19 @@ function hex(hue: number, saturation: number, lightness: number): string {
   };
   return `#${channel(0)}${channel(8)}${channel(4)}`;
 }
+
+/** Regions that scroll sideways take the focus, so that the arrow keys can scroll them; others do not. */
+function makeScrollable(): void {
+  for (const e of document.querySelectorAll<HTMLElement>(".scroll, .command > code, pre")) {
+    if (e.scrollWidth > e.clientWidth + 1) e.tabIndex = 0;
+    else e.removeAttribute("tabindex");
+  }
+}
+
+let planned = 0;
+function planScrollable(): void {
+  cancelAnimationFrame(planned);
+  planned = requestAnimationFrame(makeScrollable);
+}
+new MutationObserver(planScrollable).observe(document.documentElement, { childList: true, subtree: true });
+addEventListener("resize", planScrollable);

@@ -39,3 +39,56 @@ export function choice(link: { get(k: string): string | null; set(k: string, v: 
   });
   return select;
 }
+
+// The plot on its background with a line of text below it, as a document of its own.
+function documentOf(plot: EChartsType, caption: string): { text: string; width: number; height: number } {
+  const space = 24, width = plot.getWidth(), height = plot.getHeight() + space;
+  const svg = new DOMParser().parseFromString(plot.renderToSVGString(), "image/svg+xml").documentElement;
+  svg.setAttribute("width", String(width));
+  svg.setAttribute("height", String(height));
+  svg.setAttribute("viewBox", `0 0 ${width} ${height}`);
+  const own = (tag: string, attributes: Record<string, string>): Element => {
+    const e = svg.ownerDocument.createElementNS("http://www.w3.org/2000/svg", tag);
+    for (const [k, v] of Object.entries(attributes)) e.setAttribute(k, v);
+    return e;
+  };
+  svg.prepend(own("rect", { width: "100%", height: "100%", fill: css("--back") }));
+  const line = own("text", { x: "8", y: String(height - 8), fill: css("--soft"), "font-size": "11", "font-family": "sans-serif" });
+  line.textContent = caption;
+  svg.append(line);
+  return { text: new XMLSerializer().serializeToString(svg), width, height };
+}
+
+function save(file: string, content: Blob): void {
+  const a = document.createElement("a");
+  a.href = URL.createObjectURL(content);
+  a.download = file;
+  a.click();
+  setTimeout(() => URL.revokeObjectURL(a.href), 1000);
+}
+
+async function asPng(drawing: { text: string; width: number; height: number }): Promise<Blob> {
+  const sharpness = 2;
+  const image = new Image();
+  image.src = "data:image/svg+xml;charset=utf-8," + encodeURIComponent(drawing.text);
+  await image.decode();
+  const canvas = document.createElement("canvas");
+  [canvas.width, canvas.height] = [sharpness * drawing.width, sharpness * drawing.height];
+  canvas.getContext("2d")!.drawImage(image, 0, 0, canvas.width, canvas.height);
+  return new Promise((done, failed) => canvas.toBlob((b) => (b ? done(b) : failed(new Error("the picture is too large"))), "image/png"));
+}
+
+/** Buttons that save the plot as it is drawn, with a caption, as NAME.svg and NAME.png. */
+export function saveButtons(plot: () => EChartsType, name: () => string, caption: () => string): HTMLButtonElement[] {
+  const button = (kind: string, action: () => void): HTMLButtonElement => {
+    const b = document.createElement("button");
+    b.id = `save-${kind}`;
+    b.textContent = `save ${kind.toUpperCase()}`;
+    b.addEventListener("click", action);
+    return b;
+  };
+  return [
+    button("svg", () => save(`${name()}.svg`, new Blob([documentOf(plot(), caption()).text], { type: "image/svg+xml" }))),
+    button("png", () => void asPng(documentOf(plot(), caption())).then((b) => save(`${name()}.png`, b))),
+  ];
+}
