@@ -34,6 +34,7 @@ std::vector<std::string> further_claims(const EngineCard& c) {
     lines.push_back(fmt::format("reports contacts up to {:g} apart", c.contact_offset));
   if (c.sweep_skin > 0)
     lines.push_back(fmt::format("sweeps stop up to {:g} before the contact", c.sweep_skin));
+  if (c.separate_triangles) lines.emplace_back("takes the triangles of a mesh apart");
   for (const DepthBias& d : c.depth_biases)
     lines.push_back(fmt::format("{} and {}: its normal may need {:g} % more depth than the least",
                                 type_name(d.a), type_name(d.b), 100 * d.share));

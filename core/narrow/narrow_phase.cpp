@@ -1,5 +1,6 @@
 #include "core/narrow/narrow_phase.h"
 
+#include "core/narrow/flat_mesh.h"
 #include "core/narrow/pair_table.h"
 #include "core/narrow/wide_answer.h"
 
@@ -40,8 +41,9 @@ bool fill_manifold(const FastAnswer<R>& f, const PlacedShape& a, const PlacedSha
   }
   const PlacedShape& origin = f.mirrored ? b : a;
   const filtered::PairScene<R>& c = f.scene;
-  const auto patch = filtered::contact_patch<R>(c.a, c.contact == filtered::ContactForm::plane ? nullptr : &c.b, c.at,
-                                            c.normal, s.gap, c.has_middle ? &c.middle : nullptr);
+  const auto patch =
+      filtered::contact_patch<R>(c.a, c.contact == filtered::ContactForm::plane ? nullptr : &c.b, c.at,
+                                 c.normal, s.gap, c.has_middle ? &c.middle : nullptr);
   for (int i = 0; i < patch.size; ++i) {
     const auto& p = patch.point[static_cast<std::size_t>(i)];
     out.push_back({world<R>(c.at.a_to_world * p.p, origin), static_cast<double>(p.depth), p.id});
@@ -153,6 +155,17 @@ ContactAnswer contact_alone(const PlacedShape& a, const PlacedShape& b, PairMemo
   return r;
 }
 
+ContactAnswer contact_with_triangles(const PlacedShape& a, const PlacedShape& b, Arithmetic arithmetic,
+                                     PairMemory* memory) {
+  if (arithmetic == Arithmetic::float32) return contact_alone<float>(a, b, memory);
+  if (arithmetic == Arithmetic::float64_alone) return contact_alone<double>(a, b, memory);
+  ContactAnswer r;
+  FastAnswer<double> f;
+  separate<double>(a, b, Asked::contact, memory, f);
+  if (is_decided(f, false) && fill<double>(f, a, b, r)) return r;
+  return narrow::wide_contact(a, b);
+}
+
 }  // namespace
 
 OverlapAnswer overlap(const PlacedShape& a, const PlacedShape& b, Arithmetic arithmetic, PairMemory* memory) {
@@ -177,13 +190,9 @@ DistanceAnswer distance(const PlacedShape& a, const PlacedShape& b, Arithmetic a
 }
 
 ContactAnswer contact(const PlacedShape& a, const PlacedShape& b, Arithmetic arithmetic, PairMemory* memory) {
-  if (arithmetic == Arithmetic::float32) return contact_alone<float>(a, b, memory);
-  if (arithmetic == Arithmetic::float64_alone) return contact_alone<double>(a, b, memory);
-  ContactAnswer r;
-  FastAnswer<double> f;
-  separate<double>(a, b, Asked::contact, memory, f);
-  if (is_decided(f, false) && fill<double>(f, a, b, r)) return r;
-  return narrow::wide_contact(a, b);
+  const ContactAnswer r = contact_with_triangles(a, b, arithmetic, memory);
+  if (!r.overlap || !narrow::may_be_flat(a, b)) return r;
+  return narrow::contact_with_plane_of(a, b, r).value_or(r);
 }
 
 }  // namespace touchstone

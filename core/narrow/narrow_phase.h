@@ -35,8 +35,9 @@ OverlapAnswer overlap(const PlacedShape& a, const PlacedShape& b, Arithmetic ari
 DistanceAnswer distance(const PlacedShape& a, const PlacedShape& b,
                         Arithmetic arithmetic = Arithmetic::float64, PairMemory* memory = nullptr);
 
-/// For a mesh: normal, depth and point of the deepest triangle or pair of triangles. The normal minimises the
-/// depth over directions.
+/// For a mesh: normal, depth and point of the deepest triangle or pair of triangles; or of the mesh's plane,
+/// where that is all of the mesh as far as a convex body reaches through it. The normal minimises the depth
+/// over directions.
 ContactAnswer contact(const PlacedShape& a, const PlacedShape& b, Arithmetic arithmetic = Arithmetic::float64,
                       PairMemory* memory = nullptr);
 

@@ -77,7 +77,8 @@ constexpr StageRow stages[] = {
      [](const Finding& f) { return f.question == "contact" && (is_verdict(f) || f.fault == "no_number"); }},
     {"normal",
      [](const Finding& f) {
-       return f.question == "contact" && (f.fault == "normal_not_unit" || f.fault == "not_minimal");
+       return f.question == "contact" &&
+              (f.fault == "normal_not_unit" || f.fault == "not_minimal" || f.fault == "inner_edge");
      }},
     {"depth",
      [](const Finding& f) {

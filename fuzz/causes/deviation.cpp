@@ -137,6 +137,7 @@ Deviation deviation_of(const Case& c, const Query& q, const Observation& o, cons
     case Fault::ghost:
     case Fault::stale:
     case Fault::unstable:
+    case Fault::inner_edge:
     case Fault::bound_off:
     case Fault::failed:
       break;

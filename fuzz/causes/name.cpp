@@ -77,6 +77,7 @@ std::string words_of(const Subject& s) {
     case Severity::time:
       return s.fault == "early" ? "Times of impact are early" : "Times of impact are late";
     case Severity::not_minimal:
+      if (s.fault == "inner_edge") return "Normals on flat parts of meshes are those of inner edges";
       return s.fault == "not_minimal" ? "Normals are not those of the least depth" : "Depths are too large";
     case Severity::distance:
       return s.fault == "bound_off" ? "Bounds of distances are none" : "Distances are wrong";

@@ -42,6 +42,7 @@ constexpr FaultRow fault_rows[] = {
     {Fault::stale, FaultStage::verdict, Severity::ghost},
     {Fault::unstable, FaultStage::state, Severity::unstable},
     {Fault::no_number, FaultStage::failure, Severity::infeasible},
+    {Fault::inner_edge, FaultStage::depth, Severity::not_minimal},
     {Fault::bound_off, FaultStage::distance, Severity::distance},
     {Fault::failed, FaultStage::failure, Severity::crash},
 };

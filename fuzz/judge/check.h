@@ -122,6 +122,9 @@ bool judge_validity(const CheckInput& in, CheckOutput& out, const StatedContact&
 /// Checks feasibility, regret and excess.
 void judge_normal_and_depth(const CheckInput& in, CheckOutput& out, const StatedContact& c,
                             const referee::PairTruth& truth);
+/// Checks the stated normal of a convex body and a mesh where the mesh is a plane as far as the body reaches
+/// through it. False: it is not, and the normal was not judged.
+bool judge_inner_edges(const CheckInput& in, CheckOutput& out, const StatedContact& c);
 /// For a pair that overlaps: the depth that is certain. A surface has none as a whole; in its deepest
 /// triangle the depth is how far the body must move at least to be apart.
 double certain_depth(const CheckInput& in, int a, int b, const referee::PairTruth& truth);

@@ -49,6 +49,10 @@ inline bool are_believed(const EngineCard& card) {
 inline double contact_offset(const EngineCard& card) { return are_believed(card) ? card.contact_offset : 0; }
 /// A sweep may stop when the gap is at most this.
 inline double sweep_skin(const EngineCard& card) { return are_believed(card) ? card.sweep_skin : 0; }
+/// A contact with a mesh is that of one of its triangles.
+inline bool takes_triangles_apart(const EngineCard& card) {
+  return are_believed(card) && card.separate_triangles;
+}
 /// By what share of the least depth the chosen normal may need more.
 inline double depth_bias(const EngineCard& card, ShapeKind a, ShapeKind b) {
   if (!are_believed(card)) return 0;

@@ -60,6 +60,7 @@ struct CardText {
   std::vector<std::string> shapes = {};
   std::vector<std::pair<std::string, double>> unit_roundoffs = {}, depth_biases = {};
   double contact_offset = 0, sweep_skin = 0;
+  bool separate_triangles = false;  // a host of minor 0 to 4 is not told
   std::string json() const {
     std::string out;
     const auto field = [&out](const char* key, const std::string& value) {
@@ -88,6 +89,7 @@ struct CardText {
       if (contact_offset > 0) out.append(",\"contact_offset\":").append(text_of(contact_offset));
       if (sweep_skin > 0) out.append(",\"sweep_skin\":").append(text_of(sweep_skin));
     }
+    if (host_minor >= 5 && separate_triangles) out.append(",\"separate_triangles\":true");
     return out.append("}");
   }
 

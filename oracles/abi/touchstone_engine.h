@@ -42,9 +42,10 @@ extern "C" {
 /* 1: ts_received.other_shape, and received hulls with a different number of vertices
  * 2: "more_shapes" of a card, TS_ROUNDED_BOX
  * 3: version 2: ts_plugin.ask_many, ts_answer.ns; ts_scene.step_boxes; "shapes", "unit_roundoffs",
- * "contact_offset", "sweep_skin", "depth_biases" and "times_include_pipe" of a card 4: TS_WITHIN to TS_RAY;
- * ts_scene.margin; ts_answer.lower, upper; TS_HAS_LOWER, TS_HAS_UPPER */
-#define TS_ABI_MINOR 4
+ * "contact_offset", "sweep_skin", "depth_biases" and "times_include_pipe" of a card
+ * 4: TS_WITHIN to TS_RAY; ts_scene.margin; ts_answer.lower, upper; TS_HAS_LOWER, TS_HAS_UPPER
+ * 5: "separate_triangles" of a card */
+#define TS_ABI_MINOR 5
 
 #if defined(_WIN32)
 #define TS_EXPORT __declspec(dllexport)
@@ -294,6 +295,8 @@ typedef struct ts_plugin {
    *  - "sweep_skin", since minor 3: a sweep stops when the gap is at most this.
    *  - "depth_biases", since minor 3: by what share of the least depth the normal chosen for a pair of kinds
    * may need more, e.g. {"box box": 0.05} for a routine that prefers faces; at most 0.25.
+   *  - "separate_triangles", since minor 5: true if the documentation says that a contact with a mesh is that
+   * of one of its triangles. Normals of edges inside a flat part of a mesh are then not counted as wrong.
    *  - "times_include_pipe", since minor 3: true if times include talking to another process; they are then
    * not charted as the engine's. The host sets it for a command behind a pipe that does not state its own
    * times. */

@@ -24,7 +24,8 @@ constexpr const char* source =
     "btCollisionMargin.h: 0.04; inside for box and cylinder (setSafeMargin), outside for hull, cone; "
     "btContinuousConvexCollision.cpp: sweep ends at a gap of 0.001; btGjkConvexCast.cpp: ray ends at a gap "
     "of "
-    "0.001; btBoxBoxDetector.cpp: dBoxBox2 prefers faces by fudge_factor 1.05";
+    "0.001; btBoxBoxDetector.cpp: dBoxBox2 prefers faces by fudge_factor 1.05; btInternalEdgeUtility.h: "
+    "without it, normals at internal edges of meshes are wrong";
 
 btDefaultCollisionConstructionInfo construction_of(const Setting& s) {
   btDefaultCollisionConstructionInfo info;
@@ -43,6 +44,7 @@ class Engine {
     for (const Setting& s : settings)
       all.push_back({prefix + std::string(s.name), "Bullet", version, text_of(s), unit_roundoff,
                      kit::oracle_tau_factor, source});
+    for (kit::CardText& card : all) card.separate_triangles = true;
     // Queries send boxes through GJK and EPA, the simulation through btBoxBoxDetector.
     for (std::size_t i = 0; i < all.size(); ++i)
       if (settings[i].sim) all[i].depth_biases = {{"box box", kit::face_preference}};

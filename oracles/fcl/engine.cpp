@@ -29,7 +29,7 @@ constexpr const char* source =
     "fcl/narrowphase/collision_request.h: gjk_tolerance; distance_request.h: distance_tolerance; "
     "continuous_collision_request.h: toc_err times the closing speed; box_box-inl.h: boxBox2 prefers faces "
     "by "
-    "fudge_factor 1.05";
+    "fudge_factor 1.05; contact.h: a contact with a mesh is that of the triangle b1 or b2";
 
 #ifdef TOUCHSTONE_SWEEP
 struct Sweep {
@@ -60,6 +60,7 @@ class Engine {
   static std::vector<kit::CardText> cards() {
     const auto card = [](const char* name, const char* settings) {
       kit::CardText c{name, "FCL", FCL_VERSION, settings, double_roundoff, kit::oracle_tau_factor, source};
+      c.separate_triangles = true;
       // Contacts by collide take boxBox2, those by signed distance do not.
       if (c.name != "fcl-libccd-tuned") c.depth_biases = {{"box box", kit::face_preference}};
       return c;

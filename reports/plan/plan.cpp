@@ -110,18 +110,17 @@ void add_plans(const Scenery& s, const PlanOptions& o, const Fidelity& base, std
   }
 }
 
-std::vector<Way> planned_ways(const Scenery& s, const PlanOptions& o, double error) {
+void add_planned_ways(const Scenery& s, const PlanOptions& o, double error, std::vector<Way>& ways) {
+  const std::size_t before = ways.size();
   Fidelity f;
   f.error = error;
   f.loose_boxes = true;  // equally safe, and cheaper
   f.solid_meshes = o.solid_meshes;
-  std::vector<Way> ways;
   if (!f.solid_meshes) add_plans(s, o, f, ways);
   simplify(s.course, f);
   if (std::any_of(f.simpler.begin(), f.simpler.end(), [](const auto& x) { return x.has_value(); }) ||
-      ways.empty())
+      ways.size() == before)
     add_plans(s, o, f, ways);
-  return ways;
 }
 
 double least(const std::vector<double>& v) { return *std::min_element(v.begin(), v.end()); }
@@ -251,6 +250,15 @@ double default_error(const Course& c) {
   return std::max(least_error(c), std::isfinite(smallest) ? share_of_smallest * smallest : 0);
 }
 
+std::vector<double> candidate_errors(double error, double least) {
+  // In the scene's unit, the same for every error.
+  static constexpr double rungs[] = {1, 1e-3, 1e-6, 1e-9, 1e-12, 1e-15};
+  std::vector<double> errors{error};
+  for (const double rung : rungs)
+    if (rung < error && rung >= least) errors.push_back(rung);
+  return errors;
+}
+
 Plan make_plan(const Course& c, const PlanOptions& o, const PlanProgress& progress) {
   const auto say = [&](const std::string& what) {
     if (progress) progress(what);
@@ -279,12 +287,14 @@ Plan make_plan(const Course& c, const PlanOptions& o, const PlanProgress& progre
   const EndPoses& poses = scenery.poses;
   scenery.candidates = course_candidates(c, poses);
   scenery.phases = p.phases = measure_phases(c, poses, o.rounds);
-  say("pairs of shapes");
   std::vector<Way> ways;
   if (o.given)
     ways.push_back({"plan", *o.given, true, {}});
   else
-    ways = planned_ways(scenery, o, p.error);
+    for (const double error : candidate_errors(p.error, p.least_error)) {
+      say(fmt::format("pairs of shapes, for an error of {:g}", error));
+      add_planned_ways(scenery, o, error, ways);
+    }
   const std::size_t planned = ways.size();
   for (Way& w : fixed_ways(c, p.phases)) ways.push_back(std::move(w));
   const auto times = run_ways(c, ways, o.rounds, progress);

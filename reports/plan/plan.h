@@ -29,6 +29,11 @@ double least_error(const Course& course);
 /// A millionth of the smallest body, but not less than the least error.
 double default_error(const Course& course);
 
+/// The errors for which candidates of a plan are made: `error` itself, and of 1e-3, 1e-6, 1e-9 and so on
+/// those from `least` up to it. A plan for a tighter error holds for a looser one too, and is a candidate for
+/// it.
+std::vector<double> candidate_errors(double error, double least);
+
 /// Throws InputError when the error is below the least, or a given plan does not fit this scene.
 Plan make_plan(const Course& course, const PlanOptions& options, const PlanProgress& progress = {});
 

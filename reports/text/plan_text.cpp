@@ -111,9 +111,11 @@ std::string sweeps(const Plan& p) {
   constexpr std::size_t most = 5;
   for (std::size_t i = 0; i < std::min(most, p.swept.size()); ++i) {
     const PlanSwept& s = p.swept[i];
-    text +=
-        fmt::format("  body {:<6} {:<18} {:<7} {:>7} deep of {:>7} inner, {} steps\n", s.body,
-                    cut_utf8(printable(s.name), 18), s.reason, small(s.pass_bound), small(s.inner), s.steps);
+    text += wrapped(fmt::format("  {:<7} {:>7} deep of {:>7} inner, {} steps: body {}{}{}", s.reason,
+                                small(s.pass_bound), small(s.inner), s.steps, s.body,
+                                s.name.empty() ? "" : ", ", printable(s.name)),
+                    79, 10) +
+            "\n";
   }
   if (p.swept.size() > most) text += fmt::format("  and {} more\n", p.swept.size() - most);
   return text;
@@ -151,6 +153,15 @@ std::string saving(const Plan& p) {
          "\n";
 }
 
+std::string tighter(const Plan& p) {
+  const double error = p.run.value("error", p.error);
+  if (!(error < p.error)) return "";
+  return wrapped(fmt::format("The fastest candidate is one for an error of {}, which is what it proves.",
+                             small(error)),
+                 79, 2) +
+         "\n";
+}
+
 std::string proven(const Plan& p) {
   std::uint64_t sampled = 0;
   double worst = 0;
@@ -174,7 +185,7 @@ std::string plan_text(const Plan& p) {
                                          p.steps, small(p.error), small(p.least_error)),
                              79, 2) +
                      "\n";
-  text += phases(p) + shapes(p) + meshes(p);
+  text += tighter(p) + phases(p) + shapes(p) + meshes(p);
   text += p.remember ? "Searches start from the result of the previous step.\n" : "";
   text += pairs(p) + sweeps(p) + "\n" + rows(p) + saving(p);
   const auto plan = std::find_if(p.rows.begin(), p.rows.end(), [](const PlanRow& r) { return r.is_plan; });

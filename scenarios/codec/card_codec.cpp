@@ -33,6 +33,7 @@ constexpr const char* more_shapes_field = "more_shapes";
 constexpr const char* shapes_field = "shapes";
 constexpr const char* roundoffs_field = "unit_roundoffs";
 constexpr const char* biases_field = "depth_biases";
+constexpr const char* separate_field = "separate_triangles";
 constexpr const char* pipe_field = "times_include_pipe";
 constexpr std::array text_fields{
     TextField{"name", &EngineCard::name}, TextField{"library", &EngineCard::library},
@@ -64,8 +65,8 @@ bool is_known(std::string_view key) {
     if (key == f.name) return true;
   for (const auto& f : length_fields)
     if (key == f.name) return true;
-  for (const char* name :
-       {complete_field, more_shapes_field, shapes_field, roundoffs_field, biases_field, pipe_field})
+  for (const char* name : {complete_field, more_shapes_field, shapes_field, roundoffs_field, biases_field,
+                           separate_field, pipe_field})
     if (key == name) return true;
   return false;
 }
@@ -185,6 +186,7 @@ EngineCard card_from_json(const std::string& text) {
   for (const auto& f : number_fields) card.*f.member = positive_number_of(j, f.name, f.most);
   require_tau(card, card.unit_roundoff, "tau_factor");
   card.complete_manifolds = flag_of(j, complete_field);
+  card.separate_triangles = flag_of(j, separate_field);
   card.times_include_pipe = flag_of(j, pipe_field);
   read_shapes(j, card);
   read_roundoffs(j, card);
@@ -217,6 +219,7 @@ std::string to_json_text(const EngineCard& card) {
     if (card.*f.member > 0) j[f.name] = card.*f.member;
   for (const DepthBias& d : card.depth_biases)
     j[biases_field][std::string(type_name(d.a)) + " " + std::string(type_name(d.b))] = d.share;
+  if (card.separate_triangles) j[separate_field] = true;
   if (card.times_include_pipe) j[pipe_field] = true;
   return j.dump(-1, ' ', false, Json::error_handler_t::replace);
 }

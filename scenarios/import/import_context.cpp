@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <optional>
 #include <system_error>
 
 #include "core/base/input_error.h"
@@ -26,6 +27,29 @@ bool is_below(const fs::path& file, const fs::path& folder) {
   const fs::path d = fs::canonical(folder.empty() ? fs::path(".") : folder, ec);
   if (ec) return false;
   return std::mismatch(d.begin(), d.end(), f.begin(), f.end()).first == d.end();
+}
+
+// The name in the folder's package.xml; empty without one.
+std::string stated_name(const fs::path& folder) {
+  std::error_code ec;
+  const fs::path file = folder / "package.xml";
+  if (!fs::exists(file, ec) || !is_below(file, folder)) return "";
+  require_regular_file(file);
+  const XmlFile xml(file);
+  const auto name = xml.root().child("name");
+  return name ? name->text() : "";
+}
+
+// The folder itself, or the first one in it by name, whose package.xml states the package.
+std::optional<fs::path> folder_that_states(const std::string& package, const fs::path& dir) {
+  std::vector<fs::path> folders{dir};
+  std::error_code ec;
+  for (const auto& entry : fs::directory_iterator(dir, ec))
+    if (entry.is_directory(ec) && is_below(entry.path(), dir)) folders.push_back(entry.path());
+  std::sort(folders.begin() + 1, folders.end());
+  const auto it = std::find_if(folders.begin(), folders.end(),
+                               [&](const fs::path& folder) { return stated_name(folder) == package; });
+  return it == folders.end() ? std::nullopt : std::optional(*it);
 }
 
 std::string quoted_name(const std::string& uri) {
@@ -85,6 +109,9 @@ fs::path ImportContext::in_package(const std::string& rest, const std::string& p
     const fs::path own = fs::canonical(dir, ec);
     if (!ec && own.filename() == package) return checked_below(dir, inside, rest, place);
   }
+  for (const fs::path& dir : options_.package_paths)
+    if (const auto stated = folder_that_states(package, dir))
+      return checked_below(*stated, inside, rest, place);
   throw InputError(place, "package " + printable(package) +
                               " is in none of the folders given by --package-path DIR (the folder that "
                               "holds it, or the package itself)");

@@ -38,7 +38,9 @@ class ImportContext {
   const std::vector<ImportNote>& notes() const { return notes_; }
 
   /// The file that `uri` names: below `folder` for a relative path, below a package's folder for
-  /// "package://NAME/…" and "model://NAME/…". Throws InputError at `place` for absolute paths, other URLs,
+  /// "package://NAME/…" and "model://NAME/…". A package is a folder of that name, or one whose package.xml
+  /// states it, directly in a folder of --package-path, or that folder itself. Throws InputError at `place`
+  /// for absolute paths, other URLs,
   /// "..", links that lead out of these folders, and files that do not exist.
   std::filesystem::path resolve(const std::string& uri, const std::filesystem::path& folder,
                                 const std::string& place) const;

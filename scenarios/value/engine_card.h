@@ -59,6 +59,9 @@ struct EngineCard {
   /// A sweep stops when the gap is at most this. A length; believed only with a source.
   double sweep_skin = 0;
   std::vector<DepthBias> depth_biases = {};  // believed only with a source
+  /// A contact with a mesh is that of one of its triangles, as if the others were not there, so that its
+  /// normal may be that of an edge inside a flat part; believed only with a source.
+  bool separate_triangles = false;
   /// Times include talking to another process, so they are not charted as the engine's.
   bool times_include_pipe = false;
   bool operator==(const EngineCard&) const = default;

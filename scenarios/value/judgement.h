@@ -33,13 +33,14 @@ enum class Fault : std::uint8_t {
   stale,            // a pair names a body that is not present
   unstable,         // the same query gets different answers: uninitialised memory or retained state
   no_number,        // an answer lacks the requested number, or the number is not finite
+  inner_edge,       // the normal of an edge or corner inside a flat part of a mesh
   bound_off,        // a stated lower bound of the distance is above it, or an upper bound below it
   failed            // threw, crashed, timed out, did not converge
 };
 inline constexpr auto fault_names = std::to_array<std::string_view>(
     {"missed", "ghost", "distance_off", "witness_off", "normal_not_unit", "infeasible", "not_minimal",
      "depth_excess", "point_off", "point_depth", "incomplete", "late", "early", "stale", "unstable",
-     "no_number", "bound_off", "failed"});
+     "no_number", "inner_edge", "bound_off", "failed"});
 static_assert(fault_names.size() == static_cast<std::size_t>(Fault::failed) + 1);
 constexpr std::string_view to_string(Fault f) { return fault_names[static_cast<std::size_t>(f)]; }
 

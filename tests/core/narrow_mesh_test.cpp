@@ -80,6 +80,37 @@ TEST_CASE("a mesh tree contains every triangle once, inside its boxes", "[narrow
   }
 }
 
+TEST_CASE("a contact on a flat part of a mesh is that of its plane", "[narrow][mesh]") {
+  int sideways = 0;
+  for (int i = 0; i < 60; ++i) {
+    Rng r = Rng::stream(92, static_cast<std::uint64_t>(i));
+    TriangleMesh floor = field(r, 24);
+    for (Vec3& v : floor.vertices) v.z() = 0;
+    const Shape mesh = floor, plate = Box{{0.02, 0.5, 0.5}};
+    const Pose pose{r.unit_vector() * 3, r.rotation()};
+    const Mat3 turn = rotation_matrix(pose.rotation);
+    const double depth = r.uniform(0.15, 0.45);
+    const Vec3 local(r.uniform(-1, 1), r.uniform(-1, 1), 0.5 - depth);
+    const Pose upright{turn * local + pose.translation, pose.rotation};
+    const Collider prepared(mesh);
+    const PlacedShape body{&plate, upright};
+    const ContactAnswer k = contact(prepared.at(pose), body), mirrored = contact(body, {&mesh, pose});
+    REQUIRE(k.overlap);
+    CHECK(k.normal.dot(turn.col(2)) > 1 - 1e-14);
+    CHECK(std::abs(k.depth - depth) < 1e-14);
+    CHECK(k.error_bound < 1e-13);
+    CHECK(mirrored.normal.dot(turn.col(2)) < -1 + 1e-14);
+    CHECK(std::abs(mirrored.depth - depth) < 1e-14);
+    // The deepest triangle alone is left sideways.
+    sideways += std::abs(distance(body, {&mesh, pose}).normal.dot(turn.col(2))) < 0.5;
+
+    // Near the border the plate leaves the floor sideways.
+    const Pose at_border{turn * Vec3(-2.99, local.y(), 0) + pose.translation, pose.rotation};
+    CHECK(std::abs(contact(prepared.at(pose), {&plate, at_border}).normal.dot(turn.col(0))) > 1 - 1e-14);
+  }
+  CHECK(sideways == 60);
+}
+
 TEST_CASE("a body against a mesh: the same with a tree, and in agreement with the referee",
           "[narrow][mesh]") {
   long overlaps = 0, cases = 0, fast = 0;

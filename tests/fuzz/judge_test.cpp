@@ -525,6 +525,75 @@ TEST_CASE("a contact with a surface is judged as far as possible; the rest is no
   CHECK(has(judge_one(ball_on_triangle(2, Question::distance), d), Fault::ghost));
 }
 
+namespace {
+
+// A floor of 8 x 8 tiles of two triangles over [-4, 4]², and a ball that reaches `depth` below it.
+Case ball_on_tiles(double depth, double slope = 0) {
+  TriangleMesh m;
+  for (int i = 0; i <= 8; ++i)
+    for (int j = 0; j <= 8; ++j) m.vertices.push_back({i - 4.0, j - 4.0, slope * std::max(0, i - 4)});
+  for (int i = 0; i < 8; ++i)
+    for (int j = 0; j < 8; ++j) {
+      const int a = 9 * i + j, b = a + 9;
+      m.triangles.push_back({a, b, b + 1});
+      m.triangles.push_back({a, b + 1, a + 1});
+    }
+  Case c;
+  c.scene.shapes = {m, Sphere{1}};
+  c.scene.bodies.resize(2);
+  c.scene.bodies[0].is_static = true;
+  c.scene.bodies[1].shape = 1;
+  c.scene.bodies[1].pose.translation = {0.125, 0.5, 1 - depth};
+  c.queries = {{Question::contact, 0, 1}};
+  return c;
+}
+
+}  // namespace
+
+TEST_CASE("on a flat part of a mesh the normal is judged: that of an inner edge is wrong", "[judge][mesh]") {
+  const Case c = ball_on_tiles(0.0625);
+  // From the edge x = 0 to the ball's centre.
+  const Vec3 of_edge = Vec3(0.125, 0, 0.9375).normalized();
+  const Judgement wrong = judge_one(c, contact(of_edge, 0.05));
+  REQUIRE(has(wrong, Fault::inner_edge));
+  CHECK(wrong.ruling() == Ruling::wrong);
+  CHECK(wrong.blame == Blame::algorithm);
+  CHECK(wrong.faults[0].error > 0.0625 * (1 / of_edge.z() - 1) - 1e-12);
+  CHECK(wrong.faults[0].error < 0.0625 * (1 / of_edge.z() - 1) + 1e-12);
+  CHECK(wrong.faults[0].certificate.offset > 0.0625 - 1e-12);
+  for (const Vec3& n : {Vec3(0, 0, 1), Vec3(0, 0, -1)}) {
+    const Judgement right = judge_one(c, contact(n, 0.0625));
+    CHECK(right.faults.empty());
+    REQUIRE(right.unjudged.size() == 1);
+    CHECK(right.unjudged[0].claim == "depth");
+  }
+  Observation normal_alone = contact({0, 0, 1}, 0);
+  normal_alone.depth.reset();
+  CHECK(judge_one(c, normal_alone).right());
+
+  // Where the floor bends within reach, edges have normals of their own.
+  const Judgement bent = judge_one(ball_on_tiles(0.0625, 0.01), contact(of_edge, 0.05));
+  CHECK(bent.ruling() == Ruling::not_judged);
+  CHECK(bent.unjudged[0].claim == "normal and depth");
+
+  // An engine that says so takes the triangles apart, if its card names the page.
+  EngineCard apart = double_card();
+  apart.separate_triangles = true;
+  const Judgement documented = judge_one(c, contact(of_edge, 0.05), apart);
+  CHECK(documented.faults.empty());
+  CHECK(documented.ruling() == Ruling::not_judged);
+  CHECK(documented.unjudged_by_definition());
+  CHECK(documented.unjudged[0].claim.find("normal at an inner edge") == 0);
+  apart.source.clear();
+  CHECK(has(judge_one(c, contact(of_edge, 0.05), apart), Fault::inner_edge));
+
+  Case scene = c;
+  scene.queries = {{Question::scene_contacts, -1, -1}};
+  Observation o = answered();
+  o.contacts = {{0, 1, of_edge, 0.05}};
+  CHECK(has(judge_one(scene, o), Fault::inner_edge));
+}
+
 TEST_CASE("each contact of a scene is judged by its numbers; one with a surface can be missed too",
           "[judge][mesh]") {
   const Case c = ball_on_triangle(0.75, Question::scene_contacts);

@@ -94,6 +94,24 @@ void snapped_to_axis(const Case& c, const Query& q, Observation& o) {
   if (std::abs((*o.normal)[k]) > 0.99) along(c, q, o, Vec3::Unit(k) * ((*o.normal)[k] > 0 ? 1 : -1));
 }
 
+// The contact of the triangle in which the body is least deep, as if the others were not there.
+void of_one_triangle(const Case& c, const Query& q, Observation& o) {
+  const bool first = kind(c, q.a) == ShapeKind::mesh;
+  if (!on_surface(c, q) || two_meshes(c, q)) return;
+  const int surface = first ? q.a : q.b, other = first ? q.b : q.a;
+  const auto& m = std::get<TriangleMesh>(c.scene.shape_of(surface));
+  double least = std::numeric_limits<double>::infinity();
+  for (const auto& [i, j, k] : m.triangles) {
+    const auto at = [&](int v) { return m.vertices[static_cast<std::size_t>(v)]; };
+    const Shape triangle = make_hull({at(i), at(j), at(k)});
+    const PlacedShape x{&triangle, body(c, surface).pose}, y = placed(c, other);
+    const ContactAnswer r = first ? contact(x, y) : contact(y, x);
+    if (r.outcome != Outcome::answered || !r.overlap || r.depth >= least) continue;
+    least = r.depth;
+    o.normal = r.normal;
+  }
+}
+
 void halved(const Case&, const Query&, Observation& o) { *o.depth /= 2; }
 void doubled(const Case&, const Query&, Observation& o) { *o.depth *= 2; }
 void scaled(const Case&, const Query&, Observation& o) { *o.depth *= 1 - 1e-10; }
@@ -161,6 +179,8 @@ std::vector<Mutant> normal_lies() {
        on_contact(edges_forgotten)},
       {"normal_tilted", "not_minimal", "shallow", "tilted by 1e-6, with the depth along it",
        on_contact(tilted)},
+      {"normal_of_one_triangle", "inner_edge", "mesh",
+       "on a mesh, that of the triangle in which the body is least deep", on_contact(of_one_triangle)},
       {"normal_snapped", "not_minimal", "deep", "within 8 degrees of an axis, that axis and its depth",
        on_contact(snapped_to_axis)},
   };

@@ -35,6 +35,7 @@ TEST_CASE("a card survives its JSON text exactly", "[oracles][card]") {
   card.contact_offset = 0.02;
   card.sweep_skin = 1e-3;
   card.depth_biases = {{ShapeKind::box, ShapeKind::box, 0.05}, {ShapeKind::box, ShapeKind::hull, 0.25}};
+  card.separate_triangles = true;
   card.times_include_pipe = true;
   CHECK(card_from_json(to_json_text(card)) == card);
 }

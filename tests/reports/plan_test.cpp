@@ -77,7 +77,7 @@ TEST_CASE("a plan holds on its scene and can be run from its JSON", "[plan]") {
   again.given = fidelity_from_json(j.at("run"), "run");
   CHECK(to_json(*again.given) == p.run);
   const Plan q = make_plan(course, again);
-  CHECK(q.error == p.error);
+  CHECK(q.error == p.run["error"].get<double>());  // the plan's own, which may be tighter
   CHECK(plan_row(q).outside == 0);
   CHECK(q.broad_phase == p.broad_phase);
 
@@ -106,6 +106,24 @@ TEST_CASE("the referee detects a wrong plan", "[plan]") {
   PlanOptions o = quick(0);
   o.given = lie;
   CHECK_THROWS_AS(make_plan(course, o), InputError);
+}
+
+TEST_CASE("the candidates for a looser error include those for a tighter one", "[plan]") {
+  constexpr double least = 1e-13;
+  CHECK(candidate_errors(1e-6, least) == std::vector{1e-6, 1e-9, 1e-12});
+  CHECK(candidate_errors(5e-4, least) == std::vector{5e-4, 1e-6, 1e-9, 1e-12});
+  CHECK(candidate_errors(1e-9, 1e-9) == std::vector{1e-9});
+  for (const double tight : {1e-3, 1e-6, 1e-9, 1e-12})
+    for (const double loose : {1e-3, 1e-2, 0.5, 1.0})
+      if (tight < loose)
+        for (const double error : candidate_errors(tight, least)) {
+          const auto all = candidate_errors(loose, least);
+          CHECK(std::find(all.begin(), all.end(), error) != all.end());
+        }
+  // The plan that is chosen may be one of a tighter error, and is judged by the error asked for.
+  const Plan p = make_plan(course_of(heap(12)), quick(1e-2));
+  CHECK(p.error == 1e-2);
+  CHECK(p.run["error"].get<double>() <= 1e-2);
 }
 
 TEST_CASE("a plan that was edited by hand is refused", "[plan]") {

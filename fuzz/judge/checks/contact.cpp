@@ -26,7 +26,8 @@ Certificate direction_certificate(const CheckInput& in, const StatedContact& c,
 }
 
 // A surface has no depth (docs/truth.md §2), so the stated depth is not compared with one. It must still be a
-// plausible depth: not negative, and no more than leaving the hull of the surface takes.
+// plausible depth: not negative, and no more than leaving the hull of the surface takes. A normal is judged
+// where the surface is flat.
 void judge_surface_contact(const CheckInput& in, CheckOutput& out, const StatedContact& c,
                            const referee::PairTruth& truth) {
   const double l = in.truth.scale(c.a, c.b), tau = in.tau(c.a, c.b, l);
@@ -49,7 +50,9 @@ void judge_surface_contact(const CheckInput& in, CheckOutput& out, const StatedC
                 fmt::format("says overlap with depth {:.9g}; a depth is never negative", *c.depth),
                 truth.verdict_certificate);
   }
-  out.not_judged(c.depth && c.normal ? "normal and depth" : c.normal ? "normal" : "depth", true);
+  const bool is_normal_open = c.normal && !judge_inner_edges(in, out, c);
+  if (c.depth || is_normal_open)
+    out.not_judged(c.depth && is_normal_open ? "normal and depth" : c.depth ? "depth" : "normal", true);
 }
 
 // Bodies that are apart and that the engine's contact offset lets it report: their depth is minus the gap.

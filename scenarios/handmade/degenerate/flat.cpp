@@ -7,6 +7,21 @@ namespace {
 
 TriangleMesh square() { return {{{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}}, {{0, 1, 2}, {0, 2, 3}}}; }
 
+// The square [-1, 1]² in tiles of 1/4, each of two triangles.
+TriangleMesh tiled_floor() {
+  constexpr int tiles = 8;
+  TriangleMesh m;
+  for (int i = 0; i <= tiles; ++i)
+    for (int j = 0; j <= tiles; ++j) m.vertices.push_back({i / 4.0 - 1, j / 4.0 - 1, 0});
+  for (int i = 0; i < tiles; ++i)
+    for (int j = 0; j < tiles; ++j) {
+      const int a = i * (tiles + 1) + j, b = a + tiles + 1;
+      m.triangles.push_back({a, b, b + 1});
+      m.triangles.push_back({a, b + 1, a + 1});
+    }
+  return m;
+}
+
 Expectation overlaps_only(std::string reason) {
   Expectation e;
   e.overlap = true;
@@ -60,6 +75,14 @@ List degenerate_flat() {
            {Box{Vec3(0.25, 0.25, 0.5)}, at(0.25, 0.125, 0.25), {}},
            overlaps_only(
                "the origin's neighbourhood of z = 0 lies in the box; depth of a surface is not defined")),
+      pair("degenerate", "ball_across_inner_edges",
+           "a ball on coplanar triangles: its normal is none of an edge", {tiled_floor(), {}, {}},
+           {Sphere{0.5}, at(0.0625, 0.03125, 0.4375), {}},
+           overlaps_only("the ball reaches 1/16 below z = 0, on a disc across several triangles")),
+      pair("degenerate", "plate_through_tiled_floor",
+           "a thin upright plate: each triangle alone is left sideways, the floor only upward",
+           {tiled_floor(), {}, {}}, {Box{Vec3(0.015625, 0.25, 0.25)}, at(0.0625, 0.03125, 0.125), {}},
+           overlaps_only("the plate reaches 1/8 below z = 0, and 1/4 is needed to leave a tile along x")),
       pair("degenerate", "mesh_touched_by_corner", "a box corner touches a surface", {square(), {}, {}},
            {Box{Vec3(1, 1, 1)}, at(1.5, 1.5, 1), {}},
            gap_is(0, 0, z, "face z = 0 on face z = 0, over a quarter square")),

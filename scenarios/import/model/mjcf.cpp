@@ -6,6 +6,7 @@
 #include <set>
 
 #include "core/base/input_error.h"
+#include "scenarios/import/height_field.h"
 #include "scenarios/import/model/mjcf_defaults.h"
 #include "scenarios/import/model/names.h"
 #include "scenarios/import/model/readers.h"
@@ -100,9 +101,9 @@ class MjcfReader {
 
   void read_assets(const XmlElement& e) {
     for (const XmlElement& a : expanded(e)) {
-      if (a.name() != "mesh") continue;
+      if (a.name() != "mesh" && a.name() != "hfield") continue;
       const std::string stem = std::filesystem::path(a.attribute("file").value_or("")).stem().string();
-      meshes_.emplace(a.attribute("name").value_or(stem), a);
+      (a.name() == "mesh" ? meshes_ : height_fields_).emplace(a.attribute("name").value_or(stem), a);
     }
   }
 
@@ -256,6 +257,7 @@ class MjcfReader {
   std::optional<Shape> shape_in(const MjcfElement& g, Pose& pose) {
     const std::string type = g.text("type").value_or("sphere");
     if (type == "mesh") return mesh_in(g);
+    if (type == "hfield") return height_field_in(g);
     if (g.text("mesh")) {
       context_.refuse(g.xml(), "fits a " + printable(type) + " to a mesh, which is not supported");
       return std::nullopt;
@@ -306,12 +308,61 @@ class MjcfReader {
         m.xml().fail(e.what());
       }
     }
-    std::filesystem::path file = *m.text("file");
+    return context_.mesh(asset_file(m), scale, true, m.xml().place());
+  }
+
+  std::filesystem::path asset_file(const MjcfElement& asset) const {
+    std::filesystem::path file = *asset.text("file");
     if (compiler_.strip_path) file = file.filename();
     if (!compiler_.mesh_folder.empty()) file = std::filesystem::path(compiler_.mesh_folder) / file;
-    return context_.mesh(
-        context_.resolve(file.lexically_normal().string(), file_.parent_path(), m.xml().place()), scale, true,
-        m.xml().place());
+    return context_.resolve(file.lexically_normal().string(), file_.parent_path(), asset.xml().place());
+  }
+
+  std::optional<Shape> height_field_in(const MjcfElement& g) {
+    const std::string name = g.text("hfield").value_or("");
+    const auto it = height_fields_.find(name);
+    if (it == height_fields_.end()) g.xml().fail("there is no hfield " + printable(name));
+    const MjcfElement field(it->second, defaults_, "");
+    try {
+      return height_field_of(field);
+    } catch (const InputError& e) {
+      context_.refuse(field.xml(), e.place() == field.xml().place() ? e.reason() : e.what());
+      return std::nullopt;
+    }
+  }
+
+  // MuJoCo fills it down to a base, whose thickness is the fourth size; here it is a surface.
+  Shape height_field_of(const MjcfElement& f) const {
+    HeightGrid grid = f.text("file") ? read_height_file(asset_file(f)) : written_heights(f);
+    normalize(grid);
+    const std::vector<double> size = f.numbers("size");
+    if (size.size() != 4 || !std::all_of(size.begin(), size.end(), [](double x) { return x > 0; }))
+      throw InputError("", "needs a size of four positive numbers");
+    return surface_of(grid, size[0], size[1], size[2]);
+  }
+
+  // The heights in the file itself, if any, are written from the greatest y to the least.
+  static HeightGrid written_heights(const MjcfElement& f) {
+    const double rows = f.number("nrow", 0), columns = f.number("ncol", 0);
+    if (rows != std::floor(rows) || columns != std::floor(columns))
+      throw InputError("", "nrow and ncol must be whole numbers");
+    require_grid_size(rows, columns, "");
+    HeightGrid grid{static_cast<std::size_t>(rows), static_cast<std::size_t>(columns), {}};
+    grid.heights.resize(grid.rows * grid.columns);
+    if (!f.text("elevation")) return grid;
+    const std::vector<double> v = f.numbers("elevation");
+    if (v.size() != grid.heights.size())
+      throw InputError("", "elevation has " + std::to_string(v.size()) + " numbers instead of " +
+                               std::to_string(grid.heights.size()));
+    for (std::size_t r = 0; r < grid.rows; ++r)
+      for (std::size_t c = 0; c < grid.columns; ++c)
+        grid.heights[r * grid.columns + c] = finite_float(v[(grid.rows - 1 - r) * grid.columns + c]);
+    return grid;
+  }
+  static float finite_float(double x) {
+    if (std::abs(x) > std::numeric_limits<float>::max())
+      throw InputError("", "a height is too large for a float");
+    return static_cast<float>(x);
   }
 
   // MuJoCo skips a body and its parent, welded bodies counting as one, unless the parent is part of the
@@ -394,7 +445,7 @@ class MjcfReader {
   Model model_;
   MjcfCompiler compiler_;
   MjcfDefaults defaults_;
-  std::map<std::string, XmlElement> meshes_;
+  std::map<std::string, XmlElement> meshes_, height_fields_;
   NumberByName bodies_;
   bool filters_parents_ = true;
   int unnamed_ = 0;

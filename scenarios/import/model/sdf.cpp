@@ -169,7 +169,7 @@ class SdfReader {
       if (!is_among(c.name(),
                     {"collision", "pose", "visual", "inertial", "sensor", "light", "gravity", "enable_wind",
                      "self_collide", "kinematic", "must_be_base_link", "velocity_decay", "battery",
-                     "audio_source", "audio_sink", "plugin", "projector", "particle_emitter"}) &&
+                     "audio_source", "audio_sink", "plugin", "projector", "particle_emitter", "contact"}) &&
           c.name().find(':') == std::string::npos)
         context_.refuse(c, "is not known");
     model_.links.push_back(std::move(link));

@@ -140,7 +140,7 @@ class UrdfReader {
     read_axis(e, joint);
     for (const XmlElement& c : e.children())
       if (!is_one_of(c.name(), {"origin", "parent", "child", "axis", "limit", "mimic", "dynamics",
-                                "calibration", "safety_controller", "hardwareInterface"}))
+                                "calibration", "safety_controller", "hardwareInterface", "joint_properties"}))
         context_.refuse(c, "is not known");
     const XmlElement p = e.need_child("parent"), c = e.need_child("child");
     const int parent = links_.need(p, p.need("link"), "link"), child = links_.need(c, c.need("link"), "link");
@@ -162,9 +162,13 @@ class UrdfReader {
     const auto limit = e.child("limit");
     const bool continuous = e.need("type") == "continuous";
     if (limit && !continuous && variable_count(joint.type) == 1) {
-      joint.lower = limit->number("lower").value_or(0);
-      joint.upper = limit->number("upper").value_or(0);
-      if (joint.lower > joint.upper) limit->fail("lower is larger than upper");
+      const double lower = limit->number("lower").value_or(0), upper = limit->number("upper").value_or(0);
+      if (lower > upper) {
+        context_.refuse(*limit, "lower is larger than upper; Bullet takes that as no limit");
+      } else {
+        joint.lower = lower;
+        joint.upper = upper;
+      }
     }
     if (const auto m = e.child("mimic")) {
       ModelJoint::Mimic mimic;

@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "tests/scenarios/import/model_check.h"
+#include "tests/scenarios/import/temp_dir.h"
 
 using namespace touchstone;
 
@@ -93,4 +94,25 @@ TEST_CASE("poses of a URDF file are MuJoCo's", "[import][optional]") {
   }
   mj_kinematics(s.model.get(), s.data.get());
   check_poses(s, import_model(file, o), 5, 0);
+}
+
+TEST_CASE("the heights of a binary file and of an image are MuJoCo's", "[import][optional]") {
+  for (const std::string name : {"hills.bin", "hills.png"}) {
+    INFO(name);
+    const test::TempDir dir;
+    std::filesystem::copy(test::model_file(name), dir.path() / name);
+    const auto file =
+        dir.write("m.xml", "<mujoco><asset><hfield name='f' file='" + name +
+                               "' size='3 2 0.5 0.1'/></asset><worldbody><geom name='ground' type='hfield' "
+                               "hfield='f'/></worldbody></mujoco>");
+    const Simulation s(file.string());
+    const Scene scene = scene_of(import_model(file, {}));
+    const auto& mesh = std::get<TriangleMesh>(scene.shape_of(0));
+    REQUIRE(s.model->nhfield == 1);
+    REQUIRE(mesh.vertices.size() ==
+            static_cast<std::size_t>(s.model->hfield_nrow[0] * s.model->hfield_ncol[0]));
+    for (std::size_t i = 0; i < mesh.vertices.size(); ++i)
+      CHECK(mesh.vertices[i].z() == 0.5 * static_cast<double>(s.model->hfield_data[i]));
+    CHECK(mesh.vertices.size() >= 20);
+  }
 }

@@ -280,8 +280,8 @@ TEST_CASE("MJCF: classes, orientations and sizes as MuJoCo reads them", "[import
   const auto bad = [&](const std::string& inside) {
     return refused("<mujoco>\n" + inside + "</mujoco>", {}, "m.xml");
   };
-  CHECK(contains(bad("<worldbody><geom type='hfield'/></worldbody>"),
-                 "m.xml:2: <geom>: type hfield cannot be represented"));
+  CHECK(contains(bad("<worldbody><geom type='sdf'/></worldbody>"),
+                 "m.xml:2: <geom>: type sdf cannot be represented"));
   CHECK(contains(bad("<worldbody><geom size='1' class='no'/></worldbody>"), "there is no default class no"));
   CHECK(
       contains(bad("<worldbody><geom type='box' size='1'/></worldbody>"), "size has 1 numbers instead of 3"));
@@ -290,6 +290,105 @@ TEST_CASE("MJCF: classes, orientations and sizes as MuJoCo reads them", "[import
   CHECK(contains(bad("<include file='m.xml'/>"), "includes a file for the second time"));
   CHECK(contains(bad("<worldbody><body><joint/><geom type='plane'/></body></worldbody>"),
                  "a plane on a body that moves"));
+}
+
+TEST_CASE("a package is found by the name in its package.xml", "[import]") {
+  const test::TempDir dir;
+  std::filesystem::create_directories(dir.path() / "packages/arm_folder/meshes");
+  std::filesystem::create_directories(dir.path() / "robots");
+  std::filesystem::copy(test::model_file("wedge.stl"), dir.path() / "packages/arm_folder/meshes/wedge.stl");
+  dir.write("packages/arm_folder/package.xml", "<package format='2'><name>arm_description</name></package>");
+  const auto file =
+      dir.write("robots/r.urdf", robot("<link name='a'><collision><geometry><mesh "
+                                       "filename='package://arm_description/meshes/wedge.stl'/></geometry>"
+                                       "</collision></link>"));
+  ImportOptions o;
+  for (const char* folder : {"packages", "packages/arm_folder"}) {
+    o.package_paths = {dir.path() / folder};
+    CHECK(scene_of(import_model(file, o)).bodies.size() == 1);
+  }
+  dir.write("packages/arm_folder/package.xml", "<package><name>leg_description</name></package>");
+  CHECK(
+      contains(refusal([&] { import_model(file, o); }), "package arm_description is in none of the folders"));
+  dir.write("packages/arm_folder/package.xml", "<package><name>");
+  CHECK(contains(refusal([&] { import_model(file, o); }), "package.xml"));
+}
+
+TEST_CASE("URDF as Bullet's models write it", "[import]") {
+  const auto text = [](const std::string& in_joint) {
+    return robot(
+        "<link name='a'/><link name='b'/><joint name='j' type='revolute'><parent link='a'/><child "
+        "link='b'/>" +
+        in_joint + "</joint>");
+  };
+  const test::TempDir dir;
+  const auto file = dir.write("r.urdf", text("<limit effort='1'/><joint_properties damping='0'/>"));
+  CHECK(import_model(file, {}).model.joints[0].upper == 0);
+  const std::string reversed = text("<limit lower='1' upper='-1'/>");
+  CHECK(contains(refused(reversed), "<limit>: lower is larger than upper"));
+  ImportOptions lenient;
+  lenient.lenient = true;
+  const ImportedModel m = import_model(dir.write("r.urdf", reversed), lenient);
+  CHECK(m.notes.size() == 1);
+  CHECK(m.model.joints[0].upper == std::numeric_limits<double>::infinity());
+}
+
+TEST_CASE("a terrain of three height fields, from an image, a binary file and the text", "[import]") {
+  const Scene s = scene_of(import_model(test::model_file("terrain.xml"), {}));
+  REQUIRE(s.bodies.size() == 4);
+  const auto mesh = [&](const std::string& name) -> const TriangleMesh& {
+    return std::get<TriangleMesh>(s.shape_of(test::body(s, name)));
+  };
+  CHECK(mesh("world/hills").vertices.size() == 63);
+  CHECK(mesh("world/hills").triangles.size() == 96);
+  CHECK(mesh("world/dunes").triangles.size() == 24);
+  CHECK(mesh("world/steps").triangles.size() == 6);
+  for (const char* name : {"world/hills", "world/dunes", "world/steps"}) {
+    INFO(name);
+    CHECK(s.bodies[static_cast<std::size_t>(test::body(s, name))].is_static);
+  }
+}
+
+TEST_CASE("MJCF: a height field is a surface of two triangles a cell", "[import]") {
+  const auto text = [](const std::string& field) {
+    return "<mujoco>\n<asset>" + field +
+           "</asset>\n<worldbody><geom name='g' type='hfield' hfield='f' pos='0 0 1'/></worldbody></mujoco>";
+  };
+  // Heights 2 to 6, the first row of greatest y.
+  const test::TempDir dir;
+  const Scene s = scene_of(import_model(
+      dir.write("m.xml",
+                text("<hfield name='f' nrow='2' ncol='3' size='2 1 8 0.1' elevation='2 3 4  6 5 4'/>")),
+      {}));
+  REQUIRE(s.bodies.size() == 1);
+  CHECK(s.bodies[0].pose.translation == Vec3(0, 0, 1));
+  const auto& m = std::get<TriangleMesh>(s.shape_of(0));
+  CHECK(m.vertices ==
+        std::vector<Vec3>{{-2, -1, 8}, {0, -1, 6}, {2, -1, 4}, {-2, 1, 0}, {0, 1, 2}, {2, 1, 4}});
+  CHECK(m.triangles == std::vector<std::array<int, 3>>{{0, 1, 4}, {0, 4, 3}, {1, 2, 5}, {1, 5, 4}});
+
+  const std::string flat_text = text("<hfield name='f' nrow='2' ncol='2' size='1 1 3 1'/>");
+  const auto flat = scene_of(import_model(dir.write("flat.xml", flat_text), {}));
+  for (const Vec3& v : std::get<TriangleMesh>(flat.shape_of(0)).vertices) CHECK(v.z() == 0);
+
+  const auto bad = [&](const std::string& field) { return refused(text(field), {}, "m.xml"); };
+  CHECK(contains(bad(""), "m.xml:3: <geom>: there is no hfield f"));
+  CHECK(contains(bad("<hfield name='f' nrow='1' ncol='3' size='1 1 1 1'/>"),
+                 "m.xml:2: <hfield>: a height field needs two rows and two columns"));
+  CHECK(contains(bad("<hfield name='f' nrow='1e9' ncol='1e9' size='1 1 1 1'/>"), "is not read"));
+  CHECK(contains(bad("<hfield name='f' nrow='2.5' ncol='3' size='1 1 1 1'/>"), "must be whole numbers"));
+  CHECK(contains(bad("<hfield name='f' nrow='2' ncol='2' size='1 1 1 1' elevation='1 2 3'/>"),
+                 "elevation has 3 numbers instead of 4"));
+  CHECK(contains(bad("<hfield name='f' nrow='2' ncol='2' size='1 1 1 1' elevation='1 2 3 1e300'/>"),
+                 "too large for a float"));
+  CHECK(
+      contains(bad("<hfield name='f' nrow='2' ncol='2' size='1 -1 1 1'/>"), "needs a size of four positive"));
+  CHECK(contains(bad("<hfield name='f' file='no.png' size='1 1 1 1'/>"), "there is no file"));
+  CHECK(contains(bad("<hfield name='f' file='/etc/passwd' size='1 1 1 1'/>"), "absolute path"));
+  ImportOptions lenient;
+  lenient.lenient = true;
+  CHECK(import_model(dir.write("m.xml", text("<hfield name='f' nrow='1' ncol='1' size='1 1 1 1'/>")), lenient)
+            .notes.size() == 1);
 }
 
 TEST_CASE("SDFormat: poses relative to frames, nested models, joints", "[import]") {
