@@ -89,6 +89,26 @@ std::string proof_rows(const GapProof& p) {
   return s + row("", "all digits: --json");
 }
 
+// Without what is rounding of the point's coordinates.
+Vec3 without_noise(const referee::Gradient& g) {
+  constexpr double noise = 0x1p-40;  // of the largest coordinate
+  const double least = noise * std::max(g.point.cwiseAbs().maxCoeff(), g.moment.cwiseAbs().maxCoeff());
+  return g.moment.unaryExpr([least](double x) { return std::abs(x) < least ? 0.0 : x; });
+}
+
+// Rotations are about the origin of B's frame.
+std::string gradient_rows(const referee::GradientSet& g) {
+  constexpr std::size_t shown = 4;
+  const std::size_t count = g.corners.size();
+  const std::string which = count > 1  ? fmt::format("one of {} corners", count)
+                            : g.unique ? "unique"
+                                       : "there may be others";
+  std::string s = row("gradient", which + "; by translations, by rotations of B:");
+  for (std::size_t i = 0; i < std::min(shown, count); ++i)
+    s += row("", short_vector(g.corners[i].normal) + " " + short_vector(without_noise(g.corners[i])));
+  return count > shown ? s + row("", "all: --json") : s;
+}
+
 std::string certified_row(bool certified, const std::string& why_not) {
   return row("certified", certified ? "yes" : "no: " + why_not);
 }
@@ -108,6 +128,7 @@ std::string answer_text(const fuzz::PairAnswer& answer) {
     s += row("witness A", vector(t.witness[0]));
     s += row("witness B", vector(t.witness[1]));
   }
+  if (answer.gradients) s += gradient_rows(*answer.gradients);
   if (answer.within) s += row("within", within_words(*answer.within));
   if (!answer.proof) return s;
   return s + proof_rows(*answer.proof) + certified_row(answer.certified, answer.not_certified);

@@ -221,8 +221,8 @@ Run declare_answer(CLI::App& app) {
       "step; with them the time of impact is answered too.\n"
       "A JSON line: {\"a\": BODY, \"b\": BODY, \"answer\": STATED}; BODY is such a text, or\n"
       "{\"shape\", \"pose\", \"motion\"} of the scene format. STATED has any of overlap,\n"
-      "distance (signed), lower_bound, upper_bound, normal (A to B), depth, witness,\n"
-      "points, time_of_impact.\n"
+      "distance (signed), lower_bound, upper_bound, normal (A to B), moment,\n"
+      "unique_gradient, depth, witness, points, time_of_impact.\n"
       "Exit codes: 0 answered, and what is stated is right; 1 something stated is\n"
       "wrong; 2 bad input; 3 nothing could be decided.");
   return [o] { return run(*o); };

@@ -45,6 +45,12 @@ inline constexpr double narrow_accept_factor = 0x1p-50;
 /// τ. Tested by: tests/core "manifold points lie on both bodies".
 inline constexpr double manifold_face_factor = 0x1p-50;
 
+/// Faces and edges of which all corners are within this · size of the support planes, and within half the
+/// depth each, belong to the contact, each point with its own depth: about what the rounding of a pose to
+/// float tilts them. Also the distance across the contact within which rounded edges count as parallel.
+/// Tested by: tests/core "nearly parallel faces and edges have a whole contact".
+inline constexpr double manifold_region_factor = 0x1p-20;
+
 /// Squared sine of an angle below which two segments, edges or axes count as parallel: a direction computed
 /// from both loses up to half of its digits there, so it is found in another way. A pure number. Tested by:
 /// tests/core "ladder of the angle from parallel".

@@ -49,6 +49,8 @@ Separation rescaled(Separation s, int exponent) {
   return s;
 }
 
+}  // namespace
+
 std::vector<WideVec> manifold_of(const PlacedShape& a, const PlacedShape& b, const Separation& s) {
   if (const int e = unit_scale(a, b); e != 0) {
     const ScaledPair<PlacedShape> pair(a, b, e);
@@ -58,8 +60,6 @@ std::vector<WideVec> manifold_of(const PlacedShape& a, const PlacedShape& b, con
   }
   return unit_manifold(a, b, s);
 }
-
-}  // namespace
 
 OverlapAnswer overlap_of(const Separation& s) {
   return {s.outcome, s.outcome == Outcome::answered && touches(s), arithmetic_error(s)};

@@ -2,6 +2,8 @@
 // fast answers are undecided, but a hundred times slower.
 #pragma once
 
+#include <vector>
+
 #include "core/narrow/narrow_phase.h"
 
 namespace touchstone::narrow {
@@ -13,5 +15,9 @@ ContactAnswer wide_contact(const PlacedShape& a, const PlacedShape& b);
 /// The first two, from separation(a, b).
 OverlapAnswer overlap_of(const Separation& s);
 DistanceAnswer distance_of(const Separation& s, const PlacedShape& a);
+
+/// The points of the manifold of a separation of any sign: for bodies apart, half-way between the witness
+/// points. Coordinates are relative to A's translation.
+std::vector<WideVec> manifold_of(const PlacedShape& a, const PlacedShape& b, const Separation& s);
 
 }  // namespace touchstone::narrow

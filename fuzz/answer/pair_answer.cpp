@@ -94,6 +94,15 @@ std::string missing_in(const ImpactCertificate& c, const referee::TimeTruth& tru
   return "";
 }
 
+// The largest of the bodies' bounded extents and their distance.
+double pair_scale(const Placed& a, const Placed& b) {
+  const auto origin = [](const Placed& p) {
+    return std::visit([](const auto& pose) -> Vec3 { return pose.translation; }, p.pose);
+  };
+  const auto reach = [](const Placed& p) { return is_half_space(p) ? 0 : 2 * bounding_radius(*p.shape); };
+  return std::max({reach(a), reach(b), (origin(b) - origin(a)).stableNorm()});
+}
+
 // A flat shape has minima along a whole plane of directions, whose search takes minutes.
 bool has_listed_normals(const Placed& p) {
   const ShapeKind k = kind_of(*p.shape);
@@ -102,6 +111,28 @@ bool has_listed_normals(const Placed& p) {
   if (inside <= flat * bounding_radius(*p.shape)) return false;
   return k == ShapeKind::sphere || k == ShapeKind::box || k == ShapeKind::capsule || k == ShapeKind::hull ||
          k == ShapeKind::rounded_box;
+}
+
+// Bodies apart have one normal. Of those that overlap, the listed ones are all; without a list, or where they
+// form a continuum, the set holds one of them.
+std::optional<referee::GradientSet> gradients_of(const PairAnswer& r, const Placed& a, const Placed& b) {
+  const referee::PairTruth& t = r.truth;
+  if (t.verdict == referee::Verdict::undecided || !t.normal.allFinite() || t.normal.isZero(0))
+    return std::nullopt;
+  const bool apart = t.verdict == referee::Verdict::disjoint;
+  const bool listed = r.normals && r.normals->certified && !r.normals->capped && !r.normals->continuum;
+  const double l = pair_scale(a, b);
+  std::vector<Vec3> normals{t.normal};
+  if (!apart && listed) {
+    normals.clear();
+    // Normals that are only nearly best belong to other gradients.
+    for (std::size_t i = 0; i < r.normals->normals.size(); ++i)
+      if (r.normals->widths[i] <= r.normals->widths[0] + referee::gradient_slack_factor * l)
+        normals.push_back(r.normals->normals[i]);
+  }
+  referee::GradientSet set = referee::gradient_set(a, b, normals, apart || listed, l);
+  if (set.corners.empty()) return std::nullopt;
+  return set;
 }
 
 // GapProof::gap is infinite where there is no certificate.
@@ -117,6 +148,7 @@ PairAnswer answer_pair(const Placed& a, const Placed& b, const AnswerOptions& op
   r.truth = referee::with_witness(referee::judge_pair(a, b), a, b);
   if (options.normals && has_listed_normals(a) && has_listed_normals(b))
     r.normals = referee::near_minimal_normals(a, b);
+  if (options.gradients) r.gradients = gradients_of(r, a, b);
   if (options.margin)
     r.within = WithinAnswer{*options.margin, referee::judge_within(a, b, *options.margin, r.truth), false};
   if (!options.certificates) return r;

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "oracles/referee/referee.h"
+#include "oracles/referee/region/gradient_set.h"
 #include "scenarios/value/certificate.h"
 
 namespace touchstone::fuzz {
@@ -36,6 +37,9 @@ struct PairAnswer {
   std::optional<WithinAnswer> within;  // if asked for
   /// Present if asked for and known: every normal when several are about equally good.
   std::optional<referee::NearMinimalNormals> normals;
+  /// The gradients of the signed distance by the pose of B, if asked for and a normal is known; not
+  /// certified.
+  std::optional<referee::GradientSet> gradients;
   /// Present if asked for.
   std::optional<GapProof> proof;
   /// The checker accepted a certificate of the verdict and of both ends of the gap. For an overlapping mesh,
@@ -59,6 +63,8 @@ struct AnswerOptions {
   /// The set of normals of least depth. Only for spheres, boxes, capsules, hulls and rounded boxes, whose set
   /// is known to be complete; that of others is an estimate that takes seconds.
   bool normals = true;
+  bool gradients =
+      true;  // the set of gradients; for bodies that overlap, complete only where the normals are
 };
 
 /// Never throws for valid shapes; what cannot be decided is undecided.

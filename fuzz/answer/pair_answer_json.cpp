@@ -25,6 +25,15 @@ Json to_json(const referee::NearMinimalNormals& n) {
   return j;
 }
 
+Json to_json(const referee::GradientSet& g) {
+  Json j{{"unique", g.unique}};
+  j["corners"] = Json::array();
+  for (const referee::Gradient& c : g.corners)
+    j["corners"].push_back(
+        {{"normal", list(c.normal)}, {"moment", list(c.moment)}, {"point", list(c.point)}});
+  return j;
+}
+
 Json to_json(const GapProof& p) {
   Json j = Json::object();
   const auto put = [&](const char* name, const Certificate& c) {
@@ -66,6 +75,7 @@ nlohmann::ordered_json to_json(const PairAnswer& answer) {
   if (answer.normals) j["normals"] = to_json(*answer.normals);
   const bool has_witness = t.witness[0].allFinite() && t.witness[1].allFinite();
   j["witness"] = has_witness && has_normal ? Json::array({list(t.witness[0]), list(t.witness[1])}) : Json();
+  if (answer.gradients) j["gradients"] = to_json(*answer.gradients);
   j["level"] = t.level;
   if (!answer.proof) return j;
   j["proven_gap"] = bracket(answer.proof->gap);

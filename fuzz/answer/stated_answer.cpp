@@ -16,7 +16,7 @@ using Json = nlohmann::ordered_json;
 
 constexpr auto answer_fields =
     std::to_array<std::string_view>({"overlap", "distance", "lower_bound", "upper_bound", "witness", "normal",
-                                     "depth", "points", "time_of_impact"});
+                                     "moment", "unique_gradient", "depth", "points", "time_of_impact"});
 constexpr auto point_fields = std::to_array<std::string_view>({"position", "depth"});
 
 double number_of(const JsonReader& r) {
@@ -84,6 +84,7 @@ void judge_pair_claims(const Asked& asked) {
     check_overlap(asked.input(Question::overlap), asked.out);
   if (o.witness) check_witness(asked.input(Question::distance), asked.out);
   check_bounds(asked.input(Question::distance), asked.out);
+  check_gradient(asked.input(Question::distance), asked.out);
   if (says_contact && measures)
     check_contact(asked.input(Question::contact), asked.out);
   else if (measures)
@@ -114,7 +115,8 @@ void sort_once(std::vector<FaultReport>& faults) {
 
 bool StatedAnswer::states_anything() const {
   return pair.overlap || pair.distance || pair.lower_bound || pair.upper_bound || pair.witness ||
-         pair.normal || pair.depth || !pair.manifold.empty() || says_impact;
+         pair.normal || pair.moment || pair.unique_gradient || pair.depth || !pair.manifold.empty() ||
+         says_impact;
 }
 
 StatedAnswer stated_answer_from_json(const JsonReader& r) {
@@ -127,6 +129,8 @@ StatedAnswer stated_answer_from_json(const JsonReader& r) {
   if (r.has("lower_bound")) o.lower_bound = number_of(r["lower_bound"]);
   if (r.has("upper_bound")) o.upper_bound = number_of(r["upper_bound"]);
   if (r.has("normal")) o.normal = vector_of(r["normal"]);
+  if (r.has("moment")) o.moment = vector_of(r["moment"]);
+  if (r.has("unique_gradient")) o.unique_gradient = r["unique_gradient"].boolean();
   if (r.has("depth")) o.depth = number_of(r["depth"]);
   if (r.has("witness")) o.witness = witness_of(r["witness"]);
   if (r.has("points"))

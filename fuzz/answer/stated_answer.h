@@ -21,7 +21,7 @@ struct StatedAnswer {
 };
 
 /// {"overlap": bool, "distance": x, "lower_bound": x, "upper_bound": x, "witness": [[x,y,z],[x,y,z]],
-/// "normal": [x,y,z], "depth": x,
+/// "normal": [x,y,z], "moment": [x,y,z], "unique_gradient": bool, "depth": x,
 ///  "points": [{"position": [x,y,z], "depth": x}], "time_of_impact": t or null}; any of them. A
 /// witness may also be six numbers, and `overlap` null, which states nothing. NaN and
 /// infinities, which JSON lacks, are the strings "NaN", "Infinity" and "-Infinity". A depth of an answer that

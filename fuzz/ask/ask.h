@@ -10,7 +10,7 @@
 
 namespace touchstone::fuzz {
 
-/// A case in all its derived forms costs an engine about fifteen times the case itself, and the referee
+/// A case in all its derived forms costs an engine about seventeen times the case itself, and the referee
 /// nothing.
 inline constexpr std::uint64_t default_relations_every = 16;
 

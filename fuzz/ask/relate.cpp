@@ -90,8 +90,9 @@ bool any_is(const CaseObservations& o, Outcome outcome) {
 
 void relate_into(CampaignResult& r, const Case& c, std::uint64_t index, const EnginePtr& engine,
                  const CaseObservations& base) {
-  // A case that an engine does not answer at all is not asked in fifteen more forms, and neither is one that
-  // hangs it, even if another query of the case was answered: each form would wait for the time limit.
+  // A case that an engine does not answer at all is not asked in some seventeen more forms, and neither is
+  // one that hangs it, even if another query of the case was answered: each form would wait for the time
+  // limit.
   if (!any_is(base, Outcome::answered) || any_is(base, Outcome::timed_out)) return;
   if (!odd_numbers(c.scene).empty()) return;
   const RelationInput in{c, engine->card(), base};

@@ -24,6 +24,8 @@ void erase(Observation& o, const std::string& name) {
   if (name == "distance") o.distance.reset();
   if (name == "witness") o.witness.reset();
   if (name == "normal") o.normal.reset();
+  if (name == "moment") o.moment.reset();
+  if (name == "unique_gradient") o.unique_gradient.reset();
   if (name == "depth") o.depth.reset();
   if (name == "manifold") o.manifold.clear();
   if (name == "toi") o.toi.reset();

@@ -139,6 +139,7 @@ Deviation deviation_of(const Case& c, const Query& q, const Observation& o, cons
     case Fault::unstable:
     case Fault::inner_edge:
     case Fault::bound_off:
+    case Fault::gradient_off:
     case Fault::failed:
       break;
     case Fault::no_number:

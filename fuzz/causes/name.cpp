@@ -82,6 +82,7 @@ std::string words_of(const Subject& s) {
     case Severity::distance:
       return s.fault == "bound_off" ? "Bounds of distances are none" : "Distances are wrong";
     case Severity::witness:
+      if (s.fault == "gradient_off") return "Gradients of distances are wrong";
       if (s.symptom.question == Question::distance) return "Closest points are wrong";
       return s.fault == "incomplete" ? "Manifolds leave out a part of the contact"
                                      : "Points of manifolds are wrong";

@@ -44,6 +44,7 @@ constexpr FaultRow fault_rows[] = {
     {Fault::no_number, FaultStage::failure, Severity::infeasible},
     {Fault::inner_edge, FaultStage::depth, Severity::not_minimal},
     {Fault::bound_off, FaultStage::distance, Severity::distance},
+    {Fault::gradient_off, FaultStage::points, Severity::witness},
     {Fault::failed, FaultStage::failure, Severity::crash},
 };
 static_assert(std::size(fault_rows) == fault_names.size());

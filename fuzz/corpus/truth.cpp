@@ -84,7 +84,7 @@ std::variant<CorpusCase, std::string> with_truth(const Seed& seed) {
     return c;
   }
   const Placed a{&s.shapes[0], s.bodies[0].pose}, b{&s.shapes[1], s.bodies[1].pose};
-  c.pair = answer_pair(a, b, {.certificates = true, .normals = has_quick_normals(s)});
+  c.pair = answer_pair(a, b, {.certificates = true, .normals = has_quick_normals(s), .gradients = false});
   if (c.pair->truth.verdict == referee::Verdict::undecided || !std::isfinite(c.pair->truth.gap.lo))
     return "the verdict is not decided";
   for (Certificate* x : {&c.pair->proof->verdict, &c.pair->proof->at_least, &c.pair->proof->at_most})

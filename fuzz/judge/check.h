@@ -44,6 +44,7 @@ struct CheckOutput {
   std::optional<double> bound_slack_in_l;  // as Judgement has it
   std::uint64_t pairs_true = 0, pairs_reported = 0, pairs_duplicate = 0;
   std::optional<double> manifold_coverage;
+  std::optional<bool> manifold_centred;
   /// Largest error − τ over everything measured: > 0 wrong by that much, < 0 right with that much to spare.
   /// Errors change by at most 2D between frames whose bodies are D apart, so a large |excess| settles both
   /// frames at once. NaN: something was measured only in this frame, and any other frame must be judged for
@@ -86,6 +87,7 @@ void check_bounds(const CheckInput& in, CheckOutput& out);
 void check_bounded_distance(const CheckInput& in, CheckOutput& out);
 void check_candidates_within(const CheckInput& in, CheckOutput& out);
 void check_ray(const CheckInput& in, CheckOutput& out);
+void check_gradient(const CheckInput& in, CheckOutput& out);
 
 struct CheckRow {
   Question question;
@@ -96,6 +98,7 @@ inline constexpr auto checks = std::to_array<CheckRow>({
     {Question::distance, check_distance},
     {Question::distance, check_witness},
     {Question::distance, check_bounds},
+    {Question::distance, check_gradient},
     {Question::contact, check_contact},
     {Question::contact, check_manifold},
     {Question::time_of_impact, check_time_of_impact},

@@ -96,6 +96,7 @@ Judgement judge_one(const CheckInput& asked, std::optional<int> received_frame) 
   j.pairs_reported = out.pairs_reported;
   j.pairs_duplicate = out.pairs_duplicate;
   j.manifold_coverage = out.manifold_coverage;
+  j.manifold_centred = out.manifold_centred;
   j.bound_slack_in_l = out.bound_slack_in_l;
   if (!received_frame) {
     j.blame = j.faults.empty() ? Blame::none : Blame::representation;
@@ -134,23 +135,7 @@ std::vector<Judgement> judge(const Case& c, const EngineCard& card, const CaseOb
   const int received = truth.frame_of(observations.received);
   const bool all_held = is_held(c.scene, observations.received, {Question::scene_contacts});
   for (std::size_t i = 0; i < c.queries.size(); ++i) {
-    static const Observation missing{Outcome::crashed,
-                                     "the engine gave no answer",
-                                     {},
-                                     {},
-                                     {},
-                                     {},
-                                     {},
-                                     {},
-                                     {},
-                                     {},
-                                     {},
-                                     {},
-                                     {},
-                                     0,
-                                     0,
-                                     false,
-                                     {}};
+    static const Observation missing = no_answer(Outcome::crashed, "the engine gave no answer");
     const Observation& answer = i < observations.answers.size() ? observations.answers[i] : missing;
     const bool held = all_held || is_held(c.scene, observations.received, c.queries[i]);
     result.push_back(

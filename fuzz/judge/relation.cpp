@@ -23,6 +23,8 @@ constexpr std::array rows{
     Relation{"relation_rigid", "both bodies moved by one rigid motion", derive_rigid},
     Relation{"relation_push", "B pushed by the stated depth along the stated normal touches", derive_push},
     Relation{"relation_grow", "a body grown: the gap does not grow", derive_grow},
+    Relation{"relation_slope", "B moved a little to either side: the distance follows its own gradient",
+             derive_slope},
     Relation{"relation_step", "the bodies placed where they are during the step", derive_step},
     Relation{"relation_order", "bodies in another order: the same pairs", derive_order},
     Relation{"relation_reinsert", "bodies removed and inserted again: the same pairs", derive_reinsert},

@@ -121,6 +121,7 @@ std::vector<Derived> derive_rigid(const RelationInput& in);
 std::vector<Derived> derive_questions(const RelationInput& in);
 std::vector<Derived> derive_push(const RelationInput& in);
 std::vector<Derived> derive_grow(const RelationInput& in);
+std::vector<Derived> derive_slope(const RelationInput& in);
 std::vector<Derived> derive_step(const RelationInput& in);
 std::vector<Derived> derive_order(const RelationInput& in);
 std::vector<Derived> derive_reinsert(const RelationInput& in);

@@ -239,7 +239,7 @@ ts_answer blank_answer() {
   ts_answer blank{};
   blank.outcome = TS_UNSUPPORTED;
   blank.distance = blank.depth = blank.toi = blank.lower = blank.upper = nan_value;
-  for (double* v : {blank.point_a, blank.point_b, blank.normal}) std::fill_n(v, 3, nan_value);
+  for (double* v : {blank.point_a, blank.point_b, blank.normal, blank.moment}) std::fill_n(v, 3, nan_value);
   return blank;
 }
 
@@ -296,6 +296,8 @@ Observation AnswerCollector::take(Question question) {
   if (a.has & TS_HAS_TOI) o.toi = a.toi;
   if (a.has & TS_HAS_LOWER) o.lower_bound = a.lower;
   if (a.has & TS_HAS_UPPER) o.upper_bound = a.upper;
+  if (a.has & TS_HAS_MOMENT) o.moment = vec3(a.moment);
+  if (a.has & TS_HAS_UNIQUE) o.unique_gradient = a.unique_gradient != 0;
   if (std::isfinite(a.claimed_tolerance) && a.claimed_tolerance > 0)
     o.claimed_tolerance = a.claimed_tolerance;
   if (a.ns > 0) o.elapsed_ns = a.ns;

@@ -31,7 +31,9 @@ enum Present : std::uint16_t {
   has_lists = 64,
   has_lower = 128,
   has_upper = 256,
-  all_present = 511
+  has_moment = 512,
+  has_unique = 1024,
+  all_present = 2047
 };
 
 void put_lists(Writer& w, const Observation& o) {
@@ -76,7 +78,8 @@ void put_observation(Writer& w, const Observation& o) {
   const auto present = static_cast<std::uint16_t>(
       (o.overlap ? has_overlap : 0) | (o.distance ? has_distance : 0) | (o.witness ? has_witness : 0) |
       (o.normal ? has_normal : 0) | (o.depth ? has_depth : 0) | (o.toi ? has_toi : 0) |
-      (lists ? has_lists : 0) | (o.lower_bound ? has_lower : 0) | (o.upper_bound ? has_upper : 0));
+      (lists ? has_lists : 0) | (o.lower_bound ? has_lower : 0) | (o.upper_bound ? has_upper : 0) |
+      (o.moment ? has_moment : 0) | (o.unique_gradient ? has_unique : 0));
   w.put(static_cast<std::uint8_t>(o.outcome)).put(present).text(o.detail);
   w.put(o.claimed_tolerance).put(o.elapsed_ns);
   if (o.overlap) w.put(static_cast<std::uint8_t>(*o.overlap));
@@ -87,6 +90,8 @@ void put_observation(Writer& w, const Observation& o) {
   if (o.toi) w.put(*o.toi);
   if (o.lower_bound) w.put(*o.lower_bound);
   if (o.upper_bound) w.put(*o.upper_bound);
+  if (o.moment) w.put(*o.moment);
+  if (o.unique_gradient) w.put(static_cast<std::uint8_t>(*o.unique_gradient));
   if (lists) put_lists(w, o);
 }
 
@@ -109,6 +114,8 @@ Observation get_observation(Reader& r) {
   if (present & has_toi) o.toi = r.get<double>();
   if (present & has_lower) o.lower_bound = r.get<double>();
   if (present & has_upper) o.upper_bound = r.get<double>();
+  if (present & has_moment) o.moment = r.vec3();
+  if (present & has_unique) o.unique_gradient = r.flag();
   if (present & has_lists) get_lists(r, o);
   return o;
 }

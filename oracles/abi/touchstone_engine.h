@@ -44,7 +44,7 @@ extern "C" {
  * 3: version 2: ts_plugin.ask_many, ts_answer.ns; ts_scene.step_boxes; "shapes", "unit_roundoffs",
  * "contact_offset", "sweep_skin", "depth_biases" and "times_include_pipe" of a card
  * 4: TS_WITHIN to TS_RAY; ts_scene.margin; ts_answer.lower, upper; TS_HAS_LOWER, TS_HAS_UPPER
- * 5: "separate_triangles" of a card */
+ * 5: "separate_triangles" of a card; ts_answer.moment, unique_gradient; TS_HAS_MOMENT, TS_HAS_UNIQUE */
 #define TS_ABI_MINOR 5
 
 #if defined(_WIN32)
@@ -178,19 +178,23 @@ enum ts_has {
   TS_HAS_TOI = 32, /* for TS_TIME_OF_IMPACT and TS_RAY: set = hit at `toi`, not set = "no hit" */
   /* Since minor 4, for TS_DISTANCE and TS_BOUNDED_DISTANCE. */
   TS_HAS_LOWER = 64,
-  TS_HAS_UPPER = 128
+  TS_HAS_UPPER = 128,
+  /* Since minor 5, for TS_DISTANCE. */
+  TS_HAS_MOMENT = 256, /* with TS_HAS_NORMAL: `normal` and `moment` are the gradient of the signed distance */
+  TS_HAS_UNIQUE = 512
 };
 
 typedef struct ts_answer {
   int32_t outcome;
   uint32_t has;
   int32_t overlap;
-  int32_t reserved;
-  double distance;   /* signed: a negative value is minus the depth */
-  double point_a[3]; /* witness on A, world */
-  double point_b[3]; /* witness on B, world */
-  double normal[3];  /* unit, world, from A to B: B moves along +normal to separate */
-  double depth;      /* >= 0: how far all of B must move along `normal` to separate from A */
+  int32_t unique_gradient; /* since minor 5: 0 if the signed distance has other gradients at this pose than
+                              the one stated (faces that face each other, several normals), else 1 */
+  double distance;         /* signed: a negative value is minus the depth */
+  double point_a[3];       /* witness on A, world */
+  double point_b[3];       /* witness on B, world */
+  double normal[3];        /* unit, world, from A to B: B moves along +normal to separate */
+  double depth;            /* >= 0: how far all of B must move along `normal` to separate from A */
   double toi;
   double
       claimed_tolerance; /* absolute: margin and solver tolerance that the engine's documentation claims for
@@ -202,7 +206,11 @@ typedef struct ts_answer {
                  `ask`; 0: the host's clock decides */
   /* Since minor 4: bounds of the signed distance, each judged as the bound that it claims to be. */
   double lower, upper;
-  int64_t reserved2[5];
+  /* Since minor 5: the derivative of the signed distance by rotations of b about the origin of its frame,
+   * along world axes: (p - o) x normal for a witness point p on b and the origin o. `normal` is the
+   * derivative by translations of b. */
+  double moment[3];
+  int64_t reserved2[2];
 } ts_answer;
 
 /* Callbacks for the variable-length parts of an answer. Pass `ctx` back unchanged. */

@@ -30,6 +30,13 @@ void store(const DistanceAnswer& answer, Observation& o) {
   o.normal = answer.normal;
 }
 
+void store(const DistanceAnswer& answer, const PlacedShape& a, const PlacedShape& b, Observation& o) {
+  store(answer, o);
+  const bool surface = kind_of(*a.shape) == ShapeKind::mesh || kind_of(*b.shape) == ShapeKind::mesh;
+  if (answer.outcome != Outcome::answered || (surface && answer.distance <= 0)) return;
+  if (const auto g = gradient(answer, b.pose.translation)) o.moment = g->moment;
+}
+
 void store(const WithinAnswer& answer, Observation& o) {
   o.outcome = answer.outcome;
   if (answer.outcome == Outcome::answered) o.overlap = answer.within;

@@ -9,6 +9,7 @@
 #include "core/base/input_error.h"
 #include "core/impact/impact.h"
 #include "core/narrow/bounded.h"
+#include "core/narrow/gradient.h"
 #include "core/world/world.h"
 #include "oracles/abi/measure.h"
 #include "oracles/abi/native_engine.h"
@@ -20,6 +21,8 @@ EngineCard core_card(std::string_view name, std::string settings);
 
 void store(const OverlapAnswer& answer, Observation& o);
 void store(const DistanceAnswer& answer, Observation& o);
+/// With the gradient by the pose of B, unless the pair overlaps and one is a mesh.
+void store(const DistanceAnswer& answer, const PlacedShape& a, const PlacedShape& b, Observation& o);
 void store(const WithinAnswer& answer, Observation& o);
 void store(const BoundedDistanceAnswer& answer, Observation& o);
 /// Of a ray: the time, and the normal unless the ray starts inside.

@@ -37,7 +37,8 @@ struct Asked {
     store(touchstone::overlap(placed(s, q.a), placed(s, q.b), arithmetic), o);
   }
   void distance(const Query& q, Observation& o) const {
-    store(touchstone::distance(placed(s, q.a), placed(s, q.b), arithmetic), o);
+    const PlacedShape a = placed(s, q.a), b = placed(s, q.b);
+    store(touchstone::distance(a, b, arithmetic), a, b, o);
   }
   void contact(const Query& q, Observation& o) const {
     const ContactAnswer r = touchstone::contact(placed(s, q.a), placed(s, q.b), arithmetic);

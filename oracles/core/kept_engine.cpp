@@ -70,7 +70,9 @@ struct Asked {
     store(touchstone::overlap(kept.placed(q.a), kept.placed(q.b), Arithmetic::float64, &kept.memory(q)), o);
   }
   void distance(const Query& q, Observation& o) {
-    store(touchstone::distance(kept.placed(q.a), kept.placed(q.b), Arithmetic::float64, &kept.memory(q)), o);
+    const PlacedShape a = kept.placed(q.a), b = kept.placed(q.b);
+    store(touchstone::distance(a, b, Arithmetic::float64, &kept.memory(q)), a, b, o);
+    if (o.outcome == Outcome::answered) o.unique_gradient = gradients(a, b, b.pose.translation).unique;
   }
   void contact(const Query& q, Observation& o) {
     const ContactAnswer r =

@@ -134,6 +134,14 @@ void read_answer(const Json& j, bool states_times, ts_answer& out, const ts_sink
     out.has |= TS_HAS_NORMAL;
     read3(j.at("normal"), out.normal);
   }
+  if (j.contains("moment")) {
+    out.has |= TS_HAS_MOMENT;
+    read3(j.at("moment"), out.moment);
+  }
+  if (j.contains("unique_gradient")) {
+    out.has |= TS_HAS_UNIQUE;
+    out.unique_gradient = j.at("unique_gradient").get<bool>();
+  }
   if (j.contains("point_a") && j.contains("point_b")) {
     out.has |= TS_HAS_POINTS;
     read3(j.at("point_a"), out.point_a);

@@ -130,6 +130,8 @@ std::uint32_t hash_of_answer(const Observation& o) {
     add(h, o.lower_bound);
     add(h, o.upper_bound);
   }
+  if (o.moment) add(h, o.moment);
+  if (o.unique_gradient) add_number_of(h, o.unique_gradient);
   add_points(h, o);
   add_pairs(h, o);
   const auto folded = static_cast<std::uint32_t>(h.value() ^ (h.value() >> 32));

@@ -48,6 +48,7 @@ Json answer_json(const Observation& o, const Judgement& g) {
             {"claimed_in_l", number(g.wide_claim_in_l)},
             {"blame", to_string(g.blame)},
             {"faults", std::move(faults)}};
+  if (g.manifold_centred) j["manifold_centred"] = *g.manifold_centred;
   if (g.bound_slack_in_l) j["bound_slack_in_l"] = number(*g.bound_slack_in_l);
   return j;
 }

@@ -33,6 +33,8 @@ Json to_json(const Observation& o) {
   if (o.distance) j["distance"] = number(*o.distance);
   if (o.witness) j["witness"] = Json::array({vector((*o.witness)[0]), vector((*o.witness)[1])});
   if (o.normal) j["normal"] = vector(*o.normal);
+  if (o.moment) j["moment"] = vector(*o.moment);
+  if (o.unique_gradient) j["unique_gradient"] = *o.unique_gradient;
   if (o.depth) j["depth"] = number(*o.depth);
   for (const ManifoldPoint& p : o.manifold)
     j["manifold"].push_back({{"position", vector(p.position)}, {"depth", number(p.depth)}});

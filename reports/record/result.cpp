@@ -6,11 +6,7 @@
 #include <cmath>
 
 namespace touchstone::fuzz {
-namespace {
-
-constexpr double max_coverage = 10;  // of one manifold, see Tally::coverage_permille
-
-}  // namespace
+namespace {}  // namespace
 
 void TimeHistogram::add(std::int64_t ns) {
   const double octaves = ns <= 1 ? 0 : std::log2(static_cast<double>(ns));
@@ -64,8 +60,8 @@ void Tally::add(const Judgement& j, const Observation& o, bool time_includes_pip
   worst_in_l = std::max(worst_in_l, j.worst_in_l);
   if (j.manifold_coverage) {
     ++manifolds;
-    coverage_permille +=
-        static_cast<std::uint64_t>(1000 * std::min(max_coverage, *j.manifold_coverage) + 0.5);
+    coverage_permille += static_cast<std::uint64_t>(1000 * *j.manifold_coverage + 0.5);
+    manifolds_centred += j.manifold_centred.value_or(false);
   }
 }
 
@@ -85,6 +81,7 @@ void Tally::merge(const Tally& o) {
   pairs_duplicate += o.pairs_duplicate;
   manifolds += o.manifolds;
   coverage_permille += o.coverage_permille;
+  manifolds_centred += o.manifolds_centred;
   worst_in_l = std::max(worst_in_l, o.worst_in_l);
   time.merge(o.time);
   times_include_pipe |= o.times_include_pipe;

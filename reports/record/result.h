@@ -47,9 +47,10 @@ struct Tally {
   std::uint64_t right = 0, wrong = 0, undecided = 0, not_judged = 0;
   std::uint64_t missed = 0, ghost = 0, representation = 0, by_definition = 0, within_wide_claim = 0;
   std::uint64_t pairs_true = 0, pairs_reported = 0, pairs_duplicate = 0;
-  /// Manifolds whose true region is a face or an edge, and the sum of their coverages in thousandths (each
-  /// coverage limited to 10). Integers, so that the order of summation does not matter.
-  std::uint64_t manifolds = 0, coverage_permille = 0;
+  /// Manifolds whose true region is a face or an edge, the sum of their coverages in thousandths, and how
+  /// many have the region's centroid among their points. Integers, so that the order of summation does not
+  /// matter.
+  std::uint64_t manifolds = 0, coverage_permille = 0, manifolds_centred = 0;
   double worst_in_l = 0;
   std::uint64_t slow = 0;           // answered, but beyond the time limit; never hashed
   TimeHistogram time;               // of answered queries; never hashed

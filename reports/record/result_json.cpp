@@ -37,6 +37,7 @@ Json to_json(const Tally& t, bool with_times) {
   if (t.manifolds > 0) {
     j["manifolds"] = t.manifolds;
     j["coverage_permille"] = t.coverage_permille;
+    j["manifolds_centred"] = t.manifolds_centred;
   }
   j["worst_in_l"] = number(t.worst_in_l);
   if (with_times) {

@@ -71,6 +71,7 @@ Tally tally_from_json(const JsonReader& j) {
   t.pairs_duplicate = count_of(j["pairs_duplicate"]);
   t.manifolds = count_or_zero(j, "manifolds");
   t.coverage_permille = count_or_zero(j, "coverage_permille");
+  t.manifolds_centred = count_or_zero(j, "manifolds_centred");
   t.worst_in_l = number_from(j["worst_in_l"]);
   t.slow = count_or_zero(j, "slow");
   if (j.has("ns_histogram")) t.time = histogram_from(j["ns_histogram"]);

@@ -82,4 +82,16 @@ void dialogue(Rng& rng, Case& c) {
   }
 }
 
+// Some 500 queries about all pairs of few bodies, in any order: counters of eight bits in an engine overflow
+// within one case, those of sixteen bits within some 150.
+void endless_dialogue(Rng& rng, Case& c) {
+  constexpr std::uint64_t fewest = 300, spread = 400;
+  c.scene = few_shapes(rng, 2 + rng.below(4), 1 + rng.below(3));
+  const auto n = c.scene.bodies.size();
+  for (auto k = fewest + rng.below(spread); k > 0; --k) {
+    const auto a = rng.below(n), b = (a + 1 + rng.below(n - 1)) % n;
+    c.queries.push_back({static_cast<Question>(rng.below(3)), static_cast<int>(a), static_cast<int>(b)});
+  }
+}
+
 }  // namespace touchstone::fuzz

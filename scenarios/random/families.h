@@ -45,6 +45,7 @@ void exchange_bodies(Scene& pair);
 
 void company(Rng& rng, Case& c);
 void dialogue(Rng& rng, Case& c);
+void endless_dialogue(Rng& rng, Case& c);
 
 // Crowds in which an error of one ulp makes a broad phase fail: many boxes of very different sizes that touch
 // exactly or overlap by a rounding error, on both sides of the origin and far from it, and scripts over them.

@@ -35,12 +35,14 @@ enum class Fault : std::uint8_t {
   no_number,        // an answer lacks the requested number, or the number is not finite
   inner_edge,       // the normal of an edge or corner inside a flat part of a mesh
   bound_off,        // a stated lower bound of the distance is above it, or an upper bound below it
+  gradient_off,     // a stated gradient of the distance is none, or is said to be the only one wrongly
   failed            // threw, crashed, timed out, did not converge
 };
 inline constexpr auto fault_names = std::to_array<std::string_view>(
-    {"missed", "ghost", "distance_off", "witness_off", "normal_not_unit", "infeasible", "not_minimal",
-     "depth_excess", "point_off", "point_depth", "incomplete", "late", "early", "stale", "unstable",
-     "no_number", "inner_edge", "bound_off", "failed"});
+    {"missed",     "ghost",       "distance_off", "witness_off",  "normal_not_unit",
+     "infeasible", "not_minimal", "depth_excess", "point_off",    "point_depth",
+     "incomplete", "late",        "early",        "stale",        "unstable",
+     "no_number",  "inner_edge",  "bound_off",    "gradient_off", "failed"});
 static_assert(fault_names.size() == static_cast<std::size_t>(Fault::failed) + 1);
 constexpr std::string_view to_string(Fault f) { return fault_names[static_cast<std::size_t>(f)]; }
 
@@ -92,6 +94,9 @@ struct Judgement {
   /// Area (or length) spanned by the manifold's points, divided by that of the true contact region; empty
   /// when the region is a point or no manifold was given for the true normal.
   std::optional<double> manifold_coverage;
+  /// Whether the region's centroid lies among the points: in their hull, or within 1e-3 of its diameter of
+  /// it.
+  std::optional<bool> manifold_centred;
   /// By how much the stated lower bound of the distance is too low, divided by L; empty without such a bound.
   std::optional<double> bound_slack_in_l;
   /// The tolerance that the engine claims for this answer when it exceeds `wide_claim` of L, so that being

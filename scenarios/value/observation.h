@@ -37,6 +37,11 @@ struct Observation {
   std::optional<double> lower_bound, upper_bound;  // of the signed distance
   std::optional<std::array<Vec3, 2>> witness;
   std::optional<Vec3> normal;  // A to B; of `ray`: of A's surface where it is hit, pointing out of A
+  /// Of `distance`, with `normal`: the gradient of the signed distance by B's pose. `normal` is its
+  /// derivative by translations of B, `moment` that by rotations of B about the origin of its frame, along
+  /// world axes.
+  std::optional<Vec3> moment;
+  std::optional<bool> unique_gradient;  // whether the signed distance has no other gradient (truth.md §2)
   std::optional<double> depth;
   std::vector<ManifoldPoint> manifold;
   std::optional<double> toi;  // empty when time_of_impact or ray is answered: "no hit"
@@ -50,7 +55,8 @@ struct Observation {
   bool operator==(const Observation& o) const {
     return outcome == o.outcome && detail == o.detail && overlap == o.overlap && distance == o.distance &&
            lower_bound == o.lower_bound && upper_bound == o.upper_bound && witness == o.witness &&
-           normal == o.normal && depth == o.depth && manifold == o.manifold && toi == o.toi &&
+           normal == o.normal && moment == o.moment && unique_gradient == o.unique_gradient &&
+           depth == o.depth && manifold == o.manifold && toi == o.toi &&
            candidate_pairs == o.candidate_pairs && contacts == o.contacts &&
            claimed_tolerance == o.claimed_tolerance && site == o.site;
   }

@@ -57,6 +57,11 @@ TEST_CASE("two bodies on the command line are answered with certificates", "[ans
   CHECK(deep.out.find("  depth       [1.4999") != std::string::npos);
   CHECK(deep.out.find("one of 6 that") != std::string::npos);
   check_columns(deep.out);
+  CHECK(deep.out.find("  gradient    one of 24 corners; by translations, by rotations of B:") !=
+        std::string::npos);
+  const Run ball = w.touchstone("answer 'box 1 1 1' 'sphere 0.5 at 0 0.25 2'");
+  CHECK(ball.out.find("  gradient    unique; by translations, by rotations of B:\n"
+                      "              (0, 0, 1) (0, 0, 0)\n") != std::string::npos);
   const Run help = w.touchstone("answer --help", "TOUCHSTONE_LAUNCHER=./touchstone");
   CHECK(help.out.find("rounded_box half_extents(3) radius") != std::string::npos);
   check_columns(help.out);
@@ -97,7 +102,7 @@ TEST_CASE("whether bodies are within a margin is decided exactly, and from a sce
         false);
 }
 
-TEST_CASE("a stated bound is judged as the bound that it claims to be", "[answer]") {
+TEST_CASE("a stated bound or gradient is judged as what it claims to be", "[answer]") {
   const Workspace w("answer-bounds");
   const auto code = [&](const std::string& stated) {
     w.write("stated.json", stated);
@@ -107,6 +112,9 @@ TEST_CASE("a stated bound is judged as the bound that it claims to be", "[answer
   CHECK(code(R"({"lower_bound": 1.5})") == 1);
   CHECK(code(R"({"lower_bound": 0.5, "upper_bound": 1.5})") == 0);
   CHECK(code(R"({"upper_bound": 0.5})") == 1);
+  CHECK(code(R"({"normal": [1, 0, 0], "moment": [0, 0, 0], "unique_gradient": true})") == 0);
+  CHECK(code(R"({"normal": [1, 0, 0], "moment": [0, 0, 1]})") == 1);
+  CHECK(code(R"({"unique_gradient": false})") == 1);
 }
 
 TEST_CASE("a turn by a right angle is exact", "[answer]") {

@@ -130,6 +130,40 @@ Lie worse_every_time() {
   };
 }
 
+// A counter of questions that overflows.
+Lie denied_after(long questions) {
+  return [questions, asked = 0L](const Case&, const Query& q, Observation& o) mutable {
+    if (++asked > questions && asks(q, Question::overlap) && o.overlap) o.overlap = false;
+  };
+}
+
+// The same, of the questions about one scene.
+Lie doubled_after(long questions) {
+  return [questions, asked = 0L, scene = Scene{}](const Case& c, const Query& q, Observation& o) mutable {
+    if (scene != c.scene) {
+      scene = c.scene;
+      asked = 0;
+    }
+    if (++asked > questions && asks(q, Question::contact) && o.depth) *o.depth *= 2;
+  };
+}
+
+// Pairs are kept by the smaller number of a body, and the normal always from it.
+Lie from_smaller_number() {
+  return [](const Case&, const Query& q, Observation& o) {
+    if (asks(q, Question::contact) && o.normal && q.a > q.b) o.normal = -*o.normal;
+  };
+}
+
+// The answers of a pair are kept from question to question, except its last one: distance, then contact.
+Lie depth_of_last_distance() {
+  return [last = std::optional<Memory>{}](const Case& c, const Query& q, Observation& o) mutable {
+    if (asks(q, Question::distance) && o.distance) last = Memory{c.scene.shapes, q, o};
+    if (!asks(q, Question::contact) || !o.depth || !last || last->shapes != c.scene.shapes) return;
+    if (last->query.a != q.a || last->query.b != q.b) o.depth = std::max(*o.depth, -*last->answer.distance);
+  };
+}
+
 // A buffer that a mesh leaves dirty.
 Lie dirty_after_mesh() {
   return [dirty = false](const Case& c, const Query& q, Observation& o) mutable {
@@ -221,6 +255,14 @@ std::vector<Mutant> memory_lies() {
        "the opposite verdict after a question about another pair", spoilt_between(), false},
       {"memory_hundredth", "missed", "shallow", "every hundredth overlap is denied", every_hundredth_apart(),
        false},
+      {"memory_eight_bits", "depth_excess", "endless", "twice the depth after 256 questions about a scene",
+       doubled_after(256), false},
+      {"memory_many_questions", "missed", "endless", "overlaps are denied after 100,000 questions",
+       denied_after(100'000), false},
+      {"order_smaller_first", "infeasible", "dialogue",
+       "normals always from the body with the smaller number", from_smaller_number()},
+      {"memory_depth_of_distance", "depth_excess", "endless",
+       "the depth of the last pair whose distance was asked, if larger", depth_of_last_distance(), false},
       {"memory_worse", "distance_off", "separate", "an error that grows by 1e-16 a call", worse_every_time(),
        false},
       {"memory_after_mesh", "distance_off", "mesh,separate", "1e-6 farther after a mesh", dirty_after_mesh(),

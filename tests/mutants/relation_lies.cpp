@@ -44,6 +44,9 @@ void jumps_when_pushed_apart(const Case& c, const Query& q, Observation& o) {
   if (asks(q, Question::distance) && o.distance && std::abs(*o.distance) < 1e-14 * largest(c, q))
     o.distance = -0.25 * small_size(c, q);
 }
+void four_times(const Case&, const Query& q, Observation& o) {
+  if (asks(q, Question::distance) && o.distance && *o.distance > 0) *o.distance *= 4;
+}
 void casts_nothing(const Case&, const Query& q, Observation& o) {
   if (asks(q, Question::time_of_impact)) o.toi.reset();
 }
@@ -88,6 +91,7 @@ std::vector<Mutant> relation_lies() {
        declines_away_from_origin},
       {"declines_grown", "relation_grow", "separate", "no distance for two bodies larger than 1.25",
        declines_above_table},
+      {"slope_steep", "relation_slope", "separate", "a distance four times too large", four_times},
       {"jumps_when_touching", "relation_push", "shallow", "bodies that touch within rounding overlap deeply",
        jumps_when_pushed_apart},
       {"casts_nothing", "relation_step", "translate", "no impact, ever", casts_nothing},

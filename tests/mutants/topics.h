@@ -16,6 +16,7 @@ std::vector<Mutant> normal_lies();
 std::vector<Mutant> depth_lies();
 std::vector<Mutant> manifold_lies();
 std::vector<Mutant> impact_lies();
+std::vector<Mutant> gradient_lies();
 std::vector<Mutant> margin_lies();  // margins, bounds, rays
 std::vector<Mutant> swept_lies();   // the broad phase of a step
 std::vector<Mutant> outcome_lies();

@@ -94,6 +94,8 @@ Observation any_observation(Rng& rng) {
   maybe(o.toi, rng.uniform());
   maybe(o.lower_bound, rng.uniform(-1, 1));
   maybe(o.upper_bound, rng.uniform(-1, 1));
+  maybe(o.moment, any_vector(rng));
+  maybe(o.unique_gradient, rng.chance(0.5));
   for (std::size_t i = rng.below(3); i > 0; --i) o.manifold.push_back({any_vector(rng), rng.uniform()});
   for (std::size_t i = rng.below(3); i > 0; --i) o.candidate_pairs.push_back({{0, 1}, {2, 7}});
   for (std::size_t i = rng.below(3); i > 0; --i) o.contacts.push_back({0, 1, any_vector(rng), rng.uniform()});
@@ -211,6 +213,19 @@ TEST_CASE("the margin and bounds pass through the C ABI", "[oracles][abi]") {
   CHECK(o.lower_bound == 1);
   CHECK(o.upper_bound == 2);
   CHECK(!o.distance);
+}
+
+TEST_CASE("gradients pass through the C ABI", "[oracles][abi]") {
+  AnswerCollector collector(2, 0);
+  ts_answer& a = collector.answer();
+  CHECK(std::isnan(a.moment[2]));
+  a.outcome = TS_ANSWERED;
+  a.has = TS_HAS_MOMENT | TS_HAS_UNIQUE;
+  std::copy_n(std::array{1.0, 2.0, 3.0}.data(), 3, a.moment);
+  a.unique_gradient = 1;
+  const Observation o = collector.take(Question::distance);
+  CHECK(o.moment == Vec3(1, 2, 3));
+  CHECK(o.unique_gradient == true);
 }
 
 TEST_CASE("shapes pass through the C ABI and back", "[oracles][abi]") {

@@ -146,3 +146,20 @@ TEST_CASE("prisms that touch: the region's points are in both bodies, those arou
   REQUIRE(inside > 200);
   REQUIRE(outside > 1000);
 }
+
+TEST_CASE("points bear a weight on the region if its centroid is among them", "[referee][region]") {
+  const Shape floor = Box{{5, 5, 1}}, box = Box{{1, 1, 1}};
+  const ContactRegion r = contact_region({&floor, Pose{}}, {&box, Pose{{0, 0, 1.75}, {}}}, {0, 0, 1}, 1e-6);
+  REQUIRE(r.kind == ContactRegion::Kind::polygon);
+  const auto holds = [&](const std::vector<Vec3>& points) { return holds_centroid(r, points, {0, 0, 1}); };
+  CHECK(holds({{-1, -1, 1}, {1, -1, 1}, {1, 1, 1}, {-1, 1, 1}}) == true);
+  CHECK(holds({{-1, -1, 1}, {1, 1, 0.75}}) == true);  // a diagonal
+  CHECK(holds({{0, 0, 1}}) == true);
+  CHECK(holds({{-1, -1, 1}, {1, -1, 1}, {1, -0.5, 1}}) == false);
+  CHECK(holds({{0.1, 0, 1}}) == false);
+  CHECK(holds({}) == false);
+  const Shape ball = Sphere{1};
+  const ContactRegion point =
+      contact_region({&floor, Pose{}}, {&ball, Pose{{0, 0, 1.75}, {}}}, {0, 0, 1}, 1e-6);
+  CHECK_FALSE(holds_centroid(point, {{0, 0, 1}}, {0, 0, 1}));
+}

@@ -3,13 +3,15 @@
 // plane, in convex order, clipped against the reference (core/narrow/outline.h). Each point keeps its own
 // depth. Chords of the incident body lie inside it, so every point lies within its depth of both bodies,
 // halfway between the incident body and the plane. A face tilted by a few ulp therefore stays complete and
-// does not flicker. Without a face: overlap or crossing of two edges, or the deepest vertex.
+// does not flicker. Without a face: overlap or crossing of two edges, or the deepest vertex; and where faces
+// or edges are parallel up to a small angle, what they have in common (nearly_parallel.h).
 //
 // Ids name features: a corner of A, a corner of B, or an edge of A that crosses an edge of B. They do not
 // depend on which body is the reference or where its outline starts; both change with an ulp when faces lie
 // on each other.
 #pragma once
 
+#include "core/narrow/filtered/nearly_parallel.h"
 #include "core/narrow/filtered/query.h"
 #include "core/narrow/outline.h"
 #include "core/narrow/result.h"
@@ -32,9 +34,6 @@ struct Patch {
 };
 
 namespace detail {
-
-using outline::Corner;
-using outline::Corners;
 
 template <class R>
 struct PatchPlane {
@@ -98,8 +97,7 @@ class FeatureCorners {
 template <class R>
 Corners<R> cross_edges(Corners<R>& a, const Corners<R>& b, R tolerance) {
   if (a[1].id < a[0].id) std::swap(a[0], a[1]);  // the first end keeps its id
-  const std::uint32_t id =
-      outline::crossing | outline::edge_id(a[0].id, a[1].id) << 15 | outline::edge_id(b[0].id, b[1].id);
+  const std::uint32_t id = id_of_edges(a, b);
   const outline::EdgePair<R> e(a, b);
   if (e.is_collinear(tolerance)) return e.common(id);
   Corners<R> r;
@@ -151,22 +149,45 @@ Patch<R> contact_patch(const ConvexBody<R>& a, const ConvexBody<R>* b, const Rel
     }
   }
   if (region.overflow || fa.overflow || fb.overflow) return patch;
+  // The number of the point; an earlier one if that is the same.
+  const auto add = [&](R x, R y, R below_a, R below_b, std::uint32_t id) {
+    const R height = a.radius + (gap + below_b - below_a) / 2;
+    const V3<R> p = plane.origin + plane.x * x + plane.y * y + n * height;
+    const R d = -gap - below_a - below_b;
+    for (int k = 0; k < patch.size; ++k)
+      if ((patch.point[static_cast<std::size_t>(k)].p - p).norm() <= tolerance) return k;
+    patch.point[static_cast<std::size_t>(patch.size)] = {p, std::max<R>(0, d), id};
+    return patch.size++;
+  };
   if (region.size == 0 && middle) {
     patch.point[0] = {*middle, depth, 0};
     patch.size = 1;
-    return patch;
   }
   // Height of A's support plane above plane.origin is the ball's radius.
   const int kept = std::min(region.size, Patch<R>::capacity);
   for (int i = 0; i < kept; ++i) {
     const Corner<R>& c = region[i * region.size / kept];
-    const R d = -gap - c.below;
-    const R height = a.radius + (gap + (by_a ? c.below : -c.below)) / 2;
-    bool repeat = false;
-    const V3<R> p = plane.origin + plane.x * c.x + plane.y * c.y + n * height;
-    for (int k = 0; k < patch.size; ++k)
-      repeat |= (patch.point[static_cast<std::size_t>(k)].p - p).norm() <= tolerance;
-    if (!repeat) patch.point[static_cast<std::size_t>(patch.size++)] = {p, std::max<R>(0, d), c.id};
+    add(c.x, c.y, by_a ? R(0) : c.below, by_a ? c.below : R(0), c.id);
+  }
+  const R near = std::min<R>(depth / 2, static_cast<R>(tolerance::manifold_region_factor) * size);
+  const bool has_face = !b || fa.size >= 3 || fb.size >= 3;
+  if (has_face || patch.size > 1 || near <= tolerance) return patch;
+  fa = show_a(near);
+  fb = show_b(near);
+  const R beside = static_cast<R>(tolerance::manifold_region_factor) * size;
+  const Spots<R> spots = nearly_parallel_spots(fa, fb, a.radius, b->radius, tolerance, beside);
+  // The first point is the deepest. It stays if it is a corner of the region, or if none of them is as deep.
+  bool keeps_first = true;
+  bool is_corner = patch.size == 0;
+  for (int i = 0; i < std::min(spots.size, Patch<R>::capacity - 1); ++i) {
+    const Spot<R>& s = spots.spot[static_cast<std::size_t>(i)];
+    if (!(s.below_a + s.below_b < depth)) continue;
+    keeps_first &= s.below_a + s.below_b > tolerance;
+    is_corner |= add(s.x, s.y, s.below_a, s.below_b, s.id) == 0;
+  }
+  if (!keeps_first && !is_corner && patch.size > 2) {
+    patch.point[0] = patch.point[static_cast<std::size_t>(patch.size - 1)];
+    --patch.size;
   }
   return patch;
 }

@@ -11,14 +11,15 @@ namespace {
 
 // Only charted, never a fault: a manifold for another of several best normals spans another region and is
 // skipped.
-std::optional<double> coverage(const CheckInput& in, const referee::PairTruth& truth) {
+void measure_coverage(const CheckInput& in, CheckOutput& out, const referee::PairTruth& truth) {
   constexpr double same_normal = 1 - 1e-6;  // cosine of 1.4e-3 rad
   const auto [a, b] = std::pair{in.query.a, in.query.b};
-  if (in.answer.normal && !(in.answer.normal->dot(truth.normal) >= same_normal)) return std::nullopt;
+  if (in.answer.normal && !(in.answer.normal->dot(truth.normal) >= same_normal)) return;
   const referee::ContactRegion& region = in.truth.contact_region(in.frame, a, b);
   std::vector<Vec3> points;
   for (const ManifoldPoint& p : in.answer.manifold) points.push_back(p.position);
-  return referee::covered_share(region, points, truth.normal);
+  out.manifold_coverage = referee::covered_share(region, points, truth.normal);
+  out.manifold_centred = referee::holds_centroid(region, points, truth.normal);
 }
 
 double positive_or_zero(double x) { return std::isfinite(x) ? std::max(0.0, x) : 0; }
@@ -152,7 +153,7 @@ void check_manifold(const CheckInput& in, CheckOutput& out) {
   }
   out.error(worst, l, tau);
   const bool has_region = truth.verdict == referee::Verdict::overlap && std::isfinite(truth.gap.lo);
-  if (has_region) out.manifold_coverage = coverage(in, truth);
+  if (has_region) measure_coverage(in, out, truth);
   if (worst > tau)
     out.fault(Fault::point_off, worst, l, in.query,
               fmt::format("a manifold point is {:.6g} outside a body inflated by the stated depth", worst),

@@ -149,4 +149,62 @@ std::vector<Derived> derive_grow(const RelationInput& in) {
   return {};
 }
 
+namespace {
+
+// The derivative of the distance by translations of B that the answer's points imply, and how far off it may
+// be; empty where they are too near to each other, or for surfaces, whose distance is not convex. An error e
+// of the normal lowers the gap of the planes across it by up to e times the extents, at most 2 L, and changes
+// n·v by e·|v|.
+struct Slope {
+  Vec3 normal;
+  double error;
+};
+std::optional<Slope> implied_slope(const RelationInput& in, const Query& q, const Observation& o,
+                                   double tau) {
+  constexpr double least_distance = 1e-3;  // of L
+  const Scene& s = in.c.scene;
+  const auto is_mesh = [&](int body) { return kind_of(s.shape_of(body)) == ShapeKind::mesh; };
+  if (!o.witness || is_mesh(q.a) || is_mesh(q.b)) return std::nullopt;
+  const Vec3 way = (*o.witness)[1] - (*o.witness)[0];
+  const double length = way.stableNorm();
+  if (!(length > least_distance * scale_of_pair(s, q.a, q.b)) || !std::isfinite(length)) return std::nullopt;
+  return Slope{way / (*o.distance < 0 ? -length : length), 4 * tau / length};
+}
+
+}  // namespace
+
+// The signed distance of convex bodies is convex in the translation of B, with the normal as its gradient:
+// moved by v it is at least g + n·v, and in any case at most g + |v| and at least g - |v|. Each engine's
+// distances are thus compared with the gradient that its own points imply, from both sides.
+std::vector<Derived> derive_slope(const RelationInput& in) {
+  const auto pair = pair_asked(in.c);
+  if (!pair) return {};
+  std::vector<Derived> r;
+  for (std::size_t i = 0; i < in.c.queries.size(); ++i) {
+    const Query& q = in.c.queries[i];
+    const Observation& o = in.base.answers[i];
+    if (q.question != Question::distance || o.outcome != Outcome::answered || !o.distance) continue;
+    const GapInterval gap = implied_gap(in.c.scene, q, o, in.card);
+    const double l = scale_of_pair(in.c.scene, q.a, q.b), tau = tau_of(in.card, o, in.c.scene, q.a, q.b, l);
+    const std::optional<Slope> slope = implied_slope(in, q, o, tau);
+    const Vec3 way = Vec3(0.25, -0.5, 0.375) * (l / 16);
+    for (const double side : {1.0, -1.0}) {
+      const Vec3 v = side * way;
+      Derived d = same_pair(in, "B moved by L/24");
+      d.same_questions = false;
+      d.c.queries = {{Question::distance, 0, 1}};
+      d.rounding = pose_rounding(d.c.scene);
+      d.c.scene.bodies[1].pose.translation += v;
+      d.rounding += pose_rounding(d.c.scene);
+      const double length = v.norm();
+      const double least =
+          slope ? std::max(-length, slope->normal.dot(v) - slope->error * (length + 2 * l)) : -length;
+      d.expected = {{static_cast<int>(i), {gap.lo + least, gap.hi + length}}};
+      r.push_back(std::move(d));
+    }
+    break;
+  }
+  return r;
+}
+
 }  // namespace touchstone::fuzz

@@ -274,6 +274,28 @@ std::optional<double> covered_share(const ContactRegion& region, const std::vect
   return std::min(1.0, area_of(part) / area_of(whole));
 }
 
+std::optional<bool> holds_centroid(const ContactRegion& region, const std::vector<Vec3>& points,
+                                   const Vec3& normal) {
+  using K = ContactRegion::Kind;
+  if (region.kind != K::polygon && region.kind != K::segment) return std::nullopt;
+  if (points.empty()) return false;
+  constexpr double margin_factor = 1e-3;  // of the diameter
+  const ProjectionPlane plane(normal);
+  const Vec3& origin = region.vertices.front();
+  const auto about = [&](const std::vector<Vec3>& v) {
+    std::vector<Real3> r;
+    for (const Vec3& p : v) r.push_back(to_real(p) - to_real(origin));
+    return projected(r, plane);
+  };
+  const Convex2 whole = about(region.vertices), part = about(points);
+  const auto [a, b] = farthest(whole);
+  const double margin = margin_factor * norm(b - a);
+  const Point2 centroid = centroid_of(whole);
+  const auto frames = half_planes(part, margin, margin);
+  return std::all_of(frames.begin(), frames.end(),
+                     [&](const HalfPlane& h) { return dot(h.normal, centroid) <= h.offset; });
+}
+
 double spanned_area(const std::vector<Vec3>& points, const Vec3& normal) {
   if (points.size() < 3) return 0;
   std::vector<Real3> about;

@@ -45,6 +45,12 @@ ContactRegion contact_region(const Placed& a, const Placed& b, const Vec3& norma
 std::optional<double> covered_share(const ContactRegion& region, const std::vector<Vec3>& points,
                                     const Vec3& normal);
 
+/// Whether the points bear a weight that rests evenly on the region: whether its centroid is in their hull,
+/// projected along the normal, or within 1e-3 of the region's largest diameter of it. nullopt as for
+/// covered_share.
+std::optional<bool> holds_centroid(const ContactRegion& region, const std::vector<Vec3>& points,
+                                   const Vec3& normal);
+
 /// Area of the hull of the points projected along the normal.
 double spanned_area(const std::vector<Vec3>& points, const Vec3& normal);
 /// Largest distance between two of the points projected along the normal.

@@ -49,6 +49,18 @@ inline double area_of(const Convex2& p) {
   return twice / 2;
 }
 
+inline Point2 centroid_of(const Convex2& p) {
+  if (p.size() < 3) return 0.5 * (p.front() + p.back());
+  Point2 sum;
+  double weight = 0;
+  for (std::size_t i = 2; i < p.size(); ++i) {
+    const double w = cross(p[i - 1] - p[0], p[i] - p[0]);
+    sum = sum + w * (p[i - 1] + p[i] - 2 * p[0]);
+    weight += w;
+  }
+  return p[0] + 1 / (3 * weight) * sum;
+}
+
 /// {p : dot(normal, p) <= offset}
 struct HalfPlane {
   Point2 normal;

@@ -1,0 +1,107 @@
+// Contacts of faces and edges that are parallel up to a small angle, against the referee's contact region.
+#include <cmath>
+
+#include "core/math/rng.h"
+#include "core/narrow/narrow_phase.h"
+#include "oracles/referee/region/contact_region.h"
+#include "scenarios/random/family.h"
+#include "tests/support/catch.h"
+
+using namespace touchstone;
+
+namespace {
+
+Quat turn_about(const Vec3& axis, double angle) {
+  const Vec3 v = axis.normalized() * std::sin(angle / 2);
+  return {v.x(), v.y(), v.z(), std::cos(angle / 2)};
+}
+
+struct Pair {
+  Shape a, b;
+  Pose pose_a, pose_b;
+  PlacedShape placed_a() const { return {&a, pose_a}; }
+  PlacedShape placed_b() const { return {&b, pose_b}; }
+};
+
+// What share of the region of features within 1e-6 of their support planes the manifold covers.
+double covered(const Pair& p, const ContactAnswer& r) {
+  constexpr double slack = 1e-6;
+  const referee::ContactRegion region =
+      referee::contact_region({&p.a, p.pose_a}, {&p.b, p.pose_b}, r.normal, slack);
+  std::vector<Vec3> points;
+  for (const ContactPoint& x : r.manifold) points.push_back(x.position);
+  return referee::covered_share(region, points, r.normal).value_or(-1);
+}
+
+// Each point is within half its depth of both bodies, and no deeper than the contact.
+void check_points(const Pair& p, const ContactAnswer& r) {
+  constexpr double rounding = 4e-14;  // less than τ, 5e-14
+  double most = 0;
+  for (const ContactPoint& x : r.manifold) {
+    CHECK(x.depth <= r.depth + rounding);
+    most = std::max(most, x.depth);
+    CHECK(referee::distance_to({&p.a, p.pose_a}, x.position).lo <= x.depth / 2 + rounding);
+    CHECK(referee::distance_to({&p.b, p.pose_b}, x.position).lo <= x.depth / 2 + rounding);
+    // The ends of the line through the point are on both bodies.
+    CHECK(referee::distance_to({&p.a, p.pose_a}, x.position + r.normal * (x.depth / 2)).lo <= rounding);
+    CHECK(referee::distance_to({&p.b, p.pose_b}, x.position - r.normal * (x.depth / 2)).lo <= rounding);
+  }
+  CHECK(most >= r.depth * (1 - 1e-6));
+}
+
+}  // namespace
+
+TEST_CASE("nearly parallel faces and edges have a whole contact", "[narrow][manifold]") {
+  Rng rng(31);
+  int by_edges = 0;
+  for (double angle = 1e-13; angle < 2e-7; angle *= 10)
+    for (int i = 0; i < 40; ++i) {
+      INFO("angle " << angle << ", " << i);
+      Pair p{Box{{2, 1.5, 1}}, Box{{1, 0.75, 0.5}}, {}, {}};
+      const Vec3 axis(rng.uniform(-1, 1), rng.uniform(-1, 1), 0);
+      p.pose_b.rotation = turn_about(axis, angle) * turn_about(Vec3(0, 0, 1), rng.uniform(0, 3));
+      p.pose_b.translation = {rng.uniform(-2, 2), rng.uniform(-1.5, 1.5), 1.49};
+      const ContactAnswer r = contact(p.placed_a(), p.placed_b());
+      REQUIRE(r.overlap);
+      CHECK(r.manifold.size() >= 3);
+      CHECK(covered(p, r) >= 0.95);
+      check_points(p, r);
+      by_edges += r.normal.z() != 1;
+    }
+  CHECK(by_edges > 10);
+}
+
+TEST_CASE("nearly parallel capsules touch along a line", "[narrow][manifold]") {
+  Rng rng(32);
+  for (double angle = 1e-13; angle < 2e-7; angle *= 10)
+    for (int i = 0; i < 40; ++i) {
+      INFO("angle " << angle << ", " << i);
+      Pair p{Capsule{0.5, 1}, Capsule{0.25 + 0.25 * (i % 2), 1.5}, {}, {}};
+      p.pose_b.rotation = turn_about(rng.unit_vector(), angle);
+      p.pose_b.translation = {0.7, 0, rng.uniform(-1.5, 1.5)};
+      const ContactAnswer r = contact(p.placed_a(), p.placed_b());
+      REQUIRE(r.overlap);
+      CHECK(r.manifold.size() >= 2);
+      CHECK(covered(p, r) >= 0.95);
+      check_points(p, r);
+    }
+}
+
+TEST_CASE("manifolds of most bodies on a lattice cover the contact region", "[narrow][manifold][random]") {
+  int regions = 0, covered_well = 0;
+  for (std::uint64_t i = 0; i < 3000; ++i) {
+    const Case c = fuzz::make_case(5, i, "lattice");
+    if (c.scene.bodies.size() != 2) continue;
+    const Body &x = c.scene.bodies[0], &y = c.scene.bodies[1];
+    Pair p{c.scene.shape_of(0), c.scene.shape_of(1), x.pose, y.pose};
+    const ContactAnswer r = contact(p.placed_a(), p.placed_b());
+    if (r.outcome != Outcome::answered || !r.overlap) continue;
+    const double share = covered(p, r);
+    if (share < 0) continue;
+    ++regions;
+    covered_well += share >= 0.95;
+  }
+  CHECK(regions > 80);
+  // The others are curved sides and faces whose normal a search has found, to less than rounding.
+  CHECK(covered_well >= 0.94 * regions);
+}
