@@ -172,10 +172,11 @@ Patch<R> contact_patch(const ConvexBody<R>& a, const ConvexBody<R>* b, const Rel
   const R near = std::min<R>(depth / 2, static_cast<R>(tolerance::manifold_region_factor) * size);
   const bool has_face = !b || fa.size >= 3 || fb.size >= 3;
   if (has_face || patch.size > 1 || near <= tolerance) return patch;
-  fa = show_a(near);
-  fb = show_b(near);
+  Corners<R> near_a, near_b;
+  show_a(near, near_a);
+  show_b(near, near_b);
   const R beside = static_cast<R>(tolerance::manifold_region_factor) * size;
-  const Spots<R> spots = nearly_parallel_spots(fa, fb, a.radius, b->radius, tolerance, beside);
+  const Spots<R> spots = nearly_parallel_spots(near_a, near_b, a.radius, b->radius, tolerance, beside);
   // The first point is the deepest. It stays if it is a corner of the region, or if none of them is as deep.
   bool keeps_first = true;
   bool is_corner = patch.size == 0;
