@@ -132,6 +132,19 @@ TEST_CASE("points of another normal than the answer's have no gradient", "[narro
   CHECK_FALSE(gradient(d, Vec3::Zero()));
 }
 
+TEST_CASE("among normals of one depth, extended precision answers the normal of its points",
+          "[narrow][gradient]") {
+  // Two boxes with one centre: the points found are those of the opposite normal.
+  const Case c = fuzz::make_case(
+      77, 3753,
+      "separate,near,shallow,deep,contained,lattice,far,parallel,tiny,zero,unequal,later,mesh,surfaces");
+  const PlacedShape a{&c.scene.shape_of(0), c.scene.bodies[0].pose},
+      b{&c.scene.shape_of(1), c.scene.bodies[1].pose};
+  const Separation s = separation(a, b);
+  REQUIRE(s.gap < 0);
+  CHECK((s.b - s.a - s.gap * s.normal).norm() <= -1e-9 * s.gap);
+}
+
 TEST_CASE("every gradient of the set bounds the distance from the side of its normal", "[narrow][gradient]") {
   // Capsules that lie side by side: the witness points fill a segment.
   const Shape capsule = Capsule{0.25, 1};

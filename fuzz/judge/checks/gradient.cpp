@@ -115,8 +115,9 @@ void judge_unique(const CheckInput& in, CheckOutput& out, const referee::PairTru
 // none.
 void judge_not_unique(const CheckInput& in, CheckOutput& out, const referee::PairTruth& truth, double l) {
   constexpr double same_direction = 1e-7, next = 1.0 / 1024;  // an angle; a factor between slacks
+  constexpr double least_slack = 0x1p-51;                     // of the smaller extent
   const auto [a, b] = std::pair{in.query.a, in.query.b};
-  const double least = 0x1p-51 * smaller_extent(in);
+  const double least = least_slack * smaller_extent(in);
   if (!(truth.gap.lo > in.tau(l)) || !(least > 0)) return;
   const Vec3 way = truth.witness[1] - truth.witness[0];
   if (!(way.cross(truth.normal).norm() <= same_direction * way.norm())) return;
