@@ -63,6 +63,8 @@ std::optional<Raised> with_listed_tolerance(const EngineCard& card, const Observ
 // What the corpus judges.
 Observation asked_part(Observation o, Question q) {
   o.witness.reset();
+  o.moment.reset();
+  o.unique_gradient.reset();
   o.manifold.clear();
   if (q == Question::overlap) o.distance.reset();
   if (q != Question::contact) {

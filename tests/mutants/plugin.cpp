@@ -45,6 +45,7 @@ Scene scene_of(const ts_scene& s) {
   for (std::size_t i = 0; i < s.step_count; ++i) r.script.push_back(step(s.steps[i]));
   for (std::size_t i = 0; i < s.ignored_count; ++i)
     r.ignored.emplace_back(s.ignored[2 * i], s.ignored[2 * i + 1]);
+  r.margin = s.margin;
   return r;
 }
 
@@ -71,6 +72,7 @@ void fill(const Observation& o, ts_answer& out, const ts_sink& sink) {
 
 class Plugin {
  public:
+  static constexpr ts_question later_questions[] = {TS_WITHIN, TS_CANDIDATES_WITHIN, TS_RAY};
   static std::vector<kit::CardText> cards() {
     std::vector<kit::CardText> all;
     for (const Mutant& m : mutants()) {

@@ -21,9 +21,11 @@ std::size_t query_steps(const Scene& s) {
 void check_pair_part(const Case& c, const Expectation& e) {
   if (!e.overlap && !e.gap && !e.normal && !e.impact) return;
   REQUIRE(c.scene.bodies.size() >= 2);
-  if (e.overlap) CHECK(asks(c, Question::overlap));
-  if (e.gap) CHECK(asks(c, Question::distance));
-  if (e.impact) CHECK(asks(c, Question::time_of_impact));
+  const bool about_margin = asks(c, Question::within) || asks(c, Question::bounded_distance);
+  const bool about_ray = asks(c, Question::ray);
+  if (e.overlap) CHECK((asks(c, Question::overlap) || about_margin || about_ray));
+  if (e.gap) CHECK((asks(c, Question::distance) || about_margin || about_ray));
+  if (e.impact) CHECK((asks(c, Question::time_of_impact) || about_ray));
   if (e.gap) {
     CHECK(std::isfinite(e.gap->value));
     CHECK(e.gap->tolerance >= 0);
