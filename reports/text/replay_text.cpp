@@ -18,7 +18,10 @@ std::string exactly(const Vec3& v) {
   return fmt::format("({}, {}, {})", exactly(v.x()), exactly(v.y()), exactly(v.z()));
 }
 
-std::string vec(const Vec3& v) { return fmt::format("({:.6g} {:.6g} {:.6g})", v.x(), v.y(), v.z()); }
+// Adding zero takes the sign from a zero.
+std::string vec(const Vec3& v) {
+  return fmt::format("({:.6g} {:.6g} {:.6g})", v.x() + 0.0, v.y() + 0.0, v.z() + 0.0);
+}
 
 std::string bracket(const std::array<double, 2>& b) {
   if (b[0] == b[1]) return fmt::format("{:.12g} exactly", b[0]);
