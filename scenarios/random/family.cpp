@@ -250,6 +250,8 @@ constexpr Family catalog[] = {
     {"rays", "rays at and past faces, edges, corners; from inside; ending on the surface", 3, rays},
     // Only when asked for by name: a case takes as long as a hundred others.
     {"endless", "2 to 5 bodies, 300 to 699 queries about their pairs in any order", 0, endless_dialogue},
+    // Only when asked for by name: `stability --motions` judges every frame and what changes between them.
+    {"motions", "a smooth motion in 4 to 16 frames: settling, sliding, rolling, a top, a hinge", 0, motions},
 };
 static_assert(catalog[first_later - 1].name == "dialogue");
 static_assert(catalog[first_of_margins - 1].name == "surfaces");

@@ -1,0 +1,196 @@
+// Motions in frames: the bound of a motion, what counts as flicker, lying engines, and the core.
+#include <cmath>
+#include <set>
+
+#include "core/math/rng.h"
+#include "fuzz/judge/flicker.h"
+#include "fuzz/judge/frames.h"
+#include "oracles/core/core_engine.h"
+#include "reports/stability/motions.h"
+#include "scenarios/handmade/scenario.h"
+#include "scenarios/random/motions.h"
+#include "tests/mutants/motion_lies.h"
+#include "tests/support/catch.h"
+
+using namespace touchstone;
+
+namespace {
+
+Case make_motion(const fuzz::MotionRow& row, std::uint64_t seed, int frames) {
+  Rng rng(seed);
+  Case c;
+  row.make(rng, frames, c);
+  c.family = row.name;
+  c.id = std::string(row.name) + "/" + std::to_string(seed);
+  return c;
+}
+
+Case scenario(std::string_view name) {
+  for (const auto& s : scenarios::catalog())
+    if (s.name == name) return s.make();
+  FAIL("no scenario " << name);
+  return {};
+}
+
+// Every body a sixteenth nearer to one wall.
+Case off_centre() {
+  Case c = scenario("cube_in_a_shaft");
+  for (Step& s : c.scene.script)
+    if (s.pose) s.pose->translation.x() += 0x1p-4;
+  c.scene.bodies[1].pose.translation.x() += 0x1p-4;
+  c.family = "cube_in_a_shaft_off_centre";
+  return c;
+}
+
+std::vector<Case> motions_of(std::string_view name) {
+  if (name == "cube_in_a_shaft") return {scenario(name)};
+  if (name == "cube_in_a_shaft_off_centre") return {off_centre()};
+  std::vector<Case> all;
+  for (const fuzz::MotionRow& row : fuzz::motion_rows())
+    for (std::uint64_t seed = 0; row.name == name && seed < 3; ++seed)
+      all.push_back(make_motion(row, seed, 12));
+  return all;
+}
+
+std::uint64_t found(const fuzz::MotionResult& r, std::string_view kind) {
+  if (kind == "wrong") return r.wrong;
+  if (kind == "state") return r.state_differs;
+  for (std::size_t k = 0; k < flicker_count; ++k)
+    if (flicker_names[k] == kind) return r.flickers[k];
+  FAIL("no kind " << kind);
+  return 0;
+}
+
+bool cannot_forget(Engine&) { return false; }
+
+fuzz::MotionResult follow(const std::vector<Case>& motions, const EnginePtr& engine,
+                          const fuzz::Forget& forget) {
+  fuzz::MotionResult sum;
+  for (const Case& c : motions) sum.merge(fuzz::follow(c, {&engine, 1}, forget, true).at(0));
+  return sum;
+}
+
+}  // namespace
+
+TEST_CASE("a motion has as many frames as queries, its bodies where the script puts them", "[frames]") {
+  for (const fuzz::MotionRow& row : fuzz::motion_rows()) {
+    INFO(row.name);
+    const Case c = make_motion(row, 1, 9);
+    validate(c.scene);
+    const auto frames = fuzz::frames_of(c);
+    REQUIRE(frames.size() == 9);
+    CHECK(frames[0].scene.bodies == c.scene.bodies);
+    for (const Case& f : frames) {
+      CHECK(f.scene.script.empty());
+      CHECK(f.queries.size() == c.queries.size() - 1);  // without the candidates
+    }
+    for (std::size_t k = 1; k < frames.size(); ++k)
+      CHECK(frames[k].scene.bodies.back().pose != frames[k - 1].scene.bodies.back().pose);
+  }
+}
+
+TEST_CASE("a frame has no questions about bodies that are not there", "[frames]") {
+  Case c = scenario("slides_off_a_table");
+  c.scene.script.push_back({Step::Op::remove, 1, std::nullopt});
+  c.scene.script.push_back({});
+  const auto frames = fuzz::frames_of(c);
+  CHECK(frames.back().queries.empty());
+  CHECK(frames.front().queries.size() == 3);
+}
+
+TEST_CASE("a bound of the motion holds for widths in every direction", "[frames]") {
+  Rng rng(4);
+  double tightest = 0;
+  for (int i = 0; i < 400; ++i) {
+    const auto rows = fuzz::motion_rows();
+    const Case c = make_motion(rows[rng.below(rows.size())], rng.next(), 6);
+    const auto frames = fuzz::frames_of(c);
+    const auto k = 1 + rng.below(frames.size() - 1);
+    const Query q = c.queries[0];
+    const fuzz::Truth before(frames[k - 1].scene), after(frames[k].scene);
+    for (const fuzz::Carried& way : fuzz::carried(frames[k - 1].scene, frames[k].scene, q.a, q.b))
+      for (int d = 0; d < 20; ++d) {
+        const Vec3 n = rng.unit_vector();
+        const referee::Bracket was = before.width(0, q.a, q.b, n),
+                               is = after.width(0, q.a, q.b, way.turn * n);
+        if (!std::isfinite(was.hi) || !std::isfinite(is.hi)) continue;  // a half-space, from its side
+        CHECK(std::max(is.lo - was.hi, was.lo - is.hi) <= way.change);
+        if (way.change > 1e-6) tightest = std::max(tightest, std::abs(is.hi - was.hi) / way.change);
+      }
+  }
+  CHECK(tightest > 0.9);  // the bound is not idle
+}
+
+TEST_CASE("a jump of the normal is true, tied or needless by what both normals need now", "[frames]") {
+  const auto change = [](double x_before, double x_after, const Vec3& was, const Vec3& is) {
+    Case c = scenario("cube_in_a_shaft");
+    auto frames = fuzz::frames_of(c);
+    frames[0].scene.bodies[1].pose.translation = Vec3(x_before, 0, 0);
+    frames[1].scene.bodies[1].pose.translation = Vec3(x_after, 0, 0);
+    Observation o[2];
+    for (int k = 0; k < 2; ++k) {
+      o[k].outcome = Outcome::answered;
+      o[k].overlap = true;
+      o[k].normal = k == 0 ? was : is;
+    }
+    fuzz::Truth before(frames[0].scene), after(frames[1].scene);
+    return fuzz::change_between({before, o[0]}, {after, o[1]}, {Question::contact, 0, 1},
+                                EngineCard{"test", "", "", "", 0x1p-53, 64, ""}, 1);
+  };
+  const Vec3 x = Vec3::UnitX(), y = Vec3::UnitY();
+  CHECK(change(-0x1p-4, 0x1p-4, -x, x).true_switch);
+  CHECK(change(-0x1p-4, 0x1p-4, -x, x).flickers.empty());
+  CHECK(change(0x1p-5, 0x1p-4, x, x).flickers.empty());
+  REQUIRE(change(0x1p-5, 0x1p-4, x, y).flickers.size() == 1);
+  CHECK(change(0x1p-5, 0x1p-4, x, y).flickers[0].flicker == Flicker::needless);
+  REQUIRE(change(0x1p-5, 0, x, y).flickers.size() == 1);
+  CHECK(change(0x1p-5, 0, x, y).flickers[0].flicker == Flicker::tied);
+  CHECK(change(0, 0, x, Vec3(1, 0x1p-10, 0).normalized()).flickers.empty());  // the same side
+}
+
+TEST_CASE("engines that lie about motions are found, each by what it does", "[frames][mutants]") {
+  const auto& lies = mutants::motion_lies();
+  CHECK(lies.size() >= 8);
+  std::set<std::string_view> kinds;
+  for (const mutants::MotionLie& lie : lies) {
+    INFO(lie.name);
+    kinds.insert(lie.found);
+    const EnginePtr engine = mutants::make_motion_liar(lie);
+    const fuzz::MotionResult r = follow(motions_of(lie.motion), engine, mutants::forget_motion);
+    CHECK(found(r, lie.found) > 0);
+    if (!lie.is_wrong) CHECK(r.wrong == 0);
+    CHECK(r.state_asked > 0);
+    const auto shown = [&](const fuzz::MotionEvidence& e) { return e.kind == lie.found; };
+    CHECK(std::any_of(r.evidence.begin(), r.evidence.end(), shown));
+  }
+  for (const std::string_view name : flicker_names) {
+    INFO(name);
+    CHECK(kinds.contains(name));
+  }
+}
+
+TEST_CASE("the core keeps its normals and points where the truth does", "[frames][core]") {
+  const EnginePtr core = make_core_engine();
+  fuzz::MotionResult sum;
+  for (const fuzz::MotionRow& row : fuzz::motion_rows()) {
+    INFO(row.name);
+    const fuzz::MotionResult r = follow(motions_of(row.name), core, cannot_forget);
+    CHECK(r.wrong + r.failed == 0);
+    CHECK(found(r, "needless") == 0);
+    CHECK(found(r, "depth") == 0);
+    CHECK(found(r, "verdict") == 0);
+    CHECK(r.changes > 0);
+    sum.merge(r);
+  }
+  CHECK(sum.switches > 0);  // there are motions in which a normal has to jump
+  const fuzz::MotionResult shaft = follow({scenario("cube_in_a_shaft")}, core, cannot_forget);
+  CHECK(shaft.flicker_sum() == 0);
+  const fuzz::MotionResult table = follow({scenario("slides_off_a_table")}, core, cannot_forget);
+  CHECK(table.switches == 1);
+  CHECK(table.flicker_sum() == 0);
+}
+
+TEST_CASE("the same seed gives the same motions", "[frames]") {
+  for (const fuzz::MotionRow& row : fuzz::motion_rows())
+    CHECK(make_motion(row, 5, 7) == make_motion(row, 5, 7));
+}
