@@ -420,6 +420,7 @@ class MjcfReader {
                             const std::string& name, int depth) {
     if (depth > max_depth) return std::nullopt;
     for (const XmlElement& c : document_->expanded(e)) {
+      count_element(c);
       if (c.name() != "body" && c.name() != "frame") continue;
       if (c.name() == kind && c.attribute("name").value_or("") == name) return Found{c, of_class};
       if (auto found = find(c, class_in(c, of_class), kind, name, depth + 1)) return found;
@@ -499,6 +500,7 @@ class MjcfReader {
   }
 
   void exclude(const XmlElement& e, const Attached& range) {
+    count_element(e);
     const std::array<std::string, 2> names{e.need("body1"), e.need("body2")};
     std::array<std::vector<NamedBody>, 2> found;
     const bool is_whole = range.first_link == 0;

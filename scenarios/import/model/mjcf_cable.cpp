@@ -47,7 +47,8 @@ std::vector<std::string> functions_of(const XmlElement& e) {
 std::vector<Vec3> curve_vertices(const XmlElement& e, const Quat& turn) {
   const std::vector<double> count = e.numbers("count");
   if (count.empty() || !(count[0] >= 2 && count[0] <= most_vertices) || count[0] != std::floor(count[0]))
-    e.fail("count must begin with a whole number from 2 to " + std::to_string(static_cast<int>(most_vertices)));
+    e.fail("count must begin with a whole number from 2 to " +
+           std::to_string(static_cast<int>(most_vertices)));
   for (std::size_t k = 1; k < count.size(); ++k)
     if (count[k] != 1) e.fail("a cable has one dimension: the further counts must be 1");
   std::vector<double> size = e.numbers("size");
