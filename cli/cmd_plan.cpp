@@ -83,8 +83,17 @@ Run declare_plan(CLI::App& app) {
       app.add_option("--error", o->plan.error,
                      "largest error of a gap or depth, in the scene's unit (default: a millionth of the "
                      "smallest body)");
+  auto* margin = app.add_option("--margin", o->plan.margin,
+                                "report pairs whose gap is at most this, in the scene's unit, and their gaps")
+                     ->check(CLI::NonNegativeNumber)
+                     ->capture_default_str();
+  auto* verdict = app.add_flag("--verdict-only", o->plan.verdict_only,
+                               "only which pairs overlap, or are within the margin: no depths and gaps");
   app.add_flag("--solid-meshes", o->plan.solid_meshes, "treat closed convex meshes as solids");
-  app.add_option("--use", o->use, "measure and judge this plan instead of choosing one")->excludes(error);
+  app.add_option("--use", o->use, "measure and judge this plan instead of choosing one")
+      ->excludes(error)
+      ->excludes(margin)
+      ->excludes(verdict);
   app.add_option("-o,--out", o->out, "file for the plan (JSON), which StepWorld can run");
   app.add_option("--steps", o->steps, "number of steps of a recording to use")
       ->check(CLI::Range(1, 100000))
