@@ -16,11 +16,13 @@
 #include <atomic>
 #include <cmath>
 #include <fstream>
+#include <iterator>
 #include <map>
 #include <set>
 #include <string>
 #include <vector>
 
+#include "core/base/hash.h"
 #include "fuzz/ask/evidence.h"
 #include "fuzz/campaign/campaign.h"
 #include "fuzz/causes/causes.h"
@@ -108,21 +110,40 @@ double adjusted_rand(const std::vector<Item>& items) {
   return (together - expected) / ((causes + lies) / 2 - expected);
 }
 
+// Half of the lies is for choosing how to group, the other half is held out.
+bool is_held_out(const std::string& lie) { return (Hasher().add(lie).value() >> 32U) % 2 == 1; }
+
+std::vector<Item> half_of(const std::vector<Item>& items, bool held_out) {
+  std::vector<Item> half;
+  std::ranges::copy_if(items, std::back_inserter(half),
+                       [&](const Item& i) { return is_held_out(i.lie) == held_out; });
+  return half;
+}
+
+double causes_a_lie(const std::vector<Item>& items) {
+  std::set<Item> pairs(items.begin(), items.end());
+  std::set<std::string> lies;
+  for (const Item& item : items) lies.insert(item.lie);
+  return static_cast<double>(pairs.size()) / static_cast<double>(lies.size());
+}
+
 void print_score(const fuzz::Causes& causes, const std::vector<Item>& items) {
   std::map<std::string, std::set<std::size_t>> causes_of_lie;
   for (const Item& item : items) causes_of_lie[item.lie].insert(item.cause);
-  std::size_t listed = 0, read = 0;
+  std::size_t read = 0;
   const auto lies = static_cast<double>(causes_of_lie.size());
   constexpr double share_read = 1.5;
   const auto first = static_cast<std::size_t>(std::ceil(share_read * lies));
   for (const auto& [lie, of] : causes_of_lie) {
-    listed += of.size();
     read += *of.begin() < first;
   }
   fmt::print("{} findings of {} lies in {} causes\n", items.size(), causes_of_lie.size(),
              causes.causes.size());
-  fmt::print("adjusted Rand index {:.3f}\n", adjusted_rand(items));
-  fmt::print("causes per lie {:.2f}\n", static_cast<double>(listed) / lies);
+  const auto seen = half_of(items, false), held_out = half_of(items, true);
+  fmt::print("adjusted Rand index {:.3f}; of the half for tuning {:.3f}, of the half held out {:.3f}\n",
+             adjusted_rand(items), adjusted_rand(seen), adjusted_rand(held_out));
+  fmt::print("causes per lie {:.2f}; {:.2f}, {:.2f}\n", causes_a_lie(items), causes_a_lie(seen),
+             causes_a_lie(held_out));
   fmt::print("the first {} causes show {:.1f} % of the lies\n", first,
              100 * static_cast<double>(read) / lies);
 }
