@@ -49,6 +49,7 @@ bool states_contact(const Observation& o) {
 // have levelled out: then the two lie on different features in both frames.
 bool has_ridge_between(const Pair& p, const Vec3& n, const Vec3& m, double change) {
   const double ends = std::max(p.width(n).hi, p.width(m).hi);
+  if (!std::isfinite(ends)) return true;  // one of them leads into a half-space, or along it
   const double level = std::max(0.0, ends) + 2 * (change + p.rounding());
   const double angle = angle_between(n, m);
   // On the arc w(x) <= ends / cos(angle/2), since w is convex along the chord.
