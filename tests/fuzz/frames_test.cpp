@@ -1,8 +1,11 @@
 // Motions in frames: the bound of a motion, what counts as flicker, lying engines, and the core.
+#include <algorithm>
 #include <cmath>
+#include <optional>
 #include <set>
 
 #include "core/math/rng.h"
+#include "core/narrow/narrow_phase.h"
 #include "fuzz/judge/flicker.h"
 #include "fuzz/judge/frames.h"
 #include "oracles/core/core_engine.h"
@@ -68,6 +71,31 @@ fuzz::MotionResult follow(const std::vector<Case>& motions, const EnginePtr& eng
   fuzz::MotionResult sum;
   for (const Case& c : motions) sum.merge(fuzz::follow(c, {&engine, 1}, forget, true).at(0));
   return sum;
+}
+
+// The number of points that clearly are corners carried along by one of the bodies, each of which must keep
+// its id.
+std::size_t same_points(const Scene& before, const Scene& after, const Query& q, const ContactAnswer& was,
+                        const ContactAnswer& is) {
+  constexpr double same = 1e-9, other = 1e-3;
+  if (was.manifold.size() != is.manifold.size() || is.manifold.size() < 2) return 0;
+  std::size_t n = 0;
+  for (const fuzz::Carried& way : fuzz::carried(before, after, q.a, q.b))
+    for (const ContactPoint& p : is.manifold) {
+      const auto distance = [&](const ContactPoint& x) {
+        return (way.point(x.position) - p.position).norm();
+      };
+      const auto near = [&](double most) {
+        return std::count_if(was.manifold.begin(), was.manifold.end(),
+                             [&](const ContactPoint& x) { return distance(x) <= most; });
+      };
+      if (near(same) != 1 || near(other) != 1) continue;
+      const auto found = std::find_if(was.manifold.begin(), was.manifold.end(),
+                                      [&](const ContactPoint& x) { return distance(x) <= same; });
+      CHECK(found->feature == p.feature);
+      ++n;
+    }
+  return n;
 }
 
 }  // namespace
@@ -188,6 +216,27 @@ TEST_CASE("the core keeps its normals and points where the truth does", "[frames
   const fuzz::MotionResult table = follow({scenario("slides_off_a_table")}, core, cannot_forget);
   CHECK(table.switches == 1);
   CHECK(table.flicker_sum() == 0);
+}
+
+TEST_CASE("ids of the core's points stay where the points do", "[frames][core]") {
+  std::size_t compared = 0;
+  for (const fuzz::MotionRow& row : fuzz::motion_rows())
+    for (std::uint64_t seed = 0; seed < 6; ++seed) {
+      const Case c = make_motion(row, seed, 24);
+      const auto frames = fuzz::frames_of(c);
+      const Query q = c.queries[0];
+      std::optional<ContactAnswer> was;
+      for (std::size_t k = 0; k < frames.size(); ++k) {
+        const Scene& s = frames[k].scene;
+        const auto placed = [&](int b) {
+          return PlacedShape{&s.shape_of(b), s.bodies[static_cast<std::size_t>(b)].pose};
+        };
+        const ContactAnswer is = contact(placed(q.a), placed(q.b));
+        if (was) compared += same_points(frames[k - 1].scene, s, q, *was, is);
+        was = is;
+      }
+    }
+  CHECK(compared > 300);
 }
 
 TEST_CASE("the same seed gives the same motions", "[frames]") {
