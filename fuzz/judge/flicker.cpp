@@ -29,6 +29,10 @@ struct Pair {
   double rounding() const {
     return card.tau_factor * pair_roundoff(card, after.truth.scene(), q.a, q.b) * scale();
   }
+  /// The larger depth, at most: how far below a plane of contact corners may lie.
+  double deepest() const {
+    return -std::min(before.truth.pair(0, q.a, q.b).gap.lo, after.truth.pair(0, q.a, q.b).gap.lo);
+  }
   double least_change() const { return std::min({ways[0].change, ways[1].change, ways[2].change}); }
   referee::Bracket width(const Vec3& n) const { return after.truth.width(0, q.a, q.b, n); }
   bool overlap(const AnsweredFrame& f) const {
@@ -49,6 +53,7 @@ bool states_contact(const Observation& o) {
 // have levelled out: then the two lie on different features in both frames.
 bool has_ridge_between(const Pair& p, const Vec3& n, const Vec3& m, double change) {
   const double ends = std::max(p.width(n).hi, p.width(m).hi);
+  if (!std::isfinite(ends)) return true;  // one of them leads into a half-space, or along it
   const double level = std::max(0.0, ends) + 2 * (change + p.rounding());
   const double angle = angle_between(n, m);
   // On the arc w(x) <= ends / cos(angle/2), since w is convex along the chord.
@@ -210,14 +215,32 @@ Points moved(const Carried& way, Points all) {
   return all;
 }
 
-referee::ContactRegion region(const Pair& p, const AnsweredFrame& f) {
-  return referee::contact_region(f.truth.placed(0, p.q.a), f.truth.placed(0, p.q.b), *f.answer.normal,
-                                 referee::contact_slack_factor * p.scale());
+referee::ContactRegion region(const Pair& p, const AnsweredFrame& f, double slack) {
+  return referee::contact_region(f.truth.placed(0, p.q.a), f.truth.placed(0, p.q.b), *f.answer.normal, slack);
 }
 
 bool keeps_corners(const referee::ContactRegion& was, const referee::ContactRegion& is) {
   return was.kind == is.kind && was.kind != referee::ContactRegion::Kind::none &&
          was.vertices.size() == is.vertices.size();
+}
+
+// How far the corners of the contact region move, seen in each of the three ways: the most over the regions
+// that engines may mean, from what lies in one plane to all that lies deeper than the other body's plane.
+// Empty if one of these regions gets other corners.
+std::optional<std::array<double, 3>> moved_corners(const Pair& p) {
+  constexpr int levels = 8;
+  const double least = referee::contact_slack_factor * p.scale();
+  const double most = std::max(2 * least, p.deepest());
+  std::array<double, 3> moved_most{};
+  for (int i = 0; i < levels; ++i) {
+    const double slack = least * std::pow(most / least, static_cast<double>(i) / (levels - 1));
+    const referee::ContactRegion was = region(p, p.before, slack), is = region(p, p.after, slack);
+    if (!keeps_corners(was, is)) return std::nullopt;
+    for (std::size_t k = 0; k < moved_most.size(); ++k)
+      moved_most[k] = std::max(
+          moved_most[k], set_distance(moved(p.ways[k], was.vertices), is.vertices) + was.error + is.error);
+  }
+  return moved_most;
 }
 
 // The numbers that the points of `is` have in `was`, if they are the same points and clearly so.
@@ -249,23 +272,20 @@ bool is_reordered(const Pair& p, const Points& was, const Points& is) {
 // How much farther the points move than the region's corners, at least, however they are carried along.
 double excess_of_points(const Pair& p, const Points& was, const Points& is) {
   const double slack = 4 * (referee::contact_slack_factor * p.scale() + p.rounding());
-  double least = set_distance(moved(p.ways[0], was), is);
-  for (const Carried& way : p.ways)
-    least = std::min(least, set_distance(moved(way, was), is) - way.change - slack);
-  if (!(least > 0)) return 0;
-  const referee::ContactRegion r0 = region(p, p.before), r1 = region(p, p.after);
-  if (!keeps_corners(r0, r1)) return 0;
-  for (const Carried& way : p.ways) {
-    const double of_region = set_distance(moved(way, r0.vertices), r1.vertices) + r0.error + r1.error;
-    least = std::min(least, set_distance(moved(way, was), is) - way.change - slack - of_region);
-  }
-  return least;
+  std::array<double, 3> beyond{};
+  for (std::size_t k = 0; k < beyond.size(); ++k)
+    beyond[k] = set_distance(moved(p.ways[k], was), is) - p.ways[k].change - slack;
+  if (!(*std::min_element(beyond.begin(), beyond.end()) > 0)) return 0;
+  const auto of_region = moved_corners(p);
+  if (!of_region) return 0;
+  for (std::size_t k = 0; k < beyond.size(); ++k) beyond[k] -= (*of_region)[k];
+  return *std::min_element(beyond.begin(), beyond.end());
 }
 
 void judge_manifolds(const Pair& p, int frame, FrameChange& out) {
   const Points was = points_of(p.before.answer), is = points_of(p.after.answer);
   if (was.size() != is.size()) {
-    if (!keeps_corners(region(p, p.before), region(p, p.after))) return;
+    if (!moved_corners(p)) return;
     out.flickers.push_back(report(
         p, Flicker::count, frame, std::abs(static_cast<double>(is.size()) - static_cast<double>(was.size())),
         fmt::format("{} points after {}; the contact region keeps its corners", is.size(), was.size())));

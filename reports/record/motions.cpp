@@ -37,7 +37,8 @@ Json to_json(const MotionEvidence& e) {
 }  // namespace
 
 std::uint64_t MotionResult::flicker_sum() const {
-  return std::accumulate(flickers.begin(), flickers.end(), std::uint64_t{0});
+  const auto order = static_cast<std::size_t>(Flicker::order);
+  return std::accumulate(flickers.begin(), flickers.end(), std::uint64_t{0}) - flickers[order];
 }
 
 double MotionResult::score() const {

@@ -38,6 +38,7 @@ struct MotionResult {
   double restless = 0;  // rad: by how much more than the truth the normal turns within one feature, at most
   std::uint64_t state_asked = 0, state_differs = 0;  // answers repeated without the earlier frames
   std::vector<MotionEvidence> evidence;              // the first of each kind
+  /// Without `order`, which concerns only those who know a point by its place in the list.
   std::uint64_t flicker_sum() const;
   /// Flickers per thousand changes.
   double score() const;

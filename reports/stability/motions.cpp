@@ -40,7 +40,7 @@ MotionEvidence evidence(const Followed& m, std::string_view kind, int frame, con
   return e;
 }
 
-void count_answers(MotionResult& r, const Followed& m, int frame, const EngineCard& card,
+void count_answers(MotionResult& r, Followed& m, int frame, const EngineCard& card,
                    const CaseObservations& all) {
   const auto k = static_cast<std::size_t>(frame);
   const std::vector<Judgement> judgements = judge(m.frames[k], card, all, m.truths[k]);

@@ -139,7 +139,7 @@ const std::vector<MotionLie>& motion_lies() {
        true},
       {"motion_depth_lags", "wrong", "settle", "the depth of the frame before",
        after_last_frame(cont, same_depth), 0, true},
-      {"motion_shakes", "depth", "slide", "a sixteenth farther in odd frames, right within its claim",
+      {"motion_shakes", "depth", "settle", "a sixteenth farther in odd frames, right within its claim",
        distance_off_on_odd_frames(), 0x1p-3},
       {"motion_loses_points", "count", "slide", "a point less in odd frames",
        in_frames(odd, without_last_point)},
