@@ -52,6 +52,8 @@ Fidelity plan_in(const std::string& file) {
 int run(PlanArguments o, bool error_given) {
   if (error_given && !(o.plan.error > 0 && std::isfinite(o.plan.error)))
     throw InputError("--error", fmt::format("{} is not a positive length", o.plan.error));
+  if (!(o.plan.margin >= 0 && std::isfinite(o.plan.margin)))
+    throw InputError("--margin", fmt::format("{} is not a length", o.plan.margin));
   require_writable(o.out);
   if (!o.use.empty()) o.plan.given = plan_in(o.use);
   const fuzz::Course course = course_named(o);
@@ -85,7 +87,6 @@ Run declare_plan(CLI::App& app) {
                      "smallest body)");
   auto* margin = app.add_option("--margin", o->plan.margin,
                                 "report pairs whose gap is at most this, in the scene's unit, and their gaps")
-                     ->check(CLI::NonNegativeNumber)
                      ->capture_default_str();
   auto* verdict = app.add_flag("--verdict-only", o->plan.verdict_only,
                                "only which pairs overlap, or are within the margin: no depths and gaps");

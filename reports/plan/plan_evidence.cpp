@@ -73,7 +73,7 @@ PlanSample::PlanSample(const Course& course, const EndPoses& poses,
 // Only certain errors count: measured from the side of each bracket that favours the answer.
 double PlanSample::error_of(int step, const Judged& j, const StepReport& report) const {
   const auto is_this = [&](const auto& x) { return BodyPair(x.a, x.b) == j.pair; };
-  const Interval<double>& gap = j.truth.gap;
+  const referee::Bracket& gap = j.truth.gap;
   const auto near = std::find_if(report.near.begin(), report.near.end(), is_this);
   if (near != report.near.end()) {
     const double beyond = std::max(0.0, gap.lo - margin_);

@@ -137,8 +137,6 @@ MjcfCable read_cable(const XmlElement& e) {
   MjcfCable cable;
   cable.prefix = e.attribute("prefix").value_or("");
   cable.initial = e.attribute("initial").value_or("ball");
-  if (cable.initial != "free" && cable.initial != "ball" && cable.initial != "none")
-    e.fail("initial must be free, ball or none");
   Quat turn;
   if (e.attribute("quat")) {
     const auto q = e.numbers("quat");

@@ -12,7 +12,7 @@ namespace touchstone {
 
 struct MjcfCable {
   std::string prefix;
-  std::string initial = "ball";  // of the first body: its joint, "free", "ball" or "none"
+  std::string initial = "ball";  // the joint of the first body: "free", "none", or else a ball, as in MuJoCo
   /// Each part in the frame of the one before it, the first in that of the element; its x axis leads along
   /// the part.
   std::vector<Pose> parts;
