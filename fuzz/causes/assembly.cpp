@@ -173,6 +173,7 @@ std::uint64_t Assembly::response_hash(const Group& g, std::uint64_t place) const
   const Responses of_all = common_response(g);
   Hasher hash;
   hash.add(place).add(reason_of(g, of_all));
+  if (!g.shown_only_by.empty()) hash.add(g.shown_only_by);
   if (!is_exact(g)) return hash.value();
   for (const Responded& r : of_all.responses) hash.add(to_string(r.response));
   for (const std::string& fault : of_all.faults) hash.add(fault);

@@ -30,6 +30,7 @@ struct Group {
   std::vector<std::size_t> consequences;  // representatives whose faults follow from this one's
   std::vector<const Finding*> explained;  // contradictions; set by Assembly
   std::string documented;                 // as in EngineKnowledge; of all members
+  std::string shown_only_by;              // engines, if others were told apart by them; set by told_apart
   std::string id;                         // of its cause; set by Assembly
 };
 

@@ -255,6 +255,14 @@ Responses respond(const Case& c, const Symptom& symptom, const std::string& engi
   return r;
 }
 
+std::optional<Deviation> shown_by(const std::string& engine, const Case& c, const Symptom& symptom,
+                                  EnginePool& pool) {
+  const EnginePtr& e = pool.named(engine);
+  if (!e) return std::nullopt;
+  const Answer answer = answers_of({&c, 1}, e, symptom).at(0);
+  return answer.response == Response::stays ? std::optional(answer.deviation) : std::nullopt;
+}
+
 Meaning meaning_of(const std::string& intervention, const std::vector<OtherEngine>& others) {
   for (const Intervention& i : interventions)
     if (i.name == intervention) return {i.telling, std::string(i.if_gone)};

@@ -1,6 +1,7 @@
 // Asks one engine about a case and all its changed forms.
 #pragma once
 
+#include <optional>
 #include <set>
 #include <string>
 #include <vector>
@@ -50,6 +51,11 @@ bool needs_comparison(const Symptom& s);
 
 Responses respond(const Case& c, const Symptom& symptom, const std::string& engine,
                   const std::vector<OtherEngine>& others, EnginePool& pool);
+
+/// What is wrong in the engine's answer to the case, if it shows the symptom. Nothing if the engine is
+/// missing.
+std::optional<Deviation> shown_by(const std::string& engine, const Case& c, const Symptom& symptom,
+                                  EnginePool& pool);
 
 /// What is known of an intervention beside the response to it.
 struct Meaning {

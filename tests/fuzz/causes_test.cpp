@@ -8,6 +8,7 @@
 #include "fuzz/campaign/campaign.h"
 #include "fuzz/causes/assembly.h"
 #include "fuzz/causes/causes.h"
+#include "fuzz/causes/cross_ask.h"
 #include "fuzz/causes/intervention.h"
 #include "fuzz/causes/kept.h"
 #include "fuzz/causes/name.h"
@@ -225,6 +226,15 @@ TEST_CASE("gaps are set to shares of the smaller body, whatever they were", "[ca
     CHECK(std::abs(gap_after(fuzz::grow_a_much(c)) - (at - 2)) < 1e-13);
     CHECK(std::abs(gap_after(fuzz::b_as_cube(c)) - (at - 2)) < 1e-13);
   }
+}
+
+TEST_CASE("interventions about an impact leave alone a question that names no bodies", "[causes]") {
+  Case c = pair_case(Sphere{1}, Sphere{1}, Vec3(4, 0, 0), Question::swept_candidates);
+  c.queries = {{Question::swept_candidates, -1, -1}};
+  c.scene.bodies[1].motion = Motion{Vec3(-4, 0, 0), Vec3(0, 0, 1)};
+  for (const auto change : {fuzz::let_a_turn, fuzz::let_b_turn, fuzz::stop_turning_a, fuzz::stop_turning_b,
+                            fuzz::move_b_only, fuzz::meet_early, fuzz::meet_head_on, fuzz::move_faster})
+    CHECK_FALSE(change(c));
 }
 
 TEST_CASE("an impact is moved to another time of the step", "[causes]") {
@@ -568,6 +578,33 @@ TEST_CASE("findings of one library that are reduced to one case are one, whateve
   CHECK(two.groups() == 1);
   two.all[1].first.responses.deviation.manner = "normal";
   CHECK(two.groups() == 2);
+}
+
+TEST_CASE("engines of one path are told apart by each other's cases", "[causes]") {
+  const auto parts = [](const std::string& x, const std::string& y, const fuzz::Noise& noise) {
+    TwoExamined two(finding(x, "contact", "infeasible", "box-box", 9),
+                    finding(y, "contact", "infeasible", "box-box", 5));
+    fuzz::EnginePool pool([](const std::string& name) { return liar(name.substr(0, name.find('@'))); });
+    const Shape shapes[] = {Sphere{1}, Box{Vec3::Ones()}};
+    for (std::size_t i = 0; i < two.all.size(); ++i) {
+      fuzz::Representative& r = two.all[i];
+      const bool of_boxes = r.finding->engine.starts_with("depth_halved_boxes");
+      r.first.smallest = pair_case(shapes[of_boxes], shapes[of_boxes], Vec3(1.5, 0, 0), Question::contact);
+      const auto shown = fuzz::shown_by(r.finding->engine, r.first.smallest, r.symptom, pool);
+      REQUIRE(shown);
+      r.first.responses.deviation = *shown;
+    }
+    fuzz::Group g;
+    g.members = {0, 1};
+    const std::vector<double> rates(two.classes.size(), 0.0);
+    return fuzz::told_apart({g}, {two.classes, two.all, rates, two.knowledge, noise}, pool).size();
+  };
+  CHECK(parts("depth_halved", "depth_halved_boxes", {}) == 2);  // right about spheres
+  CHECK(parts("depth_halved", "depth_less_share", {}) == 2);    // wrong by another law
+  CHECK(parts("depth_halved", "depth_halved@later", {}) == 1);
+  // Where responses of one cause differ by chance, so do these.
+  CHECK(parts("depth_halved", "depth_halved_boxes", {{"depth_halved", 0.1}, {"depth_halved_boxes", 0.1}}) ==
+        1);
 }
 
 TEST_CASE("a cause is shown by a case with the gravest of its faults, which its title names", "[causes]") {

@@ -19,8 +19,17 @@ std::optional<Case> stop_turning(const Case& c) {
   return r;
 }
 
+namespace {
+
+// Of two bodies: candidates of moving bodies name none.
+bool is_about_impact(const Case& c) {
+  return asks_about_pair(c) && is_motion_question(c.queries[0].question);
+}
+
+}  // namespace
+
 std::optional<Case> move_b_only(const Case& c) {
-  if (c.queries.empty() || !is_motion_question(c.queries[0].question)) return std::nullopt;
+  if (!is_about_impact(c)) return std::nullopt;
   Case r = c;
   Body& a = r.scene.bodies[static_cast<std::size_t>(c.queries[0].a)];
   Body& b = r.scene.bodies[static_cast<std::size_t>(c.queries[0].b)];
@@ -33,10 +42,6 @@ std::optional<Case> move_b_only(const Case& c) {
 }
 
 namespace {
-
-bool is_about_impact(const Case& c) {
-  return !c.queries.empty() && is_motion_question(c.queries[0].question);
-}
 
 Vec3 velocity(const Case& c, int body) {
   const auto& motion = c.scene.bodies[static_cast<std::size_t>(body)].motion;
