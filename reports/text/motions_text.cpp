@@ -63,14 +63,16 @@ std::string state_cell(const MotionResult& r) { return r.state_asked == 0 ? "" :
 // What each engine's flicker consists of.
 std::string kinds_table(const Motions& m) {
   std::string text = fmt::format("{:<{}}", "kinds of flicker", name_width);
-  for (const std::string_view name : flicker_names) text += fmt::format("{:>9}", name);
+  const auto wide = [](std::string_view name) { return std::max<std::size_t>(7, name.size() + 1); };
+  for (const std::string_view name : flicker_names) text += fmt::format("{:>{}}", name, wide(name));
   text += '\n';
   for (const std::string& e : engines_of(m)) {
     MotionResult sum;
     for (const MotionResult& r : m.results)
       if (r.engine == e) sum.merge(r);
     text += row_name(e);
-    for (const std::uint64_t n : sum.flickers) text += fmt::format("{:>9}", grouped(n));
+    for (std::size_t k = 0; k < flicker_count; ++k)
+      text += fmt::format("{:>{}}", grouped(sum.flickers[k]), wide(flicker_names[k]));
     text += '\n';
   }
   return text + '\n';

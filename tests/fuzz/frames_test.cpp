@@ -147,6 +147,20 @@ TEST_CASE("a bound of the motion holds for widths in every direction", "[frames]
       }
   }
   CHECK(tightest > 0.9);  // the bound is not idle
+  // A small shift far away, along which the bound is reached: only its roundings are left.
+  Scene before = scenario("cube_in_a_shaft").scene, after = before;
+  for (int i = 0; i < 2000; ++i) {
+    const Vec3 shift = rng.vector(1e-3, 1);
+    before.bodies[0].pose.rotation = after.bodies[0].pose.rotation = rng.rotation();
+    before.bodies[1].pose.translation = rng.vector(500, 1000);
+    after.bodies[1].pose.translation = before.bodies[1].pose.translation + shift;
+    const fuzz::Truth was(before), is(after);
+    for (const fuzz::Carried& way : fuzz::carried(before, after, 0, 1)) {
+      const Vec3 n = (before.bodies[1].pose.translation - after.bodies[1].pose.translation).normalized();
+      const referee::Bracket w0 = was.width(0, 0, 1, n), w1 = is.width(0, 0, 1, way.turn * n);
+      CHECK(w1.lo - w0.hi <= way.change);
+    }
+  }
 }
 
 TEST_CASE("a jump of the normal is true, tied or needless by what both normals need now", "[frames]") {

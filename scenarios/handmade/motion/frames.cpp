@@ -25,9 +25,10 @@ Scenario in_frames(const std::string& name, const std::string& line, Part a, Par
 // never as long.
 Scenario slides_off_a_table() {
   constexpr double step = 0x1p-10, start = 1.25 - 0x1p-5 - step / 2;
+  constexpr int frames = 48;  // 15 of them beyond the border
   std::vector<Pose> poses;
   Expectation e = gap_is(-depth, 0, Vec3::UnitZ(), "2^-6 below the top; off the table beyond x = 1.25");
-  for (int k = 0; k < 48; ++k) {
+  for (int k = 0; k < frames; ++k) {
     poses.push_back(at(start + k * step, 0, 0.25 - depth));
     e.pairs_at_query.push_back(k <= 32 ? std::vector<BodyPair>{{0, 1}} : std::vector<BodyPair>{});
   }
@@ -38,9 +39,10 @@ Scenario slides_off_a_table() {
 
 // Four normals are equally good in every frame, so that none has a reason to change.
 Scenario cube_in_a_shaft() {
+  constexpr int frames = 12;  // short of the end of the shaft
   std::vector<Pose> poses;
-  poses.reserve(12);
-  for (int k = 0; k < 12; ++k) poses.push_back(at(0, 0, k / 16.0));
+  poses.reserve(frames);
+  for (int k = 0; k < frames; ++k) poses.push_back(at(0, 0, k / 16.0));
   return in_frames("cube_in_a_shaft", "four best normals tie in every frame; an engine should keep one",
                    {Box{Vec3(1, 1, 4)}, {}, {}}, {Box{Vec3(0.5, 0.5, 0.5)}, {}, {}}, poses,
                    gap_is(-1.5, 0, Vec3::UnitX(), "half widths 1 + 0.5 along x and y, both signs"));
