@@ -107,7 +107,7 @@ class Carried {
 void place_parts(const XmlElement& e, const std::vector<Vec3>& v, const Vec3& offset, MjcfCable& cable) {
   std::vector<Vec3> direction;
   for (std::size_t i = 0; i + 1 < v.size(); ++i) {
-    const Vec3 edge = v[i + 1] - v[i];
+    const Vec3 edge = (v[i + 1].cast<float>() - v[i].cast<float>()).cast<double>();  // in floats, as MuJoCo
     const double length = edge.norm();
     if (!(length > 0) || !std::isfinite(length))
       e.fail("two vertices that follow each other are equal or too far apart");
