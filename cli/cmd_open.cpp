@@ -162,11 +162,16 @@ Listing listing_of(const fs::path& directory) {
   return listing;
 }
 
+// `directory` is absolute.
+fs::path relative_to(const fs::path& directory, const fs::path& file) {
+  return fs::absolute(file).lexically_normal().lexically_proximate(directory);
+}
+
 // A relative address: every byte that is not plain is escaped, so no name can be an address of another kind.
 std::string address_of(const fs::path& file, const fs::path& from) {
   static constexpr std::string_view hex = "0123456789ABCDEF", plain = "-_.~/";
   std::string address = "./";
-  for (const char c : file.lexically_proximate(from).generic_string()) {
+  for (const char c : relative_to(from, file).generic_string()) {
     const auto byte = static_cast<unsigned char>(c);
     const bool is_letter =
         (byte >= '0' && byte <= '9') || (byte >= 'a' && byte <= 'z') || (byte >= 'A' && byte <= 'Z');
@@ -186,8 +191,7 @@ ordered_json page_of(const Listing& listing, const OpenOptions& o, const fs::pat
   ordered_json results = ordered_json::array(), unreadable = ordered_json::array();
   const auto link = [&](const fs::path& file) -> ordered_json {
     if (file.empty()) return nullptr;
-    return {{"name", file.lexically_proximate(root).string()},
-            {"address", address_of(file, out.parent_path())}};
+    return {{"name", relative_to(root, file).string()}, {"address", address_of(file, out.parent_path())}};
   };
   for (const Result& r : listing.results)
     results.push_back({{"kind", r.line.kind},
