@@ -6,7 +6,6 @@
 #include <set>
 
 #include "fuzz/causes/assembly.h"
-#include "fuzz/causes/cross_ask.h"
 #include "fuzz/causes/evidence_of_cause.h"
 #include "fuzz/causes/order.h"
 #include "fuzz/causes/rates.h"

@@ -28,7 +28,7 @@ struct CausesConfig {
   std::optional<double> minutes;    // from then on, no further representative is examined
   const std::atomic<bool>* stop = nullptr;
   std::function<void(std::size_t done, std::size_t of)> progress;
-  /// Given the causes before engines are asked about each other's cases (cross_ask.h); for measurements.
+  /// Given the causes before engines are asked about each other's cases (told_apart); for measurements.
   std::function<void(const Causes&)> before_cross_asking;
 };
 

@@ -1,10 +1,12 @@
-#include "fuzz/causes/cross_ask.h"
-
+// Which engines of one path are right about each other's cases.
 #include <algorithm>
 #include <cmath>
 #include <map>
 #include <string>
 #include <utility>
+
+#include "fuzz/causes/group.h"
+#include "fuzz/causes/respond.h"
 
 namespace touchstone::fuzz {
 namespace {

@@ -8,7 +8,6 @@
 #include "fuzz/causes/intervention.h"
 #include "fuzz/causes/interventions/true_pair.h"
 #include "fuzz/causes/plain_cases.h"
-#include "fuzz/causes/plain_scenes.h"
 
 namespace touchstone::fuzz {
 namespace {

@@ -1,7 +1,6 @@
 #include "fuzz/causes/plain_cases.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <optional>
 #include <utility>
@@ -83,8 +82,8 @@ constexpr double shares[] = {0.5, 0x1p-8, 0x1p-20, 0x1p-40};
 
 // What else a fault may need: another direction or place, bodies of two sizes, turned, or one in the other.
 struct Arrangement {
-  std::array<double, 3> towards = {1, 0, 0};  // from the first body to the second
-  std::array<double, 3> at = {0, 0, 0};       // the first body
+  Numbers towards = {1, 0, 0};  // from the first body to the second
+  Numbers at = {0, 0, 0};       // the first body
   double size_a = 1, size_b = 1;
   bool turned_a = false, turned_b = false;
   bool is_inside = false;  // the second body, not quite at the centre of the first
@@ -109,7 +108,6 @@ constexpr Arrangement arrangements[] = {
     {.at = {16, 32, 64}, .size_a = 4, .is_inside = true},
 };
 
-Vec3 vec3(const std::array<double, 3>& v) { return {v[0], v[1], v[2]}; }
 PlainPair sized(const PlainPair& p, double first, double second) {
   PlainPair r = p;
   change_numbers(r.first, [first](auto& v, Domain) { v *= first; });

@@ -1,14 +1,16 @@
-#include "fuzz/causes/plain_scenes.h"
+// Plain cases of whole scenes.
+#include "fuzz/causes/plain_cases.h"
 
-#include <array>
 #include <cmath>
 #include <string_view>
+
+#include "fuzz/causes/plain_shapes.h"
 
 namespace touchstone::fuzz {
 namespace {
 
-constexpr double spacing = 1.5;   // of bodies of half extent 1: neighbours overlap by a half
-constexpr double far_away = 100;  // where a body touches no other
+constexpr double spacing = 1.5;    // of bodies of half extent 1: neighbours overlap by a half
+constexpr double elsewhere = 100;  // where a body touches no other
 
 Case row_of(const Case& c, const Shape& shape, int bodies) {
   Case r = c;
@@ -56,7 +58,7 @@ Scene with_script(Scene s, std::string_view text) {
       append(s, Step::Op::remove, body, 0);
       is_present[static_cast<std::size_t>(body)] = false;
     } else {
-      append(s, Step::Op::move, body, x == '>' ? far_away : x == '~' ? little : 0);
+      append(s, Step::Op::move, body, x == '>' ? elsewhere : x == '~' ? little : 0);
     }
   }
   return s;
@@ -65,8 +67,8 @@ Scene with_script(Scene s, std::string_view text) {
 // What else a fault of a scene at rest may need.
 struct Layout {
   int bodies = 2;
-  std::array<double, 3> step = {spacing, 0, 0};  // from each body to the next
-  std::array<double, 3> at = {0, 0, 0};          // the first body
+  Numbers step = {spacing, 0, 0};  // from each body to the next
+  Numbers at = {0, 0, 0};          // the first body
   double size_of_first = 1;
   int static_body = -1;
   bool turned = false, in_groups = false, ignores_ends = false, on_plane = false;
@@ -91,13 +93,13 @@ constexpr Layout layouts[] = {
     {.in_groups = true},
     {.bodies = 3, .ignores_ends = true},
     {.on_plane = true},
+    {.bodies = 3, .step = {0.5, 0, 0}},
     {.bodies = 4},
     {.bodies = 9},
+    {.bodies = 9, .step = {0.75, 0, 0}},
     {.bodies = 9, .step = {0.125, 0, 0}},
     {.bodies = 36},
 };
-
-Vec3 vec3(const std::array<double, 3>& v) { return {v[0], v[1], v[2]}; }
 
 Case laid_out(const Case& c, const Shape& shape, const Layout& how) {
   Case r = row_of(c, shape, how.bodies);
@@ -125,7 +127,7 @@ Case laid_out(const Case& c, const Shape& shape, const Layout& how) {
 
 // How the second body reaches the first, which is at the origin.
 struct Journey {
-  std::array<double, 3> from = {8, 0, 0}, way = {-6.5, 0, 0};
+  Numbers from = {8, 0, 0}, way = {-6.5, 0, 0};
   double turn = 0;           // about z
   bool first_moves = false;  // in place of the second, the other way
 };

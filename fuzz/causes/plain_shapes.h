@@ -1,6 +1,7 @@
 // The shapes of plain cases, the plainest first: spheres and cubes, then the kinds that a case has.
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "core/shape/shape.h"
@@ -12,9 +13,14 @@ namespace touchstone::fuzz {
 struct PlainPair {
   Shape first, second;
   double reach_first = 1, reach_second = 1;
-  /// Both are spheres or cubes: then the bodies are `gap` apart when placed by their reaches, to the last bit.
+  /// Both are spheres or cubes: then the bodies are `gap` apart when placed by their reaches, to the last
+  /// bit.
   bool is_exact = true;
 };
+
+/// For tables of cases, which are constants.
+using Numbers = std::array<double, 3>;
+inline Vec3 vec3(const Numbers& v) { return {v[0], v[1], v[2]}; }
 
 /// Spheres and cubes of half extent 1.
 std::vector<PlainPair> common_pairs();

@@ -8,7 +8,6 @@
 #include "fuzz/campaign/campaign.h"
 #include "fuzz/causes/assembly.h"
 #include "fuzz/causes/causes.h"
-#include "fuzz/causes/cross_ask.h"
 #include "fuzz/causes/intervention.h"
 #include "fuzz/causes/kept.h"
 #include "fuzz/causes/name.h"

@@ -8,10 +8,10 @@
 // one lie from another. The score compares causes with lies: the adjusted Rand index over findings (Hubert
 // and Arabie 1985), causes per lie, and how many lies the first 1.5·N causes show, for N lies, in the order
 // in which causes are to be read. Half of the lies, by a hash of their names, is held out from tuning; both
-// halves are printed. Every figure is printed twice: before and after the engines are asked about each other's
-// cases (cross_ask.h). The second says more than one engine with all lies could tell: every lie has an engine
-// of its own, which is right where only the others lie. --bound repeats the score with lies that no answer tells apart
-// (equal_lies.h) counted as one.
+// halves are printed. Every figure is printed twice: before and after the engines are asked about each
+// other's cases (told_apart). The second says more than one engine with all lies could tell: every lie has an
+// engine of its own, which is right where only the others lie. --bound repeats the score with lies that no
+// answer tells apart (equal_lies.h) counted as one.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>

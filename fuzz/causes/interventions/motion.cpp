@@ -134,6 +134,37 @@ std::optional<Case> stop_turning_b(const Case& c) { return without_turning(c, tr
 std::optional<Case> let_a_turn(const Case& c) { return with_body_turning(c, false); }
 std::optional<Case> let_b_turn(const Case& c) { return with_body_turning(c, true); }
 
+namespace {
+
+bool is_about_sweep(const Case& c) {
+  return !c.queries.empty() && c.queries[0].question == Question::swept_candidates;
+}
+
+}  // namespace
+
+std::optional<Case> travel_twice_as_far(const Case& c) {
+  if (!is_about_sweep(c)) return std::nullopt;
+  Case r = c;
+  for (Body& b : r.scene.bodies)
+    if (b.motion) b.motion->linear *= 2;
+  return r;
+}
+
+std::optional<Case> as_turning_bar(const Case& c) {
+  if (!is_about_sweep(c)) return std::nullopt;
+  Case r = c;
+  r.scene.shapes = {Box{Vec3::Ones()}, Box{Vec3(4, 0.25, 0.25)}};
+  r.scene.bodies = {Body{}, Body{}};
+  r.queries.resize(1);
+  r.scene.script.clear();
+  r.scene.ignored.clear();
+  Body& bar = r.scene.bodies[1];
+  bar.shape = 1;
+  bar.pose.translation.y() = 3;
+  bar.motion = Motion{Vec3::Zero(), Vec3(0, 0, 1.5)};  // by nearly a quarter turn
+  return r;
+}
+
 std::optional<Case> release_static(const Case& c) {
   Case r = c;
   bool any = false;
