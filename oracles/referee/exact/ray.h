@@ -35,9 +35,9 @@ class Ray {
   static std::optional<Ray> past(const Placed& body, const Rational3& start, const Rational3& velocity);
 
   struct Meeting {
-    double lo = 0, hi = 0;  // neighbouring doubles, or 0 and 0, that enclose the first common t
-    std::optional<Rational>
-        contact;  // a t in [lo, 1] at which the point is in the body; the first if rational
+    double lo = 0, hi = 0;            // neighbouring doubles, or 0 and 0, that enclose the first common t
+    std::optional<Rational> contact;  // a t in [lo, 1] at which the point is in the body; the first if
+                                      // rational; none for a flat ellipsoid
   };
   /// nullopt: the point is never in the body.
   std::optional<Meeting> first_meeting() const;
@@ -53,6 +53,7 @@ class Ray {
   Ray() = default;
   /// Polynomials in t, none negative exactly where the point is in the body and t in [0,1].
   std::vector<Quadratic> limits() const;
+  bool is_flat_ellipsoid() const;
   bool is_inside(const QuadraticRoot& t) const;
   Rational3 local_at(const Rational& t) const { return local_start_ + t * local_velocity_; }
   Rational support_above(const Rational3& local) const;
