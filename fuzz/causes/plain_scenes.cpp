@@ -42,7 +42,7 @@ void append(Scene& s, Step::Op op, int body, double away) {
 }
 
 Scene with_script(Scene s, std::string_view text) {
-  constexpr double little = 0x1p-12;
+  constexpr double little = 0x1p-12;  // of the bodies' size: a small move, exact in doubles and floats
   int body = 0;
   std::vector<bool> is_present(s.bodies.size(), false);
   for (const char x : text) {
@@ -73,7 +73,7 @@ struct Layout {
   int static_body = -1;
   bool turned = false, in_groups = false, ignores_ends = false, on_plane = false;
 };
-constexpr double almost_touching = 2 - 0x1p-40;
+constexpr double almost_touching = 2 - 0x1p-40;  // of unit half extents: an overlap that only doubles hold
 constexpr Layout layouts[] = {
     {},
     {.bodies = 3},
