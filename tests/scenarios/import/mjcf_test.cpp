@@ -1,6 +1,7 @@
 // MJCF's elements that make many: replicas, attachments, chains; against poses that MuJoCo 3.14 computed
 // (mujoco_poses.mjs), and what is refused.
 #include <fstream>
+#include <limits>
 #include <sstream>
 
 #include "scenarios/codec/scene_codec.h"
