@@ -1,6 +1,7 @@
 // Asks about numbered pairs in a child process, so that a pair that never ends cannot stop a run.
 #pragma once
 
+#include <atomic>
 #include <cstdint>
 #include <functional>
 #include <string>
@@ -17,10 +18,11 @@ struct Count {
   std::uint64_t referee_lost = 0;  // the same of the referee, or of the making of a pair
 };
 
-/// What the child has done. It lies in memory that parent and child share.
+/// What the child has done. It lies in memory that parent and child share; the parent reads it when the child
+/// has been stopped anywhere, hence atomic.
 struct Progress {
-  std::uint64_t next = 0;
-  Stage stage = Stage::preparing;
+  std::atomic<std::uint64_t> next = 0;
+  std::atomic<Stage> stage = Stage::preparing;
   Count count;
 };
 
