@@ -8,6 +8,7 @@
 #include <sys/resource.h>
 #include <sys/time.h>
 #include <unistd.h>
+#include <algorithm>
 
 #include <array>
 #include <csignal>
@@ -165,6 +166,18 @@ struct Good {
   bool is_included = false;  // then what it lacks may be noticed in the file that is imported
 };
 
+// The files that the good text includes or attaches: what is damaged may contradict one of them, and be
+// noticed there.
+std::vector<std::string> files_named_in(const std::string& text) {
+  static constexpr std::string_view before = "file=\"";
+  std::vector<std::string> files;
+  for (std::size_t at = text.find(before); at != std::string::npos; at = text.find(before, at + 1)) {
+    const std::size_t from = at + before.size();
+    files.push_back(text.substr(from, text.find('"', from) - from));
+  }
+  return files;
+}
+
 std::string said_about(const Good& g, const fs::path& folder) try {
   const ImportedModel m = import_model(folder / g.model, g.options);
   const Scene scene = scene_of(m);
@@ -173,7 +186,8 @@ std::string said_about(const Good& g, const fs::path& folder) try {
   const auto names = [&](const std::string& file) {
     return std::string(e.what()).find(file) != std::string::npos;
   };
-  const bool says_where = names(g.damaged) || (g.is_included && names(g.model));
+  const bool says_where = names(g.damaged) || (g.is_included && names(g.model)) ||
+                          std::ranges::any_of(files_named_in(g.text), names);
   return says_where && !e.reason().empty() ? ""
                                            : std::string("the error does not name the file: ") + e.what();
 }
