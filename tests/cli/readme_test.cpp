@@ -92,8 +92,11 @@ std::string for_test(std::string c) {
   c = std::regex_replace(c, std::regex("-o (page|broad).html"), "-o " TS_BINARY_DIR "/readme-$1.html");
   // With all engines each takes a minute; the core is enough to show that the line works.
   if (c.find(" chart ") != std::string::npos) c += " --engines core --broad grid --measure 0";
-  if (c.find(" stability ") != std::string::npos) c += " --engines core --ladder gap";
-  c = std::regex_replace(c, std::regex("out/(chart|stability)"), TS_BINARY_DIR "/readme-$1");
+  if (c.find(" stability ") != std::string::npos) {
+    c = std::regex_replace(c, std::regex(" --engines [^ ]+"), "") + " --engines core";
+    if (c.find(" --motion") == std::string::npos) c += " --ladder gap";
+  }
+  c = std::regex_replace(c, std::regex("out/(chart|stability|motions)"), TS_BINARY_DIR "/readme-$1");
   c = std::regex_replace(c, std::regex("out/arm.json"), TS_BINARY_DIR "/readme-arm.json");
   c = std::regex_replace(c, std::regex("out/core.json"), TS_BINARY_DIR "/readme-fingerprint.json");
   if (c.find(" fingerprint ") != std::string::npos) c += " --cases 300";

@@ -36,15 +36,18 @@ void take_witness(ConvexTruth& t, const Difference& d, const Simplex& s) {
   t.witness_b = t.witness_b - static_cast<Real>(d.b.radius) * t.normal;
 }
 
-// `known`: a bracket of the same gap, which parts of curved bodies may narrow. If rounded signs stall or hit
-// the cap, and the bracket is still open, retries with exact ones and four times as many facets.
-EpaResult grow(const Difference& d, const GjkResult& g, Real target, int cap, CoreGap& known) {
+// `known`: a bracket of the same gap, which parts of curved bodies may narrow; with `for_certificate` the
+// polytope has to prove it by itself. If rounded signs stall or hit the cap, and the bracket is still open,
+// retries with exact ones and four times as many facets.
+EpaResult grow(const Difference& d, const GjkResult& g, Real target, int cap, CoreGap& known,
+               bool for_certificate) {
   EpaResult e = expand(d, g.simplex, target, cap, Orientation::rounded);
   known.raise(e.gap.lo, e.gap.direction);
   known.lower(e.gap.hi);
   if (e.exit == EpaResult::Exit::flat || known.hi - known.lo <= 8 * target) return e;
   if (known.lo < 0 && (is_curved(d.a) || is_curved(d.b))) bound_by_parts(d, e.nearest, target, known);
-  if (known.hi - known.lo <= 8 * target) return e;
+  const bool is_open = for_certificate ? known.hi < e.gap.hi : known.hi - known.lo > 8 * target;
+  if (!is_open) return e;
   ++counters().exact_expansions;
   EpaResult f = expand(d, g.simplex, target, 4 * cap, Orientation::exact);
   f.gap.raise(e.gap.lo, e.gap.direction);
@@ -275,7 +278,7 @@ class Judge {
       return settle();
     }
     CoreGap known = gap_;
-    EpaResult e = grow(d_, gjk_, target_, cap, known);
+    EpaResult e = grow(d_, gjk_, target_, cap, known, effort_ == Effort::certificate);
     take(e.gap, e.nearest);
     take(known, e.nearest);
     if (e.gap.hi < 0 && effort_ == Effort::certificate) {
