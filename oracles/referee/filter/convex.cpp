@@ -44,10 +44,12 @@ EpaResult grow(const Difference& d, const GjkResult& g, Real target, int cap, Co
   EpaResult e = expand(d, g.simplex, target, cap, Orientation::rounded);
   known.raise(e.gap.lo, e.gap.direction);
   known.lower(e.gap.hi);
-  if (e.exit == EpaResult::Exit::flat || known.hi - known.lo <= 8 * target) return e;
+  const auto is_closed = [&] {
+    return (for_certificate ? std::min(e.gap.hi, g.gap.hi) : known.hi) - known.lo <= 8 * target;
+  };
+  if (e.exit == EpaResult::Exit::flat || is_closed()) return e;
   if (known.lo < 0 && (is_curved(d.a) || is_curved(d.b))) bound_by_parts(d, e.nearest, target, known);
-  const bool is_open = for_certificate ? known.hi < e.gap.hi : known.hi - known.lo > 8 * target;
-  if (!is_open) return e;
+  if (is_closed()) return e;
   ++counters().exact_expansions;
   EpaResult f = expand(d, g.simplex, target, 4 * cap, Orientation::exact);
   f.gap.raise(e.gap.lo, e.gap.direction);
