@@ -14,6 +14,7 @@
 #include "reports/stability/stability.h"
 #include "reports/text/record_text.h"
 #include "reports/text/text.h"
+#include "scenarios/codec/case_codec.h"
 #include "scenarios/codec/json_file.h"
 #include "scenarios/random/motions.h"
 
@@ -102,8 +103,20 @@ void write_motions(const fuzz::Motions& m, const std::string& file, bool as_json
   const std::string json = fuzz::to_json(m).dump();
   write_file(file + ".json", json);
   write_file(file + ".csv", fuzz::to_csv(m));
+  if (!m.cases.empty()) fuzz::make_directory(file);
+  for (const Case& c : m.cases) {
+    std::string name = c.id;
+    std::replace(name.begin(), name.end(), '/', '-');
+    save_case({c, "", "touchstone stability --motions", {}}, fmt::format("{}/{}.json", file, name));
+  }
   fmt::print("{}\n", as_json ? json : reports::motions_text(m));
-  fmt::print(as_json ? stderr : stdout, "{0}.json, {0}.csv\n", file);
+  std::FILE* const to = as_json ? stderr : stdout;
+  fmt::print(to, "{0}.json, {0}.csv\n", file);
+  if (!m.cases.empty())
+    fmt::print(to,
+               "{0}/*.json: the motions named above; follow one with `touchstone stability --motion FILE`,\n"
+               "ask a frame of a wrong answer again with `touchstone replay FILE`\n",
+               file);
 }
 
 bool is_motion_row(const std::string& name) {

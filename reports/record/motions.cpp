@@ -1,5 +1,7 @@
 #include "reports/record/motions.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <numeric>
 
@@ -43,6 +45,12 @@ std::uint64_t MotionResult::flicker_sum() const {
 
 double MotionResult::score() const {
   return changes == 0 ? 0 : 1000 * static_cast<double>(flicker_sum()) / static_cast<double>(changes);
+}
+
+std::vector<std::string> case_ids(const MotionEvidence& e) {
+  if (e.kind == switch_evidence) return {};
+  if (e.kind != wrong_evidence) return {e.motion};
+  return {e.motion, fmt::format("{}/frame/{}", e.motion, e.frame)};
 }
 
 void keep(std::vector<MotionEvidence>& list, MotionEvidence e) {

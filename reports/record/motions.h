@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "reports/record/observation_json.h"
+#include "scenarios/value/case.h"
 #include "scenarios/value/flicker.h"
 
 namespace touchstone::fuzz {
@@ -53,7 +54,12 @@ struct Motions {
   int count = 0, frames = 0;  // motions a row, frames a motion
   std::vector<Row> rows;
   std::vector<MotionResult> results;
+  std::vector<Case> cases;  // the motions, and the single frames with wrong answers, that evidence names
 };
+
+/// Ids of the cases that show it: the motion, and for a wrong answer its frame alone. None for a change that
+/// the truth makes too.
+std::vector<std::string> case_ids(const MotionEvidence& e);
 
 /// Evidence is kept up to this many of a kind.
 inline constexpr std::size_t most_evidence_of_a_kind = 3;

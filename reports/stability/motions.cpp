@@ -138,6 +138,26 @@ Case make_motion(const MotionRow& row, std::size_t number, const MotionPlan& pla
   return c;
 }
 
+bool is_named(const std::vector<MotionResult>& results, const std::string& id) {
+  return std::any_of(results.begin(), results.end(), [&](const MotionResult& r) {
+    return std::any_of(r.evidence.begin(), r.evidence.end(), [&](const MotionEvidence& e) {
+      const auto ids = case_ids(e);
+      return std::find(ids.begin(), ids.end(), id) != ids.end();
+    });
+  });
+}
+
+// The motion and those of its frames that evidence names.
+void keep_cases(std::vector<Case>& cases, const Case& motion, const std::vector<MotionResult>& results) {
+  if (!is_named(results, motion.id)) return;
+  cases.push_back(motion);
+  std::vector<Case> frames = frames_of(motion);
+  for (std::size_t k = 0; k < frames.size(); ++k) {
+    frames[k].id = fmt::format("{}/frame/{}", motion.id, k);
+    if (is_named(results, frames[k].id)) cases.push_back(std::move(frames[k]));
+  }
+}
+
 }  // namespace
 
 std::vector<MotionResult> follow(const Case& motion, std::span<const EnginePtr> engines, const Forget& forget,
@@ -162,12 +182,14 @@ Motions follow_all(const MotionPlan& plan, std::span<const EnginePtr> engines, c
     std::vector<MotionResult> results(engines.size());
     for (int i = 0; i < plan.count; ++i) {
       if (progress) progress(fmt::format("{}: motion {} of {}", row.name, i + 1, plan.count));
-      const auto of_motion = follow(make_motion(row, number, plan, i), engines, forget, i % state_every == 0);
+      const Case motion = make_motion(row, number, plan, i);
+      const auto of_motion = follow(motion, engines, forget, i % state_every == 0);
       for (std::size_t e = 0; e < results.size(); ++e) {
         results[e].motion = of_motion[e].motion;
         results[e].engine = of_motion[e].engine;
         results[e].merge(of_motion[e]);
       }
+      keep_cases(all.cases, motion, results);
     }
     all.results.insert(all.results.end(), results.begin(), results.end());
   }

@@ -176,7 +176,7 @@ class Epa : Polytope<Epa<R>, EpaTypes<R>> {
     f.n.normalize();
     const R aa = a.squaredNorm(), bb = b.squaredNorm(), cc = c.squaredNorm();
     f.plane = f.n.dot(aa <= bb && aa <= cc ? a : (bb <= cc ? b : c));
-    const auto near = nearest(f);
+    const auto near = nearest(f, V3<R>::Zero());
     const bool inside = near.size == 3;  // the origin projects into the triangle
     const R dist = sqrt(near.dist_sq);
     // Negative when the origin is beyond the plane: the surface does not (yet) enclose it.
@@ -184,9 +184,10 @@ class Epa : Polytope<Epa<R>, EpaTypes<R>> {
     f.support = probe(f.n, f.upper);
   }
 
-  Foot<R> nearest(const Facet& f) const {
+  // The point of the facet nearest to `to`, relative to it.
+  Foot<R> nearest(const Facet& f, const V3<R>& to) const {
     Simplex<R> s;
-    for (std::size_t k = 0; k < 3; ++k) s.p[k].w = w(f.v[k]);
+    for (std::size_t k = 0; k < 3; ++k) s.p[k].w = w(f.v[k]) - to;
     Foot<R> foot;
     narrow::detail::take_triangle<true>(s, 0, 1, 2, foot);
     return foot;
@@ -201,9 +202,13 @@ class Epa : Polytope<Epa<R>, EpaTypes<R>> {
     return heap_.empty() ? -1 : heap_.top().second;
   }
 
+  V3<R> end_of_ray() const { return -result_.upper * result_.normal; }
+
   void set_witness(const Facet& x) {
-    Foot<R> near = nearest(x);
-    if (near.size == 3) refine_weights<R>(w(x.v[0]), w(x.v[1]), w(x.v[2]), near.point, near.weight.data());
+    const V3<R> end = end_of_ray();
+    Foot<R> near = nearest(x, end);
+    if (near.size == 3)
+      refine_weights<R>(w(x.v[0]) - end, w(x.v[1]) - end, w(x.v[2]) - end, near.point, near.weight.data());
     result_.a.setZero();
     result_.b.setZero();
     for (std::size_t i = 0; i < static_cast<std::size_t>(near.size); ++i) {
@@ -214,15 +219,15 @@ class Epa : Polytope<Epa<R>, EpaTypes<R>> {
   }
 
   // The ball of radius `lower` lies in the surface, and `upper` bounds it along the outward direction: the
-  // ray of that direction leaves it through a facet whose foot is its end up to the root of tolerance ·
-  // length. Other facets may be as near: those of another direction of the same depth, and of the same plane
-  // beside it. Facet `first` is tried first.
+  // ray of that direction leaves it between the two. Its point there, and not the foot of the facet, is the
+  // pair of points that differ along that direction. Other facets may be as near as the one of the ray: those
+  // of another direction of the same depth, and of the same plane beside it. Facet `first` is tried first.
   int facet_of_ray(int first) const {
-    const V3<R> end = -result_.upper * result_.normal;
-    const auto apart = [&](int i) { return R((nearest(facet(i)).point - end).squaredNorm()); };
+    const V3<R> end = end_of_ray();
+    const auto apart = [&](int i) { return nearest(facet(i), end).dist_sq; };
     int best = first;
     R least = apart(first);
-    for (int i = 0; i < facet_count() && !(least <= 2 * tolerance_ * (result_.upper + tolerance_)); ++i) {
+    for (int i = 0; i < facet_count() && !(least <= tolerance_ * tolerance_); ++i) {
       if (!facet(i).alive) continue;
       if (const R d = apart(i); d < least) {
         least = d;

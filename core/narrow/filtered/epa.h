@@ -120,7 +120,7 @@ class Expander : Polytope<Expander<R>, ExpanderTypes<R>> {
 
   // Returns true if the ranks have changed.
   bool settle(int f) {
-    const Foot<R> foot = foot_of(f);
+    const Foot<R> foot = nearest(f, V3<R>::Zero());
     std::array<Vertex<R>, 3> corner;
     std::array<R, 3> weight{};
     for (std::size_t k = 0; k < 3; ++k) {
@@ -255,9 +255,10 @@ class Expander : Polytope<Expander<R>, ExpanderTypes<R>> {
 
   // ---- end
 
-  Foot<R> foot_of(int f) const {
+  // The point of the facet nearest to `end`, relative to it.
+  Foot<R> nearest(int f, const V3<R>& end) const {
     Simplex<R> s;
-    for (std::size_t k = 0; k < 3; ++k) s.p[k].w = w(facet(f).v[k]);
+    for (std::size_t k = 0; k < 3; ++k) s.p[k].w = w(facet(f).v[k]) - end;
     s.size = 3;
     Foot<R> foot;
     narrow::detail::take_triangle<false>(s, 0, 1, 2, foot);
@@ -269,18 +270,17 @@ class Expander : Polytope<Expander<R>, ExpanderTypes<R>> {
     result_.vertices = vertex_count();
     if (f < 0) return result_;
     // The ball of radius `lower` lies in the surface, and `upper` bounds it along `outward`: the ray of that
-    // direction leaves it through a facet whose foot is its end up to the root of tolerance · length. Other
-    // facets may be as near: those of another direction of the same depth, and of the same plane beside it.
+    // direction leaves it between the two, through a facet that is no farther than `upper`. Its point there,
+    // and not its foot, is the pair of points that differ along `outward`. Other facets may be as near: those
+    // of another direction of the same depth, and of the same plane beside it.
     const V3<R> end_of_ray = result_.upper * result_.outward;
     const R enough = result_.upper + tolerance_;
-    Foot<R> best = foot_of(f);
-    R apart = (best.point - end_of_ray).squaredNorm();
+    Foot<R> best = nearest(f, end_of_ray);
     int where = f;
-    for (int i = 0; i < facet_count() && !(apart <= 2 * tolerance_ * enough); ++i)
+    for (int i = 0; i < facet_count() && !(best.dist_sq <= tolerance_ * tolerance_); ++i)
       if (key_[i] <= enough)
-        if (const Foot<R> foot = foot_of(i); (foot.point - end_of_ray).squaredNorm() < apart) {
+        if (const Foot<R> foot = nearest(i, end_of_ray); foot.dist_sq < best.dist_sq) {
           best = foot;
-          apart = (foot.point - end_of_ray).squaredNorm();
           where = i;
         }
     result_.w.setZero();
