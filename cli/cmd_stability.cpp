@@ -115,7 +115,7 @@ void write_motions(const fuzz::Motions& m, const std::string& file, bool as_json
   if (!m.cases.empty())
     fmt::print(to,
                "{0}/*.json: the motions named above; follow one with `touchstone stability --motion FILE`,\n"
-               "ask a frame of a wrong answer again with `touchstone replay FILE`\n",
+               "ask a frame alone with `touchstone replay FILE`\n",
                file);
 }
 

@@ -46,10 +46,15 @@ inline constexpr double narrow_accept_factor = 0x1p-50;
 inline constexpr double manifold_face_factor = 0x1p-50;
 
 /// Faces and edges of which all corners are within this · size of the support planes, and within half the
-/// depth each, belong to the contact, each point with its own depth: about what the rounding of a pose to
-/// float tilts them. Also the distance across the contact within which rounded edges count as parallel.
+/// depth each, belong to the contact, each point with its own depth: the tilts, about 1e-3, at which a stack
+/// comes to rest. With less, the contact jumps from corner to corner as the stack rocks.
 /// Tested by: tests/core "nearly parallel faces and edges have a whole contact".
-inline constexpr double manifold_region_factor = 0x1p-20;
+inline constexpr double manifold_region_factor = 0x1p-10;
+
+/// Rounded edges that are within this · size of each other across the contact count as parallel: about what
+/// the rounding of a pose to float moves them.
+/// Tested by: tests/core "nearly parallel faces and edges have a whole contact".
+inline constexpr double manifold_beside_factor = 0x1p-20;
 
 /// Squared sine of an angle below which two segments, edges or axes count as parallel: a direction computed
 /// from both loses up to half of its digits there, so it is found in another way. A pure number. Tested by:

@@ -49,8 +49,10 @@ double MotionResult::score() const {
 
 std::vector<std::string> case_ids(const MotionEvidence& e) {
   if (e.kind == switch_evidence) return {};
-  if (e.kind != wrong_evidence) return {e.motion};
-  return {e.motion, fmt::format("{}/frame/{}", e.motion, e.frame)};
+  const auto frame = [&](int k) { return fmt::format("{}/frame/{}", e.motion, k); };
+  if (e.kind == wrong_evidence) return {e.motion, frame(e.frame)};
+  if (e.kind == state_evidence) return {e.motion};
+  return {e.motion, frame(e.frame - 1), frame(e.frame)};
 }
 
 void keep(std::vector<MotionEvidence>& list, MotionEvidence e) {

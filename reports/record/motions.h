@@ -57,8 +57,8 @@ struct Motions {
   std::vector<Case> cases;  // the motions, and the single frames with wrong answers, that evidence names
 };
 
-/// Ids of the cases that show it: the motion, and for a wrong answer its frame alone. None for a change that
-/// the truth makes too.
+/// Ids of the cases that show it: the motion, and the frame of a wrong answer or both frames of a flicker
+/// alone. None for a change that the truth makes too.
 std::vector<std::string> case_ids(const MotionEvidence& e);
 
 /// Evidence is kept up to this many of a kind.

@@ -95,6 +95,7 @@ class LocalMinimum {
     r.outward = m_;
     r.a = placed_[0].p;
     r.w = w_;
+    level_points(r);
     const V3<R> x = m_.unitOrthogonal(), y = m_.cross(x), q = d_.support(-m_).w;
     const R far = -q.dot(m_), off = (q + far * m_).squaredNorm(), d = upper_;
     if (!(far > d + slight_)) return r;
@@ -340,6 +341,26 @@ class LocalMinimum {
     rest_.setZero();
     reach_[i] = ask(i, [&](const auto& core) { return core.face_margin(feature_[i], p); });
     return reach_[i] > 0 ? Verdict::confirmed : Verdict::refuted;
+  }
+
+  // Close to its axis, a rim's point turns with the direction so much that what Newton's last step leaves of m
+  // moves it along the rim. Moves the points along their edges and rims until they differ along m only; not by
+  // so much that the bend of a rim, the move's square over twice the radius, counts.
+  void level_points(LocalDepth<R>& r) const {
+    V3<R> t[2];
+    for (int i = 0; i < 2; ++i)
+      t[i] = out(i, feature_[i].kind == FeatureKind::edge ? feature_[i].e : placed_[i].t);
+    const R g = t[0].dot(t[1]), det = t[0].squaredNorm() * t[1].squaredNorm() - g * g;
+    const R p = rest_.dot(t[0]), q = rest_.dot(t[1]);
+    const bool two = det > R(tolerance::parallel_sine_sq);
+    if (!two && t[0].squaredNorm() > 0 && t[1].squaredNorm() > 0) return;
+    const R along[2] = {two ? (p - g * q) / det : p, two ? (q - g * p) / det : q};
+    for (int i = 0; i < 2; ++i)
+      if (feature_[i].kind != FeatureKind::edge &&
+          !(along[i] * along[i] <= level_ * convex::flat_length(placed_[i].p)))
+        return;
+    r.w += along[0] * t[0] + along[1] * t[1];
+    r.a -= along[0] * t[0];  // t[0] is of −A
   }
 
   // ---- the proof

@@ -175,7 +175,7 @@ Patch<R> contact_patch(const ConvexBody<R>& a, const ConvexBody<R>* b, const Rel
   Corners<R> near_a, near_b;
   show_a(near, near_a);
   show_b(near, near_b);
-  const R beside = static_cast<R>(tolerance::manifold_region_factor) * size;
+  const R beside = static_cast<R>(tolerance::manifold_beside_factor) * size;
   const Spots<R> spots = nearly_parallel_spots(near_a, near_b, a.radius, b->radius, tolerance, beside);
   // The first point is the deepest. It stays if it is a corner of the region, or if none of them is as deep.
   bool keeps_first = true;
