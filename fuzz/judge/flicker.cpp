@@ -224,16 +224,30 @@ bool keeps_corners(const referee::ContactRegion& was, const referee::ContactRegi
          was.vertices.size() == is.vertices.size();
 }
 
-// How far the corners of the contact region move, seen in each of the three ways: the most over the regions
-// that engines may mean, from what lies in one plane to all that lies deeper than the other body's plane.
-// Empty if one of these regions gets other corners.
-std::optional<std::array<double, 3>> moved_corners(const Pair& p) {
+// From what lies in one plane to all that lies deeper than the other body's plane, and just beyond each
+// stated point: one that comes or goes with a corner of the bodies is no flicker.
+std::vector<double> region_slacks(const Pair& p) {
   constexpr int levels = 8;
   const double least = referee::contact_slack_factor * p.scale();
   const double most = std::max(2 * least, p.deepest());
+  std::vector<double> slacks;
+  for (int i = 0; i < levels; ++i)
+    slacks.push_back(least * std::pow(most / least, static_cast<double>(i) / (levels - 1)));
+  for (const AnsweredFrame* f : {&p.before, &p.after}) {
+    if (!f->answer.depth) continue;
+    for (const ManifoldPoint& m : f->answer.manifold)
+      if (const double below = *f->answer.depth - m.depth; below > least && below < most)
+        slacks.push_back(below + least / 2);
+  }
+  return slacks;
+}
+
+// How far the corners of the contact region move, seen in each of the three ways: the most over the regions
+// that engines may mean.
+// Empty if one of these regions gets other corners.
+std::optional<std::array<double, 3>> moved_corners(const Pair& p) {
   std::array<double, 3> moved_most{};
-  for (int i = 0; i < levels; ++i) {
-    const double slack = least * std::pow(most / least, static_cast<double>(i) / (levels - 1));
+  for (const double slack : region_slacks(p)) {
     const referee::ContactRegion was = region(p, p.before, slack), is = region(p, p.after, slack);
     if (!keeps_corners(was, is)) return std::nullopt;
     for (std::size_t k = 0; k < moved_most.size(); ++k)

@@ -343,9 +343,9 @@ class LocalMinimum {
     return reach_[i] > 0 ? Verdict::confirmed : Verdict::refuted;
   }
 
-  // Close to its axis, a rim's point turns with the direction so much that what Newton's last step leaves of m
-  // moves it along the rim. Moves the points along their edges and rims until they differ along m only; not by
-  // so much that the bend of a rim, the move's square over twice the radius, counts.
+  // Close to its axis, a rim's point turns with the direction so much that what Newton's last step leaves of
+  // m moves it along the rim. Moves the points along their edges and rims until they differ along m only; not
+  // by so much that the bend of a rim, the move's square over twice the radius, counts.
   void level_points(LocalDepth<R>& r) const {
     V3<R> t[2];
     for (int i = 0; i < 2; ++i)

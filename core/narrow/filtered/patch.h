@@ -169,6 +169,11 @@ Patch<R> contact_patch(const ConvexBody<R>& a, const ConvexBody<R>* b, const Rel
     const Corner<R>& c = region[i * region.size / kept];
     add(c.x, c.y, by_a ? R(0) : c.below, by_a ? c.below : R(0), c.id);
   }
+  // Corners that represent a rim may all be less deep than the rim between them.
+  const auto less_deep = [&](const PatchPoint<R>& p) { return p.depth < depth - tolerance; };
+  if (middle && std::all_of(patch.point.begin(), patch.point.begin() + patch.size, less_deep) &&
+      patch.size < Patch<R>::capacity)
+    patch.point[static_cast<std::size_t>(patch.size++)] = {*middle, depth, 0};
   const R near = std::min<R>(depth / 2, static_cast<R>(tolerance::manifold_region_factor) * size);
   const bool has_face = !b || fa.size >= 3 || fb.size >= 3;
   if (has_face || patch.size > 1 || near <= tolerance) return patch;
