@@ -133,7 +133,7 @@ Run declare_assess(CLI::App& app) {
   app.add_option("robot", o->robot, "robot: " + importable_endings())->required();
   app.add_option("--world", o->world, "what stands around it, fixed: a file of the same kinds");
   add_import_options(app, o->import);
-  app.add_option("--samples", o->how.samples, "configurations drawn, unless there is a trajectory")
+  app.add_option("--samples", o->how.samples, "number of random configurations, if there is no trajectory")
       ->check(a_count())
       ->capture_default_str();
   app.add_option("--near", o->how.near, "pairs whose boxes are at most this far apart are asked, in metres")
@@ -143,12 +143,12 @@ Run declare_assess(CLI::App& app) {
                  "the advice takes the fastest engine whose distances are off by at most this, in metres")
       ->check(a_positive_number())
       ->capture_default_str();
-  app.add_option("--pairs", o->how.most_pairs, "at most so many pairs are asked, evenly spread")
+  app.add_option("--pairs", o->how.most_pairs, "largest number of pairs asked; they are spread evenly")
       ->check(a_count())
       ->capture_default_str();
   add_engine_choice(app, o->choice);
   app.add_option("--seed", o->how.seed, "same seed, same configurations and answers")->capture_default_str();
-  app.add_option("--jobs", o->how.jobs, "jobs side by side")
+  app.add_option("--jobs", o->how.jobs, "number of parallel jobs")
       ->check(CLI::Range(1, 1024))
       ->capture_default_str();
   app.add_option("-o,--out", o->out, "file for the whole result (JSON)");

@@ -144,7 +144,7 @@ Run declare_primitives(CLI::App& app) {
   app.add_option("path", run->paths,
                  "files of queries, or folders that hold them in folders vertex-face and edge-edge");
   app.add_option("--random", run->random, "also this many random queries")->check(a_count());
-  app.add_option("--seed", run->seed, "of the random queries");
+  app.add_option("--seed", run->seed, "seed of the random queries");
   app.add_option("--tolerance", run->tolerance,
                  "distance at which the core may call it a contact (default: none, exact)")
       ->check(a_positive_number());

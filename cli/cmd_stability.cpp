@@ -58,8 +58,8 @@ constexpr int quick_count = 4, full_count = 24;  // motions a row
 bool forget(Engine& e) {
   auto* const remote = dynamic_cast<RemoteEngine*>(&e);
   if (!remote) return false;
-  remote->put_aside("to forget what it was asked");
-  remote->take_back();
+  remote->suspend("to forget what it was asked");
+  remote->resume();
   return true;
 }
 

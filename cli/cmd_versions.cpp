@@ -167,7 +167,8 @@ Run declare_versions(CLI::App& app) {
   o->jobs = processor_count();
   app.add_option("engines", o->engines, "engines from npm, separated by commas: jolt,rapier")->required();
   app.add_option("--releases", o->releases,
-                 "how many, spread from the oldest to the newest: the newest patch of each minor release, or "
+                 "number of releases, spread from the oldest to the newest: the newest patch of each minor "
+                 "release, or "
                  "any if there "
                  "are fewer")
       ->check(CLI::Range(1, 1000))
@@ -176,7 +177,7 @@ Run declare_versions(CLI::App& app) {
   app.add_option("--causes", o->causes,
                  "causes.json of a campaign (default: a short campaign of these releases finds causes)");
   app.add_option("--cases", o->cases, "cases of the short campaign")->check(a_count())->capture_default_str();
-  app.add_option("--seed", o->seed, "of the short campaign")->capture_default_str();
+  app.add_option("--seed", o->seed, "seed of the short campaign")->capture_default_str();
   app.add_option("--jobs", o->jobs, "number of parallel jobs")
       ->check(CLI::Range(1, 1024))
       ->capture_default_str();

@@ -72,7 +72,7 @@ Run declare_view(CLI::App& app);
 inline constexpr auto commands = std::to_array<Command>({
     {"fuzz", "run a campaign of random, refereed cases", declare_fuzz, "Find what is wrong"},
     {"causes", "find the distinct causes behind a campaign's findings", declare_causes},
-    {"answer", "what is true of two shapes, and is your answer right?", declare_answer},
+    {"answer", "tell what is true of two shapes, and judge answers", declare_answer},
     {"replay", "show every engine's answer to stored cases", declare_replay},
     {"check", "verify a stored certificate in exact arithmetic", declare_check},
     {"corpus", "score engines on a corpus of hard cases; make or check it", declare_corpus},

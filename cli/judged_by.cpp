@@ -32,8 +32,8 @@ class JudgedBy final : public Engine {
     return claimed(engine_->run_again(cases), cases);
   }
   std::string set_aside() const override { return engine_->set_aside(); }
-  void take_back() override { engine_->take_back(); }
-  void put_aside(const std::string& why) override { engine_->put_aside(why); }
+  void resume() override { engine_->resume(); }
+  void suspend(const std::string& why) override { engine_->suspend(why); }
 
  private:
   std::vector<CaseObservations> claimed(std::vector<CaseObservations> all,

@@ -45,8 +45,8 @@ class KeepingEngine final : public Engine {
   std::vector<CaseObservations> run(std::span<const Case> cases) override;
   std::vector<CaseObservations> run_again(std::span<const Case> cases) override;
   std::string set_aside() const override { return engine_->set_aside(); }
-  void take_back() override { engine_->take_back(); }
-  void put_aside(const std::string& why) override { engine_->put_aside(why); }
+  void resume() override { engine_->resume(); }
+  void suspend(const std::string& why) override { engine_->suspend(why); }
 
   /// Starts a new batch: the next run() is about its cases, and all later ones about derived cases.
   void start();

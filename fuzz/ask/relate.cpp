@@ -11,7 +11,7 @@
 #include "fuzz/ask/shapes_of.h"
 #include "fuzz/ask/unstable.h"
 #include "fuzz/judge/relation.h"
-#include "scenarios/value/odd_numbers.h"
+#include "scenarios/value/invalid_numbers.h"
 
 namespace touchstone::fuzz {
 namespace {
@@ -94,7 +94,7 @@ void relate_into(CampaignResult& r, const Case& c, std::uint64_t index, const En
   // one that hangs it, even if another query of the case was answered: each form would wait for the time
   // limit.
   if (!any_is(base, Outcome::answered) || any_is(base, Outcome::timed_out)) return;
-  if (!odd_numbers(c.scene).empty()) return;
+  if (!invalid_numbers(c.scene).empty()) return;
   const RelationInput in{c, engine->card(), base};
   AskedCase base_case(c, index);
   const std::vector<Asked> asked = derive_all(in);

@@ -174,8 +174,8 @@ class Runner {
     }
     for (const EnginePtr& e : engines) {
       const auto aside = known.find(e->card().name);
-      e->take_back();
-      if (aside != known.end()) e->put_aside(aside->second.why);
+      e->resume();
+      if (aside != known.end()) e->suspend(aside->second.why);
     }
     for (KeepingEngine* e : job.keeping) e->start();
     Chunk chunk = run_chunk(k, engines);

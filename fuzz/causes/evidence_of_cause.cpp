@@ -31,7 +31,7 @@ CauseCase as_case(const Case& c, const Finding& f) {
 void add_evidence(Cause& cause, const Representative& r, const CausesConfig& config, EnginePool& pool) {
   const EnginePtr& engine = pool.named(r.finding->engine);
   if (!engine) return;
-  engine->take_back();
+  engine->resume();
   cause.library = engine->card().library + " " + engine->card().version;
   std::optional<Finding> shown = finding_in(r.first.smallest, r.shown(), engine);
   if (shown) cause.smallest = as_case(r.first.smallest, *shown);

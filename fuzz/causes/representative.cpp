@@ -91,7 +91,7 @@ void examine(Representative& r, const EngineKnowledge& knowledge, std::size_t tr
   r.first.smallest = cases.empty() ? case_of(*r.finding) : *cases.front();
   const EnginePtr& engine = pool.named(r.finding->engine);
   if (!engine) return;
-  engine->take_back();
+  engine->resume();
   if (r.symptom.stage == FaultStage::contradiction)
     if (auto plain = plain_form(r.first.smallest, r.symptom.question, engine)) {
       r.first.smallest = std::move(plain->c);

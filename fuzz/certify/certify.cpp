@@ -296,7 +296,7 @@ class Certifier {
           return;
         }
         Engine& engine = job.engine(subject_, e.level);
-        engine.take_back();  // the result must not depend on which parts this job ran before
+        engine.resume();  // the result must not depend on which parts this job ran before
         done[p] = PartRun(e, draw_, total.planned, config_.margin, engine).run(p * e.chunk, stop_);
         const std::lock_guard lock(guard);
         if (done[p].is_last || (config_.first_fault && !done[p].faults.empty()))

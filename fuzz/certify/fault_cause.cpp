@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "scenarios/value/odd_numbers.h"
+#include "scenarios/value/invalid_numbers.h"
 
 namespace touchstone::fuzz {
 namespace {

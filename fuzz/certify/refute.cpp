@@ -9,7 +9,7 @@
 #include "fuzz/shrink/defensible.h"
 #include "fuzz/shrink/shrink_both.h"
 #include "scenarios/value/candidate_pairs.h"
-#include "scenarios/value/odd_numbers.h"
+#include "scenarios/value/invalid_numbers.h"
 
 namespace touchstone::fuzz {
 namespace {

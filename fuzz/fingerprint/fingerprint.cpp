@@ -47,7 +47,7 @@ struct Asked {
 std::vector<Asked> ask_batch(Engine& engine, std::uint64_t first, std::uint64_t end) {
   std::vector<Case> cases;
   for (std::uint64_t i = first; i < end; ++i) cases.push_back(fingerprint_case(i));
-  engine.take_back();
+  engine.resume();
   const auto observed = engine.run(cases);
   std::vector<Asked> all;
   for (std::size_t i = 0; i < cases.size(); ++i) {

@@ -30,7 +30,7 @@ class Plausible {
  public:
   explicit Plausible(const Scene& asked) {
     constexpr double times = 1e6;  // as above
-    double m = 1;  // at least one unit of length
+    double m = 1;                  // at least one unit of length
     for (const Shape& s : asked.shapes) m = std::max(m, largest_size(s));
     for (const Body& b : asked.bodies) m = std::max(m, largest_number(b.pose.translation));
     limit_ = times * m;
@@ -46,7 +46,8 @@ class Plausible {
   double limit_;
 };
 
-// Candidate queries may contain invalid bodies (scenarios/value/odd_numbers.h): holding those is not a fault.
+// Candidate queries may contain invalid bodies (scenarios/value/invalid_numbers.h): holding those is not a
+// fault.
 bool is_body_held(const Plausible& plausible, const Scene& asked, const ReceivedScene& r, std::size_t body) {
   if (!asked.bodies[body].pose.translation.allFinite() || !is_a_set(asked.shape_of(static_cast<int>(body))))
     return true;

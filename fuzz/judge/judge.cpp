@@ -8,7 +8,7 @@
 #include "core/math/roundoff.h"
 #include "fuzz/judge/check.h"
 #include "fuzz/judge/truth.h"
-#include "scenarios/value/odd_numbers.h"
+#include "scenarios/value/invalid_numbers.h"
 
 namespace touchstone::fuzz {
 namespace {
@@ -59,7 +59,7 @@ std::vector<FaultReport> faults_received(const CheckInput& asked, int frame, dou
 // Throwing on invalid bodies is a legitimate refusal.
 bool is_refusal(const CheckInput& asked) {
   return (asked.answer.outcome == Outcome::threw || asked.answer.outcome == Outcome::invalid_input) &&
-         asked.query.question == Question::candidates && !odd_numbers(asked.truth.scene()).empty();
+         asked.query.question == Question::candidates && !invalid_numbers(asked.truth.scene()).empty();
 }
 
 // A form of a case, a shrunk one for instance, may have lost what makes two bodies a ray and its target.

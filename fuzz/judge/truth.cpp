@@ -8,7 +8,7 @@
 #include <numeric>
 
 #include "scenarios/value/candidate_pairs.h"
-#include "scenarios/value/odd_numbers.h"
+#include "scenarios/value/invalid_numbers.h"
 
 namespace touchstone::fuzz {
 namespace {

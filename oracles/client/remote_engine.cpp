@@ -75,7 +75,7 @@ class RemoteEngine::Impl {
     throw;
   }
 
-  void take_back() {
+  void resume() {
     if (!patience_.left()) session_.reset();
     patience_ = {};
   }
@@ -356,8 +356,8 @@ std::vector<CaseObservations> RemoteEngine::run_again(std::span<const Case> case
   return impl_->run(cases, other_fill);
 }
 std::string RemoteEngine::set_aside() const { return impl_->patience_.why(); }
-void RemoteEngine::take_back() { impl_->take_back(); }
-void RemoteEngine::put_aside(const std::string& why) { impl_->patience_.end(why); }
+void RemoteEngine::resume() { impl_->resume(); }
+void RemoteEngine::suspend(const std::string& why) { impl_->patience_.end(why); }
 std::string RemoteEngine::sandbox() const { return impl_->sandbox(); }
 int RemoteEngine::restarts() const { return impl_->restarts_; }
 int RemoteEngine::worker_pid() const { return impl_->pid(); }

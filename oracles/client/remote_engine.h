@@ -37,8 +37,8 @@ class RemoteEngine final : public Engine {
   std::vector<CaseObservations> run(std::span<const Case> cases) override;
   std::vector<CaseObservations> run_again(std::span<const Case> cases) override;
   std::string set_aside() const override;
-  void take_back() override;
-  void put_aside(const std::string& why) override;
+  void resume() override;
+  void suspend(const std::string& why) override;
 
   /// Describes the worker's sandbox; "none" without one, empty before a worker is started.
   std::string sandbox() const;

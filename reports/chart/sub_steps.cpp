@@ -34,8 +34,8 @@ class SubStepped final : public Engine {
   const EngineCard& card() const override { return card_; }
   std::vector<CaseObservations> run(std::span<const Case> cases) override;
   std::string set_aside() const override { return inner_->set_aside(); }
-  void take_back() override { inner_->take_back(); }
-  void put_aside(const std::string& why) override { inner_->put_aside(why); }
+  void resume() override { inner_->resume(); }
+  void suspend(const std::string& why) override { inner_->suspend(why); }
 
  private:
   struct Open {  // a motion without an answer so far

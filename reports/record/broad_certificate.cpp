@@ -65,7 +65,7 @@ EvidenceCount evidence_from_json(const JsonReader& j) {
   e.name = j["name"].string();
   e.line = j["line"].string();
   e.refusal = j["refusal"].string();
-  e.kind = static_cast<EvidenceKind>(index_in(evidence_kind_names, j["kind"].string(), j["kind"]));
+  e.kind = static_cast<SuiteKind>(index_in(suite_kind_names, j["kind"].string(), j["kind"]));
   e.level = level_of(j["level"]);
   e.planned = count_of(j["planned"]);
   e.population = count_of(j["population"]);

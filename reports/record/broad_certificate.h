@@ -18,7 +18,7 @@ namespace touchstone::fuzz {
 
 struct EvidenceCount {
   std::string name, line;
-  EvidenceKind kind = EvidenceKind::random;
+  SuiteKind kind = SuiteKind::random;
   BroadLevel level = BroadLevel::boxes;
   std::uint64_t planned = 0;     // cases
   std::uint64_t population = 0;  // exhaustive: number of all cases; planned < population is a sample

@@ -56,7 +56,7 @@ std::string table(const BroadCertificate& c, BroadLevel level, bool times) {
 std::string random_bound(const BroadCertificate& c, BroadLevel level) {
   std::string out;
   for (const EvidenceCount& e : c.evidence)
-    if (e.level == level && e.kind == EvidenceKind::random && e.answered > 0)
+    if (e.level == level && e.kind == SuiteKind::random && e.answered > 0)
       out += fmt::format("  {}: miss rate below {:.2g} per scene (95 % confidence)\n", e.name,
                          3.0 / static_cast<double>(e.answered));
   return out;

@@ -12,8 +12,8 @@
 #include "scenarios/codec/scene_codec.h"
 #include "scenarios/codec/scene_fields.h"
 #include "scenarios/codec/value_codec.h"
+#include "scenarios/value/invalid_numbers.h"
 #include "scenarios/value/moving_pairs.h"
-#include "scenarios/value/odd_numbers.h"
 
 namespace touchstone {
 namespace {
@@ -22,8 +22,10 @@ using Json = nlohmann::ordered_json;
 
 constexpr std::string_view version_field = "touchstone_case";
 constexpr int version = 1;
-constexpr auto case_fields = std::to_array<std::string_view>(
-    {version_field, "id", "description", "source", "family", "scene", "queries", "expect", "odd_numbers"});
+constexpr auto former_invalid_numbers = "odd_numbers";  // the field's name in files of earlier releases
+constexpr auto case_fields =
+    std::to_array<std::string_view>({version_field, "id", "description", "source", "family", "scene",
+                                     "queries", "expect", "invalid_numbers", former_invalid_numbers});
 constexpr auto pair_query_fields = std::to_array<std::string_view>({"question", "a", "b"});
 constexpr auto scene_query_fields = std::to_array<std::string_view>({"question"});
 
@@ -86,12 +88,12 @@ Scene read_scene(const JsonReader& r, const std::string& place) {
 }
 
 // JSON has no NaN and no infinity.
-Json odd_to_json(double x) {
+Json invalid_to_json(double x) {
   if (std::isnan(x)) return "NaN";
   if (std::isinf(x)) return x > 0 ? "Infinity" : "-Infinity";
   return x;
 }
-double read_odd(const JsonReader& r) {
+double read_invalid(const JsonReader& r) {
   if (r.json().is_number()) return r.number();
   const std::string text = r.string();
   if (text == "NaN") return std::numeric_limits<double>::quiet_NaN();
@@ -101,13 +103,13 @@ double read_odd(const JsonReader& r) {
 }
 
 // Such bodies are not exact sets: only their effect on other bodies' pairs can be judged.
-void read_odd_numbers(const JsonReader& r, Case& c) {
+void read_invalid_numbers(const JsonReader& r, Case& c) {
   for (const Query& q : c.queries)
     if (q.question != Question::candidates) r.fail("such a scene allows only candidates queries");
-  std::vector<OddNumber> all;
-  for (const auto& [place, value] : members_of(r)) all.push_back({place, read_odd(value)});
+  std::vector<InvalidNumber> all;
+  for (const auto& [place, value] : members_of(r)) all.push_back({place, read_invalid(value)});
   try {
-    insert_odd_numbers(c.scene, all);
+    insert_invalid_numbers(c.scene, all);
   } catch (const InputError& e) {
     r.fail(e.place() + " " + e.reason());
   }
@@ -157,9 +159,9 @@ nlohmann::ordered_json stored_case_to_json(const StoredCase& s) {
   if (!s.description.empty()) j["description"] = s.description;
   if (!s.source.empty()) j["source"] = s.source;
   if (!s.c.family.empty()) j["family"] = s.c.family;
-  const auto odd = odd_numbers(s.c.scene);
-  j["scene"] = touchstone::to_json(odd.empty() ? s.c.scene : without_odd_numbers(s.c.scene));
-  for (const OddNumber& n : odd) j["odd_numbers"][n.place] = odd_to_json(n.value);
+  const auto invalid = invalid_numbers(s.c.scene);
+  j["scene"] = touchstone::to_json(invalid.empty() ? s.c.scene : without_invalid_numbers(s.c.scene));
+  for (const InvalidNumber& n : invalid) j["invalid_numbers"][n.place] = invalid_to_json(n.value);
   j["queries"] = Json::array();
   for (const Query& q : s.c.queries) j["queries"].push_back(to_json(q));
   if (Json e = scenarios::to_json(s.expect); !e.empty()) j["expect"] = std::move(e);
@@ -180,7 +182,8 @@ StoredCase stored_case_from_json(const nlohmann::ordered_json& j, const std::str
     for (const JsonReader& q : r["queries"].items()) s.c.queries.push_back(read_query(q, s.c.scene));
   else
     s.c.queries = default_queries(s.c.scene);
-  if (r.has("odd_numbers")) read_odd_numbers(r["odd_numbers"], s.c);
+  for (const char* const name : {"invalid_numbers", former_invalid_numbers})
+    if (r.has(name)) read_invalid_numbers(r[name], s.c);
   if (r.has("expect")) s.expect = scenarios::read_expectation(r["expect"]);
   return s;
 }
@@ -205,10 +208,10 @@ std::string to_text(const StoredCase& s) {
   std::string out = "{\"touchstone_case\": " + std::to_string(version);
   for (const char* field : {"id", "description", "source", "family"})
     if (j.contains(field)) out += ",\n \"" + std::string(field) + "\": " + to_line(j[field]);
-  std::string scene = touchstone::to_text(without_odd_numbers(s.c.scene));
+  std::string scene = touchstone::to_text(without_invalid_numbers(s.c.scene));
   scene.pop_back();  // the newline
   out += ",\n\"scene\": " + scene;
-  if (j.contains("odd_numbers")) out += ",\n \"odd_numbers\": " + to_line(j["odd_numbers"]);
+  if (j.contains("invalid_numbers")) out += ",\n \"invalid_numbers\": " + to_line(j["invalid_numbers"]);
   write_list(out, "queries", j["queries"]);
   if (j.contains("expect")) out += ",\n \"expect\": " + to_line(j["expect"]);
   return out + "\n}\n";

@@ -1,8 +1,8 @@
 // JSON form of a case: {"touchstone_case": 1, "id", "description", "source", "family", "scene": {…},
-// "queries": […], "expect": {…}, "odd_numbers": {…}}. Only the version and the scene are required. A scene is
-// valid JSON and denotes closed sets; "odd_numbers" ({"/bodies/2/pose/translation/0": "NaN"}, also
-// "Infinity", "-Infinity" and negative half extents) then inserts numbers that do neither, for candidates
-// queries only.
+// "queries": […], "expect": {…}, "invalid_numbers": {…}}. Only the version and the scene are required. A
+// scene is valid JSON and denotes closed sets; "invalid_numbers" ({"/bodies/2/pose/translation/0": "NaN"},
+// also "Infinity", "-Infinity" and negative half extents) then inserts numbers that do neither, for
+// candidates queries only.
 #pragma once
 
 #include <filesystem>

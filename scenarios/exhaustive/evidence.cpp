@@ -7,8 +7,8 @@
 namespace touchstone::fuzz {
 namespace {
 
-constexpr auto exhaustive = EvidenceKind::exhaustive, adversarial = EvidenceKind::adversarial,
-               temporal = EvidenceKind::temporal, random_kind = EvidenceKind::random;
+constexpr auto exhaustive = SuiteKind::exhaustive, adversarial = SuiteKind::adversarial,
+               temporal = SuiteKind::temporal, random_kind = SuiteKind::random;
 constexpr auto boxes = BroadLevel::boxes, bodies = BroadLevel::bodies;
 constexpr std::uint64_t every = ~std::uint64_t{0};
 
@@ -24,14 +24,14 @@ constexpr EvidenceRow table[] = {
      "all sequences of 6 operations on two boxes and two places, 2 or 32 apart", every, every,
      count_histories_of_two, histories_of_two},
     {"histories_of_three", exhaustive, boxes,
-     "all sequences of 5 operations (6 in full scope) on three boxes and three touching places",
-     every, every, count_histories_of_three, histories_of_three},
+     "all sequences of 5 operations (6 in full scope) on three boxes and three touching places", every, every,
+     count_histories_of_three, histories_of_three},
     {"orders_of_three", exhaustive, boxes,
      "all orders of the ends of three boxes in three axes, ties included, up to symmetry", 40000, every,
      count_orders_of_three, orders_of_three},
     {"cell_borders", adversarial, boxes,
-     "ends at or next to multiples of powers of two, on both sides of the origin", 10000, 300000,
-     nullptr, cell_borders},
+     "ends at or next to multiples of powers of two, on both sides of the origin", 10000, 300000, nullptr,
+     cell_borders},
     {"touching_by_an_ulp", adversarial, boxes, "ends that differ in the last places of the subject's scalar",
      10000, 300000, nullptr, touching_by_an_ulp},
     {"sizes_far_apart", adversarial, boxes, "sizes and positions from 2^-10 to 2^10", 5000, 100000, nullptr,
@@ -70,8 +70,8 @@ constexpr EvidenceRow table[] = {
     {"crowd", random_kind, bodies, "crowds of bodies of all shapes, turned at random", 300, 20000, nullptr,
      family_crowd, false, false, 16},
     {"drifting_on_an_axis", adversarial, bodies,
-     "two bodies, turned or not, one of which moves along a world axis without turning", 450, 12000,
-     nullptr, drifting_on_an_axis, false, true, 32},
+     "two bodies, turned or not, one of which moves along a world axis without turning", 450, 12000, nullptr,
+     drifting_on_an_axis, false, true, 32},
     {"drifting", random_kind, bodies, "two bodies, one of which moves in any direction without turning", 300,
      12000, nullptr, drifting, false, true, 32},
     {"turning_in_place", random_kind, bodies, "two bodies, one of which turns and does not move", 400, 12000,
@@ -79,8 +79,8 @@ constexpr EvidenceRow table[] = {
     {"turning", random_kind, bodies, "two bodies, one of which moves and turns within the step", 600, 40000,
      nullptr, turning_pairs, false, true, 32},
     {"fast_and_far", adversarial, bodies,
-     "two bodies, one of which comes from far away or moves thousands of its lengths; a third also turn",
-     300, 12000, nullptr, fast_and_far, false, true, 32},
+     "two bodies, one of which comes from far away or moves thousands of its lengths; a third also turn", 300,
+     12000, nullptr, fast_and_far, false, true, 32},
     {"grounded", adversarial, bodies, "such bodies on and in a half-space, which is unbounded", 300, 5000,
      nullptr, grounded, false, false, 32},
 };

@@ -19,7 +19,7 @@ struct Draw {
 
 struct EvidenceRow {
   std::string_view name;
-  EvidenceKind kind;
+  SuiteKind kind;
   BroadLevel level;
   std::string_view line;  // summary for display
   std::uint64_t quick, full;

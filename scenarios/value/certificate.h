@@ -85,12 +85,10 @@ inline constexpr auto level_names = std::to_array<std::string_view>({"boxes", "b
 static_assert(level_names.size() == static_cast<std::size_t>(BroadLevel::bodies) + 1);
 constexpr std::string_view to_string(BroadLevel l) { return level_names[static_cast<std::size_t>(l)]; }
 
-enum class EvidenceKind : std::uint8_t { exhaustive, adversarial, temporal, random };
-inline constexpr auto evidence_kind_names =
+enum class SuiteKind : std::uint8_t { exhaustive, adversarial, temporal, random };
+inline constexpr auto suite_kind_names =
     std::to_array<std::string_view>({"exhaustive", "adversarial", "temporal", "random"});
-static_assert(evidence_kind_names.size() == static_cast<std::size_t>(EvidenceKind::random) + 1);
-constexpr std::string_view to_string(EvidenceKind k) {
-  return evidence_kind_names[static_cast<std::size_t>(k)];
-}
+static_assert(suite_kind_names.size() == static_cast<std::size_t>(SuiteKind::random) + 1);
+constexpr std::string_view to_string(SuiteKind k) { return suite_kind_names[static_cast<std::size_t>(k)]; }
 
 }  // namespace touchstone

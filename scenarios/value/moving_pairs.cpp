@@ -69,7 +69,7 @@ std::vector<BodyPair> moving_pairs(const Scene& scene) {
   std::vector<BoxedBody> boxed;
   for (int i = 0; i < n; ++i) {
     const Aabb box = box_along(scene, i);
-    // Skip bodies that are not sets (odd_numbers.h).
+    // Skip bodies that are not sets (invalid_numbers.h).
     if (box.lo.x() <= box.hi.x()) boxed.push_back({box, i});
   }
   const auto moving = [&](int i) { return moves(scene.bodies[static_cast<std::size_t>(i)]); };

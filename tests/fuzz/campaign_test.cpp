@@ -139,8 +139,8 @@ class TiresAt final : public Engine {
   }
   const EngineCard& card() const override { return card_; }
   std::string set_aside() const override { return why_; }
-  void take_back() override { why_.clear(); }
-  void put_aside(const std::string& why) override { why_ = why; }
+  void resume() override { why_.clear(); }
+  void suspend(const std::string& why) override { why_ = why; }
   std::vector<CaseObservations> run(std::span<const Case> cases) override {
     auto all = core_.run(cases);
     for (std::size_t i = 0; i < cases.size(); ++i) {

@@ -515,7 +515,7 @@ TEST_CASE("a bad box is stored in a case file beside the scene and read back, fo
   const std::string text = to_text(stored);
   const Json j = Json::parse(text);
   CHECK(j == stored_case_to_json(stored));
-  CHECK(j.at("odd_numbers").dump() ==
+  CHECK(j.at("invalid_numbers").dump() ==
         R"({"/shapes/3/half_extents/2":-1,"/bodies/0/pose/translation/1":"NaN",)"
         R"("/bodies/1/pose/translation/1":"Infinity","/bodies/2/pose/translation/1":"-Infinity",)"
         R"("/script/4/pose/translation/0":"NaN"})");
@@ -523,7 +523,7 @@ TEST_CASE("a bad box is stored in a case file beside the scene and read back, fo
 
   const auto refused = [&](const char* place, const Json& value) {
     Json broken = j;
-    broken["odd_numbers"][place] = value;
+    broken["invalid_numbers"][place] = value;
     CHECK_THROWS_AS(stored_case_from_json(broken), InputError);
   };
   refused("/bodies/9/pose/translation/1", "NaN");

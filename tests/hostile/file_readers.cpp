@@ -338,7 +338,7 @@ constexpr const char* odd =
  "bodies": [{"shape": 0}, {"shape": 0, "pose": {"translation": [3, 0, 0], "rotation": [0, 0, 0, 1]}}],
  "script": [{"op": "insert", "body": 0}, {"op": "insert", "body": 1}, {"op": "query"},
  {"op": "move", "body": 1, "pose": {"translation": [1, 0, 0], "rotation": [0, 0, 0, 1]}}, {"op": "query"}]},
- "queries": [{"question": "candidates"}], "odd_numbers": {"/bodies/1/pose/translation/1": "NaN"}})";
+ "queries": [{"question": "candidates"}], "invalid_numbers": {"/bodies/1/pose/translation/1": "NaN"}})";
 
 constexpr const char* expected =
     R"({"touchstone_expected": 1, "failures": [

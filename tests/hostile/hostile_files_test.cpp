@@ -687,14 +687,14 @@ TEST_CASE("faults that the mutator found", "[hostile]") {
   many["queries"] = {{{"question", "candidates"}}};
   for (int i = 0; i < bodies; ++i) {
     many["scene"]["bodies"][i] = {{"shape", 0}};
-    many["odd_numbers"]["/bodies/" + std::to_string(bodies - 1 - i) + "/pose/translation/0"] = "NaN";
+    many["invalid_numbers"]["/bodies/" + std::to_string(bodies - 1 - i) + "/pose/translation/0"] = "NaN";
   }
-  many["odd_numbers"]["/bodies/0/pose/translation/3"] = "NaN";
+  many["invalid_numbers"]["/bodies/0/pose/translation/3"] = "NaN";
   w.write("many.json", many.dump());
   const Run odd = w.run("ulimit -t 10; " TS_BINARY_DIR "/bin/touchstone replay many.json --engines core");
   INFO(odd.err);
   CHECK(odd.code == 2);
-  CHECK(odd.err.find("many.json: odd_numbers: ") != std::string::npos);
+  CHECK(odd.err.find("many.json: invalid_numbers: ") != std::string::npos);
   // Sixteen characters that the library accepted as hexadecimal, or for which it threw its own exception.
   REQUIRE(w.touchstone("certify --subject sort_and_sweep --limit 2 --jobs 1 -o c.json").code == 0);
   for (const char* digest : {"-00000000000000f", "zzzzzzzzzzzzzzzz", " 0x0000000000001"}) {

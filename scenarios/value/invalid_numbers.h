@@ -10,20 +10,20 @@
 
 namespace touchstone {
 
-struct OddNumber {
+struct InvalidNumber {
   std::string place;  // JSON pointer into the scene: /bodies/i/pose/translation/k, /shapes/i/half_extents/k,
                       // /script/i/pose/translation/k
   double value = 0;
 };
 
 /// In the order of shapes, bodies, steps. Among shapes, only boxes are examined.
-std::vector<OddNumber> odd_numbers(const Scene& s);
+std::vector<InvalidNumber> invalid_numbers(const Scene& s);
 /// Whether the body is a closed set: its position is finite and, if it is a box, so are its sides, and none
 /// is negative.
 bool is_closed_set(const Shape& shape, const Pose& pose);
 /// The same scene with 0 in place of each of them.
-Scene without_odd_numbers(Scene s);
+Scene without_invalid_numbers(Scene s);
 /// Throws InputError with the number's place when the place does not exist or the number is an ordinary one.
-void insert_odd_numbers(Scene& s, const std::vector<OddNumber>& all);
+void insert_invalid_numbers(Scene& s, const std::vector<InvalidNumber>& all);
 
 }  // namespace touchstone

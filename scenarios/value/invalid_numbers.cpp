@@ -1,4 +1,4 @@
-#include "scenarios/value/odd_numbers.h"
+#include "scenarios/value/invalid_numbers.h"
 
 #include <cmath>
 #include <unordered_map>
@@ -8,7 +8,7 @@
 namespace touchstone {
 namespace {
 
-// Calls visit(place, number, may be negative) for every number that can be odd.
+// Calls visit(place, number, may be negative) for every number that can be invalid.
 template <class SceneRef, class Visit>
 void for_each_place(SceneRef& s, Visit&& visit) {
   const auto three = [&](const std::string& place, auto& v, bool signed_number) {
@@ -24,14 +24,14 @@ void for_each_place(SceneRef& s, Visit&& visit) {
       three("/script/" + std::to_string(i) + "/pose/translation/", s.script[i].pose->translation, true);
 }
 
-bool is_odd(double x, bool signed_number) { return !std::isfinite(x) || (!signed_number && x < 0); }
+bool is_invalid(double x, bool signed_number) { return !std::isfinite(x) || (!signed_number && x < 0); }
 
 }  // namespace
 
-std::vector<OddNumber> odd_numbers(const Scene& s) {
-  std::vector<OddNumber> out;
+std::vector<InvalidNumber> invalid_numbers(const Scene& s) {
+  std::vector<InvalidNumber> out;
   for_each_place(s, [&](const std::string& place, double x, bool signed_number) {
-    if (is_odd(x, signed_number)) out.push_back({place, x});
+    if (is_invalid(x, signed_number)) out.push_back({place, x});
   });
   return out;
 }
@@ -42,15 +42,15 @@ bool is_closed_set(const Shape& shape, const Pose& pose) {
          (!box || (box->half_extents.allFinite() && (box->half_extents.array() >= 0).all()));
 }
 
-Scene without_odd_numbers(Scene s) {
+Scene without_invalid_numbers(Scene s) {
   for_each_place(s, [](const std::string&, double& x, bool signed_number) {
-    if (is_odd(x, signed_number)) x = 0;
+    if (is_invalid(x, signed_number)) x = 0;
   });
   return s;
 }
 
 // Uses a table of the places, because a file may list as many numbers as the scene has.
-void insert_odd_numbers(Scene& s, const std::vector<OddNumber>& all) {
+void insert_invalid_numbers(Scene& s, const std::vector<InvalidNumber>& all) {
   struct Place {
     double* number = nullptr;
     bool may_be_negative = false;
@@ -59,11 +59,11 @@ void insert_odd_numbers(Scene& s, const std::vector<OddNumber>& all) {
   for_each_place(s, [&](const std::string& place, double& x, bool signed_number) {
     places[place] = {&x, signed_number};
   });
-  for (const OddNumber& n : all) {
+  for (const InvalidNumber& n : all) {
     const auto found = places.find(n.place);
     if (found == places.end())
       throw InputError(n.place, "is not the place of a coordinate or a half extent in this scene");
-    if (!is_odd(n.value, found->second.may_be_negative))
+    if (!is_invalid(n.value, found->second.may_be_negative))
       throw InputError(n.place, "is an ordinary number: it belongs in the scene itself");
     *found->second.number = n.value;
   }
