@@ -132,8 +132,15 @@ bool is_within_curved(const Set& s, const V& x, const Q& r) {
   if (det == 0 || (r > 0 && dot(a, a) + dot(b, b) + dot(c, c) > 4)) return false;
   const V u = 1 / det * V{dot(d, cross(b, c)), dot(a, cross(d, c)), dot(a, cross(b, d))};
   if (s.kind == Set::Kind::ellipsoid) {
-    const V k{u.x / (s.size.x + g), u.y / (s.size.y + g), u.z / (s.size.z + g)};
-    return dot(k, k) <= 1;
+    Q sum = 0;
+    for (const auto& [at, axis] :
+         {std::pair(u.x, s.size.x), std::pair(u.y, s.size.y), std::pair(u.z, s.size.z)}) {
+      if (const Q room = axis + g; room > 0)
+        sum += at * at / (room * room);
+      else if (at != 0)  // flat across this axis
+        return false;
+    }
+    return sum <= 1;
   }
   const auto& [low, high, h] = s.size;  // low >= high: the room is widest at the lowest z in reach
   const Q z = std::max(Q(-h), Q(u.z - g)),

@@ -151,6 +151,19 @@ TEST_CASE("the one common point of two touching bodies is refused with any coord
   REQUIRE(changed == 60);
 }
 
+TEST_CASE("a common point of a flat ellipsoid lies in its plane", "[referee][checker]") {
+  const Shape flat = Ellipsoid{{1, 2, 0}}, ball = Sphere{1};
+  const Placed a{&flat, Pose{{0, 0, 0}, {}}}, b{&ball, Pose{{0, 1.5, 0}, {}}};
+  Certificate c;
+  c.kind = Certificate::Kind::common_point;
+  c.point = {0, 1, 0};
+  REQUIRE(checker::check(c, a, b));
+  c.point = {0, 1, 0x1p-60};
+  REQUIRE_FALSE(checker::check(c, a, b));
+  c.point = {0.9, 1.5, 0};  // beyond the ellipse
+  REQUIRE_FALSE(checker::check(c, a, b));
+}
+
 TEST_CASE("an inner polytope is refused when a point, a facet or the depth is changed",
           "[referee][checker]") {
   const Shape box = Box{{1, 2, 3}}, other = Box{{1, 1, 1}};
