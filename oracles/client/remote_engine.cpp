@@ -104,7 +104,7 @@ class RemoteEngine::Impl {
     if (session_ && !spec_.native &&
         usage_of(session_->process->pid()).resident_bytes > spec_.limits.resident_bytes / 2)
       session_.reset();
-    resume();
+    continue_from_cursor();
   }
 
   /// Makes sure that there is a worker, restarting it if necessary.
@@ -139,11 +139,11 @@ class RemoteEngine::Impl {
     const WorkerProcess::Native native{spec_.engine, !one_by_one_};
     session_.emplace(
         start_worker(*fork_server_, spec_.plugin, spec_.limits, spec_.native ? &native : nullptr));
-    resume();
+    continue_from_cursor();
   }
 
   /// Forgets what the previous worker was sent: questions continue from the cursor.
-  void resume() {
+  void continue_from_cursor() {
     at_.loaded = false;
     next_to_send_ = at_.item;
     first_sequence_ = sequence_;

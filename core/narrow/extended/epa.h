@@ -225,9 +225,10 @@ class Epa : Polytope<Epa<R>, EpaTypes<R>> {
   int facet_of_ray(int first) const {
     const V3<R> end = end_of_ray();
     const auto apart = [&](int i) { return nearest(facet(i), end).dist_sq; };
+    const R near = std::max<R>(0, result_.upper - result_.lower) + level_;
     int best = first;
     R least = apart(first);
-    for (int i = 0; i < facet_count() && !(least <= tolerance_ * tolerance_); ++i) {
+    for (int i = 0; i < facet_count() && !(least <= near * near); ++i) {
       if (!facet(i).alive) continue;
       if (const R d = apart(i); d < least) {
         least = d;

@@ -74,7 +74,8 @@ class Expander : Polytope<Expander<R>, ExpanderTypes<R>> {
         try_step_ *= settled_.found ? 2 : 1;
         if (settle(f)) f = nearest();
       }
-      if (settled_.found && (f < 0 || rank_[f] >= settled_.lower)) return finish_settled();
+      if (settled_.found && (f < 0 || rank_[f] >= settled_.lower))
+        return finish_settled(ExpandEnd::closed, settled_.lower);
       if (f < 0) return finish(ExpandEnd::broken, -1);
       result_.lower = rank_[f];
       if (result_.upper - result_.lower <= tolerance_) return finish(ExpandEnd::closed, f);
@@ -147,11 +148,11 @@ class Expander : Polytope<Expander<R>, ExpanderTypes<R>> {
     return in_cap ? infinite : key;
   }
 
-  Depth<R> finish_settled() {
-    result_.end = ExpandEnd::closed;
+  Depth<R> finish_settled(ExpandEnd end, R lower) {
+    result_.end = end;
     result_.vertices = vertex_count();
     result_.upper = settled_.upper;
-    result_.lower = settled_.lower;
+    result_.lower = lower;
     result_.outward = settled_.outward;
     result_.a = settled_.a;
     result_.w = settled_.w;
@@ -266,6 +267,9 @@ class Expander : Polytope<Expander<R>, ExpanderTypes<R>> {
   }
 
   Depth<R> finish(ExpandEnd end, int f) {
+    // The points of a local minimum lie on the bodies; those of a facet are off by its sag.
+    if (settled_.found && settled_.upper <= result_.upper + level_)
+      return finish_settled(end, std::min(result_.lower, settled_.lower));
     result_.end = end;
     result_.vertices = vertex_count();
     if (f < 0) return result_;
@@ -274,15 +278,20 @@ class Expander : Polytope<Expander<R>, ExpanderTypes<R>> {
     // and not its foot, is the pair of points that differ along `outward`. Other facets may be as near: those
     // of another direction of the same depth, and of the same plane beside it.
     const V3<R> end_of_ray = result_.upper * result_.outward;
-    const R enough = result_.upper + tolerance_;
+    const R enough = result_.upper + tolerance_,
+            near = std::max<R>(0, result_.upper - result_.lower) + level_;
     Foot<R> best = nearest(f, end_of_ray);
     int where = f;
-    for (int i = 0; i < facet_count() && !(best.dist_sq <= tolerance_ * tolerance_); ++i)
+    for (int i = 0; i < facet_count() && !(best.dist_sq <= near * near); ++i)
       if (key_[i] <= enough)
         if (const Foot<R> foot = nearest(i, end_of_ray); foot.dist_sq < best.dist_sq) {
           best = foot;
           where = i;
         }
+    if (best.size == 3) {
+      const auto corner = [&](std::size_t k) { return V3<R>(w(facet(where).v[k]) - end_of_ray); };
+      refine_weights<R>(corner(0), corner(1), corner(2), best.point, best.weight.data());
+    }
     result_.w.setZero();
     result_.a.setZero();
     for (int k = 0; k < best.size; ++k) {
