@@ -15,11 +15,14 @@
 #include "cli/engines_by_card.h"
 #include "cli/judged_by.h"
 #include "cli/program_for.h"
+#include "core/base/hash.h"
 #include "core/base/input_error.h"
 #include "fuzz/campaign/directory_lock.h"
 #include "fuzz/campaign/store.h"
 #include "fuzz/causes/causes.h"
+#include "fuzz/causes/intervention.h"
 #include "fuzz/triage/cause_files.h"
+#include "oracles/abi/source_id.h"
 #include "scenarios/codec/json_file.h"
 
 namespace touchstone::cli {
@@ -28,6 +31,8 @@ namespace {
 // An engine that hangs is asked often; less than half a second, after WorkerLimits::patience, tells as much
 // as the four of a campaign.
 constexpr double most_query_seconds = 0.1;
+
+constexpr const char* examined_file = "causes.examined";
 
 // What was done so far: one line on a terminal, otherwise a line every ten seconds.
 class ExaminationProgress {
@@ -47,7 +52,21 @@ class ExaminationProgress {
   Clock::time_point last_ = Clock::now();
 };
 
-fuzz::Causes find_causes(const CausesSearch& search, const fuzz::CampaignResult& result) {
+// What the answers to examined findings depend on: another list of changes or another limit asks differently.
+fuzz::Json about(const CausesSearch& search, const fuzz::CampaignResult& result, bool again) {
+  Hasher changes;
+  for (const fuzz::Intervention& i : fuzz::interventions) changes.add(i.name);
+  return {{"touchstone_examined", 1},
+          {"digest", fuzz::digest(result)},
+          {"again", again},
+          {"changes", hex64(changes.value())},
+          {"build", source_id()},
+          {"error", search.error},
+          {"query_seconds", search.limits.query_cpu_seconds}};
+}
+
+fuzz::Causes find_causes(const CausesSearch& search, const fuzz::CampaignResult& result,
+                         fuzz::Examinations& examinations) {
   const std::vector<std::string> given =
       search.engines.empty() ? std::vector<std::string>() : engine_names(search.engines);
   const Foreign foreign = foreign_engines(given, search.limits);
@@ -64,6 +83,7 @@ fuzz::Causes find_causes(const CausesSearch& search, const fuzz::CampaignResult&
   config.jobs = search.jobs;
   config.minutes = search.minutes;
   config.stop = &interrupted;
+  config.examinations = &examinations;
   config.progress = [&](std::size_t done, std::size_t of) { progress(done, of); };
   return fuzz::causes_of(result, config);
 }
@@ -73,6 +93,16 @@ std::optional<fuzz::Causes> stored_causes_of(const std::filesystem::path& direct
   if (!fuzz::has_causes(directory)) return std::nullopt;
   const fuzz::DirectoryLock lock(directory, fuzz::DirectoryLock::For::reading);
   return fuzz::stored_causes(directory, fuzz::digest(fuzz::load_result(directory)));
+}
+
+// What was examined is of no use once its causes are stored.
+void store(FoundCauses& found, const std::filesystem::path& directory, fuzz::Examinations& examinations) {
+  try {
+    fuzz::store_causes(directory, found.causes);
+    examinations.remove();
+  } catch (const InputError& e) {
+    found.not_stored = e.what();
+  }
 }
 
 }  // namespace
@@ -104,15 +134,20 @@ FoundCauses causes_of_campaign(CausesSearch& search, bool again) {
   const fuzz::DirectoryLock lock(directory, fuzz::DirectoryLock::For::writing);
   const fuzz::CampaignResult result = fuzz::load_result(directory);
   const auto j = fuzz::load_settings(directory);
-  found.causes = find_causes(search, result);
+  fuzz::Examinations examinations(directory / examined_file, about(search, result, again));
+  try {
+    found.causes = find_causes(search, result, examinations);
+  } catch (const Stopped&) {  // after the examinations, before all causes had their evidence
+    found.causes = fuzz::causes_at_once(result, catalogued_knowledge());
+  }
   found.causes.campaign = search.directory;
   found.causes.seed = j.at("seed").get<std::uint64_t>();
   found.interrupted = interrupted;
-  if (found.interrupted) return found;
-  try {
-    fuzz::store_causes(directory, found.causes);
-  } catch (const InputError& e) {
-    found.not_stored = e.what();
+  if (found.interrupted) {
+    found.kept = examinations.size();
+    found.not_kept = examinations.not_kept();
+  } else {
+    store(found, directory, examinations);
   }
   return found;
 }

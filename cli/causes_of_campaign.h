@@ -22,11 +22,14 @@ struct CausesSearch {
 struct FoundCauses {
   fuzz::Causes causes;
   bool interrupted = false;  // the causes are incomplete and not stored
+  std::size_t kept = 0;      // if interrupted: findings examined that the same command need not ask again
+  std::string not_kept;      // not empty: why those of this call could not be kept
   std::string not_stored;    // not empty: why DIR/causes.json could not be written
 };
 
-/// Reads DIR/causes.json, or finds the causes and writes that file, unless interrupted. Nobody else may write
-/// to DIR meanwhile. Throws InputError when DIR holds no campaign, or a damaged one.
+/// Reads DIR/causes.json, or finds the causes and writes that file, unless interrupted; then the next call
+/// with the same `again` goes on with what DIR/causes.examined has. Nobody else may write to DIR meanwhile.
+/// Throws InputError when DIR holds no campaign, or a damaged one.
 FoundCauses causes_of_campaign(CausesSearch& search, bool again);
 
 /// Asks no engine: the causes of the campaign in DIR as known_causes gives them. Throws InputError when DIR

@@ -71,13 +71,20 @@ std::string one_cause(const CausesOptions& o, const fuzz::Cause& c) {
   return o.markdown ? reports::cause_markdown(c) : reports::cause_text(c) + how_to_report(o, c);
 }
 
+std::string how_to_go_on(const FoundCauses& found) {
+  if (!found.not_kept.empty())
+    return fmt::format("The same command starts again, because what was asked could not be kept: {}",
+                       printable(found.not_kept, "\n"));
+  return fmt::format("The same command goes on after the {} findings that were examined", found.kept);
+}
+
 // Whether DIR/causes.json holds what is printed; if not, says so last.
-int stored_or_not(const CausesOptions& o, const FoundCauses& found) {
+int stored_or_not(const FoundCauses& found) {
   if (found.interrupted)
     fmt::print(stderr,
-               "touchstone: interrupted: these causes are incomplete and not stored; {} is as before. The "
-               "same command starts again; --budget MINUTES limits its time\n",
-               printable(o.search.directory));
+               "touchstone: interrupted: these causes are incomplete and not stored. {}; --budget MINUTES "
+               "limits its time\n",
+               how_to_go_on(found));
   else if (!found.not_stored.empty())
     fmt::print(stderr, "touchstone: these causes are not stored with the campaign: {}\n",
                printable(found.not_stored, "\n"));
@@ -135,7 +142,7 @@ int run(CausesOptions& o) {
   FoundCauses found = causes_of_campaign(o.search, o.again);
   const int printed = print_causes(o, found.causes);
   std::fflush(stdout);
-  const int stored = stored_or_not(o, found);
+  const int stored = stored_or_not(found);
   return printed == exit_clean ? stored : printed;
 }
 

@@ -95,8 +95,11 @@ bool knows_routes(const std::string& engine) {
   return routes::library_of(path_in_adapter(name_in_adapter(engine))) != nullptr;
 }
 
-std::string documented(const std::string& name, const fuzz::Symptom& s, const std::string& route, Fault f) {
-  return std::string(routes::documented(name_in_adapter(name), s.question, route, f));
+std::string documented(const std::string& name, const fuzz::Symptom& s, const std::string& route, Fault f,
+                       bool parting) {
+  const std::string engine = name_in_adapter(name);
+  const std::string_view always = routes::documented(engine, s.question, route, f);
+  return std::string(always.empty() && parting ? routes::documented_of_parting(engine) : always);
 }
 
 // True when some engine of the catalogue has this path.

@@ -10,6 +10,7 @@
 
 #include "core/base/exact_text.h"
 #include "core/base/hash.h"
+#include "fuzz/ask/shapes_of.h"
 #include "fuzz/causes/name.h"
 #include "fuzz/causes/rates.h"
 #include "scenarios/codec/case_codec.h"
@@ -72,6 +73,18 @@ std::uint64_t wrong_answers(const std::vector<const Finding*>& findings) {
   return n;
 }
 
+// Of a failure at a known place in the code, whose key names no shapes: those of its cases.
+void add_shapes(const Finding& f, Texts& shapes) {
+  Texts of_cases;
+  if (f.shapes == any_shapes)
+    for (const Example& e : f.examples)
+      if (e.c)
+        for (const Query& q : e.c->queries)
+          if (to_string(q.question) == f.question) of_cases.insert(shapes_of(*e.c, q.a, q.b));
+  if (of_cases.empty()) of_cases.insert(f.shapes);
+  shapes.merge(of_cases);
+}
+
 std::string most_frequent_fault(const std::vector<const Finding*>& findings, Severity severity) {
   std::map<std::string, std::uint64_t> counts;
   for (const Finding* f : findings)
@@ -117,7 +130,7 @@ void Assembly::add_lists(Cause& c, const Findings& findings) const {
     engines.insert(f->engine);
     questions.insert(f->question);
     faults.insert(f->fault);
-    shapes.insert(f->shapes);
+    add_shapes(*f, shapes);
     keys.insert(f->key());
     for (const Example& e : f->examples)
       if (e.c) families.insert(e.c->family);

@@ -9,6 +9,7 @@
 
 #include "fuzz/causes/classes.h"
 #include "fuzz/causes/engine_pool.h"
+#include "fuzz/causes/examinations.h"
 #include "fuzz/causes/group.h"
 #include "fuzz/causes/representative.h"
 #include "reports/record/causes.h"
@@ -27,6 +28,8 @@ struct CausesConfig {
   std::size_t tries = 400;          // questions put to reduce one case
   std::optional<double> minutes;    // from then on, no further representative is examined
   const std::atomic<bool>* stop = nullptr;
+  /// Examinations of earlier, not asked again; those of now are added. May be null.
+  Examinations* examinations = nullptr;
   std::function<void(std::size_t done, std::size_t of)> progress;
   /// Given the causes before engines are asked about each other's cases (told_apart); for measurements.
   std::function<void(const Causes&)> before_cross_asking;

@@ -6,6 +6,7 @@
 #include <tuple>
 #include <utility>
 
+#include "fuzz/causes/parting.h"
 #include "oracles/routes/routes.h"
 
 namespace touchstone::fuzz {
@@ -19,7 +20,7 @@ std::optional<ShapeKind> kind_named(std::string_view name) {
 
 constexpr std::string_view scene_route = "scene";
 
-using Place = std::tuple<std::string, std::string, Symptom>;  // path, route, symptom
+using Place = std::tuple<std::string, std::string, Symptom, bool>;  // path, route, symptom, parting
 
 std::map<Place, FindingClass> fold(const CampaignResult& result, const EngineKnowledge& knowledge) {
   std::map<Place, FindingClass> classes;
@@ -27,7 +28,9 @@ std::map<Place, FindingClass> fold(const CampaignResult& result, const EngineKno
     Symptom s = symptom_of(f);
     std::string path = knowledge.path_of(f.engine),
                 route = route_of(f.engine, f.shapes, s.question, knowledge);
-    FindingClass& c = classes[{path, route, s}];
+    const bool parting = is_of_parting_bodies(f);
+    FindingClass& c = classes[{path, route, s, parting}];
+    c.parting = parting;
     c.path = std::move(path);
     c.route = std::move(route);
     c.symptom = std::move(s);
@@ -62,7 +65,9 @@ EngineKnowledge no_knowledge() {
     return std::string(routes::common_route({question, a, b}));
   };
   k.knows_routes = [](const std::string&) { return false; };
-  k.documented = [](const std::string&, const Symptom&, const std::string&, Fault) { return std::string(); };
+  k.documented = [](const std::string&, const Symptom&, const std::string&, Fault, bool) {
+    return std::string();
+  };
   k.others = [](const std::string&) { return std::vector<OtherEngine>(); };
   return k;
 }

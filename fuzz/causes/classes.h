@@ -33,9 +33,10 @@ struct EngineKnowledge {
   std::function<std::string(const std::string& engine, Question question, ShapeKind a, ShapeKind b)> route_of;
   /// False where route_of is a guess: then a case may be reduced to one on another route.
   std::function<bool(const std::string& engine)> knows_routes;
-  /// Where the engine's documentation states that it has this fault; empty: nowhere.
+  /// Where the engine's documentation states that it has this fault; empty: nowhere. `parting`: of bodies
+  /// that are in contact at the start and move apart (parting.h).
   std::function<std::string(const std::string& engine, const Symptom& symptom, const std::string& route,
-                            Fault fault)>
+                            Fault fault, bool parting)>
       documented;
   std::function<std::vector<OtherEngine>(const std::string& engine)> others;
 };
@@ -54,6 +55,7 @@ std::string route_of(const std::string& engine, const std::string& shapes, Quest
 struct FindingClass {
   std::string path, route;
   Symptom symptom;
+  bool parting = false;                   // is_of_parting_bodies(), of all findings or of none
   std::vector<const Finding*> findings;   // by descending count, then by key
   std::vector<const Finding*> explained;  // contradictions that this class explains; by key
   std::uint64_t count = 0;                // of `findings`
@@ -61,9 +63,9 @@ struct FindingClass {
 
 enum class Contradictions { explained, apart };
 
-/// Sorted by path, route and symptom. With `explained`, a contradiction joins the most frequent class of the
-/// same path, question and route, if there is one; that is what can be said without asking. The result must
-/// outlive the classes.
+/// Sorted by path, route, symptom and whether bodies part. With `explained`, a contradiction joins the most
+/// frequent class of the same path, question and route, if there is one; that is what can be said without
+/// asking. The result must outlive the classes.
 std::vector<FindingClass> classes_of(const CampaignResult& result, const EngineKnowledge& knowledge,
                                      Contradictions contradictions = Contradictions::explained);
 

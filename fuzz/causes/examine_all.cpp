@@ -36,8 +36,10 @@ class Examiner {
   void run_job() try {
     EnginePool pool(config_.make);
     for (std::size_t i = next_++; i < all_.size() && !is_over(); i = next_++) {
-      examine(all_[i], config_.knowledge, config_.tries, i < classes_, pool);
+      const bool is_known = config_.examinations && config_.examinations->restore(all_[i]);
+      if (!is_known) examine(all_[i], config_.knowledge, config_.tries, i < classes_, pool);
       const std::lock_guard lock(mutex_);
+      if (config_.examinations && !is_known && all_[i].asked) config_.examinations->add(all_[i]);
       if (config_.progress) config_.progress(++done_, all_.size());
     }
   } catch (const Stopped&) {

@@ -73,7 +73,7 @@ class Grouping {
     const auto fault = std::find(fault_names.begin(), fault_names.end(), f.fault);
     if (fault == fault_names.end()) return "";
     return in_.knowledge.documented(f.engine, symptom(i), class_of(i).route,
-                                    static_cast<Fault>(fault - fault_names.begin()));
+                                    static_cast<Fault>(fault - fault_names.begin()), class_of(i).parting);
   }
 
   double noise(const std::string& path) const {

@@ -6,6 +6,7 @@
 
 #include "fuzz/ask/evidence.h"
 #include "fuzz/ask/shapes_of.h"
+#include "fuzz/causes/parting.h"
 #include "fuzz/causes/respond.h"
 #include "fuzz/judge/judge.h"
 #include "fuzz/shrink/keeps_finding.h"
@@ -75,10 +76,25 @@ bool is_kept(const Occurrence& o, const Kept& k, const std::string& engine,
          (!k.route || route_of(engine, o.shapes, k.symptom.question, knowledge) == *k.route);
 }
 
+bool part_from_start(const Case& c) {
+  return std::ranges::all_of(c.queries, [&](const Query& q) {
+    return q.question != Question::time_of_impact || parts_from_start(c, q);
+  });
+}
+
+// A documented fault must not become one that is not, nor the other way round.
+bool is_documented_of_parting(const Finding& f, const Symptom& s, const EngineKnowledge& knowledge) {
+  if (s.question != Question::time_of_impact || f.fault != to_string(Fault::missed)) return false;
+  const std::string route = route_of(f.engine, f.shapes, s.question, knowledge);
+  return knowledge.documented(f.engine, s, route, Fault::missed, true) !=
+         knowledge.documented(f.engine, s, route, Fault::missed, false);
+}
+
 }  // namespace
 
 Kept kept_of(const Case& c, const Finding& f, const EnginePtr& engine, const EngineKnowledge& knowledge) {
-  Kept k{symptom_of(f), f.fault, std::nullopt, std::nullopt};
+  Kept k{symptom_of(f), f.fault, std::nullopt, std::nullopt, std::nullopt};
+  if (is_documented_of_parting(f, k.symptom, knowledge)) k.parts = part_from_start(c);
   if (knowledge.knows_routes(f.engine)) k.route = route_of(f.engine, f.shapes, k.symptom.question, knowledge);
   bool any_moves = false, any_rests = false;
   const auto found = occurrences({&c, 1}, engine, k.symptom);
@@ -95,6 +111,9 @@ StillShows keeps(const EnginePtr& engine, Kept kept, const EngineKnowledge& know
       shows.push_back(std::any_of(found.begin(), found.end(), [&](const Occurrence& o) {
         return is_kept(o, kept, engine->card().name, knowledge);
       }));
+    if (kept.parts)
+      for (std::size_t i = 0; i < cases.size(); ++i)
+        shows[i] = shows[i] && part_from_start(cases[i]) == *kept.parts;
     return shows;
   };
 }

@@ -19,6 +19,7 @@ struct Kept {
   std::string fault;                 // as in findings: "ghost", "crashed_gjk-c-177", "relation_scale"
   std::optional<std::string> route;  // EngineKnowledge::route_of; empty: any
   std::optional<bool> moves;         // whether one of the bodies concerned moves; empty: either
+  std::optional<bool> parts;         // parts_from_start(), where the engine documents that; empty: either
 };
 
 /// What the engine shows in the case under the finding. Where it shows nothing, or both moving and resting

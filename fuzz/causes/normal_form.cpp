@@ -8,6 +8,7 @@
 #include "fuzz/causes/intervention.h"
 #include "fuzz/causes/interventions/true_pair.h"
 #include "fuzz/causes/plain_cases.h"
+#include "fuzz/judge/truth.h"
 
 namespace touchstone::fuzz {
 namespace {
@@ -35,9 +36,21 @@ std::vector<Case> valid(std::vector<Case> all) {
   return all;
 }
 
+// Where the gap has no value, as that of a mesh that overlaps, it stands for half of the size.
+std::optional<TruePair> pair_with_a_gap(const Case& c) {
+  if (auto p = true_pair(c)) return p;
+  const auto bodies = pair_of(c);
+  if (!bodies) return std::nullopt;
+  Truth truth(c.scene);
+  const referee::Verdict verdict = truth.pair(0, bodies->first, bodies->second).verdict;
+  if (verdict == referee::Verdict::undecided) return std::nullopt;
+  const double gap = verdict == referee::Verdict::overlap ? -0.5 : 0.5;
+  return TruePair{bodies->first, bodies->second, gap, Vec3::UnitX(), 1};
+}
+
 std::vector<Case> plain_cases(const Case& c, PlainForms forms) {
   if (is_motion_question(c.queries[0].question)) return valid(plain_impacts(c, *pair_of(c)));
-  const auto p = true_pair(c);
+  const auto p = forms == PlainForms::all ? pair_with_a_gap(c) : true_pair(c);
   if (!p) return {};
   return valid(forms == PlainForms::all ? plain_pairs(c, *p) : nearest_plain_pairs(c, *p));
 }

@@ -85,6 +85,7 @@ struct Arrangement {
   Numbers towards = {1, 0, 0};  // from the first body to the second
   Numbers at = {0, 0, 0};       // the first body
   double size_a = 1, size_b = 1;
+  double scale = 1;  // of both, and of the gap between them
   bool turned_a = false, turned_b = false;
   bool is_inside = false;  // the second body, not quite at the centre of the first
 };
@@ -106,6 +107,9 @@ constexpr Arrangement arrangements[] = {
     {.size_a = 4, .is_inside = true},
     {.size_b = 4, .is_inside = true},
     {.at = {16, 32, 64}, .size_a = 4, .is_inside = true},
+    {.scale = 0x1p-9},  // in millimetres, the smallest with plain numbers (fuzz/shrink/defensible.h)
+    {.scale = 0x1p-12},
+    {.scale = 0x1p11},
 };
 
 PlainPair sized(const PlainPair& p, double first, double second) {
@@ -117,10 +121,18 @@ PlainPair sized(const PlainPair& p, double first, double second) {
   return r;
 }
 
+// The gap is set by the referee where it is not plain. The depth of a mesh has no value.
+std::optional<Case> at_gap(const Case& c, const PlainPair& shapes, double gap) {
+  const auto is_mesh = [](const Shape& s) { return kind_of(s) == ShapeKind::mesh; };
+  if (gap < 0 && (is_mesh(shapes.first) || is_mesh(shapes.second))) return c;
+  return with_gap(c, gap);
+}
+
 // Empty where the gap cannot be had.
 std::optional<Case> arranged(const Case& c, const BodyPair& p, const PlainPair& shapes,
                              const Arrangement& how, double gap) {
-  const PlainPair sizes = sized(shapes, how.size_a, how.size_b);
+  gap *= how.scale;
+  const PlainPair sizes = sized(shapes, how.size_a * how.scale, how.size_b * how.scale);
   Case r = side_by_side(c, p, sizes, gap);
   Pose &a = r.scene.bodies[static_cast<std::size_t>(p.first)].pose,
        &b = r.scene.bodies[static_cast<std::size_t>(p.second)].pose;
@@ -132,13 +144,12 @@ std::optional<Case> arranged(const Case& c, const BodyPair& p, const PlainPair& 
   b.translation = a.translation + vec3(how.towards) * between;
   const bool is_exact = shapes.is_exact && !how.turned_a && !how.turned_b && vec3(how.towards).norm() == 1;
   if (how.is_inside) return gap < 0 ? std::optional(r) : std::nullopt;
-  return is_exact ? std::optional(r) : with_gap(r, gap);
+  return is_exact ? std::optional(r) : at_gap(r, shapes, gap);
 }
 
-// The gap is set by the referee where it is not plain.
 std::optional<Case> with_plain_gap(const Case& c, const BodyPair& p, const PlainPair& shapes, double gap) {
   const Case r = side_by_side(c, p, shapes, gap);
-  return shapes.is_exact ? std::optional(r) : with_gap(r, gap);
+  return shapes.is_exact ? std::optional(r) : at_gap(r, shapes, gap);
 }
 
 std::vector<double> plain_gaps(const TruePair& p) {

@@ -44,9 +44,19 @@ std::vector<const Case*> starting_cases(const Finding& f) {
   return cases;
 }
 
+StillShows and_is_defensible(const StillShows& still) {
+  return [&still](std::span<const Case> cases) {
+    std::vector<bool> shows = still(cases);
+    for (std::size_t i = 0; i < cases.size(); ++i) shows[i] = shows[i] && is_defensible(cases[i]);
+    return shows;
+  };
+}
+
 // What is defensible stays so, and the smallest case gets no larger.
 void normalize(Examined& e, const StillShows& still, PlainForms forms) {
-  Case plain = normal_form(e.shown(), still, forms);
+  // Of all plain cases, the first one may not be defensible where a later one is.
+  const bool pass_over = e.defensible && forms == PlainForms::all;
+  Case plain = normal_form(e.shown(), pass_over ? and_is_defensible(still) : still, forms);
   if (e.defensible) {
     if (is_defensible(plain)) e.defensible = std::move(plain);
   } else if (measure(plain) < measure(e.smallest) && (is_solid(plain) || !is_solid(e.smallest))) {

@@ -69,6 +69,12 @@ Triaged fresh(const Cause& c, const std::string& date) {
   return t;
 }
 
+// Of a failure at one place in the code, whose key names no shapes, other shapes are no news.
+bool has_shapes(const Cause& c) {
+  const auto f = finding_of_key(c.shown().engine, c.shown().key);
+  return !f || f->shapes != "any";
+}
+
 // A case that no longer showed its cause is replaced by one that does.
 Triaged seen_again(const Cause& c, KnownCause known, const std::string& date) {
   Triaged t;
@@ -80,6 +86,7 @@ Triaged seen_again(const Cause& c, KnownCause known, const std::string& date) {
   k.expired.clear();
   add(k.engines, c.engines);
   t.new_shapes = add(k.shapes, c.shapes);
+  if (!has_shapes(c)) t.new_shapes.clear();
   t.standing = is_back ? Standing::back : t.new_shapes.empty() ? Standing::known : Standing::changed;
   return t;
 }

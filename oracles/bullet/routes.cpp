@@ -43,8 +43,14 @@ std::vector<Related> related() {
 }  // namespace
 
 Library bullet_library() {
-  return {"Bullet", "bullet",  route,
-          nullptr,  related(), {{"bullet-f32-", "bullet-"}, {"bullet-f64-", "bullet-"}}};
+  return {"Bullet",
+          "bullet",
+          route,
+          nullptr,
+          related(),
+          {{"bullet-f32-", "bullet-"}, {"bullet-f64-", "bullet-"}},
+          "btContinuousConvexCollision.cpp: \"don't report time of impact for motion away from the contact "
+          "normal\""};
 }
 
 }  // namespace touchstone::routes

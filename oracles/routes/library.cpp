@@ -24,4 +24,9 @@ std::string_view documented(std::string_view engine, Question question, std::str
   return library && library->documents ? library->documents(engine, question, route, fault) : "";
 }
 
+std::string_view documented_of_parting(std::string_view engine) {
+  const Library* library = library_of(engine);
+  return library ? library->parting : "";
+}
+
 }  // namespace touchstone::routes

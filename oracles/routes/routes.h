@@ -62,6 +62,9 @@ struct Library {
                                 Fault fault) = nullptr;
   std::vector<Related> related = {};
   std::vector<SameCode> same_code = {};
+  /// Where the library's documentation states that impacts of bodies that are in contact at the start and
+  /// move apart are not reported; empty: nowhere.
+  std::string_view parting = {};
 };
 
 /// Those that have a part in their folder, sorted by folder.
@@ -74,6 +77,8 @@ const Library* library_of(std::string_view engine);
 std::string_view route_of(std::string_view engine, const Pair& p);
 /// As Library::documents; empty if nothing is known of the library.
 std::string_view documented(std::string_view engine, Question question, std::string_view route, Fault fault);
+/// As Library::parting; empty if nothing is known of the library.
+std::string_view documented_of_parting(std::string_view engine);
 
 /// By what any library must tell apart.
 std::string_view common_route(const Pair& p);

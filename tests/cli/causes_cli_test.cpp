@@ -1,5 +1,6 @@
-// `touchstone causes` when the disk is full or it is interrupted: what was recorded stays, and the exit code
-// and the last line say what happened.
+// `touchstone causes` when the disk is full or it is interrupted: what was recorded stays, the exit code and
+// the last line say what happened, and the next call goes on.
+#include <algorithm>
 #include <chrono>
 #include <filesystem>
 #include <nlohmann/json.hpp>
@@ -52,7 +53,7 @@ TEST_CASE("causes that cannot be stored are printed all the same", "[cli][causes
   CHECK(read_all(w.dir / "lies/causes.json") == stored);
 }
 
-TEST_CASE("interrupted causes say so and leave the stored ones alone", "[cli][causes]") {
+TEST_CASE("interrupted causes say so, leave the stored ones alone, and go on", "[cli][causes]") {
   const Workspace w("causes-cli");
   make_campaign(w, 400);
   const auto start = std::chrono::steady_clock::now();
@@ -71,10 +72,17 @@ TEST_CASE("interrupted causes say so and leave the stored ones alone", "[cli][ca
     if (r.code != 3) continue;
     INFO(r.out << r.err);
     CHECK(contains(r.err, "touchstone: interrupted"));
+    const std::string examined = read_all(w.dir / "lies/causes.examined");
+    const auto lines = std::count(examined.begin(), examined.end(), '\n');
+    if (lines < 2) continue;  // nothing was examined yet
+    CHECK(contains(r.err, "goes on after the " + std::to_string(lines - 1) + " findings"));
     caught = true;
     break;
   }
   CHECK(caught);
+  CHECK(w.touchstone(causes + "--jobs 1 --again").code == 0);  // goes on
+  CHECK(read_all(w.dir / "lies/causes.json") == stored);
+  CHECK_FALSE(fs::exists(w.dir / "lies/causes.examined"));
   // Triage does not take incomplete causes for all of them.
   fs::remove(w.dir / "lies/causes.json");
   for (const double part : {0.5, 0.4, 0.6, 0.3, 0.7}) {

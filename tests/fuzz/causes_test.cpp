@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <fstream>
 #include <set>
 
 #include "fuzz/ask/evidence.h"
@@ -13,6 +14,7 @@
 #include "fuzz/causes/name.h"
 #include "fuzz/causes/normal_form.h"
 #include "fuzz/causes/order.h"
+#include "fuzz/causes/parting.h"
 #include "fuzz/causes/plain_form.h"
 #include "fuzz/judge/truth.h"
 #include "fuzz/shrink/keeps_finding.h"
@@ -21,6 +23,7 @@
 #include "scenarios/random/family.h"
 #include "tests/mutants/lying_engine.h"
 #include "tests/support/catch.h"
+#include "tests/support/workspace.h"
 
 using namespace touchstone;
 using fuzz::FaultStage;
@@ -124,6 +127,66 @@ TEST_CASE("a failure is a symptom of its own, named by its place", "[causes]") {
         fuzz::Severity::declined);
   CHECK(fuzz::severity_of(finding("x", "overlap", "relation_swap", "box-box", 1)) ==
         fuzz::Severity::relation);
+}
+
+TEST_CASE("a failure at one place in the code has the shapes of its cases", "[causes]") {
+  fuzz::Finding f = finding("x", "distance", "crashed_distance-inl-h-177", "any", 2);
+  const auto add_example = [&](const Case& c) {
+    fuzz::Example e;
+    e.index = f.examples.size();
+    e.c = std::make_shared<const Case>(c);
+    f.examples.push_back(e);
+  };
+  add_example(pair_case(Box{Vec3(1, 1, 1)}, Sphere{1}, Vec3::Zero(), Question::distance));
+  add_example(pair_case(Sphere{1}, Capsule{1, 1}, Vec3::Zero(), Question::distance));
+  add_example(pair_case(Cone{1, 1}, Cone{1, 1}, Vec3::Zero(), Question::overlap));  // another question
+  const auto shapes = [&] {
+    return fuzz::causes_at_once(result_of({f}), fuzz::no_knowledge()).causes.at(0).shapes;
+  };
+  CHECK(shapes() == std::vector<std::string>{"box-sphere", "capsule-sphere"});
+  f.examples.clear();
+  CHECK(shapes() == std::vector<std::string>{"any"});
+}
+
+TEST_CASE("bodies part from the start if they touch and nothing brings them back", "[causes]") {
+  Case c = pair_case(Box{Vec3(1, 1, 1)}, Box{Vec3(1, 1, 1)}, Vec3(1.5, 0, 0), Question::time_of_impact);
+  const auto parts = [&](const Vec3& linear, const Vec3& angular = Vec3::Zero()) {
+    c.scene.bodies[1].motion = Motion{linear, angular};
+    return fuzz::parts_from_start(c, c.queries[0]);
+  };
+  CHECK(parts(Vec3(1, 0, 0)));
+  CHECK(parts(Vec3(0, 1, 0)));  // slides
+  CHECK_FALSE(parts(Vec3(-1, 0, 0)));
+  CHECK_FALSE(parts(Vec3(-1e-9, 1, 0)));
+  CHECK_FALSE(parts(Vec3::Zero()));
+  CHECK(parts(Vec3(2, 0, 0), Vec3(0, 0, 1)));
+  CHECK_FALSE(parts(Vec3(1, 0, 0), Vec3(0, 0, 1)));  // a corner moves by up to the square root of 3
+  c.scene.bodies[1].pose.translation.x() = 2.5;      // apart from the start
+  CHECK_FALSE(parts(Vec3(1, 0, 0)));
+}
+
+TEST_CASE("impacts that an engine's source says it does not report are documented, others are not",
+          "[causes]") {
+  const auto missed = [](const std::string& shapes, const Vec3& linear) {
+    fuzz::Finding f = finding("x", "time_of_impact", "missed", shapes, 1);
+    Case c = pair_case(Box{Vec3(1, 1, 1)}, Box{Vec3(1, 1, 1)}, Vec3(1.5, 0, 0), Question::time_of_impact);
+    c.scene.bodies[1].motion = Motion{linear, Vec3::Zero()};
+    fuzz::Example e;
+    e.c = std::make_shared<const Case>(c);
+    f.examples.push_back(e);
+    return f;
+  };
+  fuzz::EngineKnowledge knowledge = fuzz::no_knowledge();
+  knowledge.documented = [](const std::string&, const fuzz::Symptom&, const std::string&, Fault,
+                            bool parting) { return std::string(parting ? "its source" : ""); };
+  const fuzz::CampaignResult result =
+      result_of({missed("box-box", Vec3(1, 0, 0)), missed("box-hull", Vec3(-1, 0, 0))});
+  const fuzz::Causes causes = fuzz::causes_at_once(result, knowledge);
+  REQUIRE(causes.causes.size() == 2);
+  CHECK(causes.causes[0].documented.empty());
+  CHECK(causes.causes[0].shapes == std::vector<std::string>{"box-hull"});
+  CHECK(causes.causes[1].documented == "its source");  // comes last
+  CHECK(causes.causes[1].shapes == std::vector<std::string>{"box-box"});
 }
 
 TEST_CASE("a denied overlap and an invented one are two symptoms", "[causes]") {
@@ -395,6 +458,51 @@ TEST_CASE("causes of a campaign: every key in one cause, the same for any number
   }
   CHECK(assigned.size() == result.findings.size());
   CHECK(one.keys == result.findings.size());
+}
+
+TEST_CASE("examinations that were kept are not asked again, whenever they were interrupted", "[causes]") {
+  const auto result = campaign({"distance_margin", "depth_halved", "overlap_always"}, 200, "separate,deep");
+  fuzz::CausesConfig config = config_for_liars();
+  config.knowledge.path_of = [](const std::string&) {
+    return std::string("liar");
+  };  // one liar asks the other
+  const fuzz::Causes whole = fuzz::causes_of(result, config);
+  const test::Workspace w("examinations");
+  const auto file = w.dir / "causes.examined";
+  const fuzz::Json about = {{"digest", "1"}};
+  std::atomic<bool> stop = false;
+  std::size_t all = 0;
+  const auto go_on = [&](std::size_t examine_most) {
+    fuzz::Examinations kept(file, about);
+    const std::size_t before = kept.size();
+    stop = false;
+    config.stop = &stop;
+    config.progress = [&](std::size_t done, std::size_t of) {
+      all = of;
+      stop = done >= before + examine_most;
+    };
+    config.examinations = &kept;
+    const fuzz::Causes causes = fuzz::causes_of(result, config);
+    CHECK(kept.not_kept().empty());
+    CHECK(kept.size() == std::min(before + examine_most, all));
+    return causes;
+  };
+  go_on(2);
+  REQUIRE(all > 6);
+  const std::string text = test::read_all(file);
+  std::ofstream(file, std::ios::app) << R"({"key": "liar.dis)";  // killed while it wrote
+  go_on(3);
+  CHECK(test::read_all(file).starts_with(text));
+  CHECK(fuzz::Examinations(file, about).size() == 5);
+  CHECK(fuzz::Examinations(file, {{"digest", "2"}}).size() == 0);  // of another campaign
+  CHECK(to_json(go_on(all)) == to_json(whole));
+  // Nothing is left to examine: without engines, the same groups.
+  config.make = [](const std::string&) { return EnginePtr(); };
+  const fuzz::Causes again = go_on(0);
+  CHECK(again.answers == whole.answers);
+  CHECK(again.notes.empty());
+  std::ofstream(file, std::ios::app) << "{\"key\": 3}\n";
+  CHECK_THROWS_WITH(fuzz::Examinations(file, about), Catch::Contains("line"));
 }
 
 TEST_CASE("a contradiction is explained by the fault that the referee finds in one of its forms",

@@ -124,6 +124,24 @@ TEST_CASE("reducing keeps what moves moving, and what rests at rest", "[causes][
   CHECK(fuzz::kept_of(pose, finding_in(pose, engine), engine, knowledge).moves == false);
 }
 
+TEST_CASE("reducing keeps whether bodies part from the start, where that is documented", "[causes][shrink]") {
+  const EnginePtr engine = std::make_unique<Opposite>();
+  Case parting = pair_case(Sphere{0.5}, Sphere{0.5}, 0.5, Question::time_of_impact), meeting = parting;
+  parting.scene.bodies[1].motion = Motion{Vec3(1, 0, 0), Vec3(0, 0, 0)};
+  meeting.scene.bodies[1].motion = Motion{Vec3(-1, 0, 0), Vec3(0, 0, 0)};
+  const Case both[] = {parting, meeting};
+  fuzz::EngineKnowledge knowledge = fuzz::no_knowledge();
+  const auto keeps = [&](const Case& base) {
+    return fuzz::keeps(engine, fuzz::kept_of(base, finding_in(base, engine), engine, knowledge),
+                       knowledge)(both);
+  };
+  CHECK(keeps(parting) == std::vector<bool>{true, true});
+  knowledge.documented = [](const std::string&, const fuzz::Symptom&, const std::string&, Fault,
+                            bool of_parting) { return std::string(of_parting ? "its source" : ""); };
+  CHECK(keeps(parting) == std::vector<bool>{true, false});
+  CHECK(keeps(meeting) == std::vector<bool>{false, true});
+}
+
 TEST_CASE("the smallest case keeps volume and plain numbers if the case has them", "[causes][shrink]") {
   const EnginePtr engine = std::make_unique<Opposite>();
   const Box box{Vec3(0.5, 0.75, 0.5)};

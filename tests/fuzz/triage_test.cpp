@@ -162,6 +162,15 @@ TEST_CASE("a known cause with other kinds of shapes is changed, and names them",
   // All shapes ever seen are remembered.
   CHECK(night(place, {with_shapes(c, {"box-hull"})}, fake.config("d3")).at(0).standing == Standing::known);
   CHECK(Ledger(place.ledger).find(c.id)->shapes.size() == 3);
+  // Of a failure at one place in the code, they are no news.
+  Finding f = *finding_of_key("one", c.smallest.key);
+  f.shapes = "any";
+  Cause crash = c;
+  crash.id = "one-crash";
+  crash.smallest.key = f.key();
+  night(place, {crash}, fake.config("d1"));
+  CHECK(night(place, {with_shapes(crash, {"box-hull"})}, fake.config("d2")).at(0).standing ==
+        Standing::known);
 }
 
 TEST_CASE("a smaller case replaces the one in the ledger, and so does one of a cause that is back",

@@ -30,6 +30,13 @@ TEST_CASE("MuJoCo's documentation disclaims depths of its legacy pipeline alone"
   CHECK_FALSE(documents("mujoco", "convex", Fault::not_minimal));
 }
 
+TEST_CASE("Bullet's source says that bodies that move apart have no impact", "[routes]") {
+  CHECK(routes::documented_of_parting("bullet-f32-query").starts_with("btContinuousConvexCollision.cpp"));
+  CHECK(routes::documented("bullet-f32-query", Question::time_of_impact, "convex", Fault::missed).empty());
+  CHECK(routes::documented_of_parting("fcl-libccd").empty());
+  CHECK(routes::documented_of_parting("odeon").empty());
+}
+
 TEST_CASE("PhysX's pairs take the routes of its tables", "[routes]") {
   using K = ShapeKind;
   const auto overlap = [](std::string_view engine, K a, K b) {
