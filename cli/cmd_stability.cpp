@@ -114,8 +114,9 @@ void write_motions(const fuzz::Motions& m, const std::string& file, bool as_json
   fmt::print(to, "{0}.json, {0}.csv\n", file);
   if (!m.cases.empty())
     fmt::print(to,
-               "{0}/*.json: the motions named above; follow one with `touchstone stability --motion FILE`,\n"
-               "ask a frame alone with `touchstone replay FILE`\n",
+               "{0}/*.json: the motions named above\n"
+               "  touchstone stability --motion FILE   follows one again\n"
+               "  touchstone replay FILE               asks one of its frames alone\n",
                file);
 }
 
