@@ -36,9 +36,10 @@ class CrossAsking {
     std::map<std::string, std::size_t> part;
     std::size_t n = 0;
     for (const auto& [engine, members] : shown) {
-      const auto same = std::ranges::find_if(part, [&](const auto& other) {
-        return show_each_other(engine, members, other.first, shown.at(other.first));
-      });
+      const auto same =
+          std::ranges::find_if(part, [&, &name = engine, &of_engine = members](const auto& other) {
+            return show_each_other(name, of_engine, other.first, shown.at(other.first));
+          });
       const std::size_t of = same == part.end() ? n++ : same->second;
       part.emplace(engine, of);
     }

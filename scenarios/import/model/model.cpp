@@ -140,7 +140,7 @@ void set_variable(const Model& model, Configuration& to, const std::string& vari
 void set_state(const Model& model, Configuration& to, const std::string& text, const std::string& place) {
   for (const auto& [joint, values] : state_named(model, text, place).values) {
     const auto it = std::find_if(model.joints.begin(), model.joints.end(),
-                                 [&](const ModelJoint& j) { return j.name == joint; });
+                                 [&name = joint](const ModelJoint& j) { return j.name == name; });
     if (it == model.joints.end()) throw InputError(place, "there is no joint " + printable(joint));
     if (it->mimic) continue;
     to[static_cast<std::size_t>(it - model.joints.begin())] = values;
