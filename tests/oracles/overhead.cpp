@@ -45,7 +45,7 @@ void measure(const char* plugin, const char* engine, int n, int queries) {
   const auto cases = cases_of(n, queries, false);
   e.run(cases);
   std::vector<CaseObservations> results;
-  const double s = seconds_of([plugin = plugin, engine = engine] { results = e.run(cases); });
+  const double s = seconds_of([&] { results = e.run(cases); });
   const double asked = static_cast<double>(n) * queries;
   const double own = static_cast<double>(engine_ns(results)) / asked * 1e-3;
   std::printf("%-18s %5d cases x %4d queries: %7.2f us per query, engine %.2f us, overhead %.2f us\n", engine,
@@ -62,8 +62,8 @@ int main() {
   for (const auto& [plugin, engine] : {std::pair{"libtouchstone_fcl.so", "fcl-libccd"},
                                        {"libtouchstone_bullet_f32.so", "bullet-f32-sim"},
                                        {"libts_bad_behaviours.so", "good"}}) {
-    const double s = seconds_of([&] {
-      RemoteEngine({in_build("bin/touchstone-host"), in_build("lib") / plugin, engine, {}});
+    const double s = seconds_of([&, &file = plugin, &name = engine] {
+      RemoteEngine({in_build("bin/touchstone-host"), in_build("lib") / file, name, {}});
     });
     std::printf("start and end of a %s worker: %.2f ms\n", engine, s * 1e3);
   }
