@@ -15,6 +15,7 @@
 #include "cli/engines_by_card.h"
 #include "cli/judged_by.h"
 #include "cli/program_for.h"
+#include "core/base/exact_text.h"
 #include "core/base/hash.h"
 #include "core/base/input_error.h"
 #include "fuzz/campaign/directory_lock.h"
