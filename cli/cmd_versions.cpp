@@ -168,9 +168,7 @@ Run declare_versions(CLI::App& app) {
   app.add_option("engines", o->engines, "engines from npm, separated by commas: jolt,rapier")->required();
   app.add_option("--releases", o->releases,
                  "number of releases, spread from the oldest to the newest: the newest patch of each minor "
-                 "release, or "
-                 "any if there "
-                 "are fewer")
+                 "release, or any if there are fewer")
       ->check(CLI::Range(1, 1000))
       ->capture_default_str();
   add_release_choice(app, o->choice);

@@ -20,7 +20,7 @@ namespace {
 // One site in an engine's code is one fault, whatever the case; the first case serves as the example.
 void name_by_site(Finding& f, const std::string& site) {
   f.fault += "_" + site_word(site);
-  f.shapes = "any";
+  f.shapes = any_shapes;
   f.degeneracy = "any";
 }
 

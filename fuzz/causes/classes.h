@@ -5,7 +5,6 @@
 #include <cstdint>
 #include <functional>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "fuzz/causes/symptom.h"
@@ -43,10 +42,6 @@ struct EngineKnowledge {
 
 /// For engines of which nothing is known.
 EngineKnowledge no_knowledge();
-
-/// Instead of shapes, in findings of failures whose place in the code is known (fuzz/ask): one route,
-/// wherever it was met.
-inline constexpr std::string_view any_shapes = "any";
 
 /// The route of a finding about these shapes, as in its key; `question` is folded (symptom.h).
 std::string route_of(const std::string& engine, const std::string& shapes, Question question,

@@ -12,6 +12,7 @@
 #include "reports/record/stored.h"
 #include "scenarios/codec/case_codec.h"
 #include "scenarios/codec/json_file.h"
+#include "scenarios/codec/scene_codec.h"
 #include "scenarios/text/printable.h"
 
 namespace touchstone::fuzz {
@@ -116,12 +117,6 @@ Examined examined_from(const JsonReader& j) {
   return e;
 }
 
-std::string text_of_file(const std::filesystem::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  if (!in) throw InputError(file.string(), std::strerror(errno));
-  return {std::istreambuf_iterator<char>(in), {}};
-}
-
 }  // namespace
 
 Json examination_json(const Representative& r) {
@@ -144,8 +139,7 @@ void restore_examination(Representative& r, const JsonReader& j) {
 Examinations::Examinations(std::filesystem::path file, Json about)
     : file_(std::move(file)), about_(std::move(about)) {
   if (!std::filesystem::exists(file_)) return;
-  require_regular_file(file_);
-  const std::string text = text_of_file(file_);
+  const std::string text = read_file(file_, campaign_limits.bytes);
   std::size_t at = 0;
   for (std::size_t line = 1, end = text.find('\n'); end != std::string::npos;
        ++line, at = end + 1, end = text.find('\n', at)) {

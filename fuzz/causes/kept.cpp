@@ -76,12 +76,6 @@ bool is_kept(const Occurrence& o, const Kept& k, const std::string& engine,
          (!k.route || route_of(engine, o.shapes, k.symptom.question, knowledge) == *k.route);
 }
 
-bool part_from_start(const Case& c) {
-  return std::ranges::all_of(c.queries, [&](const Query& q) {
-    return q.question != Question::time_of_impact || parts_from_start(c, q);
-  });
-}
-
 // A documented fault must not become one that is not, nor the other way round.
 bool is_documented_of_parting(const Finding& f, const Symptom& s, const EngineKnowledge& knowledge) {
   if (s.question != Question::time_of_impact || f.fault != to_string(Fault::missed)) return false;
@@ -94,7 +88,7 @@ bool is_documented_of_parting(const Finding& f, const Symptom& s, const EngineKn
 
 Kept kept_of(const Case& c, const Finding& f, const EnginePtr& engine, const EngineKnowledge& knowledge) {
   Kept k{symptom_of(f), f.fault, std::nullopt, std::nullopt, std::nullopt};
-  if (is_documented_of_parting(f, k.symptom, knowledge)) k.parts = part_from_start(c);
+  if (is_documented_of_parting(f, k.symptom, knowledge)) k.parts = parts_from_start(c);
   if (knowledge.knows_routes(f.engine)) k.route = route_of(f.engine, f.shapes, k.symptom.question, knowledge);
   bool any_moves = false, any_rests = false;
   const auto found = occurrences({&c, 1}, engine, k.symptom);
@@ -113,7 +107,7 @@ StillShows keeps(const EnginePtr& engine, Kept kept, const EngineKnowledge& know
       }));
     if (kept.parts)
       for (std::size_t i = 0; i < cases.size(); ++i)
-        shows[i] = shows[i] && part_from_start(cases[i]) == *kept.parts;
+        shows[i] = shows[i] && parts_from_start(cases[i]) == *kept.parts;
     return shows;
   };
 }

@@ -44,15 +44,18 @@ bool parts_from_start(const Case& c, const Query& q) {
   return apart + rounding * start.velocity.norm() >= start.turning;
 }
 
+bool parts_from_start(const Case& c) {
+  return std::ranges::all_of(c.queries, [&](const Query& q) {
+    return q.question != Question::time_of_impact || parts_from_start(c, q);
+  });
+}
+
 bool is_of_parting_bodies(const Finding& f) {
   if (f.question != to_string(Question::time_of_impact) || f.fault != to_string(Fault::missed)) return false;
   std::size_t parting = 0;
   for (const Example& e : f.examples) {
     if (!e.c) continue;
-    const auto parts = [&](const Query& q) {
-      return q.question != Question::time_of_impact || parts_from_start(*e.c, q);
-    };
-    if (!std::ranges::all_of(e.c->queries, parts)) return false;
+    if (!parts_from_start(*e.c)) return false;
     ++parting;
   }
   return parting > 0;

@@ -11,6 +11,9 @@ namespace touchstone::fuzz {
 /// of whose triangles has a normal of its own.
 bool parts_from_start(const Case& c, const Query& q);
 
+/// The same of every time of impact that the case asks for.
+bool parts_from_start(const Case& c);
+
 /// True of an impact denied, when this holds for every case that is kept as its example.
 bool is_of_parting_bodies(const Finding& f);
 

@@ -26,7 +26,7 @@ std::uint64_t asked_about(const CampaignResult& result, std::span<const Finding*
   std::uint64_t asked = 0;
   for (const Finding* f : findings) {
     const auto question = question_from_string(f->question);
-    const bool whole = !question || !is_pair_question(*question) || f->shapes == "any";
+    const bool whole = !question || !is_pair_question(*question) || f->shapes == any_shapes;
     const std::string shapes = whole ? "all" : f->shapes;
     if (question && counted.emplace(f->engine, f->question, shapes).second)
       asked += answers_about(result, f->engine, *question, shapes);

@@ -243,8 +243,7 @@ std::vector<double> region_slacks(const Pair& p) {
 }
 
 // How far the corners of the contact region move, seen in each of the three ways: the most over the regions
-// that engines may mean.
-// Empty if one of these regions gets other corners.
+// that engines may mean. Empty if one of these regions gets other corners.
 std::optional<std::array<double, 3>> moved_corners(const Pair& p) {
   std::array<double, 3> moved_most{};
   for (const double slack : region_slacks(p)) {

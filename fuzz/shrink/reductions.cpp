@@ -363,11 +363,11 @@ std::vector<Case> round_one(const Case& c, std::size_t i) {
 
 std::vector<Case> smaller_and_valid(const Case& c, std::vector<Case> proposals) {
   const CaseSize m = measure(c);
-  const bool odd = !invalid_numbers(c.scene).empty();
+  const bool invalid = !invalid_numbers(c.scene).empty();
   std::erase_if(proposals, [&](const Case& p) {
     if (!(measure(p) < m)) return true;
     try {
-      validate(odd ? without_invalid_numbers(p.scene) : p.scene);
+      validate(invalid ? without_invalid_numbers(p.scene) : p.scene);
     } catch (const InputError&) {
       return true;
     }

@@ -72,7 +72,7 @@ Triaged fresh(const Cause& c, const std::string& date) {
 // Of a failure at one place in the code, whose key names no shapes, other shapes are no news.
 bool has_shapes(const Cause& c) {
   const auto f = finding_of_key(c.shown().engine, c.shown().key);
-  return !f || f->shapes != "any";
+  return !f || f->shapes != any_shapes;
 }
 
 // A case that no longer showed its cause is replaced by one that does.

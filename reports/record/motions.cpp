@@ -47,12 +47,15 @@ double MotionResult::score() const {
   return changes == 0 ? 0 : 1000 * static_cast<double>(flicker_sum()) / static_cast<double>(changes);
 }
 
+std::string frame_id(const std::string& motion, int frame) {
+  return fmt::format("{}/frame/{}", motion, frame);
+}
+
 std::vector<std::string> case_ids(const MotionEvidence& e) {
   if (e.kind == switch_evidence) return {};
-  const auto frame = [&](int k) { return fmt::format("{}/frame/{}", e.motion, k); };
-  if (e.kind == wrong_evidence) return {e.motion, frame(e.frame)};
   if (e.kind == state_evidence) return {e.motion};
-  return {e.motion, frame(e.frame - 1), frame(e.frame)};
+  if (e.kind == wrong_evidence) return {e.motion, frame_id(e.motion, e.frame)};
+  return {e.motion, frame_id(e.motion, e.frame - 1), frame_id(e.motion, e.frame)};
 }
 
 void keep(std::vector<MotionEvidence>& list, MotionEvidence e) {

@@ -54,9 +54,11 @@ struct Motions {
   int count = 0, frames = 0;  // motions a row, frames a motion
   std::vector<Row> rows;
   std::vector<MotionResult> results;
-  std::vector<Case> cases;  // the motions, and the single frames with wrong answers, that evidence names
+  std::vector<Case> cases;  // the motions, and the single frames, that evidence names
 };
 
+/// Id of a frame of a motion as a case by itself.
+std::string frame_id(const std::string& motion, int frame);
 /// Ids of the cases that show it: the motion, and the frame of a wrong answer or both frames of a flicker
 /// alone. None for a change that the truth makes too.
 std::vector<std::string> case_ids(const MotionEvidence& e);

@@ -7,6 +7,7 @@
 #include <map>
 #include <memory>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "reports/record/evidence.h"
@@ -63,6 +64,10 @@ struct Tally {
   void add(const Judgement& j, const Observation& o, bool time_includes_pipe = false);
   void merge(const Tally& o);
 };
+
+/// Instead of shapes, in findings of failures whose place in the code is known (fuzz/ask): one kind of
+/// finding, wherever it was met.
+inline constexpr std::string_view any_shapes = "any";
 
 /// One kind of wrong answer: the same engine (whose name includes its path), question, fault, shapes, blame,
 /// degeneracy (degeneracy.h) and magnitude of the error (magnitude.h). Keeps the evidence of its first case,

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <set>
 
 #include "core/base/input_error.h"
 #include "core/math/rng.h"
@@ -138,23 +139,18 @@ Case make_motion(const MotionRow& row, std::size_t number, const MotionPlan& pla
   return c;
 }
 
-bool is_named(const std::vector<MotionResult>& results, const std::string& id) {
-  return std::any_of(results.begin(), results.end(), [&](const MotionResult& r) {
-    return std::any_of(r.evidence.begin(), r.evidence.end(), [&](const MotionEvidence& e) {
-      const auto ids = case_ids(e);
-      return std::find(ids.begin(), ids.end(), id) != ids.end();
-    });
-  });
-}
-
 // The motion and those of its frames that evidence names.
 void keep_cases(std::vector<Case>& cases, const Case& motion, const std::vector<MotionResult>& results) {
-  if (!is_named(results, motion.id)) return;
+  std::set<std::string> named;
+  for (const MotionResult& r : results)
+    for (const MotionEvidence& e : r.evidence)
+      for (std::string& id : case_ids(e)) named.insert(std::move(id));
+  if (!named.contains(motion.id)) return;
   cases.push_back(motion);
   std::vector<Case> frames = frames_of(motion);
   for (std::size_t k = 0; k < frames.size(); ++k) {
-    frames[k].id = fmt::format("{}/frame/{}", motion.id, k);
-    if (is_named(results, frames[k].id)) cases.push_back(std::move(frames[k]));
+    frames[k].id = frame_id(motion.id, static_cast<int>(k));
+    if (named.contains(frames[k].id)) cases.push_back(std::move(frames[k]));
   }
 }
 

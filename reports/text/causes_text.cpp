@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <map>
 
+#include "reports/record/result.h"
 #include "reports/text/cause_words.h"
 #include "reports/text/text.h"
 #include "scenarios/text/printable.h"
@@ -66,7 +67,8 @@ std::string block(const Cause& c, std::size_t number, const std::string& command
   s += text_block(c.title, indent);
   s += documented_line(c, indent);
   const std::string asked = listed(c.questions, list_width / 2);
-  const bool are_any = c.shapes == std::vector<std::string>{"any"};  // of failures at one place in the code
+  const bool are_any =
+      c.shapes == std::vector{std::string(fuzz::any_shapes)};  // of failures at one place in the code
   const std::string shapes = are_any ? "any shapes" : listed(c.shapes, list_width - asked.size() - 2);
   s += text_block(shapes + (shapes.empty() || asked.empty() ? "" : "; ") + asked, indent, 1);
   const CauseCase& shown = c.shown();

@@ -121,7 +121,7 @@ class Expander : Polytope<Expander<R>, ExpanderTypes<R>> {
 
   // Returns true if the ranks have changed.
   bool settle(int f) {
-    const Foot<R> foot = nearest(f, V3<R>::Zero());
+    const Foot<R> foot = nearest_in(f, V3<R>::Zero());
     std::array<Vertex<R>, 3> corner;
     std::array<R, 3> weight{};
     for (std::size_t k = 0; k < 3; ++k) {
@@ -257,7 +257,7 @@ class Expander : Polytope<Expander<R>, ExpanderTypes<R>> {
   // ---- end
 
   // The point of the facet nearest to `end`, relative to it.
-  Foot<R> nearest(int f, const V3<R>& end) const {
+  Foot<R> nearest_in(int f, const V3<R>& end) const {
     Simplex<R> s;
     for (std::size_t k = 0; k < 3; ++k) s.p[k].w = w(facet(f).v[k]) - end;
     s.size = 3;
@@ -280,11 +280,11 @@ class Expander : Polytope<Expander<R>, ExpanderTypes<R>> {
     const V3<R> end_of_ray = result_.upper * result_.outward;
     const R enough = result_.upper + tolerance_,
             near = std::max<R>(0, result_.upper - result_.lower) + level_;
-    Foot<R> best = nearest(f, end_of_ray);
+    Foot<R> best = nearest_in(f, end_of_ray);
     int where = f;
     for (int i = 0; i < facet_count() && !(best.dist_sq <= near * near); ++i)
       if (key_[i] <= enough)
-        if (const Foot<R> foot = nearest(i, end_of_ray); foot.dist_sq < best.dist_sq) {
+        if (const Foot<R> foot = nearest_in(i, end_of_ray); foot.dist_sq < best.dist_sq) {
           best = foot;
           where = i;
         }

@@ -159,17 +159,14 @@ Patch<R> contact_patch(const ConvexBody<R>& a, const ConvexBody<R>* b, const Rel
     patch.point[static_cast<std::size_t>(patch.size)] = {p, std::max<R>(0, d), id};
     return patch.size++;
   };
-  if (region.size == 0 && middle) {
-    patch.point[0] = {*middle, depth, 0};
-    patch.size = 1;
-  }
   // Height of A's support plane above plane.origin is the ball's radius.
   const int kept = std::min(region.size, Patch<R>::capacity);
   for (int i = 0; i < kept; ++i) {
     const Corner<R>& c = region[i * region.size / kept];
     add(c.x, c.y, by_a ? R(0) : c.below, by_a ? c.below : R(0), c.id);
   }
-  // Corners that represent a rim may all be less deep than the rim between them.
+  // Without a region the deepest point alone; and corners that represent a rim may all be less deep than the
+  // rim between them.
   const auto less_deep = [&](const PatchPoint<R>& p) { return p.depth < depth - tolerance; };
   if (middle && std::all_of(patch.point.begin(), patch.point.begin() + patch.size, less_deep) &&
       patch.size < Patch<R>::capacity)
