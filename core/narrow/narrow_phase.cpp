@@ -2,6 +2,7 @@
 
 #include "core/narrow/flat_mesh.h"
 #include "core/narrow/pair_table.h"
+#include "core/narrow/solid.h"
 #include "core/narrow/wide_answer.h"
 
 namespace touchstone {
@@ -169,6 +170,7 @@ ContactAnswer contact_with_triangles(const PlacedShape& a, const PlacedShape& b,
 }  // namespace
 
 OverlapAnswer overlap(const PlacedShape& a, const PlacedShape& b, Arithmetic arithmetic, PairMemory* memory) {
+  if (narrow::has_solid(a, b)) return narrow::solid_overlap(a, b, arithmetic, memory);
   if (arithmetic == Arithmetic::float32) return overlap_alone<float>(a, b, memory);
   if (arithmetic == Arithmetic::float64_alone) return overlap_alone<double>(a, b, memory);
   FastAnswer<double> f;
@@ -179,6 +181,7 @@ OverlapAnswer overlap(const PlacedShape& a, const PlacedShape& b, Arithmetic ari
 
 DistanceAnswer distance(const PlacedShape& a, const PlacedShape& b, Arithmetic arithmetic,
                         PairMemory* memory) {
+  if (narrow::has_solid(a, b)) return narrow::solid_distance(a, b, arithmetic, memory);
   if (arithmetic == Arithmetic::float32) return distance_alone<float>(a, b, memory);
   if (arithmetic == Arithmetic::float64_alone) return distance_alone<double>(a, b, memory);
   DistanceAnswer r;
@@ -190,6 +193,7 @@ DistanceAnswer distance(const PlacedShape& a, const PlacedShape& b, Arithmetic a
 }
 
 ContactAnswer contact(const PlacedShape& a, const PlacedShape& b, Arithmetic arithmetic, PairMemory* memory) {
+  if (narrow::has_solid(a, b)) return narrow::solid_contact(a, b, arithmetic, memory);
   const ContactAnswer r = contact_with_triangles(a, b, arithmetic, memory);
   if (!r.overlap || !narrow::may_be_flat(a, b)) return r;
   return narrow::contact_with_plane_of(a, b, r).value_or(r);

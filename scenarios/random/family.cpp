@@ -212,6 +212,8 @@ void script(Rng& rng, Case& c) {
 constexpr std::size_t first_later = 28;
 // Those from here on replace a share of the cases of all before them in the same way.
 constexpr std::size_t first_of_margins = 30;
+// And those from here on, a share of the cases of all before them.
+constexpr std::size_t first_of_solids = 34;
 
 constexpr Family catalog[] = {
     {"separate", "disjoint pairs, gap 0.1 % to 100 % of their size", 14, separate},
@@ -250,9 +252,11 @@ constexpr Family catalog[] = {
     {"rays", "rays at and past faces, edges, corners; from inside; ending on the surface", 3, rays},
     // Only when asked for by name: a case takes as long as a hundred others.
     {"endless", "2 to 5 bodies, 300 to 699 queries about their pairs in any order", 0, endless_dialogue},
+    {"solids", "solid meshes, some hollow, against any shape: apart, touching, deep, inside", 6, solids},
 };
 static_assert(catalog[first_later - 1].name == "dialogue");
 static_assert(catalog[first_of_margins - 1].name == "surfaces");
+static_assert(catalog[first_of_solids - 1].name == "endless");
 
 int total_weight(std::span<const Family> families) {
   return std::accumulate(families.begin(), families.end(), 0,
@@ -284,7 +288,8 @@ const Family& pick(Rng& rng, std::span<const Family* const> among) {
 }
 
 // Streams separate from the case's own.
-constexpr std::uint64_t later_stream = 0x6c61746572ULL, margins_stream = 0x6d617267696e73ULL;
+constexpr std::uint64_t later_stream = 0x6c61746572ULL, margins_stream = 0x6d617267696e73ULL,
+                        solids_stream = 0x736f6c696473ULL;
 
 // One of the families from `first` on, by its share of all up to `end`; null: none of them.
 const Family* pick_later(std::uint64_t stream, std::uint64_t index, std::size_t first, std::size_t end) {
@@ -304,7 +309,9 @@ const Family& pick(Rng& rng, std::uint64_t seed, std::uint64_t index, std::strin
       named_here[static_cast<std::size_t>(&named(name) - catalog)] = true;
     });
   if (names.empty()) {
-    if (const Family* f = pick_later(seed ^ margins_stream, index, first_of_margins, std::size(catalog)))
+    if (const Family* f = pick_later(seed ^ solids_stream, index, first_of_solids, std::size(catalog)))
+      return *f;
+    if (const Family* f = pick_later(seed ^ margins_stream, index, first_of_margins, first_of_solids))
       return *f;
     if (const Family* f = pick_later(seed ^ later_stream, index, first_later, first_of_margins)) return *f;
   }

@@ -61,6 +61,12 @@ inline Shape nasty_shape(Rng& rng, ShapeKind kind) {
       return TriangleMesh{points(5), {{0, 1, 2}, {4, 3, 2}, {1, 1, 1}}};
     case ShapeKind::rounded_box:
       return RoundedBox{sizes(), size()};
+    case ShapeKind::solid_mesh: {
+      const double scale = rng.binary_scale(-60, 60);
+      TriangleMesh m{{Vec3::Zero(), Vec3::UnitX() * scale, Vec3::UnitY() * scale, Vec3::UnitZ() * scale},
+                     {{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}}};
+      return SolidMesh(std::move(m));
+    }
   }
   return Sphere{1};
 }

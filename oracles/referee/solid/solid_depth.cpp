@@ -1,0 +1,278 @@
+// Brackets of depths with solids. A depth is the least motion that separates. Whatever convex sets lie inside
+// the two bodies, each motion that separates the bodies separates these sets: the depth of two triangles, or
+// of a ball and the other body, is a lower bound. A place where the bodies are certainly apart gives an upper
+// bound.
+#include <algorithm>
+#include <cmath>
+
+#include "oracles/referee/filter/convex.h"
+#include "oracles/referee/solid/solid.h"
+#include "oracles/referee/work.h"
+
+namespace touchstone::referee {
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+// Directions for which a way out is looked for, steps along one of them, and steps of the proof that no place
+// before is clear. More of them narrow a bracket.
+constexpr std::size_t most_directions = 8;
+constexpr int most_steps = 64, most_proof_steps = 40;
+// In units of the bodies' size: bodies moved until they touch are moved by this more, which is several
+// roundings.
+constexpr double beyond_touching = 0x1p-50;
+
+Vec3 translation_of(const Placed& p) {
+  return std::visit([](const auto& x) -> Vec3 { return x.translation; }, p.pose);
+}
+Placed with_translation(const Placed& p, const Vec3& to) {
+  Placed r = p;
+  std::visit([&](auto& pose) { pose.translation = to; }, r.pose);
+  return r;
+}
+
+// A place of B, and how far it is from where it was: an upper and a lower bound.
+struct Place {
+  Placed b;
+  double hi, lo;
+};
+
+class Pair {
+ public:
+  Pair(const Placed& a, const Placed& b) : a_(a), b_(b), as_a_(a), as_b_(b) {
+    size_ = bounding_radius(*a.shape) + bounding_radius(*b.shape) +
+            (translation_of(b) - translation_of(a)).norm() + translation_of(a).norm() +
+            translation_of(b).norm();
+  }
+
+  double size() const { return size_; }
+
+  Place moved(double s, const Vec3& n) const {
+    const Vec3 to = translation_of(b_) + s * n;
+    // The motion is the difference of the two translations, whatever n is.
+    const Real3 way = to_real(to) - to_real(translation_of(b_));
+    const Real length = norm(way);
+    return {with_translation(b_, to), round_up(length * (1 + dot_rounding)),
+            round_down(length * (1 - dot_rounding))};
+  }
+
+  /// The pairs of parts that meet when B is there.
+  struct Met {
+    std::size_t i, j;
+  };
+
+  bool is_clear(const Placed& b) const {
+    const Placed surface_b = with_translation(*as_b_, translation_of(b));
+    if (judge_pair(*as_a_, surface_b).verdict != Verdict::disjoint) return false;
+    return !point_inside(a_, b);
+  }
+
+  /// How much farther along n the parts of B that meet those of A must move; 0 if none meet.
+  double way_past_parts(const Placed& b, const Vec3& n) const {
+    const Vec3 origin = translation_of(a_);
+    const std::vector<Operand> x = parts_of(*as_a_, origin),
+                               y = parts_of(with_translation(*as_b_, translation_of(b)), origin);
+    double way = 0;
+    for_meeting(x, y, [&](const Operand& p, const Operand& q) { way = std::max(way, width_of(p, q, n)); });
+    return way;
+  }
+
+  /// How much farther along n until the first part of B is beyond one of A; infinity: all are.
+  double way_past_one(const Placed& b, const Vec3& n) const {
+    const Vec3 origin = translation_of(a_);
+    const std::vector<Operand> x = parts_of(*as_a_, origin),
+                               y = parts_of(with_translation(*as_b_, translation_of(b)), origin);
+    double way = infinity;
+    for (const Operand& p : x)
+      for (const Operand& q : y)
+        if (const double w = width_of(p, q, n); w > beyond_touching * size_) way = std::min(way, w);
+    return way;
+  }
+
+  /// Proven: no shorter motion of B from there separates them. 0 where nothing is known.
+  double depth_at_least(const Placed& b) const {
+    const Placed surface_b = with_translation(*as_b_, translation_of(b));
+    const Vec3 origin = translation_of(a_);
+    double depth = 0;
+    for_meeting(parts_of(*as_a_, origin), parts_of(surface_b, origin),
+                [&](const Operand& p, const Operand& q) {
+                  depth = std::max(depth, -round_up(judge_convex(p, q).hi));
+                });
+    for (const Vec3& c : {centre_of(a_), centre_of(b), common_centre(b)})
+      depth = std::max(depth, depth_about(c, b, surface_b));
+    if (depth > 0) return depth;
+    if (const auto p = point_inside(a_, b))
+      depth = depth_about({p->x.convert_to<double>(), p->y.convert_to<double>(), p->z.convert_to<double>()},
+                          b, surface_b);
+    return depth;
+  }
+
+  struct Towards {
+    double depth;
+    Vec3 n;
+  };
+
+  /// Outward normals of the solids' triangles that the other body meets, and the normals of least depth
+  /// there; the deepest first.
+  std::vector<Towards> ways_out() const {
+    const Vec3 origin = translation_of(a_);
+    const std::vector<Operand> x = parts_of(*as_a_, origin), y = parts_of(*as_b_, origin);
+    std::vector<Towards> r;
+    for_meeting(x, y, [&](const Operand& p, const Operand& q) {
+      const ConvexTruth t = judge_convex(p, q);
+      const double depth = -round_up(t.hi);
+      if (is_solid(a_)) r.push_back({depth, outward(p)});
+      if (is_solid(b_)) r.push_back({depth, -outward(q)});
+      for (const double sign : {1.0, -1.0}) r.push_back({depth, sign * to_double(t.normal)});
+    });
+    std::stable_sort(r.begin(), r.end(),
+                     [](const Towards& p, const Towards& q) { return p.depth > q.depth; });
+    return r;
+  }
+
+ private:
+  template <class F>
+  static void for_meeting(const std::vector<Operand>& x, const std::vector<Operand>& y, const F& f) {
+    std::vector<Aabb> boxes;
+    for (const Operand& q : y) boxes.push_back(box_of(q.body));
+    spend(static_cast<std::int64_t>(x.size() * y.size()) * 10);
+    for (const Operand& p : x) {
+      const Aabb box = box_of(p.body);
+      for (std::size_t j = 0; j < y.size(); ++j)
+        if (overlaps(box, boxes[j]) &&
+            judge_convex(p, y[j], {}, Effort::verdict_only).verdict != Verdict::disjoint)
+          f(p, y[j]);
+    }
+  }
+
+  // An upper bound of how far q must move along n to be beyond p.
+  static double width_of(const Operand& p, const Operand& q, const Vec3& n) {
+    const Difference d(p.body, q.body);
+    const Real3 u = normalized(to_real(n));
+    return round_up(d.width_above(d.support(u), u) + d.radius + d.radius_error);
+  }
+
+  static Vec3 outward(const Operand& triangle) {
+    const std::vector<Real3>& p = triangle.body.points;
+    return to_double(normalized(cross(p[1] - p[0], p[2] - p[0])));
+  }
+
+  static Vec3 centre_of(const Placed& p) {
+    const TriangleMesh* m = triangles_if(*p.shape);
+    const auto* h = std::get_if<Hull>(p.shape);
+    if (!m && !h) return translation_of(p);
+    const std::vector<Vec3>& v = m ? m->vertices : h->vertices;
+    const Solid s = make_body(v, 0, frame_of(p, Vec3::Zero()));
+    Real3 sum;
+    for (const Real3& x : s.points) sum = sum + x;
+    return to_double((1.0L / static_cast<Real>(s.points.size())) * sum);
+  }
+  // About the middle of what both boxes have in common.
+  Vec3 common_centre(const Placed& b) const {
+    const Aabb x = outer_box(*as_a_), y = outer_box(with_translation(*as_b_, translation_of(b)));
+    return 0.5 * x.lo.cwiseMax(y.lo) + 0.5 * x.hi.cwiseMin(y.hi);
+  }
+
+  // The radius of a ball about c inside the body; not positive, minus the distance of c from it: then only
+  // the other body's ball reaches it.
+  static double ball_inside(const Placed& p, const Placed& surface, const Vec3& c) {
+    static const Shape dot_shape = Sphere{0};
+    const Placed point{&dot_shape, Pose{c, {}}};
+    if (!is_solid(p)) return -judge_pair(p, point).gap.hi;
+    const Bracket d = distance_to(surface, c);
+    return is_inside(p, exact(c)) ? d.lo : -d.hi;
+  }
+  // The sum of both: balls about c of radii r and s need r + s; a ball of radius r and a point at distance d
+  // from it, r - d.
+  double depth_about(const Vec3& c, const Placed& b, const Placed& surface_b) const {
+    const double r = ball_inside(a_, *as_a_, c), s = ball_inside(b, surface_b, c);
+    if (r <= 0 && s <= 0) return 0;
+    // The other body's point at that distance is in its ball of radius 0.
+    return std::max(0.0, std::nextafter(r + s, -infinity));
+  }
+
+  const Placed &a_, &b_;
+  AsSurface as_a_, as_b_;
+  double size_ = 0;
+};
+
+// An upper bound of the least motion along n that separates them; infinity if none is found that is less than
+// `enough`.
+double clear_after(const Pair& pair, const Vec3& n, double enough) {
+  double s = 0;
+  const double little = beyond_touching * pair.size();
+  for (int step = 0; step < most_steps; ++step) {
+    const Place at = pair.moved(s, n);
+    if (!(at.hi < enough)) return infinity;
+    if (step > 0 && pair.is_clear(at.b)) return at.hi;
+    double more = pair.way_past_parts(at.b, n);
+    if (more == 0) more = pair.way_past_one(at.b, n);
+    if (!std::isfinite(more)) return infinity;
+    s += std::max(more, 0.0) + little;
+  }
+  return infinity;
+}
+
+void add_hull_normal(const Placed& a, const Placed& b, std::vector<Vec3>& out) {
+  Shape own_a, own_b;
+  const auto hull = [](const Placed& p, Shape& own) {
+    const TriangleMesh* m = triangles_if(*p.shape);
+    if (!m) return p;
+    Hull h;
+    h.vertices = m->vertices;
+    own = std::move(h);
+    return Placed{&own, p.pose};
+  };
+  const PairTruth t = judge_pair(hull(a, own_a), hull(b, own_b));
+  if (t.verdict == Verdict::overlap && t.normal.allFinite() && !t.normal.isZero(0)) out.push_back(t.normal);
+}
+
+}  // namespace
+
+SolidDepth depth_of_solids(const Placed& a, const Placed& b, std::span<const Vec3> hint_directions) {
+  const Pair pair(a, b);
+  SolidDepth r{{pair.depth_at_least(b), infinity}, Vec3::Zero()};
+  std::vector<Vec3> directions;
+  add_hull_normal(a, b, directions);
+  const auto ways = pair.ways_out();
+  if (ways.empty()) {  // one is inside the other: towards the nearest points of the surfaces
+    const AsSurface x(a), y(b);
+    const Vec3 n = -judge_pair(*x, *y).normal;
+    if (!n.isZero(0)) directions.push_back(n);
+  }
+  for (const Pair::Towards& w : ways)
+    if (directions.size() < most_directions && w.n.allFinite() && !w.n.isZero(0)) directions.push_back(w.n);
+  for (const Vec3& n : hint_directions)
+    if (n.allFinite() && !n.isZero(0)) directions.push_back(n.stableNormalized());
+  for (const Vec3& n : directions) {
+    const double s = clear_after(pair, n, r.depth.hi);
+    if (!(s < r.depth.hi)) continue;
+    r.depth.hi = s;
+    r.normal = n;
+  }
+  r.depth.lo = std::min(r.depth.lo, r.depth.hi);
+  return r;
+}
+
+double depth_at_least(const Placed& a, const Placed& b) { return Pair(a, b).depth_at_least(b); }
+
+Bracket way_along(const Placed& a, const Placed& b, const Vec3& n) {
+  const Pair pair(a, b);
+  const Vec3 u = n.stableNormalized();
+  const double least = beyond_touching * pair.size();
+  Bracket r{0, clear_after(pair, u, infinity)};
+  if (pair.is_clear(b)) return {0, 0};
+  double s = 0;
+  for (int step = 0; step < most_proof_steps; ++step) {
+    const Place at = pair.moved(s, u);
+    const double more = pair.depth_at_least(at.b);
+    // The place is beside the line by a rounding, less than `least`.
+    r.lo = std::max(r.lo, at.lo + more - least);
+    if (more <= 2 * least || r.lo >= r.hi) break;
+    s = at.lo + more - least;
+  }
+  r.lo = std::min(std::max(r.lo, 0.0), r.hi);
+  return r;
+}
+
+}  // namespace touchstone::referee
